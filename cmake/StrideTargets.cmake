@@ -1,0 +1,106 @@
+# Helpers for the targets of this project. Every CMakeLists.txt below uses them, so that warnings,
+# include roots and test registration are the same everywhere.
+
+set(STRIDE_WARNINGS -Wall -Wextra -Wpedantic -Wconversion -Werror)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # GCC 12 reports these in libstdc++'s own inlined code at -O2.
+  list(APPEND STRIDE_WARNINGS -Wno-restrict -Wno-dangling-pointer -Wno-maybe-uninitialized
+       -Wno-stringop-overflow -Wno-array-bounds)
+endif()
+
+# Our own code: warnings are errors, the include root is the top of the repository.
+function(_stride_own_code target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE ${STRIDE_WARNINGS})
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+endfunction()
+
+# stride_library(<name> SOURCES <file>... [DEPS <target>...])
+# A static library of the project; DEPS are public. Without sources: an interface library.
+function(stride_library name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPS")
+  if(arg_SOURCES)
+    add_library(${name} STATIC ${arg_SOURCES})
+    _stride_own_code(${name})
+    target_link_libraries(${name} PUBLIC ${arg_DEPS})
+  else()
+    add_library(${name} INTERFACE)
+    target_compile_features(${name} INTERFACE cxx_std_20)
+    target_include_directories(${name} INTERFACE ${PROJECT_SOURCE_DIR})
+    target_link_libraries(${name} INTERFACE ${arg_DEPS})
+  endif()
+endfunction()
+
+# stride_executable(<name> SOURCES <file>... [DEPS <target>...])
+# A program that ends up at the top of the build directory.
+function(stride_executable name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPS")
+  add_executable(${name} ${arg_SOURCES})
+  _stride_own_code(${name})
+  target_link_libraries(${name} PRIVATE ${arg_DEPS})
+endfunction()
+
+# stride_test(<name> SOURCES <file>... [DEPS <target>...] [SHARDS <n>] [LABELS <l>...])
+# One GoogleTest executable, registered with ctest as one test (or as n shards of it, which run in
+# parallel). Tests find the repository and the built `stride` through the macros STRIDE_SOURCE_DIR and
+# STRIDE_BINARY_DIR.
+function(stride_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "SHARDS" "SOURCES;DEPS;LABELS")
+  find_package(GTest REQUIRED)
+  add_executable(${name} ${arg_SOURCES})
+  _stride_own_code(${name})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
+  target_compile_definitions(${name} PRIVATE
+    STRIDE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" STRIDE_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  target_link_libraries(${name} PRIVATE ${arg_DEPS} GTest::gmock GTest::gtest GTest::gmock_main)
+  if(NOT arg_SHARDS)
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}")
+    return()
+  endif()
+  math(EXPR last "${arg_SHARDS} - 1")
+  foreach(shard RANGE ${last})
+    add_test(NAME ${name}.${shard} COMMAND ${name})
+    set_tests_properties(${name}.${shard} PROPERTIES
+      ENVIRONMENT "GTEST_TOTAL_SHARDS=${arg_SHARDS};GTEST_SHARD_INDEX=${shard}"
+      LABELS "${arg_LABELS}")
+  endforeach()
+endfunction()
+
+# stride_property_test(<name> SOURCES <file>... [DEPS <target>...] [SHARDS <n>])
+# A GoogleTest executable whose tests call rc::check; a failure prints the shrunk counterexample and
+# the RC_PARAMS string that reproduces it.
+function(stride_property_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "SHARDS" "SOURCES;DEPS")
+  find_package(rapidcheck REQUIRED)
+  stride_test(${name} SOURCES ${arg_SOURCES} DEPS ${arg_DEPS} rapidcheck SHARDS ${arg_SHARDS}
+    LABELS property)
+endfunction()
+
+# stride_benchmark(<name> SOURCES <file>... [DEPS <target>...])
+# A Google Benchmark executable in <build>/bench; `./dev bench` runs all of them.
+function(stride_benchmark name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPS")
+  find_package(benchmark REQUIRED)
+  add_executable(${name} ${arg_SOURCES})
+  _stride_own_code(${name})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bench)
+  target_compile_definitions(${name} PRIVATE
+    STRIDE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" STRIDE_BINARY_DIR="${CMAKE_BINARY_DIR}")
+  target_link_libraries(${name} PRIVATE ${arg_DEPS} benchmark::benchmark benchmark::benchmark_main)
+endfunction()
+
+# stride_fuzz(<name> SOURCES <file>... [DEPS <target>...])
+# A libFuzzer target in <build>/fuzz, built only with -DSTRIDE_FUZZ=ON; `./dev fuzz` runs all of them.
+# Its seed corpus is the folder corpus/<name> beside the calling CMakeLists.txt, if there is one.
+function(stride_fuzz name)
+  if(NOT STRIDE_FUZZ)
+    return()
+  endif()
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPS")
+  add_executable(${name} ${arg_SOURCES})
+  _stride_own_code(${name})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/fuzz)
+  target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+  target_link_libraries(${name} PRIVATE ${arg_DEPS})
+endfunction()
