@@ -92,7 +92,7 @@ endfunction()
 
 # stride_fuzz(<name> SOURCES <file>... [DEPS <target>...])
 # A libFuzzer target in <build>/fuzz, built only with -DSTRIDE_FUZZ=ON; `./dev fuzz` runs all of them.
-# Its seed corpus is the folder corpus/<name> beside the calling CMakeLists.txt, if there is one.
+# Its seed corpus is tests/fuzz/corpus/<name>, if there is one.
 function(stride_fuzz name)
   if(NOT STRIDE_FUZZ)
     return()
@@ -102,5 +102,9 @@ function(stride_fuzz name)
   _stride_own_code(${name})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/fuzz)
   target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+  if(NOT TARGET stride_fuzzers)
+    add_custom_target(stride_fuzzers)
+  endif()
+  add_dependencies(stride_fuzzers ${name})
   target_link_libraries(${name} PRIVATE ${arg_DEPS})
 endfunction()
