@@ -1,0 +1,81 @@
+// The context that every POU call passes along, and how a failed check leaves the cycle.
+// Free of the C++ standard library; see types.h.
+#ifndef STRIDE_RUNTIME_IEC_CTX_H
+#define STRIDE_RUNTIME_IEC_CTX_H
+
+#include "runtime/iec/types.h"
+
+namespace stride {
+
+/// Why a cycle was left. The values are stable: they appear in messages and in recordings.
+enum class ExceptionCode : uint32_t {
+  None = 0,
+  DivisionByZero = 1,  ///< Integer division or MOD by zero.
+  IndexOutOfRange = 2, ///< An array index outside the declared bounds.
+  NullPointer = 3,     ///< A null POINTER, REFERENCE or interface was used.
+  UnboundInOut = 4,    ///< A VAR_IN_OUT was used that no caller has bound.
+  RangeViolation = 5,  ///< A value outside the subrange type it was assigned to.
+  EndlessLoop = 6,     ///< A loop used up the cycle's budget of iterations.
+  StackOverflow = 7,   ///< Calls nested too deeply.
+  AccessViolation = 8, ///< A pointer to memory that is not the application's.
+  OutOfMemory = 9,     ///< __NEW found no place in its pool.
+  AbstractCall = 10,   ///< A method without an implementation was called.
+  User = 11,           ///< Raised by the program itself.
+  Internal = 12,       ///< A defect of Stride itself.
+};
+
+struct Ctx;
+
+/// What the host offers to an application. The application only ever calls through this table,
+/// so that app.so needs no symbol from the host.
+struct HostApi {
+  uint32_t size;  ///< sizeof(HostApi) of the host, so that later members can be tested for.
+  uint32_t flags; ///< Reserved, 0.
+  void *self;     ///< The host's own object, not touched by the application.
+  /// Leaves the cycle with an exception; never returns. `detail` may be null.
+  void (*raise)(Ctx *ctx, ExceptionCode code, const char *file, uint32_t line, uint32_t col,
+                const char *detail);
+  /// The loop budget is used up: returns a new budget (> 0), or 0 when the loop must end.
+  int64_t (*refillLoopBudget)(Ctx *ctx);
+  /// A line of text for the operator (an online warning). Callable from the cycle.
+  void (*log)(Ctx *ctx, uint32_t severity, const char *text);
+};
+
+/// One task's view of the running application. Plain data; the host owns it.
+struct Ctx {
+  void *state;            ///< The application object (all globals, programs and configuration).
+  int64_t cycleStartNs;   ///< Start of this cycle; constant within the cycle. Starts at 0.
+  int64_t taskIntervalNs; ///< The task's period (for a freewheeling task: its virtual period).
+  uint64_t cycle;         ///< Number of this cycle of this task, from 0.
+  int64_t loopBudget;     ///< Loop iterations left before the host is asked.
+  const HostApi *host;    ///< Null only in tools that evaluate without a host.
+  uint32_t taskIndex;     ///< Index into the application's task table.
+  BOOL firstCycle;        ///< 1 in the task's first cycle.
+};
+
+/// Leaves the current cycle: does not return. The position is that in the ST source (1-based).
+[[noreturn]] __attribute__((cold)) void raise(Ctx &ctx, ExceptionCode code, const char *file,
+                                              uint32_t line, uint32_t col);
+
+/// As raise, with a short text that says more (for instance the index and the bounds).
+[[noreturn]] __attribute__((cold)) void raiseDetail(Ctx &ctx, ExceptionCode code, const char *file,
+                                                    uint32_t line, uint32_t col,
+                                                    const char *detail);
+
+/// Out-of-line parts of the checks: they word the detail and raise.
+[[noreturn]] __attribute__((cold)) void raiseIndex(Ctx &ctx, int64_t index, int64_t lo, int64_t hi,
+                                                   const char *file, uint32_t line, uint32_t col);
+[[noreturn]] __attribute__((cold)) void raiseRange(Ctx &ctx, int64_t value, int64_t lo, int64_t hi,
+                                                   const char *file, uint32_t line, uint32_t col);
+/// Asks the host for more loop budget, or leaves the cycle.
+__attribute__((cold)) void loopBudgetSpent(Ctx &ctx, const char *file, uint32_t line, uint32_t col);
+
+/// At every loop's back edge: counts the cycle's budget down.
+inline void loopTick(Ctx &ctx, const char *file, uint32_t line, uint32_t col) {
+  if (--ctx.loopBudget < 0) [[unlikely]]
+    loopBudgetSpent(ctx, file, line, col);
+}
+
+} // namespace stride
+
+#endif

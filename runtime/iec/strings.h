@@ -1,0 +1,156 @@
+// STRING and WSTRING: assignment, comparison and the standard string functions.
+// Free of the C++ standard library; see types.h.
+//
+// Texts end at the first NUL or at the declared length. Assignment truncates. Positions count
+// from 1. Comparison is by code unit, unsigned.
+#ifndef STRIDE_RUNTIME_IEC_STRINGS_H
+#define STRIDE_RUNTIME_IEC_STRINGS_H
+
+#include "runtime/iec/types.h"
+
+namespace stride {
+
+namespace detail {
+
+// Out-of-line workers, defined for char and char16_t. `cap` is a declared length: the buffer has
+// cap + 1 places. Destinations may be sources, but must not overlap them otherwise.
+template <class C> uint32_t textLength(const C *s, uint32_t cap);
+template <class C> void textCopy(C *dst, uint32_t dstCap, const C *src, uint32_t srcCap);
+template <class C> int textCompare(const C *a, uint32_t aCap, const C *b, uint32_t bCap);
+/// dst := dst + the part [from, from + count) of src.
+template <class C>
+void textAppend(C *dst, uint32_t dstCap, const C *src, uint32_t srcCap, uint32_t from,
+                uint32_t count);
+template <class C> uint32_t textFind(const C *s, uint32_t cap, const C *what, uint32_t whatCap);
+
+inline constexpr uint32_t kRest = 0xFFFFFFFFU;
+
+constexpr uint32_t clampCount(int64_t n) {
+  if (n < 0)
+    return 0;
+  return n > int64_t{kRest} - 1 ? kRest - 1 : static_cast<uint32_t>(n);
+}
+
+} // namespace detail
+
+/// A literal as a value: lit("abc") is a STRING<3>, lit(u"abc") a WSTRING<3>.
+template <uint32_t K> constexpr STRING<K - 1> lit(const char (&text)[K]) {
+  STRING<K - 1> r{};
+  for (uint32_t i = 0; i < K; ++i)
+    r.s[i] = text[i];
+  return r;
+}
+template <uint32_t K> constexpr WSTRING<K - 1> lit(const char16_t (&text)[K]) {
+  WSTRING<K - 1> r{};
+  for (uint32_t i = 0; i < K; ++i)
+    r.s[i] = text[i];
+  return r;
+}
+
+/// dst := src between any declared lengths; cuts what does not fit.
+template <template <uint32_t> class S, uint32_t N, uint32_t M>
+inline void assign(S<N> &dst, const S<M> &src) {
+  detail::textCopy(dst.s, N, src.s, M);
+}
+template <uint32_t N, uint32_t K> inline void assign(STRING<N> &dst, const char (&text)[K]) {
+  detail::textCopy(dst.s, N, text, K - 1);
+}
+template <uint32_t N, uint32_t K> inline void assign(WSTRING<N> &dst, const char16_t (&text)[K]) {
+  detail::textCopy(dst.s, N, text, K - 1);
+}
+/// A copy with another declared length.
+template <uint32_t N, template <uint32_t> class S, uint32_t M> inline S<N> resize(const S<M> &s) {
+  S<N> r;
+  detail::textCopy(r.s, N, s.s, M);
+  return r;
+}
+
+/// Below 0, 0 or above 0 as a is less than, equal to or greater than b.
+template <template <uint32_t> class S, uint32_t N, uint32_t M>
+inline int compare(const S<N> &a, const S<M> &b) {
+  return detail::textCompare(a.s, N, b.s, M);
+}
+
+/// LEN.
+template <template <uint32_t> class S, uint32_t N> inline INT len(const S<N> &s) {
+  return static_cast<INT>(detail::textLength(s.s, N));
+}
+
+/// LEFT(s, n): the first n characters. Results of the string functions have length R.
+template <uint32_t R = 255, template <uint32_t> class S, uint32_t N>
+inline S<R> left(const S<N> &s, int64_t n) {
+  S<R> r;
+  r.s[0] = 0;
+  detail::textAppend(r.s, R, s.s, N, 0, detail::clampCount(n));
+  return r;
+}
+/// RIGHT(s, n): the last n characters.
+template <uint32_t R = 255, template <uint32_t> class S, uint32_t N>
+inline S<R> right(const S<N> &s, int64_t n) {
+  const uint32_t length = detail::textLength(s.s, N);
+  const uint32_t count = detail::clampCount(n);
+  S<R> r;
+  r.s[0] = 0;
+  detail::textAppend(r.s, R, s.s, N, count < length ? length - count : 0, count);
+  return r;
+}
+/// MID(s, n, p): n characters from position p. Positions below 1 count as 1.
+template <uint32_t R = 255, template <uint32_t> class S, uint32_t N>
+inline S<R> mid(const S<N> &s, int64_t n, int64_t p) {
+  S<R> r;
+  r.s[0] = 0;
+  detail::textAppend(r.s, R, s.s, N, detail::clampCount(p - (p > 0 ? 1 : 0)),
+                     detail::clampCount(n));
+  return r;
+}
+/// CONCAT(a, b).
+template <uint32_t R = 255, template <uint32_t> class S, uint32_t N, uint32_t M>
+inline S<R> concat(const S<N> &a, const S<M> &b) {
+  S<R> r;
+  detail::textCopy(r.s, R, a.s, N);
+  detail::textAppend(r.s, R, b.s, M, 0, detail::kRest);
+  return r;
+}
+/// REPLACE(a, b, n, p): b in place of n characters of a from position p.
+template <uint32_t R = 255, template <uint32_t> class S, uint32_t N, uint32_t M>
+inline S<R> replace(const S<N> &a, const S<M> &b, int64_t n, int64_t p) {
+  const uint32_t from = detail::clampCount(p - (p > 0 ? 1 : 0));
+  const int64_t behind = int64_t{from} + int64_t{detail::clampCount(n)};
+  S<R> r;
+  r.s[0] = 0;
+  detail::textAppend(r.s, R, a.s, N, 0, from);
+  detail::textAppend(r.s, R, b.s, M, 0, detail::kRest);
+  detail::textAppend(r.s, R, a.s, N, detail::clampCount(behind), detail::kRest);
+  return r;
+}
+/// INSERT(a, b, p): b inserted behind character p of a.
+template <uint32_t R = 255, template <uint32_t> class S, uint32_t N, uint32_t M>
+inline S<R> insert(const S<N> &a, const S<M> &b, int64_t p) {
+  const uint32_t from = detail::clampCount(p);
+  S<R> r;
+  r.s[0] = 0;
+  detail::textAppend(r.s, R, a.s, N, 0, from);
+  detail::textAppend(r.s, R, b.s, M, 0, detail::kRest);
+  detail::textAppend(r.s, R, a.s, N, from, detail::kRest);
+  return r;
+}
+/// DELETE(s, n, p): without n characters from position p.
+template <uint32_t R = 255, template <uint32_t> class S, uint32_t N>
+inline S<R> remove(const S<N> &s, int64_t n, int64_t p) {
+  const uint32_t from = detail::clampCount(p - (p > 0 ? 1 : 0));
+  const int64_t behind = int64_t{from} + int64_t{detail::clampCount(n)};
+  S<R> r;
+  r.s[0] = 0;
+  detail::textAppend(r.s, R, s.s, N, 0, from);
+  detail::textAppend(r.s, R, s.s, N, detail::clampCount(behind), detail::kRest);
+  return r;
+}
+/// FIND(a, b): position of the first b in a, 0 when there is none or b is empty.
+template <template <uint32_t> class S, uint32_t N, uint32_t M>
+inline INT find(const S<N> &a, const S<M> &b) {
+  return static_cast<INT>(detail::textFind(a.s, N, b.s, M));
+}
+
+} // namespace stride
+
+#endif
