@@ -1,0 +1,180 @@
+// The C ABI between a compiled application and the program that runs it.
+//
+// An application is one shared object (or the same objects linked statically) with one exported
+// function, stride_app_v1, that returns a constant description. All tables are constant arrays and
+// refer to each other by index; tests/unit/app/handmade_app.cpp is a complete example by hand.
+// Free of the C++ standard library; see runtime/iec/types.h.
+//
+// State is one block of plain memory: trivially copyable and relocatable, addressed by offset. The
+// type table says where addresses are stored inside it (the kinds Pointer, Reference, InOut and
+// Interface), so that the block can be moved, saved and carried over to a new build.
+#ifndef STRIDE_RUNTIME_APP_ABI_H
+#define STRIDE_RUNTIME_APP_ABI_H
+
+#include "runtime/iec/ctx.h"
+#include "runtime/iec/types.h"
+
+namespace stride {
+
+/// The first member of StrideAppV1. Grows with every change that an older host cannot read.
+inline constexpr uint32_t kAbiVersion = 1;
+/// The second member: tells a description from other data ("STRD").
+inline constexpr uint32_t kAbiMagic = 0x44525453;
+/// "No index" in the tables below.
+inline constexpr uint32_t kNoIndex = 0xFFFFFFFFU;
+
+/// What a member or a root is and how it may be used. Combined with |.
+enum SymbolFlags : uint32_t {
+  kSymInput = 1U << 0,
+  kSymOutput = 1U << 1,
+  kSymInOut = 1U << 2,
+  kSymRetain = 1U << 3,
+  kSymPersistent = 1U << 4,
+  kSymConstant = 1U << 5,     ///< Not to be written.
+  kSymHidden = 1U << 6,       ///< Private state of a library block: not listed, but reachable.
+  kSymBase = 1U << 7,         ///< The embedded base of EXTENDS: its members count as our own.
+  kSymQualifiedOnly = 1U << 8 ///< A global reachable only with its list's name in front.
+};
+
+/// What a type is. Combined with |.
+enum TypeFlags : uint32_t {
+  kTypeHasAddress = 1U << 0, ///< It or something inside it is an address slot.
+  kTypeExternal = 1U << 1,   ///< A library type whose body is native.
+};
+
+/// One enumerator.
+struct EnumeratorDesc {
+  const char *name; ///< Spelling of the declaration.
+  int64_t value;
+};
+
+/// One field of a structure, union, function block or program, in declaration order.
+struct MemberDesc {
+  const char *name; ///< ST spelling of the declaration (never the C++ spelling).
+  uint64_t offset;  ///< From the start of the enclosing type, in bytes.
+  uint32_t type;    ///< Index into the type table.
+  uint32_t flags;   ///< SymbolFlags.
+};
+
+/// One type. Subranges and aliases do not appear: they are resolved to what they stand for.
+struct TypeDesc {
+  Kind kind;
+  uint32_t flags;        ///< TypeFlags.
+  const char *name;      ///< ST name ("INT", "AXIS_REF", "STRING(80)", "ARRAY[1..3] OF INT").
+  uint64_t size;         ///< Bytes.
+  uint64_t layoutHash;   ///< Changes when size, members or member types change; equal in all builds
+                         ///< for equal layouts.
+  uint32_t align;        ///< Bytes.
+  uint32_t firstMember;  ///< Struct, Union, FunctionBlock, Program: into the member table.
+                         ///< Enum: into the enumerator table.
+  uint32_t memberCount;  ///< Number of members or enumerators.
+  uint32_t element;      ///< Array: element type. Pointer, Reference, InOut: type pointed to.
+                         ///< Enum: base type. Else kNoIndex.
+  int64_t lowerBound;    ///< Array: first index of this dimension.
+  uint64_t elementCount; ///< Array: number of elements of this dimension.
+  uint32_t stringLength; ///< STRING, WSTRING: declared length.
+  uint32_t reserved;     ///< 0.
+};
+
+/// A place in the state where paths begin: a program instance or a global variable.
+struct RootDesc {
+  const char *list; ///< Name of the global variable list in front of the name, or null.
+  const char *name; ///< "Ipo", "Drive", "g_x": ST spelling.
+  uint64_t offset;  ///< From the start of the state.
+  uint32_t type;    ///< Index into the type table.
+  uint32_t flags;   ///< SymbolFlags.
+};
+
+/// How a task is started.
+enum class TaskKind : uint32_t { Cyclic = 0, Freewheeling = 1, Event = 2, Status = 3 };
+
+/// One task. The order of the table is the order of declaration.
+struct TaskDesc {
+  const char *name;
+  TaskKind kind;
+  uint32_t priority;            ///< 0 (highest) to 31.
+  int64_t intervalNs;           ///< Cyclic: the period. Freewheeling: the period in virtual time.
+  int64_t watchdogNs;           ///< Longest run time of a cycle, 0: none.
+  uint32_t watchdogSensitivity; ///< Number of violations that stop the application; 0 counts as 1.
+  uint32_t reserved;            ///< 0.
+  void (*run)(Ctx *ctx);        ///< Calls the task's POUs in their order.
+};
+
+/// One drive of an axis group. Its configured parameters are already in its AXIS_REF when init
+/// returns.
+struct DriveDesc {
+  const char *name;
+  uint64_t axisOffset; ///< Of its AXIS_REF, from the start of the state.
+  uint32_t driveId;    ///< wDriveId.
+  uint32_t reserved;   ///< 0.
+};
+
+/// One axis group of the PLC configuration.
+struct AxisGroupDesc {
+  const char *name;
+  const char *busName;
+  const char *driverName; ///< First word of InterfaceType: "Dummy".
+  uint64_t groupOffset;   ///< Of its SMC_AXISGROUP_REF, from the start of the state.
+  uint32_t task;          ///< Index of the task named by sTask.
+  uint32_t cycleUs;       ///< dwCycle.
+  uint32_t firstDrive;    ///< Into the drive table.
+  uint32_t driveCount;
+};
+
+/// One ST source file; positions in messages name it.
+struct SourceFileDesc {
+  const char *path; ///< As given to the compiler, relative to the project where possible.
+  uint64_t hash;    ///< Of its contents.
+};
+
+/// Everything the host knows about an application.
+struct StrideAppV1 {
+  uint32_t abiVersion;  ///< kAbiVersion.
+  uint32_t magic;       ///< kAbiMagic.
+  uint32_t size;        ///< sizeof(StrideAppV1) of the build.
+  uint32_t flags;       ///< 0.
+  const char *name;     ///< Name of the application.
+  const char *compiler; ///< Version of Stride that built it.
+  uint64_t buildHash;   ///< Of all sources and options.
+
+  uint64_t stateSize;
+  uint32_t stateAlign;
+  uint32_t reserved; ///< 0.
+  /// Sets defaults in zeroed state: libraries first, then files by path, then declaration order.
+  /// ctx->state is valid, the times in ctx are 0.
+  void (*init)(Ctx *ctx);
+
+  const TypeDesc *types;
+  const MemberDesc *members;
+  const EnumeratorDesc *enumerators;
+  const RootDesc *roots;
+  const TaskDesc *tasks;
+  const AxisGroupDesc *axisGroups;
+  const DriveDesc *drives;
+  const SourceFileDesc *files;
+  uint32_t typeCount;
+  uint32_t memberCount;
+  uint32_t enumeratorCount;
+  uint32_t rootCount;
+  uint32_t taskCount;
+  uint32_t axisGroupCount;
+  uint32_t driveCount;
+  uint32_t fileCount;
+
+  /// Layout hashes (TypeDesc::layoutHash) of AXIS_REF and SMC_AXISGROUP_REF as this build sees
+  /// them; 0 when the application has no axis group.
+  uint64_t axisRefLayout;
+  uint64_t axisGroupRefLayout;
+};
+
+/// Number of elements of a table, for StrideAppV1's counts.
+template <class T, size_t N> constexpr uint32_t tableSize(const T (&)[N]) {
+  return static_cast<uint32_t>(N);
+}
+
+} // namespace stride
+
+/// The only exported symbol of an application.
+extern "C" __attribute__((visibility("default"))) const ::stride::StrideAppV1 *stride_app_v1(void);
+
+#endif
