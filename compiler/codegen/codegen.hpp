@@ -1,0 +1,51 @@
+#pragma once
+// From a checked program to C++20.
+
+#include "compiler/semantics/program.hpp"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stc {
+
+/// A generated file; `path` is relative to the output folder.
+struct GeneratedFile {
+  std::string path;
+  std::string text;
+};
+
+/// Tasks and axis groups of the application, from stride.toml.
+struct AppConfig {
+  struct Task {
+    std::string name;
+    std::int64_t intervalNs = 0;
+    unsigned priority = 0;             ///< 0 highest … 31
+    std::vector<PouSymbol *> programs; ///< called in this order
+  };
+  struct Drive {
+    std::string name; ///< of the global AXIS_REF
+  };
+  struct AxisGroup {
+    std::string name; ///< of the global SMC_AXISGROUP_REF
+    std::string bus;
+    std::string driver; ///< first word of InterfaceType: `Dummy`
+    std::string task;
+    std::uint32_t cycleUs = 0; ///< dwCycle
+    std::vector<Drive> drives;
+  };
+  std::string name;
+  std::vector<Task> tasks;
+  std::vector<AxisGroup> axisGroups;
+};
+
+/// Headers `st/<Library>/<Name>.h` and sources `<Library>/<Name>.cpp` of one library (everything declared in it;
+/// `{external}` bodies are declared only).
+std::vector<GeneratedFile> generateLibrary(const Program &program, const Library &library);
+
+/// Headers `st/user/<Name>.h`, one source per user POU, and `app.cpp` with the application object: state layout,
+/// initialisation, type table, roots, tasks (runtime/app/abi.h). Library headers are not generated again; they are
+/// included from where Stride installed them.
+std::vector<GeneratedFile> generateApplication(const Program &program, const AppConfig &config);
+
+} // namespace stc

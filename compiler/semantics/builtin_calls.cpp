@@ -1,0 +1,377 @@
+// Calls of the functions that the compiler implements itself.
+
+#include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/fold.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stc {
+
+using namespace ast;
+
+namespace {
+
+std::string calleeName(const CallExpr *expr) {
+  return std::string(expr->callee->kind == ExprKind::name ? as<NameExpr>(expr->callee)->name.text
+                                                          : "this function");
+}
+
+bool untyped(const Type *t) {
+  return t->kind == TypeKind::anyInteger || t->kind == TypeKind::anyReal;
+}
+bool isNumber(const Type *t) {
+  return isInteger(underlying(t)) || isReal(underlying(t)) || untyped(t);
+}
+
+} // namespace
+
+bool Checker::requireCount(CallExpr *expr, std::size_t least, std::size_t most) {
+  const std::size_t count = expr->arguments.size();
+  if (count >= least && count <= most)
+    return true;
+  const std::string wanted = least == most ? std::to_string(least)
+                             : most == SIZE_MAX
+                                 ? "at least " + std::to_string(least)
+                                 : std::to_string(least) + " to " + std::to_string(most);
+  report(Code::wrongArgumentCount, expr->span,
+         "`" + calleeName(expr) + "` takes " + wanted +
+             (least == 1 && most == 1 ? " argument" : " arguments") + ", not " +
+             std::to_string(count),
+         "in this call");
+  return false;
+}
+
+const Type *Checker::argumentError(CallExpr *expr, std::size_t index, std::string_view wanted) {
+  Expr *value = expr->arguments[index].value;
+  report(Code::wrongArgumentType, value->span,
+         "`" + calleeName(expr) + "` needs " + std::string(wanted) + " here, not " +
+             typeName(value->type),
+         "expected " + std::string(wanted));
+  return elementaryType(TypeKind::error);
+}
+
+const Type *Checker::commonOfArguments(CallExpr *expr, std::size_t first) {
+  // All one type, else the common number type; untyped constants follow the others.
+  Expr *lead = nullptr;
+  for (std::size_t i = first; i < expr->arguments.size(); ++i) {
+    Expr *value = expr->arguments[i].value;
+    if (isError(value->type))
+      return value->type;
+    if (lead == nullptr || (untyped(lead->type) && !untyped(value->type)))
+      lead = value;
+  }
+  const Type *common = lead->type;
+  if (untyped(common)) {
+    const bool real = std::any_of(
+        expr->arguments.begin() + static_cast<std::ptrdiff_t>(first), expr->arguments.end(),
+        [](const Argument &a) { return a.value->type->kind == TypeKind::anyReal; });
+    common = elementaryType(real ? TypeKind::lreal : TypeKind::dint);
+    if (!real) {
+      for (std::size_t i = first; i < expr->arguments.size(); ++i) {
+        if (const Type *both =
+                commonNumber(common, smallestInteger(expr->arguments[i].value->constant->integer)))
+          common = both;
+      }
+    }
+  }
+  for (std::size_t i = first; i < expr->arguments.size(); ++i) {
+    Expr *value = expr->arguments[i].value;
+    const Type *t = value->type;
+    if (t == common)
+      continue;
+    if (isNumber(t) && isNumber(common)) {
+      const Type *own = t;
+      if (untyped(t))
+        own = value->constant != nullptr && constantFits(*value->constant, t, common) ? common
+              : t->kind == TypeKind::anyReal ? elementaryType(TypeKind::lreal)
+                                             : smallestInteger(value->constant->integer);
+      const Type *both = commonNumber(common, own);
+      if (both == nullptr)
+        return argumentError(expr, i, typeName(common));
+      common = both;
+    } else if (isString(t) && isString(common) && t->kind == common->kind) {
+      if (typeAs<StringType>(t)->length > typeAs<StringType>(common)->length)
+        common = t;
+    } else if (common->kind == TypeKind::boolean && value->constant != nullptr &&
+               constantFits(*value->constant, t, common)) {
+      continue;
+    } else {
+      return argumentError(expr, i, typeName(common));
+    }
+  }
+  for (std::size_t i = first; i < expr->arguments.size(); ++i)
+    setTarget(expr->arguments[i].value, common);
+  return common;
+}
+
+const Type *Checker::checkConversionCall(CallExpr *expr, const ConversionName &conversion) {
+  expr->resolved = Callee::builtin;
+  expr->builtin = Builtin::convert;
+  const Type *bad = elementaryType(TypeKind::error);
+  for (Argument &a : expr->arguments) {
+    if (a.value != nullptr)
+      check(a.value, conversion.from);
+  }
+  if (!requireCount(expr, 1, 1))
+    return bad;
+  Expr *value = expr->arguments[0].value;
+  const Type *type = value->type;
+  if (isError(type))
+    return bad;
+  if (!isElementary(type))
+    return argumentError(
+        expr, 0, conversion.from != nullptr ? typeName(conversion.from) : "an elementary type");
+  if (conversion.from != nullptr) {
+    // `DINT_TO_INT(i)` takes what converts to DINT silently.
+    if (isString(conversion.from) && isString(type)) {
+      if (conversion.from->kind != type->kind)
+        return argumentError(expr, 0, typeName(conversion.from));
+    } else if (type->kind == TypeKind::enumeration && isInteger(conversion.from)) {
+      setTarget(value, conversion.from);
+    } else {
+      coerce(value, conversion.from, "argument of `" + calleeName(expr) + "`");
+      if (value->target == nullptr && value->type != conversion.from)
+        return bad;
+    }
+  } else if (untyped(type)) {
+    settle(value);
+  }
+  const Type *from = value->target != nullptr ? value->target : value->type;
+  if (value->constant != nullptr) {
+    const auto own = convertConstant(*value->constant, value->type, from);
+    const auto result = own ? convertConstant(*own, from, conversion.to) : std::nullopt;
+    if (result)
+      expr->constant = makeConstant(*result);
+  }
+  return conversion.to;
+}
+
+const Type *Checker::checkStringBuiltin(CallExpr *expr) {
+  const Type *bad = elementaryType(TypeKind::error);
+  const auto string = [&](std::size_t i) { return isString(expr->arguments[i].value->type); };
+  const auto length = [&](std::size_t i) {
+    return typeAs<StringType>(expr->arguments[i].value->type)->length;
+  };
+  const auto integer = [&](std::size_t i) {
+    Expr *value = expr->arguments[i].value;
+    if (!isInteger(underlying(value->type)) && value->type->kind != TypeKind::anyInteger)
+      return false;
+    setTarget(value, elementaryType(TypeKind::dint));
+    return true;
+  };
+  std::size_t strings = 1;
+  std::size_t count = 1;
+  switch (expr->builtin) {
+  case Builtin::len:
+    break;
+  case Builtin::left:
+  case Builtin::right:
+    count = 2;
+    break;
+  case Builtin::mid:
+  case Builtin::deleteS:
+    count = 3;
+    break;
+  case Builtin::concat:
+  case Builtin::find:
+    count = strings = 2;
+    break;
+  case Builtin::insert:
+    count = 3;
+    strings = 2;
+    break;
+  default: // replace
+    count = 4;
+    strings = 2;
+    break;
+  }
+  if (!requireCount(expr, count, count))
+    return bad;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (isError(expr->arguments[i].value->type))
+      return bad;
+    if (i < strings ? !string(i) : !integer(i))
+      return argumentError(expr, i, i < strings ? "a string" : "an integer");
+    if (i == 1 && strings == 2 &&
+        expr->arguments[0].value->type->kind != expr->arguments[1].value->type->kind)
+      return argumentError(expr, 1, typeName(expr->arguments[0].value->type));
+  }
+  if (expr->builtin == Builtin::len || expr->builtin == Builtin::find)
+    return elementaryType(TypeKind::intT);
+  std::uint32_t result = length(0);
+  if (expr->builtin == Builtin::concat || expr->builtin == Builtin::insert ||
+      expr->builtin == Builtin::replace)
+    result = std::min<std::uint32_t>(65535, length(0) + length(1));
+  return types_.string(expr->arguments[0].value->type->kind == TypeKind::wstring,
+                       std::max(result, 1U));
+}
+
+const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
+  const Type *bad = elementaryType(TypeKind::error);
+  bool failed = false;
+  for (Argument &a : expr->arguments) {
+    if (a.name || a.value == nullptr) {
+      // Standard functions have the formal names IN, IN1 … which nobody needs; order is what
+      // counts.
+      if (a.output || a.value == nullptr) {
+        report(Code::unknownParameter, a.span, "`" + calleeName(expr) + "` has no such parameter",
+               "unknown parameter");
+        failed = true;
+        continue;
+      }
+    }
+    if (isError(check(a.value, expected)))
+      failed = true;
+  }
+  const auto value = [&](std::size_t i) { return expr->arguments[i].value; };
+  const auto type = [&](std::size_t i) { return underlying(value(i)->type); };
+  const auto own = [&](std::size_t i) {
+    return untyped(value(i)->type) ? settle(value(i)) : type(i);
+  };
+  using enum Builtin;
+  switch (expr->builtin) {
+  case abs: {
+    if (!requireCount(expr, 1, 1) || failed)
+      return bad;
+    if (!isNumber(type(0)) && type(0)->kind != TypeKind::ltime)
+      return argumentError(expr, 0, "a number");
+    const Type *t = own(0);
+    setTarget(value(0), t);
+    if (value(0)->constant != nullptr && value(0)->constant->kind == ConstKind::integer &&
+        isSignedInteger(t)) {
+      const auto v = value(0)->constant->integer;
+      expr->constant = makeConstant({ConstKind::integer, wrapTo(t, v < 0 ? 0 - v : v), 0, {}});
+    } else if (value(0)->constant != nullptr && value(0)->constant->kind == ConstKind::real) {
+      expr->constant = makeConstant({ConstKind::real, 0, std::fabs(value(0)->constant->real), {}});
+    }
+    return t;
+  }
+  case sqrt:
+  case ln:
+  case log:
+  case exp:
+  case sin:
+  case cos:
+  case tan:
+  case asin:
+  case acos:
+  case atan: {
+    if (!requireCount(expr, 1, 1) || failed)
+      return bad;
+    if (!isNumber(type(0)))
+      return argumentError(expr, 0, "a number");
+    const Type *result =
+        type(0)->kind == TypeKind::real ? type(0) : elementaryType(TypeKind::lreal);
+    setTarget(value(0), result);
+    return result;
+  }
+  case atan2:
+  case expt: {
+    if (!requireCount(expr, 2, 2) || failed)
+      return bad;
+    for (std::size_t i = 0; i < 2; ++i) {
+      if (!isNumber(type(i)))
+        return argumentError(expr, i, "a number");
+    }
+    const bool real =
+        type(0)->kind == TypeKind::real && (type(1)->kind == TypeKind::real || untyped(type(1)));
+    const Type *result = elementaryType(real ? TypeKind::real : TypeKind::lreal);
+    setTarget(value(0), result);
+    setTarget(value(1), result);
+    return result;
+  }
+  case trunc: {
+    if (!requireCount(expr, 1, 1) || failed)
+      return bad;
+    if (!isReal(type(0)) && type(0)->kind != TypeKind::anyReal)
+      return argumentError(expr, 0, "REAL or LREAL");
+    own(0);
+    return elementaryType(TypeKind::dint);
+  }
+  case min:
+  case max:
+    if (!requireCount(expr, 2, SIZE_MAX) || failed)
+      return bad;
+    return commonOfArguments(expr, 0);
+  case limit:
+    if (!requireCount(expr, 3, 3) || failed)
+      return bad;
+    return commonOfArguments(expr, 0);
+  case sel:
+    if (!requireCount(expr, 3, 3) || failed)
+      return bad;
+    coerce(value(0), elementaryType(TypeKind::boolean), "the selector of SEL");
+    return commonOfArguments(expr, 1);
+  case mux:
+    if (!requireCount(expr, 2, SIZE_MAX) || failed)
+      return bad;
+    if (!isInteger(type(0)) && type(0)->kind != TypeKind::anyInteger)
+      return argumentError(expr, 0, "an integer");
+    own(0);
+    return commonOfArguments(expr, 1);
+  case move: {
+    if (!requireCount(expr, 1, 1) || failed)
+      return bad;
+    const Type *t = untyped(value(0)->type) ? settle(value(0)) : value(0)->type;
+    return t;
+  }
+  case shl:
+  case shr:
+  case rol:
+  case ror: {
+    if (!requireCount(expr, 2, 2) || failed)
+      return bad;
+    if (!isInteger(type(0)) && type(0)->kind != TypeKind::anyInteger)
+      return argumentError(expr, 0, "a bit string or an integer");
+    if (!isInteger(type(1)) && type(1)->kind != TypeKind::anyInteger)
+      return argumentError(expr, 1, "an integer");
+    const Type *t = own(0);
+    if (value(0)->type->kind == TypeKind::anyInteger) // a pattern, not a number
+      t = elementaryType(value(0)->constant->integer < 0 ||
+                                 value(0)->constant->integer > 0xFFFFFFFFLL
+                             ? TypeKind::lword
+                             : TypeKind::dword);
+    value(0)->target = nullptr;
+    setTarget(value(0), t);
+    own(1);
+    return t;
+  }
+  case len:
+  case left:
+  case right:
+  case mid:
+  case concat:
+  case insert:
+  case deleteS:
+  case replace:
+  case find:
+    return failed ? bad : checkStringBuiltin(expr);
+  case time:
+    if (!requireCount(expr, 0, 0))
+      return bad;
+    return elementaryType(TypeKind::time);
+  case adr: {
+    if (!requireCount(expr, 1, 1) || failed)
+      return bad;
+    Expr *place = value(0);
+    const bool isPlace = place->kind == ExprKind::name || place->kind == ExprKind::member ||
+                         place->kind == ExprKind::index || place->kind == ExprKind::deref;
+    if (!isPlace || (place->kind == ExprKind::member && as<MemberExpr>(place)->bit >= 0) ||
+        (place->constant != nullptr && isElementary(place->type)))
+      return argumentError(expr, 0, "a variable");
+    return types_.pointer(place->type);
+  }
+  case sizeofT:
+    if (!requireCount(expr, 1, 1) || failed)
+      return bad;
+    if (untyped(value(0)->type))
+      return argumentError(expr, 0, "a variable or a type");
+    return elementaryType(TypeKind::udint);
+  case convert:
+    break;
+  }
+  return bad;
+}
+
+} // namespace stc

@@ -1,0 +1,342 @@
+// Calls of functions, function blocks and programs.
+
+#include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/suggest.hpp"
+
+namespace stc {
+
+using namespace ast;
+
+namespace {
+
+std::string sectionName(Section section) {
+  switch (section) {
+  case Section::input:
+    return "VAR_INPUT";
+  case Section::output:
+    return "VAR_OUTPUT";
+  case Section::inOut:
+    return "VAR_IN_OUT";
+  default:
+    return "VAR";
+  }
+}
+
+/// `MC_Power(Enable, bRegulatorOn, bDriveStart, Axis)`, shown when arguments do not fit.
+std::string signature(const PouSymbol *pou) {
+  std::string text;
+  for (const VarSymbol *p : pou->parameters()) {
+    if (p->hidden)
+      continue;
+    text += text.empty() ? "" : ", ";
+    text += std::string(p->name.text) + (p->section == Section::output ? " => " : " : ") +
+            typeName(p->type);
+  }
+  return std::string(pou->name.text) + "(" + text + ")";
+}
+
+} // namespace
+
+const Type *Checker::notCallable(CallExpr *expr, std::string message) {
+  report(Code::notCallable, expr->callee->span, std::move(message), "cannot be called");
+  for (Argument &a : expr->arguments) {
+    if (a.value != nullptr)
+      check(a.value);
+  }
+  return elementaryType(TypeKind::error);
+}
+
+const Type *Checker::checkCall(CallExpr *expr, bool asStatement) {
+  Expr *callee = expr->callee;
+  PouSymbol *pou = nullptr;
+  // Functions, by plain or library-qualified name.
+  if (callee->kind == ExprKind::name) {
+    auto *name = as<NameExpr>(callee);
+    Symbol *symbol = lookup(name->name);
+    if (symbol != nullptr && symbol->kind == SymbolKind::variable &&
+        static_cast<VarSymbol *>(symbol)->isResult)
+      symbol = static_cast<VarSymbol *>(symbol)->owner; // recursion
+    if (symbol == nullptr) {
+      if (const auto conversion = findConversion(name->name.id))
+        return checkConversionCall(expr, *conversion);
+    } else if (symbol->kind == SymbolKind::builtin) {
+      name->symbol = symbol;
+      expr->resolved = Callee::builtin;
+      expr->builtin = static_cast<BuiltinSymbol *>(symbol)->id;
+      return checkBuiltin(expr, nullptr);
+    } else if (symbol->kind == SymbolKind::pou) {
+      pou = static_cast<PouSymbol *>(symbol);
+      name->symbol = symbol;
+    }
+  } else if (callee->kind == ExprKind::member && as<MemberExpr>(callee)->bit < 0) {
+    auto *member = as<MemberExpr>(callee);
+    if (Symbol *space = resolveNamespace(member->base);
+        space != nullptr && space->kind == SymbolKind::library) {
+      for (const LibraryIndex::Entry &entry : index_.find(member->name.id->lower)) {
+        if (program_.interner.intern(entry.library) != space->name.id)
+          continue;
+        loadLibraryFile(entry);
+        Symbol *symbol = lookupInModule(module(std::string(entry.library)), member->name.id);
+        if (symbol != nullptr && symbol->kind == SymbolKind::pou) {
+          pou = static_cast<PouSymbol *>(symbol);
+          member->symbol = symbol;
+        }
+      }
+    }
+  }
+  if (pou != nullptr && pou->decl->kind == DeclKind::functionBlock) {
+    auto &d =
+        report(Code::notCallable, callee->span,
+               "`" + std::string(pou->name.text) + "` is a function block, not an instance of one",
+               "a block is called through a variable");
+    d.help("declare an instance, `x : " + std::string(pou->name.text) + ";`, and call `x(…)`");
+    for (Argument &a : expr->arguments) {
+      if (a.value != nullptr && !a.output)
+        check(a.value);
+    }
+    return elementaryType(TypeKind::error);
+  }
+  if (pou == nullptr) {
+    const Type *type = check(callee);
+    if (isError(type)) {
+      for (Argument &a : expr->arguments) {
+        if (a.value != nullptr)
+          check(a.value);
+      }
+      return type;
+    }
+    if (type->kind == TypeKind::pointer && isInstance(typeAs<PointerType>(type)->pointee))
+      return notCallable(expr, "a pointer must be followed before the call: `…^(…)`");
+    if (!isInstance(type))
+      return notCallable(expr, typeName(type) + " cannot be called");
+    pou = typeAs<PouType>(type)->symbol;
+  }
+  declare(pou);
+  expr->pou = pou;
+  switch (pou->decl->kind) {
+  case DeclKind::function:
+    expr->resolved = Callee::function;
+    break;
+  case DeclKind::program:
+    expr->resolved = Callee::program;
+    if (callee->kind == ExprKind::name)
+      callee->type = pou->type;
+    break;
+  default:
+    expr->resolved = Callee::functionBlock;
+    if (callee->kind != ExprKind::deref)
+      requireVariable(callee, "call");
+    break;
+  }
+  bindArguments(expr, pou);
+  if (expr->resolved != Callee::function) {
+    if (!asStatement) {
+      auto &d = report(Code::blockCallAsValue, expr->span,
+                       "the call of `" + std::string(pou->name.text) + "` has no value",
+                       "used as a value here");
+      d.help("call it in a statement of its own, then read one of its outputs");
+      return elementaryType(TypeKind::error);
+    }
+    return elementaryType(TypeKind::none);
+  }
+  return pou->result == nullptr ? elementaryType(TypeKind::none) : pou->result->type;
+}
+
+void Checker::bindArguments(CallExpr *expr, PouSymbol *pou) {
+  const std::vector<VarSymbol *> all = pou->parameters();
+  // Positional arguments go to inputs and in-outs, then to outputs, in the order of the
+  // declaration.
+  std::vector<VarSymbol *> positional;
+  for (VarSymbol *p : all) {
+    if (p->section != Section::output && !p->hidden)
+      positional.push_back(p);
+  }
+  for (VarSymbol *p : all) {
+    if (p->section == Section::output && !p->hidden)
+      positional.push_back(p);
+  }
+  std::unordered_set<VarSymbol *> given;
+  bool named = false;
+  bool failed = false;
+  std::size_t next = 0;
+  for (Argument &a : expr->arguments) {
+    VarSymbol *parameter = nullptr;
+    if (a.name) {
+      named = true;
+      const auto it = pou->scope.find(a.name.id);
+      if (it != pou->scope.end() && it->second->owner == pou && !it->second->isResult &&
+          it->second->section != Section::temp && it->second->section != Section::local &&
+          it->second->section != Section::stat)
+        parameter = it->second;
+      if (parameter == nullptr) {
+        failed = true;
+        auto &d = report(Code::unknownParameter, a.name.span,
+                         "`" + std::string(pou->name.text) + "` has no parameter `" +
+                             std::string(a.name.text) + "`",
+                         it != pou->scope.end() && it->second->owner == pou ? "this is private"
+                                                                            : "unknown parameter");
+        std::vector<std::string_view> names;
+        for (const VarSymbol *p : positional)
+          names.push_back(p->name.text);
+        const auto similar = nearest(a.name.text, names);
+        if (!similar.empty())
+          d.help("a similar one exists: `" + std::string(similar) + "`");
+        d.note("it is declared as `" + signature(pou) + "`");
+        if (a.value != nullptr)
+          check(a.value);
+        continue;
+      }
+      const bool isOutput = parameter->section == Section::output;
+      if (a.output != isOutput) {
+        failed = true;
+        auto &d =
+            report(Code::wrongDirection, a.span,
+                   "`" + std::string(a.name.text) + "` is a " + sectionName(parameter->section) +
+                       (isOutput ? " and gives a value" : " and takes a value"),
+                   isOutput ? "write `=>` here" : "write `:=` here");
+        noteDeclaration(d, parameter);
+        if (a.value != nullptr)
+          check(a.value);
+        continue;
+      }
+    } else {
+      if (named) {
+        failed = true;
+        auto &d = report(Code::mixedArguments, a.span,
+                         "a positional argument cannot follow a named one", "name this argument");
+        d.note("it is declared as `" + signature(pou) + "`");
+        check(a.value);
+        continue;
+      }
+      if (next >= positional.size()) {
+        failed = true;
+        auto &d = report(Code::tooManyArguments, a.span,
+                         "`" + std::string(pou->name.text) + "` takes " +
+                             std::to_string(positional.size()) +
+                             (positional.size() == 1 ? " argument" : " arguments"),
+                         "one too many");
+        d.note("it is declared as `" + signature(pou) + "`");
+        for (std::size_t i = next; i < expr->arguments.size(); ++i) {
+          if (expr->arguments[i].value != nullptr)
+            check(expr->arguments[i].value);
+        }
+        return;
+      }
+      parameter = positional[next++];
+      a.output = parameter->section == Section::output;
+    }
+    if (!given.insert(parameter).second) {
+      report(Code::duplicateArgument, a.span,
+             "`" + std::string(parameter->name.text) + "` is given twice", "given again here");
+      if (a.value != nullptr)
+        check(a.value);
+      continue;
+    }
+    checkArgument(a, parameter);
+  }
+  if (!failed)
+    reportMissing(expr, pou, given);
+}
+
+void Checker::checkArgument(Argument &argument, VarSymbol *parameter) {
+  argument.parameter = parameter;
+  if (argument.value == nullptr)
+    return; // `Q =>`: not wanted; `IN :=`: keeps its value
+  if (parameter->section == Section::inOut)
+    checkInOut(argument, parameter);
+  else if (parameter->section == Section::output)
+    checkOutput(argument, parameter);
+  else
+    checkAs(argument.value, parameter->type,
+            "argument `" + std::string(parameter->name.text) + "`");
+}
+
+void Checker::checkInOut(Argument &argument, VarSymbol *parameter) {
+  const Type *type = check(argument.value, parameter->type);
+  if (isError(type) || isError(parameter->type))
+    return;
+  const bool constantAllowed = parameter->isConstant;
+  if (argument.value->kind == ExprKind::member && as<MemberExpr>(argument.value)->bit >= 0) {
+    report(Code::inOutNotVariable, argument.value->span,
+           "a single bit cannot be passed to a VAR_IN_OUT", "bits have no address")
+        .help("copy it into a BOOL variable first");
+    return;
+  }
+  const bool isPlace =
+      argument.value->kind == ExprKind::name || argument.value->kind == ExprKind::member ||
+      argument.value->kind == ExprKind::index || argument.value->kind == ExprKind::deref;
+  if (!isPlace) {
+    auto &d = report(Code::inOutNotVariable, argument.value->span,
+                     "the VAR_IN_OUT `" + std::string(parameter->name.text) + "` needs a variable",
+                     "this is a value");
+    noteDeclaration(d, parameter);
+    d.help("store it in a variable first");
+    return;
+  }
+  if (!constantAllowed && !requireVariable(argument.value, "pass"))
+    return;
+  const Type *wanted = parameter->type;
+  const bool anyString = constantAllowed && isString(type) && type->kind == wanted->kind;
+  if (type != wanted && !anyString) {
+    auto &d = report(Code::inOutType, argument.value->span,
+                     "the VAR_IN_OUT `" + std::string(parameter->name.text) + "` is " +
+                         typeName(wanted) + ", this is " + typeName(type),
+                     "the types must be the same");
+    noteDeclaration(d, parameter);
+    if (isElementary(type) && isElementary(wanted))
+      d.help("copy it into a variable of type " + typeName(wanted) + " first, and back afterwards");
+  }
+}
+
+void Checker::checkOutput(Argument &argument, VarSymbol *parameter) {
+  Expr *target = argument.value;
+  const Type *type = check(target, parameter->type);
+  if (isError(type) || isError(parameter->type))
+    return;
+  if (!requireVariable(target, "assign to"))
+    return;
+  const Conversion conversion = classify(parameter->type, type);
+  if (conversion == Conversion::narrowing || conversion == Conversion::forbidden) {
+    auto &d =
+        report(conversion == Conversion::narrowing ? Code::narrowingConversion : Code::typeMismatch,
+               target->span,
+               "the output `" + std::string(parameter->name.text) + "` is " +
+                   typeName(parameter->type) + ", this variable is " + typeName(type),
+               "expected " + typeName(parameter->type));
+    noteDeclaration(d, parameter);
+  } else if (conversion == Conversion::lossy) {
+    report(Code::lossyConversion, target->span,
+           "implicit conversion from " + typeName(parameter->type) + " to " + typeName(type) +
+               " may change the value",
+           "the output `" + std::string(parameter->name.text) + "` is " +
+               typeName(parameter->type));
+  }
+}
+
+void Checker::reportMissing(CallExpr *expr, PouSymbol *pou,
+                            const std::unordered_set<VarSymbol *> &given) {
+  std::string missing;
+  bool inOut = false;
+  std::size_t count = 0;
+  for (VarSymbol *p : pou->parameters()) {
+    if (given.contains(p) || p->hidden)
+      continue;
+    const bool needed =
+        p->section == Section::inOut ||
+        (pou->isFunction() && p->section == Section::input && p->decl->init == nullptr);
+    if (!needed)
+      continue;
+    inOut = inOut || p->section == Section::inOut;
+    missing += (missing.empty() ? "`" : ", `") + std::string(p->name.text) + "`";
+    ++count;
+  }
+  if (count == 0)
+    return;
+  auto &d = report(inOut ? Code::missingInOut : Code::missingArgument, expr->span,
+                   "the call of `" + std::string(pou->name.text) + "` lacks " + missing,
+                   inOut ? "every VAR_IN_OUT needs a variable at each call"
+                         : "every input without default needs a value");
+  d.note("it is declared as `" + signature(pou) + "`");
+}
+
+} // namespace stc

@@ -1,0 +1,190 @@
+#pragma once
+// The checker: declarations, types, expressions, statements. Internal to compiler/semantics;
+// program.hpp is the door.
+
+#include "compiler/semantics/builtins.hpp"
+#include "compiler/semantics/conversions.hpp"
+#include "compiler/semantics/program.hpp"
+#include "compiler/semantics/type_table.hpp"
+
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+namespace stc {
+
+class Checker {
+public:
+  Checker(Program &program, const LibraryIndex &index);
+
+  void checkUser(const std::vector<ast::File *> &files);
+  void checkLibrary(std::string_view name);
+
+private:
+  /// The names of one library or of the project.
+  struct Module {
+    Library *library = nullptr;
+    std::unordered_map<Ident, Symbol *>
+        names; ///< POUs, types, variables of lists that need no qualification
+    std::unordered_map<Ident, GlobalsSymbol *> lists;
+    std::unordered_map<Ident, std::vector<EnumeratorSymbol *>> enumerators;
+    std::vector<TypeSymbol *> declaredTypes; ///< in the order of the text
+    std::unordered_set<std::string> loadedFiles;
+  };
+
+  /// Where names are looked up.
+  struct Scope {
+    Module *module = nullptr;
+    PouSymbol *pou = nullptr;
+  };
+  class ScopeGuard;
+
+  // modules.cpp
+  Module &module(const std::string &name);
+  Module &moduleOf(const Symbol *symbol);
+  void loadLibraryFile(const LibraryIndex::Entry &entry);
+  void declareFile(Module &module, ast::File *file);
+  void declareGlobals(Module &module, ast::GlobalsDecl *decl);
+  void resolveEnumerations(Module &module);
+  void addName(Module &module, Symbol *symbol);
+  void checkModule(Module &module);
+  void checkContainment(Module &module);
+
+  // names.cpp
+  Symbol *lookup(const ast::Name &name);
+  Symbol *lookupInModule(Module &module, Ident id);
+  Symbol *lookupInLibraries(Ident id);
+  EnumeratorSymbol *lookupEnumerator(const ast::Name &name, const Type *expected, bool &ambiguous);
+  static EnumeratorSymbol *findEnumerator(const EnumType *type, Ident id);
+  VarSymbol *findMember(const Type *type, Ident id);
+  std::vector<std::string_view> visibleNames(bool types);
+  std::vector<std::string_view> memberNames(const Type *type);
+  void reportUnknown(const ast::Name &name, bool asType);
+
+  // declarations.cpp
+  void resolve(TypeSymbol *symbol);
+  void resolveStruct(TypeSymbol *symbol, ast::StructDecl *decl);
+  const EnumType *makeEnum(ast::EnumTypeExpr *expr, TypeSymbol *symbol);
+  void declare(PouSymbol *pou);
+  void declare(GlobalsSymbol *globals);
+  const Type *typeOf(VarSymbol *variable);
+  VarSymbol *makeVariable(ast::VarDecl *decl, Module &module, PouSymbol *owner);
+  void bindExternal(PouSymbol *pou, ast::VarDecl *decl);
+  const Type *resolveType(ast::TypeExpr *expr, std::string_view hint);
+  const Type *resolveNamed(ast::NamedTypeExpr *expr);
+  const Type *resolveArray(ast::ArrayTypeExpr *expr, std::string_view hint);
+  const Type *resolveString(ast::StringTypeExpr *expr);
+  const Type *resolveSubrange(ast::SubrangeTypeExpr *expr, std::string_view hint);
+  std::optional<std::int64_t> constantInteger(ast::Expr *expr, std::string_view what);
+
+  // initializers.cpp
+  void checkInitOf(VarSymbol *variable);
+  ast::Expr *checkInit(ast::Expr *init, const Type *type);
+  ast::Expr *checkArrayInit(ast::AggregateExpr *init, const ArrayType *type);
+  void checkFieldInit(ast::AggregateExpr *init, const Type *type);
+  void checkItem(ast::AggregateItem &item, const Type *type);
+
+  // expressions.cpp
+  const Type *check(ast::Expr *expr, const Type *expected = nullptr);
+  const Type *checkLiteral(ast::Literal *expr);
+  const Type *checkName(ast::NameExpr *expr, const Type *expected);
+  const Type *checkMember(ast::MemberExpr *expr);
+  const Type *checkBit(ast::MemberExpr *expr);
+  const Type *checkIndex(ast::IndexExpr *expr);
+  const Type *checkDeref(ast::DerefExpr *expr);
+  const Type *checkEnumLiteral(ast::EnumLiteralExpr *expr);
+  const Type *useSymbol(ast::Expr *expr, Symbol *symbol, const ast::Name &name);
+  Symbol *resolveNamespace(ast::Expr *expr);
+  /// Checks `expr` and converts it to `type`.
+  void checkAs(ast::Expr *expr, const Type *type, std::string_view what);
+  void checkCondition(ast::Expr *expr, std::string_view what);
+  bool requireVariable(ast::Expr *expr, std::string_view what);
+
+  // operators.cpp
+  const Type *checkUnary(ast::UnaryExpr *expr, const Type *expected);
+  const Type *checkBinary(ast::BinaryExpr *expr, const Type *expected);
+  const Type *checkArithmetic(ast::BinaryExpr *expr);
+  const Type *checkTimeArithmetic(ast::BinaryExpr *expr);
+  const Type *checkComparison(ast::BinaryExpr *expr);
+  const Type *checkLogical(ast::BinaryExpr *expr);
+  const Type *checkPower(ast::BinaryExpr *expr);
+  const Type *operatorError(ast::BinaryExpr *expr);
+  const Type *fold(ast::BinaryExpr *expr);
+  /// The common type of two operands of number type (constants take the other's type when they
+  /// fit), or null.
+  const Type *commonOf(ast::Expr *a, ast::Expr *b);
+
+  // conversions (coerce.cpp)
+  /// Converts a checked expression to `type`; reports what does not convert.
+  void coerce(ast::Expr *expr, const Type *type, std::string_view what);
+  void reportConversion(ast::Expr *expr, const Type *from, const Type *to, Conversion conversion,
+                        std::string_view what);
+  /// Gives an untyped constant a type of its own.
+  const Type *settle(ast::Expr *expr);
+  void setTarget(ast::Expr *expr, const Type *type);
+
+  // calls.cpp
+  const Type *checkCall(ast::CallExpr *expr, bool asStatement);
+  void bindArguments(ast::CallExpr *expr, PouSymbol *pou);
+  void checkArgument(ast::Argument &argument, VarSymbol *parameter);
+  void checkInOut(ast::Argument &argument, VarSymbol *parameter);
+  void checkOutput(ast::Argument &argument, VarSymbol *parameter);
+  void reportMissing(ast::CallExpr *expr, PouSymbol *pou,
+                     const std::unordered_set<VarSymbol *> &given);
+  const Type *notCallable(ast::CallExpr *expr, std::string message);
+
+  // builtin_calls.cpp
+  const Type *checkBuiltin(ast::CallExpr *expr, const Type *expected);
+  const Type *checkConversionCall(ast::CallExpr *expr, const ConversionName &conversion);
+  const Type *checkStringBuiltin(ast::CallExpr *expr);
+  const Type *commonOfArguments(ast::CallExpr *expr, std::size_t first);
+  bool requireCount(ast::CallExpr *expr, std::size_t least, std::size_t most);
+  const Type *argumentError(ast::CallExpr *expr, std::size_t index, std::string_view wanted);
+
+  // statements.cpp
+  void checkBody(PouSymbol *pou);
+  void checkBlock(ast::Block block);
+  void checkStatement(ast::Stmt *stmt);
+  void checkAssign(ast::AssignStmt *stmt);
+  void checkCase(ast::CaseStmt *stmt);
+  void checkFor(ast::ForStmt *stmt);
+
+  Diagnostic &report(Code code, Span where, std::string message, std::string label = {}) {
+    return program_.diagnostics.report(code, where, std::move(message), std::move(label));
+  }
+  const ConstValue *makeConstant(const ConstValue &value) { return arena_.make<ConstValue>(value); }
+  [[nodiscard]] std::string describe(const Symbol *symbol) const;
+  void noteDeclaration(Diagnostic &diagnostic, const Symbol *symbol);
+
+  Program &program_;
+  Arena &arena_;
+  const LibraryIndex &index_;
+  TypeTable types_;
+  std::unordered_map<std::string, std::unique_ptr<Module>>
+      modules_; ///< by library name; the project is ""
+  std::unordered_map<Ident, BuiltinSymbol *> builtins_;
+  std::unordered_map<Ident, const Type *> elementary_;
+  std::unordered_map<Ident, Symbol *>
+      libraryMisses_; ///< results of lookupInLibraries, also the misses
+  Scope scope_;
+  unsigned loopDepth_ = 0;
+};
+
+/// Sets the scope for the lifetime of the guard.
+class Checker::ScopeGuard {
+public:
+  ScopeGuard(Checker &checker, Scope scope) : checker_(checker), saved_(checker.scope_) {
+    checker.scope_ = scope;
+  }
+  ~ScopeGuard() { checker_.scope_ = saved_; }
+  ScopeGuard(const ScopeGuard &) = delete;
+  ScopeGuard &operator=(const ScopeGuard &) = delete;
+
+private:
+  Checker &checker_;
+  Scope saved_;
+};
+
+} // namespace stc

@@ -1,0 +1,167 @@
+// Implicit conversions and what is said about those that are not.
+
+#include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/fold.hpp"
+
+namespace stc {
+
+using namespace ast;
+
+namespace {
+
+std::string upper(std::string text) {
+  for (char &c : text) {
+    if (c >= 'a' && c <= 'z')
+      c = static_cast<char>(c - 'a' + 'A');
+  }
+  return text;
+}
+
+/// `DINT_TO_INT`, or nothing when no such function exists.
+std::string conversionFunction(const Type *from, const Type *to) {
+  from = underlying(from);
+  to = underlying(to);
+  if (!isElementary(from) || !isElementary(to) || from == to)
+    return {};
+  const auto plain = [](const Type *t) {
+    return t->kind == TypeKind::string    ? std::string("STRING")
+           : t->kind == TypeKind::wstring ? std::string("WSTRING")
+                                          : upper(typeName(t));
+  };
+  return plain(from) + "_TO_" + plain(to);
+}
+
+/// V2.3 stored AXIS_REF's values as REAL, Stride as LREAL; reading one into a REAL is not worth a
+/// warning.
+bool isAxisField(const Expr *expr) {
+  if (expr->kind != ExprKind::member)
+    return false;
+  const Type *base = as<MemberExpr>(expr)->base->type;
+  return base != nullptr && base->kind == TypeKind::structure &&
+         typeAs<StructType>(base)->symbol->name.id->lower == "axis_ref";
+}
+
+int rank(Conversion c) { return static_cast<int>(c); }
+
+} // namespace
+
+void Checker::setTarget(Expr *expr, const Type *type) {
+  if (type != expr->type)
+    expr->target = type;
+}
+
+const Type *Checker::settle(Expr *expr) {
+  if (expr->type->kind == TypeKind::anyReal) {
+    expr->target = elementaryType(TypeKind::lreal);
+  } else if (expr->type->kind == TypeKind::anyInteger) {
+    const Type *smallest = smallestInteger(expr->constant->integer);
+    expr->target = bitWidth(smallest) > 32 ? smallest : elementaryType(TypeKind::dint);
+    if (smallest->kind == TypeKind::udint)
+      expr->target = smallest;
+  }
+  return expr->target != nullptr ? expr->target : expr->type;
+}
+
+void Checker::coerce(Expr *expr, const Type *type, std::string_view what) {
+  const Type *from = expr->type;
+  if (isError(from) || isError(type) || from == type)
+    return;
+  if (type->kind == TypeKind::reference)
+    type = typeAs<PointerType>(type)->pointee;
+  if (from == type)
+    return;
+  if (expr->constant != nullptr && constantFits(*expr->constant, from, type)) {
+    if (expr->constant->kind == ConstKind::string && isString(type)) {
+      const auto length = typeAs<StringType>(type)->length;
+      if (expr->constant->text.size() > length)
+        report(Code::stringCut, expr->span,
+               "the text has " + std::to_string(expr->constant->text.size()) + " characters but " +
+                   typeName(type) + " holds " + std::to_string(length),
+               "the end is cut off")
+            .help("declare the string longer: `STRING(" +
+                  std::to_string(expr->constant->text.size()) + ")`");
+    }
+    setTarget(expr, type);
+    return;
+  }
+  if (from->kind == TypeKind::anyInteger || from->kind == TypeKind::anyReal) {
+    if (from->kind == TypeKind::anyInteger && isInteger(underlying(type)) &&
+        type->kind != TypeKind::enumeration) {
+      const IntegerRange range = integerRange(type);
+      report(Code::constantOverflow, expr->span,
+             "the constant " + std::to_string(expr->constant->integer) + " does not fit into " +
+                 typeName(type),
+             typeName(underlying(type)) + " holds " + std::to_string(range.low) + " to " +
+                 (range.high == -1 ? "18446744073709551615" : std::to_string(range.high)));
+      return;
+    }
+    const Type *own = from->kind == TypeKind::anyReal ? elementaryType(TypeKind::lreal)
+                                                      : smallestInteger(expr->constant->integer);
+    const Conversion c = classify(own, type);
+    reportConversion(expr, from, type, c == Conversion::lossy ? Conversion::narrowing : c, what);
+    return;
+  }
+  Conversion conversion = classify(from, type);
+  // `i := i + 1` computes in DINT, but stays silent because all operands are INT.
+  if (expr->common != nullptr && expr->common != from) {
+    const Conversion ofCommon =
+        expr->common == type ? Conversion::identity : classify(expr->common, type);
+    if (rank(ofCommon) < rank(conversion))
+      conversion = ofCommon == Conversion::identity ? Conversion::free : ofCommon;
+  }
+  if (from->kind == TypeKind::lreal && type->kind == TypeKind::real && isAxisField(expr))
+    conversion = Conversion::free;
+  // A product is computed in its operands' type, however large the variable is that takes it.
+  if (expr->kind == ExprKind::binary && as<BinaryExpr>(expr)->op == BinaryOp::multiply &&
+      isInteger(from) && isInteger(underlying(type)) && bitWidth(type) > bitWidth(from)) {
+    auto &d = report(Code::computedNarrow, expr->span,
+                     "this product is computed in " + typeName(from) +
+                         " and only then widened to " + typeName(type),
+                     "wraps beyond " + std::to_string(bitWidth(from)) + " bits");
+    d.help("convert an operand first: `" + conversionFunction(from, type) + "(…) * …`");
+  }
+  if (conversion == Conversion::narrowing || conversion == Conversion::forbidden ||
+      conversion == Conversion::lossy)
+    reportConversion(expr, from, type, conversion, what);
+  if (conversion != Conversion::forbidden && conversion != Conversion::narrowing)
+    setTarget(expr, type);
+}
+
+void Checker::reportConversion(Expr *expr, const Type *from, const Type *to, Conversion conversion,
+                               std::string_view what) {
+  const std::string function = conversionFunction(from, to);
+  const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
+  if (conversion == Conversion::lossy) {
+    auto &d = report(Code::lossyConversion, expr->span,
+                     prefix + "implicit conversion from " + typeName(from) + " to " + typeName(to) +
+                         " may change the value",
+                     "this is " + typeName(from));
+    if (to->kind == TypeKind::enumeration)
+      d.help("assign one of the enumerators of " + typeName(to));
+    else if (!function.empty())
+      d.help("say that it is meant: `" + function + "(…)`");
+    return;
+  }
+  if (conversion == Conversion::narrowing) {
+    auto &d = report(Code::narrowingConversion, expr->span,
+                     prefix + "cannot convert from " + typeName(from) + " to " + typeName(to) +
+                         " implicitly",
+                     "this is " + typeName(from) + ", " + typeName(to) + " is expected");
+    if (from->kind == TypeKind::anyReal && isInteger(underlying(to)))
+      d.help("write it without a fraction, or convert it: `LREAL_TO_" +
+             upper(typeName(underlying(to))) + "(…)`");
+    else if (to->kind == TypeKind::boolean)
+      d.help("compare it: `… <> 0`, or convert it" +
+             (function.empty() ? "" : ": `" + function + "(…)`"));
+    else if (!function.empty() && from->kind != TypeKind::anyInteger)
+      d.help("convert it: `" + function + "(…)`");
+    return;
+  }
+  auto &d = report(Code::typeMismatch, expr->span,
+                   prefix + "expected " + typeName(to) + ", found " + typeName(from),
+                   "this is " + typeName(from));
+  if (isInstance(from))
+    d.help("name one of its outputs: `….Q`");
+}
+
+} // namespace stc

@@ -1,0 +1,34 @@
+#pragma once
+// Which type converts to which without being asked (dialect table: "implicit conversion").
+
+#include "compiler/semantics/constant.hpp"
+#include "compiler/semantics/types.hpp"
+
+namespace stc {
+
+enum class Conversion : std::uint8_t {
+  identity,
+  free,      ///< every value survives
+  lossy,     ///< allowed with a warning
+  narrowing, ///< an error that names the `X_TO_Y` to write
+  forbidden, ///< no such conversion
+};
+
+/// How a value of `from` (not a constant) becomes a value of `to`.
+[[nodiscard]] Conversion classify(const Type *from, const Type *to);
+
+/// Whether a constant of elementary type fits into `to`, so that it converts silently.
+[[nodiscard]] bool constantFits(const ConstValue &value, const Type *from, const Type *to);
+
+/// The smallest integer type of at least 8 bits that holds the value: SINT, USINT, INT … for an
+/// untyped constant.
+[[nodiscard]] const Type *smallestInteger(std::int64_t value);
+
+/// The type that holds all values of both number types before widening; null when there is none
+/// (LINT with ULINT). Constants without type have been given one before.
+[[nodiscard]] const Type *commonNumber(const Type *a, const Type *b);
+
+/// Arithmetic is done on at least 32 bits: integers under 32 bits become DINT, bit strings DWORD.
+[[nodiscard]] const Type *widened(const Type *t);
+
+} // namespace stc

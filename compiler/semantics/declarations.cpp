@@ -1,0 +1,500 @@
+// Declarations: types as written become types, VAR sections become variables.
+
+#include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/fold.hpp"
+
+namespace stc {
+
+using namespace ast;
+
+namespace {
+
+constexpr std::int64_t kMaxArrayElements = std::int64_t{1} << 28;
+constexpr std::int64_t kMaxStringLength = 65535;
+
+bool hasAttribute(const Attributes &attributes, std::string_view name) {
+  for (const Attribute &a : attributes) {
+    if (a.name == name)
+      return true;
+  }
+  return false;
+}
+
+} // namespace
+
+// -------------------------------------------------------------------------------------------------
+// named types
+
+void Checker::resolve(TypeSymbol *symbol) {
+  if (symbol->type != nullptr)
+    return;
+  if (symbol->resolving) {
+    auto &d = report(Code::recursiveType, symbol->name.span,
+                     "type `" + std::string(symbol->name.text) + "` is defined by itself",
+                     "this definition is a circle");
+    d.help("break the circle, for instance with POINTER TO");
+    symbol->type = elementaryType(TypeKind::error);
+    return;
+  }
+  symbol->resolving = true;
+  const ScopeGuard guard(*this, {&moduleOf(symbol), nullptr});
+  switch (symbol->decl->kind) {
+  case DeclKind::structure:
+    resolveStruct(symbol, as<StructDecl>(symbol->decl));
+    break;
+  case DeclKind::enumeration: {
+    auto *decl = as<EnumDecl>(symbol->decl);
+    symbol->init = decl->init;
+    symbol->type = makeEnum(decl->type, symbol);
+    break;
+  }
+  default: {
+    auto *decl = as<AliasDecl>(symbol->decl);
+    const Type *type = resolveType(decl->type, symbol->name.text);
+    if (symbol->type == nullptr) // a circle has set it to error
+      symbol->type = type;
+    symbol->init = decl->init;
+    break;
+  }
+  }
+  symbol->resolving = false;
+  symbol->library->types.push_back(symbol);
+}
+
+void Checker::resolveStruct(TypeSymbol *symbol, StructDecl *decl) {
+  auto *type = arena_.make<StructType>();
+  type->kind = TypeKind::structure;
+  type->symbol = symbol;
+  symbol->type = type; // members may point back to it
+  if (decl->base) {
+    Symbol *base = lookup(decl->base);
+    if (base == nullptr) {
+      reportUnknown(decl->base, true);
+    } else if (base->kind == SymbolKind::type) {
+      auto *baseSymbol = static_cast<TypeSymbol *>(base);
+      const bool circle = baseSymbol->resolving;
+      resolve(baseSymbol);
+      if (!circle && baseSymbol->type->kind == TypeKind::structure) {
+        type->base = typeAs<StructType>(baseSymbol->type);
+        symbol->fields = baseSymbol->fields;
+      } else if (!isError(baseSymbol->type)) {
+        report(circle ? Code::recursiveType : Code::wrongBase, decl->base.span,
+               circle ? "`" + std::string(symbol->name.text) + "` extends itself"
+                      : "`" + std::string(decl->base.text) + "` is not a structure",
+               "a structure can only extend another structure");
+      }
+    } else {
+      auto &d = report(Code::wrongBase, decl->base.span,
+                       "`" + std::string(decl->base.text) + "` is not a structure",
+                       "this is " + describe(base));
+      noteDeclaration(d, base);
+    }
+  }
+  std::vector<VarSymbol *> fields;
+  for (VarDecl *f : decl->fields) {
+    VarSymbol *field = makeVariable(f, moduleOf(symbol), nullptr);
+    const auto [it, fresh] = symbol->fields.emplace(f->name.id, field);
+    if (!fresh) {
+      auto &d = report(Code::duplicateName, f->name.span,
+                       "the field `" + std::string(f->name.text) + "` is declared twice",
+                       "declared again here");
+      d.label(it->second->name.span, "first declared here");
+      continue;
+    }
+    field->type =
+        resolveType(f->type, std::string(symbol->name.text) + "__" + std::string(f->name.text));
+    fields.push_back(field);
+  }
+  type->fields = arena_.copy(fields);
+}
+
+const EnumType *Checker::makeEnum(EnumTypeExpr *expr, TypeSymbol *symbol) {
+  auto *type = arena_.make<EnumType>();
+  type->kind = TypeKind::enumeration;
+  type->symbol = symbol;
+  symbol->type = type;
+  type->base = elementaryType(TypeKind::intT);
+  if (expr->base != nullptr) {
+    const Type *base = resolveType(expr->base, {});
+    if (isInteger(base))
+      type->base = base;
+    else if (!isError(base))
+      report(Code::wrongBase, expr->base->span,
+             "an enumeration cannot be based on " + typeName(base),
+             "an integer or bit-string type is expected here");
+  }
+  if (symbol->decl != nullptr)
+    type->strict = hasAttribute(symbol->decl->attributes, "strict");
+  Module &module = moduleOf(symbol);
+  std::vector<EnumeratorSymbol *> list;
+  std::unordered_map<Ident, EnumeratorSymbol *> seen;
+  std::int64_t next = 0;
+  for (EnumeratorDecl &e : expr->enumerators) {
+    auto *enumerator = arena_.make<EnumeratorSymbol>();
+    enumerator->kind = SymbolKind::enumerator;
+    enumerator->name = e.name;
+    enumerator->library = symbol->library;
+    enumerator->type = type;
+    if (e.value != nullptr) {
+      if (const auto value = constantInteger(e.value, "the value of an enumerator"))
+        next = *value;
+    }
+    enumerator->value = next;
+    const ConstValue value{ConstKind::integer, next, 0, {}};
+    if (!constantFits(value, elementaryType(TypeKind::anyInteger), type->base))
+      report(Code::constantOverflow, e.name.span,
+             "the value " + std::to_string(next) + " of `" + std::string(e.name.text) +
+                 "` does not fit into " + typeName(type->base))
+          .help("give the enumeration a larger base type: `(…) DINT`");
+    ++next;
+    const auto [it, fresh] = seen.emplace(e.name.id, enumerator);
+    if (!fresh) {
+      auto &d = report(Code::duplicateName, e.name.span,
+                       "the enumerator `" + std::string(e.name.text) + "` is declared twice",
+                       "declared again here");
+      d.label(it->second->name.span, "first declared here");
+      continue;
+    }
+    list.push_back(enumerator);
+    if (symbol->decl == nullptr || !hasAttribute(symbol->decl->attributes, "qualified_only"))
+      module.enumerators[e.name.id].push_back(enumerator);
+  }
+  type->enumerators = arena_.copy(list);
+  type->initial = list.empty() ? nullptr : list.front();
+  if (symbol->init != nullptr) {
+    check(symbol->init, type);
+    coerce(symbol->init, type, "the initial value");
+    if (symbol->init->constant != nullptr && !isError(symbol->init->type)) {
+      for (EnumeratorSymbol *e : list) {
+        if (e->value == symbol->init->constant->integer)
+          type->initial = e;
+      }
+    }
+  }
+  return type;
+}
+
+// ----------------------------------------------------------------------------------------------
+// types as written
+
+const Type *Checker::resolveType(TypeExpr *expr, std::string_view hint) {
+  switch (expr->kind) {
+  case TypeExprKind::named:
+    return resolveNamed(as<NamedTypeExpr>(expr));
+  case TypeExprKind::array:
+    return resolveArray(as<ArrayTypeExpr>(expr), hint);
+  case TypeExprKind::string:
+    return resolveString(as<StringTypeExpr>(expr));
+  case TypeExprKind::subrange:
+    return resolveSubrange(as<SubrangeTypeExpr>(expr), hint);
+  case TypeExprKind::pointer:
+  case TypeExprKind::reference: {
+    const Type *pointee = resolveType(as<PointerTypeExpr>(expr)->pointee, hint);
+    if (isError(pointee))
+      return pointee;
+    return expr->kind == TypeExprKind::pointer ? types_.pointer(pointee)
+                                               : types_.reference(pointee);
+  }
+  case TypeExprKind::enumeration: {
+    // An enumeration in line gets a name of its own, made of the variable's.
+    TypeSymbol &symbol = program_.typeStorage.emplace_back();
+    symbol.kind = SymbolKind::type;
+    symbol.name.text = arena_.copy(hint);
+    symbol.name.id = program_.interner.intern(hint);
+    symbol.name.span = expr->span;
+    symbol.library = scope_.module->library;
+    const Type *type = makeEnum(as<EnumTypeExpr>(expr), &symbol);
+    symbol.library->types.push_back(&symbol);
+    return type;
+  }
+  case TypeExprKind::error:
+    break;
+  }
+  return elementaryType(TypeKind::error);
+}
+
+const Type *Checker::resolveNamed(NamedTypeExpr *expr) {
+  const Name &name = expr->path.back();
+  Symbol *symbol = nullptr;
+  if (expr->path.size() == 1) {
+    const auto elementary = elementary_.find(name.id);
+    if (elementary != elementary_.end()) {
+      if (elementary->second != nullptr)
+        return elementary->second;
+    } else {
+      const Type *type = findElementaryType(name.id->lower);
+      elementary_.emplace(name.id, type);
+      if (type != nullptr)
+        return type;
+    }
+    // Types are not hidden by variables of the same name (`TON : TON`).
+    symbol = lookupInModule(*scope_.module, name.id);
+    if (symbol == nullptr || symbol->kind == SymbolKind::variable) {
+      Symbol *inLibrary = lookupInLibraries(name.id);
+      symbol = inLibrary != nullptr ? inLibrary : symbol;
+    }
+    if (symbol == nullptr && scope_.pou != nullptr && scope_.pou->scope.contains(name.id))
+      symbol = scope_.pou->scope.at(name.id);
+  } else {
+    const Name &libraryName = expr->path.front();
+    if (expr->path.size() > 2 || !index_.isLibrary(libraryName.id->lower)) {
+      reportUnknown(libraryName, true);
+      return elementaryType(TypeKind::error);
+    }
+    for (const LibraryIndex::Entry &entry : index_.find(name.id->lower)) {
+      if (program_.interner.intern(entry.library) != libraryName.id)
+        continue;
+      loadLibraryFile(entry);
+      symbol = lookupInModule(module(std::string(entry.library)), name.id);
+    }
+  }
+  if (symbol == nullptr) {
+    reportUnknown(name, true);
+    return elementaryType(TypeKind::error);
+  }
+  if (symbol->kind == SymbolKind::type) {
+    auto *type = static_cast<TypeSymbol *>(symbol);
+    resolve(type);
+    return type->type;
+  }
+  if (symbol->kind == SymbolKind::pou &&
+      static_cast<PouSymbol *>(symbol)->decl->kind == DeclKind::functionBlock)
+    return static_cast<PouSymbol *>(symbol)->type;
+  auto &d = report(Code::notAType, name.span, "`" + std::string(name.text) + "` is not a type",
+                   "this is " + describe(symbol));
+  noteDeclaration(d, symbol);
+  return elementaryType(TypeKind::error);
+}
+
+const Type *Checker::resolveArray(ArrayTypeExpr *expr, std::string_view hint) {
+  const Type *type = resolveType(expr->element, hint);
+  std::int64_t total = 1;
+  for (std::size_t i = expr->ranges.size(); i-- > 0;) {
+    ArrayRange &range = expr->ranges[i];
+    if (range.low == nullptr) {
+      report(Code::unsupported, range.span,
+             "arrays of variable length are not supported by this version", "`*` as bounds")
+          .help("give the bounds: `ARRAY [0..9] OF …`");
+      return elementaryType(TypeKind::error);
+    }
+    const auto low = constantInteger(range.low, "an array bound");
+    const auto high = constantInteger(range.high, "an array bound");
+    if (!low || !high || isError(type))
+      return elementaryType(TypeKind::error);
+    if (*high < *low || __builtin_mul_overflow(total, *high - *low + 1, &total) ||
+        total > kMaxArrayElements) {
+      auto &d =
+          report(Code::invalidArrayBounds, range.span,
+                 *high < *low ? "the upper bound " + std::to_string(*high) +
+                                    " is below the lower bound " + std::to_string(*low)
+                              : std::string("the array is too large"),
+                 *high < *low ? "these bounds hold no element" : "more than 268,435,456 elements");
+      if (*high < *low)
+        d.help("write the lower bound first: `" + std::to_string(*high) + ".." +
+               std::to_string(*low) + "`");
+      return elementaryType(TypeKind::error);
+    }
+    type = types_.array(type, *low, *high);
+  }
+  return type;
+}
+
+const Type *Checker::resolveString(StringTypeExpr *expr) {
+  if (expr->length == nullptr)
+    return types_.string(expr->wide, 80);
+  const auto length = constantInteger(expr->length, "the length of a string");
+  if (!length)
+    return elementaryType(TypeKind::error);
+  if (*length < 1 || *length > kMaxStringLength) {
+    report(Code::invalidStringLength, expr->length->span,
+           "a string cannot have the length " + std::to_string(*length), "1 to 65535 is possible");
+    return elementaryType(TypeKind::error);
+  }
+  return types_.string(expr->wide, static_cast<std::uint32_t>(*length));
+}
+
+const Type *Checker::resolveSubrange(SubrangeTypeExpr *expr, std::string_view hint) {
+  const Type *base = resolveType(expr->base, hint);
+  const auto low = constantInteger(expr->low, "a bound of the range");
+  const auto high = constantInteger(expr->high, "a bound of the range");
+  if (isError(base) || !low || !high)
+    return elementaryType(TypeKind::error);
+  if (!isInteger(base)) {
+    report(Code::invalidSubrange, expr->base->span,
+           typeName(base) + " cannot be limited to a range", "an integer type is expected here");
+    return elementaryType(TypeKind::error);
+  }
+  const Type *any = elementaryType(TypeKind::anyInteger);
+  const bool fits = constantFits({ConstKind::integer, *low, 0, {}}, any, base) &&
+                    constantFits({ConstKind::integer, *high, 0, {}}, any, base);
+  if (*high < *low || !fits) {
+    report(Code::invalidSubrange, expr->low->span.to(expr->high->span),
+           *high < *low ? "the range holds no value"
+                        : "the range does not fit into " + typeName(base),
+           *high < *low ? "the upper bound is below the lower one"
+                        : typeName(base) + " goes from " + std::to_string(integerRange(base).low) +
+                              " to " + std::to_string(integerRange(base).high));
+    return elementaryType(TypeKind::error);
+  }
+  return types_.subrange(base, *low, *high);
+}
+
+std::optional<std::int64_t> Checker::constantInteger(Expr *expr, std::string_view what) {
+  const Type *type = check(expr);
+  if (isError(type))
+    return std::nullopt;
+  if (expr->constant == nullptr || expr->constant->kind != ConstKind::integer ||
+      !(type->kind == TypeKind::anyInteger || isInteger(underlying(type)))) {
+    report(Code::notConstant, expr->span, std::string(what) + " must be an integer constant",
+           expr->constant == nullptr ? "its value is only known at run time"
+                                     : "this is " + typeName(type))
+        .help("use a literal, or a variable declared in VAR CONSTANT or VAR_GLOBAL CONSTANT");
+    return std::nullopt;
+  }
+  if (type->kind == TypeKind::anyInteger)
+    settle(expr);
+  return expr->constant->integer;
+}
+
+// ------------------------------------------------------------------------------------------------------
+// variables
+
+VarSymbol *Checker::makeVariable(VarDecl *decl, Module &module, PouSymbol *owner) {
+  auto *symbol = arena_.make<VarSymbol>();
+  symbol->kind = SymbolKind::variable;
+  symbol->name = decl->name;
+  symbol->library = module.library;
+  symbol->decl = decl;
+  symbol->section = decl->section;
+  symbol->owner = owner;
+  symbol->isConstant = (decl->qualifiers & qualConstant) != 0;
+  symbol->hidden = hasAttribute(decl->attributes, "hide");
+  decl->symbol = symbol;
+  if (!decl->address.empty() || decl->addressSpan.valid())
+    report(Code::unsupported, decl->addressSpan,
+           "located variables (AT %…) are not supported by this version", "this address")
+        .help("leave the AT clause out and exchange the value through a global variable");
+  return symbol;
+}
+
+void Checker::declare(GlobalsSymbol *globals) {
+  for (VarSymbol *v : globals->variables)
+    typeOf(v);
+}
+
+const Type *Checker::typeOf(VarSymbol *variable) {
+  if (variable->type != nullptr)
+    return variable->type;
+  if (variable->typeRunning) {
+    report(Code::circularConstant, variable->name.span,
+           "the type of `" + std::string(variable->name.text) + "` depends on its own value",
+           "declared here");
+    variable->type = elementaryType(TypeKind::error);
+    return variable->type;
+  }
+  variable->typeRunning = true;
+  const ScopeGuard guard(*this, {&moduleOf(variable), variable->owner});
+  const Symbol *home =
+      variable->owner != nullptr ? static_cast<const Symbol *>(variable->owner) : variable->globals;
+  const Type *type = resolveType(variable->decl->type, std::string(home->name.text) + "__" +
+                                                           std::string(variable->name.text));
+  if (variable->type == nullptr)
+    variable->type = type;
+  variable->typeRunning = false;
+  return variable->type;
+}
+
+void Checker::bindExternal(PouSymbol *pou, VarDecl *decl) {
+  Symbol *global = lookupInModule(*scope_.module, decl->name.id);
+  if (global == nullptr)
+    global = lookupInLibraries(decl->name.id);
+  if (global == nullptr || global->kind != SymbolKind::variable) {
+    report(Code::externalMismatch, decl->name.span,
+           "there is no global variable `" + std::string(decl->name.text) + "`",
+           "declared as external here")
+        .help("declare it in a VAR_GLOBAL list");
+    return;
+  }
+  auto *variable = static_cast<VarSymbol *>(global);
+  typeOf(variable);
+  const Type *type = resolveType(decl->type, {});
+  if (type != variable->type && !isError(type) && !isError(variable->type)) {
+    auto &d = report(Code::externalMismatch, decl->type->span,
+                     "`" + std::string(decl->name.text) + "` is " + typeName(variable->type) +
+                         ", not " + typeName(type),
+                     "this type differs from the global variable's");
+    noteDeclaration(d, variable);
+  }
+  pou->scope.emplace(decl->name.id, variable);
+}
+
+void Checker::declare(PouSymbol *pou) {
+  if (pou->declared)
+    return;
+  pou->declared = true;
+  Module &home = moduleOf(pou);
+  const ScopeGuard guard(*this, {&home, pou});
+  std::vector<VarSymbol *> variables;
+  PouDecl *decl = pou->decl;
+  for (VarDecl *v : decl->variables) {
+    if (v->section == Section::external) {
+      bindExternal(pou, v);
+      continue;
+    }
+    if (v->section == Section::global || v->section == Section::config ||
+        v->section == Section::access) {
+      report(Code::sectionNotAllowed, v->name.span,
+             std::string(v->section == Section::global ? "VAR_GLOBAL" : "this VAR section") +
+                 " cannot stand inside of " + describe(pou),
+             "declared here")
+          .help("move it out of the POU");
+      continue;
+    }
+    VarSymbol *symbol = makeVariable(v, home, pou);
+    const auto [it, fresh] = pou->scope.emplace(v->name.id, symbol);
+    if (!fresh) {
+      auto &d = report(Code::duplicateName, v->name.span,
+                       "the name `" + std::string(v->name.text) + "` is declared twice",
+                       "declared again here");
+      d.label(it->second->name.span, "first declared here");
+      continue;
+    }
+    variables.push_back(symbol);
+  }
+  if (decl->kind == DeclKind::function && decl->returnType != nullptr) {
+    auto *result = arena_.make<VarSymbol>();
+    result->kind = SymbolKind::variable;
+    result->name = decl->name;
+    result->library = pou->library;
+    result->owner = pou;
+    result->isResult = true;
+    const auto [it, fresh] = pou->scope.emplace(decl->name.id, result);
+    if (!fresh) {
+      auto &d =
+          report(Code::duplicateName, it->second->name.span,
+                 "a variable of `" + std::string(decl->name.text) + "` has the function's own name",
+                 "this name stands for the result");
+      d.label(decl->name.span, "the function");
+    }
+    result->type = resolveType(decl->returnType, std::string(decl->name.text) + "__result");
+    pou->result = result;
+  }
+  pou->variables = arena_.copy(variables);
+  // Types after names: an array bound may use a constant of the same POU.
+  for (VarSymbol *v : variables) {
+    typeOf(v);
+    if (v->section == Section::inOut && v->decl->init != nullptr) {
+      report(Code::inOutWithInit, v->decl->init->span,
+             "a VAR_IN_OUT variable cannot have an initial value",
+             "it always stands for the caller's variable")
+          .help("remove the value, or make the variable a VAR_INPUT");
+      v->decl->init = nullptr;
+    }
+  }
+  if (!home.library->isUser && decl->kind == DeclKind::function) {
+    for (VarSymbol *v : variables)
+      checkInitOf(v); // callers use the default values
+  }
+}
+
+} // namespace stc

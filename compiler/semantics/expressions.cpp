@@ -1,0 +1,508 @@
+// Expressions without operators and calls: literals, names, members, elements.
+
+#include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/fold.hpp"
+#include "compiler/semantics/suggest.hpp"
+
+#include <limits>
+
+namespace stc {
+
+using namespace ast;
+
+const Type *Checker::check(Expr *expr, const Type *expected) {
+  if (expected != nullptr && expected->kind == TypeKind::subrange)
+    expected = typeAs<SubrangeType>(expected)->base;
+  const Type *type = elementaryType(TypeKind::error);
+  switch (expr->kind) {
+  case ExprKind::literal:
+    type = checkLiteral(as<Literal>(expr));
+    break;
+  case ExprKind::name:
+    type = checkName(as<NameExpr>(expr), expected);
+    break;
+  case ExprKind::member:
+    type = checkMember(as<MemberExpr>(expr));
+    break;
+  case ExprKind::index:
+    type = checkIndex(as<IndexExpr>(expr));
+    break;
+  case ExprKind::deref:
+    type = checkDeref(as<DerefExpr>(expr));
+    break;
+  case ExprKind::call: {
+    type = checkCall(as<CallExpr>(expr), false);
+    break;
+  }
+  case ExprKind::unary:
+    type = checkUnary(as<UnaryExpr>(expr), expected);
+    break;
+  case ExprKind::binary:
+    type = checkBinary(as<BinaryExpr>(expr), expected);
+    break;
+  case ExprKind::enumLiteral:
+    type = checkEnumLiteral(as<EnumLiteralExpr>(expr));
+    break;
+  case ExprKind::aggregate:
+    report(Code::aggregateNotAllowed, expr->span, "a list of values can only be an initial value",
+           "not an expression")
+        .help("assign the elements one by one");
+    break;
+  case ExprKind::error:
+    break;
+  }
+  expr->type = type;
+  return type;
+}
+
+void Checker::checkAs(Expr *expr, const Type *type, std::string_view what) {
+  check(expr, type);
+  coerce(expr, type, what);
+}
+
+void Checker::checkCondition(Expr *expr, std::string_view what) {
+  const Type *boolean = elementaryType(TypeKind::boolean);
+  const Type *type = check(expr, boolean);
+  if (isError(type) || type == boolean)
+    return;
+  auto &d = report(Code::conditionNotBool, expr->span,
+                   std::string(what) + " must be BOOL, this is " + typeName(type), "expected BOOL");
+  if (isInteger(underlying(type)) || isReal(type) || type->kind == TypeKind::anyInteger)
+    d.help("compare it with a value: `… <> 0`");
+}
+
+// -------------------------------------------------------------------------------------------------------
+// literals
+
+const Type *Checker::checkLiteral(Literal *expr) {
+  ConstValue value;
+  const Type *type = nullptr;
+  switch (expr->literal) {
+  case LiteralKind::boolean:
+    type = elementaryType(TypeKind::boolean);
+    value.integer = static_cast<std::int64_t>(expr->integer);
+    break;
+  case LiteralKind::integer:
+    type = elementaryType(
+        expr->integer > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())
+            ? TypeKind::ulint
+            : TypeKind::anyInteger);
+    value.integer = static_cast<std::int64_t>(expr->integer);
+    break;
+  case LiteralKind::real:
+    type = elementaryType(TypeKind::anyReal);
+    value.kind = ConstKind::real;
+    value.real = expr->real;
+    break;
+  case LiteralKind::string:
+  case LiteralKind::wstring:
+    type = types_.string(expr->literal == LiteralKind::wstring,
+                         static_cast<std::uint32_t>(std::max<std::size_t>(expr->text.size(), 1)));
+    value.kind = ConstKind::string;
+    value.text = expr->text;
+    break;
+  case LiteralKind::time:
+    type = elementaryType(TypeKind::time);
+    break;
+  case LiteralKind::ltime:
+    type = elementaryType(TypeKind::ltime);
+    break;
+  case LiteralKind::date:
+    type = elementaryType(TypeKind::date);
+    break;
+  case LiteralKind::ldate:
+    type = elementaryType(TypeKind::ldate);
+    break;
+  case LiteralKind::tod:
+    type = elementaryType(TypeKind::tod);
+    break;
+  case LiteralKind::ltod:
+    type = elementaryType(TypeKind::ltod);
+    break;
+  case LiteralKind::dt:
+    type = elementaryType(TypeKind::dt);
+    break;
+  case LiteralKind::ldt:
+    type = elementaryType(TypeKind::ldt);
+    break;
+  }
+  if (isTimeOrDate(type))
+    value.integer = static_cast<std::int64_t>(expr->integer);
+  if (expr->typeName) {
+    const Type *named = findElementaryType(expr->typeName.id->lower);
+    if (named == nullptr) {
+      reportUnknown(expr->typeName, true);
+      return elementaryType(TypeKind::error);
+    }
+    if (!constantFits(value, type, named)) {
+      report(Code::constantOverflow, expr->span,
+             "`" + std::string(program_.sources.text(expr->span)) + "` is not a value of " +
+                 typeName(named),
+             "does not fit");
+      return elementaryType(TypeKind::error);
+    }
+    value = convertConstant(value, type, named).value_or(value);
+    type = named;
+  }
+  expr->constant = makeConstant(value);
+  return type;
+}
+
+const Type *Checker::checkEnumLiteral(EnumLiteralExpr *expr) {
+  Symbol *symbol = lookup(expr->typeName);
+  if (symbol == nullptr || symbol->kind != SymbolKind::type) {
+    if (symbol == nullptr)
+      reportUnknown(expr->typeName, true);
+    else
+      report(Code::notAType, expr->typeName.span,
+             "`" + std::string(expr->typeName.text) + "` is not a type",
+             "this is " + describe(symbol));
+    return elementaryType(TypeKind::error);
+  }
+  auto *type = static_cast<TypeSymbol *>(symbol);
+  resolve(type);
+  if (type->type->kind == TypeKind::enumeration) {
+    if (EnumeratorSymbol *e = findEnumerator(typeAs<EnumType>(type->type), expr->enumerator.id)) {
+      expr->symbol = e;
+      return useSymbol(expr, e, expr->enumerator);
+    }
+  }
+  if (!isError(type->type)) {
+    auto &d = report(Code::unknownEnumerator, expr->enumerator.span,
+                     "`" + std::string(type->name.text) + "` has no enumerator `" +
+                         std::string(expr->enumerator.text) + "`",
+                     "not one of its values");
+    const auto similar = nearest(expr->enumerator.text, memberNames(type->type));
+    if (!similar.empty())
+      d.help("a similar one exists: `" + std::string(similar) + "`");
+  }
+  return elementaryType(TypeKind::error);
+}
+
+// ----------------------------------------------------------------------------------------------------------
+// names
+
+const Type *Checker::useSymbol(Expr *expr, Symbol *symbol, const Name &name) {
+  switch (symbol->kind) {
+  case SymbolKind::variable: {
+    auto *variable = static_cast<VarSymbol *>(symbol);
+    const Type *type = typeOf(variable);
+    if (variable->isConstant && isElementary(type)) {
+      checkInitOf(variable);
+      expr->constant = variable->constant;
+    }
+    if (type->kind == TypeKind::reference)
+      type = typeAs<PointerType>(type)->pointee;
+    return type;
+  }
+  case SymbolKind::enumerator: {
+    const auto *e = static_cast<EnumeratorSymbol *>(symbol);
+    expr->constant = makeConstant({ConstKind::integer, e->value, 0, {}});
+    return e->type;
+  }
+  case SymbolKind::pou: {
+    auto *pou = static_cast<PouSymbol *>(symbol);
+    if (pou->decl->kind == DeclKind::program) {
+      declare(pou);
+      return pou->type;
+    }
+    break;
+  }
+  default:
+    break;
+  }
+  auto &d = report(Code::notAVariable, name.span, "`" + std::string(name.text) + "` is not a value",
+                   "this is " + describe(symbol));
+  noteDeclaration(d, symbol);
+  if (symbol->kind == SymbolKind::pou && static_cast<PouSymbol *>(symbol)->isFunction())
+    d.help("call it: `" + std::string(name.text) + "(…)`");
+  else if (symbol->kind == SymbolKind::pou)
+    d.help("declare an instance of it: `x : " + std::string(name.text) + ";`");
+  else if (symbol->kind == SymbolKind::builtin)
+    d.help("call it: `" + std::string(name.text) + "(…)`");
+  return elementaryType(TypeKind::error);
+}
+
+const Type *Checker::checkName(NameExpr *expr, const Type *expected) {
+  Symbol *symbol = lookup(expr->name);
+  const bool isValue = symbol != nullptr &&
+                       (symbol->kind == SymbolKind::variable || symbol->kind == SymbolKind::pou);
+  if (!isValue) {
+    bool ambiguous = false;
+    if (EnumeratorSymbol *e = lookupEnumerator(expr->name, expected, ambiguous)) {
+      if (ambiguous) {
+        auto &d = report(Code::ambiguousName, expr->name.span,
+                         "`" + std::string(expr->name.text) + "` is an enumerator of several types",
+                         "which one is meant?");
+        for (EnumeratorSymbol *other : scope_.module->enumerators[expr->name.id])
+          d.label(other->name.span, "of `" + typeName(other->type) + "`");
+        d.help("write the type too: `" + typeName(e->type) + "." + std::string(expr->name.text) +
+               "`");
+        return elementaryType(TypeKind::error);
+      }
+      symbol = e;
+    }
+  }
+  if (symbol == nullptr) {
+    reportUnknown(expr->name, false);
+    return elementaryType(TypeKind::error);
+  }
+  expr->symbol = symbol;
+  return useSymbol(expr, symbol, expr->name);
+}
+
+Symbol *Checker::resolveNamespace(Expr *expr) {
+  if (expr->kind == ExprKind::name) {
+    auto *name = as<NameExpr>(expr);
+    Symbol *symbol = lookup(name->name);
+    // `GVL.x`, although a variable or a POU may have the list's name, is not decided here: the
+    // value wins.
+    if (symbol != nullptr &&
+        (symbol->kind == SymbolKind::type || symbol->kind == SymbolKind::library ||
+         symbol->kind == SymbolKind::globals)) {
+      name->symbol = symbol;
+      return symbol;
+    }
+    return nullptr;
+  }
+  if (expr->kind == ExprKind::member) { // Library.Enum.value, Library.GVL.x
+    auto *member = as<MemberExpr>(expr);
+    if (member->bit >= 0)
+      return nullptr;
+    Symbol *base = resolveNamespace(member->base);
+    if (base == nullptr || base->kind != SymbolKind::library)
+      return nullptr;
+    for (const LibraryIndex::Entry &entry : index_.find(member->name.id->lower)) {
+      if (program_.interner.intern(entry.library) != base->name.id)
+        continue;
+      loadLibraryFile(entry);
+      Module &m = module(std::string(entry.library));
+      Symbol *symbol = lookupInModule(m, member->name.id);
+      if (symbol != nullptr && symbol->kind == SymbolKind::type) {
+        member->symbol = symbol;
+        return symbol;
+      }
+    }
+  }
+  return nullptr;
+}
+
+const Type *Checker::checkMember(MemberExpr *expr) {
+  if (expr->bit >= 0)
+    return checkBit(expr);
+  const std::string name(expr->name.text);
+  if (Symbol *space = resolveNamespace(expr->base)) {
+    Symbol *found = nullptr;
+    std::vector<std::string_view> candidates;
+    if (space->kind == SymbolKind::type) {
+      auto *type = static_cast<TypeSymbol *>(space);
+      resolve(type);
+      if (type->type->kind == TypeKind::enumeration)
+        found = findEnumerator(typeAs<EnumType>(type->type), expr->name.id);
+      candidates = memberNames(type->type);
+      if (type->type->kind != TypeKind::enumeration) {
+        auto &d = report(Code::notAVariable, expr->base->span,
+                         "`" + std::string(space->name.text) + "` is a type, not a variable",
+                         "only variables have members");
+        d.help("declare a variable: `x : " + std::string(space->name.text) + ";`");
+        return elementaryType(TypeKind::error);
+      }
+    } else if (space->kind == SymbolKind::globals) {
+      auto *list = static_cast<GlobalsSymbol *>(space);
+      const auto it = list->scope.find(expr->name.id);
+      found = it == list->scope.end() ? nullptr : it->second;
+      for (const VarSymbol *v : list->variables)
+        candidates.push_back(v->name.text);
+    } else {
+      for (const LibraryIndex::Entry &entry : index_.find(expr->name.id->lower)) {
+        if (program_.interner.intern(entry.library) != space->name.id)
+          continue;
+        loadLibraryFile(entry);
+        found = lookupInModule(module(std::string(entry.library)), expr->name.id);
+      }
+    }
+    if (found == nullptr) {
+      const Code code =
+          space->kind == SymbolKind::type ? Code::unknownEnumerator : Code::unknownMember;
+      auto &d = report(code, expr->name.span,
+                       "`" + std::string(space->name.text) + "` has no `" + name + "`",
+                       "not found in " + describe(space));
+      const auto similar = nearest(expr->name.text, candidates);
+      if (!similar.empty())
+        d.help("a similar name exists: `" + std::string(similar) + "`");
+      return elementaryType(TypeKind::error);
+    }
+    expr->symbol = found;
+    return useSymbol(expr, found, expr->name);
+  }
+  const Type *base = check(expr->base);
+  if (isError(base))
+    return base;
+  if (base->kind != TypeKind::structure && !isInstance(base)) {
+    auto &d = report(Code::unknownMember, expr->name.span, typeName(base) + " has no members",
+                     "`." + name + "` is not possible here");
+    if (base->kind == TypeKind::pointer)
+      d.help("follow the pointer first: `" + std::string(program_.sources.text(expr->base->span)) +
+             "^." + name + "`");
+    return elementaryType(TypeKind::error);
+  }
+  VarSymbol *member = findMember(base, expr->name.id);
+  if (member != nullptr &&
+      (member->isResult || (member->owner == nullptr && member->globals != nullptr)))
+    member = nullptr; // names that are only visible inside the POU
+  if (member == nullptr) {
+    // `w.cBit`: a bit by the name of a constant belongs to integers, which were handled above.
+    auto &d = report(Code::unknownMember, expr->name.span,
+                     "`" + typeName(base) + "` has no member `" + name + "`", "unknown member");
+    const auto similar = nearest(expr->name.text, memberNames(base));
+    if (!similar.empty())
+      d.help("a similar one exists: `" + std::string(similar) + "`");
+    return elementaryType(TypeKind::error);
+  }
+  if (member->owner != nullptr && member->owner != scope_.pou &&
+      (member->section == Section::temp ||
+       (member->section == Section::local && base->kind == TypeKind::functionBlock))) {
+    auto &d = report(Code::notAccessible, expr->name.span,
+                     "`" + name + "` is private to `" + typeName(base) + "`",
+                     "only its own code can use it");
+    noteDeclaration(d, member);
+    d.help("make it a VAR_OUTPUT (or VAR_INPUT) of `" + typeName(base) + "`");
+    return elementaryType(TypeKind::error);
+  }
+  expr->symbol = member;
+  return useSymbol(expr, member, expr->name);
+}
+
+const Type *Checker::checkBit(MemberExpr *expr) {
+  const Type *base = check(expr->base);
+  if (isError(base))
+    return base;
+  const Type *u = underlying(base);
+  if (!isInteger(u)) {
+    report(Code::bitOutOfRange, expr->span, typeName(base) + " has no bits to select",
+           "`." + std::to_string(expr->bit) + "` is only possible on integers and bit strings");
+    return elementaryType(TypeKind::error);
+  }
+  if (static_cast<unsigned>(expr->bit) >= bitWidth(u)) {
+    report(Code::bitOutOfRange, expr->span,
+           typeName(base) + " has no bit " + std::to_string(expr->bit),
+           "the bits are 0 to " + std::to_string(bitWidth(u) - 1));
+    return elementaryType(TypeKind::error);
+  }
+  return elementaryType(TypeKind::boolean);
+}
+
+const Type *Checker::checkIndex(IndexExpr *expr) {
+  const Type *type = check(expr->base);
+  bool bad = isError(type);
+  for (std::size_t i = 0; i < expr->indices.size(); ++i) {
+    Expr *index = expr->indices[i];
+    const Type *indexType = check(index);
+    if (bad)
+      continue;
+    if (type->kind != TypeKind::array) {
+      auto &d = report(Code::notIndexable, i == 0 ? expr->base->span : index->span,
+                       i == 0 ? typeName(type) + " is not an array"
+                              : "too many indices: the array has " + std::to_string(i) +
+                                    (i == 1 ? " dimension" : " dimensions"),
+                       i == 0 ? "cannot be indexed" : "one index too many");
+      if (i == 0 && type->kind == TypeKind::pointer)
+        d.help("follow the pointer first: `^[…]`");
+      bad = true;
+      continue;
+    }
+    const auto *array = typeAs<ArrayType>(type);
+    type = array->element;
+    if (isError(indexType))
+      continue;
+    if (!isInteger(underlying(indexType)) && indexType->kind != TypeKind::anyInteger) {
+      report(Code::indexNotInteger, index->span,
+             "an index must be an integer, this is " + typeName(indexType), "expected an integer");
+      continue;
+    }
+    if (index->constant != nullptr) {
+      const std::int64_t value = index->constant->integer;
+      if (value < array->low || value > array->high)
+        report(Code::indexOutOfRange, index->span,
+               "index " + std::to_string(value) + " is outside of the array",
+               "the bounds are " + std::to_string(array->low) + ".." + std::to_string(array->high));
+    }
+    if (indexType->kind == TypeKind::anyInteger)
+      settle(index);
+  }
+  return bad ? elementaryType(TypeKind::error) : type;
+}
+
+const Type *Checker::checkDeref(DerefExpr *expr) {
+  const Type *base = check(expr->base);
+  if (isError(base))
+    return base;
+  if (base->kind != TypeKind::pointer) {
+    report(Code::notAPointer, expr->span, typeName(base) + " is not a pointer",
+           "`^` needs a POINTER TO …");
+    return elementaryType(TypeKind::error);
+  }
+  return typeAs<PointerType>(base)->pointee;
+}
+
+// ------------------------------------------------------------------------------------------------------
+// variables
+
+bool Checker::requireVariable(Expr *expr, std::string_view what) {
+  const std::string action(what);
+  switch (expr->kind) {
+  case ExprKind::deref:
+  case ExprKind::error:
+    return true;
+  case ExprKind::index:
+    return requireVariable(as<IndexExpr>(expr)->base, what);
+  case ExprKind::name:
+  case ExprKind::member: {
+    Symbol *symbol =
+        expr->kind == ExprKind::name ? as<NameExpr>(expr)->symbol : as<MemberExpr>(expr)->symbol;
+    if (expr->kind == ExprKind::member && as<MemberExpr>(expr)->bit >= 0)
+      return requireVariable(as<MemberExpr>(expr)->base, what);
+    if (symbol == nullptr || isError(expr->type))
+      return true; // reported before
+    if (symbol->kind != SymbolKind::variable) {
+      auto &d = report(Code::notAssignable, expr->span,
+                       "cannot " + action + " this: it is " + describe(symbol),
+                       "a variable is needed here");
+      noteDeclaration(d, symbol);
+      return false;
+    }
+    auto *variable = static_cast<VarSymbol *>(symbol);
+    if (variable->isConstant) {
+      auto &d =
+          report(Code::assignToConstant, expr->span,
+                 "cannot " + action + " the constant `" + std::string(variable->name.text) + "`",
+                 "declared CONSTANT");
+      noteDeclaration(d, variable);
+      return false;
+    }
+    if (expr->kind == ExprKind::member && variable->section == Section::output &&
+        variable->owner != scope_.pou) {
+      if (what == "pass")
+        return true; // outputs of a block may be passed on as in-outs (TimeAxis.Axis)
+      auto &d = report(Code::assignToOutput, expr->span,
+                       "cannot " + action + " the output `" + std::string(variable->name.text) +
+                           "` of `" + std::string(variable->owner->name.text) + "`",
+                       "only the block itself writes its outputs");
+      noteDeclaration(d, variable);
+      return false;
+    }
+    variable->usage |= static_cast<std::uint8_t>(Usage::written);
+    // A field of a constant structure is constant, a field of a POU's variable is not.
+    if (expr->kind == ExprKind::member && variable->owner == nullptr &&
+        variable->globals == nullptr)
+      return requireVariable(as<MemberExpr>(expr)->base, what);
+    return true;
+  }
+  default:
+    report(Code::notAssignable, expr->span, "cannot " + action + " an expression",
+           "this is not a variable");
+    return false;
+  }
+}
+
+} // namespace stc

@@ -1,0 +1,287 @@
+// Initial values of variables, array elements, fields and instances.
+
+#include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/fold.hpp"
+#include "compiler/semantics/suggest.hpp"
+
+namespace stc {
+
+using namespace ast;
+
+namespace {
+
+constexpr std::uint64_t kMaxExpanded = 1U << 20;
+
+AggregateExpr *aggregate(Expr *e) {
+  return e->kind == ExprKind::aggregate ? as<AggregateExpr>(e) : nullptr;
+}
+
+} // namespace
+
+void Checker::checkInitOf(VarSymbol *variable) {
+  if (variable->decl == nullptr)
+    return;
+  if (variable->initRunning) {
+    report(Code::circularConstant, variable->name.span,
+           "the value of `" + std::string(variable->name.text) + "` depends on itself",
+           "this definition is a circle");
+    variable->initRunning = false;
+    return;
+  }
+  if (variable->initChecked)
+    return;
+  variable->initChecked = true;
+  const Type *type = typeOf(variable);
+  const ScopeGuard guard(*this, {&moduleOf(variable), variable->owner});
+  if (variable->decl->init == nullptr) {
+    if (variable->isConstant && variable->section != Section::input &&
+        variable->section != Section::inOut && !isError(type) && variable->library->isUser)
+      report(Code::constantWithoutValue, variable->name.span,
+             "the constant `" + std::string(variable->name.text) + "` has no value",
+             "declared CONSTANT")
+          .help("give it one: `" + std::string(variable->name.text) + " : " + typeName(type) +
+                " := …;`");
+    if (variable->isConstant && isElementary(type) && !isString(type) && !isError(type))
+      variable->constant =
+          makeConstant(isReal(type) ? ConstValue{ConstKind::real, 0, 0, {}} : ConstValue{});
+    return;
+  }
+  variable->initRunning = true;
+  variable->decl->init = checkInit(variable->decl->init, type);
+  variable->initRunning = false;
+  if (!variable->isConstant || !isElementary(type) || isError(type))
+    return;
+  const Expr *init = variable->decl->init;
+  if (isError(init->type))
+    return;
+  if (init->constant == nullptr) {
+    report(Code::notConstant, init->span, "the value of a constant must be known at compile time",
+           "only known at run time");
+    return;
+  }
+  if (const auto value = convertConstant(*init->constant, init->type, type))
+    variable->constant = makeConstant(*value);
+}
+
+Expr *Checker::checkInit(Expr *init, const Type *type) {
+  if (isError(type))
+    return init;
+  AggregateExpr *list = aggregate(init);
+  if (type->kind == TypeKind::array) {
+    if (list == nullptr) {
+      check(init, type);
+      if (isError(init->type) || init->type == type)
+        return init; // `a : T := b` copies
+      report(Code::wrongInitializer, init->span, "an array needs a list of values",
+             "this is one value")
+          .help("write `[…]`, for instance `[" + typeName(type).substr(0, 0) +
+                "3(0)]` for three zeros");
+      init->type = elementaryType(TypeKind::error);
+      return init;
+    }
+    if (list->isStruct) { // V2.3: one structure without brackets around it
+      auto *outer = arena_.make<AggregateExpr>();
+      outer->kind = ExprKind::aggregate;
+      outer->span = list->span;
+      AggregateItem item;
+      item.value = list;
+      item.span = list->span;
+      outer->items = arena_.copy(std::vector<AggregateItem>{item});
+      list = outer;
+    }
+    return checkArrayInit(list, typeAs<ArrayType>(type));
+  }
+  if (type->kind == TypeKind::structure || isInstance(type)) {
+    if (list == nullptr) {
+      check(init, type);
+      if (type->kind == TypeKind::structure)
+        coerce(init, type, "the initial value");
+      else if (!isError(init->type))
+        report(Code::wrongInitializer, init->span, "an instance needs named values",
+               "not `name := value`")
+            .help("write `(input := value, …)`");
+      return init;
+    }
+    checkFieldInit(list, type);
+    return list;
+  }
+  if (list != nullptr) {
+    report(Code::wrongInitializer, init->span, typeName(type) + " cannot take a list of values",
+           "expected one value of type " + typeName(type));
+    init->type = elementaryType(TypeKind::error);
+    return init;
+  }
+  checkAs(init, type, "the initial value");
+  return init;
+}
+
+void Checker::checkItem(AggregateItem &item, const Type *type) {
+  if (item.repeat != nullptr) {
+    const auto count = constantInteger(item.repeat, "the repetition of an initial value");
+    if (count && *count < 0)
+      report(Code::wrongInitializer, item.repeat->span,
+             "a value cannot be repeated " + std::to_string(*count) + " times", "0 or more");
+  }
+  if (item.value != nullptr)
+    item.value = checkInit(item.value, type);
+  for (AggregateItem &inner : item.values)
+    checkItem(inner, type);
+}
+
+namespace {
+
+/// How many elements an item stands for; its repetition has been checked to be a constant.
+std::uint64_t elements(const AggregateItem &item) {
+  std::uint64_t own = 1;
+  if (!item.values.empty()) {
+    own = 0;
+    for (const AggregateItem &inner : item.values)
+      own += elements(inner);
+  }
+  if (item.repeat == nullptr)
+    return own;
+  if (item.repeat->constant == nullptr || item.repeat->constant->integer < 0)
+    return 0;
+  return own * static_cast<std::uint64_t>(item.repeat->constant->integer);
+}
+
+bool scalarsOnly(const std::span<AggregateItem> &items) {
+  for (const AggregateItem &item : items) {
+    if (item.value != nullptr && item.value->kind == ExprKind::aggregate &&
+        !as<AggregateExpr>(item.value)->isStruct)
+      return false;
+    if (!scalarsOnly(item.values))
+      return false;
+  }
+  return true;
+}
+
+void expand(const AggregateItem &item, std::vector<AggregateItem> &out) {
+  const std::uint64_t count =
+      item.repeat == nullptr
+          ? 1
+          : static_cast<std::uint64_t>(std::max<std::int64_t>(0, item.repeat->constant->integer));
+  for (std::uint64_t i = 0; i < count; ++i) {
+    if (item.values.empty()) {
+      AggregateItem one = item;
+      one.repeat = nullptr;
+      out.push_back(one);
+    } else {
+      for (const AggregateItem &inner : item.values)
+        expand(inner, out);
+    }
+  }
+}
+
+} // namespace
+
+Expr *Checker::checkArrayInit(AggregateExpr *init, const ArrayType *type) {
+  init->type = type;
+  for (AggregateItem &item : init->items) {
+    if (item.field) {
+      report(Code::wrongInitializer, item.field.span, "array elements have no names",
+             "only values are possible here");
+      return init;
+    }
+  }
+  const Type *element = type->element;
+  if (element->kind == TypeKind::array && scalarsOnly(init->items)) {
+    // A flat list for an array of more dimensions: give each row its part.
+    const Type *scalar = element;
+    std::uint64_t perRow = 1;
+    while (scalar->kind == TypeKind::array) {
+      perRow *= typeAs<ArrayType>(scalar)->count();
+      scalar = typeAs<ArrayType>(scalar)->element;
+    }
+    std::uint64_t total = 0;
+    for (AggregateItem &item : init->items) {
+      checkItem(item, scalar);
+      total += elements(item);
+    }
+    if (total > perRow * type->count() || total > kMaxExpanded) {
+      report(Code::tooManyValues, init->span,
+             "the array has " + std::to_string(perRow * type->count()) + " elements, the list " +
+                 std::to_string(total) + " values",
+             total > kMaxExpanded ? "nest long lists: one `[…]` for each row" : "too many values");
+      return init;
+    }
+    std::vector<AggregateItem> flat;
+    for (const AggregateItem &item : init->items)
+      expand(item, flat);
+    std::vector<AggregateItem> rows;
+    for (std::size_t at = 0; at < flat.size(); at += perRow) {
+      auto *row = arena_.make<AggregateExpr>();
+      row->kind = ExprKind::aggregate;
+      row->span = flat[at].span;
+      row->items = arena_.copy(std::vector<AggregateItem>(
+          flat.begin() + static_cast<std::ptrdiff_t>(at),
+          flat.begin() +
+              static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(at + perRow, flat.size()))));
+      AggregateItem item;
+      item.value = checkArrayInit(row, typeAs<ArrayType>(element));
+      item.span = row->span;
+      rows.push_back(item);
+    }
+    init->items = arena_.copy(rows);
+    return init;
+  }
+  std::uint64_t total = 0;
+  for (AggregateItem &item : init->items) {
+    checkItem(item, element);
+    const std::uint64_t before = total;
+    total += elements(item);
+    if (total > type->count() && before <= type->count()) {
+      report(Code::tooManyValues, item.span.valid() ? item.span : init->span,
+             "the array has " + std::to_string(type->count()) + " elements",
+             "there is no element for this value");
+      return init;
+    }
+  }
+  return init;
+}
+
+void Checker::checkFieldInit(AggregateExpr *init, const Type *type) {
+  init->type = type;
+  if (isInstance(type))
+    declare(typeAs<PouType>(type)->symbol);
+  std::unordered_set<VarSymbol *> seen;
+  for (AggregateItem &item : init->items) {
+    if (!item.field) {
+      report(Code::wrongInitializer, item.span.valid() ? item.span : init->span,
+             "the fields of " + typeName(type) + " are initialised by name", "which field?")
+          .help("write `(field := value, …)`");
+      return;
+    }
+    VarSymbol *field = findMember(type, item.field.id);
+    if (field == nullptr || field->isResult || field->section == Section::temp) {
+      auto &d =
+          report(Code::unknownMember, item.field.span,
+                 "`" + typeName(type) + "` has no member `" + std::string(item.field.text) + "`",
+                 "unknown member");
+      const auto similar = nearest(item.field.text, memberNames(type));
+      if (!similar.empty())
+        d.help("a similar one exists: `" + std::string(similar) + "`");
+      if (item.value != nullptr && item.value->kind != ExprKind::aggregate)
+        check(item.value);
+      continue;
+    }
+    if (!seen.insert(field).second) {
+      report(Code::duplicateArgument, item.field.span,
+             "`" + std::string(item.field.text) + "` is given twice", "given again here");
+      continue;
+    }
+    if (field->section == Section::inOut) {
+      auto &d =
+          report(Code::inOutWithInit, item.field.span,
+                 "the VAR_IN_OUT `" + std::string(item.field.text) + "` cannot be initialised",
+                 "it is bound at each call");
+      noteDeclaration(d, field);
+      continue;
+    }
+    item.symbol = field;
+    if (item.value != nullptr)
+      item.value = checkInit(item.value, typeOf(field));
+  }
+}
+
+} // namespace stc

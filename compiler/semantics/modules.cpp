@@ -1,0 +1,274 @@
+// Modules: files become symbols, libraries are pulled in on demand.
+
+#include "compiler/semantics/checker.hpp"
+#include "compiler/syntax/parser.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+namespace stc {
+
+using namespace ast;
+
+std::vector<VarSymbol *> PouSymbol::parameters() const {
+  std::vector<VarSymbol *> list;
+  for (VarSymbol *v : variables) {
+    if (v->section == Section::input || v->section == Section::output ||
+        v->section == Section::inOut)
+      list.push_back(v);
+  }
+  return list;
+}
+
+Checker::Checker(Program &program, const LibraryIndex &index)
+    : program_(program), arena_(program.arena), index_(index), types_(program.arena) {
+  for (const char *name :
+       {"abs",  "sqrt",   "ln",     "log",    "exp",     "sin",  "cos",  "tan",   "asin",
+        "acos", "atan",   "atan2",  "expt",   "trunc",   "min",  "max",  "limit", "sel",
+        "mux",  "move",   "shl",    "shr",    "rol",     "ror",  "len",  "left",  "right",
+        "mid",  "concat", "insert", "delete", "replace", "find", "time", "adr",   "sizeof"}) {
+    const Ident id = program.interner.intern(name);
+    auto *symbol = arena_.make<BuiltinSymbol>();
+    symbol->kind = SymbolKind::builtin;
+    symbol->name = {id, id->lower, {}};
+    symbol->id = *findBuiltin(id);
+    builtins_.emplace(id, symbol);
+  }
+}
+
+Checker::Module &Checker::module(const std::string &name) {
+  auto &slot = modules_[name];
+  if (!slot) {
+    slot = std::make_unique<Module>();
+    auto library = std::make_unique<Library>();
+    library->name = name;
+    library->isUser = name.empty();
+    slot->library = library.get();
+    if (name.empty())
+      program_.user = library.get();
+    program_.libraries.push_back(std::move(library));
+  }
+  return *slot;
+}
+
+Checker::Module &Checker::moduleOf(const Symbol *symbol) {
+  return *modules_.at(symbol->library->name);
+}
+
+void Checker::loadLibraryFile(const LibraryIndex::Entry &entry) {
+  Module &target = module(std::string(entry.library));
+  if (!target.loadedFiles.insert(std::string(entry.fileName)).second)
+    return;
+  const FileId id = program_.sources.add(std::string(entry.fileName), std::string(entry.text));
+  declareFile(target,
+              parse(program_.sources.file(id), program_.interner, arena_, program_.diagnostics));
+  resolveEnumerations(target);
+}
+
+void Checker::addName(Module &module, Symbol *symbol) {
+  const auto [it, inserted] = module.names.emplace(symbol->name.id, symbol);
+  if (inserted)
+    return;
+  auto &d = report(Code::duplicateName, symbol->name.span,
+                   "the name `" + std::string(symbol->name.text) + "` is declared twice",
+                   "declared again here");
+  d.label(it->second->name.span, "first declared here");
+  d.help("rename one of them, or move the variable into a list with {attribute 'qualified_only'}");
+}
+
+void Checker::declareFile(Module &module, File *file) {
+  Library *library = module.library;
+  for (Decl *decl : file->declarations) {
+    switch (decl->kind) {
+    case DeclKind::program:
+    case DeclKind::function:
+    case DeclKind::functionBlock: {
+      PouSymbol &pou = program_.pouStorage.emplace_back();
+      pou.kind = SymbolKind::pou;
+      pou.name = decl->name;
+      pou.library = library;
+      pou.decl = as<PouDecl>(decl);
+      if (decl->kind != DeclKind::function) {
+        const TypeKind kind =
+            decl->kind == DeclKind::program ? TypeKind::program : TypeKind::functionBlock;
+        pou.type = arena_.make<PouType>(Type{kind}, &pou);
+      }
+      library->pous.push_back(&pou);
+      addName(module, &pou);
+      break;
+    }
+    case DeclKind::structure:
+    case DeclKind::enumeration:
+    case DeclKind::alias: {
+      TypeSymbol &type = program_.typeStorage.emplace_back();
+      type.kind = SymbolKind::type;
+      type.name = decl->name;
+      type.library = library;
+      type.decl = decl;
+      module.declaredTypes.push_back(&type);
+      addName(module, &type);
+      break;
+    }
+    case DeclKind::globals:
+      declareGlobals(module, as<GlobalsDecl>(decl));
+      break;
+    }
+  }
+}
+
+void Checker::declareGlobals(Module &module, GlobalsDecl *decl) {
+  Name name = decl->name;
+  if (!name) {
+    const std::string stem =
+        std::filesystem::path(program_.sources.file(decl->span.file).name()).stem().string();
+    name.id = program_.interner.intern(stem);
+    name.text = arena_.copy(std::string_view(stem));
+    name.span = {decl->span.file, decl->span.begin, decl->span.begin};
+  }
+  GlobalsSymbol *&list = module.lists[name.id];
+  if (list == nullptr) {
+    list = &program_.globalsStorage.emplace_back();
+    list->kind = SymbolKind::globals;
+    list->name = name;
+    list->library = module.library;
+    module.library->globals.push_back(list);
+  }
+  bool qualifiedOnly = false;
+  for (const Attribute &a : decl->attributes)
+    qualifiedOnly = qualifiedOnly || a.name == "qualified_only";
+  for (VarDecl *v : decl->variables) {
+    VarSymbol *symbol = makeVariable(v, module, nullptr);
+    symbol->globals = list;
+    if (!list->scope.emplace(v->name.id, symbol).second) {
+      auto &d = report(Code::duplicateName, v->name.span,
+                       "the name `" + std::string(v->name.text) + "` is declared twice",
+                       "declared again here");
+      d.label(list->scope.at(v->name.id)->name.span, "first declared here");
+      continue;
+    }
+    list->variables.push_back(symbol);
+    if (!qualifiedOnly)
+      addName(module, symbol);
+  }
+}
+
+void Checker::resolveEnumerations(Module &module) {
+  const ScopeGuard guard(*this, {&module, nullptr});
+  for (std::size_t i = 0; i < module.declaredTypes.size(); ++i) {
+    if (module.declaredTypes[i]->decl->kind == DeclKind::enumeration)
+      resolve(module.declaredTypes[i]);
+  }
+}
+
+void Checker::checkModule(Module &module) {
+  Library *library = module.library;
+  const auto byIndex = [](auto &list, auto &&action) {
+    for (std::size_t i = 0; i < list.size(); ++i) // the list may grow meanwhile
+      action(list[i]);
+  };
+  // Enumerators are visible without their type's name, so they come first.
+  resolveEnumerations(module);
+  byIndex(module.declaredTypes, [&](TypeSymbol *t) {
+    const ScopeGuard guard(*this, {&module, nullptr});
+    resolve(t);
+  });
+  byIndex(library->globals, [&](GlobalsSymbol *g) { declare(g); });
+  byIndex(library->pous, [&](PouSymbol *p) { declare(p); });
+  checkContainment(module);
+  for (TypeSymbol *t : std::vector<TypeSymbol *>(library->types)) {
+    const ScopeGuard guard(*this, {&module, nullptr});
+    if (t->type->kind == TypeKind::structure && t->decl->kind == DeclKind::structure) {
+      for (VarSymbol *field : typeAs<StructType>(t->type)->fields)
+        checkInitOf(field);
+    } else if (t->init != nullptr && t->decl->kind == DeclKind::alias) {
+      t->init = checkInit(t->init, t->type);
+    }
+  }
+  byIndex(library->globals, [&](GlobalsSymbol *g) {
+    for (VarSymbol *v : g->variables)
+      checkInitOf(v);
+  });
+  byIndex(library->pous, [&](PouSymbol *p) { checkBody(p); });
+}
+
+namespace {
+
+/// Types held by value.
+template <class Visit> void visitContained(const Type *type, Visit &&visit) {
+  while (type->kind == TypeKind::array)
+    type = typeAs<ArrayType>(type)->element;
+  if (type->kind == TypeKind::structure || isInstance(type))
+    visit(type);
+}
+
+template <class Visit> void visitMembers(const Type *type, Visit &&visit) {
+  if (type->kind == TypeKind::structure) {
+    const auto *s = typeAs<StructType>(type);
+    if (s->base != nullptr)
+      visit(static_cast<const Type *>(s->base), nullptr);
+    for (VarSymbol *field : s->fields)
+      visitContained(field->type, [&](const Type *t) { visit(t, field); });
+  } else {
+    for (VarSymbol *v : typeAs<PouType>(type)->symbol->variables) {
+      if (v->section != Section::inOut && v->section != Section::temp)
+        visitContained(v->type, [&](const Type *t) { visit(t, v); });
+    }
+  }
+}
+
+} // namespace
+
+void Checker::checkContainment(Module &module) {
+  enum class State : std::uint8_t { running, done };
+  std::unordered_map<const Type *, State> state;
+  const auto walk = [&](auto &&self, const Type *type) -> void {
+    state[type] = State::running;
+    visitMembers(type, [&](const Type *member, VarSymbol *through) {
+      const auto it = state.find(member);
+      if (it == state.end()) {
+        self(self, member);
+      } else if (it->second == State::running && through != nullptr) {
+        auto &d = report(Code::recursiveType, through->name.span,
+                         "`" + typeName(member) + "` contains itself",
+                         "this member has a `" + typeName(member) + "` inside it again");
+        d.note("a value of this type would be infinitely large");
+        d.help("hold a POINTER TO or REFERENCE TO `" + typeName(member) + "` instead");
+        through->type = elementaryType(TypeKind::error);
+      }
+    });
+    state[type] = State::done;
+  };
+  for (TypeSymbol *t : module.library->types) {
+    if (t->type->kind == TypeKind::structure && !state.contains(t->type))
+      walk(walk, t->type);
+  }
+  for (PouSymbol *p : module.library->pous) {
+    if (p->type != nullptr && !state.contains(p->type))
+      walk(walk, p->type);
+  }
+}
+
+void Checker::checkUser(const std::vector<File *> &files) {
+  Module &user = module("");
+  for (File *file : files)
+    declareFile(user, file);
+  checkModule(user);
+}
+
+void Checker::checkLibrary(std::string_view name) {
+  Module &target = module(std::string(name));
+  for (const LibraryIndex::Entry &entry : index_.files(name))
+    loadLibraryFile(entry);
+  checkModule(target);
+}
+
+void check(Program &program, const std::vector<File *> &files, const LibraryIndex &index) {
+  program.files = files;
+  Checker(program, index).checkUser(files);
+}
+
+void checkLibrary(Program &program, std::string_view library, const LibraryIndex &index) {
+  Checker(program, index).checkLibrary(library);
+}
+
+} // namespace stc

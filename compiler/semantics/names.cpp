@@ -1,0 +1,200 @@
+// Looking names up.
+
+#include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/suggest.hpp"
+
+#include <algorithm>
+
+namespace stc {
+
+using namespace ast;
+
+Symbol *Checker::lookupInModule(Module &module, Ident id) {
+  const auto it = module.names.find(id);
+  return it == module.names.end() ? nullptr : it->second;
+}
+
+Symbol *Checker::lookupInLibraries(Ident id) {
+  const auto [it, fresh] = libraryMisses_.emplace(id, nullptr);
+  if (!fresh)
+    return it->second;
+  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+    loadLibraryFile(entry);
+    if (Symbol *symbol = lookupInModule(module(std::string(entry.library)), id)) {
+      libraryMisses_[id] = symbol;
+      return symbol;
+    }
+  }
+  return nullptr;
+}
+
+Symbol *Checker::lookup(const Name &name) {
+  if (scope_.pou != nullptr) {
+    const auto it = scope_.pou->scope.find(name.id);
+    if (it != scope_.pou->scope.end())
+      return it->second;
+  }
+  if (Symbol *symbol = lookupInModule(*scope_.module, name.id))
+    return symbol;
+  const auto builtin = builtins_.find(name.id);
+  if (builtin != builtins_.end())
+    return builtin->second;
+  if (Symbol *symbol = lookupInLibraries(name.id))
+    return symbol;
+  const auto list = scope_.module->lists.find(name.id);
+  if (list != scope_.module->lists.end())
+    return list->second;
+  if (index_.isLibrary(name.id->lower)) {
+    auto *symbol = arena_.make<LibrarySymbol>();
+    symbol->kind = SymbolKind::library;
+    symbol->name = name;
+    return symbol;
+  }
+  return nullptr;
+}
+
+EnumeratorSymbol *Checker::findEnumerator(const EnumType *type, Ident id) {
+  for (EnumeratorSymbol *e : type->enumerators) {
+    if (e->name.id == id)
+      return e;
+  }
+  return nullptr;
+}
+
+EnumeratorSymbol *Checker::lookupEnumerator(const Name &name, const Type *expected,
+                                            bool &ambiguous) {
+  ambiguous = false;
+  if (expected != nullptr && expected->kind == TypeKind::enumeration) {
+    if (EnumeratorSymbol *e = findEnumerator(typeAs<EnumType>(expected), name.id))
+      return e;
+  }
+  const auto inModule = [&](Module &m) -> EnumeratorSymbol * {
+    const auto it = m.enumerators.find(name.id);
+    if (it == m.enumerators.end())
+      return nullptr;
+    ambiguous = it->second.size() > 1;
+    return it->second.front();
+  };
+  if (EnumeratorSymbol *e = inModule(*scope_.module))
+    return e;
+  for (const LibraryIndex::Entry &entry : index_.find(name.id->lower)) {
+    loadLibraryFile(entry);
+    if (EnumeratorSymbol *e = inModule(module(std::string(entry.library))))
+      return e;
+  }
+  return nullptr;
+}
+
+VarSymbol *Checker::findMember(const Type *type, Ident id) {
+  if (type->kind == TypeKind::structure) {
+    const auto &fields = typeAs<StructType>(type)->symbol->fields;
+    const auto it = fields.find(id);
+    return it == fields.end() ? nullptr : it->second;
+  }
+  if (isInstance(type)) {
+    PouSymbol *pou = typeAs<PouType>(type)->symbol;
+    declare(pou);
+    const auto it = pou->scope.find(id);
+    return it == pou->scope.end() ? nullptr : it->second;
+  }
+  return nullptr;
+}
+
+std::vector<std::string_view> Checker::visibleNames(bool types) {
+  std::vector<std::string_view> list;
+  const auto add = [&](const Symbol *symbol) {
+    const bool isType =
+        symbol->kind == SymbolKind::type ||
+        (symbol->kind == SymbolKind::pou && !static_cast<const PouSymbol *>(symbol)->isFunction());
+    if (types ? isType : symbol->kind != SymbolKind::type)
+      list.push_back(symbol->name.text);
+  };
+  if (scope_.pou != nullptr && !types) {
+    for (const auto &[id, symbol] : scope_.pou->scope)
+      add(symbol);
+  }
+  for (const auto &[id, symbol] : scope_.module->names)
+    add(symbol);
+  if (types) {
+    for (const char *name : {"BOOL",  "SINT",  "INT",   "DINT", "LINT",   "USINT",  "UINT",
+                             "UDINT", "ULINT", "BYTE",  "WORD", "DWORD",  "LWORD",  "REAL",
+                             "LREAL", "TIME",  "LTIME", "DATE", "STRING", "WSTRING"})
+      list.emplace_back(name);
+  } else {
+    for (const auto &[id, symbol] : builtins_)
+      list.push_back(id->lower);
+    for (const auto &[id, symbols] : scope_.module->enumerators)
+      list.push_back(symbols.front()->name.text);
+  }
+  // The hash maps' order must not show.
+  std::sort(list.begin(), list.end());
+  for (const std::string_view name : index_.names())
+    list.push_back(name);
+  return list;
+}
+
+std::vector<std::string_view> Checker::memberNames(const Type *type) {
+  std::vector<std::string_view> list;
+  if (type->kind == TypeKind::structure) {
+    for (const auto *s = typeAs<StructType>(type); s != nullptr; s = s->base) {
+      for (const VarSymbol *f : s->fields) {
+        if (!f->hidden)
+          list.push_back(f->name.text);
+      }
+    }
+  } else if (isInstance(type)) {
+    for (const VarSymbol *v : typeAs<PouType>(type)->symbol->variables) {
+      if (!v->hidden && v->section != Section::temp)
+        list.push_back(v->name.text);
+    }
+  } else if (type->kind == TypeKind::enumeration) {
+    for (const EnumeratorSymbol *e : typeAs<EnumType>(type)->enumerators)
+      list.push_back(e->name.text);
+  }
+  return list;
+}
+
+void Checker::reportUnknown(const Name &name, bool asType) {
+  auto &d =
+      asType ? report(Code::unknownType, name.span,
+                      "cannot find type `" + std::string(name.text) + "`", "no type of this name")
+             : report(Code::unknownName, name.span, "cannot find `" + std::string(name.text) + "`",
+                      "not declared in this scope");
+  const std::string_view similar = nearest(name.text, visibleNames(asType));
+  if (!similar.empty())
+    d.help("a similar name exists: `" + std::string(similar) + "`");
+  else if (!asType)
+    d.help("declare it in a VAR section of this POU or in a VAR_GLOBAL list");
+}
+
+std::string Checker::describe(const Symbol *symbol) const {
+  switch (symbol->kind) {
+  case SymbolKind::variable:
+    return "a variable";
+  case SymbolKind::pou: {
+    const auto kind = static_cast<const PouSymbol *>(symbol)->decl->kind;
+    return kind == DeclKind::program    ? "a program"
+           : kind == DeclKind::function ? "a function"
+                                        : "a function block";
+  }
+  case SymbolKind::type:
+    return "a type";
+  case SymbolKind::enumerator:
+    return "an enumerator";
+  case SymbolKind::builtin:
+    return "a standard function";
+  case SymbolKind::library:
+    return "a library";
+  case SymbolKind::globals:
+    return "a list of global variables";
+  }
+  return {};
+}
+
+void Checker::noteDeclaration(Diagnostic &diagnostic, const Symbol *symbol) {
+  if (symbol->name.span.valid())
+    diagnostic.label(symbol->name.span,
+                     "`" + std::string(symbol->name.text) + "` is declared here");
+}
+
+} // namespace stc

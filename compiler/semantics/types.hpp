@@ -1,0 +1,128 @@
+#pragma once
+// The type system. Types are unique: equal types are the same pointer. Aliases resolve to what they
+// name.
+
+#include "compiler/source/identifier.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace stc {
+
+struct TypeSymbol;
+struct PouSymbol;
+struct VarSymbol;
+struct EnumeratorSymbol;
+
+enum class TypeKind : std::uint8_t {
+  error, ///< something was wrong and has been reported; silences what follows from it
+  none,  ///< a FUNCTION without result
+  boolean,
+  sint,
+  intT,
+  dint,
+  lint,
+  usint,
+  uint,
+  udint,
+  ulint,
+  byte,
+  word,
+  dword,
+  lword,
+  real,
+  lreal,
+  time,
+  ltime,
+  date,
+  ldate,
+  tod,
+  ltod,
+  dt,
+  ldt,
+  string,
+  wstring,
+  enumeration,
+  subrange,
+  array,
+  structure,
+  functionBlock,
+  program,
+  pointer,
+  reference,
+  anyInteger, ///< an integer constant whose type the context decides (literal 5, SIZEOF)
+  anyReal,    ///< a real constant whose type the context decides
+};
+
+struct Type {
+  TypeKind kind;
+};
+
+/// STRING(length) / WSTRING(length)
+struct StringType : Type {
+  std::uint32_t length;
+};
+
+struct EnumType : Type {
+  const Type *base;   ///< an integer or bit-string type
+  TypeSymbol *symbol; ///< its declaration; for an in-line enumeration a synthesized one
+  std::span<EnumeratorSymbol *> enumerators;
+  bool strict = false;
+  EnumeratorSymbol *initial =
+      nullptr; ///< the default value (the first one unless declared otherwise)
+};
+
+/// An integer type with bounds, checked when assigned.
+struct SubrangeType : Type {
+  const Type *base;
+  std::int64_t low;
+  std::int64_t high;
+};
+
+/// One dimension; more dimensions are nested arrays.
+struct ArrayType : Type {
+  const Type *element;
+  std::int64_t low;
+  std::int64_t high;
+  [[nodiscard]] std::uint64_t count() const { return static_cast<std::uint64_t>(high - low + 1); }
+};
+
+struct StructType : Type {
+  TypeSymbol *symbol;
+  const StructType *base = nullptr; ///< EXTENDS
+  std::span<VarSymbol *> fields;    ///< own fields
+};
+
+/// FUNCTION_BLOCK or PROGRAM as the type of its instances.
+struct PouType : Type {
+  PouSymbol *symbol;
+};
+
+/// POINTER TO / REFERENCE TO
+struct PointerType : Type {
+  const Type *pointee;
+};
+
+[[nodiscard]] inline bool isError(const Type *t) { return t->kind == TypeKind::error; }
+[[nodiscard]] bool isSignedInteger(const Type *t);   ///< SINT … LINT
+[[nodiscard]] bool isUnsignedInteger(const Type *t); ///< USINT … ULINT
+[[nodiscard]] bool isBitString(const Type *t);       ///< BYTE … LWORD (not BOOL)
+[[nodiscard]] bool
+isInteger(const Type *t); ///< signed, unsigned, bit string (no enumerations, subranges)
+[[nodiscard]] bool isReal(const Type *t); ///< REAL, LREAL
+[[nodiscard]] bool isTimeOrDate(const Type *t);
+[[nodiscard]] bool isString(const Type *t); ///< STRING, WSTRING
+[[nodiscard]] bool isElementary(const Type *t);
+[[nodiscard]] bool isInstance(const Type *t); ///< FUNCTION_BLOCK or PROGRAM
+[[nodiscard]] unsigned
+bitWidth(const Type *t); ///< of numbers, bit strings, times, enumerations, subranges; 1 for BOOL
+/// Subranges and enumerations give their base; others themselves.
+[[nodiscard]] const Type *underlying(const Type *t);
+/// As diagnostics show it: `INT`, `ARRAY [1..3] OF REAL`, `STRING(20)`, `MC_Direction`.
+[[nodiscard]] std::string typeName(const Type *t);
+
+template <class T> const T *typeAs(const Type *t) { return static_cast<const T *>(t); }
+
+} // namespace stc

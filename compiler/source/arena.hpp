@@ -1,0 +1,68 @@
+#pragma once
+// Bump allocation for syntax trees and symbol tables.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace stc {
+
+/// Memory that is freed as a whole. Objects in it are never destroyed, so they must not need it.
+class Arena {
+public:
+  template <class T, class... Args> T *make(Args &&...args) {
+    static_assert(std::is_trivially_destructible_v<T>);
+    return ::new (allocate(sizeof(T), alignof(T))) T{std::forward<Args>(args)...};
+  }
+
+  /// A copy of the elements that lives as long as the arena.
+  template <class T> std::span<T> copy(const std::vector<T> &from) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    if (from.empty())
+      return {};
+    auto *data = static_cast<T *>(allocate(sizeof(T) * from.size(), alignof(T)));
+    std::memcpy(static_cast<void *>(data), from.data(), sizeof(T) * from.size());
+    return {data, from.size()};
+  }
+
+  std::string_view copy(std::string_view text) {
+    if (text.empty())
+      return {};
+    auto *data = static_cast<char *>(allocate(text.size(), 1));
+    std::memcpy(data, text.data(), text.size());
+    return {data, text.size()};
+  }
+
+  void *allocate(std::size_t size, std::size_t align) {
+    auto at = (reinterpret_cast<std::uintptr_t>(cursor_) + align - 1) & ~(align - 1);
+    if (cursor_ == nullptr || at + size > reinterpret_cast<std::uintptr_t>(end_)) {
+      const std::size_t block = size + align > kBlock ? size + align : kBlock;
+      blocks_.push_back(std::make_unique_for_overwrite<std::byte[]>(block));
+      bytes_ += block;
+      cursor_ = blocks_.back().get();
+      end_ = cursor_ + block;
+      at = (reinterpret_cast<std::uintptr_t>(cursor_) + align - 1) & ~(align - 1);
+    }
+    cursor_ = reinterpret_cast<std::byte *>(at + size);
+    return reinterpret_cast<void *>(at);
+  }
+
+  /// Bytes reserved from the heap.
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+private:
+  static constexpr std::size_t kBlock = 64 * 1024;
+  std::vector<std::unique_ptr<std::byte[]>> blocks_;
+  std::byte *cursor_ = nullptr;
+  std::byte *end_ = nullptr;
+  std::size_t bytes_ = 0;
+};
+
+} // namespace stc

@@ -1,0 +1,51 @@
+#pragma once
+// Interned, case-insensitive identifiers.
+
+#include "compiler/source/arena.hpp"
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace stc {
+
+/// An identifier; two spellings that differ only in case are the same pointer.
+struct IdentData {
+  std::string_view lower; ///< lower-case spelling
+  std::uint32_t index;    ///< dense, 0-based
+  std::uint32_t hash;     ///< hashIdent() of the spelling
+};
+using Ident = const IdentData *;
+
+/// The letter's lower-case form (ASCII).
+constexpr char lowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
+
+/// One step and the whole of the case-insensitive hash of identifiers.
+constexpr std::uint32_t hashStep(std::uint32_t hash, char c) {
+  return (hash ^ static_cast<unsigned char>(lowerCase(c))) * 0x01000193U;
+}
+inline constexpr std::uint32_t kHashSeed = 0x811C9DC5U;
+constexpr std::uint32_t hashIdent(std::string_view spelling) {
+  std::uint32_t hash = kHashSeed;
+  for (char c : spelling)
+    hash = hashStep(hash, c);
+  return hash;
+}
+
+/// Gives each identifier its IdentData. One per compilation.
+class Interner {
+public:
+  Ident intern(std::string_view spelling) { return intern(spelling, hashIdent(spelling)); }
+  /// For callers that know the spelling's hashIdent() already.
+  Ident intern(std::string_view spelling, std::uint32_t hash);
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+private:
+  void grow();
+
+  Arena arena_;
+  std::vector<const IdentData *> slots_; ///< open addressing, a power of two
+  std::uint32_t size_ = 0;
+};
+
+} // namespace stc

@@ -1,0 +1,407 @@
+#pragma once
+// The typed syntax tree. Nodes live in an Arena and are trivially destructible; children are pointers and spans into the
+// same arena. Fields marked [sema] are empty after parsing and filled in by compiler/semantics.
+
+#include "compiler/source/identifier.hpp"
+#include "compiler/source/span.hpp"
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace stc {
+
+struct Type;      // semantics/types.hpp
+struct ConstValue; // semantics/constant.hpp
+struct Symbol;    // semantics/symbols.hpp
+struct VarSymbol;
+struct PouSymbol;
+struct TypeSymbol;
+
+namespace ast {
+
+/// An identifier as written.
+struct Name {
+  Ident id = nullptr;
+  std::string_view text; ///< spelling in the source
+  Span span;
+  explicit operator bool() const { return id != nullptr; }
+};
+
+// ---------------------------------------------------------------------------------------------------- attributes
+
+/// `{attribute 'name' := 'value'}`
+struct Attribute {
+  std::string_view name;
+  std::string_view value;
+  Span span;
+};
+using Attributes = std::span<const Attribute>;
+
+// --------------------------------------------------------------------------------------------------- expressions
+
+enum class ExprKind : std::uint8_t {
+  literal,
+  name,
+  member,
+  index,
+  deref,
+  call,
+  unary,
+  binary,
+  aggregate,
+  enumLiteral,
+  error, ///< stands where the text could not be parsed; never reported again
+};
+
+struct Expr {
+  ExprKind kind;
+  bool parenthesized = false;
+  Span span;
+  const Type *type = nullptr;          ///< [sema] the expression's own type
+  const Type *target = nullptr;        ///< [sema] the type it is implicitly converted to; null = no conversion
+  const Type *common = nullptr;        ///< [sema] arithmetic: the operands' common type before widening, to which an
+                                       ///< assignment is silent (`i := i + 1` on INT); null = same as `type`
+  const ConstValue *constant = nullptr; ///< [sema] its value (of type `type`) when it is known at compile time
+};
+
+enum class LiteralKind : std::uint8_t { boolean, integer, real, string, wstring, time, ltime, date, ldate, tod, ltod, dt, ldt };
+
+/// A literal, its value already read. `typeName` is the prefix of a typed literal (`INT#5`), otherwise empty.
+struct Literal : Expr {
+  LiteralKind literal = LiteralKind::integer;
+  Name typeName;
+  std::uint64_t integer = 0; ///< integer: magnitude; boolean: 0/1; time: ms (32 bit); ltime, ldate, ltod, ldt: ns;
+                             ///< date, dt: s since 1970; tod: ms
+  double real = 0;
+  std::string_view text;     ///< string: content, $-escapes resolved, UTF-8; others: as written
+};
+
+/// A plain identifier. A variable of REFERENCE type has the referenced type here (the symbol's type is the reference).
+struct NameExpr : Expr {
+  Name name;
+  Symbol *symbol = nullptr; ///< [sema]
+};
+
+/// `base.name`, also `lib.Name`, `Enum.value`, and bit access `w.3` (then name is empty and bit >= 0).
+struct MemberExpr : Expr {
+  Expr *base = nullptr;
+  Name name;
+  std::int32_t bit = -1;
+  Symbol *symbol = nullptr; ///< [sema] the member; null for a bit
+};
+
+/// `base[i, j]`; sema guarantees indices.size() <= number of dimensions reached from base's type.
+struct IndexExpr : Expr {
+  Expr *base = nullptr;
+  std::span<Expr *> indices;
+};
+
+/// `base^`
+struct DerefExpr : Expr {
+  Expr *base = nullptr;
+};
+
+/// One argument of a call or one field of an aggregate: `value`, `name := value`, `name => target`.
+struct Argument {
+  Name name;             ///< empty: positional
+  Expr *value = nullptr; ///< null: `name =>` or `name :=` with nothing behind
+  bool output = false;   ///< `=>`
+  Span span;
+  VarSymbol *parameter = nullptr; ///< [sema] the parameter or field it goes to
+};
+
+enum class Callee : std::uint8_t {
+  unresolved,
+  function,      ///< user or library FUNCTION: `pou`
+  functionBlock, ///< instance call: callee expression is the instance, `pou` its block
+  program,       ///< call of a PROGRAM: `pou`
+  builtin,       ///< operator-like function known to the compiler: `builtin`
+};
+
+enum class Builtin : std::uint16_t; // semantics/builtins.hpp
+
+struct CallExpr : Expr {
+  Expr *callee = nullptr;
+  std::span<Argument> arguments;
+  Callee resolved = Callee::unresolved; ///< [sema]
+  PouSymbol *pou = nullptr;             ///< [sema]
+  Builtin builtin{};                    ///< [sema]
+};
+
+enum class UnaryOp : std::uint8_t { negate, plus, logicalNot };
+
+/// The operand is converted to the expression's `type`. NOT, AND, OR, XOR work on the type as it is (NOT on a BYTE gives
+/// a BYTE: the complement is cut to 8 bits); arithmetic works on 32 or 64 bits.
+struct UnaryExpr : Expr {
+  UnaryOp op = UnaryOp::negate;
+  Expr *operand = nullptr;
+};
+
+enum class BinaryOp : std::uint8_t {
+  add, subtract, multiply, divide, modulo, power,
+  equal, notEqual, less, lessEqual, greater, greaterEqual,
+  logicalAnd, logicalOr, logicalXor, andThen, orElse,
+};
+
+/// After sema both operands are converted (Expr::target) to `operandType`, on which the operator works.
+struct BinaryExpr : Expr {
+  BinaryOp op = BinaryOp::add;
+  Span opSpan;
+  Expr *left = nullptr;
+  Expr *right = nullptr;
+  const Type *operandType = nullptr; ///< [sema]
+};
+
+/// One element of an initial value: `value`, `count(value, …)` or `field := value`.
+struct AggregateItem {
+  Name field;                      ///< structure field; empty in arrays
+  Expr *repeat = nullptr;          ///< repetition count; null: once
+  Expr *value = nullptr;           ///< null only together with `repeat`: count() = defaults
+  std::span<AggregateItem> values; ///< more than one value inside a repetition: `2(1, 2)`; then value is null
+  Span span;
+  VarSymbol *symbol = nullptr; ///< [sema] the field
+};
+
+/// `[1, 2, 3(0)]`, `(a := 1, b := 2)`, V2.3's bracket-less `1, 2, 3(0)` and `(a := 1), (a := 2)`.
+struct AggregateExpr : Expr {
+  std::span<AggregateItem> items;
+  bool isStruct = false; ///< fields by name
+};
+
+/// `color#green`
+struct EnumLiteralExpr : Expr {
+  Name typeName;
+  Name enumerator;
+  Symbol *symbol = nullptr; ///< [sema]
+};
+
+// ------------------------------------------------------------------------------------------------ types as written
+
+enum class TypeExprKind : std::uint8_t { named, array, string, pointer, reference, subrange, enumeration, error };
+
+struct TypeExpr {
+  TypeExprKind kind;
+  Span span;
+};
+
+/// `INT`, `Lib.Type`
+struct NamedTypeExpr : TypeExpr {
+  std::span<Name> path;
+};
+
+struct ArrayRange {
+  Expr *low = nullptr; ///< null: `*`
+  Expr *high = nullptr;
+  Span span;
+};
+
+struct ArrayTypeExpr : TypeExpr {
+  std::span<ArrayRange> ranges;
+  TypeExpr *element = nullptr;
+};
+
+/// STRING, STRING(n), STRING[n], WSTRING…
+struct StringTypeExpr : TypeExpr {
+  bool wide = false;
+  Expr *length = nullptr; ///< null: 80
+};
+
+/// POINTER TO / REFERENCE TO
+struct PointerTypeExpr : TypeExpr {
+  TypeExpr *pointee = nullptr;
+};
+
+/// `INT(0..10)`
+struct SubrangeTypeExpr : TypeExpr {
+  TypeExpr *base = nullptr;
+  Expr *low = nullptr;
+  Expr *high = nullptr;
+};
+
+struct EnumeratorDecl {
+  Name name;
+  Expr *value = nullptr;
+  std::string_view doc;
+};
+
+/// `(a, b := 5, c) BYTE := a`, in a TYPE or in line in a variable declaration.
+struct EnumTypeExpr : TypeExpr {
+  std::span<EnumeratorDecl> enumerators;
+  TypeExpr *base = nullptr; ///< null: INT
+};
+
+// ---------------------------------------------------------------------------------------------------- statements
+
+enum class StmtKind : std::uint8_t {
+  empty,
+  assign,
+  call,
+  ifS,
+  caseS,
+  forS,
+  whileS,
+  repeatS,
+  exit,
+  continueS,
+  returnS,
+};
+
+struct Stmt {
+  StmtKind kind;
+  Span span;
+};
+using Block = std::span<Stmt *>;
+
+enum class AssignOp : std::uint8_t { assign, set, reset, reference };
+
+/// `a := b`, `a := b := c`, `a S= b`, `a R= b`, `a REF= b`
+struct AssignStmt : Stmt {
+  AssignOp op = AssignOp::assign;
+  Span opSpan;
+  std::span<Expr *> targets; ///< from left to right; the value goes to the last first
+  Expr *value = nullptr;
+};
+
+/// A call as a statement. `expr` is a CallExpr (sema reports anything else).
+struct CallStmt : Stmt {
+  Expr *expr = nullptr;
+};
+
+struct IfBranch {
+  Expr *condition = nullptr;
+  Block body;
+};
+
+struct IfStmt : Stmt {
+  std::span<IfBranch> branches; ///< IF, then each ELSIF
+  bool hasElse = false;
+  Block elseBody;
+};
+
+/// `1`, `1..5`, `color.green`
+struct CaseLabel {
+  Expr *low = nullptr;
+  Expr *high = nullptr; ///< null: one value
+  Span span;
+};
+
+struct CaseBranch {
+  std::span<CaseLabel> labels;
+  Block body;
+};
+
+struct CaseStmt : Stmt {
+  Expr *selector = nullptr;
+  std::span<CaseBranch> branches;
+  bool hasElse = false;
+  Block elseBody;
+};
+
+struct ForStmt : Stmt {
+  Expr *variable = nullptr;
+  Expr *from = nullptr;
+  Expr *to = nullptr;
+  Expr *by = nullptr; ///< null: 1
+  Block body;
+};
+
+struct WhileStmt : Stmt {
+  Expr *condition = nullptr;
+  Block body;
+};
+
+struct RepeatStmt : Stmt {
+  Block body;
+  Expr *until = nullptr;
+};
+
+// --------------------------------------------------------------------------------------------------- declarations
+
+enum class Section : std::uint8_t {
+  local,    ///< VAR
+  input,    ///< VAR_INPUT
+  output,   ///< VAR_OUTPUT
+  inOut,    ///< VAR_IN_OUT
+  temp,     ///< VAR_TEMP
+  stat,     ///< VAR_STAT
+  external, ///< VAR_EXTERNAL
+  global,   ///< VAR_GLOBAL
+  config,   ///< VAR_CONFIG
+  access,   ///< VAR_ACCESS
+};
+
+enum Qualifier : std::uint8_t {
+  qualConstant = 1,
+  qualRetain = 2,
+  qualPersistent = 4,
+  qualNonRetain = 8,
+};
+
+/// One declared variable (`a, b : INT` gives two, sharing type and init).
+struct VarDecl {
+  Name name;
+  Section section = Section::local;
+  std::uint8_t qualifiers = 0; ///< Qualifier bits
+  TypeExpr *type = nullptr;
+  Expr *init = nullptr;
+  std::string_view address; ///< `%IX0.0` of an AT clause, otherwise empty
+  Span addressSpan;
+  Attributes attributes;
+  std::string_view doc; ///< text of the `///` lines above
+  VarSymbol *symbol = nullptr; ///< [sema]
+};
+
+enum class DeclKind : std::uint8_t { program, function, functionBlock, structure, enumeration, alias, globals };
+
+struct Decl {
+  DeclKind kind;
+  Name name; ///< globals: empty unless the file names the list
+  Span span;
+  Attributes attributes;
+  std::string_view doc;
+};
+
+/// PROGRAM, FUNCTION, FUNCTION_BLOCK
+struct PouDecl : Decl {
+  std::span<VarDecl *> variables; ///< of all sections in the order of the text
+  TypeExpr *returnType = nullptr; ///< FUNCTION only; null: none
+  Block body;
+  bool external = false; ///< `{external}`: the body is C++
+};
+
+/// TYPE n : STRUCT … END_STRUCT END_TYPE
+struct StructDecl : Decl {
+  Name base; ///< EXTENDS; empty: none
+  std::span<VarDecl *> fields;
+};
+
+/// TYPE n : (a, b, c) BYTE := a; END_TYPE
+struct EnumDecl : Decl {
+  EnumTypeExpr *type = nullptr;
+  Expr *init = nullptr;
+};
+
+/// TYPE n : INT := 5; END_TYPE, also arrays, strings, subranges, pointers
+struct AliasDecl : Decl {
+  TypeExpr *type = nullptr;
+  Expr *init = nullptr;
+};
+
+/// One VAR_GLOBAL block.
+struct GlobalsDecl : Decl {
+  std::span<VarDecl *> variables;
+};
+
+/// One parsed file.
+struct File {
+  FileId id = 0;
+  std::span<Decl *> declarations;
+};
+
+/// Checked downcast by kind is the caller's business: `as<CallExpr>(expr)`.
+template <class T, class Base> T *as(Base *node) { return static_cast<T *>(node); }
+template <class T, class Base> const T *as(const Base *node) { return static_cast<const T *>(node); }
+
+} // namespace ast
+} // namespace stc

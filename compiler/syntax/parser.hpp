@@ -1,0 +1,19 @@
+#pragma once
+// From text to syntax tree.
+
+#include "compiler/source/arena.hpp"
+#include "compiler/source/diagnostic.hpp"
+#include "compiler/source/identifier.hpp"
+#include "compiler/source/source_manager.hpp"
+#include "compiler/syntax/ast.hpp"
+
+namespace stc {
+
+/// Deepest nesting of parentheses, brackets and statement blocks that is accepted.
+inline constexpr unsigned kMaxNesting = 256;
+
+/// Parses one file. Always returns a tree (what could be read); reports every syntax error to `diagnostics`.
+/// The tree lives in `arena` and refers to the file's text, which must outlive it.
+ast::File *parse(const SourceFile &file, Interner &interner, Arena &arena, Diagnostics &diagnostics);
+
+} // namespace stc
