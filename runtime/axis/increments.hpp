@@ -1,0 +1,40 @@
+// Conversion between technical units and the drive's increments, exact over any number of turns.
+#ifndef STRIDE_RUNTIME_AXIS_INCREMENTS_HPP
+#define STRIDE_RUNTIME_AXIS_INCREMENTS_HPP
+
+#include "runtime/axis/axis_ref.hpp"
+
+namespace stride::axis {
+
+/// Why an axis's scaling cannot be used.
+enum class ScalingError : uint8_t {
+  None = 0,
+  ZeroRatio,      ///< dwRatioTechUnitsDenom is 0 or iRatioTechUnitsNum is not > 0.
+  BadPeriod,      ///< Rotary: fPositionPeriod is not finite, not > 0, or below one increment.
+  PeriodTooLarge, ///< Rotary: the period is more than 16#80000000 increments.
+};
+
+/// Computes the hidden scaling members of an axis from its ratio, movement type and period. The
+/// length of a turn in increments is kept as whole number and remainder, so that no turn, however
+/// many there have been, is off by more than the rounding of the position itself. (A period that
+/// needs more than 46 binary places is rounded to 2^-40 increments.)
+ScalingError configureScaling(AxisRef &axis) noexcept;
+
+/// Makes actual and set position start at `counter`, the drive's position counter. Without turns.
+void synchronizePosition(AxisRef &axis, uint32_t counter) noexcept;
+
+/// Takes over the drive's position counter, which wraps at 2^32, into liActIncrements and
+/// fActPosition. The drive may move by less than 2^31 increments between two calls.
+void updateActual(AxisRef &axis, uint32_t counter) noexcept;
+
+/// Converts fSetPosition into liSetIncrements. On a rotary axis `travel` [u], the way that the axis
+/// makes in this cycle (half a turn more or less), tells turns apart. False if a linear axis leaves
+/// the range of 2^46 increments; liSetIncrements keeps its value then.
+bool updateSet(AxisRef &axis, double travel) noexcept;
+
+/// Lets the set position follow the actual one: an axis without power does not hold its place.
+void followActual(AxisRef &axis) noexcept;
+
+} // namespace stride::axis
+
+#endif
