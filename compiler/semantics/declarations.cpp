@@ -104,6 +104,10 @@ void Checker::resolveStruct(TypeSymbol *symbol, StructDecl *decl) {
     field->type =
         resolveType(f->type, std::string(symbol->name.text) + "__" + std::string(f->name.text));
     fields.push_back(field);
+    for (const Attribute &a : f->attributes) { // a second name of the same field
+      if (a.name == "alias")
+        symbol->fields.emplace(program_.interner.intern(a.value), field);
+    }
   }
   type->fields = arena_.copy(fields);
 }

@@ -1,0 +1,146 @@
+// The implicit conversions against the dialect's table, worked out independently from the types'
+// value ranges.
+
+#include "compiler/semantics/conversions.hpp"
+#include "compiler/semantics/symbols.hpp"
+#include "compiler/semantics/type_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace stc {
+namespace {
+
+struct Number {
+  const char *name;
+  long double low, high; ///< integers: the value range
+  int width;
+  bool bitString;
+};
+
+const Number kIntegers[] = {
+    {"sint", -128.0L, 127.0L, 8, false},
+    {"int", -32768.0L, 32767.0L, 16, false},
+    {"dint", -2147483648.0L, 2147483647.0L, 32, false},
+    {"lint", -9223372036854775808.0L, 9223372036854775807.0L, 64, false},
+    {"usint", 0.0L, 255.0L, 8, false},
+    {"uint", 0.0L, 65535.0L, 16, false},
+    {"udint", 0.0L, 4294967295.0L, 32, false},
+    {"ulint", 0.0L, 18446744073709551615.0L, 64, false},
+    {"byte", 0.0L, 255.0L, 8, true},
+    {"word", 0.0L, 65535.0L, 16, true},
+    {"dword", 0.0L, 4294967295.0L, 32, true},
+    {"lword", 0.0L, 18446744073709551615.0L, 64, true},
+};
+
+const Type *named(const char *name) { return findElementaryType(name); }
+
+TEST(Conversion, IntegersAreFreeExactlyWhenEveryValueSurvives) {
+  for (const Number &from : kIntegers) {
+    for (const Number &to : kIntegers) {
+      const Conversion c = classify(named(from.name), named(to.name));
+      const bool survives = from.low >= to.low && from.high <= to.high;
+      const std::string what = std::string(from.name) + " to " + to.name;
+      if (std::string(from.name) == to.name)
+        EXPECT_EQ(c, Conversion::identity) << what;
+      else if (survives)
+        EXPECT_EQ(c, Conversion::free) << what;
+      else if (from.width == to.width)
+        EXPECT_EQ(c, Conversion::lossy) << what;
+      else
+        EXPECT_EQ(c, Conversion::narrowing) << what;
+    }
+  }
+}
+
+TEST(Conversion, IntegersGoToRealsThatHoldAllTheirValues) {
+  for (const Number &from : kIntegers) {
+    EXPECT_EQ(classify(named(from.name), named("real")) == Conversion::free, from.width <= 24)
+        << from.name;
+    EXPECT_EQ(classify(named(from.name), named("lreal")) == Conversion::free, from.width <= 53)
+        << from.name;
+    EXPECT_EQ(classify(named("real"), named(from.name)), Conversion::narrowing) << from.name;
+    EXPECT_EQ(classify(named("lreal"), named(from.name)), Conversion::narrowing) << from.name;
+  }
+  EXPECT_EQ(classify(named("real"), named("lreal")), Conversion::free);
+  EXPECT_EQ(classify(named("lreal"), named("real")), Conversion::lossy);
+}
+
+TEST(Conversion, BoolIsNoNumber) {
+  for (const Number &n : kIntegers) {
+    EXPECT_EQ(classify(named("bool"), named(n.name)), Conversion::narrowing) << n.name;
+    EXPECT_EQ(classify(named(n.name), named("bool")), Conversion::narrowing) << n.name;
+  }
+}
+
+TEST(Conversion, EnumerationsGiveTheirBaseButNotEachOther) {
+  TypeSymbol symbol;
+  EnumType color{{TypeKind::enumeration}, named("int"), &symbol, {}, false, nullptr};
+  EnumType state{{TypeKind::enumeration}, named("byte"), &symbol, {}, false, nullptr};
+  EXPECT_EQ(classify(&color, named("int")), Conversion::free);
+  EXPECT_EQ(classify(&color, named("dint")), Conversion::free);
+  EXPECT_EQ(classify(&color, named("word")), Conversion::free); // SMC_ERROR to WORD
+  EXPECT_EQ(classify(&color, named("sint")), Conversion::narrowing);
+  EXPECT_EQ(classify(&color, &state), Conversion::forbidden);
+  EXPECT_EQ(classify(named("int"), &color), Conversion::lossy);
+  EXPECT_EQ(classify(named("bool"), &color), Conversion::forbidden);
+}
+
+TEST(Conversion, ConstantsConvertWhereTheirValueFits) {
+  const Type *any = elementaryType(TypeKind::anyInteger);
+  for (const Number &to : kIntegers) {
+    for (const std::int64_t v :
+         {-129LL, -128LL, -1LL, 0LL, 1LL, 127LL, 128LL, 255LL, 256LL, 32767LL, 32768LL, 65535LL,
+          65536LL, 2147483647LL, 2147483648LL, 4294967295LL, 4294967296LL}) {
+      const bool fits =
+          static_cast<long double>(v) >= to.low && static_cast<long double>(v) <= to.high;
+      EXPECT_EQ(constantFits({ConstKind::integer, v, 0, {}}, any, named(to.name)), fits)
+          << v << " in " << to.name;
+    }
+  }
+  EXPECT_TRUE(constantFits({ConstKind::integer, 1, 0, {}}, any, named("bool")));
+  EXPECT_FALSE(constantFits({ConstKind::integer, 2, 0, {}}, any, named("bool")));
+  EXPECT_TRUE(constantFits({ConstKind::real, 0, 1e300, {}}, elementaryType(TypeKind::anyReal),
+                           named("lreal")));
+  EXPECT_FALSE(constantFits({ConstKind::real, 0, 1e300, {}}, elementaryType(TypeKind::anyReal),
+                            named("real")));
+}
+
+TEST(Conversion, CommonTypeHoldsBothAndIsTheSmallest) {
+  for (const Number &a : kIntegers) {
+    for (const Number &b : kIntegers) {
+      const Type *common = commonNumber(named(a.name), named(b.name));
+      const long double low = std::min(a.low, b.low);
+      const long double high = std::max(a.high, b.high);
+      const bool possible = low >= 0 || high <= 9223372036854775807.0L;
+      ASSERT_EQ(common != nullptr, possible) << a.name << " with " << b.name;
+      if (common == nullptr)
+        continue;
+      EXPECT_EQ(common, commonNumber(named(b.name), named(a.name))) << a.name << " with " << b.name;
+      const Number *found = nullptr;
+      for (const Number &n : kIntegers) {
+        if (named(n.name) == common)
+          found = &n;
+      }
+      ASSERT_NE(found, nullptr);
+      EXPECT_TRUE(found->low <= low && found->high >= high) << a.name << " with " << b.name;
+      for (const Number &n : kIntegers) // no narrower one would do
+        EXPECT_FALSE(n.width < found->width && n.low <= low && n.high >= high)
+            << a.name << " with " << b.name;
+    }
+  }
+}
+
+TEST(Conversion, ArithmeticWidensTo32Bits) {
+  EXPECT_EQ(widened(named("sint")), named("dint"));
+  EXPECT_EQ(widened(named("uint")), named("dint"));
+  EXPECT_EQ(widened(named("byte")), named("dword"));
+  EXPECT_EQ(widened(named("udint")), named("udint"));
+  EXPECT_EQ(widened(named("lword")), named("lword"));
+  EXPECT_EQ(widened(named("real")), named("real"));
+  EXPECT_EQ(commonNumber(named("dint"), named("udint")), named("lint"));
+}
+
+} // namespace
+} // namespace stc
