@@ -57,6 +57,15 @@ inline bool isPowered(const AxisRef &axis) noexcept {
          axis.bDriveStartRealState != 0;
 }
 
+/// Whether the axis can execute any motion command; an SMC_ERROR.
+inline int16_t readiness(const AxisRef &axis) noexcept {
+  if (!isPowered(axis) || axis.nAxisState == state::kPowerOff)
+    return error::kNotPowered;
+  if (!(axis.fTaskCycle > 0.0))
+    return error::kTaskCycleEmpty;
+  return error::kNone;
+}
+
 /// Whether positions are taken modulo the period.
 inline bool isRotary(const AxisRef &axis) noexcept {
   return axis.iMovementType == 0 && axis.fPositionPeriod > 0.0;

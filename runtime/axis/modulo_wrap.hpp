@@ -2,7 +2,7 @@
 #ifndef STRIDE_RUNTIME_AXIS_MODULO_WRAP_HPP
 #define STRIDE_RUNTIME_AXIS_MODULO_WRAP_HPP
 
-#include <math.h>
+#include "runtime/axis/exact_math.hpp"
 
 namespace stride::axis {
 
@@ -10,7 +10,7 @@ namespace stride::axis {
 inline double wrapPosition(double position, double period) noexcept {
   if (position >= 0.0 && position < period)
     return position;
-  double wrapped = ::fmod(position, period); // exact
+  double wrapped = exact::fmod(position, period); // exact
   if (wrapped < 0.0)
     wrapped += period;
   return wrapped >= period ? 0.0 : wrapped + 0.0; // -0 becomes 0

@@ -4,10 +4,9 @@
 #define STRIDE_RUNTIME_AXIS_SET_POINT_HPP
 
 #include "runtime/axis/axis_ref.hpp"
+#include "runtime/axis/exact_math.hpp"
 #include "runtime/axis/modulo_wrap.hpp"
 #include "runtime/axis/motion_state.hpp"
-
-#include <math.h>
 
 namespace stride::axis {
 
@@ -16,7 +15,7 @@ inline void writeMotion(AxisRef &axis, double velocity, double acceleration) noe
   axis.fSetVelocity = velocity;
   axis.fSetAcceleration = acceleration;
   const double power = velocity * acceleration;
-  axis.fSetDeceleration = power < 0.0 ? ::fabs(acceleration) : 0.0;
+  axis.fSetDeceleration = power < 0.0 ? exact::fabs(acceleration) : 0.0;
   axis.bConstantVelocity = velocity != 0.0 && acceleration == 0.0;
   axis.bAccelerating = power > 0.0 || (velocity == 0.0 && acceleration != 0.0);
   axis.bDecelerating = power < 0.0;

@@ -1,8 +1,7 @@
 #include "runtime/motion/modulo.hpp"
 
+#include "runtime/axis/exact_math.hpp"
 #include "runtime/axis/modulo_wrap.hpp"
-
-#include <math.h>
 
 namespace stride::motion {
 namespace {
@@ -14,7 +13,7 @@ double durationTo(const ModuloRequest &request, double target) noexcept {
   Profile profile;
   if (planTrapezoid(profile, request.position, request.velocity, target, request.limits) !=
       PlanError::None)
-    return HUGE_VAL;
+    return exact::kInfinity;
   return profile.duration;
 }
 
@@ -22,21 +21,21 @@ double durationTo(const ModuloRequest &request, double target) noexcept {
 
 bool resolveModulo(const ModuloRequest &request, double &target) noexcept {
   const double deceleration = request.limits.deceleration;
-  if (!::isfinite(request.position) || !::isfinite(request.velocity) ||
-      !::isfinite(request.target) || !::isfinite(request.period) || !(request.period > 0.0) ||
-      !::isfinite(deceleration) || !(deceleration > 0.0))
+  if (!exact::isfinite(request.position) || !exact::isfinite(request.velocity) ||
+      !exact::isfinite(request.target) || !exact::isfinite(request.period) ||
+      !(request.period > 0.0) || !exact::isfinite(deceleration) || !(deceleration > 0.0))
     return false;
 
   const double period = request.period;
   const double wanted = axis::wrapPosition(request.target, period);
   const double velocity = request.velocity;
-  const double halt = request.position + 0.5 * velocity * ::fabs(velocity / deceleration);
+  const double halt = request.position + 0.5 * velocity * exact::fabs(velocity / deceleration);
   // Turns from the wanted position to the place where the axis would stop.
   const double turns = (halt - wanted) / period;
-  if (!::isfinite(turns))
+  if (!exact::isfinite(turns))
     return false;
-  const double above = wanted + ::ceil(turns - kSame) * period;
-  const double below = wanted + ::floor(turns + kSame) * period;
+  const double above = wanted + exact::ceil(turns - kSame) * period;
+  const double below = wanted + exact::floor(turns + kSame) * period;
 
   Direction direction = request.direction;
   if (direction == Direction::Current) {

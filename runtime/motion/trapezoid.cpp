@@ -1,17 +1,18 @@
 #include "runtime/motion/trapezoid.hpp"
 
-#include <float.h>
-#include <math.h>
+#include "runtime/axis/exact_math.hpp"
 
 namespace stride::motion {
 namespace {
+
+constexpr double kEpsilon = 0x1p-52;
 
 /// Binary exponent of |x|, 0.5 <= |x| / 2^e < 1; far below every other for 0.
 int exponentOf(double x) noexcept {
   if (x == 0.0)
     return -4000;
   int exponent = 0;
-  (void)::frexp(x, &exponent);
+  (void)exact::frexp(x, &exponent);
   return exponent;
 }
 
@@ -69,22 +70,23 @@ public:
 
   /// A distance in the direction of motion, in user units and with its sign.
   [[nodiscard]] double length(double scaled) const noexcept {
-    return sign_ * ::ldexp(scaled, scale_.length);
+    return sign_ * exact::ldexp(scaled, scale_.length);
   }
 
   /// Whether every number of the finished profile can be represented.
   [[nodiscard]] bool valid() const noexcept {
-    bool good = ::isfinite(profile_.duration) && ::isfinite(profile_.end.position);
+    bool good = exact::isfinite(profile_.duration) && exact::isfinite(profile_.end.position);
     for (int32_t i = 0; i < profile_.count; ++i) {
       const Segment &segment = profile_.segments[i];
-      good = good && ::isfinite(segment.origin.position) && ::isfinite(segment.origin.velocity);
+      good = good && exact::isfinite(segment.origin.position) &&
+             exact::isfinite(segment.origin.velocity);
     }
     return good;
   }
 
 private:
   [[nodiscard]] double seconds(double scaled) const noexcept {
-    return ::ldexp(scaled, scale_.time);
+    return exact::ldexp(scaled, scale_.time);
   }
 
   void append(double reference, double position, double velocity, double acceleration) noexcept {
@@ -92,8 +94,8 @@ private:
     segment.start = time_;
     segment.reference = reference;
     segment.origin.position = position;
-    segment.origin.velocity = sign_ * ::ldexp(velocity, scale_.velocity);
-    segment.origin.acceleration = sign_ * ::ldexp(acceleration, scale_.acceleration);
+    segment.origin.velocity = sign_ * exact::ldexp(velocity, scale_.velocity);
+    segment.origin.acceleration = sign_ * exact::ldexp(acceleration, scale_.acceleration);
     segment.jerk = 0.0;
   }
 
@@ -109,7 +111,7 @@ void clear(Profile &profile, double position) noexcept {
   profile.end = {position, 0.0, 0.0};
 }
 
-bool isLimit(double x) noexcept { return ::isfinite(x) && x > 0.0; }
+bool isLimit(double x) noexcept { return exact::isfinite(x) && x > 0.0; }
 
 /// The move that remains when the axis moves with `v` >= 0 towards a target which is `rest` >= 0
 /// beyond the point where it would stop. `position` is the axis's place, in user units.
@@ -126,7 +128,7 @@ void moveAhead(Builder &builder, double position, double v, double rest, double 
   const double harmonic = acceleration <= deceleration
                               ? acceleration / (1.0 + acceleration / deceleration)
                               : deceleration / (1.0 + deceleration / acceleration);
-  const double peak = ::sqrt(v * v + 2.0 * rest * harmonic);
+  const double peak = exact::sqrt(v * v + 2.0 * rest * harmonic);
   if (peak <= vLimit) {
     const double rise = 2.0 * rest * harmonic / (acceleration * (peak + v));
     builder.add(rise, position, v, acceleration);
@@ -145,12 +147,12 @@ void moveAhead(Builder &builder, double position, double v, double rest, double 
 PlanError planTrapezoid(Profile &profile, double position, double velocity, double target,
                         const TrapezoidLimits &limits) noexcept {
   clear(profile, position);
-  if (!::isfinite(position) || !::isfinite(velocity) || !::isfinite(target))
+  if (!exact::isfinite(position) || !exact::isfinite(velocity) || !exact::isfinite(target))
     return PlanError::InvalidState;
   if (!isLimit(limits.velocity) || !isLimit(limits.acceleration) || !isLimit(limits.deceleration))
     return PlanError::InvalidLimit;
   const double distance = target - position;
-  if (!::isfinite(distance))
+  if (!exact::isfinite(distance))
     return PlanError::Unrepresentable;
   if (distance == 0.0 && velocity == 0.0) {
     profile.end.position = target;
@@ -158,29 +160,30 @@ PlanError planTrapezoid(Profile &profile, double position, double velocity, doub
   }
 
   const Scale scale = Scale::of(distance, velocity, limits.acceleration, limits.deceleration);
-  const double acceleration = ::ldexp(limits.acceleration, -scale.acceleration);
-  const double deceleration = ::ldexp(limits.deceleration, -scale.acceleration);
-  const double vLimit = ::ldexp(limits.velocity, -scale.velocity);
-  const double d = ::ldexp(distance, -scale.length);
-  const double v = ::ldexp(velocity, -scale.velocity);
-  if (!::isfinite(acceleration) || !::isfinite(deceleration) || !::isfinite(v))
+  const double acceleration = exact::ldexp(limits.acceleration, -scale.acceleration);
+  const double deceleration = exact::ldexp(limits.deceleration, -scale.acceleration);
+  const double vLimit = exact::ldexp(limits.velocity, -scale.velocity);
+  const double d = exact::ldexp(distance, -scale.length);
+  const double v = exact::ldexp(velocity, -scale.velocity);
+  if (!exact::isfinite(acceleration) || !exact::isfinite(deceleration) || !exact::isfinite(v))
     return PlanError::Unrepresentable;
 
   // Where the axis would come to rest, and what is missing from there to the target.
-  const double stopping = 0.5 * v * ::fabs(v / deceleration);
+  const double stopping = 0.5 * v * exact::fabs(v / deceleration);
   const double rest = d - stopping;
 
   // A rest that is only rounding (the axis is on its braking ramp already): keep to the ramp with a
   // deceleration adjusted in its last digits instead of adding a tiny move back.
   const double noise =
-      4.0 * DBL_EPSILON *
-      (::fabs(stopping) + ::fabs(d) +
-       ::ldexp(::fabs(position) > ::fabs(target) ? ::fabs(position) : ::fabs(target),
-               -scale.length));
-  if (::fabs(rest) <= noise && ::fabs(rest) <= 5e-10 * ::fabs(stopping)) {
+      4.0 * kEpsilon *
+      (exact::fabs(stopping) + exact::fabs(d) +
+       exact::ldexp(exact::fabs(position) > exact::fabs(target) ? exact::fabs(position)
+                                                                : exact::fabs(target),
+                    -scale.length));
+  if (exact::fabs(rest) <= noise && exact::fabs(rest) <= 5e-10 * exact::fabs(stopping)) {
     Builder builder(profile, scale, v < 0.0 ? -1.0 : 1.0);
-    const double speed = ::fabs(v);
-    builder.finish(speed, speed * (speed / (2.0 * ::fabs(d))), target);
+    const double speed = exact::fabs(v);
+    builder.finish(speed, speed * (speed / (2.0 * exact::fabs(d))), target);
     if (builder.valid())
       return PlanError::None;
     clear(profile, position);
@@ -191,11 +194,12 @@ PlanError planTrapezoid(Profile &profile, double position, double velocity, doub
   const double towards = sign * v;
   Builder builder(profile, scale, sign);
   if (towards >= 0.0) {
-    moveAhead(builder, position, towards, ::fabs(rest), target, vLimit, acceleration, deceleration);
+    moveAhead(builder, position, towards, exact::fabs(rest), target, vLimit, acceleration,
+              deceleration);
   } else {
     builder.add(-towards / deceleration, position, towards, deceleration);
     const double turn = position + builder.length(sign * stopping);
-    moveAhead(builder, turn, 0.0, ::fabs(rest), target, vLimit, acceleration, deceleration);
+    moveAhead(builder, turn, 0.0, exact::fabs(rest), target, vLimit, acceleration, deceleration);
   }
   if (builder.valid())
     return PlanError::None;
@@ -206,15 +210,15 @@ PlanError planTrapezoid(Profile &profile, double position, double velocity, doub
 PlanError planStop(Profile &profile, double position, double velocity,
                    double deceleration) noexcept {
   clear(profile, position);
-  if (!::isfinite(position) || !::isfinite(velocity))
+  if (!exact::isfinite(position) || !exact::isfinite(velocity))
     return PlanError::InvalidState;
   if (!isLimit(deceleration))
     return PlanError::InvalidLimit;
   if (velocity == 0.0)
     return PlanError::None;
-  const double target = position + 0.5 * velocity * ::fabs(velocity / deceleration);
+  const double target = position + 0.5 * velocity * exact::fabs(velocity / deceleration);
   Builder builder(profile, Scale{}, velocity < 0.0 ? -1.0 : 1.0);
-  builder.finish(::fabs(velocity), deceleration, target);
+  builder.finish(exact::fabs(velocity), deceleration, target);
   if (builder.valid())
     return PlanError::None;
   clear(profile, position);

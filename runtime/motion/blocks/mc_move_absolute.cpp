@@ -1,4 +1,5 @@
 // MC_MoveAbsolute: positioning on linear and rotary axes.
+#include "runtime/axis/exact_math.hpp"
 #include "runtime/motion/modulo.hpp"
 #include "runtime/motion/plan_axis.hpp"
 #include "runtime/motion/trapezoid.hpp"
@@ -6,11 +7,10 @@
 #include "st/SM_DriveBasic/MC_BUFFER_MODE.h"
 #include "st/SM_PLCopen/MC_MoveAbsolute.h"
 
-#include <math.h>
-
 namespace {
 
 namespace axis = ::stride::axis;
+namespace exact = ::stride::exact;
 namespace motion = ::stride::motion;
 using Block = ::st::SM_PLCopen::MC_MoveAbsolute;
 using axis::AxisRef;
@@ -55,8 +55,8 @@ void finish(Block &block) noexcept {
 int16_t refusal(const AxisRef &ref) noexcept {
   if (ref.nAxisState == axis::state::kErrorStop)
     return axis::error::kNotReady;
-  if (!axis::isPowered(ref) || ref.nAxisState == axis::state::kPowerOff)
-    return axis::error::kNotPowered;
+  if (const int16_t error = axis::readiness(ref); error != axis::error::kNone)
+    return error;
   if (ref.nAxisState == axis::state::kStopping)
     return axis::error::kStopBlocks;
   if (ref.nAxisState == axis::state::kHoming)
@@ -73,7 +73,7 @@ int16_t plan(const Block &block, motion::Profile &profile, double &target) noexc
   target = command.fPosition;
   double goal = target;
   if (axis::isRotary(ref)) {
-    if (!::isfinite(target))
+    if (!exact::isfinite(target))
       return axis::error::kMoveAbsoluteValues;
     target = axis::wrapPosition(target, ref.fPositionPeriod);
     const motion::ModuloRequest request{ref.fSetPosition,

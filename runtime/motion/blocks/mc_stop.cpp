@@ -53,8 +53,8 @@ void start(Block &block) noexcept {
     fail(block, axis::error::kStopInErrorStop);
     return;
   }
-  if (!axis::isPowered(ref) || ref.nAxisState == axis::state::kPowerOff) {
-    fail(block, axis::error::kNotPowered);
+  if (const int16_t error = axis::readiness(ref); error != axis::error::kNone) {
+    fail(block, error);
     return;
   }
   if (ref.nAxisState == axis::state::kStopping && !own) {
