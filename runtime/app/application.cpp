@@ -1,0 +1,83 @@
+#include "runtime/app/application.hpp"
+
+#include "runtime/app/error.hpp"
+#include "runtime/app/validate.hpp"
+
+#include <fmt/format.h>
+
+#include <dlfcn.h>
+#include <sys/stat.h>
+
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace stride::app {
+
+namespace {
+
+using EntryPoint = const StrideAppV1 *();
+
+/// Loads what dlopen finds under exactly this name (a bare name would search the library path).
+std::string exactPath(const std::string &path) {
+  return path.find('/') == std::string::npos ? "./" + path : path;
+}
+
+} // namespace
+
+void Application::Closer::operator()(void *library) const { ::dlclose(library); }
+
+Application::Application(const StrideAppV1 &description)
+    : description_(&description), state_(description.stateSize) {}
+
+Application Application::load(const std::string &path, const RuntimeLayouts &layouts) {
+  struct ::stat info {};
+  if (::stat(path.c_str(), &info) != 0)
+    throw Error(fmt::format("cannot open application '{}': {}", path, std::strerror(errno)));
+  if (!S_ISREG(info.st_mode))
+    throw Error(
+        fmt::format("'{}' is not a file; give the application that 'stride build' made", path));
+  ::dlerror();
+  std::unique_ptr<void, Closer> library(::dlopen(exactPath(path).c_str(), RTLD_NOW | RTLD_LOCAL));
+  if (library == nullptr) {
+    const char *reason = ::dlerror();
+    throw Error(fmt::format("'{}' is not a loadable application: {}\n"
+                            "  build it with 'stride build' on this kind of machine",
+                            path, reason != nullptr ? reason : "unknown reason"));
+  }
+  void *symbol = ::dlsym(library.get(), "stride_app_v1");
+  if (symbol == nullptr)
+    throw Error(fmt::format("'{}' is a shared object, but not a Stride application: it does not "
+                            "define stride_app_v1\n  build it with 'stride build'",
+                            path));
+  const StrideAppV1 *description = std::bit_cast<EntryPoint *>(symbol)();
+  try {
+    if (description == nullptr)
+      throw Error("it describes nothing");
+    validate(*description, layouts);
+  } catch (const Error &error) {
+    throw Error(fmt::format("cannot run '{}': {}", path, error.what()));
+  }
+  Application application(*description);
+  application.library_ = std::move(library);
+  return application;
+}
+
+Application Application::fromDescription(const StrideAppV1 &description,
+                                         const RuntimeLayouts &layouts) {
+  validate(description, layouts);
+  return Application(description);
+}
+
+void Application::initialise(const HostApi &host) {
+  std::memset(state_.data(), 0, state_.size());
+  Ctx ctx{};
+  ctx.state = state_.data();
+  ctx.host = &host;
+  ctx.loopBudget = INT64_MAX;
+  ctx.firstCycle = 1;
+  description_->init(&ctx);
+}
+
+} // namespace stride::app

@@ -1,0 +1,51 @@
+// A loaded application: its description, its state, and the way to both.
+#ifndef STRIDE_RUNTIME_APP_APPLICATION_HPP
+#define STRIDE_RUNTIME_APP_APPLICATION_HPP
+
+#include "runtime/app/abi.h"
+#include "runtime/app/state_block.hpp"
+
+#include <memory>
+#include <string>
+
+namespace stride::app {
+
+/// Layout hashes of the types that the runtime itself accesses; 0: not known, not compared.
+struct RuntimeLayouts {
+  uint64_t axisRef = 0;
+  uint64_t axisGroupRef = 0;
+};
+
+/// One application object. Several can live in one process without meeting.
+class Application {
+public:
+  /// Loads the shared object. Throws Error: file missing, not an application, another ABI version,
+  /// other layouts than `layouts`, damaged tables.
+  static Application load(const std::string &path, const RuntimeLayouts &layouts = {});
+
+  /// An application linked into this program. Throws Error as load does.
+  static Application fromDescription(const StrideAppV1 &description,
+                                     const RuntimeLayouts &layouts = {});
+
+  /// Zeroes the state and sets the defaults. Throws StException when an initialiser fails.
+  void initialise(const HostApi &host);
+
+  const StrideAppV1 &description() const { return *description_; }
+  std::byte *state() const { return state_.data(); }
+  const StateBlock &stateBlock() const { return state_; }
+
+private:
+  struct Closer {
+    void operator()(void *library) const;
+  };
+
+  explicit Application(const StrideAppV1 &description);
+
+  std::unique_ptr<void, Closer> library_; // closed after everything else is gone
+  const StrideAppV1 *description_;
+  StateBlock state_;
+};
+
+} // namespace stride::app
+
+#endif

@@ -1,0 +1,48 @@
+#include "runtime/app/st_exception.hpp"
+
+#include <cstring>
+
+namespace stride {
+
+StException::StException(ExceptionCode code, const char *file, uint32_t line, uint32_t col,
+                         const char *detail) noexcept
+    : code_(code), line_(line), col_(col), file_(file), detail_{} {
+  if (detail != nullptr)
+    std::strncpy(detail_, detail, sizeof detail_ - 1);
+}
+
+const char *StException::what() const noexcept { return describe(code_); }
+
+const char *describe(ExceptionCode code) noexcept {
+  switch (code) {
+  case ExceptionCode::None:
+    return "no exception";
+  case ExceptionCode::DivisionByZero:
+    return "division by zero";
+  case ExceptionCode::IndexOutOfRange:
+    return "array index out of range";
+  case ExceptionCode::NullPointer:
+    return "use of a null pointer or reference";
+  case ExceptionCode::UnboundInOut:
+    return "use of a VAR_IN_OUT that no call has bound";
+  case ExceptionCode::RangeViolation:
+    return "value outside its subrange type";
+  case ExceptionCode::EndlessLoop:
+    return "endless loop";
+  case ExceptionCode::StackOverflow:
+    return "stack overflow (calls nested too deeply)";
+  case ExceptionCode::AccessViolation:
+    return "access through an invalid pointer";
+  case ExceptionCode::OutOfMemory:
+    return "out of memory";
+  case ExceptionCode::AbstractCall:
+    return "call of a method without an implementation";
+  case ExceptionCode::User:
+    return "exception raised by the program";
+  case ExceptionCode::Internal:
+    return "internal error";
+  }
+  return "unknown exception";
+}
+
+} // namespace stride

@@ -1,0 +1,69 @@
+// Variables by name.
+#ifndef STRIDE_RUNTIME_APP_SYMBOLS_HPP
+#define STRIDE_RUNTIME_APP_SYMBOLS_HPP
+
+#include "runtime/app/abi.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace stride::app {
+
+/// A resolved path. It stays valid while the application lives; where it goes through pointers it
+/// is followed anew at each access.
+class Symbol {
+public:
+  /// The variable's place, or null where a pointer on the way is null. Never allocates.
+  void *address(std::byte *state) const;
+
+  /// Index into the type table.
+  uint32_t type() const { return type_; }
+  /// SymbolFlags of the last name on the path, and kSymConstant if any name has it.
+  uint32_t flags() const { return flags_; }
+  /// The path as it was asked for.
+  const std::string &path() const { return path_; }
+
+private:
+  friend class SymbolTable;
+  std::string path_;
+  uint32_t type_ = kNoIndex;
+  uint32_t flags_ = 0;
+  /// Added to the state's start, then to each pointer followed.
+  std::vector<uint64_t> offsets_{0};
+};
+
+/// Resolves paths of an application: `Ipo.MoveAbsolute.Position`, `a[1,2].b`, `PLC_PRG.fb.x`,
+/// `GVL.x`, `p^.x`. Names are case-insensitive. Pointers, references and in-outs are followed
+/// where a member or an index comes behind them; references and in-outs also at the end.
+class SymbolTable {
+public:
+  explicit SymbolTable(const StrideAppV1 &app);
+
+  /// Throws Error, with the nearest names where a name is unknown.
+  Symbol resolve(std::string_view path) const;
+
+  /// The elementary values below a symbol in declaration order, without hidden members (unless the
+  /// symbol itself was named) and without following pointers, references and in-outs.
+  std::vector<Symbol> leaves(const Symbol &symbol) const;
+
+  const StrideAppV1 &app() const { return *app_; }
+  const TypeDesc &type(const Symbol &symbol) const { return app_->types[symbol.type()]; }
+
+private:
+  class Resolver;
+  void appendLeaves(const Symbol &symbol, bool indexOpen, std::vector<Symbol> &out) const;
+
+  const StrideAppV1 *app_;
+  /// Lower-case name (and list.name) to indices of roots.
+  std::unordered_map<std::string, std::vector<uint32_t>> roots_;
+};
+
+/// True for kinds that hold a value that can be read and written as text.
+bool isElementary(Kind kind);
+
+} // namespace stride::app
+
+#endif

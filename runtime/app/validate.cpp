@@ -1,0 +1,121 @@
+#include "runtime/app/validate.hpp"
+
+#include "runtime/app/error.hpp"
+
+#include <fmt/format.h>
+
+namespace stride::app {
+
+namespace {
+
+[[noreturn]] void damaged(const std::string &what) {
+  throw Error(fmt::format("its description is damaged ({}); build it again", what));
+}
+
+bool fits(uint64_t first, uint64_t count, uint64_t size) {
+  return first <= size && count <= size - first;
+}
+
+void checkType(const StrideAppV1 &app, uint32_t index) {
+  const TypeDesc &type = app.types[index];
+  const auto bad = [&](const char *what) {
+    damaged(fmt::format("type {} '{}': {}", index, type.name != nullptr ? type.name : "", what));
+  };
+  if (type.name == nullptr)
+    bad("no name");
+  switch (type.kind) {
+  case Kind::Struct:
+  case Kind::Union:
+  case Kind::FunctionBlock:
+  case Kind::Program:
+    if (!fits(type.firstMember, type.memberCount, app.memberCount))
+      bad("members");
+    for (uint32_t i = 0; i < type.memberCount; ++i) {
+      const MemberDesc &member = app.members[type.firstMember + i];
+      if (member.name == nullptr || member.type >= app.typeCount ||
+          !fits(member.offset, app.types[member.type].size, type.size))
+        bad("a member");
+    }
+    break;
+  case Kind::Enum:
+    if (!fits(type.firstMember, type.memberCount, app.enumeratorCount))
+      bad("enumerators");
+    if (type.element >= app.typeCount || app.types[type.element].size != type.size)
+      bad("base type");
+    break;
+  case Kind::Array:
+    if (type.element >= app.typeCount || type.elementCount == 0 ||
+        type.size / type.elementCount != app.types[type.element].size)
+      bad("element type");
+    break;
+  case Kind::Pointer:
+  case Kind::Reference:
+  case Kind::InOut:
+    if (type.element != kNoIndex && type.element >= app.typeCount)
+      bad("target type");
+    break;
+  case Kind::STRING:
+    if (type.size != uint64_t{type.stringLength} + 1)
+      bad("length");
+    break;
+  case Kind::WSTRING:
+    if (type.size != (uint64_t{type.stringLength} + 1) * 2)
+      bad("length");
+    break;
+  default:
+    break;
+  }
+}
+
+void checkLayout(const char *type, uint64_t ours, uint64_t theirs) {
+  if (ours != 0 && theirs != 0 && ours != theirs)
+    throw Error(fmt::format("it was built with another layout of {} than this runtime has; build "
+                            "it again with this version of Stride",
+                            type));
+}
+
+} // namespace
+
+void validate(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
+  // The first two members stay where they are in every version.
+  if (app.magic != kAbiMagic)
+    throw Error("it is not a Stride application (its description starts with other data)");
+  if (app.abiVersion != kAbiVersion)
+    throw Error(fmt::format("it has application interface version {}, this runtime needs {}; build "
+                            "it again with this version of Stride",
+                            app.abiVersion, kAbiVersion));
+  if (app.size < sizeof(StrideAppV1))
+    damaged("size");
+  checkLayout("AXIS_REF", layouts.axisRef, app.axisRefLayout);
+  checkLayout("SMC_AXISGROUP_REF", layouts.axisGroupRef, app.axisGroupRefLayout);
+  if (app.init == nullptr)
+    damaged("no initialisation");
+  if (app.stateAlign > 4096)
+    damaged("alignment");
+  for (uint32_t i = 0; i < app.typeCount; ++i)
+    checkType(app, i);
+  for (uint32_t i = 0; i < app.rootCount; ++i) {
+    const RootDesc &root = app.roots[i];
+    if (root.name == nullptr || root.type >= app.typeCount ||
+        !fits(root.offset, app.types[root.type].size, app.stateSize))
+      damaged(fmt::format("variable {}", i));
+  }
+  for (uint32_t i = 0; i < app.taskCount; ++i) {
+    const TaskDesc &task = app.tasks[i];
+    if (task.name == nullptr || task.run == nullptr)
+      damaged(fmt::format("task {}", i));
+  }
+  for (uint32_t i = 0; i < app.axisGroupCount; ++i) {
+    const AxisGroupDesc &group = app.axisGroups[i];
+    if (group.name == nullptr || group.driverName == nullptr || group.task >= app.taskCount ||
+        group.groupOffset >= app.stateSize ||
+        !fits(group.firstDrive, group.driveCount, app.driveCount))
+      damaged(fmt::format("axis group {}", i));
+  }
+  for (uint32_t i = 0; i < app.driveCount; ++i) {
+    if (app.drives[i].name == nullptr || app.drives[i].axisOffset >= app.stateSize)
+      damaged(fmt::format("drive {}", i));
+  }
+}
+
+} // namespace stride::app

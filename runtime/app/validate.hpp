@@ -1,0 +1,15 @@
+// Checks of an application's description before it is used.
+#ifndef STRIDE_RUNTIME_APP_VALIDATE_HPP
+#define STRIDE_RUNTIME_APP_VALIDATE_HPP
+
+#include "runtime/app/application.hpp"
+
+namespace stride::app {
+
+/// Throws Error when the description is for another ABI, disagrees with the runtime's layouts, or
+/// is not consistent in itself (indices, offsets).
+void validate(const StrideAppV1 &description, const RuntimeLayouts &layouts);
+
+} // namespace stride::app
+
+#endif

@@ -1,0 +1,30 @@
+// What the runtime does around a task's POUs.
+#ifndef STRIDE_RUNTIME_TASK_CYCLE_HOOK_HPP
+#define STRIDE_RUNTIME_TASK_CYCLE_HOOK_HPP
+
+#include "runtime/iec/ctx.h"
+
+namespace stride::task {
+
+/// Calls before and after the POUs of a task, in every cycle: an axis group's driver. Both run in
+/// the cyclic path: no allocation, no lock.
+class CycleHook {
+public:
+  CycleHook() = default;
+  CycleHook(const CycleHook &) = delete;
+  CycleHook &operator=(const CycleHook &) = delete;
+  virtual ~CycleHook() = default;
+
+  virtual void beforePous(Ctx &ctx) = 0;
+  virtual void afterPous(Ctx &ctx) = 0;
+
+  /// The application has stopped with an exception; from now on the hooks are called without the
+  /// POUs between them, until all are at rest. Brings its part of the machine to a safe stop.
+  virtual void applicationStopped() {}
+  /// Nothing of this hook's part of the machine moves any more.
+  virtual bool atRest() const { return true; }
+};
+
+} // namespace stride::task
+
+#endif

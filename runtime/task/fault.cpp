@@ -1,0 +1,128 @@
+#include "runtime/task/fault.hpp"
+
+#include "runtime/iec/text.h"
+
+#include <fmt/format.h>
+
+#include <csetjmp>
+#include <csignal>
+#include <cstdio>
+#include <vector>
+
+#include <sys/resource.h>
+
+namespace stride::task {
+
+namespace {
+
+/// The call that a signal of this thread ends; null outside of guardedCall. Signal handlers reach
+/// nothing but this.
+struct Landing {
+  sigjmp_buf place;
+  const volatile char *stack;
+};
+thread_local Landing *landing = nullptr;
+
+constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
+constexpr int kInvalidAccess = 1;
+constexpr int kStackOverflow = 2;
+
+/// Near the lower end of the stack that began at `stack`.
+bool isStackOverflow(const void *address) {
+  struct ::rlimit limit {};
+  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    limit.rlim_cur = 8U << 20;
+  const auto top = reinterpret_cast<uintptr_t>(landing->stack);
+  const auto at = reinterpret_cast<uintptr_t>(address);
+  const uintptr_t depth = top - at;
+  return at < top && depth > limit.rlim_cur / 2 && depth < limit.rlim_cur + (64U << 20);
+}
+
+extern "C" void strideOnSignal(int number, siginfo_t *info, void *) {
+  if (landing == nullptr) {
+    std::signal(number, SIG_DFL); // a defect of our own: end as usual
+    std::raise(number);
+    return;
+  }
+  siglongjmp(landing->place,
+             number == SIGSEGV && isStackOverflow(info->si_addr) ? kStackOverflow : kInvalidAccess);
+}
+
+[[noreturn]] void raiseInHost(Ctx *, ExceptionCode code, const char *file, uint32_t line,
+                              uint32_t col, const char *detail) {
+  throw StException(code, file, line, col, detail);
+}
+
+int64_t refuseMoreLoops(Ctx *) { return 0; }
+
+void logToStderr(Ctx *, uint32_t, const char *text) { std::fprintf(stderr, "%s\n", text); }
+
+} // namespace
+
+struct MemoryGuard::Impl {
+  std::vector<char> stack = std::vector<char>(64U << 10);
+  stack_t oldStack{};
+  struct sigaction oldActions[std::size(kSignals)]{};
+};
+
+MemoryGuard::MemoryGuard() : impl_(std::make_unique<Impl>()) {
+  stack_t stack{};
+  stack.ss_sp = impl_->stack.data();
+  stack.ss_size = impl_->stack.size();
+  ::sigaltstack(&stack, &impl_->oldStack);
+  struct sigaction action {};
+  action.sa_sigaction = strideOnSignal;
+  action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
+  ::sigemptyset(&action.sa_mask);
+  for (std::size_t i = 0; i < std::size(kSignals); ++i)
+    ::sigaction(kSignals[i], &action, &impl_->oldActions[i]);
+}
+
+MemoryGuard::~MemoryGuard() {
+  for (std::size_t i = 0; i < std::size(kSignals); ++i)
+    ::sigaction(kSignals[i], &impl_->oldActions[i], nullptr);
+  ::sigaltstack(&impl_->oldStack, nullptr);
+}
+
+std::optional<StException> guardedCall(void (*run)(Ctx *), Ctx &ctx) {
+  Landing here;
+  char onStack = 0;
+  here.stack = &onStack;
+  // ST frames hold nothing to destroy, so a jump out of them leaves nothing behind.
+  const int arrived = sigsetjmp(here.place, 0);
+  if (arrived != 0) {
+    landing = nullptr;
+    return StException(arrived == kStackOverflow ? ExceptionCode::StackOverflow
+                                                 : ExceptionCode::AccessViolation,
+                       nullptr, 0, 0, nullptr);
+  }
+  landing = &here;
+  try {
+    run(&ctx);
+  } catch (const StException &exception) {
+    landing = nullptr;
+    return exception;
+  }
+  landing = nullptr;
+  return std::nullopt;
+}
+
+const HostApi &hostApi() {
+  static constexpr HostApi kApi = {sizeof(HostApi), 0,          nullptr, raiseInHost,
+                                   refuseMoreLoops, logToStderr};
+  return kApi;
+}
+
+std::string describe(const Fault &fault) {
+  const StException &e = fault.exception;
+  std::string text = e.what();
+  if (e.detail()[0] != 0)
+    text += fmt::format(": {}", e.detail());
+  if (e.file() != nullptr)
+    text += fmt::format(" at {}:{}:{}", e.file(), e.line(), e.column());
+  char time[text::kBufferSize];
+  text::formatLtime(time, fault.timeNs);
+  return text + fmt::format(" (task {}, cycle {}, at {})", fault.task, fault.cycle, time);
+}
+
+} // namespace stride::task

@@ -1,0 +1,50 @@
+// How a cycle ended, and the guard that turns bad memory accesses into such an end.
+#ifndef STRIDE_RUNTIME_TASK_FAULT_HPP
+#define STRIDE_RUNTIME_TASK_FAULT_HPP
+
+#include "runtime/app/st_exception.hpp"
+#include "runtime/iec/ctx.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace stride::task {
+
+/// An exception that stopped the application.
+struct Fault {
+  StException exception;
+  std::string task;
+  uint64_t cycle = 0;
+  int64_t timeNs = 0;
+};
+
+/// One line: what, where in the ST, in which task and cycle:
+/// "division by zero at src/a.st:38:21 (task Fast, cycle 12, T#120ms)".
+std::string describe(const Fault &fault);
+
+/// While it lives, invalid memory accesses and stack overflows inside guardedCall end the call
+/// instead of the process (signal handlers on a stack of their own, for this thread). Elsewhere
+/// they end the process as usual. One at a time per process.
+class MemoryGuard {
+public:
+  MemoryGuard();
+  ~MemoryGuard();
+  MemoryGuard(const MemoryGuard &) = delete;
+  MemoryGuard &operator=(const MemoryGuard &) = delete;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Calls run(&ctx). Returns what stopped it, if something did. Never allocates.
+std::optional<StException> guardedCall(void (*run)(Ctx *), Ctx &ctx);
+
+/// The host's table for applications in simulation: raise throws StException, an endless loop ends
+/// when its budget is used up, log lines go to standard error.
+const HostApi &hostApi();
+
+} // namespace stride::task
+
+#endif
