@@ -5,11 +5,13 @@
 #include "tests/unit/axis/axis_rig.hpp"
 
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <sstream>
+#include <vector>
 
 namespace {
 
@@ -225,6 +227,68 @@ TEST(MoveAbsoluteProperty, RandomMovesAndInterrupts) {
   RecordProperty("moves", moves);
   RecordProperty("interrupts", interrupts);
   std::cout << moves << " moves, " << interrupts << " interrupts, " << cycles << " cycles\n";
+}
+
+/// A step of a small scenario in whole numbers, which RapidCheck can shrink.
+struct Step {
+  int position, velocity, acceleration, deceleration, cycles;
+  bool retrigger;
+};
+
+void showValue(const Step &s, std::ostream &out) {
+  out << "to " << s.position << " v " << s.velocity << " a " << s.acceleration << " d "
+      << s.deceleration << (s.retrigger ? " same" : " other") << " block, " << s.cycles
+      << " cycles";
+}
+
+rc::Gen<Step> anyStep() {
+  return rc::gen::build<Step>(rc::gen::set(&Step::position, rc::gen::inRange(-500, 500)),
+                              rc::gen::set(&Step::velocity, rc::gen::inRange(1, 300)),
+                              rc::gen::set(&Step::acceleration, rc::gen::inRange(1, 3000)),
+                              rc::gen::set(&Step::deceleration, rc::gen::inRange(1, 3000)),
+                              rc::gen::set(&Step::cycles, rc::gen::inRange(1, 300)),
+                              rc::gen::set(&Step::retrigger, rc::gen::arbitrary<bool>()));
+}
+
+RC_GTEST_PROP(MoveAbsoluteProperty, WholeNumbers, (bool rotary)) {
+  const auto steps = *rc::gen::container<std::vector<Step>>(anyStep());
+  AxisRig rig(0.01);
+  if (rotary)
+    rig.makeRotary(360);
+  RC_ASSERT(rig.powerUp() > 0);
+  Watch watch(rig, 1000);
+  AxisRig::MoveAbsolute blocks[2] = {rig.move(0), rig.move(0)};
+  int active = 0;
+  for (const Step &step : steps) {
+    if (!step.retrigger)
+      active = 1 - active;
+    auto &block = blocks[active];
+    auto &other = blocks[1 - active];
+    RC_ASSERT(bool(watch.cycle([&] {
+      rig.call(block, false);
+      rig.call(other, other.Execute != 0);
+    })));
+    block.Position = step.position;
+    block.Velocity = step.velocity;
+    block.Acceleration = step.acceleration;
+    block.Deceleration = step.deceleration;
+    watch.command(step.velocity, step.acceleration, step.deceleration);
+    for (int i = 0; i < step.cycles; ++i)
+      RC_ASSERT(bool(watch.cycle([&] {
+        rig.call(block, true);
+        rig.call(other, other.Execute != 0);
+      })));
+    RC_ASSERT(other.Busy == 0);
+    RC_ASSERT(block.Error == 0);
+  }
+  auto &block = blocks[active];
+  for (int i = 0; i < 1000000 && block.Busy != 0; ++i)
+    RC_ASSERT(bool(watch.cycle([&] { rig.call(block, true); })));
+  if (!steps.empty()) {
+    const double target = steps.back().position;
+    RC_ASSERT(block.Done != 0);
+    RC_ASSERT(rig.axis.fSetPosition == (rotary ? wrapPosition(target, 360) : target));
+  }
 }
 
 } // namespace

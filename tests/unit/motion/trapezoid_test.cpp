@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace {
@@ -156,6 +158,33 @@ TEST(Trapezoid, InvalidInputIsReported) {
   }
   EXPECT_EQ(planTrapezoid(profile, -1.7e308, 0, 1.7e308, {1, 1, 1}), PlanError::Unrepresentable);
   EXPECT_EQ(planTrapezoid(profile, 0, 0, 1e300, {1e-300, 1, 1}), PlanError::Unrepresentable);
+}
+
+// The bits do not depend on compiler, optimisation or machine.
+TEST(Trapezoid, SameBitsEverywhere) {
+  uint64_t seed = 1;
+  const auto next = [&seed](double lo, double hi) {
+    seed = seed * 6364136223846793005U + 1442695040888963407U;
+    return lo + (hi - lo) * static_cast<double>(seed >> 11) * 0x1p-53;
+  };
+  uint64_t hash = 14695981039346656037U;
+  const auto mix = [&hash](double x) {
+    hash = (hash ^ std::bit_cast<uint64_t>(x)) * 1099511628211U;
+  };
+  for (int i = 0; i < 2000; ++i) {
+    const double position = next(-1e3, 1e3);
+    const double velocity = next(-300, 300);
+    const double target = next(-1e3, 1e3);
+    const TrapezoidLimits limits{next(1, 200), next(1, 2000), next(1, 2000)};
+    const Profile profile = plan(position, velocity, target, limits);
+    mix(profile.duration);
+    for (int k = 0; k < 20; ++k) {
+      const State state = profile.at(next(0, 1) * profile.duration);
+      mix(state.position);
+      mix(state.velocity);
+    }
+  }
+  EXPECT_EQ(hash, 5887618524649810036U);
 }
 
 TEST(Stop, BrakesToRest) {
