@@ -7,6 +7,7 @@
 #include <csetjmp>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <vector>
 
 #include <sys/resource.h>
@@ -120,9 +121,10 @@ std::string describe(const Fault &fault) {
     text += fmt::format(": {}", e.detail());
   if (e.file() != nullptr)
     text += fmt::format(" at {}:{}:{}", e.file(), e.line(), e.column());
-  char time[text::kBufferSize];
-  text::formatLtime(time, fault.timeNs);
-  return text + fmt::format(" (task {}, cycle {}, at {})", fault.task, fault.cycle, time);
+  char time[stride::text::kBufferSize];
+  stride::text::formatLtime(time, fault.timeNs);
+  const char *digits = std::strchr(time, '#');
+  return text + fmt::format(" (task {}, cycle {}, at T{})", fault.task, fault.cycle, digits);
 }
 
 } // namespace stride::task

@@ -1,0 +1,78 @@
+#include "runtime/host/axis_hooks.hpp"
+
+#include "drivers/dummy/dummy_drive.hpp"
+#include "runtime/app/error.hpp"
+#include "runtime/axis/axis_group.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+namespace stride::host {
+
+namespace {
+
+class AxisGroupHook final : public task::CycleHook {
+public:
+  AxisGroupHook(std::unique_ptr<axis::AxisDriver> driver, axis::AxisGroupRef &group,
+                std::vector<axis::AxisRef *> axes, double cycleSeconds)
+      : group_(std::move(driver), group, std::move(axes), cycleSeconds) {}
+
+  void beforePous(Ctx &) override { group_.executeStart(); }
+  void afterPous(Ctx &) override { group_.executeEnd(); }
+  void applicationStopped() override { group_.stopAll(); }
+  bool atRest() const override { return group_.atRest(); }
+
+private:
+  axis::AxisGroup group_;
+};
+
+std::unique_ptr<axis::AxisDriver> makeDriver(const AxisGroupDesc &group) {
+  const std::string name = group.driverName;
+  if (name == "Dummy")
+    return dummy::makeDummyDriver(group.driveCount);
+  throw app::Error(fmt::format("axis group '{}' asks for driver '{}', which this runtime does not "
+                               "have; it has 'Dummy (simulated drives)'",
+                               group.name, name));
+}
+
+/// The hash tells builds of an application apart; what this program was built with shows in the
+/// size.
+void checkSize(const StrideAppV1 &app, const char *name, std::size_t ours) {
+  for (uint32_t i = 0; i < app.typeCount; ++i) {
+    const TypeDesc &type = app.types[i];
+    if (type.kind == Kind::Struct && std::string_view(type.name) == name && type.size != ours)
+      throw app::Error(fmt::format("the application was built with another layout of {} than this "
+                                   "runtime has; build it again with this version of Stride",
+                                   name));
+  }
+}
+
+template <class T> T &at(std::byte *state, uint64_t offset) {
+  return *reinterpret_cast<T *>(state + offset);
+}
+
+} // namespace
+
+std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
+                                                            task::VirtualScheduler &scheduler) {
+  const StrideAppV1 &app = application.description();
+  checkSize(app, "AXIS_REF", sizeof(axis::AxisRef));
+  checkSize(app, "SMC_AXISGROUP_REF", sizeof(axis::AxisGroupRef));
+  std::vector<std::unique_ptr<task::CycleHook>> hooks;
+  for (uint32_t i = 0; i < app.axisGroupCount; ++i) {
+    const AxisGroupDesc &group = app.axisGroups[i];
+    std::vector<axis::AxisRef *> axes;
+    for (uint32_t d = 0; d < group.driveCount; ++d)
+      axes.push_back(
+          &at<axis::AxisRef>(application.state(), app.drives[group.firstDrive + d].axisOffset));
+    const double cycleSeconds = static_cast<double>(app.tasks[group.task].intervalNs) * 1e-9;
+    hooks.push_back(std::make_unique<AxisGroupHook>(
+        makeDriver(group), at<axis::AxisGroupRef>(application.state(), group.groupOffset),
+        std::move(axes), cycleSeconds));
+    scheduler.addHook(group.task, *hooks.back());
+  }
+  return hooks;
+}
+
+} // namespace stride::host

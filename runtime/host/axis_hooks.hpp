@@ -1,0 +1,21 @@
+// Axis groups as hooks around their tasks.
+#ifndef STRIDE_RUNTIME_HOST_AXIS_HOOKS_HPP
+#define STRIDE_RUNTIME_HOST_AXIS_HOOKS_HPP
+
+#include "runtime/app/application.hpp"
+#include "runtime/task/virtual_scheduler.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace stride::host {
+
+/// One hook per axis group of the application, added to the group's task. The hooks must live as
+/// long as the scheduler. Throws app::Error for an unknown driver, and when the application was
+/// built with another AXIS_REF or SMC_AXISGROUP_REF than this program.
+std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
+                                                            task::VirtualScheduler &scheduler);
+
+} // namespace stride::host
+
+#endif

@@ -1,0 +1,126 @@
+#include "runtime/host/host_main.hpp"
+
+#include "runtime/app/error.hpp"
+#include "runtime/host/options.hpp"
+#include "runtime/host/simulation.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <exception>
+
+namespace stride::host {
+
+namespace {
+
+constexpr const char *kExitCodes =
+    "Exit codes: 0 the run reached its end, 1 bad input, 2 the application was stopped by an\n"
+    "exception, 130 interrupted.";
+
+/// The options as text, before they are understood.
+struct SimTexts {
+  std::string application;
+  std::string duration;
+  std::vector<std::string> trace;
+  std::vector<std::string> sets;
+  std::vector<std::string> print;
+  std::string out;
+  int64_t loopBudget = 0;
+  bool quiet = false;
+  bool summary = false;
+};
+
+void declare(CLI::App &sim, SimTexts &texts, bool builtIn) {
+  if (!builtIn)
+    sim.add_option("APP", texts.application, "The application that 'stride build' made")
+        ->required();
+  sim.add_option("--for", texts.duration, "Virtual time to run: T#1s500ms, 5s, 500ms")
+      ->required()
+      ->type_name("TIME");
+  sim.add_option("--trace", texts.trace,
+                 "Variables to write in every cycle of the fastest task: A,B.c,D[1,2]; may be "
+                 "repeated; a structure stands for all its members")
+      ->type_name("NAMES")
+      ->expected(1)
+      ->take_all();
+  sim.add_option("--out", texts.out, "File for the trace (CSV); standard output without it")
+      ->type_name("FILE");
+  sim.add_option("--set", texts.sets,
+                 "Write a variable before the first cycle at or after TIME: T#3s,Ipo.p=50; may be "
+                 "repeated")
+      ->type_name("TIME,NAME=VALUE")
+      ->expected(1)
+      ->take_all();
+  sim.add_option("--print", texts.print, "Variables to print at the end; may be repeated")
+      ->type_name("NAMES")
+      ->expected(1)
+      ->take_all();
+  sim.add_option("--loop-budget", texts.loopBudget,
+                 "Loop iterations one cycle may use before it counts as endless")
+      ->check(CLI::PositiveNumber);
+  sim.add_flag("--quiet", texts.quiet, "Neither progress nor summary");
+  sim.add_flag("--summary", texts.summary, "A summary even when standard error is no terminal");
+  sim.footer(kExitCodes);
+}
+
+void appendPaths(const std::vector<std::string> &texts, std::vector<std::string> &paths) {
+  for (const std::string &text : texts) {
+    for (std::string &path : splitPaths(text))
+      paths.push_back(std::move(path));
+  }
+}
+
+SimOptions understand(const SimTexts &texts) {
+  SimOptions options;
+  options.application = texts.application;
+  try {
+    options.durationNs = parseDuration(texts.duration, false);
+  } catch (const app::Error &error) {
+    throw app::Error(fmt::format("--for: {}", error.what()));
+  }
+  appendPaths(texts.trace, options.trace);
+  appendPaths(texts.print, options.print);
+  for (const std::string &text : texts.sets)
+    options.sets.push_back(parseSet(text));
+  options.out = texts.out;
+  if (!options.out.empty() && options.trace.empty())
+    throw app::Error("--out names a file for a trace, but --trace names nothing to trace");
+  options.loopBudget = texts.loopBudget;
+  options.quiet = texts.quiet;
+  options.summary = texts.summary;
+  return options;
+}
+
+} // namespace
+
+int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
+  CLI::App cli("Runs applications that 'stride build' has made.");
+  cli.require_subcommand(1);
+  cli.footer(kExitCodes);
+  SimTexts texts;
+  CLI::App *sim =
+      cli.add_subcommand("sim", "Run in virtual time: deterministic, as fast as possible");
+  declare(*sim, texts, builtIn != nullptr);
+  try {
+    cli.parse(argc, argv);
+  } catch (const CLI::CallForHelp &help) {
+    return cli.exit(help);
+  } catch (const CLI::ParseError &error) {
+    fmt::print(stderr, "error: {}\n  'stride-host sim --help' lists the options\n", error.what());
+    return kExitBadInput;
+  }
+  try {
+    const SimOptions options = understand(texts);
+    app::Application application = builtIn != nullptr ? app::Application::fromDescription(*builtIn)
+                                                      : app::Application::load(options.application);
+    return simulate(application, options);
+  } catch (const app::Error &error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return kExitBadInput;
+  } catch (const std::exception &error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return kExitBadInput;
+  }
+}
+
+} // namespace stride::host

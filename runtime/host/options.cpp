@@ -1,0 +1,78 @@
+#include "runtime/host/options.hpp"
+
+#include "runtime/app/error.hpp"
+#include "runtime/iec/text.h"
+
+#include <fmt/format.h>
+
+namespace stride::host {
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
+    text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
+    text.remove_suffix(1);
+  return text;
+}
+
+} // namespace
+
+int64_t parseDuration(std::string_view text, bool zeroAllowed) {
+  const text::Scanned scanned = text::scanDuration(text.data(), static_cast<uint32_t>(text.size()));
+  if (scanned.used == 0 || scanned.used != text.size())
+    throw app::Error(
+        fmt::format("'{}' is not a duration; write for example T#1s500ms, 5s or 500ms", text));
+  if (scanned.overflow)
+    throw app::Error(fmt::format("'{}' is too long; the limit is 292 years", text));
+  if (scanned.ns < 0 || (scanned.ns == 0 && !zeroAllowed))
+    throw app::Error(fmt::format("'{}' must be longer than nothing", text));
+  return scanned.ns;
+}
+
+std::vector<std::string> splitPaths(std::string_view text) {
+  std::vector<std::string> paths;
+  std::size_t start = 0;
+  int depth = 0;
+  for (std::size_t i = 0; i <= text.size(); ++i) {
+    if (i < text.size() && text[i] == '[')
+      ++depth;
+    else if (i < text.size() && text[i] == ']')
+      --depth;
+    else if (i == text.size() || (text[i] == ',' && depth <= 0)) {
+      const std::string_view part = trimmed(text.substr(start, i - start));
+      if (part.empty())
+        throw app::Error(fmt::format("'{}': a name is missing between the commas", text));
+      paths.emplace_back(part);
+      start = i + 1;
+    }
+  }
+  return paths;
+}
+
+SetOption parseSet(const std::string &text) {
+  const std::size_t comma = text.find(',');
+  const std::size_t equals = comma == std::string::npos ? comma : text.find('=', comma);
+  if (equals == std::string::npos)
+    throw app::Error(fmt::format(
+        "--set '{}' has not the form TIME,NAME=VALUE; write for example --set T#3s,PLC_PRG.x=50",
+        text));
+  std::size_t pathEnd = equals;
+  if (text[pathEnd - 1] == ':') // NAME:=VALUE as in ST
+    --pathEnd;
+  SetOption option;
+  option.text = text;
+  option.path = std::string(trimmed(std::string_view(text).substr(comma + 1, pathEnd - comma - 1)));
+  option.value = std::string(trimmed(std::string_view(text).substr(equals + 1)));
+  try {
+    option.timeNs = parseDuration(trimmed(std::string_view(text).substr(0, comma)), true);
+  } catch (const app::Error &error) {
+    throw app::Error(fmt::format("--set '{}': {}", text, error.what()));
+  }
+  if (option.path.empty())
+    throw app::Error(fmt::format("--set '{}' names no variable", text));
+  return option;
+}
+
+} // namespace stride::host

@@ -1,0 +1,45 @@
+// The command line of stride-host.
+#ifndef STRIDE_RUNTIME_HOST_OPTIONS_HPP
+#define STRIDE_RUNTIME_HOST_OPTIONS_HPP
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stride::host {
+
+/// `--set T,PATH=VALUE`.
+struct SetOption {
+  int64_t timeNs = 0;
+  std::string path;
+  std::string value;
+  std::string text; ///< As it was given, for messages.
+};
+
+/// `stride-host sim`.
+struct SimOptions {
+  std::string application;
+  int64_t durationNs = 0;
+  std::vector<std::string> trace; ///< Paths, in the order given.
+  std::string out;                ///< File of the trace; empty or "-": standard output.
+  std::vector<SetOption> sets;    ///< In the order given.
+  std::vector<std::string> print; ///< Paths, in the order given.
+  int64_t loopBudget = 0;         ///< Loop iterations per cycle; 0: the default.
+  bool quiet = false;             ///< No progress and no summary.
+  bool summary = false;           ///< A summary even when standard error is no terminal.
+};
+
+/// A duration in nanoseconds: T#1s500ms, LTIME#2us, or without the prefix 5s, 500ms. Throws
+/// app::Error when the text is no duration or not positive (zero is allowed with `zeroAllowed`).
+int64_t parseDuration(std::string_view text, bool zeroAllowed);
+
+/// Splits at commas outside of brackets, without blanks around the parts: "a[1,2], b" is two paths.
+std::vector<std::string> splitPaths(std::string_view text);
+
+/// `T#3s,Ipo.p=50`. Throws app::Error.
+SetOption parseSet(const std::string &text);
+
+} // namespace stride::host
+
+#endif
