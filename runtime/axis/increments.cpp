@@ -80,6 +80,12 @@ double unitsPerIncrement(const AxisRef &axis, double increments) noexcept {
          static_cast<double>(axis.dwRatioTechUnitsDenom);
 }
 
+/// Whether the axis counts turns: a rotary axis whose scaling has been configured as such. (A
+/// program that writes iMovementType changes nothing until the group starts up again.)
+bool countsTurns(const AxisRef &axis) noexcept {
+  return axis.iMovementType == 0 && axis.liTurnIncrements > 0;
+}
+
 /// The manual's residual members (1230 ff.) mirror the exact ones, as far as they can hold them.
 void mirrorResiduals(AxisRef &axis) noexcept {
   axis.dwPosOffsetForResiduals = static_cast<uint32_t>(axis.liSetTurnStart);
@@ -132,7 +138,7 @@ void synchronizePosition(AxisRef &axis, uint32_t counter) noexcept {
 void updateActual(AxisRef &axis, uint32_t counter) noexcept {
   axis.liActIncrements +=
       static_cast<int32_t>(counter - static_cast<uint32_t>(axis.liActIncrements));
-  if (axis.iMovementType != 0) {
+  if (!countsTurns(axis)) {
     axis.fActPosition =
         unitsPerIncrement(axis, static_cast<double>(axis.liActIncrements)) + axis.fOffsetPosition;
     return;
@@ -155,7 +161,7 @@ void updateActual(AxisRef &axis, uint32_t counter) noexcept {
 
 bool updateSet(AxisRef &axis, double travel) noexcept {
   const double position = axis.fSetPosition - axis.fOffsetPosition;
-  if (axis.iMovementType != 0) {
+  if (!countsTurns(axis)) {
     const double increments = incrementsPerUnit(axis, position);
     if (!(::fabs(increments) < kLinearRange))
       return false;
@@ -181,7 +187,7 @@ bool updateSet(AxisRef &axis, double travel) noexcept {
 void followActual(AxisRef &axis) noexcept {
   axis.fSetPosition = axis.fActPosition;
   axis.liSetIncrements = axis.liActIncrements;
-  if (axis.iMovementType != 0)
+  if (!countsTurns(axis))
     return;
   axis.liSetTurnStart = axis.liActTurnStart;
   axis.liSetTurnRest = axis.liActTurnRest;
