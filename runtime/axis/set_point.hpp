@@ -66,7 +66,9 @@ inline bool stepPlan(AxisRef &axis) noexcept {
   auto &plan = axis.stPlanner;
   ++plan.ulCycle;
   const double t = static_cast<double>(plan.ulCycle) * plan.fCycle;
-  if (!(t < plan.fDuration)) {
+  // A move that ends with a cycle must not need one more because of the last digit of a product.
+  const double slack = 1e-9 * plan.fCycle;
+  if (!(t + slack < plan.fDuration)) {
     axis.fSetPosition = plan.fTarget;
     writeMotion(axis, 0.0, 0.0);
     axis.bMovedInThisCycle = 1;

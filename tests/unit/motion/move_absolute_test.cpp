@@ -42,6 +42,15 @@ TEST(MoveAbsolute, SingleAxisExampleTakesTwoSeconds) {
   EXPECT_EQ(rig.axis.fActPosition, 100.0);
 }
 
+TEST(MoveAbsolute, EndsWithTheCycleInWhichItsTimeIsUp) {
+  for (const double cycle : {0.001, 0.002, 0.004, 0.005, 0.01, 0.02, 0.025, 0.1, 3e6 * 1e-9}) {
+    AxisRig rig(cycle);
+    rig.powerUp();
+    auto move = rig.move(100);
+    EXPECT_EQ(runOut(rig, move), static_cast<int>(std::ceil(2 / cycle - 1e-6))) << cycle;
+  }
+}
+
 TEST(MoveAbsolute, SetValuesAreTheClosedForm) {
   AxisRig rig(0.01);
   rig.powerUp();
