@@ -1,0 +1,38 @@
+#pragma once
+// The commands of `stride`. Each returns the exit code: 0 exactly when there was no error.
+
+#include "compiler/cli/terminal.hpp"
+
+#include <string>
+#include <vector>
+
+namespace stc::cli {
+
+/// Options that all commands on a project have.
+struct ProjectOptions {
+  std::string path; ///< folder, stride.toml or source file; empty: the current folder
+  Output output;
+  bool unchecked = false; ///< no run-time checks in generated code
+  bool debug = false;     ///< -O0 -g
+};
+
+int checkCommand(const ProjectOptions &options);
+
+/// `out`: where the shared object goes, or the sources with `emitCpp`.
+int buildCommand(const ProjectOptions &options, const std::string &out, bool emitCpp);
+
+/// Builds, then becomes stride-host with these arguments behind the application's path.
+int simCommand(const ProjectOptions &options, const std::vector<std::string> &hostArguments);
+
+int plotCommand(const std::string &trace, const std::string &out);
+
+/// `what`: a diagnostic's code, or the number or name of a SoftMotion error.
+int explainCommand(const std::string &what);
+/// All codes with their titles, one a line.
+int explainList();
+
+int newCommand(const std::string &name, const std::string &projectTemplate);
+/// Names of the templates that newCommand knows.
+[[nodiscard]] std::vector<std::string> templateNames();
+
+} // namespace stc::cli

@@ -1,0 +1,107 @@
+#include "compiler/cli/commands.hpp"
+#include "compiler/project/library_index.hpp"
+#include "compiler/project/names.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <fmt/format.h>
+#include <optional>
+
+namespace stc::cli {
+
+namespace {
+
+std::string_view trim(std::string_view text) {
+  while (!text.empty() && std::string_view(" \t\r\n").find(text.front()) != std::string_view::npos)
+    text.remove_prefix(1);
+  while (!text.empty() && std::string_view(" \t\r\n").find(text.back()) != std::string_view::npos)
+    text.remove_suffix(1);
+  return text;
+}
+
+std::optional<int> parseNumber(std::string_view text) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size())
+    return std::nullopt;
+  return number;
+}
+
+// "SE0203", "se203"
+const CodeInfo *findCode(std::string_view what) {
+  if (what.size() < 3 || !equalIgnoringCase(what.substr(0, 2), "SE"))
+    return nullptr;
+  const std::optional<int> number = parseNumber(what.substr(2));
+  if (!number)
+    return nullptr;
+  for (const CodeInfo &info : allCodes())
+    if (static_cast<int>(info.code) == *number)
+      return &info;
+  return nullptr;
+}
+
+struct MotionError {
+  std::string name;
+  int number = 0;
+  std::string text;
+};
+
+// Looks for an enumerator in the declaration of SMC_ERROR, by number or by name.
+std::optional<MotionError> findMotionError(std::string_view what) {
+  const EmbeddedLibraryIndex index(standardLibrary());
+  const std::vector<LibraryIndex::Entry> entries = index.find("smc_error");
+  if (entries.empty())
+    return std::nullopt;
+  const std::optional<int> wanted = parseNumber(what);
+  std::string_view rest = entries.front().text;
+  std::string doc;
+  while (!rest.empty()) {
+    const std::size_t end = rest.find('\n');
+    const std::string_view line = trim(rest.substr(0, end));
+    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+    if (line.starts_with("///")) {
+      doc += (doc.empty() ? "" : " ") + std::string(trim(line.substr(3)));
+      continue;
+    }
+    const std::size_t assign = line.find(":=");
+    if (assign != std::string_view::npos) {
+      std::string_view value = trim(line.substr(assign + 2));
+      if (value.ends_with(','))
+        value = trim(value.substr(0, value.size() - 1));
+      const std::string_view name = trim(line.substr(0, assign));
+      const std::optional<int> number = parseNumber(value);
+      if (number && (wanted ? *number == *wanted : equalIgnoringCase(name, what)))
+        return MotionError{std::string(name), *number, doc};
+    }
+    doc.clear();
+  }
+  return std::nullopt;
+}
+
+void print(const std::string &text) { std::fwrite(text.data(), 1, text.size(), stdout); }
+
+} // namespace
+
+int explainCommand(const std::string &what) {
+  if (const CodeInfo *code = findCode(what)) {
+    print(fmt::format("{}: {}\n\n{}\n", codeName(code->code), code->title, trim(code->explain)));
+    return 0;
+  }
+  if (const std::optional<MotionError> error = findMotionError(what)) {
+    print(fmt::format("SMC_ERROR {}: {}\n\n{}\n", error->number, error->name, error->text));
+    return 0;
+  }
+  return showError(Code::unknownCode,
+                   fmt::format("there is no diagnostic and no SoftMotion error `{}`", what));
+}
+
+int explainList() {
+  std::string text;
+  for (const CodeInfo &info : allCodes())
+    text += fmt::format("{} {}\n", codeName(info.code), info.title);
+  print(text);
+  return 0;
+}
+
+} // namespace stc::cli

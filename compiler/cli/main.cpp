@@ -1,0 +1,141 @@
+// The command `stride`.
+
+#include "compiler/cli/commands.hpp"
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <map>
+
+namespace stc::cli {
+
+namespace {
+
+constexpr const char *kVersion = "stride " STRIDE_VERSION;
+constexpr int kUsageError = 2;
+
+void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build) {
+  command
+      .add_option("PATH", options.path, "Project folder or .st file (default: the current folder)")
+      ->type_name("");
+  static const std::map<std::string, ColorChoice> colors = {{"auto", ColorChoice::automatic},
+                                                            {"always", ColorChoice::always},
+                                                            {"never", ColorChoice::never}};
+  static const std::map<std::string, Format> formats = {{"text", Format::text},
+                                                        {"json", Format::json}};
+  command.add_option("--color", options.output.color, "Colours: auto (default), always, never")
+      ->transform(CLI::CheckedTransformer(colors).description(""))
+      ->type_name("WHEN");
+  command.add_option("--format", options.output.format, "Diagnostics as text (default) or json")
+      ->transform(CLI::CheckedTransformer(formats).description(""))
+      ->type_name("FORMAT");
+  if (!build)
+    return;
+  command.add_flag("--unchecked", options.unchecked,
+                   "Leave out index, range, division and pointer checks");
+  command.add_flag("--debug", options.debug, "Compile quickly and with debug information");
+}
+
+int run(int argc, char **argv) {
+  CLI::App app("Structured Text and SoftMotion programs: check, build, simulate");
+  app.set_version_flag("--version", kVersion);
+  app.require_subcommand(0, 1);
+  app.name("stride");
+  int exitCode = 0;
+
+  std::string name;
+  std::string projectTemplate = "axis";
+  CLI::App *create = app.add_subcommand("new", "Make a project that builds and moves an axis");
+  create->add_option("NAME", name, "Folder to create")->required()->type_name("");
+  create->add_option("--template", projectTemplate, "axis (default): one drive; plain: no drives")
+      ->check(CLI::IsMember(templateNames()).description(""))
+      ->type_name("TEMPLATE");
+  create->callback([&] { exitCode = newCommand(name, projectTemplate); });
+
+  ProjectOptions options;
+  CLI::App *check = app.add_subcommand("check", "Parse, resolve and type-check");
+  addProjectOptions(*check, options, false);
+  check->callback([&] { exitCode = checkCommand(options); });
+
+  std::string out;
+  std::string emit;
+  CLI::App *build = app.add_subcommand("build", "Make the application");
+  addProjectOptions(*build, options, true);
+  build->add_option("-o,--out", out, "The shared object to write (with --emit cpp: the folder)")
+      ->type_name("OUT");
+  build->add_option("--emit", emit, "cpp: only write the C++ sources")
+      ->check(CLI::IsMember({"cpp"}).description(""))
+      ->type_name("KIND");
+  build->callback([&] { exitCode = buildCommand(options, out, emit == "cpp"); });
+
+  std::vector<std::string> host;
+  CLI::App *sim = app.add_subcommand("sim", "Build, then run in virtual time");
+  addProjectOptions(*sim, options, true);
+  const auto pass = [&](const char *option, const char *help, const char *type) {
+    sim->add_option_function<std::vector<std::string>>(
+           std::string("--") + option,
+           [&host, option](const std::vector<std::string> &values) {
+             for (const std::string &value : values)
+               host.insert(host.end(), {std::string("--") + option, value});
+           },
+           help)
+        ->expected(1)
+        ->take_all()
+        ->type_name(type);
+  };
+  pass("for", "How long, in virtual time: T#5s", "TIME");
+  pass("trace", "Variables to record in every cycle: Drive.fSetPosition,Main.n", "NAMES");
+  pass("out", "CSV file for the trace", "FILE");
+  pass("set", "Write a variable at a time: T#3s,Main.p=50 (may be repeated)", "TIME,NAME=VALUE");
+  pass("print", "Variables to print at the end", "NAMES");
+  sim->callback([&] { exitCode = simCommand(options, host); });
+
+  std::string trace;
+  CLI::App *plot = app.add_subcommand("plot", "Draw a trace");
+  plot->add_option("TRACE", trace, "CSV file that `stride sim --out` wrote")
+      ->required()
+      ->type_name("");
+  plot->add_option("-o,--out", out, "SVG file to write (default: TRACE with .svg)")
+      ->type_name("FILE");
+  plot->callback([&] { exitCode = plotCommand(trace, out); });
+
+  std::string what;
+  bool list = false;
+  CLI::App *explain = app.add_subcommand("explain", "Explain a diagnostic or a SoftMotion error");
+  explain->add_option("CODE", what, "SE0203, or a number or name of SMC_ERROR")->type_name("");
+  explain->add_flag("--list", list, "List all codes");
+  explain->callback([&] {
+    if (!list && what.empty())
+      throw CLI::RequiredError("CODE or --list");
+    exitCode = list ? explainList() : explainCommand(what);
+  });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success &success) { // --help, --version
+    return app.exit(success);
+  } catch (const CLI::ParseError &error) {
+    std::fprintf(stderr, "stride: %s\nTry: stride%s --help\n", error.what(),
+                 app.get_subcommands().empty()
+                     ? ""
+                     : (" " + app.get_subcommands().front()->get_name()).c_str());
+    return kUsageError;
+  }
+  if (app.get_subcommands().empty())
+    std::fputs(app.help().c_str(), stdout);
+  return exitCode;
+}
+
+} // namespace
+
+} // namespace stc::cli
+
+int main(int argc, char **argv) {
+  std::signal(SIGPIPE, SIG_DFL);
+  try {
+    return stc::cli::run(argc, argv);
+  } catch (const std::exception &error) {
+    std::fprintf(stderr, "stride: internal error: %s\n", error.what());
+    return 70;
+  }
+}

@@ -1,0 +1,31 @@
+#include "compiler/cli/plot.hpp"
+
+#include "compiler/cli/commands.hpp"
+#include "compiler/project/file_system.hpp"
+
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace stc::cli {
+
+int plotCommand(const std::string &trace, const std::string &out) {
+  const std::optional<std::string> csv = readFile(trace);
+  if (!csv)
+    return showError(Code::unreadableFile,
+                     fmt::format("`{}` cannot be read: {}", trace, lastError()));
+  TraceError error;
+  const std::optional<Trace> data = readTrace(*csv, error);
+  if (!data)
+    return showError(Code::badTrace,
+                     error.line == 0 ? fmt::format("`{}` is not a trace: {}", trace, error.message)
+                                     : fmt::format("`{}` is not a trace: line {}: {}", trace,
+                                                   error.line, error.message));
+  const std::string path =
+      out.empty() ? std::filesystem::path(trace).replace_extension(".svg").string() : out;
+  if (!writeFile(path, drawSvg(*data)))
+    return showError(Code::cannotWrite,
+                     fmt::format("`{}` cannot be written: {}", path, lastError()));
+  return 0;
+}
+
+} // namespace stc::cli

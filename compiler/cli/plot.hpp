@@ -1,0 +1,53 @@
+#pragma once
+// Drawing a trace as SVG.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stc::cli {
+
+/// One column of a trace. BOOL values are 0 and 1.
+struct Series {
+  std::string name;
+  std::vector<double> values;
+  bool isBool = false;
+};
+
+/// A trace: values over time.
+struct Trace {
+  std::vector<double> time; ///< s
+  std::vector<Series> series;
+};
+
+/// Why a CSV text is no trace.
+struct TraceError {
+  std::size_t line = 0; ///< 1-based; 0: the text as a whole
+  std::string message;
+};
+
+/// Reads the CSV that `stride sim --out` writes: a header `t,name,…`, then a row of numbers (or
+/// TRUE, FALSE) per cycle.
+[[nodiscard]] std::optional<Trace> readTrace(std::string_view csv, TraceError &error);
+
+/// What a variable is a value of, guessed from its name: `Drive.fSetVelocity` is a velocity in u/s.
+struct Quantity {
+  std::string title; ///< "Velocity"; for an unknown quantity the variable's own name
+  std::string unit;  ///< "u/s"; may be empty
+  bool operator==(const Quantity &) const = default;
+};
+[[nodiscard]] Quantity quantityOf(std::string_view variable);
+
+/// Round numbers that divide a range into about `count` parts.
+struct Ticks {
+  std::vector<double> values;
+  int decimals = 0;
+};
+[[nodiscard]] Ticks niceTicks(double low, double high, int count);
+
+/// The trace as an SVG picture: a panel per quantity with the curves of all its columns, BOOLs as
+/// lanes below.
+[[nodiscard]] std::string drawSvg(const Trace &trace);
+
+} // namespace stc::cli

@@ -1,0 +1,99 @@
+// check, build, sim
+
+#include "compiler/cli/commands.hpp"
+#include "compiler/project/build.hpp"
+#include "compiler/project/installation.hpp"
+#include "compiler/project/library_index.hpp"
+#include "compiler/project/project.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace stc::cli {
+
+namespace {
+
+Settings settingsOf(const ProjectOptions &options) {
+  Settings settings;
+  settings.checks = !options.unchecked;
+  return settings;
+}
+
+// Opens and builds the project and shows its diagnostics. `exitCode` is that of the command.
+std::optional<BuildResult> buildProject(const ProjectOptions &options, BuildOptions build,
+                                        ProgressLine &progress, int &exitCode) {
+  const EmbeddedLibraryIndex index(standardLibrary());
+  Project project(options.path, Purpose::build, settingsOf(options), index);
+  std::optional<BuildResult> result;
+  if (!project.hasErrors()) {
+    build.debug = options.debug;
+    build.progress = [&](std::string_view what, std::size_t done, std::size_t total) {
+      progress.update(what, done, total);
+    };
+    result = stc::build(project, build);
+  }
+  progress.clear();
+  exitCode = show(project.diagnostics(), project.sources(), options.output);
+  return result;
+}
+
+} // namespace
+
+int checkCommand(const ProjectOptions &options) {
+  const EmbeddedLibraryIndex index(standardLibrary());
+  const Project project(options.path, Purpose::check, settingsOf(options), index);
+  return show(project.diagnostics(), project.sources(), options.output);
+}
+
+int buildCommand(const ProjectOptions &options, const std::string &out, bool emitCpp) {
+  BuildOptions build;
+  build.output = out;
+  build.emitOnly = emitCpp;
+  const std::filesystem::path path(options.path);
+  std::error_code error;
+  // What somebody asks to be built from a single file is put where he stands.
+  if (out.empty() && !emitCpp && std::filesystem::is_regular_file(path, error) &&
+      path.filename() != "stride.toml")
+    build.output = path.stem().string() + ".so";
+  ProgressLine progress;
+  int exitCode = 0;
+  const std::optional<BuildResult> result = buildProject(options, build, progress, exitCode);
+  if (result && progress.isTerminal())
+    std::fputs(emitCpp ? fmt::format("Written: {}\n", result->application.string()).c_str()
+                       : fmt::format("Built {} in {:.2f} s ({} of {} units compiled)\n",
+                                     result->application.string(), progress.seconds(),
+                                     result->compiled, result->units)
+                             .c_str(),
+               stderr);
+  return exitCode;
+}
+
+int simCommand(const ProjectOptions &options, const std::vector<std::string> &hostArguments) {
+  std::optional<BuildResult> result;
+  int exitCode = 0;
+  {
+    ProgressLine progress;
+    result = buildProject(options, {}, progress, exitCode);
+  }
+  if (!result || exitCode != 0)
+    return exitCode;
+  std::string missing;
+  const std::optional<Installation> installation = findInstallation(missing);
+  const std::string host = installation ? installation->host.string() : missing;
+  std::vector<std::string> arguments = {host, "sim", result->application.string()};
+  arguments.insert(arguments.end(), hostArguments.begin(), hostArguments.end());
+  std::vector<char *> pointers;
+  for (std::string &argument : arguments)
+    pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  std::fflush(nullptr);
+  ::execv(host.c_str(), pointers.data());
+  return showError(Code::toolchainMissing,
+                   fmt::format("`{}` cannot be started: {}", host, std::strerror(errno)),
+                   options.output);
+}
+
+} // namespace stc::cli

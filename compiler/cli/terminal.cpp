@@ -1,0 +1,93 @@
+#include "compiler/cli/terminal.hpp"
+
+#include "compiler/source/render.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace stc::cli {
+
+namespace {
+
+std::string count(std::size_t number, std::string_view what) {
+  return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+}
+
+void write(std::FILE *to, const std::string &text) { std::fwrite(text.data(), 1, text.size(), to); }
+
+} // namespace
+
+bool Output::useColor() const {
+  if (color != ColorChoice::automatic)
+    return color == ColorChoice::always;
+  const char *none = std::getenv("NO_COLOR");
+  const char *terminal = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) != 0 && (none == nullptr || *none == 0) &&
+         (terminal == nullptr || std::string_view(terminal) != "dumb");
+}
+
+int show(const std::vector<Diagnostic> &diagnostics, const SourceManager &sources,
+         const Output &output) {
+  std::size_t errors = 0;
+  std::size_t warnings = 0;
+  const bool color = output.format == Format::text && output.useColor();
+  std::string text;
+  for (const Diagnostic &diagnostic : diagnostics) {
+    errors += diagnostic.severity == Severity::error ? 1 : 0;
+    warnings += diagnostic.severity == Severity::warning ? 1 : 0;
+    if (output.format == Format::json) {
+      text += renderJson(diagnostic, sources);
+      if (text.back() != '\n')
+        text += '\n';
+    } else {
+      text += renderText(diagnostic, sources, {color});
+    }
+  }
+  if (output.format == Format::json) {
+    write(stdout, text);
+    std::fflush(stdout);
+    return errors == 0 ? 0 : 1;
+  }
+  if (errors + warnings != 0) {
+    const bool failed = errors != 0;
+    const std::string_view head = failed ? "error" : "warning";
+    const std::string_view on = !color ? "" : failed ? "\x1b[1;31m" : "\x1b[1;33m";
+    std::string counts = failed ? count(errors, "error") : std::string();
+    if (warnings != 0)
+      counts += (failed ? ", " : "") + count(warnings, "warning");
+    text += fmt::format("{}{}{}: {}\n", on, head, color ? "\x1b[0m" : "", counts);
+  }
+  write(stderr, text);
+  return errors == 0 ? 0 : 1;
+}
+
+int showError(Code code, std::string message, const Output &output) {
+  Diagnostics diagnostics;
+  diagnostics.report(code, {}, std::move(message));
+  return show(diagnostics.all(), {}, output);
+}
+
+ProgressLine::ProgressLine()
+    : terminal_(::isatty(STDERR_FILENO) != 0), start_(std::chrono::steady_clock::now()) {}
+
+void ProgressLine::update(std::string_view what, std::size_t done, std::size_t total) {
+  if (!terminal_)
+    return;
+  write(stderr, fmt::format("\r\x1b[K[{}/{}] {}", done, total, what));
+  std::fflush(stderr);
+  shown_ = true;
+}
+
+void ProgressLine::clear() {
+  if (shown_)
+    write(stderr, "\r\x1b[K");
+  shown_ = false;
+}
+
+double ProgressLine::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+} // namespace stc::cli

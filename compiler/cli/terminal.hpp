@@ -1,0 +1,54 @@
+#pragma once
+// What a command shows its user.
+
+#include "compiler/source/diagnostic.hpp"
+#include "compiler/source/source_manager.hpp"
+
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stc::cli {
+
+enum class ColorChoice { automatic, always, never };
+enum class Format { text, json };
+
+/// How diagnostics are shown.
+struct Output {
+  ColorChoice color = ColorChoice::automatic;
+  Format format = Format::text;
+
+  /// Whether standard error gets colours: on a terminal unless NO_COLOR is set, or as chosen.
+  [[nodiscard]] bool useColor() const;
+};
+
+/// Writes diagnostics, text with a summary line to standard error, JSON (an object a line) to
+/// standard output. Returns the exit code: 0 exactly when none is an error.
+int show(const std::vector<Diagnostic> &diagnostics, const SourceManager &sources,
+         const Output &output);
+
+/// A single error without a place.
+int showError(Code code, std::string message, const Output &output = {});
+
+/// One line on the terminal that changes while something lasts; nothing when standard error is no
+/// terminal.
+class ProgressLine {
+public:
+  ProgressLine();
+  ~ProgressLine() { clear(); }
+  ProgressLine(const ProgressLine &) = delete;
+  ProgressLine &operator=(const ProgressLine &) = delete;
+
+  void update(std::string_view what, std::size_t done, std::size_t total);
+  void clear();
+  [[nodiscard]] bool isTerminal() const { return terminal_; }
+  [[nodiscard]] double seconds() const;
+
+private:
+  bool terminal_;
+  bool shown_ = false;
+  std::chrono::steady_clock::time_point start_;
+};
+
+} // namespace stc::cli

@@ -1,0 +1,90 @@
+#pragma once
+// What stride.toml says: tasks and PLC configuration (SoftMotion V2.3 manual, section 2.1).
+
+#include "compiler/source/diagnostic.hpp"
+#include "compiler/source/source_manager.hpp"
+#include "compiler/syntax/ast.hpp"
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stc {
+
+/// A name and where stride.toml says it; the span is invalid for defaults.
+struct ConfigName {
+  std::string text;
+  Span span;
+};
+
+struct TaskConfig {
+  ConfigName name;
+  std::int64_t intervalNs = 0;
+  unsigned priority = 1;
+  std::vector<ConfigName> programs; ///< called in this order
+};
+
+/// Members of an AXIS_REF or SMC_AXISGROUP_REF that the configuration sets: name and value as ST
+/// text.
+using ConfigFields = std::vector<std::pair<std::string, std::string>>;
+
+struct DriveConfig {
+  ConfigName name;
+  ConfigFields fields;
+};
+
+struct AxisGroupConfig {
+  ConfigName name;
+  std::string bus;
+  std::string driver; ///< first word of InterfaceType
+  ConfigName task;    ///< sTask; empty: the only task
+  Span groupSpan;
+  std::uint32_t cycleUs = 0; ///< dwCycle; 0: not given
+  Span cycleSpan;
+  ConfigFields fields;
+  std::vector<DriveConfig> drives;
+};
+
+/// The configuration of one project. Without stride.toml it is empty but for the name.
+struct ProjectConfig {
+  std::string name;
+  unsigned generation = 2; ///< softmotion: 2 = "2.3", 3 = "3"
+  std::vector<TaskConfig> tasks;
+  std::vector<AxisGroupConfig> axisGroups;
+  bool incomplete = false; ///< a drive, axis group or everything had to be left out
+};
+
+/// Reads and checks stride.toml. What is wrong is reported with its place; what is right is
+/// returned.
+[[nodiscard]] ProjectConfig readConfig(const SourceFile &toml, Diagnostics &diagnostics);
+
+/// What resolveTasks demands of the PROGRAMs.
+enum class ProgramCheck : std::uint8_t {
+  skip,     ///< nothing: the sources have syntax errors, so that PROGRAMs may be missing
+  existing, ///< those named by tasks must exist; a project without any is fine (check)
+  runnable, ///< there must also be something to call (build, sim)
+};
+
+/// Completes the tasks with the sources' help: without [[task]] one cyclic task (`Task`, 10 ms or
+/// the axis groups' dwCycle) calls PLC_PRG or the only PROGRAM. Then gives every axis group its
+/// task.
+void resolveTasks(ProjectConfig &config, const std::vector<ast::File *> &files,
+                  ProgramCheck programCheck, Diagnostics &diagnostics);
+
+/// A part of the synthetic declarations and the part of stride.toml it stands for.
+struct DeclaredRange {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+  Span origin;
+};
+
+/// The PLC configuration as ST: one VAR_GLOBAL with an AXIS_REF per drive and an SMC_AXISGROUP_REF
+/// per axis group. Empty without axis groups. Drives and groups named like something in `files` are
+/// reported and left out.
+[[nodiscard]] std::string plcDeclarations(const ProjectConfig &config,
+                                          const std::vector<ast::File *> &files,
+                                          std::vector<DeclaredRange> &ranges,
+                                          Diagnostics &diagnostics);
+
+} // namespace stc

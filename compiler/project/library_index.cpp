@@ -1,0 +1,59 @@
+#include "compiler/project/library_index.hpp"
+
+#include "compiler/project/names.hpp"
+
+#include <algorithm>
+
+namespace stc {
+
+static LibraryIndex::Entry entryOf(const EmbeddedFile &file) {
+  return {file.library, file.fileName, file.text};
+}
+
+std::vector<LibraryIndex::Entry> EmbeddedLibraryIndex::find(std::string_view lowerName) const {
+  std::vector<Entry> result;
+  auto at = std::lower_bound(
+      tables_.names.begin(), tables_.names.end(), lowerName,
+      [](const EmbeddedName &name, std::string_view word) { return name.lower < word; });
+  for (; at != tables_.names.end() && at->lower == lowerName; ++at) {
+    const EmbeddedFile &file = tables_.files[at->file];
+    const bool known = std::any_of(result.begin(), result.end(), [&](const Entry &entry) {
+      return entry.library == file.library;
+    });
+    if (!known)
+      result.push_back(entryOf(file));
+  }
+  return result;
+}
+
+bool EmbeddedLibraryIndex::isLibrary(std::string_view lowerName) const {
+  return std::any_of(tables_.files.begin(), tables_.files.end(), [&](const EmbeddedFile &file) {
+    return equalIgnoringCase(file.library, lowerName);
+  });
+}
+
+std::vector<std::string_view> EmbeddedLibraryIndex::names() const {
+  std::vector<std::string_view> result;
+  for (const EmbeddedName &name : tables_.names)
+    if (result.empty() || result.back() != name.lower)
+      result.push_back(name.lower);
+  return result;
+}
+
+std::vector<LibraryIndex::Entry> EmbeddedLibraryIndex::files(std::string_view library) const {
+  std::vector<Entry> result;
+  for (const EmbeddedFile &file : tables_.files)
+    if (equalIgnoringCase(file.library, library))
+      result.push_back(entryOf(file));
+  return result;
+}
+
+std::vector<std::string_view> EmbeddedLibraryIndex::libraries() const {
+  std::vector<std::string_view> result;
+  for (const EmbeddedFile &file : tables_.files)
+    if (result.empty() || result.back() != file.library)
+      result.push_back(file.library);
+  return result;
+}
+
+} // namespace stc

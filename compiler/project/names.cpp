@@ -1,0 +1,63 @@
+#include "compiler/project/names.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace stc {
+
+namespace {
+
+// Sorted.
+constexpr std::array<std::string_view, 83> kReserved = {
+    "and",        "array",         "at",           "bool",
+    "by",         "byte",          "case",         "constant",
+    "date",       "date_and_time", "dint",         "do",
+    "dt",         "dword",         "else",         "elsif",
+    "end_case",   "end_for",       "end_function", "end_function_block",
+    "end_if",     "end_program",   "end_repeat",   "end_struct",
+    "end_type",   "end_var",       "end_while",    "exit",
+    "false",      "for",           "function",     "function_block",
+    "if",         "int",           "ldate",        "ldt",
+    "lint",       "lreal",         "ltime",        "ltod",
+    "lword",      "mod",           "not",          "of",
+    "or",         "persistent",    "pointer",      "program",
+    "real",       "reference",     "repeat",       "retain",
+    "return",     "sint",          "string",       "struct",
+    "then",       "time",          "time_of_day",  "to",
+    "tod",        "true",          "type",         "udint",
+    "uint",       "ulint",         "until",        "usint",
+    "var",        "var_access",    "var_config",   "var_external",
+    "var_global", "var_in_out",    "var_input",    "var_inst",
+    "var_output", "var_stat",      "var_temp",     "while",
+    "word",       "wstring",       "xor"};
+
+} // namespace
+
+std::string lowerCase(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), asciiLower);
+  return result;
+}
+
+bool equalIgnoringCase(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return asciiLower(x) == asciiLower(y); });
+}
+
+bool isReservedWord(std::string_view text) {
+  const std::string lower = lowerCase(text);
+  return std::binary_search(kReserved.begin(), kReserved.end(), lower);
+}
+
+bool isIdentifier(std::string_view text) {
+  const auto letter = [](char c) {
+    return (asciiLower(c) >= 'a' && asciiLower(c) <= 'z') || c == '_';
+  };
+  if (text.empty() || !letter(text.front()) || isReservedWord(text) ||
+      text.find("__") != std::string_view::npos)
+    return false;
+  return std::all_of(text.begin(), text.end(),
+                     [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+} // namespace stc

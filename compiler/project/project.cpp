@@ -1,0 +1,197 @@
+#include "compiler/project/project.hpp"
+
+#include "compiler/project/file_system.hpp"
+#include "compiler/project/names.hpp"
+#include "compiler/syntax/parser.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace stc {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view kManifest = "stride.toml";
+
+// All source files below the folder, sorted by path. Hidden and `build` folders are left out.
+std::vector<fs::path> findSources(const fs::path &folder, std::error_code &error) {
+  std::vector<fs::path> found;
+  fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
+  for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    std::error_code ignored;
+    if (at->is_directory(ignored)) {
+      if (name.starts_with('.') || name == "build")
+        at.disable_recursion_pending();
+      continue;
+    }
+    if (!name.starts_with('.') && lowerCase(at->path().extension().string()) == ".st")
+      found.push_back(at->path());
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+} // namespace
+
+Project::Project(const fs::path &path, Purpose purpose, const Settings &settings,
+                 const LibraryIndex &index) {
+  program_.settings = settings;
+  load(path.empty() ? fs::path(".") : path);
+  if (loaded_)
+    analyse(purpose, index);
+}
+
+void Project::load(const fs::path &given) {
+  std::error_code error;
+  const fs::file_status status = fs::status(given, error);
+  if (!fs::exists(status)) {
+    program_.diagnostics.report(Code::pathNotFound, {},
+                                fmt::format("there is no file or folder `{}`", given.string()));
+    return;
+  }
+  if (fs::is_directory(status) || given.filename() == kManifest) {
+    path_ = fs::is_directory(status) ? given : given.parent_path();
+    if (path_.empty())
+      path_ = ".";
+    config_.name = fs::absolute(path_, error).lexically_normal().filename().string();
+    if (config_.name.empty()) // the path ends with a slash
+      config_.name =
+          fs::absolute(path_, error).lexically_normal().parent_path().filename().string();
+    loadFolder();
+    return;
+  }
+  path_ = given;
+  single_ = true;
+  config_.name = given.stem().string();
+  loadFile(given, given.string());
+  loaded_ = !hasErrors();
+}
+
+void Project::loadFolder() {
+  std::error_code error;
+  const fs::path manifest = path_ / kManifest;
+  if (fs::exists(manifest, error)) {
+    if (const std::optional<FileId> id = program_.sources.load(manifest, std::string(kManifest)))
+      tomlFile_ = *id;
+    else
+      program_.diagnostics.report(
+          Code::unreadableFile, {},
+          fmt::format("`{}` cannot be read: {}", manifest.string(), lastError()));
+  }
+  const std::vector<fs::path> sources = findSources(path_, error);
+  if (error)
+    program_.diagnostics.report(
+        Code::unreadableFile, {},
+        fmt::format("`{}` cannot be read: {}", path_.string(), error.message()));
+  else if (sources.empty())
+    program_.diagnostics
+        .report(Code::noSources, {},
+                fmt::format("there are no `.st` files in `{}`", path_.string()))
+        .help("`stride new NAME` makes a project to start from");
+  for (const fs::path &source : sources)
+    loadFile(source, source.lexically_relative(path_).string());
+  loaded_ = !sources.empty();
+}
+
+void Project::loadFile(const fs::path &path, const std::string &name) {
+  if (const std::optional<FileId> id = program_.sources.load(path, name))
+    sourceFiles_.push_back(*id);
+  else
+    program_.diagnostics.report(Code::unreadableFile, {},
+                                fmt::format("`{}` cannot be read: {}", path.string(), lastError()));
+}
+
+bool Project::declaresNothing(const std::vector<ast::File *> &files) const {
+  return !hasErrors() && std::all_of(files.begin(), files.end(), [](const ast::File *file) {
+    return file->declarations.empty();
+  });
+}
+
+void Project::analyse(Purpose purpose, const LibraryIndex &index) {
+  if (tomlFile_ != 0) {
+    ProjectConfig read = readConfig(program_.sources.file(tomlFile_), program_.diagnostics);
+    if (read.name.empty())
+      read.name = config_.name;
+    config_ = std::move(read);
+  }
+  const std::size_t configErrors = program_.diagnostics.errorCount();
+  std::vector<ast::File *> files;
+  for (const FileId id : sourceFiles_)
+    files.push_back(
+        parse(program_.sources.file(id), program_.interner, program_.arena, program_.diagnostics));
+  const bool syntaxErrors = program_.diagnostics.errorCount() != configErrors;
+  if (declaresNothing(files)) {
+    program_.diagnostics.report(
+        Code::nothingDeclared, {},
+        sourceFiles_.size() == 1
+            ? fmt::format("`{}` declares nothing", program_.sources.file(sourceFiles_[0]).name())
+            : std::string("the source files declare nothing"));
+    return;
+  }
+  if (config_.incomplete)
+    return; // what is missing of the configuration would be missed everywhere in the program
+  const ProgramCheck programCheck = syntaxErrors                ? ProgramCheck::skip
+                                    : purpose == Purpose::build ? ProgramCheck::runnable
+                                                                : ProgramCheck::existing;
+  resolveTasks(config_, files, programCheck, program_.diagnostics);
+  const std::string declarations = plcDeclarations(config_, files, ranges_, program_.diagnostics);
+  if (!declarations.empty()) {
+    plcFile_ = program_.sources.add("<plc configuration>", declarations);
+    files.insert(files.begin(), parse(program_.sources.file(plcFile_), program_.interner,
+                                      program_.arena, program_.diagnostics));
+  }
+  program_.files = files;
+  check(program_, files, index);
+}
+
+Span Project::origin(Span span) const {
+  if (span.file != plcFile_ || plcFile_ == 0)
+    return span;
+  for (const DeclaredRange &range : ranges_)
+    if (span.begin >= range.begin && span.begin < range.end)
+      return range.origin;
+  return {};
+}
+
+std::vector<Diagnostic> Project::diagnostics() const {
+  Diagnostics sorted = program_.diagnostics;
+  sorted.sort();
+  std::vector<Diagnostic> result = sorted.all();
+  for (Diagnostic &diagnostic : result)
+    for (Label &label : diagnostic.labels)
+      label.span = origin(label.span);
+  return result;
+}
+
+AppConfig Project::appConfig() const {
+  AppConfig app;
+  app.name = config_.name;
+  for (const TaskConfig &from : config_.tasks) {
+    AppConfig::Task task;
+    task.name = from.name.text;
+    task.intervalNs = from.intervalNs;
+    task.priority = from.priority;
+    for (const ConfigName &program : from.programs)
+      for (PouSymbol *pou : program_.user->pous)
+        if (equalIgnoringCase(pou->name.text, program.text))
+          task.programs.push_back(pou);
+    app.tasks.push_back(std::move(task));
+  }
+  for (const AxisGroupConfig &from : config_.axisGroups) {
+    AppConfig::AxisGroup group;
+    group.name = from.name.text;
+    group.bus = from.bus;
+    group.driver = from.driver;
+    group.task = from.task.text;
+    group.cycleUs = from.cycleUs;
+    for (const DriveConfig &drive : from.drives)
+      group.drives.push_back({drive.name.text});
+    app.axisGroups.push_back(std::move(group));
+  }
+  return app;
+}
+
+} // namespace stc

@@ -1,0 +1,64 @@
+#pragma once
+// A project, from its path to a checked program.
+
+#include "compiler/codegen/codegen.hpp"
+#include "compiler/project/config.hpp"
+#include "compiler/semantics/program.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stc {
+
+/// What a project is opened for.
+enum class Purpose {
+  check, ///< a project without a PROGRAM is fine
+  build, ///< there must be something to run
+};
+
+/// The sources and the configuration of a project folder, or a single source file. Everything wrong
+/// is in diagnostics(); the program is fit for code generation when there is no error among them.
+class Project {
+public:
+  /// `path`: a folder, a stride.toml or a source file; empty: the current folder.
+  Project(const std::filesystem::path &path, Purpose purpose, const Settings &settings,
+          const LibraryIndex &index);
+
+  /// All diagnostics so far, sorted; places in the synthetic declarations of the PLC configuration
+  /// are given as the places of stride.toml they come from.
+  [[nodiscard]] std::vector<Diagnostic> diagnostics() const;
+  [[nodiscard]] bool hasErrors() const { return program_.diagnostics.hasErrors(); }
+
+  [[nodiscard]] Program &program() { return program_; }
+  [[nodiscard]] const Program &program() const { return program_; }
+  [[nodiscard]] const SourceManager &sources() const { return program_.sources; }
+  /// A project that is one source file, with nothing of its own on disk.
+  [[nodiscard]] bool isSingleFile() const { return single_; }
+  /// The project's folder, or the single source file.
+  [[nodiscard]] const std::filesystem::path &path() const { return path_; }
+  /// Name of the application.
+  [[nodiscard]] const std::string &name() const { return config_.name; }
+  /// Tasks and axis groups for code generation; only without errors.
+  [[nodiscard]] AppConfig appConfig() const;
+
+private:
+  void load(const std::filesystem::path &given);
+  void loadFolder();
+  void loadFile(const std::filesystem::path &path, const std::string &name);
+  void analyse(Purpose purpose, const LibraryIndex &index);
+  bool declaresNothing(const std::vector<ast::File *> &files) const;
+  [[nodiscard]] Span origin(Span span) const;
+
+  Program program_;
+  ProjectConfig config_;
+  std::filesystem::path path_;
+  bool single_ = false;
+  bool loaded_ = false;
+  std::vector<FileId> sourceFiles_;
+  FileId tomlFile_ = 0;
+  FileId plcFile_ = 0; ///< synthetic declarations
+  std::vector<DeclaredRange> ranges_;
+};
+
+} // namespace stc

@@ -1,0 +1,370 @@
+#include "compiler/project/schema.hpp"
+
+#include "compiler/project/interval.hpp"
+#include "compiler/project/names.hpp"
+#include "compiler/semantics/suggest.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace stc {
+
+namespace {
+
+// "POS, VEL -> POS, VEL" and "pos,vel->pos,vel" are the same choice.
+std::string canonical(std::string_view text) {
+  std::string result;
+  for (const char c : text)
+    if (c != ' ' && c != '\t')
+      result += asciiLower(c);
+  return result;
+}
+
+std::string formatNumber(double value) {
+  return std::floor(value) == value && std::fabs(value) < 1e15 ? fmt::format("{:.0f}", value)
+                                                               : fmt::format("{}", value);
+}
+
+std::string listChoices(const Parameter &parameter) {
+  std::string result;
+  for (const Choice &choice : parameter.choices)
+    result += fmt::format("{}\"{}\"", result.empty() ? "" : ", ", choice.name);
+  return result;
+}
+
+std::string_view expectation(ParameterType type) {
+  switch (type) {
+  case ParameterType::text:
+  case ParameterType::identifier:
+  case ParameterType::choice:
+    return "text in quotes";
+  case ParameterType::boolean:
+    return "`true` or `false`";
+  case ParameterType::integer:
+    return "an integer";
+  case ParameterType::real:
+    return "a number";
+  case ParameterType::interval:
+    return "a duration in quotes, such as \"T#3ms\"";
+  case ParameterType::nameList:
+    return "a list of names, such as [\"PLC_PRG\"]";
+  }
+  return "";
+}
+
+bool hasType(ParameterType type, const TomlNode &value) {
+  switch (type) {
+  case ParameterType::text:
+  case ParameterType::identifier:
+  case ParameterType::interval:
+    return value.kind == TomlKind::string;
+  case ParameterType::choice:
+    return value.kind == TomlKind::string || value.kind == TomlKind::integer;
+  case ParameterType::boolean:
+    return value.kind == TomlKind::boolean;
+  case ParameterType::integer:
+    return value.kind == TomlKind::integer;
+  case ParameterType::real:
+    return value.kind == TomlKind::integer || value.kind == TomlKind::floating;
+  case ParameterType::nameList:
+    if (value.kind != TomlKind::array)
+      return false;
+    for (const TomlNode &element : value.children)
+      if (element.kind != TomlKind::string)
+        return false;
+    return true;
+  }
+  return false;
+}
+
+// Checks one value against its parameter; the first thing wrong is reported.
+class ValueChecker {
+public:
+  ValueChecker(const Parameter &parameter, const TomlNode &value, Diagnostics &diagnostics)
+      : parameter_(parameter), value_(value), diagnostics_(diagnostics) {}
+
+  bool check() {
+    if (!hasType(parameter_.type, value_))
+      return reportType();
+    switch (parameter_.type) {
+    case ParameterType::text:
+      return !value_.text.empty() || parameter_.name == "sTask" || reportEmpty();
+    case ParameterType::identifier:
+      return isIdentifier(value_.text) || reportIdentifier();
+    case ParameterType::integer:
+    case ParameterType::real:
+      return checkRange(value_.floating);
+    case ParameterType::choice:
+      return findChoice(parameter_, value_) >= 0 || reportChoice();
+    case ParameterType::interval:
+      return checkInterval();
+    case ParameterType::nameList:
+      return !value_.children.empty() || reportEmpty();
+    case ParameterType::boolean:
+      break;
+    }
+    return true;
+  }
+
+private:
+  bool reportType() {
+    Diagnostic &d = diagnostics_.report(
+        Code::configWrongType, value_.span,
+        fmt::format("`{}` must be {}", parameter_.name, expectation(parameter_.type)),
+        fmt::format("this is {}", describe(value_)));
+    if (parameter_.type == ParameterType::boolean && value_.kind == TomlKind::string)
+      d.help("write it without quotes");
+    else if (parameter_.type == ParameterType::boolean && value_.kind == TomlKind::integer)
+      d.help(value_.integer != 0 ? "write `true`" : "write `false`");
+    else if (value_.kind == TomlKind::string &&
+             (parameter_.type == ParameterType::integer || parameter_.type == ParameterType::real))
+      d.help("numbers stand without quotes");
+    else if (parameter_.type == ParameterType::nameList && value_.kind == TomlKind::string)
+      d.help(fmt::format("write [\"{}\"]", value_.text));
+    return false;
+  }
+
+  bool reportEmpty() {
+    diagnostics_.report(Code::configOutOfRange, value_.span,
+                        fmt::format("`{}` must not be empty", parameter_.name), "nothing in it");
+    return false;
+  }
+
+  bool reportIdentifier() {
+    diagnostics_
+        .report(Code::configBadName, value_.span,
+                fmt::format("`{}` cannot be a name in Structured Text", value_.text),
+                isReservedWord(value_.text) ? "a word of the language" : "not an identifier")
+        .help(
+            "a name begins with a letter or `_` and continues with letters, digits and single `_`");
+    return false;
+  }
+
+  bool checkRange(double value) {
+    if (value >= parameter_.low && value <= parameter_.high)
+      return true;
+    const std::string unit = parameter_.unit.empty() ? "" : fmt::format(" {}", parameter_.unit);
+    std::string message;
+    std::string label;
+    if (parameter_.type == ParameterType::real && !std::isfinite(value)) {
+      message = fmt::format("`{}` must be a finite number", parameter_.name);
+      label = "not finite";
+    } else if (parameter_.type == ParameterType::real) {
+      message = fmt::format("`{}` must be greater than 0{}", parameter_.name, unit);
+      label = "not positive";
+    } else {
+      message = fmt::format("`{}` must be in {} … {}{}", parameter_.name,
+                            formatNumber(parameter_.low), formatNumber(parameter_.high), unit);
+      label = value < parameter_.low ? "too small" : "too large";
+    }
+    diagnostics_.report(Code::configOutOfRange, value_.span, std::move(message), std::move(label));
+    return false;
+  }
+
+  bool reportChoice() {
+    if (value_.kind == TomlKind::integer) {
+      std::string values;
+      for (const Choice &choice : parameter_.choices)
+        values +=
+            fmt::format("{}{} = \"{}\"", values.empty() ? "" : ", ", choice.value, choice.name);
+      diagnostics_
+          .report(Code::configUnknownChoice, value_.span,
+                  fmt::format("`{}` has no choice {}", parameter_.name, value_.integer),
+                  "unknown value")
+          .note("possible: " + values);
+      return false;
+    }
+    Diagnostic &d = diagnostics_.report(
+        Code::configUnknownChoice, value_.span,
+        fmt::format("`{}` has no choice \"{}\"", parameter_.name, value_.text), "unknown choice");
+    std::vector<std::string_view> names;
+    for (const Choice &choice : parameter_.choices)
+      names.push_back(choice.name);
+    if (const std::string_view near = nearest(value_.text, names); !near.empty())
+      d.help(fmt::format("did you mean \"{}\"?", near));
+    d.note("possible: " + listChoices(parameter_));
+    return false;
+  }
+
+  bool checkInterval() {
+    const std::optional<std::int64_t> interval = parseInterval(value_.text);
+    if (!interval) {
+      diagnostics_
+          .report(Code::configBadInterval, value_.span,
+                  fmt::format("\"{}\" is not a duration", value_.text), "cannot be read")
+          .help("write it as a TIME literal: \"T#3ms\", \"T#1s500ms\", \"LT#250us\"");
+      return false;
+    }
+    if (const auto value = static_cast<double>(*interval);
+        value < parameter_.low || value > parameter_.high) {
+      diagnostics_.report(Code::configOutOfRange, value_.span,
+                          fmt::format("`{}` must be in {} … {}", parameter_.name,
+                                      formatInterval(static_cast<std::int64_t>(parameter_.low)),
+                                      formatInterval(static_cast<std::int64_t>(parameter_.high))),
+                          value < parameter_.low ? "too short" : "too long");
+      return false;
+    }
+    return true;
+  }
+
+  const Parameter &parameter_;
+  const TomlNode &value_;
+  Diagnostics &diagnostics_;
+};
+
+const Section *findSection(const Section &schema, std::string_view name) {
+  for (const Section *section : schema.sections)
+    if (section->name == name)
+      return section;
+  return nullptr;
+}
+
+const Parameter *findParameter(const Section &schema, std::string_view name) {
+  for (const Parameter &parameter : schema.parameters)
+    if (parameter.name == name)
+      return &parameter;
+  return nullptr;
+}
+
+std::string header(const Section &section) {
+  return section.list ? fmt::format("[[{}]]", section.path) : fmt::format("[{}]", section.path);
+}
+
+// The section anywhere below `schema` that knows the parameter, to say where a misplaced one
+// belongs.
+const Section *ownerOf(const Section &schema, std::string_view name) {
+  if (findParameter(schema, name) != nullptr)
+    return &schema;
+  for (const Section *section : schema.sections)
+    if (const Section *owner = ownerOf(*section, name))
+      return owner;
+  return nullptr;
+}
+
+void reportUnknown(const TomlNode &member, const Section &schema, Diagnostics &diagnostics) {
+  std::vector<std::string_view> names;
+  for (const Parameter &parameter : schema.parameters)
+    names.push_back(parameter.name);
+  for (const Section *section : schema.sections)
+    names.push_back(section->name);
+  const bool top = schema.name.empty();
+  Diagnostic &d =
+      diagnostics.report(Code::configUnknownKey, member.keySpan,
+                         top ? fmt::format("stride.toml has no section `{}`", member.key)
+                             : fmt::format("{} has no parameter `{}`", schema.what, member.key),
+                         "unknown");
+  const std::string_view near = nearest(member.key, names);
+  if (!near.empty() && equalIgnoringCase(near, member.key))
+    d.help(fmt::format("write `{}`: upper and lower case count here", near));
+  else if (!near.empty())
+    d.help(fmt::format("did you mean `{}`?", near));
+  else if (const Section *owner = ownerOf(projectSchema(), member.key);
+           owner != nullptr && owner != &schema)
+    d.help(fmt::format("`{}` belongs into {}", member.key, header(*owner)));
+  if (near.empty() && names.size() <= 6) {
+    std::string all;
+    for (const std::string_view name : names)
+      all += fmt::format("{}`{}`", all.empty() ? "" : ", ", name);
+    d.note("known here: " + all);
+  }
+}
+
+bool checkSectionKind(const TomlNode &member, const Section &section, Diagnostics &diagnostics) {
+  const bool good = section.list ? member.arrayOfTables : member.kind == TomlKind::table;
+  if (good)
+    return true;
+  diagnostics
+      .report(Code::configWrongType, member.keySpan,
+              section.list ? fmt::format("`{}` must be a list of tables", section.name)
+                           : fmt::format("`{}` must be a table", section.name),
+              fmt::format("this is {}", describe(member)))
+      .help(fmt::format("write the header as {}", header(section)));
+  return false;
+}
+
+} // namespace
+
+std::int64_t findChoice(const Parameter &parameter, const TomlNode &value) {
+  for (const Choice &choice : parameter.choices)
+    if (value.kind == TomlKind::integer ? choice.value == value.integer
+                                        : canonical(choice.name) == canonical(value.text))
+      return choice.value;
+  // Cyclic data may be any parameter number of AXIS_REF.
+  if (value.kind == TomlKind::integer && parameter.name.starts_with("wCyclicData") &&
+      value.integer >= 0 && value.integer <= 65535)
+    return value.integer;
+  return -1;
+}
+
+CheckedSection::CheckedSection(const TomlNode &table, const Section &schema,
+                               Diagnostics &diagnostics)
+    : table_(&table), schema_(&schema) {
+  for (const TomlNode &member : table.children) {
+    if (const Parameter *parameter = findParameter(schema, member.key)) {
+      if (ValueChecker(*parameter, member, diagnostics).check())
+        values_.push_back(&member);
+    } else if (const Section *section = findSection(schema, member.key)) {
+      if (checkSectionKind(member, *section, diagnostics))
+        values_.push_back(&member);
+    } else {
+      reportUnknown(member, schema, diagnostics);
+    }
+  }
+  for (const Parameter &parameter : schema.parameters)
+    if (parameter.required && !has(parameter.name))
+      diagnostics
+          .report(Code::configMissingKey, table.span,
+                  fmt::format("{} needs `{}`", schema.what, parameter.name),
+                  fmt::format("`{}` is missing", parameter.name))
+          .help(fmt::format("add `{} = …`: {}", parameter.name, expectation(parameter.type)));
+}
+
+const TomlNode *CheckedSection::get(std::string_view name) const {
+  for (const TomlNode *value : values_)
+    if (value->key == name)
+      return value;
+  return nullptr;
+}
+
+std::int64_t CheckedSection::integer(std::string_view name, std::int64_t otherwise) const {
+  const TomlNode *value = get(name);
+  return value != nullptr ? value->integer : otherwise;
+}
+
+double CheckedSection::real(std::string_view name, double otherwise) const {
+  const TomlNode *value = get(name);
+  return value != nullptr ? value->floating : otherwise;
+}
+
+bool CheckedSection::boolean(std::string_view name, bool otherwise) const {
+  const TomlNode *value = get(name);
+  return value != nullptr ? value->boolean : otherwise;
+}
+
+std::string CheckedSection::text(std::string_view name, std::string_view otherwise) const {
+  const TomlNode *value = get(name);
+  return value != nullptr ? value->text : std::string(otherwise);
+}
+
+std::int64_t CheckedSection::choice(std::string_view name, std::int64_t otherwise) const {
+  const TomlNode *value = get(name);
+  return value != nullptr ? findChoice(*findParameter(*schema_, name), *value) : otherwise;
+}
+
+std::vector<CheckedSection> CheckedSection::sections(std::string_view name,
+                                                     Diagnostics &diagnostics) const {
+  std::vector<CheckedSection> result;
+  const TomlNode *value = get(name);
+  const Section *section = findSection(*schema_, name);
+  if (value == nullptr || section == nullptr)
+    return result;
+  if (!section->list) {
+    result.emplace_back(*value, *section, diagnostics);
+    return result;
+  }
+  for (const TomlNode &element : value->children)
+    result.emplace_back(element, *section, diagnostics);
+  return result;
+}
+
+} // namespace stc

@@ -1,0 +1,133 @@
+// The parameters of stride.toml. Names, types and meanings of the PLC configuration are those of
+// the SoftMotion V2.3 manual, sections 2.1.2 and 2.1.3.
+
+#include "compiler/project/schema.hpp"
+
+#include <array>
+#include <limits>
+
+namespace stc {
+
+namespace {
+
+constexpr double kWord = 65535;
+constexpr double kDword = 4294967295.0;
+constexpr double kHuge = std::numeric_limits<double>::max();
+constexpr double kTiny = std::numeric_limits<double>::min();
+constexpr double kMicrosecond = 1e3;
+constexpr double kHour = 3.6e12;
+
+constexpr std::array<Choice, 2> kGenerations = {{{"2.3", 2}, {"3", 3}}};
+
+constexpr std::array<Choice, 2> kMovementTypes = {{{"rotary", 0}, {"linear", 1}}};
+
+constexpr std::array<Choice, 3> kRampTypes = {{{"trapezoid", 0}, {"sigmoid", 1}, {"parabolic", 2}}};
+
+// Values as AXIS_REF.wControlType has them (Annex A, 1001).
+constexpr std::array<Choice, 7> kControlTypes = {{{"TOR ->", 1},
+                                                  {"VEL -> VEL", 2},
+                                                  {"VEL -> POS", 3},
+                                                  {"POS -> POS", 4},
+                                                  {"POS, VEL -> POS, VEL", 5},
+                                                  {"VEL ->", 6},
+                                                  {"CONFIGURABLE", 0}}};
+
+// Parameter numbers of AXIS_REF (Annex A).
+constexpr std::array<Choice, 4> kSendData = {
+    {{"SetPosition", 1100}, {"SetVelocity", 1110}, {"SetTorque", 1160}, {"SetCurrent", 1150}}};
+constexpr std::array<Choice, 4> kReceiveData = {
+    {{"ActPosition", 1101}, {"ActVelocity", 1111}, {"ActTorque", 1161}, {"ActCurrent", 1151}}};
+
+constexpr Parameter word(std::string_view name, std::string_view unit = {}) {
+  return {name, ParameterType::integer, false, 0, kWord, {}, unit};
+}
+constexpr Parameter dword(std::string_view name, std::string_view unit = {}) {
+  return {name, ParameterType::integer, false, 0, kDword, {}, unit};
+}
+constexpr Parameter positive(std::string_view name, std::string_view unit) {
+  return {name, ParameterType::real, false, kTiny, kHuge, {}, unit};
+}
+constexpr Parameter anyReal(std::string_view name, std::string_view unit) {
+  return {name, ParameterType::real, false, -kHuge, kHuge, {}, unit};
+}
+constexpr Parameter flag(std::string_view name) { return {name, ParameterType::boolean}; }
+constexpr Parameter choice(std::string_view name, std::span<const Choice> choices) {
+  return {name, ParameterType::choice, false, 0, 0, choices};
+}
+constexpr Parameter needed(Parameter parameter) {
+  parameter.required = true;
+  return parameter;
+}
+
+constexpr std::array kProjectParameters = {
+    Parameter{"name", ParameterType::text},
+    choice("softmotion", kGenerations),
+};
+
+constexpr std::array kTaskParameters = {
+    needed({"name", ParameterType::identifier}),
+    needed({"interval", ParameterType::interval, false, kMicrosecond, kHour}),
+    Parameter{"priority", ParameterType::integer, false, 0, 31},
+    needed({"programs", ParameterType::nameList}),
+};
+
+constexpr std::array kBusParameters = {
+    needed({"name", ParameterType::identifier}),
+    needed({"InterfaceType", ParameterType::text}),
+};
+
+constexpr std::array kAxisGroupParameters = {
+    needed({"name", ParameterType::identifier}),
+    Parameter{"sTask", ParameterType::text},
+    Parameter{"dwCycle", ParameterType::integer, false, 1, kDword, {}, "µs"},
+    word("wParam1"),
+    word("wParam2"),
+    word("wParam3"),
+    word("wParam4"),
+    dword("dwParam1"),
+    dword("dwParam2"),
+    dword("dwParam3"),
+    dword("dwParam4"),
+};
+
+constexpr std::array kDriveParameters = {
+    needed({"name", ParameterType::identifier}),
+    needed(word("wDriveId")),
+    choice("wControlType", kControlTypes),
+    choice("wCyclicDataS1", kSendData),
+    choice("wCyclicDataS2", kSendData),
+    choice("wCyclicDataS3", kSendData),
+    choice("wCyclicDataR1", kReceiveData),
+    choice("wCyclicDataR2", kReceiveData),
+    choice("wCyclicDataR3", kReceiveData),
+    Parameter{"dwRatioTechUnitsDenom", ParameterType::integer, false, 1, kDword, {}, "increments"},
+    Parameter{"iRatioTechUnitsNum", ParameterType::integer, false, 1, 32767, {}, "u"},
+    choice("iMovementType", kMovementTypes),
+    positive("fPositionPeriod", "u"),
+    positive("fSWMaxVelocity", "u/s"),
+    positive("fSWMaxAcceleration", "u/s²"),
+    positive("fSWMaxDeceleration", "u/s²"),
+    flag("bSWLimitEnable"),
+    anyReal("fSWLimitNegative", "u"),
+    anyReal("fSWLimitPositive", "u"),
+    flag("bHWLimitEnable"),
+    choice("eRampType", kRampTypes),
+    positive("fJerk", "u/s³"),
+};
+
+constexpr Section kProject = {"project", "the project", "project", false, kProjectParameters, {}};
+constexpr Section kTask = {"task", "a task", "task", true, kTaskParameters, {}};
+constexpr Section kDrive = {"drive", "a drive", "bus.axis_group.drive", true, kDriveParameters, {}};
+constexpr std::array<const Section *, 1> kAxisGroupSections = {&kDrive};
+constexpr Section kAxisGroup = {"axis_group", "an axis group",      "bus.axis_group",
+                                true,         kAxisGroupParameters, kAxisGroupSections};
+constexpr std::array<const Section *, 1> kBusSections = {&kAxisGroup};
+constexpr Section kBus = {"bus", "a bus", "bus", true, kBusParameters, kBusSections};
+constexpr std::array<const Section *, 3> kTopSections = {&kProject, &kTask, &kBus};
+constexpr Section kTop = {"", "stride.toml", "", false, {}, kTopSections};
+
+} // namespace
+
+const Section &projectSchema() { return kTop; }
+
+} // namespace stc

@@ -1,0 +1,320 @@
+// Tasks, the programs they call and the axis groups they serve; the PLC configuration as
+// declarations.
+
+#include "compiler/project/config.hpp"
+#include "compiler/project/interval.hpp"
+#include "compiler/project/names.hpp"
+#include "compiler/semantics/suggest.hpp"
+
+#include <fmt/format.h>
+#include <unordered_map>
+
+namespace stc {
+
+namespace {
+
+constexpr std::int64_t kDefaultIntervalNs = 10'000'000;
+
+using Declarations = std::unordered_map<std::string, const ast::Decl *>;
+
+std::vector<const ast::Decl *> programsOf(const std::vector<ast::File *> &files) {
+  std::vector<const ast::Decl *> programs;
+  for (const ast::File *file : files)
+    for (const ast::Decl *decl : file->declarations)
+      if (decl->kind == ast::DeclKind::program && decl->name)
+        programs.push_back(decl);
+  return programs;
+}
+
+std::string_view describe(ast::DeclKind kind) {
+  switch (kind) {
+  case ast::DeclKind::program:
+    return "a PROGRAM";
+  case ast::DeclKind::function:
+    return "a FUNCTION";
+  case ast::DeclKind::functionBlock:
+    return "a FUNCTION_BLOCK";
+  case ast::DeclKind::structure:
+  case ast::DeclKind::enumeration:
+  case ast::DeclKind::alias:
+    return "a type";
+  case ast::DeclKind::globals:
+    break;
+  }
+  return "a global variable list";
+}
+
+class TaskResolver {
+public:
+  TaskResolver(ProjectConfig &config, const std::vector<ast::File *> &files,
+               Diagnostics &diagnostics)
+      : config_(config), diagnostics_(diagnostics), programs_(programsOf(files)) {
+    for (const ast::File *file : files)
+      for (const ast::Decl *decl : file->declarations)
+        if (decl->name)
+          declarations_.try_emplace(lowerCase(decl->name.text), decl);
+  }
+
+  void resolve(ProgramCheck check) {
+    hadTasks_ = !config_.tasks.empty();
+    if (!hadTasks_)
+      addDefaultTask(check == ProgramCheck::runnable);
+    else if (check != ProgramCheck::skip)
+      checkPrograms();
+    for (AxisGroupConfig &group : config_.axisGroups)
+      resolveGroup(group);
+  }
+
+private:
+  void addDefaultTask(bool needsProgram) {
+    TaskConfig task;
+    task.name.text = "Task";
+    task.intervalNs = kDefaultIntervalNs;
+    for (const AxisGroupConfig &group : config_.axisGroups)
+      if (group.cycleUs != 0) {
+        task.intervalNs = std::int64_t{group.cycleUs} * 1000;
+        break;
+      }
+    if (const ast::Decl *program = defaultProgram(needsProgram))
+      task.programs.push_back({std::string(program->name.text), {}});
+    config_.tasks.push_back(std::move(task));
+  }
+
+  const ast::Decl *defaultProgram(bool needed) {
+    for (const ast::Decl *program : programs_)
+      if (program->name.id->lower == "plc_prg")
+        return program;
+    if (programs_.size() == 1)
+      return programs_.front();
+    if (!needed)
+      return nullptr;
+    if (programs_.empty()) {
+      diagnostics_.report(Code::noProgram, {}, "there is no PROGRAM to run")
+          .help("write `PROGRAM PLC_PRG … END_PROGRAM`: it is called in every cycle");
+      return nullptr;
+    }
+    Diagnostic &d = diagnostics_.report(
+        Code::severalPrograms, programs_[0]->name.span,
+        fmt::format("there are {} PROGRAMs and no task that calls them", programs_.size()),
+        "this one?");
+    for (std::size_t i = 1; i < programs_.size() && i < 4; ++i)
+      d.label(programs_[i]->name.span, "or this one?");
+    d.help(fmt::format(
+        "add a task to stride.toml: [[task]] with name = \"Task\", interval = \"T#10ms\", "
+        "programs = [\"{}\"]; or name one of them PLC_PRG",
+        programs_[0]->name.text));
+    return nullptr;
+  }
+
+  void checkPrograms() {
+    std::unordered_map<std::string, const ConfigName *> callers;
+    std::unordered_map<std::string, const TaskConfig *> tasks;
+    for (TaskConfig &task : config_.tasks)
+      for (ConfigName &program : task.programs) {
+        if (!checkProgram(program))
+          continue;
+        const std::string key = lowerCase(program.text);
+        const auto [first, isNew] = callers.try_emplace(key, &program);
+        if (isNew)
+          tasks[key] = &task;
+        else if (tasks[key] == &task)
+          diagnostics_
+              .report(Code::configCalledTwice, program.span,
+                      fmt::format("task `{}` calls `{}` twice in a cycle", task.name.text,
+                                  program.text),
+                      "called again")
+              .label(first->second->span, "called first");
+        else
+          diagnostics_
+              .report(Code::configCalledTwice, program.span,
+                      fmt::format("`{}` is called by two tasks, `{}` and `{}`", program.text,
+                                  tasks[key]->name.text, task.name.text),
+                      "called again")
+              .label(first->second->span, "called first")
+              .note("a PROGRAM has one set of variables, which the tasks would share");
+      }
+  }
+
+  bool checkProgram(ConfigName &program) {
+    const auto found = declarations_.find(lowerCase(program.text));
+    if (found == declarations_.end()) {
+      Diagnostic &d =
+          diagnostics_.report(Code::configUnknownProgram, program.span,
+                              fmt::format("there is no PROGRAM `{}`", program.text), "not found");
+      std::vector<std::string_view> names;
+      for (const ast::Decl *candidate : programs_)
+        names.push_back(candidate->name.text);
+      if (const std::string_view near = nearest(program.text, names); !near.empty())
+        d.help(fmt::format("did you mean `{}`?", near));
+      return false;
+    }
+    if (found->second->kind != ast::DeclKind::program) {
+      diagnostics_
+          .report(Code::configNotAProgram, program.span,
+                  fmt::format("`{}` is {}, a task calls PROGRAMs", program.text,
+                              describe(found->second->kind)),
+                  "cannot be called by a task")
+          .label(found->second->name.span, "declared here");
+      return false;
+    }
+    return true;
+  }
+
+  void resolveGroup(AxisGroupConfig &group) {
+    const TaskConfig *task = nullptr;
+    if (group.task.text.empty()) {
+      if (config_.tasks.size() != 1) {
+        diagnostics_
+            .report(Code::configUnknownTask, group.groupSpan,
+                    fmt::format("axis group `{}` needs `sTask`: there are several tasks",
+                                group.name.text),
+                    "which task serves the drives?")
+            .note("tasks: " + taskList());
+        return;
+      }
+      task = &config_.tasks.front();
+    } else {
+      for (const TaskConfig &candidate : config_.tasks)
+        if (equalIgnoringCase(candidate.name.text, group.task.text))
+          task = &candidate;
+      if (task == nullptr) {
+        reportUnknownTask(group.task);
+        return;
+      }
+    }
+    group.task.text = task->name.text;
+    if (group.cycleUs != 0 && std::int64_t{group.cycleUs} * 1000 != task->intervalNs) {
+      diagnostics_
+          .report(Code::configCycleMismatch, group.cycleSpan,
+                  fmt::format("dwCycle is {} µs, but task `{}` runs every {}", group.cycleUs,
+                              task->name.text, formatInterval(task->intervalNs)),
+                  "does not fit the task")
+          .help(task->intervalNs % 1000 == 0
+                    ? fmt::format("write `dwCycle = {}`, or leave it out", task->intervalNs / 1000)
+                    : "leave it out");
+      return;
+    }
+    group.cycleUs = static_cast<std::uint32_t>(task->intervalNs / 1000);
+    const auto seconds = static_cast<double>(task->intervalNs) * 1e-9;
+    for (DriveConfig &drive : group.drives)
+      drive.fields.emplace_back("fTaskCycle", fmt::format("{:.9f}", seconds));
+  }
+
+  void reportUnknownTask(const ConfigName &name) {
+    Diagnostic &d =
+        diagnostics_.report(Code::configUnknownTask, name.span,
+                            fmt::format("there is no task `{}`", name.text), "not found");
+    if (!hadTasks_) {
+      d.help(fmt::format(
+          "add it: [[task]] with name = \"{}\", interval = \"T#3ms\", programs = [\"…\"]; "
+          "or leave `sTask` out",
+          name.text));
+      return;
+    }
+    std::vector<std::string_view> names;
+    for (const TaskConfig &task : config_.tasks)
+      names.push_back(task.name.text);
+    if (const std::string_view near = nearest(name.text, names); !near.empty())
+      d.help(fmt::format("did you mean `{}`?", near));
+    d.note("tasks: " + taskList());
+  }
+
+  std::string taskList() const {
+    std::string list;
+    for (const TaskConfig &task : config_.tasks)
+      list += fmt::format("{}`{}`", list.empty() ? "" : ", ", task.name.text);
+    return list;
+  }
+
+  ProjectConfig &config_;
+  Diagnostics &diagnostics_;
+  std::vector<const ast::Decl *> programs_;
+  Declarations declarations_;
+  bool hadTasks_ = false;
+};
+
+// Names that the user's files give to things of the whole project.
+std::unordered_map<std::string, Span> globalNames(const std::vector<ast::File *> &files) {
+  std::unordered_map<std::string, Span> names;
+  for (const ast::File *file : files)
+    for (const ast::Decl *decl : file->declarations) {
+      if (decl->name && decl->kind != ast::DeclKind::globals)
+        names.try_emplace(lowerCase(decl->name.text), decl->name.span);
+      if (decl->kind == ast::DeclKind::globals)
+        for (const ast::VarDecl *variable : ast::as<ast::GlobalsDecl>(decl)->variables)
+          if (variable->name)
+            names.try_emplace(lowerCase(variable->name.text), variable->name.span);
+    }
+  return names;
+}
+
+class DeclarationWriter {
+public:
+  DeclarationWriter(const std::vector<ast::File *> &files, std::vector<DeclaredRange> &ranges,
+                    Diagnostics &diagnostics)
+      : names_(globalNames(files)), ranges_(ranges), diagnostics_(diagnostics) {}
+
+  std::string write(const ProjectConfig &config) {
+    std::size_t index = 0;
+    for (const AxisGroupConfig &group : config.axisGroups) {
+      ConfigFields fields = {{"sTask", fmt::format("'{}'", group.task.text)},
+                             {"dwCycle", std::to_string(group.cycleUs)}};
+      fields.insert(fields.end(), group.fields.begin(), group.fields.end());
+      fields.emplace_back("wAxisGroupId", std::to_string(index));
+      fields.emplace_back("wDriveCount", std::to_string(group.drives.size()));
+      variable("axis group", group.name, "SM_DriveBasic.SMC_AXISGROUP_REF", fields);
+      for (const DriveConfig &drive : group.drives) {
+        fields = drive.fields;
+        fields.emplace_back("wAxisGroupId", std::to_string(index));
+        variable("drive", drive.name, "SM_DriveBasic.AXIS_REF", fields);
+      }
+      ++index;
+    }
+    return body_.empty() ? std::string() : std::string(kBegin) + body_ + "END_VAR\n";
+  }
+
+private:
+  void variable(std::string_view what, const ConfigName &name, std::string_view type,
+                const ConfigFields &fields) {
+    if (const auto clash = names_.find(lowerCase(name.text)); clash != names_.end()) {
+      diagnostics_
+          .report(
+              Code::configNameClash, name.span,
+              fmt::format("the {} `{}` has the name of something in the program", what, name.text),
+              "becomes a global variable of this name")
+          .label(clash->second, "already declared here")
+          .help("rename one of them");
+      return;
+    }
+    const std::size_t begin = kBegin.size() + body_.size();
+    body_ += fmt::format("  {} : {} := (", name.text, type);
+    std::string_view separator;
+    for (const auto &[field, value] : fields) {
+      body_ += fmt::format("{}{} := {}", separator, field, value);
+      separator = ", ";
+    }
+    body_ += ");\n";
+    ranges_.push_back({static_cast<std::uint32_t>(begin),
+                       static_cast<std::uint32_t>(kBegin.size() + body_.size()), name.span});
+  }
+
+  static constexpr std::string_view kBegin = "VAR_GLOBAL\n";
+  std::string body_;
+  std::unordered_map<std::string, Span> names_;
+  std::vector<DeclaredRange> &ranges_;
+  Diagnostics &diagnostics_;
+};
+
+} // namespace
+
+void resolveTasks(ProjectConfig &config, const std::vector<ast::File *> &files,
+                  ProgramCheck programCheck, Diagnostics &diagnostics) {
+  TaskResolver(config, files, diagnostics).resolve(programCheck);
+}
+
+std::string plcDeclarations(const ProjectConfig &config, const std::vector<ast::File *> &files,
+                            std::vector<DeclaredRange> &ranges, Diagnostics &diagnostics) {
+  return DeclarationWriter(files, ranges, diagnostics).write(config);
+}
+
+} // namespace stc

@@ -1,0 +1,198 @@
+#include "compiler/project/toml_tree.hpp"
+
+#include "compiler/project/names.hpp"
+
+#include <algorithm>
+
+#define TOML_HEADER_ONLY 1
+#define TOML_EXCEPTIONS 0
+#define TOML_ENABLE_FORMATTERS 0
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#include <toml++/toml.h>
+#pragma GCC diagnostic pop
+
+namespace stc {
+
+namespace {
+
+// Converts toml++'s lines and columns (code points) to byte offsets.
+class Reader {
+public:
+  explicit Reader(const SourceFile &file) : file_(file), text_(file.text()) {
+    lineStarts_.push_back(0);
+    for (std::size_t i = 0; i < text_.size(); ++i)
+      if (text_[i] == '\n')
+        lineStarts_.push_back(static_cast<std::uint32_t>(i + 1));
+  }
+
+  std::uint32_t offset(toml::source_position position) const {
+    const std::size_t line = position.line > 0 ? position.line - 1 : 0;
+    if (line >= lineStarts_.size())
+      return static_cast<std::uint32_t>(text_.size());
+    std::size_t at = lineStarts_[line];
+    for (std::uint32_t column = 1; column < position.column && at < text_.size(); ++column) {
+      ++at;
+      while (at < text_.size() && (static_cast<unsigned char>(text_[at]) & 0xC0) == 0x80)
+        ++at;
+    }
+    return static_cast<std::uint32_t>(std::min(at, text_.size()));
+  }
+
+  Span span(const toml::source_region &region) const {
+    return {file_.id(), offset(region.begin), std::max(offset(region.begin), offset(region.end))};
+  }
+
+  // A scalar ends before the blanks and the comment that toml++ may count in.
+  Span scalarSpan(const toml::source_region &region) const {
+    Span result = span(region);
+    while (result.end > result.begin + 1 &&
+           std::string_view(" \t\r\n,]}").find(text_[result.end - 1]) != std::string_view::npos)
+      --result.end;
+    return result;
+  }
+
+  TomlNode node(const toml::node &from) const {
+    TomlNode to;
+    to.span = scalarSpan(from.source());
+    if (const toml::table *table = from.as_table()) {
+      to.kind = TomlKind::table;
+      to.span = span(from.source());
+      for (const auto &[key, value] : *table) {
+        TomlNode child = node(value);
+        child.key = key.str();
+        child.keySpan = span(key.source());
+        if (child.kind == TomlKind::table && !value.as_table()->is_inline())
+          child.span = child.keySpan;
+        to.children.push_back(std::move(child));
+      }
+      // toml++ sorts by name; messages and synthetic declarations follow the text.
+      std::stable_sort(
+          to.children.begin(), to.children.end(),
+          [](const TomlNode &a, const TomlNode &b) { return a.keySpan.begin < b.keySpan.begin; });
+    } else if (const toml::array *array = from.as_array()) {
+      to.kind = TomlKind::array;
+      to.span = span(from.source());
+      to.arrayOfTables = !array->empty();
+      for (const toml::node &value : *array) {
+        TomlNode child = node(value);
+        child.keySpan = child.span;
+        if (const toml::table *table = value.as_table()) {
+          if (!table->is_inline())
+            child.span = child.keySpan = headerKey(child.span);
+        } else {
+          to.arrayOfTables = false;
+        }
+        to.children.push_back(std::move(child));
+      }
+    } else if (const auto *string = from.as_string()) {
+      to.kind = TomlKind::string;
+      to.text = string->get();
+    } else if (const auto *integer = from.as_integer()) {
+      to.kind = TomlKind::integer;
+      to.integer = integer->get();
+      to.floating = static_cast<double>(integer->get());
+    } else if (const auto *floating = from.as_floating_point()) {
+      to.kind = TomlKind::floating;
+      to.floating = floating->get();
+    } else if (const auto *boolean = from.as_boolean()) {
+      to.kind = TomlKind::boolean;
+      to.boolean = boolean->get();
+    }
+    return to;
+  }
+
+private:
+  // The last key of the header `[[a.b.c]]` that the span begins at: `c`.
+  Span headerKey(Span header) const {
+    std::uint32_t begin = header.begin;
+    while (begin < text_.size() &&
+           (text_[begin] == '[' || text_[begin] == ' ' || text_[begin] == '\t'))
+      ++begin;
+    std::uint32_t end = begin;
+    std::uint32_t key = begin;
+    while (end < text_.size() && text_[end] != ']' && text_[end] != '\n') {
+      if (text_[end] == '.')
+        key = end + 1;
+      ++end;
+    }
+    while (key < end && (text_[key] == ' ' || text_[key] == '\t'))
+      ++key;
+    while (end > key && (text_[end - 1] == ' ' || text_[end - 1] == '\t'))
+      --end;
+    return {file_.id(), key, end};
+  }
+
+  const SourceFile &file_;
+  std::string_view text_;
+  std::vector<std::uint32_t> lineStarts_;
+};
+
+// toml++'s messages begin with "Error while parsing X: ".
+std::string plainMessage(std::string_view description) {
+  constexpr std::string_view kPrefix = "Error while parsing ";
+  if (description.starts_with(kPrefix))
+    description.remove_prefix(kPrefix.size());
+  std::string message(description);
+  for (char &c : message)
+    if (c == '\n' || c == '\r')
+      c = ' ';
+  return message;
+}
+
+// `T#`, `TIME#`, `LT#`, `LTIME#` without the quotes.
+bool isDuration(std::string_view text) {
+  const std::size_t hash = text.substr(0, 6).find('#');
+  const std::string word = lowerCase(text.substr(0, hash == std::string_view::npos ? 0 : hash));
+  return word == "t" || word == "time" || word == "lt" || word == "ltime";
+}
+
+} // namespace
+
+const TomlNode *TomlNode::find(std::string_view name) const {
+  for (const TomlNode &child : children)
+    if (child.key == name)
+      return &child;
+  return nullptr;
+}
+
+std::unique_ptr<TomlNode> parseToml(const SourceFile &file, Diagnostics &diagnostics) {
+  const Reader reader(file);
+  const toml::parse_result result = toml::parse(file.text());
+  if (!result) {
+    const toml::parse_error &error = result.error();
+    Span where = reader.span(error.source());
+    const auto size = static_cast<std::uint32_t>(file.text().size());
+    if (where.end == where.begin && where.end < size && file.text()[where.end] != '\n')
+      ++where.end;
+    Diagnostic &d =
+        diagnostics.report(Code::tomlSyntax, where, "`" + file.name() + "` is not valid TOML",
+                           plainMessage(error.description()));
+    if (isDuration(file.text().substr(where.begin)))
+      d.help("durations are text: put it in quotes");
+    return nullptr;
+  }
+  return std::make_unique<TomlNode>(reader.node(result.table()));
+}
+
+std::string_view describe(const TomlNode &node) {
+  switch (node.kind) {
+  case TomlKind::table:
+    return "a table";
+  case TomlKind::array:
+    return node.arrayOfTables ? "a list of tables" : "a list";
+  case TomlKind::string:
+    return "text";
+  case TomlKind::integer:
+    return "an integer";
+  case TomlKind::floating:
+    return "a number with decimals";
+  case TomlKind::boolean:
+    return "a truth value";
+  case TomlKind::other:
+    break;
+  }
+  return "a date or time";
+}
+
+} // namespace stc

@@ -1,0 +1,90 @@
+// stride-libgen OUT: writes the C++ of the standard library below OUT: headers
+// `st/<Library>/<Name>.h`, the bodies that are written in ST, and one source `<Library>.cpp` per
+// library that includes its bodies. Runs when Stride is built; files that would not change are left
+// alone.
+
+#include "compiler/codegen/codegen.hpp"
+#include "compiler/project/file_system.hpp"
+#include "compiler/project/library_index.hpp"
+#include "compiler/source/render.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <fmt/format.h>
+#include <set>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class LibraryGenerator {
+public:
+  explicit LibraryGenerator(fs::path out) : out_(std::move(out)) {}
+
+  bool generate(std::string_view name) {
+    stc::Program program;
+    stc::checkLibrary(program, name, index_);
+    stc::Diagnostics sorted = program.diagnostics;
+    sorted.sort();
+    for (const stc::Diagnostic &diagnostic : sorted.all())
+      std::fputs(renderText(diagnostic, program.sources).c_str(), stderr);
+    if (program.diagnostics.hasErrors())
+      return false;
+    const auto library =
+        std::find_if(program.libraries.begin(), program.libraries.end(),
+                     [&](const auto &candidate) { return candidate->name == name; });
+    if (library == program.libraries.end()) {
+      std::fprintf(stderr, "stride-libgen: nothing found of %s\n", std::string(name).c_str());
+      return false;
+    }
+    std::string unity = fmt::format("// The bodies of {} that are written in ST.\n", name);
+    std::set<std::string> headers;
+    for (const stc::GeneratedFile &file : generateLibrary(program, **library)) {
+      if (!write(file.path, file.text))
+        return false;
+      if (file.path.ends_with(".cpp"))
+        unity += fmt::format("#include \"{}\"\n", file.path);
+      else
+        headers.insert(file.path);
+    }
+    // The build system counts on a header per source file.
+    for (const stc::LibraryIndex::Entry &entry : index_.files(name)) {
+      const std::string stem = fs::path(entry.fileName).stem().string();
+      const std::string header = fmt::format("st/{}/{}.h", name, stem);
+      if (!headers.contains(header) &&
+          !write(header,
+                 fmt::format("// {} declares nothing that needs a header of this name.\n", stem)))
+        return false;
+    }
+    return write(fmt::format("{}.cpp", name), unity);
+  }
+
+  bool all() {
+    bool good = true;
+    for (const std::string_view library : index_.libraries())
+      good = generate(library) && good;
+    return good;
+  }
+
+private:
+  bool write(const std::string &path, const std::string &text) {
+    if (stc::writeIfDifferent(out_ / path, text))
+      return true;
+    std::fprintf(stderr, "stride-libgen: %s: %s\n", (out_ / path).c_str(),
+                 stc::lastError().c_str());
+    return false;
+  }
+
+  fs::path out_;
+  stc::EmbeddedLibraryIndex index_{stc::standardLibrary()};
+};
+
+} // namespace
+
+int main(int argc, char **argv) {
+  if (argc != 2) {
+    std::fputs("usage: stride-libgen OUT\n", stderr);
+    return 2;
+  }
+  return LibraryGenerator(argv[1]).all() ? 0 : 1;
+}
