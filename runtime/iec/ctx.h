@@ -75,6 +75,19 @@ inline void loopTick(Ctx &ctx, const char *file, uint32_t line, uint32_t col) {
   if (--ctx.loopBudget < 0) [[unlikely]]
     loopBudgetSpent(ctx, file, line, col);
 }
+/// As above with a copy of the budget that the compiler can keep in a register: generated bodies
+/// start with one of ctx.loopBudget.
+inline void loopTick(Ctx &ctx, int64_t &budget, const char *file, uint32_t line, uint32_t col) {
+  if (--budget < 0) [[unlikely]] {
+    loopBudgetSpent(ctx, file, line, col);
+    budget = ctx.loopBudget;
+  }
+}
+
+/// An object of the application at its place in the state.
+template <class T> inline T &root(Ctx &ctx, uint64_t place) {
+  return *reinterpret_cast<T *>(static_cast<char *>(ctx.state) + place);
+}
 
 } // namespace stride
 

@@ -160,6 +160,35 @@ template <class T> constexpr T limit(T lo, T x, T hi) { return min(max(x, lo), h
 /// SEL(g, a, b): a when g is FALSE. Both were evaluated.
 template <class T> constexpr T sel(BOOL g, T a, T b) { return g != 0 ? b : a; }
 
+/// MIN and MAX of strings, by comparison of code units.
+template <class S> inline S minText(const S &a, const S &b) { return compare(b, a) < 0 ? b : a; }
+template <class S> inline S maxText(const S &a, const S &b) { return compare(a, b) < 0 ? b : a; }
+
+// --- FOR ----------------------------------------------------------------------------------------
+// The variable moves by the step and wraps; the result says whether the loop goes on. The distance
+// to the end is compared before the step, so that loops end at the limits of the type as well.
+
+template <class T> constexpr bool forUp(T &i, T end, ULINT step) {
+  const bool more =
+      i <= end && static_cast<ULINT>(end) - static_cast<ULINT>(i) >= step;
+  i = static_cast<T>(static_cast<ULINT>(i) + step);
+  return more;
+}
+template <class T> constexpr bool forDown(T &i, T end, ULINT step) {
+  const bool more =
+      i >= end && static_cast<ULINT>(i) - static_cast<ULINT>(end) >= step;
+  i = static_cast<T>(static_cast<ULINT>(i) - step);
+  return more;
+}
+/// For a step known at run time only. A step of 0 goes on until the loop budget ends it.
+template <class T> constexpr bool forFirst(T i, T end, LINT step) {
+  return step < 0 ? i >= end : i <= end;
+}
+template <class T> constexpr bool forNext(T &i, T end, LINT step) {
+  return step < 0 ? forDown(i, end, ULINT{0} - static_cast<ULINT>(step))
+                  : forUp(i, end, static_cast<ULINT>(step));
+}
+
 // --- checks -------------------------------------------------------------------------------------
 
 /// Zero-based place of index i in bounds Lo..Hi; raises IndexOutOfRange at the position.

@@ -1,0 +1,301 @@
+#include "compiler/codegen/analysis.hpp"
+
+namespace stc::codegen {
+
+using namespace ast;
+
+bool isNamespace(const Expr *expr) {
+  const Symbol *symbol = nullptr;
+  if (expr->kind == ExprKind::name)
+    symbol = as<NameExpr>(expr)->symbol;
+  else if (expr->kind == ExprKind::member)
+    symbol = as<MemberExpr>(expr)->symbol;
+  if (symbol == nullptr)
+    return false;
+  return symbol->kind == SymbolKind::library || symbol->kind == SymbolKind::globals || symbol->kind == SymbolKind::type;
+}
+
+const VarSymbol *namedVariable(const Expr *expr) {
+  const Symbol *symbol = nullptr;
+  if (expr->kind == ExprKind::name)
+    symbol = as<NameExpr>(expr)->symbol;
+  else if (expr->kind == ExprKind::member && isNamespace(as<MemberExpr>(expr)->base))
+    symbol = as<MemberExpr>(expr)->symbol;
+  return symbol != nullptr && symbol->kind == SymbolKind::variable ? static_cast<const VarSymbol *>(symbol) : nullptr;
+}
+
+unsigned Analysis::effects(const Expr *expr) {
+  unsigned result = effectNone;
+  while (true) {
+    if (expr->constant != nullptr)
+      return result;
+    if (checks_ && expr->target != nullptr && expr->target->kind == TypeKind::subrange && expr->type != expr->target)
+      result |= effectRaises;
+    switch (expr->kind) {
+    case ExprKind::literal:
+    case ExprKind::enumLiteral:
+    case ExprKind::error:
+    case ExprKind::aggregate:
+      return result;
+    case ExprKind::name: {
+      const VarSymbol *variable = namedVariable(expr);
+      if (variable != nullptr && variable->type->kind == TypeKind::reference && checks_)
+        result |= effectRaises;
+      return result | effectReads;
+    }
+    case ExprKind::member: {
+      const auto *member = as<MemberExpr>(expr);
+      result |= effectReads;
+      if (member->symbol != nullptr && member->symbol->kind == SymbolKind::variable && checks_) {
+        const auto *variable = static_cast<const VarSymbol *>(member->symbol);
+        if (variable->type->kind == TypeKind::reference || variable->section == Section::inOut)
+          result |= effectRaises;
+      }
+      if (isNamespace(member->base))
+        return result;
+      expr = member->base;
+      continue;
+    }
+    case ExprKind::index: {
+      const auto *index = as<IndexExpr>(expr);
+      result |= effectReads;
+      const Type *array = index->base->type;
+      for (const Expr *i : index->indices) {
+        if (array->kind != TypeKind::array)
+          break;
+        if (!inBounds(i, typeAs<ArrayType>(array))) {
+          if (checks_)
+            result |= effectRaises;
+          result |= effects(i);
+        }
+        array = typeAs<ArrayType>(array)->element;
+      }
+      expr = index->base;
+      continue;
+    }
+    case ExprKind::deref:
+      result |= effectReads | (checks_ ? effectRaises : effectNone);
+      expr = as<DerefExpr>(expr)->base;
+      continue;
+    case ExprKind::unary:
+      expr = as<UnaryExpr>(expr)->operand;
+      continue;
+    case ExprKind::binary: {
+      const auto *binary = as<BinaryExpr>(expr);
+      if ((binary->op == BinaryOp::divide || binary->op == BinaryOp::modulo) && binary->operandType != nullptr &&
+          !isReal(binary->operandType) && !safeDivisor(binary->right))
+        result |= effectRaises;
+      result |= effects(binary->right);
+      expr = binary->left;
+      continue;
+    }
+    case ExprKind::call: {
+      const auto *call = as<CallExpr>(expr);
+      for (const Argument &a : call->arguments) {
+        if (a.value != nullptr)
+          result |= effects(a.value);
+      }
+      if (call->resolved == Callee::builtin) {
+        if (call->builtin == Builtin::mux)
+          result |= effectRaises;
+        return result | (call->builtin == Builtin::time ? effectReads : effectNone);
+      }
+      result |= effectReads | effectRaises;
+      if (call->resolved != Callee::function || !pure(call->pou))
+        result |= effectCalls;
+      return result;
+    }
+    }
+  }
+}
+
+bool Analysis::pure(const PouSymbol *function) {
+  const auto [it, fresh] = pure_.try_emplace(function, false); // a recursive one counts as not pure
+  if (!fresh)
+    return it->second;
+  bool result = function->isFunction();
+  for (const VarSymbol *v : function->variables) {
+    if (v->section == Section::inOut || v->section == Section::output || v->section == Section::stat ||
+        v->type->kind == TypeKind::pointer || v->type->kind == TypeKind::reference)
+      result = false;
+  }
+  if (result && function->decl->external) {
+    // Native functions on plain values compute, by agreement.
+  } else if (result) {
+    result = function->checked && pureBlock(function->decl->body, function);
+  }
+  pure_[function] = result;
+  return result;
+}
+
+bool Analysis::localTarget(const Expr *target, const PouSymbol *function) const {
+  while (true) {
+    switch (target->kind) {
+    case ExprKind::name: {
+      const VarSymbol *v = namedVariable(target);
+      return v != nullptr && v->owner == function;
+    }
+    case ExprKind::member:
+      if (isNamespace(as<MemberExpr>(target)->base))
+        return false;
+      target = as<MemberExpr>(target)->base;
+      continue;
+    case ExprKind::index:
+      target = as<IndexExpr>(target)->base;
+      continue;
+    default:
+      return false;
+    }
+  }
+}
+
+bool Analysis::pureExpr(const Expr *expr) { return (effects(expr) & effectCalls) == 0; }
+
+bool Analysis::pureBlock(Block block, const PouSymbol *function) {
+  for (const Stmt *s : block) {
+    switch (s->kind) {
+    case StmtKind::assign: {
+      const auto *a = as<AssignStmt>(s);
+      for (const Expr *t : a->targets) {
+        if (!localTarget(t, function) || !pureExpr(t))
+          return false;
+      }
+      if (!pureExpr(a->value))
+        return false;
+      break;
+    }
+    case StmtKind::call:
+      return false;
+    case StmtKind::ifS: {
+      const auto *i = as<IfStmt>(s);
+      for (const IfBranch &b : i->branches) {
+        if (!pureExpr(b.condition) || !pureBlock(b.body, function))
+          return false;
+      }
+      if (!pureBlock(i->elseBody, function))
+        return false;
+      break;
+    }
+    case StmtKind::caseS: {
+      const auto *c = as<CaseStmt>(s);
+      if (!pureExpr(c->selector) || !pureBlock(c->elseBody, function))
+        return false;
+      for (const CaseBranch &b : c->branches) {
+        if (!pureBlock(b.body, function))
+          return false;
+      }
+      break;
+    }
+    case StmtKind::forS: {
+      const auto *f = as<ForStmt>(s);
+      if (!localTarget(f->variable, function) || !pureExpr(f->from) || !pureExpr(f->to) ||
+          (f->by != nullptr && !pureExpr(f->by)) || !pureBlock(f->body, function))
+        return false;
+      break;
+    }
+    case StmtKind::whileS:
+      if (!pureExpr(as<WhileStmt>(s)->condition) || !pureBlock(as<WhileStmt>(s)->body, function))
+        return false;
+      break;
+    case StmtKind::repeatS:
+      if (!pureExpr(as<RepeatStmt>(s)->until) || !pureBlock(as<RepeatStmt>(s)->body, function))
+        return false;
+      break;
+    case StmtKind::empty:
+    case StmtKind::exit:
+    case StmtKind::continueS:
+    case StmtKind::returnS:
+      break;
+    }
+  }
+  return true;
+}
+
+namespace {
+
+/// Assigning to `target` may change `variable`.
+bool mayChange(const Expr *target, const Symbol *variable) {
+  while (true) {
+    switch (target->kind) {
+    case ExprKind::name:
+      // An in-out or a reference may stand for any variable.
+      if (const VarSymbol *v = namedVariable(target))
+        return v == variable || v->section == Section::inOut || v->type->kind == TypeKind::reference;
+      return false;
+    case ExprKind::member: {
+      const auto *m = as<MemberExpr>(target);
+      if (m->symbol != nullptr && m->symbol->kind == SymbolKind::variable) {
+        const auto *v = static_cast<const VarSymbol *>(m->symbol);
+        if (v == variable || v->section == Section::inOut || v->type->kind == TypeKind::reference)
+          return true;
+      }
+      if (isNamespace(m->base))
+        return false;
+      target = m->base;
+      continue;
+    }
+    case ExprKind::index:
+      target = as<IndexExpr>(target)->base;
+      continue;
+    default:
+      return true;
+    }
+  }
+}
+
+} // namespace
+
+bool Analysis::plainExpr(const Expr *expr) { return (effects(expr) & effectCalls) == 0; }
+
+bool Analysis::plainBlock(Block block, const Symbol *variable) {
+  for (const Stmt *s : block) {
+    switch (s->kind) {
+    case StmtKind::assign: {
+      const auto *a = as<AssignStmt>(s);
+      for (const Expr *t : a->targets) {
+        if (mayChange(t, variable) || !plainExpr(t))
+          return false;
+      }
+      if (!plainExpr(a->value))
+        return false;
+      break;
+    }
+    case StmtKind::ifS: {
+      const auto *i = as<IfStmt>(s);
+      for (const IfBranch &b : i->branches) {
+        if (!plainExpr(b.condition) || !plainBlock(b.body, variable))
+          return false;
+      }
+      if (!plainBlock(i->elseBody, variable))
+        return false;
+      break;
+    }
+    case StmtKind::empty:
+    case StmtKind::exit:
+    case StmtKind::continueS:
+    case StmtKind::returnS:
+      break;
+    default: // calls and inner loops; CASE is rare in such loops
+      return false;
+    }
+  }
+  return true;
+}
+
+bool Analysis::shortLoop(const ForStmt *loop) {
+  const VarSymbol *variable = namedVariable(loop->variable);
+  if (variable == nullptr || variable->section == Section::inOut || variable->type->kind == TypeKind::reference)
+    return false;
+  if (loop->from->constant == nullptr || loop->to->constant == nullptr ||
+      (loop->by != nullptr && loop->by->constant == nullptr))
+    return false;
+  const std::int64_t step = loop->by == nullptr ? 1 : loop->by->constant->integer;
+  std::int64_t distance = 0;
+  if (step == 0 || __builtin_sub_overflow(loop->to->constant->integer, loop->from->constant->integer, &distance))
+    return false;
+  if (distance / step > kShortLoop)
+    return false;
+  return plainBlock(loop->body, variable);
+}
+
+} // namespace stc::codegen

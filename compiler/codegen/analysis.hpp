@@ -1,0 +1,64 @@
+#pragma once
+// What evaluating an expression can do besides giving a value. It decides where C++ must be told the order.
+
+#include "compiler/semantics/builtins.hpp"
+#include "compiler/semantics/program.hpp"
+
+#include <unordered_map>
+
+namespace stc::codegen {
+
+/// Bits of an effect.
+enum Effect : unsigned {
+  effectNone = 0,
+  effectReads = 1,  ///< its value depends on variables
+  effectRaises = 2, ///< a check in it may end the cycle
+  effectCalls = 4,  ///< calls code that may change variables
+};
+
+class Analysis {
+public:
+  explicit Analysis(const Settings &settings) : checks_(settings.checks) {}
+
+  /// Effect bits of evaluating the expression with its conversion.
+  [[nodiscard]] unsigned effects(const ast::Expr *expr);
+  /// A FUNCTION that only computes: it changes nothing but its own variables.
+  [[nodiscard]] bool pure(const PouSymbol *function);
+  /// Evaluating `first` before `second` or behind it makes a difference.
+  [[nodiscard]] static bool orderMatters(unsigned first, unsigned second) {
+    return ((first & effectCalls) != 0 && second != effectNone) || ((second & effectCalls) != 0 && first != effectNone);
+  }
+  /// The FOR loop ends after at most kShortLoop rounds without inner loops or calls, whatever happens.
+  [[nodiscard]] bool shortLoop(const ast::ForStmt *loop);
+
+  static constexpr std::int64_t kShortLoop = 65536;
+
+private:
+  bool pureBlock(ast::Block block, const PouSymbol *function);
+  bool pureExpr(const ast::Expr *expr);
+  bool localTarget(const ast::Expr *target, const PouSymbol *function) const;
+  bool plainBlock(ast::Block block, const Symbol *variable);
+  bool plainExpr(const ast::Expr *expr);
+
+  bool checks_;
+  std::unordered_map<const PouSymbol *, bool> pure_;
+};
+
+/// The bounds within which a constant index needs no check.
+[[nodiscard]] inline bool inBounds(const ast::Expr *index, const ArrayType *array) {
+  return index->constant != nullptr && index->constant->kind == ConstKind::integer &&
+         index->constant->integer >= array->low && index->constant->integer <= array->high;
+}
+
+/// Integer division by this expression needs no check.
+[[nodiscard]] inline bool safeDivisor(const ast::Expr *divisor) {
+  return divisor->constant != nullptr && divisor->constant->kind == ConstKind::integer &&
+         divisor->constant->integer != 0 && divisor->constant->integer != -1;
+}
+
+/// The variable an expression names directly (`x`, `GVL.x`, not `a.x`); null for all others.
+[[nodiscard]] const VarSymbol *namedVariable(const ast::Expr *expr);
+/// The name in front of the dot is a namespace: a library, a variable list, an enumeration.
+[[nodiscard]] bool isNamespace(const ast::Expr *expr);
+
+} // namespace stc::codegen

@@ -1,0 +1,339 @@
+// app.cpp: the application object. build.cpp: what identifies this build, apart so that app.cpp stays the same when only a
+// body changes.
+
+#include "compiler/codegen/type_table.hpp"
+#include "compiler/codegen/units.hpp"
+
+#include <algorithm>
+
+#ifndef STRIDE_VERSION
+#define STRIDE_VERSION "0.1.0"
+#endif
+
+namespace stc::codegen {
+
+using namespace ast;
+
+namespace {
+
+/// A root with the name of its member in the state.
+struct Member {
+  Root root;
+  std::string name;
+};
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char &c : out)
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return out;
+}
+
+bool hasAttribute(const Attributes &attributes, std::string_view name) {
+  return std::any_of(attributes.begin(), attributes.end(), [&](const Attribute &a) { return a.name == name; });
+}
+
+class Application {
+public:
+  Application(Context &context, const AppConfig &config) : c_(context), config_(config), types_(context) { collect(); }
+
+  GeneratedFile app() {
+    for (const Member &m : members_)
+      addRoots(m);
+    std::string tables = types_.text();
+    for (const Member &m : members_)
+      types_.includes().symbol(m.root.symbol);
+    std::string out = banner("The application object");
+    out += "#include \"runtime/app/abi.h\"\n" + types_.includes().text(nullptr);
+    out += "\n#pragma GCC diagnostic ignored \"-Winvalid-offsetof\"\n";
+    out += "\nnamespace st::user {\n\n/// All state of the application.\nstruct App__ {\n";
+    for (const Member &m : members_)
+      out += "  " + rootType(c_.names, m.root) + " " + m.name + ";\n";
+    if (members_.empty())
+      out += "  ::stride::BYTE empty__;\n";
+    out += "};\n\n} // namespace st::user\n";
+    places(out);
+    out += "\nnamespace {\n\nusing ::st::user::App__;\nusing ::stride::Kind;\n"
+           "\n[[maybe_unused]] App__ &app__(::stride::Ctx *ctx__) { return *static_cast<App__ *>(ctx__->state); }\n";
+    init(out);
+    tasks(out);
+    out += "\n[[maybe_unused]] constexpr uint32_t kNo = ::stride::kNoIndex;\n" + tables;
+    axisGroups(out);
+    out += "\n} // namespace\n";
+    description(out);
+    return {"app.cpp", std::move(out)};
+  }
+
+  GeneratedFile build() {
+    const SourceManager &sources = c_.program.sources;
+    Hash all;
+    all.add(STRIDE_VERSION).add(std::uint64_t{c_.program.settings.checks});
+    std::string files;
+    for (FileId id = 1; id <= sources.size(); ++id) {
+      const SourceFile &file = sources.file(id);
+      Hash own;
+      own.add(file.text());
+      all.add(file.name()).add(own.value());
+      files += "    {\"" + escaped(file.name()) + "\", " + std::to_string(own.value()) + "ULL},\n";
+    }
+    std::string out = banner("Identification of this build");
+    out += "#include \"runtime/app/abi.h\"\n\nnamespace st::user {\nextern const ::stride::StrideAppV1 application__;\n}\n"
+           "\nnamespace {\n";
+    if (sources.size() != 0)
+      out += "\nconstexpr ::stride::SourceFileDesc kFiles[] = {\n" + files + "};\n";
+    out += "\n::stride::StrideAppV1 description{};\n\n} // namespace\n"
+           "\nextern \"C\" const ::stride::StrideAppV1 *stride_app_v1(void) {\n"
+           "  description = ::st::user::application__;\n"
+           "  description.buildHash = " +
+           std::to_string(all.value()) + "ULL;\n";
+    if (sources.size() != 0)
+      out += "  description.files = kFiles;\n  description.fileCount = ::stride::tableSize(kFiles);\n";
+    out += "  return &description;\n}\n";
+    return {"build.cpp", std::move(out)};
+  }
+
+private:
+  // Libraries first, by name; then the project's files by path, in the order of the text.
+  void collect() {
+    for (const File *file : c_.program.files) {
+      for (const Decl *decl : file->declarations) {
+        if (decl->kind != DeclKind::globals || !hasAttribute(decl->attributes, "qualified_only"))
+          continue;
+        for (const VarDecl *v : as<GlobalsDecl>(decl)->variables)
+          qualified_.insert(v);
+      }
+    }
+    std::vector<const Library *> libraries;
+    for (const auto &library : c_.program.libraries)
+      libraries.push_back(library.get());
+    std::sort(libraries.begin(), libraries.end(), [](const Library *a, const Library *b) {
+      return std::pair(a->isUser, std::string_view(a->name)) < std::pair(b->isUser, std::string_view(b->name));
+    });
+    for (const Library *library : libraries) {
+      std::vector<Root> roots;
+      for (const GlobalsSymbol *g : library->globals)
+        roots.push_back({g, false});
+      for (const PouSymbol *p : library->pous) {
+        if (p->decl->kind == DeclKind::program)
+          roots.push_back({p, false});
+        if (hasStatics(p))
+          roots.push_back({p, true});
+      }
+      std::stable_sort(roots.begin(), roots.end(), [&](const Root &a, const Root &b) {
+        const Span x = a.symbol->name.span;
+        const Span y = b.symbol->name.span;
+        if (x.file != y.file && x.file != 0 && y.file != 0)
+          return c_.program.sources.file(x.file).name() < c_.program.sources.file(y.file).name();
+        return x.begin < y.begin;
+      });
+      for (const Root &root : roots)
+        members_.push_back({root, memberName(root)});
+    }
+  }
+
+  std::string memberName(const Root &root) {
+    std::string name;
+    if (!root.symbol->library->isUser)
+      name = std::string(c_.names.space(root.symbol->library)) + "__";
+    name += mangle(root.symbol->name.text);
+    return name + (root.isStatic ? "__static" : root.symbol->kind == SymbolKind::pou ? "__program" : "__");
+  }
+
+  void addRoots(const Member &m) {
+    if (m.root.symbol->kind == SymbolKind::pou && !m.root.isStatic) {
+      types_.addProgram(static_cast<const PouSymbol *>(m.root.symbol), m.name);
+      return;
+    }
+    for (const VarSymbol *v : rootVariables(m.root))
+      types_.addRoot(m.root.symbol->name.text, v, m.name + "." + mangle(v->name.text),
+                     m.root.isStatic || qualified_.contains(v->decl));
+  }
+
+  /// Defines the constants by which bodies find the roots.
+  void places(std::string &out) {
+    const Library *open = nullptr;
+    for (const Member &m : members_) {
+      if (m.root.symbol->library != open) {
+        if (open != nullptr)
+          out += "}\n";
+        open = m.root.symbol->library;
+        out += "\nnamespace st::" + std::string(c_.names.space(open)) + " {\n";
+      }
+      std::string place = rootPlace(c_.names, m.root);
+      place.erase(0, place.rfind(':') + 1);
+      out += "const ::stride::ULINT " + place + " = offsetof(::st::user::App__, " + m.name + ");\n";
+    }
+    if (open != nullptr)
+      out += "}\n";
+  }
+
+  void init(std::string &out) {
+    out += "\n// Libraries first, then files by path, then in the order of declaration.\nvoid init__(::stride::Ctx *";
+    std::string body;
+    for (const Member &m : members_) {
+      if (rootNeedsInit(c_, m.root))
+        body += "  app__(ctx__)." + m.name + ".init__(*ctx__);\n";
+    }
+    out += (body.empty() ? ") {\n" : "ctx__) {\n") + body + "}\n";
+  }
+
+  void tasks(std::string &out) {
+    std::string rows;
+    for (std::size_t i = 0; i < config_.tasks.size(); ++i) {
+      const AppConfig::Task &task = config_.tasks[i];
+      const std::string name = "task" + std::to_string(i) + "__";
+      out += "\n/// " + task.name + "\nvoid " + name + "(::stride::Ctx *" + (task.programs.empty() ? "" : "ctx__") + ") {\n";
+      for (const PouSymbol *p : task.programs)
+        out += "  app__(ctx__)." + memberName({p, false}) + ".body__(*ctx__);\n";
+      out += "}\n";
+      rows += "    {\"" + escaped(task.name) + "\", ::stride::TaskKind::" +
+              (task.intervalNs > 0 ? "Cyclic" : "Freewheeling") + ", " + std::to_string(task.priority) + ", " +
+              std::to_string(task.intervalNs > 0 ? task.intervalNs : 10000000) + ", 0, 0, 0, " + name + "},\n";
+    }
+    if (!rows.empty())
+      out += "\n// {name, kind, priority, intervalNs, watchdogNs, watchdogSensitivity, 0, run}\n"
+             "constexpr ::stride::TaskDesc kTasks[] = {\n" +
+             rows + "};\n";
+  }
+
+  /// A global variable by name, and its place in the state.
+  const VarSymbol *global(std::string_view name, std::string &place) {
+    const std::string wanted = lower(name);
+    for (const Member &m : members_) {
+      if (m.root.symbol->kind != SymbolKind::globals || !m.root.symbol->library->isUser)
+        continue;
+      for (const VarSymbol *v : static_cast<const GlobalsSymbol *>(m.root.symbol)->variables) {
+        if (v->name.id->lower == wanted) {
+          place = m.name + "." + mangle(v->name.text);
+          return v;
+        }
+      }
+    }
+    return nullptr;
+  }
+
+  /// The constant that an initial value gives to a field; 0 when it gives none.
+  static std::int64_t initialField(const VarSymbol *v, std::string_view field) {
+    if (v->decl == nullptr || v->decl->init == nullptr || v->decl->init->kind != ExprKind::aggregate)
+      return 0;
+    for (const AggregateItem &item : as<AggregateExpr>(v->decl->init)->items) {
+      if (item.field && item.field.id->lower == field && item.value != nullptr && item.value->constant != nullptr)
+        return item.value->constant->integer;
+    }
+    return 0;
+  }
+
+  void axisGroups(std::string &out) {
+    std::string groups;
+    std::string drives;
+    for (const AppConfig::AxisGroup &group : config_.axisGroups) {
+      std::string place;
+      const VarSymbol *variable = global(group.name, place);
+      if (variable == nullptr)
+        continue;
+      groupLayout_ = c_.layouts.hash(variable->type);
+      const std::size_t first = driveCount_;
+      for (const AppConfig::Drive &drive : group.drives) {
+        std::string axis;
+        const VarSymbol *v = global(drive.name, axis);
+        if (v == nullptr)
+          continue;
+        axisLayout_ = c_.layouts.hash(v->type);
+        drives += "    {\"" + escaped(drive.name) + "\", offsetof(App__, " + axis + "), " +
+                  std::to_string(initialField(v, "wdriveid")) + ", 0},\n";
+        ++driveCount_;
+      }
+      std::string task = "::stride::kNoIndex";
+      for (std::size_t i = 0; i < config_.tasks.size(); ++i) {
+        if (lower(config_.tasks[i].name) == lower(group.task))
+          task = std::to_string(i);
+      }
+      groups += "    {\"" + escaped(group.name) + "\", \"" + escaped(group.bus) + "\", \"" + escaped(group.driver) +
+                "\", offsetof(App__, " + place + "), " + task + ", " + std::to_string(group.cycleUs) + ", " +
+                std::to_string(first) + ", " + std::to_string(driveCount_ - first) + "},\n";
+      ++groupCount_;
+    }
+    if (!drives.empty())
+      out += "\n// {name, axisOffset, driveId, 0}\nconstexpr ::stride::DriveDesc kDrives[] = {\n" + drives + "};\n";
+    if (!groups.empty())
+      out += "\n// {name, busName, driverName, groupOffset, task, cycleUs, firstDrive, driveCount}\n"
+             "constexpr ::stride::AxisGroupDesc kAxisGroups[] = {\n" +
+             groups + "};\n";
+  }
+
+  void description(std::string &out) {
+    const auto table = [](std::size_t count, const char *name) { return count == 0 ? "nullptr" : name; };
+    const auto field = [&](std::string_view name, const std::string &value) {
+      out.append("    .").append(name).append(" = ").append(value).append(",\n");
+    };
+    out += "\nnamespace st::user {\n\n/// Completed by build.cpp.\nextern const ::stride::StrideAppV1 application__;\n"
+           "const ::stride::StrideAppV1 application__ = {\n";
+    field("abiVersion", "::stride::kAbiVersion");
+    field("magic", "::stride::kAbiMagic");
+    field("size", "sizeof(::stride::StrideAppV1)");
+    field("flags", "0");
+    field("name", "\"" + escaped(config_.name) + "\"");
+    field("compiler", "\"Stride " STRIDE_VERSION "\"");
+    field("buildHash", "0");
+    field("stateSize", "sizeof(App__)");
+    field("stateAlign", "alignof(App__)");
+    field("reserved", "0");
+    field("init", "init__");
+    field("types", table(types_.typeCount(), "kTypes"));
+    field("members", table(types_.memberCount(), "kMembers"));
+    field("enumerators", table(types_.enumeratorCount(), "kEnumerators"));
+    field("roots", table(types_.rootCount(), "kRoots"));
+    field("tasks", table(config_.tasks.size(), "kTasks"));
+    field("axisGroups", table(groupCount_, "kAxisGroups"));
+    field("drives", table(driveCount_, "kDrives"));
+    field("files", "nullptr");
+    field("typeCount", std::to_string(types_.typeCount()));
+    field("memberCount", std::to_string(types_.memberCount()));
+    field("enumeratorCount", std::to_string(types_.enumeratorCount()));
+    field("rootCount", std::to_string(types_.rootCount()));
+    field("taskCount", std::to_string(config_.tasks.size()));
+    field("axisGroupCount", std::to_string(groupCount_));
+    field("driveCount", std::to_string(driveCount_));
+    field("fileCount", "0");
+    field("axisRefLayout", std::to_string(axisLayout_) + "ULL");
+    field("axisGroupRefLayout", std::to_string(groupLayout_) + "ULL");
+    out += "};\n\n} // namespace st::user\n";
+  }
+
+  Context &c_;
+  const AppConfig &config_;
+  TypeTable types_;
+  std::vector<Member> members_;
+  std::unordered_set<const VarDecl *> qualified_; ///< in lists with {attribute 'qualified_only'}
+  std::size_t groupCount_ = 0;
+  std::size_t driveCount_ = 0;
+  std::uint64_t axisLayout_ = 0;
+  std::uint64_t groupLayout_ = 0;
+};
+
+} // namespace
+
+} // namespace stc::codegen
+
+namespace stc {
+
+std::vector<GeneratedFile> generateLibrary(const Program &program, const Library &library) {
+  codegen::Context context(program, &library);
+  std::vector<GeneratedFile> files;
+  codegen::generateHeaders(context, files);
+  codegen::generateSources(context, files);
+  return files;
+}
+
+std::vector<GeneratedFile> generateApplication(const Program &program, const AppConfig &config) {
+  codegen::Context context(program, program.user);
+  std::vector<GeneratedFile> files;
+  codegen::generateHeaders(context, files);
+  codegen::generateSources(context, files);
+  codegen::Application application(context, config);
+  files.push_back(application.app());
+  files.push_back(application.build());
+  return files;
+}
+
+} // namespace stc

@@ -1,0 +1,234 @@
+// Functions that the compiler implements itself.
+
+#include "compiler/codegen/emitter.hpp"
+
+namespace stc::codegen {
+
+using namespace ast;
+
+namespace {
+
+/// The runtime's name of those whose arguments are simply passed on; empty for the others.
+std::string_view runtimeName(Builtin id) {
+  switch (id) {
+  case Builtin::abs:
+    return "abs";
+  case Builtin::sqrt:
+    return "sqrt";
+  case Builtin::ln:
+    return "ln";
+  case Builtin::log:
+    return "log10";
+  case Builtin::exp:
+    return "exp";
+  case Builtin::sin:
+    return "sin";
+  case Builtin::cos:
+    return "cos";
+  case Builtin::tan:
+    return "tan";
+  case Builtin::asin:
+    return "asin";
+  case Builtin::acos:
+    return "acos";
+  case Builtin::atan:
+    return "atan";
+  case Builtin::atan2:
+    return "atan2";
+  case Builtin::expt:
+    return "pow";
+  case Builtin::trunc:
+    return "truncate";
+  case Builtin::min:
+    return "min";
+  case Builtin::max:
+    return "max";
+  case Builtin::limit:
+    return "limit";
+  case Builtin::sel:
+    return "sel";
+  case Builtin::shl:
+    return "shl";
+  case Builtin::shr:
+    return "shr";
+  case Builtin::rol:
+    return "rol";
+  case Builtin::ror:
+    return "ror";
+  case Builtin::len:
+    return "len";
+  case Builtin::left:
+    return "left";
+  case Builtin::right:
+    return "right";
+  case Builtin::mid:
+    return "mid";
+  case Builtin::concat:
+    return "concat";
+  case Builtin::insert:
+    return "insert";
+  case Builtin::deleteS:
+    return "remove";
+  case Builtin::replace:
+    return "replace";
+  case Builtin::find:
+    return "find";
+  default:
+    return {};
+  }
+}
+
+bool isStringFunction(Builtin id) { return id >= Builtin::len && id <= Builtin::find; }
+bool isMath(Builtin id) { return id >= Builtin::sqrt && id <= Builtin::expt; }
+
+} // namespace
+
+void Emitter::builtin(const CallExpr *e) {
+  // The order of the arguments matters only if one of them calls what may change the others.
+  unsigned before = effectNone;
+  for (const Argument &a : e->arguments) {
+    if (a.value == nullptr || e->builtin == Builtin::adr || e->builtin == Builtin::sizeofT)
+      continue;
+    const unsigned after = effects(a.value);
+    if (Analysis::orderMatters(before, after)) {
+      orderedBuiltin(e);
+      return;
+    }
+    before |= after;
+  }
+  builtinPlain(e, nullptr);
+}
+
+void Emitter::orderedBuiltin(const CallExpr *e) {
+  std::vector<std::string> names;
+  w_ << "[&] { ";
+  for (const Argument &a : e->arguments) {
+    names.push_back(temporary("in"));
+    const Type *t = a.value->target != nullptr ? a.value->target : a.value->type;
+    w_ << "const " << type(t) << ' ' << names.back() << " = ";
+    value(a.value);
+    w_ << "; ";
+  }
+  w_ << "return ";
+  builtinPlain(e, &names);
+  w_ << "; }()";
+}
+
+void Emitter::builtinArgument(const CallExpr *e, std::size_t i, const std::vector<std::string> *names, bool anyText) {
+  const Expr *v = e->arguments[i].value;
+  if (names != nullptr)
+    w_ << (*names)[i];
+  else if (anyText && isString(v->type))
+    text(v);
+  else
+    value(v);
+}
+
+void Emitter::builtinPlain(const CallExpr *e, const std::vector<std::string> *names) {
+  const std::size_t count = e->arguments.size();
+  const auto argument = [&](std::size_t i) { builtinArgument(e, i, names, false); };
+  const auto rest = [&](std::size_t from, bool anyText) {
+    for (std::size_t i = from; i < count; ++i) {
+      if (i > from)
+        w_ << ", ";
+      builtinArgument(e, i, names, anyText);
+    }
+    w_ << ')';
+  };
+  const Type *result = underlying(e->type);
+  switch (e->builtin) {
+  case Builtin::min:
+  case Builtin::max: { // a chain: MAX(MAX(a, b), c)
+    const bool strings = isString(result);
+    for (std::size_t i = 1; i < count; ++i) {
+      w_ << "::stride::" << runtimeName(e->builtin);
+      if (strings)
+        w_ << "Text(";
+      else
+        w_ << '<' << type(result) << ">(";
+    }
+    argument(0);
+    for (std::size_t i = 1; i < count; ++i) {
+      w_ << ", ";
+      argument(i);
+      w_ << ')';
+    }
+    return;
+  }
+  case Builtin::limit:
+    if (isString(result)) {
+      w_ << "::stride::minText(::stride::maxText(";
+      argument(1);
+      w_ << ", ";
+      argument(0);
+      w_ << "), ";
+      argument(2);
+      w_ << ')';
+      return;
+    }
+    break;
+  case Builtin::mux: { // braces evaluate from left to right
+    const std::string values = temporary("values");
+    w_ << "[&] { const auto selector__ = ";
+    argument(0);
+    w_ << "; const " << type(e->type) << ' ' << values << "[] = {";
+    for (std::size_t i = 1; i < count; ++i) {
+      w_ << (i > 1 ? ", " : "");
+      const bool number = isInteger(result) || result->kind == TypeKind::boolean || isReal(result);
+      if (number)
+        w_ << "static_cast<" << type(result) << ">(";
+      argument(i);
+      if (number)
+        w_ << ')';
+    }
+    w_ << "}; return " << values << "[::stride::index<0, " << count - 2 << ">(" << ctx() << ", selector__, ";
+    position(e->span);
+    w_ << ")]; }()";
+    return;
+  }
+  case Builtin::move:
+    w_ << '(';
+    argument(0);
+    w_ << ')';
+    return;
+  case Builtin::convert: {
+    const Expr *v = e->arguments[0].value;
+    const Type *from = v->target != nullptr ? v->target : v->type;
+    if (from == e->type) {
+      w_ << '(';
+      argument(0);
+      w_ << ')';
+      return;
+    }
+    converted(from, e->type, e->span, [&] { argument(0); });
+    return;
+  }
+  case Builtin::time:
+    w_ << "static_cast<::stride::TIME>(" << ctx() << ".cycleStartNs / 1000000)";
+    return;
+  case Builtin::adr:
+    w_ << '(';
+    address(e->arguments[0].value);
+    w_ << ')';
+    return;
+  case Builtin::sizeofT:
+    w_ << "static_cast<" << type(result) << ">(sizeof(" << type(e->arguments[0].value->type) << "))";
+    return;
+  default:
+    break;
+  }
+  w_ << "::stride::" << runtimeName(e->builtin);
+  if (isStringFunction(e->builtin)) {
+    if (isString(result))
+      w_ << '<' << typeAs<StringType>(result)->length << '>';
+    w_ << '(';
+    rest(0, true);
+    return;
+  }
+  if (!isMath(e->builtin))
+    w_ << '<' << type(result) << '>';
+  w_ << '(';
+  rest(0, false);
+}
+
+} // namespace stc::codegen

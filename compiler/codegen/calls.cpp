@@ -1,0 +1,252 @@
+// Calls of functions, function blocks and programs.
+
+#include "compiler/codegen/emitter.hpp"
+
+#include <algorithm>
+
+namespace stc::codegen {
+
+using namespace ast;
+
+namespace {
+
+const Argument *argumentFor(const CallExpr *e, const VarSymbol *parameter) {
+  for (const Argument &a : e->arguments) {
+    if (a.parameter == parameter)
+      return &a;
+  }
+  return nullptr;
+}
+
+/// A VAR_IN_OUT CONSTANT string may be bound to one of another length: then it gets a copy.
+bool needsCopy(const Argument &a) {
+  return a.parameter->section == Section::inOut && isString(a.parameter->type) && a.value->type != a.parameter->type;
+}
+
+bool isInput(const VarSymbol *p) { return p->section == Section::input; }
+
+} // namespace
+
+/// The value of an input that the call leaves out.
+void Emitter::defaultArgument(const VarSymbol *parameter) {
+  const Expr *init = c_.layouts.initOf(parameter);
+  if (init != nullptr && init->kind != ExprKind::aggregate && init->type != nullptr) {
+    if (parameter->type->kind == TypeKind::reference)
+      address(init);
+    else
+      valueAs(init, parameter->type);
+    return;
+  }
+  const std::string_view type = this->type(parameter->type);
+  if (init == nullptr && !c_.layouts.needsInit(parameter->type)) {
+    w_ << type << "{}";
+    return;
+  }
+  const std::string name = temporary("default");
+  w_ << "[&] { " << type << ' ' << name << "{}; ";
+  const std::uint32_t line = currentLine_;
+  Emitter inner(c_, pou_); // statements, gathered on this line
+  inner.initVariable(name, parameter);
+  std::string statements = inner.w_.take();
+  for (std::size_t at = 0; at < statements.size();) {
+    std::size_t lineEnd = statements.find('\n', at);
+    lineEnd = lineEnd == std::string::npos ? statements.size() : lineEnd;
+    std::string_view one = std::string_view(statements).substr(at, lineEnd - at);
+    while (!one.empty() && one.front() == ' ')
+      one.remove_prefix(1);
+    if (!one.empty() && one.front() != '#')
+      w_ << one << ' ';
+    at = lineEnd + 1;
+  }
+  usesContext_ = usesContext_ || inner.usesContext_;
+  includes_.merge(inner.includes_);
+  currentLine_ = line;
+  w_ << "return " << name << "; }()";
+}
+
+/// `::st::user::F(ctx__, …)`; `names` holds, by parameter, what stands for a value that has been taken before.
+void Emitter::functionArguments(const CallExpr *e, const std::vector<std::string> &names) {
+  includes_.symbol(e->pou);
+  w_ << c_.names.qualified(e->pou) << '(' << ctx();
+  std::size_t k = 0;
+  for (const VarSymbol *p : e->pou->parameters()) {
+    w_ << ", ";
+    const Argument *a = argumentFor(e, p);
+    if (k < names.size() && !names[k].empty())
+      w_ << names[k];
+    else if (a == nullptr || a->value == nullptr)
+      defaultArgument(p);
+    else if (p->section == Section::inOut)
+      place(a->value);
+    else if (p->type->kind == TypeKind::reference)
+      address(a->value);
+    else
+      valueAs(a->value, p->type);
+    ++k;
+  }
+  w_ << ')';
+}
+
+void Emitter::functionCall(const CallExpr *e, bool asStatement) {
+  const PouSymbol *pou = e->pou;
+  // Temporaries are needed for outputs, and where the order of the arguments matters.
+  bool outputs = false;
+  bool copies = false;
+  const std::vector<VarSymbol *> parameters = pou->parameters();
+  for (const VarSymbol *p : parameters)
+    outputs = outputs || p->section == Section::output;
+  bool order = false;
+  unsigned before = effectNone;
+  for (const Argument &a : e->arguments) {
+    if (a.value == nullptr)
+      continue;
+    copies = copies || needsCopy(a);
+    if (a.output)
+      continue;
+    const unsigned after = effects(a.value);
+    order = order || (before != effectNone && Analysis::orderMatters(before, after));
+    before |= after;
+  }
+  if (!outputs && !order && !copies) {
+    functionArguments(e, {});
+    if (asStatement)
+      w_ << ';';
+    return;
+  }
+  std::vector<std::string> names(parameters.size());
+  w_ << (asStatement ? "{ " : "[&] { ");
+  for (const Argument &a : e->arguments) { // in the order of the call
+    const VarSymbol *p = a.parameter;
+    if (a.value == nullptr || a.output || p == nullptr)
+      continue;
+    std::string &name = names[static_cast<std::size_t>(std::find(parameters.begin(), parameters.end(), p) - parameters.begin())];
+    if (p->section == Section::inOut) {
+      if (!needsCopy(a))
+        continue;
+      name = temporary("copy");
+      w_ << type(p->type) << ' ' << name << "{}; ::stride::assign(" << name << ", ";
+      text(a.value);
+      w_ << "); ";
+    } else if (order && isInput(p) && a.value->constant == nullptr) {
+      name = temporary("in");
+      w_ << "const " << type(p->type) << ' ' << name << " = ";
+      if (p->type->kind == TypeKind::reference)
+        address(a.value);
+      else
+        valueAs(a.value, p->type);
+      w_ << "; ";
+    }
+  }
+  // Every output gets a variable of its own; those asked for are copied after the call.
+  std::vector<std::pair<const Argument *, std::string>> results;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const VarSymbol *p = parameters[k];
+    if (p->section != Section::output)
+      continue;
+    names[k] = temporary("out");
+    w_ << type(p->type) << ' ' << names[k] << "{}; ";
+    const Argument *a = argumentFor(e, p);
+    if (a != nullptr && a->value != nullptr)
+      results.emplace_back(a, names[k]);
+  }
+  const bool hasResult = !asStatement && pou->result != nullptr;
+  const std::string result = hasResult ? temporary("result") : std::string();
+  if (hasResult)
+    w_ << "const " << type(pou->result->type) << ' ' << result << " = ";
+  functionArguments(e, names);
+  w_ << ';';
+  for (const auto &[a, name] : results) {
+    w_ << ' ';
+    outputTo(a->value, name, a->parameter->type, a->span);
+  }
+  if (hasResult)
+    w_ << " return " << result << ';';
+  w_ << (asStatement ? " }" : " }()");
+}
+
+/// `target = source;` from an output of type `sourceType` to the variable behind `=>`.
+void Emitter::outputTo(const Expr *target, std::string_view source, const Type *sourceType, Span span) {
+  const bool reference = sourceType->kind == TypeKind::reference;
+  std::string pointee;
+  if (reference) { // the value it refers to
+    sourceType = typeAs<PointerType>(sourceType)->pointee;
+    pointee = "(*" + std::string(source) + ")";
+    source = pointee;
+  }
+  const Type *type = target->type;
+  if (target->kind == ExprKind::member && as<MemberExpr>(target)->bit >= 0) {
+    w_ << "::stride::setBit(";
+    place(as<MemberExpr>(target)->base);
+    w_ << ", " << as<MemberExpr>(target)->bit << ", " << source << ");";
+    return;
+  }
+  if (isString(type) && type != sourceType) {
+    w_ << "::stride::assign(";
+    place(target);
+    w_ << ", " << source << ");";
+    return;
+  }
+  place(target);
+  w_ << " = ";
+  convertedText(source, sourceType, type, span);
+  w_ << ';';
+}
+
+void Emitter::instanceCall(const CallExpr *e, Span span) {
+  const PouSymbol *pou = e->pou;
+  includes_.symbol(pou);
+  std::string instance;
+  bool braces = false;
+  if (e->resolved == Callee::program) {
+    instance = std::string(root({pou, false}));
+  } else {
+    instance = placeText(e->callee);
+    if (instance.find('(') != std::string::npos || instance.find('[') != std::string::npos) {
+      // Found once, however many inputs are set.
+      const std::string name = temporary("fb");
+      w_ << "{ auto &" << name << " = " << instance << "; ";
+      instance = name;
+      braces = true;
+    }
+  }
+  bool first = true;
+  const auto part = [&](Span where) {
+    if (!first)
+      next(where);
+    first = false;
+  };
+  for (const Argument &a : e->arguments) {
+    if (a.value == nullptr || a.output || a.parameter == nullptr)
+      continue;
+    part(a.span);
+    const VarSymbol *p = a.parameter;
+    const std::string field = instance + "." + mangle(p->name.text);
+    if (needsCopy(a)) {
+      const std::string copy = temporary("copy");
+      if (!braces)
+        w_ << "{ ";
+      braces = true;
+      w_ << type(p->type) << ' ' << copy << "{}; ::stride::assign(" << copy << ", ";
+      text(a.value);
+      w_ << "); " << field << " = &" << copy << ';';
+    } else if (isIndirect(p)) {
+      w_ << field << " = ";
+      address(a.value);
+      w_ << ';';
+    } else {
+      storeTo(field, p->type, a.value);
+    }
+  }
+  part(first ? span : Span{});
+  w_ << instance << ".body__(" << ctx() << ");";
+  for (const Argument &a : e->arguments) {
+    if (a.value == nullptr || !a.output || a.parameter == nullptr)
+      continue;
+    part(a.span);
+    outputTo(a.value, instance + "." + mangle(a.parameter->name.text), a.parameter->type, a.span);
+  }
+  if (braces)
+    w_ << " }";
+}
+
+} // namespace stc::codegen

@@ -1,0 +1,228 @@
+#pragma once
+// Bodies and initial values: statements and expressions of one POU (or of a group of types) as C++.
+
+#include "compiler/codegen/analysis.hpp"
+#include "compiler/codegen/layout.hpp"
+#include "compiler/codegen/names.hpp"
+#include "compiler/codegen/writer.hpp"
+
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <utility>
+#include <vector>
+
+namespace stc::codegen {
+
+/// What all files of one run share.
+struct Context {
+  const Program &program;
+  const Library *own; ///< the library (or project) whose files are generated
+  Names names;
+  Layouts layouts;
+  Analysis analysis;
+
+  Context(const Program &p, const Library *library)
+      : program(p), own(library), names(p), layouts(p, library), analysis(p.settings) {}
+};
+
+/// An object of its own in the application's state: a variable list, a program, or the statics of a POU.
+struct Root {
+  const Symbol *symbol = nullptr;
+  bool isStatic = false;
+  bool operator==(const Root &) const = default;
+};
+/// `::st::user::GVL__globals__`
+std::string rootType(Names &names, const Root &root);
+/// `::st::user::GVL__globals__at__`: the constant that holds its place in the state.
+std::string rootPlace(Names &names, const Root &root);
+/// The statics of a POU that has some.
+[[nodiscard]] bool hasStatics(const PouSymbol *pou);
+
+/// Emits code into a writer and remembers what that code needs around it.
+class Emitter {
+public:
+  Emitter(Context &context, const PouSymbol *pou);
+
+  // statements.cpp
+  void block(ast::Block block);
+
+  // initializers.cpp
+  /// Brings zeroed memory to the variable's default; `target` is a C++ lvalue.
+  void initVariable(std::string_view target, const VarSymbol *variable);
+  /// Gives a local variable its default: `T x = 5;` or `T x{};` and what follows.
+  void declareLocal(const VarSymbol *variable);
+
+  [[nodiscard]] Writer &writer() { return w_; }
+  [[nodiscard]] Includes &includes() { return includes_; }
+  [[nodiscard]] bool usesContext() const { return usesContext_; }
+  [[nodiscard]] bool usesBudget() const { return usesBudget_; }
+  void needContext() { usesContext_ = true; }
+  /// The source files whose names the code needs, as constants fileName().
+  [[nodiscard]] std::vector<FileId> takeFiles() { return std::exchange(files_, {}); }
+  struct RootUse {
+    Root root;
+    std::string reference; ///< the local name
+  };
+  [[nodiscard]] std::vector<RootUse> takeRoots() { return std::exchange(roots_, {}); }
+  [[nodiscard]] bool used(const VarSymbol *variable) const { return used_.contains(variable); }
+  /// `file__`, the constant with the name of a source file.
+  std::string fileName(FileId file);
+  static std::string fileConstant(std::size_t index) {
+    return index == 0 ? "file__" : "file__" + std::to_string(index + 1);
+  }
+  /// Hands over what has been written and begins anew; uses and roots are kept.
+  [[nodiscard]] Writer takeWriter();
+  void forgetUses();
+
+private:
+  enum Level : int { // of C++'s operators
+    kPostfix = 1,
+    kUnary = 2,
+    kMultiply = 4,
+    kAdd = 5,
+    kRelation = 7,
+    kEquality = 8,
+    kBitAnd = 9,
+    kBitXor = 10,
+    kBitOr = 11,
+    kAnd = 12,
+    kOr = 13,
+  };
+  struct Infix {
+    std::string_view op; ///< empty: not written as an operator
+    int level = kPostfix;
+  };
+  struct Loop {
+    unsigned id;
+    unsigned switches = 0; ///< CASE statements around the place, within the loop
+    bool labelled = false; ///< an EXIT jumps behind it
+  };
+
+  // expressions.cpp
+  /// The value in the expression's own type.
+  void raw(const ast::Expr *e);
+  /// The value converted to Expr::target, to be stored in (or passed as) that type.
+  void value(const ast::Expr *e);
+  void valueAs(const ast::Expr *e, const Type *type);
+  /// The value as an operand of arithmetic on `type`; `other` is the second operand or null.
+  void operand(const ast::Expr *e, const Type *type, const ast::Expr *other, bool comparison);
+  /// A condition: value() in parentheses is the caller's.
+  void condition(const ast::Expr *e) { value(e); }
+  /// A string of whatever length, for the runtime's string functions.
+  void text(const ast::Expr *e);
+  /// A variable (or element, field, bit base …) that can be assigned to.
+  void place(const ast::Expr *e);
+  [[nodiscard]] std::string placeText(const ast::Expr *e);
+  /// A pointer to it; null references stay null.
+  void address(const ast::Expr *e);
+  void variable(const VarSymbol *v, Span span);
+  /// The slot of an in-out or a reference itself.
+  void slot(const ast::Expr *e);
+  [[nodiscard]] static const VarSymbol *indirectVariable(const ast::Expr *e);
+  void member(const ast::MemberExpr *e, bool slotOnly);
+  void basePath(const Type *base, const VarSymbol *field);
+  void index(const ast::IndexExpr *e);
+  [[nodiscard]] int level(const ast::Expr *e) const;
+  [[nodiscard]] static const ast::Expr *skipPlus(const ast::Expr *e);
+
+  // operators.cpp
+  void unary(const ast::UnaryExpr *e);
+  void binary(const ast::BinaryExpr *e);
+  [[nodiscard]] Infix infix(const ast::BinaryExpr *e) const;
+  [[nodiscard]] static bool parenthesize(int child, const Infix &parent, bool right, std::string_view childOp);
+  [[nodiscard]] bool implicitOperand(const ast::Expr *e, const Type *type, const ast::Expr *other, bool comparison) const;
+  void infixOperand(const ast::BinaryExpr *e, const Infix &op, const ast::Expr *side);
+  void ordered(const ast::BinaryExpr *e);
+  template <class Left, class Right> void special(const ast::BinaryExpr *e, Left &&left, Right &&right);
+  template <class Left, class Right> void timeArithmetic(const ast::BinaryExpr *e, Left &&left, Right &&right);
+
+  // conversions.cpp
+  void literal(const ConstValue &constant, const Type *from, const Type *to, const Symbol *symbol = nullptr);
+  void number(std::int64_t value, const Type *type);
+  void real(double value, const Type *type);
+  void quoted(const ConstValue &constant, bool wide);
+  void exactString(const ConstValue &constant, const Type *type);
+  /// How a value of `from` becomes one of `to`; `inner` writes the value.
+  template <class Inner> void converted(const Type *from, const Type *to, Span span, Inner &&inner);
+  [[nodiscard]] bool implicitStore(const Type *from, const Type *to) const;
+  void convertedText(std::string_view code, const Type *from, const Type *to, Span span);
+  void convertedExpr(const ast::Expr *e, const Type *from, const Type *to);
+
+  // calls.cpp
+  void functionCall(const ast::CallExpr *e, bool asStatement);
+  void functionArguments(const ast::CallExpr *e, const std::vector<std::string> &names);
+  void defaultArgument(const VarSymbol *parameter);
+  void instanceCall(const ast::CallExpr *e, Span span);
+  void outputTo(const ast::Expr *target, std::string_view source, const Type *sourceType, Span span);
+
+  // builtin_calls.cpp
+  void builtin(const ast::CallExpr *e);
+  void orderedBuiltin(const ast::CallExpr *e);
+  void builtinPlain(const ast::CallExpr *e, const std::vector<std::string> *names);
+  void builtinArgument(const ast::CallExpr *e, std::size_t i, const std::vector<std::string> *names, bool anyText);
+
+  // statements.cpp
+  void statement(const ast::Stmt *s);
+  void assign(const ast::AssignStmt *s);
+  void store(const ast::Expr *target, const ast::Expr *value);
+  void storeTo(std::string_view target, const Type *type, const ast::Expr *value);
+  void callStatement(const ast::CallStmt *s);
+  void ifStatement(const ast::IfStmt *s);
+  void caseStatement(const ast::CaseStmt *s);
+  void caseSwitch(const ast::CaseStmt *s);
+  void caseChain(const ast::CaseStmt *s);
+  void forStatement(const ast::ForStmt *s);
+  void loopBody(ast::Block body, Span span, bool tick);
+  void endLoop();
+
+  // initializers.cpp
+  void typeDefault(std::string_view target, const Type *type);
+  void initValue(std::string_view target, const Type *type, const ast::Expr *init);
+  std::uint64_t arrayValues(std::string_view target, const ArrayType *type, std::span<ast::AggregateItem> items,
+                            const std::string &base, std::uint64_t at);
+  bool constantTable(std::string_view target, const ArrayType *type, const ast::AggregateExpr *init);
+
+  // Helpers.
+  /// Begins a statement (or a later part of one) that stands at `span`.
+  void begin(Span span);
+  /// Goes on with the statement at `span`: on the same line if it is the same line of the ST.
+  void next(Span span);
+  void end() { w_.endLine(); }
+  void open() { w_.indent(); }
+  void close() { w_.outdent(); }
+  std::string_view ctx() {
+    usesContext_ = true;
+    return "ctx__";
+  }
+  /// `file__, 12, 3` of a check.
+  void position(Span span);
+  /// `ctx__, file__, 12, 3`-style arguments end with this.
+  std::string_view root(const Root &root);
+  std::string temporary(std::string_view stem);
+  std::string_view type(const Type *type) {
+    includes_.complete(type);
+    return c_.names.type(type);
+  }
+  [[nodiscard]] bool checks() const { return c_.program.settings.checks; }
+  [[nodiscard]] unsigned effects(const ast::Expr *e) { return c_.analysis.effects(e); }
+
+  Context &c_;
+  const PouSymbol *pou_;
+  Writer w_;
+  Includes includes_;
+  bool usesContext_ = false;
+  bool usesBudget_ = false;
+  std::vector<FileId> files_;
+  std::vector<RootUse> roots_;
+  std::unordered_set<const VarSymbol *> used_;
+  const VarSymbol *lastUsed_ = nullptr;
+  std::vector<Loop> loops_;
+  unsigned next_ = 0;
+  std::uint32_t currentLine_ = 0; ///< of the ST, for next()
+  Span initSpan_;                 ///< of the variable being initialised
+};
+
+} // namespace stc::codegen
+
+#include "compiler/codegen/emitter_templates.hpp"

@@ -1,0 +1,400 @@
+// Values and places: names, members, elements, pointers.
+
+#include "compiler/codegen/emitter.hpp"
+
+#include <cmath>
+
+namespace stc::codegen {
+
+using namespace ast;
+
+namespace {
+
+const Symbol *symbolOf(const Expr *e) {
+  switch (e->kind) {
+  case ExprKind::name:
+    return as<NameExpr>(e)->symbol;
+  case ExprKind::member:
+    return as<MemberExpr>(e)->symbol;
+  case ExprKind::enumLiteral:
+    return as<EnumLiteralExpr>(e)->symbol;
+  default:
+    return nullptr;
+  }
+}
+
+} // namespace
+
+void Emitter::value(const Expr *e) { valueAs(e, e->target != nullptr ? e->target : e->type); }
+
+void Emitter::valueAs(const Expr *e, const Type *type) {
+  if (e->constant != nullptr)
+    literal(*e->constant, e->type, type, symbolOf(e));
+  else if (isString(type) ? e->type == type : implicitStore(e->type, type))
+    raw(e);
+  else
+    convertedExpr(e, e->type, type);
+}
+
+void Emitter::raw(const Expr *e) {
+  if (e->constant != nullptr) {
+    literal(*e->constant, e->type, e->type, symbolOf(e));
+    return;
+  }
+  switch (e->kind) {
+  case ExprKind::unary:
+    unary(as<UnaryExpr>(e));
+    break;
+  case ExprKind::binary:
+    binary(as<BinaryExpr>(e));
+    break;
+  case ExprKind::call: {
+    const auto *call = as<CallExpr>(e);
+    if (call->resolved == Callee::builtin)
+      builtin(call);
+    else
+      functionCall(call, false);
+    break;
+  }
+  case ExprKind::member:
+    if (as<MemberExpr>(e)->bit >= 0) {
+      w_ << "::stride::getBit(";
+      place(as<MemberExpr>(e)->base);
+      w_ << ", " << as<MemberExpr>(e)->bit << ')';
+      break;
+    }
+    place(e);
+    break;
+  default:
+    place(e);
+    break;
+  }
+}
+
+void Emitter::operand(const Expr *e, const Type *type, const Expr *other, bool comparison) {
+  if (e->constant != nullptr)
+    literal(*e->constant, e->type, type, symbolOf(e));
+  else if (implicitOperand(e, type, other, comparison))
+    raw(e);
+  else
+    convertedExpr(e, e->type, type);
+}
+
+void Emitter::text(const Expr *e) {
+  if (e->constant == nullptr) {
+    raw(e);
+    return;
+  }
+  w_ << "::stride::lit(";
+  quoted(*e->constant, e->type->kind == TypeKind::wstring);
+  w_ << ')';
+}
+
+// --------------------------------------------------------------------------------------------------------- places
+
+const VarSymbol *Emitter::indirectVariable(const Expr *e) {
+  const Symbol *symbol = e->kind == ExprKind::member && as<MemberExpr>(e)->bit >= 0 ? nullptr : symbolOf(e);
+  if (symbol == nullptr || symbol->kind != SymbolKind::variable)
+    return nullptr;
+  const auto *v = static_cast<const VarSymbol *>(symbol);
+  return isIndirect(v) ? v : nullptr;
+}
+
+std::string Emitter::placeText(const Expr *e) {
+  const std::size_t start = w_.size();
+  place(e);
+  return w_.cut(start);
+}
+
+void Emitter::place(const Expr *e) {
+  switch (e->kind) {
+  case ExprKind::name: {
+    const Symbol *symbol = as<NameExpr>(e)->symbol;
+    if (symbol->kind == SymbolKind::pou) {
+      includes_.symbol(symbol);
+      w_ << root({symbol, false});
+      return;
+    }
+    variable(static_cast<const VarSymbol *>(symbol), e->span);
+    return;
+  }
+  case ExprKind::member:
+    member(as<MemberExpr>(e), false);
+    return;
+  case ExprKind::index:
+    index(as<IndexExpr>(e));
+    return;
+  case ExprKind::deref: {
+    const Expr *pointer = as<DerefExpr>(e)->base;
+    includes_.complete(e->type);
+    if (!checks()) {
+      w_ << "(*";
+      value(pointer);
+      w_ << ')';
+      return;
+    }
+    w_ << "::stride::deref(" << ctx() << ", ";
+    value(pointer);
+    w_ << ", ";
+    position(e->span);
+    w_ << ')';
+    return;
+  }
+  default: // a value that is looked into: `f().x`
+    raw(e);
+    return;
+  }
+}
+
+void Emitter::slot(const Expr *e) {
+  if (e->kind == ExprKind::member && !isNamespace(as<MemberExpr>(e)->base)) {
+    member(as<MemberExpr>(e), true);
+    return;
+  }
+  const VarSymbol *v = indirectVariable(e);
+  if (v->globals != nullptr) {
+    w_ << root({v->globals, false}) << '.' << mangle(v->name.text);
+    return;
+  }
+  if (v->section == Section::stat)
+    w_ << root({v->owner, true}) << '.';
+  else
+    used_.insert(v);
+  w_ << mangle(v->name.text);
+}
+
+void Emitter::address(const Expr *e) {
+  if (const VarSymbol *v = indirectVariable(e)) {
+    // An in-out of the POU itself has become a C++ reference.
+    if (v->section == Section::inOut && v->owner == pou_ && e->kind == ExprKind::name) {
+      w_ << '&';
+      place(e);
+      return;
+    }
+    slot(e);
+    return;
+  }
+  if (e->kind == ExprKind::deref) {
+    value(as<DerefExpr>(e)->base);
+    return;
+  }
+  w_ << '&';
+  place(e);
+}
+
+void Emitter::variable(const VarSymbol *v, Span span) {
+  const bool indirect = v->type->kind == TypeKind::reference;
+  if (indirect) {
+    includes_.complete(typeAs<PointerType>(v->type)->pointee);
+    w_ << (checks() ? "::stride::deref(" : "(*");
+    if (checks())
+      w_ << ctx() << ", ";
+  }
+  if (v->globals != nullptr) {
+    w_ << root({v->globals, false}) << '.' << mangle(v->name.text);
+  } else if (v->section == Section::stat) {
+    w_ << root({v->owner, true}) << '.' << mangle(v->name.text);
+  } else {
+    if (v != lastUsed_) {
+      used_.insert(v);
+      lastUsed_ = v;
+    }
+    w_ << mangle(v->name.text);
+  }
+  if (indirect && checks()) {
+    w_ << ", ";
+    position(span);
+  }
+  if (indirect)
+    w_ << ')';
+}
+
+void Emitter::basePath(const Type *base, const VarSymbol *field) {
+  if (base->kind != TypeKind::structure)
+    return;
+  for (const auto *s = typeAs<StructType>(base); s->base != nullptr; s = s->base) {
+    for (const VarSymbol *own : s->fields) {
+      if (own == field)
+        return;
+    }
+    w_ << "base__.";
+  }
+}
+
+void Emitter::member(const MemberExpr *e, bool slotOnly) {
+  const auto *field = static_cast<const VarSymbol *>(e->symbol);
+  if (isNamespace(e->base)) {
+    if (e->symbol->kind == SymbolKind::pou) {
+      includes_.symbol(e->symbol);
+      w_ << root({e->symbol, false});
+    } else {
+      variable(field, e->span);
+    }
+    return;
+  }
+  const bool indirect = isIndirect(field) && !slotOnly;
+  if (indirect) {
+    const Type *pointee = field->section == Section::inOut ? field->type : typeAs<PointerType>(field->type)->pointee;
+    includes_.complete(pointee);
+    if (checks())
+      w_ << (field->section == Section::inOut ? "::stride::bound(" : "::stride::deref(") << ctx() << ", ";
+    else
+      w_ << "(*";
+  }
+  if (field->section == Section::stat && field->owner != nullptr) {
+    w_ << root({field->owner, true}) << '.';
+  } else {
+    includes_.complete(e->base->type);
+    place(e->base);
+    w_ << '.';
+    basePath(e->base->type, field);
+  }
+  w_ << mangle(field->name.text);
+  if (indirect && checks()) {
+    w_ << ", ";
+    position(e->span);
+  }
+  if (indirect)
+    w_ << ')';
+}
+
+void Emitter::index(const IndexExpr *e) {
+  place(e->base);
+  const Type *t = e->base->type;
+  for (const Expr *i : e->indices) {
+    const auto *array = typeAs<ArrayType>(t);
+    w_ << ".v[";
+    if (inBounds(i, array)) {
+      w_ << i->constant->integer - array->low;
+    } else if (checks()) {
+      w_ << "::stride::index<" << array->low << ", " << array->high << ">(" << ctx() << ", ";
+      value(i);
+      w_ << ", ";
+      position(i->span);
+      w_ << ')';
+    } else {
+      w_ << "::stride::place<" << array->low << ">(";
+      value(i);
+      w_ << ')';
+    }
+    w_ << ']';
+    t = array->element;
+  }
+}
+
+// ---------------------------------------------------------------------------------------------------- parentheses
+
+const Expr *Emitter::skipPlus(const Expr *e) {
+  while (e->kind == ExprKind::unary && as<UnaryExpr>(e)->op == UnaryOp::plus && e->constant == nullptr &&
+         as<UnaryExpr>(e)->operand->target == nullptr)
+    e = as<UnaryExpr>(e)->operand;
+  return e;
+}
+
+int Emitter::level(const Expr *e) const {
+  e = skipPlus(e);
+  if (e->constant != nullptr) {
+    const ConstValue &c = *e->constant;
+    const bool negative = c.kind == ConstKind::integer ? c.integer < 0 : c.kind == ConstKind::real && std::signbit(c.real);
+    return negative ? kUnary : kPostfix;
+  }
+  if (e->kind == ExprKind::unary)
+    return kUnary;
+  if (e->kind == ExprKind::binary) {
+    const Infix op = infix(as<BinaryExpr>(e));
+    return op.op.empty() ? kPostfix : op.level;
+  }
+  return kPostfix;
+}
+
+// -------------------------------------------------------------------------------------------------------- helpers
+
+Emitter::Emitter(Context &context, const PouSymbol *pou)
+    : c_(context), pou_(pou), w_(context.program.sources), includes_(context.names) {}
+
+void Emitter::forgetUses() {
+  used_.clear();
+  lastUsed_ = nullptr;
+  usesContext_ = false;
+  usesBudget_ = false;
+}
+
+Writer Emitter::takeWriter() {
+  Writer done = std::move(w_);
+  w_ = Writer(c_.program.sources);
+  return done;
+}
+
+void Emitter::begin(Span span) {
+  w_.from(span);
+  currentLine_ = w_.place(span).line;
+  w_.line();
+}
+
+void Emitter::next(Span span) {
+  const std::uint32_t line = span.valid() ? w_.place(span).line : currentLine_;
+  if (line == currentLine_) {
+    w_ << ' ';
+    return;
+  }
+  w_.endLine();
+  begin(span);
+}
+
+std::string Emitter::fileName(FileId file) {
+  std::size_t i = 0;
+  while (i < files_.size() && files_[i] != file)
+    ++i;
+  if (i == files_.size())
+    files_.push_back(file);
+  return fileConstant(i);
+}
+
+void Emitter::position(Span span) {
+  const Place at = w_.place(span);
+  if (files_.size() == 1 && files_[0] == span.file)
+    w_ << "file__";
+  else
+    w_ << fileName(span.file);
+  w_ << ", " << at.line << ", " << at.column;
+}
+
+std::string Emitter::temporary(std::string_view stem) { return std::string(stem) + "__" + std::to_string(++next_); }
+
+std::string rootType(Names &names, const Root &root) {
+  std::string name(names.qualified(root.symbol));
+  return root.isStatic ? name + "__static__" : name;
+}
+
+std::string rootPlace(Names &names, const Root &root) {
+  std::string name = rootType(names, root);
+  if (!name.ends_with("__"))
+    name += "__";
+  return name + "at__";
+}
+
+bool hasStatics(const PouSymbol *pou) {
+  for (const VarSymbol *v : pou->variables) {
+    if (v->section == Section::stat)
+      return true;
+  }
+  return false;
+}
+
+std::string_view Emitter::root(const Root &root) {
+  for (const RootUse &use : roots_) {
+    if (use.root == root)
+      return use.reference;
+  }
+  usesContext_ = true;
+  includes_.symbol(root.symbol);
+  std::string name;
+  if (root.symbol->library != c_.own)
+    name = std::string(c_.names.space(root.symbol->library)) + "__";
+  name += mangle(root.symbol->name.text);
+  name += root.isStatic ? "__static" : root.symbol->kind == SymbolKind::pou ? "__program" : "__";
+  roots_.push_back({root, std::move(name)});
+  return roots_.back().reference;
+}
+
+} // namespace stc::codegen

@@ -1,0 +1,261 @@
+// Headers: one per type, POU and variable list.
+
+#include "compiler/codegen/units.hpp"
+
+namespace stc::codegen {
+
+using namespace ast;
+
+namespace {
+
+std::string hex(std::uint64_t value) {
+  std::string out = "0x0000000000000000ULL";
+  for (std::size_t i = 17; i > 1; --i, value >>= 4U)
+    out[i] = "0123456789abcdef"[value & 15U];
+  return out;
+}
+
+std::string_view sectionName(Section section) {
+  switch (section) {
+  case Section::input:
+    return "VAR_INPUT";
+  case Section::output:
+    return "VAR_OUTPUT";
+  case Section::inOut:
+    return "VAR_IN_OUT";
+  case Section::stat:
+    return "VAR_STAT";
+  default:
+    return "VAR";
+  }
+}
+
+/// `T *` and `T &` want no blank behind them.
+std::string declared(std::string_view type, std::string_view name) {
+  std::string out(type);
+  if (out.back() != '*' && out.back() != '&')
+    out += ' ';
+  mangleTo(out, name);
+  return out;
+}
+
+class HeaderBuilder {
+public:
+  explicit HeaderBuilder(Context &context) : c_(context), includes_(context.names) {}
+
+  GeneratedFile structure(const TypeSymbol *symbol) {
+    const auto *type = typeAs<StructType>(symbol->type);
+    open(symbol);
+    body_ += "struct " + name_ + " {\n";
+    if (type->base != nullptr) {
+      includes_.complete(type->base);
+      body_ += "  " + std::string(c_.names.type(type->base)) + " base__; // EXTENDS\n";
+    }
+    for (const VarSymbol *v : type->fields)
+      field(v);
+    init(c_.layouts.needsInit(type));
+    body_ += "};\n";
+    layout(type);
+    return close(symbol);
+  }
+
+  GeneratedFile enumeration(const TypeSymbol *symbol) {
+    const auto *type = typeAs<EnumType>(symbol->type);
+    open(symbol);
+    body_ += "using " + name_ + " = " + std::string(c_.names.type(type->base)) + ";\n";
+    const Type *base = underlying(type);
+    for (const EnumeratorSymbol *e : type->enumerators) {
+      body_ += "inline constexpr " + name_ + " " + name_ + "__" + std::string(e->name.text) + " = ";
+      const bool unsigned64 = base->kind == TypeKind::ulint || base->kind == TypeKind::lword;
+      body_ += unsigned64 ? std::to_string(static_cast<std::uint64_t>(e->value)) + "ULL" : std::to_string(e->value);
+      body_ += ";\n";
+    }
+    return close(symbol);
+  }
+
+  GeneratedFile alias(const TypeSymbol *symbol) {
+    open(symbol);
+    includes_.complete(symbol->type);
+    body_ += "using " + name_ + " = " + std::string(c_.names.type(symbol->type)) + ";\n";
+    return close(symbol);
+  }
+
+  GeneratedFile globals(const GlobalsSymbol *symbol) {
+    open(symbol);
+    body_ += "struct " + name_ + " {\n";
+    for (const VarSymbol *v : symbol->variables)
+      field(v);
+    init(rootNeedsInit(c_, {symbol, false}));
+    body_ += "};\n";
+    place({symbol, false});
+    return close(symbol);
+  }
+
+  GeneratedFile block(const PouSymbol *symbol) {
+    open(symbol);
+    body_ += "struct " + name_ + " {\n";
+    Section section = Section::access;
+    for (const VarSymbol *v : symbol->variables) {
+      if (!isField(v))
+        continue;
+      if (v->section != section)
+        body_.append("  // ").append(sectionName(v->section)).append("\n");
+      section = v->section;
+      field(v);
+    }
+    init(c_.layouts.needsInit(symbol->type));
+    body_ += "  void body__(::stride::Ctx &ctx__);\n};\n";
+    layout(symbol->type);
+    if (symbol->decl->kind == DeclKind::program)
+      place({symbol, false});
+    statics(symbol);
+    return close(symbol);
+  }
+
+  GeneratedFile function(const PouSymbol *symbol) {
+    open(symbol);
+    statics(symbol);
+    body_ += functionSignature(symbol, nullptr);
+    body_ += ";\n";
+    return close(symbol);
+  }
+
+  /// `R Name(::stride::Ctx &ctx__, T a)`; in the definition unused parameters are marked and an unused context has no name.
+  std::string functionSignature(const PouSymbol *symbol, const Emitter *definition) {
+    std::string out;
+    if (symbol->result != nullptr) {
+      includes_.complete(symbol->result->type);
+      out += c_.names.type(symbol->result->type);
+      out += out.back() == '*' ? "" : " ";
+    } else {
+      out += "void ";
+    }
+    out += std::string(c_.names.local(symbol)) + "(::stride::Ctx &";
+    if (definition == nullptr || definition->usesContext())
+      out += "ctx__";
+    for (const VarSymbol *p : symbol->parameters()) {
+      out += ", ";
+      if (definition != nullptr && !definition->used(p))
+        out += "[[maybe_unused]] ";
+      std::string type(c_.names.type(p->type));
+      if (p->section != Section::input) {
+        includes_.pointed(p->type);
+        type += type.back() == '*' ? "&" : " &";
+      } else {
+        includes_.complete(p->type);
+      }
+      out += declared(type, p->name.text);
+    }
+    return out + ")";
+  }
+
+private:
+  void open(const Symbol *symbol) { name_ = c_.names.local(symbol); }
+
+  void field(const VarSymbol *v) {
+    std::string type(c_.names.type(v->type));
+    if (v->section == Section::inOut) {
+      includes_.pointed(v->type);
+      type += type.back() == '*' ? "*" : " *";
+    } else {
+      includes_.complete(v->type);
+    }
+    body_ += "  " + declared(type, v->name.text) + ";\n";
+  }
+
+  void init(bool needed) {
+    body_ += needed ? "  void init__(::stride::Ctx &ctx__);\n" : "  void init__(::stride::Ctx &) {}\n";
+  }
+
+  void layout(const Type *type) {
+    body_ += "/// Changes when the layout does.\ninline constexpr ::stride::ULINT " + name_ +
+             "__layout__ = " + hex(c_.layouts.hash(type)) + ";\n";
+  }
+
+  void place(const Root &root) {
+    std::string name = rootPlace(c_.names, root);
+    name.erase(0, name.rfind(':') + 1);
+    body_ += "/// Its place in the application's state, which the application defines.\nextern const ::stride::ULINT " + name +
+             ";\n";
+  }
+
+  void statics(const PouSymbol *symbol) {
+    if (!hasStatics(symbol))
+      return;
+    body_ += "\nstruct " + name_ + "__static__ {\n";
+    for (const VarSymbol *v : symbol->variables) {
+      if (v->section == Section::stat)
+        field(v);
+    }
+    init(rootNeedsInit(c_, {symbol, true}));
+    body_ += "};\n";
+    place({symbol, true});
+    body_ += "\n";
+  }
+
+  GeneratedFile close(const Symbol *symbol) {
+    GeneratedFile file;
+    file.path = c_.names.header(symbol);
+    file.text = banner(symbol->name.text) + "#pragma once\n#include \"runtime/iec/types.h\"\n" + includes_.text(symbol);
+    file.text += "\nnamespace stride {\nstruct Ctx;\n}\n\nnamespace st::";
+    file.text += std::string(c_.names.space(symbol->library)) + " {\n\n" + body_ + "\n}\n";
+    return file;
+  }
+
+  Context &c_;
+  Includes includes_;
+  std::string name_;
+  std::string body_;
+};
+
+} // namespace
+
+std::string banner(std::string_view what) {
+  return "// " + std::string(what) + ": generated by Stride; changes are lost.\n";
+}
+
+std::string functionSignature(Context &context, const PouSymbol *symbol, const Emitter *definition) {
+  return HeaderBuilder(context).functionSignature(symbol, definition);
+}
+
+std::vector<const VarSymbol *> rootVariables(const Root &root) {
+  std::vector<const VarSymbol *> list;
+  if (root.symbol->kind == SymbolKind::globals) {
+    for (const VarSymbol *v : static_cast<const GlobalsSymbol *>(root.symbol)->variables)
+      list.push_back(v);
+    return list;
+  }
+  for (const VarSymbol *v : static_cast<const PouSymbol *>(root.symbol)->variables) {
+    if (root.isStatic ? v->section == Section::stat : isField(v))
+      list.push_back(v);
+  }
+  return list;
+}
+
+bool rootNeedsInit(Context &context, const Root &root) {
+  if (root.symbol->library != context.own)
+    return true;
+  for (const VarSymbol *v : rootVariables(root)) {
+    if (context.layouts.needsInit(v))
+      return true;
+  }
+  return false;
+}
+
+void generateHeaders(Context &context, std::vector<GeneratedFile> &files) {
+  const Library &library = *context.own;
+  for (const TypeSymbol *t : library.types) {
+    if (t->type->kind == TypeKind::structure && t->decl != nullptr && t->decl->kind == DeclKind::structure)
+      files.push_back(HeaderBuilder(context).structure(t));
+    else if (t->type->kind == TypeKind::enumeration && typeAs<EnumType>(t->type)->symbol == t)
+      files.push_back(HeaderBuilder(context).enumeration(t));
+    else
+      files.push_back(HeaderBuilder(context).alias(t));
+  }
+  for (const GlobalsSymbol *g : library.globals)
+    files.push_back(HeaderBuilder(context).globals(g));
+  for (const PouSymbol *p : library.pous)
+    files.push_back(p->isFunction() ? HeaderBuilder(context).function(p) : HeaderBuilder(context).block(p));
+}
+
+} // namespace stc::codegen

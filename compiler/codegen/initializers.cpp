@@ -1,0 +1,227 @@
+// Initial values. Memory is zero before, so that only what differs from zero is written.
+
+#include "compiler/codegen/emitter.hpp"
+
+namespace stc::codegen {
+
+using namespace ast;
+
+namespace {
+
+constexpr std::size_t kMinTable = 8;
+constexpr std::uint64_t kMaxUnrolled = 16;
+
+std::uint64_t repetition(const AggregateItem &item) {
+  return item.repeat == nullptr ? 1 : static_cast<std::uint64_t>(item.repeat->constant->integer);
+}
+
+} // namespace
+
+void Emitter::initVariable(std::string_view target, const VarSymbol *variable) {
+  if (variable->section == Section::inOut)
+    return;
+  initSpan_ = variable->name.span;
+  const Expr *init = c_.layouts.initOf(variable);
+  if (init != nullptr && variable->type->kind == TypeKind::reference) {
+    if (init->constant != nullptr)
+      return;
+    begin(initSpan_);
+    w_ << target << " = ";
+    address(init);
+    w_ << ';';
+    end();
+    return;
+  }
+  const bool whole = init != nullptr && init->kind != ExprKind::aggregate; // replaces the type's default
+  if (!whole)
+    typeDefault(target, variable->type);
+  if (init != nullptr)
+    initValue(target, variable->type, init);
+}
+
+void Emitter::typeDefault(std::string_view target, const Type *type) {
+  if (!c_.layouts.needsInit(type))
+    return;
+  switch (type->kind) {
+  case TypeKind::enumeration: {
+    const EnumeratorSymbol *initial = typeAs<EnumType>(type)->initial;
+    begin(initSpan_);
+    w_ << target << " = ";
+    literal({ConstKind::integer, initial->value, 0, {}}, type, type, initial);
+    w_ << ';';
+    end();
+    return;
+  }
+  case TypeKind::subrange:
+    begin(initSpan_);
+    w_ << target << " = ";
+    number(subrangeDefault(typeAs<SubrangeType>(type)), type);
+    w_ << ';';
+    end();
+    return;
+  case TypeKind::array: {
+    const std::string element = temporary("element");
+    begin(initSpan_);
+    w_ << "for (auto &" << element << " : " << target << ".v) {";
+    end();
+    open();
+    typeDefault(element, typeAs<ArrayType>(type)->element);
+    close();
+    begin(initSpan_);
+    w_ << '}';
+    end();
+    return;
+  }
+  default:
+    includes_.complete(type);
+    begin(initSpan_);
+    w_ << target << ".init__(" << ctx() << ");";
+    end();
+    return;
+  }
+}
+
+void Emitter::initValue(std::string_view target, const Type *type, const Expr *init) {
+  if (init->kind != ExprKind::aggregate) {
+    if (isZero(init) && !c_.layouts.needsInit(type) && init->constant->kind != ConstKind::string)
+      return;
+    if (isZero(init) && init->constant->kind == ConstKind::string)
+      return;
+    begin(initSpan_);
+    storeTo(target, type, init);
+    end();
+    return;
+  }
+  const auto *list = as<AggregateExpr>(init);
+  if (type->kind == TypeKind::array) {
+    const auto *array = typeAs<ArrayType>(type);
+    if (!constantTable(target, array, list))
+      arrayValues(target, array, list->items, {}, 0);
+    return;
+  }
+  for (const AggregateItem &item : list->items) {
+    if (item.symbol == nullptr || item.value == nullptr)
+      continue;
+    std::string field(target);
+    field += '.';
+    const std::size_t start = w_.size();
+    basePath(type, item.symbol);
+    field += w_.cut(start);
+    mangleTo(field, item.symbol->name.text);
+    if (item.symbol->type->kind == TypeKind::reference) {
+      begin(initSpan_);
+      w_ << field << " = ";
+      address(item.value);
+      w_ << ';';
+      end();
+      continue;
+    }
+    // The field has its default already; a plain zero must overwrite it.
+    if (item.value->kind != ExprKind::aggregate) {
+      begin(item.span.valid() ? item.span : initSpan_);
+      storeTo(field, item.symbol->type, item.value);
+      end();
+    } else {
+      initValue(field, item.symbol->type, item.value);
+    }
+  }
+}
+
+bool Emitter::constantTable(std::string_view target, const ArrayType *type, const AggregateExpr *init) {
+  const Type *element = type->element;
+  if (init->items.size() < kMinTable || !isElementary(element) || isString(element))
+    return false;
+  for (const AggregateItem &item : init->items) {
+    if (item.repeat != nullptr || item.value == nullptr || item.value->constant == nullptr)
+      return false;
+  }
+  const std::string table = temporary("table");
+  begin(initSpan_);
+  w_ << "static constexpr " << this->type(element) << ' ' << table << "[] = {";
+  for (std::size_t i = 0; i < init->items.size(); ++i) {
+    w_ << (i == 0 ? "" : ", ");
+    valueAs(init->items[i].value, element);
+  }
+  w_ << "};";
+  end();
+  begin(initSpan_);
+  w_ << "for (::stride::ULINT i__ = 0; i__ < " << init->items.size() << "; ++i__) " << target << ".v[i__] = " << table
+     << "[i__];";
+  end();
+  return true;
+}
+
+std::uint64_t Emitter::arrayValues(std::string_view target, const ArrayType *type, std::span<AggregateItem> items,
+                                   const std::string &base, std::uint64_t at) {
+  const auto element = [&](std::uint64_t place) {
+    return std::string(target) + ".v[" + base + std::to_string(place) + "]";
+  };
+  for (const AggregateItem &item : items) {
+    const std::uint64_t count = repetition(item);
+    if (item.values.empty()) {
+      const bool skip = item.value == nullptr || (isZero(item.value) && !c_.layouts.needsInit(type->element));
+      if (!skip && count == 1) {
+        initValue(element(at), type->element, item.value);
+      } else if (!skip && count > 1) {
+        const std::string i = temporary("i");
+        begin(initSpan_);
+        w_ << "for (::stride::ULINT " << i << " = 0; " << i << " < " << count << "; ++" << i << ") {";
+        end();
+        open();
+        initValue(std::string(target) + ".v[" + base + i + " + " + std::to_string(at) + "]", type->element, item.value);
+        close();
+        begin(initSpan_);
+        w_ << '}';
+        end();
+      }
+      at += count;
+      continue;
+    }
+    if (count <= kMaxUnrolled) {
+      for (std::uint64_t i = 0; i < count; ++i)
+        at = arrayValues(target, type, item.values, base, at);
+      continue;
+    }
+    std::uint64_t width = 0; // of one repetition
+    const auto measure = [](auto &&self, std::span<AggregateItem> list) -> std::uint64_t {
+      std::uint64_t total = 0;
+      for (const AggregateItem &inner : list)
+        total += repetition(inner) * (inner.values.empty() ? 1 : self(self, inner.values));
+      return total;
+    };
+    width = measure(measure, item.values);
+    const std::string i = temporary("i");
+    begin(initSpan_);
+    w_ << "for (::stride::ULINT " << i << " = 0; " << i << " < " << count << "; ++" << i << ") {";
+    end();
+    open();
+    arrayValues(target, type, item.values, base + i + " * " + std::to_string(width) + " + ", at);
+    close();
+    begin(initSpan_);
+    w_ << '}';
+    end();
+    at += count * width;
+  }
+  return at;
+}
+
+void Emitter::declareLocal(const VarSymbol *variable) {
+  const std::string name = mangle(variable->name.text);
+  const Expr *init = c_.layouts.initOf(variable);
+  begin(variable->name.span);
+  if (!used(variable))
+    w_ << "[[maybe_unused]] ";
+  w_ << type(variable->type) << (c_.names.type(variable->type).back() == '*' ? "" : " ") << name;
+  if (init != nullptr && init->constant != nullptr && !isString(variable->type) && isElementary(variable->type)) {
+    w_ << " = ";
+    valueAs(init, variable->type);
+    w_ << ';';
+    end();
+    return;
+  }
+  w_ << "{};";
+  end();
+  initVariable(name, variable);
+}
+
+} // namespace stc::codegen

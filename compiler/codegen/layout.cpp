@@ -1,0 +1,223 @@
+#include "compiler/codegen/layout.hpp"
+
+#include <cmath>
+
+namespace stc::codegen {
+
+using namespace ast;
+
+Hash &Hash::add(std::string_view text) {
+  for (const char c : text)
+    value_ = (value_ ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  value_ = (value_ ^ 0xFFU) * 1099511628211ULL; // an end mark: "ab" + "c" is not "a" + "bc"
+  return *this;
+}
+
+Hash &Hash::add(std::uint64_t value) {
+  for (int i = 0; i < 8; ++i) {
+    value_ = (value_ ^ (value & 0xFFU)) * 1099511628211ULL;
+    value >>= 8U;
+  }
+  return *this;
+}
+
+std::int64_t subrangeDefault(const SubrangeType *type) {
+  return type->low > 0 ? type->low : type->high < 0 ? type->high : 0;
+}
+
+bool isZero(const Expr *init) {
+  const ConstValue *c = init->constant;
+  if (c == nullptr)
+    return false;
+  switch (c->kind) {
+  case ConstKind::integer:
+    return c->integer == 0;
+  case ConstKind::real:
+    return c->real == 0 && !std::signbit(c->real);
+  case ConstKind::string:
+    return c->text.empty();
+  }
+  return false;
+}
+
+Layouts::Layouts(const Program &program, const Library *own) : own_(own) {
+  for (const auto &library : program.libraries) {
+    for (const TypeSymbol *t : library->types) {
+      if (t->decl != nullptr && t->decl->kind == DeclKind::alias && t->init != nullptr && t->init->type != nullptr)
+        aliasDefaults_[t->name.id].push_back(t);
+    }
+  }
+}
+
+const Expr *Layouts::initOf(const VarSymbol *variable) {
+  if (variable->decl == nullptr)
+    return nullptr;
+  if (variable->decl->init != nullptr)
+    return variable->decl->init;
+  const TypeExpr *type = variable->decl->type;
+  if (aliasDefaults_.empty() || variable->section == Section::inOut || type == nullptr ||
+      type->kind != TypeExprKind::named)
+    return nullptr;
+  const auto found = aliasDefaults_.find(as<NamedTypeExpr>(type)->path.back().id);
+  if (found == aliasDefaults_.end())
+    return nullptr;
+  const Expr *init = nullptr;
+  for (const TypeSymbol *t : found->second) {
+    if (t->type == variable->type && (init == nullptr || t->library == variable->library))
+      init = t->init;
+  }
+  return init;
+}
+
+bool Layouts::needsInit(const VarSymbol *variable) {
+  if (variable->section == Section::inOut)
+    return false;
+  const Expr *init = initOf(variable);
+  // A zero may stand against a default that is not.
+  return (init != nullptr && !isZero(init)) || needsInit(variable->type);
+}
+
+bool Layouts::needsInit(const Type *type) {
+  const auto found = needsInit_.find(type);
+  if (found != needsInit_.end())
+    return found->second;
+  const bool result = computeNeedsInit(type);
+  needsInit_.emplace(type, result);
+  return result;
+}
+
+bool Layouts::computeNeedsInit(const Type *type) {
+  switch (type->kind) {
+  case TypeKind::enumeration: {
+    const EnumeratorSymbol *initial = typeAs<EnumType>(type)->initial;
+    return initial != nullptr && initial->value != 0;
+  }
+  case TypeKind::subrange:
+    return subrangeDefault(typeAs<SubrangeType>(type)) != 0;
+  case TypeKind::array:
+    return needsInit(typeAs<ArrayType>(type)->element);
+  case TypeKind::structure: {
+    const auto *s = typeAs<StructType>(type);
+    if (s->symbol->library != own_)
+      return true;
+    if (s->base != nullptr && needsInit(s->base))
+      return true;
+    for (const VarSymbol *v : s->fields) {
+      if (needsInit(v))
+        return true;
+    }
+    return false;
+  }
+  case TypeKind::functionBlock:
+  case TypeKind::program: {
+    const PouSymbol *pou = typeAs<PouType>(type)->symbol;
+    if (pou->library != own_)
+      return true;
+    for (const VarSymbol *v : pou->variables) {
+      if (isField(v) && needsInit(v))
+        return true;
+    }
+    return false;
+  }
+  default:
+    return false;
+  }
+}
+
+std::uint64_t Layouts::hash(const Type *type) {
+  const auto found = hashes_.find(type);
+  if (found != hashes_.end())
+    return found->second;
+  const std::uint64_t result = computeHash(type);
+  hashes_.emplace(type, result);
+  return result;
+}
+
+void Layouts::addMember(Hash &hash, const VarSymbol *v) {
+  // Case does not matter in ST, so it is no change of layout.
+  hash.add(v->name.id->lower);
+  if (v->section == Section::inOut) {
+    hash.add("in-out").add(typeName(v->type));
+    return;
+  }
+  hash.add(this->hash(v->type));
+}
+
+std::uint64_t Layouts::computeHash(const Type *type) {
+  Hash h;
+  h.add(static_cast<std::uint64_t>(type->kind));
+  switch (type->kind) {
+  case TypeKind::string:
+  case TypeKind::wstring:
+    h.add(std::uint64_t{typeAs<StringType>(type)->length});
+    break;
+  case TypeKind::enumeration:
+    h.add(typeName(type)).add(hash(typeAs<EnumType>(type)->base));
+    break;
+  case TypeKind::subrange:
+    return hash(typeAs<SubrangeType>(type)->base);
+  case TypeKind::array: {
+    const auto *a = typeAs<ArrayType>(type);
+    h.add(static_cast<std::uint64_t>(a->low)).add(static_cast<std::uint64_t>(a->high)).add(hash(a->element));
+    break;
+  }
+  case TypeKind::pointer:
+  case TypeKind::reference: // by name only: types may point to themselves
+    h.add(typeName(typeAs<PointerType>(type)->pointee));
+    break;
+  case TypeKind::structure: {
+    const auto *s = typeAs<StructType>(type);
+    h.add(typeName(type));
+    if (s->base != nullptr)
+      h.add("base").add(hash(s->base));
+    for (const VarSymbol *v : s->fields)
+      addMember(h, v);
+    break;
+  }
+  case TypeKind::functionBlock:
+  case TypeKind::program: {
+    h.add(typeName(type));
+    for (const VarSymbol *v : typeAs<PouType>(type)->symbol->variables) {
+      if (isField(v))
+        addMember(h, v);
+    }
+    break;
+  }
+  default:
+    break;
+  }
+  return h.value();
+}
+
+bool Layouts::hasAddress(const Type *type) {
+  switch (type->kind) {
+  case TypeKind::pointer:
+  case TypeKind::reference:
+    return true;
+  case TypeKind::array:
+    return hasAddress(typeAs<ArrayType>(type)->element);
+  case TypeKind::structure:
+  case TypeKind::functionBlock:
+  case TypeKind::program:
+    break;
+  default:
+    return false;
+  }
+  const auto found = hasAddress_.find(type);
+  if (found != hasAddress_.end())
+    return found->second;
+  bool result = false;
+  if (type->kind == TypeKind::structure) {
+    const auto *s = typeAs<StructType>(type);
+    result = s->base != nullptr && hasAddress(s->base);
+    for (const VarSymbol *v : s->fields)
+      result = result || hasAddress(v->type);
+  } else {
+    for (const VarSymbol *v : typeAs<PouType>(type)->symbol->variables)
+      result = result || (isField(v) && (v->section == Section::inOut || hasAddress(v->type)));
+  }
+  hasAddress_.emplace(type, result);
+  return result;
+}
+
+} // namespace stc::codegen

@@ -1,0 +1,65 @@
+#pragma once
+// What the types of a program look like in memory: their fields, defaults, address slots and hashes.
+
+#include "compiler/codegen/names.hpp"
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace stc::codegen {
+
+/// FNV-1a, 64 bits.
+class Hash {
+public:
+  Hash &add(std::string_view text);
+  Hash &add(std::uint64_t value);
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+private:
+  std::uint64_t value_ = 14695981039346656037ULL;
+};
+
+/// Kept in each instance (VAR_TEMP and VAR_STAT are not).
+[[nodiscard]] inline bool isField(const VarSymbol *v) {
+  return v->section != ast::Section::temp && v->section != ast::Section::stat && v->section != ast::Section::external;
+}
+/// Held as a pointer: VAR_IN_OUT of an instance, REFERENCE TO.
+[[nodiscard]] inline bool isIndirect(const VarSymbol *v) {
+  return v->section == ast::Section::inOut || v->type->kind == TypeKind::reference;
+}
+
+class Layouts {
+public:
+  /// `own` is the library whose code is generated: types of others are always initialised through their init__.
+  Layouts(const Program &program, const Library *own);
+
+  /// Whether memory of the type must be set after it has been zeroed.
+  [[nodiscard]] bool needsInit(const Type *type);
+  [[nodiscard]] bool needsInit(const VarSymbol *variable);
+  /// The initial value that counts for a variable: its own, else its alias type's; null for the type's default.
+  [[nodiscard]] const ast::Expr *initOf(const VarSymbol *variable);
+
+  /// Equal for equal layouts in all builds.
+  [[nodiscard]] std::uint64_t hash(const Type *type);
+  /// It or something inside it is an address slot.
+  [[nodiscard]] bool hasAddress(const Type *type);
+
+private:
+  bool computeNeedsInit(const Type *type);
+  std::uint64_t computeHash(const Type *type);
+  void addMember(Hash &hash, const VarSymbol *v);
+
+  const Library *own_;
+  std::unordered_map<Ident, std::vector<const TypeSymbol *>> aliasDefaults_;
+  std::unordered_map<const Type *, bool> needsInit_;
+  std::unordered_map<const Type *, std::uint64_t> hashes_;
+  std::unordered_map<const Type *, bool> hasAddress_;
+};
+
+/// The value nearest to 0 that a subrange holds.
+[[nodiscard]] std::int64_t subrangeDefault(const SubrangeType *type);
+/// A literal or folded constant whose memory is all zero.
+[[nodiscard]] bool isZero(const ast::Expr *init);
+
+} // namespace stc::codegen

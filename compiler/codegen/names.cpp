@@ -1,0 +1,252 @@
+#include "compiler/codegen/names.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace stc::codegen {
+
+namespace {
+
+// C++ keywords, alternative tokens, contextual words that g++ warns about, and the macros of the headers that generated
+// code includes. The words with upper-case letters are macros.
+constexpr std::string_view kReserved[] = {
+    "alignas",      "alignof",     "and",        "and_eq",     "asm",           "auto",          "bitand",
+    "bitor",        "bool",        "break",      "case",       "catch",         "char",          "char8_t",
+    "char16_t",     "char32_t",    "class",      "compl",      "concept",       "const",         "consteval",
+    "constexpr",    "constinit",   "const_cast", "continue",   "co_await",      "co_return",     "co_yield",
+    "decltype",     "default",     "delete",     "do",         "double",        "dynamic_cast",  "else",
+    "enum",         "explicit",    "export",     "extern",     "false",         "float",         "for",
+    "friend",       "goto",        "if",         "inline",     "int",           "long",          "mutable",
+    "namespace",    "new",         "noexcept",   "not",        "not_eq",        "nullptr",       "operator",
+    "or",           "or_eq",       "private",    "protected",  "public",        "register",      "reinterpret_cast",
+    "requires",     "return",      "short",      "signed",     "sizeof",        "static",        "static_assert",
+    "static_cast",  "struct",      "switch",     "template",   "this",          "thread_local",  "throw",
+    "true",         "try",         "typedef",    "typeid",     "typename",      "union",         "unsigned",
+    "using",        "virtual",     "void",       "volatile",   "wchar_t",       "while",         "xor",
+    "xor_eq",       "typeof",      "linux",      "unix",       "i386",          "offsetof",      "NULL",
+    "INT8_MIN",     "INT16_MIN",   "INT32_MIN",  "INT64_MIN",  "INT8_MAX",      "INT16_MAX",     "INT32_MAX",
+    "INT64_MAX",    "UINT8_MAX",   "UINT16_MAX", "UINT32_MAX", "UINT64_MAX",    "INT8_C",        "INT16_C",
+    "INT32_C",      "INT64_C",     "UINT8_C",    "UINT16_C",   "UINT32_C",      "UINT64_C",      "INTMAX_C",
+    "UINTMAX_C",    "INTPTR_MIN",  "INTPTR_MAX", "UINTPTR_MAX", "INTMAX_MIN",   "INTMAX_MAX",    "UINTMAX_MAX",
+    "PTRDIFF_MIN",  "PTRDIFF_MAX", "SIZE_MAX",   "WCHAR_MIN",  "WCHAR_MAX",     "WINT_MIN",      "WINT_MAX",
+    "SIG_ATOMIC_MIN", "SIG_ATOMIC_MAX", "INT_LEAST8_MIN", "INT_LEAST16_MIN", "INT_LEAST32_MIN", "INT_LEAST64_MIN",
+    "INT_LEAST8_MAX", "INT_LEAST16_MAX", "INT_LEAST32_MAX", "INT_LEAST64_MAX", "UINT_LEAST8_MAX", "UINT_LEAST16_MAX",
+    "UINT_LEAST32_MAX", "UINT_LEAST64_MAX", "INT_FAST8_MIN", "INT_FAST16_MIN", "INT_FAST32_MIN", "INT_FAST64_MIN",
+    "INT_FAST8_MAX", "INT_FAST16_MAX", "INT_FAST32_MAX", "INT_FAST64_MAX", "UINT_FAST8_MAX", "UINT_FAST16_MAX",
+    "UINT_FAST32_MAX", "UINT_FAST64_MAX",
+};
+
+/// The reserved words, found by first character and length before anything is compared.
+struct ReservedWords {
+  std::array<std::uint32_t, 128> lengths{};
+  std::unordered_set<std::string_view> words{std::begin(kReserved), std::end(kReserved)};
+  ReservedWords() {
+    for (const std::string_view word : kReserved)
+      lengths[static_cast<unsigned char>(word.front())] |= 1U << word.size();
+  }
+  [[nodiscard]] bool contains(std::string_view word) const {
+    if (word.empty() || word.size() > 31)
+      return false;
+    const auto first = static_cast<unsigned char>(word.front());
+    return first < 128 && (lengths[first] >> word.size() & 1U) != 0 && words.contains(word);
+  }
+};
+
+bool isUpper(char c) { return c >= 'A' && c <= 'Z'; }
+
+bool needsUnderscore(std::string_view name) {
+  static const ReservedWords kWords;
+  if (name.find("__") != std::string_view::npos)
+    return true; // such names are ours
+  if (name.size() >= 2 && name[0] == '_' && isUpper(name[1]))
+    return true; // such names are the implementation's
+  if (name.starts_with("STRIDE_"))
+    return true;
+  std::string_view bare = name;
+  while (!bare.empty() && bare.back() == '_')
+    bare.remove_suffix(1);
+  return kWords.contains(bare);
+}
+
+} // namespace
+
+void mangleTo(std::string &out, std::string_view name) {
+  out.append(name);
+  if (needsUnderscore(name))
+    out.push_back('_');
+}
+
+std::string mangle(std::string_view name) {
+  std::string out;
+  mangleTo(out, name);
+  return out;
+}
+
+Names::Names(const Program &program) {
+  const auto add = [&](const Library *library) {
+    spaces_.emplace(library, library->isUser ? "user" : mangle(library->name));
+  };
+  for (const auto &library : program.libraries)
+    add(library.get());
+  if (program.user != nullptr)
+    add(program.user);
+}
+
+std::string_view Names::space(const Library *library) const {
+  const auto it = spaces_.find(library);
+  return it == spaces_.end() ? std::string_view("user") : std::string_view(it->second);
+}
+
+const Names::Entry &Names::entry(const Symbol *symbol) {
+  const auto [it, fresh] = entries_.try_emplace(symbol);
+  Entry &entry = it->second;
+  if (!fresh)
+    return entry;
+  std::string file(symbol->name.text);
+  const bool synthesized =
+      symbol->kind == SymbolKind::type && static_cast<const TypeSymbol *>(symbol)->decl == nullptr;
+  entry.local = synthesized ? file : mangle(file);
+  if (symbol->kind == SymbolKind::globals) {
+    file += "__globals__";
+    entry.local += "__globals__";
+  }
+  const std::string folder = "st/" + std::string(space(symbol->library)) + "/";
+  std::string suffix;
+  for (int n = 2; !taken_.emplace(folder + file + suffix + ".h", symbol).second; ++n)
+    suffix = "__" + std::to_string(n);
+  entry.local += suffix;
+  entry.header = folder + file + suffix + ".h";
+  entry.qualified = "::st::" + std::string(space(symbol->library)) + "::" + entry.local;
+  return entry;
+}
+
+std::string_view Names::local(const Symbol *symbol) { return entry(symbol).local; }
+std::string_view Names::qualified(const Symbol *symbol) { return entry(symbol).qualified; }
+std::string_view Names::header(const Symbol *symbol) { return entry(symbol).header; }
+
+const Symbol *Names::symbolOf(const Type *type) {
+  switch (type->kind) {
+  case TypeKind::enumeration:
+    return typeAs<EnumType>(type)->symbol;
+  case TypeKind::structure:
+    return typeAs<StructType>(type)->symbol;
+  case TypeKind::functionBlock:
+  case TypeKind::program:
+    return typeAs<PouType>(type)->symbol;
+  default:
+    return nullptr;
+  }
+}
+
+std::string_view Names::elementary(TypeKind kind) {
+  static constexpr std::string_view kNames[] = {
+      "None", "None",  "BOOL",  "SINT",  "INT",   "DINT", "LINT",  "USINT", "UINT",  "UDINT", "ULINT", "BYTE",   "WORD",
+      "DWORD", "LWORD", "REAL", "LREAL", "TIME", "LTIME", "DATE", "LDATE", "TOD",   "LTOD",  "DT",    "LDT",   "STRING",
+      "WSTRING",
+  };
+  static_assert(std::size(kNames) == static_cast<std::size_t>(TypeKind::wstring) + 1);
+  if (kind == TypeKind::anyInteger)
+    return "DINT";
+  if (kind == TypeKind::anyReal)
+    return "LREAL";
+  return kind <= TypeKind::wstring ? kNames[static_cast<std::size_t>(kind)] : std::string_view("None");
+}
+
+std::string_view Names::type(const Type *type) {
+  const auto found = types_.find(type);
+  if (found != types_.end())
+    return found->second;
+  std::string text;
+  switch (type->kind) {
+  case TypeKind::none:
+    text = "void";
+    break;
+  case TypeKind::string:
+  case TypeKind::wstring:
+    text = type->kind == TypeKind::string ? "::stride::STRING<" : "::stride::WSTRING<";
+    text += std::to_string(typeAs<StringType>(type)->length) + ">";
+    break;
+  case TypeKind::subrange:
+    text = this->type(typeAs<SubrangeType>(type)->base);
+    break;
+  case TypeKind::array: {
+    const auto *array = typeAs<ArrayType>(type);
+    text = "::stride::Array<" + std::string(this->type(array->element)) + ", " + std::to_string(array->low) + ", " +
+           std::to_string(array->high) + ">";
+    break;
+  }
+  case TypeKind::pointer:
+  case TypeKind::reference:
+    text = std::string(this->type(typeAs<PointerType>(type)->pointee));
+    text += text.back() == '*' ? "*" : " *";
+    break;
+  default:
+    if (const Symbol *symbol = symbolOf(type))
+      text = qualified(symbol);
+    else
+      text = "::stride::" + std::string(elementary(type->kind));
+    break;
+  }
+  return types_.emplace(type, std::move(text)).first->second;
+}
+
+void Includes::complete(const Type *type) {
+  while (type->kind == TypeKind::array || type->kind == TypeKind::subrange)
+    type = type->kind == TypeKind::array ? typeAs<ArrayType>(type)->element : typeAs<SubrangeType>(type)->base;
+  if (type->kind == TypeKind::pointer || type->kind == TypeKind::reference)
+    pointed(typeAs<PointerType>(type)->pointee);
+  else if (const Symbol *s = Names::symbolOf(type))
+    symbol(s);
+}
+
+void Includes::pointed(const Type *type) {
+  while (type->kind == TypeKind::array || type->kind == TypeKind::pointer || type->kind == TypeKind::reference)
+    type = type->kind == TypeKind::array ? typeAs<ArrayType>(type)->element : typeAs<PointerType>(type)->pointee;
+  const Symbol *s = Names::symbolOf(type);
+  if (s == nullptr)
+    return;
+  if (type->kind == TypeKind::enumeration) // an alias of a number: there is no way to declare it in advance
+    symbol(s);
+  else if (declaredSet_.insert(s).second)
+    declared_.push_back(s);
+}
+
+void Includes::merge(const Includes &other) {
+  for (const Symbol *s : other.headers_)
+    symbol(s);
+  for (const Symbol *s : other.declared_) {
+    if (declaredSet_.insert(s).second)
+      declared_.push_back(s);
+  }
+}
+
+std::string Includes::text(const Symbol *own) const {
+  std::vector<std::string_view> headers;
+  for (const Symbol *s : headers_) {
+    if (s != own)
+      headers.push_back(names_.header(s));
+  }
+  std::sort(headers.begin(), headers.end());
+  std::string out;
+  for (const std::string_view h : headers)
+    out.append("#include \"").append(h).append("\"\n");
+  std::vector<std::pair<std::string_view, std::string_view>> forward;
+  for (const Symbol *s : declared_) {
+    if (s != own && !seen_.contains(s))
+      forward.emplace_back(names_.space(s->library), names_.local(s));
+  }
+  std::sort(forward.begin(), forward.end());
+  std::string_view open;
+  for (const auto &[space, name] : forward) {
+    if (space != open) {
+      out.append(open.empty() ? "\n" : "}\n").append("namespace st::").append(space).append(" {\n");
+      open = space;
+    }
+    out.append("struct ").append(name).append(";\n");
+  }
+  if (!open.empty())
+    out.append("}\n");
+  return out;
+}
+
+} // namespace stc::codegen

@@ -1,0 +1,88 @@
+#pragma once
+// How ST names, types and their headers are called in C++.
+
+#include "compiler/semantics/program.hpp"
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+namespace stc::codegen {
+
+/// The C++ spelling of an ST identifier: itself, with one more `_` when C++ (or Stride) uses the word.
+std::string mangle(std::string_view name);
+/// Appends it.
+void mangleTo(std::string &out, std::string_view name);
+
+/// The headers one file includes: those of complete types, and declarations of types that are only pointed to.
+class Includes;
+
+/// Names of types and POUs, with the C++ types built from them. One per run.
+class Names {
+public:
+  explicit Names(const Program &program);
+
+  /// `user`, `Standard`: the innermost namespace and the folder.
+  [[nodiscard]] std::string_view space(const Library *library) const;
+  /// `Foo` of `::st::user::Foo`
+  [[nodiscard]] std::string_view local(const Symbol *symbol);
+  /// `::st::user::Foo`
+  [[nodiscard]] std::string_view qualified(const Symbol *symbol);
+  /// `st/user/Foo.h`
+  [[nodiscard]] std::string_view header(const Symbol *symbol);
+
+  /// `::stride::INT`, `::stride::Array<::st::user::Foo, 1, 3>`, `::st::user::Foo *`
+  [[nodiscard]] std::string_view type(const Type *type);
+
+  /// The symbol of a structure, enumeration or block; null for other types.
+  [[nodiscard]] static const Symbol *symbolOf(const Type *type);
+  /// The name of an elementary kind as ::stride and ::stride::Kind spell it.
+  [[nodiscard]] static std::string_view elementary(TypeKind kind);
+
+private:
+  struct Entry {
+    std::string local;
+    std::string qualified;
+    std::string header;
+  };
+  const Entry &entry(const Symbol *symbol);
+
+  std::unordered_map<const Library *, std::string> spaces_;
+  std::unordered_map<const Symbol *, Entry> entries_;
+  std::unordered_map<const Type *, std::string> types_;
+  std::unordered_map<std::string, const Symbol *> taken_; ///< headers; tells apart synthesized types of one name
+};
+
+/// Collects what a generated file must include.
+class Includes {
+public:
+  explicit Includes(Names &names) : names_(names) {}
+
+  /// Values of the type are used.
+  void complete(const Type *type);
+  /// Pointers to the type are used.
+  void pointed(const Type *type);
+  /// The header of a POU, an enumeration, a global variable list …
+  void symbol(const Symbol *symbol) {
+    if (symbol != last_ && seen_.insert(symbol).second)
+      headers_.push_back(symbol);
+    last_ = symbol;
+  }
+
+  void merge(const Includes &other);
+
+  /// Includes and forward declarations, sorted; `own` is left out.
+  [[nodiscard]] std::string text(const Symbol *own) const;
+
+private:
+  Names &names_;
+  const Symbol *last_ = nullptr;
+  std::unordered_set<const Symbol *> seen_;
+  std::vector<const Symbol *> headers_;
+  std::unordered_set<const Symbol *> declaredSet_;
+  std::vector<const Symbol *> declared_;
+};
+
+} // namespace stc::codegen

@@ -1,0 +1,254 @@
+// Sources: one per POU, one for the initial values of structures and variable lists.
+
+#include "compiler/codegen/units.hpp"
+
+namespace stc::codegen {
+
+using namespace ast;
+
+std::string_view sourcePrelude() {
+  // The warnings are about what the ST says (`x = x`, an unused variable), not about how it was translated.
+  return "#include \"runtime/iec/ops.h\"\n"
+         "\n"
+         "#pragma GCC diagnostic ignored \"-Wtautological-compare\"\n"
+         "#pragma GCC diagnostic ignored \"-Wtype-limits\"\n"
+         "#pragma GCC diagnostic ignored \"-Waddress\"\n"
+         "#pragma GCC diagnostic ignored \"-Wunused-but-set-variable\"\n"
+         "#pragma GCC diagnostic ignored \"-Wunused-but-set-parameter\"\n";
+}
+
+namespace {
+
+class SourceBuilder {
+public:
+  SourceBuilder(Context &context, const PouSymbol *pou, std::string path)
+      : c_(context), e_(context, pou), text_(context.program.sources), path_(std::move(path)) {}
+
+  /// `void X::init__(…) { … }` for the given variables; nothing when they are zero.
+  void init(std::string_view name, const std::vector<const VarSymbol *> &variables, const Type *base = nullptr) {
+    e_.forgetUses();
+    e_.writer().indent();
+    if (base != nullptr && c_.layouts.needsInit(base)) {
+      e_.needContext();
+      e_.writer().line() << "this->base__.init__(ctx__);";
+      e_.writer().endLine();
+    }
+    for (const VarSymbol *v : variables) {
+      if (c_.layouts.needsInit(v))
+        e_.initVariable("this->" + mangle(v->name.text), v);
+    }
+    const Writer body = e_.takeWriter();
+    functionHead("void " + std::string(name) + "::init__(::stride::Ctx &" + (e_.usesContext() ? "ctx__" : "") + ")");
+    prologue();
+    text_.append(body);
+    functionEnd();
+  }
+
+  void blockBody(const PouSymbol *pou, std::string_view name) {
+    e_.forgetUses();
+    e_.writer().indent();
+    e_.block(pou->decl->body);
+    const Writer body = e_.takeWriter();
+    const Writer locals = temporaries(pou);
+    Writer bound(c_.program.sources);
+    bound.indent();
+    for (const VarSymbol *v : pou->variables) {
+      if (v->section == Section::inOut && e_.used(v))
+        inOutReference(bound, v);
+    }
+    functionHead("void " + std::string(name) + "::body__(::stride::Ctx &" + (e_.usesContext() ? "ctx__" : "") + ")");
+    prologue();
+    text_.append(bound);
+    budget();
+    text_.append(locals);
+    text_.append(body);
+    functionEnd();
+  }
+
+  void functionBody(const PouSymbol *pou) {
+    e_.forgetUses();
+    e_.writer().indent();
+    e_.block(pou->decl->body);
+    const Writer body = e_.takeWriter();
+    e_.writer().indent();
+    if (pou->result != nullptr)
+      e_.declareLocal(pou->result);
+    for (const VarSymbol *v : pou->variables) {
+      if (v->section == Section::output && c_.layouts.needsInit(v))
+        e_.initVariable(mangle(v->name.text), v);
+      else if (v->section == Section::local || v->section == Section::temp)
+        e_.declareLocal(v);
+    }
+    const Writer locals = e_.takeWriter();
+    functionHead(functionSignature(c_, pou, &e_));
+    prologue();
+    budget();
+    text_.append(locals);
+    text_.append(body);
+    if (pou->result != nullptr) {
+      text_.line() << "  return " << mangle(pou->result->name.text) << ';';
+      text_.endLine();
+    }
+    functionEnd();
+  }
+
+  [[nodiscard]] Emitter &emitter() { return e_; }
+  [[nodiscard]] bool empty() const { return text_.size() == 0; }
+
+  GeneratedFile finish(const Symbol *own, std::string_view what) {
+    Writer file(c_.program.sources);
+    std::string head = banner(what);
+    if (own != nullptr)
+      head += "#include \"" + std::string(c_.names.header(own)) + "\"\n";
+    head += e_.includes().text(own);
+    head += sourcePrelude();
+    head += "\nnamespace st::" + std::string(c_.names.space(c_.own)) + " {\n";
+    for (std::size_t at = 0; at < head.size();) { // line by line, to count them
+      const std::size_t lineEnd = head.find('\n', at);
+      file << std::string_view(head).substr(at, lineEnd - at);
+      file.endLine();
+      at = lineEnd + 1;
+    }
+    for (Piece &piece : pieces_) {
+      file.append(piece.text);
+      file.fromGenerated(path_);
+    }
+    file << "} // namespace st::" << c_.names.space(c_.own);
+    file.endLine();
+    return {path_, file.take()};
+  }
+
+private:
+  struct Piece {
+    Writer text;
+  };
+
+  void functionHead(const std::string &signature) {
+    text_ = Writer(c_.program.sources);
+    text_.blank();
+    text_.line() << signature << " {";
+    text_.endLine();
+  }
+
+  void functionEnd() {
+    text_.line() << '}';
+    text_.endLine();
+    pieces_.push_back({std::move(text_)});
+    text_ = Writer(c_.program.sources);
+  }
+
+  void prologue() {
+    std::size_t i = 0;
+    for (const FileId file : e_.takeFiles()) {
+      text_.line() << "  static constexpr char " << Emitter::fileConstant(i++) << "[] = \""
+                   << escaped(c_.program.sources.file(file).name()) << "\";";
+      text_.endLine();
+    }
+    for (const Emitter::RootUse &use : e_.takeRoots()) {
+      text_.line() << "  auto &" << use.reference << " = ::stride::root<" << rootType(c_.names, use.root) << ">(ctx__, "
+                   << rootPlace(c_.names, use.root) << ");";
+      text_.endLine();
+    }
+  }
+
+  void budget() {
+    if (!e_.usesBudget())
+      return;
+    text_.line() << "  ::stride::LINT budget__ = ctx__.loopBudget;";
+    text_.endLine();
+  }
+
+  Writer temporaries(const PouSymbol *pou) {
+    e_.writer().indent();
+    for (const VarSymbol *v : pou->variables) {
+      if (v->section == Section::temp)
+        e_.declareLocal(v);
+    }
+    return e_.takeWriter();
+  }
+
+  void inOutReference(Writer &out, const VarSymbol *v) {
+    e_.includes().complete(v->type);
+    const std::string name = mangle(v->name.text);
+    const std::string_view type = c_.names.type(v->type);
+    out.line() << type << (type.back() == '*' ? "&" : " &") << name << " = ";
+    if (c_.program.settings.checks) {
+      e_.needContext();
+      const Place at = out.place(v->name.span);
+      out << "::stride::bound(ctx__, this->" << name << ", " << e_.fileName(v->name.span.file) << ", " << at.line << ", "
+          << at.column << ");";
+    } else {
+      out << "*this->" << name << ';';
+    }
+    out.endLine();
+  }
+
+  Context &c_;
+  Emitter e_;
+  Writer text_;
+  std::string path_;
+  std::vector<Piece> pieces_;
+};
+
+void statics(Context &context, SourceBuilder &source, const PouSymbol *pou) {
+  const Root root{pou, true};
+  if (hasStatics(pou) && rootNeedsInit(context, root)) {
+    std::string name = rootType(context.names, root);
+    name.erase(0, name.rfind(':') + 1);
+    source.init(name, rootVariables(root));
+  }
+}
+
+} // namespace
+
+void generateSources(Context &context, std::vector<GeneratedFile> &files) {
+  const Library &library = *context.own;
+  const std::string folder = std::string(context.names.space(&library)) + "/";
+  SourceBuilder types(context, nullptr, folder + "init__.cpp");
+  bool any = false;
+  for (const TypeSymbol *t : library.types) {
+    if (t->type->kind != TypeKind::structure || t->decl == nullptr || t->decl->kind != DeclKind::structure ||
+        !context.layouts.needsInit(t->type))
+      continue;
+    const auto *type = typeAs<StructType>(t->type);
+    types.emitter().includes().symbol(t);
+    types.init(context.names.local(t), {type->fields.begin(), type->fields.end()}, type->base);
+    any = true;
+  }
+  for (const GlobalsSymbol *g : library.globals) {
+    if (!rootNeedsInit(context, {g, false}))
+      continue;
+    types.emitter().includes().symbol(g);
+    types.init(context.names.local(g), rootVariables({g, false}));
+    any = true;
+  }
+  if (any)
+    files.push_back(types.finish(nullptr, "Initial values"));
+  for (const PouSymbol *p : library.pous) {
+    std::string path(context.names.header(p));
+    path = path.substr(3, path.size() - 4) + "cpp"; // st/user/Main.h: user/Main.cpp
+    SourceBuilder source(context, p, path);
+    const bool external = p->decl->external;
+    bool used = !external;
+    const std::string_view name = context.names.local(p);
+    if (!p->isFunction() && context.layouts.needsInit(p->type)) {
+      source.init(name, rootVariables({p, false}));
+      used = true;
+    }
+    if (hasStatics(p)) {
+      statics(context, source, p);
+      used = true;
+    }
+    if (!used)
+      continue;
+    if (!external) {
+      if (p->isFunction())
+        source.functionBody(p);
+      else
+        source.blockBody(p, name);
+    }
+    files.push_back(source.finish(p, p->name.text));
+  }
+}
+
+} // namespace stc::codegen

@@ -1,0 +1,472 @@
+// Statements.
+
+#include "compiler/codegen/emitter.hpp"
+
+namespace stc::codegen {
+
+using namespace ast;
+
+namespace {
+
+/// Ranges of CASE up to this size are written as single labels.
+constexpr std::int64_t kMaxRange = 32;
+constexpr std::int64_t kMaxLabels = 1024;
+/// g++ nests `else if`; longer chains of ELSIF are flattened.
+constexpr std::size_t kMaxElseIf = 64;
+
+bool isBit(const Expr *e) { return e->kind == ExprKind::member && as<MemberExpr>(e)->bit >= 0; }
+
+/// A path that costs nothing to follow twice.
+bool isPlain(std::string_view place) { return place.find_first_of("([*") == std::string_view::npos; }
+
+} // namespace
+
+void Emitter::block(Block block) {
+  for (const Stmt *s : block)
+    statement(s);
+}
+
+void Emitter::statement(const Stmt *s) {
+  switch (s->kind) {
+  case StmtKind::empty:
+    return;
+  case StmtKind::assign:
+    assign(as<AssignStmt>(s));
+    return;
+  case StmtKind::call:
+    callStatement(as<CallStmt>(s));
+    return;
+  case StmtKind::ifS:
+    ifStatement(as<IfStmt>(s));
+    return;
+  case StmtKind::caseS:
+    caseStatement(as<CaseStmt>(s));
+    return;
+  case StmtKind::forS:
+    forStatement(as<ForStmt>(s));
+    return;
+  case StmtKind::whileS: {
+    const auto *loop = as<WhileStmt>(s);
+    begin(s->span);
+    w_ << "while (";
+    condition(loop->condition);
+    w_ << ") {";
+    end();
+    loopBody(loop->body, s->span, true);
+    w_.line() << '}';
+    end();
+    endLoop();
+    return;
+  }
+  case StmtKind::repeatS: {
+    const auto *loop = as<RepeatStmt>(s);
+    begin(s->span);
+    w_ << "do {";
+    end();
+    loopBody(loop->body, s->span, true);
+    begin(loop->until->span);
+    w_ << "} while (!(";
+    condition(loop->until);
+    w_ << "));";
+    end();
+    endLoop();
+    return;
+  }
+  case StmtKind::exit:
+    begin(s->span);
+    if (loops_.back().switches > 0) { // `break` would only leave the switch
+      loops_.back().labelled = true;
+      w_ << "goto exit__" << loops_.back().id << ';';
+    } else {
+      w_ << "break;";
+    }
+    end();
+    return;
+  case StmtKind::continueS:
+    begin(s->span);
+    w_ << "continue;";
+    end();
+    return;
+  case StmtKind::returnS:
+    begin(s->span);
+    w_ << "return";
+    if (pou_->result != nullptr) {
+      used_.insert(pou_->result);
+      w_ << ' ' << mangle(pou_->result->name.text);
+    }
+    w_ << ';';
+    end();
+    return;
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------- assignments
+
+void Emitter::storeTo(std::string_view target, const Type *type, const Expr *value) {
+  if (isString(type) && (value->constant != nullptr || value->type != type)) {
+    w_ << "::stride::assign(" << target << ", ";
+    if (value->constant != nullptr)
+      quoted(*value->constant, type->kind == TypeKind::wstring);
+    else
+      raw(value);
+    w_ << ");";
+    return;
+  }
+  w_ << target << " = ";
+  valueAs(value, type);
+  w_ << ';';
+}
+
+void Emitter::store(const Expr *target, const Expr *value) {
+  if (isBit(target)) {
+    w_ << "::stride::setBit(";
+    place(as<MemberExpr>(target)->base);
+    w_ << ", " << as<MemberExpr>(target)->bit << ", ";
+    valueAs(value, target->type);
+    w_ << ");";
+    return;
+  }
+  if ((effects(target) & effects(value) & effectCalls) != 0) { // the place is found first
+    const std::string name = temporary("to");
+    w_ << "{ auto &" << name << " = ";
+    place(target);
+    w_ << "; ";
+    storeTo(name, target->type, value);
+    w_ << " }";
+    return;
+  }
+  if (isString(target->type)) {
+    storeTo(placeText(target), target->type, value);
+    return;
+  }
+  place(target);
+  w_ << " = ";
+  valueAs(value, target->type);
+  w_ << ';';
+}
+
+void Emitter::assign(const AssignStmt *s) {
+  begin(s->span);
+  const Expr *last = s->targets.back();
+  switch (s->op) {
+  case AssignOp::reference:
+    slot(last);
+    w_ << " = ";
+    if (s->value->constant != nullptr && s->value->constant->kind == ConstKind::integer &&
+        s->value->kind == ExprKind::literal)
+      w_ << "nullptr";
+    else
+      address(s->value);
+    w_ << ';';
+    break;
+  case AssignOp::set:
+  case AssignOp::reset: {
+    const std::string_view set = s->op == AssignOp::set ? "true" : "false";
+    w_ << "if (";
+    condition(s->value);
+    w_ << ") { ";
+    for (const Expr *target : s->targets) {
+      if (isBit(target)) {
+        w_ << "::stride::setBit(";
+        place(as<MemberExpr>(target)->base);
+        w_ << ", " << as<MemberExpr>(target)->bit << ", " << set << "); ";
+      } else {
+        place(target);
+        w_ << " = " << set << "; ";
+      }
+    }
+    w_ << '}';
+    break;
+  }
+  case AssignOp::assign:
+    store(last, s->value);
+    for (std::size_t i = s->targets.size() - 1; i-- > 0;) {
+      w_ << ' ';
+      const Expr *from = s->targets[i + 1];
+      const std::size_t start = w_.size();
+      raw(from);
+      const std::string source = w_.cut(start);
+      outputTo(s->targets[i], source, from->type, s->span);
+    }
+    break;
+  }
+  end();
+}
+
+void Emitter::callStatement(const CallStmt *s) {
+  if (s->expr->kind != ExprKind::call)
+    return;
+  const auto *call = as<CallExpr>(s->expr);
+  begin(s->span);
+  switch (call->resolved) {
+  case Callee::function:
+    functionCall(call, true);
+    break;
+  case Callee::functionBlock:
+  case Callee::program:
+    instanceCall(call, s->span);
+    break;
+  case Callee::builtin:
+    w_ << "static_cast<void>(";
+    builtin(call);
+    w_ << ");";
+    break;
+  case Callee::unresolved:
+    break;
+  }
+  end();
+}
+
+// ------------------------------------------------------------------------------------------------------- selection
+
+void Emitter::ifStatement(const IfStmt *s) {
+  const bool flat = s->branches.size() > kMaxElseIf;
+  const std::string behind = flat ? temporary("endif") : std::string();
+  for (std::size_t i = 0; i < s->branches.size(); ++i) {
+    const IfBranch &branch = s->branches[i];
+    begin(i == 0 ? s->span : branch.condition->span);
+    w_ << (i == 0 || flat ? "if (" : "} else if (");
+    condition(branch.condition);
+    w_ << ") {";
+    end();
+    open();
+    block(branch.body);
+    if (flat) {
+      w_.line() << "goto " << behind << ';';
+      end();
+    }
+    close();
+    if (flat) {
+      w_.line() << '}';
+      end();
+    }
+  }
+  if (flat) {
+    block(s->elseBody);
+    close();
+    w_.line() << behind << ":;";
+    end();
+    open();
+    return;
+  }
+  if (!s->elseBody.empty()) {
+    w_.line() << "} else {";
+    end();
+    open();
+    block(s->elseBody);
+    close();
+  }
+  w_.line() << '}';
+  end();
+}
+
+void Emitter::caseStatement(const CaseStmt *s) {
+  std::int64_t labels = 0;
+  bool small = true;
+  for (const CaseBranch &branch : s->branches) {
+    for (const CaseLabel &label : branch.labels) {
+      std::int64_t width = 0;
+      if (label.high != nullptr &&
+          __builtin_sub_overflow(label.high->constant->integer, label.low->constant->integer, &width))
+        width = kMaxRange;
+      small = small && width < kMaxRange;
+      labels += width + 1;
+    }
+  }
+  if (small && (labels <= kMaxLabels || labels <= 4 * static_cast<std::int64_t>(s->branches.size())))
+    caseSwitch(s);
+  else
+    caseChain(s);
+}
+
+void Emitter::caseSwitch(const CaseStmt *s) {
+  begin(s->span);
+  w_ << "switch (";
+  value(s->selector);
+  w_ << ") {";
+  end();
+  if (!loops_.empty())
+    ++loops_.back().switches;
+  const Type *type = s->selector->type;
+  for (const CaseBranch &branch : s->branches) {
+    for (std::size_t i = 0; i < branch.labels.size(); ++i) {
+      const CaseLabel &label = branch.labels[i];
+      const std::int64_t low = label.low->constant->integer;
+      const std::int64_t high = label.high == nullptr ? low : label.high->constant->integer;
+      for (std::int64_t v = low;; ++v) {
+        begin(label.span);
+        w_ << "case ";
+        if (v == low)
+          valueAs(label.low, type);
+        else
+          number(v, type);
+        w_ << (i + 1 == branch.labels.size() && v == high ? ": {" : ":");
+        end();
+        if (v == high)
+          break;
+      }
+    }
+    open();
+    block(branch.body);
+    w_.line() << "break;";
+    end();
+    close();
+    w_.line() << '}';
+    end();
+  }
+  w_.line() << "default: {";
+  end();
+  open();
+  block(s->elseBody);
+  w_.line() << "break;";
+  end();
+  close();
+  w_.line() << '}';
+  end();
+  w_.line() << '}';
+  end();
+  if (!loops_.empty())
+    --loops_.back().switches;
+}
+
+void Emitter::caseChain(const CaseStmt *s) {
+  const Type *type = s->selector->type;
+  const std::string selector = temporary("selector");
+  begin(s->span);
+  w_ << "const " << this->type(type) << ' ' << selector << " = ";
+  valueAs(s->selector, type);
+  w_ << ';';
+  end();
+  const bool flat = s->branches.size() > kMaxElseIf;
+  const std::string behind = flat ? temporary("endcase") : std::string();
+  if (flat) { // the label behind must not lie in the scope of the selector's declaration
+    w_.line() << '{';
+    end();
+    open();
+  }
+  for (std::size_t b = 0; b < s->branches.size(); ++b) {
+    const CaseBranch &branch = s->branches[b];
+    begin(branch.labels.empty() ? s->span : branch.labels.front().span);
+    w_ << (b == 0 || flat ? "if (" : "} else if (");
+    for (std::size_t i = 0; i < branch.labels.size(); ++i) {
+      const CaseLabel &label = branch.labels[i];
+      if (i > 0)
+        w_ << " || ";
+      if (label.high == nullptr) {
+        w_ << selector << " == ";
+        valueAs(label.low, type);
+      } else {
+        w_ << '(' << selector << " >= ";
+        valueAs(label.low, type);
+        w_ << " && " << selector << " <= ";
+        valueAs(label.high, type);
+        w_ << ')';
+      }
+    }
+    w_ << ") {";
+    end();
+    open();
+    block(branch.body);
+    if (flat) {
+      w_.line() << "goto " << behind << ';';
+      end();
+    }
+    close();
+    if (flat) {
+      w_.line() << '}';
+      end();
+    }
+  }
+  if (flat) {
+    block(s->elseBody);
+    close();
+    w_.line() << '}';
+    end();
+    w_.line() << behind << ":;";
+    end();
+    return;
+  }
+  if (!s->elseBody.empty()) {
+    w_.line() << "} else {";
+    end();
+    open();
+    block(s->elseBody);
+    close();
+  }
+  w_.line() << '}';
+  end();
+}
+
+// ----------------------------------------------------------------------------------------------------------- loops
+
+void Emitter::loopBody(Block body, Span span, bool tick) {
+  loops_.push_back({++next_});
+  open();
+  if (tick) {
+    usesBudget_ = true;
+    begin(span);
+    w_ << "::stride::loopTick(" << ctx() << ", budget__, ";
+    position(span);
+    w_ << ");";
+    end();
+  }
+  block(body);
+  close();
+}
+
+void Emitter::endLoop() {
+  if (loops_.back().labelled) {
+    w_.line() << "exit__" << loops_.back().id << ":;";
+    end();
+  }
+  loops_.pop_back();
+}
+
+void Emitter::forStatement(const ForStmt *s) {
+  const Type *type = underlying(s->variable->type);
+  const std::string number = std::to_string(++next_);
+  begin(s->span);
+  std::string variable = placeText(s->variable);
+  if (!isPlain(variable)) {
+    w_ << "auto &counter__" << number << " = " << variable << "; ";
+    variable = "counter__" + number;
+  }
+  storeTo(variable, s->variable->type, s->from);
+  w_ << ' ';
+  // The end and the step are evaluated once.
+  std::string last;
+  const std::size_t start = w_.size();
+  valueAs(s->to, type);
+  last = w_.cut(start);
+  if (s->to->constant == nullptr) {
+    w_ << "const " << this->type(type) << " end__" << number << " = " << last << "; ";
+    last = "end__" + number;
+  }
+  const bool constantStep = s->by == nullptr || s->by->constant != nullptr;
+  const std::int64_t step = s->by == nullptr ? 1 : constantStep ? s->by->constant->integer : 0;
+  if (!constantStep) {
+    w_ << "const ::stride::LINT step__" << number << " = ";
+    value(s->by);
+    w_ << "; ";
+  }
+  w_ << "for (bool run__" << number << " = ";
+  if (constantStep)
+    w_ << variable << (step >= 0 ? " <= " : " >= ") << last;
+  else
+    w_ << "::stride::forFirst<" << this->type(type) << ">(" << variable << ", " << last << ", step__" << number << ')';
+  w_ << "; run__" << number << "; run__" << number << " = ::stride::"
+     << (!constantStep ? "forNext<" : step >= 0 ? "forUp<" : "forDown<") << this->type(type) << ">(" << variable << ", "
+     << last << ", ";
+  if (constantStep)
+    w_ << (step >= 0 ? static_cast<std::uint64_t>(step) : 0 - static_cast<std::uint64_t>(step)) << 'U';
+  else
+    w_ << "step__" << number;
+  w_ << ")) {";
+  end();
+  loopBody(s->body, s->span, !c_.analysis.shortLoop(s));
+  w_.line() << '}';
+  end();
+  endLoop();
+}
+
+} // namespace stc::codegen

@@ -1,0 +1,183 @@
+#include "compiler/codegen/type_table.hpp"
+
+#include "compiler/codegen/units.hpp"
+
+namespace stc::codegen {
+
+using namespace ast;
+
+namespace {
+
+// Values of runtime/app/abi.h.
+constexpr unsigned kHasAddress = 1;
+constexpr unsigned kExternal = 2;
+
+/// The flags as an expression: `::stride::kSymInput | ::stride::kSymRetain`.
+std::string symbolFlags(const VarSymbol *v, bool qualifiedOnly = false) {
+  std::string out;
+  const auto add = [&](bool set, std::string_view name) {
+    if (set)
+      out.append(out.empty() ? "::stride::kSym" : " | ::stride::kSym").append(name);
+  };
+  const unsigned qualifiers = v->decl == nullptr ? 0U : v->decl->qualifiers;
+  add(v->section == Section::input, "Input");
+  add(v->section == Section::output, "Output");
+  add(v->section == Section::inOut, "InOut");
+  add((qualifiers & qualRetain) != 0, "Retain");
+  add((qualifiers & qualPersistent) != 0, "Persistent");
+  add(v->isConstant, "Constant");
+  add(v->hidden, "Hidden");
+  add(qualifiedOnly, "QualifiedOnly");
+  return out.empty() ? "0" : out;
+}
+
+std::string quote(std::string_view text) { return '"' + escaped(text) + '"'; }
+
+} // namespace
+
+std::uint32_t TypeTable::index(const Type *type, bool inOut) {
+  if (!inOut && type->kind == TypeKind::subrange)
+    type = underlying(type);
+  const auto [it, fresh] = indices_.try_emplace({type, inOut}, static_cast<std::uint32_t>(types_.size()));
+  const std::uint32_t at = it->second;
+  if (fresh) {
+    types_.emplace_back();
+    fill(at, type, inOut);
+  }
+  return at;
+}
+
+void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
+  Row row;
+  row.name = typeName(type);
+  row.cppType = c_.names.type(type);
+  includes_.complete(type);
+  if (inOut) {
+    row.kind = "InOut";
+    row.flags = kHasAddress;
+    row.cppType = "void *";
+    row.hash = Hash().add("in-out").add(row.name).value();
+    row.element = index(type);
+    types_[at] = std::move(row);
+    return;
+  }
+  row.hash = c_.layouts.hash(type);
+  if (c_.layouts.hasAddress(type))
+    row.flags |= kHasAddress;
+  switch (type->kind) {
+  case TypeKind::string:
+  case TypeKind::wstring:
+    row.kind = Names::elementary(type->kind);
+    row.stringLength = typeAs<StringType>(type)->length;
+    break;
+  case TypeKind::enumeration: {
+    const auto *e = typeAs<EnumType>(type);
+    row.kind = "Enum";
+    row.element = index(e->base);
+    row.firstMember = enumeratorRows_.size();
+    row.memberCount = e->enumerators.size();
+    for (const EnumeratorSymbol *x : e->enumerators)
+      enumeratorRows_.push_back("{" + quote(x->name.text) + ", " + std::to_string(x->value) + "}");
+    break;
+  }
+  case TypeKind::array: {
+    const auto *a = typeAs<ArrayType>(type);
+    row.kind = "Array";
+    row.lowerBound = a->low;
+    row.elementCount = a->count();
+    row.element = index(a->element);
+    break;
+  }
+  case TypeKind::pointer:
+  case TypeKind::reference: {
+    const Type *pointee = typeAs<PointerType>(type)->pointee;
+    row.kind = type->kind == TypeKind::pointer ? "Pointer" : "Reference";
+    row.cppType = "void *";
+    row.element = index(pointee);
+    break;
+  }
+  case TypeKind::structure: {
+    const auto *s = typeAs<StructType>(type);
+    row.kind = "Struct";
+    members(row, s->base, row.cppType, {s->fields.begin(), s->fields.end()});
+    break;
+  }
+  case TypeKind::functionBlock:
+  case TypeKind::program: {
+    const PouSymbol *pou = typeAs<PouType>(type)->symbol;
+    row.kind = type->kind == TypeKind::program ? "Program" : "FunctionBlock";
+    if (pou->decl->external)
+      row.flags |= kExternal;
+    members(row, nullptr, row.cppType, rootVariables({pou, false}));
+    break;
+  }
+  default:
+    row.kind = Names::elementary(type->kind);
+    break;
+  }
+  types_[at] = std::move(row);
+}
+
+void TypeTable::members(Row &row, const Type *base, const std::string &owner,
+                        const std::vector<const VarSymbol *> &variables) {
+  std::vector<std::uint32_t> types; // first: they append rows of their own
+  types.reserve(variables.size());
+  const std::uint32_t baseIndex = base == nullptr ? 0 : index(base);
+  for (const VarSymbol *v : variables)
+    types.push_back(index(v->type, v->section == Section::inOut));
+  row.firstMember = memberRows_.size();
+  if (base != nullptr)
+    memberRows_.push_back("{" + quote(typeName(base)) + ", offsetof(" + owner + ", base__), " +
+                          std::to_string(baseIndex) + ", ::stride::kSymBase}");
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    memberRows_.push_back("{" + quote(variables[i]->name.text) + ", offsetof(" + owner + ", " +
+                          mangle(variables[i]->name.text) + "), " + std::to_string(types[i]) + ", " +
+                          symbolFlags(variables[i]) + "}");
+  row.memberCount = memberRows_.size() - row.firstMember;
+}
+
+void TypeTable::addRoot(std::string_view list, const VarSymbol *variable, const std::string &place, bool qualifiedOnly) {
+  const std::uint32_t type = index(variable->type, variable->section == Section::inOut);
+  rootRows_.push_back("{" + (list.empty() ? std::string("nullptr") : quote(list)) + ", " + quote(variable->name.text) +
+                      ", offsetof(App__, " + place + "), " + std::to_string(type) + ", " +
+                      symbolFlags(variable, qualifiedOnly) + "}");
+}
+
+void TypeTable::addProgram(const PouSymbol *program, const std::string &place) {
+  const std::uint32_t type = index(program->type);
+  rootRows_.push_back("{nullptr, " + quote(program->name.text) + ", offsetof(App__, " + place + "), " +
+                      std::to_string(type) + ", 0}");
+}
+
+std::string TypeTable::text() const {
+  std::string out;
+  const auto table = [&](std::string_view type, std::string_view name, const std::vector<std::string> &rows) {
+    if (rows.empty())
+      return;
+    out.append("\nconstexpr ::stride::").append(type).append(" ").append(name).append("[] = {\n");
+    for (const std::string &row : rows)
+      out.append("    ").append(row).append(",\n");
+    out.append("};\n");
+  };
+  std::vector<std::string> rows;
+  rows.reserve(types_.size());
+  for (const Row &r : types_) {
+    rows.push_back("{Kind::" + r.kind + ", " + std::to_string(r.flags) + ", " + quote(r.name) + ", sizeof(" + r.cppType +
+                   "), " + std::to_string(r.hash) + "ULL, alignof(" + r.cppType + "), " + std::to_string(r.firstMember) +
+                   ", " + std::to_string(r.memberCount) + ", " +
+                   (r.element < 0 ? std::string("kNo") : std::to_string(r.element)) + ", " +
+                   std::to_string(r.lowerBound) + ", " + std::to_string(r.elementCount) + ", " +
+                   std::to_string(r.stringLength) + ", 0}");
+  }
+  out += "\n// {kind, flags, name, size, layoutHash, align, firstMember, memberCount, element, lowerBound,\n"
+         "//  elementCount, stringLength, 0}";
+  table("TypeDesc", "kTypes", rows);
+  out += "\n// {name, offset, type, flags}";
+  table("MemberDesc", "kMembers", memberRows_);
+  table("EnumeratorDesc", "kEnumerators", enumeratorRows_);
+  out += "\n// {list, name, offset, type, flags}";
+  table("RootDesc", "kRoots", rootRows_);
+  return out;
+}
+
+} // namespace stc::codegen

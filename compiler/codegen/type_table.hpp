@@ -1,0 +1,65 @@
+#pragma once
+// The application's description of its types, members and roots (runtime/app/abi.h).
+
+#include "compiler/codegen/emitter.hpp"
+
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace stc::codegen {
+
+/// Collects every type that can be reached from the roots, pointers included, and writes the tables.
+class TypeTable {
+public:
+  explicit TypeTable(Context &context) : c_(context) {}
+
+  /// The type's index.
+  std::uint32_t index(const Type *type, bool inOut = false);
+  /// `{"limit", offsetof(…), type, flags}` of one variable that stands for itself.
+  void addRoot(std::string_view list, const VarSymbol *variable, const std::string &place, bool qualifiedOnly);
+  void addProgram(const PouSymbol *program, const std::string &place);
+
+  /// `constexpr … kTypes[] = { … };` and the other tables.
+  [[nodiscard]] std::string text() const;
+  [[nodiscard]] std::size_t typeCount() const { return types_.size(); }
+  [[nodiscard]] std::size_t memberCount() const { return memberRows_.size(); }
+  [[nodiscard]] std::size_t enumeratorCount() const { return enumeratorRows_.size(); }
+  [[nodiscard]] std::size_t rootCount() const { return rootRows_.size(); }
+  [[nodiscard]] Includes &includes() { return includes_; }
+
+private:
+  struct Key {
+    const Type *type;
+    bool inOut;
+    bool operator==(const Key &) const = default;
+  };
+  struct KeyHash {
+    std::size_t operator()(const Key &k) const { return std::hash<const Type *>()(k.type) * 2 + (k.inOut ? 1 : 0); }
+  };
+  struct Row {
+    std::string kind;
+    unsigned flags = 0;
+    std::string name;
+    std::string cppType; ///< of which size and alignment are taken
+    std::uint64_t hash = 0;
+    std::size_t firstMember = 0;
+    std::size_t memberCount = 0;
+    std::int64_t element = -1;
+    std::int64_t lowerBound = 0;
+    std::uint64_t elementCount = 0;
+    std::uint32_t stringLength = 0;
+  };
+  void fill(std::uint32_t at, const Type *type, bool inOut);
+  void members(Row &row, const Type *base, const std::string &owner, const std::vector<const VarSymbol *> &variables);
+
+  Context &c_;
+  Includes includes_{c_.names};
+  std::unordered_map<Key, std::uint32_t, KeyHash> indices_;
+  std::vector<Row> types_;
+  std::vector<std::string> memberRows_;
+  std::vector<std::string> enumeratorRows_;
+  std::vector<std::string> rootRows_;
+};
+
+} // namespace stc::codegen

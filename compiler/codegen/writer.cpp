@@ -1,0 +1,85 @@
+#include "compiler/codegen/writer.hpp"
+
+namespace stc::codegen {
+
+Place Writer::place(Span span) {
+  if (!span.valid())
+    return {};
+  const SourceFile &file = sources_->file(span.file);
+  const std::string_view text = file.text();
+  if (span.file != cachedFile_ || span.begin < cachedBegin_ || span.begin >= cachedEnd_) {
+    const LineColumn at = file.position(span.begin);
+    std::size_t begin = span.begin < text.size() ? span.begin : text.size();
+    while (begin > 0 && text[begin - 1] != '\n')
+      --begin;
+    std::size_t end = text.find('\n', begin);
+    if (end == std::string_view::npos)
+      end = text.size();
+    // A line longer than this is asked for anew each time: its columns would be counted over and over.
+    if (end - begin > 1024)
+      return {at.line, at.column};
+    cachedFile_ = span.file;
+    cachedBegin_ = static_cast<std::uint32_t>(begin);
+    cachedEnd_ = static_cast<std::uint32_t>(end + 1);
+    cachedLine_ = at.line;
+  }
+  std::uint32_t column = 1;
+  for (std::uint32_t i = cachedBegin_; i < span.begin; ++i)
+    column += (static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U ? 1 : 0;
+  return {cachedLine_, column};
+}
+
+void Writer::from(Span span) {
+  if (!span.valid())
+    return;
+  const std::uint32_t line = place(span).line;
+  if (mapped_ == span.file && believed_ == line)
+    return;
+  *this << "#line " << line;
+  if (mapped_ != span.file)
+    *this << " \"" << escaped(sources_->file(span.file).name()) << '"';
+  endLine();
+  mapped_ = span.file;
+  believed_ = line;
+}
+
+void Writer::fromGenerated(std::string_view path) {
+  if (mapped_ == 0 && believed_ == count_)
+    return;
+  *this << "#line " << count_ + 1 << " \"" << escaped(path) << '"';
+  endLine();
+  mapped_ = 0;
+  believed_ = count_;
+}
+
+void Writer::append(const Writer &other) {
+  text_.append(other.text_);
+  count_ += other.count_ - 1;
+  if (other.mapped_ == 0) { // it holds no directive
+    believed_ += other.count_ - 1;
+    return;
+  }
+  believed_ = other.believed_;
+  mapped_ = other.mapped_;
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      out.push_back('\\');
+    if (static_cast<unsigned char>(c) < 0x20) {
+      const auto u = static_cast<unsigned char>(c);
+      out.push_back('\\');
+      out.push_back('0');
+      out.push_back(static_cast<char>('0' + (u >> 3)));
+      out.push_back(static_cast<char>('0' + (u & 7U)));
+      continue;
+    }
+    out.push_back(c);
+  }
+  return out;
+}
+
+} // namespace stc::codegen

@@ -1,0 +1,96 @@
+#pragma once
+// Text of one generated file, and where each of its lines comes from.
+
+#include "compiler/source/source_manager.hpp"
+
+#include <charconv>
+#include <concepts>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace stc::codegen {
+
+/// A place in an ST file.
+struct Place {
+  std::uint32_t line = 0;
+  std::uint32_t column = 0;
+};
+
+/// Appends to a text, with indentation and `#line` directives. A directive is written only where the compiler's own count
+/// of lines would be wrong.
+class Writer {
+public:
+  explicit Writer(const SourceManager &sources) : sources_(&sources) { text_.reserve(4096); }
+
+  Writer &operator<<(std::string_view text) {
+    text_.append(text);
+    return *this;
+  }
+  Writer &operator<<(const char *text) { return *this << std::string_view(text); }
+  Writer &operator<<(const std::string &text) { return *this << std::string_view(text); }
+  Writer &operator<<(char c) {
+    text_.push_back(c);
+    return *this;
+  }
+  template <std::integral T>
+    requires(!std::same_as<T, char> && !std::same_as<T, bool>)
+  Writer &operator<<(T value) {
+    char digits[24];
+    const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+    text_.append(digits, end);
+    return *this;
+  }
+
+  /// Begins a line of its own; end it with endLine().
+  Writer &line() {
+    text_.append(2 * indent_, ' ');
+    return *this;
+  }
+  void endLine() {
+    text_.push_back('\n');
+    ++count_;
+    ++believed_;
+  }
+  void blank() { endLine(); }
+  void indent() { ++indent_; }
+  void outdent() { --indent_; }
+
+  /// What follows stands in the ST at `span`: the next line is counted as that line.
+  void from(Span span);
+  /// What follows belongs to the generated file `path` itself, not to the ST.
+  void fromGenerated(std::string_view path);
+  /// Appends the text of another writer, whose lines bring their own directives.
+  void append(const Writer &other);
+
+  /// The place of the span's begin.
+  [[nodiscard]] Place place(Span span);
+
+  [[nodiscard]] std::size_t size() const { return text_.size(); }
+  /// Takes back everything behind `size` (within the current line).
+  [[nodiscard]] std::string cut(std::size_t size) {
+    std::string tail = text_.substr(size);
+    text_.resize(size);
+    return tail;
+  }
+  [[nodiscard]] const std::string &text() const { return text_; }
+  [[nodiscard]] std::string take() { return std::move(text_); }
+
+private:
+  const SourceManager *sources_;
+  std::string text_;
+  std::size_t indent_ = 0;
+  std::uint32_t count_ = 1;     ///< number of the line being written
+  std::uint32_t believed_ = 1;  ///< what the C++ compiler takes it for
+  FileId mapped_ = 0;           ///< the file it takes it to be in; 0: the generated one
+  // The line that was asked for last: its begin and end in the text.
+  FileId cachedFile_ = 0;
+  std::uint32_t cachedBegin_ = 1;
+  std::uint32_t cachedEnd_ = 0;
+  std::uint32_t cachedLine_ = 0;
+};
+
+/// The text as a C++ string literal without its quotes.
+std::string escaped(std::string_view text);
+
+} // namespace stc::codegen
