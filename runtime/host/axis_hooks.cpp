@@ -6,8 +6,6 @@
 
 #include <fmt/format.h>
 
-#include <string_view>
-
 namespace stride::host {
 
 namespace {
@@ -36,18 +34,6 @@ std::unique_ptr<axis::AxisDriver> makeDriver(const AxisGroupDesc &group) {
                                group.name, name));
 }
 
-/// The hash tells builds of an application apart; what this program was built with shows in the
-/// size.
-void checkSize(const StrideAppV1 &app, const char *name, std::size_t ours) {
-  for (uint32_t i = 0; i < app.typeCount; ++i) {
-    const TypeDesc &type = app.types[i];
-    if (type.kind == Kind::Struct && std::string_view(type.name) == name && type.size != ours)
-      throw app::Error(fmt::format("the application was built with another layout of {} than this "
-                                   "runtime has; build it again with this version of Stride",
-                                   name));
-  }
-}
-
 template <class T> T &at(std::byte *state, uint64_t offset) {
   return *reinterpret_cast<T *>(state + offset);
 }
@@ -57,8 +43,6 @@ template <class T> T &at(std::byte *state, uint64_t offset) {
 std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
                                                             task::VirtualScheduler &scheduler) {
   const StrideAppV1 &app = application.description();
-  checkSize(app, "AXIS_REF", sizeof(axis::AxisRef));
-  checkSize(app, "SMC_AXISGROUP_REF", sizeof(axis::AxisGroupRef));
   std::vector<std::unique_ptr<task::CycleHook>> hooks;
   for (uint32_t i = 0; i < app.axisGroupCount; ++i) {
     const AxisGroupDesc &group = app.axisGroups[i];

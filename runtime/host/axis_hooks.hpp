@@ -10,6 +10,9 @@
 
 namespace stride::host {
 
+/// The layouts of AXIS_REF and SMC_AXISGROUP_REF that this program was built with.
+app::RuntimeLayouts runtimeLayouts();
+
 /// One hook per axis group of the application, added to the group's task. The hooks must live as
 /// long as the scheduler. Throws app::Error for an unknown driver, and when the application was
 /// built with another AXIS_REF or SMC_AXISGROUP_REF than this program.

@@ -1,6 +1,7 @@
 #include "runtime/host/host_main.hpp"
 
 #include "runtime/app/error.hpp"
+#include "runtime/host/axis_hooks.hpp"
 #include "runtime/host/options.hpp"
 #include "runtime/host/simulation.hpp"
 
@@ -111,8 +112,9 @@ int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
   }
   try {
     const SimOptions options = understand(texts);
-    app::Application application = builtIn != nullptr ? app::Application::fromDescription(*builtIn)
-                                                      : app::Application::load(options.application);
+    app::Application application =
+        builtIn != nullptr ? app::Application::fromDescription(*builtIn, runtimeLayouts())
+                           : app::Application::load(options.application, runtimeLayouts());
     return simulate(application, options);
   } catch (const app::Error &error) {
     fmt::print(stderr, "error: {}\n", error.what());

@@ -2,11 +2,18 @@
 #include "runtime/host/options.hpp"
 #include "runtime/host/set_list.hpp"
 #include "runtime/host/trace_writer.hpp"
+#include "runtime/task/virtual_scheduler.hpp"
 #include "tests/unit/app/fixture.hpp"
 
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
+#include <new>
 #include <sstream>
+
+namespace stride::test {
+std::size_t allocations();
+}
 
 namespace {
 
@@ -14,7 +21,28 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using namespace stride::host;
 
+using stride::task::VirtualScheduler;
+
 constexpr int64_t kMs = 1000000;
+
+class Rows final : public stride::task::InstantObserver {
+public:
+  Rows(TraceWriter &writer, SetList &sets, std::byte *state)
+      : writer_(&writer), sets_(&sets), state_(state) {}
+  void beforeInstant(int64_t timeNs) override { sets_->apply(timeNs, state_); }
+  void afterInstant(int64_t timeNs, bool fastest) override {
+    if (fastest) {
+      writer_->row(timeNs);
+      ++count;
+    }
+  }
+  int count = 0;
+
+private:
+  TraceWriter *writer_;
+  SetList *sets_;
+  std::byte *state_;
+};
 
 class Host : public stride::test::HandmadeApp {
 protected:
@@ -104,6 +132,20 @@ TEST_F(Host, TraceErrors) {
   EXPECT_THAT(errorOf([&] { traceOf({"PLC_PRG.p"}); }), HasSubstr("no value to trace"));
   EXPECT_THAT(errorOf([&] { TraceWriter(symbols, {"total"}, "/nonexistent/x.csv", nullptr); }),
               HasSubstr("cannot write '/nonexistent/x.csv'"));
+}
+
+TEST_F(Host, NothingIsAllocatedInCyclesAndRows) {
+  VirtualScheduler scheduler(application.description(), application.state(),
+                             stride::task::hostApi());
+  TraceWriter writer(symbols, {"PLC_PRG", "total", "GVL.limit"}, "/dev/null", application.state());
+  SetList sets(symbols, {parseSet("50ms,total=2")});
+  Rows rows(writer, sets, application.state());
+  scheduler.setObserver(&rows);
+  scheduler.runUntil(20 * kMs);
+  const std::size_t before = stride::test::allocations();
+  scheduler.runUntil(100000 * kMs);
+  EXPECT_EQ(stride::test::allocations(), before);
+  EXPECT_EQ(rows.count, 10000);
 }
 
 TEST_F(Host, Seconds) {
