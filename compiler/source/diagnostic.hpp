@@ -12,7 +12,8 @@ namespace stc {
 
 enum class Severity : std::uint8_t { note, warning, error };
 
-/// Stable diagnostic codes; the table with default severity, title and explain text is diagnostic_codes.def.
+/// Stable diagnostic codes; the table with default severity, title and explain text is
+/// diagnostic_codes.def.
 enum class Code : std::uint16_t {
 #define STC_DIAGNOSTIC(number, name, severity, title, explain) name = number,
 #include "compiler/source/diagnostic_codes.def"
@@ -44,7 +45,8 @@ struct Diagnostic {
   Code code;
   Severity severity = Severity::error;
   std::string message;
-  std::vector<Label> labels; ///< labels[0] is the primary place (may be absent for errors without a place)
+  std::vector<Label>
+      labels; ///< labels[0] is the primary place (may be absent for errors without a place)
   std::vector<std::string> notes;
   std::vector<std::string> helps;
 
@@ -62,7 +64,8 @@ struct Diagnostic {
   }
 };
 
-/// Collects diagnostics of one run. References returned by report() are valid until the next report().
+/// Collects diagnostics of one run. References returned by report() are valid until the next
+/// report().
 class Diagnostics {
 public:
   /// Adds a diagnostic with the code's default severity.

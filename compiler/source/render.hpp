@@ -12,7 +12,8 @@ struct RenderOptions {
   bool color = false; ///< ANSI colours
 };
 
-/// The diagnostic with its source lines, spans underlined, notes and helps; ends with an empty line.
+/// The diagnostic with its source lines, spans underlined, notes and helps; ends with an empty
+/// line.
 ///
 ///     error[SE0203]: cannot find variable `Foo`
 ///      --> Main.st:4:3
@@ -25,8 +26,8 @@ struct RenderOptions {
 [[nodiscard]] std::string renderText(const Diagnostic &diagnostic, const SourceManager &sources,
                                      const RenderOptions &options = {});
 
-/// One JSON object on one line: code, severity, message, labels (file, line, column, endLine, endColumn, text),
-/// notes, helps. The first label is the primary one.
+/// One JSON object on one line: code, severity, message, labels (file, line, column, endLine,
+/// endColumn, text), notes, helps. The first label is the primary one.
 [[nodiscard]] std::string renderJson(const Diagnostic &diagnostic, const SourceManager &sources);
 
 } // namespace stc

@@ -12,19 +12,29 @@
 
 namespace stc {
 
-/// One source text. The text is UTF-8 whatever the file's encoding was (Latin-1 is converted, a BOM is dropped).
+/// One source text. The text is UTF-8 whatever the file's encoding was (Latin-1 is converted, a BOM
+/// is dropped).
 class SourceFile {
 public:
   SourceFile(FileId id, std::string name, std::string text);
 
   [[nodiscard]] FileId id() const { return id_; }
-  /// The name as diagnostics show it: a path relative to the project, `<stdlib>/…` for library files.
+  /// The name as diagnostics show it: a path relative to the project, `<stdlib>/…` for library
+  /// files.
   [[nodiscard]] const std::string &name() const { return name_; }
   [[nodiscard]] std::string_view text() const { return text_; }
   [[nodiscard]] LineColumn position(std::uint32_t offset) const;
+  /// 1-based number of the line in which the byte lies.
+  [[nodiscard]] std::uint32_t lineNumber(std::uint32_t offset) const;
+  /// Offset of the first byte of the 1-based line.
+  [[nodiscard]] std::uint32_t lineStart(std::uint32_t number) const {
+    return lineStarts_[number - 1];
+  }
   /// Text of the 1-based line, without its line end.
   [[nodiscard]] std::string_view line(std::uint32_t number) const;
-  [[nodiscard]] std::uint32_t lineCount() const { return static_cast<std::uint32_t>(lineStarts_.size()); }
+  [[nodiscard]] std::uint32_t lineCount() const {
+    return static_cast<std::uint32_t>(lineStarts_.size());
+  }
 
 private:
   FileId id_;
@@ -38,7 +48,8 @@ class SourceManager {
 public:
   /// Adds a text that is already UTF-8 (library text, generated declarations, tests).
   FileId add(std::string name, std::string text);
-  /// Adds raw file bytes: drops a BOM, converts Latin-1 to UTF-8 when the bytes are not valid UTF-8.
+  /// Adds raw file bytes: drops a BOM, converts Latin-1 to UTF-8 when the bytes are not valid
+  /// UTF-8.
   FileId addBytes(std::string name, std::string bytes);
   /// Reads a file from disk; nullopt when it cannot be read (errno tells why).
   std::optional<FileId> load(const std::filesystem::path &path, std::string name);

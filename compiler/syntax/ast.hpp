@@ -1,6 +1,7 @@
 #pragma once
-// The typed syntax tree. Nodes live in an Arena and are trivially destructible; children are pointers and spans into the
-// same arena. Fields marked [sema] are empty after parsing and filled in by compiler/semantics.
+// The typed syntax tree. Nodes live in an Arena and are trivially destructible; children are
+// pointers and spans into the same arena. Fields marked [sema] are empty after parsing and filled
+// in by compiler/semantics.
 
 #include "compiler/source/identifier.hpp"
 #include "compiler/source/span.hpp"
@@ -11,9 +12,9 @@
 
 namespace stc {
 
-struct Type;      // semantics/types.hpp
+struct Type;       // semantics/types.hpp
 struct ConstValue; // semantics/constant.hpp
-struct Symbol;    // semantics/symbols.hpp
+struct Symbol;     // semantics/symbols.hpp
 struct VarSymbol;
 struct PouSymbol;
 struct TypeSymbol;
@@ -28,7 +29,8 @@ struct Name {
   explicit operator bool() const { return id != nullptr; }
 };
 
-// ---------------------------------------------------------------------------------------------------- attributes
+// ----------------------------------------------------------------------------------------------------
+// attributes
 
 /// `{attribute 'name' := 'value'}`
 struct Attribute {
@@ -38,7 +40,8 @@ struct Attribute {
 };
 using Attributes = std::span<const Attribute>;
 
-// --------------------------------------------------------------------------------------------------- expressions
+// ---------------------------------------------------------------------------------------------------
+// expressions
 
 enum class ExprKind : std::uint8_t {
   literal,
@@ -58,32 +61,52 @@ struct Expr {
   ExprKind kind;
   bool parenthesized = false;
   Span span;
-  const Type *type = nullptr;          ///< [sema] the expression's own type
-  const Type *target = nullptr;        ///< [sema] the type it is implicitly converted to; null = no conversion
-  const Type *common = nullptr;        ///< [sema] arithmetic: the operands' common type before widening, to which an
-                                       ///< assignment is silent (`i := i + 1` on INT); null = same as `type`
-  const ConstValue *constant = nullptr; ///< [sema] its value (of type `type`) when it is known at compile time
+  const Type *type = nullptr; ///< [sema] the expression's own type
+  const Type *target =
+      nullptr; ///< [sema] the type it is implicitly converted to; null = no conversion
+  const Type *common =
+      nullptr; ///< [sema] arithmetic: the operands' common type before widening, to which an
+               ///< assignment is silent (`i := i + 1` on INT); null = same as `type`
+  const ConstValue *constant =
+      nullptr; ///< [sema] its value (of type `type`) when it is known at compile time
 };
 
-enum class LiteralKind : std::uint8_t { boolean, integer, real, string, wstring, time, ltime, date, ldate, tod, ltod, dt, ldt };
+enum class LiteralKind : std::uint8_t {
+  boolean,
+  integer,
+  real,
+  string,
+  wstring,
+  time,
+  ltime,
+  date,
+  ldate,
+  tod,
+  ltod,
+  dt,
+  ldt
+};
 
-/// A literal, its value already read. `typeName` is the prefix of a typed literal (`INT#5`), otherwise empty.
+/// A literal, its value already read. `typeName` is the prefix of a typed literal (`INT#5`),
+/// otherwise empty.
 struct Literal : Expr {
   LiteralKind literal = LiteralKind::integer;
   Name typeName;
-  std::uint64_t integer = 0; ///< integer: magnitude; boolean: 0/1; time: ms (32 bit); ltime, ldate, ltod, ldt: ns;
-                             ///< date, dt: s since 1970; tod: ms
+  std::uint64_t integer = 0; ///< integer: magnitude; boolean: 0/1; time: ms (32 bit); ltime, ldate,
+                             ///< ltod, ldt: ns; date, dt: s since 1970; tod: ms
   double real = 0;
-  std::string_view text;     ///< string: content, $-escapes resolved, UTF-8; others: as written
+  std::string_view text; ///< string: content, $-escapes resolved, UTF-8; others: as written
 };
 
-/// A plain identifier. A variable of REFERENCE type has the referenced type here (the symbol's type is the reference).
+/// A plain identifier. A variable of REFERENCE type has the referenced type here (the symbol's type
+/// is the reference).
 struct NameExpr : Expr {
   Name name;
   Symbol *symbol = nullptr; ///< [sema]
 };
 
-/// `base.name`, also `lib.Name`, `Enum.value`, and bit access `w.3` (then name is empty and bit >= 0).
+/// `base.name`, also `lib.Name`, `Enum.value`, and bit access `w.3` (then name is empty and bit >=
+/// 0).
 struct MemberExpr : Expr {
   Expr *base = nullptr;
   Name name;
@@ -131,20 +154,36 @@ struct CallExpr : Expr {
 
 enum class UnaryOp : std::uint8_t { negate, plus, logicalNot };
 
-/// The operand is converted to the expression's `type`. NOT, AND, OR, XOR work on the type as it is (NOT on a BYTE gives
-/// a BYTE: the complement is cut to 8 bits); arithmetic works on 32 or 64 bits.
+/// The operand is converted to the expression's `type`. NOT, AND, OR, XOR work on the type as it is
+/// (NOT on a BYTE gives a BYTE: the complement is cut to 8 bits); arithmetic works on 32 or 64
+/// bits.
 struct UnaryExpr : Expr {
   UnaryOp op = UnaryOp::negate;
   Expr *operand = nullptr;
 };
 
 enum class BinaryOp : std::uint8_t {
-  add, subtract, multiply, divide, modulo, power,
-  equal, notEqual, less, lessEqual, greater, greaterEqual,
-  logicalAnd, logicalOr, logicalXor, andThen, orElse,
+  add,
+  subtract,
+  multiply,
+  divide,
+  modulo,
+  power,
+  equal,
+  notEqual,
+  less,
+  lessEqual,
+  greater,
+  greaterEqual,
+  logicalAnd,
+  logicalOr,
+  logicalXor,
+  andThen,
+  orElse,
 };
 
-/// After sema both operands are converted (Expr::target) to `operandType`, on which the operator works.
+/// After sema both operands are converted (Expr::target) to `operandType`, on which the operator
+/// works.
 struct BinaryExpr : Expr {
   BinaryOp op = BinaryOp::add;
   Span opSpan;
@@ -155,10 +194,11 @@ struct BinaryExpr : Expr {
 
 /// One element of an initial value: `value`, `count(value, …)` or `field := value`.
 struct AggregateItem {
-  Name field;                      ///< structure field; empty in arrays
-  Expr *repeat = nullptr;          ///< repetition count; null: once
-  Expr *value = nullptr;           ///< null only together with `repeat`: count() = defaults
-  std::span<AggregateItem> values; ///< more than one value inside a repetition: `2(1, 2)`; then value is null
+  Name field;             ///< structure field; empty in arrays
+  Expr *repeat = nullptr; ///< repetition count; null: once
+  Expr *value = nullptr;  ///< null only together with `repeat`: count() = defaults
+  std::span<AggregateItem>
+      values; ///< more than one value inside a repetition: `2(1, 2)`; then value is null
   Span span;
   VarSymbol *symbol = nullptr; ///< [sema] the field
 };
@@ -176,9 +216,19 @@ struct EnumLiteralExpr : Expr {
   Symbol *symbol = nullptr; ///< [sema]
 };
 
-// ------------------------------------------------------------------------------------------------ types as written
+// ------------------------------------------------------------------------------------------------
+// types as written
 
-enum class TypeExprKind : std::uint8_t { named, array, string, pointer, reference, subrange, enumeration, error };
+enum class TypeExprKind : std::uint8_t {
+  named,
+  array,
+  string,
+  pointer,
+  reference,
+  subrange,
+  enumeration,
+  error
+};
 
 struct TypeExpr {
   TypeExprKind kind;
@@ -231,7 +281,8 @@ struct EnumTypeExpr : TypeExpr {
   TypeExpr *base = nullptr; ///< null: INT
 };
 
-// ---------------------------------------------------------------------------------------------------- statements
+// ----------------------------------------------------------------------------------------------------
+// statements
 
 enum class StmtKind : std::uint8_t {
   empty,
@@ -316,7 +367,8 @@ struct RepeatStmt : Stmt {
   Expr *until = nullptr;
 };
 
-// --------------------------------------------------------------------------------------------------- declarations
+// ---------------------------------------------------------------------------------------------------
+// declarations
 
 enum class Section : std::uint8_t {
   local,    ///< VAR
@@ -348,11 +400,19 @@ struct VarDecl {
   std::string_view address; ///< `%IX0.0` of an AT clause, otherwise empty
   Span addressSpan;
   Attributes attributes;
-  std::string_view doc; ///< text of the `///` lines above
+  std::string_view doc;        ///< text of the `///` lines above
   VarSymbol *symbol = nullptr; ///< [sema]
 };
 
-enum class DeclKind : std::uint8_t { program, function, functionBlock, structure, enumeration, alias, globals };
+enum class DeclKind : std::uint8_t {
+  program,
+  function,
+  functionBlock,
+  structure,
+  enumeration,
+  alias,
+  globals
+};
 
 struct Decl {
   DeclKind kind;
@@ -401,7 +461,9 @@ struct File {
 
 /// Checked downcast by kind is the caller's business: `as<CallExpr>(expr)`.
 template <class T, class Base> T *as(Base *node) { return static_cast<T *>(node); }
-template <class T, class Base> const T *as(const Base *node) { return static_cast<const T *>(node); }
+template <class T, class Base> const T *as(const Base *node) {
+  return static_cast<const T *>(node);
+}
 
 } // namespace ast
 } // namespace stc

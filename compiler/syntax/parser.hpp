@@ -12,8 +12,9 @@ namespace stc {
 /// Deepest nesting of parentheses, brackets and statement blocks that is accepted.
 inline constexpr unsigned kMaxNesting = 256;
 
-/// Parses one file. Always returns a tree (what could be read); reports every syntax error to `diagnostics`.
-/// The tree lives in `arena` and refers to the file's text, which must outlive it.
-ast::File *parse(const SourceFile &file, Interner &interner, Arena &arena, Diagnostics &diagnostics);
+/// Parses one file. Always returns a tree (what could be read); reports every syntax error to
+/// `diagnostics`. The tree lives in `arena` and refers to the file's text, which must outlive it.
+ast::File *parse(const SourceFile &file, Interner &interner, Arena &arena,
+                 Diagnostics &diagnostics);
 
 } // namespace stc

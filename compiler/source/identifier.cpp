@@ -1,0 +1,46 @@
+#include "compiler/source/identifier.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace stc {
+
+namespace {
+
+bool sameIdent(std::string_view lower, std::string_view spelling) {
+  return lower.size() == spelling.size() &&
+         std::equal(lower.begin(), lower.end(), spelling.begin(),
+                    [](char a, char b) { return a == lowerCase(b); });
+}
+
+} // namespace
+
+Ident Interner::intern(std::string_view spelling, std::uint32_t hash) {
+  if (slots_.size() < 2 * (std::size_t{size_} + 1))
+    grow();
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = (hash ^ (hash >> 15)) & mask;
+  for (; slots_[slot] != nullptr; slot = (slot + 1) & mask)
+    if (slots_[slot]->hash == hash && sameIdent(slots_[slot]->lower, spelling))
+      return slots_[slot];
+  std::string lower(spelling);
+  std::transform(lower.begin(), lower.end(), lower.begin(), lowerCase);
+  slots_[slot] = arena_.make<IdentData>(arena_.copy(std::string_view(lower)), size_++, hash);
+  return slots_[slot];
+}
+
+void Interner::grow() {
+  std::vector<const IdentData *> old(std::max<std::size_t>(1024, slots_.size() * 2), nullptr);
+  old.swap(slots_);
+  const std::size_t mask = slots_.size() - 1;
+  for (const IdentData *entry : old) {
+    if (entry == nullptr)
+      continue;
+    std::size_t slot = (entry->hash ^ (entry->hash >> 15)) & mask;
+    while (slots_[slot] != nullptr)
+      slot = (slot + 1) & mask;
+    slots_[slot] = entry;
+  }
+}
+
+} // namespace stc

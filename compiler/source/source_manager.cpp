@@ -1,0 +1,152 @@
+#include "compiler/source/source_manager.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace stc {
+
+namespace {
+
+/// Length of the valid UTF-8 sequence at the start, 0 when there is none.
+std::size_t sequenceLength(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char lead = byte(0);
+  if (lead < 0x80)
+    return 1;
+  const std::size_t length = lead >= 0xC2 && lead < 0xE0   ? 2
+                             : lead >= 0xE0 && lead < 0xF0 ? 3
+                             : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                           : 0;
+  if (length == 0 || text.size() < length)
+    return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if ((byte(i) & 0xC0) != 0x80)
+      return 0;
+  if ((lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xED && byte(1) > 0x9F) ||
+      (lead == 0xF0 && byte(1) < 0x90) || (lead == 0xF4 && byte(1) > 0x8F))
+    return 0;
+  return length;
+}
+
+bool isUtf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t length = sequenceLength(text);
+    if (length == 0)
+      return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+std::string latin1ToUtf8(std::string_view bytes) {
+  std::string out;
+  out.reserve(bytes.size() + bytes.size() / 16);
+  for (char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      out += c;
+    } else {
+      out += static_cast<char>(0xC0 | (byte >> 6));
+      out += static_cast<char>(0x80 | (byte & 0x3F));
+    }
+  }
+  return out;
+}
+
+} // namespace
+
+SourceFile::SourceFile(FileId id, std::string name, std::string text)
+    : id_(id), name_(std::move(name)), text_(std::move(text)) {
+  lineStarts_.push_back(0);
+  const char *begin = text_.data();
+  const char *end = begin + text_.size();
+  for (const char *at = begin; at != end;) {
+    at = static_cast<const char *>(std::memchr(at, '\n', static_cast<std::size_t>(end - at)));
+    if (at == nullptr)
+      break;
+    lineStarts_.push_back(static_cast<std::uint32_t>(++at - begin));
+  }
+}
+
+std::uint32_t SourceFile::lineNumber(std::uint32_t offset) const {
+  return static_cast<std::uint32_t>(
+      std::upper_bound(lineStarts_.begin(), lineStarts_.end(), offset) - lineStarts_.begin());
+}
+
+LineColumn SourceFile::position(std::uint32_t offset) const {
+  offset = std::min(offset, static_cast<std::uint32_t>(text_.size()));
+  const std::uint32_t number = lineNumber(offset);
+  const auto characters =
+      std::count_if(text_.begin() + lineStart(number), text_.begin() + offset,
+                    [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
+  return {number, static_cast<std::uint32_t>(characters) + 1};
+}
+
+std::string_view SourceFile::line(std::uint32_t number) const {
+  if (number == 0 || number > lineStarts_.size())
+    return {};
+  const std::size_t begin = lineStarts_[number - 1];
+  std::size_t end = number < lineStarts_.size() ? lineStarts_[number] - 1 : text_.size();
+  if (end > begin && text_[end - 1] == '\r')
+    --end;
+  return std::string_view(text_).substr(begin, end - begin);
+}
+
+FileId SourceManager::add(std::string name, std::string text) {
+  const auto id = static_cast<FileId>(files_.size() + 1);
+  files_.push_back(std::make_unique<SourceFile>(id, std::move(name), std::move(text)));
+  return id;
+}
+
+FileId SourceManager::addBytes(std::string name, std::string bytes) {
+  if (bytes.starts_with("\xEF\xBB\xBF"))
+    bytes.erase(0, 3);
+  if (!isUtf8(bytes))
+    bytes = latin1ToUtf8(bytes);
+  return add(std::move(name), std::move(bytes));
+}
+
+std::optional<FileId> SourceManager::load(const std::filesystem::path &path, std::string name) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) {
+    errno = EISDIR;
+    return std::nullopt;
+  }
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes;
+  if (in) {
+    constexpr std::size_t kBlock = 1 << 16;
+    while (in) {
+      const std::size_t size = bytes.size();
+      bytes.resize(size + kBlock);
+      in.read(bytes.data() + size, kBlock);
+      bytes.resize(size + static_cast<std::size_t>(in.gcount()));
+    }
+    in.clear(in.rdstate() & std::ios::badbit);
+  }
+  // Places are 32-bit offsets.
+  if (bytes.size() > 0x7FFFFFFF) {
+    errno = EFBIG;
+    return std::nullopt;
+  }
+  if (!in || in.bad()) {
+    if (errno == 0)
+      errno = EIO;
+    return std::nullopt;
+  }
+  return addBytes(std::move(name), std::move(bytes));
+}
+
+std::string_view SourceManager::text(Span span) const {
+  return span.valid() ? file(span.file).text().substr(span.begin, span.end - span.begin)
+                      : std::string_view{};
+}
+
+LineColumn SourceManager::position(Span span) const {
+  return span.valid() ? file(span.file).position(span.begin) : LineColumn{};
+}
+
+} // namespace stc

@@ -1,0 +1,112 @@
+#pragma once
+// From ANTLR's parse tree to our own. Internal to compiler/syntax: includes ANTLR.
+
+#include "compiler/source/arena.hpp"
+#include "compiler/source/diagnostic.hpp"
+#include "compiler/source/identifier.hpp"
+#include "compiler/syntax/ast.hpp"
+#include "compiler/syntax/literals.hpp"
+#include "compiler/syntax/scanner.hpp"
+#include "compiler/syntax/unit_parser.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace stc {
+
+/// Builds AST nodes from the parse tree of one unit at a time. The tree holds rule contexts only;
+/// tokens are looked up by their index. Also says what the grammar is too lenient to say.
+class AstBuilder {
+public:
+  AstBuilder(const Scanner &scanner, FileId file, UnitStream &stream, Interner &interner,
+             Arena &arena, Diagnostics &diagnostics);
+
+  /// Null when the head has no name.
+  ast::PouDecl *head(Grammar::PouHeadContext *context);
+  void section(Grammar::VarSectionContext *context, std::vector<ast::VarDecl *> &out);
+  void types(Grammar::TypeBlockContext *context, std::vector<ast::Decl *> &out);
+  void statements(Grammar::StatementsContext *context, std::vector<ast::Stmt *> &out);
+
+  [[nodiscard]] ast::Attributes attributes(const Token &token);
+  [[nodiscard]] std::string_view doc(const Token &token);
+  [[nodiscard]] Span span(const Token &token) const { return {file_, token.begin, token.end}; }
+
+private:
+  using Context = antlr4::ParserRuleContext;
+  /// Where an expression stands: only initial values may hold aggregates and repetitions.
+  enum class Place : std::uint8_t { value, initial };
+
+  // contexts and tokens
+  static Context *child(const Context *context, std::size_t i) {
+    return static_cast<Context *>(context->children[i]);
+  }
+  static std::size_t first(const Context *context) { return context->start->getTokenIndex(); }
+  /// Index of the last token; first() - 1 when the context is empty.
+  static std::size_t last(const Context *context);
+  static bool failed(const Context *context) { return context->exception != nullptr; }
+  [[nodiscard]] const Token &token(std::size_t index) const { return stream_.token(index); }
+  [[nodiscard]] std::string_view text(const Token &token) const { return scanner_.text(token); }
+  [[nodiscard]] Span span(const Context *context) const;
+  [[nodiscard]] ast::Name name(const Token &token);
+  [[nodiscard]] std::span<ast::Name> path(const Context *context);
+
+  // declarations
+  void declarations(Context *context, std::size_t from, ast::Section section,
+                    std::uint8_t qualifiers, std::vector<ast::VarDecl *> &out);
+  void declaration(Context *context, ast::Section section, std::uint8_t qualifiers,
+                   std::vector<ast::VarDecl *> &out);
+  ast::Decl *typeDeclaration(Context *context);
+  void notSupported(Span span, std::string what);
+
+  // types
+  ast::TypeExpr *type(Context *context);
+  ast::TypeExpr *namedType(Context *context);
+  ast::EnumTypeExpr *enumeration(Context *context, std::size_t firstArgument,
+                                 std::size_t arguments);
+  ast::TypeExpr *errorType(Span span);
+
+  // statements
+  ast::Block block(Context *context);
+  ast::Stmt *statement(Context *context);
+  ast::Stmt *simpleStatement(Context *context);
+  ast::Stmt *ifStatement(Context *context);
+  ast::Stmt *caseStatement(Context *context);
+  ast::Stmt *forStatement(Context *context);
+  ast::Expr *condition(Context *context);
+  bool checkTarget(const ast::Expr *target);
+
+  // expressions
+  ast::Expr *expression(Context *context, Place place = Place::value);
+  ast::Expr *operand(Context *context, Place place);
+  ast::Expr *primary(Context *context, std::size_t &at, std::size_t &nextChild, Place place);
+  ast::Expr *postfix(Context *context, ast::Expr *base, std::size_t &at, std::size_t &nextChild,
+                     Place place);
+  ast::Expr *parentheses(Context *arguments, Span span, Place place);
+  ast::Expr *prefixed(Context *context, std::size_t operators, ast::Expr *operand);
+  ast::Expr *literal(const Token &token);
+  ast::Expr *typedLiteral(const Token &token);
+  ast::Expr *enumLiteral(const Token &token);
+  ast::Expr *binary(const Token &op, ast::Expr *left, ast::Expr *right);
+  std::span<ast::Argument> arguments(Context *context, Place place);
+  ast::Expr *error(Span span);
+
+  // initial values
+  ast::Expr *initializer(Context *context);
+  ast::Expr *initialValue(Context *expression);
+  ast::AggregateItem item(Context *expression);
+  ast::Expr *aggregate(std::vector<ast::AggregateItem> items, bool isStruct, Span span);
+  ast::Expr *structAggregate(Context *arguments, Span span);
+  bool isRepetition(Context *expression) const;
+  /// The single identifier that the expression consists of; null otherwise.
+  [[nodiscard]] const Token *plainName(const Context *expression) const;
+
+  const Scanner &scanner_;
+  FileId file_;
+  UnitStream &stream_;
+  Interner &interner_;
+  Arena &arena_;
+  Diagnostics &diagnostics_;
+  LiteralReader literals_;
+};
+
+} // namespace stc

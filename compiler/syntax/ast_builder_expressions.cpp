@@ -1,0 +1,602 @@
+#include "compiler/syntax/ast_builder.hpp"
+
+#include "compiler/syntax/parser.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace stc {
+
+using namespace ast;
+
+namespace {
+
+constexpr std::size_t kMaxOperands = 16384;
+constexpr std::size_t kMaxPostfix = 1024;
+
+struct Operator {
+  BinaryOp op;
+  int precedence;
+};
+
+Operator operatorOf(std::uint16_t type) {
+  switch (type) {
+  case Tok::POWER:
+    return {BinaryOp::power, 7};
+  case Tok::STAR:
+    return {BinaryOp::multiply, 6};
+  case Tok::SLASH:
+    return {BinaryOp::divide, 6};
+  case Tok::MOD:
+    return {BinaryOp::modulo, 6};
+  case Tok::PLUS:
+    return {BinaryOp::add, 5};
+  case Tok::MINUS:
+    return {BinaryOp::subtract, 5};
+  case Tok::LESS:
+    return {BinaryOp::less, 4};
+  case Tok::LESS_EQUAL:
+    return {BinaryOp::lessEqual, 4};
+  case Tok::GREATER:
+    return {BinaryOp::greater, 4};
+  case Tok::GREATER_EQUAL:
+    return {BinaryOp::greaterEqual, 4};
+  case Tok::EQUAL:
+    return {BinaryOp::equal, 3};
+  case Tok::NOT_EQUAL:
+    return {BinaryOp::notEqual, 3};
+  case Tok::AMPERSAND:
+  case Tok::AND:
+    return {BinaryOp::logicalAnd, 2};
+  case Tok::AND_THEN:
+    return {BinaryOp::andThen, 2};
+  case Tok::XOR:
+    return {BinaryOp::logicalXor, 1};
+  case Tok::OR_ELSE:
+    return {BinaryOp::orElse, 0};
+  default:
+    return {BinaryOp::logicalOr, 0};
+  }
+}
+
+} // namespace
+
+Expr *AstBuilder::error(Span span) {
+  auto *node = arena_.make<Expr>();
+  node->kind = ExprKind::error;
+  node->span = span;
+  return node;
+}
+
+const Token *AstBuilder::plainName(const Context *expression) const {
+  const std::size_t at = first(expression);
+  return last(expression) == at && token(at).type == Tok::IDENT ? &token(at) : nullptr;
+}
+
+// --------------------------------------------------------------------------------------------
+// operators, operands
+
+Expr *AstBuilder::binary(const Token &op, Expr *left, Expr *right) {
+  auto *node = arena_.make<BinaryExpr>();
+  node->kind = ExprKind::binary;
+  node->span = left->span.to(right->span);
+  node->op = operatorOf(op.type).op;
+  node->opSpan = span(op);
+  node->left = left;
+  node->right = right;
+  return node;
+}
+
+Expr *AstBuilder::expression(Context *context, Place place) {
+  const std::size_t count = context->children.size();
+  if (count == 0)
+    return error(span(context));
+  if (count == 1)
+    return operand(child(context, 0), place);
+  if (count > kMaxOperands) {
+    diagnostics_.report(Code::expressionTooLong, span(context),
+                        "this expression has " + std::to_string(count) + " operands",
+                        "at most " + std::to_string(kMaxOperands) + " are possible");
+    return error(span(context));
+  }
+  // Precedence climbing without recursion: operators wait on a stack for their right operand.
+  struct Waiting {
+    Expr *left;
+    const Token *op;
+    int precedence;
+  };
+  std::vector<Waiting> stack;
+  Expr *right = operand(child(context, 0), Place::value);
+  for (std::size_t i = 1; i < count; ++i) {
+    const Token &op = token(last(child(context, i - 1)) + 1);
+    const int precedence = operatorOf(op.type).precedence;
+    while (!stack.empty() && stack.back().precedence >= precedence) {
+      right = binary(*stack.back().op, stack.back().left, right);
+      stack.pop_back();
+    }
+    stack.push_back({right, &op, precedence});
+    right = operand(child(context, i), Place::value);
+  }
+  while (!stack.empty()) {
+    right = binary(*stack.back().op, stack.back().left, right);
+    stack.pop_back();
+  }
+  return right;
+}
+
+Expr *AstBuilder::prefixed(Context *context, std::size_t operators, Expr *operand) {
+  // Three equal operators in a row are one: NOT NOT NOT x = NOT x, with the same type rules.
+  const std::size_t begin = first(context);
+  std::vector<const Token *> chain;
+  for (std::size_t i = 0; i < operators; ++i) {
+    const Token &op = token(begin + i);
+    const std::size_t n = chain.size();
+    if (n >= 2 && chain[n - 1]->type == op.type && chain[n - 2]->type == op.type)
+      chain.pop_back();
+    else
+      chain.push_back(&op);
+  }
+  if (chain.size() > kMaxNesting) {
+    diagnostics_.report(Code::tooDeep, span(*chain.front()),
+                        "too many operators in front of one operand",
+                        "more than " + std::to_string(kMaxNesting));
+    return error(span(context));
+  }
+  for (std::size_t i = chain.size(); i-- > 0;) {
+    auto *node = arena_.make<UnaryExpr>();
+    node->kind = ExprKind::unary;
+    node->span = span(*chain[i]).to(operand->span);
+    node->op = chain[i]->type == Tok::NOT     ? UnaryOp::logicalNot
+               : chain[i]->type == Tok::MINUS ? UnaryOp::negate
+                                              : UnaryOp::plus;
+    node->operand = operand;
+    operand = node;
+  }
+  return operand;
+}
+
+Expr *AstBuilder::operand(Context *context, Place place) {
+  std::size_t at = first(context);
+  const std::size_t begin = at;
+  while (token(at).type == Tok::NOT || token(at).type == Tok::MINUS || token(at).type == Tok::PLUS)
+    ++at;
+  const std::size_t operators = at - begin;
+  std::size_t nextChild = 0;
+  Expr *node = primary(context, at, nextChild, operators == 0 ? place : Place::value);
+  if (at <= last(context))
+    node = postfix(context, node, at, nextChild, place);
+  return operators == 0 ? node : prefixed(context, operators, node);
+}
+
+Expr *AstBuilder::primary(Context *context, std::size_t &at, std::size_t &nextChild, Place place) {
+  const Token &start = token(at);
+  switch (start.type) {
+  case Tok::IDENT: {
+    ++at;
+    auto *node = arena_.make<NameExpr>();
+    node->kind = ExprKind::name;
+    node->name = name(start);
+    node->span = node->name.span;
+    return node;
+  }
+  case Tok::LPAREN:
+  case Tok::LBRACKET: {
+    Context *inside = child(context, nextChild++);
+    at = inside->children.empty() ? at + 1 : last(inside) + 1;
+    Span whole = span(start).to(span(inside));
+    const std::uint16_t closer = start.type == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET;
+    if (token(at).type == closer)
+      whole = whole.to(span(token(at++)));
+    if (start.type == Tok::LPAREN)
+      return parentheses(inside, whole, place);
+    if (place == Place::value) {
+      diagnostics_.report(Code::misplacedAggregate, whole,
+                          "a list of values may stand only in an initial value");
+      return error(whole);
+    }
+    std::vector<AggregateItem> items;
+    for (std::size_t i = 0; i < inside->children.size(); ++i) {
+      Context *argument = child(inside, i);
+      if (argument->children.size() != 1 || last(argument) != last(child(argument, 0))) {
+        diagnostics_.report(Code::unexpectedToken, span(argument), "an array element has no name")
+            .help("initial values of a structure stand in parentheses: `(x := 1, y := 2)`");
+        return error(whole);
+      }
+      items.push_back(item(child(argument, 0)));
+    }
+    return aggregate(std::move(items), false, whole);
+  }
+  case Tok::DIRECT:
+    ++at;
+    if (!start.reported)
+      notSupported(span(start), "a direct address inside a statement");
+    return error(span(start));
+  case Tok::ENUM_LITERAL:
+    ++at;
+    return enumLiteral(start);
+  case Tok::TYPED_LITERAL:
+    ++at;
+    return typedLiteral(start);
+  default:
+    ++at;
+    return literal(start);
+  }
+}
+
+Expr *AstBuilder::parentheses(Context *inside, Span whole, Place place) {
+  const std::size_t count = inside->children.size();
+  if (count == 0) {
+    diagnostics_.report(Code::unexpectedToken, whole,
+                        "expected an expression between the parentheses");
+    return error(whole);
+  }
+  Context *only = child(inside, 0);
+  if (count == 1 && only->children.size() == 1 && last(only) == last(child(only, 0))) {
+    Expr *node =
+        place == Place::initial ? initialValue(child(only, 0)) : expression(child(only, 0));
+    node->parenthesized = true;
+    node->span = whole;
+    return node;
+  }
+  if (place == Place::value) {
+    diagnostics_.report(Code::misplacedAggregate, whole,
+                        "a list of values may stand only in an initial value");
+    return error(whole);
+  }
+  return structAggregate(inside, whole);
+}
+
+Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::size_t &nextChild,
+                          Place place) {
+  const std::size_t end = last(context);
+  std::size_t count = 0;
+  while (at <= end) {
+    const Token &start = token(at);
+    if (++count > kMaxPostfix) {
+      diagnostics_.report(Code::tooDeep, span(start), "too many accesses behind one another",
+                          "more than " + std::to_string(kMaxPostfix));
+      return error(span(context));
+    }
+    switch (start.type) {
+    case Tok::DOT: {
+      const Token &member = token(at + 1);
+      at += 2;
+      if (member.type == Tok::DIRECT) {
+        if (!member.reported)
+          notSupported(span(member), "partial access");
+        base = error(base->span.to(span(member)));
+        break;
+      }
+      auto *node = arena_.make<MemberExpr>();
+      node->kind = ExprKind::member;
+      node->base = base;
+      node->span = base->span.to(span(member));
+      if (member.type == Tok::INTEGER) {
+        std::int32_t bit = 0;
+        for (const char c : text(member))
+          bit = c >= '0' && c <= '9' && bit < 100000 ? bit * 10 + (c - '0') : 100000;
+        node->bit = bit;
+        node->name.span = span(member);
+      } else {
+        node->name = name(member);
+      }
+      base = node;
+      break;
+    }
+    case Tok::CARET: {
+      auto *node = arena_.make<DerefExpr>();
+      node->kind = ExprKind::deref;
+      node->base = base;
+      node->span = base->span.to(span(start));
+      base = node;
+      ++at;
+      break;
+    }
+    default: { // LPAREN, LBRACKET
+      Context *inside = child(context, nextChild++);
+      at = inside->children.empty() ? at + 1 : last(inside) + 1;
+      Span whole = base->span.to(span(start)).to(span(inside));
+      const std::uint16_t closer = start.type == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET;
+      if (at <= end && token(at).type == closer)
+        whole = whole.to(span(token(at++)));
+      if (start.type == Tok::LPAREN) {
+        if (base->kind == ExprKind::literal) {
+          diagnostics_.report(Code::misplacedAggregate, whole, "a number cannot be called")
+              .note("repetitions such as `3(0)` may stand only in initial values of arrays");
+          base = error(whole);
+          break;
+        }
+        auto *node = arena_.make<CallExpr>();
+        node->kind = ExprKind::call;
+        node->callee = base;
+        node->arguments = arguments(inside, place);
+        node->span = whole;
+        base = node;
+        break;
+      }
+      auto *node = arena_.make<IndexExpr>();
+      node->kind = ExprKind::index;
+      node->base = base;
+      node->span = whole;
+      std::vector<Expr *> indices;
+      for (std::size_t i = 0; i < inside->children.size(); ++i) {
+        Context *argument = child(inside, i);
+        indices.push_back(expression(child(argument, 0)));
+        if (last(argument) != last(child(argument, 0)))
+          diagnostics_.report(Code::unexpectedToken, span(token(last(child(argument, 0)) + 1)),
+                              "an index has no name", "expected `,` or `]`");
+      }
+      if (indices.empty()) {
+        diagnostics_.report(Code::unexpectedToken, {file_, start.begin, whole.end},
+                            "expected an index between the brackets");
+        indices.push_back(error({file_, start.begin, whole.end}));
+      }
+      node->indices = arena_.copy(indices);
+      base = node;
+      break;
+    }
+    }
+  }
+  return base;
+}
+
+std::span<Argument> AstBuilder::arguments(Context *context, Place place) {
+  const std::size_t count = context->children.size();
+  if (count == 0)
+    return {};
+  auto *list =
+      static_cast<Argument *>(arena_.allocate(sizeof(Argument) * count, alignof(Argument)));
+  for (std::size_t i = 0; i < count; ++i) {
+    Context *argument = child(context, i);
+    Argument &out = *::new (&list[i]) Argument{};
+    out.span = span(argument);
+    Context *front = child(argument, 0);
+    const std::size_t sign = last(front) + 1;
+    if (sign > last(argument)) {
+      out.value = expression(front, place);
+      continue;
+    }
+    out.output = token(sign).type == Tok::ARROW;
+    if (const Token *plain = plainName(front); plain != nullptr) {
+      out.name = name(*plain);
+    } else {
+      const std::string written(tokenSpelling(token(sign).type));
+      Diagnostic &d = diagnostics_.report(
+          Code::argumentName, span(front),
+          "expected the name of a parameter in front of `" + written + "`", "not a plain name");
+      if (out.output)
+        d.help("a comparison is written `>=`");
+      out.value = error(out.span);
+      out.output = false;
+      continue;
+    }
+    if (argument->children.size() > 1)
+      out.value = expression(child(argument, 1), place);
+  }
+  return {list, count};
+}
+
+// ------------------------------------------------------------------------------------------------
+// initial values
+
+bool AstBuilder::isRepetition(Context *expression) const {
+  if (expression->children.size() != 1)
+    return false;
+  const Context *only = child(expression, 0);
+  const std::size_t at = first(only);
+  return token(at).type == Tok::INTEGER && token(at + 1).type == Tok::LPAREN &&
+         only->children.size() == 1 &&
+         last(only) == (child(only, 0)->children.empty() ? at + 2 : last(child(only, 0)) + 1);
+}
+
+AggregateItem AstBuilder::item(Context *expression) {
+  AggregateItem out;
+  out.span = span(expression);
+  if (!isRepetition(expression)) {
+    out.value = initialValue(expression);
+    return out;
+  }
+  Context *only = child(expression, 0);
+  out.repeat = literal(token(first(only)));
+  Context *inside = child(only, 0);
+  std::vector<AggregateItem> values;
+  for (std::size_t i = 0; i < inside->children.size(); ++i) {
+    Context *argument = child(inside, i);
+    if (argument->children.size() != 1) {
+      // `3(a := 1)` repeats a structure written without its own parentheses.
+      out.value = structAggregate(inside, span(inside));
+      return out;
+    }
+    values.push_back(item(child(argument, 0)));
+  }
+  if (values.size() == 1 && values[0].repeat == nullptr)
+    out.value = values[0].value;
+  else
+    out.values = arena_.copy(values);
+  return out;
+}
+
+Expr *AstBuilder::aggregate(std::vector<AggregateItem> items, bool isStruct, Span whole) {
+  auto *node = arena_.make<AggregateExpr>();
+  node->kind = ExprKind::aggregate;
+  node->span = whole;
+  node->items = arena_.copy(items);
+  node->isStruct = isStruct;
+  return node;
+}
+
+Expr *AstBuilder::structAggregate(Context *inside, Span whole) {
+  std::vector<AggregateItem> fields;
+  std::vector<AggregateItem> elements; // of an array field in V2.3's way: `(a := 1, 2, 3, b := 0)`
+  const auto closeField = [&] {
+    if (!fields.empty() && elements.size() > 1) {
+      const Span of = elements.front().span.to(elements.back().span);
+      fields.back().value = aggregate(elements, false, of);
+      fields.back().span = fields.back().span.to(of);
+    }
+    elements.clear();
+  };
+  for (std::size_t i = 0; i < inside->children.size(); ++i) {
+    Context *argument = child(inside, i);
+    Context *front = child(argument, 0);
+    if (last(front) == last(argument)) { // no name
+      if (fields.empty()) {
+        diagnostics_
+            .report(Code::misplacedAggregate, span(argument), "this value has no name",
+                    "expected `name := value`")
+            .help("the elements of an array stand in brackets: `[1, 2, 3]`");
+        return error(whole);
+      }
+      elements.push_back(item(front));
+      continue;
+    }
+    closeField();
+    const Token *plain = plainName(front);
+    if (plain == nullptr || token(last(front) + 1).type != Tok::ASSIGN ||
+        argument->children.size() < 2) {
+      diagnostics_.report(Code::argumentName, span(argument),
+                          "expected `name := value` in the list of fields");
+      return error(whole);
+    }
+    AggregateItem field;
+    field.field = name(*plain);
+    field.span = span(argument);
+    elements.push_back(item(child(argument, 1)));
+    field.value = elements.front().repeat == nullptr
+                      ? elements.front().value
+                      : aggregate({elements.front()}, false, elements.front().span);
+    fields.push_back(field);
+  }
+  closeField();
+  return aggregate(std::move(fields), true, whole);
+}
+
+Expr *AstBuilder::initialValue(Context *context) {
+  if (isRepetition(context))
+    return aggregate({item(context)}, false, span(context));
+  return expression(context, Place::initial);
+}
+
+Expr *AstBuilder::initializer(Context *context) {
+  if (context->children.size() == 1)
+    return initialValue(child(context, 0));
+  std::vector<AggregateItem> items;
+  for (std::size_t i = 0; i < context->children.size(); ++i)
+    items.push_back(item(child(context, i)));
+  return aggregate(std::move(items), false, span(context));
+}
+
+// ------------------------------------------------------------------------------------------------------
+// literals
+
+Expr *AstBuilder::literal(const Token &start) {
+  if (start.reported)
+    return error(span(start));
+  auto *node = arena_.make<Literal>();
+  node->kind = ExprKind::literal;
+  node->span = span(start);
+  const std::string_view spelling = text(start);
+  bool good = true;
+  switch (start.type) {
+  case Tok::INTEGER:
+    good = literals_.integer(spelling, node->span, *node);
+    break;
+  case Tok::REAL:
+    good = literals_.real(spelling, node->span, *node);
+    break;
+  case Tok::STRING_LITERAL:
+  case Tok::WSTRING_LITERAL:
+    good = literals_.string(spelling, node->span, *node);
+    break;
+  case Tok::TRUE:
+  case Tok::FALSE:
+    node->literal = LiteralKind::boolean;
+    node->integer = start.type == Tok::TRUE;
+    node->text = spelling;
+    break;
+  case Tok::TIME_LITERAL: {
+    const std::size_t hash = spelling.find('#');
+    std::string prefix(spelling.substr(0, hash));
+    std::transform(prefix.begin(), prefix.end(), prefix.begin(), lowerCase);
+    std::string_view value = spelling.substr(hash + 1);
+    const bool negative = value[0] == '-';
+    if (negative || value[0] == '+')
+      value.remove_prefix(1);
+    node->text = spelling;
+    good = literals_.timeOrDate(prefix, value, node->span, *node);
+    if (good && negative) {
+      auto *negated = arena_.make<UnaryExpr>();
+      negated->kind = ExprKind::unary;
+      negated->span = node->span;
+      negated->op = UnaryOp::negate;
+      negated->operand = node;
+      return negated;
+    }
+    break;
+  }
+  default:
+    good = false;
+    break;
+  }
+  return good ? static_cast<Expr *>(node) : error(node->span);
+}
+
+Expr *AstBuilder::typedLiteral(const Token &start) {
+  const Span whole = span(start);
+  if (start.reported)
+    return error(whole);
+  const std::string_view spelling = text(start);
+  const auto hash = static_cast<std::uint32_t>(spelling.find('#'));
+  auto *node = arena_.make<Literal>();
+  node->kind = ExprKind::literal;
+  node->span = whole;
+  const std::string_view typeName = spelling.substr(0, hash);
+  node->typeName = {interner_.intern(typeName), typeName, {file_, whole.begin, whole.begin + hash}};
+  std::string_view value = spelling.substr(hash + 1);
+  Span at{file_, whole.begin + hash + 1, whole.end};
+  const bool negative = value[0] == '-';
+  if (negative || value[0] == '+') {
+    value.remove_prefix(1);
+    ++at.begin;
+  }
+  bool good = true;
+  const bool based = value.find('#') != std::string_view::npos;
+  if (value[0] == '\'' || value[0] == '"') {
+    good = literals_.string(value, at, *node);
+  } else if (isWord(value, "true") || isWord(value, "false")) {
+    node->literal = LiteralKind::boolean;
+    node->integer = isWord(value, "true");
+    node->text = value;
+  } else if (!based && value.find_first_of(".eE") != std::string_view::npos) {
+    good = literals_.real(value, at, *node);
+  } else {
+    good = literals_.integer(value, at, *node);
+  }
+  if (!good)
+    return error(whole);
+  if (!negative)
+    return node;
+  auto *negated = arena_.make<UnaryExpr>();
+  negated->kind = ExprKind::unary;
+  negated->span = whole;
+  negated->op = UnaryOp::negate;
+  negated->operand = node;
+  return negated;
+}
+
+Expr *AstBuilder::enumLiteral(const Token &start) {
+  const Span whole = span(start);
+  const std::string_view spelling = text(start);
+  const auto hash = static_cast<std::uint32_t>(spelling.find('#'));
+  const std::string_view typeName = spelling.substr(0, hash);
+  const std::string_view enumerator = spelling.substr(hash + 1);
+  auto *node = arena_.make<EnumLiteralExpr>();
+  node->kind = ExprKind::enumLiteral;
+  node->span = whole;
+  node->typeName = {interner_.intern(typeName), typeName, {file_, whole.begin, whole.begin + hash}};
+  node->enumerator = {
+      interner_.intern(enumerator), enumerator, {file_, whole.begin + hash + 1, whole.end}};
+  return node;
+}
+
+} // namespace stc

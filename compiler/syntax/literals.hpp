@@ -1,0 +1,38 @@
+#pragma once
+// Values of literals. Internal to compiler/syntax.
+
+#include "compiler/source/arena.hpp"
+#include "compiler/source/diagnostic.hpp"
+#include "compiler/syntax/ast.hpp"
+
+#include <string_view>
+
+namespace stc {
+
+/// Reads literals' texts into values; reports malformed ones.
+class LiteralReader {
+public:
+  LiteralReader(Arena &arena, Diagnostics &diagnostics)
+      : arena_(arena), diagnostics_(diagnostics) {}
+
+  // Each reads `text` (which lies at `span`) into `out` and returns false after reporting an error.
+
+  /// `42`, `16#FF`
+  bool integer(std::string_view text, Span span, ast::Literal &out);
+  /// `1.5e-3`
+  bool real(std::string_view text, Span span, ast::Literal &out);
+  /// `'…'` or `"…"`
+  bool string(std::string_view text, Span span, ast::Literal &out);
+  /// What stands behind the prefix and `#`, which is in lower case: `t`, `ltime`, `d`, `tod`,
+  /// `ldt`, …
+  bool timeOrDate(std::string_view prefix, std::string_view value, Span span, ast::Literal &out);
+
+private:
+  bool duration(std::string_view value, bool isLong, Span span, ast::Literal &out);
+  bool fail(Code code, Span span, std::string message, std::string label = {});
+
+  Arena &arena_;
+  Diagnostics &diagnostics_;
+};
+
+} // namespace stc

@@ -1,0 +1,735 @@
+#include "compiler/syntax/scanner.hpp"
+
+#include "compiler/source/identifier.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace stc {
+
+namespace {
+
+constexpr unsigned kMaxBadCharacters = 20;
+
+enum CharClass : std::uint8_t { other, blank, letter, digit };
+
+constexpr std::array<std::uint8_t, 256> kClasses = [] {
+  std::array<std::uint8_t, 256> classes{};
+  for (int c = 'a'; c <= 'z'; ++c)
+    classes[static_cast<std::size_t>(c)] = classes[static_cast<std::size_t>(c - 32)] = letter;
+  for (int c = '0'; c <= '9'; ++c)
+    classes[static_cast<std::size_t>(c)] = digit;
+  classes['_'] = letter;
+  for (const char c : {' ', '\t', '\r', '\n', '\f', '\v', '\x1A'})
+    classes[static_cast<unsigned char>(c)] = blank;
+  return classes;
+}();
+
+constexpr std::uint8_t classOf(char c) { return kClasses[static_cast<unsigned char>(c)]; }
+constexpr bool isDigit(char c) { return classOf(c) == digit; }
+constexpr bool isLetter(char c) { return classOf(c) == letter; }
+constexpr bool isWordChar(char c) { return classOf(c) >= letter; }
+constexpr bool isForeign(char c) { return static_cast<unsigned char>(c) >= 0x80; }
+
+/// Operators of the language whose names have two underscores.
+bool isKnownDoubleUnderscore(std::string_view word) {
+  static constexpr std::string_view kNames[] = {
+      "__new",          "__delete",  "__isvalidref",  "__queryinterface",
+      "__querypointer", "__try",     "__catch",       "__finally",
+      "__endtry",       "__xword",   "__xint",        "__uxint",
+      "__varinfo",      "__pouname", "__position",    "__compare_and_swap",
+      "__xadd",         "__vector",  "__currenttask", "__lword",
+      "__bitoffset",
+  };
+  return std::any_of(std::begin(kNames), std::end(kNames),
+                     [&](std::string_view name) { return isWord(word, name); });
+}
+
+enum class Prefix : std::uint8_t { none, duration, date };
+
+Prefix literalPrefix(std::string_view word) {
+  static constexpr std::string_view kDurations[] = {"t", "time", "lt", "ltime"};
+  static constexpr std::string_view kDates[] = {
+      "d",    "date",         "ld", "ldate",         "tod", "time_of_day",
+      "ltod", "ltime_of_day", "dt", "date_and_time", "ldt", "ldate_and_time",
+  };
+  const auto is = [&](std::string_view name) { return isWord(word, name); };
+  if (std::any_of(std::begin(kDurations), std::end(kDurations), is))
+    return Prefix::duration;
+  return std::any_of(std::begin(kDates), std::end(kDates), is) ? Prefix::date : Prefix::none;
+}
+
+} // namespace
+
+bool looksBinary(std::string_view text) {
+  if (std::memchr(text.data(), '\0', text.size()) != nullptr)
+    return true;
+  std::size_t control = 0;
+  for (const char c : text.substr(0, 65536))
+    control += static_cast<unsigned char>(c) < 0x20 && classOf(c) != blank;
+  return control > 10;
+}
+
+Scanner::Scanner(const SourceFile &file, Diagnostics &diagnostics)
+    : text_(file.text()), file_(file.id()), diagnostics_(diagnostics) {}
+
+bool Scanner::afterOperand() const {
+  switch (previous_) {
+  case Tok::IDENT:
+  case Tok::RPAREN:
+  case Tok::RBRACKET:
+  case Tok::CARET:
+  case Tok::INTEGER:
+  case Tok::REAL:
+  case Tok::TRUE:
+  case Tok::FALSE:
+  case Tok::STRING_LITERAL:
+  case Tok::WSTRING_LITERAL:
+  case Tok::TIME_LITERAL:
+  case Tok::TYPED_LITERAL:
+  case Tok::ENUM_LITERAL:
+  case Tok::DIRECT:
+    return true;
+  default:
+    return false;
+  }
+}
+
+bool Scanner::atLineStart(std::size_t place) const {
+  while (place > 0 && (text_[place - 1] == ' ' || text_[place - 1] == '\t'))
+    --place;
+  return place == 0 || text_[place - 1] == '\n';
+}
+
+std::size_t Scanner::significant(std::size_t place) const {
+  for (;;) {
+    while (place < text_.size() && classOf(text_[place]) == blank)
+      ++place;
+    const std::string_view rest = text_.substr(std::min(place, text_.size()));
+    if (rest.starts_with("//")) {
+      place = std::min(text_.find('\n', place), text_.size());
+    } else if (rest.starts_with("/*")) {
+      const auto end = text_.find("*/", place + 2);
+      place = end == std::string_view::npos ? text_.size() : end + 2;
+    } else if (rest.starts_with("(*")) {
+      unsigned depth = 0;
+      do {
+        if (text_.compare(place, 2, "(*") == 0) {
+          ++depth;
+          place += 2;
+        } else if (text_.compare(place, 2, "*)") == 0) {
+          --depth;
+          place += 2;
+        } else {
+          ++place;
+        }
+      } while (depth != 0 && place < text_.size());
+    } else {
+      return place;
+    }
+  }
+}
+
+std::string_view Scanner::wordAt(std::size_t place) const {
+  std::size_t end = place;
+  if (place < text_.size() && isLetter(text_[place]))
+    while (end < text_.size() && isWordChar(text_[end]))
+      ++end;
+  return text_.substr(std::min(place, text_.size()), end - place);
+}
+
+bool Scanner::nameFollows(std::size_t place) const {
+  const std::string_view next = wordAt(significant(place));
+  if (next.empty())
+    return false;
+  switch (findKeyword(next, hashIdent(next)).kind) {
+  case Keyword::Kind::hard:
+  case Keyword::Kind::at:
+  case Keyword::Kind::infix:
+  case Keyword::Kind::clause:
+    return false;
+  default:
+    return true;
+  }
+}
+
+bool Scanner::isKeywordHere(Keyword keyword, std::size_t wordEnd) const {
+  switch (keyword.kind) {
+  case Keyword::Kind::none:
+  case Keyword::Kind::assignment:
+    return false;
+  case Keyword::Kind::hard:
+    return true;
+  case Keyword::Kind::qualifier: {
+    const bool inHead = (previous_ >= Tok::VAR && previous_ <= Tok::VAR_INST) ||
+                        (previous_ >= Tok::CONSTANT && previous_ <= Tok::NON_RETAIN);
+    const char follows = at(significant(wordEnd));
+    return inHead && follows != ':' && follows != ',';
+  }
+  case Keyword::Kind::at:
+    return at(significant(wordEnd)) == '%';
+  case Keyword::Kind::pointer:
+    return (previous_ == Tok::COLON || previous_ == Tok::OF || previous_ == Tok::TO) &&
+           isWord(wordAt(significant(wordEnd)), "to");
+  case Keyword::Kind::infix:
+    return afterOperand();
+  case Keyword::Kind::statement: {
+    const std::size_t next = significant(wordEnd);
+    if (afterOperand() && previous_ != Tok::IDENT)
+      return false;
+    if (at(next) == ';')
+      return previous_ == Tok::SEMICOLON || previous_ == Tok::THEN || previous_ == Tok::DO ||
+             previous_ == Tok::ELSE || previous_ == Tok::COLON || previous_ == Tok::REPEAT ||
+             previous_ == Tok::IDENT || (previous_ >= Tok::IF && previous_ <= Tok::END_VAR);
+    const std::string_view word = wordAt(next);
+    return word.size() > 4 && isWord(word.substr(0, 4), "end_");
+  }
+  case Keyword::Kind::clause:
+    return previous_ == Tok::IDENT && nameFollows(wordEnd);
+  case Keyword::Kind::modifier:
+    switch (previous_) {
+    case Tok::PROGRAM:
+    case Tok::FUNCTION:
+    case Tok::FUNCTION_BLOCK:
+    case Tok::TYPE:
+    case Tok::METHOD:
+    case Tok::PROPERTY:
+    case Tok::INTERFACE:
+    case Tok::CLASS:
+      return nameFollows(wordEnd);
+    default:
+      return previous_ >= Tok::ABSTRACT && previous_ <= Tok::INTERNAL && nameFollows(wordEnd);
+    }
+  case Keyword::Kind::construct:
+    if (keyword.type == Tok::UNION)
+      return previous_ == Tok::COLON && nameFollows(wordEnd);
+    switch (previous_) {
+    case Tok::COMMA:
+    case Tok::COLON:
+    case Tok::DOT:
+    case Tok::LPAREN:
+    case Tok::LBRACKET:
+    case Tok::PROGRAM:
+    case Tok::FUNCTION:
+    case Tok::FUNCTION_BLOCK:
+    case Tok::TYPE:
+      return false;
+    default:
+      return nameFollows(wordEnd);
+    }
+  }
+  return false;
+}
+
+// -------------------------------------------------------------------------------------------
+// blanks and comments
+
+void Scanner::nestedComment(std::size_t begin) {
+  const char *const data = text_.data();
+  const std::size_t size = text_.size();
+  unsigned depth = 1;
+  std::size_t place = begin + 2;
+  while (place + 1 < size) {
+    const char c = data[place];
+    if (c == '*' && data[place + 1] == ')') {
+      place += 2;
+      if (--depth == 0) {
+        place_ = place;
+        return;
+      }
+    } else if (c == '(' && data[place + 1] == '*') {
+      place += 2;
+      ++depth;
+    } else {
+      ++place;
+    }
+  }
+  place_ = size;
+  Diagnostic &d = diagnostics_.report(Code::unterminatedComment, span(begin, begin + 2),
+                                      "this comment has no end", "the comment begins here");
+  d.help("close it with `*)`");
+  if (depth > 1)
+    d.note("comments nest: " + std::to_string(depth) +
+           " `(*` are still open at the end of the file");
+}
+
+void Scanner::blockComment(std::size_t begin) {
+  const auto end = text_.find("*/", begin + 2);
+  place_ = end == std::string_view::npos ? text_.size() : end + 2;
+  if (end == std::string_view::npos)
+    diagnostics_
+        .report(Code::unterminatedComment, span(begin, begin + 2), "this comment has no end",
+                "the comment begins here")
+        .help("close it with `*/`");
+}
+
+void Scanner::lineComment(std::size_t begin) {
+  const void *newline = std::memchr(text_.data() + begin, '\n', text_.size() - begin);
+  std::size_t end =
+      newline == nullptr
+          ? text_.size()
+          : static_cast<std::size_t>(static_cast<const char *>(newline) - text_.data());
+  place_ = end;
+  if (at(begin + 2) != '/' || at(begin + 3) == '/' || !atLineStart(begin))
+    return;
+  std::size_t from = begin + 3;
+  if (from < end && text_[from] == ' ')
+    ++from;
+  while (end > from && classOf(text_[end - 1]) == blank)
+    --end;
+  trivia_.push_back({Trivia::Kind::doc,
+                     static_cast<std::uint32_t>(begin),
+                     static_cast<std::uint32_t>(end),
+                     text_.substr(from, end - from),
+                     {}});
+}
+
+void Scanner::pragma(std::size_t begin) {
+  std::size_t end = begin + 1;
+  while (end < text_.size() && text_[end] != '}') {
+    const char c = text_[end];
+    if (c == '\'' ||
+        c == '"') { // a quoted text may hold a brace, unless it does not end on its line
+      const auto stop = text_.find_first_of(c == '\'' ? "'\n" : "\"\n", end + 1);
+      if (stop != std::string_view::npos && text_[stop] == c)
+        end = stop;
+    }
+    ++end;
+  }
+  if (end >= text_.size()) {
+    diagnostics_
+        .report(Code::unterminatedPragma, span(begin, begin + 1), "this pragma has no end",
+                "the pragma begins here")
+        .help("close it with `}`");
+    const auto line = text_.find('\n', begin);
+    place_ = line == std::string_view::npos ? text_.size() : line;
+    return;
+  }
+  place_ = end + 1;
+  const auto from = static_cast<std::uint32_t>(begin);
+  const auto to = static_cast<std::uint32_t>(place_);
+  std::size_t p = begin + 1;
+  const auto skip = [&] {
+    while (p < end && classOf(text_[p]) == blank)
+      ++p;
+  };
+  const auto quotedText = [&]() -> std::string_view {
+    skip();
+    const char quote = p < end ? text_[p] : '\0';
+    if (quote != '\'' && quote != '"')
+      return {};
+    const auto close = text_.find(quote, p + 1);
+    if (close >= end)
+      return {};
+    const std::string_view content = text_.substr(p + 1, close - p - 1);
+    p = close + 1;
+    return content;
+  };
+  skip();
+  const std::string_view keyword = wordAt(p);
+  p += keyword.size();
+  if (isWord(keyword, "external")) {
+    trivia_.push_back({Trivia::Kind::external, from, to, {}, {}});
+  } else if (isWord(keyword, "attribute")) {
+    const std::string_view name = quotedText();
+    skip();
+    std::string_view value;
+    if (p + 1 < end && text_.compare(p, 2, ":=") == 0) {
+      p += 2;
+      value = quotedText();
+    }
+    if (!name.empty())
+      trivia_.push_back({Trivia::Kind::attribute, from, to, name, value});
+  } else if (isWord(keyword, "if")) {
+    diagnostics_.report(Code::notSupported, span(begin, place_),
+                        "conditional compilation is not supported by this version");
+  }
+}
+
+void Scanner::skipBlanks() {
+  const char *const data = text_.data();
+  const std::size_t size = text_.size();
+  while (place_ < size) {
+    const char c = data[place_];
+    if (classOf(c) == blank)
+      ++place_;
+    else if (c == '/' && at(place_ + 1) == '/')
+      lineComment(place_);
+    else if (c == '/' && at(place_ + 1) == '*')
+      blockComment(place_);
+    else if (c == '(' && at(place_ + 1) == '*')
+      nestedComment(place_);
+    else if (c == '{')
+      pragma(place_);
+    else if (c == '\xC2' && at(place_ + 1) == '\xA0') // no-break space
+      place_ += 2;
+    else
+      return;
+  }
+}
+
+// -----------------------------------------------------------------------------------------------------
+// tokens
+
+Token Scanner::next() {
+  Token token;
+  token.type = 0; // stands for: nothing but bad characters
+  while (token.type == 0) {
+    skipBlanks();
+    const std::size_t begin = place_;
+    token.begin = static_cast<std::uint32_t>(begin);
+    if (begin >= text_.size()) {
+      token.type = Token::kEnd;
+      break;
+    }
+    switch (classOf(text_[begin])) {
+    case letter:
+      token.type = word(begin, token);
+      break;
+    case digit:
+      token.type = number(begin, token);
+      break;
+    default:
+      token.type = sign(begin, token);
+      break;
+    }
+  }
+  token.end = static_cast<std::uint32_t>(place_);
+  if (const auto count = trivia_.size() - pendingTrivia_; count != 0) {
+    const std::size_t kept = std::min<std::size_t>(count, 255); // the nearest
+    token.triviaCount = static_cast<std::uint8_t>(kept);
+    token.triviaBegin = static_cast<std::uint32_t>(trivia_.size() - kept);
+    pendingTrivia_ = static_cast<std::uint32_t>(trivia_.size());
+  }
+  beforePrevious_ = previous_;
+  previous_ = token.type;
+  return token;
+}
+
+std::uint16_t Scanner::word(std::size_t begin, Token &token) {
+  const char *const data = text_.data();
+  const std::size_t size = text_.size();
+  std::uint32_t hash = kHashSeed;
+  std::size_t end = begin;
+  bool foreignLetters = false;
+  bool doubled = false;
+  for (; end < size; ++end) {
+    const char c = data[end];
+    if (!isWordChar(c)) {
+      if (!isForeign(c) || (c == '\xC2' && at(end + 1) == '\xA0'))
+        break;
+      foreignLetters = true;
+    }
+    doubled |= c == '_' && end > begin && data[end - 1] == '_';
+    hash = hashStep(hash, c);
+  }
+  place_ = end;
+  token.hash = hash;
+  const std::string_view spelling = text_.substr(begin, end - begin);
+  if (foreignLetters) {
+    token.reported = true;
+    if (++badCharacters_ <= kMaxBadCharacters) {
+      std::size_t from = begin;
+      while (!isForeign(data[from]))
+        ++from;
+      std::size_t to = from;
+      while (to < end && isForeign(data[to]))
+        ++to;
+      diagnostics_
+          .report(Code::invalidCharacter, span(from, to), "a name may not contain this character",
+                  "not a letter of a name")
+          .note("names consist of the letters A to Z, digits and single underscores");
+    }
+    return Tok::IDENT;
+  }
+  if (end < size && data[end] == '#' && previous_ != Tok::DOT)
+    return prefixedLiteral(begin, token);
+  if (previous_ == Tok::DOT) // keywords cannot stand behind a dot
+    return Tok::IDENT;
+  const Keyword keyword = findKeyword(spelling, hash);
+  if (keyword.kind == Keyword::Kind::assignment) {
+    const bool variable =
+        afterOperand() && (previous_ != Tok::INTEGER || beforePrevious_ == Tok::DOT);
+    if (variable && at(end) == '=' && at(end + 1) != '>') {
+      ++place_;
+      return keyword.type;
+    }
+  } else if (keyword.kind != Keyword::Kind::none && isKeywordHere(keyword, end)) {
+    return keyword.type;
+  }
+  if (doubled && !isKnownDoubleUnderscore(spelling)) {
+    token.reported = true;
+    diagnostics_
+        .report(Code::doubleUnderscore, span(begin, end),
+                "the name `" + std::string(spelling.substr(0, 80)) +
+                    "` has two underscores in a row")
+        .note("names have single underscores; two in a row are kept for operators such as `__NEW` "
+              "and for generated "
+              "names");
+  }
+  return Tok::IDENT;
+}
+
+/// Digits with underscores, a base, a fraction, an exponent; lenient: literals.cpp checks the
+/// digits.
+void Scanner::numberBody() {
+  const auto digits = [&] {
+    while (isWordChar(at(place_)) || at(place_) == '#')
+      ++place_;
+  };
+  const std::size_t begin = place_;
+  while (isDigit(at(place_)) || (at(place_) == '_' && isDigit(at(place_ + 1))))
+    ++place_;
+  const auto exponent = [&] {
+    if ((at(place_) == 'e' || at(place_) == 'E') &&
+        (isDigit(at(place_ + 1)) ||
+         ((at(place_ + 1) == '+' || at(place_ + 1) == '-') && isDigit(at(place_ + 2))))) {
+      place_ += 2;
+      while (isDigit(at(place_)))
+        ++place_;
+    }
+  };
+  if (at(place_) == '#') {
+    digits();
+    return;
+  }
+  if (at(place_) == '.' && isDigit(at(place_ + 1)) && previous_ != Tok::DOT) {
+    ++place_;
+    while (isDigit(at(place_)) || (at(place_) == '_' && isDigit(at(place_ + 1))))
+      ++place_;
+    exponent();
+  } else if (previous_ != Tok::DOT) {
+    exponent();
+  }
+  if (place_ > begin && isWordChar(at(place_)))
+    digits(); // malformed
+}
+
+std::uint16_t Scanner::number(std::size_t begin, Token &token) {
+  numberBody();
+  const std::string_view spelling = text_.substr(begin, place_ - begin);
+  if (spelling.find('#') != std::string_view::npos)
+    return Tok::INTEGER;
+  const bool real = spelling.find('.') != std::string_view::npos ||
+                    (spelling.find_first_of("eE") != std::string_view::npos &&
+                     spelling.find_first_not_of("0123456789_eE+-") == std::string_view::npos);
+  if (!real && at(place_) == '.' && previous_ != Tok::DOT && at(place_ + 1) != '.' &&
+      !isLetter(at(place_ + 1)) && at(place_ + 1) != '%') {
+    token.reported = true;
+    ++place_;
+    diagnostics_
+        .report(Code::invalidNumber, span(begin, place_), "a decimal point needs a digit behind it")
+        .help("write `" + std::string(spelling.substr(0, 80)) + ".0`");
+    return Tok::REAL;
+  }
+  return real ? Tok::REAL : Tok::INTEGER;
+}
+
+std::uint16_t Scanner::prefixedLiteral(std::size_t begin, Token &token) {
+  const std::string_view prefix = text_.substr(begin, place_ - begin);
+  ++place_; // #
+  const char first = at(place_);
+  const bool sign = first == '+' || first == '-';
+  switch (literalPrefix(prefix)) {
+  case Prefix::duration:
+    if (!isDigit(at(place_ + (sign ? 1 : 0))))
+      break;
+    ++place_;
+    while (isWordChar(at(place_)) || (at(place_) == '.' && isDigit(at(place_ + 1))))
+      ++place_;
+    return Tok::TIME_LITERAL;
+  case Prefix::date:
+    if (!isDigit(first))
+      break;
+    while (
+        isWordChar(at(place_)) ||
+        ((at(place_) == ':' || at(place_) == '.' || at(place_) == '-') && isDigit(at(place_ + 1))))
+      ++place_;
+    return Tok::TIME_LITERAL;
+  case Prefix::none:
+    break;
+  }
+  if (isDigit(first) || (sign && isDigit(at(place_ + 1)))) {
+    place_ += sign ? 1 : 0;
+    numberBody();
+    return Tok::TYPED_LITERAL;
+  }
+  if (first == '\'' || first == '"') {
+    quoted(place_, first, token);
+    return Tok::TYPED_LITERAL;
+  }
+  const std::string_view name = wordAt(place_);
+  place_ += name.size();
+  if (isWord(name, "true") || isWord(name, "false"))
+    return Tok::TYPED_LITERAL;
+  if (!name.empty())
+    return Tok::ENUM_LITERAL;
+  token.reported = true;
+  diagnostics_.report(Code::invalidTypedLiteral, span(begin, place_),
+                      "there is no value behind `" + std::string(prefix.substr(0, 80)) + "#`",
+                      "expected a literal or the name of an enumerator here");
+  return Tok::TYPED_LITERAL;
+}
+
+std::uint16_t Scanner::quoted(std::size_t begin, char quote, Token &token) {
+  const char *const data = text_.data();
+  const std::size_t size = text_.size();
+  const std::uint16_t type = quote == '\'' ? Tok::STRING_LITERAL : Tok::WSTRING_LITERAL;
+  for (std::size_t place = begin + 1; place < size; ++place) {
+    const char c = data[place];
+    if (c == quote) {
+      place_ = place + 1;
+      return type;
+    }
+    if (c == '\n' || (c == '\r' && at(place + 1) == '\n')) {
+      place_ = place;
+      break;
+    }
+    if (c == '$' && place + 1 < size && data[place + 1] != '\n' && data[place + 1] != '\r')
+      ++place;
+    place_ = place + 1;
+  }
+  if (place_ <= begin)
+    place_ = begin + 1;
+  place_ = std::min(place_, size);
+  token.reported = true;
+  diagnostics_
+      .report(Code::unterminatedString, span(begin, begin + 1), "this string has no end",
+              "the string begins here")
+      .note("a string ends on the line on which it begins")
+      .help(quote == '\'' ? "close it with `'`; a quote inside is written `$'`"
+                          : "close it with `\"`; a quote inside is written `$\"`");
+  return type;
+}
+
+std::uint16_t Scanner::address(std::size_t begin, Token &token) {
+  const bool partial = previous_ == Tok::DOT;
+  if (!isLetter(at(begin + 1)) || (!partial && afterOperand()))
+    return foreign(begin, 1, Tok::MOD, token);
+  ++place_;
+  const std::size_t letters = place_;
+  while (isLetter(at(place_)))
+    ++place_;
+  const std::string_view area = text_.substr(letters, place_ - letters);
+  const std::size_t numbers = place_;
+  if (at(place_) == '*') {
+    ++place_;
+  } else {
+    while (isDigit(at(place_)) || (at(place_) == '.' && isDigit(at(place_ + 1))))
+      ++place_;
+  }
+  const auto in = [](char c, std::string_view set) {
+    return set.find(lowerCase(c)) != std::string_view::npos;
+  };
+  bool good = place_ > numbers;
+  if (partial)
+    good = good && area.size() == 1 && in(area[0], "xbwdl");
+  else
+    good = good && area.size() <= 2 && in(area[0], "iqm") &&
+           (area.size() == 1 || in(area[1], "xbwdl"));
+  if (!good) {
+    token.reported = true;
+    diagnostics_
+        .report(Code::invalidAddress, span(begin, place_), "malformed direct address",
+                "not an address")
+        .note("an address is written `%IX0.0`, `%QW2`, `%MD4` or `%I*`");
+  }
+  return Tok::DIRECT;
+}
+
+std::uint16_t Scanner::foreign(std::size_t begin, std::size_t length, std::uint16_t meant,
+                               Token &token) {
+  place_ = begin + length;
+  token.reported = true;
+  const std::string found(text_.substr(begin, length));
+  const std::string right(tokenSpelling(meant));
+  diagnostics_
+      .report(Code::foreignOperator, span(begin, place_),
+              "`" + found + "` is not an operator of Structured Text")
+      .help("write `" + right + "`");
+  return meant;
+}
+
+void Scanner::badCharacters(std::size_t begin) {
+  std::size_t end = begin;
+  static constexpr std::string_view kKnown = "+-*/=<>&:;,.()[]^'\"{}%!|";
+  while (end < text_.size() && classOf(text_[end]) == other &&
+         kKnown.find(text_[end]) == std::string_view::npos &&
+         !(text_[end] == '\xC2' && at(end + 1) == '\xA0'))
+    ++end;
+  place_ = std::max(end, begin + 1);
+  if (++badCharacters_ > kMaxBadCharacters)
+    return;
+  Diagnostic &d = diagnostics_.report(Code::invalidCharacter, span(begin, place_),
+                                      place_ - begin > 1 && !isForeign(text_[begin])
+                                          ? "these characters have no meaning here"
+                                          : "this character has no meaning here");
+  if (badCharacters_ == kMaxBadCharacters)
+    d.note("further characters of this kind in the file are not reported");
+}
+
+std::uint16_t Scanner::sign(std::size_t begin, Token &token) {
+  const char next = at(begin + 1);
+  const auto one = [&](std::uint16_t type) {
+    place_ = begin + 1;
+    return type;
+  };
+  const auto two = [&](std::uint16_t type) {
+    place_ = begin + 2;
+    return type;
+  };
+  switch (text_[begin]) {
+  case ';':
+    return one(Tok::SEMICOLON);
+  case ',':
+    return one(Tok::COMMA);
+  case '(':
+    return one(Tok::LPAREN);
+  case ')':
+    return one(Tok::RPAREN);
+  case '[':
+    return one(Tok::LBRACKET);
+  case ']':
+    return one(Tok::RBRACKET);
+  case '^':
+    return one(Tok::CARET);
+  case '.':
+    return next == '.' ? two(Tok::DOTDOT) : one(Tok::DOT);
+  case ':':
+    return next == '=' ? two(Tok::ASSIGN) : one(Tok::COLON);
+  case '+':
+    return next == '=' ? foreign(begin, 2, Tok::ASSIGN, token) : one(Tok::PLUS);
+  case '-':
+    return next == '=' ? foreign(begin, 2, Tok::ASSIGN, token) : one(Tok::MINUS);
+  case '*':
+    return next == '*' ? two(Tok::POWER) : one(Tok::STAR);
+  case '/':
+    return one(Tok::SLASH);
+  case '<':
+    return next == '>' ? two(Tok::NOT_EQUAL) : next == '=' ? two(Tok::LESS_EQUAL) : one(Tok::LESS);
+  case '>':
+    return next == '=' ? two(Tok::GREATER_EQUAL) : one(Tok::GREATER);
+  case '=':
+    if (next == '=')
+      return foreign(begin, 2, Tok::EQUAL, token);
+    return next == '>' ? two(Tok::ARROW) : one(Tok::EQUAL);
+  case '!':
+    return next == '=' ? foreign(begin, 2, Tok::NOT_EQUAL, token)
+                       : foreign(begin, 1, Tok::NOT, token);
+  case '&':
+    return next == '&' ? foreign(begin, 2, Tok::AND, token) : one(Tok::AMPERSAND);
+  case '|':
+    return foreign(begin, next == '|' ? 2 : 1, Tok::OR, token);
+  case '%':
+    return address(begin, token);
+  case '\'':
+  case '"':
+    return quoted(begin, text_[begin], token);
+  default:
+    badCharacters(begin);
+    return 0;
+  }
+}
+
+} // namespace stc

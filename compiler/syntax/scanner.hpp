@@ -1,0 +1,73 @@
+#pragma once
+// From characters to tokens. Internal to compiler/syntax.
+
+#include "compiler/source/diagnostic.hpp"
+#include "compiler/source/source_manager.hpp"
+#include "compiler/syntax/token.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace stc {
+
+/// Reads one file's tokens from front to back. Decides by the neighbouring tokens whether a soft
+/// keyword is one.
+class Scanner {
+public:
+  Scanner(const SourceFile &file, Diagnostics &diagnostics);
+
+  /// The next token; of type Token::kEnd at the end of the text, again and again.
+  Token next();
+  /// Pragmas and doc comments so far; tokens refer to it.
+  [[nodiscard]] const std::vector<Trivia> &trivia() const { return trivia_; }
+  [[nodiscard]] std::string_view text() const { return text_; }
+  [[nodiscard]] std::string_view text(const Token &token) const {
+    return text_.substr(token.begin, token.end - token.begin);
+  }
+
+private:
+  [[nodiscard]] char at(std::size_t place) const {
+    return place < text_.size() ? text_[place] : '\0';
+  }
+  [[nodiscard]] Span span(std::size_t begin, std::size_t end) const {
+    return {file_, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)};
+  }
+  [[nodiscard]] bool afterOperand() const;
+  [[nodiscard]] bool atLineStart(std::size_t place) const;
+  /// The place of the next character that is neither blank nor comment.
+  [[nodiscard]] std::size_t significant(std::size_t place) const;
+  [[nodiscard]] std::string_view wordAt(std::size_t place) const;
+  [[nodiscard]] bool nameFollows(std::size_t place) const;
+  [[nodiscard]] bool isKeywordHere(Keyword keyword, std::size_t wordEnd) const;
+
+  void skipBlanks();
+  void blockComment(std::size_t begin);
+  void nestedComment(std::size_t begin);
+  void lineComment(std::size_t begin);
+  void pragma(std::size_t begin);
+
+  std::uint16_t word(std::size_t begin, Token &token);
+  std::uint16_t prefixedLiteral(std::size_t begin, Token &token);
+  std::uint16_t number(std::size_t begin, Token &token);
+  std::uint16_t quoted(std::size_t begin, char quote, Token &token);
+  std::uint16_t address(std::size_t begin, Token &token);
+  std::uint16_t sign(std::size_t begin, Token &token);
+  std::uint16_t foreign(std::size_t begin, std::size_t length, std::uint16_t meant, Token &token);
+  void numberBody();
+  void badCharacters(std::size_t begin);
+
+  std::string_view text_;
+  FileId file_;
+  Diagnostics &diagnostics_;
+  std::size_t place_ = 0;
+  std::uint16_t previous_ = 0;       ///< type of the last token
+  std::uint16_t beforePrevious_ = 0; ///< and of the one before it
+  std::uint32_t pendingTrivia_ = 0;
+  unsigned badCharacters_ = 0;
+  std::vector<Trivia> trivia_;
+};
+
+/// True when the bytes cannot be meant as text.
+[[nodiscard]] bool looksBinary(std::string_view text);
+
+} // namespace stc

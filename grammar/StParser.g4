@@ -1,0 +1,143 @@
+// Syntax of Structured Text: IEC 61131-3 with the extensions of CoDeSys V2.3 and CODESYS V3.
+//
+// Written so that one token of lookahead decides every alternative: the generated parser never runs ANTLR's adaptive
+// prediction. What makes that possible lies in the scanner: soft keywords and `S=` are told from identifiers there, and
+// a LABEL token stands in front of CASE labels.
+//
+// The grammar is deliberately wider than the language where one rule serves several purposes (arguments, aggregates,
+// parentheses and indices are all `arguments`; an expression may stand as a statement); the AST builder narrows it again
+// with better messages than the parser could give. It also narrows operator precedence: `expression` is flat.
+//
+// The compiler cuts a file into units and parses one after the other, so that a parse tree stays small; sourceFile shows
+// how the units belong together. The scanner drops semicolons between units.
+
+parser grammar StParser;
+
+options { tokenVocab = StLexer; }
+
+sourceFile : ( pou | typeBlock | varSection )* EOF ;
+
+// ---- units
+
+headUnit    : pouHead EOF ;
+sectionUnit : varSection EOF ;
+typeUnit    : typeBlock EOF ;
+bodyUnit    : statements EOF ;
+
+// ---- program organisation units
+
+pou : pouHead varSection* BODY statements ( END_PROGRAM | END_FUNCTION | END_FUNCTION_BLOCK ) ;
+
+pouHead
+  : PROGRAM modifiers IDENT
+  | FUNCTION modifiers IDENT ( COLON typeSpec )?
+  | FUNCTION_BLOCK modifiers IDENT extendsClause? implementsClause?
+  ;
+
+modifiers        : ( ABSTRACT | FINAL | PUBLIC | PRIVATE | PROTECTED | INTERNAL )* ;
+extendsClause    : EXTENDS path ;
+implementsClause : IMPLEMENTS path ( COMMA path )* ;
+path             : IDENT ( DOT IDENT )* ;
+
+// ---- variables
+
+varSection
+  : ( VAR | VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP | VAR_STAT | VAR_EXTERNAL | VAR_GLOBAL )
+    qualifiers varDeclaration* END_VAR
+  ;
+
+qualifiers     : ( CONSTANT | RETAIN | PERSISTENT | NON_RETAIN )* ;
+varDeclaration : varNames COLON typeSpec ( ASSIGN initializer )? SEMICOLON+ ;
+varNames       : IDENT ( AT DIRECT )? ( COMMA IDENT ( AT DIRECT )? )* ;
+
+// V2.3 writes the elements of an array without brackets.
+initializer : expression ( COMMA expression )* ;
+
+// ---- types
+
+typeBlock : TYPE typeDeclaration* END_TYPE ;
+
+typeDeclaration
+  : modifiers IDENT extendsClause? COLON
+    ( structBody SEMICOLON* | typeSpec ( ASSIGN initializer )? SEMICOLON+ )
+  ;
+
+structBody : ( STRUCT | UNION ) SEMICOLON* varDeclaration* ( END_STRUCT | END_UNION ) ;
+
+typeSpec
+  : ARRAY LBRACKET arrayRange ( COMMA arrayRange )* RBRACKET OF typeSpec
+  | ( POINTER | REFERENCE ) TO typeSpec
+  | ( STRING | WSTRING ) ( LPAREN expression RPAREN | LBRACKET expression RBRACKET )?
+  | LPAREN typeArgument ( COMMA typeArgument )* RPAREN path?
+  | path ( LPAREN typeArgument ( COMMA typeArgument )* RPAREN )?
+  ;
+
+arrayRange : STAR | expression DOTDOT expression ;
+
+// A subrange `0..10` or an enumerator `a := 1`.
+typeArgument : expression ( DOTDOT expression | ASSIGN expression )? ;
+
+// ---- statements
+
+statements : statement* ;
+
+statement
+  : SEMICOLON
+  | simpleStatement
+  | ifStatement
+  | caseStatement
+  | forStatement
+  | whileStatement
+  | repeatStatement
+  | ( EXIT | CONTINUE | RETURN ) SEMICOLON
+  ;
+
+// Assignments and calls. `=` is accepted here to be reported as a mistaken `:=`.
+simpleStatement
+  : operand
+    ( ASSIGN expression ( ASSIGN expression )*
+    | ( SET_ASSIGN | RESET_ASSIGN | REF_ASSIGN | EQUAL ) expression
+    )?
+    SEMICOLON
+  ;
+
+// The `;` behind END_IF and the like is an empty statement.
+ifStatement
+  : IF condition THEN statements ( ELSIF condition THEN statements )* ( ELSE statements )? END_IF
+  ;
+caseStatement   : CASE condition OF caseBranch* ( ELSE statements )? END_CASE ;
+caseBranch      : caseLabels statements ;
+caseLabels      : LABEL caseLabel ( COMMA caseLabel )* COLON ;
+caseLabel       : expression ( DOTDOT expression )? ;
+forStatement    : FOR forControl DO statements END_FOR ;
+forControl      : operand ASSIGN expression TO expression ( BY expression )? ;
+whileStatement  : WHILE condition DO statements END_WHILE ;
+repeatStatement : REPEAT statements UNTIL condition SEMICOLON? END_REPEAT ;
+
+// `:=` is accepted here to be reported as a mistaken `=`.
+condition : expression ( ASSIGN expression )? ;
+
+// ---- expressions
+
+// Flat; the AST builder groups by precedence.
+expression
+  : operand
+    ( ( PLUS | MINUS | STAR | SLASH | POWER | EQUAL | NOT_EQUAL | LESS | LESS_EQUAL | GREATER | GREATER_EQUAL
+      | AMPERSAND | AND | OR | XOR | MOD | AND_THEN | OR_ELSE
+      ) operand
+    )*
+  ;
+
+operand
+  : ( NOT | PLUS | MINUS )*
+    ( IDENT | INTEGER | REAL | TRUE | FALSE | STRING_LITERAL | WSTRING_LITERAL | TIME_LITERAL | TYPED_LITERAL
+    | ENUM_LITERAL | DIRECT
+    | LPAREN arguments RPAREN
+    | LBRACKET arguments RBRACKET
+    )
+    ( DOT ( IDENT | INTEGER | DIRECT ) | CARET | LPAREN arguments RPAREN | LBRACKET arguments RBRACKET )*
+  ;
+
+// Call arguments, indices, the inside of parentheses and the elements of an aggregate.
+arguments : ( argument ( COMMA argument )* )? ;
+argument  : expression ( ( ASSIGN | ARROW ) expression? )? ;
