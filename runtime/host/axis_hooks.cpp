@@ -40,6 +40,11 @@ template <class T> T &at(std::byte *state, uint64_t offset) {
 
 } // namespace
 
+app::RuntimeLayouts runtimeLayouts() {
+  return {::st::SM_DriveBasic::AXIS_REF__layout__,
+          ::st::SM_DriveBasic::SMC_AXISGROUP_REF__layout__};
+}
+
 std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
                                                             task::VirtualScheduler &scheduler) {
   const StrideAppV1 &app = application.description();
