@@ -92,11 +92,15 @@ statement
   | ( EXIT | CONTINUE | RETURN ) SEMICOLON
   ;
 
-// Assignments and calls. `=` is accepted here to be reported as a mistaken `:=`.
+// Assignments and calls; other expressions are accepted here to be reported with their meaning in mind (`a = 1;`).
 simpleStatement
   : operand
+    ( ( PLUS | MINUS | STAR | SLASH | POWER | EQUAL | NOT_EQUAL | LESS | LESS_EQUAL | GREATER | GREATER_EQUAL
+      | AMPERSAND | AND | OR | XOR | MOD | AND_THEN | OR_ELSE
+      ) operand
+    )*
     ( ASSIGN expression ( ASSIGN expression )*
-    | ( SET_ASSIGN | RESET_ASSIGN | REF_ASSIGN | EQUAL ) expression
+    | ( SET_ASSIGN | RESET_ASSIGN | REF_ASSIGN ) expression
     )?
     SEMICOLON
   ;

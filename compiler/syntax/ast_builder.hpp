@@ -33,8 +33,6 @@ public:
 
 private:
   using Context = antlr4::ParserRuleContext;
-  /// Where an expression stands: only initial values may hold aggregates and repetitions.
-  enum class Place : std::uint8_t { value, initial };
 
   // contexts and tokens
   static Context *child(const Context *context, std::size_t i) {
@@ -73,21 +71,21 @@ private:
   ast::Stmt *caseStatement(Context *context);
   ast::Stmt *forStatement(Context *context);
   ast::Expr *condition(Context *context);
-  bool checkTarget(const ast::Expr *target);
 
   // expressions
-  ast::Expr *expression(Context *context, Place place = Place::value);
-  ast::Expr *operand(Context *context, Place place);
-  ast::Expr *primary(Context *context, std::size_t &at, std::size_t &nextChild, Place place);
-  ast::Expr *postfix(Context *context, ast::Expr *base, std::size_t &at, std::size_t &nextChild,
-                     Place place);
-  ast::Expr *parentheses(Context *arguments, Span span, Place place);
+  ast::Expr *expression(Context *context);
+  /// The operands [begin, end) among the children, with the operators between them.
+  ast::Expr *flat(Context *context, std::size_t begin, std::size_t end);
+  ast::Expr *operand(Context *context);
+  ast::Expr *primary(Context *context, std::size_t &at, std::size_t &nextChild);
+  ast::Expr *postfix(Context *context, ast::Expr *base, std::size_t &at, std::size_t &nextChild);
+  ast::Expr *parentheses(Context *arguments, Span span);
   ast::Expr *prefixed(Context *context, std::size_t operators, ast::Expr *operand);
   ast::Expr *literal(const Token &token);
   ast::Expr *typedLiteral(const Token &token);
   ast::Expr *enumLiteral(const Token &token);
   ast::Expr *binary(const Token &op, ast::Expr *left, ast::Expr *right);
-  std::span<ast::Argument> arguments(Context *context, Place place);
+  std::span<ast::Argument> arguments(Context *context);
   ast::Expr *error(Span span);
 
   // initial values

@@ -87,15 +87,18 @@ Expr *AstBuilder::binary(const Token &op, Expr *left, Expr *right) {
   return node;
 }
 
-Expr *AstBuilder::expression(Context *context, Place place) {
-  const std::size_t count = context->children.size();
-  if (count == 0)
+Expr *AstBuilder::expression(Context *context) {
+  if (context->children.empty())
     return error(span(context));
-  if (count == 1)
-    return operand(child(context, 0), place);
-  if (count > kMaxOperands) {
+  return flat(context, 0, context->children.size());
+}
+
+Expr *AstBuilder::flat(Context *context, std::size_t begin, std::size_t end) {
+  if (end - begin == 1)
+    return operand(child(context, begin));
+  if (end - begin > kMaxOperands) {
     diagnostics_.report(Code::expressionTooLong, span(context),
-                        "this expression has " + std::to_string(count) + " operands",
+                        "this expression has " + std::to_string(end - begin) + " operands",
                         "at most " + std::to_string(kMaxOperands) + " are possible");
     return error(span(context));
   }
@@ -106,8 +109,8 @@ Expr *AstBuilder::expression(Context *context, Place place) {
     int precedence;
   };
   std::vector<Waiting> stack;
-  Expr *right = operand(child(context, 0), Place::value);
-  for (std::size_t i = 1; i < count; ++i) {
+  Expr *right = operand(child(context, begin));
+  for (std::size_t i = begin + 1; i < end; ++i) {
     const Token &op = token(last(child(context, i - 1)) + 1);
     const int precedence = operatorOf(op.type).precedence;
     while (!stack.empty() && stack.back().precedence >= precedence) {
@@ -115,7 +118,7 @@ Expr *AstBuilder::expression(Context *context, Place place) {
       stack.pop_back();
     }
     stack.push_back({right, &op, precedence});
-    right = operand(child(context, i), Place::value);
+    right = operand(child(context, i));
   }
   while (!stack.empty()) {
     right = binary(*stack.back().op, stack.back().left, right);
@@ -155,20 +158,20 @@ Expr *AstBuilder::prefixed(Context *context, std::size_t operators, Expr *operan
   return operand;
 }
 
-Expr *AstBuilder::operand(Context *context, Place place) {
+Expr *AstBuilder::operand(Context *context) {
   std::size_t at = first(context);
   const std::size_t begin = at;
   while (token(at).type == Tok::NOT || token(at).type == Tok::MINUS || token(at).type == Tok::PLUS)
     ++at;
   const std::size_t operators = at - begin;
   std::size_t nextChild = 0;
-  Expr *node = primary(context, at, nextChild, operators == 0 ? place : Place::value);
+  Expr *node = primary(context, at, nextChild);
   if (at <= last(context))
-    node = postfix(context, node, at, nextChild, place);
+    node = postfix(context, node, at, nextChild);
   return operators == 0 ? node : prefixed(context, operators, node);
 }
 
-Expr *AstBuilder::primary(Context *context, std::size_t &at, std::size_t &nextChild, Place place) {
+Expr *AstBuilder::primary(Context *context, std::size_t &at, std::size_t &nextChild) {
   const Token &start = token(at);
   switch (start.type) {
   case Tok::IDENT: {
@@ -188,12 +191,7 @@ Expr *AstBuilder::primary(Context *context, std::size_t &at, std::size_t &nextCh
     if (token(at).type == closer)
       whole = whole.to(span(token(at++)));
     if (start.type == Tok::LPAREN)
-      return parentheses(inside, whole, place);
-    if (place == Place::value) {
-      diagnostics_.report(Code::misplacedAggregate, whole,
-                          "a list of values may stand only in an initial value");
-      return error(whole);
-    }
+      return parentheses(inside, whole);
     std::vector<AggregateItem> items;
     for (std::size_t i = 0; i < inside->children.size(); ++i) {
       Context *argument = child(inside, i);
@@ -223,7 +221,7 @@ Expr *AstBuilder::primary(Context *context, std::size_t &at, std::size_t &nextCh
   }
 }
 
-Expr *AstBuilder::parentheses(Context *inside, Span whole, Place place) {
+Expr *AstBuilder::parentheses(Context *inside, Span whole) {
   const std::size_t count = inside->children.size();
   if (count == 0) {
     diagnostics_.report(Code::unexpectedToken, whole,
@@ -232,22 +230,15 @@ Expr *AstBuilder::parentheses(Context *inside, Span whole, Place place) {
   }
   Context *only = child(inside, 0);
   if (count == 1 && only->children.size() == 1 && last(only) == last(child(only, 0))) {
-    Expr *node =
-        place == Place::initial ? initialValue(child(only, 0)) : expression(child(only, 0));
+    Expr *node = initialValue(child(only, 0));
     node->parenthesized = true;
     node->span = whole;
     return node;
   }
-  if (place == Place::value) {
-    diagnostics_.report(Code::misplacedAggregate, whole,
-                        "a list of values may stand only in an initial value");
-    return error(whole);
-  }
   return structAggregate(inside, whole);
 }
 
-Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::size_t &nextChild,
-                          Place place) {
+Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::size_t &nextChild) {
   const std::size_t end = last(context);
   std::size_t count = 0;
   while (at <= end) {
@@ -300,16 +291,10 @@ Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::si
       if (at <= end && token(at).type == closer)
         whole = whole.to(span(token(at++)));
       if (start.type == Tok::LPAREN) {
-        if (base->kind == ExprKind::literal) {
-          diagnostics_.report(Code::misplacedAggregate, whole, "a number cannot be called")
-              .note("repetitions such as `3(0)` may stand only in initial values of arrays");
-          base = error(whole);
-          break;
-        }
         auto *node = arena_.make<CallExpr>();
         node->kind = ExprKind::call;
         node->callee = base;
-        node->arguments = arguments(inside, place);
+        node->arguments = arguments(inside);
         node->span = whole;
         base = node;
         break;
@@ -340,7 +325,7 @@ Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::si
   return base;
 }
 
-std::span<Argument> AstBuilder::arguments(Context *context, Place place) {
+std::span<Argument> AstBuilder::arguments(Context *context) {
   const std::size_t count = context->children.size();
   if (count == 0)
     return {};
@@ -353,7 +338,7 @@ std::span<Argument> AstBuilder::arguments(Context *context, Place place) {
     Context *front = child(argument, 0);
     const std::size_t sign = last(front) + 1;
     if (sign > last(argument)) {
-      out.value = expression(front, place);
+      out.value = expression(front);
       continue;
     }
     out.output = token(sign).type == Tok::ARROW;
@@ -371,7 +356,7 @@ std::span<Argument> AstBuilder::arguments(Context *context, Place place) {
       continue;
     }
     if (argument->children.size() > 1)
-      out.value = expression(child(argument, 1), place);
+      out.value = expression(child(argument, 1));
   }
   return {list, count};
 }
@@ -442,7 +427,7 @@ Expr *AstBuilder::structAggregate(Context *inside, Span whole) {
     if (last(front) == last(argument)) { // no name
       if (fields.empty()) {
         diagnostics_
-            .report(Code::misplacedAggregate, span(argument), "this value has no name",
+            .report(Code::unexpectedToken, span(argument), "this value has no name",
                     "expected `name := value`")
             .help("the elements of an array stand in brackets: `[1, 2, 3]`");
         return error(whole);
@@ -474,7 +459,7 @@ Expr *AstBuilder::structAggregate(Context *inside, Span whole) {
 Expr *AstBuilder::initialValue(Context *context) {
   if (isRepetition(context))
     return aggregate({item(context)}, false, span(context));
-  return expression(context, Place::initial);
+  return expression(context);
 }
 
 Expr *AstBuilder::initializer(Context *context) {

@@ -95,74 +95,50 @@ Stmt *AstBuilder::statement(Context *context) {
   }
 }
 
-bool AstBuilder::checkTarget(const Expr *target) {
-  if (target->kind == ExprKind::error)
-    return true;
-  const bool good = !target->parenthesized &&
-                    (target->kind == ExprKind::name || target->kind == ExprKind::member ||
-                     target->kind == ExprKind::index || target->kind == ExprKind::deref);
-  if (!good)
-    diagnostics_.report(Code::invalidTarget, target->span, "this cannot be assigned to",
-                        target->kind == ExprKind::call ? "the result of a call" : "not a variable");
-  return good;
-}
-
 Stmt *AstBuilder::simpleStatement(Context *context) {
-  Context *left = child(context, 0);
-  const Token &sign = token(last(left) + 1);
-  Expr *front = operand(left, Place::value);
   const std::size_t count = context->children.size();
-  if (count == 1) {
-    if (front->kind != ExprKind::call) {
-      if (front->kind != ExprKind::error) {
-        Diagnostic &d =
-            diagnostics_.report(Code::notAStatement, front->span, "this expression does nothing",
-                                "neither an assignment nor a call");
-        if (front->kind == ExprKind::name || front->kind == ExprKind::member)
-          d.help("a call needs parentheses: `" + std::string(text(token(last(left)))) + "()`");
-      }
-      return nullptr;
+  std::size_t operands = 1;
+  while (operands < count && child(context, operands)->getRuleIndex() == Grammar::RuleOperand)
+    ++operands;
+  const Token &sign = token(last(child(context, operands - 1)) + 1);
+  const auto assignment = [&](AssignOp op, const Token &opToken, const std::vector<Expr *> &targets,
+                              Expr *value) {
+    auto *node = arena_.make<AssignStmt>();
+    node->kind = StmtKind::assign;
+    node->op = op;
+    node->opSpan = span(opToken);
+    node->value = value;
+    node->targets = arena_.copy(targets);
+    node->span = targets.front()->span.to(value->span);
+    return node;
+  };
+  if (operands == count) {
+    // `a = b` as a statement is meant as an assignment.
+    if (const Token &first = token(last(child(context, 0)) + 1);
+        count > 1 && first.type == Tok::EQUAL) {
+      if (!first.reported)
+        diagnostics_
+            .report(Code::equalForAssign, span(first), "`=` compares, it does not assign",
+                    "expected `:=`")
+            .help("write `:=` to assign a value");
+      return assignment(AssignOp::assign, first, {operand(child(context, 0))},
+                        flat(context, 1, count));
     }
     auto *node = arena_.make<CallStmt>();
     node->kind = StmtKind::call;
-    node->span = front->span;
-    node->expr = front;
+    node->expr = flat(context, 0, count);
+    node->span = node->expr->span;
     return node;
   }
-  auto *node = arena_.make<AssignStmt>();
-  node->kind = StmtKind::assign;
-  node->opSpan = span(sign);
-  switch (sign.type) {
-  case Tok::SET_ASSIGN:
-    node->op = AssignOp::set;
-    break;
-  case Tok::RESET_ASSIGN:
-    node->op = AssignOp::reset;
-    break;
-  case Tok::REF_ASSIGN:
-    node->op = AssignOp::reference;
-    break;
-  case Tok::EQUAL:
-    if (!sign.reported) {
-      diagnostics_
-          .report(Code::equalForAssign, span(sign), "`=` compares, it does not assign",
-                  "expected `:=`")
-          .help("write `:=` to assign a value");
-    }
-    break;
-  default:
-    break;
-  }
-  bool good = checkTarget(front);
-  std::vector<Expr *> targets{front};
-  for (std::size_t i = 1; i + 1 < count; ++i) {
+  std::vector<Expr *> targets{flat(context, 0, operands)};
+  for (std::size_t i = operands; i + 1 < count; ++i)
     targets.push_back(expression(child(context, i)));
-    good = checkTarget(targets.back()) && good;
-  }
-  node->value = expression(child(context, count - 1));
-  node->targets = arena_.copy(targets);
-  node->span = front->span.to(node->value->span);
-  return good ? node : nullptr;
+  Expr *value = expression(child(context, count - 1));
+  const AssignOp op = sign.type == Tok::SET_ASSIGN     ? AssignOp::set
+                      : sign.type == Tok::RESET_ASSIGN ? AssignOp::reset
+                      : sign.type == Tok::REF_ASSIGN   ? AssignOp::reference
+                                                       : AssignOp::assign;
+  return assignment(op, sign, targets, value);
 }
 
 Expr *AstBuilder::condition(Context *context) {
@@ -248,9 +224,7 @@ Stmt *AstBuilder::forStatement(Context *context) {
   if (failed(control)) {
     node->variable = node->from = node->to = error(span(control));
   } else {
-    node->variable = operand(child(control, 0), Place::value);
-    if (!checkTarget(node->variable))
-      node->variable = error(node->variable->span);
+    node->variable = operand(child(control, 0));
     node->from = expression(child(control, 1));
     node->to = expression(child(control, 2));
     if (control->children.size() > 3)

@@ -261,7 +261,10 @@ void FileParser::pou() {
   std::vector<ast::Stmt *> statements;
   bool late = false;
   bool inBody = false;
-  while (!endsPou() && !startsDeclaration()) {
+  // VAR_GLOBAL among the declarations is taken for one of them; the checker says that it must not
+  // be there.
+  const auto misplacedGlobals = [&] { return !inBody && now_.type == Tok::VAR_GLOBAL; };
+  while (!endsPou() && (!startsDeclaration() || misplacedGlobals())) {
     if (now_.type == Tok::SEMICOLON && !inBody) {
       advance();
     } else if (now_.type == Tok::VAR_INST) {

@@ -110,6 +110,13 @@ std::uint16_t closerOf(std::size_t rule) {
   }
 }
 
+/// An assignment whose right side was reached.
+bool hasValue(const antlr4::ParserRuleContext *statement) {
+  return !statement->children.empty() &&
+         static_cast<const antlr4::RuleContext *>(statement->children.back())->getRuleIndex() ==
+             Grammar::RuleExpression;
+}
+
 std::string ticked(std::string_view text) { return "`" + std::string(text) + "`"; }
 
 } // namespace
@@ -292,7 +299,7 @@ void ReportStrategy::reportMissing(std::uint16_t wanted) {
   case Tok::SEMICOLON:
     switch (context->getRuleIndex()) {
     case Grammar::RuleSimpleStatement:
-      after = context->children.size() > 1                           ? " after the assignment"
+      after = hasValue(context)                                      ? " after the assignment"
               : before() != nullptr && before()->type == Tok::RPAREN ? " after the call"
                                                                      : " after the statement";
       break;
@@ -440,13 +447,11 @@ antlr4::Token *ReportStrategy::recoverInline(antlr4::Parser *) {
       reportMissing(wanted);
       return conjure(wanted);
     }
-    if (found == Tok::COMMA && rule == Grammar::RuleSimpleStatement &&
-        parser_.context()->children.size() == 1)
+    if (found == Tok::COMMA && rule == Grammar::RuleSimpleStatement && !hasValue(parser_.context()))
       reportUnexpected("`:=`");
     else
       reportUnexpected(declaration ? "`;`"
-                       : rule == Grammar::RuleSimpleStatement &&
-                               parser_.context()->children.size() == 1
+                       : rule == Grammar::RuleSimpleStatement && !hasValue(parser_.context())
                            ? "`:=` or `;`"
                            : "an operator or `;`");
     return fail();
