@@ -14,6 +14,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kManifest = "stride.toml";
+// The list of the drives' variables has this file's name, as in CoDeSys.
+constexpr std::string_view kPlcFile = "<plc>/Drive_Configuration_Data.st";
 
 // All source files below the folder, sorted by path. Hidden and `build` folders are left out.
 std::vector<fs::path> findSources(const fs::path &folder, std::error_code &error) {
@@ -139,7 +141,7 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
   resolveTasks(config_, files, programCheck, program_.diagnostics);
   const std::string declarations = plcDeclarations(config_, files, ranges_, program_.diagnostics);
   if (!declarations.empty()) {
-    plcFile_ = program_.sources.add("<plc configuration>", declarations);
+    plcFile_ = program_.sources.add(std::string(kPlcFile), declarations);
     files.insert(files.begin(), parse(program_.sources.file(plcFile_), program_.interner,
                                       program_.arena, program_.diagnostics));
   }
