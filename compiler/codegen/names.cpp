@@ -107,6 +107,13 @@ const Names::Entry &Names::entry(const Symbol *symbol) {
       symbol->kind == SymbolKind::type && static_cast<const TypeSymbol *>(symbol)->decl == nullptr;
   entry.local = synthesized ? file : mangle(file);
   if (symbol->kind == SymbolKind::globals) {
+    // A list is named after its file, and files may have any name.
+    for (char &c : file)
+      if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')))
+        c = '_';
+    if (file.empty() || (file.front() >= '0' && file.front() <= '9'))
+      file.insert(0, "_");
+    entry.local = file;
     file += "__globals__";
     entry.local += "__globals__";
   }
