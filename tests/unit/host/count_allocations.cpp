@@ -1,4 +1,5 @@
-// Counts the calls of operator new in this test program.
+// Counts the calls of operator new in this test program; not with AddressSanitizer, which has its
+// own.
 #include <cstdlib>
 #include <new>
 
@@ -11,6 +12,7 @@ std::size_t allocations();
 std::size_t allocations() { return count; }
 } // namespace stride::test
 
+#if !defined(__SANITIZE_ADDRESS__)
 void *operator new(std::size_t size) {
   ++count;
   if (void *memory = std::malloc(size != 0 ? size : 1))
@@ -19,3 +21,4 @@ void *operator new(std::size_t size) {
 }
 void operator delete(void *memory) noexcept { std::free(memory); }
 void operator delete(void *memory, std::size_t) noexcept { std::free(memory); }
+#endif
