@@ -41,6 +41,14 @@ bool isAxisField(const Expr *expr) {
          typeAs<StructType>(base)->symbol->name.id->lower == "axis_ref";
 }
 
+/// The expression's text where it is short enough to be shown inside of a proposal, else `…`.
+std::string excerpt(const SourceManager &sources, const Expr *expr) {
+  const std::string_view text = sources.text(expr->span);
+  const bool usable =
+      !text.empty() && text.size() <= 40 && text.find('\n') == std::string_view::npos;
+  return usable ? std::string(text) : "…";
+}
+
 int rank(Conversion c) { return static_cast<int>(c); }
 
 } // namespace
@@ -130,6 +138,7 @@ void Checker::coerce(Expr *expr, const Type *type, std::string_view what) {
 void Checker::reportConversion(Expr *expr, const Type *from, const Type *to, Conversion conversion,
                                std::string_view what) {
   const std::string function = conversionFunction(from, to);
+  const std::string text = excerpt(program_.sources, expr);
   const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
   if (conversion == Conversion::lossy) {
     auto &d = report(Code::lossyConversion, expr->span,
@@ -139,7 +148,7 @@ void Checker::reportConversion(Expr *expr, const Type *from, const Type *to, Con
     if (to->kind == TypeKind::enumeration)
       d.help("assign one of the enumerators of " + typeName(to));
     else if (!function.empty())
-      d.help("say that it is meant: `" + function + "(…)`");
+      d.help("say that it is meant: `" + function + "(" + text + ")`");
     return;
   }
   if (conversion == Conversion::narrowing) {
@@ -154,7 +163,7 @@ void Checker::reportConversion(Expr *expr, const Type *from, const Type *to, Con
       d.help("compare it: `… <> 0`, or convert it" +
              (function.empty() ? "" : ": `" + function + "(…)`"));
     else if (!function.empty() && from->kind != TypeKind::anyInteger)
-      d.help("convert it: `" + function + "(…)`");
+      d.help("convert it: `" + function + "(" + text + ")`");
     return;
   }
   auto &d = report(Code::typeMismatch, expr->span,

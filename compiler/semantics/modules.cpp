@@ -4,6 +4,7 @@
 #include "compiler/syntax/parser.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 namespace stc {
@@ -116,11 +117,30 @@ void Checker::declareFile(Module &module, File *file) {
   }
 }
 
+namespace {
+
+/// The name of a list of globals: the file's without suffix, made an identifier.
+std::string listName(const std::string &fileName) {
+  std::string name;
+  for (const char c : std::filesystem::path(fileName).stem().string()) {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+      name += c;
+    else if (!name.empty() && name.back() != '_')
+      name += '_';
+  }
+  while (!name.empty() && name.back() == '_')
+    name.pop_back();
+  if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) != 0)
+    name.insert(0, "GVL_");
+  return name;
+}
+
+} // namespace
+
 void Checker::declareGlobals(Module &module, GlobalsDecl *decl) {
   Name name = decl->name;
   if (!name) {
-    const std::string stem =
-        std::filesystem::path(program_.sources.file(decl->span.file).name()).stem().string();
+    const std::string stem = listName(program_.sources.file(decl->span.file).name());
     name.id = program_.interner.intern(stem);
     name.text = arena_.copy(std::string_view(stem));
     name.span = {decl->span.file, decl->span.begin, decl->span.begin};

@@ -6,6 +6,8 @@
 #include "st/SM_PLCopen/MC_MoveAbsolute.h"
 #include "st/SM_PLCopen/MC_Power.h"
 
+#include "runtime/app/ctx.h"
+
 #include <benchmark/benchmark.h>
 
 #include <cmath>
