@@ -10,6 +10,9 @@ using namespace ast;
 
 namespace {
 
+/// g++ takes time that grows with the square of a sum's length; longer ones are computed in parts.
+constexpr std::size_t kMaxTerms = 64;
+
 bool isComparison(BinaryOp op) { return op >= BinaryOp::equal && op <= BinaryOp::greaterEqual; }
 
 std::string_view comparison(BinaryOp op) {
@@ -235,11 +238,33 @@ void Emitter::binary(const BinaryExpr *e) {
     }
     before |= after;
   }
+  const bool split = spine.size() > kMaxTerms;
+  std::string part;
+  const auto open = [&](std::size_t i) { // a part ends with the operator i
+    part = temporary("part");
+    w_ << "const " << type(underlying(spine[i].first->type)) << ' ' << part << " = ";
+  };
+  if (split) {
+    w_ << "[&] { ";
+    open(spine.size() - kMaxTerms);
+  }
   infixOperand(spine.back().first, spine.back().second, spine.back().first->left);
-  for (std::size_t i = spine.size(); i-- > 0;) {
+  for (std::size_t i = spine.size(), terms = 0; i-- > 0; ++terms) {
+    if (terms == kMaxTerms) {
+      w_ << "; ";
+      const std::string before = part;
+      if (i < kMaxTerms)
+        w_ << "return ";
+      else
+        open(i + 1 - kMaxTerms);
+      w_ << before;
+      terms = 0;
+    }
     w_ << ' ' << spine[i].second.op << ' ';
     infixOperand(spine[i].first, spine[i].second, spine[i].first->right);
   }
+  if (split)
+    w_ << "; }()";
 }
 
 /// C++ leaves the order of operands open, ST does not: the values are taken one after the other.

@@ -1,0 +1,132 @@
+// The application's description of itself.
+
+#include "program.hpp"
+
+#include <cstring>
+#include <gtest/gtest.h>
+
+namespace stc::test {
+
+namespace {
+
+constexpr const char *kProgram = R"(
+TYPE Color : (red, green := 5, blue); END_TYPE
+TYPE Point : STRUCT x : LREAL := 1.5; y : LREAL; END_STRUCT END_TYPE
+FUNCTION_BLOCK Counter
+VAR_INPUT step : INT := 1; END_VAR
+VAR_IN_OUT total : DINT; END_VAR
+VAR_OUTPUT count : INT; END_VAR
+VAR {attribute 'hide'} secret : UDINT; END_VAR
+END_FUNCTION_BLOCK
+VAR_GLOBAL RETAIN kept : DINT; END_VAR
+VAR_GLOBAL CONSTANT kMax : DINT := 7; END_VAR
+PROGRAM Main
+VAR
+  a : ARRAY[1..3, -1..0] OF INT; pt : Point; fb : Counter; color : Color; p : POINTER TO Point; name : STRING(10); r : INT(0..5);
+END_VAR
+END_PROGRAM
+)";
+
+const stride::MemberDesc *member(const stride::StrideAppV1 &app, const stride::TypeDesc &type, const char *name) {
+  for (std::uint32_t i = 0; i < type.memberCount; ++i) {
+    if (std::strcmp(app.members[type.firstMember + i].name, name) == 0)
+      return &app.members[type.firstMember + i];
+  }
+  return nullptr;
+}
+
+} // namespace
+
+TEST(CodegenTables, DescribeTypes) {
+  App app(kProgram);
+  const stride::StrideAppV1 &d = app.description();
+  EXPECT_EQ(d.abiVersion, stride::kAbiVersion);
+  EXPECT_EQ(d.magic, stride::kAbiMagic);
+  EXPECT_EQ(d.size, sizeof(stride::StrideAppV1));
+  EXPECT_NE(d.buildHash, 0U);
+  ASSERT_EQ(d.fileCount, 1U);
+  EXPECT_STREQ(d.files[0].path, "Main.st");
+  ASSERT_EQ(d.taskCount, 1U);
+  EXPECT_EQ(d.tasks[0].intervalNs, 10'000'000);
+
+  const stride::TypeDesc *counter = nullptr;
+  ASSERT_NE(app.at("Main.fb", &counter), nullptr);
+  EXPECT_EQ(counter->kind, stride::Kind::FunctionBlock);
+  EXPECT_STREQ(counter->name, "Counter");
+  EXPECT_EQ(counter->flags, stride::kTypeHasAddress);
+  ASSERT_EQ(counter->memberCount, 4U);
+  EXPECT_EQ(member(d, *counter, "step")->flags, stride::kSymInput);
+  EXPECT_EQ(member(d, *counter, "total")->flags, stride::kSymInOut);
+  EXPECT_EQ(member(d, *counter, "count")->flags, stride::kSymOutput);
+  EXPECT_EQ(member(d, *counter, "secret")->flags, stride::kSymHidden);
+  EXPECT_EQ(d.types[member(d, *counter, "total")->type].kind, stride::Kind::InOut);
+
+  const stride::TypeDesc *matrix = nullptr;
+  ASSERT_NE(app.at("Main.a", &matrix), nullptr);
+  EXPECT_EQ(matrix->elementCount, 3U);
+  EXPECT_EQ(d.types[matrix->element].lowerBound, -1);
+  EXPECT_EQ(matrix->size, 12U);
+
+  const stride::TypeDesc *color = nullptr;
+  ASSERT_NE(app.at("Main.color", &color), nullptr);
+  ASSERT_EQ(color->memberCount, 3U);
+  EXPECT_STREQ(d.enumerators[color->firstMember + 1].name, "green");
+  EXPECT_EQ(d.enumerators[color->firstMember + 2].value, 6);
+
+  const stride::TypeDesc *pointer = nullptr;
+  ASSERT_NE(app.at("Main.p", &pointer), nullptr);
+  EXPECT_EQ(pointer->kind, stride::Kind::Pointer);
+  EXPECT_STREQ(d.types[pointer->element].name, "Point");
+
+  const stride::TypeDesc *name = nullptr;
+  ASSERT_NE(app.at("Main.name", &name), nullptr);
+  EXPECT_EQ(name->stringLength, 10U);
+  EXPECT_EQ(name->size, 11U);
+
+  const stride::TypeDesc *range = nullptr;
+  ASSERT_NE(app.at("Main.r", &range), nullptr);
+  EXPECT_EQ(range->kind, stride::Kind::INT);
+
+  bool kept = false;
+  bool constant = false;
+  for (std::uint32_t i = 0; i < d.rootCount; ++i) {
+    kept = kept || (std::strcmp(d.roots[i].name, "kept") == 0 && d.roots[i].flags == stride::kSymRetain);
+    constant = constant || (std::strcmp(d.roots[i].name, "kMax") == 0 && d.roots[i].flags == stride::kSymConstant);
+  }
+  EXPECT_TRUE(kept);
+  EXPECT_TRUE(constant);
+}
+
+TEST(CodegenTables, LayoutHashesAreStable) {
+  const auto hashOf = [](const std::string &fields) {
+    const auto files = generate({{"Main.st", "TYPE S : STRUCT " + fields +
+                                                 " END_STRUCT END_TYPE\nPROGRAM Main VAR s : S; END_VAR END_PROGRAM\n"}});
+    const std::string header = fileText(files, "st/user/S.h");
+    const auto at = header.find("S__layout__ = ");
+    return header.substr(at, header.find(';', at) - at);
+  };
+  const std::string plain = hashOf("a : INT; b : LREAL;");
+  EXPECT_EQ(plain, hashOf("A : INT := 5; b : LREAL;")); // defaults and case do not count
+  EXPECT_NE(plain, hashOf("b : LREAL; a : INT;"));
+  EXPECT_NE(plain, hashOf("a : UINT; b : LREAL;"));
+  EXPECT_NE(plain, hashOf("a : INT; c : LREAL;"));
+  EXPECT_EQ(hashOf("p : POINTER TO S;"), hashOf("p : POINTER TO S;"));
+}
+
+TEST(CodegenTables, AnEditTouchesOnlyWhatItMust) {
+  const auto build = [](const std::string &body) {
+    return generate({{"A.st", "PROGRAM A VAR x : INT; END_VAR\n  x := B.y;\nEND_PROGRAM\n"},
+                     {"B.st", "PROGRAM B VAR_OUTPUT y : INT; END_VAR\n  " + body + "\nEND_PROGRAM\n"}});
+  };
+  const auto before = build("y := 1;");
+  const auto after = build("y := 2; y := 3;");
+  ASSERT_EQ(before.size(), after.size());
+  std::string changed;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (before[i].text != after[i].text)
+      changed += before[i].path + " ";
+  }
+  EXPECT_EQ(changed, "user/B.cpp build.cpp ");
+}
+
+} // namespace stc::test
