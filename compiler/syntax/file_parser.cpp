@@ -70,8 +70,7 @@ ast::File *FileParser::run() {
   auto *out = arena_.make<ast::File>();
   out->id = file_.id();
   if (looksBinary(file_.text())) {
-    diagnostics_.report(Code::binaryFile, {file_.id(), 0, 0},
-                        "`" + file_.name() + "` is not a text file", "not Structured Text");
+    diagnostics_.report(Code::binaryFile, {}, "`" + file_.name() + "` is not a text file");
     return out;
   }
   now_ = scanner_.next();

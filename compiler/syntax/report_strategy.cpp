@@ -176,6 +176,11 @@ bool ReportStrategy::mayReport() {
   if (recovering_ || index == lastError_ || current().reported)
     return false;
   lastError_ = index;
+  // A string without an end swallows what is missing now.
+  if (const Token *previous = before();
+      previous != nullptr && previous->reported &&
+      (previous->type == Tok::STRING_LITERAL || previous->type == Tok::WSTRING_LITERAL))
+    return false;
   if (++reports_ > kMaxErrors)
     throw antlr4::ParseCancellationException();
   return true;

@@ -11,6 +11,7 @@ namespace stc {
 namespace {
 
 constexpr unsigned kMaxBadCharacters = 20;
+constexpr std::size_t kMaxName = 255;
 
 enum CharClass : std::uint8_t { other, blank, letter, digit };
 
@@ -457,6 +458,13 @@ std::uint16_t Scanner::word(std::size_t begin, Token &token) {
     }
   } else if (keyword.kind != Keyword::Kind::none && isKeywordHere(keyword, end)) {
     return keyword.type;
+  }
+  if (spelling.size() > kMaxName) {
+    token.reported = true;
+    diagnostics_
+        .report(Code::nameTooLong, span(begin, end),
+                "this name has " + std::to_string(spelling.size()) + " characters")
+        .note("a name has at most " + std::to_string(kMaxName) + " characters");
   }
   if (doubled && !isKnownDoubleUnderscore(spelling)) {
     token.reported = true;
