@@ -50,6 +50,8 @@ private:
   void resolveEnumerations(Module &module);
   void addName(Module &module, Symbol *symbol);
   void checkModule(Module &module);
+  /// Declares the blocks and lists read from libraries: an instance that nobody calls has members and defaults too.
+  void declareUsed();
   void checkContainment(Module &module);
 
   // names.cpp

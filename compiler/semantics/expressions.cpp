@@ -255,6 +255,14 @@ Symbol *Checker::resolveNamespace(Expr *expr) {
   if (expr->kind == ExprKind::name) {
     auto *name = as<NameExpr>(expr);
     Symbol *symbol = lookup(name->name);
+    if (symbol != nullptr && symbol->kind == SymbolKind::variable && isElementary(typeOf(static_cast<VarSymbol *>(symbol)))) {
+      // `color : Color := Color.red`: a variable without members does not hide a type, list or library.
+      Symbol *other = lookupInModule(*scope_.module, name->name.id);
+      if (other == symbol || other == nullptr)
+        other = lookupInLibraries(name->name.id);
+      if (other != nullptr && other->kind == SymbolKind::type)
+        symbol = other;
+    }
     // `GVL.x`, although a variable or a POU may have the list's name, is not decided here: the
     // value wins.
     if (symbol != nullptr &&

@@ -273,6 +273,24 @@ void Checker::checkUser(const std::vector<File *> &files) {
   for (File *file : files)
     declareFile(user, file);
   checkModule(user);
+  declareUsed();
+}
+
+void Checker::declareUsed() {
+  // The lists grow while declarations pull in the types of their members.
+  for (std::size_t l = 0; l < program_.libraries.size(); ++l) {
+    Library *library = program_.libraries[l].get();
+    const std::size_t before = program_.libraries.size() + library->pous.size();
+    bool declared = false;
+    for (std::size_t i = 0; i < library->pous.size(); ++i) {
+      declared = declared || !library->pous[i]->declared;
+      declare(library->pous[i]);
+    }
+    for (std::size_t i = 0; i < library->globals.size(); ++i)
+      declare(library->globals[i]);
+    if (declared || before != program_.libraries.size() + library->pous.size())
+      l = static_cast<std::size_t>(-1); // others may have been pulled in
+  }
 }
 
 void Checker::checkLibrary(std::string_view name) {
@@ -280,6 +298,7 @@ void Checker::checkLibrary(std::string_view name) {
   for (const LibraryIndex::Entry &entry : index_.files(name))
     loadLibraryFile(entry);
   checkModule(target);
+  declareUsed();
 }
 
 void check(Program &program, const std::vector<File *> &files, const LibraryIndex &index) {

@@ -220,6 +220,8 @@ VAR {attribute 'hide'} start : TIME; running : BOOL; speed : Mode := Mode.slow; 
 END_FUNCTION_BLOCK
 )"},
                                     {"Mode.st", "TYPE Mode : (fast, slow, other); END_TYPE\n"},
+                                    {"Holder.st", "TYPE Holder : STRUCT idle : Idle; END_STRUCT END_TYPE\n"},
+                                    {"Idle.st", "FUNCTION_BLOCK Idle VAR_OUTPUT n : INT := 7; END_VAR END_FUNCTION_BLOCK\n"},
                                     {"Twice.st", R"(
 FUNCTION Twice : LREAL
 VAR_INPUT x : LREAL := 4; END_VAR
@@ -228,7 +230,7 @@ END_FUNCTION
 )"}}};
   App app(R"(
 PROGRAM Main
-VAR TON : TON; t2 : Lib.TON; x : LREAL; m : Mode; END_VAR
+VAR TON : TON; t2 : Lib.TON; x : LREAL; m : Mode; h : Holder; mode : Mode := Mode.other; END_VAR
   TON(IN := TRUE, PT := T#30ms);
   x := Twice() + Lib.Twice(1);
   m := Mode.other;
@@ -243,6 +245,8 @@ END_PROGRAM
   EXPECT_EQ(app["Main.TON.speed"], "1");
   EXPECT_EQ(app["Main.x"], "10.0");
   EXPECT_EQ(app["Main.m"], "2");
+  EXPECT_EQ(app["Main.h.idle.n"], "7"); // of a block that nobody calls
+  EXPECT_EQ(app["Main.mode"], "2");
 }
 
 TEST(CodegenCalls, NamesOfCpp) {
