@@ -88,6 +88,23 @@ bool startsType(std::uint16_t type) {
   }
 }
 
+/// Keywords that can only be meant as names where an expression should stand.
+bool canOnlyBeMeantAsName(std::uint16_t type) {
+  switch (type) {
+  case Tok::PROGRAM:
+  case Tok::FUNCTION:
+  case Tok::FUNCTION_BLOCK:
+  case Tok::TYPE:
+  case Tok::STRUCT:
+  case Tok::ARRAY:
+  case Tok::STRING:
+  case Tok::WSTRING:
+    return true;
+  default:
+    return false;
+  }
+}
+
 /// Where a statement that could not be read certainly is over.
 bool isStatementBoundary(std::uint16_t type) {
   return isEnd(type) || isCloser(type) || isStatementKeyword(type);
@@ -579,11 +596,7 @@ void ReportStrategy::reportError(antlr4::Parser *, const antlr4::RecognitionExce
     reportUnexpected("a type");
     break;
   case Grammar::RuleOperand:
-    if (isKeywordType(token.type) && !isCloser(token.type) && !isStatementKeyword(token.type) &&
-        token.type != Tok::THEN && token.type != Tok::DO && token.type != Tok::OF &&
-        token.type != Tok::TO && token.type != Tok::BY && token.type != Tok::AND &&
-        token.type != Tok::OR && token.type != Tok::XOR && token.type != Tok::MOD &&
-        token.type < Tok::CONSTANT && token.type != Tok::END_VAR)
+    if (canOnlyBeMeantAsName(token.type))
       reportKeywordAsName(token);
     else
       reportUnexpected("an expression");

@@ -1,0 +1,530 @@
+#include "tests/unit/syntax/print_ast.hpp"
+
+#include <sstream>
+
+namespace stc::test {
+
+using namespace ast;
+
+namespace {
+
+const char *symbol(BinaryOp op) {
+  static constexpr const char *kSymbols[] = {
+      "+",  "-", "*",  "/",   "MOD", "**",  "=",        "<>",     "<",
+      "<=", ">", ">=", "AND", "OR",  "XOR", "AND_THEN", "OR_ELSE"};
+  return kSymbols[static_cast<std::size_t>(op)];
+}
+
+const char *suffix(LiteralKind kind) {
+  switch (kind) {
+  case LiteralKind::time:
+    return "ms";
+  case LiteralKind::ltime:
+    return "ns";
+  case LiteralKind::date:
+    return "s(date)";
+  case LiteralKind::ldate:
+    return "ns(ldate)";
+  case LiteralKind::tod:
+    return "ms(tod)";
+  case LiteralKind::ltod:
+    return "ns(ltod)";
+  case LiteralKind::dt:
+    return "s(dt)";
+  case LiteralKind::ldt:
+    return "ns(ldt)";
+  default:
+    return "";
+  }
+}
+
+class Printer {
+public:
+  std::string take() { return out_.str(); }
+
+  void literal(const Literal *node) {
+    if (node->typeName)
+      out_ << node->typeName.text << '#';
+    switch (node->literal) {
+    case LiteralKind::boolean:
+      out_ << (node->integer != 0 ? "TRUE" : "FALSE");
+      break;
+    case LiteralKind::real:
+      out_ << node->real;
+      break;
+    case LiteralKind::string:
+      out_ << '\'' << node->text << '\'';
+      break;
+    case LiteralKind::wstring:
+      out_ << '"' << node->text << '"';
+      break;
+    default:
+      out_ << node->integer << suffix(node->literal);
+    }
+  }
+
+  void items(std::span<AggregateItem> list) {
+    for (const AggregateItem &item : list) {
+      out_ << ' ';
+      if (item.field)
+        out_ << item.field.text << ":=";
+      if (item.repeat != nullptr) {
+        expression(item.repeat);
+        out_ << '*';
+      }
+      if (item.value != nullptr) {
+        expression(item.value);
+      } else {
+        out_ << '{';
+        items(item.values);
+        out_ << " }";
+      }
+    }
+  }
+
+  void expression(const Expr *node) {
+    if (node == nullptr) {
+      out_ << "null";
+      return;
+    }
+    if (node->parenthesized)
+      out_ << "p";
+    switch (node->kind) {
+    case ExprKind::literal:
+      literal(as<Literal>(node));
+      break;
+    case ExprKind::name:
+      out_ << as<NameExpr>(node)->name.text;
+      break;
+    case ExprKind::member: {
+      const auto *m = as<MemberExpr>(node);
+      out_ << "(. ";
+      expression(m->base);
+      if (m->bit >= 0)
+        out_ << " bit " << m->bit << ')';
+      else
+        out_ << ' ' << m->name.text << ')';
+      break;
+    }
+    case ExprKind::index: {
+      const auto *i = as<IndexExpr>(node);
+      out_ << "([] ";
+      expression(i->base);
+      for (const Expr *index : i->indices) {
+        out_ << ' ';
+        expression(index);
+      }
+      out_ << ')';
+      break;
+    }
+    case ExprKind::deref:
+      out_ << "(^ ";
+      expression(as<DerefExpr>(node)->base);
+      out_ << ')';
+      break;
+    case ExprKind::call: {
+      const auto *c = as<CallExpr>(node);
+      out_ << "(call ";
+      expression(c->callee);
+      for (const Argument &argument : c->arguments) {
+        out_ << ' ';
+        if (argument.name)
+          out_ << argument.name.text << (argument.output ? "=>" : ":=");
+        if (argument.value != nullptr || !argument.name)
+          expression(argument.value);
+      }
+      out_ << ')';
+      break;
+    }
+    case ExprKind::unary: {
+      const auto *u = as<UnaryExpr>(node);
+      out_ << '(' << (u->op == UnaryOp::negate ? "-" : u->op == UnaryOp::plus ? "+" : "NOT") << ' ';
+      expression(u->operand);
+      out_ << ')';
+      break;
+    }
+    case ExprKind::binary: {
+      const auto *b = as<BinaryExpr>(node);
+      out_ << '(' << symbol(b->op) << ' ';
+      expression(b->left);
+      out_ << ' ';
+      expression(b->right);
+      out_ << ')';
+      break;
+    }
+    case ExprKind::aggregate: {
+      const auto *a = as<AggregateExpr>(node);
+      out_ << (a->isStruct ? "(struct" : "(list");
+      items(a->items);
+      out_ << ')';
+      break;
+    }
+    case ExprKind::enumLiteral:
+      out_ << as<EnumLiteralExpr>(node)->typeName.text << '#'
+           << as<EnumLiteralExpr>(node)->enumerator.text;
+      break;
+    case ExprKind::error:
+      out_ << "error";
+      break;
+    }
+  }
+
+  void type(const TypeExpr *node) {
+    switch (node->kind) {
+    case TypeExprKind::named: {
+      const char *separator = "";
+      for (const Name &name : as<NamedTypeExpr>(node)->path) {
+        out_ << separator << name.text;
+        separator = ".";
+      }
+      break;
+    }
+    case TypeExprKind::array: {
+      const auto *a = as<ArrayTypeExpr>(node);
+      out_ << "(array";
+      for (const ArrayRange &range : a->ranges) {
+        out_ << ' ';
+        if (range.low == nullptr) {
+          out_ << '*';
+          continue;
+        }
+        expression(range.low);
+        out_ << "..";
+        expression(range.high);
+      }
+      out_ << ' ';
+      type(a->element);
+      out_ << ')';
+      break;
+    }
+    case TypeExprKind::string: {
+      const auto *s = as<StringTypeExpr>(node);
+      out_ << (s->wide ? "WSTRING" : "STRING");
+      if (s->length != nullptr) {
+        out_ << '(';
+        expression(s->length);
+        out_ << ')';
+      }
+      break;
+    }
+    case TypeExprKind::pointer:
+    case TypeExprKind::reference:
+      out_ << (node->kind == TypeExprKind::pointer ? "(pointer " : "(reference ");
+      type(as<PointerTypeExpr>(node)->pointee);
+      out_ << ')';
+      break;
+    case TypeExprKind::subrange: {
+      const auto *s = as<SubrangeTypeExpr>(node);
+      out_ << "(range ";
+      type(s->base);
+      out_ << ' ';
+      expression(s->low);
+      out_ << ' ';
+      expression(s->high);
+      out_ << ')';
+      break;
+    }
+    case TypeExprKind::enumeration: {
+      const auto *e = as<EnumTypeExpr>(node);
+      out_ << "(enum";
+      if (e->base != nullptr) {
+        out_ << " of ";
+        type(e->base);
+      }
+      for (const EnumeratorDecl &one : e->enumerators) {
+        out_ << ' ' << one.name.text;
+        if (!one.doc.empty())
+          out_ << "///" << one.doc;
+        if (one.value != nullptr) {
+          out_ << ":=";
+          expression(one.value);
+        }
+      }
+      out_ << ')';
+      break;
+    }
+    case TypeExprKind::error:
+      out_ << "error";
+      break;
+    }
+  }
+
+  void block(Block list) {
+    out_ << '{';
+    for (const Stmt *one : list) {
+      out_ << ' ';
+      statement(one);
+    }
+    out_ << " }";
+  }
+
+  void statement(const Stmt *node) {
+    switch (node->kind) {
+    case StmtKind::empty:
+      out_ << "(;)";
+      break;
+    case StmtKind::exit:
+      out_ << "(exit)";
+      break;
+    case StmtKind::continueS:
+      out_ << "(continue)";
+      break;
+    case StmtKind::returnS:
+      out_ << "(return)";
+      break;
+    case StmtKind::assign: {
+      static constexpr const char *kOps[] = {":=", "S=", "R=", "REF="};
+      const auto *a = as<AssignStmt>(node);
+      out_ << '(' << kOps[static_cast<std::size_t>(a->op)];
+      for (const Expr *target : a->targets) {
+        out_ << ' ';
+        expression(target);
+      }
+      out_ << ' ';
+      expression(a->value);
+      out_ << ')';
+      break;
+    }
+    case StmtKind::call:
+      expression(as<CallStmt>(node)->expr);
+      break;
+    case StmtKind::ifS: {
+      const auto *s = as<IfStmt>(node);
+      out_ << "(if";
+      for (const IfBranch &branch : s->branches) {
+        out_ << ' ';
+        expression(branch.condition);
+        out_ << ' ';
+        block(branch.body);
+      }
+      if (s->hasElse) {
+        out_ << " else ";
+        block(s->elseBody);
+      }
+      out_ << ')';
+      break;
+    }
+    case StmtKind::caseS: {
+      const auto *s = as<CaseStmt>(node);
+      out_ << "(case ";
+      expression(s->selector);
+      for (const CaseBranch &branch : s->branches) {
+        for (const CaseLabel &label : branch.labels) {
+          out_ << ' ';
+          expression(label.low);
+          if (label.high != nullptr) {
+            out_ << "..";
+            expression(label.high);
+          }
+        }
+        out_ << ' ';
+        block(branch.body);
+      }
+      if (s->hasElse) {
+        out_ << " else ";
+        block(s->elseBody);
+      }
+      out_ << ')';
+      break;
+    }
+    case StmtKind::forS: {
+      const auto *s = as<ForStmt>(node);
+      out_ << "(for ";
+      expression(s->variable);
+      for (const Expr *part : {s->from, s->to, s->by}) {
+        out_ << ' ';
+        expression(part);
+      }
+      out_ << ' ';
+      block(s->body);
+      out_ << ')';
+      break;
+    }
+    case StmtKind::whileS:
+      out_ << "(while ";
+      expression(as<WhileStmt>(node)->condition);
+      out_ << ' ';
+      block(as<WhileStmt>(node)->body);
+      out_ << ')';
+      break;
+    case StmtKind::repeatS:
+      out_ << "(repeat ";
+      block(as<RepeatStmt>(node)->body);
+      out_ << ' ';
+      expression(as<RepeatStmt>(node)->until);
+      out_ << ')';
+      break;
+    }
+  }
+
+  void variables(std::span<VarDecl *> list) {
+    static constexpr const char *kSections[] = {
+        "VAR",      "VAR_INPUT",    "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP",
+        "VAR_STAT", "VAR_EXTERNAL", "VAR_GLOBAL", "VAR_CONFIG", "VAR_ACCESS"};
+    for (const VarDecl *one : list) {
+      out_ << "\n  (" << kSections[static_cast<std::size_t>(one->section)];
+      out_ << ((one->qualifiers & qualConstant) != 0 ? " CONSTANT" : "");
+      out_ << ((one->qualifiers & qualRetain) != 0 ? " RETAIN" : "");
+      out_ << ((one->qualifiers & qualPersistent) != 0 ? " PERSISTENT" : "");
+      out_ << ((one->qualifiers & qualNonRetain) != 0 ? " NON_RETAIN" : "");
+      out_ << ' ' << one->name.text;
+      if (!one->address.empty())
+        out_ << " AT " << one->address;
+      out_ << ' ';
+      type(one->type);
+      if (one->init != nullptr) {
+        out_ << " := ";
+        expression(one->init);
+      }
+      extras(one->attributes, one->doc);
+      out_ << ')';
+    }
+  }
+
+  void extras(Attributes attributes, std::string_view doc) {
+    for (const Attribute &attribute : attributes) {
+      out_ << " {" << attribute.name;
+      if (!attribute.value.empty())
+        out_ << '=' << attribute.value;
+      out_ << '}';
+    }
+    if (!doc.empty())
+      out_ << " \"" << doc << '"';
+  }
+
+  void declaration(const Decl *node) {
+    static constexpr const char *kKinds[] = {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "STRUCT",
+                                             "ENUM",    "ALIAS",    "VAR_GLOBAL"};
+    out_ << '(' << kKinds[static_cast<std::size_t>(node->kind)];
+    if (node->name)
+      out_ << ' ' << node->name.text;
+    extras(node->attributes, node->doc);
+    switch (node->kind) {
+    case DeclKind::program:
+    case DeclKind::function:
+    case DeclKind::functionBlock: {
+      const auto *pou = as<PouDecl>(node);
+      if (pou->returnType != nullptr) {
+        out_ << " : ";
+        type(pou->returnType);
+      }
+      out_ << (pou->external ? " external" : "");
+      variables(pou->variables);
+      for (const Stmt *one : pou->body) {
+        out_ << "\n  ";
+        statement(one);
+      }
+      break;
+    }
+    case DeclKind::structure:
+      if (as<StructDecl>(node)->base)
+        out_ << " EXTENDS " << as<StructDecl>(node)->base.text;
+      variables(as<StructDecl>(node)->fields);
+      break;
+    case DeclKind::enumeration:
+      out_ << ' ';
+      type(as<EnumDecl>(node)->type);
+      if (as<EnumDecl>(node)->init != nullptr) {
+        out_ << " := ";
+        expression(as<EnumDecl>(node)->init);
+      }
+      break;
+    case DeclKind::alias:
+      out_ << ' ';
+      type(as<AliasDecl>(node)->type);
+      if (as<AliasDecl>(node)->init != nullptr) {
+        out_ << " := ";
+        expression(as<AliasDecl>(node)->init);
+      }
+      break;
+    case DeclKind::globals:
+      variables(as<GlobalsDecl>(node)->variables);
+      break;
+    }
+    out_ << ")\n";
+  }
+
+private:
+  std::ostringstream out_;
+};
+
+std::string program(const std::string &statements) {
+  return "PROGRAM P\n" + statements + "\nEND_PROGRAM\n";
+}
+
+} // namespace
+
+std::string print(const File &file) {
+  Printer printer;
+  for (const Decl *one : file.declarations)
+    printer.declaration(one);
+  return printer.take();
+}
+
+std::string print(const Stmt *statement) {
+  Printer printer;
+  printer.statement(statement);
+  return printer.take();
+}
+
+std::string print(const Expr *expression) {
+  Printer printer;
+  printer.expression(expression);
+  return printer.take();
+}
+
+std::string print(const TypeExpr *type) {
+  Printer printer;
+  printer.type(type);
+  return printer.take();
+}
+
+Parsed::Parsed(std::string text) {
+  const FileId id = sources.addBytes("T.st", std::move(text));
+  file = parse(sources.file(id), interner, arena, diagnostics);
+  diagnostics.sort();
+}
+
+std::string Parsed::errors() const {
+  std::ostringstream out;
+  for (const Diagnostic &d : diagnostics.all()) {
+    out << codeName(d.code) << ' ';
+    if (!d.labels.empty()) {
+      const LineColumn at = sources.position(d.labels.front().span);
+      out << at.line << ':' << at.column << ' ';
+    }
+    out << d.message << '\n';
+  }
+  return out.str();
+}
+
+std::string Parsed::rendered() const {
+  std::string out;
+  for (const Diagnostic &d : diagnostics.all())
+    out += renderText(d, sources);
+  return out;
+}
+
+std::string printBody(const std::string &statements) {
+  const Parsed parsed(program(statements));
+  if (parsed.diagnostics.hasErrors())
+    return parsed.rendered();
+  std::string out;
+  for (const Stmt *one : as<PouDecl>(parsed.file->declarations[0])->body)
+    out += (out.empty() ? "" : "\n") + print(one);
+  return out;
+}
+
+std::string printExpression(const std::string &expression) {
+  const Parsed parsed(program("x := " + expression + ";"));
+  if (parsed.diagnostics.hasErrors())
+    return parsed.rendered();
+  return print(as<AssignStmt>(as<PouDecl>(parsed.file->declarations[0])->body[0])->value);
+}
+
+std::string bodyErrors(const std::string &statements) {
+  // The first line stands on the line of PROGRAM, so that lines count from 1.
+  return Parsed("PROGRAM P " + statements + "\nEND_PROGRAM\n").errors();
+}
+
+} // namespace stc::test
