@@ -92,6 +92,8 @@ std::vector<JobResult> runJobs(const std::vector<Job> &jobs,
         failed = true;
       ++next;
     }
+    if (running.empty())
+      break; // the first one could not even be started
     std::vector<pollfd> waits;
     for (const Running &entry : running)
       waits.push_back({entry.output, POLLIN, 0});
