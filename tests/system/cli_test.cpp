@@ -1,0 +1,282 @@
+// The commands of `stride`, from outside: exit codes, files, messages.
+#include "tests/support/process.hpp"
+#include "tests/support/text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace stride::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+constexpr const char *kCounter =
+    "PROGRAM PLC_PRG\nVAR\n  n : INT;\nEND_VAR\nn := n + 1;\nEND_PROGRAM\n";
+constexpr const char *kWrong =
+    "PROGRAM PLC_PRG\nVAR\n  n : INT;\nEND_VAR\nn := m + 1;\nk := 2;\nEND_PROGRAM\n";
+
+class Cli : public ::testing::Test {
+protected:
+  using Environment = std::vector<std::pair<std::string, std::string>>;
+
+  ProcessResult stride(std::vector<std::string> arguments, Environment environment = {}) {
+    arguments.insert(arguments.begin(), STRIDE_BINARY_DIR "/stride");
+    environment.emplace_back("XDG_CACHE_HOME", (scratch_.path() / "cache").string());
+    return runProcess(arguments, scratch_.path(), environment);
+  }
+
+  void succeed(const std::vector<std::string> &arguments) {
+    const ProcessResult result = stride(arguments);
+    EXPECT_EQ(result.exitCode, 0) << result.out << result.err;
+  }
+
+  void write(const std::string &name, const std::string &text) {
+    fs::create_directories((scratch_.path() / name).parent_path());
+    writeFile(scratch_.path() / name, text);
+  }
+
+  std::string read(const std::string &name) { return readFile(scratch_.path() / name); }
+  bool exists(const std::string &name) { return fs::exists(scratch_.path() / name); }
+
+  std::size_t countFiles(const std::string &folder, const std::string &suffix) {
+    std::size_t count = 0;
+    for (const fs::directory_entry &entry : fs::directory_iterator(scratch_.path() / folder))
+      count += entry.path().extension() == suffix ? 1 : 0;
+    return count;
+  }
+
+  ScratchDirectory scratch_;
+};
+
+// --------------------------------------------------------------------------------------------------
+// the program
+
+TEST_F(Cli, ShowsItsVersionAndHelp) {
+  EXPECT_THAT(stride({"--version"}).out, StartsWith("stride 0."));
+  const ProcessResult help = stride({"--help"});
+  EXPECT_EQ(help.exitCode, 0);
+  for (const char *command : {"new", "check", "build", "sim", "plot", "explain"}) {
+    EXPECT_THAT(help.out, HasSubstr(command));
+    EXPECT_EQ(stride({command, "--help"}).exitCode, 0) << command;
+  }
+  EXPECT_EQ(stride({}).exitCode, 0);
+}
+
+TEST_F(Cli, RefusesWhatItDoesNotKnow) {
+  for (const std::vector<std::string> &arguments :
+       std::vector<std::vector<std::string>>{{"chek"},
+                                             {"check", "--fast"},
+                                             {"check", "a", "b"},
+                                             {"plot"},
+                                             {"new"},
+                                             {"explain"},
+                                             {"check", "--color", "blue"},
+                                             {"build", "--emit", "rust"}}) {
+    const ProcessResult result = stride(arguments);
+    EXPECT_EQ(result.exitCode, 2) << arguments[0];
+    EXPECT_THAT(result.err, StartsWith("stride: "));
+    EXPECT_THAT(result.out, IsEmpty());
+  }
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// check
+
+TEST_F(Cli, CheckIsSilentWhenAllIsWell) {
+  write("a.st", kCounter);
+  const ProcessResult result = stride({"check", "a.st"});
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_EQ(result.out + result.err, "");
+}
+
+TEST_F(Cli, CheckReportsAllErrorsWithASummary) {
+  write("a.st", kWrong);
+  const ProcessResult result = stride({"check", "a.st"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, AllOf(HasSubstr("a.st:5:6"), HasSubstr("a.st:6:1"),
+                                HasSubstr("\nerror: 2 errors\n")));
+  EXPECT_THAT(result.err, Not(HasSubstr("\x1b[")));
+}
+
+TEST_F(Cli, ColorsOnlyOnATerminalOrOnDemand) {
+  write("a.st", kWrong);
+  EXPECT_THAT(stride({"check", "a.st", "--color=always"}).err, HasSubstr("\x1b["));
+  EXPECT_THAT(stride({"check", "a.st", "--color", "never"}).err, Not(HasSubstr("\x1b[")));
+}
+
+TEST_F(Cli, JsonIsAnObjectPerLineOnStandardOutput) {
+  write("a.st", kWrong);
+  const ProcessResult result = stride({"check", "a.st", "--format=json"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(result.err, "");
+  const std::vector<std::string> lines = splitLines(result.out);
+  ASSERT_EQ(lines.size(), 2U);
+  for (const std::string &line : lines) {
+    const nlohmann::json diagnostic = nlohmann::json::parse(line);
+    EXPECT_EQ(diagnostic.at("severity"), "error");
+    EXPECT_THAT(diagnostic.at("code").get<std::string>(), StartsWith("SE"));
+    EXPECT_EQ(diagnostic.at("labels").at(0).at("file"), "a.st");
+    EXPECT_GE(diagnostic.at("labels").at(0).at("line"), 5);
+  }
+  EXPECT_EQ(stride({"check", "nowhere.st", "--format=json"}).exitCode, 1);
+  EXPECT_TRUE(nlohmann::json::accept(stride({"check", "nowhere.st", "--format=json"}).out));
+}
+
+TEST_F(Cli, WarningsDoNotFail) {
+  write("p/a.st", kCounter);
+  write("p/stride.toml",
+        "[[task]]\nname = \"T\"\ninterval = \"T#1ms\"\nprograms = [\"PLC_PRG\", \"PLC_PRG\"]\n");
+  const ProcessResult result = stride({"check", "p"});
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("warning[SE0822]"), HasSubstr("\nwarning: 1 warning\n")));
+}
+
+TEST_F(Cli, ABlockAloneCanBeChecked) {
+  write("b.st", "FUNCTION_BLOCK B\nEND_FUNCTION_BLOCK\n");
+  succeed({"check", "b.st"});
+  EXPECT_THAT(stride({"build", "b.st"}).err, HasSubstr("error[SE0815]"));
+}
+
+TEST_F(Cli, PathsThatCannotBe) {
+  fs::create_directory(scratch_.path() / "empty");
+  EXPECT_THAT(stride({"check", "nowhere"}).err, HasSubstr("error[SE0830]"));
+  EXPECT_THAT(stride({"check", "empty"}).err, HasSubstr("error[SE0831]"));
+  EXPECT_THAT(stride({"check"}).err, HasSubstr("error[SE0831]"));
+  write("e.st", "");
+  EXPECT_THAT(stride({"check", "e.st"}).err, HasSubstr("error[SE0832]"));
+  EXPECT_EQ(stride({"check", "e.st"}).exitCode, 1);
+}
+
+// -----------------------------------------------------------------------------------------------
+// new, build, sim
+
+TEST_F(Cli, ANewProjectBuildsAndMoves) {
+  succeed({"new", "mill"});
+  succeed({"check", "mill"});
+  succeed({"build", "mill"});
+  EXPECT_TRUE(exists("mill/build/app.so"));
+  EXPECT_EQ(read("mill/build/.gitignore"), "*\n");
+  succeed({"sim", "mill", "--for", "T#1s", "--trace", "Drive.fSetPosition,Drive.fSetVelocity",
+           "--out", "t.csv"});
+  const std::vector<std::string> rows = splitLines(read("t.csv"));
+  ASSERT_EQ(rows.size(), 501U);
+  EXPECT_EQ(rows[0], "t,Drive.fSetPosition,Drive.fSetVelocity");
+  EXPECT_GT(std::stod(rows[500].substr(rows[500].find(',') + 1)), 10.0);
+  succeed({"plot", "t.csv"});
+  EXPECT_THAT(read("t.svg"),
+              AllOf(HasSubstr("Position [u]"), HasSubstr("Velocity [u/s]"), HasSubstr("</svg>")));
+}
+
+TEST_F(Cli, EveryTemplateBuilds) {
+  succeed({"new", "sub/plain", "--template", "plain"});
+  succeed({"build", "sub/plain"});
+  EXPECT_EQ(stride({"new", "x", "--template", "nothing"}).exitCode, 2);
+  EXPECT_EQ(stride({"new", "sub/plain"}).exitCode, 1);
+  EXPECT_EQ(stride({"new", ".."}).exitCode, 1);
+}
+
+TEST_F(Cli, BuildPutsTheApplicationWhereItIsTold) {
+  write("a.st", kCounter);
+  succeed({"build", "a.st", "-o", "out/x.so"});
+  EXPECT_TRUE(exists("out/x.so"));
+  succeed({"build", "a.st"});
+  EXPECT_TRUE(exists("a.so"));
+  EXPECT_FALSE(exists("build"));
+}
+
+TEST_F(Cli, BuildEmitsReadableSources) {
+  write("a.st", kCounter);
+  succeed({"build", "a.st", "--emit", "cpp", "-o", "cpp"});
+  EXPECT_THAT(read("cpp/app.cpp"), HasSubstr("\"PLC_PRG\""));
+  EXPECT_FALSE(exists("a.so"));
+}
+
+TEST_F(Cli, OnlyWhatChangedIsCompiled) {
+  write("p/a.st", kCounter);
+  write("p/b.st", "FUNCTION F : INT\nF := 1;\nEND_FUNCTION\n");
+  succeed({"build", "p"});
+  const std::size_t units = countFiles("p/build/cache", ".o");
+  succeed({"build", "p"});
+  EXPECT_EQ(countFiles("p/build/cache", ".o"), units);
+  write("p/b.st", "FUNCTION F : INT\nF := 2;\nEND_FUNCTION\n");
+  succeed({"build", "p"});
+  // The function, and the application, which records the source files' hashes.
+  EXPECT_LE(countFiles("p/build/cache", ".o"), units + 2);
+  EXPECT_GT(countFiles("p/build/cache", ".o"), units);
+}
+
+TEST_F(Cli, ErrorsStopABuild) {
+  write("a.st", kWrong);
+  for (const char *command : {"build", "sim"}) {
+    const ProcessResult result = stride({command, "a.st"});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_THAT(result.err, HasSubstr("error: 2 errors"));
+  }
+  EXPECT_FALSE(exists("a.so"));
+}
+
+TEST_F(Cli, SimulationReadsWritesAndPrints) {
+  write("a.st", kCounter);
+  const ProcessResult result = stride(
+      {"sim", "a.st", "--for", "T#100ms", "--set", "T#50ms,PLC_PRG.n=100", "--print", "PLC_PRG.n"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.out, "PLC_PRG.n = 105\n");
+  EXPECT_NE(stride({"sim", "a.st", "--for", "T#100ms", "--print", "PLC_PRG.q"}).exitCode, 0);
+  EXPECT_NE(stride({"sim", "a.st", "--for", "long"}).exitCode, 0);
+}
+
+TEST_F(Cli, UncheckedAndDebugBuildsRunToo) {
+  write("a.st", kCounter);
+  for (const char *option : {"--unchecked", "--debug"}) {
+    const ProcessResult result =
+        stride({"sim", "a.st", option, "--for", "T#30ms", "--print", "PLC_PRG.n"});
+    EXPECT_EQ(result.out, "PLC_PRG.n = 3\n") << result.err;
+  }
+}
+
+TEST_F(Cli, ACompilerThatFailsIsOurFault) {
+  write("p/a.st", kCounter);
+  const ProcessResult result = stride({"build", "p"}, {{"STRIDE_CXX", "false"}});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_THAT(result.err,
+              AllOf(HasSubstr("error[SE0990]"), HasSubstr("false -std=c++20"), HasSubstr(".cpp")));
+}
+
+TEST_F(Cli, AMissingCompilerIsNamed) {
+  write("a.st", kCounter);
+  const ProcessResult result = stride({"build", "a.st"}, {{"STRIDE_CXX", "no-such-compiler"}});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("error[SE0991]"), HasSubstr("no-such-compiler")));
+}
+
+// -------------------------------------------------------------------------------------------------
+// plot, explain
+
+TEST_F(Cli, PlotSaysWhatIsWrongWithATrace) {
+  write("bad.csv", "t,x\n0,1\n1\n");
+  const ProcessResult result = stride({"plot", "bad.csv"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("error[SE0835]"), HasSubstr("line 3")));
+  EXPECT_FALSE(exists("bad.svg"));
+  EXPECT_THAT(stride({"plot", "nowhere.csv"}).err, HasSubstr("error[SE0101]"));
+}
+
+TEST_F(Cli, ExplainKnowsCodesAndMotionErrors) {
+  EXPECT_THAT(stride({"explain", "se0808"}).out,
+              AllOf(StartsWith("SE0808: "), HasSubstr("wDriveId")));
+  EXPECT_THAT(stride({"explain", "20"}).out, HasSubstr("SMC_REGULATOR_OR_START_NOT_SET"));
+  EXPECT_THAT(stride({"explain", "smc_no_error"}).out, StartsWith("SMC_ERROR 0: SMC_NO_ERROR"));
+  EXPECT_EQ(stride({"explain", "SE9999"}).exitCode, 1);
+  EXPECT_THAT(stride({"explain", "--list"}).out,
+              HasSubstr("SE0808 two drives with one wDriveId\n"));
+}
+
+} // namespace
+} // namespace stride::test
