@@ -120,7 +120,7 @@ std::optional<Trace> readTrace(std::string_view csv, TraceError &error) {
       continue;
     const std::vector<std::string_view> row = cells(line);
     if (row.size() != header.size()) {
-      error = {number, fmt::format("{} values for {} columns", row.size(), header.size())};
+      error = {number, fmt::format("expected {} values, found {}", header.size(), row.size())};
       return std::nullopt;
     }
     for (std::size_t i = 0; i < row.size(); ++i) {

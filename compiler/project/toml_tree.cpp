@@ -128,11 +128,29 @@ private:
   std::vector<std::uint32_t> lineStarts_;
 };
 
+bool isWordStart(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+
+std::uint32_t wordEnd(std::string_view text, std::uint32_t at) {
+  while (at < text.size() &&
+         std::string_view(" \t\r\n,]}").find(text[at]) == std::string_view::npos)
+    ++at;
+  return at;
+}
+
+// Whether the place follows a `=`.
+bool standsAsValue(std::string_view text, std::uint32_t at) {
+  while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '\t'))
+    --at;
+  return at > 0 && text[at - 1] == '=';
+}
+
 // toml++'s messages begin with "Error while parsing X: ".
 std::string plainMessage(std::string_view description) {
   constexpr std::string_view kPrefix = "Error while parsing ";
   if (description.starts_with(kPrefix))
     description.remove_prefix(kPrefix.size());
+  if (const std::size_t colon = description.find(": "); colon < 24)
+    description.remove_prefix(colon + 2);
   std::string message(description);
   for (char &c : message)
     if (c == '\n' || c == '\r')
@@ -162,14 +180,21 @@ std::unique_ptr<TomlNode> parseToml(const SourceFile &file, Diagnostics &diagnos
   if (!result) {
     const toml::parse_error &error = result.error();
     Span where = reader.span(error.source());
-    const auto size = static_cast<std::uint32_t>(file.text().size());
-    if (where.end == where.begin && where.end < size && file.text()[where.end] != '\n')
+    const std::string_view text = file.text();
+    const bool word = where.begin < text.size() && isWordStart(text[where.begin]);
+    where.end = std::max(where.end, word ? wordEnd(text, where.begin) : where.begin);
+    if (where.end == where.begin && where.end < text.size() && text[where.end] != '\n')
       ++where.end;
+    const std::string reason = plainMessage(error.description());
+    // A word where a value should be is text without quotes.
+    const bool unquoted =
+        word && !reason.starts_with("cannot redefine") && standsAsValue(text, where.begin);
     Diagnostic &d =
         diagnostics.report(Code::tomlSyntax, where, "`" + file.name() + "` is not valid TOML",
-                           plainMessage(error.description()));
-    if (isDuration(file.text().substr(where.begin)))
-      d.help("durations are text: put it in quotes");
+                           unquoted ? "not a value" : reason);
+    if (unquoted)
+      d.help(isDuration(text.substr(where.begin)) ? "durations are text: put it in quotes"
+                                                  : "text stands in quotes");
     return nullptr;
   }
   return std::make_unique<TomlNode>(reader.node(result.table()));

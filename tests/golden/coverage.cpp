@@ -15,6 +15,10 @@ static std::string allExpectations(const fs::path &root) {
     else if (entry.path().extension() == ".txt")
       all += test::readFile(entry.path());
   }
+  // What needs a broken tool chain is shown by the system tests.
+  for (const fs::directory_entry &entry : fs::directory_iterator(root.parent_path() / "system"))
+    if (entry.path().extension() == ".cpp")
+      all += test::readFile(entry.path());
   return all;
 }
 
