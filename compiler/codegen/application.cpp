@@ -131,13 +131,7 @@ private:
     }
   }
 
-  std::string memberName(const Root &root) {
-    std::string name;
-    if (!root.symbol->library->isUser)
-      name = std::string(c_.names.space(root.symbol->library)) + "__";
-    name += mangle(root.symbol->name.text);
-    return name + (root.isStatic ? "__static" : root.symbol->kind == SymbolKind::pou ? "__program" : "__");
-  }
+  std::string memberName(const Root &root) { return rootName(c_.names, root, c_.program.user); }
 
   void addRoots(const Member &m) {
     if (m.root.symbol->kind == SymbolKind::pou && !m.root.isStatic) {

@@ -207,9 +207,7 @@ void Emitter::builtinPlain(const CallExpr *e, const std::vector<std::string> *na
     w_ << "static_cast<::stride::TIME>(" << ctx() << ".cycleStartNs / 1000000)";
     return;
   case Builtin::adr:
-    w_ << '(';
     address(e->arguments[0].value);
-    w_ << ')';
     return;
   case Builtin::sizeofT:
     w_ << "static_cast<" << type(result) << ">(sizeof(" << type(e->arguments[0].value->type) << "))";

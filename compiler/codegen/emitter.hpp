@@ -36,6 +36,9 @@ struct Root {
 std::string rootType(Names &names, const Root &root);
 /// `::st::user::GVL__globals__at__`: the constant that holds its place in the state.
 std::string rootPlace(Names &names, const Root &root);
+/// `GVL__`, `Path__program`, `F__static`: what it is called in bodies and in the state; with the library's name in front
+/// when it is not `own`.
+std::string rootName(Names &names, const Root &root, const Library *own);
 /// The statics of a POU that has some.
 [[nodiscard]] bool hasStatics(const PouSymbol *pou);
 
@@ -178,6 +181,7 @@ private:
 
   // initializers.cpp
   void typeDefault(std::string_view target, const Type *type);
+  void defaultStatement(std::string_view target, const Type *type);
   void initValue(std::string_view target, const Type *type, const ast::Expr *init);
   std::uint64_t arrayValues(std::string_view target, const ArrayType *type, std::span<ast::AggregateItem> items,
                             const std::string &base, std::uint64_t at);

@@ -373,6 +373,16 @@ std::string rootPlace(Names &names, const Root &root) {
   return name + "at__";
 }
 
+std::string rootName(Names &names, const Root &root, const Library *own) {
+  std::string name;
+  if (root.symbol->library != own)
+    name = std::string(names.space(root.symbol->library)) + "__";
+  std::string local(names.local(root.symbol));
+  if (root.symbol->kind == SymbolKind::globals)
+    return name + local.erase(local.find("__globals__"), 9); // `GVL__`
+  return name + local + (root.isStatic ? "__static" : "__program");
+}
+
 bool hasStatics(const PouSymbol *pou) {
   for (const VarSymbol *v : pou->variables) {
     if (v->section == Section::stat)
@@ -388,11 +398,7 @@ std::string_view Emitter::root(const Root &root) {
   }
   usesContext_ = true;
   includes_.symbol(root.symbol);
-  std::string name;
-  if (root.symbol->library != c_.own)
-    name = std::string(c_.names.space(root.symbol->library)) + "__";
-  name += mangle(root.symbol->name.text);
-  name += root.isStatic ? "__static" : root.symbol->kind == SymbolKind::pou ? "__program" : "__";
+  std::string name = rootName(c_.names, root, c_.own);
   roots_.push_back({root, std::move(name)});
   return roots_.back().reference;
 }

@@ -42,41 +42,35 @@ void Emitter::initVariable(std::string_view target, const VarSymbol *variable) {
 void Emitter::typeDefault(std::string_view target, const Type *type) {
   if (!c_.layouts.needsInit(type))
     return;
+  begin(initSpan_);
+  defaultStatement(target, type);
+  end();
+}
+
+/// One statement.
+void Emitter::defaultStatement(std::string_view target, const Type *type) {
   switch (type->kind) {
   case TypeKind::enumeration: {
     const EnumeratorSymbol *initial = typeAs<EnumType>(type)->initial;
-    begin(initSpan_);
     w_ << target << " = ";
     literal({ConstKind::integer, initial->value, 0, {}}, type, type, initial);
     w_ << ';';
-    end();
     return;
   }
   case TypeKind::subrange:
-    begin(initSpan_);
     w_ << target << " = ";
     number(subrangeDefault(typeAs<SubrangeType>(type)), type);
     w_ << ';';
-    end();
     return;
   case TypeKind::array: {
     const std::string element = temporary("element");
-    begin(initSpan_);
-    w_ << "for (auto &" << element << " : " << target << ".v) {";
-    end();
-    open();
-    typeDefault(element, typeAs<ArrayType>(type)->element);
-    close();
-    begin(initSpan_);
-    w_ << '}';
-    end();
+    w_ << "for (auto &" << element << " : " << target << ".v) ";
+    defaultStatement(element, typeAs<ArrayType>(type)->element);
     return;
   }
   default:
     includes_.complete(type);
-    begin(initSpan_);
     w_ << target << ".init__(" << ctx() << ");";
-    end();
     return;
   }
 }
@@ -164,11 +158,19 @@ std::uint64_t Emitter::arrayValues(std::string_view target, const ArrayType *typ
         initValue(element(at), type->element, item.value);
       } else if (!skip && count > 1) {
         const std::string i = temporary("i");
+        const std::string each = std::string(target) + ".v[" + base + i + " + " + std::to_string(at) + "]";
         begin(initSpan_);
-        w_ << "for (::stride::ULINT " << i << " = 0; " << i << " < " << count << "; ++" << i << ") {";
+        w_ << "for (::stride::ULINT " << i << " = 0; " << i << " < " << count << "; ++" << i << ") ";
+        if (item.value->kind != ExprKind::aggregate) {
+          storeTo(each, type->element, item.value);
+          end();
+          at += count;
+          continue;
+        }
+        w_ << '{';
         end();
         open();
-        initValue(std::string(target) + ".v[" + base + i + " + " + std::to_string(at) + "]", type->element, item.value);
+        initValue(each, type->element, item.value);
         close();
         begin(initSpan_);
         w_ << '}';

@@ -52,6 +52,18 @@ struct ReservedWords {
   }
 };
 
+/// A file's name as an identifier.
+std::string identifier(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const bool good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    out.push_back(good ? c : '_');
+  }
+  if (out.empty() || (out[0] >= '0' && out[0] <= '9'))
+    out.insert(out.begin(), '_');
+  return out;
+}
+
 bool isUpper(char c) { return c >= 'A' && c <= 'Z'; }
 
 bool needsUnderscore(std::string_view name) {
@@ -103,6 +115,8 @@ const Names::Entry &Names::entry(const Symbol *symbol) {
   if (!fresh)
     return entry;
   std::string file(symbol->name.text);
+  if (symbol->kind == SymbolKind::globals)
+    file = identifier(file);
   const bool synthesized =
       symbol->kind == SymbolKind::type && static_cast<const TypeSymbol *>(symbol)->decl == nullptr;
   entry.local = synthesized ? file : mangle(file);

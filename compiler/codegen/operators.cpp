@@ -141,7 +141,8 @@ void Emitter::infixOperand(const BinaryExpr *e, const Infix &op, const Expr *sid
       childOp = infix(as<BinaryExpr>(shown)).op;
     parentheses = parenthesize(level(side), op, right, childOp);
     // `a == !b` is fine, `!a == b` is not (-Wlogical-not-parentheses).
-    parentheses = parentheses || (compared && shown->kind == ExprKind::unary && !right);
+    const bool comparing = op.level == kRelation || op.level == kEquality;
+    parentheses = parentheses || (comparing && shown->kind == ExprKind::unary && !right);
   }
   if (parentheses)
     w_ << '(';
