@@ -179,7 +179,7 @@ void AstBuilder::declaration(Context *context, Section section, std::uint8_t qua
   }
   const Token &start = token(first(names));
   const std::size_t end = last(names);
-  for (std::size_t i = first(names); i <= end && token(i).type == Tok::IDENT; ++i) {
+  for (std::size_t i = first(names); i <= end && token(i).type == Tok::IDENT;) {
     auto *node = arena_.make<VarDecl>();
     const Token &own = token(i);
     node->name = name(own);
@@ -197,7 +197,7 @@ void AstBuilder::declaration(Context *context, Section section, std::uint8_t qua
       i += 2;
     }
     out.push_back(node);
-    ++i; // the comma
+    i += 2; // the name and the comma
   }
 }
 
