@@ -256,6 +256,18 @@ TEST_F(Cli, AMissingCompilerIsNamed) {
   EXPECT_THAT(result.err, AllOf(HasSubstr("error[SE0991]"), HasSubstr("no-such-compiler")));
 }
 
+TEST_F(Cli, AnInstalledStrideBuildsAndRuns) {
+  const std::string prefix = (scratch_.path() / "usr").string();
+  const ProcessResult install =
+      runProcess({"cmake", "--install", STRIDE_BINARY_DIR, "--prefix", prefix}, scratch_.path());
+  ASSERT_EQ(install.exitCode, 0) << install.err;
+  write("a.st", kCounter);
+  const ProcessResult result =
+      runProcess({prefix + "/bin/stride", "sim", "a.st", "--for", "T#20ms", "--print", "PLC_PRG.n"},
+                 scratch_.path(), {{"XDG_CACHE_HOME", (scratch_.path() / "cache").string()}});
+  EXPECT_EQ(result.out, "PLC_PRG.n = 2\n") << result.err;
+}
+
 // -------------------------------------------------------------------------------------------------
 // plot, explain
 
