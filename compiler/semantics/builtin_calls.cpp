@@ -74,6 +74,12 @@ const Type *Checker::commonOfArguments(CallExpr *expr, std::size_t first) {
           common = both;
       }
     }
+    // `i := SEL(b, 1, 2)`: the result is as narrow as its constants.
+    expr->common = real ? elementaryType(TypeKind::real) : nullptr;
+    for (std::size_t i = first; i < expr->arguments.size() && !real; ++i) {
+      const Type *own = smallestInteger(expr->arguments[i].value->constant->integer);
+      expr->common = expr->common == nullptr ? own : commonNumber(expr->common, own);
+    }
   }
   for (std::size_t i = first; i < expr->arguments.size(); ++i) {
     Expr *value = expr->arguments[i].value;

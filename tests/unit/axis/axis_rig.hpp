@@ -3,6 +3,7 @@
 #define STRIDE_TESTS_UNIT_AXIS_AXIS_RIG_HPP
 
 #include "drivers/dummy/dummy_drive.hpp"
+#include "runtime/app/ctx.h"
 #include "runtime/axis/axis_group.hpp"
 #include "runtime/axis/increments.hpp"
 
