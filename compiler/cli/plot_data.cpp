@@ -69,7 +69,7 @@ std::optional<Cell> parseCell(std::string_view text) {
   return cell;
 }
 
-// `bBusy`, `Busy` hold truth values when they are only ever 0 and 1.
+// `bBusy`, whatever else its name says.
 bool namedLikeBool(std::string_view variable) {
   const std::size_t dot = variable.rfind('.');
   const std::string_view name = dot == std::string_view::npos ? variable : variable.substr(dot + 1);
@@ -145,7 +145,8 @@ std::optional<Trace> readTrace(std::string_view csv, TraceError &error) {
     Series &series = trace.series[i];
     const bool binary = std::all_of(series.values.begin(), series.values.end(),
                                     [](double value) { return value == 0 || value == 1; });
-    series.isBool = binary && (words[i] || namedLikeBool(series.name));
+    series.isBool =
+        binary && (words[i] || namedLikeBool(series.name) || quantityOf(series.name).unit.empty());
   }
   return trace;
 }

@@ -40,6 +40,13 @@ TEST(Trace, ReadsNumbersAndTruthValues) {
   EXPECT_EQ(trace.series[2].name, "c[1,2]");
 }
 
+TEST(Trace, ZeroAndOneWithoutAUnitAreTruthValues) {
+  const Trace trace = read("t,Main.Done,Drive.fSetPosition,Main.n\n0,0,0,0\n1,1,1,2\n");
+  EXPECT_TRUE(trace.series[0].isBool);
+  EXPECT_FALSE(trace.series[1].isBool);
+  EXPECT_FALSE(trace.series[2].isBool);
+}
+
 TEST(Trace, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(fail("").line, 1U);
   EXPECT_EQ(fail("x,y\n1,2\n").line, 1U);
