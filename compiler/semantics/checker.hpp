@@ -50,7 +50,8 @@ private:
   void resolveEnumerations(Module &module);
   void addName(Module &module, Symbol *symbol);
   void checkModule(Module &module);
-  /// Declares the blocks and lists read from libraries: an instance that nobody calls has members and defaults too.
+  /// Declares the blocks and lists read from libraries: an instance that nobody calls has members
+  /// and defaults too.
   void declareUsed();
   void checkContainment(Module &module);
 
@@ -87,6 +88,8 @@ private:
   ast::Expr *checkArrayInit(ast::AggregateExpr *init, const ArrayType *type);
   void checkFieldInit(ast::AggregateExpr *init, const Type *type);
   void checkItem(ast::AggregateItem &item, const Type *type);
+  /// `n(0)` with a constant n is a repetition, not a call; only the names tell.
+  void asRepetition(ast::AggregateItem &item);
 
   // expressions.cpp
   const Type *check(ast::Expr *expr, const Type *expected = nullptr);

@@ -162,6 +162,8 @@ void Checker::reportConversion(Expr *expr, const Type *from, const Type *to, Con
     else if (to->kind == TypeKind::boolean)
       d.help("compare it: `… <> 0`, or convert it" +
              (function.empty() ? "" : ": `" + function + "(…)`"));
+    else if (to->kind == TypeKind::time && from->kind == TypeKind::anyInteger)
+      d.help("write a duration with its unit: `T#" + text + "ms`");
     else if (!function.empty() && from->kind != TypeKind::anyInteger)
       d.help("convert it: `" + function + "(" + text + ")`");
     return;

@@ -255,8 +255,10 @@ Symbol *Checker::resolveNamespace(Expr *expr) {
   if (expr->kind == ExprKind::name) {
     auto *name = as<NameExpr>(expr);
     Symbol *symbol = lookup(name->name);
-    if (symbol != nullptr && symbol->kind == SymbolKind::variable && isElementary(typeOf(static_cast<VarSymbol *>(symbol)))) {
-      // `color : Color := Color.red`: a variable without members does not hide a type, list or library.
+    if (symbol != nullptr && symbol->kind == SymbolKind::variable &&
+        isElementary(typeOf(static_cast<VarSymbol *>(symbol)))) {
+      // `color : Color := Color.red`: a variable without members does not hide a type, list or
+      // library.
       Symbol *other = lookupInModule(*scope_.module, name->name.id);
       if (other == symbol || other == nullptr)
         other = lookupInLibraries(name->name.id);

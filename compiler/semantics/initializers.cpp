@@ -26,6 +26,7 @@ void Checker::checkInitOf(VarSymbol *variable) {
            "the value of `" + std::string(variable->name.text) + "` depends on itself",
            "this definition is a circle");
     variable->initRunning = false;
+    variable->constant = makeConstant({}); // known, so that nothing more is said about it
     return;
   }
   if (variable->initChecked)
@@ -49,7 +50,8 @@ void Checker::checkInitOf(VarSymbol *variable) {
   variable->initRunning = true;
   variable->decl->init = checkInit(variable->decl->init, type);
   variable->initRunning = false;
-  if (!variable->isConstant || !isElementary(type) || isError(type))
+  if (!variable->isConstant || !isElementary(type) || isError(type) ||
+      variable->constant != nullptr)
     return;
   const Expr *init = variable->decl->init;
   if (isError(init->type))
@@ -115,7 +117,34 @@ Expr *Checker::checkInit(Expr *init, const Type *type) {
   return init;
 }
 
+void Checker::asRepetition(AggregateItem &item) {
+  if (item.value == nullptr || item.value->kind != ExprKind::call)
+    return;
+  auto *call = as<CallExpr>(item.value);
+  if (call->callee->kind != ExprKind::name)
+    return;
+  Symbol *symbol = lookup(as<NameExpr>(call->callee)->name);
+  if (symbol == nullptr || symbol->kind != SymbolKind::variable ||
+      static_cast<VarSymbol *>(symbol)->isResult ||
+      isInstance(typeOf(static_cast<VarSymbol *>(symbol))))
+    return;
+  std::vector<AggregateItem> values;
+  for (const Argument &a : call->arguments) {
+    if (a.name || a.value == nullptr)
+      return;
+    AggregateItem inner;
+    inner.value = a.value;
+    inner.span = a.span;
+    values.push_back(inner);
+  }
+  item.repeat = call->callee;
+  item.value = values.size() == 1 ? values.front().value : nullptr;
+  if (values.size() > 1)
+    item.values = arena_.copy(values);
+}
+
 void Checker::checkItem(AggregateItem &item, const Type *type) {
+  asRepetition(item);
   if (item.repeat != nullptr) {
     const auto count = constantInteger(item.repeat, "the repetition of an initial value");
     if (count && *count < 0)

@@ -97,9 +97,9 @@ void Checker::checkAssign(AssignStmt *stmt) {
   for (std::size_t i = stmt->targets.size(); i-- > 0;) {
     Expr *target = stmt->targets[i];
     const Type *type = check(target);
-    requireVariable(target, "assign to");
+    const bool assignable = requireVariable(target, "assign to");
     if (i + 1 == stmt->targets.size())
-      expected = type;
+      expected = assignable ? type : elementaryType(TypeKind::error);
   }
   Expr *last = stmt->targets.back();
   if (stmt->op == AssignOp::reference) {
