@@ -63,7 +63,7 @@ unsigned Analysis::effects(const Expr *expr) {
       for (const Expr *i : index->indices) {
         if (array->kind != TypeKind::array)
           break;
-        if (!inBounds(i, typeAs<ArrayType>(array))) {
+        if (!provenIndex(i, typeAs<ArrayType>(array))) {
           if (checks_)
             result |= effectRaises;
           result |= effects(i);
@@ -247,7 +247,7 @@ bool mayChange(const Expr *target, const Symbol *variable) {
 
 bool Analysis::plainExpr(const Expr *expr) { return (effects(expr) & effectCalls) == 0; }
 
-bool Analysis::plainBlock(Block block, const Symbol *variable) {
+bool Analysis::plainBlock(Block block, const Symbol *variable, bool innerLoops) {
   for (const Stmt *s : block) {
     switch (s->kind) {
     case StmtKind::assign: {
@@ -263,10 +263,10 @@ bool Analysis::plainBlock(Block block, const Symbol *variable) {
     case StmtKind::ifS: {
       const auto *i = as<IfStmt>(s);
       for (const IfBranch &b : i->branches) {
-        if (!plainExpr(b.condition) || !plainBlock(b.body, variable))
+        if (!plainExpr(b.condition) || !plainBlock(b.body, variable, innerLoops))
           return false;
       }
-      if (!plainBlock(i->elseBody, variable))
+      if (!plainBlock(i->elseBody, variable, innerLoops))
         return false;
       break;
     }
@@ -275,7 +275,36 @@ bool Analysis::plainBlock(Block block, const Symbol *variable) {
     case StmtKind::continueS:
     case StmtKind::returnS:
       break;
-    default: // calls and inner loops; CASE is rare in such loops
+    case StmtKind::caseS: {
+      const auto *c = as<CaseStmt>(s);
+      if (!plainExpr(c->selector) || !plainBlock(c->elseBody, variable, innerLoops))
+        return false;
+      for (const CaseBranch &b : c->branches) {
+        if (!plainBlock(b.body, variable, innerLoops))
+          return false;
+      }
+      break;
+    }
+    case StmtKind::forS: {
+      const auto *f = as<ForStmt>(s);
+      if (!innerLoops || mayChange(f->variable, variable) || !plainExpr(f->variable) || !plainExpr(f->from) ||
+          !plainExpr(f->to) || (f->by != nullptr && !plainExpr(f->by)) || !plainBlock(f->body, variable, true))
+        return false;
+      break;
+    }
+    case StmtKind::whileS: {
+      const auto *w = as<WhileStmt>(s);
+      if (!innerLoops || !plainExpr(w->condition) || !plainBlock(w->body, variable, true))
+        return false;
+      break;
+    }
+    case StmtKind::repeatS: {
+      const auto *r = as<RepeatStmt>(s);
+      if (!innerLoops || !plainExpr(r->until) || !plainBlock(r->body, variable, true))
+        return false;
+      break;
+    }
+    default: // calls
       return false;
     }
   }
@@ -295,7 +324,58 @@ bool Analysis::shortLoop(const ForStmt *loop) {
     return false;
   if (distance / step > kShortLoop)
     return false;
-  return plainBlock(loop->body, variable);
+  return plainBlock(loop->body, variable, false);
+}
+
+void Analysis::enterLoop(const ForStmt *loop) {
+  Range range{nullptr, 0, 0};
+  const VarSymbol *variable = namedVariable(loop->variable);
+  const bool own = variable != nullptr && variable->owner != nullptr && variable->section != Section::inOut &&
+                   variable->section != Section::stat && variable->type->kind != TypeKind::reference;
+  if (own && loop->from->constant != nullptr && loop->to->constant != nullptr &&
+      (loop->by == nullptr || (loop->by->constant != nullptr && loop->by->constant->integer != 0)) &&
+      plainBlock(loop->body, variable, true)) {
+    const std::int64_t from = loop->from->constant->integer;
+    const std::int64_t to = loop->to->constant->integer;
+    const bool up = loop->by == nullptr || loop->by->constant->integer > 0;
+    if (up ? from <= to : to <= from)
+      range = {variable, up ? from : to, up ? to : from};
+  }
+  ranges_.push_back(range);
+}
+
+void Analysis::leaveLoop() { ranges_.pop_back(); }
+
+bool Analysis::provenIndex(const Expr *index, const ArrayType *array) const {
+  if (index->constant != nullptr)
+    return inBounds(index, array);
+  if (ranges_.empty())
+    return false;
+  std::int64_t offset = 0;
+  bool isSigned = true;
+  if (index->kind == ExprKind::binary) {
+    const auto *sum = as<BinaryExpr>(index);
+    const ConstValue *c = sum->right->constant;
+    constexpr std::int64_t kFar = 1 << 30; // far from where the sum could wrap
+    if ((sum->op != BinaryOp::add && sum->op != BinaryOp::subtract) || c == nullptr || c->kind != ConstKind::integer ||
+        c->integer < -kFar || c->integer > kFar)
+      return false;
+    offset = sum->op == BinaryOp::add ? c->integer : -c->integer;
+    isSigned = isSignedInteger(underlying(sum->operandType));
+    index = sum->left;
+  }
+  const VarSymbol *variable = namedVariable(index);
+  if (variable == nullptr)
+    return false;
+  for (std::size_t i = ranges_.size(); i-- > 0;) {
+    const Range &r = ranges_[i];
+    if (r.variable != variable)
+      continue;
+    constexpr std::int64_t kLimit = 1 << 30;
+    return r.low >= -kLimit && r.high <= kLimit && (isSigned || r.low + offset >= 0) && r.low + offset >= array->low &&
+           r.high + offset <= array->high;
+  }
+  return false;
 }
 
 } // namespace stc::codegen

@@ -5,6 +5,7 @@
 #include "compiler/semantics/program.hpp"
 
 #include <unordered_map>
+#include <vector>
 
 namespace stc::codegen {
 
@@ -33,14 +34,27 @@ public:
 
   static constexpr std::int64_t kShortLoop = 65536;
 
+  /// Within the body of a FOR loop with constant bounds its variable has a known range, if nothing else can change it.
+  void enterLoop(const ast::ForStmt *loop);
+  void leaveLoop();
+  /// The index needs no check: a constant, or a loop variable (plus a constant) that stays within the bounds.
+  [[nodiscard]] bool provenIndex(const ast::Expr *index, const ArrayType *array) const;
+
 private:
   bool pureBlock(ast::Block block, const PouSymbol *function);
   bool pureExpr(const ast::Expr *expr);
   bool localTarget(const ast::Expr *target, const PouSymbol *function) const;
-  bool plainBlock(ast::Block block, const Symbol *variable);
+  bool plainBlock(ast::Block block, const Symbol *variable, bool innerLoops);
   bool plainExpr(const ast::Expr *expr);
 
+  struct Range {
+    const VarSymbol *variable; ///< null: nothing is known
+    std::int64_t low;
+    std::int64_t high;
+  };
+
   bool checks_;
+  std::vector<Range> ranges_;
   std::unordered_map<const PouSymbol *, bool> pure_;
 };
 

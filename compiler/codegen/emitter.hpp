@@ -127,7 +127,7 @@ private:
   void basePath(const Type *base, const VarSymbol *field);
   void index(const ast::IndexExpr *e);
   [[nodiscard]] int level(const ast::Expr *e) const;
-  [[nodiscard]] static const ast::Expr *skipPlus(const ast::Expr *e);
+  [[nodiscard]] static const ast::Expr *shown(const ast::Expr *e);
 
   // operators.cpp
   void unary(const ast::UnaryExpr *e);

@@ -37,6 +37,7 @@ void Emitter::valueAs(const Expr *e, const Type *type) {
 }
 
 void Emitter::raw(const Expr *e) {
+  e = shown(e);
   if (e->constant != nullptr) {
     literal(*e->constant, e->type, e->type, symbolOf(e));
     return;
@@ -266,7 +267,9 @@ void Emitter::index(const IndexExpr *e) {
     w_ << ".v[";
     if (inBounds(i, array)) {
       w_ << i->constant->integer - array->low;
-    } else if (checks()) {
+    } else if (array->low == 0 && c_.analysis.provenIndex(i, array)) {
+      value(i);
+    } else if (checks() && !c_.analysis.provenIndex(i, array)) {
       w_ << "::stride::index<" << array->low << ", " << array->high << ">(" << ctx() << ", ";
       value(i);
       w_ << ", ";
@@ -284,15 +287,26 @@ void Emitter::index(const IndexExpr *e) {
 
 // ---------------------------------------------------------------------------------------------------- parentheses
 
-const Expr *Emitter::skipPlus(const Expr *e) {
-  while (e->kind == ExprKind::unary && as<UnaryExpr>(e)->op == UnaryOp::plus && e->constant == nullptr &&
-         as<UnaryExpr>(e)->operand->target == nullptr)
-    e = as<UnaryExpr>(e)->operand;
+/// What is written for the expression: `+x` is x, pairs of one operator cancel (NOT NOT x).
+const Expr *Emitter::shown(const Expr *e) {
+  const auto plain = [](const Expr *x) {
+    return x->kind == ExprKind::unary && x->constant == nullptr && as<UnaryExpr>(x)->operand->target == nullptr;
+  };
+  while (plain(e)) {
+    const auto *outer = as<UnaryExpr>(e);
+    if (outer->op == UnaryOp::plus) {
+      e = outer->operand;
+      continue;
+    }
+    if (!plain(outer->operand) || as<UnaryExpr>(outer->operand)->op != outer->op || outer->operand->type != e->type)
+      break;
+    e = as<UnaryExpr>(outer->operand)->operand;
+  }
   return e;
 }
 
 int Emitter::level(const Expr *e) const {
-  e = skipPlus(e);
+  e = shown(e);
   if (e->constant != nullptr) {
     const ConstValue &c = *e->constant;
     const bool negative = c.kind == ConstKind::integer ? c.integer < 0 : c.kind == ConstKind::real && std::signbit(c.real);

@@ -135,14 +135,14 @@ void Emitter::infixOperand(const BinaryExpr *e, const Infix &op, const Expr *sid
   const Expr *other = right ? e->left : e->right;
   bool parentheses = false;
   if (side->constant == nullptr && implicitOperand(side, e->operandType, other, compared)) {
-    const Expr *shown = skipPlus(side);
+    const Expr *child = shown(side);
     std::string_view childOp;
-    if (shown->kind == ExprKind::binary)
-      childOp = infix(as<BinaryExpr>(shown)).op;
+    if (child->kind == ExprKind::binary)
+      childOp = infix(as<BinaryExpr>(child)).op;
     parentheses = parenthesize(level(side), op, right, childOp);
     // `a == !b` is fine, `!a == b` is not (-Wlogical-not-parentheses).
     const bool comparing = op.level == kRelation || op.level == kEquality;
-    parentheses = parentheses || (comparing && shown->kind == ExprKind::unary && !right);
+    parentheses = parentheses || (comparing && child->kind == ExprKind::unary && !right);
   }
   if (parentheses)
     w_ << '(';
@@ -152,18 +152,6 @@ void Emitter::infixOperand(const BinaryExpr *e, const Infix &op, const Expr *sid
 }
 
 void Emitter::unary(const UnaryExpr *e) {
-  // Pairs of one operator cancel: NOT NOT x.
-  while (e->operand->kind == ExprKind::unary && e->operand->target == nullptr && e->operand->constant == nullptr) {
-    const auto *inner = as<UnaryExpr>(e->operand);
-    if (inner->op != e->op || e->op == UnaryOp::plus || inner->operand->target != nullptr || inner->type != e->type)
-      break;
-    if (inner->operand->kind != ExprKind::unary || inner->operand->constant != nullptr ||
-        as<UnaryExpr>(inner->operand)->op != e->op) {
-      raw(inner->operand);
-      return;
-    }
-    e = as<UnaryExpr>(inner->operand);
-  }
   const Type *type = underlying(e->type);
   if (e->op == UnaryOp::plus) {
     operand(e->operand, type, nullptr, false);

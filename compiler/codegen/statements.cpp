@@ -463,7 +463,9 @@ void Emitter::forStatement(const ForStmt *s) {
     w_ << "step__" << number;
   w_ << ")) {";
   end();
+  c_.analysis.enterLoop(s);
   loopBody(s->body, s->span, !c_.analysis.shortLoop(s));
+  c_.analysis.leaveLoop();
   w_.line() << '}';
   end();
   endLoop();

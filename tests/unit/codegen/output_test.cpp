@@ -63,6 +63,27 @@ END_PROGRAM
   EXPECT_THAT(fileText(files, "user/Main.cpp"), Not(HasSubstr("loopTick")));
 }
 
+TEST(CodegenOutput, ProvenIndicesAreNotChecked) {
+  const auto body = [](const std::string &statements) {
+    const auto files = generate({{"Main.st", "FUNCTION_BLOCK B VAR_IN_OUT n : INT; END_VAR END_FUNCTION_BLOCK\n"
+                                             "PROGRAM Main\n"
+                                             "VAR i, k : INT; a : ARRAY[0..9] OF INT; b : ARRAY[1..5] OF INT; f : B; "
+                                             "p : POINTER TO INT; u : UDINT; END_VAR\n" +
+                                                 statements + "\nEND_PROGRAM\n"}});
+    return fileText(files, "user/Main.cpp");
+  };
+  EXPECT_THAT(body("FOR i := 0 TO 9 DO a[i] := a[9 - 0]; END_FOR"), Not(HasSubstr("index<")));
+  EXPECT_THAT(body("FOR i := 4 TO 0 BY -1 DO b[i + 1] := 1; END_FOR"), Not(HasSubstr("index<")));
+  EXPECT_THAT(body("FOR i := 0 TO 9 DO FOR k := 1 TO 5 DO a[i] := b[k]; END_FOR END_FOR"), Not(HasSubstr("index<")));
+  EXPECT_THAT(body("FOR i := 0 TO 10 DO a[i] := 1; END_FOR"), HasSubstr("index<0, 9>"));
+  EXPECT_THAT(body("FOR i := 0 TO 9 DO a[i] := 1; END_FOR a[i] := 2;"), HasSubstr("index<0, 9>"));
+  EXPECT_THAT(body("FOR i := 0 TO k DO a[i] := 1; END_FOR"), HasSubstr("index<0, 9>"));
+  EXPECT_THAT(body("FOR i := 0 TO 9 DO i := i * 2; a[i] := 1; END_FOR"), HasSubstr("index<0, 9>"));
+  EXPECT_THAT(body("FOR i := 0 TO 9 DO f(n := i); a[i] := 1; END_FOR"), HasSubstr("index<0, 9>"));
+  EXPECT_THAT(body("FOR i := 0 TO 9 DO p^ := 70; a[i] := 1; END_FOR"), HasSubstr("index<0, 9>"));
+  EXPECT_THAT(body("FOR u := 0 TO 4 DO b[u - 1] := 1; END_FOR"), HasSubstr("index<1, 5>"));
+}
+
 TEST(CodegenOutput, PointedToTypesAreDeclaredOnly) {
   const auto files = generate({{"Main.st", R"(
 TYPE Node : STRUCT next : POINTER TO Node; other : POINTER TO Leaf; END_STRUCT END_TYPE
