@@ -191,9 +191,10 @@ void AstBuilder::declaration(Context *context, Section section, std::uint8_t qua
     node->attributes = attributes(documented);
     node->doc = doc(documented);
     if (i + 2 <= end && token(i + 1).type == Tok::AT) {
-      node->addressSpan = span(token(i + 2));
-      if (!token(i + 2).reported)
+      if (!token(i + 2).reported) {
+        node->addressSpan = span(token(i + 2));
         node->address = text(token(i + 2));
+      }
       i += 2;
     }
     out.push_back(node);

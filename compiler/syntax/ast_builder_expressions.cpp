@@ -176,6 +176,8 @@ Expr *AstBuilder::primary(Context *context, std::size_t &at, std::size_t &nextCh
   switch (start.type) {
   case Tok::IDENT: {
     ++at;
+    if (start.reported) // not a name of anything
+      return error(span(start));
     auto *node = arena_.make<NameExpr>();
     node->kind = ExprKind::name;
     node->name = name(start);
@@ -255,6 +257,10 @@ Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::si
       if (member.type == Tok::DIRECT) {
         if (!member.reported)
           notSupported(span(member), "partial access");
+        base = error(base->span.to(span(member)));
+        break;
+      }
+      if (member.reported) {
         base = error(base->span.to(span(member)));
         break;
       }

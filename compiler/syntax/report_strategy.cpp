@@ -272,6 +272,11 @@ void ReportStrategy::reportKeywordAsName(const Token &token) {
       .help("choose another name, for example " + ticked(std::string(spelling(token)) + "_"));
 }
 
+void ReportStrategy::useAsName(Token &token) {
+  token.type = Tok::IDENT;
+  token.reported = true;
+}
+
 void ReportStrategy::reportUnexpected(const std::string &expected) {
   if (!mayReport())
     return;
@@ -490,6 +495,11 @@ antlr4::Token *ReportStrategy::recoverInline(antlr4::Parser *) {
     }
     if (thenFollows(wanted)) {
       reportUnexpected("an operator or " + ticked(tokenSpelling(wanted)));
+      // What stands in front is only a part of the condition.
+      if (!parser_.context()->children.empty()) {
+        static_cast<Context *>(parser_.context()->children.back())->exception =
+            std::make_exception_ptr(antlr4::ParseCancellationException());
+      }
       while (current().type != wanted)
         stream.advance();
       return takeIt();
@@ -554,7 +564,7 @@ antlr4::Token *ReportStrategy::recoverInline(antlr4::Parser *) {
   case Tok::IDENT:
     if (isKeywordType(found) && !isCloser(found)) {
       reportKeywordAsName(current());
-      current().type = Tok::IDENT;
+      useAsName(current());
       return takeIt();
     }
     reportUnexpected("a name");
@@ -688,7 +698,7 @@ void ReportStrategy::syncDeclarations(bool (*good)(std::uint16_t), const std::st
   while (!good(current().type) && !isEnd(current().type)) {
     if (keywordAsName(current())) {
       reportKeywordAsName(current());
-      current().type = Tok::IDENT;
+      useAsName(current());
       return;
     }
     if (current().type == Tok::SEMICOLON) { // stray
@@ -753,7 +763,7 @@ void ReportStrategy::syncStatements() {
     }
     if (keywordAsName(token)) {
       reportKeywordAsName(token);
-      token.type = Tok::IDENT;
+      useAsName(token);
       return;
     }
     reportUnexpected("a statement");

@@ -376,8 +376,10 @@ void Scanner::skipBlanks() {
 Token Scanner::next() {
   Token token;
   token.type = 0; // stands for: nothing but bad characters
+  bool afterBad = false;
   while (token.type == 0) {
     skipBlanks();
+    token.reported |= afterBad;
     const std::size_t begin = place_;
     token.begin = static_cast<std::uint32_t>(begin);
     if (begin >= text_.size()) {
@@ -395,6 +397,7 @@ Token Scanner::next() {
       token.type = sign(begin, token);
       break;
     }
+    afterBad = token.type == 0;
   }
   token.end = static_cast<std::uint32_t>(place_);
   if (const auto count = trivia_.size() - pendingTrivia_; count != 0) {
@@ -406,6 +409,14 @@ Token Scanner::next() {
   beforePrevious_ = previous_;
   previous_ = token.type;
   return token;
+}
+
+bool Scanner::firstOf(std::uint32_t hash) {
+  if (std::find(badNames_.begin(), badNames_.end(), hash) != badNames_.end())
+    return false;
+  if (badNames_.size() < 1000)
+    badNames_.push_back(hash);
+  return true;
 }
 
 std::uint16_t Scanner::word(std::size_t begin, Token &token) {
@@ -430,7 +441,7 @@ std::uint16_t Scanner::word(std::size_t begin, Token &token) {
   const std::string_view spelling = text_.substr(begin, end - begin);
   if (foreignLetters) {
     token.reported = true;
-    if (++badCharacters_ <= kMaxBadCharacters) {
+    if (firstOf(hash) && ++badCharacters_ <= kMaxBadCharacters) {
       std::size_t from = begin;
       while (!isForeign(data[from]))
         ++from;
@@ -461,18 +472,21 @@ std::uint16_t Scanner::word(std::size_t begin, Token &token) {
   }
   if (spelling.size() > kMaxName) {
     token.reported = true;
-    diagnostics_
-        .report(Code::nameTooLong, span(begin, end),
-                "this name has " + std::to_string(spelling.size()) + " characters")
-        .note("a name has at most " + std::to_string(kMaxName) + " characters");
+    if (firstOf(hash))
+      diagnostics_
+          .report(Code::nameTooLong, span(begin, end),
+                  "this name has " + std::to_string(spelling.size()) + " characters")
+          .note("a name has at most " + std::to_string(kMaxName) + " characters");
   }
   if (doubled && !isKnownDoubleUnderscore(spelling)) {
     token.reported = true;
-    diagnostics_
-        .report(Code::doubleUnderscore, span(begin, end),
-                "the name `" + std::string(spelling.substr(0, 80)) +
-                    "` has two underscores in a row")
-        .note("names have single underscores; two in a row are kept for operators such as `__NEW` "
+    if (firstOf(hash))
+      diagnostics_
+          .report(Code::doubleUnderscore, span(begin, end),
+                  "the name `" + std::string(spelling.substr(0, 80)) +
+                      "` has two underscores in a row")
+          .note(
+              "names have single underscores; two in a row are kept for operators such as `__NEW` "
               "and for generated "
               "names");
   }

@@ -55,6 +55,8 @@ private:
   std::uint16_t foreign(std::size_t begin, std::size_t length, std::uint16_t meant, Token &token);
   void numberBody();
   void badCharacters(std::size_t begin);
+  /// True for the first of several equal names, so that one mistake is reported once.
+  [[nodiscard]] bool firstOf(std::uint32_t hash);
 
   std::string_view text_;
   FileId file_;
@@ -64,6 +66,7 @@ private:
   std::uint16_t beforePrevious_ = 0; ///< and of the one before it
   std::uint32_t pendingTrivia_ = 0;
   unsigned badCharacters_ = 0;
+  std::vector<std::uint32_t> badNames_; ///< hashes of names that were reported
   std::vector<Trivia> trivia_;
 };
 

@@ -151,6 +151,7 @@ private:
   [[nodiscard]] const Context *innermostBlock() const;
   [[nodiscard]] bool keywordAsName(const Token &token);
   void reportKeywordAsName(const Token &token);
+  static void useAsName(Token &token);
   void reportUnexpected(const std::string &expected);
   void reportMissing(std::uint16_t wanted);
   void reportMissingEnd(std::uint16_t wanted);
