@@ -6,6 +6,7 @@
 #include "compiler/project/job_pool.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -22,6 +23,9 @@ namespace {
 
 // Files in a cache folder, before the oldest are removed.
 constexpr std::size_t kCacheFiles = 1000;
+
+// Folders in the user's cache where the sources of single files are compiled.
+constexpr std::string_view kWorkPrefix = "work-";
 
 // The dialect's semantics depend on these: DESIGN, section 4.
 constexpr const char *kFixedFlags[] = {"-std=c++20",        "-fPIC",
@@ -89,6 +93,18 @@ void pruneCache(const fs::path &cache) {
   std::sort(files.begin(), files.end());
   for (std::size_t i = 0; i < files.size() - kCacheFiles / 2; ++i)
     fs::remove(files[i].second, error);
+}
+
+// Removes what failed builds of single files have left there for their message, after a day.
+void removeAbandoned(const fs::path &folder) {
+  std::error_code error;
+  const auto limit = fs::file_time_type::clock::now() - std::chrono::hours(24);
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    std::error_code ignored;
+    if (at->path().filename().string().starts_with(kWorkPrefix) &&
+        at->last_write_time(ignored) < limit)
+      fs::remove_all(at->path(), ignored);
+  }
 }
 
 // Marks a file of the cache as used; false when it is not there.
@@ -170,7 +186,8 @@ private:
     std::error_code error;
     if (project_.isSingleFile()) {
       cache_ = userCacheFolder() / "objects";
-      sources_ = userCacheFolder() / fmt::format("work-{}", ::getpid());
+      removeAbandoned(userCacheFolder());
+      sources_ = userCacheFolder() / fmt::format("{}{}", kWorkPrefix, ::getpid());
     } else {
       const fs::path folder = project_.path() / "build";
       cache_ = folder / "cache";

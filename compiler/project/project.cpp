@@ -17,7 +17,8 @@ constexpr std::string_view kManifest = "stride.toml";
 // The list of the drives' variables has this file's name, as in CoDeSys.
 constexpr std::string_view kPlcFile = "<plc>/Drive_Configuration_Data.st";
 
-// All source files below the folder, sorted by path. Hidden and `build` folders are left out.
+// All source files below the folder, sorted by path. Hidden and `build` folders are left out, and
+// other projects.
 std::vector<fs::path> findSources(const fs::path &folder, std::error_code &error) {
   std::vector<fs::path> found;
   fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
@@ -25,7 +26,7 @@ std::vector<fs::path> findSources(const fs::path &folder, std::error_code &error
     const std::string name = at->path().filename().string();
     std::error_code ignored;
     if (at->is_directory(ignored)) {
-      if (name.starts_with('.') || name == "build")
+      if (name.starts_with('.') || name == "build" || fs::exists(at->path() / kManifest, ignored))
         at.disable_recursion_pending();
       continue;
     }

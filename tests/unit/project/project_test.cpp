@@ -46,12 +46,14 @@ protected:
 
 constexpr const char *kProgram = "PROGRAM PLC_PRG\nEND_PROGRAM\n";
 
-TEST_F(ProjectTest, ReadsAFolderSortedAndSkipsHiddenAndBuild) {
+TEST_F(ProjectTest, ReadsAFolderSortedAndSkipsWhatIsNotItsOwn) {
   write("b.st", kProgram);
   write("a/z.ST", "FUNCTION_BLOCK Z\nEND_FUNCTION_BLOCK\n");
   write("build/x.st", "nonsense");
   write(".git/x.st", "nonsense");
   write("readme.txt", "nonsense");
+  write("other/stride.toml", "[project]\n");
+  write("other/x.st", "nonsense");
   EXPECT_THAT(open(folder_), IsEmpty());
   EXPECT_THAT(names_, ElementsAre("a/z.ST", "b.st"));
 }
