@@ -25,9 +25,10 @@ TEST(Schema, IsDocumented) {
     EXPECT_THAT(*text, HasSubstr(std::string(section.path)));
     for (const Parameter &parameter : section.parameters) {
       EXPECT_THAT(*text, HasSubstr("`" + std::string(parameter.name) + "`"));
+      if (parameter.name.starts_with("wCyclicDataR"))
+        continue; // `"ActPosition"`, …
       for (const Choice &choice : parameter.choices)
-        if (!parameter.name.starts_with("wCyclicDataR")) // `"ActPosition"`, …
-          EXPECT_THAT(*text, HasSubstr("\"" + std::string(choice.name) + "\""));
+        EXPECT_THAT(*text, HasSubstr("\"" + std::string(choice.name) + "\""));
     }
   });
 }
@@ -39,8 +40,9 @@ TEST(Schema, MakesSense) {
       EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
       EXPECT_EQ(parameter.type == ParameterType::choice, !parameter.choices.empty())
           << parameter.name;
-      if (parameter.type == ParameterType::integer || parameter.type == ParameterType::real)
+      if (parameter.type == ParameterType::integer || parameter.type == ParameterType::real) {
         EXPECT_LT(parameter.low, parameter.high) << parameter.name;
+      }
     }
     for (const Section *child : section.sections)
       EXPECT_TRUE(names.insert(child->name).second) << child->name;
