@@ -169,6 +169,7 @@ private:
   void statement(const ast::Stmt *s);
   void assign(const ast::AssignStmt *s);
   void store(const ast::Expr *target, const ast::Expr *value);
+  bool copyInstance(const ast::Expr *target, const ast::Expr *value);
   void storeTo(std::string_view target, const Type *type, const ast::Expr *value);
   void callStatement(const ast::CallStmt *s);
   void ifStatement(const ast::IfStmt *s);

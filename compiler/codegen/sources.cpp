@@ -154,7 +154,7 @@ private:
   void budget() {
     if (!e_.usesBudget())
       return;
-    text_.line() << "  ::stride::LINT budget__ = ctx__.loopBudget;";
+    text_.line() << "  ::stride::LoopBudget budget__(ctx__);";
     text_.endLine();
   }
 

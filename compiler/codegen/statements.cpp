@@ -139,10 +139,36 @@ void Emitter::store(const Expr *target, const Expr *value) {
     storeTo(placeText(target), target->type, value);
     return;
   }
+  if (target->type->kind == TypeKind::functionBlock && copyInstance(target, value))
+    return;
   place(target);
   w_ << " = ";
   valueAs(value, target->type);
   w_ << ';';
+}
+
+/// Copying an instance copies no binding of its in-outs: the target keeps its own.
+bool Emitter::copyInstance(const Expr *target, const Expr *value) {
+  std::vector<std::pair<std::string, std::string>> kept;
+  for (const VarSymbol *v : typeAs<PouType>(target->type)->symbol->variables) {
+    if (v->section == Section::inOut)
+      kept.emplace_back(mangle(v->name.text), temporary("bound"));
+  }
+  if (kept.empty())
+    return false;
+  const std::string name = temporary("to");
+  w_ << "{ auto &" << name << " = ";
+  place(target);
+  w_ << "; ";
+  for (const auto &[field, slot] : kept)
+    w_ << "auto *const " << slot << " = " << name << '.' << field << "; ";
+  w_ << name << " = ";
+  valueAs(value, target->type);
+  w_ << "; ";
+  for (const auto &[field, slot] : kept)
+    w_ << name << '.' << field << " = " << slot << "; ";
+  w_ << '}';
+  return true;
 }
 
 void Emitter::assign(const AssignStmt *s) {
@@ -405,7 +431,8 @@ void Emitter::loopBody(Block body, Span span, bool tick) {
   if (tick) {
     usesBudget_ = true;
     begin(span);
-    w_ << "::stride::loopTick(" << ctx() << ", budget__, ";
+    usesContext_ = true;
+    w_ << "budget__.tick(";
     position(span);
     w_ << ");";
     end();

@@ -75,14 +75,28 @@ inline void loopTick(Ctx &ctx, const char *file, uint32_t line, uint32_t col) {
   if (--ctx.loopBudget < 0) [[unlikely]]
     loopBudgetSpent(ctx, file, line, col);
 }
-/// As above with a copy of the budget that the compiler can keep in a register: generated bodies
-/// start with one of ctx.loopBudget.
-inline void loopTick(Ctx &ctx, int64_t &budget, const char *file, uint32_t line, uint32_t col) {
-  if (--budget < 0) [[unlikely]] {
-    loopBudgetSpent(ctx, file, line, col);
-    budget = ctx.loopBudget;
+/// The loop budget within one call of a POU: a copy that the compiler can keep in a register. What
+/// was used is taken from ctx.loopBudget when the call ends, so that loops around calls count too.
+class LoopBudget {
+public:
+  explicit LoopBudget(Ctx &ctx) : ctx_(ctx), left_(ctx.loopBudget), start_(left_) {}
+  ~LoopBudget() { ctx_.loopBudget -= start_ - left_; }
+  LoopBudget(const LoopBudget &) = delete;
+  LoopBudget &operator=(const LoopBudget &) = delete;
+
+  /// At every loop's back edge.
+  void tick(const char *file, uint32_t line, uint32_t col) {
+    if (--left_ < 0) [[unlikely]] {
+      loopBudgetSpent(ctx_, file, line, col);
+      left_ = start_ = ctx_.loopBudget;
+    }
   }
-}
+
+private:
+  Ctx &ctx_;
+  int64_t left_;
+  int64_t start_;
+};
 
 /// An object of the application at its place in the state.
 template <class T> inline T &root(Ctx &ctx, uint64_t place) {

@@ -141,7 +141,7 @@ END_FUNCTION_BLOCK
 PROGRAM Main
 VAR
   c : Counter := (step := 2); total : DINT; pt : Point; n : LINT; d : ARRAY[0..1] OF Counter; i : INT := 1; o : Outer;
-  ptr : POINTER TO Counter; ref : REFERENCE TO Counter; copy : Counter; bits : BYTE;
+  ptr : POINTER TO Counter; ref : REFERENCE TO Counter; copy : Counter; bits : BYTE; unbound : DINT;
 END_VAR
   c(total := total, pt := pt);
   c(step := 5, total := total, pt := pt, count => n, done => bits.2);
@@ -152,10 +152,11 @@ END_VAR
   ref(total := total, pt := pt);
   o(inner := c);
   copy := c;
+  unbound := copy.total;
 END_PROGRAM
 )");
   app.run();
-  EXPECT_EQ(app.exception(), "");
+  EXPECT_EQ(app.exception(), "UnboundInOut Main.st:38:14"); // a copy is not bound
   EXPECT_EQ(app["Main.n"], "7");
   EXPECT_EQ(app["Main.bits"], "4");
   EXPECT_EQ(app["Main.total"], "14");

@@ -60,7 +60,7 @@ VAR i : INT; a : ARRAY[0..9] OF INT; n : INT; END_VAR
   FOR i := 0 TO 9 DO a[i] := i; END_FOR
 END_PROGRAM
 )"}});
-  EXPECT_THAT(fileText(files, "user/Main.cpp"), Not(HasSubstr("loopTick")));
+  EXPECT_THAT(fileText(files, "user/Main.cpp"), Not(HasSubstr("budget__")));
 }
 
 TEST(CodegenOutput, ProvenIndicesAreNotChecked) {

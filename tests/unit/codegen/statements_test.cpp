@@ -65,6 +65,23 @@ END_PROGRAM
   EXPECT_EQ(app.exception(), "EndlessLoop Main.st:9:8");
 }
 
+TEST(CodegenStatements, LoopsInCallsCount) {
+  App app(R"(
+FUNCTION Busy : INT
+VAR i : INT; END_VAR
+  WHILE i < 1000 DO i := i + 1; END_WHILE
+  Busy := i;
+END_FUNCTION
+PROGRAM Main
+VAR n : DINT; x : INT; END_VAR
+  WHILE TRUE DO x := Busy(); n := n + 1; END_WHILE
+END_PROGRAM
+)");
+  app.run();
+  EXPECT_EQ(app.exception(), "EndlessLoop Main.st:4:3");
+  EXPECT_EQ(app["Main.n"], "100"); // of the test's budget of 100,000
+}
+
 TEST(CodegenStatements, LoopControl) {
   App app(R"(
 TYPE Color : (red, green := 5, blue); END_TYPE
