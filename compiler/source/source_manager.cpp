@@ -68,6 +68,10 @@ SourceFile::SourceFile(FileId id, std::string name, std::string text)
       break;
     lineStarts_.push_back(static_cast<std::uint32_t>(++at - begin));
   }
+  unsigned char all = 0;
+  for (const char c : text_)
+    all |= static_cast<unsigned char>(c);
+  ascii_ = all < 0x80;
 }
 
 std::uint32_t SourceFile::lineNumber(std::uint32_t offset) const {
@@ -78,6 +82,8 @@ std::uint32_t SourceFile::lineNumber(std::uint32_t offset) const {
 LineColumn SourceFile::position(std::uint32_t offset) const {
   offset = std::min(offset, static_cast<std::uint32_t>(text_.size()));
   const std::uint32_t number = lineNumber(offset);
+  if (ascii_)
+    return {number, offset - lineStart(number) + 1};
   const auto characters =
       std::count_if(text_.begin() + lineStart(number), text_.begin() + offset,
                     [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });

@@ -41,6 +41,7 @@ private:
   std::string name_;
   std::string text_;
   std::vector<std::uint32_t> lineStarts_;
+  bool ascii_ = true; ///< every character is one byte
 };
 
 /// Owns all source texts; addresses of files stay valid for its lifetime.
