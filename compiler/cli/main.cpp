@@ -72,22 +72,30 @@ int run(int argc, char **argv) {
   CLI::App *sim = app.add_subcommand("sim", "Build, then run in virtual time");
   addProjectOptions(*sim, options, true);
   const auto pass = [&](const char *option, const char *help, const char *type) {
-    sim->add_option_function<std::vector<std::string>>(
-           std::string("--") + option,
-           [&host, option](const std::vector<std::string> &values) {
-             for (const std::string &value : values)
-               host.insert(host.end(), {std::string("--") + option, value});
-           },
-           help)
+    return sim
+        ->add_option_function<std::vector<std::string>>(
+            option,
+            [&host, option](const std::vector<std::string> &values) {
+              for (const std::string &value : values)
+                host.insert(host.end(), {option, value});
+            },
+            help)
         ->expected(1)
         ->take_all()
         ->type_name(type);
   };
-  pass("for", "How long, in virtual time: T#5s", "TIME");
-  pass("trace", "Variables to record in every cycle: Drive.fSetPosition,Main.n", "NAMES");
-  pass("out", "CSV file for the trace", "FILE");
-  pass("set", "Write a variable at a time: T#3s,Main.p=50 (may be repeated)", "TIME,NAME=VALUE");
-  pass("print", "Variables to print at the end", "NAMES");
+  const auto passFlag = [&](const char *option, const char *help) {
+    sim->add_flag_callback(
+        option, [&host, option] { host.emplace_back(option); }, help);
+  };
+  pass("--for", "How long, in virtual time: T#5s", "TIME")->required();
+  pass("--trace", "Variables to record in every cycle: Drive.fSetPosition,Main.n", "NAMES");
+  pass("--out", "CSV file for the trace (default: standard output)", "FILE");
+  pass("--set", "Write a variable at a time: T#3s,Main.p=50 (may be repeated)", "TIME,NAME=VALUE");
+  pass("--print", "Variables to print at the end", "NAMES");
+  pass("--loop-budget", "Loop iterations a cycle may use before it counts as endless", "COUNT");
+  passFlag("--quiet", "Neither progress nor summary");
+  passFlag("--summary", "A summary even when standard error is no terminal");
   sim->callback([&] { exitCode = simCommand(options, host); });
 
   std::string trace;

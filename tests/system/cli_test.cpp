@@ -77,7 +77,8 @@ TEST_F(Cli, RefusesWhatItDoesNotKnow) {
                                              {"new"},
                                              {"explain"},
                                              {"check", "--color", "blue"},
-                                             {"build", "--emit", "rust"}}) {
+                                             {"build", "--emit", "rust"},
+                                             {"sim"}}) {
     const ProcessResult result = stride(arguments);
     EXPECT_EQ(result.exitCode, 2) << arguments[0];
     EXPECT_THAT(result.err, StartsWith("stride: "));
@@ -214,8 +215,9 @@ TEST_F(Cli, OnlyWhatChangedIsCompiled) {
 
 TEST_F(Cli, ErrorsStopABuild) {
   write("a.st", kWrong);
-  for (const char *command : {"build", "sim"}) {
-    const ProcessResult result = stride({command, "a.st"});
+  for (const std::vector<std::string> &arguments :
+       std::vector<std::vector<std::string>>{{"build", "a.st"}, {"sim", "a.st", "--for", "T#1s"}}) {
+    const ProcessResult result = stride(arguments);
     EXPECT_EQ(result.exitCode, 1);
     EXPECT_THAT(result.err, HasSubstr("error: 2 errors"));
   }
