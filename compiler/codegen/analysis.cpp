@@ -12,7 +12,8 @@ bool isNamespace(const Expr *expr) {
     symbol = as<MemberExpr>(expr)->symbol;
   if (symbol == nullptr)
     return false;
-  return symbol->kind == SymbolKind::library || symbol->kind == SymbolKind::globals || symbol->kind == SymbolKind::type;
+  return symbol->kind == SymbolKind::library || symbol->kind == SymbolKind::globals ||
+         symbol->kind == SymbolKind::type;
 }
 
 const VarSymbol *namedVariable(const Expr *expr) {
@@ -21,7 +22,9 @@ const VarSymbol *namedVariable(const Expr *expr) {
     symbol = as<NameExpr>(expr)->symbol;
   else if (expr->kind == ExprKind::member && isNamespace(as<MemberExpr>(expr)->base))
     symbol = as<MemberExpr>(expr)->symbol;
-  return symbol != nullptr && symbol->kind == SymbolKind::variable ? static_cast<const VarSymbol *>(symbol) : nullptr;
+  return symbol != nullptr && symbol->kind == SymbolKind::variable
+             ? static_cast<const VarSymbol *>(symbol)
+             : nullptr;
 }
 
 unsigned Analysis::effects(const Expr *expr) {
@@ -29,7 +32,8 @@ unsigned Analysis::effects(const Expr *expr) {
   while (true) {
     if (expr->constant != nullptr)
       return result;
-    if (checks_ && expr->target != nullptr && expr->target->kind == TypeKind::subrange && expr->type != expr->target)
+    if (checks_ && expr->target != nullptr && expr->target->kind == TypeKind::subrange &&
+        expr->type != expr->target)
       result |= effectRaises;
     switch (expr->kind) {
     case ExprKind::literal:
@@ -82,8 +86,9 @@ unsigned Analysis::effects(const Expr *expr) {
       continue;
     case ExprKind::binary: {
       const auto *binary = as<BinaryExpr>(expr);
-      if ((binary->op == BinaryOp::divide || binary->op == BinaryOp::modulo) && binary->operandType != nullptr &&
-          !isReal(binary->operandType) && !safeDivisor(binary->right))
+      if ((binary->op == BinaryOp::divide || binary->op == BinaryOp::modulo) &&
+          binary->operandType != nullptr && !isReal(binary->operandType) &&
+          !safeDivisor(binary->right))
         result |= effectRaises;
       result |= effects(binary->right);
       expr = binary->left;
@@ -115,8 +120,9 @@ bool Analysis::pure(const PouSymbol *function) {
     return it->second;
   bool result = function->isFunction();
   for (const VarSymbol *v : function->variables) {
-    if (v->section == Section::inOut || v->section == Section::output || v->section == Section::stat ||
-        v->type->kind == TypeKind::pointer || v->type->kind == TypeKind::reference)
+    if (v->section == Section::inOut || v->section == Section::output ||
+        v->section == Section::stat || v->type->kind == TypeKind::pointer ||
+        v->type->kind == TypeKind::reference)
       result = false;
   }
   if (result && function->decl->external) {
@@ -220,7 +226,8 @@ bool mayChange(const Expr *target, const Symbol *variable) {
     case ExprKind::name:
       // An in-out or a reference may stand for any variable.
       if (const VarSymbol *v = namedVariable(target))
-        return v == variable || v->section == Section::inOut || v->type->kind == TypeKind::reference;
+        return v == variable || v->section == Section::inOut ||
+               v->type->kind == TypeKind::reference;
       return false;
     case ExprKind::member: {
       const auto *m = as<MemberExpr>(target);
@@ -287,8 +294,9 @@ bool Analysis::plainBlock(Block block, const Symbol *variable, bool innerLoops) 
     }
     case StmtKind::forS: {
       const auto *f = as<ForStmt>(s);
-      if (!innerLoops || mayChange(f->variable, variable) || !plainExpr(f->variable) || !plainExpr(f->from) ||
-          !plainExpr(f->to) || (f->by != nullptr && !plainExpr(f->by)) || !plainBlock(f->body, variable, true))
+      if (!innerLoops || mayChange(f->variable, variable) || !plainExpr(f->variable) ||
+          !plainExpr(f->from) || !plainExpr(f->to) || (f->by != nullptr && !plainExpr(f->by)) ||
+          !plainBlock(f->body, variable, true))
         return false;
       break;
     }
@@ -313,14 +321,16 @@ bool Analysis::plainBlock(Block block, const Symbol *variable, bool innerLoops) 
 
 bool Analysis::shortLoop(const ForStmt *loop) {
   const VarSymbol *variable = namedVariable(loop->variable);
-  if (variable == nullptr || variable->section == Section::inOut || variable->type->kind == TypeKind::reference)
+  if (variable == nullptr || variable->section == Section::inOut ||
+      variable->type->kind == TypeKind::reference)
     return false;
   if (loop->from->constant == nullptr || loop->to->constant == nullptr ||
       (loop->by != nullptr && loop->by->constant == nullptr))
     return false;
   const std::int64_t step = loop->by == nullptr ? 1 : loop->by->constant->integer;
   std::int64_t distance = 0;
-  if (step == 0 || __builtin_sub_overflow(loop->to->constant->integer, loop->from->constant->integer, &distance))
+  if (step == 0 ||
+      __builtin_sub_overflow(loop->to->constant->integer, loop->from->constant->integer, &distance))
     return false;
   if (distance / step > kShortLoop)
     return false;
@@ -330,10 +340,12 @@ bool Analysis::shortLoop(const ForStmt *loop) {
 void Analysis::enterLoop(const ForStmt *loop) {
   Range range{nullptr, 0, 0};
   const VarSymbol *variable = namedVariable(loop->variable);
-  const bool own = variable != nullptr && variable->owner != nullptr && variable->section != Section::inOut &&
-                   variable->section != Section::stat && variable->type->kind != TypeKind::reference;
+  const bool own = variable != nullptr && variable->owner != nullptr &&
+                   variable->section != Section::inOut && variable->section != Section::stat &&
+                   variable->type->kind != TypeKind::reference;
   if (own && loop->from->constant != nullptr && loop->to->constant != nullptr &&
-      (loop->by == nullptr || (loop->by->constant != nullptr && loop->by->constant->integer != 0)) &&
+      (loop->by == nullptr ||
+       (loop->by->constant != nullptr && loop->by->constant->integer != 0)) &&
       plainBlock(loop->body, variable, true)) {
     const std::int64_t from = loop->from->constant->integer;
     const std::int64_t to = loop->to->constant->integer;
@@ -357,8 +369,8 @@ bool Analysis::provenIndex(const Expr *index, const ArrayType *array) const {
     const auto *sum = as<BinaryExpr>(index);
     const ConstValue *c = sum->right->constant;
     constexpr std::int64_t kFar = 1 << 30; // far from where the sum could wrap
-    if ((sum->op != BinaryOp::add && sum->op != BinaryOp::subtract) || c == nullptr || c->kind != ConstKind::integer ||
-        c->integer < -kFar || c->integer > kFar)
+    if ((sum->op != BinaryOp::add && sum->op != BinaryOp::subtract) || c == nullptr ||
+        c->kind != ConstKind::integer || c->integer < -kFar || c->integer > kFar)
       return false;
     offset = sum->op == BinaryOp::add ? c->integer : -c->integer;
     isSigned = isSignedInteger(underlying(sum->operandType));
@@ -372,8 +384,8 @@ bool Analysis::provenIndex(const Expr *index, const ArrayType *array) const {
     if (r.variable != variable)
       continue;
     constexpr std::int64_t kLimit = 1 << 30;
-    return r.low >= -kLimit && r.high <= kLimit && (isSigned || r.low + offset >= 0) && r.low + offset >= array->low &&
-           r.high + offset <= array->high;
+    return r.low >= -kLimit && r.high <= kLimit && (isSigned || r.low + offset >= 0) &&
+           r.low + offset >= array->low && r.high + offset <= array->high;
   }
   return false;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// What evaluating an expression can do besides giving a value. It decides where C++ must be told the order.
+// What evaluating an expression can do besides giving a value. It decides where C++ must be told
+// the order.
 
 #include "compiler/semantics/builtins.hpp"
 #include "compiler/semantics/program.hpp"
@@ -27,17 +28,21 @@ public:
   [[nodiscard]] bool pure(const PouSymbol *function);
   /// Evaluating `first` before `second` or behind it makes a difference.
   [[nodiscard]] static bool orderMatters(unsigned first, unsigned second) {
-    return ((first & effectCalls) != 0 && second != effectNone) || ((second & effectCalls) != 0 && first != effectNone);
+    return ((first & effectCalls) != 0 && second != effectNone) ||
+           ((second & effectCalls) != 0 && first != effectNone);
   }
-  /// The FOR loop ends after at most kShortLoop rounds without inner loops or calls, whatever happens.
+  /// The FOR loop ends after at most kShortLoop rounds without inner loops or calls, whatever
+  /// happens.
   [[nodiscard]] bool shortLoop(const ast::ForStmt *loop);
 
   static constexpr std::int64_t kShortLoop = 65536;
 
-  /// Within the body of a FOR loop with constant bounds its variable has a known range, if nothing else can change it.
+  /// Within the body of a FOR loop with constant bounds its variable has a known range, if nothing
+  /// else can change it.
   void enterLoop(const ast::ForStmt *loop);
   void leaveLoop();
-  /// The index needs no check: a constant, or a loop variable (plus a constant) that stays within the bounds.
+  /// The index needs no check: a constant, or a loop variable (plus a constant) that stays within
+  /// the bounds.
   [[nodiscard]] bool provenIndex(const ast::Expr *index, const ArrayType *array) const;
 
 private:

@@ -1,5 +1,5 @@
-// app.cpp: the application object. build.cpp: what identifies this build, apart so that app.cpp stays the same when only a
-// body changes.
+// app.cpp: the application object. build.cpp: what identifies this build, apart so that app.cpp
+// stays the same when only a body changes.
 
 #include "compiler/codegen/type_table.hpp"
 #include "compiler/codegen/units.hpp"
@@ -30,12 +30,16 @@ std::string lower(std::string_view text) {
 }
 
 bool hasAttribute(const Attributes &attributes, std::string_view name) {
-  return std::any_of(attributes.begin(), attributes.end(), [&](const Attribute &a) { return a.name == name; });
+  return std::any_of(attributes.begin(), attributes.end(),
+                     [&](const Attribute &a) { return a.name == name; });
 }
 
 class Application {
 public:
-  Application(Context &context, const AppConfig &config) : c_(context), config_(config), types_(context) { collect(); }
+  Application(Context &context, const AppConfig &config)
+      : c_(context), config_(config), types_(context) {
+    collect();
+  }
 
   GeneratedFile app() {
     for (const Member &m : members_)
@@ -54,7 +58,8 @@ public:
     out += "};\n\n} // namespace st::user\n";
     places(out);
     out += "\nnamespace {\n\nusing ::st::user::App__;\nusing ::stride::Kind;\n"
-           "\n[[maybe_unused]] App__ &app__(::stride::Ctx *ctx__) { return *static_cast<App__ *>(ctx__->state); }\n";
+           "\n[[maybe_unused]] App__ &app__(::stride::Ctx *ctx__) { return *static_cast<App__ "
+           "*>(ctx__->state); }\n";
     init(out);
     tasks(out);
     out += "\n[[maybe_unused]] constexpr uint32_t kNo = ::stride::kNoIndex;\n" + tables;
@@ -77,7 +82,8 @@ public:
       files += "    {\"" + escaped(file.name()) + "\", " + std::to_string(own.value()) + "ULL},\n";
     }
     std::string out = banner("Identification of this build");
-    out += "#include \"runtime/app/abi.h\"\n\nnamespace st::user {\nextern const ::stride::StrideAppV1 application__;\n}\n"
+    out += "#include \"runtime/app/abi.h\"\n\nnamespace st::user {\nextern const "
+           "::stride::StrideAppV1 application__;\n}\n"
            "\nnamespace {\n";
     if (sources.size() != 0)
       out += "\nconstexpr ::stride::SourceFileDesc kFiles[] = {\n" + files + "};\n";
@@ -87,7 +93,8 @@ public:
            "  description.buildHash = " +
            std::to_string(all.value()) + "ULL;\n";
     if (sources.size() != 0)
-      out += "  description.files = kFiles;\n  description.fileCount = ::stride::tableSize(kFiles);\n";
+      out +=
+          "  description.files = kFiles;\n  description.fileCount = ::stride::tableSize(kFiles);\n";
     out += "  return &description;\n}\n";
     return {"build.cpp", std::move(out)};
   }
@@ -107,7 +114,8 @@ private:
     for (const auto &library : c_.program.libraries)
       libraries.push_back(library.get());
     std::sort(libraries.begin(), libraries.end(), [](const Library *a, const Library *b) {
-      return std::pair(a->isUser, std::string_view(a->name)) < std::pair(b->isUser, std::string_view(b->name));
+      return std::pair(a->isUser, std::string_view(a->name)) <
+             std::pair(b->isUser, std::string_view(b->name));
     });
     for (const Library *library : libraries) {
       std::vector<Root> roots;
@@ -162,7 +170,8 @@ private:
   }
 
   void init(std::string &out) {
-    out += "\n// Libraries first, then files by path, then in the order of declaration.\nvoid init__(::stride::Ctx *";
+    out += "\n// Libraries first, then files by path, then in the order of declaration.\nvoid "
+           "init__(::stride::Ctx *";
     std::string body;
     for (const Member &m : members_) {
       if (rootNeedsInit(c_, m.root))
@@ -176,13 +185,16 @@ private:
     for (std::size_t i = 0; i < config_.tasks.size(); ++i) {
       const AppConfig::Task &task = config_.tasks[i];
       const std::string name = "task" + std::to_string(i) + "__";
-      out += "\n/// " + task.name + "\nvoid " + name + "(::stride::Ctx *" + (task.programs.empty() ? "" : "ctx__") + ") {\n";
+      out += "\n/// " + task.name + "\nvoid " + name + "(::stride::Ctx *" +
+             (task.programs.empty() ? "" : "ctx__") + ") {\n";
       for (const PouSymbol *p : task.programs)
         out += "  app__(ctx__)." + memberName({p, false}) + ".body__(*ctx__);\n";
       out += "}\n";
-      rows += "    {\"" + escaped(task.name) + "\", ::stride::TaskKind::" +
-              (task.intervalNs > 0 ? "Cyclic" : "Freewheeling") + ", " + std::to_string(task.priority) + ", " +
-              std::to_string(task.intervalNs > 0 ? task.intervalNs : 10000000) + ", 0, 0, 0, " + name + "},\n";
+      rows += "    {\"" + escaped(task.name) +
+              "\", ::stride::TaskKind::" + (task.intervalNs > 0 ? "Cyclic" : "Freewheeling") +
+              ", " + std::to_string(task.priority) + ", " +
+              std::to_string(task.intervalNs > 0 ? task.intervalNs : 10000000) + ", 0, 0, 0, " +
+              name + "},\n";
     }
     if (!rows.empty())
       out += "\n// {name, kind, priority, intervalNs, watchdogNs, watchdogSensitivity, 0, run}\n"
@@ -208,10 +220,12 @@ private:
 
   /// The constant that an initial value gives to a field; 0 when it gives none.
   static std::int64_t initialField(const VarSymbol *v, std::string_view field) {
-    if (v->decl == nullptr || v->decl->init == nullptr || v->decl->init->kind != ExprKind::aggregate)
+    if (v->decl == nullptr || v->decl->init == nullptr ||
+        v->decl->init->kind != ExprKind::aggregate)
       return 0;
     for (const AggregateItem &item : as<AggregateExpr>(v->decl->init)->items) {
-      if (item.field && item.field.id->lower == field && item.value != nullptr && item.value->constant != nullptr)
+      if (item.field && item.field.id->lower == field && item.value != nullptr &&
+          item.value->constant != nullptr)
         return item.value->constant->integer;
     }
     return 0;
@@ -242,25 +256,31 @@ private:
         if (lower(config_.tasks[i].name) == lower(group.task))
           task = std::to_string(i);
       }
-      groups += "    {\"" + escaped(group.name) + "\", \"" + escaped(group.bus) + "\", \"" + escaped(group.driver) +
-                "\", offsetof(App__, " + place + "), " + task + ", " + std::to_string(group.cycleUs) + ", " +
-                std::to_string(first) + ", " + std::to_string(driveCount_ - first) + "},\n";
+      groups += "    {\"" + escaped(group.name) + "\", \"" + escaped(group.bus) + "\", \"" +
+                escaped(group.driver) + "\", offsetof(App__, " + place + "), " + task + ", " +
+                std::to_string(group.cycleUs) + ", " + std::to_string(first) + ", " +
+                std::to_string(driveCount_ - first) + "},\n";
       ++groupCount_;
     }
     if (!drives.empty())
-      out += "\n// {name, axisOffset, driveId, 0}\nconstexpr ::stride::DriveDesc kDrives[] = {\n" + drives + "};\n";
+      out += "\n// {name, axisOffset, driveId, 0}\nconstexpr ::stride::DriveDesc kDrives[] = {\n" +
+             drives + "};\n";
     if (!groups.empty())
-      out += "\n// {name, busName, driverName, groupOffset, task, cycleUs, firstDrive, driveCount}\n"
-             "constexpr ::stride::AxisGroupDesc kAxisGroups[] = {\n" +
-             groups + "};\n";
+      out +=
+          "\n// {name, busName, driverName, groupOffset, task, cycleUs, firstDrive, driveCount}\n"
+          "constexpr ::stride::AxisGroupDesc kAxisGroups[] = {\n" +
+          groups + "};\n";
   }
 
   void description(std::string &out) {
-    const auto table = [](std::size_t count, const char *name) { return count == 0 ? "nullptr" : name; };
+    const auto table = [](std::size_t count, const char *name) {
+      return count == 0 ? "nullptr" : name;
+    };
     const auto field = [&](std::string_view name, const std::string &value) {
       out.append("    .").append(name).append(" = ").append(value).append(",\n");
     };
-    out += "\nnamespace st::user {\n\n/// Completed by build.cpp.\nextern const ::stride::StrideAppV1 application__;\n"
+    out += "\nnamespace st::user {\n\n/// Completed by build.cpp.\nextern const "
+           "::stride::StrideAppV1 application__;\n"
            "const ::stride::StrideAppV1 application__ = {\n";
     field("abiVersion", "::stride::kAbiVersion");
     field("magic", "::stride::kAbiMagic");

@@ -114,7 +114,8 @@ void Emitter::orderedBuiltin(const CallExpr *e) {
   w_ << "; }()";
 }
 
-void Emitter::builtinArgument(const CallExpr *e, std::size_t i, const std::vector<std::string> *names, bool anyText) {
+void Emitter::builtinArgument(const CallExpr *e, std::size_t i,
+                              const std::vector<std::string> *names, bool anyText) {
   const Expr *v = e->arguments[i].value;
   if (names != nullptr)
     w_ << (*names)[i];
@@ -181,7 +182,8 @@ void Emitter::builtinPlain(const CallExpr *e, const std::vector<std::string> *na
       if (number)
         w_ << ')';
     }
-    w_ << "}; return " << values << "[::stride::index<0, " << count - 2 << ">(" << ctx() << ", selector__, ";
+    w_ << "}; return " << values << "[::stride::index<0, " << count - 2 << ">(" << ctx()
+       << ", selector__, ";
     position(e->span);
     w_ << ")]; }()";
     return;
@@ -210,7 +212,8 @@ void Emitter::builtinPlain(const CallExpr *e, const std::vector<std::string> *na
     address(e->arguments[0].value);
     return;
   case Builtin::sizeofT:
-    w_ << "static_cast<" << type(result) << ">(sizeof(" << type(e->arguments[0].value->type) << "))";
+    w_ << "static_cast<" << type(result) << ">(sizeof(" << type(e->arguments[0].value->type)
+       << "))";
     return;
   default:
     break;

@@ -20,7 +20,8 @@ const Argument *argumentFor(const CallExpr *e, const VarSymbol *parameter) {
 
 /// A VAR_IN_OUT CONSTANT string may be bound to one of another length: then it gets a copy.
 bool needsCopy(const Argument &a) {
-  return a.parameter->section == Section::inOut && isString(a.parameter->type) && a.value->type != a.parameter->type;
+  return a.parameter->section == Section::inOut && isString(a.parameter->type) &&
+         a.value->type != a.parameter->type;
 }
 
 bool isInput(const VarSymbol *p) { return p->section == Section::input; }
@@ -64,7 +65,8 @@ void Emitter::defaultArgument(const VarSymbol *parameter) {
   w_ << "return " << name << "; }()";
 }
 
-/// `::st::user::F(ctx__, …)`; `names` holds, by parameter, what stands for a value that has been taken before.
+/// `::st::user::F(ctx__, …)`; `names` holds, by parameter, what stands for a value that has been
+/// taken before.
 void Emitter::functionArguments(const CallExpr *e, const std::vector<std::string> &names) {
   includes_.symbol(e->pou);
   w_ << c_.names.qualified(e->pou) << '(' << ctx();
@@ -119,7 +121,8 @@ void Emitter::functionCall(const CallExpr *e, bool asStatement) {
     const VarSymbol *p = a.parameter;
     if (a.value == nullptr || a.output || p == nullptr)
       continue;
-    std::string &name = names[static_cast<std::size_t>(std::find(parameters.begin(), parameters.end(), p) - parameters.begin())];
+    std::string &name = names[static_cast<std::size_t>(
+        std::find(parameters.begin(), parameters.end(), p) - parameters.begin())];
     if (p->section == Section::inOut) {
       if (!needsCopy(a))
         continue;
@@ -165,7 +168,8 @@ void Emitter::functionCall(const CallExpr *e, bool asStatement) {
 }
 
 /// `target = source;` from an output of type `sourceType` to the variable behind `=>`.
-void Emitter::outputTo(const Expr *target, std::string_view source, const Type *sourceType, Span span) {
+void Emitter::outputTo(const Expr *target, std::string_view source, const Type *sourceType,
+                       Span span) {
   const bool reference = sourceType->kind == TypeKind::reference;
   std::string pointee;
   if (reference) { // the value it refers to

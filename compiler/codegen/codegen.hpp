@@ -39,13 +39,14 @@ struct AppConfig {
   std::vector<AxisGroup> axisGroups;
 };
 
-/// Headers `st/<Library>/<Name>.h` and sources `<Library>/<Name>.cpp` of one library (everything declared in it;
+/// Headers `st/<Library>/<Name>.h` and sources `<Library>/<Name>.cpp` of one library (everything
+/// declared in it;
 /// `{external}` bodies are declared only).
 std::vector<GeneratedFile> generateLibrary(const Program &program, const Library &library);
 
-/// Headers `st/user/<Name>.h`, one source per user POU, and `app.cpp` with the application object: state layout,
-/// initialisation, type table, roots, tasks (runtime/app/abi.h). Library headers are not generated again; they are
-/// included from where Stride installed them.
+/// Headers `st/user/<Name>.h`, one source per user POU, and `app.cpp` with the application object:
+/// state layout, initialisation, type table, roots, tasks (runtime/app/abi.h). Library headers are
+/// not generated again; they are included from where Stride installed them.
 std::vector<GeneratedFile> generateApplication(const Program &program, const AppConfig &config);
 
 } // namespace stc

@@ -35,10 +35,12 @@ void Emitter::number(std::int64_t value, const Type *type) {
     break;
   }
   const bool wide = bitWidth(t) == 64 && t->kind != TypeKind::anyInteger;
-  const bool large = value > std::numeric_limits<std::int32_t>::max() || value < std::numeric_limits<std::int32_t>::min();
+  const bool large = value > std::numeric_limits<std::int32_t>::max() ||
+                     value < std::numeric_limits<std::int32_t>::min();
   const std::string_view suffix = wide || large ? "LL" : "";
   // The smallest value has no literal of its own: its digits alone are too large for the type.
-  if (value == std::numeric_limits<std::int64_t>::min() || (value == std::numeric_limits<std::int32_t>::min() && !wide))
+  if (value == std::numeric_limits<std::int64_t>::min() ||
+      (value == std::numeric_limits<std::int32_t>::min() && !wide))
     w_ << '(' << value + 1 << suffix << " - 1)";
   else
     w_ << value << suffix;
@@ -55,8 +57,9 @@ void Emitter::real(double value, const Type *type) {
     return;
   }
   char digits[40];
-  const auto end = single ? std::to_chars(digits, digits + sizeof digits, static_cast<float>(value)).ptr
-                          : std::to_chars(digits, digits + sizeof digits, value).ptr;
+  const auto end =
+      single ? std::to_chars(digits, digits + sizeof digits, static_cast<float>(value)).ptr
+             : std::to_chars(digits, digits + sizeof digits, value).ptr;
   const std::string_view text(digits, static_cast<std::size_t>(end - digits));
   w_ << text;
   if (text.find_first_of(".e") == std::string_view::npos)
@@ -125,7 +128,8 @@ void Emitter::exactString(const ConstValue &constant, const Type *type) {
   w_ << (same ? ")" : "))");
 }
 
-void Emitter::literal(const ConstValue &constant, const Type *from, const Type *to, const Symbol *symbol) {
+void Emitter::literal(const ConstValue &constant, const Type *from, const Type *to,
+                      const Symbol *symbol) {
   if (constant.kind == ConstKind::string) {
     exactString(constant, isString(to) ? to : from);
     return;

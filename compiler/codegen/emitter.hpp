@@ -26,7 +26,8 @@ struct Context {
       : program(p), own(library), names(p), layouts(p, library), analysis(p.settings) {}
 };
 
-/// An object of its own in the application's state: a variable list, a program, or the statics of a POU.
+/// An object of its own in the application's state: a variable list, a program, or the statics of a
+/// POU.
 struct Root {
   const Symbol *symbol = nullptr;
   bool isStatic = false;
@@ -36,8 +37,8 @@ struct Root {
 std::string rootType(Names &names, const Root &root);
 /// `::st::user::GVL__globals__at__`: the constant that holds its place in the state.
 std::string rootPlace(Names &names, const Root &root);
-/// `GVL__`, `Path__program`, `F__static`: what it is called in bodies and in the state; with the library's name in front
-/// when it is not `own`.
+/// `GVL__`, `Path__program`, `F__static`: what it is called in bodies and in the state; with the
+/// library's name in front when it is not `own`.
 std::string rootName(Names &names, const Root &root, const Library *own);
 /// The statics of a POU that has some.
 [[nodiscard]] bool hasStatics(const PouSymbol *pou);
@@ -133,15 +134,20 @@ private:
   void unary(const ast::UnaryExpr *e);
   void binary(const ast::BinaryExpr *e);
   [[nodiscard]] Infix infix(const ast::BinaryExpr *e) const;
-  [[nodiscard]] static bool parenthesize(int child, const Infix &parent, bool right, std::string_view childOp);
-  [[nodiscard]] bool implicitOperand(const ast::Expr *e, const Type *type, const ast::Expr *other, bool comparison) const;
+  [[nodiscard]] static bool parenthesize(int child, const Infix &parent, bool right,
+                                         std::string_view childOp);
+  [[nodiscard]] bool implicitOperand(const ast::Expr *e, const Type *type, const ast::Expr *other,
+                                     bool comparison) const;
   void infixOperand(const ast::BinaryExpr *e, const Infix &op, const ast::Expr *side);
   void ordered(const ast::BinaryExpr *e);
-  template <class Left, class Right> void special(const ast::BinaryExpr *e, Left &&left, Right &&right);
-  template <class Left, class Right> void timeArithmetic(const ast::BinaryExpr *e, Left &&left, Right &&right);
+  template <class Left, class Right>
+  void special(const ast::BinaryExpr *e, Left &&left, Right &&right);
+  template <class Left, class Right>
+  void timeArithmetic(const ast::BinaryExpr *e, Left &&left, Right &&right);
 
   // conversions.cpp
-  void literal(const ConstValue &constant, const Type *from, const Type *to, const Symbol *symbol = nullptr);
+  void literal(const ConstValue &constant, const Type *from, const Type *to,
+               const Symbol *symbol = nullptr);
   void number(std::int64_t value, const Type *type);
   void real(double value, const Type *type);
   void quoted(const ConstValue &constant, bool wide);
@@ -157,13 +163,15 @@ private:
   void functionArguments(const ast::CallExpr *e, const std::vector<std::string> &names);
   void defaultArgument(const VarSymbol *parameter);
   void instanceCall(const ast::CallExpr *e, Span span);
-  void outputTo(const ast::Expr *target, std::string_view source, const Type *sourceType, Span span);
+  void outputTo(const ast::Expr *target, std::string_view source, const Type *sourceType,
+                Span span);
 
   // builtin_calls.cpp
   void builtin(const ast::CallExpr *e);
   void orderedBuiltin(const ast::CallExpr *e);
   void builtinPlain(const ast::CallExpr *e, const std::vector<std::string> *names);
-  void builtinArgument(const ast::CallExpr *e, std::size_t i, const std::vector<std::string> *names, bool anyText);
+  void builtinArgument(const ast::CallExpr *e, std::size_t i, const std::vector<std::string> *names,
+                       bool anyText);
 
   // statements.cpp
   void statement(const ast::Stmt *s);
@@ -184,9 +192,11 @@ private:
   void typeDefault(std::string_view target, const Type *type);
   void defaultStatement(std::string_view target, const Type *type);
   void initValue(std::string_view target, const Type *type, const ast::Expr *init);
-  std::uint64_t arrayValues(std::string_view target, const ArrayType *type, std::span<ast::AggregateItem> items,
-                            const std::string &base, std::uint64_t at);
-  bool constantTable(std::string_view target, const ArrayType *type, const ast::AggregateExpr *init);
+  std::uint64_t arrayValues(std::string_view target, const ArrayType *type,
+                            std::span<ast::AggregateItem> items, const std::string &base,
+                            std::uint64_t at);
+  bool constantTable(std::string_view target, const ArrayType *type,
+                     const ast::AggregateExpr *init);
 
   // Helpers.
   /// Begins a statement (or a later part of one) that stands at `span`.

@@ -6,7 +6,8 @@
 
 namespace stc::codegen {
 
-template <class Inner> void Emitter::converted(const Type *from, const Type *to, Span span, Inner &&inner) {
+template <class Inner>
+void Emitter::converted(const Type *from, const Type *to, Span span, Inner &&inner) {
   if (from == to) {
     inner();
     return;
@@ -42,7 +43,8 @@ template <class Inner> void Emitter::converted(const Type *from, const Type *to,
     if (pointerFrom && !pointerTo)
       w_ << "static_cast<" << type(t) << ">(reinterpret_cast<::stride::UXINT>(";
     else
-      w_ << "reinterpret_cast<" << type(t) << (pointerFrom ? ">(" : ">(static_cast<::stride::UXINT>(");
+      w_ << "reinterpret_cast<" << type(t)
+         << (pointerFrom ? ">(" : ">(static_cast<::stride::UXINT>(");
     inner();
     w_ << (pointerFrom && pointerTo ? ")" : "))");
     return;
@@ -51,7 +53,10 @@ template <class Inner> void Emitter::converted(const Type *from, const Type *to,
   if (isString(t)) {
     const std::string length = std::to_string(typeAs<StringType>(t)->length);
     if (isString(f))
-      wrap(f->kind == t->kind ? "::stride::resize" : wideTo ? "::stride::widen" : "::stride::narrow", length);
+      wrap(f->kind == t->kind ? "::stride::resize"
+           : wideTo           ? "::stride::widen"
+                              : "::stride::narrow",
+           length);
     else
       wrap(wideTo ? "::stride::toWstring" : "::stride::toString",
            "::stride::Kind::" + std::string(Names::elementary(f->kind)) + ", " + length);
@@ -73,8 +78,10 @@ template <class Inner> void Emitter::converted(const Type *from, const Type *to,
                                 ", ::stride::Kind::" + std::string(Names::elementary(f->kind)));
 }
 
-/// Operators that are not C++ operators; `left` and `right` write the operands, already of the operator's type.
-template <class Left, class Right> void Emitter::special(const ast::BinaryExpr *e, Left &&left, Right &&right) {
+/// Operators that are not C++ operators; `left` and `right` write the operands, already of the
+/// operator's type.
+template <class Left, class Right>
+void Emitter::special(const ast::BinaryExpr *e, Left &&left, Right &&right) {
   using enum ast::BinaryOp;
   if (e->operandType == nullptr) {
     timeArithmetic(e, left, right);
@@ -96,8 +103,8 @@ template <class Left, class Right> void Emitter::special(const ast::BinaryExpr *
     w_ << ')';
     return;
   }
-  w_ << (e->op == divide ? "::stride::divide<" : "::stride::modulo<") << type(underlying(e->operandType)) << ">("
-     << ctx() << ", ";
+  w_ << (e->op == divide ? "::stride::divide<" : "::stride::modulo<")
+     << type(underlying(e->operandType)) << ">(" << ctx() << ", ";
   left();
   w_ << ", ";
   right();
@@ -107,9 +114,12 @@ template <class Left, class Right> void Emitter::special(const ast::BinaryExpr *
 }
 
 /// Durations with numbers, points in time with durations.
-template <class Left, class Right> void Emitter::timeArithmetic(const ast::BinaryExpr *e, Left &&left, Right &&right) {
+template <class Left, class Right>
+void Emitter::timeArithmetic(const ast::BinaryExpr *e, Left &&left, Right &&right) {
   using enum ast::BinaryOp;
-  const auto own = [](const ast::Expr *x) { return underlying(x->target != nullptr ? x->target : x->type); };
+  const auto own = [](const ast::Expr *x) {
+    return underlying(x->target != nullptr ? x->target : x->type);
+  };
   const Type *l = own(e->left);
   const Type *r = own(e->right);
   const Type *result = underlying(e->type);
@@ -134,7 +144,8 @@ template <class Left, class Right> void Emitter::timeArithmetic(const ast::Binar
     if (isReal(l) || isReal(r)) {
       w_ << "::stride::convert<" << type(result) << ">(static_cast<::stride::LREAL>(";
       left();
-      w_ << (e->op == multiply ? ") * static_cast<::stride::LREAL>(" : ") / static_cast<::stride::LREAL>(");
+      w_ << (e->op == multiply ? ") * static_cast<::stride::LREAL>("
+                               : ") / static_cast<::stride::LREAL>(");
       right();
       w_ << "))";
       return;

@@ -91,10 +91,12 @@ void Emitter::text(const Expr *e) {
   w_ << ')';
 }
 
-// --------------------------------------------------------------------------------------------------------- places
+// ---------------------------------------------------------------------------------------------------------
+// places
 
 const VarSymbol *Emitter::indirectVariable(const Expr *e) {
-  const Symbol *symbol = e->kind == ExprKind::member && as<MemberExpr>(e)->bit >= 0 ? nullptr : symbolOf(e);
+  const Symbol *symbol =
+      e->kind == ExprKind::member && as<MemberExpr>(e)->bit >= 0 ? nullptr : symbolOf(e);
   if (symbol == nullptr || symbol->kind != SymbolKind::variable)
     return nullptr;
   const auto *v = static_cast<const VarSymbol *>(symbol);
@@ -235,10 +237,12 @@ void Emitter::member(const MemberExpr *e, bool slotOnly) {
   }
   const bool indirect = isIndirect(field) && !slotOnly;
   if (indirect) {
-    const Type *pointee = field->section == Section::inOut ? field->type : typeAs<PointerType>(field->type)->pointee;
+    const Type *pointee =
+        field->section == Section::inOut ? field->type : typeAs<PointerType>(field->type)->pointee;
     includes_.complete(pointee);
     if (checks())
-      w_ << (field->section == Section::inOut ? "::stride::bound(" : "::stride::deref(") << ctx() << ", ";
+      w_ << (field->section == Section::inOut ? "::stride::bound(" : "::stride::deref(") << ctx()
+         << ", ";
     else
       w_ << "(*";
   }
@@ -285,12 +289,14 @@ void Emitter::index(const IndexExpr *e) {
   }
 }
 
-// ---------------------------------------------------------------------------------------------------- parentheses
+// ----------------------------------------------------------------------------------------------------
+// parentheses
 
 /// What is written for the expression: `+x` is x, pairs of one operator cancel (NOT NOT x).
 const Expr *Emitter::shown(const Expr *e) {
   const auto plain = [](const Expr *x) {
-    return x->kind == ExprKind::unary && x->constant == nullptr && as<UnaryExpr>(x)->operand->target == nullptr;
+    return x->kind == ExprKind::unary && x->constant == nullptr &&
+           as<UnaryExpr>(x)->operand->target == nullptr;
   };
   while (plain(e)) {
     const auto *outer = as<UnaryExpr>(e);
@@ -298,7 +304,8 @@ const Expr *Emitter::shown(const Expr *e) {
       e = outer->operand;
       continue;
     }
-    if (!plain(outer->operand) || as<UnaryExpr>(outer->operand)->op != outer->op || outer->operand->type != e->type)
+    if (!plain(outer->operand) || as<UnaryExpr>(outer->operand)->op != outer->op ||
+        outer->operand->type != e->type)
       break;
     e = as<UnaryExpr>(outer->operand)->operand;
   }
@@ -309,7 +316,9 @@ int Emitter::level(const Expr *e) const {
   e = shown(e);
   if (e->constant != nullptr) {
     const ConstValue &c = *e->constant;
-    const bool negative = c.kind == ConstKind::integer ? c.integer < 0 : c.kind == ConstKind::real && std::signbit(c.real);
+    const bool negative = c.kind == ConstKind::integer
+                              ? c.integer < 0
+                              : c.kind == ConstKind::real && std::signbit(c.real);
     return negative ? kUnary : kPostfix;
   }
   if (e->kind == ExprKind::unary)
@@ -321,7 +330,8 @@ int Emitter::level(const Expr *e) const {
   return kPostfix;
 }
 
-// -------------------------------------------------------------------------------------------------------- helpers
+// --------------------------------------------------------------------------------------------------------
+// helpers
 
 Emitter::Emitter(Context &context, const PouSymbol *pou)
     : c_(context), pou_(pou), w_(context.program.sources), includes_(context.names) {}
@@ -373,7 +383,9 @@ void Emitter::position(Span span) {
   w_ << ", " << at.line << ", " << at.column;
 }
 
-std::string Emitter::temporary(std::string_view stem) { return std::string(stem) + "__" + std::to_string(++next_); }
+std::string Emitter::temporary(std::string_view stem) {
+  return std::string(stem) + "__" + std::to_string(++next_);
+}
 
 std::string rootType(Names &names, const Root &root) {
   std::string name(names.qualified(root.symbol));

@@ -32,7 +32,8 @@ void Emitter::initVariable(std::string_view target, const VarSymbol *variable) {
     end();
     return;
   }
-  const bool whole = init != nullptr && init->kind != ExprKind::aggregate; // replaces the type's default
+  const bool whole =
+      init != nullptr && init->kind != ExprKind::aggregate; // replaces the type's default
   if (!whole)
     typeDefault(target, variable->type);
   if (init != nullptr)
@@ -121,7 +122,8 @@ void Emitter::initValue(std::string_view target, const Type *type, const Expr *i
   }
 }
 
-bool Emitter::constantTable(std::string_view target, const ArrayType *type, const AggregateExpr *init) {
+bool Emitter::constantTable(std::string_view target, const ArrayType *type,
+                            const AggregateExpr *init) {
   const Type *element = type->element;
   if (init->items.size() < kMinTable || !isElementary(element) || isString(element))
     return false;
@@ -139,28 +141,32 @@ bool Emitter::constantTable(std::string_view target, const ArrayType *type, cons
   w_ << "};";
   end();
   begin(initSpan_);
-  w_ << "for (::stride::ULINT i__ = 0; i__ < " << init->items.size() << "; ++i__) " << target << ".v[i__] = " << table
-     << "[i__];";
+  w_ << "for (::stride::ULINT i__ = 0; i__ < " << init->items.size() << "; ++i__) " << target
+     << ".v[i__] = " << table << "[i__];";
   end();
   return true;
 }
 
-std::uint64_t Emitter::arrayValues(std::string_view target, const ArrayType *type, std::span<AggregateItem> items,
-                                   const std::string &base, std::uint64_t at) {
+std::uint64_t Emitter::arrayValues(std::string_view target, const ArrayType *type,
+                                   std::span<AggregateItem> items, const std::string &base,
+                                   std::uint64_t at) {
   const auto element = [&](std::uint64_t place) {
     return std::string(target) + ".v[" + base + std::to_string(place) + "]";
   };
   for (const AggregateItem &item : items) {
     const std::uint64_t count = repetition(item);
     if (item.values.empty()) {
-      const bool skip = item.value == nullptr || (isZero(item.value) && !c_.layouts.needsInit(type->element));
+      const bool skip =
+          item.value == nullptr || (isZero(item.value) && !c_.layouts.needsInit(type->element));
       if (!skip && count == 1) {
         initValue(element(at), type->element, item.value);
       } else if (!skip && count > 1) {
         const std::string i = temporary("i");
-        const std::string each = std::string(target) + ".v[" + base + i + " + " + std::to_string(at) + "]";
+        const std::string each =
+            std::string(target) + ".v[" + base + i + " + " + std::to_string(at) + "]";
         begin(initSpan_);
-        w_ << "for (::stride::ULINT " << i << " = 0; " << i << " < " << count << "; ++" << i << ") ";
+        w_ << "for (::stride::ULINT " << i << " = 0; " << i << " < " << count << "; ++" << i
+           << ") ";
         if (item.value->kind != ExprKind::aggregate) {
           storeTo(each, type->element, item.value);
           end();
@@ -214,7 +220,8 @@ void Emitter::declareLocal(const VarSymbol *variable) {
   if (!used(variable))
     w_ << "[[maybe_unused]] ";
   w_ << type(variable->type) << (c_.names.type(variable->type).back() == '*' ? "" : " ") << name;
-  if (init != nullptr && init->constant != nullptr && !isString(variable->type) && isElementary(variable->type)) {
+  if (init != nullptr && init->constant != nullptr && !isString(variable->type) &&
+      isElementary(variable->type)) {
     w_ << " = ";
     valueAs(init, variable->type);
     w_ << ';';

@@ -43,7 +43,8 @@ bool isZero(const Expr *init) {
 Layouts::Layouts(const Program &program, const Library *own) : own_(own) {
   for (const auto &library : program.libraries) {
     for (const TypeSymbol *t : library->types) {
-      if (t->decl != nullptr && t->decl->kind == DeclKind::alias && t->init != nullptr && t->init->type != nullptr)
+      if (t->decl != nullptr && t->decl->kind == DeclKind::alias && t->init != nullptr &&
+          t->init->type != nullptr)
         aliasDefaults_[t->name.id].push_back(t);
     }
   }
@@ -158,7 +159,9 @@ std::uint64_t Layouts::computeHash(const Type *type) {
     return hash(typeAs<SubrangeType>(type)->base);
   case TypeKind::array: {
     const auto *a = typeAs<ArrayType>(type);
-    h.add(static_cast<std::uint64_t>(a->low)).add(static_cast<std::uint64_t>(a->high)).add(hash(a->element));
+    h.add(static_cast<std::uint64_t>(a->low))
+        .add(static_cast<std::uint64_t>(a->high))
+        .add(hash(a->element));
     break;
   }
   case TypeKind::pointer:

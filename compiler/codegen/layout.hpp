@@ -1,5 +1,6 @@
 #pragma once
-// What the types of a program look like in memory: their fields, defaults, address slots and hashes.
+// What the types of a program look like in memory: their fields, defaults, address slots and
+// hashes.
 
 #include "compiler/codegen/names.hpp"
 
@@ -22,7 +23,8 @@ private:
 
 /// Kept in each instance (VAR_TEMP and VAR_STAT are not).
 [[nodiscard]] inline bool isField(const VarSymbol *v) {
-  return v->section != ast::Section::temp && v->section != ast::Section::stat && v->section != ast::Section::external;
+  return v->section != ast::Section::temp && v->section != ast::Section::stat &&
+         v->section != ast::Section::external;
 }
 /// Held as a pointer: VAR_IN_OUT of an instance, REFERENCE TO.
 [[nodiscard]] inline bool isIndirect(const VarSymbol *v) {
@@ -31,13 +33,15 @@ private:
 
 class Layouts {
 public:
-  /// `own` is the library whose code is generated: types of others are always initialised through their init__.
+  /// `own` is the library whose code is generated: types of others are always initialised through
+  /// their init__.
   Layouts(const Program &program, const Library *own);
 
   /// Whether memory of the type must be set after it has been zeroed.
   [[nodiscard]] bool needsInit(const Type *type);
   [[nodiscard]] bool needsInit(const VarSymbol *variable);
-  /// The initial value that counts for a variable: its own, else its alias type's; null for the type's default.
+  /// The initial value that counts for a variable: its own, else its alias type's; null for the
+  /// type's default.
   [[nodiscard]] const ast::Expr *initOf(const VarSymbol *variable);
 
   /// Equal for equal layouts in all builds.

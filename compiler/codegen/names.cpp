@@ -7,33 +7,168 @@ namespace stc::codegen {
 
 namespace {
 
-// C++ keywords, alternative tokens, contextual words that g++ warns about, and the macros of the headers that generated
-// code includes. The words with upper-case letters are macros.
+// C++ keywords, alternative tokens, contextual words that g++ warns about, and the macros of the
+// headers that generated code includes. The words with upper-case letters are macros.
 constexpr std::string_view kReserved[] = {
-    "alignas",      "alignof",     "and",        "and_eq",     "asm",           "auto",          "bitand",
-    "bitor",        "bool",        "break",      "case",       "catch",         "char",          "char8_t",
-    "char16_t",     "char32_t",    "class",      "compl",      "concept",       "const",         "consteval",
-    "constexpr",    "constinit",   "const_cast", "continue",   "co_await",      "co_return",     "co_yield",
-    "decltype",     "default",     "delete",     "do",         "double",        "dynamic_cast",  "else",
-    "enum",         "explicit",    "export",     "extern",     "false",         "float",         "for",
-    "friend",       "goto",        "if",         "inline",     "int",           "long",          "mutable",
-    "namespace",    "new",         "noexcept",   "not",        "not_eq",        "nullptr",       "operator",
-    "or",           "or_eq",       "private",    "protected",  "public",        "register",      "reinterpret_cast",
-    "requires",     "return",      "short",      "signed",     "sizeof",        "static",        "static_assert",
-    "static_cast",  "struct",      "switch",     "template",   "this",          "thread_local",  "throw",
-    "true",         "try",         "typedef",    "typeid",     "typename",      "union",         "unsigned",
-    "using",        "virtual",     "void",       "volatile",   "wchar_t",       "while",         "xor",
-    "xor_eq",       "typeof",      "linux",      "unix",       "i386",          "offsetof",      "NULL",
-    "INT8_MIN",     "INT16_MIN",   "INT32_MIN",  "INT64_MIN",  "INT8_MAX",      "INT16_MAX",     "INT32_MAX",
-    "INT64_MAX",    "UINT8_MAX",   "UINT16_MAX", "UINT32_MAX", "UINT64_MAX",    "INT8_C",        "INT16_C",
-    "INT32_C",      "INT64_C",     "UINT8_C",    "UINT16_C",   "UINT32_C",      "UINT64_C",      "INTMAX_C",
-    "UINTMAX_C",    "INTPTR_MIN",  "INTPTR_MAX", "UINTPTR_MAX", "INTMAX_MIN",   "INTMAX_MAX",    "UINTMAX_MAX",
-    "PTRDIFF_MIN",  "PTRDIFF_MAX", "SIZE_MAX",   "WCHAR_MIN",  "WCHAR_MAX",     "WINT_MIN",      "WINT_MAX",
-    "SIG_ATOMIC_MIN", "SIG_ATOMIC_MAX", "INT_LEAST8_MIN", "INT_LEAST16_MIN", "INT_LEAST32_MIN", "INT_LEAST64_MIN",
-    "INT_LEAST8_MAX", "INT_LEAST16_MAX", "INT_LEAST32_MAX", "INT_LEAST64_MAX", "UINT_LEAST8_MAX", "UINT_LEAST16_MAX",
-    "UINT_LEAST32_MAX", "UINT_LEAST64_MAX", "INT_FAST8_MIN", "INT_FAST16_MIN", "INT_FAST32_MIN", "INT_FAST64_MIN",
-    "INT_FAST8_MAX", "INT_FAST16_MAX", "INT_FAST32_MAX", "INT_FAST64_MAX", "UINT_FAST8_MAX", "UINT_FAST16_MAX",
-    "UINT_FAST32_MAX", "UINT_FAST64_MAX",
+    "alignas",
+    "alignof",
+    "and",
+    "and_eq",
+    "asm",
+    "auto",
+    "bitand",
+    "bitor",
+    "bool",
+    "break",
+    "case",
+    "catch",
+    "char",
+    "char8_t",
+    "char16_t",
+    "char32_t",
+    "class",
+    "compl",
+    "concept",
+    "const",
+    "consteval",
+    "constexpr",
+    "constinit",
+    "const_cast",
+    "continue",
+    "co_await",
+    "co_return",
+    "co_yield",
+    "decltype",
+    "default",
+    "delete",
+    "do",
+    "double",
+    "dynamic_cast",
+    "else",
+    "enum",
+    "explicit",
+    "export",
+    "extern",
+    "false",
+    "float",
+    "for",
+    "friend",
+    "goto",
+    "if",
+    "inline",
+    "int",
+    "long",
+    "mutable",
+    "namespace",
+    "new",
+    "noexcept",
+    "not",
+    "not_eq",
+    "nullptr",
+    "operator",
+    "or",
+    "or_eq",
+    "private",
+    "protected",
+    "public",
+    "register",
+    "reinterpret_cast",
+    "requires",
+    "return",
+    "short",
+    "signed",
+    "sizeof",
+    "static",
+    "static_assert",
+    "static_cast",
+    "struct",
+    "switch",
+    "template",
+    "this",
+    "thread_local",
+    "throw",
+    "true",
+    "try",
+    "typedef",
+    "typeid",
+    "typename",
+    "union",
+    "unsigned",
+    "using",
+    "virtual",
+    "void",
+    "volatile",
+    "wchar_t",
+    "while",
+    "xor",
+    "xor_eq",
+    "typeof",
+    "linux",
+    "unix",
+    "i386",
+    "offsetof",
+    "NULL",
+    "INT8_MIN",
+    "INT16_MIN",
+    "INT32_MIN",
+    "INT64_MIN",
+    "INT8_MAX",
+    "INT16_MAX",
+    "INT32_MAX",
+    "INT64_MAX",
+    "UINT8_MAX",
+    "UINT16_MAX",
+    "UINT32_MAX",
+    "UINT64_MAX",
+    "INT8_C",
+    "INT16_C",
+    "INT32_C",
+    "INT64_C",
+    "UINT8_C",
+    "UINT16_C",
+    "UINT32_C",
+    "UINT64_C",
+    "INTMAX_C",
+    "UINTMAX_C",
+    "INTPTR_MIN",
+    "INTPTR_MAX",
+    "UINTPTR_MAX",
+    "INTMAX_MIN",
+    "INTMAX_MAX",
+    "UINTMAX_MAX",
+    "PTRDIFF_MIN",
+    "PTRDIFF_MAX",
+    "SIZE_MAX",
+    "WCHAR_MIN",
+    "WCHAR_MAX",
+    "WINT_MIN",
+    "WINT_MAX",
+    "SIG_ATOMIC_MIN",
+    "SIG_ATOMIC_MAX",
+    "INT_LEAST8_MIN",
+    "INT_LEAST16_MIN",
+    "INT_LEAST32_MIN",
+    "INT_LEAST64_MIN",
+    "INT_LEAST8_MAX",
+    "INT_LEAST16_MAX",
+    "INT_LEAST32_MAX",
+    "INT_LEAST64_MAX",
+    "UINT_LEAST8_MAX",
+    "UINT_LEAST16_MAX",
+    "UINT_LEAST32_MAX",
+    "UINT_LEAST64_MAX",
+    "INT_FAST8_MIN",
+    "INT_FAST16_MIN",
+    "INT_FAST32_MIN",
+    "INT_FAST64_MIN",
+    "INT_FAST8_MAX",
+    "INT_FAST16_MAX",
+    "INT_FAST32_MAX",
+    "INT_FAST64_MAX",
+    "UINT_FAST8_MAX",
+    "UINT_FAST16_MAX",
+    "UINT_FAST32_MAX",
+    "UINT_FAST64_MAX",
 };
 
 /// The reserved words, found by first character and length before anything is compared.
@@ -56,7 +191,8 @@ struct ReservedWords {
 std::string identifier(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    const bool good = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    const bool good =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
     out.push_back(good ? c : '_');
   }
   if (out.empty() || (out[0] >= '0' && out[0] <= '9'))
@@ -161,16 +297,17 @@ const Symbol *Names::symbolOf(const Type *type) {
 
 std::string_view Names::elementary(TypeKind kind) {
   static constexpr std::string_view kNames[] = {
-      "None", "None",  "BOOL",  "SINT",  "INT",   "DINT", "LINT",  "USINT", "UINT",  "UDINT", "ULINT", "BYTE",   "WORD",
-      "DWORD", "LWORD", "REAL", "LREAL", "TIME", "LTIME", "DATE", "LDATE", "TOD",   "LTOD",  "DT",    "LDT",   "STRING",
-      "WSTRING",
+      "None",  "None",  "BOOL",  "SINT", "INT",   "DINT",  "LINT", "USINT",  "UINT",
+      "UDINT", "ULINT", "BYTE",  "WORD", "DWORD", "LWORD", "REAL", "LREAL",  "TIME",
+      "LTIME", "DATE",  "LDATE", "TOD",  "LTOD",  "DT",    "LDT",  "STRING", "WSTRING",
   };
   static_assert(std::size(kNames) == static_cast<std::size_t>(TypeKind::wstring) + 1);
   if (kind == TypeKind::anyInteger)
     return "DINT";
   if (kind == TypeKind::anyReal)
     return "LREAL";
-  return kind <= TypeKind::wstring ? kNames[static_cast<std::size_t>(kind)] : std::string_view("None");
+  return kind <= TypeKind::wstring ? kNames[static_cast<std::size_t>(kind)]
+                                   : std::string_view("None");
 }
 
 std::string_view Names::type(const Type *type) {
@@ -192,8 +329,8 @@ std::string_view Names::type(const Type *type) {
     break;
   case TypeKind::array: {
     const auto *array = typeAs<ArrayType>(type);
-    text = "::stride::Array<" + std::string(this->type(array->element)) + ", " + std::to_string(array->low) + ", " +
-           std::to_string(array->high) + ">";
+    text = "::stride::Array<" + std::string(this->type(array->element)) + ", " +
+           std::to_string(array->low) + ", " + std::to_string(array->high) + ">";
     break;
   }
   case TypeKind::pointer:
@@ -213,7 +350,8 @@ std::string_view Names::type(const Type *type) {
 
 void Includes::complete(const Type *type) {
   while (type->kind == TypeKind::array || type->kind == TypeKind::subrange)
-    type = type->kind == TypeKind::array ? typeAs<ArrayType>(type)->element : typeAs<SubrangeType>(type)->base;
+    type = type->kind == TypeKind::array ? typeAs<ArrayType>(type)->element
+                                         : typeAs<SubrangeType>(type)->base;
   if (type->kind == TypeKind::pointer || type->kind == TypeKind::reference)
     pointed(typeAs<PointerType>(type)->pointee);
   else if (const Symbol *s = Names::symbolOf(type))
@@ -221,12 +359,15 @@ void Includes::complete(const Type *type) {
 }
 
 void Includes::pointed(const Type *type) {
-  while (type->kind == TypeKind::array || type->kind == TypeKind::pointer || type->kind == TypeKind::reference)
-    type = type->kind == TypeKind::array ? typeAs<ArrayType>(type)->element : typeAs<PointerType>(type)->pointee;
+  while (type->kind == TypeKind::array || type->kind == TypeKind::pointer ||
+         type->kind == TypeKind::reference)
+    type = type->kind == TypeKind::array ? typeAs<ArrayType>(type)->element
+                                         : typeAs<PointerType>(type)->pointee;
   const Symbol *s = Names::symbolOf(type);
   if (s == nullptr)
     return;
-  if (type->kind == TypeKind::enumeration) // an alias of a number: there is no way to declare it in advance
+  if (type->kind ==
+      TypeKind::enumeration) // an alias of a number: there is no way to declare it in advance
     symbol(s);
   else if (declaredSet_.insert(s).second)
     declared_.push_back(s);

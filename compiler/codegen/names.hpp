@@ -11,12 +11,14 @@
 
 namespace stc::codegen {
 
-/// The C++ spelling of an ST identifier: itself, with one more `_` when C++ (or Stride) uses the word.
+/// The C++ spelling of an ST identifier: itself, with one more `_` when C++ (or Stride) uses the
+/// word.
 std::string mangle(std::string_view name);
 /// Appends it.
 void mangleTo(std::string &out, std::string_view name);
 
-/// The headers one file includes: those of complete types, and declarations of types that are only pointed to.
+/// The headers one file includes: those of complete types, and declarations of types that are only
+/// pointed to.
 class Includes;
 
 /// Names of types and POUs, with the C++ types built from them. One per run.
@@ -52,7 +54,8 @@ private:
   std::unordered_map<const Library *, std::string> spaces_;
   std::unordered_map<const Symbol *, Entry> entries_;
   std::unordered_map<const Type *, std::string> types_;
-  std::unordered_map<std::string, const Symbol *> taken_; ///< headers; tells apart synthesized types of one name
+  std::unordered_map<std::string, const Symbol *>
+      taken_; ///< headers; tells apart synthesized types of one name
 };
 
 /// Collects what a generated file must include.

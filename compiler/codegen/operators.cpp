@@ -70,11 +70,13 @@ Emitter::Infix Emitter::infix(const BinaryExpr *e) const {
   case BinaryOp::greaterEqual:
     return {comparison(e->op), kRelation};
   case BinaryOp::logicalAnd:
-    if (type->kind == TypeKind::boolean && (c_.analysis.effects(e->right) & (effectRaises | effectCalls)) == 0)
+    if (type->kind == TypeKind::boolean &&
+        (c_.analysis.effects(e->right) & (effectRaises | effectCalls)) == 0)
       return {"&&", kAnd};
     return {"&", kBitAnd};
   case BinaryOp::logicalOr:
-    if (type->kind == TypeKind::boolean && (c_.analysis.effects(e->right) & (effectRaises | effectCalls)) == 0)
+    if (type->kind == TypeKind::boolean &&
+        (c_.analysis.effects(e->right) & (effectRaises | effectCalls)) == 0)
       return {"||", kOr};
     return {"|", kBitOr};
   case BinaryOp::logicalXor:
@@ -111,7 +113,8 @@ bool Emitter::parenthesize(int child, const Infix &parent, bool right, std::stri
   }
 }
 
-bool Emitter::implicitOperand(const Expr *e, const Type *type, const Expr *other, bool compared) const {
+bool Emitter::implicitOperand(const Expr *e, const Type *type, const Expr *other,
+                              bool compared) const {
   const Type *from = underlying(e->type);
   const Type *to = underlying(type);
   if (from == to)
@@ -124,8 +127,10 @@ bool Emitter::implicitOperand(const Expr *e, const Type *type, const Expr *other
   const Type *otherType = other->constant != nullptr ? to : promoted(other->type, nullptr);
   if (otherType != to)
     return false;
-  if (integers) // the usual arithmetic conversions; g++ warns about comparisons of signed with unsigned
-    return bitWidth(from) <= bitWidth(to) && (!compared || isSignedInteger(from) == isSignedInteger(to));
+  if (integers) // the usual arithmetic conversions; g++ warns about comparisons of signed with
+                // unsigned
+    return bitWidth(from) <= bitWidth(to) &&
+           (!compared || isSignedInteger(from) == isSignedInteger(to));
   return (isInteger(from) || isReal(from)) && isReal(to);
 }
 
@@ -162,9 +167,10 @@ void Emitter::unary(const UnaryExpr *e) {
   if (cut)
     w_ << "static_cast<" << this->type(type) << ">(";
   w_ << (e->op == UnaryOp::negate ? '-' : isBool ? '!' : '~');
-  const bool parentheses = e->operand->constant == nullptr
-                               ? implicitOperand(e->operand, type, nullptr, false) && level(e->operand) > kPostfix
-                               : level(e->operand) > kPostfix;
+  const bool parentheses =
+      e->operand->constant == nullptr
+          ? implicitOperand(e->operand, type, nullptr, false) && level(e->operand) > kPostfix
+          : level(e->operand) > kPostfix;
   if (parentheses)
     w_ << '(';
   operand(e->operand, type, nullptr, false);
@@ -189,7 +195,8 @@ void Emitter::binary(const BinaryExpr *e) {
       break;
     const auto *inner = as<BinaryExpr>(left);
     const Infix innerOp = infix(inner);
-    if (innerOp.op.empty() || isString(inner->operandType) || parenthesize(innerOp.level, op, false, innerOp.op))
+    if (innerOp.op.empty() || isString(inner->operandType) ||
+        parenthesize(innerOp.level, op, false, innerOp.op))
       break;
     at = inner;
   }
@@ -282,7 +289,8 @@ void Emitter::ordered(const BinaryExpr *e) {
   if (!op.op.empty() && !isString(e->operandType)) {
     w_ << left << ' ' << op.op << ' ' << right;
   } else {
-    special(e, [&] { w_ << left; }, [&] { w_ << right; });
+    special(
+        e, [&] { w_ << left; }, [&] { w_ << right; });
     if (e->operandType != nullptr && isString(e->operandType))
       w_ << ' ' << comparison(e->op) << " 0";
   }

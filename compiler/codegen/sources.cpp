@@ -7,7 +7,8 @@ namespace stc::codegen {
 using namespace ast;
 
 std::string_view sourcePrelude() {
-  // The warnings are about what the ST says (`x = x`, an unused variable), not about how it was translated.
+  // The warnings are about what the ST says (`x = x`, an unused variable), not about how it was
+  // translated.
   return "#include \"runtime/iec/ops.h\"\n"
          "\n"
          "#pragma GCC diagnostic ignored \"-Wtautological-compare\"\n"
@@ -25,7 +26,8 @@ public:
       : c_(context), e_(context, pou), text_(context.program.sources), path_(std::move(path)) {}
 
   /// `void X::init__(…) { … }` for the given variables; nothing when they are zero.
-  void init(std::string_view name, const std::vector<const VarSymbol *> &variables, const Type *base = nullptr) {
+  void init(std::string_view name, const std::vector<const VarSymbol *> &variables,
+            const Type *base = nullptr) {
     e_.forgetUses();
     e_.writer().indent();
     if (base != nullptr && c_.layouts.needsInit(base)) {
@@ -38,7 +40,8 @@ public:
         e_.initVariable("this->" + mangle(v->name.text), v);
     }
     const Writer body = e_.takeWriter();
-    functionHead("void " + std::string(name) + "::init__(::stride::Ctx &" + (e_.usesContext() ? "ctx__" : "") + ")");
+    functionHead("void " + std::string(name) + "::init__(::stride::Ctx &" +
+                 (e_.usesContext() ? "ctx__" : "") + ")");
     prologue();
     text_.append(body);
     functionEnd();
@@ -56,7 +59,8 @@ public:
       if (v->section == Section::inOut && e_.used(v))
         inOutReference(bound, v);
     }
-    functionHead("void " + std::string(name) + "::body__(::stride::Ctx &" + (e_.usesContext() ? "ctx__" : "") + ")");
+    functionHead("void " + std::string(name) + "::body__(::stride::Ctx &" +
+                 (e_.usesContext() ? "ctx__" : "") + ")");
     prologue();
     text_.append(bound);
     budget();
@@ -145,8 +149,9 @@ private:
       text_.endLine();
     }
     for (const Emitter::RootUse &use : e_.takeRoots()) {
-      text_.line() << "  auto &" << use.reference << " = ::stride::root<" << rootType(c_.names, use.root) << ">(ctx__, "
-                   << rootPlace(c_.names, use.root) << ");";
+      text_.line() << "  auto &" << use.reference << " = ::stride::root<"
+                   << rootType(c_.names, use.root) << ">(ctx__, " << rootPlace(c_.names, use.root)
+                   << ");";
       text_.endLine();
     }
   }
@@ -175,8 +180,8 @@ private:
     if (c_.program.settings.checks) {
       e_.needContext();
       const Place at = out.place(v->name.span);
-      out << "::stride::bound(ctx__, this->" << name << ", " << e_.fileName(v->name.span.file) << ", " << at.line << ", "
-          << at.column << ");";
+      out << "::stride::bound(ctx__, this->" << name << ", " << e_.fileName(v->name.span.file)
+          << ", " << at.line << ", " << at.column << ");";
     } else {
       out << "*this->" << name << ';';
     }
@@ -207,8 +212,8 @@ void generateSources(Context &context, std::vector<GeneratedFile> &files) {
   SourceBuilder types(context, nullptr, folder + "init__.cpp");
   bool any = false;
   for (const TypeSymbol *t : library.types) {
-    if (t->type->kind != TypeKind::structure || t->decl == nullptr || t->decl->kind != DeclKind::structure ||
-        !context.layouts.needsInit(t->type))
+    if (t->type->kind != TypeKind::structure || t->decl == nullptr ||
+        t->decl->kind != DeclKind::structure || !context.layouts.needsInit(t->type))
       continue;
     const auto *type = typeAs<StructType>(t->type);
     types.emitter().includes().symbol(t);

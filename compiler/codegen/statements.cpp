@@ -17,7 +17,9 @@ constexpr std::size_t kMaxElseIf = 64;
 bool isBit(const Expr *e) { return e->kind == ExprKind::member && as<MemberExpr>(e)->bit >= 0; }
 
 /// A path that costs nothing to follow twice.
-bool isPlain(std::string_view place) { return place.find_first_of("([*") == std::string_view::npos; }
+bool isPlain(std::string_view place) {
+  return place.find_first_of("([*") == std::string_view::npos;
+}
 
 } // namespace
 
@@ -100,7 +102,8 @@ void Emitter::statement(const Stmt *s) {
   }
 }
 
-// ----------------------------------------------------------------------------------------------------- assignments
+// -----------------------------------------------------------------------------------------------------
+// assignments
 
 void Emitter::storeTo(std::string_view target, const Type *type, const Expr *value) {
   if (isString(type) && (value->constant != nullptr || value->type != type)) {
@@ -243,7 +246,8 @@ void Emitter::callStatement(const CallStmt *s) {
   end();
 }
 
-// ------------------------------------------------------------------------------------------------------- selection
+// -------------------------------------------------------------------------------------------------------
+// selection
 
 void Emitter::ifStatement(const IfStmt *s) {
   const bool flat = s->branches.size() > kMaxElseIf;
@@ -292,14 +296,15 @@ void Emitter::caseStatement(const CaseStmt *s) {
   for (const CaseBranch &branch : s->branches) {
     for (const CaseLabel &label : branch.labels) {
       std::int64_t width = 0;
-      if (label.high != nullptr &&
-          __builtin_sub_overflow(label.high->constant->integer, label.low->constant->integer, &width))
+      if (label.high != nullptr && __builtin_sub_overflow(label.high->constant->integer,
+                                                          label.low->constant->integer, &width))
         width = kMaxRange;
       small = small && width < kMaxRange;
       labels += width + 1;
     }
   }
-  if (small && (labels <= kMaxLabels || labels <= 4 * static_cast<std::int64_t>(s->branches.size())))
+  if (small &&
+      (labels <= kMaxLabels || labels <= 4 * static_cast<std::int64_t>(s->branches.size())))
     caseSwitch(s);
   else
     caseChain(s);
@@ -423,7 +428,8 @@ void Emitter::caseChain(const CaseStmt *s) {
   end();
 }
 
-// ----------------------------------------------------------------------------------------------------------- loops
+// -----------------------------------------------------------------------------------------------------------
+// loops
 
 void Emitter::loopBody(Block body, Span span, bool tick) {
   loops_.push_back({++next_});
@@ -480,12 +486,16 @@ void Emitter::forStatement(const ForStmt *s) {
   if (constantStep)
     w_ << variable << (step >= 0 ? " <= " : " >= ") << last;
   else
-    w_ << "::stride::forFirst<" << this->type(type) << ">(" << variable << ", " << last << ", step__" << number << ')';
+    w_ << "::stride::forFirst<" << this->type(type) << ">(" << variable << ", " << last
+       << ", step__" << number << ')';
   w_ << "; run__" << number << "; run__" << number << " = ::stride::"
-     << (!constantStep ? "forNext<" : step >= 0 ? "forUp<" : "forDown<") << this->type(type) << ">(" << variable << ", "
-     << last << ", ";
+     << (!constantStep ? "forNext<"
+         : step >= 0   ? "forUp<"
+                       : "forDown<")
+     << this->type(type) << ">(" << variable << ", " << last << ", ";
   if (constantStep)
-    w_ << (step >= 0 ? static_cast<std::uint64_t>(step) : 0 - static_cast<std::uint64_t>(step)) << 'U';
+    w_ << (step >= 0 ? static_cast<std::uint64_t>(step) : 0 - static_cast<std::uint64_t>(step))
+       << 'U';
   else
     w_ << "step__" << number;
   w_ << ")) {";

@@ -38,7 +38,8 @@ std::string quote(std::string_view text) { return '"' + escaped(text) + '"'; }
 std::uint32_t TypeTable::index(const Type *type, bool inOut) {
   if (!inOut && type->kind == TypeKind::subrange)
     type = underlying(type);
-  const auto [it, fresh] = indices_.try_emplace({type, inOut}, static_cast<std::uint32_t>(types_.size()));
+  const auto [it, fresh] =
+      indices_.try_emplace({type, inOut}, static_cast<std::uint32_t>(types_.size()));
   const std::uint32_t at = it->second;
   if (fresh) {
     types_.emplace_back();
@@ -131,27 +132,29 @@ void TypeTable::members(Row &row, const Type *base, const std::string &owner,
                           std::to_string(baseIndex) + ", ::stride::kSymBase}");
   for (std::size_t i = 0; i < variables.size(); ++i)
     memberRows_.push_back("{" + quote(variables[i]->name.text) + ", offsetof(" + owner + ", " +
-                          mangle(variables[i]->name.text) + "), " + std::to_string(types[i]) + ", " +
-                          symbolFlags(variables[i]) + "}");
+                          mangle(variables[i]->name.text) + "), " + std::to_string(types[i]) +
+                          ", " + symbolFlags(variables[i]) + "}");
   row.memberCount = memberRows_.size() - row.firstMember;
 }
 
-void TypeTable::addRoot(std::string_view list, const VarSymbol *variable, const std::string &place, bool qualifiedOnly) {
+void TypeTable::addRoot(std::string_view list, const VarSymbol *variable, const std::string &place,
+                        bool qualifiedOnly) {
   const std::uint32_t type = index(variable->type, variable->section == Section::inOut);
-  rootRows_.push_back("{" + (list.empty() ? std::string("nullptr") : quote(list)) + ", " + quote(variable->name.text) +
-                      ", offsetof(App__, " + place + "), " + std::to_string(type) + ", " +
-                      symbolFlags(variable, qualifiedOnly) + "}");
+  rootRows_.push_back("{" + (list.empty() ? std::string("nullptr") : quote(list)) + ", " +
+                      quote(variable->name.text) + ", offsetof(App__, " + place + "), " +
+                      std::to_string(type) + ", " + symbolFlags(variable, qualifiedOnly) + "}");
 }
 
 void TypeTable::addProgram(const PouSymbol *program, const std::string &place) {
   const std::uint32_t type = index(program->type);
-  rootRows_.push_back("{nullptr, " + quote(program->name.text) + ", offsetof(App__, " + place + "), " +
-                      std::to_string(type) + ", 0}");
+  rootRows_.push_back("{nullptr, " + quote(program->name.text) + ", offsetof(App__, " + place +
+                      "), " + std::to_string(type) + ", 0}");
 }
 
 std::string TypeTable::text() const {
   std::string out;
-  const auto table = [&](std::string_view type, std::string_view name, const std::vector<std::string> &rows) {
+  const auto table = [&](std::string_view type, std::string_view name,
+                         const std::vector<std::string> &rows) {
     if (rows.empty())
       return;
     out.append("\nconstexpr ::stride::").append(type).append(" ").append(name).append("[] = {\n");
@@ -162,14 +165,16 @@ std::string TypeTable::text() const {
   std::vector<std::string> rows;
   rows.reserve(types_.size());
   for (const Row &r : types_) {
-    rows.push_back("{Kind::" + r.kind + ", " + std::to_string(r.flags) + ", " + quote(r.name) + ", sizeof(" + r.cppType +
-                   "), " + std::to_string(r.hash) + "ULL, alignof(" + r.cppType + "), " + std::to_string(r.firstMember) +
-                   ", " + std::to_string(r.memberCount) + ", " +
+    rows.push_back("{Kind::" + r.kind + ", " + std::to_string(r.flags) + ", " + quote(r.name) +
+                   ", sizeof(" + r.cppType + "), " + std::to_string(r.hash) + "ULL, alignof(" +
+                   r.cppType + "), " + std::to_string(r.firstMember) + ", " +
+                   std::to_string(r.memberCount) + ", " +
                    (r.element < 0 ? std::string("kNo") : std::to_string(r.element)) + ", " +
                    std::to_string(r.lowerBound) + ", " + std::to_string(r.elementCount) + ", " +
                    std::to_string(r.stringLength) + ", 0}");
   }
-  out += "\n// {kind, flags, name, size, layoutHash, align, firstMember, memberCount, element, lowerBound,\n"
+  out += "\n// {kind, flags, name, size, layoutHash, align, firstMember, memberCount, element, "
+         "lowerBound,\n"
          "//  elementCount, stringLength, 0}";
   table("TypeDesc", "kTypes", rows);
   out += "\n// {name, offset, type, flags}";

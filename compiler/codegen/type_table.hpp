@@ -9,7 +9,8 @@
 
 namespace stc::codegen {
 
-/// Collects every type that can be reached from the roots, pointers included, and writes the tables.
+/// Collects every type that can be reached from the roots, pointers included, and writes the
+/// tables.
 class TypeTable {
 public:
   explicit TypeTable(Context &context) : c_(context) {}
@@ -17,7 +18,8 @@ public:
   /// The type's index.
   std::uint32_t index(const Type *type, bool inOut = false);
   /// `{"limit", offsetof(…), type, flags}` of one variable that stands for itself.
-  void addRoot(std::string_view list, const VarSymbol *variable, const std::string &place, bool qualifiedOnly);
+  void addRoot(std::string_view list, const VarSymbol *variable, const std::string &place,
+               bool qualifiedOnly);
   void addProgram(const PouSymbol *program, const std::string &place);
 
   /// `constexpr … kTypes[] = { … };` and the other tables.
@@ -35,7 +37,9 @@ private:
     bool operator==(const Key &) const = default;
   };
   struct KeyHash {
-    std::size_t operator()(const Key &k) const { return std::hash<const Type *>()(k.type) * 2 + (k.inOut ? 1 : 0); }
+    std::size_t operator()(const Key &k) const {
+      return std::hash<const Type *>()(k.type) * 2 + (k.inOut ? 1 : 0);
+    }
   };
   struct Row {
     std::string kind;
@@ -51,7 +55,8 @@ private:
     std::uint32_t stringLength = 0;
   };
   void fill(std::uint32_t at, const Type *type, bool inOut);
-  void members(Row &row, const Type *base, const std::string &owner, const std::vector<const VarSymbol *> &variables);
+  void members(Row &row, const Type *base, const std::string &owner,
+               const std::vector<const VarSymbol *> &variables);
 
   Context &c_;
   Includes includes_{c_.names};

@@ -14,13 +14,16 @@ void generateHeaders(Context &context, std::vector<GeneratedFile> &files);
 /// Sources of all its POUs, and one for the initial values of structures and variable lists.
 void generateSources(Context &context, std::vector<GeneratedFile> &files);
 
-/// `struct T { … };` with what belongs to it is needed by the application as well: the variables of a root.
+/// `struct T { … };` with what belongs to it is needed by the application as well: the variables of
+/// a root.
 [[nodiscard]] std::vector<const VarSymbol *> rootVariables(const Root &root);
 /// Whether the root's memory must be set after it has been zeroed.
 [[nodiscard]] bool rootNeedsInit(Context &context, const Root &root);
 
-/// `R Name(::stride::Ctx &ctx__, T a)`. In a definition unused parameters are marked and an unused context has no name.
-[[nodiscard]] std::string functionSignature(Context &context, const PouSymbol *symbol, const Emitter *definition);
+/// `R Name(::stride::Ctx &ctx__, T a)`. In a definition unused parameters are marked and an unused
+/// context has no name.
+[[nodiscard]] std::string functionSignature(Context &context, const PouSymbol *symbol,
+                                            const Emitter *definition);
 
 /// First line of each generated file.
 [[nodiscard]] std::string banner(std::string_view what);

@@ -15,7 +15,8 @@ Place Writer::place(Span span) {
     std::size_t end = text.find('\n', begin);
     if (end == std::string_view::npos)
       end = text.size();
-    // A line longer than this is asked for anew each time: its columns would be counted over and over.
+    // A line longer than this is asked for anew each time: its columns would be counted over and
+    // over.
     if (end - begin > 1024)
       return {at.line, at.column};
     cachedFile_ = span.file;

@@ -17,8 +17,8 @@ struct Place {
   std::uint32_t column = 0;
 };
 
-/// Appends to a text, with indentation and `#line` directives. A directive is written only where the compiler's own count
-/// of lines would be wrong.
+/// Appends to a text, with indentation and `#line` directives. A directive is written only where
+/// the compiler's own count of lines would be wrong.
 class Writer {
 public:
   explicit Writer(const SourceManager &sources) : sources_(&sources) { text_.reserve(4096); }
@@ -34,8 +34,7 @@ public:
     return *this;
   }
   template <std::integral T>
-    requires(!std::same_as<T, char> && !std::same_as<T, bool>)
-  Writer &operator<<(T value) {
+  requires(!std::same_as<T, char> && !std::same_as<T, bool>) Writer &operator<<(T value) {
     char digits[24];
     const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
     text_.append(digits, end);
@@ -80,9 +79,9 @@ private:
   const SourceManager *sources_;
   std::string text_;
   std::size_t indent_ = 0;
-  std::uint32_t count_ = 1;     ///< number of the line being written
-  std::uint32_t believed_ = 1;  ///< what the C++ compiler takes it for
-  FileId mapped_ = 0;           ///< the file it takes it to be in; 0: the generated one
+  std::uint32_t count_ = 1;    ///< number of the line being written
+  std::uint32_t believed_ = 1; ///< what the C++ compiler takes it for
+  FileId mapped_ = 0;          ///< the file it takes it to be in; 0: the generated one
   // The line that was asked for last: its begin and end in the text.
   FileId cachedFile_ = 0;
   std::uint32_t cachedBegin_ = 1;

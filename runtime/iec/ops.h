@@ -169,14 +169,12 @@ template <class S> inline S maxText(const S &a, const S &b) { return compare(a, 
 // to the end is compared before the step, so that loops end at the limits of the type as well.
 
 template <class T> constexpr bool forUp(T &i, T end, ULINT step) {
-  const bool more =
-      i <= end && static_cast<ULINT>(end) - static_cast<ULINT>(i) >= step;
+  const bool more = i <= end && static_cast<ULINT>(end) - static_cast<ULINT>(i) >= step;
   i = static_cast<T>(static_cast<ULINT>(i) + step);
   return more;
 }
 template <class T> constexpr bool forDown(T &i, T end, ULINT step) {
-  const bool more =
-      i >= end && static_cast<ULINT>(i) - static_cast<ULINT>(end) >= step;
+  const bool more = i >= end && static_cast<ULINT>(i) - static_cast<ULINT>(end) >= step;
   i = static_cast<T>(static_cast<ULINT>(i) - step);
   return more;
 }

@@ -104,7 +104,8 @@ END_PROGRAM
 )");
   app.run();
   EXPECT_EQ(app.exception(), "");
-  EXPECT_EQ(app["trace"], "'1234567891123" "4567'");
+  EXPECT_EQ(app["trace"], "'1234567891123"
+                          "4567'");
   EXPECT_EQ(app["Main.a"], "7");
   EXPECT_EQ(app["Main.b"], "564");
   EXPECT_EQ(app["Main.c"], "FALSE");
@@ -208,8 +209,10 @@ END_PROGRAM
 }
 
 TEST(CodegenCalls, LibraryBlocks) {
-  const Options options{.checks = true,
-                        .library = {{"TON.st", R"(
+  const Options options{
+      .checks = true,
+      .library = {
+          {"TON.st", R"(
 FUNCTION_BLOCK TON
 VAR_INPUT IN : BOOL; PT : TIME; END_VAR
 VAR_OUTPUT Q : BOOL; ET : TIME; END_VAR
@@ -220,10 +223,10 @@ VAR {attribute 'hide'} start : TIME; running : BOOL; speed : Mode := Mode.slow; 
   IF ET >= PT THEN ET := PT; Q := TRUE; END_IF
 END_FUNCTION_BLOCK
 )"},
-                                    {"Mode.st", "TYPE Mode : (fast, slow, other); END_TYPE\n"},
-                                    {"Holder.st", "TYPE Holder : STRUCT idle : Idle; END_STRUCT END_TYPE\n"},
-                                    {"Idle.st", "FUNCTION_BLOCK Idle VAR_OUTPUT n : INT := 7; END_VAR END_FUNCTION_BLOCK\n"},
-                                    {"Twice.st", R"(
+          {"Mode.st", "TYPE Mode : (fast, slow, other); END_TYPE\n"},
+          {"Holder.st", "TYPE Holder : STRUCT idle : Idle; END_STRUCT END_TYPE\n"},
+          {"Idle.st", "FUNCTION_BLOCK Idle VAR_OUTPUT n : INT := 7; END_VAR END_FUNCTION_BLOCK\n"},
+          {"Twice.st", R"(
 FUNCTION Twice : LREAL
 VAR_INPUT x : LREAL := 4; END_VAR
   Twice := 2 * x;

@@ -74,13 +74,14 @@ struct Thrown {
   std::string text;
 };
 
-void raise(stride::Ctx *, stride::ExceptionCode code, const char *file, std::uint32_t line, std::uint32_t col,
-           const char *) {
-  static constexpr std::array kNames = {"None",        "DivisionByZero", "IndexOutOfRange", "NullPointer",
-                                        "UnboundInOut", "RangeViolation", "EndlessLoop"};
+void raise(stride::Ctx *, stride::ExceptionCode code, const char *file, std::uint32_t line,
+           std::uint32_t col, const char *) {
+  static constexpr std::array kNames = {"None",        "DivisionByZero", "IndexOutOfRange",
+                                        "NullPointer", "UnboundInOut",   "RangeViolation",
+                                        "EndlessLoop"};
   const auto index = static_cast<std::size_t>(code);
-  throw Thrown{std::string(index < kNames.size() ? kNames[index] : "?") + " " + file + ":" + std::to_string(line) + ":" +
-               std::to_string(col)};
+  throw Thrown{std::string(index < kNames.size() ? kNames[index] : "?") + " " + file + ":" +
+               std::to_string(line) + ":" + std::to_string(col)};
 }
 
 std::int64_t noBudget(stride::Ctx *) { return 0; }
@@ -100,7 +101,8 @@ std::vector<GeneratedFile> generate(const std::vector<Source> &sources, const Op
   std::vector<ast::File *> files;
   for (const Source &s : sources) {
     const FileId id = program.sources.add(s.name, s.text);
-    files.push_back(parse(program.sources.file(id), program.interner, program.arena, program.diagnostics));
+    files.push_back(
+        parse(program.sources.file(id), program.interner, program.arena, program.diagnostics));
   }
   const TestLibrary index(options.library);
   check(program, files, index);
@@ -147,7 +149,9 @@ std::string fileText(const std::vector<GeneratedFile> &files, std::string_view p
 App::App(std::string_view source, const Options &options)
     : App(std::vector<Source>{{"Main.st", std::string(source)}}, options) {}
 
-App::App(const std::vector<Source> &sources, const Options &options) { load(generate(sources, options), options); }
+App::App(const std::vector<Source> &sources, const Options &options) {
+  load(generate(sources, options), options);
+}
 
 App::~App() {
   if (handle_ != nullptr)
@@ -170,12 +174,13 @@ void App::load(const std::vector<GeneratedFile> &files, const Options &) {
   write(folder / "all.cpp", all);
   const std::string object = (folder / "app.so").string();
   const std::string log = (folder / "log.txt").string();
-  const std::string command =
-      std::string(STRIDE_CXX) +
-      " -std=c++20 -fPIC -shared -O0 -Wall -Wextra -Wpedantic -Werror -fwrapv -fno-strict-aliasing -fno-finite-loops"
-      " -fno-delete-null-pointer-checks -ffp-contract=off -fno-rtti -I" +
-      folder.string() + " -I" STRIDE_SOURCE_DIR " " + (folder / "all.cpp").string() + " -o " + object +
-      " " STRIDE_RUNTIME_ARCHIVE " -Wl,-z,defs > " + log + " 2>&1";
+  const std::string command = std::string(STRIDE_CXX) +
+                              " -std=c++20 -fPIC -shared -O0 -Wall -Wextra -Wpedantic -Werror "
+                              "-fwrapv -fno-strict-aliasing -fno-finite-loops"
+                              " -fno-delete-null-pointer-checks -ffp-contract=off -fno-rtti -I" +
+                              folder.string() + " -I" STRIDE_SOURCE_DIR " " +
+                              (folder / "all.cpp").string() + " -o " + object +
+                              " " STRIDE_RUNTIME_ARCHIVE " -Wl,-z,defs > " + log + " 2>&1";
   if (std::system(command.c_str()) != 0) {
     std::ifstream in(log);
     std::stringstream text;
@@ -227,8 +232,8 @@ void *App::at(std::string_view path, const stride::TypeDesc **typeOut) const {
   std::string_view rest = path;
   const auto word = [&] {
     std::size_t end = 0;
-    while (end < rest.size() && rest[end] != '.' && rest[end] != '[' && rest[end] != ']' && rest[end] != ',' &&
-           rest[end] != '^')
+    while (end < rest.size() && rest[end] != '.' && rest[end] != '[' && rest[end] != ']' &&
+           rest[end] != ',' && rest[end] != '^')
       ++end;
     const std::string_view w = rest.substr(0, end);
     rest.remove_prefix(end);
@@ -290,7 +295,8 @@ void *App::at(std::string_view path, const stride::TypeDesc **typeOut) const {
       }
     } else if (c == '[' || c == ',') {
       const std::int64_t index = std::stoll(word());
-      place += static_cast<std::uint64_t>(index - type->lowerBound) * app_->types[type->element].size;
+      place +=
+          static_cast<std::uint64_t>(index - type->lowerBound) * app_->types[type->element].size;
       type = &app_->types[type->element];
       if (rest.front() == ']')
         rest.remove_prefix(1);
@@ -311,13 +317,15 @@ std::string App::operator[](std::string_view path) const {
   if (type->kind == stride::Kind::WSTRING) {
     std::string out = "\"";
     for (const auto *c = static_cast<const char16_t *>(place); *c != 0; ++c)
-      out += *c < 0x80 ? std::string(1, static_cast<char>(*c)) : "<" + std::to_string(static_cast<unsigned>(*c)) + ">";
+      out += *c < 0x80 ? std::string(1, static_cast<char>(*c))
+                       : "<" + std::to_string(static_cast<unsigned>(*c)) + ">";
     return out + "\"";
   }
   stride::Kind kind = type->kind;
   if (kind == stride::Kind::Enum)
     kind = app_->types[type->element].kind;
-  if (kind == stride::Kind::Pointer || kind == stride::Kind::Reference || kind == stride::Kind::InOut) {
+  if (kind == stride::Kind::Pointer || kind == stride::Kind::Reference ||
+      kind == stride::Kind::InOut) {
     void *target = nullptr;
     std::memcpy(&target, place, sizeof target);
     return target == nullptr ? "null" : "set";

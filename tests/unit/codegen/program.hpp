@@ -1,5 +1,6 @@
 #pragma once
-// ST text, compiled by the compiler and by g++, loaded and run: what the code generator's tests look at.
+// ST text, compiled by the compiler and by g++, loaded and run: what the code generator's tests
+// look at.
 
 #include "compiler/codegen/codegen.hpp"
 #include "runtime/app/abi.h"
@@ -20,11 +21,13 @@ struct Source {
 
 struct Options {
   bool checks = true;
-  std::vector<Source> library; ///< files of a library `Lib`, compiled as such (with its bodies) when they are used
+  std::vector<Source>
+      library; ///< files of a library `Lib`, compiled as such (with its bodies) when they are used
 };
 
 /// The C++ of a project. Errors of the front end are test failures.
-std::vector<GeneratedFile> generate(const std::vector<Source> &sources, const Options &options = {});
+std::vector<GeneratedFile> generate(const std::vector<Source> &sources,
+                                    const Options &options = {});
 /// The text of one of the files; empty when there is none.
 std::string fileText(const std::vector<GeneratedFile> &files, std::string_view path);
 

@@ -237,7 +237,8 @@ END_PROGRAM
 }
 
 TEST(CodegenStatements, LongChains) {
-  std::string text = "PROGRAM Main\nVAR x : DINT := 1; n : INT := 2999; k : DINT; b : BOOL; END_VAR\n  x := x";
+  std::string text =
+      "PROGRAM Main\nVAR x : DINT := 1; n : INT := 2999; k : DINT; b : BOOL; END_VAR\n  x := x";
   for (int i = 0; i < 10000; ++i)
     text += " + x";
   text += ";\n  IF n = 0 THEN k := 0;\n";

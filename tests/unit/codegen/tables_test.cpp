@@ -27,7 +27,8 @@ END_VAR
 END_PROGRAM
 )";
 
-const stride::MemberDesc *member(const stride::StrideAppV1 &app, const stride::TypeDesc &type, const char *name) {
+const stride::MemberDesc *member(const stride::StrideAppV1 &app, const stride::TypeDesc &type,
+                                 const char *name) {
   for (std::uint32_t i = 0; i < type.memberCount; ++i) {
     if (std::strcmp(app.members[type.firstMember + i].name, name) == 0)
       return &app.members[type.firstMember + i];
@@ -90,8 +91,10 @@ TEST(CodegenTables, DescribeTypes) {
   bool kept = false;
   bool constant = false;
   for (std::uint32_t i = 0; i < d.rootCount; ++i) {
-    kept = kept || (std::strcmp(d.roots[i].name, "kept") == 0 && d.roots[i].flags == stride::kSymRetain);
-    constant = constant || (std::strcmp(d.roots[i].name, "kMax") == 0 && d.roots[i].flags == stride::kSymConstant);
+    kept = kept ||
+           (std::strcmp(d.roots[i].name, "kept") == 0 && d.roots[i].flags == stride::kSymRetain);
+    constant = constant || (std::strcmp(d.roots[i].name, "kMax") == 0 &&
+                            d.roots[i].flags == stride::kSymConstant);
   }
   EXPECT_TRUE(kept);
   EXPECT_TRUE(constant);
@@ -99,8 +102,9 @@ TEST(CodegenTables, DescribeTypes) {
 
 TEST(CodegenTables, LayoutHashesAreStable) {
   const auto hashOf = [](const std::string &fields) {
-    const auto files = generate({{"Main.st", "TYPE S : STRUCT " + fields +
-                                                 " END_STRUCT END_TYPE\nPROGRAM Main VAR s : S; END_VAR END_PROGRAM\n"}});
+    const auto files = generate(
+        {{"Main.st", "TYPE S : STRUCT " + fields +
+                         " END_STRUCT END_TYPE\nPROGRAM Main VAR s : S; END_VAR END_PROGRAM\n"}});
     const std::string header = fileText(files, "st/user/S.h");
     const auto at = header.find("S__layout__ = ");
     return header.substr(at, header.find(';', at) - at);
@@ -115,8 +119,9 @@ TEST(CodegenTables, LayoutHashesAreStable) {
 
 TEST(CodegenTables, AnEditTouchesOnlyWhatItMust) {
   const auto build = [](const std::string &body) {
-    return generate({{"A.st", "PROGRAM A VAR x : INT; END_VAR\n  x := B.y;\nEND_PROGRAM\n"},
-                     {"B.st", "PROGRAM B VAR_OUTPUT y : INT; END_VAR\n  " + body + "\nEND_PROGRAM\n"}});
+    return generate(
+        {{"A.st", "PROGRAM A VAR x : INT; END_VAR\n  x := B.y;\nEND_PROGRAM\n"},
+         {"B.st", "PROGRAM B VAR_OUTPUT y : INT; END_VAR\n  " + body + "\nEND_PROGRAM\n"}});
   };
   const auto before = build("y := 1;");
   const auto after = build("y := 2; y := 3;");
