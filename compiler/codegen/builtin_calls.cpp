@@ -226,9 +226,16 @@ void Emitter::builtinPlain(const CallExpr *e, const std::vector<std::string> *na
     rest(0, true);
     return;
   }
-  if (!isMath(e->builtin))
-    w_ << '<' << type(result) << '>';
-  w_ << '(';
+  if (isMath(e->builtin)) { // overloads for REAL and LREAL: an integer argument must choose one
+    for (std::size_t i = 0; i < count; ++i) {
+      w_ << (i == 0 ? "(" : ", ") << "static_cast<" << type(result) << ">(";
+      argument(i);
+      w_ << ')';
+    }
+    w_ << ')';
+    return;
+  }
+  w_ << '<' << type(result) << ">(";
   rest(0, false);
 }
 

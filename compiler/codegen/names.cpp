@@ -9,175 +9,38 @@ namespace {
 
 // C++ keywords, alternative tokens, contextual words that g++ warns about, and the macros of the
 // headers that generated code includes. The words with upper-case letters are macros.
-constexpr std::string_view kReserved[] = {
-    "alignas",
-    "alignof",
-    "and",
-    "and_eq",
-    "asm",
-    "auto",
-    "bitand",
-    "bitor",
-    "bool",
-    "break",
-    "case",
-    "catch",
-    "char",
-    "char8_t",
-    "char16_t",
-    "char32_t",
-    "class",
-    "compl",
-    "concept",
-    "const",
-    "consteval",
-    "constexpr",
-    "constinit",
-    "const_cast",
-    "continue",
-    "co_await",
-    "co_return",
-    "co_yield",
-    "decltype",
-    "default",
-    "delete",
-    "do",
-    "double",
-    "dynamic_cast",
-    "else",
-    "enum",
-    "explicit",
-    "export",
-    "extern",
-    "false",
-    "float",
-    "for",
-    "friend",
-    "goto",
-    "if",
-    "inline",
-    "int",
-    "long",
-    "mutable",
-    "namespace",
-    "new",
-    "noexcept",
-    "not",
-    "not_eq",
-    "nullptr",
-    "operator",
-    "or",
-    "or_eq",
-    "private",
-    "protected",
-    "public",
-    "register",
-    "reinterpret_cast",
-    "requires",
-    "return",
-    "short",
-    "signed",
-    "sizeof",
-    "static",
-    "static_assert",
-    "static_cast",
-    "struct",
-    "switch",
-    "template",
-    "this",
-    "thread_local",
-    "throw",
-    "true",
-    "try",
-    "typedef",
-    "typeid",
-    "typename",
-    "union",
-    "unsigned",
-    "using",
-    "virtual",
-    "void",
-    "volatile",
-    "wchar_t",
-    "while",
-    "xor",
-    "xor_eq",
-    "typeof",
-    "linux",
-    "unix",
-    "i386",
-    "offsetof",
-    "NULL",
-    "INT8_MIN",
-    "INT16_MIN",
-    "INT32_MIN",
-    "INT64_MIN",
-    "INT8_MAX",
-    "INT16_MAX",
-    "INT32_MAX",
-    "INT64_MAX",
-    "UINT8_MAX",
-    "UINT16_MAX",
-    "UINT32_MAX",
-    "UINT64_MAX",
-    "INT8_C",
-    "INT16_C",
-    "INT32_C",
-    "INT64_C",
-    "UINT8_C",
-    "UINT16_C",
-    "UINT32_C",
-    "UINT64_C",
-    "INTMAX_C",
-    "UINTMAX_C",
-    "INTPTR_MIN",
-    "INTPTR_MAX",
-    "UINTPTR_MAX",
-    "INTMAX_MIN",
-    "INTMAX_MAX",
-    "UINTMAX_MAX",
-    "PTRDIFF_MIN",
-    "PTRDIFF_MAX",
-    "SIZE_MAX",
-    "WCHAR_MIN",
-    "WCHAR_MAX",
-    "WINT_MIN",
-    "WINT_MAX",
-    "SIG_ATOMIC_MIN",
-    "SIG_ATOMIC_MAX",
-    "INT_LEAST8_MIN",
-    "INT_LEAST16_MIN",
-    "INT_LEAST32_MIN",
-    "INT_LEAST64_MIN",
-    "INT_LEAST8_MAX",
-    "INT_LEAST16_MAX",
-    "INT_LEAST32_MAX",
-    "INT_LEAST64_MAX",
-    "UINT_LEAST8_MAX",
-    "UINT_LEAST16_MAX",
-    "UINT_LEAST32_MAX",
-    "UINT_LEAST64_MAX",
-    "INT_FAST8_MIN",
-    "INT_FAST16_MIN",
-    "INT_FAST32_MIN",
-    "INT_FAST64_MIN",
-    "INT_FAST8_MAX",
-    "INT_FAST16_MAX",
-    "INT_FAST32_MAX",
-    "INT_FAST64_MAX",
-    "UINT_FAST8_MAX",
-    "UINT_FAST16_MAX",
-    "UINT_FAST32_MAX",
-    "UINT_FAST64_MAX",
-};
+constexpr std::string_view kReserved =
+    "alignas alignof and and_eq asm auto bitand bitor bool break case catch char char8_t "
+    "char16_t char32_t class compl concept const consteval constexpr constinit const_cast "
+    "continue co_await co_return co_yield decltype default delete do double dynamic_cast "
+    "else enum explicit export extern false float for friend goto if inline int long "
+    "mutable namespace new noexcept not not_eq nullptr operator or or_eq private protected "
+    "public register reinterpret_cast requires return short signed sizeof static "
+    "static_assert static_cast struct switch template this thread_local throw true try "
+    "typedef typeid typename union unsigned using virtual void volatile wchar_t while xor "
+    "xor_eq typeof linux unix i386 offsetof "
+    "NULL INT8_MIN INT16_MIN INT32_MIN INT64_MIN INT8_MAX INT16_MAX INT32_MAX INT64_MAX "
+    "UINT8_MAX UINT16_MAX UINT32_MAX UINT64_MAX INT8_C INT16_C INT32_C INT64_C UINT8_C "
+    "UINT16_C UINT32_C UINT64_C INTMAX_C UINTMAX_C INTPTR_MIN INTPTR_MAX UINTPTR_MAX "
+    "INTMAX_MIN INTMAX_MAX UINTMAX_MAX PTRDIFF_MIN PTRDIFF_MAX SIZE_MAX WCHAR_MIN "
+    "WCHAR_MAX WINT_MIN WINT_MAX SIG_ATOMIC_MIN SIG_ATOMIC_MAX INT_LEAST8_MIN "
+    "INT_LEAST16_MIN INT_LEAST32_MIN INT_LEAST64_MIN INT_LEAST8_MAX INT_LEAST16_MAX "
+    "INT_LEAST32_MAX INT_LEAST64_MAX UINT_LEAST8_MAX UINT_LEAST16_MAX UINT_LEAST32_MAX "
+    "UINT_LEAST64_MAX INT_FAST8_MIN INT_FAST16_MIN INT_FAST32_MIN INT_FAST64_MIN "
+    "INT_FAST8_MAX INT_FAST16_MAX INT_FAST32_MAX INT_FAST64_MAX UINT_FAST8_MAX "
+    "UINT_FAST16_MAX UINT_FAST32_MAX UINT_FAST64_MAX ";
 
 /// The reserved words, found by first character and length before anything is compared.
 struct ReservedWords {
   std::array<std::uint32_t, 128> lengths{};
-  std::unordered_set<std::string_view> words{std::begin(kReserved), std::end(kReserved)};
+  std::unordered_set<std::string_view> words;
   ReservedWords() {
-    for (const std::string_view word : kReserved)
+    for (std::size_t at = 0; at < kReserved.size();) {
+      const std::string_view word = kReserved.substr(at, kReserved.find(' ', at) - at);
+      words.insert(word);
       lengths[static_cast<unsigned char>(word.front())] |= 1U << word.size();
+      at += word.size() + 1;
+    }
   }
   [[nodiscard]] bool contains(std::string_view word) const {
     if (word.empty() || word.size() > 31)
