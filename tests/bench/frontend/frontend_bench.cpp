@@ -1,8 +1,13 @@
-// From text to syntax tree, on the generated project of 100,000 lines in one file.
+// From text to syntax tree, and from text to C++, on the generated project of 100,000 lines in one
+// file.
+#include "compiler/codegen/codegen.hpp"
+#include "compiler/project/library_index.hpp"
+#include "compiler/semantics/program.hpp"
 #include "compiler/syntax/parser.hpp"
 
 #include <benchmark/benchmark.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -52,5 +57,57 @@ void parseProject(benchmark::State &state) {
   state.counters["tree_bytes_per_line"] = static_cast<double>(bytes) / lines;
 }
 BENCHMARK(parseProject)->Unit(benchmark::kMillisecond);
+
+/// Peak resident memory of this process in bytes, 0 where /proc does not tell.
+double peakMemory() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("VmHWM:"))
+      return std::strtod(line.c_str() + 6, nullptr) * 1024;
+  }
+  return 0;
+}
+
+/// Parses, checks and generates on one core; the counters are the share of each phase (the
+/// profile), and the process's peak memory per line, which the text itself and the generated C++
+/// are part of.
+void compileProject(benchmark::State &state) {
+  using Clock = std::chrono::steady_clock;
+  const std::string &text = projectText();
+  if (text.empty()) {
+    state.SkipWithError("the project cannot be generated");
+    return;
+  }
+  const stc::EmbeddedLibraryIndex library(stc::standardLibrary());
+  double lines = 0;
+  std::chrono::duration<double> parsing{0}, checking{0}, generating{0};
+  for (auto _ : state) {
+    stc::Program program;
+    const auto start = Clock::now();
+    const stc::SourceFile &file = program.sources.file(program.sources.add("Main.st", text));
+    stc::ast::File *tree = stc::parse(file, program.interner, program.arena, program.diagnostics);
+    const auto parsed = Clock::now();
+    stc::check(program, {tree}, library);
+    const auto checked = Clock::now();
+    if (program.diagnostics.hasErrors()) {
+      state.SkipWithError("the project has errors");
+      return;
+    }
+    stc::AppConfig config;
+    config.name = "bench";
+    benchmark::DoNotOptimize(stc::generateApplication(program, config));
+    generating += Clock::now() - checked;
+    checking += checked - parsed;
+    parsing += parsed - start;
+    lines = static_cast<double>(file.lineCount());
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(lines) * state.iterations());
+  const auto total = (parsing + checking + generating).count();
+  state.counters["parse_percent"] = 100 * parsing.count() / total;
+  state.counters["check_percent"] = 100 * checking.count() / total;
+  state.counters["generate_percent"] = 100 * generating.count() / total;
+  state.counters["peak_bytes_per_line"] = peakMemory() / lines;
+}
+BENCHMARK(compileProject)->Unit(benchmark::kMillisecond);
 
 } // namespace
