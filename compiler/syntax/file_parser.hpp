@@ -73,4 +73,23 @@ private:
   bool reportedDepth_ = false; ///< in this POU
 };
 
+template <class Context> Context *FileParser::parseUnit(Context *(Grammar::*rule)()) {
+  finishUnit();
+  parser_.setErrorHandler(giveUp_);
+  parser_.setReporting(false);
+  parser_.reset();
+  try {
+    return (parser_.*rule)();
+  } catch (antlr4::ParseCancellationException &) {
+    parser_.setErrorHandler(report_);
+    parser_.setReporting(true);
+    parser_.reset();
+  }
+  try {
+    return (parser_.*rule)();
+  } catch (antlr4::ParseCancellationException &) { // too many errors
+    return nullptr;
+  }
+}
+
 } // namespace stc

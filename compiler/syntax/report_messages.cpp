@@ -1,0 +1,261 @@
+// The words of the error strategy.
+#include "compiler/syntax/token_sets.hpp"
+
+#include <algorithm>
+
+namespace stc {
+
+namespace {
+
+constexpr std::size_t kMaxErrors = 100;
+
+} // namespace
+
+// ---------------------------------------------------------------------------------------------
+// looking around
+
+const Token *ReportStrategy::before() {
+  UnitStream &stream = parser_.stream();
+  for (std::size_t i = stream.index(); i-- > 0;)
+    if (stream.token(i).type != Tok::LABEL)
+      return &stream.token(i);
+  return nullptr;
+}
+
+Span ReportStrategy::insertion() {
+  const Token *previous = before();
+  const std::uint32_t at = previous == nullptr ? current().begin : previous->end;
+  return {file_, at, at};
+}
+
+std::string ReportStrategy::describe(const Token &token) const {
+  if (token.type == Tok::LABEL)
+    return "a CASE label";
+  if (token.begin == token.end)
+    return isEnd(token.type) ? "the end of the file" : "nothing";
+  std::string_view text = spelling(token);
+  const bool cut = text.size() > 40;
+  if (cut) {
+    text = text.substr(0, 40);
+    while ((static_cast<unsigned char>(text.back()) & 0xC0) == 0x80)
+      text.remove_suffix(1);
+  }
+  return "`" + std::string(text) + (cut ? "…`" : "`");
+}
+
+bool ReportStrategy::onNewLine(const Token &token) {
+  const Token *previous = before();
+  return previous == nullptr || previous->end >= token.begin
+             ? false
+             : text_.substr(previous->end, token.begin - previous->end).find('\n') !=
+                   std::string_view::npos;
+}
+
+bool ReportStrategy::mayReport() {
+  const auto index = static_cast<std::int64_t>(current().index);
+  if (recovering_ || index == lastError_ || current().reported)
+    return false;
+  lastError_ = index;
+  // A string without an end swallows what is missing now.
+  if (const Token *previous = before();
+      previous != nullptr && previous->reported &&
+      (previous->type == Tok::STRING_LITERAL || previous->type == Tok::WSTRING_LITERAL))
+    return false;
+  if (++reports_ > kMaxErrors)
+    throw antlr4::ParseCancellationException();
+  return true;
+}
+
+bool ReportStrategy::closerIsWanted(std::uint16_t type) const {
+  for (const antlr4::tree::ParseTree *at = parser_.context(); at != nullptr; at = at->parent) {
+    switch (static_cast<const antlr4::RuleContext *>(at)->getRuleIndex()) {
+    case Grammar::RuleIfStatement:
+      if (type == Tok::END_IF || type == Tok::ELSE || type == Tok::ELSIF)
+        return true;
+      break;
+    case Grammar::RuleCaseStatement:
+      if (type == Tok::END_CASE || type == Tok::ELSE || type == Tok::LABEL)
+        return true;
+      break;
+    case Grammar::RuleForStatement:
+      if (type == Tok::END_FOR)
+        return true;
+      break;
+    case Grammar::RuleWhileStatement:
+      if (type == Tok::END_WHILE)
+        return true;
+      break;
+    case Grammar::RuleRepeatStatement:
+      if (type == Tok::UNTIL || type == Tok::END_REPEAT)
+        return true;
+      break;
+    default:
+      break;
+    }
+  }
+  return false;
+}
+
+const ReportStrategy::Context *ReportStrategy::innermostBlock() const {
+  for (const antlr4::tree::ParseTree *at = parser_.context(); at != nullptr; at = at->parent) {
+    const auto *context = static_cast<const Context *>(at);
+    if (closerOf(context->getRuleIndex()) != 0)
+      return context;
+  }
+  return nullptr;
+}
+
+/// A keyword that the user seems to take for a name.
+bool ReportStrategy::keywordAsName(const Token &token) {
+  if (!isKeywordType(token.type) || token.index + 1 >= parser_.stream().size())
+    return false;
+  switch (parser_.stream().token(token.index + 1).type) {
+  case Tok::COLON:
+  case Tok::COMMA:
+  case Tok::ASSIGN:
+  case Tok::DOT:
+  case Tok::LBRACKET:
+  case Tok::CARET:
+    return true;
+  default:
+    return false;
+  }
+}
+
+// -------------------------------------------------------------------------------------------------
+// saying it
+
+void ReportStrategy::reportKeywordAsName(const Token &token) {
+  if (!mayReport())
+    return;
+  diagnostics_
+      .report(Code::keywordAsName, span(token),
+              ticked(spelling(token)) + " is a keyword, it cannot be a name",
+              "keyword of the language")
+      .help("choose another name, for example " + ticked(std::string(spelling(token)) + "_"));
+}
+
+void ReportStrategy::useAsName(Token &token) {
+  token.type = Tok::IDENT;
+  token.reported = true;
+}
+
+void ReportStrategy::reportUnexpected(const std::string &expected) {
+  if (!mayReport())
+    return;
+  const Token &token = current();
+  const Token *next = token.index + 1 < parser_.stream().size()
+                          ? &parser_.stream().token(token.index + 1)
+                          : nullptr;
+  const Span where =
+      token.type == Tok::LABEL || token.begin == token.end ? insertion() : span(token);
+  Diagnostic &d = diagnostics_.report(Code::unexpectedToken, where,
+                                      "expected " + expected + ", found " + describe(token),
+                                      "expected " + expected);
+  if (token.type == Tok::COLON && next != nullptr && next->type == Tok::EQUAL)
+    d.help("the sign for an assignment is written without a space: `:=`");
+  else if (token.type == Tok::ARROW)
+    d.help("a comparison is written `>=`; `=>` stands in calls, in front of the variable that "
+           "takes an output");
+  else if (token.type == Tok::COLON)
+    d.help("an assignment is written `:=`");
+}
+
+void ReportStrategy::reportMissing(std::uint16_t wanted) {
+  if (!mayReport())
+    return;
+  const std::string sign = ticked(tokenSpelling(wanted));
+  const Context *context = parser_.context();
+  std::string after;
+  switch (wanted) {
+  case Tok::THEN:
+    after = " after the condition";
+    break;
+  case Tok::DO:
+    after = context->getRuleIndex() == Grammar::RuleForStatement ? " after the range"
+                                                                 : " after the condition";
+    break;
+  case Tok::OF:
+    after = context->getRuleIndex() == Grammar::RuleCaseStatement ? " after the selector"
+                                                                  : " in front of the element type";
+    break;
+  case Tok::COLON:
+    after = context->getRuleIndex() == Grammar::RuleCaseLabels ? " after the CASE label"
+                                                               : " between name and type";
+    break;
+  case Tok::UNTIL:
+    after = " in front of the condition";
+    break;
+  case Tok::SEMICOLON:
+    switch (context->getRuleIndex()) {
+    case Grammar::RuleSimpleStatement:
+      after = hasValue(context)                                      ? " after the assignment"
+              : before() != nullptr && before()->type == Tok::RPAREN ? " after the call"
+                                                                     : " after the statement";
+      break;
+    case Grammar::RuleVarDeclaration:
+    case Grammar::RuleTypeDeclaration:
+      after = " after the declaration";
+      break;
+    default:
+      after = " after the statement";
+      break;
+    }
+    break;
+  default:
+    break;
+  }
+  Diagnostic &d = diagnostics_.report(Code::expectedToken, insertion(), "expected " + sign + after,
+                                      "add " + sign + " here");
+  if (wanted == Tok::RPAREN || wanted == Tok::RBRACKET) {
+    // The opener is the token in front of the arguments.
+    const std::uint16_t opener = wanted == Tok::RPAREN ? Tok::LPAREN : Tok::LBRACKET;
+    int depth = 0;
+    for (std::size_t i = current().index; i-- > 0;) {
+      const Token &token = parser_.stream().token(i);
+      depth += token.type == wanted;
+      if (token.type == opener && depth-- == 0) {
+        d.label(span(token), "to close this one");
+        break;
+      }
+    }
+  }
+}
+
+void ReportStrategy::reportMissingEnd(std::uint16_t wanted) {
+  const Context *context = parser_.context();
+  if (!mayReport())
+    return;
+  UnitStream &stream = parser_.stream();
+  const auto &opener = static_cast<const Token &>(*context->start);
+  const std::string sign = ticked(tokenSpelling(wanted));
+  const Token *previous = before();
+  if (wanted == Tok::END_IF && !context->children.empty()) {
+    const auto *inner = static_cast<const Context *>(context->children.back());
+    const auto &start = static_cast<const Token &>(*inner->start);
+    if (inner->getRuleIndex() == Grammar::RuleStatements && start.type == Tok::IF &&
+        start.index > 0) {
+      const Token &word = stream.token(start.index - 1);
+      if (word.type == Tok::ELSE &&
+          text_.substr(word.end, start.begin - word.end).find('\n') == std::string_view::npos) {
+        diagnostics_
+            .report(Code::elseIf, {file_, word.begin, start.end},
+                    "`ELSE IF` opens a second IF, whose END_IF is missing",
+                    "a second IF begins here")
+            .label(span(opener), "this IF has no END_IF")
+            .help("write `ELSIF` for a further condition");
+        return;
+      }
+    }
+  }
+  Diagnostic &d =
+      diagnostics_.report(Code::missingEnd, span(opener), "missing " + sign,
+                          "this " + std::string(tokenSpelling(opener.type)) + " is not closed");
+  const Token &found = current();
+  if (found.begin != found.end && found.type != Tok::LABEL)
+    d.label(span(found), "expected " + sign + " before this");
+  else if (previous != nullptr)
+    d.label(insertion(), "expected " + sign + " here");
+}
+
+} // namespace stc

@@ -1,0 +1,180 @@
+#pragma once
+// Sets of tokens, and other small questions about units. Internal to compiler/syntax: includes
+// ANTLR.
+
+#include "compiler/syntax/unit_parser.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace stc {
+
+inline bool isEnd(std::uint16_t type) { return type == Token::kEnd; }
+
+/// Closes or continues a block of statements.
+inline bool isCloser(std::uint16_t type) {
+  switch (type) {
+  case Tok::LABEL:
+  case Tok::ELSIF:
+  case Tok::ELSE:
+  case Tok::END_IF:
+  case Tok::END_CASE:
+  case Tok::END_FOR:
+  case Tok::END_WHILE:
+  case Tok::UNTIL:
+  case Tok::END_REPEAT:
+    return true;
+  default:
+    return false;
+  }
+}
+
+inline bool startsBlock(std::uint16_t type) {
+  switch (type) {
+  case Tok::IF:
+  case Tok::CASE:
+  case Tok::FOR:
+  case Tok::WHILE:
+  case Tok::REPEAT:
+    return true;
+  default:
+    return false;
+  }
+}
+
+inline bool isStatementKeyword(std::uint16_t type) {
+  return startsBlock(type) || type == Tok::EXIT || type == Tok::RETURN || type == Tok::CONTINUE;
+}
+
+inline bool startsOperand(std::uint16_t type) {
+  switch (type) {
+  case Tok::IDENT:
+  case Tok::INTEGER:
+  case Tok::REAL:
+  case Tok::TRUE:
+  case Tok::FALSE:
+  case Tok::STRING_LITERAL:
+  case Tok::WSTRING_LITERAL:
+  case Tok::TIME_LITERAL:
+  case Tok::TYPED_LITERAL:
+  case Tok::ENUM_LITERAL:
+  case Tok::DIRECT:
+  case Tok::LPAREN:
+  case Tok::LBRACKET:
+  case Tok::NOT:
+  case Tok::PLUS:
+  case Tok::MINUS:
+    return true;
+  default:
+    return false;
+  }
+}
+
+inline bool startsStatement(std::uint16_t type) {
+  return startsOperand(type) || isStatementKeyword(type) || type == Tok::SEMICOLON;
+}
+
+inline bool startsType(std::uint16_t type) {
+  switch (type) {
+  case Tok::IDENT:
+  case Tok::ARRAY:
+  case Tok::STRING:
+  case Tok::WSTRING:
+  case Tok::POINTER:
+  case Tok::REFERENCE:
+  case Tok::STRUCT:
+    return true;
+  default:
+    return false;
+  }
+}
+
+/// Keywords that can only be meant as names where an expression should stand.
+inline bool canOnlyBeMeantAsName(std::uint16_t type) {
+  switch (type) {
+  case Tok::PROGRAM:
+  case Tok::FUNCTION:
+  case Tok::FUNCTION_BLOCK:
+  case Tok::TYPE:
+  case Tok::STRUCT:
+  case Tok::ARRAY:
+  case Tok::STRING:
+  case Tok::WSTRING:
+    return true;
+  default:
+    return false;
+  }
+}
+
+/// Where a statement that could not be read certainly is over.
+inline bool isStatementBoundary(std::uint16_t type) {
+  return isEnd(type) || isCloser(type) || isStatementKeyword(type);
+}
+
+inline std::uint16_t closerOf(std::size_t rule) {
+  switch (rule) {
+  case Grammar::RuleIfStatement:
+    return Tok::END_IF;
+  case Grammar::RuleCaseStatement:
+    return Tok::END_CASE;
+  case Grammar::RuleForStatement:
+    return Tok::END_FOR;
+  case Grammar::RuleWhileStatement:
+    return Tok::END_WHILE;
+  case Grammar::RuleRepeatStatement:
+    return Tok::END_REPEAT;
+  default:
+    return 0;
+  }
+}
+
+/// An assignment whose right side was reached.
+inline bool hasValue(const antlr4::ParserRuleContext *statement) {
+  return !statement->children.empty() &&
+         static_cast<const antlr4::RuleContext *>(statement->children.back())->getRuleIndex() ==
+             Grammar::RuleExpression;
+}
+
+inline std::string ticked(std::string_view text) { return "`" + std::string(text) + "`"; }
+
+inline bool isModifier(std::uint16_t type) {
+  return type >= Tok::ABSTRACT && type <= Tok::INTERNAL;
+}
+
+/// The keyword that opens what `type` closes; 0 when it closes no block.
+inline std::uint16_t openerOf(std::uint16_t type) {
+  switch (type) {
+  case Tok::END_IF:
+    return Tok::IF;
+  case Tok::END_CASE:
+    return Tok::CASE;
+  case Tok::END_FOR:
+    return Tok::FOR;
+  case Tok::END_WHILE:
+    return Tok::WHILE;
+  case Tok::END_REPEAT:
+    return Tok::REPEAT;
+  default:
+    return 0;
+  }
+}
+
+/// Keywords of constructs that are reported and skipped as a whole.
+inline bool isConstruct(std::uint16_t type) {
+  return (type >= Tok::METHOD && type <= Tok::END_TRANSITION) && type != Tok::UNION &&
+         type != Tok::END_UNION && type != Tok::JMP;
+}
+
+/// Literals and names only.
+inline bool isOperandStart(std::uint16_t type) {
+  return type == Tok::IDENT || type == Tok::INTEGER || type == Tok::ENUM_LITERAL ||
+         type == Tok::TYPED_LITERAL || type == Tok::STRING_LITERAL || type == Tok::TRUE ||
+         type == Tok::FALSE;
+}
+
+inline bool isOperandEnd(std::uint16_t type) {
+  return isOperandStart(type) || type == Tok::RPAREN || type == Tok::RBRACKET ||
+         type == Tok::CARET || type == Tok::REAL || type == Tok::TIME_LITERAL;
+}
+
+} // namespace stc
