@@ -189,6 +189,7 @@ private:
   void endLoop();
 
   // initializers.cpp
+  void writtenDefault(std::string_view target, const Type *type, const Written &written);
   void typeDefault(std::string_view target, const Type *type);
   void defaultStatement(std::string_view target, const Type *type);
   void initValue(std::string_view target, const Type *type, const ast::Expr *init);

@@ -35,9 +35,31 @@ void Emitter::initVariable(std::string_view target, const VarSymbol *variable) {
   const bool whole =
       init != nullptr && init->kind != ExprKind::aggregate; // replaces the type's default
   if (!whole)
-    typeDefault(target, variable->type);
+    writtenDefault(target, variable->type, Layouts::written(variable));
   if (init != nullptr)
     initValue(target, variable->type, init);
+}
+
+/// The type's default, with those of aliases that array elements are declared with.
+void Emitter::writtenDefault(std::string_view target, const Type *type, const Written &written) {
+  typeDefault(target, type);
+  if (!c_.layouts.elementsHaveDefaults(written, type))
+    return;
+  const Written inner = c_.layouts.elementOf(written, type);
+  const Type *elementType = typeAs<ArrayType>(type)->element;
+  const std::string element = temporary("element");
+  begin(initSpan_);
+  w_ << "for (auto &" << element << " : " << target << ".v) {";
+  end();
+  open();
+  if (const Expr *init = c_.layouts.aliasDefault(inner, elementType))
+    initValue(element, elementType, init);
+  else
+    writtenDefault(element, elementType, inner);
+  close();
+  begin(initSpan_);
+  w_ << '}';
+  end();
 }
 
 void Emitter::typeDefault(std::string_view target, const Type *type) {

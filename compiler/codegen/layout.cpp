@@ -43,11 +43,64 @@ bool isZero(const Expr *init) {
 Layouts::Layouts(const Program &program, const Library *own) : own_(own) {
   for (const auto &library : program.libraries) {
     for (const TypeSymbol *t : library->types) {
-      if (t->decl != nullptr && t->decl->kind == DeclKind::alias && t->init != nullptr &&
-          t->init->type != nullptr)
-        aliasDefaults_[t->name.id].push_back(t);
+      if (t->decl == nullptr || t->decl->kind != DeclKind::alias)
+        continue;
+      aliases_[t->name.id].push_back(t);
+      anyDefault_ = anyDefault_ || (t->init != nullptr && t->init->type != nullptr);
     }
   }
+}
+
+Written Layouts::written(const VarSymbol *variable) {
+  return {variable->decl == nullptr ? nullptr : variable->decl->type, 0, variable->library};
+}
+
+const TypeSymbol *Layouts::alias(const Written &written, const Type *type) const {
+  if (!anyDefault_ || written.expr == nullptr || written.expr->kind != TypeExprKind::named)
+    return nullptr;
+  const auto found = aliases_.find(as<NamedTypeExpr>(written.expr)->path.back().id);
+  if (found == aliases_.end())
+    return nullptr;
+  const TypeSymbol *best = nullptr;
+  for (const TypeSymbol *t : found->second) {
+    if (t->type == type && (best == nullptr || t->library == written.library))
+      best = t;
+  }
+  return best;
+}
+
+const Expr *Layouts::aliasDefault(const Written &written, const Type *type) const {
+  const TypeSymbol *symbol = alias(written, type);
+  while (symbol != nullptr) {
+    if (symbol->init != nullptr && symbol->init->type != nullptr)
+      return symbol->init;
+    symbol = alias({as<AliasDecl>(symbol->decl)->type, 0, symbol->library},
+                   type); // an alias of an alias
+  }
+  return nullptr;
+}
+
+Written Layouts::elementOf(const Written &written, const Type *type) const {
+  Written at = written;
+  while (const TypeSymbol *symbol = alias(at, type))
+    at = {as<AliasDecl>(symbol->decl)->type, 0, symbol->library};
+  if (at.expr == nullptr || at.expr->kind != TypeExprKind::array)
+    return {};
+  const auto *array = as<ArrayTypeExpr>(at.expr);
+  if (at.dimension + 1 < array->ranges.size())
+    return {at.expr, at.dimension + 1, at.library};
+  return {array->element, 0, at.library};
+}
+
+bool Layouts::elementsHaveDefaults(const Written &written, const Type *type) const {
+  Written at = written;
+  while (anyDefault_ && type->kind == TypeKind::array) {
+    at = elementOf(at, type);
+    type = typeAs<ArrayType>(type)->element;
+    if (aliasDefault(at, type) != nullptr)
+      return true;
+  }
+  return false;
 }
 
 const Expr *Layouts::initOf(const VarSymbol *variable) {
@@ -55,19 +108,8 @@ const Expr *Layouts::initOf(const VarSymbol *variable) {
     return nullptr;
   if (variable->decl->init != nullptr)
     return variable->decl->init;
-  const TypeExpr *type = variable->decl->type;
-  if (aliasDefaults_.empty() || variable->section == Section::inOut || type == nullptr ||
-      type->kind != TypeExprKind::named)
-    return nullptr;
-  const auto found = aliasDefaults_.find(as<NamedTypeExpr>(type)->path.back().id);
-  if (found == aliasDefaults_.end())
-    return nullptr;
-  const Expr *init = nullptr;
-  for (const TypeSymbol *t : found->second) {
-    if (t->type == variable->type && (init == nullptr || t->library == variable->library))
-      init = t->init;
-  }
-  return init;
+  return variable->section == Section::inOut ? nullptr
+                                             : aliasDefault(written(variable), variable->type);
 }
 
 bool Layouts::needsInit(const VarSymbol *variable) {
@@ -75,7 +117,8 @@ bool Layouts::needsInit(const VarSymbol *variable) {
     return false;
   const Expr *init = initOf(variable);
   // A zero may stand against a default that is not.
-  return (init != nullptr && !isZero(init)) || needsInit(variable->type);
+  return (init != nullptr && !isZero(init)) || needsInit(variable->type) ||
+         elementsHaveDefaults(written(variable), variable->type);
 }
 
 bool Layouts::needsInit(const Type *type) {

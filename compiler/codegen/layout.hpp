@@ -31,6 +31,13 @@ private:
   return v->section == ast::Section::inOut || v->type->kind == TypeKind::reference;
 }
 
+/// A type as a declaration spells it, followed into arrays: where aliases with defaults are seen.
+struct Written {
+  const ast::TypeExpr *expr = nullptr;
+  std::size_t dimension = 0; ///< of an array type with several ranges
+  const Library *library = nullptr;
+};
+
 class Layouts {
 public:
   /// `own` is the library whose code is generated: types of others are always initialised through
@@ -43,6 +50,14 @@ public:
   /// The initial value that counts for a variable: its own, else its alias type's; null for the
   /// type's default.
   [[nodiscard]] const ast::Expr *initOf(const VarSymbol *variable);
+  /// The type of a variable as written.
+  [[nodiscard]] static Written written(const VarSymbol *variable);
+  /// The default that an alias of this name gives to `type`, or null.
+  [[nodiscard]] const ast::Expr *aliasDefault(const Written &written, const Type *type) const;
+  /// Whether the elements of the array have such defaults, at any depth.
+  [[nodiscard]] bool elementsHaveDefaults(const Written &written, const Type *type) const;
+  /// The element type of an array as written.
+  [[nodiscard]] Written elementOf(const Written &written, const Type *type) const;
 
   /// Equal for equal layouts in all builds.
   [[nodiscard]] std::uint64_t hash(const Type *type);
@@ -55,7 +70,9 @@ private:
   void addMember(Hash &hash, const VarSymbol *v);
 
   const Library *own_;
-  std::unordered_map<Ident, std::vector<const TypeSymbol *>> aliasDefaults_;
+  [[nodiscard]] const TypeSymbol *alias(const Written &written, const Type *type) const;
+  std::unordered_map<Ident, std::vector<const TypeSymbol *>> aliases_;
+  bool anyDefault_ = false;
   std::unordered_map<const Type *, bool> needsInit_;
   std::unordered_map<const Type *, std::uint64_t> hashes_;
   std::unordered_map<const Type *, bool> hasAddress_;

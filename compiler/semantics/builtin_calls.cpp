@@ -299,10 +299,18 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
   case max:
     if (!requireCount(expr, 2, SIZE_MAX) || failed)
       return bad;
+    for (std::size_t i = 0; i < expr->arguments.size(); ++i) {
+      if (!isElementary(type(i)))
+        return argumentError(expr, i, "a value that can be compared");
+    }
     return commonOfArguments(expr, 0);
   case limit:
     if (!requireCount(expr, 3, 3) || failed)
       return bad;
+    for (std::size_t i = 0; i < expr->arguments.size(); ++i) {
+      if (!isElementary(type(i)))
+        return argumentError(expr, i, "a value that can be compared");
+    }
     return commonOfArguments(expr, 0);
   case sel:
     if (!requireCount(expr, 3, 3) || failed)

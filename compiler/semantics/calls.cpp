@@ -246,9 +246,24 @@ void Checker::checkArgument(Argument &argument, VarSymbol *parameter) {
     checkInOut(argument, parameter);
   else if (parameter->section == Section::output)
     checkOutput(argument, parameter);
+  else if (parameter->type->kind == TypeKind::reference)
+    checkReference(argument.value, typeAs<PointerType>(parameter->type)->pointee);
   else
     checkAs(argument.value, parameter->type,
             "argument `" + std::string(parameter->name.text) + "`");
+}
+
+/// A REFERENCE TO input refers to a variable of exactly its type.
+void Checker::checkReference(Expr *value, const Type *wanted) {
+  const Type *type = check(value, wanted);
+  if (isError(type) || isError(wanted) || !requireVariable(value, "refer to"))
+    return;
+  const bool isBit = value->kind == ExprKind::member && as<MemberExpr>(value)->bit >= 0;
+  if (type != wanted || isBit)
+    report(Code::typeMismatch, value->span,
+           "expected a variable of type " + typeName(wanted) + ", found " +
+               (isBit ? "a single bit" : typeName(type)),
+           "a reference needs a variable of exactly its type");
 }
 
 void Checker::checkInOut(Argument &argument, VarSymbol *parameter) {

@@ -134,6 +134,7 @@ private:
   const Type *checkCall(ast::CallExpr *expr, bool asStatement);
   void bindArguments(ast::CallExpr *expr, PouSymbol *pou);
   void checkArgument(ast::Argument &argument, VarSymbol *parameter);
+  void checkReference(ast::Expr *value, const Type *wanted);
   void checkInOut(ast::Argument &argument, VarSymbol *parameter);
   void checkOutput(ast::Argument &argument, VarSymbol *parameter);
   void reportMissing(ast::CallExpr *expr, PouSymbol *pou,

@@ -113,6 +113,10 @@ Expr *Checker::checkInit(Expr *init, const Type *type) {
     init->type = elementaryType(TypeKind::error);
     return init;
   }
+  if (type->kind == TypeKind::reference) {
+    checkReference(init, typeAs<PointerType>(type)->pointee);
+    return init;
+  }
   checkAs(init, type, "the initial value");
   return init;
 }

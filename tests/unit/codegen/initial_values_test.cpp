@@ -78,6 +78,47 @@ END_PROGRAM
   EXPECT_EQ(app["Main.neg[-1]"], "-1");
 }
 
+TEST(CodegenInit, AliasesBringTheirDefaults) {
+  App app(R"(
+TYPE Seven : DINT := 7; END_TYPE
+TYPE Again : Seven; END_TYPE
+TYPE Hey : STRING(5) := 'hey'; END_TYPE
+TYPE Pair : ARRAY[0..1] OF INT := [1, 2]; END_TYPE
+TYPE P : STRUCT x : INT := 3; y : INT; END_STRUCT END_TYPE
+TYPE P9 : P := (y := 9); END_TYPE
+TYPE Row : ARRAY[0..1] OF Again; END_TYPE
+TYPE Holder : STRUCT n : Seven; a : ARRAY[0..1] OF Seven; END_STRUCT END_TYPE
+FUNCTION F : DINT
+VAR_INPUT d : Seven; a : Pair; END_VAR
+VAR local : Again; rows : ARRAY[1..2] OF Row; END_VAR
+  F := d * 100 + a[1] * 10 + local + rows[2][1];
+END_FUNCTION
+PROGRAM Main
+VAR
+  d : Again; s : Hey; a : Pair; p : P9; e : ARRAY[0..1, 0..1] OF Seven; r : Row; rr : ARRAY[0..2] OF Row;
+  h : Holder := (n := 1); pp : ARRAY[1..2] OF P9; x : DINT; m : ARRAY[0..1] OF Seven := [4];
+END_VAR
+  x := F(a := a, d := 1);
+END_PROGRAM
+)");
+  app.run();
+  EXPECT_EQ(app["Main.d"], "7");
+  EXPECT_EQ(app["Main.s"], "'hey'");
+  EXPECT_EQ(app["Main.a[1]"], "2");
+  EXPECT_EQ(app["Main.p.x"], "3");
+  EXPECT_EQ(app["Main.p.y"], "9");
+  EXPECT_EQ(app["Main.e[1,1]"], "7");
+  EXPECT_EQ(app["Main.r[1]"], "7");
+  EXPECT_EQ(app["Main.rr[2][0]"], "7");
+  EXPECT_EQ(app["Main.h.n"], "1");
+  EXPECT_EQ(app["Main.h.a[1]"], "7");
+  EXPECT_EQ(app["Main.pp[2].x"], "3");
+  EXPECT_EQ(app["Main.pp[2].y"], "9");
+  EXPECT_EQ(app["Main.m[0]"], "4");
+  EXPECT_EQ(app["Main.m[1]"], "7");
+  EXPECT_EQ(app["Main.x"], "134");
+}
+
 TEST(CodegenInit, LocalsAreFreshAtEachCall) {
   App app(R"(
 TYPE Point : STRUCT x : INT := 1; y : INT; END_STRUCT END_TYPE
