@@ -85,7 +85,6 @@ TEST(Robustness, LongChains) {
 }
 
 TEST(Robustness, LongLines) {
-  EXPECT_EQ(bodyErrors(repeat("a:=a+1;", 300'000)), "");
   const Parsed parsed("PROGRAM P " + repeat("a:=a+1;", 1'000'000) + "a b;" +
                       repeat("a:=a+1;", 400'000) + " END_PROGRAM");
   EXPECT_EQ(parsed.errors(), "SE0201 1:7000013 expected `:=` or `;`, found `b`\n");
