@@ -119,7 +119,7 @@ const Type *Checker::checkConversionCall(CallExpr *expr, const ConversionName &c
     if (a.value != nullptr)
       check(a.value, conversion.from);
   }
-  if (!requireCount(expr, 1, 1))
+  if (!placeArguments(expr) || !requireCount(expr, 1, 1) || expr->arguments[0].value == nullptr)
     return bad;
   Expr *value = expr->arguments[0].value;
   const Type *type = value->type;
@@ -213,23 +213,59 @@ const Type *Checker::checkStringBuiltin(CallExpr *expr) {
                        std::max(result, 1U));
 }
 
+bool Checker::placeArguments(CallExpr *expr) {
+  const std::size_t count = expr->arguments.size();
+  std::vector<Argument> placed(count);
+  std::vector<bool> taken(count, false);
+  bool named = false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Argument &a = expr->arguments[i];
+    std::size_t position = i;
+    if (a.name) {
+      named = true;
+      const auto formal = formalPosition(expr->builtin, a.name.id->lower);
+      if (!formal || a.output || a.value == nullptr) {
+        report(Code::unknownParameter, a.span,
+               "`" + calleeName(expr) + "` has no " + (a.output ? "output" : "input") + " `" +
+                   std::string(a.name.text) + "`",
+               "unknown parameter")
+            .help("give the arguments without names, in their order");
+        return false;
+      }
+      position = *formal;
+    } else if (named) {
+      report(Code::mixedArguments, a.span, "a positional argument cannot follow a named one",
+             "name this argument");
+      return false;
+    }
+    if (position >= count) {
+      report(Code::wrongArgumentCount, expr->span,
+             "`" + calleeName(expr) + "` lacks arguments: `" + std::string(a.name.text) +
+                 "` is number " + std::to_string(position + 1),
+             "in this call");
+      return false;
+    }
+    if (taken[position]) {
+      report(Code::duplicateArgument, a.span, "this argument is given twice", "given again here");
+      return false;
+    }
+    taken[position] = true;
+    placed[position] = a;
+  }
+  if (named)
+    std::copy(placed.begin(), placed.end(), expr->arguments.begin());
+  return true;
+}
+
 const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
   const Type *bad = elementaryType(TypeKind::error);
-  bool failed = false;
+  bool failed = !placeArguments(expr);
   for (Argument &a : expr->arguments) {
-    if (a.name || a.value == nullptr) {
-      // Standard functions have the formal names IN, IN1 … which nobody needs; order is what
-      // counts.
-      if (a.output || a.value == nullptr) {
-        report(Code::unknownParameter, a.span, "`" + calleeName(expr) + "` has no such parameter",
-               "unknown parameter");
-        failed = true;
-        continue;
-      }
-    }
-    if (isError(check(a.value, expected)))
+    if (a.value != nullptr && isError(check(a.value, expected)))
       failed = true;
   }
+  if (failed)
+    return bad;
   const auto value = [&](std::size_t i) { return expr->arguments[i].value; };
   const auto type = [&](std::size_t i) { return underlying(value(i)->type); };
   const auto own = [&](std::size_t i) {
@@ -238,7 +274,7 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
   using enum Builtin;
   switch (expr->builtin) {
   case abs: {
-    if (!requireCount(expr, 1, 1) || failed)
+    if (!requireCount(expr, 1, 1))
       return bad;
     if (!isNumber(type(0)) && type(0)->kind != TypeKind::ltime)
       return argumentError(expr, 0, "a number");
@@ -263,7 +299,7 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
   case asin:
   case acos:
   case atan: {
-    if (!requireCount(expr, 1, 1) || failed)
+    if (!requireCount(expr, 1, 1))
       return bad;
     if (!isNumber(type(0)))
       return argumentError(expr, 0, "a number");
@@ -274,7 +310,7 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
   }
   case atan2:
   case expt: {
-    if (!requireCount(expr, 2, 2) || failed)
+    if (!requireCount(expr, 2, 2))
       return bad;
     for (std::size_t i = 0; i < 2; ++i) {
       if (!isNumber(type(i)))
@@ -288,7 +324,7 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
     return result;
   }
   case trunc: {
-    if (!requireCount(expr, 1, 1) || failed)
+    if (!requireCount(expr, 1, 1))
       return bad;
     if (!isReal(type(0)) && type(0)->kind != TypeKind::anyReal)
       return argumentError(expr, 0, "REAL or LREAL");
@@ -297,7 +333,7 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
   }
   case min:
   case max:
-    if (!requireCount(expr, 2, SIZE_MAX) || failed)
+    if (!requireCount(expr, 2, SIZE_MAX))
       return bad;
     for (std::size_t i = 0; i < expr->arguments.size(); ++i) {
       if (!isElementary(type(i)))
@@ -305,7 +341,7 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
     }
     return commonOfArguments(expr, 0);
   case limit:
-    if (!requireCount(expr, 3, 3) || failed)
+    if (!requireCount(expr, 3, 3))
       return bad;
     for (std::size_t i = 0; i < expr->arguments.size(); ++i) {
       if (!isElementary(type(i)))
@@ -313,19 +349,19 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
     }
     return commonOfArguments(expr, 0);
   case sel:
-    if (!requireCount(expr, 3, 3) || failed)
+    if (!requireCount(expr, 3, 3))
       return bad;
     coerce(value(0), elementaryType(TypeKind::boolean), "the selector of SEL");
     return commonOfArguments(expr, 1);
   case mux:
-    if (!requireCount(expr, 2, SIZE_MAX) || failed)
+    if (!requireCount(expr, 2, SIZE_MAX))
       return bad;
     if (!isInteger(type(0)) && type(0)->kind != TypeKind::anyInteger)
       return argumentError(expr, 0, "an integer");
     own(0);
     return commonOfArguments(expr, 1);
   case move: {
-    if (!requireCount(expr, 1, 1) || failed)
+    if (!requireCount(expr, 1, 1))
       return bad;
     const Type *t = untyped(value(0)->type) ? settle(value(0)) : value(0)->type;
     return t;
@@ -334,7 +370,7 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
   case shr:
   case rol:
   case ror: {
-    if (!requireCount(expr, 2, 2) || failed)
+    if (!requireCount(expr, 2, 2))
       return bad;
     if (!isInteger(type(0)) && type(0)->kind != TypeKind::anyInteger)
       return argumentError(expr, 0, "a bit string or an integer");
@@ -360,13 +396,13 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
   case deleteS:
   case replace:
   case find:
-    return failed ? bad : checkStringBuiltin(expr);
+    return checkStringBuiltin(expr);
   case time:
     if (!requireCount(expr, 0, 0))
       return bad;
     return elementaryType(TypeKind::time);
   case adr: {
-    if (!requireCount(expr, 1, 1) || failed)
+    if (!requireCount(expr, 1, 1))
       return bad;
     Expr *place = value(0);
     const bool isPlace = place->kind == ExprKind::name || place->kind == ExprKind::member ||
@@ -377,7 +413,7 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
     return types_.pointer(place->type);
   }
   case sizeofT:
-    if (!requireCount(expr, 1, 1) || failed)
+    if (!requireCount(expr, 1, 1))
       return bad;
     if (untyped(value(0)->type))
       return argumentError(expr, 0, "a variable or a type");

@@ -2,6 +2,8 @@
 
 #include "compiler/semantics/type_table.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <unordered_map>
 
 namespace stc {
@@ -23,6 +25,82 @@ std::optional<ast::Builtin> findBuiltin(Ident name) {
   if (it == kNames.end())
     return std::nullopt;
   return it->second;
+}
+
+namespace {
+
+/// The formal names of each position, alternatives separated by `|`, positions by blanks; a `#`
+/// stands for a number that counts on, from the one given.
+std::string_view formalNames(ast::Builtin function) {
+  using enum ast::Builtin;
+  switch (function) {
+  case limit:
+    return "mn in mx";
+  case sel:
+    return "g in0 in1";
+  case mux:
+    return "k in#0";
+  case min:
+  case max:
+    return "in#1";
+  case expt:
+    return "in1 in2";
+  case atan2:
+    return "y x";
+  case shl:
+  case shr:
+  case rol:
+  case ror:
+    return "in n";
+  case len:
+    return "in|str";
+  case left:
+  case right:
+    return "in|str l|size";
+  case mid:
+  case deleteS:
+    return "in|str l|len p|pos";
+  case concat:
+  case find:
+    return "in1|str1 in2|str2";
+  case insert:
+    return "in1|str1 in2|str2 p|pos";
+  case replace:
+    return "in1|str1 in2|str2 l p";
+  default:
+    return "in";
+  }
+}
+
+} // namespace
+
+std::optional<std::size_t> formalPosition(ast::Builtin function, std::string_view lowerName) {
+  std::string_view rest = formalNames(function);
+  for (std::size_t position = 0; !rest.empty(); ++position) {
+    std::string_view names = rest.substr(0, rest.find(' '));
+    rest.remove_prefix(std::min(rest.size(), names.size() + 1));
+    while (!names.empty()) {
+      const std::string_view name = names.substr(0, names.find('|'));
+      names.remove_prefix(std::min(names.size(), name.size() + 1));
+      const std::size_t hash = name.find('#');
+      if (hash == std::string_view::npos) {
+        if (name == lowerName)
+          return position;
+        continue;
+      }
+      unsigned number = 0;
+      const unsigned first = static_cast<unsigned>(name.back() - '0');
+      if (!lowerName.starts_with(name.substr(0, hash)))
+        continue;
+      const std::string_view digits = lowerName.substr(hash);
+      const auto [end, error] =
+          std::from_chars(digits.data(), digits.data() + digits.size(), number);
+      if (error == std::errc{} && end == digits.data() + digits.size() && number >= first &&
+          number < first + 64)
+        return position + number - first;
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<ConversionName> findConversion(Ident name) {

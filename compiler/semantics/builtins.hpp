@@ -4,6 +4,7 @@
 
 #include "compiler/semantics/types.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -62,6 +63,11 @@ enum class Builtin : std::uint16_t {
 /// The builtin of that name, or nothing. Conversions (`INT_TO_REAL`, `TO_INT`) are not in this
 /// table.
 [[nodiscard]] std::optional<ast::Builtin> findBuiltin(Ident name);
+
+/// The position of a formal parameter (`MN` of LIMIT is 0), or nothing. Both the standard's names
+/// and those of V2.3's string functions (STR, SIZE, POS …) are known; `lowerName` is in lower case.
+[[nodiscard]] std::optional<std::size_t> formalPosition(ast::Builtin function,
+                                                        std::string_view lowerName);
 
 /// The parts of a conversion's name.
 struct ConversionName {

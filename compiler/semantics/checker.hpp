@@ -143,6 +143,9 @@ private:
 
   // builtin_calls.cpp
   const Type *checkBuiltin(ast::CallExpr *expr, const Type *expected);
+  /// Puts named arguments of a standard function at their positions; false when something was
+  /// reported.
+  bool placeArguments(ast::CallExpr *expr);
   const Type *checkConversionCall(ast::CallExpr *expr, const ConversionName &conversion);
   const Type *checkStringBuiltin(ast::CallExpr *expr);
   const Type *commonOfArguments(ast::CallExpr *expr, std::size_t first);
