@@ -407,8 +407,15 @@ const Type *Checker::checkLogical(BinaryExpr *expr) {
     if (shortCircuit || !integral(l) || !integral(r))
       return operatorError(expr);
     expr->operandType = commonOf(expr->left, expr->right);
-    if (expr->operandType == nullptr) // bit patterns have no sign: take the unsigned one
-      expr->operandType = isSignedInteger(l) ? r : l;
+    if (expr->operandType == nullptr) { // bit patterns have no sign: take the unsigned one
+      expr->operandType = isSignedInteger(l) || l->kind == TypeKind::anyInteger ? r : l;
+      for (Expr *side : {expr->left, expr->right}) {
+        if (side->type->kind == TypeKind::anyInteger) { // a negative constant
+          coerce(side, expr->operandType, {});
+          return elementaryType(TypeKind::error);
+        }
+      }
+    }
   }
   setTarget(expr->left, expr->operandType);
   setTarget(expr->right, expr->operandType);
