@@ -86,7 +86,7 @@ private:
         !taskNames_.add(lowerCase(task.name.text), task.name.span,
                         fmt::format("two tasks are named `{}`", task.name.text)))
       return;
-    task.intervalNs = parseInterval(section.text("interval")).value_or(10'000'000);
+    task.intervalNs = parseInterval(section.text("interval")).value_or(0);
     task.priority = static_cast<unsigned>(section.integer("priority", 1));
     if (const TomlNode *programs = section.get("programs"))
       for (const TomlNode &program : programs->children)
@@ -220,17 +220,28 @@ private:
       drive.fields.emplace_back("fPositionPeriod", realLiteral(period->floating));
       if (type == kRotary)
         checkPeriod(section, *period);
-      else
+      else if (section.get("iMovementType") != nullptr || !section.has("iMovementType"))
         withoutEffect(section, "fPositionPeriod", "only for rotary drives");
     }
     readLimits(section, drive, type == kRotary);
   }
 
-  // The period in increments must fit the drive's 32-bit position (manual, section 2.1.3).
+  // The period in increments must be at least one and fit the drive's 32-bit position (manual,
+  // section 2.1.3).
   void checkPeriod(const CheckedSection &section, const TomlNode &period) {
     const double denominator = section.real("dwRatioTechUnitsDenom", 1);
     const double numerator = section.real("iRatioTechUnitsNum", 1);
     const double increments = period.floating * denominator / numerator;
+    if (increments < 1.0) {
+      diagnostics_
+          .report(Code::configOutOfRange, period.span,
+                  "one period of the drive must be at least one increment",
+                  fmt::format("{} u × {} / {} = {:.15g} increments", period.floating, denominator,
+                              numerator, increments))
+          .help("give the ratio of increments to technical units with dwRatioTechUnitsDenom and "
+                "iRatioTechUnitsNum");
+      return;
+    }
     if (increments <= kLargestPeriod)
       return;
     Diagnostic &d =

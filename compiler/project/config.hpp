@@ -20,7 +20,7 @@ struct ConfigName {
 
 struct TaskConfig {
   ConfigName name;
-  std::int64_t intervalNs = 0;
+  std::int64_t intervalNs = 0; ///< 0: wrong or missing, which has been reported
   unsigned priority = 1;
   std::vector<ConfigName> programs; ///< called in this order
 };

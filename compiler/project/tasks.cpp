@@ -183,7 +183,8 @@ private:
       }
     }
     group.task.text = task->name.text;
-    if (group.cycleUs != 0 && std::int64_t{group.cycleUs} * 1000 != task->intervalNs) {
+    if (task->intervalNs != 0 && group.cycleUs != 0 &&
+        std::int64_t{group.cycleUs} * 1000 != task->intervalNs) {
       diagnostics_
           .report(Code::configCycleMismatch, group.cycleSpan,
                   fmt::format("dwCycle is {} µs, but task `{}` runs every {}", group.cycleUs,

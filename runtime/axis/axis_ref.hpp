@@ -71,6 +71,13 @@ inline bool isRotary(const AxisRef &axis) noexcept {
   return axis.iMovementType == 0 && axis.fPositionPeriod > 0.0;
 }
 
+/// Notes that a block met an error on the axis (chapter 9 of the manual: FB errors). What brought
+/// the axis into error stop stays noted there until the error has been acknowledged.
+inline void noteError(AxisRef &axis, int16_t errorId) noexcept {
+  if (axis.nAxisState != state::kErrorStop || axis.wFBErrorID == 0)
+    axis.wFBErrorID = static_cast<uint16_t>(errorId);
+}
+
 /// What a block instance remembers of its ownership. `iOwner` alone, which applications see, wraps.
 struct Ownership {
   int16_t &owner;

@@ -12,8 +12,8 @@ namespace stride::axis {
 
 /// Writes velocity and acceleration and what follows from them, except the position.
 inline void writeMotion(AxisRef &axis, double velocity, double acceleration) noexcept {
-  axis.fSetVelocity = velocity;
-  axis.fSetAcceleration = acceleration;
+  axis.fSetVelocity = velocity + 0.0; // never -0
+  axis.fSetAcceleration = acceleration + 0.0;
   const double power = velocity * acceleration;
   axis.fSetDeceleration = power < 0.0 ? exact::fabs(acceleration) : 0.0;
   axis.bConstantVelocity = velocity != 0.0 && acceleration == 0.0;

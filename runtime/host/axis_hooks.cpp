@@ -12,16 +12,22 @@ namespace {
 
 class AxisGroupHook final : public task::CycleHook {
 public:
-  AxisGroupHook(std::unique_ptr<axis::AxisDriver> driver, axis::AxisGroupRef &group,
-                std::vector<axis::AxisRef *> axes, double cycleSeconds)
-      : group_(std::move(driver), group, std::move(axes), cycleSeconds) {}
+  AxisGroupHook(std::string name, std::unique_ptr<axis::AxisDriver> driver,
+                axis::AxisGroupRef &group, std::vector<axis::AxisRef *> axes, double cycleSeconds)
+      : name_(std::move(name)), group_(std::move(driver), group, std::move(axes), cycleSeconds) {}
 
   void beforePous(Ctx &) override { group_.executeStart(); }
   void afterPous(Ctx &) override { group_.executeEnd(); }
   void applicationStopped() override { group_.stopAll(); }
   bool atRest() const override { return group_.atRest(); }
+  std::string problem() const override {
+    const std::string &failure = group_.bootupError();
+    return failure.empty() ? failure
+                           : fmt::format("axis group '{}' did not start: {}", name_, failure);
+  }
 
 private:
+  std::string name_;
   axis::AxisGroup group_;
 };
 
@@ -57,8 +63,9 @@ std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Applicati
           &at<axis::AxisRef>(application.state(), app.drives[group.firstDrive + d].axisOffset));
     const double cycleSeconds = static_cast<double>(app.tasks[group.task].intervalNs) * 1e-9;
     hooks.push_back(std::make_unique<AxisGroupHook>(
-        makeDriver(group), at<axis::AxisGroupRef>(application.state(), group.groupOffset),
-        std::move(axes), cycleSeconds));
+        group.name, makeDriver(group),
+        at<axis::AxisGroupRef>(application.state(), group.groupOffset), std::move(axes),
+        cycleSeconds));
     scheduler.addHook(group.task, *hooks.back());
   }
   return hooks;

@@ -178,6 +178,9 @@ ExitCode simulate(app::Application &application, const SimOptions &options) {
   if (trace)
     trace->finish();
   printValues(symbols, wanted, state);
+  for (const std::unique_ptr<task::CycleHook> &hook : hooks)
+    if (const std::string problem = hook->problem(); !problem.empty())
+      fmt::print(stderr, "warning: {}\n", problem);
   if (result.fault)
     fmt::print(stderr, "error: {}\n", task::describe(*result.fault));
   else if (!result.interrupted) {

@@ -4,6 +4,8 @@
 
 #include "runtime/iec/ctx.h"
 
+#include <string>
+
 namespace stride::task {
 
 /// Calls before and after the POUs of a task, in every cycle: an axis group's driver. Both run in
@@ -23,6 +25,8 @@ public:
   virtual void applicationStopped() {}
   /// Nothing of this hook's part of the machine moves any more.
   virtual bool atRest() const { return true; }
+  /// What keeps this hook's part of the machine from working, to be shown; empty if nothing does.
+  virtual std::string problem() const { return {}; }
 };
 
 } // namespace stride::task

@@ -36,7 +36,7 @@ void fail(Block &block, int16_t errorId) noexcept {
   block.Error = 1;
   block.ErrorID = errorId;
   if (block.Axis != nullptr)
-    block.Axis->wFBErrorID = static_cast<uint16_t>(errorId);
+    axis::noteError(*block.Axis, errorId);
 }
 
 void abort(Block &block) noexcept {

@@ -24,7 +24,7 @@ void st::SM_PLCopen::MC_Power::body__(::stride::Ctx & /*ctx__*/) {
   if (!(Axis->fTaskCycle > 0.0)) {
     Error = 1;
     ErrorID = axis::error::kTaskCycleEmpty;
-    Axis->wFBErrorID = static_cast<uint16_t>(ErrorID);
+    axis::noteError(*Axis, ErrorID);
     return;
   }
   Axis->bRegulatorOn = bRegulatorOn;

@@ -26,7 +26,7 @@ void fail(Block &block, int16_t errorId) noexcept {
   block.Error = 1;
   block.ErrorID = errorId;
   if (block.Axis != nullptr)
-    block.Axis->wFBErrorID = static_cast<uint16_t>(errorId);
+    axis::noteError(*block.Axis, errorId);
 }
 
 /// The axis is at rest: done, and free again unless Execute holds it.
