@@ -2,6 +2,8 @@
 
 #include "compiler/semantics/checker.hpp"
 
+#include <map>
+
 namespace stc {
 
 using namespace ast;
@@ -177,10 +179,10 @@ void Checker::checkCase(CaseStmt *stmt) {
   if (ok && type->kind == TypeKind::anyInteger)
     type = settle(stmt->selector);
   struct Seen {
-    std::int64_t low, high;
+    std::int64_t high;
     Span span;
   };
-  std::vector<Seen> seen;
+  std::map<std::int64_t, Seen> seen; // by lower bound; ranges that do not overlap
   for (CaseBranch &branch : stmt->branches) {
     for (CaseLabel &label : branch.labels) {
       bool known = true;
@@ -209,20 +211,24 @@ void Checker::checkCase(CaseStmt *stmt) {
         continue;
       const std::int64_t low = label.low->constant->integer;
       const std::int64_t high = label.high == nullptr ? low : label.high->constant->integer;
-      if (high < low) {
+      const bool wide =
+          bitWidth(type) == 64 && !isSignedInteger(underlying(type)); // compare as ULINT
+      const auto before = [wide](std::int64_t a, std::int64_t b) {
+        return wide ? static_cast<std::uint64_t>(a) < static_cast<std::uint64_t>(b) : a < b;
+      };
+      if (before(high, low)) {
         report(Code::emptyRange, label.span, "this range holds no value",
                "the upper bound is below the lower one");
         continue;
       }
-      for (const Seen &other : seen) {
-        if (low <= other.high && other.low <= high) {
-          auto &d = report(Code::duplicateLabel, label.span, "this CASE value is already handled",
-                           "handled again here");
-          d.label(other.span, "first handled here");
-          break;
-        }
+      auto other = seen.upper_bound(high); // the first range behind this one
+      if (other != seen.begin() && (--other)->second.high >= low) {
+        auto &d = report(Code::duplicateLabel, label.span, "this CASE value is already handled",
+                         "handled again here");
+        d.label(other->second.span, "first handled here");
+      } else {
+        seen.emplace(low, Seen{high, label.span});
       }
-      seen.push_back({low, high, label.span});
     }
     checkBlock(branch.body);
   }
