@@ -71,4 +71,16 @@ std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Applicati
   return hooks;
 }
 
+std::vector<std::string> errorStops(const app::Application &application) {
+  const StrideAppV1 &app = application.description();
+  std::vector<std::string> lines;
+  for (uint32_t i = 0; i < app.driveCount; ++i) {
+    const auto &ref = at<axis::AxisRef>(application.state(), app.drives[i].axisOffset);
+    if (ref.nAxisState == axis::state::kErrorStop)
+      lines.push_back(
+          fmt::format("drive '{}' is in error stop: error {}", app.drives[i].name, ref.wFBErrorID));
+  }
+  return lines;
+}
+
 } // namespace stride::host

@@ -6,6 +6,7 @@
 #include "runtime/task/virtual_scheduler.hpp"
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace stride::host {
@@ -18,6 +19,9 @@ app::RuntimeLayouts runtimeLayouts();
 /// built with another AXIS_REF or SMC_AXISGROUP_REF than this program.
 std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
                                                             task::VirtualScheduler &scheduler);
+
+/// One line about each drive that is in error stop, to be shown at the end of a run.
+std::vector<std::string> errorStops(const app::Application &application);
 
 } // namespace stride::host
 

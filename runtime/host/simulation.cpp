@@ -181,6 +181,8 @@ ExitCode simulate(app::Application &application, const SimOptions &options) {
   for (const std::unique_ptr<task::CycleHook> &hook : hooks)
     if (const std::string problem = hook->problem(); !problem.empty())
       fmt::print(stderr, "warning: {}\n", problem);
+  for (const std::string &line : errorStops(application))
+    fmt::print(stderr, "note: {}\n", line);
   if (result.fault)
     fmt::print(stderr, "error: {}\n", task::describe(*result.fault));
   else if (!result.interrupted) {
