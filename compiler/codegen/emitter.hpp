@@ -99,6 +99,7 @@ private:
   };
   struct Loop {
     unsigned id;
+    bool isDouble;         ///< two C++ loops, so that `break` leaves only the inner one
     unsigned switches = 0; ///< CASE statements around the place, within the loop
     bool labelled = false; ///< an EXIT jumps behind it
   };
@@ -185,8 +186,8 @@ private:
   void caseSwitch(const ast::CaseStmt *s);
   void caseChain(const ast::CaseStmt *s);
   void forStatement(const ast::ForStmt *s);
-  void loopBody(ast::Block body, Span span, bool tick);
-  void endLoop();
+  void refillLoop(std::string_view run, std::string_view first, Span span);
+  void loopBody(ast::Block body, bool isDouble);
 
   // initializers.cpp
   void writtenDefault(std::string_view target, const Type *type, const Written &written);

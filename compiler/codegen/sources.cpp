@@ -66,6 +66,7 @@ public:
     budget();
     text_.append(locals);
     text_.append(body);
+    budgetDone();
     functionEnd();
   }
 
@@ -89,6 +90,7 @@ public:
     budget();
     text_.append(locals);
     text_.append(body);
+    budgetDone();
     if (pou->result != nullptr) {
       text_.line() << "  return " << mangle(pou->result->name.text) << ';';
       text_.endLine();
@@ -160,6 +162,13 @@ private:
     if (!e_.usesBudget())
       return;
     text_.line() << "  ::stride::LoopBudget budget__(ctx__);";
+    text_.endLine();
+  }
+
+  void budgetDone() {
+    if (!e_.usesBudget())
+      return;
+    text_.line() << "  budget__.done(ctx__);";
     text_.endLine();
   }
 

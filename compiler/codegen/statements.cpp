@@ -49,34 +49,31 @@ void Emitter::statement(const Stmt *s) {
     return;
   case StmtKind::whileS: {
     const auto *loop = as<WhileStmt>(s);
+    const std::string run = temporary("run");
     begin(s->span);
-    w_ << "while (";
+    refillLoop(run, "true", s->span);
+    w_ << "for (; budget__.left > 0 && (" << run << " = ";
     condition(loop->condition);
-    w_ << ") {";
+    w_ << "); --budget__.left) {";
     end();
-    loopBody(loop->body, s->span, true);
-    w_.line() << '}';
-    end();
-    endLoop();
+    loopBody(loop->body, true);
     return;
   }
   case StmtKind::repeatS: {
     const auto *loop = as<RepeatStmt>(s);
+    const std::string run = temporary("run");
     begin(s->span);
-    w_ << "do {";
-    end();
-    loopBody(loop->body, s->span, true);
-    begin(loop->until->span);
-    w_ << "} while (!(";
+    refillLoop(run, "true", s->span);
+    w_ << "for (; " << run << " && budget__.left > 0; --budget__.left, " << run << " = !(";
     condition(loop->until);
-    w_ << "));";
+    w_ << ")) {";
     end();
-    endLoop();
+    loopBody(loop->body, true);
     return;
   }
   case StmtKind::exit:
     begin(s->span);
-    if (loops_.back().switches > 0) { // `break` would only leave the switch
+    if (loops_.back().isDouble || loops_.back().switches > 0) { // `break` would not leave it all
       loops_.back().labelled = true;
       w_ << "goto exit__" << loops_.back().id << ';';
     } else {
@@ -91,6 +88,8 @@ void Emitter::statement(const Stmt *s) {
     return;
   case StmtKind::returnS:
     begin(s->span);
+    if (usesBudget_) // a RETURN in front of the first loop has used nothing
+      w_ << "budget__.done(" << ctx() << "); ";
     w_ << "return";
     if (pou_->result != nullptr) {
       used_.insert(pou_->result);
@@ -104,6 +103,26 @@ void Emitter::statement(const Stmt *s) {
 
 // -----------------------------------------------------------------------------------------------------
 // assignments
+
+namespace {
+
+/// Does finding the variable read others: an index, a pointer?
+bool isComputedPlace(const Expr *target) {
+  while (true) {
+    switch (target->kind) {
+    case ExprKind::index:
+    case ExprKind::deref:
+      return true;
+    case ExprKind::member:
+      target = as<MemberExpr>(target)->base;
+      continue;
+    default:
+      return false;
+    }
+  }
+}
+
+} // namespace
 
 void Emitter::storeTo(std::string_view target, const Type *type, const Expr *value) {
   if (isString(type) && (value->constant != nullptr || value->type != type)) {
@@ -121,15 +140,27 @@ void Emitter::storeTo(std::string_view target, const Type *type, const Expr *val
 }
 
 void Emitter::store(const Expr *target, const Expr *value) {
+  const Expr *stored = isBit(target) ? as<MemberExpr>(target)->base : target;
+  const bool ordered = ((effects(target) & effectCalls) != 0 && effects(value) != effectNone) ||
+                       ((effects(value) & effectCalls) != 0 && isComputedPlace(stored));
   if (isBit(target)) {
+    const std::string name = ordered ? temporary("to") : std::string();
+    if (ordered) {
+      w_ << "{ auto &" << name << " = ";
+      place(stored);
+      w_ << "; ";
+    }
     w_ << "::stride::setBit(";
-    place(as<MemberExpr>(target)->base);
+    if (ordered)
+      w_ << name;
+    else
+      place(stored);
     w_ << ", " << as<MemberExpr>(target)->bit << ", ";
     valueAs(value, target->type);
-    w_ << ");";
+    w_ << (ordered ? "); }" : ");");
     return;
   }
-  if ((effects(target) & effects(value) & effectCalls) != 0) { // the place is found first
+  if (ordered) { // the place is found first
     const std::string name = temporary("to");
     w_ << "{ auto &" << name << " = ";
     place(target);
@@ -299,8 +330,8 @@ void Emitter::caseStatement(const CaseStmt *s) {
       if (label.high != nullptr && __builtin_sub_overflow(label.high->constant->integer,
                                                           label.low->constant->integer, &width))
         width = kMaxRange;
-      small = small && width < kMaxRange;
-      labels += width + 1;
+      small = small && width >= 0 && width < kMaxRange; // negative: an empty or a huge range
+      labels += small ? width + 1 : 0;
     }
   }
   if (small &&
@@ -431,23 +462,23 @@ void Emitter::caseChain(const CaseStmt *s) {
 // -----------------------------------------------------------------------------------------------------------
 // loops
 
-void Emitter::loopBody(Block body, Span span, bool tick) {
-  loops_.push_back({++next_});
-  open();
-  if (tick) {
-    usesBudget_ = true;
-    begin(span);
-    usesContext_ = true;
-    w_ << "budget__.tick(";
-    position(span);
-    w_ << ");";
-    end();
-  }
-  block(body);
-  close();
+/// The outer one of a loop's two C++ loops.
+void Emitter::refillLoop(std::string_view run, std::string_view first, Span span) {
+  usesBudget_ = true;
+  w_ << "for (bool " << run << " = " << first << "; " << run << "; budget__.refill(" << run << ", "
+     << ctx() << ", ";
+  position(span);
+  w_ << ")) ";
 }
 
-void Emitter::endLoop() {
+/// The body with its closing brace and, behind it, the label that EXIT jumps to.
+void Emitter::loopBody(Block body, bool isDouble) {
+  loops_.push_back({++next_, isDouble});
+  open();
+  block(body);
+  close();
+  w_.line() << '}';
+  end();
   if (loops_.back().labelled) {
     w_.line() << "exit__" << loops_.back().id << ":;";
     end();
@@ -482,13 +513,16 @@ void Emitter::forStatement(const ForStmt *s) {
     value(s->by);
     w_ << "; ";
   }
-  w_ << "for (bool run__" << number << " = ";
+  const std::string run = "run__" + number;
+  std::size_t from = w_.size();
   if (constantStep)
     w_ << variable << (step >= 0 ? " <= " : " >= ") << last;
   else
     w_ << "::stride::forFirst<" << this->type(type) << ">(" << variable << ", " << last
        << ", step__" << number << ')';
-  w_ << "; run__" << number << "; run__" << number << " = ::stride::"
+  const std::string first = w_.cut(from);
+  from = w_.size();
+  w_ << run << " = ::stride::"
      << (!constantStep ? "forNext<"
          : step >= 0   ? "forUp<"
                        : "forDown<")
@@ -498,14 +532,19 @@ void Emitter::forStatement(const ForStmt *s) {
        << 'U';
   else
     w_ << "step__" << number;
-  w_ << ")) {";
+  w_ << ')';
+  const std::string advance = w_.cut(from);
+  const bool isShort = c_.analysis.shortLoop(s);
+  if (isShort) {
+    w_ << "for (bool " << run << " = " << first << "; " << run << "; " << advance << ") {";
+  } else {
+    refillLoop(run, first, s->span);
+    w_ << "for (; " << run << " && budget__.left > 0; --budget__.left, " << advance << ") {";
+  }
   end();
   c_.analysis.enterLoop(s);
-  loopBody(s->body, s->span, !c_.analysis.shortLoop(s));
+  loopBody(s->body, !isShort);
   c_.analysis.leaveLoop();
-  w_.line() << '}';
-  end();
-  endLoop();
 }
 
 } // namespace stc::codegen

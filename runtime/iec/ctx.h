@@ -75,27 +75,23 @@ inline void loopTick(Ctx &ctx, const char *file, uint32_t line, uint32_t col) {
   if (--ctx.loopBudget < 0) [[unlikely]]
     loopBudgetSpent(ctx, file, line, col);
 }
-/// The loop budget within one call of a POU: a copy that the compiler can keep in a register. What
-/// was used is taken from ctx.loopBudget when the call ends, so that loops around calls count too.
-class LoopBudget {
-public:
-  explicit LoopBudget(Ctx &ctx) : ctx_(ctx), left_(ctx.loopBudget), start_(left_) {}
-  ~LoopBudget() { ctx_.loopBudget -= start_ - left_; }
-  LoopBudget(const LoopBudget &) = delete;
-  LoopBudget &operator=(const LoopBudget &) = delete;
+/// The loop budget within one call of a POU: a copy that the compiler can keep in a register. A
+/// loop is written as two: the inner one runs while there is budget and contains no call for it, so
+/// that its variables stay in registers; the outer one asks for more. done() takes what was used
+/// from ctx.loopBudget when the call ends, so that loops around calls count too.
+struct LoopBudget {
+  int64_t left;
+  int64_t start;
 
-  /// At every loop's back edge.
-  void tick(const char *file, uint32_t line, uint32_t col) {
-    if (--left_ < 0) [[unlikely]] {
-      loopBudgetSpent(ctx_, file, line, col);
-      left_ = start_ = ctx_.loopBudget;
+  explicit LoopBudget(const Ctx &ctx) : left(ctx.loopBudget), start(left) {}
+  /// Behind the inner loop; `more` says that it ended for lack of budget.
+  void refill(bool more, Ctx &ctx, const char *file, uint32_t line, uint32_t col) {
+    if (more && left <= 0) [[unlikely]] {
+      loopBudgetSpent(ctx, file, line, col);
+      left = start = ctx.loopBudget;
     }
   }
-
-private:
-  Ctx &ctx_;
-  int64_t left_;
-  int64_t start_;
+  void done(Ctx &ctx) const { ctx.loopBudget -= start - left; }
 };
 
 /// An object of the application at its place in the state.
