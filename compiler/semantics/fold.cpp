@@ -151,9 +151,14 @@ std::optional<ConstValue> convertConstant(const ConstValue &value, const Type *f
   if (t->kind == TypeKind::boolean)
     return integerValue(value.kind == ConstKind::real ? value.real != 0 : value.integer != 0);
   if (isTimeOrDate(f) || isTimeOrDate(t)) {
-    if (f->kind != t->kind)
-      return std::nullopt; // units differ; the runtime converts
-    return value;
+    using enum TypeKind;
+    if (f->kind == t->kind)
+      return value;
+    if ((f->kind == time && t->kind == ltime) || (f->kind == tod && t->kind == ltod))
+      return integerValue(value.integer * 1'000'000); // ms to ns
+    if ((f->kind == date && t->kind == ldate) || (f->kind == dt && t->kind == ldt))
+      return integerValue(value.integer * 1'000'000'000); // s to ns
+    return std::nullopt; // the runtime converts
   }
   if (value.kind == ConstKind::real)
     return integerValue(roundToInteger(value.real, t));
