@@ -209,7 +209,6 @@ void Checker::bindArguments(CallExpr *expr, PouSymbol *pou) {
         continue;
       }
       if (next >= positional.size()) {
-        failed = true;
         auto &d = report(Code::tooManyArguments, a.span,
                          "`" + std::string(pou->name.text) + "` takes " +
                              std::to_string(positional.size()) +

@@ -58,7 +58,7 @@ public:
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
 private:
-  static constexpr std::size_t kBlock = 64 * 1024;
+  static constexpr std::size_t kBlock = std::size_t{64} * 1024;
   std::vector<std::unique_ptr<std::byte[]>> blocks_;
   std::byte *cursor_ = nullptr;
   std::byte *end_ = nullptr;

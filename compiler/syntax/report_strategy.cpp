@@ -52,6 +52,15 @@ void ReportStrategy::skipStatement() {
   }
 }
 
+namespace {
+
+bool endsDeclaration(std::uint16_t type) {
+  return type == Tok::SEMICOLON || type == Tok::END_VAR || type == Tok::END_STRUCT ||
+         type == Tok::END_TYPE || type == Tok::END_UNION || isEnd(type);
+}
+
+} // namespace
+
 /// True when `wanted` comes later in the same statement head.
 bool ReportStrategy::thenFollows(std::uint16_t wanted) {
   UnitStream &stream = parser_.stream();
@@ -237,6 +246,16 @@ void ReportStrategy::reportError(antlr4::Parser *, const antlr4::RecognitionExce
   recovering_ = true;
 }
 
+/// A name at the start of a line, in front of `:`, `,` or AT: the declaration before it was not
+/// finished.
+bool ReportStrategy::startsDeclaration(const Token &token) {
+  UnitStream &stream = parser_.stream();
+  if (token.type != Tok::IDENT || !onNewLine(token) || token.index + 1 >= stream.size())
+    return false;
+  const std::uint16_t next = stream.token(token.index + 1).type;
+  return next == Tok::COLON || next == Tok::COMMA || next == Tok::AT;
+}
+
 void ReportStrategy::recover(antlr4::Parser *, std::exception_ptr error) {
   UnitStream &stream = parser_.stream();
   switch (parser_.context()->getRuleIndex()) {
@@ -260,10 +279,8 @@ void ReportStrategy::recover(antlr4::Parser *, std::exception_ptr error) {
     return;
   case Grammar::RuleVarDeclaration:
   case Grammar::RuleTypeDeclaration:
-    skipTo([](std::uint16_t type) {
-      return type == Tok::SEMICOLON || type == Tok::END_VAR || type == Tok::END_STRUCT ||
-             type == Tok::END_TYPE || type == Tok::END_UNION;
-    });
+    while (!endsDeclaration(current().type) && !startsDeclaration(current()))
+      stream.advance();
     if (parser_.context()->getRuleIndex() == Grammar::RuleTypeDeclaration &&
         current().type == Tok::END_STRUCT)
       stream.advance();

@@ -158,6 +158,7 @@ private:
   antlr4::Token *conjure(std::uint16_t type);
   void skipStatement();
   void skipTo(bool (*stop)(std::uint16_t));
+  bool startsDeclaration(const Token &token);
   bool thenFollows(std::uint16_t wanted);
   void syncStatements();
   void syncDeclarations(bool (*good)(std::uint16_t), const std::string &expected);
