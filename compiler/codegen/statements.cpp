@@ -64,7 +64,7 @@ void Emitter::statement(const Stmt *s) {
     const std::string run = temporary("run");
     begin(s->span);
     refillLoop(run, "true", s->span);
-    w_ << "for (; " << run << " && budget__.left > 0; --budget__.left, " << run << " = !(";
+    w_ << "for (; budget__.left > 0 && " << run << "; --budget__.left, " << run << " = !(";
     condition(loop->until);
     w_ << ")) {";
     end();
@@ -539,7 +539,7 @@ void Emitter::forStatement(const ForStmt *s) {
     w_ << "for (bool " << run << " = " << first << "; " << run << "; " << advance << ") {";
   } else {
     refillLoop(run, first, s->span);
-    w_ << "for (; " << run << " && budget__.left > 0; --budget__.left, " << advance << ") {";
+    w_ << "for (; budget__.left > 0 && " << run << "; --budget__.left, " << advance << ") {";
   }
   end();
   c_.analysis.enterLoop(s);
