@@ -15,19 +15,22 @@ Place Writer::place(Span span) {
     std::size_t end = text.find('\n', begin);
     if (end == std::string_view::npos)
       end = text.size();
-    // A line longer than this is asked for anew each time: its columns would be counted over and
-    // over.
-    if (end - begin > 1024)
-      return {at.line, at.column};
     cachedFile_ = span.file;
     cachedBegin_ = static_cast<std::uint32_t>(begin);
     cachedEnd_ = static_cast<std::uint32_t>(end + 1);
-    cachedLine_ = at.line;
+    cachedOffset_ = span.begin;
+    cached_ = {at.line, at.column};
+    return cached_;
   }
-  std::uint32_t column = 1;
-  for (std::uint32_t i = cachedBegin_; i < span.begin; ++i)
-    column += (static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U ? 1 : 0;
-  return {cachedLine_, column};
+  // Count on (or back) from there: lines may be megabytes long.
+  const auto starts = [&](std::uint32_t i) { // not in the middle of a UTF-8 sequence
+    return (static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U ? 1U : 0U;
+  };
+  for (; cachedOffset_ < span.begin; ++cachedOffset_)
+    cached_.column += starts(cachedOffset_);
+  for (; cachedOffset_ > span.begin; --cachedOffset_)
+    cached_.column -= starts(cachedOffset_ - 1);
+  return cached_;
 }
 
 void Writer::from(Span span) {

@@ -82,11 +82,12 @@ private:
   std::uint32_t count_ = 1;    ///< number of the line being written
   std::uint32_t believed_ = 1; ///< what the C++ compiler takes it for
   FileId mapped_ = 0;          ///< the file it takes it to be in; 0: the generated one
-  // The line that was asked for last: its begin and end in the text.
+  // The place that was asked for last; the next one is usually near.
   FileId cachedFile_ = 0;
-  std::uint32_t cachedBegin_ = 1;
+  std::uint32_t cachedBegin_ = 1; ///< of its line in the text
   std::uint32_t cachedEnd_ = 0;
-  std::uint32_t cachedLine_ = 0;
+  std::uint32_t cachedOffset_ = 0;
+  Place cached_;
 };
 
 /// The text as a C++ string literal without its quotes.
