@@ -44,11 +44,12 @@ struct AppConfig {
 /// `{external}` bodies are declared only).
 std::vector<GeneratedFile> generateLibrary(const Program &program, const Library &library);
 
-/// Headers `st/user/<Name>.h`, `user/<Name>.cpp` per POU, `user/init__.cpp` with the initial values of
-/// structures and variable lists, `app.cpp` with the application object (state layout, initialisation,
-/// type table, roots, tasks: runtime/app/abi.h) and `build.cpp` with the hashes of the sources. Library
-/// headers are not generated again; they are included from where Stride installed them. The same
-/// program gives the same texts; a change in a body changes only that source and build.cpp.
+/// Headers `st/user/<Name>.h`, `user/<Name>.cpp` per POU, `user/init__.cpp` with the initial values
+/// of structures and variable lists, `app.cpp` with the application object (state layout,
+/// initialisation, type table, roots, tasks: runtime/app/abi.h) and `build.cpp` with the hashes of
+/// the sources. Library headers are not generated again; they are included from where Stride
+/// installed them. The same program gives the same texts; a change in a body changes only that
+/// source and build.cpp.
 std::vector<GeneratedFile> generateApplication(const Program &program, const AppConfig &config);
 
 } // namespace stc
