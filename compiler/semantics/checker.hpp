@@ -8,6 +8,7 @@
 #include "compiler/semantics/type_table.hpp"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -178,6 +179,7 @@ private:
   std::unordered_map<Ident, Symbol *>
       libraryMisses_; ///< results of lookupInLibraries, also the misses
   Scope scope_;
+  std::set<std::pair<const PouSymbol *, Ident>> unknown_; ///< names reported already
   unsigned loopDepth_ = 0;
 };
 

@@ -154,7 +154,30 @@ std::vector<std::string_view> Checker::memberNames(const Type *type) {
   return list;
 }
 
+namespace {
+
+/// Words of the language that later versions understand.
+bool isLaterWord(std::string_view lower) {
+  static constexpr std::string_view kWords[] = {
+      "this",         "super",    "lower_bound",      "upper_bound",
+      "__new",        "__delete", "__queryinterface", "__querypointer",
+      "__isvalidref", "bitadr",   "xsizeof",          "indexof",
+      "ini"};
+  return std::find(std::begin(kWords), std::end(kWords), lower) != std::end(kWords);
+}
+
+} // namespace
+
 void Checker::reportUnknown(const Name &name, bool asType) {
+  if (!asType) {
+    if (!unknown_.emplace(scope_.pou, name.id).second)
+      return; // one missing declaration is one mistake
+    if (isLaterWord(name.id->lower)) {
+      report(Code::unsupported, name.span,
+             "`" + std::string(name.text) + "` is not supported by this version", "not available");
+      return;
+    }
+  }
   auto &d =
       asType ? report(Code::unknownType, name.span,
                       "cannot find type `" + std::string(name.text) + "`", "no type of this name")

@@ -156,7 +156,14 @@ const Type *Checker::checkUnary(UnaryExpr *expr, const Type *expected) {
       continue;
     }
     if (isNot) {
-      u->type = own->kind == TypeKind::anyInteger ? settle(operand) : own;
+      const Type *wanted = expected != nullptr ? underlying(expected) : nullptr;
+      if (own->kind != TypeKind::anyInteger)
+        u->type = own;
+      else if (wanted != nullptr && isInteger(wanted) && operand->constant != nullptr &&
+               constantFits(*operand->constant, own, wanted))
+        u->type = wanted; // `w AND NOT 16#0F`: a mask as wide as the result
+      else
+        u->type = settle(operand);
       setTarget(operand, u->type);
     } else if (untyped(own) || isReal(own) || own->kind == TypeKind::ltime) {
       u->type = own;
