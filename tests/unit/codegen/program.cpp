@@ -174,7 +174,12 @@ void App::load(const std::vector<GeneratedFile> &files, const Options &) {
   write(folder / "all.cpp", all);
   const std::string object = (folder / "app.so").string();
   const std::string log = (folder / "log.txt").string();
-  const std::string command = std::string(STRIDE_CXX) +
+#ifdef __SANITIZE_ADDRESS__ // the runtime's archive is instrumented then
+  const std::string sanitizer = " -fsanitize=address,undefined -fno-sanitize-recover=all";
+#else
+  const std::string sanitizer;
+#endif
+  const std::string command = std::string(STRIDE_CXX) + sanitizer +
                               " -std=c++20 -fPIC -shared -O0 -Wall -Wextra -Wpedantic -Werror "
                               "-fwrapv -fno-strict-aliasing -fno-finite-loops"
                               " -fno-delete-null-pointer-checks -ffp-contract=off -fno-rtti -I" +
