@@ -111,8 +111,19 @@ const Type *Checker::commonOf(Expr *a, Expr *b) {
 const Type *Checker::fold(BinaryExpr *expr) {
   const ConstValue *l = expr->left->constant;
   const ConstValue *r = expr->right->constant;
-  if (l == nullptr || r == nullptr || expr->operandType == nullptr)
+  if (l == nullptr || r == nullptr)
     return expr->type;
+  if (expr->operandType == nullptr) { // `T#1s * 2`: the operands have different types
+    const Type *duration = underlying(expr->type);
+    const Expr *number = isNumber(underlying(expr->left->type)) ? expr->left : expr->right;
+    if (isDuration(duration) && isNumber(underlying(number->type)) &&
+        l->kind == ConstKind::integer && r->kind == ConstKind::integer &&
+        number->constant->integer >= 0) {
+      if (const auto value = foldBinary(expr->op, *l, *r, duration))
+        expr->constant = makeConstant(*value);
+    }
+    return expr->type;
+  }
   const auto left = convertConstant(*l, expr->left->type, expr->operandType);
   const auto right = convertConstant(*r, expr->right->type, expr->operandType);
   if (!left || !right)
