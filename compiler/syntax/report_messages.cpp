@@ -126,8 +126,8 @@ bool ReportStrategy::keywordAsName(const Token &token) {
 // saying it
 
 void ReportStrategy::reportKeywordAsName(const Token &token) {
-  if (!mayReport())
-    return;
+  if (!mayReport() || !keywordsAsNames_.insert(token.type).second)
+    return; // the declaration has said it
   diagnostics_
       .report(Code::keywordAsName, span(token),
               ticked(spelling(token)) + " is a keyword, it cannot be a name",
@@ -141,7 +141,7 @@ void ReportStrategy::useAsName(Token &token) {
 }
 
 void ReportStrategy::reportUnexpected(const std::string &expected) {
-  if (!mayReport())
+  if (!mayReport() || keywordsAsNames_.contains(current().type))
     return;
   const Token &token = current();
   const Token *next = token.index + 1 < parser_.stream().size()

@@ -7,6 +7,7 @@
 #include "StParser.h"
 
 #include <deque>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -171,6 +172,7 @@ private:
   bool recovering_ = false;
   std::int64_t lastError_ = -1; ///< token index of the last report
   std::size_t reports_ = 0;     ///< in this file
+  std::set<std::uint16_t> keywordsAsNames_; ///< token types reported as such in this file
   std::deque<Token> conjured_;
 };
 
