@@ -82,6 +82,7 @@ int run(int argc, char **argv) {
             help)
         ->expected(1)
         ->take_all()
+        ->allow_extra_args(false)
         ->type_name(type);
   };
   const auto passFlag = [&](const char *option, const char *help) {

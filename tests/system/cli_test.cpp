@@ -231,6 +231,9 @@ TEST_F(Cli, SimulationReadsWritesAndPrints) {
   EXPECT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(result.out, "PLC_PRG.n = 105\n");
   EXPECT_NE(stride({"sim", "a.st", "--for", "T#100ms", "--print", "PLC_PRG.q"}).exitCode, 0);
+  // An option takes one value: what follows is the program.
+  EXPECT_EQ(stride({"sim", "--for", "T#30ms", "--print", "PLC_PRG.n", "a.st"}).out,
+            "PLC_PRG.n = 3\n");
   EXPECT_NE(stride({"sim", "a.st", "--for", "long"}).exitCode, 0);
 }
 
