@@ -42,6 +42,7 @@ private:
   void globals();
   void unsupportedConstruct();
   bool unsupportedBody();
+  bool skipExceptionWord();
   void outside();
 
   /// Runs the rule over the unit; a second time, with reports, when it has an error.

@@ -213,6 +213,34 @@ void FileParser::markLabel() {
   unit_.insert(unit_.begin() + static_cast<std::ptrdiff_t>(begin), label);
 }
 
+/// Skips `__TRY`, `__CATCH (…)`, `__FINALLY` and `__ENDTRY`; the first of them is reported.
+bool FileParser::skipExceptionWord() {
+  const std::string_view word = scanner_.text(now_);
+  if (!word.starts_with("__"))
+    return false;
+  const auto is = [&](std::string_view upper) {
+    return std::equal(word.begin(), word.end(), upper.begin(), upper.end(), [](char a, char b) {
+      return (a >= 'a' && a <= 'z' ? static_cast<char>(a - 'a' + 'A') : a) == b;
+    });
+  };
+  const bool opens = is("__TRY");
+  const bool handles = is("__CATCH");
+  if (!opens && !handles && !is("__FINALLY") && !is("__ENDTRY"))
+    return false;
+  if (opens)
+    diagnostics_.report(Code::notSupported, span(now_), "`__TRY` is not supported by this version");
+  advance();
+  if (handles && now_.type == Tok::LPAREN) {
+    while (now_.type != Tok::RPAREN && now_.type != Tok::SEMICOLON && !endsPou())
+      advance();
+    if (now_.type == Tok::RPAREN)
+      advance();
+  }
+  if (now_.type == Tok::SEMICOLON)
+    advance();
+  return true;
+}
+
 void FileParser::readStatements() {
   unit_.clear();
   blocks_.clear();
@@ -256,6 +284,8 @@ void FileParser::readStatements() {
       advance();
       if (now_.type == Tok::IDENT)
         advance();
+      continue;
+    } else if (type == Tok::IDENT && skipExceptionWord()) {
       continue;
     }
     if (dropping)
