@@ -305,6 +305,8 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
       return argumentError(expr, 0, "a number");
     const Type *result =
         type(0)->kind == TypeKind::real ? type(0) : elementaryType(TypeKind::lreal);
+    if (untyped(type(0))) // `r := SQRT(2.0)` is silent, as `r := 2.0` is
+      expr->common = elementaryType(TypeKind::real);
     setTarget(value(0), result);
     return result;
   }
@@ -319,6 +321,8 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
     const bool real =
         type(0)->kind == TypeKind::real && (type(1)->kind == TypeKind::real || untyped(type(1)));
     const Type *result = elementaryType(real ? TypeKind::real : TypeKind::lreal);
+    if (untyped(type(0)) && untyped(type(1)))
+      expr->common = elementaryType(TypeKind::real);
     setTarget(value(0), result);
     setTarget(value(1), result);
     return result;

@@ -158,7 +158,7 @@ std::optional<ConstValue> convertConstant(const ConstValue &value, const Type *f
       return integerValue(value.integer * 1'000'000); // ms to ns
     if ((f->kind == date && t->kind == ldate) || (f->kind == dt && t->kind == ldt))
       return integerValue(value.integer * 1'000'000'000); // s to ns
-    return std::nullopt; // the runtime converts
+    return std::nullopt;                                  // the runtime converts
   }
   if (value.kind == ConstKind::real)
     return integerValue(roundToInteger(value.real, t));

@@ -63,7 +63,8 @@ bool isDuration(const Type *t) { return t->kind == TypeKind::time || t->kind == 
 
 /// The type that remembers what the operand was before widening.
 const Type *unwidened(const Expr *e) {
-  return e->common != nullptr ? e->common : underlying(e->type);
+  // What is LREAL stays LREAL; its `common` only keeps an assignment to REAL silent.
+  return e->common != nullptr && !isReal(e->type) ? e->common : underlying(e->type);
 }
 
 } // namespace
@@ -255,7 +256,12 @@ const Type *Checker::checkArithmetic(BinaryExpr *expr) {
       d.help("convert one of them: `" + typeName(l) + "_TO_" + typeName(r) + "(…)`");
       return elementaryType(TypeKind::error);
     }
-    expr->common = common;
+    const auto narrow = [](const Expr *e) {
+      return untyped(e->type) || (e->common != nullptr && e->common->kind == TypeKind::real);
+    };
+    const bool constants =
+        common->kind == TypeKind::lreal && narrow(expr->left) && narrow(expr->right);
+    expr->common = constants ? elementaryType(TypeKind::real) : common;
     const Type *operation = widened(common);
     // An operand that had been widened already keeps its width (a*b + c).
     for (const Expr *e : {expr->left, expr->right}) {
@@ -448,6 +454,8 @@ const Type *Checker::checkPower(BinaryExpr *expr) {
   expr->operandType = elementaryType(
       l->kind == TypeKind::real && (r->kind == TypeKind::real || untyped(r)) ? TypeKind::real
                                                                              : TypeKind::lreal);
+  if (untyped(l) && untyped(r)) // `r := 2.0 ** 0.5` is silent, as `r := 2.0` is
+    expr->common = elementaryType(TypeKind::real);
   setTarget(expr->left, expr->operandType);
   setTarget(expr->right, expr->operandType);
   return expr->operandType;

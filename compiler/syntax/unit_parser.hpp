@@ -170,8 +170,8 @@ private:
   FileId file_;
   Diagnostics &diagnostics_;
   bool recovering_ = false;
-  std::int64_t lastError_ = -1; ///< token index of the last report
-  std::size_t reports_ = 0;     ///< in this file
+  std::int64_t lastError_ = -1;             ///< token index of the last report
+  std::size_t reports_ = 0;                 ///< in this file
   std::set<std::uint16_t> keywordsAsNames_; ///< token types reported as such in this file
   std::deque<Token> conjured_;
 };

@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   const stc::FileId id =
       sources.addBytes("stride.toml", std::string(reinterpret_cast<const char *>(data), size));
   stc::ProjectConfig config = stc::readConfig(sources.file(id), diagnostics);
-  stc::resolveTasks(config, {}, false, diagnostics);
+  stc::resolveTasks(config, {}, stc::ProgramCheck::existing, diagnostics);
   std::vector<stc::DeclaredRange> ranges;
   (void)stc::plcDeclarations(config, {}, ranges, diagnostics);
   for (const stc::Diagnostic &diagnostic : diagnostics.all())
