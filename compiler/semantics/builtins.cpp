@@ -4,13 +4,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <unordered_map>
 
 namespace stc {
 
-std::optional<ast::Builtin> findBuiltin(Ident name) {
+const std::vector<std::pair<std::string_view, ast::Builtin>> &builtins() {
   using enum ast::Builtin;
-  static const std::unordered_map<std::string_view, ast::Builtin> kNames = {
+  static const std::vector<std::pair<std::string_view, ast::Builtin>> kTable = {
       {"abs", abs},       {"sqrt", sqrt},     {"ln", ln},          {"log", log},
       {"exp", exp},       {"sin", sin},       {"cos", cos},        {"tan", tan},
       {"asin", asin},     {"acos", acos},     {"atan", atan},      {"atan2", atan2},
@@ -21,10 +20,7 @@ std::optional<ast::Builtin> findBuiltin(Ident name) {
       {"concat", concat}, {"insert", insert}, {"delete", deleteS}, {"replace", replace},
       {"find", find},     {"time", time},     {"adr", adr},        {"sizeof", sizeofT},
   };
-  const auto it = kNames.find(name->lower);
-  if (it == kNames.end())
-    return std::nullopt;
-  return it->second;
+  return kTable;
 }
 
 namespace {

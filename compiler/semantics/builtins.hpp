@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace stc {
 namespace ast {
@@ -60,9 +62,9 @@ enum class Builtin : std::uint16_t {
 
 } // namespace ast
 
-/// The builtin of that name, or nothing. Conversions (`INT_TO_REAL`, `TO_INT`) are not in this
+/// All builtins with their lower-case names. Conversions (`INT_TO_REAL`, `TO_INT`) are not in this
 /// table.
-[[nodiscard]] std::optional<ast::Builtin> findBuiltin(Ident name);
+[[nodiscard]] const std::vector<std::pair<std::string_view, ast::Builtin>> &builtins();
 
 /// The position of a formal parameter (`MN` of LIMIT is 0), or nothing. Both the standard's names
 /// and those of V2.3's string functions (STR, SIZE, POS …) are known; `lowerName` is in lower case.

@@ -72,15 +72,10 @@ const Type *Checker::checkCall(CallExpr *expr, bool asStatement) {
     auto *member = as<MemberExpr>(callee);
     if (Symbol *space = resolveNamespace(member->base);
         space != nullptr && space->kind == SymbolKind::library) {
-      for (const LibraryIndex::Entry &entry : index_.find(member->name.id->lower)) {
-        if (program_.interner.intern(entry.library) != space->name.id)
-          continue;
-        loadLibraryFile(entry);
-        Symbol *symbol = lookupInModule(module(std::string(entry.library)), member->name.id);
-        if (symbol != nullptr && symbol->kind == SymbolKind::pou) {
-          pou = static_cast<PouSymbol *>(symbol);
-          member->symbol = symbol;
-        }
+      Symbol *symbol = lookupInLibrary(space->name.id, member->name.id);
+      if (symbol != nullptr && symbol->kind == SymbolKind::pou) {
+        pou = static_cast<PouSymbol *>(symbol);
+        member->symbol = symbol;
       }
     }
   }

@@ -60,6 +60,8 @@ private:
   Symbol *lookup(const ast::Name &name);
   Symbol *lookupInModule(Module &module, Ident id);
   Symbol *lookupInLibraries(Ident id);
+  /// `Library.Name`
+  Symbol *lookupInLibrary(Ident library, Ident id);
   EnumeratorSymbol *lookupEnumerator(const ast::Name &name, const Type *expected, bool &ambiguous);
   static EnumeratorSymbol *findEnumerator(const EnumType *type, Ident id);
   VarSymbol *findMember(const Type *type, Ident id);

@@ -245,12 +245,7 @@ const Type *Checker::resolveNamed(NamedTypeExpr *expr) {
       reportUnknown(libraryName, true);
       return elementaryType(TypeKind::error);
     }
-    for (const LibraryIndex::Entry &entry : index_.find(name.id->lower)) {
-      if (program_.interner.intern(entry.library) != libraryName.id)
-        continue;
-      loadLibraryFile(entry);
-      symbol = lookupInModule(module(std::string(entry.library)), name.id);
-    }
+    symbol = lookupInLibrary(libraryName.id, name.id);
   }
   if (symbol == nullptr) {
     reportUnknown(name, true);

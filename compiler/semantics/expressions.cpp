@@ -282,16 +282,10 @@ Symbol *Checker::resolveNamespace(Expr *expr) {
     Symbol *base = resolveNamespace(member->base);
     if (base == nullptr || base->kind != SymbolKind::library)
       return nullptr;
-    for (const LibraryIndex::Entry &entry : index_.find(member->name.id->lower)) {
-      if (program_.interner.intern(entry.library) != base->name.id)
-        continue;
-      loadLibraryFile(entry);
-      Module &m = module(std::string(entry.library));
-      Symbol *symbol = lookupInModule(m, member->name.id);
-      if (symbol != nullptr && symbol->kind == SymbolKind::type) {
-        member->symbol = symbol;
-        return symbol;
-      }
+    Symbol *symbol = lookupInLibrary(base->name.id, member->name.id);
+    if (symbol != nullptr && symbol->kind == SymbolKind::type) {
+      member->symbol = symbol;
+      return symbol;
     }
   }
   return nullptr;
@@ -324,12 +318,7 @@ const Type *Checker::checkMember(MemberExpr *expr) {
       for (const VarSymbol *v : list->variables)
         candidates.push_back(v->name.text);
     } else {
-      for (const LibraryIndex::Entry &entry : index_.find(expr->name.id->lower)) {
-        if (program_.interner.intern(entry.library) != space->name.id)
-          continue;
-        loadLibraryFile(entry);
-        found = lookupInModule(module(std::string(entry.library)), expr->name.id);
-      }
+      found = lookupInLibrary(space->name.id, expr->name.id);
     }
     if (found == nullptr) {
       const Code code =

@@ -23,16 +23,12 @@ std::vector<VarSymbol *> PouSymbol::parameters() const {
 
 Checker::Checker(Program &program, const LibraryIndex &index)
     : program_(program), arena_(program.arena), index_(index), types_(program.arena) {
-  for (const char *name :
-       {"abs",  "sqrt",   "ln",     "log",    "exp",     "sin",  "cos",  "tan",   "asin",
-        "acos", "atan",   "atan2",  "expt",   "trunc",   "min",  "max",  "limit", "sel",
-        "mux",  "move",   "shl",    "shr",    "rol",     "ror",  "len",  "left",  "right",
-        "mid",  "concat", "insert", "delete", "replace", "find", "time", "adr",   "sizeof"}) {
+  for (const auto &[name, function] : builtins()) {
     const Ident id = program.interner.intern(name);
     auto *symbol = arena_.make<BuiltinSymbol>();
     symbol->kind = SymbolKind::builtin;
     symbol->name = {id, id->lower, {}};
-    symbol->id = *findBuiltin(id);
+    symbol->id = function;
     builtins_.emplace(id, symbol);
   }
 }

@@ -28,6 +28,17 @@ Symbol *Checker::lookupInLibraries(Ident id) {
   return nullptr;
 }
 
+Symbol *Checker::lookupInLibrary(Ident library, Ident id) {
+  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+    if (program_.interner.intern(entry.library) != library)
+      continue;
+    loadLibraryFile(entry);
+    if (Symbol *symbol = lookupInModule(module(std::string(entry.library)), id))
+      return symbol;
+  }
+  return nullptr;
+}
+
 Symbol *Checker::lookup(const Name &name) {
   if (scope_.pou != nullptr) {
     const auto it = scope_.pou->scope.find(name.id);
