@@ -490,7 +490,6 @@ bool Checker::requireVariable(Expr *expr, std::string_view what) {
       noteDeclaration(d, variable);
       return false;
     }
-    variable->usage |= static_cast<std::uint8_t>(Usage::written);
     // A field of a constant structure is constant, a field of a POU's variable is not.
     if (expr->kind == ExprKind::member && variable->owner == nullptr &&
         variable->globals == nullptr)

@@ -24,8 +24,6 @@ struct Symbol {
   Library *library = nullptr; ///< where it is declared
 };
 
-enum class Usage : std::uint8_t { unused = 0, read = 1, written = 2 };
-
 /// A variable, parameter or structure field.
 struct VarSymbol : Symbol {
   ast::VarDecl *decl = nullptr; ///< null only for a function's result
@@ -40,7 +38,6 @@ struct VarSymbol : Symbol {
   bool typeRunning = false; ///< the type is being resolved: meeting it again is a circle
   bool initChecked = false; ///< the initial value has been checked (or is being checked)
   bool initRunning = false; ///< is being checked: meeting it again is a circle
-  std::uint8_t usage = 0;   ///< Usage bits
 };
 
 /// PROGRAM, FUNCTION, FUNCTION_BLOCK
