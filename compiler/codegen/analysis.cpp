@@ -38,6 +38,7 @@ unsigned Analysis::effects(const Expr *expr) {
     switch (expr->kind) {
     case ExprKind::literal:
     case ExprKind::enumLiteral:
+    case ExprKind::direct:
     case ExprKind::error:
     case ExprKind::aggregate:
       return result;
@@ -171,6 +172,9 @@ bool Analysis::pureBlock(Block block, const PouSymbol *function) {
       break;
     }
     case StmtKind::call:
+    case StmtKind::jump:
+    case StmtKind::label:
+    case StmtKind::tryS:
       return false;
     case StmtKind::ifS: {
       const auto *i = as<IfStmt>(s);

@@ -31,6 +31,9 @@ void Emitter::block(Block block) {
 void Emitter::statement(const Stmt *s) {
   switch (s->kind) {
   case StmtKind::empty:
+  case StmtKind::jump: // the checker stops in front of these
+  case StmtKind::label:
+  case StmtKind::tryS:
     return;
   case StmtKind::assign:
     assign(as<AssignStmt>(s));

@@ -38,7 +38,19 @@ std::string_view describe(ast::DeclKind kind) {
   case ast::DeclKind::enumeration:
   case ast::DeclKind::alias:
     return "a type";
+  case ast::DeclKind::classD:
+    return "a CLASS";
+  case ast::DeclKind::interface:
+    return "an INTERFACE";
+  case ast::DeclKind::method:
+    return "a METHOD";
+  case ast::DeclKind::action:
+    return "an ACTION";
+  case ast::DeclKind::configuration:
+    return "a CONFIGURATION";
   case ast::DeclKind::globals:
+  case ast::DeclKind::config:
+  case ast::DeclKind::access:
     break;
   }
   return "a global variable list";

@@ -66,10 +66,11 @@ void Checker::resolveStruct(TypeSymbol *symbol, StructDecl *decl) {
   type->kind = TypeKind::structure;
   type->symbol = symbol;
   symbol->type = type; // members may point back to it
-  if (decl->base) {
-    Symbol *base = lookup(decl->base);
+  if (!decl->base.empty()) {
+    const Name &baseName = decl->base.back();
+    Symbol *base = lookup(baseName);
     if (base == nullptr) {
-      reportUnknown(decl->base, true);
+      reportUnknown(baseName, true);
     } else if (base->kind == SymbolKind::type) {
       auto *baseSymbol = static_cast<TypeSymbol *>(base);
       const bool circle = baseSymbol->resolving;
@@ -78,14 +79,14 @@ void Checker::resolveStruct(TypeSymbol *symbol, StructDecl *decl) {
         type->base = typeAs<StructType>(baseSymbol->type);
         symbol->fields = baseSymbol->fields;
       } else if (!isError(baseSymbol->type)) {
-        report(circle ? Code::recursiveType : Code::wrongBase, decl->base.span,
+        report(circle ? Code::recursiveType : Code::wrongBase, baseName.span,
                circle ? "`" + std::string(symbol->name.text) + "` extends itself"
-                      : "`" + std::string(decl->base.text) + "` is not a structure",
+                      : "`" + std::string(baseName.text) + "` is not a structure",
                "a structure can only extend another structure");
       }
     } else {
-      auto &d = report(Code::wrongBase, decl->base.span,
-                       "`" + std::string(decl->base.text) + "` is not a structure",
+      auto &d = report(Code::wrongBase, baseName.span,
+                       "`" + std::string(baseName.text) + "` is not a structure",
                        "this is " + describe(base));
       noteDeclaration(d, base);
     }
@@ -369,8 +370,8 @@ VarSymbol *Checker::makeVariable(VarDecl *decl, Module &module, PouSymbol *owner
   symbol->isConstant = (decl->qualifiers & qualConstant) != 0;
   symbol->hidden = hasAttribute(decl->attributes, "hide");
   decl->symbol = symbol;
-  if (!decl->address.empty() || decl->addressSpan.valid())
-    report(Code::unsupported, decl->addressSpan,
+  if (decl->address != nullptr)
+    report(Code::unsupported, decl->address->span,
            "located variables (AT %…) are not supported by this version", "this address")
         .help("leave the AT clause out and exchange the value through a global variable");
   return symbol;

@@ -48,6 +48,10 @@ const Type *Checker::check(Expr *expr, const Type *expected) {
            "not an expression")
         .help("assign the elements one by one");
     break;
+  case ExprKind::direct:
+    report(Code::unsupported, expr->span, "direct addresses are not supported by this version",
+           "this address");
+    break;
   case ExprKind::error:
     break;
   }

@@ -109,6 +109,16 @@ void Checker::declareFile(Module &module, File *file) {
     case DeclKind::globals:
       declareGlobals(module, as<GlobalsDecl>(decl));
       break;
+    case DeclKind::classD:
+    case DeclKind::interface:
+    case DeclKind::method:
+    case DeclKind::action:
+    case DeclKind::config:
+    case DeclKind::access:
+    case DeclKind::configuration:
+      report(Code::unsupported, decl->span, "this declaration is not supported by this version",
+             "not available");
+      break;
     }
   }
 }

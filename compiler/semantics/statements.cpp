@@ -80,6 +80,12 @@ void Checker::checkStatement(Stmt *stmt) {
     checkCondition(s->until, "the condition of UNTIL");
     break;
   }
+  case StmtKind::jump:
+  case StmtKind::label:
+  case StmtKind::tryS:
+    report(Code::unsupported, stmt->span, "this statement is not supported by this version",
+           "not available");
+    break;
   case StmtKind::exit:
   case StmtKind::continueS:
     if (loopDepth_ == 0) {

@@ -28,6 +28,18 @@ struct Name {
   Span span;
   explicit operator bool() const { return id != nullptr; }
 };
+/// `Lib.Block`, the names from left to right.
+using NamePath = std::span<Name>;
+
+/// `%IX0.0`, `%QW2`, `%MD4`, `%I*`: where a located variable lies.
+struct DirectAddress {
+  char area = 'M';                  ///< I, Q or M
+  char size = 'X';                  ///< X (bit), B, W, D or L; a missing letter means X
+  bool incomplete = false;          ///< `%I*`: VAR_CONFIG gives the place
+  std::span<std::uint32_t> numbers; ///< `%IX3.7` gives 3, 7
+  std::string_view text;            ///< as written
+  Span span;
+};
 
 // ----------------------------------------------------------------------------------------------------
 // attributes
@@ -54,6 +66,7 @@ enum class ExprKind : std::uint8_t {
   binary,
   aggregate,
   enumLiteral,
+  direct,
   error, ///< stands where the text could not be parsed; never reported again
 };
 
@@ -100,17 +113,19 @@ struct Literal : Expr {
 
 /// A plain identifier. A variable of REFERENCE type has the referenced type here (the symbol's type
 /// is the reference).
+/// THIS and SUPER are names too: sema resolves them inside of methods and blocks.
 struct NameExpr : Expr {
   Name name;
   Symbol *symbol = nullptr; ///< [sema]
 };
 
-/// `base.name`, also `lib.Name`, `Enum.value`, and bit access `w.3` (then name is empty and bit >=
-/// 0).
+/// `base.name`, also `lib.Name`, `Enum.value`. Bit access `w.3` has an empty name and `bit` >= 0;
+/// so has partial access `.%X3`, `.%B1`, `.%W0`, where `bit` counts parts of `width` bits.
 struct MemberExpr : Expr {
   Expr *base = nullptr;
   Name name;
-  std::int32_t bit = -1;
+  std::int32_t bit = -1;    ///< of `w.cBit` too, after [sema]
+  std::uint8_t width = 1;   ///< 1, 8, 16, 32 or 64
   Symbol *symbol = nullptr; ///< [sema] the member; null for a bit
 };
 
@@ -209,6 +224,11 @@ struct AggregateExpr : Expr {
   bool isStruct = false; ///< fields by name
 };
 
+/// `%IX0.0` in a statement.
+struct DirectExpr : Expr {
+  DirectAddress *address = nullptr;
+};
+
 /// `color#green`
 struct EnumLiteralExpr : Expr {
   Name typeName;
@@ -257,9 +277,11 @@ struct StringTypeExpr : TypeExpr {
   Expr *length = nullptr; ///< null: 80
 };
 
-/// POINTER TO / REFERENCE TO
+/// POINTER TO / REFERENCE TO / REF_TO
 struct PointerTypeExpr : TypeExpr {
   TypeExpr *pointee = nullptr;
+  bool refTo =
+      false; ///< edition 3's REF_TO: a pointer that is only assigned, compared and followed
 };
 
 /// `INT(0..10)`
@@ -296,6 +318,9 @@ enum class StmtKind : std::uint8_t {
   exit,
   continueS,
   returnS,
+  jump,
+  label,
+  tryS,
 };
 
 struct Stmt {
@@ -367,6 +392,26 @@ struct RepeatStmt : Stmt {
   Expr *until = nullptr;
 };
 
+/// `JMP name;`
+struct JumpStmt : Stmt {
+  Name label;
+};
+
+/// `name:` in front of a statement.
+struct LabelStmt : Stmt {
+  Name label;
+};
+
+/// `__TRY … __CATCH (exc) … __FINALLY … __ENDTRY`
+struct TryStmt : Stmt {
+  Block body;
+  bool hasCatch = false;
+  Expr *exception = nullptr; ///< the variable in parentheses; null: none
+  Block catchBody;
+  bool hasFinally = false;
+  Block finallyBody;
+};
+
 // ---------------------------------------------------------------------------------------------------
 // declarations
 
@@ -381,6 +426,7 @@ enum class Section : std::uint8_t {
   global,   ///< VAR_GLOBAL
   config,   ///< VAR_CONFIG
   access,   ///< VAR_ACCESS
+  instance, ///< VAR_INST: of a METHOD, kept in the block's instance
 };
 
 enum Qualifier : std::uint8_t {
@@ -397,8 +443,10 @@ struct VarDecl {
   std::uint8_t qualifiers = 0; ///< Qualifier bits
   TypeExpr *type = nullptr;
   Expr *init = nullptr;
-  std::string_view address; ///< `%IX0.0` of an AT clause, otherwise empty
-  Span addressSpan;
+  DirectAddress *address = nullptr; ///< of an AT clause; null: none
+  Expr *path =
+      nullptr; ///< VAR_CONFIG, VAR_ACCESS: the variable that is meant (`Main.fb.x`, `%IX0.0`)
+  bool readOnly = false; ///< VAR_ACCESS: READ_ONLY
   Attributes attributes;
   std::string_view doc;        ///< text of the `///` lines above
   VarSymbol *symbol = nullptr; ///< [sema]
@@ -408,11 +456,23 @@ enum class DeclKind : std::uint8_t {
   program,
   function,
   functionBlock,
-  structure,
+  classD,    ///< CLASS: a function block without body
+  interface, ///< INTERFACE: methods and properties without bodies
+  method,    ///< only inside of a block, class, interface or program
+  action,    ///< only inside of a block or program
+  structure, ///< STRUCT, UNION
   enumeration,
   alias,
-  globals
+  globals,
+  config,        ///< VAR_CONFIG outside of everything
+  access,        ///< VAR_ACCESS outside of everything
+  configuration, ///< CONFIGURATION … END_CONFIGURATION
 };
+
+enum class Access : std::uint8_t { none, publicA, privateA, protectedA, internalA };
+
+/// Bits of Decl::modifiers.
+enum Modifier : std::uint8_t { modAbstract = 1, modFinal = 2, modOverride = 4 };
 
 struct Decl {
   DeclKind kind;
@@ -420,19 +480,40 @@ struct Decl {
   Span span;
   Attributes attributes;
   std::string_view doc;
+  Access access = Access::none;
+  std::uint8_t modifiers = 0; ///< Modifier bits
+  NamePath space;             ///< the NAMESPACE around it; empty: none
+  std::span<NamePath> usings; ///< USING directives that hold here
 };
 
-/// PROGRAM, FUNCTION, FUNCTION_BLOCK
+struct PropertyDecl;
+
+/// PROGRAM, FUNCTION, FUNCTION_BLOCK, CLASS, INTERFACE, METHOD, ACTION, and the GET and SET of a
+/// property (a method without parameters, with a result; with the one input named as the property).
 struct PouDecl : Decl {
   std::span<VarDecl *> variables; ///< of all sections in the order of the text
-  TypeExpr *returnType = nullptr; ///< FUNCTION only; null: none
+  TypeExpr *returnType = nullptr; ///< FUNCTION, METHOD; null: none
   Block body;
-  bool external = false; ///< `{external}`: the body is C++
+  bool external = false;          ///< `{external}`: the body is C++
+  NamePath base;                  ///< EXTENDS of a block or class; empty: none
+  std::span<NamePath> interfaces; ///< IMPLEMENTS; of an INTERFACE: EXTENDS
+  std::span<PouDecl *> methods;
+  std::span<PouDecl *> actions;
+  std::span<PropertyDecl *> properties;
+  Span endSpan; ///< of END_…; empty where the end of the file closes it
 };
 
-/// TYPE n : STRUCT … END_STRUCT END_TYPE
+/// PROPERTY n : T … GET … END_GET SET … END_SET END_PROPERTY
+struct PropertyDecl : Decl {
+  TypeExpr *type = nullptr;
+  PouDecl *get = nullptr; ///< kind method; null: write-only
+  PouDecl *set = nullptr; ///< kind method; null: read-only
+};
+
+/// TYPE n : STRUCT … END_STRUCT END_TYPE, UNION … END_UNION
 struct StructDecl : Decl {
-  Name base; ///< EXTENDS; empty: none
+  NamePath base; ///< EXTENDS; empty: none
+  bool isUnion = false;
   std::span<VarDecl *> fields;
 };
 
@@ -448,9 +529,41 @@ struct AliasDecl : Decl {
   Expr *init = nullptr;
 };
 
-/// One VAR_GLOBAL block.
+/// One VAR_GLOBAL, VAR_CONFIG or VAR_ACCESS block.
 struct GlobalsDecl : Decl {
   std::span<VarDecl *> variables;
+};
+
+/// `TASK name (SINGLE := x, INTERVAL := T#10ms, PRIORITY := 1);`
+struct TaskDecl {
+  Name name;
+  std::span<Argument> arguments;
+  Span span;
+};
+
+/// `PROGRAM name WITH task : Type (in := x, out => y);`
+struct ProgramInstanceDecl {
+  Name name;
+  std::uint8_t qualifiers = 0; ///< RETAIN, NON_RETAIN
+  Name task;                   ///< empty: none
+  NamePath type;               ///< empty: the program called `name`
+  std::span<Argument> arguments;
+  Span span;
+};
+
+/// `RESOURCE name ON processor … END_RESOURCE`
+struct ResourceDecl {
+  Name name; ///< empty: the configuration has tasks and programs without a resource
+  Name processor;
+  std::span<TaskDecl> tasks;
+  std::span<ProgramInstanceDecl> programs;
+  Span span;
+};
+
+/// CONFIGURATION. Its VAR_GLOBAL, VAR_CONFIG and VAR_ACCESS blocks (its resources' too) follow as
+/// declarations of their own.
+struct ConfigurationDecl : Decl {
+  std::span<ResourceDecl> resources;
 };
 
 /// One parsed file.

@@ -192,8 +192,9 @@ void AstBuilder::declaration(Context *context, Section section, std::uint8_t qua
     node->doc = doc(documented);
     if (i + 2 <= end && token(i + 1).type == Tok::AT) {
       if (!token(i + 2).reported) {
-        node->addressSpan = span(token(i + 2));
-        node->address = text(token(i + 2));
+        node->address = arena_.make<DirectAddress>();
+        node->address->span = span(token(i + 2));
+        node->address->text = text(token(i + 2));
       }
       i += 2;
     }
@@ -260,7 +261,8 @@ Decl *AstBuilder::typeDeclaration(Context *context) {
       return failedType();
     }
     auto *node = arena_.make<StructDecl>();
-    node->base = base;
+    if (base)
+      node->base = arena_.copy(std::vector<Name>{base});
     std::vector<VarDecl *> fields;
     declarations(body, 0, Section::local, 0, fields);
     node->fields = arena_.copy(fields);

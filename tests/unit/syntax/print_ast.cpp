@@ -152,6 +152,9 @@ public:
       out_ << ')';
       break;
     }
+    case ExprKind::direct:
+      out_ << as<DirectExpr>(node)->address->text;
+      break;
     case ExprKind::aggregate: {
       const auto *a = as<AggregateExpr>(node);
       out_ << (a->isStruct ? "(struct" : "(list");
@@ -272,6 +275,29 @@ public:
     case StmtKind::returnS:
       out_ << "(return)";
       break;
+    case StmtKind::jump:
+      out_ << "(jmp " << as<JumpStmt>(node)->label.text << ')';
+      break;
+    case StmtKind::label:
+      out_ << "(label " << as<LabelStmt>(node)->label.text << ')';
+      break;
+    case StmtKind::tryS: {
+      const auto *s = as<TryStmt>(node);
+      out_ << "(try ";
+      block(s->body);
+      if (s->hasCatch) {
+        out_ << " catch ";
+        if (s->exception != nullptr)
+          expression(s->exception);
+        block(s->catchBody);
+      }
+      if (s->hasFinally) {
+        out_ << " finally ";
+        block(s->finallyBody);
+      }
+      out_ << ')';
+      break;
+    }
     case StmtKind::assign: {
       static constexpr const char *kOps[] = {":=", "S=", "R=", "REF="};
       const auto *a = as<AssignStmt>(node);
@@ -359,8 +385,8 @@ public:
 
   void variables(std::span<VarDecl *> list) {
     static constexpr const char *kSections[] = {
-        "VAR",      "VAR_INPUT",    "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP",
-        "VAR_STAT", "VAR_EXTERNAL", "VAR_GLOBAL", "VAR_CONFIG", "VAR_ACCESS"};
+        "VAR",          "VAR_INPUT",  "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "VAR_STAT",
+        "VAR_EXTERNAL", "VAR_GLOBAL", "VAR_CONFIG", "VAR_ACCESS", "VAR_INST"};
     for (const VarDecl *one : list) {
       out_ << "\n  (" << kSections[static_cast<std::size_t>(one->section)];
       out_ << ((one->qualifiers & qualConstant) != 0 ? " CONSTANT" : "");
@@ -368,8 +394,8 @@ public:
       out_ << ((one->qualifiers & qualPersistent) != 0 ? " PERSISTENT" : "");
       out_ << ((one->qualifiers & qualNonRetain) != 0 ? " NON_RETAIN" : "");
       out_ << ' ' << one->name.text;
-      if (!one->address.empty())
-        out_ << " AT " << one->address;
+      if (one->address != nullptr)
+        out_ << " AT " << one->address->text;
       out_ << ' ';
       type(one->type);
       if (one->init != nullptr) {
@@ -393,8 +419,10 @@ public:
   }
 
   void declaration(const Decl *node) {
-    static constexpr const char *kKinds[] = {"PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "STRUCT",
-                                             "ENUM",    "ALIAS",    "VAR_GLOBAL"};
+    static constexpr const char *kKinds[] = {
+        "PROGRAM",    "FUNCTION",   "FUNCTION_BLOCK", "CLASS",        "INTERFACE",
+        "METHOD",     "ACTION",     "STRUCT",         "ENUM",         "ALIAS",
+        "VAR_GLOBAL", "VAR_CONFIG", "VAR_ACCESS",     "CONFIGURATION"};
     out_ << '(' << kKinds[static_cast<std::size_t>(node->kind)];
     if (node->name)
       out_ << ' ' << node->name.text;
@@ -402,7 +430,11 @@ public:
     switch (node->kind) {
     case DeclKind::program:
     case DeclKind::function:
-    case DeclKind::functionBlock: {
+    case DeclKind::functionBlock:
+    case DeclKind::classD:
+    case DeclKind::interface:
+    case DeclKind::method:
+    case DeclKind::action: {
       const auto *pou = as<PouDecl>(node);
       if (pou->returnType != nullptr) {
         out_ << " : ";
@@ -417,8 +449,8 @@ public:
       break;
     }
     case DeclKind::structure:
-      if (as<StructDecl>(node)->base)
-        out_ << " EXTENDS " << as<StructDecl>(node)->base.text;
+      for (const Name &one : as<StructDecl>(node)->base)
+        out_ << " EXTENDS " << one.text;
       variables(as<StructDecl>(node)->fields);
       break;
     case DeclKind::enumeration:
@@ -437,7 +469,11 @@ public:
         expression(as<AliasDecl>(node)->init);
       }
       break;
+    case DeclKind::configuration:
+      break;
     case DeclKind::globals:
+    case DeclKind::config:
+    case DeclKind::access:
       variables(as<GlobalsDecl>(node)->variables);
       break;
     }
