@@ -293,6 +293,8 @@ private:
     field("stateAlign", "alignof(App__)");
     field("reserved", "0");
     field("init", "init__");
+    field("exit", "nullptr");
+    field("reinit", "nullptr");
     field("types", table(types_.typeCount(), "kTypes"));
     field("members", table(types_.memberCount(), "kMembers"));
     field("enumerators", table(types_.enumeratorCount(), "kEnumerators"));

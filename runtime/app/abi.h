@@ -17,7 +17,7 @@
 namespace stride {
 
 /// The first member of StrideAppV1. Grows with every change that an older host cannot read.
-inline constexpr uint32_t kAbiVersion = 1;
+inline constexpr uint32_t kAbiVersion = 2;
 /// The second member: tells a description from other data ("STRD").
 inline constexpr uint32_t kAbiMagic = 0x44525453;
 /// "No index" in the tables below.
@@ -30,10 +30,12 @@ enum SymbolFlags : uint32_t {
   kSymInOut = 1U << 2,
   kSymRetain = 1U << 3,
   kSymPersistent = 1U << 4,
-  kSymConstant = 1U << 5,     ///< Not to be written.
-  kSymHidden = 1U << 6,       ///< Private state of a library block: not listed, but reachable.
-  kSymBase = 1U << 7,         ///< The embedded base of EXTENDS: its members count as our own.
-  kSymQualifiedOnly = 1U << 8 ///< A global reachable only with its list's name in front.
+  kSymConstant = 1U << 5,      ///< Not to be written.
+  kSymHidden = 1U << 6,        ///< Private state of a library block: not listed, but reachable.
+  kSymBase = 1U << 7,          ///< The embedded base of EXTENDS: its members count as our own.
+  kSymQualifiedOnly = 1U << 8, ///< A global reachable only with its list's name in front.
+  kSymTypeId = 1U << 9 ///< The hidden `type__` of an instance (UDINT): init sets it, nobody else
+                       ///< writes it, and it is not carried over. Interface slots point to it.
 };
 
 /// What a type is. Combined with |.
@@ -142,7 +144,15 @@ struct StrideAppV1 {
   uint32_t reserved; ///< 0.
   /// Sets defaults in zeroed state: libraries first, then files by path, then declaration order.
   /// ctx->state is valid, the times in ctx are 0.
+  /// Calls FB_Init and the methods with 'call_after_init' too; ctx->keepRetains and
+  /// ctx->inCopyCode (both 0 at a first start) are what FB_Init is told.
   void (*init)(Ctx *ctx);
+  /// Calls FB_Exit of every instance, before the state is given up (also the old one of an online
+  /// change: with ctx->inCopyCode). Null when no instance has one.
+  void (*exit)(Ctx *ctx);
+  /// Calls FB_Reinit of every instance of the new state after values were carried over. Null when
+  /// no instance has one.
+  void (*reinit)(Ctx *ctx);
 
   const TypeDesc *types;
   const MemberDesc *members;

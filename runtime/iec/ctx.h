@@ -51,6 +51,8 @@ struct Ctx {
   const HostApi *host;    ///< Null only in tools that evaluate without a host.
   uint32_t taskIndex;     ///< Index into the application's task table.
   BOOL firstCycle;        ///< 1 in the task's first cycle.
+  BOOL keepRetains; ///< During init: retained values will be put back (bInitRetains is FALSE).
+  BOOL inCopyCode;  ///< During init, exit and reinit: it is an online change (bInCopyCode).
 };
 
 /// Leaves the current cycle: does not return. The position is that in the ST source (1-based).
