@@ -29,11 +29,6 @@ std::string lower(std::string_view text) {
   return out;
 }
 
-bool hasAttribute(const Attributes &attributes, std::string_view name) {
-  return std::any_of(attributes.begin(), attributes.end(),
-                     [&](const Attribute &a) { return a.name == name; });
-}
-
 class Application {
 public:
   Application(Context &context, const AppConfig &config)
@@ -104,10 +99,16 @@ private:
   void collect() {
     for (const File *file : c_.program.files) {
       for (const Decl *decl : file->declarations) {
-        if (decl->kind != DeclKind::globals || !hasAttribute(decl->attributes, "qualified_only"))
+        if (decl->kind != DeclKind::globals)
           continue;
-        for (const VarDecl *v : as<GlobalsDecl>(decl)->variables)
-          qualified_.insert(v);
+        const bool qualified = findAttribute(decl->attributes, "qualified_only") != nullptr;
+        const std::string_view renamed = renamedFrom(decl->attributes);
+        for (const VarDecl *v : as<GlobalsDecl>(decl)->variables) {
+          if (qualified)
+            qualified_.insert(v);
+          if (!renamed.empty())
+            listRenamed_.emplace(v, renamed);
+        }
       }
     }
     std::vector<const Library *> libraries;
@@ -148,7 +149,14 @@ private:
     }
     for (const VarSymbol *v : rootVariables(m.root))
       types_.addRoot(m.root.symbol->name.text, v, m.name + "." + mangle(v->name.text),
-                     m.root.isStatic || qualified_.contains(v->decl));
+                     m.root.isStatic || qualified_.contains(v->decl), listRenamedFrom(m.root, v));
+  }
+
+  std::string_view listRenamedFrom(const Root &root, const VarSymbol *v) const {
+    if (root.isStatic)
+      return renamedFrom(static_cast<const PouSymbol *>(root.symbol)->decl->attributes);
+    const auto found = listRenamed_.find(v->decl);
+    return found == listRenamed_.end() ? std::string_view() : found->second;
   }
 
   /// Defines the constants by which bodies find the roots.
@@ -321,6 +329,8 @@ private:
   TypeTable types_;
   std::vector<Member> members_;
   std::unordered_set<const VarDecl *> qualified_; ///< in lists with {attribute 'qualified_only'}
+  /// In lists with {attribute 'renamed_from'}: the list's earlier name.
+  std::unordered_map<const VarDecl *, std::string_view> listRenamed_;
   std::size_t groupCount_ = 0;
   std::size_t driveCount_ = 0;
   std::uint64_t axisLayout_ = 0;

@@ -6,6 +6,19 @@ namespace stc::codegen {
 
 using namespace ast;
 
+const Attribute *findAttribute(const Attributes &attributes, std::string_view name) {
+  for (const Attribute &a : attributes) {
+    if (a.name == name)
+      return &a;
+  }
+  return nullptr;
+}
+
+std::string_view renamedFrom(const Attributes &attributes) {
+  const Attribute *attribute = findAttribute(attributes, "renamed_from");
+  return attribute == nullptr ? std::string_view() : attribute->value;
+}
+
 namespace {
 
 // Values of runtime/app/abi.h.
@@ -27,11 +40,18 @@ std::string symbolFlags(const VarSymbol *v, bool qualifiedOnly = false) {
   add((qualifiers & qualPersistent) != 0, "Persistent");
   add(v->isConstant, "Constant");
   add(v->hidden, "Hidden");
+  add(v->decl != nullptr && findAttribute(v->decl->attributes, "init_on_onlchange") != nullptr,
+      "InitOnChange");
   add(qualifiedOnly, "QualifiedOnly");
   return out.empty() ? "0" : out;
 }
 
 std::string quote(std::string_view text) { return '"' + escaped(text) + '"'; }
+
+/// `, "old"` where there is one: the last column of a row.
+std::string renamedColumn(std::string_view renamed) {
+  return renamed.empty() ? std::string() : ", " + quote(renamed);
+}
 
 } // namespace
 
@@ -77,6 +97,8 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
     row.element = index(e->base);
     row.firstMember = enumeratorRows_.size();
     row.memberCount = e->enumerators.size();
+    if (e->symbol->decl != nullptr)
+      row.renamedFrom = renamedFrom(e->symbol->decl->attributes);
     for (const EnumeratorSymbol *x : e->enumerators)
       enumeratorRows_.push_back("{" + quote(x->name.text) + ", " + std::to_string(x->value) + "}");
     break;
@@ -100,6 +122,7 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
   case TypeKind::structure: {
     const auto *s = typeAs<StructType>(type);
     row.kind = "Struct";
+    row.renamedFrom = renamedFrom(s->symbol->decl->attributes);
     members(row, s->base, row.cppType, {s->fields.begin(), s->fields.end()});
     break;
   }
@@ -107,6 +130,7 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
   case TypeKind::program: {
     const PouSymbol *pou = typeAs<PouType>(type)->symbol;
     row.kind = type->kind == TypeKind::program ? "Program" : "FunctionBlock";
+    row.renamedFrom = renamedFrom(pou->decl->attributes);
     if (pou->decl->external)
       row.flags |= kExternal;
     members(row, nullptr, row.cppType, rootVariables({pou, false}));
@@ -133,22 +157,29 @@ void TypeTable::members(Row &row, const Type *base, const std::string &owner,
   for (std::size_t i = 0; i < variables.size(); ++i)
     memberRows_.push_back("{" + quote(variables[i]->name.text) + ", offsetof(" + owner + ", " +
                           mangle(variables[i]->name.text) + "), " + std::to_string(types[i]) +
-                          ", " + symbolFlags(variables[i]) + "}");
+                          ", " + symbolFlags(variables[i]) +
+                          renamedColumn(renamedFrom(variables[i]->decl->attributes)) + "}");
   row.memberCount = memberRows_.size() - row.firstMember;
 }
 
 void TypeTable::addRoot(std::string_view list, const VarSymbol *variable, const std::string &place,
-                        bool qualifiedOnly) {
+                        bool qualifiedOnly, std::string_view listRenamedFrom) {
+  std::string renamed(variable->decl == nullptr ? std::string_view()
+                                                : renamedFrom(variable->decl->attributes));
+  if (renamed.empty() && !listRenamedFrom.empty())
+    renamed.append(listRenamedFrom).append(".").append(variable->name.text);
   const std::uint32_t type = index(variable->type, variable->section == Section::inOut);
   rootRows_.push_back("{" + (list.empty() ? std::string("nullptr") : quote(list)) + ", " +
                       quote(variable->name.text) + ", offsetof(App__, " + place + "), " +
-                      std::to_string(type) + ", " + symbolFlags(variable, qualifiedOnly) + "}");
+                      std::to_string(type) + ", " + symbolFlags(variable, qualifiedOnly) +
+                      renamedColumn(renamed) + "}");
 }
 
 void TypeTable::addProgram(const PouSymbol *program, const std::string &place) {
   const std::uint32_t type = index(program->type);
   rootRows_.push_back("{nullptr, " + quote(program->name.text) + ", offsetof(App__, " + place +
-                      "), " + std::to_string(type) + ", 0}");
+                      "), " + std::to_string(type) + ", 0" +
+                      renamedColumn(renamedFrom(program->decl->attributes)) + "}");
 }
 
 std::string TypeTable::text() const {
@@ -171,16 +202,16 @@ std::string TypeTable::text() const {
                    std::to_string(r.memberCount) + ", " +
                    (r.element < 0 ? std::string("kNo") : std::to_string(r.element)) + ", " +
                    std::to_string(r.lowerBound) + ", " + std::to_string(r.elementCount) + ", " +
-                   std::to_string(r.stringLength) + ", 0}");
+                   std::to_string(r.stringLength) + ", 0" + renamedColumn(r.renamedFrom) + "}");
   }
   out += "\n// {kind, flags, name, size, layoutHash, align, firstMember, memberCount, element, "
          "lowerBound,\n"
-         "//  elementCount, stringLength, 0}";
+         "//  elementCount, stringLength, 0, renamedFrom}";
   table("TypeDesc", "kTypes", rows);
-  out += "\n// {name, offset, type, flags}";
+  out += "\n// {name, offset, type, flags, renamedFrom}";
   table("MemberDesc", "kMembers", memberRows_);
   table("EnumeratorDesc", "kEnumerators", enumeratorRows_);
-  out += "\n// {list, name, offset, type, flags}";
+  out += "\n// {list, name, offset, type, flags, renamedFrom}";
   table("RootDesc", "kRoots", rootRows_);
   return out;
 }

@@ -9,6 +9,12 @@
 
 namespace stc::codegen {
 
+/// The attribute of this name, or null.
+[[nodiscard]] const ast::Attribute *findAttribute(const ast::Attributes &attributes,
+                                                  std::string_view name);
+/// The value of {attribute 'renamed_from'}, empty without one.
+[[nodiscard]] std::string_view renamedFrom(const ast::Attributes &attributes);
+
 /// Collects every type that can be reached from the roots, pointers included, and writes the
 /// tables.
 class TypeTable {
@@ -18,8 +24,9 @@ public:
   /// The type's index.
   std::uint32_t index(const Type *type, bool inOut = false);
   /// `{"limit", offsetof(…), type, flags}` of one variable that stands for itself.
+  /// `listRenamedFrom`: the earlier name of its list, empty without one.
   void addRoot(std::string_view list, const VarSymbol *variable, const std::string &place,
-               bool qualifiedOnly);
+               bool qualifiedOnly, std::string_view listRenamedFrom);
   void addProgram(const PouSymbol *program, const std::string &place);
 
   /// `constexpr … kTypes[] = { … };` and the other tables.
@@ -53,6 +60,7 @@ private:
     std::int64_t lowerBound = 0;
     std::uint64_t elementCount = 0;
     std::uint32_t stringLength = 0;
+    std::string_view renamedFrom;
   };
   void fill(std::uint32_t at, const Type *type, bool inOut);
   void members(Row &row, const Type *base, const std::string &owner,

@@ -34,8 +34,10 @@ enum SymbolFlags : uint32_t {
   kSymHidden = 1U << 6,        ///< Private state of a library block: not listed, but reachable.
   kSymBase = 1U << 7,          ///< The embedded base of EXTENDS: its members count as our own.
   kSymQualifiedOnly = 1U << 8, ///< A global reachable only with its list's name in front.
-  kSymTypeId = 1U << 9 ///< The hidden `type__` of an instance (UDINT): init sets it, nobody else
-                       ///< writes it, and it is not carried over. Interface slots point to it.
+  kSymTypeId = 1U << 9, ///< The hidden `type__` of an instance (UDINT): init sets it, nobody else
+                        ///< writes it, and it is not carried over. Interface slots point to it.
+  kSymInitOnChange = 1U << 10 ///< {attribute 'init_on_onlchange'}: an online change does not keep
+                              ///< the value.
 };
 
 /// What a type is. Combined with |.
@@ -56,6 +58,8 @@ struct MemberDesc {
   uint64_t offset;  ///< From the start of the enclosing type, in bytes.
   uint32_t type;    ///< Index into the type table.
   uint32_t flags;   ///< SymbolFlags.
+  /// {attribute 'renamed_from' := '…'}: the name of this field in an earlier build, or null.
+  const char *renamedFrom = nullptr;
 };
 
 /// One type. Subranges and aliases do not appear: they are resolved to what they stand for.
@@ -76,6 +80,8 @@ struct TypeDesc {
   uint64_t elementCount; ///< Array: number of elements of this dimension.
   uint32_t stringLength; ///< STRING, WSTRING: declared length.
   uint32_t reserved;     ///< 0.
+  /// {attribute 'renamed_from' := '…'}: the type's name in an earlier build, or null.
+  const char *renamedFrom = nullptr;
 };
 
 /// A place in the state where paths begin: a program instance or a global variable.
@@ -85,6 +91,8 @@ struct RootDesc {
   uint64_t offset;  ///< From the start of the state.
   uint32_t type;    ///< Index into the type table.
   uint32_t flags;   ///< SymbolFlags.
+  /// Its name in an earlier build, "name" (in a list of the same name) or "list.name", or null.
+  const char *renamedFrom = nullptr;
 };
 
 /// How a task is started.

@@ -1,6 +1,7 @@
 #include "runtime/app/symbols.hpp"
 
 #include "runtime/app/error.hpp"
+#include "runtime/app/layout_index.hpp"
 #include "runtime/app/nearest.hpp"
 #include "runtime/iec/text.h"
 
@@ -12,16 +13,6 @@
 namespace stride::app {
 
 namespace {
-
-bool isAddressSlot(Kind kind) {
-  return kind == Kind::Pointer || kind == Kind::Reference || kind == Kind::InOut ||
-         kind == Kind::Interface;
-}
-
-bool hasMembers(Kind kind) {
-  return kind == Kind::Struct || kind == Kind::Union || kind == Kind::FunctionBlock ||
-         kind == Kind::Program;
-}
 
 bool isNameCharacter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';

@@ -100,6 +100,55 @@ TEST(CodegenTables, DescribeTypes) {
   EXPECT_TRUE(constant);
 }
 
+TEST(CodegenTables, CarryEarlierNames) {
+  App app({{"Main.st", R"(
+{attribute 'renamed_from' := 'OldColor'}
+TYPE Color : (red, green); END_TYPE
+{attribute 'renamed_from' := 'OldPoint'}
+TYPE Point : STRUCT
+  {attribute 'renamed_from' := 'abscissa'}
+  x : LREAL;
+  y : LREAL;
+END_STRUCT END_TYPE
+{attribute 'renamed_from' := 'OldMain'}
+PROGRAM Main
+VAR
+  {attribute 'renamed_from' := 'colour'} color : Color;
+  {attribute 'init_on_onlchange'} fresh : INT := 3;
+  pt : Point;
+END_VAR
+VAR_STAT calls : DINT; END_VAR
+END_PROGRAM
+)"},
+           {"GVL.st", R"(
+{attribute 'renamed_from' := 'Globals'}
+VAR_GLOBAL
+  a : INT;
+  {attribute 'renamed_from' := 'Other.bb'} b : INT;
+END_VAR
+)"}});
+  const stride::StrideAppV1 &d = app.description();
+  const auto root = [&](const char *name) -> const stride::RootDesc & {
+    std::uint32_t i = 0;
+    while (i + 1 < d.rootCount && std::strcmp(d.roots[i].name, name) != 0)
+      ++i;
+    return d.roots[i];
+  };
+  EXPECT_STREQ(root("Main").renamedFrom, "OldMain");
+  EXPECT_STREQ(root("calls").renamedFrom, "OldMain.calls");
+  EXPECT_STREQ(root("a").renamedFrom, "Globals.a");
+  EXPECT_STREQ(root("b").renamedFrom, "Other.bb");
+  const stride::TypeDesc &main = d.types[root("Main").type];
+  EXPECT_STREQ(member(d, main, "color")->renamedFrom, "colour");
+  EXPECT_EQ(member(d, main, "fresh")->flags, stride::kSymInitOnChange);
+  EXPECT_EQ(member(d, main, "fresh")->renamedFrom, nullptr);
+  EXPECT_STREQ(d.types[member(d, main, "color")->type].renamedFrom, "OldColor");
+  const stride::TypeDesc &point = d.types[member(d, main, "pt")->type];
+  EXPECT_STREQ(point.renamedFrom, "OldPoint");
+  EXPECT_STREQ(member(d, point, "x")->renamedFrom, "abscissa");
+  EXPECT_EQ(member(d, point, "y")->renamedFrom, nullptr);
+}
+
 TEST(CodegenTables, LayoutHashesAreStable) {
   const auto hashOf = [](const std::string &fields) {
     const auto files = generate(

@@ -1,0 +1,359 @@
+#include "runtime/app/carry_report.hpp"
+
+#include "runtime/app/layout_index.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stride::app {
+
+namespace {
+
+/// The owner in the keys of roots.
+constexpr uint32_t kRoots = kNoIndex;
+
+const char *word(Finding::Kind kind) {
+  switch (kind) {
+  case Finding::Kind::Renamed:
+    return "renamed";
+  case Finding::Kind::Converted:
+    return "converted";
+  case Finding::Kind::Added:
+    return "added";
+  case Finding::Kind::Dropped:
+    return "dropped";
+  case Finding::Kind::Reset:
+    return "reset";
+  case Finding::Kind::Lost:
+    return "lost";
+  case Finding::Kind::TextShortened:
+    return "may be cut";
+  case Finding::Kind::ElementsLost:
+    return "elements lost";
+  case Finding::Kind::EnumeratorsGone:
+    return "values lost";
+  case Finding::Kind::UnionChanged:
+    return "union changed";
+  }
+  return "";
+}
+
+std::string rootPath(const RootDesc &root) {
+  return root.list != nullptr ? fmt::format("{}.{}", root.list, root.name) : std::string(root.name);
+}
+
+} // namespace
+
+bool isLoss(Finding::Kind kind) {
+  return kind == Finding::Kind::Lost || kind == Finding::Kind::TextShortened ||
+         kind == Finding::Kind::ElementsLost || kind == Finding::Kind::EnumeratorsGone ||
+         kind == Finding::Kind::UnionChanged;
+}
+
+CarryReport::CarryReport(const TypeMatch &match)
+    : match_(&match), interesting_(match.pairs().size(), -1), leaves_(match.newApp().typeCount, -1),
+      keptIn_(match.pairs().size(), -1) {
+  refuse();
+  visitFields(kRoots, {}, match.roots(), match.addedRoots(), match.droppedRoots(), 1);
+  for (const FieldPair &root : match.roots()) {
+    if (root.hold == Hold::No)
+      kept_ += keptIn(root.pair);
+  }
+  std::stable_sort(findings_.begin(), findings_.end(), [](const Finding &a, const Finding &b) {
+    return isLoss(a.kind) > isLoss(b.kind);
+  });
+  if (std::any_of(findings_.begin(), findings_.end(),
+                  [](const Finding &f) { return isLoss(f.kind); }))
+    verdict_ = Verdict::Losses;
+  if (!refusals_.empty())
+    verdict_ = Verdict::Refused;
+  known_.clear();
+}
+
+void CarryReport::refuse() {
+  const StrideAppV1 &a = match_->oldApp();
+  const StrideAppV1 &b = match_->newApp();
+  if (a.abiVersion != b.abiVersion)
+    refusals_.push_back("the builds were made by different versions of Stride");
+  const auto differ = [](uint64_t x, uint64_t y) { return x != 0 && y != 0 && x != y; };
+  if (differ(a.axisRefLayout, b.axisRefLayout))
+    refusals_.push_back("AXIS_REF has other fields in the new build");
+  if (differ(a.axisGroupRefLayout, b.axisGroupRefLayout))
+    refusals_.push_back("SMC_AXISGROUP_REF has other fields in the new build");
+  // A native body relies on all of its fields at once.
+  for (const TypePair &pair : match_->pairs()) {
+    const TypeDesc &from = a.types[pair.oldType];
+    const TypeDesc &to = b.types[pair.newType];
+    if (((from.flags | to.flags) & kTypeExternal) != 0 && from.layoutHash != to.layoutHash)
+      refusals_.push_back(
+          fmt::format("{} has a native body and other fields in the new build", to.name));
+  }
+  compareAxisGroups();
+}
+
+/// The drivers go on running: the configuration they were started with must be the same.
+void CarryReport::compareAxisGroups() {
+  const StrideAppV1 &a = match_->oldApp();
+  const StrideAppV1 &b = match_->newApp();
+  for (uint32_t i = 0; i < std::max(a.axisGroupCount, b.axisGroupCount); ++i) {
+    if (i >= a.axisGroupCount || i >= b.axisGroupCount) {
+      const bool gone = i >= b.axisGroupCount;
+      refusals_.push_back(fmt::format("axis group {} is {} the new build",
+                                      (gone ? a : b).axisGroups[i].name,
+                                      gone ? "not in" : "only in"));
+      continue;
+    }
+    const AxisGroupDesc &x = a.axisGroups[i];
+    const AxisGroupDesc &y = b.axisGroups[i];
+    const auto refused = [&](const char *what) {
+      refusals_.push_back(fmt::format("axis group {} has {} in the new build", x.name, what));
+    };
+    if (!sameName(x.name, y.name) || !sameName(x.busName, y.busName)) {
+      refused("another name");
+      continue;
+    }
+    if (!sameName(x.driverName, y.driverName))
+      refused("another driver");
+    if (x.cycleUs != y.cycleUs)
+      refused("another dwCycle");
+    const bool known = x.task < a.taskCount && y.task < b.taskCount;
+    if (!known || !sameName(a.tasks[x.task].name, b.tasks[y.task].name) ||
+        a.tasks[x.task].intervalNs != b.tasks[y.task].intervalNs)
+      refused("another task");
+    bool sameDrives = x.driveCount == y.driveCount;
+    for (uint32_t d = 0; sameDrives && d < x.driveCount; ++d) {
+      const DriveDesc &u = a.drives[x.firstDrive + d];
+      const DriveDesc &v = b.drives[y.firstDrive + d];
+      sameDrives = sameName(u.name, v.name) && u.driveId == v.driveId;
+    }
+    if (!sameDrives)
+      refused("other drives");
+  }
+}
+
+void CarryReport::add(Key key, Finding finding) {
+  const auto [at, fresh] = known_.try_emplace(key, findings_.size());
+  if (fresh)
+    findings_.push_back(std::move(finding));
+  else
+    findings_[at->second].places += finding.places;
+}
+
+/// There may be something to say about it or what is inside.
+bool CarryReport::interesting(uint32_t index) {
+  int8_t &known = interesting_[index];
+  if (known >= 0)
+    return known != 0;
+  const TypePair &pair = match_->pair(index);
+  bool found = pair.changedName || !pair.added.empty() || !pair.dropped.empty();
+  switch (pair.carry) {
+  case Carry::Bytes:
+  case Carry::Slot:
+    break;
+  case Carry::Fields:
+    for (const FieldPair &field : pair.fields)
+      found = found || field.renamed || field.hold == Hold::Asked ||
+              (field.hold == Hold::No && interesting(field.pair));
+    break;
+  case Carry::Elements: {
+    const TypeDesc &from = match_->oldApp().types[pair.oldType];
+    found = found || pair.count != from.elementCount || interesting(pair.element);
+    break;
+  }
+  case Carry::Union:
+    found = found || !pair.bitwise;
+    break;
+  case Carry::Number:
+  case Carry::Text:
+  case Carry::Names:
+  case Carry::Initial:
+    found = true;
+    break;
+  }
+  interesting_[index] = found ? 1 : 0;
+  return found;
+}
+
+void CarryReport::visitFields(uint32_t owner, const std::string &path,
+                              const std::vector<FieldPair> &fields,
+                              const std::vector<LoneField> &added,
+                              const std::vector<LoneField> &dropped, uint64_t places) {
+  const StrideAppV1 &a = match_->oldApp();
+  const StrideAppV1 &b = match_->newApp();
+  const bool roots = owner == kRoots;
+  const auto name = [&](const StrideAppV1 &app, uint32_t member) {
+    return roots ? rootPath(app.roots[member])
+                 : fmt::format("{}.{}", path, app.members[member].name);
+  };
+  const auto typeName = [&](const StrideAppV1 &app, uint32_t member) {
+    return app.types[roots ? app.roots[member].type : app.members[member].type].name;
+  };
+  const auto hidden = [&](const StrideAppV1 &app, uint32_t member) {
+    const uint32_t flags = roots ? app.roots[member].flags : app.members[member].flags;
+    return (flags & (kSymHidden | kSymTypeId)) != 0;
+  };
+  for (const FieldPair &field : fields) {
+    const Key key{owner, field.newMember, true, Finding::Kind::Lost};
+    const auto keyed = [&](Finding::Kind kind) { return Key{owner, field.newMember, true, kind}; };
+    if (field.hold == Hold::Asked)
+      add(keyed(Finding::Kind::Reset),
+          {Finding::Kind::Reset, name(b, field.newMember), places, typeName(a, field.oldMember),
+           typeName(b, field.newMember), "{attribute 'init_on_onlchange'}"});
+    if (field.hold != Hold::No)
+      continue;
+    if (field.renamed)
+      add(keyed(Finding::Kind::Renamed),
+          {Finding::Kind::Renamed, name(b, field.newMember), places, typeName(a, field.oldMember),
+           typeName(b, field.newMember), fmt::format("was {}", name(a, field.oldMember))});
+    if (interesting(field.pair))
+      visit(field.pair, name(b, field.newMember), places, key, false);
+  }
+  for (const LoneField &field : added) {
+    if (!hidden(b, field.member))
+      add({owner, field.member, true, Finding::Kind::Added},
+          {Finding::Kind::Added, name(b, field.member), places, {}, typeName(b, field.member), {}});
+  }
+  for (const LoneField &field : dropped) {
+    if (!hidden(a, field.member))
+      add({owner, field.member, false, Finding::Kind::Dropped}, {Finding::Kind::Dropped,
+                                                                 name(a, field.member),
+                                                                 places,
+                                                                 typeName(a, field.member),
+                                                                 {},
+                                                                 {}});
+  }
+}
+
+void CarryReport::visit(uint32_t index, const std::string &path, uint64_t places, Key key,
+                        bool indexOpen) {
+  const TypePair &pair = match_->pair(index);
+  const TypeDesc &from = match_->oldApp().types[pair.oldType];
+  const TypeDesc &to = match_->newApp().types[pair.newType];
+  const auto say = [&](Finding::Kind kind, std::string detail = {}) {
+    std::get<Finding::Kind>(key) = kind;
+    add(key, {kind, path, places, from.name, to.name, std::move(detail)});
+  };
+  switch (pair.carry) {
+  case Carry::Bytes:
+  case Carry::Slot:
+    return;
+  case Carry::Number:
+    return say(Finding::Kind::Converted);
+  case Carry::Text:
+    return say(to.stringLength < from.stringLength ? Finding::Kind::TextShortened
+                                                   : Finding::Kind::Converted);
+  case Carry::Initial:
+    return say(Finding::Kind::Lost);
+  case Carry::Names: {
+    std::string gone;
+    std::string moved;
+    const EnumeratorDesc *const names = match_->oldApp().enumerators + from.firstMember;
+    for (const EnumeratorMove &move : pair.moves) {
+      const auto *const own =
+          std::find_if(names, names + from.memberCount,
+                       [&](const EnumeratorDesc &e) { return e.value == move.from; });
+      if (move.gone)
+        gone += fmt::format("{}{} = {}", gone.empty() ? "without " : ", ", own->name, move.from);
+      else if (move.from != move.to)
+        moved += fmt::format("{}{} = {} is now {}", moved.empty() ? "" : ", ", own->name, move.from,
+                             move.to);
+    }
+    if (!gone.empty())
+      return say(Finding::Kind::EnumeratorsGone, gone);
+    return say(Finding::Kind::Converted, moved);
+  }
+  case Carry::Elements: {
+    if (pair.count != from.elementCount)
+      say(Finding::Kind::ElementsLost,
+          fmt::format("{} of {} elements are kept", pair.count, from.elementCount));
+    if (!interesting(pair.element))
+      return;
+    const int64_t first = to.lowerBound + static_cast<int64_t>(pair.newFirst);
+    const std::string stem = indexOpen ? path.substr(0, path.size() - 1) + "," : path + "[";
+    return visit(pair.element, fmt::format("{}{}]", stem, first), places * pair.count, key, true);
+  }
+  case Carry::Union:
+    if (pair.changedName || !pair.dropped.empty() ||
+        std::any_of(pair.fields.begin(), pair.fields.end(),
+                    [&](const FieldPair &field) { return !match_->pair(field.pair).bitwise; }))
+      say(Finding::Kind::UnionChanged);
+    return;
+  case Carry::Fields:
+    if (pair.changedName)
+      say(Finding::Kind::Converted, "by the names of its fields");
+    return visitFields(index, path, pair.fields, pair.added, pair.dropped, places);
+  }
+}
+
+uint64_t CarryReport::leaves(uint32_t newType) {
+  if (leaves_[newType] >= 0)
+    return static_cast<uint64_t>(leaves_[newType]);
+  const TypeDesc &type = match_->newApp().types[newType];
+  uint64_t count = 1;
+  if (type.kind == Kind::Array) {
+    count = type.elementCount * leaves(type.element);
+  } else if (hasMembers(type.kind) && type.kind != Kind::Union) {
+    count = 0;
+    for (uint32_t i = 0; i < type.memberCount; ++i)
+      count += leaves(match_->newApp().members[type.firstMember + i].type);
+  }
+  leaves_[newType] = static_cast<int64_t>(count);
+  return count;
+}
+
+uint64_t CarryReport::keptIn(uint32_t index) {
+  if (keptIn_[index] >= 0)
+    return static_cast<uint64_t>(keptIn_[index]);
+  const TypePair &pair = match_->pair(index);
+  uint64_t count = 1;
+  if (pair.bitwise) {
+    count = leaves(pair.newType);
+  } else if (pair.carry == Carry::Initial) {
+    count = 0;
+  } else if (pair.carry == Carry::Elements) {
+    count = pair.count * keptIn(pair.element);
+  } else if (pair.carry == Carry::Fields) {
+    count = 0;
+    for (const FieldPair &field : pair.fields)
+      count += field.hold == Hold::No ? keptIn(field.pair) : 0;
+  }
+  keptIn_[index] = static_cast<int64_t>(count);
+  return count;
+}
+
+std::string CarryReport::text(bool all) const {
+  std::string out;
+  switch (verdict_) {
+  case Verdict::Silent:
+    out = fmt::format("{} values are carried over, none is lost\n", kept_);
+    break;
+  case Verdict::Losses:
+    out = fmt::format("{} values are carried over, some are lost\n", kept_);
+    break;
+  case Verdict::Refused:
+    out = "an online change is not possible\n";
+    for (const std::string &refusal : refusals_)
+      out += "  " + refusal + "\n";
+    break;
+  }
+  for (const Finding &finding : findings_) {
+    if (!all && !isLoss(finding.kind))
+      continue;
+    out += fmt::format("  {}: {}", word(finding.kind), finding.path);
+    if (finding.oldType.empty() || finding.newType.empty())
+      out += fmt::format(" : {}", finding.oldType.empty() ? finding.newType : finding.oldType);
+    else if (finding.oldType != finding.newType)
+      out += fmt::format(" : {} -> {}", finding.oldType, finding.newType);
+    else
+      out += fmt::format(" : {}", finding.newType);
+    if (!finding.detail.empty())
+      out += fmt::format(" ({})", finding.detail);
+    if (finding.places > 1)
+      out += fmt::format(" in {} places", finding.places);
+    out += '\n';
+  }
+  return out;
+}
+
+} // namespace stride::app
