@@ -194,8 +194,8 @@ void CarryReport::visitFields(uint32_t owner, const std::string &path,
     return (flags & (kSymHidden | kSymTypeId)) != 0;
   };
   for (const FieldPair &field : fields) {
-    const Key key{owner, field.newMember, true, Finding::Kind::Lost};
-    const auto keyed = [&](Finding::Kind kind) { return Key{owner, field.newMember, true, kind}; };
+    const Key key{owner, field.newMember, 1, Finding::Kind::Lost};
+    const auto keyed = [&](Finding::Kind kind) { return Key{owner, field.newMember, 1, kind}; };
     if (field.hold == Hold::Asked)
       add(keyed(Finding::Kind::Reset),
           {Finding::Kind::Reset, name(b, field.newMember), places, typeName(a, field.oldMember),
@@ -211,17 +211,17 @@ void CarryReport::visitFields(uint32_t owner, const std::string &path,
   }
   for (const LoneField &field : added) {
     if (!hidden(b, field.member))
-      add({owner, field.member, true, Finding::Kind::Added},
+      add({owner, field.member, 1, Finding::Kind::Added},
           {Finding::Kind::Added, name(b, field.member), places, {}, typeName(b, field.member), {}});
   }
   for (const LoneField &field : dropped) {
     if (!hidden(a, field.member))
-      add({owner, field.member, false, Finding::Kind::Dropped}, {Finding::Kind::Dropped,
-                                                                 name(a, field.member),
-                                                                 places,
-                                                                 typeName(a, field.member),
-                                                                 {},
-                                                                 {}});
+      add({owner, field.member, 0, Finding::Kind::Dropped}, {Finding::Kind::Dropped,
+                                                             name(a, field.member),
+                                                             places,
+                                                             typeName(a, field.member),
+                                                             {},
+                                                             {}});
   }
 }
 
@@ -271,6 +271,7 @@ void CarryReport::visit(uint32_t index, const std::string &path, uint64_t places
       return;
     const int64_t first = to.lowerBound + static_cast<int64_t>(pair.newFirst);
     const std::string stem = indexOpen ? path.substr(0, path.size() - 1) + "," : path + "[";
+    ++std::get<2>(key);
     return visit(pair.element, fmt::format("{}{}]", stem, first), places * pair.count, key, true);
   }
   case Carry::Union:

@@ -60,7 +60,8 @@ public:
   std::string text(bool all) const;
 
 private:
-  using Key = std::tuple<uint32_t, uint32_t, bool, Finding::Kind>;
+  /// Owning pair, field, 0 for old fields or 1 + array depth for new ones, kind.
+  using Key = std::tuple<uint32_t, uint32_t, uint32_t, Finding::Kind>;
   void refuse();
   void compareAxisGroups();
   void add(Key key, Finding finding);
