@@ -70,13 +70,14 @@ Application Application::fromDescription(const StrideAppV1 &description,
   return Application(description);
 }
 
-void Application::initialise(const HostApi &host) {
+void Application::initialise(const HostApi &host, bool inCopyCode) {
   std::memset(state_.data(), 0, state_.size());
   Ctx ctx{};
   ctx.state = state_.data();
   ctx.host = &host;
   ctx.loopBudget = INT64_MAX;
   ctx.firstCycle = 1;
+  ctx.inCopyCode = inCopyCode ? 1 : 0;
   description_->init(&ctx);
 }
 

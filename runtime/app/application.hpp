@@ -27,8 +27,10 @@ public:
   static Application fromDescription(const StrideAppV1 &description,
                                      const RuntimeLayouts &layouts = {});
 
-  /// Zeroes the state and sets the defaults. Throws StException when an initialiser fails.
-  void initialise(const HostApi &host);
+  /// Zeroes the state and sets the defaults. `inCopyCode`: it will take over the values of a
+  /// running application (carry_over.hpp); FB_Init is told. Throws StException when an initialiser
+  /// fails.
+  void initialise(const HostApi &host, bool inCopyCode = false);
 
   const StrideAppV1 &description() const { return *description_; }
   std::byte *state() const { return state_.data(); }

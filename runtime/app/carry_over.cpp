@@ -393,6 +393,23 @@ void CarryOver::apply(const std::byte *oldState, std::byte *newState,
   run.run(slots_, oldState, newState);
 }
 
+void CarryOver::takeOver(const HostApi &host, std::byte *oldState, std::byte *newState,
+                         CarryResult &result) const {
+  const auto call = [&](void (*hook)(Ctx *), std::byte *state) {
+    if (hook == nullptr)
+      return;
+    Ctx ctx{};
+    ctx.state = state;
+    ctx.host = &host;
+    ctx.loopBudget = INT64_MAX;
+    ctx.inCopyCode = 1;
+    hook(&ctx);
+  };
+  call(match_.oldApp().exit, oldState);
+  apply(oldState, newState, result);
+  call(match_.newApp().reinit, newState);
+}
+
 std::vector<std::string> CarryOver::describe(const CarryResult &result,
                                              const std::byte *oldState) const {
   std::vector<std::string> lines;

@@ -77,6 +77,13 @@ public:
   /// locks nothing, throws nothing. Not with Verdict::Refused.
   void apply(const std::byte *oldState, std::byte *newState, CarryResult &result) const noexcept;
 
+  /// The whole change, between two cycles: FB_Exit(bInCopyCode := TRUE) of the old instances,
+  /// apply, FB_Reinit of the new ones. The new state was initialised with inCopyCode. Throws what
+  /// the host's `raise` throws when the program's own code fails: in FB_Exit nothing has been
+  /// carried over yet, in FB_Reinit everything has.
+  void takeOver(const HostApi &host, std::byte *oldState, std::byte *newState,
+                CarryResult &result) const;
+
   /// The events in words: "Main.p pointed to Main.gone, which the new build does not have".
   std::vector<std::string> describe(const CarryResult &result, const std::byte *oldState) const;
 
