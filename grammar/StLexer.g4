@@ -13,6 +13,10 @@ tokens {
   // Inserted by the scanner in front of each list of CASE labels, so that one token of lookahead tells a label from a
   // statement.
   LABEL,
+  // In front of `name:` where a JMP may lead.
+  JUMP_LABEL,
+  // In front of a type that is the argument of SIZEOF, __NEW and the like, when it begins with a keyword.
+  TYPE_ARGUMENT,
   // Stands between the declarations of a POU and its statements (only where a whole POU is parsed at once).
   BODY
 }
@@ -82,6 +86,10 @@ END_REPEAT : E N D '_' R E P E A T ;
 EXIT       : E X I T ;
 RETURN     : R E T U R N ;
 CONTINUE   : C O N T I N U E ; // soft: as a whole statement
+TRY        : '__' T R Y ;
+CATCH      : '__' C A T C H ;
+FINALLY    : '__' F I N A L L Y ;
+END_TRY    : '__' E N D T R Y ;
 
 PROGRAM            : P R O G R A M ;
 END_PROGRAM        : E N D '_' P R O G R A M ;
@@ -118,18 +126,20 @@ STRING    : S T R I N G ;
 WSTRING   : W S T R I N G ;
 POINTER   : P O I N T E R ;     // soft: in front of TO
 REFERENCE : R E F E R E N C E ; // soft: in front of TO
+REF_TO    : R E F '_' T O ;     // soft: in a type, in front of another one
 
 EXTENDS    : E X T E N D S ;       // soft: between two names
 IMPLEMENTS : I M P L E M E N T S ; // soft: between two names
-ABSTRACT   : A B S T R A C T ;     // soft: after the keyword that opens a declaration, as the next five
+ABSTRACT   : A B S T R A C T ;     // soft: after the keyword that opens a declaration, as the next six
 FINAL      : F I N A L ;
 PUBLIC     : P U B L I C ;
 PRIVATE    : P R I V A T E ;
 PROTECTED  : P R O T E C T E D ;
 INTERNAL   : I N T E R N A L ;
+OVERRIDE   : O V E R R I D E ;
 
-// ---- keywords of constructs that this version reports as not supported; soft: at the start of a declaration or
-// statement, in front of a name
+// ---- keywords of further declarations; those without END_ are soft: at the start of a declaration or statement, in
+// front of a name
 
 METHOD            : M E T H O D ;
 END_METHOD        : E N D '_' M E T H O D ;
@@ -141,11 +151,16 @@ CLASS             : C L A S S ;
 END_CLASS         : E N D '_' C L A S S ;
 ACTION            : A C T I O N ;
 END_ACTION        : E N D '_' A C T I O N ;
+ACTIONS           : A C T I O N S ;
+END_ACTIONS       : E N D '_' A C T I O N S ;
+END_GET           : E N D '_' G E T ;
+END_SET           : E N D '_' S E T ;
 NAMESPACE         : N A M E S P A C E ;
 END_NAMESPACE     : E N D '_' N A M E S P A C E ;
 USING             : U S I N G ;
 CONFIGURATION     : C O N F I G U R A T I O N ;
 END_CONFIGURATION : E N D '_' C O N F I G U R A T I O N ;
+END_RESOURCE      : E N D '_' R E S O U R C E ;
 UNION             : U N I O N ;
 END_UNION         : E N D '_' U N I O N ;
 JMP               : J M P ;
@@ -154,6 +169,17 @@ INITIAL_STEP      : I N I T I A L '_' S T E P ;
 END_STEP          : E N D '_' S T E P ;
 TRANSITION        : T R A N S I T I O N ;
 END_TRANSITION    : E N D '_' T R A N S I T I O N ;
+
+// ---- words that are keywords only inside of PROPERTY, CONFIGURATION and VAR_ACCESS
+
+GET        : G E T ;
+SET        : S E T ;
+RESOURCE   : R E S O U R C E ;
+ON         : O N ;
+TASK       : T A S K ;
+WITH       : W I T H ;
+READ_ONLY  : R E A D '_' O N L Y ;
+READ_WRITE : R E A D '_' W R I T E ;
 
 // ---- literals
 

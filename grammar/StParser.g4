@@ -15,39 +15,75 @@ parser grammar StParser;
 
 options { tokenVocab = StLexer; }
 
-sourceFile : ( pou | typeBlock | varSection )* EOF ;
+sourceFile : ( declaration | namespaceBlock | usingDirective )* EOF ;
+
+namespaceBlock : namespaceHead ( declaration | namespaceBlock | usingDirective )* END_NAMESPACE ;
+declaration    : pou | typeBlock | varSection | configuration ;
 
 // ---- units
 
-headUnit    : pouHead EOF ;
-sectionUnit : varSection EOF ;
-typeUnit    : typeBlock EOF ;
-bodyUnit    : statements EOF ;
+headUnit      : pouHead EOF ;
+sectionUnit   : varSection EOF ;
+typeUnit      : typeBlock EOF ;
+bodyUnit      : statements EOF ;
+namespaceUnit : namespaceHead EOF ;
+usingUnit     : usingDirective EOF ;
+resourceUnit  : resourceHead EOF ;
+taskUnit      : taskDeclaration EOF ;
+instanceUnit  : programInstance EOF ;
 
 // ---- program organisation units
 
-pou : pouHead varSection* BODY statements ( END_PROGRAM | END_FUNCTION | END_FUNCTION_BLOCK ) ;
+// Methods, properties and actions stand inside of a POU or behind it.
+pou
+  : pouHead usingDirective* ( varSection | pou | accessor )* ( BODY statements pou* )?
+    ( END_PROGRAM | END_FUNCTION | END_FUNCTION_BLOCK | END_CLASS | END_INTERFACE | END_METHOD | END_PROPERTY
+    | END_ACTION
+    )
+  ;
+accessor : ( GET | SET ) varSection* BODY statements ( END_GET | END_SET ) ;
 
+// The head of every POU and member; the AST builder says which of them may extend, implement or return something.
 pouHead
-  : PROGRAM modifiers IDENT
-  | FUNCTION modifiers IDENT ( COLON typeSpec )?
-  | FUNCTION_BLOCK modifiers IDENT extendsClause? implementsClause?
+  : ( PROGRAM | FUNCTION | FUNCTION_BLOCK | CLASS | INTERFACE | METHOD | PROPERTY | ACTION ) modifiers path
+    extendsClause? implementsClause? ( COLON typeSpec )?
   ;
 
-modifiers        : ( ABSTRACT | FINAL | PUBLIC | PRIVATE | PROTECTED | INTERNAL )* ;
-extendsClause    : EXTENDS path ;
+modifiers        : ( ABSTRACT | FINAL | PUBLIC | PRIVATE | PROTECTED | INTERNAL | OVERRIDE )* ;
+extendsClause    : EXTENDS path ( COMMA path )* ;
 implementsClause : IMPLEMENTS path ( COMMA path )* ;
 path             : IDENT ( DOT IDENT )* ;
+
+namespaceHead  : NAMESPACE modifiers path ;
+usingDirective : USING path ( COMMA path )* SEMICOLON ;
+
+// ---- configuration
+
+configuration : CONFIGURATION IDENT ( varSection | resource | taskDeclaration | programInstance )* END_CONFIGURATION ;
+resource      : resourceHead ( varSection | taskDeclaration | programInstance )* END_RESOURCE ;
+resourceHead  : RESOURCE IDENT ( ON IDENT )? ;
+
+taskDeclaration : TASK IDENT ( LPAREN arguments RPAREN )? SEMICOLON ;
+programInstance
+  : PROGRAM ( RETAIN | NON_RETAIN )? IDENT ( WITH IDENT )? ( COLON path )? ( LPAREN arguments RPAREN )? SEMICOLON
+  ;
 
 // ---- variables
 
 varSection
-  : ( VAR | VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP | VAR_STAT | VAR_EXTERNAL | VAR_GLOBAL )
+  : ( VAR | VAR_INPUT | VAR_OUTPUT | VAR_IN_OUT | VAR_TEMP | VAR_STAT | VAR_EXTERNAL | VAR_GLOBAL | VAR_INST )
     qualifiers varDeclaration* END_VAR
+  | VAR_CONFIG qualifiers configVariable* END_VAR
+  | VAR_ACCESS qualifiers accessVariable* END_VAR
   ;
 
-qualifiers     : ( CONSTANT | RETAIN | PERSISTENT | NON_RETAIN )* ;
+qualifiers
+  : ( CONSTANT | RETAIN | PERSISTENT | NON_RETAIN | PUBLIC | PRIVATE | PROTECTED | INTERNAL | FINAL | ABSTRACT
+    | OVERRIDE )*
+  ;
 varDeclaration : varNames COLON typeSpec ( ASSIGN initializer )? SEMICOLON+ ;
+configVariable : operand ( AT DIRECT )? COLON typeSpec ( ASSIGN initializer )? SEMICOLON+ ;
+accessVariable : IDENT COLON operand COLON typeSpec ( READ_ONLY | READ_WRITE )? SEMICOLON+ ;
 varNames       : IDENT ( AT DIRECT )? ( COMMA IDENT ( AT DIRECT )? )* ;
 
 // V2.3 writes the elements of an array without brackets.
@@ -62,19 +98,20 @@ typeDeclaration
     ( structBody SEMICOLON* | typeSpec ( ASSIGN initializer )? SEMICOLON+ )
   ;
 
-structBody : ( STRUCT | UNION ) SEMICOLON* varDeclaration* ( END_STRUCT | END_UNION ) ;
+structBody : ( STRUCT | UNION ) extendsClause? SEMICOLON* varDeclaration* ( END_STRUCT | END_UNION ) ;
 
 typeSpec
   : ARRAY LBRACKET arrayRange ( COMMA arrayRange )* RBRACKET OF typeSpec
   | ( POINTER | REFERENCE ) TO typeSpec
+  | REF_TO typeSpec
   | ( STRING | WSTRING ) ( LPAREN expression RPAREN | LBRACKET expression RBRACKET )?
   | LPAREN typeArgument ( COMMA typeArgument )* RPAREN path?
-  | path ( LPAREN typeArgument ( COMMA typeArgument )* RPAREN )?
+  | path ( LPAREN ( typeArgument ( COMMA typeArgument )* )? RPAREN | LBRACKET arguments RBRACKET )?
   ;
 
 arrayRange : STAR | expression DOTDOT expression ;
 
-// A subrange `0..10` or an enumerator `a := 1`.
+// A subrange `0..10`, an enumerator `a := 1`, an argument for FB_Init.
 typeArgument : expression ( DOTDOT expression | ASSIGN expression )? ;
 
 // ---- statements
@@ -89,7 +126,10 @@ statement
   | forStatement
   | whileStatement
   | repeatStatement
+  | tryStatement
   | ( EXIT | CONTINUE | RETURN ) SEMICOLON
+  | JMP IDENT SEMICOLON
+  | JUMP_LABEL IDENT COLON
   ;
 
 // Assignments and calls; other expressions are accepted here to be reported with their meaning in mind (`a = 1;`).
@@ -118,6 +158,10 @@ forControl      : operand ASSIGN expression TO expression ( BY expression )? ;
 whileStatement  : WHILE condition DO statements END_WHILE ;
 repeatStatement : REPEAT statements UNTIL condition SEMICOLON? END_REPEAT ;
 
+tryStatement
+  : TRY statements ( CATCH LPAREN operand? RPAREN statements )? ( FINALLY statements )? END_TRY
+  ;
+
 // `:=` is accepted here to be reported as a mistaken `=`.
 condition : expression ( ASSIGN expression )? ;
 
@@ -134,12 +178,14 @@ expression
 
 operand
   : ( NOT | PLUS | MINUS )*
-    ( IDENT | INTEGER | REAL | TRUE | FALSE | STRING_LITERAL | WSTRING_LITERAL | TIME_LITERAL | TYPED_LITERAL
-    | ENUM_LITERAL | DIRECT
-    | LPAREN arguments RPAREN
-    | LBRACKET arguments RBRACKET
+    ( ( IDENT | INTEGER | REAL | TRUE | FALSE | STRING_LITERAL | WSTRING_LITERAL | TIME_LITERAL | TYPED_LITERAL
+      | ENUM_LITERAL | DIRECT
+      | LPAREN arguments RPAREN
+      | LBRACKET arguments RBRACKET
+      )
+      ( DOT ( IDENT | INTEGER | DIRECT ) | CARET | LPAREN arguments RPAREN | LBRACKET arguments RBRACKET )*
+    | TYPE_ARGUMENT typeSpec
     )
-    ( DOT ( IDENT | INTEGER | DIRECT ) | CARET | LPAREN arguments RPAREN | LBRACKET arguments RBRACKET )*
   ;
 
 // Call arguments, indices, the inside of parentheses and the elements of an aggregate.

@@ -67,6 +67,7 @@ enum class ExprKind : std::uint8_t {
   aggregate,
   enumLiteral,
   direct,
+  typeName,
   error, ///< stands where the text could not be parsed; never reported again
 };
 
@@ -229,6 +230,14 @@ struct DirectExpr : Expr {
   DirectAddress *address = nullptr;
 };
 
+struct TypeExpr;
+
+/// A type that begins with a keyword as an argument: `SIZEOF(STRING(20))`, `__NEW(ARRAY[1..3] OF
+/// INT)`. Other types are NameExpr.
+struct TypeNameExpr : Expr {
+  TypeExpr *name = nullptr;
+};
+
 /// `color#green`
 struct EnumLiteralExpr : Expr {
   Name typeName;
@@ -255,9 +264,13 @@ struct TypeExpr {
   Span span;
 };
 
-/// `INT`, `Lib.Type`
+/// `INT`, `Lib.Type`, `Block(a := 1)` with arguments for FB_Init
 struct NamedTypeExpr : TypeExpr {
   std::span<Name> path;
+  bool hasArguments = false;     ///< `Block(…)`, also with nothing between the parentheses
+  std::span<Argument> arguments; ///< of `Block(…)`
+  /// Of `ARRAY[…] OF Block[(…), (…)]`: the arguments of each element; empty otherwise.
+  std::span<std::span<Argument>> elements;
 };
 
 struct ArrayRange {
@@ -436,6 +449,8 @@ enum Qualifier : std::uint8_t {
   qualNonRetain = 8,
 };
 
+enum class Access : std::uint8_t { none, publicA, privateA, protectedA, internalA };
+
 /// One declared variable (`a, b : INT` gives two, sharing type and init).
 struct VarDecl {
   Name name;
@@ -446,7 +461,9 @@ struct VarDecl {
   DirectAddress *address = nullptr; ///< of an AT clause; null: none
   Expr *path =
       nullptr; ///< VAR_CONFIG, VAR_ACCESS: the variable that is meant (`Main.fb.x`, `%IX0.0`)
-  bool readOnly = false; ///< VAR_ACCESS: READ_ONLY
+  bool readOnly = false;        ///< VAR_ACCESS: READ_ONLY
+  bool readWrite = false;       ///< VAR_ACCESS: READ_WRITE
+  Access access = Access::none; ///< `VAR PUBLIC`
   Attributes attributes;
   std::string_view doc;        ///< text of the `///` lines above
   VarSymbol *symbol = nullptr; ///< [sema]
@@ -468,8 +485,6 @@ enum class DeclKind : std::uint8_t {
   access,        ///< VAR_ACCESS outside of everything
   configuration, ///< CONFIGURATION … END_CONFIGURATION
 };
-
-enum class Access : std::uint8_t { none, publicA, privateA, protectedA, internalA };
 
 /// Bits of Decl::modifiers.
 enum Modifier : std::uint8_t { modAbstract = 1, modFinal = 2, modOverride = 4 };

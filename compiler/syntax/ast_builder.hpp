@@ -21,12 +21,20 @@ public:
   AstBuilder(const Scanner &scanner, FileId file, UnitStream &stream, Interner &interner,
              Arena &arena, Diagnostics &diagnostics);
 
-  /// Null when the head has no name.
-  ast::PouDecl *head(Grammar::PouHeadContext *context);
+  /// Null when the head has no name. `owner` gets the names in front of the last one.
+  ast::PouDecl *head(Grammar::PouHeadContext *context, ast::NamePath &owner);
   void section(Grammar::VarSectionContext *context, std::vector<ast::VarDecl *> &out);
   void types(Grammar::TypeBlockContext *context, std::vector<ast::Decl *> &out);
   void statements(Grammar::StatementsContext *context, std::vector<ast::Stmt *> &out);
+  [[nodiscard]] ast::NamePath namespaceNames(Grammar::NamespaceHeadContext *context);
+  void usings(Grammar::UsingDirectiveContext *context, std::vector<ast::NamePath> &out);
+  void resourceHead(Grammar::ResourceHeadContext *context, ast::ResourceDecl &out);
+  void task(Grammar::TaskDeclarationContext *context, std::vector<ast::TaskDecl> &out);
+  void programInstance(Grammar::ProgramInstanceContext *context,
+                       std::vector<ast::ProgramInstanceDecl> &out);
 
+  [[nodiscard]] ast::Name name(const Token &token);
+  ast::TypeExpr *errorType(Span span);
   [[nodiscard]] ast::Attributes attributes(const Token &token);
   [[nodiscard]] std::string_view doc(const Token &token);
   [[nodiscard]] Span span(const Token &token) const { return {file_, token.begin, token.end}; }
@@ -45,23 +53,26 @@ private:
   [[nodiscard]] const Token &token(std::size_t index) const { return stream_.token(index); }
   [[nodiscard]] std::string_view text(const Token &token) const { return scanner_.text(token); }
   [[nodiscard]] Span span(const Context *context) const;
-  [[nodiscard]] ast::Name name(const Token &token);
   [[nodiscard]] std::span<ast::Name> path(const Context *context);
 
   // declarations
+  void modifiers(const Context *context, ast::Decl &out);
+  void configVariable(Context *context, std::uint8_t qualifiers, std::vector<ast::VarDecl *> &out);
+  void accessVariable(Context *context, std::vector<ast::VarDecl *> &out);
   void declarations(Context *context, std::size_t from, ast::Section section,
                     std::uint8_t qualifiers, std::vector<ast::VarDecl *> &out);
   void declaration(Context *context, ast::Section section, std::uint8_t qualifiers,
                    std::vector<ast::VarDecl *> &out);
   ast::Decl *typeDeclaration(Context *context);
-  void notSupported(Span span, std::string what);
 
   // types
-  ast::TypeExpr *type(Context *context);
-  ast::TypeExpr *namedType(Context *context);
+  /// `declared`: of a TYPE, where `INT (a, b)` is an enumeration whatever INT is.
+  ast::TypeExpr *type(Context *context, bool declared = false);
+  ast::TypeExpr *namedType(Context *context, bool declared);
+  ast::DirectAddress *address(const Token &token);
   ast::EnumTypeExpr *enumeration(Context *context, std::size_t firstArgument,
                                  std::size_t arguments);
-  ast::TypeExpr *errorType(Span span);
+  void blockArguments(Context *argumentList, ast::NamedTypeExpr &out);
 
   // statements
   ast::Block block(Context *context);
@@ -70,6 +81,7 @@ private:
   ast::Stmt *ifStatement(Context *context);
   ast::Stmt *caseStatement(Context *context);
   ast::Stmt *forStatement(Context *context);
+  ast::Stmt *tryStatement(Context *context);
   ast::Expr *condition(Context *context);
 
   // expressions
@@ -79,13 +91,15 @@ private:
   ast::Expr *operand(Context *context);
   ast::Expr *primary(Context *context, std::size_t &at, std::size_t &nextChild);
   ast::Expr *postfix(Context *context, ast::Expr *base, std::size_t &at, std::size_t &nextChild);
+  ast::Expr *partOf(ast::Expr *base, const Token &member);
   ast::Expr *parentheses(Context *arguments, Span span);
   ast::Expr *prefixed(Context *context, std::size_t operators, ast::Expr *operand);
   ast::Expr *literal(const Token &token);
   ast::Expr *typedLiteral(const Token &token);
   ast::Expr *enumLiteral(const Token &token);
   ast::Expr *binary(const Token &op, ast::Expr *left, ast::Expr *right);
-  std::span<ast::Argument> arguments(Context *context);
+  /// `context` holds arguments or typeArguments from child `begin` on.
+  std::span<ast::Argument> arguments(Context *context, std::size_t begin = 0);
   ast::Expr *error(Span span);
 
   // initial values

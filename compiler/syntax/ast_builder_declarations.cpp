@@ -7,6 +7,31 @@ namespace stc {
 
 using namespace ast;
 
+namespace {
+
+Access accessOf(std::uint16_t type) {
+  switch (type) {
+  case Tok::PUBLIC:
+    return Access::publicA;
+  case Tok::PRIVATE:
+    return Access::privateA;
+  case Tok::PROTECTED:
+    return Access::protectedA;
+  default:
+    return Access::internalA;
+  }
+}
+
+/// Types that an enumeration may be based on; every other `T(a := 1)` calls FB_Init.
+bool isElementaryInteger(std::string_view word) {
+  static constexpr std::string_view kNames[] = {"sint",  "int",   "dint", "lint", "usint", "uint",
+                                                "udint", "ulint", "byte", "word", "dword", "lword"};
+  return std::any_of(std::begin(kNames), std::end(kNames),
+                     [&](std::string_view name) { return isWord(word, name); });
+}
+
+} // namespace
+
 AstBuilder::AstBuilder(const Scanner &scanner, FileId file, UnitStream &stream, Interner &interner,
                        Arena &arena, Diagnostics &diagnostics)
     : scanner_(scanner), file_(file), stream_(stream), interner_(interner), arena_(arena),
@@ -34,8 +59,9 @@ Name AstBuilder::name(const Token &token) {
 
 std::span<Name> AstBuilder::path(const Context *context) {
   std::vector<Name> names;
-  for (std::size_t i = first(context); i <= last(context); i += 2)
-    names.push_back(name(token(i)));
+  for (std::size_t i = first(context); context->stop != nullptr && i <= last(context); i += 2)
+    if (token(i).type == Tok::IDENT)
+      names.push_back(name(token(i)));
   return arena_.copy(names);
 }
 
@@ -72,43 +98,118 @@ std::string_view AstBuilder::doc(const Token &token) {
   return joined.empty() ? only : arena_.copy(std::string_view(joined));
 }
 
-void AstBuilder::notSupported(Span span, std::string what) {
-  diagnostics_.report(Code::notSupported, span, what + " is not supported by this version");
-}
-
 // ---------------------------------------------------------------------------------------------------
 // declarations
 
-PouDecl *AstBuilder::head(Grammar::PouHeadContext *context) {
+void AstBuilder::modifiers(const Context *context, Decl &out) {
+  const std::size_t end = last(context);
+  const Token *access = nullptr;
+  for (std::size_t i = first(context); i <= end && context->stop != nullptr; ++i) {
+    const Token &one = token(i);
+    switch (one.type) {
+    case Tok::ABSTRACT:
+      out.modifiers |= modAbstract;
+      continue;
+    case Tok::FINAL:
+      out.modifiers |= modFinal;
+      continue;
+    case Tok::OVERRIDE:
+      out.modifiers |= modOverride;
+      continue;
+    default:
+      break;
+    }
+    if (access != nullptr) {
+      diagnostics_
+          .report(Code::unexpectedToken, span(one), "there is a second access specifier here",
+                  "only one is possible")
+          .label(span(*access), "the first one");
+      continue;
+    }
+    access = &one;
+    out.access = accessOf(one.type);
+  }
+}
+
+PouDecl *AstBuilder::head(Grammar::PouHeadContext *context, NamePath &owner) {
   const Token &keyword = token(first(context));
   auto *node = arena_.make<PouDecl>();
-  node->kind = keyword.type == Tok::PROGRAM    ? DeclKind::program
-               : keyword.type == Tok::FUNCTION ? DeclKind::function
-                                               : DeclKind::functionBlock;
+  switch (keyword.type) {
+  case Tok::PROGRAM:
+    node->kind = DeclKind::program;
+    break;
+  case Tok::FUNCTION:
+    node->kind = DeclKind::function;
+    break;
+  case Tok::CLASS:
+    node->kind = DeclKind::classD;
+    break;
+  case Tok::INTERFACE:
+    node->kind = DeclKind::interface;
+    break;
+  case Tok::METHOD:
+  case Tok::PROPERTY:
+    node->kind = DeclKind::method;
+    break;
+  case Tok::ACTION:
+    node->kind = DeclKind::action;
+    break;
+  default:
+    node->kind = DeclKind::functionBlock;
+    break;
+  }
   node->span = span(context);
   node->attributes = attributes(keyword);
   node->doc = doc(keyword);
+  const std::string what(tokenSpelling(keyword.type));
   for (std::size_t i = 0; i < context->children.size(); ++i) {
     Context *part = child(context, i);
     switch (part->getRuleIndex()) {
-    case Grammar::RuleModifiers: {
-      const std::size_t after =
-          part->stop == nullptr || last(part) < first(part) ? first(part) : last(part) + 1;
-      for (std::size_t k = first(part); k < after; ++k)
-        if (token(k).type == Tok::ABSTRACT)
-          notSupported(span(token(k)), "ABSTRACT");
-      if (token(after).type == Tok::IDENT)
-        node->name = name(token(after));
+    case Grammar::RuleModifiers:
+      modifiers(part, *node);
       break;
-    }
+    case Grammar::RulePath:
+      if (const std::span<Name> names = path(part); !names.empty()) {
+        node->name = names.back();
+        owner = names.first(names.size() - 1);
+      }
+      break;
     case Grammar::RuleTypeSpec:
       node->returnType = failed(part) ? errorType(span(part)) : type(part);
       break;
     case Grammar::RuleExtendsClause:
-      notSupported(span(part), "inheritance of function blocks");
+      if (node->kind == DeclKind::interface) {
+        std::vector<NamePath> list;
+        for (std::size_t k = 0; k < part->children.size(); ++k)
+          list.push_back(path(child(part, k)));
+        node->interfaces = arena_.copy(list);
+      } else if (node->kind != DeclKind::functionBlock && node->kind != DeclKind::classD) {
+        diagnostics_.report(
+            Code::unexpectedToken, span(part),
+            "only blocks, classes, interfaces and structures can extend another one",
+            "not possible for a " + what);
+      } else {
+        node->base = path(child(part, 0));
+        if (part->children.size() > 1)
+          diagnostics_
+              .report(Code::unexpectedToken, span(child(part, 1)),
+                      "a " + what + " extends one other only", "a second base")
+              .help("several INTERFACEs can be implemented: `IMPLEMENTS A, B`");
+      }
       break;
-    default:
-      notSupported(span(part), "implementing an interface");
+    default: // implementsClause
+      if (node->kind != DeclKind::functionBlock && node->kind != DeclKind::classD) {
+        Diagnostic &d = diagnostics_.report(
+            Code::unexpectedToken, span(part), "only blocks and classes can implement an interface",
+            "not possible for " + std::string(what == "INTERFACE" ? "an " : "a ") + what);
+        if (node->kind == DeclKind::interface)
+          d.help("an INTERFACE takes in others with EXTENDS");
+        break;
+      }
+      std::vector<NamePath> list;
+      for (std::size_t k = 0; k < part->children.size(); ++k)
+        list.push_back(path(child(part, k)));
+      node->interfaces = arena_.copy(list);
       break;
     }
   }
@@ -139,10 +240,20 @@ void AstBuilder::section(Grammar::VarSectionContext *context, std::vector<VarDec
   case Tok::VAR_GLOBAL:
     section = Section::global;
     break;
+  case Tok::VAR_INST:
+    section = Section::instance;
+    break;
+  case Tok::VAR_CONFIG:
+    section = Section::config;
+    break;
+  case Tok::VAR_ACCESS:
+    section = Section::access;
+    break;
   default:
     break;
   }
   std::uint8_t qualifiers = 0;
+  Access access = Access::none;
   for (std::size_t i = first(context) + 1;; ++i) {
     const std::uint16_t type = token(i).type;
     if (type == Tok::CONSTANT)
@@ -153,10 +264,27 @@ void AstBuilder::section(Grammar::VarSectionContext *context, std::vector<VarDec
       qualifiers |= qualPersistent;
     else if (type == Tok::NON_RETAIN)
       qualifiers |= qualNonRetain;
+    else if (type >= Tok::PUBLIC && type <= Tok::INTERNAL)
+      access = accessOf(type);
+    else if (type == Tok::ABSTRACT || type == Tok::FINAL || type == Tok::OVERRIDE)
+      diagnostics_.report(Code::unexpectedToken, span(token(i)),
+                          "variables cannot be " + std::string(text(token(i))),
+                          "only methods and blocks can");
     else
       break;
   }
-  declarations(context, 1, section, qualifiers, out);
+  const std::size_t before = out.size();
+  for (std::size_t i = 1; i < context->children.size(); ++i) {
+    Context *part = child(context, i);
+    if (section == Section::config)
+      configVariable(part, qualifiers, out);
+    else if (section == Section::access)
+      accessVariable(part, out);
+    else
+      declaration(part, section, qualifiers, out);
+  }
+  for (std::size_t i = before; i < out.size(); ++i)
+    out[i]->access = access;
 }
 
 void AstBuilder::declarations(Context *context, std::size_t from, Section section,
@@ -191,16 +319,55 @@ void AstBuilder::declaration(Context *context, Section section, std::uint8_t qua
     node->attributes = attributes(documented);
     node->doc = doc(documented);
     if (i + 2 <= end && token(i + 1).type == Tok::AT) {
-      if (!token(i + 2).reported) {
-        node->address = arena_.make<DirectAddress>();
-        node->address->span = span(token(i + 2));
-        node->address->text = text(token(i + 2));
-      }
+      node->address = address(token(i + 2));
       i += 2;
     }
     out.push_back(node);
     i += 2; // the name and the comma
   }
+}
+
+/// `Main.fb.x AT %IX0.0 : BOOL := TRUE;` of VAR_CONFIG
+void AstBuilder::configVariable(Context *context, std::uint8_t qualifiers,
+                                std::vector<VarDecl *> &out) {
+  Context *front = child(context, 0);
+  if (failed(context) || context->children.size() < 2)
+    return;
+  auto *node = arena_.make<VarDecl>();
+  const Token &start = token(first(front));
+  node->section = Section::config;
+  node->qualifiers = qualifiers;
+  node->attributes = attributes(start);
+  node->doc = doc(start);
+  node->path = operand(front);
+  const std::string_view spelling =
+      scanner_.text().substr(start.begin, span(front).end - start.begin);
+  node->name = {interner_.intern(spelling), spelling, span(front)};
+  node->type = type(child(context, 1));
+  if (context->children.size() > 2)
+    node->init = initializer(child(context, 2));
+  if (const std::size_t at = last(front) + 1; token(at).type == Tok::AT)
+    node->address = address(token(at + 1));
+  out.push_back(node);
+}
+
+/// `x : Station.Main.y : INT READ_ONLY;` of VAR_ACCESS
+void AstBuilder::accessVariable(Context *context, std::vector<VarDecl *> &out) {
+  const Token &start = token(first(context));
+  if (failed(context) || context->children.size() < 2 || start.type != Tok::IDENT)
+    return;
+  auto *node = arena_.make<VarDecl>();
+  node->section = Section::access;
+  node->attributes = attributes(start);
+  node->doc = doc(start);
+  node->name = name(start);
+  node->path = operand(child(context, 0));
+  Context *type = child(context, 1);
+  node->type = this->type(type);
+  const std::uint16_t direction = token(last(type) + 1).type;
+  node->readOnly = direction == Tok::READ_ONLY;
+  node->readWrite = direction == Tok::READ_WRITE;
+  out.push_back(node);
 }
 
 void AstBuilder::types(Grammar::TypeBlockContext *context, std::vector<Decl *> &out) {
@@ -220,31 +387,36 @@ void AstBuilder::types(Grammar::TypeBlockContext *context, std::vector<Decl *> &
 }
 
 Decl *AstBuilder::typeDeclaration(Context *context) {
-  Context *modifiers = child(context, 0);
-  const std::size_t at = modifiers->stop == nullptr || last(modifiers) < first(modifiers)
-                             ? first(modifiers)
-                             : last(modifiers) + 1;
+  Context *modifierList = child(context, 0);
+  const std::size_t at = modifierList->stop == nullptr || last(modifierList) < first(modifierList)
+                             ? first(modifierList)
+                             : last(modifierList) + 1;
   if (token(at).type != Tok::IDENT || at > last(context))
     return nullptr;
   const Token &start = token(first(context));
   const Name name = this->name(token(at));
   std::size_t i = 1;
-  Name base;
+  NamePath base;
+  Span baseSpan;
+  const auto extends = [&](const Context *clause) {
+    if (failed(clause) || clause->children.empty())
+      return;
+    base = path(child(clause, 0));
+    baseSpan = span(clause);
+    if (clause->children.size() > 1)
+      diagnostics_.report(Code::unexpectedToken, span(child(clause, 1)),
+                          "a structure extends one other only", "a second base");
+  };
   if (i < context->children.size() &&
-      child(context, i)->getRuleIndex() == Grammar::RuleExtendsClause) {
-    const Context *clause = child(context, i);
-    if (last(clause) == first(clause) + 1)
-      base = this->name(token(first(clause) + 1));
-    else
-      notSupported(span(clause), "a base type of another namespace");
-    ++i;
-  }
+      child(context, i)->getRuleIndex() == Grammar::RuleExtendsClause)
+    extends(child(context, i++));
   const auto common = [&](Decl *node, DeclKind kind) {
     node->kind = kind;
     node->name = name;
     node->span = span(context);
     node->attributes = attributes(start);
     node->doc = doc(start);
+    modifiers(modifierList, *node);
     return node;
   };
   const auto failedType = [&] {
@@ -256,21 +428,28 @@ Decl *AstBuilder::typeDeclaration(Context *context) {
     return failedType();
   Context *body = child(context, i);
   if (body->getRuleIndex() == Grammar::RuleStructBody) {
-    if (token(first(body)).type == Tok::UNION) {
-      notSupported(span(token(first(body))), "UNION");
-      return failedType();
-    }
     auto *node = arena_.make<StructDecl>();
-    if (base)
-      node->base = arena_.copy(std::vector<Name>{base});
+    node->isUnion = token(first(body)).type == Tok::UNION;
+    std::size_t firstField = 0;
+    if (!body->children.empty() &&
+        child(body, 0)->getRuleIndex() == Grammar::RuleExtendsClause) { // STRUCT EXTENDS b
+      extends(child(body, 0));
+      firstField = 1;
+    }
+    node->base = base;
+    if (node->isUnion && !base.empty()) {
+      diagnostics_.report(Code::unexpectedToken, baseSpan, "a UNION cannot extend another type",
+                          "only a STRUCT can");
+      node->base = {};
+    }
     std::vector<VarDecl *> fields;
-    declarations(body, 0, Section::local, 0, fields);
+    declarations(body, firstField, Section::local, 0, fields);
     node->fields = arena_.copy(fields);
     return common(node, DeclKind::structure);
   }
-  if (base)
-    diagnostics_.report(Code::unexpectedToken, base.span, "only a STRUCT can extend another type");
-  TypeExpr *type = this->type(body);
+  if (!base.empty())
+    diagnostics_.report(Code::unexpectedToken, baseSpan, "only a STRUCT can extend another type");
+  TypeExpr *type = this->type(body, true);
   Expr *init = i + 1 < context->children.size() ? initializer(child(context, i + 1)) : nullptr;
   if (type->kind == TypeExprKind::enumeration) {
     auto *node = arena_.make<EnumDecl>();
@@ -294,7 +473,7 @@ TypeExpr *AstBuilder::errorType(Span span) {
   return node;
 }
 
-TypeExpr *AstBuilder::type(Context *context) {
+TypeExpr *AstBuilder::type(Context *context, bool declared) {
   const Token &start = token(first(context));
   const Span whole = span(context);
   switch (start.type) {
@@ -318,9 +497,11 @@ TypeExpr *AstBuilder::type(Context *context) {
     return node;
   }
   case Tok::POINTER:
+  case Tok::REF_TO:
   case Tok::REFERENCE: {
     auto *node = arena_.make<PointerTypeExpr>();
-    node->kind = start.type == Tok::POINTER ? TypeExprKind::pointer : TypeExprKind::reference;
+    node->kind = start.type == Tok::REFERENCE ? TypeExprKind::reference : TypeExprKind::pointer;
+    node->refTo = start.type == Tok::REF_TO;
     node->span = whole;
     node->pointee = type(child(context, 0));
     return node;
@@ -353,19 +534,26 @@ TypeExpr *AstBuilder::type(Context *context) {
     return node;
   }
   default:
-    return namedType(context);
+    return namedType(context, declared);
   }
 }
 
-TypeExpr *AstBuilder::namedType(Context *context) {
+TypeExpr *AstBuilder::namedType(Context *context, bool declared) {
   Context *names = child(context, 0);
   auto *named = arena_.make<NamedTypeExpr>();
   named->kind = TypeExprKind::named;
   named->span = span(names);
   named->path = path(names);
-  if (context->children.size() == 1)
+  if (last(names) == last(context))
+    return named;
+  named->hasArguments = true;
+  if (context->children.size() == 1) // `Block()`
     return named;
   Context *argument = child(context, 1);
+  if (argument->getRuleIndex() == Grammar::RuleArguments) {
+    blockArguments(argument, *named);
+    return named;
+  }
   const std::uint16_t sign =
       argument->children.size() > 1 ? token(last(child(argument, 0)) + 1).type : std::uint16_t{0};
   if (sign == Tok::DOTDOT) {
@@ -381,15 +569,138 @@ TypeExpr *AstBuilder::namedType(Context *context) {
     return node;
   }
   // INT (a, b := 5): edition 3's way to give an enumeration its base type.
-  if (plainName(child(argument, 0)) != nullptr) {
+  if (plainName(child(argument, 0)) != nullptr &&
+      (declared || (named->path.size() == 1 && isElementaryInteger(named->path[0].text)))) {
+    named->hasArguments = false;
     if (EnumTypeExpr *node = enumeration(context, 1, context->children.size()); node != nullptr) {
       node->base = named;
       return node;
     }
     return errorType(span(context));
   }
-  notSupported(span(context), "an instance with arguments for FB_Init");
-  return errorType(span(context));
+  named->arguments = arguments(context, 1);
+  return named;
+}
+
+/// `Block[(a := 1), (a := 2)]`, the type of an array's elements.
+void AstBuilder::blockArguments(Context *list, NamedTypeExpr &out) {
+  std::vector<std::span<Argument>> elements;
+  for (std::size_t i = 0; i < list->children.size(); ++i) {
+    Context *argument = child(list, i);
+    Context *only = argument->children.size() == 1 ? child(argument, 0) : nullptr;
+    Context *operand = only != nullptr && only->children.size() == 1 ? child(only, 0) : nullptr;
+    if (operand == nullptr || token(first(operand)).type != Tok::LPAREN ||
+        operand->children.size() != 1 || last(operand) != last(argument)) {
+      diagnostics_
+          .report(Code::unexpectedToken, span(argument),
+                  "expected the arguments of one element, in parentheses", "not `(…)`")
+          .help("write `Block[(a := 1), (a := 2)]`");
+      return;
+    }
+    elements.push_back(arguments(child(operand, 0)));
+  }
+  out.elements = arena_.copy(elements);
+}
+
+/// Null for one that was reported.
+DirectAddress *AstBuilder::address(const Token &token) {
+  if (token.type != Tok::DIRECT || token.reported)
+    return nullptr;
+  auto *node = arena_.make<DirectAddress>();
+  node->span = span(token);
+  node->text = text(token);
+  const auto upper = [](char c) { return c >= 'a' ? static_cast<char>(c - 'a' + 'A') : c; };
+  std::string_view rest = node->text.substr(1);
+  node->area = upper(rest[0]);
+  rest.remove_prefix(1);
+  if (!rest.empty() && rest[0] != '*' && (rest[0] < '0' || rest[0] > '9')) {
+    node->size = upper(rest[0]);
+    rest.remove_prefix(1);
+  }
+  if (rest == "*") {
+    node->incomplete = true;
+    return node;
+  }
+  std::vector<std::uint32_t> numbers{0};
+  for (const char c : rest) {
+    if (c == '.') {
+      numbers.push_back(0);
+    } else {
+      const std::uint64_t value =
+          std::uint64_t{numbers.back()} * 10 + static_cast<unsigned>(c - '0');
+      if (value > 0xFFFF'FFFF) {
+        diagnostics_.report(Code::invalidAddress, node->span,
+                            "the number in this address is too large", "at most 4294967295");
+        return nullptr;
+      }
+      numbers.back() = static_cast<std::uint32_t>(value);
+    }
+  }
+  node->numbers = arena_.copy(numbers);
+  return node;
+}
+
+// --------------------------------------------------------------------------------------------
+// namespaces and configurations
+
+NamePath AstBuilder::namespaceNames(Grammar::NamespaceHeadContext *context) {
+  return context->children.size() > 1 && !failed(context) ? path(child(context, 1)) : NamePath{};
+}
+
+void AstBuilder::usings(Grammar::UsingDirectiveContext *context, std::vector<NamePath> &out) {
+  for (std::size_t i = 0; i < context->children.size(); ++i)
+    if (const NamePath names = path(child(context, i)); !names.empty())
+      out.push_back(names);
+}
+
+void AstBuilder::resourceHead(Grammar::ResourceHeadContext *context, ResourceDecl &out) {
+  for (std::size_t i = first(context); i <= last(context); ++i) {
+    if (token(i).type != Tok::IDENT)
+      continue;
+    (token(i - 1).type == Tok::ON ? out.processor : out.name) = name(token(i));
+  }
+}
+
+void AstBuilder::task(Grammar::TaskDeclarationContext *context, std::vector<TaskDecl> &out) {
+  const std::size_t at = first(context) + 1;
+  if (failed(context) || at > last(context) || token(at).type != Tok::IDENT)
+    return;
+  TaskDecl node;
+  node.name = name(token(at));
+  node.span = span(context);
+  if (!context->children.empty())
+    node.arguments = arguments(child(context, 0));
+  out.push_back(node);
+}
+
+void AstBuilder::programInstance(Grammar::ProgramInstanceContext *context,
+                                 std::vector<ProgramInstanceDecl> &out) {
+  if (failed(context))
+    return;
+  ProgramInstanceDecl node;
+  node.span = span(context);
+  for (std::size_t i = first(context) + 1; i <= last(context); ++i) {
+    const Token &one = token(i);
+    if (one.type == Tok::RETAIN)
+      node.qualifiers |= qualRetain;
+    else if (one.type == Tok::NON_RETAIN)
+      node.qualifiers |= qualNonRetain;
+    else if (one.type == Tok::IDENT && token(i - 1).type == Tok::WITH)
+      node.task = name(one);
+    else if (one.type == Tok::IDENT && !node.name)
+      node.name = name(one);
+    else if (one.type == Tok::COLON || one.type == Tok::LPAREN)
+      break;
+  }
+  for (std::size_t i = 0; i < context->children.size(); ++i) {
+    Context *part = child(context, i);
+    if (part->getRuleIndex() == Grammar::RulePath)
+      node.type = path(part);
+    else
+      node.arguments = arguments(part);
+  }
+  if (node.name)
+    out.push_back(node);
 }
 
 EnumTypeExpr *AstBuilder::enumeration(Context *context, std::size_t firstArgument,

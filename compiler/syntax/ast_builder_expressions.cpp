@@ -206,11 +206,26 @@ Expr *AstBuilder::primary(Context *context, std::size_t &at, std::size_t &nextCh
     }
     return aggregate(std::move(items), false, whole);
   }
-  case Tok::DIRECT:
+  case Tok::DIRECT: {
     ++at;
-    if (!start.reported)
-      notSupported(span(start), "a direct address inside a statement");
-    return error(span(start));
+    DirectAddress *direct = address(start);
+    if (direct == nullptr)
+      return error(span(start));
+    auto *node = arena_.make<DirectExpr>();
+    node->kind = ExprKind::direct;
+    node->span = span(start);
+    node->address = direct;
+    return node;
+  }
+  case Tok::TYPE_ARGUMENT: {
+    Context *type = child(context, nextChild++);
+    at = last(type) + 1;
+    auto *node = arena_.make<TypeNameExpr>();
+    node->kind = ExprKind::typeName;
+    node->span = span(type);
+    node->name = this->type(type);
+    return node;
+  }
   case Tok::ENUM_LITERAL:
     ++at;
     return enumLiteral(start);
@@ -254,10 +269,8 @@ Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::si
     case Tok::DOT: {
       const Token &member = token(at + 1);
       at += 2;
-      if (member.type == Tok::DIRECT) {
-        if (!member.reported)
-          notSupported(span(member), "partial access");
-        base = error(base->span.to(span(member)));
+      if (member.type == Tok::DIRECT && !member.reported) {
+        base = partOf(base, member);
         break;
       }
       if (member.reported) {
@@ -331,14 +344,54 @@ Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::si
   return base;
 }
 
-std::span<Argument> AstBuilder::arguments(Context *context) {
-  const std::size_t count = context->children.size();
+/// `base.%X3`: bits of `base`; `resource.%IX0.0` of VAR_ACCESS: that address.
+Expr *AstBuilder::partOf(Expr *base, const Token &member) {
+  const Span whole = base->span.to(span(member));
+  std::string_view spelling = text(member).substr(1);
+  const char letter = lowerCase(spelling[0]);
+  if (letter == 'i' || letter == 'q' || letter == 'm') {
+    DirectAddress *direct = address(member);
+    if (direct == nullptr)
+      return error(whole);
+    auto *node = arena_.make<DirectExpr>();
+    node->kind = ExprKind::direct;
+    node->span = whole;
+    node->address = direct;
+    return node;
+  }
+  spelling.remove_prefix(1);
+  auto *node = arena_.make<MemberExpr>();
+  node->kind = ExprKind::member;
+  node->base = base;
+  node->span = whole;
+  node->name.span = span(member);
+  node->width = letter == 'x'   ? std::uint8_t{1}
+                : letter == 'b' ? std::uint8_t{8}
+                : letter == 'w' ? std::uint8_t{16}
+                : letter == 'd' ? std::uint8_t{32}
+                                : std::uint8_t{64};
+  node->bit = 0;
+  for (const char c : spelling) {
+    if (c < '0' || c > '9') {
+      diagnostics_
+          .report(Code::invalidAddress, span(member), "malformed partial access",
+                  "expected one number")
+          .note("a part of a variable is written `.%X3`, `.%B1`, `.%W0`, `.%D1` or `.%L0`");
+      return error(whole);
+    }
+    node->bit = node->bit < 100000 ? node->bit * 10 + (c - '0') : 100000;
+  }
+  return node;
+}
+
+std::span<Argument> AstBuilder::arguments(Context *context, std::size_t begin) {
+  const std::size_t count = context->children.size() - begin;
   if (count == 0)
     return {};
   auto *list =
       static_cast<Argument *>(arena_.allocate(sizeof(Argument) * count, alignof(Argument)));
   for (std::size_t i = 0; i < count; ++i) {
-    Context *argument = child(context, i);
+    Context *argument = child(context, begin + i);
     Argument &out = *::new (&list[i]) Argument{};
     out.span = span(argument);
     Context *front = child(argument, 0);
@@ -348,6 +401,12 @@ std::span<Argument> AstBuilder::arguments(Context *context) {
       continue;
     }
     out.output = token(sign).type == Tok::ARROW;
+    if (token(sign).type == Tok::DOTDOT) {
+      diagnostics_.report(Code::unexpectedToken, out.span, "a range cannot be an argument",
+                          "expected one value");
+      out.value = error(out.span);
+      continue;
+    }
     if (const Token *plain = plainName(front); plain != nullptr) {
       out.name = name(*plain);
     } else {

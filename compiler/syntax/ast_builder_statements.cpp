@@ -15,6 +15,7 @@ bool isCompound(const Stmt *statement) {
   case StmtKind::forS:
   case StmtKind::whileS:
   case StmtKind::repeatS:
+  case StmtKind::tryS:
     return true;
   default:
     return false;
@@ -48,6 +49,24 @@ Stmt *AstBuilder::statement(Context *context) {
   if (failed(context))
     return nullptr;
   if (context->children.empty()) {
+    const Token &start = token(first(context));
+    if (start.type == Tok::JMP || start.type == Tok::JUMP_LABEL) {
+      const Token &target = token(first(context) + 1);
+      if (target.type != Tok::IDENT || first(context) + 1 > last(context))
+        return nullptr;
+      if (start.type == Tok::JMP) {
+        auto *node = arena_.make<JumpStmt>();
+        node->kind = StmtKind::jump;
+        node->label = name(target);
+        node->span = span(start).to(node->label.span);
+        return node;
+      }
+      auto *node = arena_.make<LabelStmt>();
+      node->kind = StmtKind::label;
+      node->label = name(target);
+      node->span = node->label.span;
+      return node;
+    }
     auto *node = arena_.make<Stmt>();
     node->span = span(context);
     switch (token(first(context)).type) {
@@ -76,6 +95,8 @@ Stmt *AstBuilder::statement(Context *context) {
     return caseStatement(inner);
   case Grammar::RuleForStatement:
     return forStatement(inner);
+  case Grammar::RuleTryStatement:
+    return tryStatement(inner);
   case Grammar::RuleWhileStatement: {
     auto *node = arena_.make<WhileStmt>();
     node->kind = StmtKind::whileS;
@@ -231,6 +252,24 @@ Stmt *AstBuilder::forStatement(Context *context) {
       node->by = expression(child(control, 3));
   }
   node->body = block(child(context, 1));
+  return node;
+}
+
+Stmt *AstBuilder::tryStatement(Context *context) {
+  auto *node = arena_.make<TryStmt>();
+  node->kind = StmtKind::tryS;
+  node->span = span(context);
+  node->body = block(child(context, 0));
+  for (std::size_t i = 1; i < context->children.size(); ++i) {
+    Context *part = child(context, i);
+    if (part->getRuleIndex() == Grammar::RuleOperand) {
+      node->exception = operand(part);
+      continue;
+    }
+    const bool isFinally = token(first(part) - 1).type == Tok::FINALLY;
+    (isFinally ? node->hasFinally : node->hasCatch) = true;
+    (isFinally ? node->finallyBody : node->catchBody) = block(part);
+  }
   return node;
 }
 

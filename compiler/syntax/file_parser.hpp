@@ -7,8 +7,10 @@
 #include "compiler/syntax/unit_parser.hpp"
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,28 +24,90 @@ public:
   ast::File *run();
 
 private:
+  /// A POU that may still get members from behind its end.
+  struct OpenPou {
+    ast::PouDecl *node = nullptr;
+    std::vector<ast::PouDecl *> methods;
+    std::vector<ast::PouDecl *> actions;
+    std::vector<ast::PropertyDecl *> properties;
+  };
+  /// What stands between a head and its END_….
+  struct Content {
+    std::vector<ast::VarDecl *> variables;
+    std::vector<ast::Stmt *> statements;
+  };
+  /// Where `head` ended up.
+  struct Head {
+    ast::PouDecl *node = nullptr; ///< null: it has no name
+    ast::NamePath owner;          ///< `Fb` of `METHOD Fb.m`
+    Token keyword;
+    Span span;
+  };
+  /// An END_… that may be missing if the end of the file closes everything.
+  struct MissingEnd {
+    std::uint16_t wanted;
+    Span head;
+    Span found;
+  };
+  struct OpenNamespace {
+    std::size_t names;  ///< how many names it adds
+    std::size_t usings; ///< how many USING directives held before it
+    Span head;
+  };
+
   // Reading tokens. `now_` is the next token to take, `ahead_` the one behind it.
   void advance();
   void take();
   [[nodiscard]] Span span(const Token &token) const { return builder_.span(token); }
+  [[nodiscard]] bool isNow(std::string_view lower) const;
   [[nodiscard]] bool startsDeclaration() const;
-  [[nodiscard]] bool endsPou() const;
+  [[nodiscard]] bool endsUnit() const;
   [[nodiscard]] bool startsSection() const;
+  [[nodiscard]] bool startsAccessor() const;
   void finishUnit();
 
-  // Parts of a file.
+  // Program units and their members.
   void pou();
-  void readHead();
+  Head head();
+  void readHead(std::vector<Token> &usings);
+  void readHeadType();
+  void content(Content &out, OpenPou *members);
+  /// Takes the END_… of `head`; says so when it is another one or missing. True: the end of the
+  /// file closes it.
+  bool close(std::uint16_t wanted, const Head &head, Span &endSpan);
+  void reportMissingEnds();
+  void member(OpenPou *owner);
+  void method(OpenPou *owner);
+  void property(OpenPou *owner);
+  ast::PouDecl *accessor(ast::PropertyDecl *property, bool isSet);
+  void lateMember();
+  OpenPou *ownerOf(const Head &head, OpenPou *enclosing);
+  void finishBody(ast::PouDecl *node, Content &content);
+  bool instructionList();
+  void chart();
+
+  // Other parts of a file.
   void sections(std::vector<ast::VarDecl *> &out);
   void types();
   void body(std::vector<ast::Stmt *> &out);
   void readStatements();
-  void markLabel();
+  bool markLabel();
+  void markTypeArgument();
+  [[nodiscard]] bool isJumpTarget(const Token &name);
   void globals();
-  void unsupportedConstruct();
-  bool unsupportedBody();
-  bool skipExceptionWord();
   void outside();
+  void namespaceHead();
+  void namespaceEnd();
+  void usingDirective(std::vector<ast::NamePath> &out);
+  void configuration();
+  void resource(std::vector<ast::ResourceDecl> &out);
+  /// TASK, PROGRAM or VAR…; false: none of them.
+  bool resourcePart(std::vector<ast::TaskDecl> &tasks,
+                    std::vector<ast::ProgramInstanceDecl> &programs);
+  void readToSemicolon();
+
+  /// Adds a declaration of the file, with the namespace and the USING directives around it.
+  void add(ast::Decl *node);
 
   /// Runs the rule over the unit; a second time, with reports, when it has an error.
   template <class Context> Context *parseUnit(Context *(Grammar::*rule)());
@@ -61,10 +125,20 @@ private:
   Token now_;
   Token ahead_;
   std::vector<Token> unit_;
-  bool sawExternal_ = false; ///< `{external}` since the current POU began
+  bool sawExternal_ = false; ///< `{external}` since the current POU or method began
   Span externalSpan_;
   std::vector<ast::Decl *> declarations_;
-  unsigned pous_ = 0;
+  std::deque<OpenPou> pous_;
+  unsigned units_ = 0;                 ///< POUs and members outside of them so far
+  std::vector<std::uint16_t> closers_; ///< END_… of what is open, from outside to inside
+  std::vector<MissingEnd> missing_;
+  bool inProperty_ = false; ///< GET and SET open an accessor
+  std::vector<ast::Name> space_;
+  std::vector<OpenNamespace> namespaces_;
+  std::vector<ast::NamePath> usings_;
+  ast::NamePath spaceNow_;                           ///< space_ in the arena
+  std::span<ast::NamePath> usingsNow_;               ///< usings_ in the arena
+  std::optional<std::set<std::string>> jumpTargets_; ///< names behind JMP in this file
 
   // While reading a unit.
   std::vector<std::uint16_t> blocks_; ///< open IF, CASE, …

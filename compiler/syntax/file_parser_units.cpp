@@ -21,8 +21,9 @@ constexpr std::size_t kUnitTokens = 2048;
 void FileParser::sections(std::vector<ast::VarDecl *> &out) {
   unit_.clear();
   take();
-  while (now_.type >= Tok::CONSTANT && now_.type <= Tok::NON_RETAIN)
+  while ((now_.type >= Tok::CONSTANT && now_.type <= Tok::NON_RETAIN) || isModifier(now_.type))
     take();
+  const bool isAccess = unit_.front().type == Tok::VAR_ACCESS;
   std::vector<Token> head = unit_;
   for (Token &token : head)
     token.triviaCount = 0;
@@ -35,8 +36,8 @@ void FileParser::sections(std::vector<ast::VarDecl *> &out) {
   unsigned types = 0; // ARRAY OF, POINTER TO in one declaration
   std::size_t start = unit_.size();
   for (;;) {
-    if (endsPou() || startsDeclaration() || startsSection() ||
-        (isConstruct(now_.type) && ahead_.type == Tok::IDENT) ||
+    if (endsUnit() || startsDeclaration() || startsSection() ||
+        (isMember(now_.type) && ahead_.type == Tok::IDENT) ||
         (startsBlock(now_.type) && ahead_.type != Tok::COLON && ahead_.type != Tok::COMMA))
       break;
     switch (now_.type) {
@@ -51,17 +52,27 @@ void FileParser::sections(std::vector<ast::VarDecl *> &out) {
     case Tok::ARRAY:
     case Tok::POINTER:
     case Tok::REFERENCE:
+    case Tok::REF_TO:
       ++types;
+      break;
+    case Tok::IDENT:
+      if (isAccess && ahead_.type == Tok::SEMICOLON) {
+        if (isNow("read_only"))
+          now_.type = Tok::READ_ONLY;
+        else if (isNow("read_write"))
+          now_.type = Tok::READ_WRITE;
+      }
       break;
     default:
       break;
     }
+    markTypeArgument();
     const std::uint16_t type = now_.type;
     if (depth + types > kMaxNesting) {
       diagnostics_.report(Code::tooDeep, span(now_), "this declaration is nested too deeply",
                           "deeper than " + std::to_string(kMaxNesting));
       unit_.resize(start);
-      while (now_.type != Tok::SEMICOLON && now_.type != Tok::END_VAR && !endsPou() &&
+      while (now_.type != Tok::SEMICOLON && now_.type != Tok::END_VAR && !endsUnit() &&
              !startsDeclaration())
         advance();
       if (now_.type == Tok::SEMICOLON)
@@ -92,7 +103,9 @@ void FileParser::sections(std::vector<ast::VarDecl *> &out) {
 
 void FileParser::globals() {
   auto *node = arena_.make<ast::GlobalsDecl>();
-  node->kind = ast::DeclKind::globals;
+  node->kind = now_.type == Tok::VAR_CONFIG   ? ast::DeclKind::config
+               : now_.type == Tok::VAR_ACCESS ? ast::DeclKind::access
+                                              : ast::DeclKind::globals;
   node->attributes = builder_.attributes(now_);
   node->doc = builder_.doc(now_);
   const std::uint32_t begin = now_.begin;
@@ -100,7 +113,7 @@ void FileParser::globals() {
   sections(variables);
   node->span = {file_.id(), begin, unit_[unit_.size() >= 2 ? unit_.size() - 2 : 0].end};
   node->variables = arena_.copy(variables);
-  declarations_.push_back(node);
+  add(node);
 }
 
 void FileParser::types() {
@@ -110,15 +123,18 @@ void FileParser::types() {
   head.triviaCount = 0;
   const auto parseTypes = [&] {
     auto *unit = parseUnit(&Grammar::typeUnit);
+    std::vector<ast::Decl *> list;
     if (unit != nullptr && !unit->children.empty())
-      builder_.types(static_cast<Grammar::TypeBlockContext *>(unit->children[0]), declarations_);
+      builder_.types(static_cast<Grammar::TypeBlockContext *>(unit->children[0]), list);
+    for (ast::Decl *one : list)
+      add(one);
   };
   unsigned depth = 0;
   unsigned chain = 0;
   bool inStruct = false;
   std::size_t start = unit_.size();
   for (bool first = true;; first = false) {
-    if ((!first && startsDeclaration()) || endsPou() || startsSection())
+    if ((!first && (startsDeclaration() || isMember(now_.type))) || endsUnit() || startsSection())
       break;
     switch (now_.type) {
     case Tok::LPAREN:
@@ -132,6 +148,7 @@ void FileParser::types() {
     case Tok::ARRAY:
     case Tok::POINTER:
     case Tok::REFERENCE:
+    case Tok::REF_TO:
       ++chain;
       break;
     case Tok::STRUCT:
@@ -145,12 +162,13 @@ void FileParser::types() {
     default:
       break;
     }
+    markTypeArgument();
     const std::uint16_t type = now_.type;
     if (depth + chain > kMaxNesting) {
       diagnostics_.report(Code::tooDeep, span(now_), "this declaration is nested too deeply",
                           "deeper than " + std::to_string(kMaxNesting));
       unit_.resize(start);
-      while (now_.type != Tok::SEMICOLON && now_.type != Tok::END_TYPE && !endsPou() &&
+      while (now_.type != Tok::SEMICOLON && now_.type != Tok::END_TYPE && !endsUnit() &&
              !startsDeclaration())
         advance();
       if (now_.type == Tok::SEMICOLON)
@@ -189,11 +207,75 @@ void FileParser::body(std::vector<ast::Stmt *> &out) {
     builder_.statements(static_cast<Grammar::StatementsContext *>(unit->children[0]), out);
 }
 
-/// Puts a LABEL in front of the CASE labels that end at the colon just ahead.
-void FileParser::markLabel() {
-  if (std::find(blocks_.begin(), blocks_.end(), std::uint16_t{Tok::CASE}) == blocks_.end() ||
-      ahead_.type == Tok::EQUAL || boundary_ >= unit_.size())
+/// A type that begins with a keyword behind `SIZEOF(` and the like gets a TYPE_ARGUMENT in front.
+void FileParser::markTypeArgument() {
+  switch (now_.type) {
+  case Tok::ARRAY:
+  case Tok::STRING:
+  case Tok::WSTRING:
+  case Tok::POINTER:
+  case Tok::REFERENCE:
+  case Tok::REF_TO:
+    break;
+  default:
     return;
+  }
+  const std::size_t size = unit_.size();
+  if (size < 2 || unit_[size - 1].type != Tok::LPAREN || unit_[size - 2].type != Tok::IDENT)
+    return;
+  static constexpr std::string_view kTakers[] = {"sizeof", "xsizeof", "__new"};
+  const std::string_view word = scanner_.text(unit_[size - 2]);
+  if (std::none_of(std::begin(kTakers), std::end(kTakers),
+                   [&](std::string_view name) { return isWord(word, name); }))
+    return;
+  Token mark = now_;
+  mark.type = Tok::TYPE_ARGUMENT;
+  mark.end = mark.begin;
+  mark.triviaCount = 0;
+  unit_.push_back(mark);
+}
+
+/// True when some JMP of the file names it.
+bool FileParser::isJumpTarget(const Token &name) {
+  if (!jumpTargets_) {
+    jumpTargets_.emplace();
+    Diagnostics ignored;
+    Scanner scanner(file_, ignored);
+    bool jump = false;
+    for (Token token = scanner.next(); token.type != Token::kEnd; token = scanner.next()) {
+      if (jump && token.type == Tok::IDENT) {
+        std::string text(scanner.text(token));
+        std::transform(text.begin(), text.end(), text.begin(), lowerCase);
+        jumpTargets_->insert(std::move(text));
+      }
+      jump = token.type == Tok::JMP;
+    }
+  }
+  std::string text(scanner_.text(name));
+  std::transform(text.begin(), text.end(), text.begin(), lowerCase);
+  return jumpTargets_->contains(text);
+}
+
+/// Puts a LABEL in front of the CASE labels that end at the colon just ahead, or a JUMP_LABEL in
+/// front of the name. True: it did.
+bool FileParser::markLabel() {
+  if (ahead_.type == Tok::EQUAL || boundary_ >= unit_.size())
+    return false;
+  const bool inCase =
+      std::find(blocks_.begin(), blocks_.end(), std::uint16_t{Tok::CASE}) != blocks_.end();
+  const bool plain = boundary_ + 1 == unit_.size() && unit_.back().type == Tok::IDENT;
+  const auto insert = [&](std::size_t at, std::uint16_t type) {
+    Token label = unit_[at];
+    label.type = type;
+    label.end = label.begin;
+    label.triviaCount = 0;
+    unit_.insert(unit_.begin() + static_cast<std::ptrdiff_t>(at), label);
+    return true;
+  };
+  if (plain && (!inCase || isJumpTarget(unit_.back())))
+    return insert(boundary_, Tok::JUMP_LABEL);
+  if (!inCase)
+    return false;
   // With a `;` missing in front of the label, it begins where two operands meet.
   std::size_t begin = boundary_;
   bool assignment = false;
@@ -204,41 +286,7 @@ void FileParser::markLabel() {
     }
     assignment |= unit_[i].type == Tok::ASSIGN;
   }
-  if (assignment)
-    return;
-  Token label = unit_[begin];
-  label.type = Tok::LABEL;
-  label.end = label.begin;
-  label.triviaCount = 0;
-  unit_.insert(unit_.begin() + static_cast<std::ptrdiff_t>(begin), label);
-}
-
-/// Skips `__TRY`, `__CATCH (…)`, `__FINALLY` and `__ENDTRY`; the first of them is reported.
-bool FileParser::skipExceptionWord() {
-  const std::string_view word = scanner_.text(now_);
-  if (!word.starts_with("__"))
-    return false;
-  const auto is = [&](std::string_view upper) {
-    return std::equal(word.begin(), word.end(), upper.begin(), upper.end(), [](char a, char b) {
-      return (a >= 'a' && a <= 'z' ? static_cast<char>(a - 'a' + 'A') : a) == b;
-    });
-  };
-  const bool opens = is("__TRY");
-  const bool handles = is("__CATCH");
-  if (!opens && !handles && !is("__FINALLY") && !is("__ENDTRY"))
-    return false;
-  if (opens)
-    diagnostics_.report(Code::notSupported, span(now_), "`__TRY` is not supported by this version");
-  advance();
-  if (handles && now_.type == Tok::LPAREN) {
-    while (now_.type != Tok::RPAREN && now_.type != Tok::SEMICOLON && !endsPou())
-      advance();
-    if (now_.type == Tok::RPAREN)
-      advance();
-  }
-  if (now_.type == Tok::SEMICOLON)
-    advance();
-  return true;
+  return !assignment && insert(begin, Tok::LABEL);
 }
 
 void FileParser::readStatements() {
@@ -249,11 +297,14 @@ void FileParser::readStatements() {
   bool dropping = false;
   for (;;) {
     const std::uint16_t type = now_.type;
-    if (endsPou() || startsDeclaration() || startsSection() || isConstruct(type))
+    if (endsUnit() || startsDeclaration() || startsSection() || isMember(type) || isChart(type))
+      break;
+    if (unit_.size() == boundary_ && startsAccessor())
       break;
     if (unit_.size() >= kUnitTokens && unit_.size() == statement_)
       break;
     const std::uint16_t opener = openerOf(type);
+    bool isLabel = false;
     if (opener != 0) {
       const auto open = std::find(blocks_.rbegin(), blocks_.rend(), opener);
       if (open != blocks_.rend())
@@ -269,29 +320,24 @@ void FileParser::readStatements() {
     } else if (type == Tok::RPAREN || type == Tok::RBRACKET) {
       brackets_ -= brackets_ > 0;
     } else if (type == Tok::COLON && brackets_ == 0 && !dropping) {
-      const std::size_t before = unit_.size();
-      markLabel();
-      if (unit_.size() == before && before == boundary_ + 1 && unit_.back().type == Tok::IDENT &&
-          ahead_.type != Tok::EQUAL) {
-        diagnostics_.report(Code::notSupported, span(unit_.back()),
-                            "a jump label is not supported by this version");
-        unit_.pop_back();
-        advance();
-        continue;
-      }
-    } else if (type == Tok::JMP) {
-      diagnostics_.report(Code::notSupported, span(now_), "JMP is not supported by this version");
-      advance();
-      if (now_.type == Tok::IDENT)
-        advance();
-      continue;
-    } else if (type == Tok::IDENT && skipExceptionWord()) {
-      continue;
+      isLabel = markLabel();
+    } else {
+      markTypeArgument();
     }
     if (dropping)
       advance();
     else
       take();
+    if (type == Tok::CATCH && now_.type != Tok::LPAREN && !dropping) {
+      // `__CATCH` without a variable.
+      for (const std::uint16_t bracket : {Tok::LPAREN, Tok::RPAREN}) {
+        Token token = now_;
+        token.type = bracket;
+        token.end = token.begin;
+        token.triviaCount = 0;
+        unit_.push_back(token);
+      }
+    }
     if (blocks_.size() + brackets_ > kMaxNesting && !dropping) {
       if (!reportedDepth_)
         diagnostics_.report(Code::tooDeep, span(unit_.back()),
@@ -301,9 +347,9 @@ void FileParser::readStatements() {
       unit_.resize(statement_);
       dropping = true;
     }
-    const bool ends = type == Tok::SEMICOLON || opener != 0;
+    const bool ends = type == Tok::SEMICOLON || opener != 0 || (isLabel && blocks_.empty());
     if (ends || type == Tok::THEN || type == Tok::DO || type == Tok::OF || type == Tok::ELSE ||
-        type == Tok::REPEAT || type == Tok::COLON)
+        type == Tok::REPEAT || type == Tok::COLON || type == Tok::TRY || type == Tok::FINALLY)
       boundary_ = unit_.size();
     if (ends && blocks_.empty() && (type == Tok::SEMICOLON || now_.type != Tok::SEMICOLON)) {
       dropping = false;

@@ -17,7 +17,8 @@ constexpr std::size_t kMaxErrors = 100;
 const Token *ReportStrategy::before() {
   UnitStream &stream = parser_.stream();
   for (std::size_t i = stream.index(); i-- > 0;)
-    if (stream.token(i).type != Tok::LABEL)
+    if (const std::uint16_t type = stream.token(i).type;
+        type != Tok::LABEL && type != Tok::JUMP_LABEL && type != Tok::TYPE_ARGUMENT)
       return &stream.token(i);
   return nullptr;
 }
@@ -31,6 +32,8 @@ Span ReportStrategy::insertion() {
 std::string ReportStrategy::describe(const Token &token) const {
   if (token.type == Tok::LABEL)
     return "a CASE label";
+  if (token.type == Tok::JUMP_LABEL)
+    return "a jump label";
   if (token.begin == token.end)
     return isEnd(token.type) ? "the end of the file" : "nothing";
   std::string_view text = spelling(token);
@@ -87,6 +90,10 @@ bool ReportStrategy::closerIsWanted(std::uint16_t type) const {
       break;
     case Grammar::RuleRepeatStatement:
       if (type == Tok::UNTIL || type == Tok::END_REPEAT)
+        return true;
+      break;
+    case Grammar::RuleTryStatement:
+      if (type == Tok::CATCH || type == Tok::FINALLY || type == Tok::END_TRY)
         return true;
       break;
     default:
@@ -147,8 +154,7 @@ void ReportStrategy::reportUnexpected(const std::string &expected) {
   const Token *next = token.index + 1 < parser_.stream().size()
                           ? &parser_.stream().token(token.index + 1)
                           : nullptr;
-  const Span where =
-      token.type == Tok::LABEL || token.begin == token.end ? insertion() : span(token);
+  const Span where = token.begin == token.end ? insertion() : span(token);
   Diagnostic &d = diagnostics_.report(Code::unexpectedToken, where,
                                       "expected " + expected + ", found " + describe(token),
                                       "expected " + expected);
@@ -194,6 +200,8 @@ void ReportStrategy::reportMissing(std::uint16_t wanted) {
                                                                      : " after the statement";
       break;
     case Grammar::RuleVarDeclaration:
+    case Grammar::RuleConfigVariable:
+    case Grammar::RuleAccessVariable:
     case Grammar::RuleTypeDeclaration:
       after = " after the declaration";
       break;

@@ -94,7 +94,8 @@ antlr4::Token *ReportStrategy::recoverInline(antlr4::Parser *) {
   switch (wanted) {
   case Tok::SEMICOLON: {
     const bool declaration =
-        rule == Grammar::RuleVarDeclaration || rule == Grammar::RuleTypeDeclaration;
+        rule == Grammar::RuleVarDeclaration || rule == Grammar::RuleTypeDeclaration ||
+        rule == Grammar::RuleConfigVariable || rule == Grammar::RuleAccessVariable;
     const bool over = isStatementBoundary(found) || onNewLine(current()) ||
                       (declaration && (found == Tok::END_VAR || found == Tok::END_STRUCT ||
                                        found == Tok::END_TYPE));
@@ -168,6 +169,7 @@ antlr4::Token *ReportStrategy::recoverInline(antlr4::Parser *) {
   case Tok::END_FOR:
   case Tok::END_WHILE:
   case Tok::END_REPEAT:
+  case Tok::END_TRY:
   case Tok::END_VAR:
   case Tok::END_TYPE:
     reportMissingEnd(wanted);
@@ -278,6 +280,8 @@ void ReportStrategy::recover(antlr4::Parser *, std::exception_ptr error) {
     recovering_ = false;
     return;
   case Grammar::RuleVarDeclaration:
+  case Grammar::RuleConfigVariable:
+  case Grammar::RuleAccessVariable:
   case Grammar::RuleTypeDeclaration:
     while (!endsDeclaration(current().type) && !startsDeclaration(current()))
       stream.advance();
@@ -289,6 +293,11 @@ void ReportStrategy::recover(antlr4::Parser *, std::exception_ptr error) {
     recovering_ = false;
     return;
   case Grammar::RulePouHead:
+  case Grammar::RuleNamespaceHead:
+  case Grammar::RuleUsingDirective:
+  case Grammar::RuleResourceHead:
+  case Grammar::RuleTaskDeclaration:
+  case Grammar::RuleProgramInstance:
     skipTo(isEnd);
     return;
   default:
@@ -316,8 +325,7 @@ void ReportStrategy::sync(antlr4::Parser *) {
   case Grammar::RuleTypeBlock:
     syncDeclarations(
         [](std::uint16_t type) {
-          return type == Tok::IDENT || type == Tok::END_TYPE ||
-                 (type >= Tok::ABSTRACT && type <= Tok::INTERNAL);
+          return type == Tok::IDENT || type == Tok::END_TYPE || isModifier(type);
         },
         "the name of a type or `END_TYPE`");
     break;
@@ -366,7 +374,8 @@ void ReportStrategy::syncStatements() {
       const std::string found = ticked(spelling(token));
       const Context *block = innermostBlock();
       const bool end = token.type != Tok::LABEL && token.type != Tok::ELSE &&
-                       token.type != Tok::ELSIF && token.type != Tok::UNTIL;
+                       token.type != Tok::ELSIF && token.type != Tok::UNTIL &&
+                       token.type != Tok::CATCH && token.type != Tok::FINALLY;
       if (end && block != nullptr) {
         // Takes it for the one that is missing.
         const std::uint16_t wanted = closerOf(block->getRuleIndex());
@@ -393,6 +402,12 @@ void ReportStrategy::syncStatements() {
         if (current().type == Tok::THEN)
           stream.advance();
       }
+      if (type == Tok::CATCH)
+        while (!isEnd(current().type)) {
+          stream.advance();
+          if (stream.token(stream.index() - 1).type == Tok::RPAREN)
+            break;
+        }
       if (current().type == Tok::SEMICOLON)
         stream.advance();
       continue;

@@ -100,24 +100,41 @@ bool Scanner::nameFollows(std::size_t place) const {
   }
 }
 
+/// True when the word that ends here is a declared name: `:`, `,` or AT follows.
+bool Scanner::declaresName(std::size_t wordEnd) const {
+  const std::size_t next = significant(wordEnd);
+  return at(next) == ':' || at(next) == ',' || isWord(wordAt(next), "at");
+}
+
 bool Scanner::isKeywordHere(Keyword keyword, std::size_t wordEnd) const {
   switch (keyword.kind) {
   case Keyword::Kind::none:
   case Keyword::Kind::assignment:
+  case Keyword::Kind::local:
     return false;
   case Keyword::Kind::hard:
     return true;
-  case Keyword::Kind::qualifier: {
-    const bool inHead = (previous_ >= Tok::VAR && previous_ <= Tok::VAR_INST) ||
-                        (previous_ >= Tok::CONSTANT && previous_ <= Tok::NON_RETAIN);
-    const char follows = at(significant(wordEnd));
-    return inHead && follows != ':' && follows != ',';
-  }
+  case Keyword::Kind::qualifier:
+    return sectionHead_ && !declaresName(wordEnd);
   case Keyword::Kind::at:
     return at(significant(wordEnd)) == '%';
   case Keyword::Kind::pointer:
-    return (previous_ == Tok::COLON || previous_ == Tok::OF || previous_ == Tok::TO) &&
-           isWord(wordAt(significant(wordEnd)), "to");
+    switch (previous_) {
+    case Tok::COLON:
+    case Tok::OF:
+    case Tok::TO:
+    case Tok::LPAREN: // SIZEOF(POINTER TO INT)
+    case Tok::REF_TO:
+      break;
+    default:
+      return false;
+    }
+    if (keyword.type == Tok::REF_TO) {
+      const std::string_view next = wordAt(significant(wordEnd));
+      return nameFollows(wordEnd) || isWord(next, "array") || isWord(next, "string") ||
+             isWord(next, "wstring");
+    }
+    return isWord(wordAt(significant(wordEnd)), "to");
   case Keyword::Kind::infix:
     return afterOperand();
   case Keyword::Kind::statement: {
@@ -132,7 +149,9 @@ bool Scanner::isKeywordHere(Keyword keyword, std::size_t wordEnd) const {
     return word.size() > 4 && isWord(word.substr(0, 4), "end_");
   }
   case Keyword::Kind::clause:
-    return previous_ == Tok::IDENT && nameFollows(wordEnd);
+    return (previous_ == Tok::IDENT || previous_ == Tok::SEMICOLON || // behind USING
+            (previous_ == Tok::STRUCT && keyword.type == Tok::EXTENDS)) &&
+           nameFollows(wordEnd);
   case Keyword::Kind::modifier:
     switch (previous_) {
     case Tok::PROGRAM:
@@ -143,10 +162,15 @@ bool Scanner::isKeywordHere(Keyword keyword, std::size_t wordEnd) const {
     case Tok::PROPERTY:
     case Tok::INTERFACE:
     case Tok::CLASS:
+    case Tok::NAMESPACE:
       return nameFollows(wordEnd);
     default:
-      return previous_ >= Tok::ABSTRACT && previous_ <= Tok::INTERNAL && nameFollows(wordEnd);
+      break;
     }
+    if (previous_ >= Tok::ABSTRACT && previous_ <= Tok::OVERRIDE && nameFollows(wordEnd) &&
+        !declaresName(wordEnd))
+      return true;
+    return sectionHead_ && !declaresName(wordEnd);
   case Keyword::Kind::construct:
     if (keyword.type == Tok::UNION)
       return previous_ == Tok::COLON && nameFollows(wordEnd);
@@ -160,8 +184,21 @@ bool Scanner::isKeywordHere(Keyword keyword, std::size_t wordEnd) const {
     case Tok::FUNCTION:
     case Tok::FUNCTION_BLOCK:
     case Tok::TYPE:
+    case Tok::METHOD:
+    case Tok::PROPERTY:
+    case Tok::ACTION:
+    case Tok::INTERFACE:
+    case Tok::CLASS:
+    case Tok::NAMESPACE:
+    case Tok::USING:
+    case Tok::CONFIGURATION:
+    case Tok::EXTENDS:
+    case Tok::IMPLEMENTS:
+    case Tok::JMP:
       return false;
     default:
+      if (previous_ >= Tok::ABSTRACT && previous_ <= Tok::OVERRIDE)
+        return false;
       return nameFollows(wordEnd);
     }
   }
@@ -206,6 +243,9 @@ Token Scanner::next() {
   }
   beforePrevious_ = previous_;
   previous_ = token.type;
+  sectionHead_ = (token.type >= Tok::VAR && token.type <= Tok::VAR_INST) ||
+                 (sectionHead_ && ((token.type >= Tok::CONSTANT && token.type <= Tok::NON_RETAIN) ||
+                                   (token.type >= Tok::ABSTRACT && token.type <= Tok::OVERRIDE)));
   return token;
 }
 
@@ -442,12 +482,11 @@ std::uint16_t Scanner::address(std::size_t begin, Token &token) {
   const auto in = [](char c, std::string_view set) {
     return set.find(lowerCase(c)) != std::string_view::npos;
   };
-  bool good = place_ > numbers;
-  if (partial)
-    good = good && area.size() == 1 && in(area[0], "xbwdl");
-  else
-    good = good && area.size() <= 2 && in(area[0], "iqm") &&
-           (area.size() == 1 || in(area[1], "xbwdl"));
+  // Behind a point it is a part of the variable, or (in VAR_ACCESS) an address of that resource.
+  const bool good =
+      place_ > numbers &&
+      ((partial && area.size() == 1 && in(area[0], "xbwdl")) ||
+       (area.size() <= 2 && in(area[0], "iqm") && (area.size() == 1 || in(area[1], "xbwdl"))));
   if (!good) {
     token.reported = true;
     diagnostics_

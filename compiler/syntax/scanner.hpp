@@ -38,6 +38,7 @@ private:
   [[nodiscard]] std::size_t significant(std::size_t place) const;
   [[nodiscard]] std::string_view wordAt(std::size_t place) const;
   [[nodiscard]] bool nameFollows(std::size_t place) const;
+  [[nodiscard]] bool declaresName(std::size_t wordEnd) const;
   [[nodiscard]] bool isKeywordHere(Keyword keyword, std::size_t wordEnd) const;
 
   void skipBlanks();
@@ -64,6 +65,7 @@ private:
   std::size_t place_ = 0;
   std::uint16_t previous_ = 0;       ///< type of the last token
   std::uint16_t beforePrevious_ = 0; ///< and of the one before it
+  bool sectionHead_ = false;         ///< behind VAR… and its qualifiers
   std::uint32_t pendingTrivia_ = 0;
   unsigned badCharacters_ = 0;
   std::vector<std::uint32_t> badNames_; ///< hashes of names that were reported

@@ -65,7 +65,8 @@ struct Keyword {
     statement,  ///< as a whole statement: CONTINUE
     clause,     ///< between two names: EXTENDS, IMPLEMENTS
     modifier,   ///< after the keyword that opens a declaration
-    construct,  ///< opens something that is not supported, in front of a name
+    construct,  ///< opens a declaration, in front of a name
+    local,      ///< in PROPERTY, CONFIGURATION, VAR_ACCESS: FileParser decides
     assignment, ///< S, R, REF directly in front of `=`
   };
   Kind kind = Kind::none;

@@ -23,6 +23,9 @@ inline bool isCloser(std::uint16_t type) {
   case Tok::END_WHILE:
   case Tok::UNTIL:
   case Tok::END_REPEAT:
+  case Tok::CATCH:
+  case Tok::FINALLY:
+  case Tok::END_TRY:
     return true;
   default:
     return false;
@@ -36,6 +39,7 @@ inline bool startsBlock(std::uint16_t type) {
   case Tok::FOR:
   case Tok::WHILE:
   case Tok::REPEAT:
+  case Tok::TRY:
     return true;
   default:
     return false;
@@ -43,7 +47,8 @@ inline bool startsBlock(std::uint16_t type) {
 }
 
 inline bool isStatementKeyword(std::uint16_t type) {
-  return startsBlock(type) || type == Tok::EXIT || type == Tok::RETURN || type == Tok::CONTINUE;
+  return startsBlock(type) || type == Tok::EXIT || type == Tok::RETURN || type == Tok::CONTINUE ||
+         type == Tok::JMP || type == Tok::JUMP_LABEL;
 }
 
 inline bool startsOperand(std::uint16_t type) {
@@ -64,6 +69,7 @@ inline bool startsOperand(std::uint16_t type) {
   case Tok::NOT:
   case Tok::PLUS:
   case Tok::MINUS:
+  case Tok::TYPE_ARGUMENT:
     return true;
   default:
     return false;
@@ -82,6 +88,7 @@ inline bool startsType(std::uint16_t type) {
   case Tok::WSTRING:
   case Tok::POINTER:
   case Tok::REFERENCE:
+  case Tok::REF_TO:
   case Tok::STRUCT:
     return true;
   default:
@@ -123,6 +130,8 @@ inline std::uint16_t closerOf(std::size_t rule) {
     return Tok::END_WHILE;
   case Grammar::RuleRepeatStatement:
     return Tok::END_REPEAT;
+  case Grammar::RuleTryStatement:
+    return Tok::END_TRY;
   default:
     return 0;
   }
@@ -138,7 +147,7 @@ inline bool hasValue(const antlr4::ParserRuleContext *statement) {
 inline std::string ticked(std::string_view text) { return "`" + std::string(text) + "`"; }
 
 inline bool isModifier(std::uint16_t type) {
-  return type >= Tok::ABSTRACT && type <= Tok::INTERNAL;
+  return type >= Tok::ABSTRACT && type <= Tok::OVERRIDE;
 }
 
 /// The keyword that opens what `type` closes; 0 when it closes no block.
@@ -154,15 +163,44 @@ inline std::uint16_t openerOf(std::uint16_t type) {
     return Tok::WHILE;
   case Tok::END_REPEAT:
     return Tok::REPEAT;
+  case Tok::END_TRY:
+    return Tok::TRY;
   default:
     return 0;
   }
 }
 
-/// Keywords of constructs that are reported and skipped as a whole.
-inline bool isConstruct(std::uint16_t type) {
-  return (type >= Tok::METHOD && type <= Tok::END_TRANSITION) && type != Tok::UNION &&
-         type != Tok::END_UNION && type != Tok::JMP;
+/// Opens something that belongs to a POU and may stand inside of it or behind it.
+inline bool isMember(std::uint16_t type) {
+  return type == Tok::METHOD || type == Tok::PROPERTY || type == Tok::ACTION ||
+         type == Tok::ACTIONS;
+}
+
+/// A sequential function chart.
+inline bool isChart(std::uint16_t type) { return type >= Tok::STEP && type <= Tok::END_TRANSITION; }
+
+/// Closes a declaration, other than TYPE and VAR.
+inline bool closesUnit(std::uint16_t type) {
+  switch (type) {
+  case Token::kEnd:
+  case Tok::END_PROGRAM:
+  case Tok::END_FUNCTION:
+  case Tok::END_FUNCTION_BLOCK:
+  case Tok::END_METHOD:
+  case Tok::END_PROPERTY:
+  case Tok::END_GET:
+  case Tok::END_SET:
+  case Tok::END_ACTION:
+  case Tok::END_ACTIONS:
+  case Tok::END_INTERFACE:
+  case Tok::END_CLASS:
+  case Tok::END_NAMESPACE:
+  case Tok::END_CONFIGURATION:
+  case Tok::END_RESOURCE:
+    return true;
+  default:
+    return false;
+  }
 }
 
 /// Literals and names only.
