@@ -39,6 +39,7 @@ unsigned Analysis::effects(const Expr *expr) {
     case ExprKind::literal:
     case ExprKind::enumLiteral:
     case ExprKind::direct:
+    case ExprKind::typeName:
     case ExprKind::error:
     case ExprKind::aggregate:
       return result;

@@ -46,6 +46,7 @@ private:
   Module &module(const std::string &name);
   Module &moduleOf(const Symbol *symbol);
   void loadLibraryFile(const LibraryIndex::Entry &entry);
+  void reportUnsupported(const ast::PouDecl *decl);
   void declareFile(Module &module, ast::File *file);
   void declareGlobals(Module &module, ast::GlobalsDecl *decl);
   void resolveEnumerations(Module &module);

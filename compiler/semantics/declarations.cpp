@@ -66,6 +66,9 @@ void Checker::resolveStruct(TypeSymbol *symbol, StructDecl *decl) {
   type->kind = TypeKind::structure;
   type->symbol = symbol;
   symbol->type = type; // members may point back to it
+  if (decl->isUnion)
+    report(Code::unsupported, symbol->name.span, "UNION is not supported by this version",
+           "not available");
   if (!decl->base.empty()) {
     const Name &baseName = decl->base.back();
     Symbol *base = lookup(baseName);
@@ -197,6 +200,9 @@ const Type *Checker::resolveType(TypeExpr *expr, std::string_view hint) {
     const Type *pointee = resolveType(as<PointerTypeExpr>(expr)->pointee, hint);
     if (isError(pointee))
       return pointee;
+    if (as<PointerTypeExpr>(expr)->refTo)
+      report(Code::unsupported, expr->span, "REF_TO is not supported by this version",
+             "not available");
     return expr->kind == TypeExprKind::pointer ? types_.pointer(pointee)
                                                : types_.reference(pointee);
   }
@@ -219,6 +225,9 @@ const Type *Checker::resolveType(TypeExpr *expr, std::string_view hint) {
 }
 
 const Type *Checker::resolveNamed(NamedTypeExpr *expr) {
+  if (expr->hasArguments || !expr->elements.empty())
+    report(Code::unsupported, expr->span, "arguments for FB_Init are not supported by this version",
+           "not available");
   const Name &name = expr->path.back();
   Symbol *symbol = nullptr;
   if (expr->path.size() == 1) {

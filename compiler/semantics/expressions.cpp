@@ -52,6 +52,9 @@ const Type *Checker::check(Expr *expr, const Type *expected) {
     report(Code::unsupported, expr->span, "direct addresses are not supported by this version",
            "this address");
     break;
+  case ExprKind::typeName:
+    report(Code::notAVariable, expr->span, "a type is not a value", "a type stands here");
+    break;
   case ExprKind::error:
     break;
   }
@@ -296,6 +299,12 @@ Symbol *Checker::resolveNamespace(Expr *expr) {
 }
 
 const Type *Checker::checkMember(MemberExpr *expr) {
+  if (expr->bit >= 0 && expr->width != 1) {
+    check(expr->base);
+    report(Code::unsupported, expr->name.span, "partial access is not supported by this version",
+           "not available");
+    return elementaryType(TypeKind::error);
+  }
   if (expr->bit >= 0)
     return checkBit(expr);
   const std::string name(expr->name.text);

@@ -73,6 +73,24 @@ void Checker::addName(Module &module, Symbol *symbol) {
   d.help("rename one of them, or move the variable into a list with {attribute 'qualified_only'}");
 }
 
+/// What of a POU's declaration nothing is made of yet.
+void Checker::reportUnsupported(const PouDecl *decl) {
+  const auto say = [&](Span span, std::string_view what) {
+    report(Code::unsupported, span, std::string(what) + " not supported by this version",
+           "not available");
+  };
+  if (!decl->base.empty())
+    say(decl->base.back().span, "inheritance of function blocks is");
+  for (const NamePath &path : decl->interfaces)
+    say(path.back().span, "interfaces are");
+  for (const PouDecl *one : decl->methods)
+    say(one->name.span, "methods are");
+  for (const PouDecl *one : decl->actions)
+    say(one->name.span, "actions are");
+  for (const PropertyDecl *one : decl->properties)
+    say(one->name.span, "properties are");
+}
+
 void Checker::declareFile(Module &module, File *file) {
   Library *library = module.library;
   for (Decl *decl : file->declarations) {
@@ -90,6 +108,7 @@ void Checker::declareFile(Module &module, File *file) {
             decl->kind == DeclKind::program ? TypeKind::program : TypeKind::functionBlock;
         pou.type = arena_.make<PouType>(Type{kind}, &pou);
       }
+      reportUnsupported(pou.decl);
       library->pous.push_back(&pou);
       addName(module, &pou);
       break;

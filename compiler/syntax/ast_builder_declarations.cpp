@@ -546,9 +546,10 @@ TypeExpr *AstBuilder::namedType(Context *context, bool declared) {
   named->path = path(names);
   if (last(names) == last(context))
     return named;
-  named->hasArguments = true;
-  if (context->children.size() == 1) // `Block()`
+  if (context->children.size() == 1) { // `Block()`
+    named->hasArguments = true;
     return named;
+  }
   Context *argument = child(context, 1);
   if (argument->getRuleIndex() == Grammar::RuleArguments) {
     blockArguments(argument, *named);
@@ -571,13 +572,13 @@ TypeExpr *AstBuilder::namedType(Context *context, bool declared) {
   // INT (a, b := 5): edition 3's way to give an enumeration its base type.
   if (plainName(child(argument, 0)) != nullptr &&
       (declared || (named->path.size() == 1 && isElementaryInteger(named->path[0].text)))) {
-    named->hasArguments = false;
     if (EnumTypeExpr *node = enumeration(context, 1, context->children.size()); node != nullptr) {
       node->base = named;
       return node;
     }
     return errorType(span(context));
   }
+  named->hasArguments = true;
   named->arguments = arguments(context, 1);
   return named;
 }

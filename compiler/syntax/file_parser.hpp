@@ -104,6 +104,7 @@ private:
   /// TASK, PROGRAM or VAR…; false: none of them.
   bool resourcePart(std::vector<ast::TaskDecl> &tasks,
                     std::vector<ast::ProgramInstanceDecl> &programs);
+  bool strayPart(const char *end);
   void readToSemicolon();
 
   /// Adds a declaration of the file, with the namespace and the USING directives around it.

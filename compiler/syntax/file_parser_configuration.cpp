@@ -104,6 +104,21 @@ bool FileParser::resourcePart(std::vector<ast::TaskDecl> &tasks,
   return true;
 }
 
+/// Skips what is no part of a configuration; false at its end.
+bool FileParser::strayPart(const char *end) {
+  if (endsUnit() || startsDeclaration() || isMember(now_.type) || isNow("resource"))
+    return false;
+  diagnostics_.report(Code::unexpectedToken, span(now_),
+                      "expected RESOURCE, TASK, PROGRAM, VAR_… or `" + std::string(end) +
+                          "`, found `" + std::string(scanner_.text(now_).substr(0, 40)) + "`",
+                      "not a part of a CONFIGURATION");
+  do
+    advance();
+  while (now_.type != Tok::SEMICOLON && !endsUnit() && !startsDeclaration() && !isNow("resource") &&
+         !isNow("task"));
+  return true;
+}
+
 void FileParser::resource(std::vector<ast::ResourceDecl> &out) {
   const Token start = now_;
   now_.type = Tok::RESOURCE;
@@ -124,7 +139,7 @@ void FileParser::resource(std::vector<ast::ResourceDecl> &out) {
     builder_.resourceHead(static_cast<Grammar::ResourceHeadContext *>(unit->children[0]), node);
   std::vector<ast::TaskDecl> tasks;
   std::vector<ast::ProgramInstanceDecl> programs;
-  while (resourcePart(tasks, programs)) {
+  while (resourcePart(tasks, programs) || strayPart("END_RESOURCE")) {
   }
   node.tasks = arena_.copy(tasks);
   node.programs = arena_.copy(programs);
@@ -156,18 +171,8 @@ void FileParser::configuration() {
   for (;;) {
     if (isNow("resource") && ahead_.type == Tok::IDENT) {
       resource(resources);
-    } else if (!resourcePart(tasks, programs)) {
-      if (endsUnit() || startsDeclaration() || isMember(now_.type))
-        break;
-      diagnostics_.report(
-          Code::unexpectedToken, span(now_),
-          "expected RESOURCE, TASK, PROGRAM, VAR_… or `END_CONFIGURATION`, found `" +
-              std::string(scanner_.text(now_).substr(0, 40)) + "`",
-          "not a part of a CONFIGURATION");
-      do
-        advance();
-      while (now_.type != Tok::SEMICOLON && !endsUnit() && !startsDeclaration() &&
-             !isNow("resource") && !isNow("task"));
+    } else if (!resourcePart(tasks, programs) && !strayPart("END_CONFIGURATION")) {
+      break;
     }
   }
   if (!tasks.empty() || !programs.empty()) {

@@ -137,10 +137,16 @@ FileParser::Head FileParser::head() {
     out.node = builder_.head(static_cast<Grammar::PouHeadContext *>(unit->children[0]), out.owner);
   if (!usings.empty()) {
     std::vector<ast::NamePath> list = usings_;
-    unit_ = std::move(usings);
-    auto *directives = parseUnit(&Grammar::usingUnit);
-    if (directives != nullptr && !directives->children.empty())
-      builder_.usings(static_cast<Grammar::UsingDirectiveContext *>(directives->children[0]), list);
+    for (auto at = usings.begin(); at != usings.end();) {
+      const auto next = std::find_if(at + 1, usings.end(),
+                                     [](const Token &token) { return token.type == Tok::USING; });
+      unit_.assign(at, next);
+      at = next;
+      auto *directive = parseUnit(&Grammar::usingUnit);
+      if (directive != nullptr && !directive->children.empty())
+        builder_.usings(static_cast<Grammar::UsingDirectiveContext *>(directive->children[0]),
+                        list);
+    }
     if (out.node != nullptr)
       out.node->usings = arena_.copy(list);
   }

@@ -311,6 +311,8 @@ void ReportStrategy::sync(antlr4::Parser *) {
     syncStatements();
     break;
   case Grammar::RuleVarSection:
+    if (&current() == parser_.context()->start) // the keyword decides what follows
+      break;
     syncDeclarations([](std::uint16_t type) { return type == Tok::IDENT || type == Tok::END_VAR; },
                      "the name of a variable or `END_VAR`");
     break;

@@ -175,8 +175,9 @@ bool Scanner::isKeywordHere(Keyword keyword, std::size_t wordEnd) const {
     if (keyword.type == Tok::UNION)
       return previous_ == Tok::COLON && nameFollows(wordEnd);
     switch (previous_) {
+    case Tok::COLON: // a type, or a label
+      return keyword.type == Tok::JMP && nameFollows(wordEnd);
     case Tok::COMMA:
-    case Tok::COLON:
     case Tok::DOT:
     case Tok::LPAREN:
     case Tok::LBRACKET:
@@ -465,7 +466,7 @@ std::uint16_t Scanner::quoted(std::size_t begin, char quote, Token &token) {
 
 std::uint16_t Scanner::address(std::size_t begin, Token &token) {
   const bool partial = previous_ == Tok::DOT;
-  if (!isLetter(at(begin + 1)) || (!partial && afterOperand()))
+  if (!isLetter(at(begin + 1)) || (!partial && afterOperand() && !atLineStart(begin)))
     return foreign(begin, 1, Tok::MOD, token);
   ++place_;
   const std::size_t letters = place_;

@@ -24,7 +24,7 @@ TEST(Declaration, Pous) {
   EXPECT_EQ(tree("FUNCTION F : STRING(N+1)\nb(1); END_FUNCTION"),
             "(FUNCTION F : STRING((+ N 1))\n  (call b 1))\n");
   EXPECT_EQ(tree("FUNCTION_BLOCK PUBLIC FINAL Final END_FUNCTION_BLOCK"),
-            "(FUNCTION_BLOCK Final)\n");
+            "(FUNCTION_BLOCK PUBLIC FINAL Final)\n");
 }
 
 TEST(Declaration, EndOfFileClosesTheOnlyPou) {
@@ -73,7 +73,7 @@ TEST(Declaration, Names) {
       variables("a, b AT %QX1.3, c : BOOL := TRUE;"),
       "a BOOL := TRUE)\n  (VAR_GLOBAL b AT %QX1.3 BOOL := TRUE)\n  (VAR_GLOBAL c BOOL := TRUE");
   EXPECT_EQ(variables("a AT %I* : WORD; b AT %MD4 : DWORD;"),
-            "a AT %I* WORD)\n  (VAR_GLOBAL b AT %MD4 DWORD");
+            "a AT %IX* WORD)\n  (VAR_GLOBAL b AT %MD4 DWORD");
   EXPECT_EQ(variables("retain, constant : INT; persistent : BOOL; at : INT; pointer : INT;"),
             "retain INT)\n  (VAR_GLOBAL constant INT)\n  (VAR_GLOBAL persistent BOOL)\n  "
             "(VAR_GLOBAL at INT)\n  "

@@ -82,6 +82,34 @@ public:
     }
   }
 
+  void arguments(std::span<Argument> list) {
+    for (const Argument &argument : list) {
+      out_ << ' ';
+      if (argument.name)
+        out_ << argument.name.text << (argument.output ? "=>" : ":=");
+      if (argument.value != nullptr || !argument.name)
+        expression(argument.value);
+    }
+  }
+
+  void address(const DirectAddress *node) {
+    out_ << '%' << node->area << node->size;
+    const char *separator = "";
+    for (const std::uint32_t number : node->numbers) {
+      out_ << separator << number;
+      separator = ".";
+    }
+    out_ << (node->incomplete ? "*" : "");
+  }
+
+  void path(NamePath names) {
+    const char *separator = "";
+    for (const Name &name : names) {
+      out_ << separator << name.text;
+      separator = ".";
+    }
+  }
+
   void expression(const Expr *node) {
     if (node == nullptr) {
       out_ << "null";
@@ -100,7 +128,9 @@ public:
       const auto *m = as<MemberExpr>(node);
       out_ << "(. ";
       expression(m->base);
-      if (m->bit >= 0)
+      if (m->bit >= 0 && m->width != 1)
+        out_ << " part" << int{m->width} << ' ' << m->bit << ')';
+      else if (m->bit >= 0)
         out_ << " bit " << m->bit << ')';
       else
         out_ << ' ' << m->name.text << ')';
@@ -126,13 +156,7 @@ public:
       const auto *c = as<CallExpr>(node);
       out_ << "(call ";
       expression(c->callee);
-      for (const Argument &argument : c->arguments) {
-        out_ << ' ';
-        if (argument.name)
-          out_ << argument.name.text << (argument.output ? "=>" : ":=");
-        if (argument.value != nullptr || !argument.name)
-          expression(argument.value);
-      }
+      arguments(c->arguments);
       out_ << ')';
       break;
     }
@@ -153,7 +177,12 @@ public:
       break;
     }
     case ExprKind::direct:
-      out_ << as<DirectExpr>(node)->address->text;
+      address(as<DirectExpr>(node)->address);
+      break;
+    case ExprKind::typeName:
+      out_ << "(type ";
+      type(as<TypeNameExpr>(node)->name);
+      out_ << ')';
       break;
     case ExprKind::aggregate: {
       const auto *a = as<AggregateExpr>(node);
@@ -175,10 +204,17 @@ public:
   void type(const TypeExpr *node) {
     switch (node->kind) {
     case TypeExprKind::named: {
-      const char *separator = "";
-      for (const Name &name : as<NamedTypeExpr>(node)->path) {
-        out_ << separator << name.text;
-        separator = ".";
+      const auto *named = as<NamedTypeExpr>(node);
+      path(named->path);
+      if (named->hasArguments && named->elements.empty()) {
+        out_ << '(';
+        arguments(named->arguments);
+        out_ << ')';
+      }
+      for (const std::span<Argument> &one : named->elements) {
+        out_ << '[';
+        arguments(one);
+        out_ << ']';
       }
       break;
     }
@@ -212,7 +248,9 @@ public:
     }
     case TypeExprKind::pointer:
     case TypeExprKind::reference:
-      out_ << (node->kind == TypeExprKind::pointer ? "(pointer " : "(reference ");
+      out_ << (as<PointerTypeExpr>(node)->refTo      ? "(ref-to "
+               : node->kind == TypeExprKind::pointer ? "(pointer "
+                                                     : "(reference ");
       type(as<PointerTypeExpr>(node)->pointee);
       out_ << ')';
       break;
@@ -393,9 +431,19 @@ public:
       out_ << ((one->qualifiers & qualRetain) != 0 ? " RETAIN" : "");
       out_ << ((one->qualifiers & qualPersistent) != 0 ? " PERSISTENT" : "");
       out_ << ((one->qualifiers & qualNonRetain) != 0 ? " NON_RETAIN" : "");
-      out_ << ' ' << one->name.text;
-      if (one->address != nullptr)
-        out_ << " AT " << one->address->text;
+      out_ << (one->readOnly ? " READ_ONLY" : "") << (one->readWrite ? " READ_WRITE" : "");
+      access(one->access);
+      out_ << ' ';
+      if (one->path == nullptr || one->section == Section::access)
+        out_ << one->name.text;
+      if (one->path != nullptr) {
+        out_ << '@';
+        expression(one->path);
+      }
+      if (one->address != nullptr) {
+        out_ << " AT ";
+        address(one->address);
+      }
       out_ << ' ';
       type(one->type);
       if (one->init != nullptr) {
@@ -403,6 +451,94 @@ public:
         expression(one->init);
       }
       extras(one->attributes, one->doc);
+      out_ << ')';
+    }
+  }
+
+  void access(Access which) {
+    static constexpr const char *kNames[] = {"", " PUBLIC", " PRIVATE", " PROTECTED", " INTERNAL"};
+    out_ << kNames[static_cast<std::size_t>(which)];
+  }
+
+  void head(const Decl *node) {
+    access(node->access);
+    out_ << ((node->modifiers & modAbstract) != 0 ? " ABSTRACT" : "");
+    out_ << ((node->modifiers & modFinal) != 0 ? " FINAL" : "");
+    out_ << ((node->modifiers & modOverride) != 0 ? " OVERRIDE" : "");
+    if (node->name) {
+      out_ << ' ';
+      path(node->space);
+      out_ << (node->space.empty() ? "" : "/") << node->name.text;
+    }
+    for (const NamePath &one : node->usings) {
+      out_ << " USING ";
+      path(one);
+    }
+    extras(node->attributes, node->doc);
+  }
+
+  void pou(const PouDecl *node) {
+    if (!node->base.empty()) {
+      out_ << " EXTENDS ";
+      path(node->base);
+    }
+    for (const NamePath &one : node->interfaces) {
+      out_ << " IMPLEMENTS ";
+      path(one);
+    }
+    if (node->returnType != nullptr) {
+      out_ << " : ";
+      type(node->returnType);
+    }
+    out_ << (node->external ? " external" : "");
+    variables(node->variables);
+    for (const Stmt *one : node->body) {
+      out_ << "\n  ";
+      statement(one);
+    }
+    for (const auto &list : {node->methods, node->actions})
+      for (const PouDecl *one : list) {
+        out_ << "\n  ";
+        declaration(one, ")");
+      }
+    for (const PropertyDecl *one : node->properties) {
+      out_ << "\n  (PROPERTY";
+      head(one);
+      out_ << " : ";
+      type(one->type);
+      if (one->get != nullptr) {
+        out_ << " GET";
+        pou(one->get);
+      }
+      if (one->set != nullptr) {
+        out_ << " SET";
+        pou(one->set);
+      }
+      out_ << ')';
+    }
+  }
+
+  void configuration(const ConfigurationDecl *node) {
+    for (const ResourceDecl &resource : node->resources) {
+      out_ << "\n  (RESOURCE " << resource.name.text;
+      if (resource.processor)
+        out_ << " ON " << resource.processor.text;
+      for (const TaskDecl &task : resource.tasks) {
+        out_ << "\n    (TASK " << task.name.text;
+        arguments(task.arguments);
+        out_ << ')';
+      }
+      for (const ProgramInstanceDecl &one : resource.programs) {
+        out_ << "\n    (PROGRAM " << one.name.text;
+        out_ << ((one.qualifiers & qualRetain) != 0 ? " RETAIN" : "");
+        out_ << ((one.qualifiers & qualNonRetain) != 0 ? " NON_RETAIN" : "");
+        if (one.task)
+          out_ << " WITH " << one.task.text;
+        out_ << " : ";
+        path(one.type);
+        arguments(one.arguments);
+        out_ << ')';
+      }
       out_ << ')';
     }
   }
@@ -418,15 +554,13 @@ public:
       out_ << " \"" << doc << '"';
   }
 
-  void declaration(const Decl *node) {
+  void declaration(const Decl *node, const char *end = ")\n") {
     static constexpr const char *kKinds[] = {
         "PROGRAM",    "FUNCTION",   "FUNCTION_BLOCK", "CLASS",        "INTERFACE",
         "METHOD",     "ACTION",     "STRUCT",         "ENUM",         "ALIAS",
         "VAR_GLOBAL", "VAR_CONFIG", "VAR_ACCESS",     "CONFIGURATION"};
     out_ << '(' << kKinds[static_cast<std::size_t>(node->kind)];
-    if (node->name)
-      out_ << ' ' << node->name.text;
-    extras(node->attributes, node->doc);
+    head(node);
     switch (node->kind) {
     case DeclKind::program:
     case DeclKind::function:
@@ -434,23 +568,15 @@ public:
     case DeclKind::classD:
     case DeclKind::interface:
     case DeclKind::method:
-    case DeclKind::action: {
-      const auto *pou = as<PouDecl>(node);
-      if (pou->returnType != nullptr) {
-        out_ << " : ";
-        type(pou->returnType);
-      }
-      out_ << (pou->external ? " external" : "");
-      variables(pou->variables);
-      for (const Stmt *one : pou->body) {
-        out_ << "\n  ";
-        statement(one);
-      }
+    case DeclKind::action:
+      pou(as<PouDecl>(node));
       break;
-    }
     case DeclKind::structure:
-      for (const Name &one : as<StructDecl>(node)->base)
-        out_ << " EXTENDS " << one.text;
+      out_ << (as<StructDecl>(node)->isUnion ? " UNION" : "");
+      if (!as<StructDecl>(node)->base.empty()) {
+        out_ << " EXTENDS ";
+        path(as<StructDecl>(node)->base);
+      }
       variables(as<StructDecl>(node)->fields);
       break;
     case DeclKind::enumeration:
@@ -470,6 +596,7 @@ public:
       }
       break;
     case DeclKind::configuration:
+      configuration(as<ConfigurationDecl>(node));
       break;
     case DeclKind::globals:
     case DeclKind::config:
@@ -477,7 +604,7 @@ public:
       variables(as<GlobalsDecl>(node)->variables);
       break;
     }
-    out_ << ")\n";
+    out_ << end;
   }
 
 private:

@@ -138,11 +138,13 @@ TEST(Scanner, AgreesWithTheReferenceOnEveryKeyword) {
   std::size_t words = 0;
   for (std::size_t type = Tok::TRUE; type < Tok::TIME_LITERAL; ++type) {
     const std::string name = vocabulary.getSymbolicName(type);
-    const Keyword keyword = findKeyword(name, hashIdent(name));
+    const std::string word(tokenSpelling(static_cast<std::uint16_t>(type)));
+    const Keyword keyword = findKeyword(word, hashIdent(word));
     EXPECT_EQ(keyword.type, type) << name;
-    EXPECT_EQ(tokenSpelling(static_cast<std::uint16_t>(type)), name);
+    const bool isOperator = word.starts_with("__");
+    EXPECT_TRUE(isOperator || word == name) << word;
     ++words;
-    if (keyword.kind == Keyword::Kind::hard)
+    if (!isOperator && keyword.kind == Keyword::Kind::hard)
       hard += name + ' ' + std::string(1, static_cast<char>(name[0] + 32)) + name.substr(1) + '\n';
   }
   EXPECT_GT(words, 80U);
