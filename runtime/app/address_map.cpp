@@ -5,9 +5,22 @@
 
 namespace stride::app {
 
+namespace {
+
+uint32_t typeIdOf(const StrideAppV1 &app) {
+  for (uint32_t i = 0; i < app.memberCount; ++i) {
+    if ((app.members[i].flags & kSymTypeId) != 0)
+      return app.members[i].type;
+  }
+  return kNoIndex;
+}
+
+} // namespace
+
 AddressMap::AddressMap(const TypeMatch &match, const LayoutIndex &oldIndex,
                        const LayoutIndex &newIndex)
-    : match_(&match), oldIndex_(&oldIndex), newIndex_(&newIndex) {
+    : match_(&match), oldIndex_(&oldIndex), newIndex_(&newIndex),
+      oldTypeId_(typeIdOf(match.oldApp())), newTypeId_(typeIdOf(match.newApp())) {
   const std::vector<FieldPair> &roots = match.roots();
   roots_.resize(roots.size());
   std::iota(roots_.begin(), roots_.end(), 0U);
@@ -22,10 +35,12 @@ AddressMap::AddressMap(const TypeMatch &match, const LayoutIndex &oldIndex,
 }
 
 AddressMap::Slot AddressMap::slot(uint32_t oldType, uint32_t newType) const {
-  const uint32_t a = match_->oldApp().types[oldType].element;
-  const uint32_t b = match_->newApp().types[newType].element;
+  const TypeDesc &from = match_->oldApp().types[oldType];
+  const TypeDesc &to = match_->newApp().types[newType];
+  const uint32_t a = from.kind == Kind::Interface ? oldTypeId_ : from.element;
+  const uint32_t b = to.kind == Kind::Interface ? newTypeId_ : to.element;
   if (a == kNoIndex || b == kNoIndex)
-    return {a, b, a == b};
+    return {a, b, false};
   return {a, b, match_->sameTypeName(a, b)};
 }
 
@@ -58,7 +73,7 @@ bool AddressMap::find(uint32_t index, uint64_t rel, uint64_t newStart, uint32_t 
     found = {newStart, &pair};
     return true;
   }
-  if (pair.carry == Carry::Elements) {
+  if (pair.element != kNoIndex) {
     const uint64_t oldSize = match_->oldApp().types[match_->pair(pair.element).oldType].size;
     const uint64_t newSize = match_->newApp().types[match_->pair(pair.element).newType].size;
     const uint64_t number = oldSize == 0 ? 0 : rel / oldSize;
@@ -100,10 +115,10 @@ bool AddressMap::mayPointTo(uint64_t newStart, uint32_t newType,
                             uint32_t newPointee) const noexcept {
   const StrideAppV1 &app = match_->newApp();
   const TypeDesc &is = app.types[newType];
-  if (newPointee == kNoIndex)
-    return is.kind == Kind::FunctionBlock;
   if (newType == newPointee)
     return true;
+  if (newPointee == kNoIndex)
+    return false;
   const TypeDesc &wanted = app.types[newPointee];
   if (is.kind == wanted.kind && (is.kind == Kind::STRING || is.kind == Kind::WSTRING))
     return is.stringLength >= wanted.stringLength;
@@ -131,7 +146,7 @@ AddressMap::Status AddressMap::map(uint64_t oldOffset, const Slot &slot,
     return Status::Gone;
   const TypePair &pair = *found.pair;
   const TypeDesc &is = match_->newApp().types[pair.newType];
-  const bool exact = slot.oldPointee == kNoIndex || target.type == slot.oldPointee;
+  const bool exact = target.type == slot.oldPointee;
   const bool sameMemory = slot.sameName && pair.carry != Carry::Initial &&
                           pair.carry != Carry::Number && pair.carry != Carry::Names;
   if (target.relation == Target::Relation::Inside) {
@@ -141,9 +156,13 @@ AddressMap::Status AddressMap::map(uint64_t oldOffset, const Slot &slot,
     newOffset = found.newStart + target.delta;
     return Status::Kept;
   }
-  const bool allowed = exact ? mayPointTo(found.newStart, pair.newType, slot.newPointee)
-                             : sameMemory || (slot.newPointee != kNoIndex &&
-                                              newIndex_->startsAt(found.newStart, slot.newPointee));
+  bool allowed = sameMemory;
+  if (exact)
+    allowed = target.relation == Target::Relation::End
+                  ? pair.newType == slot.newPointee
+                  : mayPointTo(found.newStart, pair.newType, slot.newPointee);
+  else if (!allowed && target.relation == Target::Relation::Start && slot.newPointee != kNoIndex)
+    allowed = newIndex_->startsAt(found.newStart, slot.newPointee);
   if (!allowed)
     return Status::OtherType;
   newOffset = found.newStart + (target.relation == Target::Relation::End ? is.size : 0);

@@ -23,9 +23,9 @@ public:
 
   /// What the variable that holds the address points to, in both builds.
   struct Slot {
-    uint32_t oldPointee; ///< kNoIndex: an interface.
-    uint32_t newPointee; ///< kNoIndex: an interface.
-    bool sameName;       ///< Both are the same type.
+    uint32_t oldPointee; ///< Of an interface: the type of the instances' `type__`.
+    uint32_t newPointee;
+    bool sameName; ///< Both are the same type.
   };
 
   /// All must outlive it.
@@ -52,6 +52,8 @@ private:
   const TypeMatch *match_;
   const LayoutIndex *oldIndex_;
   const LayoutIndex *newIndex_;
+  uint32_t oldTypeId_; ///< The type of the members with kSymTypeId; kNoIndex: there are none.
+  uint32_t newTypeId_;
   std::vector<uint32_t> roots_;     ///< Into the match's roots, by old offset.
   std::vector<uint64_t> rootReach_; ///< Largest old end of this root and all before it.
 };

@@ -124,6 +124,7 @@ void CarryOver::append(const Steps &program, Place at, Steps &out) {
 }
 
 void CarryOver::repeat(const Steps &program, Place at, const TypePair &array, Steps &out) {
+  out.barrier = true;
   if (program.list.empty())
     return;
   const Place first = elementPlace(array, at);
@@ -131,7 +132,6 @@ void CarryOver::repeat(const Steps &program, Place at, const TypePair &array, St
     return append(program, first, out);
   out.list.push_back({Step::Kind::Repeat, false, store(program), first.oldOffset, first.newOffset,
                       array.count, oldSize(array.element), newSize(array.element)});
-  out.barrier = true;
 }
 
 const CarryOver::Steps &CarryOver::copyProgram(uint32_t pair) {
@@ -177,7 +177,9 @@ void CarryOver::copySteps(uint32_t index, Place at, Steps &out) {
   case Carry::Slot:
     return appendCopy(at, to.size, to.align, out);
   case Carry::Union:
-    return appendCopy(at, pair.bytes, to.align, out);
+    appendCopy(at, pair.bytes, to.align, out);
+    out.barrier = true; // other fields may be longer
+    return;
   case Carry::Number:
     return single(Step::Kind::Number);
   case Carry::Text:
@@ -430,16 +432,21 @@ std::vector<std::string> CarryOver::describe(const CarryResult &result,
     const uint64_t offset = event.address - addressOf(oldState);
     std::string target;
     if (offset <= match_.oldApp().stateSize)
-      target =
-          oldIndex_.path(oldIndex_.target(offset, match_.oldApp().types[event.oldType].element));
-    if (target.empty())
+      target = oldIndex_.path(
+          oldIndex_.target(offset, addresses_.slot(event.oldType, event.newType).oldPointee));
+    if (target.empty()) {
       lines.push_back(fmt::format("{} is now 0: it pointed to {:#x}, where no variable lies", name,
                                   event.address));
-    else
-      lines.push_back(fmt::format("{} is now 0: it pointed to {}, which {}", name, target,
-                                  event.status == AddressMap::Status::OtherType
-                                      ? "has another type now"
-                                      : "the new build does not have"));
+      continue;
+    }
+    const char *why = event.status == AddressMap::Status::OtherType ? "has another type now"
+                                                                    : "the new build does not have";
+    constexpr std::string_view kTypeId = ".type__"; // what interface variables point to
+    if (target.ends_with(kTypeId)) {
+      target.resize(target.size() - kTypeId.size());
+      why = "has no methods in the new build, or is not in it";
+    }
+    lines.push_back(fmt::format("{} is now 0: it pointed to {}, which {}", name, target, why));
   }
   if (result.total() > result.events().size())
     lines.push_back(fmt::format("and {} more", result.total() - result.events().size()));

@@ -127,7 +127,6 @@ bool LayoutIndex::startsAt(uint64_t offset, uint32_t wanted) const {
 
 Target LayoutIndex::target(uint64_t offset, uint32_t pointee) const {
   using Relation = Target::Relation;
-  const bool instance = pointee == kNoIndex; // an interface: any block
   Target out;
   Target largest; // of any type that starts there
   Target leaf;
@@ -141,7 +140,7 @@ Target LayoutIndex::target(uint64_t offset, uint32_t pointee) const {
   if (descendRoots(offset, false, [&](uint32_t type, uint64_t rel) {
         const Kind kind = app_->types[type].kind;
         if (rel == 0) {
-          if (instance ? kind == Kind::FunctionBlock : type == pointee) {
+          if (type == pointee) {
             take(out, Relation::Start, type, offset, 0);
             return true;
           }

@@ -36,10 +36,10 @@ public:
   explicit LayoutIndex(const StrideAppV1 &app);
 
   /// What an address with this offset stands for when it is held by a variable that points to
-  /// `pointee` (kNoIndex: an interface, which points to a whole instance). In this order: an object
-  /// of exactly that type that starts there; one that ends there; the largest object of any type
-  /// that starts there (programs excepted: their first variable is meant); a place inside of an
-  /// elementary variable; the largest object that ends there.
+  /// `pointee`. In this order: an object of exactly that type that starts there; one that ends
+  /// there; the largest object of any type that starts there (programs excepted: their first
+  /// variable is meant); a place inside of an elementary variable; the largest object that ends
+  /// there.
   Target target(uint64_t offset, uint32_t pointee) const;
 
   /// True if an object of type `wanted` starts at the offset.

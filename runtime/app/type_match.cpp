@@ -108,12 +108,17 @@ void flatten(const StrideAppV1 &app, uint32_t type, uint64_t offset, std::vector
   for (uint32_t i = 0; i < desc.memberCount; ++i) {
     const uint32_t m = desc.firstMember + i;
     const MemberDesc &member = app.members[m];
-    if ((member.flags & kSymBase) != 0)
+    if ((member.flags & kSymBase) != 0) {
       flatten(app, member.type, offset + member.offset, out);
-    else
-      out.push_back({lowered(member.name),
-                     member.renamedFrom != nullptr ? lowered(member.renamedFrom) : std::string(),
-                     offset + member.offset, member.type, member.flags, m});
+      continue;
+    }
+    std::string key = lowered(member.name);
+    std::string renamed = member.renamedFrom != nullptr ? lowered(member.renamedFrom) : "";
+    // VAR_INST of a method: METHOD__NAME
+    if (const std::size_t end = key.rfind("__"); end != std::string::npos && !renamed.empty())
+      renamed.insert(0, key, 0, end + 2);
+    out.push_back(
+        {std::move(key), std::move(renamed), offset + member.offset, member.type, member.flags, m});
   }
 }
 
@@ -291,9 +296,8 @@ void TypeMatch::fillArray(TypePair &pair) {
     return;
   pair.element = pairOf(a.element, b.element, pair.whole);
   const TypePair &element = pairs_[pair.element];
-  if (element.carry == Carry::Initial)
-    return;
-  pair.carry = Carry::Elements;
+  if (element.carry != Carry::Initial)
+    pair.carry = Carry::Elements;
   pair.oldFirst = static_cast<uint64_t>(low - a.lowerBound);
   pair.newFirst = static_cast<uint64_t>(low - b.lowerBound);
   pair.count = static_cast<uint64_t>(high - low);

@@ -72,10 +72,10 @@ struct TypePair {
   std::vector<LoneField> added;   ///< Fields, Union.
   std::vector<LoneField> dropped; ///< Fields, Union.
   std::vector<EnumeratorMove> moves; ///< Names: by `from`.
-  uint64_t oldFirst = 0;             ///< Elements: number of the first common element.
-  uint64_t newFirst = 0;             ///< Elements
-  uint64_t count = 0;                ///< Elements: common elements.
-  uint32_t element = kNoIndex;       ///< Elements
+  uint64_t oldFirst = 0;             ///< Arrays: number of the first common element.
+  uint64_t newFirst = 0;             ///< Arrays
+  uint64_t count = 0;                ///< Arrays: common elements.
+  uint32_t element = kNoIndex;       ///< Arrays with common elements, also with Initial.
   uint64_t bytes = 0;                ///< Union: common bytes.
   std::vector<uint32_t> byOldOffset; ///< Fields: indices of fields.
 };

@@ -356,7 +356,6 @@ TEST_F(CarryOverTest, InheritedFieldsMayMoveBetweenBaseAndOwn) {
     m.root("", "fb", own);
     m.root("", "pBase", m.pointer(base));
     m.root("", "pOwn", m.pointer(own));
-    m.root("", "i", m.pointer(nullptr, Kind::Interface));
   };
   build(a, false);
   build(b, true);
@@ -365,15 +364,56 @@ TEST_F(CarryOverTest, InheritedFieldsMayMoveBetweenBaseAndOwn) {
   a.set<int16_t>(0, 1);
   a.set<int16_t>(2, 2);
   a.set<int16_t>(4, 3);
-  for (std::size_t r = 1; r < 4; ++r)
-    a.set<uint64_t>(a.at(r), a.address(0));
+  a.set<uint64_t>(a.at(1), a.address(0));
+  a.set<uint64_t>(a.at(2), a.address(0));
   apply();
   EXPECT_EQ(b.get<int16_t>(2), 1);
   EXPECT_EQ(b.get<int16_t>(4), 2);
   EXPECT_EQ(b.get<int16_t>(8), 3);
-  for (std::size_t r = 1; r < 4; ++r)
-    EXPECT_EQ(b.get<uint64_t>(b.at(r)), b.address(0)) << r;
-  EXPECT_EQ(result.addressesKept, 3U);
+  EXPECT_EQ(b.get<uint64_t>(b.at(1)), b.address(0));
+  EXPECT_EQ(b.get<uint64_t>(b.at(2)), b.address(0));
+  EXPECT_EQ(result.addressesKept, 2U);
+}
+
+TEST_F(CarryOverTest, InterfacesPointToTheTypeIds) {
+  // The block has its number in itself; later its base has it.
+  const auto build = [](AppModel &m, bool changed) {
+    const ModelField id = {"type__", m.elementary(Kind::UDINT), kSymTypeId | kSymHidden};
+    const ModelField x = {"x", m.elementary(Kind::INT)};
+    const auto *base =
+        m.structure("Base", changed ? std::vector<ModelField>{x, id} : std::vector<ModelField>{x},
+                    nullptr, Kind::FunctionBlock);
+    const ModelField y = {"y", m.elementary(Kind::LREAL)};
+    const auto *own =
+        m.structure("Own", changed ? std::vector<ModelField>{y} : std::vector<ModelField>{id, y},
+                    base, Kind::FunctionBlock);
+    const auto *plain =
+        m.structure("Plain", changed ? std::vector<ModelField>{x} : std::vector<ModelField>{id, x},
+                    nullptr, Kind::FunctionBlock);
+    if (changed)
+      m.root("", "first", m.elementary(Kind::LREAL));
+    m.root("", "fbs", m.array(own, 1, 3));
+    m.root("", "plain", plain);
+    m.root("", "i", m.pointer(nullptr, Kind::Interface));
+    m.root("", "lost", m.pointer(nullptr, Kind::Interface));
+    m.root("", "none", m.pointer(nullptr, Kind::Interface));
+    return own->size;
+  };
+  const uint64_t before = build(a, false);
+  const uint64_t after = build(b, true);
+  a.ready();
+  b.ready();
+  a.set<uint32_t>(before + 4, 17);
+  b.set<uint32_t>(b.at(1) + after + 4, 23);
+  a.set<uint64_t>(a.at(2), a.address(before + 4));
+  a.set<uint64_t>(a.at(3), a.address(a.at(1)));
+  apply();
+  EXPECT_EQ(b.get<uint64_t>(b.at(3)), b.address(b.at(1) + after + 4));
+  EXPECT_EQ(b.get<uint32_t>(b.at(1) + after + 4), 23U);
+  EXPECT_EQ(b.get<uint64_t>(b.at(4)), 0U);
+  EXPECT_EQ(b.get<uint64_t>(b.at(5)), 0U);
+  EXPECT_THAT(words, ElementsAre("lost is now 0: it pointed to plain, which has no methods in "
+                                 "the new build, or is not in it"));
 }
 
 TEST_F(CarryOverTest, OtherBlocksStartAnewButDerivedOnesKeepTheirBase) {
