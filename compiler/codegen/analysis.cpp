@@ -1,5 +1,10 @@
 #include "compiler/codegen/analysis.hpp"
 
+#include "compiler/semantics/fold.hpp"
+
+#include <algorithm>
+#include <optional>
+
 namespace stc::codegen {
 
 using namespace ast;
@@ -324,22 +329,107 @@ bool Analysis::plainBlock(Block block, const Symbol *variable, bool innerLoops) 
   return true;
 }
 
-bool Analysis::shortLoop(const ForStmt *loop) {
+namespace {
+
+/// The constant bounds of a FOR loop whose variable is named directly, or nothing.
+struct Bounds {
+  std::int64_t from;
+  std::int64_t to;
+  std::int64_t step;
+};
+
+std::optional<Bounds> constantBounds(const ForStmt *loop) {
   const VarSymbol *variable = namedVariable(loop->variable);
   if (variable == nullptr || variable->section == Section::inOut ||
       variable->type->kind == TypeKind::reference)
-    return false;
+    return std::nullopt;
   if (loop->from->constant == nullptr || loop->to->constant == nullptr ||
       (loop->by != nullptr && loop->by->constant == nullptr))
+    return std::nullopt;
+  const Bounds b{loop->from->constant->integer, loop->to->constant->integer,
+                 loop->by == nullptr ? 1 : loop->by->constant->integer};
+  const Type *type = underlying(variable->type);
+  const bool fits = wrapTo(type, b.from) == b.from && wrapTo(type, b.to) == b.to;
+  // Beyond these a difference could wrap, or the 64 bits mean an unsigned number.
+  constexpr std::int64_t kFar = std::int64_t{1} << 62;
+  const bool isNegative = b.from < 0 || b.to < 0;
+  if (b.step == 0 || !fits || b.from < -kFar || b.from > kFar || b.to < -kFar || b.to > kFar ||
+      b.step < -kFar || b.step > kFar || (isNegative && !isSignedInteger(type)))
+    return std::nullopt;
+  return b;
+}
+
+/// `a * b`, or a number that is too large for every limit.
+std::int64_t times(std::int64_t a, std::int64_t b) {
+  constexpr std::int64_t kHuge = std::int64_t{1} << 62;
+  std::int64_t product = 0;
+  return __builtin_mul_overflow(a, b, &product) || product > kHuge ? kHuge : product;
+}
+
+} // namespace
+
+/// How often the most repeated statement of the block runs; huge when that is not known.
+std::int64_t Analysis::rounds(Block block) {
+  std::int64_t most = 1;
+  const auto nested = [&](Block inner, std::int64_t factor) {
+    most = std::max(most, times(rounds(inner), factor));
+  };
+  for (const Stmt *s : block) {
+    switch (s->kind) {
+    case StmtKind::ifS:
+      for (const IfBranch &b : as<IfStmt>(s)->branches)
+        nested(b.body, 1);
+      nested(as<IfStmt>(s)->elseBody, 1);
+      break;
+    case StmtKind::caseS:
+      for (const CaseBranch &b : as<CaseStmt>(s)->branches)
+        nested(b.body, 1);
+      nested(as<CaseStmt>(s)->elseBody, 1);
+      break;
+    case StmtKind::forS: {
+      const auto *inner = as<ForStmt>(s);
+      const auto bounds = constantBounds(inner);
+      if (!bounds || !unchanged(inner->body, namedVariable(inner->variable)))
+        return kHuge;
+      nested(inner->body,
+             std::max<std::int64_t>((bounds->to - bounds->from) / bounds->step + 1, 1));
+      break;
+    }
+    case StmtKind::empty:
+    case StmtKind::assign:
+    case StmtKind::exit:
+    case StmtKind::continueS:
+    case StmtKind::returnS:
+      break;
+    default:
+      return kHuge;
+    }
+  }
+  return most;
+}
+
+bool Analysis::shortLoop(const ForStmt *loop) {
+  const auto bounds = constantBounds(loop);
+  if (!bounds)
     return false;
-  const std::int64_t step = loop->by == nullptr ? 1 : loop->by->constant->integer;
-  std::int64_t distance = 0;
-  if (step == 0 ||
-      __builtin_sub_overflow(loop->to->constant->integer, loop->from->constant->integer, &distance))
+  const std::int64_t own = (bounds->to - bounds->from) / bounds->step + 1;
+  if (times(rounds(loop->body), std::max<std::int64_t>(own, 1)) > kShortLoop)
     return false;
-  if (distance / step > kShortLoop)
+  return unchanged(loop->body, namedVariable(loop->variable));
+}
+
+bool Analysis::endsInside(const ForStmt *loop) const {
+  const auto bounds = constantBounds(loop);
+  if (!bounds)
     return false;
-  return plainBlock(loop->body, variable, false);
+  const Type *type = underlying(loop->variable->type);
+  const std::int64_t behind = bounds->to + bounds->step;
+  return wrapTo(type, behind) == behind && (behind >= 0 || isSignedInteger(type));
+}
+
+/// Inner loops over the same variable are in it: they change it.
+bool Analysis::unchanged(Block body, const VarSymbol *variable) {
+  return plainBlock(body, variable, true);
 }
 
 void Analysis::enterLoop(const ForStmt *loop) {

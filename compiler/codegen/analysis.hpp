@@ -31,11 +31,13 @@ public:
     return ((first & effectCalls) != 0 && second != effectNone) ||
            ((second & effectCalls) != 0 && first != effectNone);
   }
-  /// The FOR loop ends after at most kShortLoop rounds without inner loops or calls, whatever
-  /// happens.
+  /// The FOR loop and those in it end after at most kShortLoop rounds altogether, whatever happens;
+  /// nothing but the loop changes its variable.
   [[nodiscard]] bool shortLoop(const ast::ForStmt *loop);
+  /// Its bounds are constant, and the first value past the end is one of the variable's type.
+  [[nodiscard]] bool endsInside(const ast::ForStmt *loop) const;
 
-  static constexpr std::int64_t kShortLoop = 65536;
+  static constexpr std::int64_t kShortLoop = 1'000'000;
 
   /// Within the body of a FOR loop with constant bounds its variable has a known range, if nothing
   /// else can change it.
@@ -51,6 +53,10 @@ private:
   bool localTarget(const ast::Expr *target, const PouSymbol *function) const;
   bool plainBlock(ast::Block block, const Symbol *variable, bool innerLoops);
   bool plainExpr(const ast::Expr *expr);
+  std::int64_t rounds(ast::Block block);
+  bool unchanged(ast::Block body, const VarSymbol *variable);
+
+  static constexpr std::int64_t kHuge = std::int64_t{1} << 62;
 
   struct Range {
     const VarSymbol *variable; ///< null: nothing is known

@@ -68,7 +68,7 @@ void Emitter::defaultArgument(const VarSymbol *parameter) {
 /// `::st::user::F(ctx__, …)`; `names` holds, by parameter, what stands for a value that has been
 /// taken before.
 void Emitter::functionArguments(const CallExpr *e, const std::vector<std::string> &names) {
-  includes_.symbol(e->pou);
+  includes_.called(e->pou);
   w_ << c_.names.qualified(e->pou) << '(' << ctx();
   std::size_t k = 0;
   for (const VarSymbol *p : e->pou->parameters()) {
@@ -198,7 +198,7 @@ void Emitter::outputTo(const Expr *target, std::string_view source, const Type *
 
 void Emitter::instanceCall(const CallExpr *e, Span span) {
   const PouSymbol *pou = e->pou;
-  includes_.symbol(pou);
+  includes_.called(pou);
   std::string instance;
   bool braces = false;
   if (e->resolved == Callee::program) {

@@ -3,6 +3,7 @@
 
 #include "compiler/codegen/analysis.hpp"
 #include "compiler/codegen/layout.hpp"
+#include "compiler/codegen/loop_locals.hpp"
 #include "compiler/codegen/names.hpp"
 #include "compiler/codegen/writer.hpp"
 
@@ -21,9 +22,11 @@ struct Context {
   Names names;
   Layouts layouts;
   Analysis analysis;
+  LoopLocals loopLocals;
 
   Context(const Program &p, const Library *library)
-      : program(p), own(library), names(p), layouts(p, library), analysis(p.settings) {}
+      : program(p), own(library), names(p), layouts(p, library), analysis(p.settings),
+        loopLocals(analysis) {}
 };
 
 /// An object of its own in the application's state: a variable list, a program, or the statics of a
@@ -185,7 +188,12 @@ private:
   void caseStatement(const ast::CaseStmt *s);
   void caseSwitch(const ast::CaseStmt *s);
   void caseChain(const ast::CaseStmt *s);
+
+  // loops.cpp
+  void loop(const ast::Stmt *s);
+  void loopStatement(const ast::Stmt *s);
   void forStatement(const ast::ForStmt *s);
+  void countedLoop(const ast::ForStmt *s, const std::string &variable, std::int64_t step);
   void refillLoop(std::string_view run, std::string_view first, Span span);
   void loopBody(ast::Block body, bool isDouble);
 
@@ -235,6 +243,7 @@ private:
   std::unordered_set<const VarSymbol *> used_;
   const VarSymbol *lastUsed_ = nullptr;
   std::vector<Loop> loops_;
+  std::vector<const VarSymbol *> loopLocals_; ///< kept in C++ locals just now
   unsigned next_ = 0;
   std::uint32_t currentLine_ = 0; ///< of the ST, for next()
   Span initSpan_;                 ///< of the variable being initialised

@@ -2,6 +2,7 @@
 
 #include "compiler/codegen/emitter.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace stc::codegen {
@@ -186,6 +187,10 @@ void Emitter::address(const Expr *e) {
 }
 
 void Emitter::variable(const VarSymbol *v, Span span) {
+  if (std::find(loopLocals_.begin(), loopLocals_.end(), v) != loopLocals_.end()) {
+    w_ << mangle(v->name.text);
+    return;
+  }
   const bool indirect = v->type->kind == TypeKind::reference;
   if (indirect) {
     includes_.complete(typeAs<PointerType>(v->type)->pointee);

@@ -1,5 +1,7 @@
 #include "compiler/codegen/names.hpp"
 
+#include "compiler/codegen/inlining.hpp"
+
 #include <algorithm>
 #include <array>
 
@@ -173,6 +175,12 @@ std::string_view Names::elementary(TypeKind kind) {
                                    : std::string_view("None");
 }
 
+std::string Names::inlineHeader(const Symbol *symbol) {
+  std::string path(header(symbol));
+  path.insert(path.size() - 1, "inline.");
+  return path;
+}
+
 std::string_view Names::type(const Type *type) {
   const auto found = types_.find(type);
   if (found != types_.end())
@@ -236,7 +244,14 @@ void Includes::pointed(const Type *type) {
     declared_.push_back(s);
 }
 
+void Includes::called(const PouSymbol *pou) {
+  symbol(pou);
+  if (isInlinable(pou))
+    bodies_.insert(pou);
+}
+
 void Includes::merge(const Includes &other) {
+  bodies_.insert(other.bodies_.begin(), other.bodies_.end());
   for (const Symbol *s : other.headers_)
     symbol(s);
   for (const Symbol *s : other.declared_) {
@@ -245,15 +260,16 @@ void Includes::merge(const Includes &other) {
   }
 }
 
-std::string Includes::text(const Symbol *own) const {
-  std::vector<std::string_view> headers;
+std::string Includes::text(const Symbol *own, bool bodies) const {
+  std::vector<std::string> headers;
   for (const Symbol *s : headers_) {
     if (s != own)
-      headers.push_back(names_.header(s));
+      headers.emplace_back(bodies && bodies_.contains(s) ? names_.inlineHeader(s)
+                                                         : names_.header(s));
   }
   std::sort(headers.begin(), headers.end());
   std::string out;
-  for (const std::string_view h : headers)
+  for (const std::string &h : headers)
     out.append("#include \"").append(h).append("\"\n");
   std::vector<std::pair<std::string_view, std::string_view>> forward;
   for (const Symbol *s : declared_) {

@@ -35,6 +35,9 @@ public:
   /// `st/user/Foo.h`
   [[nodiscard]] std::string_view header(const Symbol *symbol);
 
+  /// `st/user/Foo.inline.h`
+  [[nodiscard]] std::string inlineHeader(const Symbol *symbol);
+
   /// `::stride::INT`, `::stride::Array<::st::user::Foo, 1, 3>`, `::st::user::Foo *`
   [[nodiscard]] std::string_view type(const Type *type);
 
@@ -74,16 +77,21 @@ public:
     last_ = symbol;
   }
 
+  /// The header of a POU that is called, with its body where that is small.
+  void called(const PouSymbol *pou);
+
   void merge(const Includes &other);
 
-  /// Includes and forward declarations, sorted; `own` is left out.
-  [[nodiscard]] std::string text(const Symbol *own) const;
+  /// Includes and forward declarations, sorted; `own` is left out, and so are bodies where they are
+  /// not wanted.
+  [[nodiscard]] std::string text(const Symbol *own, bool bodies = true) const;
 
 private:
   Names &names_;
   const Symbol *last_ = nullptr;
   std::unordered_set<const Symbol *> seen_;
   std::vector<const Symbol *> headers_;
+  std::unordered_set<const Symbol *> bodies_;
   std::unordered_set<const Symbol *> declaredSet_;
   std::vector<const Symbol *> declared_;
 };

@@ -1,5 +1,6 @@
 // Sources: one per POU, one for the initial values of structures and variable lists.
 
+#include "compiler/codegen/inlining.hpp"
 #include "compiler/codegen/units.hpp"
 
 namespace stc::codegen {
@@ -68,6 +69,7 @@ public:
     text_.append(body);
     budgetDone();
     functionEnd();
+    pieces_.back().isBody = true;
   }
 
   void functionBody(const PouSymbol *pou) {
@@ -96,10 +98,32 @@ public:
       text_.endLine();
     }
     functionEnd();
+    pieces_.back().isBody = true;
   }
 
   [[nodiscard]] Emitter &emitter() { return e_; }
   [[nodiscard]] bool empty() const { return text_.size() == 0; }
+
+  /// The body once more, for those who call it.
+  GeneratedFile inlined(const PouSymbol *own) {
+    const std::string path = c_.names.inlineHeader(own);
+    Writer file(c_.program.sources);
+    lines(file, banner(std::string(own->name.text) + ", to be inlined") +
+                    "#pragma once\n#include \"" + std::string(c_.names.header(own)) +
+                    "\"\n#ifdef __OPTIMIZE__\n" + e_.includes().text(own, false) +
+                    std::string(sourcePrelude()) +
+                    "\nnamespace st::" + std::string(c_.names.space(c_.own)) + " {\n");
+    for (const Piece &piece : pieces_) {
+      if (!piece.isBody)
+        continue;
+      file.blank();
+      lines(file, "__attribute__((gnu_inline)) inline\n");
+      file.append(piece.text);
+      file.fromGenerated(path);
+    }
+    lines(file, "} // namespace st::" + std::string(c_.names.space(c_.own)) + "\n#endif\n");
+    return {path, file.take()};
+  }
 
   GeneratedFile finish(const Symbol *own, std::string_view what) {
     Writer file(c_.program.sources);
@@ -109,13 +133,9 @@ public:
     head += e_.includes().text(own);
     head += sourcePrelude();
     head += "\nnamespace st::" + std::string(c_.names.space(c_.own)) + " {\n";
-    for (std::size_t at = 0; at < head.size();) { // line by line, to count them
-      const std::size_t lineEnd = head.find('\n', at);
-      file << std::string_view(head).substr(at, lineEnd - at);
-      file.endLine();
-      at = lineEnd + 1;
-    }
+    lines(file, head);
     for (Piece &piece : pieces_) {
+      file.blank();
       file.append(piece.text);
       file.fromGenerated(path_);
     }
@@ -127,11 +147,21 @@ public:
 private:
   struct Piece {
     Writer text;
+    bool isBody = false;
   };
+
+  /// Line by line, to count them.
+  static void lines(Writer &file, std::string_view text) {
+    for (std::size_t at = 0; at < text.size();) {
+      const std::size_t lineEnd = text.find('\n', at);
+      file << text.substr(at, lineEnd - at);
+      file.endLine();
+      at = lineEnd + 1;
+    }
+  }
 
   void functionHead(const std::string &signature) {
     text_ = Writer(c_.program.sources);
-    text_.blank();
     text_.line() << signature << " {";
     text_.endLine();
   }
@@ -146,7 +176,7 @@ private:
   void prologue() {
     std::size_t i = 0;
     for (const FileId file : e_.takeFiles()) {
-      text_.line() << "  static constexpr char " << Emitter::fileConstant(i++) << "[] = \""
+      text_.line() << "  constexpr const char *" << Emitter::fileConstant(i++) << " = \""
                    << escaped(c_.program.sources.file(file).name()) << "\";";
       text_.endLine();
     }
@@ -261,6 +291,8 @@ void generateSources(Context &context, std::vector<GeneratedFile> &files) {
       else
         source.blockBody(p, name);
     }
+    if (isInlinable(p))
+      files.push_back(source.inlined(p));
     files.push_back(source.finish(p, p->name.text));
   }
 }

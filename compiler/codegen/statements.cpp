@@ -16,11 +16,6 @@ constexpr std::size_t kMaxElseIf = 64;
 
 bool isBit(const Expr *e) { return e->kind == ExprKind::member && as<MemberExpr>(e)->bit >= 0; }
 
-/// A path that costs nothing to follow twice.
-bool isPlain(std::string_view place) {
-  return place.find_first_of("([*") == std::string_view::npos;
-}
-
 } // namespace
 
 void Emitter::block(Block block) {
@@ -48,32 +43,10 @@ void Emitter::statement(const Stmt *s) {
     caseStatement(as<CaseStmt>(s));
     return;
   case StmtKind::forS:
-    forStatement(as<ForStmt>(s));
+  case StmtKind::whileS:
+  case StmtKind::repeatS:
+    loop(s);
     return;
-  case StmtKind::whileS: {
-    const auto *loop = as<WhileStmt>(s);
-    const std::string run = temporary("run");
-    begin(s->span);
-    refillLoop(run, "true", s->span);
-    w_ << "for (; budget__.left > 0 && (" << run << " = ";
-    condition(loop->condition);
-    w_ << "); --budget__.left) {";
-    end();
-    loopBody(loop->body, true);
-    return;
-  }
-  case StmtKind::repeatS: {
-    const auto *loop = as<RepeatStmt>(s);
-    const std::string run = temporary("run");
-    begin(s->span);
-    refillLoop(run, "true", s->span);
-    w_ << "for (; budget__.left > 0 && " << run << "; --budget__.left, " << run << " = !(";
-    condition(loop->until);
-    w_ << ")) {";
-    end();
-    loopBody(loop->body, true);
-    return;
-  }
   case StmtKind::exit:
     begin(s->span);
     if (loops_.back().isDouble || loops_.back().switches > 0) { // `break` would not leave it all
@@ -460,94 +433,6 @@ void Emitter::caseChain(const CaseStmt *s) {
   }
   w_.line() << '}';
   end();
-}
-
-// -----------------------------------------------------------------------------------------------------------
-// loops
-
-/// The outer one of a loop's two C++ loops.
-void Emitter::refillLoop(std::string_view run, std::string_view first, Span span) {
-  usesBudget_ = true;
-  w_ << "for (bool " << run << " = " << first << "; " << run << "; budget__.refill(" << run << ", "
-     << ctx() << ", ";
-  position(span);
-  w_ << ")) ";
-}
-
-/// The body with its closing brace and, behind it, the label that EXIT jumps to.
-void Emitter::loopBody(Block body, bool isDouble) {
-  loops_.push_back({++next_, isDouble});
-  open();
-  block(body);
-  close();
-  w_.line() << '}';
-  end();
-  if (loops_.back().labelled) {
-    w_.line() << "exit__" << loops_.back().id << ":;";
-    end();
-  }
-  loops_.pop_back();
-}
-
-void Emitter::forStatement(const ForStmt *s) {
-  const Type *type = underlying(s->variable->type);
-  const std::string number = std::to_string(++next_);
-  begin(s->span);
-  std::string variable = placeText(s->variable);
-  if (!isPlain(variable)) {
-    w_ << "auto &counter__" << number << " = " << variable << "; ";
-    variable = "counter__" + number;
-  }
-  storeTo(variable, s->variable->type, s->from);
-  w_ << ' ';
-  // The end and the step are evaluated once.
-  std::string last;
-  const std::size_t start = w_.size();
-  valueAs(s->to, type);
-  last = w_.cut(start);
-  if (s->to->constant == nullptr) {
-    w_ << "const " << this->type(type) << " end__" << number << " = " << last << "; ";
-    last = "end__" + number;
-  }
-  const bool constantStep = s->by == nullptr || s->by->constant != nullptr;
-  const std::int64_t step = s->by == nullptr ? 1 : constantStep ? s->by->constant->integer : 0;
-  if (!constantStep) {
-    w_ << "const ::stride::LINT step__" << number << " = ";
-    value(s->by);
-    w_ << "; ";
-  }
-  const std::string run = "run__" + number;
-  std::size_t from = w_.size();
-  if (constantStep)
-    w_ << variable << (step >= 0 ? " <= " : " >= ") << last;
-  else
-    w_ << "::stride::forFirst<" << this->type(type) << ">(" << variable << ", " << last
-       << ", step__" << number << ')';
-  const std::string first = w_.cut(from);
-  from = w_.size();
-  w_ << run << " = ::stride::"
-     << (!constantStep ? "forNext<"
-         : step >= 0   ? "forUp<"
-                       : "forDown<")
-     << this->type(type) << ">(" << variable << ", " << last << ", ";
-  if (constantStep)
-    w_ << (step >= 0 ? static_cast<std::uint64_t>(step) : 0 - static_cast<std::uint64_t>(step))
-       << 'U';
-  else
-    w_ << "step__" << number;
-  w_ << ')';
-  const std::string advance = w_.cut(from);
-  const bool isShort = c_.analysis.shortLoop(s);
-  if (isShort) {
-    w_ << "for (bool " << run << " = " << first << "; " << run << "; " << advance << ") {";
-  } else {
-    refillLoop(run, first, s->span);
-    w_ << "for (; budget__.left > 0 && " << run << "; --budget__.left, " << advance << ") {";
-  }
-  end();
-  c_.analysis.enterLoop(s);
-  loopBody(s->body, !isShort);
-  c_.analysis.leaveLoop();
 }
 
 } // namespace stc::codegen

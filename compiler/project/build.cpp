@@ -178,7 +178,8 @@ private:
     if (options_.debug)
       flags.insert(flags.end(), {"-O0", "-g"});
     else
-      flags.emplace_back("-O2");
+      // Aligned, so that the speed of a loop does not depend on what lies in front of it.
+      flags.insert(flags.end(), {"-O2", "-falign-functions=64", "-falign-loops=32"});
     return flags;
   }
 

@@ -96,6 +96,18 @@ struct LoopBudget {
   void done(Ctx &ctx) const { ctx.loopBudget -= start - left; }
 };
 
+/// Puts the local copy of a variable back where it belongs, however its scope is left: a loop keeps
+/// the variables that nothing else can reach meanwhile in C++ locals.
+template <class T> struct Keep {
+  T &home;
+  const T &local;
+
+  Keep(T &variable, const T &copy) : home(variable), local(copy) {}
+  Keep(const Keep &) = delete;
+  Keep &operator=(const Keep &) = delete;
+  ~Keep() { home = local; }
+};
+
 /// An object of the application at its place in the state.
 template <class T> inline T &root(Ctx &ctx, uint64_t place) {
   return *reinterpret_cast<T *>(static_cast<char *>(ctx.state) + place);

@@ -178,6 +178,17 @@ template <class T> constexpr bool forDown(T &i, T end, ULINT step) {
   i = static_cast<T>(static_cast<ULINT>(i) - step);
   return more;
 }
+/// The same for a step of 1.
+template <class T> constexpr bool forUp(T &i, T end) {
+  const bool more = i < end;
+  ++i;
+  return more;
+}
+template <class T> constexpr bool forDown(T &i, T end) {
+  const bool more = i > end;
+  --i;
+  return more;
+}
 /// For a step known at run time only. A step of 0 goes on until the loop budget ends it.
 template <class T> constexpr bool forFirst(T i, T end, LINT step) {
   return step < 0 ? i >= end : i <= end;

@@ -1,0 +1,13 @@
+#pragma once
+// Small functions and blocks are given to their callers as a second header, so that the C++
+// compiler can inline them across translation units.
+
+#include "compiler/semantics/symbols.hpp"
+
+namespace stc::codegen {
+
+/// The body is small enough to be worth it. Known from the syntax alone, so that a project and the
+/// library that it uses agree.
+[[nodiscard]] bool isInlinable(const PouSymbol *pou);
+
+} // namespace stc::codegen
