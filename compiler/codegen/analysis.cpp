@@ -43,11 +43,12 @@ unsigned Analysis::effects(const Expr *expr) {
     switch (expr->kind) {
     case ExprKind::literal:
     case ExprKind::enumLiteral:
-    case ExprKind::direct:
     case ExprKind::typeName:
     case ExprKind::error:
     case ExprKind::aggregate:
       return result;
+    case ExprKind::direct:
+      return result | effectReads;
     case ExprKind::name: {
       const VarSymbol *variable = namedVariable(expr);
       if (variable != nullptr && variable->type->kind == TypeKind::reference && checks_)
@@ -341,7 +342,7 @@ struct Bounds {
 std::optional<Bounds> constantBounds(const ForStmt *loop) {
   const VarSymbol *variable = namedVariable(loop->variable);
   if (variable == nullptr || variable->section == Section::inOut ||
-      variable->type->kind == TypeKind::reference)
+      variable->type->kind == TypeKind::reference || variable->location != nullptr)
     return std::nullopt;
   if (loop->from->constant == nullptr || loop->to->constant == nullptr ||
       (loop->by != nullptr && loop->by->constant == nullptr))
@@ -437,6 +438,7 @@ void Analysis::enterLoop(const ForStmt *loop) {
   const VarSymbol *variable = namedVariable(loop->variable);
   const bool own = variable != nullptr && variable->owner != nullptr &&
                    variable->section != Section::inOut && variable->section != Section::stat &&
+                   variable->location == nullptr &&
                    variable->type->kind != TypeKind::reference;
   if (own && loop->from->constant != nullptr && loop->to->constant != nullptr &&
       (loop->by == nullptr ||

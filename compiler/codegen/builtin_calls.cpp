@@ -208,9 +208,13 @@ void Emitter::builtinPlain(const CallExpr *e, const std::vector<std::string> *na
   case Builtin::time:
     w_ << "static_cast<::stride::TIME>(" << ctx() << ".cycleStartNs / 1000000)";
     return;
-  case Builtin::adr:
+  case Builtin::adr: {
+    const bool misaligned = isMisaligned(e->arguments[0].value);
+    w_ << (misaligned ? "reinterpret_cast<::stride::BYTE *>(" : "");
     address(e->arguments[0].value);
+    w_ << (misaligned ? ")" : "");
     return;
+  }
   case Builtin::sizeofT:
     w_ << "static_cast<" << type(result) << ">(sizeof(" << type(e->arguments[0].value->type)
        << "))";

@@ -1,6 +1,7 @@
 // Calls of functions, function blocks and programs.
 
 #include "compiler/codegen/emitter.hpp"
+#include "compiler/semantics/locations.hpp"
 
 #include <algorithm>
 
@@ -178,10 +179,8 @@ void Emitter::outputTo(const Expr *target, std::string_view source, const Type *
     source = pointee;
   }
   const Type *type = target->type;
-  if (target->kind == ExprKind::member && as<MemberExpr>(target)->bit >= 0) {
-    w_ << "::stride::setBit(";
-    place(as<MemberExpr>(target)->base);
-    w_ << ", " << as<MemberExpr>(target)->bit << ", " << source << ");";
+  if (isBitPlace(target)) {
+    bitStore(target, {}, [&] { convertedText(source, sourceType, type, span); });
     return;
   }
   if (isString(type) && type != sourceType) {

@@ -72,6 +72,8 @@ public:
     std::string reference; ///< the local name
   };
   [[nodiscard]] std::vector<RootUse> takeRoots() { return std::exchange(roots_, {}); }
+  /// The areas of the process image that the code uses: bits by Area.
+  [[nodiscard]] unsigned takeAreas() { return std::exchange(areas_, 0); }
   [[nodiscard]] bool used(const VarSymbol *variable) const { return used_.contains(variable); }
   /// `file__`, the constant with the name of a source file.
   std::string fileName(FileId file);
@@ -125,14 +127,33 @@ private:
   /// A pointer to it; null references stay null.
   void address(const ast::Expr *e);
   void variable(const VarSymbol *v, Span span);
+  void field(const VarSymbol *v);
   /// The slot of an in-out or a reference itself.
   void slot(const ast::Expr *e);
   [[nodiscard]] static const VarSymbol *indirectVariable(const ast::Expr *e);
   void member(const ast::MemberExpr *e, bool slotOnly);
+  void slotOf(const ast::MemberExpr *e);
+  void memberEnd(const ast::MemberExpr *e, bool indirect);
   void basePath(const Type *base, const VarSymbol *field);
   void index(const ast::IndexExpr *e);
   [[nodiscard]] int level(const ast::Expr *e) const;
   [[nodiscard]] static const ast::Expr *shown(const ast::Expr *e);
+
+  // places.cpp
+  /// The base of an area of the process image.
+  std::string_view area(Area area);
+  /// A variable in the process image; `slot` writes what holds its place.
+  template <class Slot> void located(const Location &at, const Type *type, Slot &&slot);
+  /// The value of a bit or part (isBitPlace).
+  void bitValue(const ast::Expr *e);
+  /// Stores what `value` writes in it. `bound` stands for the variable it is a part of; empty: it
+  /// is found here.
+  template <class Value> void bitStore(const ast::Expr *e, std::string_view bound, Value &&value);
+  /// `Bit(m__[3], 5`: the end of the runtime function's name and the first arguments.
+  void bitAccess(const ast::Expr *e, std::string_view bound);
+  /// The variable that a bit or part belongs to.
+  [[nodiscard]] static const ast::Expr *bitOwner(const ast::Expr *e);
+  void initLocated(std::string_view target, const VarSymbol *variable);
 
   // operators.cpp
   void unary(const ast::UnaryExpr *e);
@@ -240,6 +261,7 @@ private:
   bool usesBudget_ = false;
   std::vector<FileId> files_;
   std::vector<RootUse> roots_;
+  unsigned areas_ = 0;
   std::unordered_set<const VarSymbol *> used_;
   const VarSymbol *lastUsed_ = nullptr;
   std::vector<Loop> loops_;

@@ -3,6 +3,8 @@
 
 #include "compiler/codegen/emitter.hpp"
 #include "compiler/semantics/conversions.hpp"
+#include "compiler/semantics/extent.hpp"
+#include "compiler/semantics/locations.hpp"
 
 namespace stc::codegen {
 
@@ -184,6 +186,28 @@ void Emitter::timeArithmetic(const ast::BinaryExpr *e, Left &&left, Right &&righ
   else if (unit(result) < fine)
     w_ << " * " << fine / unit(result);
   w_ << ')';
+}
+
+template <class Slot> void Emitter::located(const Location &at, const Type *type, Slot &&slot) {
+  const std::string_view base = area(at.area);
+  includes_.complete(type);
+  const bool aligned = at.isSlot || at.byte % extentOf(type).align == 0;
+  w_ << (aligned ? "::stride::at<" : "::stride::unaligned<") << c_.names.type(type) << ">(" << base
+     << ", ";
+  if (at.isSlot)
+    slot();
+  else
+    w_ << at.byte;
+  w_ << (aligned ? ")" : ").v");
+}
+
+template <class Value>
+void Emitter::bitStore(const ast::Expr *e, std::string_view bound, Value &&value) {
+  w_ << "::stride::set";
+  bitAccess(e, bound);
+  w_ << ", ";
+  value();
+  w_ << ");";
 }
 
 } // namespace stc::codegen

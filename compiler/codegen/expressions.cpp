@@ -1,6 +1,7 @@
 // Values and places: names, members, elements, pointers.
 
 #include "compiler/codegen/emitter.hpp"
+#include "compiler/semantics/locations.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +44,10 @@ void Emitter::raw(const Expr *e) {
     literal(*e->constant, e->type, e->type, symbolOf(e));
     return;
   }
+  if (isBitPlace(e)) {
+    bitValue(e);
+    return;
+  }
   switch (e->kind) {
   case ExprKind::unary:
     unary(as<UnaryExpr>(e));
@@ -58,18 +63,13 @@ void Emitter::raw(const Expr *e) {
       functionCall(call, false);
     break;
   }
-  case ExprKind::member:
-    if (as<MemberExpr>(e)->bit >= 0) {
-      w_ << "::stride::getBit(";
-      place(as<MemberExpr>(e)->base);
-      w_ << ", " << as<MemberExpr>(e)->bit << ')';
-      break;
-    }
+  default: {
+    const bool byOthers = e->type->kind == TypeKind::boolean && locationOf(e) != nullptr;
+    w_ << (byOthers ? "::stride::truth(" : "");
     place(e);
+    w_ << (byOthers ? ")" : "");
     break;
-  default:
-    place(e);
-    break;
+  }
   }
 }
 
@@ -97,7 +97,7 @@ void Emitter::text(const Expr *e) {
 
 const VarSymbol *Emitter::indirectVariable(const Expr *e) {
   const Symbol *symbol =
-      e->kind == ExprKind::member && as<MemberExpr>(e)->bit >= 0 ? nullptr : symbolOf(e);
+      isBitPlace(e) ? nullptr : symbolOf(e);
   if (symbol == nullptr || symbol->kind != SymbolKind::variable)
     return nullptr;
   const auto *v = static_cast<const VarSymbol *>(symbol);
@@ -127,6 +127,9 @@ void Emitter::place(const Expr *e) {
     return;
   case ExprKind::index:
     index(as<IndexExpr>(e));
+    return;
+  case ExprKind::direct:
+    located(*as<DirectExpr>(e)->location, e->type, [] {});
     return;
   case ExprKind::deref: {
     const Expr *pointer = as<DerefExpr>(e)->base;
@@ -187,8 +190,13 @@ void Emitter::address(const Expr *e) {
 }
 
 void Emitter::variable(const VarSymbol *v, Span span) {
+<<<<<<< HEAD
   if (std::find(loopLocals_.begin(), loopLocals_.end(), v) != loopLocals_.end()) {
     w_ << mangle(v->name.text);
+=======
+  if (v->location != nullptr) {
+    located(*v->location, v->type, [&] { field(v); });
+>>>>>>> 574dc9a (Locate variables in a process image; select bits by constants and parts by number)
     return;
   }
   const bool indirect = v->type->kind == TypeKind::reference;
@@ -198,6 +206,17 @@ void Emitter::variable(const VarSymbol *v, Span span) {
     if (checks())
       w_ << ctx() << ", ";
   }
+  field(v);
+  if (indirect && checks()) {
+    w_ << ", ";
+    position(span);
+  }
+  if (indirect)
+    w_ << ')';
+}
+
+/// What is stored under the variable's name.
+void Emitter::field(const VarSymbol *v) {
   if (v->globals != nullptr) {
     w_ << root({v->globals, false}) << '.' << mangle(v->name.text);
   } else if (v->section == Section::stat) {
@@ -209,12 +228,6 @@ void Emitter::variable(const VarSymbol *v, Span span) {
     }
     w_ << mangle(v->name.text);
   }
-  if (indirect && checks()) {
-    w_ << ", ";
-    position(span);
-  }
-  if (indirect)
-    w_ << ')';
 }
 
 void Emitter::basePath(const Type *base, const VarSymbol *field) {
@@ -240,6 +253,10 @@ void Emitter::member(const MemberExpr *e, bool slotOnly) {
     }
     return;
   }
+  if (field->location != nullptr) {
+    located(*field->location, field->type, [&] { slotOf(e); });
+    return;
+  }
   const bool indirect = isIndirect(field) && !slotOnly;
   if (indirect) {
     const Type *pointee =
@@ -254,12 +271,25 @@ void Emitter::member(const MemberExpr *e, bool slotOnly) {
   if (field->section == Section::stat && field->owner != nullptr) {
     w_ << root({field->owner, true}) << '.';
   } else {
-    includes_.complete(e->base->type);
-    place(e->base);
-    w_ << '.';
-    basePath(e->base->type, field);
+    slotOf(e);
+    memberEnd(e, indirect);
+    return;
   }
   w_ << mangle(field->name.text);
+  memberEnd(e, indirect);
+}
+
+/// The member itself, in its instance.
+void Emitter::slotOf(const MemberExpr *e) {
+  const auto *field = static_cast<const VarSymbol *>(e->symbol);
+  includes_.complete(e->base->type);
+  place(e->base);
+  w_ << '.';
+  basePath(e->base->type, field);
+  w_ << mangle(field->name.text);
+}
+
+void Emitter::memberEnd(const MemberExpr *e, bool indirect) {
   if (indirect && checks()) {
     w_ << ", ";
     position(e->span);

@@ -46,6 +46,7 @@ public:
   GeneratedFile structure(const TypeSymbol *symbol) {
     const auto *type = typeAs<StructType>(symbol->type);
     open(symbol);
+    packed(type->pack);
     body_ += "struct " + name_ + " {\n";
     if (type->base != nullptr) {
       includes_.complete(type->base);
@@ -55,6 +56,7 @@ public:
       field(v);
     init(c_.layouts.needsInit(type));
     body_ += "};\n";
+    unpacked(type->pack);
     layout(type);
     return close(symbol);
   }
@@ -84,8 +86,10 @@ public:
   GeneratedFile globals(const GlobalsSymbol *symbol) {
     open(symbol);
     body_ += "struct " + name_ + " {\n";
-    for (const VarSymbol *v : symbol->variables)
-      field(v);
+    for (const VarSymbol *v : symbol->variables) {
+      if (!isPlaced(v))
+        field(v);
+    }
     init(rootNeedsInit(c_, {symbol, false}));
     body_ += "};\n";
     place({symbol, false});
@@ -94,6 +98,7 @@ public:
 
   GeneratedFile block(const PouSymbol *symbol) {
     open(symbol);
+    packed(symbol->type->pack);
     body_ += "struct " + name_ + " {\n";
     Section section = Section::access;
     for (const VarSymbol *v : symbol->variables) {
@@ -106,6 +111,7 @@ public:
     }
     init(c_.layouts.needsInit(symbol->type));
     body_ += "  void body__(::stride::Ctx &ctx__);\n};\n";
+    unpacked(symbol->type->pack);
     layout(symbol->type);
     if (symbol->decl->kind == DeclKind::program)
       place({symbol, false});
@@ -154,7 +160,20 @@ public:
 private:
   void open(const Symbol *symbol) { name_ = c_.names.local(symbol); }
 
+  void packed(unsigned pack) {
+    if (pack != 0)
+      body_ += "#pragma pack(push, " + std::to_string(pack) + ")\n";
+  }
+  void unpacked(unsigned pack) {
+    if (pack != 0)
+      body_ += "#pragma pack(pop)\n";
+  }
+
   void field(const VarSymbol *v) {
+    if (isSlot(v)) {
+      body_ += "  " + declared("::stride::UDINT", v->name.text) + "; // its place (VAR_CONFIG)\n";
+      return;
+    }
     std::string type(c_.names.type(v->type));
     if (v->section == Section::inOut) {
       includes_.pointed(v->type);
@@ -188,7 +207,7 @@ private:
       return;
     body_ += "\nstruct " + name_ + "__static__ {\n";
     for (const VarSymbol *v : symbol->variables) {
-      if (v->section == Section::stat)
+      if (v->section == Section::stat && !isPlaced(v))
         field(v);
     }
     init(rootNeedsInit(c_, {symbol, true}));
@@ -232,7 +251,7 @@ std::vector<const VarSymbol *> rootVariables(const Root &root) {
     return list;
   }
   for (const VarSymbol *v : static_cast<const PouSymbol *>(root.symbol)->variables) {
-    if (root.isStatic ? v->section == Section::stat : isField(v))
+    if (root.isStatic ? v->section == Section::stat : isOwn(v))
       list.push_back(v);
   }
   return list;

@@ -21,6 +21,10 @@ void Emitter::initVariable(std::string_view target, const VarSymbol *variable) {
   if (variable->section == Section::inOut)
     return;
   initSpan_ = variable->name.span;
+  if (variable->location != nullptr) {
+    initLocated(target, variable);
+    return;
+  }
   const Expr *init = c_.layouts.initOf(variable);
   if (init != nullptr && variable->type->kind == TypeKind::reference) {
     if (init->constant != nullptr)

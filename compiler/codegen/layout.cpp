@@ -116,6 +116,8 @@ bool Layouts::needsInit(const VarSymbol *variable) {
   if (variable->section == Section::inOut)
     return false;
   const Expr *init = initOf(variable);
+  if (variable->location != nullptr && init != nullptr)
+    return true; // a zero may stand against the value of another variable there
   // A zero may stand against a default that is not.
   return (init != nullptr && !isZero(init)) || needsInit(variable->type) ||
          elementsHaveDefaults(written(variable), variable->type);
@@ -158,7 +160,7 @@ bool Layouts::computeNeedsInit(const Type *type) {
     if (pou->library != own_)
       return true;
     for (const VarSymbol *v : pou->variables) {
-      if (isField(v) && needsInit(v))
+      if (isOwn(v) && needsInit(v))
         return true;
     }
     return false;
@@ -180,6 +182,10 @@ std::uint64_t Layouts::hash(const Type *type) {
 void Layouts::addMember(Hash &hash, const VarSymbol *v) {
   // Case does not matter in ST, so it is no change of layout.
   hash.add(v->name.id->lower);
+  if (isSlot(v)) {
+    hash.add("slot");
+    return;
+  }
   if (v->section == Section::inOut) {
     hash.add("in-out").add(typeName(v->type));
     return;
@@ -214,6 +220,8 @@ std::uint64_t Layouts::computeHash(const Type *type) {
   case TypeKind::structure: {
     const auto *s = typeAs<StructType>(type);
     h.add(typeName(type));
+    if (s->pack != 0)
+      h.add("pack").add(std::uint64_t{s->pack});
     if (s->base != nullptr)
       h.add("base").add(hash(s->base));
     for (const VarSymbol *v : s->fields)
@@ -223,6 +231,8 @@ std::uint64_t Layouts::computeHash(const Type *type) {
   case TypeKind::functionBlock:
   case TypeKind::program: {
     h.add(typeName(type));
+    if (const unsigned pack = typeAs<PouType>(type)->pack; pack != 0)
+      h.add("pack").add(std::uint64_t{pack});
     for (const VarSymbol *v : typeAs<PouType>(type)->symbol->variables) {
       if (isField(v))
         addMember(h, v);

@@ -21,11 +21,21 @@ private:
   std::uint64_t value_ = 14695981039346656037ULL;
 };
 
-/// Kept in each instance (VAR_TEMP and VAR_STAT are not).
-[[nodiscard]] inline bool isField(const VarSymbol *v) {
+/// A variable of each instance (VAR_TEMP and VAR_STAT are not).
+[[nodiscard]] inline bool isOwn(const VarSymbol *v) {
   return v->section != ast::Section::temp && v->section != ast::Section::stat &&
          v->section != ast::Section::external;
 }
+/// It lies in the process image, at the same place for all instances.
+[[nodiscard]] inline bool isPlaced(const VarSymbol *v) {
+  return v->location != nullptr && !v->location->isSlot;
+}
+/// The instance holds its place in the process image (`AT %I*`).
+[[nodiscard]] inline bool isSlot(const VarSymbol *v) {
+  return v->location != nullptr && v->location->isSlot;
+}
+/// Kept in each instance.
+[[nodiscard]] inline bool isField(const VarSymbol *v) { return isOwn(v) && !isPlaced(v); }
 /// Held as a pointer: VAR_IN_OUT of an instance, REFERENCE TO.
 [[nodiscard]] inline bool isIndirect(const VarSymbol *v) {
   return v->section == ast::Section::inOut || v->type->kind == TypeKind::reference;

@@ -186,6 +186,15 @@ private:
                    << ");";
       text_.endLine();
     }
+    const unsigned areas = e_.takeAreas();
+    for (unsigned area = 0; area < 3; ++area) {
+      if ((areas >> area & 1U) == 0)
+        continue;
+      const char letter = "iqm"[area];
+      text_.line() << "  ::stride::BYTE *const " << letter << "__ = ::stride::area(ctx__, ::st::"
+                   << letter << "__at__);";
+      text_.endLine();
+    }
   }
 
   void budget() {

@@ -1,6 +1,7 @@
 // Statements.
 
 #include "compiler/codegen/emitter.hpp"
+#include "compiler/semantics/locations.hpp"
 
 namespace stc::codegen {
 
@@ -14,7 +15,14 @@ constexpr std::int64_t kMaxLabels = 1024;
 /// g++ nests `else if`; longer chains of ELSIF are flattened.
 constexpr std::size_t kMaxElseIf = 64;
 
+<<<<<<< HEAD
 bool isBit(const Expr *e) { return e->kind == ExprKind::member && as<MemberExpr>(e)->bit >= 0; }
+=======
+/// A path that costs nothing to follow twice.
+bool isPlain(std::string_view place) {
+  return place.find_first_of("([*") == std::string_view::npos;
+}
+>>>>>>> 574dc9a (Locate variables in a process image; select bits by constants and parts by number)
 
 } // namespace
 
@@ -116,24 +124,20 @@ void Emitter::storeTo(std::string_view target, const Type *type, const Expr *val
 }
 
 void Emitter::store(const Expr *target, const Expr *value) {
-  const Expr *stored = isBit(target) ? as<MemberExpr>(target)->base : target;
+  const bool isBit = isBitPlace(target);
+  const Expr *stored = isBit ? bitOwner(target) : target;
   const bool ordered = ((effects(target) & effectCalls) != 0 && effects(value) != effectNone) ||
                        ((effects(value) & effectCalls) != 0 && isComputedPlace(stored));
-  if (isBit(target)) {
-    const std::string name = ordered ? temporary("to") : std::string();
-    if (ordered) {
+  if (isBit) {
+    const bool bind = ordered && stored != target;
+    const std::string name = bind ? temporary("to") : std::string();
+    if (bind) {
       w_ << "{ auto &" << name << " = ";
       place(stored);
       w_ << "; ";
     }
-    w_ << "::stride::setBit(";
-    if (ordered)
-      w_ << name;
-    else
-      place(stored);
-    w_ << ", " << as<MemberExpr>(target)->bit << ", ";
-    valueAs(value, target->type);
-    w_ << (ordered ? "); }" : ");");
+    bitStore(target, name, [&] { valueAs(value, target->type); });
+    w_ << (bind ? " }" : "");
     return;
   }
   if (ordered) { // the place is found first
@@ -202,10 +206,9 @@ void Emitter::assign(const AssignStmt *s) {
     condition(s->value);
     w_ << ") { ";
     for (const Expr *target : s->targets) {
-      if (isBit(target)) {
-        w_ << "::stride::setBit(";
-        place(as<MemberExpr>(target)->base);
-        w_ << ", " << as<MemberExpr>(target)->bit << ", " << set << "); ";
+      if (isBitPlace(target)) {
+        bitStore(target, {}, [&] { w_ << set; });
+        w_ << ' ';
       } else {
         place(target);
         w_ << " = " << set << "; ";

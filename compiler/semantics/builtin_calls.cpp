@@ -1,7 +1,9 @@
 // Calls of the functions that the compiler implements itself.
 
 #include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/extent.hpp"
 #include "compiler/semantics/fold.hpp"
+#include "compiler/semantics/locations.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -410,12 +412,16 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
       return bad;
     Expr *place = value(0);
     const bool isPlace = place->kind == ExprKind::name || place->kind == ExprKind::member ||
-                         place->kind == ExprKind::index || place->kind == ExprKind::deref;
-    if (!isPlace || (place->kind == ExprKind::member && as<MemberExpr>(place)->bit >= 0) ||
+                         place->kind == ExprKind::index || place->kind == ExprKind::deref ||
+                         place->kind == ExprKind::direct;
+    if (!isPlace || isBitPlace(place) ||
         (place->constant != nullptr && isElementary(place->type)))
       return argumentError(expr, 0, "a variable");
-    return types_.pointer(place->type);
+    // What is misaligned can be copied byte by byte only.
+    return types_.pointer(isMisaligned(place) ? elementaryType(TypeKind::byte) : place->type);
   }
+  case bitadr:
+    return checkBitAddress(expr);
   case sizeofT:
     if (!requireCount(expr, 1, 1))
       return bad;

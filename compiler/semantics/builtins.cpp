@@ -18,7 +18,8 @@ const std::vector<std::pair<std::string_view, ast::Builtin>> &builtins() {
       {"shl", shl},       {"shr", shr},       {"rol", rol},        {"ror", ror},
       {"len", len},       {"left", left},     {"right", right},    {"mid", mid},
       {"concat", concat}, {"insert", insert}, {"delete", deleteS}, {"replace", replace},
-      {"find", find},     {"time", time},     {"adr", adr},        {"sizeof", sizeofT},
+      {"find", find},     {"time", time},     {"adr", adr},        {"bitadr", bitadr},
+      {"sizeof", sizeofT},
   };
   return kTable;
 }

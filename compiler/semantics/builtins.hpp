@@ -57,6 +57,7 @@ enum class Builtin : std::uint16_t {
   convert, ///< X_TO_Y, TO_Y: from Expr::type of the argument (target is null) to the call's type
   time,    ///< TIME(): the cycle's start as TIME
   adr,     ///< ADR(x): pointer to the argument's type
+  bitadr,  ///< BITADR(x): the place of a located variable, always constant
   sizeofT, ///< SIZEOF(x): constant, or the argument is a variable whose C++ size is meant
 };
 

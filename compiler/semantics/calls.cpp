@@ -1,6 +1,7 @@
 // Calls of functions, function blocks and programs.
 
 #include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/locations.hpp"
 #include "compiler/semantics/suggest.hpp"
 
 namespace stc {
@@ -121,6 +122,7 @@ const Type *Checker::checkCall(CallExpr *expr, bool asStatement) {
     expr->resolved = Callee::functionBlock;
     if (callee->kind != ExprKind::deref)
       requireVariable(callee, "call");
+    requireAligned(callee, "call");
     break;
   }
   bindArguments(expr, pou);
@@ -252,12 +254,14 @@ void Checker::checkReference(Expr *value, const Type *wanted) {
   const Type *type = check(value, wanted);
   if (isError(type) || isError(wanted) || !requireVariable(value, "refer to"))
     return;
-  const bool isBit = value->kind == ExprKind::member && as<MemberExpr>(value)->bit >= 0;
+  const bool isBit = isBitPlace(value);
   if (type != wanted || isBit)
     report(Code::typeMismatch, value->span,
            "expected a variable of type " + typeName(wanted) + ", found " +
                (isBit ? "a single bit" : typeName(type)),
            "a reference needs a variable of exactly its type");
+  else
+    requireAligned(value, "refer to");
 }
 
 void Checker::checkInOut(Argument &argument, VarSymbol *parameter) {
@@ -265,15 +269,20 @@ void Checker::checkInOut(Argument &argument, VarSymbol *parameter) {
   if (isError(type) || isError(parameter->type))
     return;
   const bool constantAllowed = parameter->isConstant;
-  if (argument.value->kind == ExprKind::member && as<MemberExpr>(argument.value)->bit >= 0) {
+  if (isBitPlace(argument.value)) {
+    const bool part = type->kind != TypeKind::boolean;
     report(Code::inOutNotVariable, argument.value->span,
-           "a single bit cannot be passed to a VAR_IN_OUT", "bits have no address")
-        .help("copy it into a BOOL variable first");
+           part ? "a part of a variable cannot be passed to a VAR_IN_OUT"
+                : "a single bit cannot be passed to a VAR_IN_OUT",
+           part ? "it has no variable of its own" : "bits have no address")
+        .help("copy it into a " + typeName(type) +
+              " variable first, and back after the call if it may have changed");
     return;
   }
   const bool isPlace =
       argument.value->kind == ExprKind::name || argument.value->kind == ExprKind::member ||
-      argument.value->kind == ExprKind::index || argument.value->kind == ExprKind::deref;
+      argument.value->kind == ExprKind::index || argument.value->kind == ExprKind::deref ||
+      argument.value->kind == ExprKind::direct;
   if (!isPlace) {
     auto &d = report(Code::inOutNotVariable, argument.value->span,
                      "the VAR_IN_OUT `" + std::string(parameter->name.text) + "` needs a variable",
@@ -294,7 +303,9 @@ void Checker::checkInOut(Argument &argument, VarSymbol *parameter) {
     noteDeclaration(d, parameter);
     if (isElementary(type) && isElementary(wanted))
       d.help("copy it into a variable of type " + typeName(wanted) + " first, and back afterwards");
+    return;
   }
+  requireAligned(argument.value, "pass");
 }
 
 void Checker::checkOutput(Argument &argument, VarSymbol *parameter) {

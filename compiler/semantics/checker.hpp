@@ -73,6 +73,8 @@ private:
   // declarations.cpp
   void resolve(TypeSymbol *symbol);
   void resolveStruct(TypeSymbol *symbol, ast::StructDecl *decl);
+  /// The alignment that {attribute 'pack_mode'} gives.
+  unsigned packMode(const ast::Attributes &attributes, unsigned otherwise);
   const EnumType *makeEnum(ast::EnumTypeExpr *expr, TypeSymbol *symbol);
   void declare(PouSymbol *pou);
   void declare(GlobalsSymbol *globals);
@@ -85,6 +87,19 @@ private:
   const Type *resolveString(ast::StringTypeExpr *expr);
   const Type *resolveSubrange(ast::SubrangeTypeExpr *expr, std::string_view hint);
   std::optional<std::int64_t> constantInteger(ast::Expr *expr, std::string_view what);
+
+  // locations.cpp
+  /// The place a complete address names; reports what names none.
+  std::optional<Location> locate(const ast::DirectAddress &address);
+  /// Makes the area hold the bytes; false (and reported) when it cannot.
+  bool reserve(const ast::DirectAddress &address, std::uint64_t byte, std::uint64_t size);
+  const Type *checkDirect(ast::DirectExpr *expr);
+  /// Gives a variable with an AT clause its location.
+  void placeVariable(VarSymbol *variable);
+  bool locateType(VarSymbol *variable, std::uint64_t bytes, bool isBool);
+  void reportInputWritten(const ast::Expr *expr, const Location &at);
+  const Type *checkBitAddress(ast::CallExpr *expr);
+  void finishImage();
 
   // initializers.cpp
   void checkInitOf(VarSymbol *variable);
@@ -110,6 +125,10 @@ private:
   void checkAs(ast::Expr *expr, const Type *type, std::string_view what);
   void checkCondition(ast::Expr *expr, std::string_view what);
   bool requireVariable(ast::Expr *expr, std::string_view what);
+  /// Reports a variable that cannot be referred to because it is misaligned.
+  bool requireAligned(const ast::Expr *expr, std::string_view what);
+  /// The bit number that a constant gives (`w.cBit`), or nothing.
+  bool bitByName(ast::MemberExpr *expr);
 
   // operators.cpp
   const Type *checkUnary(ast::UnaryExpr *expr, const Type *expected);

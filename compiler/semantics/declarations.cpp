@@ -61,6 +61,22 @@ void Checker::resolve(TypeSymbol *symbol) {
   symbol->library->types.push_back(symbol);
 }
 
+unsigned Checker::packMode(const Attributes &attributes, unsigned otherwise) {
+  for (const Attribute &a : attributes) {
+    if (a.name != "pack_mode")
+      continue;
+    if (a.value == "0" || a.value == "1")
+      return 1;
+    if (a.value == "2" || a.value == "4" || a.value == "8")
+      return static_cast<unsigned>(a.value[0] - '0');
+    report(Code::packMode, a.span,
+           "`" + std::string(a.value) + "` is no way to align the members of a structure",
+           "0, 1, 2, 4 or 8 is possible")
+        .note("0 and 1 leave no gaps; 2, 4 and 8 align each member to that many bytes at most");
+  }
+  return otherwise;
+}
+
 void Checker::resolveStruct(TypeSymbol *symbol, StructDecl *decl) {
   auto *type = arena_.make<StructType>();
   type->kind = TypeKind::structure;
@@ -69,6 +85,7 @@ void Checker::resolveStruct(TypeSymbol *symbol, StructDecl *decl) {
   if (decl->isUnion)
     report(Code::unsupported, symbol->name.span, "UNION is not supported by this version",
            "not available");
+  type->pack = packMode(decl->attributes, symbol->library->isUser ? program_.settings.pack : 0);
   if (!decl->base.empty()) {
     const Name &baseName = decl->base.back();
     Symbol *base = lookup(baseName);
@@ -107,6 +124,8 @@ void Checker::resolveStruct(TypeSymbol *symbol, StructDecl *decl) {
     }
     field->type =
         resolveType(f->type, std::string(symbol->name.text) + "__" + std::string(f->name.text));
+    if (f->address != nullptr)
+      placeVariable(field);
     fields.push_back(field);
     for (const Attribute &a : f->attributes) { // a second name of the same field
       if (a.name == "alias")
@@ -379,10 +398,6 @@ VarSymbol *Checker::makeVariable(VarDecl *decl, Module &module, PouSymbol *owner
   symbol->isConstant = (decl->qualifiers & qualConstant) != 0;
   symbol->hidden = hasAttribute(decl->attributes, "hide");
   decl->symbol = symbol;
-  if (decl->address != nullptr)
-    report(Code::unsupported, decl->address->span,
-           "located variables (AT %…) are not supported by this version", "this address")
-        .help("leave the AT clause out and exchange the value through a global variable");
   return symbol;
 }
 
@@ -410,6 +425,8 @@ const Type *Checker::typeOf(VarSymbol *variable) {
   if (variable->type == nullptr)
     variable->type = type;
   variable->typeRunning = false;
+  if (variable->decl->address != nullptr)
+    placeVariable(variable);
   return variable->type;
 }
 

@@ -1,7 +1,9 @@
 // Expressions without operators and calls: literals, names, members, elements.
 
 #include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/extent.hpp"
 #include "compiler/semantics/fold.hpp"
+#include "compiler/semantics/locations.hpp"
 #include "compiler/semantics/suggest.hpp"
 
 #include <limits>
@@ -49,8 +51,7 @@ const Type *Checker::check(Expr *expr, const Type *expected) {
         .help("assign the elements one by one");
     break;
   case ExprKind::direct:
-    report(Code::unsupported, expr->span, "direct addresses are not supported by this version",
-           "this address");
+    type = checkDirect(as<DirectExpr>(expr));
     break;
   case ExprKind::typeName:
     report(Code::notAVariable, expr->span, "a type is not a value", "a type stands here");
@@ -350,6 +351,8 @@ const Type *Checker::checkMember(MemberExpr *expr) {
   const Type *base = check(expr->base);
   if (isError(base))
     return base;
+  if (bitByName(expr))
+    return checkBit(expr);
   if (base->kind != TypeKind::structure && !isInstance(base)) {
     auto &d = report(Code::unknownMember, expr->name.span, typeName(base) + " has no members",
                      "`." + name + "` is not possible here");
@@ -385,23 +388,77 @@ const Type *Checker::checkMember(MemberExpr *expr) {
   return useSymbol(expr, member, expr->name);
 }
 
+bool Checker::bitByName(MemberExpr *expr) {
+  const Type *base = underlying(expr->base->type);
+  if (!isInteger(base))
+    return false;
+  Symbol *symbol = lookup(expr->name);
+  if (symbol == nullptr || symbol->kind != SymbolKind::variable)
+    return false;
+  auto *variable = static_cast<VarSymbol *>(symbol);
+  if (!variable->isConstant || !isInteger(underlying(typeOf(variable))))
+    return false;
+  checkInitOf(variable);
+  if (variable->constant == nullptr)
+    return false;
+  const std::int64_t bit = variable->constant->integer;
+  if (bit < 0 || bit >= bitWidth(base)) {
+    auto &d = report(Code::bitOutOfRange, expr->name.span,
+                     typeName(expr->base->type) + " has no bit " + std::to_string(bit),
+                     "the bits are 0 to " + std::to_string(bitWidth(base) - 1));
+    noteDeclaration(d, variable);
+    expr->bit = 0;
+    return true;
+  }
+  expr->bit = static_cast<std::int32_t>(bit);
+  return true;
+}
+
 const Type *Checker::checkBit(MemberExpr *expr) {
-  const Type *base = check(expr->base);
+  const Type *base = expr->name ? expr->base->type : check(expr->base);
   if (isError(base))
     return base;
   const Type *u = underlying(base);
-  if (!isInteger(u)) {
-    report(Code::bitOutOfRange, expr->span, typeName(base) + " has no bits to select",
-           "`." + std::to_string(expr->bit) + "` is only possible on integers and bit strings");
+  const bool part = expr->width > 1;
+  const std::string what = part ? "part" : "bit";
+  if (!isInteger(u) || base->kind == TypeKind::enumeration) {
+    auto &d = report(Code::bitOutOfRange, expr->span,
+                     typeName(base) + " has no " + what + "s to select",
+                     "only possible on integers and bit strings");
+    if (isReal(u))
+      d.help("look at the bytes of a REAL through a UNION or a pointer");
+    else if (base->kind == TypeKind::enumeration)
+      d.help("convert it first: `" + typeName(u) + "_TO_WORD(…)`");
     return elementaryType(TypeKind::error);
   }
-  if (static_cast<unsigned>(expr->bit) >= bitWidth(u)) {
+  const unsigned count = bitWidth(u) / expr->width;
+  if (static_cast<unsigned>(expr->bit) >= count) {
+    static constexpr std::string_view kParts[] = {"", "byte", "word", "double word", "long word"};
+    const std::string_view name = kParts[expr->width == 8    ? 1
+                                         : expr->width == 16 ? 2
+                                         : expr->width == 32 ? 3
+                                         : expr->width == 64 ? 4
+                                                             : 0];
+    const std::string noun = part ? std::string(name) : what;
     report(Code::bitOutOfRange, expr->span,
-           typeName(base) + " has no bit " + std::to_string(expr->bit),
-           "the bits are 0 to " + std::to_string(bitWidth(u) - 1));
+           typeName(base) + " has no " + noun + " " + std::to_string(expr->bit),
+           count == 0   ? "it is narrower than that"
+           : count == 1 ? "there is only " + noun + " 0"
+                        : "the " + noun + "s are 0 to " + std::to_string(count - 1));
     return elementaryType(TypeKind::error);
   }
-  return elementaryType(TypeKind::boolean);
+  switch (expr->width) {
+  case 8:
+    return elementaryType(TypeKind::byte);
+  case 16:
+    return elementaryType(TypeKind::word);
+  case 32:
+    return elementaryType(TypeKind::dword);
+  case 64:
+    return elementaryType(TypeKind::lword);
+  default:
+    return elementaryType(TypeKind::boolean);
+  }
 }
 
 const Type *Checker::checkIndex(IndexExpr *expr) {
@@ -466,6 +523,10 @@ bool Checker::requireVariable(Expr *expr, std::string_view what) {
   case ExprKind::deref:
   case ExprKind::error:
     return true;
+  case ExprKind::direct:
+    if (const Location *at = as<DirectExpr>(expr)->location; at != nullptr && what == "assign to")
+      reportInputWritten(expr, *at);
+    return true;
   case ExprKind::index:
     return requireVariable(as<IndexExpr>(expr)->base, what);
   case ExprKind::name:
@@ -492,6 +553,8 @@ bool Checker::requireVariable(Expr *expr, std::string_view what) {
       noteDeclaration(d, variable);
       return false;
     }
+    if (variable->location != nullptr && what == "assign to")
+      reportInputWritten(expr, *variable->location);
     if (expr->kind == ExprKind::member && variable->section == Section::output &&
         variable->owner != scope_.pou) {
       if (what == "pass")
@@ -514,6 +577,22 @@ bool Checker::requireVariable(Expr *expr, std::string_view what) {
            "this is not a variable");
     return false;
   }
+}
+
+bool Checker::requireAligned(const Expr *expr, std::string_view what) {
+  if (!isMisaligned(expr))
+    return true;
+  const unsigned align = extentOf(expr->type).align;
+  auto &d = report(Code::misaligned, expr->span,
+                   "cannot " + std::string(what) + " this variable: it does not lie at a multiple of " +
+                       std::to_string(align) + " bytes",
+                   "misaligned");
+  if (locationOf(expr) != nullptr)
+    d.note("its address is not a multiple of the size of " + typeName(expr->type));
+  else
+    d.note("a structure with pack_mode around it leaves no gaps that would align it");
+  d.help("copy it into a variable of its own first, and back afterwards");
+  return false;
 }
 
 } // namespace stc

@@ -106,7 +106,7 @@ void Checker::declareFile(Module &module, File *file) {
       if (decl->kind != DeclKind::function) {
         const TypeKind kind =
             decl->kind == DeclKind::program ? TypeKind::program : TypeKind::functionBlock;
-        pou.type = arena_.make<PouType>(Type{kind}, &pou);
+        pou.type = arena_.make<PouType>(Type{kind}, &pou, packMode(decl->attributes, 0));
       }
       reportUnsupported(pou.decl);
       library->pous.push_back(&pou);
@@ -299,6 +299,7 @@ void Checker::checkUser(const std::vector<File *> &files) {
     declareFile(user, file);
   checkModule(user);
   declareUsed();
+  finishImage();
 }
 
 void Checker::declareUsed() {

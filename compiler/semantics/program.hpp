@@ -6,6 +6,7 @@
 #include "compiler/source/diagnostic.hpp"
 #include "compiler/source/source_manager.hpp"
 
+#include <array>
 #include <deque>
 #include <memory>
 #include <string>
@@ -44,8 +45,24 @@ public:
   [[nodiscard]] virtual std::vector<Entry> files(std::string_view library) const = 0;
 };
 
+/// What the numbers of direct addresses count.
+enum class Addressing : std::uint8_t {
+  units, ///< units of their size: `%MW3` is bytes 6 and 7; bits by byte: `%MX3.1`
+  bytes, ///< bytes: `%MW3` is bytes 3 and 4
+  words, ///< units of their size; bits by word: `%MX3.9` is bit 1 of byte 7
+};
+
 struct Settings {
   bool checks = true; ///< run-time checks (index, division, null, subrange)
+  Addressing addressing = Addressing::units;
+  std::array<std::uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs
+  unsigned pack = 0; ///< of the project's structures without pack_mode; 0: natural alignment
+};
+
+/// The process image: bytes per area, by Area.
+struct Image {
+  std::array<std::uint32_t, 3> bytes{};
+  std::array<const Type *, 3> types{}; ///< ARRAY [0..n-1] OF BYTE; null where an area is empty
 };
 
 /// Everything of one compilation; owns sources, identifiers, trees, symbols.
@@ -55,6 +72,7 @@ struct Program {
   Arena arena;
   Diagnostics diagnostics;
   Settings settings;
+  Image image;
   std::vector<std::unique_ptr<Library>> libraries; ///< used libraries in order of first use
   Library *user = nullptr;        ///< the project; null while a library itself is compiled
   std::vector<ast::File *> files; ///< parsed user files

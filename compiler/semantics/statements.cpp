@@ -1,6 +1,7 @@
 // Statements and bodies.
 
 #include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/locations.hpp"
 
 #include <map>
 
@@ -131,6 +132,11 @@ void Checker::checkAssign(AssignStmt *stmt) {
       report(Code::typeMismatch, stmt->value->span,
              "expected " + typeName(last->type) + ", found " + typeName(value),
              "a reference needs a variable of exactly its type");
+    else if (isBitPlace(stmt->value))
+      report(Code::typeMismatch, stmt->value->span, "a reference cannot stand for a single bit",
+             "bits have no address");
+    else
+      requireAligned(stmt->value, "refer to");
     return;
   }
   if (expected == nullptr || isError(expected)) {

@@ -24,6 +24,18 @@ struct Symbol {
   Library *library = nullptr; ///< where it is declared
 };
 
+/// The areas of the process image.
+enum class Area : std::uint8_t { input, output, memory };
+
+/// Where a located variable or a direct address lies in the process image.
+struct Location {
+  Area area = Area::memory;
+  std::uint32_t byte = 0; ///< within the area
+  std::int8_t bit = -1;   ///< of that byte; -1: the variable begins with the byte
+  bool isSlot = false; ///< `%I*`: each instance has a slot that holds its place (VAR_CONFIG); then
+                       ///< bit >= 0 says that it is a single bit
+};
+
 /// A variable, parameter or structure field.
 struct VarSymbol : Symbol {
   ast::VarDecl *decl = nullptr; ///< null only for a function's result
@@ -35,6 +47,7 @@ struct VarSymbol : Symbol {
   bool hidden = false;                  ///< {attribute 'hide'}
   bool isResult = false;                ///< the variable of a FUNCTION that holds its result
   const ConstValue *constant = nullptr; ///< value of a CONSTANT of elementary type
+  const Location *location = nullptr;   ///< of an AT clause; null: an ordinary variable
   bool typeRunning = false; ///< the type is being resolved: meeting it again is a circle
   bool initChecked = false; ///< the initial value has been checked (or is being checked)
   bool initRunning = false; ///< is being checked: meeting it again is a circle

@@ -93,11 +93,13 @@ struct StructType : Type {
   TypeSymbol *symbol;
   const StructType *base = nullptr; ///< EXTENDS
   std::span<VarSymbol *> fields;    ///< own fields
+  unsigned pack = 0; ///< {attribute 'pack_mode'}: members are aligned to this at most; 0: naturally
 };
 
 /// FUNCTION_BLOCK or PROGRAM as the type of its instances.
 struct PouType : Type {
   PouSymbol *symbol;
+  unsigned pack = 0; ///< as in StructType
 };
 
 /// POINTER TO / REFERENCE TO

@@ -18,6 +18,7 @@ struct Symbol;     // semantics/symbols.hpp
 struct VarSymbol;
 struct PouSymbol;
 struct TypeSymbol;
+struct Location;
 
 namespace ast {
 
@@ -228,6 +229,7 @@ struct AggregateExpr : Expr {
 /// `%IX0.0` in a statement.
 struct DirectExpr : Expr {
   DirectAddress *address = nullptr;
+  const Location *location = nullptr; ///< [sema]
 };
 
 struct TypeExpr;

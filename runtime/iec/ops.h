@@ -6,6 +6,7 @@
 
 #include "runtime/iec/convert.h"
 #include "runtime/iec/ctx.h"
+#include "runtime/iec/image.h"
 #include "runtime/iec/math.h"
 #include "runtime/iec/strings.h"
 #include "runtime/iec/text.h"
@@ -139,6 +140,16 @@ template <class T> constexpr void setBit(T &x, uint32_t n, BOOL value) {
   const uint64_t mask = uint64_t{1} << n;
   const uint64_t old = static_cast<uint64_t>(x);
   x = static_cast<T>(value != 0 ? old | mask : old & ~mask);
+}
+
+/// Part n of a variable, a T of its width: `w.%B1`.
+template <class T, class V> constexpr T getPart(V x, uint32_t n) {
+  return static_cast<T>(static_cast<uint64_t>(x) >> (n * sizeof(T) * 8));
+}
+template <class T, class V> constexpr void setPart(V &x, uint32_t n, T value) {
+  const uint64_t shift = uint64_t{n} * sizeof(T) * 8;
+  const uint64_t mask = uint64_t{static_cast<T>(~T{})} << shift;
+  x = static_cast<V>((static_cast<uint64_t>(x) & ~mask) | (uint64_t{value} << shift));
 }
 
 // --- selection ----------------------------------------------------------------------------------

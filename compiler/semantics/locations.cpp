@@ -1,0 +1,371 @@
+// Direct addresses and located variables: where they lie in the process image.
+
+#include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/extent.hpp"
+#include "compiler/semantics/locations.hpp"
+
+#include <algorithm>
+
+namespace stc {
+
+using namespace ast;
+
+namespace {
+
+/// Bytes of one area; an address behind is a slip of the pen.
+constexpr std::uint64_t kMaxArea = std::uint64_t{1} << 24;
+
+unsigned unitBytes(char size) {
+  switch (size) {
+  case 'W':
+    return 2;
+  case 'D':
+    return 4;
+  case 'L':
+    return 8;
+  default:
+    return 1;
+  }
+}
+
+char sizeLetter(std::uint64_t bytes) {
+  switch (bytes) {
+  case 2:
+    return 'W';
+  case 4:
+    return 'D';
+  case 8:
+    return 'L';
+  default:
+    return 'B';
+  }
+}
+
+/// Pointers, references and instances cannot lie in memory that others write byte by byte.
+bool holdsAddress(const Type *type) {
+  while (type->kind == TypeKind::array)
+    type = typeAs<ArrayType>(type)->element;
+  if (type->kind == TypeKind::structure) {
+    const auto *s = typeAs<StructType>(type);
+    if (s->base != nullptr && holdsAddress(s->base))
+      return true;
+    return std::any_of(s->fields.begin(), s->fields.end(), [](const VarSymbol *field) {
+      return field->type != nullptr && holdsAddress(field->type);
+    });
+  }
+  return !isElementary(type) && !isError(type);
+}
+
+} // namespace
+
+std::string_view areaName(Area area) {
+  return area == Area::input ? "input" : area == Area::output ? "output" : "memory";
+}
+
+char areaLetter(Area area) {
+  return area == Area::input ? 'I' : area == Area::output ? 'Q' : 'M';
+}
+
+std::string addressText(const Location &at, std::uint64_t bytes, Addressing addressing) {
+  std::string text = std::string("%") + areaLetter(at.area);
+  const auto number = [](std::uint64_t n) { return std::to_string(n); };
+  if (at.bit >= 0) {
+    text += 'X';
+    return addressing == Addressing::words
+               ? text + number(at.byte / 2) + "." +
+                     number(at.byte % 2 * 8 + static_cast<unsigned>(at.bit))
+               : text + number(at.byte) + "." + std::to_string(at.bit);
+  }
+  char size = sizeLetter(bytes);
+  if (addressing != Addressing::bytes && at.byte % unitBytes(size) != 0)
+    size = 'B';
+  text += size;
+  return text + number(addressing == Addressing::bytes ? at.byte : at.byte / unitBytes(size));
+}
+
+const VarSymbol *locatedVariable(const Expr *expr) {
+  const Symbol *symbol = nullptr;
+  if (expr->kind == ExprKind::name)
+    symbol = as<NameExpr>(expr)->symbol;
+  else if (expr->kind == ExprKind::member && as<MemberExpr>(expr)->bit < 0)
+    symbol = as<MemberExpr>(expr)->symbol;
+  if (symbol == nullptr || symbol->kind != SymbolKind::variable)
+    return nullptr;
+  const auto *variable = static_cast<const VarSymbol *>(symbol);
+  return variable->location != nullptr ? variable : nullptr;
+}
+
+const Location *locationOf(const Expr *expr) {
+  if (expr->kind == ExprKind::direct)
+    return as<DirectExpr>(expr)->location;
+  const VarSymbol *variable = locatedVariable(expr);
+  return variable == nullptr ? nullptr : variable->location;
+}
+
+bool isBitPlace(const Expr *expr) {
+  if (expr->kind == ExprKind::member && as<MemberExpr>(expr)->bit >= 0)
+    return true;
+  const Location *at = locationOf(expr);
+  return at != nullptr && at->bit >= 0;
+}
+
+std::optional<Location> Checker::locate(const DirectAddress &address) {
+  Location at;
+  at.area = address.area == 'I' ? Area::input : address.area == 'Q' ? Area::output : Area::memory;
+  const std::string text(address.text);
+  std::span<const std::uint32_t> numbers = address.numbers;
+  if (numbers.empty())
+    return std::nullopt; // reported by the scanner
+  const Addressing addressing = program_.settings.addressing;
+  const auto bit = [&](std::uint64_t base, std::uint32_t number,
+                       unsigned width) -> std::optional<Location> {
+    if (number >= width) {
+      auto &d = report(Code::addressBeyond, address.span,
+                       "`" + text + "` has no bit " + std::to_string(number),
+                       "the bits are 0 to " + std::to_string(width - 1));
+      if (address.size == 'X')
+        d.help("the number before the dot counts " +
+               std::string(width == 8 ? "bytes: this bit is `%" : "words: this bit is `%") +
+               address.area + 'X' + std::to_string(numbers.front() + number / width) + "." +
+               std::to_string(number % width) + "`");
+      return std::nullopt;
+    }
+    const std::uint64_t byte = base + number / 8;
+    if (byte >= kMaxArea) {
+      reserve(address, byte, 1);
+      return std::nullopt;
+    }
+    at.byte = static_cast<std::uint32_t>(byte);
+    at.bit = static_cast<std::int8_t>(number % 8);
+    return at;
+  };
+  const unsigned unit = unitBytes(address.size);
+  const auto byteOf = [&](std::uint32_t number) {
+    return addressing == Addressing::bytes ? std::uint64_t{number} : std::uint64_t{number} * unit;
+  };
+  if (address.size == 'X') {
+    if (numbers.size() == 3 && numbers.front() == 0)
+      numbers = numbers.subspan(1); // V2.3's number of the memory segment: there is one
+    if (numbers.size() == 1)
+      return bit(numbers[0] / 8, numbers[0] % 8, 8);
+    if (numbers.size() == 2)
+      return addressing == Addressing::words ? bit(std::uint64_t{numbers[0]} * 2, numbers[1], 16)
+                                             : bit(numbers[0], numbers[1], 8);
+  } else {
+    if (numbers.size() == 2)
+      return bit(byteOf(numbers[0]), numbers[1], unit * 8);
+    if (numbers.size() == 1) {
+      const std::uint64_t byte = byteOf(numbers[0]);
+      if (byte >= kMaxArea) {
+        reserve(address, byte, 1);
+        return std::nullopt;
+      }
+      at.byte = static_cast<std::uint32_t>(byte);
+      return at;
+    }
+  }
+  auto &d = report(Code::addressBeyond, address.span,
+                   "`" + text + "` does not name a place in the process image",
+                   "too many numbers");
+  d.note("addresses that follow the tree of a PLC configuration depend on its devices; here the "
+         "process image is one row of bytes");
+  d.help("write the byte and the bit: `%" + std::string(1, address.area) + "X3.7`; or the unit: `%" +
+         std::string(1, address.area) + "W3`");
+  return std::nullopt;
+}
+
+bool Checker::reserve(const DirectAddress &address, std::uint64_t byte, std::uint64_t size) {
+  const std::size_t area = address.area == 'I' ? 0 : address.area == 'Q' ? 1 : 2;
+  const std::uint32_t configured = program_.settings.imageBytes[area];
+  const std::uint64_t limit = configured != 0 ? configured : kMaxArea;
+  if (size > limit || byte > limit - size) {
+    const char *const kKeys[] = {"inputs", "outputs", "memory"};
+    auto &d = report(Code::addressBeyond, address.span,
+                     "`" + std::string(address.text) + "` lies behind the end of the " +
+                         std::string(areaName(static_cast<Area>(area))) + " area",
+                     size <= 1 ? "this is byte " + std::to_string(byte)
+                               : "bytes " + std::to_string(byte) + " to " +
+                                     std::to_string(byte + size - 1));
+    if (configured != 0)
+      d.help("stride.toml gives the area " + std::to_string(configured) +
+             " bytes: enlarge `" + kKeys[area] + "` in [image]");
+    else
+      d.note("an area holds 16,777,216 bytes at most");
+    return false;
+  }
+  std::uint32_t &bytes = program_.image.bytes[area];
+  bytes = std::max(bytes, static_cast<std::uint32_t>(byte + size));
+  return true;
+}
+
+const Type *Checker::checkDirect(DirectExpr *expr) {
+  const Type *error = elementaryType(TypeKind::error);
+  const DirectAddress &address = *expr->address;
+  if (address.incomplete) {
+    report(Code::addressNotAllowed, expr->span,
+           "`" + std::string(address.text) + "` does not say where: it cannot be used as a value",
+           "this address has no number")
+        .help("give the number, `%" + std::string(1, address.area) +
+              "W0`; or declare a variable `x AT " + std::string(address.text) + " : …`");
+    return error;
+  }
+  const auto at = locate(address);
+  if (!at)
+    return error;
+  const unsigned bytes = at->bit >= 0 ? 1 : unitBytes(address.size);
+  if (!reserve(address, at->byte, bytes))
+    return error;
+  if (!scope_.module->library->isUser) {
+    report(Code::addressNotAllowed, expr->span, "a library cannot use a direct address",
+           "belongs to the project")
+        .help("pass the value as a parameter");
+    return error;
+  }
+  expr->location = arena_.make<Location>(*at);
+  if (at->bit >= 0)
+    return elementaryType(TypeKind::boolean);
+  return elementaryType(bytes == 1   ? TypeKind::byte
+                        : bytes == 2 ? TypeKind::word
+                        : bytes == 4 ? TypeKind::dword
+                                     : TypeKind::lword);
+}
+
+void Checker::placeVariable(VarSymbol *variable) {
+  const VarDecl *decl = variable->decl;
+  const DirectAddress &address = *decl->address;
+  const std::string name(variable->name.text);
+  const auto refuse = [&](std::string message, std::string label) -> Diagnostic & {
+    return report(Code::addressNotAllowed, address.span, std::move(message), std::move(label));
+  };
+  if (variable->owner == nullptr && variable->globals == nullptr) {
+    refuse("the field `" + name + "` of a structure cannot have an address", "belongs to no place")
+        .help("give the address to the variable of the structure's type");
+    return;
+  }
+  const DeclKind owner =
+      variable->owner == nullptr ? DeclKind::globals : variable->owner->decl->kind;
+  if (owner != DeclKind::globals && owner != DeclKind::program && owner != DeclKind::functionBlock &&
+      owner != DeclKind::classD) {
+    refuse("a variable of " + describe(variable->owner) + " cannot have an address",
+           "it exists only during the call")
+        .help("declare it in VAR_GLOBAL, or in the VAR of a program or function block");
+    return;
+  }
+  if (owner != DeclKind::globals && decl->section != Section::local &&
+      (decl->section != Section::stat || address.incomplete)) {
+    refuse("only variables of VAR and VAR_GLOBAL can have an address",
+           "`" + name + "` is declared in another section");
+    return;
+  }
+  if (variable->isConstant) {
+    refuse("the constant `" + name + "` cannot have an address", "a constant is not stored")
+        .help("remove CONSTANT");
+    return;
+  }
+  if (!variable->library->isUser && !address.incomplete) {
+    refuse("a library cannot use a direct address", "belongs to the project");
+    return;
+  }
+  const Type *type = variable->type;
+  if (isError(type))
+    return;
+  if (holdsAddress(type)) {
+    report(Code::addressType, address.span,
+           "a variable of type " + typeName(type) + " cannot lie in the process image",
+           "holds addresses of other variables")
+        .note("the process image is memory that the devices and other variables write byte by "
+              "byte");
+    return;
+  }
+  const bool isBool = type->kind == TypeKind::boolean;
+  const std::uint64_t bytes = extentOf(type).size;
+  // A letter behind `%I` is optional in front of `*`.
+  const bool letter = !address.incomplete || (address.text.size() > 2 && address.text[2] != '*');
+  const auto place = letter ? locateType(variable, bytes, isBool) : true;
+  if (!place)
+    return;
+  Location at;
+  if (address.incomplete) {
+    at.area = address.area == 'I' ? Area::input : address.area == 'Q' ? Area::output : Area::memory;
+    at.isSlot = true;
+    at.bit = isBool ? 0 : -1;
+    variable->location = arena_.make<Location>(at);
+    return;
+  }
+  const auto found = locate(address);
+  if (!found)
+    return;
+  if (found->bit >= 0 && !isBool) { // `%MW3.2`
+    report(Code::addressType, address.span,
+           "`" + std::string(address.text) + "` is a single bit, `" + name + "` is " +
+               typeName(type),
+           "only a BOOL fits into a bit");
+    return;
+  }
+  if (!reserve(address, found->byte, found->bit >= 0 ? 1 : bytes))
+    return;
+  variable->location = arena_.make<Location>(*found);
+}
+
+/// Whether the letter of the address suits the type.
+bool Checker::locateType(VarSymbol *variable, std::uint64_t bytes, bool isBool) {
+  const DirectAddress &address = *variable->decl->address;
+  const Type *type = variable->type;
+  if (address.size == 'X' && !isBool) {
+    auto &d = report(Code::addressType, address.span,
+                     "`" + std::string(address.text) + "` is a single bit, `" +
+                         std::string(variable->name.text) + "` is " + typeName(type),
+                     "only a BOOL fits into a bit");
+    d.help(std::string("write the size of the type: `%") + address.area +
+           (isElementary(type) ? sizeLetter(bytes) : 'B') + "…`");
+    return false;
+  }
+  if (isBool || !isElementary(type) || isString(type) || address.size == sizeLetter(bytes))
+    return true;
+  report(Code::addressSize, address.span,
+         "`" + std::string(address.text) + "` is " +
+             std::to_string(unitBytes(address.size) * 8) + " bits wide, " + typeName(type) +
+             " is " + std::to_string(bytes * 8),
+         "`" + std::string(variable->name.text) + "` begins there and is " +
+             std::to_string(bytes * 8) + " bits wide")
+      .help(std::string("write `%") + address.area + sizeLetter(bytes) +
+            "…` for a variable of this type");
+  return true;
+}
+
+void Checker::reportInputWritten(const Expr *expr, const Location &at) {
+  if (at.area != Area::input)
+    return;
+  report(Code::inputWritten, expr->span, "this writes to an input",
+         "the device overwrites it at the start of the next cycle")
+      .help("write to an output (%Q) or to memory (%M)");
+}
+
+const Type *Checker::checkBitAddress(CallExpr *expr) {
+  const Type *error = elementaryType(TypeKind::error);
+  if (!requireCount(expr, 1, 1))
+    return error;
+  const Expr *value = expr->arguments[0].value;
+  const Location *at = locationOf(value);
+  if (at == nullptr || at->isSlot)
+    return argumentError(expr, 0, "a variable with an address (`AT %IX2.3`)");
+  // The highest four bits name the area.
+  constexpr std::int64_t kAreas[] = {0x80000000LL, 0xC0000000LL, 0x40000000LL};
+  const std::int64_t bit = std::int64_t{at->byte} * 8 + std::max<std::int64_t>(at->bit, 0);
+  expr->constant = makeConstant(
+      {ConstKind::integer, kAreas[static_cast<std::size_t>(at->area)] + bit, 0, {}});
+  return elementaryType(TypeKind::dword);
+}
+
+void Checker::finishImage() {
+  Image &image = program_.image;
+  for (std::size_t area = 0; area < image.bytes.size(); ++area) {
+    std::uint32_t &bytes = image.bytes[area];
+    bytes = (std::max(bytes, program_.settings.imageBytes[area]) + 7) / 8 * 8;
+    if (bytes != 0)
+      image.types[area] =
+          types_.array(elementaryType(TypeKind::byte), 0, std::int64_t{bytes} - 1);
+  }
+}
+
+} // namespace stc

@@ -1,0 +1,26 @@
+#pragma once
+// Places in the process image.
+
+#include "compiler/semantics/program.hpp"
+
+#include <string>
+#include <string_view>
+
+namespace stc {
+
+/// `input`, `output`, `memory`
+[[nodiscard]] std::string_view areaName(Area area);
+/// I, Q, M
+[[nodiscard]] char areaLetter(Area area);
+/// `%MW3`: the address of a variable of `bytes` bytes there.
+[[nodiscard]] std::string addressText(const Location &at, std::uint64_t bytes,
+                                      Addressing addressing);
+
+/// The located variable that the expression names; null for all others.
+[[nodiscard]] const VarSymbol *locatedVariable(const ast::Expr *expr);
+/// The place of a located variable or a direct address; null for all others.
+[[nodiscard]] const Location *locationOf(const ast::Expr *expr);
+/// A bit or a part of a variable, which has no address: `w.3`, `w.%B1`, `%IX0.3`, `x AT %IX0.3`.
+[[nodiscard]] bool isBitPlace(const ast::Expr *expr);
+
+} // namespace stc
