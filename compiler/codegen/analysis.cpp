@@ -438,8 +438,7 @@ void Analysis::enterLoop(const ForStmt *loop) {
   const VarSymbol *variable = namedVariable(loop->variable);
   const bool own = variable != nullptr && variable->owner != nullptr &&
                    variable->section != Section::inOut && variable->section != Section::stat &&
-                   variable->location == nullptr &&
-                   variable->type->kind != TypeKind::reference;
+                   variable->location == nullptr && variable->type->kind != TypeKind::reference;
   if (own && loop->from->constant != nullptr && loop->to->constant != nullptr &&
       (loop->by == nullptr ||
        (loop->by->constant != nullptr && loop->by->constant->integer != 0)) &&

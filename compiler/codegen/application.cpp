@@ -39,18 +39,29 @@ public:
   GeneratedFile app() {
     for (const Member &m : members_)
       addRoots(m);
+    types_.addImage();
+    for (const AccessPath &access : c_.program.accessPaths)
+      types_.addAccess(access);
     std::string tables = types_.text();
     for (const Member &m : members_)
       types_.includes().symbol(m.root.symbol);
     std::string out = banner("The application object");
-    out += "#include \"runtime/app/abi.h\"\n" + types_.includes().text(nullptr);
+    out += "#include \"runtime/app/abi.h\"\n#include \"runtime/iec/image.h\"\n" + types_.includes().text(nullptr);
     out += "\n#pragma GCC diagnostic ignored \"-Winvalid-offsetof\"\n";
     out += "\nnamespace st::user {\n\n/// All state of the application.\nstruct App__ {\n";
     for (const Member &m : members_)
       out += "  " + rootType(c_.names, m.root) + " " + m.name + ";\n";
+    for (std::size_t area = 0; area < 3; ++area) {
+      if (const std::uint32_t bytes = c_.program.image.bytes[area]; bytes != 0)
+        out += std::string("  alignas(8) ::stride::BYTE ") + "iqm"[area] + "__[" +
+               std::to_string(bytes) + "]; // %" + "IQM"[area] + "\n";
+    }
     if (members_.empty())
       out += "  ::stride::BYTE empty__;\n";
-    out += "};\n\n} // namespace st::user\n";
+    out += "};\n";
+    if (hasConfiguredValues(c_.program))
+      out += "\nvoid configure__(::stride::Ctx &ctx__);\n";
+    out += "\n} // namespace st::user\n";
     places(out);
     out += "\nnamespace {\n\nusing ::st::user::App__;\nusing ::stride::Kind;\n"
            "\n[[maybe_unused]] App__ &app__(::stride::Ctx *ctx__) { return *static_cast<App__ "
@@ -175,16 +186,49 @@ private:
     }
     if (open != nullptr)
       out += "}\n";
+    out += "\nnamespace st {\n";
+    for (std::size_t area = 0; area < 3; ++area)
+      out += std::string("const ::stride::ULINT ") + "iqm"[area] + "__at__ = " +
+             (c_.program.image.bytes[area] == 0
+                  ? std::string("0")
+                  : std::string("offsetof(::st::user::App__, ") + "iqm"[area] + "__)") +
+             ";\n";
+    out += "}\n";
+  }
+
+  /// The areas of the process image for the description.
+  [[nodiscard]] std::string image() const {
+    std::string out = "{";
+    for (std::size_t area = 0; area < 3; ++area) {
+      const std::uint32_t bytes = c_.program.image.bytes[area];
+      out += area == 0 ? "{" : ", {";
+      out += bytes == 0 ? std::string("0, 0}")
+                        : std::string("offsetof(App__, ") + "iqm"[area] + "__), " +
+                              std::to_string(bytes) + "}";
+    }
+    return out + "}";
   }
 
   void init(std::string &out) {
     out += "\n// Libraries first, then files by path, then in the order of declaration.\nvoid "
            "init__(::stride::Ctx *";
     std::string body;
+    for (const SlotPlace &slot : c_.program.slotPlaces) {
+      if (!slot.placed || slot.variable == nullptr)
+        continue;
+      const std::uint64_t number =
+          slot.at.bit >= 0 ? std::uint64_t{slot.at.byte} * 8 + static_cast<unsigned>(slot.at.bit)
+                           : slot.at.byte;
+      if (number != 0)
+        body += "  app__(ctx__)." + statePath(c_.names, slot.path, c_.program.user) + " = " +
+                std::to_string(number) + "; // " + std::string(slot.decl->address->text) + "\n";
+    }
     for (const Member &m : members_) {
       if (rootNeedsInit(c_, m.root))
         body += "  app__(ctx__)." + m.name + ".init__(*ctx__);\n";
     }
+    if (hasConfiguredValues(c_.program))
+      body += "  ::st::user::configure__(*ctx__);\n";
     out += (body.empty() ? ") {\n" : "ctx__) {\n") + body + "}\n";
   }
 
@@ -321,6 +365,12 @@ private:
     field("fileCount", "0");
     field("axisRefLayout", std::to_string(axisLayout_) + "ULL");
     field("axisGroupRefLayout", std::to_string(groupLayout_) + "ULL");
+    field("image", image());
+    static constexpr std::string_view kAddressing[] = {"Units", "Bytes", "Words"};
+    field("imageAddressing",
+          "::stride::ImageAddressing::" +
+              std::string(kAddressing[static_cast<std::size_t>(c_.program.settings.addressing)]));
+    field("reserved2", "0");
     out += "};\n\n} // namespace st::user\n";
   }
 

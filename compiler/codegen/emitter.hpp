@@ -43,6 +43,12 @@ std::string rootPlace(Names &names, const Root &root);
 /// `GVL__`, `Path__program`, `F__static`: what it is called in bodies and in the state; with the
 /// library's name in front when it is not `own`.
 std::string rootName(Names &names, const Root &root, const Library *own);
+/// The root in which the path begins.
+Root rootOf(const StatePath &path);
+/// The type of the variable it leads to.
+const Type *typeAt(const StatePath &path);
+/// The path as C++, from the state: `Main__program.fb.x`.
+std::string statePath(Names &names, const StatePath &path, const Library *own);
 /// The statics of a POU that has some.
 [[nodiscard]] bool hasStatics(const PouSymbol *pou);
 
@@ -59,6 +65,8 @@ public:
   void initVariable(std::string_view target, const VarSymbol *variable);
   /// Gives a local variable its default: `T x = 5;` or `T x{};` and what follows.
   void declareLocal(const VarSymbol *variable);
+  /// Gives what VAR_CONFIG says of a variable: its initial value.
+  void initConfigured(const SlotPlace &entry);
 
   [[nodiscard]] Writer &writer() { return w_; }
   [[nodiscard]] Includes &includes() { return includes_; }

@@ -96,8 +96,7 @@ void Emitter::text(const Expr *e) {
 // places
 
 const VarSymbol *Emitter::indirectVariable(const Expr *e) {
-  const Symbol *symbol =
-      isBitPlace(e) ? nullptr : symbolOf(e);
+  const Symbol *symbol = isBitPlace(e) ? nullptr : symbolOf(e);
   if (symbol == nullptr || symbol->kind != SymbolKind::variable)
     return nullptr;
   const auto *v = static_cast<const VarSymbol *>(symbol);

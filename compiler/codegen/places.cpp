@@ -2,6 +2,8 @@
 
 #include "compiler/codegen/emitter.hpp"
 
+#include <algorithm>
+
 namespace stc::codegen {
 
 using namespace ast;
@@ -86,6 +88,87 @@ void Emitter::initLocated(std::string_view target, const VarSymbol *variable) {
   begin(initSpan_);
   storeTo(place, variable->type, init);
   end();
+}
+
+void Emitter::initConfigured(const SlotPlace &entry) {
+  initSpan_ = entry.decl->name.span.valid() ? entry.decl->name.span : entry.decl->path->span;
+  const Expr *init = entry.decl->init;
+  std::string place;
+  const Type *type = init->target != nullptr ? init->target : init->type;
+  if (entry.placed && entry.variable != nullptr) {
+    type = entry.variable->type;
+    if (entry.at.bit >= 0) {
+      begin(initSpan_);
+      w_ << "::stride::setBit(" << area(entry.at.area) << '[' << entry.at.byte << "], "
+         << int{entry.at.bit} << ", ";
+      valueAs(init, type);
+      w_ << ");";
+      end();
+      return;
+    }
+    const std::size_t start = w_.size();
+    located(entry.at, type, [] {});
+    place = w_.cut(start);
+  } else {
+    const Root owner = rootOf(entry.path);
+    const std::string_view reference = root(owner);
+    type = entry.path.steps.empty() ? static_cast<const VarSymbol *>(entry.path.root)->type
+                                    : typeAt(entry.path);
+    const std::string path = statePath(c_.names, entry.path, c_.own);
+    place = std::string(reference) +
+            path.substr(rootName(c_.names, owner, c_.own).size());
+  }
+  if (init->kind == ExprKind::aggregate) {
+    initValue(place, type, init);
+    return;
+  }
+  begin(initSpan_);
+  storeTo(place, type, init);
+  end();
+}
+
+Root rootOf(const StatePath &path) {
+  if (path.root->kind == SymbolKind::pou)
+    return {path.root, false};
+  return {static_cast<const VarSymbol *>(path.root)->globals, false};
+}
+
+const Type *typeAt(const StatePath &path) {
+  const Type *type = path.root->kind == SymbolKind::pou
+                         ? static_cast<const PouSymbol *>(path.root)->type
+                         : static_cast<const VarSymbol *>(path.root)->type;
+  for (const PathStep &step : path.steps)
+    type = step.member != nullptr ? step.member->type : typeAs<ArrayType>(type)->element;
+  return type;
+}
+
+std::string statePath(Names &names, const StatePath &path, const Library *own) {
+  std::string text = rootName(names, rootOf(path), own);
+  const Type *type = nullptr;
+  if (path.root->kind == SymbolKind::variable) {
+    text += "." + mangle(path.root->name.text);
+    type = static_cast<const VarSymbol *>(path.root)->type;
+  } else {
+    type = static_cast<const PouSymbol *>(path.root)->type;
+  }
+  for (const PathStep &step : path.steps) {
+    if (step.member == nullptr) {
+      text += ".v[" + std::to_string(step.element) + "]";
+      type = typeAs<ArrayType>(type)->element;
+      continue;
+    }
+    text += ".";
+    if (type->kind == TypeKind::structure) {
+      for (const auto *s = typeAs<StructType>(type); s->base != nullptr; s = s->base) {
+        if (std::find(s->fields.begin(), s->fields.end(), step.member) != s->fields.end())
+          break;
+        text += "base__.";
+      }
+    }
+    text += mangle(step.member->name.text);
+    type = step.member->type;
+  }
+  return text;
 }
 
 } // namespace stc::codegen

@@ -3,6 +3,8 @@
 #include "compiler/codegen/inlining.hpp"
 #include "compiler/codegen/units.hpp"
 
+#include <algorithm>
+
 namespace stc::codegen {
 
 using namespace ast;
@@ -42,6 +44,22 @@ public:
     }
     const Writer body = e_.takeWriter();
     functionHead("void " + std::string(name) + "::init__(::stride::Ctx &" +
+                 (e_.usesContext() ? "ctx__" : "") + ")");
+    prologue();
+    text_.append(body);
+    functionEnd();
+  }
+
+  /// `void configure__(…)`: the initial values that VAR_CONFIG gives.
+  void configured() {
+    e_.forgetUses();
+    e_.writer().indent();
+    for (const SlotPlace &entry : c_.program.slotPlaces) {
+      if (entry.decl->init != nullptr)
+        e_.initConfigured(entry);
+    }
+    const Writer body = e_.takeWriter();
+    functionHead(std::string("void configure__(::stride::Ctx &") +
                  (e_.usesContext() ? "ctx__" : "") + ")");
     prologue();
     text_.append(body);
@@ -191,8 +209,8 @@ private:
       if ((areas >> area & 1U) == 0)
         continue;
       const char letter = "iqm"[area];
-      text_.line() << "  ::stride::BYTE *const " << letter << "__ = ::stride::area(ctx__, ::st::"
-                   << letter << "__at__);";
+      text_.line() << "  ::stride::BYTE *const " << letter
+                   << "__ = ::stride::area(ctx__, ::st::" << letter << "__at__);";
       text_.endLine();
     }
   }
@@ -254,6 +272,11 @@ void statics(Context &context, SourceBuilder &source, const PouSymbol *pou) {
 
 } // namespace
 
+bool hasConfiguredValues(const Program &program) {
+  return std::any_of(program.slotPlaces.begin(), program.slotPlaces.end(),
+                     [](const SlotPlace &entry) { return entry.decl->init != nullptr; });
+}
+
 void generateSources(Context &context, std::vector<GeneratedFile> &files) {
   const Library &library = *context.own;
   const std::string folder = std::string(context.names.space(&library)) + "/";
@@ -273,6 +296,10 @@ void generateSources(Context &context, std::vector<GeneratedFile> &files) {
       continue;
     types.emitter().includes().symbol(g);
     types.init(context.names.local(g), rootVariables({g, false}));
+    any = true;
+  }
+  if (library.isUser && hasConfiguredValues(context.program)) {
+    types.configured();
     any = true;
   }
   if (any)

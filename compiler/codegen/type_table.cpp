@@ -1,6 +1,7 @@
 #include "compiler/codegen/type_table.hpp"
 
 #include "compiler/codegen/units.hpp"
+#include "compiler/semantics/type_table.hpp"
 
 namespace stc::codegen {
 
@@ -44,6 +45,29 @@ std::string symbolFlags(const VarSymbol *v, bool qualifiedOnly = false) {
       "InitOnChange");
   add(qualifiedOnly, "QualifiedOnly");
   return out.empty() ? "0" : out;
+}
+
+/// Flags, offset and type of a variable in the process image are not those of an ordinary one.
+std::string locatedFlags(const Location &at, std::string flags) {
+  flags = flags == "0" ? "" : flags + " | ";
+  flags += at.isSlot ? "::stride::kSymSlot | " + std::to_string(static_cast<unsigned>(at.area)) +
+                           "U << ::stride::kSymAreaShift"
+                     : "::stride::kSymLocated";
+  if (at.bit >= 0)
+    flags += " | ::stride::kSymBit";
+  if (!at.isSlot && at.bit > 0)
+    flags += " | " + std::to_string(at.bit) + "U << ::stride::kSymBitShift";
+  return flags;
+}
+
+std::string locatedFlags(const VarSymbol *v, std::string flags) {
+  return v->location == nullptr ? flags : locatedFlags(*v->location, std::move(flags));
+}
+
+/// `offsetof(App__, m__) + 6`
+std::string placeInImage(const Location &at) {
+  return std::string("offsetof(App__, ") + "iqm"[static_cast<unsigned>(at.area)] + "__) + " +
+         std::to_string(at.byte);
 }
 
 std::string quote(std::string_view text) { return '"' + escaped(text) + '"'; }
@@ -154,11 +178,15 @@ void TypeTable::members(Row &row, const Type *base, const std::string &owner,
   if (base != nullptr)
     memberRows_.push_back("{" + quote(typeName(base)) + ", offsetof(" + owner + ", base__), " +
                           std::to_string(baseIndex) + ", ::stride::kSymBase}");
-  for (std::size_t i = 0; i < variables.size(); ++i)
-    memberRows_.push_back("{" + quote(variables[i]->name.text) + ", offsetof(" + owner + ", " +
-                          mangle(variables[i]->name.text) + "), " + std::to_string(types[i]) +
-                          ", " + symbolFlags(variables[i]) +
-                          renamedColumn(renamedFrom(variables[i]->decl->attributes)) + "}");
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const VarSymbol *v = variables[i];
+    const std::string offset = isPlaced(v)
+                                   ? placeInImage(*v->location)
+                                   : "offsetof(" + owner + ", " + mangle(v->name.text) + ")";
+    memberRows_.push_back("{" + quote(v->name.text) + ", " + offset + ", " +
+                          std::to_string(types[i]) + ", " + locatedFlags(v, symbolFlags(v)) +
+                          renamedColumn(renamedFrom(v->decl->attributes)) + "}");
+  }
   row.memberCount = memberRows_.size() - row.firstMember;
 }
 
@@ -169,10 +197,46 @@ void TypeTable::addRoot(std::string_view list, const VarSymbol *variable, const 
   if (renamed.empty() && !listRenamedFrom.empty())
     renamed.append(listRenamedFrom).append(".").append(variable->name.text);
   const std::uint32_t type = index(variable->type, variable->section == Section::inOut);
+  const std::string offset =
+      isPlaced(variable) ? placeInImage(*variable->location) : "offsetof(App__, " + place + ")";
   rootRows_.push_back("{" + (list.empty() ? std::string("nullptr") : quote(list)) + ", " +
-                      quote(variable->name.text) + ", offsetof(App__, " + place + "), " +
-                      std::to_string(type) + ", " + symbolFlags(variable, qualifiedOnly) +
+                      quote(variable->name.text) + ", " + offset + ", " + std::to_string(type) +
+                      ", " + locatedFlags(variable, symbolFlags(variable, qualifiedOnly)) +
                       renamedColumn(renamed) + "}");
+}
+
+void TypeTable::addImage() {
+  const Image &image = c_.program.image;
+  bool any = false;
+  for (std::size_t area = 0; area < image.types.size(); ++area) {
+    if (image.types[area] == nullptr)
+      continue;
+    any = true;
+    const char letter = "iqm"[area];
+    rootRows_.push_back(std::string("{nullptr, \"%") + "IQM"[area] + "\", offsetof(App__, " +
+                        letter + "__), " + std::to_string(index(image.types[area])) +
+                        ", ::stride::kSymHidden}");
+  }
+  if (!any)
+    return;
+  // Hosts show and set direct addresses as these.
+  for (const TypeKind kind :
+       {TypeKind::boolean, TypeKind::byte, TypeKind::word, TypeKind::dword, TypeKind::lword})
+    index(elementaryType(kind));
+}
+
+void TypeTable::addAccess(const AccessPath &access) {
+  std::string flags = access.decl->readWrite ? "0" : "::stride::kSymConstant";
+  std::string offset;
+  if (access.location == nullptr || access.location->isSlot)
+    offset = "offsetof(App__, " + statePath(c_.names, access.path, c_.program.user) + ")";
+  else
+    offset = placeInImage(*access.location);
+  if (access.location != nullptr)
+    flags = locatedFlags(*access.location, flags);
+  const std::uint32_t type = index(access.type);
+  rootRows_.push_back("{nullptr, " + quote(access.decl->name.text) + ", " + offset + ", " +
+                      std::to_string(type) + ", " + flags + "}");
 }
 
 void TypeTable::addProgram(const PouSymbol *program, const std::string &place) {

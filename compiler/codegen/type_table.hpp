@@ -27,6 +27,10 @@ public:
   /// `listRenamedFrom`: the earlier name of its list, empty without one.
   void addRoot(std::string_view list, const VarSymbol *variable, const std::string &place,
                bool qualifiedOnly, std::string_view listRenamedFrom);
+  /// The areas of the process image, and the types of direct addresses.
+  void addImage();
+  /// An entry of VAR_ACCESS.
+  void addAccess(const AccessPath &access);
   void addProgram(const PouSymbol *program, const std::string &place);
 
   /// `constexpr … kTypes[] = { … };` and the other tables.

@@ -20,6 +20,9 @@ void generateSources(Context &context, std::vector<GeneratedFile> &files);
 /// Whether the root's memory must be set after it has been zeroed.
 [[nodiscard]] bool rootNeedsInit(Context &context, const Root &root);
 
+/// VAR_CONFIG gives initial values: `configure__` sets them.
+[[nodiscard]] bool hasConfiguredValues(const Program &program);
+
 /// `R Name(::stride::Ctx &ctx__, T a)`. In a definition unused parameters are marked and an unused
 /// context has no name.
 [[nodiscard]] std::string functionSignature(Context &context, const PouSymbol *symbol,

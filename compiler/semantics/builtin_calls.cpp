@@ -414,8 +414,7 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
     const bool isPlace = place->kind == ExprKind::name || place->kind == ExprKind::member ||
                          place->kind == ExprKind::index || place->kind == ExprKind::deref ||
                          place->kind == ExprKind::direct;
-    if (!isPlace || isBitPlace(place) ||
-        (place->constant != nullptr && isElementary(place->type)))
+    if (!isPlace || isBitPlace(place) || (place->constant != nullptr && isElementary(place->type)))
       return argumentError(expr, 0, "a variable");
     // What is misaligned can be copied byte by byte only.
     return types_.pointer(isMisaligned(place) ? elementaryType(TypeKind::byte) : place->type);

@@ -10,15 +10,15 @@ namespace stc {
 const std::vector<std::pair<std::string_view, ast::Builtin>> &builtins() {
   using enum ast::Builtin;
   static const std::vector<std::pair<std::string_view, ast::Builtin>> kTable = {
-      {"abs", abs},       {"sqrt", sqrt},     {"ln", ln},          {"log", log},
-      {"exp", exp},       {"sin", sin},       {"cos", cos},        {"tan", tan},
-      {"asin", asin},     {"acos", acos},     {"atan", atan},      {"atan2", atan2},
-      {"expt", expt},     {"trunc", trunc},   {"min", min},        {"max", max},
-      {"limit", limit},   {"sel", sel},       {"mux", mux},        {"move", move},
-      {"shl", shl},       {"shr", shr},       {"rol", rol},        {"ror", ror},
-      {"len", len},       {"left", left},     {"right", right},    {"mid", mid},
-      {"concat", concat}, {"insert", insert}, {"delete", deleteS}, {"replace", replace},
-      {"find", find},     {"time", time},     {"adr", adr},        {"bitadr", bitadr},
+      {"abs", abs},        {"sqrt", sqrt},     {"ln", ln},          {"log", log},
+      {"exp", exp},        {"sin", sin},       {"cos", cos},        {"tan", tan},
+      {"asin", asin},      {"acos", acos},     {"atan", atan},      {"atan2", atan2},
+      {"expt", expt},      {"trunc", trunc},   {"min", min},        {"max", max},
+      {"limit", limit},    {"sel", sel},       {"mux", mux},        {"move", move},
+      {"shl", shl},        {"shr", shr},       {"rol", rol},        {"ror", ror},
+      {"len", len},        {"left", left},     {"right", right},    {"mid", mid},
+      {"concat", concat},  {"insert", insert}, {"delete", deleteS}, {"replace", replace},
+      {"find", find},      {"time", time},     {"adr", adr},        {"bitadr", bitadr},
       {"sizeof", sizeofT},
   };
   return kTable;

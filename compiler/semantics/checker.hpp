@@ -101,6 +101,24 @@ private:
   const Type *checkBitAddress(ast::CallExpr *expr);
   void finishImage();
 
+  // configured.cpp
+  /// What an expression of VAR_CONFIG or VAR_ACCESS leads to.
+  struct PathTarget {
+    StatePath path;
+    const Type *type = nullptr;
+    VarSymbol *variable = nullptr; ///< the last name; null for a program
+  };
+  template <class Visit> void visitHeld(const Type *type, Visit &&visit);
+  /// A value of the type holds variables declared `AT %I*`.
+  bool hasSlots(const Type *type);
+  void collectSlots(const Type *type, StatePath &path, std::vector<SlotPlace> &out);
+  Symbol *pathRoot(const ast::Name &name, Module &module);
+  std::optional<PathTarget> resolvePath(ast::Expr *expr, Module &module);
+  void checkConfigEntry(ast::VarDecl *decl, Module &module, std::vector<SlotPlace> &slots);
+  void reportMissingPlaces(const std::vector<SlotPlace> &slots);
+  void checkConfigured(Module &module);
+  void checkAccesses(Module &module);
+
   // initializers.cpp
   void checkInitOf(VarSymbol *variable);
   ast::Expr *checkInit(ast::Expr *init, const Type *type);
@@ -203,6 +221,10 @@ private:
   Scope scope_;
   std::set<std::pair<const PouSymbol *, Ident>> unknown_; ///< names reported already
   unsigned loopDepth_ = 0;
+  std::vector<ast::GlobalsDecl *> configs_;  ///< VAR_CONFIG
+  std::vector<ast::GlobalsDecl *> accesses_; ///< VAR_ACCESS
+  std::unordered_set<Ident> resourceNames_;  ///< of CONFIGURATIONs and RESOURCEs
+  std::unordered_map<const Type *, bool> hasSlots_;
 };
 
 /// Sets the scope for the lifetime of the guard.

@@ -422,9 +422,9 @@ const Type *Checker::checkBit(MemberExpr *expr) {
   const bool part = expr->width > 1;
   const std::string what = part ? "part" : "bit";
   if (!isInteger(u) || base->kind == TypeKind::enumeration) {
-    auto &d = report(Code::bitOutOfRange, expr->span,
-                     typeName(base) + " has no " + what + "s to select",
-                     "only possible on integers and bit strings");
+    auto &d =
+        report(Code::bitOutOfRange, expr->span, typeName(base) + " has no " + what + "s to select",
+               "only possible on integers and bit strings");
     if (isReal(u))
       d.help("look at the bytes of a REAL through a UNION or a pointer");
     else if (base->kind == TypeKind::enumeration)
@@ -583,10 +583,11 @@ bool Checker::requireAligned(const Expr *expr, std::string_view what) {
   if (!isMisaligned(expr))
     return true;
   const unsigned align = extentOf(expr->type).align;
-  auto &d = report(Code::misaligned, expr->span,
-                   "cannot " + std::string(what) + " this variable: it does not lie at a multiple of " +
-                       std::to_string(align) + " bytes",
-                   "misaligned");
+  auto &d =
+      report(Code::misaligned, expr->span,
+             "cannot " + std::string(what) + " this variable: it does not lie at a multiple of " +
+                 std::to_string(align) + " bytes",
+             "misaligned");
   if (locationOf(expr) != nullptr)
     d.note("its address is not a multiple of the size of " + typeName(expr->type));
   else

@@ -81,8 +81,8 @@ unsigned placeAlignment(const Expr *place) {
   }
   case ExprKind::name:
   case ExprKind::member: {
-    const Symbol *symbol = place->kind == ExprKind::name ? as<NameExpr>(place)->symbol
-                                                         : as<MemberExpr>(place)->symbol;
+    const Symbol *symbol =
+        place->kind == ExprKind::name ? as<NameExpr>(place)->symbol : as<MemberExpr>(place)->symbol;
     if (symbol == nullptr || symbol->kind != SymbolKind::variable)
       return natural();
     const auto *variable = static_cast<const VarSymbol *>(symbol);

@@ -1,8 +1,8 @@
 // Direct addresses and located variables: where they lie in the process image.
 
+#include "compiler/semantics/locations.hpp"
 #include "compiler/semantics/checker.hpp"
 #include "compiler/semantics/extent.hpp"
-#include "compiler/semantics/locations.hpp"
 
 #include <algorithm>
 
@@ -62,9 +62,7 @@ std::string_view areaName(Area area) {
   return area == Area::input ? "input" : area == Area::output ? "output" : "memory";
 }
 
-char areaLetter(Area area) {
-  return area == Area::input ? 'I' : area == Area::output ? 'Q' : 'M';
-}
+char areaLetter(Area area) { return area == Area::input ? 'I' : area == Area::output ? 'Q' : 'M'; }
 
 std::string addressText(const Location &at, std::uint64_t bytes, Addressing addressing) {
   std::string text = std::string("%") + areaLetter(at.area);
@@ -165,12 +163,11 @@ std::optional<Location> Checker::locate(const DirectAddress &address) {
     }
   }
   auto &d = report(Code::addressBeyond, address.span,
-                   "`" + text + "` does not name a place in the process image",
-                   "too many numbers");
+                   "`" + text + "` does not name a place in the process image", "too many numbers");
   d.note("addresses that follow the tree of a PLC configuration depend on its devices; here the "
          "process image is one row of bytes");
-  d.help("write the byte and the bit: `%" + std::string(1, address.area) + "X3.7`; or the unit: `%" +
-         std::string(1, address.area) + "W3`");
+  d.help("write the byte and the bit: `%" + std::string(1, address.area) +
+         "X3.7`; or the unit: `%" + std::string(1, address.area) + "W3`");
   return std::nullopt;
 }
 
@@ -187,8 +184,8 @@ bool Checker::reserve(const DirectAddress &address, std::uint64_t byte, std::uin
                                : "bytes " + std::to_string(byte) + " to " +
                                      std::to_string(byte + size - 1));
     if (configured != 0)
-      d.help("stride.toml gives the area " + std::to_string(configured) +
-             " bytes: enlarge `" + kKeys[area] + "` in [image]");
+      d.help("stride.toml gives the area " + std::to_string(configured) + " bytes: enlarge `" +
+             kKeys[area] + "` in [image]");
     else
       d.note("an area holds 16,777,216 bytes at most");
     return false;
@@ -244,8 +241,8 @@ void Checker::placeVariable(VarSymbol *variable) {
   }
   const DeclKind owner =
       variable->owner == nullptr ? DeclKind::globals : variable->owner->decl->kind;
-  if (owner != DeclKind::globals && owner != DeclKind::program && owner != DeclKind::functionBlock &&
-      owner != DeclKind::classD) {
+  if (owner != DeclKind::globals && owner != DeclKind::program &&
+      owner != DeclKind::functionBlock && owner != DeclKind::classD) {
     refuse("a variable of " + describe(variable->owner) + " cannot have an address",
            "it exists only during the call")
         .help("declare it in VAR_GLOBAL, or in the VAR of a program or function block");
@@ -323,9 +320,8 @@ bool Checker::locateType(VarSymbol *variable, std::uint64_t bytes, bool isBool) 
   if (isBool || !isElementary(type) || isString(type) || address.size == sizeLetter(bytes))
     return true;
   report(Code::addressSize, address.span,
-         "`" + std::string(address.text) + "` is " +
-             std::to_string(unitBytes(address.size) * 8) + " bits wide, " + typeName(type) +
-             " is " + std::to_string(bytes * 8),
+         "`" + std::string(address.text) + "` is " + std::to_string(unitBytes(address.size) * 8) +
+             " bits wide, " + typeName(type) + " is " + std::to_string(bytes * 8),
          "`" + std::string(variable->name.text) + "` begins there and is " +
              std::to_string(bytes * 8) + " bits wide")
       .help(std::string("write `%") + address.area + sizeLetter(bytes) +
@@ -352,8 +348,8 @@ const Type *Checker::checkBitAddress(CallExpr *expr) {
   // The highest four bits name the area.
   constexpr std::int64_t kAreas[] = {0x80000000LL, 0xC0000000LL, 0x40000000LL};
   const std::int64_t bit = std::int64_t{at->byte} * 8 + std::max<std::int64_t>(at->bit, 0);
-  expr->constant = makeConstant(
-      {ConstKind::integer, kAreas[static_cast<std::size_t>(at->area)] + bit, 0, {}});
+  expr->constant =
+      makeConstant({ConstKind::integer, kAreas[static_cast<std::size_t>(at->area)] + bit, 0, {}});
   return elementaryType(TypeKind::dword);
 }
 
@@ -363,8 +359,7 @@ void Checker::finishImage() {
     std::uint32_t &bytes = image.bytes[area];
     bytes = (std::max(bytes, program_.settings.imageBytes[area]) + 7) / 8 * 8;
     if (bytes != 0)
-      image.types[area] =
-          types_.array(elementaryType(TypeKind::byte), 0, std::int64_t{bytes} - 1);
+      image.types[area] = types_.array(elementaryType(TypeKind::byte), 0, std::int64_t{bytes} - 1);
   }
 }
 

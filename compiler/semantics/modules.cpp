@@ -128,13 +128,21 @@ void Checker::declareFile(Module &module, File *file) {
     case DeclKind::globals:
       declareGlobals(module, as<GlobalsDecl>(decl));
       break;
+    case DeclKind::config:
+      configs_.push_back(as<GlobalsDecl>(decl));
+      break;
+    case DeclKind::access:
+      accesses_.push_back(as<GlobalsDecl>(decl));
+      break;
+    case DeclKind::configuration:
+      resourceNames_.insert(decl->name.id);
+      for (const ResourceDecl &resource : as<ConfigurationDecl>(decl)->resources)
+        resourceNames_.insert(resource.name.id);
+      break;
     case DeclKind::classD:
     case DeclKind::interface:
     case DeclKind::method:
     case DeclKind::action:
-    case DeclKind::config:
-    case DeclKind::access:
-    case DeclKind::configuration:
       report(Code::unsupported, decl->span, "this declaration is not supported by this version",
              "not available");
       break;
@@ -299,6 +307,7 @@ void Checker::checkUser(const std::vector<File *> &files) {
     declareFile(user, file);
   checkModule(user);
   declareUsed();
+  checkConfigured(user);
   finishImage();
 }
 

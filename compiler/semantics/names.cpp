@@ -172,8 +172,7 @@ bool isLaterWord(std::string_view lower) {
   static constexpr std::string_view kWords[] = {
       "this",         "super",    "lower_bound",      "upper_bound",
       "__new",        "__delete", "__queryinterface", "__querypointer",
-      "__isvalidref", "xsizeof",          "indexof",
-      "ini"};
+      "__isvalidref", "xsizeof",  "indexof",          "ini"};
   return std::find(std::begin(kWords), std::end(kWords), lower) != std::end(kWords);
 }
 

@@ -52,6 +52,37 @@ enum class Addressing : std::uint8_t {
   words, ///< units of their size; bits by word: `%MX3.9` is bit 1 of byte 7
 };
 
+/// From an object to something inside of it.
+struct PathStep {
+  const VarSymbol *member = nullptr; ///< null: an element
+  std::uint64_t element = 0;         ///< counted from 0
+};
+
+/// A variable of the application's state.
+struct StatePath {
+  const Symbol *root = nullptr; ///< a program or a global variable
+  std::vector<PathStep> steps;
+};
+/// `Main.fbs[3].in`
+[[nodiscard]] std::string pathText(const StatePath &path);
+
+/// What VAR_CONFIG says of one variable of one instance.
+struct SlotPlace {
+  StatePath path;
+  const VarSymbol *variable = nullptr; ///< declared `AT %I*`; null: only an initial value is given
+  Location at;
+  const ast::VarDecl *decl = nullptr; ///< the entry
+  bool placed = false;
+};
+
+/// An entry of VAR_ACCESS.
+struct AccessPath {
+  const ast::VarDecl *decl = nullptr;
+  StatePath path; ///< without root: a direct address
+  const Type *type = nullptr;
+  const Location *location = nullptr; ///< of a variable in the process image
+};
+
 struct Settings {
   bool checks = true; ///< run-time checks (index, division, null, subrange)
   Addressing addressing = Addressing::units;
@@ -73,6 +104,8 @@ struct Program {
   Diagnostics diagnostics;
   Settings settings;
   Image image;
+  std::vector<SlotPlace> slotPlaces;
+  std::vector<AccessPath> accessPaths;
   std::vector<std::unique_ptr<Library>> libraries; ///< used libraries in order of first use
   Library *user = nullptr;        ///< the project; null while a library itself is compiled
   std::vector<ast::File *> files; ///< parsed user files

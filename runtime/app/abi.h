@@ -36,9 +36,18 @@ enum SymbolFlags : uint32_t {
   kSymQualifiedOnly = 1U << 8, ///< A global reachable only with its list's name in front.
   kSymTypeId = 1U << 9, ///< The hidden `type__` of an instance (UDINT): init sets it, nobody else
                         ///< writes it, and it is not carried over. Interface slots point to it.
-  kSymInitOnChange = 1U << 10 ///< {attribute 'init_on_onlchange'}: an online change does not keep
+  kSymInitOnChange = 1U << 10, ///< {attribute 'init_on_onlchange'}: an online change does not keep
                               ///< the value.
+  kSymLocated = 1U << 12, ///< Lies in the process image: the offset counts from the start of the
+                          ///< state, also that of a member.
+  kSymSlot = 1U << 13, ///< `AT %I*`: at the offset the instance holds a UDINT, the variable's place
+                       ///< in its area: the byte's number, the bit's for kSymBit. Set by init,
+                       ///< never carried over. The area is in bits 24 and 25: 0 = I, 1 = Q, 2 = M.
+  kSymBit = 1U << 14, ///< A BOOL that is one bit of the byte. For kSymLocated the number of the bit
+                      ///< is in the bits 28 to 30.
 };
+inline constexpr uint32_t kSymAreaShift = 24;
+inline constexpr uint32_t kSymBitShift = 28;
 
 /// What a type is. Combined with |.
 enum TypeFlags : uint32_t {
@@ -131,6 +140,22 @@ struct AxisGroupDesc {
   uint32_t driveCount;
 };
 
+/// The areas of the process image.
+enum ImageArea : uint32_t { kImageInput = 0, kImageOutput = 1, kImageMemory = 2 };
+
+/// One area of the process image; its bytes are also the hidden root `%I`, `%Q` or `%M`.
+struct ImageAreaDesc {
+  uint64_t offset; ///< From the start of the state, a multiple of 8.
+  uint64_t size;   ///< Bytes; 0: the application does not use the area.
+};
+
+/// What the numbers of direct addresses count (stride.toml: [image] addressing).
+enum class ImageAddressing : uint32_t {
+  Units = 0, ///< Units of their size, bits by byte: %MW3 is bytes 6 and 7, %MX3.1 bit 1 of byte 3.
+  Bytes = 1, ///< Bytes: %MW3 is bytes 3 and 4.
+  Words = 2, ///< Units of their size, bits by word: %MX3.9 is bit 1 of byte 7.
+};
+
 /// One ST source file; positions in messages name it.
 struct SourceFileDesc {
   const char *path; ///< As given to the compiler, relative to the project where possible.
@@ -183,6 +208,10 @@ struct StrideAppV1 {
   /// them; 0 when the application has no axis group.
   uint64_t axisRefLayout;
   uint64_t axisGroupRefLayout;
+
+  ImageAreaDesc image[3]; ///< By ImageArea.
+  ImageAddressing imageAddressing;
+  uint32_t reserved2; ///< 0.
 };
 
 /// Number of elements of a table, for StrideAppV1's counts.

@@ -52,6 +52,9 @@ void memberNames(const StrideAppV1 &app, const TypeDesc &type, std::vector<std::
   }
 }
 
+/// An element lies where its array does: only the array's offset is counted in another way.
+uint32_t elementFlags(uint32_t flags) { return flags & ~uint32_t{kSymLocated | kSymSlot}; }
+
 std::string rootName(const RootDesc &root) {
   const bool qualified = root.list != nullptr && (root.flags & kSymQualifiedOnly) != 0;
   return qualified ? fmt::format("{}.{}", root.list, root.name) : std::string(root.name);
@@ -63,16 +66,75 @@ bool isElementary(Kind kind) {
   return (kind >= Kind::BOOL && kind <= Kind::WSTRING) || kind == Kind::Enum;
 }
 
-void *Symbol::address(std::byte *state) const {
-  std::byte *at = state + offsets_[0];
-  for (std::size_t i = 1; i < offsets_.size(); ++i) {
+std::byte *Symbol::find(std::byte *state, int &bit) const {
+  bit = bit_;
+  std::byte *at = state + steps_[0].offset;
+  for (std::size_t i = 1; i < steps_.size(); ++i) {
+    const Step &step = steps_[i];
+    if (step.followsSlot) {
+      uint32_t number = 0;
+      std::memcpy(&number, at, sizeof number);
+      if (step.countsBits) {
+        bit = static_cast<int>(number & 7U);
+        number >>= 3U;
+      }
+      at = state + step.area + number + step.offset;
+      continue;
+    }
     std::byte *target = nullptr;
     std::memcpy(&target, at, sizeof target);
     if (target == nullptr)
       return nullptr;
-    at = target + offsets_[i];
+    at = target + step.offset;
   }
   return at;
+}
+
+void *Symbol::address(std::byte *state) const {
+  int bit = -1;
+  return find(state, bit);
+}
+
+const void *Symbol::read(std::byte *state, std::byte &bit) const {
+  int number = -1;
+  const std::byte *place = find(state, number);
+  if (place == nullptr || number < 0)
+    return place;
+  bit = (*place >> number) & std::byte{1};
+  return &bit;
+}
+
+bool Symbol::write(std::byte *state, const void *value, std::size_t size) const {
+  int number = -1;
+  std::byte *place = find(state, number);
+  if (place == nullptr)
+    return false;
+  if (number < 0) {
+    std::memcpy(place, value, size);
+    return true;
+  }
+  const std::byte mask = std::byte{1} << number;
+  *place = *static_cast<const std::byte *>(value) != std::byte{0} ? *place | mask : *place & ~mask;
+  return true;
+}
+
+void Symbol::enter(const StrideAppV1 &app, uint64_t offset, uint32_t type, uint32_t flags) {
+  bit_ = -1;
+  if ((flags & kSymLocated) != 0) {
+    steps_.assign(1, Step{.offset = offset});
+    if ((flags & kSymBit) != 0)
+      bit_ = static_cast<int>(flags >> kSymBitShift & 7U);
+  } else if ((flags & kSymSlot) != 0) {
+    steps_.back().offset += offset;
+    steps_.push_back({.offset = 0,
+                      .area = app.image[flags >> kSymAreaShift & 3U].offset,
+                      .followsSlot = true,
+                      .countsBits = (flags & kSymBit) != 0});
+  } else {
+    steps_.back().offset += offset;
+  }
+  type_ = type;
+  flags_ = flags | (flags_ & kSymConstant);
 }
 
 /// One path being read from left to right.
@@ -126,20 +188,22 @@ private:
   }
 
   void enter(uint64_t offset, uint32_t type, uint32_t flags) {
-    symbol_.offsets_.back() += offset;
-    symbol_.type_ = type;
-    symbol_.flags_ = flags | (symbol_.flags_ & kSymConstant);
+    symbol_.enter(app(), offset, type, flags);
   }
 
   void follow() {
     if (type().kind == Kind::Interface || type().element == kNoIndex)
       fail(fmt::format("'{}' points to data of no known type", path_.substr(0, at_)));
-    symbol_.offsets_.push_back(0);
+    symbol_.steps_.emplace_back();
     symbol_.type_ = type().element;
     symbol_.flags_ &= ~uint32_t{kSymConstant};
   }
 
   void root() {
+    if (path_.starts_with('%')) {
+      directAddress();
+      return;
+    }
     const std::string first = name();
     // LIST.name before name.member: a list's name is never a variable's.
     if (at_ < path_.size() && path_[at_] == '.') {
@@ -167,6 +231,62 @@ private:
   void take(uint32_t index) {
     const RootDesc &root = app().roots[index];
     enter(root.offset, root.type, root.flags);
+  }
+
+  uint32_t number() {
+    const text::Scanned digits =
+        text::scanInteger(path_.data() + at_, static_cast<uint32_t>(path_.size() - at_));
+    if (digits.used == 0 || digits.negative || digits.overflow || digits.magnitude > UINT32_MAX)
+      fail("an address is written %IX0.0, %QW2 or %MD4");
+    at_ += digits.used;
+    return static_cast<uint32_t>(digits.magnitude);
+  }
+
+  /// `%MW3`, `%IX0.0`, `%MW3.2`
+  void directAddress() {
+    static constexpr std::string_view kAreas = "iqm";
+    static constexpr std::string_view kSizes = "xbwdl";
+    ++at_;
+    const std::string start = lowered(std::string(path_.substr(at_, 2)));
+    const std::size_t area = start.empty() ? std::string_view::npos : kAreas.find(start[0]);
+    if (area == std::string_view::npos)
+      fail("an address begins with %I, %Q or %M");
+    std::size_t size = start.size() < 2 ? std::string_view::npos : kSizes.find(start[1]);
+    at_ += size == std::string_view::npos ? 1 : 2;
+    size = size == std::string_view::npos ? 0 : size;
+    const ImageAddressing addressing = app().imageAddressing;
+    const uint64_t unit = size == 0 ? 1 : uint64_t{1} << (size - 1);
+    const bool words = addressing == ImageAddressing::Words && size == 0;
+    uint64_t byte = number();
+    int bit = -1;
+    uint64_t width = words ? 16 : unit * 8;
+    if (at_ < path_.size() && path_[at_] == '.') {
+      ++at_;
+      const uint32_t n = number();
+      if (n >= width)
+        fail(fmt::format("there is no bit {}", n));
+      byte = byte * (words ? 2 : addressing == ImageAddressing::Bytes ? 1 : unit) + n / 8;
+      bit = static_cast<int>(n % 8);
+    } else if (size == 0) {
+      bit = static_cast<int>(byte % 8);
+      byte /= 8;
+    } else {
+      byte *= addressing == ImageAddressing::Bytes ? 1 : unit;
+    }
+    const ImageAreaDesc &image = app().image[area];
+    if (byte + (bit >= 0 ? 1 : unit) > image.size)
+      fail(image.size == 0 ? std::string("the application uses no address of this area")
+                           : fmt::format("the area ends with byte {}", image.size - 1));
+    static constexpr Kind kKinds[] = {Kind::BOOL, Kind::BYTE, Kind::WORD, Kind::DWORD, Kind::LWORD};
+    const Kind kind = kKinds[bit >= 0 ? 0 : size];
+    uint32_t index = 0;
+    while (index < app().typeCount && app().types[index].kind != kind)
+      ++index;
+    if (index == app().typeCount)
+      fail("the application does not describe direct addresses");
+    const uint32_t bitFlags =
+        bit < 0 ? 0U : uint32_t{kSymBit} | static_cast<uint32_t>(bit) << kSymBitShift;
+    enter(image.offset + byte, index, kSymLocated | bitFlags);
   }
 
   [[noreturn]] void unknownRoot(const std::string &first) const {
@@ -248,7 +368,7 @@ private:
       fail(fmt::format("index {} is outside {}..{}", i, lo,
                        lo + static_cast<int64_t>(type().elementCount) - 1));
     const uint32_t element = type().element;
-    enter(place * app().types[element].size, element, symbol_.flags_);
+    enter(place * app().types[element].size, element, elementFlags(symbol_.flags_));
   }
 
   const SymbolTable &table_;
@@ -285,9 +405,7 @@ void SymbolTable::appendLeaves(const Symbol &symbol, bool indexOpen,
   }
   const auto child = [&](uint64_t offset, uint32_t childType, uint32_t flags, std::string path) {
     Symbol s = symbol;
-    s.offsets_.back() += offset;
-    s.type_ = childType;
-    s.flags_ = flags | (symbol.flags_ & kSymConstant);
+    s.enter(*app_, offset, childType, flags);
     s.path_ = std::move(path);
     return s;
   };
@@ -308,7 +426,8 @@ void SymbolTable::appendLeaves(const Symbol &symbol, bool indexOpen,
       stem = symbol.path_.substr(0, symbol.path_.size() - 1) + ",";
     for (uint64_t i = 0; i < type.elementCount; ++i) {
       const int64_t number = type.lowerBound + static_cast<int64_t>(i);
-      appendLeaves(child(i * size, type.element, symbol.flags_, fmt::format("{}{}]", stem, number)),
+      appendLeaves(child(i * size, type.element, elementFlags(symbol.flags_),
+                         fmt::format("{}{}]", stem, number)),
                    true, out);
     }
   }

@@ -16,8 +16,13 @@ namespace stride::app {
 /// is followed anew at each access.
 class Symbol {
 public:
-  /// The variable's place, or null where a pointer on the way is null. Never allocates.
+  /// The variable's place, or null where a pointer on the way is null. Never allocates. Of a single
+  /// bit: the byte it is in.
   void *address(std::byte *state) const;
+  /// Where the value can be read: address(), or `bit` filled with the value of a single bit.
+  const void *read(std::byte *state, std::byte &bit) const;
+  /// Stores a value of the type; false where a pointer on the way is null.
+  bool write(std::byte *state, const void *value, std::size_t size) const;
 
   /// Index into the type table.
   uint32_t type() const { return type_; }
@@ -28,16 +33,29 @@ public:
 
 private:
   friend class SymbolTable;
+  /// Behind the first step what has been reached so far is followed.
+  struct Step {
+    uint64_t offset = 0;      ///< Added to the state's start, or to what is followed.
+    uint64_t area = 0;        ///< Of a slot: where its area begins in the state.
+    bool followsSlot = false; ///< A slot's number is followed, not a pointer.
+    bool countsBits = false;  ///< The number is that of a bit.
+  };
+  /// Goes on to a member (or element, or root) there.
+  void enter(const StrideAppV1 &app, uint64_t offset, uint32_t type, uint32_t flags);
+  /// The place and the number of the bit (-1: none).
+  std::byte *find(std::byte *state, int &bit) const;
+
   std::string path_;
   uint32_t type_ = kNoIndex;
   uint32_t flags_ = 0;
-  /// Added to the state's start, then to each pointer followed.
-  std::vector<uint64_t> offsets_{0};
+  int bit_ = -1; ///< of the byte; -1: none, or in a slot
+  std::vector<Step> steps_{Step{}};
 };
 
 /// Resolves paths of an application: `Ipo.MoveAbsolute.Position`, `a[1,2].b`, `PLC_PRG.fb.x`,
-/// `GVL.x`, `p^.x`. Names are case-insensitive. Pointers, references and in-outs are followed
-/// where a member or an index comes behind them; references and in-outs also at the end.
+/// `GVL.x`, `p^.x`, and direct addresses `%MW3`, `%IX0.0`. Names are case-insensitive. Pointers,
+/// references and in-outs are followed where a member or an index comes behind them; references and
+/// in-outs also at the end.
 class SymbolTable {
 public:
   explicit SymbolTable(const StrideAppV1 &app);

@@ -32,8 +32,12 @@ void checkType(const StrideAppV1 &app, uint32_t index) {
       bad("members");
     for (uint32_t i = 0; i < type.memberCount; ++i) {
       const MemberDesc &member = app.members[type.firstMember + i];
-      if (member.name == nullptr || member.type >= app.typeCount ||
-          !fits(member.offset, app.types[member.type].size, type.size))
+      if (member.name == nullptr || member.type >= app.typeCount)
+        bad("a member");
+      const bool located = (member.flags & kSymLocated) != 0;
+      const uint64_t size =
+          (member.flags & kSymSlot) != 0 ? sizeof(uint32_t) : app.types[member.type].size;
+      if (!fits(member.offset, size, located ? app.stateSize : type.size))
         bad("a member");
     }
     break;
@@ -97,8 +101,14 @@ void validate(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
   for (uint32_t i = 0; i < app.rootCount; ++i) {
     const RootDesc &root = app.roots[i];
     if (root.name == nullptr || root.type >= app.typeCount ||
-        !fits(root.offset, app.types[root.type].size, app.stateSize))
+        !fits(root.offset,
+              (root.flags & kSymSlot) != 0 ? sizeof(uint32_t) : app.types[root.type].size,
+              app.stateSize))
       damaged(fmt::format("variable {}", i));
+  }
+  for (const ImageAreaDesc &area : app.image) {
+    if (!fits(area.offset, area.size, app.stateSize))
+      damaged("process image");
   }
   for (uint32_t i = 0; i < app.taskCount; ++i) {
     const TaskDesc &task = app.tasks[i];

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 
 namespace stride::host {
 
@@ -31,11 +30,9 @@ SetList::SetList(const app::SymbolTable &symbols, const std::vector<SetOption> &
 void SetList::apply(int64_t timeNs, std::byte *state) {
   for (; next_ < entries_.size() && entries_[next_].timeNs <= timeNs; ++next_) {
     const Entry &entry = entries_[next_];
-    void *place = entry.symbol.address(state);
-    if (place == nullptr)
+    if (!entry.symbol.write(state, entry.value.data(), entry.value.size()))
       throw app::Error(fmt::format("--set '{}': a pointer on the way to '{}' is null at that time",
                                    entry.text, entry.symbol.path()));
-    std::memcpy(place, entry.value.data(), entry.value.size());
   }
 }
 

@@ -92,7 +92,8 @@ void printValues(const app::SymbolTable &symbols, const std::vector<app::Symbol>
                  std::byte *state) {
   for (const app::Symbol &symbol : wanted) {
     for (const app::Symbol &leaf : symbols.leaves(symbol)) {
-      const void *value = leaf.address(state);
+      std::byte bit{};
+      const void *value = leaf.read(state, bit);
       fmt::print("{} = {}\n", leaf.path(),
                  value != nullptr ? app::formatLiteral(symbols.app(), symbols.type(leaf), value)
                                   : std::string("NULL"));

@@ -78,7 +78,8 @@ void TraceWriter::row(int64_t timeNs) {
   appendSeconds(timeNs, buffer_);
   for (const app::Symbol &column : columns_) {
     buffer_.push_back(',');
-    if (const void *value = column.address(state_))
+    std::byte bit{};
+    if (const void *value = column.read(state_, bit))
       app::appendCsv(*app_, app_->types[column.type()], value, buffer_);
   }
   buffer_.push_back('\n');

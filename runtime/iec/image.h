@@ -17,9 +17,7 @@ namespace stride {
 
 #pragma pack(push, 1)
 /// A value at any address.
-template <class T> struct Unaligned {
-  T v;
-};
+template <class T> struct Unaligned { T v; };
 #pragma pack(pop)
 
 /// The bytes of an area.
