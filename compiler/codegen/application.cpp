@@ -46,7 +46,8 @@ public:
     for (const Member &m : members_)
       types_.includes().symbol(m.root.symbol);
     std::string out = banner("The application object");
-    out += "#include \"runtime/app/abi.h\"\n#include \"runtime/iec/image.h\"\n" + types_.includes().text(nullptr);
+    out += "#include \"runtime/app/abi.h\"\n#include \"runtime/iec/image.h\"\n" +
+           types_.includes().text(nullptr);
     out += "\n#pragma GCC diagnostic ignored \"-Winvalid-offsetof\"\n";
     out += "\nnamespace st::user {\n\n/// All state of the application.\nstruct App__ {\n";
     for (const Member &m : members_)
@@ -134,7 +135,7 @@ private:
       for (const GlobalsSymbol *g : library->globals)
         roots.push_back({g, false});
       for (const PouSymbol *p : library->pous) {
-        if (p->decl->kind == DeclKind::program)
+        if (p->decl->kind == DeclKind::program && !p->isTemplate)
           roots.push_back({p, false});
         if (hasStatics(p))
           roots.push_back({p, true});

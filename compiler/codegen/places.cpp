@@ -115,8 +115,7 @@ void Emitter::initConfigured(const SlotPlace &entry) {
     type = entry.path.steps.empty() ? static_cast<const VarSymbol *>(entry.path.root)->type
                                     : typeAt(entry.path);
     const std::string path = statePath(c_.names, entry.path, c_.own);
-    place = std::string(reference) +
-            path.substr(rootName(c_.names, owner, c_.own).size());
+    place = std::string(reference) + path.substr(rootName(c_.names, owner, c_.own).size());
   }
   if (init->kind == ExprKind::aggregate) {
     initValue(place, type, init);

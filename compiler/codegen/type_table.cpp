@@ -1,6 +1,9 @@
 #include "compiler/codegen/type_table.hpp"
 
 #include "compiler/codegen/units.hpp"
+
+#include <algorithm>
+
 #include "compiler/semantics/type_table.hpp"
 
 namespace stc::codegen {
@@ -241,8 +244,11 @@ void TypeTable::addAccess(const AccessPath &access) {
 
 void TypeTable::addProgram(const PouSymbol *program, const std::string &place) {
   const std::uint32_t type = index(program->type);
+  const bool hidden =
+      std::any_of(program->decl->attributes.begin(), program->decl->attributes.end(),
+                  [](const Attribute &a) { return a.name == "hide"; });
   rootRows_.push_back("{nullptr, " + quote(program->name.text) + ", offsetof(App__, " + place +
-                      "), " + std::to_string(type) + ", 0" +
+                      "), " + std::to_string(type) + (hidden ? ", ::stride::kSymHidden" : ", 0") +
                       renamedColumn(renamedFrom(program->decl->attributes)) + "}");
 }
 

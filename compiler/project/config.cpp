@@ -70,6 +70,13 @@ public:
     for (const CheckedSection &project : top.sections("project", diagnostics_)) {
       config_.name = project.text("name");
       config_.generation = static_cast<unsigned>(project.choice("softmotion", 2));
+      config_.pack = static_cast<unsigned>(project.choice("layout", 0));
+    }
+    for (const CheckedSection &image : top.sections("image", diagnostics_)) {
+      config_.addressing = static_cast<Addressing>(image.choice("addressing", 0));
+      std::size_t area = 0;
+      for (const std::string_view name : {"inputs", "outputs", "memory"})
+        config_.imageBytes[area++] = static_cast<std::uint32_t>(image.integer(name, 0));
     }
     for (const CheckedSection &task : top.sections("task", diagnostics_))
       readTask(task);

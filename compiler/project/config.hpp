@@ -1,10 +1,12 @@
 #pragma once
 // What stride.toml says: tasks and PLC configuration (SoftMotion V2.3 manual, section 2.1).
 
+#include "compiler/semantics/program.hpp"
 #include "compiler/source/diagnostic.hpp"
 #include "compiler/source/source_manager.hpp"
 #include "compiler/syntax/ast.hpp"
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -22,6 +24,7 @@ struct TaskConfig {
   ConfigName name;
   std::int64_t intervalNs = 0; ///< 0: wrong or missing, which has been reported
   unsigned priority = 1;
+  bool freewheeling = false;        ///< without an interval
   std::vector<ConfigName> programs; ///< called in this order
 };
 
@@ -50,6 +53,9 @@ struct AxisGroupConfig {
 struct ProjectConfig {
   std::string name;
   unsigned generation = 2; ///< softmotion: 2 = "2.3", 3 = "3"
+  unsigned pack = 0;       ///< layout: 4 = "v2.3"
+  Addressing addressing = Addressing::units;
+  std::array<std::uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs
   std::vector<TaskConfig> tasks;
   std::vector<AxisGroupConfig> axisGroups;
   bool incomplete = false; ///< a drive, axis group or everything had to be left out
@@ -71,6 +77,12 @@ enum class ProgramCheck : std::uint8_t {
 /// task.
 void resolveTasks(ProjectConfig &config, const std::vector<ast::File *> &files,
                   ProgramCheck programCheck, Diagnostics &diagnostics);
+
+/// Reads the CONFIGURATION among the sources, if there is one: its tasks become the project's.
+/// Returns declarations to be added to the sources: the instances of programs that have names of
+/// their own, and hidden programs that call them; null: none.
+[[nodiscard]] ast::File *
+readConfigurations(ProjectConfig &config, const std::vector<ast::File *> &files, Program &program);
 
 /// A part of the synthetic declarations and the part of stride.toml it stands for.
 struct DeclaredRange {

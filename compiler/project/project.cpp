@@ -119,6 +119,9 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
     if (read.name.empty())
       read.name = config_.name;
     config_ = std::move(read);
+    program_.settings.addressing = config_.addressing;
+    program_.settings.imageBytes = config_.imageBytes;
+    program_.settings.pack = config_.pack;
   }
   const std::size_t configErrors = program_.diagnostics.errorCount();
   std::vector<ast::File *> files;
@@ -136,6 +139,8 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
   }
   if (config_.incomplete)
     return; // what is missing of the configuration would be missed everywhere in the program
+  if (ast::File *instances = readConfigurations(config_, files, program_))
+    files.push_back(instances);
   const ProgramCheck programCheck = syntaxErrors                ? ProgramCheck::skip
                                     : purpose == Purpose::build ? ProgramCheck::runnable
                                                                 : ProgramCheck::existing;

@@ -59,9 +59,21 @@ constexpr Parameter needed(Parameter parameter) {
   return parameter;
 }
 
+constexpr std::array<Choice, 2> kLayouts = {{{"natural", 0}, {"v2.3", 4}}};
+constexpr std::array<Choice, 3> kAddressings = {{{"units", 0}, {"bytes", 1}, {"words", 2}}};
+constexpr double kImageArea = 16777216;
+
+constexpr std::array kImageParameters = {
+    choice("addressing", kAddressings),
+    Parameter{"inputs", ParameterType::integer, false, 0, kImageArea, {}, "bytes"},
+    Parameter{"outputs", ParameterType::integer, false, 0, kImageArea, {}, "bytes"},
+    Parameter{"memory", ParameterType::integer, false, 0, kImageArea, {}, "bytes"},
+};
+
 constexpr std::array kProjectParameters = {
     Parameter{"name", ParameterType::text},
     choice("softmotion", kGenerations),
+    choice("layout", kLayouts),
 };
 
 constexpr std::array kTaskParameters = {
@@ -116,6 +128,7 @@ constexpr std::array kDriveParameters = {
 };
 
 constexpr Section kProject = {"project", "the project", "project", false, kProjectParameters, {}};
+constexpr Section kImage = {"image", "the process image", "image", false, kImageParameters, {}};
 constexpr Section kTask = {"task", "a task", "task", true, kTaskParameters, {}};
 constexpr Section kDrive = {"drive", "a drive", "bus.axis_group.drive", true, kDriveParameters, {}};
 constexpr std::array<const Section *, 1> kAxisGroupSections = {&kDrive};
@@ -123,7 +136,7 @@ constexpr Section kAxisGroup = {"axis_group", "an axis group",      "bus.axis_gr
                                 true,         kAxisGroupParameters, kAxisGroupSections};
 constexpr std::array<const Section *, 1> kBusSections = {&kAxisGroup};
 constexpr Section kBus = {"bus", "a bus", "bus", true, kBusParameters, kBusSections};
-constexpr std::array<const Section *, 3> kTopSections = {&kProject, &kTask, &kBus};
+constexpr std::array<const Section *, 4> kTopSections = {&kProject, &kImage, &kTask, &kBus};
 constexpr Section kTop = {"", "stride.toml", "", false, {}, kTopSections};
 
 } // namespace

@@ -109,13 +109,18 @@ const Type *Checker::checkCall(CallExpr *expr, bool asStatement) {
   }
   declare(pou);
   expr->pou = pou;
+  const bool named = callee->kind == ExprKind::name && as<NameExpr>(callee)->symbol == pou;
+  if (named && pou->isTemplate) {
+    reportTemplate(as<NameExpr>(callee)->name, pou);
+    return elementaryType(TypeKind::error);
+  }
   switch (pou->decl->kind) {
   case DeclKind::function:
     expr->resolved = Callee::function;
     break;
   case DeclKind::program:
-    expr->resolved = Callee::program;
-    if (callee->kind == ExprKind::name)
+    expr->resolved = named ? Callee::program : Callee::functionBlock; // or an instance of it
+    if (named)
       callee->type = pou->type;
     break;
   default:

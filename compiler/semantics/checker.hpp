@@ -119,6 +119,11 @@ private:
   void checkConfigured(Module &module);
   void checkAccesses(Module &module);
 
+  static bool isProgramInstance(const VarSymbol *variable);
+  void reportTemplate(const ast::Name &name, const PouSymbol *program);
+  /// The instances of programs that a CONFIGURATION makes.
+  void resolveInstances(Module &module);
+
   // initializers.cpp
   void checkInitOf(VarSymbol *variable);
   ast::Expr *checkInit(ast::Expr *init, const Type *type);
@@ -221,6 +226,7 @@ private:
   Scope scope_;
   std::set<std::pair<const PouSymbol *, Ident>> unknown_; ///< names reported already
   unsigned loopDepth_ = 0;
+  bool programTypes_ = false;                ///< the type being resolved may be a PROGRAM
   std::vector<ast::GlobalsDecl *> configs_;  ///< VAR_CONFIG
   std::vector<ast::GlobalsDecl *> accesses_; ///< VAR_ACCESS
   std::unordered_set<Ident> resourceNames_;  ///< of CONFIGURATIONs and RESOURCEs

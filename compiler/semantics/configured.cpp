@@ -115,10 +115,9 @@ Symbol *Checker::pathRoot(const Name &name, Module &module) {
     }
   }
   const bool good =
-      symbol != nullptr &&
-      (symbol->kind == SymbolKind::variable ||
-       (symbol->kind == SymbolKind::pou &&
-        static_cast<PouSymbol *>(symbol)->decl->kind == DeclKind::program));
+      symbol != nullptr && (symbol->kind == SymbolKind::variable ||
+                            (symbol->kind == SymbolKind::pou &&
+                             static_cast<PouSymbol *>(symbol)->decl->kind == DeclKind::program));
   if (good)
     return symbol;
   auto &d = report(Code::configPath, name.span,
@@ -178,13 +177,12 @@ std::optional<Checker::PathTarget> Checker::resolvePath(Expr *expr, Module &modu
       return std::nullopt;
     VarSymbol *found = findMember(base->type, member->name.id);
     if (found == nullptr || found->section == Section::inOut || found->section == Section::temp ||
-        found->section == Section::stat || found->section == Section::external ||
-        found->isResult) {
-      auto &d = report(Code::configPath, member->name.span,
-                       "`" + typeName(base->type) + "` has no variable `" +
-                           std::string(member->name.text) + "`" +
-                           (found != nullptr ? " of its own" : ""),
-                       "not found");
+        found->section == Section::stat || found->section == Section::external || found->isResult) {
+      auto &d =
+          report(Code::configPath, member->name.span,
+                 "`" + typeName(base->type) + "` has no variable `" +
+                     std::string(member->name.text) + "`" + (found != nullptr ? " of its own" : ""),
+                 "not found");
       if (const auto similar = nearest(member->name.text, memberNames(base->type));
           !similar.empty() && found == nullptr)
         d.help("a similar one exists: `" + std::string(similar) + "`");
@@ -211,8 +209,7 @@ std::optional<Checker::PathTarget> Checker::resolvePath(Expr *expr, Module &modu
       if (*value < array->low || *value > array->high) {
         report(Code::configPath, i->span,
                "index " + std::to_string(*value) + " is outside of the array",
-               "the bounds are " + std::to_string(array->low) + ".." +
-                   std::to_string(array->high));
+               "the bounds are " + std::to_string(array->low) + ".." + std::to_string(array->high));
         return std::nullopt;
       }
       base->path.steps.push_back({nullptr, static_cast<std::uint64_t>(*value - array->low)});
@@ -274,8 +271,8 @@ void Checker::checkConfigEntry(VarDecl *decl, Module &module, std::vector<SlotPl
   if (slot == slots.end())
     return;
   if (slot->decl != nullptr) {
-    auto &d = report(Code::configMismatch, decl->path->span,
-                     "`" + path + "` gets a place twice", "placed again here");
+    auto &d = report(Code::configMismatch, decl->path->span, "`" + path + "` gets a place twice",
+                     "placed again here");
     d.label(slot->decl->path->span, "placed first here");
     return;
   }
@@ -298,12 +295,12 @@ void Checker::checkConfigEntry(VarDecl *decl, Module &module, std::vector<SlotPl
     return;
   const Extent extent = extentOf(type);
   if ((at->bit >= 0) != isBool) {
-    auto &d = report(Code::addressType, address.span,
-                     isBool ? "`" + std::string(address.text) + "` is no single bit"
-                            : "`" + std::string(address.text) + "` is a single bit, `" + path +
-                                  "` is " + typeName(type),
-                     isBool ? "a BOOL declared with `*` needs a bit"
-                            : "only a BOOL fits into a bit");
+    auto &d =
+        report(Code::addressType, address.span,
+               isBool ? "`" + std::string(address.text) + "` is no single bit"
+                      : "`" + std::string(address.text) + "` is a single bit, `" + path + "` is " +
+                            typeName(type),
+               isBool ? "a BOOL declared with `*` needs a bit" : "only a BOOL fits into a bit");
     if (isBool)
       d.help("write the bit: `%" + std::string(1, address.area) + "X0.0`");
     return;
@@ -338,10 +335,9 @@ void Checker::reportMissingPlaces(const std::vector<SlotPlace> &slots) {
   for (const VarSymbol *v : order) {
     const auto &list = missing[v];
     auto &d = report(Code::placeMissing, v->decl->address->span,
-                     list.size() == 1
-                         ? "`" + pathText(list.front()->path) + "` has no place"
-                         : "`" + std::string(v->name.text) + "` has no place in " +
-                               std::to_string(list.size()) + " instances",
+                     list.size() == 1 ? "`" + pathText(list.front()->path) + "` has no place"
+                                      : "`" + std::string(v->name.text) + "` has no place in " +
+                                            std::to_string(list.size()) + " instances",
                      "VAR_CONFIG must say where it lies");
     std::string text = "add\n      VAR_CONFIG\n";
     std::uint64_t &free = next[static_cast<std::size_t>(v->location->area)];
@@ -433,9 +429,24 @@ void Checker::checkAccesses(Module &module) {
         access.type = target->type;
         if (target->variable != nullptr)
           access.location = target->variable->location;
-        if (access.type->kind == TypeKind::reference || access.type->kind == TypeKind::pointer) {
+        const auto inImage = [](const Symbol *s) {
+          return s != nullptr && s->kind == SymbolKind::variable &&
+                 static_cast<const VarSymbol *>(s)->location != nullptr;
+        };
+        bool inside = inImage(access.path.root) && access.path.root != target->variable;
+        for (const PathStep &step : access.path.steps)
+          inside = inside || (inImage(step.member) && step.member != target->variable) ||
+                   (step.member == nullptr && access.location != nullptr);
+        if (inside) {
           report(Code::configMismatch, decl->path->span,
-                 "an access path cannot lead to an address", "this is " + typeName(access.type));
+                 "an access path cannot lead into a variable of the process image",
+                 "a part of such a variable")
+              .help("give the address of the part: `%MB4`");
+          continue;
+        }
+        if (access.type->kind == TypeKind::reference || access.type->kind == TypeKind::pointer) {
+          report(Code::configMismatch, decl->path->span, "an access path cannot lead to an address",
+                 "this is " + typeName(access.type));
           continue;
         }
       }

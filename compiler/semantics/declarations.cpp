@@ -3,6 +3,8 @@
 #include "compiler/semantics/checker.hpp"
 #include "compiler/semantics/fold.hpp"
 
+#include <algorithm>
+
 namespace stc {
 
 using namespace ast;
@@ -288,10 +290,48 @@ const Type *Checker::resolveNamed(NamedTypeExpr *expr) {
   if (symbol->kind == SymbolKind::pou &&
       static_cast<PouSymbol *>(symbol)->decl->kind == DeclKind::functionBlock)
     return static_cast<PouSymbol *>(symbol)->type;
+  if (programTypes_ && symbol->kind == SymbolKind::pou &&
+      static_cast<PouSymbol *>(symbol)->decl->kind == DeclKind::program)
+    return static_cast<PouSymbol *>(symbol)->type;
   auto &d = report(Code::notAType, name.span, "`" + std::string(name.text) + "` is not a type",
                    "this is " + describe(symbol));
   noteDeclaration(d, symbol);
   return elementaryType(TypeKind::error);
+}
+
+bool Checker::isProgramInstance(const VarSymbol *variable) {
+  return std::any_of(variable->decl->attributes.begin(), variable->decl->attributes.end(),
+                     [](const Attribute &a) { return a.name == kProgramInstance; });
+}
+
+/// `Main.x` where all instances of the program have other names.
+void Checker::reportTemplate(const Name &name, const PouSymbol *program) {
+  std::vector<std::string_view> names;
+  for (GlobalsSymbol *list : program->library->globals) {
+    for (VarSymbol *v : list->variables) {
+      if (isProgramInstance(v) && v->type == program->type)
+        names.push_back(v->name.text);
+    }
+  }
+  auto &d = report(Code::configurationProgram, name.span,
+                   "which `" + std::string(name.text) + "`? Its instances have other names",
+                   "the CONFIGURATION makes instances of it");
+  std::string list;
+  for (const std::string_view n : names)
+    list += (list.empty() ? "`" : ", `") + std::string(n) + "`";
+  d.help("write the name of an instance: " + list);
+}
+
+void Checker::resolveInstances(Module &module) {
+  for (GlobalsSymbol *list : module.library->globals) {
+    for (VarSymbol *v : list->variables) {
+      if (!isProgramInstance(v))
+        continue;
+      const Type *type = typeOf(v);
+      if (type->kind == TypeKind::program && v->decl->attributes.front().value != "also")
+        typeAs<PouType>(type)->symbol->isTemplate = true;
+    }
+  }
 }
 
 const Type *Checker::resolveArray(ArrayTypeExpr *expr, std::string_view hint) {
@@ -417,11 +457,13 @@ const Type *Checker::typeOf(VarSymbol *variable) {
     return variable->type;
   }
   variable->typeRunning = true;
+  programTypes_ = isProgramInstance(variable);
   const ScopeGuard guard(*this, {&moduleOf(variable), variable->owner});
   const Symbol *home =
       variable->owner != nullptr ? static_cast<const Symbol *>(variable->owner) : variable->globals;
   const Type *type = resolveType(variable->decl->type, std::string(home->name.text) + "__" +
                                                            std::string(variable->name.text));
+  programTypes_ = false;
   if (variable->type == nullptr)
     variable->type = type;
   variable->typeRunning = false;

@@ -211,6 +211,10 @@ const Type *Checker::useSymbol(Expr *expr, Symbol *symbol, const Name &name) {
   case SymbolKind::pou: {
     auto *pou = static_cast<PouSymbol *>(symbol);
     if (pou->decl->kind == DeclKind::program) {
+      if (pou->isTemplate) {
+        reportTemplate(name, pou);
+        return elementaryType(TypeKind::error);
+      }
       declare(pou);
       return pou->type;
     }

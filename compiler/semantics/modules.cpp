@@ -219,6 +219,7 @@ void Checker::checkModule(Module &module) {
     for (std::size_t i = 0; i < list.size(); ++i) // the list may grow meanwhile
       action(list[i]);
   };
+  resolveInstances(module);
   // Enumerators are visible without their type's name, so they come first.
   resolveEnumerations(module);
   byIndex(module.declaredTypes, [&](TypeSymbol *t) {

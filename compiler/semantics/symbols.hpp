@@ -63,8 +63,8 @@ struct PouSymbol : Symbol {
   std::vector<VarSymbol *>
   parameters() const; ///< inputs, in-outs, outputs in the order of the text
   std::unordered_map<Ident, VarSymbol *> scope;
-  bool declared = false; ///< variables and types are resolved
-  bool checked = false;  ///< the body has been checked
+  bool declared = false;   ///< variables and types are resolved
+  bool checked = false;    ///< the body has been checked
   bool isTemplate = false; ///< PROGRAM: only instances with names of their own exist
                            ///< (CONFIGURATION)
   [[nodiscard]] bool isFunction() const { return decl->kind == ast::DeclKind::function; }
