@@ -99,6 +99,8 @@ private:
   bool locateType(VarSymbol *variable, std::uint64_t bytes, bool isBool);
   void reportInputWritten(const ast::Expr *expr, const Location &at);
   const Type *checkBitAddress(ast::CallExpr *expr);
+  /// Reports RETAIN and PERSISTENT where there is nothing to keep.
+  void checkRetain(const VarSymbol *variable);
   void finishImage();
 
   // configured.cpp

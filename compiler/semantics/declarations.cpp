@@ -469,6 +469,7 @@ const Type *Checker::typeOf(VarSymbol *variable) {
   variable->typeRunning = false;
   if (variable->decl->address != nullptr)
     placeVariable(variable);
+  checkRetain(variable);
   return variable->type;
 }
 

@@ -353,6 +353,25 @@ const Type *Checker::checkBitAddress(CallExpr *expr) {
   return elementaryType(TypeKind::dword);
 }
 
+void Checker::checkRetain(const VarSymbol *variable) {
+  if (variable->decl == nullptr ||
+      (variable->decl->qualifiers & (qualRetain | qualPersistent)) == 0)
+    return;
+  const bool perCall =
+      variable->section == Section::temp || variable->section == Section::inOut ||
+      (variable->owner != nullptr && variable->owner->type == nullptr &&
+       variable->section != Section::stat && variable->section != Section::instance);
+  const bool input = variable->location != nullptr && variable->location->area == Area::input;
+  if (!perCall && !variable->isConstant && !input)
+    return;
+  report(Code::retainWithoutEffect, variable->name.span,
+         "`" + std::string(variable->name.text) + "` has no value to retain",
+         perCall                ? "it lives only during a call"
+         : variable->isConstant ? "a constant never changes"
+                                : "the device gives its value in every cycle")
+      .help("remove RETAIN or PERSISTENT, or declare the variable in a section without it");
+}
+
 void Checker::finishImage() {
   Image &image = program_.image;
   for (std::size_t area = 0; area < image.bytes.size(); ++area) {

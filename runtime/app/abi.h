@@ -37,7 +37,7 @@ enum SymbolFlags : uint32_t {
   kSymTypeId = 1U << 9, ///< The hidden `type__` of an instance (UDINT): init sets it, nobody else
                         ///< writes it, and it is not carried over. Interface slots point to it.
   kSymInitOnChange = 1U << 10, ///< {attribute 'init_on_onlchange'}: an online change does not keep
-                              ///< the value.
+                               ///< the value.
   kSymLocated = 1U << 12, ///< Lies in the process image: the offset counts from the start of the
                           ///< state, also that of a member.
   kSymSlot = 1U << 13, ///< `AT %I*`: at the offset the instance holds a UDINT, the variable's place
