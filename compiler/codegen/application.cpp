@@ -54,7 +54,7 @@ public:
       out += "  " + rootType(c_.names, m.root) + " " + m.name + ";\n";
     for (std::size_t area = 0; area < 3; ++area) {
       if (const std::uint32_t bytes = c_.program.image.bytes[area]; bytes != 0)
-        out += std::string("  alignas(8) ::stride::BYTE ") + "iqm"[area] + "__[" +
+        out += std::string("  alignas(8) ::stride::BYTE image__") + "iqm"[area] + "[" +
                std::to_string(bytes) + "]; // %" + "IQM"[area] + "\n";
     }
     if (members_.empty())
@@ -189,10 +189,10 @@ private:
       out += "}\n";
     out += "\nnamespace st {\n";
     for (std::size_t area = 0; area < 3; ++area)
-      out += std::string("const ::stride::ULINT ") + "iqm"[area] + "__at__ = " +
+      out += std::string("const ::stride::ULINT image__") + "iqm"[area] + "__at__ = " +
              (c_.program.image.bytes[area] == 0
                   ? std::string("0")
-                  : std::string("offsetof(::st::user::App__, ") + "iqm"[area] + "__)") +
+                  : std::string("offsetof(::st::user::App__, image__") + "iqm"[area] + ")") +
              ";\n";
     out += "}\n";
   }
@@ -204,7 +204,7 @@ private:
       const std::uint32_t bytes = c_.program.image.bytes[area];
       out += area == 0 ? "{" : ", {";
       out += bytes == 0 ? std::string("0, 0}")
-                        : std::string("offsetof(App__, ") + "iqm"[area] + "__), " +
+                        : std::string("offsetof(App__, image__") + "iqm"[area] + "), " +
                               std::to_string(bytes) + "}";
     }
     return out + "}";

@@ -157,7 +157,7 @@ private:
   /// Stores what `value` writes in it. `bound` stands for the variable it is a part of; empty: it
   /// is found here.
   template <class Value> void bitStore(const ast::Expr *e, std::string_view bound, Value &&value);
-  /// `Bit(m__[3], 5`: the end of the runtime function's name and the first arguments.
+  /// `Bit(image__m[3], 5`: the end of the runtime function's name and the first arguments.
   void bitAccess(const ast::Expr *e, std::string_view bound);
   /// The variable that a bit or part belongs to.
   [[nodiscard]] static const ast::Expr *bitOwner(const ast::Expr *e);

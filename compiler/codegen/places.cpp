@@ -9,7 +9,7 @@ namespace stc::codegen {
 using namespace ast;
 
 std::string_view Emitter::area(Area area) {
-  static constexpr std::string_view kNames[] = {"i__", "q__", "m__"};
+  static constexpr std::string_view kNames[] = {"image__i", "image__q", "image__m"};
   const auto index = static_cast<std::size_t>(area);
   areas_ |= 1U << index;
   usesContext_ = true;

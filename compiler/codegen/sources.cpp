@@ -209,8 +209,8 @@ private:
       if ((areas >> area & 1U) == 0)
         continue;
       const char letter = "iqm"[area];
-      text_.line() << "  ::stride::BYTE *const " << letter
-                   << "__ = ::stride::area(ctx__, ::st::" << letter << "__at__);";
+      text_.line() << "  ::stride::BYTE *const image__" << letter
+                   << " = ::stride::area(ctx__, ::st::image__" << letter << "__at__);";
       text_.endLine();
     }
   }

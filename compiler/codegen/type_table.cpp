@@ -67,9 +67,9 @@ std::string locatedFlags(const VarSymbol *v, std::string flags) {
   return v->location == nullptr ? flags : locatedFlags(*v->location, std::move(flags));
 }
 
-/// `offsetof(App__, m__) + 6`
+/// `offsetof(App__, image__m) + 6`
 std::string placeInImage(const Location &at) {
-  return std::string("offsetof(App__, ") + "iqm"[static_cast<unsigned>(at.area)] + "__) + " +
+  return std::string("offsetof(App__, image__") + "iqm"[static_cast<unsigned>(at.area)] + ") + " +
          std::to_string(at.byte);
 }
 
@@ -216,8 +216,8 @@ void TypeTable::addImage() {
       continue;
     any = true;
     const char letter = "iqm"[area];
-    rootRows_.push_back(std::string("{nullptr, \"%") + "IQM"[area] + "\", offsetof(App__, " +
-                        letter + "__), " + std::to_string(index(image.types[area])) +
+    rootRows_.push_back(std::string("{nullptr, \"%") + "IQM"[area] + "\", offsetof(App__, image__" +
+                        letter + "), " + std::to_string(index(image.types[area])) +
                         ", ::stride::kSymHidden}");
   }
   if (!any)
@@ -237,6 +237,8 @@ void TypeTable::addAccess(const AccessPath &access) {
     offset = placeInImage(*access.location);
   if (access.location != nullptr)
     flags = locatedFlags(*access.location, flags);
+  else
+    flags = "::stride::kSymLocated | " + flags;
   const std::uint32_t type = index(access.type);
   rootRows_.push_back("{nullptr, " + quote(access.decl->name.text) + ", " + offset + ", " +
                       std::to_string(type) + ", " + flags + "}");

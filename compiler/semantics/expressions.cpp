@@ -304,12 +304,6 @@ Symbol *Checker::resolveNamespace(Expr *expr) {
 }
 
 const Type *Checker::checkMember(MemberExpr *expr) {
-  if (expr->bit >= 0 && expr->width != 1) {
-    check(expr->base);
-    report(Code::unsupported, expr->name.span, "partial access is not supported by this version",
-           "not available");
-    return elementaryType(TypeKind::error);
-  }
   if (expr->bit >= 0)
     return checkBit(expr);
   const std::string name(expr->name.text);

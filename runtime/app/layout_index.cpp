@@ -16,16 +16,25 @@ bool hasMembers(Kind kind) {
          kind == Kind::Program;
 }
 
+namespace {
+
+/// It has no bytes of its type there: they lie in the process image.
+bool isElsewhere(uint32_t flags) { return (flags & (kSymLocated | kSymSlot)) != 0; }
+
+} // namespace
+
 LayoutIndex::LayoutIndex(const StrideAppV1 &app) : app_(&app) {
-  first_.resize(app.typeCount);
+  first_.resize(app.typeCount + std::size_t{1});
   overlapping_.resize(app.typeCount);
   for (uint32_t t = 0; t < app.typeCount; ++t) {
     const TypeDesc &type = app.types[t];
     first_[t] = static_cast<uint32_t>(order_.size());
     if (!hasMembers(type.kind))
       continue;
-    for (uint32_t i = 0; i < type.memberCount; ++i)
-      order_.push_back(type.firstMember + i);
+    for (uint32_t i = 0; i < type.memberCount; ++i) {
+      if (!isElsewhere(app.members[type.firstMember + i].flags))
+        order_.push_back(type.firstMember + i);
+    }
     const auto begin = order_.begin() + first_[t];
     std::stable_sort(begin, order_.end(), [&](uint32_t a, uint32_t b) {
       return app.members[a].offset < app.members[b].offset;
@@ -38,9 +47,11 @@ LayoutIndex::LayoutIndex(const StrideAppV1 &app) : app_(&app) {
       end = std::max(end, member.offset + app.types[member.type].size);
     }
   }
-  roots_.resize(app.rootCount);
-  for (uint32_t i = 0; i < app.rootCount; ++i)
-    roots_[i] = i;
+  first_[app.typeCount] = static_cast<uint32_t>(order_.size());
+  for (uint32_t i = 0; i < app.rootCount; ++i) {
+    if (!isElsewhere(app.roots[i].flags))
+      roots_.push_back(i);
+  }
   std::stable_sort(roots_.begin(), roots_.end(), [&](uint32_t a, uint32_t b) {
     const RootDesc &x = app.roots[a];
     const RootDesc &y = app.roots[b];

@@ -56,7 +56,7 @@ private:
   struct Search;
   /// Members by offset; a type whose members overlap keeps them all in one search.
   const uint32_t *membersBegin(uint32_t type) const { return order_.data() + first_[type]; }
-  uint32_t memberCount(uint32_t type) const { return app_->types[type].memberCount; }
+  uint32_t memberCount(uint32_t type) const { return first_[type + 1] - first_[type]; }
 
   template <class Visit> bool descend(uint32_t type, uint64_t rel, bool end, Visit visit) const;
   template <class Visit> bool descendRoots(uint64_t offset, bool end, Visit visit) const;

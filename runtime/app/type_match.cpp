@@ -108,6 +108,8 @@ void flatten(const StrideAppV1 &app, uint32_t type, uint64_t offset, std::vector
   for (uint32_t i = 0; i < desc.memberCount; ++i) {
     const uint32_t m = desc.firstMember + i;
     const MemberDesc &member = app.members[m];
+    if ((member.flags & kSymLocated) != 0)
+      continue; // its bytes are those of the process image
     if ((member.flags & kSymBase) != 0) {
       flatten(app, member.type, offset + member.offset, out);
       continue;
@@ -308,7 +310,7 @@ void TypeMatch::fillArray(TypePair &pair) {
 }
 
 Hold TypeMatch::holdOf(uint32_t flags, bool whole, uint32_t pair) const {
-  if ((flags & kSymTypeId) != 0)
+  if ((flags & (kSymTypeId | kSymSlot)) != 0)
     return Hold::TypeId;
   if ((flags & kSymConstant) != 0)
     return Hold::Constant;
@@ -455,6 +457,8 @@ void TypeMatch::matchRoots() {
     out.reserve(app.rootCount);
     for (uint32_t i = 0; i < app.rootCount; ++i) {
       const RootDesc &root = app.roots[i];
+      if ((root.flags & kSymLocated) != 0)
+        continue; // another name for what lies in the process image or in another root
       const std::string list = root.list == nullptr ? std::string() : lowered(root.list) + ".";
       std::string renamed = root.renamedFrom == nullptr ? std::string() : lowered(root.renamedFrom);
       if (!renamed.empty() && renamed.find('.') == std::string::npos)

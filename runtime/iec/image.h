@@ -8,9 +8,9 @@
 
 /// Where the areas lie in the application's state; the application defines them.
 namespace st {
-extern const ::stride::ULINT i__at__;
-extern const ::stride::ULINT q__at__;
-extern const ::stride::ULINT m__at__;
+extern const ::stride::ULINT image__i__at__;
+extern const ::stride::ULINT image__q__at__;
+extern const ::stride::ULINT image__m__at__;
 } // namespace st
 
 namespace stride {
