@@ -92,7 +92,9 @@ int run(int argc, char **argv) {
   pass("--for", "How long, in virtual time: T#5s", "TIME")->required();
   pass("--trace", "Variables to record in every cycle: Drive.fSetPosition,Main.n", "NAMES");
   pass("--out", "CSV file for the trace (default: standard output)", "FILE");
-  pass("--set", "Write a variable at a time: T#3s,Main.p=50 (may be repeated)", "TIME,NAME=VALUE");
+  pass("--set",
+       "Write a variable at a time: T#3s,Main.p=50; without a time at once (may be repeated)",
+       "[TIME,]NAME=VALUE");
   pass("--print", "Variables to print at the end", "NAMES");
   pass("--loop-budget", "Loop iterations a cycle may use before it counts as endless", "COUNT");
   passFlag("--quiet", "Neither progress nor summary");

@@ -239,6 +239,20 @@ void Checker::checkConfigEntry(VarDecl *decl, Module &module, std::vector<SlotPl
     if (variable != nullptr)
       noteDeclaration(d, variable);
   };
+  // What has an entry, be it wrong, is not missing.
+  const std::string key = lowered(path);
+  const auto slot = std::find_if(slots.begin(), slots.end(), [&](const SlotPlace &s) {
+    return lowered(pathText(s.path)) == key;
+  });
+  if (slot != slots.end()) {
+    if (slot->decl != nullptr) {
+      auto &d = report(Code::configMismatch, decl->path->span, "`" + path + "` gets a place twice",
+                       "placed again here");
+      d.label(slot->decl->path->span, "placed first here");
+      return;
+    }
+    slot->decl = decl;
+  }
   if (type != target->type) {
     mismatch(decl->type->span,
              "`" + path + "` is " + typeName(target->type) + ", not " + typeName(type),
@@ -247,9 +261,7 @@ void Checker::checkConfigEntry(VarDecl *decl, Module &module, std::vector<SlotPl
   }
   if (decl->init != nullptr)
     decl->init = checkInit(decl->init, type);
-  const bool isSlot = variable != nullptr && variable->location != nullptr &&
-                      variable->location->isSlot &&
-                      (target->path.steps.empty() || target->path.steps.back().member == variable);
+  const bool isSlot = slot != slots.end();
   if (decl->address == nullptr) {
     if (isSlot)
       mismatch(decl->path->span, "the entry for `" + path + "` gives no address",
@@ -264,19 +276,6 @@ void Checker::checkConfigEntry(VarDecl *decl, Module &module, std::vector<SlotPl
              "another place");
     return;
   }
-  const std::string key = lowered(path);
-  const auto slot = std::find_if(slots.begin(), slots.end(), [&](const SlotPlace &s) {
-    return lowered(pathText(s.path)) == key;
-  });
-  if (slot == slots.end())
-    return;
-  if (slot->decl != nullptr) {
-    auto &d = report(Code::configMismatch, decl->path->span, "`" + path + "` gets a place twice",
-                     "placed again here");
-    d.label(slot->decl->path->span, "placed first here");
-    return;
-  }
-  slot->decl = decl; // also when something is wrong with it: it is not missing
   if (address.incomplete) {
     mismatch(address.span, "`" + std::string(address.text) + "` does not say where",
              "a number is needed here");
@@ -339,7 +338,7 @@ void Checker::reportMissingPlaces(const std::vector<SlotPlace> &slots) {
                                       : "`" + std::string(v->name.text) + "` has no place in " +
                                             std::to_string(list.size()) + " instances",
                      "VAR_CONFIG must say where it lies");
-    std::string text = "add\n      VAR_CONFIG\n";
+    std::string text = "add\nVAR_CONFIG\n";
     std::uint64_t &free = next[static_cast<std::size_t>(v->location->area)];
     for (std::size_t i = 0; i < list.size() && i < kMaxShown; ++i) {
       Location at = *v->location;
@@ -349,13 +348,13 @@ void Checker::reportMissingPlaces(const std::vector<SlotPlace> &slots) {
       free = (free + align - 1) / align * align;
       at.byte = static_cast<std::uint32_t>(free);
       free += std::max<std::uint64_t>(extent.size, 1);
-      text += "        " + pathText(list[i]->path) + " AT " +
+      text += "  " + pathText(list[i]->path) + " AT " +
               addressText(at, extent.align, program_.settings.addressing) + " : " +
               typeName(v->type) + ";\n";
     }
     if (list.size() > kMaxShown)
-      text += "        // and " + std::to_string(list.size() - kMaxShown) + " more\n";
-    d.help(text + "      END_VAR");
+      text += "  // and " + std::to_string(list.size() - kMaxShown) + " more\n";
+    d.help(text + "END_VAR");
   }
 }
 

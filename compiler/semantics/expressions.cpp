@@ -357,6 +357,8 @@ const Type *Checker::checkMember(MemberExpr *expr) {
     if (base->kind == TypeKind::pointer)
       d.help("follow the pointer first: `" + std::string(program_.sources.text(expr->base->span)) +
              "^." + name + "`");
+    else if (isInteger(underlying(base)))
+      d.help("a bit is selected by its number, `.3`, or by the name of an integer constant");
     return elementaryType(TypeKind::error);
   }
   VarSymbol *member = findMember(base, expr->name.id);

@@ -52,11 +52,18 @@ std::vector<std::string> splitPaths(std::string_view text) {
 }
 
 SetOption parseSet(const std::string &text) {
-  const std::size_t comma = text.find(',');
-  const std::size_t equals = comma == std::string::npos ? comma : text.find('=', comma);
-  if (equals == std::string::npos)
+  // Without a time (`x=5`, `a[1,2]=5`) it is set before the first cycle.
+  std::size_t comma = text.find(',');
+  const bool timed =
+      comma != std::string::npos && (text.rfind('#', comma) != std::string::npos ||
+                                     (text.front() >= '0' && text.front() <= '9'));
+  if (!timed)
+    comma = std::string::npos;
+  const std::size_t equals = text.find('=', timed ? comma : 0);
+  if (equals == 0 || equals == std::string::npos)
     throw app::Error(fmt::format(
-        "--set '{}' has not the form TIME,NAME=VALUE; write for example --set T#3s,PLC_PRG.x=50",
+        "--set '{}' has not the form NAME=VALUE or TIME,NAME=VALUE; write for example --set "
+        "T#3s,PLC_PRG.x=50",
         text));
   std::size_t pathEnd = equals;
   if (text[pathEnd - 1] == ':') // NAME:=VALUE as in ST
@@ -66,7 +73,8 @@ SetOption parseSet(const std::string &text) {
   option.path = std::string(trimmed(std::string_view(text).substr(comma + 1, pathEnd - comma - 1)));
   option.value = std::string(trimmed(std::string_view(text).substr(equals + 1)));
   try {
-    option.timeNs = parseDuration(trimmed(std::string_view(text).substr(0, comma)), true);
+    if (timed)
+      option.timeNs = parseDuration(trimmed(std::string_view(text).substr(0, comma)), true);
   } catch (const app::Error &error) {
     throw app::Error(fmt::format("--set '{}': {}", text, error.what()));
   }

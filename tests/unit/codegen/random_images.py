@@ -28,7 +28,9 @@ def width(name):
 
 
 def literal(name, value):
-    return f"{name}#{value}"
+    if value == -(1 << 63):
+        return "(-9223372036854775807 - 1)"
+    return f"{name}#{value}" if value >= 0 else str(value)
 
 
 class Image:
@@ -220,7 +222,7 @@ class Project:
             target.write(image, source.read(image))
         elif choice == 3 and target.kind == "WORD" and target.byte % 2 == 0:
             value = rng.getrandbits(15)
-            self.lines.append(f"Put(to := {target.text}, value := {value});")
+            self.lines.append(f"Put(target := {target.text}, value := {value});")
             target.write(image, value)
         elif choice == 4 and target.kind == "BYTE":
             value = self.value("BYTE")
@@ -249,9 +251,9 @@ VAR x AT %Q* : BOOL; n AT %M* : INT; d AT %MD* : DWORD; END_VAR
 x := setX; n := setN; d := setD;
 END_FUNCTION_BLOCK
 FUNCTION_BLOCK Set
-VAR_IN_OUT to : WORD; END_VAR
+VAR_IN_OUT target : WORD; END_VAR
 VAR_INPUT value : WORD; END_VAR
-to := value;
+target := value;
 END_FUNCTION_BLOCK
 VAR_GLOBAL""", *self.globals, "END_VAR", "VAR_CONFIG", *self.config, "END_VAR",
                           "PROGRAM PLC_PRG", "VAR", *self.locals,

@@ -86,7 +86,9 @@ TEST_F(Host, SetOptions) {
   EXPECT_EQ(option.value, "50");
   EXPECT_EQ(parseSet("0s,x:='a=b'").value, "'a=b'");
   EXPECT_EQ(parseSet("0s, x := 5").path, "x");
-  for (const char *bad : {"", "x=1", "T#3s,x", "T#3s", "3,x=1", "T#3s,=1"})
+  EXPECT_EQ(parseSet("a[1,2]=5").path, "a[1,2]");
+  EXPECT_EQ(parseSet("x=LT#1s").timeNs, 0);
+  for (const char *bad : {"", "x", "=1", "T#3s,x", "T#3s", "3,x=1", "T#3s,=1"})
     EXPECT_THAT(errorOf([&] { (void)parseSet(bad); }), HasSubstr("--set '")) << bad;
 }
 
