@@ -302,6 +302,9 @@ constexpr ::stride::StrideAppV1 kApp = {
     .fileCount = ::stride::tableSize(kFiles),
     .axisRefLayout = 0,
     .axisGroupRefLayout = 0,
+    .image = {},
+    .imageAddressing = ::stride::ImageAddressing::Units,
+    .reserved2 = 0,
 };
 
 } // namespace
