@@ -189,13 +189,12 @@ void Emitter::address(const Expr *e) {
 }
 
 void Emitter::variable(const VarSymbol *v, Span span) {
-<<<<<<< HEAD
   if (std::find(loopLocals_.begin(), loopLocals_.end(), v) != loopLocals_.end()) {
     w_ << mangle(v->name.text);
-=======
+    return;
+  }
   if (v->location != nullptr) {
     located(*v->location, v->type, [&] { field(v); });
->>>>>>> 574dc9a (Locate variables in a process image; select bits by constants and parts by number)
     return;
   }
   const bool indirect = v->type->kind == TypeKind::reference;

@@ -15,15 +15,6 @@ constexpr std::int64_t kMaxLabels = 1024;
 /// g++ nests `else if`; longer chains of ELSIF are flattened.
 constexpr std::size_t kMaxElseIf = 64;
 
-<<<<<<< HEAD
-bool isBit(const Expr *e) { return e->kind == ExprKind::member && as<MemberExpr>(e)->bit >= 0; }
-=======
-/// A path that costs nothing to follow twice.
-bool isPlain(std::string_view place) {
-  return place.find_first_of("([*") == std::string_view::npos;
-}
->>>>>>> 574dc9a (Locate variables in a process image; select bits by constants and parts by number)
-
 } // namespace
 
 void Emitter::block(Block block) {
