@@ -1,5 +1,8 @@
 #include "compiler/codegen/layout.hpp"
 
+#include "compiler/semantics/hierarchy.hpp"
+
+#include <algorithm>
 #include <cmath>
 
 namespace stc::codegen {
@@ -155,17 +158,49 @@ bool Layouts::computeNeedsInit(const Type *type) {
   case TypeKind::functionBlock:
   case TypeKind::program: {
     const PouSymbol *pou = typeAs<PouType>(type)->symbol;
-    if (pou->library != own_)
-      return true;
-    for (const VarSymbol *v : pou->variables) {
-      if (isField(v) && needsInit(v))
-        return true;
-    }
-    return false;
+    return computeNeedsInit(pou);
   }
   default:
     return false;
   }
+}
+
+bool Layouts::computeNeedsInit(const PouSymbol *pou) {
+  if (pou->library != own_ || hasTypeId(pou) || findInit(pou) != nullptr ||
+      !afterInitMethods(pou).empty())
+    return true;
+  if (pou->base != nullptr && needsInit(pou->base->type))
+    return true;
+  for (const VarSymbol *v : pou->variables) {
+    if (isField(v) && needsInit(v))
+      return true;
+  }
+  return false;
+}
+
+bool Layouts::hasLifecycle(const Type *type, std::string_view lowerName) {
+  while (type->kind == TypeKind::array)
+    type = typeAs<ArrayType>(type)->element;
+  if (type->kind == TypeKind::structure) {
+    const auto *s = typeAs<StructType>(type);
+    if (s->base != nullptr && hasLifecycle(s->base, lowerName))
+      return true;
+    return std::any_of(s->fields.begin(), s->fields.end(),
+                       [&](const VarSymbol *v) { return hasLifecycle(v->type, lowerName); });
+  }
+  if (!isInstance(type))
+    return false;
+  for (const PouSymbol *p = typeAs<PouType>(type)->symbol; p != nullptr; p = p->base) {
+    for (const PouSymbol *m : p->methods) {
+      if (m->property == nullptr && p->isBlock() && m->name.id->lower == lowerName)
+        return true;
+    }
+    for (const VarSymbol *v : p->variables) {
+      if (isField(v) && v->section != Section::inOut && hasLifecycle(v->type, lowerName))
+        return true;
+    }
+  }
+  return false;
 }
 
 std::uint64_t Layouts::hash(const Type *type) {
@@ -179,7 +214,7 @@ std::uint64_t Layouts::hash(const Type *type) {
 
 void Layouts::addMember(Hash &hash, const VarSymbol *v) {
   // Case does not matter in ST, so it is no change of layout.
-  hash.add(v->name.id->lower);
+  hash.add(v->storage.empty() ? v->name.id->lower : v->storage);
   if (v->section == Section::inOut) {
     hash.add("in-out").add(typeName(v->type));
     return;
@@ -207,6 +242,9 @@ std::uint64_t Layouts::computeHash(const Type *type) {
         .add(hash(a->element));
     break;
   }
+  case TypeKind::interface:
+    h.add(typeName(type));
+    break;
   case TypeKind::pointer:
   case TypeKind::reference: // by name only: types may point to themselves
     h.add(typeName(typeAs<PointerType>(type)->pointee));
@@ -222,8 +260,13 @@ std::uint64_t Layouts::computeHash(const Type *type) {
   }
   case TypeKind::functionBlock:
   case TypeKind::program: {
+    const PouSymbol *pou = typeAs<PouType>(type)->symbol;
     h.add(typeName(type));
-    for (const VarSymbol *v : typeAs<PouType>(type)->symbol->variables) {
+    if (pou->base != nullptr)
+      h.add("base").add(hash(pou->base->type));
+    if (carriesTypeId(pou))
+      h.add("type id");
+    for (const VarSymbol *v : pou->variables) {
       if (isField(v))
         addMember(h, v);
     }
@@ -239,6 +282,7 @@ bool Layouts::hasAddress(const Type *type) {
   switch (type->kind) {
   case TypeKind::pointer:
   case TypeKind::reference:
+  case TypeKind::interface:
     return true;
   case TypeKind::array:
     return hasAddress(typeAs<ArrayType>(type)->element);
@@ -259,7 +303,9 @@ bool Layouts::hasAddress(const Type *type) {
     for (const VarSymbol *v : s->fields)
       result = result || hasAddress(v->type);
   } else {
-    for (const VarSymbol *v : typeAs<PouType>(type)->symbol->variables)
+    const PouSymbol *pou = typeAs<PouType>(type)->symbol;
+    result = pou->base != nullptr && hasAddress(pou->base->type);
+    for (const VarSymbol *v : pou->variables)
       result = result || (isField(v) && (v->section == Section::inOut || hasAddress(v->type)));
   }
   hasAddress_.emplace(type, result);

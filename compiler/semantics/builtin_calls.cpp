@@ -409,6 +409,8 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
     if (!requireCount(expr, 1, 1))
       return bad;
     Expr *place = value(0);
+    if (rejectProperty(place, "take the address of"))
+      return bad;
     const bool isPlace = place->kind == ExprKind::name || place->kind == ExprKind::member ||
                          place->kind == ExprKind::index || place->kind == ExprKind::deref;
     if (!isPlace || (place->kind == ExprKind::member && as<MemberExpr>(place)->bit >= 0) ||
@@ -416,6 +418,11 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
       return argumentError(expr, 0, "a variable");
     return types_.pointer(place->type);
   }
+  case queryInterface:
+  case queryPointer:
+    return checkQuery(expr);
+  case isValidRef:
+    return checkIsValidRef(expr);
   case sizeofT:
     if (!requireCount(expr, 1, 1))
       return bad;

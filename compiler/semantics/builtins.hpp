@@ -57,7 +57,10 @@ enum class Builtin : std::uint16_t {
   convert, ///< X_TO_Y, TO_Y: from Expr::type of the argument (target is null) to the call's type
   time,    ///< TIME(): the cycle's start as TIME
   adr,     ///< ADR(x): pointer to the argument's type
-  sizeofT, ///< SIZEOF(x): constant, or the argument is a variable whose C++ size is meant
+  queryInterface, ///< __QUERYINTERFACE(instance or interface, interface variable)
+  queryPointer,   ///< __QUERYPOINTER(instance or interface, pointer variable)
+  isValidRef,     ///< __ISVALIDREF(reference variable)
+  sizeofT,        ///< SIZEOF(x): constant, or the argument is a variable whose C++ size is meant
 };
 
 } // namespace ast
