@@ -50,7 +50,12 @@ unsigned Analysis::effects(const Expr *expr) {
     case ExprKind::direct:
       return result | effectReads;
     case ExprKind::name: {
+      const Symbol *symbol = as<NameExpr>(expr)->symbol;
+      if (symbol != nullptr && symbol->kind == SymbolKind::property)
+        return result | effectReads | effectRaises | effectCalls;
       const VarSymbol *variable = namedVariable(expr);
+      if (variable != nullptr && variable->section == Section::inOut && checks_)
+        result |= effectRaises;
       if (variable != nullptr && variable->type->kind == TypeKind::reference && checks_)
         result |= effectRaises;
       return result | effectReads;
@@ -58,6 +63,8 @@ unsigned Analysis::effects(const Expr *expr) {
     case ExprKind::member: {
       const auto *member = as<MemberExpr>(expr);
       result |= effectReads;
+      if (member->symbol != nullptr && member->symbol->kind == SymbolKind::property)
+        result |= effectRaises | effectCalls;
       if (member->symbol != nullptr && member->symbol->kind == SymbolKind::variable && checks_) {
         const auto *variable = static_cast<const VarSymbol *>(member->symbol);
         if (variable->type->kind == TypeKind::reference || variable->section == Section::inOut)
@@ -111,6 +118,8 @@ unsigned Analysis::effects(const Expr *expr) {
       if (call->resolved == Callee::builtin) {
         if (call->builtin == Builtin::mux)
           result |= effectRaises;
+        if (call->builtin == Builtin::queryInterface || call->builtin == Builtin::queryPointer)
+          result |= effectReads | effectCalls; // they assign to their second argument
         return result | (call->builtin == Builtin::time ? effectReads : effectNone);
       }
       result |= effectReads | effectRaises;

@@ -3,6 +3,7 @@
 
 #include "compiler/codegen/type_table.hpp"
 #include "compiler/codegen/units.hpp"
+#include "compiler/semantics/hierarchy.hpp"
 
 #include <algorithm>
 
@@ -139,6 +140,10 @@ private:
           roots.push_back({p, false});
         if (hasStatics(p))
           roots.push_back({p, true});
+        for (const PouSymbol *m : p->methods) {
+          if (hasStatics(m))
+            roots.push_back({m, true});
+        }
       }
       std::stable_sort(roots.begin(), roots.end(), [&](const Root &a, const Root &b) {
         const Span x = a.symbol->name.span;
@@ -160,7 +165,7 @@ private:
       return;
     }
     for (const VarSymbol *v : rootVariables(m.root))
-      types_.addRoot(m.root.symbol->name.text, v, m.name + "." + mangle(v->name.text),
+      types_.addRoot(m.root.symbol->name.text, v, m.name + "." + fieldName(v),
                      m.root.isStatic || qualified_.contains(v->decl), listRenamedFrom(m.root, v));
   }
 
@@ -231,6 +236,22 @@ private:
     if (hasConfiguredValues(c_.program))
       body += "  ::st::user::configure__(*ctx__);\n";
     out += (body.empty() ? ") {\n" : "ctx__) {\n") + body + "}\n";
+    hasExit_ = lifecycle(out, "fb_exit", "exit__", true);
+    hasReinit_ = lifecycle(out, "fb_reinit", "reinit__", false);
+  }
+
+  /// A walk over everything that has FB_Exit (last ones first) or FB_Reinit; false: nothing has.
+  bool lifecycle(std::string &out, std::string_view method, std::string_view name, bool backwards) {
+    std::string body;
+    for (const Member &m : members_) {
+      if (!rootHasLifecycle(c_, m.root, method))
+        continue;
+      const std::string line = "  app__(ctx__)." + m.name + "." + std::string(name) + "(*ctx__);\n";
+      body = backwards ? line + body : body + line;
+    }
+    if (!body.empty())
+      out += "\nvoid " + std::string(name) + "(::stride::Ctx *ctx__) {\n" + body + "}\n";
+    return !body.empty();
   }
 
   void tasks(std::string &out) {
@@ -346,8 +367,8 @@ private:
     field("stateAlign", "alignof(App__)");
     field("reserved", "0");
     field("init", "init__");
-    field("exit", "nullptr");
-    field("reinit", "nullptr");
+    field("exit", hasExit_ ? "exit__" : "nullptr");
+    field("reinit", hasReinit_ ? "reinit__" : "nullptr");
     field("types", table(types_.typeCount(), "kTypes"));
     field("members", table(types_.memberCount(), "kMembers"));
     field("enumerators", table(types_.enumeratorCount(), "kEnumerators"));
@@ -382,6 +403,8 @@ private:
   std::unordered_set<const VarDecl *> qualified_; ///< in lists with {attribute 'qualified_only'}
   /// In lists with {attribute 'renamed_from'}: the list's earlier name.
   std::unordered_map<const VarDecl *, std::string_view> listRenamed_;
+  bool hasExit_ = false;
+  bool hasReinit_ = false;
   std::size_t groupCount_ = 0;
   std::size_t driveCount_ = 0;
   std::uint64_t axisLayout_ = 0;
@@ -399,6 +422,7 @@ std::vector<GeneratedFile> generateLibrary(const Program &program, const Library
   std::vector<GeneratedFile> files;
   codegen::generateHeaders(context, files);
   codegen::generateSources(context, files);
+  codegen::generateDispatch(context, files);
   return files;
 }
 
@@ -407,6 +431,7 @@ std::vector<GeneratedFile> generateApplication(const Program &program, const App
   std::vector<GeneratedFile> files;
   codegen::generateHeaders(context, files);
   codegen::generateSources(context, files);
+  codegen::generateDispatch(context, files);
   codegen::Application application(context, config);
   files.push_back(application.app());
   files.push_back(application.build());

@@ -87,7 +87,8 @@ void Emitter::builtin(const CallExpr *e) {
   // The order of the arguments matters only if one of them calls what may change the others.
   unsigned before = effectNone;
   for (const Argument &a : e->arguments) {
-    if (a.value == nullptr || e->builtin == Builtin::adr || e->builtin == Builtin::sizeofT)
+    if (a.value == nullptr || e->builtin == Builtin::adr || e->builtin == Builtin::sizeofT ||
+        e->builtin == Builtin::queryInterface || e->builtin == Builtin::queryPointer)
       continue;
     const unsigned after = effects(a.value);
     if (Analysis::orderMatters(before, after)) {
@@ -207,6 +208,11 @@ void Emitter::builtinPlain(const CallExpr *e, const std::vector<std::string> *na
   }
   case Builtin::time:
     w_ << "static_cast<::stride::TIME>(" << ctx() << ".cycleStartNs / 1000000)";
+    return;
+  case Builtin::queryInterface:
+  case Builtin::queryPointer:
+  case Builtin::isValidRef:
+    query(e);
     return;
   case Builtin::adr: {
     const bool misaligned = isMisaligned(e->arguments[0].value);

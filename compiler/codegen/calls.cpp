@@ -1,6 +1,7 @@
 // Calls of functions, function blocks and programs.
 
 #include "compiler/codegen/emitter.hpp"
+#include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
 
 #include <algorithm>
@@ -46,9 +47,15 @@ void Emitter::defaultArgument(const VarSymbol *parameter) {
   }
   const std::string name = temporary("default");
   w_ << "[&] { " << type << ' ' << name << "{}; ";
+  inlineStatements([&](Emitter &inner) { inner.initVariable(name, parameter); });
+  w_ << "return " << name << "; }()";
+}
+
+void Emitter::inlineStatements(const std::function<void(Emitter &)> &write) {
   const std::uint32_t line = currentLine_;
   Emitter inner(c_, pou_); // statements, gathered on this line
-  inner.initVariable(name, parameter);
+  inner.next_ = next_ + 100;
+  write(inner);
   std::string statements = inner.w_.take();
   for (std::size_t at = 0; at < statements.size();) {
     std::size_t lineEnd = statements.find('\n', at);
@@ -60,17 +67,35 @@ void Emitter::defaultArgument(const VarSymbol *parameter) {
       w_ << one << ' ';
     at = lineEnd + 1;
   }
+  for (const FileId file : inner.files_)
+    fileName(file);
   usesContext_ = usesContext_ || inner.usesContext_;
   includes_.merge(inner.includes_);
   currentLine_ = line;
+}
+
+/// A list of values as a value.
+void Emitter::aggregateValue(const Type *type, const Expr *init) {
+  const std::string name = temporary("value");
+  w_ << "[&] { " << this->type(type) << ' ' << name << "{}; ";
+  inlineStatements([&](Emitter &inner) {
+    inner.typeDefault(name, type);
+    inner.initValue(name, type, init);
+  });
   w_ << "return " << name << "; }()";
 }
 
 /// `::st::user::F(ctx__, …)`; `names` holds, by parameter, what stands for a value that has been
 /// taken before.
 void Emitter::functionArguments(const CallExpr *e, const std::vector<std::string> &names) {
-  includes_.called(e->pou);
-  w_ << c_.names.qualified(e->pou) << '(' << ctx();
+  if (e->resolved == Callee::method) {
+    const bool taken = names.size() > e->pou->parameters().size();
+    methodPrefix(objectOf(e), e->pou, taken ? std::string_view(names.back()) : std::string_view(),
+                 e->callee->span);
+  } else {
+    includes_.called(e->pou);
+    w_ << c_.names.qualified(e->pou) << '(' << ctx();
+  }
   std::size_t k = 0;
   for (const VarSymbol *p : e->pou->parameters()) {
     w_ << ", ";
@@ -80,9 +105,9 @@ void Emitter::functionArguments(const CallExpr *e, const std::vector<std::string
     else if (a == nullptr || a->value == nullptr)
       defaultArgument(p);
     else if (p->section == Section::inOut)
-      place(a->value);
+      placeAs(a->value, p->type);
     else if (p->type->kind == TypeKind::reference)
-      address(a->value);
+      addressAs(a->value, typeAs<PointerType>(p->type)->pointee);
     else
       valueAs(a->value, p->type);
     ++k;
@@ -110,7 +135,11 @@ void Emitter::functionCall(const CallExpr *e, bool asStatement) {
     order = order || (before != effectNone && Analysis::orderMatters(before, after));
     before |= after;
   }
-  if (!outputs && !order && !copies) {
+  // The instance is found before its arguments are evaluated.
+  const Expr *object = e->resolved == Callee::method ? objectOf(e) : nullptr;
+  const bool takeObject =
+      object != nullptr && before != effectNone && Analysis::orderMatters(effects(object), before);
+  if (!outputs && !order && !copies && !takeObject) {
     functionArguments(e, {});
     if (asStatement)
       w_ << ';';
@@ -118,6 +147,15 @@ void Emitter::functionCall(const CallExpr *e, bool asStatement) {
   }
   std::vector<std::string> names(parameters.size());
   w_ << (asStatement ? "{ " : "[&] { ");
+  if (takeObject) {
+    names.push_back(temporary("object"));
+    includes_.complete(object->type);
+    const bool isValue = object->type->kind == TypeKind::interface ||
+                         object->kind == ExprKind::call || writtenProperty(object) != nullptr;
+    w_ << (isValue ? "auto " : "auto &") << names.back() << " = ";
+    raw(object);
+    w_ << "; ";
+  }
   for (const Argument &a : e->arguments) { // in the order of the call
     const VarSymbol *p = a.parameter;
     if (a.value == nullptr || a.output || p == nullptr)
@@ -135,7 +173,7 @@ void Emitter::functionCall(const CallExpr *e, bool asStatement) {
       name = temporary("in");
       w_ << "const " << type(p->type) << ' ' << name << " = ";
       if (p->type->kind == TypeKind::reference)
-        address(a.value);
+        addressAs(a.value, typeAs<PointerType>(p->type)->pointee);
       else
         valueAs(a.value, p->type);
       w_ << "; ";
@@ -179,6 +217,10 @@ void Emitter::outputTo(const Expr *target, std::string_view source, const Type *
     source = pointee;
   }
   const Type *type = target->type;
+  if (writtenProperty(target) != nullptr) {
+    propertySet(target, [&] { convertedText(source, sourceType, type, span); });
+    return;
+  }
   if (isBitPlace(target)) {
     bitStore(target, {}, [&] { convertedText(source, sourceType, type, span); });
     return;
@@ -223,7 +265,7 @@ void Emitter::instanceCall(const CallExpr *e, Span span) {
       continue;
     part(a.span);
     const VarSymbol *p = a.parameter;
-    const std::string field = instance + "." + mangle(p->name.text);
+    const std::string field = instance + "." + pathToBase(pou, p->owner) + fieldName(p);
     if (needsCopy(a)) {
       const std::string copy = temporary("copy");
       if (!braces)
@@ -234,19 +276,24 @@ void Emitter::instanceCall(const CallExpr *e, Span span) {
       w_ << "); " << field << " = &" << copy << ';';
     } else if (isIndirect(p)) {
       w_ << field << " = ";
-      address(a.value);
+      addressAs(a.value,
+                p->section == Section::inOut ? p->type : typeAs<PointerType>(p->type)->pointee);
       w_ << ';';
     } else {
       storeTo(field, p->type, a.value);
     }
   }
   part(first ? span : Span{});
-  w_ << instance << ".body__(" << ctx() << ");";
+  const bool dispatch =
+      isBodyDispatched(pou) && !isExact(e->callee) &&
+      !(e->callee->kind == ExprKind::deref && instance == "this->base__"); // SUPER^()
+  w_ << instance << (dispatch ? ".body__call(" : ".body__(") << ctx() << ");";
   for (const Argument &a : e->arguments) {
     if (a.value == nullptr || !a.output || a.parameter == nullptr)
       continue;
     part(a.span);
-    outputTo(a.value, instance + "." + mangle(a.parameter->name.text), a.parameter->type, a.span);
+    outputTo(a.value, instance + "." + pathToBase(pou, a.parameter->owner) + fieldName(a.parameter),
+             a.parameter->type, a.span);
   }
   if (braces)
     w_ << " }";

@@ -135,7 +135,7 @@ void Emitter::literal(const ConstValue &constant, const Type *from, const Type *
     return;
   }
   const Type *t = underlying(to);
-  if (t->kind == TypeKind::pointer) {
+  if (t->kind == TypeKind::pointer || t->kind == TypeKind::interface) {
     w_ << "nullptr";
     return;
   }
@@ -173,7 +173,7 @@ bool Emitter::implicitStore(const Type *from, const Type *to) const {
     return false;
   const Type *f = underlying(from);
   const Type *t = underlying(to);
-  if (f == t)
+  if (f == t || (f->kind == TypeKind::interface && t->kind == TypeKind::interface))
     return true;
   if (isInteger(f) && (isInteger(t) || isReal(t)))
     return classify(f, t) == Conversion::free;

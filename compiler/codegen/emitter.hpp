@@ -7,6 +7,7 @@
 #include "compiler/codegen/names.hpp"
 #include "compiler/codegen/writer.hpp"
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <unordered_set>
@@ -67,6 +68,15 @@ public:
   void declareLocal(const VarSymbol *variable);
   /// Gives what VAR_CONFIG says of a variable: its initial value.
   void initConfigured(const SlotPlace &entry);
+
+  // lifecycle.cpp
+  /// The inside of exit__ or reinit__ (`what` is fb_exit, fb_reinit) of something that holds the
+  /// variables; `base` of a structure is walked by itself, `block` together with its bases.
+  void lifecycle(const std::vector<const VarSymbol *> &variables, std::string_view what,
+                 const Type *base, const PouSymbol *block);
+
+  /// Goes on with the body of another POU (a method of the same block); gives the one before.
+  const PouSymbol *enter(const PouSymbol *pou) { return std::exchange(pou_, pou); }
 
   [[nodiscard]] Writer &writer() { return w_; }
   [[nodiscard]] Includes &includes() { return includes_; }
@@ -143,6 +153,8 @@ private:
   void slotOf(const ast::MemberExpr *e);
   void memberEnd(const ast::MemberExpr *e, bool indirect);
   void basePath(const Type *base, const VarSymbol *field);
+  /// A field of the block whose code is written, maybe one of its bases'.
+  void ownField(const VarSymbol *v);
   void index(const ast::IndexExpr *e);
   [[nodiscard]] int level(const ast::Expr *e) const;
   [[nodiscard]] static const ast::Expr *shown(const ast::Expr *e);
@@ -198,6 +210,36 @@ private:
   void instanceCall(const ast::CallExpr *e, Span span);
   void outputTo(const ast::Expr *target, std::string_view source, const Type *sourceType,
                 Span span);
+
+  // methods.cpp
+  void self(const SelfSymbol *symbol);
+  [[nodiscard]] static bool isExact(const ast::Expr *place);
+  void typeIdOf(const ast::Expr *instance);
+  void instanceValue(const ast::Expr *e, const Type *type);
+  void placeAs(const ast::Expr *e, const Type *type);
+  void addressAs(const ast::Expr *e, const Type *type);
+  void methodPrefix(const ast::Expr *object, const PouSymbol *method, std::string_view taken,
+                    Span span);
+  [[nodiscard]] static const ast::Expr *objectOf(const ast::CallExpr *e);
+  void propertyGet(const ast::Expr *instance, const PropertySymbol *property, Span span);
+  [[nodiscard]] static const PouSymbol *accessor(const PropertySymbol *property, bool get);
+  [[nodiscard]] static const PropertySymbol *writtenProperty(const ast::Expr *target);
+  void propertySet(const ast::Expr *target, const std::function<void()> &writeValue);
+  void query(const ast::CallExpr *e);
+
+  // lifecycle.cpp
+  void eachInstance(std::string_view target, const Type *type,
+                    const std::function<void(std::string_view)> &each);
+  void callInit(std::string_view target, const PouSymbol *block,
+                std::span<const ast::Argument> arguments);
+  void construct(std::string_view target, const VarSymbol *variable);
+  void constructPlain(std::string_view target, const Type *type);
+  void afterInit(std::string_view target, const Type *type);
+  void lifecycleOf(std::string_view target, const Type *type, std::string_view what);
+  void exitAtEnd(const VarSymbol *variable);
+  void aggregateValue(const Type *type, const ast::Expr *init);
+  /// Inline statements that bring `target` to a default, gathered on one line.
+  void inlineStatements(const std::function<void(Emitter &)> &write);
 
   // builtin_calls.cpp
   void builtin(const ast::CallExpr *e);

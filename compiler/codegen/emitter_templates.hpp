@@ -35,7 +35,7 @@ void Emitter::converted(const Type *from, const Type *to, Span span, Inner &&inn
       return;
     }
   }
-  if (f == t) {
+  if (f == t || (f->kind == TypeKind::interface && t->kind == TypeKind::interface)) {
     inner();
     return;
   }

@@ -1,6 +1,7 @@
 // Values and places: names, members, elements, pointers.
 
 #include "compiler/codegen/emitter.hpp"
+#include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
 
 #include <algorithm>
@@ -30,12 +31,18 @@ const Symbol *symbolOf(const Expr *e) {
 void Emitter::value(const Expr *e) { valueAs(e, e->target != nullptr ? e->target : e->type); }
 
 void Emitter::valueAs(const Expr *e, const Type *type) {
-  if (e->constant != nullptr)
+  if (e->constant != nullptr) {
     literal(*e->constant, e->type, type, symbolOf(e));
-  else if (isString(type) ? e->type == type : implicitStore(e->type, type))
+  } else if (isInstance(e->type) && type->kind == TypeKind::interface) {
+    w_ << '&';
+    typeIdOf(e);
+  } else if (isInstance(e->type) && isInstance(type)) {
+    instanceValue(e, type);
+  } else if (isString(type) ? e->type == type : implicitStore(e->type, type)) {
     raw(e);
-  else
+  } else {
     convertedExpr(e, e->type, type);
+  }
 }
 
 void Emitter::raw(const Expr *e) {
@@ -57,10 +64,25 @@ void Emitter::raw(const Expr *e) {
     break;
   case ExprKind::call: {
     const auto *call = as<CallExpr>(e);
-    if (call->resolved == Callee::builtin)
+    if (call->resolved == Callee::builtin) {
       builtin(call);
-    else
-      functionCall(call, false);
+      break;
+    }
+    const bool reference = call->resolved == Callee::method && call->pou->result != nullptr &&
+                           call->pou->result->type->kind == TypeKind::reference;
+    if (reference) {
+      includes_.complete(e->type);
+      w_ << (checks() ? "::stride::deref(" : "(*");
+      if (checks())
+        w_ << ctx() << ", ";
+    }
+    functionCall(call, false);
+    if (reference && checks()) {
+      w_ << ", ";
+      position(e->span);
+    }
+    if (reference)
+      w_ << ')';
     break;
   }
   default: {
@@ -74,7 +96,9 @@ void Emitter::raw(const Expr *e) {
 }
 
 void Emitter::operand(const Expr *e, const Type *type, const Expr *other, bool comparison) {
-  if (e->constant != nullptr)
+  if (type->kind == TypeKind::interface)
+    valueAs(e, type);
+  else if (e->constant != nullptr)
     literal(*e->constant, e->type, type, symbolOf(e));
   else if (implicitOperand(e, type, other, comparison))
     raw(e);
@@ -118,6 +142,14 @@ void Emitter::place(const Expr *e) {
       w_ << root({symbol, false});
       return;
     }
+    if (symbol->kind == SymbolKind::property) {
+      propertyGet(nullptr, static_cast<const PropertySymbol *>(symbol), e->span);
+      return;
+    }
+    if (symbol->kind == SymbolKind::self) {
+      self(static_cast<const SelfSymbol *>(symbol));
+      return;
+    }
     variable(static_cast<const VarSymbol *>(symbol), e->span);
     return;
   }
@@ -133,6 +165,13 @@ void Emitter::place(const Expr *e) {
   case ExprKind::deref: {
     const Expr *pointer = as<DerefExpr>(e)->base;
     includes_.complete(e->type);
+    if (pointer->kind == ExprKind::name &&
+        as<NameExpr>(pointer)->symbol->kind == SymbolKind::self) { // never null
+      w_ << (static_cast<const SelfSymbol *>(as<NameExpr>(pointer)->symbol)->isSuper
+                 ? "this->base__"
+                 : "(*this)");
+      return;
+    }
     if (!checks()) {
       w_ << "(*";
       value(pointer);
@@ -166,7 +205,14 @@ void Emitter::slot(const Expr *e) {
     w_ << root({v->owner, true}) << '.';
   else
     used_.insert(v);
-  w_ << mangle(v->name.text);
+  ownField(v);
+}
+
+void Emitter::ownField(const VarSymbol *v) {
+  if (v->section != Section::stat && v->owner != nullptr && pou_ != nullptr &&
+      v->owner->type != nullptr && v->owner != blockOf(pou_) && v->owner->isBlock())
+    w_ << pathToBase(blockOf(pou_), v->owner);
+  w_ << fieldName(v);
 }
 
 void Emitter::address(const Expr *e) {
@@ -197,10 +243,13 @@ void Emitter::variable(const VarSymbol *v, Span span) {
     located(*v->location, v->type, [&] { field(v); });
     return;
   }
-  const bool indirect = v->type->kind == TypeKind::reference;
+  // A VAR_IN_OUT of the block is a C++ reference in its body only, not in methods and derived ones.
+  const bool slot = v->section == Section::inOut && v->owner != nullptr &&
+                    v->owner->type != nullptr && v->owner != pou_;
+  const bool indirect = v->type->kind == TypeKind::reference || slot;
   if (indirect) {
-    includes_.complete(typeAs<PointerType>(v->type)->pointee);
-    w_ << (checks() ? "::stride::deref(" : "(*");
+    includes_.complete(slot ? v->type : typeAs<PointerType>(v->type)->pointee);
+    w_ << (!checks() ? "(*" : slot ? "::stride::bound(" : "::stride::deref(");
     if (checks())
       w_ << ctx() << ", ";
   }
@@ -224,11 +273,13 @@ void Emitter::field(const VarSymbol *v) {
       used_.insert(v);
       lastUsed_ = v;
     }
-    w_ << mangle(v->name.text);
+    ownField(v);
   }
 }
 
 void Emitter::basePath(const Type *base, const VarSymbol *field) {
+  if (isInstance(base) && field->owner != nullptr)
+    w_ << pathToBase(typeAs<PouType>(base)->symbol, blockOf(field->owner));
   if (base->kind != TypeKind::structure)
     return;
   for (const auto *s = typeAs<StructType>(base); s->base != nullptr; s = s->base) {
@@ -241,6 +292,10 @@ void Emitter::basePath(const Type *base, const VarSymbol *field) {
 }
 
 void Emitter::member(const MemberExpr *e, bool slotOnly) {
+  if (e->symbol->kind == SymbolKind::property) {
+    propertyGet(e->base, static_cast<const PropertySymbol *>(e->symbol), e->span);
+    return;
+  }
   const auto *field = static_cast<const VarSymbol *>(e->symbol);
   if (isNamespace(e->base)) {
     if (e->symbol->kind == SymbolKind::pou) {
@@ -273,7 +328,7 @@ void Emitter::member(const MemberExpr *e, bool slotOnly) {
     memberEnd(e, indirect);
     return;
   }
-  w_ << mangle(field->name.text);
+  w_ << fieldName(field);
   memberEnd(e, indirect);
 }
 
@@ -284,7 +339,7 @@ void Emitter::slotOf(const MemberExpr *e) {
   place(e->base);
   w_ << '.';
   basePath(e->base->type, field);
-  w_ << mangle(field->name.text);
+  w_ << fieldName(field);
 }
 
 void Emitter::memberEnd(const MemberExpr *e, bool indirect) {

@@ -1,6 +1,7 @@
 // Headers: one per type, POU and variable list.
 
 #include "compiler/codegen/units.hpp"
+#include "compiler/semantics/hierarchy.hpp"
 
 namespace stc::codegen {
 
@@ -55,6 +56,7 @@ public:
     for (const VarSymbol *v : type->fields)
       field(v);
     init(c_.layouts.needsInit(type));
+    lifecycle(type);
     body_ += "};\n";
     unpacked(type->pack);
     layout(type);
@@ -91,6 +93,7 @@ public:
         field(v);
     }
     init(rootNeedsInit(c_, {symbol, false}));
+    rootLifecycle({symbol, false});
     body_ += "};\n";
     place({symbol, false});
     return close(symbol);
@@ -101,6 +104,12 @@ public:
     packed(symbol->type->pack);
     body_ += "struct " + name_ + " {\n";
     Section section = Section::access;
+    if (symbol->base != nullptr) {
+      includes_.complete(symbol->base->type);
+      body_ += "  " + std::string(c_.names.type(symbol->base->type)) + " base__; // EXTENDS\n";
+    }
+    if (carriesTypeId(symbol))
+      body_ += "  ::stride::UDINT type__; // which block this really is\n";
     for (const VarSymbol *v : symbol->variables) {
       if (!isField(v))
         continue;
@@ -110,12 +119,34 @@ public:
       field(v);
     }
     init(c_.layouts.needsInit(symbol->type));
-    body_ += "  void body__(::stride::Ctx &ctx__);\n};\n";
+    lifecycle(symbol->type);
+    if (symbol->decl->kind != DeclKind::classD)
+      body_ += "  void body__(::stride::Ctx &ctx__);\n";
+    if (isBodyDispatched(symbol))
+      body_ += "  void body__call(::stride::Ctx &ctx__); // of the block this really is\n";
+    for (const PouSymbol *m : symbol->methods)
+      method(m);
+    body_ += "};\n";
     unpacked(symbol->type->pack);
     layout(symbol->type);
     if (symbol->decl->kind == DeclKind::program)
       place({symbol, false});
     statics(symbol);
+    for (const PouSymbol *m : symbol->methods)
+      statics(m);
+    if (hasTypeId(symbol))
+      body_ += "/// Whether a type id belongs to this block or to one that extends it.\nbool " +
+               name_ + "__is(::stride::UDINT type__);\n";
+    return close(symbol);
+  }
+
+  /// Methods of an interface are functions that look at the instance's type.
+  GeneratedFile interface(const PouSymbol *symbol) {
+    open(symbol);
+    body_ += "/// Whether a type id belongs to a block that implements the interface.\nbool " +
+             name_ + "__is(::stride::UDINT type__);\n";
+    for (const PouSymbol *m : symbol->methods)
+      body_ += methodSignature(c_, includes_, m, c_.names.local(m), true, nullptr) + ";\n";
     return close(symbol);
   }
 
@@ -181,12 +212,36 @@ private:
     } else {
       includes_.complete(v->type);
     }
-    body_ += "  " + declared(type, v->name.text) + ";\n";
+    if (type.back() != '*' && type.back() != '&')
+      type += ' ';
+    body_ += "  " + type + fieldName(v) + ";\n";
   }
 
   void init(bool needed) {
     body_ +=
         needed ? "  void init__(::stride::Ctx &ctx__);\n" : "  void init__(::stride::Ctx &) {}\n";
+  }
+
+  void lifecycle(const Type *type) {
+    if (c_.layouts.hasLifecycle(type, "fb_exit"))
+      body_ += "  void exit__(::stride::Ctx &ctx__);\n";
+    if (c_.layouts.hasLifecycle(type, "fb_reinit"))
+      body_ += "  void reinit__(::stride::Ctx &ctx__);\n";
+  }
+
+  void rootLifecycle(const Root &root) {
+    if (rootHasLifecycle(c_, root, "fb_exit"))
+      body_ += "  void exit__(::stride::Ctx &ctx__);\n";
+    if (rootHasLifecycle(c_, root, "fb_reinit"))
+      body_ += "  void reinit__(::stride::Ctx &ctx__);\n";
+  }
+
+  void method(const PouSymbol *m) {
+    if (!m->isAbstract())
+      body_ += "  " + methodSignature(c_, includes_, m, methodName(m), false, nullptr) + ";\n";
+    if (isDispatched(m))
+      body_ += "  " + methodSignature(c_, includes_, m, methodName(m) + "__call", false, nullptr) +
+               "; // of the block this really is\n";
   }
 
   void layout(const Type *type) {
@@ -205,12 +260,13 @@ private:
   void statics(const PouSymbol *symbol) {
     if (!hasStatics(symbol))
       return;
-    body_ += "\nstruct " + name_ + "__static__ {\n";
+    body_ += "\nstruct " + std::string(c_.names.local(symbol)) + "__static__ {\n";
     for (const VarSymbol *v : symbol->variables) {
       if (v->section == Section::stat && !isPlaced(v))
         field(v);
     }
     init(rootNeedsInit(c_, {symbol, true}));
+    rootLifecycle({symbol, true});
     body_ += "};\n";
     place({symbol, true});
     body_ += "\n";
@@ -267,6 +323,17 @@ bool rootNeedsInit(Context &context, const Root &root) {
   return false;
 }
 
+bool rootHasLifecycle(Context &context, const Root &root, std::string_view lowerName) {
+  if (root.symbol->kind == SymbolKind::pou && !root.isStatic)
+    return context.layouts.hasLifecycle(static_cast<const PouSymbol *>(root.symbol)->type,
+                                        lowerName);
+  for (const VarSymbol *v : rootVariables(root)) {
+    if (v->section != Section::inOut && context.layouts.hasLifecycle(v->type, lowerName))
+      return true;
+  }
+  return false;
+}
+
 void generateHeaders(Context &context, std::vector<GeneratedFile> &files) {
   const Library &library = *context.own;
   for (const TypeSymbol *t : library.types) {
@@ -281,8 +348,9 @@ void generateHeaders(Context &context, std::vector<GeneratedFile> &files) {
   for (const GlobalsSymbol *g : library.globals)
     files.push_back(HeaderBuilder(context).globals(g));
   for (const PouSymbol *p : library.pous)
-    files.push_back(p->isFunction() ? HeaderBuilder(context).function(p)
-                                    : HeaderBuilder(context).block(p));
+    files.push_back(p->isFunction()    ? HeaderBuilder(context).function(p)
+                    : p->isInterface() ? HeaderBuilder(context).interface(p)
+                                       : HeaderBuilder(context).block(p));
 }
 
 } // namespace stc::codegen

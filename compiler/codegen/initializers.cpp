@@ -40,8 +40,10 @@ void Emitter::initVariable(std::string_view target, const VarSymbol *variable) {
       init != nullptr && init->kind != ExprKind::aggregate; // replaces the type's default
   if (!whole)
     writtenDefault(target, variable->type, Layouts::written(variable));
+  construct(target, variable);
   if (init != nullptr)
     initValue(target, variable->type, init);
+  afterInit(target, variable->type);
 }
 
 /// The type's default, with those of aliases that array elements are declared with.
@@ -128,7 +130,7 @@ void Emitter::initValue(std::string_view target, const Type *type, const Expr *i
     const std::size_t start = w_.size();
     basePath(type, item.symbol);
     field += w_.cut(start);
-    mangleTo(field, item.symbol->name.text);
+    field += fieldName(item.symbol);
     if (item.symbol->type->kind == TypeKind::reference) {
       begin(initSpan_);
       w_ << field << " = ";
@@ -257,6 +259,8 @@ void Emitter::declareLocal(const VarSymbol *variable) {
   w_ << "{};";
   end();
   initVariable(name, variable);
+  if (!variable->isResult)
+    exitAtEnd(variable);
 }
 
 } // namespace stc::codegen

@@ -1,5 +1,8 @@
 #include "compiler/codegen/layout.hpp"
 
+#include "compiler/semantics/hierarchy.hpp"
+
+#include <algorithm>
 #include <cmath>
 
 namespace stc::codegen {
@@ -157,17 +160,49 @@ bool Layouts::computeNeedsInit(const Type *type) {
   case TypeKind::functionBlock:
   case TypeKind::program: {
     const PouSymbol *pou = typeAs<PouType>(type)->symbol;
-    if (pou->library != own_)
-      return true;
-    for (const VarSymbol *v : pou->variables) {
-      if (isOwn(v) && needsInit(v))
-        return true;
-    }
-    return false;
+    return computeNeedsInit(pou);
   }
   default:
     return false;
   }
+}
+
+bool Layouts::computeNeedsInit(const PouSymbol *pou) {
+  if (pou->library != own_ || hasTypeId(pou) || findInit(pou) != nullptr ||
+      !afterInitMethods(pou).empty())
+    return true;
+  if (pou->base != nullptr && needsInit(pou->base->type))
+    return true;
+  for (const VarSymbol *v : pou->variables) {
+    if (isOwn(v) && needsInit(v))
+      return true;
+  }
+  return false;
+}
+
+bool Layouts::hasLifecycle(const Type *type, std::string_view lowerName) {
+  while (type->kind == TypeKind::array)
+    type = typeAs<ArrayType>(type)->element;
+  if (type->kind == TypeKind::structure) {
+    const auto *s = typeAs<StructType>(type);
+    if (s->base != nullptr && hasLifecycle(s->base, lowerName))
+      return true;
+    return std::any_of(s->fields.begin(), s->fields.end(),
+                       [&](const VarSymbol *v) { return hasLifecycle(v->type, lowerName); });
+  }
+  if (!isInstance(type))
+    return false;
+  for (const PouSymbol *p = typeAs<PouType>(type)->symbol; p != nullptr; p = p->base) {
+    for (const PouSymbol *m : p->methods) {
+      if (m->property == nullptr && p->isBlock() && m->name.id->lower == lowerName)
+        return true;
+    }
+    for (const VarSymbol *v : p->variables) {
+      if (isField(v) && v->section != Section::inOut && hasLifecycle(v->type, lowerName))
+        return true;
+    }
+  }
+  return false;
 }
 
 std::uint64_t Layouts::hash(const Type *type) {
@@ -181,7 +216,7 @@ std::uint64_t Layouts::hash(const Type *type) {
 
 void Layouts::addMember(Hash &hash, const VarSymbol *v) {
   // Case does not matter in ST, so it is no change of layout.
-  hash.add(v->name.id->lower);
+  hash.add(v->storage.empty() ? v->name.id->lower : v->storage);
   if (isSlot(v)) {
     hash.add("slot");
     return;
@@ -213,6 +248,9 @@ std::uint64_t Layouts::computeHash(const Type *type) {
         .add(hash(a->element));
     break;
   }
+  case TypeKind::interface:
+    h.add(typeName(type));
+    break;
   case TypeKind::pointer:
   case TypeKind::reference: // by name only: types may point to themselves
     h.add(typeName(typeAs<PointerType>(type)->pointee));
@@ -230,10 +268,15 @@ std::uint64_t Layouts::computeHash(const Type *type) {
   }
   case TypeKind::functionBlock:
   case TypeKind::program: {
+    const PouSymbol *pou = typeAs<PouType>(type)->symbol;
     h.add(typeName(type));
+    if (pou->base != nullptr)
+      h.add("base").add(hash(pou->base->type));
+    if (carriesTypeId(pou))
+      h.add("type id");
     if (const unsigned pack = typeAs<PouType>(type)->pack; pack != 0)
       h.add("pack").add(std::uint64_t{pack});
-    for (const VarSymbol *v : typeAs<PouType>(type)->symbol->variables) {
+    for (const VarSymbol *v : pou->variables) {
       if (isField(v))
         addMember(h, v);
     }
@@ -249,6 +292,7 @@ bool Layouts::hasAddress(const Type *type) {
   switch (type->kind) {
   case TypeKind::pointer:
   case TypeKind::reference:
+  case TypeKind::interface:
     return true;
   case TypeKind::array:
     return hasAddress(typeAs<ArrayType>(type)->element);
@@ -269,7 +313,9 @@ bool Layouts::hasAddress(const Type *type) {
     for (const VarSymbol *v : s->fields)
       result = result || hasAddress(v->type);
   } else {
-    for (const VarSymbol *v : typeAs<PouType>(type)->symbol->variables)
+    const PouSymbol *pou = typeAs<PouType>(type)->symbol;
+    result = pou->base != nullptr && hasAddress(pou->base->type);
+    for (const VarSymbol *v : pou->variables)
       result = result || (isField(v) && (v->section == Section::inOut || hasAddress(v->type)));
   }
   hasAddress_.emplace(type, result);

@@ -73,11 +73,15 @@ public:
   [[nodiscard]] std::uint64_t hash(const Type *type);
   /// It or something inside it is an address slot.
   [[nodiscard]] bool hasAddress(const Type *type);
+  /// An instance of the type, or one inside of it, has a method that is called at the end of its
+  /// life (`fb_exit`) or after its values were carried over (`fb_reinit`).
+  [[nodiscard]] bool hasLifecycle(const Type *type, std::string_view lowerName);
 
 private:
   bool computeNeedsInit(const Type *type);
   std::uint64_t computeHash(const Type *type);
   void addMember(Hash &hash, const VarSymbol *v);
+  bool computeNeedsInit(const PouSymbol *pou);
 
   const Library *own_;
   [[nodiscard]] const TypeSymbol *alias(const Written &written, const Type *type) const;

@@ -1,6 +1,7 @@
 #include "compiler/codegen/names.hpp"
 
 #include "compiler/codegen/inlining.hpp"
+#include "compiler/semantics/hierarchy.hpp"
 
 #include <algorithm>
 #include <array>
@@ -95,7 +96,60 @@ std::string mangle(std::string_view name) {
   return out;
 }
 
-Names::Names(const Program &program) {
+std::string fieldName(const VarSymbol *variable) {
+  return mangle(variable->storage.empty() ? variable->name.text : variable->storage);
+}
+
+std::string methodName(const PouSymbol *method) {
+  std::string name = mangle(method->name.text);
+  if (method->property != nullptr)
+    name += method->property->get == method ? "__get" : "__set";
+  else if (method->name.id == method->owner->name.id) // else a constructor
+    name += "__method";
+  return name;
+}
+
+std::string pathToBase(const PouSymbol *from, const PouSymbol *to) {
+  std::string path;
+  for (const PouSymbol *p = from; p != nullptr && p != to; p = p->base)
+    path += "base__.";
+  return path;
+}
+
+std::string pathToTypeId(const PouSymbol *block) {
+  const PouSymbol *at = block;
+  while (!carriesTypeId(at))
+    at = at->base;
+  return pathToBase(block, at) + "type__";
+}
+
+std::uint32_t Names::typeId(const PouSymbol *block) {
+  if (typeIds_.empty()) {
+    std::unordered_set<std::uint32_t> taken{0};
+    for (const bool user : {false, true}) { // what a library is called does not depend on its user
+      for (const auto &library : program_.libraries) {
+        if (library->isUser != user)
+          continue;
+        for (const PouSymbol *p : library->pous) {
+          if (!p->isBlock())
+            continue;
+          std::uint32_t id = 2166136261U;
+          for (const std::string_view part : {std::string_view(library->name), p->name.id->lower}) {
+            for (const char c : part)
+              id = (id ^ static_cast<unsigned char>(c)) * 16777619U;
+            id = (id ^ 0xFFU) * 16777619U;
+          }
+          while (!taken.insert(id).second)
+            ++id;
+          typeIds_.emplace(p, id);
+        }
+      }
+    }
+  }
+  return typeIds_.at(block);
+}
+
+Names::Names(const Program &program) : program_(program) {
   const auto add = [&](const Library *library) {
     spaces_.emplace(library, library->isUser ? "user" : mangle(library->name));
   };
@@ -115,6 +169,14 @@ const Names::Entry &Names::entry(const Symbol *symbol) {
   Entry &entry = it->second;
   if (!fresh)
     return entry;
+  if (symbol->kind == SymbolKind::pou && static_cast<const PouSymbol *>(symbol)->isMethod()) {
+    const auto *method = static_cast<const PouSymbol *>(symbol);
+    const Entry &owner = this->entry(method->owner);
+    entry.local = owner.local + "__" + methodName(method);
+    entry.qualified = owner.qualified + "__" + methodName(method);
+    entry.header = owner.header;
+    return entry;
+  }
   std::string file(symbol->name.text);
   if (symbol->kind == SymbolKind::globals)
     file = identifier(file);
@@ -189,6 +251,9 @@ std::string_view Names::type(const Type *type) {
   switch (type->kind) {
   case TypeKind::none:
     text = "void";
+    break;
+  case TypeKind::interface:
+    text = "::stride::Interface";
     break;
   case TypeKind::string:
   case TypeKind::wstring:

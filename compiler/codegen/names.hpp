@@ -17,6 +17,15 @@ std::string mangle(std::string_view name);
 /// Appends it.
 void mangleTo(std::string &out, std::string_view name);
 
+/// The field of an instance, structure or list that holds the variable.
+[[nodiscard]] std::string fieldName(const VarSymbol *variable);
+/// The member function of a method, action or accessor: `Run`, `Speed__get`.
+[[nodiscard]] std::string methodName(const PouSymbol *method);
+/// The way from an instance of `from` to its part `to`, which it is or extends: `base__.base__.`
+[[nodiscard]] std::string pathToBase(const PouSymbol *from, const PouSymbol *to);
+/// The way to the type id of an instance that has one: `base__.type__`
+[[nodiscard]] std::string pathToTypeId(const PouSymbol *block);
+
 /// The headers one file includes: those of complete types, and declarations of types that are only
 /// pointed to.
 class Includes;
@@ -37,6 +46,8 @@ public:
 
   /// `st/user/Foo.inline.h`
   [[nodiscard]] std::string inlineHeader(const Symbol *symbol);
+  /// What the type__ of its instances holds: never 0, different for all blocks of a program.
+  [[nodiscard]] std::uint32_t typeId(const PouSymbol *block);
 
   /// `::stride::INT`, `::stride::Array<::st::user::Foo, 1, 3>`, `::st::user::Foo *`
   [[nodiscard]] std::string_view type(const Type *type);
@@ -54,6 +65,8 @@ private:
   };
   const Entry &entry(const Symbol *symbol);
 
+  const Program &program_;
+  std::unordered_map<const PouSymbol *, std::uint32_t> typeIds_;
   std::unordered_map<const Library *, std::string> spaces_;
   std::unordered_map<const Symbol *, Entry> entries_;
   std::unordered_map<const Type *, std::string> types_;

@@ -1,6 +1,7 @@
 // Places that are no plain C++ variables: the process image, bits and parts.
 
 #include "compiler/codegen/emitter.hpp"
+#include "compiler/semantics/hierarchy.hpp"
 
 #include <algorithm>
 
@@ -164,7 +165,9 @@ std::string statePath(Names &names, const StatePath &path, const Library *own) {
         text += "base__.";
       }
     }
-    text += mangle(step.member->name.text);
+    if (isInstance(type) && step.member->owner != nullptr)
+      text += pathToBase(typeAs<PouType>(type)->symbol, blockOf(step.member->owner));
+    text += fieldName(step.member);
     type = step.member->type;
   }
   return text;

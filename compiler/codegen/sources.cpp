@@ -2,6 +2,7 @@
 
 #include "compiler/codegen/inlining.hpp"
 #include "compiler/codegen/units.hpp"
+#include "compiler/semantics/hierarchy.hpp"
 
 #include <algorithm>
 
@@ -30,7 +31,7 @@ public:
 
   /// `void X::init__(…) { … }` for the given variables; nothing when they are zero.
   void init(std::string_view name, const std::vector<const VarSymbol *> &variables,
-            const Type *base = nullptr) {
+            const Type *base = nullptr, const PouSymbol *block = nullptr) {
     e_.forgetUses();
     e_.writer().indent();
     if (base != nullptr && c_.layouts.needsInit(base)) {
@@ -38,9 +39,14 @@ public:
       e_.writer().line() << "this->base__.init__(ctx__);";
       e_.writer().endLine();
     }
+    if (block != nullptr && hasTypeId(block)) {
+      e_.writer().line() << "this->" << pathToTypeId(block) << " = " << c_.names.typeId(block)
+                         << "U;";
+      e_.writer().endLine();
+    }
     for (const VarSymbol *v : variables) {
       if (c_.layouts.needsInit(v))
-        e_.initVariable("this->" + mangle(v->name.text), v);
+        e_.initVariable("this->" + fieldName(v), v);
     }
     const Writer body = e_.takeWriter();
     functionHead("void " + std::string(name) + "::init__(::stride::Ctx &" +
@@ -90,7 +96,22 @@ public:
     pieces_.back().isBody = true;
   }
 
+  /// `void X::exit__(…) { … }` or reinit__ of what the variables hold; `block` comes with its base.
+  void lifecycle(std::string_view name, const std::vector<const VarSymbol *> &variables,
+                 std::string_view what, const Type *base, const PouSymbol *block) {
+    e_.forgetUses();
+    e_.writer().indent();
+    e_.lifecycle(variables, what, base, block);
+    const Writer body = e_.takeWriter();
+    functionHead("void " + std::string(name) + "::" + std::string(what.substr(3)) +
+                 "__(::stride::Ctx &ctx__)");
+    prologue();
+    text_.append(body);
+    functionEnd();
+  }
+
   void functionBody(const PouSymbol *pou) {
+    const PouSymbol *outer = e_.enter(pou);
     e_.forgetUses();
     e_.writer().indent();
     e_.block(pou->decl->body);
@@ -105,7 +126,15 @@ public:
         e_.declareLocal(v);
     }
     const Writer locals = e_.takeWriter();
-    functionHead(functionSignature(c_, pou, &e_));
+    if (pou->isMethod()) {
+      for (const VarSymbol *p : pou->parameters())
+        e_.includes().complete(p->type);
+      std::string_view block = c_.names.local(pou->owner);
+      functionHead(methodSignature(c_, e_.includes(), pou,
+                                   std::string(block) + "::" + methodName(pou), false, &e_));
+    } else {
+      functionHead(functionSignature(c_, pou, &e_));
+    }
     prologue();
     budget();
     text_.append(locals);
@@ -116,7 +145,8 @@ public:
       text_.endLine();
     }
     functionEnd();
-    pieces_.back().isBody = true;
+    pieces_.back().isBody = !pou->isMethod();
+    e_.enter(outer);
   }
 
   [[nodiscard]] Emitter &emitter() { return e_; }
@@ -263,6 +293,13 @@ private:
 
 void statics(Context &context, SourceBuilder &source, const PouSymbol *pou) {
   const Root root{pou, true};
+  for (const std::string_view what : {std::string_view("fb_exit"), std::string_view("fb_reinit")}) {
+    if (!hasStatics(pou) || !rootHasLifecycle(context, root, what))
+      continue;
+    std::string name = rootType(context.names, root);
+    name.erase(0, name.rfind(':') + 1);
+    source.lifecycle(name, rootVariables(root), what, nullptr, nullptr);
+  }
   if (hasStatics(pou) && rootNeedsInit(context, root)) {
     std::string name = rootType(context.names, root);
     name.erase(0, name.rfind(':') + 1);
@@ -291,6 +328,25 @@ void generateSources(Context &context, std::vector<GeneratedFile> &files) {
     types.init(context.names.local(t), {type->fields.begin(), type->fields.end()}, type->base);
     any = true;
   }
+  for (const std::string_view what : {std::string_view("fb_exit"), std::string_view("fb_reinit")}) {
+    for (const TypeSymbol *t : library.types) {
+      if (t->type->kind != TypeKind::structure || t->decl == nullptr ||
+          t->decl->kind != DeclKind::structure || !context.layouts.hasLifecycle(t->type, what))
+        continue;
+      const auto *type = typeAs<StructType>(t->type);
+      types.emitter().includes().symbol(t);
+      types.lifecycle(context.names.local(t), {type->fields.begin(), type->fields.end()}, what,
+                      type->base, nullptr);
+      any = true;
+    }
+    for (const GlobalsSymbol *g : library.globals) {
+      if (!rootHasLifecycle(context, {g, false}, what))
+        continue;
+      types.emitter().includes().symbol(g);
+      types.lifecycle(context.names.local(g), rootVariables({g, false}), what, nullptr, nullptr);
+      any = true;
+    }
+  }
   for (const GlobalsSymbol *g : library.globals) {
     if (!rootNeedsInit(context, {g, false}))
       continue;
@@ -305,6 +361,8 @@ void generateSources(Context &context, std::vector<GeneratedFile> &files) {
   if (any)
     files.push_back(types.finish(nullptr, "Initial values"));
   for (const PouSymbol *p : library.pous) {
+    if (p->isInterface())
+      continue;
     std::string path(context.names.header(p));
     path = path.substr(3, path.size() - 4) + "cpp"; // st/user/Main.h: user/Main.cpp
     SourceBuilder source(context, p, path);
@@ -312,23 +370,38 @@ void generateSources(Context &context, std::vector<GeneratedFile> &files) {
     bool used = !external;
     const std::string_view name = context.names.local(p);
     if (!p->isFunction() && context.layouts.needsInit(p->type)) {
-      source.init(name, rootVariables({p, false}));
+      source.init(name, rootVariables({p, false}), p->base == nullptr ? nullptr : p->base->type, p);
       used = true;
+    }
+    for (const std::string_view what :
+         {std::string_view("fb_exit"), std::string_view("fb_reinit")}) {
+      if (!p->isFunction() && context.layouts.hasLifecycle(p->type, what)) {
+        source.lifecycle(name, rootVariables({p, false}), what, nullptr, p);
+        used = true;
+      }
     }
     if (hasStatics(p)) {
       statics(context, source, p);
       used = true;
+    }
+    for (const PouSymbol *m : p->methods) {
+      statics(context, source, m);
+      used = used || hasStatics(m) || (!m->isAbstract() && !m->decl->external);
     }
     if (!used)
       continue;
     if (!external) {
       if (p->isFunction())
         source.functionBody(p);
-      else
+      else if (p->decl->kind != DeclKind::classD)
         source.blockBody(p, name);
     }
     if (isInlinable(p))
       files.push_back(source.inlined(p));
+    for (const PouSymbol *m : p->methods) {
+      if (!m->isAbstract() && !m->decl->external)
+        source.functionBody(m);
+    }
     files.push_back(source.finish(p, p->name.text));
   }
 }

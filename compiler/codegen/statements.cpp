@@ -1,6 +1,7 @@
 // Statements.
 
 #include "compiler/codegen/emitter.hpp"
+#include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
 
 namespace stc::codegen {
@@ -115,6 +116,10 @@ void Emitter::storeTo(std::string_view target, const Type *type, const Expr *val
 }
 
 void Emitter::store(const Expr *target, const Expr *value) {
+  if (writtenProperty(target) != nullptr) {
+    propertySet(target, [&] { valueAs(value, target->type); });
+    return;
+  }
   const bool isBit = isBitPlace(target);
   const Expr *stored = isBit ? bitOwner(target) : target;
   const bool ordered = ((effects(target) & effectCalls) != 0 && effects(value) != effectNone) ||
@@ -155,10 +160,15 @@ void Emitter::store(const Expr *target, const Expr *value) {
 /// Copying an instance copies no binding of its in-outs: the target keeps its own.
 bool Emitter::copyInstance(const Expr *target, const Expr *value) {
   std::vector<std::pair<std::string, std::string>> kept;
-  for (const VarSymbol *v : typeAs<PouType>(target->type)->symbol->variables) {
-    if (v->section == Section::inOut)
-      kept.emplace_back(mangle(v->name.text), temporary("bound"));
+  const PouSymbol *block = typeAs<PouType>(target->type)->symbol;
+  for (const PouSymbol *p = block; p != nullptr; p = p->base) {
+    for (const VarSymbol *v : p->variables) {
+      if (v->section == Section::inOut)
+        kept.emplace_back(pathToBase(block, p) + fieldName(v), temporary("bound"));
+    }
   }
+  if (hasTypeId(block))
+    kept.emplace_back(pathToTypeId(block), temporary("type"));
   if (kept.empty())
     return false;
   const std::string name = temporary("to");
@@ -166,9 +176,13 @@ bool Emitter::copyInstance(const Expr *target, const Expr *value) {
   place(target);
   w_ << "; ";
   for (const auto &[field, slot] : kept)
-    w_ << "auto *const " << slot << " = " << name << '.' << field << "; ";
+    w_ << "const auto " << slot << " = " << name << '.' << field << "; ";
   w_ << name << " = ";
-  valueAs(value, target->type);
+  raw(value);
+  if (value->type != target->type) {
+    const std::string path = pathToBase(typeAs<PouType>(value->type)->symbol, block);
+    w_ << '.' << std::string_view(path).substr(0, path.size() - 1);
+  }
   w_ << "; ";
   for (const auto &[field, slot] : kept)
     w_ << name << '.' << field << " = " << slot << "; ";
@@ -187,7 +201,7 @@ void Emitter::assign(const AssignStmt *s) {
         s->value->kind == ExprKind::literal)
       w_ << "nullptr";
     else
-      address(s->value);
+      addressAs(s->value, last->type);
     w_ << ';';
     break;
   case AssignOp::set:
@@ -199,6 +213,9 @@ void Emitter::assign(const AssignStmt *s) {
     for (const Expr *target : s->targets) {
       if (isBitPlace(target)) {
         bitStore(target, {}, [&] { w_ << set; });
+        w_ << ' ';
+      } else if (writtenProperty(target) != nullptr) {
+        propertySet(target, [&] { w_ << set; });
         w_ << ' ';
       } else {
         place(target);
@@ -230,6 +247,7 @@ void Emitter::callStatement(const CallStmt *s) {
   begin(s->span);
   switch (call->resolved) {
   case Callee::function:
+  case Callee::method:
     functionCall(call, true);
     break;
   case Callee::functionBlock:

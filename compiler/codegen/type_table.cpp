@@ -1,10 +1,10 @@
 #include "compiler/codegen/type_table.hpp"
 
 #include "compiler/codegen/units.hpp"
+#include "compiler/semantics/hierarchy.hpp"
+#include "compiler/semantics/type_table.hpp"
 
 #include <algorithm>
-
-#include "compiler/semantics/type_table.hpp"
 
 namespace stc::codegen {
 
@@ -146,6 +146,9 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
     row.element = index(pointee);
     break;
   }
+  case TypeKind::interface:
+    row.kind = "Interface";
+    break;
   case TypeKind::structure: {
     const auto *s = typeAs<StructType>(type);
     row.kind = "Struct";
@@ -160,7 +163,8 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
     row.renamedFrom = renamedFrom(pou->decl->attributes);
     if (pou->decl->external)
       row.flags |= kExternal;
-    members(row, nullptr, row.cppType, rootVariables({pou, false}));
+    members(row, pou->base == nullptr ? nullptr : pou->base->type, row.cppType,
+            rootVariables({pou, false}), carriesTypeId(pou));
     break;
   }
   default:
@@ -171,23 +175,28 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
 }
 
 void TypeTable::members(Row &row, const Type *base, const std::string &owner,
-                        const std::vector<const VarSymbol *> &variables) {
+                        const std::vector<const VarSymbol *> &variables, bool typeId) {
   std::vector<std::uint32_t> types; // first: they append rows of their own
   types.reserve(variables.size());
   const std::uint32_t baseIndex = base == nullptr ? 0 : index(base);
+  const std::uint32_t idIndex = typeId ? index(elementaryType(TypeKind::udint)) : 0;
   for (const VarSymbol *v : variables)
     types.push_back(index(v->type, v->section == Section::inOut));
   row.firstMember = memberRows_.size();
   if (base != nullptr)
     memberRows_.push_back("{" + quote(typeName(base)) + ", offsetof(" + owner + ", base__), " +
                           std::to_string(baseIndex) + ", ::stride::kSymBase}");
+  if (typeId)
+    memberRows_.push_back("{\"type__\", offsetof(" + owner + ", type__), " +
+                          std::to_string(idIndex) +
+                          ", ::stride::kSymTypeId | ::stride::kSymHidden}");
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const VarSymbol *v = variables[i];
-    const std::string offset = isPlaced(v)
-                                   ? placeInImage(*v->location)
-                                   : "offsetof(" + owner + ", " + mangle(v->name.text) + ")";
-    memberRows_.push_back("{" + quote(v->name.text) + ", " + offset + ", " +
-                          std::to_string(types[i]) + ", " + locatedFlags(v, symbolFlags(v)) +
+    const std::string offset =
+        isPlaced(v) ? placeInImage(*v->location) : "offsetof(" + owner + ", " + fieldName(v) + ")";
+    memberRows_.push_back("{" + quote(v->storage.empty() ? v->name.text : v->storage) + ", " +
+                          offset + ", " + std::to_string(types[i]) + ", " +
+                          locatedFlags(v, symbolFlags(v)) +
                           renamedColumn(renamedFrom(v->decl->attributes)) + "}");
   }
   row.memberCount = memberRows_.size() - row.firstMember;

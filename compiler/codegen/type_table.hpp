@@ -68,7 +68,7 @@ private:
   };
   void fill(std::uint32_t at, const Type *type, bool inOut);
   void members(Row &row, const Type *base, const std::string &owner,
-               const std::vector<const VarSymbol *> &variables);
+               const std::vector<const VarSymbol *> &variables, bool typeId = false);
 
   Context &c_;
   Includes includes_{c_.names};

@@ -28,6 +28,17 @@ void generateSources(Context &context, std::vector<GeneratedFile> &files);
 [[nodiscard]] std::string functionSignature(Context &context, const PouSymbol *symbol,
                                             const Emitter *definition);
 
+/// `R name(::stride::Ctx &ctx__, T a)` of a method; with `self` the instance comes behind the
+/// context, as an interface.
+[[nodiscard]] std::string methodSignature(Context &context, Includes &includes,
+                                          const PouSymbol *method, std::string_view name, bool self,
+                                          const Emitter *definition);
+/// Something in the root has a method that is called at the end of its life or after an online
+/// change (Layouts::hasLifecycle).
+[[nodiscard]] bool rootHasLifecycle(Context &context, const Root &root, std::string_view lowerName);
+/// The functions that find out at run time which method is meant.
+void generateDispatch(Context &context, std::vector<GeneratedFile> &files);
+
 /// First line of each generated file.
 [[nodiscard]] std::string banner(std::string_view what);
 /// What every generated source includes and switches off.

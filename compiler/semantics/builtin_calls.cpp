@@ -411,6 +411,8 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
     if (!requireCount(expr, 1, 1))
       return bad;
     Expr *place = value(0);
+    if (rejectProperty(place, "take the address of"))
+      return bad;
     const bool isPlace = place->kind == ExprKind::name || place->kind == ExprKind::member ||
                          place->kind == ExprKind::index || place->kind == ExprKind::deref ||
                          place->kind == ExprKind::direct;
@@ -421,6 +423,11 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
   }
   case bitadr:
     return checkBitAddress(expr);
+  case queryInterface:
+  case queryPointer:
+    return checkQuery(expr);
+  case isValidRef:
+    return checkIsValidRef(expr);
   case sizeofT:
     if (!requireCount(expr, 1, 1))
       return bad;

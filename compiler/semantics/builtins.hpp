@@ -58,7 +58,10 @@ enum class Builtin : std::uint16_t {
   time,    ///< TIME(): the cycle's start as TIME
   adr,     ///< ADR(x): pointer to the argument's type
   bitadr,  ///< BITADR(x): the place of a located variable, always constant
-  sizeofT, ///< SIZEOF(x): constant, or the argument is a variable whose C++ size is meant
+  queryInterface, ///< __QUERYINTERFACE(instance or interface, interface variable)
+  queryPointer,   ///< __QUERYPOINTER(instance or interface, pointer variable)
+  isValidRef,     ///< __ISVALIDREF(reference variable)
+  sizeofT,        ///< SIZEOF(x): constant, or the argument is a variable whose C++ size is meant
 };
 
 } // namespace ast

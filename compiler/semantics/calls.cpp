@@ -1,6 +1,7 @@
 // Calls of functions, function blocks and programs.
 
 #include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
 #include "compiler/semantics/suggest.hpp"
 
@@ -80,20 +81,31 @@ const Type *Checker::checkCall(CallExpr *expr, bool asStatement) {
       }
     }
   }
-  if (pou != nullptr && pou->decl->kind == DeclKind::functionBlock) {
-    auto &d =
-        report(Code::notCallable, callee->span,
-               "`" + std::string(pou->name.text) + "` is a function block, not an instance of one",
-               "a block is called through a variable");
-    d.help("declare an instance, `x : " + std::string(pou->name.text) + ";`, and call `x(…)`");
+  if (pou != nullptr && (pou->isBlock() || pou->isInterface())) {
+    auto &d = report(Code::notCallable, callee->span,
+                     "`" + std::string(pou->name.text) + "` is " + describe(pou) +
+                         ", not an instance of one",
+                     pou->isBlock() ? "a block is called through a variable"
+                                    : "only methods of an interface can be called");
+    if (pou->decl->kind == DeclKind::functionBlock)
+      d.help("declare an instance, `x : " + std::string(pou->name.text) + ";`, and call `x(…)`");
     for (Argument &a : expr->arguments) {
       if (a.value != nullptr && !a.output)
         check(a.value);
     }
     return elementaryType(TypeKind::error);
   }
+  if (pou != nullptr && pou->isMethod()) {
+    as<NameExpr>(callee)->symbol = pou;
+    return checkMethodCall(expr, pou);
+  }
   if (pou == nullptr) {
-    const Type *type = check(callee);
+    const Type *base = nullptr;
+    if (PouSymbol *method = methodOf(callee, base))
+      return checkMethodCall(expr, method);
+    const Type *type =
+        base != nullptr ? checkMemberOf(as<MemberExpr>(callee), base) : check(callee);
+    callee->type = type;
     if (isError(type)) {
       for (Argument &a : expr->arguments) {
         if (a.value != nullptr)
@@ -106,6 +118,17 @@ const Type *Checker::checkCall(CallExpr *expr, bool asStatement) {
     if (!isInstance(type))
       return notCallable(expr, typeName(type) + " cannot be called");
     pou = typeAs<PouType>(type)->symbol;
+    if (pou->decl->kind == DeclKind::classD) {
+      report(Code::classCalled, callee->span,
+             "`" + std::string(pou->name.text) + "` is a CLASS: its instances cannot be called",
+             "a class has no body")
+          .help("call one of its methods, or make it a FUNCTION_BLOCK");
+      for (Argument &a : expr->arguments) {
+        if (a.value != nullptr)
+          check(a.value);
+      }
+      return elementaryType(TypeKind::error);
+    }
   }
   declare(pou);
   expr->pou = pou;
@@ -165,18 +188,19 @@ void Checker::bindArguments(CallExpr *expr, PouSymbol *pou) {
     VarSymbol *parameter = nullptr;
     if (a.name) {
       named = true;
-      const auto it = pou->scope.find(a.name.id);
-      if (it != pou->scope.end() && it->second->owner == pou && !it->second->isResult &&
-          it->second->section != Section::temp && it->second->section != Section::local &&
-          it->second->section != Section::stat)
-        parameter = it->second;
+      VarSymbol *found = findVariable(pou, a.name.id);
+      if (found != nullptr && (found->owner == nullptr || !derivesFrom(pou, found->owner)))
+        found = nullptr;
+      if (found != nullptr && !found->isResult && found->section != Section::temp &&
+          found->section != Section::local && found->section != Section::stat &&
+          found->section != Section::instance)
+        parameter = found;
       if (parameter == nullptr) {
         failed = true;
         auto &d = report(Code::unknownParameter, a.name.span,
                          "`" + std::string(pou->name.text) + "` has no parameter `" +
                              std::string(a.name.text) + "`",
-                         it != pou->scope.end() && it->second->owner == pou ? "this is private"
-                                                                            : "unknown parameter");
+                         found != nullptr ? "this is private" : "unknown parameter");
         std::vector<std::string_view> names;
         for (const VarSymbol *p : positional)
           names.push_back(p->name.text);
@@ -254,13 +278,20 @@ void Checker::checkArgument(Argument &argument, VarSymbol *parameter) {
             "argument `" + std::string(parameter->name.text) + "`");
 }
 
+/// A variable of type `type` may stand where one of `wanted` is referred to.
+bool Checker::refersTo(const Type *type, const Type *wanted) {
+  return type == wanted ||
+         (isInstance(type) && isInstance(wanted) &&
+          derivesFrom(typeAs<PouType>(type)->symbol, typeAs<PouType>(wanted)->symbol));
+}
+
 /// A REFERENCE TO input refers to a variable of exactly its type.
 void Checker::checkReference(Expr *value, const Type *wanted) {
   const Type *type = check(value, wanted);
   if (isError(type) || isError(wanted) || !requireVariable(value, "refer to"))
     return;
   const bool isBit = isBitPlace(value);
-  if (type != wanted || isBit)
+  if (isBit || !refersTo(type, wanted))
     report(Code::typeMismatch, value->span,
            "expected a variable of type " + typeName(wanted) + ", found " +
                (isBit ? "a single bit" : typeName(type)),
@@ -274,6 +305,8 @@ void Checker::checkInOut(Argument &argument, VarSymbol *parameter) {
   if (isError(type) || isError(parameter->type))
     return;
   const bool constantAllowed = parameter->isConstant;
+  if (rejectProperty(argument.value, "pass"))
+    return;
   if (isBitPlace(argument.value)) {
     const bool part = type->kind != TypeKind::boolean;
     report(Code::inOutNotVariable, argument.value->span,
@@ -300,7 +333,7 @@ void Checker::checkInOut(Argument &argument, VarSymbol *parameter) {
     return;
   const Type *wanted = parameter->type;
   const bool anyString = constantAllowed && isString(type) && type->kind == wanted->kind;
-  if (type != wanted && !anyString) {
+  if (!refersTo(type, wanted) && !anyString) {
     auto &d = report(Code::inOutType, argument.value->span,
                      "the VAR_IN_OUT `" + std::string(parameter->name.text) + "` is " +
                          typeName(wanted) + ", this is " + typeName(type),
@@ -315,7 +348,7 @@ void Checker::checkInOut(Argument &argument, VarSymbol *parameter) {
 
 void Checker::checkOutput(Argument &argument, VarSymbol *parameter) {
   Expr *target = argument.value;
-  const Type *type = check(target, parameter->type);
+  const Type *type = checkTarget(target);
   if (isError(type) || isError(parameter->type))
     return;
   if (!requireVariable(target, "assign to"))
@@ -347,8 +380,8 @@ void Checker::reportMissing(CallExpr *expr, PouSymbol *pou,
     if (given.contains(p) || p->hidden)
       continue;
     const bool needed =
-        p->section == Section::inOut ||
-        (pou->isFunction() && p->section == Section::input && p->decl->init == nullptr);
+        p->section == Section::inOut || ((pou->isFunction() || pou->isMethod()) &&
+                                         p->section == Section::input && p->decl->init == nullptr);
     if (!needed)
       continue;
     inOut = inOut || p->section == Section::inOut;

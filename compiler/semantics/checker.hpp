@@ -46,7 +46,6 @@ private:
   Module &module(const std::string &name);
   Module &moduleOf(const Symbol *symbol);
   void loadLibraryFile(const LibraryIndex::Entry &entry);
-  void reportUnsupported(const ast::PouDecl *decl);
   void declareFile(Module &module, ast::File *file);
   void declareGlobals(Module &module, ast::GlobalsDecl *decl);
   void resolveEnumerations(Module &module);
@@ -140,6 +139,8 @@ private:
   const Type *checkLiteral(ast::Literal *expr);
   const Type *checkName(ast::NameExpr *expr, const Type *expected);
   const Type *checkMember(ast::MemberExpr *expr);
+  /// `expr` whose base has been checked to be of type `base` and is no namespace.
+  const Type *checkMemberOf(ast::MemberExpr *expr, const Type *base);
   const Type *checkBit(ast::MemberExpr *expr);
   const Type *checkIndex(ast::IndexExpr *expr);
   const Type *checkDeref(ast::DerefExpr *expr);
@@ -183,6 +184,7 @@ private:
   void bindArguments(ast::CallExpr *expr, PouSymbol *pou);
   void checkArgument(ast::Argument &argument, VarSymbol *parameter);
   void checkReference(ast::Expr *value, const Type *wanted);
+  static bool refersTo(const Type *type, const Type *wanted);
   void checkInOut(ast::Argument &argument, VarSymbol *parameter);
   void checkOutput(ast::Argument &argument, VarSymbol *parameter);
   void reportMissing(ast::CallExpr *expr, PouSymbol *pou,
@@ -199,6 +201,50 @@ private:
   const Type *commonOfArguments(ast::CallExpr *expr, std::size_t first);
   bool requireCount(ast::CallExpr *expr, std::size_t least, std::size_t most);
   const Type *argumentError(ast::CallExpr *expr, std::size_t index, std::string_view wanted);
+
+  // classes.cpp
+  /// Looks up base and interfaces and makes symbols of the members; declares nothing.
+  void link(PouSymbol *pou);
+  void makeMembers(PouSymbol *pou);
+  PouSymbol *makeMethod(PouSymbol *owner, ast::PouDecl *decl, PropertySymbol *property);
+  PouSymbol *lookupBase(ast::NamePath path, bool interface, const PouSymbol *from);
+  void declareMembers(PouSymbol *pou, std::vector<VarSymbol *> &variables);
+  /// Whether members fit each other, the base and the interfaces.
+  void checkClass(PouSymbol *pou);
+  void checkNameClashes(PouSymbol *pou);
+  void checkMethod(PouSymbol *method);
+  void checkInterfaceBases(PouSymbol *pou);
+  void checkInterfaces(PouSymbol *pou);
+  void checkAbstractMethods(PouSymbol *pou);
+  static std::string missingMethods(const PouSymbol *pou);
+  static std::string nearestMethod(const PouSymbol *pou, const ast::Name &name);
+  static ast::Access memberAccess(const PouSymbol *method);
+
+  // members.cpp
+  /// The property that the expression names, or null.
+  static PropertySymbol *propertyOf(const ast::Expr *expr);
+  static Symbol *lookupInPou(PouSymbol *pou, Ident id);
+  Symbol *lookupSelf(const ast::Name &name);
+  bool reportSelf(const ast::Name &name);
+  [[nodiscard]] bool insideOf(const PouSymbol *owner) const;
+  bool requireAccess(Span span, const Symbol *member, const PouSymbol *owner, ast::Access access);
+  const Type *useProperty(ast::Expr *expr, PropertySymbol *property, const ast::Name &name);
+  bool rejectProperty(const ast::Expr *expr, std::string_view action);
+  /// Checks an expression that is going to be assigned to.
+  const Type *checkTarget(ast::Expr *expr);
+  PouSymbol *methodOf(ast::Expr *callee, const Type *&base);
+  const Type *checkMethodCall(ast::CallExpr *expr, PouSymbol *method);
+  void reportNoInterface(ast::Expr *expr, const Type *from, const Type *to);
+  bool coerceToInterface(ast::Expr *expr, const Type *type);
+  const Type *checkQuery(ast::CallExpr *expr);
+  const Type *checkIsValidRef(ast::CallExpr *expr);
+
+  // construct.cpp
+  void checkConstruct(VarSymbol *variable);
+  void bindConstruct(std::span<ast::Argument> arguments, PouSymbol *pou,
+                     const std::vector<VarSymbol *> &inputs, Span span);
+  void checkLifecycle(PouSymbol *method);
+  void checkAfterInit(PouSymbol *method);
 
   // statements.cpp
   void checkBody(PouSymbol *pou);
@@ -233,6 +279,7 @@ private:
   std::vector<ast::GlobalsDecl *> accesses_; ///< VAR_ACCESS
   std::unordered_set<Ident> resourceNames_;  ///< of CONFIGURATIONs and RESOURCEs
   std::unordered_map<const Type *, bool> hasSlots_;
+  const ast::Expr *assignTarget_ = nullptr; ///< is checked as the target of an assignment
 };
 
 /// Sets the scope for the lifetime of the guard.

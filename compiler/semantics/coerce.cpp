@@ -78,6 +78,8 @@ void Checker::coerce(Expr *expr, const Type *type, std::string_view what) {
     type = typeAs<PointerType>(type)->pointee;
   if (from == type)
     return;
+  if (coerceToInterface(expr, type))
+    return;
   if (expr->constant != nullptr && constantFits(*expr->constant, from, type)) {
     if (expr->constant->kind == ConstKind::string && isString(type)) {
       const auto length = typeAs<StringType>(type)->length;
@@ -171,7 +173,7 @@ void Checker::reportConversion(Expr *expr, const Type *from, const Type *to, Con
   auto &d = report(Code::typeMismatch, expr->span,
                    prefix + "expected " + typeName(to) + ", found " + typeName(from),
                    "this is " + typeName(from));
-  if (isInstance(from))
+  if (isInstance(from) && isElementary(to))
     d.help("name one of its outputs: `….Q`");
 }
 

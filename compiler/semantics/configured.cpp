@@ -57,6 +57,8 @@ template <class Visit> void Checker::visitHeld(const Type *type, Visit &&visit) 
   } else if (isInstance(type)) {
     PouSymbol *pou = typeAs<PouType>(type)->symbol;
     declare(pou);
+    if (pou->base != nullptr)
+      visitHeld(pou->base->type, visit);
     for (VarSymbol *v : pou->variables) {
       if (v->section != Section::inOut && v->section != Section::temp &&
           v->section != Section::stat)

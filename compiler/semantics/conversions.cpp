@@ -1,5 +1,6 @@
 #include "compiler/semantics/conversions.hpp"
 
+#include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/symbols.hpp"
 #include "compiler/semantics/type_table.hpp"
 
@@ -40,6 +41,11 @@ Conversion classifyTime(TypeKind from, TypeKind to) {
 Conversion classify(const Type *from, const Type *to) {
   if (from == to || isError(from) || isError(to))
     return Conversion::identity;
+  const auto isPou = [](const Type *t) { return isInstance(t) || t->kind == TypeKind::interface; };
+  if (isPou(from) && isPou(to))
+    return convertsTo(typeAs<PouType>(from)->symbol, typeAs<PouType>(to)->symbol)
+               ? Conversion::free
+               : Conversion::forbidden;
   if (to->kind == TypeKind::subrange) {
     const Type *base = typeAs<SubrangeType>(to)->base;
     return from == base ? Conversion::free : classify(underlying(from), base);
@@ -74,6 +80,13 @@ Conversion classify(const Type *from, const Type *to) {
     return from->kind == to->kind ? Conversion::free : Conversion::narrowing;
   if (isTimeOrDate(from) && isTimeOrDate(to))
     return classifyTime(from->kind, to->kind);
+  if (from->kind == TypeKind::pointer && to->kind == TypeKind::pointer) {
+    const Type *f = typeAs<PointerType>(from)->pointee;
+    const Type *t = typeAs<PointerType>(to)->pointee;
+    if (isInstance(f) && isInstance(t) &&
+        derivesFrom(typeAs<PouType>(f)->symbol, typeAs<PouType>(t)->symbol))
+      return Conversion::free; // a derived instance begins with its base
+  }
   if (from->kind == TypeKind::pointer && to->kind == TypeKind::pointer)
     return Conversion::lossy;
   if (isElementary(from) && isElementary(to))

@@ -246,9 +246,6 @@ const Type *Checker::resolveType(TypeExpr *expr, std::string_view hint) {
 }
 
 const Type *Checker::resolveNamed(NamedTypeExpr *expr) {
-  if (expr->hasArguments || !expr->elements.empty())
-    report(Code::unsupported, expr->span, "arguments for FB_Init are not supported by this version",
-           "not available");
   const Name &name = expr->path.back();
   Symbol *symbol = nullptr;
   if (expr->path.size() == 1) {
@@ -287,9 +284,13 @@ const Type *Checker::resolveNamed(NamedTypeExpr *expr) {
     resolve(type);
     return type->type;
   }
-  if (symbol->kind == SymbolKind::pou &&
-      static_cast<PouSymbol *>(symbol)->decl->kind == DeclKind::functionBlock)
-    return static_cast<PouSymbol *>(symbol)->type;
+  if (symbol->kind == SymbolKind::pou && (static_cast<PouSymbol *>(symbol)->isBlock() ||
+                                          static_cast<PouSymbol *>(symbol)->isInterface())) {
+    auto *pou = static_cast<PouSymbol *>(symbol);
+    link(pou);
+    requireAccess(name.span, pou, pou, pou->decl->access);
+    return pou->type;
+  }
   if (programTypes_ && symbol->kind == SymbolKind::pou &&
       static_cast<PouSymbol *>(symbol)->decl->kind == DeclKind::program)
     return static_cast<PouSymbol *>(symbol)->type;
@@ -501,6 +502,11 @@ void Checker::declare(PouSymbol *pou) {
   if (pou->declared)
     return;
   pou->declared = true;
+  link(pou);
+  if (pou->base != nullptr)
+    declare(pou->base);
+  for (PouSymbol *interface : pou->interfaces)
+    declare(interface);
   Module &home = moduleOf(pou);
   const ScopeGuard guard(*this, {&home, pou});
   std::vector<VarSymbol *> variables;
@@ -519,6 +525,20 @@ void Checker::declare(PouSymbol *pou) {
           .help("move it out of the POU");
       continue;
     }
+    if (v->section == Section::instance && !pou->isMethod()) {
+      report(Code::sectionNotAllowed, v->name.span, "VAR_INST is only possible in a METHOD",
+             "declared here")
+          .help("use VAR: the variables of " + describe(pou) +
+                (pou->isFunction() ? " live as long as its call" : " are kept anyway"));
+      continue;
+    }
+    if (pou->isInterface() || (pou->decl->kind == DeclKind::classD &&
+                               v->section != Section::local && v->section != Section::stat)) {
+      report(Code::sectionNotAllowed, v->name.span, describe(pou) + " has no such variables",
+             "declared here")
+          .help(pou->isInterface() ? "declare a PROPERTY" : "use VAR, a METHOD or a PROPERTY");
+      continue;
+    }
     VarSymbol *symbol = makeVariable(v, home, pou);
     const auto [it, fresh] = pou->scope.emplace(v->name.id, symbol);
     if (!fresh) {
@@ -530,24 +550,31 @@ void Checker::declare(PouSymbol *pou) {
     }
     variables.push_back(symbol);
   }
-  if (decl->kind == DeclKind::function && decl->returnType != nullptr) {
+  TypeExpr *returnType = decl->returnType;
+  if (pou->property != nullptr && pou->property->get == pou)
+    returnType = pou->property->decl->type;
+  if ((pou->isFunction() || pou->isMethod()) && returnType != nullptr) {
     auto *result = arena_.make<VarSymbol>();
     result->kind = SymbolKind::variable;
-    result->name = decl->name;
+    result->name = pou->name;
     result->library = pou->library;
     result->owner = pou;
     result->isResult = true;
-    const auto [it, fresh] = pou->scope.emplace(decl->name.id, result);
+    const auto [it, fresh] = pou->scope.emplace(pou->name.id, result);
     if (!fresh) {
-      auto &d =
-          report(Code::duplicateName, it->second->name.span,
-                 "a variable of `" + std::string(decl->name.text) + "` has the function's own name",
-                 "this name stands for the result");
-      d.label(decl->name.span, "the function");
+      auto &d = report(Code::duplicateName, it->second->name.span,
+                       "a variable of `" + std::string(pou->name.text) + "` has " +
+                           (pou->isMethod() ? "its" : "the function's") + " own name",
+                       "this name stands for the result");
+      d.label(pou->name.span, pou->isFunction()          ? "the function"
+                              : pou->property != nullptr ? "the property"
+                                                         : "the method");
     }
-    result->type = resolveType(decl->returnType, std::string(decl->name.text) + "__result");
+    result->type = resolveType(returnType, std::string(pou->name.text) + "__result");
     pou->result = result;
   }
+  if (!pou->isMethod())
+    declareMembers(pou, variables);
   pou->variables = arena_.copy(variables);
   // Types after names: an array bound may use a constant of the same POU.
   for (VarSymbol *v : variables) {
@@ -560,7 +587,7 @@ void Checker::declare(PouSymbol *pou) {
       v->decl->init = nullptr;
     }
   }
-  if (!home.library->isUser && decl->kind == DeclKind::function) {
+  if (!home.library->isUser && (pou->isFunction() || pou->isMethod())) {
     for (VarSymbol *v : variables)
       checkInitOf(v); // callers use the default values
   }

@@ -3,6 +3,7 @@
 #include "compiler/semantics/checker.hpp"
 #include "compiler/semantics/extent.hpp"
 #include "compiler/semantics/fold.hpp"
+#include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
 #include "compiler/semantics/suggest.hpp"
 
@@ -218,7 +219,22 @@ const Type *Checker::useSymbol(Expr *expr, Symbol *symbol, const Name &name) {
       declare(pou);
       return pou->type;
     }
+    if (pou->isMethod()) {
+      auto &d = report(Code::methodNotCalled, name.span,
+                       "`" + std::string(name.text) + "` is " + describe(pou) + ", not a value",
+                       "it has to be called");
+      noteDeclaration(d, pou);
+      d.help("call it: `" + std::string(name.text) + "()`");
+      return elementaryType(TypeKind::error);
+    }
     break;
+  }
+  case SymbolKind::property:
+    return useProperty(expr, static_cast<PropertySymbol *>(symbol), name);
+  case SymbolKind::self: {
+    auto *self = static_cast<SelfSymbol *>(symbol);
+    declare(self->block);
+    return types_.pointer(self->block->type);
   }
   default:
     break;
@@ -228,6 +244,8 @@ const Type *Checker::useSymbol(Expr *expr, Symbol *symbol, const Name &name) {
   noteDeclaration(d, symbol);
   if (symbol->kind == SymbolKind::pou && static_cast<PouSymbol *>(symbol)->isFunction())
     d.help("call it: `" + std::string(name.text) + "(…)`");
+  else if (symbol->kind == SymbolKind::pou && static_cast<PouSymbol *>(symbol)->isInterface())
+    d.help("declare a variable of it: `x : " + std::string(name.text) + ";`");
   else if (symbol->kind == SymbolKind::pou)
     d.help("declare an instance of it: `x : " + std::string(name.text) + ";`");
   else if (symbol->kind == SymbolKind::builtin)
@@ -238,7 +256,8 @@ const Type *Checker::useSymbol(Expr *expr, Symbol *symbol, const Name &name) {
 const Type *Checker::checkName(NameExpr *expr, const Type *expected) {
   Symbol *symbol = lookup(expr->name);
   const bool isValue = symbol != nullptr &&
-                       (symbol->kind == SymbolKind::variable || symbol->kind == SymbolKind::pou);
+                       (symbol->kind == SymbolKind::variable || symbol->kind == SymbolKind::pou ||
+                        symbol->kind == SymbolKind::property || symbol->kind == SymbolKind::self);
   if (!isValue) {
     bool ambiguous = false;
     if (EnumeratorSymbol *e = lookupEnumerator(expr->name, expected, ambiguous)) {
@@ -346,12 +365,24 @@ const Type *Checker::checkMember(MemberExpr *expr) {
     expr->symbol = found;
     return useSymbol(expr, found, expr->name);
   }
-  const Type *base = check(expr->base);
+  return checkMemberOf(expr, check(expr->base));
+}
+
+const Type *Checker::checkMemberOf(MemberExpr *expr, const Type *base) {
+  const std::string name(expr->name.text);
   if (isError(base))
     return base;
   if (bitByName(expr))
     return checkBit(expr);
-  if (base->kind != TypeKind::structure && !isInstance(base)) {
+  if (isInstance(base) || base->kind == TypeKind::interface) {
+    PouSymbol *pou = typeAs<PouType>(base)->symbol;
+    declare(pou);
+    if (Symbol *member = memberNamed(pou, expr->name.id)) {
+      expr->symbol = member;
+      return useSymbol(expr, member, expr->name);
+    }
+  }
+  if (base->kind != TypeKind::structure && !isInstance(base) && base->kind != TypeKind::interface) {
     auto &d = report(Code::unknownMember, expr->name.span, typeName(base) + " has no members",
                      "`." + name + "` is not possible here");
     if (base->kind == TypeKind::pointer)
@@ -374,7 +405,7 @@ const Type *Checker::checkMember(MemberExpr *expr) {
       d.help("a similar one exists: `" + std::string(similar) + "`");
     return elementaryType(TypeKind::error);
   }
-  if (member->owner != nullptr && member->owner != scope_.pou &&
+  if (member->owner != nullptr && !insideOf(member->owner) &&
       (member->section == Section::temp ||
        (member->section == Section::local && base->kind == TypeKind::functionBlock))) {
     auto &d = report(Code::notAccessible, expr->name.span,
@@ -519,6 +550,12 @@ const Type *Checker::checkDeref(DerefExpr *expr) {
 
 bool Checker::requireVariable(Expr *expr, std::string_view what) {
   const std::string action(what);
+  if (const PropertySymbol *property = propertyOf(expr);
+      property != nullptr && (what == "assign to" || property->type == nullptr ||
+                              property->type->kind == TypeKind::reference))
+    return true; // the checker of names has seen to it that it has a SET
+  if (rejectProperty(expr, what))
+    return false;
   switch (expr->kind) {
   case ExprKind::deref:
   case ExprKind::error:
@@ -556,7 +593,7 @@ bool Checker::requireVariable(Expr *expr, std::string_view what) {
     if (variable->location != nullptr && what == "assign to")
       reportInputWritten(expr, *variable->location);
     if (expr->kind == ExprKind::member && variable->section == Section::output &&
-        variable->owner != scope_.pou) {
+        !insideOf(variable->owner)) {
       if (what == "pass")
         return true; // outputs of a block may be passed on as in-outs (TimeAxis.Axis)
       auto &d = report(Code::assignToOutput, expr->span,

@@ -34,6 +34,7 @@ void Checker::checkInitOf(VarSymbol *variable) {
   variable->initChecked = true;
   const Type *type = typeOf(variable);
   const ScopeGuard guard(*this, {&moduleOf(variable), variable->owner});
+  checkConstruct(variable);
   if (variable->decl->init == nullptr) {
     if (variable->isConstant && variable->section != Section::input &&
         variable->section != Section::inOut && !isError(type) && variable->library->isUser)

@@ -13,6 +13,8 @@ using namespace ast;
 
 std::vector<VarSymbol *> PouSymbol::parameters() const {
   std::vector<VarSymbol *> list;
+  if (base != nullptr)
+    list = base->parameters();
   for (VarSymbol *v : variables) {
     if (v->section == Section::input || v->section == Section::output ||
         v->section == Section::inOut)
@@ -73,42 +75,26 @@ void Checker::addName(Module &module, Symbol *symbol) {
   d.help("rename one of them, or move the variable into a list with {attribute 'qualified_only'}");
 }
 
-/// What of a POU's declaration nothing is made of yet.
-void Checker::reportUnsupported(const PouDecl *decl) {
-  const auto say = [&](Span span, std::string_view what) {
-    report(Code::unsupported, span, std::string(what) + " not supported by this version",
-           "not available");
-  };
-  if (!decl->base.empty())
-    say(decl->base.back().span, "inheritance of function blocks is");
-  for (const NamePath &path : decl->interfaces)
-    say(path.back().span, "interfaces are");
-  for (const PouDecl *one : decl->methods)
-    say(one->name.span, "methods are");
-  for (const PouDecl *one : decl->actions)
-    say(one->name.span, "actions are");
-  for (const PropertyDecl *one : decl->properties)
-    say(one->name.span, "properties are");
-}
-
 void Checker::declareFile(Module &module, File *file) {
   Library *library = module.library;
   for (Decl *decl : file->declarations) {
     switch (decl->kind) {
     case DeclKind::program:
     case DeclKind::function:
-    case DeclKind::functionBlock: {
+    case DeclKind::functionBlock:
+    case DeclKind::classD:
+    case DeclKind::interface: {
       PouSymbol &pou = program_.pouStorage.emplace_back();
       pou.kind = SymbolKind::pou;
       pou.name = decl->name;
       pou.library = library;
       pou.decl = as<PouDecl>(decl);
       if (decl->kind != DeclKind::function) {
-        const TypeKind kind =
-            decl->kind == DeclKind::program ? TypeKind::program : TypeKind::functionBlock;
+        const TypeKind kind = decl->kind == DeclKind::program     ? TypeKind::program
+                              : decl->kind == DeclKind::interface ? TypeKind::interface
+                                                                  : TypeKind::functionBlock;
         pou.type = arena_.make<PouType>(Type{kind}, &pou, packMode(decl->attributes, 0));
       }
-      reportUnsupported(pou.decl);
       library->pous.push_back(&pou);
       addName(module, &pou);
       break;
@@ -139,8 +125,6 @@ void Checker::declareFile(Module &module, File *file) {
       for (const ResourceDecl &resource : as<ConfigurationDecl>(decl)->resources)
         resourceNames_.insert(resource.name.id);
       break;
-    case DeclKind::classD:
-    case DeclKind::interface:
     case DeclKind::method:
     case DeclKind::action:
       report(Code::unsupported, decl->span, "this declaration is not supported by this version",
@@ -226,8 +210,10 @@ void Checker::checkModule(Module &module) {
     const ScopeGuard guard(*this, {&module, nullptr});
     resolve(t);
   });
+  byIndex(library->pous, [&](PouSymbol *p) { link(p); });
   byIndex(library->globals, [&](GlobalsSymbol *g) { declare(g); });
   byIndex(library->pous, [&](PouSymbol *p) { declare(p); });
+  byIndex(library->pous, [&](PouSymbol *p) { checkClass(p); });
   checkContainment(module);
   for (TypeSymbol *t : std::vector<TypeSymbol *>(library->types)) {
     const ScopeGuard guard(*this, {&module, nullptr});
@@ -263,7 +249,10 @@ template <class Visit> void visitMembers(const Type *type, Visit &&visit) {
     for (VarSymbol *field : s->fields)
       visitContained(field->type, [&](const Type *t) { visit(t, field); });
   } else {
-    for (VarSymbol *v : typeAs<PouType>(type)->symbol->variables) {
+    const PouSymbol *pou = typeAs<PouType>(type)->symbol;
+    if (pou->base != nullptr && pou->base->type != nullptr)
+      visit(static_cast<const Type *>(pou->base->type), nullptr);
+    for (VarSymbol *v : pou->variables) {
       if (v->section != Section::inOut && v->section != Section::temp)
         visitContained(v->type, [&](const Type *t) { visit(t, v); });
     }

@@ -1,6 +1,7 @@
 // Looking names up.
 
 #include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/suggest.hpp"
 
 #include <algorithm>
@@ -41,11 +42,12 @@ Symbol *Checker::lookupInLibrary(Ident library, Ident id) {
 
 Symbol *Checker::lookup(const Name &name) {
   if (scope_.pou != nullptr) {
-    const auto it = scope_.pou->scope.find(name.id);
-    if (it != scope_.pou->scope.end())
-      return it->second;
+    if (Symbol *symbol = lookupInPou(scope_.pou, name.id))
+      return symbol;
   }
   if (Symbol *symbol = lookupInModule(*scope_.module, name.id))
+    return symbol;
+  if (Symbol *symbol = lookupSelf(name))
     return symbol;
   const auto builtin = builtins_.find(name.id);
   if (builtin != builtins_.end())
@@ -105,8 +107,7 @@ VarSymbol *Checker::findMember(const Type *type, Ident id) {
   if (isInstance(type)) {
     PouSymbol *pou = typeAs<PouType>(type)->symbol;
     declare(pou);
-    const auto it = pou->scope.find(id);
-    return it == pou->scope.end() ? nullptr : it->second;
+    return findVariable(pou, id);
   }
   return nullptr;
 }
@@ -121,8 +122,14 @@ std::vector<std::string_view> Checker::visibleNames(bool types) {
       list.push_back(symbol->name.text);
   };
   if (scope_.pou != nullptr && !types) {
-    for (const auto &[id, symbol] : scope_.pou->scope)
-      add(symbol);
+    for (const PouSymbol *p = scope_.pou; p != nullptr; p = p->owner) {
+      for (const PouSymbol *b = p; b != nullptr; b = b->base) {
+        for (const auto &[id, symbol] : b->scope)
+          add(symbol);
+        for (const auto &[id, symbol] : b->members)
+          add(symbol);
+      }
+    }
   }
   for (const auto &[id, symbol] : scope_.module->names)
     add(symbol);
@@ -153,10 +160,19 @@ std::vector<std::string_view> Checker::memberNames(const Type *type) {
           list.push_back(f->name.text);
       }
     }
-  } else if (isInstance(type)) {
-    for (const VarSymbol *v : typeAs<PouType>(type)->symbol->variables) {
-      if (!v->hidden && v->section != Section::temp)
-        list.push_back(v->name.text);
+  } else if (isInstance(type) || type->kind == TypeKind::interface) {
+    std::vector<const PouSymbol *> pous;
+    for (const PouSymbol *p = typeAs<PouType>(type)->symbol; p != nullptr; p = p->base)
+      pous.push_back(p);
+    for (std::size_t i = 0; i < pous.size(); ++i) {
+      for (const VarSymbol *v : pous[i]->variables) {
+        if (!v->hidden && v->section != Section::temp && v->section != Section::instance)
+          list.push_back(v->name.text);
+      }
+      for (const PouSymbol *m : pous[i]->methods)
+        list.push_back(m->name.text);
+      if (type->kind == TypeKind::interface)
+        pous.insert(pous.end(), pous[i]->interfaces.begin(), pous[i]->interfaces.end());
     }
   } else if (type->kind == TypeKind::enumeration) {
     for (const EnumeratorSymbol *e : typeAs<EnumType>(type)->enumerators)
@@ -169,10 +185,8 @@ namespace {
 
 /// Words of the language that later versions understand.
 bool isLaterWord(std::string_view lower) {
-  static constexpr std::string_view kWords[] = {
-      "this",         "super",    "lower_bound",      "upper_bound",
-      "__new",        "__delete", "__queryinterface", "__querypointer",
-      "__isvalidref", "xsizeof",  "indexof",          "ini"};
+  static constexpr std::string_view kWords[] = {"lower_bound", "upper_bound", "__new", "__delete",
+                                                "xsizeof",     "indexof",     "ini"};
   return std::find(std::begin(kWords), std::end(kWords), lower) != std::end(kWords);
 }
 
@@ -182,6 +196,8 @@ void Checker::reportUnknown(const Name &name, bool asType) {
   if (!asType) {
     if (!unknown_.emplace(scope_.pou, name.id).second)
       return; // one missing declaration is one mistake
+    if (reportSelf(name))
+      return;
     if (isLaterWord(name.id->lower)) {
       report(Code::unsupported, name.span,
              "`" + std::string(name.text) + "` is not supported by this version", "not available");
@@ -205,10 +221,22 @@ std::string Checker::describe(const Symbol *symbol) const {
   case SymbolKind::variable:
     return "a variable";
   case SymbolKind::pou: {
-    const auto kind = static_cast<const PouSymbol *>(symbol)->decl->kind;
-    return kind == DeclKind::program    ? "a program"
-           : kind == DeclKind::function ? "a function"
-                                        : "a function block";
+    switch (static_cast<const PouSymbol *>(symbol)->decl->kind) {
+    case DeclKind::program:
+      return "a program";
+    case DeclKind::function:
+      return "a function";
+    case DeclKind::classD:
+      return "a class";
+    case DeclKind::interface:
+      return "an interface";
+    case DeclKind::method:
+      return "a method";
+    case DeclKind::action:
+      return "an action";
+    default:
+      return "a function block";
+    }
   }
   case SymbolKind::type:
     return "a type";
@@ -220,6 +248,11 @@ std::string Checker::describe(const Symbol *symbol) const {
     return "a library";
   case SymbolKind::globals:
     return "a list of global variables";
+  case SymbolKind::property:
+    return "a property";
+  case SymbolKind::self:
+    return static_cast<const SelfSymbol *>(symbol)->isSuper ? "the base of this block"
+                                                            : "this block's own instance";
   }
   return {};
 }

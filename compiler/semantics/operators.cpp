@@ -393,9 +393,19 @@ const Type *Checker::checkComparison(BinaryExpr *expr) {
       expr->operandType = ul;
     else
       return operatorError(expr);
-  } else if (ul->kind == TypeKind::pointer && ur->kind == TypeKind::pointer && ul == ur) {
-    expr->operandType = ul;
+  } else if (equality && (ul->kind == TypeKind::interface || ur->kind == TypeKind::interface)) {
+    // Interfaces are equal when they stand for the same instance, whatever their types are.
+    expr->operandType = ul->kind == TypeKind::interface ? ul : ur;
+    Expr *other = ul->kind == TypeKind::interface ? right : left;
+    if (other->type->kind == TypeKind::interface)
+      return boolean;
+    if (!coerceToInterface(other, expr->operandType) || other->target == nullptr)
+      return elementaryType(TypeKind::error);
     return boolean;
+  } else if (ul->kind == TypeKind::pointer && ur->kind == TypeKind::pointer &&
+             (ul == ur || classify(ul, ur) == Conversion::free ||
+              classify(ur, ul) == Conversion::free)) {
+    expr->operandType = ul == ur || classify(ur, ul) == Conversion::free ? ul : ur;
   } else if (ul->kind == TypeKind::pointer && equality && right->constant != nullptr &&
              ur->kind == TypeKind::anyInteger && right->constant->integer == 0) {
     expr->operandType = ul;

@@ -18,6 +18,16 @@ void Checker::checkBody(PouSymbol *pou) {
     checkInitOf(v);
   loopDepth_ = 0;
   checkBlock(pou->decl->body);
+  for (PouSymbol *method : pou->methods) {
+    declare(method);
+    if (pou->isInterface()) { // callers use the default values
+      for (VarSymbol *v : method->variables)
+        checkInitOf(v);
+      continue;
+    }
+    checkAfterInit(method);
+    checkBody(method);
+  }
 }
 
 void Checker::checkBlock(Block block) {
@@ -105,7 +115,7 @@ void Checker::checkAssign(AssignStmt *stmt) {
   const Type *expected = nullptr;
   for (std::size_t i = stmt->targets.size(); i-- > 0;) {
     Expr *target = stmt->targets[i];
-    const Type *type = check(target);
+    const Type *type = stmt->op == AssignOp::reference ? check(target) : checkTarget(target);
     const bool assignable = requireVariable(target, "assign to");
     if (i + 1 == stmt->targets.size())
       expected = assignable ? type : elementaryType(TypeKind::error);
@@ -128,7 +138,7 @@ void Checker::checkAssign(AssignStmt *stmt) {
     const Type *value = check(stmt->value);
     if (isError(value) || !requireVariable(stmt->value, "refer to"))
       return;
-    if (value != last->type)
+    if (!refersTo(value, last->type))
       report(Code::typeMismatch, stmt->value->span,
              "expected " + typeName(last->type) + ", found " + typeName(value),
              "a reference needs a variable of exactly its type");

@@ -13,7 +13,17 @@
 
 namespace stc {
 
-enum class SymbolKind : std::uint8_t { variable, pou, type, enumerator, builtin, library, globals };
+enum class SymbolKind : std::uint8_t {
+  variable,
+  pou,
+  type,
+  enumerator,
+  builtin,
+  library,
+  globals,
+  property,
+  self, ///< THIS, SUPER
+};
 
 /// A library, or the user's project (whose name is empty).
 struct Library;
@@ -48,26 +58,69 @@ struct VarSymbol : Symbol {
   bool isResult = false;                ///< the variable of a FUNCTION that holds its result
   const ConstValue *constant = nullptr; ///< value of a CONSTANT of elementary type
   const Location *location = nullptr;   ///< of an AT clause; null: an ordinary variable
+  std::string_view storage;             ///< VAR_INST: the field's name in the instance; else empty
   bool typeRunning = false; ///< the type is being resolved: meeting it again is a circle
   bool initChecked = false; ///< the initial value has been checked (or is being checked)
   bool initRunning = false; ///< is being checked: meeting it again is a circle
 };
 
-/// PROGRAM, FUNCTION, FUNCTION_BLOCK
+struct PropertySymbol;
+
+/// PROGRAM, FUNCTION, FUNCTION_BLOCK, CLASS, INTERFACE; METHOD, ACTION and the accessors of a
+/// PROPERTY, which have an owner.
 struct PouSymbol : Symbol {
   ast::PouDecl *decl = nullptr;
-  const PouType *type = nullptr; ///< FUNCTION_BLOCK, PROGRAM
-  VarSymbol *result = nullptr;   ///< FUNCTION with a result
+  const PouType *type = nullptr; ///< FUNCTION_BLOCK, CLASS, PROGRAM, INTERFACE
+  VarSymbol *result = nullptr;   ///< FUNCTION, METHOD with a result
   std::span<VarSymbol *>
-      variables; ///< all sections in the order of the text (VAR_EXTERNAL not included)
-  std::vector<VarSymbol *>
-  parameters() const; ///< inputs, in-outs, outputs in the order of the text
+      variables; ///< own ones of all sections in the order of the text (VAR_EXTERNAL not included),
+                 ///< then the VAR_INST of the methods
+  /// Inputs, in-outs, outputs in the order of the text, those of the base first.
+  std::vector<VarSymbol *> parameters() const;
   std::unordered_map<Ident, VarSymbol *> scope;
   bool declared = false;   ///< variables and types are resolved
   bool checked = false;    ///< the body has been checked
   bool isTemplate = false; ///< PROGRAM: only instances with names of their own exist
                            ///< (CONFIGURATION)
+
+  PouSymbol *owner = nullptr;                  ///< METHOD, ACTION, accessor: what it belongs to
+  PropertySymbol *property = nullptr;          ///< accessor: of this
+  PouSymbol *base = nullptr;                   ///< EXTENDS of a block or class
+  std::vector<PouSymbol *> interfaces;         ///< IMPLEMENTS; of an INTERFACE: EXTENDS
+  std::vector<PouSymbol *> methods;            ///< own methods, actions and accessors
+  std::vector<PropertySymbol *> properties;    ///< own properties
+  std::unordered_map<Ident, Symbol *> members; ///< own methods, actions, properties
+  PouSymbol *overrides = nullptr; ///< method: the one of the nearest base that it replaces
+  bool overridden = false;        ///< method: a block of the program replaces it
+  bool extended = false;          ///< a block of the program extends it
+  bool linking = false;           ///< its base is being looked up: meeting it is a circle
+  bool linked = false;            ///< base, interfaces and members are known
+
   [[nodiscard]] bool isFunction() const { return decl->kind == ast::DeclKind::function; }
+  /// METHOD, ACTION, accessor
+  [[nodiscard]] bool isMethod() const { return owner != nullptr; }
+  [[nodiscard]] bool isInterface() const { return decl->kind == ast::DeclKind::interface; }
+  /// FUNCTION_BLOCK, CLASS
+  [[nodiscard]] bool isBlock() const {
+    return decl->kind == ast::DeclKind::functionBlock || decl->kind == ast::DeclKind::classD;
+  }
+  [[nodiscard]] bool isAbstract() const { return (decl->modifiers & ast::modAbstract) != 0; }
+  [[nodiscard]] bool isFinal() const { return (decl->modifiers & ast::modFinal) != 0; }
+};
+
+/// PROPERTY
+struct PropertySymbol : Symbol {
+  ast::PropertyDecl *decl = nullptr;
+  PouSymbol *owner = nullptr;
+  const Type *type = nullptr; ///< null until the owner is declared
+  PouSymbol *get = nullptr;   ///< null: write-only
+  PouSymbol *set = nullptr;   ///< null: read-only
+};
+
+/// THIS and SUPER inside of a block: pointers to it and to its base.
+struct SelfSymbol : Symbol {
+  PouSymbol *block = nullptr; ///< pointed to
+  bool isSuper = false;
 };
 
 /// A named type: structure, enumeration, alias.

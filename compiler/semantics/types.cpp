@@ -139,6 +139,7 @@ std::string typeName(const Type *t) {
     return std::string(typeAs<StructType>(t)->symbol->name.text);
   case TypeKind::functionBlock:
   case TypeKind::program:
+  case TypeKind::interface:
     return std::string(typeAs<PouType>(t)->symbol->name.text);
   case TypeKind::subrange: {
     const auto *s = typeAs<SubrangeType>(t);

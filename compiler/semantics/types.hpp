@@ -48,8 +48,9 @@ enum class TypeKind : std::uint8_t {
   subrange,
   array,
   structure,
-  functionBlock,
+  functionBlock, ///< FUNCTION_BLOCK, CLASS
   program,
+  interface, ///< INTERFACE: a variable of it stands for an instance, or for none
   pointer,
   reference,
   anyInteger, ///< an integer constant whose type the context decides (literal 5, SIZEOF)
@@ -96,7 +97,7 @@ struct StructType : Type {
   unsigned pack = 0; ///< {attribute 'pack_mode'}: members are aligned to this at most; 0: naturally
 };
 
-/// FUNCTION_BLOCK or PROGRAM as the type of its instances.
+/// FUNCTION_BLOCK, CLASS or PROGRAM as the type of its instances; INTERFACE.
 struct PouType : Type {
   PouSymbol *symbol;
   unsigned pack = 0; ///< as in StructType

@@ -155,6 +155,8 @@ enum class Callee : std::uint8_t {
   unresolved,
   function,      ///< user or library FUNCTION: `pou`
   functionBlock, ///< instance call: callee expression is the instance, `pou` its block
+  method,        ///< METHOD, ACTION: callee is its name or `instance.name`, `pou` the method as the
+                 ///< instance's static type declares it
   program,       ///< call of a PROGRAM: `pou`
   builtin,       ///< operator-like function known to the compiler: `builtin`
 };

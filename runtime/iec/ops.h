@@ -252,6 +252,20 @@ constexpr T &bound(Ctx &ctx, T *p, const char *file, uint32_t line, uint32_t col
   return *p;
 }
 
+/// The instance behind an interface; raises NullPointer at the position.
+constexpr Interface used(Ctx &ctx, Interface i, const char *file, uint32_t line, uint32_t col) {
+  if (i == nullptr) [[unlikely]]
+    raise(ctx, ExceptionCode::NullPointer, file, line, col);
+  return i;
+}
+
+/// Runs something when a call ends: FB_Exit of an instance that lives as long as the call.
+template <class F> struct AtEnd {
+  F run;
+  ~AtEnd() { run(); }
+};
+template <class F> AtEnd(F) -> AtEnd<F>;
+
 /// A value on its way into a subrange type Lo..Hi; raises RangeViolation at the position.
 template <int64_t Lo, int64_t Hi, class T>
 constexpr T subrange(Ctx &ctx, T value, const char *file, uint32_t line, uint32_t col) {

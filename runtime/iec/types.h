@@ -70,6 +70,9 @@ template <class T, int64_t Lo, int64_t Hi> struct Array {
   T v[kSize];
 };
 
+/// A variable of an interface type: points to the type id (`type__`) of an instance; null: none.
+using Interface = UDINT *;
+
 /// The kinds of types that exist at run time. The values are part of the application ABI.
 /// The elementary kinds also select conversions (see convert.h), because several ST types share
 /// one C++ type (BOOL, USINT and BYTE; UDINT, TIME and DATE).

@@ -1,0 +1,195 @@
+#include "compiler/semantics/hierarchy.hpp"
+
+#include "compiler/semantics/program.hpp"
+
+#include <algorithm>
+
+namespace stc {
+
+bool derivesFrom(const PouSymbol *pou, const PouSymbol *base) {
+  for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
+    if (p == base)
+      return true;
+  }
+  if (pou != nullptr && pou->isInterface()) {
+    return std::any_of(pou->interfaces.begin(), pou->interfaces.end(),
+                       [&](const PouSymbol *i) { return derivesFrom(i, base); });
+  }
+  return false;
+}
+
+bool implements(const PouSymbol *pou, const PouSymbol *interface) {
+  for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
+    for (const PouSymbol *i : p->interfaces) {
+      if (derivesFrom(i, interface))
+        return true;
+    }
+  }
+  return false;
+}
+
+bool convertsTo(const PouSymbol *from, const PouSymbol *to) {
+  if (derivesFrom(from, to))
+    return true;
+  return to->isInterface() && !from->isInterface() && implements(from, to);
+}
+
+VarSymbol *findVariable(const PouSymbol *pou, Ident id) {
+  for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
+    const auto it = p->scope.find(id);
+    if (it != p->scope.end() && (p == pou || it->second->section != ast::Section::temp))
+      return it->second;
+  }
+  return nullptr;
+}
+
+Symbol *memberNamed(const PouSymbol *pou, Ident id) {
+  for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
+    const auto it = p->members.find(id);
+    if (it != p->members.end())
+      return it->second;
+  }
+  if (pou->isInterface()) {
+    for (const PouSymbol *i : pou->interfaces) {
+      if (Symbol *symbol = memberNamed(i, id))
+        return symbol;
+    }
+  }
+  return nullptr;
+}
+
+PouSymbol *findMethod(const PouSymbol *pou, Ident id) {
+  Symbol *symbol = memberNamed(pou, id);
+  return symbol != nullptr && symbol->kind == SymbolKind::pou ? static_cast<PouSymbol *>(symbol)
+                                                              : nullptr;
+}
+
+PouSymbol *implementation(const PouSymbol *pou, const PouSymbol *method) {
+  if (method->property == nullptr)
+    return findMethod(pou, method->name.id);
+  // Each accessor by itself: a derived block may replace only one of the two.
+  const bool get = method->property->get == method;
+  for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
+    const auto it = p->members.find(method->property->name.id);
+    if (it == p->members.end() || it->second->kind != SymbolKind::property)
+      continue;
+    const auto *property = static_cast<const PropertySymbol *>(it->second);
+    if (PouSymbol *accessor = get ? property->get : property->set)
+      return accessor;
+  }
+  return nullptr;
+}
+
+bool carriesTypeId(const PouSymbol *pou) {
+  if (!pou->isBlock() || (pou->base != nullptr && hasTypeId(pou->base)))
+    return false;
+  if (pou->base != nullptr || !pou->interfaces.empty())
+    return true;
+  // The layout of a library's block does not depend on who uses it.
+  return pou->library != nullptr && pou->library->isUser
+             ? pou->extended
+             : !pou->methods.empty() || pou->isAbstract();
+}
+
+bool hasTypeId(const PouSymbol *pou) {
+  for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
+    if (carriesTypeId(p))
+      return true;
+  }
+  return false;
+}
+
+const PouSymbol *findInit(const PouSymbol *pou) {
+  for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
+    for (const PouSymbol *m : p->methods) {
+      if (m->property == nullptr && m->name.id->lower == "fb_init")
+        return m;
+    }
+  }
+  return nullptr;
+}
+
+std::vector<VarSymbol *> constructInputs(const PouSymbol *pou) {
+  std::vector<VarSymbol *> list;
+  const PouSymbol *init = findInit(pou);
+  if (init == nullptr)
+    return list;
+  for (VarSymbol *v : init->variables) {
+    if (v->section == ast::Section::input && v->name.id->lower != "binitretains" &&
+        v->name.id->lower != "bincopycode")
+      list.push_back(v);
+  }
+  return list;
+}
+
+std::vector<PouSymbol *> afterInitMethods(const PouSymbol *pou) {
+  std::vector<PouSymbol *> list;
+  if (pou->base != nullptr)
+    list = afterInitMethods(pou->base);
+  for (PouSymbol *&inherited : list)
+    inherited = implementation(pou, inherited);
+  for (PouSymbol *m : pou->methods) {
+    const auto &attributes = m->decl->attributes;
+    if (m->property == nullptr && pou->isBlock() &&
+        std::any_of(attributes.begin(), attributes.end(),
+                    [](const ast::Attribute &a) { return a.name == "call_after_init"; }) &&
+        std::find(list.begin(), list.end(), m) == list.end())
+      list.push_back(m);
+  }
+  return list;
+}
+
+bool isDispatched(const PouSymbol *method) {
+  const PouSymbol *owner = method->owner;
+  if (!owner->isBlock() || method->isFinal() || owner->isFinal() ||
+      method->decl->access == ast::Access::privateA || method->name.id->lower == "fb_init" ||
+      method->name.id->lower == "fb_exit" || method->name.id->lower == "fb_reinit")
+    return false;
+  return owner->library->isUser ? method->overridden : hasTypeId(owner);
+}
+
+bool isBodyDispatched(const PouSymbol *block) {
+  if (block->decl->kind != ast::DeclKind::functionBlock || block->isFinal())
+    return false;
+  return block->library->isUser ? block->extended : hasTypeId(block);
+}
+
+namespace {
+
+void collect(const PouSymbol *interface, std::vector<const PouSymbol *> &seen,
+             std::vector<PouSymbol *> &methods) {
+  if (std::find(seen.begin(), seen.end(), interface) != seen.end())
+    return;
+  seen.push_back(interface);
+  for (const PouSymbol *base : interface->interfaces)
+    collect(base, seen, methods);
+  methods.insert(methods.end(), interface->methods.begin(), interface->methods.end());
+}
+
+void collectInterfaces(PouSymbol *interface, std::vector<PouSymbol *> &list) {
+  if (std::find(list.begin(), list.end(), interface) != list.end())
+    return;
+  for (PouSymbol *base : interface->interfaces)
+    collectInterfaces(base, list);
+  list.push_back(interface);
+}
+
+} // namespace
+
+std::vector<PouSymbol *> demandedMethods(const PouSymbol *interface) {
+  std::vector<const PouSymbol *> seen;
+  std::vector<PouSymbol *> methods;
+  collect(interface, seen, methods);
+  return methods;
+}
+
+std::vector<PouSymbol *> allInterfaces(const PouSymbol *pou) {
+  std::vector<PouSymbol *> list;
+  if (pou->base != nullptr)
+    list = allInterfaces(pou->base);
+  for (PouSymbol *i : pou->interfaces)
+    collectInterfaces(i, list);
+  return list;
+}
+
+} // namespace stc

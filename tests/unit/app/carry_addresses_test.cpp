@@ -1,0 +1,204 @@
+// Online change on descriptions made by hand: where addresses lead.
+#include "carry_fixture.hpp"
+
+namespace {
+
+using namespace stride;
+using namespace stride::app;
+using stride::test::AppModel;
+using stride::test::CarryOverTest;
+using stride::test::ModelField;
+using stride::test::ModelType;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Everything a pointer may point to, in states whose order is reversed.
+class CarryAddresses : public CarryOverTest {
+protected:
+  uint64_t follow(uint64_t oldOffset, const ModelType *oldPointee, const ModelType *newPointee,
+                  Kind kind = Kind::Pointer) {
+    a.root("", "probe", a.pointer(oldPointee, kind));
+    b.root("", "probe", b.pointer(newPointee, kind));
+    a.ready();
+    b.ready();
+    a.set<uint64_t>(a.at(a.roots.size() - 1), a.address(oldOffset));
+    apply();
+    const uint64_t address = b.get<uint64_t>(b.at(b.roots.size() - 1));
+    return address == 0 ? ~uint64_t{0} : address - b.address(0);
+  }
+  static constexpr uint64_t kNull = ~uint64_t{0};
+};
+
+TEST_F(CarryAddresses, OfAnElementOfAnArrayThatMoved) {
+  a.root("", "v", a.array(a.elementary(Kind::REAL), 1, 4));
+  b.root("", "w", b.elementary(Kind::LREAL));
+  b.root("", "v", b.array(b.elementary(Kind::REAL), 0, 5));
+  EXPECT_EQ(follow(8, a.elementary(Kind::REAL), b.elementary(Kind::REAL)), 8U + 12U);
+}
+
+TEST_F(CarryAddresses, OfAnElementOutsideOfTheNewBounds) {
+  a.root("", "v", a.array(a.elementary(Kind::REAL), 1, 4));
+  b.root("", "v", b.array(b.elementary(Kind::REAL), 1, 2));
+  EXPECT_EQ(follow(8, a.elementary(Kind::REAL), b.elementary(Kind::REAL)), kNull);
+  EXPECT_THAT(words, ElementsAre("probe is now 0: it pointed to v[3], which the new build does not "
+                                 "have"));
+}
+
+TEST_F(CarryAddresses, OnePastTheEnd) {
+  a.root("", "v", a.array(a.elementary(Kind::REAL), 1, 4));
+  a.root("", "next", a.elementary(Kind::DINT));
+  b.root("", "next", b.elementary(Kind::DINT));
+  b.root("", "v", b.array(b.elementary(Kind::REAL), 1, 4));
+  // "next" starts there, but it is no REAL
+  EXPECT_EQ(follow(16, a.elementary(Kind::REAL), b.elementary(Kind::REAL)), 20U);
+}
+
+TEST_F(CarryAddresses, AnObjectOfTheTypeGoesBeforeAnEnd) {
+  a.root("", "v", a.array(a.elementary(Kind::REAL), 1, 4));
+  a.root("", "next", a.elementary(Kind::REAL));
+  b.root("", "next", b.elementary(Kind::REAL));
+  b.root("", "v", b.array(b.elementary(Kind::REAL), 1, 4));
+  EXPECT_EQ(follow(16, a.elementary(Kind::REAL), b.elementary(Kind::REAL)), 0U);
+}
+
+TEST_F(CarryAddresses, OnePastTheEndInFrontOfAnotherPointer) {
+  a.root("", "x", a.elementary(Kind::LREAL));
+  a.root("", "y", a.elementary(Kind::LREAL));
+  b.root("", "y", b.elementary(Kind::LREAL));
+  b.root("", "x", b.elementary(Kind::LREAL));
+  // the pointer itself starts there, but it is no LREAL: one past y
+  EXPECT_EQ(follow(16, a.elementary(Kind::LREAL), b.elementary(Kind::LREAL)), 8U);
+}
+
+TEST_F(CarryAddresses, BytesOfATextAndOfANumber) {
+  a.root("", "t", a.string(9));
+  a.root("", "n", a.elementary(Kind::LINT));
+  b.root("", "n", b.elementary(Kind::LINT));
+  b.root("", "t", b.string(6));
+  EXPECT_EQ(follow(5, a.elementary(Kind::BYTE), b.elementary(Kind::BYTE)), 13U);
+}
+
+TEST_F(CarryAddresses, ABytePointerToAStructureThatChanged) {
+  const ModelType *i = a.elementary(Kind::INT);
+  const ModelType *j = b.elementary(Kind::INT);
+  a.root("", "s", a.structure("S", {{"x", i}, {"y", i}}));
+  b.root("", "d", b.elementary(Kind::LREAL));
+  b.root("", "s", b.structure("S", {{"y", j}, {"x", j}}));
+  EXPECT_EQ(follow(0, a.elementary(Kind::BYTE), b.elementary(Kind::BYTE)), 8U); // the structure
+}
+
+TEST_F(CarryAddresses, IntoAFieldThatMoved) {
+  const ModelType *i = a.elementary(Kind::INT);
+  const ModelType *j = b.elementary(Kind::INT);
+  a.root("", "s", a.structure("S", {{"x", i}, {"y", i}}));
+  b.root("", "s", b.structure("S", {{"y", j}, {"x", j}}));
+  EXPECT_EQ(follow(2, i, j), 0U);
+}
+
+TEST_F(CarryAddresses, OfAnotherTypeNow) {
+  a.root("", "x", a.elementary(Kind::DINT));
+  b.root("", "x", b.elementary(Kind::LINT));
+  EXPECT_EQ(follow(0, a.elementary(Kind::DINT), b.elementary(Kind::DINT)), kNull);
+  EXPECT_THAT(words, ElementsAre("probe is now 0: it pointed to x, which has another type now"));
+}
+
+TEST_F(CarryAddresses, ThePointerFollowsTheNewType) {
+  a.root("", "x", a.elementary(Kind::DINT));
+  b.root("", "x", b.elementary(Kind::LINT));
+  EXPECT_EQ(follow(0, a.elementary(Kind::DINT), b.elementary(Kind::LINT), Kind::Reference), 0U);
+}
+
+TEST_F(CarryAddresses, LongerTextsAndArraysWillDo) {
+  a.root("", "t", a.string(10));
+  b.root("", "t", b.string(20));
+  EXPECT_EQ(follow(0, a.string(10), b.string(10)), 0U);
+}
+
+TEST_F(CarryAddresses, ShorterTextsWillNot) {
+  a.root("", "t", a.string(20));
+  b.root("", "t", b.string(10));
+  EXPECT_EQ(follow(0, a.string(20), b.string(20)), kNull);
+}
+
+TEST_F(CarryAddresses, OutsideOfTheState) {
+  a.root("", "x", a.elementary(Kind::DINT));
+  b.root("", "x", b.elementary(Kind::DINT));
+  EXPECT_EQ(follow(1 << 20, a.elementary(Kind::DINT), b.elementary(Kind::DINT)), kNull);
+  ASSERT_EQ(words.size(), 1U);
+  EXPECT_THAT(words[0], HasSubstr("where no variable lies"));
+  const CarryOver plan(a.app(), b.app(), {}, {{a.address(1 << 20), 16}});
+  plan.apply(a.state(), b.state(), result);
+  EXPECT_EQ(b.get<uint64_t>(b.at(1)), a.address(1 << 20));
+}
+
+TEST_F(CarryAddresses, AllSlotsOfManyInstances) {
+  const auto build = [](AppModel &m, bool changed) {
+    const ModelType *r = m.elementary(Kind::REAL);
+    auto *node = m.structure("Node", {}, nullptr, Kind::FunctionBlock);
+    const ModelType *next = m.pointer(node);
+    std::vector<ModelField> fields = {
+        {"value", r}, {"next", next}, {"axis", m.pointer(r, Kind::InOut)}};
+    if (changed)
+      fields.insert(fields.begin(), {"extra", m.elementary(Kind::LREAL)});
+    AppModel::define(*node, std::move(fields));
+    m.root("", "nodes", m.array(node, 0, 99));
+    return node->size;
+  };
+  const uint64_t before = build(a, false);
+  const uint64_t after = build(b, true);
+  a.ready();
+  b.ready();
+  for (uint64_t i = 0; i < 100; ++i) {
+    a.set<uint64_t>(i * before + 8, i == 99 ? 0 : a.address((i + 1) * before));
+    a.set<uint64_t>(i * before + 16, a.address((99 - i) * before));
+  }
+  apply();
+  EXPECT_EQ(result.nulled(), 0U);
+  for (uint64_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(b.get<uint64_t>(i * after + 16), i == 99 ? 0 : b.address((i + 1) * after));
+    EXPECT_EQ(b.get<uint64_t>(i * after + 24), b.address((99 - i) * after + 8));
+  }
+}
+
+TEST_F(CarryAddresses, InterfacesPointToTheTypeIds) {
+  // The block has its number in itself; later its base has it.
+  const auto build = [](AppModel &m, bool changed) {
+    const ModelField id = {"type__", m.elementary(Kind::UDINT), kSymTypeId | kSymHidden};
+    const ModelField x = {"x", m.elementary(Kind::INT)};
+    const auto *base =
+        m.structure("Base", changed ? std::vector<ModelField>{x, id} : std::vector<ModelField>{x},
+                    nullptr, Kind::FunctionBlock);
+    const ModelField y = {"y", m.elementary(Kind::LREAL)};
+    const auto *own =
+        m.structure("Own", changed ? std::vector<ModelField>{y} : std::vector<ModelField>{id, y},
+                    base, Kind::FunctionBlock);
+    const auto *plain =
+        m.structure("Plain", changed ? std::vector<ModelField>{x} : std::vector<ModelField>{id, x},
+                    nullptr, Kind::FunctionBlock);
+    if (changed)
+      m.root("", "first", m.elementary(Kind::LREAL));
+    m.root("", "fbs", m.array(own, 1, 3));
+    m.root("", "plain", plain);
+    m.root("", "i", m.pointer(nullptr, Kind::Interface));
+    m.root("", "lost", m.pointer(nullptr, Kind::Interface));
+    m.root("", "none", m.pointer(nullptr, Kind::Interface));
+    return own->size;
+  };
+  const uint64_t before = build(a, false);
+  const uint64_t after = build(b, true);
+  a.ready();
+  b.ready();
+  a.set<uint32_t>(before + 4, 17);
+  b.set<uint32_t>(b.at(1) + after + 4, 23);
+  a.set<uint64_t>(a.at(2), a.address(before + 4));
+  a.set<uint64_t>(a.at(3), a.address(a.at(1)));
+  apply();
+  EXPECT_EQ(b.get<uint64_t>(b.at(3)), b.address(b.at(1) + after + 4));
+  EXPECT_EQ(b.get<uint32_t>(b.at(1) + after + 4), 23U);
+  EXPECT_EQ(b.get<uint64_t>(b.at(4)), 0U);
+  EXPECT_EQ(b.get<uint64_t>(b.at(5)), 0U);
+  EXPECT_THAT(words, ElementsAre("lost is now 0: it pointed to plain, which has no methods in "
+                                 "the new build, or is not in it"));
+}
+
+} // namespace
