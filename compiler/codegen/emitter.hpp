@@ -289,6 +289,7 @@ private:
   unsigned next_ = 0;
   std::uint32_t currentLine_ = 0; ///< of the ST, for next()
   Span initSpan_;                 ///< of the variable being initialised
+  bool zeroed_ = true;            ///< its memory is zero: it has no default that a zero replaces
 };
 
 } // namespace stc::codegen
