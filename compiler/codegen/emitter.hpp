@@ -214,6 +214,7 @@ private:
 
   // builtin_calls.cpp
   void builtin(const ast::CallExpr *e);
+  bool selectedOnly(const ast::CallExpr *e);
   void orderedBuiltin(const ast::CallExpr *e);
   void builtinPlain(const ast::CallExpr *e, const std::vector<std::string> *names);
   void builtinArgument(const ast::CallExpr *e, std::size_t i, const std::vector<std::string> *names,

@@ -257,19 +257,16 @@ class Expressions:
             test = self.boolean(depth - 1)
 
             def run(f):
-                chosen, x, y = test.fn(f), a.fn(f), b.fn(f)
-                return y if chosen else x
+                return b.fn(f) if test.fn(f) else a.fn(f)  # the other one is not computed
 
             return Node(f"SEL({test.text}, {a.text}, {b.text})", kind, run)
         if op == "MUX":
             k = rng.randint(0, 2)
-            return Node(f"MUX({k}, {a.text}, {b.text}, {c.text})", kind, lambda f: [n.fn(f) for n in nodes][k])
+            return Node(f"MUX({k}, {a.text}, {b.text}, {c.text})", kind, nodes[k].fn)
         if op == "LIMIT":
             def run(f):
                 low, value, high = a.fn(f), b.fn(f), c.fn(f)
-                if low > high:
-                    raise Skip
-                return min(max(low, value), high)
+                return min(max(low, value), high)  # the upper limit wins
 
             return Node(f"LIMIT({a.text}, {b.text}, {c.text})", kind, run)
         pick = min if op == "MIN" else max
@@ -605,8 +602,7 @@ class Expressions:
             test, b = self.boolean(depth - 1), self.string(depth - 1)
 
             def chosen(f):
-                t, x, y = test.fn(f), a.fn(f), b.fn(f)
-                return y if t else x
+                return b.fn(f) if test.fn(f) else a.fn(f)
 
             return Node(f"SEL({test.text}, {a.text}, {b.text})", "STRING", chosen)
         n_text, n = self.small()

@@ -47,8 +47,8 @@ def check(options, seed):
 
 
 def run(stride, source, names, expected, mode, error):
-    result = subprocess.run([stride, "sim", source, "--for", "T#10ms", "--print", ",".join(names), *MODES[mode]],
-                            capture_output=True, text=True, check=False)
+    result = subprocess.run([stride, "sim", source.name, "--for", "T#10ms", "--print", ",".join(names), *MODES[mode]],
+                            capture_output=True, text=True, check=False, cwd=source.parent)
     found = dict(line.split(" = ", 1) for line in result.stdout.splitlines() if " = " in line)
     wrong = [(path, value) for path, kind, value in expected
              if path not in found or not agrees(kind, value, found[path])]
@@ -66,7 +66,7 @@ def run(stride, source, names, expected, mode, error):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("stride")
+    parser.add_argument("stride", type=lambda text: pathlib.Path(text).resolve())
     parser.add_argument("--seeds", default="1..4")
     parser.add_argument("--modes", type=lambda text: text.split(","))
     parser.add_argument("--keep", type=pathlib.Path, default=pathlib.Path(tempfile.gettempdir()))
