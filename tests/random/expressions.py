@@ -59,7 +59,7 @@ class Scope:
 class Expressions:
     def __init__(self, rng, budget):
         self.rng, self.budget = rng, budget
-        self.functions = []  # callable in expressions
+        self.functions, self.objects = [], []  # callable in expressions
         self.enums, self.scope, self.in_call = [], None, 0
 
     # Places
@@ -749,13 +749,14 @@ class Expressions:
         return self.reach(v.name, v.kind, v.place, wanted)
 
     def call(self, depth, wanted):
-        """(text, type, function) of a function's call"""
-        choices = [f for f in self.functions if f.result and wanted(f.result)]
+        """(text, type, function) of a call of a function or a method"""
+        choices = [(f, None) for f in self.functions if f.result and wanted(f.result)]
+        choices += [(m, o) for o in self.objects for m in o.methods if m.result and wanted(m.result)]
         if not choices or self.in_call > 2:
             raise Skip
-        return self.call_of(self.rng.choice(choices), depth)
+        return self.call_of(*self.rng.choice(choices), depth)
 
-    def call_of(self, function, depth):
+    def call_of(self, function, owner, depth):
         rng = self.rng
         self.in_call += 1
         try:
@@ -782,9 +783,11 @@ class Expressions:
             self.in_call -= 1
 
         def run(frame):
-            return function.run(frame, [(p, fn(frame)) for p, fn in steps])
+            this = owner.place(frame).get() if owner else None
+            return function.run(this, [(p, fn(frame)) for p, fn in steps])
 
-        return f"{function.name}({', '.join(texts)})", function.result, run
+        dot = f"{owner.text}." if owner and owner.text else ""
+        return f"{dot}{function.name}({', '.join(texts)})", function.result, run
 
 
 __all__ = ["BOOL", "ELEMENTARY", "Expressions", "Node", "Scope", "Variable", "single"]

@@ -6,6 +6,7 @@ from model import (INTS, NUMBERS, REALS, TIMES, Array, Enum, Ref, Skip, StringTy
                    rounded, string_text, time_text, wrap)
 
 MAX_STEPS = 1500
+METHODS = False
 
 
 class ExitLoop(Exception):
@@ -18,6 +19,20 @@ class ContinueLoop(Exception):
 
 class ReturnNow(Exception):
     pass
+
+
+class Member:
+    """A variable of a block, as its methods see it"""
+
+    def __init__(self, name, kind):
+        self.name, self.kind = name, kind
+
+
+class Owner:
+    """Whose methods can be called: the text before the dot, the place of the instance, the methods"""
+
+    def __init__(self, text, place, methods):
+        self.text, self.place, self.methods = text, place, methods
 
 
 class Budget:
@@ -40,17 +55,23 @@ class Pou:
 
     def __init__(self, name, result, inputs, outputs, in_outs):
         self.name, self.result, self.inputs, self.outputs, self.in_outs = name, result, inputs, outputs, in_outs
-        self.locals, self.statics, self.instances = [], {}, []
-        self.text, self.body, self.budget = [], None, None
+        self.locals, self.instances, self.methods = [], [], {}
+        self.body, self.budget = None, None
 
-    def run(self, _, arguments):
-        """A function's call. Arguments: parameter with a value, or with a place."""
+    def run(self, this, arguments):
+        """A call of a function, or of a method of instance this. Arguments: parameter with a value, or with a place."""
+        if this and self.virtual:
+            method = this["type"].find(self.name)
+            if method is not self:
+                # Both have the same parameters.
+                return method.run(this, arguments)
         self.budget.tick()
         frame = {p.name: p.kind.copy(p.default) for p in self.inputs}
         frame |= {n: k.copy(v) for n, k, v in self.locals}
         frame |= {p.name: p.kind.default() for p in self.outputs}
         if self.result:
             frame[self.name] = self.result.default()
+        frame["this"] = this
         results = []
         for p, value in arguments:
             if p in self.outputs:
@@ -70,14 +91,37 @@ class Pou:
 
     # Blocks
 
+    base, virtual = None, True
+
     def new(self):
-        instance = {p.name: p.kind.copy(p.default) for p in self.inputs}
+        instance = self.base.new() if self.base else {}
+        instance["type"] = self
+        instance |= {p.name: p.kind.copy(p.default) for p in self.inputs}
         instance |= {p.name: p.kind.default() for p in self.outputs}
         instance |= {n: k.copy(v) for n, k, v in self.locals}
         instance |= {n: block.new() for n, block in self.instances}
         return instance
 
+    def find(self, name):
+        """The method of this name that an instance of this block has"""
+        return self.methods[name] if name in self.methods or not self.base else self.base.find(name)
+
+    def all_methods(self):
+        found = self.base.all_methods() if self.base else {}
+        return {**found, **self.methods}
+
+    def all_outputs(self):
+        return [*(self.base.all_outputs() if self.base else []), *self.outputs]
+
+    def all_inputs(self):
+        return [*(self.base.all_inputs() if self.base else []), *self.inputs]
+
+    def all_in_outs(self):
+        return [*(self.base.all_in_outs() if self.base else []), *self.in_outs]
+
     def flat(self, path, value):
+        if self.base:
+            yield from self.base.flat(path, value)
         for p in [*self.inputs, *self.outputs]:
             yield from p.kind.flat(f"{path}.{p.name}", value[p.name])
         for n, kind, _ in self.locals:
@@ -254,21 +298,22 @@ class Generator(Expressions):
 
     # Functions and blocks
 
-    def pou(self, name, is_function):
+    def pou(self, name, is_function, base=None):
         rng = self.rng
+        tag = f"d{name[-1]}" if base else ""  # members of a derived block have names of their own
         result = self.some_type(1) if is_function and rng.random() < 0.9 else None
         if result is not None and isinstance(result, Array) and result not in self.arrays:
             result = rng.choice(self.arrays)
         inputs, lines = [], []
         for i in range(rng.randint(0 if is_function else 1, 4)):
             kind = self.some_type(1)
-            line, default = self.declare(f"in{i}", kind, 0.4)
-            inputs.append(Parameter(f"in{i}", kind, default, is_function and ":=" not in line))
+            line, default = self.declare(f"{tag}in{i}", kind, 0.4)
+            inputs.append(Parameter(f"{tag}in{i}", kind, default, is_function and ":=" not in line))
             lines.append(line)
-        outputs = [Parameter(f"out{i}", self.some_type(1)) for i in range(rng.choice([0, 0, 1, 2] if is_function else [1, 2, 3]))]
+        outputs = [Parameter(f"{tag}out{i}", self.some_type(1)) for i in range(rng.choice([0, 0, 1, 2] if is_function else [1, 2, 3]))]
         # Formals and actuals are of one and the same type, so it has a name.
         in_outs = [Parameter(f"io{i}", rng.choice([self.plain(), *self.structs, *self.arrays]))
-                   for i in range(rng.choice([0, 0, 1, 2]))]
+                   for i in range(0 if base else rng.choice([0, 0, 1, 2]))]
         pou = Pou(name, result, inputs, outputs, in_outs)
         pou.budget = self.budget
         variables = [Variable(p.name, p.kind, self.local_place(p.name)) for p in inputs + outputs]
@@ -276,10 +321,10 @@ class Generator(Expressions):
         local_lines = []
         for i in range(rng.randint(3, 6)):
             kind = self.scalar() if i < 3 else self.some_type(1)
-            line, value = self.declare(f"v{i}", kind)
+            line, value = self.declare(f"{tag}v{i}", kind)
             local_lines.append(line)
-            pou.locals.append((f"v{i}", kind, value))
-            variables.append(Variable(f"v{i}", kind, self.local_place(f"v{i}")))
+            pou.locals.append((f"{tag}v{i}", kind, value))
+            variables.append(Variable(f"{tag}v{i}", kind, self.local_place(f"{tag}v{i}")))
         static_lines = []
         if is_function:
             if result:
@@ -293,16 +338,36 @@ class Generator(Expressions):
         if not is_function:
             for i in range(rng.choice([0, 0, 1, 2]) if self.blocks else 0):
                 block = rng.choice(self.blocks)
-                if block.in_outs:
+                if block.all_in_outs():
                     continue
-                pou.instances.append((f"f{i}", block))
-                local_lines.append(f"  f{i} : {block.name};")
-                instances.append(self.instance(f"f{i}", block, self.local_place(f"f{i}"), variables))
-        self.enter(variables, instances)
+                pou.instances.append((f"{tag}f{i}", block))
+                local_lines.append(f"  {tag}f{i} : {block.name};")
+                instances.append(self.instance(f"{tag}f{i}", block, self.local_place(f"{tag}f{i}"), variables))
+        method_lines, members = [], []
+        if not is_function:
+            pou.base = base
+            members = [Member(v.name, v.kind) for v in variables if not v.shared and "." not in v.name]
+            pou.members = [*(base.members if base else []), *members]
+            if base:
+                variables += [Variable(m.name, m.kind, self.local_place(m.name)) for m in base.members]
+            for i in range(3 if METHODS else 0):
+                method_lines += self.method(pou, f"Meth{i}", i)
+        objects = [Owner("", self.itself, list(pou.all_methods().values())),
+                   Owner("THIS^", self.itself, list(pou.all_methods().values()))] if METHODS and not is_function else []
+        self.enter(variables, instances, objects)
         body, pou.body = self.block(2)
+        if base and rng.random() < 0.6 and METHODS:
+            inner = pou.body
+
+            def with_base(f):
+                base.execute(f)
+                inner(f)
+
+            body, pou.body = ["  SUPER^();", *body], with_base
         pou.locals += [(g, ELEMENTARY["DINT"], 0) for g in self.guards]
         local_lines += [f"  {g} : DINT;" for g in self.guards]
         head = f"FUNCTION {name}{' : ' + result.name if result else ''}" if is_function else f"FUNCTION_BLOCK {name}"
+        head += f" EXTENDS {base.name}" if base else ""
         sections = [("VAR_INPUT", lines), ("VAR_OUTPUT", [f"  {p.name} : {p.kind.name};" for p in outputs]),
                     ("VAR_IN_OUT", [f"  {p.name} : {p.kind.name};" for p in in_outs]), ("VAR", local_lines),
                     ("VAR_STAT", static_lines)]
@@ -310,8 +375,62 @@ class Generator(Expressions):
         for word, entries in sections:
             if entries:
                 self.text += [word, *entries, "END_VAR"]
-        self.text += [*body, "END_FUNCTION" if is_function else "END_FUNCTION_BLOCK"]
+        self.text += [*method_lines, *body, "END_FUNCTION" if is_function else "END_FUNCTION_BLOCK"]
         (self.functions if is_function else self.blocks).append(pou)
+
+    @staticmethod
+    def itself(frame):
+        """The instance whose body or method runs"""
+        return Ref({"this": frame.get("this") or frame}, "this")
+
+    def method(self, block, name, rank):
+        """A method of a block (with body); one of the base's is overridden with the same parameters"""
+        rng = self.rng
+        old = block.base.all_methods().get(name) if block.base else None
+        if old and rng.random() < 0.4:
+            return []
+        if old:
+            method = Pou(name, old.result, old.inputs, old.outputs, old.in_outs)
+        else:
+            result = rng.choice([self.scalar(), self.scalar(), rng.choice(self.structs)])
+            inputs = [Parameter(f"a{i}", self.some_type(0), None, True) for i in range(rng.randint(0, 2))]
+            for p in inputs:
+                p.default = p.kind.default()
+            in_outs = [Parameter(f"io{i}", self.plain()) for i in range(rng.choice([0, 0, 1]))]
+            method = Pou(name, result, inputs, [], in_outs)
+        method.budget = self.budget
+        lines = [f"METHOD {name} : {method.result.name}"]
+        if method.inputs:
+            lines += ["VAR_INPUT", *(f"  {p.name} : {p.kind.name};" for p in method.inputs), "END_VAR"]
+        if method.in_outs:
+            lines += ["VAR_IN_OUT", *(f"  {p.name} : {p.kind.name};" for p in method.in_outs), "END_VAR"]
+        variables = [Variable(p.name, p.kind, self.local_place(p.name)) for p in method.inputs]
+        variables += [Variable(p.name, p.kind, self.in_out_place(p.name), shared=True) for p in method.in_outs]
+        variables.append(Variable(name, method.result, self.local_place(name)))
+        variables += [Variable(m.name, m.kind, self.this_place(m.name), shared=True) for m in block.members]
+        local_lines = []
+        for i in range(2):
+            kind = self.scalar()
+            line, value = self.declare(f"l{i}", kind)
+            local_lines.append(line)
+            method.locals.append((f"l{i}", kind, value))
+            variables.append(Variable(f"l{i}", kind, self.local_place(f"l{i}")))
+        lower = [m for n, m in block.all_methods().items() if int(n[-1]) < rank]
+        objects = [Owner("", self.itself, lower), Owner("THIS^", self.itself, lower)]
+        if old:
+            super_of = copy.copy(block.base.find(name))
+            super_of.virtual = False  # SUPER^ means the base's own
+            objects += [Owner("SUPER^", self.itself, [super_of])] * 2
+        self.enter(variables, [], objects)
+        body, method.body = self.block(1)
+        method.locals += [(g, ELEMENTARY["DINT"], 0) for g in self.guards]
+        lines += ["VAR", *local_lines, *(f"  {g} : DINT;" for g in self.guards), "END_VAR", *body, "END_METHOD"]
+        block.methods[name] = method
+        return lines
+
+    @staticmethod
+    def this_place(name):
+        return lambda f: Ref(f["this"], name)
 
     def plain(self):
         while True:
@@ -320,7 +439,7 @@ class Generator(Expressions):
                 return kind
 
     def instance(self, text, block, place, variables):
-        for p in block.outputs:
+        for p in block.all_outputs():
             variables.append(Variable(f"{text}.{p.name}", p.kind, self.member(place, p.name), writable=False))
         return Instance(text, block, place)
 
@@ -331,8 +450,9 @@ class Generator(Expressions):
     def in_out_place(name):
         return lambda f: f[name]
 
-    def enter(self, variables, instances=()):
+    def enter(self, variables, instances=(), objects=()):
         self.scope = Scope(variables + self.shared)
+        self.objects = [*objects, *(Owner(i.text, i.place, list(i.block.all_methods().values())) for i in instances)]
         self.instances, self.in_loop, self.guards = list(instances), 0, []
 
     # Statements: (lines, function of the frame)
@@ -394,7 +514,7 @@ class Generator(Expressions):
             functions = [f for f in self.functions if f.outputs or f.in_outs] or self.functions
             if not functions:
                 raise Skip
-            text, _, run = self.call_of(self.rng.choice(functions), 2)
+            text, _, run = self.call_of(self.rng.choice(functions), None, 2)
             return [f"{text};"], run
         if choice < 0.25:
             return self.bit_assignment()
@@ -465,12 +585,13 @@ class Generator(Expressions):
         rng = self.rng
         target = rng.choice(self.instances)
         block = target.block
-        parameters = [p for p in block.inputs if rng.random() < 0.7] + list(block.in_outs)
+        in_outs = block.all_in_outs()
+        parameters = [p for p in block.all_inputs() if rng.random() < 0.7] + in_outs
         rng.shuffle(parameters)
         texts, steps, after = [], [], []
         self.in_call += 1
         for p in parameters:
-            if p in block.in_outs:
+            if p in in_outs:
                 text, place = self.target(p.kind)
                 texts.append(f"{p.name} := {text}")
                 steps.append((p.name, place))
@@ -478,7 +599,7 @@ class Generator(Expressions):
                 value = self.any(p.kind, 2)
                 texts.append(f"{p.name} := {value.text}")
                 steps.append((p.name, value.fn))
-        for p in block.outputs:
+        for p in block.all_outputs():
             if rng.random() < 0.3:
                 text, place = self.target(p.kind, shared=False)
                 if text.startswith("f") or "[" in text:
@@ -493,7 +614,7 @@ class Generator(Expressions):
             for name, step in steps:
                 instance[name] = step(f)
             block.execute(instance)
-            for p in block.in_outs:
+            for p in in_outs:
                 del instance[p.name]
             for p, place in after:
                 place(f).set(p.kind.copy(instance[p.name]))
@@ -633,16 +754,20 @@ class Generator(Expressions):
 
         def run(f):
             ref = v.place(f)
-            for i in range(low, high - offset + 1):
+            ref.set(low)
+            more = True
+            while more:
                 self.budget.tick()
-                ref.set(i)
-                box = array.place(f).get()
+                i, box = ref.get(), array.place(f).get()
+                if not low <= i <= high - offset:
+                    raise Skip
                 if offset and previous:
-                    box[i - low] = element.copy(box[i + 1 - low])
+                    Ref(box, i - low).set(element.copy(box[i + 1 - low]))
                 else:
-                    # The place is found first; the array itself is not replaced in between.
-                    box[i + offset - low] = element.copy(value.fn(f))
-            ref.set(wrap(kind, high - offset + 1))
+                    Ref(box, i + offset - low).set(element.copy(value.fn(f)))  # the place is found first
+                i = ref.get()
+                more = i < high - offset
+                ref.set(wrap(kind, i + 1))
 
         index = f"{v.name} + {offset}" if offset else v.name
         statement = f"{array.name}[{v.name}] := {array.name}[{index}];" if offset and previous else \
@@ -704,6 +829,7 @@ class Generator(Expressions):
                 lines.append(line)
                 fields.append((name, kind, value))
                 variables.append(Variable(name, kind, self.local_place(name)))
+            starts = self.pointers(number, variables, lines)
             for i in range(rng.choice([0, 1, 2])):
                 name = f"p{number}_f{i}"
                 made = self.block_variable(name, rng.choice(self.blocks), variables, instances)
@@ -711,7 +837,8 @@ class Generator(Expressions):
                 fields.append((name, made, None))
             self.enter(variables, instances)
             self.in_section = True
-            parts = [self.some_statement(rng.choice([0, 1, 2, 2, 3])) for _ in range(rng.randint(3, 6))]
+            parts = [starts] if starts else []
+            parts += [self.some_statement(rng.choice([0, 1, 2, 2, 3])) for _ in range(rng.randint(3, 6))]
             self.in_section = False
             fields += [(g, ELEMENTARY["DINT"], 0) for g in self.guards]
             lines += [f"  {g} : DINT;" for g in self.guards]
@@ -730,6 +857,24 @@ class Generator(Expressions):
             group.body += [f"  // program {number}", *("  " + line for text, _ in parts for line in text)]
             group.fields += [(n, k, state[n]) for n, k, _ in fields]
             return
+
+    def pointers(self, number, variables, lines):
+        """Pointers and references, bound by the first statements of a program"""
+        rng = self.rng
+        bound = []
+        for i in range(rng.choice([0, 0, 1, 2])):
+            v = rng.choice(variables)
+            name, is_pointer = f"p{number}_q{i}", rng.random() < 0.5
+            lines.append(f"  {name} : {'POINTER' if is_pointer else 'REFERENCE'} TO {v.kind.name};")
+            text = f"{name} := ADR({v.name});" if is_pointer else f"{name} REF= {v.name};"
+            bound.append((text, name, v.place))
+            variables.append(Variable(f"{name}^" if is_pointer else name, v.kind, self.in_out_place(name), shared=True))
+
+        def run(f):
+            for _, name, place in bound:
+                f[name] = place(f)
+
+        return ([text for text, _, _ in bound], run) if bound else None
 
     def block_variable(self, name, block, variables, instances):
         """A block, an array of blocks or a structure with a block"""
@@ -822,10 +967,12 @@ class Generator(Expressions):
 
     def program(self, groups, count):
         """The text of a project of groups × count programs, and (path, type, value) of what it must print"""
+        rng = self.rng
         for i in range(8):
             self.pou(f"Fun{i}", True)
             if i % 3 == 1:
-                self.pou(f"Block{i}", False)
+                bases = [b for b in self.blocks if not b.base]
+                self.pou(f"Block{i}", False, rng.choice(bases) if bases and METHODS and rng.random() < 0.7 else None)
         made = []
         for g in range(groups):
             made.append(Group(f"Group{g}"))
