@@ -700,7 +700,7 @@ class Generator(Expressions):
         low, high = limits(kind)
         first = rng.choice([low, high, rng.randint(max(low, -20), 20), high - rng.randint(0, 6), low + rng.randint(0, 6)])
         last = max(low, min(high, first + rng.randint(-6, 12)))
-        step = rng.choice([None, None, 1, 2, 3, -1, -2, 7] if INTS[kind][0] else [None, None, 1, 2, 3])
+        step = rng.choice([None, None, 1, 2, 3, -1, -2, 7])
         last_text, end = str(last), lambda f: last
         if rng.random() < 0.3:
             text, _, get = self.read(kind)
