@@ -83,7 +83,46 @@ bool isMath(Builtin id) { return id >= Builtin::sqrt && id <= Builtin::expt; }
 
 } // namespace
 
+/// SEL and MUX compute only the value that is selected, as CODESYS does: `SEL(n = 0, a / n, 0)`.
+bool Emitter::selectedOnly(const CallExpr *e) {
+  if (e->builtin != Builtin::sel && e->builtin != Builtin::mux)
+    return false;
+  unsigned result = effectNone;
+  for (std::size_t i = 1; i < e->arguments.size(); ++i)
+    result |= effects(e->arguments[i].value);
+  if ((result & (effectCalls | effectRaises)) == 0)
+    return false;
+  const std::size_t last = e->arguments.size() - 1;
+  w_ << "[&]() -> " << type(e->type) << " { switch (";
+  if (e->builtin == Builtin::mux) {
+    w_ << "::stride::index<0, " << last - 1 << ">(" << ctx() << ", ";
+    value(e->arguments[0].value);
+    w_ << ", ";
+    position(e->span);
+  } else {
+    w_ << "static_cast<int>(";
+    value(e->arguments[0].value);
+  }
+  w_ << ")) {";
+  for (std::size_t i = 1; i <= last; ++i) {
+    if (i < last)
+      w_ << " case " << i - 1;
+    else
+      w_ << " default";
+    w_ << ": return ";
+    const bool number = isInteger(underlying(e->type)) || isReal(underlying(e->type));
+    if (number)
+      w_ << "static_cast<" << type(e->type) << ">(";
+    value(e->arguments[i].value);
+    w_ << (number ? ");" : ";");
+  }
+  w_ << " } }()";
+  return true;
+}
+
 void Emitter::builtin(const CallExpr *e) {
+  if (selectedOnly(e))
+    return;
   // The order of the arguments matters only if one of them calls what may change the others.
   unsigned before = effectNone;
   for (const Argument &a : e->arguments) {

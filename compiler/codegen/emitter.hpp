@@ -243,6 +243,7 @@ private:
 
   // builtin_calls.cpp
   void builtin(const ast::CallExpr *e);
+  bool selectedOnly(const ast::CallExpr *e);
   void orderedBuiltin(const ast::CallExpr *e);
   void builtinPlain(const ast::CallExpr *e, const std::vector<std::string> *names);
   void builtinArgument(const ast::CallExpr *e, std::size_t i, const std::vector<std::string> *names,
@@ -319,6 +320,7 @@ private:
   unsigned next_ = 0;
   std::uint32_t currentLine_ = 0; ///< of the ST, for next()
   Span initSpan_;                 ///< of the variable being initialised
+  bool zeroed_ = true;            ///< its memory is zero: it has no default that a zero replaces
 };
 
 } // namespace stc::codegen

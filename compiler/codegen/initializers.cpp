@@ -41,6 +41,8 @@ void Emitter::initVariable(std::string_view target, const VarSymbol *variable) {
   if (!whole)
     writtenDefault(target, variable->type, Layouts::written(variable));
   construct(target, variable);
+  zeroed_ = whole || (!c_.layouts.needsInit(variable->type) &&
+                      !c_.layouts.elementsHaveDefaults(Layouts::written(variable), variable->type));
   if (init != nullptr)
     initValue(target, variable->type, init);
   afterInit(target, variable->type);
@@ -58,9 +60,10 @@ void Emitter::writtenDefault(std::string_view target, const Type *type, const Wr
   w_ << "for (auto &" << element << " : " << target << ".v) {";
   end();
   open();
-  if (const Expr *init = c_.layouts.aliasDefault(inner, elementType))
+  if (const Expr *init = c_.layouts.aliasDefault(inner, elementType)) {
+    zeroed_ = !c_.layouts.needsInit(elementType);
     initValue(element, elementType, init);
-  else
+  } else
     writtenDefault(element, elementType, inner);
   close();
   begin(initSpan_);
@@ -106,9 +109,7 @@ void Emitter::defaultStatement(std::string_view target, const Type *type) {
 
 void Emitter::initValue(std::string_view target, const Type *type, const Expr *init) {
   if (init->kind != ExprKind::aggregate) {
-    if (isZero(init) && !c_.layouts.needsInit(type) && init->constant->kind != ConstKind::string)
-      return;
-    if (isZero(init) && init->constant->kind == ConstKind::string)
+    if (zeroed_ && isZero(init))
       return;
     begin(initSpan_);
     storeTo(target, type, init);
@@ -139,14 +140,11 @@ void Emitter::initValue(std::string_view target, const Type *type, const Expr *i
       end();
       continue;
     }
-    // The field has its default already; a plain zero must overwrite it.
-    if (item.value->kind != ExprKind::aggregate) {
-      begin(item.span.valid() ? item.span : initSpan_);
-      storeTo(field, item.symbol->type, item.value);
-      end();
-    } else {
-      initValue(field, item.symbol->type, item.value);
-    }
+    const Span whole = initSpan_;
+    if (item.span.valid())
+      initSpan_ = item.span;
+    initValue(field, item.symbol->type, item.value);
+    initSpan_ = whole;
   }
 }
 
@@ -184,8 +182,7 @@ std::uint64_t Emitter::arrayValues(std::string_view target, const ArrayType *typ
   for (const AggregateItem &item : items) {
     const std::uint64_t count = repetition(item);
     if (item.values.empty()) {
-      const bool skip =
-          item.value == nullptr || (isZero(item.value) && !c_.layouts.needsInit(type->element));
+      const bool skip = item.value == nullptr || (zeroed_ && isZero(item.value));
       if (!skip && count == 1) {
         initValue(element(at), type->element, item.value);
       } else if (!skip && count > 1) {

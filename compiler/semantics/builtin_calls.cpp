@@ -110,6 +110,30 @@ const Type *Checker::commonOfArguments(CallExpr *expr, std::size_t first) {
   }
   for (std::size_t i = first; i < expr->arguments.size(); ++i)
     setTarget(expr->arguments[i].value, common);
+  if (isInteger(common) && !untyped(lead->type))
+    expr->common = commonBeforeWidening(expr, first);
+  return common;
+}
+
+/// `i := MIN(i + 1, j)`: the result may go back to the operands' type, as that of `i + 1` may.
+const Type *Checker::commonBeforeWidening(const CallExpr *expr, std::size_t first) {
+  const Type *common = nullptr;
+  const auto add = [&](const Type *type) {
+    common = common == nullptr || type == nullptr ? type : commonNumber(common, type);
+    return common != nullptr;
+  };
+  for (std::size_t i = first; i < expr->arguments.size(); ++i) {
+    const Expr *value = expr->arguments[i].value;
+    if (!untyped(value->type) &&
+        !add(value->common != nullptr ? value->common : underlying(value->type)))
+      return nullptr;
+  }
+  for (std::size_t i = first; i < expr->arguments.size(); ++i) {
+    const Expr *value = expr->arguments[i].value;
+    if (untyped(value->type) && !constantFits(*value->constant, value->type, common) &&
+        !add(smallestInteger(value->constant->integer)))
+      return nullptr;
+  }
   return common;
 }
 

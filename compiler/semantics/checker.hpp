@@ -199,6 +199,7 @@ private:
   const Type *checkConversionCall(ast::CallExpr *expr, const ConversionName &conversion);
   const Type *checkStringBuiltin(ast::CallExpr *expr);
   const Type *commonOfArguments(ast::CallExpr *expr, std::size_t first);
+  static const Type *commonBeforeWidening(const ast::CallExpr *expr, std::size_t first);
   bool requireCount(ast::CallExpr *expr, std::size_t least, std::size_t most);
   const Type *argumentError(ast::CallExpr *expr, std::size_t index, std::string_view wanted);
 

@@ -91,17 +91,18 @@ const Type *Checker::checkLiteral(Literal *expr) {
     type = elementaryType(TypeKind::boolean);
     value.integer = static_cast<std::int64_t>(expr->integer);
     break;
-  case LiteralKind::integer:
-    type = elementaryType(
-        expr->integer > static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max())
-            ? TypeKind::ulint
-            : TypeKind::anyInteger);
-    value.integer = static_cast<std::int64_t>(expr->integer);
+  case LiteralKind::integer: {
+    const std::uint64_t most = std::uint64_t{1} << 63U;
+    const bool untyped = expr->integer < most || (expr->negative && expr->integer == most);
+    type = elementaryType(untyped ? TypeKind::anyInteger : TypeKind::ulint);
+    value.integer =
+        static_cast<std::int64_t>(expr->negative && untyped ? 0 - expr->integer : expr->integer);
     break;
+  }
   case LiteralKind::real:
     type = elementaryType(TypeKind::anyReal);
     value.kind = ConstKind::real;
-    value.real = expr->real;
+    value.real = expr->negative ? -expr->real : expr->real;
     break;
   case LiteralKind::string:
   case LiteralKind::wstring:

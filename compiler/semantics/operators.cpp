@@ -3,6 +3,8 @@
 #include "compiler/semantics/checker.hpp"
 #include "compiler/semantics/fold.hpp"
 
+#include <limits>
+
 namespace stc {
 
 using namespace ast;
@@ -187,13 +189,23 @@ const Type *Checker::checkUnary(UnaryExpr *expr, const Type *expected) {
                                                                         : TypeKind::lint);
       setTarget(operand, u->type);
     }
-    if (operand->constant != nullptr) {
+    if (u->op == UnaryOp::negate && operand->kind == ExprKind::literal &&
+        type->kind == TypeKind::ulint && !as<Literal>(operand)->typeName &&
+        operand->constant->integer == std::numeric_limits<std::int64_t>::min()) {
+      // `-9223372036854775808` is LINT's smallest value, written with a magnitude that is none.
+      u->common = nullptr;
+      u->type = elementaryType(TypeKind::anyInteger);
+      u->constant = operand->constant;
+    } else if (operand->constant != nullptr) {
       const auto value = convertConstant(*operand->constant, type, u->type);
       const auto folded = value ? foldUnary(u->op, *value, u->type) : std::nullopt;
       if (folded)
         u->constant = makeConstant(*folded);
-      else if (untyped(u->type))
+      else if (untyped(u->type)) {
+        report(Code::constantOverflow, u->span,
+               "this constant expression does not fit into 64 bits", "too large");
         u->type = elementaryType(TypeKind::error);
+      }
     }
   }
   return expr->type;

@@ -110,6 +110,7 @@ struct Literal : Expr {
   std::uint64_t integer = 0; ///< integer: magnitude; boolean: 0/1; time: ms (32 bit); ltime, ldate,
                              ///< ltod, ldt: ns; date, dt: s since 1970; tod: ms
   double real = 0;
+  bool negative = false; ///< of a typed number, `INT#-5`: `integer` and `real` are the magnitude
   std::string_view text; ///< string: content, $-escapes resolved, UTF-8; others: as written
 };
 

@@ -624,14 +624,8 @@ Expr *AstBuilder::typedLiteral(const Token &start) {
   }
   if (!good)
     return error(whole);
-  if (!negative)
-    return node;
-  auto *negated = arena_.make<UnaryExpr>();
-  negated->kind = ExprKind::unary;
-  negated->span = whole;
-  negated->op = UnaryOp::negate;
-  negated->operand = node;
-  return negated;
+  node->negative = negative;
+  return node;
 }
 
 Expr *AstBuilder::enumLiteral(const Token &start) {

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""Random well-typed programs whose values are computed here as well.
+
+usage: random_programs.py STRIDE [--seeds FIRST..LAST] [--modes MODE,…] [--keep FOLDER]
+
+A seed is a project: types, global variables, functions, function blocks and 50 programs (sections of five blocks, each
+with variables of its own). `stride sim` runs it; every variable must have the value that the model in this folder gives
+it. MODE is one of O2, O0, O2-unchecked, O0-unchecked; without --modes the seeds take turns. Every fifth seed is a
+smaller project that ends with a run-time error, whose message and place are known. A project that disagrees is left in
+FOLDER (default: the temporary folder) and named.
+"""
+import argparse
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+
+from model import agrees
+from programs import Generator
+
+MODES = {"O2": [], "O0": ["--debug"], "O2-unchecked": ["--unchecked"], "O0-unchecked": ["--debug", "--unchecked"]}
+GROUPS, COUNT = 5, 10
+
+
+def check(options, seed):
+    """How many programs agree in all modes, or None"""
+    generator = Generator(random.Random(seed))
+    error, programs = None, GROUPS * COUNT
+    if seed % 5 == 0:
+        programs = 3
+        text, expected, message, (line, column) = generator.failing(programs - 1)
+        error = f"error: {message} at random{seed}.st:{line}:{column} "
+    else:
+        text, expected = generator.program(GROUPS, COUNT)
+    source = options.keep / f"random{seed}.st"
+    source.write_text("\n".join(text), encoding="utf-8")
+    names = ["PLC_PRG", *(path for path, _, _ in expected if not path.startswith("PLC_PRG"))]
+    modes = options.modes or [list(MODES)[seed % len(MODES)]]
+    if error:
+        modes = [mode for mode in modes if "unchecked" not in mode] or ["O2"]
+    good = [run(options.stride, source, names, expected, mode, error) for mode in modes]
+    if not all(good):
+        return None
+    source.unlink()
+    return programs
+
+
+def run(stride, source, names, expected, mode, error):
+    result = subprocess.run([stride, "sim", source.name, "--for", "T#10ms", "--print", ",".join(names), *MODES[mode]],
+                            capture_output=True, text=True, check=False, cwd=source.parent)
+    found = dict(line.split(" = ", 1) for line in result.stdout.splitlines() if " = " in line)
+    wrong = [(path, value) for path, kind, value in expected
+             if path not in found or not agrees(kind, value, found[path])]
+    if (error in result.stderr and result.returncode != 0 if error else result.returncode == 0) and not wrong:
+        return True
+    print(f"{source} ({mode}): exit code {result.returncode}, {len(wrong)} of {len(expected)} values differ")
+    for path, value in wrong[:5]:
+        print(f"  {path}: expected {value}, found {found.get(path)}")
+    if error:
+        print(f"  expected {error}")
+    errors = result.stderr.split("\n\n")
+    print("\n\n".join(e for e in errors if not e.startswith(("warning", "note")))[:1500])
+    return False
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("stride", type=lambda text: pathlib.Path(text).resolve())
+    parser.add_argument("--seeds", default="1..4")
+    parser.add_argument("--modes", type=lambda text: text.split(","))
+    parser.add_argument("--keep", type=pathlib.Path, default=pathlib.Path(tempfile.gettempdir()))
+    options = parser.parse_args()
+    first, last = map(int, options.seeds.split(".."))
+    results = [check(options, seed) for seed in range(first, last + 1)]
+    print(f"{len(results) - results.count(None)} of {len(results)} projects agree, {sum(filter(None, results))} programs")
+    return 1 if None in results else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
