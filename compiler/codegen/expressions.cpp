@@ -150,6 +150,9 @@ void Emitter::place(const Expr *e) {
       self(static_cast<const SelfSymbol *>(symbol));
       return;
     }
+    // An in-out is declared with the name of its type only.
+    if (e->type->kind == TypeKind::array || e->type->kind == TypeKind::structure)
+      includes_.complete(e->type);
     variable(static_cast<const VarSymbol *>(symbol), e->span);
     return;
   }
@@ -352,6 +355,7 @@ void Emitter::memberEnd(const MemberExpr *e, bool indirect) {
 }
 
 void Emitter::index(const IndexExpr *e) {
+  includes_.complete(e->base->type); // C++ must know the size of the elements
   place(e->base);
   const Type *t = e->base->type;
   for (const Expr *i : e->indices) {

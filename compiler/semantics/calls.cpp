@@ -373,11 +373,17 @@ void Checker::checkOutput(Argument &argument, VarSymbol *parameter) {
 
 void Checker::reportMissing(CallExpr *expr, PouSymbol *pou,
                             const std::unordered_set<VarSymbol *> &given) {
+  // SUPER^() runs the base's body on the same instance, whose in-outs are bound already.
+  const Expr *callee = expr->callee;
+  if (callee->kind == ExprKind::deref)
+    callee = as<DerefExpr>(callee)->base;
+  const bool ofBase =
+      callee->kind == ExprKind::name && as<NameExpr>(callee)->name.id->lower == "super";
   std::string missing;
   bool inOut = false;
   std::size_t count = 0;
   for (VarSymbol *p : pou->parameters()) {
-    if (given.contains(p) || p->hidden)
+    if (given.contains(p) || p->hidden || (ofBase && p->section == Section::inOut))
       continue;
     const bool needed =
         p->section == Section::inOut || ((pou->isFunction() || pou->isMethod()) &&
