@@ -38,7 +38,7 @@ enum SymbolFlags : uint32_t {
                         ///< writes it, and it is not carried over. Interface slots point to it.
   kSymInitOnChange = 1U << 10, ///< {attribute 'init_on_onlchange'}: an online change does not keep
                                ///< the value.
-  kSymLocated = 1U << 12, ///< Lies in the process image (or is a second name of something, by
+  kSymLocated = 1U << 12,      ///< Lies in the process image (or is a second name of something, by
                           ///< VAR_ACCESS): the offset counts from the start of the state, also that
                           ///< of a member.
   kSymSlot = 1U << 13, ///< `AT %I*`: at the offset the instance holds a UDINT, the variable's place

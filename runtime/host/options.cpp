@@ -54,9 +54,8 @@ std::vector<std::string> splitPaths(std::string_view text) {
 SetOption parseSet(const std::string &text) {
   // Without a time (`x=5`, `a[1,2]=5`) it is set before the first cycle.
   std::size_t comma = text.find(',');
-  const bool timed =
-      comma != std::string::npos && (text.rfind('#', comma) != std::string::npos ||
-                                     (text.front() >= '0' && text.front() <= '9'));
+  const bool timed = comma != std::string::npos && (text.rfind('#', comma) != std::string::npos ||
+                                                    (text.front() >= '0' && text.front() <= '9'));
   if (!timed)
     comma = std::string::npos;
   const std::size_t equals = text.find('=', timed ? comma : 0);
