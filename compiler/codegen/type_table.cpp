@@ -163,6 +163,8 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
     row.renamedFrom = renamedFrom(pou->decl->attributes);
     if (pou->decl->external)
       row.flags |= kExternal;
+    if (pou->isBlock() && hasTypeId(pou))
+      row.typeId = c_.names.typeId(pou);
     members(row, pou->base == nullptr ? nullptr : pou->base->type, row.cppType,
             rootVariables({pou, false}), carriesTypeId(pou));
     break;
@@ -283,11 +285,12 @@ std::string TypeTable::text() const {
                    std::to_string(r.memberCount) + ", " +
                    (r.element < 0 ? std::string("kNo") : std::to_string(r.element)) + ", " +
                    std::to_string(r.lowerBound) + ", " + std::to_string(r.elementCount) + ", " +
-                   std::to_string(r.stringLength) + ", 0" + renamedColumn(r.renamedFrom) + "}");
+                   std::to_string(r.stringLength) + ", " + std::to_string(r.typeId) +
+                   renamedColumn(r.renamedFrom) + "}");
   }
   out += "\n// {kind, flags, name, size, layoutHash, align, firstMember, memberCount, element, "
          "lowerBound,\n"
-         "//  elementCount, stringLength, 0, renamedFrom}";
+         "//  elementCount, stringLength, typeId, renamedFrom}";
   table("TypeDesc", "kTypes", rows);
   out += "\n// {name, offset, type, flags, renamedFrom}";
   table("MemberDesc", "kMembers", memberRows_);

@@ -64,6 +64,7 @@ private:
     std::int64_t lowerBound = 0;
     std::uint64_t elementCount = 0;
     std::uint32_t stringLength = 0;
+    std::uint32_t typeId = 0;
     std::string_view renamedFrom;
   };
   void fill(std::uint32_t at, const Type *type, bool inOut);

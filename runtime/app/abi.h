@@ -89,7 +89,7 @@ struct TypeDesc {
   int64_t lowerBound;    ///< Array: first index of this dimension.
   uint64_t elementCount; ///< Array: number of elements of this dimension.
   uint32_t stringLength; ///< STRING, WSTRING: declared length.
-  uint32_t reserved;     ///< 0.
+  uint32_t typeId;       ///< FunctionBlock: what init writes to the member with kSymTypeId; else 0.
   /// {attribute 'renamed_from' := '…'}: the type's name in an earlier build, or null.
   const char *renamedFrom = nullptr;
 };

@@ -37,7 +37,7 @@ void CarryResult::add(const CarryEvent &event) noexcept {
 
 CarryOver::CarryOver(const StrideAppV1 &oldApp, const StrideAppV1 &newApp, MatchOptions options,
                      std::vector<SharedMemory> shared)
-    : match_(oldApp, newApp, options), oldIndex_(oldApp), newIndex_(newApp),
+    : match_(oldApp, newApp, options), pool_(match_), oldIndex_(oldApp), newIndex_(newApp),
       addresses_(match_, oldIndex_, newIndex_), shared_(std::move(shared)), report_(match_) {
   const std::size_t pairs = match_.pairs().size();
   numbers_.resize(pairs);
@@ -62,12 +62,18 @@ CarryOver::CarryOver(const StrideAppV1 &oldApp, const StrideAppV1 &newApp, Match
   for (const FieldPair &root : match_.roots()) {
     for (; added != match_.addedRoots().end() && added->offset < root.newOffset; ++added)
       copies.barrier = true;
-    if (root.hold != Hold::No) {
+    const bool pool = pool_.present() && newApp.roots + root.newMember == poolRoot(newApp);
+    if (root.hold != Hold::No || pool) {
       copies.barrier = true;
       continue;
     }
     copySteps(root.pair, {root.oldOffset, root.newOffset}, copies);
     slotSteps(root.pair, {root.oldOffset, root.newOffset}, false, slots);
+  }
+  poolSlots_.resize(pairs);
+  for (const PoolType &type : match_.poolTypes()) {
+    const uint32_t program = store(slotProgram(type.pair, false));
+    poolSlots_[type.pair] = programs_[program];
   }
   copies_ = programs_[store(copies)];
   slots_ = programs_[store(slots)];
@@ -368,7 +374,13 @@ struct CarryOver::Run {
     const uint64_t offset = address - addressOf(oldState); // wraps where it lies before
     if (offset <= plan.match_.oldApp().stateSize) {
       uint64_t target = 0;
-      status = plan.addresses_.map(offset, plan.targets_[step.pair], target);
+      if (!plan.pool_.contains(offset))
+        status = plan.addresses_.map(offset, plan.targets_[step.pair], target);
+      else if (plan.pool_.map(offset, newState, target))
+        status = plan.targets_[step.pair].sameName ? AddressMap::Status::Kept
+                                                   : AddressMap::Status::OtherType;
+      else
+        status = AddressMap::Status::Gone;
       if (status == AddressMap::Status::Kept) {
         ++result.addressesKept;
         target += addressOf(newState);
@@ -392,18 +404,20 @@ void CarryOver::apply(const std::byte *oldState, std::byte *newState,
                       CarryResult &result) const noexcept {
   const Run run{*this, oldState, newState, result};
   run.run(copies_, oldState, newState);
+  result.objectsGivenUp += pool_.copy(oldState, newState);
   run.run(slots_, oldState, newState);
+  pool_.eachElement(oldState, newState, [&](uint32_t pair, const std::byte *from, std::byte *to) {
+    run.run(poolSlots_[pair], from, to);
+  });
 }
 
-void CarryOver::takeOver(const HostApi &host, std::byte *oldState, std::byte *newState,
+void CarryOver::takeOver(const Ctx &now, std::byte *oldState, std::byte *newState,
                          CarryResult &result) const {
   const auto call = [&](void (*hook)(Ctx *), std::byte *state) {
     if (hook == nullptr)
       return;
-    Ctx ctx{};
+    Ctx ctx = now;
     ctx.state = state;
-    ctx.host = &host;
-    ctx.loopBudget = INT64_MAX;
     ctx.inCopyCode = 1;
     hook(&ctx);
   };
@@ -416,7 +430,9 @@ std::vector<std::string> CarryOver::describe(const CarryResult &result,
                                              const std::byte *oldState) const {
   std::vector<std::string> lines;
   for (const CarryEvent &event : result.events()) {
-    const std::string name = newIndex_.pathOf(event.newOffset, event.newType);
+    std::string name = newIndex_.pathOf(event.newOffset, event.newType);
+    if (name.empty())
+      name = "an object of __NEW";
     switch (event.kind) {
     case CarryEvent::Kind::TextCut:
       lines.push_back(fmt::format("{}: its text was cut to {} characters", name,
@@ -431,7 +447,9 @@ std::vector<std::string> CarryOver::describe(const CarryResult &result,
     }
     const uint64_t offset = event.address - addressOf(oldState);
     std::string target;
-    if (offset <= match_.oldApp().stateSize)
+    if (pool_.contains(offset))
+      target = "an object of __NEW";
+    else if (offset <= match_.oldApp().stateSize)
       target = oldIndex_.path(
           oldIndex_.target(offset, addresses_.slot(event.oldType, event.newType).oldPointee));
     if (target.empty()) {
@@ -441,6 +459,8 @@ std::vector<std::string> CarryOver::describe(const CarryResult &result,
     }
     const char *why = event.status == AddressMap::Status::OtherType ? "has another type now"
                                                                     : "the new build does not have";
+    if (pool_.contains(offset))
+      why = "has another type now";
     constexpr std::string_view kTypeId = ".type__"; // what interface variables point to
     if (target.ends_with(kTypeId)) {
       target.resize(target.size() - kTypeId.size());

@@ -5,6 +5,7 @@
 #include "runtime/app/address_map.hpp"
 #include "runtime/app/carry_report.hpp"
 #include "runtime/app/layout_index.hpp"
+#include "runtime/app/pool_carry.hpp"
 #include "runtime/app/type_match.hpp"
 
 #include <cstddef>
@@ -42,6 +43,7 @@ public:
   uint64_t textsCut() const { return textsCut_; }
   uint64_t enumeratorsGone() const { return enumeratorsGone_; }
   uint64_t addressesKept = 0;
+  uint64_t objectsGivenUp = 0; ///< Objects of __NEW whose type has changed.
   /// The first ones; there may have been more than fitted.
   std::span<const CarryEvent> events() const { return {events_.data(), used_}; }
   uint64_t total() const { return nulled_ + textsCut_ + enumeratorsGone_; }
@@ -78,10 +80,11 @@ public:
   void apply(const std::byte *oldState, std::byte *newState, CarryResult &result) const noexcept;
 
   /// The whole change, between two cycles: FB_Exit(bInCopyCode := TRUE) of the old instances,
-  /// apply, FB_Reinit of the new ones. The new state was initialised with inCopyCode. Throws what
-  /// the host's `raise` throws when the program's own code fails: in FB_Exit nothing has been
-  /// carried over yet, in FB_Reinit everything has.
-  void takeOver(const HostApi &host, std::byte *oldState, std::byte *newState,
+  /// apply, FB_Reinit of the new ones. The new state was initialised with inCopyCode. `now` gives
+  /// the host, the times and the loop budget; its state is not used. Throws what the host's `raise`
+  /// throws when the program's own code fails: in FB_Exit nothing has been carried over yet, in
+  /// FB_Reinit everything has.
+  void takeOver(const Ctx &now, std::byte *oldState, std::byte *newState,
                 CarryResult &result) const;
 
   /// The events in words: "Main.p pointed to Main.gone, which the new build does not have".
@@ -133,6 +136,7 @@ private:
   uint64_t newSize(uint32_t pair) const;
 
   TypeMatch match_;
+  PoolCarry pool_;
   LayoutIndex oldIndex_;
   LayoutIndex newIndex_;
   AddressMap addresses_;
@@ -142,6 +146,7 @@ private:
   std::vector<Program> programs_;
   Program copies_{};
   Program slots_{};
+  std::vector<Program> poolSlots_;        ///< By pair: of the objects of __NEW.
   std::vector<NumberFunction> numbers_;   ///< By pair.
   std::vector<AddressMap::Slot> targets_; ///< By pair.
   std::vector<Steps> copyPrograms_;       ///< By pair, while the plan is made.

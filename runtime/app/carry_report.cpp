@@ -57,7 +57,7 @@ CarryReport::CarryReport(const TypeMatch &match)
   refuse();
   visitFields(kRoots, {}, match.roots(), match.addedRoots(), match.droppedRoots(), 1);
   for (const FieldPair &root : match.roots()) {
-    if (root.hold == Hold::No)
+    if (root.hold == Hold::No && match.newApp().roots + root.newMember != poolRoot(match.newApp()))
       kept_ += keptIn(root.pair);
   }
   std::stable_sort(findings_.begin(), findings_.end(), [](const Finding &a, const Finding &b) {
@@ -196,6 +196,8 @@ void CarryReport::visitFields(uint32_t owner, const std::string &path,
   for (const FieldPair &field : fields) {
     const Key key{owner, field.newMember, 1, Finding::Kind::Lost};
     const auto keyed = [&](Finding::Kind kind) { return Key{owner, field.newMember, 1, kind}; };
+    if (roots && b.roots + field.newMember == poolRoot(b))
+      continue; // what is in it is known only when it is carried over
     if (field.hold == Hold::Asked)
       add(keyed(Finding::Kind::Reset),
           {Finding::Kind::Reset, name(b, field.newMember), places, typeName(a, field.oldMember),

@@ -48,7 +48,8 @@ char lowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A'
 
 bool isText(Kind kind) { return kind == Kind::STRING || kind == Kind::WSTRING; }
 
-bool isPlain(Kind kind) { return kind >= Kind::BOOL && kind <= Kind::LDT; }
+/// Numbers, times, characters: what has a kind of its own.
+bool isPlain(Kind kind) { return kind >= Kind::BOOL && kind < Kind::Enum && !isText(kind); }
 
 /// The fields, without gaps other than those that alignment makes, fill both types alike.
 bool fillsAlike(const StrideAppV1 &app, const TypeDesc &type,
@@ -154,6 +155,8 @@ std::vector<Base> basesOf(const StrideAppV1 &app, uint32_t type) {
 TypeMatch::TypeMatch(const StrideAppV1 &oldApp, const StrideAppV1 &newApp, MatchOptions options)
     : old_(&oldApp), new_(&newApp), options_(options) {
   matchRoots();
+  if (options.addresses && options.only == 0)
+    matchPools();
 }
 
 bool TypeMatch::sameTypeName(uint32_t oldType, uint32_t newType) const {
@@ -470,6 +473,32 @@ void TypeMatch::matchRoots() {
   };
   matchFields(fieldsOf(*old_), fieldsOf(*new_), options_.only == 0, roots_, addedRoots_,
               droppedRoots_);
+}
+
+const RootDesc *poolRoot(const StrideAppV1 &app) {
+  for (uint32_t i = 0; i < app.rootCount; ++i) {
+    if (app.roots[i].list == nullptr && sameName(app.roots[i].name, "__pool"))
+      return &app.roots[i];
+  }
+  return nullptr;
+}
+
+/// The objects of __NEW are known by the hash of their type only.
+void TypeMatch::matchPools() {
+  if (poolRoot(*old_) == nullptr || poolRoot(*new_) == nullptr)
+    return;
+  std::unordered_map<uint64_t, uint32_t> byHash;
+  for (uint32_t i = 0; i < old_->typeCount; ++i)
+    byHash.emplace(old_->types[i].layoutHash, i);
+  for (uint32_t i = 0; i < new_->typeCount; ++i) {
+    const auto found = byHash.find(new_->types[i].layoutHash);
+    if (found == byHash.end())
+      continue;
+    poolTypes_.push_back({found->first, pairOf(found->second, i, true)});
+    byHash.erase(found);
+  }
+  std::sort(poolTypes_.begin(), poolTypes_.end(),
+            [](const PoolType &a, const PoolType &b) { return a.hash < b.hash; });
 }
 
 } // namespace stride::app

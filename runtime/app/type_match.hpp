@@ -80,6 +80,15 @@ struct TypePair {
   std::vector<uint32_t> byOldOffset; ///< Fields: indices of fields.
 };
 
+/// A type that objects of __NEW may have in both builds.
+struct PoolType {
+  uint64_t hash; ///< TypeDesc::layoutHash
+  uint32_t pair; ///< Into TypeMatch::pairs().
+};
+
+/// The root that holds the objects of __NEW, or null.
+const RootDesc *poolRoot(const StrideAppV1 &app);
+
 /// What is wanted of a match.
 struct MatchOptions {
   /// Only variables that have one of these SymbolFlags, or are inside of one that has; 0: all.
@@ -104,6 +113,9 @@ public:
   const std::vector<LoneField> &addedRoots() const { return addedRoots_; }
   const std::vector<LoneField> &droppedRoots() const { return droppedRoots_; }
 
+  /// Types with the same layout in both builds, by hash; empty where a build has no pool.
+  const std::vector<PoolType> &poolTypes() const { return poolTypes_; }
+
   /// The type has the same name in both builds, or an attribute says that it was renamed.
   bool sameTypeName(uint32_t oldType, uint32_t newType) const;
 
@@ -120,6 +132,7 @@ private:
                    bool whole, std::vector<FieldPair> &fields, std::vector<LoneField> &added,
                    std::vector<LoneField> &dropped);
   void matchRoots();
+  void matchPools();
   Hold holdOf(uint32_t flags, bool whole, uint32_t pair) const;
   bool extends(const StrideAppV1 &app, uint32_t type, const char *base) const;
   bool sameFamily(uint32_t oldType, uint32_t newType) const;
@@ -133,6 +146,7 @@ private:
   std::vector<FieldPair> roots_;
   std::vector<LoneField> addedRoots_;
   std::vector<LoneField> droppedRoots_;
+  std::vector<PoolType> poolTypes_;
 };
 
 /// Equal in ST, where case does not matter. Both may be null.

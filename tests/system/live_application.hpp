@@ -44,14 +44,7 @@ public:
   void run(int cycles) {
     const StrideAppV1 &app = application_->description();
     for (int i = 0; i < cycles; ++i) {
-      Ctx ctx{};
-      ctx.state = application_->state();
-      ctx.host = &task::hostApi();
-      ctx.taskIntervalNs = app.tasks[0].intervalNs;
-      ctx.cycleStartNs = static_cast<int64_t>(cycle_) * ctx.taskIntervalNs;
-      ctx.cycle = cycle_;
-      ctx.loopBudget = 1'000'000;
-      ctx.firstCycle = cycle_ == 0 ? 1 : 0;
+      Ctx ctx = now();
       if (around != nullptr)
         around->before();
       app.tasks[0].run(&ctx);
@@ -71,7 +64,7 @@ public:
     if (verdict == app::Verdict::Refused)
       throw std::runtime_error(report);
     app::CarryResult result;
-    plan.takeOver(task::hostApi(), application_->state(), next->state(), result);
+    plan.takeOver(now(), application_->state(), next->state(), result);
     events = plan.describe(result, application_->state());
     // Whoever still looks at the old state sees nonsense.
     std::memset(application_->state(), 0xEE, application_->stateBlock().size());
@@ -103,6 +96,18 @@ public:
   std::vector<std::string> events; ///< Of the last change.
 
 private:
+  Ctx now() {
+    Ctx ctx{};
+    ctx.state = application_->state();
+    ctx.host = &task::hostApi();
+    ctx.taskIntervalNs = application_->description().tasks[0].intervalNs;
+    ctx.cycleStartNs = static_cast<int64_t>(cycle_) * ctx.taskIntervalNs;
+    ctx.cycle = cycle_;
+    ctx.loopBudget = 1'000'000;
+    ctx.firstCycle = cycle_ == 0 ? 1 : 0;
+    return ctx;
+  }
+
   std::unique_ptr<app::Application> build(const std::string &program) {
     const std::string object = "app" + std::to_string(++builds_) + ".so";
     std::string source = program;

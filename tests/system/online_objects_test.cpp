@@ -192,7 +192,7 @@ END_PROGRAM
   EXPECT_EQ(live.values({"PLC_PRG.a.value", "PLC_PRG.b.value", "PLC_PRG.a.place^"}),
             "1003 999 1003");
   EXPECT_EQ(live["inits"], "'ab'");
-  EXPECT_EQ(live["log"], "'xbxararb'"); // the last one made goes first
+  EXPECT_EQ(live["log"], "'xaxbrarb'");
   live.run(1);
   EXPECT_EQ(live.values({"PLC_PRG.n", "PLC_PRG.a.place^"}), "1004 1004");
 }

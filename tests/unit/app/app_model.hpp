@@ -41,6 +41,7 @@ struct ModelType {
   std::string renamedFrom = {};
   uint32_t flags = 0;
   uint64_t hash = 0;
+  uint32_t typeId = 0;
 };
 
 struct ModelRoot {
@@ -235,6 +236,7 @@ private:
     row.lowerBound = type->low;
     row.elementCount = type->count;
     row.stringLength = type->length;
+    row.typeId = type->typeId;
     row.renamedFrom = text(type->renamedFrom);
     if (type->kind == Kind::Enum) {
       row.firstMember = static_cast<uint32_t>(enumerators_.size());

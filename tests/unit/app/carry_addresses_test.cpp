@@ -201,4 +201,87 @@ TEST_F(CarryAddresses, InterfacesPointToTheTypeIds) {
                                  "the new build, or is not in it"));
 }
 
+/// The objects of __NEW: Node is the same in both builds, Changed is not.
+class CarryPool : public CarryOverTest {
+protected:
+  static constexpr uint64_t kPool = 1024;
+
+  void build(AppModel &m, bool changed) {
+    const ModelType *real = m.elementary(Kind::LREAL);
+    auto *node = m.structure("Node", {}, nullptr, Kind::FunctionBlock);
+    AppModel::define(*node, {{"type__", m.elementary(Kind::UDINT), kSymTypeId | kSymHidden},
+                             {"value", real},
+                             {"next", m.pointer(node)},
+                             {"out", m.pointer(real)}});
+    node->hash = 77;
+    node->typeId = changed ? 9 : 4;
+    auto *other = m.structure("Changed", changed ? std::vector<ModelField>{{"x", real}, {"y", real}}
+                                                 : std::vector<ModelField>{{"x", real}});
+    other->hash = changed ? 79 : 78;
+    if (changed)
+      m.root("", "first", m.array(real, 1, 3));
+    m.root("", "x", real);
+    m.root("", "head", m.pointer(node));
+    m.root("", "tail", m.pointer(real));
+    m.root("", "lost", m.pointer(other));
+    // as the compiler describes it
+    m.root("", "__pool", m.array(m.elementary(Kind::LWORD), 0, kPool / 8 - 1), kSymHidden);
+  }
+  /// A block of the old pool; returns the offset of the object.
+  uint64_t block(uint64_t &at, uint64_t hash, uint64_t count, uint64_t elementSize) {
+    const PoolBlock header{32 + (count * elementSize + 15) / 16 * 16, hash, hash == 0 ? 0 : count,
+                           elementSize};
+    const uint64_t place = a.roots.back().offset + at;
+    a.set(place, header);
+    at += header.size;
+    return place + 32;
+  }
+};
+
+TEST_F(CarryPool, KeepsObjectsOfUnchangedTypes) {
+  build(a, false);
+  build(b, true);
+  a.ready();
+  b.ready();
+  uint64_t at = 0;
+  const uint64_t first = block(at, 77, 1, 32);
+  block(at, 0, 1, 48);
+  const uint64_t changed = block(at, 78, 2, 8);
+  const uint64_t nodes = block(at, 77, 3, 32);
+  const uint64_t x = a.at(0);
+  const auto node = [&](uint64_t place, double value, uint64_t next, uint64_t out) {
+    a.set<uint32_t>(place, 4);
+    a.set<double>(place + 8, value);
+    a.set<uint64_t>(place + 16, next);
+    a.set<uint64_t>(place + 24, out);
+  };
+  node(first, 1.5, a.address(nodes + 32), a.address(x));
+  node(nodes, 2.5, 0, a.address(changed + 8));
+  node(nodes + 32, 3.5, a.address(first), a.address(nodes + 64 + 8));
+  node(nodes + 64, 4.5, a.address(nodes), 0);
+  a.set<uint64_t>(a.at(1), a.address(first));
+  a.set<uint64_t>(a.at(2), a.address(nodes + 96)); // one past the last
+  a.set<uint64_t>(a.at(3), a.address(changed));
+  apply();
+  const uint64_t shift = b.roots.back().offset - a.roots.back().offset;
+  EXPECT_EQ(b.get<uint64_t>(b.at(2)), b.address(first + shift));
+  EXPECT_EQ(b.get<uint64_t>(b.at(3)), b.address(nodes + 96 + shift));
+  EXPECT_EQ(b.get<uint64_t>(b.at(4)), 0U);
+  EXPECT_EQ(b.get<uint32_t>(first + shift), 9U);
+  EXPECT_EQ(b.get<uint32_t>(nodes + 64 + shift), 9U);
+  EXPECT_EQ(b.get<double>(nodes + 32 + 8 + shift), 3.5);
+  EXPECT_EQ(b.get<uint64_t>(first + 16 + shift), b.address(nodes + 32 + shift));
+  EXPECT_EQ(b.get<uint64_t>(first + 24 + shift), b.address(b.at(1)));
+  EXPECT_EQ(b.get<uint64_t>(nodes + 24 + shift), 0U);
+  EXPECT_EQ(b.get<uint64_t>(nodes + 32 + 16 + shift), b.address(first + shift));
+  EXPECT_EQ(b.get<uint64_t>(nodes + 32 + 24 + shift), b.address(nodes + 64 + 8 + shift));
+  EXPECT_EQ(b.get<PoolBlock>(changed - 32 + shift).typeHash, 0U); // free
+  EXPECT_EQ(result.objectsGivenUp, 1U);
+  EXPECT_THAT(words,
+              ElementsAre("lost is now 0: it pointed to an object of __NEW, which has another "
+                          "type now",
+                          "an object of __NEW is now 0: it pointed to an object of __NEW, "
+                          "which has another type now"));
+}
+
 } // namespace
