@@ -403,14 +403,17 @@ void TypeMatch::fillStructure(TypePair &pair) {
   std::stable_sort(pair.byOldOffset.begin(), pair.byOldOffset.end(), [&](uint32_t x, uint32_t y) {
     return pair.fields[x].oldOffset < pair.fields[y].oldOffset;
   });
+  const std::vector<Base> oldBases = basesOf(*old_, pair.oldType);
   const std::vector<Base> newBases = basesOf(*new_, pair.newType);
-  for (const Base &from : basesOf(*old_, pair.oldType)) {
+  std::size_t inPlace = 0;
+  for (const Base &from : oldBases) {
     for (const Base &to : newBases) {
-      if (sameTypeName(from.type, to.type)) {
-        const uint32_t base = pairOf(from.type, to.type, pair.whole);
-        pair.bases.push_back(
-            {from.offset, to.offset, base, from.member, to.member, Hold::No, false});
-      }
+      if (!sameTypeName(from.type, to.type))
+        continue;
+      const uint32_t base = pairOf(from.type, to.type, pair.whole);
+      pair.bases.push_back({from.offset, to.offset, base, from.member, to.member, Hold::No, false});
+      if (from.offset == to.offset && old_->types[from.type].size == new_->types[to.type].size)
+        ++inPlace;
     }
   }
   const TypeDesc &a = old_->types[pair.oldType];
@@ -418,7 +421,7 @@ void TypeMatch::fillStructure(TypePair &pair) {
   // An instance of a block and of one that extends it: the common part is kept.
   pair.changedName = a.kind != Kind::Program && !sameTypeName(pair.oldType, pair.newType);
   bool alike = pair.whole && a.size == b.size && pair.added.empty() && pair.dropped.empty() &&
-               !pair.changedName;
+               !pair.changedName && inPlace == oldBases.size() && inPlace == newBases.size();
   for (const FieldPair &field : pair.fields) {
     if (field.hold == Hold::No && pairs_[field.pair].hasSlots)
       pair.hasSlots = true;

@@ -39,7 +39,7 @@ END_PROGRAM
   live.run(1);
   EXPECT_EQ(live.values({"PLC_PRG.u.d", "PLC_PRG.u.b[0]", "PLC_PRG.u.wide", "PLC_PRG.p^",
                          "PLC_PRG.h[2].u.r", "PLC_PRG.h[2].n", "PLC_PRG.s.number", "PLC_PRG.y"}),
-            "16#01020304 16#04 16#0000000001020304 16#02 1.5 7 16#0000000000003039 6");
+            "16909060 4 16909060 2 1.5 7 12345 6");
 }
 
 TEST(OnlineMemory, ObjectsOfNew) {
