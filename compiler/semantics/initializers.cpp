@@ -191,10 +191,12 @@ bool scalarsOnly(const std::span<AggregateItem> &items) {
 }
 
 void expand(const AggregateItem &item, std::vector<AggregateItem> &out) {
-  const std::uint64_t count =
-      item.repeat == nullptr
-          ? 1
-          : static_cast<std::uint64_t>(std::max<std::int64_t>(0, item.repeat->constant->integer));
+  std::uint64_t count = 1;
+  if (item.repeat != nullptr) // without a value it has been reported
+    count =
+        item.repeat->constant == nullptr
+            ? 0
+            : static_cast<std::uint64_t>(std::max<std::int64_t>(0, item.repeat->constant->integer));
   for (std::uint64_t i = 0; i < count; ++i) {
     if (item.values.empty()) {
       AggregateItem one = item;
