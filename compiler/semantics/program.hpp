@@ -46,6 +46,7 @@ public:
 
 struct Settings {
   bool checks = true; ///< run-time checks (index, division, null, subrange)
+  Levels levels;      ///< severities given on the command line; they go before stride.toml's
 };
 
 /// Everything of one compilation; owns sources, identifiers, trees, symbols.

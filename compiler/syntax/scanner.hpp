@@ -46,6 +46,7 @@ private:
   void nestedComment(std::size_t begin);
   void lineComment(std::size_t begin);
   void pragma(std::size_t begin);
+  void warningPragma(std::size_t place, std::size_t end);
 
   std::uint16_t word(std::size_t begin, Token &token);
   std::uint16_t prefixedLiteral(std::size_t begin, Token &token);
