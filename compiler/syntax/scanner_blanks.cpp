@@ -163,6 +163,8 @@ void Scanner::pragma(std::size_t begin) {
   } else if (isWord(keyword, "if")) {
     diagnostics_.report(Code::notSupported, span(begin, place_),
                         "conditional compilation is not supported by this version");
+  } else {
+    bracesAsBlock(begin, place_);
   }
 }
 
