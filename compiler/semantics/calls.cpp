@@ -58,7 +58,14 @@ void Checker::noteSignature(Diagnostic &d, const PouSymbol *pou) {
 }
 
 const Type *Checker::notCallable(CallExpr *expr, std::string message) {
-  report(Code::notCallable, expr->callee->span, std::move(message), "cannot be called");
+  auto &d = report(Code::notCallable, expr->callee->span, std::move(message), "cannot be called");
+  if (expr->callee->kind == ExprKind::name) {
+    const auto *name = as<NameExpr>(expr->callee);
+    if (name->symbol != nullptr)
+      noteDeclaration(d, name->symbol);
+    if (builtins_.contains(name->name.id))
+      d.help("this variable hides the standard function; give it another name");
+  }
   for (Argument &a : expr->arguments) {
     if (a.value != nullptr)
       check(a.value);

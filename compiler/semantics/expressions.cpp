@@ -75,8 +75,14 @@ void Checker::checkCondition(Expr *expr, std::string_view what) {
     return;
   auto &d = report(Code::conditionNotBool, expr->span,
                    std::string(what) + " must be BOOL, this is " + typeName(type), "expected BOOL");
-  if (isInteger(underlying(type)) || isReal(type) || type->kind == TypeKind::anyInteger)
-    d.help("compare it with a value: `… <> 0`");
+  if (isInteger(underlying(type)) || isReal(type) || type->kind == TypeKind::anyInteger ||
+      type->kind == TypeKind::pointer) {
+    const Span behind{expr->span.file, expr->span.end, expr->span.end};
+    const std::string_view text = program_.sources.text(expr->span);
+    d.suggest("compare it with a value: `" + (text.size() <= 40 ? std::string(text) : "…") +
+                  " <> 0`",
+              behind, " <> 0");
+  }
 }
 
 // -------------------------------------------------------------------------------------------------------

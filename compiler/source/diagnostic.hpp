@@ -75,9 +75,9 @@ struct Diagnostic {
   std::string message;
   std::vector<Label>
       labels; ///< labels[0] is the primary place (may be absent for errors without a place)
-  std::vector<std::string> notes;
-  std::vector<std::string> helps;
-  std::vector<Suggestion> suggestions; ///< for tools; each one's message is also among the helps
+  std::vector<std::string> notes{};
+  std::vector<std::string> helps{};
+  std::vector<Suggestion> suggestions{}; ///< for tools; each one's message is also among the helps
 
   Diagnostic &label(Span span, std::string text) {
     labels.push_back({span, std::move(text)});

@@ -1,5 +1,6 @@
 // What programmers of other languages write: one clear report, then the text is read as it was
 // meant.
+#include "compiler/syntax/characters.hpp"
 #include "compiler/syntax/scanner.hpp"
 #include "compiler/syntax/token_sets.hpp"
 #include "compiler/syntax/unit_parser.hpp"
