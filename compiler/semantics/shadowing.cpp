@@ -1,4 +1,5 @@
-// Names that hide other names.
+// Names that hide other names. Standard functions do not count: `left` and `max` are good names for
+// variables, and calling the function anyway is an error that says so.
 
 #include "compiler/semantics/checker.hpp"
 
@@ -42,10 +43,6 @@ void Checker::checkShadowing(Module &module) {
                 function ? "the function of the same name" : "the program of the same name",
                 "give one of them another name");
         }
-      } else if (const auto builtin = builtins_.find(v->name.id);
-                 builtin != builtins_.end() && !isInstance(v->type)) {
-        hides(v, builtin->second, "the standard function `" + name + "`",
-              "give the variable another name; the function cannot be called here");
       } else if (const auto e = module.enumerators.find(v->name.id);
                  e != module.enumerators.end()) {
         const EnumeratorSymbol *enumerator = e->second.front();
