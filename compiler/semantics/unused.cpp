@@ -52,7 +52,8 @@ void Linter::reportVariables(const Body &body) {
 }
 
 void Linter::reportVariable(const Body &body, VarSymbol *v) {
-  if (v->hidden || v->decl->address != nullptr || !v->decl->attributes.empty())
+  if (v->hidden || v->decl->address != nullptr || v->decl->access == Access::publicA ||
+      !v->decl->attributes.empty())
     return;
   const PouDecl *decl = body.decl;
   const std::string name(v->name.text);
@@ -73,8 +74,8 @@ void Linter::reportVariable(const Body &body, VarSymbol *v) {
     break;
   case Section::input: {
     const bool free =
-        decl == body.owner || (body.owner->interfaces.empty() && body.owner->base.empty() &&
-                               (decl->modifiers & modOverride) == 0);
+        decl == body.owner || (body.owner->interfaces.empty() && !body.pou->extended &&
+                               body.owner->base.empty() && (decl->modifiers & modOverride) == 0);
     if (filled && hasBody(decl) && free && !isLifecycle(decl))
       reportUnused(body, v);
     break;
