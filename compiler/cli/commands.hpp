@@ -14,6 +14,7 @@ struct ProjectOptions {
   Output output;
   bool unchecked = false; ///< no run-time checks in generated code
   bool debug = false;     ///< -O0 -g
+  Levels levels;          ///< -W
 };
 
 int checkCommand(const ProjectOptions &options);

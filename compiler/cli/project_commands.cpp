@@ -19,6 +19,7 @@ namespace {
 Settings settingsOf(const ProjectOptions &options) {
   Settings settings;
   settings.checks = !options.unchecked;
+  settings.levels = options.levels;
   return settings;
 }
 

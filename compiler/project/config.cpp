@@ -67,6 +67,8 @@ public:
       return std::move(config_);
     }
     const CheckedSection top(*document, projectSchema(), diagnostics_);
+    for (const CheckedSection &levels : top.sections("diagnostics", diagnostics_))
+      readLevels(levels);
     for (const CheckedSection &project : top.sections("project", diagnostics_)) {
       config_.name = project.text("name");
       config_.generation = static_cast<unsigned>(project.choice("softmotion", 2));
@@ -86,6 +88,22 @@ public:
   }
 
 private:
+  // What the command line says about a code stays.
+  void readLevels(const CheckedSection &section) {
+    Levels levels;
+    for (const TomlNode &member : section.table().children) {
+      if (section.get(member.key) == nullptr)
+        continue;
+      const auto severity = static_cast<Severity>(section.choice(member.key, 0));
+      if (const std::optional<Levels::Group> group = findGroup(member.key))
+        levels.set(*group, severity);
+      else if (const CodeInfo *code = findCode(member.key))
+        levels.set(code->code, severity);
+    }
+    levels.add(diagnostics_.levels());
+    diagnostics_.setLevels(std::move(levels));
+  }
+
   void readTask(const CheckedSection &section) {
     TaskConfig task;
     task.name = nameOf(section);

@@ -42,6 +42,7 @@ std::vector<fs::path> findSources(const fs::path &folder, std::error_code &error
 Project::Project(const fs::path &path, Purpose purpose, const Settings &settings,
                  const LibraryIndex &index) {
   program_.settings = settings;
+  program_.diagnostics.setLevels(settings.levels);
   load(path.empty() ? fs::path(".") : path);
   if (loaded_)
     analyse(purpose, index);

@@ -55,6 +55,12 @@ private:
   /// and defaults too.
   void declareUsed();
   void checkContainment(Module &module);
+  /// Looks for what is probably not meant; only in programs without errors.
+  void lint(Module &module);
+
+  // shadowing.cpp
+  void checkShadowing(Module &module);
+  void checkHiddenLibrary(Module &module);
 
   // names.cpp
   Symbol *lookup(const ast::Name &name);
@@ -68,6 +74,13 @@ private:
   std::vector<std::string_view> visibleNames(bool types);
   std::vector<std::string_view> memberNames(const Type *type);
   void reportUnknown(const ast::Name &name, bool asType);
+  /// Says where else the name exists, or what another language's word is called here.
+  bool helpElsewhere(Diagnostic &d, const ast::Name &name, bool asType);
+  /// The nearest of the members, or all of them when they are few.
+  void helpMembers(Diagnostic &d, const ast::Name &name,
+                   const std::vector<std::string_view> &members);
+  /// Shows how the called POU is declared.
+  void noteSignature(Diagnostic &d, const PouSymbol *pou);
 
   // declarations.cpp
   void resolve(TypeSymbol *symbol);

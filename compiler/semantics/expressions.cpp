@@ -76,8 +76,14 @@ void Checker::checkCondition(Expr *expr, std::string_view what) {
     return;
   auto &d = report(Code::conditionNotBool, expr->span,
                    std::string(what) + " must be BOOL, this is " + typeName(type), "expected BOOL");
-  if (isInteger(underlying(type)) || isReal(type) || type->kind == TypeKind::anyInteger)
-    d.help("compare it with a value: `… <> 0`");
+  if (isInteger(underlying(type)) || isReal(type) || type->kind == TypeKind::anyInteger ||
+      type->kind == TypeKind::pointer) {
+    const Span behind{expr->span.file, expr->span.end, expr->span.end};
+    const std::string_view text = program_.sources.text(expr->span);
+    d.suggest("compare it with a value: `" + (text.size() <= 40 ? std::string(text) : "…") +
+                  " <> 0`",
+              behind, " <> 0");
+  }
 }
 
 // -------------------------------------------------------------------------------------------------------
@@ -182,9 +188,7 @@ const Type *Checker::checkEnumLiteral(EnumLiteralExpr *expr) {
                      "`" + std::string(type->name.text) + "` has no enumerator `" +
                          std::string(expr->enumerator.text) + "`",
                      "not one of its values");
-    const auto similar = nearest(expr->enumerator.text, memberNames(type->type));
-    if (!similar.empty())
-      d.help("a similar one exists: `" + std::string(similar) + "`");
+    helpMembers(d, expr->enumerator, memberNames(type->type));
   }
   return elementaryType(TypeKind::error);
 }
@@ -358,9 +362,7 @@ const Type *Checker::checkMember(MemberExpr *expr) {
       auto &d = report(code, expr->name.span,
                        "`" + std::string(space->name.text) + "` has no `" + name + "`",
                        "not found in " + describe(space));
-      const auto similar = nearest(expr->name.text, candidates);
-      if (!similar.empty())
-        d.help("a similar name exists: `" + std::string(similar) + "`");
+      helpMembers(d, expr->name, candidates);
       return elementaryType(TypeKind::error);
     }
     expr->symbol = found;
@@ -401,9 +403,7 @@ const Type *Checker::checkMemberOf(MemberExpr *expr, const Type *base) {
     // `w.cBit`: a bit by the name of a constant belongs to integers, which were handled above.
     auto &d = report(Code::unknownMember, expr->name.span,
                      "`" + typeName(base) + "` has no member `" + name + "`", "unknown member");
-    const auto similar = nearest(expr->name.text, memberNames(base));
-    if (!similar.empty())
-      d.help("a similar one exists: `" + std::string(similar) + "`");
+    helpMembers(d, expr->name, memberNames(base));
     return elementaryType(TypeKind::error);
   }
   if (member->owner != nullptr && !insideOf(member->owner) &&

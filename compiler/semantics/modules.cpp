@@ -1,6 +1,7 @@
 // Modules: files become symbols, libraries are pulled in on demand.
 
 #include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/lint.hpp"
 #include "compiler/syntax/parser.hpp"
 
 #include <algorithm>
@@ -299,6 +300,15 @@ void Checker::checkUser(const std::vector<File *> &files) {
   declareUsed();
   checkConfigured(user);
   finishImage();
+  lint(user);
+}
+
+void Checker::lint(Module &module) {
+  if (program_.diagnostics.hasErrors())
+    return;
+  checkShadowing(module);
+  checkHiddenLibrary(module);
+  Linter(program_).run(*module.library);
 }
 
 void Checker::declareUsed() {
@@ -324,6 +334,7 @@ void Checker::checkLibrary(std::string_view name) {
     loadLibraryFile(entry);
   checkModule(target);
   declareUsed();
+  lint(target);
 }
 
 void check(Program &program, const std::vector<File *> &files, const LibraryIndex &index) {

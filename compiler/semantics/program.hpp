@@ -89,6 +89,7 @@ inline constexpr std::string_view kProgramInstance = "program instance";
 
 struct Settings {
   bool checks = true; ///< run-time checks (index, division, null, subrange)
+  Levels levels;      ///< severities given on the command line; they go before stride.toml's
   Addressing addressing = Addressing::units;
   std::array<std::uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs
   unsigned pack = 0; ///< of the project's structures without pack_mode; 0: natural alignment

@@ -62,6 +62,12 @@ struct VarSymbol : Symbol {
   bool typeRunning = false; ///< the type is being resolved: meeting it again is a circle
   bool initChecked = false; ///< the initial value has been checked (or is being checked)
   bool initRunning = false; ///< is being checked: meeting it again is a circle
+  // Of the lints (lint.hpp).
+  std::uint8_t uses = 0;                ///< bits of Use
+  const ast::Expr *earlyRead = nullptr; ///< the first read, when nothing can have written before
+  std::uint32_t earlyLoop = 0;          ///< the outermost loop of that read; 0: none
+  std::uint32_t lastWrite = 0;          ///< the number of the last write
+  std::uint32_t lintBody = 0;           ///< the body that declares it
 };
 
 struct PropertySymbol;

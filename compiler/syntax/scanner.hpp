@@ -5,6 +5,7 @@
 #include "compiler/source/source_manager.hpp"
 #include "compiler/syntax/token.hpp"
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -46,6 +47,7 @@ private:
   void nestedComment(std::size_t begin);
   void lineComment(std::size_t begin);
   void pragma(std::size_t begin);
+  void warningPragma(std::size_t place, std::size_t end);
 
   std::uint16_t word(std::size_t begin, Token &token);
   std::uint16_t prefixedLiteral(std::size_t begin, Token &token);
@@ -54,6 +56,13 @@ private:
   std::uint16_t address(std::size_t begin, Token &token);
   std::uint16_t sign(std::size_t begin, Token &token);
   std::uint16_t foreign(std::size_t begin, std::size_t length, std::uint16_t meant, Token &token);
+  // foreign.cpp
+  std::uint16_t misspelledKeyword(std::size_t begin, std::string_view spelling, Token &token);
+  std::uint16_t foreignPair(std::size_t begin, Token &token);
+  std::uint16_t foreignSign(std::size_t begin, std::size_t length, std::uint16_t meant,
+                            Token &token, std::string help);
+  [[nodiscard]] std::string targetBefore(std::size_t place) const;
+  void bracesAsBlock(std::size_t begin, std::size_t end);
   void numberBody();
   void badCharacters(std::size_t begin);
   /// True for the first of several equal names, so that one mistake is reported once.
@@ -66,6 +75,7 @@ private:
   std::uint16_t previous_ = 0;       ///< type of the last token
   std::uint16_t beforePrevious_ = 0; ///< and of the one before it
   bool sectionHead_ = false;         ///< behind VAR… and its qualifiers
+  std::uint16_t pending_ = 0;        ///< a token that was read together with the last one
   std::uint32_t pendingTrivia_ = 0;
   unsigned badCharacters_ = 0;
   std::vector<std::uint32_t> badNames_; ///< hashes of names that were reported

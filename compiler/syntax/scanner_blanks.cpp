@@ -158,9 +158,43 @@ void Scanner::pragma(std::size_t begin) {
     }
     if (!name.empty())
       trivia_.push_back({Trivia::Kind::attribute, from, to, name, value});
+  } else if (isWord(keyword, "warning")) {
+    warningPragma(p, end);
   } else if (isWord(keyword, "if")) {
     diagnostics_.report(Code::notSupported, span(begin, place_),
                         "conditional compilation is not supported by this version");
+  } else {
+    bracesAsBlock(begin, place_);
+  }
+}
+
+/// `{warning disable SE0390}`, `{warning restore unused-variable}`; codes of other compilers are
+/// passed over.
+void Scanner::warningPragma(std::size_t place, std::size_t end) {
+  const auto nextWord = [&] {
+    while (place < end && (classOf(text_[place]) == blank || text_[place] == ','))
+      ++place;
+    const std::size_t begin = place;
+    while (place < end && classOf(text_[place]) != blank && text_[place] != ',')
+      ++place;
+    return text_.substr(begin, place - begin);
+  };
+  const std::string_view action = nextWord();
+  const bool disable = isWord(action, "disable");
+  if (!disable && !isWord(action, "restore"))
+    return;
+  for (std::string_view word = nextWord(); !word.empty(); word = nextWord()) {
+    if (const CodeInfo *code = findCode(word)) {
+      diagnostics_.setSilent(file_, static_cast<std::uint32_t>(place), code->code, disable);
+      continue;
+    }
+    const bool foreign = (word[0] == 'C' || word[0] == 'c') && word.size() > 1 &&
+                         word.find_first_not_of("0123456789", 1) == std::string_view::npos;
+    if (!foreign)
+      diagnostics_
+          .report(Code::unknownDiagnostic, span(place - word.size(), place),
+                  "there is no diagnostic `" + std::string(word) + "`", "unknown")
+          .help("`stride explain --list` shows all codes and names");
   }
 }
 
