@@ -211,6 +211,11 @@ private:
   void checkCase(ast::CaseStmt *stmt);
   void checkFor(ast::ForStmt *stmt);
 
+  // jumps.cpp
+  /// Binds each JMP of a body to its label.
+  void checkJumps(ast::Block body);
+  void checkTry(ast::TryStmt *stmt);
+
   Diagnostic &report(Code code, Span where, std::string message, std::string label = {}) {
     return program_.diagnostics.report(code, where, std::move(message), std::move(label));
   }

@@ -411,11 +411,13 @@ struct RepeatStmt : Stmt {
 /// `JMP name;`
 struct JumpStmt : Stmt {
   Name label;
+  struct LabelStmt *target = nullptr; ///< [sema]
 };
 
 /// `name:` in front of a statement.
 struct LabelStmt : Stmt {
   Name label;
+  bool used = false; ///< [sema] some JMP leads here
 };
 
 /// `__TRY … __CATCH (exc) … __FINALLY … __ENDTRY`

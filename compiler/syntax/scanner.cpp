@@ -21,7 +21,7 @@ bool isKnownDoubleUnderscore(std::string_view word) {
       "__endtry",       "__xword",   "__xint",        "__uxint",
       "__varinfo",      "__pouname", "__position",    "__compare_and_swap",
       "__xadd",         "__vector",  "__currenttask", "__lword",
-      "__bitoffset",
+      "__bitoffset",    "__system",
   };
   return std::any_of(std::begin(kNames), std::end(kNames),
                      [&](std::string_view name) { return isWord(word, name); });
