@@ -29,6 +29,12 @@ void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build) {
   command.add_option("--format", options.output.format, "Diagnostics as text (default) or json")
       ->transform(CLI::CheckedTransformer(formats).description(""))
       ->type_name("FORMAT");
+  command.add_option("-D,--define", options.defines, "Define a name for {IF defined (NAME)}")
+      ->check([](const std::string &text) {
+        return readDefine(text) ? std::string() : "`" + text + "` is not NAME or NAME=VALUE";
+      })
+      ->allow_extra_args(false)
+      ->type_name("NAME[=VALUE]");
   if (!build)
     return;
   command.add_flag("--unchecked", options.unchecked,

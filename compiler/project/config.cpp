@@ -70,6 +70,9 @@ public:
     for (const CheckedSection &project : top.sections("project", diagnostics_)) {
       config_.name = project.text("name");
       config_.generation = static_cast<unsigned>(project.choice("softmotion", 2));
+      if (const TomlNode *defines = project.get("defines"))
+        for (const TomlNode &one : defines->children)
+          readDefine(one);
     }
     for (const CheckedSection &task : top.sections("task", diagnostics_))
       readTask(task);
@@ -79,6 +82,16 @@ public:
   }
 
 private:
+  void readDefine(const TomlNode &node) {
+    if (const std::optional<Define> define = stc::readDefine(node.text))
+      config_.defines.push_back(*define);
+    else
+      diagnostics_
+          .report(Code::configBadName, node.span,
+                  fmt::format("`{}` cannot be defined", node.text), "not a name")
+          .help("write \"NAME\" or \"NAME=VALUE\"");
+  }
+
   void readTask(const CheckedSection &section) {
     TaskConfig task;
     task.name = nameOf(section);

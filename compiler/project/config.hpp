@@ -49,7 +49,8 @@ struct AxisGroupConfig {
 /// The configuration of one project. Without stride.toml it is empty but for the name.
 struct ProjectConfig {
   std::string name;
-  unsigned generation = 2; ///< softmotion: 2 = "2.3", 3 = "3"
+  unsigned generation = 2;     ///< softmotion: 2 = "2.3", 3 = "3"
+  std::vector<Define> defines; ///< for `{IF defined (…)}`
   std::vector<TaskConfig> tasks;
   std::vector<AxisGroupConfig> axisGroups;
   bool incomplete = false; ///< a drive, axis group or everything had to be left out

@@ -62,6 +62,7 @@ constexpr Parameter needed(Parameter parameter) {
 constexpr std::array kProjectParameters = {
     Parameter{"name", ParameterType::text},
     choice("softmotion", kGenerations),
+    Parameter{"defines", ParameterType::nameList},
 };
 
 constexpr std::array kTaskParameters = {

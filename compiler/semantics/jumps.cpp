@@ -96,7 +96,7 @@ void Checker::checkJumps(Block body) {
   for (const Jumps::Label &label : found.labels) {
     const auto [it, fresh] = labels.emplace(label.stmt->label.id, &label);
     if (!fresh)
-      report(Code::duplicateLabel, label.stmt->label.span,
+      report(Code::repeatedLabel, label.stmt->label.span,
              "the label `" + std::string(label.stmt->label.text) + "` is there twice", "again here")
           .label(it->second->stmt->label.span, "first here")
           .help("rename one of them: JMP could lead to either");

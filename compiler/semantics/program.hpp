@@ -5,6 +5,7 @@
 #include "compiler/source/arena.hpp"
 #include "compiler/source/diagnostic.hpp"
 #include "compiler/source/source_manager.hpp"
+#include "compiler/syntax/conditions.hpp"
 
 #include <deque>
 #include <memory>
@@ -46,6 +47,8 @@ public:
 
 struct Settings {
   bool checks = true; ///< run-time checks (index, division, null, subrange)
+  std::vector<Define>
+      defines; ///< names that `{IF defined (…)}` knows, besides those of stride.toml
 };
 
 /// Everything of one compilation; owns sources, identifiers, trees, symbols.
@@ -59,6 +62,7 @@ struct Program {
   Library *user = nullptr;        ///< the project; null while a library itself is compiled
   std::vector<ast::File *> files; ///< parsed user files
   // Storage of the symbols that own containers (the others live in the arena).
+  std::deque<NamespaceSymbol> spaceStorage;
   std::deque<PouSymbol> pouStorage;
   std::deque<TypeSymbol> typeStorage;
   std::deque<GlobalsSymbol> globalsStorage;

@@ -586,10 +586,18 @@ struct ConfigurationDecl : Decl {
   std::span<ResourceDecl> resources;
 };
 
+/// A method, action (PouDecl) or property (PropertyDecl) whose block is not in its file.
+struct StrayMember {
+  Name owner;
+  Decl *member = nullptr;
+  std::uint16_t kind = 0; ///< token type of its keyword
+};
+
 /// One parsed file.
 struct File {
   FileId id = 0;
   std::span<Decl *> declarations;
+  std::span<StrayMember> strayMembers; ///< for attachMembers()
 };
 
 /// Checked downcast by kind is the caller's business: `as<CallExpr>(expr)`.

@@ -52,8 +52,8 @@ bool looksBinary(std::string_view text) {
   return control > 10;
 }
 
-Scanner::Scanner(const SourceFile &file, Diagnostics &diagnostics)
-    : text_(file.text()), file_(file.id()), diagnostics_(diagnostics) {}
+Scanner::Scanner(const SourceFile &file, Diagnostics &diagnostics, Conditions *conditions)
+    : text_(file.text()), file_(file.id()), diagnostics_(diagnostics), conditions_(conditions) {}
 
 bool Scanner::afterOperand() const {
   switch (previous_) {
@@ -219,6 +219,7 @@ Token Scanner::next() {
     const std::size_t begin = place_;
     token.begin = static_cast<std::uint32_t>(begin);
     if (begin >= text_.size()) {
+      reportOpenBranches();
       token.type = Token::kEnd;
       break;
     }

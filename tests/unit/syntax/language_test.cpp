@@ -204,7 +204,6 @@ TEST(Language, MisplacedMembers) {
                    "END_CLASS"),
             "SE0221 1:1 this METHOD belongs to no block\n"
             "SE0221 3:1 a FUNCTION cannot have a METHOD\n"
-            "SE0221 6:8 `X` is no block of this file\n"
             "SE0221 8:1 an INTERFACE cannot have an ACTION\n"
             "SE0220 9:10 a method of an INTERFACE has no statements\n"
             "SE0220 10:1 an INTERFACE has no statements\n"
