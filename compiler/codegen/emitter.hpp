@@ -244,6 +244,9 @@ private:
   void loopStatement(const ast::Stmt *s);
   void forStatement(const ast::ForStmt *s);
   void countedLoop(const ast::ForStmt *s, const std::string &variable, std::int64_t step);
+  void refillLoop(std::string_view run, std::string_view first, Span span);
+  void loopBody(ast::Block body, bool isDouble);
+
   // jumps.cpp
   void jump(const ast::JumpStmt *s);
   void label(const ast::LabelStmt *s);
@@ -252,9 +255,6 @@ private:
   /// A statement that leaves the innermost __TRY with __FINALLY goes there first; false: it does
   /// not leave one.
   bool leaveTry(const ast::Stmt *s);
-
-  void refillLoop(std::string_view run, std::string_view first, Span span);
-  void loopBody(ast::Block body, bool isDouble);
 
   // initializers.cpp
   void writtenDefault(std::string_view target, const Type *type, const Written &written);

@@ -4,6 +4,7 @@
 #include "compiler/source/diagnostic.hpp"
 #include "compiler/source/source_manager.hpp"
 #include "compiler/syntax/ast.hpp"
+#include "compiler/syntax/conditions.hpp"
 
 #include <cstdint>
 #include <string>

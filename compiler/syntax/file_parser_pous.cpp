@@ -60,14 +60,17 @@ void FileParser::readHead(std::vector<Token> &usings) {
     if (now_.type == Tok::IDENT)
       take();
   }
-  while (now_.type == Tok::USING) {
-    do {
-      usings.push_back(now_);
-      advance();
-    } while (usings.back().type != Tok::SEMICOLON &&
-             (now_.type == Tok::IDENT || now_.type == Tok::DOT || now_.type == Tok::COMMA ||
-              now_.type == Tok::SEMICOLON));
-  }
+  const auto readUsings = [&] {
+    while (now_.type == Tok::USING) {
+      do {
+        usings.push_back(now_);
+        advance();
+      } while (usings.back().type != Tok::SEMICOLON &&
+               (now_.type == Tok::IDENT || now_.type == Tok::DOT || now_.type == Tok::COMMA ||
+                now_.type == Tok::SEMICOLON));
+    }
+  };
+  readUsings();
   const auto path = [&] {
     while (now_.type == Tok::IDENT || now_.type == Tok::DOT || now_.type == Tok::COMMA) {
       const bool name = now_.type == Tok::IDENT;
@@ -86,6 +89,7 @@ void FileParser::readHead(std::vector<Token> &usings) {
     else if (keyword == Tok::FUNCTION || keyword == Tok::METHOD || keyword == Tok::PROPERTY)
       readHeadType();
   }
+  readUsings();
 }
 
 void FileParser::readHeadType() {
