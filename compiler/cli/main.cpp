@@ -1,6 +1,7 @@
 // The command `stride`.
 
 #include "compiler/cli/commands.hpp"
+#include "compiler/syntax/conditions.hpp"
 
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -30,9 +31,11 @@ void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build) {
       ->transform(CLI::CheckedTransformer(formats).description(""))
       ->type_name("FORMAT");
   command.add_option("-D,--define", options.defines, "Define a name for {IF defined (NAME)}")
-      ->check([](const std::string &text) {
-        return readDefine(text) ? std::string() : "`" + text + "` is not NAME or NAME=VALUE";
-      })
+      ->check(CLI::Validator(
+          [](std::string &text) {
+            return readDefine(text) ? std::string() : "`" + text + "` is not NAME or NAME=VALUE";
+          },
+          std::string()))
       ->allow_extra_args(false)
       ->type_name("NAME[=VALUE]");
   if (!build)

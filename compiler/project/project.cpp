@@ -184,7 +184,8 @@ AppConfig Project::appConfig() const {
     task.priority = from.priority;
     for (const ConfigName &program : from.programs)
       for (PouSymbol *pou : program_.user->pous)
-        if (equalIgnoringCase(pou->name.text, program.text))
+        if (pou->decl->kind == ast::DeclKind::program &&
+            equalIgnoringCase(pou->name.text, program.text))
           task.programs.push_back(pou);
     app.tasks.push_back(std::move(task));
   }

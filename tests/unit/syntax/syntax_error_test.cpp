@@ -50,7 +50,7 @@ TEST(SyntaxError, MissingEnd) {
             "SE0203 3:4 missing `END_IF`\n");
   EXPECT_EQ(
       errors("FUNCTION_BLOCK A\nVAR a : INT;\na := 1;\nEND_FUNCTION_BLOCK\nPROGRAM P END_PROGRAM"),
-      "SE0203 2:1 missing `END_VAR`\nSE0201 3:3 expected `:` and a type, found `:=`\n");
+      "SE0203 2:1 missing `END_VAR`\n");
   EXPECT_EQ(errors("PROGRAM A\na := 1;\nPROGRAM B\nEND_PROGRAM\n"),
             "SE0203 1:1 missing `END_PROGRAM`\n");
   EXPECT_EQ(errors("PROGRAM A\nEND_PROGRAM\nPROGRAM B\na := 1;\n"),
