@@ -142,7 +142,7 @@ void Checker::checkTry(TryStmt *stmt) {
   checkBlock(stmt->body);
   if (stmt->exception != nullptr) {
     const Type *type = check(stmt->exception);
-    if (!isError(type) && requireVariable(stmt->exception, "the variable of __CATCH")) {
+    if (!isError(type) && requireVariable(stmt->exception, "store an exception in")) {
       const Type *base = underlying(type);
       if (base->kind != TypeKind::udint && base->kind != TypeKind::dword) {
         auto &d = report(Code::exceptionVariable, stmt->exception->span,

@@ -14,6 +14,7 @@ using namespace ast;
 namespace {
 
 constexpr std::size_t kMaxErrors = 100;
+constexpr std::uint32_t kVarGlobal = 10; // letters
 
 } // namespace
 
@@ -123,8 +124,9 @@ void Checker::declareFile(Module &module, File *file) {
     }
     case DeclKind::globals:
       if (!decl->space.empty())
-        report(Code::sectionNotAllowed, decl->span, "VAR_GLOBAL cannot stand in a NAMESPACE",
-               "global variables belong to no namespace")
+        report(Code::sectionNotAllowed,
+               {decl->span.file, decl->span.begin, decl->span.begin + kVarGlobal},
+               "VAR_GLOBAL cannot stand in a NAMESPACE", "global variables belong to no namespace")
             .help("move it out of the NAMESPACE");
       declareGlobals(module, as<GlobalsDecl>(decl));
       break;

@@ -76,7 +76,7 @@ private:
     Diagnostic &d = diagnostics_.report(Code::malformedPragma, {place_.file, begin, end},
                                         "this condition cannot be understood", std::move(expected));
     const std::string_view found = text_.substr(from, to - from);
-    if (!found.empty() && isLetter(found[0]) && readDefine(found))
+    if (!found.empty() && isLetter(found[0]) && d.labels[0].text.starts_with("expected a question"))
       d.help("write `defined (" + std::string(found) + ")`");
     else
       d.note("conditions are made of defined (…), hasattribute (…), hastype (…), hasvalue (…), "

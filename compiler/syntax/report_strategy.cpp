@@ -128,7 +128,10 @@ antlr4::Token *ReportStrategy::recoverInline(antlr4::Parser *) {
     if (found == Tok::COMMA && rule == Grammar::RuleSimpleStatement && !hasValue(parser_.context()))
       reportUnexpected("`:=`");
     else
-      reportUnexpected(declaration ? "`;`"
+      reportUnexpected(declaration || rule == Grammar::RuleTaskDeclaration ||
+                               rule == Grammar::RuleProgramInstance ||
+                               rule == Grammar::RuleUsingDirective
+                           ? "`;`"
                        : rule == Grammar::RuleSimpleStatement && !hasValue(parser_.context())
                            ? "`:=` or `;`"
                            : "an operator or `;`");
