@@ -2,6 +2,7 @@
 
 #include "compiler/cli/commands.hpp"
 #include "compiler/semantics/suggest.hpp"
+#include "compiler/syntax/conditions.hpp"
 
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -72,6 +73,14 @@ void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build) {
       ->take_all()
       ->allow_extra_args(false)
       ->type_name("LEVEL=NAME");
+  command.add_option("-D,--define", options.defines, "Define a name for {IF defined (NAME)}")
+      ->check(CLI::Validator(
+          [](std::string &text) {
+            return readDefine(text) ? std::string() : "`" + text + "` is not NAME or NAME=VALUE";
+          },
+          std::string()))
+      ->allow_extra_args(false)
+      ->type_name("NAME[=VALUE]");
   if (!build)
     return;
   command.add_flag("--unchecked", options.unchecked,

@@ -18,7 +18,7 @@ bool isNamespace(const Expr *expr) {
   if (symbol == nullptr)
     return false;
   return symbol->kind == SymbolKind::library || symbol->kind == SymbolKind::globals ||
-         symbol->kind == SymbolKind::type;
+         symbol->kind == SymbolKind::type || symbol->kind == SymbolKind::space;
 }
 
 const VarSymbol *namedVariable(const Expr *expr) {

@@ -73,6 +73,9 @@ public:
       config_.name = project.text("name");
       config_.generation = static_cast<unsigned>(project.choice("softmotion", 2));
       config_.pack = static_cast<unsigned>(project.choice("layout", 0));
+      if (const TomlNode *defines = project.get("defines"))
+        for (const TomlNode &one : defines->children)
+          readDefine(one);
     }
     for (const CheckedSection &image : top.sections("image", diagnostics_)) {
       config_.addressing = static_cast<Addressing>(image.choice("addressing", 0));
@@ -102,6 +105,16 @@ private:
     }
     levels.add(diagnostics_.levels());
     diagnostics_.setLevels(std::move(levels));
+  }
+
+  void readDefine(const TomlNode &node) {
+    if (const std::optional<Define> define = stc::readDefine(node.text))
+      config_.defines.push_back(*define);
+    else
+      diagnostics_
+          .report(Code::configBadName, node.span,
+                  fmt::format("`{}` cannot be defined", node.text), "not a name")
+          .help("write \"NAME\" or \"NAME=VALUE\"");
   }
 
   void readTask(const CheckedSection &section) {

@@ -76,6 +76,7 @@ constexpr std::array kProjectParameters = {
     Parameter{"name", ParameterType::text},
     choice("softmotion", kGenerations),
     choice("layout", kLayouts),
+    Parameter{"defines", ParameterType::nameList},
 };
 
 constexpr std::array kTaskParameters = {

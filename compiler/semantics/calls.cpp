@@ -98,9 +98,8 @@ const Type *Checker::checkCall(CallExpr *expr, bool asStatement) {
     }
   } else if (callee->kind == ExprKind::member && as<MemberExpr>(callee)->bit < 0) {
     auto *member = as<MemberExpr>(callee);
-    if (Symbol *space = resolveNamespace(member->base);
-        space != nullptr && space->kind == SymbolKind::library) {
-      Symbol *symbol = lookupInLibrary(space->name.id, member->name.id);
+    if (Symbol *space = resolveNamespace(member->base); space != nullptr) {
+      Symbol *symbol = memberOfSpace(space, member->name.id);
       if (symbol != nullptr && symbol->kind == SymbolKind::pou) {
         pou = static_cast<PouSymbol *>(symbol);
         member->symbol = symbol;

@@ -295,7 +295,7 @@ Symbol *Checker::resolveNamespace(Expr *expr) {
         isElementary(typeOf(static_cast<VarSymbol *>(symbol)))) {
       // `color : Color := Color.red`: a variable without members does not hide a type, list or
       // library.
-      Symbol *other = lookupInModule(*scope_.module, name->name.id);
+      Symbol *other = lookupDeclared(name->name);
       if (other == symbol || other == nullptr)
         other = lookupInLibraries(name->name.id);
       if (other != nullptr && other->kind == SymbolKind::type)
@@ -305,7 +305,7 @@ Symbol *Checker::resolveNamespace(Expr *expr) {
     // value wins.
     if (symbol != nullptr &&
         (symbol->kind == SymbolKind::type || symbol->kind == SymbolKind::library ||
-         symbol->kind == SymbolKind::globals)) {
+         symbol->kind == SymbolKind::globals || symbol->kind == SymbolKind::space)) {
       name->symbol = symbol;
       return symbol;
     }
@@ -316,10 +316,11 @@ Symbol *Checker::resolveNamespace(Expr *expr) {
     if (member->bit >= 0)
       return nullptr;
     Symbol *base = resolveNamespace(member->base);
-    if (base == nullptr || base->kind != SymbolKind::library)
+    if (base == nullptr)
       return nullptr;
-    Symbol *symbol = lookupInLibrary(base->name.id, member->name.id);
-    if (symbol != nullptr && symbol->kind == SymbolKind::type) {
+    Symbol *symbol = memberOfSpace(base, member->name.id);
+    if (symbol != nullptr &&
+        (symbol->kind == SymbolKind::type || symbol->kind == SymbolKind::space)) {
       member->symbol = symbol;
       return symbol;
     }
@@ -354,7 +355,10 @@ const Type *Checker::checkMember(MemberExpr *expr) {
       for (const VarSymbol *v : list->variables)
         candidates.push_back(v->name.text);
     } else {
-      found = lookupInLibrary(space->name.id, expr->name.id);
+      found = memberOfSpace(space, expr->name.id);
+      if (space->kind == SymbolKind::space)
+        for (const auto &[id, symbol] : static_cast<NamespaceSymbol *>(space)->names)
+          candidates.push_back(symbol->name.text);
     }
     if (found == nullptr) {
       const Code code =

@@ -12,6 +12,13 @@ namespace stc {
 
 using namespace ast;
 
+namespace {
+
+constexpr std::size_t kMaxErrors = 100;
+constexpr std::uint32_t kVarGlobal = 10; // letters
+
+} // namespace
+
 std::vector<VarSymbol *> PouSymbol::parameters() const {
   std::vector<VarSymbol *> list;
   if (base != nullptr)
@@ -25,7 +32,8 @@ std::vector<VarSymbol *> PouSymbol::parameters() const {
 }
 
 Checker::Checker(Program &program, const LibraryIndex &index)
-    : program_(program), arena_(program.arena), index_(index), types_(program.arena) {
+    : program_(program), errorLimit_(program.diagnostics.errorCount() + kMaxErrors),
+      arena_(program.arena), index_(index), types_(program.arena) {
   for (const auto &[name, function] : builtins()) {
     const Ident id = program.interner.intern(name);
     auto *symbol = arena_.make<BuiltinSymbol>();
@@ -66,7 +74,8 @@ void Checker::loadLibraryFile(const LibraryIndex::Entry &entry) {
 }
 
 void Checker::addName(Module &module, Symbol *symbol) {
-  const auto [it, inserted] = module.names.emplace(symbol->name.id, symbol);
+  auto &names = symbol->space == nullptr ? module.names : symbol->space->names;
+  const auto [it, inserted] = names.emplace(symbol->name.id, symbol);
   if (inserted)
     return;
   auto &d = report(Code::duplicateName, symbol->name.span,
@@ -90,6 +99,7 @@ void Checker::declareFile(Module &module, File *file) {
       pou.name = decl->name;
       pou.library = library;
       pou.decl = as<PouDecl>(decl);
+      pou.space = declareSpace(module, decl->space);
       if (decl->kind != DeclKind::function) {
         const TypeKind kind = decl->kind == DeclKind::program     ? TypeKind::program
                               : decl->kind == DeclKind::interface ? TypeKind::interface
@@ -108,11 +118,17 @@ void Checker::declareFile(Module &module, File *file) {
       type.name = decl->name;
       type.library = library;
       type.decl = decl;
+      type.space = declareSpace(module, decl->space);
       module.declaredTypes.push_back(&type);
       addName(module, &type);
       break;
     }
     case DeclKind::globals:
+      if (!decl->space.empty())
+        report(Code::sectionNotAllowed,
+               {decl->span.file, decl->span.begin, decl->span.begin + kVarGlobal},
+               "VAR_GLOBAL cannot stand in a NAMESPACE", "global variables belong to no namespace")
+            .help("move it out of the NAMESPACE");
       declareGlobals(module, as<GlobalsDecl>(decl));
       break;
     case DeclKind::config:
@@ -177,6 +193,7 @@ void Checker::declareGlobals(Module &module, GlobalsDecl *decl) {
   for (VarDecl *v : decl->variables) {
     VarSymbol *symbol = makeVariable(v, module, nullptr);
     symbol->globals = list;
+    symbol->home = decl;
     if (!list->scope.emplace(v->name.id, symbol).second) {
       auto &d = report(Code::duplicateName, v->name.span,
                        "the name `" + std::string(v->name.text) + "` is declared twice",
@@ -191,7 +208,6 @@ void Checker::declareGlobals(Module &module, GlobalsDecl *decl) {
 }
 
 void Checker::resolveEnumerations(Module &module) {
-  const ScopeGuard guard(*this, {&module, nullptr});
   for (std::size_t i = 0; i < module.declaredTypes.size(); ++i) {
     if (module.declaredTypes[i]->decl->kind == DeclKind::enumeration)
       resolve(module.declaredTypes[i]);
@@ -208,7 +224,7 @@ void Checker::checkModule(Module &module) {
   // Enumerators are visible without their type's name, so they come first.
   resolveEnumerations(module);
   byIndex(module.declaredTypes, [&](TypeSymbol *t) {
-    const ScopeGuard guard(*this, {&module, nullptr});
+    const ScopeGuard guard(*this, {&module, nullptr, t->decl});
     resolve(t);
   });
   byIndex(library->pous, [&](PouSymbol *p) { link(p); });
@@ -217,7 +233,7 @@ void Checker::checkModule(Module &module) {
   byIndex(library->pous, [&](PouSymbol *p) { checkClass(p); });
   checkContainment(module);
   for (TypeSymbol *t : std::vector<TypeSymbol *>(library->types)) {
-    const ScopeGuard guard(*this, {&module, nullptr});
+    const ScopeGuard guard(*this, {&module, nullptr, t->decl});
     if (t->type->kind == TypeKind::structure && t->decl->kind == DeclKind::structure) {
       for (VarSymbol *field : typeAs<StructType>(t->type)->fields)
         checkInitOf(field);
@@ -296,6 +312,12 @@ void Checker::checkUser(const std::vector<File *> &files) {
   Module &user = module("");
   for (File *file : files)
     declareFile(user, file);
+  {
+    const ScopeGuard guard(*this, {&user, nullptr});
+    for (const File *file : files)
+      for (const Decl *decl : file->declarations)
+        checkUsings(decl);
+  }
   checkModule(user);
   declareUsed();
   checkConfigured(user);

@@ -45,7 +45,7 @@ Symbol *Checker::lookup(const Name &name) {
     if (Symbol *symbol = lookupInPou(scope_.pou, name.id))
       return symbol;
   }
-  if (Symbol *symbol = lookupInModule(*scope_.module, name.id))
+  if (Symbol *symbol = lookupDeclared(name))
     return symbol;
   if (Symbol *symbol = lookupSelf(name))
     return symbol;
@@ -57,6 +57,9 @@ Symbol *Checker::lookup(const Name &name) {
   const auto list = scope_.module->lists.find(name.id);
   if (list != scope_.module->lists.end())
     return list->second;
+  const auto space = scope_.module->spaces.find(name.id);
+  if (space != scope_.module->spaces.end())
+    return space->second;
   if (index_.isLibrary(name.id->lower)) {
     auto *symbol = arena_.make<LibrarySymbol>();
     symbol->kind = SymbolKind::library;
@@ -88,8 +91,26 @@ EnumeratorSymbol *Checker::lookupEnumerator(const Name &name, const Type *expect
     ambiguous = it->second.size() > 1;
     return it->second.front();
   };
+  for (NamespaceSymbol *space : spacesHere()) {
+    const auto it = space->enumerators.find(name.id);
+    if (it == space->enumerators.end())
+      continue;
+    ambiguous = it->second.size() > 1;
+    return it->second.front();
+  }
   if (EnumeratorSymbol *e = inModule(*scope_.module))
     return e;
+  if (const Decl *decl = home(); decl != nullptr)
+    for (const NamePath &path : decl->usings) {
+      Symbol *space = usedSpace(path);
+      if (space == nullptr || space->kind != SymbolKind::space)
+        continue;
+      const auto &enumerators = static_cast<NamespaceSymbol *>(space)->enumerators;
+      if (const auto it = enumerators.find(name.id); it != enumerators.end()) {
+        ambiguous = it->second.size() > 1;
+        return it->second.front();
+      }
+    }
   for (const LibraryIndex::Entry &entry : index_.find(name.id->lower)) {
     loadLibraryFile(entry);
     if (EnumeratorSymbol *e = inModule(module(std::string(entry.library))))
@@ -131,6 +152,9 @@ std::vector<std::string_view> Checker::visibleNames(bool types) {
       }
     }
   }
+  for (const NamespaceSymbol *space : spacesHere())
+    for (const auto &[id, symbol] : space->names)
+      add(symbol);
   for (const auto &[id, symbol] : scope_.module->names)
     add(symbol);
   if (types) {
@@ -411,6 +435,8 @@ std::string Checker::describe(const Symbol *symbol) const {
   case SymbolKind::self:
     return static_cast<const SelfSymbol *>(symbol)->isSuper ? "the base of this block"
                                                             : "this block's own instance";
+  case SymbolKind::space:
+    return "a namespace";
   }
   return {};
 }

@@ -21,7 +21,7 @@ bool isKnownDoubleUnderscore(std::string_view word) {
       "__endtry",       "__xword",   "__xint",        "__uxint",
       "__varinfo",      "__pouname", "__position",    "__compare_and_swap",
       "__xadd",         "__vector",  "__currenttask", "__lword",
-      "__bitoffset",
+      "__bitoffset",    "__system",
   };
   return std::any_of(std::begin(kNames), std::end(kNames),
                      [&](std::string_view name) { return isWord(word, name); });
@@ -52,8 +52,8 @@ bool looksBinary(std::string_view text) {
   return control > 10;
 }
 
-Scanner::Scanner(const SourceFile &file, Diagnostics &diagnostics)
-    : text_(file.text()), file_(file.id()), diagnostics_(diagnostics) {}
+Scanner::Scanner(const SourceFile &file, Diagnostics &diagnostics, Conditions *conditions)
+    : text_(file.text()), file_(file.id()), diagnostics_(diagnostics), conditions_(conditions) {}
 
 bool Scanner::afterOperand() const {
   switch (previous_) {
@@ -224,6 +224,7 @@ Token Scanner::next() {
       break;
     }
     if (begin >= text_.size()) {
+      reportOpenBranches();
       token.type = Token::kEnd;
       break;
     }

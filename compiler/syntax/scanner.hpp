@@ -3,6 +3,7 @@
 
 #include "compiler/source/diagnostic.hpp"
 #include "compiler/source/source_manager.hpp"
+#include "compiler/syntax/conditions.hpp"
 #include "compiler/syntax/token.hpp"
 
 #include <string>
@@ -15,7 +16,8 @@ namespace stc {
 /// keyword is one.
 class Scanner {
 public:
-  Scanner(const SourceFile &file, Diagnostics &diagnostics);
+  /// Without `conditions` every branch of conditional pragmas is read and messages are ignored.
+  Scanner(const SourceFile &file, Diagnostics &diagnostics, Conditions *conditions = nullptr);
 
   /// The next token; of type Token::kEnd at the end of the text, again and again.
   Token next();
@@ -46,8 +48,22 @@ private:
   void blockComment(std::size_t begin);
   void nestedComment(std::size_t begin);
   void lineComment(std::size_t begin);
+  /// A conditional pragma that is open.
+  struct Branch {
+    Span place;
+    bool taken;   ///< one of its branches is compiled
+    bool sawElse; ///< `{ELSE}` was there
+  };
+  [[nodiscard]] std::size_t comment(std::size_t place) const;
+  [[nodiscard]] std::size_t pragmaEnd(std::size_t begin) const;
   void pragma(std::size_t begin);
   void warningPragma(std::size_t place, std::size_t end);
+  void directive(std::string_view keyword, std::size_t begin, std::size_t p, std::size_t end);
+  void message(std::string_view keyword, Span whole, std::size_t p, std::size_t end);
+  void checkElse(std::string_view keyword, Span whole);
+  void branch(std::size_t p, std::size_t end);
+  void skipInactive();
+  void reportOpenBranches();
 
   std::uint16_t word(std::size_t begin, Token &token);
   std::uint16_t prefixedLiteral(std::size_t begin, Token &token);
@@ -80,6 +96,8 @@ private:
   unsigned badCharacters_ = 0;
   std::vector<std::uint32_t> badNames_; ///< hashes of names that were reported
   std::vector<Trivia> trivia_;
+  Conditions *conditions_;
+  std::vector<Branch> branches_;
 };
 
 /// True when the bytes cannot be meant as text.

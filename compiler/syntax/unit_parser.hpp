@@ -159,6 +159,7 @@ private:
   void reportMissing(std::uint16_t wanted);
   void reportMissingEnd(std::uint16_t wanted);
   antlr4::Token *conjure(std::uint16_t type);
+  void stepBackToAssignment();
   void skipStatement();
   void skipTo(bool (*stop)(std::uint16_t));
   bool startsDeclaration(const Token &token);

@@ -26,6 +26,15 @@ enum class ExceptionCode : uint32_t {
 
 struct Ctx;
 
+/// An exception that __TRY has caught. Plain data on the stack of the body.
+struct Caught {
+  ExceptionCode code;
+  uint32_t line;
+  uint32_t col;
+  const char *file;
+  char detail[160];
+};
+
 /// What the host offers to an application. The application only ever calls through this table,
 /// so that app.so needs no symbol from the host.
 struct HostApi {
@@ -39,6 +48,10 @@ struct HostApi {
   int64_t (*refillLoopBudget)(Ctx *ctx);
   /// A line of text for the operator (an online warning). Callable from the cycle.
   void (*log)(Ctx *ctx, uint32_t severity, const char *text);
+  /// Called while a C++ exception is being handled: says which one of ST's it is. What ST may not
+  /// catch (an endless loop, anything that is not of ST) goes on, so that it does not return. Null:
+  /// nothing can be caught.
+  void (*caught)(Ctx *ctx, Caught *out) = nullptr;
 };
 
 /// One task's view of the running application. Plain data; the host owns it.
@@ -63,6 +76,13 @@ struct Ctx {
 [[noreturn]] __attribute__((cold)) void raiseDetail(Ctx &ctx, ExceptionCode code, const char *file,
                                                     uint32_t line, uint32_t col,
                                                     const char *detail);
+
+/// In a handler: what was caught (see HostApi::caught).
+__attribute__((cold)) void caught(Ctx &ctx, Caught &out);
+/// Goes on with an exception that was caught, behind __FINALLY.
+[[noreturn]] __attribute__((cold)) void raiseAgain(Ctx &ctx, const Caught &exception);
+/// The number of __SYSTEM.ExceptionCode.
+uint32_t exceptionNumber(ExceptionCode code);
 
 /// Out-of-line parts of the checks: they word the detail and raise.
 [[noreturn]] __attribute__((cold)) void raiseIndex(Ctx &ctx, int64_t index, int64_t lo, int64_t hi,
