@@ -46,7 +46,8 @@ public:
   GeneratedFile finish() {
     const std::string path = std::string(c_.names.space(c_.own)) + "/dispatch__.cpp";
     return {path, banner("Which method is meant") + includes_.text(nullptr) +
-                      std::string(sourcePrelude()) + text_};
+                      std::string(sourcePrelude()) +
+                      "#pragma GCC diagnostic ignored \"-Wunused-parameter\"\n" + text_};
   }
 
 private:

@@ -228,6 +228,7 @@ private:
   std::unordered_map<Ident, const Type *> elementary_;
   std::unordered_map<Ident, Symbol *>
       libraryMisses_; ///< results of lookupInLibraries, also the misses
+  std::unordered_set<const Library *> wholeLibraries_; ///< all of their files are loaded
   Scope scope_;
   std::set<std::pair<const PouSymbol *, Ident>> unknown_; ///< names reported already
   unsigned loopDepth_ = 0;

@@ -403,7 +403,11 @@ const Type *Checker::checkMemberOf(MemberExpr *expr, const Type *base) {
       d.help("a similar one exists: `" + std::string(similar) + "`");
     return elementaryType(TypeKind::error);
   }
-  if (member->owner != nullptr && !insideOf(member->owner) &&
+  const Access access = member->decl == nullptr ? Access::none : member->decl->access;
+  if (access == Access::privateA && member->owner != nullptr &&
+      !requireAccess(expr->name.span, member, member->owner, access))
+    return elementaryType(TypeKind::error);
+  if (member->owner != nullptr && access != Access::publicA && !insideOf(member->owner) &&
       (member->section == Section::temp ||
        (member->section == Section::local && base->kind == TypeKind::functionBlock))) {
     auto &d = report(Code::notAccessible, expr->name.span,

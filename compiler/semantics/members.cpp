@@ -283,8 +283,12 @@ bool Checker::coerceToInterface(Expr *expr, const Type *type) {
     reportNoInterface(expr, from, type);
     return true;
   }
-  if (isInstance(from) && expr->kind != ExprKind::name && expr->kind != ExprKind::member &&
-      expr->kind != ExprKind::index && expr->kind != ExprKind::deref) {
+  const bool isReference = expr->kind == ExprKind::call &&
+                           as<CallExpr>(expr)->resolved == Callee::method &&
+                           as<CallExpr>(expr)->pou->result->type->kind == TypeKind::reference;
+  if (isInstance(from) && !isReference && expr->kind != ExprKind::name &&
+      expr->kind != ExprKind::member && expr->kind != ExprKind::index &&
+      expr->kind != ExprKind::deref) {
     report(Code::notAssignable, expr->span, "an interface needs an instance that stays",
            "this is a copy that goes away")
         .help("store it in a variable first");
