@@ -183,6 +183,7 @@ private:
   static Symbol *lookupInPou(PouSymbol *pou, Ident id);
   Symbol *lookupSelf(const ast::Name &name);
   bool reportSelf(const ast::Name &name);
+  void followSelf(ast::Expr *&expr);
   [[nodiscard]] bool insideOf(const PouSymbol *owner) const;
   bool requireAccess(Span span, const Symbol *member, const PouSymbol *owner, ast::Access access);
   const Type *useProperty(ast::Expr *expr, PropertySymbol *property, const ast::Name &name);

@@ -327,6 +327,7 @@ const Type *Checker::checkMember(MemberExpr *expr) {
   }
   if (expr->bit >= 0)
     return checkBit(expr);
+  followSelf(expr->base);
   const std::string name(expr->name.text);
   if (Symbol *space = resolveNamespace(expr->base)) {
     Symbol *found = nullptr;
