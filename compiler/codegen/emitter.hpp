@@ -253,6 +253,8 @@ private:
   bool selectedOnly(const ast::CallExpr *e);
   void orderedBuiltin(const ast::CallExpr *e);
   void builtinPlain(const ast::CallExpr *e, const std::vector<std::string> *names);
+  [[nodiscard]] bool ordersArguments(const ast::CallExpr *e);
+  bool stringInto(std::string_view target, const ast::Expr *value);
   void builtinArgument(const ast::CallExpr *e, std::size_t i, const std::vector<std::string> *names,
                        bool anyText);
 
@@ -306,7 +308,7 @@ private:
   void close() { w_.outdent(); }
   std::string_view ctx() {
     usesContext_ = true;
-    return "ctx__";
+    return context_;
   }
   /// `file__, 12, 3` of a check.
   void position(Span span);
@@ -334,6 +336,8 @@ private:
   std::vector<Loop> loops_;
   std::vector<const VarSymbol *> loopLocals_; ///< kept in C++ locals just now
   std::vector<Try> tries_;
+  static constexpr std::string_view kContext = "ctx__";
+  std::string context_{kContext}; ///< what stands for the context: a loop's own where it has locals
   unsigned next_ = 0;
   std::uint32_t currentLine_ = 0; ///< of the ST, for next()
   Span initSpan_;                 ///< of the variable being initialised

@@ -96,6 +96,8 @@ void Emitter::statement(const Stmt *s) {
     begin(s->span);
     if (usesBudget_) // a RETURN in front of the first loop has used nothing
       w_ << "budget__.done(" << ctx() << "); ";
+    if (!loopLocals_.empty())
+      w_ << context_ << ".save(); ";
     w_ << "return";
     if (pou_->result != nullptr) {
       used_.insert(pou_->result);
@@ -131,6 +133,8 @@ bool isComputedPlace(const Expr *target) {
 } // namespace
 
 void Emitter::storeTo(std::string_view target, const Type *type, const Expr *value) {
+  if (isString(type) && stringInto(target, value))
+    return;
   if (isString(type) && (value->constant != nullptr || value->type != type)) {
     w_ << "::stride::assign(" << target << ", ";
     if (value->constant != nullptr)
