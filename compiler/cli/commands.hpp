@@ -14,6 +14,8 @@ struct ProjectOptions {
   Output output;
   bool unchecked = false; ///< no run-time checks in generated code
   bool debug = false;     ///< -O0 -g
+  Levels levels;          ///< -W
+  std::vector<std::string> defines; ///< `NAME` or `NAME=VALUE` for `{IF defined (…)}`
 };
 
 int checkCommand(const ProjectOptions &options);

@@ -28,19 +28,6 @@ std::optional<int> parseNumber(std::string_view text) {
   return number;
 }
 
-// "SE0203", "se203"
-const CodeInfo *findCode(std::string_view what) {
-  if (what.size() < 3 || !equalIgnoringCase(what.substr(0, 2), "SE"))
-    return nullptr;
-  const std::optional<int> number = parseNumber(what.substr(2));
-  if (!number)
-    return nullptr;
-  for (const CodeInfo &info : allCodes())
-    if (static_cast<int>(info.code) == *number)
-      return &info;
-  return nullptr;
-}
-
 struct MotionError {
   std::string name;
   int number = 0;
@@ -79,13 +66,30 @@ std::optional<MotionError> findMotionError(std::string_view what) {
   return std::nullopt;
 }
 
+std::string_view severityText(Severity severity) {
+  switch (severity) {
+  case Severity::off:
+    return "off unless it is switched on";
+  case Severity::note:
+    return "note";
+  case Severity::warning:
+    return "warning";
+  case Severity::error:
+    return "error";
+  }
+  return {};
+}
+
 void print(const std::string &text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
 } // namespace
 
 int explainCommand(const std::string &what) {
-  if (const CodeInfo *code = findCode(what)) {
-    print(fmt::format("{}: {}\n\n{}\n", codeName(code->code), code->title, trim(code->explain)));
+  // A bare number is a SoftMotion error unless it has four digits, as codes are written.
+  const bool number = parseNumber(what).has_value();
+  if (const CodeInfo *code = number && what.size() != 4 ? nullptr : findCode(what)) {
+    print(fmt::format("{}: {}\nname: {}\nseverity: {}\n\n{}\n", codeName(code->code), code->title,
+                      kebabName(code->code), severityText(code->severity), trim(code->explain)));
     return 0;
   }
   if (const std::optional<MotionError> error = findMotionError(what)) {
@@ -99,7 +103,7 @@ int explainCommand(const std::string &what) {
 int explainList() {
   std::string text;
   for (const CodeInfo &info : allCodes())
-    text += fmt::format("{} {}\n", codeName(info.code), info.title);
+    text += fmt::format("{} {:<24} {}\n", codeName(info.code), kebabName(info.code), info.title);
   print(text);
   return 0;
 }

@@ -1,6 +1,8 @@
 // The command `stride`.
 
 #include "compiler/cli/commands.hpp"
+#include "compiler/semantics/suggest.hpp"
+#include "compiler/syntax/conditions.hpp"
 
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -13,6 +15,35 @@ namespace {
 
 constexpr const char *kVersion = "stride " STRIDE_VERSION;
 constexpr int kUsageError = 2;
+
+/// `error=SE0390`, `off=unused-variable`, `error=all-warnings`
+void addLevel(Levels &levels, const std::string &text) {
+  const std::size_t equal = text.find('=');
+  const std::string level = text.substr(0, equal);
+  const std::string what = equal == std::string::npos ? "all-warnings" : text.substr(equal + 1);
+  static const std::map<std::string, Severity> known = {{"error", Severity::error},
+                                                        {"warning", Severity::warning},
+                                                        {"note", Severity::note},
+                                                        {"off", Severity::off}};
+  const auto severity = known.find(level);
+  if (severity == known.end())
+    throw CLI::ValidationError("-W", "`" + level + "` is none of error, warning, note, off");
+  if (const std::optional<Levels::Group> group = findGroup(what)) {
+    levels.set(*group, severity->second);
+    return;
+  }
+  const CodeInfo *code = findCode(what);
+  if (code == nullptr) {
+    const std::vector<std::string> names = settingNames();
+    const std::string_view near = nearest(what, {names.begin(), names.end()});
+    throw CLI::ValidationError(
+        "-W", "there is no diagnostic `" + what + "`" +
+                  (near.empty() ? std::string() : "; did you mean `" + std::string(near) + "`?"));
+  }
+  if (code->severity == Severity::error && severity->second != Severity::error)
+    throw CLI::ValidationError("-W", "`" + what + "` is an error, and errors cannot be lowered");
+  levels.set(code->code, severity->second);
+}
 
 void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build) {
   command
@@ -29,6 +60,27 @@ void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build) {
   command.add_option("--format", options.output.format, "Diagnostics as text (default) or json")
       ->transform(CLI::CheckedTransformer(formats).description(""))
       ->type_name("FORMAT");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "-W",
+          [&options](const std::vector<std::string> &values) {
+            for (const std::string &value : values)
+              addLevel(options.levels, value);
+          },
+          "Severity of diagnostics: error=SE0390, off=unused-variable, error=all-warnings (may be "
+          "repeated)")
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false)
+      ->type_name("LEVEL=NAME");
+  command.add_option("-D,--define", options.defines, "Define a name for {IF defined (NAME)}")
+      ->check(CLI::Validator(
+          [](std::string &text) {
+            return readDefine(text) ? std::string() : "`" + text + "` is not NAME or NAME=VALUE";
+          },
+          std::string()))
+      ->allow_extra_args(false)
+      ->type_name("NAME[=VALUE]");
   if (!build)
     return;
   command.add_flag("--unchecked", options.unchecked,

@@ -19,6 +19,10 @@ namespace {
 Settings settingsOf(const ProjectOptions &options) {
   Settings settings;
   settings.checks = !options.unchecked;
+  settings.levels = options.levels;
+  for (const std::string &text : options.defines)
+    if (const std::optional<Define> define = readDefine(text))
+      settings.defines.push_back(*define);
   return settings;
 }
 

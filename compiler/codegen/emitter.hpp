@@ -126,6 +126,13 @@ private:
     unsigned switches = 0; ///< CASE statements around the place, within the loop
     bool labelled = false; ///< an EXIT jumps behind it
   };
+  /// A __TRY with __FINALLY whose statements are being written.
+  struct Try {
+    unsigned id;
+    const ast::TryStmt *stmt;
+    std::size_t loops;                     ///< how many loops are around it
+    std::vector<const ast::Stmt *> leaves; ///< RETURN, EXIT, JMP … that lead out of it
+  };
 
   // expressions.cpp
   /// The value in the expression's own type.
@@ -246,6 +253,8 @@ private:
   bool selectedOnly(const ast::CallExpr *e);
   void orderedBuiltin(const ast::CallExpr *e);
   void builtinPlain(const ast::CallExpr *e, const std::vector<std::string> *names);
+  [[nodiscard]] bool ordersArguments(const ast::CallExpr *e);
+  bool stringInto(std::string_view target, const ast::Expr *value);
   void builtinArgument(const ast::CallExpr *e, std::size_t i, const std::vector<std::string> *names,
                        bool anyText);
 
@@ -269,6 +278,15 @@ private:
   void refillLoop(std::string_view run, std::string_view first, Span span);
   void loopBody(ast::Block body, bool isDouble);
 
+  // jumps.cpp
+  void jump(const ast::JumpStmt *s);
+  void label(const ast::LabelStmt *s);
+  void tryStatement(const ast::TryStmt *s);
+  void catchAll(unsigned id);
+  /// A statement that leaves the innermost __TRY with __FINALLY goes there first; false: it does
+  /// not leave one.
+  bool leaveTry(const ast::Stmt *s);
+
   // initializers.cpp
   void writtenDefault(std::string_view target, const Type *type, const Written &written);
   void typeDefault(std::string_view target, const Type *type);
@@ -290,7 +308,7 @@ private:
   void close() { w_.outdent(); }
   std::string_view ctx() {
     usesContext_ = true;
-    return "ctx__";
+    return context_;
   }
   /// `file__, 12, 3` of a check.
   void position(Span span);
@@ -317,6 +335,9 @@ private:
   const VarSymbol *lastUsed_ = nullptr;
   std::vector<Loop> loops_;
   std::vector<const VarSymbol *> loopLocals_; ///< kept in C++ locals just now
+  std::vector<Try> tries_;
+  static constexpr std::string_view kContext = "ctx__";
+  std::string context_{kContext}; ///< what stands for the context: a loop's own where it has locals
   unsigned next_ = 0;
   std::uint32_t currentLine_ = 0; ///< of the ST, for next()
   Span initSpan_;                 ///< of the variable being initialised

@@ -183,6 +183,14 @@ const Names::Entry &Names::entry(const Symbol *symbol) {
   const bool synthesized =
       symbol->kind == SymbolKind::type && static_cast<const TypeSymbol *>(symbol)->decl == nullptr;
   entry.local = synthesized ? file : mangle(file);
+  if (symbol->space != nullptr && symbol->kind != SymbolKind::globals) {
+    std::string prefix; // A__B__
+    for (const char c : symbol->space->path)
+      prefix += c == '.' ? std::string("__") : std::string(1, c);
+    prefix += "__";
+    file.insert(0, prefix);
+    entry.local.insert(0, prefix);
+  }
   if (symbol->kind == SymbolKind::globals) {
     // A list is named after its file, and files may have any name.
     for (char &c : file)

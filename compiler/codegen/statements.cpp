@@ -4,6 +4,8 @@
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
 
+#include <algorithm>
+
 namespace stc::codegen {
 
 using namespace ast;
@@ -19,16 +21,38 @@ constexpr std::size_t kMaxElseIf = 64;
 } // namespace
 
 void Emitter::block(Block block) {
-  for (const Stmt *s : block)
+  // A `goto` must not cross the temporaries of the statements between it and its label.
+  const bool labelled = std::any_of(block.begin(), block.end(), [](const Stmt *s) {
+    return s->kind == StmtKind::label && as<LabelStmt>(s)->used;
+  });
+  for (const Stmt *s : block) {
+    const bool alone = labelled && s->kind != StmtKind::label && s->kind != StmtKind::empty;
+    if (alone) {
+      w_.line() << '{';
+      end();
+      open();
+    }
     statement(s);
+    if (alone) {
+      close();
+      w_.line() << '}';
+      end();
+    }
+  }
 }
 
 void Emitter::statement(const Stmt *s) {
   switch (s->kind) {
   case StmtKind::empty:
-  case StmtKind::jump: // the checker stops in front of these
+    return;
+  case StmtKind::jump:
+    jump(as<JumpStmt>(s));
+    return;
   case StmtKind::label:
+    label(as<LabelStmt>(s));
+    return;
   case StmtKind::tryS:
+    tryStatement(as<TryStmt>(s));
     return;
   case StmtKind::assign:
     assign(as<AssignStmt>(s));
@@ -48,6 +72,8 @@ void Emitter::statement(const Stmt *s) {
     loop(s);
     return;
   case StmtKind::exit:
+    if (leaveTry(s))
+      return;
     begin(s->span);
     if (loops_.back().isDouble || loops_.back().switches > 0) { // `break` would not leave it all
       loops_.back().labelled = true;
@@ -58,14 +84,20 @@ void Emitter::statement(const Stmt *s) {
     end();
     return;
   case StmtKind::continueS:
+    if (leaveTry(s))
+      return;
     begin(s->span);
     w_ << "continue;";
     end();
     return;
   case StmtKind::returnS:
+    if (leaveTry(s))
+      return;
     begin(s->span);
     if (usesBudget_) // a RETURN in front of the first loop has used nothing
       w_ << "budget__.done(" << ctx() << "); ";
+    if (!loopLocals_.empty())
+      w_ << context_ << ".save(); ";
     w_ << "return";
     if (pou_->result != nullptr) {
       used_.insert(pou_->result);
@@ -101,6 +133,8 @@ bool isComputedPlace(const Expr *target) {
 } // namespace
 
 void Emitter::storeTo(std::string_view target, const Type *type, const Expr *value) {
+  if (isString(type) && stringInto(target, value))
+    return;
   if (isString(type) && (value->constant != nullptr || value->type != type)) {
     w_ << "::stride::assign(" << target << ", ";
     if (value->constant != nullptr)

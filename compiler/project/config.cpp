@@ -67,10 +67,15 @@ public:
       return std::move(config_);
     }
     const CheckedSection top(*document, projectSchema(), diagnostics_);
+    for (const CheckedSection &levels : top.sections("diagnostics", diagnostics_))
+      readLevels(levels);
     for (const CheckedSection &project : top.sections("project", diagnostics_)) {
       config_.name = project.text("name");
       config_.generation = static_cast<unsigned>(project.choice("softmotion", 2));
       config_.pack = static_cast<unsigned>(project.choice("layout", 0));
+      if (const TomlNode *defines = project.get("defines"))
+        for (const TomlNode &one : defines->children)
+          readDefine(one);
     }
     for (const CheckedSection &image : top.sections("image", diagnostics_)) {
       config_.addressing = static_cast<Addressing>(image.choice("addressing", 0));
@@ -86,6 +91,32 @@ public:
   }
 
 private:
+  // What the command line says about a code stays.
+  void readLevels(const CheckedSection &section) {
+    Levels levels;
+    for (const TomlNode &member : section.table().children) {
+      if (section.get(member.key) == nullptr)
+        continue;
+      const auto severity = static_cast<Severity>(section.choice(member.key, 0));
+      if (const std::optional<Levels::Group> group = findGroup(member.key))
+        levels.set(*group, severity);
+      else if (const CodeInfo *code = findCode(member.key))
+        levels.set(code->code, severity);
+    }
+    levels.add(diagnostics_.levels());
+    diagnostics_.setLevels(std::move(levels));
+  }
+
+  void readDefine(const TomlNode &node) {
+    if (const std::optional<Define> define = stc::readDefine(node.text))
+      config_.defines.push_back(*define);
+    else
+      diagnostics_
+          .report(Code::configBadName, node.span,
+                  fmt::format("`{}` cannot be defined", node.text), "not a name")
+          .help("write \"NAME\" or \"NAME=VALUE\"");
+  }
+
   void readTask(const CheckedSection &section) {
     TaskConfig task;
     task.name = nameOf(section);

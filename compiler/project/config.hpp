@@ -5,6 +5,7 @@
 #include "compiler/source/diagnostic.hpp"
 #include "compiler/source/source_manager.hpp"
 #include "compiler/syntax/ast.hpp"
+#include "compiler/syntax/conditions.hpp"
 
 #include <array>
 #include <cstdint>
@@ -56,6 +57,7 @@ struct ProjectConfig {
   unsigned pack = 0;       ///< layout: 4 = "v2.3"
   Addressing addressing = Addressing::units;
   std::array<std::uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs
+  std::vector<Define> defines; ///< for `{IF defined (…)}`
   std::vector<TaskConfig> tasks;
   std::vector<AxisGroupConfig> axisGroups;
   bool incomplete = false; ///< a drive, axis group or everything had to be left out

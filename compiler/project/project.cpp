@@ -42,6 +42,7 @@ std::vector<fs::path> findSources(const fs::path &folder, std::error_code &error
 Project::Project(const fs::path &path, Purpose purpose, const Settings &settings,
                  const LibraryIndex &index) {
   program_.settings = settings;
+  program_.diagnostics.setLevels(settings.levels);
   load(path.empty() ? fs::path(".") : path);
   if (loaded_)
     analyse(purpose, index);
@@ -125,9 +126,14 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
   }
   const std::size_t configErrors = program_.diagnostics.errorCount();
   std::vector<ast::File *> files;
+  DeclaredNames names(program_.sources, sourceFiles_);
+  ParseOptions options{config_.defines, &names};
+  options.defines.insert(options.defines.end(), program_.settings.defines.begin(),
+                         program_.settings.defines.end());
   for (const FileId id : sourceFiles_)
-    files.push_back(
-        parse(program_.sources.file(id), program_.interner, program_.arena, program_.diagnostics));
+    files.push_back(parse(program_.sources.file(id), program_.interner, program_.arena,
+                          program_.diagnostics, &options));
+  attachMembers(files, program_.arena, program_.diagnostics);
   const bool syntaxErrors = program_.diagnostics.errorCount() != configErrors;
   if (declaresNothing(files)) {
     program_.diagnostics.report(
@@ -184,7 +190,8 @@ AppConfig Project::appConfig() const {
     task.priority = from.priority;
     for (const ConfigName &program : from.programs)
       for (PouSymbol *pou : program_.user->pous)
-        if (equalIgnoringCase(pou->name.text, program.text))
+        if (pou->decl->kind == ast::DeclKind::program &&
+            equalIgnoringCase(pou->name.text, program.text))
           task.programs.push_back(pou);
     app.tasks.push_back(std::move(task));
   }

@@ -177,6 +177,8 @@ private:
     Diagnostic &d = diagnostics_.report(
         Code::configUnknownChoice, value_.span,
         fmt::format("`{}` has no choice \"{}\"", parameter_.name, value_.text), "unknown choice");
+    if (parameter_.choices.size() == 1)
+      d.help(fmt::format("`{}` is an error, and errors cannot be lowered", parameter_.name));
     std::vector<std::string_view> names;
     for (const Choice &choice : parameter_.choices)
       names.push_back(choice.name);
@@ -251,6 +253,8 @@ void reportUnknown(const TomlNode &member, const Section &schema, Diagnostics &d
   Diagnostic &d =
       diagnostics.report(Code::configUnknownKey, member.keySpan,
                          top ? fmt::format("stride.toml has no section `{}`", member.key)
+                         : schema.name == "diagnostics"
+                             ? fmt::format("there is no diagnostic `{}`", member.key)
                              : fmt::format("{} has no parameter `{}`", schema.what, member.key),
                          "unknown");
   const std::string_view near = nearest(member.key, names);
@@ -261,6 +265,8 @@ void reportUnknown(const TomlNode &member, const Section &schema, Diagnostics &d
   else if (const Section *owner = ownerOf(projectSchema(), member.key);
            owner != nullptr && owner != &schema)
     d.help(fmt::format("`{}` belongs into {}", member.key, header(*owner)));
+  if (near.empty() && schema.name == "diagnostics")
+    d.help("`stride explain --list` shows all codes and names");
   if (near.empty() && names.size() <= 6) {
     std::string all;
     for (const std::string_view name : names)

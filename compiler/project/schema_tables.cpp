@@ -5,6 +5,8 @@
 
 #include <array>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace stc {
 
@@ -74,6 +76,7 @@ constexpr std::array kProjectParameters = {
     Parameter{"name", ParameterType::text},
     choice("softmotion", kGenerations),
     choice("layout", kLayouts),
+    Parameter{"defines", ParameterType::nameList},
 };
 
 constexpr std::array kTaskParameters = {
@@ -136,11 +139,48 @@ constexpr Section kAxisGroup = {"axis_group", "an axis group",      "bus.axis_gr
                                 true,         kAxisGroupParameters, kAxisGroupSections};
 constexpr std::array<const Section *, 1> kBusSections = {&kAxisGroup};
 constexpr Section kBus = {"bus", "a bus", "bus", true, kBusParameters, kBusSections};
-constexpr std::array<const Section *, 4> kTopSections = {&kProject, &kImage, &kTask, &kBus};
-constexpr Section kTop = {"", "stride.toml", "", false, {}, kTopSections};
+
+constexpr std::array<Choice, 4> kSeverities = {
+    {{"error", static_cast<std::int64_t>(Severity::error)},
+     {"warning", static_cast<std::int64_t>(Severity::warning)},
+     {"note", static_cast<std::int64_t>(Severity::note)},
+     {"off", static_cast<std::int64_t>(Severity::off)}}};
+
+/// `SE0390` and `unused-variable`, for every code; errors have no choice.
+struct DiagnosticSection {
+  DiagnosticSection() {
+    names = settingNames();
+    for (const CodeInfo &entry : allCodes()) {
+      if (entry.severity == Severity::error) {
+        errors.push_back(codeName(entry.code));
+        errors.push_back(kebabName(entry.code));
+      }
+    }
+    for (const std::string &name : names)
+      parameters.push_back(choice(name, kSeverities));
+    for (const std::string &name : errors)
+      parameters.push_back(choice(name, std::span(kSeverities).first(1)));
+    section = {"diagnostics", "[diagnostics]", "diagnostics", false, parameters, {}};
+  }
+  std::vector<std::string> names;
+  std::vector<std::string> errors;
+  std::vector<Parameter> parameters;
+  Section section;
+};
+
+/// The whole of stride.toml.
+struct TopSection {
+  DiagnosticSection diagnostics;
+  std::array<const Section *, 5> sections = {&kProject, &diagnostics.section, &kImage, &kTask,
+                                            &kBus};
+  Section top = {"", "stride.toml", "", false, {}, sections};
+};
 
 } // namespace
 
-const Section &projectSchema() { return kTop; }
+const Section &projectSchema() {
+  static const TopSection schema;
+  return schema.top;
+}
 
 } // namespace stc

@@ -63,7 +63,7 @@ public:
       : config_(config), diagnostics_(diagnostics), programs_(programsOf(files)) {
     for (const ast::File *file : files)
       for (const ast::Decl *decl : file->declarations)
-        if (decl->name)
+        if (decl->name && (decl->space.empty() || decl->kind == ast::DeclKind::program))
           declarations_.try_emplace(lowerCase(decl->name.text), decl);
   }
 
@@ -251,7 +251,7 @@ std::unordered_map<std::string, Span> globalNames(const std::vector<ast::File *>
   std::unordered_map<std::string, Span> names;
   for (const ast::File *file : files)
     for (const ast::Decl *decl : file->declarations) {
-      if (decl->name && decl->kind != ast::DeclKind::globals)
+      if (decl->name && decl->space.empty() && decl->kind != ast::DeclKind::globals)
         names.try_emplace(lowerCase(decl->name.text), decl->name.span);
       if (decl->kind == ast::DeclKind::globals)
         for (const ast::VarDecl *variable : ast::as<ast::GlobalsDecl>(decl)->variables)

@@ -24,23 +24,49 @@ std::string sectionName(Section section) {
   }
 }
 
-/// `MC_Power(Enable, bRegulatorOn, bDriveStart, Axis)`, shown when arguments do not fit.
+/// `FUNCTION Sum (a : INT; b : INT) : INT`, shown when arguments do not fit.
 std::string signature(const PouSymbol *pou) {
+  constexpr std::size_t kMost = 12;
   std::string text;
+  std::size_t count = 0;
   for (const VarSymbol *p : pou->parameters()) {
-    if (p->hidden)
+    if (p->hidden || ++count > kMost)
       continue;
-    text += text.empty() ? "" : ", ";
+    text += text.empty() ? "" : "; ";
+    text += p->section == Section::inOut ? "VAR_IN_OUT " : "";
     text += std::string(p->name.text) + (p->section == Section::output ? " => " : " : ") +
             typeName(p->type);
   }
-  return std::string(pou->name.text) + "(" + text + ")";
+  if (count > kMost)
+    text += "; …";
+  const DeclKind kind = pou->decl->kind;
+  const std::string_view word = kind == DeclKind::function  ? "FUNCTION "
+                                : kind == DeclKind::program ? "PROGRAM "
+                                : kind == DeclKind::method  ? "METHOD "
+                                                            : "FUNCTION_BLOCK ";
+  return std::string(word) + std::string(pou->name.text) + " (" + text + ")" +
+         (pou->result != nullptr && pou->result->type != nullptr
+              ? " : " + typeName(pou->result->type)
+              : std::string());
 }
 
 } // namespace
 
+void Checker::noteSignature(Diagnostic &d, const PouSymbol *pou) {
+  if (pou->name.span.valid() && pou->library->isUser)
+    d.label(pou->name.span, "declared here");
+  d.note("it is declared as `" + signature(pou) + "`");
+}
+
 const Type *Checker::notCallable(CallExpr *expr, std::string message) {
-  report(Code::notCallable, expr->callee->span, std::move(message), "cannot be called");
+  auto &d = report(Code::notCallable, expr->callee->span, std::move(message), "cannot be called");
+  if (expr->callee->kind == ExprKind::name) {
+    const auto *name = as<NameExpr>(expr->callee);
+    if (name->symbol != nullptr)
+      noteDeclaration(d, name->symbol);
+    if (builtins_.contains(name->name.id))
+      d.help("this variable hides the standard function; give it another name");
+  }
   for (Argument &a : expr->arguments) {
     if (a.value != nullptr)
       check(a.value);
@@ -49,6 +75,7 @@ const Type *Checker::notCallable(CallExpr *expr, std::string message) {
 }
 
 const Type *Checker::checkCall(CallExpr *expr, bool asStatement) {
+  followSelf(expr->callee);
   Expr *callee = expr->callee;
   PouSymbol *pou = nullptr;
   // Functions, by plain or library-qualified name.
@@ -72,9 +99,8 @@ const Type *Checker::checkCall(CallExpr *expr, bool asStatement) {
     }
   } else if (callee->kind == ExprKind::member && as<MemberExpr>(callee)->bit < 0) {
     auto *member = as<MemberExpr>(callee);
-    if (Symbol *space = resolveNamespace(member->base);
-        space != nullptr && space->kind == SymbolKind::library) {
-      Symbol *symbol = lookupInLibrary(space->name.id, member->name.id);
+    if (Symbol *space = resolveNamespace(member->base); space != nullptr) {
+      Symbol *symbol = memberOfSpace(space, member->name.id);
       if (symbol != nullptr && symbol->kind == SymbolKind::pou) {
         pou = static_cast<PouSymbol *>(symbol);
         member->symbol = symbol;
@@ -204,10 +230,10 @@ void Checker::bindArguments(CallExpr *expr, PouSymbol *pou) {
         std::vector<std::string_view> names;
         for (const VarSymbol *p : positional)
           names.push_back(p->name.text);
-        const auto similar = nearest(a.name.text, names);
-        if (!similar.empty())
-          d.help("a similar one exists: `" + std::string(similar) + "`");
-        d.note("it is declared as `" + signature(pou) + "`");
+        if (const auto similar = nearest(a.name.text, names); !similar.empty())
+          d.suggest("a similar one exists: `" + std::string(similar) + "`", a.name.span,
+                    std::string(similar));
+        noteSignature(d, pou);
         if (a.value != nullptr)
           check(a.value);
         continue;
@@ -221,6 +247,11 @@ void Checker::bindArguments(CallExpr *expr, PouSymbol *pou) {
                        (isOutput ? " and gives a value" : " and takes a value"),
                    isOutput ? "write `=>` here" : "write `:=` here");
         noteDeclaration(d, parameter);
+        if (a.value != nullptr) {
+          const std::string argument = std::string(a.name.text) + (isOutput ? " => " : " := ") +
+                                       std::string(program_.sources.text(a.value->span));
+          d.suggest("write `" + argument + "`", a.span, argument);
+        }
         if (a.value != nullptr)
           check(a.value);
         continue;
@@ -230,7 +261,7 @@ void Checker::bindArguments(CallExpr *expr, PouSymbol *pou) {
         failed = true;
         auto &d = report(Code::mixedArguments, a.span,
                          "a positional argument cannot follow a named one", "name this argument");
-        d.note("it is declared as `" + signature(pou) + "`");
+        noteSignature(d, pou);
         check(a.value);
         continue;
       }
@@ -240,7 +271,7 @@ void Checker::bindArguments(CallExpr *expr, PouSymbol *pou) {
                              std::to_string(positional.size()) +
                              (positional.size() == 1 ? " argument" : " arguments"),
                          "one too many");
-        d.note("it is declared as `" + signature(pou) + "`");
+        noteSignature(d, pou);
         for (std::size_t i = next; i < expr->arguments.size(); ++i) {
           if (expr->arguments[i].value != nullptr)
             check(expr->arguments[i].value);
@@ -400,7 +431,7 @@ void Checker::reportMissing(CallExpr *expr, PouSymbol *pou,
                    "the call of `" + std::string(pou->name.text) + "` lacks " + missing,
                    inOut ? "every VAR_IN_OUT needs a variable at each call"
                          : "every input without default needs a value");
-  d.note("it is declared as `" + signature(pou) + "`");
+  noteSignature(d, pou);
 }
 
 } // namespace stc

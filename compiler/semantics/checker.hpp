@@ -31,7 +31,8 @@ private:
         names; ///< POUs, types, variables of lists that need no qualification
     std::unordered_map<Ident, GlobalsSymbol *> lists;
     std::unordered_map<Ident, std::vector<EnumeratorSymbol *>> enumerators;
-    std::vector<TypeSymbol *> declaredTypes; ///< in the order of the text
+    std::unordered_map<Ident, NamespaceSymbol *> spaces; ///< outermost namespaces
+    std::vector<TypeSymbol *> declaredTypes;             ///< in the order of the text
     std::unordered_set<std::string> loadedFiles;
   };
 
@@ -39,6 +40,7 @@ private:
   struct Scope {
     Module *module = nullptr;
     PouSymbol *pou = nullptr;
+    const ast::Decl *home = nullptr; ///< whose NAMESPACE and USING hold; null: the POU's
   };
   class ScopeGuard;
 
@@ -55,6 +57,12 @@ private:
   /// and defaults too.
   void declareUsed();
   void checkContainment(Module &module);
+  /// Looks for what is probably not meant; only in programs without errors.
+  void lint(Module &module);
+
+  // shadowing.cpp
+  void checkShadowing(Module &module);
+  void checkHiddenLibrary(Module &module);
 
   // names.cpp
   Symbol *lookup(const ast::Name &name);
@@ -68,6 +76,32 @@ private:
   std::vector<std::string_view> visibleNames(bool types);
   std::vector<std::string_view> memberNames(const Type *type);
   void reportUnknown(const ast::Name &name, bool asType);
+  /// Says where else the name exists, or what another language's word is called here.
+  bool helpElsewhere(Diagnostic &d, const ast::Name &name, bool asType);
+  /// The nearest of the members, or all of them when they are few.
+  void helpMembers(Diagnostic &d, const ast::Name &name,
+                   const std::vector<std::string_view> &members);
+  /// Shows how the called POU is declared.
+  void noteSignature(Diagnostic &d, const PouSymbol *pou);
+
+  // namespaces.cpp
+  /// The namespace of that path, made when it is new; null for an empty path.
+  NamespaceSymbol *declareSpace(Module &module, ast::NamePath path);
+  /// The declaration whose NAMESPACE and USING hold here, or null.
+  [[nodiscard]] const ast::Decl *home() const;
+  /// The namespaces around this place, from inside to outside.
+  std::vector<NamespaceSymbol *> spacesHere();
+  /// What a USING directive names: a namespace or a library; null: neither.
+  Symbol *usedSpace(const ast::NamePath &path);
+  Symbol *lookupInSpaces(Ident id);
+  Symbol *lookupInUsings(const ast::Name &name);
+  /// A name of the project (or library): in the namespaces around, outside of all, by USING.
+  Symbol *lookupDeclared(const ast::Name &name);
+  /// `A.B.Name`, also `Library.Name`; reports what it does not find.
+  Symbol *lookupPath(ast::NamePath path, bool asType);
+  /// What `space.name` is, of a namespace or a library; null: nothing.
+  Symbol *memberOfSpace(Symbol *space, Ident id);
+  void checkUsings(const ast::Decl *decl);
 
   // declarations.cpp
   void resolve(TypeSymbol *symbol);
@@ -227,6 +261,7 @@ private:
   static Symbol *lookupInPou(PouSymbol *pou, Ident id);
   Symbol *lookupSelf(const ast::Name &name);
   bool reportSelf(const ast::Name &name);
+  void followSelf(ast::Expr *&expr);
   [[nodiscard]] bool insideOf(const PouSymbol *owner) const;
   bool requireAccess(Span span, const Symbol *member, const PouSymbol *owner, ast::Access access);
   const Type *useProperty(ast::Expr *expr, PropertySymbol *property, const ast::Name &name);
@@ -255,14 +290,28 @@ private:
   void checkCase(ast::CaseStmt *stmt);
   void checkFor(ast::ForStmt *stmt);
 
+  // jumps.cpp
+  /// Binds each JMP of a body to its label.
+  void checkJumps(ast::Block body);
+  void checkTry(ast::TryStmt *stmt);
+
   Diagnostic &report(Code code, Span where, std::string message, std::string label = {}) {
-    return program_.diagnostics.report(code, where, std::move(message), std::move(label));
+    if (program_.diagnostics.errorCount() >= errorLimit_) {
+      notShown_ = {};
+      return notShown_;
+    }
+    Diagnostic &d = program_.diagnostics.report(code, where, std::move(message), std::move(label));
+    if (program_.diagnostics.errorCount() >= errorLimit_)
+      d.note("there are many errors; further ones are not shown");
+    return d;
   }
   const ConstValue *makeConstant(const ConstValue &value) { return arena_.make<ConstValue>(value); }
   [[nodiscard]] std::string describe(const Symbol *symbol) const;
   void noteDeclaration(Diagnostic &diagnostic, const Symbol *symbol);
 
   Program &program_;
+  std::size_t errorLimit_; ///< so many errors are shown
+  Diagnostic notShown_;    ///< takes the others
   Arena &arena_;
   const LibraryIndex &index_;
   TypeTable types_;
@@ -272,7 +321,9 @@ private:
   std::unordered_map<Ident, const Type *> elementary_;
   std::unordered_map<Ident, Symbol *>
       libraryMisses_; ///< results of lookupInLibraries, also the misses
+  std::unordered_set<const Library *> wholeLibraries_; ///< all of their files are loaded
   Scope scope_;
+  std::set<std::uint64_t> badUsings_;                     ///< places of USING that were reported
   std::set<std::pair<const PouSymbol *, Ident>> unknown_; ///< names reported already
   unsigned loopDepth_ = 0;
   bool programTypes_ = false;                ///< the type being resolved may be a PROGRAM

@@ -156,13 +156,15 @@ PouSymbol *Checker::lookupBase(NamePath path, bool interface, const PouSymbol *f
   const Name &name = path.back();
   Symbol *symbol = nullptr;
   if (path.size() == 1) {
-    symbol = lookupInModule(*scope_.module, name.id);
+    symbol = lookupDeclared(name);
     if (symbol == nullptr || symbol->kind == SymbolKind::variable) {
       Symbol *inLibrary = lookupInLibraries(name.id);
       symbol = inLibrary != nullptr ? inLibrary : symbol;
     }
   } else {
-    symbol = lookupInLibrary(path.front().id, name.id);
+    symbol = lookupPath(path, true);
+    if (symbol == nullptr)
+      return nullptr;
   }
   if (symbol == nullptr) {
     reportUnknown(name, true);
@@ -188,7 +190,7 @@ void Checker::link(PouSymbol *pou) {
     return;
   pou->linked = true;
   pou->linking = true;
-  const ScopeGuard guard(*this, {&moduleOf(pou), nullptr});
+  const ScopeGuard guard(*this, {&moduleOf(pou), nullptr, pou->decl});
   makeMembers(pou);
   const auto circle = [&](PouSymbol *other, const Name &name) {
     if (!other->linking)

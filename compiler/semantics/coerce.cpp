@@ -141,6 +141,12 @@ void Checker::reportConversion(Expr *expr, const Type *from, const Type *to, Con
                                std::string_view what) {
   const std::string function = conversionFunction(from, to);
   const std::string text = excerpt(program_.sources, expr);
+  const auto quoted = [this](const Expr *literal, char quote) {
+    std::string source(program_.sources.text(literal->span));
+    if (source.size() >= 2)
+      source.front() = source.back() = quote;
+    return source;
+  };
   const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
   if (conversion == Conversion::lossy) {
     auto &d = report(Code::lossyConversion, expr->span,
@@ -150,7 +156,8 @@ void Checker::reportConversion(Expr *expr, const Type *from, const Type *to, Con
     if (to->kind == TypeKind::enumeration)
       d.help("assign one of the enumerators of " + typeName(to));
     else if (!function.empty())
-      d.help("say that it is meant: `" + function + "(" + text + ")`");
+      d.suggest("say that it is meant: `" + function + "(" + text + ")`", expr->span,
+                function + "(" + std::string(program_.sources.text(expr->span)) + ")");
     return;
   }
   if (conversion == Conversion::narrowing) {
@@ -166,8 +173,15 @@ void Checker::reportConversion(Expr *expr, const Type *from, const Type *to, Con
              (function.empty() ? "" : ": `" + function + "(…)`"));
     else if (to->kind == TypeKind::time && from->kind == TypeKind::anyInteger)
       d.help("write a duration with its unit: `T#" + text + "ms`");
+    else if (expr->kind == ExprKind::literal && from->kind == TypeKind::wstring &&
+             to->kind == TypeKind::string && !function.empty())
+      d.suggest("a STRING stands in single quotes", expr->span, quoted(expr, '\''));
+    else if (expr->kind == ExprKind::literal && from->kind == TypeKind::string &&
+             to->kind == TypeKind::wstring)
+      d.suggest("a WSTRING stands in double quotes", expr->span, quoted(expr, '"'));
     else if (!function.empty() && from->kind != TypeKind::anyInteger)
-      d.help("convert it: `" + function + "(" + text + ")`");
+      d.suggest("convert it: `" + function + "(" + text + ")`", expr->span,
+                function + "(" + std::string(program_.sources.text(expr->span)) + ")");
     return;
   }
   auto &d = report(Code::typeMismatch, expr->span,

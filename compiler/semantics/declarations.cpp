@@ -39,7 +39,7 @@ void Checker::resolve(TypeSymbol *symbol) {
     return;
   }
   symbol->resolving = true;
-  const ScopeGuard guard(*this, {&moduleOf(symbol), nullptr});
+  const ScopeGuard guard(*this, {&moduleOf(symbol), nullptr, symbol->decl});
   switch (symbol->decl->kind) {
   case DeclKind::structure:
     resolveStruct(symbol, as<StructDecl>(symbol->decl));
@@ -90,9 +90,9 @@ void Checker::resolveStruct(TypeSymbol *symbol, StructDecl *decl) {
   type->pack = packMode(decl->attributes, symbol->library->isUser ? program_.settings.pack : 0);
   if (!decl->base.empty()) {
     const Name &baseName = decl->base.back();
-    Symbol *base = lookup(baseName);
+    Symbol *base = lookupPath(decl->base, true);
     if (base == nullptr) {
-      reportUnknown(baseName, true);
+      type->base = nullptr; // reported
     } else if (base->kind == SymbolKind::type) {
       auto *baseSymbol = static_cast<TypeSymbol *>(base);
       const bool circle = baseSymbol->resolving;
@@ -116,6 +116,7 @@ void Checker::resolveStruct(TypeSymbol *symbol, StructDecl *decl) {
   std::vector<VarSymbol *> fields;
   for (VarDecl *f : decl->fields) {
     VarSymbol *field = makeVariable(f, moduleOf(symbol), nullptr);
+    field->home = decl;
     const auto [it, fresh] = symbol->fields.emplace(f->name.id, field);
     if (!fresh) {
       auto &d = report(Code::duplicateName, f->name.span,
@@ -163,6 +164,7 @@ const EnumType *Checker::makeEnum(EnumTypeExpr *expr, TypeSymbol *symbol) {
     enumerator->kind = SymbolKind::enumerator;
     enumerator->name = e.name;
     enumerator->library = symbol->library;
+    enumerator->space = symbol->space;
     enumerator->type = type;
     if (e.value != nullptr) {
       if (const auto value = constantInteger(e.value, "the value of an enumerator"))
@@ -186,7 +188,8 @@ const EnumType *Checker::makeEnum(EnumTypeExpr *expr, TypeSymbol *symbol) {
     }
     list.push_back(enumerator);
     if (symbol->decl == nullptr || !hasAttribute(symbol->decl->attributes, "qualified_only"))
-      module.enumerators[e.name.id].push_back(enumerator);
+      (symbol->space == nullptr ? module.enumerators : symbol->space->enumerators)[e.name.id]
+          .push_back(enumerator);
   }
   type->enumerators = arena_.copy(list);
   type->initial = list.empty() ? nullptr : list.front();
@@ -260,7 +263,7 @@ const Type *Checker::resolveNamed(NamedTypeExpr *expr) {
         return type;
     }
     // Types are not hidden by variables of the same name (`TON : TON`).
-    symbol = lookupInModule(*scope_.module, name.id);
+    symbol = lookupDeclared(name);
     if (symbol == nullptr || symbol->kind == SymbolKind::variable) {
       Symbol *inLibrary = lookupInLibraries(name.id);
       symbol = inLibrary != nullptr ? inLibrary : symbol;
@@ -268,12 +271,9 @@ const Type *Checker::resolveNamed(NamedTypeExpr *expr) {
     if (symbol == nullptr && scope_.pou != nullptr && scope_.pou->scope.contains(name.id))
       symbol = scope_.pou->scope.at(name.id);
   } else {
-    const Name &libraryName = expr->path.front();
-    if (expr->path.size() > 2 || !index_.isLibrary(libraryName.id->lower)) {
-      reportUnknown(libraryName, true);
+    symbol = lookupPath(expr->path, true);
+    if (symbol == nullptr)
       return elementaryType(TypeKind::error);
-    }
-    symbol = lookupInLibrary(libraryName.id, name.id);
   }
   if (symbol == nullptr) {
     reportUnknown(name, true);
@@ -459,7 +459,7 @@ const Type *Checker::typeOf(VarSymbol *variable) {
   }
   variable->typeRunning = true;
   programTypes_ = isProgramInstance(variable);
-  const ScopeGuard guard(*this, {&moduleOf(variable), variable->owner});
+  const ScopeGuard guard(*this, {&moduleOf(variable), variable->owner, variable->home});
   const Symbol *home =
       variable->owner != nullptr ? static_cast<const Symbol *>(variable->owner) : variable->globals;
   const Type *type = resolveType(variable->decl->type, std::string(home->name.text) + "__" +

@@ -76,8 +76,14 @@ void Checker::checkCondition(Expr *expr, std::string_view what) {
     return;
   auto &d = report(Code::conditionNotBool, expr->span,
                    std::string(what) + " must be BOOL, this is " + typeName(type), "expected BOOL");
-  if (isInteger(underlying(type)) || isReal(type) || type->kind == TypeKind::anyInteger)
-    d.help("compare it with a value: `… <> 0`");
+  if (isInteger(underlying(type)) || isReal(type) || type->kind == TypeKind::anyInteger ||
+      type->kind == TypeKind::pointer) {
+    const Span behind{expr->span.file, expr->span.end, expr->span.end};
+    const std::string_view text = program_.sources.text(expr->span);
+    d.suggest("compare it with a value: `" + (text.size() <= 40 ? std::string(text) : "…") +
+                  " <> 0`",
+              behind, " <> 0");
+  }
 }
 
 // -------------------------------------------------------------------------------------------------------
@@ -182,9 +188,7 @@ const Type *Checker::checkEnumLiteral(EnumLiteralExpr *expr) {
                      "`" + std::string(type->name.text) + "` has no enumerator `" +
                          std::string(expr->enumerator.text) + "`",
                      "not one of its values");
-    const auto similar = nearest(expr->enumerator.text, memberNames(type->type));
-    if (!similar.empty())
-      d.help("a similar one exists: `" + std::string(similar) + "`");
+    helpMembers(d, expr->enumerator, memberNames(type->type));
   }
   return elementaryType(TypeKind::error);
 }
@@ -291,7 +295,7 @@ Symbol *Checker::resolveNamespace(Expr *expr) {
         isElementary(typeOf(static_cast<VarSymbol *>(symbol)))) {
       // `color : Color := Color.red`: a variable without members does not hide a type, list or
       // library.
-      Symbol *other = lookupInModule(*scope_.module, name->name.id);
+      Symbol *other = lookupDeclared(name->name);
       if (other == symbol || other == nullptr)
         other = lookupInLibraries(name->name.id);
       if (other != nullptr && other->kind == SymbolKind::type)
@@ -301,7 +305,7 @@ Symbol *Checker::resolveNamespace(Expr *expr) {
     // value wins.
     if (symbol != nullptr &&
         (symbol->kind == SymbolKind::type || symbol->kind == SymbolKind::library ||
-         symbol->kind == SymbolKind::globals)) {
+         symbol->kind == SymbolKind::globals || symbol->kind == SymbolKind::space)) {
       name->symbol = symbol;
       return symbol;
     }
@@ -312,10 +316,11 @@ Symbol *Checker::resolveNamespace(Expr *expr) {
     if (member->bit >= 0)
       return nullptr;
     Symbol *base = resolveNamespace(member->base);
-    if (base == nullptr || base->kind != SymbolKind::library)
+    if (base == nullptr)
       return nullptr;
-    Symbol *symbol = lookupInLibrary(base->name.id, member->name.id);
-    if (symbol != nullptr && symbol->kind == SymbolKind::type) {
+    Symbol *symbol = memberOfSpace(base, member->name.id);
+    if (symbol != nullptr &&
+        (symbol->kind == SymbolKind::type || symbol->kind == SymbolKind::space)) {
       member->symbol = symbol;
       return symbol;
     }
@@ -326,6 +331,7 @@ Symbol *Checker::resolveNamespace(Expr *expr) {
 const Type *Checker::checkMember(MemberExpr *expr) {
   if (expr->bit >= 0)
     return checkBit(expr);
+  followSelf(expr->base);
   const std::string name(expr->name.text);
   if (Symbol *space = resolveNamespace(expr->base)) {
     Symbol *found = nullptr;
@@ -350,7 +356,10 @@ const Type *Checker::checkMember(MemberExpr *expr) {
       for (const VarSymbol *v : list->variables)
         candidates.push_back(v->name.text);
     } else {
-      found = lookupInLibrary(space->name.id, expr->name.id);
+      found = memberOfSpace(space, expr->name.id);
+      if (space->kind == SymbolKind::space)
+        for (const auto &[id, symbol] : static_cast<NamespaceSymbol *>(space)->names)
+          candidates.push_back(symbol->name.text);
     }
     if (found == nullptr) {
       const Code code =
@@ -358,9 +367,7 @@ const Type *Checker::checkMember(MemberExpr *expr) {
       auto &d = report(code, expr->name.span,
                        "`" + std::string(space->name.text) + "` has no `" + name + "`",
                        "not found in " + describe(space));
-      const auto similar = nearest(expr->name.text, candidates);
-      if (!similar.empty())
-        d.help("a similar name exists: `" + std::string(similar) + "`");
+      helpMembers(d, expr->name, candidates);
       return elementaryType(TypeKind::error);
     }
     expr->symbol = found;
@@ -401,12 +408,14 @@ const Type *Checker::checkMemberOf(MemberExpr *expr, const Type *base) {
     // `w.cBit`: a bit by the name of a constant belongs to integers, which were handled above.
     auto &d = report(Code::unknownMember, expr->name.span,
                      "`" + typeName(base) + "` has no member `" + name + "`", "unknown member");
-    const auto similar = nearest(expr->name.text, memberNames(base));
-    if (!similar.empty())
-      d.help("a similar one exists: `" + std::string(similar) + "`");
+    helpMembers(d, expr->name, memberNames(base));
     return elementaryType(TypeKind::error);
   }
-  if (member->owner != nullptr && !insideOf(member->owner) &&
+  const Access access = member->decl == nullptr ? Access::none : member->decl->access;
+  if (access == Access::privateA && member->owner != nullptr &&
+      !requireAccess(expr->name.span, member, member->owner, access))
+    return elementaryType(TypeKind::error);
+  if (member->owner != nullptr && access != Access::publicA && !insideOf(member->owner) &&
       (member->section == Section::temp ||
        (member->section == Section::local && base->kind == TypeKind::functionBlock))) {
     auto &d = report(Code::notAccessible, expr->name.span,

@@ -33,7 +33,7 @@ void Checker::checkInitOf(VarSymbol *variable) {
     return;
   variable->initChecked = true;
   const Type *type = typeOf(variable);
-  const ScopeGuard guard(*this, {&moduleOf(variable), variable->owner});
+  const ScopeGuard guard(*this, {&moduleOf(variable), variable->owner, variable->home});
   checkConstruct(variable);
   if (variable->decl->init == nullptr) {
     if (variable->isConstant && variable->section != Section::input &&

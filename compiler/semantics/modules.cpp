@@ -1,6 +1,8 @@
 // Modules: files become symbols, libraries are pulled in on demand.
 
 #include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/hierarchy.hpp"
+#include "compiler/semantics/lint.hpp"
 #include "compiler/syntax/parser.hpp"
 
 #include <algorithm>
@@ -10,6 +12,13 @@
 namespace stc {
 
 using namespace ast;
+
+namespace {
+
+constexpr std::size_t kMaxErrors = 100;
+constexpr std::uint32_t kVarGlobal = 10; // letters
+
+} // namespace
 
 std::vector<VarSymbol *> PouSymbol::parameters() const {
   std::vector<VarSymbol *> list;
@@ -24,7 +33,8 @@ std::vector<VarSymbol *> PouSymbol::parameters() const {
 }
 
 Checker::Checker(Program &program, const LibraryIndex &index)
-    : program_(program), arena_(program.arena), index_(index), types_(program.arena) {
+    : program_(program), errorLimit_(program.diagnostics.errorCount() + kMaxErrors),
+      arena_(program.arena), index_(index), types_(program.arena) {
   for (const auto &[name, function] : builtins()) {
     const Ident id = program.interner.intern(name);
     auto *symbol = arena_.make<BuiltinSymbol>();
@@ -65,7 +75,8 @@ void Checker::loadLibraryFile(const LibraryIndex::Entry &entry) {
 }
 
 void Checker::addName(Module &module, Symbol *symbol) {
-  const auto [it, inserted] = module.names.emplace(symbol->name.id, symbol);
+  auto &names = symbol->space == nullptr ? module.names : symbol->space->names;
+  const auto [it, inserted] = names.emplace(symbol->name.id, symbol);
   if (inserted)
     return;
   auto &d = report(Code::duplicateName, symbol->name.span,
@@ -89,6 +100,7 @@ void Checker::declareFile(Module &module, File *file) {
       pou.name = decl->name;
       pou.library = library;
       pou.decl = as<PouDecl>(decl);
+      pou.space = declareSpace(module, decl->space);
       if (decl->kind != DeclKind::function) {
         const TypeKind kind = decl->kind == DeclKind::program     ? TypeKind::program
                               : decl->kind == DeclKind::interface ? TypeKind::interface
@@ -107,11 +119,17 @@ void Checker::declareFile(Module &module, File *file) {
       type.name = decl->name;
       type.library = library;
       type.decl = decl;
+      type.space = declareSpace(module, decl->space);
       module.declaredTypes.push_back(&type);
       addName(module, &type);
       break;
     }
     case DeclKind::globals:
+      if (!decl->space.empty())
+        report(Code::sectionNotAllowed,
+               {decl->span.file, decl->span.begin, decl->span.begin + kVarGlobal},
+               "VAR_GLOBAL cannot stand in a NAMESPACE", "global variables belong to no namespace")
+            .help("move it out of the NAMESPACE");
       declareGlobals(module, as<GlobalsDecl>(decl));
       break;
     case DeclKind::config:
@@ -176,6 +194,7 @@ void Checker::declareGlobals(Module &module, GlobalsDecl *decl) {
   for (VarDecl *v : decl->variables) {
     VarSymbol *symbol = makeVariable(v, module, nullptr);
     symbol->globals = list;
+    symbol->home = decl;
     if (!list->scope.emplace(v->name.id, symbol).second) {
       auto &d = report(Code::duplicateName, v->name.span,
                        "the name `" + std::string(v->name.text) + "` is declared twice",
@@ -190,7 +209,6 @@ void Checker::declareGlobals(Module &module, GlobalsDecl *decl) {
 }
 
 void Checker::resolveEnumerations(Module &module) {
-  const ScopeGuard guard(*this, {&module, nullptr});
   for (std::size_t i = 0; i < module.declaredTypes.size(); ++i) {
     if (module.declaredTypes[i]->decl->kind == DeclKind::enumeration)
       resolve(module.declaredTypes[i]);
@@ -207,7 +225,7 @@ void Checker::checkModule(Module &module) {
   // Enumerators are visible without their type's name, so they come first.
   resolveEnumerations(module);
   byIndex(module.declaredTypes, [&](TypeSymbol *t) {
-    const ScopeGuard guard(*this, {&module, nullptr});
+    const ScopeGuard guard(*this, {&module, nullptr, t->decl});
     resolve(t);
   });
   byIndex(library->pous, [&](PouSymbol *p) { link(p); });
@@ -216,7 +234,7 @@ void Checker::checkModule(Module &module) {
   byIndex(library->pous, [&](PouSymbol *p) { checkClass(p); });
   checkContainment(module);
   for (TypeSymbol *t : std::vector<TypeSymbol *>(library->types)) {
-    const ScopeGuard guard(*this, {&module, nullptr});
+    const ScopeGuard guard(*this, {&module, nullptr, t->decl});
     if (t->type->kind == TypeKind::structure && t->decl->kind == DeclKind::structure) {
       for (VarSymbol *field : typeAs<StructType>(t->type)->fields)
         checkInitOf(field);
@@ -295,10 +313,25 @@ void Checker::checkUser(const std::vector<File *> &files) {
   Module &user = module("");
   for (File *file : files)
     declareFile(user, file);
+  {
+    const ScopeGuard guard(*this, {&user, nullptr});
+    for (const File *file : files)
+      for (const Decl *decl : file->declarations)
+        checkUsings(decl);
+  }
   checkModule(user);
   declareUsed();
   checkConfigured(user);
   finishImage();
+  lint(user);
+}
+
+void Checker::lint(Module &module) {
+  if (program_.diagnostics.hasErrors())
+    return;
+  checkShadowing(module);
+  checkHiddenLibrary(module);
+  Linter(program_).run(*module.library);
 }
 
 void Checker::declareUsed() {
@@ -313,6 +346,16 @@ void Checker::declareUsed() {
     }
     for (std::size_t i = 0; i < library->globals.size(); ++i)
       declare(library->globals[i]);
+    // Which blocks extend a library's block or implement its interface must be known in full.
+    if (!library->isUser && !wholeLibraries_.contains(library) &&
+        std::any_of(library->pous.begin(), library->pous.end(), [](const PouSymbol *p) {
+          return p->isInterface() || (p->isBlock() && hasTypeId(p));
+        })) {
+      wholeLibraries_.insert(library);
+      for (const LibraryIndex::Entry &entry : index_.files(library->name))
+        loadLibraryFile(entry);
+      declared = true;
+    }
     if (declared || before != program_.libraries.size() + library->pous.size())
       l = static_cast<std::size_t>(-1); // others may have been pulled in
   }
@@ -324,6 +367,7 @@ void Checker::checkLibrary(std::string_view name) {
     loadLibraryFile(entry);
   checkModule(target);
   declareUsed();
+  lint(target);
 }
 
 void check(Program &program, const std::vector<File *> &files, const LibraryIndex &index) {

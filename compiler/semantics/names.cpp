@@ -45,7 +45,7 @@ Symbol *Checker::lookup(const Name &name) {
     if (Symbol *symbol = lookupInPou(scope_.pou, name.id))
       return symbol;
   }
-  if (Symbol *symbol = lookupInModule(*scope_.module, name.id))
+  if (Symbol *symbol = lookupDeclared(name))
     return symbol;
   if (Symbol *symbol = lookupSelf(name))
     return symbol;
@@ -57,6 +57,9 @@ Symbol *Checker::lookup(const Name &name) {
   const auto list = scope_.module->lists.find(name.id);
   if (list != scope_.module->lists.end())
     return list->second;
+  const auto space = scope_.module->spaces.find(name.id);
+  if (space != scope_.module->spaces.end())
+    return space->second;
   if (index_.isLibrary(name.id->lower)) {
     auto *symbol = arena_.make<LibrarySymbol>();
     symbol->kind = SymbolKind::library;
@@ -88,8 +91,26 @@ EnumeratorSymbol *Checker::lookupEnumerator(const Name &name, const Type *expect
     ambiguous = it->second.size() > 1;
     return it->second.front();
   };
+  for (NamespaceSymbol *space : spacesHere()) {
+    const auto it = space->enumerators.find(name.id);
+    if (it == space->enumerators.end())
+      continue;
+    ambiguous = it->second.size() > 1;
+    return it->second.front();
+  }
   if (EnumeratorSymbol *e = inModule(*scope_.module))
     return e;
+  if (const Decl *decl = home(); decl != nullptr)
+    for (const NamePath &path : decl->usings) {
+      Symbol *space = usedSpace(path);
+      if (space == nullptr || space->kind != SymbolKind::space)
+        continue;
+      const auto &enumerators = static_cast<NamespaceSymbol *>(space)->enumerators;
+      if (const auto it = enumerators.find(name.id); it != enumerators.end()) {
+        ambiguous = it->second.size() > 1;
+        return it->second.front();
+      }
+    }
   for (const LibraryIndex::Entry &entry : index_.find(name.id->lower)) {
     loadLibraryFile(entry);
     if (EnumeratorSymbol *e = inModule(module(std::string(entry.library))))
@@ -131,6 +152,9 @@ std::vector<std::string_view> Checker::visibleNames(bool types) {
       }
     }
   }
+  for (const NamespaceSymbol *space : spacesHere())
+    for (const auto &[id, symbol] : space->names)
+      add(symbol);
   for (const auto &[id, symbol] : scope_.module->names)
     add(symbol);
   if (types) {
@@ -192,6 +216,84 @@ bool isLaterWord(std::string_view lower) {
 
 } // namespace
 
+namespace {
+
+struct Word {
+  std::string_view theirs;
+  std::string_view ours;
+};
+
+/// What a type of another language is called here.
+std::string_view typeOfOtherLanguages(std::string_view lower) {
+  static constexpr Word kTypes[] = {
+      {"float", "REAL"},
+      {"double", "LREAL"},
+      {"single", "REAL"},
+      {"boolean", "BOOL"},
+      {"integer", "INT"},
+      {"short", "INT"},
+      {"long", "DINT"},
+      {"unsigned", "UDINT"},
+      {"int8", "SINT"},
+      {"int16", "INT"},
+      {"int32", "DINT"},
+      {"int64", "LINT"},
+      {"uint8", "USINT"},
+      {"uint16", "UINT"},
+      {"uint32", "UDINT"},
+      {"uint64", "ULINT"},
+      {"int8_t", "SINT"},
+      {"int16_t", "INT"},
+      {"int32_t", "DINT"},
+      {"int64_t", "LINT"},
+      {"uint8_t", "USINT"},
+      {"uint16_t", "UINT"},
+      {"uint32_t", "UDINT"},
+      {"uint64_t", "ULINT"},
+      {"float32", "REAL"},
+      {"float64", "LREAL"},
+      {"size_t", "UDINT"},
+      {"str", "STRING"},
+      {"qword", "LWORD"},
+      {"timer", "TON"},
+      {"counter", "CTU"},
+      {"datetime", "DT"},
+      {"void", "a FUNCTION without a result has no type behind its name"}};
+  const auto at = std::find_if(std::begin(kTypes), std::end(kTypes),
+                               [&](const Word &word) { return word.theirs == lower; });
+  return at == std::end(kTypes) ? std::string_view() : at->ours;
+}
+
+/// What to write for a word of another language.
+std::string_view wordOfOtherLanguages(std::string_view lower) {
+  static constexpr Word kWords[] = {
+      {"break", "leave a loop with EXIT; a branch of CASE ends by itself"},
+      {"null", "0"},
+      {"nullptr", "0"},
+      {"nil", "0"},
+      {"default", "the last branch of a CASE begins with ELSE, without a colon"},
+      {"otherwise", "the last branch of a CASE begins with ELSE, without a colon"},
+      {"switch", "choose by a value with CASE … OF … END_CASE"},
+      {"pass", "a statement that does nothing is a `;`"},
+      {"this", "THIS stands in methods and function blocks only"},
+      {"self", "THIS"},
+      {"printf", "nothing is printed from a program: write into a variable and watch it"},
+      {"print", "nothing is printed from a program: write into a variable and watch it"},
+      {"strlen", "LEN"},
+      {"strcat", "CONCAT"},
+      {"fabs", "ABS"},
+      {"pow", "EXPT"},
+      {"fmod", "SMC_fmod"},
+      {"ceil", "write `TRUNC(x)` and add 1 where x is larger"},
+      {"begin", "statements follow the last END_VAR directly"},
+      {"end", "each block is closed by its own word: END_IF, END_FOR, END_WHILE, END_CASE"}};
+  const auto at = std::find_if(std::begin(kWords), std::end(kWords),
+                               [&](const Word &word) { return word.theirs == lower; });
+  return at == std::end(kWords) ? std::string_view() : at->ours;
+}
+
+} // namespace
+
 void Checker::reportUnknown(const Name &name, bool asType) {
   if (!asType) {
     if (!unknown_.emplace(scope_.pou, name.id).second)
@@ -209,11 +311,91 @@ void Checker::reportUnknown(const Name &name, bool asType) {
                       "cannot find type `" + std::string(name.text) + "`", "no type of this name")
              : report(Code::unknownName, name.span, "cannot find `" + std::string(name.text) + "`",
                       "not declared in this scope");
+  if (helpElsewhere(d, name, asType))
+    return;
   const std::string_view similar = nearest(name.text, visibleNames(asType));
   if (!similar.empty())
-    d.help("a similar name exists: `" + std::string(similar) + "`");
+    d.suggest("a similar name exists: `" + std::string(similar) + "`", name.span,
+              std::string(similar));
   else if (!asType)
     d.help("declare it in a VAR section of this POU or in a VAR_GLOBAL list");
+}
+
+bool Checker::helpElsewhere(Diagnostic &d, const Name &name, bool asType) {
+  const std::string text(name.text);
+  if (const std::string_view meant =
+          asType ? typeOfOtherLanguages(name.id->lower) : wordOfOtherLanguages(name.id->lower);
+      !meant.empty()) {
+    const bool plain = meant.find(' ') == std::string_view::npos;
+    const std::string help =
+        plain ? "in Structured Text this is `" + std::string(meant) + "`" : std::string(meant);
+    if (plain)
+      d.suggest(help, name.span, std::string(meant));
+    else
+      d.help(help);
+    return true;
+  }
+  if (asType)
+    return false;
+  // A member of something that is in scope, a variable of a program, a list that must be named.
+  std::vector<std::string> places;
+  const auto found = [&](std::string place) {
+    if (std::find(places.begin(), places.end(), place) == places.end())
+      places.push_back(std::move(place));
+  };
+  if (scope_.pou != nullptr) {
+    for (VarSymbol *v : scope_.pou->variables) {
+      if (v->type == nullptr || v->hidden)
+        continue;
+      if (v->type->kind != TypeKind::structure && !isInstance(v->type))
+        continue;
+      const VarSymbol *member = findMember(v->type, name.id);
+      const bool open = member != nullptr && !member->hidden && !member->isResult &&
+                        (member->owner == nullptr || member->section == Section::input ||
+                         member->section == Section::output);
+      if (open)
+        found(std::string(v->name.text) + "." + std::string(member->name.text));
+    }
+  }
+  for (const PouSymbol *pou : scope_.module->library->pous) {
+    if (pou == scope_.pou || pou->decl->kind != DeclKind::program)
+      continue;
+    for (const VarDecl *v : pou->decl->variables) {
+      if (v->name.id == name.id && v->section != Section::temp)
+        found(std::string(pou->name.text) + "." + std::string(v->name.text));
+    }
+  }
+  for (const GlobalsSymbol *list : scope_.module->library->globals) {
+    const auto it = list->scope.find(name.id);
+    if (it != list->scope.end())
+      found(std::string(list->name.text) + "." + std::string(it->second->name.text));
+  }
+  constexpr std::size_t kMost = 3;
+  if (places.empty() || places.size() > kMost)
+    return false;
+  if (places.size() == 1) {
+    d.suggest("did you mean `" + places[0] + "`?", name.span, places[0]);
+    return true;
+  }
+  std::string list;
+  for (const std::string &place : places)
+    list += (list.empty() ? "`" : ", `") + place + "`";
+  d.help("did you mean one of these: " + list + "?");
+  return true;
+}
+
+void Checker::helpMembers(Diagnostic &d, const Name &name,
+                          const std::vector<std::string_view> &members) {
+  constexpr std::size_t kFew = 8;
+  if (const std::string_view similar = nearest(name.text, members); !similar.empty()) {
+    d.suggest("a similar one exists: `" + std::string(similar) + "`", name.span,
+              std::string(similar));
+  } else if (!members.empty() && members.size() <= kFew) {
+    std::string list;
+    for (const std::string_view member : members)
+      list += (list.empty() ? "`" : ", `") + std::string(member) + "`";
+    d.help("there is " + list);
+  }
 }
 
 std::string Checker::describe(const Symbol *symbol) const {
@@ -253,6 +435,8 @@ std::string Checker::describe(const Symbol *symbol) const {
   case SymbolKind::self:
     return static_cast<const SelfSymbol *>(symbol)->isSuper ? "the base of this block"
                                                             : "this block's own instance";
+  case SymbolKind::space:
+    return "a namespace";
   }
   return {};
 }

@@ -86,6 +86,11 @@ const Type *Checker::operatorError(BinaryExpr *expr) {
   else if (l->kind == TypeKind::boolean || r->kind == TypeKind::boolean) {
     if (!isLogical(expr->op))
       d.help("convert the BOOL first: `BOOL_TO_INT(…)`");
+    else if (expr->left->kind == ExprKind::binary && isNumber(r) &&
+             as<BinaryExpr>(expr->left)->op == BinaryOp::equal)
+      d.help("each side is a condition of its own: `… " + op + " " +
+             std::string(program_.sources.text(as<BinaryExpr>(expr->left)->left->span)) + " = " +
+             std::string(program_.sources.text(expr->right->span)) + "`");
     else if (isNumber(l) || isNumber(r))
       d.help("compare the number first: `… <> 0`");
   }

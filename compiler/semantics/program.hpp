@@ -5,6 +5,7 @@
 #include "compiler/source/arena.hpp"
 #include "compiler/source/diagnostic.hpp"
 #include "compiler/source/source_manager.hpp"
+#include "compiler/syntax/conditions.hpp"
 
 #include <array>
 #include <deque>
@@ -89,9 +90,12 @@ inline constexpr std::string_view kProgramInstance = "program instance";
 
 struct Settings {
   bool checks = true; ///< run-time checks (index, division, null, subrange)
+  Levels levels;      ///< severities given on the command line; they go before stride.toml's
   Addressing addressing = Addressing::units;
   std::array<std::uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs
   unsigned pack = 0; ///< of the project's structures without pack_mode; 0: natural alignment
+  std::vector<Define>
+      defines; ///< names that `{IF defined (…)}` knows, besides those of stride.toml
 };
 
 /// The process image: bytes per area, by Area.
@@ -114,6 +118,7 @@ struct Program {
   Library *user = nullptr;        ///< the project; null while a library itself is compiled
   std::vector<ast::File *> files; ///< parsed user files
   // Storage of the symbols that own containers (the others live in the arena).
+  std::deque<NamespaceSymbol> spaceStorage;
   std::deque<PouSymbol> pouStorage;
   std::deque<TypeSymbol> typeStorage;
   std::deque<GlobalsSymbol> globalsStorage;

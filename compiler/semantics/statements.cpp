@@ -18,6 +18,7 @@ void Checker::checkBody(PouSymbol *pou) {
     checkInitOf(v);
   loopDepth_ = 0;
   checkBlock(pou->decl->body);
+  checkJumps(pou->decl->body);
   for (PouSymbol *method : pou->methods) {
     declare(method);
     if (pou->isInterface()) { // callers use the default values
@@ -91,11 +92,11 @@ void Checker::checkStatement(Stmt *stmt) {
     checkCondition(s->until, "the condition of UNTIL");
     break;
   }
-  case StmtKind::jump:
+  case StmtKind::jump: // checkJumps() looks at the body as a whole
   case StmtKind::label:
+    break;
   case StmtKind::tryS:
-    report(Code::unsupported, stmt->span, "this statement is not supported by this version",
-           "not available");
+    checkTry(as<TryStmt>(stmt));
     break;
   case StmtKind::exit:
   case StmtKind::continueS:

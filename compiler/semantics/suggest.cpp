@@ -38,7 +38,8 @@ std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) 
 } // namespace
 
 std::string_view nearest(std::string_view word, const std::vector<std::string_view> &candidates) {
-  std::size_t best = std::max<std::size_t>(1, word.size() / 3);
+  // Any letter is one edit away from any other.
+  std::size_t best = word.size() < 2 ? 0 : std::max<std::size_t>(1, word.size() / 3);
   std::string_view found;
   for (const std::string_view candidate : candidates) {
     const std::size_t d = distance(word, candidate, best);

@@ -8,7 +8,7 @@ namespace stc {
 
 /// The candidate nearest to `word` (optimal string alignment distance, case ignored), or an empty
 /// view when none is near enough to be meant: at most a third of the word's length, at least one
-/// edit.
+/// edit; one letter must be the same.
 [[nodiscard]] std::string_view nearest(std::string_view word,
                                        const std::vector<std::string_view> &candidates);
 

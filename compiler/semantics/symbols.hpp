@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>
@@ -23,15 +24,18 @@ enum class SymbolKind : std::uint8_t {
   globals,
   property,
   self, ///< THIS, SUPER
+  space,
 };
 
 /// A library, or the user's project (whose name is empty).
 struct Library;
+struct NamespaceSymbol;
 
 struct Symbol {
   SymbolKind kind;
-  ast::Name name;             ///< as declared
-  Library *library = nullptr; ///< where it is declared
+  ast::Name name;                   ///< as declared
+  Library *library = nullptr;       ///< where it is declared
+  NamespaceSymbol *space = nullptr; ///< the NAMESPACE it is declared in; null: none
 };
 
 /// The areas of the process image.
@@ -51,7 +55,8 @@ struct VarSymbol : Symbol {
   ast::VarDecl *decl = nullptr; ///< null only for a function's result
   const Type *type = nullptr;
   ast::Section section = ast::Section::local;
-  PouSymbol *owner = nullptr; ///< the POU it belongs to; null: global or structure field
+  PouSymbol *owner = nullptr;      ///< the POU it belongs to; null: global or structure field
+  const ast::Decl *home = nullptr; ///< of a global or a field: the declaration around it
   struct GlobalsSymbol *globals = nullptr; ///< the list a global belongs to
   bool isConstant = false;
   bool hidden = false;                  ///< {attribute 'hide'}
@@ -62,6 +67,12 @@ struct VarSymbol : Symbol {
   bool typeRunning = false; ///< the type is being resolved: meeting it again is a circle
   bool initChecked = false; ///< the initial value has been checked (or is being checked)
   bool initRunning = false; ///< is being checked: meeting it again is a circle
+  // Of the lints (lint.hpp).
+  std::uint8_t uses = 0;                ///< bits of Use
+  const ast::Expr *earlyRead = nullptr; ///< the first read, when nothing can have written before
+  std::uint32_t earlyLoop = 0;          ///< the outermost loop of that read; 0: none
+  std::uint32_t lastWrite = 0;          ///< the number of the last write
+  std::uint32_t lintBody = 0;           ///< the body that declares it
 };
 
 struct PropertySymbol;
@@ -147,6 +158,13 @@ struct BuiltinSymbol : Symbol {
 struct GlobalsSymbol : Symbol {
   std::vector<VarSymbol *> variables;
   std::unordered_map<Ident, VarSymbol *> scope;
+};
+
+/// All parts of one NAMESPACE; `name` is the last of its names.
+struct NamespaceSymbol : Symbol {
+  std::string path; ///< `A.B`
+  std::unordered_map<Ident, Symbol *> names;
+  std::unordered_map<Ident, std::vector<EnumeratorSymbol *>> enumerators;
 };
 
 /// `Standard.TON` on the left of the dot.

@@ -125,6 +125,16 @@ std::string_view elementaryName(TypeKind kind) {
 
 } // namespace
 
+namespace {
+
+/// `A.B.Name` of a type in a namespace.
+std::string nameInSpace(const Symbol *symbol) {
+  const std::string name(symbol->name.text);
+  return symbol->space == nullptr ? name : symbol->space->path + "." + name;
+}
+
+} // namespace
+
 std::string typeName(const Type *t) {
   switch (t->kind) {
   case TypeKind::string:
@@ -134,13 +144,13 @@ std::string typeName(const Type *t) {
     return length == 80 ? name : name + "(" + std::to_string(length) + ")";
   }
   case TypeKind::enumeration:
-    return std::string(typeAs<EnumType>(t)->symbol->name.text);
+    return nameInSpace(typeAs<EnumType>(t)->symbol);
   case TypeKind::structure:
-    return std::string(typeAs<StructType>(t)->symbol->name.text);
+    return nameInSpace(typeAs<StructType>(t)->symbol);
   case TypeKind::functionBlock:
   case TypeKind::program:
   case TypeKind::interface:
-    return std::string(typeAs<PouType>(t)->symbol->name.text);
+    return nameInSpace(typeAs<PouType>(t)->symbol);
   case TypeKind::subrange: {
     const auto *s = typeAs<SubrangeType>(t);
     return typeName(s->base) + " (" + std::to_string(s->low) + ".." + std::to_string(s->high) + ")";

@@ -4,13 +4,20 @@
 #include "compiler/source/span.hpp"
 
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace stc {
 
-enum class Severity : std::uint8_t { note, warning, error };
+enum class Severity : std::uint8_t {
+  off, ///< not reported
+  note,
+  warning,
+  error
+};
 
 /// Stable diagnostic codes; the table with default severity, title and explain text is
 /// diagnostic_codes.def.
@@ -24,6 +31,7 @@ enum class Code : std::uint16_t {
 struct CodeInfo {
   Code code;
   Severity severity;
+  std::string_view name;    ///< "unknownMember"
   std::string_view title;   ///< one line
   std::string_view explain; ///< a wrong and a right example, Markdown
 };
@@ -33,6 +41,14 @@ struct CodeInfo {
 [[nodiscard]] const CodeInfo &info(Code code);
 /// "SE0203"
 [[nodiscard]] std::string codeName(Code code);
+/// "unknown-member": the code's name in words.
+[[nodiscard]] std::string kebabName(Code code);
+/// The code called `SE0203`, `se0203`, `203`, `0203` or `unknown-member` (case does not count), or
+/// null.
+[[nodiscard]] const CodeInfo *findCode(std::string_view what);
+/// True for what is only looked for in programs without errors: unused variables, unreachable code
+/// …
+[[nodiscard]] bool isLint(Code code);
 
 /// A marked range with a word about it. The first label of a diagnostic is the primary one.
 struct Label {
@@ -40,15 +56,28 @@ struct Label {
   std::string text;
 };
 
+/// A replacement that an editor can make; an empty range inserts.
+struct Edit {
+  Span span;
+  std::string text;
+};
+
+/// Edits that together follow one help.
+struct Suggestion {
+  std::string message;
+  std::vector<Edit> edits;
+};
+
 /// One error or warning: what, where, and the way out.
 struct Diagnostic {
-  Code code;
+  Code code{};
   Severity severity = Severity::error;
   std::string message;
   std::vector<Label>
       labels; ///< labels[0] is the primary place (may be absent for errors without a place)
-  std::vector<std::string> notes;
-  std::vector<std::string> helps;
+  std::vector<std::string> notes{};
+  std::vector<std::string> helps{};
+  std::vector<Suggestion> suggestions{}; ///< for tools; each one's message is also among the helps
 
   Diagnostic &label(Span span, std::string text) {
     labels.push_back({span, std::move(text)});
@@ -62,13 +91,55 @@ struct Diagnostic {
     helps.push_back(std::move(text));
     return *this;
   }
+  /// A help that says what to write, and the edit that does it.
+  Diagnostic &suggest(std::string text, std::vector<Edit> edits) {
+    helps.push_back(text);
+    suggestions.push_back({std::move(text), std::move(edits)});
+    return *this;
+  }
+  Diagnostic &suggest(std::string text, Span span, std::string replacement) {
+    return suggest(std::move(text), {Edit{span, std::move(replacement)}});
+  }
 };
+
+/// The severities that the user chose. Errors stay errors.
+class Levels {
+public:
+  enum class Group : std::uint8_t {
+    allWarnings, ///< what is a warning by default
+    lints,       ///< isLint(): also those that are off by default
+  };
+  void set(Code code, Severity severity) { single_[code] = severity; }
+  void set(Group group, Severity severity) { groups_[group] = severity; }
+  /// A single code's choice goes before a group's, `lints` before `all-warnings`.
+  [[nodiscard]] Severity of(Code code) const;
+  /// Takes over what `other` says.
+  void add(const Levels &other);
+
+private:
+  std::map<Code, Severity> single_;
+  std::map<Group, Severity> groups_;
+};
+
+/// "all-warnings", "lints"; nothing for other names.
+[[nodiscard]] std::optional<Levels::Group> findGroup(std::string_view name);
+/// All names that a setting may have: of codes, of groups.
+[[nodiscard]] std::vector<std::string> settingNames();
 
 /// Collects diagnostics of one run. References returned by report() are valid until the next
 /// report().
 class Diagnostics {
 public:
-  /// Adds a diagnostic with the code's default severity.
+  void setLevels(Levels levels) { levels_ = std::move(levels); }
+  [[nodiscard]] const Levels &levels() const { return levels_; }
+  /// From `offset` of the file on, the code is silent (`{warning disable SE0390}`) or as before.
+  void setSilent(FileId file, std::uint32_t offset, Code code, bool silent);
+  /// Whether an occurrence of the code would be reported anywhere: lets passes that cost time be
+  /// left out.
+  [[nodiscard]] bool wants(Code code) const { return levels_.of(code) != Severity::off; }
+
+  /// Adds a diagnostic with the code's severity. What is off, or silent at its place, is built but
+  /// not added.
   Diagnostic &report(Code code, Span where, std::string message, std::string labelText = {});
   [[nodiscard]] bool hasErrors() const { return errors_ != 0; }
   [[nodiscard]] std::size_t errorCount() const { return errors_; }
@@ -78,7 +149,19 @@ public:
   void sort();
 
 private:
+  [[nodiscard]] bool isSilent(Code code, Span where) const;
+
+  struct Silence {
+    FileId file;
+    std::uint32_t offset;
+    Code code;
+    bool silent;
+  };
+
   std::vector<Diagnostic> list_;
+  Diagnostic dropped_;
+  Levels levels_;
+  std::vector<Silence> silences_; ///< in the order of each file's text
   std::size_t errors_ = 0;
   std::size_t warnings_ = 0;
 };

@@ -35,6 +35,8 @@ const char *severityName(Severity severity) {
     return "warning";
   case Severity::note:
     return "note";
+  case Severity::off:
+    return "off";
   }
   return "error";
 }
@@ -105,6 +107,7 @@ private:
     case Severity::warning:
       return style_.warning;
     case Severity::note:
+    case Severity::off:
       break;
     }
     return style_.note;
@@ -357,27 +360,41 @@ std::string renderText(const Diagnostic &diagnostic, const SourceManager &source
   return TextRenderer(diagnostic, sources, options.color ? kColors : kPlain).run();
 }
 
+namespace {
+
+nlohmann::ordered_json jsonOf(Span span, const SourceManager &sources, const std::string &text) {
+  const SourceFile &source = sources.file(span.file);
+  const LineColumn begin = source.position(span.begin);
+  const LineColumn end = source.position(span.end);
+  return {{"file", source.name()}, {"line", begin.line},      {"column", begin.column},
+          {"endLine", end.line},   {"endColumn", end.column}, {"text", text}};
+}
+
+} // namespace
+
 std::string renderJson(const Diagnostic &diagnostic, const SourceManager &sources) {
   nlohmann::ordered_json json;
   json["code"] = codeName(diagnostic.code);
+  json["name"] = kebabName(diagnostic.code);
   json["severity"] = severityName(diagnostic.severity);
   json["message"] = diagnostic.message;
   json["labels"] = nlohmann::ordered_json::array();
   for (const Label &label : diagnostic.labels) {
     if (!label.span.valid())
       continue;
-    const SourceFile &source = sources.file(label.span.file);
-    const LineColumn begin = source.position(label.span.begin);
-    const LineColumn end = source.position(label.span.end);
-    json["labels"].push_back({{"file", source.name()},
-                              {"line", begin.line},
-                              {"column", begin.column},
-                              {"endLine", end.line},
-                              {"endColumn", end.column},
-                              {"text", label.text}});
+    json["labels"].push_back(jsonOf(label.span, sources, label.text));
   }
   json["notes"] = diagnostic.notes;
   json["helps"] = diagnostic.helps;
+  json["suggestions"] = nlohmann::ordered_json::array();
+  for (const Suggestion &suggestion : diagnostic.suggestions) {
+    nlohmann::ordered_json edits = nlohmann::ordered_json::array();
+    for (const Edit &edit : suggestion.edits) {
+      if (edit.span.valid())
+        edits.push_back(jsonOf(edit.span, sources, edit.text));
+    }
+    json["suggestions"].push_back({{"message", suggestion.message}, {"edits", edits}});
+  }
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 

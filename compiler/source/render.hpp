@@ -26,8 +26,9 @@ struct RenderOptions {
 [[nodiscard]] std::string renderText(const Diagnostic &diagnostic, const SourceManager &sources,
                                      const RenderOptions &options = {});
 
-/// One JSON object on one line: code, severity, message, labels (file, line, column, endLine,
-/// endColumn, text), notes, helps. The first label is the primary one.
+/// One JSON object on one line: code, name, severity, message, labels (file, line, column, endLine,
+/// endColumn, text), notes, helps, suggestions (message, edits: like labels, their text replaces
+/// what stands there). The first label is the primary one.
 [[nodiscard]] std::string renderJson(const Diagnostic &diagnostic, const SourceManager &sources);
 
 } // namespace stc

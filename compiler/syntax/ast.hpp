@@ -413,11 +413,13 @@ struct RepeatStmt : Stmt {
 /// `JMP name;`
 struct JumpStmt : Stmt {
   Name label;
+  struct LabelStmt *target = nullptr; ///< [sema]
 };
 
 /// `name:` in front of a statement.
 struct LabelStmt : Stmt {
   Name label;
+  bool used = false; ///< [sema] some JMP leads here
 };
 
 /// `__TRY … __CATCH (exc) … __FINALLY … __ENDTRY`
@@ -586,10 +588,18 @@ struct ConfigurationDecl : Decl {
   std::span<ResourceDecl> resources;
 };
 
+/// A method, action (PouDecl) or property (PropertyDecl) whose block is not in its file.
+struct StrayMember {
+  Name owner;
+  Decl *member = nullptr;
+  std::uint16_t kind = 0; ///< token type of its keyword
+};
+
 /// One parsed file.
 struct File {
   FileId id = 0;
   std::span<Decl *> declarations;
+  std::span<StrayMember> strayMembers; ///< for attachMembers()
 };
 
 /// Checked downcast by kind is the caller's business: `as<CallExpr>(expr)`.

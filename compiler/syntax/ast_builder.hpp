@@ -34,6 +34,7 @@ public:
                        std::vector<ast::ProgramInstanceDecl> &out);
 
   [[nodiscard]] ast::Name name(const Token &token);
+  void declarationInBody(const ast::Name &variable);
   ast::TypeExpr *errorType(Span span);
   [[nodiscard]] ast::Attributes attributes(const Token &token);
   [[nodiscard]] std::string_view doc(const Token &token);
@@ -91,6 +92,7 @@ private:
   ast::Expr *operand(Context *context);
   ast::Expr *primary(Context *context, std::size_t &at, std::size_t &nextChild);
   ast::Expr *postfix(Context *context, ast::Expr *base, std::size_t &at, std::size_t &nextChild);
+  [[nodiscard]] static bool hasNames(const Context *arguments);
   ast::Expr *partOf(ast::Expr *base, const Token &member);
   ast::Expr *parentheses(Context *arguments, Span span);
   ast::Expr *prefixed(Context *context, std::size_t operators, ast::Expr *operand);

@@ -255,6 +255,13 @@ Expr *AstBuilder::parentheses(Context *inside, Span whole) {
   return structAggregate(inside, whole);
 }
 
+bool AstBuilder::hasNames(const Context *arguments) {
+  return std::any_of(arguments->children.begin(), arguments->children.end(), [](const auto *one) {
+    const auto *argument = static_cast<const Context *>(one);
+    return !argument->children.empty() && last(argument) != last(child(argument, 0));
+  });
+}
+
 Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::size_t &nextChild) {
   const std::size_t end = last(context);
   std::size_t count = 0;
@@ -316,6 +323,10 @@ Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::si
         node->arguments = arguments(inside);
         node->span = whole;
         base = node;
+        break;
+      }
+      if (token(at - 1).type != Tok::RBRACKET && hasNames(inside)) {
+        base = error(whole); // the missing bracket was reported in front of the `:=`
         break;
       }
       auto *node = arena_.make<IndexExpr>();

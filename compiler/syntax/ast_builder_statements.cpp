@@ -24,11 +24,26 @@ bool isCompound(const Stmt *statement) {
 
 } // namespace
 
+void AstBuilder::declarationInBody(const Name &variable) {
+  diagnostics_
+      .report(Code::declarationInBody, variable.span,
+              "`" + std::string(variable.text) + "` is declared among the statements",
+              "variables are declared in front of the first statement")
+      .help("move it into VAR … END_VAR");
+}
+
 void AstBuilder::statements(Grammar::StatementsContext *context, std::vector<Stmt *> &out) {
   for (std::size_t i = 0; i < context->children.size(); ++i) {
     Stmt *node = statement(child(context, i));
     if (node == nullptr)
       continue;
+    // `t : TON;` is no label with a statement that does nothing.
+    if (node->kind == StmtKind::call && as<CallStmt>(node)->expr->kind == ExprKind::name &&
+        !out.empty() && out.back()->kind == StmtKind::label) {
+      declarationInBody(as<LabelStmt>(out.back())->label);
+      out.pop_back();
+      continue;
+    }
     // The `;` behind END_IF and the like belongs to it.
     if (node->kind == StmtKind::empty && !out.empty() && isCompound(out.back()) &&
         first(child(context, i)) != 0 &&

@@ -15,9 +15,10 @@ constexpr std::size_t kMaxErrors = 100;
 } // namespace
 
 FileParser::FileParser(const SourceFile &file, Interner &interner, Arena &arena,
-                       Diagnostics &diagnostics)
-    : file_(file), arena_(arena), diagnostics_(diagnostics), scanner_(file, diagnostics),
-      parser_(&stream_), builder_(scanner_, file.id(), stream_, interner, arena, diagnostics),
+                       Diagnostics &diagnostics, const ParseOptions *options)
+    : file_(file), arena_(arena), diagnostics_(diagnostics), conditions_(options),
+      scanner_(file, diagnostics, &conditions_), parser_(&stream_),
+      builder_(scanner_, file.id(), stream_, interner, arena, diagnostics),
       giveUp_(std::make_shared<GiveUpStrategy>()),
       report_(std::make_shared<ReportStrategy>(parser_, file.text(), file.id(), diagnostics)) {
   unit_.reserve(3072);
@@ -86,11 +87,28 @@ ast::File *FileParser::run() {
     diagnostics_.report(Code::missingEnd, open.head, "missing `END_NAMESPACE`",
                         "this is not closed");
   for (OpenPou &open : pous_) {
+    const auto inherit = [&](ast::Decl *member) {
+      if (member == nullptr)
+        return;
+      member->space = open.node->space;
+      if (member->usings.empty())
+        member->usings = open.node->usings;
+    };
+    for (ast::PouDecl *one : open.methods)
+      inherit(one);
+    for (ast::PouDecl *one : open.actions)
+      inherit(one);
+    for (ast::PropertyDecl *one : open.properties) {
+      inherit(one);
+      inherit(one->get);
+      inherit(one->set);
+    }
     open.node->methods = arena_.copy(open.methods);
     open.node->actions = arena_.copy(open.actions);
     open.node->properties = arena_.copy(open.properties);
   }
   out->declarations = arena_.copy(declarations_);
+  out->strayMembers = arena_.copy(strays_);
   return out;
 }
 

@@ -19,7 +19,8 @@ namespace stc {
 
 class FileParser {
 public:
-  FileParser(const SourceFile &file, Interner &interner, Arena &arena, Diagnostics &diagnostics);
+  FileParser(const SourceFile &file, Interner &interner, Arena &arena, Diagnostics &diagnostics,
+             const ParseOptions *options);
 
   ast::File *run();
 
@@ -81,7 +82,7 @@ private:
   void property(OpenPou *owner);
   ast::PouDecl *accessor(ast::PropertyDecl *property, bool isSet);
   void lateMember();
-  OpenPou *ownerOf(const Head &head, OpenPou *enclosing);
+  OpenPou *ownerOf(const Head &head, OpenPou *enclosing, ast::Decl *member);
   void finishBody(ast::PouDecl *node, Content &content);
   bool instructionList();
   void chart();
@@ -92,6 +93,9 @@ private:
   void body(std::vector<ast::Stmt *> &out);
   void readStatements();
   bool markLabel();
+  [[nodiscard]] bool isElementaryType(const Token &token) const;
+  [[nodiscard]] bool sectionIsClosed() const;
+  [[nodiscard]] bool startsStatementInSection() const;
   void markTypeArgument();
   [[nodiscard]] bool isJumpTarget(const Token &name);
   void globals();
@@ -116,6 +120,7 @@ private:
   const SourceFile &file_;
   Arena &arena_;
   Diagnostics &diagnostics_;
+  Conditions conditions_;
   Scanner scanner_;
   UnitStream stream_;
   UnitParser parser_;
@@ -130,6 +135,7 @@ private:
   Span externalSpan_;
   std::vector<ast::Decl *> declarations_;
   std::deque<OpenPou> pous_;
+  std::vector<ast::StrayMember> strays_;
   unsigned units_ = 0;                 ///< POUs and members outside of them so far
   std::vector<std::uint16_t> closers_; ///< END_… of what is open, from outside to inside
   std::vector<MissingEnd> missing_;

@@ -60,14 +60,17 @@ void FileParser::readHead(std::vector<Token> &usings) {
     if (now_.type == Tok::IDENT)
       take();
   }
-  while (now_.type == Tok::USING) {
-    do {
-      usings.push_back(now_);
-      advance();
-    } while (usings.back().type != Tok::SEMICOLON &&
-             (now_.type == Tok::IDENT || now_.type == Tok::DOT || now_.type == Tok::COMMA ||
-              now_.type == Tok::SEMICOLON));
-  }
+  const auto readUsings = [&] {
+    while (now_.type == Tok::USING) {
+      do {
+        usings.push_back(now_);
+        advance();
+      } while (usings.back().type != Tok::SEMICOLON &&
+               (now_.type == Tok::IDENT || now_.type == Tok::DOT || now_.type == Tok::COMMA ||
+                now_.type == Tok::SEMICOLON));
+    }
+  };
+  readUsings();
   const auto path = [&] {
     while (now_.type == Tok::IDENT || now_.type == Tok::DOT || now_.type == Tok::COMMA) {
       const bool name = now_.type == Tok::IDENT;
@@ -86,6 +89,7 @@ void FileParser::readHead(std::vector<Token> &usings) {
     else if (keyword == Tok::FUNCTION || keyword == Tok::METHOD || keyword == Tok::PROPERTY)
       readHeadType();
   }
+  readUsings();
 }
 
 void FileParser::readHeadType() {
@@ -306,8 +310,9 @@ void FileParser::member(OpenPou *owner) {
   sawExternal_ = external;
 }
 
-/// The POU that the member belongs to; null after saying that there is none.
-FileParser::OpenPou *FileParser::ownerOf(const Head &head, OpenPou *enclosing) {
+/// The POU that the member belongs to; null after saying that there is none, or when it is in
+/// another file.
+FileParser::OpenPou *FileParser::ownerOf(const Head &head, OpenPou *enclosing, ast::Decl *member) {
   OpenPou *owner = enclosing;
   if (!head.owner.empty()) {
     const ast::Name &name = head.owner.back();
@@ -315,11 +320,7 @@ FileParser::OpenPou *FileParser::ownerOf(const Head &head, OpenPou *enclosing) {
       return open.node->name.id == name.id;
     });
     if (found == pous_.end()) {
-      diagnostics_
-          .report(Code::memberWithoutOwner, name.span,
-                  "`" + std::string(name.text) + "` is no block of this file",
-                  "whose " + std::string(tokenSpelling(head.keyword.type)) + " should this be?")
-          .help("put it into the file of the block, behind the block or inside of it");
+      strays_.push_back({name, member, head.keyword.type});
       return nullptr;
     }
     owner = &*found;
@@ -371,7 +372,7 @@ void FileParser::method(OpenPou *enclosing) {
     return;
   head.node->endSpan = endSpan;
   finishBody(head.node, content);
-  OpenPou *owner = ownerOf(head, enclosing);
+  OpenPou *owner = ownerOf(head, enclosing, head.node);
   if (owner == nullptr)
     return;
   if (owner->node->kind == ast::DeclKind::interface && !head.node->body.empty()) {
@@ -488,7 +489,7 @@ void FileParser::property(OpenPou *enclosing) {
                 "the property `" + std::string(node->name.text) + "` has neither GET nor SET",
                 "cannot be read or written")
         .help("write `GET … END_GET` or `SET … END_SET` in front of END_PROPERTY");
-  OpenPou *owner = ownerOf(head, enclosing);
+  OpenPou *owner = ownerOf(head, enclosing, node);
   if (owner == nullptr)
     return;
   if (owner->node->kind == ast::DeclKind::interface) {

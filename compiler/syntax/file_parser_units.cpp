@@ -1,6 +1,8 @@
 // How a file is cut into units: VAR sections, TYPE blocks and groups of statements.
 #include "compiler/syntax/file_parser.hpp"
 
+#include "compiler/source/identifier.hpp"
+#include "compiler/syntax/characters.hpp"
 #include "compiler/syntax/parser.hpp"
 #include "compiler/syntax/token_sets.hpp"
 
@@ -38,7 +40,9 @@ void FileParser::sections(std::vector<ast::VarDecl *> &out) {
   for (;;) {
     if (endsUnit() || startsDeclaration() || startsSection() ||
         (isMember(now_.type) && ahead_.type == Tok::IDENT) ||
-        (startsBlock(now_.type) && ahead_.type != Tok::COLON && ahead_.type != Tok::COMMA))
+        (startsBlock(now_.type) && ahead_.type != Tok::COLON && ahead_.type != Tok::COMMA) ||
+        (unit_.size() == start && unit_.front().type != Tok::VAR_CONFIG &&
+         startsStatementInSection()))
       break;
     switch (now_.type) {
     case Tok::LPAREN:
@@ -256,6 +260,66 @@ bool FileParser::isJumpTarget(const Token &name) {
   return jumpTargets_->contains(text);
 }
 
+/// A type that no statement can begin with.
+bool FileParser::isElementaryType(const Token &token) const {
+  static constexpr std::string_view kNames[] = {
+      "bool",  "sint", "int",   "dint",  "lint", "usint", "uint",  "udint",       "ulint",
+      "byte",  "word", "dword", "lword", "real", "lreal", "time",  "ltime",       "date",
+      "ldate", "tod",  "ltod",  "dt",    "ldt",  "char",  "wchar", "time_of_day", "date_and_time"};
+  switch (token.type) {
+  case Tok::ARRAY:
+  case Tok::STRING:
+  case Tok::WSTRING:
+  case Tok::POINTER:
+  case Tok::REFERENCE:
+  case Tok::REF_TO:
+    return true;
+  case Tok::IDENT:
+    return std::any_of(std::begin(kNames), std::end(kNames),
+                       [&](std::string_view name) { return isWord(scanner_.text(token), name); });
+  default:
+    return false;
+  }
+}
+
+/// True when END_VAR comes before the next section or the end of the POU: in a text with an error,
+/// so that only the words are looked at.
+bool FileParser::sectionIsClosed() const {
+  const std::string_view text = scanner_.text();
+  for (std::size_t at = now_.begin; at < text.size();) {
+    if (!isLetter(text[at])) {
+      ++at;
+      continue;
+    }
+    const std::size_t begin = at;
+    while (at < text.size() && isWordChar(text[at]))
+      ++at;
+    const std::string_view word = text.substr(begin, at - begin);
+    const std::uint16_t type = findKeyword(word, hashIdent(word)).type;
+    if (type == Tok::END_VAR)
+      return true;
+    if ((type >= Tok::VAR && type <= Tok::VAR_INST) || (type != 0 && closesUnit(type)))
+      return false;
+  }
+  return false;
+}
+
+/// Where the declarations of a section seem to have turned into statements.
+bool FileParser::startsStatementInSection() const {
+  if (now_.type != Tok::IDENT)
+    return false;
+  switch (ahead_.type) {
+  case Tok::ASSIGN:
+  case Tok::LPAREN:
+  case Tok::DOT:
+  case Tok::LBRACKET:
+  case Tok::CARET:
+    return !sectionIsClosed();
+  default:
+    return false;
+  }
+}
+
 /// Puts a LABEL in front of the CASE labels that end at the colon just ahead, or a JUMP_LABEL in
 /// front of the name. True: it did.
 bool FileParser::markLabel() {
@@ -321,6 +385,16 @@ void FileParser::readStatements() {
       brackets_ -= brackets_ > 0;
     } else if (type == Tok::COLON && brackets_ == 0 && !dropping) {
       isLabel = markLabel();
+      if (isLabel && unit_[boundary_].type == Tok::JUMP_LABEL && isElementaryType(ahead_)) {
+        builder_.declarationInBody(builder_.name(unit_.back()));
+        unit_.resize(boundary_);
+        while (now_.type != Tok::SEMICOLON && !endsUnit() && !startsDeclaration() &&
+               !startsSection())
+          advance();
+        if (now_.type == Tok::SEMICOLON)
+          advance();
+        continue;
+      }
     } else {
       markTypeArgument();
     }

@@ -183,10 +183,19 @@ bool LiteralReader::integer(std::string_view text, Span span, ast::Literal &out)
     }
     lastUnderscore = false;
     const int digit = digitValue(c);
-    if (digit >= static_cast<int>(base))
-      return fail(Code::invalidNumber, {span.file, at, at + 1},
-                  "the number " + quote(text) + " is malformed",
-                  base == 10 ? "not a digit" : "not a digit to the base " + std::to_string(base));
+    if (digit >= static_cast<int>(base)) {
+      auto &d = diagnostics_.report(Code::invalidNumber, {span.file, at, at + 1},
+                                    "the number " + quote(text) + " is malformed",
+                                    base == 10 ? "not a digit"
+                                               : "not a digit to the base " + std::to_string(base));
+      const bool prefixed = base == 10 && i == 1 && digits[0] == '0' && digits.size() > 2;
+      if (prefixed && (c == 'x' || c == 'X' || c == 'b' || c == 'B')) {
+        const std::string right =
+            (c == 'x' || c == 'X' ? "16#" : "2#") + std::string(digits.substr(2));
+        d.suggest("write `" + right + "`", span, right);
+      }
+      return false;
+    }
     if (value > (kMax64 - static_cast<std::uint64_t>(digit)) / base)
       tooLarge = true;
     value = value * base + static_cast<std::uint64_t>(digit);

@@ -6,6 +6,7 @@
 #include "compiler/source/identifier.hpp"
 #include "compiler/source/source_manager.hpp"
 #include "compiler/syntax/ast.hpp"
+#include "compiler/syntax/conditions.hpp"
 
 namespace stc {
 
@@ -14,7 +15,12 @@ inline constexpr unsigned kMaxNesting = 256;
 
 /// Parses one file. Always returns a tree (what could be read); reports every syntax error to
 /// `diagnostics`. The tree lives in `arena` and refers to the file's text, which must outlive it.
-ast::File *parse(const SourceFile &file, Interner &interner, Arena &arena,
-                 Diagnostics &diagnostics);
+/// `options` answer the conditions of `{IF …}`.
+ast::File *parse(const SourceFile &file, Interner &interner, Arena &arena, Diagnostics &diagnostics,
+                 const ParseOptions *options = nullptr);
+
+/// Gives the methods, properties and actions that name a block of another file (`METHOD Block.m`)
+/// to that block; reports those that find none.
+void attachMembers(std::span<ast::File *const> files, Arena &arena, Diagnostics &diagnostics);
 
 } // namespace stc

@@ -62,7 +62,8 @@ bool ReportStrategy::mayReport() {
   // A string without an end swallows what is missing now.
   if (const Token *previous = before();
       previous != nullptr && previous->reported &&
-      (previous->type == Tok::STRING_LITERAL || previous->type == Tok::WSTRING_LITERAL))
+      (previous->type == Tok::STRING_LITERAL || previous->type == Tok::WSTRING_LITERAL ||
+       previous->type == Tok::ASSIGN)) // of `x++`
     return false;
   if (++reports_ > kMaxErrors)
     throw antlr4::ParseCancellationException();
@@ -165,6 +166,8 @@ void ReportStrategy::reportUnexpected(const std::string &expected) {
            "takes an output");
   else if (token.type == Tok::COLON)
     d.help("an assignment is written `:=`");
+  else if (std::string help = foreignHelp(token, before(), next); !help.empty())
+    d.help(std::move(help));
 }
 
 void ReportStrategy::reportMissing(std::uint16_t wanted) {
@@ -215,6 +218,9 @@ void ReportStrategy::reportMissing(std::uint16_t wanted) {
   }
   Diagnostic &d = diagnostics_.report(Code::expectedToken, insertion(), "expected " + sign + after,
                                       "add " + sign + " here");
+  d.suggestions.push_back({"add " + sign,
+                           {Edit{insertion(), (isKeywordType(wanted) ? " " : "") +
+                                                  std::string(tokenSpelling(wanted))}}});
   if (wanted == Tok::RPAREN || wanted == Tok::RBRACKET) {
     // The opener is the token in front of the arguments.
     const std::uint16_t opener = wanted == Tok::RPAREN ? Tok::LPAREN : Tok::LBRACKET;

@@ -61,6 +61,28 @@ bool endsDeclaration(std::uint16_t type) {
 
 } // namespace
 
+/// `a[1 := 5;` has its mistake in front of the `:=`, which was taken for that of an argument.
+void ReportStrategy::stepBackToAssignment() {
+  UnitStream &stream = parser_.stream();
+  unsigned depth = 0;
+  for (std::size_t i = current().index; i-- > 0;) {
+    const std::uint16_t type = stream.token(i).type;
+    if (type == Tok::RPAREN || type == Tok::RBRACKET)
+      ++depth;
+    else if (type == Tok::LPAREN || type == Tok::LBRACKET) {
+      if (depth == 0)
+        return;
+      --depth;
+    } else if (type == Tok::ASSIGN && depth == 0) {
+      if (mayReport())
+        diagnostics_.report(Code::expectedToken,
+                            {file_, stream.token(i - 1).end, stream.token(i - 1).end},
+                            "expected `]`", "add `]` here");
+      return;
+    }
+  }
+}
+
 /// True when `wanted` comes later in the same statement head.
 bool ReportStrategy::thenFollows(std::uint16_t wanted) {
   UnitStream &stream = parser_.stream();
@@ -106,7 +128,10 @@ antlr4::Token *ReportStrategy::recoverInline(antlr4::Parser *) {
     if (found == Tok::COMMA && rule == Grammar::RuleSimpleStatement && !hasValue(parser_.context()))
       reportUnexpected("`:=`");
     else
-      reportUnexpected(declaration ? "`;`"
+      reportUnexpected(declaration || rule == Grammar::RuleTaskDeclaration ||
+                               rule == Grammar::RuleProgramInstance ||
+                               rule == Grammar::RuleUsingDirective
+                           ? "`;`"
                        : rule == Grammar::RuleSimpleStatement && !hasValue(parser_.context())
                            ? "`:=` or `;`"
                            : "an operator or `;`");
@@ -178,6 +203,8 @@ antlr4::Token *ReportStrategy::recoverInline(antlr4::Parser *) {
   case Tok::RBRACKET:
     if (isStatementBoundary(found) || found == Tok::SEMICOLON || found == Tok::THEN ||
         found == Tok::DO || found == Tok::OF || (onNewLine(current()) && startsOperand(found))) {
+      if (wanted == Tok::RBRACKET)
+        stepBackToAssignment();
       reportMissing(wanted);
       return conjure(wanted);
     }

@@ -21,7 +21,7 @@ bool isKnownDoubleUnderscore(std::string_view word) {
       "__endtry",       "__xword",   "__xint",        "__uxint",
       "__varinfo",      "__pouname", "__position",    "__compare_and_swap",
       "__xadd",         "__vector",  "__currenttask", "__lword",
-      "__bitoffset",
+      "__bitoffset",    "__system",
   };
   return std::any_of(std::begin(kNames), std::end(kNames),
                      [&](std::string_view name) { return isWord(word, name); });
@@ -52,8 +52,8 @@ bool looksBinary(std::string_view text) {
   return control > 10;
 }
 
-Scanner::Scanner(const SourceFile &file, Diagnostics &diagnostics)
-    : text_(file.text()), file_(file.id()), diagnostics_(diagnostics) {}
+Scanner::Scanner(const SourceFile &file, Diagnostics &diagnostics, Conditions *conditions)
+    : text_(file.text()), file_(file.id()), diagnostics_(diagnostics), conditions_(conditions) {}
 
 bool Scanner::afterOperand() const {
   switch (previous_) {
@@ -218,7 +218,13 @@ Token Scanner::next() {
     token.reported |= afterBad;
     const std::size_t begin = place_;
     token.begin = static_cast<std::uint32_t>(begin);
+    if (pending_ != 0) {
+      token.type = pending_;
+      pending_ = 0;
+      break;
+    }
     if (begin >= text_.size()) {
+      reportOpenBranches();
       token.type = Token::kEnd;
       break;
     }
@@ -308,6 +314,9 @@ std::uint16_t Scanner::word(std::size_t begin, Token &token) {
     }
   } else if (keyword.kind != Keyword::Kind::none && isKeywordHere(keyword, end)) {
     return keyword.type;
+  } else if (lowerCase(data[begin]) == 'e') {
+    if (const std::uint16_t meant = misspelledKeyword(begin, spelling, token); meant != 0)
+      return meant;
   }
   if (spelling.size() > kMaxName) {
     token.reported = true;
@@ -506,8 +515,8 @@ std::uint16_t Scanner::foreign(std::size_t begin, std::size_t length, std::uint1
   const std::string right(tokenSpelling(meant));
   diagnostics_
       .report(Code::foreignOperator, span(begin, place_),
-              "`" + found + "` is not an operator of Structured Text")
-      .help("write `" + right + "`");
+              "`" + found + "` is not an operator of Structured Text", "not known here")
+      .suggest("write `" + right + "`", span(begin, place_), right);
   return meant;
 }
 
@@ -525,6 +534,8 @@ void Scanner::badCharacters(std::size_t begin) {
                                       place_ - begin > 1 && !isForeign(text_[begin])
                                           ? "these characters have no meaning here"
                                           : "this character has no meaning here");
+  if (text_[begin] == '?')
+    d.help("choose between two values with `SEL(condition, ifFalse, ifTrue)`");
   if (badCharacters_ == kMaxBadCharacters)
     d.note("further characters of this kind in the file are not reported");
 }
@@ -539,6 +550,14 @@ std::uint16_t Scanner::sign(std::size_t begin, Token &token) {
     place_ = begin + 2;
     return type;
   };
+  const char first = text_[begin];
+  const bool calculates = first == '+' || first == '-';
+  if ((next == '=' && (calculates || first == '*')) ||
+      (next == first && (calculates || first == '<' || first == '>')) ||
+      (first == '-' && next == '>') || (first == '=' && next == '<')) {
+    if (const std::uint16_t meant = foreignPair(begin, token); meant != 0)
+      return meant;
+  }
   switch (text_[begin]) {
   case ';':
     return one(Tok::SEMICOLON);
@@ -559,9 +578,9 @@ std::uint16_t Scanner::sign(std::size_t begin, Token &token) {
   case ':':
     return next == '=' ? two(Tok::ASSIGN) : one(Tok::COLON);
   case '+':
-    return next == '=' ? foreign(begin, 2, Tok::ASSIGN, token) : one(Tok::PLUS);
+    return one(Tok::PLUS);
   case '-':
-    return next == '=' ? foreign(begin, 2, Tok::ASSIGN, token) : one(Tok::MINUS);
+    return one(Tok::MINUS);
   case '*':
     return next == '*' ? two(Tok::POWER) : one(Tok::STAR);
   case '/':

@@ -3,8 +3,10 @@
 
 #include "compiler/source/diagnostic.hpp"
 #include "compiler/source/source_manager.hpp"
+#include "compiler/syntax/conditions.hpp"
 #include "compiler/syntax/token.hpp"
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,7 +16,8 @@ namespace stc {
 /// keyword is one.
 class Scanner {
 public:
-  Scanner(const SourceFile &file, Diagnostics &diagnostics);
+  /// Without `conditions` every branch of conditional pragmas is read and messages are ignored.
+  Scanner(const SourceFile &file, Diagnostics &diagnostics, Conditions *conditions = nullptr);
 
   /// The next token; of type Token::kEnd at the end of the text, again and again.
   Token next();
@@ -45,7 +48,22 @@ private:
   void blockComment(std::size_t begin);
   void nestedComment(std::size_t begin);
   void lineComment(std::size_t begin);
+  /// A conditional pragma that is open.
+  struct Branch {
+    Span place;
+    bool taken;   ///< one of its branches is compiled
+    bool sawElse; ///< `{ELSE}` was there
+  };
+  [[nodiscard]] std::size_t comment(std::size_t place) const;
+  [[nodiscard]] std::size_t pragmaEnd(std::size_t begin) const;
   void pragma(std::size_t begin);
+  void warningPragma(std::size_t place, std::size_t end);
+  void directive(std::string_view keyword, std::size_t begin, std::size_t p, std::size_t end);
+  void message(std::string_view keyword, Span whole, std::size_t p, std::size_t end);
+  void checkElse(std::string_view keyword, Span whole);
+  void branch(std::size_t p, std::size_t end);
+  void skipInactive();
+  void reportOpenBranches();
 
   std::uint16_t word(std::size_t begin, Token &token);
   std::uint16_t prefixedLiteral(std::size_t begin, Token &token);
@@ -54,6 +72,13 @@ private:
   std::uint16_t address(std::size_t begin, Token &token);
   std::uint16_t sign(std::size_t begin, Token &token);
   std::uint16_t foreign(std::size_t begin, std::size_t length, std::uint16_t meant, Token &token);
+  // foreign.cpp
+  std::uint16_t misspelledKeyword(std::size_t begin, std::string_view spelling, Token &token);
+  std::uint16_t foreignPair(std::size_t begin, Token &token);
+  std::uint16_t foreignSign(std::size_t begin, std::size_t length, std::uint16_t meant,
+                            Token &token, std::string help);
+  [[nodiscard]] std::string targetBefore(std::size_t place) const;
+  void bracesAsBlock(std::size_t begin, std::size_t end);
   void numberBody();
   void badCharacters(std::size_t begin);
   /// True for the first of several equal names, so that one mistake is reported once.
@@ -66,10 +91,13 @@ private:
   std::uint16_t previous_ = 0;       ///< type of the last token
   std::uint16_t beforePrevious_ = 0; ///< and of the one before it
   bool sectionHead_ = false;         ///< behind VAR… and its qualifiers
+  std::uint16_t pending_ = 0;        ///< a token that was read together with the last one
   std::uint32_t pendingTrivia_ = 0;
   unsigned badCharacters_ = 0;
   std::vector<std::uint32_t> badNames_; ///< hashes of names that were reported
   std::vector<Trivia> trivia_;
+  Conditions *conditions_;
+  std::vector<Branch> branches_;
 };
 
 /// True when the bytes cannot be meant as text.

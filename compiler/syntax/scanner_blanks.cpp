@@ -13,29 +13,43 @@ bool Scanner::atLineStart(std::size_t place) const {
   return place == 0 || text_[place - 1] == '\n';
 }
 
+/// Behind the comment that begins at `place`; `place` when there is none.
+std::size_t Scanner::comment(std::size_t place) const {
+  const std::string_view rest = text_.substr(std::min(place, text_.size()));
+  if (rest.starts_with("//"))
+    return std::min(text_.find('\n', place), text_.size());
+  if (rest.starts_with("/*")) {
+    const auto end = text_.find("*/", place + 2);
+    return end == std::string_view::npos ? text_.size() : end + 2;
+  }
+  if (!rest.starts_with("(*"))
+    return place;
+  unsigned depth = 0;
+  do {
+    if (text_.compare(place, 2, "(*") == 0) {
+      ++depth;
+      place += 2;
+    } else if (text_.compare(place, 2, "*)") == 0) {
+      --depth;
+      place += 2;
+    } else {
+      ++place;
+    }
+  } while (depth != 0 && place < text_.size());
+  return place;
+}
+
 std::size_t Scanner::significant(std::size_t place) const {
   for (;;) {
     while (place < text_.size() && classOf(text_[place]) == blank)
       ++place;
-    const std::string_view rest = text_.substr(std::min(place, text_.size()));
-    if (rest.starts_with("//")) {
-      place = std::min(text_.find('\n', place), text_.size());
-    } else if (rest.starts_with("/*")) {
-      const auto end = text_.find("*/", place + 2);
-      place = end == std::string_view::npos ? text_.size() : end + 2;
-    } else if (rest.starts_with("(*")) {
-      unsigned depth = 0;
-      do {
-        if (text_.compare(place, 2, "(*") == 0) {
-          ++depth;
-          place += 2;
-        } else if (text_.compare(place, 2, "*)") == 0) {
-          --depth;
-          place += 2;
-        } else {
-          ++place;
-        }
-      } while (depth != 0 && place < text_.size());
+    if (const std::size_t next = comment(place); next != place) {
+      place = next;
+    } else if (at(place) == '{') {
+      const std::size_t end = pragmaEnd(place);
+      if (end == std::string_view::npos)
+        return place;
+      place = end;
     } else {
       return place;
     }
@@ -100,68 +114,6 @@ void Scanner::lineComment(std::size_t begin) {
                      static_cast<std::uint32_t>(end),
                      text_.substr(from, end - from),
                      {}});
-}
-
-void Scanner::pragma(std::size_t begin) {
-  std::size_t end = begin + 1;
-  while (end < text_.size() && text_[end] != '}') {
-    const char c = text_[end];
-    if (c == '\'' ||
-        c == '"') { // a quoted text may hold a brace, unless it does not end on its line
-      const auto stop = text_.find_first_of(c == '\'' ? "'\n" : "\"\n", end + 1);
-      if (stop != std::string_view::npos && text_[stop] == c)
-        end = stop;
-    }
-    ++end;
-  }
-  if (end >= text_.size()) {
-    diagnostics_
-        .report(Code::unterminatedPragma, span(begin, begin + 1), "this pragma has no end",
-                "the pragma begins here")
-        .help("close it with `}`");
-    const auto line = text_.find('\n', begin);
-    place_ = line == std::string_view::npos ? text_.size() : line;
-    return;
-  }
-  place_ = end + 1;
-  const auto from = static_cast<std::uint32_t>(begin);
-  const auto to = static_cast<std::uint32_t>(place_);
-  std::size_t p = begin + 1;
-  const auto skip = [&] {
-    while (p < end && classOf(text_[p]) == blank)
-      ++p;
-  };
-  const auto quotedText = [&]() -> std::string_view {
-    skip();
-    const char quote = p < end ? text_[p] : '\0';
-    if (quote != '\'' && quote != '"')
-      return {};
-    const auto close = text_.find(quote, p + 1);
-    if (close >= end)
-      return {};
-    const std::string_view content = text_.substr(p + 1, close - p - 1);
-    p = close + 1;
-    return content;
-  };
-  skip();
-  const std::string_view keyword = wordAt(p);
-  p += keyword.size();
-  if (isWord(keyword, "external")) {
-    trivia_.push_back({Trivia::Kind::external, from, to, {}, {}});
-  } else if (isWord(keyword, "attribute")) {
-    const std::string_view name = quotedText();
-    skip();
-    std::string_view value;
-    if (p + 1 < end && text_.compare(p, 2, ":=") == 0) {
-      p += 2;
-      value = quotedText();
-    }
-    if (!name.empty())
-      trivia_.push_back({Trivia::Kind::attribute, from, to, name, value});
-  } else if (isWord(keyword, "if")) {
-    diagnostics_.report(Code::notSupported, span(begin, place_),
-                        "conditional compilation is not supported by this version");
-  }
 }
 
 void Scanner::skipBlanks() {

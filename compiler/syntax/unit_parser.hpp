@@ -146,6 +146,8 @@ private:
   [[nodiscard]] std::string_view spelling(const Token &token) const {
     return text_.substr(token.begin, token.end - token.begin);
   }
+  [[nodiscard]] std::string foreignHelp(const Token &found, const Token *previous,
+                                        const Token *next) const;
   [[nodiscard]] bool onNewLine(const Token &token);
   [[nodiscard]] bool mayReport();
   [[nodiscard]] bool closerIsWanted(std::uint16_t type) const;
@@ -157,6 +159,7 @@ private:
   void reportMissing(std::uint16_t wanted);
   void reportMissingEnd(std::uint16_t wanted);
   antlr4::Token *conjure(std::uint16_t type);
+  void stepBackToAssignment();
   void skipStatement();
   void skipTo(bool (*stop)(std::uint16_t));
   bool startsDeclaration(const Token &token);

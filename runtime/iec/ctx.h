@@ -26,6 +26,15 @@ enum class ExceptionCode : uint32_t {
 
 struct Ctx;
 
+/// An exception that __TRY has caught. Plain data on the stack of the body.
+struct Caught {
+  ExceptionCode code;
+  uint32_t line;
+  uint32_t col;
+  const char *file;
+  char detail[160];
+};
+
 /// What the host offers to an application. The application only ever calls through this table,
 /// so that app.so needs no symbol from the host.
 struct HostApi {
@@ -39,6 +48,10 @@ struct HostApi {
   int64_t (*refillLoopBudget)(Ctx *ctx);
   /// A line of text for the operator (an online warning). Callable from the cycle.
   void (*log)(Ctx *ctx, uint32_t severity, const char *text);
+  /// Called while a C++ exception is being handled: says which one of ST's it is. What ST may not
+  /// catch (an endless loop, anything that is not of ST) goes on, so that it does not return. Null:
+  /// nothing can be caught.
+  void (*caught)(Ctx *ctx, Caught *out) = nullptr;
 };
 
 /// One task's view of the running application. Plain data; the host owns it.
@@ -64,6 +77,13 @@ struct Ctx {
                                                     uint32_t line, uint32_t col,
                                                     const char *detail);
 
+/// In a handler: what was caught (see HostApi::caught).
+__attribute__((cold)) void caught(Ctx &ctx, Caught &out);
+/// Goes on with an exception that was caught, behind __FINALLY.
+[[noreturn]] __attribute__((cold)) void raiseAgain(Ctx &ctx, const Caught &exception);
+/// The number of __SYSTEM.ExceptionCode.
+uint32_t exceptionNumber(ExceptionCode code);
+
 /// Out-of-line parts of the checks: they word the detail and raise.
 [[noreturn]] __attribute__((cold)) void raiseIndex(Ctx &ctx, int64_t index, int64_t lo, int64_t hi,
                                                    const char *file, uint32_t line, uint32_t col);
@@ -77,6 +97,20 @@ inline void loopTick(Ctx &ctx, const char *file, uint32_t line, uint32_t col) {
   if (--ctx.loopBudget < 0) [[unlikely]]
     loopBudgetSpent(ctx, file, line, col);
 }
+/// Stands for the context within a loop that keeps variables in C++ locals: `save` puts them back.
+/// That happens before the cycle is left and before the context is handed to anyone, so that the
+/// locals need not outlive a call: they stay in registers.
+template <class Save> struct LoopContext {
+  Ctx &ctx;
+  Save save;
+
+  operator Ctx &() const {
+    save();
+    return ctx;
+  }
+};
+template <class Save> LoopContext(Ctx &, Save) -> LoopContext<Save>;
+
 /// The loop budget within one call of a POU: a copy that the compiler can keep in a register. A
 /// loop is written as two: the inner one runs while there is budget and contains no call for it, so
 /// that its variables stay in registers; the outer one asks for more. done() takes what was used
@@ -87,25 +121,14 @@ struct LoopBudget {
 
   explicit LoopBudget(const Ctx &ctx) : left(ctx.loopBudget), start(left) {}
   /// Behind the inner loop; `more` says that it ended for lack of budget.
-  void refill(bool more, Ctx &ctx, const char *file, uint32_t line, uint32_t col) {
+  template <class C> void refill(bool more, C &ctx, const char *file, uint32_t line, uint32_t col) {
     if (more && left <= 0) [[unlikely]] {
-      loopBudgetSpent(ctx, file, line, col);
-      left = start = ctx.loopBudget;
+      Ctx &own = ctx;
+      loopBudgetSpent(own, file, line, col);
+      left = start = own.loopBudget;
     }
   }
   void done(Ctx &ctx) const { ctx.loopBudget -= start - left; }
-};
-
-/// Puts the local copy of a variable back where it belongs, however its scope is left: a loop keeps
-/// the variables that nothing else can reach meanwhile in C++ locals.
-template <class T> struct Keep {
-  T &home;
-  const T &local;
-
-  Keep(T &variable, const T &copy) : home(variable), local(copy) {}
-  Keep(const Keep &) = delete;
-  Keep &operator=(const Keep &) = delete;
-  ~Keep() { home = local; }
 };
 
 /// An object of the application at its place in the state.

@@ -46,6 +46,47 @@ void raise(Ctx &ctx, ExceptionCode code, const char *file, uint32_t line, uint32
   raiseDetail(ctx, code, file, line, col, nullptr);
 }
 
+void caught(Ctx &ctx, Caught &out) {
+  if (ctx.host == nullptr || ctx.host->size < sizeof(HostApi) || ctx.host->caught == nullptr)
+    throw;
+  ctx.host->caught(&ctx, &out);
+}
+
+void raiseAgain(Ctx &ctx, const Caught &exception) {
+  raiseDetail(ctx, exception.code, exception.file, exception.line, exception.col,
+              exception.detail[0] == 0 ? nullptr : exception.detail);
+}
+
+uint32_t exceptionNumber(ExceptionCode code) {
+  switch (code) {
+  case ExceptionCode::None:
+    return 0;
+  case ExceptionCode::DivisionByZero:
+    return 0x102;
+  case ExceptionCode::IndexOutOfRange:
+    return 0x101;
+  case ExceptionCode::NullPointer:
+  case ExceptionCode::UnboundInOut:
+  case ExceptionCode::AccessViolation:
+    return 0x51;
+  case ExceptionCode::RangeViolation:
+    return 0x103;
+  case ExceptionCode::StackOverflow:
+    return 0x54;
+  case ExceptionCode::OutOfMemory:
+    return 0x1C;
+  case ExceptionCode::AbstractCall:
+    return 0x50;
+  case ExceptionCode::EndlessLoop:
+    return 0x10;
+  case ExceptionCode::User:
+    return 0x10000;
+  case ExceptionCode::Internal:
+    break;
+  }
+  return 0xFFFF'FFFF;
+}
+
 void raiseIndex(Ctx &ctx, int64_t index, int64_t lo, int64_t hi, const char *file, uint32_t line,
                 uint32_t col) {
   Detail detail;

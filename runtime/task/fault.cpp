@@ -56,6 +56,21 @@ extern "C" void strideOnSignal(int number, siginfo_t *info, void *) {
 
 int64_t refuseMoreLoops(Ctx *) { return 0; }
 
+void describeCaught(Ctx *, Caught *out) {
+  try {
+    throw;
+  } catch (const StException &exception) {
+    if (exception.code() == ExceptionCode::EndlessLoop ||
+        exception.code() == ExceptionCode::Internal)
+      throw;
+    out->code = exception.code();
+    out->line = exception.line();
+    out->col = exception.column();
+    out->file = exception.file();
+    std::snprintf(out->detail, sizeof(out->detail), "%s", exception.detail());
+  }
+}
+
 void logToStderr(Ctx *, uint32_t, const char *text) { std::fprintf(stderr, "%s\n", text); }
 
 } // namespace
@@ -109,8 +124,8 @@ std::optional<StException> guardedCall(void (*run)(Ctx *), Ctx &ctx) {
 }
 
 const HostApi &hostApi() {
-  static constexpr HostApi kApi = {sizeof(HostApi), 0,          nullptr, raiseInHost,
-                                   refuseMoreLoops, logToStderr};
+  static constexpr HostApi kApi = {sizeof(HostApi), 0,           nullptr,       raiseInHost,
+                                   refuseMoreLoops, logToStderr, describeCaught};
   return kApi;
 }
 

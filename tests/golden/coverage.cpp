@@ -2,6 +2,8 @@
 #include "tests/support/expectation_block.hpp"
 #include "tests/support/text.hpp"
 
+#include <regex>
+
 namespace stride::golden {
 
 namespace fs = std::filesystem;
@@ -22,6 +24,28 @@ static std::string allExpectations(const fs::path &root) {
   return all;
 }
 
+// Every case that must fail says with its first lines what is wrong and where:
+//     error[SE0301]: cannot find `x`
+//      --> fail_x.st:3:1
+static std::string checkFirstLines(const fs::path &folder) {
+  std::string report;
+  for (const fs::directory_entry &entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with("fail_") || entry.path().extension() != ".st")
+      continue;
+    const std::vector<std::string> lines =
+        test::splitLines(test::splitExpectation(test::readFile(entry.path())).expected);
+    static const std::regex kCode(R"((error|warning|note)\[SE\d{4}\]: .+)");
+    static const std::regex kPlace(R"( *--> \S+:\d+:\d+)");
+    // A file that is no text has no lines.
+    const bool placed = lines.size() > 1 && std::regex_match(lines[1], kPlace);
+    const bool whole = !lines.empty() && lines[0].starts_with("error[SE0102]");
+    if (lines.empty() || !std::regex_match(lines[0], kCode) || !(placed || whole))
+      report += name + " does not begin with a code and a place\n";
+  }
+  return report;
+}
+
 std::string checkCoverage(const fs::path &root) {
   const test::ProcessResult list = runStride({"explain", "--list"}, root);
   if (list.exitCode != 0 || list.out.empty())
@@ -36,7 +60,7 @@ std::string checkCoverage(const fs::path &root) {
     if (text.exitCode != 0 || test::splitLines(test::canonical(text.out)).size() < 2)
       report += code + " has no text in `stride explain`\n";
   }
-  return report;
+  return report + checkFirstLines(root / "diagnostics");
 }
 
 } // namespace stride::golden

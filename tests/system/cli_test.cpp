@@ -292,7 +292,61 @@ TEST_F(Cli, ExplainKnowsCodesAndMotionErrors) {
   EXPECT_THAT(stride({"explain", "smc_no_error"}).out, StartsWith("SMC_ERROR 0: SMC_NO_ERROR"));
   EXPECT_EQ(stride({"explain", "SE9999"}).exitCode, 1);
   EXPECT_THAT(stride({"explain", "--list"}).out,
-              HasSubstr("SE0808 two drives with one wDriveId\n"));
+              AllOf(HasSubstr("SE0808 config-duplicate-drive-id "),
+                    HasSubstr(" two drives with one wDriveId\n")));
+  EXPECT_THAT(stride({"explain", "0808"}).out, StartsWith("SE0808: "));
+  EXPECT_THAT(stride({"explain", "Unused-Variable"}).out,
+              AllOf(StartsWith("SE0390: "), HasSubstr("name: unused-variable\n"),
+                    HasSubstr("severity: warning\n")));
+}
+
+// ---------------------------------------------------------------------------------------------
+// severities
+
+TEST_F(Cli, SeveritiesAreChosenOnTheCommandLine) {
+  write("a.st", "PROGRAM Main\nVAR x : INT; END_VAR\nx := x;\nEND_PROGRAM\n");
+  EXPECT_THAT(stride({"check", "a.st"}).err, HasSubstr("warning[SE0616]"));
+  const ProcessResult raised = stride({"check", "a.st", "-W", "error=self-assignment"});
+  EXPECT_THAT(raised.err, HasSubstr("error[SE0616]"));
+  EXPECT_EQ(raised.exitCode, 1);
+  EXPECT_EQ(stride({"check", "a.st", "-W", "off=se0616"}).err, "");
+  EXPECT_THAT(stride({"check", "a.st", "-W", "error"}).err, HasSubstr("error[SE0616]"));
+  EXPECT_THAT(stride({"check", "a.st", "-W", "off=all-warnings", "-W", "note=616"}).exitCode, 0);
+}
+
+TEST_F(Cli, WrongSeveritiesAreUsageErrors) {
+  write("a.st", "PROGRAM Main\nVAR x : INT; END_VAR\nx := 1;\nEND_PROGRAM\n");
+  const ProcessResult name = stride({"check", "a.st", "-W", "off=self-asignment"});
+  EXPECT_EQ(name.exitCode, 2);
+  EXPECT_THAT(name.err, HasSubstr("did you mean `self-assignment`?"));
+  EXPECT_THAT(stride({"check", "a.st", "-W", "of=self-assignment"}).err,
+              HasSubstr("none of error, warning, note, off"));
+  EXPECT_THAT(stride({"check", "a.st", "-W", "off=unknown-name"}).err,
+              HasSubstr("errors cannot be lowered"));
+}
+
+TEST_F(Cli, TheCommandLineGoesBeforeTheProject) {
+  write("stride.toml", "[diagnostics]\nself-assignment = \"off\"\nall-warnings = \"error\"\n");
+  write("a.st", "PROGRAM Main\nVAR x : INT; END_VAR\nx := x;\nIF FALSE THEN x := 1; END_IF\n"
+                "END_PROGRAM\n");
+  const ProcessResult plain = stride({"check"});
+  EXPECT_THAT(plain.err, AllOf(Not(HasSubstr("SE0616")), HasSubstr("error[SE0611]")));
+  const ProcessResult changed =
+      stride({"check", "-W", "note=self-assignment", "-W", "off=constant-condition"});
+  EXPECT_THAT(changed.err, AllOf(HasSubstr("note[SE0616]"), Not(HasSubstr("SE0611"))));
+  EXPECT_EQ(changed.exitCode, 0);
+}
+
+TEST_F(Cli, JsonHasEditsForEditors) {
+  write("a.st", "PROGRAM Main\nVAR i : INT; d : DINT; END_VAR\ni := d;\nEND_PROGRAM\n");
+  const ProcessResult result = stride({"check", "a.st", "--format", "json"});
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("name"), "narrowing-conversion");
+  const auto &edit = json.at("suggestions").at(0).at("edits").at(0);
+  EXPECT_EQ(edit.at("text"), "DINT_TO_INT(d)");
+  EXPECT_EQ(edit.at("line"), 3);
+  EXPECT_EQ(edit.at("column"), 6);
+  EXPECT_EQ(edit.at("endColumn"), 7);
 }
 
 } // namespace

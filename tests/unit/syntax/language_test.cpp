@@ -141,9 +141,9 @@ TEST(Language, Configurations) {
 
 TEST(Language, Namespaces) {
   EXPECT_EQ(tree("USING A;\nNAMESPACE B\nUSING C.D, E;\nNAMESPACE INTERNAL F.G\nFUNCTION h : INT "
-                 "END_FUNCTION\nEND_NAMESPACE\nTYPE t : INT; END_TYPE\nEND_NAMESPACE\n"
+                 "USING I; END_FUNCTION\nEND_NAMESPACE\nTYPE t : INT; END_TYPE\nEND_NAMESPACE\n"
                  "FUNCTION_BLOCK k USING X; USING Y; EXTENDS Z END_FUNCTION_BLOCK"),
-            "(FUNCTION B.F.G/h USING A USING C.D USING E : INT)\n(ALIAS B/t USING A USING C.D "
+            "(FUNCTION B.F.G/h USING A USING C.D USING E USING I : INT)\n(ALIAS B/t USING A USING C.D "
             "USING E INT)\n(FUNCTION_BLOCK k USING A USING X USING Y EXTENDS Z)\n");
   EXPECT_EQ(errors("NAMESPACE A\nPROGRAM P\nEND_NAMESPACE\nEND_NAMESPACE\nNAMESPACE B"),
             "SE0203 2:1 missing `END_PROGRAM`\nSE0211 4:1 `END_NAMESPACE` closes nothing\n"
@@ -204,7 +204,6 @@ TEST(Language, MisplacedMembers) {
                    "END_CLASS"),
             "SE0221 1:1 this METHOD belongs to no block\n"
             "SE0221 3:1 a FUNCTION cannot have a METHOD\n"
-            "SE0221 6:8 `X` is no block of this file\n"
             "SE0221 8:1 an INTERFACE cannot have an ACTION\n"
             "SE0220 9:10 a method of an INTERFACE has no statements\n"
             "SE0220 10:1 an INTERFACE has no statements\n"

@@ -50,7 +50,7 @@ TEST(SyntaxError, MissingEnd) {
             "SE0203 3:4 missing `END_IF`\n");
   EXPECT_EQ(
       errors("FUNCTION_BLOCK A\nVAR a : INT;\na := 1;\nEND_FUNCTION_BLOCK\nPROGRAM P END_PROGRAM"),
-      "SE0203 2:1 missing `END_VAR`\nSE0201 3:3 expected `:` and a type, found `:=`\n");
+      "SE0203 2:1 missing `END_VAR`\n");
   EXPECT_EQ(errors("PROGRAM A\na := 1;\nPROGRAM B\nEND_PROGRAM\n"),
             "SE0203 1:1 missing `END_PROGRAM`\n");
   EXPECT_EQ(errors("PROGRAM A\nEND_PROGRAM\nPROGRAM B\na := 1;\n"),
@@ -202,8 +202,16 @@ TEST(SyntaxError, NotSupported) {
   EXPECT_EQ(bodyErrors("\nINITIAL_STEP s:\nEND_STEP\nTRANSITION FROM s TO t := a;\nEND_TRANSITION"
                        "\nACTION x:\ny := 1;\nEND_ACTION\nSTEP t:\nx(N);\nEND_STEP"),
             "SE0208 2:1 a sequential function chart (SFC) is not supported by this version\n");
-  EXPECT_EQ(bodyErrors("\n{IF defined (x)} a := 1; {END_IF}"),
-            "SE0208 2:1 conditional compilation is not supported by this version\n");
+}
+
+TEST(SyntaxError, NoCascades) {
+  EXPECT_EQ(bodyErrors("\na[1 := 5; b := 1;"), "SE0202 2:4 expected `]`\n");
+  EXPECT_EQ(bodyErrors("\na := 1; i : INT; j : ARRAY[1..2] OF INT := [1, 2]; t : TON; b := 1;"),
+            "SE0228 2:9 `i` is declared among the statements\n"
+            "SE0228 2:18 `j` is declared among the statements\n"
+            "SE0228 2:52 `t` is declared among the statements\n");
+  EXPECT_EQ(errors("PROGRAM P\nVAR\n  a : INT;\nb(1);\na := 2;\nEND_PROGRAM"),
+            "SE0203 2:1 missing `END_VAR`\n");
 }
 
 TEST(SyntaxError, ExternalBody) {
