@@ -1,5 +1,7 @@
 #include "compiler/codegen/analysis.hpp"
 
+#include "compiler/semantics/hierarchy.hpp"
+
 #include "compiler/semantics/fold.hpp"
 
 #include <algorithm>
@@ -131,6 +133,36 @@ unsigned Analysis::effects(const Expr *expr) {
   }
 }
 
+namespace {
+
+/// A variable of the type calls methods when it comes into being or goes away (FB_Init, FB_Exit).
+bool runsMethods(const Type *type) {
+  while (type->kind == TypeKind::array)
+    type = typeAs<ArrayType>(type)->element;
+  if (type->kind == TypeKind::structure) {
+    for (const auto *s = typeAs<StructType>(type); s != nullptr; s = s->base) {
+      for (const VarSymbol *field : s->fields) {
+        if (runsMethods(field->type))
+          return true;
+      }
+    }
+    return false;
+  }
+  if (type->kind != TypeKind::functionBlock)
+    return false;
+  for (const PouSymbol *p = typeAs<PouType>(type)->symbol; p != nullptr; p = p->base) {
+    if (!p->methods.empty())
+      return true;
+    for (const VarSymbol *v : p->variables) {
+      if (v->section != Section::inOut && runsMethods(v->type))
+        return true;
+    }
+  }
+  return false;
+}
+
+} // namespace
+
 bool Analysis::pure(const PouSymbol *function) {
   const auto [it, fresh] = pure_.try_emplace(function, false); // a recursive one counts as not pure
   if (!fresh)
@@ -139,7 +171,8 @@ bool Analysis::pure(const PouSymbol *function) {
   for (const VarSymbol *v : function->variables) {
     if (v->section == Section::inOut || v->section == Section::output ||
         v->section == Section::stat || v->type->kind == TypeKind::pointer ||
-        v->type->kind == TypeKind::reference)
+        v->type->kind == TypeKind::reference || v->type->kind == TypeKind::interface ||
+        runsMethods(v->type))
       result = false;
   }
   if (result && function->decl->external) {

@@ -46,7 +46,8 @@ public:
   GeneratedFile finish() {
     const std::string path = std::string(c_.names.space(c_.own)) + "/dispatch__.cpp";
     return {path, banner("Which method is meant") + includes_.text(nullptr) +
-                      std::string(sourcePrelude()) + text_};
+                      std::string(sourcePrelude()) +
+                      "#pragma GCC diagnostic ignored \"-Wunused-parameter\"\n" + text_};
   }
 
 private:
@@ -54,7 +55,7 @@ private:
 
   std::string id(const PouSymbol *p) { return std::to_string(c_.names.typeId(p)) + "U"; }
 
-  /// `bool X__is(…)`: for whom `test` holds.
+  /// `bool X__is__(…)`: for whom `test` holds.
   template <class Test> void predicate(const PouSymbol *symbol, Test &&test) {
     includes_.symbol(symbol);
     std::string cases;
@@ -63,7 +64,7 @@ private:
         cases += "  case " + id(p) + ": // " + std::string(p->name.text) + "\n";
     }
     text_ += "\n" + std::string(weak()) + "bool " + std::string(c_.names.local(symbol)) +
-             "__is(::stride::UDINT type__) {\n";
+             "__is__(::stride::UDINT type__) {\n";
     if (cases.empty()) {
       text_ += "  static_cast<void>(type__);\n  return false;\n}\n";
       return;

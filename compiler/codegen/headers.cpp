@@ -136,7 +136,7 @@ public:
       statics(m);
     if (hasTypeId(symbol))
       body_ += "/// Whether a type id belongs to this block or to one that extends it.\nbool " +
-               name_ + "__is(::stride::UDINT type__);\n";
+               name_ + "__is__(::stride::UDINT type__);\n";
     return close(symbol);
   }
 
@@ -144,7 +144,7 @@ public:
   GeneratedFile interface(const PouSymbol *symbol) {
     open(symbol);
     body_ += "/// Whether a type id belongs to a block that implements the interface.\nbool " +
-             name_ + "__is(::stride::UDINT type__);\n";
+             name_ + "__is__(::stride::UDINT type__);\n";
     for (const PouSymbol *m : symbol->methods)
       body_ += methodSignature(c_, includes_, m, c_.names.local(m), true, nullptr) + ";\n";
     return close(symbol);

@@ -267,7 +267,7 @@ void Emitter::query(const CallExpr *e) {
     value(source);
   }
   w_ << "; const bool " << has << " = " << from << " != nullptr && " << c_.names.qualified(pou)
-     << "__is(*" << from << "); ";
+     << "__is__(*" << from << "); ";
   std::string result = from;
   if (toPointer) {
     const std::string type(c_.names.qualified(pou));

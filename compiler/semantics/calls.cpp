@@ -49,6 +49,7 @@ const Type *Checker::notCallable(CallExpr *expr, std::string message) {
 }
 
 const Type *Checker::checkCall(CallExpr *expr, bool asStatement) {
+  followSelf(expr->callee);
   Expr *callee = expr->callee;
   PouSymbol *pou = nullptr;
   // Functions, by plain or library-qualified name.

@@ -227,6 +227,7 @@ private:
   static Symbol *lookupInPou(PouSymbol *pou, Ident id);
   Symbol *lookupSelf(const ast::Name &name);
   bool reportSelf(const ast::Name &name);
+  void followSelf(ast::Expr *&expr);
   [[nodiscard]] bool insideOf(const PouSymbol *owner) const;
   bool requireAccess(Span span, const Symbol *member, const PouSymbol *owner, ast::Access access);
   const Type *useProperty(ast::Expr *expr, PropertySymbol *property, const ast::Name &name);
@@ -272,6 +273,7 @@ private:
   std::unordered_map<Ident, const Type *> elementary_;
   std::unordered_map<Ident, Symbol *>
       libraryMisses_; ///< results of lookupInLibraries, also the misses
+  std::unordered_set<const Library *> wholeLibraries_; ///< all of their files are loaded
   Scope scope_;
   std::set<std::pair<const PouSymbol *, Ident>> unknown_; ///< names reported already
   unsigned loopDepth_ = 0;

@@ -326,6 +326,7 @@ Symbol *Checker::resolveNamespace(Expr *expr) {
 const Type *Checker::checkMember(MemberExpr *expr) {
   if (expr->bit >= 0)
     return checkBit(expr);
+  followSelf(expr->base);
   const std::string name(expr->name.text);
   if (Symbol *space = resolveNamespace(expr->base)) {
     Symbol *found = nullptr;
@@ -406,7 +407,11 @@ const Type *Checker::checkMemberOf(MemberExpr *expr, const Type *base) {
       d.help("a similar one exists: `" + std::string(similar) + "`");
     return elementaryType(TypeKind::error);
   }
-  if (member->owner != nullptr && !insideOf(member->owner) &&
+  const Access access = member->decl == nullptr ? Access::none : member->decl->access;
+  if (access == Access::privateA && member->owner != nullptr &&
+      !requireAccess(expr->name.span, member, member->owner, access))
+    return elementaryType(TypeKind::error);
+  if (member->owner != nullptr && access != Access::publicA && !insideOf(member->owner) &&
       (member->section == Section::temp ||
        (member->section == Section::local && base->kind == TypeKind::functionBlock))) {
     auto &d = report(Code::notAccessible, expr->name.span,

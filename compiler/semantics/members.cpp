@@ -19,7 +19,8 @@ PropertySymbol *Checker::propertyOf(const Expr *expr) {
 
 Symbol *Checker::lookupInPou(PouSymbol *pou, Ident id) {
   for (PouSymbol *p = pou; p != nullptr; p = p->owner) {
-    if (VarSymbol *v = findVariable(p, id))
+    VarSymbol *v = findVariable(p, id);
+    if (v != nullptr && (p == pou || v->section != Section::temp)) // VAR_TEMP is the body's own
       return v;
     if (p->owner == nullptr && !p->isFunction()) {
       if (Symbol *member = memberNamed(p, id))
@@ -44,6 +45,23 @@ Symbol *Checker::lookupSelf(const Name &name) {
   symbol->block = isSuper ? block->base : block;
   symbol->isSuper = isSuper;
   return symbol;
+}
+
+/// Edition 3 writes `THIS.x` and `SUPER()` for what CODESYS writes as `THIS^.x` and `SUPER^()`.
+void Checker::followSelf(Expr *&expr) {
+  if (expr->kind != ExprKind::name)
+    return;
+  const Name &name = as<NameExpr>(expr)->name;
+  if (name.id->lower != "this" && name.id->lower != "super")
+    return;
+  const Symbol *symbol = lookup(name);
+  if (symbol == nullptr || symbol->kind != SymbolKind::self)
+    return;
+  auto *deref = arena_.make<DerefExpr>();
+  deref->kind = ExprKind::deref;
+  deref->span = expr->span;
+  deref->base = expr;
+  expr = deref;
 }
 
 /// THIS or SUPER where there is none; true when it was one of them.
@@ -188,6 +206,7 @@ PouSymbol *Checker::methodOf(Expr *callee, const Type *&base) {
   if (callee->kind != ExprKind::member || as<MemberExpr>(callee)->bit >= 0)
     return nullptr;
   auto *member = as<MemberExpr>(callee);
+  followSelf(member->base);
   if (resolveNamespace(member->base) != nullptr)
     return nullptr;
   base = check(member->base);
@@ -283,8 +302,12 @@ bool Checker::coerceToInterface(Expr *expr, const Type *type) {
     reportNoInterface(expr, from, type);
     return true;
   }
-  if (isInstance(from) && expr->kind != ExprKind::name && expr->kind != ExprKind::member &&
-      expr->kind != ExprKind::index && expr->kind != ExprKind::deref) {
+  const bool isReference = expr->kind == ExprKind::call &&
+                           as<CallExpr>(expr)->resolved == Callee::method &&
+                           as<CallExpr>(expr)->pou->result->type->kind == TypeKind::reference;
+  if (isInstance(from) && !isReference && expr->kind != ExprKind::name &&
+      expr->kind != ExprKind::member && expr->kind != ExprKind::index &&
+      expr->kind != ExprKind::deref) {
     report(Code::notAssignable, expr->span, "an interface needs an instance that stays",
            "this is a copy that goes away")
         .help("store it in a variable first");

@@ -1,6 +1,7 @@
 // Modules: files become symbols, libraries are pulled in on demand.
 
 #include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/hierarchy.hpp"
 #include "compiler/syntax/parser.hpp"
 
 #include <algorithm>
@@ -313,6 +314,16 @@ void Checker::declareUsed() {
     }
     for (std::size_t i = 0; i < library->globals.size(); ++i)
       declare(library->globals[i]);
+    // Which blocks extend a library's block or implement its interface must be known in full.
+    if (!library->isUser && !wholeLibraries_.contains(library) &&
+        std::any_of(library->pous.begin(), library->pous.end(), [](const PouSymbol *p) {
+          return p->isInterface() || (p->isBlock() && hasTypeId(p));
+        })) {
+      wholeLibraries_.insert(library);
+      for (const LibraryIndex::Entry &entry : index_.files(library->name))
+        loadLibraryFile(entry);
+      declared = true;
+    }
     if (declared || before != program_.libraries.size() + library->pous.size())
       l = static_cast<std::size_t>(-1); // others may have been pulled in
   }

@@ -166,12 +166,14 @@ void App::load(const std::vector<GeneratedFile> &files, const Options &) {
                                    ::testing::UnitTest::GetInstance()->current_test_info()->name());
   fs::remove_all(folder);
   std::string all;
+  std::string library; // a source of its own: it has weak functions that the application replaces
   for (const GeneratedFile &f : files) {
     write(folder / f.path, f.text);
     if (f.path.ends_with(".cpp"))
-      all += "#include \"" + f.path + "\"\n";
+      (f.path.starts_with("Lib/") ? library : all) += "#include \"" + f.path + "\"\n";
   }
   write(folder / "all.cpp", all);
+  write(folder / "library.cpp", library);
   const std::string object = (folder / "app.so").string();
   const std::string log = (folder / "log.txt").string();
 #ifdef __SANITIZE_ADDRESS__ // the runtime's archive is instrumented then
@@ -184,7 +186,8 @@ void App::load(const std::vector<GeneratedFile> &files, const Options &) {
                               "-fwrapv -fno-strict-aliasing -fno-finite-loops"
                               " -fno-delete-null-pointer-checks -ffp-contract=off -fno-rtti -I" +
                               folder.string() + " -I" STRIDE_SOURCE_DIR " " +
-                              (folder / "all.cpp").string() + " -o " + object +
+                              (folder / "all.cpp").string() + " " +
+                              (folder / "library.cpp").string() + " -o " + object +
                               " " STRIDE_RUNTIME_ARCHIVE " -Wl,-z,defs > " + log + " 2>&1";
   if (std::system(command.c_str()) != 0) {
     std::ifstream in(log);
@@ -229,6 +232,17 @@ void App::run(int cycles) {
   } catch (const Thrown &thrown) {
     exception_ = thrown.text;
   }
+}
+
+void App::exit(bool inCopyCode) {
+  ctx_.inCopyCode = inCopyCode ? 1 : 0;
+  if (app_ != nullptr && app_->exit != nullptr)
+    app_->exit(&ctx_);
+}
+
+void App::reinit() {
+  if (app_ != nullptr && app_->reinit != nullptr)
+    app_->reinit(&ctx_);
 }
 
 void *App::at(std::string_view path, const stride::TypeDesc **typeOut) const {

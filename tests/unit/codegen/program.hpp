@@ -43,6 +43,9 @@ public:
 
   /// Runs cycles of 10 ms; stops at the first exception.
   void run(int cycles = 1);
+  /// FB_Exit and FB_Reinit of all instances.
+  void exit(bool inCopyCode);
+  void reinit();
   /// The value at a path as text (`Main.a[2].x`): `5`, `1.5`, `TRUE`, `'text'`.
   [[nodiscard]] std::string operator[](std::string_view path) const;
   /// `DivisionByZero Main.st:5:8` of the exception that ended the last run; empty without one.
