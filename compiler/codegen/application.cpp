@@ -164,8 +164,12 @@ private:
       types_.addProgram(static_cast<const PouSymbol *>(m.root.symbol), m.name);
       return;
     }
+    std::string list(m.root.symbol->name.text);
+    if (m.root.isStatic && static_cast<const PouSymbol *>(m.root.symbol)->isMethod())
+      list.insert(0, std::string(static_cast<const PouSymbol *>(m.root.symbol)->owner->name.text) +
+                         "__");
     for (const VarSymbol *v : rootVariables(m.root))
-      types_.addRoot(m.root.symbol->name.text, v, m.name + "." + fieldName(v),
+      types_.addRoot(list, v, m.name + "." + fieldName(v),
                      m.root.isStatic || qualified_.contains(v->decl), listRenamedFrom(m.root, v));
   }
 

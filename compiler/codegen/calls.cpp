@@ -171,7 +171,7 @@ void Emitter::functionCall(const CallExpr *e, bool asStatement) {
       w_ << "); ";
     } else if (order && isInput(p) && a.value->constant == nullptr) {
       name = temporary("in");
-      w_ << "const " << type(p->type) << ' ' << name << " = ";
+      w_ << type(p->type) << " const " << name << " = ";
       if (p->type->kind == TypeKind::reference)
         addressAs(a.value, typeAs<PointerType>(p->type)->pointee);
       else
@@ -194,7 +194,7 @@ void Emitter::functionCall(const CallExpr *e, bool asStatement) {
   const bool hasResult = !asStatement && pou->result != nullptr;
   const std::string result = hasResult ? temporary("result") : std::string();
   if (hasResult)
-    w_ << "const " << type(pou->result->type) << ' ' << result << " = ";
+    w_ << type(pou->result->type) << " const " << result << " = ";
   functionArguments(e, names);
   w_ << ';';
   for (const auto &[a, name] : results) {

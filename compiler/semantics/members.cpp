@@ -19,7 +19,8 @@ PropertySymbol *Checker::propertyOf(const Expr *expr) {
 
 Symbol *Checker::lookupInPou(PouSymbol *pou, Ident id) {
   for (PouSymbol *p = pou; p != nullptr; p = p->owner) {
-    if (VarSymbol *v = findVariable(p, id))
+    VarSymbol *v = findVariable(p, id);
+    if (v != nullptr && (p == pou || v->section != Section::temp)) // VAR_TEMP is the body's own
       return v;
     if (p->owner == nullptr && !p->isFunction()) {
       if (Symbol *member = memberNamed(p, id))
