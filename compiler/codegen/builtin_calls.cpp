@@ -120,23 +120,46 @@ bool Emitter::selectedOnly(const CallExpr *e) {
   return true;
 }
 
-void Emitter::builtin(const CallExpr *e) {
-  if (selectedOnly(e))
-    return;
-  // The order of the arguments matters only if one of them calls what may change the others.
+/// The order of the arguments matters only if one of them calls what may change the others.
+bool Emitter::ordersArguments(const CallExpr *e) {
   unsigned before = effectNone;
   for (const Argument &a : e->arguments) {
     if (a.value == nullptr || e->builtin == Builtin::adr || e->builtin == Builtin::sizeofT ||
         e->builtin == Builtin::queryInterface || e->builtin == Builtin::queryPointer)
       continue;
     const unsigned after = effects(a.value);
-    if (Analysis::orderMatters(before, after)) {
-      orderedBuiltin(e);
-      return;
-    }
+    if (Analysis::orderMatters(before, after))
+      return true;
     before |= after;
   }
-  builtinPlain(e, nullptr);
+  return false;
+}
+
+void Emitter::builtin(const CallExpr *e) {
+  if (selectedOnly(e))
+    return;
+  if (ordersArguments(e))
+    orderedBuiltin(e);
+  else
+    builtinPlain(e, nullptr);
+}
+
+/// `target := CONCAT(…)` without a copy in between; false for other values.
+bool Emitter::stringInto(std::string_view target, const Expr *value) {
+  if (value->kind != ExprKind::call || value->constant != nullptr || !isString(value->type))
+    return false;
+  const auto *call = as<CallExpr>(value);
+  if (call->resolved != Callee::builtin || !isStringFunction(call->builtin) ||
+      ordersArguments(call))
+    return false;
+  w_ << "::stride::" << runtimeName(call->builtin) << '<' << typeAs<StringType>(value->type)->length
+     << ">(" << target;
+  for (std::size_t i = 0; i < call->arguments.size(); ++i) {
+    w_ << ", ";
+    builtinArgument(call, i, nullptr, true);
+  }
+  w_ << ");";
+  return true;
 }
 
 void Emitter::orderedBuiltin(const CallExpr *e) {

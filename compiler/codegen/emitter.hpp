@@ -246,6 +246,8 @@ private:
   bool selectedOnly(const ast::CallExpr *e);
   void orderedBuiltin(const ast::CallExpr *e);
   void builtinPlain(const ast::CallExpr *e, const std::vector<std::string> *names);
+  [[nodiscard]] bool ordersArguments(const ast::CallExpr *e);
+  bool stringInto(std::string_view target, const ast::Expr *value);
   void builtinArgument(const ast::CallExpr *e, std::size_t i, const std::vector<std::string> *names,
                        bool anyText);
 

@@ -101,6 +101,8 @@ bool isComputedPlace(const Expr *target) {
 } // namespace
 
 void Emitter::storeTo(std::string_view target, const Type *type, const Expr *value) {
+  if (isString(type) && stringInto(target, value))
+    return;
   if (isString(type) && (value->constant != nullptr || value->type != type)) {
     w_ << "::stride::assign(" << target << ", ";
     if (value->constant != nullptr)

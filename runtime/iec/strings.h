@@ -17,10 +17,17 @@ namespace detail {
 template <class C> uint32_t textLength(const C *s, uint32_t cap);
 template <class C> void textCopy(C *dst, uint32_t dstCap, const C *src, uint32_t srcCap);
 template <class C> int textCompare(const C *a, uint32_t aCap, const C *b, uint32_t bCap);
-/// dst := dst + the part [from, from + count) of src.
+/// dst := the part [from, from + count) of src.
 template <class C>
-void textAppend(C *dst, uint32_t dstCap, const C *src, uint32_t srcCap, uint32_t from,
-                uint32_t count);
+void textPart(C *dst, uint32_t dstCap, const C *src, uint32_t srcCap, uint32_t from,
+              uint32_t count);
+/// dst := the last `count` characters of src.
+template <class C>
+void textTail(C *dst, uint32_t dstCap, const C *src, uint32_t srcCap, uint32_t count);
+/// dst := a with b in place of the part [from, from + count) of it; b may be null.
+template <class C>
+void textSplice(C *dst, uint32_t dstCap, const C *a, uint32_t aCap, uint32_t from, uint32_t count,
+                const C *b, uint32_t bCap);
 template <class C> uint32_t textFind(const C *s, uint32_t cap, const C *what, uint32_t whatCap);
 
 inline constexpr uint32_t kRest = 0xFFFFFFFFU;
@@ -33,18 +40,12 @@ constexpr uint32_t clampCount(int64_t n) {
 
 } // namespace detail
 
-/// A literal as a value: lit("abc") is a STRING<3>, lit(u"abc") a WSTRING<3>.
-template <uint32_t K> constexpr STRING<K - 1> lit(const char (&text)[K]) {
-  STRING<K - 1> r{};
-  for (uint32_t i = 0; i < K; ++i)
-    r.s[i] = text[i];
-  return r;
+/// A literal as a value: lit("abc") is a STRING<3>, lit(u"abc") a WSTRING<3>. It is not copied.
+template <uint32_t K> inline const STRING<K - 1> &lit(const char (&text)[K]) {
+  return reinterpret_cast<const STRING<K - 1> &>(text);
 }
-template <uint32_t K> constexpr WSTRING<K - 1> lit(const char16_t (&text)[K]) {
-  WSTRING<K - 1> r{};
-  for (uint32_t i = 0; i < K; ++i)
-    r.s[i] = text[i];
-  return r;
+template <uint32_t K> inline const WSTRING<K - 1> &lit(const char16_t (&text)[K]) {
+  return reinterpret_cast<const WSTRING<K - 1> &>(text);
 }
 
 /// dst := src between any declared lengths; cuts what does not fit.
@@ -53,10 +54,12 @@ inline void assign(S<N> &dst, const S<M> &src) {
   detail::textCopy(dst.s, N, src.s, M);
 }
 template <uint32_t N, uint32_t K> inline void assign(STRING<N> &dst, const char (&text)[K]) {
-  detail::textCopy(dst.s, N, text, K - 1);
+  __builtin_memcpy(dst.s, text, K - 1 < N ? K : N);
+  dst.s[K - 1 < N ? K - 1 : N] = 0;
 }
 template <uint32_t N, uint32_t K> inline void assign(WSTRING<N> &dst, const char16_t (&text)[K]) {
-  detail::textCopy(dst.s, N, text, K - 1);
+  __builtin_memcpy(dst.s, text, (K - 1 < N ? K : N) * sizeof(char16_t));
+  dst.s[K - 1 < N ? K - 1 : N] = 0;
 }
 /// A copy with another declared length.
 template <uint32_t N, template <uint32_t> class S, uint32_t M> inline S<N> resize(const S<M> &s) {
@@ -76,73 +79,88 @@ template <template <uint32_t> class S, uint32_t N> inline INT len(const S<N> &s)
   return static_cast<INT>(detail::textLength(s.s, N));
 }
 
-/// LEFT(s, n): the first n characters. Results of the string functions have length R.
+// The functions that make strings exist twice: with the target as first argument (which may be one
+// of the others), and giving a string of length R. A target takes at most R characters.
+
+/// LEFT(s, n): the first n characters.
+template <uint32_t R, template <uint32_t> class S, uint32_t K, uint32_t N>
+inline void left(S<K> &to, const S<N> &s, int64_t n) {
+  detail::textPart(to.s, R < K ? R : K, s.s, N, 0, detail::clampCount(n));
+}
+/// RIGHT(s, n): the last n characters.
+template <uint32_t R, template <uint32_t> class S, uint32_t K, uint32_t N>
+inline void right(S<K> &to, const S<N> &s, int64_t n) {
+  detail::textTail(to.s, R < K ? R : K, s.s, N, detail::clampCount(n));
+}
+/// MID(s, n, p): n characters from position p. Positions below 1 count as 1.
+template <uint32_t R, template <uint32_t> class S, uint32_t K, uint32_t N>
+inline void mid(S<K> &to, const S<N> &s, int64_t n, int64_t p) {
+  detail::textPart(to.s, R < K ? R : K, s.s, N, detail::clampCount(p - (p > 0 ? 1 : 0)),
+                   detail::clampCount(n));
+}
+/// CONCAT(a, b).
+template <uint32_t R, template <uint32_t> class S, uint32_t K, uint32_t N, uint32_t M>
+inline void concat(S<K> &to, const S<N> &a, const S<M> &b) {
+  detail::textSplice(to.s, R < K ? R : K, a.s, N, detail::kRest, 0, b.s, M);
+}
+/// REPLACE(a, b, n, p): b in place of n characters of a from position p.
+template <uint32_t R, template <uint32_t> class S, uint32_t K, uint32_t N, uint32_t M>
+inline void replace(S<K> &to, const S<N> &a, const S<M> &b, int64_t n, int64_t p) {
+  detail::textSplice(to.s, R < K ? R : K, a.s, N, detail::clampCount(p - (p > 0 ? 1 : 0)),
+                     detail::clampCount(n), b.s, M);
+}
+/// INSERT(a, b, p): b inserted behind character p of a.
+template <uint32_t R, template <uint32_t> class S, uint32_t K, uint32_t N, uint32_t M>
+inline void insert(S<K> &to, const S<N> &a, const S<M> &b, int64_t p) {
+  detail::textSplice(to.s, R < K ? R : K, a.s, N, detail::clampCount(p), 0, b.s, M);
+}
+/// DELETE(s, n, p): without n characters from position p.
+template <uint32_t R, template <uint32_t> class S, uint32_t K, uint32_t N>
+inline void remove(S<K> &to, const S<N> &s, int64_t n, int64_t p) {
+  detail::textSplice(to.s, R < K ? R : K, s.s, N, detail::clampCount(p - (p > 0 ? 1 : 0)),
+                     detail::clampCount(n), static_cast<decltype(&s.s[0])>(nullptr), 0);
+}
+
 template <uint32_t R = 255, template <uint32_t> class S, uint32_t N>
 inline S<R> left(const S<N> &s, int64_t n) {
   S<R> r;
-  r.s[0] = 0;
-  detail::textAppend(r.s, R, s.s, N, 0, detail::clampCount(n));
+  left<R>(r, s, n);
   return r;
 }
-/// RIGHT(s, n): the last n characters.
 template <uint32_t R = 255, template <uint32_t> class S, uint32_t N>
 inline S<R> right(const S<N> &s, int64_t n) {
-  const uint32_t length = detail::textLength(s.s, N);
-  const uint32_t count = detail::clampCount(n);
   S<R> r;
-  r.s[0] = 0;
-  detail::textAppend(r.s, R, s.s, N, count < length ? length - count : 0, count);
+  right<R>(r, s, n);
   return r;
 }
-/// MID(s, n, p): n characters from position p. Positions below 1 count as 1.
 template <uint32_t R = 255, template <uint32_t> class S, uint32_t N>
 inline S<R> mid(const S<N> &s, int64_t n, int64_t p) {
   S<R> r;
-  r.s[0] = 0;
-  detail::textAppend(r.s, R, s.s, N, detail::clampCount(p - (p > 0 ? 1 : 0)),
-                     detail::clampCount(n));
+  mid<R>(r, s, n, p);
   return r;
 }
-/// CONCAT(a, b).
 template <uint32_t R = 255, template <uint32_t> class S, uint32_t N, uint32_t M>
 inline S<R> concat(const S<N> &a, const S<M> &b) {
   S<R> r;
-  detail::textCopy(r.s, R, a.s, N);
-  detail::textAppend(r.s, R, b.s, M, 0, detail::kRest);
+  concat<R>(r, a, b);
   return r;
 }
-/// REPLACE(a, b, n, p): b in place of n characters of a from position p.
 template <uint32_t R = 255, template <uint32_t> class S, uint32_t N, uint32_t M>
 inline S<R> replace(const S<N> &a, const S<M> &b, int64_t n, int64_t p) {
-  const uint32_t from = detail::clampCount(p - (p > 0 ? 1 : 0));
-  const int64_t behind = int64_t{from} + int64_t{detail::clampCount(n)};
   S<R> r;
-  r.s[0] = 0;
-  detail::textAppend(r.s, R, a.s, N, 0, from);
-  detail::textAppend(r.s, R, b.s, M, 0, detail::kRest);
-  detail::textAppend(r.s, R, a.s, N, detail::clampCount(behind), detail::kRest);
+  replace<R>(r, a, b, n, p);
   return r;
 }
-/// INSERT(a, b, p): b inserted behind character p of a.
 template <uint32_t R = 255, template <uint32_t> class S, uint32_t N, uint32_t M>
 inline S<R> insert(const S<N> &a, const S<M> &b, int64_t p) {
-  const uint32_t from = detail::clampCount(p);
   S<R> r;
-  r.s[0] = 0;
-  detail::textAppend(r.s, R, a.s, N, 0, from);
-  detail::textAppend(r.s, R, b.s, M, 0, detail::kRest);
-  detail::textAppend(r.s, R, a.s, N, from, detail::kRest);
+  insert<R>(r, a, b, p);
   return r;
 }
-/// DELETE(s, n, p): without n characters from position p.
 template <uint32_t R = 255, template <uint32_t> class S, uint32_t N>
 inline S<R> remove(const S<N> &s, int64_t n, int64_t p) {
-  const uint32_t from = detail::clampCount(p - (p > 0 ? 1 : 0));
-  const int64_t behind = int64_t{from} + int64_t{detail::clampCount(n)};
   S<R> r;
-  r.s[0] = 0;
-  detail::textAppend(r.s, R, s.s, N, 0, from);
-  detail::textAppend(r.s, R, s.s, N, detail::clampCount(behind), detail::kRest);
+  remove<R>(r, s, n, p);
   return r;
 }
 /// FIND(a, b): position of the first b in a, 0 when there is none or b is empty.
