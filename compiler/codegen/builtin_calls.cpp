@@ -269,7 +269,8 @@ void Emitter::builtinPlain(const CallExpr *e, const std::vector<std::string> *na
     return;
   }
   case Builtin::time:
-    w_ << "static_cast<::stride::TIME>(" << ctx() << ".cycleStartNs / 1000000)";
+    needContext();
+    w_ << "static_cast<::stride::TIME>(" << kContext << ".cycleStartNs / 1000000)";
     return;
   case Builtin::queryInterface:
   case Builtin::queryPointer:

@@ -292,7 +292,7 @@ private:
   void close() { w_.outdent(); }
   std::string_view ctx() {
     usesContext_ = true;
-    return "ctx__";
+    return context_;
   }
   /// `file__, 12, 3` of a check.
   void position(Span span);
@@ -319,6 +319,8 @@ private:
   const VarSymbol *lastUsed_ = nullptr;
   std::vector<Loop> loops_;
   std::vector<const VarSymbol *> loopLocals_; ///< kept in C++ locals just now
+  static constexpr std::string_view kContext = "ctx__";
+  std::string context_{kContext}; ///< what stands for the context: a loop's own where it has locals
   unsigned next_ = 0;
   std::uint32_t currentLine_ = 0; ///< of the ST, for next()
   Span initSpan_;                 ///< of the variable being initialised

@@ -26,14 +26,22 @@ void Emitter::loop(const Stmt *s) {
   }
   begin(s->span);
   w_ << '{';
+  std::string back;
   for (const VarSymbol *v : loopLocals_) {
     const std::string name = mangle(v->name.text);
-    w_ << ' ' << type(v->type) << ' ' << name << " = this->" << name << "; const ::stride::Keep "
-       << temporary("keep") << "(this->" << name << ", " << name << ");";
+    w_ << ' ' << type(v->type) << ' ' << name << " = this->" << name << ';';
+    back += " this->" + name + " = " + name + ";";
   }
+  const std::string context = temporary("loop");
+  w_ << " const ::stride::LoopContext " << context << '{' << ctx()
+     << ", [&]() __attribute__((always_inline)) {" << back << " }};";
   end();
   open();
+  context_ = context;
   loopStatement(s);
+  context_ = kContext;
+  w_.line() << context << ".save();";
+  end();
   close();
   loopLocals_.clear();
   w_.line() << '}';
@@ -50,15 +58,15 @@ void Emitter::loopStatement(const Stmt *s) {
   refillLoop(run, "true", s->span);
   if (s->kind == StmtKind::whileS) {
     const auto *loop = as<WhileStmt>(s);
-    w_ << "for (; budget__.left > 0 && (" << run << " = ";
+    w_ << "while (--budget__.left >= 0 && (" << run << " = ";
     condition(loop->condition);
-    w_ << "); --budget__.left) {";
+    w_ << ")) {";
     end();
     loopBody(loop->body, true);
     return;
   }
   const auto *loop = as<RepeatStmt>(s);
-  w_ << "for (; budget__.left > 0 && " << run << "; --budget__.left, " << run << " = !(";
+  w_ << "for (; " << run << " && --budget__.left >= 0; " << run << " = !(";
   condition(loop->until);
   w_ << ")) {";
   end();

@@ -66,6 +66,8 @@ void Emitter::statement(const Stmt *s) {
     begin(s->span);
     if (usesBudget_) // a RETURN in front of the first loop has used nothing
       w_ << "budget__.done(" << ctx() << "); ";
+    if (!loopLocals_.empty())
+      w_ << context_ << ".save(); ";
     w_ << "return";
     if (pou_->result != nullptr) {
       used_.insert(pou_->result);

@@ -77,6 +77,20 @@ inline void loopTick(Ctx &ctx, const char *file, uint32_t line, uint32_t col) {
   if (--ctx.loopBudget < 0) [[unlikely]]
     loopBudgetSpent(ctx, file, line, col);
 }
+/// Stands for the context within a loop that keeps variables in C++ locals: `save` puts them back.
+/// That happens before the cycle is left and before the context is handed to anyone, so that the
+/// locals need not outlive a call: they stay in registers.
+template <class Save> struct LoopContext {
+  Ctx &ctx;
+  Save save;
+
+  operator Ctx &() const {
+    save();
+    return ctx;
+  }
+};
+template <class Save> LoopContext(Ctx &, Save) -> LoopContext<Save>;
+
 /// The loop budget within one call of a POU: a copy that the compiler can keep in a register. A
 /// loop is written as two: the inner one runs while there is budget and contains no call for it, so
 /// that its variables stay in registers; the outer one asks for more. done() takes what was used
@@ -87,25 +101,14 @@ struct LoopBudget {
 
   explicit LoopBudget(const Ctx &ctx) : left(ctx.loopBudget), start(left) {}
   /// Behind the inner loop; `more` says that it ended for lack of budget.
-  void refill(bool more, Ctx &ctx, const char *file, uint32_t line, uint32_t col) {
+  template <class C> void refill(bool more, C &ctx, const char *file, uint32_t line, uint32_t col) {
     if (more && left <= 0) [[unlikely]] {
-      loopBudgetSpent(ctx, file, line, col);
-      left = start = ctx.loopBudget;
+      Ctx &own = ctx;
+      loopBudgetSpent(own, file, line, col);
+      left = start = own.loopBudget;
     }
   }
   void done(Ctx &ctx) const { ctx.loopBudget -= start - left; }
-};
-
-/// Puts the local copy of a variable back where it belongs, however its scope is left: a loop keeps
-/// the variables that nothing else can reach meanwhile in C++ locals.
-template <class T> struct Keep {
-  T &home;
-  const T &local;
-
-  Keep(T &variable, const T &copy) : home(variable), local(copy) {}
-  Keep(const Keep &) = delete;
-  Keep &operator=(const Keep &) = delete;
-  ~Keep() { home = local; }
 };
 
 /// An object of the application at its place in the state.

@@ -51,15 +51,15 @@ template <class T> constexpr T remainder(T a, T b) {
 }
 
 /// Integer a / b; raises DivisionByZero at the position.
-template <class T>
-constexpr T divide(Ctx &ctx, T a, T b, const char *file, uint32_t line, uint32_t col) {
+template <class T, class C>
+constexpr T divide(C &ctx, T a, T b, const char *file, uint32_t line, uint32_t col) {
   if (b == 0) [[unlikely]]
     raise(ctx, ExceptionCode::DivisionByZero, file, line, col);
   return quotient(a, b);
 }
 /// Integer a MOD b; raises DivisionByZero at the position.
-template <class T>
-constexpr T modulo(Ctx &ctx, T a, T b, const char *file, uint32_t line, uint32_t col) {
+template <class T, class C>
+constexpr T modulo(C &ctx, T a, T b, const char *file, uint32_t line, uint32_t col) {
   if (b == 0) [[unlikely]]
     raise(ctx, ExceptionCode::DivisionByZero, file, line, col);
   return remainder(a, b);
@@ -210,10 +210,11 @@ template <class T> constexpr bool forNext(T &i, T end, LINT step) {
 }
 
 // --- checks -------------------------------------------------------------------------------------
+// The context is a Ctx or a LoopContext.
 
 /// Zero-based place of index i in bounds Lo..Hi; raises IndexOutOfRange at the position.
-template <int64_t Lo, int64_t Hi, class I>
-constexpr uint64_t index(Ctx &ctx, I i, const char *file, uint32_t line, uint32_t col) {
+template <int64_t Lo, int64_t Hi, class C, class I>
+constexpr uint64_t index(C &ctx, I i, const char *file, uint32_t line, uint32_t col) {
   constexpr uint64_t kSpan = static_cast<uint64_t>(Hi) - static_cast<uint64_t>(Lo);
   const uint64_t place = static_cast<uint64_t>(static_cast<int64_t>(i)) - static_cast<uint64_t>(Lo);
   bool bad = place > kSpan;
@@ -224,8 +225,8 @@ constexpr uint64_t index(Ctx &ctx, I i, const char *file, uint32_t line, uint32_
   return place;
 }
 /// As above for bounds known at run time only (ARRAY[*]).
-template <class I>
-constexpr uint64_t index(Ctx &ctx, I i, int64_t lo, int64_t hi, const char *file, uint32_t line,
+template <class C, class I>
+constexpr uint64_t index(C &ctx, I i, int64_t lo, int64_t hi, const char *file, uint32_t line,
                          uint32_t col) {
   const uint64_t place = static_cast<uint64_t>(static_cast<int64_t>(i)) - static_cast<uint64_t>(lo);
   if (hi < lo || place > static_cast<uint64_t>(hi) - static_cast<uint64_t>(lo)) [[unlikely]]
@@ -238,15 +239,15 @@ template <int64_t Lo, class I> constexpr uint64_t place(I i) {
 }
 
 /// The object behind a POINTER TO or REFERENCE TO; raises NullPointer at the position.
-template <class T>
-constexpr T &deref(Ctx &ctx, T *p, const char *file, uint32_t line, uint32_t col) {
+template <class C, class T>
+constexpr T &deref(C &ctx, T *p, const char *file, uint32_t line, uint32_t col) {
   if (p == nullptr) [[unlikely]]
     raise(ctx, ExceptionCode::NullPointer, file, line, col);
   return *p;
 }
 /// The actual of a VAR_IN_OUT; raises UnboundInOut at the position.
-template <class T>
-constexpr T &bound(Ctx &ctx, T *p, const char *file, uint32_t line, uint32_t col) {
+template <class C, class T>
+constexpr T &bound(C &ctx, T *p, const char *file, uint32_t line, uint32_t col) {
   if (p == nullptr) [[unlikely]]
     raise(ctx, ExceptionCode::UnboundInOut, file, line, col);
   return *p;
@@ -267,8 +268,8 @@ template <class F> struct AtEnd {
 template <class F> AtEnd(F) -> AtEnd<F>;
 
 /// A value on its way into a subrange type Lo..Hi; raises RangeViolation at the position.
-template <int64_t Lo, int64_t Hi, class T>
-constexpr T subrange(Ctx &ctx, T value, const char *file, uint32_t line, uint32_t col) {
+template <int64_t Lo, int64_t Hi, class C, class T>
+constexpr T subrange(C &ctx, T value, const char *file, uint32_t line, uint32_t col) {
   const int64_t v = static_cast<int64_t>(value);
   bool bad = v < Lo || v > Hi;
   if constexpr (sizeof(T) == 8 && !detail::Number<T>::kSigned)
