@@ -6,7 +6,7 @@ from model import (INTS, NUMBERS, REALS, TIMES, Array, Enum, Ref, Skip, StringTy
                    rounded, string_text, time_text, wrap)
 
 MAX_STEPS = 1500
-METHODS = False
+METHODS = True
 
 
 class ExitLoop(Exception):
@@ -356,7 +356,7 @@ class Generator(Expressions):
                    Owner("THIS^", self.itself, list(pou.all_methods().values()))] if METHODS and not is_function else []
         self.enter(variables, instances, objects)
         body, pou.body = self.block(2)
-        if base and rng.random() < 0.6 and METHODS:
+        if base and rng.random() < 0.6 and METHODS and not base.all_in_outs():
             inner = pou.body
 
             def with_base(f):
