@@ -82,14 +82,12 @@ unsigned Analysis::effects(const Expr *expr) {
       result |= effectReads;
       const Type *array = index->base->type;
       for (const Expr *i : index->indices) {
-        if (array->kind != TypeKind::array)
-          break;
-        if (!provenIndex(i, typeAs<ArrayType>(array))) {
+        if (array->kind != TypeKind::array || !provenIndex(i, typeAs<ArrayType>(array))) {
           if (checks_)
             result |= effectRaises;
           result |= effects(i);
         }
-        array = typeAs<ArrayType>(array)->element;
+        array = indexStep(array);
       }
       expr = index->base;
       continue;
@@ -122,6 +120,8 @@ unsigned Analysis::effects(const Expr *expr) {
           result |= effectRaises;
         if (call->builtin == Builtin::queryInterface || call->builtin == Builtin::queryPointer)
           result |= effectReads | effectCalls; // they assign to their second argument
+        if (call->builtin == Builtin::newT || call->builtin == Builtin::deleteT)
+          return result | effectReads | effectRaises | effectCalls;
         return result | (call->builtin == Builtin::time ? effectReads : effectNone);
       }
       result |= effectReads | effectRaises;
@@ -184,6 +184,16 @@ bool Analysis::pure(const PouSymbol *function) {
   return result;
 }
 
+bool followsAddress(const IndexExpr *e) {
+  const Type *t = e->base->type;
+  for (std::size_t i = 0; i < e->indices.size() && t != nullptr; ++i) {
+    if (t->kind == TypeKind::pointer || t->kind == TypeKind::reference)
+      return true;
+    t = indexStep(t);
+  }
+  return t == nullptr || t->kind == TypeKind::reference;
+}
+
 bool Analysis::localTarget(const Expr *target, const PouSymbol *function) const {
   while (true) {
     switch (target->kind) {
@@ -197,6 +207,8 @@ bool Analysis::localTarget(const Expr *target, const PouSymbol *function) const 
       target = as<MemberExpr>(target)->base;
       continue;
     case ExprKind::index:
+      if (followsAddress(as<IndexExpr>(target)))
+        return false;
       target = as<IndexExpr>(target)->base;
       continue;
     default:
@@ -295,6 +307,8 @@ bool mayChange(const Expr *target, const Symbol *variable) {
       continue;
     }
     case ExprKind::index:
+      if (followsAddress(as<IndexExpr>(target)))
+        return true;
       target = as<IndexExpr>(target)->base;
       continue;
     default:

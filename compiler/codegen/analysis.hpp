@@ -81,6 +81,8 @@ private:
          divisor->constant->integer != 0 && divisor->constant->integer != -1;
 }
 
+/// A pointer or a reference lies on the way to the element.
+[[nodiscard]] bool followsAddress(const ast::IndexExpr *e);
 /// The variable an expression names directly (`x`, `GVL.x`, not `a.x`); null for all others.
 [[nodiscard]] const VarSymbol *namedVariable(const ast::Expr *expr);
 /// The name in front of the dot is a namespace: a library, a variable list, an enumeration.

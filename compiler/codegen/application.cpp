@@ -43,12 +43,26 @@ public:
     types_.addImage();
     for (const AccessPath &access : c_.program.accessPaths)
       types_.addAccess(access);
+    for (const Type *type : c_.program.created)
+      types_.index(type); // the headers of their objects name them by hash
+    if (c_.program.usesPool)
+      types_.addPool(c_.program.settings.poolSize);
     std::string tables = types_.text();
+    std::string measures;
+    for (const auto &[type, size] : c_.program.measured) {
+      types_.includes().complete(type);
+      measures += "static_assert(sizeof(" + std::string(c_.names.type(type)) +
+                  ") == " + std::to_string(size) + ");\n";
+    }
+    if (!measures.empty())
+      measures.insert(0, "\n// What SIZEOF has given.\n");
     for (const Member &m : members_)
       types_.includes().symbol(m.root.symbol);
     std::string out = banner("The application object");
-    out += "#include \"runtime/app/abi.h\"\n#include \"runtime/iec/image.h\"\n" +
-           types_.includes().text(nullptr);
+    out += "#include \"runtime/app/abi.h\"\n#include \"runtime/iec/image.h\"\n";
+    if (c_.program.usesPool)
+      out += "#include \"runtime/iec/pool.h\"\n";
+    out += types_.includes().text(nullptr);
     out += "\n#pragma GCC diagnostic ignored \"-Winvalid-offsetof\"\n";
     out += "\nnamespace st::user {\n\n/// All state of the application.\nstruct App__ {\n";
     for (const Member &m : members_)
@@ -58,13 +72,20 @@ public:
         out += std::string("  alignas(8) ::stride::BYTE image__") + "iqm"[area] + "[" +
                std::to_string(bytes) + "]; // %" + "IQM"[area] + "\n";
     }
-    if (members_.empty())
+    if (c_.program.usesPool)
+      out += "  ::stride::Pool<" + std::to_string(c_.program.settings.poolSize) +
+             "> pool__; // of __NEW\n";
+    else if (members_.empty())
       out += "  ::stride::BYTE empty__;\n";
     out += "};\n";
     if (hasConfiguredValues(c_.program))
       out += "\nvoid configure__(::stride::Ctx &ctx__);\n";
-    out += "\n} // namespace st::user\n";
+    out += "\n} // namespace st::user\n" + measures;
     places(out);
+    if (c_.program.usesPool)
+      out += "\nnamespace stride {\nconst ULINT poolPlace = offsetof(::st::user::App__, pool__);\n"
+             "const ULINT poolSize = " +
+             std::to_string(c_.program.settings.poolSize) + ";\n} // namespace stride\n";
     out += "\nnamespace {\n\nusing ::st::user::App__;\nusing ::stride::Kind;\n"
            "\n[[maybe_unused]] App__ &app__(::stride::Ctx *ctx__) { return *static_cast<App__ "
            "*>(ctx__->state); }\n";

@@ -1,6 +1,7 @@
 // Functions that the compiler implements itself.
 
 #include "compiler/codegen/emitter.hpp"
+#include "compiler/semantics/hierarchy.hpp"
 
 namespace stc::codegen {
 
@@ -120,11 +121,63 @@ bool Emitter::selectedOnly(const CallExpr *e) {
   return true;
 }
 
+/// Memory of the pool, with the defaults of its type.
+void Emitter::newObject(const CallExpr *e) {
+  const Type *t = e->arguments[0].value->type;
+  const bool initialise = c_.layouts.needsInit(t);
+  const std::string objects = temporary("objects");
+  const std::string count = temporary("count");
+  if (initialise) {
+    w_ << "[&] { const ::stride::LINT " << count << " = ";
+    if (e->arguments.size() > 1)
+      value(e->arguments[1].value);
+    else
+      w_ << '1';
+    w_ << "; auto *const " << objects << " = ";
+  }
+  w_ << "::stride::newObjects<" << type(t) << ">(" << ctx() << ", ";
+  if (initialise)
+    w_ << count;
+  else if (e->arguments.size() > 1)
+    value(e->arguments[1].value);
+  else
+    w_ << '1';
+  w_ << ", " << c_.layouts.hash(t) << "ULL)";
+  if (!initialise)
+    return;
+  const std::string i = temporary("i");
+  w_ << "; for (::stride::LINT " << i << " = 0; " << objects << " != nullptr && " << i << " < "
+     << count << "; ++" << i << ") ";
+  defaultStatement(objects + "[" + i + "]", t);
+  w_ << " return " << objects << "; }()";
+}
+
+/// The pointer is followed once, and 0 afterwards.
+void Emitter::deleteObject(const CallExpr *e) {
+  const std::string pointer = temporary("pointer");
+  const Expr *variable = e->arguments[0].value;
+  w_ << "{ auto &" << pointer << " = ";
+  place(variable);
+  w_ << "; ";
+  const Type *pointee = typeAs<PointerType>(variable->type)->pointee;
+  if (c_.layouts.hasLifecycle(pointee, "fb_exit")) {
+    includes_.complete(pointee);
+    const std::string i = temporary("i");
+    w_ << "for (::stride::ULINT " << i << " = 0; " << i << " < ::stride::poolCount(" << ctx()
+       << ", " << pointer << "); ++" << i << ") " << pointer << '[' << i << "].exit__(" << ctx()
+       << "); ";
+  }
+  w_ << "::stride::poolDelete(" << ctx() << ", " << pointer << ", ";
+  position(e->span);
+  w_ << "); " << pointer << " = nullptr; }";
+}
+
 /// The order of the arguments matters only if one of them calls what may change the others.
 bool Emitter::ordersArguments(const CallExpr *e) {
   unsigned before = effectNone;
   for (const Argument &a : e->arguments) {
-    if (a.value == nullptr || e->builtin == Builtin::adr || e->builtin == Builtin::sizeofT ||
+    if (a.value == nullptr || e->builtin == Builtin::adr || e->builtin == Builtin::isValidRef ||
+        e->builtin == Builtin::lowerBound || e->builtin == Builtin::upperBound ||
         e->builtin == Builtin::queryInterface || e->builtin == Builtin::queryPointer)
       continue;
     const unsigned after = effects(a.value);
@@ -136,6 +189,10 @@ bool Emitter::ordersArguments(const CallExpr *e) {
 }
 
 void Emitter::builtin(const CallExpr *e) {
+  if (e->builtin == Builtin::newT) {
+    newObject(e);
+    return;
+  }
   if (selectedOnly(e))
     return;
   if (ordersArguments(e))
@@ -274,20 +331,38 @@ void Emitter::builtinPlain(const CallExpr *e, const std::vector<std::string> *na
     return;
   case Builtin::queryInterface:
   case Builtin::queryPointer:
-  case Builtin::isValidRef:
     query(e);
     return;
   case Builtin::adr: {
     const bool misaligned = isMisaligned(e->arguments[0].value);
-    w_ << (misaligned ? "reinterpret_cast<::stride::BYTE *>(" : "");
+    w_ << (misaligned ? "reinterpret_cast<::stride::BYTE *>(" : "(");
     address(e->arguments[0].value);
-    w_ << (misaligned ? ")" : "");
+    w_ << ')';
     return;
   }
-  case Builtin::sizeofT:
-    w_ << "static_cast<" << type(result) << ">(sizeof(" << type(e->arguments[0].value->type)
-       << "))";
+  case Builtin::lowerBound:
+  case Builtin::upperBound: // of ARRAY[*]; the others are constants
+    w_ << "static_cast<::stride::DINT>(";
+    place(e->arguments[0].value);
+    w_ << (e->builtin == Builtin::lowerBound ? ".lo[" : ".hi[")
+       << e->arguments[1].value->constant->integer - 1 << "])";
     return;
+  case Builtin::isValidRef: {
+    const Expr *reference = e->arguments[0].value;
+    const VarSymbol *v = indirectVariable(reference);
+    if (v != nullptr && v->section == Section::inOut && reference->kind == ExprKind::name) {
+      // Its C++ reference is bound only where the in-out is used.
+      if (pou_->isFunction())
+        w_ << "true";
+      else
+        w_ << "(this->" << pathToBase(blockOf(pou_), v->owner) << fieldName(v) << " != nullptr)";
+      return;
+    }
+    w_ << '(';
+    slot(reference);
+    w_ << " != nullptr)";
+    return;
+  }
   default:
     break;
   }

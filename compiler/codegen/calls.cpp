@@ -20,10 +20,32 @@ const Argument *argumentFor(const CallExpr *e, const VarSymbol *parameter) {
   return nullptr;
 }
 
-/// A VAR_IN_OUT CONSTANT string may be bound to one of another length: then it gets a copy.
+/// The expression names memory, not just a value.
+bool isPlace(const Expr *e) {
+  const Symbol *symbol = nullptr;
+  switch (e->kind) {
+  case ExprKind::index:
+  case ExprKind::deref:
+    return true;
+  case ExprKind::name:
+    symbol = as<NameExpr>(e)->symbol;
+    break;
+  case ExprKind::member:
+    symbol = as<MemberExpr>(e)->symbol;
+    break;
+  default:
+    return false;
+  }
+  return symbol == nullptr || symbol->kind != SymbolKind::enumerator;
+}
+
+/// A VAR_IN_OUT CONSTANT may be bound to a string of another length or to a value: then it gets a
+/// copy.
 bool needsCopy(const Argument &a) {
-  return a.parameter->section == Section::inOut && isString(a.parameter->type) &&
-         a.value->type != a.parameter->type;
+  if (a.parameter->section != Section::inOut)
+    return false;
+  return (isString(a.parameter->type) && a.value->type != a.parameter->type) ||
+         (a.parameter->isConstant && !isPlace(a.value));
 }
 
 bool isInput(const VarSymbol *p) { return p->section == Section::input; }
@@ -104,6 +126,8 @@ void Emitter::functionArguments(const CallExpr *e, const std::vector<std::string
       w_ << names[k];
     else if (a == nullptr || a->value == nullptr)
       defaultArgument(p);
+    else if (p->type->kind == TypeKind::openArray)
+      openArray(a->value, typeAs<OpenArrayType>(p->type));
     else if (p->section == Section::inOut)
       placeAs(a->value, p->type);
     else if (p->type->kind == TypeKind::reference)
@@ -166,9 +190,9 @@ void Emitter::functionCall(const CallExpr *e, bool asStatement) {
       if (!needsCopy(a))
         continue;
       name = temporary("copy");
-      w_ << type(p->type) << ' ' << name << "{}; ::stride::assign(" << name << ", ";
-      text(a.value);
-      w_ << "); ";
+      w_ << type(p->type) << ' ' << name << "{}; ";
+      storeTo(name, p->type, a.value);
+      w_ << ' ';
     } else if (order && isInput(p) && a.value->constant == nullptr) {
       name = temporary("in");
       w_ << type(p->type) << " const " << name << " = ";
@@ -231,10 +255,12 @@ void Emitter::outputTo(const Expr *target, std::string_view source, const Type *
     w_ << ", " << source << ");";
     return;
   }
+  const bool bindings = c_.layouts.hasBindings(type);
+  w_ << (bindings ? "::stride::assignBound(" : "");
   place(target);
-  w_ << " = ";
+  w_ << (bindings ? ", " : " = ");
   convertedText(source, sourceType, type, span);
-  w_ << ';';
+  w_ << (bindings ? ");" : ";");
 }
 
 void Emitter::instanceCall(const CallExpr *e, Span span) {
@@ -271,13 +297,16 @@ void Emitter::instanceCall(const CallExpr *e, Span span) {
       if (!braces)
         w_ << "{ ";
       braces = true;
-      w_ << type(p->type) << ' ' << copy << "{}; ::stride::assign(" << copy << ", ";
-      text(a.value);
-      w_ << "); " << field << " = &" << copy << ';';
+      w_ << type(p->type) << ' ' << copy << "{}; ";
+      storeTo(copy, p->type, a.value);
+      w_ << ' ' << field << " = &" << copy << ';';
     } else if (isIndirect(p)) {
       w_ << field << " = ";
-      addressAs(a.value,
-                p->section == Section::inOut ? p->type : typeAs<PointerType>(p->type)->pointee);
+      if (p->type->kind == TypeKind::openArray)
+        openArray(a.value, typeAs<OpenArrayType>(p->type));
+      else
+        addressAs(a.value,
+                  p->section == Section::inOut ? p->type : typeAs<PointerType>(p->type)->pointee);
       w_ << ';';
     } else {
       storeTo(field, p->type, a.value);
@@ -294,6 +323,11 @@ void Emitter::instanceCall(const CallExpr *e, Span span) {
     part(a.span);
     outputTo(a.value, instance + "." + pathToBase(pou, a.parameter->owner) + fieldName(a.parameter),
              a.parameter->type, a.span);
+  }
+  for (const Argument &a : e->arguments) { // copies end with the statement
+    if (a.value != nullptr && !a.output && a.parameter != nullptr && needsCopy(a))
+      w_ << ' ' << instance << '.' << pathToBase(pou, a.parameter->owner) << fieldName(a.parameter)
+         << " = nullptr;";
   }
   if (braces)
     w_ << " }";

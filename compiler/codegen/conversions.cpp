@@ -2,6 +2,7 @@
 
 #include "compiler/codegen/emitter.hpp"
 #include "compiler/semantics/fold.hpp"
+#include "compiler/semantics/fold_builtins.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -130,13 +131,25 @@ void Emitter::exactString(const ConstValue &constant, const Type *type) {
 
 void Emitter::literal(const ConstValue &constant, const Type *from, const Type *to,
                       const Symbol *symbol) {
+  if (constant.kind == ConstKind::string && isCharacter(to)) {
+    number(firstUnit(constant.text, from->kind == TypeKind::wstring), to);
+    return;
+  }
+  if (isString(to) && constant.kind == ConstKind::integer) { // a CHAR constant
+    converted(from, to, {}, [&] { number(constant.integer, from); });
+    return;
+  }
   if (constant.kind == ConstKind::string) {
     exactString(constant, isString(to) ? to : from);
     return;
   }
   const Type *t = underlying(to);
   if (t->kind == TypeKind::pointer || t->kind == TypeKind::interface) {
-    w_ << "nullptr";
+    if (constant.integer == 0)
+      w_ << "nullptr";
+    else
+      w_ << "reinterpret_cast<" << type(t) << ">(" << static_cast<std::uint64_t>(constant.integer)
+         << "ULL)";
     return;
   }
   if (isReal(t) || t->kind == TypeKind::anyReal) {

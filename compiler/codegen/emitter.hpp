@@ -80,6 +80,8 @@ public:
 
   [[nodiscard]] Writer &writer() { return w_; }
   [[nodiscard]] Includes &includes() { return includes_; }
+  /// Run-time checks are made here: not with --unchecked or {attribute 'no_check'}.
+  [[nodiscard]] bool checks() const { return c_.program.settings.checks && !noCheck_; }
   [[nodiscard]] bool usesContext() const { return usesContext_; }
   [[nodiscard]] bool usesBudget() const { return usesBudget_; }
   void needContext() { usesContext_ = true; }
@@ -149,6 +151,8 @@ private:
   /// A variable (or element, field, bit base …) that can be assigned to.
   void place(const ast::Expr *e);
   [[nodiscard]] std::string placeText(const ast::Expr *e);
+  /// The descriptor that a VAR_IN_OUT of type ARRAY[*] is bound to.
+  void openArray(const ast::Expr *e, const OpenArrayType *wanted);
   /// A pointer to it; null references stay null.
   void address(const ast::Expr *e);
   void variable(const VarSymbol *v, Span span);
@@ -162,7 +166,9 @@ private:
   void basePath(const Type *base, const VarSymbol *field);
   /// A field of the block whose code is written, maybe one of its bases'.
   void ownField(const VarSymbol *v);
-  void index(const ast::IndexExpr *e);
+  void index(const ast::IndexExpr *e, bool slotOnly);
+  /// Follows the reference that has been written since `start`.
+  void followReference(std::size_t start, const Type *pointee, Span span);
   [[nodiscard]] int level(const ast::Expr *e) const;
   [[nodiscard]] static const ast::Expr *shown(const ast::Expr *e);
 
@@ -194,6 +200,8 @@ private:
   void ordered(const ast::BinaryExpr *e);
   template <class Left, class Right>
   void special(const ast::BinaryExpr *e, Left &&left, Right &&right);
+  template <class Left, class Right>
+  void pointerArithmetic(const ast::BinaryExpr *e, Left &&left, Right &&right);
   template <class Left, class Right>
   void timeArithmetic(const ast::BinaryExpr *e, Left &&left, Right &&right);
 
@@ -251,6 +259,8 @@ private:
   // builtin_calls.cpp
   void builtin(const ast::CallExpr *e);
   bool selectedOnly(const ast::CallExpr *e);
+  void newObject(const ast::CallExpr *e);
+  void deleteObject(const ast::CallExpr *e);
   void orderedBuiltin(const ast::CallExpr *e);
   void builtinPlain(const ast::CallExpr *e, const std::vector<std::string> *names);
   [[nodiscard]] bool ordersArguments(const ast::CallExpr *e);
@@ -262,7 +272,6 @@ private:
   void statement(const ast::Stmt *s);
   void assign(const ast::AssignStmt *s);
   void store(const ast::Expr *target, const ast::Expr *value);
-  bool copyInstance(const ast::Expr *target, const ast::Expr *value);
   void storeTo(std::string_view target, const Type *type, const ast::Expr *value);
   void callStatement(const ast::CallStmt *s);
   void ifStatement(const ast::IfStmt *s);
@@ -319,13 +328,24 @@ private:
     includes_.complete(type);
     return c_.names.type(type);
   }
-  [[nodiscard]] bool checks() const { return c_.program.settings.checks; }
+  /// The project's own function for the check, if it has one that is to be called here.
+  [[nodiscard]] const PouSymbol *ownCheck(ImplicitCheck check);
+  /// Writes the begin of a call of the project's own check; false: there is none.
+  bool openRangeCheck(const SubrangeType *range);
+  bool openDivisorCheck(const ast::BinaryExpr *e);
+  /// An index on its way into `array`, through CheckBounds.
+  void checkedIndex(const ast::Expr *index, const ArrayType *array);
+  /// A pointer on its way to being followed, through CheckPointer.
+  void checkedPointer(const ast::Expr *pointer);
   [[nodiscard]] unsigned effects(const ast::Expr *e) { return c_.analysis.effects(e); }
 
   Context &c_;
   const PouSymbol *pou_;
   Writer w_;
   Includes includes_;
+  bool noCheck_ = false; ///< {attribute 'no_check'}
+  bool isCheck_ = false; ///< the body of a check: no check calls itself
+  bool writing_ = false; ///< the place is about to be written
   bool usesContext_ = false;
   bool usesBudget_ = false;
   std::vector<FileId> files_;

@@ -28,7 +28,10 @@ void Emitter::converted(const Type *from, const Type *to, Span span, Inner &&inn
       if (f != t)
         w_ << "static_cast<" << type(t) << ">(";
       w_ << "::stride::subrange<" << range->low << ", " << range->high << ">(" << ctx() << ", ";
+      const bool own = openRangeCheck(range);
       inner();
+      if (own)
+        w_ << ", " << range->low << ", " << range->high << ')';
       w_ << ", ";
       position(span);
       w_ << (f != t ? "))" : ")");
@@ -39,6 +42,10 @@ void Emitter::converted(const Type *from, const Type *to, Span span, Inner &&inn
     inner();
     return;
   }
+  if (t->kind == TypeKind::array) { // the same elements between other bounds
+    wrap("::stride::reshape", type(t));
+    return;
+  }
   const bool pointerFrom = f->kind == TypeKind::pointer;
   const bool pointerTo = t->kind == TypeKind::pointer;
   if (pointerFrom || pointerTo) {
@@ -46,12 +53,47 @@ void Emitter::converted(const Type *from, const Type *to, Span span, Inner &&inn
       w_ << "static_cast<" << type(t) << ">(reinterpret_cast<::stride::UXINT>(";
     else
       w_ << "reinterpret_cast<" << type(t)
-         << (pointerFrom ? ">(" : ">(static_cast<::stride::UXINT>(");
+         << (pointerFrom         ? ">("
+             : bitWidth(f) == 32 ? ">(static_cast<::stride::UDINT>(" // an address kept in a DINT
+                                 : ">(static_cast<::stride::UXINT>(");
     inner();
     w_ << (pointerFrom && pointerTo ? ")" : "))");
     return;
   }
   const bool wideTo = t->kind == TypeKind::wstring;
+  if (isString(t) && isCharacter(f)) {
+    const std::string length = std::to_string(typeAs<StringType>(t)->length);
+    const bool cut = f->kind == TypeKind::wcharT && !wideTo;
+    w_ << "::stride::" << (wideTo ? "wideCharacterText<" : "characterText<") << length << ">("
+       << (cut ? "::stride::narrowCharacter(" : "");
+    inner();
+    w_ << (cut ? "))" : ")");
+    return;
+  }
+  if (isString(f) && isCharacter(t)) {
+    const bool cut = f->kind == TypeKind::wstring && t->kind == TypeKind::charT;
+    w_ << (cut ? "::stride::narrowCharacter(" : "") << "::stride::firstCharacter(";
+    inner();
+    w_ << (cut ? "))" : ")");
+    return;
+  }
+  if (f->kind == TypeKind::wcharT && t->kind == TypeKind::charT) {
+    w_ << "::stride::narrowCharacter(";
+    inner();
+    w_ << ')';
+    return;
+  }
+  if (t->kind == TypeKind::string && from->kind == TypeKind::enumeration &&
+      typeAs<EnumType>(from)->named) {
+    includes_.complete(from);
+    const std::string value = temporary("value");
+    w_ << "[&] { const " << type(from) << ' ' << value << " = ";
+    inner();
+    w_ << "; return ::stride::enumeratorText<" << typeAs<StringType>(t)->length << ">("
+       << c_.names.qualified(typeAs<EnumType>(from)->symbol) << "__name__(" << value << "), "
+       << value << "); }()";
+    return;
+  }
   if (isString(t)) {
     const std::string length = std::to_string(typeAs<StringType>(t)->length);
     if (isString(f))
@@ -86,7 +128,11 @@ template <class Left, class Right>
 void Emitter::special(const ast::BinaryExpr *e, Left &&left, Right &&right) {
   using enum ast::BinaryOp;
   if (e->operandType == nullptr) {
-    timeArithmetic(e, left, right);
+    if (underlying(e->left->type)->kind == TypeKind::pointer ||
+        underlying(e->right->type)->kind == TypeKind::pointer)
+      pointerArithmetic(e, left, right);
+    else
+      timeArithmetic(e, left, right);
     return;
   }
   if (isString(e->operandType)) {
@@ -109,9 +155,31 @@ void Emitter::special(const ast::BinaryExpr *e, Left &&left, Right &&right) {
      << type(underlying(e->operandType)) << ">(" << ctx() << ", ";
   left();
   w_ << ", ";
+  const bool own = openDivisorCheck(e);
   right();
+  w_ << (own ? "))" : "");
   w_ << ", ";
   position(e->opSpan);
+  w_ << ')';
+}
+
+/// Pointers with numbers of bytes, distances between pointers.
+template <class Left, class Right>
+void Emitter::pointerArithmetic(const ast::BinaryExpr *e, Left &&left, Right &&right) {
+  const bool leftPoints = underlying(e->left->type)->kind == TypeKind::pointer;
+  const bool both = leftPoints && underlying(e->right->type)->kind == TypeKind::pointer;
+  w_ << (both                          ? "::stride::distance("
+         : e->op == ast::BinaryOp::add ? "::stride::advance("
+                                       : "::stride::retreat(");
+  if (leftPoints)
+    left();
+  else
+    right();
+  w_ << ", ";
+  if (leftPoints)
+    right();
+  else
+    left();
   w_ << ')';
 }
 

@@ -66,23 +66,12 @@ void Emitter::raw(const Expr *e) {
     const auto *call = as<CallExpr>(e);
     if (call->resolved == Callee::builtin) {
       builtin(call);
-      break;
+    } else {
+      const std::size_t start = w_.size();
+      functionCall(call, false);
+      if (call->pou->result != nullptr && call->pou->result->type->kind == TypeKind::reference)
+        followReference(start, call->type, e->span);
     }
-    const bool reference = call->resolved == Callee::method && call->pou->result != nullptr &&
-                           call->pou->result->type->kind == TypeKind::reference;
-    if (reference) {
-      includes_.complete(e->type);
-      w_ << (checks() ? "::stride::deref(" : "(*");
-      if (checks())
-        w_ << ctx() << ", ";
-    }
-    functionCall(call, false);
-    if (reference && checks()) {
-      w_ << ", ";
-      position(e->span);
-    }
-    if (reference)
-      w_ << ')';
     break;
   }
   default: {
@@ -160,7 +149,7 @@ void Emitter::place(const Expr *e) {
     member(as<MemberExpr>(e), false);
     return;
   case ExprKind::index:
-    index(as<IndexExpr>(e));
+    index(as<IndexExpr>(e), false);
     return;
   case ExprKind::direct:
     located(*as<DirectExpr>(e)->location, e->type, [] {});
@@ -182,7 +171,7 @@ void Emitter::place(const Expr *e) {
       return;
     }
     w_ << "::stride::deref(" << ctx() << ", ";
-    value(pointer);
+    checkedPointer(pointer);
     w_ << ", ";
     position(e->span);
     w_ << ')';
@@ -195,6 +184,10 @@ void Emitter::place(const Expr *e) {
 }
 
 void Emitter::slot(const Expr *e) {
+  if (e->kind == ExprKind::index) {
+    index(as<IndexExpr>(e), true);
+    return;
+  }
   if (e->kind == ExprKind::member && !isNamespace(as<MemberExpr>(e)->base)) {
     member(as<MemberExpr>(e), true);
     return;
@@ -219,6 +212,11 @@ void Emitter::ownField(const VarSymbol *v) {
 }
 
 void Emitter::address(const Expr *e) {
+  if (e->type->kind == TypeKind::openArray) { // its first element
+    place(e);
+    w_ << ".data";
+    return;
+  }
   if (const VarSymbol *v = indirectVariable(e)) {
     // An in-out of the POU itself has become a C++ reference.
     if (v->section == Section::inOut && v->owner == pou_ && e->kind == ExprKind::name) {
@@ -231,6 +229,20 @@ void Emitter::address(const Expr *e) {
   }
   if (e->kind == ExprKind::deref) {
     value(as<DerefExpr>(e)->base);
+    return;
+  }
+  if (e->constant != nullptr && e->target != nullptr) { // 0: nothing
+    value(e);
+    return;
+  }
+  if (e->kind == ExprKind::index &&
+      elementBeforeReference(as<IndexExpr>(e))->kind == TypeKind::reference) {
+    slot(e);
+    return;
+  }
+  if (e->kind == ExprKind::call && as<CallExpr>(e)->resolved == Callee::function &&
+      as<CallExpr>(e)->pou->result->type->kind == TypeKind::reference) {
+    functionCall(as<CallExpr>(e), false);
     return;
   }
   w_ << '&';
@@ -321,8 +333,10 @@ void Emitter::member(const MemberExpr *e, bool slotOnly) {
     if (checks())
       w_ << (field->section == Section::inOut ? "::stride::bound(" : "::stride::deref(") << ctx()
          << ", ";
-    else
+    else if (field->type->kind != TypeKind::openArray)
       w_ << "(*";
+    else
+      w_ << '(';
   }
   if (field->section == Section::stat && field->owner != nullptr) {
     w_ << root({field->owner, true}) << '.';
@@ -354,11 +368,81 @@ void Emitter::memberEnd(const MemberExpr *e, bool indirect) {
     w_ << ')';
 }
 
-void Emitter::index(const IndexExpr *e) {
+void Emitter::openArray(const Expr *e, const OpenArrayType *wanted) {
+  if (e->type->kind == TypeKind::openArray) {
+    place(e);
+    return;
+  }
+  w_ << "::stride::open<" << type(wanted->element) << ", " << wanted->dimensions << ">(";
+  includes_.complete(wanted);
+  includes_.complete(e->type);
+  place(e);
+  w_ << ')';
+}
+
+void Emitter::followReference(std::size_t start, const Type *pointee, Span span) {
+  includes_.complete(pointee);
+  const std::string reference = w_.cut(start);
+  if (!checks()) {
+    w_ << "(*" << reference << ')';
+    return;
+  }
+  w_ << "::stride::deref(" << ctx() << ", " << reference << ", ";
+  position(span);
+  w_ << ')';
+}
+
+void Emitter::index(const IndexExpr *e, bool slotOnly) {
+  const std::size_t start = w_.size();
   includes_.complete(e->base->type); // C++ must know the size of the elements
-  place(e->base);
   const Type *t = e->base->type;
+  if (t->kind == TypeKind::pointer && checks())
+    checkedPointer(e->base);
+  else if (t->kind == TypeKind::pointer)
+    value(e->base);
+  else
+    place(e->base);
   for (const Expr *i : e->indices) {
+    if (t->kind == TypeKind::reference) {
+      t = typeAs<PointerType>(t)->pointee;
+      followReference(start, t, e->span);
+    }
+    if (t->kind == TypeKind::openArray) {
+      includes_.complete(t);
+      includes_.complete(typeAs<OpenArrayType>(t)->element);
+      const std::string base = w_.cut(start);
+      w_ << "::stride::at" << (checks() ? "(" : "Place(");
+      if (checks())
+        w_ << ctx() << ", ";
+      w_ << base << ", ";
+      value(i);
+      if (checks()) {
+        w_ << ", ";
+        position(i->span);
+      }
+      w_ << ')';
+      t = indexStep(t);
+      continue;
+    }
+    if (t->kind != TypeKind::array) { // a pointer or a string
+      const bool text = isString(t) ||
+                        (t->kind == TypeKind::pointer && isString(typeAs<PointerType>(t)->pointee));
+      if (t->kind == TypeKind::pointer)
+        includes_.complete(typeAs<PointerType>(t)->pointee);
+      const std::string base = w_.cut(start);
+      w_ << "::stride::" << (text ? "character" : "element") << (checks() ? "(" : "At(");
+      if (checks())
+        w_ << ctx() << ", ";
+      w_ << base << ", ";
+      value(i);
+      if (checks()) {
+        w_ << ", ";
+        position(i->span);
+      }
+      w_ << ')';
+      t = indexStep(t);
+      continue;
+    }
     const auto *array = typeAs<ArrayType>(t);
     w_ << ".v[";
     if (inBounds(i, array)) {
@@ -367,7 +451,7 @@ void Emitter::index(const IndexExpr *e) {
       value(i);
     } else if (checks() && !c_.analysis.provenIndex(i, array)) {
       w_ << "::stride::index<" << array->low << ", " << array->high << ">(" << ctx() << ", ";
-      value(i);
+      checkedIndex(i, array);
       w_ << ", ";
       position(i->span);
       w_ << ')';
@@ -379,6 +463,8 @@ void Emitter::index(const IndexExpr *e) {
     w_ << ']';
     t = array->element;
   }
+  if (t->kind == TypeKind::reference && !slotOnly)
+    followReference(start, typeAs<PointerType>(t)->pointee, e->span);
 }
 
 // ----------------------------------------------------------------------------------------------------
@@ -426,7 +512,14 @@ int Emitter::level(const Expr *e) const {
 // helpers
 
 Emitter::Emitter(Context &context, const PouSymbol *pou)
-    : c_(context), pou_(pou), w_(context.program.sources), includes_(context.names) {}
+    : c_(context), pou_(pou), w_(context.program.sources), includes_(context.names) {
+  if (pou == nullptr)
+    return;
+  for (const Attribute &a : pou->decl->attributes)
+    noCheck_ = noCheck_ || a.name == "no_check";
+  for (const PouSymbol *check : context.program.implicitChecks)
+    isCheck_ = isCheck_ || check == pou;
+}
 
 void Emitter::forgetUses() {
   used_.clear();

@@ -48,7 +48,7 @@ public:
     const auto *type = typeAs<StructType>(symbol->type);
     open(symbol);
     packed(type->pack);
-    body_ += "struct " + name_ + " {\n";
+    body_ += (type->isUnion ? "union " : "struct ") + name_ + " {\n";
     if (type->base != nullptr) {
       includes_.complete(type->base);
       body_ += "  " + std::string(c_.names.type(type->base)) + " base__; // EXTENDS\n";
@@ -57,6 +57,7 @@ public:
       field(v);
     init(c_.layouts.needsInit(type));
     lifecycle(type);
+    assignment(type);
     body_ += "};\n";
     unpacked(type->pack);
     layout(type);
@@ -74,6 +75,15 @@ public:
       body_ += unsigned64 ? std::to_string(static_cast<std::uint64_t>(e->value)) + "ULL"
                           : std::to_string(e->value);
       body_ += ";\n";
+    }
+    if (type->named) {
+      body_ += "/// The enumerator's name for TO_STRING; null when there is none.\nconstexpr const "
+               "char *" +
+               name_ + "__name__(" + name_ + " value) {\n";
+      for (const EnumeratorSymbol *e : type->enumerators)
+        body_ += "  if (value == " + name_ + "__" + std::string(e->name.text) + ")\n    return \"" +
+                 std::string(e->name.text) + "\";\n";
+      body_ += "  return nullptr;\n}\n";
     }
     return close(symbol);
   }
@@ -119,6 +129,8 @@ public:
       field(v);
     }
     init(c_.layouts.needsInit(symbol->type));
+    if (symbol->type->kind == TypeKind::functionBlock) // there is only one of a program
+      assignment(symbol->type);
     lifecycle(symbol->type);
     if (symbol->decl->kind != DeclKind::classD)
       body_ += "  void body__(::stride::Ctx &ctx__);\n";
@@ -177,7 +189,9 @@ public:
       if (definition != nullptr && !definition->used(p))
         out += "[[maybe_unused]] ";
       std::string type(c_.names.type(p->type));
-      if (p->section != Section::input) {
+      if (p->type->kind == TypeKind::openArray) {
+        includes_.complete(p->type);
+      } else if (p->section != Section::input) {
         includes_.pointed(p->type);
         type += type.back() == '*' ? "&" : " &";
       } else {
@@ -206,7 +220,7 @@ private:
       return;
     }
     std::string type(c_.names.type(v->type));
-    if (v->section == Section::inOut) {
+    if (v->section == Section::inOut && v->type->kind != TypeKind::openArray) {
       includes_.pointed(v->type);
       type += type.back() == '*' ? "*" : " *";
     } else {
@@ -220,6 +234,12 @@ private:
   void init(bool needed) {
     body_ +=
         needed ? "  void init__(::stride::Ctx &ctx__);\n" : "  void init__(::stride::Ctx &) {}\n";
+  }
+
+  /// Assignment that leaves the bindings of in-outs as they are.
+  void assignment(const Type *type) {
+    if (c_.layouts.hasBindings(type))
+      body_ += "  void assign__(const " + name_ + " &from);\n";
   }
 
   void lifecycle(const Type *type) {

@@ -24,6 +24,16 @@ Hash &Hash::add(std::uint64_t value) {
   return *this;
 }
 
+std::vector<const VarSymbol *> initialisedFields(const StructType *type) {
+  if (!type->isUnion || type->fields.empty())
+    return {type->fields.begin(), type->fields.end()};
+  for (const VarSymbol *v : type->fields) {
+    if (v->decl->init != nullptr)
+      return {v};
+  }
+  return {type->fields.front()};
+}
+
 std::int64_t subrangeDefault(const SubrangeType *type) {
   return type->low > 0 ? type->low : type->high < 0 ? type->high : 0;
 }
@@ -151,7 +161,7 @@ bool Layouts::computeNeedsInit(const Type *type) {
       return true;
     if (s->base != nullptr && needsInit(s->base))
       return true;
-    for (const VarSymbol *v : s->fields) {
+    for (const VarSymbol *v : initialisedFields(s)) {
       if (needsInit(v))
         return true;
     }
@@ -260,6 +270,8 @@ std::uint64_t Layouts::computeHash(const Type *type) {
     h.add(typeName(type));
     if (s->pack != 0)
       h.add("pack").add(std::uint64_t{s->pack});
+    if (s->isUnion)
+      h.add("union");
     if (s->base != nullptr)
       h.add("base").add(hash(s->base));
     for (const VarSymbol *v : s->fields)
@@ -286,6 +298,30 @@ std::uint64_t Layouts::computeHash(const Type *type) {
     break;
   }
   return h.value();
+}
+
+bool Layouts::hasBindings(const Type *type) {
+  while (type->kind == TypeKind::array)
+    type = typeAs<ArrayType>(type)->element;
+  if (type->kind != TypeKind::structure && !isInstance(type))
+    return false;
+  const auto [it, fresh] = hasBindings_.try_emplace(type, false);
+  if (!fresh)
+    return it->second;
+  bool result = false;
+  if (type->kind == TypeKind::structure) {
+    const auto *s = typeAs<StructType>(type);
+    result = s->base != nullptr && hasBindings(s->base);
+    for (const VarSymbol *v : s->fields)
+      result = result || hasBindings(v->type);
+  } else {
+    const PouSymbol *pou = typeAs<PouType>(type)->symbol;
+    result = hasTypeId(pou) || (pou->base != nullptr && hasBindings(pou->base->type));
+    for (const VarSymbol *v : pou->variables)
+      result = result || (isField(v) && (v->section == Section::inOut || hasBindings(v->type)));
+  }
+  hasBindings_[type] = result;
+  return result;
 }
 
 bool Layouts::hasAddress(const Type *type) {

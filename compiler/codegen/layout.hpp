@@ -3,6 +3,7 @@
 // hashes.
 
 #include "compiler/codegen/names.hpp"
+#include "compiler/semantics/storage.hpp"
 
 #include <cstdint>
 #include <unordered_map>
@@ -21,21 +22,6 @@ private:
   std::uint64_t value_ = 14695981039346656037ULL;
 };
 
-/// A variable of each instance (VAR_TEMP and VAR_STAT are not).
-[[nodiscard]] inline bool isOwn(const VarSymbol *v) {
-  return v->section != ast::Section::temp && v->section != ast::Section::stat &&
-         v->section != ast::Section::external;
-}
-/// It lies in the process image, at the same place for all instances.
-[[nodiscard]] inline bool isPlaced(const VarSymbol *v) {
-  return v->location != nullptr && !v->location->isSlot;
-}
-/// The instance holds its place in the process image (`AT %I*`).
-[[nodiscard]] inline bool isSlot(const VarSymbol *v) {
-  return v->location != nullptr && v->location->isSlot;
-}
-/// Kept in each instance.
-[[nodiscard]] inline bool isField(const VarSymbol *v) { return isOwn(v) && !isPlaced(v); }
 /// Held as a pointer: VAR_IN_OUT of an instance, REFERENCE TO.
 [[nodiscard]] inline bool isIndirect(const VarSymbol *v) {
   return v->section == ast::Section::inOut || v->type->kind == TypeKind::reference;
@@ -76,6 +62,9 @@ public:
   /// An instance of the type, or one inside of it, has a method that is called at the end of its
   /// life (`fb_exit`) or after its values were carried over (`fb_reinit`).
   [[nodiscard]] bool hasLifecycle(const Type *type, std::string_view lowerName);
+  /// It is, or holds, a block with a VAR_IN_OUT or a type id, which an assignment leaves as they
+  /// are: assigned by assign__.
+  [[nodiscard]] bool hasBindings(const Type *type);
 
 private:
   bool computeNeedsInit(const Type *type);
@@ -90,8 +79,11 @@ private:
   std::unordered_map<const Type *, bool> needsInit_;
   std::unordered_map<const Type *, std::uint64_t> hashes_;
   std::unordered_map<const Type *, bool> hasAddress_;
+  std::unordered_map<const Type *, bool> hasBindings_;
 };
 
+/// The fields that get initial values: of a UNION the one that declares a value, else the first.
+[[nodiscard]] std::vector<const VarSymbol *> initialisedFields(const StructType *type);
 /// The value nearest to 0 that a subrange holds.
 [[nodiscard]] std::int64_t subrangeDefault(const SubrangeType *type);
 /// A literal or folded constant whose memory is all zero.

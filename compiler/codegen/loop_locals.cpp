@@ -38,7 +38,7 @@ bool holdsInstance(const Type *type) {
 /// Builtins that look at the values of their arguments only.
 bool onlyComputes(Builtin id) {
   return id <= Builtin::find || id == Builtin::convert || id == Builtin::time ||
-         id == Builtin::sizeofT;
+         id == Builtin::sizeofT || id == Builtin::lowerBound || id == Builtin::upperBound;
 }
 
 template <class T> bool contains(const std::vector<T> &all, T one) {
@@ -204,6 +204,7 @@ void LoopLocals::expression(const Expr *e, Facts &facts) {
     }
     case ExprKind::index: {
       const auto *i = as<IndexExpr>(e);
+      facts.opaque = facts.opaque || followsAddress(i);
       for (const Expr *x : i->indices)
         expression(x, facts);
       e = i->base;

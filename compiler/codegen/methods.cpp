@@ -242,17 +242,11 @@ void Emitter::propertySet(const Expr *target, const std::function<void()> &write
 }
 
 // ------------------------------------------------------------------------------------------------
-// __QUERYINTERFACE, __QUERYPOINTER, __ISVALIDREF
+// __QUERYINTERFACE, __QUERYPOINTER
 
 void Emitter::query(const CallExpr *e) {
   const Expr *source = e->arguments[0].value;
   const Expr *target = e->arguments[1].value;
-  if (e->builtin == Builtin::isValidRef) {
-    w_ << '(';
-    slot(source);
-    w_ << " != nullptr)";
-    return;
-  }
   const std::string from = temporary("from");
   const std::string has = temporary("has");
   const bool toPointer = e->builtin == Builtin::queryPointer;

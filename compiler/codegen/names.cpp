@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 namespace stc::codegen {
 
@@ -232,17 +233,17 @@ const Symbol *Names::symbolOf(const Type *type) {
 
 std::string_view Names::elementary(TypeKind kind) {
   static constexpr std::string_view kNames[] = {
-      "None",  "None",  "BOOL",  "SINT", "INT",   "DINT",  "LINT", "USINT",  "UINT",
-      "UDINT", "ULINT", "BYTE",  "WORD", "DWORD", "LWORD", "REAL", "LREAL",  "TIME",
-      "LTIME", "DATE",  "LDATE", "TOD",  "LTOD",  "DT",    "LDT",  "STRING", "WSTRING",
+      "None",  "None", "BOOL", "SINT",  "INT",   "DINT",   "LINT",    "USINT", "UINT",  "UDINT",
+      "ULINT", "BYTE", "WORD", "DWORD", "LWORD", "REAL",   "LREAL",   "TIME",  "LTIME", "DATE",
+      "LDATE", "TOD",  "LTOD", "DT",    "LDT",   "STRING", "WSTRING", "CHAR",  "WCHAR",
   };
-  static_assert(std::size(kNames) == static_cast<std::size_t>(TypeKind::wstring) + 1);
+  static_assert(std::size(kNames) == static_cast<std::size_t>(TypeKind::wcharT) + 1);
   if (kind == TypeKind::anyInteger)
     return "DINT";
   if (kind == TypeKind::anyReal)
     return "LREAL";
-  return kind <= TypeKind::wstring ? kNames[static_cast<std::size_t>(kind)]
-                                   : std::string_view("None");
+  return kind <= TypeKind::wcharT ? kNames[static_cast<std::size_t>(kind)]
+                                  : std::string_view("None");
 }
 
 std::string Names::inlineHeader(const Symbol *symbol) {
@@ -277,6 +278,12 @@ std::string_view Names::type(const Type *type) {
            std::to_string(array->low) + ", " + std::to_string(array->high) + ">";
     break;
   }
+  case TypeKind::openArray: {
+    const auto *array = typeAs<OpenArrayType>(type);
+    text = "::stride::OpenArray<" + std::string(this->type(array->element)) + ", " +
+           std::to_string(array->dimensions) + ">";
+    break;
+  }
   case TypeKind::pointer:
   case TypeKind::reference:
     text = std::string(this->type(typeAs<PointerType>(type)->pointee));
@@ -296,6 +303,11 @@ void Includes::complete(const Type *type) {
   while (type->kind == TypeKind::array || type->kind == TypeKind::subrange)
     type = type->kind == TypeKind::array ? typeAs<ArrayType>(type)->element
                                          : typeAs<SubrangeType>(type)->base;
+  if (type->kind == TypeKind::openArray) {
+    needsOpenArray_ = true;
+    pointed(typeAs<OpenArrayType>(type)->element);
+    return;
+  }
   if (type->kind == TypeKind::pointer || type->kind == TypeKind::reference)
     pointed(typeAs<PointerType>(type)->pointee);
   else if (const Symbol *s = Names::symbolOf(type))
@@ -303,6 +315,10 @@ void Includes::complete(const Type *type) {
 }
 
 void Includes::pointed(const Type *type) {
+  if (type->kind == TypeKind::openArray) {
+    complete(type);
+    return;
+  }
   while (type->kind == TypeKind::array || type->kind == TypeKind::pointer ||
          type->kind == TypeKind::reference)
     type = type->kind == TypeKind::array ? typeAs<ArrayType>(type)->element
@@ -325,6 +341,7 @@ void Includes::called(const PouSymbol *pou) {
 
 void Includes::merge(const Includes &other) {
   bodies_.insert(other.bodies_.begin(), other.bodies_.end());
+  needsOpenArray_ = needsOpenArray_ || other.needsOpenArray_;
   for (const Symbol *s : other.headers_)
     symbol(s);
   for (const Symbol *s : other.declared_) {
@@ -332,6 +349,17 @@ void Includes::merge(const Includes &other) {
       declared_.push_back(s);
   }
 }
+
+namespace {
+
+bool isUnionSymbol(const Symbol *symbol) {
+  if (symbol->kind != SymbolKind::type)
+    return false;
+  const Type *type = static_cast<const TypeSymbol *>(symbol)->type;
+  return type->kind == TypeKind::structure && typeAs<StructType>(type)->isUnion;
+}
+
+} // namespace
 
 std::string Includes::text(const Symbol *own, bool bodies) const {
   std::vector<std::string> headers;
@@ -342,21 +370,23 @@ std::string Includes::text(const Symbol *own, bool bodies) const {
   }
   std::sort(headers.begin(), headers.end());
   std::string out;
+  if (needsOpenArray_)
+    out += "#include \"runtime/iec/open_array.h\"\n";
   for (const std::string &h : headers)
     out.append("#include \"").append(h).append("\"\n");
-  std::vector<std::pair<std::string_view, std::string_view>> forward;
+  std::vector<std::tuple<std::string_view, std::string_view, bool>> forward;
   for (const Symbol *s : declared_) {
     if (s != own && !seen_.contains(s))
-      forward.emplace_back(names_.space(s->library), names_.local(s));
+      forward.emplace_back(names_.space(s->library), names_.local(s), isUnionSymbol(s));
   }
   std::sort(forward.begin(), forward.end());
   std::string_view open;
-  for (const auto &[space, name] : forward) {
+  for (const auto &[space, name, isUnion] : forward) {
     if (space != open) {
       out.append(open.empty() ? "\n" : "}\n").append("namespace st::").append(space).append(" {\n");
       open = space;
     }
-    out.append("struct ").append(name).append(";\n");
+    out.append(isUnion ? "union " : "struct ").append(name).append(";\n");
   }
   if (!open.empty())
     out.append("}\n");

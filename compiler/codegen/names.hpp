@@ -101,6 +101,7 @@ public:
 
 private:
   Names &names_;
+  bool needsOpenArray_ = false;
   const Symbol *last_ = nullptr;
   std::unordered_set<const Symbol *> seen_;
   std::vector<const Symbol *> headers_;

@@ -149,10 +149,13 @@ void Emitter::infixOperand(const BinaryExpr *e, const Infix &op, const Expr *sid
     const bool comparing = op.level == kRelation || op.level == kEquality;
     parentheses = parentheses || (comparing && child->kind == ExprKind::unary && !right);
   }
-  if (parentheses)
+  const bool own = right && e->op == BinaryOp::divide && openDivisorCheck(e);
+  if (parentheses && !own)
     w_ << '(';
   operand(side, e->operandType, other, compared);
-  if (parentheses)
+  if (own)
+    w_ << "))";
+  else if (parentheses)
     w_ << ')';
 }
 

@@ -56,6 +56,30 @@ public:
     functionEnd();
   }
 
+  /// `void X::assign__(…) { … }`: everything but the bindings of in-outs.
+  void assignment(std::string_view name, const std::vector<const VarSymbol *> &variables,
+                  const Type *base) {
+    Writer body(c_.program.sources);
+    body.indent();
+    const auto copy = [&](const std::string &field, const Type *type) {
+      const bool bindings = c_.layouts.hasBindings(type);
+      body.line() << (bindings ? "::stride::assignBound(" : "") << "this->" << field
+                  << (bindings ? ", " : " = ") << "from." << field << (bindings ? ");" : ";");
+      body.endLine();
+    };
+    if (base != nullptr)
+      copy("base__", base);
+    for (const VarSymbol *v : variables) {
+      e_.includes().complete(v->type);
+      if (v->section != Section::inOut)
+        copy(fieldName(v), v->type);
+    }
+    functionHead("void " + std::string(name) + "::assign__([[maybe_unused]] const " +
+                 std::string(name) + " &from)");
+    text_.append(body);
+    functionEnd();
+  }
+
   /// `void configure__(…)`: the initial values that VAR_CONFIG gives.
   void configured() {
     e_.forgetUses();
@@ -272,14 +296,15 @@ private:
     e_.includes().complete(v->type);
     const std::string name = mangle(v->name.text);
     const std::string_view type = c_.names.type(v->type);
+    const bool open = v->type->kind == TypeKind::openArray; // the slot holds it itself
     out.line() << type << (type.back() == '*' ? "&" : " &") << name << " = ";
-    if (c_.program.settings.checks) {
+    if (e_.checks()) {
       e_.needContext();
       const Place at = out.place(v->name.span);
       out << "::stride::bound(ctx__, this->" << name << ", " << e_.fileName(v->name.span.file)
           << ", " << at.line << ", " << at.column << ");";
     } else {
-      out << "*this->" << name << ';';
+      out << (open ? "this->" : "*this->") << name << ';';
     }
     out.endLine();
   }
@@ -321,11 +346,18 @@ void generateSources(Context &context, std::vector<GeneratedFile> &files) {
   bool any = false;
   for (const TypeSymbol *t : library.types) {
     if (t->type->kind != TypeKind::structure || t->decl == nullptr ||
-        t->decl->kind != DeclKind::structure || !context.layouts.needsInit(t->type))
+        t->decl->kind != DeclKind::structure)
       continue;
     const auto *type = typeAs<StructType>(t->type);
     types.emitter().includes().symbol(t);
-    types.init(context.names.local(t), {type->fields.begin(), type->fields.end()}, type->base);
+    if (context.layouts.hasBindings(type)) {
+      types.assignment(context.names.local(t), {type->fields.begin(), type->fields.end()},
+                       type->base);
+      any = true;
+    }
+    if (!context.layouts.needsInit(t->type))
+      continue;
+    types.init(context.names.local(t), initialisedFields(type), type->base);
     any = true;
   }
   for (const std::string_view what : {std::string_view("fb_exit"), std::string_view("fb_reinit")}) {
@@ -371,6 +403,12 @@ void generateSources(Context &context, std::vector<GeneratedFile> &files) {
     const std::string_view name = context.names.local(p);
     if (!p->isFunction() && context.layouts.needsInit(p->type)) {
       source.init(name, rootVariables({p, false}), p->base == nullptr ? nullptr : p->base->type, p);
+      used = true;
+    }
+    if (!p->isFunction() && p->type->kind == TypeKind::functionBlock &&
+        context.layouts.hasBindings(p->type)) {
+      source.assignment(name, rootVariables({p, false}),
+                        p->base == nullptr ? nullptr : p->base->type);
       used = true;
     }
     for (const std::string_view what :

@@ -130,12 +130,46 @@ bool isComputedPlace(const Expr *target) {
   }
 }
 
+/// A whole array or structure in a UNION or behind a pointer may share some of its bytes with the
+/// value.
+bool mayOverlap(const Expr *target) {
+  if (target->type->kind != TypeKind::array && target->type->kind != TypeKind::structure)
+    return false;
+  while (true) {
+    switch (target->kind) {
+    case ExprKind::deref:
+      return true;
+    case ExprKind::index:
+      target = as<IndexExpr>(target)->base;
+      if (target->type != nullptr && target->type->kind == TypeKind::pointer)
+        return true;
+      continue;
+    case ExprKind::member: {
+      const Type *base = as<MemberExpr>(target)->base->type;
+      if (base != nullptr && base->kind == TypeKind::structure && typeAs<StructType>(base)->isUnion)
+        return true;
+      target = as<MemberExpr>(target)->base;
+      continue;
+    }
+    default:
+      return false;
+    }
+  }
+}
+
 } // namespace
 
 void Emitter::storeTo(std::string_view target, const Type *type, const Expr *value) {
+  if (type->kind == TypeKind::reference) {
+    w_ << target << " = ";
+    address(value);
+    w_ << ';';
+    return;
+  }
   if (isString(type) && stringInto(target, value))
     return;
-  if (isString(type) && (value->constant != nullptr || value->type != type)) {
+  if (isString(type) && isString(value->type) &&
+      (value->constant != nullptr || value->type != type)) {
     w_ << "::stride::assign(" << target << ", ";
     if (value->constant != nullptr)
       quoted(*value->constant, type->kind == TypeKind::wstring);
@@ -144,9 +178,17 @@ void Emitter::storeTo(std::string_view target, const Type *type, const Expr *val
     w_ << ");";
     return;
   }
-  w_ << target << " = ";
-  valueAs(value, type);
-  w_ << ';';
+  // Copying a block copies no binding of its in-outs: the target keeps its own.
+  const bool bindings = c_.layouts.hasBindings(type);
+  w_ << (bindings ? "::stride::assignBound(" : "") << target << (bindings ? ", " : " = ");
+  if (type->kind == TypeKind::functionBlock && isInstance(value->type) && value->type != type) {
+    raw(value); // the part of a block that it extends
+    const std::string path =
+        pathToBase(typeAs<PouType>(value->type)->symbol, typeAs<PouType>(type)->symbol);
+    w_ << '.' << std::string_view(path).substr(0, path.size() - 1);
+  } else
+    valueAs(value, type);
+  w_ << (bindings ? ");" : ";");
 }
 
 void Emitter::store(const Expr *target, const Expr *value) {
@@ -183,45 +225,17 @@ void Emitter::store(const Expr *target, const Expr *value) {
     storeTo(placeText(target), target->type, value);
     return;
   }
-  if (target->type->kind == TypeKind::functionBlock && copyInstance(target, value))
+  writing_ = true;
+  const std::string to = placeText(target);
+  writing_ = false;
+  if (mayOverlap(target) && !c_.layouts.hasBindings(target->type)) {
+    includes_.complete(target->type);
+    w_ << "::stride::copy(" << to << ", ";
+    valueAs(value, target->type);
+    w_ << ");";
     return;
-  place(target);
-  w_ << " = ";
-  valueAs(value, target->type);
-  w_ << ';';
-}
-
-/// Copying an instance copies no binding of its in-outs: the target keeps its own.
-bool Emitter::copyInstance(const Expr *target, const Expr *value) {
-  std::vector<std::pair<std::string, std::string>> kept;
-  const PouSymbol *block = typeAs<PouType>(target->type)->symbol;
-  for (const PouSymbol *p = block; p != nullptr; p = p->base) {
-    for (const VarSymbol *v : p->variables) {
-      if (v->section == Section::inOut)
-        kept.emplace_back(pathToBase(block, p) + fieldName(v), temporary("bound"));
-    }
   }
-  if (hasTypeId(block))
-    kept.emplace_back(pathToTypeId(block), temporary("type"));
-  if (kept.empty())
-    return false;
-  const std::string name = temporary("to");
-  w_ << "{ auto &" << name << " = ";
-  place(target);
-  w_ << "; ";
-  for (const auto &[field, slot] : kept)
-    w_ << "const auto " << slot << " = " << name << '.' << field << "; ";
-  w_ << name << " = ";
-  raw(value);
-  if (value->type != target->type) {
-    const std::string path = pathToBase(typeAs<PouType>(value->type)->symbol, block);
-    w_ << '.' << std::string_view(path).substr(0, path.size() - 1);
-  }
-  w_ << "; ";
-  for (const auto &[field, slot] : kept)
-    w_ << name << '.' << field << " = " << slot << "; ";
-  w_ << '}';
-  return true;
+  storeTo(to, target->type, value);
 }
 
 void Emitter::assign(const AssignStmt *s) {
@@ -231,11 +245,7 @@ void Emitter::assign(const AssignStmt *s) {
   case AssignOp::reference:
     slot(last);
     w_ << " = ";
-    if (s->value->constant != nullptr && s->value->constant->kind == ConstKind::integer &&
-        s->value->kind == ExprKind::literal)
-      w_ << "nullptr";
-    else
-      addressAs(s->value, last->type);
+    addressAs(s->value, last->type);
     w_ << ';';
     break;
   case AssignOp::set:
@@ -289,6 +299,10 @@ void Emitter::callStatement(const CallStmt *s) {
     instanceCall(call, s->span);
     break;
   case Callee::builtin:
+    if (call->builtin == Builtin::deleteT) {
+      deleteObject(call);
+      break;
+    }
     w_ << "static_cast<void>(";
     builtin(call);
     w_ << ");";

@@ -103,9 +103,13 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
   if (inOut) {
     row.kind = "InOut";
     row.flags = kHasAddress;
-    row.cppType = "void *";
     row.hash = Hash().add("in-out").add(row.name).value();
-    row.element = index(type);
+    if (type->kind == TypeKind::openArray) { // address and bounds
+      row.element = index(typeAs<OpenArrayType>(type)->element);
+    } else {
+      row.cppType = "void *";
+      row.element = index(type);
+    }
     types_[at] = std::move(row);
     return;
   }
@@ -143,7 +147,8 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
     const Type *pointee = typeAs<PointerType>(type)->pointee;
     row.kind = type->kind == TypeKind::pointer ? "Pointer" : "Reference";
     row.cppType = "void *";
-    row.element = index(pointee);
+    if (pointee->kind != TypeKind::none)
+      row.element = index(pointee);
     break;
   }
   case TypeKind::interface:
@@ -151,7 +156,7 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
     break;
   case TypeKind::structure: {
     const auto *s = typeAs<StructType>(type);
-    row.kind = "Struct";
+    row.kind = s->isUnion ? "Union" : "Struct";
     row.renamedFrom = renamedFrom(s->symbol->decl->attributes);
     members(row, s->base, row.cppType, {s->fields.begin(), s->fields.end()});
     break;
@@ -169,6 +174,10 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
             rootVariables({pou, false}), carriesTypeId(pou));
     break;
   }
+  case TypeKind::charT:
+  case TypeKind::wcharT:
+    row.stringLength = 1;
+    [[fallthrough]];
   default:
     row.kind = Names::elementary(type->kind);
     break;
@@ -253,6 +262,20 @@ void TypeTable::addAccess(const AccessPath &access) {
   const std::uint32_t type = index(access.type);
   rootRows_.push_back("{nullptr, " + quote(access.decl->name.text) + ", " + offset + ", " +
                       std::to_string(type) + ", " + flags + "}");
+}
+
+void TypeTable::addPool(std::uint64_t size) {
+  Row row;
+  row.kind = "Array";
+  row.name = "ARRAY [0.." + std::to_string(size - 1) + "] OF BYTE";
+  row.cppType = "::stride::Pool<" + std::to_string(size) + ">";
+  row.hash = Hash().add("pool").add(size).value();
+  row.element = index(elementaryType(TypeKind::byte));
+  row.elementCount = size;
+  const std::size_t type = types_.size();
+  types_.push_back(std::move(row));
+  rootRows_.push_back("{nullptr, \"__pool\", offsetof(App__, pool__), " + std::to_string(type) +
+                      ", ::stride::kSymHidden}");
 }
 
 void TypeTable::addProgram(const PouSymbol *program, const std::string &place) {

@@ -31,6 +31,8 @@ public:
   void addImage();
   /// An entry of VAR_ACCESS.
   void addAccess(const AccessPath &access);
+  /// The memory of __NEW: a hidden root `__pool`, an array of BYTE.
+  void addPool(std::uint64_t size);
   void addProgram(const PouSymbol *program, const std::string &place);
 
   /// `constexpr … kTypes[] = { … };` and the other tables.

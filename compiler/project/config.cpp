@@ -71,6 +71,8 @@ public:
       readLevels(levels);
     for (const CheckedSection &project : top.sections("project", diagnostics_)) {
       config_.name = project.text("name");
+      config_.poolSize =
+          (static_cast<std::uint64_t>(project.integer("new_pool", 65536)) + 15) / 16 * 16;
       config_.generation = static_cast<unsigned>(project.choice("softmotion", 2));
       config_.pack = static_cast<unsigned>(project.choice("layout", 0));
       if (const TomlNode *defines = project.get("defines"))

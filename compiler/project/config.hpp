@@ -53,6 +53,7 @@ struct AxisGroupConfig {
 /// The configuration of one project. Without stride.toml it is empty but for the name.
 struct ProjectConfig {
   std::string name;
+  std::uint64_t poolSize = 65536; ///< new_pool: bytes for the objects of __NEW, a multiple of 16
   unsigned generation = 2; ///< softmotion: 2 = "2.3", 3 = "3"
   unsigned pack = 0;       ///< layout: 4 = "v2.3"
   Addressing addressing = Addressing::units;

@@ -117,6 +117,7 @@ bool Project::declaresNothing(const std::vector<ast::File *> &files) const {
 void Project::analyse(Purpose purpose, const LibraryIndex &index) {
   if (tomlFile_ != 0) {
     ProjectConfig read = readConfig(program_.sources.file(tomlFile_), program_.diagnostics);
+    program_.settings.poolSize = read.poolSize;
     if (read.name.empty())
       read.name = config_.name;
     config_ = std::move(read);

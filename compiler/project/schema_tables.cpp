@@ -77,6 +77,7 @@ constexpr std::array kProjectParameters = {
     choice("softmotion", kGenerations),
     choice("layout", kLayouts),
     Parameter{"defines", ParameterType::nameList},
+    Parameter{"new_pool", ParameterType::integer, false, 1024, 268435456, {}, "bytes"},
 };
 
 constexpr std::array kTaskParameters = {

@@ -3,10 +3,10 @@
 #include "compiler/semantics/checker.hpp"
 #include "compiler/semantics/extent.hpp"
 #include "compiler/semantics/fold.hpp"
+#include "compiler/semantics/fold_builtins.hpp"
 #include "compiler/semantics/locations.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace stc {
 
@@ -60,7 +60,9 @@ const Type *Checker::commonOfArguments(CallExpr *expr, std::size_t first) {
     Expr *value = expr->arguments[i].value;
     if (isError(value->type))
       return value->type;
-    if (lead == nullptr || (untyped(lead->type) && !untyped(value->type)))
+    const bool character = lead != nullptr && isCharacter(value->type) &&
+                           lead->constant != nullptr && isString(lead->type);
+    if (lead == nullptr || character || (untyped(lead->type) && !untyped(value->type)))
       lead = value;
   }
   const Type *common = lead->type;
@@ -101,6 +103,14 @@ const Type *Checker::commonOfArguments(CallExpr *expr, std::size_t first) {
     } else if (isString(t) && isString(common) && t->kind == common->kind) {
       if (typeAs<StringType>(t)->length > typeAs<StringType>(common)->length)
         common = t;
+    } else if (isTimeOrDate(t) && isTimeOrDate(common) &&
+               (classify(t, common) == Conversion::free ||
+                classify(common, t) == Conversion::free)) {
+      if (classify(common, t) == Conversion::free)
+        common = t; // TIME with LTIME
+    } else if (isCharacter(common) && value->constant != nullptr &&
+               constantFits(*value->constant, t, common)) {
+      continue;
     } else if (common->kind == TypeKind::boolean && value->constant != nullptr &&
                constantFits(*value->constant, t, common)) {
       continue;
@@ -151,7 +161,9 @@ const Type *Checker::checkConversionCall(CallExpr *expr, const ConversionName &c
   const Type *type = value->type;
   if (isError(type))
     return bad;
-  if (!isElementary(type))
+  if (type->kind == TypeKind::pointer && conversion.from == nullptr) // the address as a number
+    setTarget(value, elementaryType(TypeKind::ulint));
+  else if (!isElementary(type) && type->kind != TypeKind::pointer)
     return argumentError(
         expr, 0, conversion.from != nullptr ? typeName(conversion.from) : "an elementary type");
   if (conversion.from != nullptr) {
@@ -172,11 +184,28 @@ const Type *Checker::checkConversionCall(CallExpr *expr, const ConversionName &c
   const Type *from = value->target != nullptr ? value->target : value->type;
   if (value->constant != nullptr) {
     const auto own = convertConstant(*value->constant, value->type, from);
-    const auto result = own ? convertConstant(*own, from, conversion.to) : std::nullopt;
+    const auto result = own ? foldConversion(*own, from, conversion.to, arena_) : std::nullopt;
     if (result)
       expr->constant = makeConstant(*result);
   }
   return conversion.to;
+}
+
+void Checker::foldCall(CallExpr *expr, const Type *result) {
+  if (isError(result) || expr->constant != nullptr)
+    return;
+  std::vector<ConstArgument> arguments;
+  for (const Argument &a : expr->arguments) {
+    if (a.value == nullptr || a.value->constant == nullptr)
+      return;
+    const Type *type = a.value->target != nullptr ? a.value->target : a.value->type;
+    const auto value = convertConstant(*a.value->constant, a.value->type, type);
+    if (!value)
+      return;
+    arguments.push_back({*value, type});
+  }
+  if (const auto value = foldBuiltin(expr->builtin, arguments, result, arena_))
+    expr->constant = makeConstant(*value);
 }
 
 const Type *Checker::checkStringBuiltin(CallExpr *expr) {
@@ -286,12 +315,24 @@ bool Checker::placeArguments(CallExpr *expr) {
 const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
   const Type *bad = elementaryType(TypeKind::error);
   bool failed = !placeArguments(expr);
+  if (expr->builtin == Builtin::sizeofT) // its argument may be a type
+    return failed ? bad : checkSizeof(expr);
+  if (expr->builtin == Builtin::newT)
+    return failed ? bad : checkNew(expr);
+  if (expr->builtin == Builtin::indexOf)
+    return failed ? bad : checkIndexOf(expr);
   for (Argument &a : expr->arguments) {
     if (a.value != nullptr && isError(check(a.value, expected)))
       failed = true;
   }
   if (failed)
     return bad;
+  for (const Argument &a : expr->arguments) {
+    const bool asked = expr->builtin == Builtin::lowerBound ||
+                       expr->builtin == Builtin::upperBound || expr->builtin == Builtin::adr;
+    if (!asked && refuseOpenArray(a.value, "use"))
+      return bad;
+  }
   const auto value = [&](std::size_t i) { return expr->arguments[i].value; };
   const auto type = [&](std::size_t i) { return underlying(value(i)->type); };
   const auto own = [&](std::size_t i) {
@@ -306,13 +347,6 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
       return argumentError(expr, 0, "a number");
     const Type *t = own(0);
     setTarget(value(0), t);
-    if (value(0)->constant != nullptr && value(0)->constant->kind == ConstKind::integer &&
-        isSignedInteger(t)) {
-      const auto v = value(0)->constant->integer;
-      expr->constant = makeConstant({ConstKind::integer, wrapTo(t, v < 0 ? 0 - v : v), 0, {}});
-    } else if (value(0)->constant != nullptr && value(0)->constant->kind == ConstKind::real) {
-      expr->constant = makeConstant({ConstKind::real, 0, std::fabs(value(0)->constant->real), {}});
-    }
     return t;
   }
   case sqrt:
@@ -442,6 +476,8 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
                          place->kind == ExprKind::direct;
     if (!isPlace || isBitPlace(place) || (place->constant != nullptr && isElementary(place->type)))
       return argumentError(expr, 0, "a variable");
+    if (place->type->kind == TypeKind::openArray)
+      return types_.pointer(typeAs<OpenArrayType>(place->type)->element);
     // What is misaligned can be copied byte by byte only.
     return types_.pointer(isMisaligned(place) ? elementaryType(TypeKind::byte) : place->type);
   }
@@ -450,14 +486,17 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
   case queryInterface:
   case queryPointer:
     return checkQuery(expr);
+  case deleteT:
+    return checkDelete(expr);
+  case newT:
+  case indexOf:
+    break;
   case isValidRef:
     return checkIsValidRef(expr);
+  case lowerBound:
+  case upperBound:
+    return checkBound(expr);
   case sizeofT:
-    if (!requireCount(expr, 1, 1))
-      return bad;
-    if (untyped(value(0)->type))
-      return argumentError(expr, 0, "a variable or a type");
-    return elementaryType(TypeKind::udint);
   case convert:
     break;
   }

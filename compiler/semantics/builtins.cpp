@@ -49,7 +49,14 @@ const std::vector<std::pair<std::string_view, ast::Builtin>> &builtins() {
       {"sizeof", sizeofT},
       {"__queryinterface", queryInterface},
       {"__querypointer", queryPointer},
+      {"xsizeof", sizeofT},
+      {"ref", adr},
+      {"__new", newT},
+      {"indexof", indexOf},
+      {"__delete", deleteT},
       {"__isvalidref", isValidRef},
+      {"lower_bound", lowerBound},
+      {"upper_bound", upperBound},
   };
   return kTable;
 }
@@ -94,6 +101,9 @@ std::string_view formalNames(ast::Builtin function) {
     return "in1|str1 in2|str2 p|pos";
   case replace:
     return "in1|str1 in2|str2 l p";
+  case lowerBound:
+  case upperBound:
+    return "arr dim";
   default:
     return "in";
   }

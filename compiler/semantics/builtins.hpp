@@ -58,10 +58,15 @@ enum class Builtin : std::uint16_t {
   time,    ///< TIME(): the cycle's start as TIME
   adr,     ///< ADR(x): pointer to the argument's type
   bitadr,  ///< BITADR(x): the place of a located variable, always constant
+  sizeofT, ///< SIZEOF(x), XSIZEOF(x): always a constant
   queryInterface, ///< __QUERYINTERFACE(instance or interface, interface variable)
   queryPointer,   ///< __QUERYPOINTER(instance or interface, pointer variable)
-  isValidRef,     ///< __ISVALIDREF(reference variable)
-  sizeofT,        ///< SIZEOF(x): constant, or the argument is a variable whose C++ size is meant
+  newT,           ///< __NEW(type), __NEW(type, count): Expr::type of the first argument is the type
+  deleteT,        ///< __DELETE(pointer): the pointer is 0 afterwards
+  indexOf,        ///< INDEXOF(pou): the POU's number, a constant
+  isValidRef,     ///< __ISVALIDREF(r): the argument is a REFERENCE
+  lowerBound,
+  upperBound, ///< (array, dimension): a constant unless the array is ARRAY[*]
 };
 
 } // namespace ast

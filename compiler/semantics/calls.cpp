@@ -58,6 +58,17 @@ void Checker::noteSignature(Diagnostic &d, const PouSymbol *pou) {
   d.note("it is declared as `" + signature(pou) + "`");
 }
 
+namespace {
+
+bool namedEnumerator(const Expr *e) {
+  const Symbol *symbol = e->kind == ExprKind::name     ? as<NameExpr>(e)->symbol
+                         : e->kind == ExprKind::member ? as<MemberExpr>(e)->symbol
+                                                       : nullptr;
+  return symbol != nullptr && symbol->kind == SymbolKind::enumerator;
+}
+
+} // namespace
+
 const Type *Checker::notCallable(CallExpr *expr, std::string message) {
   auto &d = report(Code::notCallable, expr->callee->span, std::move(message), "cannot be called");
   if (expr->callee->kind == ExprKind::name) {
@@ -92,7 +103,9 @@ const Type *Checker::checkCall(CallExpr *expr, bool asStatement) {
       name->symbol = symbol;
       expr->resolved = Callee::builtin;
       expr->builtin = static_cast<BuiltinSymbol *>(symbol)->id;
-      return checkBuiltin(expr, nullptr);
+      const Type *type = checkBuiltin(expr, nullptr);
+      foldCall(expr, type);
+      return type;
     } else if (symbol->kind == SymbolKind::pou) {
       pou = static_cast<PouSymbol *>(symbol);
       name->symbol = symbol;
@@ -190,7 +203,10 @@ const Type *Checker::checkCall(CallExpr *expr, bool asStatement) {
     }
     return elementaryType(TypeKind::none);
   }
-  return pou->result == nullptr ? elementaryType(TypeKind::none) : pou->result->type;
+  if (pou->result == nullptr)
+    return elementaryType(TypeKind::none);
+  const Type *result = pou->result->type;
+  return result->kind == TypeKind::reference ? typeAs<PointerType>(result)->pointee : result;
 }
 
 void Checker::bindArguments(CallExpr *expr, PouSymbol *pou) {
@@ -352,6 +368,14 @@ void Checker::checkInOut(Argument &argument, VarSymbol *parameter) {
       argument.value->kind == ExprKind::name || argument.value->kind == ExprKind::member ||
       argument.value->kind == ExprKind::index || argument.value->kind == ExprKind::deref ||
       argument.value->kind == ExprKind::direct;
+  const bool enumerator =
+      isPlace && argument.value->constant != nullptr && namedEnumerator(argument.value);
+  if (constantAllowed && (!isPlace || enumerator) && type->kind != TypeKind::none &&
+      parameter->type->kind != TypeKind::openArray) {
+    coerce(argument.value, parameter->type,
+           "argument `" + std::string(parameter->name.text) + "`"); // it gets a copy
+    return;
+  }
   if (!isPlace) {
     auto &d = report(Code::inOutNotVariable, argument.value->span,
                      "the VAR_IN_OUT `" + std::string(parameter->name.text) + "` needs a variable",
@@ -363,6 +387,16 @@ void Checker::checkInOut(Argument &argument, VarSymbol *parameter) {
   if (!constantAllowed && !requireVariable(argument.value, "pass"))
     return;
   const Type *wanted = parameter->type;
+  if (wanted->kind == TypeKind::openArray) {
+    if (fitsOpenArray(type, typeAs<OpenArrayType>(wanted)))
+      return;
+    auto &d = report(Code::inOutType, argument.value->span,
+                     "the VAR_IN_OUT `" + std::string(parameter->name.text) + "` is " +
+                         typeName(wanted) + ", this is " + typeName(type),
+                     "elements and number of dimensions must be the same");
+    noteDeclaration(d, parameter);
+    return;
+  }
   const bool anyString = constantAllowed && isString(type) && type->kind == wanted->kind;
   if (!refersTo(type, wanted) && !anyString) {
     auto &d = report(Code::inOutType, argument.value->span,

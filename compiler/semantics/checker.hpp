@@ -5,6 +5,7 @@
 #include "compiler/semantics/builtins.hpp"
 #include "compiler/semantics/conversions.hpp"
 #include "compiler/semantics/program.hpp"
+#include "compiler/semantics/storage.hpp"
 #include "compiler/semantics/type_table.hpp"
 
 #include <optional>
@@ -198,6 +199,8 @@ private:
   const Type *checkComparison(ast::BinaryExpr *expr);
   const Type *checkLogical(ast::BinaryExpr *expr);
   const Type *checkPower(ast::BinaryExpr *expr);
+  /// Reports a strict enumeration where a number is needed.
+  bool refuseStrict(ast::Expr *expr);
   const Type *operatorError(ast::BinaryExpr *expr);
   const Type *fold(ast::BinaryExpr *expr);
   /// The common type of two operands of number type (constants take the other's type when they
@@ -236,6 +239,43 @@ private:
   static const Type *commonBeforeWidening(const ast::CallExpr *expr, std::size_t first);
   bool requireCount(ast::CallExpr *expr, std::size_t least, std::size_t most);
   const Type *argumentError(ast::CallExpr *expr, std::size_t index, std::string_view wanted);
+  /// Gives a call whose arguments are all constants its value.
+  void foldCall(ast::CallExpr *expr, const Type *result);
+
+  // pointers.cpp
+  const Type *resolvePointer(ast::PointerTypeExpr *expr, std::string_view hint);
+  const Type *checkPointerArithmetic(ast::BinaryExpr *expr);
+  /// Gives the operands of a comparison with a pointer their common type; false: not comparable.
+  bool comparePointers(ast::BinaryExpr *expr);
+  /// Conversions between pointers and with integers, with their warnings; false: not one of them.
+  bool coercePointer(ast::Expr *expr, const Type *type, std::string_view what);
+  /// The variable of REFERENCE type that the expression names, or null.
+  static VarSymbol *referenceVariable(ast::Expr *expr);
+  /// The expression names a REFERENCE (that is followed where its value is meant).
+  static bool isReference(ast::Expr *expr);
+  void checkReferenceAssign(ast::AssignStmt *stmt);
+
+  // arrays.cpp
+  const Type *resolveOpenArray(ast::ArrayTypeExpr *expr, const Type *element);
+  static bool fitsOpenArray(const Type *actual, const OpenArrayType *wanted);
+  /// Reports an ARRAY[*] where a whole value is needed.
+  bool refuseOpenArray(ast::Expr *expr, std::string_view action);
+  void checkUnion(const StructType *type);
+
+  // implicit_checks.cpp
+  void findImplicitChecks(Module &module);
+  bool implicitCheckFits(PouSymbol *pou, std::size_t check);
+
+  // dynamic.cpp
+  const Type *checkNew(ast::CallExpr *expr);
+  const Type *checkDelete(ast::CallExpr *expr);
+
+  // measures.cpp
+  const Type *checkSizeof(ast::CallExpr *expr);
+  const Type *checkIndexOf(ast::CallExpr *expr);
+  const Type *checkBound(ast::CallExpr *expr);
+  /// The type that an expression names (`INT`, `Lib.Block`), or null when it is not a type's name.
+  const Type *namedType(ast::Expr *expr);
 
   // classes.cpp
   /// Looks up base and interfaces and makes symbols of the members; declares nothing.
@@ -315,6 +355,7 @@ private:
   Arena &arena_;
   const LibraryIndex &index_;
   TypeTable types_;
+  Storage storage_;
   std::unordered_map<std::string, std::unique_ptr<Module>>
       modules_; ///< by library name; the project is ""
   std::unordered_map<Ident, BuiltinSymbol *> builtins_;
@@ -332,6 +373,7 @@ private:
   std::unordered_set<Ident> resourceNames_;  ///< of CONFIGURATIONs and RESOURCEs
   std::unordered_map<const Type *, bool> hasSlots_;
   const ast::Expr *assignTarget_ = nullptr; ///< is checked as the target of an assignment
+  const ast::TypeExpr *openArrayAllowed_ = nullptr; ///< the type of the VAR_IN_OUT being resolved
 };
 
 /// Sets the scope for the lifetime of the guard.

@@ -2,6 +2,7 @@
 
 #include "compiler/semantics/checker.hpp"
 #include "compiler/semantics/fold.hpp"
+#include "compiler/semantics/fold_builtins.hpp"
 
 namespace stc {
 
@@ -76,20 +77,42 @@ void Checker::coerce(Expr *expr, const Type *type, std::string_view what) {
     return;
   if (type->kind == TypeKind::reference)
     type = typeAs<PointerType>(type)->pointee;
-  if (from == type)
+  if (from == type || coercePointer(expr, type, what))
     return;
   if (coerceToInterface(expr, type))
     return;
+  const auto strict = [](const Type *t) {
+    return t->kind == TypeKind::enumeration && typeAs<EnumType>(t)->strict;
+  };
+  if (strict(from) || strict(type)) {
+    const Type *named = strict(type) ? type : from;
+    const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
+    auto &d =
+        report(Code::strictEnumeration, expr->span,
+               prefix + "`" + typeName(named) + "` is a strict enumeration: no conversion from " +
+                   typeName(from) + " to " + typeName(type),
+               "this is " + typeName(from));
+    noteDeclaration(d, typeAs<EnumType>(named)->symbol);
+    if (strict(type))
+      d.help("use one of its enumerators: `" + typeName(type) + ".…`");
+    else
+      d.help("convert it if its number is meant: `TO_" + upper(typeName(underlying(type))) +
+             "(…)`");
+    return;
+  }
   if (expr->constant != nullptr && constantFits(*expr->constant, from, type)) {
     if (expr->constant->kind == ConstKind::string && isString(type)) {
       const auto length = typeAs<StringType>(type)->length;
-      if (expr->constant->text.size() > length)
+      const std::string wanted =
+          std::to_string(textLength(expr->constant->text, type->kind == TypeKind::wstring));
+      if (std::stoul(wanted) > length)
         report(Code::stringCut, expr->span,
-               "the text has " + std::to_string(expr->constant->text.size()) + " characters but " +
-                   typeName(type) + " holds " + std::to_string(length),
+               "the text has " + wanted + " characters but " + typeName(type) + " holds " +
+                   std::to_string(length),
                "the end is cut off")
-            .help("declare the string longer: `STRING(" +
-                  std::to_string(expr->constant->text.size()) + ")`");
+            .help("declare the string longer: `" +
+                  std::string(type->kind == TypeKind::wstring ? "W" : "") + "STRING(" + wanted +
+                  ")`");
     }
     setTarget(expr, type);
     return;

@@ -1,5 +1,6 @@
 #include "compiler/semantics/conversions.hpp"
 
+#include "compiler/semantics/fold_builtins.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/symbols.hpp"
 #include "compiler/semantics/type_table.hpp"
@@ -37,6 +38,15 @@ Conversion classifyTime(TypeKind from, TypeKind to) {
 }
 
 } // namespace
+
+bool sameShape(const Type *a, const Type *b) {
+  while (a != b && a->kind == TypeKind::array && b->kind == TypeKind::array &&
+         typeAs<ArrayType>(a)->count() == typeAs<ArrayType>(b)->count()) {
+    a = typeAs<ArrayType>(a)->element;
+    b = typeAs<ArrayType>(b)->element;
+  }
+  return a == b;
+}
 
 Conversion classify(const Type *from, const Type *to) {
   if (from == to || isError(from) || isError(to))
@@ -78,6 +88,10 @@ Conversion classify(const Type *from, const Type *to) {
   }
   if (isString(from) && isString(to))
     return from->kind == to->kind ? Conversion::free : Conversion::narrowing;
+  if (isCharacter(from) && isString(to)) // edition 3: a text of one character
+    return (from->kind == TypeKind::charT) == (to->kind == TypeKind::string)
+               ? Conversion::free
+               : Conversion::narrowing;
   if (isTimeOrDate(from) && isTimeOrDate(to))
     return classifyTime(from->kind, to->kind);
   if (from->kind == TypeKind::pointer && to->kind == TypeKind::pointer) {
@@ -88,10 +102,15 @@ Conversion classify(const Type *from, const Type *to) {
       return Conversion::free; // a derived instance begins with its base
   }
   if (from->kind == TypeKind::pointer && to->kind == TypeKind::pointer)
-    return Conversion::lossy;
+    return isByteView(typeAs<PointerType>(to)->pointee) ||
+                   isByteView(typeAs<PointerType>(from)->pointee)
+               ? Conversion::free
+               : Conversion::lossy;
+  if (from->kind == TypeKind::pointer && isInteger(to) && bitWidth(to) >= 32)
+    return bitWidth(to) == 64 ? Conversion::free : Conversion::lossy;
   if (isElementary(from) && isElementary(to))
     return Conversion::narrowing;
-  return Conversion::forbidden;
+  return sameShape(from, to) ? Conversion::free : Conversion::forbidden;
 }
 
 bool constantFits(const ConstValue &value, const Type *from, const Type *to) {
@@ -103,6 +122,9 @@ bool constantFits(const ConstValue &value, const Type *from, const Type *to) {
     return std::any_of(list.begin(), list.end(),
                        [&](const EnumeratorSymbol *e) { return e->value == value.integer; });
   }
+  if (value.kind == ConstKind::string && isCharacter(to))
+    return isString(from) && (from->kind == TypeKind::string) == (to->kind == TypeKind::charT) &&
+           textLength(value.text, from->kind == TypeKind::wstring) == 1;
   if (value.kind == ConstKind::string)
     return isString(from) && from->kind == to->kind;
   if (value.kind == ConstKind::real)

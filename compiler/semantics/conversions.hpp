@@ -17,6 +17,9 @@ enum class Conversion : std::uint8_t {
 /// How a value of `from` (not a constant) becomes a value of `to`.
 [[nodiscard]] Conversion classify(const Type *from, const Type *to);
 
+/// Arrays of the same elements and sizes, whatever their bounds.
+[[nodiscard]] bool sameShape(const Type *a, const Type *b);
+
 /// Whether a constant of elementary type fits into `to`, so that it converts silently.
 [[nodiscard]] bool constantFits(const ConstValue &value, const Type *from, const Type *to);
 

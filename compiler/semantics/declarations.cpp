@@ -83,10 +83,8 @@ void Checker::resolveStruct(TypeSymbol *symbol, StructDecl *decl) {
   auto *type = arena_.make<StructType>();
   type->kind = TypeKind::structure;
   type->symbol = symbol;
+  type->isUnion = decl->isUnion;
   symbol->type = type; // members may point back to it
-  if (decl->isUnion)
-    report(Code::unsupported, symbol->name.span, "UNION is not supported by this version",
-           "not available");
   type->pack = packMode(decl->attributes, symbol->library->isUser ? program_.settings.pack : 0);
   if (!decl->base.empty()) {
     const Name &baseName = decl->base.back();
@@ -155,6 +153,8 @@ const EnumType *Checker::makeEnum(EnumTypeExpr *expr, TypeSymbol *symbol) {
   }
   if (symbol->decl != nullptr)
     type->strict = hasAttribute(symbol->decl->attributes, "strict");
+  if (symbol->decl != nullptr)
+    type->named = hasAttribute(symbol->decl->attributes, "to_string");
   Module &module = moduleOf(symbol);
   std::vector<EnumeratorSymbol *> list;
   std::unordered_map<Ident, EnumeratorSymbol *> seen;
@@ -220,16 +220,8 @@ const Type *Checker::resolveType(TypeExpr *expr, std::string_view hint) {
   case TypeExprKind::subrange:
     return resolveSubrange(as<SubrangeTypeExpr>(expr), hint);
   case TypeExprKind::pointer:
-  case TypeExprKind::reference: {
-    const Type *pointee = resolveType(as<PointerTypeExpr>(expr)->pointee, hint);
-    if (isError(pointee))
-      return pointee;
-    if (as<PointerTypeExpr>(expr)->refTo)
-      report(Code::unsupported, expr->span, "REF_TO is not supported by this version",
-             "not available");
-    return expr->kind == TypeExprKind::pointer ? types_.pointer(pointee)
-                                               : types_.reference(pointee);
-  }
+  case TypeExprKind::reference:
+    return resolvePointer(as<PointerTypeExpr>(expr), hint);
   case TypeExprKind::enumeration: {
     // An enumeration in line gets a name of its own, made of the variable's.
     TypeSymbol &symbol = program_.typeStorage.emplace_back();
@@ -258,6 +250,11 @@ const Type *Checker::resolveNamed(NamedTypeExpr *expr) {
         return elementary->second;
     } else {
       const Type *type = findElementaryType(name.id->lower);
+      if (type != nullptr && isCharacter(type)) { // V2.3 programs have types of this name
+        const Symbol *own = lookupInModule(*scope_.module, name.id);
+        if (own != nullptr && own->kind == SymbolKind::type)
+          type = nullptr;
+      }
       elementary_.emplace(name.id, type);
       if (type != nullptr)
         return type;
@@ -337,15 +334,13 @@ void Checker::resolveInstances(Module &module) {
 
 const Type *Checker::resolveArray(ArrayTypeExpr *expr, std::string_view hint) {
   const Type *type = resolveType(expr->element, hint);
+  for (const ArrayRange &range : expr->ranges) {
+    if (range.low == nullptr)
+      return resolveOpenArray(expr, type);
+  }
   std::int64_t total = 1;
   for (std::size_t i = expr->ranges.size(); i-- > 0;) {
     ArrayRange &range = expr->ranges[i];
-    if (range.low == nullptr) {
-      report(Code::unsupported, range.span,
-             "arrays of variable length are not supported by this version", "`*` as bounds")
-          .help("give the bounds: `ARRAY [0..9] OF …`");
-      return elementaryType(TypeKind::error);
-    }
     const auto low = constantInteger(range.low, "an array bound");
     const auto high = constantInteger(range.high, "an array bound");
     if (!low || !high || isError(type))
@@ -460,6 +455,7 @@ const Type *Checker::typeOf(VarSymbol *variable) {
   variable->typeRunning = true;
   programTypes_ = isProgramInstance(variable);
   const ScopeGuard guard(*this, {&moduleOf(variable), variable->owner, variable->home});
+  openArrayAllowed_ = variable->section == Section::inOut ? variable->decl->type : nullptr;
   const Symbol *home =
       variable->owner != nullptr ? static_cast<const Symbol *>(variable->owner) : variable->globals;
   const Type *type = resolveType(variable->decl->type, std::string(home->name.text) + "__" +

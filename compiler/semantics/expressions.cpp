@@ -3,6 +3,7 @@
 #include "compiler/semantics/checker.hpp"
 #include "compiler/semantics/extent.hpp"
 #include "compiler/semantics/fold.hpp"
+#include "compiler/semantics/fold_builtins.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
 #include "compiler/semantics/suggest.hpp"
@@ -113,7 +114,8 @@ const Type *Checker::checkLiteral(Literal *expr) {
   case LiteralKind::string:
   case LiteralKind::wstring:
     type = types_.string(expr->literal == LiteralKind::wstring,
-                         static_cast<std::uint32_t>(std::max<std::size_t>(expr->text.size(), 1)));
+                         static_cast<std::uint32_t>(std::max<std::size_t>(
+                             textLength(expr->text, expr->literal == LiteralKind::wstring), 1)));
     value.kind = ConstKind::string;
     value.text = expr->text;
     break;
@@ -201,7 +203,10 @@ const Type *Checker::useSymbol(Expr *expr, Symbol *symbol, const Name &name) {
   case SymbolKind::variable: {
     auto *variable = static_cast<VarSymbol *>(symbol);
     const Type *type = typeOf(variable);
-    if (variable->isConstant && isElementary(type)) {
+    // A constant parameter has the caller's value.
+    const bool parameter =
+        variable->section == Section::input || variable->section == Section::inOut;
+    if (variable->isConstant && !parameter && isElementary(type)) {
       checkInitOf(variable);
       expr->constant = variable->constant;
     }
@@ -278,6 +283,10 @@ const Type *Checker::checkName(NameExpr *expr, const Type *expected) {
       }
       symbol = e;
     }
+  }
+  if (symbol == nullptr && expr->name.id->lower == "null") { // edition 3: the pointer to nothing
+    expr->constant = makeConstant({});
+    return types_.pointer(elementaryType(TypeKind::none));
   }
   if (symbol == nullptr) {
     reportUnknown(expr->name, false);
@@ -510,19 +519,21 @@ const Type *Checker::checkIndex(IndexExpr *expr) {
     const Type *indexType = check(index);
     if (bad)
       continue;
-    if (type->kind != TypeKind::array) {
+    const Type *next = indexStep(type);
+    if (next == nullptr) {
       auto &d = report(Code::notIndexable, i == 0 ? expr->base->span : index->span,
                        i == 0 ? typeName(type) + " is not an array"
                               : "too many indices: the array has " + std::to_string(i) +
                                     (i == 1 ? " dimension" : " dimensions"),
                        i == 0 ? "cannot be indexed" : "one index too many");
-      if (i == 0 && type->kind == TypeKind::pointer)
-        d.help("follow the pointer first: `^[…]`");
+      if (type->kind == TypeKind::pointer)
+        d.help("nothing is known about what a POINTER TO VOID points to: use POINTER TO BYTE");
       bad = true;
       continue;
     }
-    const auto *array = typeAs<ArrayType>(type);
-    type = array->element;
+    const Type *indexed =
+        type->kind == TypeKind::reference ? typeAs<PointerType>(type)->pointee : type;
+    type = next;
     if (isError(indexType))
       continue;
     if (!isInteger(underlying(indexType)) && indexType->kind != TypeKind::anyInteger) {
@@ -530,17 +541,24 @@ const Type *Checker::checkIndex(IndexExpr *expr) {
              "an index must be an integer, this is " + typeName(indexType), "expected an integer");
       continue;
     }
-    if (index->constant != nullptr) {
+    if (index->constant != nullptr && (indexed->kind == TypeKind::array || isString(indexed))) {
       const std::int64_t value = index->constant->integer;
-      if (value < array->low || value > array->high)
+      const bool isArray = indexed->kind == TypeKind::array;
+      const std::int64_t low = isArray ? typeAs<ArrayType>(indexed)->low : 0;
+      const std::int64_t high = isArray ? typeAs<ArrayType>(indexed)->high
+                                        : std::int64_t{typeAs<StringType>(indexed)->length};
+      if (value < low || value > high)
         report(Code::indexOutOfRange, index->span,
-               "index " + std::to_string(value) + " is outside of the array",
-               "the bounds are " + std::to_string(array->low) + ".." + std::to_string(array->high));
+               "index " + std::to_string(value) + " is outside of the " +
+                   (isArray ? "array" : "string"),
+               "the bounds are " + std::to_string(low) + ".." + std::to_string(high));
     }
     if (indexType->kind == TypeKind::anyInteger)
       settle(index);
   }
-  return bad ? elementaryType(TypeKind::error) : type;
+  if (bad)
+    return elementaryType(TypeKind::error);
+  return type->kind == TypeKind::reference ? typeAs<PointerType>(type)->pointee : type;
 }
 
 const Type *Checker::checkDeref(DerefExpr *expr) {
@@ -552,7 +570,14 @@ const Type *Checker::checkDeref(DerefExpr *expr) {
            "`^` needs a POINTER TO …");
     return elementaryType(TypeKind::error);
   }
-  return typeAs<PointerType>(base)->pointee;
+  const Type *pointee = typeAs<PointerType>(base)->pointee;
+  if (pointee->kind == TypeKind::none) {
+    report(Code::notAPointer, expr->span, "a POINTER TO VOID cannot be followed",
+           "nothing is known about what is there")
+        .help("assign it to a pointer of the right type first");
+    return elementaryType(TypeKind::error);
+  }
+  return pointee;
 }
 
 // ------------------------------------------------------------------------------------------------------
@@ -574,7 +599,10 @@ bool Checker::requireVariable(Expr *expr, std::string_view what) {
     if (const Location *at = as<DirectExpr>(expr)->location; at != nullptr && what == "assign to")
       reportInputWritten(expr, *at);
     return true;
-  case ExprKind::index:
+  case ExprKind::index: // what a pointer points to is a variable, even if the pointer is constant
+    if (as<IndexExpr>(expr)->base->type != nullptr &&
+        as<IndexExpr>(expr)->base->type->kind == TypeKind::pointer)
+      return true;
     return requireVariable(as<IndexExpr>(expr)->base, what);
   case ExprKind::name:
   case ExprKind::member: {

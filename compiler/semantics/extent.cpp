@@ -41,6 +41,11 @@ Extent extentOf(const Type *type) {
     const auto *s = typeAs<StructType>(type);
     Extent all;
     const auto add = [&](const Extent &member) {
+      if (s->isUnion) {
+        all.size = std::max(all.size, member.size);
+        all.align = std::max(all.align, member.align);
+        return;
+      }
       const std::uint32_t align =
           s->pack != 0 ? std::min<std::uint32_t>(member.align, s->pack) : member.align;
       all.size = roundUp(all.size, align) + member.size;

@@ -1,5 +1,8 @@
 #include "compiler/semantics/fold.hpp"
 
+#include "compiler/semantics/fold_builtins.hpp"
+#include "runtime/iec/math.h"
+
 #include <cmath>
 #include <limits>
 
@@ -76,8 +79,34 @@ std::optional<ConstValue> foldReal(BinaryOp op, double a, double b, const Type *
     return integerValue(a > b);
   case BinaryOp::greaterEqual:
     return integerValue(a >= b);
+  case BinaryOp::power: // the run time's own, so that both give the same bits
+    if (type->kind == TypeKind::real)
+      return realValue(
+          static_cast<double>(stride::pow(static_cast<float>(a), static_cast<float>(b))), type);
+    return realValue(stride::pow(a, b), type);
   default:
-    return std::nullopt; // powers are left to the runtime, so that both give the same bits
+    return std::nullopt;
+  }
+}
+
+std::optional<ConstValue> foldTexts(BinaryOp op, const ConstValue &a, const ConstValue &b,
+                                    const Type *type) {
+  const int order = compareTexts(a.text, b.text, type->kind == TypeKind::wstring);
+  switch (op) {
+  case BinaryOp::equal:
+    return integerValue(order == 0);
+  case BinaryOp::notEqual:
+    return integerValue(order != 0);
+  case BinaryOp::less:
+    return integerValue(order < 0);
+  case BinaryOp::lessEqual:
+    return integerValue(order <= 0);
+  case BinaryOp::greater:
+    return integerValue(order > 0);
+  case BinaryOp::greaterEqual:
+    return integerValue(order >= 0);
+  default:
+    return std::nullopt;
   }
 }
 
@@ -139,6 +168,8 @@ std::optional<ConstValue> convertConstant(const ConstValue &value, const Type *f
                                           const Type *to) {
   const Type *f = underlying(from);
   const Type *t = underlying(to);
+  if (value.kind == ConstKind::string && isCharacter(t))
+    return integerValue(wrapTo(t, firstUnit(value.text, f->kind == TypeKind::wstring)));
   if (value.kind == ConstKind::string)
     return isString(t) && f->kind == t->kind ? std::optional(value) : std::nullopt;
   if (isString(t))
@@ -167,6 +198,8 @@ std::optional<ConstValue> convertConstant(const ConstValue &value, const Type *f
 
 std::optional<ConstValue> foldBinary(BinaryOp op, const ConstValue &left, const ConstValue &right,
                                      const Type *type) {
+  if (left.kind == ConstKind::string && right.kind == ConstKind::string)
+    return foldTexts(op, left, right, type);
   if (left.kind == ConstKind::string || right.kind == ConstKind::string)
     return std::nullopt;
   if (left.kind == ConstKind::real || right.kind == ConstKind::real)

@@ -52,7 +52,7 @@ void Checker::checkInitOf(VarSymbol *variable) {
   variable->decl->init = checkInit(variable->decl->init, type);
   variable->initRunning = false;
   if (!variable->isConstant || !isElementary(type) || isError(type) ||
-      variable->constant != nullptr)
+      variable->constant != nullptr || variable->section == Section::input)
     return;
   const Expr *init = variable->decl->init;
   if (isError(init->type))
@@ -281,6 +281,13 @@ void Checker::checkFieldInit(AggregateExpr *init, const Type *type) {
   if (isInstance(type))
     declare(typeAs<PouType>(type)->symbol);
   std::unordered_set<VarSymbol *> seen;
+  if (type->kind == TypeKind::structure && typeAs<StructType>(type)->isUnion &&
+      init->items.size() > 1) {
+    report(Code::unionInit, init->items[1].span.valid() ? init->items[1].span : init->span,
+           "only one member of a UNION can have an initial value",
+           "this would overwrite the other one");
+    return;
+  }
   for (AggregateItem &item : init->items) {
     if (!item.field) {
       report(Code::wrongInitializer, item.span.valid() ? item.span : init->span,

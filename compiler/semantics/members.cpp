@@ -352,8 +352,8 @@ const Type *Checker::checkQuery(CallExpr *expr) {
 const Type *Checker::checkIsValidRef(CallExpr *expr) {
   if (!requireCount(expr, 1, 1))
     return elementaryType(TypeKind::error);
-  const Expr *value = expr->arguments[0].value;
-  if (isError(value->type))
+  Expr *value = expr->arguments[0].value;
+  if (isError(value->type) || isReference(value))
     return elementaryType(TypeKind::boolean);
   const Symbol *symbol = value->kind == ExprKind::name     ? as<NameExpr>(value)->symbol
                          : value->kind == ExprKind::member ? as<MemberExpr>(value)->symbol
@@ -361,8 +361,8 @@ const Type *Checker::checkIsValidRef(CallExpr *expr) {
   const auto *variable = symbol != nullptr && symbol->kind == SymbolKind::variable
                              ? static_cast<const VarSymbol *>(symbol)
                              : nullptr;
-  if (variable == nullptr ||
-      (variable->type->kind != TypeKind::reference && variable->section != Section::inOut))
+  if (variable == nullptr || variable->section != Section::inOut ||
+      variable->type->kind == TypeKind::openArray)
     return argumentError(expr, 0, "a REFERENCE TO variable");
   return elementaryType(TypeKind::boolean);
 }

@@ -233,6 +233,11 @@ void Checker::checkModule(Module &module) {
   byIndex(library->pous, [&](PouSymbol *p) { declare(p); });
   byIndex(library->pous, [&](PouSymbol *p) { checkClass(p); });
   checkContainment(module);
+  for (const TypeSymbol *t : library->types) {
+    if (t->type->kind == TypeKind::structure && typeAs<StructType>(t->type)->isUnion &&
+        t->decl->kind == DeclKind::structure)
+      checkUnion(typeAs<StructType>(t->type));
+  }
   for (TypeSymbol *t : std::vector<TypeSymbol *>(library->types)) {
     const ScopeGuard guard(*this, {&module, nullptr, t->decl});
     if (t->type->kind == TypeKind::structure && t->decl->kind == DeclKind::structure) {
@@ -320,6 +325,7 @@ void Checker::checkUser(const std::vector<File *> &files) {
         checkUsings(decl);
   }
   checkModule(user);
+  findImplicitChecks(user);
   declareUsed();
   checkConfigured(user);
   finishImage();
@@ -335,29 +341,44 @@ void Checker::lint(Module &module) {
 }
 
 void Checker::declareUsed() {
-  // The lists grow while declarations pull in the types of their members.
-  for (std::size_t l = 0; l < program_.libraries.size(); ++l) {
-    Library *library = program_.libraries[l].get();
-    const std::size_t before = program_.libraries.size() + library->pous.size();
-    bool declared = false;
-    for (std::size_t i = 0; i < library->pous.size(); ++i) {
-      declared = declared || !library->pous[i]->declared;
-      declare(library->pous[i]);
+  // Declarations and bodies pull in what they use, so that the lists grow meanwhile.
+  const auto count = [this] {
+    std::size_t total = program_.libraries.size();
+    for (const auto &library : program_.libraries)
+      total += library->pous.size() + library->types.size() + library->globals.size();
+    return total;
+  };
+  for (std::size_t before = 0; before != count();) {
+    before = count();
+    for (std::size_t l = 0; l < program_.libraries.size(); ++l) {
+      Library *library = program_.libraries[l].get();
+      for (std::size_t i = 0; i < library->pous.size(); ++i)
+        declare(library->pous[i]);
+      for (std::size_t i = 0; i < library->globals.size(); ++i)
+        declare(library->globals[i]);
+      for (std::size_t i = 0; i < library->types.size(); ++i) {
+        TypeSymbol *t = library->types[i];
+        const bool alias = t->decl != nullptr && t->decl->kind == DeclKind::alias;
+        if (!alias || t->init == nullptr || t->init->type != nullptr)
+          continue;
+        const ScopeGuard guard(*this, {&moduleOf(t), nullptr});
+        t->init = checkInit(t->init, t->type); // the default of the user's variables, too
+      }
+      // The library's own code has been compiled; what it uses must be in the application.
+      for (std::size_t i = 0; i < library->pous.size(); ++i) {
+        if (!library->pous[i]->decl->external)
+          checkBody(library->pous[i]);
+      }
+      // Which blocks extend a library's block or implement its interface must be known in full.
+      if (!library->isUser && !wholeLibraries_.contains(library) &&
+          std::any_of(library->pous.begin(), library->pous.end(), [](const PouSymbol *p) {
+            return p->isInterface() || (p->isBlock() && hasTypeId(p));
+          })) {
+        wholeLibraries_.insert(library);
+        for (const LibraryIndex::Entry &entry : index_.files(library->name))
+          loadLibraryFile(entry);
+      }
     }
-    for (std::size_t i = 0; i < library->globals.size(); ++i)
-      declare(library->globals[i]);
-    // Which blocks extend a library's block or implement its interface must be known in full.
-    if (!library->isUser && !wholeLibraries_.contains(library) &&
-        std::any_of(library->pous.begin(), library->pous.end(), [](const PouSymbol *p) {
-          return p->isInterface() || (p->isBlock() && hasTypeId(p));
-        })) {
-      wholeLibraries_.insert(library);
-      for (const LibraryIndex::Entry &entry : index_.files(library->name))
-        loadLibraryFile(entry);
-      declared = true;
-    }
-    if (declared || before != program_.libraries.size() + library->pous.size())
-      l = static_cast<std::size_t>(-1); // others may have been pulled in
   }
 }
 

@@ -209,8 +209,7 @@ namespace {
 
 /// Words of the language that later versions understand.
 bool isLaterWord(std::string_view lower) {
-  static constexpr std::string_view kWords[] = {"lower_bound", "upper_bound", "__new", "__delete",
-                                                "xsizeof",     "indexof",     "ini"};
+  static constexpr std::string_view kWords[] = {"ini"};
   return std::find(std::begin(kWords), std::end(kWords), lower) != std::end(kWords);
 }
 

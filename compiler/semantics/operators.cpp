@@ -81,7 +81,13 @@ const Type *Checker::operatorError(BinaryExpr *expr) {
   d.label(expr->right->span, typeName(expr->right->type));
   const Type *l = underlying(expr->left->type);
   const Type *r = underlying(expr->right->type);
-  if (isString(l) && isString(r) && expr->op == BinaryOp::add)
+  const auto aggregate = [](const Type *t) {
+    return t->kind == TypeKind::array || t->kind == TypeKind::structure || isInstance(t);
+  };
+  if (isComparison(expr->op) && aggregate(l) && aggregate(r))
+    d.help(l->kind == TypeKind::array ? "compare the elements one by one, in a loop"
+                                      : "compare the members one by one: `a.x = b.x AND …`");
+  else if (isString(l) && isString(r) && expr->op == BinaryOp::add)
     d.help("join strings with CONCAT(…, …)");
   else if (l->kind == TypeKind::boolean || r->kind == TypeKind::boolean) {
     if (!isLogical(expr->op))
@@ -161,6 +167,8 @@ const Type *Checker::checkUnary(UnaryExpr *expr, const Type *expected) {
     const Type *own = underlying(type);
     u->type = elementaryType(TypeKind::error);
     if (isError(type))
+      continue;
+    if (refuseStrict(operand))
       continue;
     const bool isNot = u->op == UnaryOp::logicalNot;
     if (isNot ? !(own->kind == TypeKind::boolean || isInteger(own) ||
@@ -250,11 +258,27 @@ const Type *Checker::checkBinary(BinaryExpr *expr, const Type *expected) {
   return expr->type;
 }
 
+bool Checker::refuseStrict(Expr *expr) {
+  if (expr->type->kind != TypeKind::enumeration || !typeAs<EnumType>(expr->type)->strict)
+    return false;
+  const std::string name = typeName(expr->type);
+  auto &d = report(Code::strictEnumeration, expr->span,
+                   "`" + name + "` is a strict enumeration, nothing is computed with it",
+                   "this is " + name);
+  noteDeclaration(d, typeAs<EnumType>(expr->type)->symbol);
+  d.help("convert it if its number is meant: `TO_INT(…)`");
+  return true;
+}
+
 const Type *Checker::checkArithmetic(BinaryExpr *expr) {
   const Type *l = underlying(expr->left->type);
   const Type *r = underlying(expr->right->type);
+  if (refuseStrict(expr->left) || refuseStrict(expr->right))
+    return elementaryType(TypeKind::error);
   if (isTimeOrDate(l) || isTimeOrDate(r))
     return checkTimeArithmetic(expr);
+  if (l->kind == TypeKind::pointer || r->kind == TypeKind::pointer)
+    return checkPointerArithmetic(expr);
   if (!isNumber(l) || !isNumber(r))
     return operatorError(expr);
   if (l->kind == TypeKind::anyInteger && r->kind == TypeKind::anyInteger) {
@@ -353,15 +377,17 @@ const Type *Checker::checkComparison(BinaryExpr *expr) {
   Expr *left = expr->left;
   Expr *right = expr->right;
   const Type *boolean = elementaryType(TypeKind::boolean);
-  const bool equality = expr->op == BinaryOp::equal || expr->op == BinaryOp::notEqual;
   // An enumerator found without its type may belong to the other side's type.
   if (left->type->kind == TypeKind::enumeration && right->type->kind == TypeKind::enumeration &&
       left->type != right->type && left->kind == ExprKind::name && left->constant != nullptr)
     check(left, right->type);
   const Type *l = left->type;
   const Type *r = right->type;
+  const bool equality = expr->op == BinaryOp::equal || expr->op == BinaryOp::notEqual;
   if (l->kind == TypeKind::enumeration && r->kind == TypeKind::enumeration && l != r)
     return operatorError(expr);
+  if (l != r && (refuseStrict(left) || refuseStrict(right)))
+    return elementaryType(TypeKind::error);
   const Type *ul = underlying(l);
   const Type *ur = underlying(r);
   if (isNumber(ul) && isNumber(ur)) {
@@ -397,6 +423,12 @@ const Type *Checker::checkComparison(BinaryExpr *expr) {
     if (other->constant == nullptr || !constantFits(*other->constant, other->type, boolean))
       return operatorError(expr);
     expr->operandType = boolean;
+  } else if (isCharacter(ul) || isCharacter(ur)) {
+    Expr *other = isCharacter(ul) ? right : left;
+    expr->operandType = isCharacter(ul) ? ul : ur;
+    if (ul != ur && (other->constant == nullptr ||
+                     !constantFits(*other->constant, other->type, expr->operandType)))
+      return operatorError(expr);
   } else if (isString(ul) && ul->kind == ur->kind) {
     const auto length = std::max(typeAs<StringType>(ul)->length, typeAs<StringType>(ur)->length);
     expr->operandType = types_.string(ul->kind == TypeKind::wstring, length);
@@ -419,14 +451,8 @@ const Type *Checker::checkComparison(BinaryExpr *expr) {
     if (!coerceToInterface(other, expr->operandType) || other->target == nullptr)
       return elementaryType(TypeKind::error);
     return boolean;
-  } else if (ul->kind == TypeKind::pointer && ur->kind == TypeKind::pointer &&
-             (ul == ur || classify(ul, ur) == Conversion::free ||
-              classify(ur, ul) == Conversion::free)) {
-    expr->operandType = ul == ur || classify(ur, ul) == Conversion::free ? ul : ur;
-  } else if (ul->kind == TypeKind::pointer && equality && right->constant != nullptr &&
-             ur->kind == TypeKind::anyInteger && right->constant->integer == 0) {
-    expr->operandType = ul;
-    setTarget(right, ul);
+  } else if ((ul->kind == TypeKind::pointer || ur->kind == TypeKind::pointer) &&
+             comparePointers(expr)) {
     return boolean;
   } else {
     return operatorError(expr);
@@ -437,6 +463,8 @@ const Type *Checker::checkComparison(BinaryExpr *expr) {
 }
 
 const Type *Checker::checkLogical(BinaryExpr *expr) {
+  if (refuseStrict(expr->left) || refuseStrict(expr->right))
+    return elementaryType(TypeKind::error);
   const Type *l = underlying(expr->left->type);
   const Type *r = underlying(expr->right->type);
   const Type *boolean = elementaryType(TypeKind::boolean);
@@ -452,6 +480,20 @@ const Type *Checker::checkLogical(BinaryExpr *expr) {
     expr->operandType = l;
     return l;
   } else {
+    // An address is a number here: `ADR(x) AND 16#3`.
+    for (Expr *side : {expr->left, expr->right}) {
+      if (!shortCircuit && underlying(side->type)->kind == TypeKind::pointer) {
+        const Type *address = elementaryType(TypeKind::ulint);
+        setTarget(side, address);
+        Expr *other = side == expr->left ? expr->right : expr->left;
+        const Type *o = underlying(other->type);
+        if (!isInteger(o) && o->kind != TypeKind::anyInteger)
+          return operatorError(expr);
+        setTarget(other, address);
+        expr->operandType = address;
+        return address;
+      }
+    }
     const auto integral = [](const Type *t) {
       return isInteger(t) || t->kind == TypeKind::anyInteger;
     };

@@ -1,6 +1,7 @@
 #pragma once
 // A checked program: what codegen works on.
 
+#include "compiler/semantics/implicit_checks.hpp"
 #include "compiler/semantics/symbols.hpp"
 #include "compiler/source/arena.hpp"
 #include "compiler/source/diagnostic.hpp"
@@ -11,6 +12,7 @@
 #include <deque>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stc {
@@ -89,6 +91,7 @@ struct AccessPath {
 inline constexpr std::string_view kProgramInstance = "program instance";
 
 struct Settings {
+  std::uint64_t poolSize = 65536; ///< bytes for the objects of __NEW, a multiple of 16
   bool checks = true; ///< run-time checks (index, division, null, subrange)
   Levels levels;      ///< severities given on the command line; they go before stride.toml's
   Addressing addressing = Addressing::units;
@@ -117,6 +120,12 @@ struct Program {
   std::vector<std::unique_ptr<Library>> libraries; ///< used libraries in order of first use
   Library *user = nullptr;        ///< the project; null while a library itself is compiled
   std::vector<ast::File *> files; ///< parsed user files
+  /// Types whose size the program asks for (SIZEOF), with what the checker has computed.
+  std::vector<std::pair<const Type *, std::uint64_t>> measured;
+  /// Types that the program creates objects of (__NEW), in the order of first use.
+  std::vector<const Type *> created;
+  ImplicitChecks implicitChecks{}; ///< the project's own run-time checks
+  bool usesPool = false;           ///< __NEW or __DELETE is used
   // Storage of the symbols that own containers (the others live in the arena).
   std::deque<NamespaceSymbol> spaceStorage;
   std::deque<PouSymbol> pouStorage;

@@ -123,31 +123,7 @@ void Checker::checkAssign(AssignStmt *stmt) {
   }
   Expr *last = stmt->targets.back();
   if (stmt->op == AssignOp::reference) {
-    Symbol *symbol = last->kind == ExprKind::name     ? as<NameExpr>(last)->symbol
-                     : last->kind == ExprKind::member ? as<MemberExpr>(last)->symbol
-                                                      : nullptr;
-    const auto *variable = symbol != nullptr && symbol->kind == SymbolKind::variable
-                               ? static_cast<VarSymbol *>(symbol)
-                               : nullptr;
-    if (variable == nullptr || variable->type->kind != TypeKind::reference) {
-      if (!isError(last->type))
-        report(Code::notAReference, last->span,
-               "only a REFERENCE can be set with REF=", "this is " + typeName(last->type));
-      check(stmt->value);
-      return;
-    }
-    const Type *value = check(stmt->value);
-    if (isError(value) || !requireVariable(stmt->value, "refer to"))
-      return;
-    if (!refersTo(value, last->type))
-      report(Code::typeMismatch, stmt->value->span,
-             "expected " + typeName(last->type) + ", found " + typeName(value),
-             "a reference needs a variable of exactly its type");
-    else if (isBitPlace(stmt->value))
-      report(Code::typeMismatch, stmt->value->span, "a reference cannot stand for a single bit",
-             "bits have no address");
-    else
-      requireAligned(stmt->value, "refer to");
+    checkReferenceAssign(stmt);
     return;
   }
   if (expected == nullptr || isError(expected)) {
@@ -177,6 +153,8 @@ void Checker::checkAssign(AssignStmt *stmt) {
     report(Code::typeMismatch, stmt->span, "a program cannot be copied", "there is only one of it");
     return;
   }
+  if (refuseOpenArray(last, "assign") || refuseOpenArray(stmt->value, "copy"))
+    return;
   coerce(stmt->value, expected, {});
   for (std::size_t i = stmt->targets.size() - 1; i-- > 0;) {
     Expr *target = stmt->targets[i];
@@ -223,8 +201,8 @@ void Checker::checkCase(CaseStmt *stmt) {
           known = false;
           continue;
         }
-        if (boundType->kind == TypeKind::enumeration && type->kind != TypeKind::enumeration &&
-            isInteger(type))
+        if (boundType->kind == TypeKind::enumeration && !typeAs<EnumType>(boundType)->strict &&
+            type->kind != TypeKind::enumeration && isInteger(type))
           setTarget(bound, type);
         else
           coerce(bound, type, "the CASE label");

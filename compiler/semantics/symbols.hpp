@@ -166,6 +166,8 @@ struct NamespaceSymbol : Symbol {
   std::unordered_map<Ident, Symbol *> names;
   std::unordered_map<Ident, std::vector<EnumeratorSymbol *>> enumerators;
 };
+/// The type that the last index of `a[i, j]` reaches before a REFERENCE there is followed.
+[[nodiscard]] const Type *elementBeforeReference(const ast::IndexExpr *expr);
 
 /// `Standard.TON` on the left of the dot.
 struct LibrarySymbol : Symbol {};

@@ -35,14 +35,15 @@ const Type *elementaryType(TypeKind kind) {
 const Type *findElementaryType(std::string_view lowerName) {
   using enum TypeKind;
   static const std::unordered_map<std::string_view, TypeKind> kNames = {
-      {"bool", boolean},     {"sint", sint},   {"int", intT},           {"dint", dint},
-      {"lint", lint},        {"usint", usint}, {"uint", uint},          {"udint", udint},
-      {"ulint", ulint},      {"byte", byte},   {"word", word},          {"dword", dword},
-      {"lword", lword},      {"real", real},   {"lreal", lreal},        {"time", time},
-      {"ltime", ltime},      {"date", date},   {"ldate", ldate},        {"tod", tod},
-      {"time_of_day", tod},  {"ltod", ltod},   {"ltime_of_day", ltod},  {"dt", dt},
-      {"date_and_time", dt}, {"ldt", ldt},     {"ldate_and_time", ldt}, {"string", string},
-      {"wstring", wstring},
+      {"bool", boolean},     {"sint", sint},     {"int", intT},           {"dint", dint},
+      {"lint", lint},        {"usint", usint},   {"uint", uint},          {"udint", udint},
+      {"ulint", ulint},      {"byte", byte},     {"word", word},          {"dword", dword},
+      {"lword", lword},      {"real", real},     {"lreal", lreal},        {"time", time},
+      {"ltime", ltime},      {"date", date},     {"ldate", ldate},        {"tod", tod},
+      {"time_of_day", tod},  {"ltod", ltod},     {"ltime_of_day", ltod},  {"dt", dt},
+      {"date_and_time", dt}, {"ldt", ldt},       {"ldate_and_time", ldt}, {"string", string},
+      {"wstring", wstring},  {"char", charT},    {"wchar", wcharT},       {"__xword", lword},
+      {"__xint", lint},      {"__uxint", ulint},
   };
   const auto it = kNames.find(lowerName);
   return it == kNames.end() ? nullptr : elementaryType(it->second);
@@ -76,6 +77,14 @@ const Type *TypeTable::array(const Type *element, std::int64_t low, std::int64_t
   auto &slot = arrays_[{element, low, high}];
   if (slot == nullptr)
     slot = arena_.make<ArrayType>(Type{TypeKind::array}, element, low, high);
+  return slot;
+}
+
+const Type *TypeTable::openArray(const Type *element, std::uint32_t dimensions) {
+  const Type *rest = dimensions == 1 ? element : openArray(element, dimensions - 1);
+  auto &slot = openArrays_[{element, dimensions}];
+  if (slot == nullptr)
+    slot = arena_.make<OpenArrayType>(Type{TypeKind::openArray}, element, dimensions, rest);
   return slot;
 }
 

@@ -32,6 +32,7 @@ public:
 
   const Type *string(bool wide, std::uint32_t length);
   const Type *array(const Type *element, std::int64_t low, std::int64_t high);
+  const Type *openArray(const Type *element, std::uint32_t dimensions);
   const Type *pointer(const Type *pointee);
   const Type *reference(const Type *pointee);
   const Type *subrange(const Type *base, std::int64_t low, std::int64_t high);
@@ -40,6 +41,7 @@ private:
   Arena &arena_;
   std::map<std::pair<bool, std::uint32_t>, const Type *> strings_;
   std::map<std::tuple<const Type *, std::int64_t, std::int64_t>, const Type *> arrays_;
+  std::map<std::pair<const Type *, std::uint32_t>, const Type *> openArrays_;
   std::map<const Type *, const Type *> pointers_;
   std::map<const Type *, const Type *> references_;
   std::map<std::tuple<const Type *, std::int64_t, std::int64_t>, const Type *> subranges_;

@@ -15,6 +15,9 @@ bool isInteger(const Type *t) { return t->kind >= TypeKind::sint && t->kind <= T
 bool isReal(const Type *t) { return t->kind == TypeKind::real || t->kind == TypeKind::lreal; }
 bool isTimeOrDate(const Type *t) { return t->kind >= TypeKind::time && t->kind <= TypeKind::ldt; }
 bool isString(const Type *t) { return t->kind == TypeKind::string || t->kind == TypeKind::wstring; }
+bool isCharacter(const Type *t) {
+  return t->kind == TypeKind::charT || t->kind == TypeKind::wcharT;
+}
 bool isElementary(const Type *t) {
   return (t->kind >= TypeKind::boolean && t->kind <= TypeKind::subrange) ||
          t->kind == TypeKind::anyInteger || t->kind == TypeKind::anyReal;
@@ -41,10 +44,12 @@ unsigned bitWidth(const Type *t) {
   case TypeKind::sint:
   case TypeKind::usint:
   case TypeKind::byte:
+  case TypeKind::charT:
     return 8;
   case TypeKind::intT:
   case TypeKind::uint:
   case TypeKind::word:
+  case TypeKind::wcharT:
     return 16;
   case TypeKind::dint:
   case TypeKind::udint:
@@ -114,6 +119,10 @@ std::string_view elementaryName(TypeKind kind) {
     return "DATE_AND_TIME";
   case TypeKind::ldt:
     return "LDATE_AND_TIME";
+  case TypeKind::charT:
+    return "CHAR";
+  case TypeKind::wcharT:
+    return "WCHAR";
   case TypeKind::anyInteger:
     return "integer constant";
   case TypeKind::anyReal:
@@ -166,7 +175,16 @@ std::string typeName(const Type *t) {
     }
     return "ARRAY [" + bounds + "] OF " + typeName(element);
   }
+  case TypeKind::openArray: {
+    const auto *a = typeAs<OpenArrayType>(t);
+    std::string stars = "*";
+    for (std::uint32_t i = 1; i < a->dimensions; ++i)
+      stars += ", *";
+    return "ARRAY [" + stars + "] OF " + typeName(a->element);
+  }
   case TypeKind::pointer:
+    if (typeAs<PointerType>(t)->pointee->kind == TypeKind::none)
+      return "POINTER TO VOID";
     return "POINTER TO " + typeName(typeAs<PointerType>(t)->pointee);
   case TypeKind::reference:
     return "REFERENCE TO " + typeName(typeAs<PointerType>(t)->pointee);

@@ -44,9 +44,12 @@ enum class TypeKind : std::uint8_t {
   ldt,
   string,
   wstring,
+  charT, ///< CHAR: one character of a STRING
+  wcharT,
   enumeration,
   subrange,
   array,
+  openArray, ///< ARRAY[*], only of a VAR_IN_OUT
   structure,
   functionBlock, ///< FUNCTION_BLOCK, CLASS
   program,
@@ -70,7 +73,8 @@ struct EnumType : Type {
   const Type *base;   ///< an integer or bit-string type
   TypeSymbol *symbol; ///< its declaration; for an in-line enumeration a synthesized one
   std::span<EnumeratorSymbol *> enumerators;
-  bool strict = false;
+  bool strict = false; ///< {attribute 'strict'}
+  bool named = false;  ///< {attribute 'to_string'}: TO_STRING gives the enumerator's name
   EnumeratorSymbol *initial =
       nullptr; ///< the default value (the first one unless declared otherwise)
 };
@@ -90,11 +94,20 @@ struct ArrayType : Type {
   [[nodiscard]] std::uint64_t count() const { return static_cast<std::uint64_t>(high - low + 1); }
 };
 
+/// ARRAY[*, …]: the bounds are those of the caller's array.
+struct OpenArrayType : Type {
+  const Type *element;
+  std::uint32_t dimensions;
+  const Type *rest; ///< what one index gives: the element, or an array of the other dimensions
+};
+
+/// STRUCT or UNION
 struct StructType : Type {
   TypeSymbol *symbol;
   const StructType *base = nullptr; ///< EXTENDS
   std::span<VarSymbol *> fields;    ///< own fields
   unsigned pack = 0; ///< {attribute 'pack_mode'}: members are aligned to this at most; 0: naturally
+  bool isUnion = false;             ///< the fields share their memory
 };
 
 /// FUNCTION_BLOCK, CLASS or PROGRAM as the type of its instances; INTERFACE.
@@ -116,7 +129,8 @@ struct PointerType : Type {
 isInteger(const Type *t); ///< signed, unsigned, bit string (no enumerations, subranges)
 [[nodiscard]] bool isReal(const Type *t); ///< REAL, LREAL
 [[nodiscard]] bool isTimeOrDate(const Type *t);
-[[nodiscard]] bool isString(const Type *t); ///< STRING, WSTRING
+[[nodiscard]] bool isString(const Type *t);    ///< STRING, WSTRING
+[[nodiscard]] bool isCharacter(const Type *t); ///< CHAR, WCHAR
 [[nodiscard]] bool isElementary(const Type *t);
 [[nodiscard]] bool isInstance(const Type *t); ///< FUNCTION_BLOCK or PROGRAM
 [[nodiscard]] unsigned
@@ -125,6 +139,13 @@ bitWidth(const Type *t); ///< of numbers, bit strings, times, enumerations, subr
 [[nodiscard]] const Type *underlying(const Type *t);
 /// As diagnostics show it: `INT`, `ARRAY [1..3] OF REAL`, `STRING(20)`, `MC_Direction`.
 [[nodiscard]] std::string typeName(const Type *t);
+
+/// Bytes without a type: what a pointer to them points to is not checked (BYTE, SINT, USINT, VOID).
+[[nodiscard]] bool isByteView(const Type *pointee);
+
+/// What one index of a value of the type gives: an array's element, a string's character (BYTE,
+/// WORD), what lies behind a pointer; references are followed. Null when it cannot be indexed.
+[[nodiscard]] const Type *indexStep(const Type *type);
 
 template <class T> const T *typeAs(const Type *t) { return static_cast<const T *>(t); }
 

@@ -402,10 +402,10 @@ bool LiteralReader::timeOrDate(std::string_view prefix, std::string_view value, 
                 both ? "expected for example `DT#2024-02-29-12:30:15`"
                      : "expected a date such as `D#2024-02-29`, from 1970 on");
   const std::uint64_t seconds = static_cast<std::uint64_t>(*days) * 86'400 + *nanos / kSecond;
-  if (isLong
-          ? seconds >
-                static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()) / kSecond - 1
-          : seconds > std::numeric_limits<std::uint32_t>::max())
+  constexpr auto kMaxNanos = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  const bool tooLate = isLong ? seconds > (kMaxNanos - *nanos % kSecond) / kSecond
+                              : seconds > std::numeric_limits<std::uint32_t>::max();
+  if (tooLate)
     return fail(Code::literalOutOfRange, span,
                 isLong ? "the date is too far in the future"
                        : "the date is after 2106-02-07, the last one of 32 bits");

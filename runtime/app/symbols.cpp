@@ -63,7 +63,7 @@ std::string rootName(const RootDesc &root) {
 } // namespace
 
 bool isElementary(Kind kind) {
-  return (kind >= Kind::BOOL && kind <= Kind::WSTRING) || kind == Kind::Enum;
+  return (kind >= Kind::BOOL && kind <= Kind::WCHAR) || kind == Kind::Enum;
 }
 
 std::byte *Symbol::find(std::byte *state, int &bit) const {

@@ -35,10 +35,13 @@ void appendUtf8(std::string &out, uint32_t c) {
   }
 }
 
+bool isNarrow(Kind kind) { return kind == Kind::STRING || kind == Kind::CHAR; }
+bool isText(Kind kind) { return isNarrow(kind) || kind == Kind::WSTRING || kind == Kind::WCHAR; }
+
 /// Calls `take` with each character of a STRING or WSTRING variable; surrogate pairs are joined.
 template <class F> void eachCharacter(const TypeDesc &type, const void *value, F take) {
   const auto *bytes = static_cast<const unsigned char *>(value);
-  if (type.kind == Kind::STRING) {
+  if (isNarrow(type.kind)) {
     for (uint32_t i = 0; i < type.stringLength && bytes[i] != 0; ++i)
       take(uint32_t{bytes[i]});
     return;
@@ -59,7 +62,7 @@ template <class F> void eachCharacter(const TypeDesc &type, const void *value, F
 }
 
 std::string stringLiteral(const TypeDesc &type, const void *value) {
-  const char quote = type.kind == Kind::STRING ? '\'' : '"';
+  const char quote = isNarrow(type.kind) ? '\'' : '"';
   std::string out(1, quote);
   eachCharacter(type, value, [&](uint32_t c) {
     if (c == static_cast<uint32_t>(quote) || c == '$') {
@@ -72,7 +75,7 @@ std::string stringLiteral(const TypeDesc &type, const void *value) {
     } else if (c == '\t') {
       out += "$T";
     } else if (c < 0x20 || (c >= 0x7F && c < 0xA0)) {
-      out += type.kind == Kind::STRING ? fmt::format("${:02X}", c) : fmt::format("${:04X}", c);
+      out += isNarrow(type.kind) ? fmt::format("${:02X}", c) : fmt::format("${:04X}", c);
     } else {
       appendUtf8(out, c);
     }
@@ -117,7 +120,7 @@ template <class T> void appendNumber(std::string &out, T value) {
 } // namespace
 
 std::string formatLiteral(const StrideAppV1 &app, const TypeDesc &type, const void *value) {
-  if (type.kind == Kind::STRING || type.kind == Kind::WSTRING)
+  if (isText(type.kind))
     return stringLiteral(type, value);
   if (type.kind == Kind::Enum) {
     const TypeDesc &base = app.types[type.element];
@@ -151,6 +154,8 @@ void appendCsv(const StrideAppV1 &app, const TypeDesc &type, const void *value, 
     break;
   case Kind::STRING:
   case Kind::WSTRING:
+  case Kind::CHAR:
+  case Kind::WCHAR:
     out.push_back('"');
     eachCharacter(type, value, [&out](uint32_t c) {
       if (c == '"')
@@ -169,8 +174,8 @@ void appendCsv(const StrideAppV1 &app, const TypeDesc &type, const void *value, 
 }
 
 std::size_t csvWidth(const TypeDesc &type) {
-  const bool isText = type.kind == Kind::STRING || type.kind == Kind::WSTRING;
-  return isText ? size_t{type.stringLength} * 3 + 2 : 32;
+  const bool quoted = isText(type.kind);
+  return quoted ? size_t{type.stringLength} * 3 + 2 : 32;
 }
 
 } // namespace stride::app

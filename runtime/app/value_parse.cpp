@@ -227,7 +227,7 @@ bool takeEscape(std::string_view body, std::size_t &at, std::size_t hexDigits, u
 }
 
 void storeString(const TypeDesc &type, std::string_view text, void *value) {
-  const bool wide = type.kind == Kind::WSTRING;
+  const bool wide = type.kind == Kind::WSTRING || type.kind == Kind::WCHAR;
   const char quote = wide ? '"' : '\'';
   const char *example = wide ? "\"abc\"" : "'abc'";
   if (text.size() < 2 || text.front() != quote || text.back() != quote)
@@ -325,6 +325,8 @@ void parseLiteral(const StrideAppV1 &app, const TypeDesc &type, std::string_view
                      value);
   case Kind::STRING:
   case Kind::WSTRING:
+  case Kind::CHAR:
+  case Kind::WCHAR:
     return storeString(type, text, value);
   case Kind::Enum:
     return storeEnum(app, type, text, value);

@@ -5,6 +5,7 @@
 #include "runtime/host/axis_hooks.hpp"
 #include "runtime/host/set_list.hpp"
 #include "runtime/host/trace_writer.hpp"
+#include "runtime/task/low_stack.hpp"
 #include "runtime/task/virtual_scheduler.hpp"
 
 #include <fmt/format.h>
@@ -138,7 +139,7 @@ private:
 
 } // namespace
 
-ExitCode simulate(app::Application &application, const SimOptions &options) {
+static ExitCode simulateHere(app::Application &application, const SimOptions &options) {
   const StrideAppV1 &app = application.description();
   std::byte *state = application.state();
   const app::SymbolTable symbols(app);
@@ -195,6 +196,12 @@ ExitCode simulate(app::Application &application, const SimOptions &options) {
   if (result.fault)
     return kExitException;
   return result.interrupted ? kExitInterrupted : kExitOk;
+}
+
+ExitCode simulate(app::Application &application, const SimOptions &options) {
+  ExitCode code = kExitOk;
+  task::runOnLowStack([&] { code = simulateHere(application, options); });
+  return code;
 }
 
 } // namespace stride::host

@@ -89,6 +89,9 @@ uint32_t exceptionNumber(ExceptionCode code);
                                                    const char *file, uint32_t line, uint32_t col);
 [[noreturn]] __attribute__((cold)) void raiseRange(Ctx &ctx, int64_t value, int64_t lo, int64_t hi,
                                                    const char *file, uint32_t line, uint32_t col);
+/// A pointer to nothing: NullPointer, or AccessViolation where it is not 0.
+[[noreturn]] __attribute__((cold)) void raisePointer(Ctx &ctx, const void *pointer,
+                                                     const char *file, uint32_t line, uint32_t col);
 /// Asks the host for more loop budget, or leaves the cycle.
 __attribute__((cold)) void loopBudgetSpent(Ctx &ctx, const char *file, uint32_t line, uint32_t col);
 

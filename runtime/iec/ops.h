@@ -8,6 +8,9 @@
 #include "runtime/iec/ctx.h"
 #include "runtime/iec/image.h"
 #include "runtime/iec/math.h"
+#include "runtime/iec/memory.h"
+#include "runtime/iec/open_array.h"
+#include "runtime/iec/pool.h"
 #include "runtime/iec/strings.h"
 #include "runtime/iec/text.h"
 #include "runtime/iec/types.h"
@@ -238,11 +241,12 @@ template <int64_t Lo, class I> constexpr uint64_t place(I i) {
   return static_cast<uint64_t>(static_cast<int64_t>(i)) - static_cast<uint64_t>(Lo);
 }
 
-/// The object behind a POINTER TO or REFERENCE TO; raises NullPointer at the position.
+/// The object behind a POINTER TO or REFERENCE TO; raises NullPointer (or AccessViolation, for the
+/// addresses behind 0 that are nobody's) at the position.
 template <class C, class T>
-constexpr T &deref(C &ctx, T *p, const char *file, uint32_t line, uint32_t col) {
-  if (p == nullptr) [[unlikely]]
-    raise(ctx, ExceptionCode::NullPointer, file, line, col);
+inline T &deref(C &ctx, T *p, const char *file, uint32_t line, uint32_t col) {
+  if (detail::addressOf(p) < detail::kFirstAddress) [[unlikely]]
+    raisePointer(ctx, p, file, line, col);
   return *p;
 }
 /// The actual of a VAR_IN_OUT; raises UnboundInOut at the position.

@@ -101,6 +101,14 @@ void raiseRange(Ctx &ctx, int64_t value, int64_t lo, int64_t hi, const char *fil
   raiseDetail(ctx, ExceptionCode::RangeViolation, file, line, col, detail.text());
 }
 
+void raisePointer(Ctx &ctx, const void *pointer, const char *file, uint32_t line, uint32_t col) {
+  if (pointer == nullptr)
+    raise(ctx, ExceptionCode::NullPointer, file, line, col);
+  Detail detail;
+  detail << "there is no variable at address " << reinterpret_cast<int64_t>(pointer);
+  raiseDetail(ctx, ExceptionCode::AccessViolation, file, line, col, detail.text());
+}
+
 void loopBudgetSpent(Ctx &ctx, const char *file, uint32_t line, uint32_t col) {
   if (ctx.host != nullptr && ctx.host->refillLoopBudget != nullptr) {
     const int64_t budget = ctx.host->refillLoopBudget(&ctx);

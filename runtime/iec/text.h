@@ -108,6 +108,41 @@ template <Kind To, uint32_t N> inline KindType<To> fromString(const WSTRING<N> &
   return fromString<To>(narrow<N>(s));
 }
 
+/// CHAR_TO_STRING and the like: a text of one character, empty for the character 0.
+template <uint32_t N> inline STRING<N> characterText(CHAR c) {
+  STRING<N> r{};
+  r.s[0] = static_cast<char>(c);
+  return r;
+}
+template <uint32_t N> inline WSTRING<N> wideCharacterText(WCHAR c) {
+  WSTRING<N> r{};
+  r.s[0] = static_cast<char16_t>(c);
+  return r;
+}
+/// STRING_TO_CHAR and the like: the first character, 0 of an empty text.
+template <uint32_t N> constexpr CHAR firstCharacter(const STRING<N> &s) {
+  return static_cast<CHAR>(s.s[0]);
+}
+template <uint32_t N> constexpr WCHAR firstCharacter(const WSTRING<N> &s) {
+  return static_cast<WCHAR>(s.s[0]);
+}
+/// WCHAR_TO_CHAR: characters beyond Latin-1 become '?'.
+constexpr CHAR narrowCharacter(WCHAR c) { return static_cast<CHAR>(c < 256 ? c : u'?'); }
+
+/// TO_STRING of an enumeration with {attribute 'to_string'}: the enumerator's name, or the number
+/// where there is none.
+template <uint32_t N> inline STRING<N> enumeratorText(const char *name, int64_t value) {
+  char buffer[text::kBufferSize];
+  STRING<N> r;
+  if (name != nullptr) {
+    detail::textCopy(r.s, N, name, N);
+  } else {
+    const uint32_t length = text::formatSigned(buffer, value);
+    detail::textCopy(r.s, N, buffer, length);
+  }
+  return r;
+}
+
 } // namespace stride
 
 #endif

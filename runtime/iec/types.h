@@ -24,6 +24,9 @@ using BYTE = uint8_t;
 using WORD = uint16_t;
 using DWORD = uint32_t;
 using LWORD = uint64_t;
+/// One character of a STRING (Latin-1), of a WSTRING (UTF-16).
+using CHAR = uint8_t;
+using WCHAR = uint16_t;
 using REAL = float;
 using LREAL = double;
 /// Duration in milliseconds, wraps after 49.7 days.
@@ -103,6 +106,8 @@ enum class Kind : uint32_t {
   LDT = 23,
   STRING = 24,
   WSTRING = 25,
+  CHAR = 26,
+  WCHAR = 27,
   Enum = 32,
   Struct = 33,
   Union = 34,

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <vector>
 
-#include <sys/resource.h>
+#include <pthread.h>
 
 namespace stride::task {
 
@@ -28,15 +28,16 @@ constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 constexpr int kInvalidAccess = 1;
 constexpr int kStackOverflow = 2;
 
-/// Near the lower end of the stack that began at `stack`.
+/// Lower end and size of this thread's stack, known while a MemoryGuard lives.
+thread_local uintptr_t stackLow = 0;
+thread_local std::size_t stackSize = 0;
+
+/// Near the lower end of the stack, on which the call is.
 bool isStackOverflow(const void *address) {
-  struct ::rlimit limit {};
-  if (::getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
-    limit.rlim_cur = 8U << 20;
-  const auto top = reinterpret_cast<uintptr_t>(landing->stack);
+  constexpr uintptr_t kBelow = 64U << 20; // a large frame reaches far behind the end
   const auto at = reinterpret_cast<uintptr_t>(address);
-  const uintptr_t depth = top - at;
-  return at < top && depth > limit.rlim_cur / 2 && depth < limit.rlim_cur + (64U << 20);
+  return at < reinterpret_cast<uintptr_t>(landing->stack) && at < stackLow + stackSize / 2 &&
+         at + kBelow > stackLow;
 }
 
 extern "C" void strideOnSignal(int number, siginfo_t *info, void *) {
@@ -82,6 +83,13 @@ struct MemoryGuard::Impl {
 };
 
 MemoryGuard::MemoryGuard() : impl_(std::make_unique<Impl>()) {
+  pthread_attr_t attributes;
+  if (::pthread_getattr_np(::pthread_self(), &attributes) == 0) {
+    void *low = nullptr;
+    ::pthread_attr_getstack(&attributes, &low, &stackSize);
+    stackLow = reinterpret_cast<uintptr_t>(low);
+    ::pthread_attr_destroy(&attributes);
+  }
   stack_t stack{};
   stack.ss_sp = impl_->stack.data();
   stack.ss_size = impl_->stack.size();

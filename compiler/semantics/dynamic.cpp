@@ -1,0 +1,84 @@
+// __NEW and __DELETE.
+
+#include "compiler/semantics/checker.hpp"
+
+#include <algorithm>
+
+namespace stc {
+
+using namespace ast;
+
+namespace {
+
+/// The first block without the attribute that an object of the type holds or is.
+const PouSymbol *withoutAttribute(const Type *type) {
+  while (type->kind == TypeKind::array)
+    type = typeAs<ArrayType>(type)->element;
+  if (!isInstance(type))
+    return nullptr;
+  const PouSymbol *pou = typeAs<PouType>(type)->symbol;
+  const bool enabled =
+      std::any_of(pou->decl->attributes.begin(), pou->decl->attributes.end(),
+                  [](const Attribute &a) { return a.name == "enable_dynamic_creation"; });
+  return enabled ? nullptr : pou;
+}
+
+} // namespace
+
+const Type *Checker::checkNew(CallExpr *expr) {
+  const Type *bad = elementaryType(TypeKind::error);
+  if (!requireCount(expr, 1, 2) || expr->arguments[0].value == nullptr)
+    return bad;
+  Expr *named = expr->arguments[0].value;
+  const Type *type = namedType(named);
+  if (type == nullptr) {
+    if (!isError(check(named)))
+      report(Code::newNeedsType, named->span, "`__NEW` creates an object of a type",
+             "this is a value, not the name of a type")
+          .help("write the type: `p := __NEW(INT);` or `p := __NEW(BYTE, 100);`");
+    return bad;
+  }
+  named->type = type;
+  if (isError(type))
+    return bad;
+  if (type->kind == TypeKind::program)
+    return argumentError(expr, 0, "a type or a function block");
+  if (const PouSymbol *pou = withoutAttribute(type)) {
+    auto &d = report(Code::newNotEnabled, named->span,
+                     "`" + std::string(pou->name.text) + "` cannot be created with `__NEW`",
+                     "its declaration does not allow it");
+    noteDeclaration(d, pou);
+    d.help("write `{attribute 'enable_dynamic_creation'}` in front of its FUNCTION_BLOCK");
+    return bad;
+  }
+  if (expr->arguments.size() == 2) {
+    Expr *count = expr->arguments[1].value;
+    const Type *countType = check(count);
+    if (isError(countType))
+      return bad;
+    if (!isInteger(underlying(countType)) && countType->kind != TypeKind::anyInteger)
+      return argumentError(expr, 1, "the number of elements");
+    setTarget(count, elementaryType(TypeKind::lint));
+  }
+  program_.usesPool = true;
+  if (isInstance(type))
+    declare(typeAs<PouType>(type)->symbol);
+  if (std::find(program_.created.begin(), program_.created.end(), type) == program_.created.end())
+    program_.created.push_back(type);
+  return types_.pointer(type);
+}
+
+const Type *Checker::checkDelete(CallExpr *expr) {
+  const Type *bad = elementaryType(TypeKind::error);
+  if (!requireCount(expr, 1, 1))
+    return bad;
+  Expr *pointer = expr->arguments[0].value;
+  if (pointer->type->kind != TypeKind::pointer)
+    return argumentError(expr, 0, "a pointer variable");
+  if (!requireVariable(pointer, "delete"))
+    return bad;
+  program_.usesPool = true;
+  return elementaryType(TypeKind::none);
+}
+
+} // namespace stc

@@ -1,0 +1,224 @@
+// Pointers and references: arithmetic in bytes, comparisons, conversions and what may be pointed
+// to.
+
+#include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/locations.hpp"
+
+namespace stc {
+
+using namespace ast;
+
+bool isByteView(const Type *pointee) {
+  return pointee->kind == TypeKind::none || pointee->kind == TypeKind::byte ||
+         pointee->kind == TypeKind::usint || pointee->kind == TypeKind::sint;
+}
+
+const Type *indexStep(const Type *type) {
+  if (type->kind == TypeKind::reference)
+    type = typeAs<PointerType>(type)->pointee;
+  switch (type->kind) {
+  case TypeKind::array:
+    return typeAs<ArrayType>(type)->element;
+  case TypeKind::openArray:
+    return typeAs<OpenArrayType>(type)->rest;
+  case TypeKind::string:
+    return elementaryType(TypeKind::byte);
+  case TypeKind::wstring:
+    return elementaryType(TypeKind::word);
+  case TypeKind::pointer: {
+    const Type *pointee = typeAs<PointerType>(type)->pointee;
+    if (pointee->kind == TypeKind::none)
+      return nullptr;
+    return isString(pointee) ? indexStep(pointee) : pointee;
+  }
+  default:
+    return nullptr;
+  }
+}
+
+const Type *elementBeforeReference(const IndexExpr *expr) {
+  const Type *type = expr->base->type;
+  for (std::size_t i = 0; i < expr->indices.size() && type != nullptr; ++i)
+    type = indexStep(type);
+  return type != nullptr ? type : elementaryType(TypeKind::error);
+}
+
+const Type *Checker::resolvePointer(PointerTypeExpr *expr, std::string_view hint) {
+  const bool isPointer = expr->kind == TypeExprKind::pointer;
+  const Type *pointee = nullptr;
+  if (isPointer && expr->pointee->kind == TypeExprKind::named) {
+    const auto *named = as<NamedTypeExpr>(expr->pointee);
+    if (named->path.size() == 1 && named->path.front().id->lower == "void" &&
+        lookupInModule(*scope_.module, named->path.front().id) == nullptr)
+      pointee = elementaryType(TypeKind::none);
+  }
+  if (pointee == nullptr)
+    pointee = resolveType(expr->pointee, hint);
+  if (isError(pointee))
+    return pointee;
+  if (pointee->kind == TypeKind::reference) {
+    auto &d = report(Code::invalidIndirection, expr->pointee->span,
+                     std::string(isPointer ? "a pointer" : "a reference") +
+                         " to a REFERENCE is not possible",
+                     "a reference has no place of its own");
+    d.help(std::string("write `") + (isPointer ? "POINTER" : "REFERENCE") + " TO " +
+           typeName(typeAs<PointerType>(pointee)->pointee) + "`");
+    return elementaryType(TypeKind::error);
+  }
+  return isPointer ? types_.pointer(pointee) : types_.reference(pointee);
+}
+
+const Type *Checker::checkPointerArithmetic(BinaryExpr *expr) {
+  const Type *l = underlying(expr->left->type);
+  const Type *r = underlying(expr->right->type);
+  const Type *address = elementaryType(TypeKind::ulint);
+  const auto number = [](const Type *t) { return isInteger(t) || t->kind == TypeKind::anyInteger; };
+  const bool sum = expr->op == BinaryOp::add;
+  const bool difference = expr->op == BinaryOp::subtract;
+  const bool both = l->kind == TypeKind::pointer && r->kind == TypeKind::pointer;
+  if (both && difference)
+    return address; // operandType stays null: bytes between the two
+  if (!both && (sum || (difference && l->kind == TypeKind::pointer)) &&
+      number(l->kind == TypeKind::pointer ? r : l)) {
+    Expr *offset = l->kind == TypeKind::pointer ? expr->right : expr->left;
+    if (offset->type->kind == TypeKind::anyInteger)
+      setTarget(offset, elementaryType(TypeKind::lint));
+    return l->kind == TypeKind::pointer ? l : r;
+  }
+  if (both || sum || difference || !number(l->kind == TypeKind::pointer ? r : l))
+    return operatorError(expr);
+  // An address as a number: `ADR(x) MOD 4`.
+  expr->operandType = address;
+  setTarget(expr->left, address);
+  setTarget(expr->right, address);
+  return address;
+}
+
+bool Checker::comparePointers(BinaryExpr *expr) {
+  const Type *l = underlying(expr->left->type);
+  const Type *r = underlying(expr->right->type);
+  const auto comparable = [](const Type *t) {
+    return t->kind == TypeKind::pointer || isInteger(t) || t->kind == TypeKind::anyInteger;
+  };
+  if (!comparable(l) || !comparable(r))
+    return false;
+  if (l == r) {
+    expr->operandType = l;
+    return true;
+  }
+  const bool zero = expr->right->constant != nullptr && expr->right->constant->integer == 0;
+  if (l->kind == TypeKind::pointer && zero) {
+    expr->operandType = l;
+    setTarget(expr->right, l);
+    return true;
+  }
+  expr->operandType = elementaryType(TypeKind::ulint);
+  setTarget(expr->left, expr->operandType);
+  setTarget(expr->right, expr->operandType);
+  return true;
+}
+
+bool Checker::coercePointer(Expr *expr, const Type *type, std::string_view what) {
+  const Type *from = expr->type;
+  const bool toPointer = type->kind == TypeKind::pointer;
+  const bool fromPointer = from->kind == TypeKind::pointer;
+  const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
+  if (toPointer && fromPointer) {
+    // The address of an array is that of its first element, too.
+    const Type *first = typeAs<PointerType>(from)->pointee;
+    while (first->kind == TypeKind::array && first != typeAs<PointerType>(type)->pointee)
+      first = typeAs<ArrayType>(first)->element;
+    if (!isByteView(typeAs<PointerType>(type)->pointee) &&
+        !isByteView(typeAs<PointerType>(from)->pointee) &&
+        first != typeAs<PointerType>(type)->pointee) {
+      auto &d = report(Code::pointerOfOtherType, expr->span,
+                       prefix + "this is a " + typeName(from) + ", not a " + typeName(type),
+                       "what it points to will be read as another type");
+      d.help("declare the pointer as `" + typeName(from) +
+             "`, or take the address as bytes with "
+             "`POINTER TO BYTE`");
+    }
+    setTarget(expr, type);
+    return true;
+  }
+  if (toPointer && (isInteger(underlying(from)) || from->kind == TypeKind::anyInteger)) {
+    const bool null = expr->constant != nullptr && expr->constant->integer == 0;
+    if (!null)
+      report(Code::pointerFromInteger, expr->span,
+             prefix + "a number becomes an address: " + typeName(from) + " to " + typeName(type),
+             "nothing says that there is a variable at this address")
+          .help("keep the address in a variable of type `" + typeName(type) + "`");
+    setTarget(expr, type);
+    return true;
+  }
+  if (fromPointer && isInteger(type) && bitWidth(type) >= 32) {
+    if (bitWidth(type) == 32)
+      report(Code::pointerAsInteger, expr->span,
+             prefix + "an address has 64 bits, " + typeName(type) + " has 32",
+             "works while the application's memory lies below 4 GiB")
+          .help("keep it in a `" + typeName(from) + "` or in a variable of type `__UXINT`");
+    setTarget(expr, type);
+    return true;
+  }
+  // `diff : DINT := p - q`: the distance of two places in one variable.
+  if (isInteger(type) && bitWidth(type) == 32 && expr->kind == ExprKind::binary &&
+      as<BinaryExpr>(expr)->op == BinaryOp::subtract &&
+      underlying(as<BinaryExpr>(expr)->left->type)->kind == TypeKind::pointer &&
+      from->kind == TypeKind::ulint) {
+    setTarget(expr, type);
+    return true;
+  }
+  return false;
+}
+
+VarSymbol *Checker::referenceVariable(Expr *expr) {
+  Symbol *symbol = expr->kind == ExprKind::name     ? as<NameExpr>(expr)->symbol
+                   : expr->kind == ExprKind::member ? as<MemberExpr>(expr)->symbol
+                                                    : nullptr;
+  auto *variable = symbol != nullptr && symbol->kind == SymbolKind::variable
+                       ? static_cast<VarSymbol *>(symbol)
+                       : nullptr;
+  return variable != nullptr && variable->type->kind == TypeKind::reference ? variable : nullptr;
+}
+
+bool Checker::isReference(Expr *expr) {
+  if (expr->kind == ExprKind::index)
+    return elementBeforeReference(as<IndexExpr>(expr))->kind == TypeKind::reference;
+  return referenceVariable(expr) != nullptr;
+}
+
+void Checker::checkReferenceAssign(AssignStmt *stmt) {
+  Expr *last = stmt->targets.back();
+  if (!isReference(last)) {
+    if (!isError(last->type))
+      report(Code::notAReference, last->span,
+             "only a REFERENCE can be set with REF=", "this is " + typeName(last->type));
+    check(stmt->value);
+    return;
+  }
+  const Type *value = check(stmt->value, last->type);
+  if (isError(value))
+    return;
+  const bool null = stmt->value->constant != nullptr && stmt->value->constant->integer == 0 &&
+                    (value->kind == TypeKind::anyInteger || value->kind == TypeKind::pointer);
+  if (null) { // `r REF= 0` makes it refer to nothing
+    setTarget(stmt->value, types_.pointer(last->type));
+    return;
+  }
+  const bool fromCall = stmt->value->kind == ExprKind::call &&
+                        as<CallExpr>(stmt->value)->resolved == Callee::function &&
+                        as<CallExpr>(stmt->value)->pou->result != nullptr &&
+                        as<CallExpr>(stmt->value)->pou->result->type->kind == TypeKind::reference;
+  if (!fromCall && !requireVariable(stmt->value, "refer to"))
+    return;
+  const bool isBit = isBitPlace(stmt->value);
+  if (!refersTo(value, last->type) || isBit)
+    report(Code::typeMismatch, stmt->value->span,
+           "expected " + typeName(last->type) + ", found " +
+               (isBit ? "a single bit" : typeName(value)),
+           "a reference needs a variable of exactly its type");
+  else if (!fromCall)
+    requireAligned(stmt->value, "refer to");
+}
+
+} // namespace stc

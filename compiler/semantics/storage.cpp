@@ -1,0 +1,114 @@
+#include "compiler/semantics/storage.hpp"
+
+#include "compiler/semantics/extent.hpp"
+#include "compiler/semantics/hierarchy.hpp"
+
+#include <algorithm>
+
+namespace stc {
+
+std::uint64_t Storage::Layout::add(StorageExtent member) {
+  if (pack != 0)
+    member.align = std::min(member.align, pack);
+  const std::uint64_t at = (extent.size + member.align - 1) / member.align * member.align;
+  extent.size = at + member.size;
+  extent.align = std::max(extent.align, member.align);
+  return at;
+}
+
+StorageExtent Storage::Layout::finish() const {
+  if (extent.size == 0) // C++ gives every object an address of its own
+    return {1, 1};
+  return {(extent.size + extent.align - 1) / extent.align * extent.align, extent.align};
+}
+
+StorageExtent Storage::of(const Type *type) {
+  const auto found = known_.find(type);
+  if (found != known_.end())
+    return found->second;
+  known_.emplace(type, StorageExtent{}); // a type inside of itself has been reported
+  const StorageExtent result = compute(type);
+  known_[type] = result;
+  return result;
+}
+
+StorageExtent Storage::field(const VarSymbol *v) {
+  if (v->type->kind == TypeKind::openArray) // its address and the bounds
+    return {8 + std::uint64_t{16} * typeAs<OpenArrayType>(v->type)->dimensions, 8};
+  if (isSlot(v))
+    return {4, 4};
+  if (v->section == ast::Section::inOut)
+    return {8, 8};
+  return of(v->type);
+}
+
+Storage::Layout Storage::members(const Type *owner, const VarSymbol *until, std::uint64_t &offset) {
+  Layout layout;
+  layout.pack = packOf(owner);
+  const bool isUnion = owner->kind == TypeKind::structure && typeAs<StructType>(owner)->isUnion;
+  const auto add = [&](const VarSymbol *v) {
+    if (isUnion) {
+      const StorageExtent member = field(v);
+      layout.extent.size = std::max(layout.extent.size, member.size);
+      layout.extent.align = std::max(layout.extent.align, member.align);
+      return;
+    }
+    const std::uint64_t at = layout.add(field(v));
+    if (v == until)
+      offset = at;
+  };
+  if (owner->kind == TypeKind::structure) {
+    const auto *s = typeAs<StructType>(owner);
+    if (s->base != nullptr)
+      layout.add(of(s->base));
+    for (const VarSymbol *v : s->fields)
+      add(v);
+    return layout;
+  }
+  const PouSymbol *pou = typeAs<PouType>(owner)->symbol;
+  if (pou->base != nullptr)
+    layout.add(of(pou->base->type));
+  if (carriesTypeId(pou))
+    layout.add({4, 4});
+  for (const VarSymbol *v : pou->variables) {
+    if (isField(v))
+      add(v);
+  }
+  return layout;
+}
+
+std::uint64_t Storage::offset(const Type *owner, const VarSymbol *field) {
+  std::uint64_t result = 0;
+  members(owner, field, result);
+  return result;
+}
+
+StorageExtent Storage::compute(const Type *type) {
+  switch (type->kind) {
+  case TypeKind::error:
+  case TypeKind::none:
+  case TypeKind::boolean:
+    return {1, 1};
+  case TypeKind::string:
+    return {typeAs<StringType>(type)->length + std::uint64_t{1}, 1};
+  case TypeKind::wstring:
+    return {2 * (typeAs<StringType>(type)->length + std::uint64_t{1}), 2};
+  case TypeKind::array: {
+    const auto *array = typeAs<ArrayType>(type);
+    const StorageExtent element = of(array->element);
+    return {element.size * array->count(), element.align};
+  }
+  case TypeKind::structure:
+  case TypeKind::functionBlock:
+  case TypeKind::program: {
+    std::uint64_t ignored = 0;
+    return members(type, nullptr, ignored).finish();
+  }
+  default: {
+    const std::uint64_t bytes = bitWidth(type) / 8;
+    return {bytes, bytes};
+  }
+  }
+}
+
+} // namespace stc

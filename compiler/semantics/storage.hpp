@@ -1,0 +1,59 @@
+#pragma once
+// How large the types are in memory. The generated structures say the same to C++: app.cpp asserts
+// it for every type whose size the program has asked for.
+
+#include "compiler/semantics/symbols.hpp"
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace stc {
+
+/// A variable of each instance (VAR_TEMP and VAR_STAT are not).
+[[nodiscard]] inline bool isOwn(const VarSymbol *v) {
+  return v->section != ast::Section::temp && v->section != ast::Section::stat &&
+         v->section != ast::Section::external;
+}
+/// It lies in the process image, at the same place for all instances.
+[[nodiscard]] inline bool isPlaced(const VarSymbol *v) {
+  return v->location != nullptr && !v->location->isSlot;
+}
+/// The instance holds its place in the process image (`AT %I*`).
+[[nodiscard]] inline bool isSlot(const VarSymbol *v) {
+  return v->location != nullptr && v->location->isSlot;
+}
+/// Kept in each instance.
+[[nodiscard]] inline bool isField(const VarSymbol *v) { return isOwn(v) && !isPlaced(v); }
+
+/// Size and alignment in bytes.
+struct StorageExtent {
+  std::uint64_t size = 1;
+  std::uint64_t align = 1;
+  bool operator==(const StorageExtent &) const = default;
+};
+
+/// Computes and remembers the layout of types: natural alignment, members in the order of the
+/// declaration, the base of EXTENDS as the first one. Blocks must have been declared.
+class Storage {
+public:
+  [[nodiscard]] StorageExtent of(const Type *type);
+  /// Where a field lies in its structure, block or program (its own fields, not those of a base).
+  [[nodiscard]] std::uint64_t offset(const Type *owner, const VarSymbol *field);
+
+private:
+  /// Puts members behind each other.
+  struct Layout {
+    StorageExtent extent{0, 1};
+    std::uint64_t pack = 0; ///< largest alignment of members; 0: natural
+    std::uint64_t add(StorageExtent member);
+    [[nodiscard]] StorageExtent finish() const;
+  };
+  StorageExtent compute(const Type *type);
+  StorageExtent field(const VarSymbol *v);
+  Layout members(const Type *owner, const VarSymbol *until, std::uint64_t &offset);
+
+  std::unordered_map<const Type *, StorageExtent> known_;
+};
+
+} // namespace stc

@@ -1,0 +1,41 @@
+// What a project takes from a library that it does not name itself.
+
+#include "program.hpp"
+
+#include <gtest/gtest.h>
+
+namespace stc::test {
+
+TEST(CodegenLibrary, BodiesReachGlobalsThatTheProjectDoesNotUse) {
+  Options options;
+  options.library = {
+      {"bump.st", "FUNCTION bump : INT\nVAR_INPUT step : INT; END_VAR\n"
+                  "VAR_STAT calls : INT; END_VAR\n"
+                  "calls := calls + 1;\nlevel := level + step;\nbump := level * 100 + calls;\n"
+                  "END_FUNCTION\n"},
+      {"level.st", "VAR_GLOBAL level : INT := 5; END_VAR\n"},
+      {"outer.st", "FUNCTION_BLOCK outer\nVAR_OUTPUT n : INT; END_VAR\nVAR i : inner; END_VAR\n"
+                   "i();\nn := i.n;\nEND_FUNCTION_BLOCK\n"},
+      {"inner.st", "FUNCTION_BLOCK inner\nVAR_OUTPUT n : INT; END_VAR\nn := bump(step := 2);\n"
+                   "END_FUNCTION_BLOCK\n"}};
+  App app("PROGRAM Main\nVAR o : outer; n : INT; END_VAR\no();\nn := o.n;\nEND_PROGRAM\n", options);
+  app.run(2);
+  EXPECT_EQ(app["Main.n"], "902");
+}
+
+TEST(CodegenLibrary, DefaultsOfAliasesReachTheProjectsVariables) {
+  Options options;
+  options.library = {{"speed.st", "TYPE speed : REAL := 2.5; END_TYPE\n"},
+                     {"speeds.st", "TYPE speeds : ARRAY [1..2] OF speed; END_TYPE\n"}};
+  const App app("TYPE Pair : STRUCT a : speed; b : speed := 7.0; END_STRUCT END_TYPE\n"
+                "PROGRAM Main\nVAR x : speed; p : Pair; list : speeds; own : ARRAY [0..1] OF speed;"
+                " END_VAR\nEND_PROGRAM\n",
+                options);
+  EXPECT_EQ(app["Main.x"], "2.5");
+  EXPECT_EQ(app["Main.p.a"], "2.5");
+  EXPECT_EQ(app["Main.p.b"], "7");
+  EXPECT_EQ(app["Main.list[2]"], "2.5");
+  EXPECT_EQ(app["Main.own[1]"], "2.5");
+}
+
+} // namespace stc::test
