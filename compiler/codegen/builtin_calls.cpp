@@ -147,9 +147,15 @@ void Emitter::newObject(const CallExpr *e) {
     return;
   const std::string i = temporary("i");
   w_ << "; for (::stride::LINT " << i << " = 0; " << objects << " != nullptr && " << i << " < "
-     << count << "; ++" << i << ") ";
-  defaultStatement(objects + "[" + i + "]", t);
-  w_ << " return " << objects << "; }()";
+     << count << "; ++" << i << ") { ";
+  const std::string object = objects + "[" + i + "]";
+  inlineStatements([&](Emitter &inner) {
+    inner.initSpan_ = e->span;
+    inner.typeDefault(object, t);
+    inner.constructPlain(object, t);
+    inner.afterInit(object, t);
+  });
+  w_ << "} return " << objects << "; }()";
 }
 
 /// The pointer is followed once, and 0 afterwards.

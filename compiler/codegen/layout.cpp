@@ -318,7 +318,8 @@ bool Layouts::hasBindings(const Type *type) {
     const PouSymbol *pou = typeAs<PouType>(type)->symbol;
     result = hasTypeId(pou) || (pou->base != nullptr && hasBindings(pou->base->type));
     for (const VarSymbol *v : pou->variables)
-      result = result || (isField(v) && (v->section == Section::inOut || hasBindings(v->type)));
+      result = result ||
+               (isField(v) && (v->section == Section::inOut || isSlot(v) || hasBindings(v->type)));
   }
   hasBindings_[type] = result;
   return result;

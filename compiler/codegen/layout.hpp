@@ -62,8 +62,8 @@ public:
   /// An instance of the type, or one inside of it, has a method that is called at the end of its
   /// life (`fb_exit`) or after its values were carried over (`fb_reinit`).
   [[nodiscard]] bool hasLifecycle(const Type *type, std::string_view lowerName);
-  /// It is, or holds, a block with a VAR_IN_OUT or a type id, which an assignment leaves as they
-  /// are: assigned by assign__.
+  /// It is, or holds, a block with a VAR_IN_OUT, a slot of VAR_CONFIG or a type id, which an
+  /// assignment leaves as they are: assigned by assign__.
   [[nodiscard]] bool hasBindings(const Type *type);
 
 private:

@@ -71,7 +71,8 @@ public:
       copy("base__", base);
     for (const VarSymbol *v : variables) {
       e_.includes().complete(v->type);
-      if (v->section != Section::inOut)
+      // An instance keeps its places in the process image, too.
+      if (v->section != Section::inOut && isField(v) && !isSlot(v))
         copy(fieldName(v), v->type);
     }
     functionHead("void " + std::string(name) + "::assign__([[maybe_unused]] const " +

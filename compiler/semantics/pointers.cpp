@@ -128,7 +128,8 @@ bool Checker::coercePointer(Expr *expr, const Type *type, std::string_view what)
     const Type *first = typeAs<PointerType>(from)->pointee;
     while (first->kind == TypeKind::array && first != typeAs<PointerType>(type)->pointee)
       first = typeAs<ArrayType>(first)->element;
-    if (!isByteView(typeAs<PointerType>(type)->pointee) &&
+    if (classify(from, type) != Conversion::free &&
+        !isByteView(typeAs<PointerType>(type)->pointee) &&
         !isByteView(typeAs<PointerType>(from)->pointee) &&
         first != typeAs<PointerType>(type)->pointee) {
       auto &d = report(Code::pointerOfOtherType, expr->span,
@@ -141,8 +142,9 @@ bool Checker::coercePointer(Expr *expr, const Type *type, std::string_view what)
     setTarget(expr, type);
     return true;
   }
-  if (toPointer && (isInteger(underlying(from)) || from->kind == TypeKind::anyInteger)) {
-    const bool null = expr->constant != nullptr && expr->constant->integer == 0;
+  const bool null = expr->constant != nullptr && expr->constant->integer == 0;
+  if (toPointer && ((isInteger(underlying(from)) && (null || bitWidth(from) >= 32)) ||
+                    from->kind == TypeKind::anyInteger)) {
     if (!null)
       report(Code::pointerFromInteger, expr->span,
              prefix + "a number becomes an address: " + typeName(from) + " to " + typeName(type),
@@ -212,10 +214,12 @@ void Checker::checkReferenceAssign(AssignStmt *stmt) {
   if (!fromCall && !requireVariable(stmt->value, "refer to"))
     return;
   const bool isBit = isBitPlace(stmt->value);
-  if (!refersTo(value, last->type) || isBit)
+  if (isBit)
+    report(Code::typeMismatch, stmt->value->span, "a reference cannot stand for a single bit",
+           "bits have no address");
+  else if (!refersTo(value, last->type))
     report(Code::typeMismatch, stmt->value->span,
-           "expected " + typeName(last->type) + ", found " +
-               (isBit ? "a single bit" : typeName(value)),
+           "expected " + typeName(last->type) + ", found " + typeName(value),
            "a reference needs a variable of exactly its type");
   else if (!fromCall)
     requireAligned(stmt->value, "refer to");

@@ -74,9 +74,9 @@ struct EnumType : Type {
   TypeSymbol *symbol; ///< its declaration; for an in-line enumeration a synthesized one
   std::span<EnumeratorSymbol *> enumerators;
   bool strict = false; ///< {attribute 'strict'}
-  bool named = false;  ///< {attribute 'to_string'}: TO_STRING gives the enumerator's name
   EnumeratorSymbol *initial =
-      nullptr; ///< the default value (the first one unless declared otherwise)
+      nullptr;        ///< the default value (the first one unless declared otherwise)
+  bool named = false; ///< {attribute 'to_string'}: TO_STRING gives the enumerator's name
 };
 
 /// An integer type with bounds, checked when assigned.
@@ -107,7 +107,7 @@ struct StructType : Type {
   const StructType *base = nullptr; ///< EXTENDS
   std::span<VarSymbol *> fields;    ///< own fields
   unsigned pack = 0; ///< {attribute 'pack_mode'}: members are aligned to this at most; 0: naturally
-  bool isUnion = false;             ///< the fields share their memory
+  bool isUnion = false; ///< the fields share their memory
 };
 
 /// FUNCTION_BLOCK, CLASS or PROGRAM as the type of its instances; INTERFACE.

@@ -76,8 +76,8 @@ TEST(Conversion, BoolIsNoNumber) {
 
 TEST(Conversion, EnumerationsGiveTheirBaseButNotEachOther) {
   TypeSymbol symbol;
-  EnumType color{{TypeKind::enumeration}, named("int"), &symbol, {}, false, nullptr};
-  EnumType state{{TypeKind::enumeration}, named("byte"), &symbol, {}, false, nullptr};
+  EnumType color{{TypeKind::enumeration}, named("int"), &symbol, {}};
+  EnumType state{{TypeKind::enumeration}, named("byte"), &symbol, {}};
   EXPECT_EQ(classify(&color, named("int")), Conversion::free);
   EXPECT_EQ(classify(&color, named("dint")), Conversion::free);
   EXPECT_EQ(classify(&color, named("word")), Conversion::free); // SMC_ERROR to WORD

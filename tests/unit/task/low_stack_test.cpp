@@ -51,7 +51,7 @@ TEST(LowStackTest, ExceptionsArePassedOn) {
   EXPECT_THROW(runOnLowStack([] { throw std::runtime_error("x"); }), std::runtime_error);
 }
 
-[[gnu::noinline]] int dig(volatile int depth) {
+[[gnu::noinline]] int dig(int depth) {
   volatile char frame[4096];
   frame[0] = static_cast<char>(depth);
   return depth == 0 ? 0 : dig(depth - 1) + frame[0];
