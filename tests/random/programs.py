@@ -144,6 +144,7 @@ class Generator(Expressions):
         self.budget = Budget()
         super().__init__(rng, self.budget)
         self.text, self.blocks, self.globals, self.holders = [], [], {}, {}
+        self.guard_count = 0  # of the project: an inherited name must not come again
         self.in_loop, self.guards, self.in_section = 0, [], False
         self.types, self.structs, self.subs, self.arrays, self.instances = [], [], [], [], []
         self.make_types()
@@ -782,7 +783,8 @@ class Generator(Expressions):
         lines, body = self.block(depth - 1)
         self.in_loop -= 1
         is_while = rng.random() < 0.5
-        key = f"{self.prefix}guard{len(self.guards)}"
+        self.guard_count += 1
+        key = f"{self.prefix}guard{self.guard_count}"
         self.guards.append(key)
         if is_while:
             head = [f"WHILE {test.inside(4, rng)} AND {key} < {most} DO", f"  {key} := {key} + 1;"]

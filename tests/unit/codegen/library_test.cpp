@@ -27,13 +27,13 @@ TEST(CodegenLibrary, DefaultsOfAliasesReachTheProjectsVariables) {
   Options options;
   options.library = {{"speed.st", "TYPE speed : REAL := 2.5; END_TYPE\n"},
                      {"speeds.st", "TYPE speeds : ARRAY [1..2] OF speed; END_TYPE\n"}};
-  const App app("TYPE Pair : STRUCT a : speed; b : speed := 7.0; END_STRUCT END_TYPE\n"
+  const App app("TYPE Pair : STRUCT a : speed; b : speed := 7.5; END_STRUCT END_TYPE\n"
                 "PROGRAM Main\nVAR x : speed; p : Pair; list : speeds; own : ARRAY [0..1] OF speed;"
                 " END_VAR\nEND_PROGRAM\n",
                 options);
   EXPECT_EQ(app["Main.x"], "2.5");
   EXPECT_EQ(app["Main.p.a"], "2.5");
-  EXPECT_EQ(app["Main.p.b"], "7");
+  EXPECT_EQ(app["Main.p.b"], "7.5");
   EXPECT_EQ(app["Main.list[2]"], "2.5");
   EXPECT_EQ(app["Main.own[1]"], "2.5");
 }

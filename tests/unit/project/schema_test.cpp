@@ -23,6 +23,8 @@ TEST(Schema, IsDocumented) {
   ASSERT_TRUE(text);
   forEachSection(projectSchema(), [&](const Section &section) {
     EXPECT_THAT(*text, HasSubstr(std::string(section.path)));
+    if (section.path == "diagnostics")
+      return; // its keys are the codes and names that `stride explain --list` shows
     for (const Parameter &parameter : section.parameters) {
       EXPECT_THAT(*text, HasSubstr("`" + std::string(parameter.name) + "`"));
       if (parameter.name.starts_with("wCyclicDataR"))

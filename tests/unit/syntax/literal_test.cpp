@@ -12,7 +12,7 @@ TEST(Literal, Integers) {
   EXPECT_EQ(printExpression("16#FF_ff + 2#1010_1010 + 8#777"), "(+ (+ 65535 170) 511)");
   EXPECT_EQ(printExpression("16#FFFF_FFFF_FFFF_FFFF"), "18446744073709551615");
   EXPECT_EQ(printExpression("INT#5 + BYTE#16#FF"), "(+ INT#5 BYTE#255)");
-  EXPECT_EQ(printExpression("INT#-5"), "(- INT#5)");
+  EXPECT_EQ(printExpression("INT#-5"), "INT#-5");
   EXPECT_EQ(printExpression("BOOL#TRUE OR BOOL#0 OR TRUE"), "(OR (OR BOOL#TRUE BOOL#0) TRUE)");
   EXPECT_EQ(error("16#FG"), "SE0108 1:20 the number `16#FG` is malformed\n");
   EXPECT_EQ(error("2#102"), "SE0108 1:20 the number `2#102` is malformed\n");
@@ -27,7 +27,7 @@ TEST(Literal, Integers) {
 TEST(Literal, Reals) {
   EXPECT_EQ(printExpression("1.5e-3"), "0.0015");
   EXPECT_EQ(printExpression("1_0.2_5 + 1E3 + 2e+2"), "(+ (+ 10.25 1000) 200)");
-  EXPECT_EQ(printExpression("REAL#-1.5 + LREAL#2"), "(+ (- REAL#1.5) LREAL#2)");
+  EXPECT_EQ(printExpression("REAL#-1.5 + LREAL#2"), "(+ REAL#-1.5 LREAL#2)");
   EXPECT_EQ(printExpression("1e-400"), "0");
   EXPECT_EQ(error("1e400"), "SE0109 1:16 the number `1e400` does not fit into an LREAL\n");
   EXPECT_EQ(error("5."), "SE0108 1:16 a decimal point needs a digit behind it\n");

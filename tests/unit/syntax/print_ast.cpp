@@ -44,7 +44,7 @@ public:
 
   void literal(const Literal *node) {
     if (node->typeName)
-      out_ << node->typeName.text << '#';
+      out_ << node->typeName.text << '#' << (node->negative ? "-" : "");
     switch (node->literal) {
     case LiteralKind::boolean:
       out_ << (node->integer != 0 ? "TRUE" : "FALSE");
