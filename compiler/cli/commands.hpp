@@ -12,9 +12,9 @@ namespace stc::cli {
 struct ProjectOptions {
   std::string path; ///< folder, stride.toml or source file; empty: the current folder
   Output output;
-  bool unchecked = false; ///< no run-time checks in generated code
-  bool debug = false;     ///< -O0 -g
-  Levels levels;          ///< -W
+  bool unchecked = false;           ///< no run-time checks in generated code
+  bool debug = false;               ///< -O0 -g
+  Levels levels;                    ///< -W
   std::vector<std::string> defines; ///< `NAME` or `NAME=VALUE` for `{IF defined (…)}`
 };
 

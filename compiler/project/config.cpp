@@ -114,8 +114,8 @@ private:
       config_.defines.push_back(*define);
     else
       diagnostics_
-          .report(Code::configBadName, node.span,
-                  fmt::format("`{}` cannot be defined", node.text), "not a name")
+          .report(Code::configBadName, node.span, fmt::format("`{}` cannot be defined", node.text),
+                  "not a name")
           .help("write \"NAME\" or \"NAME=VALUE\"");
   }
 

@@ -54,11 +54,11 @@ struct AxisGroupConfig {
 struct ProjectConfig {
   std::string name;
   std::uint64_t poolSize = 65536; ///< new_pool: bytes for the objects of __NEW, a multiple of 16
-  unsigned generation = 2; ///< softmotion: 2 = "2.3", 3 = "3"
-  unsigned pack = 0;       ///< layout: 4 = "v2.3"
+  unsigned generation = 2;        ///< softmotion: 2 = "2.3", 3 = "3"
+  unsigned pack = 0;              ///< layout: 4 = "v2.3"
   Addressing addressing = Addressing::units;
   std::array<std::uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs
-  std::vector<Define> defines; ///< for `{IF defined (…)}`
+  std::vector<Define> defines;               ///< for `{IF defined (…)}`
   std::vector<TaskConfig> tasks;
   std::vector<AxisGroupConfig> axisGroups;
   bool incomplete = false; ///< a drive, axis group or everything had to be left out

@@ -173,7 +173,7 @@ struct DiagnosticSection {
 struct TopSection {
   DiagnosticSection diagnostics;
   std::array<const Section *, 5> sections = {&kProject, &diagnostics.section, &kImage, &kTask,
-                                            &kBus};
+                                             &kBus};
   Section top = {"", "stride.toml", "", false, {}, sections};
 };
 

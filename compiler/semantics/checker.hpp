@@ -372,7 +372,7 @@ private:
   std::vector<ast::GlobalsDecl *> accesses_; ///< VAR_ACCESS
   std::unordered_set<Ident> resourceNames_;  ///< of CONFIGURATIONs and RESOURCEs
   std::unordered_map<const Type *, bool> hasSlots_;
-  const ast::Expr *assignTarget_ = nullptr; ///< is checked as the target of an assignment
+  const ast::Expr *assignTarget_ = nullptr;         ///< is checked as the target of an assignment
   const ast::TypeExpr *openArrayAllowed_ = nullptr; ///< the type of the VAR_IN_OUT being resolved
 };
 

@@ -92,8 +92,8 @@ inline constexpr std::string_view kProgramInstance = "program instance";
 
 struct Settings {
   std::uint64_t poolSize = 65536; ///< bytes for the objects of __NEW, a multiple of 16
-  bool checks = true; ///< run-time checks (index, division, null, subrange)
-  Levels levels;      ///< severities given on the command line; they go before stride.toml's
+  bool checks = true;             ///< run-time checks (index, division, null, subrange)
+  Levels levels; ///< severities given on the command line; they go before stride.toml's
   Addressing addressing = Addressing::units;
   std::array<std::uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs
   unsigned pack = 0; ///< of the project's structures without pack_mode; 0: natural alignment

@@ -1,6 +1,6 @@
-// Any bytes as an ST file: what the checker accepts must become C++ without a crash, and twice the same. With
-// STRIDE_FUZZ_CXX=<command> in the environment (for a corpus, not for fuzzing) the command is called for the folder
-// that holds the C++, and must succeed.
+// Any bytes as an ST file: what the checker accepts must become C++ without a crash, and twice the
+// same. With STRIDE_FUZZ_CXX=<command> in the environment (for a corpus, not for fuzzing) the
+// command is called for the folder that holds the C++, and must succeed.
 #include "compiler/codegen/codegen.hpp"
 #include "compiler/semantics/program.hpp"
 #include "compiler/syntax/parser.hpp"
