@@ -1,0 +1,8 @@
+// The same for tests.
+#include "library.hpp"
+
+#include <fstream>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <random>
+#include <sstream>
