@@ -270,6 +270,7 @@ private:
 
   // statements.cpp
   void statement(const ast::Stmt *s);
+  bool findPlaces(const ast::AssignStmt *s);
   void assign(const ast::AssignStmt *s);
   void store(const ast::Expr *target, const ast::Expr *value);
   void storeTo(std::string_view target, const Type *type, const ast::Expr *value);
@@ -345,7 +346,8 @@ private:
   Includes includes_;
   bool noCheck_ = false; ///< {attribute 'no_check'}
   bool isCheck_ = false; ///< the body of a check: no check calls itself
-  bool writing_ = false; ///< the place is about to be written
+  std::unordered_map<const ast::Expr *, std::string> found_; ///< places that have a reference
+  bool writing_ = false;                                     ///< the place is about to be written
   bool usesContext_ = false;
   bool usesBudget_ = false;
   std::vector<FileId> files_;

@@ -123,6 +123,10 @@ std::string Emitter::placeText(const Expr *e) {
 }
 
 void Emitter::place(const Expr *e) {
+  if (const auto found = found_.find(e); found != found_.end()) {
+    w_ << found->second;
+    return;
+  }
   switch (e->kind) {
   case ExprKind::name: {
     const Symbol *symbol = as<NameExpr>(e)->symbol;

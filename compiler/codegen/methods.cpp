@@ -28,7 +28,7 @@ std::string methodSignature(Context &context, Includes &includes, const PouSymbo
       out += "[[maybe_unused]] ";
     std::string type(context.names.type(p->type));
     includes.pointed(p->type);
-    if (p->section != Section::input)
+    if (p->section != Section::input && p->type->kind != TypeKind::openArray)
       type += type.back() == '*' ? "&" : " &";
     if (type.back() != '*' && type.back() != '&')
       type += ' ';

@@ -238,6 +238,25 @@ void Emitter::store(const Expr *target, const Expr *value) {
   storeTo(to, target->type, value);
 }
 
+/// Finds the places of `a[i] := p^.b := value` once, from left to right, before the value.
+bool Emitter::findPlaces(const AssignStmt *s) {
+  for (const Expr *target : s->targets) {
+    const Expr *at = isBitPlace(target) ? bitOwner(target) : target;
+    while (at->kind == ExprKind::member)
+      at = as<MemberExpr>(at)->base;
+    if (at->kind != ExprKind::index && at->kind != ExprKind::deref)
+      continue;
+    const std::string name = temporary("to");
+    w_ << (found_.empty() ? "{ " : "") << "auto &" << name << " = ";
+    writing_ = true;
+    const std::string text = placeText(at);
+    writing_ = false;
+    w_ << text << "; ";
+    found_.emplace(at, name);
+  }
+  return !found_.empty();
+}
+
 void Emitter::assign(const AssignStmt *s) {
   begin(s->span);
   const Expr *last = s->targets.back();
@@ -269,7 +288,8 @@ void Emitter::assign(const AssignStmt *s) {
     w_ << '}';
     break;
   }
-  case AssignOp::assign:
+  case AssignOp::assign: {
+    const bool found = s->targets.size() > 1 && findPlaces(s);
     store(last, s->value);
     for (std::size_t i = s->targets.size() - 1; i-- > 0;) {
       w_ << ' ';
@@ -279,7 +299,10 @@ void Emitter::assign(const AssignStmt *s) {
       const std::string source = w_.cut(start);
       outputTo(s->targets[i], source, from->type, s->span);
     }
+    found_.clear();
+    w_ << (found ? " }" : "");
     break;
+  }
   }
   end();
 }
