@@ -230,7 +230,6 @@ private:
   void self(const SelfSymbol *symbol);
   [[nodiscard]] static bool isExact(const ast::Expr *place);
   void typeIdOf(const ast::Expr *instance);
-  void instanceValue(const ast::Expr *e, const Type *type);
   void placeAs(const ast::Expr *e, const Type *type);
   void addressAs(const ast::Expr *e, const Type *type);
   void methodPrefix(const ast::Expr *object, const PouSymbol *method, std::string_view taken,
@@ -267,6 +266,16 @@ private:
   bool stringInto(std::string_view target, const ast::Expr *value);
   void builtinArgument(const ast::CallExpr *e, std::size_t i, const std::vector<std::string> *names,
                        bool anyText);
+
+  // instances.cpp
+  void unbind(std::string_view target, const Type *type);
+  void copyOf(const ast::Expr *e, const Type *type);
+  void reinitialise(const ast::CallExpr *e);
+  void initialValues(std::string_view target, const Type *type, const VarSymbol *declared,
+                     bool here);
+  bool keeps(const Type *type, bool retained);
+  void keepValues(std::string_view target, std::string_view old, const Type *type,
+                  std::string_view all);
 
   // statements.cpp
   void statement(const ast::Stmt *s);

@@ -271,6 +271,13 @@ template <class Slot> void Emitter::located(const Location &at, const Type *type
 
 template <class Value>
 void Emitter::bitStore(const ast::Expr *e, std::string_view bound, Value &&value) {
+  if (isBitField(e)) {
+    place(e);
+    w_ << " = ";
+    value();
+    w_ << ';';
+    return;
+  }
   w_ << "::stride::set";
   bitAccess(e, bound);
   w_ << ", ";

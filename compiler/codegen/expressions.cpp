@@ -1,6 +1,6 @@
 // Values and places: names, members, elements, pointers.
 
-#include "compiler/codegen/emitter.hpp"
+#include "compiler/codegen/units.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
 
@@ -36,8 +36,9 @@ void Emitter::valueAs(const Expr *e, const Type *type) {
   } else if (isInstance(e->type) && type->kind == TypeKind::interface) {
     w_ << '&';
     typeIdOf(e);
-  } else if (isInstance(e->type) && isInstance(type)) {
-    instanceValue(e, type);
+  } else if ((isInstance(e->type) && isInstance(type)) ||
+             (e->type == type && holdsInOut(type) && type->kind != TypeKind::openArray)) {
+    copyOf(e, type);
   } else if (isString(type) ? e->type == type : implicitStore(e->type, type)) {
     raw(e);
   } else {
@@ -51,7 +52,7 @@ void Emitter::raw(const Expr *e) {
     literal(*e->constant, e->type, e->type, symbolOf(e));
     return;
   }
-  if (isBitPlace(e)) {
+  if (isBitPlace(e) && !isBitField(e)) {
     bitValue(e);
     return;
   }
@@ -414,17 +415,28 @@ void Emitter::index(const IndexExpr *e, bool slotOnly) {
     if (t->kind == TypeKind::openArray) {
       includes_.complete(t);
       includes_.complete(typeAs<OpenArrayType>(t)->element);
-      const std::string base = w_.cut(start);
+      std::string base = w_.cut(start);
+      const PouSymbol *own = ownCheck(ImplicitCheck::bounds);
+      if (own != nullptr) { // the bounds are those of the array that is passed
+        const std::string array = temporary("array");
+        w_ << "[&]() -> decltype(auto) { auto &&" << array << " = " << base << "; return ";
+        base = array;
+      }
       w_ << "::stride::at" << (checks() ? "(" : "Place(");
       if (checks())
         w_ << ctx() << ", ";
       w_ << base << ", ";
+      if (own != nullptr)
+        w_ << c_.names.qualified(own) << '(' << ctx() << ", static_cast<::stride::DINT>(";
       value(i);
+      if (own != nullptr)
+        w_ << "), static_cast<::stride::DINT>(" << base << ".lo[0]), static_cast<::stride::DINT>("
+           << base << ".hi[0]))";
       if (checks()) {
         w_ << ", ";
         position(i->span);
       }
-      w_ << ')';
+      w_ << (own != nullptr ? "); }()" : ")");
       t = indexStep(t);
       continue;
     }

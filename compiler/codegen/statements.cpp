@@ -186,8 +186,11 @@ void Emitter::storeTo(std::string_view target, const Type *type, const Expr *val
     const std::string path =
         pathToBase(typeAs<PouType>(value->type)->symbol, typeAs<PouType>(type)->symbol);
     w_ << '.' << std::string_view(path).substr(0, path.size() - 1);
-  } else
+  } else if (bindings && value->type == type) {
+    raw(value); // only what assign__ takes of it is copied
+  } else {
     valueAs(value, type);
+  }
   w_ << (bindings ? ");" : ";");
 }
 
@@ -201,6 +204,16 @@ void Emitter::store(const Expr *target, const Expr *value) {
   const bool ordered = ((effects(target) & effectCalls) != 0 && effects(value) != effectNone) ||
                        ((effects(value) & effectCalls) != 0 && isComputedPlace(stored));
   if (isBit) {
+    if (ordered && isBitField(target)) { // what it is a bit of is found first
+      const std::string to = placeText(target);
+      const std::size_t dot = to.rfind('.');
+      const std::string name = temporary("to");
+      w_ << "{ auto &" << name << " = " << to.substr(0, dot) << "; " << name << to.substr(dot)
+         << " = ";
+      valueAs(value, target->type);
+      w_ << "; }";
+      return;
+    }
     const bool bind = ordered && stored != target;
     const std::string name = bind ? temporary("to") : std::string();
     if (bind) {

@@ -488,6 +488,8 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
     return checkQuery(expr);
   case deleteT:
     return checkDelete(expr);
+  case ini:
+    return checkIni(expr);
   case newT:
   case indexOf:
     break;

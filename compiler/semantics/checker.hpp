@@ -117,6 +117,10 @@ private:
   void bindExternal(PouSymbol *pou, ast::VarDecl *decl);
   const Type *resolveType(ast::TypeExpr *expr, std::string_view hint);
   const Type *resolveNamed(ast::NamedTypeExpr *expr);
+  /// The type is written as BIT, and BIT is not the name of a type of the program.
+  bool namesBit(const ast::TypeExpr *expr);
+  /// The type of a variable of a structure or block, which may be a BIT.
+  const Type *resolveMember(VarSymbol *variable, std::string_view hint);
   const Type *resolveArray(ast::ArrayTypeExpr *expr, std::string_view hint);
   const Type *resolveString(ast::StringTypeExpr *expr);
   const Type *resolveSubrange(ast::SubrangeTypeExpr *expr, std::string_view hint);
@@ -269,6 +273,7 @@ private:
   // dynamic.cpp
   const Type *checkNew(ast::CallExpr *expr);
   const Type *checkDelete(ast::CallExpr *expr);
+  const Type *checkIni(ast::CallExpr *expr);
 
   // measures.cpp
   const Type *checkSizeof(ast::CallExpr *expr);

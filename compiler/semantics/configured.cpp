@@ -445,6 +445,12 @@ void Checker::checkAccesses(Module &module) {
               .help("give the address of the part: `%MB4`");
           continue;
         }
+        if (target->variable != nullptr && target->variable->isBit) {
+          report(Code::configMismatch, decl->path->span, "an access path cannot lead to a BIT",
+                 "a bit has no address")
+              .help("declare `" + std::string(target->variable->name.text) + "` as BOOL");
+          continue;
+        }
         if (access.type->kind == TypeKind::reference || access.type->kind == TypeKind::pointer) {
           report(Code::configMismatch, decl->path->span, "an access path cannot lead to an address",
                  "this is " + typeName(access.type));

@@ -53,9 +53,11 @@ Extent extentOf(const Type *type) {
     };
     if (s->base != nullptr)
       add(extentOf(s->base));
+    unsigned bits = 0; // BITs in a row: eight share a byte
     for (const VarSymbol *field : s->fields) {
-      if (field->type != nullptr)
+      if (field->type != nullptr && (!field->isBit || bits % 8 == 0))
         add(extentOf(field->type));
+      bits = field->isBit ? bits + 1 : 0;
     }
     all.size = roundUp(std::max<std::uint64_t>(all.size, 1), all.align);
     return all;

@@ -100,8 +100,16 @@ const Location *locationOf(const Expr *expr) {
   return variable == nullptr ? nullptr : variable->location;
 }
 
+bool isBitField(const Expr *expr) {
+  const Symbol *symbol = expr->kind == ExprKind::name     ? as<NameExpr>(expr)->symbol
+                         : expr->kind == ExprKind::member ? as<MemberExpr>(expr)->symbol
+                                                          : nullptr;
+  return symbol != nullptr && symbol->kind == SymbolKind::variable &&
+         static_cast<const VarSymbol *>(symbol)->isBit;
+}
+
 bool isBitPlace(const Expr *expr) {
-  if (expr->kind == ExprKind::member && as<MemberExpr>(expr)->bit >= 0)
+  if ((expr->kind == ExprKind::member && as<MemberExpr>(expr)->bit >= 0) || isBitField(expr))
     return true;
   const Location *at = locationOf(expr);
   return at != nullptr && at->bit >= 0;

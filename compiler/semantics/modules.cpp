@@ -143,10 +143,8 @@ void Checker::declareFile(Module &module, File *file) {
       for (const ResourceDecl &resource : as<ConfigurationDecl>(decl)->resources)
         resourceNames_.insert(resource.name.id);
       break;
-    case DeclKind::method:
+    case DeclKind::method: // they stand in their blocks
     case DeclKind::action:
-      report(Code::unsupported, decl->span, "this declaration is not supported by this version",
-             "not available");
       break;
     }
   }

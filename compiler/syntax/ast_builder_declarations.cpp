@@ -302,8 +302,15 @@ void AstBuilder::declaration(Context *context, Section section, std::uint8_t qua
     type = errorType(span(context));
   } else {
     type = this->type(child(context, 1));
-    if (context->children.size() > 2)
+    if (context->children.size() > 2) {
       init = initializer(child(context, 2));
+      if (const Token &sign = token(first(child(context, 2)) - 1);
+          sign.type == Tok::REF_ASSIGN && type->kind != TypeExprKind::reference)
+        diagnostics_
+            .report(Code::notAReference, span(sign), "only a REFERENCE is bound with REF=",
+                    "this variable is declared with another type")
+            .help("write `:=` for an initial value, or declare it as `REFERENCE TO` the type");
+    }
   }
   const Token &start = token(first(names));
   const std::size_t end = last(names);

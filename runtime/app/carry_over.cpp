@@ -12,6 +12,15 @@ namespace stride::app {
 
 namespace {
 
+/// What is no BIT.
+constexpr unsigned kWholeByte = 8;
+
+/// The number of a BIT in its byte.
+unsigned bitOf(uint32_t flags) {
+  return (flags & (kSymBit | kSymLocated | kSymSlot)) == kSymBit ? flags >> kSymBitShift & 7U
+                                                                 : kWholeByte;
+}
+
 /// Longer programs are called, shorter ones are written out in place.
 constexpr std::size_t kInlineSteps = 16;
 
@@ -237,6 +246,15 @@ void CarryOver::copySteps(uint32_t index, Place at, Steps &out) {
     }
     const Place place{at.oldOffset + field.oldOffset, at.newOffset + field.newOffset};
     const TypePair &own = match_.pair(field.pair);
+    const unsigned oldBit = bitOf(match_.oldApp().members[field.oldMember].flags);
+    const unsigned newBit = bitOf(match_.newApp().members[field.newMember].flags);
+    if (oldBit < kWholeByte || newBit < kWholeByte) {
+      if (own.carry == Carry::Bytes)
+        out.list.push_back({Step::Kind::Bit, false, kNoIndex, place.oldOffset, place.newOffset,
+                            oldBit + 16 * newBit, 0, 0});
+      out.barrier = true;
+      continue;
+    }
     if (!own.bitwise && own.carry == Carry::Fields)
       append(copyProgram(field.pair), place, out);
     else
@@ -308,6 +326,9 @@ struct CarryOver::Run {
     case Step::Kind::Copy:
       std::memcpy(to, from, step.count);
       return;
+    case Step::Kind::Bit:
+      bit(static_cast<unsigned>(step.count), *from, *to);
+      return;
     case Step::Kind::Number:
       plan.numbers_[step.pair](from, to, step.count, step.oldStride, step.newStride);
       return;
@@ -328,6 +349,16 @@ struct CarryOver::Run {
         slot(step, from + i * step.oldStride, to + i * step.newStride);
       return;
     }
+  }
+
+  static void bit(unsigned numbers, std::byte from, std::byte &to) noexcept {
+    const unsigned oldBit = numbers % 16;
+    const unsigned newBit = numbers / 16;
+    const bool set = (oldBit < kWholeByte ? from >> oldBit & std::byte{1} : from) != std::byte{0};
+    const std::byte mask = newBit < kWholeByte ? std::byte{1} << newBit : std::byte{1};
+    to = newBit < kWholeByte ? to & ~mask : std::byte{0};
+    if (set)
+      to |= mask;
   }
 
   void report(CarryEvent::Kind kind, const Step &step, const std::byte *to,
