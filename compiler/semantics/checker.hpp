@@ -63,6 +63,9 @@ private:
 
   // shadowing.cpp
   void checkShadowing(Module &module);
+  void checkHidden(Module &module, const PouSymbol *pou, const VarSymbol *v);
+  void checkHiddenMember(const PouSymbol *method, const VarSymbol *v);
+  Diagnostic &reportHidden(const VarSymbol *v, const Symbol *hidden, const std::string &what);
   void checkHiddenLibrary(Module &module);
 
   // names.cpp
@@ -331,6 +334,7 @@ private:
   void checkBody(PouSymbol *pou);
   void checkBlock(ast::Block block);
   void checkStatement(ast::Stmt *stmt);
+  ast::CallExpr *bareCall(ast::Expr *expr);
   void checkAssign(ast::AssignStmt *stmt);
   void checkCase(ast::CaseStmt *stmt);
   void checkFor(ast::ForStmt *stmt);
@@ -342,21 +346,18 @@ private:
 
   Diagnostic &report(Code code, Span where, std::string message, std::string label = {}) {
     if (program_.diagnostics.errorCount() >= errorLimit_) {
-      notShown_ = {};
-      return notShown_;
+      notKept_ = {};
+      return notKept_;
     }
-    Diagnostic &d = program_.diagnostics.report(code, where, std::move(message), std::move(label));
-    if (program_.diagnostics.errorCount() >= errorLimit_)
-      d.note("there are many errors; further ones are not shown");
-    return d;
+    return program_.diagnostics.report(code, where, std::move(message), std::move(label));
   }
   const ConstValue *makeConstant(const ConstValue &value) { return arena_.make<ConstValue>(value); }
   [[nodiscard]] std::string describe(const Symbol *symbol) const;
   void noteDeclaration(Diagnostic &diagnostic, const Symbol *symbol);
 
   Program &program_;
-  std::size_t errorLimit_; ///< so many errors are shown
-  Diagnostic notShown_;    ///< takes the others
+  std::size_t errorLimit_; ///< so many errors are kept
+  Diagnostic notKept_;     ///< takes the others
   Arena &arena_;
   const LibraryIndex &index_;
   TypeTable types_;
@@ -371,6 +372,7 @@ private:
   Scope scope_;
   std::set<std::uint64_t> badUsings_;                     ///< places of USING that were reported
   std::set<std::pair<const PouSymbol *, Ident>> unknown_; ///< names reported already
+  std::set<std::pair<const PouSymbol *, Ident>> throughSelf_; ///< members named `THIS^.x`
   unsigned loopDepth_ = 0;
   bool programTypes_ = false;                ///< the type being resolved may be a PROGRAM
   std::vector<ast::GlobalsDecl *> configs_;  ///< VAR_CONFIG

@@ -2,7 +2,6 @@
 
 #include "compiler/semantics/locations.hpp"
 #include "compiler/semantics/checker.hpp"
-#include "compiler/semantics/extent.hpp"
 
 #include <algorithm>
 
@@ -283,7 +282,7 @@ void Checker::placeVariable(VarSymbol *variable) {
     return;
   }
   const bool isBool = type->kind == TypeKind::boolean;
-  const std::uint64_t bytes = extentOf(type).size;
+  const std::uint64_t bytes = storage_.of(type).size;
   // A letter behind `%I` is optional in front of `*`.
   const bool letter = !address.incomplete || (address.text.size() > 2 && address.text[2] != '*');
   const auto place = letter ? locateType(variable, bytes, isBool) : true;

@@ -15,7 +15,8 @@ using namespace ast;
 
 namespace {
 
-constexpr std::size_t kMaxErrors = 100;
+/// How many are shown is up to the command; this only bounds what is kept.
+constexpr std::size_t kMaxErrors = 1000;
 constexpr std::uint32_t kVarGlobal = 10; // letters
 
 } // namespace

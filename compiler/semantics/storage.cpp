@@ -1,6 +1,6 @@
 #include "compiler/semantics/storage.hpp"
 
-#include "compiler/semantics/extent.hpp"
+#include "compiler/semantics/alignment.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
 #include <algorithm>

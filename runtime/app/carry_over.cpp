@@ -139,6 +139,18 @@ void CarryOver::append(const Steps &program, Place at, Steps &out) {
 }
 
 void CarryOver::repeat(const Steps &program, Place at, const TypePair &array, Steps &out) {
+  if (program.list.size() == 1 && program.list[0].count == 1 &&
+      program.list[0].kind != Step::Kind::Copy && program.list[0].kind != Step::Kind::Repeat) {
+    Step step = program.list[0]; // one value: the step itself goes over the elements
+    const Place first = elementPlace(array, at);
+    step.oldOffset += first.oldOffset;
+    step.newOffset += first.newOffset;
+    step.count = array.count;
+    step.oldStride = oldSize(array.element);
+    step.newStride = newSize(array.element);
+    out.list.push_back(step);
+    return;
+  }
   out.barrier = true;
   if (program.list.empty())
     return;
@@ -212,22 +224,7 @@ void CarryOver::copySteps(uint32_t index, Place at, Steps &out) {
       out.barrier = true;
       return;
     }
-    const Steps &program = copyProgram(pair.element);
-    if (program.list.size() == 1 &&
-        (program.list[0].kind == Step::Kind::Number || program.list[0].kind == Step::Kind::Text ||
-         program.list[0].kind == Step::Kind::Names) &&
-        program.list[0].count == 1) {
-      Step step = program.list[0];
-      const Place first = elementPlace(pair, at);
-      step.oldOffset += first.oldOffset;
-      step.newOffset += first.newOffset;
-      step.count = pair.count;
-      step.oldStride = oldSize(pair.element);
-      step.newStride = newSize(pair.element);
-      out.list.push_back(step);
-      return;
-    }
-    return repeat(program, at, pair, out);
+    return repeat(copyProgram(pair.element), at, pair, out);
   }
   case Carry::Fields:
     break;
@@ -272,22 +269,8 @@ void CarryOver::slotSteps(uint32_t index, Place at, bool maybe, Steps &out) {
   case Carry::Slot:
     out.list.push_back({Step::Kind::Slot, maybe, index, at.oldOffset, at.newOffset, 1, 0, 0});
     return;
-  case Carry::Elements: {
-    const Steps &program = slotProgram(pair.element, maybe);
-    if (program.list.size() == 1 && program.list[0].kind == Step::Kind::Slot &&
-        program.list[0].count == 1) {
-      Step step = program.list[0];
-      const Place first = elementPlace(pair, at);
-      step.oldOffset += first.oldOffset;
-      step.newOffset += first.newOffset;
-      step.count = pair.count;
-      step.oldStride = oldSize(pair.element);
-      step.newStride = newSize(pair.element);
-      out.list.push_back(step);
-      return;
-    }
-    return repeat(program, at, pair, out);
-  }
+  case Carry::Elements:
+    return repeat(slotProgram(pair.element, maybe), at, pair, out);
   case Carry::Fields:
   case Carry::Union:
     for (const FieldPair &field : pair.fields) {
