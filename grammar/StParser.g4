@@ -81,7 +81,7 @@ qualifiers
   : ( CONSTANT | RETAIN | PERSISTENT | NON_RETAIN | PUBLIC | PRIVATE | PROTECTED | INTERNAL | FINAL | ABSTRACT
     | OVERRIDE )*
   ;
-varDeclaration : varNames COLON typeSpec ( ASSIGN initializer )? SEMICOLON+ ;
+varDeclaration : varNames COLON typeSpec ( ( ASSIGN | REF_ASSIGN ) initializer )? SEMICOLON+ ;
 configVariable : operand ( AT DIRECT )? COLON typeSpec ( ASSIGN initializer )? SEMICOLON+ ;
 accessVariable : IDENT COLON operand COLON typeSpec ( READ_ONLY | READ_WRITE )? SEMICOLON+ ;
 varNames       : IDENT ( AT DIRECT )? ( COMMA IDENT ( AT DIRECT )? )* ;
@@ -140,7 +140,8 @@ simpleStatement
       ) operand
     )*
     ( ASSIGN expression ( ASSIGN expression )*
-    | ( SET_ASSIGN | RESET_ASSIGN | REF_ASSIGN ) expression
+    | ( ( SET_ASSIGN | RESET_ASSIGN ) expression )+
+    | REF_ASSIGN expression
     )?
     SEMICOLON
   ;

@@ -89,7 +89,8 @@ int explainCommand(const std::string &what) {
   const bool number = parseNumber(what).has_value();
   if (const CodeInfo *code = number && what.size() != 4 ? nullptr : findCode(what)) {
     print(fmt::format("{}: {}\nname: {}\nseverity: {}\n\n{}\n", codeName(code->code), code->title,
-                      kebabName(code->code), severityText(code->severity), trim(code->explain)));
+                      kebabName(code->code), severityText(code->severity),
+                      trim(explainText(code->code))));
     return 0;
   }
   if (const std::optional<MotionError> error = findMotionError(what)) {

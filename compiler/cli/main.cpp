@@ -61,6 +61,10 @@ void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build) {
       ->transform(CLI::CheckedTransformer(formats).description(""))
       ->type_name("FORMAT");
   command
+      .add_option("--max-errors", options.output.maxErrors,
+                  "Show so many errors (default: 100; 0: all)")
+      ->type_name("N");
+  command
       .add_option_function<std::vector<std::string>>(
           "-W",
           [&options](const std::vector<std::string> &values) {

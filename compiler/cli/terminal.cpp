@@ -32,15 +32,19 @@ int show(const std::vector<Diagnostic> &diagnostics, const SourceManager &source
          const Output &output) {
   std::size_t errors = 0;
   std::size_t warnings = 0;
+  std::size_t notShown = 0;
   const bool color = output.format == Format::text && output.useColor();
   std::string text;
   for (const Diagnostic &diagnostic : diagnostics) {
+    const bool full = output.maxErrors != 0 && errors >= output.maxErrors;
     errors += diagnostic.severity == Severity::error ? 1 : 0;
     warnings += diagnostic.severity == Severity::warning ? 1 : 0;
     if (output.format == Format::json) {
       text += renderJson(diagnostic, sources);
       if (text.back() != '\n')
         text += '\n';
+    } else if (full) {
+      ++notShown;
     } else {
       text += renderText(diagnostic, sources, {color});
     }
@@ -57,6 +61,8 @@ int show(const std::vector<Diagnostic> &diagnostics, const SourceManager &source
     std::string counts = failed ? count(errors, "error") : std::string();
     if (warnings != 0)
       counts += (failed ? ", " : "") + count(warnings, "warning");
+    if (notShown != 0)
+      counts += fmt::format("; the last {} are not shown (`--max-errors 0` shows all)", notShown);
     text += fmt::format("{}{}{}: {}\n", on, head, color ? "\x1b[0m" : "", counts);
   }
   write(stderr, text);

@@ -18,13 +18,15 @@ enum class Format { text, json };
 struct Output {
   ColorChoice color = ColorChoice::automatic;
   Format format = Format::text;
+  std::size_t maxErrors = 100; ///< as text; 0: all
 
   /// Whether standard error gets colours: on a terminal unless NO_COLOR is set, or as chosen.
   [[nodiscard]] bool useColor() const;
 };
 
 /// Writes diagnostics, text with a summary line to standard error, JSON (an object a line) to
-/// standard output. Returns the exit code: 0 exactly when none is an error.
+/// standard output. As text nothing is shown behind `maxErrors` errors. Returns the exit code: 0
+/// exactly when none is an error.
 int show(const std::vector<Diagnostic> &diagnostics, const SourceManager &sources,
          const Output &output);
 

@@ -120,7 +120,8 @@ unsigned Analysis::effects(const Expr *expr) {
           result |= effectRaises;
         if (call->builtin == Builtin::queryInterface || call->builtin == Builtin::queryPointer)
           result |= effectReads | effectCalls; // they assign to their second argument
-        if (call->builtin == Builtin::newT || call->builtin == Builtin::deleteT)
+        if (call->builtin == Builtin::newT || call->builtin == Builtin::deleteT ||
+            call->builtin == Builtin::ini)
           return result | effectReads | effectRaises | effectCalls;
         return result | (call->builtin == Builtin::time ? effectReads : effectNone);
       }

@@ -1,6 +1,6 @@
 // Functions that the compiler implements itself.
 
-#include "compiler/codegen/emitter.hpp"
+#include "compiler/codegen/units.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
 namespace stc::codegen {
@@ -166,12 +166,39 @@ void Emitter::deleteObject(const CallExpr *e) {
   place(variable);
   w_ << "; ";
   const Type *pointee = typeAs<PointerType>(variable->type)->pointee;
-  if (c_.layouts.hasLifecycle(pointee, "fb_exit")) {
-    includes_.complete(pointee);
+  const auto exits = [&](const Type *real, const std::string &first) {
+    if (!c_.layouts.hasLifecycle(real, "fb_exit"))
+      return;
+    includes_.complete(real);
     const std::string i = temporary("i");
     w_ << "for (::stride::ULINT " << i << " = 0; " << i << " < ::stride::poolCount(" << ctx()
-       << ", " << pointer << "); ++" << i << ") " << pointer << '[' << i << "].exit__(" << ctx()
+       << ", " << pointer << "); ++" << i << ") " << first << '[' << i << "].exit__(" << ctx()
        << "); ";
+  };
+  // What was created may be a block that extends the one pointed to.
+  std::vector<const PouSymbol *> derived;
+  if (pointee->kind == TypeKind::functionBlock && hasTypeId(typeAs<PouType>(pointee)->symbol)) {
+    for (const PouSymbol *p : derivedBlocks(c_.program, typeAs<PouType>(pointee)->symbol)) {
+      if (c_.layouts.hasLifecycle(p->type, "fb_exit"))
+        derived.push_back(p);
+    }
+  }
+  if (derived.empty()) {
+    exits(pointee, pointer);
+  } else {
+    includes_.complete(pointee);
+    w_ << "if (::stride::poolCount(" << ctx() << ", " << pointer << ") != 0) { switch (" << pointer
+       << "->" << pathToTypeId(typeAs<PouType>(pointee)->symbol) << ") { ";
+    for (const PouSymbol *p : derived) {
+      const std::string real = temporary("real");
+      w_ << "case " << c_.names.typeId(p) << "U: { auto *const " << real << " = reinterpret_cast<"
+         << type(p->type) << " *>(" << pointer << "); ";
+      exits(p->type, real);
+      w_ << "break; } ";
+    }
+    w_ << "default: ";
+    exits(pointee, pointer);
+    w_ << "break; } } ";
   }
   w_ << "::stride::poolDelete(" << ctx() << ", " << pointer << ", ";
   position(e->span);
@@ -197,6 +224,10 @@ bool Emitter::ordersArguments(const CallExpr *e) {
 void Emitter::builtin(const CallExpr *e) {
   if (e->builtin == Builtin::newT) {
     newObject(e);
+    return;
+  }
+  if (e->builtin == Builtin::ini) {
+    reinitialise(e);
     return;
   }
   if (selectedOnly(e))

@@ -84,6 +84,7 @@ private:
             target != nullptr && !target->isAbstract())
           targets[target].push_back(p);
       }
+      complete(m);
       text_ += "\n" + std::string(weak()) +
                methodSignature(c_, includes_, m, c_.names.local(m), true, nullptr) + " {\n";
       text_ += "  switch (*self__) {\n";
@@ -111,6 +112,7 @@ private:
     for (const PouSymbol *m : symbol->methods) {
       if (!isDispatched(m))
         continue;
+      complete(m);
       text_ +=
           "\n" + std::string(weak()) +
           methodSignature(c_, includes_, m,
@@ -150,12 +152,17 @@ private:
     text_ += "  default:\n    return this->body__(ctx__);\n  }\n}\n";
   }
 
+  /// What a definition of the method passes by value; also one that finds no block to call.
+  void complete(const PouSymbol *method) {
+    for (const VarSymbol *p : method->parameters())
+      includes_.complete(p->type);
+    if (method->result != nullptr)
+      includes_.complete(method->result->type);
+  }
+
   /// `Run(ctx__, speed)` with the parameters' names of `declared`.
   std::string call(const PouSymbol *target, const PouSymbol *declared) {
-    for (const VarSymbol *p : target->parameters())
-      includes_.complete(p->type);
-    if (target->result != nullptr)
-      includes_.complete(target->result->type);
+    complete(target);
     std::string text = methodName(target) + "(ctx__";
     for (const VarSymbol *p : declared->parameters())
       text += ", " + mangle(p->name.text);

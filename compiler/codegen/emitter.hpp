@@ -230,7 +230,6 @@ private:
   void self(const SelfSymbol *symbol);
   [[nodiscard]] static bool isExact(const ast::Expr *place);
   void typeIdOf(const ast::Expr *instance);
-  void instanceValue(const ast::Expr *e, const Type *type);
   void placeAs(const ast::Expr *e, const Type *type);
   void addressAs(const ast::Expr *e, const Type *type);
   void methodPrefix(const ast::Expr *object, const PouSymbol *method, std::string_view taken,
@@ -268,8 +267,19 @@ private:
   void builtinArgument(const ast::CallExpr *e, std::size_t i, const std::vector<std::string> *names,
                        bool anyText);
 
+  // instances.cpp
+  void unbind(std::string_view target, const Type *type);
+  void copyOf(const ast::Expr *e, const Type *type);
+  void reinitialise(const ast::CallExpr *e);
+  void initialValues(std::string_view target, const Type *type, const VarSymbol *declared,
+                     bool here);
+  bool keeps(const Type *type, bool retained);
+  void keepValues(std::string_view target, std::string_view old, const Type *type,
+                  std::string_view all);
+
   // statements.cpp
   void statement(const ast::Stmt *s);
+  bool findPlaces(const ast::AssignStmt *s);
   void assign(const ast::AssignStmt *s);
   void store(const ast::Expr *target, const ast::Expr *value);
   void storeTo(std::string_view target, const Type *type, const ast::Expr *value);
@@ -345,7 +355,8 @@ private:
   Includes includes_;
   bool noCheck_ = false; ///< {attribute 'no_check'}
   bool isCheck_ = false; ///< the body of a check: no check calls itself
-  bool writing_ = false; ///< the place is about to be written
+  std::unordered_map<const ast::Expr *, std::string> found_; ///< places that have a reference
+  bool writing_ = false;                                     ///< the place is about to be written
   bool usesContext_ = false;
   bool usesBudget_ = false;
   std::vector<FileId> files_;

@@ -3,7 +3,7 @@
 
 #include "compiler/codegen/emitter.hpp"
 #include "compiler/semantics/conversions.hpp"
-#include "compiler/semantics/extent.hpp"
+#include "compiler/semantics/alignment.hpp"
 #include "compiler/semantics/locations.hpp"
 
 namespace stc::codegen {
@@ -259,7 +259,7 @@ void Emitter::timeArithmetic(const ast::BinaryExpr *e, Left &&left, Right &&righ
 template <class Slot> void Emitter::located(const Location &at, const Type *type, Slot &&slot) {
   const std::string_view base = area(at.area);
   includes_.complete(type);
-  const bool aligned = at.isSlot || at.byte % extentOf(type).align == 0;
+  const bool aligned = at.isSlot || at.byte % alignmentOf(type) == 0;
   w_ << (aligned ? "::stride::at<" : "::stride::unaligned<") << c_.names.type(type) << ">(" << base
      << ", ";
   if (at.isSlot)
@@ -271,6 +271,13 @@ template <class Slot> void Emitter::located(const Location &at, const Type *type
 
 template <class Value>
 void Emitter::bitStore(const ast::Expr *e, std::string_view bound, Value &&value) {
+  if (isBitField(e)) {
+    place(e);
+    w_ << " = ";
+    value();
+    w_ << ';';
+    return;
+  }
   w_ << "::stride::set";
   bitAccess(e, bound);
   w_ << ", ";

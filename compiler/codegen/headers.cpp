@@ -228,7 +228,7 @@ private:
     }
     if (type.back() != '*' && type.back() != '&')
       type += ' ';
-    body_ += "  " + type + fieldName(v) + ";\n";
+    body_ += "  " + type + fieldName(v) + (v->isBit ? " : 1;\n" : ";\n");
   }
 
   void init(bool needed) {

@@ -231,6 +231,8 @@ void Layouts::addMember(Hash &hash, const VarSymbol *v) {
     hash.add("slot");
     return;
   }
+  if (v->isBit)
+    hash.add("bit");
   if (v->section == Section::inOut) {
     hash.add("in-out").add(typeName(v->type));
     return;

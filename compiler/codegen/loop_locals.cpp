@@ -60,7 +60,7 @@ std::vector<const VarSymbol *> LoopLocals::of(const Stmt *loop, const PouSymbol 
     const bool member = v->section == Section::local || v->section == Section::input ||
                         v->section == Section::output;
     if (v->owner != pou || !member || v->isConstant || v->decl == nullptr ||
-        v->decl->address != nullptr || !isScalar(v->type) || contains(result, v) ||
+        v->decl->address != nullptr || v->isBit || !isScalar(v->type) || contains(result, v) ||
         contains<const Symbol *>(facts.foreign, v) || contains(facts.indirect, underlying(v->type)))
       continue;
     result.push_back(v);

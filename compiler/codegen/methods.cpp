@@ -28,7 +28,7 @@ std::string methodSignature(Context &context, Includes &includes, const PouSymbo
       out += "[[maybe_unused]] ";
     std::string type(context.names.type(p->type));
     includes.pointed(p->type);
-    if (p->section != Section::input)
+    if (p->section != Section::input && p->type->kind != TypeKind::openArray)
       type += type.back() == '*' ? "&" : " &";
     if (type.back() != '*' && type.back() != '&')
       type += ' ';
@@ -90,26 +90,6 @@ void Emitter::typeIdOf(const Expr *instance) {
   includes_.complete(instance->type);
   place(instance);
   w_ << '.' << pathToTypeId(typeAs<PouType>(instance->type)->symbol);
-}
-
-/// An instance as a value of its own or a base type. A copy has the type id of what it is, not of
-/// what it was taken from.
-void Emitter::instanceValue(const Expr *e, const Type *type) {
-  const PouSymbol *from = typeAs<PouType>(e->type)->symbol;
-  const PouSymbol *to = typeAs<PouType>(type)->symbol;
-  std::string path = pathToBase(from, to);
-  if (!path.empty())
-    path = "." + path.substr(0, path.size() - 1);
-  if (!hasTypeId(to) || (from == to && isExact(e))) {
-    raw(e);
-    w_ << path;
-    return;
-  }
-  const std::string copy = temporary("copy");
-  w_ << "[&] { auto " << copy << " = ";
-  raw(e);
-  w_ << path << "; " << copy << '.' << pathToTypeId(to) << " = " << c_.names.typeId(to)
-     << "U; return " << copy << "; }()";
 }
 
 /// A place of a derived block as one of its base `type`.

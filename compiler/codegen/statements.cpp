@@ -186,8 +186,11 @@ void Emitter::storeTo(std::string_view target, const Type *type, const Expr *val
     const std::string path =
         pathToBase(typeAs<PouType>(value->type)->symbol, typeAs<PouType>(type)->symbol);
     w_ << '.' << std::string_view(path).substr(0, path.size() - 1);
-  } else
+  } else if (bindings && value->type == type) {
+    raw(value); // only what assign__ takes of it is copied
+  } else {
     valueAs(value, type);
+  }
   w_ << (bindings ? ");" : ";");
 }
 
@@ -201,6 +204,16 @@ void Emitter::store(const Expr *target, const Expr *value) {
   const bool ordered = ((effects(target) & effectCalls) != 0 && effects(value) != effectNone) ||
                        ((effects(value) & effectCalls) != 0 && isComputedPlace(stored));
   if (isBit) {
+    if (ordered && isBitField(target)) { // what it is a bit of is found first
+      const std::string to = placeText(target);
+      const std::size_t dot = to.rfind('.');
+      const std::string name = temporary("to");
+      w_ << "{ auto &" << name << " = " << to.substr(0, dot) << "; " << name << to.substr(dot)
+         << " = ";
+      valueAs(value, target->type);
+      w_ << "; }";
+      return;
+    }
     const bool bind = ordered && stored != target;
     const std::string name = bind ? temporary("to") : std::string();
     if (bind) {
@@ -238,6 +251,25 @@ void Emitter::store(const Expr *target, const Expr *value) {
   storeTo(to, target->type, value);
 }
 
+/// Finds the places of `a[i] := p^.b := value` once, from left to right, before the value.
+bool Emitter::findPlaces(const AssignStmt *s) {
+  for (const Expr *target : s->targets) {
+    const Expr *at = isBitPlace(target) ? bitOwner(target) : target;
+    while (at->kind == ExprKind::member)
+      at = as<MemberExpr>(at)->base;
+    if (at->kind != ExprKind::index && at->kind != ExprKind::deref)
+      continue;
+    const std::string name = temporary("to");
+    w_ << (found_.empty() ? "{ " : "") << "auto &" << name << " = ";
+    writing_ = true;
+    const std::string text = placeText(at);
+    writing_ = false;
+    w_ << text << "; ";
+    found_.emplace(at, name);
+  }
+  return !found_.empty();
+}
+
 void Emitter::assign(const AssignStmt *s) {
   begin(s->span);
   const Expr *last = s->targets.back();
@@ -269,7 +301,8 @@ void Emitter::assign(const AssignStmt *s) {
     w_ << '}';
     break;
   }
-  case AssignOp::assign:
+  case AssignOp::assign: {
+    const bool found = s->targets.size() > 1 && findPlaces(s);
     store(last, s->value);
     for (std::size_t i = s->targets.size() - 1; i-- > 0;) {
       w_ << ' ';
@@ -279,7 +312,10 @@ void Emitter::assign(const AssignStmt *s) {
       const std::string source = w_.cut(start);
       outputTo(s->targets[i], source, from->type, s->span);
     }
+    found_.clear();
+    w_ << (found ? " }" : "");
     break;
+  }
   }
   end();
 }

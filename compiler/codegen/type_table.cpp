@@ -158,7 +158,7 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
     const auto *s = typeAs<StructType>(type);
     row.kind = s->isUnion ? "Union" : "Struct";
     row.renamedFrom = renamedFrom(s->symbol->decl->attributes);
-    members(row, s->base, row.cppType, {s->fields.begin(), s->fields.end()});
+    members(row, type, s->base, row.cppType, {s->fields.begin(), s->fields.end()});
     break;
   }
   case TypeKind::functionBlock:
@@ -170,7 +170,7 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
       row.flags |= kExternal;
     if (pou->isBlock() && hasTypeId(pou))
       row.typeId = c_.names.typeId(pou);
-    members(row, pou->base == nullptr ? nullptr : pou->base->type, row.cppType,
+    members(row, type, pou->base == nullptr ? nullptr : pou->base->type, row.cppType,
             rootVariables({pou, false}), carriesTypeId(pou));
     break;
   }
@@ -185,7 +185,7 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
   types_[at] = std::move(row);
 }
 
-void TypeTable::members(Row &row, const Type *base, const std::string &owner,
+void TypeTable::members(Row &row, const Type *type, const Type *base, const std::string &owner,
                         const std::vector<const VarSymbol *> &variables, bool typeId) {
   std::vector<std::uint32_t> types; // first: they append rows of their own
   types.reserve(variables.size());
@@ -203,11 +203,18 @@ void TypeTable::members(Row &row, const Type *base, const std::string &owner,
                           ", ::stride::kSymTypeId | ::stride::kSymHidden}");
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const VarSymbol *v = variables[i];
-    const std::string offset =
-        isPlaced(v) ? placeInImage(*v->location) : "offsetof(" + owner + ", " + fieldName(v) + ")";
+    std::string flags = locatedFlags(v, symbolFlags(v));
+    std::string offset;
+    if (v->isBit) { // offsetof is not for bits
+      const Storage::BitPlace at = storage_.bit(type, v);
+      offset = std::to_string(at.byte);
+      flags += " | ::stride::kSymBit | " + std::to_string(at.bit) + "U << ::stride::kSymBitShift";
+    } else {
+      offset = isPlaced(v) ? placeInImage(*v->location)
+                           : "offsetof(" + owner + ", " + fieldName(v) + ")";
+    }
     memberRows_.push_back("{" + quote(v->storage.empty() ? v->name.text : v->storage) + ", " +
-                          offset + ", " + std::to_string(types[i]) + ", " +
-                          locatedFlags(v, symbolFlags(v)) +
+                          offset + ", " + std::to_string(types[i]) + ", " + flags +
                           renamedColumn(renamedFrom(v->decl->attributes)) + "}");
   }
   row.memberCount = memberRows_.size() - row.firstMember;

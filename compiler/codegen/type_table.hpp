@@ -70,11 +70,12 @@ private:
     std::string_view renamedFrom;
   };
   void fill(std::uint32_t at, const Type *type, bool inOut);
-  void members(Row &row, const Type *base, const std::string &owner,
+  void members(Row &row, const Type *type, const Type *base, const std::string &owner,
                const std::vector<const VarSymbol *> &variables, bool typeId = false);
 
   Context &c_;
   Includes includes_{c_.names};
+  Storage storage_;
   std::unordered_map<Key, std::uint32_t, KeyHash> indices_;
   std::vector<Row> types_;
   std::vector<std::string> memberRows_;

@@ -39,6 +39,12 @@ void generateSources(Context &context, std::vector<GeneratedFile> &files);
 /// The functions that find out at run time which method is meant.
 void generateDispatch(Context &context, std::vector<GeneratedFile> &files);
 
+/// The blocks that extend `base` at any depth and can have instances.
+[[nodiscard]] std::vector<const PouSymbol *> derivedBlocks(const Program &program,
+                                                           const PouSymbol *base);
+/// It is, or holds, a block with a VAR_IN_OUT.
+[[nodiscard]] bool holdsInOut(const Type *type);
+
 /// First line of each generated file.
 [[nodiscard]] std::string banner(std::string_view what);
 /// What every generated source includes and switches off.

@@ -46,8 +46,9 @@ public:
         first = as<ConfigurationDecl>(decl);
       }
     }
+    readActions();
     if (first == nullptr || !hasTasks(*first))
-      return nullptr;
+      return declarations();
     if (!config_.tasks.empty()) {
       Diagnostic &d = report(Code::configurationTwice, first->name.span,
                              "the tasks are configured twice", "a CONFIGURATION …");
@@ -57,8 +58,6 @@ public:
     }
     for (const ResourceDecl &resource : first->resources)
       readResource(resource);
-    if (declarations_.empty() && variables_.empty())
-      return nullptr;
     if (!variables_.empty()) {
       auto *list = program_.arena.make<GlobalsDecl>();
       list->kind = DeclKind::globals;
@@ -72,13 +71,39 @@ public:
       list->variables = program_.arena.copy(variables_);
       declarations_.insert(declarations_.begin(), list);
     }
+    return declarations();
+  }
+
+private:
+  File *declarations() {
+    if (declarations_.empty())
+      return nullptr;
     auto *file = program_.arena.make<File>();
-    file->id = first->span.file;
+    file->id = declarations_.front()->span.file;
     file->declarations = program_.arena.copy(declarations_);
     return file;
   }
 
-private:
+  /// `programs = ["Main.Step"]` of stride.toml: an action is called by a hidden program.
+  void readActions() {
+    for (TaskConfig &task : config_.tasks) {
+      for (ConfigName &entry : task.programs) {
+        const std::size_t dot = entry.text.find('.');
+        if (dot == std::string::npos)
+          continue;
+        const auto name = [&](std::string_view text) {
+          return Name{program_.interner.intern(text), program_.arena.copy(text), entry.span};
+        };
+        const Name program = name(std::string_view(entry.text).substr(0, dot));
+        if (!programs_.contains(program.id))
+          continue; // reported with the other tasks
+        const Name action = name(std::string_view(entry.text).substr(dot + 1));
+        entry.text = caller(fmt::format("{}__{}__{}", task.name.text, program.text, action.text),
+                            entry.span, member(program, action, entry.span), {});
+      }
+    }
+  }
+
   Diagnostic &report(Code code, Span where, std::string message, std::string label) {
     return program_.diagnostics.report(code, where, std::move(message), std::move(label));
   }
@@ -201,13 +226,23 @@ private:
           .label(first->second, "the first one");
       return;
     }
-    if (!programs_.contains(type.id)) {
+    const bool isAction = decl.type.size() == 2 && !programs_.contains(type.id) &&
+                          programs_.contains(decl.type.front().id);
+    if (!programs_.contains(type.id) && !isAction) {
       unknownProgram(type);
       return;
     }
     TaskConfig *task = findTask(decl, resource);
     if (task == nullptr)
       return;
+    if (isAction) { // of the program, which has no instance of another name for it
+      plain_.emplace(decl.type.front().id, true);
+      const Span span = decl.type.front().span.to(type.span);
+      task->programs.push_back({caller(std::string(decl.name.text), decl.span,
+                                       member(decl.type.front(), type, span), decl.arguments),
+                                decl.name.span});
+      return;
+    }
     const bool own = decl.name.id != type.id;
     if (own && (programs_.contains(decl.name.id) || others_.contains(decl.name.id))) {
       const auto other = programs_.find(decl.name.id);
@@ -235,7 +270,10 @@ private:
       plain_.emplace(type.id, true);
     }
     task->programs.push_back(
-        {own || !decl.arguments.empty() ? caller(decl) : std::string(type.text), decl.name.span});
+        {own || !decl.arguments.empty()
+             ? caller(std::string(decl.name.text), decl.span, nameOf(decl.name), decl.arguments)
+             : std::string(type.text),
+         decl.name.span});
   }
 
   void unknownProgram(const Name &type) {
@@ -257,28 +295,41 @@ private:
       d.help(fmt::format("did you mean `{}`?", near));
   }
 
-  /// A hidden program with the statement `instance(arguments);`.
-  std::string caller(const ProgramInstanceDecl &decl) {
+  Expr *nameOf(const Name &name) {
+    auto *expr = program_.arena.make<NameExpr>();
+    expr->kind = ExprKind::name;
+    expr->span = name.span;
+    expr->name = name;
+    return expr;
+  }
+
+  Expr *member(const Name &program, const Name &action, Span span) {
+    auto *expr = program_.arena.make<MemberExpr>();
+    expr->kind = ExprKind::member;
+    expr->span = span;
+    expr->base = nameOf(program);
+    expr->name = action;
+    return expr;
+  }
+
+  /// A hidden program with the statement `callee(arguments);`.
+  std::string caller(const std::string &what, Span span, Expr *callee,
+                     std::span<Argument> arguments) {
     Arena &arena = program_.arena;
-    auto *callee = arena.make<NameExpr>();
-    callee->kind = ExprKind::name;
-    callee->span = decl.name.span;
-    callee->name = decl.name;
     auto *call = arena.make<CallExpr>();
     call->kind = ExprKind::call;
-    call->span = decl.span;
+    call->span = span;
     call->callee = callee;
-    call->arguments = decl.arguments;
+    call->arguments = arguments;
     auto *statement = arena.make<CallStmt>();
     statement->kind = StmtKind::call;
-    statement->span = decl.span;
+    statement->span = span;
     statement->expr = call;
     auto *pou = arena.make<PouDecl>();
     pou->kind = DeclKind::program;
-    pou->span = decl.span;
-    const std::string name = std::string(decl.name.text) + "__call";
-    pou->name = {program_.interner.intern(name), arena.copy(std::string_view(name)),
-                 decl.name.span};
+    pou->span = span;
+    const std::string name = what + "__call";
+    pou->name = {program_.interner.intern(name), arena.copy(std::string_view(name)), callee->span};
     pou->attributes = attribute("hide", {});
     pou->body = arena.copy(std::vector<Stmt *>{statement});
     declarations_.push_back(pou);

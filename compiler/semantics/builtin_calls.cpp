@@ -1,7 +1,7 @@
 // Calls of the functions that the compiler implements itself.
 
+#include "compiler/semantics/alignment.hpp"
 #include "compiler/semantics/checker.hpp"
-#include "compiler/semantics/extent.hpp"
 #include "compiler/semantics/fold.hpp"
 #include "compiler/semantics/fold_builtins.hpp"
 #include "compiler/semantics/locations.hpp"
@@ -488,6 +488,8 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
     return checkQuery(expr);
   case deleteT:
     return checkDelete(expr);
+  case ini:
+    return checkIni(expr);
   case newT:
   case indexOf:
     break;

@@ -54,6 +54,7 @@ const std::vector<std::pair<std::string_view, ast::Builtin>> &builtins() {
       {"__new", newT},
       {"indexof", indexOf},
       {"__delete", deleteT},
+      {"ini", ini},
       {"__isvalidref", isValidRef},
       {"lower_bound", lowerBound},
       {"upper_bound", upperBound},

@@ -63,6 +63,7 @@ enum class Builtin : std::uint16_t {
   queryPointer,   ///< __QUERYPOINTER(instance or interface, pointer variable)
   newT,           ///< __NEW(type), __NEW(type, count): Expr::type of the first argument is the type
   deleteT,        ///< __DELETE(pointer): the pointer is 0 afterwards
+  ini,            ///< INI(instance, BOOL): initial values once more; FALSE keeps retained variables
   indexOf,        ///< INDEXOF(pou): the POU's number, a constant
   isValidRef,     ///< __ISVALIDREF(r): the argument is a REFERENCE
   lowerBound,

@@ -39,7 +39,14 @@ std::string signature(const PouSymbol *pou) {
   }
   if (count > kMost)
     text += "; …";
+  if (pou->property != nullptr)
+    return "PROPERTY " + std::string(pou->name.text) + " : " + typeName(pou->property->type);
   const DeclKind kind = pou->decl->kind;
+  if (kind == DeclKind::action || kind == DeclKind::interface || kind == DeclKind::classD)
+    return (kind == DeclKind::action      ? "ACTION "
+            : kind == DeclKind::interface ? "INTERFACE "
+                                          : "CLASS ") +
+           std::string(pou->name.text);
   const std::string_view word = kind == DeclKind::function  ? "FUNCTION "
                                 : kind == DeclKind::program ? "PROGRAM "
                                 : kind == DeclKind::method  ? "METHOD "

@@ -63,6 +63,9 @@ private:
 
   // shadowing.cpp
   void checkShadowing(Module &module);
+  void checkHidden(Module &module, const PouSymbol *pou, const VarSymbol *v);
+  void checkHiddenMember(const PouSymbol *method, const VarSymbol *v);
+  Diagnostic &reportHidden(const VarSymbol *v, const Symbol *hidden, const std::string &what);
   void checkHiddenLibrary(Module &module);
 
   // names.cpp
@@ -117,6 +120,10 @@ private:
   void bindExternal(PouSymbol *pou, ast::VarDecl *decl);
   const Type *resolveType(ast::TypeExpr *expr, std::string_view hint);
   const Type *resolveNamed(ast::NamedTypeExpr *expr);
+  /// The type is written as BIT, and BIT is not the name of a type of the program.
+  bool namesBit(const ast::TypeExpr *expr);
+  /// The type of a variable of a structure or block, which may be a BIT.
+  const Type *resolveMember(VarSymbol *variable, std::string_view hint);
   const Type *resolveArray(ast::ArrayTypeExpr *expr, std::string_view hint);
   const Type *resolveString(ast::StringTypeExpr *expr);
   const Type *resolveSubrange(ast::SubrangeTypeExpr *expr, std::string_view hint);
@@ -269,6 +276,7 @@ private:
   // dynamic.cpp
   const Type *checkNew(ast::CallExpr *expr);
   const Type *checkDelete(ast::CallExpr *expr);
+  const Type *checkIni(ast::CallExpr *expr);
 
   // measures.cpp
   const Type *checkSizeof(ast::CallExpr *expr);
@@ -326,6 +334,7 @@ private:
   void checkBody(PouSymbol *pou);
   void checkBlock(ast::Block block);
   void checkStatement(ast::Stmt *stmt);
+  ast::CallExpr *bareCall(ast::Expr *expr);
   void checkAssign(ast::AssignStmt *stmt);
   void checkCase(ast::CaseStmt *stmt);
   void checkFor(ast::ForStmt *stmt);
@@ -337,21 +346,18 @@ private:
 
   Diagnostic &report(Code code, Span where, std::string message, std::string label = {}) {
     if (program_.diagnostics.errorCount() >= errorLimit_) {
-      notShown_ = {};
-      return notShown_;
+      notKept_ = {};
+      return notKept_;
     }
-    Diagnostic &d = program_.diagnostics.report(code, where, std::move(message), std::move(label));
-    if (program_.diagnostics.errorCount() >= errorLimit_)
-      d.note("there are many errors; further ones are not shown");
-    return d;
+    return program_.diagnostics.report(code, where, std::move(message), std::move(label));
   }
   const ConstValue *makeConstant(const ConstValue &value) { return arena_.make<ConstValue>(value); }
   [[nodiscard]] std::string describe(const Symbol *symbol) const;
   void noteDeclaration(Diagnostic &diagnostic, const Symbol *symbol);
 
   Program &program_;
-  std::size_t errorLimit_; ///< so many errors are shown
-  Diagnostic notShown_;    ///< takes the others
+  std::size_t errorLimit_; ///< so many errors are kept
+  Diagnostic notKept_;     ///< takes the others
   Arena &arena_;
   const LibraryIndex &index_;
   TypeTable types_;
@@ -366,6 +372,7 @@ private:
   Scope scope_;
   std::set<std::uint64_t> badUsings_;                     ///< places of USING that were reported
   std::set<std::pair<const PouSymbol *, Ident>> unknown_; ///< names reported already
+  std::set<std::pair<const PouSymbol *, Ident>> throughSelf_; ///< members named `THIS^.x`
   unsigned loopDepth_ = 0;
   bool programTypes_ = false;                ///< the type being resolved may be a PROGRAM
   std::vector<ast::GlobalsDecl *> configs_;  ///< VAR_CONFIG

@@ -50,6 +50,20 @@ std::string excerpt(const SourceManager &sources, const Expr *expr) {
   return usable ? std::string(text) : "…";
 }
 
+/// `INT`, `an integer constant`
+std::string found(const Type *type) {
+  const std::string_view article = type->kind == TypeKind::anyInteger ? "an "
+                                   : type->kind == TypeKind::anyReal  ? "a "
+                                                                      : "";
+  return std::string(article) + typeName(type);
+}
+
+/// Something that ADR can be asked of, or a pointer can be followed from, without parentheses.
+bool isPath(const Expr *expr) {
+  return expr->kind == ExprKind::name || expr->kind == ExprKind::member ||
+         expr->kind == ExprKind::index || expr->kind == ExprKind::deref;
+}
+
 int rank(Conversion c) { return static_cast<int>(c); }
 
 } // namespace
@@ -187,7 +201,7 @@ void Checker::reportConversion(Expr *expr, const Type *from, const Type *to, Con
     auto &d = report(Code::narrowingConversion, expr->span,
                      prefix + "cannot convert from " + typeName(from) + " to " + typeName(to) +
                          " implicitly",
-                     "this is " + typeName(from) + ", " + typeName(to) + " is expected");
+                     "this is " + found(from) + ", " + typeName(to) + " is expected");
     if (from->kind == TypeKind::anyReal && isInteger(underlying(to)))
       d.help("write it without a fraction, or convert it: `LREAL_TO_" +
              upper(typeName(underlying(to))) + "(…)`");
@@ -208,10 +222,19 @@ void Checker::reportConversion(Expr *expr, const Type *from, const Type *to, Con
     return;
   }
   auto &d = report(Code::typeMismatch, expr->span,
-                   prefix + "expected " + typeName(to) + ", found " + typeName(from),
-                   "this is " + typeName(from));
+                   prefix + "expected " + typeName(to) + ", found " + found(from),
+                   "this is " + found(from));
+  const auto pointee = [](const Type *type) {
+    return type->kind == TypeKind::pointer ? typeAs<PointerType>(type)->pointee : nullptr;
+  };
+  const std::string source(program_.sources.text(expr->span));
   if (isInstance(from) && isElementary(to))
     d.help("name one of its outputs: `….Q`");
+  else if (pointee(to) == from && isPath(expr))
+    d.suggest("take its address: `ADR(" + text + ")`", expr->span, "ADR(" + source + ")");
+  else if (pointee(from) != nullptr && isPath(expr) &&
+           (pointee(from) == to || classify(pointee(from), to) == Conversion::free))
+    d.suggest("follow the pointer: `" + text + "^`", expr->span, source + "^");
 }
 
 } // namespace stc

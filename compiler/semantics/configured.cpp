@@ -1,7 +1,6 @@
 // VAR_CONFIG and VAR_ACCESS: variables named from the outside, instance by instance.
 
 #include "compiler/semantics/checker.hpp"
-#include "compiler/semantics/extent.hpp"
 #include "compiler/semantics/locations.hpp"
 #include "compiler/semantics/suggest.hpp"
 
@@ -185,9 +184,8 @@ std::optional<Checker::PathTarget> Checker::resolvePath(Expr *expr, Module &modu
                  "`" + typeName(base->type) + "` has no variable `" +
                      std::string(member->name.text) + "`" + (found != nullptr ? " of its own" : ""),
                  "not found");
-      if (const auto similar = nearest(member->name.text, memberNames(base->type));
-          !similar.empty() && found == nullptr)
-        d.help("a similar one exists: `" + std::string(similar) + "`");
+      if (found == nullptr)
+        helpMembers(d, member->name, memberNames(base->type));
       return std::nullopt;
     }
     base->type = typeOf(found);
@@ -294,7 +292,7 @@ void Checker::checkConfigEntry(VarDecl *decl, Module &module, std::vector<SlotPl
   const auto at = locate(address);
   if (!at)
     return;
-  const Extent extent = extentOf(type);
+  const StorageExtent extent = storage_.of(type);
   if ((at->bit >= 0) != isBool) {
     auto &d =
         report(Code::addressType, address.span,
@@ -345,9 +343,8 @@ void Checker::reportMissingPlaces(const std::vector<SlotPlace> &slots) {
     for (std::size_t i = 0; i < list.size() && i < kMaxShown; ++i) {
       Location at = *v->location;
       at.isSlot = false;
-      const Extent extent = extentOf(v->type);
-      const std::uint64_t align = std::max<std::uint64_t>(extent.align, 1);
-      free = (free + align - 1) / align * align;
+      const StorageExtent extent = storage_.of(v->type);
+      free = (free + extent.align - 1) / extent.align * extent.align;
       at.byte = static_cast<std::uint32_t>(free);
       free += std::max<std::uint64_t>(extent.size, 1);
       text += "  " + pathText(list[i]->path) + " AT " +
@@ -443,6 +440,12 @@ void Checker::checkAccesses(Module &module) {
                  "an access path cannot lead into a variable of the process image",
                  "a part of such a variable")
               .help("give the address of the part: `%MB4`");
+          continue;
+        }
+        if (target->variable != nullptr && target->variable->isBit) {
+          report(Code::configMismatch, decl->path->span, "an access path cannot lead to a BIT",
+                 "a bit has no address")
+              .help("declare `" + std::string(target->variable->name.text) + "` as BOOL");
           continue;
         }
         if (access.type->kind == TypeKind::reference || access.type->kind == TypeKind::pointer) {

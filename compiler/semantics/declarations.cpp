@@ -123,8 +123,8 @@ void Checker::resolveStruct(TypeSymbol *symbol, StructDecl *decl) {
       d.label(it->second->name.span, "first declared here");
       continue;
     }
-    field->type =
-        resolveType(f->type, std::string(symbol->name.text) + "__" + std::string(f->name.text));
+    const std::string hint = std::string(symbol->name.text) + "__" + std::string(f->name.text);
+    field->type = decl->isUnion ? resolveType(f->type, hint) : resolveMember(field, hint);
     if (f->address != nullptr)
       placeVariable(field);
     fields.push_back(field);
@@ -240,6 +240,30 @@ const Type *Checker::resolveType(TypeExpr *expr, std::string_view hint) {
   return elementaryType(TypeKind::error);
 }
 
+bool Checker::namesBit(const TypeExpr *expr) {
+  if (expr->kind != TypeExprKind::named || as<NamedTypeExpr>(expr)->path.size() != 1)
+    return false;
+  const Name &name = as<NamedTypeExpr>(expr)->path.front();
+  if (name.id->lower != "bit")
+    return false;
+  const Symbol *own = lookupDeclared(name);
+  return own == nullptr || own->kind == SymbolKind::variable;
+}
+
+const Type *Checker::resolveMember(VarSymbol *variable, std::string_view hint) {
+  const VarDecl *decl = variable->decl;
+  if (!namesBit(decl->type))
+    return resolveType(decl->type, hint);
+  if (decl->address != nullptr) {
+    report(Code::bitNotPossible, decl->type->span, "a BIT cannot have an address of its own",
+           "declared with AT")
+        .help("write `BOOL`: a BOOL at `%IX0.0` is a single bit");
+    return elementaryType(TypeKind::boolean);
+  }
+  variable->isBit = !variable->isConstant;
+  return elementaryType(TypeKind::boolean);
+}
+
 const Type *Checker::resolveNamed(NamedTypeExpr *expr) {
   const Name &name = expr->path.back();
   Symbol *symbol = nullptr;
@@ -273,7 +297,16 @@ const Type *Checker::resolveNamed(NamedTypeExpr *expr) {
       return elementaryType(TypeKind::error);
   }
   if (symbol == nullptr) {
-    reportUnknown(name, true);
+    if (!namesBit(expr)) {
+      reportUnknown(name, true);
+      return elementaryType(TypeKind::error);
+    }
+    report(Code::bitNotPossible, name.span, "there is no BIT here",
+           "only fields of a STRUCT and variables of a FUNCTION_BLOCK can be BIT")
+        .note(
+            "a BIT shares its byte with others and has no address, so that there are no arrays of "
+            "BIT and no pointers to it")
+        .help("write `BOOL`");
     return elementaryType(TypeKind::error);
   }
   if (symbol->kind == SymbolKind::type) {
@@ -458,8 +491,13 @@ const Type *Checker::typeOf(VarSymbol *variable) {
   openArrayAllowed_ = variable->section == Section::inOut ? variable->decl->type : nullptr;
   const Symbol *home =
       variable->owner != nullptr ? static_cast<const Symbol *>(variable->owner) : variable->globals;
-  const Type *type = resolveType(variable->decl->type, std::string(home->name.text) + "__" +
-                                                           std::string(variable->name.text));
+  const std::string hint = std::string(home->name.text) + "__" + std::string(variable->name.text);
+  const bool ofBlock =
+      variable->owner != nullptr && variable->owner->isBlock() &&
+      (variable->section == Section::local || variable->section == Section::input ||
+       variable->section == Section::output);
+  const Type *type =
+      ofBlock ? resolveMember(variable, hint) : resolveType(variable->decl->type, hint);
   programTypes_ = false;
   if (variable->type == nullptr)
     variable->type = type;

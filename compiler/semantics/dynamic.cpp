@@ -1,4 +1,4 @@
-// __NEW and __DELETE.
+// __NEW, __DELETE and INI.
 
 #include "compiler/semantics/checker.hpp"
 
@@ -79,6 +79,35 @@ const Type *Checker::checkDelete(CallExpr *expr) {
     return bad;
   program_.usesPool = true;
   return elementaryType(TypeKind::none);
+}
+
+const Type *Checker::checkIni(CallExpr *expr) {
+  const Type *bad = elementaryType(TypeKind::error);
+  if (!requireCount(expr, 2, 2))
+    return bad;
+  Expr *instance = expr->arguments[0].value;
+  const Type *type = instance->type;
+  while (type->kind == TypeKind::array)
+    type = typeAs<ArrayType>(type)->element;
+  if (type->kind != TypeKind::functionBlock && type->kind != TypeKind::structure) {
+    auto &d =
+        report(Code::wrongArgumentType, instance->span,
+               "`INI` needs the instance of a function block here, not " + typeName(instance->type),
+               "expected an instance");
+    if (type->kind == TypeKind::pointer)
+      d.help("write `^` behind the pointer: what it points to is initialised");
+    else if (type->kind == TypeKind::program)
+      d.help("a PROGRAM is initialised when the application starts; name one of its instances");
+    else
+      d.help("assign the initial value: `x := 0;`");
+    return bad;
+  }
+  if (!requireVariable(instance, "initialise"))
+    return bad;
+  if (type->kind == TypeKind::functionBlock)
+    declare(typeAs<PouType>(type)->symbol);
+  coerce(expr->arguments[1].value, elementaryType(TypeKind::boolean), "the second argument of INI");
+  return elementaryType(TypeKind::boolean);
 }
 
 } // namespace stc

@@ -13,7 +13,16 @@ using namespace ast;
 bool isLiteral(const Expr *expr) {
   switch (expr->kind) {
   case ExprKind::literal:
+  case ExprKind::enumLiteral:
     return true;
+  case ExprKind::name: {
+    const Symbol *symbol = as<NameExpr>(expr)->symbol;
+    return symbol != nullptr && symbol->kind == SymbolKind::enumerator;
+  }
+  case ExprKind::member: {
+    const Symbol *symbol = as<MemberExpr>(expr)->symbol;
+    return symbol != nullptr && symbol->kind == SymbolKind::enumerator;
+  }
   case ExprKind::unary:
     return isLiteral(as<UnaryExpr>(expr)->operand);
   case ExprKind::binary:
@@ -102,7 +111,9 @@ bool Linter::statement(Stmt *stmt) {
     return true;
   case StmtKind::call: {
     Expr *expr = as<CallStmt>(stmt)->expr;
+    statementCall_ = expr;
     read(expr);
+    statementCall_ = nullptr;
     if (expr->kind == ExprKind::call) {
       const auto *call = as<CallExpr>(expr);
       ignored_.push_back(call);

@@ -87,7 +87,7 @@ bool carriesTypeId(const PouSymbol *pou) {
     return true;
   // The layout of a library's block does not depend on who uses it.
   return pou->library != nullptr && pou->library->isUser
-             ? pou->extended
+             ? pou->extended || pou->isAbstract()
              : !pou->methods.empty() || pou->isAbstract();
 }
 
@@ -145,7 +145,9 @@ bool isDispatched(const PouSymbol *method) {
       method->decl->access == ast::Access::privateA || method->name.id->lower == "fb_init" ||
       method->name.id->lower == "fb_exit" || method->name.id->lower == "fb_reinit")
     return false;
-  return owner->library->isUser ? method->overridden : hasTypeId(owner);
+  if (!owner->library->isUser)
+    return hasTypeId(owner);
+  return method->overridden || method->isAbstract();
 }
 
 bool isBodyDispatched(const PouSymbol *block) {

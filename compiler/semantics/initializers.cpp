@@ -2,7 +2,6 @@
 
 #include "compiler/semantics/checker.hpp"
 #include "compiler/semantics/fold.hpp"
-#include "compiler/semantics/suggest.hpp"
 
 namespace stc {
 
@@ -301,9 +300,7 @@ void Checker::checkFieldInit(AggregateExpr *init, const Type *type) {
           report(Code::unknownMember, item.field.span,
                  "`" + typeName(type) + "` has no member `" + std::string(item.field.text) + "`",
                  "unknown member");
-      const auto similar = nearest(item.field.text, memberNames(type));
-      if (!similar.empty())
-        d.help("a similar one exists: `" + std::string(similar) + "`");
+      helpMembers(d, item.field, memberNames(type));
       if (item.value != nullptr && item.value->kind != ExprKind::aggregate)
         check(item.value);
       continue;

@@ -79,6 +79,10 @@ void Linter::run(Library &library) {
       markUsed(v->type);
     }
   }
+  for (const SlotPlace &slot : program_.slotPlaces)
+    usePath(slot.path, slot.variable);
+  for (const AccessPath &access : program_.accessPaths)
+    usePath(access.path, nullptr);
   for (const Body &body : bodies_) {
     reportVariables(body);
     reportResults(body);
@@ -87,6 +91,19 @@ void Linter::run(Library &library) {
   reportIgnored();
   if (program_.diagnostics.wants(Code::unusedPou))
     reportUnusedPous(library);
+}
+
+/// VAR_CONFIG and VAR_ACCESS reach what nothing else may name.
+void Linter::usePath(const StatePath &path, const VarSymbol *end) {
+  const auto mark = [this](const VarSymbol *v) { usedOutside_.insert(v); };
+  if (path.root != nullptr && path.root->kind == SymbolKind::variable)
+    mark(static_cast<const VarSymbol *>(path.root));
+  for (const PathStep &step : path.steps) {
+    if (step.member != nullptr)
+      mark(step.member);
+  }
+  if (end != nullptr)
+    mark(end);
 }
 
 void Linter::walk(PouDecl *decl, PouDecl *owner, PouSymbol *pou) {
@@ -148,8 +165,23 @@ void Linter::typeExpr(TypeExpr *type) {
     read(as<SubrangeTypeExpr>(type)->low);
     read(as<SubrangeTypeExpr>(type)->high);
     break;
+  case TypeExprKind::named: {
+    auto *named = as<NamedTypeExpr>(type);
+    construct(named->arguments);
+    for (const std::span<Argument> arguments : named->elements)
+      construct(arguments);
+    break;
+  }
   default:
     break;
+  }
+}
+
+/// The inputs of FB_Init.
+void Linter::construct(std::span<Argument> arguments) {
+  for (const Argument &argument : arguments) {
+    if (argument.value != nullptr)
+      initial(argument.value); // interfaces and references keep the variable
   }
 }
 
@@ -347,6 +379,8 @@ void Linter::write(Expr *target) {
       read(i);
     if (index->base->kind == ExprKind::member || index->base->kind == ExprKind::index)
       write(index->base);
+    else if (index->base->kind != ExprKind::name)
+      read(index->base);
     break;
   }
   case ExprKind::deref:
@@ -399,6 +433,8 @@ void Linter::call(CallExpr *expr) {
       body.calls.push_back(expr);
   } else if (!builtin) {
     body.sideEffects = true;
+    if (expr->resolved == Callee::method && expr->pou != nullptr && expr != statementCall_)
+      resultsTaken_.insert(expr->pou->name.id);
     if (VarSymbol *root = rootVariable(expr->callee))
       use(root, useCalled | useRead, expr->callee);
     read(expr->callee);
@@ -406,6 +442,8 @@ void Linter::call(CallExpr *expr) {
   const bool pureBuiltin = builtin && onlyReads(expr->builtin);
   if (builtin && (expr->builtin == Builtin::shl || expr->builtin == Builtin::shr))
     shift(expr);
+  if (builtin && (expr->builtin == Builtin::convert || expr->builtin == Builtin::trunc))
+    saturation(expr);
   for (Argument &argument : expr->arguments) {
     if (argument.value == nullptr)
       continue;

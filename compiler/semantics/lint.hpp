@@ -50,7 +50,9 @@ private:
   void walk(ast::PouDecl *decl, ast::PouDecl *owner, PouSymbol *pou);
   void declarations(std::span<ast::VarDecl *const> variables);
   void typeExpr(ast::TypeExpr *type);
+  void construct(std::span<ast::Argument> arguments);
   void initial(ast::Expr *init);
+  void usePath(const StatePath &path, const VarSymbol *end);
   void read(ast::Expr *expr);
   void readBinary(ast::BinaryExpr *expr);
   void write(ast::Expr *target);
@@ -97,6 +99,7 @@ private:
   void comparison(const ast::BinaryExpr *expr);
   void sameOperands(const ast::BinaryExpr *expr);
   void shift(const ast::CallExpr *expr);
+  void saturation(const ast::CallExpr *expr);
   void conversion(const ast::Expr *expr);
 
   Diagnostic &report(Code code, Span where, std::string message, std::string label = {}) {
@@ -110,6 +113,8 @@ private:
   std::unordered_set<const ast::PouDecl *> walked_;
   std::unordered_set<const ast::PouDecl *> resultsWritten_;
   std::unordered_set<const PouSymbol *> usedPous_;
+  std::unordered_set<const VarSymbol *> usedOutside_; ///< by VAR_CONFIG and VAR_ACCESS
+  std::unordered_set<Ident> resultsTaken_; ///< names of methods whose result somebody takes
   std::unordered_set<const Type *> usedTypes_;
   std::unordered_map<const ast::PouDecl *, std::size_t> bodyOf_;
   std::vector<const ast::CallExpr *> ignored_; ///< calls of functions whose result nobody takes
@@ -122,6 +127,7 @@ private:
   std::vector<ast::BinaryExpr *> chain_;
 
   // While a body is walked.
+  const ast::Expr *statementCall_ = nullptr; ///< the call that is a statement of its own
   std::vector<Loop *> loops_;
   std::vector<const ast::ForStmt *> fors_;
   std::uint32_t writes_ = 0;    ///< counts writes, so that "since" can be asked

@@ -93,6 +93,22 @@ const BinaryExpr *integerDivision(const Expr *expr) {
 
 } // namespace
 
+namespace {
+
+/// All values of an integer type of up to 63 bits, of LINT too.
+std::optional<ValueRange> typeRange(const Type *type) {
+  if (type->kind == TypeKind::anyInteger || type->kind == TypeKind::ulint ||
+      type->kind == TypeKind::lword)
+    return std::nullopt;
+  const unsigned bits = bitWidth(type);
+  if (isSignedInteger(type))
+    return ValueRange{bits == 64 ? INT64_MIN : -(std::int64_t{1} << (bits - 1)),
+                      bits == 64 ? INT64_MAX : (std::int64_t{1} << (bits - 1)) - 1};
+  return ValueRange{0, (std::int64_t{1} << bits) - 1};
+}
+
+} // namespace
+
 std::optional<ValueRange> valueRange(const Expr *expr) {
   if (expr->type == nullptr || !isWhole(expr->type) || expr->constant != nullptr)
     return std::nullopt;
@@ -110,20 +126,13 @@ std::optional<ValueRange> valueRange(const Expr *expr) {
     }
   }
   const Type *type = expr->type;
-  if (type->kind == TypeKind::anyInteger || type->kind == TypeKind::ulint ||
-      type->kind == TypeKind::lword)
-    return std::nullopt;
   if (type->kind == TypeKind::subrange) {
     const auto *sub = typeAs<SubrangeType>(type);
     if (bitWidth(sub) == 64)
       return std::nullopt;
     return ValueRange{sub->low, sub->high};
   }
-  const unsigned bits = bitWidth(type);
-  if (isSignedInteger(type))
-    return ValueRange{bits == 64 ? INT64_MIN : -(std::int64_t{1} << (bits - 1)),
-                      bits == 64 ? INT64_MAX : (std::int64_t{1} << (bits - 1)) - 1};
-  return ValueRange{0, (std::int64_t{1} << bits) - 1};
+  return typeRange(type);
 }
 
 void Linter::comparison(const BinaryExpr *expr) {
@@ -218,6 +227,31 @@ void Linter::shift(const CallExpr *expr) {
          n < 0 ? "counts are 0 to " + std::to_string(bits - 1) : "shifts out all of them")
       .help(n < 0 ? "shift in the other direction with SHL or SHR"
                   : "convert the value to a wider type first");
+}
+
+void Linter::saturation(const CallExpr *expr) {
+  if (expr->type == nullptr || !isInteger(expr->type) || expr->arguments.size() != 1)
+    return;
+  const Expr *value = expr->arguments[0].value;
+  if (value == nullptr || value->constant == nullptr || value->constant->kind != ConstKind::real)
+    return;
+  const bool cuts = expr->builtin == Builtin::trunc;
+  const double whole = cuts ? std::trunc(value->constant->real) : std::round(value->constant->real);
+  const std::optional<ValueRange> range = typeRange(expr->type);
+  const bool below = range ? whole < static_cast<double>(range->low) : whole < 0;
+  // 2^63 and 2^64 are doubles, the largest LINT and ULINT are not.
+  const bool above = !range                     ? whole >= 18446744073709551616.0
+                     : range->high == INT64_MAX ? whole >= 9223372036854775808.0
+                                                : whole > static_cast<double>(range->high);
+  if (!below && !above)
+    return;
+  const std::string low = range ? std::to_string(range->low) : "0";
+  const std::string high = range ? std::to_string(range->high) : std::to_string(UINT64_MAX);
+  report(Code::constantSaturates, value->span,
+         "`" + text(value->span) + "` is outside of " + typeName(expr->type),
+         "becomes " + (below ? low : high))
+      .note(typeName(expr->type) + " holds " + low + " to " + high)
+      .help("convert to a wider type, or use a value that fits");
 }
 
 void Linter::conversion(const Expr *expr) {

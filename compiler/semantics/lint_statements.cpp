@@ -117,7 +117,8 @@ void Linter::ifChain(const IfStmt *stmt) {
 
 void Linter::missingCases(const CaseStmt *stmt) {
   const Type *type = stmt->selector->type;
-  if (stmt->hasElse || type == nullptr || type->kind != TypeKind::enumeration)
+  if (stmt->hasElse || stmt->selector->constant != nullptr || type == nullptr ||
+      type->kind != TypeKind::enumeration)
     return;
   const auto *enumeration = typeAs<EnumType>(type);
   std::vector<const EnumeratorSymbol *> missing;
@@ -178,7 +179,13 @@ void Linter::missingCases(const CaseStmt *stmt) {
 }
 
 void Linter::unreachableCases(const CaseStmt *stmt) {
-  const std::optional<ValueRange> range = valueRange(stmt->selector);
+  std::optional<ValueRange> range = valueRange(stmt->selector);
+  const ConstValue *constant = stmt->selector->constant;
+  // The name of a constant may be a switch that is meant to be turned.
+  const bool fixed =
+      constant != nullptr && constant->kind == ConstKind::integer && isLiteral(stmt->selector);
+  if (fixed)
+    range = ValueRange{constant->integer, constant->integer};
   if (!range)
     return;
   for (const CaseBranch &branch : stmt->branches) {
@@ -193,8 +200,9 @@ void Linter::unreachableCases(const CaseStmt *stmt) {
         continue;
       report(Code::unreachableCase, label.span, "this CASE value never occurs",
              "the selector is never " + text(label.span))
-          .label(stmt->selector->span,
-                 "gives " + std::to_string(range->low) + " to " + std::to_string(range->high));
+          .label(stmt->selector->span, fixed ? "is always " + text(stmt->selector->span)
+                                             : "gives " + std::to_string(range->low) + " to " +
+                                                   std::to_string(range->high));
     }
   }
 }

@@ -2,7 +2,6 @@
 
 #include "compiler/semantics/locations.hpp"
 #include "compiler/semantics/checker.hpp"
-#include "compiler/semantics/extent.hpp"
 
 #include <algorithm>
 
@@ -100,8 +99,16 @@ const Location *locationOf(const Expr *expr) {
   return variable == nullptr ? nullptr : variable->location;
 }
 
+bool isBitField(const Expr *expr) {
+  const Symbol *symbol = expr->kind == ExprKind::name     ? as<NameExpr>(expr)->symbol
+                         : expr->kind == ExprKind::member ? as<MemberExpr>(expr)->symbol
+                                                          : nullptr;
+  return symbol != nullptr && symbol->kind == SymbolKind::variable &&
+         static_cast<const VarSymbol *>(symbol)->isBit;
+}
+
 bool isBitPlace(const Expr *expr) {
-  if (expr->kind == ExprKind::member && as<MemberExpr>(expr)->bit >= 0)
+  if ((expr->kind == ExprKind::member && as<MemberExpr>(expr)->bit >= 0) || isBitField(expr))
     return true;
   const Location *at = locationOf(expr);
   return at != nullptr && at->bit >= 0;
@@ -275,7 +282,7 @@ void Checker::placeVariable(VarSymbol *variable) {
     return;
   }
   const bool isBool = type->kind == TypeKind::boolean;
-  const std::uint64_t bytes = extentOf(type).size;
+  const std::uint64_t bytes = storage_.of(type).size;
   // A letter behind `%I` is optional in front of `*`.
   const bool letter = !address.incomplete || (address.text.size() > 2 && address.text[2] != '*');
   const auto place = letter ? locateType(variable, bytes, isBool) : true;

@@ -22,5 +22,7 @@ namespace stc {
 [[nodiscard]] const Location *locationOf(const ast::Expr *expr);
 /// A bit or a part of a variable, which has no address: `w.3`, `w.%B1`, `%IX0.3`, `x AT %IX0.3`.
 [[nodiscard]] bool isBitPlace(const ast::Expr *expr);
+/// A variable declared as BIT: a bit place too, but one that C++ reads and writes itself.
+[[nodiscard]] bool isBitField(const ast::Expr *expr);
 
 } // namespace stc

@@ -15,7 +15,8 @@ using namespace ast;
 
 namespace {
 
-constexpr std::size_t kMaxErrors = 100;
+/// How many are shown is up to the command; this only bounds what is kept.
+constexpr std::size_t kMaxErrors = 1000;
 constexpr std::uint32_t kVarGlobal = 10; // letters
 
 } // namespace
@@ -143,10 +144,8 @@ void Checker::declareFile(Module &module, File *file) {
       for (const ResourceDecl &resource : as<ConfigurationDecl>(decl)->resources)
         resourceNames_.insert(resource.name.id);
       break;
-    case DeclKind::method:
+    case DeclKind::method: // they stand in their blocks
     case DeclKind::action:
-      report(Code::unsupported, decl->span, "this declaration is not supported by this version",
-             "not available");
       break;
     }
   }

@@ -207,16 +207,6 @@ std::vector<std::string_view> Checker::memberNames(const Type *type) {
 
 namespace {
 
-/// Words of the language that later versions understand.
-bool isLaterWord(std::string_view lower) {
-  static constexpr std::string_view kWords[] = {"ini"};
-  return std::find(std::begin(kWords), std::end(kWords), lower) != std::end(kWords);
-}
-
-} // namespace
-
-namespace {
-
 struct Word {
   std::string_view theirs;
   std::string_view ours;
@@ -299,11 +289,6 @@ void Checker::reportUnknown(const Name &name, bool asType) {
       return; // one missing declaration is one mistake
     if (reportSelf(name))
       return;
-    if (isLaterWord(name.id->lower)) {
-      report(Code::unsupported, name.span,
-             "`" + std::string(name.text) + "` is not supported by this version", "not available");
-      return;
-    }
   }
   auto &d =
       asType ? report(Code::unknownType, name.span,

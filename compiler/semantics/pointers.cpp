@@ -145,11 +145,18 @@ bool Checker::coercePointer(Expr *expr, const Type *type, std::string_view what)
   const bool null = expr->constant != nullptr && expr->constant->integer == 0;
   if (toPointer && ((isInteger(underlying(from)) && (null || bitWidth(from) >= 32)) ||
                     from->kind == TypeKind::anyInteger)) {
-    if (!null)
-      report(Code::pointerFromInteger, expr->span,
-             prefix + "a number becomes an address: " + typeName(from) + " to " + typeName(type),
-             "nothing says that there is a variable at this address")
-          .help("keep the address in a variable of type `" + typeName(type) + "`");
+    if (!null) {
+      auto &d = report(Code::pointerFromInteger, expr->span,
+                       prefix + "a number becomes an address: " + typeName(from) + " to " +
+                           typeName(type),
+                       "nothing says that there is a variable at this address");
+      const std::string source(program_.sources.text(expr->span));
+      if (from == typeAs<PointerType>(type)->pointee && expr->kind == ExprKind::name)
+        d.suggest("take the address of `" + source + "`: `ADR(" + source + ")`", expr->span,
+                  "ADR(" + source + ")");
+      else
+        d.help("keep the address in a variable of type `" + typeName(type) + "`");
+    }
     setTarget(expr, type);
     return true;
   }

@@ -2,55 +2,134 @@
 // variables, and calling the function anyway is an error that says so.
 
 #include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/hierarchy.hpp"
+
+#include <algorithm>
 
 namespace stc {
 
 using namespace ast;
 
+namespace {
+
+/// Whether the text of a library file declares a FUNCTION of that name. Blocks and types do not
+/// count: a variable of the same name (`tp : TP`) takes nothing away.
+bool declaresFunction(std::string_view text, std::string_view lowerName) {
+  constexpr std::string_view kWord = "FUNCTION ";
+  for (std::size_t at = text.find(kWord); at != std::string_view::npos;
+       at = text.find(kWord, at + 1)) {
+    const std::string_view name = text.substr(at + kWord.size(), lowerName.size() + 1);
+    if ((at == 0 || text[at - 1] == '\n') && name.size() > lowerName.size() &&
+        std::equal(lowerName.begin(), lowerName.end(), name.begin(),
+                   [](char wanted, char c) { return wanted == lowerCase(c); }) &&
+        (name.back() == ' ' || name.back() == ':' || name.back() == '\n'))
+      return true;
+  }
+  return false;
+}
+
+} // namespace
+
+Diagnostic &Checker::reportHidden(const VarSymbol *v, const Symbol *hidden,
+                                  const std::string &what) {
+  auto &d = report(Code::shadowedName, v->name.span,
+                   "`" + std::string(v->name.text) + "` hides " + what, "declared again here");
+  if (hidden != nullptr && hidden->name.span.valid())
+    d.label(hidden->name.span, "this one cannot be reached by its plain name");
+  return d;
+}
+
 void Checker::checkShadowing(Module &module) {
   if (!program_.diagnostics.wants(Code::shadowedName))
     return;
-  const auto hides = [&](const VarSymbol *v, const Symbol *hidden, const std::string &what,
-                         std::string help) {
-    auto &d = report(Code::shadowedName, v->name.span,
-                     "`" + std::string(v->name.text) + "` hides " + what, "declared again here");
-    if (hidden->name.span.valid())
-      d.label(hidden->name.span, "this one cannot be reached by its plain name");
-    d.help(std::move(help));
+  const auto look = [&](const PouSymbol *pou) {
+    for (const VarSymbol *v : pou->variables) {
+      if (v->hidden || v->decl == nullptr || v->section == Section::external || !v->storage.empty())
+        continue;
+      if (pou->isMethod())
+        checkHiddenMember(pou, v);
+      else
+        checkHidden(module, pou, v);
+    }
   };
   for (const PouSymbol *pou : module.library->pous) {
-    for (const VarSymbol *v : pou->variables) {
-      if (v->hidden || v->decl == nullptr || v->section == Section::external)
-        continue;
-      const std::string name(v->name.text);
-      // Inputs and outputs are named for the caller, so only what the body could mean counts.
-      if (const auto it = module.names.find(v->name.id); it != module.names.end()) {
-        const Symbol *symbol = it->second;
-        if (symbol->kind == SymbolKind::variable) {
-          const auto *global = static_cast<const VarSymbol *>(symbol);
-          if (global->decl != nullptr &&
-              program_.sources.file(global->name.span.file).name().front() == '<')
-            continue; // a drive of the PLC configuration
-          hides(v, symbol, "the global variable of the same name",
-                global->globals == nullptr ? std::string("give one of them another name")
+    look(pou);
+    for (const PouSymbol *method : pou->methods)
+      look(method);
+  }
+}
+
+/// What a variable of a method hides of its block, the block's bases included.
+void Checker::checkHiddenMember(const PouSymbol *method, const VarSymbol *v) {
+  const PouSymbol *owner = method->owner;
+  if (owner->isInterface() || (method->decl->modifiers & modAbstract) != 0 ||
+      throughSelf_.contains({method, v->name.id})) // `THIS^.speed := speed` knows both
+    return;
+  const std::string name(v->name.text);
+  const std::string help =
+      "give one of them another name, or write `THIS^." + name + "` for the one of the block";
+  for (const PouSymbol *block = owner; block != nullptr; block = block->base) {
+    const auto it = block->scope.find(v->name.id);
+    if (it == block->scope.end() || it->second->isResult || it->second->section == Section::temp ||
+        it->second->hidden)
+      continue;
+    const VarSymbol *member = it->second;
+    if (block != owner && member->decl != nullptr && member->decl->access == Access::privateA)
+      continue;
+    reportHidden(v, member,
+                 block == owner
+                     ? "the variable of the block"
+                     : "the variable inherited from `" + std::string(block->name.text) + "`")
+        .help(help);
+    return;
+  }
+  // `METHOD MoveTo VAR_INPUT position …` beside PROPERTY Position is named for the caller.
+  const bool parameter =
+      v->section == Section::input || v->section == Section::output || v->section == Section::inOut;
+  if (const Symbol *member = memberNamed(owner, v->name.id);
+      member != nullptr && member->kind == SymbolKind::property && member != method->property &&
+      !parameter)
+    reportHidden(v, member, "the property of the same name").help(help);
+}
+
+/// Inputs and outputs are named for the caller, so only what the body could mean counts.
+void Checker::checkHidden(Module &module, const PouSymbol *pou, const VarSymbol *v) {
+  const std::string name(v->name.text);
+  if (const auto it = module.names.find(v->name.id); it != module.names.end()) {
+    const Symbol *symbol = it->second;
+    if (symbol->kind == SymbolKind::variable) {
+      const auto *global = static_cast<const VarSymbol *>(symbol);
+      if (global->decl != nullptr &&
+          program_.sources.file(global->name.span.file).name().front() == '<')
+        return; // a drive of the PLC configuration
+      reportHidden(v, symbol, "the global variable of the same name")
+          .help(global->globals == nullptr ? std::string("give one of them another name")
                                            : "give one of them another name, or write `" +
                                                  std::string(global->globals->name.text) + "." +
                                                  name + "` for the global one");
-        } else if (symbol->kind == SymbolKind::pou && symbol != pou &&
-                   static_cast<const PouSymbol *>(symbol)->decl->kind != DeclKind::functionBlock) {
-          const bool function = static_cast<const PouSymbol *>(symbol)->isFunction();
-          hides(v, symbol,
-                function ? "the function of the same name" : "the program of the same name",
-                "give one of them another name");
-        }
-      } else if (const auto e = module.enumerators.find(v->name.id);
-                 e != module.enumerators.end()) {
-        const EnumeratorSymbol *enumerator = e->second.front();
-        hides(v, enumerator, "the enumerator of `" + typeName(enumerator->type) + "`",
-              "give the variable another name, or write `" + typeName(enumerator->type) + "." +
-                  name + "` for the enumerator");
-      }
+    } else if (symbol->kind == SymbolKind::pou && symbol != pou &&
+               static_cast<const PouSymbol *>(symbol)->decl->kind != DeclKind::functionBlock) {
+      const bool function = static_cast<const PouSymbol *>(symbol)->isFunction();
+      reportHidden(v, symbol,
+                   function ? "the function of the same name" : "the program of the same name")
+          .help("give one of them another name");
     }
+    return;
+  }
+  if (const auto e = module.enumerators.find(v->name.id); e != module.enumerators.end()) {
+    const EnumeratorSymbol *enumerator = e->second.front();
+    reportHidden(v, enumerator, "the enumerator of `" + typeName(enumerator->type) + "`")
+        .help("give the variable another name, or write `" + typeName(enumerator->type) + "." +
+              name + "` for the enumerator");
+    return;
+  }
+  for (const LibraryIndex::Entry &entry : index_.find(v->name.id->lower)) {
+    if (!declaresFunction(entry.text, v->name.id->lower))
+      continue;
+    const std::string library(entry.library);
+    reportHidden(v, nullptr, "the function of the library `" + library + "`")
+        .help("give it another name, or write `" + library + "." + name + "(…)` for the function");
+    return;
   }
 }
 

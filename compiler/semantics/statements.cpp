@@ -1,6 +1,7 @@
 // Statements and bodies.
 
 #include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
 
 #include <map>
@@ -36,6 +37,38 @@ void Checker::checkBlock(Block block) {
     checkStatement(stmt);
 }
 
+/// `Visu;` and `fb.Rewind;` call a program and an action, as in V2.3; null: this is no such call.
+CallExpr *Checker::bareCall(Expr *expr) {
+  const Symbol *symbol = nullptr;
+  if (expr->kind == ExprKind::name) {
+    symbol = lookup(as<NameExpr>(expr)->name);
+  } else if (expr->kind == ExprKind::member && as<MemberExpr>(expr)->bit < 0 &&
+             as<MemberExpr>(expr)->base->kind == ExprKind::name) {
+    const auto *member = as<MemberExpr>(expr);
+    Symbol *base = lookup(as<NameExpr>(member->base)->name);
+    const Type *type = nullptr;
+    if (base != nullptr && base->kind == SymbolKind::variable)
+      type = typeOf(static_cast<VarSymbol *>(base));
+    else if (base != nullptr && base->kind == SymbolKind::pou)
+      type = static_cast<PouSymbol *>(base)->type;
+    if (type == nullptr || !isInstance(type))
+      return nullptr;
+    PouSymbol *owner = typeAs<PouType>(type)->symbol;
+    declare(owner);
+    symbol = memberNamed(owner, member->name.id);
+  }
+  if (symbol == nullptr || symbol->kind != SymbolKind::pou)
+    return nullptr;
+  const DeclKind kind = static_cast<const PouSymbol *>(symbol)->decl->kind;
+  if (kind != DeclKind::program && kind != DeclKind::action)
+    return nullptr;
+  auto *call = arena_.make<CallExpr>();
+  call->kind = ExprKind::call;
+  call->span = expr->span;
+  call->callee = expr;
+  return call;
+}
+
 void Checker::checkStatement(Stmt *stmt) {
   switch (stmt->kind) {
   case StmtKind::empty:
@@ -48,6 +81,9 @@ void Checker::checkStatement(Stmt *stmt) {
     Expr *expr = as<CallStmt>(stmt)->expr;
     if (expr->kind == ExprKind::call) {
       expr->type = checkCall(as<CallExpr>(expr), true);
+    } else if (CallExpr *call = bareCall(expr)) {
+      as<CallStmt>(stmt)->expr = call;
+      call->type = checkCall(call, true);
     } else if (expr->kind != ExprKind::error) {
       check(expr);
       if (isError(expr->type))

@@ -1,6 +1,6 @@
 #include "compiler/semantics/storage.hpp"
 
-#include "compiler/semantics/extent.hpp"
+#include "compiler/semantics/alignment.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
 #include <algorithm>
@@ -13,7 +13,16 @@ std::uint64_t Storage::Layout::add(StorageExtent member) {
   const std::uint64_t at = (extent.size + member.align - 1) / member.align * member.align;
   extent.size = at + member.size;
   extent.align = std::max(extent.align, member.align);
+  bits = 0;
   return at;
+}
+
+std::uint64_t Storage::Layout::addBit() {
+  constexpr unsigned kBitsOfByte = 8;
+  if (bits == 0 || bits == kBitsOfByte)
+    add({1, 1});
+  ++bits;
+  return extent.size - 1;
 }
 
 StorageExtent Storage::Layout::finish() const {
@@ -42,7 +51,7 @@ StorageExtent Storage::field(const VarSymbol *v) {
   return of(v->type);
 }
 
-Storage::Layout Storage::members(const Type *owner, const VarSymbol *until, std::uint64_t &offset) {
+Storage::Layout Storage::members(const Type *owner, const VarSymbol *until, BitPlace &place) {
   Layout layout;
   layout.pack = packOf(owner);
   const bool isUnion = owner->kind == TypeKind::structure && typeAs<StructType>(owner)->isUnion;
@@ -53,9 +62,9 @@ Storage::Layout Storage::members(const Type *owner, const VarSymbol *until, std:
       layout.extent.align = std::max(layout.extent.align, member.align);
       return;
     }
-    const std::uint64_t at = layout.add(field(v));
+    const std::uint64_t at = v->isBit ? layout.addBit() : layout.add(field(v));
     if (v == until)
-      offset = at;
+      place = {at, v->isBit ? layout.bits - 1 : 0};
   };
   if (owner->kind == TypeKind::structure) {
     const auto *s = typeAs<StructType>(owner);
@@ -78,9 +87,13 @@ Storage::Layout Storage::members(const Type *owner, const VarSymbol *until, std:
 }
 
 std::uint64_t Storage::offset(const Type *owner, const VarSymbol *field) {
-  std::uint64_t result = 0;
-  members(owner, field, result);
-  return result;
+  return bit(owner, field).byte;
+}
+
+Storage::BitPlace Storage::bit(const Type *owner, const VarSymbol *field) {
+  BitPlace place{};
+  members(owner, field, place);
+  return place;
 }
 
 StorageExtent Storage::compute(const Type *type) {
@@ -101,7 +114,7 @@ StorageExtent Storage::compute(const Type *type) {
   case TypeKind::structure:
   case TypeKind::functionBlock:
   case TypeKind::program: {
-    std::uint64_t ignored = 0;
+    BitPlace ignored{};
     return members(type, nullptr, ignored).finish();
   }
   default: {

@@ -40,18 +40,27 @@ public:
   [[nodiscard]] StorageExtent of(const Type *type);
   /// Where a field lies in its structure, block or program (its own fields, not those of a base).
   [[nodiscard]] std::uint64_t offset(const Type *owner, const VarSymbol *field);
+  /// The same of a BIT, and its number in the byte.
+  struct BitPlace {
+    std::uint64_t byte;
+    unsigned bit;
+  };
+  [[nodiscard]] BitPlace bit(const Type *owner, const VarSymbol *field);
 
 private:
   /// Puts members behind each other.
   struct Layout {
     StorageExtent extent{0, 1};
     std::uint64_t pack = 0; ///< largest alignment of members; 0: natural
+    unsigned bits = 0;      ///< of the last byte that are taken by BIT; 0: it is none of theirs
     std::uint64_t add(StorageExtent member);
+    /// A BIT: in the byte of the one before it, when that has a bit left.
+    std::uint64_t addBit();
     [[nodiscard]] StorageExtent finish() const;
   };
   StorageExtent compute(const Type *type);
   StorageExtent field(const VarSymbol *v);
-  Layout members(const Type *owner, const VarSymbol *until, std::uint64_t &offset);
+  Layout members(const Type *owner, const VarSymbol *until, BitPlace &place);
 
   std::unordered_map<const Type *, StorageExtent> known_;
 };

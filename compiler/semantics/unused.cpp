@@ -16,6 +16,20 @@ bool isLifecycle(const PouDecl *decl) {
   return name == "fb_init" || name == "fb_exit" || name == "fb_reinit";
 }
 
+/// Instances whose FB_Init or FB_Exit does something need no other use.
+bool doesSomethingItself(const Type *type) {
+  while (type->kind == TypeKind::array)
+    type = typeAs<ArrayType>(type)->element;
+  if (type->kind != TypeKind::functionBlock)
+    return false;
+  for (const PouSymbol *pou = typeAs<PouType>(type)->symbol; pou != nullptr; pou = pou->base) {
+    if (std::any_of(pou->methods.begin(), pou->methods.end(),
+                    [](const PouSymbol *method) { return isLifecycle(method->decl); }))
+      return true;
+  }
+  return false;
+}
+
 /// Local variables end with the call, so nobody can see them from outside.
 bool endsWithCall(const PouDecl *decl, const VarSymbol *v) {
   return v->section == Section::temp ||
@@ -52,8 +66,8 @@ void Linter::reportVariables(const Body &body) {
 }
 
 void Linter::reportVariable(const Body &body, VarSymbol *v) {
-  if (v->hidden || v->decl->address != nullptr || v->decl->access == Access::publicA ||
-      !v->decl->attributes.empty())
+  if (usedOutside_.contains(v) || v->hidden || v->decl->address != nullptr ||
+      v->decl->access == Access::publicA || !v->decl->attributes.empty())
     return;
   const PouDecl *decl = body.decl;
   const std::string name(v->name.text);
@@ -64,7 +78,7 @@ void Linter::reportVariable(const Body &body, VarSymbol *v) {
   case Section::temp:
   case Section::stat:
   case Section::instance:
-    if (v->uses == 0)
+    if (v->uses == 0 && !doesSomethingItself(v->type))
       report(Code::unusedVariable, v->name.span, "`" + name + "` is never used", "only declared")
           .help("remove the declaration");
     else if (endsWithCall(decl, v) && (v->uses & useRead) == 0 && isElementary(v->type))
@@ -76,7 +90,9 @@ void Linter::reportVariable(const Body &body, VarSymbol *v) {
     const bool free =
         decl == body.owner || (body.owner->interfaces.empty() && !body.pou->extended &&
                                body.owner->base.empty() && (decl->modifiers & modOverride) == 0);
-    if (filled && hasBody(decl) && free && !isLifecycle(decl))
+    const auto &checks = program_.implicitChecks; // their inputs are prescribed
+    const bool isCheck = std::find(checks.begin(), checks.end(), body.pou) != checks.end();
+    if (filled && hasBody(decl) && free && !isLifecycle(decl) && !isCheck)
       reportUnused(body, v);
     break;
   }
@@ -113,6 +129,12 @@ void Linter::reportResults(const Body &body) {
   const PouDecl *decl = body.decl;
   if (decl->returnType == nullptr || decl->external || !hasBody(decl) ||
       (decl->modifiers & modAbstract) != 0 || isLifecycle(decl) || resultsWritten_.contains(decl))
+    return;
+  // Methods get a result type from an interface, or because a tool puts one there.
+  const bool accessor =
+      std::any_of(body.owner->properties.begin(), body.owner->properties.end(),
+                  [decl](const PropertyDecl *property) { return property->get == decl; });
+  if (decl->kind == DeclKind::method && !accessor && !resultsTaken_.contains(decl->name.id))
     return;
   // V2.3 demands a result type also where nobody wants a result.
   if (const auto calls = functionCalls_.find(decl);

@@ -10,8 +10,8 @@ namespace stc {
 const std::vector<CodeInfo> &allCodes() {
   static const std::vector<CodeInfo> codes = [] {
     std::vector<CodeInfo> list = {
-#define STC_DIAGNOSTIC(number, name, severity, title, explain)                                     \
-  {Code::name, Severity::severity, #name, title, explain},
+#define STC_DIAGNOSTIC(number, name, severity, title)                                              \
+  {Code::name, Severity::severity, #name, title},
 #include "compiler/source/diagnostic_codes.def"
 #undef STC_DIAGNOSTIC
     };

@@ -19,10 +19,9 @@ enum class Severity : std::uint8_t {
   error
 };
 
-/// Stable diagnostic codes; the table with default severity, title and explain text is
-/// diagnostic_codes.def.
+/// Stable diagnostic codes; the table with default severity and title is diagnostic_codes.def.
 enum class Code : std::uint16_t {
-#define STC_DIAGNOSTIC(number, name, severity, title, explain) name = number,
+#define STC_DIAGNOSTIC(number, name, severity, title) name = number,
 #include "compiler/source/diagnostic_codes.def"
 #undef STC_DIAGNOSTIC
 };
@@ -31,14 +30,15 @@ enum class Code : std::uint16_t {
 struct CodeInfo {
   Code code;
   Severity severity;
-  std::string_view name;    ///< "unknownMember"
-  std::string_view title;   ///< one line
-  std::string_view explain; ///< a wrong and a right example, Markdown
+  std::string_view name;  ///< "unknownMember"
+  std::string_view title; ///< one line
 };
 
 /// All codes in ascending order.
 [[nodiscard]] const std::vector<CodeInfo> &allCodes();
 [[nodiscard]] const CodeInfo &info(Code code);
+/// Why the code is reported, with a wrong and a right example, Markdown.
+[[nodiscard]] std::string_view explainText(Code code);
 /// "SE0203"
 [[nodiscard]] std::string codeName(Code code);
 /// "unknown-member": the code's name in words.

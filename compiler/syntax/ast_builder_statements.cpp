@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include <algorithm>
+
 namespace stc {
 
 using namespace ast;
@@ -167,14 +169,41 @@ Stmt *AstBuilder::simpleStatement(Context *context) {
     return node;
   }
   std::vector<Expr *> targets{flat(context, 0, operands)};
-  for (std::size_t i = operands; i + 1 < count; ++i)
+  std::vector<const Token *> signs{&sign};
+  for (std::size_t i = operands; i + 1 < count; ++i) {
     targets.push_back(expression(child(context, i)));
+    signs.push_back(&token(last(child(context, i)) + 1));
+  }
   Expr *value = expression(child(context, count - 1));
-  const AssignOp op = sign.type == Tok::SET_ASSIGN     ? AssignOp::set
-                      : sign.type == Tok::RESET_ASSIGN ? AssignOp::reset
-                      : sign.type == Tok::REF_ASSIGN   ? AssignOp::reference
-                                                       : AssignOp::assign;
-  return assignment(op, sign, targets, value);
+  const auto opOf = [](const Token &token) {
+    return token.type == Tok::SET_ASSIGN     ? AssignOp::set
+           : token.type == Tok::RESET_ASSIGN ? AssignOp::reset
+           : token.type == Tok::REF_ASSIGN   ? AssignOp::reference
+                                             : AssignOp::assign;
+  };
+  const bool alike =
+      std::all_of(signs.begin(), signs.end(), [&](const Token *s) { return s->type == sign.type; });
+  if (alike)
+    return assignment(opOf(sign), sign, targets, value);
+  // `a S= b R= x` is IF x THEN a S= TRUE; b R= TRUE; END_IF
+  std::vector<Stmt *> body;
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    auto *yes = arena_.make<Literal>();
+    yes->kind = ExprKind::literal;
+    yes->span = value->span;
+    yes->literal = LiteralKind::boolean;
+    yes->integer = 1;
+    yes->text = "TRUE";
+    body.push_back(assignment(opOf(*signs[i]), *signs[i], {targets[i]}, yes));
+  }
+  auto *node = arena_.make<IfStmt>();
+  node->kind = StmtKind::ifS;
+  node->span = targets.front()->span.to(value->span);
+  IfBranch branch;
+  branch.condition = value;
+  branch.body = arena_.copy(body);
+  node->branches = arena_.copy(std::vector<IfBranch>{branch});
+  return node;
 }
 
 Expr *AstBuilder::condition(Context *context) {

@@ -80,6 +80,7 @@ private:
   void member(OpenPou *owner);
   void method(OpenPou *owner);
   void property(OpenPou *owner);
+  void accessorAccess(ast::Access &access);
   ast::PouDecl *accessor(ast::PropertyDecl *property, bool isSet);
   void lateMember();
   OpenPou *ownerOf(const Head &head, OpenPou *enclosing, ast::Decl *member);

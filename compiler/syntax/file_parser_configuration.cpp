@@ -94,8 +94,19 @@ bool FileParser::resourcePart(std::vector<ast::TaskDecl> &tasks,
       unit_[i].type = Tok::RETAIN;
     else if (i == 1 && nameNext && isWord(word, "non_retain"))
       unit_[i].type = Tok::NON_RETAIN;
-    else if (unit_[i - 1].type == Tok::IDENT && nameNext && isWord(word, "with"))
+    else if (unit_[i - 1].type == Tok::IDENT && isWord(word, "with")) {
+      if (!nameNext) {
+        const Span with{file_.id(), unit_[i].begin, unit_[i].end};
+        diagnostics_
+            .report(Code::expectedToken, with, "the name of a task is missing behind `WITH`",
+                    "which task calls the program?")
+            .help(
+                "write `PROGRAM p WITH Task : Type;` with a TASK of this RESOURCE; without a task "
+                "leave `WITH` out");
+        return true;
+      }
       unit_[i].type = Tok::WITH;
+    }
   }
   auto *unit = parseUnit(&Grammar::instanceUnit);
   if (unit != nullptr && !unit->children.empty())

@@ -385,6 +385,36 @@ void FileParser::method(OpenPou *enclosing) {
   (head.keyword.type == Tok::ACTION ? owner->actions : owner->methods).push_back(head.node);
 }
 
+/// `SET PRIVATE`: an accessor may be reached by fewer than its property.
+void FileParser::accessorAccess(ast::Access &access) {
+  struct Word {
+    const char *text;
+    ast::Access access;
+  };
+  static constexpr Word kWords[] = {{"public", ast::Access::publicA},
+                                    {"private", ast::Access::privateA},
+                                    {"protected", ast::Access::protectedA},
+                                    {"internal", ast::Access::internalA}};
+  switch (ahead_.type) { // a variable of this name
+  case Tok::ASSIGN:
+  case Tok::DOT:
+  case Tok::LPAREN:
+  case Tok::LBRACKET:
+  case Tok::CARET:
+  case Tok::COLON:
+    return;
+  default:
+    break;
+  }
+  for (const Word &word : kWords) {
+    if (!isNow(word.text))
+      continue;
+    access = word.access;
+    advance();
+    return;
+  }
+}
+
 ast::PouDecl *FileParser::accessor(ast::PropertyDecl *property, bool isSet) {
   Head head;
   head.keyword = now_;
@@ -401,6 +431,7 @@ ast::PouDecl *FileParser::accessor(ast::PropertyDecl *property, bool isSet) {
   reportedDepth_ = false;
   sawExternal_ = false;
   advance();
+  accessorAccess(node->access);
   Content content;
   if (isSet) {
     auto *value = arena_.make<ast::VarDecl>();

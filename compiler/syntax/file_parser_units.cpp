@@ -213,17 +213,8 @@ void FileParser::body(std::vector<ast::Stmt *> &out) {
 
 /// A type that begins with a keyword behind `SIZEOF(` and the like gets a TYPE_ARGUMENT in front.
 void FileParser::markTypeArgument() {
-  switch (now_.type) {
-  case Tok::ARRAY:
-  case Tok::STRING:
-  case Tok::WSTRING:
-  case Tok::POINTER:
-  case Tok::REFERENCE:
-  case Tok::REF_TO:
-    break;
-  default:
+  if (!startsWrittenType(now_.type))
     return;
-  }
   const std::size_t size = unit_.size();
   if (size < 2 || unit_[size - 1].type != Tok::LPAREN || unit_[size - 2].type != Tok::IDENT)
     return;

@@ -164,6 +164,10 @@ void ReportStrategy::reportUnexpected(const std::string &expected) {
   else if (token.type == Tok::ARROW)
     d.help("a comparison is written `>=`; `=>` stands in calls, in front of the variable that "
            "takes an output");
+  else if (token.type == Tok::STRUCT || token.type == Tok::UNION)
+    d.help("a variable is declared with the name of a type: write `TYPE Name : " +
+           std::string(tokenSpelling(token.type)) + " … END_" +
+           std::string(tokenSpelling(token.type)) + " END_TYPE`, then `: Name;` here");
   else if (token.type == Tok::COLON)
     d.help("an assignment is written `:=`");
   else if (std::string help = foreignHelp(token, before(), next); !help.empty())

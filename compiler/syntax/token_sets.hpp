@@ -80,20 +80,23 @@ inline bool startsStatement(std::uint16_t type) {
   return startsOperand(type) || isStatementKeyword(type) || type == Tok::SEMICOLON;
 }
 
-inline bool startsType(std::uint16_t type) {
+/// A type that is more than a name, and is no list of members.
+inline bool startsWrittenType(std::uint16_t type) {
   switch (type) {
-  case Tok::IDENT:
   case Tok::ARRAY:
   case Tok::STRING:
   case Tok::WSTRING:
   case Tok::POINTER:
   case Tok::REFERENCE:
   case Tok::REF_TO:
-  case Tok::STRUCT:
     return true;
   default:
     return false;
   }
+}
+
+inline bool startsType(std::uint16_t type) {
+  return type == Tok::IDENT || type == Tok::STRUCT || startsWrittenType(type);
 }
 
 /// Keywords that can only be meant as names where an expression should stand.

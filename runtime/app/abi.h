@@ -44,8 +44,8 @@ enum SymbolFlags : uint32_t {
   kSymSlot = 1U << 13, ///< `AT %I*`: at the offset the instance holds a UDINT, the variable's place
                        ///< in its area: the byte's number, the bit's for kSymBit. Set by init,
                        ///< never carried over. The area is in bits 24 and 25: 0 = I, 1 = Q, 2 = M.
-  kSymBit = 1U << 14, ///< A BOOL that is one bit of the byte. For kSymLocated the number of the bit
-                      ///< is in the bits 28 to 30.
+  kSymBit = 1U << 14,  ///< A BOOL that is one bit of the byte. For kSymLocated and for a BIT of a
+                       ///< structure or block the number of the bit is in the bits 28 to 30.
 };
 inline constexpr uint32_t kSymAreaShift = 24;
 inline constexpr uint32_t kSymBitShift = 28;

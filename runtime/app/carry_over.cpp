@@ -12,6 +12,15 @@ namespace stride::app {
 
 namespace {
 
+/// What is no BIT.
+constexpr unsigned kWholeByte = 8;
+
+/// The number of a BIT in its byte.
+unsigned bitOf(uint32_t flags) {
+  return (flags & (kSymBit | kSymLocated | kSymSlot)) == kSymBit ? flags >> kSymBitShift & 7U
+                                                                 : kWholeByte;
+}
+
 /// Longer programs are called, shorter ones are written out in place.
 constexpr std::size_t kInlineSteps = 16;
 
@@ -130,6 +139,18 @@ void CarryOver::append(const Steps &program, Place at, Steps &out) {
 }
 
 void CarryOver::repeat(const Steps &program, Place at, const TypePair &array, Steps &out) {
+  if (program.list.size() == 1 && program.list[0].count == 1 &&
+      program.list[0].kind != Step::Kind::Copy && program.list[0].kind != Step::Kind::Repeat) {
+    Step step = program.list[0]; // one value: the step itself goes over the elements
+    const Place first = elementPlace(array, at);
+    step.oldOffset += first.oldOffset;
+    step.newOffset += first.newOffset;
+    step.count = array.count;
+    step.oldStride = oldSize(array.element);
+    step.newStride = newSize(array.element);
+    out.list.push_back(step);
+    return;
+  }
   out.barrier = true;
   if (program.list.empty())
     return;
@@ -203,22 +224,7 @@ void CarryOver::copySteps(uint32_t index, Place at, Steps &out) {
       out.barrier = true;
       return;
     }
-    const Steps &program = copyProgram(pair.element);
-    if (program.list.size() == 1 &&
-        (program.list[0].kind == Step::Kind::Number || program.list[0].kind == Step::Kind::Text ||
-         program.list[0].kind == Step::Kind::Names) &&
-        program.list[0].count == 1) {
-      Step step = program.list[0];
-      const Place first = elementPlace(pair, at);
-      step.oldOffset += first.oldOffset;
-      step.newOffset += first.newOffset;
-      step.count = pair.count;
-      step.oldStride = oldSize(pair.element);
-      step.newStride = newSize(pair.element);
-      out.list.push_back(step);
-      return;
-    }
-    return repeat(program, at, pair, out);
+    return repeat(copyProgram(pair.element), at, pair, out);
   }
   case Carry::Fields:
     break;
@@ -237,6 +243,15 @@ void CarryOver::copySteps(uint32_t index, Place at, Steps &out) {
     }
     const Place place{at.oldOffset + field.oldOffset, at.newOffset + field.newOffset};
     const TypePair &own = match_.pair(field.pair);
+    const unsigned oldBit = bitOf(match_.oldApp().members[field.oldMember].flags);
+    const unsigned newBit = bitOf(match_.newApp().members[field.newMember].flags);
+    if (oldBit < kWholeByte || newBit < kWholeByte) {
+      if (own.carry == Carry::Bytes)
+        out.list.push_back({Step::Kind::Bit, false, kNoIndex, place.oldOffset, place.newOffset,
+                            oldBit + 16 * newBit, 0, 0});
+      out.barrier = true;
+      continue;
+    }
     if (!own.bitwise && own.carry == Carry::Fields)
       append(copyProgram(field.pair), place, out);
     else
@@ -254,22 +269,8 @@ void CarryOver::slotSteps(uint32_t index, Place at, bool maybe, Steps &out) {
   case Carry::Slot:
     out.list.push_back({Step::Kind::Slot, maybe, index, at.oldOffset, at.newOffset, 1, 0, 0});
     return;
-  case Carry::Elements: {
-    const Steps &program = slotProgram(pair.element, maybe);
-    if (program.list.size() == 1 && program.list[0].kind == Step::Kind::Slot &&
-        program.list[0].count == 1) {
-      Step step = program.list[0];
-      const Place first = elementPlace(pair, at);
-      step.oldOffset += first.oldOffset;
-      step.newOffset += first.newOffset;
-      step.count = pair.count;
-      step.oldStride = oldSize(pair.element);
-      step.newStride = newSize(pair.element);
-      out.list.push_back(step);
-      return;
-    }
-    return repeat(program, at, pair, out);
-  }
+  case Carry::Elements:
+    return repeat(slotProgram(pair.element, maybe), at, pair, out);
   case Carry::Fields:
   case Carry::Union:
     for (const FieldPair &field : pair.fields) {
@@ -308,6 +309,9 @@ struct CarryOver::Run {
     case Step::Kind::Copy:
       std::memcpy(to, from, step.count);
       return;
+    case Step::Kind::Bit:
+      bit(static_cast<unsigned>(step.count), *from, *to);
+      return;
     case Step::Kind::Number:
       plan.numbers_[step.pair](from, to, step.count, step.oldStride, step.newStride);
       return;
@@ -328,6 +332,16 @@ struct CarryOver::Run {
         slot(step, from + i * step.oldStride, to + i * step.newStride);
       return;
     }
+  }
+
+  static void bit(unsigned numbers, std::byte from, std::byte &to) noexcept {
+    const unsigned oldBit = numbers % 16;
+    const unsigned newBit = numbers / 16;
+    const bool set = (oldBit < kWholeByte ? from >> oldBit & std::byte{1} : from) != std::byte{0};
+    const std::byte mask = newBit < kWholeByte ? std::byte{1} << newBit : std::byte{1};
+    to = newBit < kWholeByte ? to & ~mask : std::byte{0};
+    if (set)
+      to |= mask;
   }
 
   void report(CarryEvent::Kind kind, const Step &step, const std::byte *to,

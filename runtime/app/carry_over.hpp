@@ -98,13 +98,13 @@ private:
   using NumberFunction = void (*)(const std::byte *from, std::byte *to, uint64_t count,
                                   uint64_t fromStride, uint64_t toStride);
   struct Step {
-    enum class Kind : uint8_t { Copy, Number, Text, Names, Repeat, Slot };
+    enum class Kind : uint8_t { Copy, Bit, Number, Text, Names, Repeat, Slot };
     Kind kind;
     bool maybe;    ///< Slot: it may as well be something else (a union).
     uint32_t pair; ///< Number, Text, Names, Slot: the types. Repeat: the program.
     uint64_t oldOffset;
     uint64_t newOffset;
-    uint64_t count; ///< Copy: bytes.
+    uint64_t count; ///< Copy: bytes. Bit: old bit's number + 16 * new bit's, 8 for a whole byte.
     uint64_t oldStride;
     uint64_t newStride;
   };

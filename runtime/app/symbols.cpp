@@ -132,6 +132,8 @@ void Symbol::enter(const StrideAppV1 &app, uint64_t offset, uint32_t type, uint3
                       .countsBits = (flags & kSymBit) != 0});
   } else {
     steps_.back().offset += offset;
+    if ((flags & kSymBit) != 0) // BIT
+      bit_ = static_cast<int>(flags >> kSymBitShift & 7U);
   }
   type_ = type;
   flags_ = flags | (flags_ & kSymConstant);

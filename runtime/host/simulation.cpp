@@ -113,6 +113,22 @@ void printSummary(const task::VirtualScheduler &scheduler, const task::RunResult
              simulated, wall, wall > 0 ? simulated / wall : 0.0);
 }
 
+/// FB_Exit of every instance; what goes wrong in one of them.
+std::optional<task::Fault> exitInstances(app::Application &application, const HostApi &host,
+                                         int64_t timeNs, int64_t loopBudget) {
+  const StrideAppV1 &app = application.description();
+  if (app.exit == nullptr)
+    return std::nullopt;
+  Ctx ctx{};
+  ctx.state = application.state();
+  ctx.host = &host;
+  ctx.cycleStartNs = timeNs;
+  ctx.loopBudget = loopBudget > 0 ? loopBudget : task::VirtualScheduler::kDefaultLoopBudget;
+  if (const std::optional<StException> exception = task::guardedCall(app.exit, ctx))
+    return task::Fault{*exception, "end of the run", 0, timeNs};
+  return std::nullopt;
+}
+
 /// Ctrl-C and SIGTERM end the run between two instants; a second one ends the program.
 class StopSignals {
 public:
@@ -191,9 +207,15 @@ static ExitCode simulateHere(app::Application &application, const SimOptions &op
     for (const std::string &left : sets.left())
       fmt::print(stderr, "warning: --set '{}' was not used: the run ends before\n", left);
   }
+  // A program that has failed is not called again.
+  std::optional<task::Fault> atEnd;
+  if (!result.fault)
+    atEnd = exitInstances(application, host, result.timeNs, options.loopBudget);
+  if (atEnd)
+    fmt::print(stderr, "error: {}\n", task::describe(*atEnd));
   if ((terminal || options.summary) && !options.quiet)
     printSummary(scheduler, result, wall);
-  if (result.fault)
+  if (result.fault || atEnd)
     return kExitException;
   return result.interrupted ? kExitInterrupted : kExitOk;
 }

@@ -10,8 +10,8 @@ INTS = {"SINT": (True, 8), "INT": (True, 16), "DINT": (True, 32), "LINT": (True,
 BITS = {"BYTE": (False, 8), "WORD": (False, 16), "DWORD": (False, 32), "LWORD": (False, 64)}
 NUMBERS = {**INTS, **BITS}
 REALS = ("REAL", "LREAL")
-# name: bits; LTIME has a sign
-TIMES = {"TIME": 32, "LTIME": 64, "DATE": 32, "TOD": 32, "DT": 32}
+# name: bits; LTIME has a sign; the long ones count ns
+TIMES = {"TIME": 32, "LTIME": 64, "DATE": 32, "TOD": 32, "DT": 32, "LDATE": 64, "LTOD": 64, "LDT": 64}
 
 
 class Skip(Exception):
@@ -36,9 +36,10 @@ class Type:
 
 
 class StringType(Type):
-    def __init__(self, size):
-        super().__init__(f"STRING({size})", {"STRING"})
-        self.size = size
+    def __init__(self, size, wide=False):
+        family = "WSTRING" if wide else "STRING"
+        super().__init__(f"{family}({size})", {family})
+        self.size, self.family = size, family
 
     def default(self):
         return ""
@@ -104,6 +105,26 @@ class Struct(Type):
             yield from kind.flat(f"{path}.{name}", value[name])
 
 
+class Overlay:
+    """A value whose parts share bytes; see overlays.py."""
+
+
+class OpenArray(Type):
+    """ARRAY[*] of so many dimensions, of an in-out"""
+
+    def __init__(self, element, dimensions):
+        super().__init__(f"ARRAY[{', '.join('*' * dimensions)}] OF {element.name}", element.leaves)
+        self.element, self.dimensions = element, dimensions
+
+
+def same(kind, wanted):
+    """Whether a variable of type kind can be bound to an in-out of type wanted"""
+    if not isinstance(wanted, OpenArray) or kind is wanted:
+        return kind is wanted
+    dimensions = len(kind.bounds) if isinstance(kind, Array) else kind.dimensions if isinstance(kind, OpenArray) else 0
+    return dimensions == wanted.dimensions and kind.element is wanted.element
+
+
 class Ref:
     """A place: a key of a dictionary or an index of a list."""
     __slots__ = ("box", "key")
@@ -116,12 +137,23 @@ class Ref:
 
     def set(self, value):
         """A structure or an array stays where it is: another Ref may point into it."""
-        if isinstance(value, (list, dict)):
+        if isinstance(value, Overlay):
+            self.box[self.key].assign(value)
+        elif isinstance(value, (list, dict)):
             keys = range(len(value)) if isinstance(value, list) else value
             for key in keys:
                 Ref(self.box[self.key], key).set(value[key])
         else:
             self.box[self.key] = value
+
+
+class OpenRef(Ref):
+    """A place of an array together with its bounds"""
+    __slots__ = ("bounds",)
+
+    def __init__(self, ref, bounds):
+        super().__init__(ref.box, ref.key)
+        self.bounds = bounds
 
 
 def limits(name):
@@ -213,6 +245,14 @@ def time_text(kind, value):
         return f"T#{value}ms"
     if kind == "LTIME":
         return f"LTIME#{value}ns"
+    if kind in ("LDATE", "LTOD", "LDT"):
+        short, scale = {"LDATE": ("DATE", 10**9), "LTOD": ("TOD", 10**6), "LDT": ("DT", 10**9)}[kind]
+        text = time_text(short, value // scale).split("#")[1]
+        if kind == "LTOD":
+            text = f"{text.split('.')[0]}.{value % 10**9:09}"
+        elif kind == "LDT" and value % 10**9:
+            text += f".{value % 10**9:09}"
+        return f"{kind}#{text}"
     if kind == "DATE":
         return f"D#{EPOCH + datetime.timedelta(days=value // 86400)}"
     if kind == "TOD":
@@ -223,8 +263,10 @@ def time_text(kind, value):
 
 
 def clock(text):
+    """ns since midnight"""
     hours, minutes, seconds = text.split(":")
-    return (int(hours) * 60 + int(minutes)) * 60_000 + round(float(seconds) * 1000)
+    whole, _, rest = seconds.partition(".")
+    return ((int(hours) * 60 + int(minutes)) * 60 + int(whole)) * 10**9 + int((rest + "0" * 9)[:9])
 
 
 def time_value(kind, text):
@@ -233,25 +275,35 @@ def time_value(kind, text):
         total = sum(int(n) * UNITS[u] for n, u in re.findall(r"(\d+)(ms|us|ns|d|h|m|s)", body))
         total = -total if body.startswith("-") else total
         return total // 1_000_000 if kind == "TIME" else total
-    if kind == "TOD":
-        return clock(body)
-    day = (datetime.date.fromisoformat(body[:10]) - EPOCH).days * 86400
-    return day if kind == "DATE" else day + clock(body[11:]) // 1000
+    if kind in ("TOD", "LTOD"):
+        return clock(body) // (10**6 if kind == "TOD" else 1)
+    value = (datetime.date.fromisoformat(body[:10]) - EPOCH).days * 86400 * 10**9
+    value += clock(body[11:]) if body[11:] else 0
+    return value if kind in ("LDATE", "LDT") else value // 10**9
 
 
-ESCAPES = {"$": "$", "'": "'", "L": "\n", "N": "\n", "P": "\f", "R": "\r", "T": "\t"}
+ESCAPES = {"$": "$", "'": "'", '"': '"', "L": "\n", "N": "\n", "P": "\f", "R": "\r", "T": "\t"}
 
 
-def string_text(value):
-    return "'" + "".join("$" + c if c in "$'" else c if " " <= c <= "~" else f"${ord(c):02X}" for c in value) + "'"
+def string_text(value, family="STRING"):
+    quote = '"' if family == "WSTRING" else "'"
+
+    def plain(c):
+        if c in ("$", quote):
+            return "$" + c
+        return c if " " <= c <= "~" else f"${ord(c):04X}" if family == "WSTRING" else f"${ord(c):02X}"
+
+    return quote + "".join(map(plain, value)) + quote
 
 
 def string_value(text):
+    digits = 4 if text.startswith('"') else 2
+
     def plain(match):
         body = match.group(1)
         return ESCAPES[body.upper()] if len(body) == 1 else chr(int(body, 16))
 
-    return re.sub(r"\$([0-9A-Fa-f]{2}|.)", plain, text[1:-1])
+    return re.sub(rf"\$([0-9A-Fa-f]{{{digits}}}|.)", plain, text[1:-1])
 
 
 def real_text(value):

@@ -97,6 +97,32 @@ VAR_OUTPUT count : INT; END_VAR
 END_FUNCTION_BLOCK
 )";
 
+TEST(OnlineChange, Bits) {
+  Live live(R"(
+TYPE Flags : STRUCT a, b, c : BIT; n : INT; d : BIT; e : BOOL; END_STRUCT END_TYPE
+PROGRAM PLC_PRG
+VAR f : Flags; g : ARRAY[0..1] OF Flags; same : ARRAY[0..1] OF Flags; END_VAR
+  f.b := TRUE; f.d := TRUE; f.e := TRUE; f.n := 5; g[1].c := TRUE; same := g;
+END_PROGRAM
+)");
+  live.run(1);
+  live.change(R"(
+TYPE Flags : STRUCT x, c, b, e : BIT; d : BOOL; n : INT; a : BIT := TRUE; END_STRUCT END_TYPE
+PROGRAM PLC_PRG
+VAR g : ARRAY[0..1] OF Flags; f : Flags; same : ARRAY[0..1] OF Flags; END_VAR
+  f.x := f.b; g[0] := f;
+END_PROGRAM
+)");
+  EXPECT_EQ(live.values({"PLC_PRG.f.a", "PLC_PRG.f.b", "PLC_PRG.f.c", "PLC_PRG.f.d", "PLC_PRG.f.e",
+                         "PLC_PRG.f.n", "PLC_PRG.f.x"}),
+            "FALSE TRUE FALSE TRUE TRUE 5 FALSE");
+  EXPECT_EQ(
+      live.values({"PLC_PRG.g[0].c", "PLC_PRG.g[1].c", "PLC_PRG.g[1].b", "PLC_PRG.same[1].c"}),
+      "FALSE TRUE FALSE TRUE");
+  live.run(1);
+  EXPECT_EQ(live.values({"PLC_PRG.f.x", "PLC_PRG.g[0].x", "PLC_PRG.g[0].c"}), "TRUE TRUE FALSE");
+}
+
 TEST(OnlineChange, InstancesInArraysAndStructures) {
   Live live(std::string(kCounter) + R"(
 TYPE Motor : STRUCT speed : REAL := 1.5; counters : ARRAY[1..2] OF Counter; END_STRUCT END_TYPE

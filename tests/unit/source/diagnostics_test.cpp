@@ -12,7 +12,7 @@ TEST(Diagnostics, CodesAreSortedUniqueAndExplained) {
     before = static_cast<unsigned>(code.code);
     EXPECT_FALSE(code.title.empty()) << codeName(code.code);
     EXPECT_NE(code.title.back(), '.') << codeName(code.code);
-    EXPECT_GT(code.explain.size(), 40U) << codeName(code.code);
+    EXPECT_GT(explainText(code.code).size(), 40U) << codeName(code.code);
     EXPECT_EQ(info(code.code).title, code.title);
   }
 }

@@ -1,20 +1,13 @@
 #pragma once
-// Sizes and alignments of types, as the generated code has them.
+// Where values may lie: alignments of types and of places, as the generated code has them. Sizes
+// and offsets: storage.hpp.
 
 #include "compiler/semantics/symbols.hpp"
 
-#include <cstdint>
-
 namespace stc {
 
-struct Extent {
-  std::uint64_t size = 0;  ///< bytes
-  std::uint32_t align = 1; ///< bytes
-};
-
-/// Of elementary types, arrays, structures and pointers. Function blocks hold members that only the
-/// code generator knows: their size is 0, their alignment an upper bound.
-[[nodiscard]] Extent extentOf(const Type *type);
+/// In bytes. Of function blocks, whose hidden members only Storage knows, an upper bound.
+[[nodiscard]] unsigned alignmentOf(const Type *type);
 
 /// The alignment that the members of a structure or block are limited to; 0: none.
 [[nodiscard]] unsigned packOf(const Type *type);

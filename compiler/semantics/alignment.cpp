@@ -1,4 +1,4 @@
-#include "compiler/semantics/extent.hpp"
+#include "compiler/semantics/alignment.hpp"
 
 #include <algorithm>
 
@@ -9,13 +9,9 @@ using namespace ast;
 namespace {
 
 /// Alignment of function blocks: pointers.
-constexpr std::uint32_t kMaxAlign = 8;
+constexpr unsigned kMaxAlign = 8;
 /// The processors follow pointers to 8-byte values at multiples of 4.
-constexpr std::uint32_t kEnough = 4;
-
-std::uint64_t roundUp(std::uint64_t value, std::uint64_t align) {
-  return (value + align - 1) / align * align;
-}
+constexpr unsigned kEnough = 4;
 
 } // namespace
 
@@ -25,60 +21,42 @@ unsigned packOf(const Type *type) {
   return isInstance(type) ? typeAs<PouType>(type)->pack : 0;
 }
 
-Extent extentOf(const Type *type) {
+unsigned alignmentOf(const Type *type) {
   type = underlying(type);
+  while (type->kind == TypeKind::array)
+    type = typeAs<ArrayType>(type)->element;
+  type = underlying(type);
+  const auto limited = [type](unsigned align) {
+    const unsigned pack = packOf(type);
+    return pack == 0 ? align : std::min(align, pack);
+  };
   switch (type->kind) {
   case TypeKind::string:
-    return {std::uint64_t{typeAs<StringType>(type)->length} + 1, 1};
+    return 1;
   case TypeKind::wstring:
-    return {(std::uint64_t{typeAs<StringType>(type)->length} + 1) * 2, 2};
-  case TypeKind::array: {
-    const auto *array = typeAs<ArrayType>(type);
-    const Extent element = extentOf(array->element);
-    return {element.size * array->count(), element.align};
-  }
+    return 2;
   case TypeKind::structure: {
     const auto *s = typeAs<StructType>(type);
-    Extent all;
-    const auto add = [&](const Extent &member) {
-      if (s->isUnion) {
-        all.size = std::max(all.size, member.size);
-        all.align = std::max(all.align, member.align);
-        return;
-      }
-      const std::uint32_t align =
-          s->pack != 0 ? std::min<std::uint32_t>(member.align, s->pack) : member.align;
-      all.size = roundUp(all.size, align) + member.size;
-      all.align = std::max(all.align, align);
-    };
-    if (s->base != nullptr)
-      add(extentOf(s->base));
+    unsigned align = s->base == nullptr ? 1 : alignmentOf(s->base);
     for (const VarSymbol *field : s->fields) {
       if (field->type != nullptr)
-        add(extentOf(field->type));
+        align = std::max(align, alignmentOf(field->type));
     }
-    all.size = roundUp(std::max<std::uint64_t>(all.size, 1), all.align);
-    return all;
+    return s->isUnion ? align : limited(align);
   }
   case TypeKind::functionBlock:
-  case TypeKind::program: {
-    const unsigned pack = typeAs<PouType>(type)->pack;
-    return {0, pack == 0 ? kMaxAlign : std::min<std::uint32_t>(pack, kMaxAlign)};
-  }
+  case TypeKind::program:
+    return limited(kMaxAlign);
   case TypeKind::pointer:
   case TypeKind::reference:
-    return {8, 8};
-  case TypeKind::boolean:
-    return {1, 1};
+    return 8;
   default:
-    if (const unsigned bytes = bitWidth(type) / 8; bytes != 0)
-      return {bytes, bytes};
-    return {};
+    return std::max(bitWidth(type) / 8, 1U);
   }
 }
 
 unsigned placeAlignment(const Expr *place) {
-  const auto natural = [&] { return extentOf(place->type).align; };
+  const auto natural = [&] { return alignmentOf(place->type); };
   switch (place->kind) {
   case ExprKind::direct: {
     const Location *at = as<DirectExpr>(place)->location;
@@ -120,7 +98,7 @@ unsigned placeAlignment(const Expr *place) {
 
 bool isMisaligned(const Expr *place) {
   return place->type != nullptr &&
-         placeAlignment(place) < std::min(extentOf(place->type).align, kEnough);
+         placeAlignment(place) < std::min(alignmentOf(place->type), kEnough);
 }
 
 } // namespace stc

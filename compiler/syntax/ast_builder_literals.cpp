@@ -1,0 +1,113 @@
+#include "compiler/syntax/ast_builder.hpp"
+
+#include <string>
+
+namespace stc {
+
+using namespace ast;
+
+Expr *AstBuilder::literal(const Token &start) {
+  if (start.reported)
+    return error(span(start));
+  auto *node = arena_.make<Literal>();
+  node->kind = ExprKind::literal;
+  node->span = span(start);
+  const std::string_view spelling = text(start);
+  bool good = true;
+  switch (start.type) {
+  case Tok::INTEGER:
+    good = literals_.integer(spelling, node->span, *node);
+    break;
+  case Tok::REAL:
+    good = literals_.real(spelling, node->span, *node);
+    break;
+  case Tok::STRING_LITERAL:
+  case Tok::WSTRING_LITERAL:
+    good = literals_.string(spelling, node->span, *node);
+    break;
+  case Tok::TRUE:
+  case Tok::FALSE:
+    node->literal = LiteralKind::boolean;
+    node->integer = start.type == Tok::TRUE;
+    node->text = spelling;
+    break;
+  case Tok::TIME_LITERAL: {
+    const std::size_t hash = spelling.find('#');
+    std::string prefix(spelling.substr(0, hash));
+    std::transform(prefix.begin(), prefix.end(), prefix.begin(), lowerCase);
+    std::string_view value = spelling.substr(hash + 1);
+    const bool negative = value[0] == '-';
+    if (negative || value[0] == '+')
+      value.remove_prefix(1);
+    node->text = spelling;
+    good = literals_.timeOrDate(prefix, value, node->span, *node);
+    if (good && negative) {
+      auto *negated = arena_.make<UnaryExpr>();
+      negated->kind = ExprKind::unary;
+      negated->span = node->span;
+      negated->op = UnaryOp::negate;
+      negated->operand = node;
+      return negated;
+    }
+    break;
+  }
+  default:
+    good = false;
+    break;
+  }
+  return good ? static_cast<Expr *>(node) : error(node->span);
+}
+
+Expr *AstBuilder::typedLiteral(const Token &start) {
+  const Span whole = span(start);
+  if (start.reported)
+    return error(whole);
+  const std::string_view spelling = text(start);
+  const auto hash = static_cast<std::uint32_t>(spelling.find('#'));
+  auto *node = arena_.make<Literal>();
+  node->kind = ExprKind::literal;
+  node->span = whole;
+  const std::string_view typeName = spelling.substr(0, hash);
+  node->typeName = {interner_.intern(typeName), typeName, {file_, whole.begin, whole.begin + hash}};
+  std::string_view value = spelling.substr(hash + 1);
+  Span at{file_, whole.begin + hash + 1, whole.end};
+  const bool negative = value[0] == '-';
+  if (negative || value[0] == '+') {
+    value.remove_prefix(1);
+    ++at.begin;
+  }
+  bool good = true;
+  const bool based = value.find('#') != std::string_view::npos;
+  if (value[0] == '\'' || value[0] == '"') {
+    good = literals_.string(value, at, *node);
+  } else if (isWord(value, "true") || isWord(value, "false")) {
+    node->literal = LiteralKind::boolean;
+    node->integer = isWord(value, "true");
+    node->text = value;
+  } else if (!based && value.find_first_of(".eE") != std::string_view::npos) {
+    good = literals_.real(value, at, *node);
+  } else {
+    good = literals_.integer(value, at, *node);
+  }
+  if (!good)
+    return error(whole);
+  node->negative = negative;
+  return node;
+}
+
+Expr *AstBuilder::enumLiteral(const Token &start) {
+  const Span whole = span(start);
+  const std::string_view spelling = text(start);
+  const auto hash = static_cast<std::uint32_t>(spelling.find('#'));
+  const std::string_view typeName = spelling.substr(0, hash);
+  const std::string_view enumerator = spelling.substr(hash + 1);
+  auto *node = arena_.make<EnumLiteralExpr>();
+  node->kind = ExprKind::enumLiteral;
+  node->span = whole;
+  node->typeName = {interner_.intern(typeName), typeName, {file_, whole.begin, whole.begin + hash}};
+  node->enumerator = {
+      interner_.intern(enumerator), enumerator, {file_, whole.begin + hash + 1, whole.end}};
+  return node;
+}
+
+} // namespace stc

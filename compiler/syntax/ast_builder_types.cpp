@@ -1,0 +1,229 @@
+// Types in declarations.
+
+#include "compiler/syntax/ast_builder.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace stc {
+
+using namespace ast;
+
+namespace {
+
+/// Types that an enumeration may be based on; every other `T(a := 1)` calls FB_Init.
+bool isElementaryInteger(std::string_view word) {
+  static constexpr std::string_view kNames[] = {"sint",  "int",   "dint", "lint", "usint", "uint",
+                                                "udint", "ulint", "byte", "word", "dword", "lword"};
+  return std::any_of(std::begin(kNames), std::end(kNames),
+                     [&](std::string_view name) { return isWord(word, name); });
+}
+
+} // namespace
+
+TypeExpr *AstBuilder::errorType(Span span) {
+  auto *node = arena_.make<TypeExpr>();
+  node->kind = TypeExprKind::error;
+  node->span = span;
+  return node;
+}
+
+TypeExpr *AstBuilder::type(Context *context, bool declared) {
+  const Token &start = token(first(context));
+  const Span whole = span(context);
+  switch (start.type) {
+  case Tok::ARRAY: {
+    auto *node = arena_.make<ArrayTypeExpr>();
+    node->kind = TypeExprKind::array;
+    node->span = whole;
+    std::vector<ArrayRange> ranges;
+    for (std::size_t i = 0; i + 1 < context->children.size(); ++i) {
+      Context *part = child(context, i);
+      ArrayRange range;
+      range.span = span(part);
+      if (part->children.size() > 1) {
+        range.low = expression(child(part, 0));
+        range.high = expression(child(part, 1));
+      }
+      ranges.push_back(range);
+    }
+    node->ranges = arena_.copy(ranges);
+    node->element = type(child(context, context->children.size() - 1));
+    return node;
+  }
+  case Tok::POINTER:
+  case Tok::REF_TO:
+  case Tok::REFERENCE: {
+    auto *node = arena_.make<PointerTypeExpr>();
+    node->kind = start.type == Tok::REFERENCE ? TypeExprKind::reference : TypeExprKind::pointer;
+    node->refTo = start.type == Tok::REF_TO;
+    node->span = whole;
+    node->pointee = type(child(context, 0));
+    return node;
+  }
+  case Tok::STRING:
+  case Tok::WSTRING: {
+    auto *node = arena_.make<StringTypeExpr>();
+    node->kind = TypeExprKind::string;
+    node->span = whole;
+    node->wide = start.type == Tok::WSTRING;
+    if (!context->children.empty())
+      node->length = expression(child(context, 0));
+    return node;
+  }
+  case Tok::LPAREN: {
+    std::size_t arguments = context->children.size();
+    TypeExpr *base = nullptr;
+    if (Context *end = child(context, arguments - 1); end->getRuleIndex() == Grammar::RulePath) {
+      --arguments;
+      auto *named = arena_.make<NamedTypeExpr>();
+      named->kind = TypeExprKind::named;
+      named->span = span(end);
+      named->path = path(end);
+      base = named;
+    }
+    EnumTypeExpr *node = enumeration(context, 0, arguments);
+    if (node == nullptr)
+      return errorType(whole);
+    node->base = base;
+    return node;
+  }
+  default:
+    return namedType(context, declared);
+  }
+}
+
+TypeExpr *AstBuilder::namedType(Context *context, bool declared) {
+  Context *names = child(context, 0);
+  auto *named = arena_.make<NamedTypeExpr>();
+  named->kind = TypeExprKind::named;
+  named->span = span(names);
+  named->path = path(names);
+  if (last(names) == last(context))
+    return named;
+  if (context->children.size() == 1) { // `Block()`
+    named->hasArguments = true;
+    return named;
+  }
+  Context *argument = child(context, 1);
+  if (argument->getRuleIndex() == Grammar::RuleArguments) {
+    blockArguments(argument, *named);
+    return named;
+  }
+  const std::uint16_t sign =
+      argument->children.size() > 1 ? token(last(child(argument, 0)) + 1).type : std::uint16_t{0};
+  if (sign == Tok::DOTDOT) {
+    auto *node = arena_.make<SubrangeTypeExpr>();
+    node->kind = TypeExprKind::subrange;
+    node->span = span(context);
+    node->base = named;
+    node->low = expression(child(argument, 0));
+    node->high = expression(child(argument, 1));
+    if (context->children.size() > 2)
+      diagnostics_.report(Code::unexpectedToken, span(child(context, 2)),
+                          "a subrange has one range");
+    return node;
+  }
+  // INT (a, b := 5): edition 3's way to give an enumeration its base type.
+  if (plainName(child(argument, 0)) != nullptr &&
+      (declared || (named->path.size() == 1 && isElementaryInteger(named->path[0].text)))) {
+    if (EnumTypeExpr *node = enumeration(context, 1, context->children.size()); node != nullptr) {
+      node->base = named;
+      return node;
+    }
+    return errorType(span(context));
+  }
+  named->hasArguments = true;
+  named->arguments = arguments(context, 1);
+  return named;
+}
+
+/// `Block[(a := 1), (a := 2)]`, the type of an array's elements.
+void AstBuilder::blockArguments(Context *list, NamedTypeExpr &out) {
+  std::vector<std::span<Argument>> elements;
+  for (std::size_t i = 0; i < list->children.size(); ++i) {
+    Context *argument = child(list, i);
+    Context *only = argument->children.size() == 1 ? child(argument, 0) : nullptr;
+    Context *operand = only != nullptr && only->children.size() == 1 ? child(only, 0) : nullptr;
+    if (operand == nullptr || token(first(operand)).type != Tok::LPAREN ||
+        operand->children.size() != 1 || last(operand) != last(argument)) {
+      diagnostics_
+          .report(Code::unexpectedToken, span(argument),
+                  "expected the arguments of one element, in parentheses", "not `(…)`")
+          .help("write `Block[(a := 1), (a := 2)]`");
+      return;
+    }
+    elements.push_back(arguments(child(operand, 0)));
+  }
+  out.elements = arena_.copy(elements);
+}
+
+/// Null for one that was reported.
+DirectAddress *AstBuilder::address(const Token &token) {
+  if (token.type != Tok::DIRECT || token.reported)
+    return nullptr;
+  auto *node = arena_.make<DirectAddress>();
+  node->span = span(token);
+  node->text = text(token);
+  const auto upper = [](char c) { return c >= 'a' ? static_cast<char>(c - 'a' + 'A') : c; };
+  std::string_view rest = node->text.substr(1);
+  node->area = upper(rest[0]);
+  rest.remove_prefix(1);
+  if (!rest.empty() && rest[0] != '*' && (rest[0] < '0' || rest[0] > '9')) {
+    node->size = upper(rest[0]);
+    rest.remove_prefix(1);
+  }
+  if (rest == "*") {
+    node->incomplete = true;
+    return node;
+  }
+  std::vector<std::uint32_t> numbers{0};
+  for (const char c : rest) {
+    if (c == '.') {
+      numbers.push_back(0);
+    } else {
+      const std::uint64_t value =
+          std::uint64_t{numbers.back()} * 10 + static_cast<unsigned>(c - '0');
+      if (value > 0xFFFF'FFFF) {
+        diagnostics_.report(Code::invalidAddress, node->span,
+                            "the number in this address is too large", "at most 4294967295");
+        return nullptr;
+      }
+      numbers.back() = static_cast<std::uint32_t>(value);
+    }
+  }
+  node->numbers = arena_.copy(numbers);
+  return node;
+}
+
+// --------------------------------------------------------------------------------------------
+// namespaces and configurations
+
+EnumTypeExpr *AstBuilder::enumeration(Context *context, std::size_t firstArgument,
+                                      std::size_t arguments) {
+  auto *node = arena_.make<EnumTypeExpr>();
+  node->kind = TypeExprKind::enumeration;
+  node->span = span(context);
+  std::vector<EnumeratorDecl> list;
+  for (std::size_t i = firstArgument; i < arguments; ++i) {
+    Context *argument = child(context, i);
+    Context *front = child(argument, 0);
+    const Token *plain = plainName(front);
+    if (plain == nullptr ||
+        (argument->children.size() > 1 && token(last(front) + 1).type != Tok::ASSIGN)) {
+      diagnostics_.report(Code::unexpectedToken, span(argument),
+                          "expected the name of an enumerator", "not `name` or `name := value`");
+      return nullptr;
+    }
+    EnumeratorDecl one;
+    one.name = name(*plain);
+    if (argument->children.size() > 1)
+      one.value = expression(child(argument, 1));
+    one.doc = doc(*plain);
+    list.push_back(one);
+  }
+  node->enumerators = arena_.copy(list);
+  return node;
+}
+
+} // namespace stc

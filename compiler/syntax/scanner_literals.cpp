@@ -1,0 +1,195 @@
+// Numbers, strings, durations, dates, direct addresses.
+
+#include "compiler/source/identifier.hpp"
+#include "compiler/syntax/characters.hpp"
+#include "compiler/syntax/scanner.hpp"
+
+#include <algorithm>
+
+namespace stc {
+
+namespace {
+
+enum class Prefix : std::uint8_t { none, duration, date };
+
+Prefix literalPrefix(std::string_view word) {
+  static constexpr std::string_view kDurations[] = {"t", "time", "lt", "ltime"};
+  static constexpr std::string_view kDates[] = {
+      "d",    "date",         "ld", "ldate",         "tod", "time_of_day",
+      "ltod", "ltime_of_day", "dt", "date_and_time", "ldt", "ldate_and_time",
+  };
+  const auto is = [&](std::string_view name) { return isWord(word, name); };
+  if (std::any_of(std::begin(kDurations), std::end(kDurations), is))
+    return Prefix::duration;
+  return std::any_of(std::begin(kDates), std::end(kDates), is) ? Prefix::date : Prefix::none;
+}
+
+} // namespace
+
+/// Digits with underscores, a base, a fraction, an exponent; lenient: literals.cpp checks the
+/// digits.
+void Scanner::numberBody() {
+  const auto digits = [&] {
+    while (isWordChar(at(place_)) || at(place_) == '#')
+      ++place_;
+  };
+  const std::size_t begin = place_;
+  while (isDigit(at(place_)) || (at(place_) == '_' && isDigit(at(place_ + 1))))
+    ++place_;
+  const auto exponent = [&] {
+    if ((at(place_) == 'e' || at(place_) == 'E') &&
+        (isDigit(at(place_ + 1)) ||
+         ((at(place_ + 1) == '+' || at(place_ + 1) == '-') && isDigit(at(place_ + 2))))) {
+      place_ += 2;
+      while (isDigit(at(place_)))
+        ++place_;
+    }
+  };
+  if (at(place_) == '#') {
+    digits();
+    return;
+  }
+  if (at(place_) == '.' && isDigit(at(place_ + 1)) && previous_ != Tok::DOT) {
+    ++place_;
+    while (isDigit(at(place_)) || (at(place_) == '_' && isDigit(at(place_ + 1))))
+      ++place_;
+    exponent();
+  } else if (previous_ != Tok::DOT) {
+    exponent();
+  }
+  if (place_ > begin && isWordChar(at(place_)))
+    digits(); // malformed
+}
+
+std::uint16_t Scanner::number(std::size_t begin, Token &token) {
+  numberBody();
+  const std::string_view spelling = text_.substr(begin, place_ - begin);
+  if (spelling.find('#') != std::string_view::npos)
+    return Tok::INTEGER;
+  const bool real = spelling.find('.') != std::string_view::npos ||
+                    (spelling.find_first_of("eE") != std::string_view::npos &&
+                     spelling.find_first_not_of("0123456789_eE+-") == std::string_view::npos);
+  if (!real && at(place_) == '.' && previous_ != Tok::DOT && at(place_ + 1) != '.' &&
+      !isLetter(at(place_ + 1)) && at(place_ + 1) != '%') {
+    token.reported = true;
+    ++place_;
+    diagnostics_
+        .report(Code::invalidNumber, span(begin, place_), "a decimal point needs a digit behind it")
+        .help("write `" + std::string(spelling.substr(0, 80)) + ".0`");
+    return Tok::REAL;
+  }
+  return real ? Tok::REAL : Tok::INTEGER;
+}
+
+std::uint16_t Scanner::prefixedLiteral(std::size_t begin, Token &token) {
+  const std::string_view prefix = text_.substr(begin, place_ - begin);
+  ++place_; // #
+  const char first = at(place_);
+  const bool sign = first == '+' || first == '-';
+  switch (literalPrefix(prefix)) {
+  case Prefix::duration:
+    if (!isDigit(at(place_ + (sign ? 1 : 0))))
+      break;
+    ++place_;
+    while (isWordChar(at(place_)) || (at(place_) == '.' && isDigit(at(place_ + 1))))
+      ++place_;
+    return Tok::TIME_LITERAL;
+  case Prefix::date:
+    if (!isDigit(first))
+      break;
+    while (
+        isWordChar(at(place_)) ||
+        ((at(place_) == ':' || at(place_) == '.' || at(place_) == '-') && isDigit(at(place_ + 1))))
+      ++place_;
+    return Tok::TIME_LITERAL;
+  case Prefix::none:
+    break;
+  }
+  if (isDigit(first) || (sign && isDigit(at(place_ + 1)))) {
+    place_ += sign ? 1 : 0;
+    numberBody();
+    return Tok::TYPED_LITERAL;
+  }
+  if (first == '\'' || first == '"') {
+    quoted(place_, first, token);
+    return Tok::TYPED_LITERAL;
+  }
+  const std::string_view name = wordAt(place_);
+  place_ += name.size();
+  if (isWord(name, "true") || isWord(name, "false"))
+    return Tok::TYPED_LITERAL;
+  if (!name.empty())
+    return Tok::ENUM_LITERAL;
+  token.reported = true;
+  diagnostics_.report(Code::invalidTypedLiteral, span(begin, place_),
+                      "there is no value behind `" + std::string(prefix.substr(0, 80)) + "#`",
+                      "expected a literal or the name of an enumerator here");
+  return Tok::TYPED_LITERAL;
+}
+
+std::uint16_t Scanner::quoted(std::size_t begin, char quote, Token &token) {
+  const char *const data = text_.data();
+  const std::size_t size = text_.size();
+  const std::uint16_t type = quote == '\'' ? Tok::STRING_LITERAL : Tok::WSTRING_LITERAL;
+  for (std::size_t place = begin + 1; place < size; ++place) {
+    const char c = data[place];
+    if (c == quote) {
+      place_ = place + 1;
+      return type;
+    }
+    if (c == '\n' || (c == '\r' && at(place + 1) == '\n')) {
+      place_ = place;
+      break;
+    }
+    if (c == '$' && place + 1 < size && data[place + 1] != '\n' && data[place + 1] != '\r')
+      ++place;
+    place_ = place + 1;
+  }
+  if (place_ <= begin)
+    place_ = begin + 1;
+  place_ = std::min(place_, size);
+  token.reported = true;
+  diagnostics_
+      .report(Code::unterminatedString, span(begin, begin + 1), "this string has no end",
+              "the string begins here")
+      .note("a string ends on the line on which it begins")
+      .help(quote == '\'' ? "close it with `'`; a quote inside is written `$'`"
+                          : "close it with `\"`; a quote inside is written `$\"`");
+  return type;
+}
+
+std::uint16_t Scanner::address(std::size_t begin, Token &token) {
+  const bool partial = previous_ == Tok::DOT;
+  if (!isLetter(at(begin + 1)) || (!partial && afterOperand() && !atLineStart(begin)))
+    return foreign(begin, 1, Tok::MOD, token);
+  ++place_;
+  const std::size_t letters = place_;
+  while (isLetter(at(place_)))
+    ++place_;
+  const std::string_view area = text_.substr(letters, place_ - letters);
+  const std::size_t numbers = place_;
+  if (at(place_) == '*') {
+    ++place_;
+  } else {
+    while (isDigit(at(place_)) || (at(place_) == '.' && isDigit(at(place_ + 1))))
+      ++place_;
+  }
+  const auto in = [](char c, std::string_view set) {
+    return set.find(lowerCase(c)) != std::string_view::npos;
+  };
+  // Behind a point it is a part of the variable, or (in VAR_ACCESS) an address of that resource.
+  const bool good =
+      place_ > numbers &&
+      ((partial && area.size() == 1 && in(area[0], "xbwdl")) ||
+       (area.size() <= 2 && in(area[0], "iqm") && (area.size() == 1 || in(area[1], "xbwdl"))));
+  if (!good) {
+    token.reported = true;
+    diagnostics_
+        .report(Code::invalidAddress, span(begin, place_), "malformed direct address",
+                "not an address")
+        .note("an address is written `%IX0.0`, `%QW2`, `%MD4` or `%I*`");
+  }
+  return Tok::DIRECT;
+}
+
+} // namespace stc
