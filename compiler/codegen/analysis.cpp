@@ -466,6 +466,13 @@ std::int64_t Analysis::rounds(Block block) {
   return most;
 }
 
+std::int64_t Analysis::ownRounds(const ForStmt *loop) const {
+  const auto bounds = constantBounds(loop);
+  if (!bounds)
+    return kHuge;
+  return std::max<std::int64_t>((bounds->to - bounds->from) / bounds->step + 1, 0);
+}
+
 bool Analysis::shortLoop(const ForStmt *loop) {
   const auto bounds = constantBounds(loop);
   if (!bounds)
@@ -490,7 +497,7 @@ bool Analysis::unchanged(Block body, const VarSymbol *variable) {
   return plainBlock(body, variable, true);
 }
 
-void Analysis::enterLoop(const ForStmt *loop) {
+void Analysis::enterLoop(const ForStmt *loop, bool countsAlone) {
   Range range{nullptr, 0, 0};
   const VarSymbol *variable = namedVariable(loop->variable);
   const bool own = variable != nullptr && variable->owner != nullptr &&
@@ -499,7 +506,7 @@ void Analysis::enterLoop(const ForStmt *loop) {
   if (own && loop->from->constant != nullptr && loop->to->constant != nullptr &&
       (loop->by == nullptr ||
        (loop->by->constant != nullptr && loop->by->constant->integer != 0)) &&
-      plainBlock(loop->body, variable, true)) {
+      (countsAlone || plainBlock(loop->body, variable, true))) {
     const std::int64_t from = loop->from->constant->integer;
     const std::int64_t to = loop->to->constant->integer;
     const bool up = loop->by == nullptr || loop->by->constant->integer > 0;

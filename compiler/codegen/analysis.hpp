@@ -37,11 +37,18 @@ public:
   /// Its bounds are constant, and the first value past the end is one of the variable's type.
   [[nodiscard]] bool endsInside(const ast::ForStmt *loop) const;
 
+  /// How often a FOR loop with constant bounds runs at most; huge for others.
+  [[nodiscard]] std::int64_t ownRounds(const ast::ForStmt *loop) const;
+  /// At most kShortLoop rounds of its own.
+  [[nodiscard]] bool fewRounds(const ast::ForStmt *loop) const {
+    return ownRounds(loop) <= kShortLoop;
+  }
+
   static constexpr std::int64_t kShortLoop = 1'000'000;
 
   /// Within the body of a FOR loop with constant bounds its variable has a known range, if nothing
-  /// else can change it.
-  void enterLoop(const ast::ForStmt *loop);
+  /// else can change it; `countsAlone` says that this is known.
+  void enterLoop(const ast::ForStmt *loop, bool countsAlone = false);
   void leaveLoop();
   /// The index needs no check: a constant, or a loop variable (plus a constant) that stays within
   /// the bounds.

@@ -41,6 +41,43 @@ bool onlyComputes(Builtin id) {
          id == Builtin::sizeofT || id == Builtin::lowerBound || id == Builtin::upperBound;
 }
 
+/// Calls save the locals: with more of them that costs more than it gains.
+constexpr std::size_t kLocalsOverCalls = 4;
+
+/// An instance that is found without following an address, so that its block is known.
+bool isOwnPlace(const Expr *place) {
+  while (true) {
+    switch (place->kind) {
+    case ExprKind::name: {
+      const VarSymbol *v = namedVariable(place);
+      return v != nullptr && !isIndirect(v);
+    }
+    case ExprKind::member: {
+      const auto *m = as<MemberExpr>(place);
+      if (m->symbol == nullptr || m->symbol->kind != SymbolKind::variable ||
+          isIndirect(static_cast<const VarSymbol *>(m->symbol)))
+        return false;
+      if (isNamespace(m->base))
+        return true;
+      place = m->base;
+      continue;
+    }
+    case ExprKind::index:
+      if (followsAddress(as<IndexExpr>(place)))
+        return false;
+      place = as<IndexExpr>(place)->base;
+      continue;
+    default:
+      return false;
+    }
+  }
+}
+
+/// A block that stands for itself alone: no other one shares its variables or replaces its code.
+bool standsAlone(const PouSymbol *block) {
+  return block->base == nullptr && !block->extended && !block->isAbstract();
+}
+
 template <class T> bool contains(const std::vector<T> &all, T one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
@@ -53,7 +90,8 @@ std::vector<const VarSymbol *> LoopLocals::of(const Stmt *loop, const PouSymbol 
     return {}; // a function's variables are C++ locals anyway
   Facts facts;
   statement(loop, facts);
-  if (facts.opaque)
+  if (facts.opaque || contains(facts.called, pou) ||
+      (!facts.called.empty() && pou->isBlock() && !standsAlone(pou)))
     return {};
   std::vector<const VarSymbol *> result;
   for (const VarSymbol *v : facts.written) {
@@ -65,7 +103,24 @@ std::vector<const VarSymbol *> LoopLocals::of(const Stmt *loop, const PouSymbol 
       continue;
     result.push_back(v);
   }
+  if (!facts.called.empty() && result.size() > kLocalsOverCalls)
+    result.resize(kLocalsOverCalls);
   return result;
+}
+
+bool LoopLocals::countsAlone(const ForStmt *loop, const PouSymbol *pou) {
+  const VarSymbol *v = namedVariable(loop->variable);
+  if (v == nullptr || pou == nullptr || v->owner != pou || isIndirect(v) ||
+      v->location != nullptr || v->section == Section::stat || v->section == Section::instance)
+    return false;
+  Facts facts;
+  block(loop->body, facts);
+  // A method shares the variables of its block with whatever it calls.
+  const bool shares =
+      contains(facts.called, pou) || (!facts.called.empty() && pou->isBlock() && !standsAlone(pou));
+  return !facts.opaque && !shares && !contains(facts.written, v) &&
+         !contains<const Symbol *>(facts.foreign, v) &&
+         !contains(facts.indirect, underlying(v->type));
 }
 
 void LoopLocals::block(Block block, Facts &facts) {
@@ -129,7 +184,13 @@ void LoopLocals::statement(const Stmt *s, Facts &facts) {
     block(as<RepeatStmt>(s)->body, facts);
     expression(as<RepeatStmt>(s)->until, facts);
     return;
-  default: // calls of blocks, jumps, __TRY
+  case StmtKind::call:
+    if (as<CallStmt>(s)->expr->kind == ExprKind::call)
+      call(as<CallExpr>(as<CallStmt>(s)->expr), facts);
+    else
+      facts.opaque = true;
+    return;
+  default: // jumps, __TRY
     facts.opaque = true;
     return;
   }
@@ -160,6 +221,8 @@ void LoopLocals::name(const Symbol *symbol, Facts &facts) {
     return;
   }
   const auto *v = static_cast<const VarSymbol *>(symbol);
+  if (v->section == Section::access) // another name of some variable
+    facts.opaque = true;
   if (isIndirect(v)) {
     const Type *pointee =
         v->type->kind == TypeKind::reference ? typeAs<PointerType>(v->type)->pointee : v->type;
@@ -228,6 +291,10 @@ void LoopLocals::expression(const Expr *e, Facts &facts) {
 }
 
 void LoopLocals::call(const CallExpr *e, Facts &facts) {
+  if (e->resolved == Callee::functionBlock || e->resolved == Callee::method) {
+    instanceCall(e, facts);
+    return;
+  }
   const bool isFunction = e->resolved == Callee::function && analysis_.pure(e->pou);
   if (!isFunction && (e->resolved != Callee::builtin || !onlyComputes(e->builtin))) {
     facts.opaque = true;
@@ -235,29 +302,70 @@ void LoopLocals::call(const CallExpr *e, Facts &facts) {
   }
   if (!isFunction && e->builtin == Builtin::sizeofT)
     return;
-  for (const Argument &a : e->arguments) {
-    if (a.value == nullptr)
-      continue;
-    if (holdsInstance(a.value->type))
-      facts.opaque = true;
-    expression(a.value, facts);
-  }
+  arguments(e, facts);
   if (!isFunction)
     return;
-  const Facts &inner = function(e->pou);
+  // A pure function writes its own variables only; what counts is which others it reads.
+  const Facts &inner = body(e->pou);
   facts.opaque = facts.opaque || inner.opaque;
   facts.foreign.insert(facts.foreign.end(), inner.foreign.begin(), inner.foreign.end());
 }
 
-/// A pure function writes its own variables only; what counts is which others it reads.
-const LoopLocals::Facts &LoopLocals::function(const PouSymbol *function) {
-  const auto found = functions_.find(function);
-  if (found != functions_.end())
+void LoopLocals::arguments(const CallExpr *e, Facts &facts) {
+  for (const Argument &a : e->arguments) {
+    if (a.value == nullptr)
+      continue;
+    if (a.output) {
+      target(a.value, facts);
+      continue;
+    }
+    const bool binds = a.parameter != nullptr && isIndirect(a.parameter);
+    if (holdsInstance(a.value->type) && !binds)
+      facts.opaque = true;
+    // What an in-out or a reference is bound to stays in memory.
+    if (const VarSymbol *bound = binds ? namedVariable(a.value) : nullptr; bound != nullptr)
+      facts.foreign.push_back(bound);
+    expression(a.value, facts);
+  }
+}
+
+/// A block or one of its methods: it reaches its own variables, those it names with a dot, and what
+/// its in-outs and references may stand for.
+void LoopLocals::instanceCall(const CallExpr *e, Facts &facts) {
+  const bool isMethod = e->resolved == Callee::method;
+  const PouSymbol *block = isMethod ? e->pou->owner : e->pou;
+  const bool isPlain =
+      !isMethod || (e->callee->kind == ExprKind::member && e->pou->decl->kind == DeclKind::method);
+  const Expr *object = isMethod && isPlain ? as<MemberExpr>(e->callee)->base : e->callee;
+  if (!isPlain || !block->isBlock() || !standsAlone(block) || !isOwnPlace(object)) {
+    facts.opaque = true;
+    return;
+  }
+  expression(object, facts);
+  arguments(e, facts);
+  const Facts &inner = body(e->pou);
+  facts.opaque = facts.opaque || inner.opaque;
+  facts.foreign.insert(facts.foreign.end(), inner.foreign.begin(), inner.foreign.end());
+  facts.indirect.insert(facts.indirect.end(), inner.indirect.begin(), inner.indirect.end());
+  facts.called.insert(facts.called.end(), inner.called.begin(), inner.called.end());
+  facts.called.push_back(block);
+}
+
+const LoopLocals::Facts &LoopLocals::body(const PouSymbol *pou) {
+  const auto found = bodies_.find(pou);
+  if (found != bodies_.end())
     return found->second;
+  Facts unknown; // what calls itself
+  unknown.opaque = true;
+  bodies_.emplace(pou, unknown);
   Facts facts;
-  if (!function->decl->external)
-    block(function->decl->body, facts);
-  return functions_.emplace(function, std::move(facts)).first->second;
+  if (!pou->checked)
+    facts.opaque = true;
+  else if (!pou->decl->external)
+    block(pou->decl->body, facts);
+  else // native functions on plain values compute, by agreement
+    facts.opaque = !pou->isFunction();
+  return bodies_[pou] = std::move(facts);
 }
 
 } // namespace stc::codegen

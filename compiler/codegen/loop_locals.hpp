@@ -17,6 +17,8 @@ public:
   /// The elementary variables of `pou` that the loop writes and nothing else touches during it; in
   /// the order of their first write.
   [[nodiscard]] std::vector<const VarSymbol *> of(const ast::Stmt *loop, const PouSymbol *pou);
+  /// Nothing in the body of the loop changes its variable, whatever it calls.
+  [[nodiscard]] bool countsAlone(const ast::ForStmt *loop, const PouSymbol *pou);
 
 private:
   /// What a piece of code touches.
@@ -29,6 +31,8 @@ private:
     std::vector<const Symbol *> foreign;
     /// Types of the elementary variables behind in-outs and references.
     std::vector<const Type *> indirect;
+    /// The blocks whose bodies and methods are called: their variables are in reach.
+    std::vector<const PouSymbol *> called;
   };
 
   void block(ast::Block block, Facts &facts);
@@ -36,11 +40,13 @@ private:
   void expression(const ast::Expr *expr, Facts &facts);
   void name(const Symbol *symbol, Facts &facts);
   void call(const ast::CallExpr *call, Facts &facts);
+  void arguments(const ast::CallExpr *call, Facts &facts);
+  void instanceCall(const ast::CallExpr *call, Facts &facts);
   void target(const ast::Expr *expr, Facts &facts);
-  const Facts &function(const PouSymbol *function);
+  const Facts &body(const PouSymbol *pou);
 
   Analysis &analysis_;
-  std::unordered_map<const PouSymbol *, Facts> functions_;
+  std::unordered_map<const PouSymbol *, Facts> bodies_;
 };
 
 } // namespace stc::codegen

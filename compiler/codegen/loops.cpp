@@ -13,6 +13,56 @@ bool isPlain(std::string_view place) {
   return place.find_first_of("([*") == std::string_view::npos;
 }
 
+/// RETURN, or (with `exits`) EXIT of the loop around: it may end before its last round.
+bool mayLeave(Block block, bool exits) {
+  const auto leaves = [exits](Block b) { return mayLeave(b, exits); };
+  for (const Stmt *s : block) {
+    switch (s->kind) {
+    case StmtKind::returnS:
+      return true;
+    case StmtKind::exit:
+      if (exits)
+        return true;
+      break;
+    case StmtKind::ifS: {
+      const auto *i = as<IfStmt>(s);
+      for (const IfBranch &b : i->branches) {
+        if (leaves(b.body))
+          return true;
+      }
+      if (leaves(i->elseBody))
+        return true;
+      break;
+    }
+    case StmtKind::caseS: {
+      const auto *c = as<CaseStmt>(s);
+      for (const CaseBranch &b : c->branches) {
+        if (leaves(b.body))
+          return true;
+      }
+      if (leaves(c->elseBody))
+        return true;
+      break;
+    }
+    case StmtKind::forS:
+      if (mayLeave(as<ForStmt>(s)->body, false))
+        return true;
+      break;
+    case StmtKind::whileS:
+      if (mayLeave(as<WhileStmt>(s)->body, false))
+        return true;
+      break;
+    case StmtKind::repeatS:
+      if (mayLeave(as<RepeatStmt>(s)->body, false))
+        return true;
+      break;
+    default:
+      break;
+    }
+  }
+  return false;
+}
+
 } // namespace
 
 /// A loop, the variables that only it can reach meanwhile in C++ locals.
@@ -30,7 +80,9 @@ void Emitter::loop(const Stmt *s) {
   for (const VarSymbol *v : loopLocals_) {
     const std::string name = mangle(v->name.text);
     w_ << ' ' << type(v->type) << ' ' << name << " = this->" << name << ';';
-    back += " this->" + name + " = " + name + ";";
+    // Neighbouring reals would be gathered in vectors, whose loads wait for the stores of halves.
+    back += " this->" + name + " = " +
+            (isReal(underlying(v->type)) ? "::stride::single(" + name + ")" : name) + ";";
   }
   const std::string context = temporary("loop");
   w_ << " const ::stride::LoopContext " << context << '{' << ctx()
@@ -130,8 +182,19 @@ void Emitter::forStatement(const ForStmt *s) {
   const bool constantStep = s->by == nullptr || s->by->constant != nullptr;
   const std::int64_t step = s->by == nullptr ? 1 : constantStep ? s->by->constant->integer : 0;
   const bool isShort = c_.analysis.shortLoop(s);
-  if (isShort && c_.analysis.endsInside(s)) {
-    c_.analysis.enterLoop(s);
+  const bool countsAlone = !isShort && c_.loopLocals.countsAlone(s, pou_);
+  // Rounds that are taken from the budget and not made would count as made.
+  const bool atOnce = countsAlone && c_.analysis.fewRounds(s) && !mayLeave(s->body, true);
+  if ((isShort || atOnce) && c_.analysis.endsInside(s)) {
+    if (!isShort) {
+      // All rounds are taken from the loop budget at once.
+      usesBudget_ = true;
+      w_ << "budget__.refill((budget__.left -= " << c_.analysis.ownRounds(s) << ") < 0, " << ctx()
+         << ", ";
+      position(s->span);
+      w_ << "); ";
+    }
+    c_.analysis.enterLoop(s, countsAlone);
     countedLoop(s, variable, step);
     c_.analysis.leaveLoop();
     return;
@@ -181,7 +244,7 @@ void Emitter::forStatement(const ForStmt *s) {
     w_ << "for (; budget__.left > 0 && " << run << "; --budget__.left, " << advance << ") {";
   }
   end();
-  c_.analysis.enterLoop(s);
+  c_.analysis.enterLoop(s, countsAlone);
   loopBody(s->body, !isShort);
   c_.analysis.leaveLoop();
 }

@@ -212,6 +212,16 @@ template <class T> constexpr bool forNext(T &i, T end, LINT step) {
                   : forUp(i, end, static_cast<ULINT>(step));
 }
 
+/// The same real, of which the compiler does not know that it lies beside another one.
+template <class T> __attribute__((always_inline)) inline T single(T value) {
+#if defined(__x86_64__)
+  __asm__("" : "+x"(value));
+#elif defined(__aarch64__)
+  __asm__("" : "+w"(value));
+#endif
+  return value;
+}
+
 // --- checks -------------------------------------------------------------------------------------
 // The context is a Ctx or a LoopContext.
 
