@@ -75,7 +75,8 @@ public:
   std::string operator[](const std::string &path) const {
     const app::SymbolTable symbols(application_->description());
     const app::Symbol symbol = symbols.resolve(path);
-    const void *place = symbol.address(application_->state());
+    std::byte bit{};
+    const void *place = symbol.read(application_->state(), bit);
     return place == nullptr
                ? "NULL"
                : app::formatLiteral(application_->description(), symbols.type(symbol), place);
