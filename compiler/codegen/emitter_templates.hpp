@@ -2,8 +2,8 @@
 // Templates of Emitter: conversions and operators around code that a callable writes.
 
 #include "compiler/codegen/emitter.hpp"
-#include "compiler/semantics/conversions.hpp"
 #include "compiler/semantics/alignment.hpp"
+#include "compiler/semantics/conversions.hpp"
 #include "compiler/semantics/locations.hpp"
 
 namespace stc::codegen {

@@ -474,7 +474,12 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
     const bool isPlace = place->kind == ExprKind::name || place->kind == ExprKind::member ||
                          place->kind == ExprKind::index || place->kind == ExprKind::deref ||
                          place->kind == ExprKind::direct;
-    if (!isPlace || isBitPlace(place) || (place->constant != nullptr && isElementary(place->type)))
+    if (isPlace && isBitPlace(place)) {
+      report(Code::wrongArgumentType, place->span, "a single bit has no address", "this is a bit")
+          .help("take the address of the variable that holds it");
+      return bad;
+    }
+    if (!isPlace || (place->constant != nullptr && isElementary(place->type)))
       return argumentError(expr, 0, "a variable");
     if (place->type->kind == TypeKind::openArray)
       return types_.pointer(typeAs<OpenArrayType>(place->type)->element);

@@ -120,7 +120,7 @@ const Type *Checker::checkCall(CallExpr *expr, bool asStatement) {
   } else if (callee->kind == ExprKind::member && as<MemberExpr>(callee)->bit < 0) {
     auto *member = as<MemberExpr>(callee);
     if (Symbol *space = resolveNamespace(member->base); space != nullptr) {
-      Symbol *symbol = memberOfSpace(space, member->name.id);
+      Symbol *symbol = nameInSpace(space, member->name);
       if (symbol != nullptr && symbol->kind == SymbolKind::pou) {
         pou = static_cast<PouSymbol *>(symbol);
         member->symbol = symbol;

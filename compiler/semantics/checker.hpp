@@ -105,6 +105,10 @@ private:
   Symbol *lookupPath(ast::NamePath path, bool asType);
   /// What `space.name` is, of a namespace or a library; null: nothing.
   Symbol *memberOfSpace(Symbol *space, Ident id);
+  /// The same, where the ST names it: reports what is INTERNAL to a namespace.
+  Symbol *nameInSpace(Symbol *space, const ast::Name &name);
+  /// Whether what is INTERNAL and declared there can be used here.
+  bool seesInternals(const Library *library, const NamespaceSymbol *space);
   void checkUsings(const ast::Decl *decl);
 
   // declarations.cpp
@@ -370,8 +374,8 @@ private:
       libraryMisses_; ///< results of lookupInLibraries, also the misses
   std::unordered_set<const Library *> wholeLibraries_; ///< all of their files are loaded
   Scope scope_;
-  std::set<std::uint64_t> badUsings_;                     ///< places of USING that were reported
-  std::set<std::pair<const PouSymbol *, Ident>> unknown_; ///< names reported already
+  std::set<std::uint64_t> reportedNames_; ///< places of USING and INTERNAL names that were reported
+  std::set<std::pair<const PouSymbol *, Ident>> unknown_;     ///< names reported already
   std::set<std::pair<const PouSymbol *, Ident>> throughSelf_; ///< members named `THIS^.x`
   unsigned loopDepth_ = 0;
   bool programTypes_ = false;                ///< the type being resolved may be a PROGRAM

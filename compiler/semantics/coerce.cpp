@@ -205,6 +205,8 @@ void Checker::reportConversion(Expr *expr, const Type *from, const Type *to, Con
     if (from->kind == TypeKind::anyReal && isInteger(underlying(to)))
       d.help("write it without a fraction, or convert it: `LREAL_TO_" +
              upper(typeName(underlying(to))) + "(…)`");
+    else if (to->kind == TypeKind::boolean && expr->constant != nullptr)
+      d.help("write TRUE or FALSE");
     else if (to->kind == TypeKind::boolean)
       d.help("compare it: `… <> 0`, or convert it" +
              (function.empty() ? "" : ": `" + function + "(…)`"));

@@ -318,7 +318,8 @@ const Type *Checker::resolveNamed(NamedTypeExpr *expr) {
                                           static_cast<PouSymbol *>(symbol)->isInterface())) {
     auto *pou = static_cast<PouSymbol *>(symbol);
     link(pou);
-    requireAccess(name.span, pou, pou, pou->decl->access);
+    if (pou->space == nullptr) // of a namespace: see nameInSpace()
+      requireAccess(name.span, pou, pou, pou->decl->access);
     return pou->type;
   }
   if (programTypes_ && symbol->kind == SymbolKind::pou &&

@@ -218,7 +218,7 @@ Symbol *Checker::resolveNamespace(Expr *expr) {
     Symbol *base = resolveNamespace(member->base);
     if (base == nullptr)
       return nullptr;
-    Symbol *symbol = memberOfSpace(base, member->name.id);
+    Symbol *symbol = nameInSpace(base, member->name);
     if (symbol != nullptr &&
         (symbol->kind == SymbolKind::type || symbol->kind == SymbolKind::space)) {
       member->symbol = symbol;
@@ -267,7 +267,7 @@ const Type *Checker::checkMember(MemberExpr *expr) {
       for (const VarSymbol *v : list->variables)
         candidates.push_back(v->name.text);
     } else {
-      found = memberOfSpace(space, expr->name.id);
+      found = nameInSpace(space, expr->name);
       if (space->kind == SymbolKind::space)
         for (const auto &[id, symbol] : static_cast<NamespaceSymbol *>(space)->names)
           candidates.push_back(symbol->name.text);

@@ -108,10 +108,11 @@ bool Checker::requireAccess(Span span, const Symbol *member, const PouSymbol *ow
     who = "only `" + std::string(owner->name.text) + "` and blocks that extend it can use it";
     break;
   case Access::internalA:
-    if (scope_.module->library == member->library)
+    if (seesInternals(member->library, owner->space))
       return true;
     word = "INTERNAL";
-    who = "only the library `" + member->library->name + "` can use it";
+    who = owner->space != nullptr ? "only the namespace `" + owner->space->path + "` can use it"
+                                  : "only the library `" + member->library->name + "` can use it";
     break;
   default:
     return true;

@@ -103,6 +103,30 @@ Symbol *Checker::memberOfSpace(Symbol *space, Ident id) {
   return enumerator == of->enumerators.end() ? nullptr : enumerator->second.front();
 }
 
+bool Checker::seesInternals(const Library *library, const NamespaceSymbol *space) {
+  if (scope_.module->library != library)
+    return false;
+  const auto around = spacesHere();
+  return space == nullptr || std::find(around.begin(), around.end(), space) != around.end();
+}
+
+Symbol *Checker::nameInSpace(Symbol *space, const Name &name) {
+  Symbol *found = memberOfSpace(space, name.id);
+  if (found == nullptr || found->space == nullptr)
+    return found;
+  const Decl *decl = found->kind == SymbolKind::pou    ? static_cast<PouSymbol *>(found)->decl
+                     : found->kind == SymbolKind::type ? static_cast<TypeSymbol *>(found)->decl
+                                                       : nullptr;
+  if (decl != nullptr && decl->access == Access::internalA &&
+      !seesInternals(found->library, found->space) &&
+      reportedNames_.insert(placeOf(name.span)).second)
+    noteDeclaration(report(Code::memberNotVisible, name.span,
+                           "`" + qualifiedName(found) + "` is INTERNAL",
+                           "only the namespace `" + found->space->path + "` can use it"),
+                    found);
+  return found;
+}
+
 Symbol *Checker::lookupInSpaces(Ident id) {
   for (const NamespaceSymbol *space : spacesHere())
     if (const auto it = space->names.find(id); it != space->names.end())
@@ -121,7 +145,7 @@ Symbol *Checker::lookupInUsings(const Name &name) {
     if (here == nullptr || here == found || here->kind == SymbolKind::enumerator)
       continue;
     if (found == nullptr) {
-      found = here;
+      found = nameInSpace(space, name);
       continue;
     }
     if (unknown_.emplace(scope_.pou, name.id).second)
@@ -166,7 +190,7 @@ Symbol *Checker::lookupPath(NamePath path, bool asType) {
     return nullptr;
   }
   for (const Name &name : path.subspan(1)) {
-    Symbol *next = memberOfSpace(symbol, name.id);
+    Symbol *next = nameInSpace(symbol, name);
     if (next == nullptr) {
       reportUnknown(name, asType);
       return nullptr;
@@ -180,7 +204,7 @@ void Checker::checkUsings(const Decl *decl) {
   const ScopeGuard guard(*this, {scope_.module, nullptr, decl});
   for (const NamePath &path : decl->usings) {
     const Span span = path.front().span.to(path.back().span);
-    if (usedSpace(path) == nullptr && badUsings_.insert(placeOf(span)).second)
+    if (usedSpace(path) == nullptr && reportedNames_.insert(placeOf(span)).second)
       report(Code::unknownNamespace, span,
              "cannot find the namespace `" + std::string(program_.sources.text(span)) + "`",
              "neither a NAMESPACE nor a library")
