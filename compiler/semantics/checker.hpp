@@ -160,7 +160,11 @@ private:
   bool hasSlots(const Type *type);
   void collectSlots(const Type *type, StatePath &path, std::vector<SlotPlace> &out);
   Symbol *pathRoot(const ast::Name &name, Module &module);
-  std::optional<PathTarget> resolvePath(ast::Expr *expr, Module &module);
+  std::optional<PathTarget> ownVariable(const ast::PouDecl &program, const ast::Name &name,
+                                        Module &module);
+  /// A variable by its path; `inside`: a program whose own variables can be named without it.
+  std::optional<PathTarget> resolvePath(ast::Expr *expr, Module &module,
+                                        const ast::PouDecl *inside = nullptr);
   void checkConfigEntry(ast::VarDecl *decl, Module &module, std::vector<SlotPlace> &slots);
   void reportMissingPlaces(const std::vector<SlotPlace> &slots);
   void checkConfigured(Module &module);

@@ -137,8 +137,30 @@ Symbol *Checker::pathRoot(const Name &name, Module &module) {
   return nullptr;
 }
 
-std::optional<Checker::PathTarget> Checker::resolvePath(Expr *expr, Module &module) {
+/// The path of a program's own variable; nothing if it has none of that name.
+std::optional<Checker::PathTarget> Checker::ownVariable(const PouDecl &program, const Name &name,
+                                                        Module &module) {
+  const auto found = module.names.find(program.name.id);
+  if (found == module.names.end() || found->second->kind != SymbolKind::pou)
+    return std::nullopt;
+  auto *pou = static_cast<PouSymbol *>(found->second);
+  declare(pou);
+  VarSymbol *variable = pou->isTemplate ? nullptr : findMember(pou->type, name.id);
+  if (variable == nullptr || variable->section == Section::temp ||
+      variable->section == Section::stat || variable->section == Section::external)
+    return std::nullopt;
+  PathTarget target;
+  target.path = {pou, {{variable, 0}}};
+  target.variable = variable;
+  target.type = typeOf(variable);
+  return target;
+}
+
+std::optional<Checker::PathTarget> Checker::resolvePath(Expr *expr, Module &module,
+                                                        const PouDecl *inside) {
   const auto start = [&](const Name &name) -> std::optional<PathTarget> {
+    if (auto own = inside == nullptr ? std::nullopt : ownVariable(*inside, name, module))
+      return own;
     Symbol *root = pathRoot(name, module);
     if (root == nullptr)
       return std::nullopt;
@@ -173,7 +195,7 @@ std::optional<Checker::PathTarget> Checker::resolvePath(Expr *expr, Module &modu
           resourceNames_.contains(second->name.id))
         return start(member->name);
     }
-    auto base = resolvePath(member->base, module);
+    auto base = resolvePath(member->base, module, inside);
     if (!base || isError(base->type))
       return std::nullopt;
     VarSymbol *found = findMember(base->type, member->name.id);
@@ -195,7 +217,7 @@ std::optional<Checker::PathTarget> Checker::resolvePath(Expr *expr, Module &modu
   }
   case ExprKind::index: {
     auto *index = as<IndexExpr>(expr);
-    auto base = resolvePath(index->base, module);
+    auto base = resolvePath(index->base, module, inside);
     for (Expr *i : index->indices) {
       const auto value = constantInteger(i, "an index in a path");
       if (!value || !base || isError(base->type))
@@ -422,7 +444,7 @@ void Checker::checkAccesses(Module &module) {
         auto *direct = as<DirectExpr>(decl->path);
         access.type = check(direct);
         access.location = direct->location;
-      } else if (auto target = resolvePath(decl->path, module)) {
+      } else if (auto target = resolvePath(decl->path, module, list->program)) {
         access.path = std::move(target->path);
         access.type = target->type;
         if (target->variable != nullptr)

@@ -552,8 +552,10 @@ struct AliasDecl : Decl {
 };
 
 /// One VAR_GLOBAL, VAR_CONFIG or VAR_ACCESS block.
+struct PouDecl;
 struct GlobalsDecl : Decl {
   std::span<VarDecl *> variables;
+  const PouDecl *program = nullptr; ///< VAR_ACCESS: the PROGRAM that it stands in; null: none
 };
 
 /// `TASK name (SINGLE := x, INTERVAL := T#10ms, PRIORITY := 1);`

@@ -99,7 +99,8 @@ private:
   [[nodiscard]] bool startsStatementInSection() const;
   void markTypeArgument();
   [[nodiscard]] bool isJumpTarget(const Token &name);
-  void globals();
+  /// VAR_GLOBAL, VAR_CONFIG or VAR_ACCESS; `program`: around the latter.
+  void globals(const ast::PouDecl *program = nullptr);
   void outside();
   void namespaceHead();
   void namespaceEnd();

@@ -220,9 +220,15 @@ void FileParser::content(Content &out, OpenPou *members) {
   // VAR_GLOBAL among the declarations is taken for one of them; the checker says that it must not
   // be there.
   const auto misplacedGlobals = [&] { return !inBody && now_.type == Tok::VAR_GLOBAL; };
-  while (!endsUnit() && (!startsDeclaration() || misplacedGlobals())) {
+  const auto ownAccess = [&] {
+    return !inBody && now_.type == Tok::VAR_ACCESS && members != nullptr &&
+           members->node != nullptr && members->node->kind == ast::DeclKind::program;
+  };
+  while (!endsUnit() && (!startsDeclaration() || misplacedGlobals() || ownAccess())) {
     if (now_.type == Tok::SEMICOLON && !inBody) {
       advance();
+    } else if (ownAccess()) {
+      globals(members->node);
     } else if (startsSection()) {
       if (inBody && !late) {
         diagnostics_.report(Code::lateDeclaration, span(now_),

@@ -105,8 +105,9 @@ void FileParser::sections(std::vector<ast::VarDecl *> &out) {
   parseSection();
 }
 
-void FileParser::globals() {
+void FileParser::globals(const ast::PouDecl *program) {
   auto *node = arena_.make<ast::GlobalsDecl>();
+  node->program = program;
   node->kind = now_.type == Tok::VAR_CONFIG   ? ast::DeclKind::config
                : now_.type == Tok::VAR_ACCESS ? ast::DeclKind::access
                                               : ast::DeclKind::globals;
