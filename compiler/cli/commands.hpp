@@ -23,8 +23,10 @@ int checkCommand(const ProjectOptions &options);
 /// `out`: where the shared object goes, or the sources with `emitCpp`.
 int buildCommand(const ProjectOptions &options, const std::string &out, bool emitCpp);
 
-/// Builds, then becomes stride-host with these arguments behind the application's path.
-int simCommand(const ProjectOptions &options, const std::vector<std::string> &hostArguments);
+/// Builds, then becomes stride-host with `command` (sim, run) and these arguments behind the
+/// application's path.
+int hostCommand(const ProjectOptions &options, const std::string &command,
+                const std::vector<std::string> &hostArguments);
 
 int plotCommand(const std::string &trace, const std::string &out);
 

@@ -92,6 +92,65 @@ void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build) {
   command.add_flag("--debug", options.debug, "Compile quickly and with debug information");
 }
 
+/// Options of a command that stride-host gets as they are.
+class HostOptions {
+public:
+  HostOptions(CLI::App &command, std::vector<std::string> &arguments)
+      : command_(&command), arguments_(&arguments) {}
+
+  CLI::Option *pass(const char *option, const char *help, const char *type) const {
+    return command_
+        ->add_option_function<std::vector<std::string>>(
+            option,
+            [arguments = arguments_, option](const std::vector<std::string> &values) {
+              for (const std::string &value : values)
+                arguments->insert(arguments->end(), {option, value});
+            },
+            help)
+        ->expected(1)
+        ->take_all()
+        ->allow_extra_args(false)
+        ->type_name(type);
+  }
+  void passFlag(const char *option, const char *help) const {
+    command_->add_flag_callback(
+        option, [arguments = arguments_, option] { arguments->emplace_back(option); }, help);
+  }
+
+private:
+  CLI::App *command_;
+  std::vector<std::string> *arguments_;
+};
+
+/// What simulations and runs have in common.
+void addTraceOptions(const HostOptions &host) {
+  host.pass("--trace", "Variables to record in every cycle: Drive.fSetPosition,Main.n", "NAMES");
+  host.pass("--out", "CSV file for the trace (default: standard output)", "FILE");
+  host.pass("--print", "Variables to print at the end", "NAMES");
+}
+
+void addSimOptions(const HostOptions &host) {
+  host.pass("--for", "How long, in virtual time: T#5s", "TIME")->required();
+  addTraceOptions(host);
+  host.pass("--set",
+            "Write a variable at a time: T#3s,Main.p=50; without a time at once (may be repeated)",
+            "[TIME,]NAME=VALUE");
+  host.pass("--loop-budget", "Loop iterations a cycle may use before it counts as endless",
+            "COUNT");
+  host.passFlag("--quiet", "Neither progress nor summary");
+  host.passFlag("--summary", "A summary even when standard error is no terminal");
+}
+
+void addRunOptions(const HostOptions &host) {
+  host.pass("--for", "How long (default: until Ctrl-C): 5s, T#1h", "TIME");
+  addTraceOptions(host);
+  host.pass("--on-fault", "What happens after an exception: stop (default), restart", "WHAT");
+  host.pass("--core", "Processor of the tasks that choose none (default: the last one)", "N");
+  host.passFlag("--turns", "Only one task at a time is in a cycle, also with real-time priorities");
+  host.passFlag("--histogram", "Distributions of run times and delays with the statistics");
+  host.passFlag("--quiet", "No statistics, no warnings about real time");
+}
+
 int run(int argc, char **argv) {
   CLI::App app("Structured Text and SoftMotion programs: check, build, simulate");
   app.set_version_flag("--version", kVersion);
@@ -127,35 +186,13 @@ int run(int argc, char **argv) {
   std::vector<std::string> host;
   CLI::App *sim = app.add_subcommand("sim", "Build, then run in virtual time");
   addProjectOptions(*sim, options, true);
-  const auto pass = [&](const char *option, const char *help, const char *type) {
-    return sim
-        ->add_option_function<std::vector<std::string>>(
-            option,
-            [&host, option](const std::vector<std::string> &values) {
-              for (const std::string &value : values)
-                host.insert(host.end(), {option, value});
-            },
-            help)
-        ->expected(1)
-        ->take_all()
-        ->allow_extra_args(false)
-        ->type_name(type);
-  };
-  const auto passFlag = [&](const char *option, const char *help) {
-    sim->add_flag_callback(
-        option, [&host, option] { host.emplace_back(option); }, help);
-  };
-  pass("--for", "How long, in virtual time: T#5s", "TIME")->required();
-  pass("--trace", "Variables to record in every cycle: Drive.fSetPosition,Main.n", "NAMES");
-  pass("--out", "CSV file for the trace (default: standard output)", "FILE");
-  pass("--set",
-       "Write a variable at a time: T#3s,Main.p=50; without a time at once (may be repeated)",
-       "[TIME,]NAME=VALUE");
-  pass("--print", "Variables to print at the end", "NAMES");
-  pass("--loop-budget", "Loop iterations a cycle may use before it counts as endless", "COUNT");
-  passFlag("--quiet", "Neither progress nor summary");
-  passFlag("--summary", "A summary even when standard error is no terminal");
-  sim->callback([&] { exitCode = simCommand(options, host); });
+  addSimOptions(HostOptions(*sim, host));
+  sim->callback([&] { exitCode = hostCommand(options, "sim", host); });
+
+  CLI::App *runApp = app.add_subcommand("run", "Build, then run by the real clock");
+  addProjectOptions(*runApp, options, true);
+  addRunOptions(HostOptions(*runApp, host));
+  runApp->callback([&] { exitCode = hostCommand(options, "run", host); });
 
   std::string trace;
   CLI::App *plot = app.add_subcommand("plot", "Draw a trace");

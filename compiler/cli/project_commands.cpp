@@ -1,4 +1,4 @@
-// check, build, sim
+// check, build, sim, run
 
 #include "compiler/cli/commands.hpp"
 #include "compiler/project/build.hpp"
@@ -75,7 +75,8 @@ int buildCommand(const ProjectOptions &options, const std::string &out, bool emi
   return exitCode;
 }
 
-int simCommand(const ProjectOptions &options, const std::vector<std::string> &hostArguments) {
+int hostCommand(const ProjectOptions &options, const std::string &command,
+                const std::vector<std::string> &hostArguments) {
   std::optional<BuildResult> result;
   int exitCode = 0;
   {
@@ -87,7 +88,7 @@ int simCommand(const ProjectOptions &options, const std::vector<std::string> &ho
   std::string missing;
   const std::optional<Installation> installation = findInstallation(missing);
   const std::string host = installation ? installation->host.string() : missing;
-  std::vector<std::string> arguments = {host, "sim", result->application.string()};
+  std::vector<std::string> arguments = {host, command, result->application.string()};
   arguments.insert(arguments.end(), hostArguments.begin(), hostArguments.end());
   std::vector<char *> pointers;
   for (std::string &argument : arguments)

@@ -58,6 +58,9 @@ public:
       measures.insert(0, "\n// What SIZEOF has given.\n");
     for (const Member &m : members_)
       types_.includes().symbol(m.root.symbol);
+    for (const AppConfig::Task &task : config_.tasks)
+      if (task.event != nullptr)
+        types_.includes().symbol(task.event);
     std::string out = banner("The application object");
     out += "#include \"runtime/app/abi.h\"\n#include \"runtime/iec/image.h\"\n";
     if (c_.program.usesPool)
@@ -289,14 +292,24 @@ private:
       for (const PouSymbol *p : task.programs)
         out += "  app__(ctx__)." + memberName({p, false}) + ".body__(*ctx__);\n";
       out += "}\n";
-      rows += "    {\"" + escaped(task.name) +
-              "\", ::stride::TaskKind::" + (task.intervalNs > 0 ? "Cyclic" : "Freewheeling") +
-              ", " + std::to_string(task.priority) + ", " +
-              std::to_string(task.intervalNs > 0 ? task.intervalNs : 10000000) + ", 0, 0, 0, " +
-              name + "},\n";
+      std::string event = "nullptr";
+      if (task.event != nullptr) {
+        event = "event" + std::to_string(i) + "__";
+        out += "\n::stride::BOOL " + event + "(::stride::Ctx *ctx__) { return " +
+               std::string(c_.names.qualified(task.event)) + "(*ctx__); }\n";
+      }
+      static constexpr std::string_view kKinds[] = {"Cyclic", "Freewheeling", "Event", "Status"};
+      rows +=
+          "    {\"" + escaped(task.name) +
+          "\", ::stride::TaskKind::" + std::string(kKinds[static_cast<std::size_t>(task.start)]) +
+          ", " + std::to_string(task.priority) + ", " + std::to_string(task.intervalNs) + ", " +
+          std::to_string(task.watchdogNs) + ", " + std::to_string(task.watchdogSensitivity) + ", " +
+          (task.core ? std::to_string(*task.core) : "::stride::kNoIndex") + ", " + name + ", " +
+          event + "},\n";
     }
     if (!rows.empty())
-      out += "\n// {name, kind, priority, intervalNs, watchdogNs, watchdogSensitivity, 0, run}\n"
+      out += "\n// {name, kind, priority, intervalNs, watchdogNs, watchdogSensitivity, core, run, "
+             "event}\n"
              "constexpr ::stride::TaskDesc kTasks[] = {\n" +
              rows + "};\n";
   }

@@ -4,6 +4,7 @@
 #include "compiler/semantics/program.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,12 +16,20 @@ struct GeneratedFile {
   std::string text;
 };
 
+/// How a task is started.
+enum class TaskStart : std::uint8_t { cyclic, freewheeling, event, status };
+
 /// Tasks and axis groups of the application, from stride.toml.
 struct AppConfig {
   struct Task {
     std::string name;
-    std::int64_t intervalNs = 0;
+    TaskStart start = TaskStart::cyclic;
+    std::int64_t intervalNs = 0;       ///< as TaskDesc::intervalNs
     unsigned priority = 0;             ///< 0 highest … 31
+    const PouSymbol *event = nullptr;  ///< a FUNCTION : BOOL without parameters
+    std::int64_t watchdogNs = 0;       ///< 0: none
+    unsigned watchdogSensitivity = 1;  ///< violations that stop the application
+    std::optional<unsigned> core;      ///< processor to run on
     std::vector<PouSymbol *> programs; ///< called in this order
   };
   struct Drive {

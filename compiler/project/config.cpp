@@ -126,12 +126,42 @@ private:
         !taskNames_.add(lowerCase(task.name.text), task.name.span,
                         fmt::format("two tasks are named `{}`", task.name.text)))
       return;
-    task.intervalNs = parseInterval(section.text("interval")).value_or(0);
+    task.start = static_cast<TaskStart>(
+        section.choice("kind", static_cast<std::int64_t>(TaskStart::cyclic)));
+    readStart(section, task);
+    task.watchdogNs = parseInterval(section.text("watchdog")).value_or(0);
+    task.watchdogSensitivity = static_cast<unsigned>(section.integer("watchdog_sensitivity", 1));
+    if (section.has("watchdog_sensitivity") && !section.has("watchdog"))
+      withoutEffect(section, "watchdog_sensitivity", "only together with `watchdog`");
+    if (section.has("core"))
+      task.core = static_cast<unsigned>(section.integer("core", 0));
     task.priority = static_cast<unsigned>(section.integer("priority", 1));
     if (const TomlNode *programs = section.get("programs"))
       for (const TomlNode &program : programs->children)
         task.programs.push_back({program.text, program.span});
     config_.tasks.push_back(std::move(task));
+  }
+
+  /// What starts it: an interval, an event, or nothing.
+  void readStart(const CheckedSection &section, TaskConfig &task) {
+    if (section.has("kind") && section.get("kind") == nullptr)
+      return;                                     // unknown, which has been reported
+    constexpr std::int64_t kOwnPace = 10'000'000; // of freewheeling and status tasks
+    task.intervalNs = parseInterval(section.text("interval")).value_or(0);
+    const bool onEvent = task.start == TaskStart::event || task.start == TaskStart::status;
+    if (onEvent) {
+      if (const TomlNode *event = section.get("event"))
+        task.event = {event->text, event->span};
+      else if (!section.has("event"))
+        missing(section, "event", "the BOOL that starts it, for example \"GVL.bStart\"");
+    } else if (section.has("event")) {
+      withoutEffect(section, "event", "only with kind = \"event\" or \"status\"");
+    }
+    if (task.start == TaskStart::cyclic && !section.has("interval"))
+      missing(section, "interval", "a duration such as \"T#10ms\"");
+    if (task.intervalNs == 0 &&
+        (task.start == TaskStart::freewheeling || task.start == TaskStart::status))
+      task.intervalNs = kOwnPace;
   }
 
   void readBus(const CheckedSection &section) {
@@ -345,6 +375,13 @@ private:
           .help("add the largest jerk in u/s³, for example `fJerk = 20000.0`");
     else if (ramp == 0 && section.get("fJerk") != nullptr)
       withoutEffect(section, "fJerk", "only with eRampType = \"sigmoid\" or \"parabolic\"");
+  }
+
+  void missing(const CheckedSection &section, std::string_view name, std::string_view what) {
+    diagnostics_
+        .report(Code::configMissingKey, section.table().span,
+                fmt::format("a task needs `{}`", name), fmt::format("`{}` is missing", name))
+        .help(fmt::format("add `{} = …`: {}", name, what));
   }
 
   void withoutEffect(const CheckedSection &section, std::string_view name,

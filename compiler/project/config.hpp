@@ -1,6 +1,7 @@
 #pragma once
 // What stride.toml says: tasks and PLC configuration (SoftMotion V2.3 manual, section 2.1).
 
+#include "compiler/codegen/codegen.hpp"
 #include "compiler/semantics/program.hpp"
 #include "compiler/source/diagnostic.hpp"
 #include "compiler/source/source_manager.hpp"
@@ -9,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,9 +25,14 @@ struct ConfigName {
 
 struct TaskConfig {
   ConfigName name;
-  std::int64_t intervalNs = 0; ///< 0: wrong or missing, which has been reported
+  TaskStart start = TaskStart::cyclic;
+  /// 0: none, or wrong, which has been reported. Beside an event: see TaskDesc::intervalNs.
+  std::int64_t intervalNs = 0;
   unsigned priority = 1;
-  bool freewheeling = false;        ///< without an interval
+  ConfigName event;                 ///< an expression of ST, for event and status tasks
+  std::int64_t watchdogNs = 0;      ///< 0: none
+  unsigned watchdogSensitivity = 1; ///< violations that stop the application
+  std::optional<unsigned> core;     ///< processor to run on
   std::vector<ConfigName> programs; ///< called in this order
 };
 
@@ -94,9 +101,12 @@ struct DeclaredRange {
   Span origin;
 };
 
-/// The PLC configuration as ST: one VAR_GLOBAL with an AXIS_REF per drive and an SMC_AXISGROUP_REF
-/// per axis group. Empty without axis groups. Drives and groups named like something in `files` are
-/// reported and left out.
+/// Name of the hidden FUNCTION that evaluates the event of a task.
+[[nodiscard]] std::string eventFunction(const TaskConfig &task);
+
+/// The configuration as ST: one VAR_GLOBAL with an AXIS_REF per drive and an SMC_AXISGROUP_REF
+/// per axis group, and a FUNCTION for the event of each task that has one. May be empty. Drives and
+/// groups named like something in `files` are reported and left out.
 [[nodiscard]] std::string plcDeclarations(const ProjectConfig &config,
                                           const std::vector<ast::File *> &files,
                                           std::vector<DeclaredRange> &ranges,

@@ -154,12 +154,16 @@ private:
         else
           task.priority = static_cast<unsigned>(literal->integer);
       } else if (name == "single") {
-        bad = true;
-        report(Code::configurationTask, a.span,
-               fmt::format("the task `{}` is started by an event, which is not available",
-                           task.name.text),
-               "SINGLE")
-            .help("give it an INTERVAL, and look for the rising edge with R_TRIG in its program");
+        if (a.value == nullptr) {
+          bad = true;
+          report(Code::configurationTask, a.span, "SINGLE is a BOOL", "an expression is expected");
+          continue;
+        }
+        const Span at = a.value->span;
+        task.start = TaskStart::event;
+        task.event = {
+            std::string(program_.sources.file(at.file).text().substr(at.begin, at.end - at.begin)),
+            at};
       } else {
         Diagnostic &d = report(Code::configurationTask, a.span, "a TASK has no such property",
                                "not INTERVAL, PRIORITY or SINGLE");
@@ -168,7 +172,7 @@ private:
         bad = true;
       }
     }
-    if (!hasInterval && !bad)
+    if (!hasInterval && !bad && task.start == TaskStart::cyclic)
       report(Code::configurationTask, decl.name.span,
              fmt::format("the task `{}` has no INTERVAL", task.name.text), "how often does it run?")
           .help(
@@ -196,12 +200,13 @@ private:
     if (!instance.task) { // runs when nothing else does
       constexpr std::string_view kName = "Background";
       for (TaskConfig &task : config_.tasks)
-        if (task.name.text == kName && task.freewheeling)
+        if (task.name.text == kName && task.start == TaskStart::freewheeling)
           return &task;
       TaskConfig task;
       task.name.text = kName;
       task.priority = kLowestPriority;
-      task.freewheeling = true;
+      task.start = TaskStart::freewheeling;
+      task.intervalNs = 10'000'000;
       config_.tasks.push_back(std::move(task));
       return &config_.tasks.back();
     }

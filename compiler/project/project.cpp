@@ -155,8 +155,9 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
   const std::string declarations = plcDeclarations(config_, files, ranges_, program_.diagnostics);
   if (!declarations.empty()) {
     plcFile_ = program_.sources.add(std::string(kPlcFile), declarations);
+    options.generated = true;
     files.insert(files.begin(), parse(program_.sources.file(plcFile_), program_.interner,
-                                      program_.arena, program_.diagnostics));
+                                      program_.arena, program_.diagnostics, &options));
   }
   program_.files = files;
   check(program_, files, index);
@@ -187,8 +188,16 @@ AppConfig Project::appConfig() const {
   for (const TaskConfig &from : config_.tasks) {
     AppConfig::Task task;
     task.name = from.name.text;
+    task.start = from.start;
     task.intervalNs = from.intervalNs;
     task.priority = from.priority;
+    task.watchdogNs = from.watchdogNs;
+    task.watchdogSensitivity = from.watchdogSensitivity;
+    task.core = from.core;
+    if (!from.event.text.empty())
+      for (const PouSymbol *pou : program_.user->pous)
+        if (equalIgnoringCase(pou->name.text, eventFunction(from)))
+          task.event = pou;
     for (const ConfigName &program : from.programs)
       for (PouSymbol *pou : program_.user->pous)
         if (pou->decl->kind == ast::DeclKind::program &&

@@ -1,6 +1,7 @@
 // The parameters of stride.toml. Names, types and meanings of the PLC configuration are those of
 // the SoftMotion V2.3 manual, sections 2.1.2 and 2.1.3.
 
+#include "compiler/codegen/codegen.hpp"
 #include "compiler/project/schema.hpp"
 
 #include <array>
@@ -80,9 +81,20 @@ constexpr std::array kProjectParameters = {
     Parameter{"new_pool", ParameterType::integer, false, 1024, 268435456, {}, "bytes"},
 };
 
+constexpr std::array<Choice, 4> kTaskKinds = {
+    {{"cyclic", static_cast<std::int64_t>(TaskStart::cyclic)},
+     {"freewheeling", static_cast<std::int64_t>(TaskStart::freewheeling)},
+     {"event", static_cast<std::int64_t>(TaskStart::event)},
+     {"status", static_cast<std::int64_t>(TaskStart::status)}}};
+
 constexpr std::array kTaskParameters = {
     needed({"name", ParameterType::identifier}),
-    needed({"interval", ParameterType::interval, false, kMicrosecond, kHour}),
+    choice("kind", kTaskKinds),
+    Parameter{"interval", ParameterType::interval, false, kMicrosecond, kHour},
+    Parameter{"event", ParameterType::text},
+    Parameter{"watchdog", ParameterType::interval, false, kMicrosecond, kHour},
+    Parameter{"watchdog_sensitivity", ParameterType::integer, false, 1, 1000},
+    Parameter{"core", ParameterType::integer, false, 0, 1023},
     Parameter{"priority", ParameterType::integer, false, 0, 31},
     needed({"programs", ParameterType::nameList}),
 };

@@ -268,6 +268,30 @@ public:
       : names_(globalNames(files)), ranges_(ranges), diagnostics_(diagnostics) {}
 
   std::string write(const ProjectConfig &config) {
+    axisGroups(config);
+    const std::string globals =
+        body_.empty() ? std::string() : std::string(kBegin) + body_ + "END_VAR\n";
+    return globals + events(config, globals.size());
+  }
+
+private:
+  /// A FUNCTION per event; `begin`: where they will be in the text.
+  std::string events(const ProjectConfig &config, std::size_t begin) {
+    std::string text;
+    for (const TaskConfig &task : config.tasks) {
+      if (task.event.text.empty())
+        continue;
+      const std::size_t from = begin + text.size();
+      const std::string name = eventFunction(task);
+      text += fmt::format("{{attribute 'hide'}}\nFUNCTION {} : BOOL\n{} := {};\nEND_FUNCTION\n",
+                          name, name, task.event.text);
+      ranges_.push_back({static_cast<std::uint32_t>(from),
+                         static_cast<std::uint32_t>(begin + text.size()), task.event.span});
+    }
+    return text;
+  }
+
+  void axisGroups(const ProjectConfig &config) {
     std::size_t index = 0;
     for (const AxisGroupConfig &group : config.axisGroups) {
       ConfigFields fields = {{"sTask", fmt::format("'{}'", group.task.text)},
@@ -283,10 +307,8 @@ public:
       }
       ++index;
     }
-    return body_.empty() ? std::string() : std::string(kBegin) + body_ + "END_VAR\n";
   }
 
-private:
   void variable(std::string_view what, const ConfigName &name, std::string_view type,
                 const ConfigFields &fields) {
     if (const auto clash = names_.find(lowerCase(name.text)); clash != names_.end()) {
@@ -324,6 +346,8 @@ void resolveTasks(ProjectConfig &config, const std::vector<ast::File *> &files,
                   ProgramCheck programCheck, Diagnostics &diagnostics) {
   TaskResolver(config, files, diagnostics).resolve(programCheck);
 }
+
+std::string eventFunction(const TaskConfig &task) { return task.name.text + "__event"; }
 
 std::string plcDeclarations(const ProjectConfig &config, const std::vector<ast::File *> &files,
                             std::vector<DeclaredRange> &ranges, Diagnostics &diagnostics) {

@@ -31,7 +31,8 @@ std::optional<Define> readDefine(std::string_view text) {
 }
 
 Conditions::Conditions(const ParseOptions *options)
-    : names_(options == nullptr ? nullptr : options->names) {
+    : names_(options == nullptr ? nullptr : options->names),
+      generated_(options != nullptr && options->generated) {
   for (const std::string_view name : kAlways)
     defines_.emplace(name, "");
   if (options != nullptr)

@@ -53,6 +53,7 @@ private:
 struct ParseOptions {
   std::vector<Define> defines;
   DeclaredNames *names = nullptr; ///< null: nothing is declared
+  bool generated = false; ///< a text of our own: its names may have two underscores in a row
 };
 
 /// The state of one file's conditional pragmas.
@@ -60,6 +61,8 @@ class Conditions {
 public:
   explicit Conditions(const ParseOptions *options);
 
+  /// ParseOptions::generated.
+  [[nodiscard]] bool generated() const { return generated_; }
   void define(std::string_view name, std::string_view value);
   void undefine(std::string_view name);
   /// The value of the expression `text`, which begins at `place` of the file; nothing after an
@@ -71,6 +74,7 @@ private:
 
   std::unordered_map<std::string, std::string> defines_; ///< names in lower case
   DeclaredNames *names_;
+  bool generated_;
 };
 
 } // namespace stc

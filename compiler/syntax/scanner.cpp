@@ -312,7 +312,8 @@ std::uint16_t Scanner::word(std::size_t begin, Token &token) {
                   "this name has " + std::to_string(spelling.size()) + " characters")
           .note("a name has at most " + std::to_string(kMaxName) + " characters");
   }
-  if (doubled && !isKnownDoubleUnderscore(spelling)) {
+  const bool ours = conditions_ != nullptr && conditions_->generated();
+  if (doubled && !ours && !isKnownDoubleUnderscore(spelling)) {
     token.reported = true;
     if (firstOf(hash))
       diagnostics_

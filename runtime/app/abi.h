@@ -17,7 +17,7 @@
 namespace stride {
 
 /// The first member of StrideAppV1. Grows with every change that an older host cannot read.
-inline constexpr uint32_t kAbiVersion = 2;
+inline constexpr uint32_t kAbiVersion = 3;
 /// The second member: tells a description from other data ("STRD").
 inline constexpr uint32_t kAbiMagic = 0x44525453;
 /// "No index" in the tables below.
@@ -112,12 +112,16 @@ enum class TaskKind : uint32_t { Cyclic = 0, Freewheeling = 1, Event = 2, Status
 struct TaskDesc {
   const char *name;
   TaskKind kind;
-  uint32_t priority;            ///< 0 (highest) to 31.
-  int64_t intervalNs;           ///< Cyclic: the period. Freewheeling: the period in virtual time.
+  uint32_t priority; ///< 0 (highest) to 31.
+  /// Cyclic: the period. Freewheeling: the period in virtual time. Status: from cycle to cycle
+  /// while the event is TRUE. Event: 0, or the period while the event is FALSE (IEC: INTERVAL
+  /// beside SINGLE).
+  int64_t intervalNs;
   int64_t watchdogNs;           ///< Longest run time of a cycle, 0: none.
   uint32_t watchdogSensitivity; ///< Number of violations that stop the application; 0 counts as 1.
-  uint32_t reserved;            ///< 0.
+  uint32_t core;                ///< The processor it runs on with the real clock; kNoIndex: any.
   void (*run)(Ctx *ctx);        ///< Calls the task's POUs in their order.
+  BOOL (*event)(Ctx *ctx) = nullptr; ///< Event, Status: what starts it. Else null.
 };
 
 /// One drive of an axis group. Its configured parameters are already in its AXIS_REF when init

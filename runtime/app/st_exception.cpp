@@ -41,6 +41,8 @@ const char *describe(ExceptionCode code) noexcept {
     return "exception raised by the program";
   case ExceptionCode::Internal:
     return "internal error";
+  case ExceptionCode::Watchdog:
+    return "cycle longer than the watchdog allows";
   }
   return "unknown exception";
 }

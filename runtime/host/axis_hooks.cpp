@@ -52,7 +52,7 @@ app::RuntimeLayouts runtimeLayouts() {
 }
 
 std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
-                                                            task::VirtualScheduler &scheduler) {
+                                                            task::TaskSet &tasks) {
   const StrideAppV1 &app = application.description();
   std::vector<std::unique_ptr<task::CycleHook>> hooks;
   for (uint32_t i = 0; i < app.axisGroupCount; ++i) {
@@ -66,7 +66,7 @@ std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Applicati
         group.name, makeDriver(group),
         at<axis::AxisGroupRef>(application.state(), group.groupOffset), std::move(axes),
         cycleSeconds));
-    scheduler.addHook(group.task, *hooks.back());
+    tasks.addHook(group.task, *hooks.back());
   }
   return hooks;
 }

@@ -3,6 +3,7 @@
 #include "runtime/app/error.hpp"
 #include "runtime/host/axis_hooks.hpp"
 #include "runtime/host/options.hpp"
+#include "runtime/host/real_run.hpp"
 #include "runtime/host/simulation.hpp"
 
 #include <CLI/CLI.hpp>
@@ -15,8 +16,8 @@ namespace stride::host {
 namespace {
 
 constexpr const char *kExitCodes =
-    "Exit codes: 0 the run reached its end, 1 bad input, 2 the application was stopped by an\n"
-    "exception, 130 interrupted.";
+    "Exit codes: 0 the run reached its end, 1 bad input, 2 an application was stopped by an\n"
+    "exception, 130 a simulation was interrupted.";
 
 /// The options as text, before they are understood.
 struct SimTexts {
@@ -64,6 +65,53 @@ void declare(CLI::App &sim, SimTexts &texts, bool builtIn) {
   sim.footer(kExitCodes);
 }
 
+/// The options of `run` as text.
+struct RunTexts {
+  RunOptions options;
+  std::string duration;
+  std::vector<std::string> trace;
+  std::vector<std::string> print;
+  std::string onFault = "stop";
+  int core = -1;
+};
+
+void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
+  if (!builtIn)
+    run.add_option("APP", texts.options.applications,
+                   "The applications that 'stride build' made; several run side by side")
+        ->required();
+  run.add_option("--for", texts.duration, "How long to run: 5s, T#1h; until Ctrl-C without it")
+      ->type_name("TIME");
+  run.add_option("--trace", texts.trace,
+                 "Variables of the first application to write in every cycle of its fastest task")
+      ->type_name("NAMES")
+      ->expected(1)
+      ->take_all();
+  run.add_option("--out", texts.options.out, "File for the trace (CSV); standard output without it")
+      ->type_name("FILE");
+  run.add_option("--print", texts.print, "Variables to print at the end; may be repeated")
+      ->type_name("NAMES")
+      ->expected(1)
+      ->take_all();
+  run.add_option("--on-fault", texts.onFault,
+                 "What happens when an exception stops an application: stop, restart")
+      ->check(CLI::IsMember({"stop", "restart"}))
+      ->capture_default_str();
+  run.add_option("--core", texts.core,
+                 "Processor of the tasks that choose none; the last one "
+                 "this process may use without it")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("N");
+  run.add_flag("--turns", texts.options.turns,
+               "Only one task at a time is in a cycle, also with real-time priorities");
+  run.add_flag("--histogram", texts.options.histogram,
+               "Show the distribution of run times and delays with the statistics");
+  run.add_flag("--quiet", texts.options.quiet, "No statistics, no warnings about real time");
+  run.footer(
+      std::string("SIGUSR1 shows the statistics, SIGINT (Ctrl-C) and SIGTERM stop safely.\n") +
+      kExitCodes);
+}
+
 void appendPaths(const std::vector<std::string> &texts, std::vector<std::string> &paths) {
   for (const std::string &text : texts) {
     for (std::string &path : splitPaths(text))
@@ -92,6 +140,45 @@ SimOptions understand(const SimTexts &texts) {
   return options;
 }
 
+RunOptions understand(const RunTexts &texts) {
+  RunOptions options = texts.options;
+  try {
+    if (!texts.duration.empty())
+      options.durationNs = parseDuration(texts.duration, false);
+  } catch (const app::Error &error) {
+    throw app::Error(fmt::format("--for: {}", error.what()));
+  }
+  appendPaths(texts.trace, options.trace);
+  appendPaths(texts.print, options.print);
+  if (!options.out.empty() && options.trace.empty())
+    throw app::Error("--out names a file for a trace, but --trace names nothing to trace");
+  if (texts.core >= 0)
+    options.core = static_cast<uint32_t>(texts.core);
+  options.onFault = texts.onFault == "restart" ? OnFault::Restart : OnFault::Stop;
+  return options;
+}
+
+app::Application loadApplication(const StrideAppV1 *builtIn, const std::string &path) {
+  return builtIn != nullptr ? app::Application::fromDescription(*builtIn, runtimeLayouts())
+                            : app::Application::load(path, runtimeLayouts());
+}
+
+int simulateFrom(const SimTexts &texts, const StrideAppV1 *builtIn) {
+  const SimOptions options = understand(texts);
+  app::Application application = loadApplication(builtIn, options.application);
+  return simulate(application, options);
+}
+
+int runFrom(const RunTexts &texts, const StrideAppV1 *builtIn) {
+  const RunOptions options = understand(texts);
+  std::vector<app::Application> applications;
+  if (builtIn != nullptr)
+    applications.push_back(loadApplication(builtIn, {}));
+  for (const std::string &path : options.applications)
+    applications.push_back(loadApplication(nullptr, path));
+  return runReal(applications, options);
+}
+
 } // namespace
 
 int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
@@ -102,20 +189,20 @@ int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
   CLI::App *sim =
       cli.add_subcommand("sim", "Run in virtual time: deterministic, as fast as possible");
   declare(*sim, texts, builtIn != nullptr);
+  RunTexts runTexts;
+  CLI::App *run = cli.add_subcommand("run", "Run by the real clock");
+  declare(*run, runTexts, builtIn != nullptr);
   try {
     cli.parse(argc, argv);
   } catch (const CLI::CallForHelp &help) {
     return cli.exit(help);
   } catch (const CLI::ParseError &error) {
-    fmt::print(stderr, "error: {}\n  'stride-host sim --help' lists the options\n", error.what());
+    fmt::print(stderr, "error: {}\n  'stride-host {} --help' lists the options\n", error.what(),
+               run->parsed() ? "run" : "sim");
     return kExitBadInput;
   }
   try {
-    const SimOptions options = understand(texts);
-    app::Application application =
-        builtIn != nullptr ? app::Application::fromDescription(*builtIn, runtimeLayouts())
-                           : app::Application::load(options.application, runtimeLayouts());
-    return simulate(application, options);
+    return run->parsed() ? runFrom(runTexts, builtIn) : simulateFrom(texts, builtIn);
   } catch (const app::Error &error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return kExitBadInput;

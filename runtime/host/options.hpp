@@ -3,6 +3,7 @@
 #define STRIDE_RUNTIME_HOST_OPTIONS_HPP
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,26 @@ struct SimOptions {
   int64_t loopBudget = 0;         ///< Loop iterations per cycle; 0: the default.
   bool quiet = false;             ///< No progress and no summary.
   bool summary = false;           ///< A summary even when standard error is no terminal.
+};
+
+/// What happens when an exception has stopped an application.
+enum class OnFault : uint8_t {
+  Stop,    ///< It stays stopped.
+  Restart, ///< It starts anew, with its initial values (and what is retained).
+};
+
+/// `stride-host run`.
+struct RunOptions {
+  std::vector<std::string> applications;
+  int64_t durationNs = 0;         ///< 0: until a signal.
+  std::vector<std::string> trace; ///< Paths of the first application, in the order given.
+  std::string out;                ///< File of the trace; empty or "-": standard output.
+  std::vector<std::string> print; ///< Paths, in the order given.
+  OnFault onFault = OnFault::Stop;
+  std::optional<uint32_t> core; ///< For tasks that choose none; empty: the last one allowed.
+  bool turns = false;           ///< One cycle at a time.
+  bool histogram = false;       ///< Distributions behind the table of statistics.
+  bool quiet = false;           ///< Neither warnings about real time nor statistics.
 };
 
 /// A duration in nanoseconds: T#1s500ms, LTIME#2us, or without the prefix 5s, 500ms. Throws

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace stride::host {
 
@@ -34,6 +35,10 @@ void SetList::apply(int64_t timeNs, std::byte *state) {
       throw app::Error(fmt::format("--set '{}': a pointer on the way to '{}' is null at that time",
                                    entry.text, entry.symbol.path()));
   }
+}
+
+int64_t SetList::nextNs() const {
+  return next_ < entries_.size() ? entries_[next_].timeNs : std::numeric_limits<int64_t>::max();
 }
 
 std::vector<std::string> SetList::left() const {

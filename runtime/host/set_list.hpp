@@ -20,6 +20,9 @@ public:
   /// a pointer on the way is null.
   void apply(int64_t timeNs, std::byte *state);
 
+  /// When the next one is due; the largest number when none is left.
+  int64_t nextNs() const;
+
   /// The options that were never due.
   std::vector<std::string> left() const;
 

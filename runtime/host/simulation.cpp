@@ -1,8 +1,7 @@
 #include "runtime/host/simulation.hpp"
 
-#include "runtime/app/error.hpp"
-#include "runtime/app/value_text.hpp"
-#include "runtime/host/axis_hooks.hpp"
+#include "runtime/host/instance.hpp"
+#include "runtime/host/print_values.hpp"
 #include "runtime/host/set_list.hpp"
 #include "runtime/host/trace_writer.hpp"
 #include "runtime/task/low_stack.hpp"
@@ -78,9 +77,10 @@ public:
   void beforeInstant(int64_t timeNs) override { sets_->apply(timeNs, state_); }
   void afterInstant(int64_t timeNs, bool fastest) override {
     if (trace_ != nullptr && fastest)
-      trace_->row(timeNs);
+      trace_->row(timeNs, state_);
     progress_->update(timeNs);
   }
+  int64_t nextNs() const override { return sets_->nextNs(); }
 
 private:
   SetList *sets_;
@@ -89,44 +89,13 @@ private:
   std::byte *state_;
 };
 
-void printValues(const app::SymbolTable &symbols, const std::vector<app::Symbol> &wanted,
-                 std::byte *state) {
-  for (const app::Symbol &symbol : wanted) {
-    for (const app::Symbol &leaf : symbols.leaves(symbol)) {
-      std::byte bit{};
-      const void *value = leaf.read(state, bit);
-      fmt::print("{} = {}\n", leaf.path(),
-                 value != nullptr ? app::formatLiteral(symbols.app(), symbols.type(leaf), value)
-                                  : std::string("NULL"));
-    }
-  }
-  std::fflush(stdout);
-}
-
-void printSummary(const task::VirtualScheduler &scheduler, const task::RunResult &result,
-                  double wall) {
+void printSummary(const task::TaskSet &tasks, const task::RunResult &result, double wall) {
   uint64_t cycles = 0;
-  for (const task::TaskStatistics &statistics : scheduler.statistics())
-    cycles += statistics.cycles;
+  for (uint32_t i = 0; i < tasks.count(); ++i)
+    cycles += tasks.statistics(i).figures().cycles;
   const double simulated = static_cast<double>(result.timeNs) * 1e-9;
   fmt::print(stderr, "{} cycles, {:g} s simulated in {:.3f} s ({:.0f} times real time)\n", cycles,
              simulated, wall, wall > 0 ? simulated / wall : 0.0);
-}
-
-/// FB_Exit of every instance; what goes wrong in one of them.
-std::optional<task::Fault> exitInstances(app::Application &application, const HostApi &host,
-                                         int64_t timeNs, int64_t loopBudget) {
-  const StrideAppV1 &app = application.description();
-  if (app.exit == nullptr)
-    return std::nullopt;
-  Ctx ctx{};
-  ctx.state = application.state();
-  ctx.host = &host;
-  ctx.cycleStartNs = timeNs;
-  ctx.loopBudget = loopBudget > 0 ? loopBudget : task::VirtualScheduler::kDefaultLoopBudget;
-  if (const std::optional<StException> exception = task::guardedCall(app.exit, ctx))
-    return task::Fault{*exception, "end of the run", 0, timeNs};
-  return std::nullopt;
 }
 
 /// Ctrl-C and SIGTERM end the run between two instants; a second one ends the program.
@@ -156,37 +125,35 @@ private:
 } // namespace
 
 static ExitCode simulateHere(app::Application &application, const SimOptions &options) {
-  const StrideAppV1 &app = application.description();
   std::byte *state = application.state();
-  const app::SymbolTable symbols(app);
+  Instance instance(application, task::LoopLimit::Budget);
+  const app::SymbolTable &symbols = instance.symbols();
 
   // Everything that can be wrong with the input is found before the first cycle.
   std::vector<app::Symbol> wanted;
   for (const std::string &path : options.print)
     wanted.push_back(symbols.resolve(path));
   SetList sets(symbols, options.sets);
-  const HostApi &host = task::hostApi();
-  task::VirtualScheduler scheduler(app, state, host);
   if (options.loopBudget > 0)
-    scheduler.setLoopBudget(options.loopBudget);
+    instance.tasks().setLoopBudget(options.loopBudget);
   std::optional<TraceWriter> trace;
   if (!options.trace.empty())
-    trace.emplace(symbols, options.trace, options.out, state);
+    trace.emplace(symbols, options.trace, options.out);
 
   const task::MemoryGuard guard;
   const StopSignals signals;
   try {
-    application.initialise(host);
+    instance.initialise();
   } catch (const StException &exception) {
     const task::Fault fault{exception, "initialisation", 0, 0};
     fmt::print(stderr, "error: {}\n", task::describe(fault));
     return kExitException;
   }
-  const std::vector<std::unique_ptr<task::CycleHook>> hooks = addAxisGroups(application, scheduler);
 
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
   Progress progress(options.durationNs, terminal && !options.quiet);
   Observer observer(sets, trace ? &*trace : nullptr, progress, state);
+  task::VirtualScheduler scheduler(instance.tasks());
   scheduler.setObserver(&observer);
   scheduler.setStopRequest([] { return stopRequested != 0; });
   const task::RunResult result = scheduler.runUntil(options.durationNs);
@@ -196,25 +163,19 @@ static ExitCode simulateHere(app::Application &application, const SimOptions &op
   if (trace)
     trace->finish();
   printValues(symbols, wanted, state);
-  for (const std::unique_ptr<task::CycleHook> &hook : hooks)
-    if (const std::string problem = hook->problem(); !problem.empty())
-      fmt::print(stderr, "warning: {}\n", problem);
-  for (const std::string &line : errorStops(application))
-    fmt::print(stderr, "note: {}\n", line);
+  for (const std::string &line : instance.remarks())
+    fmt::print(stderr, "{}\n", line);
   if (result.fault)
     fmt::print(stderr, "error: {}\n", task::describe(*result.fault));
   else if (!result.interrupted) {
     for (const std::string &left : sets.left())
       fmt::print(stderr, "warning: --set '{}' was not used: the run ends before\n", left);
   }
-  // A program that has failed is not called again.
-  std::optional<task::Fault> atEnd;
-  if (!result.fault)
-    atEnd = exitInstances(application, host, result.timeNs, options.loopBudget);
+  const std::optional<task::Fault> atEnd = instance.exit(result.timeNs);
   if (atEnd)
     fmt::print(stderr, "error: {}\n", task::describe(*atEnd));
   if ((terminal || options.summary) && !options.quiet)
-    printSummary(scheduler, result, wall);
+    printSummary(instance.tasks(), result, wall);
   if (result.fault || atEnd)
     return kExitException;
   return result.interrupted ? kExitInterrupted : kExitOk;

@@ -40,27 +40,61 @@ void appendSeconds(int64_t timeNs, std::string &out) {
   out.append(buffer, end);
 }
 
-TraceWriter::TraceWriter(const app::SymbolTable &symbols, const std::vector<std::string> &paths,
-                         const std::string &out, std::byte *state)
-    : app_(&symbols.app()), state_(state), name_(out) {
+TraceColumns::TraceColumns(const app::SymbolTable &symbols, const std::vector<std::string> &paths)
+    : app_(&symbols.app()), rowSize_(sizeof(int64_t)), lineWidth_(32) {
   for (const std::string &path : paths) {
     const app::Symbol symbol = symbols.resolve(path);
     std::vector<app::Symbol> leaves = symbols.leaves(symbol);
     if (leaves.empty())
       throw app::Error(fmt::format("symbol '{}': there is no value to trace in a {}", path,
                                    symbols.type(symbol).name));
-    for (app::Symbol &leaf : leaves)
-      columns_.push_back(std::move(leaf));
+    for (app::Symbol &leaf : leaves) {
+      const TypeDesc &type = symbols.type(leaf);
+      lineWidth_ += app::csvWidth(type) + 1;
+      const std::size_t offset = (rowSize_ + type.align) / type.align * type.align;
+      columns_.push_back({std::move(leaf), offset, type.size});
+      rowSize_ = offset + type.size;
+    }
   }
-  buffer_ = "t";
-  rowWidth_ = 32;
-  for (const app::Symbol &column : columns_) {
-    buffer_ += ',';
-    buffer_ += headerField(column.path());
-    rowWidth_ += app::csvWidth(symbols.type(column)) + 1;
+  rowSize_ = (rowSize_ + 7) / 8 * 8;
+}
+
+void TraceColumns::sample(int64_t timeNs, std::byte *state, std::byte *row) const noexcept {
+  std::memcpy(row, &timeNs, sizeof timeNs);
+  for (const Column &column : columns_) {
+    std::byte bit{};
+    const void *value = column.symbol.read(state, bit);
+    row[column.offset - 1] = std::byte{value != nullptr};
+    if (value != nullptr)
+      std::memcpy(row + column.offset, value, column.size);
   }
-  buffer_ += '\n';
-  buffer_.reserve(std::max(buffer_.size(), kBufferSize) + rowWidth_);
+}
+
+std::string TraceColumns::header() const {
+  std::string line = "t";
+  for (const Column &column : columns_) {
+    line += ',';
+    line += headerField(column.symbol.path());
+  }
+  return line;
+}
+
+void TraceColumns::appendLine(const std::byte *row, std::string &out) const {
+  int64_t timeNs = 0;
+  std::memcpy(&timeNs, row, sizeof timeNs);
+  appendSeconds(timeNs, out);
+  for (const Column &column : columns_) {
+    out.push_back(',');
+    if (row[column.offset - 1] != std::byte{0})
+      app::appendCsv(*app_, app_->types[column.symbol.type()], row + column.offset, out);
+  }
+}
+
+TraceWriter::TraceWriter(const app::SymbolTable &symbols, const std::vector<std::string> &paths,
+                         const std::string &out)
+    : columns_(symbols, paths), row_(columns_.rowSize()), name_(out) {
+  buffer_ = columns_.header() + '\n';
+  buffer_.reserve(std::max(buffer_.size(), kBufferSize) + columns_.lineWidth());
   const bool toStdout = out.empty() || out == "-";
   file_ = toStdout ? stdout : std::fopen(out.c_str(), "wb");
   if (file_ == nullptr)
@@ -72,16 +106,15 @@ TraceWriter::~TraceWriter() {
     std::fclose(file_);
 }
 
-void TraceWriter::row(int64_t timeNs) {
-  if (buffer_.capacity() - buffer_.size() < rowWidth_)
+void TraceWriter::row(int64_t timeNs, std::byte *state) {
+  columns_.sample(timeNs, state, row_.data());
+  row(row_.data());
+}
+
+void TraceWriter::row(const std::byte *sampled) {
+  if (buffer_.capacity() - buffer_.size() < columns_.lineWidth())
     flush();
-  appendSeconds(timeNs, buffer_);
-  for (const app::Symbol &column : columns_) {
-    buffer_.push_back(',');
-    std::byte bit{};
-    if (const void *value = column.read(state_, bit))
-      app::appendCsv(*app_, app_->types[column.type()], value, buffer_);
-  }
+  columns_.appendLine(sampled, buffer_);
   buffer_.push_back('\n');
 }
 

@@ -11,33 +11,68 @@
 
 namespace stride::host {
 
-/// Writes one header row (`t`, then the names as given; a name that is not elementary becomes its
-/// leaves) and one row per call of row(): t in seconds, then the values. A variable that cannot be
-/// reached at the moment (null pointer) leaves its field empty. row() does not allocate.
+/// The variables of a trace and how a row of their values lies in memory: the time, then for each
+/// variable whether it can be reached at the moment (a pointer on the way may be null) and its
+/// value.
+class TraceColumns {
+public:
+  /// A name that is not elementary becomes its leaves. Throws app::Error: unknown name, nothing to
+  /// trace below a name.
+  TraceColumns(const app::SymbolTable &symbols, const std::vector<std::string> &paths);
+
+  std::size_t count() const { return columns_.size(); }
+  /// Bytes of a row, a multiple of 8.
+  std::size_t rowSize() const { return rowSize_; }
+  /// Longest line of text for a row. [bytes]
+  std::size_t lineWidth() const { return lineWidth_; }
+
+  /// Copies the values as they are now. In the cyclic path: neither allocates nor locks.
+  void sample(int64_t timeNs, std::byte *state, std::byte *row) const noexcept;
+
+  /// `t` and the names as given.
+  std::string header() const;
+  /// Time in seconds, then the values; the field of one that could not be reached is empty.
+  /// Allocates only when `out` has no capacity left.
+  void appendLine(const std::byte *row, std::string &out) const;
+
+private:
+  struct Column {
+    app::Symbol symbol;
+    std::size_t offset; ///< Of the value in a row; the byte before says whether there is one.
+    std::size_t size;
+  };
+  const StrideAppV1 *app_;
+  std::vector<Column> columns_;
+  std::size_t rowSize_ = 0;
+  std::size_t lineWidth_ = 0;
+};
+
+/// Writes a trace: a header line and a line per row.
 class TraceWriter {
 public:
-  /// `out` empty or "-": standard output. Throws app::Error: unknown name, nothing to trace below
-  /// a name, file cannot be written.
+  /// `out` empty or "-": standard output. Throws app::Error as TraceColumns does, and when the file
+  /// cannot be written.
   TraceWriter(const app::SymbolTable &symbols, const std::vector<std::string> &paths,
-              const std::string &out, std::byte *state);
+              const std::string &out);
   ~TraceWriter();
   TraceWriter(const TraceWriter &) = delete;
   TraceWriter &operator=(const TraceWriter &) = delete;
 
-  void row(int64_t timeNs);
+  const TraceColumns &columns() const { return columns_; }
+
+  /// The values as they are now. Does not allocate.
+  void row(int64_t timeNs, std::byte *state);
+  /// A row that TraceColumns::sample has made. Does not allocate.
+  void row(const std::byte *sampled);
   /// Flushes everything; throws app::Error when the file could not be written.
   void finish();
-
-  std::size_t columns() const { return columns_.size(); }
 
 private:
   void flush();
 
-  const StrideAppV1 *app_;
-  std::byte *state_;
-  std::vector<app::Symbol> columns_;
+  TraceColumns columns_;
+  std::vector<std::byte> row_;
   std::string buffer_;
-  std::size_t rowWidth_ = 0;
   std::string name_;
   std::FILE *file_ = nullptr;
   bool failed_ = false;

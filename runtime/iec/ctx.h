@@ -22,6 +22,7 @@ enum class ExceptionCode : uint32_t {
   AbstractCall = 10,   ///< A method without an implementation was called.
   User = 11,           ///< Raised by the program itself.
   Internal = 12,       ///< A defect of Stride itself.
+  Watchdog = 13,       ///< A cycle took longer than the task's watchdog allows.
 };
 
 struct Ctx;

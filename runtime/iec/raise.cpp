@@ -78,6 +78,7 @@ uint32_t exceptionNumber(ExceptionCode code) {
   case ExceptionCode::AbstractCall:
     return 0x50;
   case ExceptionCode::EndlessLoop:
+  case ExceptionCode::Watchdog:
     return 0x10;
   case ExceptionCode::User:
     return 0x10000;

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
 #include <vector>
 
 #include <pthread.h>
@@ -62,7 +63,7 @@ void describeCaught(Ctx *, Caught *out) {
     throw;
   } catch (const StException &exception) {
     if (exception.code() == ExceptionCode::EndlessLoop ||
-        exception.code() == ExceptionCode::Internal)
+        exception.code() == ExceptionCode::Watchdog || exception.code() == ExceptionCode::Internal)
       throw;
     out->code = exception.code();
     out->line = exception.line();
@@ -76,10 +77,46 @@ void logToStderr(Ctx *, uint32_t, const char *text) { std::fprintf(stderr, "%s\n
 
 } // namespace
 
+namespace {
+
+/// The handlers of the process, counted: there is one set of them, however many threads run tasks.
+class SignalHandlers {
+public:
+  void use() {
+    const std::lock_guard lock(mutex_);
+    if (users_++ != 0)
+      return;
+    struct sigaction action {};
+    action.sa_sigaction = strideOnSignal;
+    action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
+    ::sigemptyset(&action.sa_mask);
+    for (std::size_t i = 0; i < std::size(kSignals); ++i)
+      ::sigaction(kSignals[i], &action, &old_[i]);
+  }
+  void release() {
+    const std::lock_guard lock(mutex_);
+    if (--users_ != 0)
+      return;
+    for (std::size_t i = 0; i < std::size(kSignals); ++i)
+      ::sigaction(kSignals[i], &old_[i], nullptr);
+  }
+
+private:
+  std::mutex mutex_;
+  std::size_t users_ = 0;
+  struct sigaction old_[std::size(kSignals)]{};
+};
+
+SignalHandlers &signalHandlers() {
+  static SignalHandlers handlers;
+  return handlers;
+}
+
+} // namespace
+
 struct MemoryGuard::Impl {
   std::vector<char> stack = std::vector<char>(64U << 10);
   stack_t oldStack{};
-  struct sigaction oldActions[std::size(kSignals)]{};
 };
 
 MemoryGuard::MemoryGuard() : impl_(std::make_unique<Impl>()) {
@@ -94,17 +131,11 @@ MemoryGuard::MemoryGuard() : impl_(std::make_unique<Impl>()) {
   stack.ss_sp = impl_->stack.data();
   stack.ss_size = impl_->stack.size();
   ::sigaltstack(&stack, &impl_->oldStack);
-  struct sigaction action {};
-  action.sa_sigaction = strideOnSignal;
-  action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
-  ::sigemptyset(&action.sa_mask);
-  for (std::size_t i = 0; i < std::size(kSignals); ++i)
-    ::sigaction(kSignals[i], &action, &impl_->oldActions[i]);
+  signalHandlers().use();
 }
 
 MemoryGuard::~MemoryGuard() {
-  for (std::size_t i = 0; i < std::size(kSignals); ++i)
-    ::sigaction(kSignals[i], &impl_->oldActions[i], nullptr);
+  signalHandlers().release();
   ::sigaltstack(&impl_->oldStack, nullptr);
 }
 

@@ -23,9 +23,10 @@ struct Fault {
 /// "division by zero at src/a.st:38:21 (task Fast, cycle 12, T#120ms)".
 std::string describe(const Fault &fault);
 
-/// While it lives, invalid memory accesses and stack overflows inside guardedCall end the call
-/// instead of the process (signal handlers on a stack of their own, for this thread). Elsewhere
-/// they end the process as usual. One at a time per process.
+/// While it lives, invalid memory accesses and stack overflows of this thread inside guardedCall
+/// end the call instead of the process: signal handlers, on a stack of their own. Elsewhere they
+/// end the process as usual. Every thread that runs cycles has one; the handlers, which belong to
+/// the process, come with the first and go with the last.
 class MemoryGuard {
 public:
   MemoryGuard();

@@ -7,7 +7,7 @@
 
 #include <bit>
 #include <cstdint>
-#include <exception>
+#include <utility>
 
 namespace stride::task {
 
@@ -49,37 +49,50 @@ private:
   void *memory_ = nullptr;
 };
 
-struct Call {
-  const std::function<void()> *function;
-  std::exception_ptr exception;
-};
-
-extern "C" void *strideRunOnStack(void *argument) {
-  auto *call = static_cast<Call *>(argument);
-  try {
-    (*call->function)();
-  } catch (...) {
-    call->exception = std::current_exception();
-  }
-  return nullptr;
-}
-
 } // namespace
 
-void runOnLowStack(const std::function<void()> &function) {
-  const Stack stack;
-  Call call{&function, nullptr};
-  pthread_attr_t attributes;
+struct LowThread::Impl {
+  std::function<void()> function;
+  Stack stack;
   pthread_t thread{};
+  bool running = false;
+  std::exception_ptr exception;
+
+  static void *run(void *argument) {
+    auto *self = static_cast<Impl *>(argument);
+    try {
+      self->function();
+    } catch (...) {
+      self->exception = std::current_exception();
+    }
+    return nullptr;
+  }
+};
+
+LowThread::LowThread(std::function<void()> function) : impl_(std::make_unique<Impl>()) {
+  impl_->function = std::move(function);
+  pthread_attr_t attributes;
   ::pthread_attr_init(&attributes);
-  bool started = ::pthread_attr_setstack(&attributes, stack.begin(), kTaskStack) == 0;
-  started = started && ::pthread_create(&thread, &attributes, strideRunOnStack, &call) == 0;
+  impl_->running = ::pthread_attr_setstack(&attributes, impl_->stack.begin(), kTaskStack) == 0 &&
+                   ::pthread_create(&impl_->thread, &attributes, Impl::run, impl_.get()) == 0;
   ::pthread_attr_destroy(&attributes);
-  if (!started)
+  if (!impl_->running)
     throw app::Error("the system cannot start a thread for the tasks");
-  ::pthread_join(thread, nullptr);
-  if (call.exception)
-    std::rethrow_exception(call.exception);
 }
+
+LowThread::~LowThread() {
+  if (impl_->running)
+    ::pthread_join(impl_->thread, nullptr);
+}
+
+void LowThread::join() {
+  if (impl_->running)
+    ::pthread_join(impl_->thread, nullptr);
+  impl_->running = false;
+  if (impl_->exception)
+    std::rethrow_exception(std::exchange(impl_->exception, nullptr));
+}
+
+void runOnLowStack(const std::function<void()> &function) { LowThread(function).join(); }
 
 } // namespace stride::task

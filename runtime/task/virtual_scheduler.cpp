@@ -1,54 +1,28 @@
 #include "runtime/task/virtual_scheduler.hpp"
 
-#include "runtime/app/error.hpp"
-
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <chrono>
 
 namespace stride::task {
 
-VirtualScheduler::VirtualScheduler(const StrideAppV1 &app, std::byte *state, const HostApi &host)
-    : app_(&app), statistics_(app.taskCount) {
-  if (app.taskCount == 0)
-    throw app::Error("the application has no task; add one to stride.toml or a CONFIGURATION");
-  for (uint32_t i = 0; i < app.taskCount; ++i) {
-    const TaskDesc &desc = app.tasks[i];
-    if (desc.kind != TaskKind::Cyclic && desc.kind != TaskKind::Freewheeling)
-      throw app::Error(fmt::format("task '{}' is neither cyclic nor freewheeling; this runtime has "
-                                   "no other kinds of tasks",
-                                   desc.name));
-    if (desc.intervalNs <= 0)
-      throw app::Error(fmt::format("task '{}' has no interval", desc.name));
-    Task task{i, desc.priority, 0, Ctx{}, {}};
-    task.ctx.state = state;
-    task.ctx.taskIntervalNs = desc.intervalNs;
-    task.ctx.taskIndex = i;
-    task.ctx.host = &host;
-    task.ctx.firstCycle = 1;
-    tasks_.push_back(std::move(task));
-    if (desc.intervalNs < app.tasks[fastest_].intervalNs)
-      fastest_ = i;
+VirtualScheduler::VirtualScheduler(TaskSet &tasks) : tasks_(&tasks), due_(tasks.count()) {
+  for (uint32_t i = 0; i < tasks.count(); ++i) {
+    const TaskDesc &desc = tasks.desc(i);
+    if (desc.kind != TaskKind::Status && desc.intervalNs > 0)
+      due_[i].atNs = 0;
   }
-  std::stable_sort(tasks_.begin(), tasks_.end(),
-                   [](const Task &a, const Task &b) { return a.priority < b.priority; });
 }
 
-void VirtualScheduler::addHook(uint32_t task, CycleHook &hook) {
-  for (Task &t : tasks_) {
-    if (t.index == task)
-      t.hooks.push_back(&hook);
-  }
-  hooks_.push_back(&hook);
+int64_t VirtualScheduler::nextInstant() const {
+  int64_t next = observer_ != nullptr && !tasks_->stopped() ? observer_->nextNs() : kNever;
+  for (const Due &due : due_)
+    next = std::min(next, due.atNs);
+  return next;
 }
 
 RunResult VirtualScheduler::runUntil(int64_t endNs) {
   RunResult result;
   for (;;) {
-    int64_t now = std::numeric_limits<int64_t>::max();
-    for (const Task &task : tasks_)
-      now = std::min(now, task.nextNs);
+    const int64_t now = nextInstant();
     if (now >= endNs) {
       result.timeNs = endNs;
       break;
@@ -58,57 +32,79 @@ RunResult VirtualScheduler::runUntil(int64_t endNs) {
       result.interrupted = true;
       break;
     }
-    if (fault_ && (allAtRest() || now - fault_->timeNs > kStopLimitNs))
+    if (tasks_->stopped() && stoppedNs_ < 0)
+      stopAt(now);
+    if (stoppedNs_ >= 0 && (tasks_->atRest() || now - stoppedNs_ > kStopLimitNs))
       break;
-    if (observer_ != nullptr && !fault_)
+    if (observer_ != nullptr && stoppedNs_ < 0)
       observer_->beforeInstant(now);
+    lookAtEvents(now);
     bool fastest = false;
-    for (Task &task : tasks_) {
-      if (task.nextNs != now)
-        continue;
-      runCycle(task);
-      fastest = fastest || task.index == fastest_;
-    }
+    while (runDueTask(now, fastest))
+      lookAtEvents(now);
+    if (tasks_->stopped() && stoppedNs_ < 0)
+      stopAt(now);
     if (observer_ != nullptr)
       observer_->afterInstant(now, fastest);
   }
-  result.fault = fault_;
+  result.fault = tasks_->fault();
   return result;
 }
 
-void VirtualScheduler::runCycle(Task &task) {
-  const auto started = std::chrono::steady_clock::now();
-  Ctx &ctx = task.ctx;
-  TaskStatistics &statistics = statistics_[task.index];
-  ctx.cycleStartNs = task.nextNs;
-  ctx.cycle = statistics.cycles;
-  ctx.loopBudget = loopBudget_;
-  for (CycleHook *hook : task.hooks)
-    hook->beforePous(ctx);
-  if (!fault_) {
-    const TaskDesc &desc = app_->tasks[task.index];
-    if (std::optional<StException> exception = guardedCall(desc.run, ctx)) {
-      fault_ = Fault{*exception, desc.name, ctx.cycle, ctx.cycleStartNs};
-      for (CycleHook *hook : hooks_)
-        hook->applicationStopped();
-    }
-  }
-  for (auto hook = task.hooks.rbegin(); hook != task.hooks.rend(); ++hook)
-    (*hook)->afterPous(ctx);
-  ctx.firstCycle = 0;
-  task.nextNs += ctx.taskIntervalNs;
-  ++statistics.cycles;
-  const int64_t run = std::chrono::duration_cast<std::chrono::nanoseconds>(
-                          std::chrono::steady_clock::now() - started)
-                          .count();
-  statistics.minRunNs = std::min(statistics.minRunNs, run);
-  statistics.maxRunNs = std::max(statistics.maxRunNs, run);
-  statistics.totalRunNs += run;
+/// From now on every task goes on for its hooks, also without an event.
+void VirtualScheduler::stopAt(int64_t nowNs) {
+  stoppedNs_ = nowNs;
+  for (Due &due : due_)
+    if (due.atNs == kNever)
+      due.atNs = nowNs + kAgainNs;
 }
 
-bool VirtualScheduler::allAtRest() const {
-  return std::all_of(hooks_.begin(), hooks_.end(),
-                     [](const CycleHook *hook) { return hook->atRest(); });
+void VirtualScheduler::lookAtEvents(int64_t nowNs) {
+  if (!tasks_->hasEvents() || tasks_->stopped())
+    return;
+  for (const uint32_t i : tasks_->order()) {
+    const TaskDesc &desc = tasks_->desc(i);
+    if (desc.event == nullptr)
+      continue;
+    Due &due = due_[i];
+    const bool level = tasks_->eventLevel(i);
+    const bool rising = level && !due.level;
+    due.level = level;
+    const int64_t soonest = due.ranNs == nowNs ? nowNs + kAgainNs : nowNs;
+    if (desc.kind == TaskKind::Status) {
+      if (rising)
+        due.atNs = std::min(due.atNs, soonest);
+      else if (!level)
+        due.atNs = kNever;
+    } else if (rising) {
+      due.atNs = std::min(due.atNs, soonest);
+    } else if (desc.intervalNs > 0 && level && due.atNs > soonest) {
+      due.atNs = kNever; // the period of SINGLE's INTERVAL counts while the event is FALSE
+    } else if (desc.intervalNs > 0 && !level && due.atNs == kNever) {
+      due.atNs = nowNs + desc.intervalNs;
+    }
+  }
+}
+
+/// Runs the first of the tasks that are due; false when there is none.
+bool VirtualScheduler::runDueTask(int64_t nowNs, bool &fastest) {
+  for (const uint32_t i : tasks_->order()) {
+    Due &due = due_[i];
+    if (due.atNs > nowNs)
+      continue;
+    const TaskDesc &desc = tasks_->desc(i);
+    const bool periodic =
+        desc.intervalNs > 0 && !(desc.kind == TaskKind::Event && due.level && stoppedNs_ < 0);
+    due.ranNs = nowNs;
+    if (periodic)
+      due.atNs = nowNs + desc.intervalNs;
+    else
+      due.atNs = stoppedNs_ < 0 ? kNever : nowNs + kStoppedIntervalNs;
+    tasks_->runCycle(i, nowNs, 0);
+    fastest = fastest || i == tasks_->fastest();
+    return true;
+  }
+  return false;
 }
 
 } // namespace stride::task

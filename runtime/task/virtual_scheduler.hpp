@@ -2,11 +2,8 @@
 #ifndef STRIDE_RUNTIME_TASK_VIRTUAL_SCHEDULER_HPP
 #define STRIDE_RUNTIME_TASK_VIRTUAL_SCHEDULER_HPP
 
-#include "runtime/app/abi.h"
-#include "runtime/task/cycle_hook.hpp"
-#include "runtime/task/fault.hpp"
+#include "runtime/task/task_set.hpp"
 
-#include <cstddef>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -14,16 +11,7 @@
 
 namespace stride::task {
 
-/// What a task has done so far.
-struct TaskStatistics {
-  uint64_t cycles = 0;
-  /// Run times of one cycle in real time, hooks included. [ns] They never reach the program.
-  int64_t minRunNs = std::numeric_limits<int64_t>::max();
-  int64_t maxRunNs = 0;
-  int64_t totalRunNs = 0;
-};
-
-/// Called at the instants at which tasks run. Both calls are outside of the cycles.
+/// Called at the instants at which tasks run. All calls are outside of the cycles.
 class InstantObserver {
 public:
   InstantObserver() = default;
@@ -35,6 +23,8 @@ public:
   virtual void beforeInstant(int64_t timeNs) = 0;
   /// After the last task of the instant. `fastest`: the fastest task was among them.
   virtual void afterInstant(int64_t timeNs, bool fastest) = 0;
+  /// The next time at which it wants to be called even when no task is due.
+  virtual int64_t nextNs() const { return std::numeric_limits<int64_t>::max(); }
 };
 
 /// How a run ended.
@@ -44,24 +34,27 @@ struct RunResult {
   bool interrupted = false;   ///< The stop request ended it.
 };
 
-/// Runs the tasks of one application. At each instant the due tasks run by (priority, order of
-/// declaration); then time jumps to the next instant. Task i's cycle n starts at n * interval.
-/// The hooks of a task run around its POUs, before in the order of adding, after in reverse.
+/// Decides in virtual time which task runs next. At each instant the due tasks run by (priority,
+/// order of declaration), each at most once; then time jumps to the next instant. Cycle n of a
+/// cyclic task starts at n * interval, that of a freewheeling one at n * its virtual period.
 ///
-/// When a task's cycle ends with an exception, no POU runs any more; the hooks go on until all are
-/// at rest, at most kStopLimitNs.
+/// Events are looked at before the first task of an instant and after every cycle. A rising edge
+/// makes an event task due at once, so that it runs next if its priority is the highest of those
+/// that are due; one edge can be pending per task. A status task is due while its event is TRUE, at
+/// once and then every interval. A task that has already run at this instant becomes due kAgainNs
+/// later.
+///
+/// After an exception the hooks go on until all are at rest, at most kStopLimitNs.
 class VirtualScheduler {
 public:
   static constexpr int64_t kStopLimitNs = 60'000'000'000;
-  static constexpr int64_t kDefaultLoopBudget = 1'000'000'000;
+  static constexpr int64_t kAgainNs = 1'000;
+  /// From cycle to cycle of a task without interval when the application has stopped.
+  static constexpr int64_t kStoppedIntervalNs = 10'000'000;
 
-  /// `state` is initialised. Throws app::Error for tasks that cannot run in virtual time.
-  VirtualScheduler(const StrideAppV1 &app, std::byte *state, const HostApi &host);
+  explicit VirtualScheduler(TaskSet &tasks);
 
-  /// Loop iterations that one cycle may use.
-  void setLoopBudget(int64_t budget) { loopBudget_ = budget; }
-  /// The hook and the observer must live as long as the scheduler.
-  void addHook(uint32_t task, CycleHook &hook);
+  /// The observer must live as long as the scheduler.
   void setObserver(InstantObserver *observer) { observer_ = observer; }
   /// Asked between instants; true ends the run.
   void setStopRequest(std::function<bool()> stop) { stop_ = std::move(stop); }
@@ -69,31 +62,24 @@ public:
   /// Runs all cycles that start before `endNs`. Can be called again with a later end.
   RunResult runUntil(int64_t endNs);
 
-  const std::vector<TaskStatistics> &statistics() const { return statistics_; }
-  /// Index of the task with the shortest interval, the first one of several.
-  uint32_t fastestTask() const { return fastest_; }
-
 private:
-  struct Task {
-    uint32_t index;
-    uint32_t priority;
-    int64_t nextNs;
-    Ctx ctx;
-    std::vector<CycleHook *> hooks;
+  static constexpr int64_t kNever = std::numeric_limits<int64_t>::max();
+  struct Due {
+    int64_t atNs = kNever;
+    int64_t ranNs = -1; ///< When its last cycle was.
+    bool level = false; ///< Of the event, when it was last looked at.
   };
 
-  void runCycle(Task &task);
-  bool allAtRest() const;
+  int64_t nextInstant() const;
+  void stopAt(int64_t nowNs);
+  void lookAtEvents(int64_t nowNs);
+  bool runDueTask(int64_t nowNs, bool &fastest);
 
-  const StrideAppV1 *app_;
-  std::vector<Task> tasks_; // by priority, then declaration
-  std::vector<TaskStatistics> statistics_;
-  std::vector<CycleHook *> hooks_;
+  TaskSet *tasks_;
+  std::vector<Due> due_; // by task
+  int64_t stoppedNs_ = -1;
   InstantObserver *observer_ = nullptr;
   std::function<bool()> stop_;
-  std::optional<Fault> fault_;
-  int64_t loopBudget_ = kDefaultLoopBudget;
-  uint32_t fastest_ = 0;
 };
 
 } // namespace stride::task

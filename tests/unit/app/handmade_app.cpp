@@ -264,8 +264,8 @@ constexpr ::stride::RootDesc kRoots[] = {
 
 // {name, kind, priority, intervalNs, watchdogNs, watchdogSensitivity, 0, run}
 constexpr ::stride::TaskDesc kTasks[] = {
-    {"Fast", ::stride::TaskKind::Cyclic, 1, 10000000, 0, 0, 0, task0__},
-    {"Background", ::stride::TaskKind::Cyclic, 5, 30000000, 0, 0, 0, task1__},
+    {"Fast", ::stride::TaskKind::Cyclic, 1, 10000000, 0, 0, ::stride::kNoIndex, task0__},
+    {"Background", ::stride::TaskKind::Cyclic, 5, 30000000, 0, 0, ::stride::kNoIndex, task1__},
 };
 
 constexpr ::stride::SourceFileDesc kFiles[] = {{"src/counter.st", 0x1}, {"src/plc_prg.st", 0x2}};

@@ -32,7 +32,7 @@ public:
   void beforeInstant(int64_t timeNs) override { sets_->apply(timeNs, state_); }
   void afterInstant(int64_t timeNs, bool fastest) override {
     if (fastest) {
-      writer_->row(timeNs);
+      writer_->row(timeNs, state_);
       ++count;
     }
   }
@@ -48,10 +48,10 @@ class Host : public stride::test::HandmadeApp {
 protected:
   std::string traceOf(const std::vector<std::string> &paths) {
     const std::string file = ::testing::TempDir() + "stride_trace_test.csv";
-    TraceWriter writer(symbols, paths, file, application.state());
-    writer.row(0);
+    TraceWriter writer(symbols, paths, file);
+    writer.row(0, application.state());
     cycle();
-    writer.row(3 * kMs);
+    writer.row(3 * kMs, application.state());
     writer.finish();
     std::stringstream text;
     text << std::ifstream(file).rdbuf();
@@ -132,14 +132,15 @@ TEST_F(Host, TraceExpandsStructuresAndLeavesUnreachableFieldsEmpty) {
 
 TEST_F(Host, TraceErrors) {
   EXPECT_THAT(errorOf([&] { traceOf({"PLC_PRG.p"}); }), HasSubstr("no value to trace"));
-  EXPECT_THAT(errorOf([&] { TraceWriter(symbols, {"total"}, "/nonexistent/x.csv", nullptr); }),
+  EXPECT_THAT(errorOf([&] { TraceWriter(symbols, {"total"}, "/nonexistent/x.csv"); }),
               HasSubstr("cannot write '/nonexistent/x.csv'"));
 }
 
 TEST_F(Host, NothingIsAllocatedInCyclesAndRows) {
-  VirtualScheduler scheduler(application.description(), application.state(),
-                             stride::task::hostApi());
-  TraceWriter writer(symbols, {"PLC_PRG", "total", "GVL.limit"}, "/dev/null", application.state());
+  stride::task::TaskSet tasks(application.description(), application.state(),
+                              stride::task::hostApi(), stride::task::LoopLimit::Budget);
+  VirtualScheduler scheduler(tasks);
+  TraceWriter writer(symbols, {"PLC_PRG", "total", "GVL.limit"}, "/dev/null");
   SetList sets(symbols, {parseSet("50ms,total=2")});
   Rows rows(writer, sets, application.state());
   scheduler.setObserver(&rows);

@@ -1,5 +1,6 @@
 #include "runtime/task/virtual_scheduler.hpp"
 #include "tests/unit/app/fixture.hpp"
+#include "tests/unit/task/logged_tasks.hpp"
 
 #include <cstdint>
 #include <string>
@@ -7,69 +8,43 @@
 
 namespace {
 
+using namespace stride::test;
 using stride::Ctx;
 using stride::ExceptionCode;
 using stride::StrideAppV1;
 using stride::TaskDesc;
 using stride::TaskKind;
 using stride::task::CycleHook;
+using stride::task::LoopLimit;
 using stride::task::RunResult;
+using stride::task::TaskSet;
 using stride::task::VirtualScheduler;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-constexpr int64_t kMs = 1000000;
-
-/// An application without types: its tasks write to a log that ctx.state points to.
-struct Log {
-  std::vector<std::string> lines;
-};
-
-Log &logOf(Ctx *ctx) { return *static_cast<Log *>(ctx->state); }
-
-template <char Name> void note(Ctx *ctx) {
-  logOf(ctx).lines.push_back(std::string(1, Name) + std::to_string(ctx->cycleStartNs / kMs) +
-                             (ctx->firstCycle != 0 ? "!" : ""));
-}
-
-StrideAppV1 appWith(const std::vector<TaskDesc> &tasks) {
-  StrideAppV1 app{};
-  app.tasks = tasks.data();
-  app.taskCount = static_cast<uint32_t>(tasks.size());
-  return app;
-}
-
-TaskDesc cyclic(const char *name, uint32_t priority, int64_t ms, void (*run)(Ctx *)) {
-  return {name, TaskKind::Cyclic, priority, ms * kMs, 0, 0, 0, run};
-}
-
-VirtualScheduler schedulerFor(const StrideAppV1 &app, Log &log) {
-  return VirtualScheduler(app, reinterpret_cast<std::byte *>(&log), stride::task::hostApi());
-}
 
 TEST(VirtualSchedulerTest, OrderIsTimePriorityDeclaration) {
   const std::vector<TaskDesc> tasks = {cyclic("A", 5, 20, note<'a'>), cyclic("B", 1, 10, note<'b'>),
                                        cyclic("C", 5, 10, note<'c'>)};
   const StrideAppV1 app = appWith(tasks);
   Log log;
-  VirtualScheduler scheduler = schedulerFor(app, log);
-  EXPECT_EQ(scheduler.fastestTask(), 1U);
-  const RunResult result = scheduler.runUntil(30 * kMs);
+  Scheduled run(app, log);
+  EXPECT_EQ(run.tasks.fastest(), 1U);
+  const RunResult result = run.scheduler.runUntil(30 * kMs);
   EXPECT_THAT(log.lines, ElementsAre("b0!", "a0!", "c0!", "b10", "c10", "b20", "a20", "c20"));
   EXPECT_EQ(result.timeNs, 30 * kMs);
-  EXPECT_EQ(scheduler.statistics()[0].cycles, 2U);
-  EXPECT_EQ(scheduler.statistics()[1].cycles, 3U);
+  EXPECT_EQ(run.tasks.statistics(0).figures().cycles, 2U);
+  EXPECT_EQ(run.tasks.statistics(1).figures().cycles, 3U);
 }
 
 TEST(VirtualSchedulerTest, EndIsExclusiveAndContinues) {
   const std::vector<TaskDesc> tasks = {cyclic("A", 0, 10, note<'a'>)};
   const StrideAppV1 app = appWith(tasks);
   Log log;
-  VirtualScheduler scheduler = schedulerFor(app, log);
-  scheduler.runUntil(100 * kMs);
+  Scheduled run(app, log);
+  run.scheduler.runUntil(100 * kMs);
   EXPECT_EQ(log.lines.size(), 10U);
   EXPECT_EQ(log.lines.back(), "a90");
-  scheduler.runUntil(101 * kMs);
+  run.scheduler.runUntil(101 * kMs);
   EXPECT_EQ(log.lines.back(), "a100");
 }
 
@@ -77,11 +52,11 @@ TEST(VirtualSchedulerTest, RefusesWhatItCannotRun) {
   Log log;
   const std::vector<TaskDesc> none;
   const StrideAppV1 empty = appWith(none);
-  EXPECT_THROW(schedulerFor(empty, log), stride::app::Error);
+  EXPECT_THROW(Scheduled(empty, log), stride::app::Error);
   std::vector<TaskDesc> tasks = {cyclic("A", 0, 10, note<'a'>)};
   tasks[0].kind = TaskKind::Event;
   const StrideAppV1 event = appWith(tasks);
-  EXPECT_THROW(schedulerFor(event, log), stride::app::Error);
+  EXPECT_THROW(Scheduled(event, log), stride::app::Error);
 }
 
 class NotingHook final : public CycleHook {
@@ -109,12 +84,12 @@ TEST(VirtualSchedulerTest, HooksEncloseThePous) {
                                        cyclic("B", 1, 10, note<'b'>)};
   const StrideAppV1 app = appWith(tasks);
   Log log;
-  VirtualScheduler scheduler = schedulerFor(app, log);
+  Scheduled run(app, log);
   NotingHook x("x", log);
   NotingHook y("y", log);
-  scheduler.addHook(1, x);
-  scheduler.addHook(1, y);
-  scheduler.runUntil(10 * kMs);
+  run.tasks.addHook(1, x);
+  run.tasks.addHook(1, y);
+  run.scheduler.runUntil(10 * kMs);
   EXPECT_THAT(log.lines, ElementsAre("a0!", "<x", "<y", "b0!", "y>", "x>"));
 }
 
@@ -134,10 +109,10 @@ TEST(VirtualSchedulerTest, ObserverSeesEachInstantOnce) {
                                        cyclic("B", 1, 10, note<'b'>)};
   const StrideAppV1 app = appWith(tasks);
   Log log;
-  VirtualScheduler scheduler = schedulerFor(app, log);
+  Scheduled run(app, log);
   Times times;
-  scheduler.setObserver(&times);
-  scheduler.runUntil(20 * kMs);
+  run.scheduler.setObserver(&times);
+  run.scheduler.runUntil(20 * kMs);
   EXPECT_THAT(times.lines, ElementsAre("-0", "+0f", "-10", "+10f", "-15", "+15"));
 }
 
@@ -152,10 +127,10 @@ TEST(VirtualSchedulerTest, AnExceptionStopsThePousAndTheHooksGoOnUntilRest) {
                                        cyclic("Other", 1, 10, note<'o'>)};
   const StrideAppV1 app = appWith(tasks);
   Log log;
-  VirtualScheduler scheduler = schedulerFor(app, log);
+  Scheduled run(app, log);
   NotingHook hook("x", log, 2);
-  scheduler.addHook(0, hook);
-  const RunResult result = scheduler.runUntil(1000 * kMs);
+  run.tasks.addHook(0, hook);
+  const RunResult result = run.scheduler.runUntil(1000 * kMs);
   ASSERT_TRUE(result.fault);
   EXPECT_EQ(stride::task::describe(*result.fault),
             "division by zero at a.st:3:7 (task Main, cycle 2, at T#20ms)");
@@ -173,9 +148,9 @@ TEST(VirtualSchedulerTest, EndlessLoopsEnd) {
   const std::vector<TaskDesc> tasks = {cyclic("Main", 0, 10, endless)};
   const StrideAppV1 app = appWith(tasks);
   Log log;
-  VirtualScheduler scheduler = schedulerFor(app, log);
-  scheduler.setLoopBudget(1000);
-  const RunResult result = scheduler.runUntil(100 * kMs);
+  Scheduled run(app, log);
+  run.tasks.setLoopBudget(1000);
+  const RunResult result = run.scheduler.runUntil(100 * kMs);
   ASSERT_TRUE(result.fault);
   EXPECT_EQ(result.fault->exception.code(), ExceptionCode::EndlessLoop);
 }
@@ -184,9 +159,9 @@ TEST(VirtualSchedulerTest, AStopRequestEndsTheRun) {
   const std::vector<TaskDesc> tasks = {cyclic("Main", 0, 10, note<'a'>)};
   const StrideAppV1 app = appWith(tasks);
   Log log;
-  VirtualScheduler scheduler = schedulerFor(app, log);
-  scheduler.setStopRequest([&log] { return log.lines.size() == 3; });
-  const RunResult result = scheduler.runUntil(1000 * kMs);
+  Scheduled run(app, log);
+  run.scheduler.setStopRequest([&log] { return log.lines.size() == 3; });
+  const RunResult result = run.scheduler.runUntil(1000 * kMs);
   EXPECT_TRUE(result.interrupted);
   EXPECT_EQ(log.lines.size(), 3U);
 }
@@ -211,27 +186,129 @@ void deepRecursion(Ctx *) {
 
 TEST(VirtualSchedulerTest, BadMemoryAccessesAreExceptions) {
   using Case = std::pair<void (*)(Ctx *), ExceptionCode>;
-  for (const auto &[run, code] : {Case{wildPointer, ExceptionCode::AccessViolation},
-                                  Case{deepRecursion, ExceptionCode::StackOverflow},
-                                  Case{wildPointer, ExceptionCode::AccessViolation}}) {
-    const std::vector<TaskDesc> tasks = {cyclic("Main", 0, 10, run)};
+  for (const auto &[body, code] : {Case{wildPointer, ExceptionCode::AccessViolation},
+                                   Case{deepRecursion, ExceptionCode::StackOverflow},
+                                   Case{wildPointer, ExceptionCode::AccessViolation}}) {
+    const std::vector<TaskDesc> tasks = {cyclic("Main", 0, 10, body)};
     const StrideAppV1 app = appWith(tasks);
     Log log;
-    VirtualScheduler scheduler = schedulerFor(app, log);
+    Scheduled run(app, log);
     const stride::task::MemoryGuard guard;
-    const RunResult result = scheduler.runUntil(100 * kMs);
+    const RunResult result = run.scheduler.runUntil(100 * kMs);
     ASSERT_TRUE(result.fault);
     EXPECT_EQ(result.fault->exception.code(), code);
   }
 }
 #endif
 
+// The events of these tests are parts of the log's state.
+stride::BOOL goSet(Ctx *ctx) { return logOf(ctx).go; }
+stride::BOOL openSet(Ctx *ctx) { return logOf(ctx).open; }
+
+TaskDesc onEvent(const char *name, uint32_t priority, TaskKind kind, int64_t ms, void (*run)(Ctx *),
+                 stride::BOOL (*event)(Ctx *)) {
+  return {name, kind, priority, ms * kMs, 0, 0, stride::kNoIndex, run, event};
+}
+
+void raiseAt10And30(Ctx *ctx) {
+  note<'a'>(ctx);
+  logOf(ctx).go = ctx->cycleStartNs == 10 * kMs || ctx->cycleStartNs == 30 * kMs;
+}
+
+TEST(VirtualSchedulerTest, AnEventTaskRunsAtOnceByItsPriority) {
+  // An edge inside a cycle of A: E runs at the same instant, before B (lower priority), and only
+  // once although the event stays TRUE for a while.
+  const std::vector<TaskDesc> tasks = {cyclic("A", 1, 10, raiseAt10And30),
+                                       cyclic("B", 5, 10, note<'b'>),
+                                       onEvent("E", 0, TaskKind::Event, 0, note<'e'>, goSet)};
+  const StrideAppV1 app = appWith(tasks);
+  Log log;
+  Scheduled run(app, log);
+  EXPECT_EQ(run.tasks.fastest(), 0U);
+  run.scheduler.runUntil(40 * kMs);
+  EXPECT_THAT(log.lines,
+              ElementsAre("a0!", "b0!", "a10", "e10!", "b10", "a20", "b20", "a30", "e30", "b30"));
+}
+
+TEST(VirtualSchedulerTest, AnEventThatIsTrueFromTheBeginningIsAnEdge) {
+  const std::vector<TaskDesc> tasks = {cyclic("A", 1, 10, note<'a'>),
+                                       onEvent("E", 3, TaskKind::Event, 0, note<'e'>, goSet)};
+  const StrideAppV1 app = appWith(tasks);
+  Log log;
+  log.go = true;
+  Scheduled run(app, log);
+  run.scheduler.runUntil(30 * kMs);
+  EXPECT_THAT(log.lines, ElementsAre("a0!", "e0!", "a10", "a20"));
+}
+
+void openFrom10To30(Ctx *ctx) {
+  note<'a'>(ctx);
+  logOf(ctx).open = ctx->cycleStartNs >= 10 * kMs && ctx->cycleStartNs < 30 * kMs;
+}
+
+TEST(VirtualSchedulerTest, AStatusTaskRunsWhileItsEventIsTrue) {
+  const std::vector<TaskDesc> tasks = {cyclic("A", 1, 10, openFrom10To30),
+                                       onEvent("S", 5, TaskKind::Status, 5, note<'s'>, openSet)};
+  const StrideAppV1 app = appWith(tasks);
+  Log log;
+  Scheduled run(app, log);
+  run.scheduler.runUntil(50 * kMs);
+  EXPECT_THAT(log.lines,
+              ElementsAre("a0!", "a10", "s10!", "s15", "a20", "s20", "s25", "a30", "a40"));
+}
+
+void pingPong(Ctx *ctx) {
+  logOf(ctx).lines.push_back(std::string(1, ctx->taskIndex == 1 ? 'g' : 'o') +
+                             std::to_string(ctx->cycleStartNs / 1000 % 10000));
+  logOf(ctx).go = ctx->taskIndex == 2;
+  logOf(ctx).open = ctx->taskIndex == 1;
+}
+
+TEST(VirtualSchedulerTest, TasksThatRaiseEachOtherLeaveTimeGoing) {
+  const std::vector<TaskDesc> tasks = {cyclic("A", 1, 10, note<'a'>),
+                                       onEvent("G", 5, TaskKind::Event, 0, pingPong, goSet),
+                                       onEvent("O", 5, TaskKind::Event, 0, pingPong, openSet)};
+  const StrideAppV1 app = appWith(tasks);
+  Log log;
+  log.go = true;
+  Scheduled run(app, log);
+  run.scheduler.runUntil(2100);
+  EXPECT_THAT(log.lines, ElementsAre("a0!", "g0", "o0", "g1", "o1", "g2", "o2"));
+}
+
+TEST(VirtualSchedulerTest, IntervalBesideSingleCountsWhileItIsFalse) {
+  const std::vector<TaskDesc> tasks = {cyclic("A", 1, 10, raiseAt10And30),
+                                       onEvent("E", 2, TaskKind::Event, 4, note<'e'>, goSet)};
+  const StrideAppV1 app = appWith(tasks);
+  Log log;
+  Scheduled run(app, log);
+  run.scheduler.runUntil(32 * kMs);
+  EXPECT_THAT(log.lines, ElementsAre("a0!", "e0!", "e4", "e8", "a10", "e10", "a20", "e24", "e28",
+                                     "a30", "e30"));
+}
+
+void zeroEvent(Ctx *) {}
+stride::BOOL failingEvent(Ctx *ctx) {
+  stride::raise(*ctx, ExceptionCode::DivisionByZero, "e.st", 4, 2);
+}
+
+TEST(VirtualSchedulerTest, AnEventThatFailsStopsTheApplication) {
+  const std::vector<TaskDesc> tasks = {
+      cyclic("A", 1, 10, zeroEvent), onEvent("E", 2, TaskKind::Event, 0, note<'e'>, failingEvent)};
+  const StrideAppV1 app = appWith(tasks);
+  Log log;
+  Scheduled run(app, log);
+  const RunResult result = run.scheduler.runUntil(100 * kMs);
+  ASSERT_TRUE(result.fault);
+  EXPECT_EQ(result.fault->task, "E");
+  EXPECT_THAT(log.lines, ElementsAre());
+}
+
 class HandmadeRun : public stride::test::HandmadeApp {};
 
 TEST_F(HandmadeRun, TasksShareTheState) {
-  VirtualScheduler scheduler(application.description(), application.state(),
-                             stride::task::hostApi());
-  scheduler.runUntil(100 * kMs);
+  Scheduled run(application.description(), application.state());
+  run.scheduler.runUntil(100 * kMs);
   EXPECT_EQ(read("PLC_PRG.count"), "10");
   EXPECT_EQ(read("PLC_PRG.fb.count"), "20");
   EXPECT_EQ(read("total"), "20");

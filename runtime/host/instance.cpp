@@ -1,0 +1,42 @@
+#include "runtime/host/instance.hpp"
+
+#include "runtime/host/axis_hooks.hpp"
+
+#include <fmt/format.h>
+
+namespace stride::host {
+
+Instance::Instance(app::Application &application, task::LoopLimit limit)
+    : application_(&application), symbols_(application.description()),
+      tasks_(application.description(), application.state(), task::hostApi(), limit) {}
+
+void Instance::initialise() {
+  application_->initialise(task::hostApi());
+  for (std::unique_ptr<task::CycleHook> &hook : addAxisGroups(*application_, tasks_))
+    hooks_.push_back(std::move(hook));
+}
+
+std::optional<task::Fault> Instance::exit(int64_t timeNs) {
+  if (app().exit == nullptr || tasks_.fault())
+    return std::nullopt;
+  Ctx ctx{};
+  ctx.state = state();
+  ctx.host = &task::hostApi();
+  ctx.cycleStartNs = timeNs;
+  ctx.loopBudget = task::TaskSet::kDefaultLoopBudget;
+  if (const std::optional<StException> exception = task::guardedCall(app().exit, ctx))
+    return task::Fault{*exception, "end of the run", 0, timeNs};
+  return std::nullopt;
+}
+
+std::vector<std::string> Instance::remarks() const {
+  std::vector<std::string> lines;
+  for (const std::unique_ptr<task::CycleHook> &hook : hooks_)
+    if (const std::string problem = hook->problem(); !problem.empty())
+      lines.push_back(fmt::format("warning: {}", problem));
+  for (const std::string &line : errorStops(*application_))
+    lines.push_back(fmt::format("note: {}", line));
+  return lines;
+}
+
+} // namespace stride::host

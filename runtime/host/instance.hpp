@@ -1,0 +1,48 @@
+// An application with everything that belongs to it while it runs, whatever the clock.
+#ifndef STRIDE_RUNTIME_HOST_INSTANCE_HPP
+#define STRIDE_RUNTIME_HOST_INSTANCE_HPP
+
+#include "runtime/app/application.hpp"
+#include "runtime/app/symbols.hpp"
+#include "runtime/task/task_set.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stride::host {
+
+/// One run of an application from its initial values to its end.
+class Instance {
+public:
+  /// Throws app::Error for an application that cannot be run. The application must live longer.
+  Instance(app::Application &application, task::LoopLimit limit);
+
+  /// Sets the initial values, then adds the hooks of the PLC configuration. Throws StException when
+  /// an initialiser fails, app::Error for a driver that this runtime does not have.
+  void initialise();
+
+  /// FB_Exit of every instance, after the last cycle; what goes wrong in one of them. A program
+  /// that has failed is not called again.
+  std::optional<task::Fault> exit(int64_t timeNs);
+
+  app::Application &application() { return *application_; }
+  const StrideAppV1 &app() const { return application_->description(); }
+  std::byte *state() const { return application_->state(); }
+  const app::SymbolTable &symbols() const { return symbols_; }
+  task::TaskSet &tasks() { return tasks_; }
+
+  /// What is worth saying at the end of a run: "warning: …", "note: …".
+  std::vector<std::string> remarks() const;
+
+private:
+  app::Application *application_;
+  app::SymbolTable symbols_;
+  task::TaskSet tasks_;
+  std::vector<std::unique_ptr<task::CycleHook>> hooks_;
+};
+
+} // namespace stride::host
+
+#endif

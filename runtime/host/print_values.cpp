@@ -1,0 +1,25 @@
+#include "runtime/host/print_values.hpp"
+
+#include "runtime/app/value_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace stride::host {
+
+void printValues(const app::SymbolTable &symbols, const std::vector<app::Symbol> &wanted,
+                 std::byte *state) {
+  for (const app::Symbol &symbol : wanted) {
+    for (const app::Symbol &leaf : symbols.leaves(symbol)) {
+      std::byte bit{};
+      const void *value = leaf.read(state, bit);
+      fmt::print("{} = {}\n", leaf.path(),
+                 value != nullptr ? app::formatLiteral(symbols.app(), symbols.type(leaf), value)
+                                  : std::string("NULL"));
+    }
+  }
+  std::fflush(stdout);
+}
+
+} // namespace stride::host

@@ -1,0 +1,20 @@
+// The tasks' figures for people.
+#ifndef STRIDE_RUNTIME_HOST_STATISTICS_TEXT_HPP
+#define STRIDE_RUNTIME_HOST_STATISTICS_TEXT_HPP
+
+#include "runtime/task/task_set.hpp"
+
+#include <string>
+
+namespace stride::host {
+
+/// A table with a row per task: cycles, overruns, watchdog violations, run time (min, mean, p99,
+/// max), delay of the start (p50, p99, p99.9, max) and interval (min, max), in microseconds.
+std::string statisticsTable(const task::TaskSet &tasks);
+
+/// The distribution of one task's run times and delays, a line per power of two that occurred.
+std::string histogramText(const task::TaskStatistics &statistics);
+
+} // namespace stride::host
+
+#endif

@@ -1,0 +1,230 @@
+#include "runtime/task/real_scheduler.hpp"
+
+#include "runtime/task/realtime.hpp"
+
+#include <ctime>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <limits>
+#include <thread>
+
+namespace stride::task {
+
+namespace {
+
+constexpr int64_t kNever = std::numeric_limits<int64_t>::max();
+/// A sleeping thread looks so often whether the end has come. [ns]
+constexpr int64_t kLongestSleepNs = 100'000'000;
+constexpr std::size_t kTouchedStack = std::size_t{512} << 10;
+
+::timespec toTimespec(int64_t ns) {
+  ::timespec time{};
+  time.tv_sec = static_cast<time_t>(ns / 1'000'000'000);
+  time.tv_nsec = static_cast<long>(ns % 1'000'000'000);
+  return time;
+}
+
+/// Of each task, by priority and order of declaration.
+std::vector<uint32_t> ranksOf(const TaskSet &tasks) {
+  std::vector<uint32_t> ranks(tasks.count());
+  uint32_t rank = 0;
+  for (const uint32_t task : tasks.order())
+    ranks[task] = rank++;
+  return ranks;
+}
+
+} // namespace
+
+RealScheduler::RealScheduler(TaskSet &tasks, const RealOptions &options)
+    : tasks_(&tasks), options_(options), gate_(ranksOf(tasks), options.turns || !options.fifo) {
+  for (uint32_t i = 0; i < tasks.count(); ++i) {
+    auto worker = std::make_unique<Worker>();
+    worker->task = i;
+    ::sem_init(&worker->raised, 0, 0);
+    workers_.push_back(std::move(worker));
+  }
+}
+
+RealScheduler::~RealScheduler() {
+  finish();
+  for (const std::unique_ptr<Worker> &worker : workers_)
+    ::sem_destroy(&worker->raised);
+}
+
+void RealScheduler::start() {
+  try {
+    for (const std::unique_ptr<Worker> &worker : workers_)
+      worker->thread = std::make_unique<LowThread>([this, w = worker.get()] { work(*w); });
+  } catch (...) {
+    end();
+    throw;
+  }
+  started_ = true;
+  // The threads set themselves up first, so that time 0 finds all of them waiting.
+  for (uint32_t ready = ready_.load(); ready != workers_.size(); ready = ready_.load())
+    ready_.wait(ready);
+  originNs_ = monotonicNs() + 1'000'000;
+  if (tasks_->hasEvents())
+    lookAtEvents();
+  go_.store(1);
+  go_.notify_all();
+}
+
+void RealScheduler::prepareThread(const Worker &worker) const {
+  const TaskDesc &desc = tasks_->desc(worker.task);
+  if (desc.core != kNoIndex)
+    pinTo(desc.core);
+  else if (options_.core)
+    pinTo(*options_.core);
+  touchStack(kTouchedStack);
+  useExactTimers();
+  if (options_.fifo)
+    useFifo(desc.priority);
+}
+
+void RealScheduler::work(Worker &worker) {
+  const MemoryGuard guard;
+  prepareThread(worker);
+  ready_.fetch_add(1);
+  ready_.notify_all();
+  go_.wait(0);
+  switch (tasks_->desc(worker.task).kind) {
+  case TaskKind::Cyclic:
+    runCyclic(worker);
+    break;
+  case TaskKind::Freewheeling:
+    runFreewheeling(worker);
+    break;
+  case TaskKind::Event:
+  case TaskKind::Status:
+    runOnEvent(worker);
+    break;
+  }
+}
+
+void RealScheduler::cycle(Worker &worker, int64_t plannedNs) {
+  gate_.enter(worker.task);
+  const int64_t latency = std::max<int64_t>(nowNs() - plannedNs, 0);
+  tasks_->runCycle(worker.task, plannedNs, latency);
+  if (tasks_->hasEvents())
+    lookAtEvents();
+  gate_.leave(worker.task);
+}
+
+void RealScheduler::lookAtEvents() {
+  if (tasks_->stopped())
+    return;
+  for (const std::unique_ptr<Worker> &worker : workers_) {
+    const TaskDesc &desc = tasks_->desc(worker->task);
+    if (desc.event == nullptr)
+      continue;
+    const bool level = tasks_->eventLevel(worker->task);
+    const bool rising = level && !worker->level.exchange(level);
+    if (!level)
+      worker->level.store(false);
+    if (rising && !worker->pending.exchange(true))
+      ::sem_post(&worker->raised);
+  }
+}
+
+void RealScheduler::runCyclic(Worker &worker) {
+  const int64_t interval = tasks_->desc(worker.task).intervalNs;
+  for (int64_t planned = 0; sleepUntil(planned);) {
+    cycle(worker, planned);
+    planned += interval;
+    if (const int64_t late = nowNs() - planned; late > 0) {
+      const int64_t missed = (late + interval - 1) / interval;
+      tasks_->addOverruns(worker.task, static_cast<uint64_t>(missed));
+      planned += missed * interval;
+    }
+  }
+}
+
+void RealScheduler::runFreewheeling(Worker &worker) {
+  for (int64_t planned = 0; sleepUntil(planned); planned = nowNs() + kFreewheelingPauseNs)
+    cycle(worker, planned);
+}
+
+void RealScheduler::runOnEvent(Worker &worker) {
+  const TaskDesc &desc = tasks_->desc(worker.task);
+  int64_t next = desc.kind == TaskKind::Event && desc.intervalNs > 0 ? 0 : kNever;
+  while (waitForEvent(worker, next)) {
+    const int64_t now = nowNs();
+    cycle(worker, next <= now ? next : now);
+    const bool level = worker.level.load();
+    if (tasks_->stopped())
+      next = now + (desc.intervalNs > 0 ? desc.intervalNs : kStoppedIntervalNs);
+    else if (desc.kind == TaskKind::Status)
+      next = level ? now + desc.intervalNs : kNever;
+    else
+      next = desc.intervalNs > 0 && !level ? now + desc.intervalNs : kNever;
+  }
+}
+
+/// Until the event is raised or the time has come; false: the end has come.
+bool RealScheduler::waitForEvent(Worker &worker, int64_t untilNs) {
+  for (;;) {
+    if (ending())
+      return false;
+    const int64_t now = nowNs();
+    if (untilNs <= now)
+      return true;
+    const ::timespec until = toTimespec(originNs_ + std::min(untilNs, now + kLongestSleepNs));
+    if (::sem_clockwait(&worker.raised, CLOCK_MONOTONIC, &until) == 0) {
+      worker.pending.store(false);
+      return !ending();
+    }
+    if (tasks_->stopped() && untilNs == kNever)
+      return !ending(); // its hooks go on without events
+  }
+}
+
+/// False: the end has come.
+bool RealScheduler::sleepUntil(int64_t timeNs) const {
+  for (;;) {
+    if (ending())
+      return false;
+    const int64_t now = nowNs();
+    if (now >= timeNs)
+      return true;
+    const ::timespec until = toTimespec(originNs_ + std::min(timeNs, now + kLongestSleepNs));
+    while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+    }
+  }
+}
+
+bool RealScheduler::finish() {
+  if (!started_)
+    return true;
+  started_ = false;
+  tasks_->stop();
+  const int64_t limit = monotonicNs() + kStopLimitNs;
+  while (!tasks_->atRest() && monotonicNs() < limit)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  const bool cameToRest = tasks_->atRest();
+  end();
+  return cameToRest;
+}
+
+void RealScheduler::end() {
+  ending_.store(true, std::memory_order_release);
+  go_.store(1);
+  go_.notify_all();
+  for (const std::unique_ptr<Worker> &worker : workers_)
+    ::sem_post(&worker->raised);
+  for (const std::unique_ptr<Worker> &worker : workers_)
+    if (worker->thread)
+      worker->thread->join();
+}
+
+int64_t RealScheduler::betweenCycles(const std::function<void()> &change) {
+  const int64_t begin = monotonicNs();
+  gate_.hold();
+  change();
+  gate_.release();
+  return monotonicNs() - begin;
+}
+
+} // namespace stride::task

@@ -1,0 +1,96 @@
+// Tasks by the real clock: a thread for each.
+#ifndef STRIDE_RUNTIME_TASK_REAL_SCHEDULER_HPP
+#define STRIDE_RUNTIME_TASK_REAL_SCHEDULER_HPP
+
+#include "runtime/task/cycle_gate.hpp"
+#include "runtime/task/low_stack.hpp"
+#include "runtime/task/task_set.hpp"
+
+#include <semaphore.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace stride::task {
+
+struct RealOptions {
+  bool fifo = false; ///< SCHED_FIFO by task priority; else the tasks take turns.
+  bool turns = true; ///< One cycle at a time, also with SCHED_FIFO.
+  /// Processor of the tasks that choose none; none: wherever the system puts them.
+  std::optional<uint32_t> core;
+};
+
+/// Runs the tasks of one application by the monotonic clock. Every task has a thread of its own
+/// with its stack below 4 GiB, sleeps until absolute times and looks at nothing but the clock.
+///
+/// A cyclic task whose cycle is not over at its next planned start skips what it has missed, so
+/// that it stays on the grid of its interval (an overrun each). A freewheeling task pauses
+/// kFreewheelingPauseNs after each cycle. Events are looked at after every cycle of every task; see
+/// VirtualScheduler for what they do, with the actual time for the virtual one.
+class RealScheduler {
+public:
+  static constexpr int64_t kFreewheelingPauseNs = 1'000'000;
+  /// How long hooks may take to come to rest after a stop.
+  static constexpr int64_t kStopLimitNs = 60'000'000'000;
+  /// From cycle to cycle of a task without interval when the application has stopped.
+  static constexpr int64_t kStoppedIntervalNs = 10'000'000;
+
+  RealScheduler(TaskSet &tasks, const RealOptions &options);
+  RealScheduler(const RealScheduler &) = delete;
+  RealScheduler &operator=(const RealScheduler &) = delete;
+  /// Stops as finish() does.
+  ~RealScheduler();
+
+  /// Starts the threads; time 0 of the program is when this returns. Throws app::Error when the
+  /// system has no threads.
+  void start();
+
+  /// What the program sees as the time now. [ns]
+  int64_t nowNs() const { return monotonicNs() - originNs_; }
+
+  /// Ends: no POU runs any more, the hooks go on until all are at rest (at most kStopLimitNs), then
+  /// the threads end. False: something did not come to rest.
+  bool finish();
+
+  /// Calls `change` while no task is inside a cycle. Returns for how long no cycle could begin.
+  /// [ns] From one thread at a time, not from a task's.
+  int64_t betweenCycles(const std::function<void()> &change);
+
+private:
+  struct Worker {
+    uint32_t task = 0;
+    ::sem_t raised{};               ///< An event, or the end.
+    std::atomic<bool> level{false}; ///< Of the event, when it was last looked at.
+    std::atomic<bool> pending{false};
+    std::unique_ptr<LowThread> thread;
+  };
+
+  void work(Worker &worker);
+  void end();
+  void prepareThread(const Worker &worker) const;
+  void cycle(Worker &worker, int64_t plannedNs);
+  void lookAtEvents();
+  void runCyclic(Worker &worker);
+  void runFreewheeling(Worker &worker);
+  void runOnEvent(Worker &worker);
+  bool waitForEvent(Worker &worker, int64_t untilNs);
+  bool sleepUntil(int64_t timeNs) const;
+  bool ending() const { return ending_.load(std::memory_order_acquire); }
+
+  TaskSet *tasks_;
+  RealOptions options_;
+  CycleGate gate_;
+  std::vector<std::unique_ptr<Worker>> workers_; // by task
+  int64_t originNs_ = 0;
+  std::atomic<uint32_t> ready_{0};
+  std::atomic<uint32_t> go_{0};
+  std::atomic<bool> ending_{false};
+  bool started_ = false;
+};
+
+} // namespace stride::task
+
+#endif

@@ -1,0 +1,40 @@
+// What the operating system gives to tasks of the real clock.
+#ifndef STRIDE_RUNTIME_TASK_REALTIME_HPP
+#define STRIDE_RUNTIME_TASK_REALTIME_HPP
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace stride::task {
+
+/// What was obtained, and what not with the remedy.
+struct RealtimeReport {
+  bool fifo = false;         ///< Threads get SCHED_FIFO by the priority of their task.
+  bool memoryLocked = false; ///< No page of the process leaves the memory.
+  std::vector<std::string> warnings;
+};
+
+/// Locks the process's memory and finds out whether SCHED_FIFO is permitted. Once per process.
+RealtimeReport prepareRealtime();
+
+/// SCHED_FIFO for the calling thread: 80 for task priority 0 down to 49 for 31, so that the tasks
+/// are before the kernel's interrupt threads (50) down to priority 29. False: not permitted.
+bool useFifo(uint32_t taskPriority) noexcept;
+
+/// The processors the process may use, in ascending order.
+std::vector<uint32_t> allowedCores();
+
+/// Pins the calling thread; false when the system refuses.
+bool pinTo(uint32_t core) noexcept;
+
+/// Touches `bytes` of the calling thread's stack below the current frame, so that later calls find
+/// the pages there.
+void touchStack(std::size_t bytes) noexcept;
+
+/// For threads without SCHED_FIFO: timers as exact as the kernel can.
+void useExactTimers() noexcept;
+
+} // namespace stride::task
+
+#endif

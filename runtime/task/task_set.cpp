@@ -1,0 +1,196 @@
+#include "runtime/task/task_set.hpp"
+
+#include "runtime/app/error.hpp"
+
+#include <fmt/format.h>
+
+#include <ctime>
+
+#include <algorithm>
+#include <limits>
+
+namespace stride::task {
+
+namespace {
+
+/// Loop iterations between two looks at the clock.
+constexpr int64_t kLoopsPerLook = 20'000;
+
+/// 0 counts as 1.
+int64_t sensitivity(const TaskDesc &desc) { return std::max<int64_t>(desc.watchdogSensitivity, 1); }
+
+void checkTask(const TaskDesc &desc) {
+  const bool onEvent = desc.kind == TaskKind::Event || desc.kind == TaskKind::Status;
+  if (onEvent && desc.event == nullptr)
+    throw app::Error(fmt::format("task '{}' has no event that starts it", desc.name));
+  if (desc.kind != TaskKind::Event && desc.intervalNs <= 0)
+    throw app::Error(fmt::format("task '{}' has no interval", desc.name));
+}
+
+} // namespace
+
+int64_t monotonicNs() noexcept {
+  ::timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+TaskSet::TaskSet(const StrideAppV1 &app, std::byte *state, const HostApi &host, LoopLimit limit)
+    : app_(&app), host_(host), limit_(limit) {
+  if (app.taskCount == 0)
+    throw app::Error("the application has no task; add one to stride.toml or a CONFIGURATION");
+  host_.self = this;
+  host_.refillLoopBudget = refill;
+  int64_t shortest = std::numeric_limits<int64_t>::max();
+  for (uint32_t i = 0; i < app.taskCount; ++i) {
+    const TaskDesc &desc = app.tasks[i];
+    checkTask(desc);
+    hasEvents_ = hasEvents_ || desc.event != nullptr;
+    if (desc.kind != TaskKind::Event && desc.intervalNs < shortest) {
+      shortest = desc.intervalNs;
+      fastest_ = i;
+    }
+    auto task = std::make_unique<Task>();
+    task->ctx.state = state;
+    task->ctx.taskIntervalNs = desc.intervalNs;
+    task->ctx.taskIndex = i;
+    task->ctx.host = &host_;
+    task->ctx.firstCycle = 1;
+    tasks_.push_back(std::move(task));
+    order_.push_back(i);
+  }
+  std::stable_sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
+    return app.tasks[a].priority < app.tasks[b].priority;
+  });
+}
+
+TaskSet::~TaskSet() = default;
+
+void TaskSet::addHook(uint32_t task, CycleHook &hook) { tasks_[task]->hooks.push_back(&hook); }
+
+void TaskSet::runCycle(uint32_t index, int64_t startNs, int64_t latencyNs) noexcept {
+  Task &task = *tasks_[index];
+  Ctx &ctx = task.ctx;
+  task.startedNs = monotonicNs();
+  ctx.cycleStartNs = startNs;
+  ctx.loopBudget = limit_ == LoopLimit::Clock ? kLoopsPerLook : loopBudget_;
+  if (stopped())
+    tellHooks(task);
+  for (CycleHook *hook : task.hooks)
+    hook->beforePous(ctx);
+  if (!stopped()) {
+    const TaskDesc &desc = app_->tasks[index];
+    if (const std::optional<StException> exception = guardedCall(desc.run, ctx)) {
+      fail(*exception, index, ctx.cycle, startNs);
+      tellHooks(task);
+    }
+  }
+  for (auto hook = task.hooks.rbegin(); hook != task.hooks.rend(); ++hook)
+    (*hook)->afterPous(ctx);
+  if (task.told)
+    task.rest.store(std::all_of(task.hooks.begin(), task.hooks.end(),
+                                [](const CycleHook *hook) { return hook->atRest(); }),
+                    std::memory_order_release);
+  const int64_t run = monotonicNs() - task.startedNs;
+  task.statistics.add({startNs, startNs + latencyNs, run});
+  if (limit_ == LoopLimit::Clock)
+    watch(index, run);
+  ctx.firstCycle = 0;
+  ++ctx.cycle;
+}
+
+void TaskSet::addOverruns(uint32_t task, uint64_t count) noexcept {
+  tasks_[task]->statistics.addOverruns(count);
+}
+
+/// A cycle beyond the watchdog's time counts; so many in a row as the sensitivity says, or one that
+/// lasts so many times as long, stop the application.
+void TaskSet::watch(uint32_t index, int64_t runNs) noexcept {
+  Task &task = *tasks_[index];
+  const TaskDesc &desc = app_->tasks[index];
+  if (desc.watchdogNs <= 0 || runNs <= desc.watchdogNs) {
+    task.violations = 0;
+    return;
+  }
+  task.statistics.addWatchdogViolation();
+  ++task.violations;
+  if (stopped() ||
+      (task.violations < sensitivity(desc) && runNs / sensitivity(desc) <= desc.watchdogNs))
+    return;
+  char detail[160];
+  const auto end = fmt::format_to_n(detail, sizeof detail - 1, "{} us, allowed are {} us",
+                                    (runNs + 999) / 1000, desc.watchdogNs / 1000);
+  *end.out = 0;
+  fail(StException(ExceptionCode::Watchdog, nullptr, 0, 0, detail), index, task.ctx.cycle,
+       task.ctx.cycleStartNs);
+}
+
+int64_t TaskSet::refill(Ctx *ctx) {
+  const auto *self = static_cast<const TaskSet *>(ctx->host->self);
+  if (self->limit_ == LoopLimit::Budget)
+    return 0;
+  const TaskDesc &desc = self->app_->tasks[ctx->taskIndex];
+  const int64_t allowed =
+      desc.watchdogNs > 0 ? desc.watchdogNs * sensitivity(desc) : kDefaultCycleLimitNs;
+  return monotonicNs() - self->tasks_[ctx->taskIndex]->startedNs > allowed ? 0 : kLoopsPerLook;
+}
+
+bool TaskSet::eventLevel(uint32_t index) noexcept {
+  struct Question {
+    Ctx ctx;
+    BOOL (*event)(Ctx *);
+    BOOL answer;
+  };
+  static_assert(std::is_standard_layout_v<Question>);
+  const TaskDesc &desc = app_->tasks[index];
+  Question question{};
+  question.ctx.state = tasks_[index]->ctx.state;
+  question.ctx.host = &host_;
+  question.ctx.taskIndex = index;
+  question.ctx.loopBudget = 0;
+  question.event = desc.event;
+  const auto ask = [](Ctx *ctx) {
+    auto *asked = reinterpret_cast<Question *>(ctx);
+    asked->answer = asked->event(ctx);
+  };
+  if (const std::optional<StException> exception = guardedCall(ask, question.ctx)) {
+    fail(*exception, index, 0, 0);
+    return false;
+  }
+  return question.answer != 0;
+}
+
+void TaskSet::fail(const StException &exception, uint32_t task, uint64_t cycle,
+                   int64_t timeNs) noexcept {
+  const std::lock_guard lock(faultMutex_);
+  if (!fault_)
+    fault_ = Fault{exception, app_->tasks[task].name, cycle, timeNs};
+  stop();
+}
+
+void TaskSet::tellHooks(Task &task) noexcept {
+  if (task.told)
+    return;
+  task.told = true;
+  for (CycleHook *hook : task.hooks)
+    hook->applicationStopped();
+}
+
+bool TaskSet::atRest() const noexcept {
+  return std::all_of(tasks_.begin(), tasks_.end(), [](const auto &task) {
+    return task->hooks.empty() || task->rest.load(std::memory_order_acquire);
+  });
+}
+
+std::optional<Fault> TaskSet::fault() const {
+  const std::lock_guard lock(faultMutex_);
+  return fault_;
+}
+
+void TaskSet::rebind(const StrideAppV1 &app, std::byte *state) noexcept {
+  app_ = &app;
+  for (const std::unique_ptr<Task> &task : tasks_)
+    task->ctx.state = state;
+}
+
+} // namespace stride::task

@@ -1,0 +1,114 @@
+// The tasks of one application: what happens in a cycle, whoever decides when.
+#ifndef STRIDE_RUNTIME_TASK_TASK_SET_HPP
+#define STRIDE_RUNTIME_TASK_TASK_SET_HPP
+
+#include "runtime/app/abi.h"
+#include "runtime/task/cycle_hook.hpp"
+#include "runtime/task/fault.hpp"
+#include "runtime/task/statistics.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace stride::task {
+
+/// How long the loops of a cycle may go on.
+enum class LoopLimit : uint8_t {
+  Budget, ///< A number of iterations: repeatable, for virtual time.
+  Clock,  ///< The task's watchdog, or kDefaultCycleLimitNs without one: for the real clock.
+};
+
+/// The tasks of one application with their hooks, statistics and the fault that stopped them. The
+/// scheduler calls runCycle; cycles of different tasks may run at the same time in different
+/// threads, those of one task never.
+///
+/// When a cycle ends with an exception (or breaks its watchdog), or stop() is called, no POU runs
+/// any more. The hooks are told in their own task, and go on until all are at rest.
+class TaskSet {
+public:
+  static constexpr int64_t kDefaultLoopBudget = 1'000'000'000;
+  static constexpr int64_t kDefaultCycleLimitNs = 10'000'000'000;
+
+  /// `state` is initialised. Throws app::Error for an application without tasks or with a task
+  /// that cannot be scheduled.
+  TaskSet(const StrideAppV1 &app, std::byte *state, const HostApi &host, LoopLimit limit);
+  TaskSet(const TaskSet &) = delete;
+  TaskSet &operator=(const TaskSet &) = delete;
+  ~TaskSet();
+
+  const StrideAppV1 &app() const { return *app_; }
+  uint32_t count() const { return static_cast<uint32_t>(tasks_.size()); }
+  const TaskDesc &desc(uint32_t task) const { return app_->tasks[task]; }
+  /// Tasks in the order in which they run when they are due together: by priority, then as
+  /// declared.
+  const std::vector<uint32_t> &order() const { return order_; }
+  /// The task with the shortest interval, the first one of several; 0 when none has an interval.
+  uint32_t fastest() const { return fastest_; }
+  bool hasEvents() const { return hasEvents_; }
+
+  /// Before the first cycle. The hooks of a task run around its POUs: before in the order of
+  /// adding, after in reverse. They must live as long as the tasks.
+  void addHook(uint32_t task, CycleHook &hook);
+  /// Loop iterations that one cycle may use, with LoopLimit::Budget.
+  void setLoopBudget(int64_t budget) { loopBudget_ = budget; }
+
+  /// One cycle: hooks, POUs, hooks; then the watchdog. `startNs` is what the program sees as its
+  /// start; `latencyNs` how late that is. Never throws, allocates or locks (but to note a fault).
+  void runCycle(uint32_t task, int64_t startNs, int64_t latencyNs) noexcept;
+  void addOverruns(uint32_t task, uint64_t count) noexcept;
+
+  /// Evaluates the event of an event or status task.
+  bool eventLevel(uint32_t task) noexcept;
+
+  /// No POU runs any more from now on.
+  void stop() noexcept { stopped_.store(true, std::memory_order_release); }
+  bool stopped() const noexcept { return stopped_.load(std::memory_order_acquire); }
+  /// After stop: every hook has been told and is at rest.
+  bool atRest() const noexcept;
+  std::optional<Fault> fault() const;
+
+  const TaskStatistics &statistics(uint32_t task) const { return tasks_[task]->statistics; }
+
+  /// The state has moved, or another build has taken its place: between two cycles of all tasks.
+  /// The tasks of `app` are the same as before in number, order and kind.
+  void rebind(const StrideAppV1 &app, std::byte *state) noexcept;
+
+private:
+  struct Task {
+    Ctx ctx{};
+    std::vector<CycleHook *> hooks;
+    TaskStatistics statistics;
+    int64_t startedNs = 0;   ///< Of the clock, not of virtual time.
+    uint32_t violations = 0; ///< In a row.
+    bool told = false;       ///< The hooks know that the application has stopped.
+    std::atomic<bool> rest{false};
+  };
+
+  static int64_t refill(Ctx *ctx);
+  void fail(const StException &exception, uint32_t task, uint64_t cycle, int64_t timeNs) noexcept;
+  void tellHooks(Task &task) noexcept;
+  void watch(uint32_t index, int64_t runNs) noexcept;
+
+  const StrideAppV1 *app_;
+  HostApi host_;
+  LoopLimit limit_;
+  std::vector<std::unique_ptr<Task>> tasks_;
+  std::vector<uint32_t> order_;
+  uint32_t fastest_ = 0;
+  bool hasEvents_ = false;
+  int64_t loopBudget_ = kDefaultLoopBudget;
+  std::atomic<bool> stopped_{false};
+  mutable std::mutex faultMutex_;
+  std::optional<Fault> fault_;
+};
+
+/// Nanoseconds of the system's monotonic clock.
+int64_t monotonicNs() noexcept;
+
+} // namespace stride::task
+
+#endif

@@ -1,0 +1,239 @@
+// The real clock. Nothing here depends on how fast the machine is.
+#include "runtime/iec/ctx.h"
+#include "runtime/task/real_scheduler.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace {
+
+using namespace std::chrono_literals;
+using stride::Ctx;
+using stride::ExceptionCode;
+using stride::StrideAppV1;
+using stride::TaskDesc;
+using stride::TaskKind;
+using stride::task::CycleHook;
+using stride::task::LoopLimit;
+using stride::task::RealScheduler;
+using stride::task::TaskSet;
+
+constexpr int64_t kMs = 1000000;
+
+/// What ctx.state points to.
+struct Shared {
+  std::atomic<int> fast{0};
+  std::atomic<int> slow{0};
+  std::atomic<int> events{0};
+  std::atomic<int> status{0};
+  std::atomic<bool> go{false};
+  std::atomic<bool> open{false};
+  std::atomic<int> inside{0};
+  std::atomic<bool> overlap{false};
+  std::atomic<bool> offGrid{false};
+  std::atomic<bool> highStack{false};
+};
+
+Shared &shared(Ctx *ctx) { return *static_cast<Shared *>(ctx->state); }
+
+void fast(Ctx *ctx) {
+  Shared &s = shared(ctx);
+  int local = 0;
+  if (reinterpret_cast<uintptr_t>(&local) >> 32 != 0)
+    s.highStack = true;
+  if (s.inside.fetch_add(1) != 0)
+    s.overlap = true;
+  if (ctx->cycleStartNs % kMs != 0)
+    s.offGrid = true;
+  s.go = ++s.fast % 10 == 0;
+  s.inside.fetch_sub(1);
+}
+
+void slow(Ctx *ctx) {
+  Shared &s = shared(ctx);
+  if (s.inside.fetch_add(1) != 0)
+    s.overlap = true;
+  ++s.slow;
+  std::this_thread::sleep_for(2ms);
+  s.inside.fetch_sub(1);
+}
+
+void event(Ctx *ctx) { ++shared(ctx).events; }
+void status(Ctx *ctx) { ++shared(ctx).status; }
+stride::BOOL goSet(Ctx *ctx) { return shared(ctx).go; }
+stride::BOOL openSet(Ctx *ctx) { return shared(ctx).open; }
+
+TaskDesc task(const char *name, TaskKind kind, uint32_t priority, int64_t ms, void (*run)(Ctx *),
+              stride::BOOL (*raised)(Ctx *) = nullptr) {
+  return {name, kind, priority, ms * kMs, 0, 0, stride::kNoIndex, run, raised};
+}
+
+StrideAppV1 appWith(const std::vector<TaskDesc> &tasks) {
+  StrideAppV1 app{};
+  app.tasks = tasks.data();
+  app.taskCount = static_cast<uint32_t>(tasks.size());
+  return app;
+}
+
+template <class Condition> void waitUntil(Condition condition) {
+  for (int i = 0; i < 20000 && !condition(); ++i)
+    std::this_thread::sleep_for(1ms);
+  EXPECT_TRUE(condition());
+}
+
+TEST(RealSchedulerTest, AllKindsOfTasksInTurns) {
+  const std::vector<TaskDesc> list = {task("Fast", TaskKind::Cyclic, 1, 1, fast),
+                                      task("Slow", TaskKind::Cyclic, 9, 10, slow),
+                                      task("Event", TaskKind::Event, 0, 0, event, goSet),
+                                      task("Status", TaskKind::Status, 3, 2, status, openSet),
+                                      task("Free", TaskKind::Freewheeling, 31, 10, slow)};
+  const StrideAppV1 app = appWith(list);
+  Shared state;
+  TaskSet tasks(app, reinterpret_cast<std::byte *>(&state), stride::task::hostApi(),
+                LoopLimit::Clock);
+  {
+    RealScheduler scheduler(tasks, {.fifo = false, .turns = true, .core = {}});
+    scheduler.start();
+    waitUntil([&] { return state.fast > 60 && state.slow > 5 && state.events > 3; });
+    EXPECT_EQ(state.status, 0);
+    state.open = true;
+    waitUntil([&] { return state.status > 3; });
+    state.open = false;
+    EXPECT_TRUE(scheduler.finish());
+  }
+  EXPECT_FALSE(state.overlap) << "in turns two tasks were in their cycles at once";
+  EXPECT_FALSE(state.offGrid);
+  EXPECT_FALSE(state.highStack);
+  EXPECT_FALSE(tasks.fault());
+  EXPECT_GE(tasks.statistics(0).figures().cycles, 60U);
+  EXPECT_GE(tasks.statistics(1).figures().minRunNs, 2 * kMs);
+  const int after = state.fast;
+  std::this_thread::sleep_for(5ms);
+  EXPECT_EQ(state.fast, after) << "it goes on behind its end";
+}
+
+TEST(RealSchedulerTest, CyclesThatTakeTooLongSkipOnesOnTheGrid) {
+  const std::vector<TaskDesc> list = {task("Late", TaskKind::Cyclic, 1, 1, slow)};
+  const StrideAppV1 app = appWith(list);
+  Shared state;
+  TaskSet tasks(app, reinterpret_cast<std::byte *>(&state), stride::task::hostApi(),
+                LoopLimit::Clock);
+  RealScheduler scheduler(tasks, {.fifo = false, .turns = true, .core = {}});
+  scheduler.start();
+  waitUntil([&] { return state.slow > 10; });
+  scheduler.finish();
+  const auto figures = tasks.statistics(0).figures();
+  EXPECT_GE(figures.overruns, figures.cycles) << "each cycle of 2 ms skips at least one of 1 ms";
+}
+
+TEST(RealSchedulerTest, BetweenCyclesNoTaskIsInside) {
+  const std::vector<TaskDesc> list = {task("Fast", TaskKind::Cyclic, 1, 1, fast),
+                                      task("Slow", TaskKind::Cyclic, 9, 3, slow)};
+  const StrideAppV1 app = appWith(list);
+  Shared state;
+  TaskSet tasks(app, reinterpret_cast<std::byte *>(&state), stride::task::hostApi(),
+                LoopLimit::Clock);
+  RealScheduler scheduler(tasks, {.fifo = false, .turns = false, .core = {}});
+  scheduler.start();
+  for (int i = 0; i < 50; ++i) {
+    bool none = false;
+    EXPECT_GE(scheduler.betweenCycles([&] { none = state.inside == 0; }), 0);
+    EXPECT_TRUE(none);
+    std::this_thread::sleep_for(500us);
+  }
+}
+
+class BrakingHook final : public CycleHook {
+public:
+  void beforePous(Ctx &) override {}
+  void afterPous(Ctx &) override {
+    if (stopped)
+      --cycles;
+  }
+  void applicationStopped() override {
+    stopped = true;
+    stoppedBy = std::this_thread::get_id();
+  }
+  bool atRest() const override { return cycles <= 0; }
+  bool stopped = false;
+  int cycles = 5;
+  std::thread::id stoppedBy;
+};
+
+void failing(Ctx *ctx) {
+  if (++shared(ctx).events == 3)
+    stride::raise(*ctx, ExceptionCode::DivisionByZero, "a.st", 3, 7);
+}
+
+TEST(RealSchedulerTest, AFaultStopsThePousAndTheHooksGoOnUntilRest) {
+  const std::vector<TaskDesc> list = {task("Main", TaskKind::Cyclic, 1, 1, failing),
+                                      task("Fast", TaskKind::Cyclic, 2, 1, fast),
+                                      task("Event", TaskKind::Event, 2, 0, event, openSet)};
+  const StrideAppV1 app = appWith(list);
+  Shared state;
+  TaskSet tasks(app, reinterpret_cast<std::byte *>(&state), stride::task::hostApi(),
+                LoopLimit::Clock);
+  BrakingHook mine;
+  BrakingHook others;
+  BrakingHook ofTheEvent;
+  tasks.addHook(0, mine);
+  tasks.addHook(1, others);
+  tasks.addHook(2, ofTheEvent);
+  RealScheduler scheduler(tasks, {.fifo = false, .turns = true, .core = {}});
+  scheduler.start();
+  waitUntil([&] { return tasks.fault().has_value(); });
+  EXPECT_TRUE(scheduler.finish());
+  EXPECT_EQ(stride::task::describe(*tasks.fault()).substr(0, 38),
+            "division by zero at a.st:3:7 (task Mai");
+  EXPECT_EQ(state.events, 3);
+  for (const BrakingHook *hook : {&mine, &others, &ofTheEvent}) {
+    EXPECT_TRUE(hook->stopped);
+    EXPECT_LE(hook->cycles, 0);
+    EXPECT_NE(hook->stoppedBy, std::this_thread::get_id()) << "each is told in its own task";
+  }
+}
+
+void endless(Ctx *ctx) {
+  for (;;)
+    stride::loopTick(*ctx, "a.st", 9, 1);
+}
+
+TEST(RealSchedulerTest, TheWatchdogEndsAnEndlessLoop) {
+  std::vector<TaskDesc> list = {task("Main", TaskKind::Cyclic, 1, 10, endless)};
+  list[0].watchdogNs = 20 * kMs;
+  const StrideAppV1 app = appWith(list);
+  Shared state;
+  TaskSet tasks(app, reinterpret_cast<std::byte *>(&state), stride::task::hostApi(),
+                LoopLimit::Clock);
+  RealScheduler scheduler(tasks, {.fifo = false, .turns = true, .core = {}});
+  scheduler.start();
+  waitUntil([&] { return tasks.fault().has_value(); });
+  EXPECT_EQ(tasks.fault()->exception.code(), ExceptionCode::EndlessLoop);
+  EXPECT_EQ(tasks.fault()->exception.line(), 9U);
+}
+
+TEST(RealSchedulerTest, TheWatchdogCountsViolationsInARow) {
+  std::vector<TaskDesc> list = {task("Main", TaskKind::Cyclic, 1, 5, slow)};
+  list[0].watchdogNs = kMs * 3 / 2; // the cycle sleeps 2 ms
+  list[0].watchdogSensitivity = 4;
+  const StrideAppV1 app = appWith(list);
+  Shared state;
+  TaskSet tasks(app, reinterpret_cast<std::byte *>(&state), stride::task::hostApi(),
+                LoopLimit::Clock);
+  RealScheduler scheduler(tasks, {.fifo = false, .turns = true, .core = {}});
+  scheduler.start();
+  waitUntil([&] { return tasks.fault().has_value(); });
+  scheduler.finish();
+  EXPECT_EQ(tasks.fault()->exception.code(), ExceptionCode::Watchdog);
+  EXPECT_THAT(stride::task::describe(*tasks.fault()),
+              ::testing::HasSubstr("cycle longer than the watchdog allows: "));
+  EXPECT_LE(state.slow, 4) << "four in a row, or one that was four times as long";
+}
+
+} // namespace
