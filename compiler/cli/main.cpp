@@ -135,6 +135,8 @@ void addSimOptions(const HostOptions &host) {
   host.pass("--set",
             "Write a variable at a time: T#3s,Main.p=50; without a time at once (may be repeated)",
             "[TIME,]NAME=VALUE");
+  host.pass("--change", "A new build takes over at a time: T#3s,new.so (may be repeated)",
+            "TIME,APP");
   host.pass("--loop-budget", "Loop iterations a cycle may use before it counts as endless",
             "COUNT");
   host.passFlag("--quiet", "Neither progress nor summary");
@@ -145,6 +147,7 @@ void addRunOptions(const HostOptions &host) {
   host.pass("--for", "How long (default: until Ctrl-C): 5s, T#1h", "TIME");
   addTraceOptions(host);
   host.pass("--on-fault", "What happens after an exception: stop (default), restart", "WHAT");
+  host.passFlag("--accept-losses", "An online change (SIGHUP) may lose values of variables");
   host.pass("--core", "Processor of the tasks that choose none (default: the last one)", "N");
   host.passFlag("--turns", "Only one task at a time is in a cycle, also with real-time priorities");
   host.passFlag("--histogram", "Distributions of run times and delays with the statistics");

@@ -178,8 +178,10 @@ private:
     if (options_.debug)
       flags.insert(flags.end(), {"-O0", "-g"});
     else
-      // Aligned, so that the speed of a loop does not depend on what lies in front of it.
-      flags.insert(flags.end(), {"-O2", "-falign-functions=64", "-falign-loops=32"});
+      // Aligned, so that the speed of a loop does not depend on what lies in front of it; with line
+      // tables and all frames, so that an exception can say where it came from.
+      flags.insert(flags.end(), {"-O2", "-g1", "-fno-optimize-sibling-calls",
+                                 "-falign-functions=64", "-falign-loops=32"});
     return flags;
   }
 

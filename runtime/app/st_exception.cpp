@@ -1,14 +1,52 @@
 #include "runtime/app/st_exception.hpp"
 
+#include <unwind.h>
+
+#include <algorithm>
 #include <cstring>
 
 namespace stride {
 
+namespace {
+
+struct Capture {
+  uintptr_t *calls;
+  std::size_t size;
+  std::size_t count;
+};
+
+_Unwind_Reason_Code captureOne(struct _Unwind_Context *context, void *argument) {
+  auto *capture = static_cast<Capture *>(argument);
+  if (capture->count == capture->size)
+    return _URC_END_OF_STACK;
+  int beforeInstruction = 0;
+  uintptr_t address = _Unwind_GetIPInfo(context, &beforeInstruction);
+  if (address == 0)
+    return _URC_END_OF_STACK;
+  if (beforeInstruction == 0)
+    --address; // of a return address: within the call
+  capture->calls[capture->count++] = address;
+  return _URC_NO_REASON;
+}
+
+} // namespace
+
+std::size_t captureCalls(uintptr_t *calls, std::size_t size) noexcept {
+  Capture capture{calls, size, 0};
+  _Unwind_Backtrace(captureOne, &capture);
+  return capture.count;
+}
+
 StException::StException(ExceptionCode code, const char *file, uint32_t line, uint32_t col,
                          const char *detail) noexcept
-    : code_(code), line_(line), col_(col), file_(file), detail_{} {
+    : code_(code), line_(line), col_(col), file_(file), detail_{}, calls_{} {
   if (detail != nullptr)
     std::strncpy(detail_, detail, sizeof detail_ - 1);
+}
+
+void StException::setCalls(const uintptr_t *calls, std::size_t count) noexcept {
+  callCount_ = std::min(count, kMaxCalls);
+  std::copy_n(calls, callCount_, calls_);
 }
 
 const char *StException::what() const noexcept { return describe(code_); }

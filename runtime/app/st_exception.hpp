@@ -4,9 +4,16 @@
 
 #include "runtime/iec/ctx.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <exception>
+#include <span>
 
 namespace stride {
+
+/// Fills `calls` with the calling thread's call path, see StException::calls. Usable in a signal
+/// handler, where the interrupted code is part of the path. Returns how many.
+std::size_t captureCalls(uintptr_t *calls, std::size_t size) noexcept;
 
 /// Thrown by raise() through the host API; caught at the task's root. Holds no memory of its own,
 /// so throwing it needs no more than the language's reserve.
@@ -25,12 +32,23 @@ public:
   /// What the code means: "division by zero".
   const char *what() const noexcept override;
 
+  /// Notes the calling thread's call path, innermost first, from here outwards.
+  void captureCalls() noexcept { callCount_ = stride::captureCalls(calls_, kMaxCalls); }
+  void setCalls(const uintptr_t *calls, std::size_t count) noexcept;
+  /// Addresses within the machine instructions that were being executed, innermost first; empty
+  /// when nothing was noted.
+  std::span<const uintptr_t> calls() const noexcept { return {calls_, callCount_}; }
+
+  static constexpr std::size_t kMaxCalls = 48;
+
 private:
   ExceptionCode code_;
   uint32_t line_;
   uint32_t col_;
   const char *file_;
   char detail_[160];
+  uintptr_t calls_[kMaxCalls];
+  std::size_t callCount_ = 0;
 };
 
 /// What an exception code means, in lower case without a full stop.

@@ -88,11 +88,6 @@ AxisGroup::AxisGroup(std::unique_ptr<AxisDriver> driver, AxisGroupRef &group,
   }
 }
 
-void AxisGroup::rebind(AxisGroupRef &group, std::vector<AxisRef *> axes) {
-  group_ = &group;
-  axes_ = std::move(axes);
-}
-
 void AxisGroup::executeStart() {
   ++group_->udiCycleCount;
   driver_->executeStart();

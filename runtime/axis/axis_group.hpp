@@ -27,8 +27,9 @@ public:
   AxisGroup(std::unique_ptr<AxisDriver> driver, AxisGroupRef &group, std::vector<AxisRef *> axes,
             double cycleSeconds);
 
-  /// The application object has moved: the same group and axes at new addresses.
-  void rebind(AxisGroupRef &group, std::vector<AxisRef *> axes);
+  /// The application object has moved: the group, or the axis of a drive, is there now.
+  void rebind(AxisGroupRef &group) noexcept { group_ = &group; }
+  void rebind(std::size_t drive, AxisRef &axis) noexcept { axes_[drive] = &axis; }
 
   /// At the task's start: reads the drives, starts them up, follows power and errors into the axis
   /// states, and notes the set values with which the cycle begins (fSave*).

@@ -10,11 +10,17 @@ namespace stride::host {
 
 namespace {
 
+template <class T> T &at(std::byte *state, uint64_t offset) {
+  return *reinterpret_cast<T *>(state + offset);
+}
+
 class AxisGroupHook final : public task::CycleHook {
 public:
-  AxisGroupHook(std::string name, std::unique_ptr<axis::AxisDriver> driver,
-                axis::AxisGroupRef &group, std::vector<axis::AxisRef *> axes, double cycleSeconds)
-      : name_(std::move(name)), group_(std::move(driver), group, std::move(axes), cycleSeconds) {}
+  AxisGroupHook(const StrideAppV1 &app, uint32_t index, std::byte *state,
+                std::unique_ptr<axis::AxisDriver> driver)
+      : index_(index), name_(app.axisGroups[index].name),
+        group_(std::move(driver), groupOf(app, state), axesOf(app, state),
+               static_cast<double>(app.tasks[app.axisGroups[index].task].intervalNs) * 1e-9) {}
 
   void beforePous(Ctx &) override { group_.executeStart(); }
   void afterPous(Ctx &) override { group_.executeEnd(); }
@@ -26,7 +32,28 @@ public:
                            : fmt::format("axis group '{}' did not start: {}", name_, failure);
   }
 
+  void rebind(const StrideAppV1 &app, std::byte *state) noexcept override {
+    group_.rebind(groupOf(app, state));
+    for (uint32_t i = 0; i < app.axisGroups[index_].driveCount; ++i)
+      group_.rebind(i, axisOf(app, state, i));
+  }
+
 private:
+  axis::AxisGroupRef &groupOf(const StrideAppV1 &app, std::byte *state) const {
+    return at<axis::AxisGroupRef>(state, app.axisGroups[index_].groupOffset);
+  }
+  axis::AxisRef &axisOf(const StrideAppV1 &app, std::byte *state, uint32_t drive) const {
+    const uint32_t first = app.axisGroups[index_].firstDrive;
+    return at<axis::AxisRef>(state, app.drives[first + drive].axisOffset);
+  }
+  std::vector<axis::AxisRef *> axesOf(const StrideAppV1 &app, std::byte *state) const {
+    std::vector<axis::AxisRef *> axes;
+    for (uint32_t i = 0; i < app.axisGroups[index_].driveCount; ++i)
+      axes.push_back(&axisOf(app, state, i));
+    return axes;
+  }
+
+  uint32_t index_;
   std::string name_;
   axis::AxisGroup group_;
 };
@@ -38,10 +65,6 @@ std::unique_ptr<axis::AxisDriver> makeDriver(const AxisGroupDesc &group) {
   throw app::Error(fmt::format("axis group '{}' asks for driver '{}', which this runtime does not "
                                "have; it has 'Dummy (simulated drives)'",
                                group.name, name));
-}
-
-template <class T> T &at(std::byte *state, uint64_t offset) {
-  return *reinterpret_cast<T *>(state + offset);
 }
 
 } // namespace
@@ -57,15 +80,8 @@ std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Applicati
   std::vector<std::unique_ptr<task::CycleHook>> hooks;
   for (uint32_t i = 0; i < app.axisGroupCount; ++i) {
     const AxisGroupDesc &group = app.axisGroups[i];
-    std::vector<axis::AxisRef *> axes;
-    for (uint32_t d = 0; d < group.driveCount; ++d)
-      axes.push_back(
-          &at<axis::AxisRef>(application.state(), app.drives[group.firstDrive + d].axisOffset));
-    const double cycleSeconds = static_cast<double>(app.tasks[group.task].intervalNs) * 1e-9;
-    hooks.push_back(std::make_unique<AxisGroupHook>(
-        group.name, makeDriver(group),
-        at<axis::AxisGroupRef>(application.state(), group.groupOffset), std::move(axes),
-        cycleSeconds));
+    hooks.push_back(
+        std::make_unique<AxisGroupHook>(app, i, application.state(), makeDriver(group)));
     tasks.addHook(group.task, *hooks.back());
   }
   return hooks;

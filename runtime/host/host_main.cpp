@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 
 namespace stride::host {
@@ -25,6 +26,7 @@ struct SimTexts {
   std::string duration;
   std::vector<std::string> trace;
   std::vector<std::string> sets;
+  std::vector<std::string> changes;
   std::vector<std::string> print;
   std::string out;
   int64_t loopBudget = 0;
@@ -51,6 +53,12 @@ void declare(CLI::App &sim, SimTexts &texts, bool builtIn) {
                  "Write a variable before the first cycle at or after TIME: T#3s,Ipo.p=50; may be "
                  "repeated")
       ->type_name("TIME,NAME=VALUE")
+      ->expected(1)
+      ->take_all();
+  sim.add_option("--change", texts.changes,
+                 "A new build takes over before the first cycle at or after TIME: T#3s,new.so; may "
+                 "be repeated")
+      ->type_name("TIME,APP")
       ->expected(1)
       ->take_all();
   sim.add_option("--print", texts.print, "Variables to print at the end; may be repeated")
@@ -97,6 +105,8 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
                  "What happens when an exception stops an application: stop, restart")
       ->check(CLI::IsMember({"stop", "restart"}))
       ->capture_default_str();
+  run.add_flag("--accept-losses", texts.options.acceptLosses,
+               "An online change may lose values of variables");
   run.add_option("--core", texts.core,
                  "Processor of the tasks that choose none; the last one "
                  "this process may use without it")
@@ -108,7 +118,9 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
                "Show the distribution of run times and delays with the statistics");
   run.add_flag("--quiet", texts.options.quiet, "No statistics, no warnings about real time");
   run.footer(
-      std::string("SIGUSR1 shows the statistics, SIGINT (Ctrl-C) and SIGTERM stop safely.\n") +
+      std::string(
+          "SIGUSR1 shows the statistics, SIGHUP takes new builds of the applications over (online\n"
+          "change), SIGINT (Ctrl-C) and SIGTERM stop safely.\n") +
       kExitCodes);
 }
 
@@ -131,6 +143,11 @@ SimOptions understand(const SimTexts &texts) {
   appendPaths(texts.print, options.print);
   for (const std::string &text : texts.sets)
     options.sets.push_back(parseSet(text));
+  for (const std::string &text : texts.changes)
+    options.changes.push_back(parseChange(text));
+  std::stable_sort(
+      options.changes.begin(), options.changes.end(),
+      [](const ChangeOption &a, const ChangeOption &b) { return a.timeNs < b.timeNs; });
   options.out = texts.out;
   if (!options.out.empty() && options.trace.empty())
     throw app::Error("--out names a file for a trace, but --trace names nothing to trace");
@@ -158,25 +175,26 @@ RunOptions understand(const RunTexts &texts) {
   return options;
 }
 
-app::Application loadApplication(const StrideAppV1 *builtIn, const std::string &path) {
-  return builtIn != nullptr ? app::Application::fromDescription(*builtIn, runtimeLayouts())
-                            : app::Application::load(path, runtimeLayouts());
+std::unique_ptr<app::Application> loadApplication(const StrideAppV1 *builtIn,
+                                                  const std::string &path) {
+  return std::make_unique<app::Application>(
+      builtIn != nullptr ? app::Application::fromDescription(*builtIn, runtimeLayouts())
+                         : app::Application::load(path, runtimeLayouts()));
 }
 
 int simulateFrom(const SimTexts &texts, const StrideAppV1 *builtIn) {
   const SimOptions options = understand(texts);
-  app::Application application = loadApplication(builtIn, options.application);
-  return simulate(application, options);
+  return simulate(loadApplication(builtIn, options.application), options);
 }
 
 int runFrom(const RunTexts &texts, const StrideAppV1 *builtIn) {
   const RunOptions options = understand(texts);
-  std::vector<app::Application> applications;
+  std::vector<std::unique_ptr<app::Application>> applications;
   if (builtIn != nullptr)
     applications.push_back(loadApplication(builtIn, {}));
   for (const std::string &path : options.applications)
     applications.push_back(loadApplication(nullptr, path));
-  return runReal(applications, options);
+  return runReal(std::move(applications), options);
 }
 
 } // namespace

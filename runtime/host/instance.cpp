@@ -6,15 +6,23 @@
 
 namespace stride::host {
 
-Instance::Instance(app::Application &application, task::LoopLimit limit)
-    : application_(&application), symbols_(application.description()),
-      tasks_(application.description(), application.state(), task::hostApi(), limit) {}
+Instance::Instance(std::unique_ptr<app::Application> application, task::LoopLimit limit)
+    : application_(std::move(application)),
+      symbols_(std::make_unique<app::SymbolTable>(application_->description())),
+      tasks_(application_->description(), application_->state(), task::hostApi(), limit) {}
 
 void Instance::initialise() {
   application_->initialise(task::hostApi());
   for (std::unique_ptr<task::CycleHook> &hook : addAxisGroups(*application_, tasks_))
     hooks_.push_back(std::move(hook));
 }
+
+void Instance::swap(std::unique_ptr<app::Application> &other) noexcept {
+  application_.swap(other);
+  tasks_.rebind(app(), state());
+}
+
+void Instance::renewSymbols() { symbols_ = std::make_unique<app::SymbolTable>(app()); }
 
 std::optional<task::Fault> Instance::exit(int64_t timeNs) {
   if (app().exit == nullptr || tasks_.fault())

@@ -16,8 +16,8 @@ namespace stride::host {
 /// One run of an application from its initial values to its end.
 class Instance {
 public:
-  /// Throws app::Error for an application that cannot be run. The application must live longer.
-  Instance(app::Application &application, task::LoopLimit limit);
+  /// Throws app::Error for an application that cannot be run.
+  Instance(std::unique_ptr<app::Application> application, task::LoopLimit limit);
 
   /// Sets the initial values, then adds the hooks of the PLC configuration. Throws StException when
   /// an initialiser fails, app::Error for a driver that this runtime does not have.
@@ -27,20 +27,29 @@ public:
   /// that has failed is not called again.
   std::optional<task::Fault> exit(int64_t timeNs);
 
-  app::Application &application() { return *application_; }
+  /// Between two cycles: another build, with the values of this one, takes its place. Afterwards
+  /// `other` is the old one, to which symbols() belong until renewSymbols().
+  void swap(std::unique_ptr<app::Application> &other) noexcept;
+  void renewSymbols();
+  /// Of the next build to be loaded for this run, from 1.
+  unsigned nextBuild() { return ++builds_; }
+  /// Gives the application up, after the last cycle.
+  std::unique_ptr<app::Application> release() { return std::move(application_); }
+
   const StrideAppV1 &app() const { return application_->description(); }
   std::byte *state() const { return application_->state(); }
-  const app::SymbolTable &symbols() const { return symbols_; }
+  const app::SymbolTable &symbols() const { return *symbols_; }
   task::TaskSet &tasks() { return tasks_; }
 
   /// What is worth saying at the end of a run: "warning: …", "note: …".
   std::vector<std::string> remarks() const;
 
 private:
-  app::Application *application_;
-  app::SymbolTable symbols_;
+  std::unique_ptr<app::Application> application_;
+  std::unique_ptr<app::SymbolTable> symbols_;
   task::TaskSet tasks_;
   std::vector<std::unique_ptr<task::CycleHook>> hooks_;
+  unsigned builds_ = 0;
 };
 
 } // namespace stride::host

@@ -82,4 +82,18 @@ SetOption parseSet(const std::string &text) {
   return option;
 }
 
+ChangeOption parseChange(const std::string &text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos || comma + 1 == text.size())
+    throw app::Error(fmt::format("--change '{}' has not the form TIME,FILE; write for example "
+                                 "--change T#3s,build/app.so",
+                                 text));
+  try {
+    return {parseDuration(trimmed(std::string_view(text).substr(0, comma)), true),
+            std::string(trimmed(std::string_view(text).substr(comma + 1)))};
+  } catch (const app::Error &error) {
+    throw app::Error(fmt::format("--change '{}': {}", text, error.what()));
+  }
+}
+
 } // namespace stride::host

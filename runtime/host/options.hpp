@@ -18,17 +18,24 @@ struct SetOption {
   std::string text; ///< As it was given, for messages.
 };
 
+/// `--change T,FILE`: a new build takes over.
+struct ChangeOption {
+  int64_t timeNs = 0;
+  std::string path;
+};
+
 /// `stride-host sim`.
 struct SimOptions {
   std::string application;
   int64_t durationNs = 0;
-  std::vector<std::string> trace; ///< Paths, in the order given.
-  std::string out;                ///< File of the trace; empty or "-": standard output.
-  std::vector<SetOption> sets;    ///< In the order given.
-  std::vector<std::string> print; ///< Paths, in the order given.
-  int64_t loopBudget = 0;         ///< Loop iterations per cycle; 0: the default.
-  bool quiet = false;             ///< No progress and no summary.
-  bool summary = false;           ///< A summary even when standard error is no terminal.
+  std::vector<std::string> trace;    ///< Paths, in the order given.
+  std::string out;                   ///< File of the trace; empty or "-": standard output.
+  std::vector<SetOption> sets;       ///< In the order given.
+  std::vector<ChangeOption> changes; ///< In the order of their times.
+  std::vector<std::string> print;    ///< Paths, in the order given.
+  int64_t loopBudget = 0;            ///< Loop iterations per cycle; 0: the default.
+  bool quiet = false;                ///< No progress and no summary.
+  bool summary = false;              ///< A summary even when standard error is no terminal.
 };
 
 /// What happens when an exception has stopped an application.
@@ -45,6 +52,7 @@ struct RunOptions {
   std::string out;                ///< File of the trace; empty or "-": standard output.
   std::vector<std::string> print; ///< Paths, in the order given.
   OnFault onFault = OnFault::Stop;
+  bool acceptLosses = false;    ///< An online change may lose values.
   std::optional<uint32_t> core; ///< For tasks that choose none; empty: the last one allowed.
   bool turns = false;           ///< One cycle at a time.
   bool histogram = false;       ///< Distributions behind the table of statistics.
@@ -60,6 +68,9 @@ std::vector<std::string> splitPaths(std::string_view text);
 
 /// `T#3s,Ipo.p=50`. Throws app::Error.
 SetOption parseSet(const std::string &text);
+
+/// `T#3s,build/app.so`. Throws app::Error.
+ChangeOption parseChange(const std::string &text);
 
 } // namespace stride::host
 

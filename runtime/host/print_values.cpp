@@ -8,10 +8,10 @@
 
 namespace stride::host {
 
-void printValues(const app::SymbolTable &symbols, const std::vector<app::Symbol> &wanted,
+void printValues(const app::SymbolTable &symbols, const std::vector<std::string> &names,
                  std::byte *state) {
-  for (const app::Symbol &symbol : wanted) {
-    for (const app::Symbol &leaf : symbols.leaves(symbol)) {
+  for (const std::string &name : names) {
+    for (const app::Symbol &leaf : symbols.leaves(symbols.resolve(name))) {
       std::byte bit{};
       const void *value = leaf.read(state, bit);
       fmt::print("{} = {}\n", leaf.path(),

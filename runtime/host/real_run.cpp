@@ -2,7 +2,9 @@
 
 #include "runtime/app/error.hpp"
 #include "runtime/host/instance.hpp"
+#include "runtime/host/online_change.hpp"
 #include "runtime/host/print_values.hpp"
+#include "runtime/host/st_backtrace.hpp"
 #include "runtime/host/statistics_text.hpp"
 #include "runtime/host/trace_ring.hpp"
 #include "runtime/task/real_scheduler.hpp"
@@ -32,12 +34,12 @@ constexpr auto kRestartPause = std::chrono::seconds(1);
 /// One application from its start to its stop.
 class Session {
 public:
-  Session(app::Application &application, const RunOptions &options,
+  Session(std::unique_ptr<app::Application> application, const RunOptions &options,
           const task::RealOptions &realOptions)
-      : options_(&options), instance_(application, task::LoopLimit::Clock),
+      : options_(&options), instance_(std::move(application), task::LoopLimit::Clock),
         scheduler_(instance_.tasks(), realOptions) {
     for (const std::string &path : options.print)
-      printed_.push_back(instance_.symbols().resolve(path));
+      (void)instance_.symbols().resolve(path);
   }
 
   /// `trace` may be null. False: an initialiser has failed, which has been said.
@@ -52,7 +54,7 @@ public:
       }
       instance_.initialise();
     } catch (const StException &exception) {
-      say("error: " + task::describe(task::Fault{exception, "initialisation", 0, 0}));
+      say("error: " + describeWithCalls(task::Fault{exception, "initialisation", 0, 0}));
       return false;
     }
     scheduler_.start();
@@ -65,6 +67,45 @@ public:
   }
   bool failed() { return instance_.tasks().fault().has_value(); }
 
+  /// The application in this file takes over, or it is said why not.
+  void change(const std::string &path) {
+    try {
+      OnlineChange change(instance_, path);
+      if (!isWelcome(change))
+        return;
+      const app::SymbolTable symbols(change.fresh());
+      for (const std::string &name : options_->print)
+        (void)symbols.resolve(name);
+      std::optional<TraceColumns> columns;
+      if (trace_ != nullptr)
+        columns = trace_->columns().in(symbols);
+      bool done = false;
+      int64_t pauseNs = 0;
+      // FB_Exit and FB_Reinit are code of the application: on a stack and with signals as its
+      // tasks.
+      task::runOnLowStack([&] {
+        const task::MemoryGuard guard;
+        if (scheduler_.options().fifo)
+          task::useFifo(0);
+        pauseNs = scheduler_.betweenCycles([&] {
+          done = change.apply(scheduler_.nowNs());
+          if (done && columns)
+            trace_->swapColumns(*columns);
+        });
+      });
+      lookAfter();
+      if (done)
+        instance_.renewSymbols();
+      for (const std::string &event : change.events())
+        say("warning: online change: " + event);
+      say(done ? fmt::format("note: online change done; no cycle could begin for {:.0f} us",
+                             static_cast<double>(pauseNs) * 1e-3)
+               : "error: online change given up; the old build goes on");
+    } catch (const app::Error &error) {
+      say(fmt::format("error: online change: {}; the old build goes on", error.what()));
+    }
+  }
+
   /// Stops and says what there is to say; false: with an exception.
   bool finish() {
     if (!scheduler_.finish())
@@ -74,19 +115,20 @@ public:
       say(fmt::format("warning: the trace lacks {} rows: it could not be written as fast as it was "
                       "taken; trace fewer variables",
                       ring_->lost()));
-    printValues(instance_.symbols(), printed_, instance_.state());
+    printValues(instance_.symbols(), options_->print, instance_.state());
     for (const std::string &line : instance_.remarks())
       say(line);
     const std::optional<task::Fault> fault = instance_.tasks().fault();
     if (fault)
-      say("error: " + task::describe(*fault));
-    const std::optional<task::Fault> atEnd = instance_.exit(scheduler_.nowNs());
+      say("error: " + describeWithCalls(*fault));
+    const std::optional<task::Fault> atEnd = exitInstances();
     if (atEnd)
-      say("error: " + task::describe(*atEnd));
+      say("error: " + describeWithCalls(*atEnd));
     if (!options_->quiet)
       showStatistics();
     return !fault && !atEnd;
   }
+  std::unique_ptr<app::Application> release() { return instance_.release(); }
 
   void showStatistics() {
     const task::TaskSet &tasks = instance_.tasks();
@@ -105,24 +147,51 @@ private:
     fmt::print(stderr, "{}\n", line);
   }
 
+  bool isWelcome(const OnlineChange &change) const {
+    switch (change.verdict()) {
+    case app::Verdict::Silent:
+      return true;
+    case app::Verdict::Losses:
+      say("note: online change with losses\n" + change.report(false));
+      if (options_->acceptLosses)
+        return true;
+      say("error: online change refused: values would be lost; --accept-losses allows that");
+      return false;
+    case app::Verdict::Refused:
+      say("error: online change refused, the application must be started anew\n" +
+          change.report(false));
+      return false;
+    }
+    return false;
+  }
+
+  std::optional<task::Fault> exitInstances() {
+    std::optional<task::Fault> fault;
+    const int64_t now = scheduler_.nowNs();
+    task::runOnLowStack([&] {
+      const task::MemoryGuard guard;
+      fault = instance_.exit(now);
+    });
+    return fault;
+  }
+
   const RunOptions *options_;
   Instance instance_;
-  std::vector<app::Symbol> printed_;
   TraceWriter *trace_ = nullptr;
   std::unique_ptr<TraceRing> ring_;
   task::RealScheduler scheduler_; // its threads end before the rest goes
 };
 
-/// An application and its present session.
+/// An application's file and its present session.
 struct Slot {
-  app::Application *application = nullptr;
+  std::string path; ///< Empty: linked into this program.
   std::unique_ptr<Session> session;
   bool stopped = false; ///< For good, with an exception.
 };
 
 class Run {
 public:
-  Run(std::vector<app::Application> &applications, const RunOptions &options)
+  Run(std::vector<std::unique_ptr<app::Application>> applications, const RunOptions &options)
       : options_(options), report_(task::prepareRealtime()) {
     realOptions_.fifo = report_.fifo;
     realOptions_.turns = options.turns || !report_.fifo;
@@ -133,13 +202,12 @@ public:
                                    *options.core, fmt::join(cores, ", ")));
     // Away from the first one, on which most of the machine's interrupts arrive.
     realOptions_.core = options.core ? *options.core : cores.empty() ? 0 : cores.back();
-    for (app::Application &application : applications)
-      slots_.push_back({&application, nullptr, false});
-    for (Slot &slot : slots_)
-      slot.session = newSession(slot);
     if (!options.trace.empty())
-      trace_.emplace(app::SymbolTable(applications.front().description()), options.trace,
+      trace_.emplace(app::SymbolTable(applications.front()->description()), options.trace,
                      options.out);
+    for (std::size_t i = 0; i < applications.size(); ++i)
+      slots_.push_back({i < options.applications.size() ? options.applications[i] : std::string(),
+                        newSession(std::move(applications[i])), false});
     if (!options.quiet)
       for (const std::string &warning : report_.warnings)
         fmt::print(stderr, "warning: {}\n", warning);
@@ -148,7 +216,7 @@ public:
   ExitCode go() {
     ::sigset_t signals;
     ::sigemptyset(&signals);
-    for (const int number : {SIGINT, SIGTERM, SIGUSR1})
+    for (const int number : {SIGINT, SIGTERM, SIGUSR1, SIGHUP})
       ::sigaddset(&signals, number);
     ::sigset_t before;
     ::pthread_sigmask(SIG_BLOCK, &signals, &before); // also for the tasks' threads
@@ -164,6 +232,8 @@ public:
       if (number == SIGUSR1)
         for (Slot &slot : slots_)
           slot.session->showStatistics();
+      if (number == SIGHUP)
+        changeAll();
       lookAfter();
     }
     bool good = true;
@@ -176,10 +246,18 @@ public:
   }
 
 private:
-  std::unique_ptr<Session> newSession(const Slot &slot) {
-    return std::make_unique<Session>(*slot.application, options_, realOptions_);
+  std::unique_ptr<Session> newSession(std::unique_ptr<app::Application> application) {
+    return std::make_unique<Session>(std::move(application), options_, realOptions_);
   }
-  bool startSession(Slot &slot) { return slot.session->start(trace_ ? &*trace_ : nullptr); }
+  /// The trace is that of the first one.
+  bool startSession(Slot &slot) {
+    return slot.session->start(trace_ && &slot == slots_.data() ? &*trace_ : nullptr);
+  }
+  void changeAll() {
+    for (Slot &slot : slots_)
+      if (!slot.stopped && !slot.path.empty())
+        slot.session->change(slot.path);
+  }
   bool someRun() const {
     return std::any_of(slots_.begin(), slots_.end(), [](const Slot &s) { return !s.stopped; });
   }
@@ -195,8 +273,9 @@ private:
       slot.stopped = true;
       if (options_.onFault == OnFault::Restart) {
         std::this_thread::sleep_for(kRestartPause);
-        fmt::print(stderr, "note: '{}' is started again\n", slot.application->description().name);
-        slot.session = newSession(slot);
+        std::unique_ptr<app::Application> application = slot.session->release();
+        fmt::print(stderr, "note: '{}' is started again\n", application->description().name);
+        slot.session = newSession(std::move(application));
         slot.stopped = !startSession(slot);
       }
     }
@@ -211,8 +290,9 @@ private:
 
 } // namespace
 
-ExitCode runReal(std::vector<app::Application> &applications, const RunOptions &options) {
-  return Run(applications, options).go();
+ExitCode runReal(std::vector<std::unique_ptr<app::Application>> applications,
+                 const RunOptions &options) {
+  return Run(std::move(applications), options).go();
 }
 
 } // namespace stride::host

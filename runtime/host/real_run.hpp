@@ -6,6 +6,7 @@
 #include "runtime/host/exit_code.hpp"
 #include "runtime/host/options.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace stride::host {
@@ -13,7 +14,8 @@ namespace stride::host {
 /// Runs them side by side until the time is over, SIGINT or SIGTERM comes, or all have stopped with
 /// an exception. SIGUSR1 shows the statistics. Values to print go to standard output, messages to
 /// standard error. Throws app::Error for bad input.
-ExitCode runReal(std::vector<app::Application> &applications, const RunOptions &options);
+ExitCode runReal(std::vector<std::unique_ptr<app::Application>> applications,
+                 const RunOptions &options);
 
 } // namespace stride::host
 

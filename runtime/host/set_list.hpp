@@ -16,6 +16,10 @@ public:
   /// Throws app::Error: unknown name, constant, not a value of the variable's type.
   SetList(const app::SymbolTable &symbols, const std::vector<SetOption> &options);
 
+  /// Another build has taken over: the entries that are left are resolved in it. Throws as the
+  /// constructor does.
+  void resolveIn(const app::SymbolTable &symbols);
+
   /// Writes everything due at or before `timeNs` that is not written yet. Throws app::Error where
   /// a pointer on the way is null.
   void apply(int64_t timeNs, std::byte *state);
@@ -28,11 +32,12 @@ public:
 
 private:
   struct Entry {
-    int64_t timeNs;
+    SetOption option;
     app::Symbol symbol;
     std::vector<std::byte> value;
-    std::string text;
   };
+  static Entry resolve(const app::SymbolTable &symbols, const SetOption &option);
+
   std::vector<Entry> entries_;
   std::size_t next_ = 0;
 };

@@ -1,17 +1,22 @@
 #include "runtime/host/simulation.hpp"
 
+#include "runtime/app/error.hpp"
 #include "runtime/host/instance.hpp"
+#include "runtime/host/online_change.hpp"
 #include "runtime/host/print_values.hpp"
 #include "runtime/host/set_list.hpp"
+#include "runtime/host/st_backtrace.hpp"
 #include "runtime/host/trace_writer.hpp"
 #include "runtime/task/low_stack.hpp"
 #include "runtime/task/virtual_scheduler.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <limits>
 #include <optional>
 
 #include <unistd.h>
@@ -68,25 +73,58 @@ private:
   bool shown_ = false;
 };
 
-/// Sets before, trace and progress after each instant.
+/// Changes and sets before, trace and progress after each instant.
 class Observer final : public task::InstantObserver {
 public:
-  Observer(SetList &sets, TraceWriter *trace, Progress &progress, std::byte *state)
-      : sets_(&sets), trace_(trace), progress_(&progress), state_(state) {}
+  Observer(Instance &instance, const std::vector<ChangeOption> &changes, SetList &sets,
+           TraceWriter *trace, Progress &progress)
+      : instance_(&instance), changes_(&changes), sets_(&sets), trace_(trace),
+        progress_(&progress) {}
 
-  void beforeInstant(int64_t timeNs) override { sets_->apply(timeNs, state_); }
+  void beforeInstant(int64_t timeNs) override {
+    for (; next_ < changes_->size() && (*changes_)[next_].timeNs <= timeNs; ++next_)
+      change((*changes_)[next_].path, timeNs);
+    sets_->apply(timeNs, instance_->state());
+  }
   void afterInstant(int64_t timeNs, bool fastest) override {
     if (trace_ != nullptr && fastest)
-      trace_->row(timeNs, state_);
+      trace_->row(timeNs, instance_->state());
     progress_->update(timeNs);
   }
-  int64_t nextNs() const override { return sets_->nextNs(); }
+  int64_t nextNs() const override {
+    const int64_t change =
+        next_ < changes_->size() ? (*changes_)[next_].timeNs : std::numeric_limits<int64_t>::max();
+    return std::min(sets_->nextNs(), change);
+  }
 
 private:
+  void change(const std::string &path, int64_t timeNs) {
+    progress_->clear();
+    OnlineChange change(*instance_, path);
+    if (change.verdict() == app::Verdict::Refused)
+      throw app::Error(fmt::format("--change '{}': the application must be started anew: {}", path,
+                                   change.report(false)));
+    if (change.verdict() == app::Verdict::Losses)
+      fmt::print(stderr, "{}", change.report(false));
+    const app::SymbolTable symbols(change.fresh());
+    sets_->resolveIn(symbols);
+    if (trace_ != nullptr) {
+      TraceColumns columns = trace_->columns().in(symbols);
+      trace_->swapColumns(columns);
+    }
+    if (!change.apply(timeNs))
+      throw app::Error(fmt::format("--change '{}': {}", path, change.events().front()));
+    instance_->renewSymbols();
+    for (const std::string &event : change.events())
+      fmt::print(stderr, "warning: {}\n", event);
+  }
+
+  Instance *instance_;
+  const std::vector<ChangeOption> *changes_;
+  std::size_t next_ = 0;
   SetList *sets_;
   TraceWriter *trace_;
   Progress *progress_;
-  std::byte *state_;
 };
 
 void printSummary(const task::TaskSet &tasks, const task::RunResult &result, double wall) {
@@ -124,21 +162,20 @@ private:
 
 } // namespace
 
-static ExitCode simulateHere(app::Application &application, const SimOptions &options) {
-  std::byte *state = application.state();
-  Instance instance(application, task::LoopLimit::Budget);
-  const app::SymbolTable &symbols = instance.symbols();
+static ExitCode simulateHere(std::unique_ptr<app::Application> application,
+                             const SimOptions &options) {
+  Instance instance(std::move(application), task::LoopLimit::Budget);
 
   // Everything that can be wrong with the input is found before the first cycle.
-  std::vector<app::Symbol> wanted;
-  for (const std::string &path : options.print)
-    wanted.push_back(symbols.resolve(path));
-  SetList sets(symbols, options.sets);
+  if (options.changes.empty()) // else a later build may have what this one lacks
+    for (const std::string &path : options.print)
+      (void)instance.symbols().resolve(path);
+  SetList sets(instance.symbols(), options.sets);
   if (options.loopBudget > 0)
     instance.tasks().setLoopBudget(options.loopBudget);
   std::optional<TraceWriter> trace;
   if (!options.trace.empty())
-    trace.emplace(symbols, options.trace, options.out);
+    trace.emplace(instance.symbols(), options.trace, options.out);
 
   const task::MemoryGuard guard;
   const StopSignals signals;
@@ -146,13 +183,13 @@ static ExitCode simulateHere(app::Application &application, const SimOptions &op
     instance.initialise();
   } catch (const StException &exception) {
     const task::Fault fault{exception, "initialisation", 0, 0};
-    fmt::print(stderr, "error: {}\n", task::describe(fault));
+    fmt::print(stderr, "error: {}\n", describeWithCalls(fault));
     return kExitException;
   }
 
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
   Progress progress(options.durationNs, terminal && !options.quiet);
-  Observer observer(sets, trace ? &*trace : nullptr, progress, state);
+  Observer observer(instance, options.changes, sets, trace ? &*trace : nullptr, progress);
   task::VirtualScheduler scheduler(instance.tasks());
   scheduler.setObserver(&observer);
   scheduler.setStopRequest([] { return stopRequested != 0; });
@@ -162,18 +199,18 @@ static ExitCode simulateHere(app::Application &application, const SimOptions &op
 
   if (trace)
     trace->finish();
-  printValues(symbols, wanted, state);
+  printValues(instance.symbols(), options.print, instance.state());
   for (const std::string &line : instance.remarks())
     fmt::print(stderr, "{}\n", line);
   if (result.fault)
-    fmt::print(stderr, "error: {}\n", task::describe(*result.fault));
+    fmt::print(stderr, "error: {}\n", describeWithCalls(*result.fault));
   else if (!result.interrupted) {
     for (const std::string &left : sets.left())
       fmt::print(stderr, "warning: --set '{}' was not used: the run ends before\n", left);
   }
   const std::optional<task::Fault> atEnd = instance.exit(result.timeNs);
   if (atEnd)
-    fmt::print(stderr, "error: {}\n", task::describe(*atEnd));
+    fmt::print(stderr, "error: {}\n", describeWithCalls(*atEnd));
   if ((terminal || options.summary) && !options.quiet)
     printSummary(instance.tasks(), result, wall);
   if (result.fault || atEnd)
@@ -181,9 +218,9 @@ static ExitCode simulateHere(app::Application &application, const SimOptions &op
   return result.interrupted ? kExitInterrupted : kExitOk;
 }
 
-ExitCode simulate(app::Application &application, const SimOptions &options) {
+ExitCode simulate(std::unique_ptr<app::Application> application, const SimOptions &options) {
   ExitCode code = kExitOk;
-  task::runOnLowStack([&] { code = simulateHere(application, options); });
+  task::runOnLowStack([&] { code = simulateHere(std::move(application), options); });
   return code;
 }
 

@@ -6,11 +6,13 @@
 #include "runtime/host/exit_code.hpp"
 #include "runtime/host/options.hpp"
 
+#include <memory>
+
 namespace stride::host {
 
 /// Runs it: trace, values to set, values to print (standard output), messages (standard error).
 /// Throws app::Error for bad input.
-ExitCode simulate(app::Application &application, const SimOptions &options);
+ExitCode simulate(std::unique_ptr<app::Application> application, const SimOptions &options);
 
 } // namespace stride::host
 

@@ -59,6 +59,22 @@ TraceColumns::TraceColumns(const app::SymbolTable &symbols, const std::vector<st
   rowSize_ = (rowSize_ + 7) / 8 * 8;
 }
 
+TraceColumns TraceColumns::in(const app::SymbolTable &symbols) const {
+  std::vector<std::string> paths;
+  for (const Column &column : columns_)
+    paths.push_back(column.symbol.path());
+  TraceColumns other(symbols, paths);
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const TypeDesc &was = app_->types[columns_[i].symbol.type()];
+    const bool same = other.columns_.size() == columns_.size() &&
+                      symbols.type(other.columns_[i].symbol).layoutHash == was.layoutHash;
+    if (!same)
+      throw app::Error(fmt::format("'{}', which is traced, is no longer a {}",
+                                   columns_[i].symbol.path(), was.name));
+  }
+  return other;
+}
+
 void TraceColumns::sample(int64_t timeNs, std::byte *state, std::byte *row) const noexcept {
   std::memcpy(row, &timeNs, sizeof timeNs);
   for (const Column &column : columns_) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stride::host {
@@ -19,6 +20,10 @@ public:
   /// A name that is not elementary becomes its leaves. Throws app::Error: unknown name, nothing to
   /// trace below a name.
   TraceColumns(const app::SymbolTable &symbols, const std::vector<std::string> &paths);
+
+  /// The same variables in another build. Throws app::Error where it lacks one or has another type
+  /// for it.
+  TraceColumns in(const app::SymbolTable &symbols) const;
 
   std::size_t count() const { return columns_.size(); }
   /// Bytes of a row, a multiple of 8.
@@ -59,6 +64,9 @@ public:
   TraceWriter &operator=(const TraceWriter &) = delete;
 
   const TraceColumns &columns() const { return columns_; }
+  /// Another build has taken over: `columns` are these columns in it. Between two cycles;
+  /// afterwards `columns` are the old ones.
+  void swapColumns(TraceColumns &columns) noexcept { std::swap(columns_, columns); }
 
   /// The values as they are now. Does not allocate.
   void row(int64_t timeNs, std::byte *state);

@@ -2,8 +2,10 @@
 #ifndef STRIDE_RUNTIME_TASK_CYCLE_HOOK_HPP
 #define STRIDE_RUNTIME_TASK_CYCLE_HOOK_HPP
 
+#include "runtime/app/abi.h"
 #include "runtime/iec/ctx.h"
 
+#include <cstddef>
 #include <string>
 
 namespace stride::task {
@@ -25,6 +27,12 @@ public:
   virtual void applicationStopped() {}
   /// Nothing of this hook's part of the machine moves any more.
   virtual bool atRest() const { return true; }
+  /// Between two cycles: another build has taken over, with its state there (an online change). The
+  /// tasks, axis groups and drives are the same in number and order. Neither allocates nor throws.
+  virtual void rebind(const StrideAppV1 &app, std::byte *state) noexcept {
+    (void)app;
+    (void)state;
+  }
   /// What keeps this hook's part of the machine from working, to be shown; empty if nothing does.
   virtual std::string problem() const { return {}; }
 };

@@ -22,6 +22,9 @@ namespace {
 struct Landing {
   sigjmp_buf place;
   const volatile char *stack;
+  bool arrived = false; ///< A signal has come: another one while its calls are captured adds none.
+  std::size_t callCount = 0;
+  uintptr_t calls[StException::kMaxCalls];
 };
 thread_local Landing *landing = nullptr;
 
@@ -47,13 +50,19 @@ extern "C" void strideOnSignal(int number, siginfo_t *info, void *) {
     std::raise(number);
     return;
   }
+  if (!landing->arrived) {
+    landing->arrived = true;
+    landing->callCount = captureCalls(landing->calls, StException::kMaxCalls);
+  }
   siglongjmp(landing->place,
              number == SIGSEGV && isStackOverflow(info->si_addr) ? kStackOverflow : kInvalidAccess);
 }
 
 [[noreturn]] void raiseInHost(Ctx *, ExceptionCode code, const char *file, uint32_t line,
                               uint32_t col, const char *detail) {
-  throw StException(code, file, line, col, detail);
+  StException exception(code, file, line, col, detail);
+  exception.captureCalls();
+  throw exception;
 }
 
 int64_t refuseMoreLoops(Ctx *) { return 0; }
@@ -147,9 +156,11 @@ std::optional<StException> guardedCall(void (*run)(Ctx *), Ctx &ctx) {
   const int arrived = sigsetjmp(here.place, 0);
   if (arrived != 0) {
     landing = nullptr;
-    return StException(arrived == kStackOverflow ? ExceptionCode::StackOverflow
-                                                 : ExceptionCode::AccessViolation,
-                       nullptr, 0, 0, nullptr);
+    StException exception(arrived == kStackOverflow ? ExceptionCode::StackOverflow
+                                                    : ExceptionCode::AccessViolation,
+                          nullptr, 0, 0, nullptr);
+    exception.setCalls(here.calls, here.callCount);
+    return exception;
   }
   landing = &here;
   try {
@@ -168,13 +179,15 @@ const HostApi &hostApi() {
   return kApi;
 }
 
-std::string describe(const Fault &fault) {
+std::string describe(const Fault &fault, std::string_view place) {
   const StException &e = fault.exception;
   std::string text = e.what();
   if (e.detail()[0] != 0)
     text += fmt::format(": {}", e.detail());
   if (e.file() != nullptr)
     text += fmt::format(" at {}:{}:{}", e.file(), e.line(), e.column());
+  else if (!place.empty())
+    text += fmt::format(" at {}", place);
   char time[stride::text::kBufferSize];
   stride::text::formatLtime(time, fault.timeNs);
   const char *digits = std::strchr(time, '#');

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace stride::task {
 
@@ -20,8 +21,9 @@ struct Fault {
 };
 
 /// One line: what, where in the ST, in which task and cycle:
-/// "division by zero at src/a.st:38:21 (task Fast, cycle 12, T#120ms)".
-std::string describe(const Fault &fault);
+/// "division by zero at src/a.st:38:21 (task Fast, cycle 12, T#120ms)". `place` stands for the
+/// position of an exception that does not know its own.
+std::string describe(const Fault &fault, std::string_view place = {});
 
 /// While it lives, invalid memory accesses and stack overflows of this thread inside guardedCall
 /// end the call instead of the process: signal handlers, on a stack of their own. Elsewhere they

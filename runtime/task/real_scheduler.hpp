@@ -48,6 +48,7 @@ public:
   /// system has no threads.
   void start();
 
+  const RealOptions &options() const { return options_; }
   /// What the program sees as the time now. [ns]
   int64_t nowNs() const { return monotonicNs() - originNs_; }
 

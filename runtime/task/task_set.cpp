@@ -162,9 +162,13 @@ bool TaskSet::eventLevel(uint32_t index) noexcept {
 
 void TaskSet::fail(const StException &exception, uint32_t task, uint64_t cycle,
                    int64_t timeNs) noexcept {
+  fail({exception, app_->tasks[task].name, cycle, timeNs});
+}
+
+void TaskSet::fail(Fault fault) noexcept {
   const std::lock_guard lock(faultMutex_);
   if (!fault_)
-    fault_ = Fault{exception, app_->tasks[task].name, cycle, timeNs};
+    fault_ = std::move(fault);
   stop();
 }
 
@@ -189,8 +193,11 @@ std::optional<Fault> TaskSet::fault() const {
 
 void TaskSet::rebind(const StrideAppV1 &app, std::byte *state) noexcept {
   app_ = &app;
-  for (const std::unique_ptr<Task> &task : tasks_)
+  for (const std::unique_ptr<Task> &task : tasks_) {
     task->ctx.state = state;
+    for (CycleHook *hook : task->hooks)
+      hook->rebind(app, state);
+  }
 }
 
 } // namespace stride::task

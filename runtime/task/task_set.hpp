@@ -66,6 +66,8 @@ public:
 
   /// No POU runs any more from now on.
   void stop() noexcept { stopped_.store(true, std::memory_order_release); }
+  /// The same, for an exception that did not come from a cycle; the first fault counts.
+  void fail(Fault fault) noexcept;
   bool stopped() const noexcept { return stopped_.load(std::memory_order_acquire); }
   /// After stop: every hook has been told and is at rest.
   bool atRest() const noexcept;
@@ -73,8 +75,8 @@ public:
 
   const TaskStatistics &statistics(uint32_t task) const { return tasks_[task]->statistics; }
 
-  /// The state has moved, or another build has taken its place: between two cycles of all tasks.
-  /// The tasks of `app` are the same as before in number, order and kind.
+  /// Another build has taken over, with its state there: between two cycles of all tasks. The tasks
+  /// of `app` are the same as before in number, order and kind. The hooks are told.
   void rebind(const StrideAppV1 &app, std::byte *state) noexcept;
 
 private:

@@ -24,7 +24,10 @@ public:
         application_(&application) {}
 
   void moved(app::Application &application) {
-    group_.rebind(ref(application), axes(application));
+    group_.rebind(ref(application));
+    const std::vector<AxisRef *> moved = axes(application);
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      group_.rebind(i, *moved[i]);
     application_ = &application;
   }
   void before() override { group_.executeStart(); }

@@ -1,0 +1,99 @@
+#include "runtime/host/online_change.hpp"
+
+#include "runtime/app/error.hpp"
+#include "runtime/host/axis_hooks.hpp"
+#include "runtime/host/st_backtrace.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <filesystem>
+
+namespace stride::host {
+
+namespace {
+
+/// Another spelling of the path, so that the loader does not take the old file for the new one.
+std::string spelledAnew(const std::string &path, unsigned number) {
+  const std::filesystem::path given(path);
+  std::string folder = given.has_parent_path() ? given.parent_path().string() : ".";
+  for (unsigned i = 0; i < number; ++i)
+    folder += "/.";
+  return folder + '/' + given.filename().string();
+}
+
+} // namespace
+
+OnlineChange::OnlineChange(Instance &instance, const std::string &path) : instance_(&instance) {
+  fresh_ = std::make_unique<app::Application>(
+      app::Application::load(spelledAnew(path, instance.nextBuild()), runtimeLayouts()));
+  try {
+    fresh_->initialise(task::hostApi(), true);
+  } catch (const StException &exception) {
+    throw app::Error(describeWithCalls(task::Fault{exception, "initialisation", 0, 0}));
+  }
+  plan_ = std::make_unique<app::CarryOver>(instance.app(), fresh_->description());
+  verdict_ = plan_->report().verdict();
+  compareTasks();
+}
+
+/// The threads and the schedule stay as they are.
+void OnlineChange::compareTasks() {
+  const StrideAppV1 &was = instance_->app();
+  const StrideAppV1 &is = fresh_->description();
+  const auto refuse = [&](std::string reason) {
+    refusals_.push_back(std::move(reason));
+    verdict_ = app::Verdict::Refused;
+  };
+  if (was.taskCount != is.taskCount) {
+    refuse(fmt::format("it has {} tasks instead of {}", is.taskCount, was.taskCount));
+    return;
+  }
+  for (uint32_t i = 0; i < was.taskCount; ++i) {
+    const TaskDesc &a = was.tasks[i];
+    const TaskDesc &b = is.tasks[i];
+    if (std::strcmp(a.name, b.name) != 0)
+      refuse(fmt::format("task {} is called '{}' instead of '{}'", i + 1, b.name, a.name));
+    else if (a.kind != b.kind || a.intervalNs != b.intervalNs || a.priority != b.priority ||
+             a.core != b.core)
+      refuse(fmt::format("task '{}' has another kind, interval, priority or core", a.name));
+  }
+}
+
+std::string OnlineChange::report(bool all) const {
+  std::string text;
+  for (const std::string &refusal : refusals_)
+    text += refusal + '\n';
+  text += plan_->report().text(all);
+  return text;
+}
+
+bool OnlineChange::apply(int64_t timeNs) {
+  const StrideAppV1 &was = instance_->app();
+  const StrideAppV1 &is = fresh_->description();
+  Ctx ctx{};
+  ctx.host = &task::hostApi();
+  ctx.cycleStartNs = timeNs;
+  ctx.inCopyCode = 1;
+  ctx.state = instance_->state();
+  ctx.loopBudget = task::TaskSet::kDefaultLoopBudget;
+  if (was.exit != nullptr)
+    if (const std::optional<StException> exception = task::guardedCall(was.exit, ctx)) {
+      events_.push_back(describeWithCalls({*exception, "FB_Exit", 0, timeNs}));
+      return false;
+    }
+  plan_->apply(instance_->state(), fresh_->state(), result_);
+  if (result_.total() != 0)
+    events_ = plan_->describe(result_, instance_->state());
+  instance_->swap(fresh_);
+  ctx.state = instance_->state();
+  ctx.loopBudget = task::TaskSet::kDefaultLoopBudget;
+  if (is.reinit != nullptr)
+    if (const std::optional<StException> exception = task::guardedCall(is.reinit, ctx))
+      instance_->tasks().fail({*exception, "FB_Reinit", 0, timeNs});
+  return true;
+}
+
+std::vector<std::string> OnlineChange::events() const { return events_; }
+
+} // namespace stride::host

@@ -1,0 +1,274 @@
+// `stride run`: the real clock, from outside. Nothing here depends on how fast the machine is, but
+// that a second is enough for some cycles of 1 ms.
+#include "tests/support/process.hpp"
+#include "tests/support/text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace stride::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Run : public ::testing::Test {
+protected:
+  ProcessResult command(std::vector<std::string> arguments) {
+    return runProcess(arguments, scratch_.path(),
+                      {{"XDG_CACHE_HOME", (scratch_.path() / "cache").string()},
+                       {"HOST", STRIDE_BINARY_DIR "/stride-host"},
+                       {"STRIDE", STRIDE_BINARY_DIR "/stride"}});
+  }
+  ProcessResult stride(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), STRIDE_BINARY_DIR "/stride");
+    return command(arguments);
+  }
+  ProcessResult shell(const std::string &script) { return command({"sh", "-c", script}); }
+
+  void write(const std::string &name, const std::string &text) {
+    fs::create_directories((scratch_.path() / name).parent_path());
+    writeFile(scratch_.path() / name, text);
+  }
+  /// Builds `text` as `name`.so.
+  void build(const std::string &name, const std::string &text) {
+    write(name + ".st", text);
+    const ProcessResult result = stride({"build", name + ".st", "-W", "off=lints"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+  }
+
+  ScratchDirectory scratch_;
+};
+
+constexpr const char *kCounter = R"(
+PROGRAM PLC_PRG
+VAR n : DINT; t : TIME; END_VAR
+n := n + 1;
+t := TIME();
+END_PROGRAM
+CONFIGURATION C
+  TASK Fast (INTERVAL := T#1ms, PRIORITY := 1);
+  PROGRAM PLC_PRG WITH Fast;
+END_CONFIGURATION
+)";
+
+TEST_F(Run, CountsAndShowsItsStatistics) {
+  write("a.st", kCounter);
+  const ProcessResult result =
+      stride({"run", "a.st", "--for", "300ms", "--print", "PLC_PRG.n", "--histogram"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.out, ContainsRegex("PLC_PRG.n = [1-9][0-9]*"));
+  EXPECT_THAT(result.err, AllOf(HasSubstr("late p50"), HasSubstr("Fast "), HasSubstr("run time"),
+                                HasSubstr("delay of the start")));
+  EXPECT_THAT(stride({"run", "a.st", "--for", "50ms", "--turns", "--quiet"}).err, "");
+}
+
+TEST_F(Run, TheTraceIsThatOfASimulation) {
+  write("a.st", kCounter);
+  const std::vector<std::string> trace = {"--trace", "PLC_PRG.n,PLC_PRG.t", "--quiet"};
+  std::vector<std::string> real = {"run", "a.st", "--for", "200ms", "--out", "run.csv"};
+  std::vector<std::string> sim = {"sim", "a.st", "--for", "200ms", "--out", "sim.csv"};
+  real.insert(real.end(), trace.begin(), trace.end());
+  sim.insert(sim.end(), trace.begin(), trace.end());
+  ASSERT_EQ(stride(real).exitCode, 0);
+  ASSERT_EQ(stride(sim).exitCode, 0);
+  std::istringstream run(readFile(scratch_.path() / "run.csv"));
+  std::istringstream simulated(readFile(scratch_.path() / "sim.csv"));
+  // The program sees planned times, so that the rows agree where no cycle was skipped.
+  int same = 0;
+  for (std::string a, b; std::getline(run, a) && std::getline(simulated, b) && a == b;)
+    ++same;
+  EXPECT_GT(same, 3);
+}
+
+TEST_F(Run, SignalsShowAndStop) {
+  build("a", kCounter);
+  const ProcessResult result = shell("\"$HOST\" run a.so --print PLC_PRG.n & p=$!\n"
+                                     "sleep 0.3; kill -USR1 $p; sleep 0.1; kill -TERM $p; wait $p");
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("PLC_PRG.n = "));
+  std::size_t tables = 0;
+  for (auto at = result.err.find("late p50"); at != std::string::npos;
+       at = result.err.find("late p50", at + 1))
+    ++tables;
+  EXPECT_EQ(tables, 2U) << result.err;
+}
+
+constexpr const char *kFailing = R"(
+FUNCTION Half : DINT
+VAR_INPUT x : DINT; END_VAR
+Half := 100 / (x - 50);
+END_FUNCTION
+PROGRAM PLC_PRG
+VAR n, r : DINT; END_VAR
+n := n + 1;
+r := Half(n);
+END_PROGRAM
+CONFIGURATION C
+  TASK Fast (INTERVAL := T#1ms, PRIORITY := 1);
+  PROGRAM PLC_PRG WITH Fast;
+END_CONFIGURATION
+)";
+
+TEST_F(Run, AFaultStopsOneApplicationAndTheOthersGoOn) {
+  build("bad", kFailing);
+  build("good", kCounter);
+  const ProcessResult result =
+      shell("\"$HOST\" run bad.so good.so --for 400ms --trace PLC_PRG.n --out bad.csv");
+  EXPECT_EQ(result.exitCode, 2) << result.err;
+  EXPECT_THAT(result.err, AllOf(HasSubstr("bad: error: division by zero at bad.st:4:13 (task Fast, "
+                                          "cycle 49, at T#49ms)\n  in Half at bad.st:4\n  called "
+                                          "by PLC_PRG at bad.st:9"),
+                                Not(HasSubstr("good: error"))));
+  EXPECT_THAT(readFile(scratch_.path() / "bad.csv"), HasSubstr("\n0.048,49\n"));
+}
+
+TEST_F(Run, AfterAFaultItCanStartAgain) {
+  build("bad", kFailing);
+  const ProcessResult result =
+      shell("\"$HOST\" run bad.so --for 1600ms --on-fault restart --print PLC_PRG.n");
+  EXPECT_THAT(result.err, HasSubstr("note: 'bad' is started again"));
+  EXPECT_THAT(result.out, HasSubstr("PLC_PRG.n = 50\nPLC_PRG.n = ")) << "of both runs";
+}
+
+TEST_F(Run, TheWatchdogStopsAnEndlessLoop) {
+  write("p/a.st", "PROGRAM PLC_PRG\nVAR n : DINT; b : BOOL; END_VAR\nn := n + 1;\nb := n < 20;\n"
+                  "WHILE NOT b DO\n  n := n + 1;\nEND_WHILE\nEND_PROGRAM\n");
+  write("p/stride.toml", "[[task]]\nname = \"T\"\ninterval = \"T#1ms\"\nwatchdog = \"T#20ms\"\n"
+                         "programs = [\"PLC_PRG\"]\n");
+  const ProcessResult result = stride({"run", "p", "--for", "20s", "--quiet"});
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_THAT(result.err, HasSubstr("error: endless loop at a.st:5:"));
+}
+
+TEST_F(Run, BadOptionsAreRefused) {
+  build("a", kCounter);
+  EXPECT_THAT(shell("\"$HOST\" run a.so --core 4000 --for 1s").err,
+              HasSubstr("--core 4000: this process may not use that processor"));
+  EXPECT_THAT(shell("\"$HOST\" run a.so --for never").err, HasSubstr("--for: 'never'"));
+  EXPECT_THAT(shell("\"$HOST\" run a.so --for 1s --on-fault explode").err, HasSubstr("--on-fault"));
+  EXPECT_THAT(shell("\"$HOST\" run a.so --for 1s --print PLC_PRG.m").err,
+              HasSubstr("PLC_PRG has no member 'm'; did you mean 'n' or 't'?"));
+  EXPECT_THAT(shell("\"$HOST\" run none.so --for 1s").err, HasSubstr("cannot open application"));
+}
+
+// ------------------------------------------------------------------------------------------------
+// online change
+
+class RunChange : public Run {
+protected:
+  void SetUp() override {
+    fs::copy(STRIDE_SOURCE_DIR "/examples/PLCopenSingle", scratch_.path() / "p",
+             fs::copy_options::recursive);
+    fs::remove_all(scratch_.path() / "p/build");
+    ASSERT_EQ(stride({"build", "p", "-o", "old.so"}).exitCode, 0);
+  }
+  /// Another build: `insert` behind the first VAR of the program.
+  void buildNew(const std::string &insert) {
+    std::string text = readFile(scratch_.path() / "p/Ipo.st");
+    text.insert(text.find("VAR\n") + 4, insert);
+    write("p/Ipo.st", text);
+    const ProcessResult result = stride({"build", "p", "-o", "new.so", "-W", "off=lints"});
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+  }
+  /// Runs old.so as live.so; new.so takes its place in the middle of the move.
+  ProcessResult runWithChange(const std::string &options, const std::string &time = "1200ms") {
+    return shell("cp old.so live.so\n\"$HOST\" run live.so --for " + time +
+                 " --trace "
+                 "Drive.fSetPosition,Drive.fSetVelocity --out live.csv " +
+                 options +
+                 " & p=$!\nsleep 0.8; rm live.so; cp new.so live.so; kill -HUP $p; wait $p");
+  }
+};
+
+TEST_F(RunChange, AMovingAxisTakesNoStep) {
+  buildNew("  unrelated : ARRAY[0..999] OF LREAL := [1000(1.5)];\n");
+  const ProcessResult result = runWithChange("--print Drive.fSetPosition", "2500ms");
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.err,
+              ContainsRegex("note: online change done; no cycle could begin for [0-9]+ us"));
+  EXPECT_EQ(result.out, "Drive.fSetPosition = 100.0\n");
+  // At most 100 u/s and 100 u/s² in cycles of 3 ms; a skipped cycle shows as such in the times.
+  std::istringstream rows(readFile(scratch_.path() / "live.csv"));
+  std::string line;
+  std::getline(rows, line);
+  double lastTime = 0;
+  double lastPosition = 0;
+  double lastVelocity = 0;
+  double fastest = 0;
+  while (std::getline(rows, line)) {
+    double time = 0;
+    double position = 0;
+    double velocity = 0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf", &time, &position, &velocity), 3);
+    const double cycle = time - lastTime;
+    // The planner goes by its own cycle count: between two rows one cycle has passed.
+    EXPECT_LE(std::abs(position - lastPosition), 100 * 0.003 + 1e-9) << line;
+    EXPECT_LE(std::abs(velocity - lastVelocity), 100 * 0.003 + 1e-9) << line;
+    EXPECT_GE(cycle, 0);
+    fastest = std::max(fastest, velocity);
+    lastTime = time;
+    lastPosition = position;
+    lastVelocity = velocity;
+  }
+  EXPECT_GT(fastest, 50);
+}
+
+TEST_F(RunChange, WhatCannotBeCarriedIsRefusedWithReasons) {
+  write("p/stride.toml",
+        readFile(scratch_.path() / "p/stride.toml") +
+            "\n    [[bus.axis_group.drive]]\n    name = \"Second\"\n    wDriveId = 2\n");
+  buildNew("");
+  const ProcessResult result = runWithChange("");
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("error: online change refused, the application must be started "
+                                    "anew\n"));
+  EXPECT_THAT(result.err, HasSubstr("axis group AxisGroup has other drives in the new build"));
+}
+
+TEST_F(RunChange, LossesNeedConsent) {
+  std::string text = readFile(scratch_.path() / "p/Ipo.st");
+  const auto at = text.find("p : REAL");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, 8, "p : DINT");
+  write("p/Ipo.st", text);
+  buildNew("");
+  EXPECT_THAT(runWithChange("").err,
+              AllOf(HasSubstr("Ipo.p"), HasSubstr("values would be lost; --accept-losses")));
+  EXPECT_THAT(runWithChange("--accept-losses").err,
+              AllOf(HasSubstr("Ipo.p"), HasSubstr("note: online change done")));
+}
+
+TEST_F(RunChange, TheTasksStayAsTheyAre) {
+  std::string toml = readFile(scratch_.path() / "p/stride.toml");
+  toml.replace(toml.find("priority = 1"), 12, "priority = 2");
+  write("p/stride.toml", toml);
+  buildNew("");
+  EXPECT_THAT(runWithChange("").err,
+              HasSubstr("task 'BusTask' has another kind, interval, priority or core"));
+}
+
+TEST_F(RunChange, ASimulationChangesAtAnInstantBitForBit) {
+  buildNew("  unrelated : ARRAY[0..999] OF LREAL := [1000(1.5)];\n");
+  const std::string sim = "\"$HOST\" sim old.so --for 4s --set T#2500ms,Ipo.p=50 "
+                          "--trace Drive.fSetPosition,Drive.fSetVelocity,Drive.fActPosition ";
+  const ProcessResult result =
+      shell(sim + "--out without.csv && " + sim +
+            "--out with.csv --change T#751ms,new.so --print Ipo.unrelated[3] && cmp without.csv "
+            "with.csv && " +
+            sim + "--out bad.csv --change T#1s,nowhere.so");
+  EXPECT_THAT(result.out, "Ipo.unrelated[3] = 1.5\n") << result.err;
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_THAT(result.err, HasSubstr("cannot open application"));
+}
+
+} // namespace
+} // namespace stride::test
