@@ -25,7 +25,7 @@ public:
 
   void moved(app::Application &application) {
     group_.rebind(ref(application));
-    const std::vector<AxisRef *> moved = axes(application);
+    const std::vector<axis::AxisRef *> moved = axes(application);
     for (std::size_t i = 0; i < moved.size(); ++i)
       group_.rebind(i, *moved[i]);
     application_ = &application;
