@@ -1,0 +1,82 @@
+// No example allocates, locks or waits inside of a cycle, by the real clock and in virtual time.
+#include "tests/support/process.hpp"
+#include "tests/support/text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stride::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// Examples, and the golden projects that run for their motion, tasks and configuration.
+std::vector<std::string> projects() {
+  std::vector<std::string> found;
+  for (const char *root : {"/examples", "/tests/golden/projects"})
+    for (const fs::directory_entry &entry :
+         fs::directory_iterator(std::string(STRIDE_SOURCE_DIR) + root)) {
+      const std::string name = entry.path().filename().string();
+      if (entry.is_directory() && fs::exists(entry.path() / "stride.toml") &&
+          name.rfind("fail_", 0) != 0 && name.rfind("warn_", 0) != 0)
+        found.push_back(entry.path().string());
+    }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+class CycleTrap : public ::testing::TestWithParam<std::string> {
+protected:
+  /// Builds the project; false when it cannot be built as it stands.
+  bool build(const std::string &project) {
+    return runProcess({STRIDE_BINARY_DIR "/stride", "build", project, "-o",
+                       (scratch_.path() / "app.so").string(), "-W", "off=lints"},
+                      scratch_.path())
+               .exitCode == 0;
+  }
+  ProcessResult host(std::vector<std::string> arguments,
+                     const std::vector<std::pair<std::string, std::string>> &environment = {}) {
+    arguments.insert(arguments.begin() + 1, "app.so");
+    arguments.insert(arguments.begin(), STRIDE_BINARY_DIR "/tests/cycle_trap_host");
+    return runProcess(arguments, scratch_.path(), environment);
+  }
+  ScratchDirectory scratch_;
+};
+
+TEST_P(CycleTrap, NothingIsAllocatedOrLockedInACycle) {
+  ASSERT_TRUE(build(GetParam()));
+  const ProcessResult run = host({"run", "--for", "300ms", "--quiet"});
+  EXPECT_THAT(run.err, Not(HasSubstr("TRAP")));
+  EXPECT_EQ(run.exitCode, 0) << run.err;
+  const ProcessResult sim = host({"sim", "--for", "5s", "--quiet"});
+  EXPECT_THAT(sim.err, Not(HasSubstr("TRAP")));
+  EXPECT_EQ(sim.exitCode, 0) << sim.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(Projects, CycleTrap, ::testing::ValuesIn(projects()),
+                         [](const ::testing::TestParamInfo<std::string> &info) {
+                           return fs::path(info.param).filename().string();
+                         });
+
+using CycleTrapItself = CycleTrap;
+
+TEST_P(CycleTrapItself, IsSprung) {
+  ASSERT_TRUE(build(GetParam()));
+  const ProcessResult run =
+      host({"run", "--for", "300ms", "--quiet"}, {{"STRIDE_TRAP_SELF_TEST", "1"}});
+  EXPECT_EQ(run.exitCode, 99);
+  EXPECT_THAT(run.err, HasSubstr("TRAP: pthread_mutex_lock inside of a cycle"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Example, CycleTrapItself,
+                         ::testing::Values(STRIDE_SOURCE_DIR "/examples/PLCopenSingle"));
+
+} // namespace
+} // namespace stride::test

@@ -1,0 +1,139 @@
+// Linked into a stride-host of its own: allocations, locks and waits inside a cycle end the program
+// with the calls that led there. TaskSet::runCycle is wrapped by the linker (--wrap), malloc and
+// the others by defining them here.
+
+#include <dlfcn.h>
+#include <execinfo.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+
+namespace stride::task {
+class TaskSet;
+}
+
+extern "C" {
+void *__libc_malloc(std::size_t size);
+void *__libc_calloc(std::size_t count, std::size_t size);
+void *__libc_realloc(void *memory, std::size_t size);
+void *__libc_memalign(std::size_t alignment, std::size_t size);
+void __libc_free(void *memory);
+}
+
+namespace {
+
+thread_local bool insideCycle = false;
+
+void say(const char *text) {
+  if (::write(STDERR_FILENO, text, std::strlen(text)) < 0)
+    std::_Exit(99);
+}
+
+/// Nothing may have happened if this thread is inside a cycle.
+void forbid(const char *what) {
+  if (!insideCycle)
+    return;
+  insideCycle = false;
+  say("TRAP: ");
+  say(what);
+  say(" inside of a cycle\n");
+  void *calls[40];
+  ::backtrace_symbols_fd(calls, ::backtrace(calls, 40), STDERR_FILENO);
+  std::_Exit(99);
+}
+
+template <class F> F *next(const char *name) {
+  return reinterpret_cast<F *>(::dlsym(RTLD_NEXT, name));
+}
+
+/// Found before main, when nobody is inside a cycle.
+struct Originals {
+  decltype(::pthread_mutex_lock) *mutexLock =
+      next<decltype(::pthread_mutex_lock)>("pthread_mutex_lock");
+  decltype(::pthread_cond_wait) *condWait =
+      next<decltype(::pthread_cond_wait)>("pthread_cond_wait");
+  decltype(::pthread_rwlock_rdlock) *readLock =
+      next<decltype(::pthread_rwlock_rdlock)>("pthread_rwlock_rdlock");
+  decltype(::pthread_rwlock_wrlock) *writeLock =
+      next<decltype(::pthread_rwlock_wrlock)>("pthread_rwlock_wrlock");
+};
+
+const Originals &originals() {
+  static const Originals found;
+  return found;
+}
+
+__attribute__((constructor)) void findOriginals() {
+  (void)originals();
+  void *calls[2];
+  (void)::backtrace(calls, 2); // loads libgcc now
+}
+
+} // namespace
+
+extern "C" {
+
+void *malloc(std::size_t size) {
+  forbid("malloc");
+  return __libc_malloc(size);
+}
+void *calloc(std::size_t count, std::size_t size) {
+  forbid("calloc");
+  return __libc_calloc(count, size);
+}
+void *realloc(void *memory, std::size_t size) {
+  forbid("realloc");
+  return __libc_realloc(memory, size);
+}
+void *memalign(std::size_t alignment, std::size_t size) {
+  forbid("memalign");
+  return __libc_memalign(alignment, size);
+}
+void *aligned_alloc(std::size_t alignment, std::size_t size) { return memalign(alignment, size); }
+int posix_memalign(void **memory, std::size_t alignment, std::size_t size) {
+  *memory = memalign(alignment, size);
+  return *memory == nullptr ? ENOMEM : 0;
+}
+void free(void *memory) {
+  if (memory != nullptr)
+    forbid("free");
+  __libc_free(memory);
+}
+
+int pthread_mutex_lock(pthread_mutex_t *mutex) {
+  forbid("pthread_mutex_lock");
+  return originals().mutexLock(mutex);
+}
+int pthread_cond_wait(pthread_cond_t *condition, pthread_mutex_t *mutex) {
+  forbid("pthread_cond_wait");
+  return originals().condWait(condition, mutex);
+}
+int pthread_rwlock_rdlock(pthread_rwlock_t *lock) {
+  forbid("pthread_rwlock_rdlock");
+  return originals().readLock(lock);
+}
+int pthread_rwlock_wrlock(pthread_rwlock_t *lock) {
+  forbid("pthread_rwlock_wrlock");
+  return originals().writeLock(lock);
+}
+
+// void stride::task::TaskSet::runCycle(uint32_t, int64_t, int64_t) noexcept
+void __real__ZN6stride4task7TaskSet8runCycleEjll(stride::task::TaskSet *self, uint32_t task,
+                                                 int64_t startNs, int64_t latencyNs);
+void __wrap__ZN6stride4task7TaskSet8runCycleEjll(stride::task::TaskSet *self, uint32_t task,
+                                                 int64_t startNs, int64_t latencyNs) {
+  insideCycle = true;
+  if (std::getenv("STRIDE_TRAP_SELF_TEST") != nullptr) {
+    pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+    ::pthread_mutex_lock(&mutex);
+  }
+  __real__ZN6stride4task7TaskSet8runCycleEjll(self, task, startNs, latencyNs);
+  insideCycle = false;
+}
+
+} // extern "C"
