@@ -130,7 +130,9 @@ void addTraceOptions(const HostOptions &host) {
 }
 
 void addSimOptions(const HostOptions &host) {
-  host.pass("--for", "How long, in virtual time: T#5s", "TIME")->required();
+  host.pass("--for", "How long, in virtual time: T#5s", "TIME");
+  host.pass("--replay", "Repeat a run that `stride run --record` has recorded, instead of --for",
+            "FILE");
   addTraceOptions(host);
   host.pass("--set",
             "Write a variable at a time: T#3s,Main.p=50; without a time at once (may be repeated)",
@@ -146,6 +148,7 @@ void addSimOptions(const HostOptions &host) {
 void addRunOptions(const HostOptions &host) {
   host.pass("--for", "How long (default: until Ctrl-C): 5s, T#1h", "TIME");
   addTraceOptions(host);
+  host.pass("--record", "Record all inputs for `stride sim --replay`", "FILE");
   host.pass("--on-fault", "What happens after an exception: stop (default), restart", "WHAT");
   host.passFlag("--accept-losses", "An online change (SIGHUP) may lose values of variables");
   host.pass("--core", "Processor of the tasks that choose none (default: the last one)", "N");

@@ -24,6 +24,7 @@ constexpr const char *kExitCodes =
 struct SimTexts {
   std::string application;
   std::string duration;
+  std::string replay;
   std::vector<std::string> trace;
   std::vector<std::string> sets;
   std::vector<std::string> changes;
@@ -38,9 +39,18 @@ void declare(CLI::App &sim, SimTexts &texts, bool builtIn) {
   if (!builtIn)
     sim.add_option("APP", texts.application, "The application that 'stride build' made")
         ->required();
-  sim.add_option("--for", texts.duration, "Virtual time to run: T#1s500ms, 5s, 500ms")
-      ->required()
-      ->type_name("TIME");
+  CLI::Option *duration =
+      sim.add_option("--for", texts.duration, "Virtual time to run: T#1s500ms, 5s, 500ms")
+          ->type_name("TIME");
+  CLI::Option *replay =
+      sim.add_option("--replay", texts.replay,
+                     "Repeat the cycles and inputs of a run that 'run --record' has recorded")
+          ->type_name("FILE")
+          ->excludes(duration);
+  sim.callback([duration, replay] {
+    if (duration->count() == 0 && replay->count() == 0)
+      throw CLI::RequiredError("--for");
+  });
   sim.add_option("--trace", texts.trace,
                  "Variables to write in every cycle of the fastest task: A,B.c,D[1,2]; may be "
                  "repeated; a structure stands for all its members")
@@ -101,6 +111,9 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
       ->type_name("NAMES")
       ->expected(1)
       ->take_all();
+  run.add_option("--record", texts.options.record,
+                 "Record all inputs for 'sim --replay'; the tasks take turns then")
+      ->type_name("FILE");
   run.add_option("--on-fault", texts.onFault,
                  "What happens when an exception stops an application: stop, restart")
       ->check(CLI::IsMember({"stop", "restart"}))
@@ -135,7 +148,8 @@ SimOptions understand(const SimTexts &texts) {
   SimOptions options;
   options.application = texts.application;
   try {
-    options.durationNs = parseDuration(texts.duration, false);
+    if (texts.replay.empty())
+      options.durationNs = parseDuration(texts.duration, false);
   } catch (const app::Error &error) {
     throw app::Error(fmt::format("--for: {}", error.what()));
   }
@@ -151,6 +165,9 @@ SimOptions understand(const SimTexts &texts) {
   options.out = texts.out;
   if (!options.out.empty() && options.trace.empty())
     throw app::Error("--out names a file for a trace, but --trace names nothing to trace");
+  options.replay = texts.replay;
+  if (!options.replay.empty() && !(options.sets.empty() && options.changes.empty()))
+    throw app::Error("--replay repeats a run as it was; --set and --change do not go with it");
   options.loopBudget = texts.loopBudget;
   options.quiet = texts.quiet;
   options.summary = texts.summary;
@@ -171,6 +188,8 @@ RunOptions understand(const RunTexts &texts) {
     throw app::Error("--out names a file for a trace, but --trace names nothing to trace");
   if (texts.core >= 0)
     options.core = static_cast<uint32_t>(texts.core);
+  if (!options.record.empty() && options.applications.size() > 1)
+    throw app::Error("--record records one application; start the others by themselves");
   options.onFault = texts.onFault == "restart" ? OnFault::Restart : OnFault::Stop;
   return options;
 }

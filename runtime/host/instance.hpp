@@ -4,6 +4,7 @@
 
 #include "runtime/app/application.hpp"
 #include "runtime/app/symbols.hpp"
+#include "runtime/host/input_port.hpp"
 #include "runtime/task/task_set.hpp"
 
 #include <memory>
@@ -18,6 +19,9 @@ class Instance {
 public:
   /// Throws app::Error for an application that cannot be run.
   Instance(std::unique_ptr<app::Application> application, task::LoopLimit limit);
+
+  /// Before initialise: where inputs pass on their way into the program. It lives longer.
+  void setInputs(InputPort &inputs) { inputs_ = &inputs; }
 
   /// Sets the initial values, then adds the hooks of the PLC configuration. Throws StException when
   /// an initialiser fails, app::Error for a driver that this runtime does not have.
@@ -36,6 +40,7 @@ public:
   /// Gives the application up, after the last cycle.
   std::unique_ptr<app::Application> release() { return std::move(application_); }
 
+  const app::Application &application() const { return *application_; }
   const StrideAppV1 &app() const { return application_->description(); }
   std::byte *state() const { return application_->state(); }
   const app::SymbolTable &symbols() const { return *symbols_; }
@@ -50,6 +55,8 @@ private:
   task::TaskSet tasks_;
   std::vector<std::unique_ptr<task::CycleHook>> hooks_;
   unsigned builds_ = 0;
+  LiveInputs live_;
+  InputPort *inputs_ = &live_;
 };
 
 } // namespace stride::host

@@ -33,6 +33,7 @@ struct SimOptions {
   std::vector<SetOption> sets;       ///< In the order given.
   std::vector<ChangeOption> changes; ///< In the order of their times.
   std::vector<std::string> print;    ///< Paths, in the order given.
+  std::string replay;                ///< A recording to be repeated; or empty.
   int64_t loopBudget = 0;            ///< Loop iterations per cycle; 0: the default.
   bool quiet = false;                ///< No progress and no summary.
   bool summary = false;              ///< A summary even when standard error is no terminal.
@@ -51,6 +52,7 @@ struct RunOptions {
   std::vector<std::string> trace; ///< Paths of the first application, in the order given.
   std::string out;                ///< File of the trace; empty or "-": standard output.
   std::vector<std::string> print; ///< Paths, in the order given.
+  std::string record;             ///< File for the inputs of the run; or empty.
   OnFault onFault = OnFault::Stop;
   bool acceptLosses = false;    ///< An online change may lose values.
   std::optional<uint32_t> core; ///< For tasks that choose none; empty: the last one allowed.

@@ -4,6 +4,7 @@
 #include "runtime/host/instance.hpp"
 #include "runtime/host/online_change.hpp"
 #include "runtime/host/print_values.hpp"
+#include "runtime/host/recording.hpp"
 #include "runtime/host/st_backtrace.hpp"
 #include "runtime/host/statistics_text.hpp"
 #include "runtime/host/trace_ring.hpp"
@@ -52,7 +53,14 @@ public:
         ring_ = std::make_unique<TraceRing>(columns, kTraceBytes / columns.rowSize());
         instance_.tasks().addHook(instance_.tasks().fastest(), *ring_);
       }
+      if (!options_->record.empty()) {
+        recording_ = std::make_unique<Recording>(options_->record);
+        recording_->addHooks(instance_.tasks());
+        instance_.setInputs(*recording_);
+      }
       instance_.initialise();
+      if (recording_)
+        recording_->begin(instance_.application());
     } catch (const StException &exception) {
       say("error: " + describeWithCalls(task::Fault{exception, "initialisation", 0, 0}));
       return false;
@@ -64,11 +72,17 @@ public:
   void lookAfter() {
     if (ring_)
       ring_->drain(*trace_);
+    if (recording_)
+      recording_->drain();
   }
   bool failed() { return instance_.tasks().fault().has_value(); }
 
   /// The application in this file takes over, or it is said why not.
   void change(const std::string &path) {
+    if (recording_) {
+      say("error: no online change during a recording; the old build goes on");
+      return;
+    }
     try {
       OnlineChange change(instance_, path);
       if (!isWelcome(change))
@@ -111,6 +125,9 @@ public:
     if (!scheduler_.finish())
       say("warning: not everything came to rest within a minute");
     lookAfter();
+    if (recording_)
+      if (const std::string problem = recording_->finish(); !problem.empty())
+        say("warning: " + problem);
     if (ring_ && ring_->lost() != 0)
       say(fmt::format("warning: the trace lacks {} rows: it could not be written as fast as it was "
                       "taken; trace fewer variables",
@@ -179,6 +196,7 @@ private:
   Instance instance_;
   TraceWriter *trace_ = nullptr;
   std::unique_ptr<TraceRing> ring_;
+  std::unique_ptr<Recording> recording_;
   task::RealScheduler scheduler_; // its threads end before the rest goes
 };
 
@@ -194,7 +212,7 @@ public:
   Run(std::vector<std::unique_ptr<app::Application>> applications, const RunOptions &options)
       : options_(options), report_(task::prepareRealtime()) {
     realOptions_.fifo = report_.fifo;
-    realOptions_.turns = options.turns || !report_.fifo;
+    realOptions_.turns = options.turns || !options.record.empty() || !report_.fifo;
     const std::vector<uint32_t> cores = task::allowedCores();
     if (options.core && std::find(cores.begin(), cores.end(), *options.core) == cores.end())
       throw app::Error(fmt::format("--core {}: this process may not use that processor; it may use "

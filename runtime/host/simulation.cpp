@@ -4,6 +4,7 @@
 #include "runtime/host/instance.hpp"
 #include "runtime/host/online_change.hpp"
 #include "runtime/host/print_values.hpp"
+#include "runtime/host/recording.hpp"
 #include "runtime/host/set_list.hpp"
 #include "runtime/host/st_backtrace.hpp"
 #include "runtime/host/trace_writer.hpp"
@@ -162,6 +163,34 @@ private:
 
 } // namespace
 
+static task::RunResult advance(Instance &instance, Observer &observer, int64_t durationNs) {
+  task::VirtualScheduler scheduler(instance.tasks());
+  scheduler.setObserver(&observer);
+  scheduler.setStopRequest([] { return stopRequested != 0; });
+  return scheduler.runUntil(durationNs);
+}
+
+/// The cycles of a recorded run in their order.
+static task::RunResult repeat(Replay &replay, Instance &instance, Observer &observer) {
+  task::TaskSet &tasks = instance.tasks();
+  task::RunResult result;
+  while (const std::optional<RecordedCycle> cycle = replay.nextCycle()) {
+    if (stopRequested != 0) {
+      result.interrupted = true;
+      break;
+    }
+    if (cycle->task >= tasks.count())
+      break;
+    if (cycle->stopped)
+      tasks.stop();
+    tasks.runCycle(cycle->task, cycle->startNs, 0);
+    observer.afterInstant(cycle->startNs, cycle->task == tasks.fastest());
+    result.timeNs = cycle->startNs;
+  }
+  result.fault = tasks.fault();
+  return result;
+}
+
 static ExitCode simulateHere(std::unique_ptr<app::Application> application,
                              const SimOptions &options) {
   Instance instance(std::move(application), task::LoopLimit::Budget);
@@ -177,6 +206,12 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
   if (!options.trace.empty())
     trace.emplace(instance.symbols(), options.trace, options.out);
 
+  std::optional<Replay> replay;
+  if (!options.replay.empty()) {
+    replay.emplace(options.replay, instance.application());
+    instance.setInputs(*replay);
+  }
+
   const task::MemoryGuard guard;
   const StopSignals signals;
   try {
@@ -187,13 +222,14 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
     return kExitException;
   }
 
+  if (replay)
+    replay->restoreState(instance.application());
+
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
-  Progress progress(options.durationNs, terminal && !options.quiet);
+  Progress progress(options.durationNs, terminal && !options.quiet && !replay);
   Observer observer(instance, options.changes, sets, trace ? &*trace : nullptr, progress);
-  task::VirtualScheduler scheduler(instance.tasks());
-  scheduler.setObserver(&observer);
-  scheduler.setStopRequest([] { return stopRequested != 0; });
-  const task::RunResult result = scheduler.runUntil(options.durationNs);
+  const task::RunResult result = replay ? repeat(*replay, instance, observer)
+                                        : advance(instance, observer, options.durationNs);
   const double wall = progress.wall();
   progress.clear();
 
@@ -202,6 +238,8 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
   printValues(instance.symbols(), options.print, instance.state());
   for (const std::string &line : instance.remarks())
     fmt::print(stderr, "{}\n", line);
+  if (replay && !replay->problem().empty())
+    fmt::print(stderr, "error: {}\n", replay->problem());
   if (result.fault)
     fmt::print(stderr, "error: {}\n", describeWithCalls(*result.fault));
   else if (!result.interrupted) {
@@ -215,6 +253,8 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
     printSummary(instance.tasks(), result, wall);
   if (result.fault || atEnd)
     return kExitException;
+  if (replay && !replay->problem().empty())
+    return kExitBadInput;
   return result.interrupted ? kExitInterrupted : kExitOk;
 }
 

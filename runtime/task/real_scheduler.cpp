@@ -200,6 +200,8 @@ bool RealScheduler::finish() {
     return true;
   started_ = false;
   tasks_->stop();
+  for (const std::unique_ptr<Worker> &worker : workers_)
+    ::sem_post(&worker->raised); // the hooks of tasks that wait for an event go on without it
   const int64_t limit = monotonicNs() + kStopLimitNs;
   while (!tasks_->atRest() && monotonicNs() < limit)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

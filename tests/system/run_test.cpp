@@ -160,6 +160,67 @@ TEST_F(Run, BadOptionsAreRefused) {
   EXPECT_THAT(shell("\"$HOST\" run none.so --for 1s").err, HasSubstr("cannot open application"));
 }
 
+constexpr const char *kSeveralTasks = R"(
+VAR_GLOBAL n, m, e, free : DINT; go : BOOL; END_VAR
+PROGRAM Fast
+n := n + 1;
+go := n MOD 7 = 0;
+END_PROGRAM
+PROGRAM Slow
+m := m * 3 + n + free;
+END_PROGRAM
+PROGRAM OnEdge
+e := e + m;
+END_PROGRAM
+PROGRAM Free
+free := free + n;
+END_PROGRAM
+CONFIGURATION C
+  TASK F (INTERVAL := T#1ms, PRIORITY := 1);
+  TASK S (INTERVAL := T#5ms, PRIORITY := 9);
+  TASK E (SINGLE := go, PRIORITY := 0);
+  PROGRAM Fast WITH F;
+  PROGRAM Slow WITH S;
+  PROGRAM OnEdge WITH E;
+  PROGRAM Free;
+END_CONFIGURATION
+)";
+
+TEST_F(Run, ARecordingIsReplayedBitForBit) {
+  build("a", kSeveralTasks);
+  const ProcessResult result = shell(
+      "\"$HOST\" run a.so --for 500ms --record a.rec --trace n,m,e,free --out run.csv "
+      "--print n,m,e,free --quiet > run.txt && "
+      "\"$HOST\" sim a.so --replay a.rec --trace n,m,e,free --out sim.csv "
+      "--print n,m,e,free > sim.txt && cmp run.csv sim.csv && cmp run.txt sim.txt && cat run.txt");
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("free = "));
+  // Cut off, damaged, of another build, no recording at all: said, not believed.
+  build("b", kCounter);
+  const auto replay = [&](const std::string &app, const std::string &file) {
+    return shell("\"$HOST\" sim " + app + " --replay " + file).err;
+  };
+  EXPECT_THAT(replay("b.so", "a.rec"), HasSubstr("is a recording of another build"));
+  EXPECT_THAT(replay("a.so", "a.so"), HasSubstr("is no recording"));
+  EXPECT_THAT(replay("a.so", "none.rec"), HasSubstr("cannot read 'none.rec'"));
+  EXPECT_THAT(shell("head -c 40 a.rec > cut.rec; \"$HOST\" sim a.so --replay cut.rec").err,
+              HasSubstr("is cut off"));
+  EXPECT_THAT(shell("head -c -3 a.rec > cut.rec; \"$HOST\" sim a.so --replay cut.rec").err,
+              HasSubstr("does not fit from byte"));
+}
+
+TEST_F(Run, AFaultIsReplayedWithItsPlace) {
+  build("bad", kFailing);
+  const ProcessResult result = shell("\"$HOST\" run bad.so --for 1s --record a.rec --quiet; "
+                                     "\"$HOST\" sim bad.so --replay a.rec --print PLC_PRG.n");
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_THAT(result.out, HasSubstr("PLC_PRG.n = 50"));
+  const auto first = result.err.find("division by zero at bad.st:4:13 (task Fast, cycle 49");
+  ASSERT_NE(first, std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("division by zero at bad.st:4:13 (task Fast, cycle 49", first + 1),
+            std::string::npos);
+}
+
 // ------------------------------------------------------------------------------------------------
 // online change
 

@@ -1,0 +1,94 @@
+// `run --record`, `sim --replay`: the inputs of a run in a file.
+#ifndef STRIDE_RUNTIME_HOST_RECORDING_HPP
+#define STRIDE_RUNTIME_HOST_RECORDING_HPP
+
+#include "runtime/app/application.hpp"
+#include "runtime/host/input_port.hpp"
+#include "runtime/task/task_set.hpp"
+
+#include <atomic>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace stride::host {
+
+/// Notes the order of the cycles and all inputs of a run in which tasks take turns. The cycles
+/// write into a ring, another thread writes that to the file. Where it cannot keep up, the
+/// recording ends there, which is told; the cycles are never delayed.
+class Recording final : public InputPort {
+public:
+  /// Throws app::Error when the file cannot be written.
+  explicit Recording(const std::string &path);
+  ~Recording() override;
+
+  /// Notes each cycle: before the hooks of inputs, in every task.
+  void addHooks(task::TaskSet &tasks);
+  /// Before the first cycle: the file begins with the state as it is now, initialised and with its
+  /// retained values.
+  void begin(const app::Application &application);
+
+  using InputPort::pass;
+  void pass(void *value, std::size_t size) noexcept override;
+
+  /// Writes what has come so far. From one thread, not a task's.
+  void drain();
+  /// After the last cycle; what is wrong with the recording, or empty.
+  std::string finish();
+
+private:
+  class CycleNote;
+  bool put(const void *data, std::size_t size) noexcept;
+
+  std::string path_;
+  std::FILE *file_ = nullptr;
+  bool writeFailed_ = false;
+  std::vector<std::byte> ring_;
+  std::atomic<uint64_t> put_{0};
+  std::atomic<uint64_t> taken_{0};
+  std::atomic<bool> full_{false};
+  std::vector<std::unique_ptr<CycleNote>> notes_;
+};
+
+/// One cycle of a recording.
+struct RecordedCycle {
+  uint32_t task = 0;
+  bool stopped = false; ///< The application had been stopped before it.
+  int64_t startNs = 0;
+};
+
+/// Gives the inputs of a recording back.
+class Replay final : public InputPort {
+public:
+  /// Throws app::Error: unreadable, no recording, of another build of the application.
+  Replay(const std::string &path, const app::Application &application);
+
+  /// The state with which the run began.
+  void restoreState(const app::Application &application) const;
+
+  /// The next cycle; nothing at the end of the recording.
+  std::optional<RecordedCycle> nextCycle();
+
+  using InputPort::pass;
+  void pass(void *value, std::size_t size) noexcept override;
+  bool replays() const noexcept override { return true; }
+
+  /// The program has asked for other inputs than it did in the run: what went wrong, or empty.
+  const std::string &problem() const { return problem_; }
+
+private:
+  bool take(void *value, std::size_t size) noexcept;
+
+  std::string path_;
+  std::vector<std::byte> data_;
+  std::size_t state_ = 0; ///< Where it is in data_.
+  std::size_t at_ = 0;
+  std::string problem_;
+};
+
+} // namespace stride::host
+
+#endif
