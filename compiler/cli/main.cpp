@@ -141,6 +141,7 @@ void addSimOptions(const HostOptions &host) {
             "TIME,APP");
   host.pass("--loop-budget", "Loop iterations a cycle may use before it counts as endless",
             "COUNT");
+  host.passFlag("--state-hash", "Print a hash of all variables at the end");
   host.passFlag("--quiet", "Neither progress nor summary");
   host.passFlag("--summary", "A summary even when standard error is no terminal");
 }
@@ -153,6 +154,7 @@ void addRunOptions(const HostOptions &host) {
   host.passFlag("--accept-losses", "An online change (SIGHUP) may lose values of variables");
   host.pass("--core", "Processor of the tasks that choose none (default: the last one)", "N");
   host.passFlag("--turns", "Only one task at a time is in a cycle, also with real-time priorities");
+  host.pass("--statistics", "File for the statistics at the end (JSON)", "FILE");
   host.passFlag("--histogram", "Distributions of run times and delays with the statistics");
   host.passFlag("--quiet", "No statistics, no warnings about real time");
 }

@@ -31,6 +31,7 @@ struct SimTexts {
   std::vector<std::string> print;
   std::string out;
   int64_t loopBudget = 0;
+  bool stateHash = false;
   bool quiet = false;
   bool summary = false;
 };
@@ -78,6 +79,8 @@ void declare(CLI::App &sim, SimTexts &texts, bool builtIn) {
   sim.add_option("--loop-budget", texts.loopBudget,
                  "Loop iterations one cycle may use before it counts as endless")
       ->check(CLI::PositiveNumber);
+  sim.add_flag("--state-hash", texts.stateHash,
+               "Print a hash of all variables at the end: equal runs have equal ones");
   sim.add_flag("--quiet", texts.quiet, "Neither progress nor summary");
   sim.add_flag("--summary", texts.summary, "A summary even when standard error is no terminal");
   sim.footer(kExitCodes);
@@ -127,6 +130,9 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
       ->type_name("N");
   run.add_flag("--turns", texts.options.turns,
                "Only one task at a time is in a cycle, also with real-time priorities");
+  run.add_option("--statistics", texts.options.statistics,
+                 "File for the statistics at the end (JSON; of the first application)")
+      ->type_name("FILE");
   run.add_flag("--histogram", texts.options.histogram,
                "Show the distribution of run times and delays with the statistics");
   run.add_flag("--quiet", texts.options.quiet, "No statistics, no warnings about real time");
@@ -169,6 +175,7 @@ SimOptions understand(const SimTexts &texts) {
   if (!options.replay.empty() && !(options.sets.empty() && options.changes.empty()))
     throw app::Error("--replay repeats a run as it was; --set and --change do not go with it");
   options.loopBudget = texts.loopBudget;
+  options.stateHash = texts.stateHash;
   options.quiet = texts.quiet;
   options.summary = texts.summary;
   return options;

@@ -35,6 +35,7 @@ struct SimOptions {
   std::vector<std::string> print;    ///< Paths, in the order given.
   std::string replay;                ///< A recording to be repeated; or empty.
   int64_t loopBudget = 0;            ///< Loop iterations per cycle; 0: the default.
+  bool stateHash = false;            ///< Print a hash of the state at the end.
   bool quiet = false;                ///< No progress and no summary.
   bool summary = false;              ///< A summary even when standard error is no terminal.
 };
@@ -58,6 +59,7 @@ struct RunOptions {
   std::optional<uint32_t> core; ///< For tasks that choose none; empty: the last one allowed.
   bool turns = false;           ///< One cycle at a time.
   bool histogram = false;       ///< Distributions behind the table of statistics.
+  std::string statistics;       ///< File for the statistics as JSON; or empty.
   bool quiet = false;           ///< Neither warnings about real time nor statistics.
 };
 

@@ -13,7 +13,10 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <ctime>
 
 #include <algorithm>
@@ -156,6 +159,15 @@ public:
     fmt::print(stderr, "{}", text);
   }
 
+  void writeStatistics(const std::string &path) {
+    const std::string text = statisticsJson(instance_.tasks());
+    std::FILE *file = std::fopen(path.c_str(), "wb");
+    const bool written =
+        file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+    if ((file != nullptr && std::fclose(file) != 0) || !written)
+      throw app::Error(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
+  }
+
 private:
   /// One line of an application among others carries its name.
   void say(const std::string &line) const {
@@ -259,6 +271,8 @@ public:
       good = !slot.stopped && slot.session->finish() && good;
     if (trace_)
       trace_->finish();
+    if (!options_.statistics.empty())
+      slots_.front().session->writeStatistics(options_.statistics);
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
     return good ? kExitOk : kExitException;
   }
@@ -301,6 +315,7 @@ private:
 
   const RunOptions &options_;
   task::RealtimeReport report_;
+  task::NoDeepSleep awake_;
   task::RealOptions realOptions_;
   std::optional<TraceWriter> trace_;
   std::vector<Slot> slots_;

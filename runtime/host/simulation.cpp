@@ -128,6 +128,14 @@ private:
   Progress *progress_;
 };
 
+/// FNV-1a.
+uint64_t hashOf(const std::byte *data, uint64_t size) {
+  uint64_t hash = 0xCBF29CE484222325;
+  for (uint64_t i = 0; i < size; ++i)
+    hash = (hash ^ static_cast<uint64_t>(data[i])) * 0x100000001B3;
+  return hash;
+}
+
 void printSummary(const task::TaskSet &tasks, const task::RunResult &result, double wall) {
   uint64_t cycles = 0;
   for (uint32_t i = 0; i < tasks.count(); ++i)
@@ -236,6 +244,8 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
   if (trace)
     trace->finish();
   printValues(instance.symbols(), options.print, instance.state());
+  if (options.stateHash)
+    fmt::print("state {:016x}\n", hashOf(instance.state(), instance.app().stateSize));
   for (const std::string &line : instance.remarks())
     fmt::print(stderr, "{}\n", line);
   if (replay && !replay->problem().empty())

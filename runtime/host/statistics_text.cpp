@@ -1,6 +1,7 @@
 #include "runtime/host/statistics_text.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <array>
 
@@ -62,6 +63,33 @@ std::string statisticsTable(const task::TaskSet &tasks) {
                     micros(f.minIntervalNs, two), micros(f.maxIntervalNs, two)});
   }
   return out;
+}
+
+std::string statisticsJson(const task::TaskSet &tasks) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (uint32_t i = 0; i < tasks.count(); ++i) {
+    const task::TaskStatistics &statistics = tasks.statistics(i);
+    const task::TaskFigures f = statistics.figures();
+    const auto quantiles = [](const task::Histogram &histogram) {
+      return nlohmann::ordered_json{{"p50", histogram.quantile(0.5)},
+                                    {"p99", histogram.quantile(0.99)},
+                                    {"p999", histogram.quantile(0.999)}};
+    };
+    nlohmann::ordered_json run = quantiles(statistics.runTimes());
+    run["min"] = f.minRunNs;
+    run["mean"] = f.meanRunNs();
+    run["max"] = f.maxRunNs;
+    nlohmann::ordered_json late = quantiles(statistics.latencies());
+    late["max"] = f.maxLatencyNs;
+    list.push_back({{"task", tasks.desc(i).name},
+                    {"cycles", f.cycles},
+                    {"overruns", f.overruns},
+                    {"watchdogViolations", f.watchdogViolations},
+                    {"runNs", std::move(run)},
+                    {"lateNs", std::move(late)},
+                    {"intervalNs", {{"min", f.minIntervalNs}, {"max", f.maxIntervalNs}}}});
+  }
+  return list.dump(1) + '\n';
 }
 
 std::string histogramText(const task::TaskStatistics &statistics) {

@@ -12,6 +12,10 @@ namespace stride::host {
 /// max), delay of the start (p50, p99, p99.9, max) and interval (min, max), in microseconds.
 std::string statisticsTable(const task::TaskSet &tasks);
 
+/// The same for programs: an object per task with cycles, overruns, watchdogViolations, and runNs,
+/// lateNs and intervalNs with min, mean, p50, p99, p999, max (where they are known).
+std::string statisticsJson(const task::TaskSet &tasks);
+
 /// The distribution of one task's run times and delays, a line per power of two that occurred.
 std::string histogramText(const task::TaskStatistics &statistics);
 

@@ -11,11 +11,11 @@
 namespace stride::task {
 
 /// Counts durations from 0 ns to 2^40 ns (18 minutes; longer ones count as that) in buckets that
-/// are 1/16 of their value wide at most. One thread records; any thread may read meanwhile and sees
+/// are 1/64 of their value wide at most. One thread records; any thread may read meanwhile and sees
 /// each count either before or after a record.
 class Histogram {
 public:
-  static constexpr unsigned kSubBits = 4; ///< 16 buckets per power of two.
+  static constexpr unsigned kSubBits = 6; ///< 64 buckets per power of two.
   static constexpr unsigned kTopBit = 40;
   static constexpr std::size_t kBuckets = (kTopBit - kSubBits + 1) << kSubBits;
 

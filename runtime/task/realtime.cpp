@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <alloca.h>
+#include <fcntl.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -27,6 +29,19 @@ bool setFifo(int priority) noexcept {
 }
 
 } // namespace
+
+NoDeepSleep::NoDeepSleep() noexcept : file_(::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC)) {
+  const int32_t microseconds = 0;
+  if (file_ >= 0 && ::write(file_, &microseconds, sizeof microseconds) < 0) {
+    ::close(file_);
+    file_ = -1;
+  }
+}
+
+NoDeepSleep::~NoDeepSleep() {
+  if (file_ >= 0)
+    ::close(file_);
+}
 
 RealtimeReport prepareRealtime() {
   RealtimeReport report;

@@ -15,6 +15,19 @@ struct RealtimeReport {
   std::vector<std::string> warnings;
 };
 
+/// Keeps the processors out of sleep states from which they wake up late, while it lives; where the
+/// system does not let it, that is all the same (virtual machines have none).
+class NoDeepSleep {
+public:
+  NoDeepSleep() noexcept;
+  ~NoDeepSleep();
+  NoDeepSleep(const NoDeepSleep &) = delete;
+  NoDeepSleep &operator=(const NoDeepSleep &) = delete;
+
+private:
+  int file_;
+};
+
 /// Locks the process's memory and finds out whether SCHED_FIFO is permitted. Once per process.
 RealtimeReport prepareRealtime();
 

@@ -89,6 +89,17 @@ TEST_F(Run, TheTraceIsThatOfASimulation) {
   EXPECT_GT(same, 3);
 }
 
+TEST_F(Run, EqualSimulationsEndInEqualStates) {
+  const std::string project = STRIDE_SOURCE_DIR "/examples/PLCopenSingle";
+  const std::string sim = "\"$STRIDE\" sim " + project + " --state-hash --quiet --for ";
+  const std::string once = shell(sim + "10m").out;
+  EXPECT_THAT(once, ContainsRegex("^state [0-9a-f]{16}\n$"));
+  EXPECT_EQ(shell(sim + "10m").out, once);
+  EXPECT_EQ(shell("GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2,-AVX512F " + sim + "10m").out,
+            once);
+  EXPECT_NE(shell(sim + "599s").out, once);
+}
+
 TEST_F(Run, SignalsShowAndStop) {
   build("a", kCounter);
   const ProcessResult result = shell("\"$HOST\" run a.so --print PLC_PRG.n & p=$!\n"

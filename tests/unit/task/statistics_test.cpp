@@ -29,9 +29,9 @@ TEST(HistogramTest, EveryDurationIsInItsBucket) {
     ASSERT_LT(bucket, Histogram::kBuckets);
     ASSERT_LE(Histogram::lowerEnd(bucket), ns);
     ASSERT_GT(Histogram::lowerEnd(bucket + 1), ns);
-    // A bucket is at most 1/16 of its value wide.
-    ASSERT_LE((Histogram::lowerEnd(bucket + 1) - Histogram::lowerEnd(bucket)) * 16,
-              std::max<int64_t>(ns, 16));
+    // A bucket is at most 1/64 of its value wide.
+    ASSERT_LE((Histogram::lowerEnd(bucket + 1) - Histogram::lowerEnd(bucket)) * 64,
+              std::max<int64_t>(ns, 64));
   }
   EXPECT_EQ(Histogram::bucketOf(-5), 0U);
   EXPECT_EQ(Histogram::bucketOf(INT64_MAX), Histogram::kBuckets - 1);
@@ -51,7 +51,7 @@ TEST(HistogramTest, QuantilesAreThoseOfTheSortedValues) {
     const auto index = static_cast<std::size_t>(share * 20000.0) - 1;
     const auto exact = static_cast<double>(values[index]);
     EXPECT_GE(static_cast<double>(histogram.quantile(share)), exact);
-    EXPECT_LE(static_cast<double>(histogram.quantile(share)), exact * 17.0 / 16.0 + 1);
+    EXPECT_LE(static_cast<double>(histogram.quantile(share)), exact * 65.0 / 64.0 + 1);
   }
   EXPECT_EQ(histogram.total(), 20000U);
 }
