@@ -9,32 +9,47 @@ namespace stride {
 
 namespace {
 
+/// The innermost calls in the first part of the array; of the others the outermost ones, in turn in
+/// the places behind.
 struct Capture {
   uintptr_t *calls;
-  std::size_t size;
-  std::size_t count;
+  std::size_t inner;
+  std::size_t outer;
+  std::size_t count; ///< of all calls
 };
 
 _Unwind_Reason_Code captureOne(struct _Unwind_Context *context, void *argument) {
   auto *capture = static_cast<Capture *>(argument);
-  if (capture->count == capture->size)
-    return _URC_END_OF_STACK;
   int beforeInstruction = 0;
   uintptr_t address = _Unwind_GetIPInfo(context, &beforeInstruction);
   if (address == 0)
     return _URC_END_OF_STACK;
   if (beforeInstruction == 0)
     --address; // of a return address: within the call
-  capture->calls[capture->count++] = address;
+  const std::size_t place =
+      capture->count < capture->inner
+          ? capture->count
+          : capture->inner + (capture->count - capture->inner) % capture->outer;
+  capture->calls[place] = address;
+  ++capture->count;
   return _URC_NO_REASON;
 }
 
 } // namespace
 
 std::size_t captureCalls(uintptr_t *calls, std::size_t size) noexcept {
-  Capture capture{calls, size, 0};
+  const std::size_t inner = size / 2;
+  const std::size_t outer = size - inner - 1;
+  Capture capture{calls, inner, outer, 0};
   _Unwind_Backtrace(captureOne, &capture);
-  return capture.count;
+  if (capture.count <= inner + outer)
+    return capture.count;
+  // The oldest of the outer ones comes first, behind the gap.
+  std::rotate(calls + inner, calls + inner + (capture.count - inner) % outer,
+              calls + inner + outer);
+  std::move_backward(calls + inner, calls + inner + outer, calls + size);
+  calls[inner] = 0;
+  return size;
 }
 
 StException::StException(ExceptionCode code, const char *file, uint32_t line, uint32_t col,

@@ -35,8 +35,8 @@ public:
   /// Notes the calling thread's call path, innermost first, from here outwards.
   void captureCalls() noexcept { callCount_ = stride::captureCalls(calls_, kMaxCalls); }
   void setCalls(const uintptr_t *calls, std::size_t count) noexcept;
-  /// Addresses within the machine instructions that were being executed, innermost first; empty
-  /// when nothing was noted.
+  /// Addresses within the machine instructions that were being executed, innermost first; a 0 where
+  /// calls in the middle were left out. Empty when nothing was noted.
   std::span<const uintptr_t> calls() const noexcept { return {calls_, callCount_}; }
 
   static constexpr std::size_t kMaxCalls = 48;

@@ -168,11 +168,21 @@ std::vector<StCall> resolveCalls(std::span<const uintptr_t> calls) {
   if (calls.empty())
     return result;
   const Modules modules;
-  for (const uintptr_t address : calls)
-    modules.append(address, result);
+  for (const uintptr_t address : calls) {
+    if (address == 0)
+      result.push_back({});
+    else
+      modules.append(address, result);
+  }
   for (StCall &call : result)
     call.file = shortFile(call.file);
   return result;
+}
+
+/// Left out there is what is on both sides: a recursion.
+static bool isGapWithin(const std::vector<StCall> &calls, std::size_t at) {
+  return calls[at].pou.empty() && at != 0 && at + 1 < calls.size() &&
+         calls[at - 1] == calls[at + 1];
 }
 
 std::string describeWithCalls(const task::Fault &fault) {
@@ -183,12 +193,16 @@ std::string describeWithCalls(const task::Fault &fault) {
     return text;
   std::size_t shown = 0;
   for (std::size_t i = 0; i < calls.size();) {
-    if (shown++ == kShownCalls) {
+    if (shown++ == kShownCalls || calls[i].pou.empty()) {
       text += "\n  …";
-      break;
+      if (shown > kShownCalls)
+        break;
+      ++i;
+      continue;
     }
     std::size_t times = 1;
-    while (i + times < calls.size() && calls[i + times] == calls[i])
+    while (i + times < calls.size() &&
+           (calls[i + times] == calls[i] || isGapWithin(calls, i + times)))
       ++times;
     text += fmt::format("\n  {} {} at {}{}", i == 0 ? "in" : "called by", calls[i].pou,
                         place(calls[i]), times > 1 ? " (many times)" : "");

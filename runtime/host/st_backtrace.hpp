@@ -21,7 +21,7 @@ struct StCall {
 };
 
 /// The part of a call path that is ST, innermost first, with inlined calls, by the line tables of
-/// the application. Empty when it has none.
+/// the application; without a name where calls were left out. Empty when it has no tables.
 std::vector<StCall> resolveCalls(std::span<const uintptr_t> calls);
 
 /// `st::user::Divider::Go(stride::Ctx&, int)` becomes `Divider.Go`.

@@ -150,6 +150,79 @@ TEST_F(Run, AfterAFaultItCanStartAgain) {
   EXPECT_THAT(result.out, HasSubstr("PLC_PRG.n = 50\nPLC_PRG.n = ")) << "of both runs";
 }
 
+// What may go wrong in ST, each in the 20th cycle, three calls deep.
+TEST_F(Run, EveryKindOfExceptionStopsWithItsPlaceAndCalls) {
+  struct Case {
+    const char *statement;
+    const char *message;
+  };
+  const Case cases[] = {
+      {"r := 7 / zero;", "division by zero"},
+      {"r := a[n];", "array index out of range: index 20 is outside 1..5"},
+      {"s := n;", "value outside its subrange type: value 20 is outside 0..9"},
+      {"p := 0; r := p^;", "use of a null pointer or reference"},
+      {"p := 16#1234567; r := p^;", "access through an invalid pointer"},
+      {"r := Deep(n);", "stack overflow (calls nested too deeply)"},
+  };
+  for (const Case &c : cases) {
+    write("p/stride.toml", "[[task]]\nname = \"T\"\ninterval = \"T#1ms\"\nprograms = [\"Main\"]\n");
+    write("p/Main.st", std::string("FUNCTION Deep : DINT\nVAR_INPUT n : DINT; END_VAR\n"
+                                   "IF n > 0 THEN Deep := Deep(n + 1) + 1; END_IF\nEND_FUNCTION\n"
+                                   "FUNCTION_BLOCK Worker\nVAR_INPUT n : DINT; END_VAR\n"
+                                   "VAR r, zero : DINT; a : ARRAY[1..5] OF DINT; s : DINT(0..9);\n"
+                                   "p : POINTER TO DINT; END_VAR\nMETHOD Work\n") +
+                           c.statement +
+                           "\nEND_METHOD\nIF n = 20 THEN\n  Work();\nEND_IF\nEND_FUNCTION_BLOCK\n"
+                           "PROGRAM Main\nVAR n : DINT; w : Worker; END_VAR\nn := n + 1;\n"
+                           "w(n := n);\nEND_PROGRAM\n");
+    const ProcessResult result = stride(
+        {"run", "p", "--for", "20s", "--quiet", "--print", "Main.n", "-W", "off=all-warnings"});
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_THAT(result.err, AllOf(HasSubstr("error: " + std::string(c.message)),
+                                  HasSubstr("(task T, cycle 19, at T#19ms)"),
+                                  HasSubstr("called by Main at Main.st:19")))
+        << c.statement;
+    EXPECT_EQ(result.out, "Main.n = 20\n");
+  }
+}
+
+TEST_F(Run, AxesBrakeToRestAfterAFault) {
+  fs::copy(STRIDE_SOURCE_DIR "/examples/PLCopenSingle", scratch_.path() / "p",
+           fs::copy_options::recursive);
+  fs::remove_all(scratch_.path() / "p/build");
+  std::string text = readFile(scratch_.path() / "p/Ipo.st");
+  text.insert(text.find("VAR\n") + 4, "  zero : DINT;\n");
+  text += "\nIF Drive.fSetPosition > 30 THEN\n  zero := 1 / zero;\nEND_IF\n";
+  text.erase(text.find("END_PROGRAM"), 11);
+  text += "END_PROGRAM\n";
+  write("p/Ipo.st", text);
+  const ProcessResult result =
+      stride({"run", "p", "--for", "20s", "--quiet", "--trace",
+              "Drive.fSetPosition,Drive.fSetVelocity,Drive.nAxisState", "--out", "t.csv"});
+  EXPECT_EQ(result.exitCode, 2) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("division by zero at Ipo.st"));
+  EXPECT_THAT(result.err, HasSubstr("note: drive 'Drive' is in error stop"));
+  std::istringstream rows(readFile(scratch_.path() / "t.csv"));
+  std::string line;
+  std::getline(rows, line);
+  double last = 0;
+  double velocity = 0;
+  double fastest = 0;
+  int braking = 0;
+  while (std::getline(rows, line)) {
+    double time = 0;
+    double position = 0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf", &time, &position, &velocity), 3);
+    EXPECT_LE(std::abs(velocity - last), 100 * 0.003 + 1e-9) << "a ramp, not a step: " << line;
+    fastest = std::max(fastest, velocity);
+    braking += velocity < last ? 1 : 0;
+    last = velocity;
+  }
+  EXPECT_GT(fastest, 50);
+  EXPECT_GT(braking, 100);
+  EXPECT_EQ(velocity, 0);
+}
+
 TEST_F(Run, TheWatchdogStopsAnEndlessLoop) {
   write("p/a.st", "PROGRAM PLC_PRG\nVAR n : DINT; b : BOOL; END_VAR\nn := n + 1;\nb := n < 20;\n"
                   "WHILE NOT b DO\n  n := n + 1;\nEND_WHILE\nEND_PROGRAM\n");
