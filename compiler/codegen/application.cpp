@@ -185,7 +185,8 @@ private:
 
   void addRoots(const Member &m) {
     if (m.root.symbol->kind == SymbolKind::pou && !m.root.isStatic) {
-      types_.addProgram(static_cast<const PouSymbol *>(m.root.symbol), m.name);
+      const auto *program = static_cast<const PouSymbol *>(m.root.symbol);
+      types_.addProgram(program, m.name, taskOf(program));
       return;
     }
     std::string list(m.root.symbol->name.text);
@@ -195,6 +196,20 @@ private:
     for (const VarSymbol *v : rootVariables(m.root))
       types_.addRoot(list, v, m.name + "." + fieldName(v),
                      m.root.isStatic || qualified_.contains(v->decl), listRenamedFrom(m.root, v));
+  }
+
+  /// The only task that calls the program.
+  std::optional<std::size_t> taskOf(const PouSymbol *program) const {
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; i < config_.tasks.size(); ++i) {
+      const std::vector<PouSymbol *> &programs = config_.tasks[i].programs;
+      if (std::find(programs.begin(), programs.end(), program) == programs.end())
+        continue;
+      if (found)
+        return std::nullopt;
+      found = i;
+    }
+    return found;
   }
 
   std::string_view listRenamedFrom(const Root &root, const VarSymbol *v) const {
@@ -431,6 +446,9 @@ private:
           "::stride::ImageAddressing::" +
               std::string(kAddressing[static_cast<std::size_t>(c_.program.settings.addressing)]));
     field("reserved2", "0");
+    field("retainFile", config_.retainFile.empty() ? std::string("nullptr")
+                                                   : "\"" + escaped(config_.retainFile) + "\"");
+    field("retainPeriodNs", std::to_string(config_.retainPeriodNs));
     out += "};\n\n} // namespace st::user\n";
   }
 

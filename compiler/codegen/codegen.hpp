@@ -46,6 +46,8 @@ struct AppConfig {
   std::string name;
   std::vector<Task> tasks;
   std::vector<AxisGroup> axisGroups;
+  std::string retainFile;          ///< [retain] file
+  std::int64_t retainPeriodNs = 0; ///< [retain] period; 0: the runtime's own
 };
 
 /// Headers `st/<Library>/<Name>.h` and sources `<Library>/<Name>.cpp` of one library (everything

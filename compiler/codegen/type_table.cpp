@@ -42,6 +42,7 @@ std::string symbolFlags(const VarSymbol *v, bool qualifiedOnly = false) {
   add(v->section == Section::inOut, "InOut");
   add((qualifiers & qualRetain) != 0, "Retain");
   add((qualifiers & qualPersistent) != 0, "Persistent");
+  add((qualifiers & qualNonRetain) != 0, "NonRetain");
   add(v->isConstant, "Constant");
   add(v->hidden, "Hidden");
   add(v->decl != nullptr && findAttribute(v->decl->attributes, "init_on_onlchange") != nullptr,
@@ -285,14 +286,18 @@ void TypeTable::addPool(std::uint64_t size) {
                       ", ::stride::kSymHidden}");
 }
 
-void TypeTable::addProgram(const PouSymbol *program, const std::string &place) {
+void TypeTable::addProgram(const PouSymbol *program, const std::string &place,
+                           std::optional<std::size_t> task) {
   const std::uint32_t type = index(program->type);
   const bool hidden =
       std::any_of(program->decl->attributes.begin(), program->decl->attributes.end(),
                   [](const Attribute &a) { return a.name == "hide"; });
+  std::string renamed = renamedColumn(renamedFrom(program->decl->attributes));
+  if (task)
+    renamed += (renamed.empty() ? ", nullptr, " : ", ") + std::to_string(*task);
   rootRows_.push_back("{nullptr, " + quote(program->name.text) + ", offsetof(App__, " + place +
                       "), " + std::to_string(type) + (hidden ? ", ::stride::kSymHidden" : ", 0") +
-                      renamedColumn(renamedFrom(program->decl->attributes)) + "}");
+                      renamed + "}");
 }
 
 std::string TypeTable::text() const {
@@ -325,7 +330,7 @@ std::string TypeTable::text() const {
   out += "\n// {name, offset, type, flags, renamedFrom}";
   table("MemberDesc", "kMembers", memberRows_);
   table("EnumeratorDesc", "kEnumerators", enumeratorRows_);
-  out += "\n// {list, name, offset, type, flags, renamedFrom}";
+  out += "\n// {list, name, offset, type, flags, renamedFrom, task}";
   table("RootDesc", "kRoots", rootRows_);
   return out;
 }

@@ -3,6 +3,7 @@
 
 #include "compiler/codegen/emitter.hpp"
 
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -33,7 +34,9 @@ public:
   void addAccess(const AccessPath &access);
   /// The memory of __NEW: a hidden root `__pool`, an array of BYTE.
   void addPool(std::uint64_t size);
-  void addProgram(const PouSymbol *program, const std::string &place);
+  /// `task`: the only one that calls it.
+  void addProgram(const PouSymbol *program, const std::string &place,
+                  std::optional<std::size_t> task);
 
   /// `constexpr … kTypes[] = { … };` and the other tables.
   [[nodiscard]] std::string text() const;

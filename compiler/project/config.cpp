@@ -85,6 +85,10 @@ public:
       for (const std::string_view name : {"inputs", "outputs", "memory"})
         config_.imageBytes[area++] = static_cast<std::uint32_t>(image.integer(name, 0));
     }
+    for (const CheckedSection &retain : top.sections("retain", diagnostics_)) {
+      config_.retainFile = retain.text("file");
+      config_.retainPeriodNs = parseInterval(retain.text("period")).value_or(0);
+    }
     for (const CheckedSection &task : top.sections("task", diagnostics_))
       readTask(task);
     for (const CheckedSection &bus : top.sections("bus", diagnostics_))

@@ -65,6 +65,8 @@ struct ProjectConfig {
   unsigned pack = 0;              ///< layout: 4 = "v2.3"
   Addressing addressing = Addressing::units;
   std::array<std::uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs
+  std::string retainFile;                    ///< [retain] file; empty: not given
+  std::int64_t retainPeriodNs = 0;           ///< [retain] period; 0: not given
   std::vector<Define> defines;               ///< for `{IF defined (…)}`
   std::vector<TaskConfig> tasks;
   std::vector<AxisGroupConfig> axisGroups;

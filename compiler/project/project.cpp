@@ -185,6 +185,8 @@ std::vector<Diagnostic> Project::diagnostics() const {
 AppConfig Project::appConfig() const {
   AppConfig app;
   app.name = config_.name;
+  app.retainFile = config_.retainFile;
+  app.retainPeriodNs = config_.retainPeriodNs;
   for (const TaskConfig &from : config_.tasks) {
     AppConfig::Task task;
     task.name = from.name.text;

@@ -87,6 +87,12 @@ constexpr std::array<Choice, 4> kTaskKinds = {
      {"event", static_cast<std::int64_t>(TaskStart::event)},
      {"status", static_cast<std::int64_t>(TaskStart::status)}}};
 
+constexpr double kSecond = 1e9;
+constexpr std::array kRetainParameters = {
+    Parameter{"file", ParameterType::text},
+    Parameter{"period", ParameterType::interval, false, kSecond / 10, kHour},
+};
+
 constexpr std::array kTaskParameters = {
     needed({"name", ParameterType::identifier}),
     choice("kind", kTaskKinds),
@@ -145,6 +151,7 @@ constexpr std::array kDriveParameters = {
 
 constexpr Section kProject = {"project", "the project", "project", false, kProjectParameters, {}};
 constexpr Section kImage = {"image", "the process image", "image", false, kImageParameters, {}};
+constexpr Section kRetain = {"retain", "the retained data", "retain", false, kRetainParameters, {}};
 constexpr Section kTask = {"task", "a task", "task", true, kTaskParameters, {}};
 constexpr Section kDrive = {"drive", "a drive", "bus.axis_group.drive", true, kDriveParameters, {}};
 constexpr std::array<const Section *, 1> kAxisGroupSections = {&kDrive};
@@ -184,8 +191,8 @@ struct DiagnosticSection {
 /// The whole of stride.toml.
 struct TopSection {
   DiagnosticSection diagnostics;
-  std::array<const Section *, 5> sections = {&kProject, &diagnostics.section, &kImage, &kTask,
-                                             &kBus};
+  std::array<const Section *, 6> sections = {&kProject, &diagnostics.section, &kImage, &kRetain,
+                                             &kTask,    &kBus};
   Section top = {"", "stride.toml", "", false, {}, sections};
 };
 

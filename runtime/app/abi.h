@@ -46,6 +46,7 @@ enum SymbolFlags : uint32_t {
                        ///< never carried over. The area is in bits 24 and 25: 0 = I, 1 = Q, 2 = M.
   kSymBit = 1U << 14,  ///< A BOOL that is one bit of the byte. For kSymLocated and for a BIT of a
                        ///< structure or block the number of the bit is in the bits 28 to 30.
+  kSymNonRetain = 1U << 15, ///< NON_RETAIN: not stored, whatever it is in.
 };
 inline constexpr uint32_t kSymAreaShift = 24;
 inline constexpr uint32_t kSymBitShift = 28;
@@ -103,6 +104,8 @@ struct RootDesc {
   uint32_t flags;   ///< SymbolFlags.
   /// Its name in an earlier build, "name" (in a list of the same name) or "list.name", or null.
   const char *renamedFrom = nullptr;
+  /// A program: index of the only task that calls it. kNoIndex: none, several, or not a program.
+  uint32_t task = kNoIndex;
 };
 
 /// How a task is started.
@@ -217,6 +220,11 @@ struct StrideAppV1 {
   ImageAreaDesc image[3]; ///< By ImageArea.
   ImageAddressing imageAddressing;
   uint32_t reserved2; ///< 0.
+
+  /// stride.toml, [retain]: the file for RETAIN and PERSISTENT variables (null: none is named) and
+  /// the time from one saving to the next (0: the runtime's own).
+  const char *retainFile = nullptr;
+  int64_t retainPeriodNs = 0;
 };
 
 /// Number of elements of a table, for StrideAppV1's counts.

@@ -104,14 +104,15 @@ CarryOver::Place CarryOver::elementPlace(const TypePair &array, Place at) const 
 }
 
 /// Bytes at `at`; one copy with those before when only padding lies between.
-void CarryOver::appendCopy(Place at, uint64_t bytes, uint64_t align, Steps &out) {
+void CarryOver::appendCopy(Place at, uint64_t bytes, uint64_t align, Steps &out) const {
   if (!out.list.empty() && out.list.back().kind == Step::Kind::Copy) {
     Step &last = out.list.back();
     const uint64_t oldEnd = last.oldOffset + last.count;
     const uint64_t newEnd = last.newOffset + last.count;
     if (at.oldOffset >= oldEnd && at.newOffset >= newEnd) {
       const uint64_t gap = at.newOffset - newEnd;
-      if (at.oldOffset - oldEnd == gap && (gap == 0 || (gap < align && !out.barrier))) {
+      if (at.oldOffset - oldEnd == gap &&
+          (gap == 0 || (gap < align && !out.barrier && match_.options().padding))) {
         last.count += gap + bytes;
         out.barrier = false;
         return;

@@ -126,7 +126,7 @@ private:
   void copySteps(uint32_t pair, Place at, Steps &out);
   void slotSteps(uint32_t pair, Place at, bool maybe, Steps &out);
   void append(const Steps &program, Place at, Steps &out);
-  static void appendCopy(Place at, uint64_t bytes, uint64_t align, Steps &out);
+  void appendCopy(Place at, uint64_t bytes, uint64_t align, Steps &out) const;
   void repeat(const Steps &program, Place at, const TypePair &array, Steps &out);
   uint32_t store(const Steps &program);
   const Steps &copyProgram(uint32_t pair);

@@ -51,19 +51,22 @@ bool isText(Kind kind) { return kind == Kind::STRING || kind == Kind::WSTRING; }
 /// Numbers, times, characters: what has a kind of its own.
 bool isPlain(Kind kind) { return kind >= Kind::BOOL && kind < Kind::Enum && !isText(kind); }
 
-/// The fields, without gaps other than those that alignment makes, fill both types alike.
+/// The fields, without gaps other than those that alignment makes (without `padding`: without
+/// any), fill both types alike.
 bool fillsAlike(const StrideAppV1 &app, const TypeDesc &type,
-                const std::vector<FieldPair> &fieldsByNewOffset,
-                const std::vector<TypePair> &pairs) {
+                const std::vector<FieldPair> &fieldsByNewOffset, const std::vector<TypePair> &pairs,
+                bool padding) {
+  const auto most = [&](uint32_t align) { return padding ? std::max<uint64_t>(align, 1) : 1; };
   uint64_t end = 0;
   for (const FieldPair &field : fieldsByNewOffset) {
     const TypeDesc &own = app.types[pairs[field.pair].newType];
     if (field.oldOffset != field.newOffset || field.newOffset < end ||
-        field.newOffset - end >= std::max<uint64_t>(own.align, 1))
+        field.newOffset - end >= most(own.align) ||
+        (app.members[field.newMember].flags & kSymBit) != 0)
       return false;
     end = field.newOffset + own.size;
   }
-  return end <= type.size && type.size - end < std::max<uint64_t>(type.align, 1);
+  return end <= type.size && type.size - end < most(type.align);
 }
 
 } // namespace
@@ -427,7 +430,7 @@ void TypeMatch::fillStructure(TypePair &pair) {
       pair.hasSlots = true;
     alike = alike && field.hold == Hold::No && pairs_[field.pair].bitwise;
   }
-  pair.bitwise = alike && (fillsAlike(*new_, b, pair.fields, pairs_) ||
+  pair.bitwise = alike && (fillsAlike(*new_, b, pair.fields, pairs_, options_.padding) ||
                            (pair.fields.empty() && b.size == 1)); // C++'s empty structure
 }
 

@@ -95,6 +95,9 @@ struct MatchOptions {
   uint32_t only = 0;
   /// Address slots are taken over. Without: they keep their initial value.
   bool addresses = true;
+  /// What lies between fields is padding, which may be copied with them. Without: it may be
+  /// variables that the descriptions leave out.
+  bool padding = true;
 };
 
 /// The pairing of two builds. Names match case-insensitively, with {attribute 'renamed_from'} of
@@ -105,6 +108,7 @@ public:
 
   const StrideAppV1 &oldApp() const { return *old_; }
   const StrideAppV1 &newApp() const { return *new_; }
+  const MatchOptions &options() const { return options_; }
   const std::vector<TypePair> &pairs() const { return pairs_; }
   const TypePair &pair(uint32_t index) const { return pairs_[index]; }
 

@@ -103,7 +103,8 @@ void validate(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
     if (root.name == nullptr || root.type >= app.typeCount ||
         !fits(root.offset,
               (root.flags & kSymSlot) != 0 ? sizeof(uint32_t) : app.types[root.type].size,
-              app.stateSize))
+              app.stateSize) ||
+        (root.task != kNoIndex && root.task >= app.taskCount))
       damaged(fmt::format("variable {}", i));
   }
   for (const ImageAreaDesc &area : app.image) {
