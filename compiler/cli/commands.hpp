@@ -20,13 +20,23 @@ struct ProjectOptions {
 
 int checkCommand(const ProjectOptions &options);
 
-/// `out`: where the shared object goes, or the sources with `emitCpp`.
-int buildCommand(const ProjectOptions &options, const std::string &out, bool emitCpp);
+/// What `stride build` makes.
+struct BuildKind {
+  bool emitCpp = false;
+  bool isStatic = false;
+  std::string target; ///< another processor; empty: this one
+};
+
+/// `out`: where the shared object goes, the executable, or the sources.
+int buildCommand(const ProjectOptions &options, const std::string &out, const BuildKind &kind);
 
 /// Builds, then becomes stride-host with `command` (sim, run) and these arguments behind the
 /// application's path.
 int hostCommand(const ProjectOptions &options, const std::string &command,
                 const std::vector<std::string> &hostArguments);
+
+/// `kind`: warm, cold, origin. Becomes stride-host with the project's file for retained data.
+int resetCommand(const ProjectOptions &options, const std::string &kind);
 
 int plotCommand(const std::string &trace, const std::string &out);
 

@@ -142,6 +142,8 @@ void addSimOptions(const HostOptions &host) {
   host.pass("--loop-budget", "Loop iterations a cycle may use before it counts as endless",
             "COUNT");
   host.passFlag("--state-hash", "Print a hash of all variables at the end");
+  host.pass("--retain", "Take RETAIN and PERSISTENT variables from FILE and save them at the end",
+            "FILE");
   host.passFlag("--quiet", "Neither progress nor summary");
   host.passFlag("--summary", "A summary even when standard error is no terminal");
 }
@@ -150,6 +152,9 @@ void addRunOptions(const HostOptions &host) {
   host.pass("--for", "How long (default: until Ctrl-C): 5s, T#1h", "TIME");
   addTraceOptions(host);
   host.pass("--record", "Record all inputs for `stride sim --replay`", "FILE");
+  host.pass("--retain",
+            "File for RETAIN and PERSISTENT variables (default: see [retain] of stride.toml)",
+            "FILE");
   host.pass("--on-fault", "What happens after an exception: stop (default), restart", "WHAT");
   host.passFlag("--accept-losses", "An online change (SIGHUP) may lose values of variables");
   host.pass("--core", "Processor of the tasks that choose none (default: the last one)", "N");
@@ -189,7 +194,16 @@ int run(int argc, char **argv) {
   build->add_option("--emit", emit, "cpp: only write the C++ sources")
       ->check(CLI::IsMember({"cpp"}).description(""))
       ->type_name("KIND");
-  build->callback([&] { exitCode = buildCommand(options, out, emit == "cpp"); });
+  BuildKind kind;
+  build->add_flag("--static", kind.isStatic,
+                  "One executable that needs no other files: the runtime and the application");
+  build->add_option("--target", kind.target, "For another processor: aarch64-linux-gnu")
+      ->check(CLI::IsMember({"aarch64-linux-gnu"}).description(""))
+      ->type_name("TARGET");
+  build->callback([&] {
+    kind.emitCpp = emit == "cpp";
+    exitCode = buildCommand(options, out, kind);
+  });
 
   std::vector<std::string> host;
   CLI::App *sim = app.add_subcommand("sim", "Build, then run in virtual time");
@@ -201,6 +215,20 @@ int run(int argc, char **argv) {
   addProjectOptions(*runApp, options, true);
   addRunOptions(HostOptions(*runApp, host));
   runApp->callback([&] { exitCode = hostCommand(options, "run", host); });
+
+  std::string resetKind;
+  CLI::App *reset =
+      app.add_subcommand("reset", "Reset retained data of a project that stands still");
+  reset
+      ->add_option("KIND", resetKind,
+                   "warm: the next start keeps RETAIN and PERSISTENT variables, as every start\n"
+                   "cold: it keeps PERSISTENT variables; RETAIN get their initial values\n"
+                   "origin: all variables get their initial values")
+      ->required()
+      ->check(CLI::IsMember({"warm", "cold", "origin"}).description(""))
+      ->type_name("");
+  addProjectOptions(*reset, options, false);
+  reset->callback([&] { exitCode = resetCommand(options, resetKind); });
 
   std::string trace;
   CLI::App *plot = app.add_subcommand("plot", "Draw a trace");

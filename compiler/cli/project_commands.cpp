@@ -1,4 +1,4 @@
-// check, build, sim, run
+// check, build, sim, run, reset
 
 #include "compiler/cli/commands.hpp"
 #include "compiler/project/build.hpp"
@@ -6,6 +6,7 @@
 #include "compiler/project/library_index.hpp"
 #include "compiler/project/project.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -44,6 +45,22 @@ std::optional<BuildResult> buildProject(const ProjectOptions &options, BuildOpti
   return result;
 }
 
+// Replaces this program by stride-host; returns only when that fails.
+int becomeHost(std::vector<std::string> arguments, const Output &output) {
+  std::string missing;
+  const std::optional<Installation> installation = findInstallation(missing);
+  const std::string host = installation ? installation->host.string() : missing;
+  arguments.insert(arguments.begin(), host);
+  std::vector<char *> pointers;
+  for (std::string &argument : arguments)
+    pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  std::fflush(nullptr);
+  ::execv(host.c_str(), pointers.data());
+  return showError(Code::toolchainMissing,
+                   fmt::format("`{}` cannot be started: {}", host, std::strerror(errno)), output);
+}
+
 } // namespace
 
 int checkCommand(const ProjectOptions &options) {
@@ -52,16 +69,19 @@ int checkCommand(const ProjectOptions &options) {
   return show(project.diagnostics(), project.sources(), options.output);
 }
 
-int buildCommand(const ProjectOptions &options, const std::string &out, bool emitCpp) {
+int buildCommand(const ProjectOptions &options, const std::string &out, const BuildKind &kind) {
+  const bool emitCpp = kind.emitCpp;
   BuildOptions build;
   build.output = out;
   build.emitOnly = emitCpp;
+  build.isStatic = kind.isStatic;
+  build.target = kind.target;
   const std::filesystem::path path(options.path);
   std::error_code error;
   // What somebody asks to be built from a single file is put where he stands.
   if (out.empty() && !emitCpp && std::filesystem::is_regular_file(path, error) &&
       path.filename() != "stride.toml")
-    build.output = path.stem().string() + ".so";
+    build.output = path.stem().string() + (kind.isStatic ? "" : ".so");
   ProgressLine progress;
   int exitCode = 0;
   const std::optional<BuildResult> result = buildProject(options, build, progress, exitCode);
@@ -85,20 +105,21 @@ int hostCommand(const ProjectOptions &options, const std::string &command,
   }
   if (!result || exitCode != 0)
     return exitCode;
-  std::string missing;
-  const std::optional<Installation> installation = findInstallation(missing);
-  const std::string host = installation ? installation->host.string() : missing;
-  std::vector<std::string> arguments = {host, command, result->application.string()};
+  std::vector<std::string> arguments = {command, result->application.string()};
   arguments.insert(arguments.end(), hostArguments.begin(), hostArguments.end());
-  std::vector<char *> pointers;
-  for (std::string &argument : arguments)
-    pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  std::fflush(nullptr);
-  ::execv(host.c_str(), pointers.data());
-  return showError(Code::toolchainMissing,
-                   fmt::format("`{}` cannot be started: {}", host, std::strerror(errno)),
-                   options.output);
+  if (command == "run" &&
+      std::find(hostArguments.begin(), hostArguments.end(), "--retain") == hostArguments.end())
+    arguments.insert(arguments.end(), {"--retain", result->retainFile.string()});
+  return becomeHost(std::move(arguments), options.output);
+}
+
+int resetCommand(const ProjectOptions &options, const std::string &kind) {
+  const EmbeddedLibraryIndex index(standardLibrary());
+  // Only where the file is, which errors in the sources do not change.
+  const Project project(options.path, Purpose::check, settingsOf(options), index);
+  if (project.name().empty())
+    return show(project.diagnostics(), project.sources(), options.output);
+  return becomeHost({"reset", kind, retainFileOf(project).string()}, options.output);
 }
 
 } // namespace stc::cli

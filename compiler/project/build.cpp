@@ -140,30 +140,42 @@ private:
                                        : project_.path() / "build" / "cpp";
     if (!writeSources(folder))
       return std::nullopt;
-    return BuildResult{folder, 0, files_.size()};
+    return BuildResult{folder, 0, files_.size(), {}};
   }
 
   bool findToolchain() {
     std::string missing;
-    const std::optional<Installation> found = findInstallation(missing);
-    if (!found) {
-      diagnostics_.report(Code::toolchainMissing, {},
-                          fmt::format("Stride's own file `{}` is missing", missing));
+    const std::optional<Installation> found = findInstallation(missing, options_.target);
+    std::error_code error;
+    if (found && options_.isStatic)
+      for (const fs::path &library : found->hostLibraries)
+        if (!fs::exists(library, error))
+          missing = library.string();
+    if (!found || !missing.empty()) {
+      Diagnostic &d = diagnostics_.report(
+          Code::toolchainMissing, {}, fmt::format("Stride's own file `{}` is missing", missing));
+      if (!options_.target.empty())
+        d.help(fmt::format("the runtime for another processor is built with Stride itself: cmake "
+                           "-DSTRIDE_TARGETS={}",
+                           options_.target));
       return false;
     }
     installation_ = *found;
     const char *configured = std::getenv("STRIDE_CXX");
-    const std::string name = configured != nullptr && *configured != 0 ? configured : "g++";
+    std::string name = configured != nullptr && *configured != 0 ? configured : "g++";
+    if (!options_.target.empty())
+      name = options_.target + "-g++";
     compiler_ = findProgram(name);
     if (compiler_.empty()) {
-      diagnostics_
-          .report(Code::toolchainMissing, {},
-                  fmt::format("the C++ compiler `{}` was not found", name))
-          .help("install it (Debian: apt-get install g++), or name one in the environment variable "
-                "STRIDE_CXX");
+      Diagnostic &d = diagnostics_.report(Code::toolchainMissing, {},
+                                          fmt::format("the C++ compiler `{}` was not found", name));
+      if (options_.target.empty())
+        d.help("install it (Debian: apt-get install g++), or name one in the environment variable "
+               "STRIDE_CXX");
+      else
+        d.help(fmt::format("install it (Debian: apt-get install g++-{})", options_.target));
       return false;
     }
-    std::error_code error;
     const fs::path real = fs::canonical(compiler_, error);
     base_.add(fileStamp(real)).add(headerStamp(installation_.include));
     for (const char *flag : kFixedFlags)
@@ -266,10 +278,13 @@ private:
     }
     for (const fs::path &library : installation_.libraries)
       link.add(fileStamp(library));
+    if (options_.isStatic)
+      for (const fs::path &library : installation_.hostLibraries)
+        link.add(fileStamp(library));
     result.units = units.size();
     result.compiled = outdated.size();
 
-    const fs::path linked = cache_ / (link.hex() + ".so");
+    const fs::path linked = cache_ / (link.hex() + (options_.isStatic ? ".exe" : ".so"));
     // A project keeps its generated sources for the reader; a single file only while they are
     // compiled.
     if ((!project_.isSingleFile() || !outdated.empty()) && !writeSources(sources_))
@@ -282,8 +297,11 @@ private:
     if (!outdated.empty())
       pruneCache(cache_);
     result.application = options_.output;
+    result.retainFile = retainFileOf(project_);
     if (result.application.empty())
-      result.application = project_.isSingleFile() ? linked : project_.path() / "build" / "app.so";
+      result.application = project_.isSingleFile() ? linked
+                           : options_.isStatic     ? project_.path() / "build" / "app"
+                                                   : project_.path() / "build" / "app.so";
     if (result.application != linked && !place(linked, result.application))
       return std::nullopt;
     return result;
@@ -331,23 +349,30 @@ private:
     progress("linking", units.size(), units.size() + 1);
     Job job;
     job.command = {compiler_.string(),
-                   "-shared",
+                   options_.isStatic ? "-static" : "-shared",
                    "-o",
                    beside(linked).string(),
                    "-Wl,--gc-sections",
-                   "-Wl,--exclude-libs,ALL",
-                   "-Wl,-Bsymbolic",
                    "-Wl,--build-id=none"};
     if (!findProgram("ld.lld").empty())
       job.command.insert(job.command.begin() + 1, "-fuse-ld=lld");
-    job.command.insert(job.command.end(), installation_.linkFlags.begin(),
-                       installation_.linkFlags.end());
+    if (!options_.isStatic) {
+      job.command.insert(job.command.end(), {"-Wl,--exclude-libs,ALL", "-Wl,-Bsymbolic"});
+      job.command.insert(job.command.end(), installation_.linkFlags.begin(),
+                         installation_.linkFlags.end());
+    }
     for (const Unit &unit : units)
       job.command.push_back(unit.object.string());
     job.command.emplace_back("-Wl,--start-group");
+    if (options_.isStatic)
+      for (const fs::path &library : installation_.hostLibraries)
+        job.command.push_back(library.string());
     for (const fs::path &library : installation_.libraries)
       job.command.push_back(library.string());
     job.command.emplace_back("-Wl,--end-group");
+    if (options_.isStatic)
+      job.command.insert(job.command.end(), installation_.staticFlags.begin(),
+                         installation_.staticFlags.end());
     const std::vector<JobResult> results = runJobs({job});
     if (results[0].status != 0) {
       reportFailure("linking", job, results[0]);
@@ -419,6 +444,14 @@ fs::path userCacheFolder() {
   if (const char *home = std::getenv("HOME"); home != nullptr && *home == '/')
     return fs::path(home) / ".cache" / "stride";
   return fs::path("/tmp") / fmt::format("stride-{}", ::getuid());
+}
+
+fs::path retainFileOf(const Project &project) {
+  const fs::path folder = project.isSingleFile() ? project.path().parent_path() : project.path();
+  if (!project.retainFile().empty())
+    return folder / project.retainFile();
+  return project.isSingleFile() ? folder / (project.path().stem().string() + ".retain")
+                                : folder / "retain" / project.name();
 }
 
 std::optional<BuildResult> build(Project &project, const BuildOptions &options) {

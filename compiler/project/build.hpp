@@ -1,5 +1,5 @@
 #pragma once
-// From a checked project to a shared object that stride-host runs.
+// From a checked project to a shared object that stride-host runs, or to one static executable.
 
 #include "compiler/project/project.hpp"
 
@@ -17,6 +17,10 @@ struct BuildOptions {
   /// for a single file a place in the user's cache folder.
   std::filesystem::path output;
   bool emitOnly = false; ///< only the C++ sources
+  /// One executable with stride-host and the application, without shared libraries; its name is
+  /// that of the application, without `.so`.
+  bool isStatic = false;
+  std::string target; ///< a processor as Debian's cross compilers name it; empty: this machine's
   /// Called now and then with what is being done and how much is done of how much.
   std::function<void(std::string_view what, std::size_t done, std::size_t total)> progress;
 };
@@ -27,7 +31,12 @@ struct BuildResult {
   std::size_t compiled =
       0; ///< translation units that were compiled; the others came from the cache
   std::size_t units = 0;
+  std::filesystem::path retainFile; ///< for RETAIN and PERSISTENT variables
 };
+
+/// Where `stride run` and `stride reset` look for retained data: as stride.toml says, relative to
+/// the project, or `retain/NAME` in it; beside a single file `NAME.retain`.
+[[nodiscard]] std::filesystem::path retainFileOf(const Project &project);
 
 /// Generates and compiles the project; it must be free of errors. What goes wrong is reported to
 /// the project's diagnostics, and nothing is returned.

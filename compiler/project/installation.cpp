@@ -6,7 +6,7 @@ namespace stc {
 
 namespace fs = std::filesystem;
 
-// Lines `library NAME`, `compile FLAG`, `link FLAG`.
+// Lines `library NAME`, `host NAME`, `compile FLAG`, `link FLAG`, `static FLAG`.
 static void readToolchain(std::string_view text, const fs::path &libraries, Installation &to) {
   while (!text.empty()) {
     const std::size_t end = text.find('\n');
@@ -19,6 +19,10 @@ static void readToolchain(std::string_view text, const fs::path &libraries, Inst
     const std::string_view value = line.substr(space + 1);
     if (word == "library")
       to.libraries.push_back(libraries / value);
+    else if (word == "host")
+      to.hostLibraries.push_back(libraries / value);
+    else if (word == "static")
+      to.staticFlags.emplace_back(value);
     else if (word == "compile")
       to.compileFlags.emplace_back(value);
     else if (word == "link")
@@ -26,7 +30,7 @@ static void readToolchain(std::string_view text, const fs::path &libraries, Inst
   }
 }
 
-std::optional<Installation> findInstallation(std::string &missing) {
+std::optional<Installation> findInstallation(std::string &missing, const std::string &target) {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const fs::path folder = program.parent_path();
@@ -38,15 +42,17 @@ std::optional<Installation> findInstallation(std::string &missing) {
                             {folder.parent_path(), folder.parent_path() / "lib" / "stride"}};
   for (const Layout &layout : layouts) {
     const fs::path share = layout.root / "share" / "stride";
-    const std::optional<std::string> list = readFile(share / "toolchain.txt");
+    const fs::path toolchain =
+        share / (target.empty() ? "toolchain.txt" : "toolchain-" + target + ".txt");
+    const std::optional<std::string> list = readFile(toolchain);
     if (!list) {
-      missing = (share / "toolchain.txt").string();
+      missing = toolchain.string();
       continue;
     }
     Installation found;
     found.include = share / "include";
     found.host = folder / "stride-host";
-    readToolchain(*list, layout.libraries, found);
+    readToolchain(*list, layout.libraries / target, found);
     for (const fs::path &library : found.libraries)
       if (!fs::exists(library, error)) {
         missing = library.string();

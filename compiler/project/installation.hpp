@@ -15,11 +15,16 @@ struct Installation {
   std::vector<std::string> compileFlags;        ///< besides the dialect's (a sanitizer's)
   std::vector<std::string> linkFlags;
   std::filesystem::path host; ///< stride-host
+  /// With `main` and all of stride-host, for static executables: linked before `libraries`.
+  std::vector<std::filesystem::path> hostLibraries;
+  std::vector<std::string> staticFlags; ///< linked behind everything else
 };
 
 /// Finds them from the running program: in a build tree `<dir>/share/stride` and `<dir>/lib`,
 /// installed `<prefix>/share/stride` and `<prefix>/lib/stride`. `missing` gets the path that was
-/// looked for last when there is none.
-[[nodiscard]] std::optional<Installation> findInstallation(std::string &missing);
+/// looked for last when there is none. With `target` the archives are those for that processor, in
+/// a folder of its name beside those of this machine.
+[[nodiscard]] std::optional<Installation> findInstallation(std::string &missing,
+                                                           const std::string &target = {});
 
 } // namespace stc

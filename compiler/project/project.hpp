@@ -39,6 +39,8 @@ public:
   [[nodiscard]] const std::filesystem::path &path() const { return path_; }
   /// Name of the application.
   [[nodiscard]] const std::string &name() const { return config_.name; }
+  /// [retain] file of stride.toml; empty: not given.
+  [[nodiscard]] const std::string &retainFile() const { return config_.retainFile; }
   /// Tasks and axis groups for code generation; only without errors.
   [[nodiscard]] AppConfig appConfig() const;
 

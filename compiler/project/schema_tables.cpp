@@ -191,8 +191,8 @@ struct DiagnosticSection {
 /// The whole of stride.toml.
 struct TopSection {
   DiagnosticSection diagnostics;
-  std::array<const Section *, 6> sections = {&kProject, &diagnostics.section, &kImage, &kRetain,
-                                             &kTask,    &kBus};
+  std::array<const Section *, 6> sections = {
+      &kProject, &diagnostics.section, &kImage, &kRetain, &kTask, &kBus};
   Section top = {"", "stride.toml", "", false, {}, sections};
 };
 

@@ -70,7 +70,7 @@ Application Application::fromDescription(const StrideAppV1 &description,
   return Application(description);
 }
 
-void Application::initialise(const HostApi &host, bool inCopyCode) {
+void Application::initialise(const HostApi &host, bool inCopyCode, bool keepRetains) {
   std::memset(state_.data(), 0, state_.size());
   Ctx ctx{};
   ctx.state = state_.data();
@@ -78,6 +78,7 @@ void Application::initialise(const HostApi &host, bool inCopyCode) {
   ctx.loopBudget = INT64_MAX;
   ctx.firstCycle = 1;
   ctx.inCopyCode = inCopyCode ? 1 : 0;
+  ctx.keepRetains = keepRetains ? 1 : 0;
   description_->init(&ctx);
 }
 

@@ -28,9 +28,9 @@ public:
                                      const RuntimeLayouts &layouts = {});
 
   /// Zeroes the state and sets the defaults. `inCopyCode`: it will take over the values of a
-  /// running application (carry_over.hpp); FB_Init is told. Throws StException when an initialiser
-  /// fails.
-  void initialise(const HostApi &host, bool inCopyCode = false);
+  /// running application (carry_over.hpp); FB_Init is told. `keepRetains`: retained values will be
+  /// put back (retain_image.hpp); FB_Init is told. Throws StException when an initialiser fails.
+  void initialise(const HostApi &host, bool inCopyCode = false, bool keepRetains = false);
 
   const StrideAppV1 &description() const { return *description_; }
   std::byte *state() const { return state_.data(); }

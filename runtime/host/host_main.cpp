@@ -4,6 +4,7 @@
 #include "runtime/host/axis_hooks.hpp"
 #include "runtime/host/options.hpp"
 #include "runtime/host/real_run.hpp"
+#include "runtime/host/retain_reset.hpp"
 #include "runtime/host/simulation.hpp"
 
 #include <CLI/CLI.hpp>
@@ -30,6 +31,7 @@ struct SimTexts {
   std::vector<std::string> changes;
   std::vector<std::string> print;
   std::string out;
+  std::string retain;
   int64_t loopBudget = 0;
   bool stateHash = false;
   bool quiet = false;
@@ -81,6 +83,9 @@ void declare(CLI::App &sim, SimTexts &texts, bool builtIn) {
       ->check(CLI::PositiveNumber);
   sim.add_flag("--state-hash", texts.stateHash,
                "Print a hash of all variables at the end: equal runs have equal ones");
+  sim.add_option("--retain", texts.retain,
+                 "Take RETAIN and PERSISTENT variables from this file, and save them at the end")
+      ->type_name("FILE");
   sim.add_flag("--quiet", texts.quiet, "Neither progress nor summary");
   sim.add_flag("--summary", texts.summary, "A summary even when standard error is no terminal");
   sim.footer(kExitCodes);
@@ -117,6 +122,10 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
   run.add_option("--record", texts.options.record,
                  "Record all inputs for 'sim --replay'; the tasks take turns then")
       ->type_name("FILE");
+  run.add_option("--retain", texts.options.retain,
+                 "File for RETAIN and PERSISTENT variables; the application's own, or NAME.retain, "
+                 "without it")
+      ->type_name("FILE");
   run.add_option("--on-fault", texts.onFault,
                  "What happens when an exception stops an application: stop, restart")
       ->check(CLI::IsMember({"stop", "restart"}))
@@ -141,6 +150,17 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
           "SIGUSR1 shows the statistics, SIGHUP takes new builds of the applications over (online\n"
           "change), SIGINT (Ctrl-C) and SIGTERM stop safely.\n") +
       kExitCodes);
+}
+
+void declareReset(CLI::App &reset, std::string &kind, std::string &file) {
+  reset
+      .add_option("KIND", kind,
+                  "warm: RETAIN and PERSISTENT variables are kept; cold: PERSISTENT ones; origin: "
+                  "nothing")
+      ->required()
+      ->check(CLI::IsMember({"warm", "cold", "origin"}));
+  reset.add_option("FILE", file, "The file that was given with --retain or in stride.toml")
+      ->required();
 }
 
 void appendPaths(const std::vector<std::string> &texts, std::vector<std::string> &paths) {
@@ -176,6 +196,7 @@ SimOptions understand(const SimTexts &texts) {
     throw app::Error("--replay repeats a run as it was; --set and --change do not go with it");
   options.loopBudget = texts.loopBudget;
   options.stateHash = texts.stateHash;
+  options.retain = texts.retain;
   options.quiet = texts.quiet;
   options.summary = texts.summary;
   return options;
@@ -193,6 +214,9 @@ RunOptions understand(const RunTexts &texts) {
   appendPaths(texts.print, options.print);
   if (!options.out.empty() && options.trace.empty())
     throw app::Error("--out names a file for a trace, but --trace names nothing to trace");
+  if (!options.retain.empty() && options.applications.size() > 1)
+    throw app::Error("--retain names one file, but there are several applications; give each its "
+                     "own in [retain] of its stride.toml");
   if (texts.core >= 0)
     options.core = static_cast<uint32_t>(texts.core);
   if (!options.record.empty() && options.applications.size() > 1)
@@ -236,16 +260,30 @@ int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
   RunTexts runTexts;
   CLI::App *run = cli.add_subcommand("run", "Run by the real clock");
   declare(*run, runTexts, builtIn != nullptr);
+  std::string resetKind;
+  std::string resetFile;
+  CLI::App *reset =
+      cli.add_subcommand("reset", "Retained data of an application that stands still");
+  declareReset(*reset, resetKind, resetFile);
   try {
     cli.parse(argc, argv);
   } catch (const CLI::CallForHelp &help) {
     return cli.exit(help);
   } catch (const CLI::ParseError &error) {
     fmt::print(stderr, "error: {}\n  'stride-host {} --help' lists the options\n", error.what(),
-               run->parsed() ? "run" : "sim");
+               run->parsed()     ? "run"
+               : reset->parsed() ? "reset"
+                                 : "sim");
     return kExitBadInput;
   }
   try {
+    if (reset->parsed()) {
+      resetRetained(resetKind == "warm"   ? ResetKind::Warm
+                    : resetKind == "cold" ? ResetKind::Cold
+                                          : ResetKind::Origin,
+                    resetFile);
+      return kExitOk;
+    }
     return run->parsed() ? runFrom(runTexts, builtIn) : simulateFrom(texts, builtIn);
   } catch (const app::Error &error) {
     fmt::print(stderr, "error: {}\n", error.what());

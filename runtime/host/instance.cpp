@@ -11,8 +11,16 @@ Instance::Instance(std::unique_ptr<app::Application> application, task::LoopLimi
       symbols_(std::make_unique<app::SymbolTable>(application_->description())),
       tasks_(application_->description(), application_->state(), task::hostApi(), limit) {}
 
+void Instance::retain(const RetainSettings &settings, RetainKeeper::Say say) {
+  retain_.emplace(app(), state(), settings, std::move(say));
+}
+
 void Instance::initialise() {
-  application_->initialise(task::hostApi());
+  application_->initialise(task::hostApi(), false, retain_ && retain_->keepsRetains());
+  if (retain_) {
+    retain_->restore();
+    retain_->addHooks(tasks_);
+  }
   for (std::unique_ptr<task::CycleHook> &hook : addAxisGroups(*application_, tasks_))
     hooks_.push_back(std::move(hook));
 }
@@ -20,9 +28,15 @@ void Instance::initialise() {
 void Instance::swap(std::unique_ptr<app::Application> &other) noexcept {
   application_.swap(other);
   tasks_.rebind(app(), state());
+  if (retain_)
+    retain_->pause();
 }
 
-void Instance::renewSymbols() { symbols_ = std::make_unique<app::SymbolTable>(app()); }
+void Instance::renewSymbols() {
+  symbols_ = std::make_unique<app::SymbolTable>(app());
+  if (retain_)
+    retain_->adopt(app(), state());
+}
 
 std::optional<task::Fault> Instance::exit(int64_t timeNs) {
   if (app().exit == nullptr || tasks_.fault())

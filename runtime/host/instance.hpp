@@ -5,6 +5,7 @@
 #include "runtime/app/application.hpp"
 #include "runtime/app/symbols.hpp"
 #include "runtime/host/input_port.hpp"
+#include "runtime/host/retain_keeper.hpp"
 #include "runtime/task/task_set.hpp"
 
 #include <memory>
@@ -23,8 +24,15 @@ public:
   /// Before initialise: where inputs pass on their way into the program. It lives longer.
   void setInputs(InputPort &inputs) { inputs_ = &inputs; }
 
-  /// Sets the initial values, then adds the hooks of the PLC configuration. Throws StException when
-  /// an initialiser fails, app::Error for a driver that this runtime does not have.
+  /// Before initialise(): RETAIN and PERSISTENT variables come from and go to a file. Throws
+  /// app::Error where that cannot be read.
+  void retain(const RetainSettings &settings, RetainKeeper::Say say);
+  /// Null without.
+  RetainKeeper *retainKeeper() { return retain_ ? &*retain_ : nullptr; }
+
+  /// Sets the initial values and what is retained, then adds the hooks of the PLC configuration.
+  /// Throws StException when an initialiser fails, app::Error for a driver that this runtime does
+  /// not have.
   void initialise();
 
   /// FB_Exit of every instance, after the last cycle; what goes wrong in one of them. A program
@@ -53,6 +61,7 @@ private:
   std::unique_ptr<app::Application> application_;
   std::unique_ptr<app::SymbolTable> symbols_;
   task::TaskSet tasks_;
+  std::optional<RetainKeeper> retain_;
   std::vector<std::unique_ptr<task::CycleHook>> hooks_;
   unsigned builds_ = 0;
   LiveInputs live_;

@@ -38,6 +38,7 @@ struct SimOptions {
   bool stateHash = false;            ///< Print a hash of the state at the end.
   bool quiet = false;                ///< No progress and no summary.
   bool summary = false;              ///< A summary even when standard error is no terminal.
+  std::string retain; ///< File for RETAIN and PERSISTENT variables; empty: they are not kept.
 };
 
 /// What happens when an exception has stopped an application.
@@ -55,7 +56,8 @@ struct RunOptions {
   std::vector<std::string> print; ///< Paths, in the order given.
   std::string record;             ///< File for the inputs of the run; or empty.
   OnFault onFault = OnFault::Stop;
-  bool acceptLosses = false;    ///< An online change may lose values.
+  bool acceptLosses = false; ///< An online change may lose values.
+  std::string retain; ///< File for RETAIN and PERSISTENT variables; empty: the application's own.
   std::optional<uint32_t> core; ///< For tasks that choose none; empty: the last one allowed.
   bool turns = false;           ///< One cycle at a time.
   bool histogram = false;       ///< Distributions behind the table of statistics.

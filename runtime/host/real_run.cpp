@@ -44,6 +44,13 @@ public:
         scheduler_(instance_.tasks(), realOptions) {
     for (const std::string &path : options.print)
       (void)instance_.symbols().resolve(path);
+    const StrideAppV1 &app = instance_.app();
+    RetainSettings retain = retainSettings(app);
+    if (!options.retain.empty())
+      retain.file = options.retain;
+    if (retain.file.empty())
+      retain.file = std::string(app.name) + ".retain";
+    instance_.retain(retain, [this](const std::string &line) { say(line); });
   }
 
   /// `trace` may be null. False: an initialiser has failed, which has been said.
@@ -68,6 +75,7 @@ public:
       say("error: " + describeWithCalls(task::Fault{exception, "initialisation", 0, 0}));
       return false;
     }
+    instance_.retainKeeper()->startSaving();
     scheduler_.start();
     return true;
   }
@@ -144,6 +152,7 @@ public:
     const std::optional<task::Fault> atEnd = exitInstances();
     if (atEnd)
       say("error: " + describeWithCalls(*atEnd));
+    static_cast<void>(instance_.retainKeeper()->finish());
     if (!options_->quiet)
       showStatistics();
     return !fault && !atEnd;
@@ -307,6 +316,7 @@ private:
         std::this_thread::sleep_for(kRestartPause);
         std::unique_ptr<app::Application> application = slot.session->release();
         fmt::print(stderr, "note: '{}' is started again\n", application->description().name);
+        slot.session.reset(); // gives its retained data up
         slot.session = newSession(std::move(application));
         slot.stopped = !startSession(slot);
       }

@@ -208,6 +208,9 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
     for (const std::string &path : options.print)
       (void)instance.symbols().resolve(path);
   SetList sets(instance.symbols(), options.sets);
+  if (!options.retain.empty())
+    instance.retain({options.retain},
+                    [](const std::string &line) { fmt::print(stderr, "{}\n", line); });
   if (options.loopBudget > 0)
     instance.tasks().setLoopBudget(options.loopBudget);
   std::optional<TraceWriter> trace;
@@ -259,6 +262,8 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
   const std::optional<task::Fault> atEnd = instance.exit(result.timeNs);
   if (atEnd)
     fmt::print(stderr, "error: {}\n", describeWithCalls(*atEnd));
+  if (RetainKeeper *const retain = instance.retainKeeper())
+    static_cast<void>(retain->finish());
   if ((terminal || options.summary) && !options.quiet)
     printSummary(instance.tasks(), result, wall);
   if (result.fault || atEnd)

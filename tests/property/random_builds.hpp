@@ -112,7 +112,13 @@ private:
   }
 
   uint32_t flags() {
-    return chance(94) ? 0 : chance(50) ? uint32_t{kSymConstant} : uint32_t{kSymInitOnChange};
+    const uint32_t held = chance(94)   ? 0
+                          : chance(50) ? uint32_t{kSymConstant}
+                                       : uint32_t{kSymInitOnChange};
+    const uint32_t retained = chance(75)   ? 0
+                              : chance(50) ? uint32_t{kSymRetain}
+                                           : uint32_t{kSymPersistent};
+    return held | retained;
   }
 
   Field field(int limit) {

@@ -1,0 +1,23 @@
+// `stride-host reset`: retained data of an application that does not run.
+#ifndef STRIDE_RUNTIME_HOST_RETAIN_RESET_HPP
+#define STRIDE_RUNTIME_HOST_RETAIN_RESET_HPP
+
+#include <cstdint>
+#include <string>
+
+namespace stride::host {
+
+/// What the next start begins with, as CODESYS names it.
+enum class ResetKind : uint8_t {
+  Warm,   ///< RETAIN and PERSISTENT variables as they are, the others initial.
+  Cold,   ///< PERSISTENT variables as they are, the others initial.
+  Origin, ///< All initial.
+};
+
+/// Does it to the file and says (standard output) what is left. Throws app::Error, also while the
+/// application runs.
+void resetRetained(ResetKind kind, const std::string &file);
+
+} // namespace stride::host
+
+#endif
