@@ -131,3 +131,20 @@ function(stride_fuzz name)
   add_dependencies(stride_fuzzers ${name})
   target_link_libraries(${name} PRIVATE ${arg_DEPS})
 endfunction()
+
+# The archives that every application links, in this order, and those that make a static executable of it
+# (main, stride-host and what it consists of).
+set(STRIDE_APPLICATION_ARCHIVES stride_stdlib stride_native stride_runtime_iec)
+set(STRIDE_HOST_ARCHIVES stride_static_main stride_host_main stride_runtime_host stride_runtime_task
+    stride_runtime_axis stride_driver_dummy stride_runtime_app stride_fmt)
+
+# stride_stdlib_archive(<generated file>...): the ST bodies of the standard library.
+function(stride_stdlib_archive)
+  add_library(stride_stdlib STATIC ${ARGN})
+  target_compile_features(stride_stdlib PRIVATE cxx_std_20)
+  target_link_libraries(stride_stdlib
+    PRIVATE stride_generated_headers PUBLIC stride_native stride_runtime_iec)
+  target_compile_options(stride_stdlib PRIVATE
+    -O2 -fPIC -fwrapv -fno-strict-aliasing -fno-finite-loops -fno-delete-null-pointer-checks
+    -ffp-contract=off -fvisibility=hidden -fno-rtti -ffunction-sections -fdata-sections)
+endfunction()

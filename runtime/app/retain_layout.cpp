@@ -441,11 +441,16 @@ private:
     if (hasMembers(t.kind)) {
       check(t.firstMember <= to_.members_.size() &&
             t.memberCount <= to_.members_.size() - t.firstMember);
+      uint64_t sum = 0;
       for (uint32_t i = 0; i < t.memberCount; ++i) {
-        const uint32_t inside = to_.members_[t.firstMember + i].type;
-        check(inside < own); // no circles
-        depth = std::max(depth, depths_[inside] + 1);
+        const MemberDesc &member = to_.members_[t.firstMember + i];
+        check(member.type < own); // no circles
+        depth = std::max(depth, depths_[member.type] + 1);
+        sum += (member.flags & kSymBit) != 0 ? 0 : to_.types_[member.type].size;
+        check(std::string_view(to_.types_[member.type].name) != kLocated);
       }
+      // Only unions overlap, so that there are not more values than bytes.
+      check(t.kind == Kind::Union || std::string_view(t.name) == kLocated || sum <= t.size);
     } else if (t.kind == Kind::Array || t.kind == Kind::Enum) {
       check(t.element < own);
       const TypeDesc &element = to_.types_[t.element];

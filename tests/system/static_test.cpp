@@ -63,8 +63,8 @@ TEST(Static, RunsLikeTheHost) {
   EXPECT_TRUE(isStatic(program, EM_X86_64));
   const std::string expected =
       traceOf({STRIDE_BINARY_DIR "/stride", "sim", "PLCopenSingle"}, scratch);
-  EXPECT_EQ(traceOf({program.string(), "sim"}, scratch), expected);
-  EXPECT_THAT(expected, HasSubstr("\n2.5,"));
+  EXPECT_TRUE(traceOf({program.string(), "sim"}, scratch) == expected);
+  EXPECT_THAT(expected, HasSubstr("\n2.013,100,0\n")); // there
   const ProcessResult run = runProcess({program.string(), "run", "--for", "50ms"}, scratch.path());
   EXPECT_EQ(run.exitCode, 0) << run.err;
 }
@@ -80,7 +80,7 @@ TEST(Static, ForAnotherProcessorGivesTheSameTrace) {
   EXPECT_TRUE(isStatic(scratch.path() / "arm", EM_AARCH64));
   const std::string expected =
       traceOf({STRIDE_BINARY_DIR "/stride", "sim", "PLCopenSingle"}, scratch);
-  EXPECT_EQ(traceOf({"qemu-aarch64", "./arm", "sim"}, scratch), expected);
+  EXPECT_TRUE(traceOf({"qemu-aarch64", "./arm", "sim"}, scratch) == expected);
 }
 #endif
 

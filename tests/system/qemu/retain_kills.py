@@ -15,7 +15,7 @@ import time
 
 import guest
 
-BOOT_SECONDS = 90
+BOOT_SECONDS = 180
 
 
 def check_one(number, kernel, initrd, folder, kills, failures):

@@ -33,7 +33,7 @@ def main():
         initrd.file("init", program.read_bytes(), executable=True)
         initrd.write(folder / "initrd")
         with guest.Guest(kernel, folder / "initrd", arguments="-- " + " ".join(simulation)) as machine:
-            there = machine.wait_for(r"Drive\.fSetPosition = .*", 90).group(0).strip()
+            there = machine.wait_for(r"Drive\.fSetPosition = .*", 180).group(0).strip()
         print(f"here: {here}, as init: {there}")
         sys.exit(0 if here == there else 1)
 
