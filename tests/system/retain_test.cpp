@@ -133,6 +133,22 @@ TEST_F(RetainTest, AnotherBuildKeepsPersistentOnes) {
   EXPECT_THAT(sim().out, HasSubstr(values(10, 20, 30, false)));
 }
 
+TEST_F(RetainTest, AfterAnOnlineChangeTheyAreTheNewBuilds) {
+  const std::string old = program;
+  const std::string changed =
+      replaceAll(program, "  whole : Counter;", "  whole : Counter;\n  added : INT := 3;");
+  program = changed;
+  ASSERT_EQ(stride({"build", "Main.st", "-o", "new.so"}).exitCode, 0);
+  program = old;
+  const ProcessResult first =
+      sim({"--retain", "kept", "--change", "T#50ms,new.so", "--print", "Main.added"});
+  EXPECT_THAT(first.out, HasSubstr(values(10, 10, 10, true))) << first.err;
+  program = changed;
+  const ProcessResult second = sim();
+  EXPECT_THAT(second.out, HasSubstr(values(10, 20, 20, false)));
+  EXPECT_EQ(second.err, "");
+}
+
 TEST_F(RetainTest, Reset) {
   const auto reset = [&](const std::string &kind) {
     return runProcess({STRIDE_BINARY_DIR "/stride-host", "reset", kind, "kept"}, scratch.path());
