@@ -447,7 +447,8 @@ std::int64_t Analysis::rounds(Block block) {
     case StmtKind::forS: {
       const auto *inner = as<ForStmt>(s);
       const auto bounds = constantBounds(inner);
-      if (!bounds || !unchanged(inner->body, namedVariable(inner->variable)))
+      if (!bounds || sharedVariable(inner) ||
+          !unchanged(inner->body, namedVariable(inner->variable)))
         return kHuge;
       nested(inner->body,
              std::max<std::int64_t>((bounds->to - bounds->from) / bounds->step + 1, 1));
@@ -468,14 +469,14 @@ std::int64_t Analysis::rounds(Block block) {
 
 std::int64_t Analysis::ownRounds(const ForStmt *loop) const {
   const auto bounds = constantBounds(loop);
-  if (!bounds)
+  if (!bounds || sharedVariable(loop))
     return kHuge;
   return std::max<std::int64_t>((bounds->to - bounds->from) / bounds->step + 1, 0);
 }
 
 bool Analysis::shortLoop(const ForStmt *loop) {
   const auto bounds = constantBounds(loop);
-  if (!bounds)
+  if (!bounds || sharedVariable(loop))
     return false;
   const std::int64_t own = (bounds->to - bounds->from) / bounds->step + 1;
   if (times(rounds(loop->body), std::max<std::int64_t>(own, 1)) > kShortLoop)
@@ -500,7 +501,7 @@ bool Analysis::unchanged(Block body, const VarSymbol *variable) {
 void Analysis::enterLoop(const ForStmt *loop, bool countsAlone) {
   Range range{nullptr, 0, 0};
   const VarSymbol *variable = namedVariable(loop->variable);
-  const bool own = variable != nullptr && variable->owner != nullptr &&
+  const bool own = variable != nullptr && variable->owner != nullptr && !sharedVariable(loop) &&
                    variable->section != Section::inOut && variable->section != Section::stat &&
                    variable->location == nullptr && variable->type->kind != TypeKind::reference;
   if (own && loop->from->constant != nullptr && loop->to->constant != nullptr &&

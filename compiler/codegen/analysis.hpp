@@ -20,7 +20,8 @@ enum Effect : unsigned {
 
 class Analysis {
 public:
-  explicit Analysis(const Settings &settings) : checks_(settings.checks) {}
+  Analysis(const Settings &settings, const Sharing &sharing)
+      : checks_(settings.checks), sharing_(sharing) {}
 
   /// Effect bits of evaluating the expression with its conversion.
   [[nodiscard]] unsigned effects(const ast::Expr *expr);
@@ -34,6 +35,14 @@ public:
   /// The FOR loop and those in it end after at most kShortLoop rounds altogether, whatever happens;
   /// nothing but the loop changes its variable.
   [[nodiscard]] bool shortLoop(const ast::ForStmt *loop);
+  /// Another task may change the loop's variable.
+  [[nodiscard]] bool sharedVariable(const ast::ForStmt *loop) const {
+    return sharing_.holds(loop->variable);
+  }
+  /// Several tasks use the variable, or what it leads to.
+  [[nodiscard]] bool isShared(const VarSymbol *variable) const {
+    return sharing_.variables.contains(variable) || sharing_.contents.contains(variable);
+  }
   /// Its bounds are constant, and the first value past the end is one of the variable's type.
   [[nodiscard]] bool endsInside(const ast::ForStmt *loop) const;
 
@@ -72,6 +81,7 @@ private:
   };
 
   bool checks_;
+  const Sharing &sharing_;
   std::vector<Range> ranges_;
   std::unordered_map<const PouSymbol *, bool> pure_;
 };

@@ -95,7 +95,9 @@ public:
     init(out);
     tasks(out);
     out += "\n[[maybe_unused]] constexpr uint32_t kNo = ::stride::kNoIndex;\n" + tables;
+    sharing(out);
     axisGroups(out);
+    ioDevices(out);
     out += "\n} // namespace\n";
     description(out);
     return {"app.cpp", std::move(out)};
@@ -187,15 +189,46 @@ private:
     if (m.root.symbol->kind == SymbolKind::pou && !m.root.isStatic) {
       const auto *program = static_cast<const PouSymbol *>(m.root.symbol);
       types_.addProgram(program, m.name, taskOf(program));
+      noteWriter(m.root.symbol);
       return;
     }
     std::string list(m.root.symbol->name.text);
     if (m.root.isStatic && static_cast<const PouSymbol *>(m.root.symbol)->isMethod())
       list.insert(0, std::string(static_cast<const PouSymbol *>(m.root.symbol)->owner->name.text) +
                          "__");
-    for (const VarSymbol *v : rootVariables(m.root))
+    for (const VarSymbol *v : rootVariables(m.root)) {
       types_.addRoot(list, v, m.name + "." + fieldName(v),
                      m.root.isStatic || qualified_.contains(v->decl), listRenamedFrom(m.root, v));
+      noteWriter(v);
+    }
+  }
+
+  /// Of the root that was added last.
+  void noteWriter(const Symbol *symbol) {
+    const auto &writers = c_.program.sharing.writers;
+    const auto found = writers.find(symbol);
+    writers_.resize(types_.rootCount(), kNoTask);
+    writers_.back() = found == writers.end() ? kNoTask : found->second;
+  }
+
+  void sharing(std::string &out) {
+    std::string uses;
+    for (const ImageUse &use : c_.program.sharing.imageUses)
+      uses += "    {" + std::to_string(use.task) + ", " + std::to_string(use.area) +
+              (use.writes ? ", 1, " : ", 0, ") + std::to_string(use.first) + ", " +
+              std::to_string(use.count) + "},\n";
+    if (!uses.empty())
+      out += "\n// {task, area, writes, first, count}\n"
+             "constexpr ::stride::ImageUseDesc kImageUses[] = {\n" +
+             uses + "};\n";
+    writers_.resize(types_.rootCount(), kNoTask);
+    if (writers_.empty())
+      return;
+    out += "\n// By root: the one task that writes it.\nconstexpr uint32_t kRootWriters[] = {";
+    for (std::size_t i = 0; i < writers_.size(); ++i)
+      out += (i % 16 == 0 ? "\n    " : " ") +
+             (writers_[i] == kNoTask ? std::string("kNo") : std::to_string(writers_[i])) + ",";
+    out += "\n};\n";
   }
 
   /// The only task that calls the program.
@@ -399,6 +432,43 @@ private:
           groups + "};\n";
   }
 
+  void ioDevices(std::string &out) {
+    std::string rows;
+    std::string bytes;
+    for (const AppConfig::IoDevice &device : config_.ioDevices) {
+      std::string place;
+      if (global(device.name, place) == nullptr)
+        continue;
+      const std::string number = std::to_string(ioCount_++);
+      const auto table = [&](const char *name, const std::vector<std::uint8_t> &values) {
+        if (values.empty())
+          return std::string("nullptr");
+        const std::string constant = name + number;
+        bytes += "constexpr uint8_t " + constant + "[] = {";
+        for (std::size_t i = 0; i < values.size(); ++i)
+          bytes += (i == 0 ? "" : ", ") + std::to_string(values[i]);
+        bytes += "};\n";
+        return constant;
+      };
+      const std::string outputs = table("kSafeOutputs", device.safeOutputs);
+      const std::string inputs = table("kSafeInputs", device.safeInputs);
+      rows += "    {\"" + escaped(device.name) + "\", \"" + escaped(device.driver) +
+              "\", offsetof(App__, " + place + "), " + std::to_string(device.inputFirst) + ", " +
+              std::to_string(device.inputCount) + ", " + std::to_string(device.outputFirst) + ", " +
+              std::to_string(device.outputCount) + ", " + outputs + ", " + inputs + ", " +
+              (device.loopBack ? "1, " : "0, ") + std::to_string(device.delayCycles) + ", " +
+              (device.segment.empty() ? std::string("nullptr")
+                                      : "\"" + escaped(device.segment) + "\"") +
+              ", " + std::to_string(device.timeoutNs) + "},\n";
+    }
+    if (!rows.empty())
+      out += "\n" + bytes +
+             "// {name, driverName, stateOffset, inputFirst, inputCount, outputFirst, outputCount, "
+             "safeOutputs,\n// safeInputs, loopBack, delayCycles, segment, timeoutNs}\n"
+             "constexpr ::stride::IoDeviceDesc kIoDevices[] = {\n" +
+             rows + "};\n";
+  }
+
   void description(std::string &out) {
     const auto table = [](std::size_t count, const char *name) {
       return count == 0 ? "nullptr" : name;
@@ -449,6 +519,12 @@ private:
     field("retainFile", config_.retainFile.empty() ? std::string("nullptr")
                                                    : "\"" + escaped(config_.retainFile) + "\"");
     field("retainPeriodNs", std::to_string(config_.retainPeriodNs));
+    const std::size_t imageUses = c_.program.sharing.imageUses.size();
+    field("imageUses", table(imageUses, "kImageUses"));
+    field("imageUseCount", std::to_string(imageUses));
+    field("rootWriters", table(writers_.size(), "kRootWriters"));
+    field("ioDevices", table(ioCount_, "kIoDevices"));
+    field("ioDeviceCount", std::to_string(ioCount_));
     out += "};\n\n} // namespace st::user\n";
   }
 
@@ -459,10 +535,12 @@ private:
   std::unordered_set<const VarDecl *> qualified_; ///< in lists with {attribute 'qualified_only'}
   /// In lists with {attribute 'renamed_from'}: the list's earlier name.
   std::unordered_map<const VarDecl *, std::string_view> listRenamed_;
+  std::vector<std::uint32_t> writers_; ///< by root
   bool hasExit_ = false;
   bool hasReinit_ = false;
   std::size_t groupCount_ = 0;
   std::size_t driveCount_ = 0;
+  std::size_t ioCount_ = 0;
   std::uint64_t axisLayout_ = 0;
   std::uint64_t groupLayout_ = 0;
 };

@@ -256,9 +256,8 @@ void Emitter::outputTo(const Expr *target, std::string_view source, const Type *
     return;
   }
   const bool bindings = c_.layouts.hasBindings(type);
-  w_ << (bindings ? "::stride::assignBound(" : "");
-  place(target);
-  w_ << (bindings ? ", " : " = ");
+  w_ << (bindings ? "::stride::assignBound(" : "") << writableText(target)
+     << (bindings ? ", " : " = ");
   convertedText(source, sourceType, type, span);
   w_ << (bindings ? ");" : ";");
 }
@@ -309,7 +308,7 @@ void Emitter::instanceCall(const CallExpr *e, Span span) {
                   p->section == Section::inOut ? p->type : typeAs<PointerType>(p->type)->pointee);
       w_ << ';';
     } else {
-      storeTo(field, p->type, a.value);
+      storeTo(isShared(p) ? "::stride::shared(" + field + ")" : field, p->type, a.value);
     }
   }
   part(first ? span : Span{});
@@ -321,7 +320,9 @@ void Emitter::instanceCall(const CallExpr *e, Span span) {
     if (a.value == nullptr || !a.output || a.parameter == nullptr)
       continue;
     part(a.span);
-    outputTo(a.value, instance + "." + pathToBase(pou, a.parameter->owner) + fieldName(a.parameter),
+    const std::string output =
+        instance + "." + pathToBase(pou, a.parameter->owner) + fieldName(a.parameter);
+    outputTo(a.value, isShared(a.parameter) ? "::stride::load(" + output + ")" : output,
              a.parameter->type, a.span);
   }
   for (const Argument &a : e->arguments) { // copies end with the statement

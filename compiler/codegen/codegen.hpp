@@ -43,7 +43,23 @@ struct AppConfig {
     std::uint32_t cycleUs = 0; ///< dwCycle
     std::vector<Drive> drives;
   };
+  /// A device of the process image, [[io]].
+  struct IoDevice {
+    std::string name; ///< of the global IO_DEVICE, too
+    std::string driver;
+    std::uint32_t inputFirst = 0; ///< bytes of the areas
+    std::uint32_t inputCount = 0;
+    std::uint32_t outputFirst = 0;
+    std::uint32_t outputCount = 0;
+    std::vector<std::uint8_t> safeOutputs;
+    std::vector<std::uint8_t> safeInputs; ///< empty: inputs of a lost device stay
+    bool loopBack = false;
+    std::uint32_t delayCycles = 0;
+    std::string segment;
+    std::int64_t timeoutNs = 0;
+  };
   std::string name;
+  std::vector<IoDevice> ioDevices;
   std::vector<Task> tasks;
   std::vector<AxisGroup> axisGroups;
   std::string retainFile;          ///< [retain] file

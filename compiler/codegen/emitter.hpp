@@ -26,7 +26,7 @@ struct Context {
   LoopLocals loopLocals;
 
   Context(const Program &p, const Library *library)
-      : program(p), own(library), names(p), layouts(p, library), analysis(p.settings),
+      : program(p), own(library), names(p), layouts(p, library), analysis(p.settings, p.sharing),
         loopLocals(analysis) {}
 };
 
@@ -151,6 +151,15 @@ private:
   /// A variable (or element, field, bit base …) that can be assigned to.
   void place(const ast::Expr *e);
   [[nodiscard]] std::string placeText(const ast::Expr *e);
+  /// The place as something to be assigned to: `x`, or `::stride::shared(x)` when several tasks use
+  /// it.
+  [[nodiscard]] std::string writableText(const ast::Expr *e);
+  /// Several tasks use the place: it is read and written atomically.
+  [[nodiscard]] bool isShared(const ast::Expr *e) const { return c_.program.sharing.holds(e); }
+  /// The same of a member of an instance.
+  [[nodiscard]] bool isShared(const VarSymbol *member) const {
+    return c_.program.sharing.variables.contains(member);
+  }
   /// The descriptor that a VAR_IN_OUT of type ARRAY[*] is bound to.
   void openArray(const ast::Expr *e, const OpenArrayType *wanted);
   /// A pointer to it; null references stay null.
@@ -183,7 +192,7 @@ private:
   /// is found here.
   template <class Value> void bitStore(const ast::Expr *e, std::string_view bound, Value &&value);
   /// `Bit(image__m[3], 5`: the end of the runtime function's name and the first arguments.
-  void bitAccess(const ast::Expr *e, std::string_view bound);
+  void bitAccess(const ast::Expr *e, std::string_view bound, bool writes);
   /// The variable that a bit or part belongs to.
   [[nodiscard]] static const ast::Expr *bitOwner(const ast::Expr *e);
   void initLocated(std::string_view target, const VarSymbol *variable);

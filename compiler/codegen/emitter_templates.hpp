@@ -279,7 +279,7 @@ void Emitter::bitStore(const ast::Expr *e, std::string_view bound, Value &&value
     return;
   }
   w_ << "::stride::set";
-  bitAccess(e, bound);
+  bitAccess(e, bound, true);
   w_ << ", ";
   value();
   w_ << ");";

@@ -77,9 +77,10 @@ void Emitter::raw(const Expr *e) {
   }
   default: {
     const bool byOthers = e->type->kind == TypeKind::boolean && locationOf(e) != nullptr;
-    w_ << (byOthers ? "::stride::truth(" : "");
+    const bool shared = isShared(e);
+    w_ << (byOthers ? "::stride::truth(" : "") << (shared ? "::stride::load(" : "");
     place(e);
-    w_ << (byOthers ? ")" : "");
+    w_ << (shared ? ")" : "") << (byOthers ? ")" : "");
     break;
   }
   }
@@ -121,6 +122,11 @@ std::string Emitter::placeText(const Expr *e) {
   const std::size_t start = w_.size();
   place(e);
   return w_.cut(start);
+}
+
+std::string Emitter::writableText(const Expr *e) {
+  const std::string text = placeText(e);
+  return isShared(e) ? "::stride::shared(" + text + ")" : text;
 }
 
 void Emitter::place(const Expr *e) {

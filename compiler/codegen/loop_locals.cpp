@@ -98,8 +98,9 @@ std::vector<const VarSymbol *> LoopLocals::of(const Stmt *loop, const PouSymbol 
     const bool member = v->section == Section::local || v->section == Section::input ||
                         v->section == Section::output;
     if (v->owner != pou || !member || v->isConstant || v->decl == nullptr ||
-        v->decl->address != nullptr || v->isBit || !isScalar(v->type) || contains(result, v) ||
-        contains<const Symbol *>(facts.foreign, v) || contains(facts.indirect, underlying(v->type)))
+        v->decl->address != nullptr || v->isBit || analysis_.isShared(v) || !isScalar(v->type) ||
+        contains(result, v) || contains<const Symbol *>(facts.foreign, v) ||
+        contains(facts.indirect, underlying(v->type)))
       continue;
     result.push_back(v);
   }
@@ -111,7 +112,8 @@ std::vector<const VarSymbol *> LoopLocals::of(const Stmt *loop, const PouSymbol 
 bool LoopLocals::countsAlone(const ForStmt *loop, const PouSymbol *pou) {
   const VarSymbol *v = namedVariable(loop->variable);
   if (v == nullptr || pou == nullptr || v->owner != pou || isIndirect(v) ||
-      v->location != nullptr || v->section == Section::stat || v->section == Section::instance)
+      v->location != nullptr || v->section == Section::stat || v->section == Section::instance ||
+      analysis_.isShared(v))
     return false;
   Facts facts;
   block(loop->body, facts);

@@ -174,9 +174,10 @@ void Emitter::forStatement(const ForStmt *s) {
   const Type *type = underlying(s->variable->type);
   const std::string number = std::to_string(++next_);
   begin(s->span);
-  std::string variable = placeText(s->variable);
+  std::string variable = writableText(s->variable);
   if (!isPlain(variable)) {
-    w_ << "auto &counter__" << number << " = " << variable << "; ";
+    w_ << (isShared(s->variable) ? "const auto counter__" : "auto &counter__") << number << " = "
+       << variable << "; ";
     variable = "counter__" + number;
   }
   const bool constantStep = s->by == nullptr || s->by->constant != nullptr;

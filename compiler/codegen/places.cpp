@@ -23,14 +23,18 @@ const Expr *Emitter::bitOwner(const Expr *e) {
   return e;
 }
 
-void Emitter::bitAccess(const Expr *e, std::string_view bound) {
+void Emitter::bitAccess(const Expr *e, std::string_view bound, bool writes) {
+  const bool shared = isShared(bitOwner(e));
+  const std::string_view kind = shared && writes ? "Shared" : "";
+  const bool loads = shared && !writes;
   if (const Location *at = locationOf(e)) {
     const std::string_view base = area(at->area);
     if (!at->isSlot) {
-      w_ << "Bit(" << base << '[' << at->byte << "], " << int{at->bit};
+      w_ << kind << "Bit(" << (loads ? "::stride::load(" : "") << base << '[' << at->byte
+         << (loads ? "]), " : "], ") << int{at->bit};
       return;
     }
-    w_ << "BitAt(" << base << ", ";
+    w_ << (shared ? "SharedBitAt(" : "BitAt(") << base << ", ";
     if (e->kind == ExprKind::member && !isNamespace(as<MemberExpr>(e)->base))
       slotOf(as<MemberExpr>(e));
     else
@@ -43,19 +47,20 @@ void Emitter::bitAccess(const Expr *e, std::string_view bound) {
     first += static_cast<std::uint64_t>(as<MemberExpr>(part)->bit) * as<MemberExpr>(part)->width;
   const unsigned width = as<MemberExpr>(e)->width;
   if (width == 1)
-    w_ << "Bit(";
+    w_ << kind << "Bit(";
   else
-    w_ << "Part<" << type(e->type) << ">(";
+    w_ << kind << "Part<" << type(e->type) << ">(";
+  w_ << (loads ? "::stride::load(" : "");
   if (bound.empty())
     place(bitOwner(e));
   else
     w_ << bound;
-  w_ << ", " << first / width;
+  w_ << (loads ? ")" : "") << ", " << first / width;
 }
 
 void Emitter::bitValue(const Expr *e) {
   w_ << "::stride::get";
-  bitAccess(e, {});
+  bitAccess(e, {}, false);
   w_ << ')';
 }
 

@@ -227,9 +227,8 @@ void Emitter::store(const Expr *target, const Expr *value) {
   }
   if (ordered) { // the place is found first
     const std::string name = temporary("to");
-    w_ << "{ auto &" << name << " = ";
-    place(target);
-    w_ << "; ";
+    w_ << (isShared(target) ? "{ const auto " : "{ auto &") << name << " = " << writableText(target)
+       << "; ";
     storeTo(name, target->type, value);
     w_ << " }";
     return;
@@ -239,7 +238,7 @@ void Emitter::store(const Expr *target, const Expr *value) {
     return;
   }
   writing_ = true;
-  const std::string to = placeText(target);
+  const std::string to = writableText(target);
   writing_ = false;
   if (mayOverlap(target) && !c_.layouts.hasBindings(target->type)) {
     includes_.complete(target->type);
@@ -294,8 +293,7 @@ void Emitter::assign(const AssignStmt *s) {
         propertySet(target, [&] { w_ << set; });
         w_ << ' ';
       } else {
-        place(target);
-        w_ << " = " << set << "; ";
+        w_ << writableText(target) << " = " << set << "; ";
       }
     }
     w_ << '}';

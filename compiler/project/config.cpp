@@ -1,6 +1,7 @@
 #include "compiler/project/config.hpp"
 
 #include "compiler/project/interval.hpp"
+#include "compiler/project/io_config.hpp"
 #include "compiler/project/names.hpp"
 #include "compiler/project/schema.hpp"
 #include "compiler/project/toml_tree.hpp"
@@ -93,6 +94,8 @@ public:
       readTask(task);
     for (const CheckedSection &bus : top.sections("bus", diagnostics_))
       readBus(bus);
+    for (const CheckedSection &io : top.sections("io", diagnostics_))
+      readIoDevice(io, config_, diagnostics_);
     return std::move(config_);
   }
 

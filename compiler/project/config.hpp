@@ -57,6 +57,14 @@ struct AxisGroupConfig {
   std::vector<DriveConfig> drives;
 };
 
+/// What stride.toml says of one device of the process image.
+struct IoConfig {
+  ConfigName name;
+  Span inputSpan; ///< where its places are given
+  Span outputSpan;
+  AppConfig::IoDevice device;
+};
+
 /// The configuration of one project. Without stride.toml it is empty but for the name.
 struct ProjectConfig {
   std::string name;
@@ -70,6 +78,7 @@ struct ProjectConfig {
   std::vector<Define> defines;               ///< for `{IF defined (…)}`
   std::vector<TaskConfig> tasks;
   std::vector<AxisGroupConfig> axisGroups;
+  std::vector<IoConfig> ioDevices;
   bool incomplete = false; ///< a drive, axis group or everything had to be left out
 };
 

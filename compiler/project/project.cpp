@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <unordered_map>
 
 namespace stc {
 
@@ -161,6 +162,36 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
   }
   program_.files = files;
   check(program_, files, index);
+  if (!hasErrors())
+    shareVariables();
+}
+
+/// What tasks have in common, and what they must not.
+void Project::shareVariables() {
+  const AppConfig app = appConfig();
+  std::vector<TaskEntry> tasks;
+  for (const AppConfig::Task &task : app.tasks) {
+    tasks.push_back({task.name, {task.programs.begin(), task.programs.end()}});
+    for (const AppConfig::Task &other :
+         app.tasks) { // every task looks at the events behind its own cycle
+      if (other.event != nullptr)
+        tasks.back().pous.push_back(other.event);
+    }
+  }
+  std::unordered_map<std::string, std::uint32_t> drives;
+  for (const AxisGroupConfig &group : config_.axisGroups) {
+    for (std::uint32_t task = 0; task < tasks.size(); ++task) {
+      if (!equalIgnoringCase(tasks[task].name, group.task.text))
+        continue;
+      for (const DriveConfig &drive : group.drives)
+        drives.emplace(lowerCase(drive.name.text), task);
+    }
+  }
+  findSharing(program_, tasks, [&](const VarSymbol *v) {
+    const bool isDrive = v->globals != nullptr && v->name.span.file == plcFile_ && plcFile_ != 0;
+    const auto found = drives.find(std::string(v->name.id->lower));
+    return isDrive && found != drives.end() ? found->second : kNoTask;
+  });
 }
 
 Span Project::origin(Span span) const {
@@ -207,6 +238,8 @@ AppConfig Project::appConfig() const {
           task.programs.push_back(pou);
     app.tasks.push_back(std::move(task));
   }
+  for (const IoConfig &io : config_.ioDevices)
+    app.ioDevices.push_back(io.device);
   for (const AxisGroupConfig &from : config_.axisGroups) {
     AppConfig::AxisGroup group;
     group.name = from.name.text;

@@ -49,6 +49,7 @@ private:
   void loadFolder();
   void loadFile(const std::filesystem::path &path, const std::string &name);
   void analyse(Purpose purpose, const LibraryIndex &index);
+  void shareVariables();
   bool declaresNothing(const std::vector<ast::File *> &files) const;
   [[nodiscard]] Span origin(Span span) const;
 

@@ -149,6 +149,30 @@ constexpr std::array kDriveParameters = {
     positive("fJerk", "u/s³"),
 };
 
+constexpr std::array<Choice, 2> kIoDevices = {{{"Simulated", 0}, {"SharedMemory", 1}}};
+constexpr std::array<Choice, 2> kOnLoss = {{{"keep", 0}, {"safe", 1}}};
+
+constexpr std::array kIoParameters = {
+    needed({"name", ParameterType::identifier}),
+    needed(choice("device", kIoDevices)),
+    Parameter{"inputs_at", ParameterType::integer, false, 0, kImageArea, {}, "bytes"},
+    Parameter{"inputs", ParameterType::integer, false, 0, kImageArea, {}, "bytes"},
+    Parameter{"outputs_at", ParameterType::integer, false, 0, kImageArea, {}, "bytes"},
+    Parameter{"outputs", ParameterType::integer, false, 0, kImageArea, {}, "bytes"},
+    choice("on_loss", kOnLoss),
+    flag("loop_back"),
+    Parameter{"delay", ParameterType::integer, false, 0, 1000, {}, "cycles"},
+    Parameter{"segment", ParameterType::text},
+    Parameter{"timeout", ParameterType::interval, false, kMicrosecond, kHour},
+};
+
+constexpr std::array kIoChannelParameters = {
+    needed({"name", ParameterType::identifier}),
+    needed({"address", ParameterType::text}),
+    Parameter{"safe_value", ParameterType::integer, false, -2147483648.0, kDword},
+    Parameter{"comment", ParameterType::text},
+};
+
 constexpr Section kProject = {"project", "the project", "project", false, kProjectParameters, {}};
 constexpr Section kImage = {"image", "the process image", "image", false, kImageParameters, {}};
 constexpr Section kRetain = {"retain", "the retained data", "retain", false, kRetainParameters, {}};
@@ -159,6 +183,11 @@ constexpr Section kAxisGroup = {"axis_group", "an axis group",      "bus.axis_gr
                                 true,         kAxisGroupParameters, kAxisGroupSections};
 constexpr std::array<const Section *, 1> kBusSections = {&kAxisGroup};
 constexpr Section kBus = {"bus", "a bus", "bus", true, kBusParameters, kBusSections};
+
+constexpr Section kIoChannel = {"channel", "a channel",          "io.channel",
+                                true,      kIoChannelParameters, {}};
+constexpr std::array<const Section *, 1> kIoSections = {&kIoChannel};
+constexpr Section kIo = {"io", "an I/O device", "io", true, kIoParameters, kIoSections};
 
 constexpr std::array<Choice, 4> kSeverities = {
     {{"error", static_cast<std::int64_t>(Severity::error)},
@@ -191,8 +220,8 @@ struct DiagnosticSection {
 /// The whole of stride.toml.
 struct TopSection {
   DiagnosticSection diagnostics;
-  std::array<const Section *, 6> sections = {
-      &kProject, &diagnostics.section, &kImage, &kRetain, &kTask, &kBus};
+  std::array<const Section *, 7> sections = {
+      &kProject, &diagnostics.section, &kImage, &kRetain, &kTask, &kBus, &kIo};
   Section top = {"", "stride.toml", "", false, {}, sections};
 };
 

@@ -269,8 +269,11 @@ public:
 
   std::string write(const ProjectConfig &config) {
     axisGroups(config);
-    const std::string globals =
-        body_.empty() ? std::string() : std::string(kBegin) + body_ + "END_VAR\n";
+    for (const IoConfig &io : config.ioDevices)
+      variable("I/O device", io.name, "IO_DEVICE", {});
+    std::string globals = body_.empty() ? std::string() : std::string(kBegin) + body_ + "END_VAR\n";
+    if (!config.ioDevices.empty())
+      globals += kIoDevice;
     return globals + events(config, globals.size());
   }
 
@@ -322,17 +325,23 @@ private:
       return;
     }
     const std::size_t begin = kBegin.size() + body_.size();
-    body_ += fmt::format("  {} : {} := (", name.text, type);
+    body_ += fmt::format("  {} : {}{}", name.text, type, fields.empty() ? "" : " := (");
     std::string_view separator;
     for (const auto &[field, value] : fields) {
       body_ += fmt::format("{}{} := {}", separator, field, value);
       separator = ", ";
     }
-    body_ += ");\n";
+    body_ += fields.empty() ? ";\n" : ");\n";
     ranges_.push_back({static_cast<std::uint32_t>(begin),
                        static_cast<std::uint32_t>(kBegin.size() + body_.size()), name.span});
   }
 
+  /// runtime/io/process_image.hpp: IoDeviceState.
+  static constexpr std::string_view kIoDevice =
+      "TYPE IO_DEVICE : STRUCT\n"
+      "  /// Set it to simulate the loss of the device.\n  bFault : BOOL;\n"
+      "  /// The device does not answer: outputs have their safe values.\n  bLost : BOOL;\n"
+      "  /// How often it was lost.\n  udiLosses : UDINT;\nEND_STRUCT END_TYPE\n";
   static constexpr std::string_view kBegin = "VAR_GLOBAL\n";
   std::string body_;
   std::unordered_map<std::string, Span> names_;

@@ -2,6 +2,7 @@
 // A checked program: what codegen works on.
 
 #include "compiler/semantics/implicit_checks.hpp"
+#include "compiler/semantics/sharing.hpp"
 #include "compiler/semantics/symbols.hpp"
 #include "compiler/source/arena.hpp"
 #include "compiler/source/diagnostic.hpp"
@@ -126,6 +127,7 @@ struct Program {
   std::vector<const Type *> created;
   ImplicitChecks implicitChecks{}; ///< the project's own run-time checks
   bool usesPool = false;           ///< __NEW or __DELETE is used
+  Sharing sharing;                 ///< findSharing(): what several tasks use
   // Storage of the symbols that own containers (the others live in the arena).
   std::deque<NamespaceSymbol> spaceStorage;
   std::deque<PouSymbol> pouStorage;

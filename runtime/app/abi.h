@@ -157,6 +157,34 @@ struct ImageAreaDesc {
   uint64_t size;   ///< Bytes; 0: the application does not use the area.
 };
 
+/// Bytes of the process image that the programs of a task use, found by the compiler. Sorted by
+/// task, area, direction and place; a byte is written by one task at most in the output area.
+struct ImageUseDesc {
+  uint32_t task;
+  uint32_t area;   ///< ImageArea.
+  uint32_t writes; ///< 1: the task writes them, 0: it reads them.
+  uint32_t first;
+  uint32_t count;
+};
+
+/// A device of the process image ([[io]] of stride.toml). Bytes are counted in the area.
+struct IoDeviceDesc {
+  const char *name;
+  const char *driverName; ///< "Simulated", "SharedMemory".
+  uint64_t stateOffset;   ///< Of its IO_DEVICE, from the start of the state.
+  uint32_t inputFirst;
+  uint32_t inputCount; ///< Bytes; 0: it has no inputs.
+  uint32_t outputFirst;
+  uint32_t outputCount;
+  const uint8_t *safeOutputs; ///< One byte per output byte, for when the application stops or the
+                              ///< device is lost; null: zeros.
+  const uint8_t *safeInputs;  ///< What inputs become when the device is lost; null: they stay.
+  uint32_t loopBack;          ///< Simulated: 1: its inputs are its outputs …
+  uint32_t delayCycles;       ///< … so many cycles later.
+  const char *segment;        ///< SharedMemory: name of the segment; else null.
+  int64_t timeoutNs;          ///< SharedMemory: see IoSettings.
+};
+
 /// What the numbers of direct addresses count (stride.toml: [image] addressing).
 enum class ImageAddressing : uint32_t {
   Units = 0, ///< Units of their size, bits by byte: %MW3 is bytes 6 and 7, %MX3.1 bit 1 of byte 3.
@@ -225,6 +253,15 @@ struct StrideAppV1 {
   /// the time from one saving to the next (0: the runtime's own).
   const char *retainFile = nullptr;
   int64_t retainPeriodNs = 0;
+
+  const ImageUseDesc *imageUses = nullptr;
+  uint32_t imageUseCount = 0;
+  /// By root: the one task that writes it, or calls the program; kNoIndex: none, or several. Null
+  /// when there is no root.
+  const uint32_t *rootWriters = nullptr;
+
+  const IoDeviceDesc *ioDevices = nullptr;
+  uint32_t ioDeviceCount = 0;
 };
 
 /// Number of elements of a table, for StrideAppV1's counts.

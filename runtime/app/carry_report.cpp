@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace stride::app {
 
@@ -90,6 +91,32 @@ void CarryReport::refuse() {
           fmt::format("{} has a native body and other fields in the new build", to.name));
   }
   compareAxisGroups();
+  compareIoDevices();
+}
+
+/// So do the drivers of I/O devices; which bytes the tasks use may change.
+void CarryReport::compareIoDevices() {
+  const StrideAppV1 &a = match_->oldApp();
+  const StrideAppV1 &b = match_->newApp();
+  const auto text = [](const char *x) { return std::string_view(x != nullptr ? x : ""); };
+  for (uint32_t i = 0; i < std::max(a.ioDeviceCount, b.ioDeviceCount); ++i) {
+    if (i >= a.ioDeviceCount || i >= b.ioDeviceCount) {
+      const bool gone = i >= b.ioDeviceCount;
+      refusals_.push_back(fmt::format("I/O device {} is {} the new build",
+                                      (gone ? a : b).ioDevices[i].name,
+                                      gone ? "not in" : "only in"));
+      continue;
+    }
+    const IoDeviceDesc &x = a.ioDevices[i];
+    const IoDeviceDesc &y = b.ioDevices[i];
+    if (!sameName(x.name, y.name) || !sameName(x.driverName, y.driverName) ||
+        x.inputFirst != y.inputFirst || x.inputCount != y.inputCount ||
+        x.outputFirst != y.outputFirst || x.outputCount != y.outputCount ||
+        x.loopBack != y.loopBack || x.delayCycles != y.delayCycles ||
+        x.timeoutNs != y.timeoutNs || text(x.segment) != text(y.segment))
+      refusals_.push_back(
+          fmt::format("I/O device {} has another configuration in the new build", x.name));
+  }
 }
 
 /// The drivers go on running: the configuration they were started with must be the same.

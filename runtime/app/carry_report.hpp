@@ -64,6 +64,7 @@ private:
   using Key = std::tuple<uint32_t, uint32_t, uint32_t, Finding::Kind>;
   void refuse();
   void compareAxisGroups();
+  void compareIoDevices();
   void add(Key key, Finding finding);
   void visitFields(uint32_t owner, const std::string &path, const std::vector<FieldPair> &fields,
                    const std::vector<LoneField> &added, const std::vector<LoneField> &dropped,

@@ -111,6 +111,22 @@ void validate(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
     if (!fits(area.offset, area.size, app.stateSize))
       damaged("process image");
   }
+  for (uint32_t i = 0; i < app.imageUseCount; ++i) {
+    const ImageUseDesc &use = app.imageUses[i];
+    if (use.task >= app.taskCount || use.area > kImageMemory ||
+        !fits(use.first, use.count, app.image[use.area].size))
+      damaged(fmt::format("use {} of the process image", i));
+  }
+  for (uint32_t i = 0; i < app.ioDeviceCount; ++i) {
+    const IoDeviceDesc &device = app.ioDevices[i];
+    if (device.name == nullptr || device.driverName == nullptr ||
+        !fits(device.stateOffset, 8, app.stateSize))
+      damaged(fmt::format("I/O device {}", i));
+  }
+  for (uint32_t i = 0; app.rootWriters != nullptr && i < app.rootCount; ++i) {
+    if (app.rootWriters[i] != kNoIndex && app.rootWriters[i] >= app.taskCount)
+      damaged(fmt::format("writer of variable {}", i));
+  }
   for (uint32_t i = 0; i < app.taskCount; ++i) {
     const TaskDesc &task = app.tasks[i];
     if (task.name == nullptr || task.run == nullptr || task.kind > TaskKind::Status)

@@ -1,6 +1,7 @@
 #include "runtime/host/instance.hpp"
 
 #include "runtime/host/axis_hooks.hpp"
+#include "runtime/host/io_hooks.hpp"
 
 #include <fmt/format.h>
 
@@ -21,6 +22,8 @@ void Instance::initialise() {
     retain_->restore();
     retain_->addHooks(tasks_);
   }
+  for (std::unique_ptr<task::CycleHook> &hook : addIoDevices(*application_, tasks_, *inputs_))
+    hooks_.push_back(std::move(hook));
   for (std::unique_ptr<task::CycleHook> &hook : addAxisGroups(*application_, tasks_))
     hooks_.push_back(std::move(hook));
 }

@@ -11,6 +11,7 @@
 #include "runtime/iec/memory.h"
 #include "runtime/iec/open_array.h"
 #include "runtime/iec/pool.h"
+#include "runtime/iec/shared.h"
 #include "runtime/iec/strings.h"
 #include "runtime/iec/text.h"
 #include "runtime/iec/types.h"

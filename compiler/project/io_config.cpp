@@ -1,0 +1,237 @@
+#include "compiler/project/io_config.hpp"
+
+#include "compiler/project/interval.hpp"
+#include "compiler/project/names.hpp"
+
+#include <charconv>
+#include <fmt/format.h>
+#include <optional>
+
+namespace stc {
+
+namespace {
+
+/// `%QX0.3`, `%QW2` in bytes and bits of its area.
+struct Channel {
+  bool output = false;
+  std::uint32_t byte = 0;
+  std::uint32_t bytes = 1;
+  int bit = -1;
+};
+
+std::optional<Channel> readAddress(std::string_view text, Addressing addressing) {
+  if (text.size() < 3 || text[0] != '%')
+    return std::nullopt;
+  Channel channel;
+  const char area = static_cast<char>(text[1] & ~0x20);
+  if (area != 'I' && area != 'Q')
+    return std::nullopt;
+  channel.output = area == 'Q';
+  text.remove_prefix(2);
+  char size = 'X';
+  if (text[0] > '9') {
+    size = static_cast<char>(text[0] & ~0x20);
+    text.remove_prefix(1);
+  }
+  constexpr std::string_view kSizes = "XBWDL";
+  const std::size_t known = kSizes.find(size);
+  if (known == std::string_view::npos)
+    return std::nullopt;
+  channel.bytes = known == 0 ? 1 : 1U << (known - 1);
+  std::uint32_t first = 0;
+  const char *end = text.data() + text.size();
+  auto [at, error] = std::from_chars(text.data(), end, first);
+  if (error != std::errc() || first > 16'777'216)
+    return std::nullopt;
+  if (size != 'X') {
+    channel.byte = addressing == Addressing::bytes ? first : first * channel.bytes;
+    return at == end ? std::optional(channel) : std::nullopt;
+  }
+  std::uint32_t bit = first % 8;
+  channel.byte = first / 8;
+  if (at != end) {
+    const unsigned perUnit = addressing == Addressing::words ? 16 : 8;
+    if (*at != '.')
+      return std::nullopt;
+    const auto [behind, bad] = std::from_chars(at + 1, end, bit);
+    if (bad != std::errc() || behind != end || bit >= perUnit)
+      return std::nullopt;
+    channel.byte = first * (perUnit / 8) + bit / 8;
+    bit %= 8;
+  }
+  channel.bit = static_cast<int>(bit);
+  return channel;
+}
+
+class DeviceReader {
+public:
+  DeviceReader(const CheckedSection &section, ProjectConfig &config, Diagnostics &diagnostics)
+      : section_(section), config_(config), diagnostics_(diagnostics) {}
+
+  void read() {
+    const TomlNode *name = section_.get("name");
+    if (name == nullptr || section_.get("device") == nullptr) {
+      config_.incomplete = true; // its variable would be missed everywhere
+      return;
+    }
+    IoConfig io;
+    io.name = {name->text, name->span};
+    for (const IoConfig &other : config_.ioDevices) {
+      if (equalIgnoringCase(other.name.text, io.name.text)) {
+        diagnostics_
+            .report(Code::configDuplicateName, name->span,
+                    fmt::format("two I/O devices are named `{}`", name->text), "used again here")
+            .label(other.name.span, "first used here");
+        return;
+      }
+    }
+    AppConfig::IoDevice &device = io.device;
+    device.name = name->text;
+    const bool memory = section_.choice("device", 0) == 1;
+    device.driver = memory ? "SharedMemory" : "Simulated";
+    device.inputFirst = number("inputs_at");
+    device.inputCount = number("inputs");
+    device.outputFirst = number("outputs_at");
+    device.outputCount = number("outputs");
+    device.loopBack = section_.boolean("loop_back", false);
+    device.delayCycles = number("delay");
+    device.safeOutputs.resize(device.outputCount);
+    if (section_.choice("on_loss", 0) == 1)
+      device.safeInputs.resize(device.inputCount);
+    if (memory) {
+      device.segment = section_.text("segment", "/" + config_.name + "-" + device.name);
+      if (device.segment.empty() || device.segment.front() != '/')
+        device.segment.insert(0, "/");
+      device.timeoutNs = parseInterval(section_.text("timeout")).value_or(0);
+    }
+    unused(memory);
+    io.inputSpan = spanOf("inputs", name->span);
+    io.outputSpan = spanOf("outputs", name->span);
+    checkOverlap(io);
+    for (const CheckedSection &channel : section_.sections("channel", diagnostics_))
+      readChannel(channel, io);
+    config_.ioDevices.push_back(std::move(io));
+  }
+
+private:
+  std::uint32_t number(std::string_view key) const {
+    return static_cast<std::uint32_t>(section_.integer(key, 0));
+  }
+  Span spanOf(std::string_view key, Span otherwise) const {
+    const TomlNode *node = section_.get(key);
+    return node != nullptr ? node->keySpan.to(node->span) : otherwise;
+  }
+
+  /// Parameters that are for the other kind of device.
+  void unused(bool memory) {
+    const auto report = [&](std::string_view key, std::string_view reason) {
+      if (section_.has(key) && section_.get(key) != nullptr)
+        diagnostics_.report(Code::configWithoutEffect, section_.get(key)->keySpan,
+                            fmt::format("`{}` has no effect here", key), std::string(reason));
+    };
+    if (memory) {
+      report("loop_back", "only with device = \"Simulated\"");
+      report("delay", "only with device = \"Simulated\"");
+      return;
+    }
+    report("segment", "only with device = \"SharedMemory\"");
+    report("timeout", "only with device = \"SharedMemory\"");
+    if (!section_.boolean("loop_back", false))
+      report("delay", "only with loop_back = true");
+  }
+
+  void checkOverlap(const IoConfig &io) {
+    const auto check = [&](const IoConfig &other, bool output) {
+      const AppConfig::IoDevice &a = io.device;
+      const AppConfig::IoDevice &b = other.device;
+      const std::uint32_t first = output ? a.outputFirst : a.inputFirst;
+      const std::uint32_t count = output ? a.outputCount : a.inputCount;
+      const std::uint32_t otherFirst = output ? b.outputFirst : b.inputFirst;
+      const std::uint32_t otherCount = output ? b.outputCount : b.inputCount;
+      if (first >= otherFirst + otherCount || otherFirst >= first + count)
+        return;
+      diagnostics_
+          .report(Code::ioOverlap, output ? io.outputSpan : io.inputSpan,
+                  fmt::format("`{}` and `{}` have {}put byte {} in common", other.name.text,
+                              io.name.text, output ? "out" : "in", std::max(first, otherFirst)),
+                  fmt::format("bytes {} to {}", first, first + count - 1))
+          .label(output ? other.outputSpan : other.inputSpan,
+                 fmt::format("bytes {} to {}", otherFirst, otherFirst + otherCount - 1))
+          .help(fmt::format("write `{}_at = {}`", output ? "outputs" : "inputs",
+                            otherFirst + otherCount));
+    };
+    for (const IoConfig &other : config_.ioDevices) {
+      check(other, false);
+      check(other, true);
+    }
+  }
+
+  void readChannel(const CheckedSection &channel, IoConfig &io) {
+    const TomlNode *address = channel.get("address");
+    if (address == nullptr)
+      return;
+    const std::optional<Channel> at = readAddress(address->text, config_.addressing);
+    if (!at) {
+      diagnostics_
+          .report(Code::ioChannel, address->span,
+                  fmt::format("`{}` is no address of an input or output", address->text),
+                  "not understood")
+          .help("write \"%IX0.3\", \"%QB1\", \"%IW2\" or the like");
+      return;
+    }
+    AppConfig::IoDevice &device = io.device;
+    const std::uint32_t first = at->output ? device.outputFirst : device.inputFirst;
+    const std::uint32_t count = at->output ? device.outputCount : device.inputCount;
+    if (at->byte < first || at->byte + at->bytes > first + count) {
+      Diagnostic &d = diagnostics_.report(
+          Code::ioChannel, address->span,
+          fmt::format("`{}` does not belong to device `{}`", address->text, io.name.text),
+          fmt::format("byte {} of the {}puts", at->byte, at->output ? "out" : "in"));
+      if (count == 0)
+        d.note(fmt::format("the device has no {}puts", at->output ? "out" : "in"));
+      else
+        d.label(at->output ? io.outputSpan : io.inputSpan,
+                fmt::format("it has the bytes {} to {}", first, first + count - 1));
+      return;
+    }
+    const TomlNode *safe = channel.get("safe_value");
+    if (safe == nullptr)
+      return;
+    std::vector<std::uint8_t> &bytes = at->output ? device.safeOutputs : device.safeInputs;
+    if (bytes.empty()) {
+      diagnostics_.report(Code::configWithoutEffect, safe->keySpan,
+                          "`safe_value` of an input has no effect here",
+                          "only with on_loss = \"safe\"");
+      return;
+    }
+    const std::int64_t value = channel.integer("safe_value", 0);
+    const std::uint32_t place = at->byte - first;
+    const unsigned bits = at->bit >= 0 ? 1 : at->bytes * 8;
+    if (bits < 33 && (value >> bits) != 0 && (value >> (bits - 1)) != -1) {
+      diagnostics_.report(Code::ioChannel, safe->span,
+                          fmt::format("{} does not fit into `{}`", value, address->text),
+                          fmt::format("the channel has {} bit{}", bits, bits == 1 ? "" : "s"));
+      return;
+    }
+    if (at->bit >= 0) {
+      const auto mask = static_cast<std::uint8_t>(1U << at->bit);
+      bytes[place] =
+          static_cast<std::uint8_t>(value != 0 ? bytes[place] | mask : bytes[place] & ~mask);
+      return;
+    }
+    for (std::uint32_t i = 0; i < at->bytes; ++i)
+      bytes[place + i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * i));
+  }
+
+  const CheckedSection &section_;
+  ProjectConfig &config_;
+  Diagnostics &diagnostics_;
+};
+
+} // namespace
+
+void readIoDevice(const CheckedSection &section, ProjectConfig &config, Diagnostics &diagnostics) {
+  DeviceReader(section, config, diagnostics).read();
+}
+
+} // namespace stc

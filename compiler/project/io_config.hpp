@@ -1,0 +1,12 @@
+#pragma once
+// [[io]] of stride.toml: devices of the process image.
+
+#include "compiler/project/config.hpp"
+#include "compiler/project/schema.hpp"
+
+namespace stc {
+
+/// Reads one device with its channels and adds it to the configuration. What is wrong is reported.
+void readIoDevice(const CheckedSection &section, ProjectConfig &config, Diagnostics &diagnostics);
+
+} // namespace stc

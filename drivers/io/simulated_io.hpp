@@ -1,0 +1,15 @@
+// An I/O device without hardware.
+#ifndef STRIDE_DRIVERS_IO_SIMULATED_IO_HPP
+#define STRIDE_DRIVERS_IO_SIMULATED_IO_HPP
+
+#include "runtime/io/io_driver.hpp"
+
+namespace stride::io {
+
+/// Its inputs are those that --set and the program write in the image, or (loop back) the outputs
+/// as they were some cycles of the writing task before.
+std::unique_ptr<IoDriver> makeSimulatedIo(const IoSettings &settings);
+
+} // namespace stride::io
+
+#endif

@@ -1,0 +1,212 @@
+#include "runtime/io/process_image.hpp"
+
+#include <algorithm>
+
+namespace stride::io {
+
+namespace {
+
+template <class T> void copyOne(BYTE *to, const BYTE *from) noexcept {
+  T value;
+  __builtin_memcpy(&value, from, sizeof(T));
+  __atomic_store_n(reinterpret_cast<T *>(to), value, __ATOMIC_RELAXED);
+}
+
+/// The task that the devices' states belong to: the first one that needs no event.
+uint32_t leader(const StrideAppV1 &app) {
+  for (uint32_t i = 0; i < app.taskCount; ++i) {
+    if (app.tasks[i].kind == TaskKind::Cyclic || app.tasks[i].kind == TaskKind::Freewheeling)
+      return i;
+  }
+  return 0;
+}
+
+} // namespace
+
+void copyWhole(BYTE *to, const BYTE *from, size_t count) noexcept {
+  while (count > 0) {
+    const auto place = reinterpret_cast<uintptr_t>(to);
+    size_t step = 1;
+    if (place % 8 == 0 && count >= 8) {
+      copyOne<uint64_t>(to, from);
+      step = 8;
+    } else if (place % 4 == 0 && count >= 4) {
+      copyOne<uint32_t>(to, from);
+      step = 4;
+    } else if (place % 2 == 0 && count >= 2) {
+      copyOne<uint16_t>(to, from);
+      step = 2;
+    } else {
+      copyOne<uint8_t>(to, from);
+    }
+    to += step;
+    from += step;
+    count -= step;
+  }
+}
+
+ImageHook::ImageHook(const StrideAppV1 &app, std::byte *state, uint32_t task,
+                     const std::vector<std::unique_ptr<IoDevice>> &devices, InputPass &inputs)
+    : app_(&app), state_(state), inputs_(&inputs), task_(task), leads_(task == leader(app)) {
+  size_t parts = 0;
+  size_t largest = 0;
+  for (const std::unique_ptr<IoDevice> &device : devices) {
+    devices_.push_back(device.get());
+    parts += (size_t{device->inputBytes} + device->outputBytes) / 2 + 2;
+    largest = std::max<size_t>({largest, device->inputBytes, device->outputBytes});
+  }
+  parts_.reserve(parts);
+  buffer_.resize(largest);
+  findParts();
+}
+
+/// What the compiler has found.
+bool ImageHook::uses(uint32_t task, bool output, uint32_t byte) const noexcept {
+  return std::any_of(
+      app_->imageUses, app_->imageUses + app_->imageUseCount, [&](const ImageUseDesc &use) {
+        return use.task == task && byte - use.first < use.count &&
+               use.area == (output ? kImageOutput : kImageInput) && (use.writes != 0) == output;
+      });
+}
+
+bool ImageHook::isOwn(bool output, uint32_t byte) const noexcept {
+  if (uses(task_, output, byte))
+    return true;
+  if (!output || !leads_)
+    return false;
+  for (uint32_t other = 0; other < app_->taskCount; ++other) {
+    if (uses(other, output, byte))
+      return false;
+  }
+  return true;
+}
+
+void ImageHook::findParts() noexcept {
+  parts_.clear();
+  for (IoDevice *device : devices_) {
+    const IoDeviceDesc &desc = app_->ioDevices[device->index];
+    for (const bool output : {false, true}) {
+      const uint32_t first = output ? desc.outputFirst : desc.inputFirst;
+      const uint32_t count = output ? std::min(desc.outputCount, device->outputBytes)
+                                    : std::min(desc.inputCount, device->inputBytes);
+      const uint64_t area = app_->image[output ? kImageOutput : kImageInput].size;
+      const auto end = static_cast<uint32_t>(std::min<uint64_t>(uint64_t{first} + count, area));
+      for (uint32_t byte = first; byte < end; ++byte) {
+        const uint32_t begin = byte;
+        while (byte < end && isOwn(output, byte))
+          ++byte;
+        if (byte != begin)
+          parts_.push_back({device, output, begin, begin - first, byte - begin});
+      }
+    }
+  }
+}
+
+BYTE *ImageHook::image(const Part &part) const {
+  const ImageAreaDesc &area = app_->image[part.output ? kImageOutput : kImageInput];
+  return reinterpret_cast<BYTE *>(state_ + area.offset) + part.imageByte;
+}
+
+IoDeviceState &ImageHook::stateOf(const IoDevice &device) const {
+  return *reinterpret_cast<IoDeviceState *>(state_ + app_->ioDevices[device.index].stateOffset);
+}
+
+void ImageHook::watch(Ctx &ctx, IoDevice &device) {
+  IoDeviceState &state = stateOf(device);
+  const bool fault = __atomic_load_n(&state.bFault, __ATOMIC_RELAXED) != 0;
+  bool works = device.driver->works(ctx.cycleStartNs);
+  if (device.driver->isExternal())
+    inputs_->pass(&works, sizeof works);
+  const bool lost = fault || !works;
+  const bool before = device.lost.exchange(lost, std::memory_order_relaxed);
+  if (lost == before)
+    return;
+  __atomic_store_n(&state.bLost, static_cast<BOOL>(lost), __ATOMIC_RELAXED);
+  if (!lost)
+    return;
+  __atomic_fetch_add(&state.udiLosses, 1U, __ATOMIC_RELAXED);
+  if (ctx.host != nullptr && ctx.host->log != nullptr)
+    ctx.host->log(&ctx, 1, device.lostText.c_str());
+}
+
+/// Takes the bytes into the buffer; false: there are none.
+bool ImageHook::read(const Part &part) noexcept {
+  IoDriver &driver = *part.device->driver;
+  bool got = driver.read(part.deviceByte, {buffer_.data(), part.count});
+  if (!driver.isExternal())
+    return got;
+  inputs_->pass(&got, sizeof got);
+  if (got)
+    inputs_->pass(buffer_.data(), part.count);
+  return got;
+}
+
+void ImageHook::beforePous(Ctx &ctx) {
+  for (IoDevice *device : devices_) {
+    if (leads_)
+      watch(ctx, *device);
+  }
+  for (const Part &part : parts_) {
+    if (part.output)
+      continue;
+    const IoDeviceDesc &desc = app_->ioDevices[part.device->index];
+    BYTE *to = image(part);
+    if (!part.device->lost.load(std::memory_order_relaxed)) {
+      if (read(part))
+        copyWhole(to, buffer_.data(), part.count);
+    } else if (desc.safeInputs != nullptr) {
+      copyWhole(to, desc.safeInputs + part.deviceByte, part.count);
+    }
+  }
+}
+
+void ImageHook::afterPous(Ctx &) {
+  for (const Part &part : parts_) {
+    if (!part.output)
+      continue;
+    if (stopped_ || part.device->lost.load(std::memory_order_relaxed))
+      writeSafe(part);
+    else
+      part.device->driver->write(part.deviceByte, {image(part), part.count});
+  }
+}
+
+void ImageHook::writeSafe(const Part &part) noexcept {
+  const BYTE *safe = app_->ioDevices[part.device->index].safeOutputs;
+  if (safe == nullptr) {
+    std::fill_n(buffer_.begin(), part.count, BYTE{0});
+    safe = buffer_.data();
+  } else {
+    safe += part.deviceByte;
+  }
+  part.device->driver->write(part.deviceByte, {safe, part.count});
+}
+
+void ImageHook::applicationStopped() {
+  stopped_ = true;
+  for (const Part &part : parts_) {
+    if (!part.output)
+      continue;
+    writeSafe(part);
+    part.device->driver->stopped();
+  }
+}
+
+void ImageHook::rebind(const StrideAppV1 &app, std::byte *state) noexcept {
+  app_ = &app;
+  state_ = state;
+  if (app.ioDeviceCount < devices_.size())
+    parts_.clear(); // refused before: the devices of a running application stay
+  else
+    findParts();
+}
+
+std::string ImageHook::problem() const {
+  for (const IoDevice *device : devices_) {
+    if (leads_ && device->lost.load(std::memory_order_relaxed))
+      return device->lostText;
+  }
+  return {};
+}
+
+} // namespace stride::io
