@@ -28,6 +28,9 @@ int buildCommand(const ProjectOptions &options, const std::string &out, bool emi
 int hostCommand(const ProjectOptions &options, const std::string &command,
                 const std::vector<std::string> &hostArguments);
 
+/// Becomes stride-host with `command` and these arguments; nothing is built.
+int hostOnlyCommand(const std::string &command, const std::vector<std::string> &hostArguments);
+
 int plotCommand(const std::string &trace, const std::string &out);
 
 /// `what`: a diagnostic's code, or the number or name of a SoftMotion error.

@@ -127,6 +127,7 @@ void addTraceOptions(const HostOptions &host) {
   host.pass("--trace", "Variables to record in every cycle: Drive.fSetPosition,Main.n", "NAMES");
   host.pass("--out", "CSV file for the trace (default: standard output)", "FILE");
   host.pass("--print", "Variables to print at the end", "NAMES");
+  host.pass("--script", "Script of what is written and forced, and when", "FILE");
 }
 
 void addSimOptions(const HostOptions &host) {
@@ -150,6 +151,7 @@ void addRunOptions(const HostOptions &host) {
   host.pass("--for", "How long (default: until Ctrl-C): 5s, T#1h", "TIME");
   addTraceOptions(host);
   host.pass("--record", "Record all inputs for `stride sim --replay`", "FILE");
+  host.pass("--listen", "Socket for `stride ctl` and others: unix:PATH", "ADDRESS");
   host.pass("--on-fault", "What happens after an exception: stop (default), restart", "WHAT");
   host.passFlag("--accept-losses", "An online change (SIGHUP) may lose values of variables");
   host.pass("--core", "Processor of the tasks that choose none (default: the last one)", "N");
@@ -201,6 +203,11 @@ int run(int argc, char **argv) {
   addProjectOptions(*runApp, options, true);
   addRunOptions(HostOptions(*runApp, host));
   runApp->callback([&] { exitCode = hostCommand(options, "run", host); });
+
+  CLI::App *ctl = app.add_subcommand("ctl", "Read, write, force in a running application");
+  ctl->prefix_command(); // stride-host knows what comes behind it
+  ctl->set_help_flag();
+  ctl->callback([&] { exitCode = hostOnlyCommand("ctl", ctl->remaining()); });
 
   std::string trace;
   CLI::App *plot = app.add_subcommand("plot", "Draw a trace");

@@ -75,6 +75,32 @@ int buildCommand(const ProjectOptions &options, const std::string &out, bool emi
   return exitCode;
 }
 
+namespace {
+
+/// Returns only when stride-host cannot be started.
+int becomeHost(std::vector<std::string> arguments, const Output &output) {
+  std::string missing;
+  const std::optional<Installation> installation = findInstallation(missing);
+  const std::string host = installation ? installation->host.string() : missing;
+  arguments.insert(arguments.begin(), host);
+  std::vector<char *> pointers;
+  for (std::string &argument : arguments)
+    pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  std::fflush(nullptr);
+  ::execv(host.c_str(), pointers.data());
+  return showError(Code::toolchainMissing,
+                   fmt::format("`{}` cannot be started: {}", host, std::strerror(errno)), output);
+}
+
+} // namespace
+
+int hostOnlyCommand(const std::string &command, const std::vector<std::string> &hostArguments) {
+  std::vector<std::string> arguments = {command};
+  arguments.insert(arguments.end(), hostArguments.begin(), hostArguments.end());
+  return becomeHost(std::move(arguments), {});
+}
+
 int hostCommand(const ProjectOptions &options, const std::string &command,
                 const std::vector<std::string> &hostArguments) {
   std::optional<BuildResult> result;
@@ -85,20 +111,9 @@ int hostCommand(const ProjectOptions &options, const std::string &command,
   }
   if (!result || exitCode != 0)
     return exitCode;
-  std::string missing;
-  const std::optional<Installation> installation = findInstallation(missing);
-  const std::string host = installation ? installation->host.string() : missing;
-  std::vector<std::string> arguments = {host, command, result->application.string()};
+  std::vector<std::string> arguments = {command, result->application.string()};
   arguments.insert(arguments.end(), hostArguments.begin(), hostArguments.end());
-  std::vector<char *> pointers;
-  for (std::string &argument : arguments)
-    pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  std::fflush(nullptr);
-  ::execv(host.c_str(), pointers.data());
-  return showError(Code::toolchainMissing,
-                   fmt::format("`{}` cannot be started: {}", host, std::strerror(errno)),
-                   options.output);
+  return becomeHost(std::move(arguments), options.output);
 }
 
 } // namespace stc::cli

@@ -2,6 +2,7 @@
 
 #include "runtime/app/error.hpp"
 #include "runtime/host/axis_hooks.hpp"
+#include "runtime/host/control.hpp"
 #include "runtime/host/options.hpp"
 #include "runtime/host/real_run.hpp"
 #include "runtime/host/simulation.hpp"
@@ -29,6 +30,7 @@ struct SimTexts {
   std::vector<std::string> sets;
   std::vector<std::string> changes;
   std::vector<std::string> print;
+  std::string script;
   std::string out;
   int64_t loopBudget = 0;
   bool stateHash = false;
@@ -72,6 +74,9 @@ void declare(CLI::App &sim, SimTexts &texts, bool builtIn) {
       ->type_name("TIME,APP")
       ->expected(1)
       ->take_all();
+  sim.add_option("--script", texts.script,
+                 "Script of what is written and forced, and when (docs/scripts.md)")
+      ->type_name("FILE");
   sim.add_option("--print", texts.print, "Variables to print at the end; may be repeated")
       ->type_name("NAMES")
       ->expected(1)
@@ -114,6 +119,13 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
       ->type_name("NAMES")
       ->expected(1)
       ->take_all();
+  run.add_option("--script", texts.options.script,
+                 "Script of what is written and forced in the first application, and when")
+      ->type_name("FILE");
+  run.add_option(
+         "--listen", texts.options.listen,
+         "Socket through which 'stride-host ctl' and others read, write and force: unix:PATH")
+      ->type_name("ADDRESS");
   run.add_option("--record", texts.options.record,
                  "Record all inputs for 'sim --replay'; the tasks take turns then")
       ->type_name("FILE");
@@ -171,6 +183,7 @@ SimOptions understand(const SimTexts &texts) {
   options.out = texts.out;
   if (!options.out.empty() && options.trace.empty())
     throw app::Error("--out names a file for a trace, but --trace names nothing to trace");
+  options.script = texts.script;
   options.replay = texts.replay;
   if (!options.replay.empty() && !(options.sets.empty() && options.changes.empty()))
     throw app::Error("--replay repeats a run as it was; --set and --change do not go with it");
@@ -236,16 +249,23 @@ int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
   RunTexts runTexts;
   CLI::App *run = cli.add_subcommand("run", "Run by the real clock");
   declare(*run, runTexts, builtIn != nullptr);
+  Control control;
+  CLI::App *ctl = cli.add_subcommand("ctl", "Read, write, force in a running application");
+  control.declare(*ctl);
   try {
     cli.parse(argc, argv);
   } catch (const CLI::CallForHelp &help) {
     return cli.exit(help);
   } catch (const CLI::ParseError &error) {
     fmt::print(stderr, "error: {}\n  'stride-host {} --help' lists the options\n", error.what(),
-               run->parsed() ? "run" : "sim");
+               ctl->parsed()   ? "ctl"
+               : run->parsed() ? "run"
+                               : "sim");
     return kExitBadInput;
   }
   try {
+    if (ctl->parsed())
+      return control.run();
     return run->parsed() ? runFrom(runTexts, builtIn) : simulateFrom(texts, builtIn);
   } catch (const app::Error &error) {
     fmt::print(stderr, "error: {}\n", error.what());
