@@ -89,8 +89,8 @@ app::Symbol resolveElementary(const app::SymbolTable &symbols, std::string_view 
     return symbol;
   const std::vector<app::Symbol> leaves = symbols.leaves(symbol);
   throw app::Error(leaves.empty()
-                       ? fmt::format("symbol '{}': a {} has no value", path, type.name)
-                       : fmt::format("symbol '{}': a {} is not a single value; name one of its "
+                       ? fmt::format("symbol '{}': it is {} and has no value", path, type.name)
+                       : fmt::format("symbol '{}': it is {}, not a single value; name one of its "
                                      "parts, for example '{}'",
                                      path, type.name, leaves.front().path()));
 }

@@ -95,6 +95,6 @@ double realField(const json &request, const char *name, double otherwise) {
   return field->get<double>();
 }
 
-double secondsOf(int64_t ns) { return static_cast<double>(ns) * 1e-9; }
+double secondsOf(int64_t ns) { return static_cast<double>(ns) / 1e9; }
 
 } // namespace stride::monitor

@@ -288,9 +288,10 @@ private:
     const std::size_t nameAt = line.at();
     const std::string_view path = line.path();
     if (step.does == Does::Write && !line.take(":=")) {
-      const bool equals = line.take("=");
-      throw equals ? Mistake{line.at() - 1, "a value is assigned with ':='"}
-                   : Mistake{start, fmt::format("'{}' is not understood; {}", path, kForms)};
+      const std::size_t signAt = line.at();
+      throw line.take("=")
+          ? Mistake{signAt, "a value is assigned with ':='"}
+          : Mistake{start, fmt::format("'{}' is not understood; {}", path, kForms)};
     }
     if (step.does == Does::Force)
       line.expect(":=", "behind the name");

@@ -112,7 +112,7 @@ std::shared_ptr<SymbolRequest> SymbolServer::read(const std::vector<std::string>
                                    name, type.size));
     std::vector<app::Symbol> leaves = symbols_->leaves(symbol);
     if (leaves.empty())
-      throw app::Error(fmt::format("symbol '{}': a {} has no value", name, type.name));
+      throw app::Error(fmt::format("symbol '{}': it is {} and has no value", name, type.name));
     std::move(leaves.begin(), leaves.end(), std::back_inserter(wanted));
   }
   std::shared_ptr<SymbolRequest> request = newRequest(std::move(wanted));
