@@ -5,6 +5,7 @@
 #include "runtime/app/abi.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -23,6 +24,10 @@ public:
   const void *read(std::byte *state, std::byte &bit) const;
   /// Stores a value of the type; false where a pointer on the way is null.
   bool write(std::byte *state, const void *value, std::size_t size) const;
+
+  /// Its offset from the start of the state; nothing where that can change (behind a pointer) and
+  /// for a single bit.
+  std::optional<uint64_t> fixedOffset() const;
 
   /// Index into the type table.
   uint32_t type() const { return type_; }
