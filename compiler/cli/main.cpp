@@ -211,7 +211,11 @@ int run(int argc, char **argv) {
   CLI::App *sim = app.add_subcommand("sim", "Build, then run in virtual time");
   addProjectOptions(*sim, options, true);
   addSimOptions(HostOptions(*sim, host));
-  sim->callback([&] { exitCode = hostCommand(options, "sim", host); });
+  sim->callback([&] {
+    if (sim->get_option("--for")->count() + sim->get_option("--replay")->count() == 0)
+      throw CLI::RequiredError("--for");
+    exitCode = hostCommand(options, "sim", host);
+  });
 
   CLI::App *runApp = app.add_subcommand("run", "Build, then run by the real clock");
   addProjectOptions(*runApp, options, true);

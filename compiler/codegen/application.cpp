@@ -190,27 +190,24 @@ private:
   void addRoots(const Member &m) {
     if (m.root.symbol->kind == SymbolKind::pou && !m.root.isStatic) {
       const auto *program = static_cast<const PouSymbol *>(m.root.symbol);
-      types_.addProgram(program, m.name, taskOf(program));
-      noteWriter(m.root.symbol);
+      types_.addProgram(program, m.name, writerOf(program));
       return;
     }
     std::string list(m.root.symbol->name.text);
     if (m.root.isStatic && static_cast<const PouSymbol *>(m.root.symbol)->isMethod())
       list.insert(0, std::string(static_cast<const PouSymbol *>(m.root.symbol)->owner->name.text) +
                          "__");
-    for (const VarSymbol *v : rootVariables(m.root)) {
+    for (const VarSymbol *v : rootVariables(m.root))
       types_.addRoot(list, v, m.name + "." + fieldName(v),
-                     m.root.isStatic || qualified_.contains(v->decl), listRenamedFrom(m.root, v));
-      noteWriter(v);
-    }
+                     m.root.isStatic || qualified_.contains(v->decl), listRenamedFrom(m.root, v),
+                     writerOf(v));
   }
 
-  /// Of the root that was added last.
-  void noteWriter(const Symbol *symbol) {
+  /// The one task that writes the variable or calls the program.
+  std::optional<std::uint32_t> writerOf(const Symbol *symbol) const {
     const auto &writers = c_.program.sharing.writers;
     const auto found = writers.find(symbol);
-    writers_.resize(types_.rootCount(), kNoTask);
-    writers_.back() = found == writers.end() ? kNoTask : found->second;
+    return found == writers.end() ? std::nullopt : std::optional(found->second);
   }
 
   void sharing(std::string &out) {
@@ -223,28 +220,6 @@ private:
       out += "\n// {task, area, writes, first, count}\n"
              "constexpr ::stride::ImageUseDesc kImageUses[] = {\n" +
              uses + "};\n";
-    writers_.resize(types_.rootCount(), kNoTask);
-    if (writers_.empty())
-      return;
-    out += "\n// By root: the one task that writes it.\nconstexpr uint32_t kRootWriters[] = {";
-    for (std::size_t i = 0; i < writers_.size(); ++i)
-      out += (i % 16 == 0 ? "\n    " : " ") +
-             (writers_[i] == kNoTask ? std::string("kNo") : std::to_string(writers_[i])) + ",";
-    out += "\n};\n";
-  }
-
-  /// The only task that calls the program.
-  std::optional<std::size_t> taskOf(const PouSymbol *program) const {
-    std::optional<std::size_t> found;
-    for (std::size_t i = 0; i < config_.tasks.size(); ++i) {
-      const std::vector<PouSymbol *> &programs = config_.tasks[i].programs;
-      if (std::find(programs.begin(), programs.end(), program) == programs.end())
-        continue;
-      if (found)
-        return std::nullopt;
-      found = i;
-    }
-    return found;
   }
 
   std::string_view listRenamedFrom(const Root &root, const VarSymbol *v) const {
@@ -595,7 +570,6 @@ private:
     const std::size_t imageUses = c_.program.sharing.imageUses.size();
     field("imageUses", table(imageUses, "kImageUses"));
     field("imageUseCount", std::to_string(imageUses));
-    field("rootWriters", table(writers_.size(), "kRootWriters"));
     field("ioDevices", table(ioCount_, "kIoDevices"));
     field("ioDeviceCount", std::to_string(ioCount_));
     field("parameters", table(parameterCount_, "kParameters"));
@@ -618,7 +592,6 @@ private:
   std::unordered_set<const VarDecl *> qualified_; ///< in lists with {attribute 'qualified_only'}
   /// In lists with {attribute 'renamed_from'}: the list's earlier name.
   std::unordered_map<const VarDecl *, std::string_view> listRenamed_;
-  std::vector<std::uint32_t> writers_; ///< by root
   bool hasExit_ = false;
   bool hasReinit_ = false;
   std::string parameters_; ///< rows of the tables

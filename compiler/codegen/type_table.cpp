@@ -221,8 +221,17 @@ void TypeTable::members(Row &row, const Type *type, const Type *base, const std:
   row.memberCount = memberRows_.size() - row.firstMember;
 }
 
+/// renamedFrom and task of a root.
+static std::string lastColumns(std::string_view renamed, std::optional<std::uint32_t> task) {
+  const std::string column = renamedColumn(renamed);
+  if (!task)
+    return column;
+  return (column.empty() ? ", nullptr" : column) + ", " + std::to_string(*task);
+}
+
 void TypeTable::addRoot(std::string_view list, const VarSymbol *variable, const std::string &place,
-                        bool qualifiedOnly, std::string_view listRenamedFrom) {
+                        bool qualifiedOnly, std::string_view listRenamedFrom,
+                        std::optional<std::uint32_t> task) {
   std::string renamed(variable->decl == nullptr ? std::string_view()
                                                 : renamedFrom(variable->decl->attributes));
   if (renamed.empty() && !listRenamedFrom.empty())
@@ -233,7 +242,7 @@ void TypeTable::addRoot(std::string_view list, const VarSymbol *variable, const 
   rootRows_.push_back("{" + (list.empty() ? std::string("nullptr") : quote(list)) + ", " +
                       quote(variable->name.text) + ", " + offset + ", " + std::to_string(type) +
                       ", " + locatedFlags(variable, symbolFlags(variable, qualifiedOnly)) +
-                      renamedColumn(renamed) + "}");
+                      lastColumns(renamed, task) + "}");
 }
 
 void TypeTable::addImage() {
@@ -287,17 +296,14 @@ void TypeTable::addPool(std::uint64_t size) {
 }
 
 void TypeTable::addProgram(const PouSymbol *program, const std::string &place,
-                           std::optional<std::size_t> task) {
+                           std::optional<std::uint32_t> task) {
   const std::uint32_t type = index(program->type);
   const bool hidden =
       std::any_of(program->decl->attributes.begin(), program->decl->attributes.end(),
                   [](const Attribute &a) { return a.name == "hide"; });
-  std::string renamed = renamedColumn(renamedFrom(program->decl->attributes));
-  if (task)
-    renamed += (renamed.empty() ? ", nullptr, " : ", ") + std::to_string(*task);
   rootRows_.push_back("{nullptr, " + quote(program->name.text) + ", offsetof(App__, " + place +
                       "), " + std::to_string(type) + (hidden ? ", ::stride::kSymHidden" : ", 0") +
-                      renamed + "}");
+                      lastColumns(renamedFrom(program->decl->attributes), task) + "}");
 }
 
 std::string TypeTable::text() const {

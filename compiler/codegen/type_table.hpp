@@ -25,9 +25,11 @@ public:
   /// The type's index.
   std::uint32_t index(const Type *type, bool inOut = false);
   /// `{"limit", offsetof(…), type, flags}` of one variable that stands for itself.
-  /// `listRenamedFrom`: the earlier name of its list, empty without one.
+  /// `listRenamedFrom`: the earlier name of its list, empty without one. `task`: the only one that
+  /// writes it.
   void addRoot(std::string_view list, const VarSymbol *variable, const std::string &place,
-               bool qualifiedOnly, std::string_view listRenamedFrom);
+               bool qualifiedOnly, std::string_view listRenamedFrom,
+               std::optional<std::uint32_t> task);
   /// The areas of the process image, and the types of direct addresses.
   void addImage();
   /// An entry of VAR_ACCESS.
@@ -36,7 +38,7 @@ public:
   void addPool(std::uint64_t size);
   /// `task`: the only one that calls it.
   void addProgram(const PouSymbol *program, const std::string &place,
-                  std::optional<std::size_t> task);
+                  std::optional<std::uint32_t> task);
 
   /// `constexpr … kTypes[] = { … };` and the other tables.
   [[nodiscard]] std::string text() const;

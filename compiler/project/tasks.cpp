@@ -174,7 +174,7 @@ private:
   }
 
   void resolveGroup(AxisGroupConfig &group) {
-    const TaskConfig *task = nullptr;
+    TaskConfig *task = nullptr;
     if (group.task.text.empty()) {
       if (config_.tasks.size() != 1) {
         diagnostics_
@@ -187,7 +187,7 @@ private:
       }
       task = &config_.tasks.front();
     } else {
-      for (const TaskConfig &candidate : config_.tasks)
+      for (TaskConfig &candidate : config_.tasks)
         if (equalIgnoringCase(candidate.name.text, group.task.text))
           task = &candidate;
       if (task == nullptr) {
@@ -205,6 +205,10 @@ private:
                                 group.name.text, task->name.text),
                     "how long is a cycle?")
             .help("add the time between two events in µs, for example `dwCycle = 2000`");
+      // The simulated bus has a SYNC every dwCycle, which the task need not wait for.
+      if (group.driver == "Dummy" && task->start == TaskStart::event &&
+          equalIgnoringCase(task->event.text, group.name.text + ".bSync"))
+        task->intervalNs = std::int64_t{group.cycleUs} * 1000;
       setTaskCycle(group, group.cycleUs * 1e-6);
       return;
     }

@@ -104,7 +104,7 @@ struct RootDesc {
   uint32_t flags;   ///< SymbolFlags.
   /// Its name in an earlier build, "name" (in a list of the same name) or "list.name", or null.
   const char *renamedFrom = nullptr;
-  /// A program: index of the only task that calls it. kNoIndex: none, several, or not a program.
+  /// The one task that writes the variable or calls the program; kNoIndex: none, or several.
   uint32_t task = kNoIndex;
 };
 
@@ -295,9 +295,6 @@ struct StrideAppV1 {
 
   const ImageUseDesc *imageUses = nullptr;
   uint32_t imageUseCount = 0;
-  /// By root: the one task that writes it, or calls the program; kNoIndex: none, or several. Null
-  /// when there is no root.
-  const uint32_t *rootWriters = nullptr;
 
   const IoDeviceDesc *ioDevices = nullptr;
   uint32_t ioDeviceCount = 0;

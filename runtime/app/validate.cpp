@@ -124,10 +124,6 @@ void validate(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
         !fits(device.stateOffset, 8, app.stateSize))
       damaged(fmt::format("I/O device {}", i));
   }
-  for (uint32_t i = 0; app.rootWriters != nullptr && i < app.rootCount; ++i) {
-    if (app.rootWriters[i] != kNoIndex && app.rootWriters[i] >= app.taskCount)
-      damaged(fmt::format("writer of variable {}", i));
-  }
   for (uint32_t i = 0; i < app.taskCount; ++i) {
     const TaskDesc &task = app.tasks[i];
     if (task.name == nullptr || task.run == nullptr || task.kind > TaskKind::Status)

@@ -3,6 +3,7 @@
 #include "drivers/dummy/dummy_drive.hpp"
 #include "runtime/app/error.hpp"
 #include "runtime/axis/axis_group.hpp"
+#include "runtime/host/task_times.hpp"
 
 #include "st/DummyDrive/DUMMY_DRIVE_SIM.h"
 
@@ -21,19 +22,29 @@ template <class T> T &at(std::byte *state, uint64_t offset) {
 class AxisGroupHook final : public task::CycleHook {
 public:
   AxisGroupHook(const StrideAppV1 &app, uint32_t index, std::byte *state,
-                std::unique_ptr<axis::AxisDriver> driver, double cycleSeconds)
-      : index_(index), name_(app.axisGroups[index].name), bootupErrorOffset_(app.bootupErrorOffset),
+                std::unique_ptr<axis::AxisDriver> driver, double cycleSeconds, InputPort &inputs,
+                bool realClock)
+      : inputs_(&inputs), realClock_(realClock), ref_(&groupOf(app, state, index)), index_(index),
+        name_(app.axisGroups[index].name), bootupErrorOffset_(app.bootupErrorOffset),
         bootupErrorLength_(app.bootupErrorLength),
-        group_(std::move(driver), groupOf(app, state), axesOf(app, state), cycleSeconds,
-               encodersOf(app, state)) {}
+        group_(std::move(driver), *ref_, axesOf(app, state), cycleSeconds, encodersOf(app, state)) {
+  }
 
   void beforePous(Ctx &ctx) override {
+    if (ref_->bDebug != 0)
+      times_.begin(*ref_, measuredNow(ctx));
+    else
+      times_.pause();
     group_.executeStart();
     const bool failed = !group_.bootupError().empty();
     if (failed != shown_)
       show(ctx, failed);
   }
-  void afterPous(Ctx &) override { group_.executeEnd(); }
+  void afterPous(Ctx &ctx) override {
+    group_.executeEnd();
+    if (times_.measuring())
+      times_.end(*ref_, measuredNow(ctx));
+  }
   void applicationStopped() override { group_.stopAll(); }
   bool atRest() const override { return group_.atRest(); }
   std::string problem() const override {
@@ -44,7 +55,8 @@ public:
 
   void rebind(const StrideAppV1 &app, std::byte *state) noexcept override {
     const AxisGroupDesc &group = app.axisGroups[index_];
-    group_.rebind(groupOf(app, state));
+    ref_ = &groupOf(app, state, index_);
+    group_.rebind(*ref_);
     for (uint32_t i = 0; i < group.driveCount; ++i)
       group_.rebind(i, axisOf(app, state, i));
     for (uint32_t i = 0; i < group.encoderCount; ++i)
@@ -54,8 +66,14 @@ public:
   }
 
 private:
-  axis::AxisGroupRef &groupOf(const StrideAppV1 &app, std::byte *state) const {
-    return at<axis::AxisGroupRef>(state, app.axisGroups[index_].groupOffset);
+  static axis::AxisGroupRef &groupOf(const StrideAppV1 &app, std::byte *state, uint32_t index) {
+    return at<axis::AxisGroupRef>(state, app.axisGroups[index].groupOffset);
+  }
+  /// In virtual time a cycle takes none, so that simulations are repeatable.
+  int64_t measuredNow(const Ctx &ctx) noexcept {
+    int64_t now = realClock_ ? task::monotonicNs() : ctx.cycleStartNs;
+    inputs_->pass(now);
+    return now;
   }
   axis::AxisRef &axisOf(const StrideAppV1 &app, std::byte *state, uint32_t drive) const {
     const uint32_t first = app.axisGroups[index_].firstDrive;
@@ -90,6 +108,10 @@ private:
     text[count] = 0;
   }
 
+  InputPort *inputs_;
+  bool realClock_;
+  axis::AxisGroupRef *ref_;
+  TaskTimes times_;
   uint32_t index_;
   std::string name_;
   uint64_t bootupErrorOffset_;
@@ -164,8 +186,8 @@ app::RuntimeLayouts runtimeLayouts() {
           ::st::SM_DriveBasic::SMC_ENCODER_REF__layout__};
 }
 
-std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
-                                                            task::TaskSet &tasks) {
+std::vector<std::unique_ptr<task::CycleHook>>
+addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPort &inputs) {
   const StrideAppV1 &app = application.description();
   std::vector<std::unique_ptr<task::CycleHook>> hooks;
   for (uint32_t i = 0; i < app.axisGroupCount; ++i) {
@@ -174,7 +196,8 @@ std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Applicati
     for (uint32_t d = 0; d < group.driveCount; ++d)
       bindData(app.drives[group.firstDrive + d], application.state());
     hooks.push_back(std::make_unique<AxisGroupHook>(app, i, application.state(),
-                                                    makeDriver(group, setup), setup.cycleSeconds));
+                                                    makeDriver(group, setup), setup.cycleSeconds,
+                                                    inputs, tasks.realClock()));
     tasks.addHook(group.task, *hooks.back());
   }
   return hooks;

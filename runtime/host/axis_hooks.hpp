@@ -3,6 +3,7 @@
 #define STRIDE_RUNTIME_HOST_AXIS_HOOKS_HPP
 
 #include "runtime/app/application.hpp"
+#include "runtime/host/input_port.hpp"
 #include "runtime/task/task_set.hpp"
 
 #include <memory>
@@ -15,10 +16,10 @@ namespace stride::host {
 app::RuntimeLayouts runtimeLayouts();
 
 /// One hook per axis group of the application, added to the group's task. The hooks must live as
-/// long as the tasks. Throws app::Error for an unknown driver, and when the application was
-/// built with another AXIS_REF or SMC_AXISGROUP_REF than this program.
-std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
-                                                            task::TaskSet &tasks);
+/// long as the tasks. What is measured passes `inputs`. Throws app::Error for an unknown driver,
+/// and when the application was built with another AXIS_REF or SMC_AXISGROUP_REF than this program.
+std::vector<std::unique_ptr<task::CycleHook>>
+addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPort &inputs);
 
 /// One line about each drive that is in error stop, to be shown at the end of a run.
 std::vector<std::string> errorStops(const app::Application &application);

@@ -49,6 +49,7 @@ public:
   /// The task with the shortest interval, the first one of several; 0 when none has an interval.
   uint32_t fastest() const { return fastest_; }
   bool hasEvents() const { return hasEvents_; }
+  bool realClock() const { return limit_ == LoopLimit::Clock; }
 
   /// Before the first cycle. The hooks of a task run around its POUs: before in the order of
   /// adding, after in reverse. They must live as long as the tasks.
