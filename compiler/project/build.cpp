@@ -354,7 +354,8 @@ private:
                    beside(linked).string(),
                    "-Wl,--gc-sections",
                    "-Wl,--build-id=none"};
-    if (!findProgram("ld.lld").empty())
+    // Debian's cross compilers do not look for it.
+    if (options_.target.empty() && !findProgram("ld.lld").empty())
       job.command.insert(job.command.begin() + 1, "-fuse-ld=lld");
     if (!options_.isStatic) {
       job.command.insert(job.command.end(), {"-Wl,--exclude-libs,ALL", "-Wl,-Bsymbolic"});
