@@ -112,8 +112,8 @@ void CarryReport::compareIoDevices() {
     if (!sameName(x.name, y.name) || !sameName(x.driverName, y.driverName) ||
         x.inputFirst != y.inputFirst || x.inputCount != y.inputCount ||
         x.outputFirst != y.outputFirst || x.outputCount != y.outputCount ||
-        x.loopBack != y.loopBack || x.delayCycles != y.delayCycles ||
-        x.timeoutNs != y.timeoutNs || text(x.segment) != text(y.segment))
+        x.loopBack != y.loopBack || x.delayCycles != y.delayCycles || x.timeoutNs != y.timeoutNs ||
+        text(x.segment) != text(y.segment))
       refusals_.push_back(
           fmt::format("I/O device {} has another configuration in the new build", x.name));
   }
