@@ -6,6 +6,8 @@
 #include "compiler/semantics/hierarchy.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <iterator>
 
 #ifndef STRIDE_VERSION
 #define STRIDE_VERSION "0.1.0"
@@ -358,45 +360,116 @@ private:
     return 0;
   }
 
+  /// Appends parameters to their table; returns "first, count".
+  std::string parameters(const std::vector<ConfigParameter> &list) {
+    const std::size_t first = parameterCount_;
+    for (const ConfigParameter &parameter : list) {
+      parameters_ += "    {\"" + escaped(parameter.name) + "\", " +
+                     (parameter.text.empty() ? "nullptr" : "\"" + escaped(parameter.text) + "\"") +
+                     ", " + numberText(parameter.number) + "},\n";
+      ++parameterCount_;
+    }
+    return std::to_string(first) + ", " + std::to_string(list.size());
+  }
+
+  /// Shortest decimal that reads back as the same number.
+  static std::string numberText(double value) {
+    char text[32];
+    const auto end = std::to_chars(std::begin(text), std::end(text), value).ptr;
+    return {std::begin(text), end};
+  }
+
+  void drive(const AppConfig::Drive &drive) {
+    std::string axis;
+    const VarSymbol *v = global(drive.name, axis);
+    if (v == nullptr)
+      return;
+    axisLayout_ = c_.layouts.hash(v->type);
+    std::string data = "0, 0";
+    std::string place;
+    if (const VarSymbol *own = drive.data.empty() ? nullptr : global(drive.data, place))
+      data =
+          "offsetof(App__, " + place + "), " + std::to_string(c_.layouts.hash(own->type)) + "ULL";
+    drives_ += "    {\"" + escaped(drive.name) + "\", offsetof(App__, " + axis + "), " +
+               std::to_string(initialField(v, "wdriveid")) + ", 0, " + data + ", " +
+               parameters(drive.parameters) + "},\n";
+    ++driveCount_;
+  }
+
+  void encoder(const AppConfig::Encoder &encoder) {
+    std::string place;
+    const VarSymbol *v = global(encoder.name, place);
+    if (v == nullptr)
+      return;
+    encoderLayout_ = c_.layouts.hash(v->type);
+    encoders_ += "    {\"" + escaped(encoder.name) + "\", offsetof(App__, " + place + "), " +
+                 std::to_string(initialField(v, "wencoderid")) + ", " +
+                 parameters(encoder.parameters) + ", 0},\n";
+    ++encoderCount_;
+  }
+
   void axisGroups(std::string &out) {
+    std::string buses;
     std::string groups;
-    std::string drives;
+    for (const AppConfig::Bus &bus : config_.buses)
+      buses += "    {\"" + escaped(bus.name) + "\", \"" + escaped(bus.interfaceType) + "\", \"" +
+               escaped(bus.driver) + "\", " + parameters(bus.parameters) + "},\n";
     for (const AppConfig::AxisGroup &group : config_.axisGroups) {
       std::string place;
       const VarSymbol *variable = global(group.name, place);
       if (variable == nullptr)
         continue;
       groupLayout_ = c_.layouts.hash(variable->type);
-      const std::size_t first = driveCount_;
-      for (const AppConfig::Drive &drive : group.drives) {
-        std::string axis;
-        const VarSymbol *v = global(drive.name, axis);
-        if (v == nullptr)
-          continue;
-        axisLayout_ = c_.layouts.hash(v->type);
-        drives += "    {\"" + escaped(drive.name) + "\", offsetof(App__, " + axis + "), " +
-                  std::to_string(initialField(v, "wdriveid")) + ", 0},\n";
-        ++driveCount_;
-      }
+      const std::size_t firstDrive = driveCount_;
+      for (const AppConfig::Drive &one : group.drives)
+        drive(one);
+      const std::size_t firstEncoder = encoderCount_;
+      for (const AppConfig::Encoder &one : group.encoders)
+        encoder(one);
       std::string task = "::stride::kNoIndex";
       for (std::size_t i = 0; i < config_.tasks.size(); ++i) {
         if (lower(config_.tasks[i].name) == lower(group.task))
           task = std::to_string(i);
       }
-      groups += "    {\"" + escaped(group.name) + "\", \"" + escaped(group.bus) + "\", \"" +
-                escaped(group.driver) + "\", offsetof(App__, " + place + "), " + task + ", " +
-                std::to_string(group.cycleUs) + ", " + std::to_string(first) + ", " +
-                std::to_string(driveCount_ - first) + "},\n";
+      const AppConfig::Bus &bus = config_.buses[group.bus];
+      groups += "    {\"" + escaped(group.name) + "\", \"" + escaped(bus.name) + "\", \"" +
+                escaped(bus.driver) + "\", offsetof(App__, " + place + "), " + task + ", " +
+                std::to_string(group.cycleUs) + ", " + std::to_string(firstDrive) + ", " +
+                std::to_string(driveCount_ - firstDrive) + ", " + std::to_string(group.bus) + ", " +
+                std::to_string(firstEncoder) + ", " + std::to_string(encoderCount_ - firstEncoder) +
+                ", " + parameters(group.parameters) + "},\n";
       ++groupCount_;
     }
-    if (!drives.empty())
-      out += "\n// {name, axisOffset, driveId, 0}\nconstexpr ::stride::DriveDesc kDrives[] = {\n" +
-             drives + "};\n";
-    if (!groups.empty())
-      out +=
-          "\n// {name, busName, driverName, groupOffset, task, cycleUs, firstDrive, driveCount}\n"
-          "constexpr ::stride::AxisGroupDesc kAxisGroups[] = {\n" +
-          groups + "};\n";
+    const auto table = [&](const char *columns, const char *type, const char *name,
+                           const std::string &rows) {
+      if (!rows.empty())
+        out += std::string("\n// ") + columns + "\nconstexpr ::stride::" + type + " " + name +
+               "[] = {\n" + rows + "};\n";
+    };
+    table("{name, text, number}", "ParameterDesc", "kParameters", parameters_);
+    table("{name, interfaceType, driverName, firstParameter, parameterCount}", "BusDesc", "kBuses",
+          buses);
+    table("{name, axisOffset, driveId, 0, dataOffset, dataLayout, firstParameter, parameterCount}",
+          "DriveDesc", "kDrives", drives_);
+    table("{name, encoderOffset, encoderId, firstParameter, parameterCount, 0}", "EncoderDesc",
+          "kEncoders", encoders_);
+    table("{name, busName, driverName, groupOffset, task, cycleUs, firstDrive, driveCount, bus, "
+          "firstEncoder, encoderCount, firstParameter, parameterCount}",
+          "AxisGroupDesc", "kAxisGroups", groups);
+  }
+
+  /// g_strBootupError for the description: length and place.
+  [[nodiscard]] std::pair<std::string, std::string> bootupError() const {
+    for (const Member &m : members_) {
+      if (m.root.symbol->kind != SymbolKind::globals ||
+          m.root.symbol->library->name != "SM_DriveBasic")
+        continue;
+      for (const VarSymbol *v : static_cast<const GlobalsSymbol *>(m.root.symbol)->variables)
+        if (v->name.id->lower == "g_strbootuperror")
+          return {std::to_string(static_cast<const StringType *>(v->type)->length),
+                  "offsetof(App__, " + m.name + "." + std::string(mangle(v->name.text)) + ")"};
+    }
+    return {"0", "0"};
   }
 
   void description(std::string &out) {
@@ -449,6 +522,16 @@ private:
     field("retainFile", config_.retainFile.empty() ? std::string("nullptr")
                                                    : "\"" + escaped(config_.retainFile) + "\"");
     field("retainPeriodNs", std::to_string(config_.retainPeriodNs));
+    field("parameters", table(parameterCount_, "kParameters"));
+    field("buses", table(config_.buses.size(), "kBuses"));
+    field("encoders", table(encoderCount_, "kEncoders"));
+    field("parameterCount", std::to_string(parameterCount_));
+    field("busCount", std::to_string(config_.buses.size()));
+    field("encoderCount", std::to_string(encoderCount_));
+    const auto [length, place] = bootupError();
+    field("bootupErrorLength", length);
+    field("bootupErrorOffset", place);
+    field("encoderRefLayout", std::to_string(encoderLayout_) + "ULL");
     out += "};\n\n} // namespace st::user\n";
   }
 
@@ -461,8 +544,14 @@ private:
   std::unordered_map<const VarDecl *, std::string_view> listRenamed_;
   bool hasExit_ = false;
   bool hasReinit_ = false;
+  std::string parameters_; ///< rows of the tables
+  std::string drives_;
+  std::string encoders_;
   std::size_t groupCount_ = 0;
   std::size_t driveCount_ = 0;
+  std::size_t encoderCount_ = 0;
+  std::size_t parameterCount_ = 0;
+  std::uint64_t encoderLayout_ = 0;
   std::uint64_t axisLayout_ = 0;
   std::uint64_t groupLayout_ = 0;
 };

@@ -19,6 +19,13 @@ struct GeneratedFile {
 /// How a task is started.
 enum class TaskStart : std::uint8_t { cyclic, freewheeling, event, status };
 
+/// A parameter of the PLC configuration, for the driver: ParameterDesc.
+struct ConfigParameter {
+  std::string name;
+  std::string text; ///< texts and choices; else empty
+  double number = 0;
+};
+
 /// Tasks and axis groups of the application, from stride.toml.
 struct AppConfig {
   struct Task {
@@ -34,17 +41,31 @@ struct AppConfig {
   };
   struct Drive {
     std::string name; ///< of the global AXIS_REF
+    std::string data; ///< of the global that belongs to the driver; empty: none
+    std::vector<ConfigParameter> parameters;
+  };
+  struct Encoder {
+    std::string name; ///< of the global SMC_ENCODER_REF
+    std::vector<ConfigParameter> parameters;
+  };
+  struct Bus {
+    std::string name;
+    std::string interfaceType;
+    std::string driver; ///< first word of InterfaceType: `Dummy`
+    std::vector<ConfigParameter> parameters;
   };
   struct AxisGroup {
-    std::string name; ///< of the global SMC_AXISGROUP_REF
-    std::string bus;
-    std::string driver; ///< first word of InterfaceType: `Dummy`
+    std::string name;    ///< of the global SMC_AXISGROUP_REF
+    std::size_t bus = 0; ///< index into buses
     std::string task;
     std::uint32_t cycleUs = 0; ///< dwCycle
+    std::vector<ConfigParameter> parameters;
     std::vector<Drive> drives;
+    std::vector<Encoder> encoders;
   };
   std::string name;
   std::vector<Task> tasks;
+  std::vector<Bus> buses;
   std::vector<AxisGroup> axisGroups;
   std::string retainFile;          ///< [retain] file
   std::int64_t retainPeriodNs = 0; ///< [retain] period; 0: the runtime's own

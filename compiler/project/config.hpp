@@ -36,25 +36,48 @@ struct TaskConfig {
   std::vector<ConfigName> programs; ///< called in this order
 };
 
-/// Members of an AXIS_REF or SMC_AXISGROUP_REF that the configuration sets: name and value as ST
-/// text.
+/// Members of an AXIS_REF, SMC_ENCODER_REF or SMC_AXISGROUP_REF that the configuration sets: name
+/// and value as ST text.
 using ConfigFields = std::vector<std::pair<std::string, std::string>>;
 
 struct DriveConfig {
   ConfigName name;
   ConfigFields fields;
+  std::vector<ConfigParameter> parameters;
+  bool simulated = false; ///< has a `physics` section and so a variable `<name>_Sim`
+};
+
+/// The variable through which a program sees and disturbs the simulation of a drive.
+[[nodiscard]] inline std::string simulationOf(const DriveConfig &drive) {
+  return drive.name.text + "_Sim";
+}
+
+struct EncoderConfig {
+  ConfigName name;
+  ConfigFields fields;
+  std::vector<ConfigParameter> parameters;
+};
+
+struct BusConfig {
+  ConfigName name;
+  std::string interfaceType;
+  std::string driver; ///< first word of InterfaceType
+  std::vector<ConfigParameter> parameters;
+  std::size_t axisGroups = 0;
 };
 
 struct AxisGroupConfig {
   ConfigName name;
-  std::string bus;
-  std::string driver; ///< first word of InterfaceType
-  ConfigName task;    ///< sTask; empty: the only task
+  std::size_t bus = 0; ///< index into ProjectConfig::buses
+  std::string driver;  ///< first word of InterfaceType
+  ConfigName task;     ///< sTask; empty: the only task
   Span groupSpan;
   std::uint32_t cycleUs = 0; ///< dwCycle; 0: not given
   Span cycleSpan;
   ConfigFields fields;
+  std::vector<ConfigParameter> parameters;
   std::vector<DriveConfig> drives;
+  std::vector<EncoderConfig> encoders;
 };
 
 /// The configuration of one project. Without stride.toml it is empty but for the name.
@@ -69,6 +92,7 @@ struct ProjectConfig {
   std::int64_t retainPeriodNs = 0;           ///< [retain] period; 0: not given
   std::vector<Define> defines;               ///< for `{IF defined (…)}`
   std::vector<TaskConfig> tasks;
+  std::vector<BusConfig> buses;
   std::vector<AxisGroupConfig> axisGroups;
   bool incomplete = false; ///< a drive, axis group or everything had to be left out
 };
@@ -106,9 +130,10 @@ struct DeclaredRange {
 /// Name of the hidden FUNCTION that evaluates the event of a task.
 [[nodiscard]] std::string eventFunction(const TaskConfig &task);
 
-/// The configuration as ST: one VAR_GLOBAL with an AXIS_REF per drive and an SMC_AXISGROUP_REF
-/// per axis group, and a FUNCTION for the event of each task that has one. May be empty. Drives and
-/// groups named like something in `files` are reported and left out.
+/// The configuration as ST: one VAR_GLOBAL with an AXIS_REF per drive, an SMC_ENCODER_REF per
+/// encoder and an SMC_AXISGROUP_REF per axis group, g_DRIVESTRUCT, which leads to all of them, and
+/// a FUNCTION for the event of each task that has one. May be empty. Drives and groups named like
+/// something in `files` are reported and left out.
 [[nodiscard]] std::string plcDeclarations(const ProjectConfig &config,
                                           const std::vector<ast::File *> &files,
                                           std::vector<DeclaredRange> &ranges,

@@ -207,15 +207,21 @@ AppConfig Project::appConfig() const {
           task.programs.push_back(pou);
     app.tasks.push_back(std::move(task));
   }
+  for (const BusConfig &bus : config_.buses)
+    app.buses.push_back({bus.name.text, bus.interfaceType, bus.driver, bus.parameters});
   for (const AxisGroupConfig &from : config_.axisGroups) {
     AppConfig::AxisGroup group;
     group.name = from.name.text;
     group.bus = from.bus;
-    group.driver = from.driver;
     group.task = from.task.text;
     group.cycleUs = from.cycleUs;
+    group.parameters = from.parameters;
     for (const DriveConfig &drive : from.drives)
-      group.drives.push_back({drive.name.text});
+      group.drives.push_back({drive.name.text,
+                              drive.simulated ? simulationOf(drive) : std::string(),
+                              drive.parameters});
+    for (const EncoderConfig &encoder : from.encoders)
+      group.encoders.push_back({encoder.name.text, encoder.parameters});
     app.axisGroups.push_back(std::move(group));
   }
   return app;

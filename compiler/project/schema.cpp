@@ -149,7 +149,11 @@ private:
     if (parameter_.type == ParameterType::real && !std::isfinite(value)) {
       message = fmt::format("`{}` must be a finite number", parameter_.name);
       label = "not finite";
-    } else if (parameter_.type == ParameterType::real) {
+    } else if (parameter_.type == ParameterType::real && parameter_.low == 0 &&
+               parameter_.high > 1e300) {
+      message = fmt::format("`{}` must not be negative", parameter_.name);
+      label = "negative";
+    } else if (parameter_.type == ParameterType::real && parameter_.high > 1e300) {
       message = fmt::format("`{}` must be greater than 0{}", parameter_.name, unit);
       label = "not positive";
     } else {
@@ -355,6 +359,42 @@ std::string CheckedSection::text(std::string_view name, std::string_view otherwi
 std::int64_t CheckedSection::choice(std::string_view name, std::int64_t otherwise) const {
   const TomlNode *value = get(name);
   return value != nullptr ? findChoice(*findParameter(*schema_, name), *value) : otherwise;
+}
+
+void CheckedSection::parameters(std::string_view prefix, std::vector<ConfigParameter> &out) const {
+  for (const Parameter &parameter : schema_->parameters) {
+    const TomlNode *value = get(parameter.name);
+    if (value == nullptr)
+      continue;
+    ConfigParameter &result = out.emplace_back();
+    result.name = std::string(prefix) + std::string(parameter.name);
+    switch (parameter.type) {
+    case ParameterType::text:
+    case ParameterType::identifier:
+      result.text = value->text;
+      break;
+    case ParameterType::boolean:
+      result.number = value->boolean ? 1 : 0;
+      break;
+    case ParameterType::integer:
+    case ParameterType::real:
+      result.number = value->floating;
+      break;
+    case ParameterType::choice: {
+      const std::int64_t number = findChoice(parameter, *value);
+      result.number = static_cast<double>(number);
+      for (const Choice &choice : parameter.choices)
+        if (choice.value == number)
+          result.text = choice.name;
+      break;
+    }
+    case ParameterType::interval:
+      result.number = static_cast<double>(parseInterval(value->text).value_or(0)) * 1e-9;
+      break;
+    case ParameterType::nameList: // no driver has any
+      break;
+    }
+  }
 }
 
 std::vector<CheckedSection> CheckedSection::sections(std::string_view name,

@@ -1,6 +1,7 @@
 #pragma once
 // What may stand in stride.toml: sections, parameters, their types and ranges.
 
+#include "compiler/codegen/codegen.hpp"
 #include "compiler/project/toml_tree.hpp"
 #include "compiler/source/diagnostic.hpp"
 
@@ -68,6 +69,9 @@ public:
   [[nodiscard]] std::string text(std::string_view name, std::string_view otherwise = {}) const;
   /// Value of a parameter of type choice.
   [[nodiscard]] std::int64_t choice(std::string_view name, std::int64_t otherwise) const;
+  /// Appends all valid parameters, in the schema's order: numbers, choices with their name,
+  /// durations in seconds.
+  void parameters(std::string_view prefix, std::vector<ConfigParameter> &out) const;
   /// The tables of a nested section.
   [[nodiscard]] std::vector<CheckedSection> sections(std::string_view name,
                                                      Diagnostics &diagnostics) const;

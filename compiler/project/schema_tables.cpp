@@ -1,5 +1,5 @@
 // The parameters of stride.toml. Names, types and meanings of the PLC configuration are those of
-// the SoftMotion V2.3 manual, sections 2.1.2 and 2.1.3.
+// the SoftMotion V2.3 manual, sections 2.1.2 to 2.1.4.
 
 #include "compiler/codegen/codegen.hpp"
 #include "compiler/project/schema.hpp"
@@ -36,10 +36,35 @@ constexpr std::array<Choice, 7> kControlTypes = {{{"TOR ->", 1},
                                                   {"CONFIGURABLE", 0}}};
 
 // Parameter numbers of AXIS_REF (Annex A).
-constexpr std::array<Choice, 4> kSendData = {
-    {{"SetPosition", 1100}, {"SetVelocity", 1110}, {"SetTorque", 1160}, {"SetCurrent", 1150}}};
-constexpr std::array<Choice, 4> kReceiveData = {
-    {{"ActPosition", 1101}, {"ActVelocity", 1111}, {"ActTorque", 1161}, {"ActCurrent", 1151}}};
+constexpr std::int64_t kUserDefined = 65535; // what it is, the driver knows
+constexpr std::array<Choice, 5> kSendData = {{{"SetPosition", 1100},
+                                              {"SetVelocity", 1110},
+                                              {"SetTorque", 1160},
+                                              {"SetCurrent", 1150},
+                                              {"SetUserDef", kUserDefined}}};
+constexpr std::array<Choice, 5> kReceiveData = {{{"ActPosition", 1101},
+                                                 {"ActVelocity", 1111},
+                                                 {"ActTorque", 1161},
+                                                 {"ActCurrent", 1151},
+                                                 {"ActUserDef", kUserDefined}}};
+
+// kBit/s: CAN up to 1000, Sercos from 2000.
+constexpr std::array<Choice, 13> kBaudRates = {{{"10", 10},
+                                                {"20", 20},
+                                                {"50", 50},
+                                                {"100", 100},
+                                                {"125", 125},
+                                                {"250", 250},
+                                                {"500", 500},
+                                                {"800", 800},
+                                                {"1000", 1000},
+                                                {"2000", 2000},
+                                                {"4000", 4000},
+                                                {"8000", 8000},
+                                                {"16000", 16000}}};
+constexpr std::array<Choice, 3> kSyncProducers = {{{"PLC", 0}, {"1.Drive", 1}, {"SYNC device", 2}}};
+
+constexpr std::array<Choice, 3> kModels = {{{"ideal", 0}, {"lag", 1}, {"second_order", 2}}};
 
 constexpr Parameter word(std::string_view name, std::string_view unit = {}) {
   return {name, ParameterType::integer, false, 0, kWord, {}, unit};
@@ -52,6 +77,12 @@ constexpr Parameter positive(std::string_view name, std::string_view unit) {
 }
 constexpr Parameter anyReal(std::string_view name, std::string_view unit) {
   return {name, ParameterType::real, false, -kHuge, kHuge, {}, unit};
+}
+constexpr Parameter notNegative(std::string_view name, std::string_view unit) {
+  return {name, ParameterType::real, false, 0, kHuge, {}, unit};
+}
+constexpr Parameter count(std::string_view name, double low, double high, std::string_view unit) {
+  return {name, ParameterType::integer, false, low, high, {}, unit};
 }
 constexpr Parameter flag(std::string_view name) { return {name, ParameterType::boolean}; }
 constexpr Parameter choice(std::string_view name, std::span<const Choice> choices) {
@@ -122,6 +153,10 @@ constexpr std::array kAxisGroupParameters = {
     dword("dwParam2"),
     dword("dwParam3"),
     dword("dwParam4"),
+    choice("BaudRate", kBaudRates),
+    count("LedBrightness", 0, kWord, {}),
+    count("ControllerNo", 0, 255, {}),
+    choice("SyncProducer", kSyncProducers),
 };
 
 constexpr std::array kDriveParameters = {
@@ -149,12 +184,73 @@ constexpr std::array kDriveParameters = {
     positive("fJerk", "u/s³"),
 };
 
+constexpr std::array kPhysicsParameters = {
+    choice("model", kModels),
+    Parameter{"time_constant", ParameterType::interval, false, kMicrosecond, kHour},
+    positive("inertia", "Nm/(u/s²)"),
+    positive("torque_limit", "Nm"),
+    notNegative("viscous_friction", "Nm/(u/s)"),
+    notNegative("coulomb_friction", "Nm"),
+    positive("position_gain", "1/s"),
+    positive("velocity_gain", "Nm/(u/s)"),
+    Parameter{"velocity_integral_time", ParameterType::interval, false, kMicrosecond, kHour},
+    Parameter{"velocity_feedforward", ParameterType::real, false, 0, 1},
+    count("substeps", 1, 1000, {}),
+    count("dead_time", 0, 64, "cycles"),
+    count("start_up_cycles", 1, 100000, "cycles"),
+    count("switch_cycles", 1, 100000, "cycles"),
+    anyReal("start_position", "u"),
+    anyReal("limit_negative", "u"),
+    anyReal("limit_positive", "u"),
+    anyReal("home_switch_from", "u"),
+    anyReal("home_switch_to", "u"),
+    anyReal("index_position", "u"),
+    positive("index_distance", "u"),
+    anyReal("probe_position", "u"),
+    positive("probe_distance", "u"),
+};
+
+constexpr std::array kEncoderParameters = {
+    needed({"name", ParameterType::identifier}),
+    needed(word("wEncoderId")),
+    Parameter{"dwRatioTechUnitsDenom", ParameterType::integer, false, 1, kDword, {}, "increments"},
+    Parameter{"iRatioTechUnitsNum", ParameterType::integer, false, 1, 32767, {}, "u"},
+    choice("iMovementType", kMovementTypes),
+    positive("fPositionPeriod", "u"),
+    flag("bSWLimitEnable"),
+    anyReal("fSWLimitNegative", "u"),
+    anyReal("fSWLimitPositive", "u"),
+    dword("dwEncoderModulo", "increments"),
+    dword("dwParam1"),
+    dword("dwParam2"),
+    dword("dwParam3"),
+    dword("dwParam4"),
+    dword("dwParam5"),
+    dword("dwParam6"),
+    dword("dwParam7"),
+    dword("dwParam8"),
+};
+
 constexpr Section kProject = {"project", "the project", "project", false, kProjectParameters, {}};
 constexpr Section kImage = {"image", "the process image", "image", false, kImageParameters, {}};
 constexpr Section kRetain = {"retain", "the retained data", "retain", false, kRetainParameters, {}};
 constexpr Section kTask = {"task", "a task", "task", true, kTaskParameters, {}};
-constexpr Section kDrive = {"drive", "a drive", "bus.axis_group.drive", true, kDriveParameters, {}};
-constexpr std::array<const Section *, 1> kAxisGroupSections = {&kDrive};
+constexpr Section kPhysics = {"physics", "the physics of a drive", "bus.axis_group.drive.physics",
+                              false,     kPhysicsParameters,       {}};
+constexpr std::array<const Section *, 1> kDriveSections = {&kPhysics};
+constexpr Section kDrive = {"drive", "a drive",        "bus.axis_group.drive",
+                            true,    kDriveParameters, kDriveSections};
+constexpr std::array kEncoderPhysicsParameters = {
+    Parameter{"follows", ParameterType::identifier},
+    anyReal("own_velocity", "u/s"),
+};
+constexpr Section kEncoderPhysics = {
+    "physics", "the physics of an encoder", "bus.axis_group.encoder.physics",
+    false,     kEncoderPhysicsParameters,   {}};
+constexpr std::array<const Section *, 1> kEncoderSections = {&kEncoderPhysics};
+constexpr Section kEncoder = {"encoder", "an encoder",       "bus.axis_group.encoder",
+                              true,      kEncoderParameters, kEncoderSections};
+constexpr std::array<const Section *, 2> kAxisGroupSections = {&kDrive, &kEncoder};
 constexpr Section kAxisGroup = {"axis_group", "an axis group",      "bus.axis_group",
                                 true,         kAxisGroupParameters, kAxisGroupSections};
 constexpr std::array<const Section *, 1> kBusSections = {&kAxisGroup};

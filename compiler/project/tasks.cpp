@@ -2,6 +2,7 @@
 // declarations.
 
 #include "compiler/project/config.hpp"
+#include "compiler/project/config_reader.hpp"
 #include "compiler/project/interval.hpp"
 #include "compiler/project/names.hpp"
 #include "compiler/semantics/suggest.hpp"
@@ -195,6 +196,18 @@ private:
       }
     }
     group.task.text = task->name.text;
+    const bool onEvent = task->start == TaskStart::event || task->start == TaskStart::status;
+    if (onEvent) {
+      if (group.cycleUs == 0)
+        diagnostics_
+            .report(Code::configMissingKey, group.groupSpan,
+                    fmt::format("axis group `{}` needs `dwCycle`: an event starts task `{}`",
+                                group.name.text, task->name.text),
+                    "how long is a cycle?")
+            .help("add the time between two events in µs, for example `dwCycle = 2000`");
+      setTaskCycle(group, group.cycleUs * 1e-6);
+      return;
+    }
     if (task->intervalNs != 0 && group.cycleUs != 0 &&
         std::int64_t{group.cycleUs} * 1000 != task->intervalNs) {
       diagnostics_
@@ -208,7 +221,10 @@ private:
       return;
     }
     group.cycleUs = static_cast<std::uint32_t>(task->intervalNs / 1000);
-    const auto seconds = static_cast<double>(task->intervalNs) * 1e-9;
+    setTaskCycle(group, static_cast<double>(task->intervalNs) * 1e-9);
+  }
+
+  static void setTaskCycle(AxisGroupConfig &group, double seconds) {
     for (DriveConfig &drive : group.drives)
       drive.fields.emplace_back("fTaskCycle", fmt::format("{:.9f}", seconds));
   }
@@ -269,8 +285,12 @@ public:
 
   std::string write(const ProjectConfig &config) {
     axisGroups(config);
-    const std::string globals =
-        body_.empty() ? std::string() : std::string(kBegin) + body_ + "END_VAR\n";
+    std::string globals;
+    if (!body_.empty()) {
+      globals = std::string(kBegin) + body_ + "END_VAR\n";
+      if (!clash_ && !names_.contains("g_drivestruct") && !names_.contains("drivestruct"))
+        globals += driveStruct(config);
+    }
     return globals + events(config, globals.size());
   }
 
@@ -299,12 +319,18 @@ private:
       fields.insert(fields.end(), group.fields.begin(), group.fields.end());
       fields.emplace_back("wAxisGroupId", std::to_string(index));
       fields.emplace_back("wDriveCount", std::to_string(group.drives.size()));
+      fields.emplace_back("wEncoderCount", std::to_string(group.encoders.size()));
       variable("axis group", group.name, "SM_DriveBasic.SMC_AXISGROUP_REF", fields);
       for (const DriveConfig &drive : group.drives) {
         fields = drive.fields;
         fields.emplace_back("wAxisGroupId", std::to_string(index));
         variable("drive", drive.name, "SM_DriveBasic.AXIS_REF", fields);
+        if (drive.simulated)
+          variable("simulation of drive", {simulationOf(drive), drive.name.span},
+                   "DummyDrive.DUMMY_DRIVE_SIM", {});
       }
+      for (const EncoderConfig &encoder : group.encoders)
+        variable("encoder", encoder.name, "SM_DriveBasic.SMC_ENCODER_REF", encoder.fields);
       ++index;
     }
   }
@@ -319,16 +345,17 @@ private:
               "becomes a global variable of this name")
           .label(clash->second, "already declared here")
           .help("rename one of them");
+      clash_ = true;
       return;
     }
     const std::size_t begin = kBegin.size() + body_.size();
-    body_ += fmt::format("  {} : {} := (", name.text, type);
-    std::string_view separator;
+    body_ += fmt::format("  {} : {}", name.text, type);
+    std::string_view separator = " := (";
     for (const auto &[field, value] : fields) {
       body_ += fmt::format("{}{} := {}", separator, field, value);
       separator = ", ";
     }
-    body_ += ");\n";
+    body_ += fields.empty() ? ";\n" : ");\n";
     ranges_.push_back({static_cast<std::uint32_t>(begin),
                        static_cast<std::uint32_t>(kBegin.size() + body_.size()), name.span});
   }
@@ -336,6 +363,7 @@ private:
   static constexpr std::string_view kBegin = "VAR_GLOBAL\n";
   std::string body_;
   std::unordered_map<std::string, Span> names_;
+  bool clash_ = false; ///< something has been left out
   std::vector<DeclaredRange> &ranges_;
   Diagnostics &diagnostics_;
 };

@@ -1,29 +1,122 @@
 #include "drivers/dummy/dummy_drive.hpp"
 
+#include "runtime/iec/math.h"
+
+#include <strings.h>
+
 namespace stride::dummy {
 namespace {
 
-/// A switch that follows its demand after kSwitchCycles cycles on, at once off.
-bool follow(bool demand, bool real, uint8_t &delay) {
+/// A switch that follows its demand after some cycles on, at once off.
+bool follow(bool demand, bool real, uint32_t &delay, uint32_t cycles) {
   if (!demand) {
     delay = 0;
     return false;
   }
   if (real)
     return true;
-  return ++delay >= DummyDriver::kSwitchCycles;
+  return ++delay >= cycles;
 }
+
+/// Whether `now` has changed from FALSE to TRUE; `old` follows.
+bool rising(BOOL now, BOOL &old) {
+  const bool edge = now != 0 && old == 0;
+  old = now;
+  return edge;
+}
+
+double exactPosition(const Mechanics &mechanics) {
+  return static_cast<double>(mechanics.position()) + mechanics.fraction();
+}
+
+uint32_t counter(int64_t increments) { return static_cast<uint32_t>(increments); }
 
 } // namespace
 
-axis::StartUp DummyDriver::init(std::size_t drive, uint16_t &progress, std::string & /*message*/) {
+DummyDriver::Drive::Drive(const DriveParameters &given)
+    : parameters(given), mechanics(given.mechanics, given.startPosition),
+      demanded(given.startPosition), reached(given.startPosition) {
+  Demand rest;
+  rest.from = rest.to = given.startPosition;
+  delayed.assign(given.deadTime, rest);
+  status.position = counter(given.startPosition);
+  status.received = given.received;
+}
+
+DummyDriver::DummyDriver(std::size_t drives)
+    : drives_(drives, Drive(driveParameters(axis::SetupParameters(), 0.01))) {}
+
+DummyDriver::DummyDriver(const axis::GroupSetup &setup) {
+  drives_.reserve(setup.drives.size());
+  for (const axis::DriveSetup &drive : setup.drives)
+    drives_.emplace_back(driveParameters(drive.parameters, setup.cycleSeconds));
+  for (const axis::EncoderSetup &encoder : setup.encoders)
+    encoders_.push_back(makeEncoder(encoder, setup));
+}
+
+DummyDriver::Encoder DummyDriver::makeEncoder(const axis::EncoderSetup &encoder,
+                                              const axis::GroupSetup &setup) {
+  const axis::SetupParameters &given = encoder.parameters;
+  Encoder result;
+  result.perUnit = given.number("dwRatioTechUnitsDenom", 1) / given.number("iRatioTechUnitsNum", 1);
+  const auto modulo = static_cast<int64_t>(given.number("dwEncoderModulo", 0));
+  result.modulo = modulo == 0 ? int64_t{1} << 32 : modulo;
+  result.way = given.number("physics.own_velocity", 0) * result.perUnit * setup.cycleSeconds;
+  const axis::SetupParameter *follows = given.find("physics.follows");
+  for (std::size_t i = 0; follows != nullptr && i < setup.drives.size(); ++i) {
+    const std::string &name = setup.drives[i].name;
+    if (::strcasecmp(name.c_str(), follows->text.c_str()) == 0) {
+      result.drive = i;
+      result.follows = true;
+    }
+  }
+  return result;
+}
+
+uint32_t DummyDriver::encoder(std::size_t encoder) const { return encoders_[encoder].count; }
+
+void DummyDriver::show(Encoder &encoder) {
+  int64_t increments = encoder.whole;
+  if (encoder.follows) {
+    const Drive &d = drives_[encoder.drive];
+    increments = static_cast<int64_t>(stride::floor(
+        exactPosition(d.mechanics) * d.parameters.unitsPerIncrement * encoder.perUnit + 0.5));
+  }
+  const int64_t count = increments % encoder.modulo;
+  encoder.count = static_cast<uint32_t>(count < 0 ? count + encoder.modulo : count);
+}
+
+axis::StartUp DummyDriver::init(std::size_t drive, uint16_t &progress, axis::Message &message) {
   Drive &d = drives_[drive];
+  if (d.sim != nullptr && d.sim->bFailStartUp != 0) {
+    message.set(std::string_view("the simulation lets it fail (bFailStartUp)"));
+    return axis::StartUp::Failed;
+  }
+  const uint32_t cycles = d.parameters.startUpCycles;
   ++d.started;
-  progress = static_cast<uint16_t>(99 * d.started / kStartUpCycles);
-  if (d.started < kStartUpCycles)
+  progress = static_cast<uint16_t>(uint64_t{99} * d.started / cycles);
+  if (d.started < cycles)
     return axis::StartUp::Busy;
-  d.status.communication = true;
+  d.status.communication = !d.lost;
   return axis::StartUp::Started;
+}
+
+void DummyDriver::reset(std::size_t drive) {
+  Drive &d = drives_[drive];
+  d.started = 0;
+  d.regulatorDelay = 0;
+  d.brakeDelay = 0;
+  d.command = {};
+  d.command.position = d.status.position;
+  d.status.communication = false;
+  d.status.regulatorOn = false;
+  d.status.driveStarted = false;
+  d.status.captured = false;
+  d.status.error = false;
+  d.status.errorId = 0;
+  if (d.sim != nullptr && d.sim->bErrorPersistent == 0)
+    d.sim->wDriveError = 0;
+  d.mechanics.hold();
 }
 
 axis::DriveStatus DummyDriver::status(std::size_t drive) const { return drives_[drive].status; }
@@ -32,29 +125,166 @@ void DummyDriver::command(std::size_t drive, const axis::DriveCommand &command) 
   drives_[drive].command = command;
 }
 
+uint8_t DummyDriver::controllerModes(std::size_t drive) const {
+  return drives_[drive].parameters.modes;
+}
+
+void DummyDriver::bindData(std::size_t drive, void *data) {
+  drives_[drive].sim = static_cast<DriveSim *>(data);
+}
+
+void DummyDriver::executeStart() {
+  for (Drive &d : drives_) {
+    if (d.sim != nullptr)
+      disturb(d);
+    updateSwitches(d);
+    if (d.sim != nullptr)
+      publish(d);
+  }
+  for (Encoder &encoder : encoders_)
+    show(encoder);
+}
+
+/// What programs have written into the drive's DUMMY_DRIVE_SIM.
+void DummyDriver::disturb(Drive &d) {
+  DriveSim &sim = *d.sim;
+  const bool running = d.started >= d.parameters.startUpCycles;
+  d.status.communication = running && !d.lost && sim.bLoseCommunication == 0;
+  if (running && sim.wDriveError != 0) {
+    d.status.error = true;
+    d.status.errorId = sim.wDriveError;
+  }
+  if (rising(sim.bMoveByHand, sim.bOldHand) && !(d.status.regulatorOn && d.status.driveStarted)) {
+    const double place = sim.fHandPosition / d.parameters.unitsPerIncrement;
+    d.mechanics.place(static_cast<int64_t>(stride::floor(place + 0.5)));
+    d.status.position = counter(d.mechanics.position());
+  }
+  if (rising(sim.bForceIndex, sim.bOldIndex)) {
+    d.index = true;
+    d.indexMark = exactPosition(d.mechanics);
+  }
+  const int input = d.command.captureInput < 0 ? 0 : d.command.captureInput;
+  for (int i = 0; i < 4; ++i)
+    if (rising(sim.abProbe.v[i], sim.abOldProbe.v[i]) && input == i)
+      latch(d, exactPosition(d.mechanics));
+}
+
+void DummyDriver::updateSwitches(Drive &d) {
+  const DriveParameters &p = d.parameters;
+  const double place = exactPosition(d.mechanics);
+  d.status.limitPositive = (p.hasLimitPositive && place >= p.limitPositive) ||
+                           (d.sim != nullptr && d.sim->bForceLimitPositive != 0);
+  d.status.limitNegative = (p.hasLimitNegative && place <= p.limitNegative) ||
+                           (d.sim != nullptr && d.sim->bForceLimitNegative != 0);
+  d.status.homeSwitch =
+      p.home.actuated(place, p.period) || (d.sim != nullptr && d.sim->bForceHomeSwitch != 0);
+}
+
+/// What programs may read in DUMMY_DRIVE_SIM.
+void DummyDriver::publish(Drive &d) {
+  DriveSim &sim = *d.sim;
+  const double units = d.parameters.unitsPerIncrement;
+  sim.fPosition = exactPosition(d.mechanics) * units;
+  sim.fVelocity = d.mechanics.velocity() * units;
+  sim.fLag =
+      (static_cast<double>(d.reached - d.mechanics.position()) - d.mechanics.fraction()) * units;
+  sim.fTorque = d.mechanics.torque();
+  sim.bSaturated = d.mechanics.saturated();
+  sim.bLimitPositive = d.status.limitPositive;
+  sim.bLimitNegative = d.status.limitNegative;
+  sim.bHomeSwitch = d.status.homeSwitch;
+  sim.bIndex = d.index;
+  if (d.index) {
+    sim.fIndexPosition = d.indexMark * units;
+    ++sim.udiIndexCount;
+  }
+  d.index = false;
+}
+
+void DummyDriver::latch(Drive &d, double increments) {
+  if (!d.command.capture || d.status.captured)
+    return;
+  d.status.captured = true;
+  d.status.capturedPosition = counter(static_cast<int64_t>(stride::floor(increments + 0.5)));
+}
+
 void DummyDriver::executeEnd() {
   for (Drive &d : drives_) {
-    if (!d.status.communication)
-      continue;
-    if (d.command.errorAckn) {
-      d.status.error = false;
-      d.status.errorId = 0;
-    }
-    const bool healthy = !d.status.error;
-    d.status.regulatorOn =
-        follow(d.command.regulatorOn && healthy, d.status.regulatorOn, d.regulatorDelay);
-    d.status.driveStarted =
-        follow(d.command.driveStart && healthy, d.status.driveStarted, d.brakeDelay);
-    d.status.controllerMode = d.command.controllerMode;
-    if (d.status.regulatorOn && d.status.driveStarted) {
-      d.status.position = d.command.position;
-      d.status.velocity = d.command.velocity;
-      d.status.torque = d.command.torque;
-    } else {
-      d.status.velocity = 0;
-      d.status.torque = 0;
-    }
+    if (!d.command.capture)
+      d.status.captured = false;
+    switchPower(d);
+    move(d);
   }
+  for (Encoder &encoder : encoders_) {
+    encoder.rest += encoder.way;
+    const double whole = stride::floor(encoder.rest);
+    encoder.whole += static_cast<int64_t>(whole);
+    encoder.rest -= whole;
+  }
+}
+
+void DummyDriver::switchPower(Drive &d) {
+  if (d.command.errorAckn && d.status.communication &&
+      (d.sim == nullptr || d.sim->bErrorPersistent == 0)) {
+    d.status.error = false;
+    d.status.errorId = 0;
+    if (d.sim != nullptr)
+      d.sim->wDriveError = 0;
+  }
+  const bool healthy = d.status.communication && !d.status.error;
+  const bool stuck = d.sim != nullptr && d.sim->bRegulatorStuck != 0;
+  const bool jammed = d.sim != nullptr && d.sim->bBrakeStuck != 0;
+  d.status.regulatorOn = follow(d.command.regulatorOn && healthy && !stuck, d.status.regulatorOn,
+                                d.regulatorDelay, d.parameters.switchCycles);
+  d.status.driveStarted = follow(d.command.driveStart && healthy && !jammed, d.status.driveStarted,
+                                 d.brakeDelay, d.parameters.switchCycles);
+  if (((d.parameters.modes >> d.command.controllerMode) & 1U) != 0)
+    d.status.controllerMode = d.command.controllerMode;
+}
+
+/// The set values that reach the drive in this cycle.
+Demand DummyDriver::nextDemand(Drive &d) {
+  Demand demand;
+  demand.from = d.demanded;
+  d.demanded += static_cast<int32_t>(d.command.position - counter(d.demanded));
+  demand.to = d.demanded;
+  demand.velocityFrom = d.velocityDemanded;
+  demand.velocity = d.velocityDemanded = d.command.velocity;
+  demand.torque = d.command.torque;
+  if (!d.delayed.empty()) {
+    std::swap(demand, d.delayed[d.oldest]);
+    d.oldest = (d.oldest + 1) % d.delayed.size();
+  }
+  demand.mode = d.status.controllerMode;
+  d.reached = demand.to;
+  return demand;
+}
+
+void DummyDriver::move(Drive &d) {
+  if (d.started < d.parameters.startUpCycles) {
+    d.demanded = d.reached = d.mechanics.position(); // nobody has told it where to be
+    d.command.position = counter(d.demanded);
+  }
+  const double before = exactPosition(d.mechanics);
+  const Demand demand = nextDemand(d);
+  const double load = d.sim != nullptr ? d.sim->fLoadTorque : 0.0;
+  if (!d.status.driveStarted)
+    d.mechanics.hold();
+  else if (d.status.regulatorOn)
+    d.mechanics.regulate(demand, load);
+  else
+    d.mechanics.coast(load);
+  const double after = exactPosition(d.mechanics);
+  d.status.position = counter(d.mechanics.position());
+  d.status.velocity = d.mechanics.velocity();
+  d.status.torque = d.mechanics.torque();
+  double mark = 0;
+  if (d.parameters.index.passed(before, after, mark)) {
+    d.index = true;
+    d.indexMark = mark;
+  }
+  if (d.command.captureInput <= 0 && d.parameters.probe.passed(before, after, mark))
+    latch(d, mark);
 }
 
 void DummyDriver::raiseError(std::size_t drive, uint16_t errorId) {
@@ -63,11 +293,20 @@ void DummyDriver::raiseError(std::size_t drive, uint16_t errorId) {
 }
 
 void DummyDriver::setCommunication(std::size_t drive, bool answers) {
-  drives_[drive].status.communication = answers;
+  Drive &d = drives_[drive];
+  d.lost = !answers;
+  d.status.communication = answers && d.started >= d.parameters.startUpCycles;
 }
 
 void DummyDriver::setPosition(std::size_t drive, uint32_t position) {
-  drives_[drive].status.position = position;
+  Drive &d = drives_[drive];
+  d.mechanics.place(d.mechanics.position() +
+                    static_cast<int32_t>(position - counter(d.mechanics.position())));
+  d.status.position = position;
+}
+
+std::unique_ptr<axis::AxisDriver> makeDummyDriver(const axis::GroupSetup &setup) {
+  return std::make_unique<DummyDriver>(setup);
 }
 
 std::unique_ptr<axis::AxisDriver> makeDummyDriver(std::size_t drives) {

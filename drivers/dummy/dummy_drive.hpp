@@ -1,30 +1,38 @@
-// Simulated drives: interface type "Dummy".
+// Simulated drives: interface type "Dummy". See docs/dummy-drive.md.
 #ifndef STRIDE_DRIVERS_DUMMY_DUMMY_DRIVE_HPP
 #define STRIDE_DRIVERS_DUMMY_DUMMY_DRIVE_HPP
 
+#include "drivers/dummy/drive_parameters.hpp"
 #include "runtime/axis/axis_driver.hpp"
+
+#include "st/DummyDrive/DUMMY_DRIVE_SIM.h"
 
 #include <memory>
 #include <vector>
 
 namespace stride::dummy {
 
-/// Ideal drives on an ideal bus. A drive needs three cycles to start up and two to switch its
-/// regulator or brake. In regulation it is, at the start of a cycle, exactly where the cycle before
-/// told it to be: actual values lag set values by one cycle, as on a real bus. Out of regulation,
-/// or with the brake applied, it stands still.
+using DriveSim = ::st::DummyDrive::DUMMY_DRIVE_SIM;
+
+/// Drives on an ideal bus: what is sent at the end of a cycle has been carried out at the start of
+/// the next one, as far as the mechanics let it. Without a `physics` section a drive needs three
+/// cycles to start up and two to switch its regulator or brake, and is in regulation exactly where
+/// the cycle before told it to be. Out of regulation, or with the brake applied, it stands still.
 class DummyDriver final : public axis::AxisDriver {
 public:
-  static constexpr uint16_t kStartUpCycles = 3;
-  static constexpr uint8_t kSwitchCycles = 2;
+  /// Drives as they are without any configuration.
+  explicit DummyDriver(std::size_t drives);
+  explicit DummyDriver(const axis::GroupSetup &setup);
 
-  explicit DummyDriver(std::size_t drives) : drives_(drives) {}
-
-  void executeStart() override {}
+  void executeStart() override;
   void executeEnd() override;
-  axis::StartUp init(std::size_t drive, uint16_t &progress, std::string &message) override;
+  axis::StartUp init(std::size_t drive, uint16_t &progress, axis::Message &message) override;
+  void reset(std::size_t drive) override;
   [[nodiscard]] axis::DriveStatus status(std::size_t drive) const override;
   void command(std::size_t drive, const axis::DriveCommand &command) override;
+  [[nodiscard]] uint8_t controllerModes(std::size_t drive) const override;
+  [[nodiscard]] uint32_t encoder(std::size_t encoder) const override;
+  void bindData(std::size_t drive, void *data) override;
 
   /// Simulates an error of the drive: it goes out of regulation until the error is acknowledged.
   void raiseError(std::size_t drive, uint16_t errorId);
@@ -37,16 +45,55 @@ public:
 
 private:
   struct Drive {
+    explicit Drive(const DriveParameters &parameters);
+
+    DriveParameters parameters;
+    Mechanics mechanics;
     axis::DriveStatus status;
     axis::DriveCommand command;
-    uint16_t started = 0;
-    uint8_t regulatorDelay = 0;
-    uint8_t brakeDelay = 0;
+    std::vector<Demand> delayed; ///< Set values under way: a ring.
+    std::size_t oldest = 0;
+    int64_t demanded = 0;        ///< Last set position, over any number of turns. [inc]
+    double velocityDemanded = 0; ///< Last set velocity. [inc/s]
+    int64_t reached = 0;         ///< Last set position that has reached the drive. [inc]
+    uint32_t started = 0;
+    uint32_t regulatorDelay = 0;
+    uint32_t brakeDelay = 0;
+    bool lost = false; ///< By setCommunication.
+    bool index = false;
+    double indexMark = 0; ///< [inc]
+    DriveSim *sim = nullptr;
   };
+
+  struct Encoder {
+    std::size_t drive = 0; ///< It follows this one …
+    bool follows = false;  ///< … or turns by itself.
+    double perUnit = 1;    ///< [inc/u]
+    double way = 0;        ///< That it turns by itself in a cycle. [inc]
+    int64_t modulo = 0;
+    int64_t whole = 0; ///< How far it has turned by itself …
+    double rest = 0;   ///< … and what is left below one increment. [inc]
+    uint32_t count = 0;
+  };
+
+  static Encoder makeEncoder(const axis::EncoderSetup &encoder, const axis::GroupSetup &setup);
+  void show(Encoder &encoder);
+  void disturb(Drive &drive);
+  void publish(Drive &drive);
+  void updateSwitches(Drive &drive);
+  void switchPower(Drive &drive);
+  void move(Drive &drive);
+  void latch(Drive &drive, double increments);
+  static Demand nextDemand(Drive &drive);
+
   std::vector<Drive> drives_;
+  std::vector<Encoder> encoders_;
 };
 
 /// The driver for one axis group of interface type "Dummy".
+std::unique_ptr<axis::AxisDriver> makeDummyDriver(const axis::GroupSetup &setup);
+
+/// The same for drives without any configuration.
 std::unique_ptr<axis::AxisDriver> makeDummyDriver(std::size_t drives);
 
 } // namespace stride::dummy

@@ -127,6 +127,24 @@ struct TaskDesc {
   BOOL (*event)(Ctx *ctx) = nullptr; ///< Event, Status: what starts it. Else null.
 };
 
+/// One parameter of the PLC configuration, as the driver gets it. Which there are, the driver's
+/// documentation says; names are those of stride.toml, in a table below with its name in front
+/// ("physics.model").
+struct ParameterDesc {
+  const char *name;
+  const char *text; ///< Texts and choices by name; else null.
+  double number;    ///< Numbers, choices by value, BOOLs as 0 and 1, durations in seconds.
+};
+
+/// One bus of the PLC configuration.
+struct BusDesc {
+  const char *name;
+  const char *interfaceType; ///< InterfaceType: "Dummy (simulated drives)".
+  const char *driverName;    ///< Its first word: "Dummy".
+  uint32_t firstParameter;   ///< Into the parameter table.
+  uint32_t parameterCount;
+};
+
 /// One drive of an axis group. Its configured parameters are already in its AXIS_REF when init
 /// returns.
 struct DriveDesc {
@@ -134,6 +152,22 @@ struct DriveDesc {
   uint64_t axisOffset; ///< Of its AXIS_REF, from the start of the state.
   uint32_t driveId;    ///< wDriveId.
   uint32_t reserved;   ///< 0.
+  /// The structure in the state that driver and program share about this drive (Dummy:
+  /// DUMMY_DRIVE_SIM), and its layout hash; 0: there is none.
+  uint64_t dataOffset = 0;
+  uint64_t dataLayout = 0;
+  uint32_t firstParameter = 0; ///< Into the parameter table.
+  uint32_t parameterCount = 0;
+};
+
+/// One encoder of an axis group.
+struct EncoderDesc {
+  const char *name;
+  uint64_t encoderOffset; ///< Of its SMC_ENCODER_REF, from the start of the state.
+  uint32_t encoderId;     ///< wEncoderId.
+  uint32_t firstParameter;
+  uint32_t parameterCount;
+  uint32_t reserved; ///< 0.
 };
 
 /// One axis group of the PLC configuration.
@@ -146,6 +180,11 @@ struct AxisGroupDesc {
   uint32_t cycleUs;       ///< dwCycle.
   uint32_t firstDrive;    ///< Into the drive table.
   uint32_t driveCount;
+  uint32_t bus = kNoIndex;   ///< Into the bus table.
+  uint32_t firstEncoder = 0; ///< Into the encoder table.
+  uint32_t encoderCount = 0;
+  uint32_t firstParameter = 0; ///< Into the parameter table.
+  uint32_t parameterCount = 0;
 };
 
 /// The areas of the process image.
@@ -225,6 +264,17 @@ struct StrideAppV1 {
   /// the time from one saving to the next (0: the runtime's own).
   const char *retainFile = nullptr;
   int64_t retainPeriodNs = 0;
+
+  const ParameterDesc *parameters = nullptr;
+  const BusDesc *buses = nullptr;
+  const EncoderDesc *encoders = nullptr;
+  uint32_t parameterCount = 0;
+  uint32_t busCount = 0;
+  uint32_t encoderCount = 0;
+  uint32_t bootupErrorLength =
+      0; ///< STRING length of g_strBootupError; 0: the application has none.
+  uint64_t bootupErrorOffset = 0; ///< From the start of the state.
+  uint64_t encoderRefLayout = 0;  ///< Layout hash of SMC_ENCODER_REF; 0 when there is no encoder.
 };
 
 /// Number of elements of a table, for StrideAppV1's counts.

@@ -14,6 +14,7 @@ namespace stride::app {
 struct RuntimeLayouts {
   uint64_t axisRef = 0;
   uint64_t axisGroupRef = 0;
+  uint64_t encoderRef = 0;
 };
 
 /// One application object. Several can live in one process without meeting.

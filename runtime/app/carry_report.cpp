@@ -129,6 +129,14 @@ void CarryReport::compareAxisGroups() {
     }
     if (!sameDrives)
       refused("other drives");
+    bool sameEncoders = x.encoderCount == y.encoderCount;
+    for (uint32_t e = 0; sameEncoders && e < x.encoderCount; ++e) {
+      const EncoderDesc &u = a.encoders[x.firstEncoder + e];
+      const EncoderDesc &v = b.encoders[y.firstEncoder + e];
+      sameEncoders = sameName(u.name, v.name) && u.encoderId == v.encoderId;
+    }
+    if (!sameEncoders)
+      refused("other encoders");
   }
 }
 

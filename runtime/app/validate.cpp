@@ -92,6 +92,7 @@ void validate(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
     damaged("size");
   checkLayout("AXIS_REF", layouts.axisRef, app.axisRefLayout);
   checkLayout("SMC_AXISGROUP_REF", layouts.axisGroupRef, app.axisGroupRefLayout);
+  checkLayout("SMC_ENCODER_REF", layouts.encoderRef, app.encoderRefLayout);
   if (app.init == nullptr)
     damaged("no initialisation");
   if (app.stateAlign > 4096)
@@ -120,13 +121,38 @@ void validate(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
     const AxisGroupDesc &group = app.axisGroups[i];
     if (group.name == nullptr || group.driverName == nullptr || group.task >= app.taskCount ||
         group.groupOffset >= app.stateSize ||
-        !fits(group.firstDrive, group.driveCount, app.driveCount))
+        !fits(group.firstDrive, group.driveCount, app.driveCount) ||
+        !fits(group.firstEncoder, group.encoderCount, app.encoderCount) ||
+        !fits(group.firstParameter, group.parameterCount, app.parameterCount) ||
+        (group.bus != kNoIndex && group.bus >= app.busCount))
       damaged(fmt::format("axis group {}", i));
   }
   for (uint32_t i = 0; i < app.driveCount; ++i) {
-    if (app.drives[i].name == nullptr || app.drives[i].axisOffset >= app.stateSize)
+    const DriveDesc &drive = app.drives[i];
+    if (drive.name == nullptr || drive.axisOffset >= app.stateSize ||
+        drive.dataOffset >= app.stateSize ||
+        !fits(drive.firstParameter, drive.parameterCount, app.parameterCount))
       damaged(fmt::format("drive {}", i));
   }
+  for (uint32_t i = 0; i < app.busCount; ++i) {
+    const BusDesc &bus = app.buses[i];
+    if (bus.name == nullptr || bus.interfaceType == nullptr || bus.driverName == nullptr ||
+        !fits(bus.firstParameter, bus.parameterCount, app.parameterCount))
+      damaged(fmt::format("bus {}", i));
+  }
+  for (uint32_t i = 0; i < app.encoderCount; ++i) {
+    const EncoderDesc &encoder = app.encoders[i];
+    if (encoder.name == nullptr || encoder.encoderOffset >= app.stateSize ||
+        !fits(encoder.firstParameter, encoder.parameterCount, app.parameterCount))
+      damaged(fmt::format("encoder {}", i));
+  }
+  for (uint32_t i = 0; i < app.parameterCount; ++i) {
+    if (app.parameters[i].name == nullptr)
+      damaged(fmt::format("parameter {}", i));
+  }
+  if (!fits(app.bootupErrorOffset, uint64_t{app.bootupErrorLength} + 1, app.stateSize) &&
+      app.bootupErrorLength != 0)
+    damaged("g_strBootupError");
 }
 
 } // namespace stride::app

@@ -2,23 +2,34 @@
 #ifndef STRIDE_RUNTIME_AXIS_AXIS_DRIVER_HPP
 #define STRIDE_RUNTIME_AXIS_AXIS_DRIVER_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <string>
+#include <string_view>
 
 namespace stride::axis {
+
+/// What travels between drive and controller in every cycle; combined with |.
+enum CyclicData : uint8_t { kPosition = 1, kVelocity = 2, kTorque = 4, kCurrent = 8 };
 
 /// What a drive reports in every cycle. Lengths in increments.
 struct DriveStatus {
   uint32_t position = 0;      ///< Position counter; wraps at 2^32. [inc]
   double velocity = 0;        ///< [inc/s]
   double torque = 0;          ///< In the bus's unit.
+  double current = 0;         ///< [A]
   bool communication = false; ///< The drive answers.
   bool regulatorOn = false;   ///< The power stage is really on.
   bool driveStarted = false;  ///< The brake is really released.
   bool error = false;         ///< The drive reports an error.
   uint16_t errorId = 0;       ///< The drive's own number.
   uint8_t controllerMode = 3; ///< 1 torque, 2 velocity, 3 position, 4 current.
+  uint8_t received = 0x0F;    ///< CyclicData: which of the values above the bus brings.
+  bool limitPositive = false; ///< The positive limit switch is actuated.
+  bool limitNegative = false; ///< The negative limit switch is actuated.
+  bool homeSwitch = false;    ///< The home switch is actuated.
+  bool captured = false;      ///< Since `capture` was set there has been an edge at the input …
+  uint32_t capturedPosition = 0; ///< … with the position counter here. [inc]
 };
 
 /// What a drive is told in every cycle. Lengths in increments.
@@ -27,17 +38,38 @@ struct DriveCommand {
   double velocity = 0;        ///< [inc/s]
   double acceleration = 0;    ///< [inc/s^2]
   double torque = 0;          ///< In the bus's unit.
+  double current = 0;         ///< [A]
   bool regulatorOn = false;   ///< Switch the power stage on.
   bool driveStart = false;    ///< Release the brake.
   bool errorAckn = false;     ///< Acknowledge the error.
+  bool capture = false;       ///< Latch the position at the first edge; FALSE in between arms anew.
+  int16_t captureInput = 0;   ///< The drive's input for that.
   uint8_t controllerMode = 3; ///< As in DriveStatus.
 };
 
 /// How far a drive's start-up is.
 enum class StartUp : uint8_t { Busy, Started, Failed };
 
-/// One bus with its drives, numbered from 0 as configured: the manual's <Bus>DriveExecute_Start,
-/// <Bus>DriveInit and <Bus>DriveExecute_End. All calls come from the task of the axis group.
+/// A text for people, without memory of its own elsewhere: start-up runs in the cyclic path.
+class Message {
+public:
+  /// Takes as much of the parts as there is room for.
+  template <class... Parts> void set(const Parts &...parts) {
+    length_ = 0;
+    (append(parts), ...);
+  }
+  void append(std::string_view text);
+  void append(uint32_t number);
+  [[nodiscard]] std::string_view text() const { return {text_.data(), length_}; }
+
+private:
+  std::array<char, 255> text_{};
+  std::size_t length_ = 0;
+};
+
+/// One bus with the drives and encoders of an axis group, numbered from 0 as configured: the
+/// manual's <Bus>DriveExecute_Start, <Bus>DriveInit and <Bus>DriveExecute_End. All calls come from
+/// the task of the axis group, in the cyclic path: no allocation, no lock, no exception.
 class AxisDriver {
 public:
   AxisDriver() = default;
@@ -53,13 +85,27 @@ public:
 
   /// One step of a drive's start-up, called in every cycle until it is Started or Failed.
   /// `progress` (0..99) becomes AXIS_REF.wCommunicationState. Failed: `message` says why.
-  virtual StartUp init(std::size_t drive, uint16_t &progress, std::string &message) = 0;
+  virtual StartUp init(std::size_t drive, uint16_t &progress, Message &message) = 0;
+
+  /// The drive is switched off and left alone; the next init begins its start-up anew.
+  virtual void reset(std::size_t drive) = 0;
 
   /// The state taken over by the last executeStart.
   [[nodiscard]] virtual DriveStatus status(std::size_t drive) const = 0;
 
   /// Stores what the next executeEnd sends.
   virtual void command(std::size_t drive, const DriveCommand &command) = 0;
+
+  /// Controller modes that the drive can be switched to: bit n stands for mode n. Known once the
+  /// drive has started.
+  [[nodiscard]] virtual uint8_t controllerModes(std::size_t drive) const = 0;
+
+  /// The count of an encoder, taken over by the last executeStart.
+  [[nodiscard]] virtual uint32_t encoder(std::size_t /*encoder*/) const { return 0; }
+
+  /// Where the structure that driver and program share about a drive (AXIS_REF.pMS) is now; null:
+  /// there is none. Called before the first cycle and whenever the application has moved.
+  virtual void bindData(std::size_t /*drive*/, void * /*data*/) {}
 };
 
 } // namespace stride::axis

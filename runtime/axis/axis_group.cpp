@@ -3,6 +3,8 @@
 #include "runtime/axis/increments.hpp"
 #include "runtime/axis/set_point.hpp"
 
+#include "st/SM_DriveBasic/SMC_CONTROLLER_MODE.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -11,7 +13,21 @@ namespace stride::axis {
 namespace {
 
 constexpr uint16_t kNormalOperation = 100;
-constexpr uint16_t kStartUpFailed = 1000;
+// SMC_AXISGROUP_REF.wState while the group is being reset …
+constexpr uint16_t kResetBraking = 200;  ///< Moving axes come to rest.
+constexpr uint16_t kResetPowerOff = 201; ///< Regulators go off.
+constexpr uint16_t kResetDrives = 202;   ///< Drives are given up; then the start-up begins.
+constexpr uint16_t kResetLast = 210;
+// … and when its start-up has failed.
+constexpr uint16_t kDriveFailed = 1000;   ///< The driver says why.
+constexpr uint16_t kScalingFailed = 1001; ///< Ratio or period cannot be used.
+
+// AXIS_REF.byRealControllerMode
+constexpr uint8_t kTorqueControl = ::st::SM_DriveBasic::SMC_CONTROLLER_MODE__SMC_torque;
+constexpr uint8_t kCurrentControl = ::st::SM_DriveBasic::SMC_CONTROLLER_MODE__SMC_current;
+
+constexpr uint32_t kPowerOffCycles =
+    1000; ///< A drive that does not switch off does not block a reset.
 
 bool usable(double limit) { return std::isfinite(limit) && limit > 0.0; }
 
@@ -36,7 +52,17 @@ void leaveUnpowered(AxisRef &axis) {
     axis.nAxisState = state::kPowerOff;
 }
 
-std::string describe(ScalingError problem) {
+bool inCaptureWindow(const AxisRef &axis, double position) {
+  if (axis.bCaptureWindowActive == 0)
+    return true;
+  const double first = axis.fFirstCapturePosition;
+  const double last = axis.fLastCapturePosition;
+  if (first <= last)
+    return position >= first && position <= last;
+  return isRotary(axis) && (position >= first || position <= last); // across the start of a turn
+}
+
+std::string_view describe(ScalingError problem) {
   switch (problem) {
   case ScalingError::ZeroRatio:
     return "dwRatioTechUnitsDenom and iRatioTechUnitsNum must be greater than 0";
@@ -76,25 +102,40 @@ void enterErrorStop(AxisRef &axis, int16_t reason) noexcept {
 }
 
 AxisGroup::AxisGroup(std::unique_ptr<AxisDriver> driver, AxisGroupRef &group,
-                     std::vector<AxisRef *> axes, double cycleSeconds)
-    : driver_(std::move(driver)), group_(&group), axes_(std::move(axes)) {
+                     std::vector<AxisRef *> axes, double cycleSeconds,
+                     std::vector<EncoderRef *> encoders)
+    : driver_(std::move(driver)), group_(&group), axes_(std::move(axes)),
+      encoders_(std::move(encoders)) {
   group_->wState = 0;
   group_->wDriveCount = static_cast<uint16_t>(axes_.size());
-  for (AxisRef *axis : axes_) {
-    axis->bRealDrive = 1;
-    axis->fTaskCycle = cycleSeconds;
-    axis->nAxisState = state::kPowerOff;
-    axis->wCommunicationState = 0;
+  group_->pFirstDrive = axes_.empty() ? nullptr : axes_.front();
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    AxisRef &axis = *axes_[i];
+    axis.bRealDrive = 1;
+    axis.fTaskCycle = cycleSeconds;
+    axis.nAxisState = state::kPowerOff;
+    axis.wCommunicationState = 0;
+    axis.pNextDrive = i + 1 < axes_.size() ? axes_[i + 1] : nullptr;
+    configured_.push_back({axis.dwRatioTechUnitsDenom, axis.iRatioTechUnitsNum, axis.iMovementType,
+                           axis.fPositionPeriod});
+    driver_->bindData(i, axis.pMS);
   }
 }
 
 void AxisGroup::executeStart() {
   ++group_->udiCycleCount;
   driver_->executeStart();
+  if (group_->udiResetsBegun != group_->udiResetsAsked)
+    beginReset();
+  else if (group_->wState >= kResetBraking && group_->wState <= kResetLast)
+    stepReset();
   if (group_->wState < kNormalOperation)
     startUp();
   for (std::size_t i = 0; i < axes_.size(); ++i)
     readDrive(i);
+  if (group_->wState == kNormalOperation)
+    for (std::size_t i = 0; i < encoders_.size(); ++i)
+      updateEncoder(*encoders_[i], driver_->encoder(i));
 }
 
 void AxisGroup::startUp() {
@@ -103,7 +144,7 @@ void AxisGroup::startUp() {
     AxisRef &axis = *axes_[i];
     if (axis.bDisableDriveInAxisGroup != 0 || axis.wCommunicationState == kNormalOperation)
       continue;
-    std::string message;
+    Message message;
     uint16_t progress = 0;
     switch (driver_->init(i, progress, message)) {
     case StartUp::Busy:
@@ -111,27 +152,99 @@ void AxisGroup::startUp() {
       break;
     case StartUp::Started:
       if (const ScalingError problem = configureScaling(axis); problem != ScalingError::None) {
-        startFailed(i, describe(problem));
+        startFailed(i, kScalingFailed, describe(problem));
         return;
       }
       axis.wCommunicationState = kNormalOperation;
+      axis.byControllerModes = driver_->controllerModes(i);
       synchronizePosition(axis, driver_->status(i).position);
       break;
     case StartUp::Failed:
-      startFailed(i, message);
+      startFailed(i, kDriveFailed, message.text());
       return;
     }
     least = std::min(least, axis.wCommunicationState);
   }
   group_->wState = least;
+  if (least == kNormalOperation)
+    for (std::size_t i = 0; i < encoders_.size(); ++i)
+      synchronizeEncoder(*encoders_[i], driver_->encoder(i));
 }
 
-void AxisGroup::startFailed(std::size_t index, const std::string &message) {
+void AxisGroup::startFailed(std::size_t index, uint16_t state, std::string_view message) {
   AxisRef &axis = *axes_[index];
   axis.bErrorDuringStartup = 1;
   group_->pErrorDrive = &axis;
-  group_->wState = kStartUpFailed;
-  bootupError_ = "drive " + std::to_string(axis.wDriveId) + ": " + message;
+  group_->wState = state;
+  bootupError_.set(std::string_view("drive "), uint32_t{axis.wDriveId}, std::string_view(": "),
+                   message);
+}
+
+/// Whoever moves an axis loses it; moving axes brake.
+void AxisGroup::beginReset() {
+  group_->udiResetsBegun = group_->udiResetsAsked;
+  group_->wState = kResetBraking;
+  resetCycles_ = 0;
+  for (AxisRef *axis : axes_)
+    if (axis->wCommunicationState == kNormalOperation && axis->nAxisState != state::kErrorStop &&
+        axis->nAxisState != state::kPowerOff)
+      enterErrorStop(*axis, error::kNone);
+}
+
+void AxisGroup::stepReset() {
+  switch (group_->wState) {
+  case kResetBraking:
+    if (atRest())
+      group_->wState = kResetPowerOff;
+    break;
+  case kResetPowerOff:
+    if (!anyPower() || ++resetCycles_ >= kPowerOffCycles)
+      group_->wState = kResetDrives;
+    break;
+  default:
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+      restart(i);
+    group_->pErrorDrive = nullptr;
+    bootupError_.set();
+    group_->wState = 0;
+    break;
+  }
+}
+
+/// Back to where the axis was before its first start-up.
+void AxisGroup::restart(std::size_t index) {
+  AxisRef &axis = *axes_[index];
+  driver_->reset(index);
+  if (group_->bKeepRatioSettings == 0) {
+    const Scaling &scaling = configured_[index];
+    axis.dwRatioTechUnitsDenom = scaling.denominator;
+    axis.iRatioTechUnitsNum = scaling.numerator;
+    axis.iMovementType = scaling.movementType;
+    axis.fPositionPeriod = scaling.period;
+  }
+  axis.iOwner = 0;
+  haltAt(axis);
+  axis.stPlanner.wStopReason = 0;
+  axis.nAxisState = state::kPowerOff;
+  axis.wCommunicationState = 0;
+  axis.bCommunication = 0;
+  axis.bRegulatorRealState = 0;
+  axis.bDriveStartRealState = 0;
+  axis.bError = 0;
+  axis.wErrorID = 0;
+  axis.wFBErrorID = 0;
+  axis.bErrorAckn = 0;
+  axis.bErrorDuringStartup = 0;
+  axis.bCaptureArmed = 0;
+  axis.fActVelocity = 0;
+  axis.fActAcceleration = 0;
+  axis.fActDeceleration = 0;
+}
+
+bool AxisGroup::anyPower() const {
+  return std::any_of(axes_.begin(), axes_.end(), [](const AxisRef *axis) {
+    return axis->bRegulatorRealState != 0 || axis->bDriveStartRealState != 0;
+  });
 }
 
 void AxisGroup::readDrive(std::size_t index) {
@@ -147,16 +260,31 @@ void AxisGroup::readDrive(std::size_t index) {
   axis.byRealControllerMode = status.controllerMode;
   axis.bError = status.error;
   axis.wErrorID = status.error ? status.errorId : uint16_t{0};
+  axis.bLimitSwitchPositive = status.limitPositive;
+  axis.bLimitSwitchNegative = status.limitNegative;
+  axis.bHomeSwitch = status.homeSwitch;
 
-  updateActual(axis, status.position);
-  const double velocity = status.velocity * axis.fFactorVel;
+  // Without a position from the drive the set position stands for it, without a velocity its
+  // change.
+  const int64_t before = axis.liActIncrements;
+  const bool hasPosition = (status.received & kPosition) != 0;
+  updateActual(axis, hasPosition ? status.position : static_cast<uint32_t>(axis.liSetIncrements));
+  double velocity = status.velocity * axis.fFactorVel;
+  if ((status.received & kVelocity) == 0)
+    velocity = axis.fTaskCycle > 0.0 ? static_cast<double>(axis.liActIncrements - before) *
+                                           axis.fFactorVel / axis.fTaskCycle
+                                     : 0.0;
   if (axis.fTaskCycle > 0.0) {
     axis.fActAcceleration = (velocity - axis.fActVelocity) / axis.fTaskCycle;
     axis.fActDeceleration =
         axis.fActAcceleration * velocity < 0.0 ? std::fabs(axis.fActAcceleration) : 0.0;
   }
   axis.fActVelocity = velocity;
-  axis.fActTorque = status.torque * axis.fFactorTor;
+  if ((status.received & kTorque) != 0)
+    axis.fActTorque = status.torque * axis.fFactorTor;
+  if ((status.received & kCurrent) != 0)
+    axis.fActCurrent = status.current;
+  readCapture(axis, status);
 
   // Errors of the drive and of the bus.
   if (axis.nAxisState != state::kErrorStop) {
@@ -176,12 +304,44 @@ void AxisGroup::readDrive(std::size_t index) {
     leaveUnpowered(axis);
   else if (axis.nAxisState == state::kPowerOff)
     axis.nAxisState = state::kStandstill;
+  // A drive that regulates a torque or current goes where that takes it.
+  if (axis.byRealControllerMode == kTorqueControl || axis.byRealControllerMode == kCurrentControl)
+    followActual(axis);
 
   axis.fSavePosition = axis.fSetPosition;
   axis.fSaveVelocity = axis.fSetVelocity;
   axis.fSaveAcceleration = axis.fSetAcceleration;
   axis.fSaveDeceleration = axis.fSetDeceleration;
   axis.bMovedInThisCycle = 0;
+}
+
+void AxisGroup::readCapture(AxisRef &axis, const DriveStatus &status) {
+  if (axis.bCaptureArmed == 0 || !status.captured)
+    return;
+  axis.bCaptureArmed = 0;
+  const double position = positionOf(axis, status.capturedPosition);
+  if (!inCaptureWindow(axis, position))
+    return; // armed anew
+  axis.fCaptPosition = position;
+  axis.bCaptureOccurred = 1;
+}
+
+/// The drive latches (tiTriggerInput.bFastLatching), or the input is looked at here.
+void AxisGroup::writeCapture(std::size_t index, DriveCommand &command) {
+  AxisRef &axis = *axes_[index];
+  const bool wanted = axis.bStartCapturing != 0 && axis.bCaptureOccurred == 0;
+  const auto &trigger = axis.tiTriggerInput;
+  if (wanted && trigger.bFastLatching == 0 && trigger.bInput != 0 &&
+      inCaptureWindow(axis, axis.fActPosition)) {
+    axis.fCaptPosition = axis.fActPosition;
+    axis.bCaptureOccurred = 1;
+  }
+  if (!wanted || trigger.bFastLatching == 0)
+    axis.bCaptureArmed = 0;
+  else if (axis.bCaptureArmed == 0 && !driver_->status(index).captured)
+    axis.bCaptureArmed = 1;
+  command.capture = axis.bCaptureArmed != 0;
+  command.captureInput = trigger.iTriggerNumber;
 }
 
 void AxisGroup::supervise(AxisRef &axis) {
@@ -202,6 +362,9 @@ void AxisGroup::supervise(AxisRef &axis) {
     axis.bSWEndSwitchActive = axis.bSWLimitEnable != 0 && (above || below);
     const bool outward = (above && axis.fSetPosition > axis.fSavePosition) ||
                          (below && axis.fSetPosition < axis.fSavePosition);
+    if (axis.bHWLimitEnable != 0 && axis.nAxisState != state::kErrorStop &&
+        (axis.bLimitSwitchPositive != 0 || axis.bLimitSwitchNegative != 0))
+      enterErrorStop(axis, error::kHwLimits);
     if (axis.bSWEndSwitchActive != 0 && outward && axis.nAxisState != state::kErrorStop)
       enterErrorStop(axis, error::kSwLimits);
   }
@@ -229,9 +392,12 @@ void AxisGroup::writeDrive(std::size_t index) {
   command.velocity = axis.fSetVelocity / axis.fFactorVel;
   command.acceleration = axis.fSetAcceleration / axis.fFactorAcc;
   command.torque = axis.fSetTorque / axis.fFactorTor;
-  command.regulatorOn = axis.bRegulatorOn != 0;
-  command.driveStart = axis.bDriveStart != 0;
+  command.current = axis.fSetCurrent;
+  const bool power = group_->wState != kResetPowerOff;
+  command.regulatorOn = power && axis.bRegulatorOn != 0;
+  command.driveStart = power && axis.bDriveStart != 0;
   command.errorAckn = axis.bErrorAckn != 0;
+  writeCapture(index, command);
   command.controllerMode = axis.byControllerMode;
   driver_->command(index, command);
 }

@@ -4,11 +4,12 @@
 
 #include "runtime/axis/axis_driver.hpp"
 #include "runtime/axis/axis_ref.hpp"
+#include "runtime/axis/encoder.hpp"
 
 #include "st/SM_DriveBasic/SMC_AXISGROUP_REF.h"
 
 #include <memory>
-#include <string>
+#include <string_view>
 #include <vector>
 
 namespace stride::axis {
@@ -22,14 +23,19 @@ using AxisGroupRef = ::st::SM_DriveBasic::SMC_AXISGROUP_REF;
 /// executeStart(), the POUs, executeEnd().
 class AxisGroup {
 public:
-  /// `axes` in the driver's order. `cycleSeconds` is the task's interval; it becomes fTaskCycle of
-  /// every axis. For an event-driven task pass dwCycle.
+  /// `axes` and `encoders` in the driver's order. `cycleSeconds` is the task's interval; it becomes
+  /// fTaskCycle of every axis. For an event-driven task pass dwCycle. The ratios, periods and
+  /// movement types that the axes have now are those of the configuration.
   AxisGroup(std::unique_ptr<AxisDriver> driver, AxisGroupRef &group, std::vector<AxisRef *> axes,
-            double cycleSeconds);
+            double cycleSeconds, std::vector<EncoderRef *> encoders = {});
 
-  /// The application object has moved: the group, or the axis of a drive, is there now.
+  /// The application object has moved: the group, the axis of a drive, or an encoder is there now.
   void rebind(AxisGroupRef &group) noexcept { group_ = &group; }
-  void rebind(std::size_t drive, AxisRef &axis) noexcept { axes_[drive] = &axis; }
+  void rebind(std::size_t drive, AxisRef &axis) noexcept {
+    axes_[drive] = &axis;
+    driver_->bindData(drive, axis.pMS);
+  }
+  void rebind(std::size_t index, EncoderRef &encoder) noexcept { encoders_[index] = &encoder; }
 
   /// At the task's start: reads the drives, starts them up, follows power and errors into the axis
   /// states, and notes the set values with which the cycle begins (fSave*).
@@ -47,21 +53,38 @@ public:
   [[nodiscard]] bool atRest() const;
 
   /// Why start-up failed, for g_strBootupError; empty if it did not.
-  [[nodiscard]] const std::string &bootupError() const { return bootupError_; }
+  [[nodiscard]] std::string_view bootupError() const { return bootupError_.text(); }
 
   [[nodiscard]] AxisDriver &driver() { return *driver_; }
 
 private:
+  /// What SMC_ResetAxisGroup goes back to.
+  struct Scaling {
+    uint32_t denominator;
+    int16_t numerator;
+    int16_t movementType;
+    double period;
+  };
+
   void startUp();
-  void startFailed(std::size_t index, const std::string &message);
+  void startFailed(std::size_t index, uint16_t state, std::string_view message);
+  void beginReset();
+  void stepReset();
+  void restart(std::size_t index);
+  bool anyPower() const;
   void readDrive(std::size_t index);
+  void readCapture(AxisRef &axis, const DriveStatus &status);
   void supervise(AxisRef &axis);
   void writeDrive(std::size_t index);
+  void writeCapture(std::size_t index, DriveCommand &command);
 
   std::unique_ptr<AxisDriver> driver_;
   AxisGroupRef *group_;
   std::vector<AxisRef *> axes_;
-  std::string bootupError_;
+  std::vector<EncoderRef *> encoders_;
+  std::vector<Scaling> configured_;
+  Message bootupError_;
+  uint32_t resetCycles_ = 0;
 };
 
 /// Takes the axis from its owner and brakes it to rest in state errorstop, with the larger of the

@@ -33,6 +33,7 @@ inline constexpr int16_t kCommunication =
     ::st::SM_Error::SMC_ERROR__SMC_DI_GENERAL_COMMUNICATION_ERROR;
 inline constexpr int16_t kDrive = ::st::SM_Error::SMC_ERROR__SMC_DI_AXIS_ERROR;
 inline constexpr int16_t kSwLimits = ::st::SM_Error::SMC_ERROR__SMC_DI_SWLIMITS_EXCEEDED;
+inline constexpr int16_t kHwLimits = ::st::SM_Error::SMC_ERROR__SMC_DI_HWLIMITS_EXCEEDED;
 inline constexpr int16_t kOutOfRange = ::st::SM_Error::SMC_ERROR__SMC_DI_LINEAR_AXIS_OUTOFRANGE;
 inline constexpr int16_t kNotPowered = ::st::SM_Error::SMC_ERROR__SMC_REGULATOR_OR_START_NOT_SET;
 inline constexpr int16_t kNotCalled = ::st::SM_Error::SMC_ERROR__SMC_FB_WASNT_CALLED_DURING_MOTION;

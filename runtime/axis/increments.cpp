@@ -29,7 +29,7 @@ struct Turn {
 
 /// period * denominator / numerator, between 1 and 2^31. Exact, unless the period has more than
 /// kFractionBits binary places: then to 2^-40 increments.
-Turn lengthOfTurn(double period, uint64_t denominator, uint64_t numerator) noexcept {
+Turn exactTurn(double period, uint64_t denominator, uint64_t numerator) noexcept {
   int exponent = 0;
   Wide mantissa = static_cast<int64_t>(::ldexp(::frexp(period, &exponent), 53));
   int bits = 53 - exponent; // period = mantissa / 2^bits
@@ -95,6 +95,24 @@ void mirrorResiduals(AxisRef &axis) noexcept {
 
 } // namespace
 
+TurnFraction lengthOfTurn(double period, uint32_t denominator, uint32_t numerator) noexcept {
+  const Turn turn = exactTurn(period, denominator, numerator);
+  return {static_cast<int64_t>(turn.numerator / turn.denominator),
+          static_cast<int64_t>(turn.numerator % turn.denominator),
+          static_cast<int64_t>(turn.denominator)};
+}
+
+double positionOf(const AxisRef &axis, uint32_t counter) noexcept {
+  const int64_t increments =
+      axis.liActIncrements +
+      static_cast<int32_t>(counter - static_cast<uint32_t>(axis.liActIncrements));
+  if (!countsTurns(axis))
+    return unitsPerIncrement(axis, static_cast<double>(increments)) + axis.fOffsetPosition;
+  const double place = static_cast<double>(increments - axis.liActTurnStart) -
+                       remainder(axis.liActTurnRest, axis.liTurnDenominator);
+  return wrapPosition(unitsPerIncrement(axis, place) + axis.fOffsetPosition, axis.fPositionPeriod);
+}
+
 ScalingError configureScaling(AxisRef &axis) noexcept {
   axis.liTurnIncrements = 0;
   axis.liTurnRest = 0;
@@ -118,11 +136,11 @@ ScalingError configureScaling(AxisRef &axis) noexcept {
   if (incrementsPerUnit(axis, period) < 1.0)
     return ScalingError::BadPeriod;
 
-  const Turn turn = lengthOfTurn(period, axis.dwRatioTechUnitsDenom,
-                                 static_cast<uint64_t>(axis.iRatioTechUnitsNum));
-  axis.liTurnIncrements = static_cast<int64_t>(turn.numerator / turn.denominator);
-  axis.liTurnRest = static_cast<int64_t>(turn.numerator % turn.denominator);
-  axis.liTurnDenominator = static_cast<int64_t>(turn.denominator);
+  const TurnFraction turn = lengthOfTurn(period, axis.dwRatioTechUnitsDenom,
+                                         static_cast<uint32_t>(axis.iRatioTechUnitsNum));
+  axis.liTurnIncrements = turn.whole;
+  axis.liTurnRest = turn.rest;
+  axis.liTurnDenominator = turn.denominator;
   axis.dwOneTurn = static_cast<uint32_t>(axis.liTurnIncrements);
   return ScalingError::None;
 }

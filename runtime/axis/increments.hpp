@@ -27,6 +27,19 @@ void synchronizePosition(AxisRef &axis, uint32_t counter) noexcept;
 /// fActPosition. The drive may move by less than 2^31 increments between two calls.
 void updateActual(AxisRef &axis, uint32_t counter) noexcept;
 
+/// The position [u] that belongs to a position counter less than 2^31 away from the last one taken
+/// over: where the axis was when the drive latched it.
+[[nodiscard]] double positionOf(const AxisRef &axis, uint32_t counter) noexcept;
+
+/// One turn of a rotary axis or encoder in increments, as an exact fraction.
+struct TurnFraction {
+  int64_t whole;
+  int64_t rest; ///< 0 <= rest < denominator
+  int64_t denominator;
+};
+[[nodiscard]] TurnFraction lengthOfTurn(double period, uint32_t denominator,
+                                        uint32_t numerator) noexcept;
+
 /// Converts fSetPosition into liSetIncrements. On a rotary axis `travel` [u], the way that the axis
 /// makes in this cycle (half a turn more or less), tells turns apart. False if a linear axis leaves
 /// the range of 2^46 increments; liSetIncrements keeps its value then.

@@ -102,7 +102,7 @@ TEST(AxisGroup, StartUpFailureNamesTheDrive) {
   rig.axis.wDriveId = 7;
   rig.start();
   rig.idle(5);
-  EXPECT_EQ(rig.group.wState, 1000);
+  EXPECT_EQ(rig.group.wState, 1001);
   EXPECT_EQ(rig.group.pErrorDrive, &rig.axis);
   EXPECT_EQ(rig.axis.bErrorDuringStartup, 1);
   EXPECT_NE(rig.axisGroup->bootupError().find("drive 7"), std::string::npos);

@@ -1,0 +1,57 @@
+// The parameters of a simulated drive, from the PLC configuration.
+#ifndef STRIDE_DRIVERS_DUMMY_DRIVE_PARAMETERS_HPP
+#define STRIDE_DRIVERS_DUMMY_DRIVE_PARAMETERS_HPP
+
+#include "drivers/dummy/mechanics.hpp"
+#include "runtime/axis/group_setup.hpp"
+
+#include <cstdint>
+
+namespace stride::dummy {
+
+/// Marks along an axis that are noticed when it passes them.
+struct Marks {
+  bool any = false;
+  double position = 0; ///< Of one of them. [inc]
+  double distance = 0; ///< From one to the next; 0: there is only one. [inc]
+
+  /// Whether the axis passes one on its way from `from` to `to`; the first of them.
+  bool passed(double from, double to, double &mark) const;
+};
+
+/// A switch that is actuated between two positions.
+struct SwitchRange {
+  bool any = false;
+  double from = 0; ///< [inc]
+  double to = 0;   ///< [inc]
+
+  /// `period` [inc] of a rotary axis, else 0.
+  [[nodiscard]] bool actuated(double position, double period) const;
+};
+
+/// All about one drive.
+struct DriveParameters {
+  MechanicsParameters mechanics;
+  double unitsPerIncrement = 1;
+  double period = 0; ///< Of a rotary axis, else 0. [inc]
+  int64_t startPosition = 0;
+  uint32_t startUpCycles = 3;
+  uint32_t switchCycles = 2;
+  uint32_t deadTime = 0; ///< Cycles by which set values come later.
+  bool hasLimitPositive = false;
+  bool hasLimitNegative = false;
+  double limitPositive = 0; ///< [inc]
+  double limitNegative = 0; ///< [inc]
+  SwitchRange home;
+  Marks index;
+  Marks probe;
+  uint8_t modes = 1U << kPositionMode | 1U << kVelocityMode; ///< Bit n: controller mode n.
+  uint8_t received = 0x0F;                                   ///< axis::CyclicData.
+};
+
+/// Reads them; what is missing gets its default. `cycle`: of the task. [s]
+DriveParameters driveParameters(const axis::SetupParameters &parameters, double cycle);
+
+} // namespace stride::dummy
+
+#endif

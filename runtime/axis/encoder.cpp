@@ -1,0 +1,68 @@
+#include "runtime/axis/encoder.hpp"
+
+#include "runtime/axis/exact_math.hpp"
+#include "runtime/axis/increments.hpp"
+#include "runtime/axis/modulo_wrap.hpp"
+
+namespace stride::axis {
+namespace {
+
+__extension__ using Wide = __int128;
+
+constexpr int kRotary = 0;
+
+int64_t modulus(const EncoderRef &encoder) noexcept {
+  return encoder.dwEncoderModulo == 0 ? int64_t{1} << 32 : int64_t{encoder.dwEncoderModulo};
+}
+
+} // namespace
+
+void synchronizeEncoder(EncoderRef &encoder, uint32_t counter) noexcept {
+  encoder.dwActPosition = counter;
+  encoder.liActIncrements = int64_t{counter} % modulus(encoder);
+}
+
+void updateEncoder(EncoderRef &encoder, uint32_t counter) noexcept {
+  const int64_t modulo = modulus(encoder);
+  int64_t step = (int64_t{counter} - int64_t{encoder.dwActPosition}) % modulo;
+  if (step < 0)
+    step += modulo;
+  if (2 * step >= modulo) // the shorter way round; half of it counts as backwards
+    step -= modulo;
+  encoder.liActIncrements += step;
+  encoder.dwActPosition = counter;
+}
+
+double encoderPosition(const EncoderRef &encoder) noexcept {
+  const uint32_t denominator = encoder.dwRatioTechUnitsDenom;
+  if (denominator == 0 || encoder.iRatioTechUnitsNum <= 0)
+    return 0.0;
+  const auto units = [&](double increments) {
+    return increments * static_cast<double>(encoder.iRatioTechUnitsNum) /
+           static_cast<double>(denominator);
+  };
+  if (encoder.iMovementType != kRotary)
+    return units(static_cast<double>(encoder.liActIncrements));
+  const double period = encoder.fPositionPeriod;
+  if (!exact::isfinite(period) || !(period > 0.0))
+    return 0.0;
+  const double increments =
+      period * static_cast<double>(denominator) / static_cast<double>(encoder.iRatioTechUnitsNum);
+  if (!(increments >= 1.0 && increments <= 0x1p31))
+    return 0.0;
+  const TurnFraction turn =
+      lengthOfTurn(period, denominator, static_cast<uint32_t>(encoder.iRatioTechUnitsNum));
+  // increments modulo the turn, in units of 1/denominator of the turn's fraction: exact
+  const Wide length = Wide{turn.whole} * turn.denominator + turn.rest;
+  Wide place = (Wide{encoder.liActIncrements} * turn.denominator) % length;
+  if (place < 0)
+    place += length;
+  const Wide whole = place / turn.denominator;
+  const Wide rest = place % turn.denominator;
+  return wrapPosition(units(static_cast<double>(static_cast<int64_t>(whole)) +
+                            static_cast<double>(static_cast<int64_t>(rest)) /
+                                static_cast<double>(turn.denominator)),
+                      period);
+}
+
+} // namespace stride::axis

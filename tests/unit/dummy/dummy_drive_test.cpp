@@ -1,0 +1,209 @@
+// The simulated drive as an axis group sees it, with its DUMMY_DRIVE_SIM.
+#include "drivers/dummy/dummy_drive.hpp"
+
+#include <gtest/gtest.h>
+
+namespace stride::dummy {
+namespace {
+
+/// One drive with 1000 increments per unit and cycles of 1 ms.
+class DummyDrive : public ::testing::Test {
+protected:
+  void make(std::vector<axis::SetupParameter> parameters) {
+    axis::GroupSetup setup;
+    setup.cycleSeconds = 0.001;
+    axis::DriveSetup &drive = setup.drives.emplace_back();
+    drive.parameters.add({"dwRatioTechUnitsDenom", "", 1000});
+    for (axis::SetupParameter &parameter : parameters)
+      drive.parameters.add(std::move(parameter));
+    driver = std::make_unique<DummyDriver>(setup);
+    driver->bindData(0, &sim);
+  }
+
+  /// Starts the drive and switches it on.
+  void powerUp() {
+    command.regulatorOn = true;
+    command.driveStart = true;
+    for (int i = 0; i < 10; ++i)
+      cycle();
+    ASSERT_TRUE(status().regulatorOn);
+    ASSERT_TRUE(status().driveStarted);
+  }
+
+  void cycle() {
+    driver->executeStart();
+    if (!started) {
+      uint16_t progress = 0;
+      const axis::StartUp result = driver->init(0, progress, message);
+      started = result == axis::StartUp::Started;
+      failed = result == axis::StartUp::Failed;
+      if (started)
+        command.position = status().position;
+    }
+    if (started)
+      driver->command(0, command);
+    driver->executeEnd();
+  }
+
+  axis::DriveStatus status() const { return driver->status(0); }
+
+  std::unique_ptr<DummyDriver> driver;
+  DriveSim sim{};
+  axis::DriveCommand command;
+  axis::Message message;
+  bool started = false;
+  bool failed = false;
+};
+
+TEST_F(DummyDrive, StartsWhereItStands) {
+  make({{"physics.start_position", "", -12.3456}});
+  powerUp();
+  EXPECT_EQ(status().position, static_cast<uint32_t>(-12346));
+  command.position += 500;
+  cycle();
+  EXPECT_EQ(status().position, static_cast<uint32_t>(-11846));
+  driver->executeStart();
+  EXPECT_EQ(sim.fPosition, -11.846);
+  EXPECT_EQ(sim.fLag, 0);
+}
+
+TEST_F(DummyDrive, DeadTimeDelaysSetValuesOnly) {
+  make({{"physics.dead_time", "", 3}});
+  powerUp();
+  command.position += 1000;
+  for (int i = 0; i < 3; ++i) {
+    cycle();
+    EXPECT_EQ(status().position, 0U) << i;
+  }
+  cycle();
+  EXPECT_EQ(status().position, 1000U);
+}
+
+TEST_F(DummyDrive, FailsToStartWhenTold) {
+  make({});
+  sim.bFailStartUp = 1;
+  cycle();
+  EXPECT_TRUE(failed);
+  EXPECT_EQ(message.text(), "the simulation lets it fail (bFailStartUp)");
+  sim.bFailStartUp = 0;
+  driver->reset(0);
+  powerUp();
+}
+
+TEST_F(DummyDrive, AResetDriveMustStartAgain) {
+  make({});
+  powerUp();
+  driver->reset(0);
+  EXPECT_FALSE(status().communication);
+  EXPECT_FALSE(status().regulatorOn);
+  driver->executeStart();
+  EXPECT_FALSE(status().communication) << "until it has started up";
+  started = false;
+  powerUp();
+  EXPECT_TRUE(status().communication);
+}
+
+TEST_F(DummyDrive, ErrorsAreAcknowledgedUnlessPersistent) {
+  make({});
+  powerUp();
+  sim.wDriveError = 99;
+  sim.bErrorPersistent = 1;
+  cycle();
+  EXPECT_TRUE(status().error);
+  EXPECT_EQ(status().errorId, 99);
+  EXPECT_FALSE(status().regulatorOn);
+  command.errorAckn = true;
+  cycle();
+  EXPECT_TRUE(status().error);
+  sim.bErrorPersistent = 0;
+  cycle();
+  EXPECT_FALSE(status().error);
+  EXPECT_EQ(sim.wDriveError, 0);
+}
+
+TEST_F(DummyDrive, LostCommunicationSwitchesOff) {
+  make({});
+  powerUp();
+  sim.bLoseCommunication = 1;
+  cycle();
+  EXPECT_FALSE(status().communication);
+  EXPECT_FALSE(status().regulatorOn);
+  sim.bLoseCommunication = 0;
+  cycle();
+  EXPECT_TRUE(status().communication);
+}
+
+TEST_F(DummyDrive, LatchesTheExactPositionOfAMark) {
+  make({{"physics.probe_position", "", 1.2345}, {"physics.probe_distance", "", 10}});
+  powerUp();
+  command.position += 5000; // not armed
+  cycle();
+  EXPECT_FALSE(status().captured);
+  command.capture = true;
+  command.position += 10000; // passes 11.2345
+  cycle();
+  EXPECT_TRUE(status().captured);
+  EXPECT_EQ(status().capturedPosition, 11235U);
+  command.position += 10000;
+  cycle();
+  EXPECT_EQ(status().capturedPosition, 11235U) << "the first one counts";
+  command.capture = false;
+  cycle();
+  EXPECT_FALSE(status().captured);
+  command.capture = true;
+  command.position -= 10000; // back through 21.2345
+  cycle();
+  EXPECT_EQ(status().capturedPosition, 21235U);
+}
+
+TEST_F(DummyDrive, ProbeInputsAreEdges) {
+  make({});
+  powerUp();
+  command.capture = true;
+  command.captureInput = 3;
+  command.position += 700;
+  cycle();
+  sim.abProbe.v[1] = 1;
+  cycle();
+  EXPECT_FALSE(status().captured) << "another input";
+  sim.abProbe.v[3] = 1;
+  cycle();
+  EXPECT_TRUE(status().captured);
+  EXPECT_EQ(status().capturedPosition, 700U);
+  command.capture = false;
+  cycle();
+  command.capture = true;
+  cycle();
+  cycle();
+  EXPECT_FALSE(status().captured) << "no new edge";
+}
+
+TEST_F(DummyDrive, IndexPulsesAreCounted) {
+  make({{"physics.index_position", "", 0.5}, {"physics.index_distance", "", 1}});
+  powerUp();
+  for (int i = 0; i < 100; ++i) {
+    command.position += 100;
+    cycle();
+  }
+  driver->executeStart();
+  EXPECT_EQ(sim.udiIndexCount, 10U); // 0.5 to 9.5
+  EXPECT_EQ(sim.fIndexPosition, 9.5);
+  EXPECT_FALSE(sim.bIndex);
+}
+
+TEST_F(DummyDrive, OnlyWhatIsSentCanBeControlled) {
+  make({{"wControlType", "VEL -> POS", 3}});
+  EXPECT_EQ(driver->controllerModes(0), 1U << kVelocityMode);
+  EXPECT_EQ(status().received & (axis::kPosition | axis::kVelocity), axis::kPosition);
+  make({{"wControlType", "CONFIGURABLE", 0},
+        {"wCyclicDataS1", "SetPosition", 1100},
+        {"wCyclicDataS2", "SetTorque", 1160},
+        {"wCyclicDataR1", "ActVelocity", 1111},
+        {"physics.model", "second_order", 2},
+        {"physics.torque_limit", "", 1}});
+  EXPECT_EQ(driver->controllerModes(0), 1U << kPositionMode | 1U << kTorqueMode);
+  EXPECT_EQ(status().received & (axis::kPosition | axis::kVelocity), axis::kVelocity);
+}
+
+} // namespace
+} // namespace stride::dummy
