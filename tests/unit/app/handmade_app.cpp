@@ -305,6 +305,15 @@ constexpr ::stride::StrideAppV1 kApp = {
     .image = {},
     .imageAddressing = ::stride::ImageAddressing::Units,
     .reserved2 = 0,
+    .parameters = nullptr,
+    .buses = nullptr,
+    .encoders = nullptr,
+    .parameterCount = 0,
+    .busCount = 0,
+    .encoderCount = 0,
+    .bootupErrorLength = 0,
+    .bootupErrorOffset = 0,
+    .encoderRefLayout = 0,
 };
 
 } // namespace
