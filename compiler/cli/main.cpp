@@ -127,6 +127,7 @@ void addTraceOptions(const HostOptions &host) {
   host.pass("--trace", "Variables to record in every cycle: Drive.fSetPosition,Main.n", "NAMES");
   host.pass("--out", "CSV file for the trace (default: standard output)", "FILE");
   host.pass("--print", "Variables to print at the end", "NAMES");
+  host.pass("--script", "Script of what is written and forced, and when", "FILE");
 }
 
 void addSimOptions(const HostOptions &host) {
@@ -155,6 +156,7 @@ void addRunOptions(const HostOptions &host) {
   host.pass("--retain",
             "File for RETAIN and PERSISTENT variables (default: see [retain] of stride.toml)",
             "FILE");
+  host.pass("--listen", "Socket for `stride ctl` and others: unix:PATH", "ADDRESS");
   host.pass("--on-fault", "What happens after an exception: stop (default), restart", "WHAT");
   host.passFlag("--accept-losses", "An online change (SIGHUP) may lose values of variables");
   host.pass("--core", "Processor of the tasks that choose none (default: the last one)", "N");
@@ -229,6 +231,11 @@ int run(int argc, char **argv) {
       ->type_name("");
   addProjectOptions(*reset, options, false);
   reset->callback([&] { exitCode = resetCommand(options, resetKind); });
+
+  CLI::App *ctl = app.add_subcommand("ctl", "Read, write, force in a running application");
+  ctl->prefix_command(); // stride-host knows what comes behind it
+  ctl->set_help_flag();
+  ctl->callback([&] { exitCode = hostOnlyCommand("ctl", ctl->remaining()); });
 
   std::string trace;
   CLI::App *plot = app.add_subcommand("plot", "Draw a trace");

@@ -95,6 +95,12 @@ int buildCommand(const ProjectOptions &options, const std::string &out, const Bu
   return exitCode;
 }
 
+int hostOnlyCommand(const std::string &command, const std::vector<std::string> &hostArguments) {
+  std::vector<std::string> arguments = {command};
+  arguments.insert(arguments.end(), hostArguments.begin(), hostArguments.end());
+  return becomeHost(std::move(arguments), {});
+}
+
 int hostCommand(const ProjectOptions &options, const std::string &command,
                 const std::vector<std::string> &hostArguments) {
   std::optional<BuildResult> result;

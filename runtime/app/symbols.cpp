@@ -104,6 +104,12 @@ const void *Symbol::read(std::byte *state, std::byte &bit) const {
   return &bit;
 }
 
+std::optional<uint64_t> Symbol::fixedOffset() const {
+  if (steps_.size() > 1 || bit_ >= 0)
+    return std::nullopt;
+  return steps_[0].offset;
+}
+
 bool Symbol::write(std::byte *state, const void *value, std::size_t size) const {
   int number = -1;
   std::byte *place = find(state, number);
@@ -232,6 +238,7 @@ private:
 
   void take(uint32_t index) {
     const RootDesc &root = app().roots[index];
+    symbol_.task_ = root.task;
     enter(root.offset, root.type, root.flags);
   }
 

@@ -5,6 +5,7 @@
 #include "runtime/app/abi.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -24,10 +25,16 @@ public:
   /// Stores a value of the type; false where a pointer on the way is null.
   bool write(std::byte *state, const void *value, std::size_t size) const;
 
+  /// Its offset from the start of the state; nothing where that can change (behind a pointer) and
+  /// for a single bit.
+  std::optional<uint64_t> fixedOffset() const;
+
   /// Index into the type table.
   uint32_t type() const { return type_; }
   /// SymbolFlags of the last name on the path, and kSymConstant if any name has it.
   uint32_t flags() const { return flags_; }
+  /// The only task that calls the program that the path begins with; kNoIndex: there is none.
+  uint32_t task() const { return task_; }
   /// The path as it was asked for.
   const std::string &path() const { return path_; }
 
@@ -48,6 +55,7 @@ private:
   std::string path_;
   uint32_t type_ = kNoIndex;
   uint32_t flags_ = 0;
+  uint32_t task_ = kNoIndex;
   int bit_ = -1; ///< of the byte; -1: none, or in a slot
   std::vector<Step> steps_{Step{}};
 };

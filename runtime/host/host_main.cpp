@@ -2,6 +2,7 @@
 
 #include "runtime/app/error.hpp"
 #include "runtime/host/axis_hooks.hpp"
+#include "runtime/host/control.hpp"
 #include "runtime/host/options.hpp"
 #include "runtime/host/real_run.hpp"
 #include "runtime/host/retain_reset.hpp"
@@ -30,6 +31,7 @@ struct SimTexts {
   std::vector<std::string> sets;
   std::vector<std::string> changes;
   std::vector<std::string> print;
+  std::string script;
   std::string out;
   std::string retain;
   int64_t loopBudget = 0;
@@ -74,6 +76,9 @@ void declare(CLI::App &sim, SimTexts &texts, bool builtIn) {
       ->type_name("TIME,APP")
       ->expected(1)
       ->take_all();
+  sim.add_option("--script", texts.script,
+                 "Script of what is written and forced, and when (docs/scripts.md)")
+      ->type_name("FILE");
   sim.add_option("--print", texts.print, "Variables to print at the end; may be repeated")
       ->type_name("NAMES")
       ->expected(1)
@@ -119,6 +124,13 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
       ->type_name("NAMES")
       ->expected(1)
       ->take_all();
+  run.add_option("--script", texts.options.script,
+                 "Script of what is written and forced in the first application, and when")
+      ->type_name("FILE");
+  run.add_option(
+         "--listen", texts.options.listen,
+         "Socket through which 'stride-host ctl' and others read, write and force: unix:PATH")
+      ->type_name("ADDRESS");
   run.add_option("--record", texts.options.record,
                  "Record all inputs for 'sim --replay'; the tasks take turns then")
       ->type_name("FILE");
@@ -191,6 +203,7 @@ SimOptions understand(const SimTexts &texts) {
   options.out = texts.out;
   if (!options.out.empty() && options.trace.empty())
     throw app::Error("--out names a file for a trace, but --trace names nothing to trace");
+  options.script = texts.script;
   options.replay = texts.replay;
   if (!options.replay.empty() && !(options.sets.empty() && options.changes.empty()))
     throw app::Error("--replay repeats a run as it was; --set and --change do not go with it");
@@ -265,6 +278,9 @@ int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
   CLI::App *reset =
       cli.add_subcommand("reset", "Retained data of an application that stands still");
   declareReset(*reset, resetKind, resetFile);
+  Control control;
+  CLI::App *ctl = cli.add_subcommand("ctl", "Read, write, force in a running application");
+  control.declare(*ctl);
   try {
     cli.parse(argc, argv);
   } catch (const CLI::CallForHelp &help) {
@@ -273,10 +289,13 @@ int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
     fmt::print(stderr, "error: {}\n  'stride-host {} --help' lists the options\n", error.what(),
                run->parsed()     ? "run"
                : reset->parsed() ? "reset"
+               : ctl->parsed()   ? "ctl"
                                  : "sim");
     return kExitBadInput;
   }
   try {
+    if (ctl->parsed())
+      return control.run();
     if (reset->parsed()) {
       resetRetained(resetKind == "warm"   ? ResetKind::Warm
                     : resetKind == "cold" ? ResetKind::Cold

@@ -35,6 +35,10 @@ public:
   /// not have.
   void initialise();
 
+  /// A hook of every task, behind the hooks of the PLC configuration: next to the POUs. After
+  /// initialise(). It must live as long as this.
+  void addToAllTasks(task::CycleHook &hook);
+
   /// FB_Exit of every instance, after the last cycle; what goes wrong in one of them. A program
   /// that has failed is not called again.
   std::optional<task::Fault> exit(int64_t timeNs);

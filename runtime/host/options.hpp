@@ -33,6 +33,7 @@ struct SimOptions {
   std::vector<SetOption> sets;       ///< In the order given.
   std::vector<ChangeOption> changes; ///< In the order of their times.
   std::vector<std::string> print;    ///< Paths, in the order given.
+  std::string script;                ///< File of an input script; or empty.
   std::string replay;                ///< A recording to be repeated; or empty.
   int64_t loopBudget = 0;            ///< Loop iterations per cycle; 0: the default.
   bool stateHash = false;            ///< Print a hash of the state at the end.
@@ -54,6 +55,8 @@ struct RunOptions {
   std::vector<std::string> trace; ///< Paths of the first application, in the order given.
   std::string out;                ///< File of the trace; empty or "-": standard output.
   std::vector<std::string> print; ///< Paths, in the order given.
+  std::string script;             ///< Input script of the first application; or empty.
+  std::string listen;             ///< `unix:PATH`, the socket of the monitor; or empty.
   std::string record;             ///< File for the inputs of the run; or empty.
   OnFault onFault = OnFault::Stop;
   bool acceptLosses = false; ///< An online change may lose values.

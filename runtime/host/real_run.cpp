@@ -5,9 +5,11 @@
 #include "runtime/host/online_change.hpp"
 #include "runtime/host/print_values.hpp"
 #include "runtime/host/recording.hpp"
+#include "runtime/host/script_hook.hpp"
 #include "runtime/host/st_backtrace.hpp"
 #include "runtime/host/statistics_text.hpp"
 #include "runtime/host/trace_ring.hpp"
+#include "runtime/monitor/socket_server.hpp"
 #include "runtime/task/real_scheduler.hpp"
 #include "runtime/task/realtime.hpp"
 
@@ -21,6 +23,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -38,9 +41,11 @@ constexpr auto kRestartPause = std::chrono::seconds(1);
 /// One application from its start to its stop.
 class Session {
 public:
-  Session(std::unique_ptr<app::Application> application, const RunOptions &options,
-          const task::RealOptions &realOptions)
-      : options_(&options), instance_(std::move(application), task::LoopLimit::Clock),
+  /// `number`: of the application among those of the run. Throws app::Error for bad input.
+  Session(std::unique_ptr<app::Application> application, std::size_t number,
+          const RunOptions &options, const task::RealOptions &realOptions)
+      : options_(&options), number_(number),
+        instance_(std::move(application), task::LoopLimit::Clock),
         scheduler_(instance_.tasks(), realOptions) {
     for (const std::string &path : options.print)
       (void)instance_.symbols().resolve(path);
@@ -51,11 +56,21 @@ public:
     if (retain.file.empty())
       retain.file = std::string(app.name) + ".retain";
     instance_.retain(retain, [this](const std::string &line) { say(line); });
+    if (number == 0 && !options.script.empty()) {
+      script_.emplace(monitor::Script::fromFile(instance_.symbols(), options.script));
+      scriptHook_.emplace(*script_);
+    }
   }
 
-  /// `trace` may be null. False: an initialiser has failed, which has been said.
-  bool start(TraceWriter *trace) {
+  /// `trace` and `service` may be null. False: an initialiser has failed, which has been said.
+  bool start(TraceWriter *trace, monitor::Service *service) {
     try {
+      if (service != nullptr) {
+        served_ = std::make_unique<monitor::SymbolServer>(instance_.tasks());
+        served_->addOuterHooks();
+        if (!options_->record.empty())
+          served_->setReadOnly("nothing can be written and forced while the run is recorded");
+      }
       // First of all hooks, so that it sees the end of the cycle behind the others.
       if (trace != nullptr) {
         const TraceColumns &columns = trace->columns();
@@ -71,12 +86,23 @@ public:
       instance_.initialise();
       if (recording_)
         recording_->begin(instance_.application());
+      if (script_) {
+        instance_.tasks().addHook(instance_.tasks().fastest(), *scriptHook_);
+        instance_.addToAllTasks(script_->forces());
+      }
+      if (served_)
+        served_->addInnerHooks();
     } catch (const StException &exception) {
       say("error: " + describeWithCalls(task::Fault{exception, "initialisation", 0, 0}));
       return false;
     }
     instance_.retainKeeper()->startSaving();
     scheduler_.start();
+    if (service != nullptr) {
+      service_ = service;
+      service_->attach(number_, {instance_.app().name, served_.get(), &instance_.tasks(),
+                                 [this] { return scheduler_.nowNs(); }});
+    }
     return true;
   }
 
@@ -104,6 +130,14 @@ public:
       std::optional<TraceColumns> columns;
       if (trace_ != nullptr)
         columns = trace_->columns().in(symbols);
+      std::optional<monitor::Script> script;
+      if (script_)
+        script.emplace(script_->in(symbols));
+      auto servedSymbols = std::make_unique<app::SymbolTable>(change.fresh());
+      std::vector<std::string> lostForces;
+      std::unique_lock<std::mutex> held;
+      if (service_ != nullptr)
+        held = service_->hold();
       bool done = false;
       int64_t pauseNs = 0;
       // FB_Exit and FB_Reinit are code of the application: on a stack and with signals as its
@@ -116,6 +150,10 @@ public:
           done = change.apply(scheduler_.nowNs());
           if (done && columns)
             trace_->swapColumns(*columns);
+          if (done && script)
+            script_->takeOver(*script);
+          if (done && served_)
+            lostForces = served_->changeApplication(std::move(servedSymbols));
         });
       });
       lookAfter();
@@ -123,6 +161,10 @@ public:
         instance_.renewSymbols();
       for (const std::string &event : change.events())
         say("warning: online change: " + event);
+      for (const std::string &name : lostForces)
+        say(fmt::format("warning: online change: '{}' is no longer forced: the new build has no "
+                        "such variable",
+                        name));
       say(done ? fmt::format("note: online change done; no cycle could begin for {:.0f} us",
                              static_cast<double>(pauseNs) * 1e-3)
                : "error: online change given up; the old build goes on");
@@ -135,6 +177,8 @@ public:
   bool finish() {
     if (!scheduler_.finish())
       say("warning: not everything came to rest within a minute");
+    if (service_ != nullptr)
+      service_->detach(number_);
     lookAfter();
     if (recording_)
       if (const std::string problem = recording_->finish(); !problem.empty())
@@ -146,6 +190,9 @@ public:
     printValues(instance_.symbols(), options_->print, instance_.state());
     for (const std::string &line : instance_.remarks())
       say(line);
+    if (script_)
+      for (const std::string &line : script_->remarks())
+        say(line);
     const std::optional<task::Fault> fault = instance_.tasks().fault();
     if (fault)
       say("error: " + describeWithCalls(*fault));
@@ -214,10 +261,15 @@ private:
   }
 
   const RunOptions *options_;
+  std::size_t number_;
   Instance instance_;
   TraceWriter *trace_ = nullptr;
   std::unique_ptr<TraceRing> ring_;
   std::unique_ptr<Recording> recording_;
+  std::optional<monitor::Script> script_;
+  std::optional<ScriptHook> scriptHook_;
+  std::unique_ptr<monitor::SymbolServer> served_;
+  monitor::Service *service_ = nullptr;
   task::RealScheduler scheduler_; // its threads end before the rest goes
 };
 
@@ -246,7 +298,14 @@ public:
                      options.out);
     for (std::size_t i = 0; i < applications.size(); ++i)
       slots_.push_back({i < options.applications.size() ? options.applications[i] : std::string(),
-                        newSession(std::move(applications[i])), false});
+                        newSession(std::move(applications[i]), i), false});
+    if (!options.listen.empty()) {
+      listener_ = std::make_unique<monitor::SocketServer>(options.listen);
+      listener_->service().addOperation("stop", [this](const nlohmann::json &) {
+        stopAsked_.store(true);
+        return nlohmann::json::object();
+      });
+    }
     if (!options.quiet)
       for (const std::string &warning : report_.warnings)
         fmt::print(stderr, "warning: {}\n", warning);
@@ -261,12 +320,14 @@ public:
     ::pthread_sigmask(SIG_BLOCK, &signals, &before); // also for the tasks' threads
     for (Slot &slot : slots_)
       slot.stopped = !startSession(slot);
+    if (listener_)
+      listener_->start();
     const int64_t endNs =
         options_.durationNs > 0 ? task::monotonicNs() + options_.durationNs : INT64_MAX;
     while (someRun() && task::monotonicNs() < endNs) {
       const ::timespec round = {0, std::clamp<int64_t>(endNs - task::monotonicNs(), 0, kRoundNs)};
       const int number = ::sigtimedwait(&signals, nullptr, &round);
-      if (number == SIGINT || number == SIGTERM)
+      if (number == SIGINT || number == SIGTERM || stopAsked_.load())
         break;
       if (number == SIGUSR1)
         for (Slot &slot : slots_)
@@ -287,12 +348,14 @@ public:
   }
 
 private:
-  std::unique_ptr<Session> newSession(std::unique_ptr<app::Application> application) {
-    return std::make_unique<Session>(std::move(application), options_, realOptions_);
+  std::unique_ptr<Session> newSession(std::unique_ptr<app::Application> application,
+                                      std::size_t number) {
+    return std::make_unique<Session>(std::move(application), number, options_, realOptions_);
   }
   /// The trace is that of the first one.
   bool startSession(Slot &slot) {
-    return slot.session->start(trace_ && &slot == slots_.data() ? &*trace_ : nullptr);
+    return slot.session->start(trace_ && &slot == slots_.data() ? &*trace_ : nullptr,
+                               listener_ ? &listener_->service() : nullptr);
   }
   void changeAll() {
     for (Slot &slot : slots_)
@@ -317,7 +380,8 @@ private:
         std::unique_ptr<app::Application> application = slot.session->release();
         fmt::print(stderr, "note: '{}' is started again\n", application->description().name);
         slot.session.reset(); // gives its retained data up
-        slot.session = newSession(std::move(application));
+        slot.session =
+            newSession(std::move(application), static_cast<std::size_t>(&slot - slots_.data()));
         slot.stopped = !startSession(slot);
       }
     }
@@ -329,6 +393,8 @@ private:
   task::RealOptions realOptions_;
   std::optional<TraceWriter> trace_;
   std::vector<Slot> slots_;
+  std::atomic<bool> stopAsked_{false};
+  std::unique_ptr<monitor::SocketServer> listener_; // ends before what it serves
 };
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "runtime/host/online_change.hpp"
 #include "runtime/host/print_values.hpp"
 #include "runtime/host/recording.hpp"
+#include "runtime/host/script_hook.hpp"
 #include "runtime/host/set_list.hpp"
 #include "runtime/host/st_backtrace.hpp"
 #include "runtime/host/trace_writer.hpp"
@@ -74,18 +75,20 @@ private:
   bool shown_ = false;
 };
 
-/// Changes and sets before, trace and progress after each instant.
+/// Changes, sets and script before, trace and progress after each instant.
 class Observer final : public task::InstantObserver {
 public:
   Observer(Instance &instance, const std::vector<ChangeOption> &changes, SetList &sets,
-           TraceWriter *trace, Progress &progress)
-      : instance_(&instance), changes_(&changes), sets_(&sets), trace_(trace),
+           monitor::Script *script, TraceWriter *trace, Progress &progress)
+      : instance_(&instance), changes_(&changes), sets_(&sets), script_(script), trace_(trace),
         progress_(&progress) {}
 
   void beforeInstant(int64_t timeNs) override {
     for (; next_ < changes_->size() && (*changes_)[next_].timeNs <= timeNs; ++next_)
       change((*changes_)[next_].path, timeNs);
     sets_->apply(timeNs, instance_->state());
+    if (script_ != nullptr)
+      script_->step(timeNs, instance_->state());
   }
   void afterInstant(int64_t timeNs, bool fastest) override {
     if (trace_ != nullptr && fastest)
@@ -95,7 +98,9 @@ public:
   int64_t nextNs() const override {
     const int64_t change =
         next_ < changes_->size() ? (*changes_)[next_].timeNs : std::numeric_limits<int64_t>::max();
-    return std::min(sets_->nextNs(), change);
+    const int64_t script =
+        script_ != nullptr ? script_->nextNs() : std::numeric_limits<int64_t>::max();
+    return std::min({sets_->nextNs(), change, script});
   }
 
 private:
@@ -109,6 +114,10 @@ private:
       fmt::print(stderr, "{}", change.report(false));
     const app::SymbolTable symbols(change.fresh());
     sets_->resolveIn(symbols);
+    if (script_ != nullptr) {
+      monitor::Script script = script_->in(symbols);
+      script_->takeOver(script);
+    }
     if (trace_ != nullptr) {
       TraceColumns columns = trace_->columns().in(symbols);
       trace_->swapColumns(columns);
@@ -124,6 +133,7 @@ private:
   const std::vector<ChangeOption> *changes_;
   std::size_t next_ = 0;
   SetList *sets_;
+  monitor::Script *script_;
   TraceWriter *trace_;
   Progress *progress_;
 };
@@ -217,6 +227,10 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
   if (!options.trace.empty())
     trace.emplace(instance.symbols(), options.trace, options.out);
 
+  std::optional<monitor::Script> script;
+  if (!options.script.empty())
+    script.emplace(monitor::Script::fromFile(instance.symbols(), options.script));
+
   std::optional<Replay> replay;
   if (!options.replay.empty()) {
     replay.emplace(options.replay, instance.application());
@@ -233,12 +247,20 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
     return kExitException;
   }
 
+  // A replay goes through the cycles of a run, in which the script was a hook.
+  std::optional<ScriptHook> scriptHook;
+  if (script) {
+    if (replay)
+      instance.tasks().addHook(instance.tasks().fastest(), scriptHook.emplace(*script));
+    instance.addToAllTasks(script->forces());
+  }
   if (replay)
     replay->restoreState(instance.application());
 
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
   Progress progress(options.durationNs, terminal && !options.quiet && !replay);
-  Observer observer(instance, options.changes, sets, trace ? &*trace : nullptr, progress);
+  Observer observer(instance, options.changes, sets, script ? &*script : nullptr,
+                    trace ? &*trace : nullptr, progress);
   const task::RunResult result = replay ? repeat(*replay, instance, observer)
                                         : advance(instance, observer, options.durationNs);
   const double wall = progress.wall();
@@ -258,6 +280,9 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
   else if (!result.interrupted) {
     for (const std::string &left : sets.left())
       fmt::print(stderr, "warning: --set '{}' was not used: the run ends before\n", left);
+    if (script)
+      for (const std::string &line : script->remarks())
+        fmt::print(stderr, "{}\n", line);
   }
   const std::optional<task::Fault> atEnd = instance.exit(result.timeNs);
   if (atEnd)

@@ -1,0 +1,281 @@
+#include "runtime/host/control.hpp"
+
+#include "runtime/app/error.hpp"
+#include "runtime/host/exit_code.hpp"
+#include "runtime/host/options.hpp"
+#include "runtime/monitor/socket_client.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace stride::host {
+
+namespace {
+
+using monitor::SocketClient;
+using nlohmann::json;
+
+/// `NAME=VALUE` or `NAME:=VALUE` as an entry of `values`.
+json namedLiteral(const std::string &text) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos)
+    throw app::Error(fmt::format("'{}' has not the form NAME=VALUE", text));
+  const std::size_t end = text[equals - 1] == ':' ? equals - 1 : equals;
+  return {{"name", text.substr(0, end)}, {"literal", text.substr(equals + 1)}};
+}
+
+json namedLiterals(const std::vector<std::string> &texts) {
+  json values = json::array();
+  for (const std::string &text : texts)
+    values.push_back(namedLiteral(text));
+  return values;
+}
+
+std::string literalOf(const json &value) {
+  return value.is_string() ? value.get<std::string>() : std::string("(pointer is null)");
+}
+
+void showValues(const json &result) {
+  for (const json &value : result.at("values"))
+    fmt::print("{} = {}\n", value.at("name").get<std::string>(), literalOf(value.at("value")));
+}
+
+double micro(const json &ns) { return ns.get<double>() * 1e-3; }
+
+void showStatistics(const json &result) {
+  fmt::print("{:<16} {:>10} {:>8}  {:>28}  {:>28}\n", "task", "cycles", "overruns",
+             "run time p50/p99/max [us]", "delay p50/p99/max [us]");
+  for (const json &task : result.at("tasks")) {
+    const json &run = task.at("run_ns");
+    const json &delay = task.at("delay_ns");
+    fmt::print("{:<16} {:>10} {:>8}  {:>28}  {:>28}\n", task.at("name").get<std::string>(),
+               task.at("cycles").get<uint64_t>(), task.at("overruns").get<uint64_t>(),
+               fmt::format("{:.1f} / {:.1f} / {:.1f}", micro(run.at("p50")), micro(run.at("p99")),
+                           micro(run.at("max"))),
+               fmt::format("{:.1f} / {:.1f} / {:.1f}", micro(delay.at("p50")),
+                           micro(delay.at("p99")), micro(delay.at("max"))));
+  }
+}
+
+/// All pages of a list.
+void showList(SocketClient &client, json request) {
+  uint64_t shown = 0;
+  for (;;) {
+    request["offset"] = shown;
+    const json page = client.ask(request);
+    for (const json &entry : page.at("entries")) {
+      const auto children = entry.at("children").get<uint64_t>();
+      fmt::print("{} : {}{}\n", entry.at("path").get<std::string>(),
+                 entry.at("type").get<std::string>(),
+                 children == 0 ? std::string() : fmt::format(" ({})", children));
+    }
+    shown += page.at("entries").size();
+    if (page.at("entries").empty() || shown >= page.at("total").get<uint64_t>())
+      return;
+  }
+}
+
+} // namespace
+
+struct Control::Impl {
+  std::string address;
+  std::string application;
+  std::vector<std::string> texts;
+  std::string text;
+  double period = 0.5;
+  uint64_t count = 0;
+  bool all = false;
+  std::string trigger;
+  std::string edge = "rising";
+  std::string threshold;
+  std::string out;
+  uint64_t rows = 1000;
+  double before = 0.0;
+  std::function<void(SocketClient &)> action;
+
+  CLI::App *add(CLI::App &command, const char *name, const char *help,
+                std::function<void(SocketClient &)> what) {
+    CLI::App *sub = command.add_subcommand(name, help);
+    sub->callback([this, what = std::move(what)] { action = what; });
+    return sub;
+  }
+  void names(CLI::App *sub, const char *type) {
+    sub->add_option("NAMES", texts, "Variables")->required()->type_name(type);
+  }
+  json request(const char *op) const {
+    json result = {{"op", op}};
+    if (!application.empty())
+      result["app"] = application;
+    return result;
+  }
+  json withNames(const char *op) const {
+    json result = request(op);
+    result["names"] = texts;
+    return result;
+  }
+  json withValues(const char *op) const {
+    json result = request(op);
+    result["values"] = namedLiterals(texts);
+    return result;
+  }
+
+  void read(SocketClient &client) const {
+    json question = withNames("read");
+    question["literals"] = true;
+    showValues(client.ask(question));
+  }
+  void unforce(SocketClient &client) const {
+    if (all == !texts.empty())
+      throw app::Error("name the variables to release, or say --all");
+    json question = all ? request("unforce") : withNames("unforce");
+    if (all)
+      question["all"] = true;
+    client.ask(question);
+  }
+  void watch(SocketClient &client) const;
+  void recordRows(SocketClient &client) const;
+};
+
+void Control::Impl::watch(SocketClient &client) const {
+  json question = withNames("subscribe");
+  question["period"] = period;
+  question["literals"] = true;
+  const json subscription = client.ask(question);
+  std::string header = "t";
+  for (const json &column : subscription.at("columns"))
+    header += "\t" + column.at("name").get<std::string>();
+  fmt::print("{}\n", header);
+  for (uint64_t seen = 0; count == 0 || seen < count; ++seen) {
+    json event = client.receive();
+    while (!event.contains("event"))
+      event = client.receive();
+    if (event.at("event") != "values")
+      throw app::Error(event.value("message", "the application does not run any more"));
+    std::string line = fmt::format("{:.6f}", event.at("time").get<double>());
+    for (const json &value : event.at("values"))
+      line += "\t" + literalOf(value);
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  }
+}
+
+void Control::Impl::recordRows(SocketClient &client) const {
+  json question = withNames("record");
+  question["rows"] = rows;
+  question["before"] = before;
+  if (!trigger.empty()) {
+    question["trigger"] = {{"name", trigger}, {"edge", edge}};
+    if (!threshold.empty())
+      question["trigger"]["threshold"] = threshold;
+  }
+  client.ask(question);
+  while (client.ask(request("record_state")).at("state") != "done")
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  std::ofstream file;
+  if (!out.empty() && out != "-") {
+    file.open(out, std::ios::binary);
+    if (!file)
+      throw app::Error(fmt::format("cannot write '{}'", out));
+  }
+  std::ostream &to = file.is_open() ? static_cast<std::ostream &>(file) : std::cout;
+  for (uint64_t row = 0;;) {
+    json next = request("record_read");
+    next["from"] = row;
+    const json page = client.ask(next);
+    if (row == 0)
+      to << page.at("header").get<std::string>() << '\n';
+    for (const json &line : page.at("lines"))
+      to << line.get<std::string>() << '\n';
+    row += page.at("lines").size();
+    if (page.at("lines").empty() || row >= page.at("rows").get<uint64_t>())
+      break;
+  }
+  if (!to.flush())
+    throw app::Error(fmt::format("cannot write '{}'", out));
+}
+
+Control::Control() : impl_(std::make_unique<Impl>()) {}
+Control::~Control() = default;
+
+void Control::declare(CLI::App &command) {
+  Impl &impl = *impl_;
+  command.add_option("ADDRESS", impl.address, "What the run was given as --listen: unix:PATH")
+      ->required()
+      ->type_name("unix:PATH");
+  command.add_option("--app", impl.application, "Which application (default: the first one)")
+      ->type_name("NAME");
+  command.require_subcommand(1);
+  impl.names(impl.add(command, "read", "Show values",
+                      [&impl](SocketClient &client) { impl.read(client); }),
+             "NAME...");
+  impl.names(impl.add(command, "write", "Write values once",
+                      [&impl](SocketClient &client) { client.ask(impl.withValues("write")); }),
+             "NAME=VALUE...");
+  impl.names(impl.add(command, "force", "Keep values, whatever the program writes",
+                      [&impl](SocketClient &client) { client.ask(impl.withValues("force")); }),
+             "NAME=VALUE...");
+  CLI::App *unforce = impl.add(command, "unforce", "Release forced variables",
+                               [&impl](SocketClient &client) { impl.unforce(client); });
+  unforce->add_option("NAMES", impl.texts, "Variables")->type_name("NAME...");
+  unforce->add_flag("--all", impl.all, "All of them");
+  impl.add(command, "forces", "Show what is forced", [&impl](SocketClient &client) {
+    const json forced = client.ask(impl.request("forces"));
+    for (const json &value : forced.at("values"))
+      fmt::print("{} = {}\n", value.at("name").get<std::string>(), literalOf(value.at("literal")));
+  });
+  impl.add(command, "list", "Show the names below a name",
+           [&impl](SocketClient &client) {
+             json question = impl.request("list");
+             question["path"] = impl.text;
+             showList(client, question);
+           })
+      ->add_option("NAME", impl.text, "Without it: programs and global variables")
+      ->type_name("NAME");
+  CLI::App *watch = impl.add(command, "watch", "Show values again and again",
+                             [&impl](SocketClient &client) { impl.watch(client); });
+  impl.names(watch, "NAME...");
+  watch->add_option("--period", impl.period, "Seconds between two lines")->capture_default_str();
+  watch->add_option("--count", impl.count, "Lines; until Ctrl-C without it");
+  CLI::App *record = impl.add(command, "record", "Record values in every cycle, as CSV",
+                              [&impl](SocketClient &client) { impl.recordRows(client); });
+  impl.names(record, "NAME...");
+  record->add_option("--rows", impl.rows, "Rows of the recording")->capture_default_str();
+  record->add_option("--before", impl.before, "Share of the rows before the trigger, 0 to 1")
+      ->capture_default_str();
+  record->add_option("--trigger", impl.trigger, "Variable that the recording waits for")
+      ->type_name("NAME");
+  record->add_option("--edge", impl.edge, "rising, falling, high, low")->capture_default_str();
+  record->add_option("--threshold", impl.threshold, "Where the trigger's edge is, if not a BOOL")
+      ->type_name("VALUE");
+  record->add_option("--out", impl.out, "File (CSV); standard output without it")
+      ->type_name("FILE");
+  impl.add(command, "stats", "Show the figures of the tasks", [&impl](SocketClient &client) {
+    showStatistics(client.ask(impl.request("statistics")));
+  });
+  impl.add(command, "state", "Show what the application is doing", [&impl](SocketClient &client) {
+    const json state = client.ask(impl.request("state"));
+    fmt::print("{}: {} at {:.3f} s\n", state.at("name").get<std::string>(),
+               state.at("state").get<std::string>(), state.at("time").get<double>());
+    if (state.contains("fault"))
+      fmt::print("{}\n", state.at("fault").get<std::string>());
+  });
+  impl.add(command, "stop", "End the run",
+           [&impl](SocketClient &client) { client.ask(impl.request("stop")); });
+}
+
+int Control::run() {
+  SocketClient client(impl_->address);
+  impl_->action(client);
+  return kExitOk;
+}
+
+} // namespace stride::host

@@ -1,0 +1,113 @@
+#include "runtime/monitor/recorder.hpp"
+
+#include "runtime/app/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace stride::monitor {
+
+namespace {
+
+std::optional<Comparison> signalOf(const app::SymbolTable &symbols,
+                                   const std::optional<TriggerSettings> &trigger) {
+  if (!trigger)
+    return std::nullopt;
+  const app::Symbol symbol = resolveElementary(symbols, trigger->name);
+  const TypeDesc &type = symbols.type(symbol);
+  if (type.kind == Kind::BOOL) {
+    if (!trigger->threshold.empty())
+      throw app::Error(fmt::format("trigger '{}': a BOOL has no threshold", trigger->name));
+    return Comparison(symbols, symbol, Relation::Equal, {std::byte{1}});
+  }
+  if (trigger->threshold.empty())
+    throw app::Error(fmt::format("trigger '{}': it is {}, not BOOL; give a threshold",
+                                 trigger->name, type.name));
+  return Comparison(symbols, symbol, Relation::GreaterEqual,
+                    literalBytes(symbols, symbol, trigger->threshold));
+}
+
+} // namespace
+
+Recorder::Recorder(const app::SymbolTable &symbols, const RecorderSettings &settings)
+    : columns_(symbols, settings.names), depth_(settings.rows), behind_(settings.rows),
+      signal_(signalOf(symbols, settings.trigger)) {
+  if (columns_.count() == 0)
+    throw app::Error("a recording needs at least one variable");
+  if (depth_ == 0 || depth_ > kMostBytes / columns_.rowSize())
+    throw app::Error(fmt::format("a recording of {} rows is not possible; {} variables leave room "
+                                 "for 1 to {}",
+                                 depth_, columns_.count(), kMostBytes / columns_.rowSize()));
+  if (!(settings.before >= 0.0 && settings.before <= 1.0))
+    throw app::Error("the share before the trigger is a number from 0 to 1");
+  if (signal_) {
+    const auto before = static_cast<std::size_t>(settings.before * static_cast<double>(depth_));
+    behind_ = std::max<std::size_t>(depth_ - before, 1); // the trigger's own row
+    edge_ = settings.trigger->edge;
+  }
+  memory_.resize(depth_ * columns_.rowSize());
+}
+
+bool Recorder::triggers(std::byte *state) noexcept {
+  if (!signal_)
+    return true;
+  const bool now = signal_->holds(state);
+  const bool changed = hasLevel_ && now != level_;
+  hasLevel_ = true;
+  level_ = now;
+  switch (edge_) {
+  case TriggerEdge::Rising:
+    return changed && now;
+  case TriggerEdge::Falling:
+    return changed && !now;
+  case TriggerEdge::High:
+    return now;
+  case TriggerEdge::Low:
+    return !now;
+  }
+  return false;
+}
+
+void Recorder::sample(int64_t timeNs, std::byte *state) noexcept {
+  const State before = state_.load(std::memory_order_relaxed);
+  if (before == State::Done)
+    return;
+  if (stop_.load(std::memory_order_acquire)) {
+    finish();
+    return;
+  }
+  const uint64_t number = taken_.load(std::memory_order_relaxed);
+  columns_.sample(timeNs, state, memory_.data() + number % depth_ * columns_.rowSize());
+  taken_.store(number + 1, std::memory_order_relaxed);
+  if (before == State::Armed && triggers(state)) {
+    triggered_ = true;
+    triggerAt_ = number;
+    state_.store(State::Triggered, std::memory_order_release);
+  }
+  if (state_.load(std::memory_order_relaxed) == State::Triggered &&
+      number + 1 - triggerAt_ >= behind_)
+    finish();
+}
+
+uint64_t Recorder::firstRow() const noexcept {
+  const uint64_t all = taken();
+  return all > depth_ ? all - depth_ : 0;
+}
+
+std::size_t Recorder::rows() const noexcept {
+  return state() == State::Done ? static_cast<std::size_t>(taken() - firstRow()) : 0;
+}
+
+std::optional<std::size_t> Recorder::triggerRow() const noexcept {
+  if (state() != State::Done || !signal_ || !triggered_)
+    return std::nullopt;
+  return static_cast<std::size_t>(triggerAt_ - firstRow());
+}
+
+void Recorder::appendLine(std::size_t row, std::string &out) const {
+  const uint64_t number = firstRow() + row;
+  columns_.appendLine(memory_.data() + number % depth_ * columns_.rowSize(), out);
+}
+
+} // namespace stride::monitor

@@ -1,0 +1,92 @@
+// Records variables in every cycle, around an event.
+#ifndef STRIDE_RUNTIME_MONITOR_RECORDER_HPP
+#define STRIDE_RUNTIME_MONITOR_RECORDER_HPP
+
+#include "runtime/monitor/condition.hpp"
+#include "runtime/monitor/trace_columns.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stride::monitor {
+
+/// When a trigger comes. Its signal is a BOOL, or whether a variable is at or above a threshold.
+enum class TriggerEdge : uint8_t {
+  Rising,  ///< The signal becomes TRUE.
+  Falling, ///< The signal becomes FALSE.
+  High,    ///< The signal is TRUE.
+  Low,     ///< The signal is FALSE.
+};
+
+/// What makes a recording begin.
+struct TriggerSettings {
+  std::string name;
+  TriggerEdge edge = TriggerEdge::Rising;
+  std::string threshold; ///< An ST literal; empty for a BOOL.
+};
+
+/// What is recorded.
+struct RecorderSettings {
+  std::vector<std::string> names;         ///< A structure or an array stands for its parts.
+  std::size_t rows = 1000;                ///< Rows of a complete recording.
+  double before = 0.0;                    ///< Share of the rows before the trigger, 0 … 1.
+  std::optional<TriggerSettings> trigger; ///< Without one it begins at once.
+};
+
+/// A ring of rows, filled by one task at the end of its cycles until the trigger has come and the
+/// rows behind it are there. Read by another thread when it is done.
+class Recorder {
+public:
+  static constexpr std::size_t kMostBytes = std::size_t{256} << 20;
+
+  enum class State : uint8_t { Armed, Triggered, Done };
+
+  /// Allocates everything. Throws app::Error: unknown names, a bad threshold, too many rows.
+  Recorder(const app::SymbolTable &symbols, const RecorderSettings &settings);
+
+  /// At the end of a cycle; neither allocates nor locks.
+  void sample(int64_t timeNs, std::byte *state) noexcept;
+
+  State state() const noexcept { return state_.load(std::memory_order_acquire); }
+  /// Done at the next sample(), with the rows that there are.
+  void stop() noexcept { stop_.store(true, std::memory_order_release); }
+  /// Done at once: nobody calls sample() at this moment.
+  void finish() noexcept { state_.store(State::Done, std::memory_order_release); }
+  /// Rows taken so far, also those that the ring has lost since.
+  uint64_t taken() const noexcept { return taken_.load(std::memory_order_relaxed); }
+
+  /// Rows that can be read; 0 until it is done.
+  std::size_t rows() const noexcept;
+  /// The row that the trigger came with; nothing without a trigger, or if it did not come.
+  std::optional<std::size_t> triggerRow() const noexcept;
+  /// `t` and the names, as in every trace.
+  std::string header() const { return columns_.header(); }
+  /// Appends the CSV line of a row, the oldest is 0.
+  void appendLine(std::size_t row, std::string &out) const;
+
+private:
+  bool triggers(std::byte *state) noexcept;
+  uint64_t firstRow() const noexcept;
+
+  TraceColumns columns_;
+  std::size_t depth_;
+  std::size_t behind_; ///< Rows from the trigger on.
+  std::optional<Comparison> signal_;
+  TriggerEdge edge_ = TriggerEdge::Rising;
+  bool hasLevel_ = false;
+  bool level_ = false; ///< The signal in the last cycle.
+  bool triggered_ = false;
+  uint64_t triggerAt_ = 0; ///< Number of the row.
+  std::vector<std::byte> memory_;
+  std::atomic<uint64_t> taken_{0};
+  std::atomic<State> state_{State::Armed};
+  std::atomic<bool> stop_{false};
+};
+
+} // namespace stride::monitor
+
+#endif

@@ -1,0 +1,248 @@
+#include "runtime/monitor/socket_server.hpp"
+
+#include "runtime/app/error.hpp"
+#include "runtime/monitor/file_handle.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+namespace stride::monitor {
+
+namespace {
+
+[[noreturn]] void failed(const std::string &path, const char *what) {
+  throw app::Error(
+      fmt::format("--listen unix:{}: cannot {}: {}", path, what, std::strerror(errno)));
+}
+
+/// Removes a socket file that is left over.
+void removeStale(const std::string &path, const ::sockaddr_un &address) {
+  struct ::stat status {};
+  if (::lstat(path.c_str(), &status) != 0)
+    return;
+  if (!S_ISSOCK(status.st_mode))
+    throw app::Error(
+        fmt::format("--listen unix:{}: there is a file of that name that is no socket", path));
+  const FileHandle probe(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (::connect(probe.number(), reinterpret_cast<const ::sockaddr *>(&address), sizeof address) ==
+          0 ||
+      errno == EAGAIN)
+    throw app::Error(
+        fmt::format("--listen unix:{}: a running program listens there already", path));
+  ::unlink(path.c_str());
+}
+
+FileHandle listenAt(const std::string &path) {
+  const ::sockaddr_un address = socketAddress(path);
+  removeStale(path, address);
+  FileHandle socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (socket.number() < 0)
+    failed(path, "make a socket");
+  // Before bind() gives the file its name, so that nobody else ever finds it open.
+  ::fchmod(socket.number(), S_IRUSR | S_IWUSR);
+  if (::bind(socket.number(), reinterpret_cast<const ::sockaddr *>(&address), sizeof address) != 0)
+    failed(path, "make the socket's file");
+  if (::chmod(path.c_str(), S_IRUSR | S_IWUSR) != 0 || ::listen(socket.number(), 8) != 0)
+    failed(path, "listen");
+  return socket;
+}
+
+} // namespace
+
+std::string socketPath(const std::string &address) {
+  if (!address.starts_with("unix:") || address.size() == 5)
+    throw app::Error(fmt::format("'{}' is no address; write unix:PATH", address));
+  std::string path = address.substr(5);
+  if (path.size() >= sizeof(::sockaddr_un::sun_path))
+    throw app::Error(fmt::format("'{}' is too long for a socket; {} bytes are possible", path,
+                                 sizeof(::sockaddr_un::sun_path) - 1));
+  return path;
+}
+
+::sockaddr_un socketAddress(const std::string &path) {
+  ::sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
+  return address;
+}
+
+struct SocketServer::Impl {
+  struct Client {
+    FileHandle socket;
+    std::string input;
+    std::string output;
+    std::atomic<bool> dropped{false};
+  };
+
+  explicit Impl(const std::string &address)
+      : path(socketPath(address)), listener(listenAt(path)),
+        wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+        service([this](Service::ClientId id, const std::string &line) { send(id, line); }) {
+    if (wake.number() < 0)
+      failed(path, "wait for the end");
+  }
+
+  /// In the server's thread, or (detach) in another one under the service's lock: so the text is
+  /// only put there under a lock of its own.
+  void send(Service::ClientId id, const std::string &line) {
+    const std::lock_guard lock(outputMutex);
+    const auto found = clients.find(id);
+    if (found == clients.end() || found->second.dropped)
+      return;
+    Client &client = found->second;
+    if (client.output.size() + line.size() > kMostUnsent) {
+      client.dropped = true;
+      return;
+    }
+    client.output += line;
+    client.output += '\n';
+  }
+
+  void run() {
+    while (!ending.load()) {
+      service.poll(task::monotonicNs());
+      for (auto &[id, client] : clients)
+        flush(client);
+      removeDropped();
+      wait();
+    }
+  }
+
+  void wait() {
+    std::vector<::pollfd> files = {{listener.number(), POLLIN, 0}, {wake.number(), POLLIN, 0}};
+    if (clients.size() >= kMostClients)
+      files[0].fd = -1; // they wait at the door
+    std::vector<Service::ClientId> ids;
+    for (auto &[id, client] : clients) {
+      const std::lock_guard lock(outputMutex);
+      const auto events = static_cast<short>(client.output.empty() ? POLLIN : POLLIN | POLLOUT);
+      files.push_back({client.socket.number(), events, 0});
+      ids.push_back(id);
+    }
+    const int64_t idle = service.idleNs(task::monotonicNs());
+    const ::timespec limit = {static_cast<time_t>(idle / 1'000'000'000),
+                              static_cast<long>(idle % 1'000'000'000)};
+    if (::ppoll(files.data(), files.size(), &limit, nullptr) <= 0)
+      return;
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      if ((files[i + 2].revents & (POLLIN | POLLHUP | POLLERR)) != 0)
+        receive(ids[i], clients.at(ids[i]));
+    if ((files[0].revents & POLLIN) != 0)
+      letIn();
+  }
+
+  void letIn() {
+    FileHandle socket(::accept4(listener.number(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+    if (socket.number() < 0)
+      return;
+    const Service::ClientId id = ++lastClient;
+    const std::string hello = service.hello();
+    {
+      const std::lock_guard lock(outputMutex);
+      clients[id].socket = std::move(socket);
+    }
+    send(id, hello);
+  }
+
+  void receive(Service::ClientId id, Client &client) {
+    char buffer[16384];
+    const ::ssize_t size = ::recv(client.socket.number(), buffer, sizeof buffer, 0);
+    if (size == 0 || (size < 0 && errno != EAGAIN && errno != EINTR)) {
+      client.dropped = true;
+      return;
+    }
+    if (size < 0)
+      return;
+    client.input.append(buffer, static_cast<std::size_t>(size));
+    std::size_t begin = 0;
+    for (std::size_t end = 0; (end = client.input.find('\n', begin)) != std::string::npos;
+         begin = end + 1) {
+      std::string_view line(client.input.data() + begin, end - begin);
+      if (line.ends_with('\r'))
+        line.remove_suffix(1);
+      if (!line.empty())
+        service.handle(id, line);
+    }
+    client.input.erase(0, begin);
+    if (client.input.size() > kLongestLine) {
+      send(id, R"({"id":null,"error":{"code":"bad_request","message":"the line is too long"}})");
+      flush(client);
+      client.dropped = true;
+    }
+  }
+
+  void flush(Client &client) {
+    const std::lock_guard lock(outputMutex);
+    while (!client.output.empty() && !client.dropped) {
+      const ::ssize_t sent = ::send(client.socket.number(), client.output.data(),
+                                    client.output.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+      if (sent <= 0) {
+        client.dropped = errno != EAGAIN && errno != EINTR;
+        return;
+      }
+      client.output.erase(0, static_cast<std::size_t>(sent));
+    }
+  }
+
+  void removeDropped() {
+    std::vector<Service::ClientId> gone;
+    for (const auto &[id, client] : clients)
+      if (client.dropped)
+        gone.push_back(id);
+    for (const Service::ClientId id : gone) {
+      service.forget(id);
+      const std::lock_guard lock(outputMutex);
+      clients.erase(id);
+    }
+  }
+
+  std::string path;
+  FileHandle listener;
+  FileHandle wake;
+  std::mutex outputMutex; // of which clients there are and what is sent to them
+  std::map<Service::ClientId, Client> clients; // changed by the server's thread only
+  Service::ClientId lastClient = 0;
+  Service service;
+  std::atomic<bool> ending{false};
+  std::thread thread;
+};
+
+SocketServer::SocketServer(const std::string &address) : impl_(std::make_unique<Impl>(address)) {}
+
+Service &SocketServer::service() { return impl_->service; }
+
+void SocketServer::start() {
+  // Signals are for others.
+  ::sigset_t all;
+  ::sigset_t before;
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_BLOCK, &all, &before);
+  impl_->thread = std::thread([impl = impl_.get()] { impl->run(); });
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+SocketServer::~SocketServer() {
+  impl_->ending.store(true);
+  const uint64_t one = 1;
+  (void)!::write(impl_->wake.number(), &one, sizeof one);
+  if (impl_->thread.joinable())
+    impl_->thread.join();
+  ::unlink(impl_->path.c_str());
+}
+
+} // namespace stride::monitor

@@ -1,0 +1,306 @@
+#include "runtime/monitor/symbol_server.hpp"
+
+#include "runtime/app/error.hpp"
+#include "runtime/app/nearest.hpp"
+#include "runtime/app/value_text.hpp"
+#include "runtime/monitor/condition.hpp"
+#include "runtime/monitor/symbol_channel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+namespace stride::monitor {
+
+SymbolServer::SymbolServer(task::TaskSet &tasks)
+    : symbols_(std::make_unique<app::SymbolTable>(tasks.app())), tasks_(&tasks) {
+  for (uint32_t i = 0; i < tasks.count(); ++i)
+    channels_.push_back(std::make_unique<SymbolChannel>());
+}
+
+SymbolServer::~SymbolServer() { close(); }
+
+void SymbolServer::addOuterHooks() {
+  for (uint32_t i = 0; i < tasks_->count(); ++i)
+    tasks_->addHook(i, channels_[i]->outer());
+}
+
+void SymbolServer::addInnerHooks() {
+  for (uint32_t i = 0; i < tasks_->count(); ++i)
+    tasks_->addHook(i, channels_[i]->inner());
+}
+
+void SymbolServer::setReadOnly(const std::string &why) {
+  const std::lock_guard lock(mutex_);
+  readOnly_ = why;
+}
+
+void SymbolServer::checkWritable() const {
+  if (!readOnly_.empty())
+    throw app::Error(readOnly_);
+}
+
+bool SymbolServer::periodic(uint32_t task) const {
+  const TaskKind kind = tasks_->desc(task).kind;
+  return kind == TaskKind::Cyclic || kind == TaskKind::Freewheeling;
+}
+
+uint32_t SymbolServer::taskOf(const app::Symbol &symbol) const {
+  const uint32_t owner = symbol.task();
+  return owner < tasks_->count() && periodic(owner) ? owner : tasks_->fastest();
+}
+
+/// Sorted into parts by task: the values of one task lie together.
+std::shared_ptr<SymbolRequest> SymbolServer::newRequest(std::vector<app::Symbol> symbols) {
+  if (symbols.empty())
+    throw app::Error("no variable is named");
+  if (symbols.size() > kValuesPerRequest)
+    throw app::Error(fmt::format("{} values at once are too many; the limit is {}", symbols.size(),
+                                 kValuesPerRequest));
+  auto request = std::make_shared<SymbolRequest>();
+  request->build_ = build_;
+  std::size_t size = 0;
+  for (app::Symbol &symbol : symbols) {
+    const std::size_t bytes = symbols_->type(symbol).size;
+    request->values_.push_back({std::move(symbol), size, bytes, false});
+    size += bytes;
+  }
+  if (size > kBytesPerRequest)
+    throw app::Error(
+        fmt::format("{} bytes at once are too many; the limit is {}", size, kBytesPerRequest));
+  request->memory_.resize(size);
+  for (std::size_t i = 0; i < request->values_.size(); ++i) {
+    const uint32_t task = taskOf(request->values_[i].symbol);
+    if (request->parts_.empty() || request->parts_.back().task != task)
+      request->parts_.push_back({request.get(), task, i, i, 0});
+    SymbolRequest::Part &part = request->parts_.back();
+    part.last = i + 1;
+    part.bytes += request->values_[i].size;
+  }
+  request->open_.store(request->parts_.size());
+  return request;
+}
+
+void SymbolServer::submit(const std::shared_ptr<SymbolRequest> &request) {
+  if (closed_)
+    throw app::Error("the application does not run any more");
+  collect();
+  waiting_.push_back(request);
+  for (std::size_t i = 0; i < request->parts_.size(); ++i) {
+    SymbolRequest::Part &part = request->parts_[i];
+    if (channels_[part.task]->push(part))
+      continue;
+    // What is in queues already is done for nobody; the rest never.
+    request->dropped_.store(true);
+    request->open_.fetch_sub(request->parts_.size() - i);
+    throw app::Error(fmt::format("{} requests wait for task '{}'; it does not run, or not often "
+                                 "enough",
+                                 kMostWaiting, tasks_->desc(part.task).name));
+  }
+}
+
+void SymbolServer::collect() {
+  std::erase_if(waiting_, [](const auto &request) { return request->done(); });
+}
+
+std::shared_ptr<SymbolRequest> SymbolServer::read(const std::vector<std::string> &names) {
+  const std::lock_guard lock(mutex_);
+  std::vector<app::Symbol> wanted;
+  for (const std::string &name : names) {
+    const app::Symbol symbol = symbols_->resolve(name);
+    const TypeDesc &type = symbols_->type(symbol);
+    if (type.size > kBytesPerRequest)
+      throw app::Error(fmt::format("symbol '{}': {} bytes at once are too many; name parts of it",
+                                   name, type.size));
+    std::vector<app::Symbol> leaves = symbols_->leaves(symbol);
+    if (leaves.empty())
+      throw app::Error(fmt::format("symbol '{}': it is {} and has no value", name, type.name));
+    std::move(leaves.begin(), leaves.end(), std::back_inserter(wanted));
+  }
+  std::shared_ptr<SymbolRequest> request = newRequest(std::move(wanted));
+  submit(request);
+  return request;
+}
+
+std::shared_ptr<SymbolRequest> SymbolServer::write(const std::vector<NamedValue> &values) {
+  const std::lock_guard lock(mutex_);
+  checkWritable();
+  std::vector<app::Symbol> wanted;
+  std::vector<std::byte> bytes;
+  for (const auto &[name, literal] : values) {
+    wanted.push_back(resolveWritable(*symbols_, name));
+    const std::vector<std::byte> value = literalBytes(*symbols_, wanted.back(), literal);
+    bytes.insert(bytes.end(), value.begin(), value.end());
+  }
+  std::shared_ptr<SymbolRequest> request = newRequest(std::move(wanted));
+  request->writes_ = true;
+  request->memory_ = std::move(bytes);
+  submit(request);
+  return request;
+}
+
+void SymbolServer::again(const std::shared_ptr<SymbolRequest> &request) {
+  const std::lock_guard lock(mutex_);
+  if (!request->done() || request->dropped() || request->build_ != build_)
+    throw app::Error("the request belongs to another build of the application");
+  collect();
+  request->open_.store(request->parts_.size(), std::memory_order_release);
+  submit(request);
+}
+
+bool SymbolServer::wait(const SymbolRequest &request, std::chrono::milliseconds limit) {
+  const auto end = std::chrono::steady_clock::now() + limit;
+  while (!request.done() && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  return request.done() && !request.dropped();
+}
+
+bool SymbolServer::valid(const SymbolRequest &request) const {
+  const std::lock_guard lock(mutex_);
+  return request.done() && !request.dropped() && request.build_ == build_;
+}
+
+void SymbolServer::force(const std::vector<NamedValue> &values) {
+  const std::lock_guard lock(mutex_);
+  checkWritable();
+  std::vector<Forced> next = forced_;
+  for (const auto &[name, literal] : values) {
+    app::Symbol symbol = resolveWritable(*symbols_, name);
+    std::vector<std::byte> value = literalBytes(*symbols_, symbol, literal);
+    const std::string key = app::lowered(name);
+    const auto found = std::find_if(next.begin(), next.end(), [&](const Forced &forced) {
+      return app::lowered(forced.symbol.path()) == key;
+    });
+    if (found != next.end())
+      found->value = std::move(value);
+    else
+      next.push_back({std::move(symbol), std::move(value)});
+  }
+  if (next.size() > kMostForces)
+    throw app::Error(
+        fmt::format("{} forced variables are too many; the limit is {}", next.size(), kMostForces));
+  forced_ = std::move(next);
+  publishForces();
+}
+
+void SymbolServer::release(const std::vector<std::string> &names) {
+  const std::lock_guard lock(mutex_);
+  checkWritable();
+  std::vector<Forced> next = forced_;
+  for (const std::string &name : names) {
+    const std::string key = app::lowered(name);
+    const auto found = std::find_if(next.begin(), next.end(), [&](const Forced &forced) {
+      return app::lowered(forced.symbol.path()) == key;
+    });
+    if (found == next.end())
+      throw app::Error(fmt::format("'{}' is not forced", name));
+    next.erase(found);
+  }
+  forced_ = std::move(next);
+  publishForces();
+}
+
+void SymbolServer::releaseAll() {
+  const std::lock_guard lock(mutex_);
+  forced_.clear();
+  publishForces();
+}
+
+void SymbolServer::publishForces() {
+  for (const std::unique_ptr<SymbolChannel> &channel : channels_)
+    channel->forces.publish(
+        std::make_unique<SymbolChannel::ForceList>(SymbolChannel::ForceList{forced_}));
+}
+
+std::vector<NamedValue> SymbolServer::forced() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<NamedValue> list;
+  for (const Forced &forced : forced_)
+    list.emplace_back(
+        forced.symbol.path(),
+        app::formatLiteral(symbols_->app(), symbols_->type(forced.symbol), forced.value.data()));
+  return list;
+}
+
+bool SymbolServer::forcesTaken() const {
+  const std::lock_guard lock(mutex_);
+  for (uint32_t i = 0; i < channels_.size(); ++i)
+    if (periodic(i) && !channels_[i]->forces.taken())
+      return false;
+  return true;
+}
+
+void SymbolServer::setRecorder(std::shared_ptr<Recorder> recorder) {
+  const std::lock_guard lock(mutex_);
+  if (closed_)
+    throw app::Error("the application does not run any more");
+  if (recorder_)
+    recorder_->stop();
+  recorder_ = std::move(recorder);
+  channels_[tasks_->fastest()]->recorder.publish(
+      std::make_unique<SymbolChannel::RecorderSlot>(SymbolChannel::RecorderSlot{recorder_}));
+}
+
+std::shared_ptr<Recorder> SymbolServer::recorder() const {
+  const std::lock_guard lock(mutex_);
+  return recorder_;
+}
+
+void SymbolServer::dropAll() {
+  for (const std::unique_ptr<SymbolChannel> &channel : channels_)
+    while (const SymbolRequest::Part *part = channel->pop()) {
+      part->request->dropped_.store(true);
+      part->request->open_.fetch_sub(1);
+    }
+  waiting_.clear();
+}
+
+void SymbolServer::close() {
+  const std::lock_guard lock(mutex_);
+  if (closed_)
+    return;
+  closed_ = true;
+  dropAll();
+  if (recorder_)
+    recorder_->finish();
+}
+
+std::vector<std::string>
+SymbolServer::changeApplication(std::unique_ptr<app::SymbolTable> symbols) {
+  const std::lock_guard lock(mutex_);
+  dropAll();
+  if (recorder_) {
+    recorder_->stop();
+    recorder_->finish();
+    recorder_.reset(); // its columns describe the old build
+  }
+  channels_[tasks_->fastest()]->recorder.publish(std::make_unique<SymbolChannel::RecorderSlot>());
+  std::vector<std::string> lost;
+  std::vector<Forced> kept;
+  for (const Forced &forced : forced_) {
+    const TypeDesc &before = symbols_->type(forced.symbol);
+    try {
+      app::Symbol symbol = resolveWritable(*symbols, forced.symbol.path());
+      if (symbols->type(symbol).layoutHash == before.layoutHash) {
+        kept.push_back({std::move(symbol), forced.value});
+        continue;
+      }
+    } catch (const app::Error &) { // not known any more, which is told below
+    }
+    lost.push_back(forced.symbol.path());
+  }
+  symbols_ = std::move(symbols);
+  forced_ = std::move(kept);
+  ++build_;
+  publishForces();
+  // A task that has not taken the list before must not apply the old one, whose symbols lead into
+  // the old state; no task is in a cycle, so this thread takes it for them.
+  for (const std::unique_ptr<SymbolChannel> &channel : channels_) {
+    channel->forces.take();
+    channel->recorder.take();
+  }
+  return lost;
+}
+
+} // namespace stride::monitor
