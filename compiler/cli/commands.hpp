@@ -40,6 +40,9 @@ int resetCommand(const ProjectOptions &options, const std::string &kind);
 /// Becomes stride-host with `command` and these arguments; nothing is built.
 int hostOnlyCommand(const std::string &command, const std::vector<std::string> &hostArguments);
 
+/// Becomes stride-host with `command` and these arguments; nothing is built.
+int hostOnlyCommand(const std::string &command, const std::vector<std::string> &hostArguments);
+
 int plotCommand(const std::string &trace, const std::string &out);
 
 /// `what`: a diagnostic's code, or the number or name of a SoftMotion error.

@@ -238,6 +238,7 @@ private:
 
   void take(uint32_t index) {
     const RootDesc &root = app().roots[index];
+    symbol_.task_ = root.task;
     enter(root.offset, root.type, root.flags);
   }
 

@@ -33,6 +33,8 @@ public:
   uint32_t type() const { return type_; }
   /// SymbolFlags of the last name on the path, and kSymConstant if any name has it.
   uint32_t flags() const { return flags_; }
+  /// The only task that calls the program that the path begins with; kNoIndex: there is none.
+  uint32_t task() const { return task_; }
   /// The path as it was asked for.
   const std::string &path() const { return path_; }
 
@@ -53,6 +55,7 @@ private:
   std::string path_;
   uint32_t type_ = kNoIndex;
   uint32_t flags_ = 0;
+  uint32_t task_ = kNoIndex;
   int bit_ = -1; ///< of the byte; -1: none, or in a slot
   std::vector<Step> steps_{Step{}};
 };

@@ -290,6 +290,7 @@ int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
                ctl->parsed()     ? "ctl"
                : run->parsed()   ? "run"
                : reset->parsed() ? "reset"
+               : ctl->parsed()   ? "ctl"
                                  : "sim");
     return kExitBadInput;
   }

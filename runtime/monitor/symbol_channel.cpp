@@ -20,7 +20,7 @@ void SymbolChannel::serve(bool writes, const Ctx &ctx) noexcept {
     if (values > SymbolServer::kValuesPerCycle || bytes > SymbolServer::kBytesPerCycle)
       return; // in the next cycle; a single request always fits
     for (std::size_t i = part.first; i != part.last; ++i) {
-      SymbolRequest::Value &value = request.values_[i];
+      SymbolRequest::Value &value = request.values_[request.order_[i]];
       std::byte *memory = request.memory_.data() + value.offset;
       if (writes) {
         value.reached = value.symbol.write(state, memory, value.size);

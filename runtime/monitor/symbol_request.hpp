@@ -41,7 +41,7 @@ private:
   friend class SymbolServer;
   friend class SymbolChannel;
 
-  /// The values that one task serves: [first, last) in values_.
+  /// The values that one task serves: those whose numbers are [first, last) in order_.
   struct Part {
     SymbolRequest *request = nullptr;
     uint32_t task = 0;
@@ -53,6 +53,7 @@ private:
   bool writes_ = false;
   uint64_t build_ = 0; ///< Of the server when this was made.
   std::vector<Value> values_;
+  std::vector<std::size_t> order_; ///< Numbers of values_, those of a task together.
   std::vector<std::byte> memory_;
   std::vector<Part> parts_;
   std::atomic<std::size_t> open_{0}; ///< Parts that are not done.

@@ -46,7 +46,10 @@ bool SymbolServer::periodic(uint32_t task) const {
   return kind == TaskKind::Cyclic || kind == TaskKind::Freewheeling;
 }
 
-uint32_t SymbolServer::taskOf(const app::Symbol &) const { return tasks_->fastest(); }
+uint32_t SymbolServer::taskOf(const app::Symbol &symbol) const {
+  const uint32_t owner = symbol.task();
+  return owner < tasks_->count() && periodic(owner) ? owner : tasks_->fastest();
+}
 
 /// Sorted into parts by task: the values of one task lie together.
 std::shared_ptr<SymbolRequest> SymbolServer::newRequest(std::vector<app::Symbol> symbols) {
@@ -67,13 +70,21 @@ std::shared_ptr<SymbolRequest> SymbolServer::newRequest(std::vector<app::Symbol>
     throw app::Error(
         fmt::format("{} bytes at once are too many; the limit is {}", size, kBytesPerRequest));
   request->memory_.resize(size);
-  for (std::size_t i = 0; i < request->values_.size(); ++i) {
-    const uint32_t task = taskOf(request->values_[i].symbol);
+  std::vector<uint32_t> tasks;
+  for (const SymbolRequest::Value &value : request->values_) {
+    request->order_.push_back(tasks.size());
+    tasks.push_back(taskOf(value.symbol));
+  }
+  std::stable_sort(request->order_.begin(), request->order_.end(),
+                   [&](std::size_t a, std::size_t b) { return tasks[a] < tasks[b]; });
+  for (std::size_t i = 0; i < request->order_.size(); ++i) {
+    const std::size_t number = request->order_[i];
+    const uint32_t task = tasks[number];
     if (request->parts_.empty() || request->parts_.back().task != task)
       request->parts_.push_back({request.get(), task, i, i, 0});
     SymbolRequest::Part &part = request->parts_.back();
     part.last = i + 1;
-    part.bytes += request->values_[i].size;
+    part.bytes += request->values_[number].size;
   }
   request->open_.store(request->parts_.size());
   return request;

@@ -253,13 +253,13 @@ constexpr ::stride::MemberDesc kMembers[] = {
 
 constexpr ::stride::EnumeratorDesc kEnumerators[] = {{"red", 0}, {"green", 5}, {"blue", 6}};
 
-// {list, name, offset, type, flags}
+// {list, name, offset, type, flags, renamedFrom, task}
 constexpr ::stride::RootDesc kRoots[] = {
     {"GVL", "limit", offsetof(App__, GVL.limit), tINT, ::stride::kSymQualifiedOnly},
     {nullptr, "kMax", offsetof(App__, Globals.kMax), tDINT, ::stride::kSymConstant},
     {nullptr, "total", offsetof(App__, Globals.total), tDINT, 0},
-    {nullptr, "PLC_PRG", offsetof(App__, PLC_PRG__), tPrg, 0},
-    {nullptr, "Slow", offsetof(App__, Slow__), tSlow, 0},
+    {nullptr, "PLC_PRG", offsetof(App__, PLC_PRG__), tPrg, 0, nullptr, 0},
+    {nullptr, "Slow", offsetof(App__, Slow__), tSlow, 0, nullptr, 1},
 };
 
 // {name, kind, priority, intervalNs, watchdogNs, watchdogSensitivity, 0, run}

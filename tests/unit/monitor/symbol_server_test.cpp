@@ -50,6 +50,15 @@ TEST_F(SymbolServing, TheOrderOfRequestsIsKept) {
   EXPECT_EQ(shown(*after), "102");
 }
 
+TEST_F(SymbolServing, EachTaskServesItsProgram) {
+  const auto request = server.read({"PLC_PRG.count", "Slow.runs", "total", "Slow.runs"});
+  run();
+  EXPECT_FALSE(request->done());
+  tasks.runCycle(1, timeNs, 0);
+  ASSERT_TRUE(request->done());
+  EXPECT_EQ(shown(*request), "1 1 2 1");
+}
+
 TEST_F(SymbolServing, WorkPerCycleIsBounded) {
   std::vector<std::string> names(SymbolServer::kValuesPerRequest, "PLC_PRG.flag");
   const auto first = server.read(names);
