@@ -240,11 +240,6 @@ int run(int argc, char **argv) {
   ctl->set_help_flag();
   ctl->callback([&] { exitCode = hostOnlyCommand("ctl", ctl->remaining()); });
 
-  CLI::App *ctl = app.add_subcommand("ctl", "Read, write, force in a running application");
-  ctl->prefix_command(); // stride-host knows what comes behind it
-  ctl->set_help_flag();
-  ctl->callback([&] { exitCode = hostOnlyCommand("ctl", ctl->remaining()); });
-
   std::string trace;
   CLI::App *plot = app.add_subcommand("plot", "Draw a trace");
   plot->add_option("TRACE", trace, "CSV file that `stride sim --out` wrote")

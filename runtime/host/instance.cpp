@@ -33,11 +33,6 @@ void Instance::addToAllTasks(task::CycleHook &hook) {
     tasks_.addHook(task, hook);
 }
 
-void Instance::addToAllTasks(task::CycleHook &hook) {
-  for (uint32_t task = 0; task < tasks_.count(); ++task)
-    tasks_.addHook(task, hook);
-}
-
 void Instance::swap(std::unique_ptr<app::Application> &other) noexcept {
   application_.swap(other);
   tasks_.rebind(app(), state());
