@@ -133,7 +133,9 @@ TEST_F(Monitor, Embedding) {
       shell("cp $SOURCE/examples/embed/Tank.st . && $STRIDE build Tank.st -o "
             "Tank.so && $EMBED Tank.so && $EMBED missing.so");
   EXPECT_EQ(result.exitCode, 1);
-  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.out, "tank 1: filled 10 times up to 700, level 575\n"
+                        "tank 2: filled 99 times up to 450, level 425\n"
+                        "symbol 'Tank.levle': Tank has no member 'levle'; did you mean 'level'?\n");
   EXPECT_THAT(result.err, HasSubstr("missing.so"));
 }
 
