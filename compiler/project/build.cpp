@@ -145,13 +145,15 @@ private:
 
   bool findToolchain() {
     std::string missing;
-    const std::optional<Installation> found = findInstallation(missing, options_.target);
+    std::optional<Installation> found = findInstallation(missing, options_.target);
     std::error_code error;
-    if (found && options_.isStatic)
-      for (const fs::path &library : found->hostLibraries)
-        if (!fs::exists(library, error))
-          missing = library.string();
-    if (!found || !missing.empty()) {
+    for (std::size_t i = 0; found && options_.isStatic && i < found->hostLibraries.size(); ++i) {
+      if (fs::exists(found->hostLibraries[i], error))
+        continue;
+      missing = found->hostLibraries[i].string();
+      found.reset();
+    }
+    if (!found) {
       Diagnostic &d = diagnostics_.report(
           Code::toolchainMissing, {}, fmt::format("Stride's own file `{}` is missing", missing));
       if (!options_.target.empty())
