@@ -2,9 +2,9 @@
  * model. Plain C11 or C++ with GCC's atomic builtins; no library of Stride's is needed.
  *
  * The segment (shm_open) begins with this header; inputs and outputs of the program follow at the
- * offsets that it names. Both directions have two counters: whoever writes adds 1 to `begin`, writes
- * bytes, adds 1 to `end`. Whoever reads takes `end`, the bytes, then `begin`: when both are equal
- * the bytes belong together, else it tries again. Nobody ever waits for the other one.
+ * offsets that it names. Both directions have two counters: whoever writes adds 1 to `begin`,
+ * writes bytes, adds 1 to `end`. Whoever reads takes `end`, the bytes, then `begin`: when both are
+ * equal the bytes belong together, else it tries again. Nobody ever waits for the other one.
  */
 #ifndef STRIDE_IO_H
 #define STRIDE_IO_H
