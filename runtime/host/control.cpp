@@ -268,6 +268,8 @@ void Control::declare(CLI::App &command) {
     if (state.contains("fault"))
       fmt::print("{}\n", state.at("fault").get<std::string>());
   });
+  impl.add(command, "change", "Take new builds of the applications over (online change)",
+           [&impl](SocketClient &client) { client.ask(impl.request("online_change")); });
   impl.add(command, "stop", "End the run",
            [&impl](SocketClient &client) { client.ask(impl.request("stop")); });
 }

@@ -305,6 +305,10 @@ public:
         stopAsked_.store(true);
         return nlohmann::json::object();
       });
+      listener_->service().addOperation("online_change", [this](const nlohmann::json &) {
+        changeAsked_.store(true);
+        return nlohmann::json::object();
+      });
     }
     if (!options.quiet)
       for (const std::string &warning : report_.warnings)
@@ -332,7 +336,7 @@ public:
       if (number == SIGUSR1)
         for (Slot &slot : slots_)
           slot.session->showStatistics();
-      if (number == SIGHUP)
+      if (number == SIGHUP || changeAsked_.exchange(false))
         changeAll();
       lookAfter();
     }
@@ -394,6 +398,7 @@ private:
   std::optional<TraceWriter> trace_;
   std::vector<Slot> slots_;
   std::atomic<bool> stopAsked_{false};
+  std::atomic<bool> changeAsked_{false};
   std::unique_ptr<monitor::SocketServer> listener_; // ends before what it serves
 };
 

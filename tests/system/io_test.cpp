@@ -113,7 +113,8 @@ END_PROGRAM
     if (stride_io_read_outputs(io, 15, &byte, 1) != 0)
       safe = byte;
   });
-  const ProcessResult result = stride({"run", "--for", "T#20s", "--print", "Main"});
+  const ProcessResult result =
+      stride({"run", "--for", "T#20s", "--print", "Main", "--record", "io.rec"});
   done = true;
   plant.join();
   EXPECT_EQ(result.exitCode, 2) << result.err; // the division
@@ -121,6 +122,13 @@ END_PROGRAM
   EXPECT_THAT(result.out, HasSubstr("Main.wrong = 0\n"));
   EXPECT_EQ(state, STRIDE_IO_STOPPED);
   EXPECT_EQ(safe, 170U);
+
+  // Without the plant: the answers come from the recording.
+  ::shm_unlink(segment_.c_str());
+  const ProcessResult replay = stride({"sim", "--replay", "io.rec", "--print", "Main"});
+  EXPECT_EQ(replay.exitCode, 2) << replay.err;
+  EXPECT_EQ(replay.out, result.out);
+  EXPECT_EQ(::shm_open(segment_.c_str(), O_RDWR, 0), -1) << "a replay opens no device";
 }
 
 TEST_F(SharedIo, NobodyAnswers) {

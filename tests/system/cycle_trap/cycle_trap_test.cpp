@@ -65,6 +65,42 @@ INSTANTIATE_TEST_SUITE_P(Projects, CycleTrap, ::testing::ValuesIn(projects()),
                            return fs::path(info.param).filename().string();
                          });
 
+using CycleTrapExample = CycleTrap;
+
+TEST_P(CycleTrapExample, NorWhileItIsServedScriptedTracedAndRecorded) {
+  ASSERT_TRUE(build(GetParam()));
+  writeFile(scratch_.path() / "a.script",
+            "at T#100ms: force Ipo.p := 20\nat T#200ms: release Ipo.p\n");
+  const std::string host = STRIDE_BINARY_DIR "/tests/cycle_trap_host";
+  const ProcessResult result = runProcess(
+      {"sh", "-c",
+       host +
+           " run app.so --for 800ms --listen unix:s --script a.script --record r "
+           "--retain keep --trace Drive.fSetPosition --out t.csv & p=$!; sleep 0.3\n" +
+           host + " ctl unix:s read Drive.fSetPosition; " + host + " ctl unix:s stats; wait $p"},
+      scratch_.path());
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.err, Not(HasSubstr("TRAP")));
+  EXPECT_THAT(result.out, HasSubstr("Drive.fSetPosition"));
+}
+
+TEST_P(CycleTrapExample, NorWhileVariablesAreForced) {
+  ASSERT_TRUE(build(GetParam()));
+  const std::string host = STRIDE_BINARY_DIR "/tests/cycle_trap_host";
+  const ProcessResult result = runProcess(
+      {"sh", "-c",
+       host + " run app.so --for 800ms --listen unix:s --quiet & p=$!; sleep 0.3\n" + host +
+           " ctl unix:s force Ipo.p=20; " + host + " ctl unix:s write Ipo.p=30; " + host +
+           " ctl unix:s unforce Ipo.p; " + host + " ctl unix:s change; wait $p"},
+      scratch_.path());
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.err, Not(HasSubstr("TRAP")));
+  EXPECT_THAT(result.err, HasSubstr("note: online change done"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Example, CycleTrapExample,
+                         ::testing::Values(STRIDE_SOURCE_DIR "/examples/PLCopenSingle"));
+
 using CycleTrapItself = CycleTrap;
 
 TEST_P(CycleTrapItself, IsSprung) {
