@@ -305,7 +305,8 @@ struct StrideAppV1 {
   uint32_t parameterCount = 0;
   uint32_t busCount = 0;
   uint32_t encoderCount = 0;
-  uint32_t bootupErrorLength = 0; ///< STRING length of g_strBootupError; 0: the application has none.
+  uint32_t bootupErrorLength =
+      0; ///< STRING length of g_strBootupError; 0: the application has none.
   uint64_t bootupErrorOffset = 0; ///< From the start of the state.
   uint64_t encoderRefLayout = 0;  ///< Layout hash of SMC_ENCODER_REF; 0 when there is no encoder.
 };
