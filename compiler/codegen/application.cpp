@@ -1,6 +1,7 @@
 // app.cpp: the application object. build.cpp: what identifies this build, apart so that app.cpp
 // stays the same when only a body changes.
 
+#include "compiler/codegen/plc_tables.hpp"
 #include "compiler/codegen/type_table.hpp"
 #include "compiler/codegen/units.hpp"
 #include "compiler/semantics/hierarchy.hpp"
@@ -35,7 +36,8 @@ std::string lower(std::string_view text) {
 class Application {
 public:
   Application(Context &context, const AppConfig &config)
-      : c_(context), config_(config), types_(context) {
+      : c_(context), config_(config), types_(context),
+        plc_(context, config, [this](std::string_view name) { return global(name); }) {
     collect();
   }
 
@@ -97,9 +99,9 @@ public:
     init(out);
     tasks(out);
     out += "\n[[maybe_unused]] constexpr uint32_t kNo = ::stride::kNoIndex;\n" + tables;
+    plc_.write();
+    out += plc_.text();
     sharing(out);
-    axisGroups(out);
-    ioDevices(out);
     out += "\n} // namespace\n";
     description(out);
     return {"app.cpp", std::move(out)};
@@ -340,130 +342,17 @@ private:
   }
 
   /// A global variable by name, and its place in the state.
-  const VarSymbol *global(std::string_view name, std::string &place) {
+  PlacedVariable global(std::string_view name) const {
     const std::string wanted = lower(name);
     for (const Member &m : members_) {
       if (m.root.symbol->kind != SymbolKind::globals || !m.root.symbol->library->isUser)
         continue;
       for (const VarSymbol *v : static_cast<const GlobalsSymbol *>(m.root.symbol)->variables) {
-        if (v->name.id->lower == wanted) {
-          place = m.name + "." + mangle(v->name.text);
-          return v;
-        }
+        if (v->name.id->lower == wanted)
+          return {v, m.name + "." + mangle(v->name.text)};
       }
     }
-    return nullptr;
-  }
-
-  /// The constant that an initial value gives to a field; 0 when it gives none.
-  static std::int64_t initialField(const VarSymbol *v, std::string_view field) {
-    if (v->decl == nullptr || v->decl->init == nullptr ||
-        v->decl->init->kind != ExprKind::aggregate)
-      return 0;
-    for (const AggregateItem &item : as<AggregateExpr>(v->decl->init)->items) {
-      if (item.field && item.field.id->lower == field && item.value != nullptr &&
-          item.value->constant != nullptr)
-        return item.value->constant->integer;
-    }
-    return 0;
-  }
-
-  /// Appends parameters to their table; returns "first, count".
-  std::string parameters(const std::vector<ConfigParameter> &list) {
-    const std::size_t first = parameterCount_;
-    for (const ConfigParameter &parameter : list) {
-      parameters_ += "    {\"" + escaped(parameter.name) + "\", " +
-                     (parameter.text.empty() ? "nullptr" : "\"" + escaped(parameter.text) + "\"") +
-                     ", " + numberText(parameter.number) + "},\n";
-      ++parameterCount_;
-    }
-    return std::to_string(first) + ", " + std::to_string(list.size());
-  }
-
-  /// Shortest decimal that reads back as the same number.
-  static std::string numberText(double value) {
-    char text[32];
-    const auto end = std::to_chars(std::begin(text), std::end(text), value).ptr;
-    return {std::begin(text), end};
-  }
-
-  void drive(const AppConfig::Drive &drive) {
-    std::string axis;
-    const VarSymbol *v = global(drive.name, axis);
-    if (v == nullptr)
-      return;
-    axisLayout_ = c_.layouts.hash(v->type);
-    std::string data = "0, 0";
-    std::string place;
-    if (const VarSymbol *own = drive.data.empty() ? nullptr : global(drive.data, place))
-      data =
-          "offsetof(App__, " + place + "), " + std::to_string(c_.layouts.hash(own->type)) + "ULL";
-    drives_ += "    {\"" + escaped(drive.name) + "\", offsetof(App__, " + axis + "), " +
-               std::to_string(initialField(v, "wdriveid")) + ", 0, " + data + ", " +
-               parameters(drive.parameters) + "},\n";
-    ++driveCount_;
-  }
-
-  void encoder(const AppConfig::Encoder &encoder) {
-    std::string place;
-    const VarSymbol *v = global(encoder.name, place);
-    if (v == nullptr)
-      return;
-    encoderLayout_ = c_.layouts.hash(v->type);
-    encoders_ += "    {\"" + escaped(encoder.name) + "\", offsetof(App__, " + place + "), " +
-                 std::to_string(initialField(v, "wencoderid")) + ", " +
-                 parameters(encoder.parameters) + ", 0},\n";
-    ++encoderCount_;
-  }
-
-  void axisGroups(std::string &out) {
-    std::string buses;
-    std::string groups;
-    for (const AppConfig::Bus &bus : config_.buses)
-      buses += "    {\"" + escaped(bus.name) + "\", \"" + escaped(bus.interfaceType) + "\", \"" +
-               escaped(bus.driver) + "\", " + parameters(bus.parameters) + "},\n";
-    for (const AppConfig::AxisGroup &group : config_.axisGroups) {
-      std::string place;
-      const VarSymbol *variable = global(group.name, place);
-      if (variable == nullptr)
-        continue;
-      groupLayout_ = c_.layouts.hash(variable->type);
-      const std::size_t firstDrive = driveCount_;
-      for (const AppConfig::Drive &one : group.drives)
-        drive(one);
-      const std::size_t firstEncoder = encoderCount_;
-      for (const AppConfig::Encoder &one : group.encoders)
-        encoder(one);
-      std::string task = "::stride::kNoIndex";
-      for (std::size_t i = 0; i < config_.tasks.size(); ++i) {
-        if (lower(config_.tasks[i].name) == lower(group.task))
-          task = std::to_string(i);
-      }
-      const AppConfig::Bus &bus = config_.buses[group.bus];
-      groups += "    {\"" + escaped(group.name) + "\", \"" + escaped(bus.name) + "\", \"" +
-                escaped(bus.driver) + "\", offsetof(App__, " + place + "), " + task + ", " +
-                std::to_string(group.cycleUs) + ", " + std::to_string(firstDrive) + ", " +
-                std::to_string(driveCount_ - firstDrive) + ", " + std::to_string(group.bus) + ", " +
-                std::to_string(firstEncoder) + ", " + std::to_string(encoderCount_ - firstEncoder) +
-                ", " + parameters(group.parameters) + "},\n";
-      ++groupCount_;
-    }
-    const auto table = [&](const char *columns, const char *type, const char *name,
-                           const std::string &rows) {
-      if (!rows.empty())
-        out += std::string("\n// ") + columns + "\nconstexpr ::stride::" + type + " " + name +
-               "[] = {\n" + rows + "};\n";
-    };
-    table("{name, text, number}", "ParameterDesc", "kParameters", parameters_);
-    table("{name, interfaceType, driverName, firstParameter, parameterCount}", "BusDesc", "kBuses",
-          buses);
-    table("{name, axisOffset, driveId, 0, dataOffset, dataLayout, firstParameter, parameterCount}",
-          "DriveDesc", "kDrives", drives_);
-    table("{name, encoderOffset, encoderId, firstParameter, parameterCount, 0}", "EncoderDesc",
-          "kEncoders", encoders_);
-    table("{name, busName, driverName, groupOffset, task, cycleUs, firstDrive, driveCount, bus, "
-          "firstEncoder, encoderCount, firstParameter, parameterCount}",
-          "AxisGroupDesc", "kAxisGroups", groups);
+    return {};
   }
 
   /// g_strBootupError for the description: length and place.
@@ -478,43 +367,6 @@ private:
                   "offsetof(App__, " + m.name + "." + std::string(mangle(v->name.text)) + ")"};
     }
     return {"0", "0"};
-  }
-
-  void ioDevices(std::string &out) {
-    std::string rows;
-    std::string bytes;
-    for (const AppConfig::IoDevice &device : config_.ioDevices) {
-      std::string place;
-      if (global(device.name, place) == nullptr)
-        continue;
-      const std::string number = std::to_string(ioCount_++);
-      const auto table = [&](const char *name, const std::vector<std::uint8_t> &values) {
-        if (values.empty())
-          return std::string("nullptr");
-        const std::string constant = name + number;
-        bytes += "constexpr uint8_t " + constant + "[] = {";
-        for (std::size_t i = 0; i < values.size(); ++i)
-          bytes += (i == 0 ? "" : ", ") + std::to_string(values[i]);
-        bytes += "};\n";
-        return constant;
-      };
-      const std::string outputs = table("kSafeOutputs", device.safeOutputs);
-      const std::string inputs = table("kSafeInputs", device.safeInputs);
-      rows += "    {\"" + escaped(device.name) + "\", \"" + escaped(device.driver) +
-              "\", offsetof(App__, " + place + "), " + std::to_string(device.inputFirst) + ", " +
-              std::to_string(device.inputCount) + ", " + std::to_string(device.outputFirst) + ", " +
-              std::to_string(device.outputCount) + ", " + outputs + ", " + inputs + ", " +
-              (device.loopBack ? "1, " : "0, ") + std::to_string(device.delayCycles) + ", " +
-              (device.segment.empty() ? std::string("nullptr")
-                                      : "\"" + escaped(device.segment) + "\"") +
-              ", " + std::to_string(device.timeoutNs) + "},\n";
-    }
-    if (!rows.empty())
-      out += "\n" + bytes +
-             "// {name, driverName, stateOffset, inputFirst, inputCount, outputFirst, outputCount, "
-             "safeOutputs,\n// safeInputs, loopBack, delayCycles, segment, timeoutNs}\n"
-             "constexpr ::stride::IoDeviceDesc kIoDevices[] = {\n" +
-             rows + "};\n";
   }
 
   void description(std::string &out) {
@@ -545,19 +397,19 @@ private:
     field("enumerators", table(types_.enumeratorCount(), "kEnumerators"));
     field("roots", table(types_.rootCount(), "kRoots"));
     field("tasks", table(config_.tasks.size(), "kTasks"));
-    field("axisGroups", table(groupCount_, "kAxisGroups"));
-    field("drives", table(driveCount_, "kDrives"));
+    field("axisGroups", table(plc_.groups(), "kAxisGroups"));
+    field("drives", table(plc_.drives(), "kDrives"));
     field("files", "nullptr");
     field("typeCount", std::to_string(types_.typeCount()));
     field("memberCount", std::to_string(types_.memberCount()));
     field("enumeratorCount", std::to_string(types_.enumeratorCount()));
     field("rootCount", std::to_string(types_.rootCount()));
     field("taskCount", std::to_string(config_.tasks.size()));
-    field("axisGroupCount", std::to_string(groupCount_));
-    field("driveCount", std::to_string(driveCount_));
+    field("axisGroupCount", std::to_string(plc_.groups()));
+    field("driveCount", std::to_string(plc_.drives()));
     field("fileCount", "0");
-    field("axisRefLayout", std::to_string(axisLayout_) + "ULL");
-    field("axisGroupRefLayout", std::to_string(groupLayout_) + "ULL");
+    field("axisRefLayout", std::to_string(plc_.axisLayout()) + "ULL");
+    field("axisGroupRefLayout", std::to_string(plc_.groupLayout()) + "ULL");
     field("image", image());
     static constexpr std::string_view kAddressing[] = {"Units", "Bytes", "Words"};
     field("imageAddressing",
@@ -570,41 +422,31 @@ private:
     const std::size_t imageUses = c_.program.sharing.imageUses.size();
     field("imageUses", table(imageUses, "kImageUses"));
     field("imageUseCount", std::to_string(imageUses));
-    field("ioDevices", table(ioCount_, "kIoDevices"));
-    field("ioDeviceCount", std::to_string(ioCount_));
-    field("parameters", table(parameterCount_, "kParameters"));
+    field("ioDevices", table(plc_.ioDevices(), "kIoDevices"));
+    field("ioDeviceCount", std::to_string(plc_.ioDevices()));
+    field("parameters", table(plc_.parameters(), "kParameters"));
     field("buses", table(config_.buses.size(), "kBuses"));
-    field("encoders", table(encoderCount_, "kEncoders"));
-    field("parameterCount", std::to_string(parameterCount_));
+    field("encoders", table(plc_.encoders(), "kEncoders"));
+    field("parameterCount", std::to_string(plc_.parameters()));
     field("busCount", std::to_string(config_.buses.size()));
-    field("encoderCount", std::to_string(encoderCount_));
+    field("encoderCount", std::to_string(plc_.encoders()));
     const auto [length, place] = bootupError();
     field("bootupErrorLength", length);
     field("bootupErrorOffset", place);
-    field("encoderRefLayout", std::to_string(encoderLayout_) + "ULL");
+    field("encoderRefLayout", std::to_string(plc_.encoderLayout()) + "ULL");
     out += "};\n\n} // namespace st::user\n";
   }
 
   Context &c_;
   const AppConfig &config_;
   TypeTable types_;
+  PlcTables plc_;
   std::vector<Member> members_;
   std::unordered_set<const VarDecl *> qualified_; ///< in lists with {attribute 'qualified_only'}
   /// In lists with {attribute 'renamed_from'}: the list's earlier name.
   std::unordered_map<const VarDecl *, std::string_view> listRenamed_;
   bool hasExit_ = false;
   bool hasReinit_ = false;
-  std::string parameters_; ///< rows of the tables
-  std::string drives_;
-  std::string encoders_;
-  std::size_t groupCount_ = 0;
-  std::size_t driveCount_ = 0;
-  std::size_t ioCount_ = 0;
-  std::size_t encoderCount_ = 0;
-  std::size_t parameterCount_ = 0;
-  std::uint64_t encoderLayout_ = 0;
-  std::uint64_t axisLayout_ = 0;
-  std::uint64_t groupLayout_ = 0;
 };
 
 } // namespace

@@ -1,0 +1,173 @@
+#include "compiler/codegen/plc_tables.hpp"
+
+#include <charconv>
+
+namespace stc::codegen {
+
+using namespace ast;
+
+namespace {
+
+bool equalNames(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return lower(x) == lower(y); });
+}
+
+/// The constant that an initial value gives to a field; 0 when it gives none.
+std::int64_t initialField(const VarSymbol *v, std::string_view field) {
+  if (v->decl == nullptr || v->decl->init == nullptr || v->decl->init->kind != ExprKind::aggregate)
+    return 0;
+  for (const AggregateItem &item : as<AggregateExpr>(v->decl->init)->items) {
+    if (item.field && item.field.id->lower == field && item.value != nullptr &&
+        item.value->constant != nullptr)
+      return item.value->constant->integer;
+  }
+  return 0;
+}
+
+/// Shortest decimal that reads back as the same number.
+std::string numberText(double value) {
+  char text[32];
+  const auto end = std::to_chars(std::begin(text), std::end(text), value).ptr;
+  return {std::begin(text), end};
+}
+
+} // namespace
+
+PlcTables::PlcTables(Context &context, const AppConfig &config, FindGlobal find)
+    : c_(context), config_(config), find_(std::move(find)) {}
+
+void PlcTables::write() {
+  addAxisGroups();
+  addIoDevices();
+}
+
+/// Appends parameters to their table; returns "first, count".
+std::string PlcTables::addParameters(const std::vector<ConfigParameter> &list) {
+  const std::size_t first = parameterCount_;
+  for (const ConfigParameter &parameter : list) {
+    parameters_ += "    {\"" + escaped(parameter.name) + "\", " +
+                   (parameter.text.empty() ? "nullptr" : "\"" + escaped(parameter.text) + "\"") +
+                   ", " + numberText(parameter.number) + "},\n";
+    ++parameterCount_;
+  }
+  return std::to_string(first) + ", " + std::to_string(list.size());
+}
+
+void PlcTables::addDrive(const AppConfig::Drive &drive) {
+  const auto [v, axis] = find_(drive.name);
+  if (v == nullptr)
+    return;
+  axisLayout_ = c_.layouts.hash(v->type);
+  std::string data = "0, 0";
+  const auto [own, ownPlace] = drive.data.empty() ? PlacedVariable{} : find_(drive.data);
+  if (own != nullptr)
+    data =
+        "offsetof(App__, " + ownPlace + "), " + std::to_string(c_.layouts.hash(own->type)) + "ULL";
+  drives_ += "    {\"" + escaped(drive.name) + "\", offsetof(App__, " + axis + "), " +
+             std::to_string(initialField(v, "wdriveid")) + ", 0, " + data + ", " +
+             addParameters(drive.parameters) + "},\n";
+  ++driveCount_;
+}
+
+void PlcTables::addEncoder(const AppConfig::Encoder &encoder) {
+  const auto [v, place] = find_(encoder.name);
+  if (v == nullptr)
+    return;
+  encoderLayout_ = c_.layouts.hash(v->type);
+  encoders_ += "    {\"" + escaped(encoder.name) + "\", offsetof(App__, " + place + "), " +
+               std::to_string(initialField(v, "wencoderid")) + ", " +
+               addParameters(encoder.parameters) + ", 0},\n";
+  ++encoderCount_;
+}
+
+void PlcTables::addAxisGroups() {
+  std::string buses;
+  std::string groups;
+  for (const AppConfig::Bus &bus : config_.buses)
+    buses += "    {\"" + escaped(bus.name) + "\", \"" + escaped(bus.interfaceType) + "\", \"" +
+             escaped(bus.driver) + "\", " + addParameters(bus.parameters) + "},\n";
+  for (const AppConfig::AxisGroup &group : config_.axisGroups) {
+    const auto [variable, place] = find_(group.name);
+    if (variable == nullptr)
+      continue;
+    groupLayout_ = c_.layouts.hash(variable->type);
+    const std::size_t firstDrive = driveCount_;
+    for (const AppConfig::Drive &one : group.drives)
+      addDrive(one);
+    const std::size_t firstEncoder = encoderCount_;
+    for (const AppConfig::Encoder &one : group.encoders)
+      addEncoder(one);
+    std::string task = "::stride::kNoIndex";
+    for (std::size_t i = 0; i < config_.tasks.size(); ++i) {
+      if (equalNames(config_.tasks[i].name, group.task))
+        task = std::to_string(i);
+    }
+    const AppConfig::Bus &bus = config_.buses[group.bus];
+    groups += "    {\"" + escaped(group.name) + "\", \"" + escaped(bus.name) + "\", \"" +
+              escaped(bus.driver) + "\", offsetof(App__, " + place + "), " + task + ", " +
+              std::to_string(group.cycleUs) + ", " + std::to_string(firstDrive) + ", " +
+              std::to_string(driveCount_ - firstDrive) + ", " + std::to_string(group.bus) + ", " +
+              std::to_string(firstEncoder) + ", " + std::to_string(encoderCount_ - firstEncoder) +
+              ", " + addParameters(group.parameters) + "},\n";
+    ++groupCount_;
+  }
+  const auto table = [&](const char *columns, const char *type, const char *name,
+                         const std::string &rows) {
+    if (!rows.empty())
+      text_ += std::string("\n// ") + columns + "\nconstexpr ::stride::" + type + " " + name +
+               "[] = {\n" + rows + "};\n";
+  };
+  table("{name, text, number}", "ParameterDesc", "kParameters", parameters_);
+  table("{name, interfaceType, driverName, firstParameter, parameterCount}", "BusDesc", "kBuses",
+        buses);
+  table("{name, axisOffset, driveId, 0, dataOffset, dataLayout, firstParameter, parameterCount}",
+        "DriveDesc", "kDrives", drives_);
+  table("{name, encoderOffset, encoderId, firstParameter, parameterCount, 0}", "EncoderDesc",
+        "kEncoders", encoders_);
+  table("{name, busName, driverName, groupOffset, task, cycleUs, firstDrive, driveCount, bus, "
+        "firstEncoder, encoderCount, firstParameter, parameterCount}",
+        "AxisGroupDesc", "kAxisGroups", groups);
+}
+
+void PlcTables::addIoDevices() {
+  std::string rows;
+  std::string bytes;
+  for (const AppConfig::IoDevice &device : config_.ioDevices) {
+    const auto [variable, place] = find_(device.name);
+    if (variable == nullptr)
+      continue;
+    const std::string number = std::to_string(ioCount_++);
+    const auto table = [&](const char *name, const std::vector<std::uint8_t> &values) {
+      if (values.empty())
+        return std::string("nullptr");
+      const std::string constant = name + number;
+      bytes += "constexpr uint8_t " + constant + "[] = {";
+      for (std::size_t i = 0; i < values.size(); ++i)
+        bytes += (i == 0 ? "" : ", ") + std::to_string(values[i]);
+      bytes += "};\n";
+      return constant;
+    };
+    const std::string outputs = table("kSafeOutputs", device.safeOutputs);
+    const std::string inputs = table("kSafeInputs", device.safeInputs);
+    rows +=
+        "    {\"" + escaped(device.name) + "\", \"" + escaped(device.driver) +
+        "\", offsetof(App__, " + place + "), " + std::to_string(device.inputFirst) + ", " +
+        std::to_string(device.inputCount) + ", " + std::to_string(device.outputFirst) + ", " +
+        std::to_string(device.outputCount) + ", " + outputs + ", " + inputs + ", " +
+        (device.loopBack ? "1, " : "0, ") + std::to_string(device.delayCycles) + ", " +
+        (device.segment.empty() ? std::string("nullptr") : "\"" + escaped(device.segment) + "\"") +
+        ", " + std::to_string(device.timeoutNs) + "},\n";
+  }
+  if (!rows.empty())
+    text_ += "\n" + bytes +
+             "// {name, driverName, stateOffset, inputFirst, inputCount, outputFirst, outputCount, "
+             "safeOutputs,\n// safeInputs, loopBack, delayCycles, segment, timeoutNs}\n"
+             "constexpr ::stride::IoDeviceDesc kIoDevices[] = {\n" +
+             rows + "};\n";
+}
+
+} // namespace stc::codegen
