@@ -147,7 +147,7 @@ public:
         if (scheduler_.options().fifo)
           task::useFifo(0);
         pauseNs = scheduler_.betweenCycles([&] {
-          done = change.apply(scheduler_.nowNs());
+          done = !instance_.tasks().stopped() && change.apply(scheduler_.nowNs());
           if (done && columns)
             trace_->swapColumns(*columns);
           if (done && script)

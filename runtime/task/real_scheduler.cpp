@@ -148,18 +148,24 @@ void RealScheduler::runFreewheeling(Worker &worker) {
 }
 
 void RealScheduler::runOnEvent(Worker &worker) {
-  const TaskDesc &desc = tasks_->desc(worker.task);
-  int64_t next = desc.kind == TaskKind::Event && desc.intervalNs > 0 ? 0 : kNever;
+  // Copies: an online change replaces the description.
+  const bool isStatus = tasks_->desc(worker.task).kind == TaskKind::Status;
+  const int64_t interval = tasks_->desc(worker.task).intervalNs;
+  int64_t next = !isStatus && interval > 0 ? 0 : kNever;
   while (waitForEvent(worker, next)) {
+    if (isStatus && !worker.level.load() && !tasks_->stopped()) {
+      next = kNever; // it became FALSE before the next cycle
+      continue;
+    }
     const int64_t now = nowNs();
     cycle(worker, next <= now ? next : now);
     const bool level = worker.level.load();
     if (tasks_->stopped())
-      next = now + (desc.intervalNs > 0 ? desc.intervalNs : kStoppedIntervalNs);
-    else if (desc.kind == TaskKind::Status)
-      next = level ? now + desc.intervalNs : kNever;
+      next = now + (interval > 0 ? interval : kStoppedIntervalNs);
+    else if (isStatus)
+      next = level ? now + interval : kNever;
     else
-      next = desc.intervalNs > 0 && !level ? now + desc.intervalNs : kNever;
+      next = interval > 0 && !level ? now + interval : kNever;
   }
 }
 
