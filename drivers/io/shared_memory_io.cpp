@@ -87,6 +87,7 @@ public:
 
   void write(uint32_t first, std::span<const BYTE> from) noexcept override {
     __atomic_fetch_add(&io_->output_begin, 1U, __ATOMIC_SEQ_CST);
+    std::atomic_thread_fence(std::memory_order_seq_cst);
     std::memcpy(outputs_ + first, from.data(), from.size());
     __atomic_fetch_add(&io_->output_end, 1U, __ATOMIC_SEQ_CST);
   }

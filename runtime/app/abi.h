@@ -305,10 +305,10 @@ struct StrideAppV1 {
   uint32_t parameterCount = 0;
   uint32_t busCount = 0;
   uint32_t encoderCount = 0;
-  /// g_strBootupError: its STRING length (0: the application has none) and place in the state.
-  uint32_t bootupErrorLength = 0;
-  uint64_t bootupErrorOffset = 0;
-  uint64_t encoderRefLayout = 0; ///< Layout hash of SMC_ENCODER_REF; 0 when there is no encoder.
+  uint32_t bootupErrorLength =
+      0; ///< STRING length of g_strBootupError; 0: the application has none.
+  uint64_t bootupErrorOffset = 0; ///< From the start of the state.
+  uint64_t encoderRefLayout = 0;  ///< Layout hash of SMC_ENCODER_REF; 0 when there is no encoder.
 };
 
 /// Number of elements of a table, for StrideAppV1's counts.

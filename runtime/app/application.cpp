@@ -70,7 +70,8 @@ Application Application::fromDescription(const StrideAppV1 &description,
   return Application(description);
 }
 
-void Application::initialise(const HostApi &host, bool inCopyCode, bool keepRetains) {
+void Application::initialise(const HostApi &host, bool inCopyCode, bool keepRetains,
+                             const InitCall &call) {
   std::memset(state_.data(), 0, state_.size());
   Ctx ctx{};
   ctx.state = state_.data();
@@ -79,7 +80,7 @@ void Application::initialise(const HostApi &host, bool inCopyCode, bool keepReta
   ctx.firstCycle = 1;
   ctx.inCopyCode = inCopyCode ? 1 : 0;
   ctx.keepRetains = keepRetains ? 1 : 0;
-  description_->init(&ctx);
+  call(description_->init, ctx);
 }
 
 } // namespace stride::app

@@ -5,6 +5,7 @@
 #include "runtime/app/abi.h"
 #include "runtime/app/state_block.hpp"
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -31,7 +32,11 @@ public:
   /// Zeroes the state and sets the defaults. `inCopyCode`: it will take over the values of a
   /// running application (carry_over.hpp); FB_Init is told. `keepRetains`: retained values will be
   /// put back (retain_image.hpp); FB_Init is told. Throws StException when an initialiser fails.
-  void initialise(const HostApi &host, bool inCopyCode = false, bool keepRetains = false);
+  /// `call` calls init with the context, and may guard it.
+  using InitCall = std::function<void(void (*init)(Ctx *), Ctx &ctx)>;
+  void initialise(
+      const HostApi &host, bool inCopyCode = false, bool keepRetains = false,
+      const InitCall &call = [](void (*init)(Ctx *), Ctx &ctx) { init(&ctx); });
 
   const StrideAppV1 &description() const { return *description_; }
   std::byte *state() const { return state_.data(); }

@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <bit>
+#include <cstdint>
 #include <cstring>
 #include <optional>
 
@@ -110,17 +112,44 @@ std::optional<uint64_t> Symbol::fixedOffset() const {
   return steps_[0].offset;
 }
 
+namespace {
+
+template <class T> bool storeAs(std::byte *place, const void *value) {
+  if (std::bit_cast<uintptr_t>(place) % sizeof(T) != 0)
+    return false;
+  T copy{};
+  std::memcpy(&copy, value, sizeof copy);
+  __atomic_store_n(reinterpret_cast<T *>(place), copy, __ATOMIC_RELAXED);
+  return true;
+}
+
+/// What fits a register is seen whole by tasks that are in their cycles.
+void storeWhole(std::byte *place, const void *value, std::size_t size) {
+  const bool stored = (size == 8 && storeAs<uint64_t>(place, value)) ||
+                      (size == 4 && storeAs<uint32_t>(place, value)) ||
+                      (size == 2 && storeAs<uint16_t>(place, value));
+  if (!stored)
+    std::memcpy(place, value, size);
+}
+
+} // namespace
+
 bool Symbol::write(std::byte *state, const void *value, std::size_t size) const {
   int number = -1;
   std::byte *place = find(state, number);
   if (place == nullptr)
     return false;
   if (number < 0) {
-    std::memcpy(place, value, size);
+    storeWhole(place, value, size);
     return true;
   }
-  const std::byte mask = std::byte{1} << number;
-  *place = *static_cast<const std::byte *>(value) != std::byte{0} ? *place | mask : *place & ~mask;
+  // Other bits of the byte may belong to another task that is in its cycle.
+  auto *byte = reinterpret_cast<unsigned char *>(place);
+  const auto mask = static_cast<unsigned char>(1U << number);
+  if (*static_cast<const std::byte *>(value) != std::byte{0})
+    __atomic_fetch_or(byte, mask, __ATOMIC_RELAXED);
+  else
+    __atomic_fetch_and(byte, static_cast<unsigned char>(~mask), __ATOMIC_RELAXED);
   return true;
 }
 

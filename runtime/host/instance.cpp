@@ -7,6 +7,15 @@
 
 namespace stride::host {
 
+void initialiseGuarded(app::Application &application, bool inCopyCode, bool keepRetains) {
+  application.initialise(
+      task::hostApi(), inCopyCode, keepRetains, [](void (*init)(Ctx *), Ctx &ctx) {
+        ctx.loopBudget = task::TaskSet::kDefaultLoopBudget;
+        if (const std::optional<StException> exception = task::guardedCall(init, ctx))
+          throw *exception;
+      });
+}
+
 Instance::Instance(std::unique_ptr<app::Application> application, task::LoopLimit limit)
     : application_(std::move(application)),
       symbols_(std::make_unique<app::SymbolTable>(application_->description())),
@@ -17,7 +26,7 @@ void Instance::retain(const RetainSettings &settings, RetainKeeper::Say say) {
 }
 
 void Instance::initialise() {
-  application_->initialise(task::hostApi(), false, retain_ && retain_->keepsRetains());
+  initialiseGuarded(*application_, false, retain_ && retain_->keepsRetains());
   if (retain_) {
     retain_->restore();
     retain_->addHooks(tasks_);

@@ -15,6 +15,10 @@
 
 namespace stride::host {
 
+/// Application::initialise with what guards a task's cycle, so that a bad pointer or an endless
+/// loop in an initialiser or FB_Init is an StException. From a thread with a MemoryGuard.
+void initialiseGuarded(app::Application &application, bool inCopyCode, bool keepRetains);
+
 /// One run of an application from its initial values to its end.
 class Instance {
 public:
@@ -47,8 +51,6 @@ public:
   /// `other` is the old one, to which symbols() belong until renewSymbols().
   void swap(std::unique_ptr<app::Application> &other) noexcept;
   void renewSymbols();
-  /// Of the next build to be loaded for this run, from 1.
-  unsigned nextBuild() { return ++builds_; }
   /// Gives the application up, after the last cycle.
   std::unique_ptr<app::Application> release() { return std::move(application_); }
 
@@ -67,7 +69,6 @@ private:
   task::TaskSet tasks_;
   std::optional<RetainKeeper> retain_;
   std::vector<std::unique_ptr<task::CycleHook>> hooks_;
-  unsigned builds_ = 0;
   LiveInputs live_;
   InputPort *inputs_ = &live_;
 };

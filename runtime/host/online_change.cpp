@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cstring>
 #include <filesystem>
 
@@ -13,8 +14,11 @@ namespace stride::host {
 
 namespace {
 
-/// Another spelling of the path, so that the loader does not take the old file for the new one.
-std::string spelledAnew(const std::string &path, unsigned number) {
+/// Another spelling of the path, so that the loader does not take the old file for the new one: it
+/// knows files of this process by their names.
+std::string spelledAnew(const std::string &path) {
+  static std::atomic<unsigned> spellings{0};
+  const unsigned number = ++spellings;
   const std::filesystem::path given(path);
   std::string folder = given.has_parent_path() ? given.parent_path().string() : ".";
   for (unsigned i = 0; i < number; ++i)
@@ -26,9 +30,9 @@ std::string spelledAnew(const std::string &path, unsigned number) {
 
 OnlineChange::OnlineChange(Instance &instance, const std::string &path) : instance_(&instance) {
   fresh_ = std::make_unique<app::Application>(
-      app::Application::load(spelledAnew(path, instance.nextBuild()), runtimeLayouts()));
+      app::Application::load(spelledAnew(path), runtimeLayouts()));
   try {
-    fresh_->initialise(task::hostApi(), true);
+    initialiseGuarded(*fresh_, true, false);
   } catch (const StException &exception) {
     throw app::Error(describeWithCalls(task::Fault{exception, "initialisation", 0, 0}));
   }

@@ -25,6 +25,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -44,7 +45,7 @@ public:
   /// `number`: of the application among those of the run. Throws app::Error for bad input.
   Session(std::unique_ptr<app::Application> application, std::size_t number,
           const RunOptions &options, const task::RealOptions &realOptions)
-      : options_(&options), number_(number),
+      : options_(&options), number_(number), name_(application->description().name),
         instance_(std::move(application), task::LoopLimit::Clock),
         scheduler_(instance_.tasks(), realOptions) {
     for (const std::string &path : options.print)
@@ -83,7 +84,7 @@ public:
         recording_->addHooks(instance_.tasks());
         instance_.setInputs(*recording_);
       }
-      instance_.initialise();
+      onLowStack([this] { instance_.initialise(); });
       if (recording_)
         recording_->begin(instance_.application());
       if (script_) {
@@ -121,7 +122,9 @@ public:
       return;
     }
     try {
-      OnlineChange change(instance_, path);
+      std::optional<OnlineChange> loaded;
+      onLowStack([&] { loaded.emplace(instance_, path); });
+      OnlineChange &change = *loaded;
       if (!isWelcome(change))
         return;
       const app::SymbolTable symbols(change.fresh());
@@ -140,10 +143,7 @@ public:
         held = service_->hold();
       bool done = false;
       int64_t pauseNs = 0;
-      // FB_Exit and FB_Reinit are code of the application: on a stack and with signals as its
-      // tasks.
-      task::runOnLowStack([&] {
-        const task::MemoryGuard guard;
+      onLowStack([&] { // for FB_Exit and FB_Reinit
         if (scheduler_.options().fifo)
           task::useFifo(0);
         pauseNs = scheduler_.betweenCycles([&] {
@@ -175,7 +175,7 @@ public:
 
   /// Stops and says what there is to say; false: with an exception.
   bool finish() {
-    if (!scheduler_.finish())
+    if (!scheduler_.finish([this] { lookAfter(); }))
       say("warning: not everything came to rest within a minute");
     if (service_ != nullptr)
       service_->detach(number_);
@@ -228,7 +228,7 @@ private:
   /// One line of an application among others carries its name.
   void say(const std::string &line) const {
     if (options_->applications.size() > 1)
-      fmt::print(stderr, "{}: ", instance_.app().name);
+      fmt::print(stderr, "{}: ", name_); // also from the thread that saves retained data
     fmt::print(stderr, "{}\n", line);
   }
 
@@ -250,18 +250,24 @@ private:
     return false;
   }
 
+  /// Code of the application runs on such a stack and with signals as its tasks.
+  static void onLowStack(const std::function<void()> &function) {
+    task::runOnLowStack([&] {
+      const task::MemoryGuard guard;
+      function();
+    });
+  }
+
   std::optional<task::Fault> exitInstances() {
     std::optional<task::Fault> fault;
     const int64_t now = scheduler_.nowNs();
-    task::runOnLowStack([&] {
-      const task::MemoryGuard guard;
-      fault = instance_.exit(now);
-    });
+    onLowStack([&] { fault = instance_.exit(now); });
     return fault;
   }
 
   const RunOptions *options_;
   std::size_t number_;
+  std::string name_;
   Instance instance_;
   TraceWriter *trace_ = nullptr;
   std::unique_ptr<TraceRing> ring_;
@@ -287,6 +293,8 @@ public:
     realOptions_.fifo = report_.fifo;
     realOptions_.turns = options.turns || !options.record.empty() || !report_.fifo;
     const std::vector<uint32_t> cores = task::allowedCores();
+    for (const std::unique_ptr<app::Application> &application : applications)
+      checkCores(application->description(), cores);
     if (options.core && std::find(cores.begin(), cores.end(), *options.core) == cores.end())
       throw app::Error(fmt::format("--core {}: this process may not use that processor; it may use "
                                    "{}",
@@ -335,7 +343,8 @@ public:
         break;
       if (number == SIGUSR1)
         for (Slot &slot : slots_)
-          slot.session->showStatistics();
+          if (slot.session)
+            slot.session->showStatistics();
       if (number == SIGHUP || changeAsked_.exchange(false))
         changeAll();
       lookAfter();
@@ -345,13 +354,21 @@ public:
       good = !slot.stopped && slot.session->finish() && good;
     if (trace_)
       trace_->finish();
-    if (!options_.statistics.empty())
+    if (!options_.statistics.empty() && slots_.front().session)
       slots_.front().session->writeStatistics(options_.statistics);
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
     return good ? kExitOk : kExitException;
   }
 
 private:
+  static void checkCores(const StrideAppV1 &app, const std::vector<uint32_t> &cores) {
+    for (uint32_t i = 0; i < app.taskCount; ++i)
+      if (const uint32_t core = app.tasks[i].core;
+          core != kNoIndex && std::find(cores.begin(), cores.end(), core) == cores.end())
+        throw app::Error(fmt::format("task '{}' wants processor {}; this process may use {}",
+                                     app.tasks[i].name, core, fmt::join(cores, ", ")));
+  }
+
   std::unique_ptr<Session> newSession(std::unique_ptr<app::Application> application,
                                       std::size_t number) {
     return std::make_unique<Session>(std::move(application), number, options_, realOptions_);
@@ -381,13 +398,22 @@ private:
       slot.stopped = true;
       if (options_.onFault == OnFault::Restart) {
         std::this_thread::sleep_for(kRestartPause);
-        std::unique_ptr<app::Application> application = slot.session->release();
-        fmt::print(stderr, "note: '{}' is started again\n", application->description().name);
-        slot.session.reset(); // gives its retained data up
-        slot.session =
-            newSession(std::move(application), static_cast<std::size_t>(&slot - slots_.data()));
-        slot.stopped = !startSession(slot);
+        restart(slot);
       }
+    }
+  }
+
+  /// Starts it anew; what keeps it from that leaves the others alone.
+  void restart(Slot &slot) {
+    try {
+      std::unique_ptr<app::Application> application = slot.session->release();
+      fmt::print(stderr, "note: '{}' is started again\n", application->description().name);
+      slot.session.reset(); // gives its retained data up
+      slot.session =
+          newSession(std::move(application), static_cast<std::size_t>(&slot - slots_.data()));
+      slot.stopped = !startSession(slot);
+    } catch (const app::Error &error) {
+      fmt::print(stderr, "error: it cannot be started again: {}\n", error.what());
     }
   }
 

@@ -45,9 +45,8 @@ public:
 
   void beforePous(Ctx &ctx) override {
     const InputMark mark = kCycle;
-    const CycleMark cycle{ctx.taskIndex, tasks_->stopped() ? 1U : 0U, ctx.cycleStartNs};
-    recording_->put(&mark, sizeof mark);
-    recording_->put(&cycle, sizeof cycle);
+    const CycleMark cycle{ctx.taskIndex, tasks_->told(ctx.taskIndex) ? 1U : 0U, ctx.cycleStartNs};
+    recording_->put(mark, &cycle, sizeof cycle);
   }
   void afterPous(Ctx &) override {}
 
@@ -85,24 +84,27 @@ void Recording::addHooks(task::TaskSet &tasks) {
 }
 
 void Recording::pass(void *value, std::size_t size) noexcept {
-  const auto mark = static_cast<InputMark>(size);
-  put(&mark, sizeof mark);
-  put(value, size);
+  put(static_cast<InputMark>(size), value, size);
 }
 
-bool Recording::put(const void *data, std::size_t size) noexcept {
+/// Both or nothing, so that the recording ends behind a whole record.
+void Recording::put(uint32_t mark, const void *data, std::size_t size) noexcept {
   const uint64_t at = put_.load(std::memory_order_relaxed);
   if (full_.load(std::memory_order_relaxed) ||
-      at + size - taken_.load(std::memory_order_acquire) > ring_.size()) {
+      at + sizeof mark + size - taken_.load(std::memory_order_acquire) > ring_.size()) {
     full_.store(true, std::memory_order_relaxed);
-    return false;
+    return;
   }
+  copyIn(at, &mark, sizeof mark);
+  copyIn(at + sizeof mark, data, size);
+  put_.store(at + sizeof mark + size, std::memory_order_release);
+}
+
+void Recording::copyIn(uint64_t at, const void *data, std::size_t size) noexcept {
   const std::size_t place = at % ring_.size();
   const std::size_t first = std::min(size, ring_.size() - place);
   std::memcpy(ring_.data() + place, data, first);
   std::memcpy(ring_.data(), static_cast<const std::byte *>(data) + first, size - first);
-  put_.store(at + size, std::memory_order_release);
-  return true;
 }
 
 void Recording::drain() {

@@ -41,7 +41,8 @@ public:
 
 private:
   class CycleNote;
-  bool put(const void *data, std::size_t size) noexcept;
+  void put(uint32_t mark, const void *data, std::size_t size) noexcept;
+  void copyIn(uint64_t at, const void *data, std::size_t size) noexcept;
 
   std::string path_;
   std::FILE *file_ = nullptr;

@@ -36,9 +36,12 @@ typedef struct stride_io_header {
 /* Writes all or some of the program's inputs. One writer only. */
 static inline void stride_io_write_inputs(stride_io_header *io, uint32_t first, const void *from,
                                           uint32_t count) {
-  __atomic_fetch_add(&io->input_begin, 1, __ATOMIC_SEQ_CST);
+  /* Whoever was killed in here has left the counters unequal; this makes them equal again. */
+  const uint64_t number = __atomic_load_n(&io->input_begin, __ATOMIC_SEQ_CST) + 1;
+  __atomic_store_n(&io->input_begin, number, __ATOMIC_SEQ_CST);
+  __atomic_thread_fence(__ATOMIC_SEQ_CST);
   memcpy((unsigned char *)io + io->input_offset + first, from, count);
-  __atomic_fetch_add(&io->input_end, 1, __ATOMIC_SEQ_CST);
+  __atomic_store_n(&io->input_end, number, __ATOMIC_SEQ_CST);
 }
 
 /* Reads the program's outputs; 0: they are being written just now, try again. */

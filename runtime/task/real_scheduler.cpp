@@ -113,7 +113,18 @@ void RealScheduler::cycle(Worker &worker, int64_t plannedNs) {
   gate_.leave(worker.task);
 }
 
+/// One thread looks at a time, so that an edge counts once: it looks again for those who come
+/// meanwhile and do not wait.
 void RealScheduler::lookAtEvents() {
+  if (looks_.fetch_add(1) != 0)
+    return;
+  for (uint32_t asked = 1; asked != 0; asked = looks_.fetch_sub(asked) - asked) {
+    asked = looks_.load();
+    lookOnce();
+  }
+}
+
+void RealScheduler::lookOnce() {
   if (tasks_->stopped())
     return;
   for (const std::unique_ptr<Worker> &worker : workers_) {
@@ -131,9 +142,11 @@ void RealScheduler::lookAtEvents() {
 
 void RealScheduler::runCyclic(Worker &worker) {
   const int64_t interval = tasks_->desc(worker.task).intervalNs;
-  for (int64_t planned = 0; sleepUntil(planned);) {
-    cycle(worker, planned);
-    planned += interval;
+  const bool isLong = interval > kLongIntervalNs;
+  for (int64_t planned = 0; sleepUntil(planned, isLong);) {
+    const int64_t start = std::min(planned, nowNs()); // a stop does not wait for the plan
+    cycle(worker, start);
+    planned = start + (isLong && tasks_->stopped() ? kLongIntervalNs : interval);
     if (const int64_t late = nowNs() - planned; late > 0) {
       const int64_t missed = (late + interval - 1) / interval;
       tasks_->addOverruns(worker.task, static_cast<uint64_t>(missed));
@@ -157,6 +170,8 @@ void RealScheduler::runOnEvent(Worker &worker) {
       next = kNever; // it became FALSE before the next cycle
       continue;
     }
+    if (worker.pending.exchange(false))
+      ::sem_trywait(&worker.raised); // the event and the time have come together
     const int64_t now = nowNs();
     cycle(worker, next <= now ? next : now);
     const bool level = worker.level.load();
@@ -187,13 +202,14 @@ bool RealScheduler::waitForEvent(Worker &worker, int64_t untilNs) {
   }
 }
 
-/// False: the end has come.
-bool RealScheduler::sleepUntil(int64_t timeNs) const {
+/// `orStop`: at once when the application stops, if it has not before. False: the end has come.
+bool RealScheduler::sleepUntil(int64_t timeNs, bool orStop) const {
+  const bool wasStopped = tasks_->stopped();
   for (;;) {
     if (ending())
       return false;
     const int64_t now = nowNs();
-    if (now >= timeNs)
+    if (now >= timeNs || (orStop && !wasStopped && tasks_->stopped()))
       return true;
     const ::timespec until = toTimespec(originNs_ + std::min(timeNs, now + kLongestSleepNs));
     while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
@@ -201,7 +217,7 @@ bool RealScheduler::sleepUntil(int64_t timeNs) const {
   }
 }
 
-bool RealScheduler::finish() {
+bool RealScheduler::finish(const std::function<void()> &meanwhile) {
   if (!started_)
     return true;
   started_ = false;
@@ -209,8 +225,11 @@ bool RealScheduler::finish() {
   for (const std::unique_ptr<Worker> &worker : workers_)
     ::sem_post(&worker->raised); // the hooks of tasks that wait for an event go on without it
   const int64_t limit = monotonicNs() + kStopLimitNs;
-  while (!tasks_->atRest() && monotonicNs() < limit)
+  while (!tasks_->atRest() && monotonicNs() < limit) {
+    if (meanwhile)
+      meanwhile();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   const bool cameToRest = tasks_->atRest();
   end();
   return cameToRest;
@@ -228,10 +247,16 @@ void RealScheduler::end() {
 }
 
 int64_t RealScheduler::betweenCycles(const std::function<void()> &change) {
+  struct Hold {
+    explicit Hold(CycleGate &held) : gate(held) { gate.hold(); }
+    ~Hold() { gate.release(); }
+    CycleGate &gate;
+  };
   const int64_t begin = monotonicNs();
-  gate_.hold();
-  change();
-  gate_.release();
+  {
+    const Hold hold(gate_);
+    change();
+  }
   return monotonicNs() - begin;
 }
 

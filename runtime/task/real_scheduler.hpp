@@ -37,6 +37,8 @@ public:
   static constexpr int64_t kStopLimitNs = 60'000'000'000;
   /// From cycle to cycle of a task without interval when the application has stopped.
   static constexpr int64_t kStoppedIntervalNs = 10'000'000;
+  /// Tasks with longer intervals run at once when the application stops, and then so often.
+  static constexpr int64_t kLongIntervalNs = 1'000'000'000;
 
   RealScheduler(TaskSet &tasks, const RealOptions &options);
   RealScheduler(const RealScheduler &) = delete;
@@ -53,8 +55,9 @@ public:
   int64_t nowNs() const { return monotonicNs() - originNs_; }
 
   /// Ends: no POU runs any more, the hooks go on until all are at rest (at most kStopLimitNs), then
-  /// the threads end. False: something did not come to rest.
-  bool finish();
+  /// the threads end. Meanwhile calls `meanwhile`, again and again. False: something did not come
+  /// to rest.
+  bool finish(const std::function<void()> &meanwhile = {});
 
   /// Calls `change` while no task is inside a cycle. Returns for how long no cycle could begin.
   /// [ns] From one thread at a time, not from a task's.
@@ -74,11 +77,12 @@ private:
   void prepareThread(const Worker &worker) const;
   void cycle(Worker &worker, int64_t plannedNs);
   void lookAtEvents();
+  void lookOnce();
   void runCyclic(Worker &worker);
   void runFreewheeling(Worker &worker);
   void runOnEvent(Worker &worker);
   bool waitForEvent(Worker &worker, int64_t untilNs);
-  bool sleepUntil(int64_t timeNs) const;
+  bool sleepUntil(int64_t timeNs, bool orStop = false) const;
   bool ending() const { return ending_.load(std::memory_order_acquire); }
 
   TaskSet *tasks_;
@@ -89,6 +93,7 @@ private:
   std::atomic<uint32_t> ready_{0};
   std::atomic<uint32_t> go_{0};
   std::atomic<bool> ending_{false};
+  std::atomic<uint32_t> looks_{0}; ///< At the events, that have been asked for.
   bool started_ = false;
 };
 

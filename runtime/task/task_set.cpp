@@ -15,6 +15,10 @@ namespace {
 
 /// Loop iterations between two looks at the clock.
 constexpr int64_t kLoopsPerLook = 20'000;
+/// Loop iterations that one evaluation of an event may use.
+constexpr int64_t kLoopsOfAnEvent = 1'000'000;
+/// Ctx::cycle of an evaluation of an event.
+constexpr uint64_t kNoCycle = std::numeric_limits<uint64_t>::max();
 
 /// 0 counts as 1.
 int64_t sensitivity(const TaskDesc &desc) { return std::max<int64_t>(desc.watchdogSensitivity, 1); }
@@ -74,11 +78,13 @@ void TaskSet::runCycle(uint32_t index, int64_t startNs, int64_t latencyNs) noexc
   task.startedNs = monotonicNs();
   ctx.cycleStartNs = startNs;
   ctx.loopBudget = limit_ == LoopLimit::Clock ? kLoopsPerLook : loopBudget_;
+  // Asked once: hooks see in told() what the cycle does.
   if (stopped())
     tellHooks(task);
+  const bool runs = !task.told;
   for (CycleHook *hook : task.hooks)
     hook->beforePous(ctx);
-  if (!stopped()) {
+  if (runs) {
     const TaskDesc &desc = app_->tasks[index];
     if (const std::optional<StException> exception = guardedCall(desc.run, ctx)) {
       fail(*exception, index, ctx.cycle, startNs);
@@ -127,7 +133,7 @@ void TaskSet::watch(uint32_t index, int64_t runNs) noexcept {
 
 int64_t TaskSet::refill(Ctx *ctx) {
   const auto *self = static_cast<const TaskSet *>(ctx->host->self);
-  if (self->limit_ == LoopLimit::Budget)
+  if (self->limit_ == LoopLimit::Budget || ctx->cycle == kNoCycle)
     return 0;
   const TaskDesc &desc = self->app_->tasks[ctx->taskIndex];
   const int64_t allowed =
@@ -147,7 +153,8 @@ bool TaskSet::eventLevel(uint32_t index) noexcept {
   question.ctx.state = tasks_[index]->ctx.state;
   question.ctx.host = &host_;
   question.ctx.taskIndex = index;
-  question.ctx.loopBudget = 0;
+  question.ctx.cycle = kNoCycle;
+  question.ctx.loopBudget = kLoopsOfAnEvent;
   question.event = desc.event;
   const auto ask = [](Ctx *ctx) {
     auto *asked = reinterpret_cast<Question *>(ctx);

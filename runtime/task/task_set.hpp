@@ -69,6 +69,8 @@ public:
   void stop() noexcept { stopped_.store(true, std::memory_order_release); }
   /// The same, for an exception that did not come from a cycle; the first fault counts.
   void fail(Fault fault) noexcept;
+  /// The task's hooks know of it: its POUs do not run. For the task's own hooks.
+  bool told(uint32_t task) const noexcept { return tasks_[task]->told; }
   bool stopped() const noexcept { return stopped_.load(std::memory_order_acquire); }
   /// After stop: every hook has been told and is at rest.
   bool atRest() const noexcept;

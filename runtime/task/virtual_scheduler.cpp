@@ -54,9 +54,9 @@ RunResult VirtualScheduler::runUntil(int64_t endNs) {
 /// From now on every task goes on for its hooks, also without an event.
 void VirtualScheduler::stopAt(int64_t nowNs) {
   stoppedNs_ = nowNs;
-  for (Due &due : due_)
-    if (due.atNs == kNever)
-      due.atNs = nowNs + kAgainNs;
+  for (uint32_t i = 0; i < due_.size(); ++i)
+    if (due_[i].atNs == kNever || tasks_->desc(i).intervalNs > kLongIntervalNs)
+      due_[i].atNs = std::min(due_[i].atNs, nowNs + kAgainNs);
 }
 
 void VirtualScheduler::lookAtEvents(int64_t nowNs) {
@@ -97,7 +97,8 @@ bool VirtualScheduler::runDueTask(int64_t nowNs, bool &fastest) {
         desc.intervalNs > 0 && !(desc.kind == TaskKind::Event && due.level && stoppedNs_ < 0);
     due.ranNs = nowNs;
     if (periodic)
-      due.atNs = nowNs + desc.intervalNs;
+      due.atNs =
+          nowNs + (stoppedNs_ < 0 ? desc.intervalNs : std::min(desc.intervalNs, kLongIntervalNs));
     else
       due.atNs = stoppedNs_ < 0 ? kNever : nowNs + kStoppedIntervalNs;
     tasks_->runCycle(i, nowNs, 0);

@@ -51,6 +51,8 @@ public:
   static constexpr int64_t kAgainNs = 1'000;
   /// From cycle to cycle of a task without interval when the application has stopped.
   static constexpr int64_t kStoppedIntervalNs = 10'000'000;
+  /// Tasks with longer intervals run at once when the application stops, and then so often.
+  static constexpr int64_t kLongIntervalNs = 1'000'000'000;
 
   explicit VirtualScheduler(TaskSet &tasks);
 

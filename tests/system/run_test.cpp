@@ -336,6 +336,51 @@ protected:
   }
 };
 
+// Tasks that wait for events keep nothing of the old build, and the loader does not take an old
+// file for the newest one, also after a restart.
+TEST_F(Run, EventTasksAndRestartsGoWithOnlineChanges) {
+  std::string first = kSeveralTasks;
+  std::string second = first;
+  second.replace(second.find("n MOD 7 = 0"), 11, "n MOD 3 = 0");
+  std::string third = second;
+  third.replace(third.find("n := n + 1;"), 11, "n := n + 1000000;");
+  std::string failing = third;
+  failing.insert(failing.find("n := n + 1000000;"),
+                 "IF n > 2000000000 THEN m := n / (n - n); END_IF\n");
+  build("first", first);
+  build("second", second);
+  build("failing", failing);
+  build("third", third);
+  const ProcessResult result =
+      shell("cp first.so live.so; \"$HOST\" run live.so --for 6s --on-fault restart --quiet "
+            "--print n,e & p=$!\nsleep 0.5; rm live.so; cp second.so live.so; kill -HUP $p\n"
+            "sleep 0.5; rm live.so; cp failing.so live.so; kill -HUP $p\n"
+            "sleep 4; rm live.so; cp third.so live.so; kill -HUP $p; wait $p");
+  EXPECT_THAT(result.err, HasSubstr("note: online change done"));
+  EXPECT_THAT(result.err, HasSubstr("is started again"));
+  EXPECT_THAT(result.err, HasSubstr("division by zero"));
+  EXPECT_THAT(result.err, ContainsRegex("started again\n(.*\n)*note: online change done"));
+  EXPECT_THAT(result.out, ContainsRegex("\ne = [1-9-]")) << result.err;
+}
+
+TEST_F(Run, AnInitialiserThatFailsStopsNothingElse) {
+  build("good", "FUNCTION_BLOCK B\nVAR x : DINT; END_VAR\nEND_FUNCTION_BLOCK\nPROGRAM PLC_PRG\n"
+                "VAR n : DINT; b : B; END_VAR\nn := n + 1;\nEND_PROGRAM\n");
+  build("bad", "FUNCTION_BLOCK B\nVAR x : DINT; p : POINTER TO DINT; END_VAR\n"
+               "METHOD FB_Init : BOOL\nVAR_INPUT bInitRetains, bInCopyCode : BOOL; END_VAR\n"
+               "p := 16#1234567;\nx := p^;\nEND_METHOD\nEND_FUNCTION_BLOCK\nPROGRAM PLC_PRG\n"
+               "VAR n : DINT; b : B; END_VAR\nn := n + 1;\nEND_PROGRAM\n");
+  const ProcessResult alone = shell("\"$HOST\" run bad.so --for 1s --quiet");
+  EXPECT_EQ(alone.exitCode, 2);
+  EXPECT_THAT(alone.err, HasSubstr("error: access through an invalid pointer at bad.st:6"));
+  const ProcessResult change =
+      shell("cp good.so live.so; \"$HOST\" run live.so --for 1s --quiet --print PLC_PRG.n & p=$!\n"
+            "sleep 0.4; rm live.so; cp bad.so live.so; kill -HUP $p; wait $p");
+  EXPECT_EQ(change.exitCode, 0) << change.err;
+  EXPECT_THAT(change.err, HasSubstr("error: online change: access through an invalid pointer"));
+  EXPECT_THAT(change.out, HasSubstr("PLC_PRG.n = "));
+}
+
 TEST_F(RunChange, AMovingAxisTakesNoStep) {
   buildNew("  unrelated : ARRAY[0..999] OF LREAL := [1000(1.5)];\n");
   const ProcessResult result = runWithChange("--print Drive.fSetPosition", "2500ms");

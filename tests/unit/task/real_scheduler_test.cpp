@@ -199,6 +199,33 @@ TEST(RealSchedulerTest, AFaultStopsThePousAndTheHooksGoOnUntilRest) {
   }
 }
 
+stride::BOOL loopingEvent(Ctx *ctx) {
+  for (int i = 0; i < 100000; ++i)
+    stride::loopTick(*ctx, "e.st", 4, 2);
+  return shared(ctx).go;
+}
+
+TEST(RealSchedulerTest, AnEventMayContainLoopsAndAStopDoesNotWaitForALongInterval) {
+  const std::vector<TaskDesc> list = {task("Fast", TaskKind::Cyclic, 1, 2, fast),
+                                      task("Event", TaskKind::Event, 0, 0, event, loopingEvent),
+                                      task("Hourly", TaskKind::Cyclic, 9, 3600000, slow)};
+  const StrideAppV1 app = appWith(list);
+  Shared state;
+  TaskSet tasks(app, reinterpret_cast<std::byte *>(&state), stride::task::hostApi(),
+                LoopLimit::Clock);
+  BrakingHook hourly;
+  hourly.cycles = 2;
+  tasks.addHook(2, hourly);
+  RealScheduler scheduler(tasks, {.fifo = false, .turns = true, .core = {}});
+  scheduler.start();
+  waitUntil([&] { return state.events > 2; });
+  int meanwhile = 0;
+  EXPECT_TRUE(scheduler.finish([&] { ++meanwhile; }));
+  EXPECT_GT(meanwhile, 0);
+  EXPECT_LE(hourly.cycles, 0);
+  EXPECT_FALSE(tasks.fault());
+}
+
 void endless(Ctx *ctx) {
   for (;;)
     stride::loopTick(*ctx, "a.st", 9, 1);

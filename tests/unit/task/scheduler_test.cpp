@@ -287,6 +287,37 @@ TEST(VirtualSchedulerTest, IntervalBesideSingleCountsWhileItIsFalse) {
                                      "a30", "e30"));
 }
 
+stride::BOOL loopingEvent(Ctx *ctx) {
+  for (int i = 0; i < 1000; ++i)
+    stride::loopTick(*ctx, "e.st", 4, 2);
+  return logOf(ctx).go;
+}
+
+TEST(VirtualSchedulerTest, AnEventMayContainLoops) {
+  const std::vector<TaskDesc> tasks = {
+      cyclic("A", 1, 10, raiseAt10And30),
+      onEvent("E", 0, TaskKind::Event, 0, note<'e'>, loopingEvent)};
+  const StrideAppV1 app = appWith(tasks);
+  Log log;
+  Scheduled run(app, log);
+  EXPECT_FALSE(run.scheduler.runUntil(20 * kMs).fault);
+  EXPECT_THAT(log.lines, ElementsAre("a0!", "a10", "e10!"));
+}
+
+TEST(VirtualSchedulerTest, AStopDoesNotWaitForALongInterval) {
+  const std::vector<TaskDesc> tasks = {cyclic("Main", 0, 10, failAt20),
+                                       cyclic("Hourly", 1, 3600000, note<'h'>)};
+  const StrideAppV1 app = appWith(tasks);
+  Log log;
+  Scheduled run(app, log);
+  NotingHook hook("x", log, 2);
+  run.tasks.addHook(1, hook);
+  const RunResult result = run.scheduler.runUntil(7200000 * kMs);
+  ASSERT_TRUE(result.fault);
+  EXPECT_TRUE(hook.atRest());
+  EXPECT_LT(result.timeNs, 2000 * kMs);
+}
+
 void zeroEvent(Ctx *) {}
 stride::BOOL failingEvent(Ctx *ctx) {
   stride::raise(*ctx, ExceptionCode::DivisionByZero, "e.st", 4, 2);
