@@ -82,6 +82,13 @@ struct Application::Impl {
   int64_t timeNs = 0;
 };
 
+namespace {
+
+/// Once for each thread that calls cycles.
+void guardThread() { thread_local const task::MemoryGuard guard; }
+
+} // namespace
+
 Application::Application(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Application::Application(Application &&) noexcept = default;
 Application &Application::operator=(Application &&) noexcept = default;
@@ -89,7 +96,7 @@ Application &Application::operator=(Application &&) noexcept = default;
 Application::~Application() {
   if (!impl_ || !impl_->initialised)
     return;
-  const task::MemoryGuard guard;
+  guardThread();
   (void)impl_->instance.exit(impl_->timeNs);
 }
 
@@ -108,7 +115,7 @@ Status Application::initialise() {
   if (impl_->initialised)
     return Failure{"the application has been initialised already"};
   return attempt([this] {
-    const task::MemoryGuard guard;
+    guardThread();
     impl_->instance.initialise();
     impl_->served.addInnerHooks();
     impl_->initialised = true;
@@ -124,7 +131,7 @@ Status Application::cycle(std::size_t task, std::chrono::nanoseconds time) {
   if (time.count() < impl_->timeNs)
     return Failure{"time does not go back"};
   impl_->timeNs = time.count();
-  const task::MemoryGuard guard;
+  guardThread();
   impl_->instance.tasks().runCycle(static_cast<uint32_t>(task), time.count(), 0);
   return impl_->state();
 }
@@ -133,7 +140,7 @@ Status Application::advance(std::chrono::nanoseconds time) {
   if (!impl_->initialised)
     return Failure{"the application has not been initialised"};
   return attempt([&] {
-    const task::MemoryGuard guard;
+    guardThread();
     impl_->timeNs = impl_->scheduler.runUntil(time.count()).timeNs;
     if (const std::optional<task::Fault> fault = impl_->instance.tasks().fault())
       throw app::Error(task::describe(*fault));

@@ -121,6 +121,8 @@ struct SocketServer::Impl {
       removeDropped();
       wait();
     }
+    for (auto &[id, client] : clients)
+      flush(client); // what was said last: that it has ended
   }
 
   void wait() {
