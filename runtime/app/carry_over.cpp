@@ -426,19 +426,18 @@ void CarryOver::apply(const std::byte *oldState, std::byte *newState,
   });
 }
 
-void CarryOver::takeOver(const Ctx &now, std::byte *oldState, std::byte *newState,
-                         CarryResult &result) const {
-  const auto call = [&](void (*hook)(Ctx *), std::byte *state) {
-    if (hook == nullptr)
-      return;
+CarryOver::Taken CarryOver::takeOver(const Ctx &now, std::byte *oldState, std::byte *newState,
+                                     CarryResult &result, const LifecycleCall &call) const {
+  const auto run = [&](void (*hook)(Ctx *), std::byte *state) {
     Ctx ctx = now;
     ctx.state = state;
     ctx.inCopyCode = 1;
-    hook(&ctx);
+    return hook == nullptr || call(hook, ctx);
   };
-  call(match_.oldApp().exit, oldState);
+  if (!run(match_.oldApp().exit, oldState))
+    return Taken::ExitFailed;
   apply(oldState, newState, result);
-  call(match_.newApp().reinit, newState);
+  return run(match_.newApp().reinit, newState) ? Taken::Whole : Taken::ReinitFailed;
 }
 
 std::vector<std::string> CarryOver::describe(const CarryResult &result,

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -84,8 +85,15 @@ public:
   /// the host, the times and the loop budget; its state is not used. Throws what the host's `raise`
   /// throws when the program's own code fails: in FB_Exit nothing has been carried over yet, in
   /// FB_Reinit everything has.
-  void takeOver(const Ctx &now, std::byte *oldState, std::byte *newState,
-                CarryResult &result) const;
+  /// `call` runs that code and may guard it; where it returns false, nothing more is done.
+  using LifecycleCall = std::function<bool(void (*hook)(Ctx *), Ctx &ctx)>;
+  enum class Taken : uint8_t { Whole, ExitFailed, ReinitFailed };
+  Taken takeOver(
+      const Ctx &now, std::byte *oldState, std::byte *newState, CarryResult &result,
+      const LifecycleCall &call = [](void (*hook)(Ctx *), Ctx &ctx) {
+        hook(&ctx);
+        return true;
+      }) const;
 
   /// The events in words: "Main.p pointed to Main.gone, which the new build does not have".
   std::vector<std::string> describe(const CarryResult &result, const std::byte *oldState) const;

@@ -73,28 +73,26 @@ std::string OnlineChange::report(bool all) const {
 }
 
 bool OnlineChange::apply(int64_t timeNs) {
-  const StrideAppV1 &was = instance_->app();
-  const StrideAppV1 &is = fresh_->description();
-  Ctx ctx{};
-  ctx.host = &task::hostApi();
-  ctx.cycleStartNs = timeNs;
-  ctx.inCopyCode = 1;
-  ctx.state = instance_->state();
-  ctx.loopBudget = task::TaskSet::kDefaultLoopBudget;
-  if (was.exit != nullptr)
-    if (const std::optional<StException> exception = task::guardedCall(was.exit, ctx)) {
-      events_.push_back(describeWithCalls({*exception, "FB_Exit", 0, timeNs}));
-      return false;
-    }
-  plan_->apply(instance_->state(), fresh_->state(), result_);
+  Ctx now{};
+  now.host = &task::hostApi();
+  now.cycleStartNs = timeNs;
+  now.loopBudget = task::TaskSet::kDefaultLoopBudget;
+  std::optional<StException> exception;
+  const app::CarryOver::Taken taken =
+      plan_->takeOver(now, instance_->state(), fresh_->state(), result_,
+                      [&exception](void (*hook)(Ctx *), Ctx &ctx) {
+                        exception = task::guardedCall(hook, ctx);
+                        return !exception;
+                      });
+  if (taken == app::CarryOver::Taken::ExitFailed) {
+    events_.push_back(describeWithCalls({*exception, "FB_Exit", 0, timeNs}));
+    return false;
+  }
   if (result_.total() != 0)
     events_ = plan_->describe(result_, instance_->state());
   instance_->swap(fresh_);
-  ctx.state = instance_->state();
-  ctx.loopBudget = task::TaskSet::kDefaultLoopBudget;
-  if (is.reinit != nullptr)
-    if (const std::optional<StException> exception = task::guardedCall(is.reinit, ctx))
-      instance_->tasks().fail({*exception, "FB_Reinit", 0, timeNs});
+  if (taken == app::CarryOver::Taken::ReinitFailed)
+    instance_->tasks().fail({*exception, "FB_Reinit", 0, timeNs});
   return true;
 }
 

@@ -22,7 +22,6 @@
 #include <ctime>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <functional>

@@ -142,11 +142,11 @@ void RealScheduler::lookOnce() {
 
 void RealScheduler::runCyclic(Worker &worker) {
   const int64_t interval = tasks_->desc(worker.task).intervalNs;
-  const bool isLong = interval > kLongIntervalNs;
+  const bool isLong = interval > TaskSet::kLongIntervalNs;
   for (int64_t planned = 0; sleepUntil(planned, isLong);) {
     const int64_t start = std::min(planned, nowNs()); // a stop does not wait for the plan
     cycle(worker, start);
-    planned = start + (isLong && tasks_->stopped() ? kLongIntervalNs : interval);
+    planned = start + (isLong && tasks_->stopped() ? TaskSet::kLongIntervalNs : interval);
     if (const int64_t late = nowNs() - planned; late > 0) {
       const int64_t missed = (late + interval - 1) / interval;
       tasks_->addOverruns(worker.task, static_cast<uint64_t>(missed));
@@ -176,7 +176,7 @@ void RealScheduler::runOnEvent(Worker &worker) {
     cycle(worker, next <= now ? next : now);
     const bool level = worker.level.load();
     if (tasks_->stopped())
-      next = now + (interval > 0 ? interval : kStoppedIntervalNs);
+      next = now + (interval > 0 ? interval : TaskSet::kStoppedIntervalNs);
     else if (isStatus)
       next = level ? now + interval : kNever;
     else
@@ -224,7 +224,7 @@ bool RealScheduler::finish(const std::function<void()> &meanwhile) {
   tasks_->stop();
   for (const std::unique_ptr<Worker> &worker : workers_)
     ::sem_post(&worker->raised); // the hooks of tasks that wait for an event go on without it
-  const int64_t limit = monotonicNs() + kStopLimitNs;
+  const int64_t limit = monotonicNs() + TaskSet::kStopLimitNs;
   while (!tasks_->atRest() && monotonicNs() < limit) {
     if (meanwhile)
       meanwhile();

@@ -33,12 +33,6 @@ struct RealOptions {
 class RealScheduler {
 public:
   static constexpr int64_t kFreewheelingPauseNs = 1'000'000;
-  /// How long hooks may take to come to rest after a stop.
-  static constexpr int64_t kStopLimitNs = 60'000'000'000;
-  /// From cycle to cycle of a task without interval when the application has stopped.
-  static constexpr int64_t kStoppedIntervalNs = 10'000'000;
-  /// Tasks with longer intervals run at once when the application stops, and then so often.
-  static constexpr int64_t kLongIntervalNs = 1'000'000'000;
 
   RealScheduler(TaskSet &tasks, const RealOptions &options);
   RealScheduler(const RealScheduler &) = delete;
@@ -54,9 +48,9 @@ public:
   /// What the program sees as the time now. [ns]
   int64_t nowNs() const { return monotonicNs() - originNs_; }
 
-  /// Ends: no POU runs any more, the hooks go on until all are at rest (at most kStopLimitNs), then
-  /// the threads end. Meanwhile calls `meanwhile`, again and again. False: something did not come
-  /// to rest.
+  /// Ends: no POU runs any more, the hooks go on until all are at rest (at most
+  /// TaskSet::kStopLimitNs), then the threads end. Meanwhile calls `meanwhile`, again and again.
+  /// False: something did not come to rest.
   bool finish(const std::function<void()> &meanwhile = {});
 
   /// Calls `change` while no task is inside a cycle. Returns for how long no cycle could begin.

@@ -59,8 +59,7 @@ RealtimeReport prepareRealtime() {
         fmt::format("the tasks run without real-time priority (SCHED_FIFO: {}): other programs can "
                     "delay them, and they take turns at cycle boundaries\n{}",
                     std::strerror(error), kRemedy));
-  report.memoryLocked = ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0;
-  if (!report.memoryLocked)
+  if (::mlockall(MCL_CURRENT | MCL_FUTURE) != 0)
     report.warnings.push_back(fmt::format("the memory cannot be locked (mlockall: {}): a page that "
                                           "was swapped out delays a cycle{}",
                                           std::strerror(errno),

@@ -10,8 +10,7 @@ namespace stride::task {
 
 /// What was obtained, and what not with the remedy.
 struct RealtimeReport {
-  bool fifo = false;         ///< Threads get SCHED_FIFO by the priority of their task.
-  bool memoryLocked = false; ///< No page of the process leaves the memory.
+  bool fifo = false; ///< Threads get SCHED_FIFO by the priority of their task.
   std::vector<std::string> warnings;
 };
 

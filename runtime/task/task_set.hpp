@@ -32,6 +32,13 @@ class TaskSet {
 public:
   static constexpr int64_t kDefaultLoopBudget = 1'000'000'000;
   static constexpr int64_t kDefaultCycleLimitNs = 10'000'000'000;
+  // What schedulers do when the application has stopped:
+  /// How long hooks may take to come to rest.
+  static constexpr int64_t kStopLimitNs = 60'000'000'000;
+  /// From cycle to cycle of a task without interval.
+  static constexpr int64_t kStoppedIntervalNs = 10'000'000;
+  /// Tasks with longer intervals run at once, and then so often.
+  static constexpr int64_t kLongIntervalNs = 1'000'000'000;
 
   /// `state` is initialised. Throws app::Error for an application without tasks or with a task
   /// that cannot be scheduled.

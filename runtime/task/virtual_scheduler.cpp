@@ -34,7 +34,7 @@ RunResult VirtualScheduler::runUntil(int64_t endNs) {
     }
     if (tasks_->stopped() && stoppedNs_ < 0)
       stopAt(now);
-    if (stoppedNs_ >= 0 && (tasks_->atRest() || now - stoppedNs_ > kStopLimitNs))
+    if (stoppedNs_ >= 0 && (tasks_->atRest() || now - stoppedNs_ > TaskSet::kStopLimitNs))
       break;
     if (observer_ != nullptr && stoppedNs_ < 0)
       observer_->beforeInstant(now);
@@ -55,7 +55,7 @@ RunResult VirtualScheduler::runUntil(int64_t endNs) {
 void VirtualScheduler::stopAt(int64_t nowNs) {
   stoppedNs_ = nowNs;
   for (uint32_t i = 0; i < due_.size(); ++i)
-    if (due_[i].atNs == kNever || tasks_->desc(i).intervalNs > kLongIntervalNs)
+    if (due_[i].atNs == kNever || tasks_->desc(i).intervalNs > TaskSet::kLongIntervalNs)
       due_[i].atNs = std::min(due_[i].atNs, nowNs + kAgainNs);
 }
 
@@ -97,10 +97,10 @@ bool VirtualScheduler::runDueTask(int64_t nowNs, bool &fastest) {
         desc.intervalNs > 0 && !(desc.kind == TaskKind::Event && due.level && stoppedNs_ < 0);
     due.ranNs = nowNs;
     if (periodic)
-      due.atNs =
-          nowNs + (stoppedNs_ < 0 ? desc.intervalNs : std::min(desc.intervalNs, kLongIntervalNs));
+      due.atNs = nowNs + (stoppedNs_ < 0 ? desc.intervalNs
+                                         : std::min(desc.intervalNs, TaskSet::kLongIntervalNs));
     else
-      due.atNs = stoppedNs_ < 0 ? kNever : nowNs + kStoppedIntervalNs;
+      due.atNs = stoppedNs_ < 0 ? kNever : nowNs + TaskSet::kStoppedIntervalNs;
     tasks_->runCycle(i, nowNs, 0);
     fastest = fastest || i == tasks_->fastest();
     return true;

@@ -44,15 +44,10 @@ struct RunResult {
 /// once and then every interval. A task that has already run at this instant becomes due kAgainNs
 /// later.
 ///
-/// After an exception the hooks go on until all are at rest, at most kStopLimitNs.
+/// After an exception the hooks go on until all are at rest, at most TaskSet::kStopLimitNs.
 class VirtualScheduler {
 public:
-  static constexpr int64_t kStopLimitNs = 60'000'000'000;
   static constexpr int64_t kAgainNs = 1'000;
-  /// From cycle to cycle of a task without interval when the application has stopped.
-  static constexpr int64_t kStoppedIntervalNs = 10'000'000;
-  /// Tasks with longer intervals run at once when the application stops, and then so often.
-  static constexpr int64_t kLongIntervalNs = 1'000'000'000;
 
   explicit VirtualScheduler(TaskSet &tasks);
 

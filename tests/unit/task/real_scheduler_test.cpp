@@ -81,6 +81,18 @@ StrideAppV1 appWith(const std::vector<TaskDesc> &tasks) {
   return app;
 }
 
+/// Tasks with their state.
+struct Started {
+  explicit Started(const std::vector<TaskDesc> &list)
+      : app(appWith(list)), tasks(app, reinterpret_cast<std::byte *>(&state),
+                                  stride::task::hostApi(), LoopLimit::Clock) {}
+
+  StrideAppV1 app;
+  Shared state;
+  TaskSet tasks;
+};
+constexpr stride::task::RealOptions kInTurns = {.fifo = false, .turns = true, .core = {}};
+
 template <class Condition> void waitUntil(Condition condition) {
   for (int i = 0; i < 20000 && !condition(); ++i)
     std::this_thread::sleep_for(1ms);
@@ -93,12 +105,10 @@ TEST(RealSchedulerTest, AllKindsOfTasksInTurns) {
                                       task("Event", TaskKind::Event, 0, 0, event, goSet),
                                       task("Status", TaskKind::Status, 3, 2, status, openSet),
                                       task("Free", TaskKind::Freewheeling, 31, 10, slow)};
-  const StrideAppV1 app = appWith(list);
-  Shared state;
-  TaskSet tasks(app, reinterpret_cast<std::byte *>(&state), stride::task::hostApi(),
-                LoopLimit::Clock);
+  Started started(list);
+  auto &[app, state, tasks] = started;
   {
-    RealScheduler scheduler(tasks, {.fifo = false, .turns = true, .core = {}});
+    RealScheduler scheduler(tasks, kInTurns);
     scheduler.start();
     waitUntil([&] { return state.fast > 60 && state.slow > 5 && state.events > 3; });
     EXPECT_EQ(state.status, 0);
@@ -120,11 +130,9 @@ TEST(RealSchedulerTest, AllKindsOfTasksInTurns) {
 
 TEST(RealSchedulerTest, CyclesThatTakeTooLongSkipOnesOnTheGrid) {
   const std::vector<TaskDesc> list = {task("Late", TaskKind::Cyclic, 1, 1, slow)};
-  const StrideAppV1 app = appWith(list);
-  Shared state;
-  TaskSet tasks(app, reinterpret_cast<std::byte *>(&state), stride::task::hostApi(),
-                LoopLimit::Clock);
-  RealScheduler scheduler(tasks, {.fifo = false, .turns = true, .core = {}});
+  Started started(list);
+  auto &[app, state, tasks] = started;
+  RealScheduler scheduler(tasks, kInTurns);
   scheduler.start();
   waitUntil([&] { return state.slow > 10; });
   scheduler.finish();
@@ -135,10 +143,8 @@ TEST(RealSchedulerTest, CyclesThatTakeTooLongSkipOnesOnTheGrid) {
 TEST(RealSchedulerTest, BetweenCyclesNoTaskIsInside) {
   const std::vector<TaskDesc> list = {task("Fast", TaskKind::Cyclic, 1, 1, fast),
                                       task("Slow", TaskKind::Cyclic, 9, 3, slow)};
-  const StrideAppV1 app = appWith(list);
-  Shared state;
-  TaskSet tasks(app, reinterpret_cast<std::byte *>(&state), stride::task::hostApi(),
-                LoopLimit::Clock);
+  Started started(list);
+  auto &[app, state, tasks] = started;
   RealScheduler scheduler(tasks, {.fifo = false, .turns = false, .core = {}});
   scheduler.start();
   for (int i = 0; i < 50; ++i) {
@@ -175,17 +181,15 @@ TEST(RealSchedulerTest, AFaultStopsThePousAndTheHooksGoOnUntilRest) {
   const std::vector<TaskDesc> list = {task("Main", TaskKind::Cyclic, 1, 1, failing),
                                       task("Fast", TaskKind::Cyclic, 2, 1, fast),
                                       task("Event", TaskKind::Event, 2, 0, event, openSet)};
-  const StrideAppV1 app = appWith(list);
-  Shared state;
-  TaskSet tasks(app, reinterpret_cast<std::byte *>(&state), stride::task::hostApi(),
-                LoopLimit::Clock);
+  Started started(list);
+  auto &[app, state, tasks] = started;
   BrakingHook mine;
   BrakingHook others;
   BrakingHook ofTheEvent;
   tasks.addHook(0, mine);
   tasks.addHook(1, others);
   tasks.addHook(2, ofTheEvent);
-  RealScheduler scheduler(tasks, {.fifo = false, .turns = true, .core = {}});
+  RealScheduler scheduler(tasks, kInTurns);
   scheduler.start();
   waitUntil([&] { return tasks.fault().has_value(); });
   EXPECT_TRUE(scheduler.finish());
@@ -209,14 +213,12 @@ TEST(RealSchedulerTest, AnEventMayContainLoopsAndAStopDoesNotWaitForALongInterva
   const std::vector<TaskDesc> list = {task("Fast", TaskKind::Cyclic, 1, 2, fast),
                                       task("Event", TaskKind::Event, 0, 0, event, loopingEvent),
                                       task("Hourly", TaskKind::Cyclic, 9, 3600000, slow)};
-  const StrideAppV1 app = appWith(list);
-  Shared state;
-  TaskSet tasks(app, reinterpret_cast<std::byte *>(&state), stride::task::hostApi(),
-                LoopLimit::Clock);
+  Started started(list);
+  auto &[app, state, tasks] = started;
   BrakingHook hourly;
   hourly.cycles = 2;
   tasks.addHook(2, hourly);
-  RealScheduler scheduler(tasks, {.fifo = false, .turns = true, .core = {}});
+  RealScheduler scheduler(tasks, kInTurns);
   scheduler.start();
   waitUntil([&] { return state.events > 2; });
   int meanwhile = 0;
@@ -234,11 +236,9 @@ void endless(Ctx *ctx) {
 TEST(RealSchedulerTest, TheWatchdogEndsAnEndlessLoop) {
   std::vector<TaskDesc> list = {task("Main", TaskKind::Cyclic, 1, 10, endless)};
   list[0].watchdogNs = 20 * kMs;
-  const StrideAppV1 app = appWith(list);
-  Shared state;
-  TaskSet tasks(app, reinterpret_cast<std::byte *>(&state), stride::task::hostApi(),
-                LoopLimit::Clock);
-  RealScheduler scheduler(tasks, {.fifo = false, .turns = true, .core = {}});
+  Started started(list);
+  auto &[app, state, tasks] = started;
+  RealScheduler scheduler(tasks, kInTurns);
   scheduler.start();
   waitUntil([&] { return tasks.fault().has_value(); });
   EXPECT_EQ(tasks.fault()->exception.code(), ExceptionCode::EndlessLoop);
@@ -249,11 +249,9 @@ TEST(RealSchedulerTest, TheWatchdogCountsViolationsInARow) {
   std::vector<TaskDesc> list = {task("Main", TaskKind::Cyclic, 1, 5, slow)};
   list[0].watchdogNs = kMs * 3 / 2; // the cycle sleeps 2 ms
   list[0].watchdogSensitivity = 4;
-  const StrideAppV1 app = appWith(list);
-  Shared state;
-  TaskSet tasks(app, reinterpret_cast<std::byte *>(&state), stride::task::hostApi(),
-                LoopLimit::Clock);
-  RealScheduler scheduler(tasks, {.fifo = false, .turns = true, .core = {}});
+  Started started(list);
+  auto &[app, state, tasks] = started;
+  RealScheduler scheduler(tasks, kInTurns);
   scheduler.start();
   waitUntil([&] { return tasks.fault().has_value(); });
   scheduler.finish();
