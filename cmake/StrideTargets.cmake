@@ -15,25 +15,25 @@ function(_stride_own_code target)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
 endfunction()
 
-# The precompiled headers of cmake/pch: one for the libraries, one for the tests, which are executables and
-# so compiled with other flags. That the sources include what they use is seen where STRIDE_PCH is off, in
-# the fuzzers' build.
-if(STRIDE_PCH)
-  find_package(GTest REQUIRED)
-  add_library(stride_pch_library OBJECT ${PROJECT_SOURCE_DIR}/cmake/pch/main.cpp)
-  add_executable(stride_pch_test ${PROJECT_SOURCE_DIR}/cmake/pch/main.cpp)
-  foreach(kind library test)
-    _stride_own_code(stride_pch_${kind})
-    target_precompile_headers(stride_pch_${kind} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/pch/${kind}.hpp)
-  endforeach()
-  target_link_libraries(stride_pch_test PRIVATE GTest::gmock GTest::gtest)
-endif()
-
-# _stride_precompiled(<target> library|test): its sources use that precompiled header.
+# _stride_precompiled(<target> library|test): its sources use that precompiled header of cmake/pch. There is
+# one for the libraries and one for the tests, which are executables and so compiled with other flags. That
+# the sources include what they use is seen where STRIDE_PCH is off, in the fuzzers' build.
 function(_stride_precompiled target kind)
-  if(STRIDE_PCH)
-    target_precompile_headers(${target} REUSE_FROM stride_pch_${kind})
+  if(NOT STRIDE_PCH)
+    return()
   endif()
+  set(header stride_pch_${kind})
+  if(NOT TARGET ${header})
+    if(kind STREQUAL "library")
+      add_library(${header} OBJECT ${PROJECT_SOURCE_DIR}/cmake/pch/main.cpp)
+    else()
+      add_executable(${header} ${PROJECT_SOURCE_DIR}/cmake/pch/main.cpp)
+      target_link_libraries(${header} PRIVATE GTest::gmock GTest::gtest)
+    endif()
+    _stride_own_code(${header})
+    target_precompile_headers(${header} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/pch/${kind}.hpp)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${header})
 endfunction()
 
 # stride_library(<name> SOURCES <file>... [DEPS <target>...])
