@@ -35,10 +35,18 @@ int buildCommand(const ProjectOptions &options, const std::string &out, const Bu
 int hostCommand(const ProjectOptions &options, const std::string &command,
                 const std::vector<std::string> &hostArguments);
 
+/// What gdb does after the application is loaded.
+struct DebugSession {
+  std::vector<std::string> scripts; ///< files of gdb commands
+  bool batch = false;               ///< leave gdb after them
+};
+
+/// Builds with debug information, then becomes gdb on a simulation with these arguments.
+int debugCommand(const ProjectOptions &options, const std::vector<std::string> &hostArguments,
+                 const DebugSession &session);
+
 /// `kind`: warm, cold, origin. Becomes stride-host with the project's file for retained data.
 int resetCommand(const ProjectOptions &options, const std::string &kind);
-/// Becomes stride-host with `command` and these arguments; nothing is built.
-int hostOnlyCommand(const std::string &command, const std::vector<std::string> &hostArguments);
 
 /// Becomes stride-host with `command` and these arguments; nothing is built.
 int hostOnlyCommand(const std::string &command, const std::vector<std::string> &hostArguments);

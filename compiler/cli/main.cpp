@@ -222,6 +222,22 @@ int run(int argc, char **argv) {
   addRunOptions(HostOptions(*runApp, host));
   runApp->callback([&] { exitCode = hostCommand(options, "run", host); });
 
+  DebugSession session;
+  CLI::App *debug = app.add_subcommand("debug", "Build, then run in virtual time under gdb");
+  addProjectOptions(*debug, options, true);
+  addSimOptions(HostOptions(*debug, host));
+  debug->remove_option(debug->get_option("--debug"));
+  debug->add_option("-x,--command", session.scripts, "File of gdb commands (may be repeated)")
+      ->allow_extra_args(false)
+      ->type_name("FILE");
+  debug->add_flag("--batch", session.batch, "Leave gdb after these commands");
+  debug->callback([&] {
+    if (debug->get_option("--for")->count() + debug->get_option("--replay")->count() == 0)
+      host.insert(host.end(), {"--for", "T#24h"});
+    options.debug = true;
+    exitCode = debugCommand(options, host, session);
+  });
+
   std::string resetKind;
   CLI::App *reset =
       app.add_subcommand("reset", "Reset retained data of a project that stands still");

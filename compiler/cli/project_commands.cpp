@@ -45,20 +45,25 @@ std::optional<BuildResult> buildProject(const ProjectOptions &options, BuildOpti
   return result;
 }
 
-// Replaces this program by stride-host; returns only when that fails.
-int becomeHost(std::vector<std::string> arguments, const Output &output) {
-  std::string missing;
-  const std::optional<Installation> installation = findInstallation(missing);
-  const std::string host = installation ? installation->host.string() : missing;
-  arguments.insert(arguments.begin(), host);
+// Replaces this program by another one; returns only when that fails. `remedy`: what to do then.
+int become(const std::string &program, std::vector<std::string> arguments, const Output &output,
+           std::string_view remedy = {}) {
+  arguments.insert(arguments.begin(), program);
   std::vector<char *> pointers;
   for (std::string &argument : arguments)
     pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   std::fflush(nullptr);
-  ::execv(host.c_str(), pointers.data());
-  return showError(Code::toolchainMissing,
-                   fmt::format("`{}` cannot be started: {}", host, std::strerror(errno)), output);
+  ::execvp(program.c_str(), pointers.data());
+  return showError(
+      Code::toolchainMissing,
+      fmt::format("`{}` cannot be started: {}{}", program, std::strerror(errno), remedy), output);
+}
+
+int becomeHost(std::vector<std::string> arguments, const Output &output) {
+  std::string missing;
+  const std::optional<Installation> installation = findInstallation(missing);
+  return become(installation ? installation->host.string() : missing, std::move(arguments), output);
 }
 
 } // namespace
@@ -117,6 +122,33 @@ int hostCommand(const ProjectOptions &options, const std::string &command,
       std::find(hostArguments.begin(), hostArguments.end(), "--retain") == hostArguments.end())
     arguments.insert(arguments.end(), {"--retain", result->retainFile.string()});
   return becomeHost(std::move(arguments), options.output);
+}
+
+int debugCommand(const ProjectOptions &options, const std::vector<std::string> &hostArguments,
+                 const DebugSession &session) {
+  std::optional<BuildResult> result;
+  int exitCode = 0;
+  {
+    ProgressLine progress;
+    result = buildProject(options, {}, progress, exitCode);
+  }
+  if (!result || exitCode != 0)
+    return exitCode;
+  std::string missing;
+  const std::optional<Installation> installation = findInstallation(missing);
+  if (!installation)
+    return showError(Code::toolchainMissing, missing, options.output);
+  std::vector<std::string> arguments = {"-q", "-x", installation->debugScript.string(), "-ex",
+                                        "st start"};
+  if (session.batch)
+    arguments.insert(arguments.begin(), "-batch");
+  for (const std::string &script : session.scripts)
+    arguments.insert(arguments.end(), {"-x", script});
+  arguments.insert(arguments.end(), {"--args", installation->host.string(), "sim",
+                                     std::filesystem::absolute(result->application).string()});
+  arguments.insert(arguments.end(), hostArguments.begin(), hostArguments.end());
+  return become("gdb", std::move(arguments), options.output,
+                "; on Debian, `apt install gdb` installs it");
 }
 
 int resetCommand(const ProjectOptions &options, const std::string &kind) {

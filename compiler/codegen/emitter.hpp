@@ -65,7 +65,8 @@ public:
   /// Brings zeroed memory to the variable's default; `target` is a C++ lvalue.
   void initVariable(std::string_view target, const VarSymbol *variable);
   /// Gives a local variable its default: `T x = 5;` or `T x{};` and what follows.
-  void declareLocal(const VarSymbol *variable);
+  /// Without an initial value of its own it counts as standing at `start`, where the body begins.
+  void declareLocal(const VarSymbol *variable, Span start);
   /// Gives what VAR_CONFIG says of a variable: its initial value.
   void initConfigured(const SlotPlace &entry);
 

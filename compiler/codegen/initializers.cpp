@@ -238,10 +238,10 @@ std::uint64_t Emitter::arrayValues(std::string_view target, const ArrayType *typ
   return at;
 }
 
-void Emitter::declareLocal(const VarSymbol *variable) {
+void Emitter::declareLocal(const VarSymbol *variable, Span start) {
   const std::string name = mangle(variable->name.text);
   const Expr *init = c_.layouts.initOf(variable);
-  begin(variable->name.span);
+  begin(init == nullptr && start.valid() ? start : variable->name.span);
   if (!used(variable))
     w_ << "[[maybe_unused]] ";
   w_ << type(variable->type) << (c_.names.type(variable->type).back() == '*' ? "" : " ") << name;

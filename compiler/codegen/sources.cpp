@@ -105,12 +105,16 @@ public:
     const Writer locals = temporaries(pou);
     Writer bound(c_.program.sources);
     bound.indent();
+    const Span start = startOf(pou);
     for (const VarSymbol *v : pou->variables) {
-      if (v->section == Section::inOut && e_.used(v))
-        inOutReference(bound, v);
+      if (v->section != Section::inOut || !e_.used(v))
+        continue;
+      bound.from(start);
+      inOutReference(bound, v);
     }
     functionHead("void " + std::string(name) + "::body__(::stride::Ctx &" +
-                 (e_.usesContext() ? "ctx__" : "") + ")");
+                     (e_.usesContext() ? "ctx__" : "") + ")",
+                 start);
     prologue();
     text_.append(bound);
     budget();
@@ -143,12 +147,12 @@ public:
     const Writer body = e_.takeWriter();
     e_.writer().indent();
     if (pou->result != nullptr)
-      e_.declareLocal(pou->result);
+      e_.declareLocal(pou->result, startOf(pou));
     for (const VarSymbol *v : pou->variables) {
       if (v->section == Section::output && c_.layouts.needsInit(v))
         e_.initVariable(mangle(v->name.text), v);
       else if (v->section == Section::local || v->section == Section::temp)
-        e_.declareLocal(v);
+        e_.declareLocal(v, startOf(pou));
     }
     const Writer locals = e_.takeWriter();
     if (pou->isMethod()) {
@@ -156,9 +160,10 @@ public:
         e_.includes().complete(p->type);
       std::string_view block = c_.names.local(pou->owner);
       functionHead(methodSignature(c_, e_.includes(), pou,
-                                   std::string(block) + "::" + methodName(pou), false, &e_));
+                                   std::string(block) + "::" + methodName(pou), false, &e_),
+                   startOf(pou));
     } else {
-      functionHead(functionSignature(c_, pou, &e_));
+      functionHead(functionSignature(c_, pou, &e_), startOf(pou));
     }
     prologue();
     budget();
@@ -233,10 +238,23 @@ private:
     }
   }
 
-  void functionHead(const std::string &signature) {
+  /// Where the body begins: what stands in front of it in the C++ counts as that place, so that a
+  /// debugger enters a POU at its first statement.
+  static Span startOf(const PouSymbol *pou) {
+    return pou->decl->body.empty() ? Span() : pou->decl->body.front()->span;
+  }
+
+  void functionHead(const std::string &signature, Span start = {}) {
     text_ = Writer(c_.program.sources);
-    text_.line() << signature << " {";
+    start_ = start;
+    headLine() << signature << " {";
     text_.endLine();
+  }
+
+  /// A line in front of the body's own.
+  Writer &headLine() {
+    text_.from(start_);
+    return text_.line();
   }
 
   void functionEnd() {
@@ -249,14 +267,14 @@ private:
   void prologue() {
     std::size_t i = 0;
     for (const FileId file : e_.takeFiles()) {
-      text_.line() << "  constexpr const char *" << Emitter::fileConstant(i++) << " = \""
-                   << escaped(c_.program.sources.file(file).name()) << "\";";
+      headLine() << "  constexpr const char *" << Emitter::fileConstant(i++) << " = \""
+                 << escaped(c_.program.sources.file(file).name()) << "\";";
       text_.endLine();
     }
     for (const Emitter::RootUse &use : e_.takeRoots()) {
-      text_.line() << "  auto &" << use.reference << " = ::stride::root<"
-                   << rootType(c_.names, use.root) << ">(ctx__, " << rootPlace(c_.names, use.root)
-                   << ");";
+      headLine() << "  auto &" << use.reference << " = ::stride::root<"
+                 << rootType(c_.names, use.root) << ">(ctx__, " << rootPlace(c_.names, use.root)
+                 << ");";
       text_.endLine();
     }
     const unsigned areas = e_.takeAreas();
@@ -264,8 +282,8 @@ private:
       if ((areas >> area & 1U) == 0)
         continue;
       const char letter = "iqm"[area];
-      text_.line() << "  ::stride::BYTE *const image__" << letter
-                   << " = ::stride::area(ctx__, ::st::image__" << letter << "__at__);";
+      headLine() << "  ::stride::BYTE *const image__" << letter
+                 << " = ::stride::area(ctx__, ::st::image__" << letter << "__at__);";
       text_.endLine();
     }
   }
@@ -273,7 +291,7 @@ private:
   void budget() {
     if (!e_.usesBudget())
       return;
-    text_.line() << "  ::stride::LoopBudget budget__(ctx__);";
+    headLine() << "  ::stride::LoopBudget budget__(ctx__);";
     text_.endLine();
   }
 
@@ -288,7 +306,7 @@ private:
     e_.writer().indent();
     for (const VarSymbol *v : pou->variables) {
       if (v->section == Section::temp)
-        e_.declareLocal(v);
+        e_.declareLocal(v, startOf(pou));
     }
     return e_.takeWriter();
   }
@@ -313,6 +331,7 @@ private:
   Context &c_;
   Emitter e_;
   Writer text_;
+  Span start_; ///< of the function that is being written
   std::string path_;
   std::vector<Piece> pieces_;
 };

@@ -14,7 +14,8 @@ struct Installation {
   std::vector<std::filesystem::path> libraries; ///< archives that applications link, in this order
   std::vector<std::string> compileFlags;        ///< besides the dialect's (a sanitizer's)
   std::vector<std::string> linkFlags;
-  std::filesystem::path host; ///< stride-host
+  std::filesystem::path host;        ///< stride-host
+  std::filesystem::path debugScript; ///< what gdb knows of ST
   /// With `main` and all of stride-host, for static executables: linked before `libraries`.
   std::vector<std::filesystem::path> hostLibraries;
   std::vector<std::string> staticFlags; ///< linked behind everything else

@@ -32,6 +32,7 @@ TEST(CodegenOutput, BodiesAreReadable) {
 
 namespace st::user {
 
+#line 3 "src/Main.st"
 void Main::body__(::stride::Ctx &) {
 #line 3 "src/Main.st"
   b = a + b * 2;
@@ -39,7 +40,7 @@ void Main::body__(::stride::Ctx &) {
 #line 7
   run = (x > 1.0 || a < 3) && !run;
 }
-#line 21 "user/Main.cpp"
+#line 22 "user/Main.cpp"
 } // namespace st::user
 )");
   EXPECT_THAT(fileText(files, "st/user/Main.h"), HasSubstr(R"(struct Main {

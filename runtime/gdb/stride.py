@@ -1,0 +1,528 @@
+"""gdb for ST: values as ST literals, frames as POUs, `st print`, `st break`, `st roots`, `st catch`.
+
+Loaded by `stride debug`, or by hand: (gdb) source <prefix>/share/stride/gdb/stride.py
+Knows the form of generated code (docs/generated-code.md) and nothing of a particular program: types
+come from the debug information, the names of enumerators from the application's type table.
+"""
+
+import datetime
+import re
+
+import gdb
+import gdb.printing
+import gdb.types
+import gdb.xmethod
+from gdb.FrameDecorator import FrameDecorator
+
+# ---------------------------------------------------------------- values
+
+
+def duration(units, per_second, prefix):
+    """An ST duration literal of `units`, of which `per_second` make a second."""
+    sign = "-" if units < 0 else ""
+    rest = abs(units)
+    parts = []
+    scale = [("d", 86400 * per_second), ("h", 3600 * per_second), ("m", 60 * per_second), ("s", per_second)]
+    if per_second >= 1000:
+        scale.append(("ms", per_second // 1000))
+    if per_second == 1000000000:
+        scale += [("us", 1000), ("ns", 1)]
+    for name, size in scale:
+        count, rest = divmod(rest, size)
+        if count:
+            parts.append(f"{count}{name}")
+    return f"{prefix}{sign}{''.join(parts) or '0' + ('ns' if per_second > 1000 else 'ms')}"
+
+
+def time_of_day(units, per_second):
+    seconds, fraction = divmod(units, per_second)
+    digits = len(str(per_second)) - 1
+    text = f"{seconds // 3600:02}:{seconds // 60 % 60:02}:{seconds % 60:02}"
+    return text + (f".{fraction:0{digits}}".rstrip("0") if fraction else "")
+
+
+def date(units, per_second):
+    day = datetime.date(1970, 1, 1) + datetime.timedelta(days=units // (86400 * per_second))
+    return day.isoformat()
+
+
+def date_and_time(units, per_second):
+    return f"{date(units, per_second)}-{time_of_day(units % (86400 * per_second), per_second)}"
+
+
+def real(value, digits):
+    number = float(value)
+    for precision in range(1, digits + 1):
+        text = f"{number:.{precision}g}"
+        if gdb.Value(float(text)).cast(value.type.strip_typedefs()) == value:
+            break
+    return text if any(c in text for c in ".en") else text + ".0"
+
+
+def text_literal(codes, quote):
+    """An ST string literal of character codes, up to the NUL."""
+    out = []
+    for code in codes:
+        if code == 0:
+            break
+        if chr(code) in (quote, "$"):
+            out.append("$" + chr(code))
+        elif code in (9, 10, 12, 13):
+            out.append({9: "$T", 10: "$N", 12: "$P", 13: "$R"}[code])
+        elif 32 <= code < 127 or code >= 160:
+            out.append(chr(code))
+        else:
+            out.append(f"${code:02X}" if quote == "'" else f"${code:04X}")
+    return quote + "".join(out) + quote
+
+
+def codes_of(array, unit_bytes):
+    """The elements of a C array of characters, read at once."""
+    size = array.type.sizeof
+    raw = bytes(gdb.selected_inferior().read_memory(int(array.address), size)) if array.address else \
+        bytes(int(array[i]) & 0xFF for i in range(size))
+    return [int.from_bytes(raw[i:i + unit_bytes], "little") for i in range(0, size, unit_bytes)]
+
+
+ELEMENTARY = {
+    "BOOL": lambda v: "TRUE" if int(v) & 0xFF else "FALSE",
+    "SINT": lambda v: str(int(v)),
+    "USINT": lambda v: str(int(v) & 0xFF),
+    "BYTE": lambda v: f"16#{int(v) & 0xFF:02X}",
+    "WORD": lambda v: f"16#{int(v):04X}",
+    "DWORD": lambda v: f"16#{int(v):08X}",
+    "LWORD": lambda v: f"16#{int(v):016X}",
+    "REAL": lambda v: real(v, 9),
+    "LREAL": lambda v: real(v, 17),
+    "TIME": lambda v: duration(int(v), 1000, "T#"),
+    "LTIME": lambda v: duration(int(v), 1000000000, "LTIME#"),
+    "DATE": lambda v: "D#" + date(int(v), 1),
+    "LDATE": lambda v: "LD#" + date(int(v), 1000000000),
+    "TOD": lambda v: "TOD#" + time_of_day(int(v), 1000),
+    "LTOD": lambda v: "LTOD#" + time_of_day(int(v), 1000000000),
+    "DT": lambda v: "DT#" + date_and_time(int(v), 1),
+    "LDT": lambda v: "LDT#" + date_and_time(int(v), 1000000000),
+    "CHAR": lambda v: text_literal([int(v) & 0xFF], "'"),
+    "WCHAR": lambda v: text_literal([int(v)], '"'),
+}
+
+
+class TextPrinter:
+    def __init__(self, text):
+        self.text = text
+
+    def to_string(self):
+        return self.text
+
+
+# Kinds of the type table (runtime/iec/types.h) that the debug information of an array's elements does
+# not tell apart: template arguments lose their typedefs.
+KINDS = ["", "BOOL", "SINT", "INT", "DINT", "LINT", "USINT", "UINT", "UDINT", "ULINT", "BYTE", "WORD", "DWORD",
+         "LWORD", "REAL", "LREAL", "TIME", "LTIME", "DATE", "LDATE", "TOD", "LTOD", "DT", "LDT", "STRING",
+         "WSTRING", "CHAR", "WCHAR"]
+ENUM, COMPOSED, ARRAY = 32, (33, 34, 35, 36), 37
+
+
+def element_type(value):
+    """The type (of gdb) that the elements of the array `value` have in ST, or None: the type table says it for arrays
+    in the application's state."""
+    try:
+        base, table = int(state().address), next(s.value() for s in application_symbols())
+    except (gdb.error, StopIteration):
+        return None
+    if value.address is None or not 0 <= int(value.address) - base < int(table["stateSize"]):
+        return None
+    offset, size = int(value.address) - base, value.type.sizeof
+    entries = [table["roots"][i] for i in range(int(table["rootCount"]))]
+    while True:
+        entry = next((e for e in entries if int(e["offset"]) <= offset <
+                      int(e["offset"]) + int(table["types"][e["type"]]["size"])), None)
+        if entry is None:
+            return None
+        offset -= int(entry["offset"])
+        found = table["types"][entry["type"]]
+        while int(found["kind"]) == ARRAY:
+            element = table["types"][found["element"]]
+            if int(found["size"]) == size and offset % size == 0:
+                return named_type(element)
+            found, offset = element, offset % int(element["size"])
+        if int(found["kind"]) not in COMPOSED:
+            return None
+        first = int(found["firstMember"])
+        entries = [table["members"][first + i] for i in range(int(found["memberCount"]))]
+
+
+def named_type(entry):
+    kind = int(entry["kind"])
+    if kind == ENUM:
+        for name in (f"st::user::{entry['name'].string()}", entry["name"].string()):
+            try:
+                return gdb.lookup_type(name)
+            except gdb.error:
+                pass
+    elif kind < len(KINDS) and KINDS[kind] in ELEMENTARY:
+        return gdb.lookup_type(f"stride::{KINDS[kind]}")
+    return None
+
+
+class ArrayPrinter:
+    """ARRAY[lo..hi]: the elements under their ST indices."""
+
+    def __init__(self, value):
+        self.value = value
+        self.low = int(value.type.strip_typedefs().template_argument(1))
+        self.high = int(value.type.strip_typedefs().template_argument(2))
+
+    def to_string(self):
+        return f"ARRAY[{self.low}..{self.high}]"
+
+    def children(self):
+        elements, kind = self.value["v"], element_type(self.value)
+        for index in range(self.low, self.high + 1):
+            element = elements[index - self.low]
+            yield f"[{index}]", element.cast(kind) if kind else element
+
+
+def enumerators_of(name):
+    """{value: enumerator} of the enumeration `name`, or None, from the applications' type tables."""
+    for symbol in application_symbols():
+        table = symbol.value()
+        for i in range(int(table["typeCount"])):
+            entry = table["types"][i]
+            if int(entry["kind"]) == ENUM and entry["name"].string() == name:
+                first = int(entry["firstMember"])
+                found = [table["enumerators"][first + k] for k in range(int(entry["memberCount"]))]
+                return {int(e["value"]): e["name"].string() for e in found}
+    return None
+
+
+def application_symbols():
+    """What describes each loaded application (StrideAppV1)."""
+    for objfile in gdb.objfiles():
+        symbol = objfile.lookup_global_symbol("st::user::application__")
+        if symbol is not None:
+            yield symbol
+
+
+class Lookup(gdb.printing.PrettyPrinter):
+    """Picks the printer by the ST type's name, which C++ keeps as that of a typedef."""
+
+    def __init__(self):
+        super().__init__("stride", [gdb.printing.SubPrettyPrinter("values")])
+
+    def __call__(self, value):
+        kind = value.type.unqualified()
+        if kind.code == gdb.TYPE_CODE_REF:
+            return self(value.referenced_value())
+        name = kind.name or ""
+        if kind.code == gdb.TYPE_CODE_TYPEDEF:
+            return self.of_typedef(value, kind, name)
+        if name.startswith("stride::STRING<"):
+            return TextPrinter(text_literal(codes_of(value["s"], 1), "'"))
+        if name.startswith("stride::WSTRING<"):
+            return TextPrinter(text_literal(codes_of(value["s"], 2), '"'))
+        if name.startswith("stride::Array<"):
+            return ArrayPrinter(value)
+        return None
+
+    def of_typedef(self, value, kind, name):
+        if name.startswith("stride::"):
+            writer = ELEMENTARY.get(name[len("stride::"):])
+            return TextPrinter(writer(value)) if writer else None
+        if not name.startswith("st::"):
+            return None
+        target = kind.target()
+        if target.code != gdb.TYPE_CODE_TYPEDEF or not target.name.startswith("stride::"):
+            return self(value.cast(target))
+        names = enumerators_of(name.rsplit("::", 1)[1])
+        if names is None:
+            return self(value.cast(target)) # an alias of an elementary type
+        number = int(value)
+        return TextPrinter(f"{names[number]} ({number})" if number in names else str(number))
+
+
+# ---------------------------------------------------------------- a[i] as ST counts
+
+
+class IndexWorker(gdb.xmethod.XMethodWorker):
+    def get_arg_types(self):
+        return gdb.lookup_type("long")
+
+    def __call__(self, obj, index):
+        if obj.type.strip_typedefs().code in (gdb.TYPE_CODE_PTR, gdb.TYPE_CODE_REF):
+            obj = obj.referenced_value()
+        kind = obj.type.strip_typedefs().unqualified()
+        low, high = int(kind.template_argument(1)), int(kind.template_argument(2))
+        if not low <= int(index) <= high:
+            raise gdb.GdbError(f"index {int(index)} is outside of {low}..{high}")
+        kind, found = element_type(obj), obj["v"][int(index) - low]
+        return found.cast(kind) if kind else found
+
+
+class IndexMatcher(gdb.xmethod.XMethodMatcher):
+    def __init__(self):
+        super().__init__("stride-array")
+        self.methods = [gdb.xmethod.XMethod("index")]
+
+    def match(self, class_type, method_name):
+        name = class_type.strip_typedefs().unqualified().name or ""
+        return IndexWorker() if method_name == "operator[]" and name.startswith("stride::Array<") else None
+
+
+# ---------------------------------------------------------------- frames
+
+POU = re.compile(r"^st::(?:user::)?(?P<name>.+?)(?:::body__(?:call)?|__call)?(?:\(.*\))?$")
+
+
+def pou_name(function):
+    """`Counter` of st::user::Counter::body__, `Counter.Reset` of a method; None: not of ST."""
+    if not isinstance(function, str) or not function.startswith("st::"):
+        return None
+    name = POU.match(function).group("name")
+    for inner, outer in (("__get", ".Get"), ("__set", ".Set")):
+        if name.endswith(inner):
+            name = name[:-len(inner)] + outer
+    name = name.replace("::init__", " (initial values)").replace("::exit__", " (FB_Exit)")
+    return name.replace("::", ".").replace("__", ".")
+
+
+class PouFrame(FrameDecorator):
+    """A frame of ST: the POU's name, its inputs and variables without what Stride adds."""
+
+    def function(self):
+        return pou_name(super().function()) or super().function()
+
+    def visible(self, entries):
+        return [e for e in entries or [] if "__" not in str(e.symbol()) and str(e.symbol()) != "this"]
+
+    def frame_args(self):
+        return self.visible(super().frame_args())
+
+    def frame_locals(self):
+        return self.visible(super().frame_locals())
+
+
+class PouFilter:
+    """`bt` shows the POUs; `bt -no-filters` everything."""
+
+    def __init__(self):
+        self.name = "stride"
+        self.priority = 100
+        self.enabled = True
+        gdb.frame_filters[self.name] = self
+
+    def filter(self, frames):
+        frames = list(frames)
+        kept = [PouFrame(f) for f in frames if pou_name(FrameDecorator.function(f))]
+        return iter(kept or frames)
+
+
+# ---------------------------------------------------------------- paths
+
+STEP = re.compile(r"\s*(?:\.?\s*(?P<name>[A-Za-z_]\w*)|\[(?P<index>[^\]]*)\]|(?P<deref>\^))")
+
+
+def field(value, name):
+    """The member `name` of a structure, whatever its case, also an inherited one; or None."""
+    kind = value.type.strip_typedefs()
+    if kind.code in (gdb.TYPE_CODE_PTR, gdb.TYPE_CODE_REF):
+        return field(value.referenced_value(), name)
+    if kind.code not in (gdb.TYPE_CODE_STRUCT, gdb.TYPE_CODE_UNION):
+        return None
+    for member in kind.fields():
+        if member.name and member.name.lower() in (name.lower(), name.lower() + "_"):
+            return value[member]
+    for member in kind.fields():
+        if member.name == "base__":
+            return field(value[member], name)
+    return None
+
+
+def local(name):
+    """A variable of the selected frame: local, argument, or of its instance."""
+    frame = gdb.selected_frame()
+    block = frame.block() if frame.is_valid() else None
+    while block is not None and not block.is_global and not block.is_static:
+        for symbol in block:
+            if (symbol.is_variable or symbol.is_argument) and symbol.name.lower() == name.lower():
+                return symbol.value(frame) if symbol.needs_frame else symbol.value()
+        if block.function is not None:
+            break
+        block = block.superblock
+    try:
+        return field(frame.read_var("this"), name)
+    except ValueError:
+        return None
+
+
+def state():
+    """The state of the application whose code is running."""
+    frame = gdb.selected_frame()
+    while frame is not None:
+        try:
+            context = frame.read_var("ctx__")
+        except (ValueError, RuntimeError):
+            context = None
+        if context is not None and not context.is_optimized_out:
+            if context.type.code == gdb.TYPE_CODE_REF:
+                context = context.referenced_value().address
+            return context["state"].cast(gdb.lookup_type("st::user::App__").pointer()).dereference()
+        frame = frame.older()
+    raise gdb.GdbError("no POU is being executed here: set a breakpoint in one and continue")
+
+
+def roots():
+    """(ST name, value) of every program and variable list, then of every global variable."""
+    everything = state()
+    lists = []
+    for member in everything.type.fields():
+        if member.name.endswith("__program"):
+            yield member.name[:-len("__program")], everything[member]
+        elif member.name.endswith("__") and everything[member].type.strip_typedefs().code == gdb.TYPE_CODE_STRUCT:
+            lists.append((member.name[:-2].replace("__", "."), everything[member]))
+    yield from lists
+    for _, variables in lists:
+        for member in variables.type.strip_typedefs().fields():
+            yield member.name, variables[member]
+
+
+def resolve(path):
+    """The value that an ST path names, seen from the selected frame."""
+    position, value, walked = 0, None, ""
+    while position < len(path.rstrip()):
+        step = STEP.match(path, position)
+        if step is None:
+            raise gdb.GdbError(f"`{path[position:]}` is no part of an ST path like Main.axis[3].fPos")
+        position = step.end()
+        if step.group("name"):
+            value = first(step.group("name")) if value is None else field(value, step.group("name"))
+            if value is None:
+                where = f" in `{walked}`" if walked else "; `st roots` lists the programs and global variables"
+                raise gdb.GdbError(f"there is no `{step.group('name')}`{where}")
+        elif value is None:
+            raise gdb.GdbError("a path begins with a name")
+        elif step.group("index") is not None:
+            for index in step.group("index").split(","):
+                value = element(value, index)
+        else:
+            value = value.dereference()
+        walked = path[:position].strip()
+    if value is None:
+        raise gdb.GdbError("say what: st print Main.axis[3].fPos")
+    return value.referenced_value() if value.type.code == gdb.TYPE_CODE_REF else value
+
+
+def first(name):
+    found = local(name)
+    if found is not None:
+        return found
+    return next((value for root, value in roots() if root.lower() == name.lower()), None)
+
+
+def element(value, text):
+    try:
+        index = int(text)
+    except ValueError:
+        index = int(resolve(text.strip()))
+    if value.type.code == gdb.TYPE_CODE_REF:
+        value = value.referenced_value()
+    if not (value.type.strip_typedefs().name or "").startswith("stride::Array<"):
+        raise gdb.GdbError(f"`[{text}]`: that is no array")
+    return IndexWorker()(value, index)
+
+
+# ---------------------------------------------------------------- commands
+
+
+class St(gdb.Command):
+    """Commands for ST programs."""
+
+    def __init__(self):
+        super().__init__("st", gdb.COMMAND_DATA, prefix=True)
+
+
+class Print(gdb.Command):
+    """st print PATH: a variable by its ST path, whatever its case.
+Local names first, then programs and global variables: st print Main.axis[3].fPos, st print p^.x"""
+
+    def __init__(self):
+        super().__init__("st print", gdb.COMMAND_DATA)
+
+    def invoke(self, argument, from_tty):
+        print(f"{argument.strip()} = {resolve(argument).format_string()}")
+
+
+class Roots(gdb.Command):
+    """st roots: the programs, variable lists and global variables."""
+
+    def __init__(self):
+        super().__init__("st roots", gdb.COMMAND_DATA)
+
+    def invoke(self, argument, from_tty):
+        for name, _ in roots():
+            print(name)
+
+
+class Start(gdb.Command):
+    """st start: run until the application is loaded, so that breakpoints find its POUs."""
+
+    def __init__(self):
+        super().__init__("st start", gdb.COMMAND_RUNNING)
+
+    def invoke(self, argument, from_tty):
+        program = gdb.execute("show args", to_string=True).split('"', 1)[1].rsplit('"', 1)[0]
+        application = next((word for word in program.split() if word.endswith(".so")), None)
+        if application is None:
+            raise gdb.GdbError(f"there is no application in the arguments of the program: {program}")
+        gdb.execute(f"tcatch load {re.escape(application.rsplit('/', 1)[-1].strip(chr(39)))}$", to_string=True)
+        gdb.execute("run", to_string=True)
+
+
+class Break(gdb.Command):
+    """st break POU: stop when a program, block, function or method (Block.Method) is entered."""
+
+    def __init__(self):
+        super().__init__("st break", gdb.COMMAND_BREAKPOINTS)
+
+    def invoke(self, argument, from_tty):
+        name = argument.strip().replace(".", "::")
+        if not name:
+            raise gdb.GdbError("say where: st break Counter, st break Counter.Reset")
+        for place in (f"st::user::{name}::body__", f"st::user::{name}", f"st::{name}::body__", f"st::{name}"):
+            try:
+                gdb.decode_line(place)
+            except gdb.error:
+                continue
+            gdb.Breakpoint(function=place, qualified=True)
+            return
+        loaded = any(True for _ in application_symbols())
+        hint = "its name as in ST: Counter, Counter.Reset" if loaded else "`st start` loads the application"
+        raise gdb.GdbError(f"there is no POU `{argument.strip()}`; {hint}")
+
+
+class Catch(gdb.Command):
+    """st catch: stop where an ST exception (division by zero, index, null pointer …) is raised."""
+
+    def __init__(self):
+        super().__init__("st catch", gdb.COMMAND_BREAKPOINTS)
+
+    def invoke(self, argument, from_tty):
+        for function in ("stride::raise", "stride::raiseDetail"):
+            gdb.Breakpoint(function)
+
+
+def install():
+    gdb.printing.register_pretty_printer(None, Lookup(), replace=True)
+    gdb.xmethod.register_xmethod_matcher(None, IndexMatcher(), replace=True)
+    PouFilter()
+    for command in (St, Start, Print, Roots, Break, Catch):
+        command()
+    # The application is loaded by the host, so breakpoints in it wait; names are as in ST; `step` goes
+    # over the runtime's helpers.
+    gdb.execute("set breakpoint pending on")
+    gdb.execute("set case-sensitive off", to_string=True)
+    gdb.execute("skip -gfi */runtime/iec/*", to_string=True)
+    gdb.execute("set print pretty on")
+
+
+install()
