@@ -14,7 +14,7 @@ namespace stc::cli {
 namespace {
 
 constexpr const char *kVersion = "stride " STRIDE_VERSION;
-constexpr int kUsageError = 2;
+constexpr int kUsageError = 1;
 
 /// `error=SE0390`, `off=unused-variable`, `error=all-warnings`
 void addLevel(Levels &levels, const std::string &text) {
@@ -274,6 +274,23 @@ int run(int argc, char **argv) {
     if (!list && what.empty())
       throw CLI::RequiredError("CODE or --list");
     exitCode = list ? explainList() : explainCommand(what);
+  });
+
+  std::string topic;
+  CLI::App *help = app.add_subcommand("help", "Show the commands, or the options of one");
+  help->add_option("COMMAND", topic, "check, build, sim, …")->type_name("");
+  help->callback([&] {
+    if (topic == "ctl") {
+      exitCode = hostOnlyCommand("ctl", {"--help"});
+      return;
+    }
+    const CLI::App *shown = topic.empty() ? &app : nullptr;
+    for (const CLI::App *command : app.get_subcommands({}))
+      if (command->get_name() == topic)
+        shown = command;
+    if (shown == nullptr)
+      throw CLI::ValidationError("COMMAND", "there is no command `" + topic + "`");
+    std::fputs(shown->help(topic.empty() ? "" : "stride").c_str(), stdout);
   });
 
   try {

@@ -128,6 +128,37 @@ private:
   std::vector<std::uint32_t> lineStarts_;
 };
 
+bool isAlnum(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
+/// `16#1000` is 16 and a comment in TOML: says so at the first such number. False: there is one.
+bool noBases(const TomlNode &node, const SourceFile &file, Diagnostics &diagnostics) {
+  const std::string_view text = file.text();
+  std::uint32_t end = node.span.end;
+  if (node.kind == TomlKind::integer && end + 1 < text.size() && text[end] == '#' &&
+      isAlnum(text[end + 1])) {
+    const std::string_view base = text.substr(node.span.begin, end - node.span.begin);
+    const std::uint32_t digits = end + 1;
+    for (end = digits; end < text.size() && (isAlnum(text[end]) || text[end] == '_');)
+      ++end;
+    const std::string_view prefix = base == "16"  ? "0x"
+                                    : base == "8" ? "0o"
+                                    : base == "2" ? "0b"
+                                                  : "";
+    Diagnostic &d =
+        diagnostics.report(Code::tomlSyntax, {file.id(), node.span.begin, end},
+                           "`" + file.name() + "` is not written as TOML has it",
+                           "TOML reads " + std::string(base) + " and a comment behind it");
+    if (!prefix.empty())
+      d.help("write `" + std::string(prefix) + std::string(text.substr(digits, end - digits)) +
+             "`");
+    return false;
+  }
+  return std::all_of(node.children.begin(), node.children.end(),
+                     [&](const TomlNode &child) { return noBases(child, file, diagnostics); });
+}
+
 bool isWordStart(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
 std::uint32_t wordEnd(std::string_view text, std::uint32_t at) {
@@ -197,7 +228,8 @@ std::unique_ptr<TomlNode> parseToml(const SourceFile &file, Diagnostics &diagnos
                                                   : "text stands in quotes");
     return nullptr;
   }
-  return std::make_unique<TomlNode>(reader.node(result.table()));
+  auto tree = std::make_unique<TomlNode>(reader.node(result.table()));
+  return noBases(*tree, file, diagnostics) ? std::move(tree) : nullptr;
 }
 
 std::string_view describe(const TomlNode &node) {

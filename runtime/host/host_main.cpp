@@ -147,7 +147,7 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
   run.add_option("--core", texts.core,
                  "Processor of the tasks that choose none; the last one "
                  "this process may use without it")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(0, 4095))
       ->type_name("N");
   run.add_flag("--turns", texts.options.turns,
                "Only one task at a time is in a cycle, also with real-time priorities");

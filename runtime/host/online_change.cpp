@@ -29,8 +29,15 @@ std::string spelledAnew(const std::string &path) {
 } // namespace
 
 OnlineChange::OnlineChange(Instance &instance, const std::string &path) : instance_(&instance) {
-  fresh_ = std::make_unique<app::Application>(
-      app::Application::load(spelledAnew(path), runtimeLayouts()));
+  const std::string spelled = spelledAnew(path);
+  try {
+    fresh_ = std::make_unique<app::Application>(app::Application::load(spelled, runtimeLayouts()));
+  } catch (const app::Error &error) { // in the words of the user
+    std::string text = error.what();
+    for (std::size_t at = 0; (at = text.find(spelled, at)) != std::string::npos;)
+      text.replace(at, spelled.size(), path);
+    throw app::Error(text);
+  }
   try {
     initialiseGuarded(*fresh_, true, false);
   } catch (const StException &exception) {
@@ -68,7 +75,9 @@ std::string OnlineChange::report(bool all) const {
   std::string text;
   for (const std::string &refusal : refusals_)
     text += refusal + '\n';
-  text += plan_->report().text(all);
+  // What would be kept does not matter then.
+  if (refusals_.empty() || plan_->report().verdict() == app::Verdict::Refused)
+    text += plan_->report().text(all);
   return text;
 }
 

@@ -95,6 +95,13 @@ public:
       trace_->row(timeNs, instance_->state());
     progress_->update(timeNs);
   }
+  /// The builds whose time has not come.
+  std::vector<std::string> changesLeft() const {
+    std::vector<std::string> paths;
+    for (std::size_t i = next_; i < changes_->size(); ++i)
+      paths.push_back((*changes_)[i].path);
+    return paths;
+  }
   int64_t nextNs() const override {
     const int64_t change =
         next_ < changes_->size() ? (*changes_)[next_].timeNs : std::numeric_limits<int64_t>::max();
@@ -280,6 +287,8 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
   else if (!result.interrupted) {
     for (const std::string &left : sets.left())
       fmt::print(stderr, "warning: --set '{}' was not used: the run ends before\n", left);
+    for (const std::string &left : observer.changesLeft())
+      fmt::print(stderr, "warning: --change '{}' was not done: the run ends before\n", left);
     if (script)
       for (const std::string &line : script->remarks())
         fmt::print(stderr, "{}\n", line);

@@ -53,6 +53,11 @@ void Service::detach(std::size_t number) {
     send_(subscription.client, lineOf({{"event", "ended"}, {"subscription", subscription.number}}));
     return true;
   });
+  last_.resize(applications_.size());
+  if (applications_[number].symbols != nullptr) {
+    last_[number] = stateOf(applications_[number]);
+    last_[number]["state"] = "stopped";
+  }
   applications_[number].symbols = nullptr;
   applications_[number].tasks = nullptr;
 }

@@ -111,6 +111,7 @@ private:
   Json list(const Json &request) const;
   Json tasks(const Json &request, bool figures) const;
   Json state(const Json &request) const;
+  static Json stateOf(const ServedApplication &application);
   Json record(const Json &request);
   Json recordState(const Json &request) const;
   Json recordRead(const Json &request) const;
@@ -127,6 +128,7 @@ private:
   Send send_;
   std::map<std::string, Operation> operations_;
   std::vector<ServedApplication> applications_;
+  std::vector<Json> last_; ///< What op "state" says of applications that do not run any more.
   std::vector<Pending> pending_;
   std::vector<Subscription> subscriptions_;
   uint64_t lastSubscription_ = 0;

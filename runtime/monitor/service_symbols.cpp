@@ -215,7 +215,13 @@ json Service::tasks(const json &request, bool figures) const {
 }
 
 json Service::state(const json &request) const {
-  const ServedApplication &application = running(applicationOf(request));
+  const std::size_t number = applicationOf(request);
+  if (number < last_.size() && applications_[number].symbols == nullptr && !last_[number].is_null())
+    return last_[number];
+  return stateOf(running(number));
+}
+
+json Service::stateOf(const ServedApplication &application) {
   const StrideAppV1 &app = application.symbols->symbols().app();
   json result = {{"name", application.name},
                  {"build", fmt::format("{:016x}", app.buildHash)},

@@ -72,6 +72,19 @@ TaskSet::~TaskSet() = default;
 
 void TaskSet::addHook(uint32_t task, CycleHook &hook) { tasks_[task]->hooks.push_back(&hook); }
 
+/// A loop that the watchdog has ended need not be endless.
+StException TaskSet::watchdogIn(const StException &loop, const Task &task,
+                                const TaskDesc &desc) noexcept {
+  char detail[160];
+  const auto end = fmt::format_to_n(
+      detail, sizeof detail - 1, "{} us in this loop, allowed are {} us",
+      (monotonicNs() - task.startedNs + 999) / 1000, desc.watchdogNs * sensitivity(desc) / 1000);
+  *end.out = 0;
+  StException watchdog(ExceptionCode::Watchdog, loop.file(), loop.line(), loop.column(), detail);
+  watchdog.setCalls(loop.calls().data(), loop.calls().size());
+  return watchdog;
+}
+
 void TaskSet::runCycle(uint32_t index, int64_t startNs, int64_t latencyNs) noexcept {
   Task &task = *tasks_[index];
   Ctx &ctx = task.ctx;
@@ -87,7 +100,9 @@ void TaskSet::runCycle(uint32_t index, int64_t startNs, int64_t latencyNs) noexc
   if (runs) {
     const TaskDesc &desc = app_->tasks[index];
     if (const std::optional<StException> exception = guardedCall(desc.run, ctx)) {
-      fail(*exception, index, ctx.cycle, startNs);
+      const bool late = limit_ == LoopLimit::Clock && desc.watchdogNs > 0 &&
+                        exception->code() == ExceptionCode::EndlessLoop;
+      fail(late ? watchdogIn(*exception, task, desc) : *exception, index, ctx.cycle, startNs);
       tellHooks(task);
     }
   }

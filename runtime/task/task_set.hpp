@@ -101,6 +101,8 @@ private:
   };
 
   static int64_t refill(Ctx *ctx);
+  static StException watchdogIn(const StException &loop, const Task &task,
+                                const TaskDesc &desc) noexcept;
   void fail(const StException &exception, uint32_t task, uint64_t cycle, int64_t timeNs) noexcept;
   void tellHooks(Task &task) noexcept;
   void watch(uint32_t index, int64_t runNs) noexcept;

@@ -232,7 +232,8 @@ TEST_F(Run, TheWatchdogStopsAnEndlessLoop) {
                          "programs = [\"PLC_PRG\"]\n");
   const ProcessResult result = stride({"run", "p", "--for", "20s", "--quiet"});
   EXPECT_EQ(result.exitCode, 2);
-  EXPECT_THAT(result.err, HasSubstr("error: endless loop at a.st:5:"));
+  EXPECT_THAT(result.err, AllOf(HasSubstr("error: cycle longer than the watchdog allows: "),
+                                HasSubstr(" us in this loop, allowed are 20000 us at a.st:5:")));
 }
 
 TEST_F(Run, BadOptionsAreRefused) {

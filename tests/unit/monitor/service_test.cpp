@@ -211,7 +211,9 @@ TEST_F(Protocol, AnApplicationThatEnds) {
   service.detach(0);
   EXPECT_EQ(last(1)["error"]["code"], "gone");
   EXPECT_EQ(last(2)["event"], "ended");
-  EXPECT_THAT(refused(R"({"op":"state"})"), HasSubstr("does not run at the moment"));
+  EXPECT_THAT(refused(R"({"op":"read","names":["total"]})"),
+              HasSubstr("does not run at the moment"));
+  EXPECT_EQ(result(R"({"op":"state"})")["state"], "stopped");
 }
 
 } // namespace

@@ -241,7 +241,7 @@ TEST(RealSchedulerTest, TheWatchdogEndsAnEndlessLoop) {
   RealScheduler scheduler(tasks, kInTurns);
   scheduler.start();
   waitUntil([&] { return tasks.fault().has_value(); });
-  EXPECT_EQ(tasks.fault()->exception.code(), ExceptionCode::EndlessLoop);
+  EXPECT_EQ(tasks.fault()->exception.code(), ExceptionCode::Watchdog);
   EXPECT_EQ(tasks.fault()->exception.line(), 9U);
 }
 
