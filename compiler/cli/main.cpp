@@ -277,6 +277,7 @@ int run(int argc, char **argv) {
   });
 
   std::string topic;
+  std::string overview;
   CLI::App *help = app.add_subcommand("help", "Show the commands, or the options of one");
   help->add_option("COMMAND", topic, "check, build, sim, …")->type_name("");
   help->callback([&] {
@@ -284,14 +285,18 @@ int run(int argc, char **argv) {
       exitCode = hostOnlyCommand("ctl", {"--help"});
       return;
     }
-    const CLI::App *shown = topic.empty() ? &app : nullptr;
+    const CLI::App *shown = nullptr;
     for (const CLI::App *command : app.get_subcommands({}))
       if (command->get_name() == topic)
         shown = command;
-    if (shown == nullptr)
+    if (topic.empty())
+      std::fputs(overview.c_str(), stdout);
+    else if (shown == nullptr)
       throw CLI::ValidationError("COMMAND", "there is no command `" + topic + "`");
-    std::fputs(shown->help(topic.empty() ? "" : "stride").c_str(), stdout);
+    else
+      std::fputs(shown->help("stride").c_str(), stdout);
   });
+  overview = app.help(); // asked while a command is parsed, it would be that command's
 
   try {
     app.parse(argc, argv);
