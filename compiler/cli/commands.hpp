@@ -2,6 +2,7 @@
 // The commands of `stride`. Each returns the exit code: 0 exactly when there was no error.
 
 #include "compiler/cli/terminal.hpp"
+#include "compiler/semantics/program.hpp"
 
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ struct ProjectOptions {
   Levels levels;                    ///< -W
   std::vector<std::string> defines; ///< `NAME` or `NAME=VALUE` for `{IF defined (…)}`
 };
+
+/// What they say of the project's compilation.
+[[nodiscard]] Settings settingsOf(const ProjectOptions &options);
 
 int checkCommand(const ProjectOptions &options);
 
@@ -50,6 +54,10 @@ int resetCommand(const ProjectOptions &options, const std::string &kind);
 
 /// Becomes stride-host with `command` and these arguments; nothing is built.
 int hostOnlyCommand(const std::string &command, const std::vector<std::string> &hostArguments);
+
+/// Writes the reference of the project, or with `library` of the standard library, as HTML into
+/// the folder `out`.
+int documentCommand(const ProjectOptions &options, bool library, const std::string &out);
 
 int plotCommand(const std::string &trace, const std::string &out);
 

@@ -256,6 +256,14 @@ int run(int argc, char **argv) {
   ctl->set_help_flag();
   ctl->callback([&] { exitCode = hostOnlyCommand("ctl", ctl->remaining()); });
 
+  bool library = false;
+  CLI::App *document = app.add_subcommand("doc", "Write the reference of the project as HTML");
+  addProjectOptions(*document, options, false);
+  document->add_flag("--library", library, "That of the standard library instead");
+  document->add_option("-o,--out", out, "Folder for the pages (default: doc)")->type_name("FOLDER");
+  document->callback(
+      [&] { exitCode = documentCommand(options, library, out.empty() ? "doc" : out); });
+
   std::string trace;
   CLI::App *plot = app.add_subcommand("plot", "Draw a trace");
   plot->add_option("TRACE", trace, "CSV file that `stride sim --out` wrote")

@@ -15,8 +15,6 @@
 
 namespace stc::cli {
 
-namespace {
-
 Settings settingsOf(const ProjectOptions &options) {
   Settings settings;
   settings.checks = !options.unchecked;
@@ -26,6 +24,8 @@ Settings settingsOf(const ProjectOptions &options) {
       settings.defines.push_back(*define);
   return settings;
 }
+
+namespace {
 
 // Opens and builds the project and shows its diagnostics. `exitCode` is that of the command.
 std::optional<BuildResult> buildProject(const ProjectOptions &options, BuildOptions build,

@@ -1,0 +1,252 @@
+#include "compiler/doc/html.hpp"
+
+#include <cctype>
+#include <map>
+
+namespace stc::doc {
+
+namespace {
+
+constexpr const char *kStyle =
+    R"css(:root { color-scheme: light dark; --line: #8884; --soft: #8882; --link: #0b63c5; }
+@media (prefers-color-scheme: dark) { :root { --link: #7ab8ff; } }
+body { font: 16px/1.5 system-ui, sans-serif; margin: 0; display: grid; grid-template-columns: 16rem minmax(0, 52rem); }
+nav { border-right: 1px solid var(--line); padding: 1rem; height: 100vh; box-sizing: border-box; overflow: auto;
+      position: sticky; top: 0; }
+nav ul { list-style: none; margin: 0; padding: 0; font-size: 0.9rem; }
+nav input { width: 100%; box-sizing: border-box; font: inherit; padding: 0.3rem; margin-bottom: 0.8rem; }
+main { padding: 1rem 2rem 4rem; }
+a { color: var(--link); text-decoration: none; }
+a:hover { text-decoration: underline; }
+section { border-top: 1px solid var(--line); padding-top: 0.5rem; margin-top: 1.5rem; }
+section section { border: 0; margin-left: 1.5rem; }
+h2, h3 { font-family: ui-monospace, monospace; font-size: 1.15rem; margin: 0.4rem 0; }
+h3 { font-size: 1rem; }
+.kind { font: 0.8rem system-ui, sans-serif; opacity: 0.7; margin-right: 0.6rem; }
+.suffix { font-weight: normal; }
+table { border-collapse: collapse; width: 100%; font-size: 0.92rem; }
+td, th { border-bottom: 1px solid var(--soft); padding: 0.2rem 0.8rem 0.2rem 0; text-align: left; vertical-align: top; }
+td.name, td.type { font-family: ui-monospace, monospace; white-space: nowrap; }
+caption { text-align: left; font-weight: 600; padding-top: 0.6rem; }
+@media (max-width: 50rem) { body { display: block; } nav { position: static; height: auto; max-height: 40vh; } }
+)css";
+
+constexpr const char *kSearch = R"js('use strict';
+(function () {
+  const input = document.getElementById('search');
+  const list = document.getElementById('found');
+  const contents = document.getElementById('contents');
+  input.addEventListener('input', function () {
+    const words = input.value.toLowerCase().split(/\s+/).filter(Boolean);
+    contents.hidden = words.length > 0;
+    list.replaceChildren();
+    if (words.length === 0) return;
+    const rank = function (e) {
+      const name = e[0].toLowerCase();
+      return name === words[0] ? 0 : name.startsWith(words[0]) ? 1 : name.includes(words[0]) ? 2 : 3;
+    };
+    const hits = index.filter(function (e) {
+      const text = (e[0] + ' ' + e[2] + ' ' + e[3]).toLowerCase();
+      return words.every(function (w) { return text.includes(w); });
+    });
+    hits.sort(function (a, b) { return rank(a) - rank(b) || a[0].localeCompare(b[0]); });
+    for (const e of hits.slice(0, 100)) {
+      const item = document.createElement('li');
+      const link = document.createElement('a');
+      link.href = e[1];
+      link.textContent = e[0];
+      link.title = e[2] + ': ' + e[3];
+      item.append(link);
+      list.append(item);
+    }
+    if (hits.length === 0) list.textContent = 'nothing found';
+  });
+})();
+)js";
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+    case '&':
+      out += "&amp;";
+      break;
+    case '<':
+      out += "&lt;";
+      break;
+    case '>':
+      out += "&gt;";
+      break;
+    case '"':
+      out += "&quot;";
+      break;
+    default:
+      out += c;
+    }
+  }
+  return out;
+}
+
+/// A JavaScript string literal that may stand in a script of its own file.
+std::string literal(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      out += '\\';
+    out += c == '\n' ? ' ' : c;
+  }
+  return out + '"';
+}
+
+bool isWord(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+class Writer {
+public:
+  Writer(const std::string &title, const std::vector<Module> &modules)
+      : title_(title), modules_(modules) {
+    for (const Module &module : modules)
+      for (const Entry &entry : module.entries)
+        places_.try_emplace(entry.name, fileOf(module) + "#" + entry.name);
+  }
+
+  std::vector<Page> pages() {
+    std::vector<Page> pages = {
+        {"style.css", kStyle}, {"search.js", searchIndex()}, {"index.html", indexPage()}};
+    for (const Module &module : modules_)
+      pages.push_back({fileOf(module), modulePage(module)});
+    return pages;
+  }
+
+private:
+  static std::string fileOf(const Module &module) { return module.name + ".html"; }
+
+  std::string searchIndex() {
+    std::string out = "const index = [\n";
+    for (const Module &module : modules_) {
+      for (const Entry &entry : module.entries) {
+        row(out, module, entry);
+        for (const Entry &part : entry.parts)
+          row(out, module, part);
+      }
+    }
+    return out + "];\n" + kSearch;
+  }
+
+  static void row(std::string &out, const Module &module, const Entry &entry) {
+    out += '[' + literal(entry.name) + ',' + literal(fileOf(module) + "#" + entry.name) + ',' +
+           literal(module.name + ", " + entry.kind) + ',' + literal(firstSentence(entry.text)) +
+           "],\n";
+  }
+
+  [[nodiscard]] std::string page(const std::string &heading, const std::string &contents,
+                                 const std::string &body) const {
+    return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+           "<meta name=\"viewport\" content=\"width=device-width\">\n<title>" +
+           escaped(heading) +
+           "</title>\n<link rel=\"stylesheet\" href=\"style.css\">\n</head>\n<body>\n<nav>\n"
+           "<p><a href=\"index.html\">" +
+           escaped(title_) +
+           "</a></p>\n<input id=\"search\" type=\"search\" placeholder=\"Search\" "
+           "aria-label=\"Search\">\n<ul id=\"found\"></ul>\n<ul id=\"contents\">\n" +
+           contents + "</ul>\n</nav>\n<main>\n<h1>" + escaped(heading) + "</h1>\n" + body +
+           "</main>\n<script src=\"search.js\"></script>\n</body>\n</html>\n";
+  }
+
+  std::string indexPage() {
+    std::string contents;
+    std::string body;
+    for (const Module &module : modules_) {
+      const std::string link =
+          "<a href=\"" + escaped(fileOf(module)) + "\">" + escaped(module.name) + "</a>";
+      contents += "<li>" + link + "</li>\n";
+      body += "<section>\n<h2>" + link + "</h2>\n" + paragraphs(module.text) + "<table>\n";
+      for (const Entry &entry : module.entries)
+        body += "<tr><td class=\"name\"><a href=\"" + escaped(fileOf(module) + "#" + entry.name) +
+                "\">" + escaped(entry.name) + "</a></td><td>" +
+                linked(firstSentence(entry.text), entry.name) + "</td></tr>\n";
+      body += "</table>\n</section>\n";
+    }
+    return page(title_, contents, body);
+  }
+
+  std::string modulePage(const Module &module) {
+    std::string contents;
+    std::string body = paragraphs(module.text);
+    for (const Entry &entry : module.entries) {
+      contents +=
+          "<li><a href=\"#" + escaped(entry.name) + "\">" + escaped(entry.name) + "</a></li>\n";
+      body += section(entry, "h2");
+    }
+    return page(module.name, contents, body);
+  }
+
+  std::string section(const Entry &entry, const std::string &heading) {
+    std::string out = "<section id=\"" + escaped(entry.name) + "\">\n<" + heading +
+                      "><span class=\"kind\">" + escaped(entry.kind) + "</span>" +
+                      escaped(entry.name);
+    if (!entry.suffix.empty())
+      out += " <span class=\"suffix\">" + linked(entry.suffix, entry.name) + "</span>";
+    out += "</" + heading + ">\n" + paragraphs(entry.text, entry.name);
+    for (const Group &group : entry.groups) {
+      if (group.members.empty())
+        continue;
+      out += "<table>\n<caption>" + escaped(group.title) + "</caption>\n";
+      for (const Member &member : group.members)
+        out += "<tr><td class=\"name\">" + escaped(member.name) + "</td><td class=\"type\">" +
+               linked(member.type, entry.name) +
+               (member.init.empty() ? "" : escaped(" := " + member.init)) + "</td><td>" +
+               linked(member.text, entry.name) + "</td></tr>\n";
+      out += "</table>\n";
+    }
+    for (const Entry &part : entry.parts)
+      out += section(part, "h3");
+    return out + "</section>\n";
+  }
+
+  /// Empty lines part paragraphs.
+  std::string paragraphs(const std::string &text, const std::string &self = {}) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+      std::size_t end = text.find("\n\n", at);
+      if (end == std::string::npos)
+        end = text.size();
+      out += "<p>" + linked(text.substr(at, end - at), self) + "</p>\n";
+      at = end + 2;
+    }
+    return out;
+  }
+
+  /// The text with links from the names of entries, but for `self`.
+  std::string linked(const std::string &text, const std::string &self) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+      std::size_t end = at;
+      while (end < text.size() && isWord(text[end]))
+        ++end;
+      if (end == at) {
+        out += escaped(text.substr(at++, 1));
+        continue;
+      }
+      const std::string word = text.substr(at, end - at);
+      const auto place = places_.find(word);
+      if (place != places_.end() && word != self)
+        out += "<a href=\"" + escaped(place->second) + "\">" + word + "</a>";
+      else
+        out += word;
+      at = end;
+    }
+    return out;
+  }
+
+  const std::string &title_;
+  const std::vector<Module> &modules_;
+  std::map<std::string, std::string> places_; ///< name → page and anchor
+};
+
+} // namespace
+
+std::vector<Page> htmlPages(const std::string &title, const std::vector<Module> &modules) {
+  return Writer(title, modules).pages();
+}
+
+} // namespace stc::doc
