@@ -160,7 +160,7 @@ TEST_P(Readme, ItsSnippetsWork) {
 }
 
 std::vector<std::string> allReadmes() {
-  std::vector<std::string> result{"README.md"};
+  std::vector<std::string> result{"README.md", "docs/language.md"};
   for (const fs::directory_entry &example :
        fs::directory_iterator(fs::path(STRIDE_SOURCE_DIR) / "examples"))
     if (fs::exists(example.path() / "README.md"))
