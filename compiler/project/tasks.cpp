@@ -8,13 +8,19 @@
 #include "compiler/semantics/suggest.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 #include <unordered_map>
+#include <unordered_set>
 
 namespace stc {
 
 namespace {
 
 constexpr std::int64_t kDefaultIntervalNs = 10'000'000;
+constexpr unsigned kLowestPriority = 31;
+/// No name that a user can choose.
+constexpr const char *kServiceTask = "(service)";
 
 using Declarations = std::unordered_map<std::string, const ast::Decl *>;
 
@@ -76,9 +82,27 @@ public:
       checkPrograms();
     for (AxisGroupConfig &group : config_.axisGroups)
       resolveGroup(group);
+    addServiceTask();
   }
 
 private:
+  /// Where only events start tasks, somebody has to look at the inputs on which the events depend,
+  /// and to serve scripts, traces and whoever watches.
+  void addServiceTask() {
+    const bool comesAround =
+        std::any_of(config_.tasks.begin(), config_.tasks.end(), [this](const TaskConfig &task) {
+          return task.start == TaskStart::cyclic || task.start == TaskStart::freewheeling ||
+                 onBus_.contains(&task);
+        });
+    if (comesAround)
+      return;
+    TaskConfig task;
+    task.name.text = kServiceTask;
+    task.intervalNs = kDefaultIntervalNs;
+    task.priority = kLowestPriority;
+    config_.tasks.push_back(std::move(task));
+  }
+
   void addDefaultTask(bool needsProgram) {
     TaskConfig task;
     task.name.text = "Task";
@@ -207,8 +231,10 @@ private:
             .help("add the time between two events in µs, for example `dwCycle = 2000`");
       // The simulated bus has a SYNC every dwCycle, which the task need not wait for.
       if (group.driver == "Dummy" && task->start == TaskStart::event &&
-          equalIgnoringCase(task->event.text, group.name.text + ".bSync"))
+          equalIgnoringCase(task->event.text, group.name.text + ".bSync")) {
         task->intervalNs = std::int64_t{group.cycleUs} * 1000;
+        onBus_.insert(task);
+      }
       setTaskCycle(group, group.cycleUs * 1e-6);
       return;
     }
@@ -264,6 +290,7 @@ private:
   std::vector<const ast::Decl *> programs_;
   Declarations declarations_;
   bool hadTasks_ = false;
+  std::unordered_set<const TaskConfig *> onBus_; ///< Started by the SYNC of a simulated bus.
 };
 
 // Names that the user's files give to things of the whole project.

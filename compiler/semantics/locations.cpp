@@ -368,9 +368,18 @@ void Checker::checkRetain(const VarSymbol *variable) {
       variable->section == Section::temp || variable->section == Section::inOut ||
       (variable->owner != nullptr && variable->owner->type == nullptr &&
        variable->section != Section::stat && variable->section != Section::instance);
-  const bool input = variable->location != nullptr && variable->location->area == Area::input;
-  if (!perCall && !variable->isConstant && !input)
+  const Location *const at = variable->location;
+  const bool input = at != nullptr && at->area == Area::input;
+  if (!perCall && !variable->isConstant && !input) {
+    if (at != nullptr && at->isSlot)
+      report(Code::retainWithoutEffect, variable->name.span,
+             "`" + std::string(variable->name.text) + "` is not retained",
+             "VAR_CONFIG says where it lies, and such places are not saved")
+          .help(
+              "declare it at an address of its own (`AT %MW3`), which is saved, or without AT; or "
+              "remove RETAIN or PERSISTENT");
     return;
+  }
   report(Code::retainWithoutEffect, variable->name.span,
          "`" + std::string(variable->name.text) + "` has no value to retain",
          perCall                ? "it lives only during a call"

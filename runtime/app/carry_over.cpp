@@ -67,12 +67,12 @@ CarryOver::CarryOver(const StrideAppV1 &oldApp, const StrideAppV1 &newApp, Match
   slotKnown_.resize(pairs * 2);
   Steps copies;
   Steps slots;
+  const RootDesc *const poolOfNew = pool_.present() ? poolRoot(newApp) : nullptr;
   auto added = match_.addedRoots().begin();
   for (const FieldPair &root : match_.roots()) {
     for (; added != match_.addedRoots().end() && added->offset < root.newOffset; ++added)
       copies.barrier = true;
-    const bool pool = pool_.present() && newApp.roots + root.newMember == poolRoot(newApp);
-    if (root.hold != Hold::No || pool) {
+    if (root.hold != Hold::No || newApp.roots + root.newMember == poolOfNew) {
       copies.barrier = true;
       continue;
     }

@@ -53,12 +53,12 @@ bool isLoss(Finding::Kind kind) {
 }
 
 CarryReport::CarryReport(const TypeMatch &match)
-    : match_(&match), interesting_(match.pairs().size(), -1), leaves_(match.newApp().typeCount, -1),
-      keptIn_(match.pairs().size(), -1) {
+    : match_(&match), pool_(poolRoot(match.newApp())), interesting_(match.pairs().size(), -1),
+      leaves_(match.newApp().typeCount, -1), keptIn_(match.pairs().size(), -1) {
   refuse();
   visitFields(kRoots, {}, match.roots(), match.addedRoots(), match.droppedRoots(), 1);
   for (const FieldPair &root : match.roots()) {
-    if (root.hold == Hold::No && match.newApp().roots + root.newMember != poolRoot(match.newApp()))
+    if (root.hold == Hold::No && match.newApp().roots + root.newMember != pool_)
       kept_ += keptIn(root.pair);
   }
   std::stable_sort(findings_.begin(), findings_.end(), [](const Finding &a, const Finding &b) {
@@ -164,7 +164,54 @@ void CarryReport::compareAxisGroups() {
     }
     if (!sameEncoders)
       refused("other encoders");
+    compareParameters(fmt::format("axis group {}", x.name), {x.firstParameter, x.parameterCount},
+                      {y.firstParameter, y.parameterCount});
+    for (uint32_t d = 0; sameDrives && d < x.driveCount; ++d) {
+      const DriveDesc &u = a.drives[x.firstDrive + d];
+      const DriveDesc &v = b.drives[y.firstDrive + d];
+      compareParameters(fmt::format("drive {}", u.name), {u.firstParameter, u.parameterCount},
+                        {v.firstParameter, v.parameterCount});
+    }
+    for (uint32_t e = 0; sameEncoders && e < x.encoderCount; ++e) {
+      const EncoderDesc &u = a.encoders[x.firstEncoder + e];
+      const EncoderDesc &v = b.encoders[y.firstEncoder + e];
+      compareParameters(fmt::format("encoder {}", u.name), {u.firstParameter, u.parameterCount},
+                        {v.firstParameter, v.parameterCount});
+    }
   }
+  for (uint32_t i = 0; i < std::min(a.busCount, b.busCount); ++i)
+    compareParameters(fmt::format("bus {}", a.buses[i].name),
+                      {a.buses[i].firstParameter, a.buses[i].parameterCount},
+                      {b.buses[i].firstParameter, b.buses[i].parameterCount});
+}
+
+void CarryReport::compareParameters(const std::string &owner, Section was, Section is) {
+  const auto valuesOf = [](const StrideAppV1 &app, Section section) {
+    std::map<std::string, std::string> values;
+    for (uint32_t i = 0; i < section.count; ++i) {
+      const ParameterDesc &parameter = app.parameters[section.first + i];
+      values.emplace(parameter.name, parameter.text != nullptr
+                                         ? fmt::format("\"{}\"", parameter.text)
+                                         : fmt::format("{}", parameter.number));
+    }
+    return values;
+  };
+  const std::map<std::string, std::string> before = valuesOf(match_->oldApp(), was);
+  const std::map<std::string, std::string> after = valuesOf(match_->newApp(), is);
+  const auto say = [&](const std::string &name, const std::string &change) {
+    atNextStart_.push_back(
+        fmt::format("{}: {} {}; that takes effect at the next start", owner, name, change));
+  };
+  for (const auto &[name, value] : before) {
+    const auto now = after.find(name);
+    if (now == after.end())
+      say(name, fmt::format("= {} is not given any more", value));
+    else if (now->second != value)
+      say(name, fmt::format("is {} instead of {}", now->second, value));
+  }
+  for (const auto &[name, value] : after)
+    if (!before.contains(name))
+      say(name, fmt::format("= {} is new", value));
 }
 
 void CarryReport::add(Key key, Finding finding) {
@@ -231,7 +278,7 @@ void CarryReport::visitFields(uint32_t owner, const std::string &path,
   for (const FieldPair &field : fields) {
     const Key key{owner, field.newMember, 1, Finding::Kind::Lost};
     const auto keyed = [&](Finding::Kind kind) { return Key{owner, field.newMember, 1, kind}; };
-    if (roots && b.roots + field.newMember == poolRoot(b))
+    if (roots && b.roots + field.newMember == pool_)
       continue; // what is in it is known only when it is carried over
     if (field.hold == Hold::Asked)
       add(keyed(Finding::Kind::Reset),
@@ -375,6 +422,9 @@ std::string CarryReport::text(bool all) const {
       out += "  " + refusal + "\n";
     break;
   }
+  if (all)
+    for (const std::string &line : atNextStart_)
+      out += "  " + line + "\n";
   for (const Finding &finding : findings_) {
     if (!all && !isLoss(finding.kind))
       continue;

@@ -58,6 +58,9 @@ public:
 
   /// Several lines: the verdict, then the findings; `all`: also those without a loss.
   std::string text(bool all) const;
+  /// Parameters of the PLC configuration that differ: the drivers keep those they were started
+  /// with.
+  const std::vector<std::string> &atNextStart() const { return atNextStart_; }
 
 private:
   /// Owning pair, field, 0 for old fields or 1 + array depth for new ones, kind.
@@ -65,6 +68,12 @@ private:
   void refuse();
   void compareAxisGroups();
   void compareIoDevices();
+  /// A section of the PLC configuration: where its parameters begin, and their number.
+  struct Section {
+    uint32_t first;
+    uint32_t count;
+  };
+  void compareParameters(const std::string &owner, Section was, Section is);
   void add(Key key, Finding finding);
   void visitFields(uint32_t owner, const std::string &path, const std::vector<FieldPair> &fields,
                    const std::vector<LoneField> &added, const std::vector<LoneField> &dropped,
@@ -75,8 +84,10 @@ private:
   uint64_t keptIn(uint32_t pair);
 
   const TypeMatch *match_;
+  const RootDesc *pool_; ///< Of the new build; looked for once, there may be very many roots.
   Verdict verdict_ = Verdict::Silent;
   std::vector<std::string> refusals_;
+  std::vector<std::string> atNextStart_;
   std::vector<Finding> findings_;
   std::map<Key, std::size_t> known_;
   std::vector<int8_t> interesting_; ///< By pair: -1 not known yet.

@@ -19,9 +19,11 @@ namespace stride::app {
 namespace {
 
 constexpr std::string_view kMagic = "STRDRTN\n";
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 /// Of magic, version, size and checksum, which lie in front of everything else.
 constexpr std::size_t kFrame = 8 + 4 + 8 + 8;
+/// The checksum is about everything but itself.
+constexpr std::size_t kSummed = kFrame - 8;
 
 /// Values at their natural alignment in one piece.
 template <class T> void copyUnits(const std::byte *&from, std::byte *&to, uint64_t &left) noexcept {
@@ -76,7 +78,9 @@ std::vector<std::byte> encodeImage(const RetainHead &head, std::span<const std::
   out.raw(std::as_bytes(std::span(kMagic)));
   out.number(kVersion);
   out.number(static_cast<uint64_t>(bytes.size()));
-  out.number(crc64(bytes));
+  const std::vector<std::byte> front = out.take();
+  out.raw(front);
+  out.number(crc64(bytes, crc64(front)));
   out.raw(bytes);
   return out.take();
 }
@@ -94,7 +98,9 @@ RetainImage decodeImage(std::span<const std::byte> bytes, bool checked) {
   const std::span<const std::byte> rest = bytes.subspan(kFrame);
   if (size != rest.size())
     throw Error("it has not the length it should have");
-  if (checked && crc64(rest) != sum)
+  // The first version left the front out: those files are told apart, not taken for damaged ones.
+  if (checked && crc64(rest, crc64(bytes.first(kSummed))) != sum &&
+      !(version == 1 && crc64(rest) == sum))
     throw Error("its checksum is wrong");
   if (version != kVersion)
     throw RetainVersionError(fmt::format(

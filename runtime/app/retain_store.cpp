@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -41,6 +43,7 @@ public:
   int rename(const std::string &from, const std::string &to) override {
     return ::rename(from.c_str(), to.c_str()) == 0 ? 0 : errno;
   }
+  int remove(const std::string &path) override { return ::unlink(path.c_str()) == 0 ? 0 : errno; }
   int syncFolder(const std::string &folder) override {
     const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (handle < 0)
@@ -165,6 +168,31 @@ void RetainStore::save(const std::string &application, uint64_t buildHash,
   if (const int synced = files_->syncFolder(folder_); synced != 0)
     fail("make durable the folder", folder_, synced);
   nextIsB_ = !nextIsB_;
+}
+
+void RetainStore::clear() {
+  // What cannot be read counts as older than all else.
+  std::array<std::pair<uint64_t, std::string>, 2> images;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    images[i] = {0, file_ + (i == 0 ? ".a" : ".b")};
+    std::vector<std::byte> bytes;
+    if (files_->read(images[i].second, bytes) != 0)
+      continue;
+    try {
+      images[i].first = decodeImage(bytes).head.sequence;
+    } catch (const Error &) { // removed all the same
+      continue;
+    }
+  }
+  std::sort(images.begin(), images.end());
+  for (const std::string &path : {file_ + ".new", images[0].second, images[1].second}) {
+    const int error = files_->remove(path);
+    if (error != 0 && error != ENOENT)
+      fail("remove", path, error);
+    // One after the other, so that the newest does not go before the older one.
+    if (const int synced = error == 0 ? files_->syncFolder(folder_) : 0; synced != 0)
+      fail("make durable the folder", folder_, synced);
+  }
 }
 
 RetainLock::RetainLock(const std::string &file) {

@@ -28,6 +28,8 @@ public:
   virtual int sync(int handle) = 0;
   virtual int close(int handle) = 0;
   virtual int rename(const std::string &from, const std::string &to) = 0;
+  /// ENOENT when there is none.
+  virtual int remove(const std::string &path) = 0;
   /// The names in the folder are on the disk.
   virtual int syncFolder(const std::string &folder) = 0;
   /// The whole file; ENOENT when there is none.
@@ -52,6 +54,10 @@ public:
   /// Saves with the next sequence number. Throws Error; the next call tries again from the start.
   void save(const std::string &application, uint64_t buildHash, std::span<const std::byte> layout,
             std::span<const std::byte> values);
+
+  /// Removes all images, the newest last: up to that moment it is what a start would find. Throws
+  /// Error, also when it is not certain that they are gone for good.
+  void clear();
 
   /// Of the last image that was loaded or saved.
   uint64_t sequence() const { return sequence_; }

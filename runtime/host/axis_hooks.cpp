@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 
 namespace stride::host {
 
@@ -19,14 +21,54 @@ template <class T> T &at(std::byte *state, uint64_t offset) {
   return *reinterpret_cast<T *>(state + offset);
 }
 
+/// What g_strBootupError says: all groups that did not start, one behind the other. Groups are
+/// served by different tasks; who finds the board taken tries again in the next cycle.
+class BootupErrors {
+public:
+  explicit BootupErrors(uint32_t groups) : messages_(groups) {}
+
+  /// False: not now.
+  bool show(uint32_t group, std::string_view message, char *text, uint32_t length) noexcept {
+    if (taken_.test_and_set(std::memory_order_acquire))
+      return false;
+    Message &own = messages_[group];
+    own.size = std::min(message.size(), own.text.size());
+    std::copy_n(message.data(), own.size, own.text.data());
+    std::size_t end = 0;
+    const auto append = [&](std::string_view part) {
+      const std::size_t count = std::min<std::size_t>(part.size(), length - end);
+      std::copy_n(part.data(), count, text + end);
+      end += count;
+    };
+    for (const Message &one : messages_) {
+      if (one.size == 0)
+        continue;
+      if (end != 0)
+        append("; ");
+      append({one.text.data(), one.size});
+    }
+    text[end] = 0;
+    taken_.clear(std::memory_order_release);
+    return true;
+  }
+
+private:
+  struct Message {
+    std::array<char, 255> text{};
+    std::size_t size = 0;
+  };
+  std::vector<Message> messages_;
+  std::atomic_flag taken_;
+};
+
 class AxisGroupHook final : public task::CycleHook {
 public:
   AxisGroupHook(const StrideAppV1 &app, uint32_t index, std::byte *state,
                 std::unique_ptr<axis::AxisDriver> driver, double cycleSeconds, InputPort &inputs,
-                bool realClock)
-      : inputs_(&inputs), realClock_(realClock), ref_(&groupOf(app, state, index)), index_(index),
-        name_(app.axisGroups[index].name), bootupErrorOffset_(app.bootupErrorOffset),
-        bootupErrorLength_(app.bootupErrorLength),
+                bool realClock, std::shared_ptr<BootupErrors> errors)
+      : errors_(std::move(errors)), inputs_(&inputs), realClock_(realClock),
+        ref_(&groupOf(app, state, index)), index_(index), name_(app.axisGroups[index].name),
+        bootupErrorOffset_(app.bootupErrorOffset), bootupErrorLength_(app.bootupErrorLength),
         group_(std::move(driver), *ref_, axesOf(app, state), cycleSeconds, encodersOf(app, state)) {
   }
 
@@ -98,16 +140,13 @@ private:
 
   /// A new failure, or the end of one, in g_strBootupError.
   void show(Ctx &ctx, bool failed) {
-    shown_ = failed;
-    if (bootupErrorLength_ == 0)
-      return;
-    char *text = static_cast<char *>(ctx.state) + bootupErrorOffset_;
-    const std::string_view message = group_.bootupError();
-    const std::size_t count = std::min<std::size_t>(message.size(), bootupErrorLength_);
-    std::copy_n(message.data(), count, text);
-    text[count] = 0;
+    if (bootupErrorLength_ == 0 ||
+        errors_->show(index_, group_.bootupError(),
+                      static_cast<char *>(ctx.state) + bootupErrorOffset_, bootupErrorLength_))
+      shown_ = failed;
   }
 
+  std::shared_ptr<BootupErrors> errors_; ///< Of all groups.
   InputPort *inputs_;
   bool realClock_;
   axis::AxisGroupRef *ref_;
@@ -190,6 +229,7 @@ std::vector<std::unique_ptr<task::CycleHook>>
 addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPort &inputs) {
   const StrideAppV1 &app = application.description();
   std::vector<std::unique_ptr<task::CycleHook>> hooks;
+  const auto errors = std::make_shared<BootupErrors>(app.axisGroupCount);
   for (uint32_t i = 0; i < app.axisGroupCount; ++i) {
     const AxisGroupDesc &group = app.axisGroups[i];
     const axis::GroupSetup setup = setupOf(app, group);
@@ -197,7 +237,7 @@ addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPo
       bindData(app.drives[group.firstDrive + d], application.state());
     hooks.push_back(std::make_unique<AxisGroupHook>(app, i, application.state(),
                                                     makeDriver(group, setup), setup.cycleSeconds,
-                                                    inputs, tasks.realClock()));
+                                                    inputs, tasks.realClock(), errors));
     tasks.addHook(group.task, *hooks.back());
   }
   return hooks;

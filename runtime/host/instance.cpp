@@ -42,17 +42,23 @@ void Instance::addToAllTasks(task::CycleHook &hook) {
     tasks_.addHook(task, hook);
 }
 
+void Instance::prepareSwap(const app::Application &fresh) {
+  tasks_.prepareRebind(fresh.description());
+  if (retain_)
+    retain_->prepareChange(fresh.description(), fresh.state());
+}
+
 void Instance::swap(std::unique_ptr<app::Application> &other) noexcept {
   application_.swap(other);
   tasks_.rebind(app(), state());
   if (retain_)
-    retain_->pause();
+    retain_->change();
 }
 
 void Instance::renewSymbols() {
   symbols_ = std::make_unique<app::SymbolTable>(app());
   if (retain_)
-    retain_->adopt(app(), state());
+    retain_->adopt();
 }
 
 std::optional<task::Fault> Instance::exit(int64_t timeNs) {
@@ -66,6 +72,14 @@ std::optional<task::Fault> Instance::exit(int64_t timeNs) {
   if (const std::optional<StException> exception = task::guardedCall(app().exit, ctx))
     return task::Fault{*exception, "end of the run", 0, timeNs};
   return std::nullopt;
+}
+
+std::vector<std::string> Instance::takeNews() {
+  std::vector<std::string> lines;
+  for (const std::unique_ptr<task::CycleHook> &hook : hooks_)
+    for (const std::string &news : hook->takeNews())
+      lines.push_back(fmt::format("warning: {}", news));
+  return lines;
 }
 
 std::vector<std::string> Instance::remarks() const {

@@ -47,6 +47,8 @@ public:
   /// that has failed is not called again.
   std::optional<task::Fault> exit(int64_t timeNs);
 
+  /// While the cycles go on: what swap() with this build needs.
+  void prepareSwap(const app::Application &fresh);
   /// Between two cycles: another build, with the values of this one, takes its place. Afterwards
   /// `other` is the old one, to which symbols() belong until renewSymbols().
   void swap(std::unique_ptr<app::Application> &other) noexcept;
@@ -60,7 +62,10 @@ public:
   const app::SymbolTable &symbols() const { return *symbols_; }
   task::TaskSet &tasks() { return tasks_; }
 
-  /// What is worth saying at the end of a run: "warning: …", "note: …".
+  /// What has happened in the cycles since the last call: "warning: …". From one thread, not a
+  /// task's.
+  std::vector<std::string> takeNews();
+  /// What is worth saying at the end of a run, besides the news: "warning: …", "note: …".
   std::vector<std::string> remarks() const;
 
 private:

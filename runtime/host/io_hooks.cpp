@@ -85,6 +85,8 @@ public:
   void rebind(const StrideAppV1 &app, std::byte *state) noexcept override {
     image_.rebind(app, state);
   }
+  void prepareRebind(const StrideAppV1 &app) override { image_.prepareRebind(app); }
+  std::vector<std::string> takeNews() override { return image_.takeNews(); }
   std::string problem() const override { return image_.problem(); }
 
 private:

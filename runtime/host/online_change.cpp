@@ -43,6 +43,7 @@ OnlineChange::OnlineChange(Instance &instance, const std::string &path) : instan
   } catch (const StException &exception) {
     throw app::Error(describeWithCalls(task::Fault{exception, "initialisation", 0, 0}));
   }
+  instance.prepareSwap(*fresh_);
   plan_ = std::make_unique<app::CarryOver>(instance.app(), fresh_->description());
   verdict_ = plan_->report().verdict();
   compareTasks();

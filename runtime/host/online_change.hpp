@@ -29,6 +29,9 @@ public:
   /// stops the new one. False: it was FB_Exit. Not with Verdict::Refused.
   bool apply(int64_t timeNs);
 
+  /// What differs but is not taken over by a running application.
+  const std::vector<std::string> &atNextStart() const { return plan_->report().atNextStart(); }
+
   /// What only the values showed: addresses that became 0, texts that were cut.
   std::vector<std::string> events() const;
 

@@ -68,8 +68,6 @@ public:
       if (service != nullptr) {
         served_ = std::make_unique<monitor::SymbolServer>(instance_.tasks());
         served_->addOuterHooks();
-        if (!options_->record.empty())
-          served_->setReadOnly("nothing can be written and forced while the run is recorded");
       }
       // First of all hooks, so that it sees the end of the cycle behind the others.
       if (trace != nullptr) {
@@ -92,6 +90,8 @@ public:
       }
       if (served_)
         served_->addInnerHooks();
+      if (served_ && recording_)
+        served_->setWriteLog(*recording_);
     } catch (const StException &exception) {
       say("error: " + describeWithCalls(task::Fault{exception, "initialisation", 0, 0}));
       return false;
@@ -107,6 +107,8 @@ public:
   }
 
   void lookAfter() {
+    for (const std::string &line : instance_.takeNews())
+      say(line);
     if (ring_)
       ring_->drain(*trace_);
     if (recording_)
@@ -136,10 +138,12 @@ public:
       if (script_)
         script.emplace(script_->in(symbols));
       auto servedSymbols = std::make_unique<app::SymbolTable>(change.fresh());
-      std::vector<std::string> lostForces;
       std::unique_lock<std::mutex> held;
       if (service_ != nullptr)
         held = service_->hold();
+      std::optional<monitor::SymbolServer::Change> served;
+      if (served_)
+        served.emplace(served_->prepareChange(std::move(servedSymbols)));
       bool done = false;
       int64_t pauseNs = 0;
       onLowStack([&] { // for FB_Exit and FB_Reinit
@@ -151,19 +155,22 @@ public:
             trace_->swapColumns(*columns);
           if (done && script)
             script_->takeOver(*script);
-          if (done && served_)
-            lostForces = served_->changeApplication(std::move(servedSymbols));
+          if (done && served)
+            served_->changeApplication(*served);
         });
       });
       lookAfter();
       if (done)
         instance_.renewSymbols();
+      for (const std::string &line : change.atNextStart())
+        if (done)
+          say("warning: online change: " + line);
       for (const std::string &event : change.events())
         say("warning: online change: " + event);
-      for (const std::string &name : lostForces)
+      for (std::size_t i = 0; done && served && i < served->lostForces().size(); ++i)
         say(fmt::format("warning: online change: '{}' is no longer forced: the new build has no "
                         "such variable",
-                        name));
+                        served->lostForces()[i]));
       say(done ? fmt::format("note: online change done; no cycle could begin for {:.0f} us",
                              static_cast<double>(pauseNs) * 1e-3)
                : "error: online change given up; the old build goes on");
@@ -180,7 +187,8 @@ public:
       service_->detach(number_);
     lookAfter();
     if (recording_)
-      if (const std::string problem = recording_->finish(); !problem.empty())
+      if (const std::string problem = recording_->finish(instance_.tasks().fault());
+          !problem.empty())
         say("warning: " + problem);
     if (ring_ && ring_->lost() != 0)
       say(fmt::format("warning: the trace lacks {} rows: it could not be written as fast as it was "

@@ -4,6 +4,7 @@
 
 #include "runtime/app/application.hpp"
 #include "runtime/host/input_port.hpp"
+#include "runtime/monitor/symbol_server.hpp"
 #include "runtime/task/task_set.hpp"
 
 #include <atomic>
@@ -19,7 +20,7 @@ namespace stride::host {
 /// Notes the order of the cycles and all inputs of a run in which tasks take turns. The cycles
 /// write into a ring, another thread writes that to the file. Where it cannot keep up, the
 /// recording ends there, which is told; the cycles are never delayed.
-class Recording final : public InputPort {
+class Recording final : public InputPort, public monitor::WriteLog {
 public:
   /// Throws app::Error when the file cannot be written.
   explicit Recording(const std::string &path);
@@ -33,15 +34,19 @@ public:
 
   using InputPort::pass;
   void pass(void *value, std::size_t size) noexcept override;
+  /// What others have written into the program's variables is an input, too.
+  void wrote(const std::byte *place, std::size_t size, bool behindPous) noexcept override;
 
   /// Writes what has come so far. From one thread, not a task's.
   void drain();
-  /// After the last cycle; what is wrong with the recording, or empty.
-  std::string finish();
+  /// After the last cycle, with what stopped the run, if something did; what is wrong with the
+  /// recording, or empty.
+  std::string finish(const std::optional<task::Fault> &fault);
 
 private:
   class CycleNote;
-  void put(uint32_t mark, const void *data, std::size_t size) noexcept;
+  void put(uint32_t mark, std::span<const std::byte> first,
+           std::span<const std::byte> second = {}) noexcept;
   void copyIn(uint64_t at, const void *data, std::size_t size) noexcept;
 
   std::string path_;
@@ -51,6 +56,9 @@ private:
   std::atomic<uint64_t> put_{0};
   std::atomic<uint64_t> taken_{0};
   std::atomic<bool> full_{false};
+  std::atomic<bool> beyond_{false}; ///< Something was written that is not in the state.
+  const std::byte *state_ = nullptr;
+  uint64_t stateSize_ = 0;
   std::vector<std::unique_ptr<CycleNote>> notes_;
 };
 
@@ -66,6 +74,12 @@ class Replay final : public InputPort {
 public:
   /// Throws app::Error: unreadable, no recording, of another build of the application.
   Replay(const std::string &path, const app::Application &application);
+  ~Replay() override;
+
+  /// The exception that stopped the run.
+  const std::optional<task::Fault> &fault() const { return fault_; }
+  /// Behind all other hooks: puts what was written from outside into the variables.
+  void addHooks(task::TaskSet &tasks);
 
   /// The state with which the run began.
   void restoreState(const app::Application &application) const;
@@ -81,11 +95,18 @@ public:
   const std::string &problem() const { return problem_; }
 
 private:
+  class Writes;
   bool take(void *value, std::size_t size) noexcept;
+  void applyWrites(uint32_t mark, std::byte *state) noexcept;
+  void findFault();
 
   std::string path_;
   std::vector<std::byte> data_;
   std::size_t state_ = 0; ///< Where it is in data_.
+  uint64_t stateSize_ = 0;
+  std::string faultFile_;
+  std::optional<task::Fault> fault_;
+  std::vector<std::unique_ptr<Writes>> writes_;
   std::size_t at_ = 0;
   std::string problem_;
 };

@@ -64,11 +64,12 @@ public:
     bytes_ += range.size;
   }
   /// Behind all add().
-  void prepare() {
+  void allocate() {
     for (std::vector<std::byte> &buffer : buffers_)
       buffer.resize(bytes_);
-    app::copyRetained(state_, ranges_, buffers_[reading_].data());
   }
+  /// While the task is in no cycle: the values until it hands some over.
+  void begin() noexcept { app::copyRetained(state_, ranges_, buffers_[reading_].data()); }
   bool empty() const { return ranges_.empty(); }
   bool everyCycle() const { return everyCycle_; }
 
@@ -126,6 +127,7 @@ struct RetainKeeper::Binding {
   app::RetainLayout layout;
   std::vector<std::byte> encoded;
   std::vector<std::unique_ptr<Part>> parts; ///< By task; without variables: null.
+  bool saved = !layout.empty();
 };
 
 class RetainKeeper::TaskHook final : public task::CycleHook {
@@ -184,6 +186,9 @@ std::shared_ptr<RetainKeeper::Binding> RetainKeeper::bind(const StrideAppV1 &app
     binding->parts[task]->add(range, at);
     at += range.size;
   }
+  for (const std::unique_ptr<Part> &part : binding->parts)
+    if (part != nullptr)
+      part->allocate();
   return binding;
 }
 
@@ -207,27 +212,28 @@ void RetainKeeper::addHooks(task::TaskSet &tasks) {
     hooks_.push_back(std::make_unique<TaskHook>());
     tasks.addHook(i, *hooks_.back());
   }
-  publish();
+  publish(*binding_);
 }
 
-/// From now on the tasks hand over what belongs to binding_.
-void RetainKeeper::publish() {
-  for (const std::unique_ptr<Part> &part : binding_->parts)
+/// Between two cycles: from now on the tasks hand over what belongs to the binding.
+void RetainKeeper::publish(const Binding &binding) noexcept {
+  for (const std::unique_ptr<Part> &part : binding.parts)
     if (part != nullptr)
-      part->prepare();
-  for (std::size_t i = 0; i < hooks_.size() && i < binding_->parts.size(); ++i)
-    hooks_[i]->set(binding_->parts[i].get());
+      part->begin();
+  for (std::size_t i = 0; i < hooks_.size() && i < binding.parts.size(); ++i)
+    hooks_[i]->set(binding.parts[i].get());
 }
 
-void RetainKeeper::pause() noexcept {
-  for (const std::unique_ptr<TaskHook> &hook : hooks_)
-    hook->set(nullptr);
+void RetainKeeper::prepareChange(const StrideAppV1 &app, std::byte *state) {
+  next_ = bind(app, state);
 }
 
-void RetainKeeper::adopt(const StrideAppV1 &app, std::byte *state) {
-  std::shared_ptr<Binding> fresh = bind(app, state);
+void RetainKeeper::change() noexcept { publish(*next_); }
+
+void RetainKeeper::adopt() {
   const std::lock_guard lock(mutex_);
-  binding_ = std::move(fresh);
+  // The old one's buffers go with it; no task is in the middle of using them since change().
+  binding_ = std::move(next_);
   if (!binding_->layout.empty() && !lock_) {
     // The first build that has something to retain. What is in the file is older than the run.
     try {
@@ -236,11 +242,10 @@ void RetainKeeper::adopt(const StrideAppV1 &app, std::byte *state) {
       static_cast<void>(store_.load(problems));
     } catch (const app::Error &error) {
       say_(fmt::format("warning: retained data are not saved: {}", error.what()));
-      binding_->layout = app::RetainLayout(app, 0);
-      binding_->parts.clear();
+      // The tasks go on handing over what nobody saves.
+      binding_->saved = false;
     }
   }
-  publish();
 }
 
 void RetainKeeper::startSaving() {
@@ -263,7 +268,7 @@ void RetainKeeper::saveLoop() {
   std::unique_lock lock(mutex_);
   while (!wake_.wait_for(lock, period, [&] { return stopping_; })) {
     const std::shared_ptr<Binding> binding = binding_;
-    if (binding->layout.empty())
+    if (!binding->saved)
       continue;
     std::vector<Part *> missing;
     for (const std::unique_ptr<Part> &part : binding->parts) {
@@ -309,7 +314,7 @@ bool RetainKeeper::save(const Binding &binding, const std::vector<std::byte> &va
 
 bool RetainKeeper::finish() {
   endThread();
-  if (binding_->layout.empty())
+  if (!binding_->saved)
     return true;
   std::vector<std::byte> values(binding_->layout.bytes());
   app::copyRetained(binding_->state, binding_->layout.ranges(), values.data());

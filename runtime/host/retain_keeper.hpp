@@ -57,10 +57,14 @@ public:
   /// No task is in a cycle any more: saves what the variables are now. False: it did not succeed.
   bool finish();
 
-  /// Online change, between two cycles: the tasks no longer hand anything over.
-  void pause() noexcept;
-  /// Behind pause(), while the tasks run: they hand over the variables of the new build.
-  void adopt(const StrideAppV1 &app, std::byte *state);
+  /// Online change, while the cycles go on: allocates what change() needs.
+  void prepareChange(const StrideAppV1 &app, std::byte *state);
+  /// Between two cycles, when the values are in the new state: from now on the tasks hand over the
+  /// variables of that build. What a task does not hand over soon, one that waits for an event, is
+  /// saved as it is now.
+  void change() noexcept;
+  /// Behind change(), while the tasks run: from now on the new build is saved.
+  void adopt();
 
 private:
   class Part;
@@ -68,7 +72,7 @@ private:
   struct Binding;
 
   std::shared_ptr<Binding> bind(const StrideAppV1 &app, std::byte *state) const;
-  void publish();
+  void publish(const Binding &binding) noexcept;
   void endThread();
   void saveLoop();
   bool save(const Binding &binding, const std::vector<std::byte> &values);
@@ -80,6 +84,7 @@ private:
   std::optional<app::RetainImage> image_;
   std::optional<app::RetainRestore> restore_;
   std::vector<std::unique_ptr<TaskHook>> hooks_; ///< By task.
+  std::shared_ptr<Binding> next_;                ///< From prepareChange() to adopt().
   bool failing_ = false;                         ///< The last save did not succeed.
 
   std::mutex mutex_; ///< Of what follows.

@@ -2,6 +2,8 @@
 #ifndef STRIDE_RUNTIME_HOST_RETAIN_RESET_HPP
 #define STRIDE_RUNTIME_HOST_RETAIN_RESET_HPP
 
+#include "runtime/app/retain_store.hpp"
+
 #include <cstdint>
 #include <string>
 
@@ -16,7 +18,8 @@ enum class ResetKind : uint8_t {
 
 /// Does it to the file and says (standard output) what is left. Throws app::Error, also while the
 /// application runs.
-void resetRetained(ResetKind kind, const std::string &file);
+void resetRetained(ResetKind kind, const std::string &file,
+                   app::RetainFiles &files = app::systemFiles());
 
 } // namespace stride::host
 

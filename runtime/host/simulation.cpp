@@ -93,6 +93,10 @@ public:
   void afterInstant(int64_t timeNs, bool fastest) override {
     if (trace_ != nullptr && fastest)
       trace_->row(timeNs, instance_->state());
+    for (const std::string &line : instance_->takeNews()) {
+      progress_->clear();
+      fmt::print(stderr, "{}\n", line);
+    }
     progress_->update(timeNs);
   }
   /// The builds whose time has not come.
@@ -132,6 +136,8 @@ private:
     if (!change.apply(timeNs))
       throw app::Error(fmt::format("--change '{}': {}", path, change.events().front()));
     instance_->renewSymbols();
+    for (const std::string &line : change.atNextStart())
+      fmt::print(stderr, "warning: {}\n", line);
     for (const std::string &event : change.events())
       fmt::print(stderr, "warning: {}\n", event);
   }
@@ -199,6 +205,8 @@ static task::RunResult advance(Instance &instance, Observer &observer, int64_t d
 static task::RunResult repeat(Replay &replay, Instance &instance, Observer &observer) {
   task::TaskSet &tasks = instance.tasks();
   task::RunResult result;
+  if (replay.fault() && replay.fault()->exception.code() == ExceptionCode::EndlessLoop)
+    tasks.repeatEndlessLoop(*replay.fault());
   while (const std::optional<RecordedCycle> cycle = replay.nextCycle()) {
     if (stopRequested != 0) {
       result.interrupted = true;
@@ -212,6 +220,9 @@ static task::RunResult repeat(Replay &replay, Instance &instance, Observer &obse
     observer.afterInstant(cycle->startNs, cycle->task == tasks.fastest());
     result.timeNs = cycle->startNs;
   }
+  // The watchdog is a matter of the real clock: nothing in the replay raises its exception.
+  if (replay.fault() && !result.interrupted)
+    tasks.fail(*replay.fault());
   result.fault = tasks.fault();
   return result;
 }
@@ -261,8 +272,10 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
       instance.tasks().addHook(instance.tasks().fastest(), scriptHook.emplace(*script));
     instance.addToAllTasks(script->forces());
   }
-  if (replay)
+  if (replay) {
+    replay->addHooks(instance.tasks());
     replay->restoreState(instance.application());
+  }
 
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
   Progress progress(options.durationNs, terminal && !options.quiet && !replay);

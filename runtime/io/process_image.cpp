@@ -21,6 +21,27 @@ uint32_t leader(const StrideAppV1 &app) {
   return 0;
 }
 
+/// What the compiler has found.
+bool uses(const StrideAppV1 &app, uint32_t task, bool output, uint32_t byte) {
+  return std::any_of(
+      app.imageUses, app.imageUses + app.imageUseCount, [&](const ImageUseDesc &use) {
+        return use.task == task && byte - use.first < use.count &&
+               use.area == (output ? kImageOutput : kImageInput) && (use.writes != 0) == output;
+      });
+}
+
+bool isOwn(const StrideAppV1 &app, uint32_t task, bool leads, bool output, uint32_t byte) {
+  if (uses(app, task, output, byte))
+    return true;
+  if (!output || !leads)
+    return false;
+  for (uint32_t other = 0; other < app.taskCount; ++other) {
+    if (uses(app, other, output, byte))
+      return false;
+  }
+  return true;
+}
+
 } // namespace
 
 void copyWhole(BYTE *to, const BYTE *from, size_t count) noexcept {
@@ -48,58 +69,39 @@ void copyWhole(BYTE *to, const BYTE *from, size_t count) noexcept {
 ImageHook::ImageHook(const StrideAppV1 &app, std::byte *state, uint32_t task,
                      const std::vector<std::unique_ptr<IoDevice>> &devices, InputPass &inputs)
     : app_(&app), state_(state), inputs_(&inputs), task_(task), leads_(task == leader(app)) {
-  size_t parts = 0;
   size_t largest = 0;
   for (const std::unique_ptr<IoDevice> &device : devices) {
     devices_.push_back(device.get());
-    parts += (size_t{device->inputBytes} + device->outputBytes) / 2 + 2;
     largest = std::max<size_t>({largest, device->inputBytes, device->outputBytes});
   }
-  parts_.reserve(parts);
   buffer_.resize(largest);
-  findParts();
+  parts_ = partsIn(app);
 }
 
-/// What the compiler has found.
-bool ImageHook::uses(uint32_t task, bool output, uint32_t byte) const noexcept {
-  return std::any_of(
-      app_->imageUses, app_->imageUses + app_->imageUseCount, [&](const ImageUseDesc &use) {
-        return use.task == task && byte - use.first < use.count &&
-               use.area == (output ? kImageOutput : kImageInput) && (use.writes != 0) == output;
-      });
-}
-
-bool ImageHook::isOwn(bool output, uint32_t byte) const noexcept {
-  if (uses(task_, output, byte))
-    return true;
-  if (!output || !leads_)
-    return false;
-  for (uint32_t other = 0; other < app_->taskCount; ++other) {
-    if (uses(other, output, byte))
-      return false;
-  }
-  return true;
-}
-
-void ImageHook::findParts() noexcept {
-  parts_.clear();
+/// Runs of bytes that this task copies: those that it uses, and for the leading task the outputs
+/// that none uses.
+std::vector<ImageHook::Part> ImageHook::partsIn(const StrideAppV1 &app) const {
+  std::vector<Part> parts;
+  if (app.ioDeviceCount < devices_.size())
+    return parts; // refused before: the devices of a running application stay
   for (IoDevice *device : devices_) {
-    const IoDeviceDesc &desc = app_->ioDevices[device->index];
+    const IoDeviceDesc &desc = app.ioDevices[device->index];
     for (const bool output : {false, true}) {
       const uint32_t first = output ? desc.outputFirst : desc.inputFirst;
       const uint32_t count = output ? std::min(desc.outputCount, device->outputBytes)
                                     : std::min(desc.inputCount, device->inputBytes);
-      const uint64_t area = app_->image[output ? kImageOutput : kImageInput].size;
+      const uint64_t area = app.image[output ? kImageOutput : kImageInput].size;
       const auto end = static_cast<uint32_t>(std::min<uint64_t>(uint64_t{first} + count, area));
       for (uint32_t byte = first; byte < end; ++byte) {
         const uint32_t begin = byte;
-        while (byte < end && isOwn(output, byte))
+        while (byte < end && isOwn(app, task_, leads_, output, byte))
           ++byte;
         if (byte != begin)
-          parts_.push_back({device, output, begin, begin - first, byte - begin});
+          parts.push_back({device, output, begin, begin - first, byte - begin});
       }
     }
   }
+  return parts;
 }
 
 BYTE *ImageHook::image(const Part &part) const {
@@ -125,8 +127,7 @@ void ImageHook::watch(Ctx &ctx, IoDevice &device) {
   if (!lost)
     return;
   __atomic_fetch_add(&state.udiLosses, 1U, __ATOMIC_RELAXED);
-  if (ctx.host != nullptr && ctx.host->log != nullptr)
-    ctx.host->log(&ctx, 1, device.lostText.c_str());
+  device.losses.fetch_add(1, std::memory_order_relaxed);
 }
 
 /// Takes the bytes into the buffer; false: there are none.
@@ -192,18 +193,30 @@ void ImageHook::applicationStopped() {
   }
 }
 
+void ImageHook::prepareRebind(const StrideAppV1 &app) { nextParts_ = partsIn(app); }
+
 void ImageHook::rebind(const StrideAppV1 &app, std::byte *state) noexcept {
   app_ = &app;
   state_ = state;
-  if (app.ioDeviceCount < devices_.size())
-    parts_.clear(); // refused before: the devices of a running application stay
-  else
-    findParts();
+  parts_.swap(nextParts_);
+}
+
+std::vector<std::string> ImageHook::takeNews() {
+  std::vector<std::string> news;
+  for (IoDevice *device : devices_) {
+    const uint32_t losses = device->losses.load(std::memory_order_relaxed);
+    if (!leads_ || losses == device->told)
+      continue;
+    device->told = losses;
+    news.push_back(device->lostText);
+  }
+  return news;
 }
 
 std::string ImageHook::problem() const {
   for (const IoDevice *device : devices_) {
-    if (leads_ && device->lost.load(std::memory_order_relaxed))
+    if (leads_ && device->lost.load(std::memory_order_relaxed) &&
+        device->losses.load(std::memory_order_relaxed) != device->told)
       return device->lostText;
   }
   return {};

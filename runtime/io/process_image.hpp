@@ -27,8 +27,10 @@ struct IoDevice {
   uint32_t index = 0; ///< Into StrideAppV1::ioDevices.
   uint32_t inputBytes = 0;
   uint32_t outputBytes = 0;
-  std::string lostText; ///< To be logged.
+  std::string lostText; ///< To be shown.
   std::atomic<bool> lost{false};
+  std::atomic<uint32_t> losses{0}; ///< While it runs.
+  uint32_t told = 0;               ///< Losses that were shown.
 };
 
 /// What comes from outside passes here on its way into the program: a recording notes it, a replay
@@ -60,7 +62,9 @@ public:
   void beforePous(Ctx &ctx) override;
   void afterPous(Ctx &ctx) override;
   void applicationStopped() override;
+  void prepareRebind(const StrideAppV1 &app) override;
   void rebind(const StrideAppV1 &app, std::byte *state) noexcept override;
+  std::vector<std::string> takeNews() override;
   std::string problem() const override;
 
 private:
@@ -72,9 +76,7 @@ private:
     uint32_t deviceByte;
     uint32_t count;
   };
-  void findParts() noexcept;
-  bool isOwn(bool output, uint32_t byte) const noexcept;
-  bool uses(uint32_t task, bool output, uint32_t byte) const noexcept;
+  std::vector<Part> partsIn(const StrideAppV1 &app) const;
   BYTE *image(const Part &part) const;
   IoDeviceState &stateOf(const IoDevice &device) const;
   void watch(Ctx &ctx, IoDevice &device);
@@ -88,7 +90,8 @@ private:
   uint32_t task_;
   bool leads_;
   std::vector<IoDevice *> devices_;
-  std::vector<Part> parts_; ///< Has room for whatever another build may use.
+  std::vector<Part> parts_;
+  std::vector<Part> nextParts_; ///< Of the build that prepareRebind() was told of.
   std::vector<BYTE> buffer_;
   bool stopped_ = false;
 };

@@ -23,7 +23,7 @@ void SymbolChannel::serve(bool writes, const Ctx &ctx) noexcept {
       SymbolRequest::Value &value = request.values_[request.order_[i]];
       std::byte *memory = request.memory_.data() + value.offset;
       if (writes) {
-        value.reached = value.symbol.write(state, memory, value.size);
+        value.reached = store(value.symbol, state, memory, value.size, false);
         continue;
       }
       std::byte bit{};
@@ -39,6 +39,30 @@ void SymbolChannel::serve(bool writes, const Ctx &ctx) noexcept {
   }
 }
 
+/// What does not change anything is not told: forces hold in every cycle.
+bool SymbolChannel::store(const app::Symbol &symbol, std::byte *state, const std::byte *value,
+                          std::size_t size, bool behindPous) noexcept {
+  if (log == nullptr)
+    return symbol.write(state, value, size);
+  const auto *const place = static_cast<const std::byte *>(symbol.address(state));
+  if (place == nullptr)
+    return false;
+  const std::byte before = *place; // of a single bit: the byte it is in
+  const bool differs = size > 1 && std::memcmp(place, value, size) != 0;
+  symbol.write(state, value, size);
+  if (differs || (size == 1 && *place != before))
+    log->wrote(place, size, behindPous);
+  return true;
+}
+
+void SymbolChannel::applyForces(const ForceList *list, const Ctx &ctx, bool behindPous) noexcept {
+  if (list == nullptr)
+    return;
+  for (const SymbolServer::Forced &forced : list->forced)
+    store(forced.symbol, static_cast<std::byte *>(ctx.state), forced.value.data(),
+          forced.value.size(), behindPous);
+}
+
 void SymbolChannel::Outer::afterPous(Ctx &ctx) {
   channel_->serve(false, ctx);
   if (const RecorderSlot *slot = channel_->recorder.take())
@@ -48,17 +72,11 @@ void SymbolChannel::Outer::afterPous(Ctx &ctx) {
 
 void SymbolChannel::Inner::beforePous(Ctx &ctx) {
   channel_->serve(true, ctx);
-  if (const ForceList *list = channel_->forces.take())
-    for (const SymbolServer::Forced &forced : list->forced)
-      forced.symbol.write(static_cast<std::byte *>(ctx.state), forced.value.data(),
-                          forced.value.size());
+  channel_->applyForces(channel_->forces.take(), ctx, false);
 }
 
 void SymbolChannel::Inner::afterPous(Ctx &ctx) {
-  if (const ForceList *list = channel_->forces.current())
-    for (const SymbolServer::Forced &forced : list->forced)
-      forced.symbol.write(static_cast<std::byte *>(ctx.state), forced.value.data(),
-                          forced.value.size());
+  channel_->applyForces(channel_->forces.current(), ctx, true);
 }
 
 } // namespace stride::monitor

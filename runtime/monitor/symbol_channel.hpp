@@ -30,14 +30,16 @@ public:
   task::CycleHook &outer() { return outer_; }
   task::CycleHook &inner() { return inner_; }
 
-  /// Server: false when the queue is full.
-  bool push(SymbolRequest::Part &part) noexcept {
+  /// Server: there is room for one more; only push() takes it away.
+  bool hasRoom() const noexcept {
+    return head_.load(std::memory_order_relaxed) - tail_.load(std::memory_order_acquire) !=
+           queue_.size();
+  }
+  /// Server, with hasRoom().
+  void push(SymbolRequest::Part &part) noexcept {
     const std::size_t head = head_.load(std::memory_order_relaxed);
-    if (head - tail_.load(std::memory_order_acquire) == queue_.size())
-      return false;
     queue_[head % queue_.size()] = &part;
     head_.store(head + 1, std::memory_order_release);
-    return true;
   }
   /// Server, while the task is in no cycle: takes the next part out of the queue, or null.
   SymbolRequest::Part *pop() noexcept {
@@ -51,6 +53,7 @@ public:
 
   Handover<ForceList> forces;
   Handover<RecorderSlot> recorder;
+  WriteLog *log = nullptr; ///< Before the first cycle.
 
 private:
   /// Sees the end of the cycle: reads and the recorder.
@@ -75,6 +78,9 @@ private:
   };
 
   void serve(bool writes, const Ctx &ctx) noexcept;
+  void applyForces(const ForceList *list, const Ctx &ctx, bool behindPous) noexcept;
+  bool store(const app::Symbol &symbol, std::byte *state, const std::byte *value, std::size_t size,
+             bool behindPous) noexcept;
 
   std::array<SymbolRequest::Part *, SymbolServer::kMostWaiting> queue_{};
   std::atomic<std::size_t> head_{0}; // parts put in so far

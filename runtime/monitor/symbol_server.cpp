@@ -31,14 +31,9 @@ void SymbolServer::addInnerHooks() {
     tasks_->addHook(i, channels_[i]->inner());
 }
 
-void SymbolServer::setReadOnly(const std::string &why) {
-  const std::lock_guard lock(mutex_);
-  readOnly_ = why;
-}
-
-void SymbolServer::checkWritable() const {
-  if (!readOnly_.empty())
-    throw app::Error(readOnly_);
+void SymbolServer::setWriteLog(WriteLog &log) {
+  for (const std::unique_ptr<SymbolChannel> &channel : channels_)
+    channel->log = &log;
 }
 
 bool SymbolServer::periodic(uint32_t task) const {
@@ -86,7 +81,6 @@ std::shared_ptr<SymbolRequest> SymbolServer::newRequest(std::vector<app::Symbol>
     part.last = i + 1;
     part.bytes += request->values_[number].size;
   }
-  request->open_.store(request->parts_.size());
   return request;
 }
 
@@ -94,18 +88,17 @@ void SymbolServer::submit(const std::shared_ptr<SymbolRequest> &request) {
   if (closed_)
     throw app::Error("the application does not run any more");
   collect();
-  waiting_.push_back(request);
-  for (std::size_t i = 0; i < request->parts_.size(); ++i) {
-    SymbolRequest::Part &part = request->parts_[i];
-    if (channels_[part.task]->push(part))
-      continue;
-    // What is in queues already is done for nobody; the rest never.
-    request->dropped_.store(true);
-    request->open_.fetch_sub(request->parts_.size() - i);
-    throw app::Error(fmt::format("{} requests wait for task '{}'; it does not run, or not often "
-                                 "enough",
-                                 kMostWaiting, tasks_->desc(part.task).name));
+  // All parts or none: there is one for each task, and only this thread puts parts in.
+  for (const SymbolRequest::Part &part : request->parts_) {
+    if (!channels_[part.task]->hasRoom())
+      throw app::Error(fmt::format("{} requests wait for task '{}'; it does not run, or not often "
+                                   "enough",
+                                   kMostWaiting, tasks_->desc(part.task).name));
   }
+  request->open_.store(request->parts_.size(), std::memory_order_release);
+  waiting_.push_back(request);
+  for (SymbolRequest::Part &part : request->parts_)
+    channels_[part.task]->push(part);
 }
 
 void SymbolServer::collect() {
@@ -133,7 +126,6 @@ std::shared_ptr<SymbolRequest> SymbolServer::read(const std::vector<std::string>
 
 std::shared_ptr<SymbolRequest> SymbolServer::write(const std::vector<NamedValue> &values) {
   const std::lock_guard lock(mutex_);
-  checkWritable();
   std::vector<app::Symbol> wanted;
   std::vector<std::byte> bytes;
   for (const auto &[name, literal] : values) {
@@ -152,8 +144,6 @@ void SymbolServer::again(const std::shared_ptr<SymbolRequest> &request) {
   const std::lock_guard lock(mutex_);
   if (!request->done() || request->dropped() || request->build_ != build_)
     throw app::Error("the request belongs to another build of the application");
-  collect();
-  request->open_.store(request->parts_.size(), std::memory_order_release);
   submit(request);
 }
 
@@ -171,7 +161,6 @@ bool SymbolServer::valid(const SymbolRequest &request) const {
 
 void SymbolServer::force(const std::vector<NamedValue> &values) {
   const std::lock_guard lock(mutex_);
-  checkWritable();
   std::vector<Forced> next = forced_;
   for (const auto &[name, literal] : values) {
     app::Symbol symbol = resolveWritable(*symbols_, name);
@@ -194,7 +183,6 @@ void SymbolServer::force(const std::vector<NamedValue> &values) {
 
 void SymbolServer::release(const std::vector<std::string> &names) {
   const std::lock_guard lock(mutex_);
-  checkWritable();
   std::vector<Forced> next = forced_;
   for (const std::string &name : names) {
     const std::string key = app::lowered(name);
@@ -274,41 +262,63 @@ void SymbolServer::close() {
     recorder_->finish();
 }
 
-std::vector<std::string>
-SymbolServer::changeApplication(std::unique_ptr<app::SymbolTable> symbols) {
+/// What takes the place of what the server has; afterwards, what had its place.
+struct SymbolServer::Change::Parts {
+  std::unique_ptr<app::SymbolTable> symbols;
+  std::vector<Forced> forced;
+  std::vector<std::unique_ptr<SymbolChannel::ForceList>> lists; // by task
+  std::unique_ptr<SymbolChannel::RecorderSlot> noRecorder;
+};
+
+SymbolServer::Change::Change() : parts_(std::make_unique<Parts>()) {}
+SymbolServer::Change::Change(Change &&) noexcept = default;
+SymbolServer::Change::~Change() = default;
+
+SymbolServer::Change SymbolServer::prepareChange(std::unique_ptr<app::SymbolTable> symbols) const {
   const std::lock_guard lock(mutex_);
+  Change change;
+  Change::Parts &parts = *change.parts_;
+  for (const Forced &forced : forced_) {
+    const TypeDesc &before = symbols_->type(forced.symbol);
+    try {
+      app::Symbol symbol = resolveWritable(*symbols, forced.symbol.path());
+      if (symbols->type(symbol).layoutHash == before.layoutHash) {
+        parts.forced.push_back({std::move(symbol), forced.value});
+        continue;
+      }
+    } catch (const app::Error &) { // not known any more, which is told
+    }
+    change.lostForces_.push_back(forced.symbol.path());
+  }
+  parts.symbols = std::move(symbols);
+  for (std::size_t i = 0; i < channels_.size(); ++i)
+    parts.lists.push_back(
+        std::make_unique<SymbolChannel::ForceList>(SymbolChannel::ForceList{parts.forced}));
+  parts.noRecorder = std::make_unique<SymbolChannel::RecorderSlot>();
+  return change;
+}
+
+void SymbolServer::changeApplication(Change &change) {
+  const std::lock_guard lock(mutex_);
+  Change::Parts &parts = *change.parts_;
   dropAll();
   if (recorder_) {
     recorder_->stop();
     recorder_->finish();
     recorder_.reset(); // its columns describe the old build
   }
-  channels_[tasks_->fastest()]->recorder.publish(std::make_unique<SymbolChannel::RecorderSlot>());
-  std::vector<std::string> lost;
-  std::vector<Forced> kept;
-  for (const Forced &forced : forced_) {
-    const TypeDesc &before = symbols_->type(forced.symbol);
-    try {
-      app::Symbol symbol = resolveWritable(*symbols, forced.symbol.path());
-      if (symbols->type(symbol).layoutHash == before.layoutHash) {
-        kept.push_back({std::move(symbol), forced.value});
-        continue;
-      }
-    } catch (const app::Error &) { // not known any more, which is told below
-    }
-    lost.push_back(forced.symbol.path());
-  }
-  symbols_ = std::move(symbols);
-  forced_ = std::move(kept);
+  channels_[tasks_->fastest()]->recorder.publish(std::move(parts.noRecorder));
+  symbols_.swap(parts.symbols);
+  forced_.swap(parts.forced);
   ++build_;
-  publishForces();
+  for (std::size_t i = 0; i < channels_.size(); ++i)
+    channels_[i]->forces.publish(std::move(parts.lists[i]));
   // A task that has not taken the list before must not apply the old one, whose symbols lead into
   // the old state; no task is in a cycle, so this thread takes it for them.
   for (const std::unique_ptr<SymbolChannel> &channel : channels_) {
     channel->forces.take();
     channel->recorder.take();
   }
-  return lost;
 }
 
 } // namespace stride::monitor

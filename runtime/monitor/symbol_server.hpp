@@ -18,6 +18,18 @@ namespace stride::monitor {
 
 class SymbolChannel;
 
+/// Is told what requests and forces change in the state, in the cycles.
+class WriteLog {
+public:
+  WriteLog() = default;
+  WriteLog(const WriteLog &) = delete;
+  WriteLog &operator=(const WriteLog &) = delete;
+  virtual ~WriteLog() = default;
+  /// These bytes have just been changed, before the POUs or behind them. Neither allocates, locks
+  /// nor throws.
+  virtual void wrote(const std::byte *place, std::size_t size, bool behindPous) noexcept = 0;
+};
+
 /// Serves one application. Requests are prepared outside of the cycles (names resolved, memory
 /// allocated) and done by the tasks themselves: writes at the start of a cycle, behind the copy of
 /// the inputs, reads at its end. So what is read together was there at one moment, the end of a
@@ -52,8 +64,8 @@ public:
   /// Until the application is changed.
   const app::SymbolTable &symbols() const { return *symbols_; }
 
-  /// From now on nothing can be written and forced; `why` is what is said then.
-  void setReadOnly(const std::string &why);
+  /// Before the first cycle. It lives as long as the tasks' threads.
+  void setWriteLog(WriteLog &log);
 
   /// The values of the names; a structure or an array stands for its parts. Throws app::Error:
   /// unknown name, too much at once, too many requests waiting.
@@ -85,10 +97,28 @@ public:
 
   /// No request will be done any more: the tasks' threads have ended.
   void close();
-  /// Another build has taken the application's place, as TaskSet::rebind says: while no task is in
-  /// a cycle. Waiting requests are dropped, the recorder ends, forces are carried over by name; the
-  /// names of those that are not known any more, or of another type, are returned.
-  std::vector<std::string> changeApplication(std::unique_ptr<app::SymbolTable> symbols);
+
+  /// A new build that will take the application's place.
+  class Change {
+  public:
+    Change(Change &&) noexcept;
+    ~Change();
+    /// Forced variables that the new build does not have, or with another type.
+    const std::vector<std::string> &lostForces() const { return lostForces_; }
+
+  private:
+    friend class SymbolServer;
+    struct Parts;
+    Change();
+    std::unique_ptr<Parts> parts_;
+    std::vector<std::string> lostForces_;
+  };
+  /// Finds the forced variables in the new build, while the cycles go on. Nothing may be forced or
+  /// released until changeApplication().
+  Change prepareChange(std::unique_ptr<app::SymbolTable> symbols) const;
+  /// It has taken the application's place, as TaskSet::rebind says: while no task is in a cycle.
+  /// Waiting requests are dropped, the recorder ends, forces are carried over.
+  void changeApplication(Change &change);
 
 private:
   struct Forced {
@@ -104,7 +134,6 @@ private:
   void collect();
   void dropAll();
   void publishForces();
-  void checkWritable() const;
 
   std::unique_ptr<app::SymbolTable> symbols_;
   task::TaskSet *tasks_;
@@ -113,7 +142,6 @@ private:
   std::vector<std::shared_ptr<SymbolRequest>> waiting_;
   std::vector<Forced> forced_;
   std::shared_ptr<Recorder> recorder_;
-  std::string readOnly_; ///< Why; empty: it is not.
   uint64_t build_ = 0;
   bool closed_ = false;
 };

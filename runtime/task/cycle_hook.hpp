@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace stride::task {
 
@@ -27,13 +28,21 @@ public:
   virtual void applicationStopped() {}
   /// Nothing of this hook's part of the machine moves any more.
   virtual bool atRest() const { return true; }
+  /// Another build will take over: computes what rebind() needs, while the cycles go on. From one
+  /// thread, not a task's.
+  virtual void prepareRebind(const StrideAppV1 &app) { (void)app; }
   /// Between two cycles: another build has taken over, with its state there (an online change). The
-  /// tasks, axis groups and drives are the same in number and order. Neither allocates nor throws.
+  /// tasks, axis groups and drives are the same in number and order. Behind prepareRebind() for
+  /// this build. Neither allocates nor throws.
   virtual void rebind(const StrideAppV1 &app, std::byte *state) noexcept {
     (void)app;
     (void)state;
   }
-  /// What keeps this hook's part of the machine from working, to be shown; empty if nothing does.
+  /// What has happened in the cycles since the last call, to be shown: a cycle itself says nothing,
+  /// the output may lock. From one thread, not a task's.
+  virtual std::vector<std::string> takeNews() { return {}; }
+  /// What keeps this hook's part of the machine from working and was no news yet; empty if nothing
+  /// does.
   virtual std::string problem() const { return {}; }
 };
 

@@ -18,6 +18,7 @@ struct Fault {
   std::string task;
   uint64_t cycle = 0;
   int64_t timeNs = 0;
+  uint64_t looks = 0; ///< How often loops of the cycle had looked at the clock and gone on.
 };
 
 /// One line: what, where in the ST, in which task and cycle:

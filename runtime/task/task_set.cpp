@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace stride::task {
 
@@ -31,6 +32,23 @@ void checkTask(const TaskDesc &desc) {
     throw app::Error(fmt::format("task '{}' has no interval", desc.name));
 }
 
+/// A status task rests while its event is FALSE: it comes last, whatever its interval.
+uint32_t fastestOf(const StrideAppV1 &app) {
+  const auto rank = [](const TaskDesc &desc) {
+    if (desc.kind == TaskKind::Cyclic || desc.kind == TaskKind::Freewheeling)
+      return 0;
+    return desc.kind == TaskKind::Event && desc.intervalNs > 0 ? 1 : 2;
+  };
+  uint32_t best = 0;
+  for (uint32_t i = 1; i < app.taskCount; ++i) {
+    const TaskDesc &a = app.tasks[i];
+    const TaskDesc &b = app.tasks[best];
+    if (std::pair(rank(a), a.intervalNs) < std::pair(rank(b), b.intervalNs))
+      best = i;
+  }
+  return best;
+}
+
 } // namespace
 
 int64_t monotonicNs() noexcept {
@@ -45,15 +63,10 @@ TaskSet::TaskSet(const StrideAppV1 &app, std::byte *state, const HostApi &host, 
     throw app::Error("the application has no task; add one to stride.toml or a CONFIGURATION");
   host_.self = this;
   host_.refillLoopBudget = refill;
-  int64_t shortest = std::numeric_limits<int64_t>::max();
   for (uint32_t i = 0; i < app.taskCount; ++i) {
     const TaskDesc &desc = app.tasks[i];
     checkTask(desc);
     hasEvents_ = hasEvents_ || desc.event != nullptr;
-    if (desc.kind != TaskKind::Event && desc.intervalNs < shortest) {
-      shortest = desc.intervalNs;
-      fastest_ = i;
-    }
     auto task = std::make_unique<Task>();
     task->ctx.state = state;
     task->ctx.taskIntervalNs = desc.intervalNs;
@@ -63,6 +76,7 @@ TaskSet::TaskSet(const StrideAppV1 &app, std::byte *state, const HostApi &host, 
     tasks_.push_back(std::move(task));
     order_.push_back(i);
   }
+  fastest_ = fastestOf(app);
   std::stable_sort(order_.begin(), order_.end(), [&](uint32_t a, uint32_t b) {
     return app.tasks[a].priority < app.tasks[b].priority;
   });
@@ -90,7 +104,8 @@ void TaskSet::runCycle(uint32_t index, int64_t startNs, int64_t latencyNs) noexc
   Ctx &ctx = task.ctx;
   task.startedNs = monotonicNs();
   ctx.cycleStartNs = startNs;
-  ctx.loopBudget = limit_ == LoopLimit::Clock ? kLoopsPerLook : loopBudget_;
+  task.looks = 0;
+  ctx.loopBudget = limit_ == LoopLimit::Clock || repeated_ ? kLoopsPerLook : loopBudget_;
   // Asked once: hooks see in told() what the cycle does.
   if (stopped())
     tellHooks(task);
@@ -148,12 +163,24 @@ void TaskSet::watch(uint32_t index, int64_t runNs) noexcept {
 
 int64_t TaskSet::refill(Ctx *ctx) {
   const auto *self = static_cast<const TaskSet *>(ctx->host->self);
-  if (self->limit_ == LoopLimit::Budget || ctx->cycle == kNoCycle)
+  const bool repeats = self->repeated_.has_value();
+  if ((self->limit_ == LoopLimit::Budget && !repeats) || ctx->cycle == kNoCycle)
     return 0;
+  Task &task = *self->tasks_[ctx->taskIndex];
+  if (repeats) {
+    const bool ends = ctx->cycleStartNs == self->repeated_->timeNs &&
+                              self->repeated_->task == self->app_->tasks[ctx->taskIndex].name
+                          ? task.looks == self->repeated_->looks
+                          : task.looks * kLoopsPerLook > kDefaultLoopBudget;
+    return ends ? 0 : (++task.looks, kLoopsPerLook);
+  }
   const TaskDesc &desc = self->app_->tasks[ctx->taskIndex];
   const int64_t allowed =
       desc.watchdogNs > 0 ? desc.watchdogNs * sensitivity(desc) : kDefaultCycleLimitNs;
-  return monotonicNs() - self->tasks_[ctx->taskIndex]->startedNs > allowed ? 0 : kLoopsPerLook;
+  if (monotonicNs() - task.startedNs > allowed)
+    return 0;
+  ++task.looks;
+  return kLoopsPerLook;
 }
 
 bool TaskSet::eventLevel(uint32_t index) noexcept {
@@ -184,7 +211,7 @@ bool TaskSet::eventLevel(uint32_t index) noexcept {
 
 void TaskSet::fail(const StException &exception, uint32_t task, uint64_t cycle,
                    int64_t timeNs) noexcept {
-  fail({exception, app_->tasks[task].name, cycle, timeNs});
+  fail({exception, app_->tasks[task].name, cycle, timeNs, tasks_[task]->looks});
 }
 
 void TaskSet::fail(Fault fault) noexcept {
@@ -211,6 +238,12 @@ bool TaskSet::atRest() const noexcept {
 std::optional<Fault> TaskSet::fault() const {
   const std::lock_guard lock(faultMutex_);
   return fault_;
+}
+
+void TaskSet::prepareRebind(const StrideAppV1 &app) {
+  for (const std::unique_ptr<Task> &task : tasks_)
+    for (CycleHook *hook : task->hooks)
+      hook->prepareRebind(app);
 }
 
 void TaskSet::rebind(const StrideAppV1 &app, std::byte *state) noexcept {

@@ -53,7 +53,8 @@ public:
   /// Tasks in the order in which they run when they are due together: by priority, then as
   /// declared.
   const std::vector<uint32_t> &order() const { return order_; }
-  /// The task with the shortest interval, the first one of several; 0 when none has an interval.
+  /// The task with the shortest interval among those that the clock starts, the first one of
+  /// several; without any: among events that have an interval, too, else 0.
   uint32_t fastest() const { return fastest_; }
   bool hasEvents() const { return hasEvents_; }
   bool realClock() const { return limit_ == LoopLimit::Clock; }
@@ -63,6 +64,9 @@ public:
   void addHook(uint32_t task, CycleHook &hook);
   /// Loop iterations that one cycle may use, with LoopLimit::Budget.
   void setLoopBudget(int64_t budget) { loopBudget_ = budget; }
+  /// Repeats a run by the real clock in which this cycle ended in an endless loop: its loops go as
+  /// far as they went there.
+  void repeatEndlessLoop(const Fault &fault) { repeated_ = fault; }
 
   /// One cycle: hooks, POUs, hooks; then the watchdog. `startNs` is what the program sees as its
   /// start; `latencyNs` how late that is. Never throws, allocates or locks (but to note a fault).
@@ -85,6 +89,8 @@ public:
 
   const TaskStatistics &statistics(uint32_t task) const { return tasks_[task]->statistics; }
 
+  /// The hooks get ready for rebind() with this build, while the cycles go on.
+  void prepareRebind(const StrideAppV1 &app);
   /// Another build has taken over, with its state there: between two cycles of all tasks. The tasks
   /// of `app` are the same as before in number, order and kind. The hooks are told.
   void rebind(const StrideAppV1 &app, std::byte *state) noexcept;
@@ -96,6 +102,7 @@ private:
     TaskStatistics statistics;
     int64_t startedNs = 0;   ///< Of the clock, not of virtual time.
     uint32_t violations = 0; ///< In a row.
+    uint64_t looks = 0;      ///< Fault::looks of this cycle.
     bool told = false;       ///< The hooks know that the application has stopped.
     std::atomic<bool> rest{false};
   };
@@ -115,6 +122,7 @@ private:
   uint32_t fastest_ = 0;
   bool hasEvents_ = false;
   int64_t loopBudget_ = kDefaultLoopBudget;
+  std::optional<Fault> repeated_;
   std::atomic<bool> stopped_{false};
   mutable std::mutex faultMutex_;
   std::optional<Fault> fault_;

@@ -122,10 +122,40 @@ TEST_F(Monitor, ScriptsInRealTime) {
             "warning: s.script:3:1: the run ended while the script still waited here\n");
 }
 
-TEST_F(Monitor, ARecordedRunIsNotChanged) {
-  const ProcessResult result = served({"write Main.fixed=7", "read Main.fixed"}, "--record in.rec");
-  EXPECT_THAT(result.err, HasSubstr("nothing can be written and forced while the run is recorded"));
-  EXPECT_THAT(result.out, StartsWith("Main.fixed = 5\n"));
+TEST_F(Monitor, WhatIsWrittenIsRecordedAndReplayed) {
+  const ProcessResult result =
+      served({"write Main.fixed=7", "read Main.fixed", "force Main.n=50 %IX0.3=TRUE", "read Main.n",
+              "unforce --all", "write Main.fixed=8"},
+             "--record in.rec --trace Main.n,Main.copy,Main.fixed,Main.seen --out run.csv");
+  EXPECT_THAT(result.out, StartsWith("Main.fixed = 7\nMain.n = 50\n")) << result.err;
+  EXPECT_EQ(result.err, "");
+  const ProcessResult replay = shell(
+      "$HOST sim app.so --replay in.rec --trace Main.n,Main.copy,Main.fixed,Main.seen "
+      "--out sim.csv && cmp run.csv sim.csv && grep -c ',51,7,1$' sim.csv > /dev/null && tail "
+      "-n 1 sim.csv | cut -d , -f 4");
+  EXPECT_EQ(replay.out, "8\n") << replay.err;
+}
+
+/// Scripts, traces and clients are served where only events start tasks.
+TEST_F(Monitor, WithoutAPeriodicTask) {
+  writeFile(scratch_.path() / "app.st", R"(
+VAR_GLOBAL go : BOOL; END_VAR
+PROGRAM Main
+VAR n : DINT; fixed : INT := 5; END_VAR
+n := n + 1;
+END_PROGRAM
+CONFIGURATION C
+  TASK OnGo (SINGLE := go, PRIORITY := 1);
+  PROGRAM Main WITH OnGo;
+END_CONFIGURATION
+)");
+  ASSERT_EQ(shell("$STRIDE build app.st -W off=lints").exitCode, 0);
+  writeFile(scratch_.path() / "s.script", "wait T#50ms\nMain.fixed := 9\n");
+  const ProcessResult result =
+      served({"read Main.n", "write go=TRUE", "read Main.n"}, "--script s.script --print Main");
+  EXPECT_EQ(result.err, "");
+  EXPECT_THAT(result.out, StartsWith("Main.n = 0\nMain.n = 1\n"));
+  EXPECT_THAT(result.out, HasSubstr("Main.fixed = 9\n"));
 }
 
 TEST_F(Monitor, Embedding) {

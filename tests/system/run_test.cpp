@@ -308,6 +308,47 @@ TEST_F(Run, AFaultIsReplayedWithItsPlace) {
             std::string::npos);
 }
 
+TEST_F(Run, AReplayEndsWithTheWatchdogsExceptionOfTheRun) {
+  // Loops with constant bounds do not look at the clock themselves.
+  write("p/a.st", R"(
+FUNCTION Some : DINT
+VAR i : INT; END_VAR
+FOR i := 1 TO 1000 DO Some := Some * 3 + i; END_FOR
+END_FUNCTION
+PROGRAM PLC_PRG
+VAR n, i : DINT; sum : LINT; END_VAR
+n := n + 1;
+IF n = 20 THEN
+  FOR i := 1 TO 15000 DO sum := sum + Some(); END_FOR
+END_IF
+END_PROGRAM
+)");
+  write("p/stride.toml", "[[task]]\nname = \"T\"\ninterval = \"T#1ms\"\nwatchdog = \"T#1ms\"\n"
+                         "programs = [\"PLC_PRG\"]\n");
+  const ProcessResult run =
+      stride({"run", "p", "--for", "20s", "--quiet", "--record", "a.rec", "--print", "PLC_PRG"});
+  EXPECT_EQ(run.exitCode, 2);
+  const ProcessResult replay = stride({"sim", "p", "--replay", "a.rec", "--print", "PLC_PRG"});
+  EXPECT_EQ(replay.exitCode, 2);
+  EXPECT_EQ(replay.out, run.out);
+  EXPECT_THAT(run.err, HasSubstr("error: "));
+  EXPECT_THAT(replay.err, HasSubstr(run.err.substr(run.err.find("error: "))));
+}
+
+TEST_F(Run, AnEndlessLoopIsReplayedToTheSamePlace) {
+  write("p/a.st", "PROGRAM PLC_PRG\nVAR n : DINT; b : BOOL; END_VAR\nn := n + 1;\nb := n < 20;\n"
+                  "WHILE NOT b DO\n  n := n + 1;\nEND_WHILE\nEND_PROGRAM\n");
+  write("p/stride.toml", "[[task]]\nname = \"T\"\ninterval = \"T#1ms\"\nwatchdog = \"T#20ms\"\n"
+                         "programs = [\"PLC_PRG\"]\n");
+  const ProcessResult run =
+      stride({"run", "p", "--for", "20s", "--quiet", "--record", "a.rec", "--print", "PLC_PRG"});
+  EXPECT_EQ(run.exitCode, 2);
+  const ProcessResult replay = stride({"sim", "p", "--replay", "a.rec", "--print", "PLC_PRG"});
+  EXPECT_EQ(replay.exitCode, 2);
+  EXPECT_EQ(replay.out, run.out);
+  EXPECT_THAT(replay.err, HasSubstr("error: endless loop at a.st:5:"));
+}
+
 // ------------------------------------------------------------------------------------------------
 // online change
 
@@ -447,6 +488,20 @@ TEST_F(RunChange, TheTasksStayAsTheyAre) {
   buildNew("");
   EXPECT_THAT(runWithChange("").err,
               HasSubstr("task 'BusTask' has another kind, interval, priority or core"));
+}
+
+TEST_F(RunChange, ParametersThatTakeEffectLaterAreNamed) {
+  std::string toml = readFile(scratch_.path() / "p/stride.toml");
+  toml.replace(toml.find("= -5000.0"), 9, "= -400.0");
+  write("p/stride.toml", toml + "    fSWMaxVelocity = 900.0\n");
+  buildNew("");
+  const std::string limit = "warning: online change: drive Drive: fSWLimitNegative is -400 instead "
+                            "of -5000; that takes effect at the next start";
+  const ProcessResult run = runWithChange("");
+  EXPECT_THAT(run.err, AllOf(HasSubstr(limit), HasSubstr("note: online change done")));
+  EXPECT_THAT(run.err, HasSubstr("drive Drive: fSWMaxVelocity = 900 is new; that takes"));
+  EXPECT_THAT(shell("\"$HOST\" sim old.so --for 1s --change T#500ms,new.so").err,
+              HasSubstr("fSWLimitNegative is -400 instead of -5000"));
 }
 
 TEST_F(RunChange, ASimulationChangesAtAnInstantBitForBit) {

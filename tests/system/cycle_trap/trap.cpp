@@ -8,8 +8,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdarg>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
@@ -61,6 +63,8 @@ struct Originals {
       next<decltype(::pthread_rwlock_rdlock)>("pthread_rwlock_rdlock");
   decltype(::pthread_rwlock_wrlock) *writeLock =
       next<decltype(::pthread_rwlock_wrlock)>("pthread_rwlock_wrlock");
+  decltype(::fwrite) *write = next<decltype(::fwrite)>("fwrite");
+  decltype(::fputs) *put = next<decltype(::fputs)>("fputs");
 };
 
 const Originals &originals() {
@@ -120,6 +124,24 @@ int pthread_rwlock_rdlock(pthread_rwlock_t *lock) {
 int pthread_rwlock_wrlock(pthread_rwlock_t *lock) {
   forbid("pthread_rwlock_wrlock");
   return originals().writeLock(lock);
+}
+
+// A stream has a lock of its own, and who reads it may be slow.
+std::size_t fwrite(const void *data, std::size_t size, std::size_t count, FILE *file) {
+  forbid("fwrite");
+  return originals().write(data, size, count, file);
+}
+int fputs(const char *text, FILE *file) {
+  forbid("fputs");
+  return originals().put(text, file);
+}
+int fprintf(FILE *file, const char *format, ...) {
+  forbid("fprintf");
+  std::va_list arguments;
+  va_start(arguments, format);
+  const int count = std::vfprintf(file, format, arguments);
+  va_end(arguments);
+  return count;
 }
 
 // void stride::task::TaskSet::runCycle(uint32_t, int64_t, int64_t) noexcept

@@ -1,6 +1,7 @@
 // Online change on descriptions made by hand: each rule by itself.
 #include "carry_fixture.hpp"
 
+#include <chrono>
 #include <limits>
 
 namespace stride::test {
@@ -428,6 +429,24 @@ TEST_F(CarryOverTest, OnlyPersistentVariables) {
   EXPECT_EQ(b.get<int16_t>(10), 0x1111);
   EXPECT_EQ(b.get<uint64_t>(b.at(2)), 0x2222222222222222U);
   EXPECT_EQ(result.nulled(), 0U);
+}
+
+TEST_F(CarryOverTest, ThePlanOfManyVariablesIsMadeQuickly) {
+  const auto build = [](stride::test::Build &model, const char *first) {
+    const ModelType *integer = model.elementary(Kind::INT);
+    model.root("G", first, integer);
+    for (int i = 0; i < 100'000; ++i)
+      model.root("G", "v" + std::to_string(i), integer);
+    model.ready();
+  };
+  build(a, "was");
+  build(b, "is");
+  const auto begin = std::chrono::steady_clock::now();
+  const app::CarryOver plan(a.app(), b.app());
+  const auto took = std::chrono::steady_clock::now() - begin;
+  EXPECT_EQ(plan.report().keptValues(), 100'000U);
+  // Comparing each with each takes ten seconds and more.
+  EXPECT_LT(took, std::chrono::seconds(3));
 }
 
 TEST_F(CarryOverTest, UnchangedIsOneCopy) {

@@ -1,6 +1,7 @@
 // Retained data while an application runs: consistent per task, reported once when they cannot be
 // saved, handed on to a new build.
 #include "runtime/host/retain_keeper.hpp"
+#include "runtime/host/retain_reset.hpp"
 #include "runtime/task/fault.hpp"
 #include "tests/support/text.hpp"
 #include "tests/unit/app/app_model.hpp"
@@ -80,6 +81,7 @@ private:
 class FullDisk final : public app::RetainFiles {
 public:
   std::atomic<bool> full{true};
+  bool folderFails = false;
   std::atomic<int> tries{0};
 
   int create(const std::string &path, int &handle) override {
@@ -94,8 +96,9 @@ public:
   int rename(const std::string &from, const std::string &to) override {
     return app::systemFiles().rename(from, to);
   }
+  int remove(const std::string &path) override { return app::systemFiles().remove(path); }
   int syncFolder(const std::string &folder) override {
-    return app::systemFiles().syncFolder(folder);
+    return folderFails ? EIO : app::systemFiles().syncFolder(folder);
   }
   int read(const std::string &path, std::vector<std::byte> &bytes) override {
     return app::systemFiles().read(path, bytes);
@@ -190,17 +193,66 @@ TEST_F(RetainKeeperTest, AnOnlineChangeHandsThemOn) {
   keeper.startSaving();
   runUntil(tasks, [&] { return savedGeneration(file) > 0; });
   after.memory = before.memory;
+  keeper.prepareChange(after.app(), after.state());
   tasks.rebind(after.app(), after.state());
-  keeper.pause();
+  keeper.change();
   const uint64_t atChange = before.memory[0];
   std::fill(before.memory.begin(), before.memory.end(), 0);
-  tasks.runCycle(0, 0, 0); // before it is known
-  keeper.adopt(after.app(), after.state());
+  tasks.runCycle(0, 0, 0); // before it is saved
+  keeper.adopt();
   runUntil(tasks, [&] { return savedGeneration(file) > atChange + 1; });
   EXPECT_TRUE(keeper.finish());
   app::RetainStore store(file);
   std::vector<std::string> problems;
   EXPECT_EQ(store.load(problems)->head.buildHash, 2U);
+}
+
+TEST_F(RetainKeeperTest, BehindAnOnlineChangeATaskThatWaitsIsSavedAsItWasAtTheChange) {
+  Build before(1);
+  Build after(2);
+  for (Build *build : {&before, &after}) {
+    build->task.kind = TaskKind::Event;
+    build->task.intervalNs = 0;
+    build->task.event = [](Ctx *) -> BOOL { return 0; };
+  }
+  task::TaskSet tasks(before.app(), before.state(), task::hostApi(), task::LoopLimit::Budget);
+  RetainKeeper keeper(before.app(), before.state(), settings, lines.say());
+  keeper.addHooks(tasks);
+  tasks.runCycle(0, 0, 0);
+  keeper.startSaving();
+  after.memory = before.memory;
+  keeper.prepareChange(after.app(), after.state());
+  tasks.rebind(after.app(), after.state());
+  keeper.change();
+  // Its event comes, and it is in the middle of a cycle when the new build begins to be saved.
+  std::fill_n(after.memory.begin(), kWords / 2, 77);
+  keeper.adopt();
+  const auto newBuildSaved = [&] {
+    app::RetainStore store(file);
+    std::vector<std::string> problems;
+    const std::optional<app::RetainImage> image = store.load(problems);
+    return image && image->head.buildHash == 2;
+  };
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!newBuildSaved() && std::chrono::steady_clock::now() < end)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(newBuildSaved());
+  EXPECT_EQ(savedGeneration(file), 1U);
+}
+
+TEST_F(RetainKeeperTest, AResetToOriginIsNotDoneBeforeTheFolderIsDurable) {
+  Build build(1);
+  FullDisk disk;
+  disk.full = false;
+  {
+    RetainKeeper keeper(build.app(), build.state(), settings, lines.say(), disk);
+    EXPECT_TRUE(keeper.finish());
+  }
+  disk.folderFails = true;
+  EXPECT_THROW(host::resetRetained(host::ResetKind::Origin, file, disk), app::Error);
+  disk.folderFails = false;
+  EXPECT_NO_THROW(host::resetRetained(host::ResetKind::Origin, file, disk));
+  EXPECT_EQ(savedGeneration(file), 0U);
 }
 
 } // namespace

@@ -102,6 +102,9 @@ TEST_F(Image, LostDevice) {
   EXPECT_EQ(state_.device.bLost, 1);
   EXPECT_EQ(state_.device.udiLosses, 1U);
   EXPECT_EQ(hooks_[1]->problem(), "lost");
+  EXPECT_EQ(hooks_[1]->takeNews(), std::vector<std::string>{"lost"});
+  EXPECT_TRUE(hooks_[1]->takeNews().empty());
+  EXPECT_EQ(hooks_[1]->problem(), ""); // it has been said
   state_.outputs = {9, 9, 9, 9, 9, 9, 9, 9};
   hooks_[0]->afterPous(ctx_);
   hooks_[1]->afterPous(ctx_);
@@ -122,6 +125,8 @@ TEST_F(Image, AnotherBuildUsesOtherBytes) {
   other.imageUseCount = 1;
   State moved;
   moved.outputs = {1, 2, 3, 4, 5, 6, 7, 8};
+  for (const std::unique_ptr<ImageHook> &hook : hooks_)
+    hook->prepareRebind(other);
   for (const std::unique_ptr<ImageHook> &hook : hooks_)
     hook->rebind(other, reinterpret_cast<std::byte *>(&moved));
   hooks_[1]->afterPous(ctx_); // nobody writes outputs now

@@ -2,6 +2,8 @@
 #include "runtime/monitor/symbol_list.hpp"
 #include "tests/unit/monitor/served_app.hpp"
 
+#include <cstring>
+
 namespace stride::test {
 std::size_t allocations();
 }
@@ -143,6 +145,17 @@ TEST_F(SymbolServing, ATaskThatDoesNotRun) {
   EXPECT_TRUE(done->done());
 }
 
+TEST_F(SymbolServing, AWriteToSeveralTasksIsDoneOrRefusedAsAWhole) {
+  for (std::size_t i = 0; i < SymbolServer::kMostWaiting; ++i)
+    (void)server.read({"Slow.runs"});
+  EXPECT_THAT(errorOf([&] {
+                (void)server.write({{"GVL.limit", "5"}, {"Slow.runs", "1"}});
+              }),
+              HasSubstr("wait for task 'Background'"));
+  run();
+  EXPECT_EQ(read("GVL.limit"), "100");
+}
+
 TEST_F(SymbolServing, TheEndOfTheRun) {
   const auto request = server.read({"total"});
   server.close();
@@ -158,10 +171,11 @@ TEST_F(SymbolServing, AnotherBuild) {
   const auto waiting = server.read({"total"});
   stride::app::Application other = stride::app::Application::fromDescription(*stride_app_v1());
   other.initialise(stride::test::kThrowingHost);
+  SymbolServer::Change change =
+      server.prepareChange(std::make_unique<stride::app::SymbolTable>(other.description()));
+  EXPECT_THAT(change.lostForces(), IsEmpty());
   tasks.rebind(other.description(), other.state());
-  EXPECT_THAT(
-      server.changeApplication(std::make_unique<stride::app::SymbolTable>(other.description())),
-      IsEmpty());
+  server.changeApplication(change);
   EXPECT_TRUE(waiting->dropped());
   run();
   EXPECT_EQ(read("total"), "9"); // in the old state, which nobody touches any more
@@ -171,13 +185,32 @@ TEST_F(SymbolServing, AnotherBuild) {
   EXPECT_THAT(errorOf([&] { server.again(waiting); }), HasSubstr("another build"));
 }
 
-TEST_F(SymbolServing, ReadOnly) {
-  server.setReadOnly("not now");
-  EXPECT_EQ(errorOf([&] { (void)server.write({{"total", "1"}}); }), "not now");
-  EXPECT_EQ(errorOf([&] { server.force({{"total", "1"}}); }), "not now");
-  const auto request = server.read({"total"});
+TEST_F(SymbolServing, WhatIsWrittenFromOutsideIsLoggedWhenItChangesSomething) {
+  struct Log final : stride::monitor::WriteLog {
+    void wrote(const std::byte *place, std::size_t size, bool) noexcept override {
+      last = place;
+      bytes += size;
+      ++count;
+    }
+    const std::byte *last = nullptr;
+    std::size_t bytes = 0;
+    int count = 0;
+  } log;
+  server.setWriteLog(log);
+  (void)server.write({{"GVL.limit", "100"}}); // its initial value
   run();
-  EXPECT_TRUE(request->done());
+  EXPECT_EQ(log.count, 0);
+  (void)server.write({{"GVL.limit", "101"}});
+  run();
+  EXPECT_EQ(log.count, 1);
+  EXPECT_EQ(log.bytes, 2U);
+  int16_t written = 0;
+  std::memcpy(&written, log.last, sizeof written);
+  EXPECT_EQ(written, 101);
+  server.force({{"GVL.limit", "7"}});
+  run();
+  run();
+  EXPECT_EQ(log.count, 2); // the program does not write it: it stays
 }
 
 TEST_F(SymbolServing, CyclesAllocateNothing) {

@@ -1,6 +1,7 @@
 // The files of retained data on a disk that may lose its power after every call: whatever was not
 // synced by then is on the disk, or is not, in any combination. In every case the newest image that
 // was acknowledged, or a later one, is there, complete.
+#include "runtime/app/checksum.hpp"
 #include "runtime/app/retain_store.hpp"
 #include "tests/support/text.hpp"
 #include "tests/unit/app/app_model.hpp"
@@ -115,6 +116,11 @@ public:
       change({Named{to, file}});
       change({Named{from, -1}});
     });
+  }
+  int remove(const std::string &path) override {
+    if (!seen_.names.contains(path))
+      return ENOENT;
+    return call([&] { change({Named{path, -1}}); });
   }
   int syncFolder(const std::string &) override {
     return call([&] {
@@ -393,6 +399,39 @@ TEST(RetainStore, FallsBackToTheOtherFileAndSaysWhy) {
   EXPECT_FALSE(std::filesystem::exists(file + ".new"));
 }
 
+/// Whatever the files' times say: the newest image is the last to go.
+TEST(RetainStore, ClearingNeverLeavesOnlyAnOlderImage) {
+  const Generations generations;
+  for (uint32_t saves = 1; saves <= 3; ++saves) {
+    FakeFiles filled;
+    {
+      RetainStore store("/folder/file", filled);
+      for (uint32_t i = 1; i <= saves; ++i)
+        generations.save(store, i);
+    }
+    bool through = false;
+    for (int cut = 0; !through; ++cut) {
+      const std::unique_ptr<FakeFiles> files = filled.copy();
+      files->callsLeft = cut;
+      try {
+        RetainStore("/folder/file", *files).clear();
+        through = true;
+      } catch (const PowerCut &) {
+        through = false;
+      }
+      for (const std::vector<std::size_t> &order : outcomes(files->pending().size())) {
+        const std::unique_ptr<FakeFiles> after = files->copy();
+        after->restart(order);
+        RetainStore store("/folder/file", *after);
+        std::vector<std::string> problems;
+        const uint32_t found = Generations::load(store, problems);
+        EXPECT_TRUE(found == saves || found == 0) << found << " of " << saves;
+        EXPECT_FALSE(through && found != 0);
+      }
+    }
+  }
+}
+
 TEST(RetainStore, KeepsWhatANewerStrideWrote) {
   const Generations generations;
   const test::ScratchDirectory scratch;
@@ -403,6 +442,9 @@ TEST(RetainStore, KeepsWhatANewerStrideWrote) {
   }
   std::string bytes = test::readFile(file + ".a");
   bytes[8] = 9;
+  const std::span<const std::byte> all = std::as_bytes(std::span(bytes));
+  const uint64_t sum = app::crc64(all.subspan(28), app::crc64(all.first(20)));
+  std::memcpy(bytes.data() + 20, &sum, sizeof sum);
   test::writeFile(file + ".a", bytes);
   RetainStore store(file);
   std::vector<std::string> problems;
