@@ -205,8 +205,13 @@ static task::RunResult advance(Instance &instance, Observer &observer, int64_t d
 static task::RunResult repeat(Replay &replay, Instance &instance, Observer &observer) {
   task::TaskSet &tasks = instance.tasks();
   task::RunResult result;
-  if (replay.fault() && replay.fault()->exception.code() == ExceptionCode::EndlessLoop)
-    tasks.repeatEndlessLoop(*replay.fault());
+  const std::optional<task::Fault> &fault = replay.fault();
+  const bool inLoop =
+      fault &&
+      (fault->exception.code() == ExceptionCode::EndlessLoop ||
+       (fault->exception.code() == ExceptionCode::Watchdog && fault->exception.file() != nullptr));
+  if (inLoop)
+    tasks.repeatEndedLoop(*fault);
   while (const std::optional<RecordedCycle> cycle = replay.nextCycle()) {
     if (stopRequested != 0) {
       result.interrupted = true;
@@ -221,8 +226,8 @@ static task::RunResult repeat(Replay &replay, Instance &instance, Observer &obse
     result.timeNs = cycle->startNs;
   }
   // The watchdog is a matter of the real clock: nothing in the replay raises its exception.
-  if (replay.fault() && !result.interrupted)
-    tasks.fail(*replay.fault());
+  if (fault && !result.interrupted)
+    tasks.fail(*fault);
   result.fault = tasks.fault();
   return result;
 }

@@ -117,7 +117,11 @@ void TaskSet::runCycle(uint32_t index, int64_t startNs, int64_t latencyNs) noexc
     if (const std::optional<StException> exception = guardedCall(desc.run, ctx)) {
       const bool late = limit_ == LoopLimit::Clock && desc.watchdogNs > 0 &&
                         exception->code() == ExceptionCode::EndlessLoop;
-      fail(late ? watchdogIn(*exception, task, desc) : *exception, index, ctx.cycle, startNs);
+      const bool again = repeats(index, startNs) && exception->code() == ExceptionCode::EndlessLoop;
+      fail(again  ? repeated_->exception
+           : late ? watchdogIn(*exception, task, desc)
+                  : *exception,
+           index, ctx.cycle, startNs);
       tellHooks(task);
     }
   }
@@ -163,24 +167,28 @@ void TaskSet::watch(uint32_t index, int64_t runNs) noexcept {
 
 int64_t TaskSet::refill(Ctx *ctx) {
   const auto *self = static_cast<const TaskSet *>(ctx->host->self);
-  const bool repeats = self->repeated_.has_value();
-  if ((self->limit_ == LoopLimit::Budget && !repeats) || ctx->cycle == kNoCycle)
+  if ((self->limit_ == LoopLimit::Budget && !self->repeated_) || ctx->cycle == kNoCycle)
     return 0;
   Task &task = *self->tasks_[ctx->taskIndex];
-  if (repeats) {
-    const bool ends = ctx->cycleStartNs == self->repeated_->timeNs &&
-                              self->repeated_->task == self->app_->tasks[ctx->taskIndex].name
-                          ? task.looks == self->repeated_->looks
-                          : task.looks * kLoopsPerLook > kDefaultLoopBudget;
-    return ends ? 0 : (++task.looks, kLoopsPerLook);
+  bool ends = false;
+  if (self->repeats(ctx->taskIndex, ctx->cycleStartNs)) {
+    ends = task.looks == self->repeated_->looks;
+  } else if (self->repeated_) {
+    ends = task.looks > kDefaultLoopBudget / kLoopsPerLook;
+  } else {
+    const TaskDesc &desc = self->app_->tasks[ctx->taskIndex];
+    const int64_t allowed =
+        desc.watchdogNs > 0 ? desc.watchdogNs * sensitivity(desc) : kDefaultCycleLimitNs;
+    ends = monotonicNs() - task.startedNs > allowed;
   }
-  const TaskDesc &desc = self->app_->tasks[ctx->taskIndex];
-  const int64_t allowed =
-      desc.watchdogNs > 0 ? desc.watchdogNs * sensitivity(desc) : kDefaultCycleLimitNs;
-  if (monotonicNs() - task.startedNs > allowed)
+  if (ends)
     return 0;
   ++task.looks;
   return kLoopsPerLook;
+}
+
+bool TaskSet::repeats(uint32_t task, int64_t startNs) const noexcept {
+  return repeated_ && repeated_->timeNs == startNs && repeated_->task == app_->tasks[task].name;
 }
 
 bool TaskSet::eventLevel(uint32_t index) noexcept {

@@ -64,9 +64,9 @@ public:
   void addHook(uint32_t task, CycleHook &hook);
   /// Loop iterations that one cycle may use, with LoopLimit::Budget.
   void setLoopBudget(int64_t budget) { loopBudget_ = budget; }
-  /// Repeats a run by the real clock in which this cycle ended in an endless loop: its loops go as
-  /// far as they went there.
-  void repeatEndlessLoop(const Fault &fault) { repeated_ = fault; }
+  /// Repeats a run by the real clock in which a loop of this cycle was ended: its loops go as far
+  /// as they went there.
+  void repeatEndedLoop(const Fault &fault) { repeated_ = fault; }
 
   /// One cycle: hooks, POUs, hooks; then the watchdog. `startNs` is what the program sees as its
   /// start; `latencyNs` how late that is. Never throws, allocates or locks (but to note a fault).
@@ -108,6 +108,7 @@ private:
   };
 
   static int64_t refill(Ctx *ctx);
+  bool repeats(uint32_t task, int64_t startNs) const noexcept;
   static StException watchdogIn(const StException &loop, const Task &task,
                                 const TaskDesc &desc) noexcept;
   void fail(const StException &exception, uint32_t task, uint64_t cycle, int64_t timeNs) noexcept;
