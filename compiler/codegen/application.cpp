@@ -1,6 +1,7 @@
 // app.cpp: the application object. build.cpp: what identifies this build, apart so that app.cpp
 // stays the same when only a body changes.
 
+#include "compiler/codegen/consistent_copies.hpp"
 #include "compiler/codegen/plc_tables.hpp"
 #include "compiler/codegen/type_table.hpp"
 #include "compiler/codegen/units.hpp"
@@ -36,7 +37,7 @@ std::string lower(std::string_view text) {
 class Application {
 public:
   Application(Context &context, const AppConfig &config)
-      : c_(context), config_(config), types_(context),
+      : c_(context), config_(config), types_(context), copies_(context, config.tasks.size()),
         plc_(context, config, [this](std::string_view name) { return global(name); }) {
     collect();
   }
@@ -69,11 +70,14 @@ public:
     out += "#include \"runtime/app/abi.h\"\n#include \"runtime/iec/image.h\"\n";
     if (c_.program.usesPool)
       out += "#include \"runtime/iec/pool.h\"\n";
+    if (!copies_.empty())
+      out += "#include \"runtime/iec/consistent.h\"\n";
     out += types_.includes().text(nullptr);
     out += "\n#pragma GCC diagnostic ignored \"-Winvalid-offsetof\"\n";
     out += "\nnamespace st::user {\n\n/// All state of the application.\nstruct App__ {\n";
     for (const Member &m : members_)
       out += "  " + rootType(c_.names, m.root) + " " + m.name + ";\n";
+    out += copies_.members();
     for (std::size_t area = 0; area < 3; ++area) {
       if (const std::uint32_t bytes = c_.program.image.bytes[area]; bytes != 0)
         out += std::string("  alignas(8) ::stride::BYTE image__") + "iqm"[area] + "[" +
@@ -89,6 +93,7 @@ public:
       out += "\nvoid configure__(::stride::Ctx &ctx__);\n";
     out += "\n} // namespace st::user\n" + measures;
     places(out);
+    out += copies_.places();
     if (c_.program.usesPool)
       out += "\nnamespace stride {\nconst ULINT poolPlace = offsetof(::st::user::App__, pool__);\n"
              "const ULINT poolSize = " +
@@ -96,6 +101,7 @@ public:
     out += "\nnamespace {\n\nusing ::st::user::App__;\nusing ::stride::Kind;\n"
            "\n[[maybe_unused]] App__ &app__(::stride::Ctx *ctx__) { return *static_cast<App__ "
            "*>(ctx__->state); }\n";
+    out += copies_.settle();
     init(out);
     tasks(out);
     out += "\n[[maybe_unused]] constexpr uint32_t kNo = ::stride::kNoIndex;\n" + tables;
@@ -273,7 +279,7 @@ private:
   void init(std::string &out) {
     out += "\n// Libraries first, then files by path, then in the order of declaration.\nvoid "
            "init__(::stride::Ctx *";
-    std::string body;
+    std::string body = copies_.begin();
     for (const SlotPlace &slot : c_.program.slotPlaces) {
       if (!slot.placed || slot.variable == nullptr)
         continue;
@@ -290,6 +296,8 @@ private:
     }
     if (hasConfiguredValues(c_.program))
       body += "  ::st::user::configure__(*ctx__);\n";
+    if (!copies_.empty())
+      body += "  settle__(ctx__);\n";
     out += (body.empty() ? ") {\n" : "ctx__) {\n") + body + "}\n";
     hasExit_ = lifecycle(out, "fb_exit", "exit__", true);
     hasReinit_ = lifecycle(out, "fb_reinit", "reinit__", false);
@@ -315,10 +323,10 @@ private:
       const AppConfig::Task &task = config_.tasks[i];
       const std::string name = "task" + std::to_string(i) + "__";
       out += "\n/// " + task.name + "\nvoid " + name + "(::stride::Ctx *" +
-             (task.programs.empty() ? "" : "ctx__") + ") {\n";
+             (task.programs.empty() ? "" : "ctx__") + ") {\n" + copies_.take(i);
       for (const PouSymbol *p : task.programs)
         out += "  app__(ctx__)." + memberName({p, false}) + ".body__(*ctx__);\n";
-      out += "}\n";
+      out += copies_.give(i) + "}\n";
       std::string event = "nullptr";
       if (task.event != nullptr) {
         event = "event" + std::to_string(i) + "__";
@@ -434,12 +442,14 @@ private:
     field("bootupErrorLength", length);
     field("bootupErrorOffset", place);
     field("encoderRefLayout", std::to_string(plc_.encoderLayout()) + "ULL");
+    field("settle", copies_.empty() ? "nullptr" : "settle__");
     out += "};\n\n} // namespace st::user\n";
   }
 
   Context &c_;
   const AppConfig &config_;
   TypeTable types_;
+  ConsistentCopies copies_;
   PlcTables plc_;
   std::vector<Member> members_;
   std::unordered_set<const VarDecl *> qualified_; ///< in lists with {attribute 'qualified_only'}

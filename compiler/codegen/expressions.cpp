@@ -1,5 +1,6 @@
 // Values and places: names, members, elements, pointers.
 
+#include "compiler/codegen/consistent_copies.hpp"
 #include "compiler/codegen/units.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
@@ -132,6 +133,15 @@ std::string Emitter::writableText(const Expr *e) {
 void Emitter::place(const Expr *e) {
   if (const auto found = found_.find(e); found != found_.end()) {
     w_ << found->second;
+    return;
+  }
+  if (c_.program.sharing.copies.contains(e)) {
+    const Symbol *v =
+        e->kind == ExprKind::name ? as<NameExpr>(e)->symbol : as<MemberExpr>(e)->symbol;
+    const auto *variable = static_cast<const VarSymbol *>(v);
+    includes_.symbol(variable->globals);
+    w_ << "::stride::seen<" << type(variable->type) << ">(" << ctx() << ", "
+       << copiesPlace(c_.names, variable) << ')';
     return;
   }
   switch (e->kind) {

@@ -1,5 +1,6 @@
 // Headers: one per type, POU and variable list.
 
+#include "compiler/codegen/consistent_copies.hpp"
 #include "compiler/codegen/units.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
@@ -106,6 +107,13 @@ public:
     rootLifecycle({symbol, false});
     body_ += "};\n";
     place({symbol, false});
+    for (const ConsistentVariable &v : c_.program.sharing.consistent) {
+      if (v.variable->globals != symbol)
+        continue;
+      const std::string place = copiesPlace(c_.names, v.variable);
+      body_ += "extern const ::stride::ULINT " + place.substr(place.rfind(':') + 1) +
+               "; // what each task reads\n";
+    }
     return close(symbol);
   }
 

@@ -285,7 +285,7 @@ void TypeTable::addPool(std::uint64_t size) {
   Row row;
   row.kind = "Array";
   row.name = "ARRAY [0.." + std::to_string(size - 1) + "] OF BYTE";
-  row.cppType = "::stride::Pool<" + std::to_string(size) + ">";
+  row.cppType = "::stride::BYTE[" + std::to_string(size) + "]"; // the maps lie behind
   row.hash = Hash().add("pool").add(size).value();
   row.element = index(elementaryType(TypeKind::byte));
   row.elementCount = size;

@@ -148,6 +148,12 @@ private:
   void checkRetain(const VarSymbol *variable);
   void finishImage();
 
+  // consistent.cpp
+  /// Notes the variables with {attribute 'consistent'}, and reports it where it does nothing.
+  void checkConsistent(const ast::Decl *decl);
+  void checkConsistent(std::span<ast::VarDecl *const> variables);
+  void reportConsistent(const ast::Attributes &attributes, const std::string &why);
+
   // configured.cpp
   /// What an expression of VAR_CONFIG or VAR_ACCESS leads to.
   struct PathTarget {

@@ -327,6 +327,10 @@ void Checker::checkUser(const std::vector<File *> &files) {
   findImplicitChecks(user);
   declareUsed();
   checkConfigured(user);
+  for (const File *file : files) {
+    for (const Decl *decl : file->declarations)
+      checkConsistent(decl);
+  }
   finishImage();
   lint(user);
 }

@@ -318,6 +318,7 @@ void SharingGraph::solve() {
       }
     }
   }
+  findEvents();
   for (std::uint32_t task = 0; task < count; ++task) {
     for (const PouSymbol *pou : tasks_[task].pous) {
       if (pou->decl->kind == DeclKind::program)
@@ -326,6 +327,8 @@ void SharingGraph::solve() {
     for (const PouSymbol *pou : reached_[task]) {
       const PouAccess &access = accessOf(pou);
       for (const PlaceAccess &a : access.accesses) {
+        if (readsCopy(task, pou, a))
+          continue;
         for (PlaceNode *node : nodesAt(a.place, task))
           node->use(task, a.flags, a.span);
       }
@@ -443,6 +446,7 @@ void SharingGraph::conclude() {
   concludeWriters();
   if (tasks_.size() < 2)
     return;
+  concludeConsistent();
   for (const Symbol *symbol : rootOrder_)
     visit({{roots_.at(symbol).get(), nullptr}}, {std::string(symbol->name.text), symbol}, {},
           false);

@@ -35,6 +35,13 @@ struct ImageUse {
 
 inline constexpr std::uint32_t kNoTask = 0xFFFFFFFF;
 
+/// A variable with {attribute 'consistent'} that other tasks than the one that writes it read.
+struct ConsistentVariable {
+  const VarSymbol *variable = nullptr;
+  std::uint32_t writer = 0;
+  std::vector<std::uint32_t> readers;
+};
+
 /// What a program's tasks have in common. Empty for a program with one task, but for imageUses and
 /// writers.
 struct Sharing {
@@ -48,6 +55,9 @@ struct Sharing {
   std::array<std::vector<bool>, 3> imageBytes;
   /// Sorted by task, area, direction and place.
   std::vector<ImageUse> imageUses;
+  std::vector<ConsistentVariable> consistent;
+  /// Where these are named and read: each task reads its own copy.
+  std::unordered_set<const ast::Expr *> copies;
   /// The one task that writes (or calls) a global variable or program; absent: none, or several.
   std::unordered_map<const Symbol *, std::uint32_t> writers;
 

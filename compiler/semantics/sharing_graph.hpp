@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace stc {
@@ -77,6 +78,11 @@ private:
   void concludeWriters();
   void concludeAddresses();
 
+  // sharing_consistent.cpp
+  void findEvents();
+  bool readsCopy(std::uint32_t task, const PouSymbol *pou, const PlaceAccess &access);
+  void concludeConsistent();
+
   struct Path {
     std::string text;
     const Symbol *root;
@@ -93,6 +99,8 @@ private:
   void reportBits(const Path &path, const std::pair<const std::uint32_t, Span> &first,
                   const std::pair<const std::uint32_t, Span> &second);
   void reportOutputs();
+  void reportConsistentWriters(const VarSymbol *v, const Use &first, const Use &second);
+  void helpConsistent(Diagnostic &d, const Path &path, Span read) const;
   void declaredAt(Diagnostic &d, const Path &path) const;
   [[nodiscard]] bool isUserPlace(Span span) const;
   [[nodiscard]] const std::string &taskName(std::uint32_t task) const { return tasks_[task].name; }
@@ -110,6 +118,13 @@ private:
   /// What the bodies of blocks and programs do to their own variables, for all instances.
   std::unordered_map<const Symbol *, std::unique_ptr<PlaceNode>> own_;
   std::map<std::pair<const VarSymbol *, std::uint32_t>, Nodes> leads_;
+  std::unordered_set<const PouSymbol *> ofEvents_; ///< what asking an event calls
+  struct CopyReads {
+    std::set<std::uint32_t> tasks;
+    std::vector<const ast::Expr *> places; ///< that name the variable
+  };
+  std::unordered_map<const VarSymbol *, CopyReads> copyReads_; ///< of 'consistent' variables
+  std::set<std::pair<FileId, std::uint32_t>> namedReads_;      ///< where others are named
   struct Bytes {
     std::vector<bool> read;
     std::vector<bool> write;

@@ -38,14 +38,6 @@ void add(TaskUses &to, const TaskUses &from, unsigned mask) {
   }
 }
 
-/// AXIS_REF and the like, for which SE0863 is responsible.
-bool isAxis(const Type *type) {
-  if (type == nullptr || type->kind != TypeKind::structure)
-    return false;
-  const std::string_view name = typeAs<StructType>(type)->symbol->name.id->lower;
-  return name == "axis_ref" || name == "smc_axisgroup_ref";
-}
-
 Span firstOf(const TaskUse &use, bool writes) {
   if (writes && use.write.valid())
     return use.write;
@@ -164,7 +156,7 @@ bool SharingGraph::checkWhole(const Type *type, const TaskUses &own, const TaskU
         reportInstance(path, {task, use}, {other, ownOther->second});
         return true;
       }
-      if (isAxis(type))
+      if (isAxisType(type))
         continue;
       const bool otherWrites = otherUse.writes() || (otherUse.flags & accessCall) != 0;
       const bool writes =
@@ -205,6 +197,7 @@ void SharingGraph::reportAggregate(const Path &path, const Use &writer, const Us
          "the old value and a part of the new one");
   d.help("do both in one task, or exchange single elementary variables and members: these are "
          "always whole");
+  helpConsistent(d, path, read);
 }
 
 void SharingGraph::reportInstance(const Path &path, const Use &first, const Use &second) {

@@ -59,9 +59,10 @@ struct VarSymbol : Symbol {
   const ast::Decl *home = nullptr; ///< of a global or a field: the declaration around it
   struct GlobalsSymbol *globals = nullptr; ///< the list a global belongs to
   bool isConstant = false;
-  bool hidden = false;   ///< {attribute 'hide'}
-  bool isBit = false;    ///< declared as BIT: a BOOL that shares its byte with its neighbours
-  bool isResult = false; ///< the variable of a FUNCTION that holds its result
+  bool hidden = false;       ///< {attribute 'hide'}
+  bool isConsistent = false; ///< {attribute 'consistent'}, and it can have it
+  bool isBit = false;        ///< declared as BIT: a BOOL that shares its byte with its neighbours
+  bool isResult = false;     ///< the variable of a FUNCTION that holds its result
   const ConstValue *constant = nullptr; ///< value of a CONSTANT of elementary type
   const Location *location = nullptr;   ///< of an AT clause; null: an ordinary variable
   std::string_view storage;             ///< VAR_INST: the field's name in the instance; else empty

@@ -1,4 +1,4 @@
-#include "compiler/semantics/task_access.hpp"
+#include "compiler/semantics/task_access_names.hpp"
 
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
@@ -9,49 +9,37 @@
 namespace stc {
 
 using namespace ast;
+using namespace access;
 
 namespace {
 
-bool isAddress(const Type *type) {
-  return type->kind == TypeKind::pointer || type->kind == TypeKind::interface;
-}
-
-/// It stands for another variable.
-bool isAlias(const VarSymbol *v) {
-  return v->section == Section::inOut || v->type->kind == TypeKind::reference;
-}
-
-const Symbol *symbolOf(const Expr *e) {
-  if (e->kind == ExprKind::name)
-    return as<NameExpr>(e)->symbol;
-  return e->kind == ExprKind::member ? as<MemberExpr>(e)->symbol : nullptr;
-}
-
-bool isNamespaceName(const Expr *e) {
+/// The expression that names the global variable in which a place lies: `GVL.list` of
+/// `GVL.list[3].x`. Null if an address leads there, or it is none.
+const Expr *namedGlobal(const Expr *e) {
+  while (e->kind == ExprKind::index ||
+         (e->kind == ExprKind::member && !isNamespaceName(as<MemberExpr>(e)->base))) {
+    e = e->kind == ExprKind::index ? as<IndexExpr>(e)->base : as<MemberExpr>(e)->base;
+    if (e->type == nullptr || isAddress(e->type))
+      return nullptr;
+  }
   const Symbol *symbol = symbolOf(e);
-  return symbol != nullptr &&
-         (symbol->kind == SymbolKind::library || symbol->kind == SymbolKind::globals ||
-          symbol->kind == SymbolKind::type || symbol->kind == SymbolKind::space);
-}
-
-/// The variable that an address is kept in: of `p`, `a.p`, `ps[3]`.
-const VarSymbol *addressVariable(const Expr *e) {
-  while (e->kind == ExprKind::index)
-    e = as<IndexExpr>(e)->base;
-  const Symbol *symbol = symbolOf(e);
-  return symbol != nullptr && symbol->kind == SymbolKind::variable
-             ? static_cast<const VarSymbol *>(symbol)
+  return symbol != nullptr && symbol->kind == SymbolKind::variable &&
+                 static_cast<const VarSymbol *>(symbol)->globals != nullptr
+             ? e
              : nullptr;
-}
-
-PlacePath behind(const VarSymbol *v) {
-  return v == nullptr ? PlacePath{} : PlacePath{PlacePath::Base::address, v, {}};
 }
 
 } // namespace
 
 bool isScalarValue(const Type *type) {
   return (isElementary(type) && !isString(type)) || isAddress(type);
+}
+
+bool isAxisType(const Type *type) {
+  if (type == nullptr || type->kind != TypeKind::structure)
+    return false;
+  const std::string_view name = typeAs<StructType>(type)->symbol->name.id->lower;
+  return name == "axis_ref" || name == "smc_axisgroup_ref";
 }
 
 bool isUnionType(const Type *type) {
@@ -151,8 +139,7 @@ void AccessReader::statement(const Stmt *s) {
     value(f->to);
     if (f->by != nullptr)
       value(f->by);
-    target(f->variable);
-    value(f->variable);
+    access(f->variable, accessRead | accessWrite, accessWholeRead | accessWholeWrite);
     block(f->body);
     return;
   }
@@ -236,12 +223,13 @@ void AccessReader::access(const Expr *e, unsigned scalar, unsigned whole) {
   }
   image(owner, writes);
   const bool scalarValue = isScalarValue(owner->type);
-  note(place(owner, true), owner->type, scalarValue ? scalar : whole, e->span);
+  note(place(owner, true), scalarValue ? scalar : whole, e->span,
+       writes ? nullptr : namedGlobal(owner));
 }
 
-void AccessReader::note(PlacePath place, const Type *, unsigned flags, Span span) {
+void AccessReader::note(PlacePath place, unsigned flags, Span span, const Expr *named) {
   if (place.base != PlacePath::Base::none)
-    out_.accesses.push_back({std::move(place), flags, span});
+    out_.accesses.push_back({std::move(place), flags, span, named});
 }
 
 /// A place in the process image, also an element or member of a located variable.
@@ -336,7 +324,7 @@ PlacePath AccessReader::place(const Expr *e, bool walk) {
       }
       if (t != nullptr && t->kind == TypeKind::pointer) {
         if (walk)
-          note(at, t, accessRead, e->span);
+          note(at, accessRead, e->span);
         at = behind(addressVariable(x->base));
       } else if (at.base != PlacePath::Base::none) {
         at.steps.push_back({nullptr, i->constant != nullptr ? i->constant->integer : kAnyElement});
@@ -434,169 +422,7 @@ void AccessReader::escape(const Expr *e) {
       std::make_move_iterator(out_.flows.end()));
   out_.flows.resize(before);
   for (AddressFlow &f : taken)
-    note(std::move(f.place), nullptr, accessUnknown | accessRead | accessWrite, e->span);
-}
-
-// ----------------------------------------------------------------------------------------------------
-// calls
-
-void AccessReader::accessor(const Expr *object, const Symbol *symbol, bool writes, Span span) {
-  const auto *property = static_cast<const PropertySymbol *>(symbol);
-  const PouSymbol *pou = writes ? property->set : property->get;
-  if (pou == nullptr)
-    return;
-  out_.calls.push_back({pou, true});
-  if (object == nullptr)
-    return;
-  PlacePath at = object->type != nullptr && isAddress(object->type)
-                     ? behind(addressVariable(object))
-                     : place(object, false);
-  note(std::move(at), nullptr, accessCall, span);
-}
-
-/// The instance whose body or method runs.
-void AccessReader::instanceOf(const CallExpr *e) {
-  const Expr *object = e->callee;
-  if (e->resolved == Callee::method) {
-    if (object->kind != ExprKind::member || isNamespaceName(as<MemberExpr>(object)->base))
-      return; // of the own instance
-    object = as<MemberExpr>(object)->base;
-  }
-  PlacePath at = place(object, true);
-  if (object->type != nullptr && isAddress(object->type)) {
-    note(at, object->type, accessRead, e->span);
-    at = behind(addressVariable(object));
-  }
-  const bool native = blockOf(e->pou)->decl->external;
-  note(std::move(at), object->type, accessCall | (native ? accessUnknown : 0U), e->span);
-}
-
-void AccessReader::argument(const CallExpr *e, const Argument &a) {
-  if (a.value == nullptr)
-    return;
-  const VarSymbol *p = a.parameter;
-  if (a.output) {
-    if (p != nullptr && isAddress(a.value->type))
-      if (const VarSymbol *to = addressVariable(a.value))
-        out_.flows.push_back({to, {}, p});
-    target(a.value);
-    return;
-  }
-  const bool native = e->pou->decl->external;
-  if (p != nullptr && isAlias(p)) {
-    PlacePath at = place(a.value, true);
-    image(a.value, !p->isConstant);
-    if (native) {
-      const bool reads = p->isConstant;
-      const unsigned flags = isScalarValue(p->type) ? accessRead | (reads ? 0U : accessWrite)
-                             : reads                ? unsigned{accessWholeRead}
-                                                    : unsigned{accessUnknown};
-      note(at, p->type, flags, a.span);
-    }
-    const PouSymbol *block = blockOf(e->pou);
-    if (block->library != nullptr && !block->library->isUser &&
-        p->type->kind == TypeKind::structure &&
-        typeAs<StructType>(p->type)->symbol->name.id->lower == "axis_ref")
-      out_.axes.push_back({block, at, a.span});
-    if (at.base != PlacePath::Base::none)
-      out_.flows.push_back({p, std::move(at), nullptr});
-    return;
-  }
-  value(a.value);
-  if (p == nullptr)
-    return;
-  if (native || !isAddress(p->type))
-    escape(a.value);
-  else
-    flow(p, a.value);
-}
-
-void AccessReader::call(const CallExpr *e) {
-  switch (e->resolved) {
-  case Callee::unresolved:
-    return;
-  case Callee::builtin:
-    builtin(e);
-    return;
-  case Callee::function:
-    break;
-  case Callee::functionBlock:
-  case Callee::method:
-    instanceOf(e);
-    break;
-  case Callee::program:
-    note({PlacePath::Base::root, e->pou, {}}, nullptr, accessCall, e->span);
-    break;
-  }
-  for (const Argument &a : e->arguments)
-    argument(e, a);
-  // Inputs and outputs of an instance are its members.
-  if (e->resolved == Callee::functionBlock || e->resolved == Callee::program) {
-    const PlacePath instance = e->resolved == Callee::program
-                                   ? PlacePath{PlacePath::Base::root, e->pou, {}}
-                                   : place(e->callee, false);
-    for (const Argument &a : e->arguments) {
-      if (a.parameter == nullptr || a.value == nullptr || isAlias(a.parameter) ||
-          instance.base == PlacePath::Base::none)
-        continue;
-      PlacePath member = instance;
-      member.steps.push_back({a.parameter, 0});
-      const bool scalar = isScalarValue(a.parameter->type);
-      note(std::move(member), a.parameter->type,
-           a.output ? (scalar ? accessRead : accessWholeRead)
-                    : (scalar ? accessWrite : accessWholeWrite),
-           a.span);
-    }
-  }
-  out_.calls.push_back({e->pou, isOpen(e)});
-}
-
-/// The instance is found by an address, or is the one that runs: its type may be a derived one.
-bool AccessReader::isOpen(const CallExpr *e) {
-  const Expr *object = e->callee;
-  if (e->resolved == Callee::method) {
-    if (object->kind != ExprKind::member || isNamespaceName(as<MemberExpr>(object)->base))
-      return true;
-    object = as<MemberExpr>(object)->base;
-  } else if (e->resolved != Callee::functionBlock) {
-    return false;
-  }
-  if (object->type != nullptr && isAddress(object->type))
-    return true;
-  const PlacePath at = place(object, false);
-  return at.base == PlacePath::Base::none || at.base == PlacePath::Base::address ||
-         at.symbol == nullptr;
-}
-
-void AccessReader::builtin(const CallExpr *e) {
-  switch (e->builtin) {
-  case Builtin::sizeofT:
-  case Builtin::indexOf:
-  case Builtin::newT:
-    return;
-  case Builtin::adr: // the access is where the address is followed
-    place(e->arguments[0].value, true);
-    return;
-  case Builtin::isValidRef:
-    return;
-  case Builtin::ini:
-    access(e->arguments[0].value, accessWrite, accessWholeWrite);
-    value(e->arguments[1].value);
-    return;
-  case Builtin::queryInterface:
-  case Builtin::queryPointer:
-    value(e->arguments[0].value);
-    target(e->arguments[1].value);
-    flow(addressVariable(e->arguments[1].value), e->arguments[0].value);
-    return;
-  case Builtin::lowerBound:
-  case Builtin::upperBound:
-    return;
-  default:
-    for (const Argument &a : e->arguments)
-      value(a.value);
-    return;
-  }
+    note(std::move(f.place), accessUnknown | accessRead | accessWrite, e->span);
 }
 
 } // namespace stc

@@ -50,6 +50,8 @@ struct PlaceAccess {
   PlacePath place;
   unsigned flags = 0;
   Span span;
+  /// Where a read names a global variable itself; null: it is written, or found by an address.
+  const ast::Expr *named = nullptr;
 };
 
 /// `target` may lead to the place, or to wherever `from` leads.
@@ -92,6 +94,11 @@ struct PouAccess {
 /// The members of the type are in one place: whoever writes one writes all.
 [[nodiscard]] bool isUnionType(const Type *type);
 
+/// AXIS_REF and the like, for which SE0863 is responsible.
+[[nodiscard]] bool isAxisType(const Type *type);
+/// Values and addresses only: a copy of its bytes is a copy of it.
+[[nodiscard]] bool isPlainData(const Type *type);
+
 /// Reads the bodies of POUs.
 class AccessReader {
 public:
@@ -107,7 +114,7 @@ private:
   void value(const ast::Expr *e);
   void target(const ast::Expr *e);
   void access(const ast::Expr *e, unsigned scalar, unsigned whole);
-  void note(PlacePath place, const Type *type, unsigned flags, Span span);
+  void note(PlacePath place, unsigned flags, Span span, const ast::Expr *named = nullptr);
   void image(const ast::Expr *e, bool writes);
   void call(const ast::CallExpr *e);
   void builtin(const ast::CallExpr *e);

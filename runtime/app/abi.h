@@ -17,7 +17,7 @@
 namespace stride {
 
 /// The first member of StrideAppV1. Grows with every change that an older host cannot read.
-inline constexpr uint32_t kAbiVersion = 3;
+inline constexpr uint32_t kAbiVersion = 4;
 /// The second member: tells a description from other data ("STRD").
 inline constexpr uint32_t kAbiMagic = 0x44525453;
 /// "No index" in the tables below.
@@ -309,6 +309,11 @@ struct StrideAppV1 {
       0; ///< STRING length of g_strBootupError; 0: the application has none.
   uint64_t bootupErrorOffset = 0; ///< From the start of the state.
   uint64_t encoderRefLayout = 0;  ///< Layout hash of SMC_ENCODER_REF; 0 when there is no encoder.
+
+  /// Prepares what tasks read of each other. init does so at its end; to be called again when
+  /// values have been put into the state before the tasks run (retained ones, those of another
+  /// build). Raises no exception. Null when there is nothing to prepare.
+  void (*settle)(Ctx *ctx) = nullptr;
 };
 
 /// Number of elements of a table, for StrideAppV1's counts.

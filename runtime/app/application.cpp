@@ -83,4 +83,12 @@ void Application::initialise(const HostApi &host, bool inCopyCode, bool keepReta
   call(description_->init, ctx);
 }
 
+void Application::settle() {
+  if (description_->settle == nullptr)
+    return;
+  Ctx ctx{};
+  ctx.state = state_.data();
+  description_->settle(&ctx);
+}
+
 } // namespace stride::app

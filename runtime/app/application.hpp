@@ -38,6 +38,9 @@ public:
       const HostApi &host, bool inCopyCode = false, bool keepRetains = false,
       const InitCall &call = [](void (*init)(Ctx *), Ctx &ctx) { init(&ctx); });
 
+  /// Values were put into the state after initialise(): the tasks are to see them.
+  void settle();
+
   const StrideAppV1 &description() const { return *description_; }
   std::byte *state() const { return state_.data(); }
   const StateBlock &stateBlock() const { return state_; }

@@ -437,7 +437,10 @@ CarryOver::Taken CarryOver::takeOver(const Ctx &now, std::byte *oldState, std::b
   if (!run(match_.oldApp().exit, oldState))
     return Taken::ExitFailed;
   apply(oldState, newState, result);
-  return run(match_.newApp().reinit, newState) ? Taken::Whole : Taken::ReinitFailed;
+  run(match_.newApp().settle, newState);
+  const bool whole = run(match_.newApp().reinit, newState);
+  run(match_.newApp().settle, newState); // FB_Reinit may have written
+  return whole ? Taken::Whole : Taken::ReinitFailed;
 }
 
 std::vector<std::string> CarryOver::describe(const CarryResult &result,

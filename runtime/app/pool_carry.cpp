@@ -62,46 +62,34 @@ const PoolType *PoolCarry::typeOf(uint64_t hash) const noexcept {
   return &*found;
 }
 
-/// False behind the last block that has been used.
-bool PoolCarry::blockAt(const std::byte *newState, uint64_t at, PoolBlock &block) const noexcept {
-  if (at + sizeof block > newSize_)
-    return false;
-  std::memcpy(&block, newState + newPool_->offset + at, sizeof block);
-  return block.size != 0;
+const BYTE *PoolCarry::bytes(const std::byte *state, const RootDesc *pool) noexcept {
+  return reinterpret_cast<const BYTE *>(state) + pool->offset;
 }
 
 uint64_t PoolCarry::copy(const std::byte *oldState, std::byte *newState) const noexcept {
   if (!present())
     return 0;
-  const std::byte *const from = oldState + oldPool_->offset;
-  std::byte *const to = newState + newPool_->offset;
-  std::memset(to, 0, newSize_);
+  const BYTE *const from = bytes(oldState, oldPool_);
+  BYTE *const to = reinterpret_cast<BYTE *>(newState) + newPool_->offset;
+  std::memset(to, 0, pool::wholeSize(newSize_));
   uint64_t lost = 0;
-  for (uint64_t at = 0; at + sizeof(PoolBlock) <= std::min(oldSize_, newSize_);) {
+  for (uint64_t at = pool::next(from, oldSize_, 0); at < oldSize_;
+       at = pool::next(from, oldSize_, at + sizeof(PoolBlock))) {
     PoolBlock block;
     std::memcpy(&block, from + at, sizeof block);
-    if (block.size == 0)
-      break; // never used, up to the end
-    const uint64_t own = block.size;
-    const PoolType *type = block.typeHash == 0 ? nullptr : typeOf(block.typeHash);
-    if (at + own > newSize_) {
-      type = nullptr;
-      block.size = newSize_ - at;
+    const PoolType *type = typeOf(block.typeHash);
+    if (type == nullptr || at + block.size > newSize_) {
+      ++lost;
+      continue;
     }
-    if (type != nullptr) {
-      std::memcpy(to + at, from + at, own);
-      const auto index = static_cast<std::size_t>(type - match_->poolTypes().data());
-      for (uint64_t i = 0; i < block.count; ++i) {
-        for (const TypeId &id : ids_[index])
-          std::memcpy(to + at + sizeof block + i * block.elementSize + id.offset, &id.id,
-                      sizeof id.id);
-      }
-    } else {
-      lost += block.typeHash != 0 ? 1 : 0;
-      block = {block.size, 0, 0, 0};
-      std::memcpy(to + at, &block, sizeof block);
+    std::memcpy(to + at, from + at, block.size);
+    pool::enter(to, newSize_, at);
+    const auto index = static_cast<std::size_t>(type - match_->poolTypes().data());
+    for (uint64_t i = 0; i < block.count; ++i) {
+      for (const TypeId &id : ids_[index])
+        std::memcpy(to + at + sizeof block + i * block.elementSize + id.offset, &id.id,
+                    sizeof id.id);
     }
-    at += own;
   }
   return lost;
 }
@@ -109,14 +97,14 @@ uint64_t PoolCarry::copy(const std::byte *oldState, std::byte *newState) const n
 bool PoolCarry::map(uint64_t oldOffset, const std::byte *newState,
                     uint64_t &newOffset) const noexcept {
   const uint64_t place = oldOffset - oldPool_->offset;
-  PoolBlock block;
-  for (uint64_t at = 0; blockAt(newState, at, block) && at <= place; at += block.size) {
-    if (place < at + sizeof block || place > at + block.size)
-      continue;
+  bool found = false;
+  eachBlock(newState, [&](uint64_t at, const PoolBlock &block) {
+    // One past the last element belongs to the object.
+    found = found || (place >= at + sizeof block && place <= at + block.size);
+  });
+  if (found)
     newOffset = newPool_->offset + place;
-    return block.typeHash != 0;
-  }
-  return false;
+  return found;
 }
 
 } // namespace stride::app

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace stride::app {
@@ -29,14 +30,13 @@ public:
   void eachElement(const std::byte *oldState, std::byte *newState, F f) const noexcept {
     if (!present())
       return;
-    PoolBlock block;
-    for (uint64_t at = 0; blockAt(newState, at, block); at += block.size) {
-      const PoolType *type = block.typeHash == 0 ? nullptr : typeOf(block.typeHash);
+    eachBlock(newState, [&](uint64_t at, const PoolBlock &block) {
+      const PoolType *type = typeOf(block.typeHash);
       for (uint64_t i = 0; type != nullptr && i < block.count; ++i) {
         const uint64_t place = at + sizeof(PoolBlock) + i * block.elementSize;
         f(type->pair, oldState + oldPool_->offset + place, newState + newPool_->offset + place);
       }
-    }
+    });
   }
 
   /// True for an offset from the start of the old state that lies in the old pool.
@@ -52,7 +52,18 @@ private:
     uint32_t id;
   };
   const PoolType *typeOf(uint64_t hash) const noexcept;
-  bool blockAt(const std::byte *newState, uint64_t at, PoolBlock &block) const noexcept;
+  /// The pool within a state.
+  static const BYTE *bytes(const std::byte *state, const RootDesc *pool) noexcept;
+  /// Calls f(place in the pool, header) for each object of the new pool.
+  template <class F> void eachBlock(const std::byte *newState, F f) const noexcept {
+    const BYTE *const memory = bytes(newState, newPool_);
+    for (uint64_t at = pool::next(memory, newSize_, 0); at < newSize_;
+         at = pool::next(memory, newSize_, at + sizeof(PoolBlock))) {
+      PoolBlock block;
+      std::memcpy(&block, memory + at, sizeof block);
+      f(at, block);
+    }
+  }
   bool collectIds(uint32_t newType, uint64_t offset, uint32_t id, std::vector<TypeId> &ids) const;
 
   const TypeMatch *match_;

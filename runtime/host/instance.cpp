@@ -31,6 +31,7 @@ void Instance::initialise() {
     retain_->restore();
     retain_->addHooks(tasks_);
   }
+  application_->settle();
   for (std::unique_ptr<task::CycleHook> &hook : addIoDevices(*application_, tasks_, *inputs_))
     hooks_.push_back(std::move(hook));
   for (std::unique_ptr<task::CycleHook> &hook : addAxisGroups(*application_, tasks_, *inputs_))

@@ -4,6 +4,7 @@
 #ifndef STRIDE_RUNTIME_IEC_OPS_H
 #define STRIDE_RUNTIME_IEC_OPS_H
 
+#include "runtime/iec/consistent.h"
 #include "runtime/iec/convert.h"
 #include "runtime/iec/ctx.h"
 #include "runtime/iec/image.h"

@@ -1,6 +1,7 @@
 // Variables that several tasks use: each access is one atomic step, and no more. Nothing is said
-// about the order of accesses to different variables (relaxed).
-// Free of the C++ standard library; see types.h.
+// about the order of accesses to different variables (relaxed), with one exception: whoever reads
+// an address sees what had been written behind it when it was stored (acquire, release). Free of
+// the C++ standard library; see types.h.
 #ifndef STRIDE_RUNTIME_IEC_SHARED_H
 #define STRIDE_RUNTIME_IEC_SHARED_H
 
@@ -8,10 +9,13 @@
 
 namespace stride {
 
+template <class T> inline constexpr bool isAddress = false;
+template <class T> inline constexpr bool isAddress<T *> = true;
+
 /// The value of a variable that another task may write meanwhile.
 template <class T> inline T load(const T &variable) {
   T value;
-  __atomic_load(&variable, &value, __ATOMIC_RELAXED);
+  __atomic_load(&variable, &value, isAddress<T> ? __ATOMIC_ACQUIRE : __ATOMIC_RELAXED);
   return value;
 }
 
@@ -19,7 +23,9 @@ template <class T> inline T load(const T &variable) {
 template <class T> struct Shared {
   T &variable;
 
-  void operator=(T value) const { __atomic_store(&variable, &value, __ATOMIC_RELAXED); }
+  void operator=(T value) const {
+    __atomic_store(&variable, &value, isAddress<T> ? __ATOMIC_RELEASE : __ATOMIC_RELAXED);
+  }
   operator T() const { return load(variable); }
 };
 template <class T> inline Shared<T> shared(T &variable) { return {variable}; }

@@ -40,14 +40,15 @@ public:
     application_->initialise(task::hostApi());
   }
 
-  /// Runs cycles of the first task.
-  void run(int cycles) {
+  /// Runs cycles of a task.
+  void run(int cycles, uint32_t task = 0) {
     const StrideAppV1 &app = application_->description();
     for (int i = 0; i < cycles; ++i) {
       Ctx ctx = now();
       if (around != nullptr)
         around->before();
-      app.tasks[0].run(&ctx);
+      ctx.taskIndex = task;
+      app.tasks[task].run(&ctx);
       if (around != nullptr)
         around->after();
       ++cycle_;

@@ -78,5 +78,38 @@ TEST(OnlineMemory, ObjectsOfNew) {
   EXPECT_EQ(live["PLC_PRG.head^.value"], "16");
 }
 
+/// Two tasks: the second reads what the first writes.
+TEST(OnlineMemory, CopiesOfConsistentVariables) {
+  const auto program = [](const char *members, const char *initial) {
+    return std::string("TYPE Point : STRUCT ") + members +
+           " x, y : INT; p : POINTER TO INT; END_STRUCT END_TYPE\n"
+           "VAR_GLOBAL\n  {attribute 'consistent'}\n  shared : Point := (x := " +
+           initial +
+           ");\n  target : INT;\nEND_VAR\n"
+           "PROGRAM Write\n  shared.x := shared.x + 1; shared.y := shared.x; target := shared.x;\n"
+           "  shared.p := ADR(target);\nEND_PROGRAM\n"
+           "PROGRAM Read\nVAR copy : Point; behind : INT; END_VAR\n  copy := shared;\n"
+           "  behind := shared.p^;\nEND_PROGRAM\n"
+           "CONFIGURATION Plant\nRESOURCE Plc ON PC\n"
+           "  TASK First (INTERVAL := T#1ms, PRIORITY := 1);\n"
+           "  TASK Second (INTERVAL := T#1ms, PRIORITY := 2);\n"
+           "  PROGRAM Write WITH First; PROGRAM Read WITH Second;\n"
+           "END_RESOURCE\nEND_CONFIGURATION\n";
+  };
+  Live live(program("", "40"));
+  live.run(2);
+  live.run(1, 1);
+  EXPECT_EQ(live.values({"Read.copy.x", "Read.copy.y", "Read.behind"}), "42 42 42");
+  // The reader comes first, in a state with another layout: it sees what was carried over.
+  live.change(program("added : LREAL;", "7"));
+  EXPECT_THAT(live.events, IsEmpty());
+  EXPECT_EQ(live.values({"shared.x", "Read.copy.x"}), "42 42");
+  live.run(1, 1);
+  EXPECT_EQ(live.values({"Read.copy.x", "Read.copy.y", "Read.behind"}), "42 42 42");
+  live.run(1);
+  live.run(1, 1);
+  EXPECT_EQ(live.values({"Read.copy.x", "Read.copy.y", "Read.behind"}), "43 43 43");
+}
+
 } // namespace
 } // namespace stride::test

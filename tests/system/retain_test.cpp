@@ -113,6 +113,35 @@ TEST_F(RetainTest, ASimulationKeepsThemOnlyWhenAsked) {
   EXPECT_TRUE(std::filesystem::exists(scratch.path() / "kept.b"));
 }
 
+TEST_F(RetainTest, AReaderOfAConsistentVariableBeginsWithWhatWasKept) {
+  program = R"(TYPE Pair : STRUCT a, b : INT; END_STRUCT END_TYPE
+VAR_GLOBAL PERSISTENT
+  {attribute 'consistent'}
+  shared : Pair := (a := 5);
+END_VAR
+PROGRAM Read
+  VAR first, last : INT; END_VAR
+  last := shared.a;
+  IF first = 0 THEN first := last; END_IF
+END_PROGRAM
+PROGRAM Write
+  shared.a := shared.a + 10;
+END_PROGRAM
+CONFIGURATION Plant
+  RESOURCE Plc ON PC
+    TASK Early (INTERVAL := T#10ms, PRIORITY := 1);
+    TASK Late (INTERVAL := T#10ms, PRIORITY := 2);
+    PROGRAM Read WITH Early;
+    PROGRAM Write WITH Late;
+  END_RESOURCE
+END_CONFIGURATION
+)";
+  const std::vector<std::string> run = {"sim",      "Main.st", "--for",   "T#100ms",
+                                        "--retain", "kept",    "--print", "Read.first,Read.last"};
+  EXPECT_THAT(stride(run).out, HasSubstr("Read.first = 5\nRead.last = 95\n"));
+  EXPECT_THAT(stride(run).out, HasSubstr("Read.first = 105\nRead.last = 195\n"));
+}
+
 TEST_F(RetainTest, AnotherBuildKeepsPersistentOnes) {
   sim();
   program = replaceAll(program, "n := n + 1;", "n := n + 1; plain := plain + 0;");

@@ -15,7 +15,7 @@ constexpr uint64_t kSize = 4096;
 
 class PoolTest : public testing::Test {
 protected:
-  alignas(16) stride::BYTE memory_[kSize] = {};
+  alignas(16) stride::BYTE memory_[pool::wholeSize(kSize)] = {};
 
   void *allocate(uint64_t size, int64_t count = 1) {
     return pool::allocate(memory_, kSize, size, count, 7);
@@ -103,6 +103,21 @@ TEST_F(PoolTest, RandomUseKeepsObjectsApartAndJoinsWhatIsFree) {
     EXPECT_TRUE(pool::release(memory_, kSize, o.at));
   }
   EXPECT_EQ(offset(allocate(kSize - sizeof(stride::PoolBlock))), sizeof(stride::PoolBlock));
+}
+
+TEST_F(PoolTest, NextFindsObjectsInTheirOrder) {
+  EXPECT_EQ(pool::next(memory_, kSize, 0), kSize);
+  void *a = allocate(16);
+  void *b = allocate(2000); // its bits begin in one word and end in another
+  void *c = allocate(16);
+  const uint64_t header = sizeof(stride::PoolBlock);
+  EXPECT_EQ(pool::next(memory_, kSize, 0), offset(a) - header);
+  EXPECT_EQ(pool::next(memory_, kSize, 1), offset(b) - header);
+  EXPECT_EQ(pool::next(memory_, kSize, offset(b)), offset(c) - header);
+  EXPECT_EQ(pool::next(memory_, kSize, offset(c)), kSize);
+  ASSERT_TRUE(pool::release(memory_, kSize, b));
+  EXPECT_EQ(pool::next(memory_, kSize, 1), offset(c) - header);
+  EXPECT_EQ(allocate(2000), b);
 }
 
 } // namespace

@@ -1,0 +1,85 @@
+#include "compiler/codegen/consistent_copies.hpp"
+
+namespace stc::codegen {
+
+std::string copiesPlace(Names &names, const VarSymbol *variable) {
+  return rootType(names, {variable->globals, false}) + std::string(mangle(variable->name.text)) +
+         "__at__";
+}
+
+/// Its member of the state.
+std::string ConsistentCopies::member(const ConsistentVariable &v) {
+  return rootName(c_.names, {v.variable->globals, false}, c_.program.user) +
+         std::string(mangle(v.variable->name.text)) + "__copies";
+}
+
+/// The variable in its state.
+std::string ConsistentCopies::live(const ConsistentVariable &v) {
+  return "app__(ctx__)." + rootName(c_.names, {v.variable->globals, false}, c_.program.user) + "." +
+         std::string(mangle(v.variable->name.text));
+}
+
+std::string ConsistentCopies::members() {
+  std::string out;
+  for (const ConsistentVariable &v : all())
+    out += "  ::stride::Consistent<" + std::string(c_.names.type(v.variable->type)) + ", " +
+           std::to_string(tasks_) + ", " + std::to_string(v.readers.size()) + "> " + member(v) +
+           ";\n";
+  return out;
+}
+
+std::string ConsistentCopies::places() {
+  std::string out;
+  for (const ConsistentVariable &v : all()) {
+    const std::string place = copiesPlace(c_.names, v.variable);
+    const std::size_t name = place.rfind(':') + 1;
+    out += "const ::stride::ULINT " + place.substr(name) + " = offsetof(::st::user::App__, " +
+           member(v) + ");\n";
+  }
+  return out.empty() ? out
+                     : "\nnamespace st::" + std::string(c_.names.space(c_.program.user)) + " {\n" +
+                           out + "}\n";
+}
+
+std::string ConsistentCopies::begin() {
+  std::string out;
+  for (const ConsistentVariable &v : all())
+    out += "  app__(ctx__)." + member(v) + ".begin(*ctx__, " + live(v) + ");\n";
+  return out;
+}
+
+std::string ConsistentCopies::settle() {
+  if (empty())
+    return {};
+  std::string out =
+      "\n// What the tasks read of each other.\nvoid settle__(::stride::Ctx *ctx__) {\n";
+  for (const ConsistentVariable &v : all()) {
+    out += "  app__(ctx__)." + member(v) + ".settle(*ctx__, " + live(v) + ", {";
+    for (std::size_t i = 0; i < v.readers.size(); ++i)
+      out += (i == 0 ? "" : ", ") + std::to_string(v.readers[i]);
+    out += "});\n";
+  }
+  return out + "}\n";
+}
+
+std::string ConsistentCopies::take(std::size_t task) {
+  std::string out;
+  for (const ConsistentVariable &v : all()) {
+    for (std::size_t i = 0; i < v.readers.size(); ++i) {
+      if (v.readers[i] == task)
+        out += "  app__(ctx__)." + member(v) + ".take(*ctx__, " + std::to_string(i) + ");\n";
+    }
+  }
+  return out;
+}
+
+std::string ConsistentCopies::give(std::size_t task) {
+  std::string out;
+  for (const ConsistentVariable &v : all()) {
+    if (v.writer == task)
+      out += "  app__(ctx__)." + member(v) + ".give(" + live(v) + ");\n";
+  }
+  return out;
+}
+
+} // namespace stc::codegen

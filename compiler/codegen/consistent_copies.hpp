@@ -1,0 +1,39 @@
+#pragma once
+// What app.cpp holds for variables with {attribute 'consistent'} (runtime/iec/consistent.h).
+
+#include "compiler/codegen/emitter.hpp"
+
+namespace stc::codegen {
+
+/// `::st::user::GVL__globals__x__at__`: the constant that holds the place of the copies.
+std::string copiesPlace(Names &names, const VarSymbol *variable);
+
+class ConsistentCopies {
+public:
+  ConsistentCopies(Context &context, std::size_t tasks) : c_(context), tasks_(tasks) {}
+
+  [[nodiscard]] bool empty() const { return all().empty(); }
+  /// Members of App__.
+  [[nodiscard]] std::string members();
+  /// Definitions of copiesPlace, in namespaces.
+  [[nodiscard]] std::string places();
+  /// Statements that come first in init__.
+  [[nodiscard]] std::string begin();
+  /// The function settle__.
+  [[nodiscard]] std::string settle();
+  /// Statements in front of what a task calls, and behind it.
+  [[nodiscard]] std::string take(std::size_t task);
+  [[nodiscard]] std::string give(std::size_t task);
+
+private:
+  [[nodiscard]] const std::vector<ConsistentVariable> &all() const {
+    return c_.program.sharing.consistent;
+  }
+  std::string member(const ConsistentVariable &v);
+  std::string live(const ConsistentVariable &v);
+
+  Context &c_;
+  std::size_t tasks_;
+};
+
+} // namespace stc::codegen
