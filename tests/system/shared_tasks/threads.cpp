@@ -14,7 +14,7 @@
 
 namespace {
 
-constexpr uint64_t kCycles = 4000;
+constexpr uint64_t kCycles = 10000;
 
 [[noreturn]] void raised(stride::Ctx *, stride::ExceptionCode code, const char *file, uint32_t line,
                          uint32_t, const char *detail) {
