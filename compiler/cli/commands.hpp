@@ -55,6 +55,16 @@ int resetCommand(const ProjectOptions &options, const std::string &kind);
 /// Becomes stride-host with `command` and these arguments; nothing is built.
 int hostOnlyCommand(const std::string &command, const std::vector<std::string> &hostArguments);
 
+/// What `stride fmt` does with what it formats.
+struct FormatOptions {
+  std::vector<std::string> paths; ///< folders and source files; none: the current folder
+  bool check = false;             ///< write nothing; fail when something is not formatted
+  bool diff = false;              ///< write nothing; show what would change
+  bool fromStdin = false;         ///< from standard input to standard output
+  Output output;
+};
+int formatCommand(const FormatOptions &options);
+
 /// Writes the reference of the project, or with `library` of the standard library, as HTML into
 /// the folder `out`.
 int documentCommand(const ProjectOptions &options, bool library, const std::string &out);

@@ -45,25 +45,29 @@ void addLevel(Levels &levels, const std::string &text) {
   levels.set(code->code, severity->second);
 }
 
-void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build) {
-  command
-      .add_option("PATH", options.path, "Project folder or .st file (default: the current folder)")
-      ->type_name("");
+/// How diagnostics are shown.
+void addOutputOptions(CLI::App &command, Output &output) {
   static const std::map<std::string, ColorChoice> colors = {{"auto", ColorChoice::automatic},
                                                             {"always", ColorChoice::always},
                                                             {"never", ColorChoice::never}};
   static const std::map<std::string, Format> formats = {{"text", Format::text},
                                                         {"json", Format::json}};
-  command.add_option("--color", options.output.color, "Colours: auto (default), always, never")
+  command.add_option("--color", output.color, "Colours: auto (default), always, never")
       ->transform(CLI::CheckedTransformer(colors).description(""))
       ->type_name("WHEN");
-  command.add_option("--format", options.output.format, "Diagnostics as text (default) or json")
+  command.add_option("--format", output.format, "Diagnostics as text (default) or json")
       ->transform(CLI::CheckedTransformer(formats).description(""))
       ->type_name("FORMAT");
   command
-      .add_option("--max-errors", options.output.maxErrors,
-                  "Show so many errors (default: 100; 0: all)")
+      .add_option("--max-errors", output.maxErrors, "Show so many errors (default: 100; 0: all)")
       ->type_name("N");
+}
+
+void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build) {
+  command
+      .add_option("PATH", options.path, "Project folder or .st file (default: the current folder)")
+      ->type_name("");
+  addOutputOptions(command, options.output);
   command
       .add_option_function<std::vector<std::string>>(
           "-W",
@@ -263,6 +267,18 @@ int run(int argc, char **argv) {
   document->add_option("-o,--out", out, "Folder for the pages (default: doc)")->type_name("FOLDER");
   document->callback(
       [&] { exitCode = documentCommand(options, library, out.empty() ? "doc" : out); });
+
+  FormatOptions formatting;
+  CLI::App *fmt = app.add_subcommand("fmt", "Format source files");
+  fmt->add_option("PATH", formatting.paths,
+                  "Project folders and .st files (default: the current folder)")
+      ->type_name("");
+  fmt->add_flag("--check", formatting.check,
+                "Write nothing; name the files that are not formatted and fail");
+  fmt->add_flag("--diff", formatting.diff, "Write nothing; show what would change");
+  fmt->add_flag("--stdin", formatting.fromStdin, "From standard input to standard output");
+  addOutputOptions(*fmt, formatting.output);
+  fmt->callback([&] { exitCode = formatCommand(formatting); });
 
   std::string trace;
   CLI::App *plot = app.add_subcommand("plot", "Draw a trace");

@@ -45,6 +45,7 @@ public:
       config_.retainFile = retain.text("file");
       config_.retainPeriodNs = parseInterval(retain.text("period")).value_or(0);
     }
+    (void)top.sections("fmt", diagnostics_); // format_project.cpp reads it
     for (const CheckedSection &task : top.sections("task", diagnostics_))
       readTask(task);
     for (const CheckedSection &bus : top.sections("bus", diagnostics_))

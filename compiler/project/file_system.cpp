@@ -45,12 +45,14 @@ std::optional<std::string> readFile(const fs::path &path) {
   return text;
 }
 
-bool writeFile(const fs::path &path, std::string_view text) {
+bool writeFile(const fs::path &path, std::string_view text) { return writeFile(path, text, 0666); }
+
+bool writeFile(const fs::path &path, std::string_view text, unsigned mode) {
   std::error_code error;
   if (path.has_parent_path())
     fs::create_directories(path.parent_path(), error);
   const std::string beside = path.string() + fmt::format(".{}.tmp", ::getpid());
-  const int fd = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int fd = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode);
   if (fd < 0)
     return false;
   bool good = true;
@@ -70,6 +72,20 @@ bool writeFile(const fs::path &path, std::string_view text) {
     errno = saved;
   }
   return good;
+}
+
+bool replaceFile(const fs::path &path, std::string_view text) {
+  std::error_code error;
+  const fs::path target = fs::canonical(path, error); // a link stays one
+  struct stat status {};
+  if (error || ::stat(target.c_str(), &status) != 0) {
+    errno = error ? error.value() : errno;
+    return false;
+  }
+  constexpr unsigned kModes = 07777;
+  if (::access(target.c_str(), W_OK) != 0 || !writeFile(target, text, status.st_mode & 0700))
+    return false;
+  return ::chmod(target.c_str(), status.st_mode & kModes) == 0;
 }
 
 bool writeIfDifferent(const fs::path &path, std::string_view text) {

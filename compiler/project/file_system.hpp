@@ -15,6 +15,13 @@ namespace stc {
 /// (errno).
 [[nodiscard]] bool writeFile(const std::filesystem::path &path, std::string_view text);
 
+[[nodiscard]] bool writeFile(const std::filesystem::path &path, std::string_view text,
+                             unsigned mode);
+
+/// Gives an existing file new content at once; its permissions stay, and a link to it. False on
+/// failure (errno), also when the file must not be written.
+[[nodiscard]] bool replaceFile(const std::filesystem::path &path, std::string_view text);
+
 /// As writeFile, but leaves the file alone when it already has this content.
 [[nodiscard]] bool writeIfDifferent(const std::filesystem::path &path, std::string_view text);
 

@@ -18,8 +18,8 @@ constexpr std::string_view kManifest = "stride.toml";
 // The list of the drives' variables has this file's name, as in CoDeSys.
 constexpr std::string_view kPlcFile = "<plc>/Drive_Configuration_Data.st";
 
-// All source files below the folder, sorted by path. Hidden and `build` folders are left out, and
-// other projects.
+} // namespace
+
 std::vector<fs::path> findSources(const fs::path &folder, std::error_code &error) {
   std::vector<fs::path> found;
   fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
@@ -37,8 +37,6 @@ std::vector<fs::path> findSources(const fs::path &folder, std::error_code &error
   std::sort(found.begin(), found.end());
   return found;
 }
-
-} // namespace
 
 Project::Project(const fs::path &path, Purpose purpose, const Settings &settings,
                  const LibraryIndex &index) {

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace stc {
@@ -16,6 +17,11 @@ enum class Purpose {
   check, ///< a project without a PROGRAM is fine
   build, ///< there must be something to run
 };
+
+/// All source files below a project's folder, sorted by path. Hidden and `build` folders are left
+/// out, and other projects.
+[[nodiscard]] std::vector<std::filesystem::path> findSources(const std::filesystem::path &folder,
+                                                             std::error_code &error);
 
 /// The sources and the configuration of a project folder, or a single source file. Everything wrong
 /// is in diagnostics(); the program is fit for code generation when there is no error among them.

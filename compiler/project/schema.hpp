@@ -51,6 +51,8 @@ struct Section {
 
 /// The whole of stride.toml, as the section without a name.
 [[nodiscard]] const Section &projectSchema();
+/// [fmt]: how sources are formatted.
+[[nodiscard]] const Section &formatSchema();
 
 /// A table of stride.toml that has been compared with its schema. Everything wrong with it has been
 /// reported; what is left can be read without further checks.

@@ -3,6 +3,7 @@
 
 #include "compiler/codegen/codegen.hpp"
 #include "compiler/project/schema.hpp"
+#include "compiler/syntax/format.hpp"
 
 #include <array>
 #include <limits>
@@ -255,8 +256,21 @@ constexpr std::array kEncoderParameters = {
     dword("dwParam8"),
 };
 
+constexpr std::array<Choice, 3> kKeywordCases = {
+    {{"upper", static_cast<std::int64_t>(KeywordCase::upper)},
+     {"lower", static_cast<std::int64_t>(KeywordCase::lower)},
+     {"keep", static_cast<std::int64_t>(KeywordCase::keep)}}};
+constexpr std::array kFormatParameters = {
+    count("width", 40, 1000, "characters"),
+    count("indent", 1, 16, "blanks"),
+    flag("tabs"),
+    choice("keywords", kKeywordCases),
+    flag("align"),
+};
+
 constexpr Section kProject = {"project", "the project", "project", false, kProjectParameters, {}};
 constexpr Section kImage = {"image", "the process image", "image", false, kImageParameters, {}};
+constexpr Section kFormat = {"fmt", "the format", "fmt", false, kFormatParameters, {}};
 constexpr Section kRetain = {"retain", "the retained data", "retain", false, kRetainParameters, {}};
 constexpr Section kTask = {"task", "a task", "task", true, kTaskParameters, {}};
 constexpr Section kPhysics = {"physics", "the physics of a drive", "bus.axis_group.drive.physics",
@@ -316,12 +330,14 @@ struct DiagnosticSection {
 /// The whole of stride.toml.
 struct TopSection {
   DiagnosticSection diagnostics;
-  std::array<const Section *, 7> sections = {
-      &kProject, &diagnostics.section, &kImage, &kRetain, &kTask, &kBus, &kIo};
+  std::array<const Section *, 8> sections = {
+      &kProject, &diagnostics.section, &kImage, &kRetain, &kFormat, &kTask, &kBus, &kIo};
   Section top = {"", "stride.toml", "", false, {}, sections};
 };
 
 } // namespace
+
+const Section &formatSchema() { return kFormat; }
 
 const Section &projectSchema() {
   static const TopSection schema;

@@ -27,6 +27,10 @@ public:
   [[nodiscard]] std::string_view text(const Token &token) const {
     return text_.substr(token.begin, token.end - token.begin);
   }
+  /// Behind the comment that begins at `place`; `place` when there is none.
+  [[nodiscard]] std::size_t comment(std::size_t place) const;
+  /// Behind the `}` of the pragma that begins at `begin`; npos when it has none.
+  [[nodiscard]] std::size_t pragmaEnd(std::size_t begin) const;
 
 private:
   [[nodiscard]] char at(std::size_t place) const {
@@ -54,8 +58,6 @@ private:
     bool taken;   ///< one of its branches is compiled
     bool sawElse; ///< `{ELSE}` was there
   };
-  [[nodiscard]] std::size_t comment(std::size_t place) const;
-  [[nodiscard]] std::size_t pragmaEnd(std::size_t begin) const;
   void pragma(std::size_t begin);
   void warningPragma(std::size_t place, std::size_t end);
   void directive(std::string_view keyword, std::size_t begin, std::size_t p, std::size_t end);

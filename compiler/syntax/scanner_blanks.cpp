@@ -13,7 +13,6 @@ bool Scanner::atLineStart(std::size_t place) const {
   return place == 0 || text_[place - 1] == '\n';
 }
 
-/// Behind the comment that begins at `place`; `place` when there is none.
 std::size_t Scanner::comment(std::size_t place) const {
   const std::string_view rest = text_.substr(std::min(place, text_.size()));
   if (rest.starts_with("//"))

@@ -6,7 +6,6 @@
 
 namespace stc {
 
-/// Behind the `}` of the pragma that begins at `begin`; npos when it has none.
 std::size_t Scanner::pragmaEnd(std::size_t begin) const {
   std::size_t end = begin + 1;
   while (end < text_.size() && text_[end] != '}') {

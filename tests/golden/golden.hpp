@@ -12,8 +12,9 @@ namespace stride::golden {
 
 /// The command a single file is given to.
 enum class FileKind {
-  kProgram,    ///< `stride sim FILE --for T#10ms --print PLC_PRG`, unless a RUN line says otherwise
-  kDiagnostics ///< `stride check FILE --color never`
+  kProgram, ///< `stride sim FILE --for T#10ms --print PLC_PRG`, unless a RUN line says otherwise
+  kDiagnostics, ///< `stride check FILE --color never`
+  kFormat       ///< `stride fmt FILE --color never`; compared is also what then stands in the file
 };
 
 /// Runs one .st file whose expected output stands in its trailing `//!` block. The result is what

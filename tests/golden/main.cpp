@@ -1,5 +1,5 @@
-// golden_runner programs|diagnostics FILE, golden_runner projects FOLDER, golden_runner coverage
-// ROOT. With STRIDE_BLESS=1 in the environment expectations are rewritten.
+// golden_runner programs|diagnostics|format FILE, golden_runner projects FOLDER, golden_runner
+// coverage ROOT. With STRIDE_BLESS=1 in the environment expectations are rewritten.
 #include "tests/golden/golden.hpp"
 #include "tests/support/text.hpp"
 
@@ -43,6 +43,8 @@ static std::string runCase(std::string_view kind, const fs::path &path) {
     return runFile(FileKind::kProgram, path, bless);
   if (kind == "diagnostics")
     return runFile(FileKind::kDiagnostics, path, bless);
+  if (kind == "format")
+    return runFile(FileKind::kFormat, path, bless);
   if (kind == "projects")
     return runProject(path, bless);
   if (kind == "coverage")
@@ -54,7 +56,7 @@ static std::string runCase(std::string_view kind, const fs::path &path) {
 
 int main(int argc, char **argv) {
   if (argc != 3) {
-    std::cerr << "usage: golden_runner programs|diagnostics|projects|coverage PATH\n";
+    std::cerr << "usage: golden_runner programs|diagnostics|format|projects|coverage PATH\n";
     return 2;
   }
   try {

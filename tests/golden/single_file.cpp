@@ -12,7 +12,8 @@ static std::vector<std::string> commandLine(FileKind kind, const std::string &fi
   std::string options = test::directive(source, "RUN");
   if (options.empty())
     options = program ? "--for T#10ms --print PLC_PRG" : "--color never";
-  std::vector<std::string> arguments{program ? "sim" : "check", file};
+  const char *command = program ? "sim" : kind == FileKind::kFormat ? "fmt" : "check";
+  std::vector<std::string> arguments{command, file};
   for (std::string &word : test::splitWords(options))
     arguments.push_back(std::move(word));
   // Programs show values, often of variables that nothing uses.
@@ -31,7 +32,9 @@ std::string runFile(FileKind kind, const fs::path &file, bool bless) {
 
   const std::vector<std::string> arguments = commandLine(kind, name, golden.source);
   const test::ProcessResult result = runStride(arguments, scratch.path());
-  const std::string output = outputOf(result, scratch.path());
+  std::string output = outputOf(result, scratch.path());
+  if (kind == FileKind::kFormat)
+    output += test::readFile(scratch.path() / name);
   const std::string wrongExit = checkExit(result.exitCode, mustFail(file));
   if (bless && wrongExit.empty()) {
     const std::string text = test::joinExpectation(golden.source, output);

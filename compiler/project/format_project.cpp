@@ -1,0 +1,150 @@
+#include "compiler/project/format_project.hpp"
+
+#include "compiler/project/config.hpp"
+#include "compiler/project/file_system.hpp"
+#include "compiler/project/project.hpp"
+#include "compiler/project/schema.hpp"
+#include "compiler/syntax/parser.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace stc {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view kMark = "\xEF\xBB\xBF";
+
+/// The characters of UTF-8 text as bytes of Latin-1, from which the text was read.
+std::string toLatin1(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    if (byte < 0x80 || i + 1 == text.size()) {
+      out += text[i];
+    } else {
+      const auto next = static_cast<unsigned char>(text[++i]);
+      out += static_cast<char>(((byte & 0x03U) << 6U) | (next & 0x3FU));
+    }
+  }
+  return out;
+}
+
+/// Free of syntax errors; an `{error …}` is none.
+bool isWellFormed(const SourceFile &source, const ParseOptions &options) {
+  Interner interner;
+  Arena arena;
+  Diagnostics found;
+  parse(source, interner, arena, found, &options);
+  return std::none_of(found.all().begin(), found.all().end(), [](const Diagnostic &diagnostic) {
+    return diagnostic.severity == Severity::error && diagnostic.code != Code::errorPragma;
+  });
+}
+
+} // namespace
+
+FormatSettings readFormatSettings(const fs::path &place, SourceManager &sources,
+                                  Diagnostics &diagnostics) {
+  FormatSettings settings;
+  std::error_code error;
+  fs::path folder = fs::absolute(place.empty() ? fs::path(".") : place, error).lexically_normal();
+  if (!fs::is_directory(folder, error))
+    folder = folder.parent_path();
+  while (!fs::exists(folder / "stride.toml", error)) {
+    if (folder == folder.parent_path())
+      return settings;
+    folder = folder.parent_path();
+  }
+  const fs::path manifest = folder / "stride.toml";
+  const std::optional<FileId> id = sources.load(manifest, manifest.filename().string());
+  if (!id) {
+    diagnostics.report(Code::unreadableFile, {},
+                       fmt::format("`{}` cannot be read: {}", manifest.string(), lastError()));
+    return settings;
+  }
+  const std::unique_ptr<TomlNode> document = parseToml(sources.file(*id), diagnostics);
+  if (document == nullptr)
+    return settings;
+  Diagnostics ignored; // what else is wrong with the project does not matter here
+  settings.defines = readConfig(sources.file(*id), ignored).defines;
+  const TomlNode *table = document->find("fmt");
+  if (table == nullptr || table->kind != TomlKind::table)
+    return settings;
+  const CheckedSection section(*table, formatSchema(), diagnostics);
+  FormatStyle &style = settings.style;
+  style.width = static_cast<unsigned>(section.integer("width", style.width));
+  style.indent = static_cast<unsigned>(section.integer("indent", style.indent));
+  style.tabs = section.boolean("tabs", style.tabs);
+  style.align = section.boolean("align", style.align);
+  style.keywords = static_cast<KeywordCase>(
+      section.choice("keywords", static_cast<std::int64_t>(style.keywords)));
+  return settings;
+}
+
+void formatFiles(std::vector<FormattedFile> &files, const FormatSettings &settings,
+                 SourceManager &sources, Diagnostics &diagnostics) {
+  std::vector<FileId> ids;
+  for (const FormattedFile &file : files)
+    ids.push_back(sources.addBytes(file.name, file.before));
+  DeclaredNames names(sources, ids);
+  const ParseOptions options{settings.defines, &names};
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    FormattedFile &file = files[i];
+    file.after = file.before;
+    const SourceFile &source = sources.file(ids[i]);
+    if (!isWellFormed(source, options)) {
+      Interner interner;
+      Arena arena;
+      parse(source, interner, arena, diagnostics, &options);
+      continue;
+    }
+    std::optional<std::string> text = format(source, settings.style);
+    if (!text)
+      throw std::logic_error(fmt::format("formatting `{}` would change what it says", file.name));
+    const bool mark = file.before.starts_with(kMark);
+    const bool latin1 = source.text() != std::string_view(file.before).substr(mark ? 3 : 0);
+    file.after = (mark ? std::string(kMark) : std::string()) + (latin1 ? toLatin1(*text) : *text);
+  }
+}
+
+std::vector<FormattedFile> formatPath(const fs::path &path, SourceManager &sources,
+                                      Diagnostics &diagnostics) {
+  std::vector<FormattedFile> files;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) {
+    diagnostics.report(Code::pathNotFound, {},
+                       fmt::format("there is no file or folder `{}`", path.string()));
+    return files;
+  }
+  std::vector<fs::path> paths{path};
+  if (fs::is_directory(status)) {
+    paths = findSources(path, error);
+    if (error)
+      diagnostics.report(Code::unreadableFile, {},
+                         fmt::format("`{}` cannot be read: {}", path.string(), error.message()));
+    else if (paths.empty())
+      diagnostics.report(Code::noSources, {},
+                         fmt::format("there are no `.st` files in `{}`", path.string()));
+  }
+  const FormatSettings settings = readFormatSettings(path, sources, diagnostics);
+  if (diagnostics.hasErrors())
+    return files;
+  for (const fs::path &one : paths) {
+    std::optional<std::string> bytes = readFile(one);
+    if (!bytes) {
+      diagnostics.report(Code::unreadableFile, {},
+                         fmt::format("`{}` cannot be read: {}", one.string(), lastError()));
+      continue;
+    }
+    const std::string name = one.lexically_normal().string();
+    files.push_back({one, name, std::move(*bytes), {}});
+  }
+  formatFiles(files, settings, sources, diagnostics);
+  return files;
+}
+
+} // namespace stc

@@ -1,0 +1,146 @@
+#include "compiler/syntax/format_items.hpp"
+
+#include "compiler/source/identifier.hpp"
+#include "compiler/syntax/characters.hpp"
+#include "compiler/syntax/scanner.hpp"
+
+#include <algorithm>
+
+namespace stc {
+
+namespace {
+
+bool isOneOf(std::string_view text, std::span<const std::string_view> names) {
+  return std::any_of(names.begin(), names.end(),
+                     [&](std::string_view name) { return isWord(text, name); });
+}
+
+constexpr std::string_view kIntegers[] = {"sint",  "int",   "dint", "lint", "usint", "uint",
+                                          "udint", "ulint", "byte", "word", "dword", "lword"};
+constexpr std::string_view kOthers[] = {"bool", "real", "lreal",       "time",          "ltime",
+                                        "date", "tod",  "dt",          "ldate",         "ltod",
+                                        "ldt",  "char", "time_of_day", "date_and_time", "wchar"};
+
+class ItemReader {
+public:
+  explicit ItemReader(const SourceFile &file)
+      : text_(file.text()), scanner_(file, ignored_), places_(file, ignored_) {}
+
+  std::vector<FormatItem> read() {
+    for (Token token = scanner_.next(); token.type != Token::kEnd; token = scanner_.next()) {
+      if (token.begin < place_) // a part of the token before, in a wrong text
+        continue;
+      gap(token.begin);
+      push(token.type, token.begin, token.end);
+    }
+    gap(text_.size());
+    push(Token::kEnd, text_.size(), text_.size());
+    return std::move(items_);
+  }
+
+private:
+  void push(std::uint16_t type, std::size_t begin, std::size_t end) {
+    item_.type = type;
+    item_.text = text_.substr(begin, end - begin);
+    item_.newlines = newlines_;
+    items_.push_back(std::move(item_));
+    item_ = {};
+    newlines_ = 0;
+    place_ = end;
+  }
+
+  void pushComment(std::size_t end) {
+    FormatComment comment;
+    comment.text = text_.substr(place_, end - place_);
+    comment.toLineEnd = comment.text.starts_with("//");
+    comment.newlines = newlines_;
+    std::size_t begin = place_;
+    while (begin > 0 && (text_[begin - 1] == ' ' || text_[begin - 1] == '\t'))
+      --begin;
+    comment.startsLine = begin == 0 || text_[begin - 1] == '\n';
+    comment.margin = place_ - begin;
+    while (comment.toLineEnd && classOf(comment.text.back()) == blank)
+      comment.text.remove_suffix(1);
+    item_.comments.push_back(comment);
+    newlines_ = 0;
+    place_ = end;
+  }
+
+  /// Behind the blank at `place`; `place` when there is none.
+  [[nodiscard]] std::size_t behindBlank(std::size_t place) const {
+    if (classOf(text_[place]) == blank)
+      return place + 1;
+    return text_.compare(place, 2, "\xC2\xA0") == 0 ? place + 2 : place;
+  }
+
+  /// Comments, and text that is no token, up to `end`.
+  void gap(std::size_t end) {
+    while (place_ < end) {
+      if (const std::size_t next = behindBlank(place_); next != place_) {
+        newlines_ += text_[place_] == '\n';
+        place_ = next;
+      } else if (const std::size_t behind = commentEnd(); behind != place_) {
+        pushComment(std::min(behind, end));
+      } else {
+        std::size_t stop = place_ + 1;
+        while (stop < end && behindBlank(stop) == stop)
+          ++stop;
+        push(kUnknownText, place_, stop);
+      }
+    }
+  }
+
+  [[nodiscard]] std::size_t commentEnd() const {
+    if (text_[place_] != '{')
+      return places_.comment(place_);
+    const std::size_t end = places_.pragmaEnd(place_);
+    return end == std::string_view::npos ? place_ : end;
+  }
+
+  std::string_view text_;
+  Diagnostics ignored_;
+  Scanner scanner_;
+  Scanner places_;
+  std::vector<FormatItem> items_;
+  FormatItem item_;
+  std::size_t place_ = 0;
+  unsigned newlines_ = 0;
+};
+
+} // namespace
+
+std::vector<FormatItem> readItems(const SourceFile &file) { return ItemReader(file).read(); }
+
+std::string lowerText(std::string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(), lowerCase);
+  return out;
+}
+
+std::set<std::string> jumpTargets(const std::vector<FormatItem> &items) {
+  std::set<std::string> out;
+  for (std::size_t i = 1; i < items.size(); ++i)
+    if (items[i - 1].type == Tok::JMP && items[i].type == Tok::IDENT)
+      out.insert(lowerText(items[i].text));
+  return out;
+}
+
+std::string pragmaWord(std::string_view comment) {
+  if (!comment.starts_with('{'))
+    return {};
+  std::size_t begin = 1;
+  while (begin < comment.size() && classOf(comment[begin]) == blank)
+    ++begin;
+  std::size_t end = begin;
+  while (end < comment.size() && isWordChar(comment[end]))
+    ++end;
+  return lowerText(comment.substr(begin, end - begin));
+}
+
+bool isIntegerName(std::string_view text) { return isOneOf(text, kIntegers); }
+
+bool isElementaryName(std::string_view text) {
+  return isIntegerName(text) || isOneOf(text, kOthers);
+}
+
+} // namespace stc

@@ -1,0 +1,627 @@
+// Which tokens make a line of a formatted text, and what they open and close.
+#include "compiler/syntax/format_layout.hpp"
+
+#include "compiler/syntax/token_sets.hpp"
+
+#include <algorithm>
+
+namespace stc {
+
+// -------------------------------------------------------------------------------------------------
+// questions
+
+bool FormatLayout::startsDeclaration(std::size_t i) const {
+  switch (type(i)) {
+  case Tok::CLASS:
+  case Tok::INTERFACE:
+  case Tok::NAMESPACE:
+  case Tok::USING:
+  case Tok::CONFIGURATION:
+    return true;
+  case Tok::PROGRAM:
+  case Tok::FUNCTION:
+  case Tok::FUNCTION_BLOCK:
+  case Tok::TYPE:
+    return type(i + 1) == Tok::IDENT || isModifier(type(i + 1));
+  case Tok::VAR_GLOBAL:
+  case Tok::VAR_CONFIG:
+  case Tok::VAR_ACCESS:
+    return type(i + 1) != Tok::COLON;
+  default:
+    return false;
+  }
+}
+
+bool FormatLayout::startsSection(std::size_t i) const {
+  return type(i) >= Tok::VAR && type(i) <= Tok::VAR_INST && type(i + 1) != Tok::COLON;
+}
+
+bool FormatLayout::startsAccessor(std::size_t i) const {
+  if (!isWordAt(i, "get") && !isWordAt(i, "set"))
+    return false;
+  switch (type(i + 1)) {
+  case Tok::ASSIGN:
+  case Tok::DOT:
+  case Tok::LPAREN:
+  case Tok::LBRACKET:
+  case Tok::CARET:
+  case Tok::COLON:
+    return false;
+  default:
+    return true;
+  }
+}
+
+/// No statement or declaration goes on here.
+bool FormatLayout::stopsStatement(std::size_t i) const {
+  const std::uint16_t t = type(i);
+  return isStatementBoundary(t) || closesUnit(t) || startsSection(i) || startsDeclaration(i) ||
+         isMember(t) || t == Tok::END_VAR || t == Tok::END_STRUCT || t == Tok::END_UNION ||
+         t == Tok::END_TYPE;
+}
+
+/// Behind the `;` that ends what begins at `i`, or where something else begins.
+std::size_t FormatLayout::statementEnd(std::size_t i) const {
+  do {
+    if (type(i) == Tok::SEMICOLON)
+      return i + 1;
+    ++i;
+  } while (!stopsStatement(i));
+  return i;
+}
+
+/// Behind the next token of type `last`, or where a statement ends.
+std::size_t FormatLayout::through(std::size_t i, std::uint16_t last) const {
+  do {
+    if (type(i) == last)
+      return i + 1;
+    ++i;
+  } while (!stopsStatement(i) && type(i) != Tok::SEMICOLON);
+  return type(i) == last ? i + 1 : i;
+}
+
+/// Semicolons directly behind a closing keyword stay on its line.
+std::size_t FormatLayout::withSemicolons(std::size_t i) const {
+  while (type(i) == Tok::SEMICOLON && items_[i].comments.empty())
+    ++i;
+  return i;
+}
+
+/// Behind the colon of the CASE labels that begin at `i`; 0 when there are none.
+std::size_t FormatLayout::labelEnd(std::size_t i) const {
+  const Kind now = blocks_.back().kind;
+  if (now != Kind::choice && now != Kind::branch)
+    return 0;
+  unsigned depth = 0;
+  for (std::size_t k = i; k == i || !stopsStatement(k); ++k) {
+    switch (type(k)) {
+    case Tok::LPAREN:
+    case Tok::LBRACKET:
+      ++depth;
+      break;
+    case Tok::RPAREN:
+    case Tok::RBRACKET:
+      depth -= depth > 0;
+      break;
+    case Tok::COLON:
+      if (depth == 0)
+        return k == i + 1 && type(i) == Tok::IDENT &&
+                       jumpTargets_.contains(lowerText(items_[i].text))
+                   ? 0
+                   : k + 1;
+      break;
+    case Tok::ASSIGN:
+      if (depth == 0)
+        return 0;
+      break;
+    case Tok::SEMICOLON:
+    case Token::kEnd:
+      return 0;
+    default:
+      break;
+    }
+  }
+  return 0;
+}
+
+// -------------------------------------------------------------------------------------------------
+// heads
+
+std::size_t FormatLayout::headEnd(std::size_t i) const {
+  const std::uint16_t keyword = type(i++);
+  while (isModifier(type(i)))
+    ++i;
+  if (type(i) == Tok::IDENT)
+    ++i;
+  while (type(i) == Tok::DOT)
+    i += type(i + 1) == Tok::IDENT ? 2 : 1;
+  return headRest(i, keyword);
+}
+
+std::size_t FormatLayout::headRest(std::size_t i, std::uint16_t keyword) const {
+  while (type(i) == Tok::EXTENDS || type(i) == Tok::IMPLEMENTS) {
+    ++i;
+    while (type(i) == Tok::IDENT || type(i) == Tok::DOT || type(i) == Tok::COMMA) {
+      const bool name = type(i) == Tok::IDENT;
+      ++i;
+      if (name && type(i) == Tok::IDENT)
+        break;
+    }
+  }
+  if (type(i) == Tok::COLON && keyword == Tok::ACTION)
+    return i + 1;
+  if (type(i) == Tok::COLON && keyword != Tok::NAMESPACE && keyword != Tok::PROGRAM)
+    i = headType(i + 1);
+  return withSemicolons(i);
+}
+
+std::size_t FormatLayout::headType(std::size_t i) const {
+  for (;;) {
+    if (type(i) == Tok::ARRAY) {
+      while (type(i) != Tok::OF && type(i) != Tok::SEMICOLON && !stopsStatement(i))
+        ++i;
+      if (type(i) != Tok::OF)
+        return i;
+      ++i;
+    } else if (type(i) == Tok::POINTER || type(i) == Tok::REFERENCE) {
+      i += type(i + 1) == Tok::TO ? 2 : 1;
+    } else if (type(i) == Tok::REF_TO) {
+      ++i;
+    } else {
+      break;
+    }
+  }
+  if (type(i) == Tok::STRING || type(i) == Tok::WSTRING) {
+    ++i;
+    if (type(i) == Tok::LPAREN || type(i) == Tok::LBRACKET)
+      i = through(i, type(i) == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET);
+  } else if (type(i) == Tok::IDENT) {
+    ++i;
+    while (type(i) == Tok::DOT)
+      i += type(i + 1) == Tok::IDENT ? 2 : 1;
+  }
+  return i;
+}
+
+// -------------------------------------------------------------------------------------------------
+// blocks
+
+void FormatLayout::open(Kind kind, std::size_t to, LineKind line, bool indents) {
+  const unsigned level = blocks_.back().content;
+  const std::uint16_t keyword = type(at_);
+  emit(to, level, line);
+  blocks_.push_back({kind, keyword, level, level + (indents ? 1 : 0)});
+  afterOpener_ = true;
+}
+
+unsigned FormatLayout::closeBlock(Kind kind) {
+  for (std::size_t i = blocks_.size(); i-- > 1;) {
+    if (blocks_[i].kind != kind)
+      continue;
+    const unsigned level = blocks_[i].level;
+    blocks_.resize(i);
+    return level;
+  }
+  return blocks_.back().content;
+}
+
+unsigned FormatLayout::closeBlock(std::uint16_t opener) {
+  for (std::size_t i = blocks_.size(); i-- > 1;) {
+    if (blocks_[i].type != opener)
+      continue;
+    const unsigned level = blocks_[i].level;
+    blocks_.resize(i);
+    return level;
+  }
+  return blocks_.back().content;
+}
+
+/// In front of a declaration: statements that are open belong to a wrong text.
+void FormatLayout::closeStatements() {
+  while (blocks_.size() > 1 && blocks_.back().kind > Kind::actions)
+    blocks_.pop_back();
+}
+
+/// END_IF, END_VAR, END_PROGRAM …
+bool FormatLayout::closer() {
+  const std::uint16_t t = type(at_);
+  const auto close = [&](std::uint16_t opener, bool separates) {
+    closing_ = true;
+    const unsigned level = closeBlock(opener);
+    emit(withSemicolons(at_ + 1), level, LineKind::statement);
+    separate_ = separates;
+    return true;
+  };
+  if (const std::uint16_t opener = openerOf(t); opener != 0)
+    return close(opener, false);
+  const Kind outer = blocks_.size() > 1 ? blocks_[blocks_.size() - 2].kind : Kind::file;
+  const bool isGlobal = outer == Kind::file || outer == Kind::space;
+  switch (t) {
+  case Tok::END_VAR: {
+    closing_ = true;
+    const unsigned level = closeBlock(Kind::section);
+    emit(at_ + 1, level, LineKind::statement);
+    separate_ = isGlobal;
+    return true;
+  }
+  case Tok::END_STRUCT:
+    return close(Tok::STRUCT, false);
+  case Tok::END_UNION:
+    return close(Tok::UNION, false);
+  case Tok::END_TYPE:
+    return close(Tok::TYPE, true);
+  case Tok::END_PROGRAM:
+    return close(Tok::PROGRAM, true);
+  case Tok::END_FUNCTION:
+    return close(Tok::FUNCTION, true);
+  case Tok::END_FUNCTION_BLOCK:
+    return close(Tok::FUNCTION_BLOCK, true);
+  case Tok::END_CLASS:
+    return close(Tok::CLASS, true);
+  case Tok::END_INTERFACE:
+    return close(Tok::INTERFACE, true);
+  case Tok::END_NAMESPACE:
+    return close(Tok::NAMESPACE, true);
+  case Tok::END_CONFIGURATION:
+    return close(Tok::CONFIGURATION, true);
+  case Tok::END_RESOURCE:
+    return close(Tok::RESOURCE, false);
+  case Tok::END_METHOD:
+    return close(Tok::METHOD, true);
+  case Tok::END_PROPERTY:
+    return close(Tok::PROPERTY, true);
+  case Tok::END_ACTION:
+    return close(Tok::ACTION, true);
+  case Tok::END_ACTIONS:
+    return close(Tok::ACTIONS, true);
+  case Tok::END_GET:
+    return close(Tok::GET, false);
+  case Tok::END_SET:
+    return close(Tok::SET, false);
+  default:
+    return false;
+  }
+}
+
+// -------------------------------------------------------------------------------------------------
+// lines
+
+void FormatLayout::line() {
+  const std::uint16_t t = type(at_);
+  if (t == Tok::SEMICOLON && items_[at_].comments.empty() && at_ > 0 && !lines_.empty() &&
+      lines_.back().comment.empty()) {
+    const std::uint16_t before = type(at_ - 1);
+    if (before == Tok::SEMICOLON || closesUnit(before) || openerOf(before) != 0) {
+      lines_.back().text += ';';
+      ++at_;
+      return;
+    }
+  }
+  if (blocks_.back().kind == Kind::section || blocks_.back().kind == Kind::structure ||
+      blocks_.back().kind == Kind::types || blocks_.back().kind == Kind::enumeration) {
+    if (insideSection())
+      return;
+  }
+  if (closer() || configurationPart() || declaration())
+    return;
+  statement();
+}
+
+/// VAR, TYPE, STRUCT and enumerations; false when it is none of their lines, and closed.
+bool FormatLayout::insideSection() {
+  if (blocks_.back().kind == Kind::enumeration) {
+    enumerationLine();
+    return true;
+  }
+  const std::uint16_t t = type(at_);
+  if (t == Tok::END_VAR || t == Tok::END_STRUCT || t == Tok::END_UNION || t == Tok::END_TYPE)
+    return closer();
+  if (closesUnit(t) || startsSection(at_) || startsDeclaration(at_)) {
+    while (blocks_.back().kind >= Kind::section && blocks_.back().kind <= Kind::enumeration)
+      blocks_.pop_back();
+    return false;
+  }
+  if (blocks_.back().kind == Kind::types) {
+    typeDeclaration();
+    return true;
+  }
+  if (blocks_.back().type == Tok::VAR_ACCESS) {
+    const std::size_t end = statementEnd(at_);
+    const std::size_t last = end - 2;
+    if (end >= 2 && last > at_ && isWordAt(last, "read_only"))
+      items_[last].type = Tok::READ_ONLY;
+    else if (end >= 2 && last > at_ && isWordAt(last, "read_write"))
+      items_[last].type = Tok::READ_WRITE;
+  }
+  emit(statementEnd(at_), blocks_.back().content, LineKind::declaration);
+  return true;
+}
+
+/// A single type without a comment in front of its name stands on the line of TYPE.
+bool FormatLayout::isOnlyType(std::size_t i) const {
+  if (type(i) != Tok::IDENT && !isModifier(type(i)))
+    return false;
+  if (!items_[i].comments.empty())
+    return false;
+  while (type(i) != Tok::SEMICOLON && type(i) != Tok::STRUCT && type(i) != Tok::UNION &&
+         !stopsStatement(i))
+    ++i;
+  if (type(i) == Tok::STRUCT || type(i) == Tok::UNION) {
+    while (type(i) != Tok::END_STRUCT && type(i) != Tok::END_UNION && type(i) != Tok::END_TYPE &&
+           !isEnd(type(i)))
+      ++i;
+    ++i;
+  }
+  while (type(i) == Tok::SEMICOLON)
+    ++i;
+  return type(i) == Tok::END_TYPE;
+}
+
+/// At the name, or at TYPE when the name stands on its line.
+void FormatLayout::typeDeclaration() {
+  const std::size_t end = statementEnd(at_);
+  const unsigned level = blocks_.back().content;
+  std::size_t colon = at_;
+  while (colon < end && type(colon) != Tok::COLON)
+    ++colon;
+  const std::uint16_t first = type(colon + 1);
+  if (colon >= end || (first != Tok::STRUCT && first != Tok::UNION && first != Tok::LPAREN)) {
+    emit(end, level, LineKind::head);
+    return;
+  }
+  if (first == Tok::LPAREN) {
+    LineRequest whole;
+    whole.from = at_;
+    whole.to = end;
+    whole.level = level;
+    whole.kind = LineKind::head;
+    const std::string flat = layLine(items_, whole, style_);
+    const std::size_t used = std::size_t{level} * style_.indent + widthOf(flat);
+    if (!hasComments(at_ + 1, end) && used <= style_.width &&
+        flat.find('\n') == std::string::npos) {
+      emit(end, level, LineKind::head);
+      return;
+    }
+  }
+  emit(colon + 1, level, LineKind::head);
+  comments();
+  if (first == Tok::LPAREN) {
+    emit(at_ + 1, level, LineKind::statement);
+    blocks_.push_back({Kind::enumeration, Tok::LPAREN, level, level + 1});
+  } else {
+    std::size_t head = at_ + 1;
+    if (type(head) == Tok::EXTENDS)
+      head = headRest(head, Tok::STRUCT);
+    emit(withSemicolons(head), level, LineKind::head);
+    blocks_.push_back({Kind::structure, first, level, level + 1});
+  }
+  afterOpener_ = true;
+}
+
+/// One enumerator a line.
+void FormatLayout::enumerationLine() {
+  const unsigned level = blocks_.back().level;
+  if (type(at_) == Tok::RPAREN || type(at_) == Tok::SEMICOLON || stopsStatement(at_)) {
+    blocks_.pop_back();
+    if (type(at_) != Tok::RPAREN && type(at_) != Tok::SEMICOLON)
+      return line();
+    closing_ = true;
+    emit(statementEnd(at_), level, LineKind::head);
+    return;
+  }
+  unsigned depth = 0;
+  std::size_t end = at_;
+  for (;; ++end) {
+    if (end > at_ && stopsStatement(end))
+      break;
+    if (type(end) == Tok::LPAREN || type(end) == Tok::LBRACKET)
+      ++depth;
+    if (depth == 0 && (type(end) == Tok::RPAREN || type(end) == Tok::SEMICOLON))
+      break;
+    if (type(end) == Tok::RPAREN || type(end) == Tok::RBRACKET)
+      depth -= depth > 0;
+    if (type(end) == Tok::COMMA && depth == 0) {
+      ++end;
+      break;
+    }
+  }
+  emit(end, level + 1, LineKind::declaration);
+}
+
+bool FormatLayout::configurationPart() {
+  if (blocks_.back().kind != Kind::configuration)
+    return false;
+  if (isWordAt(at_, "resource") && type(at_ + 1) == Tok::IDENT) {
+    items_[at_].type = Tok::RESOURCE;
+    std::size_t end = at_ + 2;
+    if (isWordAt(end, "on")) {
+      items_[end].type = Tok::ON;
+      end += type(end + 1) == Tok::IDENT ? 2 : 1;
+    }
+    open(Kind::configuration, withSemicolons(end), LineKind::configuration, true);
+    return true;
+  }
+  const bool task = isWordAt(at_, "task") && type(at_ + 1) == Tok::IDENT;
+  if (!task && type(at_) != Tok::PROGRAM)
+    return false;
+  std::size_t end = at_ + 1;
+  while (type(end) != Tok::SEMICOLON && !closesUnit(type(end)) && !startsSection(end) &&
+         !isMember(type(end)) && !(startsDeclaration(end) && type(end + 1) != Tok::COLON))
+    ++end;
+  end += type(end) == Tok::SEMICOLON;
+  if (task)
+    items_[at_].type = Tok::TASK;
+  for (std::size_t i = at_ + 1; !task && i + 1 < end; ++i) {
+    if (type(i + 1) != Tok::IDENT || type(i - 1) == Tok::COLON)
+      continue;
+    if (i == at_ + 1 && isWordAt(i, "retain"))
+      items_[i].type = Tok::RETAIN;
+    else if (i == at_ + 1 && isWordAt(i, "non_retain"))
+      items_[i].type = Tok::NON_RETAIN;
+    else if (type(i - 1) == Tok::IDENT && isWordAt(i, "with"))
+      items_[i].type = Tok::WITH;
+  }
+  emit(end, blocks_.back().content, LineKind::configuration);
+  return true;
+}
+
+bool FormatLayout::declaration() {
+  const std::uint16_t t = type(at_);
+  const bool member = isMember(t);
+  const bool outer = startsDeclaration(at_);
+  if (startsSection(at_)) {
+    const bool globals = t == Tok::VAR_GLOBAL || t == Tok::VAR_CONFIG || t == Tok::VAR_ACCESS;
+    if (!globals)
+      closeStatements();
+    std::size_t end = at_ + 1;
+    while ((type(end) >= Tok::CONSTANT && type(end) <= Tok::NON_RETAIN) || isModifier(type(end)))
+      ++end;
+    open(Kind::section, end, LineKind::statement, true);
+    return true;
+  }
+  if (t == Tok::TYPE && outer) {
+    closeStatements();
+    const unsigned level = blocks_.back().content;
+    if (isOnlyType(at_ + 1)) {
+      blocks_.push_back({Kind::types, Tok::TYPE, level, level});
+      typeDeclaration();
+    } else {
+      open(Kind::types, at_ + 1, LineKind::statement, true);
+    }
+    return true;
+  }
+  if (t == Tok::USING) {
+    emit(statementEnd(at_), blocks_.back().content, LineKind::statement);
+    return true;
+  }
+  if (t == Tok::NAMESPACE || t == Tok::CONFIGURATION) {
+    closeStatements();
+    open(t == Tok::NAMESPACE ? Kind::space : Kind::configuration, headEnd(at_), LineKind::head,
+         true);
+    return true;
+  }
+  if (t == Tok::ACTIONS) {
+    closeStatements();
+    open(Kind::actions, type(at_ + 1) == Tok::IDENT ? at_ + 2 : at_ + 1, LineKind::head, false);
+    return true;
+  }
+  if (t == Tok::EXTENDS || t == Tok::IMPLEMENTS ||
+      (t == Tok::COLON && blocks_.back().kind == Kind::pou)) {
+    emit(headRest(at_, Tok::FUNCTION), blocks_.back().content, LineKind::head);
+    return true;
+  }
+  if (member || outer) {
+    closeStatements();
+    open(t == Tok::PROPERTY ? Kind::property : Kind::pou, headEnd(at_), LineKind::head, false);
+    return true;
+  }
+  const Kind now = blocks_.back().kind;
+  if ((now == Kind::property || now == Kind::accessor) && startsAccessor(at_)) {
+    if (now == Kind::accessor)
+      blocks_.pop_back();
+    items_[at_].type = isWordAt(at_, "get") ? Tok::GET : Tok::SET;
+    std::size_t end = at_ + 1;
+    static constexpr std::string_view kAccess[] = {"public", "private", "protected", "internal"};
+    if (std::any_of(std::begin(kAccess), std::end(kAccess),
+                    [&](std::string_view word) { return isWordAt(end, word); }) &&
+        type(end + 1) != Tok::ASSIGN && type(end + 1) != Tok::DOT && type(end + 1) != Tok::LPAREN &&
+        type(end + 1) != Tok::LBRACKET && type(end + 1) != Tok::CARET &&
+        type(end + 1) != Tok::COLON)
+      ++end;
+    open(Kind::accessor, end, LineKind::head, false);
+    return true;
+  }
+  return false;
+}
+
+void FormatLayout::branchLabel() {
+  if (blocks_.back().kind == Kind::branch)
+    blocks_.pop_back();
+  const Block choice = blocks_.back();
+  const std::size_t behind = labelEnd(at_);
+  std::size_t end = behind;
+  // A single statement stands on the line of its label.
+  if (!stopsStatement(behind)) {
+    const std::size_t stop = statementEnd(behind);
+    blocks_.push_back({Kind::branch, Tok::LABEL, choice.content, choice.content + 1});
+    const bool isLast =
+        type(stop) == Tok::ELSE || type(stop) == Tok::END_CASE || labelEnd(stop) != 0;
+    const bool isLabel = labelEnd(behind) != 0;
+    blocks_.pop_back();
+    if (isLast && !isLabel && type(stop - 1) == Tok::SEMICOLON && !hasComments(at_ + 1, stop)) {
+      LineRequest whole;
+      whole.from = at_;
+      whole.to = stop;
+      whole.level = choice.content;
+      whole.kind = LineKind::label;
+      const std::string text = layLine(items_, whole, style_);
+      if (text.find('\n') == std::string::npos &&
+          std::size_t{choice.content} * style_.indent + widthOf(text) + widthOf(prefix_) <
+              style_.width)
+        end = stop;
+    }
+  }
+  if (end == behind)
+    while (type(end) == Tok::SEMICOLON && items_[end].comments.empty())
+      ++end;
+  emit(end, choice.content, LineKind::label);
+  blocks_.push_back({Kind::branch, Tok::LABEL, choice.content, choice.content + 1});
+  afterOpener_ = end == behind;
+}
+
+void FormatLayout::statement() {
+  const std::uint16_t t = type(at_);
+  const auto middle = [&](Kind kind, std::size_t end) {
+    closing_ = true;
+    std::size_t i = blocks_.size();
+    while (i > 1 && blocks_[i - 1].kind != kind)
+      --i;
+    if (i > 1)
+      blocks_.resize(i);
+    const unsigned level = i > 1 ? blocks_.back().level : blocks_.back().content;
+    emit(end, level, LineKind::statement);
+    afterOpener_ = true;
+  };
+  switch (t) {
+  case Tok::IF:
+    return open(Kind::condition, through(at_ + 1, Tok::THEN), LineKind::statement, true);
+  case Tok::CASE:
+    return open(Kind::choice, through(at_ + 1, Tok::OF), LineKind::statement, true);
+  case Tok::FOR:
+  case Tok::WHILE:
+    return open(Kind::loop, through(at_ + 1, Tok::DO), LineKind::statement, true);
+  case Tok::REPEAT:
+    return open(Kind::loop, at_ + 1, LineKind::statement, true);
+  case Tok::TRY:
+    return open(Kind::attempt, at_ + 1, LineKind::statement, true);
+  case Tok::ELSIF:
+    return middle(Kind::condition, through(at_ + 1, Tok::THEN));
+  case Tok::ELSE: {
+    // Of the innermost IF or CASE.
+    std::size_t i = blocks_.size();
+    while (i > 1 && blocks_[i - 1].kind != Kind::condition && blocks_[i - 1].kind != Kind::choice)
+      --i;
+    return middle(i > 1 ? blocks_[i - 1].kind : Kind::condition, at_ + 1);
+  }
+  case Tok::UNTIL: {
+    std::size_t end = at_ + 1;
+    while (type(end) != Tok::SEMICOLON && !stopsStatement(end))
+      ++end;
+    return middle(Kind::loop, withSemicolons(end));
+  }
+  case Tok::CATCH:
+    return middle(Kind::attempt,
+                  type(at_ + 1) == Tok::LPAREN ? through(at_ + 1, Tok::RPAREN) : at_ + 1);
+  case Tok::FINALLY:
+    return middle(Kind::attempt, at_ + 1);
+  default:
+    break;
+  }
+  if (labelEnd(at_) != 0)
+    return branchLabel();
+  if (t == Tok::IDENT && type(at_ + 1) == Tok::COLON) // where a JMP leads
+    return emit(at_ + 2, blocks_.back().content, LineKind::label);
+  emit(statementEnd(at_), blocks_.back().content, LineKind::statement);
+}
+
+} // namespace stc
