@@ -14,6 +14,10 @@ namespace {
 /// The owner in the keys of roots.
 constexpr uint32_t kRoots = kNoIndex;
 
+std::string bytesText(uint32_t first, uint32_t count) {
+  return count == 0 ? "none" : fmt::format("byte {} to {}", first, first + count - 1);
+}
+
 const char *word(Finding::Kind kind) {
   switch (kind) {
   case Finding::Kind::Renamed:
@@ -109,13 +113,26 @@ void CarryReport::compareIoDevices() {
     }
     const IoDeviceDesc &x = a.ioDevices[i];
     const IoDeviceDesc &y = b.ioDevices[i];
-    if (!sameName(x.name, y.name) || !sameName(x.driverName, y.driverName) ||
-        x.inputFirst != y.inputFirst || x.inputCount != y.inputCount ||
-        x.outputFirst != y.outputFirst || x.outputCount != y.outputCount ||
-        x.loopBack != y.loopBack || x.delayCycles != y.delayCycles || x.timeoutNs != y.timeoutNs ||
-        text(x.segment) != text(y.segment))
+    if (!sameName(x.name, y.name)) {
       refusals_.push_back(
-          fmt::format("I/O device {} has another configuration in the new build", x.name));
+          fmt::format("I/O device {} is called '{}' instead of '{}'", i + 1, y.name, x.name));
+      continue;
+    }
+    const auto compare = [&](const char *what, const auto &was, const auto &is) {
+      if (was != is)
+        refusals_.push_back(
+            fmt::format("I/O device {} has another {}: {} instead of {}", x.name, what, is, was));
+    };
+    compare("driver", text(x.driverName), text(y.driverName));
+    compare("place of its inputs", bytesText(x.inputFirst, x.inputCount),
+            bytesText(y.inputFirst, y.inputCount));
+    compare("place of its outputs", bytesText(x.outputFirst, x.outputCount),
+            bytesText(y.outputFirst, y.outputCount));
+    compare("`loop_back`", x.loopBack != 0, y.loopBack != 0);
+    compare("`delay`", x.delayCycles, y.delayCycles);
+    compare("`segment`", text(x.segment), text(y.segment));
+    compare("`timeout`", fmt::format("{} us", x.timeoutNs / 1000),
+            fmt::format("{} us", y.timeoutNs / 1000));
   }
 }
 

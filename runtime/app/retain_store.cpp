@@ -207,9 +207,11 @@ RetainLock::RetainLock(const std::string &file) {
   if (::flock(handle_, LOCK_EX | LOCK_NB) == 0)
     return;
   ::close(handle_);
-  throw Error(fmt::format("the retained data '{}' are in use by another process\n  stop the "
-                          "application that runs with them first",
-                          file));
+  throw Error(
+      fmt::format("the retained data '{}' are in use by another application, in this run "
+                  "or in another process\n  stop that one first, or give each a file of its "
+                  "own in [retain] of stride.toml",
+                  file));
 }
 
 RetainLock::~RetainLock() { ::close(handle_); }

@@ -3,6 +3,7 @@
 #include "drivers/dummy/dummy_drive.hpp"
 #include "runtime/app/error.hpp"
 #include "runtime/axis/axis_group.hpp"
+#include "runtime/host/error_names.hpp"
 #include "runtime/host/task_times.hpp"
 
 #include "st/DummyDrive/DUMMY_DRIVE_SIM.h"
@@ -70,6 +71,13 @@ public:
         ref_(&groupOf(app, state, index)), index_(index), name_(app.axisGroups[index].name),
         bootupErrorOffset_(app.bootupErrorOffset), bootupErrorLength_(app.bootupErrorLength),
         group_(std::move(driver), *ref_, axesOf(app, state), cycleSeconds, encodersOf(app, state)) {
+    const AxisGroupDesc &group = app.axisGroups[index];
+    axes_ = axesOf(app, state);
+    for (uint32_t i = 0; i < group.driveCount; ++i) {
+      names_.emplace_back(app.drives[group.firstDrive + i].name);
+      ids_.push_back(app.drives[group.firstDrive + i].driveId);
+    }
+    stopped_.resize(axes_.size());
   }
 
   void beforePous(Ctx &ctx) override {
@@ -87,10 +95,31 @@ public:
     if (times_.measuring())
       times_.end(*ref_, measuredNow(ctx));
   }
-  void applicationStopped() override { group_.stopAll(); }
+  void applicationStopped() override {
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+      stopped_[i] = axes_[i]->nAxisState != axis::state::kErrorStop;
+    group_.stopAll();
+    for (std::size_t i = 0; i < axes_.size(); ++i)
+      stopped_[i] = stopped_[i] && axes_[i]->nAxisState == axis::state::kErrorStop;
+  }
+  /// One line about each drive that is in error stop.
+  void describeErrorStops(std::vector<std::string> &lines) const {
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      const axis::AxisRef &axis = *axes_[i];
+      if (axis.nAxisState != axis::state::kErrorStop)
+        continue;
+      lines.push_back(fmt::format(
+          "drive '{}' is in error stop: {}", names_[i],
+          stopped_[i] ? std::string("it moved when the application stopped, and was braked")
+                      : motionErrorText(axis.wFBErrorID)));
+      if (axis.wErrorID != 0)
+        lines.back() += fmt::format(", error {} of the drive", axis.wErrorID);
+    }
+  }
   bool atRest() const override { return group_.atRest(); }
   std::string problem() const override {
-    const std::string_view failure = group_.bootupError();
+    char text[320];
+    const std::string_view failure = bootupError(text);
     return failure.empty() ? std::string()
                            : fmt::format("axis group '{}' did not start: {}", name_, failure);
   }
@@ -99,8 +128,10 @@ public:
     const AxisGroupDesc &group = app.axisGroups[index_];
     ref_ = &groupOf(app, state, index_);
     group_.rebind(*ref_);
-    for (uint32_t i = 0; i < group.driveCount; ++i)
-      group_.rebind(i, axisOf(app, state, i));
+    for (uint32_t i = 0; i < group.driveCount; ++i) {
+      axes_[i] = &axisOf(app, state, i);
+      group_.rebind(i, *axes_[i]);
+    }
     for (uint32_t i = 0; i < group.encoderCount; ++i)
       group_.rebind(i, encoderOf(app, state, i));
     bootupErrorOffset_ = app.bootupErrorOffset;
@@ -138,10 +169,26 @@ private:
     return encoders;
   }
 
+  /// What the group says, with the drive's name before its number.
+  template <std::size_t N> std::string_view bootupError(char (&text)[N]) const {
+    const std::string_view message = group_.bootupError();
+    for (std::size_t i = 0; i < axes_.size(); ++i) {
+      char number[32];
+      const auto end = fmt::format_to_n(number, sizeof number, "drive {}: ", ids_[i]);
+      if (const std::string_view begin(number, end.size); message.starts_with(begin)) {
+        const auto all = fmt::format_to_n(text, N, "drive {} ({}): {}", names_[i], ids_[i],
+                                          message.substr(begin.size()));
+        return {text, std::min(all.size, N)};
+      }
+    }
+    return message;
+  }
+
   /// A new failure, or the end of one, in g_strBootupError.
   void show(Ctx &ctx, bool failed) {
+    char text[320];
     if (bootupErrorLength_ == 0 ||
-        errors_->show(index_, group_.bootupError(),
+        errors_->show(index_, bootupError(text),
                       static_cast<char *>(ctx.state) + bootupErrorOffset_, bootupErrorLength_))
       shown_ = failed;
   }
@@ -153,6 +200,10 @@ private:
   TaskTimes times_;
   uint32_t index_;
   std::string name_;
+  std::vector<axis::AxisRef *> axes_;
+  std::vector<std::string> names_; ///< Of the drives.
+  std::vector<uint32_t> ids_;
+  std::vector<bool> stopped_; ///< By applicationStopped(), so that it is no error of the program.
   uint64_t bootupErrorOffset_;
   uint32_t bootupErrorLength_; ///< 0: the application has no g_strBootupError
   axis::AxisGroup group_;
@@ -243,15 +294,11 @@ addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPo
   return hooks;
 }
 
-std::vector<std::string> errorStops(const app::Application &application) {
-  const StrideAppV1 &app = application.description();
+std::vector<std::string> errorStops(const std::vector<std::unique_ptr<task::CycleHook>> &hooks) {
   std::vector<std::string> lines;
-  for (uint32_t i = 0; i < app.driveCount; ++i) {
-    const auto &ref = at<axis::AxisRef>(application.state(), app.drives[i].axisOffset);
-    if (ref.nAxisState == axis::state::kErrorStop)
-      lines.push_back(
-          fmt::format("drive '{}' is in error stop: error {}", app.drives[i].name, ref.wFBErrorID));
-  }
+  for (const std::unique_ptr<task::CycleHook> &hook : hooks)
+    if (const auto *group = dynamic_cast<const AxisGroupHook *>(hook.get()))
+      group->describeErrorStops(lines);
   return lines;
 }
 

@@ -21,8 +21,9 @@ app::RuntimeLayouts runtimeLayouts();
 std::vector<std::unique_ptr<task::CycleHook>>
 addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPort &inputs);
 
-/// One line about each drive that is in error stop, to be shown at the end of a run.
-std::vector<std::string> errorStops(const app::Application &application);
+/// One line about each drive that is in error stop, to be shown at the end of a run; `hooks` are
+/// those of addAxisGroups, among others.
+std::vector<std::string> errorStops(const std::vector<std::unique_ptr<task::CycleHook>> &hooks);
 
 } // namespace stride::host
 

@@ -84,6 +84,22 @@ void showList(SocketClient &client, json request) {
   }
 }
 
+/// Throws app::Error when it was refused.
+void showChange(const json &result) {
+  const json &applications = result.at("applications");
+  bool done = true;
+  for (const json &one : applications) {
+    const bool good = one.at("result") == "done";
+    done = done && good;
+    for (const json &line : one.at("report"))
+      fmt::print(good ? stdout : stderr, "{}{}\n",
+                 applications.size() > 1 ? one.at("name").get<std::string>() + ": " : std::string(),
+                 line.get<std::string>());
+  }
+  if (!done)
+    throw app::Error("the online change was refused");
+}
+
 } // namespace
 
 struct Control::Impl {
@@ -268,8 +284,9 @@ void Control::declare(CLI::App &command) {
     if (state.contains("fault"))
       fmt::print("{}\n", state.at("fault").get<std::string>());
   });
-  impl.add(command, "change", "Take new builds of the applications over (online change)",
-           [&impl](SocketClient &client) { client.ask(impl.request("online_change")); });
+  impl.add(
+      command, "change", "Take new builds of the applications over (online change)",
+      [&impl](SocketClient &client) { showChange(client.ask(impl.request("online_change"))); });
   impl.add(command, "stop", "End the run",
            [&impl](SocketClient &client) { client.ask(impl.request("stop")); });
 }

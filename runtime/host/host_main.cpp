@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 
 namespace stride::host {
 
@@ -114,7 +115,8 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
   run.add_option("--for", texts.duration, "How long to run: 5s, T#1h; until Ctrl-C without it")
       ->type_name("TIME");
   run.add_option("--trace", texts.trace,
-                 "Variables of the first application to write in every cycle of its fastest task")
+                 "Variables to write in every cycle of the application's fastest task; NAME:PATH "
+                 "for those of the application NAME")
       ->type_name("NAMES")
       ->expected(1)
       ->take_all();
@@ -124,12 +126,14 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
       ->type_name("NAMES")
       ->expected(1)
       ->take_all();
-  run.add_option("--script", texts.options.script,
-                 "Script of what is written and forced in the first application, and when")
-      ->type_name("FILE");
-  run.add_option(
-         "--listen", texts.options.listen,
-         "Socket through which 'stride-host ctl' and others read, write and force: unix:PATH")
+  run.add_option("--script", texts.options.scripts,
+                 "Script of what is written and forced, and when; NAME=FILE for the application "
+                 "NAME, may be repeated")
+      ->type_name("FILE")
+      ->expected(1)
+      ->take_all();
+  run.add_option("--listen", texts.options.listen,
+                 "Socket through which 'ctl' and others read, write and force: unix:PATH")
       ->type_name("ADDRESS");
   run.add_option("--record", texts.options.record,
                  "Record all inputs for 'sim --replay'; the tasks take turns then")
@@ -152,7 +156,7 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
   run.add_flag("--turns", texts.options.turns,
                "Only one task at a time is in a cycle, also with real-time priorities");
   run.add_option("--statistics", texts.options.statistics,
-                 "File for the statistics at the end (JSON; of the first application)")
+                 "File for the statistics at the end (JSON)")
       ->type_name("FILE");
   run.add_flag("--histogram", texts.options.histogram,
                "Show the distribution of run times and delays with the statistics");
@@ -286,7 +290,10 @@ int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
   } catch (const CLI::CallForHelp &help) {
     return cli.exit(help);
   } catch (const CLI::ParseError &error) {
-    fmt::print(stderr, "error: {}\n  'stride-host {} --help' lists the options\n", error.what(),
+    const std::string program = builtIn != nullptr && argc > 0
+                                    ? std::filesystem::path(argv[0]).filename().string()
+                                    : "stride-host";
+    fmt::print(stderr, "error: {}\n  '{} {} --help' lists the options\n", error.what(), program,
                ctl->parsed()     ? "ctl"
                : run->parsed()   ? "run"
                : reset->parsed() ? "reset"
@@ -298,11 +305,11 @@ int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
     if (ctl->parsed())
       return control.run();
     if (reset->parsed()) {
-      resetRetained(resetKind == "warm"   ? ResetKind::Warm
-                    : resetKind == "cold" ? ResetKind::Cold
-                                          : ResetKind::Origin,
-                    resetFile);
-      return kExitOk;
+      const bool found = resetRetained(resetKind == "warm"   ? ResetKind::Warm
+                                       : resetKind == "cold" ? ResetKind::Cold
+                                                             : ResetKind::Origin,
+                                       resetFile);
+      return found ? kExitOk : kExitBadInput;
     }
     return run->parsed() ? runFrom(runTexts, builtIn) : simulateFrom(texts, builtIn);
   } catch (const app::Error &error) {

@@ -88,7 +88,7 @@ std::vector<std::string> Instance::remarks() const {
   for (const std::unique_ptr<task::CycleHook> &hook : hooks_)
     if (const std::string problem = hook->problem(); !problem.empty())
       lines.push_back(fmt::format("warning: {}", problem));
-  for (const std::string &line : errorStops(*application_))
+  for (const std::string &line : errorStops(hooks_))
     lines.push_back(fmt::format("note: {}", line));
   return lines;
 }

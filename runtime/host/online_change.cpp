@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 namespace stride::host {
 
@@ -24,6 +25,33 @@ std::string spelledAnew(const std::string &path) {
   for (unsigned i = 0; i < number; ++i)
     folder += "/.";
   return folder + '/' + given.filename().string();
+}
+
+const char *nameOf(TaskKind kind) {
+  switch (kind) {
+  case TaskKind::Cyclic:
+    return "cyclic";
+  case TaskKind::Freewheeling:
+    return "freewheeling";
+  case TaskKind::Event:
+    return "event";
+  case TaskKind::Status:
+    return "status";
+  }
+  return "unknown";
+}
+
+std::string durationText(int64_t ns) {
+  if (ns == 0)
+    return "none";
+  for (const auto &[unit, name] : {std::pair{1'000'000'000, "s"}, {1'000'000, "ms"}, {1'000, "us"}})
+    if (ns % unit == 0)
+      return fmt::format("{}{}", ns / unit, name);
+  return fmt::format("{}ns", ns);
+}
+
+std::string coreText(uint32_t core) {
+  return core == kNoIndex ? "the one of the run" : std::to_string(core);
 }
 
 } // namespace
@@ -64,11 +92,21 @@ void OnlineChange::compareTasks() {
   for (uint32_t i = 0; i < was.taskCount; ++i) {
     const TaskDesc &a = was.tasks[i];
     const TaskDesc &b = is.tasks[i];
-    if (std::strcmp(a.name, b.name) != 0)
+    if (std::strcmp(a.name, b.name) != 0) {
       refuse(fmt::format("task {} is called '{}' instead of '{}'", i + 1, b.name, a.name));
-    else if (a.kind != b.kind || a.intervalNs != b.intervalNs || a.priority != b.priority ||
-             a.core != b.core)
-      refuse(fmt::format("task '{}' has another kind, interval, priority or core", a.name));
+      continue;
+    }
+    const auto differs = [&](const char *what, const std::string &now, const std::string &before) {
+      refuse(fmt::format("task '{}' has another {}: {} instead of {}", a.name, what, now, before));
+    };
+    if (a.kind != b.kind)
+      differs("kind", nameOf(b.kind), nameOf(a.kind));
+    if (a.intervalNs != b.intervalNs)
+      differs("interval", durationText(b.intervalNs), durationText(a.intervalNs));
+    if (a.priority != b.priority)
+      differs("priority", std::to_string(b.priority), std::to_string(a.priority));
+    if (a.core != b.core)
+      differs("processor", coreText(b.core), coreText(a.core));
   }
 }
 

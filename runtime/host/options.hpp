@@ -51,13 +51,13 @@ enum class OnFault : uint8_t {
 /// `stride-host run`.
 struct RunOptions {
   std::vector<std::string> applications;
-  int64_t durationNs = 0;         ///< 0: until a signal.
-  std::vector<std::string> trace; ///< Paths of the first application, in the order given.
-  std::string out;                ///< File of the trace; empty or "-": standard output.
-  std::vector<std::string> print; ///< Paths, in the order given.
-  std::string script;             ///< Input script of the first application; or empty.
-  std::string listen;             ///< `unix:PATH`, the socket of the monitor; or empty.
-  std::string record;             ///< File for the inputs of the run; or empty.
+  int64_t durationNs = 0;           ///< 0: until a signal.
+  std::vector<std::string> trace;   ///< Paths, or NAME:PATH, in the order given.
+  std::string out;                  ///< File of the trace; empty or "-": standard output.
+  std::vector<std::string> print;   ///< Paths, or NAME:PATH, in the order given.
+  std::vector<std::string> scripts; ///< Input scripts: FILE or NAME=FILE.
+  std::string listen;               ///< `unix:PATH`, the socket of the monitor; or empty.
+  std::string record;               ///< File for the inputs of the run; or empty.
   OnFault onFault = OnFault::Stop;
   bool acceptLosses = false; ///< An online change may lose values.
   std::string retain; ///< File for RETAIN and PERSISTENT variables; empty: the application's own.

@@ -1,6 +1,7 @@
 #include "runtime/host/real_run.hpp"
 
 #include "runtime/app/error.hpp"
+#include "runtime/host/application_options.hpp"
 #include "runtime/host/instance.hpp"
 #include "runtime/host/online_change.hpp"
 #include "runtime/host/print_values.hpp"
@@ -26,8 +27,11 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace stride::host {
 
@@ -38,16 +42,24 @@ constexpr long kRoundNs = 20'000'000;
 constexpr std::size_t kTraceBytes = std::size_t{16} << 20;
 constexpr auto kRestartPause = std::chrono::seconds(1);
 
+/// What came of an online change.
+struct ChangeResult {
+  bool done = false;
+  std::vector<std::string> report; ///< What was said about it.
+  int64_t pauseNs = 0;             ///< In which no cycle could begin.
+};
+
 /// One application from its start to its stop.
 class Session {
 public:
   /// `number`: of the application among those of the run. Throws app::Error for bad input.
   Session(std::unique_ptr<app::Application> application, std::size_t number,
-          const RunOptions &options, const task::RealOptions &realOptions)
-      : options_(&options), number_(number), name_(application->description().name),
+          const RunOptions &options, const ApplicationOptions &own,
+          const task::RealOptions &realOptions)
+      : options_(&options), own_(&own), number_(number), name_(application->description().name),
         instance_(std::move(application), task::LoopLimit::Clock),
         scheduler_(instance_.tasks(), realOptions) {
-    for (const std::string &path : options.print)
+    for (const std::string &path : own.print)
       (void)instance_.symbols().resolve(path);
     const StrideAppV1 &app = instance_.app();
     RetainSettings retain = retainSettings(app);
@@ -56,8 +68,8 @@ public:
     if (retain.file.empty())
       retain.file = std::string(app.name) + ".retain";
     instance_.retain(retain, [this](const std::string &line) { say(line); });
-    if (number == 0 && !options.script.empty()) {
-      script_.emplace(monitor::Script::fromFile(instance_.symbols(), options.script));
+    if (!own.script.empty()) {
+      script_.emplace(monitor::Script::fromFile(instance_.symbols(), own.script));
       scriptHook_.emplace(*script_);
     }
   }
@@ -83,7 +95,7 @@ public:
       }
       onLowStack([this] { instance_.initialise(); });
       if (recording_)
-        recording_->begin(instance_.application());
+        recording_->begin(instance_.application(), script_ ? &*script_ : nullptr);
       if (script_) {
         instance_.tasks().addHook(instance_.tasks().fastest(), *scriptHook_);
         instance_.addToAllTasks(script_->forces());
@@ -117,19 +129,24 @@ public:
   bool failed() { return instance_.tasks().fault().has_value(); }
 
   /// The application in this file takes over, or it is said why not.
-  void change(const std::string &path) {
+  ChangeResult change(const std::string &path) {
+    ChangeResult result;
+    const auto tell = [&](const std::string &line) {
+      say(line);
+      result.report.push_back(line);
+    };
     if (recording_) {
-      say("error: no online change during a recording; the old build goes on");
-      return;
+      tell("error: no online change during a recording; the old build goes on");
+      return result;
     }
     try {
       std::optional<OnlineChange> loaded;
       onLowStack([&] { loaded.emplace(instance_, path); });
       OnlineChange &change = *loaded;
-      if (!isWelcome(change))
-        return;
+      if (!isWelcome(change, tell))
+        return result;
       const app::SymbolTable symbols(change.fresh());
-      for (const std::string &name : options_->print)
+      for (const std::string &name : own_->print)
         (void)symbols.resolve(name);
       std::optional<TraceColumns> columns;
       if (trace_ != nullptr)
@@ -145,11 +162,10 @@ public:
       if (served_)
         served.emplace(served_->prepareChange(std::move(servedSymbols)));
       bool done = false;
-      int64_t pauseNs = 0;
       onLowStack([&] { // for FB_Exit and FB_Reinit
         if (scheduler_.options().fifo)
           task::useFifo(0);
-        pauseNs = scheduler_.betweenCycles([&] {
+        result.pauseNs = scheduler_.betweenCycles([&] {
           done = !instance_.tasks().stopped() && change.apply(scheduler_.nowNs());
           if (done && columns)
             trace_->swapColumns(*columns);
@@ -164,19 +180,21 @@ public:
         instance_.renewSymbols();
       for (const std::string &line : change.atNextStart())
         if (done)
-          say("warning: online change: " + line);
+          tell("warning: online change: " + line);
       for (const std::string &event : change.events())
-        say("warning: online change: " + event);
+        tell("warning: online change: " + event);
       for (std::size_t i = 0; done && served && i < served->lostForces().size(); ++i)
-        say(fmt::format("warning: online change: '{}' is no longer forced: the new build has no "
-                        "such variable",
-                        served->lostForces()[i]));
-      say(done ? fmt::format("note: online change done; no cycle could begin for {:.0f} us",
-                             static_cast<double>(pauseNs) * 1e-3)
-               : "error: online change given up; the old build goes on");
+        tell(fmt::format("warning: online change: '{}' is no longer forced: the new build has no "
+                         "such variable",
+                         served->lostForces()[i]));
+      tell(done ? fmt::format("note: online change done; no cycle could begin for {:.0f} us",
+                              static_cast<double>(result.pauseNs) * 1e-3)
+                : "error: online change given up; the old build goes on");
+      result.done = done;
     } catch (const app::Error &error) {
-      say(fmt::format("error: online change: {}; the old build goes on", error.what()));
+      tell(fmt::format("error: online change: {}; the old build goes on", error.what()));
     }
+    return result;
   }
 
   /// Stops and says what there is to say; false: with an exception.
@@ -194,7 +212,7 @@ public:
       say(fmt::format("warning: the trace lacks {} rows: it could not be written as fast as it was "
                       "taken; trace fewer variables",
                       ring_->lost()));
-    printValues(instance_.symbols(), options_->print, instance_.state());
+    printValues(instance_.symbols(), own_->print, instance_.state());
     for (const std::string &line : instance_.remarks())
       say(line);
     if (script_)
@@ -215,21 +233,16 @@ public:
 
   void showStatistics() {
     const task::TaskSet &tasks = instance_.tasks();
-    std::string text = statisticsTable(tasks);
+    std::string text = options_->applications.size() > 1 ? name_ + ":\n" : std::string();
+    text += statisticsTable(tasks);
     if (options_->histogram)
       for (uint32_t i = 0; i < tasks.count(); ++i)
         text += fmt::format("{}\n{}", tasks.desc(i).name, histogramText(tasks.statistics(i)));
     fmt::print(stderr, "{}", text);
   }
 
-  void writeStatistics(const std::string &path) {
-    const std::string text = statisticsJson(instance_.tasks());
-    std::FILE *file = std::fopen(path.c_str(), "wb");
-    const bool written =
-        file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
-    if ((file != nullptr && std::fclose(file) != 0) || !written)
-      throw app::Error(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
-  }
+  const task::TaskSet &tasks() { return instance_.tasks(); }
+  const std::string &name() const { return name_; }
 
 private:
   /// One line of an application among others carries its name.
@@ -239,19 +252,20 @@ private:
     fmt::print(stderr, "{}\n", line);
   }
 
-  bool isWelcome(const OnlineChange &change) const {
+  bool isWelcome(const OnlineChange &change,
+                 const std::function<void(const std::string &)> &tell) const {
     switch (change.verdict()) {
     case app::Verdict::Silent:
       return true;
     case app::Verdict::Losses:
-      say("note: online change with losses\n" + change.report(false));
+      tell("note: online change with losses\n" + change.report(false));
       if (options_->acceptLosses)
         return true;
-      say("error: online change refused: values would be lost; --accept-losses allows that");
+      tell("error: online change refused: values would be lost; --accept-losses allows that");
       return false;
     case app::Verdict::Refused:
-      say("error: online change refused, the application must be started anew\n" +
-          change.report(false));
+      tell("error: online change refused, the application must be started anew\n" +
+           change.report(false));
       return false;
     }
     return false;
@@ -273,6 +287,7 @@ private:
   }
 
   const RunOptions *options_;
+  const ApplicationOptions *own_;
   std::size_t number_;
   std::string name_;
   Instance instance_;
@@ -288,7 +303,8 @@ private:
 
 /// An application's file and its present session.
 struct Slot {
-  std::string path; ///< Empty: linked into this program.
+  std::string path;                   ///< Empty: linked into this program.
+  std::unique_ptr<TraceWriter> trace; ///< Null: none of it is traced.
   std::unique_ptr<Session> session;
   bool stopped = false; ///< For good, with an exception.
 };
@@ -308,21 +324,24 @@ public:
                                    *options.core, fmt::join(cores, ", ")));
     // Away from the first one, on which most of the machine's interrupts arrive.
     realOptions_.core = options.core ? *options.core : cores.empty() ? 0 : cores.back();
-    if (!options.trace.empty())
-      trace_.emplace(app::SymbolTable(applications.front()->description()), options.trace,
-                     options.out);
-    for (std::size_t i = 0; i < applications.size(); ++i)
+    own_ = optionsByApplication(applications, options);
+    for (std::size_t i = 0; i < applications.size(); ++i) {
+      std::unique_ptr<TraceWriter> trace;
+      if (!own_[i].trace.empty())
+        trace = std::make_unique<TraceWriter>(app::SymbolTable(applications[i]->description()),
+                                              own_[i].trace, own_[i].out);
       slots_.push_back({i < options.applications.size() ? options.applications[i] : std::string(),
-                        newSession(std::move(applications[i]), i), false});
+                        std::move(trace), newSession(std::move(applications[i]), i), false});
+    }
     if (!options.listen.empty()) {
       listener_ = std::make_unique<monitor::SocketServer>(options.listen);
       listener_->service().addOperation("stop", [this](const nlohmann::json &) {
         stopAsked_.store(true);
         return nlohmann::json::object();
       });
-      listener_->service().addOperation("online_change", [this](const nlohmann::json &) {
-        changeAsked_.store(true);
-        return nlohmann::json::object();
+      listener_->service().addLateOperation("online_change", [this](monitor::Service::Ticket who) {
+        const std::lock_guard lock(askedMutex_);
+        asked_.push_back(std::move(who));
       });
     }
     if (!options.quiet)
@@ -352,17 +371,22 @@ public:
         for (Slot &slot : slots_)
           if (slot.session)
             slot.session->showStatistics();
-      if (number == SIGHUP || changeAsked_.exchange(false))
-        changeAll();
+      if (number == SIGHUP)
+        static_cast<void>(changeAll());
+      for (const monitor::Service::Ticket &who : takeAsked())
+        listener_->service().answerLate(who, changeAll());
       lookAfter();
     }
+    for (const monitor::Service::Ticket &who : takeAsked())
+      listener_->service().refuseLate(who, {"gone", "the run is ending"});
     bool good = true;
     for (Slot &slot : slots_)
       good = !slot.stopped && slot.session->finish() && good;
-    if (trace_)
-      trace_->finish();
-    if (!options_.statistics.empty() && slots_.front().session)
-      slots_.front().session->writeStatistics(options_.statistics);
+    for (const Slot &slot : slots_)
+      if (slot.trace)
+        slot.trace->finish();
+    if (!options_.statistics.empty())
+      writeStatistics();
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
     return good ? kExitOk : kExitException;
   }
@@ -378,17 +402,50 @@ private:
 
   std::unique_ptr<Session> newSession(std::unique_ptr<app::Application> application,
                                       std::size_t number) {
-    return std::make_unique<Session>(std::move(application), number, options_, realOptions_);
+    return std::make_unique<Session>(std::move(application), number, options_, own_[number],
+                                     realOptions_);
   }
-  /// The trace is that of the first one.
   bool startSession(Slot &slot) {
-    return slot.session->start(trace_ && &slot == slots_.data() ? &*trace_ : nullptr,
-                               listener_ ? &listener_->service() : nullptr);
+    return slot.session->start(slot.trace.get(), listener_ ? &listener_->service() : nullptr);
   }
-  void changeAll() {
-    for (Slot &slot : slots_)
-      if (!slot.stopped && !slot.path.empty())
-        slot.session->change(slot.path);
+
+  /// By application: whether it was done, what there is to say, the pause.
+  nlohmann::json changeAll() {
+    nlohmann::json results = nlohmann::json::array();
+    for (Slot &slot : slots_) {
+      if (!slot.session)
+        continue; // it could not be started again
+      ChangeResult result;
+      if (slot.stopped)
+        result.report = {"error: no online change: the application does not run any more"};
+      else if (slot.path.empty())
+        result.report = {"error: no online change: the application is linked into the program"};
+      else
+        result = slot.session->change(slot.path);
+      results.push_back({{"name", slot.session->name()},
+                         {"result", result.done ? "done" : "refused"},
+                         {"report", result.report},
+                         {"pause_ns", result.pauseNs}});
+    }
+    return {{"applications", std::move(results)}};
+  }
+  std::vector<monitor::Service::Ticket> takeAsked() {
+    const std::lock_guard lock(askedMutex_);
+    return std::exchange(asked_, {});
+  }
+
+  void writeStatistics() {
+    std::vector<NamedTasks> all;
+    for (const Slot &slot : slots_)
+      if (slot.session)
+        all.push_back({slot.session->name(), &slot.session->tasks()});
+    const std::string text = statisticsJson(all);
+    const std::string &path = options_.statistics;
+    std::FILE *file = std::fopen(path.c_str(), "wb");
+    const bool written =
+        file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size();
+    if ((file != nullptr && std::fclose(file) != 0) || !written)
+      throw app::Error(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
   }
   bool someRun() const {
     return std::any_of(slots_.begin(), slots_.end(), [](const Slot &s) { return !s.stopped; });
@@ -428,10 +485,11 @@ private:
   task::RealtimeReport report_;
   task::NoDeepSleep awake_;
   task::RealOptions realOptions_;
-  std::optional<TraceWriter> trace_;
+  std::vector<ApplicationOptions> own_; ///< By application.
   std::vector<Slot> slots_;
   std::atomic<bool> stopAsked_{false};
-  std::atomic<bool> changeAsked_{false};
+  std::mutex askedMutex_;
+  std::vector<monitor::Service::Ticket> asked_;     ///< Who waits for an online change.
   std::unique_ptr<monitor::SocketServer> listener_; // ends before what it serves
 };
 

@@ -1,5 +1,6 @@
 #include "runtime/host/recording.hpp"
 
+#include "runtime/app/checksum.hpp"
 #include "runtime/app/error.hpp"
 
 #include <fmt/format.h>
@@ -15,11 +16,19 @@ namespace stride::host {
 namespace {
 
 constexpr std::size_t kRing = std::size_t{8} << 20;
-constexpr uint64_t kMagic = 0x31434552'44525453; // "STRDREC1"
+constexpr uint64_t kMagic = 0x32434552'44525453; // "STRDREC2"
 
-/// How the file begins; the state follows.
+/// The file is a row of blocks; whole records are in each.
+struct BlockHead {
+  uint64_t size = 0;     ///< Of what follows.
+  uint64_t checksum = 0; ///< Of this block and all before it.
+};
+
+/// How the first block begins; the script's name and the state follow.
 struct Header {
   uint64_t magic = kMagic;
+  uint64_t scriptChecksum = 0;
+  uint64_t scriptNameSize = 0; ///< 0: without a script.
   uint64_t buildHash = 0;
   uint64_t stateSize = 0;
   uint64_t stateAddress = 0; ///< Pointers in the state are addresses.
@@ -38,6 +47,7 @@ constexpr InputMark kCycle = 0xFFFFFFFF;
 constexpr InputMark kWrite = 0xFFFFFFFE;       ///< A WriteMark and the bytes: before the POUs.
 constexpr InputMark kWriteBehind = 0xFFFFFFFD; ///< The same behind them.
 constexpr InputMark kFault = 0xFFFFFFFC;       ///< Last of all: a FaultMark and its texts.
+constexpr InputMark kEnd = 0xFFFFFFFB;         ///< Behind the last cycle: an EndMark.
 
 /// From outside into the state.
 struct WriteMark {
@@ -58,6 +68,14 @@ struct FaultMark {
   uint64_t looks = 0;
 };
 
+struct EndMark {
+  uint64_t complete = 0;      ///< 0: cycles and inputs are missing.
+  uint64_t stateChecksum = 0; ///< Of the state behind the last cycle.
+};
+
+std::span<const std::byte> bytesOf(std::string_view text) {
+  return std::as_bytes(std::span(text.data(), text.size()));
+}
 template <class T> std::span<const std::byte> bytesOf(const T &value) {
   return std::as_bytes(std::span(&value, 1));
 }
@@ -86,7 +104,7 @@ Recording::Recording(const std::string &path) : path_(path), ring_(kRing) {
     throw app::Error(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
 }
 
-void Recording::begin(const app::Application &application) {
+void Recording::begin(const app::Application &application, const monitor::Script *script) {
   const StrideAppV1 &app = application.description();
   Header header;
   header.buildHash = app.buildHash;
@@ -94,8 +112,28 @@ void Recording::begin(const app::Application &application) {
   header.stateAddress = std::bit_cast<uint64_t>(application.state());
   state_ = application.state();
   stateSize_ = app.stateSize;
-  writeFailed_ = std::fwrite(&header, sizeof header, 1, file_) != 1 ||
-                 std::fwrite(application.state(), 1, app.stateSize, file_) != app.stateSize;
+  if (script != nullptr) {
+    header.scriptChecksum = app::crc64(bytesOf(std::string_view(script->text())));
+    header.scriptNameSize = script->file().size();
+  }
+  writeBlock({bytesOf(header),
+              bytesOf(std::string_view(script != nullptr ? script->file() : std::string())),
+              {state_, stateSize_}});
+}
+
+void Recording::writeBlock(std::initializer_list<std::span<const std::byte>> parts) {
+  BlockHead head;
+  for (const std::span<const std::byte> part : parts) {
+    head.size += part.size();
+    checksum_ = app::crc64(part, checksum_);
+  }
+  head.checksum = checksum_;
+  const auto write = [&](std::span<const std::byte> part) {
+    writeFailed_ = std::fwrite(part.data(), 1, part.size(), file_) != part.size() || writeFailed_;
+  };
+  write(bytesOf(head));
+  for (const std::span<const std::byte> part : parts)
+    write(part);
 }
 
 Recording::~Recording() {
@@ -149,38 +187,35 @@ void Recording::copyIn(uint64_t at, const void *data, std::size_t size) noexcept
 
 void Recording::drain() {
   const uint64_t end = put_.load(std::memory_order_acquire);
-  uint64_t at = taken_.load(std::memory_order_relaxed);
-  while (at != end) {
-    const std::size_t place = at % ring_.size();
-    const auto count = static_cast<std::size_t>(std::min<uint64_t>(end - at, ring_.size() - place));
-    writeFailed_ = std::fwrite(ring_.data() + place, 1, count, file_) != count || writeFailed_;
-    at += count;
-    taken_.store(at, std::memory_order_release);
-  }
+  const uint64_t at = taken_.load(std::memory_order_relaxed);
+  if (at == end)
+    return;
+  const std::size_t place = at % ring_.size();
+  const std::size_t first = std::min<std::size_t>(end - at, ring_.size() - place);
+  const std::span<const std::byte> ring(ring_);
+  writeBlock({ring.subspan(place, first), ring.first(end - at - first)});
+  taken_.store(end, std::memory_order_release);
 }
 
 std::string Recording::finish(const std::optional<task::Fault> &fault) {
   drain();
+  const EndMark end{full_ || beyond_ ? 0U : 1U, app::crc64({state_, stateSize_})};
+  writeBlock({bytesOf(kEnd), bytesOf(end)});
   if (fault && !full_) {
     const StException &exception = fault->exception;
     const std::string_view file = exception.file() != nullptr ? exception.file() : "";
     const std::string_view detail = exception.detail();
+    const std::string_view task = fault->task;
     const FaultMark mark{static_cast<uint32_t>(exception.code()),
                          exception.line(),
                          exception.column(),
                          static_cast<uint32_t>(file.size()),
                          static_cast<uint32_t>(detail.size()),
-                         static_cast<uint32_t>(fault->task.size()),
+                         static_cast<uint32_t>(task.size()),
                          fault->cycle,
                          fault->timeNs,
                          fault->looks};
-    const auto write = [&](const void *data, std::size_t size) {
-      writeFailed_ = std::fwrite(data, 1, size, file_) != size || writeFailed_;
-    };
-    write(&kFault, sizeof kFault);
-    write(&mark, sizeof mark);
-    for (const std::string_view text : {file, detail, std::string_view(fault->task)})
-      write(text.data(), text.size());
+    writeBlock({bytesOf(kFault), bytesOf(mark), bytesOf(file), bytesOf(detail), bytesOf(task)});
   }
   writeFailed_ = std::fclose(file_) != 0 || writeFailed_;
   file_ = nullptr;
@@ -197,13 +232,10 @@ std::string Recording::finish(const std::optional<task::Fault> &fault) {
   return {};
 }
 
-Replay::Replay(const std::string &path, const app::Application &application) : path_(path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw app::Error(fmt::format("cannot read '{}': {}", path, std::strerror(errno)));
-  std::vector<char> text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  data_.resize(text.size());
-  std::memcpy(data_.data(), text.data(), text.size());
+Replay::Replay(const std::string &path, const app::Application &application,
+               const monitor::Script *script)
+    : path_(path) {
+  readBlocks();
   const StrideAppV1 &app = application.description();
   Header header;
   if (!take(&header, sizeof header) || header.magic != kMagic)
@@ -216,17 +248,64 @@ Replay::Replay(const std::string &path, const app::Application &application) : p
   if (header.stateAddress != std::bit_cast<uint64_t>(application.state()))
     throw app::Error(
         fmt::format("'{}' cannot be replayed: the state lies at another address", path));
-  state_ = at_;
-  if (data_.size() - at_ < app.stateSize)
+  const std::size_t left = data_.size() - at_;
+  if (left < header.scriptNameSize || left - header.scriptNameSize < app.stateSize)
     throw app::Error(fmt::format("'{}' is cut off", path));
+  std::string name(header.scriptNameSize, '\0');
+  take(name.data(), name.size());
+  if (script == nullptr && !name.empty())
+    throw app::Error(
+        fmt::format("'{}' was recorded with the script '{}': give it with --script", path, name));
+  if (script != nullptr && name.empty())
+    throw app::Error(fmt::format("'{}' was recorded without a script: leave --script out", path));
+  if (script != nullptr &&
+      header.scriptChecksum != app::crc64(bytesOf(std::string_view(script->text()))))
+    throw app::Error(fmt::format("'{}' was recorded with the script '{}', but '{}' is another one, "
+                                 "or was changed since",
+                                 path, name, script->file()));
+  state_ = at_;
   at_ += app.stateSize;
   stateSize_ = app.stateSize;
-  findFault();
+  findEnd();
 }
 
-/// The last record, if the run was stopped by an exception: an endless loop must be known before
-/// its cycle begins.
-void Replay::findFault() {
+/// What the blocks hold, in one piece. A run that was killed leaves a file without an end, which is
+/// good as far as it goes.
+void Replay::readBlocks() {
+  std::ifstream file(path_, std::ios::binary);
+  if (!file)
+    throw app::Error(fmt::format("cannot read '{}': {}", path_, std::strerror(errno)));
+  const std::vector<char> text((std::istreambuf_iterator<char>(file)),
+                               std::istreambuf_iterator<char>());
+  const std::span<const std::byte> all = std::as_bytes(std::span(text));
+  data_.reserve(all.size());
+  uint64_t checksum = 0;
+  for (std::size_t at = 0; all.size() - at >= sizeof(BlockHead);) {
+    BlockHead head;
+    std::memcpy(&head, all.data() + at, sizeof head);
+    at += sizeof head;
+    uint64_t magic = kMagic;
+    if (data_.empty() && all.size() - at >= sizeof magic)
+      std::memcpy(&magic, all.data() + at, sizeof magic);
+    if (magic != kMagic)
+      return; // no recording
+    if (all.size() - at < head.size)
+      break;
+    const std::span<const std::byte> block = all.subspan(at, head.size);
+    checksum = app::crc64(block, checksum);
+    if (checksum != head.checksum)
+      throw app::Error(fmt::format("'{}' is damaged: the checksum of the block at byte {} is wrong",
+                                   path_, at - sizeof head));
+    data_.insert(data_.end(), block.begin(), block.end());
+    at += head.size;
+  }
+  if (data_.empty() && all.size() >= sizeof(BlockHead) + sizeof kMagic)
+    throw app::Error(fmt::format("'{}' is cut off", path_));
+}
+
+/// The last records: the end, and the exception, if one stopped the run; an endless loop must be
+/// known before its cycle begins.
+void Replay::findEnd() {
   const std::size_t begin = at_;
   InputMark mark = 0;
   const auto skip = [&](uint64_t size) {
@@ -239,7 +318,13 @@ void Replay::findFault() {
   while (good && !fault_ && take(&mark, sizeof mark)) {
     WriteMark write;
     FaultMark fault;
-    if (mark == kCycle)
+    EndMark end;
+    if (mark == kEnd) {
+      good = take(&end, sizeof end);
+      ended_ = good;
+      if (good && end.complete != 0)
+        endChecksum_ = end.stateChecksum;
+    } else if (mark == kCycle)
       good = skip(sizeof(CycleMark));
     else if (mark == kWrite || mark == kWriteBehind)
       good = take(&write, sizeof write) && skip(write.size);
@@ -302,6 +387,15 @@ void Replay::applyWrites(uint32_t wanted, std::byte *state) noexcept {
   }
 }
 
+void Replay::compareEnd(const app::Application &application) {
+  if (problem_.empty() && endChecksum_ &&
+      *endChecksum_ != app::crc64({application.state(), stateSize_}))
+    problem_ = fmt::format("the replay of '{}' has gone another way than the run: its variables "
+                           "have other values at the end; something reached the program that was "
+                           "not recorded",
+                           path_);
+}
+
 void Replay::restoreState(const app::Application &application) const {
   std::memcpy(application.state(), data_.data() + state_, application.description().stateSize);
 }
@@ -317,10 +411,14 @@ bool Replay::take(void *value, std::size_t size) noexcept {
 std::optional<RecordedCycle> Replay::nextCycle() {
   InputMark mark = 0;
   CycleMark cycle;
-  if (!problem_.empty() || at_ == data_.size())
+  if (!problem_.empty())
+    return std::nullopt;
+  if (at_ == data_.size() && !ended_)
+    problem_ = fmt::format("'{}' is cut off: the run went on behind the end of the replay", path_);
+  if (at_ == data_.size())
     return std::nullopt;
   const std::size_t before = at_;
-  if (fault_ && take(&mark, sizeof mark) && mark == kFault)
+  if (take(&mark, sizeof mark) && mark == kEnd)
     return std::nullopt;
   at_ = before;
   if (!take(&mark, sizeof mark) || mark != kCycle || !take(&cycle, sizeof cycle)) {

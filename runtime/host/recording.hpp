@@ -4,11 +4,13 @@
 
 #include "runtime/app/application.hpp"
 #include "runtime/host/input_port.hpp"
+#include "runtime/monitor/script.hpp"
 #include "runtime/monitor/symbol_server.hpp"
 #include "runtime/task/task_set.hpp"
 
 #include <atomic>
 #include <cstdio>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,8 +31,8 @@ public:
   /// Notes each cycle: before the hooks of inputs, in every task.
   void addHooks(task::TaskSet &tasks);
   /// Before the first cycle: the file begins with the state as it is now, initialised and with its
-  /// retained values.
-  void begin(const app::Application &application);
+  /// retained values. `script`: what the replay must be given again, or null.
+  void begin(const app::Application &application, const monitor::Script *script);
 
   using InputPort::pass;
   void pass(void *value, std::size_t size) noexcept override;
@@ -47,11 +49,13 @@ private:
   class CycleNote;
   void put(uint32_t mark, std::span<const std::byte> first,
            std::span<const std::byte> second = {}) noexcept;
+  void writeBlock(std::initializer_list<std::span<const std::byte>> parts);
   void copyIn(uint64_t at, const void *data, std::size_t size) noexcept;
 
   std::string path_;
   std::FILE *file_ = nullptr;
   bool writeFailed_ = false;
+  uint64_t checksum_ = 0; ///< Of what is in the file.
   std::vector<std::byte> ring_;
   std::atomic<uint64_t> put_{0};
   std::atomic<uint64_t> taken_{0};
@@ -72,8 +76,10 @@ struct RecordedCycle {
 /// Gives the inputs of a recording back.
 class Replay final : public InputPort {
 public:
-  /// Throws app::Error: unreadable, no recording, of another build of the application.
-  Replay(const std::string &path, const app::Application &application);
+  /// Throws app::Error: unreadable, no recording, damaged, of another build of the application or
+  /// of another script than that one (or null).
+  Replay(const std::string &path, const app::Application &application,
+         const monitor::Script *script);
   ~Replay() override;
 
   /// The exception that stopped the run.
@@ -91,6 +97,8 @@ public:
   void pass(void *value, std::size_t size) noexcept override;
   bool replays() const noexcept override { return true; }
 
+  /// Behind the last cycle: a state other than that at the end of the run is a problem.
+  void compareEnd(const app::Application &application);
   /// The program has asked for other inputs than it did in the run: what went wrong, or empty.
   const std::string &problem() const { return problem_; }
 
@@ -98,7 +106,8 @@ private:
   class Writes;
   bool take(void *value, std::size_t size) noexcept;
   void applyWrites(uint32_t mark, std::byte *state) noexcept;
-  void findFault();
+  void readBlocks();
+  void findEnd();
 
   std::string path_;
   std::vector<std::byte> data_;
@@ -106,6 +115,8 @@ private:
   uint64_t stateSize_ = 0;
   std::string faultFile_;
   std::optional<task::Fault> fault_;
+  bool ended_ = false; ///< The file has its end.
+  std::optional<uint64_t> endChecksum_;
   std::vector<std::unique_ptr<Writes>> writes_;
   std::size_t at_ = 0;
   std::string problem_;

@@ -16,9 +16,10 @@ enum class ResetKind : uint8_t {
   Origin, ///< All initial.
 };
 
-/// Does it to the file and says (standard output) what is left. Throws app::Error, also while the
+/// Does it to the file and says (standard output) what is left; false: there is nothing, which it
+/// says (standard error). Throws app::Error, also while the
 /// application runs.
-void resetRetained(ResetKind kind, const std::string &file,
+bool resetRetained(ResetKind kind, const std::string &file,
                    app::RetainFiles &files = app::systemFiles());
 
 } // namespace stride::host

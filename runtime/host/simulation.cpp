@@ -225,6 +225,8 @@ static task::RunResult repeat(Replay &replay, Instance &instance, Observer &obse
     observer.afterInstant(cycle->startNs, cycle->task == tasks.fastest());
     result.timeNs = cycle->startNs;
   }
+  if (!result.interrupted)
+    replay.compareEnd(instance.application());
   // The watchdog is a matter of the real clock: nothing in the replay raises its exception.
   if (fault && !result.interrupted)
     tasks.fail(*fault);
@@ -256,7 +258,7 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
 
   std::optional<Replay> replay;
   if (!options.replay.empty()) {
-    replay.emplace(options.replay, instance.application());
+    replay.emplace(options.replay, instance.application(), script ? &*script : nullptr);
     instance.setInputs(*replay);
   }
 
@@ -318,10 +320,10 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
     static_cast<void>(retain->finish());
   if ((terminal || options.summary) && !options.quiet)
     printSummary(instance.tasks(), result, wall);
-  if (result.fault || atEnd)
-    return kExitException;
   if (replay && !replay->problem().empty())
     return kExitBadInput;
+  if (result.fault || atEnd)
+    return kExitException;
   return result.interrupted ? kExitInterrupted : kExitOk;
 }
 

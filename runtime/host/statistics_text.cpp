@@ -65,7 +65,7 @@ std::string statisticsTable(const task::TaskSet &tasks) {
   return out;
 }
 
-std::string statisticsJson(const task::TaskSet &tasks) {
+static nlohmann::ordered_json figuresOf(const task::TaskSet &tasks) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (uint32_t i = 0; i < tasks.count(); ++i) {
     const task::TaskStatistics &statistics = tasks.statistics(i);
@@ -89,7 +89,16 @@ std::string statisticsJson(const task::TaskSet &tasks) {
                     {"lateNs", std::move(late)},
                     {"intervalNs", {{"min", f.minIntervalNs}, {"max", f.maxIntervalNs}}}});
   }
-  return list.dump(1) + '\n';
+  return list;
+}
+
+std::string statisticsJson(const std::vector<NamedTasks> &applications) {
+  if (applications.size() == 1)
+    return figuresOf(*applications.front().tasks).dump(1) + '\n';
+  nlohmann::ordered_json all = nlohmann::ordered_json::object();
+  for (const NamedTasks &one : applications)
+    all[one.application] = figuresOf(*one.tasks);
+  return all.dump(1) + '\n';
 }
 
 std::string histogramText(const task::TaskStatistics &statistics) {

@@ -33,7 +33,7 @@ bool uses(const StrideAppV1 &app, uint32_t task, bool output, uint32_t byte) {
 bool isOwn(const StrideAppV1 &app, uint32_t task, bool leads, bool output, uint32_t byte) {
   if (uses(app, task, output, byte))
     return true;
-  if (!output || !leads)
+  if (!leads)
     return false;
   for (uint32_t other = 0; other < app.taskCount; ++other) {
     if (uses(app, other, output, byte))
@@ -78,8 +78,8 @@ ImageHook::ImageHook(const StrideAppV1 &app, std::byte *state, uint32_t task,
   parts_ = partsIn(app);
 }
 
-/// Runs of bytes that this task copies: those that it uses, and for the leading task the outputs
-/// that none uses.
+/// Runs of bytes that this task copies: those that it uses, and for the leading task those that
+/// none uses.
 std::vector<ImageHook::Part> ImageHook::partsIn(const StrideAppV1 &app) const {
   std::vector<Part> parts;
   if (app.ioDeviceCount < devices_.size())
@@ -181,6 +181,8 @@ void ImageHook::writeSafe(const Part &part) noexcept {
     safe += part.deviceByte;
   }
   part.device->driver->write(part.deviceByte, {safe, part.count});
+  if (stopped_) // nothing else writes it any more: it shows what the device has
+    copyWhole(image(part), safe, part.count);
 }
 
 void ImageHook::applicationStopped() {

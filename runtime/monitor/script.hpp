@@ -63,6 +63,9 @@ public:
   /// Between two cycles; afterwards `fresh` is good for nothing.
   void takeOver(Script &fresh) noexcept;
 
+  const std::string &text() const { return text_; }
+  const std::string &file() const { return file_; }
+
   /// Does what is due at that time. Neither allocates nor locks.
   void step(int64_t timeNs, std::byte *state) noexcept;
   /// The next time for which something waits; the largest number without one.

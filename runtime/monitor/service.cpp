@@ -31,6 +31,27 @@ void Service::addOperation(const std::string &name, Operation operation) {
   operations_[name] = std::move(operation);
 }
 
+void Service::addLateOperation(const std::string &name, LateOperation operation) {
+  const std::lock_guard lock(mutex_);
+  lateOperations_[name] = std::move(operation);
+}
+
+void Service::answerLate(const Ticket &ticket, json result) {
+  const std::lock_guard lock(mutex_);
+  if (const auto waiting = late_.find(ticket.client); waiting != late_.end()) {
+    --waiting->second;
+    answer(ticket.client, ticket.id, std::move(result));
+  }
+}
+
+void Service::refuseLate(const Ticket &ticket, const ServiceError &error) {
+  const std::lock_guard lock(mutex_);
+  if (const auto waiting = late_.find(ticket.client); waiting != late_.end()) {
+    --waiting->second;
+    refuse(ticket.client, ticket.id, error);
+  }
+}
+
 void Service::attach(std::size_t number, ServedApplication application) {
   const std::lock_guard lock(mutex_);
   applications_.resize(std::max(applications_.size(), number + 1));
@@ -90,9 +111,13 @@ void Service::dispatch(ClientId client, const json &id, const json &request) {
   const std::string op = textField(request, "op");
   checkPending(client);
   const auto added = operations_.find(op);
+  const auto late = lateOperations_.find(op);
   if (added != operations_.end())
     answer(client, id, added->second(request));
-  else if (op == "read")
+  else if (late != lateOperations_.end()) {
+    ++late_[client];
+    late->second({client, id});
+  } else if (op == "read")
     read(client, id, request);
   else if (op == "write")
     write(client, id, request);
@@ -123,6 +148,8 @@ void Service::dispatch(ClientId client, const json &id, const json &request) {
   else {
     std::vector<std::string> known(std::begin(kOperations), std::end(kOperations));
     for (const auto &[name, operation] : operations_)
+      known.push_back(name);
+    for (const auto &[name, operation] : lateOperations_)
       known.push_back(name);
     throw ServiceError{"unknown_op",
                        fmt::format("there is no operation '{}'{}", op, app::didYouMean(op, known))};
@@ -163,7 +190,8 @@ void Service::wait(Pending pending) { pending_.push_back(std::move(pending)); }
 void Service::checkPending(ClientId client) const {
   const auto mine = std::count_if(pending_.begin(), pending_.end(),
                                   [&](const Pending &p) { return p.client == client; });
-  if (static_cast<std::size_t>(mine) >= kMostPending)
+  const auto late = late_.find(client);
+  if (static_cast<std::size_t>(mine) + (late != late_.end() ? late->second : 0) >= kMostPending)
     throw ServiceError{"too_many", fmt::format("{} requests of this client are not answered yet; "
                                                "wait for answers",
                                                kMostPending)};
@@ -171,6 +199,7 @@ void Service::checkPending(ClientId client) const {
 
 void Service::forget(ClientId client) {
   const std::lock_guard lock(mutex_);
+  late_.erase(client);
   std::erase_if(pending_, [&](const Pending &pending) { return pending.client == client; });
   std::erase_if(subscriptions_,
                 [&](const Subscription &subscription) { return subscription.client == client; });

@@ -49,10 +49,21 @@ public:
   /// ServiceError or app::Error.
   using Operation = std::function<nlohmann::json(const nlohmann::json &request)>;
 
+  /// Who has asked, for an answer that comes later.
+  struct Ticket {
+    ClientId client = 0;
+    nlohmann::json id;
+  };
+  /// An operation that is answered with answerLate() or refuseLate(), from another thread.
+  using LateOperation = std::function<void(Ticket)>;
+
   explicit Service(Send send) : send_(std::move(send)) {}
 
   /// Before the first request.
   void addOperation(const std::string &name, Operation operation);
+  void addLateOperation(const std::string &name, LateOperation operation);
+  void answerLate(const Ticket &ticket, nlohmann::json result);
+  void refuseLate(const Ticket &ticket, const ServiceError &error);
   /// Sets the application with that number, the next one or one that is there.
   void attach(std::size_t number, ServedApplication application);
   /// It does not run any more: what waits for it is answered with an error.
@@ -127,6 +138,8 @@ private:
   mutable std::mutex mutex_;
   Send send_;
   std::map<std::string, Operation> operations_;
+  std::map<std::string, LateOperation> lateOperations_;
+  std::map<ClientId, std::size_t> late_; ///< How many late answers a client waits for.
   std::vector<ServedApplication> applications_;
   std::vector<Json> last_; ///< What op "state" says of applications that do not run any more.
   std::vector<Pending> pending_;

@@ -158,6 +158,16 @@ END_CONFIGURATION
   EXPECT_THAT(result.out, HasSubstr("Main.fixed = 9\n"));
 }
 
+TEST_F(Monitor, AnOnlineChangeIsAnswered) {
+  const ProcessResult result =
+      served({"change; echo code $?", "state >/dev/null; echo garbage > g.so; mv g.so app.so",
+              "change; echo code $?"});
+  EXPECT_THAT(result.out,
+              ContainsRegex("note: online change done; no cycle could begin for [0-9]+ us\n"
+                            "code 0\ncode 1\n"));
+  EXPECT_THAT(result.err, HasSubstr("error: the online change was refused"));
+}
+
 TEST_F(Monitor, Embedding) {
   const ProcessResult result =
       shell("cp $SOURCE/examples/embed/Tank.st . && $STRIDE build Tank.st -o "

@@ -182,7 +182,7 @@ TEST_F(RetainTest, Reset) {
   const auto reset = [&](const std::string &kind) {
     return runProcess({STRIDE_BINARY_DIR "/stride-host", "reset", kind, "kept"}, scratch.path());
   };
-  EXPECT_THAT(reset("cold").out, HasSubstr("There are no retained data in 'kept'."));
+  EXPECT_THAT(reset("cold").err, HasSubstr("there are no retained data in 'kept'"));
   sim();
   EXPECT_THAT(reset("warm").out, HasSubstr("5 RETAIN and PERSISTENT variables keep their values"));
   EXPECT_THAT(sim().out, HasSubstr(values(10, 20, 20, false)));
@@ -229,7 +229,7 @@ TEST_F(RetainTest, AProjectKeepsThemWhereItSaysAndRunSavesThem) {
     ::usleep(20'000);
   const ProcessResult other = command({"reset", "cold", "project"});
   EXPECT_EQ(other.exitCode, 1);
-  EXPECT_THAT(other.err, HasSubstr("are in use by another process"));
+  EXPECT_THAT(other.err, HasSubstr("are in use by another application"));
   ::kill(child, SIGKILL);
   ::waitpid(child, nullptr, 0);
   const ProcessResult after =

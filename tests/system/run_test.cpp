@@ -3,6 +3,7 @@
 #include "tests/support/process.hpp"
 #include "tests/support/text.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -293,7 +294,34 @@ TEST_F(Run, ARecordingIsReplayedBitForBit) {
   EXPECT_THAT(shell("head -c 40 a.rec > cut.rec; \"$HOST\" sim a.so --replay cut.rec").err,
               HasSubstr("is cut off"));
   EXPECT_THAT(shell("head -c -3 a.rec > cut.rec; \"$HOST\" sim a.so --replay cut.rec").err,
-              HasSubstr("does not fit from byte"));
+              HasSubstr("is cut off"));
+  const ProcessResult damaged =
+      shell("cp a.rec bad.rec; printf x | dd of=bad.rec bs=1 seek=$(($(stat -c %s bad.rec) / 2)) "
+            "conv=notrunc 2>/dev/null; \"$HOST\" sim a.so --replay bad.rec");
+  EXPECT_EQ(damaged.exitCode, 1);
+  EXPECT_THAT(damaged.err, HasSubstr("is damaged"));
+}
+
+TEST_F(Run, AReplayNeedsTheScriptOfItsRun) {
+  build("a", kCounter);
+  write("s.script", "at T#20ms: PLC_PRG.n := 1000000\n");
+  write("other.script", "at T#20ms: PLC_PRG.n := 2000000\n");
+  ASSERT_EQ(shell("\"$HOST\" run a.so --for 200ms --record a.rec --script s.script --quiet && "
+                  "\"$HOST\" run a.so --for 50ms --record plain.rec --quiet")
+                .exitCode,
+            0);
+  const auto replay = [&](const std::string &options) {
+    const ProcessResult result = shell("\"$HOST\" sim a.so --replay " + options);
+    return fmt::format("{} {}", result.exitCode, result.err);
+  };
+  EXPECT_EQ(replay("a.rec --script s.script"), "0 ");
+  EXPECT_EQ(replay("a.rec"), "1 error: 'a.rec' was recorded with the script 's.script': give it "
+                             "with --script\n");
+  EXPECT_EQ(replay("a.rec --script other.script"),
+            "1 error: 'a.rec' was recorded with the script 's.script', but 'other.script' is "
+            "another one, or was changed since\n");
+  EXPECT_EQ(replay("plain.rec --script s.script"),
+            "1 error: 'plain.rec' was recorded without a script: leave --script out\n");
 }
 
 TEST_F(Run, AFaultIsReplayedWithItsPlace) {
@@ -349,6 +377,29 @@ TEST_F(Run, AnEndlessLoopIsReplayedToTheSamePlace) {
   const std::string error = run.err.substr(run.err.find("error: "));
   EXPECT_THAT(error, HasSubstr("at a.st:5:"));
   EXPECT_THAT(replay.err, HasSubstr(error.substr(0, error.find('\n'))));
+}
+
+TEST_F(Run, NamesOfSeveralApplications) {
+  build("a", kCounter);
+  build("b", "PROGRAM Other VAR k : DINT; seen : DINT; END_VAR seen := k; END_PROGRAM");
+  write("b.script", "at T#0ms: Other.k := 77\n");
+  const ProcessResult result =
+      shell("\"$HOST\" run a.so b.so --for 200ms --print a:PLC_PRG.n,Other.seen,b:Other.k "
+            "--script b=b.script --trace PLC_PRG.n,b:Other.seen --out t.csv --statistics s.json; "
+            "head -n 1 t.a.csv t.b.csv; cat s.json");
+  EXPECT_THAT(result.out,
+              AllOf(ContainsRegex("PLC_PRG.n = [0-9]+\nOther.seen = 77\nOther.k = 77\n"),
+                    HasSubstr("t,PLC_PRG.n\n"), HasSubstr("t,Other.seen\n"),
+                    ContainsRegex("\"a\": \\[(.|\n)*\"b\": \\[")))
+      << result.err;
+  EXPECT_THAT(result.err, AllOf(HasSubstr("a:\ntask [us]"), HasSubstr("b:\ntask [us]")));
+  const auto refused = [&](const std::string &options) {
+    return shell("\"$HOST\" run a.so b.so --for 50ms " + options).err;
+  };
+  EXPECT_THAT(refused("--print c:Other.k"), HasSubstr("there is no application 'c'"));
+  EXPECT_THAT(refused("--print Other.nothing"), HasSubstr("symbol 'Other.nothing'"));
+  EXPECT_THAT(refused("--trace a:PLC_PRG.n,b:Other.k"), HasSubstr("give a file with --out"));
+  EXPECT_THAT(refused("--script b=b.script --script b=b.script"), HasSubstr("has the script"));
 }
 
 // ------------------------------------------------------------------------------------------------
@@ -483,13 +534,32 @@ TEST_F(RunChange, LossesNeedConsent) {
               AllOf(HasSubstr("Ipo.p"), HasSubstr("note: online change done")));
 }
 
+TEST_F(Run, AChangedDeviceIsRefusedWithItsValues) {
+  write("p/Main.st", "PROGRAM PLC_PRG VAR i AT %IB0 : BYTE; END_VAR END_PROGRAM");
+  const auto buildWith = [&](int bytes, int delay, const char *out) {
+    write("p/stride.toml",
+          fmt::format("[[task]]\nname = \"T\"\ninterval = \"T#1ms\"\nprograms = [\"PLC_PRG\"]\n"
+                      "[[io]]\nname = \"D1\"\ndevice = \"Simulated\"\nloop_back = true\n"
+                      "delay = {}\ninputs = {}\noutputs = {}\n",
+                      delay, bytes, bytes));
+    const ProcessResult built = stride({"build", "p", "-o", out});
+    ASSERT_EQ(built.exitCode, 0) << built.err;
+  };
+  buildWith(8, 0, "old.so");
+  buildWith(4, 4, "new.so");
+  EXPECT_THAT(shell("\"$HOST\" sim old.so --for 1s --change T#5ms,new.so").err,
+              AllOf(HasSubstr("I/O device D1 has another place of its inputs: byte 0 to 3 instead "
+                              "of byte 0 to 7"),
+                    HasSubstr("I/O device D1 has another `delay`: 4 instead of 0")));
+}
+
 TEST_F(RunChange, TheTasksStayAsTheyAre) {
   std::string toml = readFile(scratch_.path() / "p/stride.toml");
   toml.replace(toml.find("priority = 1"), 12, "priority = 2");
   write("p/stride.toml", toml);
   buildNew("");
   EXPECT_THAT(runWithChange("").err,
-              HasSubstr("task 'BusTask' has another kind, interval, priority or core"));
+              HasSubstr("task 'BusTask' has another priority: 2 instead of 1"));
 }
 
 TEST_F(RunChange, ParametersThatTakeEffectLaterAreNamed) {

@@ -90,6 +90,8 @@ TEST_F(Image, StopGivesSafeValuesByTask) {
   hooks_[0]->applicationStopped();
   hooks_[0]->beforePous(ctx_);
   EXPECT_EQ(state_.inputs[0], 0x80);
+  EXPECT_EQ(state_.outputs, (std::array<BYTE, 8>{0x80, 0x81, 0x82, 0x83, 5, 6, 7, 8}))
+      << "the image shows what the device has";
 }
 
 TEST_F(Image, LostDevice) {
@@ -132,6 +134,8 @@ TEST_F(Image, AnotherBuildUsesOtherBytes) {
   hooks_[1]->afterPous(ctx_); // nobody writes outputs now
   hooks_[0]->beforePous(ctx_);
   EXPECT_EQ(moved.inputs, (std::array<BYTE, 8>{0, 0, 0, 4, 0, 0, 0, 0}));
+  hooks_[1]->beforePous(ctx_); // nobody reads the others
+  EXPECT_EQ(moved.inputs, (std::array<BYTE, 8>{1, 2, 3, 4, 0, 0, 0, 0}));
 }
 
 TEST(CopyWhole, AnyPlaceAndLength) {
