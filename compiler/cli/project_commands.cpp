@@ -134,12 +134,23 @@ int debugCommand(const ProjectOptions &options, const std::vector<std::string> &
   }
   if (!result || exitCode != 0)
     return exitCode;
+  // The names of the sources count from there.
+  std::error_code error;
+  std::filesystem::path folder = options.path;
+  if (!std::filesystem::is_directory(folder, error))
+    folder = folder.filename() == "stride.toml" ? folder.parent_path() : std::filesystem::path();
   std::string missing;
   const std::optional<Installation> installation = findInstallation(missing);
   if (!installation)
     return showError(Code::toolchainMissing, missing, options.output);
-  std::vector<std::string> arguments = {"-q", "-x", installation->debugScript.string(), "-ex",
-                                        "st start"};
+  std::vector<std::string> arguments = {
+      "-q",
+      "-x",
+      installation->debugScript.string(),
+      "-ex",
+      "directory " + (std::filesystem::current_path(error) / folder).string(),
+      "-ex",
+      "st start"};
   if (session.batch)
     arguments.insert(arguments.begin(), "-batch");
   for (const std::string &script : session.scripts)

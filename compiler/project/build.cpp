@@ -24,6 +24,9 @@ namespace {
 // Files in a cache folder, before the oldest are removed.
 constexpr std::size_t kCacheFiles = 1000;
 
+// Takes the folder in which we are out of the debug information.
+constexpr std::string_view kHere = "-fdebug-prefix-map=";
+
 // Folders in the user's cache where the sources of single files are compiled.
 constexpr std::string_view kWorkPrefix = "work-";
 
@@ -184,6 +187,7 @@ private:
       base_.add(flag);
     for (const std::string &flag : variableFlags())
       base_.add(flag);
+    base_.add(kHere);
     return true;
   }
 
@@ -314,6 +318,9 @@ private:
     command.insert(command.end(), std::begin(kFixedFlags), std::end(kFixedFlags));
     for (std::string &flag : variableFlags())
       command.push_back(std::move(flag));
+    // Objects serve whoever has the same sources, wherever they lie: their files are relative.
+    std::error_code error;
+    command.push_back(std::string(kHere) + fs::current_path(error).string() + "=.");
     command.insert(command.end(),
                    {"-I", sources_.string(), "-I", installation_.include.string(), "-c",
                     (sources_ / unit.file->path).string(), "-o", object.string()});

@@ -74,6 +74,7 @@ struct AxisGroupConfig {
   Span groupSpan;
   std::uint32_t cycleUs = 0; ///< dwCycle; 0: not given
   Span cycleSpan;
+  ConfigName syncProducer; ///< of a CAN bus; empty: not given
   ConfigFields fields;
   std::vector<ConfigParameter> parameters;
   std::vector<DriveConfig> drives;

@@ -49,7 +49,7 @@ private:
 
   std::string readDriver(const TomlNode &type);
   void readAxisGroup(const CheckedSection &section, BusConfig &bus, BusKind kind);
-  void readCan(const CheckedSection &section, BusKind kind);
+  void readCan(const CheckedSection &section, AxisGroupConfig &group, BusKind kind);
   void readSercos(const CheckedSection &section, AxisGroupConfig &group, BusKind kind);
   void readBaudRate(const CheckedSection &section, BusKind kind);
   void readDrive(const CheckedSection &section, AxisGroupConfig &group, Unique &ids);

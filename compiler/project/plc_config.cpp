@@ -125,7 +125,7 @@ void PlcReader::readAxisGroup(const CheckedSection &section, BusConfig &bus, Bus
        {"wParam1", "wParam2", "wParam3", "wParam4", "dwParam1", "dwParam2", "dwParam3", "dwParam4"})
     integerField(section, name, group.fields);
   readBaudRate(section, kind);
-  readCan(section, kind);
+  readCan(section, group, kind);
   readSercos(section, group, kind);
   section.parameters("", group.parameters);
   const bool declared = addVariable(group.name);
@@ -161,9 +161,12 @@ void PlcReader::readBaudRate(const CheckedSection &section, BusKind kind) {
                                    : "possible: 2000, 4000, 8000, 16000 kBit/s");
 }
 
-void PlcReader::readCan(const CheckedSection &section, BusKind kind) {
-  if (kind == BusKind::can)
+void PlcReader::readCan(const CheckedSection &section, AxisGroupConfig &group, BusKind kind) {
+  if (kind == BusKind::can) {
+    if (const TomlNode *producer = section.get("SyncProducer"))
+      group.syncProducer = {producer->text, producer->span};
     return;
+  }
   for (const std::string_view name : {"ControllerNo", "SyncProducer"})
     if (section.get(name) != nullptr)
       withoutEffect(diagnostics_, section, name, "for CAN buses only");

@@ -220,6 +220,7 @@ private:
       }
     }
     group.task.text = task->name.text;
+    checkSync(group, *task);
     const bool onEvent = task->start == TaskStart::event || task->start == TaskStart::status;
     if (onEvent) {
       if (group.cycleUs == 0)
@@ -252,6 +253,33 @@ private:
     }
     group.cycleUs = static_cast<std::uint32_t>(task->intervalNs / 1000);
     setTaskCycle(group, static_cast<double>(task->intervalNs) * 1e-9);
+  }
+
+  /// Whoever sends SYNC sets the pace: the task does, or waits for it.
+  void checkSync(const AxisGroupConfig &group, const TaskConfig &task) {
+    const std::string &producer = group.syncProducer.text;
+    if (producer.empty())
+      return;
+    const std::string event = group.name.text + ".bSync";
+    const bool waits = task.start == TaskStart::event && equalIgnoringCase(task.event.text, event);
+    const bool sends = equalIgnoringCase(producer, "PLC");
+    if (waits != sends && (waits || task.start == TaskStart::cyclic))
+      return;
+    Diagnostic &d = diagnostics_.report(
+        Code::configSyncTask, group.syncProducer.span,
+        sends
+            ? fmt::format("task `{}` is to send SYNC, but does not run at regular times",
+                          task.name.text)
+            : fmt::format("task `{}` does not wait for SYNC, which the bus sends", task.name.text),
+        sends ? "the task sends SYNC at its start" : "a device sends SYNC");
+    if (task.name.span.valid())
+      d.label(task.name.span, waits ? "waits for SYNC itself" : "starts otherwise");
+    d.help(sends ? fmt::format("make `{}` a task with an `interval`, or let a device send SYNC: "
+                               "`SyncProducer = \"1.Drive\"`",
+                               task.name.text)
+                 : fmt::format("start `{}` by SYNC: `kind = \"event\"`, `event = \"{}\"`, or let "
+                               "the task send it: `SyncProducer = \"PLC\"`",
+                               task.name.text, event));
   }
 
   static void setTaskCycle(AxisGroupConfig &group, double seconds) {

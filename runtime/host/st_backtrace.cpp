@@ -5,7 +5,6 @@
 #include <elfutils/libdw.h>
 #include <elfutils/libdwfl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <memory>
@@ -59,14 +58,19 @@ public:
   Modules(const Modules &) = delete;
   Modules &operator=(const Modules &) = delete;
 
-  /// The ST calls at an address: the innermost inlined one first.
-  void append(uintptr_t address, std::vector<StCall> &calls) const {
+  /// The ST calls at an address: the innermost inlined one first. `split` is whether the call
+  /// before was from a part that g++ has split off its function, and becomes that of this one.
+  void append(uintptr_t address, std::vector<StCall> &calls, bool &split) const {
     Dwfl_Module *module = session_ != nullptr ? ::dwfl_addrmodule(session_, address) : nullptr;
     Dwarf_Addr bias = 0;
     Dwarf_Die *unit = module != nullptr ? ::dwfl_module_addrdie(module, address, &bias) : nullptr;
     if (unit == nullptr)
       return;
     Dwarf_Line *line = ::dwarf_getsrc_die(unit, address - bias);
+    bool isRest = split;
+    const std::size_t before = calls.size();
+    const char *symbol = ::dwfl_module_addrname(module, address);
+    split = symbol != nullptr && std::string_view(symbol).find(".part.") != std::string_view::npos;
     int number = 0;
     const char *file = line != nullptr ? ::dwarf_linesrc(line, nullptr, nullptr) : nullptr;
     if (line != nullptr)
@@ -75,7 +79,9 @@ public:
       const int tag = ::dwarf_tag(&scope);
       if (tag != DW_TAG_inlined_subroutine && tag != DW_TAG_subprogram)
         continue;
-      add(scope, file, number, calls);
+      add(scope, file, number, calls, isRest);
+      if (calls.size() > before + 1 && calls.back() == calls[calls.size() - 2])
+        calls.pop_back();
       if (tag == DW_TAG_subprogram)
         return;
       callSite(*unit, scope, file, number);
@@ -99,11 +105,15 @@ private:
                      : std::vector<Dwarf_Die>();
   }
 
-  static void add(Dwarf_Die &scope, const char *file, int line, std::vector<StCall> &calls) {
+  /// `isRest`: the first one is the function whose part the last call is.
+  static void add(Dwarf_Die &scope, const char *file, int line, std::vector<StCall> &calls,
+                  bool &isRest) {
     if (!isSt(file))
       return;
-    if (std::string pou = nameOf(scope); !pou.empty())
+    std::string pou = nameOf(scope);
+    if (!pou.empty() && !(isRest && !calls.empty() && calls.back().pou == pou))
       calls.push_back({std::move(pou), file, line});
+    isRest = false;
   }
 
   /// Where an inlined function was called from.
@@ -132,12 +142,10 @@ private:
   Dwfl *session_;
 };
 
-/// As it was given to the compiler: libdw makes absolute paths of the names in the line table.
+/// As it was given to the compiler: libdw puts the folder in front of the names in the line table,
+/// which is `.` in all applications.
 std::string shortFile(const std::string &file) {
-  const std::unique_ptr<char, decltype(&std::free)> here(::getcwd(nullptr, 0), &std::free);
-  const std::string folder = here ? std::string(here.get()) + '/' : std::string();
-  return !folder.empty() && file.compare(0, folder.size(), folder) == 0 ? file.substr(folder.size())
-                                                                        : file;
+  return file.compare(0, 2, "./") == 0 ? file.substr(2) : file;
 }
 
 } // namespace
@@ -168,11 +176,12 @@ std::vector<StCall> resolveCalls(std::span<const uintptr_t> calls) {
   if (calls.empty())
     return result;
   const Modules modules;
+  bool split = false;
   for (const uintptr_t address : calls) {
     if (address == 0)
       result.push_back({});
     else
-      modules.append(address, result);
+      modules.append(address, result, split);
   }
   for (StCall &call : result)
     call.file = shortFile(call.file);

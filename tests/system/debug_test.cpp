@@ -164,6 +164,19 @@ TEST_F(Debugging, StopsAtExceptions) {
   EXPECT_THAT(gdb.out, Not(HasSubstr("TaskSet")));
 }
 
+TEST_F(Debugging, FindsTheSourcesOfAProject) {
+  std::filesystem::create_directories(scratch_.path() / "plant" / "src");
+  writeFile(scratch_.path() / "plant" / "src" / "Main.st", kProgram);
+  writeFile(scratch_.path() / "plant" / "stride.toml", "[project]\nname = \"Plant\"\n");
+  writeFile(scratch_.path() / "commands.gdb", "break Main.st:54\ncontinue\n");
+  for (const char *path : {"plant", "plant/stride.toml"}) {
+    const ProcessResult gdb = runProcess({STRIDE_BINARY_DIR "/stride", "debug", path, "-W",
+                                          "off=lints", "--batch", "-x", "commands.gdb"},
+                                         scratch_.path());
+    EXPECT_THAT(gdb.out, HasSubstr("54\t  n := n - 1;")) << gdb.err;
+  }
+}
+
 TEST_F(Debugging, SaysWhatItDoesNotFind) {
   EXPECT_THAT(debug("st break Nothing\n").err, HasSubstr("there is no POU `Nothing`"));
   EXPECT_THAT(debug("st print Main.n\n").err, HasSubstr("no POU is being executed"));
