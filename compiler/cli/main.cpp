@@ -197,12 +197,14 @@ int run(int argc, char **argv) {
   addProjectOptions(*build, options, true);
   build->add_option("-o,--out", out, "The shared object to write (with --emit cpp: the folder)")
       ->type_name("OUT");
-  build->add_option("--emit", emit, "cpp: only write the C++ sources")
-      ->check(CLI::IsMember({"cpp"}).description(""))
-      ->type_name("KIND");
+  CLI::Option *emitOption = build->add_option("--emit", emit, "cpp: only write the C++ sources")
+                                ->check(CLI::IsMember({"cpp"}).description(""))
+                                ->type_name("KIND");
   BuildKind kind;
-  build->add_flag("--static", kind.isStatic,
-                  "One executable that needs no other files: the runtime and the application");
+  build
+      ->add_flag("--static", kind.isStatic,
+                 "One executable that needs no other files: the runtime and the application")
+      ->excludes(emitOption);
   build->add_option("--target", kind.target, "For another processor: aarch64-linux-gnu")
       ->check(CLI::IsMember({"aarch64-linux-gnu"}).description(""))
       ->type_name("TARGET");

@@ -160,9 +160,10 @@ private:
       Diagnostic &d = diagnostics_.report(
           Code::toolchainMissing, {}, fmt::format("Stride's own file `{}` is missing", missing));
       if (!options_.target.empty())
-        d.help(fmt::format("the runtime for another processor is built with Stride itself: cmake "
+        d.help(fmt::format("this installation has no runtime for {}: install the cross compiler "
+                           "g++-{}, then build and install Stride from its sources with cmake "
                            "-DSTRIDE_TARGETS={}",
-                           options_.target));
+                           options_.target, options_.target, options_.target));
       return false;
     }
     installation_ = *found;

@@ -89,9 +89,21 @@ private:
         !taskNames_.add(lowerCase(task.name.text), task.name.span,
                         fmt::format("two tasks are named `{}`", task.name.text)))
       return;
+    task.section = section.table().span;
+    const bool adds = section.has("watchdog") || section.has("core");
+    for (const TomlNode &member : section.table().children)
+      if (task.own.text.empty() && member.key != "name" && member.key != "watchdog" &&
+          member.key != "watchdog_sensitivity" && member.key != "core")
+        task.own = {member.key, member.span};
     task.start = static_cast<TaskStart>(
         section.choice("kind", static_cast<std::int64_t>(TaskStart::cyclic)));
-    readStart(section, task);
+    if (!adds || !task.own.text.empty()) {
+      if (!section.has("programs"))
+        missing(section, "programs", "a list of names, such as [\"PLC_PRG\"]");
+      if (task.own.text.empty())
+        task.own.text = "programs"; // which is missing
+      readStart(section, task);
+    }
     task.watchdogNs = parseInterval(section.text("watchdog")).value_or(0);
     task.watchdogSensitivity = static_cast<unsigned>(section.integer("watchdog_sensitivity", 1));
     if (section.has("watchdog_sensitivity") && !section.has("watchdog"))

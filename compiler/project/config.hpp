@@ -34,6 +34,9 @@ struct TaskConfig {
   unsigned watchdogSensitivity = 1; ///< violations that stop the application
   std::optional<unsigned> core;     ///< processor to run on
   std::vector<ConfigName> programs; ///< called in this order
+  Span section;                     ///< [[task]] of stride.toml
+  /// The first key that a task of a CONFIGURATION cannot have; empty: it only adds to such a one.
+  ConfigName own;
 };
 
 /// Members of an AXIS_REF, SMC_ENCODER_REF or SMC_AXISGROUP_REF that the configuration sets: name
@@ -140,9 +143,12 @@ struct DeclaredRange {
 /// Name of the hidden FUNCTION that evaluates the event of a task.
 [[nodiscard]] std::string eventFunction(const TaskConfig &task);
 
+/// That FUNCTION as ST, in which the expression stands where the user has written it: at `at`.
+[[nodiscard]] std::string eventDeclaration(const TaskConfig &task, LineColumn at);
+
 /// The configuration as ST: one VAR_GLOBAL with an AXIS_REF per drive, an SMC_ENCODER_REF per
-/// encoder and an SMC_AXISGROUP_REF per axis group, g_DRIVESTRUCT, which leads to all of them, and
-/// a FUNCTION for the event of each task that has one. May be empty. Drives and groups named like
+/// encoder and an SMC_AXISGROUP_REF per axis group, and g_DRIVESTRUCT, which leads to all of them.
+/// May be empty. Drives and groups named like
 /// something in `files` are reported and left out.
 [[nodiscard]] std::string plcDeclarations(const ProjectConfig &config,
                                           const std::vector<ast::File *> &files,

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <unordered_map>
+#include <utility>
 
 namespace stc {
 
@@ -47,17 +48,27 @@ public:
       }
     }
     readActions();
-    if (first == nullptr || !hasTasks(*first))
+    if (first == nullptr || !hasTasks(*first)) {
+      reportAdditions();
       return declarations();
-    if (!config_.tasks.empty()) {
+    }
+    const std::vector<TaskConfig> additions = std::exchange(config_.tasks, {});
+    for (const TaskConfig &task : additions) {
+      if (task.own.text.empty())
+        continue;
       Diagnostic &d = report(Code::configurationTwice, first->name.span,
                              "the tasks are configured twice", "a CONFIGURATION …");
-      d.label(config_.tasks.front().name.span, "… and [[task]] in stride.toml");
-      d.help("remove one of the two");
+      d.label(task.name.span, "… and [[task]] in stride.toml");
+      if (task.own.span.valid())
+        d.label(task.own.span, "which only the CONFIGURATION can say");
+      d.help("remove one of the two; to a task of the CONFIGURATION, [[task]] of the same name can "
+             "add `watchdog`, `watchdog_sensitivity` and `core`");
       return nullptr;
     }
     for (const ResourceDecl &resource : first->resources)
       readResource(resource);
+    for (const TaskConfig &addition : additions)
+      add(addition);
     if (!variables_.empty()) {
       auto *list = program_.arena.make<GlobalsDecl>();
       list->kind = DeclKind::globals;
@@ -82,6 +93,37 @@ private:
     file->id = declarations_.front()->span.file;
     file->declarations = program_.arena.copy(declarations_);
     return file;
+  }
+
+  /// Without a CONFIGURATION there is nothing that a [[task]] could add to.
+  void reportAdditions() {
+    for (const TaskConfig &task : config_.tasks)
+      if (task.own.text.empty())
+        report(Code::configMissingKey, task.section, "a task needs `programs`",
+               "`programs` is missing")
+            .help("add `programs = …`: a list of names, such as [\"PLC_PRG\"]")
+            .note("only to a task of a CONFIGURATION, [[task]] can add just a watchdog or a "
+                  "processor");
+  }
+
+  /// What stride.toml adds to a task: a watchdog, a processor.
+  void add(const TaskConfig &addition) {
+    for (TaskConfig &task : config_.tasks) {
+      if (!equalIgnoringCase(task.name.text, addition.name.text))
+        continue;
+      task.watchdogNs = addition.watchdogNs;
+      task.watchdogSensitivity = addition.watchdogSensitivity;
+      task.core = addition.core;
+      return;
+    }
+    Diagnostic &d =
+        report(Code::configUnknownTask, addition.name.span,
+               fmt::format("the CONFIGURATION has no task `{}`", addition.name.text), "not found");
+    std::vector<std::string_view> names;
+    for (const TaskConfig &task : config_.tasks)
+      names.push_back(task.name.text);
+    if (const auto near = nearest(addition.name.text, names); !near.empty())
+      d.help(fmt::format("did you mean `{}`?", near));
   }
 
   /// `programs = ["Main.Step"]` of stride.toml: an action is called by a hidden program.

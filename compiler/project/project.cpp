@@ -158,10 +158,26 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
     files.insert(files.begin(), parse(program_.sources.file(plcFile_), program_.interner,
                                       program_.arena, program_.diagnostics, &options));
   }
+  for (const TaskConfig &task : config_.tasks)
+    if (!task.event.text.empty())
+      files.insert(files.begin(), eventFile(task, options));
   program_.files = files;
   check(program_, files, index);
   if (!hasErrors())
     shareVariables();
+}
+
+/// The FUNCTION for the event of a task, in a file of the name of that in which the event stands.
+ast::File *Project::eventFile(const TaskConfig &task, ParseOptions options) {
+  options.generated = true;
+  const SourceFile &from = program_.sources.file(task.event.span.file);
+  LineColumn at = from.position(task.event.span.begin);
+  if (from.id() == tomlFile_)
+    ++at.column; // behind the quotation mark
+  const FileId id = program_.sources.add(from.name(), eventDeclaration(task, at));
+  eventFiles_.emplace_back(id, task.event.span);
+  return parse(program_.sources.file(id), program_.interner, program_.arena, program_.diagnostics,
+               &options);
 }
 
 /// What tasks have in common, and what they must not.
@@ -193,6 +209,9 @@ void Project::shareVariables() {
 }
 
 Span Project::origin(Span span) const {
+  for (const auto &[file, event] : eventFiles_)
+    if (span.file == file)
+      return event;
   if (span.file != plcFile_ || plcFile_ == 0)
     return span;
   for (const DeclaredRange &range : ranges_)

@@ -4,6 +4,7 @@
 #include "compiler/codegen/codegen.hpp"
 #include "compiler/project/config.hpp"
 #include "compiler/semantics/program.hpp"
+#include "compiler/syntax/parser.hpp"
 
 #include <filesystem>
 #include <string>
@@ -56,6 +57,7 @@ private:
   void loadFile(const std::filesystem::path &path, const std::string &name);
   void analyse(Purpose purpose, const LibraryIndex &index);
   void shareVariables();
+  ast::File *eventFile(const TaskConfig &task, ParseOptions options);
   bool declaresNothing(const std::vector<ast::File *> &files) const;
   [[nodiscard]] Span origin(Span span) const;
 
@@ -68,6 +70,7 @@ private:
   FileId tomlFile_ = 0;
   FileId plcFile_ = 0; ///< synthetic declarations
   std::vector<DeclaredRange> ranges_;
+  std::vector<std::pair<FileId, Span>> eventFiles_; ///< and where the events stand
 };
 
 } // namespace stc

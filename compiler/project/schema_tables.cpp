@@ -134,7 +134,7 @@ constexpr std::array kTaskParameters = {
     Parameter{"watchdog_sensitivity", ParameterType::integer, false, 1, 1000},
     Parameter{"core", ParameterType::integer, false, 0, 1023},
     Parameter{"priority", ParameterType::integer, false, 0, 31},
-    needed({"programs", ParameterType::nameList}),
+    Parameter{"programs", ParameterType::nameList},
 };
 
 constexpr std::array kBusParameters = {

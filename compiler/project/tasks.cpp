@@ -355,26 +355,10 @@ public:
     }
     if (!config.ioDevices.empty())
       globals += kIoDevice;
-    return globals + events(config, globals.size());
+    return globals;
   }
 
 private:
-  /// A FUNCTION per event; `begin`: where they will be in the text.
-  std::string events(const ProjectConfig &config, std::size_t begin) {
-    std::string text;
-    for (const TaskConfig &task : config.tasks) {
-      if (task.event.text.empty())
-        continue;
-      const std::size_t from = begin + text.size();
-      const std::string name = eventFunction(task);
-      text += fmt::format("{{attribute 'hide'}}\nFUNCTION {} : BOOL\n{} := {};\nEND_FUNCTION\n",
-                          name, name, task.event.text);
-      ranges_.push_back({static_cast<std::uint32_t>(from),
-                         static_cast<std::uint32_t>(begin + text.size()), task.event.span});
-    }
-    return text;
-  }
-
   void axisGroups(const ProjectConfig &config) {
     std::size_t index = 0;
     for (const AxisGroupConfig &group : config.axisGroups) {
@@ -446,6 +430,17 @@ void resolveTasks(ProjectConfig &config, const std::vector<ast::File *> &files,
 }
 
 std::string eventFunction(const TaskConfig &task) { return task.name.text + "__event"; }
+
+std::string eventDeclaration(const TaskConfig &task, LineColumn at) {
+  const std::string name = eventFunction(task);
+  const std::string begin =
+      fmt::format("{{attribute 'hide'}} FUNCTION {} : BOOL {} :=", name, name);
+  // So much before the expression that an exception in it has its place.
+  return (at.line > 1
+              ? std::string(at.line - 2, '\n') + begin + '\n' + std::string(at.column - 1, ' ')
+              : begin + ' ') +
+         task.event.text + "; END_FUNCTION\n";
+}
 
 std::string plcDeclarations(const ProjectConfig &config, const std::vector<ast::File *> &files,
                             std::vector<DeclaredRange> &ranges, Diagnostics &diagnostics) {

@@ -379,6 +379,26 @@ TEST_F(Run, AnEndlessLoopIsReplayedToTheSamePlace) {
   EXPECT_THAT(replay.err, HasSubstr(error.substr(0, error.find('\n'))));
 }
 
+TEST_F(Run, AnExceptionOfAnEventHasItsPlaceInTheProject) {
+  write("p/Main.st", "PROGRAM Main\nVAR k : DINT; END_VAR\nk := k + 1;\nEND_PROGRAM\n"
+                     "PROGRAM OnEvent\nEND_PROGRAM\n");
+  write("p/stride.toml", "[[task]]\nname = \"T\"\ninterval = \"T#10ms\"\nprograms = [\"Main\"]\n"
+                         "[[task]]\nname = \"TE\"\nkind = \"event\"\n"
+                         "event = \"10 / (Main.k - 20) > 0\"\nprograms = [\"OnEvent\"]\n");
+  EXPECT_THAT(stride({"sim", "p", "--for", "1s"}).err,
+              HasSubstr("division by zero at stride.toml:8:13"));
+}
+
+TEST_F(Run, ATaskOfAConfigurationGetsItsWatchdogFromTheProject) {
+  write("p/Main.st", "PROGRAM PLC_PRG\nVAR n : LINT; END_VAR\nWHILE TRUE DO n := n + 1; END_WHILE\n"
+                     "END_PROGRAM\nCONFIGURATION C\n  TASK Fast (INTERVAL := T#1ms, PRIORITY := "
+                     "1);\n  PROGRAM PLC_PRG WITH Fast;\nEND_CONFIGURATION\n");
+  write("p/stride.toml", "[[task]]\nname = \"Fast\"\nwatchdog = \"T#7ms\"\n");
+  const ProcessResult result = stride({"run", "p", "--for", "5s", "--quiet"});
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_THAT(result.err, HasSubstr("allowed are 7000 us"));
+}
+
 TEST_F(Run, NamesOfSeveralApplications) {
   build("a", kCounter);
   build("b", "PROGRAM Other VAR k : DINT; seen : DINT; END_VAR seen := k; END_PROGRAM");
