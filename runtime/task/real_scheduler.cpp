@@ -131,7 +131,7 @@ void RealScheduler::lookOnce() {
     const TaskDesc &desc = tasks_->desc(worker->task);
     if (desc.event == nullptr)
       continue;
-    const bool level = tasks_->eventLevel(worker->task);
+    const bool level = tasks_->eventLevel(worker->task, nowNs());
     const bool rising = level && !worker->level.exchange(level);
     if (!level)
       worker->level.store(false);

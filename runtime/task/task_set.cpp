@@ -191,7 +191,7 @@ bool TaskSet::repeats(uint32_t task, int64_t startNs) const noexcept {
   return repeated_ && repeated_->timeNs == startNs && repeated_->task == app_->tasks[task].name;
 }
 
-bool TaskSet::eventLevel(uint32_t index) noexcept {
+bool TaskSet::eventLevel(uint32_t index, int64_t nowNs) noexcept {
   struct Question {
     Ctx ctx;
     BOOL (*event)(Ctx *);
@@ -211,7 +211,8 @@ bool TaskSet::eventLevel(uint32_t index) noexcept {
     asked->answer = asked->event(ctx);
   };
   if (const std::optional<StException> exception = guardedCall(ask, question.ctx)) {
-    fail(*exception, index, 0, 0);
+    // The cycle that it would have started.
+    fail(*exception, index, tasks_[index]->statistics.figures().cycles, nowNs);
     return false;
   }
   return question.answer != 0;

@@ -73,8 +73,8 @@ public:
   void runCycle(uint32_t task, int64_t startNs, int64_t latencyNs) noexcept;
   void addOverruns(uint32_t task, uint64_t count) noexcept;
 
-  /// Evaluates the event of an event or status task.
-  bool eventLevel(uint32_t task) noexcept;
+  /// Evaluates the event of an event or status task. `nowNs`: for the message of a fault.
+  bool eventLevel(uint32_t task, int64_t nowNs) noexcept;
 
   /// No POU runs any more from now on.
   void stop() noexcept { stopped_.store(true, std::memory_order_release); }

@@ -67,7 +67,7 @@ void VirtualScheduler::lookAtEvents(int64_t nowNs) {
     if (desc.event == nullptr)
       continue;
     Due &due = due_[i];
-    const bool level = tasks_->eventLevel(i);
+    const bool level = tasks_->eventLevel(i, nowNs);
     const bool rising = level && !due.level;
     due.level = level;
     const int64_t soonest = due.ranNs == nowNs ? nowNs + kAgainNs : nowNs;

@@ -65,7 +65,7 @@ void eventLook(benchmark::State &state) {
   alignas(16) std::byte memory[64]{};
   task::TaskSet tasks(app, memory, task::hostApi(), task::LoopLimit::Clock);
   for (auto _ : state)
-    benchmark::DoNotOptimize(tasks.eventLevel(1));
+    benchmark::DoNotOptimize(tasks.eventLevel(1, 0));
 }
 BENCHMARK(eventLook);
 
