@@ -4,6 +4,7 @@
 // alone.
 
 #include "compiler/codegen/codegen.hpp"
+#include "compiler/project/content_hash.hpp"
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/library_index.hpp"
 #include "compiler/source/render.hpp"
@@ -37,11 +38,13 @@ public:
       std::fprintf(stderr, "stride-libgen: nothing found of %s\n", std::string(name).c_str());
       return false;
     }
-    std::string unity = fmt::format("// The bodies of {} that are written in ST.\n", name);
+    std::string unity;
+    stc::ContentHash contents;
     std::set<std::string> headers;
     for (const stc::GeneratedFile &file : generateLibrary(program, **library)) {
       if (!write(file.path, file.text))
         return false;
+      contents.add(file.text);
       if (file.path.ends_with(".cpp"))
         unity += fmt::format("#include \"{}\"\n", file.path);
       else
@@ -56,7 +59,11 @@ public:
                  fmt::format("// {} declares nothing that needs a header of this name.\n", stem)))
         return false;
     }
-    return write(fmt::format("{}.cpp", name), unity);
+    // The build system compiles this file anew only when it has changed itself: the hash stands for
+    // all it includes.
+    return write(fmt::format("{}.cpp", name),
+                 fmt::format("// The bodies of {} that are written in ST: {}\n{}", name,
+                             contents.hex(), unity));
   }
 
   bool all() {
