@@ -3,13 +3,12 @@
 
 usage: run.py STRIDE STRIDE_HOST [--only NAME,NAME] [--keep FOLDER]
 
-All tables become one project: a program for each, called by an event task. A scenario is one simulation, in which a
-script sets the inputs and raises the event at the time of each row; its trace must be the table. At the end each output
-of each table is falsified once, and the comparison has to notice it.
+All tables become one project: a program for each, called by an event task, which keeps the outputs of each call. A
+scenario is one simulation, in which a script sets the inputs and raises the event at the time of each row; what was kept
+must be the table. At the end each output of each table is falsified once, and the comparison has to notice it.
 """
 import argparse
 import concurrent.futures
-import csv
 import dataclasses
 import math
 import os
@@ -72,6 +71,14 @@ class Table:
         else:
             declared.append(f"  tested : {self.name};")
             body = f"tested({', '.join(given + [f'{n} => {n}' for n, _ in self.outputs])});"
+        last = max(len(s.rows) for s in self.scenarios)
+        declared.append("  calls : DINT;")
+        for name, kind in self.outputs:
+            kept = {"TIME": "UDINT", "DT": "UDINT", "LTIME": "LINT", "REAL": "RealBits"}.get(kind, kind)
+            declared.append(f"  kept_{name} : ARRAY[0..{last}] OF {kept};")
+            to = f"{kind}_TO_{kept}({name})" if kind in ("TIME", "DT", "LTIME") else name
+            body += f"\nkept_{name}[calls]{'.r' if kind == 'REAL' else ''} := {to};"
+        body += f"\ncalls := MIN(calls + 1, {last});"
         return f"PROGRAM P_{self.name}\nVAR\n" + "\n".join(declared) + f"\nEND_VAR\n{body}\nEND_PROGRAM\n"
 
     def script(self, number, scenario):
@@ -92,16 +99,20 @@ class Table:
         """Whether this cell of an output's column is wrong."""
         name, kind = self.outputs[index]
         if kind == "BOOL":
-            return {"#": "1", ".": "0"}.get(expected) != actual
+            return {"#": "TRUE", ".": "FALSE"}.get(expected) != actual
         if kind.startswith("STRING"):
-            return re.sub(r"\$([0-9A-F]{2})", lambda c: chr(int(c[1], 16)), expected[1:-1]) != actual
+            return "'" + re.sub(r"\$([0-9A-F]{2})", lambda c: chr(int(c[1], 16)), expected[1:-1]) + "'" != re.sub(r"\$(.)", r"\1", actual)
         if kind != "REAL":
             return int(expected) != int(actual)
-        want, have = float(expected), float(actual)
+        want, have = single(float(expected)), struct.unpack("<f", struct.pack("<I", int(actual)))[0]
         if not math.isfinite(want):
             return repr(want) != repr(have)
         relative, absolute = self.tolerance.get(name, (0, 0))
         return not abs(want - have) <= relative * abs(want) + absolute
+
+
+def single(x):
+    return struct.unpack("<f", struct.pack("<f", x))[0]
 
 
 def value(kind, text):
@@ -114,25 +125,26 @@ def value(kind, text):
 
 def project(tables, folder):
     (folder / "stride.toml").write_text('[project]\nname = "Blocks"\n[[task]]\nname = "Table"\nkind = "event"\n'
-                                        'event = "Main.tick"\nprograms = ["Main"]\n')
+                                        'event = "Main.tick"\nprograms = ["Main"]\n'
+                                        '[[task]]\nname = "Idle"\ninterval = "T#1h"\npriority = 31\nprograms = ["Idle"]\n')
     cases = "".join(f"  {i}: P_{t.name}();\n" for i, t in enumerate(tables))
     (folder / "Main.st").write_text(
         "TYPE RealBits : UNION r : REAL; d : DWORD; END_UNION END_TYPE\n"
-        f"PROGRAM Main\nVAR\n  tick : BOOL;\n  which : INT;\nEND_VAR\ntick := FALSE;\nCASE which OF\n{cases}END_CASE\nEND_PROGRAM\n")
+        f"PROGRAM Main\nVAR\n  tick : BOOL;\n  which : INT;\nEND_VAR\ntick := FALSE;\nCASE which OF\n{cases}END_CASE\nEND_PROGRAM\nPROGRAM Idle\n;\nEND_PROGRAM\n")
     for table in tables:
         (folder / f"P_{table.name}.st").write_text(table.program())
 
 
 def compare(table, scenario, trace):
     """What is wrong, as text; empty if nothing is."""
-    rows = trace[1:]
+    rows = trace
     if len(rows) != len(scenario.rows):
         return f"{len(rows)} rows instead of {len(scenario.rows)}"
     for (t, inputs, outputs), row in zip(scenario.rows, rows):
         for i, expected in enumerate(outputs):
-            if table.differs(i, expected, row[1 + i]):
+            if table.differs(i, expected, row[i]):
                 shown = " ".join(f"{n}={v}" for (n, _), v in zip(table.inputs, inputs))
-                return f"at {t} ms, {shown}: {table.outputs[i][0]} is {row[1 + i]}, not {expected}"
+                return f"at {t} ms, {shown}: {table.outputs[i][0]} is {row[i]}, not {expected}"
     return ""
 
 
@@ -179,13 +191,17 @@ def main():
             number, table, index, scenario = job
             script = folder / f"{table.name}.{index}.script"
             script.write_text(table.script(number, scenario))
-            names = ",".join(f"P_{table.name}.{n}" for n, _ in table.outputs)
+            kept = [f"P_{table.name}.kept_{n}" for n, _ in table.outputs]
+            names = ",".join([f"P_{table.name}.calls"] + kept)
             end = scenario.rows[-1][0] + 1
-            result = subprocess.run([options.host, "sim", str(app), "--for", f"LT#{end}ms", "--script", str(script), "--trace", names, "--quiet"],
+            result = subprocess.run([options.host, "sim", str(app), "--for", f"LT#{end}ms", "--script", str(script), "--print", names, "--quiet"],
                                     capture_output=True, text=True, encoding="latin-1", check=False)
             if result.returncode:
                 return job, result.stdout + result.stderr, []
-            trace = list(csv.reader(result.stdout.splitlines()))
+            printed = dict(line.split(" = ", 1) for line in result.stdout.splitlines())
+            columns = [[printed[f"{name}[{i}]{'.d' if kind == 'REAL' else ''}"] for i in range(int(printed[f"P_{table.name}.calls"]))]
+                       for name, (_, kind) in zip(kept, table.outputs)]
+            trace = list(zip(*columns))
             return job, compare(table, scenario, trace), trace
 
         jobs = [(n, t, i, s) for n, t in enumerate(tables) for i, s in enumerate(t.scenarios)]
