@@ -55,6 +55,15 @@ int resetCommand(const ProjectOptions &options, const std::string &kind);
 /// Becomes stride-host with `command` and these arguments; nothing is built.
 int hostOnlyCommand(const std::string &command, const std::vector<std::string> &hostArguments);
 
+/// What `stride test` does.
+struct TestOptions {
+  std::string filter; ///< names of tests, with `*` and `?`; empty: all
+  std::string junit;  ///< file for the results; empty: none
+  bool list = false;  ///< only name the tests
+};
+/// Builds the unit tests, then becomes stride-host, which runs them.
+int testCommand(const ProjectOptions &options, const TestOptions &test);
+
 /// What `stride fmt` does with what it formats.
 struct FormatOptions {
   std::vector<std::string> paths; ///< folders and source files; none: the current folder

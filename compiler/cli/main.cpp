@@ -270,6 +270,17 @@ int run(int argc, char **argv) {
   document->callback(
       [&] { exitCode = documentCommand(options, library, out.empty() ? "doc" : out); });
 
+  TestOptions tests;
+  CLI::App *test = app.add_subcommand("test", "Build and run the unit tests");
+  addProjectOptions(*test, options, false);
+  test->add_flag("--unchecked", options.unchecked,
+                 "Leave out index, range, division and pointer checks");
+  test->add_option("--filter", tests.filter, "Run the tests of these names only: Tank*")
+      ->type_name("GLOB");
+  test->add_option("--junit", tests.junit, "Write the results as JUnit XML")->type_name("FILE");
+  test->add_flag("--list", tests.list, "Only name the tests");
+  test->callback([&] { exitCode = testCommand(options, tests); });
+
   FormatOptions formatting;
   CLI::App *fmt = app.add_subcommand("fmt", "Format source files");
   fmt->add_option("PATH", formatting.paths,

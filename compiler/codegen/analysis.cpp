@@ -1,5 +1,7 @@
 #include "compiler/codegen/analysis.hpp"
 
+#include "compiler/semantics/assertions.hpp"
+
 #include "compiler/semantics/hierarchy.hpp"
 
 #include "compiler/semantics/fold.hpp"
@@ -121,7 +123,7 @@ unsigned Analysis::effects(const Expr *expr) {
         if (call->builtin == Builtin::queryInterface || call->builtin == Builtin::queryPointer)
           result |= effectReads | effectCalls; // they assign to their second argument
         if (call->builtin == Builtin::newT || call->builtin == Builtin::deleteT ||
-            call->builtin == Builtin::ini)
+            call->builtin == Builtin::ini || isAssertion(call->builtin))
           return result | effectReads | effectRaises | effectCalls;
         return result | (call->builtin == Builtin::time ? effectReads : effectNone);
       }

@@ -2,6 +2,7 @@
 // stays the same when only a body changes.
 
 #include "compiler/codegen/consistent_copies.hpp"
+#include "compiler/codegen/assertions.hpp"
 #include "compiler/codegen/plc_tables.hpp"
 #include "compiler/codegen/type_table.hpp"
 #include "compiler/codegen/units.hpp"
@@ -471,6 +472,7 @@ std::vector<GeneratedFile> generateLibrary(const Program &program, const Library
   codegen::generateHeaders(context, files);
   codegen::generateSources(context, files);
   codegen::generateDispatch(context, files);
+  codegen::includeAssertions(files);
   return files;
 }
 
@@ -483,6 +485,7 @@ std::vector<GeneratedFile> generateApplication(const Program &program, const App
   codegen::Application application(context, config);
   files.push_back(application.app());
   files.push_back(application.build());
+  codegen::includeAssertions(files);
   return files;
 }
 

@@ -1,5 +1,6 @@
 // Functions that the compiler implements itself.
 
+#include "compiler/codegen/assertions.hpp"
 #include "compiler/codegen/units.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
@@ -293,6 +294,21 @@ void Emitter::builtinPlain(const CallExpr *e, const std::vector<std::string> *na
     }
     w_ << ')';
   };
+  if (isAssertion(e->builtin)) {
+    const auto cut = [&](auto write) {
+      const std::size_t start = w_.size();
+      write();
+      return w_.cut(start);
+    };
+    const Type *asserted = assertedType(e);
+    const bool texts = asserted != nullptr && isString(asserted);
+    std::vector<std::string> arguments;
+    for (std::size_t i = 0; i < count; ++i)
+      arguments.push_back(
+          cut([&] { builtinArgument(e, i, names, texts || i >= assertedValues(e->builtin)); }));
+    w_ << assertionText(e, std::string(ctx()), arguments, cut([&] { position(e->span); }));
+    return;
+  }
   const Type *result = underlying(e->type);
   switch (e->builtin) {
   case Builtin::min:

@@ -135,6 +135,9 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
                           program_.diagnostics, &options));
   attachMembers(files, program_.arena, program_.diagnostics);
   const bool syntaxErrors = program_.diagnostics.errorCount() != configErrors;
+  tests_ = findTests(files, program_.diagnostics);
+  if (purpose == Purpose::build)
+    removeTests(files, program_.arena);
   if (declaresNothing(files)) {
     program_.diagnostics.report(
         Code::nothingDeclared, {},
@@ -147,6 +150,14 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
     return; // what is missing of the configuration would be missed everywhere in the program
   if (ast::File *instances = readConfigurations(config_, files, program_))
     files.push_back(instances);
+  if (purpose == Purpose::test) {
+    testFile_ = program_.sources.add("<tests>", testProgram(tests_, testRanges_));
+    ParseOptions own = options;
+    own.generated = true;
+    files.push_back(parse(program_.sources.file(testFile_), program_.interner, program_.arena,
+                          program_.diagnostics, &own));
+    configureTests(config_);
+  }
   const ProgramCheck programCheck = syntaxErrors                ? ProgramCheck::skip
                                     : purpose == Purpose::build ? ProgramCheck::runnable
                                                                 : ProgramCheck::existing;
@@ -212,9 +223,10 @@ Span Project::origin(Span span) const {
   for (const auto &[file, event] : eventFiles_)
     if (span.file == file)
       return event;
-  if (span.file != plcFile_ || plcFile_ == 0)
+  const bool isPlc = plcFile_ != 0 && span.file == plcFile_;
+  if (!isPlc && (testFile_ == 0 || span.file != testFile_))
     return span;
-  for (const DeclaredRange &range : ranges_)
+  for (const DeclaredRange &range : isPlc ? ranges_ : testRanges_)
     if (span.begin >= range.begin && span.begin < range.end)
       return range.origin;
   return {};

@@ -3,6 +3,7 @@
 
 #include "compiler/codegen/codegen.hpp"
 #include "compiler/project/config.hpp"
+#include "compiler/project/tests.hpp"
 #include "compiler/semantics/program.hpp"
 #include "compiler/syntax/parser.hpp"
 
@@ -16,7 +17,8 @@ namespace stc {
 /// What a project is opened for.
 enum class Purpose {
   check, ///< a project without a PROGRAM is fine
-  build, ///< there must be something to run
+  build, ///< there must be something to run; unit tests are left out
+  test,  ///< the unit tests run instead of the tasks
 };
 
 /// All source files below a project's folder, sorted by path. Hidden and `build` folders are left
@@ -48,6 +50,9 @@ public:
   [[nodiscard]] const std::string &name() const { return config_.name; }
   /// [retain] file of stride.toml; empty: not given.
   [[nodiscard]] const std::string &retainFile() const { return config_.retainFile; }
+  /// The unit tests, for Purpose::test; the task `Test` calls the one that which__ of kTestProgram
+  /// names.
+  [[nodiscard]] const std::vector<TestBlock> &tests() const { return tests_; }
   /// Tasks and axis groups for code generation; only without errors.
   [[nodiscard]] AppConfig appConfig() const;
 
@@ -71,6 +76,9 @@ private:
   FileId plcFile_ = 0; ///< synthetic declarations
   std::vector<DeclaredRange> ranges_;
   std::vector<std::pair<FileId, Span>> eventFiles_; ///< and where the events stand
+  std::vector<TestBlock> tests_;
+  FileId testFile_ = 0; ///< testProgram()
+  std::vector<DeclaredRange> testRanges_;
 };
 
 } // namespace stc

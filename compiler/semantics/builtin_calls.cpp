@@ -1,6 +1,7 @@
 // Calls of the functions that the compiler implements itself.
 
 #include "compiler/semantics/alignment.hpp"
+#include "compiler/semantics/assertions.hpp"
 #include "compiler/semantics/checker.hpp"
 #include "compiler/semantics/fold.hpp"
 #include "compiler/semantics/fold_builtins.hpp"
@@ -338,6 +339,38 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
   const auto own = [&](std::size_t i) {
     return untyped(value(i)->type) ? settle(value(i)) : type(i);
   };
+  if (isAssertion(expr->builtin)) {
+    const Type *boolean = elementaryType(TypeKind::boolean);
+    const std::size_t values = assertedValues(expr->builtin);
+    if (!requireCount(expr, values == 0 ? 1 : values, values + 1))
+      return bad;
+    const std::span<Argument> all = expr->arguments;
+    if (all.size() > values && type(values)->kind != TypeKind::string)
+      return argumentError(expr, values, "a STRING");
+    if (values == 1) {
+      coerce(value(0), boolean, "the condition of an assertion");
+      return boolean;
+    }
+    for (std::size_t i = 0; i < values; ++i) {
+      if (values == 3) {
+        if (!isNumber(type(i)))
+          return argumentError(expr, i, "a number");
+        setTarget(value(i), elementaryType(TypeKind::lreal));
+      } else if (!isNumber(type(i)) && !isElementary(type(i)) &&
+                 type(i)->kind != TypeKind::enumeration) {
+        return argumentError(expr, i, "a value of an elementary type or an enumeration");
+      }
+    }
+    if (values == 2) {
+      expr->arguments = all.first(2);
+      const Type *common = commonOfArguments(expr, 0);
+      expr->arguments = all;
+      expr->common = nullptr;
+      if (isError(common))
+        return bad;
+    }
+    return boolean;
+  }
   using enum Builtin;
   switch (expr->builtin) {
   case abs: {

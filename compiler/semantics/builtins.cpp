@@ -1,5 +1,6 @@
 #include "compiler/semantics/builtins.hpp"
 
+#include "compiler/semantics/assertions.hpp"
 #include "compiler/semantics/type_table.hpp"
 
 #include <algorithm>
@@ -58,6 +59,16 @@ const std::vector<std::pair<std::string_view, ast::Builtin>> &builtins() {
       {"__isvalidref", isValidRef},
       {"lower_bound", lowerBound},
       {"upper_bound", upperBound},
+      {"assert_true", ast::kAssertTrue},
+      {"assert_false", ast::kAssertFalse},
+      {"assert_eq", ast::kAssertEq},
+      {"assert_ne", ast::kAssertNe},
+      {"assert_gt", ast::kAssertGt},
+      {"assert_ge", ast::kAssertGe},
+      {"assert_lt", ast::kAssertLt},
+      {"assert_le", ast::kAssertLe},
+      {"assert_near", ast::kAssertNear},
+      {"fail", ast::kFail},
   };
   return kTable;
 }
@@ -67,6 +78,12 @@ namespace {
 /// The formal names of each position, alternatives separated by `|`, positions by blanks; a `#`
 /// stands for a number that counts on, from the one given.
 std::string_view formalNames(ast::Builtin function) {
+  if (isAssertion(function)) {
+    static constexpr std::string_view kNames[] = {"message", "condition message",
+                                                  "actual expected message",
+                                                  "actual expected tolerance message"};
+    return kNames[assertedValues(function)];
+  }
   using enum ast::Builtin;
   switch (function) {
   case limit:

@@ -2,6 +2,8 @@
 
 #include "compiler/semantics/lint.hpp"
 
+#include "compiler/semantics/assertions.hpp"
+
 #include <algorithm>
 
 namespace stc {
@@ -11,7 +13,9 @@ using namespace ast;
 namespace {
 
 /// Functions of the compiler that only compute a value of their arguments.
-bool onlyReads(Builtin builtin) { return builtin <= Builtin::time || builtin == Builtin::sizeofT; }
+bool onlyReads(Builtin builtin) {
+  return builtin <= Builtin::time || builtin == Builtin::sizeofT || isAssertion(builtin);
+}
 
 bool containsLabel(Block block) {
   return std::any_of(block.begin(), block.end(), [](const Stmt *stmt) {

@@ -7,6 +7,7 @@
 #include "runtime/host/real_run.hpp"
 #include "runtime/host/retain_reset.hpp"
 #include "runtime/host/simulation.hpp"
+#include "runtime/host/test_run.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -282,6 +283,9 @@ int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
   CLI::App *reset =
       cli.add_subcommand("reset", "Retained data of an application that stands still");
   declareReset(*reset, resetKind, resetFile);
+  TestCommand testCommand;
+  CLI::App *test = cli.add_subcommand("test", "Run the unit tests that 'stride test' has built");
+  testCommand.declare(*test);
   Control control;
   CLI::App *ctl = cli.add_subcommand("ctl", "Read, write, force in a running application");
   control.declare(*ctl);
@@ -296,6 +300,7 @@ int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
     fmt::print(stderr, "error: {}\n  '{} {} --help' lists the options\n", error.what(), program,
                ctl->parsed()     ? "ctl"
                : run->parsed()   ? "run"
+               : test->parsed()  ? "test"
                : reset->parsed() ? "reset"
                : ctl->parsed()   ? "ctl"
                                  : "sim");
@@ -304,6 +309,8 @@ int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
   try {
     if (ctl->parsed())
       return control.run();
+    if (test->parsed())
+      return testCommand.run();
     if (reset->parsed()) {
       const bool found = resetRetained(resetKind == "warm"   ? ResetKind::Warm
                                        : resetKind == "cold" ? ResetKind::Cold

@@ -1,0 +1,27 @@
+#pragma once
+// ASSERT_TRUE, ASSERT_EQ and the others of unit tests: runtime/iec/assert.h. Internal to
+// compiler/codegen.
+
+#include "compiler/codegen/codegen.hpp"
+#include "compiler/semantics/assertions.hpp"
+#include "compiler/semantics/types.hpp"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stc::codegen {
+
+/// What an assertion compares: BOOL of ASSERT_TRUE, LREAL of ASSERT_NEAR, null of FAIL.
+[[nodiscard]] const Type *assertedType(const ast::CallExpr *call);
+
+/// The C++ of the call, from the C++ of its context, its arguments (texts of any length, all others
+/// converted) and its place (file, line, column).
+[[nodiscard]] std::string assertionText(const ast::CallExpr *call, const std::string &context,
+                                        const std::vector<std::string> &arguments,
+                                        const std::string &position);
+
+/// Adds the header to the files that need it.
+void includeAssertions(std::vector<GeneratedFile> &files);
+
+} // namespace stc::codegen

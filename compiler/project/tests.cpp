@@ -1,0 +1,109 @@
+#include "compiler/project/tests.hpp"
+
+#include "compiler/project/interval.hpp"
+#include "compiler/project/names.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace stc {
+
+namespace {
+
+constexpr std::int64_t kDefaultCycleNs = 10'000'000;
+constexpr std::int64_t kDefaultTimeoutNs = 10'000'000'000;
+constexpr std::int64_t kShortestCycleNs = 1'000;
+
+const ast::Attribute *attributeOf(const ast::Decl &decl, std::string_view name) {
+  for (const ast::Attribute &attribute : decl.attributes)
+    if (equalIgnoringCase(attribute.name, name))
+      return &attribute;
+  return nullptr;
+}
+
+bool isTest(const ast::Decl &decl) {
+  return decl.kind == ast::DeclKind::functionBlock && decl.name &&
+         attributeOf(decl, "test") != nullptr;
+}
+
+/// A duration, or `otherwise`.
+std::int64_t durationOf(const ast::Decl &decl, std::string_view name, std::int64_t otherwise,
+                        Diagnostics &diagnostics) {
+  const ast::Attribute *attribute = attributeOf(decl, name);
+  if (attribute == nullptr)
+    return otherwise;
+  const std::optional<std::int64_t> value = parseInterval(attribute->value);
+  if (value && *value >= kShortestCycleNs)
+    return *value;
+  diagnostics
+      .report(Code::configBadInterval, attribute->span.valid() ? attribute->span : decl.name.span,
+              fmt::format("`{}` is a duration of 1 µs or more", name), "not such a duration")
+      .help(fmt::format("write `{{attribute '{}' := 'T#10ms'}}`", name));
+  return otherwise;
+}
+
+} // namespace
+
+std::vector<TestBlock> findTests(const std::vector<ast::File *> &files, Diagnostics &diagnostics) {
+  std::vector<TestBlock> tests;
+  for (const ast::File *file : files) {
+    for (const ast::Decl *decl : file->declarations) {
+      if (!isTest(*decl))
+        continue;
+      TestBlock test;
+      for (const ast::Name &space : decl->space)
+        test.name += std::string(space.text) + ".";
+      test.name += decl->name.text;
+      test.place = decl->name.span;
+      test.cycleNs = durationOf(*decl, "test_cycle", 0, diagnostics);
+      test.timeoutNs = durationOf(*decl, "test_timeout", kDefaultTimeoutNs, diagnostics);
+      tests.push_back(std::move(test));
+    }
+  }
+  return tests;
+}
+
+void removeTests(const std::vector<ast::File *> &files, Arena &arena) {
+  for (ast::File *file : files) {
+    std::vector<ast::Decl *> kept;
+    std::copy_if(file->declarations.begin(), file->declarations.end(), std::back_inserter(kept),
+                 [](const ast::Decl *decl) { return !isTest(*decl); });
+    if (kept.size() != file->declarations.size())
+      file->declarations = arena.copy(kept);
+  }
+}
+
+std::string testProgram(const std::vector<TestBlock> &tests, std::vector<DeclaredRange> &ranges) {
+  std::string out = fmt::format("PROGRAM {}\nVAR\n  which__ : DINT := -1;\n", kTestProgram);
+  const auto add = [&](const TestBlock &test, const std::string &text) {
+    const auto begin = static_cast<std::uint32_t>(out.size());
+    out += text;
+    ranges.push_back({begin, static_cast<std::uint32_t>(out.size()), test.place});
+  };
+  for (std::size_t i = 0; i < tests.size(); ++i)
+    add(tests[i], fmt::format("  t{}__ : {};\n", i, tests[i].name));
+  out += "END_VAR\n";
+  if (tests.empty())
+    return out + "which__ := 0;\nEND_PROGRAM\n";
+  out += "CASE which__ OF\n";
+  for (std::size_t i = 0; i < tests.size(); ++i)
+    add(tests[i], fmt::format("  {}: t{}__();\n", i, i));
+  return out + "END_CASE\nEND_PROGRAM\n";
+}
+
+void configureTests(ProjectConfig &config) {
+  TaskConfig task;
+  task.name.text = "Test";
+  task.intervalNs = kDefaultCycleNs;
+  task.programs.push_back({kTestProgram, {}});
+  for (AxisGroupConfig &group : config.axisGroups) {
+    group.task = {task.name.text, {}};
+    if (group.cycleUs != 0)
+      task.intervalNs = std::int64_t{group.cycleUs} * 1000;
+  }
+  for (AxisGroupConfig &group : config.axisGroups) // one task serves all
+    group.cycleUs = 0;
+  config.tasks.assign(1, std::move(task));
+}
+
+} // namespace stc
