@@ -153,6 +153,16 @@ class TP:
         return {"Q": self.began is not None, "ET": self.et}
 
 
+class Wide:
+    """A timer that counts nanoseconds; a negative PT is 0."""
+
+    def __init__(self, timer):
+        self.timer = timer()
+
+    def step(self, t, p):
+        return self.timer.step(t * 1_000_000, {**p, "PT": max(p["PT"], 0)})
+
+
 class RTC:
     began = None
 

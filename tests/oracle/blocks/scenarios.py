@@ -142,6 +142,15 @@ def timers():
             ("at random", steps(irregular(rng, 200, 20), IN=flags(rng, 200, 5), PT=held(rng, 200, lambda: rng.choice([0, 1, rng.randint(0, 60)]), 9))),
             ("at random around the wrap", steps(irregular(rng, 120, 30, WRAP - 900), IN=flags(rng, 120, 7), PT=held(rng, 120, lambda: rng.randint(0, 100), 20))),
         ])
+    ms = 1_000_000
+    for base in about:
+        for name in (f"L{base}", f"{base}_LTIME"):
+            yield Block(name, [f"{name}: as {base}; LTIMEs in ns."], pins("IN:BOOL PT:LTIME"), pins("Q:BOOL ET:LTIME"), lambda base=base: m.Wide(getattr(m, base)), [
+                ("PT of 30.5 ms, and an interruption", steps(every(10, 20), IN=".#####..##.###.#.#..", PT=30_500_000)),
+                ("PT is 0, or negative", steps(every(10, 12), IN=".##..#.##..#", PT=[0] * 6 + [-5] * 6)),
+                ("TIME would have wrapped", steps([0, 10, 40 * DAY, 80 * DAY, 100 * DAY + 9, 100 * DAY + 10, 100 * DAY + 20], IN=".#####.", PT=100 * DAY * ms)),
+                ("at random", steps(irregular(rng, 120, 20), IN=flags(rng, 120, 5), PT=held(rng, 120, lambda: rng.choice([0, 1, rng.randint(0, 60 * ms)]), 9))),
+            ])
     when = 1_000_000_000
     yield Block("RTC", ["RTC: seconds since the rising edge of EN, on top of PDT. DT as seconds since 1970."], pins("EN:BOOL PDT:DT"),
                 pins("Q:BOOL CDT:DT"), m.RTC, [
