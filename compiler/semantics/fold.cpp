@@ -177,6 +177,10 @@ std::optional<ConstValue> convertConstant(const ConstValue &value, const Type *f
   if (isReal(t) || t->kind == TypeKind::anyReal) {
     if (isTimeOrDate(f))
       return std::nullopt;
+    if (t->kind == TypeKind::real && value.kind == ConstKind::integer) // rounded once, not twice
+      return realValue(static_cast<double>(isUnsigned64(f) ? static_cast<float>(bits(value.integer))
+                                                           : static_cast<float>(value.integer)),
+                       t);
     return realValue(toDouble(value, f), t);
   }
   if (t->kind == TypeKind::boolean)

@@ -78,7 +78,8 @@ const Type *Checker::checkLiteral(Literal *expr) {
       return elementaryType(TypeKind::error);
     }
     value = convertConstant(value, type, named).value_or(value);
-    type = named;
+    if (!isString(named)) // `STRING#'…'` is as long as its text
+      type = named;
   }
   expr->constant = makeConstant(value);
   return type;

@@ -190,7 +190,10 @@ Scanned scanInteger(const char *s, uint32_t length) {
   return r;
 }
 
-Scanned scanReal(const char *s, uint32_t length) {
+namespace {
+
+/// T is the type that the digits are rounded to: by way of double a REAL would be rounded twice.
+template <class T> Scanned scanFloating(const char *s, uint32_t length) {
   Scanned r = nothing();
   Reader in(s, length);
   if (in.peek() == '-' || in.peek() == '+') {
@@ -231,7 +234,13 @@ Scanned scanReal(const char *s, uint32_t length) {
       for (; isDigit(in.peek()) && n < sizeof digits; in.skip())
         digits[n++] = in.peek();
     }
-    const std::from_chars_result result = std::from_chars(digits, digits + n, r.real);
+    T rounded = 0;
+    std::from_chars_result result = std::from_chars(digits, digits + n, rounded);
+    r.real = static_cast<LREAL>(rounded);
+    if (sizeof(T) < sizeof(LREAL) && result.ec == std::errc::result_out_of_range) {
+      result = std::from_chars(digits, digits + n, r.real);
+      r.real = r.real > 1 ? std::numeric_limits<double>::infinity() : 0.0;
+    }
     if (result.ec == std::errc::result_out_of_range) {
       // Above the range or below it: the exponent's sign tells.
       const char *e = static_cast<const char *>(std::memchr(digits, 'e', n));
@@ -245,6 +254,10 @@ Scanned scanReal(const char *s, uint32_t length) {
   r.used = in.at();
   return r;
 }
+
+} // namespace
+
+Scanned scanReal(const char *s, uint32_t length) { return scanFloating<LREAL>(s, length); }
 
 Scanned scanDuration(const char *s, uint32_t length) {
   static constexpr const char *kPrefixes[] = {"LTIME#", "TIME#", "LT#", "T#"};
@@ -361,7 +374,7 @@ void parseValue(Kind kind, const char *s, uint32_t cap, void *value) {
     break;
   }
   case Kind::REAL:
-    store(value, static_cast<REAL>(scanReal(s, length).real));
+    store(value, static_cast<REAL>(scanFloating<REAL>(s, length).real));
     break;
   case Kind::LREAL:
     store(value, scanReal(s, length).real);
