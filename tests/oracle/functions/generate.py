@@ -614,6 +614,8 @@ def dates():
                 later = wrap(kind, (a * UNIT[kind] + b * UNIT[time]) // UNIT[kind])
                 table.add(f"ADD_{kind}_{time}($1, $2)", f"{kind} {time}", [a, b], kind, later)
                 table.add("$1 + $2", f"{kind} {time}", [a, b], kind, later)
+                if kind == "DT" and a * UNIT[kind] < b * UNIT[time]:
+                    continue  # before 1970 nothing is said about the direction of rounding
                 earlier = wrap(kind, (a * UNIT[kind] - b * UNIT[time]) // UNIT[kind])
                 table.add(f"SUB_{kind}_{time}($1, $2)", f"{kind} {time}", [a, b], kind, earlier)
         for kind in (tod, dt, date):
