@@ -1,8 +1,8 @@
 // app.cpp: the application object. build.cpp: what identifies this build, apart so that app.cpp
 // stays the same when only a body changes.
 
-#include "compiler/codegen/consistent_copies.hpp"
 #include "compiler/codegen/assertions.hpp"
+#include "compiler/codegen/consistent_copies.hpp"
 #include "compiler/codegen/plc_tables.hpp"
 #include "compiler/codegen/type_table.hpp"
 #include "compiler/codegen/units.hpp"
