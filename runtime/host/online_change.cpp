@@ -3,6 +3,7 @@
 #include "runtime/app/error.hpp"
 #include "runtime/host/axis_hooks.hpp"
 #include "runtime/host/st_backtrace.hpp"
+#include "runtime/task/task_kind.hpp"
 
 #include <fmt/format.h>
 
@@ -25,20 +26,6 @@ std::string spelledAnew(const std::string &path) {
   for (unsigned i = 0; i < number; ++i)
     folder += "/.";
   return folder + '/' + given.filename().string();
-}
-
-const char *nameOf(TaskKind kind) {
-  switch (kind) {
-  case TaskKind::Cyclic:
-    return "cyclic";
-  case TaskKind::Freewheeling:
-    return "freewheeling";
-  case TaskKind::Event:
-    return "event";
-  case TaskKind::Status:
-    return "status";
-  }
-  return "unknown";
 }
 
 std::string durationText(int64_t ns) {
@@ -100,7 +87,7 @@ void OnlineChange::compareTasks() {
       refuse(fmt::format("task '{}' has another {}: {} instead of {}", a.name, what, now, before));
     };
     if (a.kind != b.kind)
-      differs("kind", nameOf(b.kind), nameOf(a.kind));
+      differs("kind", task::kindName(b.kind), task::kindName(a.kind));
     if (a.intervalNs != b.intervalNs)
       differs("interval", durationText(b.intervalNs), durationText(a.intervalNs));
     if (a.priority != b.priority)

@@ -4,6 +4,7 @@
 #include "runtime/monitor/request_fields.hpp"
 #include "runtime/monitor/symbol_list.hpp"
 #include "runtime/monitor/value_json.hpp"
+#include "runtime/task/task_kind.hpp"
 
 #include <fmt/format.h>
 
@@ -16,20 +17,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kMostListed = 1000;
-
-const char *kindName(TaskKind kind) {
-  switch (kind) {
-  case TaskKind::Cyclic:
-    return "cyclic";
-  case TaskKind::Freewheeling:
-    return "freewheeling";
-  case TaskKind::Event:
-    return "event";
-  case TaskKind::Status:
-    return "status";
-  }
-  return "";
-}
 
 json flagNames(uint32_t flags) {
   static constexpr std::pair<uint32_t, const char *> kNames[] = {
@@ -192,7 +179,7 @@ json Service::tasks(const json &request, bool figures) const {
     const TaskDesc &desc = tasks.desc(i);
     json entry = {{"name", desc.name}};
     if (!figures) {
-      entry["kind"] = kindName(desc.kind);
+      entry["kind"] = task::kindName(desc.kind);
       entry["priority"] = desc.priority;
       entry["interval_ns"] = desc.intervalNs;
       entry["watchdog_ns"] = desc.watchdogNs;
