@@ -137,48 +137,16 @@ bool FileParser::isNow(std::string_view lower) const {
 }
 
 bool FileParser::startsDeclaration() const {
-  switch (now_.type) {
-  case Tok::CLASS:
-  case Tok::INTERFACE:
-  case Tok::NAMESPACE:
-  case Tok::USING:
-  case Tok::CONFIGURATION:
-    return true;
-  case Tok::PROGRAM:
-  case Tok::FUNCTION:
-  case Tok::FUNCTION_BLOCK:
-  case Tok::TYPE:
-    return ahead_.type == Tok::IDENT || isModifier(ahead_.type);
-  case Tok::VAR_GLOBAL:
-  case Tok::VAR_CONFIG:
-  case Tok::VAR_ACCESS:
-    return ahead_.type != Tok::COLON;
-  default:
-    return false;
-  }
+  return stc::startsDeclaration(now_.type, ahead_.type);
 }
 
 bool FileParser::endsUnit() const { return closesUnit(now_.type); }
 
-bool FileParser::startsSection() const {
-  return now_.type >= Tok::VAR && now_.type <= Tok::VAR_INST && ahead_.type != Tok::COLON;
-}
+bool FileParser::startsSection() const { return stc::startsSection(now_.type, ahead_.type); }
 
 /// GET or SET of a property.
 bool FileParser::startsAccessor() const {
-  if (!inProperty_ || !(isNow("get") || isNow("set")))
-    return false;
-  switch (ahead_.type) {
-  case Tok::ASSIGN:
-  case Tok::DOT:
-  case Tok::LPAREN:
-  case Tok::LBRACKET:
-  case Tok::CARET:
-  case Tok::COLON:
-    return false;
-  default:
-    return true;
-  }
+  return inProperty_ && (isNow("get") || isNow("set")) && !continuesName(ahead_.type);
 }
 
 void FileParser::finishUnit() {

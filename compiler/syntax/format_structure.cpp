@@ -11,45 +11,15 @@ namespace stc {
 // questions
 
 bool FormatLayout::startsDeclaration(std::size_t i) const {
-  switch (type(i)) {
-  case Tok::CLASS:
-  case Tok::INTERFACE:
-  case Tok::NAMESPACE:
-  case Tok::USING:
-  case Tok::CONFIGURATION:
-    return true;
-  case Tok::PROGRAM:
-  case Tok::FUNCTION:
-  case Tok::FUNCTION_BLOCK:
-  case Tok::TYPE:
-    return type(i + 1) == Tok::IDENT || isModifier(type(i + 1));
-  case Tok::VAR_GLOBAL:
-  case Tok::VAR_CONFIG:
-  case Tok::VAR_ACCESS:
-    return type(i + 1) != Tok::COLON;
-  default:
-    return false;
-  }
+  return stc::startsDeclaration(type(i), type(i + 1));
 }
 
 bool FormatLayout::startsSection(std::size_t i) const {
-  return type(i) >= Tok::VAR && type(i) <= Tok::VAR_INST && type(i + 1) != Tok::COLON;
+  return stc::startsSection(type(i), type(i + 1));
 }
 
 bool FormatLayout::startsAccessor(std::size_t i) const {
-  if (!isWordAt(i, "get") && !isWordAt(i, "set"))
-    return false;
-  switch (type(i + 1)) {
-  case Tok::ASSIGN:
-  case Tok::DOT:
-  case Tok::LPAREN:
-  case Tok::LBRACKET:
-  case Tok::CARET:
-  case Tok::COLON:
-    return false;
-  default:
-    return true;
-  }
+  return (isWordAt(i, "get") || isWordAt(i, "set")) && !continuesName(type(i + 1));
 }
 
 /// No statement or declaration goes on here.

@@ -218,4 +218,47 @@ inline bool isOperandEnd(std::uint16_t type) {
          type == Tok::CARET || type == Tok::REAL || type == Tok::TIME_LITERAL;
 }
 
+/// Whether `now` begins a declaration; `ahead` is the token behind it.
+inline bool startsDeclaration(std::uint16_t now, std::uint16_t ahead) {
+  switch (now) {
+  case Tok::CLASS:
+  case Tok::INTERFACE:
+  case Tok::NAMESPACE:
+  case Tok::USING:
+  case Tok::CONFIGURATION:
+    return true;
+  case Tok::PROGRAM:
+  case Tok::FUNCTION:
+  case Tok::FUNCTION_BLOCK:
+  case Tok::TYPE:
+    return ahead == Tok::IDENT || isModifier(ahead);
+  case Tok::VAR_GLOBAL:
+  case Tok::VAR_CONFIG:
+  case Tok::VAR_ACCESS:
+    return ahead != Tok::COLON;
+  default:
+    return false;
+  }
+}
+
+/// Whether `now` begins a section of variables.
+inline bool startsSection(std::uint16_t now, std::uint16_t ahead) {
+  return now >= Tok::VAR && now <= Tok::VAR_INST && ahead != Tok::COLON;
+}
+
+/// Behind the word GET or SET: it is a name, not an accessor of a property.
+inline bool continuesName(std::uint16_t ahead) {
+  switch (ahead) {
+  case Tok::ASSIGN:
+  case Tok::DOT:
+  case Tok::LPAREN:
+  case Tok::LBRACKET:
+  case Tok::CARET:
+  case Tok::COLON:
+    return true;
+  default:
+    return false;
+  }
+}
+
 } // namespace stc
