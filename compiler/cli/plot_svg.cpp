@@ -1,4 +1,5 @@
 #include "compiler/cli/plot.hpp"
+#include "compiler/doc/html.hpp"
 
 #include <algorithm>
 #include <array>
@@ -37,28 +38,6 @@ struct Range {
   double low = 0;
   double high = 1;
 };
-
-std::string escape(std::string_view text) {
-  std::string result;
-  for (const char c : text)
-    switch (c) {
-    case '&':
-      result += "&amp;";
-      break;
-    case '<':
-      result += "&lt;";
-      break;
-    case '>':
-      result += "&gt;";
-      break;
-    case '"':
-      result += "&quot;";
-      break;
-    default:
-      result += c;
-    }
-  return result;
-}
 
 // A coordinate: hundredths of a pixel are enough.
 std::string px(double value) {
@@ -165,7 +144,7 @@ private:
   void text(double x, double y, std::string_view anchor, std::string_view content,
             std::string_view more = {}) {
     svg_ += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", px(x), px(y),
-                        anchor, more, escape(content));
+                        anchor, more, doc::escaped(content));
   }
 
   void drawFrame(double top, double height) {

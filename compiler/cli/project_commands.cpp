@@ -45,6 +45,13 @@ std::optional<BuildResult> buildProject(const ProjectOptions &options, BuildOpti
   return result;
 }
 
+// As buildProject, with nothing left on the terminal; nothing when there is nothing to run.
+std::optional<BuildResult> buildToRun(const ProjectOptions &options, int &exitCode) {
+  ProgressLine progress;
+  std::optional<BuildResult> result = buildProject(options, {}, progress, exitCode);
+  return exitCode == 0 ? std::move(result) : std::nullopt;
+}
+
 // Replaces this program by another one; returns only when that fails. `remedy`: what to do then.
 int become(const std::string &program, std::vector<std::string> arguments, const Output &output,
            std::string_view remedy = {}) {
@@ -108,13 +115,9 @@ int hostOnlyCommand(const std::string &command, const std::vector<std::string> &
 
 int hostCommand(const ProjectOptions &options, const std::string &command,
                 const std::vector<std::string> &hostArguments) {
-  std::optional<BuildResult> result;
   int exitCode = 0;
-  {
-    ProgressLine progress;
-    result = buildProject(options, {}, progress, exitCode);
-  }
-  if (!result || exitCode != 0)
+  const std::optional<BuildResult> result = buildToRun(options, exitCode);
+  if (!result)
     return exitCode;
   std::vector<std::string> arguments = {command, result->application.string()};
   arguments.insert(arguments.end(), hostArguments.begin(), hostArguments.end());
@@ -126,13 +129,9 @@ int hostCommand(const ProjectOptions &options, const std::string &command,
 
 int debugCommand(const ProjectOptions &options, const std::vector<std::string> &hostArguments,
                  const DebugSession &session) {
-  std::optional<BuildResult> result;
   int exitCode = 0;
-  {
-    ProgressLine progress;
-    result = buildProject(options, {}, progress, exitCode);
-  }
-  if (!result || exitCode != 0)
+  const std::optional<BuildResult> result = buildToRun(options, exitCode);
+  if (!result)
     return exitCode;
   // The names of the sources count from there.
   std::error_code error;

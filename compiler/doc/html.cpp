@@ -64,29 +64,6 @@ constexpr const char *kSearch = R"js('use strict';
 })();
 )js";
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-    case '&':
-      out += "&amp;";
-      break;
-    case '<':
-      out += "&lt;";
-      break;
-    case '>':
-      out += "&gt;";
-      break;
-    case '"':
-      out += "&quot;";
-      break;
-    default:
-      out += c;
-    }
-  }
-  return out;
-}
-
 /// A JavaScript string literal that may stand in a script of its own file.
 std::string literal(std::string_view text) {
   std::string out = "\"";
@@ -244,6 +221,29 @@ private:
 };
 
 } // namespace
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+    case '&':
+      out += "&amp;";
+      break;
+    case '<':
+      out += "&lt;";
+      break;
+    case '>':
+      out += "&gt;";
+      break;
+    case '"':
+      out += "&quot;";
+      break;
+    default:
+      out += c;
+    }
+  }
+  return out;
+}
 
 std::vector<Page> htmlPages(const std::string &title, const std::vector<Module> &modules) {
   return Writer(title, modules).pages();

@@ -5,9 +5,13 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stc::doc {
+
+/// The text with what HTML and XML keep for themselves replaced (`&lt;`).
+[[nodiscard]] std::string escaped(std::string_view text);
 
 /// One file of the reference.
 struct Page {
