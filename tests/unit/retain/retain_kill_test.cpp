@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -62,6 +63,15 @@ struct Folder {
   }
 }
 
+std::chrono::microseconds durationOfASave(const Subject &subject, const std::string &file) {
+  app::RetainStore store(file);
+  const std::vector<uint32_t> values(kWords);
+  const auto start = std::chrono::steady_clock::now();
+  store.save("model", 1, subject.encoded, std::as_bytes(std::span(values)));
+  return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() -
+                                                               start);
+}
+
 TEST(RetainKill, EveryKillLeavesACompleteImageThatIsNotOlderThanTheLastAcknowledged) {
   // In memory where possible: a kill leaves the system's cache alone, so the disk shows nothing
   // more.
@@ -70,6 +80,7 @@ TEST(RetainKill, EveryKillLeavesACompleteImageThatIsNotOlderThanTheLastAcknowled
   const std::string file = folder.path + "/retain";
   const Subject subject;
   std::mt19937 random(12345);
+  const std::chrono::microseconds aSave = durationOfASave(subject, folder.path + "/measured");
   uint32_t acknowledged = 0;
   int within = 0; // kills while a save was under way
   for (int kill = 0; kill < kKills; ++kill) {
@@ -80,12 +91,18 @@ TEST(RetainKill, EveryKillLeavesACompleteImageThatIsNotOlderThanTheLastAcknowled
     if (child == 0)
       saveWithoutEnd(subject, file, ends[1]);
     ::close(ends[1]);
-    ::usleep(std::uniform_int_distribution<useconds_t>(0, 12000)(random));
+    // Some saves, then a part of the next one, however fast they are here.
+    uint32_t generation = 0;
+    for (int saves = std::uniform_int_distribution<int>(0, 3)(random); saves > 0; --saves) {
+      ASSERT_EQ(::read(ends[0], &generation, sizeof generation), ssize_t{sizeof generation});
+      acknowledged = generation;
+    }
+    ::usleep(std::uniform_int_distribution<useconds_t>(0, static_cast<useconds_t>(aSave.count()))(
+        random));
     ASSERT_EQ(::kill(child, SIGKILL), 0);
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     ASSERT_TRUE(WIFSIGNALED(status)) << "the child ended by itself";
-    uint32_t generation = 0;
     while (::read(ends[0], &generation, sizeof generation) == sizeof generation)
       acknowledged = generation;
     ::close(ends[0]);
