@@ -244,14 +244,16 @@ void Emitter::timeArithmetic(const ast::BinaryExpr *e, Left &&left, Right &&righ
     if (unit(t) != fine)
       w_ << " * " << unit(t) / fine;
   };
-  w_ << "static_cast<" << type(result) << ">((";
+  // Before 1970 as well, what does not fit into the unit is rounded down.
+  const bool coarse = unit(result) > fine;
+  w_ << "static_cast<" << type(result) << (coarse ? ">(::stride::floorDivide(" : ">((");
   scaled(l, left);
   w_ << (e->op == add ? " + " : " - ");
   scaled(r, right);
+  if (coarse)
+    w_ << ", " << unit(result) / fine;
   w_ << ')';
-  if (unit(result) > fine)
-    w_ << " / " << unit(result) / fine;
-  else if (unit(result) < fine)
+  if (unit(result) < fine)
     w_ << " * " << fine / unit(result);
   w_ << ')';
 }

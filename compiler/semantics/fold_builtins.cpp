@@ -250,6 +250,7 @@ stride::Kind runtimeKind(const Type *type) {
 
 std::int64_t betweenTimes(std::int64_t value, stride::Kind from, stride::Kind to) {
   using namespace stride::detail;
+  using stride::floorDivide;
   auto ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(value) *
                                       static_cast<std::uint64_t>(unitNs(from)));
   if (isDate(to) && (isDateAndTime(from) || isDate(from)))

@@ -122,7 +122,7 @@ std::optional<std::int64_t> takeDate(std::string_view &text) {
     return std::nullopt;
   const std::chrono::year_month_day date{std::chrono::year(static_cast<int>(year)),
                                          std::chrono::month(month), std::chrono::day(day)};
-  if (!date.ok() || year < 1970)
+  if (!date.ok())
     return std::nullopt;
   return std::chrono::sys_days(date).time_since_epoch().count();
 }
@@ -379,7 +379,7 @@ bool LiteralReader::timeOrDate(std::string_view prefix, std::string_view value, 
   if (kind == "t" || kind == "time")
     return duration(value, isLong, span, out);
 
-  constexpr std::uint64_t kSecond = 1'000'000'000ULL;
+  constexpr std::int64_t kSecond = 1'000'000'000;
   std::string_view rest = value;
   if (kind == "tod" || kind == "time_of_day") {
     out.literal = isLong ? LiteralKind::ltod : LiteralKind::tod;
@@ -400,16 +400,32 @@ bool LiteralReader::timeOrDate(std::string_view prefix, std::string_view value, 
   if (!days || !nanos || !rest.empty())
     return fail(Code::invalidDateLiteral, span, both ? "malformed date and time" : "malformed date",
                 both ? "expected for example `DT#2024-02-29-12:30:15`"
-                     : "expected a date such as `D#2024-02-29`, from 1970 on");
-  const std::uint64_t seconds = static_cast<std::uint64_t>(*days) * 86'400 + *nanos / kSecond;
-  constexpr auto kMaxNanos = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
-  const bool tooLate = isLong ? seconds > (kMaxNanos - *nanos % kSecond) / kSecond
-                              : seconds > std::numeric_limits<std::uint32_t>::max();
-  if (tooLate)
+                     : "expected a date such as `D#2024-02-29`");
+  const std::int64_t seconds = *days * 86'400 + static_cast<std::int64_t>(*nanos) / kSecond;
+  if (!isLong) {
+    if (seconds >= 0 && seconds <= std::numeric_limits<std::uint32_t>::max()) {
+      out.integer = static_cast<std::uint64_t>(seconds);
+      return true;
+    }
+    diagnostics_
+        .report(Code::literalOutOfRange, span,
+                seconds < 0 ? "the date is before 1970-01-01, the first one of 32 bits"
+                            : "the date is after 2106-02-07, the last one of 32 bits")
+        .help(std::string("write `") + (both ? "LDT#" : "LDATE#") +
+              std::string(value.substr(0, 60)) + "`, which has 64 bits");
+    return false;
+  }
+  // The sum may fit although the product does not: before 1970 the fraction counts from below.
+  const std::int64_t below = seconds < 0 ? 1 : 0;
+  std::int64_t total = 0;
+  if (__builtin_mul_overflow(seconds + below, kSecond, &total) ||
+      __builtin_add_overflow(total, static_cast<std::int64_t>(*nanos) % kSecond - below * kSecond,
+                             &total))
     return fail(Code::literalOutOfRange, span,
-                isLong ? "the date is too far in the future"
-                       : "the date is after 2106-02-07, the last one of 32 bits");
-  out.integer = isLong ? seconds * kSecond + *nanos % kSecond : seconds;
+                seconds < 0 ? "the date is too far in the past"
+                            : "the date is too far in the future",
+                "64 bits reach from 1677-09-22 to 2262-04-11");
+  out.integer = static_cast<std::uint64_t>(total);
   return true;
 }
 

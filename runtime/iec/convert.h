@@ -11,6 +11,11 @@
 
 namespace stride {
 
+constexpr int64_t floorDivide(int64_t a, int64_t b) { // b > 0
+  const int64_t q = a / b;
+  return q - (a % b < 0 ? 1 : 0);
+}
+
 namespace detail {
 
 template <class T> struct Number {
@@ -113,11 +118,6 @@ constexpr int64_t unitNs(Kind kind) {
 
 constexpr int64_t kDayNs = int64_t{86400} * 1000000000;
 
-constexpr int64_t floorDivide(int64_t a, int64_t b) { // b > 0
-  const int64_t q = a / b;
-  return q - (a % b < 0 ? 1 : 0);
-}
-
 constexpr bool isDateAndTime(Kind kind) { return kind == Kind::DT || kind == Kind::LDT; }
 constexpr bool isDate(Kind kind) { return kind == Kind::DATE || kind == Kind::LDATE; }
 constexpr bool isTimeOfDay(Kind kind) { return kind == Kind::TOD || kind == Kind::LTOD; }
@@ -153,10 +153,10 @@ template <Kind To, Kind From> constexpr KindType<To> convert(KindType<From> valu
   } else if constexpr (detail::unitNs(To) != 0 && detail::unitNs(From) != 0) {
     int64_t ns = static_cast<int64_t>(value) * detail::unitNs(From);
     if constexpr (detail::isDate(To) && (detail::isDateAndTime(From) || detail::isDate(From)))
-      ns = detail::floorDivide(ns, detail::kDayNs) * detail::kDayNs;
+      ns = floorDivide(ns, detail::kDayNs) * detail::kDayNs;
     else if constexpr (detail::isTimeOfDay(To) && detail::isDateAndTime(From))
-      ns -= detail::floorDivide(ns, detail::kDayNs) * detail::kDayNs;
-    return static_cast<T>(detail::floorDivide(ns, detail::unitNs(To)));
+      ns -= floorDivide(ns, detail::kDayNs) * detail::kDayNs;
+    return static_cast<T>(floorDivide(ns, detail::unitNs(To)));
   } else {
     return convert<T>(value);
   }

@@ -115,19 +115,19 @@ void timeOfDay(Writer &w, int64_t ns) {
 uint32_t dateText(char *out, const char *prefix, int64_t ns) {
   Writer w(out);
   w.text(prefix);
-  civilDate(w, detail::floorDivide(ns, detail::kDayNs));
+  civilDate(w, floorDivide(ns, detail::kDayNs));
   return w.finish();
 }
 
 uint32_t timeOfDayText(char *out, const char *prefix, int64_t ns) {
   Writer w(out);
   w.text(prefix);
-  timeOfDay(w, ns - detail::floorDivide(ns, detail::kDayNs) * detail::kDayNs);
+  timeOfDay(w, ns - floorDivide(ns, detail::kDayNs) * detail::kDayNs);
   return w.finish();
 }
 
 uint32_t dateAndTimeText(char *out, const char *prefix, int64_t ns) {
-  const int64_t days = detail::floorDivide(ns, detail::kDayNs);
+  const int64_t days = floorDivide(ns, detail::kDayNs);
   Writer w(out);
   w.text(prefix);
   civilDate(w, days);

@@ -115,7 +115,7 @@ def literal(kind, value):
     if kind in ("TOD", "LTOD", "DATE", "LDATE", "DT", "LDT"):
         ns = value * UNIT[kind]
         days, clock = divmod(ns, DAY)
-        within = value >= 0 and ((kind in ("TOD", "LTOD") and days == 0) or (kind in ("DATE", "LDATE") and clock == 0) or \
+        within = (value >= 0 or kind in ("LDATE", "LDT")) and ((kind in ("TOD", "LTOD") and days == 0) or (kind in ("DATE", "LDATE") and clock == 0) or \
             kind in ("DT", "LDT"))
         if within:
             places = 9 if kind in ("LTOD", "LDT") else 3 if kind == "TOD" else 0

@@ -76,7 +76,15 @@ TEST(Literal, DatesAndTimes) {
   EXPECT_EQ(printExpression("DATE_AND_TIME#2024-02-29-12:30:15"), "1709209815s(dt)");
   EXPECT_EQ(printExpression("LDT#1970-01-01-00:00:01.5"), "1500000000ns(ldt)");
   EXPECT_EQ(error("D#2023-02-29"), "SE0111 1:16 malformed date\n");
-  EXPECT_EQ(error("D#1969-12-31"), "SE0111 1:16 malformed date\n");
+  EXPECT_EQ(error("D#1969-12-31"),
+            "SE0109 1:16 the date is before 1970-01-01, the first one of 32 bits\n");
+  EXPECT_EQ(error("LDATE#1677-09-22"), "");
+  EXPECT_EQ(error("LDT#1677-09-21-00:12:43.145224192"), "");
+  EXPECT_EQ(error("LDT#1677-09-21-00:12:43.145224191"),
+            "SE0109 1:16 the date is too far in the past\n");
+  EXPECT_EQ(error("LDT#2262-04-11-23:47:16.854775807"), "");
+  EXPECT_EQ(error("LDT#2262-04-11-23:47:16.854775808"),
+            "SE0109 1:16 the date is too far in the future\n");
   EXPECT_EQ(error("TOD#24:00:00"), "SE0111 1:16 malformed time of day\n");
   EXPECT_EQ(error("DT#2024-01-01"), "SE0111 1:16 malformed date and time\n");
   EXPECT_EQ(error("D#2107-01-01"),
