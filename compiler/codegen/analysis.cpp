@@ -1,7 +1,5 @@
 #include "compiler/codegen/analysis.hpp"
 
-#include "compiler/semantics/assertions.hpp"
-
 #include "compiler/semantics/hierarchy.hpp"
 
 #include "compiler/semantics/fold.hpp"
@@ -125,7 +123,9 @@ unsigned Analysis::effects(const Expr *expr) {
         if (call->builtin == Builtin::newT || call->builtin == Builtin::deleteT ||
             call->builtin == Builtin::ini || isAssertion(call->builtin))
           return result | effectReads | effectRaises | effectCalls;
-        return result | (call->builtin == Builtin::time ? effectReads : effectNone);
+        return result |
+               (call->builtin == Builtin::time || call->builtin == Builtin::ltime ? effectReads
+                                                                                  : effectNone);
       }
       result |= effectReads | effectRaises;
       if (call->resolved != Callee::function || !pure(call->pou))

@@ -1,7 +1,6 @@
 // app.cpp: the application object. build.cpp: what identifies this build, apart so that app.cpp
 // stays the same when only a body changes.
 
-#include "compiler/codegen/assertions.hpp"
 #include "compiler/codegen/consistent_copies.hpp"
 #include "compiler/codegen/plc_tables.hpp"
 #include "compiler/codegen/type_table.hpp"
@@ -472,7 +471,6 @@ std::vector<GeneratedFile> generateLibrary(const Program &program, const Library
   codegen::generateHeaders(context, files);
   codegen::generateSources(context, files);
   codegen::generateDispatch(context, files);
-  codegen::includeAssertions(files);
   return files;
 }
 
@@ -485,7 +483,6 @@ std::vector<GeneratedFile> generateApplication(const Program &program, const App
   codegen::Application application(context, config);
   files.push_back(application.app());
   files.push_back(application.build());
-  codegen::includeAssertions(files);
   return files;
 }
 

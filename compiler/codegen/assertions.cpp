@@ -13,12 +13,12 @@ using namespace ast;
 namespace {
 
 std::string_view demandOf(Builtin id) {
-  return id == kAssertNe   ? "NotEqual"
-         : id == kAssertGt ? "Greater"
-         : id == kAssertGe ? "GreaterEqual"
-         : id == kAssertLt ? "Less"
-         : id == kAssertLe ? "LessEqual"
-                           : "Equal";
+  return id == Builtin::assertNe   ? "NotEqual"
+         : id == Builtin::assertGt ? "Greater"
+         : id == Builtin::assertGe ? "GreaterEqual"
+         : id == Builtin::assertLt ? "Less"
+         : id == Builtin::assertLe ? "LessEqual"
+                                   : "Equal";
 }
 
 /// ASSERT_EQ
@@ -82,20 +82,10 @@ std::string assertionText(const CallExpr *call, const std::string &context,
   std::string out = std::string("::stride::") + (isString(type) ? "assertTexts" : "assertValues") +
                     "<::stride::Kind::" + std::string(Names::elementary(shown)) + ">(" + context +
                     ", ::stride::Demand::" + std::string(demandOf(id)) + ", " + arguments[0] + ", ";
-  out += values == 2 ? arguments[1] : id == kAssertTrue ? "true" : "false";
+  out += values == 2 ? arguments[1] : id == Builtin::assertTrue ? "true" : "false";
   if (!isString(type))
     out += ", " + (enumeration != nullptr ? spellings(enumeration) : std::string("nullptr"));
   return out + ", " + place;
-}
-
-void includeAssertions(std::vector<GeneratedFile> &files) {
-  for (GeneratedFile &file : files) {
-    if (file.text.find("::stride::assert") == std::string::npos &&
-        file.text.find("::stride::failTest") == std::string::npos)
-      continue;
-    const std::size_t at = file.text.find("#include ");
-    file.text.insert(at == std::string::npos ? 0 : at, "#include \"runtime/iec/assert.h\"\n");
-  }
 }
 
 } // namespace stc::codegen

@@ -2,9 +2,9 @@
 // ASSERT_TRUE, ASSERT_EQ and the others of unit tests: runtime/iec/assert.h. Internal to
 // compiler/codegen.
 
-#include "compiler/codegen/codegen.hpp"
-#include "compiler/semantics/assertions.hpp"
+#include "compiler/semantics/builtins.hpp"
 #include "compiler/semantics/types.hpp"
+#include "compiler/syntax/ast.hpp"
 
 #include <string>
 #include <string_view>
@@ -20,8 +20,5 @@ namespace stc::codegen {
 [[nodiscard]] std::string assertionText(const ast::CallExpr *call, const std::string &context,
                                         const std::vector<std::string> &arguments,
                                         const std::string &position);
-
-/// Adds the header to the files that need it.
-void includeAssertions(std::vector<GeneratedFile> &files);
 
 } // namespace stc::codegen

@@ -57,6 +57,16 @@ std::string_view runtimeName(Builtin id) {
     return "rol";
   case Builtin::ror:
     return "ror";
+  case Builtin::fromBcd:
+    return "fromBcd";
+  case Builtin::toBcd:
+    return "toBcd";
+  case Builtin::isValidBcd:
+    return "isValidBcd";
+  case Builtin::isValid:
+    return "isValid";
+  case Builtin::bigEndian:
+    return "swapBytes";
   case Builtin::len:
     return "len";
   case Builtin::left:
@@ -81,6 +91,25 @@ std::string_view runtimeName(Builtin id) {
 }
 
 bool isStringFunction(Builtin id) { return id >= Builtin::len && id <= Builtin::find; }
+
+/// How the next one must relate to each argument of a comparison of many.
+std::string_view orderOf(Builtin id) {
+  switch (id) {
+  case Builtin::greater:
+    return " > ";
+  case Builtin::greaterEqual:
+    return " >= ";
+  case Builtin::equal:
+    return " == ";
+  case Builtin::lessEqual:
+    return " <= ";
+  case Builtin::less:
+    return " < ";
+  default:
+    return {};
+  }
+}
+
 bool isMath(Builtin id) { return id >= Builtin::sqrt && id <= Builtin::expt; }
 
 } // namespace
@@ -295,6 +324,7 @@ void Emitter::builtinPlain(const CallExpr *e, const std::vector<std::string> *na
     w_ << ')';
   };
   if (isAssertion(e->builtin)) {
+    includes_.assertion();
     const auto cut = [&](auto write) {
       const std::size_t start = w_.size();
       write();
@@ -361,6 +391,33 @@ void Emitter::builtinPlain(const CallExpr *e, const std::vector<std::string> *na
     w_ << ")]; }()";
     return;
   }
+  case Builtin::greater:
+  case Builtin::greaterEqual:
+  case Builtin::equal:
+  case Builtin::lessEqual:
+  case Builtin::less: {
+    const Type *operands =
+        underlying(e->arguments[0].value->target != nullptr ? e->arguments[0].value->target
+                                                            : e->arguments[0].value->type);
+    const bool strings = isString(operands);
+    w_ << "::stride::inOrder([](const auto &a__, const auto &b__) { return ";
+    if (strings)
+      w_ << "::stride::compare(a__, b__)" << orderOf(e->builtin) << '0';
+    else
+      w_ << "a__" << orderOf(e->builtin) << "b__";
+    w_ << "; }";
+    for (std::size_t i = 0; i < count; ++i) {
+      w_ << ", ";
+      if (!strings)
+        w_ << "static_cast<" << type(operands) << ">(";
+      argument(i);
+      if (!strings)
+        w_ << ')';
+    }
+    w_ << ')';
+    return;
+  }
+  case Builtin::littleEndian:
   case Builtin::move:
     w_ << '(';
     argument(0);
@@ -381,6 +438,10 @@ void Emitter::builtinPlain(const CallExpr *e, const std::vector<std::string> *na
   case Builtin::time:
     needContext();
     w_ << "static_cast<::stride::TIME>(" << kContext << ".cycleStartNs / 1000000)";
+    return;
+  case Builtin::ltime:
+    needContext();
+    w_ << "static_cast<::stride::LTIME>(" << kContext << ".cycleStartNs)";
     return;
   case Builtin::queryInterface:
   case Builtin::queryPointer:

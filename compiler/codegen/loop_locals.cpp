@@ -38,7 +38,8 @@ bool holdsInstance(const Type *type) {
 /// Builtins that look at the values of their arguments only.
 bool onlyComputes(Builtin id) {
   return id <= Builtin::find || id == Builtin::convert || id == Builtin::time ||
-         id == Builtin::sizeofT || id == Builtin::lowerBound || id == Builtin::upperBound;
+         id == Builtin::ltime || id == Builtin::sizeofT || id == Builtin::lowerBound ||
+         id == Builtin::upperBound;
 }
 
 /// Calls save the locals: with more of them that costs more than it gains.

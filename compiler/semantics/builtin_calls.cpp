@@ -1,7 +1,6 @@
 // Calls of the functions that the compiler implements itself.
 
 #include "compiler/semantics/alignment.hpp"
-#include "compiler/semantics/assertions.hpp"
 #include "compiler/semantics/checker.hpp"
 #include "compiler/semantics/fold.hpp"
 #include "compiler/semantics/fold_builtins.hpp"
@@ -150,7 +149,7 @@ const Type *Checker::commonBeforeWidening(const CallExpr *expr, std::size_t firs
 
 const Type *Checker::checkConversionCall(CallExpr *expr, const ConversionName &conversion) {
   expr->resolved = Callee::builtin;
-  expr->builtin = Builtin::convert;
+  expr->builtin = conversion.function;
   const Type *bad = elementaryType(TypeKind::error);
   for (Argument &a : expr->arguments) {
     if (a.value != nullptr)
@@ -161,6 +160,9 @@ const Type *Checker::checkConversionCall(CallExpr *expr, const ConversionName &c
   Expr *value = expr->arguments[0].value;
   const Type *type = value->type;
   if (isError(type))
+    return bad;
+  if (conversion.from == nullptr && conversion.function != Builtin::convert &&
+      !checkSpecialArgument(expr))
     return bad;
   if (type->kind == TypeKind::pointer && conversion.from == nullptr) // the address as a number
     setTarget(value, elementaryType(TypeKind::ulint));
@@ -179,8 +181,12 @@ const Type *Checker::checkConversionCall(CallExpr *expr, const ConversionName &c
       if (value->target == nullptr && value->type != conversion.from)
         return bad;
     }
-  } else if (untyped(type)) {
+  } else if (untyped(type) && value->target == nullptr) {
     settle(value);
+  }
+  if (conversion.function != Builtin::convert) {
+    foldCall(expr, conversion.to);
+    return conversion.to;
   }
   const Type *from = value->target != nullptr ? value->target : value->type;
   if (value->constant != nullptr) {
@@ -250,9 +256,14 @@ const Type *Checker::checkStringBuiltin(CallExpr *expr) {
   }
   if (!requireCount(expr, count, count))
     return bad;
+  // CODESYS has WLEN, WLEFT … for WSTRING only.
+  const std::string name = calleeName(expr);
+  const bool wideOnly = name.front() == 'W' || name.front() == 'w';
   for (std::size_t i = 0; i < count; ++i) {
     if (isError(expr->arguments[i].value->type))
       return bad;
+    if (wideOnly && i < strings && expr->arguments[i].value->type->kind != TypeKind::wstring)
+      return argumentError(expr, i, "a WSTRING");
     if (i < strings ? !string(i) : !integer(i))
       return argumentError(expr, i, i < strings ? "a string" : "an integer");
     if (i == 1 && strings == 2 &&
@@ -322,6 +333,8 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
     return failed ? bad : checkNew(expr);
   if (expr->builtin == Builtin::indexOf)
     return failed ? bad : checkIndexOf(expr);
+  if (expr->builtin >= Builtin::add && expr->builtin <= Builtin::modulo)
+    return failed ? bad : checkOperatorCall(expr);
   for (Argument &a : expr->arguments) {
     if (a.value != nullptr && isError(check(a.value, expected)))
       failed = true;
@@ -494,10 +507,16 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
   case replace:
   case find:
     return checkStringBuiltin(expr);
+  case isValid:
+  case isValidBcd:
+  case bigEndian:
+  case littleEndian:
+    return checkPatternCall(expr);
   case time:
+  case ltime:
     if (!requireCount(expr, 0, 0))
       return bad;
-    return elementaryType(TypeKind::time);
+    return elementaryType(expr->builtin == time ? TypeKind::time : TypeKind::ltime);
   case adr: {
     if (!requireCount(expr, 1, 1))
       return bad;
@@ -536,8 +555,7 @@ const Type *Checker::checkBuiltin(CallExpr *expr, const Type *expected) {
   case lowerBound:
   case upperBound:
     return checkBound(expr);
-  case sizeofT:
-  case convert:
+  default: // operators and conversions have been dealt with
     break;
   }
   return bad;

@@ -1,6 +1,5 @@
 #include "compiler/semantics/builtins.hpp"
 
-#include "compiler/semantics/assertions.hpp"
 #include "compiler/semantics/type_table.hpp"
 
 #include <algorithm>
@@ -31,10 +30,36 @@ const std::vector<std::pair<std::string_view, ast::Builtin>> &builtins() {
       {"sel", sel},
       {"mux", mux},
       {"move", move},
+      {"add", add},
+      {"sub", subtract},
+      {"mul", multiply},
+      {"div", divide},
+      {"gt", greater},
+      {"ge", greaterEqual},
+      {"eq", equal},
+      {"le", lessEqual},
+      {"lt", less},
+      {"ne", notEqual},
+      {"mul_time", multiplyTime},
+      {"multime", multiplyTime},
+      {"mul_ltime", multiplyLtime},
+      {"div_time", divideTime},
+      {"divtime", divideTime},
+      {"div_ltime", divideLtime},
+      {"and", logicalAnd},
+      {"or", logicalOr},
+      {"xor", logicalXor},
+      {"mod", modulo},
       {"shl", shl},
       {"shr", shr},
       {"rol", rol},
       {"ror", ror},
+      {"is_valid", isValid},
+      {"is_valid_bcd", isValidBcd},
+      {"to_big_endian", bigEndian},
+      {"from_big_endian", bigEndian},
+      {"to_little_endian", littleEndian},
+      {"from_little_endian", littleEndian},
       {"len", len},
       {"left", left},
       {"right", right},
@@ -44,7 +69,17 @@ const std::vector<std::pair<std::string_view, ast::Builtin>> &builtins() {
       {"delete", deleteS},
       {"replace", replace},
       {"find", find},
+      {"wlen", len},
+      {"wleft", left},
+      {"wright", right},
+      {"wmid", mid},
+      {"wconcat", concat},
+      {"winsert", insert},
+      {"wdelete", deleteS},
+      {"wreplace", replace},
+      {"wfind", find},
       {"time", time},
+      {"ltime", ltime},
       {"adr", adr},
       {"bitadr", bitadr},
       {"sizeof", sizeofT},
@@ -59,16 +94,16 @@ const std::vector<std::pair<std::string_view, ast::Builtin>> &builtins() {
       {"__isvalidref", isValidRef},
       {"lower_bound", lowerBound},
       {"upper_bound", upperBound},
-      {"assert_true", ast::kAssertTrue},
-      {"assert_false", ast::kAssertFalse},
-      {"assert_eq", ast::kAssertEq},
-      {"assert_ne", ast::kAssertNe},
-      {"assert_gt", ast::kAssertGt},
-      {"assert_ge", ast::kAssertGe},
-      {"assert_lt", ast::kAssertLt},
-      {"assert_le", ast::kAssertLe},
-      {"assert_near", ast::kAssertNear},
-      {"fail", ast::kFail},
+      {"assert_true", assertTrue},
+      {"assert_false", assertFalse},
+      {"assert_eq", assertEq},
+      {"assert_ne", assertNe},
+      {"assert_gt", assertGt},
+      {"assert_ge", assertGe},
+      {"assert_lt", assertLt},
+      {"assert_le", assertLe},
+      {"assert_near", assertNear},
+      {"fail", failTest},
   };
   return kTable;
 }
@@ -94,7 +129,25 @@ std::string_view formalNames(ast::Builtin function) {
     return "k in#0";
   case min:
   case max:
+  case add:
+  case multiply:
+  case greater:
+  case greaterEqual:
+  case equal:
+  case lessEqual:
+  case less:
+  case logicalAnd:
+  case logicalOr:
+  case logicalXor:
     return "in#1";
+  case subtract:
+  case divide:
+  case notEqual:
+  case multiplyTime:
+  case multiplyLtime:
+  case divideTime:
+  case divideLtime:
+  case modulo:
   case expt:
     return "in1 in2";
   case atan2:
@@ -158,11 +211,38 @@ std::optional<std::size_t> formalPosition(ast::Builtin function, std::string_vie
   return std::nullopt;
 }
 
+namespace {
+
+/// `X_TRUNC_Y`, `X_BCD_TO_Y`, `X_TO_BCD_Y` and without X: the word between the types decides.
+std::optional<ConversionName> findSpecial(std::string_view text, std::string_view word,
+                                          ast::Builtin function, bool (*takes)(const Type *),
+                                          bool (*gives)(const Type *)) {
+  const std::size_t at = text.find(word);
+  if (at == std::string_view::npos || (at > 0 && text[at - 1] != '_'))
+    return std::nullopt;
+  const Type *from = at > 0 ? findElementaryType(text.substr(0, at - 1)) : nullptr;
+  const Type *to = findElementaryType(text.substr(at + word.size()));
+  if (to == nullptr || !gives(to) || (at > 0 && (from == nullptr || !takes(from))))
+    return std::nullopt;
+  return ConversionName{from, to, function};
+}
+
+bool isWhole(const Type *t) { return isSignedInteger(t) || isUnsignedInteger(t); }
+
+} // namespace
+
 std::optional<ConversionName> findConversion(Ident name) {
   const std::string_view text = name->lower;
+  using enum ast::Builtin;
+  if (const auto cut = findSpecial(text, "trunc_", trunc, isReal, isWhole))
+    return cut;
+  if (const auto bcd = findSpecial(text, "bcd_to_", fromBcd, isBitString, isUnsignedInteger))
+    return bcd;
+  if (const auto bcd = findSpecial(text, "to_bcd_", toBcd, isUnsignedInteger, isBitString))
+    return bcd;
   if (text.starts_with("to_")) {
     if (const Type *to = findElementaryType(text.substr(3)))
-      return ConversionName{nullptr, to};
+      return ConversionName{nullptr, to, convert};
     return std::nullopt;
   }
   // Type names contain underscores too (TIME_OF_DAY), so try every place.
@@ -171,7 +251,7 @@ std::optional<ConversionName> findConversion(Ident name) {
     const Type *from = findElementaryType(text.substr(0, at));
     const Type *to = findElementaryType(text.substr(at + 4));
     if (from != nullptr && to != nullptr && from != to)
-      return ConversionName{from, to};
+      return ConversionName{from, to, convert};
   }
   return std::nullopt;
 }

@@ -256,6 +256,16 @@ private:
   bool placeArguments(ast::CallExpr *expr);
   const Type *checkConversionCall(ast::CallExpr *expr, const ConversionName &conversion);
   const Type *checkStringBuiltin(ast::CallExpr *expr);
+
+  // standard_calls.cpp
+  /// ADD, GT, MUL_TIME …: the operator with its rules.
+  const Type *checkOperatorCall(ast::CallExpr *expr);
+  /// GT(a, b, c …): each in order with the next.
+  const Type *checkOrderCall(ast::CallExpr *expr);
+  /// IS_VALID, IS_VALID_BCD, TO_BIG_ENDIAN …
+  const Type *checkPatternCall(ast::CallExpr *expr);
+  /// The argument of TRUNC_Y, BCD_TO_Y, TO_BCD_Y; false when it has been reported.
+  bool checkSpecialArgument(ast::CallExpr *expr);
   const Type *commonOfArguments(ast::CallExpr *expr, std::size_t first);
   static const Type *commonBeforeWidening(const ast::CallExpr *expr, std::size_t first);
   bool requireCount(ast::CallExpr *expr, std::size_t least, std::size_t most);

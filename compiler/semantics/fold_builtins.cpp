@@ -214,6 +214,24 @@ bool isUnsigned64(const Type *t) {
   return t->kind == TypeKind::ulint || t->kind == TypeKind::lword;
 }
 
+std::optional<ConstValue> foldTruncation(double value, const Type *to) {
+  const Type *t = underlying(to);
+  const auto cut = [&](auto narrow) {
+    using T = decltype(narrow);
+    return integerValue(static_cast<std::int64_t>(stride::truncate<T>(value)));
+  };
+  switch (bitWidth(t)) {
+  case 8:
+    return isSignedInteger(t) ? cut(std::int8_t{}) : cut(std::uint8_t{});
+  case 16:
+    return isSignedInteger(t) ? cut(std::int16_t{}) : cut(std::uint16_t{});
+  case 32:
+    return isSignedInteger(t) ? cut(std::int32_t{}) : cut(std::uint32_t{});
+  default:
+    return isSignedInteger(t) ? cut(std::int64_t{}) : cut(std::uint64_t{});
+  }
+}
+
 bool less(const ConstArgument &a, const ConstArgument &b) {
   if (a.value.kind == ConstKind::string)
     return compareTexts(a.value.text, b.value.text, a.type->kind == TypeKind::wstring) < 0;
@@ -223,6 +241,37 @@ bool less(const ConstArgument &a, const ConstArgument &b) {
     return static_cast<std::uint64_t>(a.value.integer) <
            static_cast<std::uint64_t>(b.value.integer);
   return a.value.integer < b.value.integer;
+}
+
+/// GT(a, b, c …): each argument with the one behind it.
+std::optional<ConstValue> foldOrder(Builtin function, std::span<const ConstArgument> arguments) {
+  using enum ast::BinaryOp;
+  const ast::BinaryOp op = function == Builtin::greater        ? greater
+                           : function == Builtin::greaterEqual ? greaterEqual
+                           : function == Builtin::equal        ? equal
+                           : function == Builtin::lessEqual    ? lessEqual
+                                                               : less;
+  bool all = true;
+  for (std::size_t i = 1; i < arguments.size(); ++i) {
+    const auto pair = foldBinary(op, arguments[i - 1].value, arguments[i].value, arguments[i].type);
+    if (!pair)
+      return std::nullopt;
+    all = all && pair->integer != 0;
+  }
+  return integerValue(all ? 1 : 0);
+}
+
+std::int64_t swapped(const Type *type, std::int64_t value) {
+  switch (bitWidth(underlying(type))) {
+  case 64:
+    return static_cast<std::int64_t>(stride::swapBytes(static_cast<std::uint64_t>(value)));
+  case 32:
+    return wrapTo(type, stride::swapBytes(static_cast<std::uint32_t>(value)));
+  case 16:
+    return wrapTo(type, stride::swapBytes(static_cast<std::uint16_t>(value)));
+  default:
+    return value;
+  }
 }
 
 std::optional<ConstValue> foldAbs(const ConstArgument &x) {
@@ -396,7 +445,30 @@ std::optional<ConstValue> foldBuiltin(Builtin function, std::span<const ConstArg
   case Builtin::ror:
     return foldShift(function, first.value.integer, arguments[1].value.integer, result);
   case Builtin::trunc:
-    return integerValue(stride::truncate<std::int32_t>(first.value.real));
+    return foldTruncation(first.value.real, result);
+  case Builtin::greater:
+  case Builtin::greaterEqual:
+  case Builtin::equal:
+  case Builtin::lessEqual:
+  case Builtin::less:
+    return foldOrder(function, arguments);
+  case Builtin::fromBcd:
+    return integerValue(wrapTo(
+        result, stride::fromBcd<std::int64_t>(static_cast<std::uint64_t>(first.value.integer))));
+  case Builtin::toBcd:
+    return integerValue(wrapTo(
+        result, stride::toBcd<std::int64_t>(static_cast<std::uint64_t>(first.value.integer))));
+  case Builtin::isValidBcd:
+    return integerValue(
+        stride::isValidBcd<std::uint8_t>(static_cast<std::uint64_t>(first.value.integer)));
+  case Builtin::isValid:
+    return integerValue(stride::isValid<std::uint8_t>(first.value.real));
+  case Builtin::bigEndian: // what a REAL's bytes mean backwards has bits that no constant keeps
+    return first.value.kind == ConstKind::real
+               ? std::nullopt
+               : std::optional(integerValue(swapped(result, first.value.integer)));
+  case Builtin::littleEndian:
+    return first.value;
   default:
     break;
   }

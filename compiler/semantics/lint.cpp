@@ -2,8 +2,6 @@
 
 #include "compiler/semantics/lint.hpp"
 
-#include "compiler/semantics/assertions.hpp"
-
 #include <algorithm>
 
 namespace stc {

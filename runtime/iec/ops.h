@@ -180,6 +180,57 @@ template <class T> constexpr T sel(BOOL g, T a, T b) { return g != 0 ? b : a; }
 template <class S> inline S minText(const S &a, const S &b) { return compare(b, a) < 0 ? b : a; }
 template <class S> inline S maxText(const S &a, const S &b) { return compare(a, b) < 0 ? b : a; }
 
+// --- comparisons of more than two values: GT(a, b, c) -------------------------------------------
+
+template <class F, class A, class B> constexpr bool inOrder(F order, const A &a, const B &b) {
+  return order(a, b);
+}
+/// Each value stands in the relation to the next one.
+template <class F, class A, class B, class... R>
+constexpr bool inOrder(F order, const A &a, const B &b, const R &...rest) {
+  return order(a, b) && inOrder(order, b, rest...);
+}
+
+// --- decimal digits and byte order --------------------------------------------------------------
+
+/// IS_VALID: neither NaN nor infinite.
+template <class R, class T> constexpr R isValid(T x) { return static_cast<R>(x - x == 0); }
+/// IS_VALID_BCD: every group of four bits is a decimal digit.
+template <class R, class T> constexpr R isValidBcd(T x) {
+  for (uint64_t rest = x; rest != 0; rest >>= 4U) {
+    if ((rest & 15U) > 9)
+      return 0;
+  }
+  return 1;
+}
+/// BCD_TO_Y: the number that the digits are, 0 when one of them is none; wraps to the type.
+template <class T> constexpr T fromBcd(uint64_t digits) {
+  if (!isValidBcd<bool>(digits))
+    return 0;
+  uint64_t value = 0;
+  for (int shift = 60; shift >= 0; shift -= 4)
+    value = value * 10 + (digits >> shift & 15U);
+  return static_cast<T>(value);
+}
+/// TO_BCD_Y: the last digits of the number, as many as there is room for.
+template <class T> constexpr T toBcd(uint64_t value) {
+  uint64_t digits = 0;
+  for (unsigned shift = 0; shift < sizeof(T) * 8; shift += 4, value /= 10)
+    digits |= value % 10 << shift;
+  return static_cast<T>(digits);
+}
+/// The bytes in the opposite order: between the little-endian order of every target and the other.
+template <class T> constexpr T swapBytes(T x) {
+  if constexpr (sizeof(T) == 1)
+    return x;
+  else if constexpr (sizeof(T) == 2)
+    return __builtin_bit_cast(T, __builtin_bswap16(__builtin_bit_cast(uint16_t, x)));
+  else if constexpr (sizeof(T) == 4)
+    return __builtin_bit_cast(T, __builtin_bswap32(__builtin_bit_cast(uint32_t, x)));
+  else
+    return __builtin_bit_cast(T, __builtin_bswap64(__builtin_bit_cast(uint64_t, x)));
+}
+
 // --- FOR ----------------------------------------------------------------------------------------
 // The variable moves by the step and wraps; the result says whether the loop goes on. The distance
 // to the end is compared before the step, so that loops end at the limits of the type as well.

@@ -31,19 +31,28 @@ REALS = ("REAL", "LREAL")
 
 
 class Table:
+    edition3 = []  #: rows of functions that only edition 3 of the standard has; they have a table of their own
+
     def __init__(self, name):
         self.name = name
         self.rows = []
         self.random = random.Random(name)
 
     def add(self, call, types, arguments, result, expected):
+        self.rows.append(self.row(call, types, arguments, result, expected))
+
+    def third(self, call, types, arguments, result, expected):
+        self.edition3.append(self.row(call, types, arguments, result, expected))
+
+    @staticmethod
+    def row(call, types, arguments, result, expected):
         kinds = types.split()
         if isinstance(expected, float):
             expected = "nan" if expected != expected else expected.hex()
         elif result.startswith(("STRING", "WSTRING")):
             expected = json.dumps(expected)
         texts = [a if isinstance(a, Raw) else literal(k, a) for k, a in zip(kinds, arguments)]
-        self.rows.append([call, types, result, " | ".join(texts), str(expected)])
+        return [call, types, result, " | ".join(texts), str(expected)]
 
     def write(self):
         unique = [list(r) for r in dict.fromkeys(tuple(r) for r in self.rows)]
@@ -268,27 +277,40 @@ def numeric():
             for name, sign in (("ADD", "+"), ("SUB", "-"), ("MUL", "*")):
                 r = wrap(wide, {"ADD": a + b, "SUB": a - b, "MUL": a * b}[name])
                 table.add(f"$1 {sign} $2", f"{kind} {kind}", [a, b], wide, r)
+                table.third(f"{name}($1, $2)", f"{kind} {kind}", [a, b], wide, r)
             if b != 0:
                 table.add("$1 / $2", f"{kind} {kind}", [a, b], wide, wrap(wide, cut(a, b)))
+                table.third("DIV($1, $2)", f"{kind} {kind}", [a, b], wide, wrap(wide, cut(a, b)))
                 table.add("$1 MOD $2", f"{kind} {kind}", [a, b], wide, wrap(wide, a - b * cut(a, b)))
-            for name, r in ((">", a > b), (">=", a >= b), ("=", a == b), ("<=", a <= b), ("<", a < b), ("<>", a != b)):
-                table.add(f"$1 {name} $2", f"{kind} {kind}", [a, b], "BOOL", int(r))
+            for sign, name, r in ((">", "GT", a > b), (">=", "GE", a >= b), ("=", "EQ", a == b), ("<=", "LE", a <= b),
+                                  ("<", "LT", a < b), ("<>", "NE", a != b)):
+                table.add(f"$1 {sign} $2", f"{kind} {kind}", [a, b], "BOOL", int(r))
+                table.third(f"{name}($1, $2)", f"{kind} {kind}", [a, b], "BOOL", int(r))
         for _ in range(8):
             a, b, c = (rnd.choice(values) for _ in range(3))
             table.add("LIMIT($1, $2, $3)", f"{kind} {kind} {kind}", [a, b, c], kind, min(max(b, a), c))
             table.add("MAX($1, $2, $3)", f"{kind} {kind} {kind}", [a, b, c], kind, max(a, b, c))
             table.add("SEL($1, $2, $3)", f"BOOL {kind} {kind}", [a & 1, b, c], kind, c if a & 1 else b)
             table.add("MUX($1, $2, $3, $4)", f"INT {kind} {kind} {kind}", [a % 3, a, b, c], kind, (a, b, c)[a % 3])
+            table.third("GT($1, $2, $3)", f"{kind} {kind} {kind}", [a, b, c], "BOOL", int(a > b > c))
+            table.third("LE($1, $2, $3)", f"{kind} {kind} {kind}", [a, b, c], "BOOL", int(a <= b <= c))
+            table.third("EQ($1, $2, $3)", f"{kind} {kind} {kind}", [a, b, b], "BOOL", int(a == b))
+            table.third("ADD($1, $2, $3)", f"{kind} {kind} {kind}", [a, b, c], wide, wrap(wide, a + b + c))
+            table.third("MUL($1, $2, $3)", f"{kind} {kind} {kind}", [a, b, c], wide, wrap(wide, a * b * c))
     for kind in REALS:
         values = some_reals(kind, rnd, 12)
         for v in values:
             table.add("ABS($1)", kind, [v], kind, abs(v))
+            table.third("IS_VALID($1)", kind, [v], "BOOL", int(v == v and abs(v) != INF))
         for _ in range(60):
             a, b = rnd.choice(values), rnd.choice(values)
             for name, sign in (("ADD", "+"), ("SUB", "-"), ("MUL", "*"), ("DIV", "/")):
                 table.add(f"$1 {sign} $2", f"{kind} {kind}", [a, b], kind, ieee(name, a, b, kind))
-            for name, r in ((">", a > b), (">=", a >= b), ("=", a == b), ("<=", a <= b), ("<", a < b), ("<>", a != b)):
-                table.add(f"$1 {name} $2", f"{kind} {kind}", [a, b], "BOOL", int(r))
+                table.third(f"{name}($1, $2)", f"{kind} {kind}", [a, b], kind, ieee(name, a, b, kind))
+            for sign, name, r in ((">", "GT", a > b), (">=", "GE", a >= b), ("=", "EQ", a == b), ("<=", "LE", a <= b),
+                                  ("<", "LT", a < b), ("<>", "NE", a != b)):
+                table.add(f"$1 {sign} $2", f"{kind} {kind}", [a, b], "BOOL", int(r))
+                table.third(f"{name}($1, $2)", f"{kind} {kind}", [a, b], "BOOL", int(r))
             if a == a and b == b and (a != b or a != 0):
                 table.add("MIN($1, $2)", f"{kind} {kind}", [a, b], kind, min(a, b))
                 table.add("MAX($1, $2)", f"{kind} {kind}", [a, b], kind, max(a, b))
@@ -315,6 +337,47 @@ def bits():
             table.add("ROL($1, $2)", types, [v, n], kind, wrap(kind, left))
             table.add("ROR($1, $2)", types, [v, n], kind, wrap(kind, right))
     table.write()
+
+
+# ---------------------------------------------------------------------------------------------------------------------
+def patterns(table):
+    """Byte order and decimal digits, for edition 3's table."""
+    rnd = table.random
+    for kind, width in INTEGERS.items():
+        mask = (1 << width) - 1
+        for v in integers_of(kind, rnd, 4):
+            swapped = int.from_bytes((v & mask).to_bytes(width // 8, "little"), "big")
+            for name in ("TO_BIG_ENDIAN", "FROM_BIG_ENDIAN"):
+                table.third(f"{name}($1)", kind, [v], kind, wrap(kind, swapped))
+            for name in ("TO_LITTLE_ENDIAN", "FROM_LITTLE_ENDIAN"):
+                table.third(f"{name}($1)", kind, [v], kind, v)
+    for kind in TIMES:
+        for v in [rnd.randrange(1 << 24) for _ in range(2)]:
+            if kind in ("DATE", "LDATE"):
+                v = v // 4096 * (86400 * 10**9 // UNIT[kind])
+            swapped = int.from_bytes(v.to_bytes(WIDTH[kind] // 8, "little"), "big")
+            table.third("TO_BIG_ENDIAN($1)", kind, [v], kind, wrap(kind, swapped))
+
+    def digits(v):
+        text = f"{v:X}"
+        return int(text) if text.isdigit() else None
+
+    for kind, width in BITS.items():
+        number = {8: "USINT", 16: "UINT", 32: "UDINT", 64: "ULINT"}[width]
+        values = [0, 1, 9, 16, 0x99, 0x0A, 0xA0, (1 << width) - 1, int("9" * (width // 4), 16), 0x12 << width - 8]
+        values += [int("".join(rnd.choice("0123456789") for _ in range(width // 4)), 16) for _ in range(8)]
+        values += [rnd.getrandbits(width) for _ in range(4)]
+        for v in values:
+            d = digits(v)
+            table.third("IS_VALID_BCD($1)", kind, [v], "BOOL", int(d is not None))
+            table.third(f"{kind}_BCD_TO_{number}($1)", kind, [v], number, d or 0)
+            table.third(f"BCD_TO_{number}($1)", kind, [v], number, d or 0)
+            table.third(f"{kind}_BCD_TO_USINT($1)", kind, [v], "USINT", (d or 0) & 255)
+        for n in integers_of(number, rnd, 5) + [9, 10, 99, 100]:
+            text = str(n)[-(width // 4):]
+            table.third(f"{number}_TO_BCD_{kind}($1)", number, [n], kind, int(text, 16))
+            table.third(f"TO_BCD_{kind}($1)", number, [n], kind, int(text, 16))
+            table.third("TO_BCD_BYTE($1)", number, [n], "BYTE", int(str(n)[-2:], 16))
 
 
 # ---------------------------------------------------------------------------------------------------------------------
@@ -403,9 +466,12 @@ def conversions():
             for x in xs:
                 x = single(x) if kind == "REAL" else x
                 put(kind, b, x, to_integer(x, b))
+                if b in SIGNED or b in UNSIGNED:
+                    table.third(f"{kind}_TRUNC_{b}($1)", kind, [x], b, to_integer(x, b, True))
         for x in (0.0, -0.0, 0.9999999, -0.9999999, 2.5, -2.5, 2147483647.5, -2147483648.5, 1e20, -1e20, INF, -INF, NAN):
             x = single(x) if kind == "REAL" else x
             table.add("TRUNC($1)", kind, [x], "DINT", to_integer(x, "DINT", True))
+            table.third("TRUNC_INT($1)", kind, [x], "INT", to_integer(x, "INT", True))
             put(kind, "BOOL", x, int(x != 0 or x != x))
         put("BOOL", kind, 1, 1.0)
     for x in [0.1, 1.0 + 2.0**-24, 1.0 + 3 * 2.0**-24, 1.0 + 2.0**-24 + 2.0**-50, 2.0**-150, 3 * 2.0**-150, 2.0**-151, 2.0**128,
@@ -574,6 +640,14 @@ def strings():
                 table.add("$1 < $2", two, [s, t], "BOOL", int(s < t))
                 table.add("$1 >= $2", two, [s, t], "BOOL", int(s >= t))
                 table.add("$1 = $2", two, [s, t], "BOOL", int(s == t))
+                table.third("GE($1, $2)", two, [s, t], "BOOL", int(s >= t))
+                table.third("EQ($1, $2, $1)", two, [s, t], "BOOL", int(s == t))
+                if name == "WSTRING":
+                    table.third("WLEN($1)", kind, [s], "INT", len(s))
+                    table.third("WLEFT($1, $2)", num, [s, n], result, s[:max(n, 0)])
+                    table.third("WCONCAT($1, $2)", two, [s, t], result, (s + t)[:255])
+                    table.third("WREPLACE($1, $2, $3, $4)", two + " INT INT", [s, t, n, p], result, spliced(s, t, n, p)[:255])
+                    table.third("WFIND($1, $2)", two, [s, t], "INT", s.find(t) + 1 if t else 0)
                 table.add("MAX($1, $2)", two, [s, t], result, max(s, t))
     # characters that take two places
     face = "\U0001F600"
@@ -607,6 +681,8 @@ def dates():
             table.add(f"ADD_{time}($1, $2)", f"{time} {time}", [a, b], time, wrap(time, a + b))
             table.add(f"SUB_{time}($1, $2)", f"{time} {time}", [a, b], time, wrap(time, a - b))
             table.add("$1 < $2", f"{time} {time}", [a, b], "BOOL", int(a < b))
+            table.third("ADD($1, $2)", f"{time} {time}", [a, b], time, wrap(time, a + b))
+            table.third("LT($1, $2)", f"{time} {time}", [a, b], "BOOL", int(a < b))
             table.add("MAX($1, $2)", f"{time} {time}", [a, b], time, max(a, b))
         for kind in (tod, dt):
             for a, b in pairs(kind, time, 10):
@@ -614,8 +690,7 @@ def dates():
                 later = wrap(kind, (a * UNIT[kind] + b * UNIT[time]) // UNIT[kind])
                 table.add(f"ADD_{kind}_{time}($1, $2)", f"{kind} {time}", [a, b], kind, later)
                 table.add("$1 + $2", f"{kind} {time}", [a, b], kind, later)
-                if kind == "DT" and a * UNIT[kind] < b * UNIT[time]:
-                    continue  # before 1970 nothing is said about the direction of rounding
+                table.third("ADD($1, $2)", f"{kind} {time}", [a, b], kind, later)
                 earlier = wrap(kind, (a * UNIT[kind] - b * UNIT[time]) // UNIT[kind])
                 table.add(f"SUB_{kind}_{time}($1, $2)", f"{kind} {time}", [a, b], kind, earlier)
         for kind in (tod, dt, date):
@@ -625,13 +700,19 @@ def dates():
         for a in time_values(time, rnd, 4):
             for b in (0, 1, 3, 7, -1 if p else 2, rnd.randint(2, 1000)):
                 table.add("$1 * $2", f"{time} INT", [a, b], time, wrap(time, a * b))
+                for name in (f"MUL_{time}",) if p else ("MUL_TIME", "MULTIME", "MUL"):
+                    table.third(f"{name}($1, $2)", f"{time} INT", [a, b], time, wrap(time, a * b))
                 if b != 0:
                     table.add("$1 / $2", f"{time} INT", [a, b], time, wrap(time, cut(a, b)))
+                    for name in (f"DIV_{time}",) if p else ("DIV_TIME", "DIVTIME", "DIV"):
+                        table.third(f"{name}($1, $2)", f"{time} INT", [a, b], time, wrap(time, cut(a, b)))
     for a in (0, 1, 3, 1000, 86400000):
         for f in (0.5, 0.25, 2.5, 0.0):
             table.add("$1 * $2", "TIME LREAL", [a, f], "TIME", half_away(a * Fraction(f)))
+            table.third("MUL_TIME($1, $2)", "TIME LREAL", [a, f], "TIME", half_away(a * Fraction(f)))
             if f:
                 table.add("$1 / $2", "TIME LREAL", [a, f], "TIME", half_away(a / Fraction(f)))
+                table.third("DIV_TIME($1, $2)", "TIME LREAL", [a, f], "TIME", half_away(a / Fraction(f)))
 
     days = [datetime.date(*d) for d in ((1970, 1, 1), (1972, 2, 29), (1999, 12, 31), (2000, 2, 28), (2000, 2, 29), (2000, 3, 1),
                                         (2000, 12, 31), (2024, 2, 29), (2038, 1, 19), (2100, 2, 28), (2100, 3, 1), (2106, 2, 6))]
@@ -694,3 +775,7 @@ def dates():
 if __name__ == "__main__":
     for function in (mathematics, numeric, bits, conversions, texts, strings, dates):
         function()
+    edition3 = Table("edition3")
+    patterns(edition3)
+    edition3.rows = Table.edition3
+    edition3.write()
