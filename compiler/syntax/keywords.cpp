@@ -19,10 +19,6 @@ struct Word {
 constexpr Word kWords[] = {
 #define HARD(word)                                                                                 \
   { #word, Tok::word, Kind::hard }
-    HARD(AND),
-    HARD(OR),
-    HARD(XOR),
-    HARD(MOD),
     HARD(NOT),
     HARD(TRUE),
     HARD(FALSE),
@@ -86,6 +82,10 @@ constexpr Word kWords[] = {
     HARD(END_STEP),
     HARD(END_TRANSITION),
 #undef HARD
+    {"AND", Tok::AND, Kind::operation},
+    {"OR", Tok::OR, Kind::operation},
+    {"XOR", Tok::XOR, Kind::operation},
+    {"MOD", Tok::MOD, Kind::operation},
     {"__TRY", Tok::TRY, Kind::hard},
     {"__CATCH", Tok::CATCH, Kind::hard},
     {"__FINALLY", Tok::FINALLY, Kind::hard},

@@ -77,6 +77,7 @@ bool Scanner::nameFollows(std::size_t place) const {
     return false;
   switch (findKeyword(next, hashIdent(next)).kind) {
   case Keyword::Kind::hard:
+  case Keyword::Kind::operation:
   case Keyword::Kind::at:
   case Keyword::Kind::infix:
   case Keyword::Kind::clause:
@@ -100,6 +101,8 @@ bool Scanner::isKeywordHere(Keyword keyword, std::size_t wordEnd) const {
     return false;
   case Keyword::Kind::hard:
     return true;
+  case Keyword::Kind::operation:
+    return afterOperand() || at(significant(wordEnd)) != '(';
   case Keyword::Kind::qualifier:
     return sectionHead_ && !declaresName(wordEnd);
   case Keyword::Kind::at:

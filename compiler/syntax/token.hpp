@@ -58,6 +58,7 @@ struct Keyword {
   enum class Kind : std::uint8_t {
     none,       ///< a plain identifier
     hard,       ///< everywhere
+    operation,  ///< everywhere but as a function's name, `AND(a, b)`
     qualifier,  ///< after VAR…: CONSTANT, RETAIN, …
     at,         ///< in front of an address
     pointer,    ///< in a type, in front of TO

@@ -21,6 +21,19 @@ TEST(Expression, Precedence) {
   EXPECT_EQ(printExpression("a <= b OR a > b"), "(OR (<= a b) (> a b))");
 }
 
+TEST(Expression, OperatorsAsFunctions) {
+  EXPECT_EQ(printExpression("AND(a, b)"), "(call AND a b)");
+  EXPECT_EQ(printExpression("a AND (b)"), "(AND a pb)");
+  EXPECT_EQ(printExpression("a AND AND (* x *) (b, c)"), "(AND a (call AND b c))");
+  EXPECT_EQ(printExpression("OR(a, b) AND (c)"), "(AND (call OR a b) pc)");
+  EXPECT_EQ(printExpression("NOT xor(a, b)"), "(NOT (call xor a b))");
+  EXPECT_EQ(printExpression("-MOD(a, b) MOD (2)"), "(MOD (- (call MOD a b)) p2)");
+  EXPECT_EQ(printExpression("f(AND(a, b), a[MOD(i, 2)])"),
+            "(call f (call AND a b) ([] a (call MOD i 2)))");
+  EXPECT_EQ(printExpression("TRUE AND (a)"), "(AND TRUE pa)");
+  EXPECT_EQ(printExpression("p^ OR (16#1 XOR (a.0))"), "(OR (^ p) p(XOR 1 p(. a bit 0)))");
+}
+
 TEST(Expression, Prefixes) {
   EXPECT_EQ(printExpression("NOT a AND -b + +c"), "(AND (NOT a) (+ (- b) (+ c)))");
   EXPECT_EQ(printExpression("NOT NOT a"), "(NOT (NOT a))");
