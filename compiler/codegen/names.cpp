@@ -342,6 +342,7 @@ void Includes::called(const PouSymbol *pou) {
 void Includes::merge(const Includes &other) {
   bodies_.insert(other.bodies_.begin(), other.bodies_.end());
   needsOpenArray_ = needsOpenArray_ || other.needsOpenArray_;
+  needsAssertions_ = needsAssertions_ || other.needsAssertions_;
   for (const Symbol *s : other.headers_)
     symbol(s);
   for (const Symbol *s : other.declared_) {
@@ -361,17 +362,20 @@ bool isUnionSymbol(const Symbol *symbol) {
 
 } // namespace
 
-std::string Includes::text(const Symbol *own, bool bodies) const {
+std::string Includes::text(const Symbol *own, bool bodies, const Library *beside) const {
   std::vector<std::string> headers;
   for (const Symbol *s : headers_) {
     if (s != own)
-      headers.emplace_back(bodies && bodies_.contains(s) ? names_.inlineHeader(s)
-                                                         : names_.header(s));
+      headers.emplace_back(bodies && s->library != beside && bodies_.contains(s)
+                               ? names_.inlineHeader(s)
+                               : names_.header(s));
   }
   std::sort(headers.begin(), headers.end());
   std::string out;
   if (needsOpenArray_)
     out += "#include \"runtime/iec/open_array.h\"\n";
+  if (needsAssertions_)
+    out += "#include \"runtime/iec/assert.h\"\n";
   for (const std::string &h : headers)
     out.append("#include \"").append(h).append("\"\n");
   std::vector<std::tuple<std::string_view, std::string_view, bool>> forward;

@@ -93,15 +93,20 @@ public:
   /// The header of a POU that is called, with its body where that is small.
   void called(const PouSymbol *pou);
 
+  /// An assertion is made.
+  void assertion() { needsAssertions_ = true; }
+
   void merge(const Includes &other);
 
   /// Includes and forward declarations, sorted; `own` is left out, and so are bodies where they are
-  /// not wanted.
-  [[nodiscard]] std::string text(const Symbol *own, bool bodies = true) const;
+  /// not wanted, and those of the library `beside`, which stand in the same translation unit.
+  [[nodiscard]] std::string text(const Symbol *own, bool bodies = true,
+                                 const Library *beside = nullptr) const;
 
 private:
   Names &names_;
   bool needsOpenArray_ = false;
+  bool needsAssertions_ = false;
   const Symbol *last_ = nullptr;
   std::unordered_set<const Symbol *> seen_;
   std::vector<const Symbol *> headers_;

@@ -208,7 +208,8 @@ public:
     std::string head = banner(what);
     if (own != nullptr)
       head += "#include \"" + std::string(c_.names.header(own)) + "\"\n";
-    head += e_.includes().text(own);
+    // The sources of a library become one translation unit.
+    head += e_.includes().text(own, true, c_.own->isUser ? nullptr : c_.own);
     head += sourcePrelude();
     head += "\nnamespace st::" + std::string(c_.names.space(c_.own)) + " {\n";
     lines(file, head);

@@ -23,6 +23,24 @@ TEST(CodegenLibrary, BodiesReachGlobalsThatTheProjectDoesNotUse) {
   EXPECT_EQ(app["Main.n"], "902");
 }
 
+TEST(CodegenLibrary, SmallBodiesAreCalledFromTheSameLibrary) {
+  Options options;
+  options.optimized = true;
+  options.library = {
+      {"small.st", "FUNCTION small : INT\nVAR_INPUT n : INT; END_VAR\nsmall := n + 1;\n"
+                   "END_FUNCTION\n"},
+      {"tiny.st", "FUNCTION_BLOCK tiny\nVAR_OUTPUT n : INT; END_VAR\nn := small(n);\n"
+                  "END_FUNCTION_BLOCK\n"},
+      {"user.st", "FUNCTION_BLOCK user\nVAR_OUTPUT n : INT; END_VAR\nVAR t : tiny; END_VAR\n"
+                  "t();\nn := small(t.n) + later(1);\nEND_FUNCTION_BLOCK\n"},
+      {"later.st", "FUNCTION later : INT\nVAR_INPUT n : INT; END_VAR\nlater := small(n) * 10;\n"
+                   "END_FUNCTION\n"}};
+  App app("PROGRAM Main\nVAR u : user; n : INT; END_VAR\nu();\nn := small(u.n);\nEND_PROGRAM\n",
+          options);
+  app.run(2);
+  EXPECT_EQ(app["Main.n"], "24");
+}
+
 TEST(CodegenLibrary, DefaultsOfAliasesReachTheProjectsVariables) {
   Options options;
   options.library = {{"speed.st", "TYPE speed : REAL := 2.5; END_TYPE\n"},

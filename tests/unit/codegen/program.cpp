@@ -158,7 +158,7 @@ App::~App() {
     dlclose(handle_);
 }
 
-void App::load(const std::vector<GeneratedFile> &files, const Options &) {
+void App::load(const std::vector<GeneratedFile> &files, const Options &options) {
   if (files.empty())
     return;
   const fs::path folder =
@@ -181,14 +181,14 @@ void App::load(const std::vector<GeneratedFile> &files, const Options &) {
 #else
   const std::string sanitizer;
 #endif
-  const std::string command = std::string(STRIDE_CXX) + sanitizer +
-                              " -std=c++20 -fPIC -shared -O0 -Wall -Wextra -Wpedantic -Werror "
-                              "-fwrapv -fno-strict-aliasing -fno-finite-loops"
-                              " -fno-delete-null-pointer-checks -ffp-contract=off -fno-rtti -I" +
-                              folder.string() + " -I" STRIDE_SOURCE_DIR " " +
-                              (folder / "all.cpp").string() + " " +
-                              (folder / "library.cpp").string() + " -o " + object +
-                              " " STRIDE_RUNTIME_ARCHIVE " -Wl,-z,defs > " + log + " 2>&1";
+  const std::string command =
+      std::string(STRIDE_CXX) + sanitizer + (options.optimized ? " -O1" : " -O0") +
+      " -std=c++20 -fPIC -shared -Wall -Wextra -Wpedantic -Werror "
+      "-fwrapv -fno-strict-aliasing -fno-finite-loops"
+      " -fno-delete-null-pointer-checks -ffp-contract=off -fno-rtti -I" +
+      folder.string() + " -I" STRIDE_SOURCE_DIR " " + (folder / "all.cpp").string() + " " +
+      (folder / "library.cpp").string() + " -o " + object +
+      " " STRIDE_RUNTIME_ARCHIVE " -Wl,-z,defs > " + log + " 2>&1";
   if (std::system(command.c_str()) != 0) {
     std::ifstream in(log);
     std::stringstream text;

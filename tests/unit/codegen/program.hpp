@@ -23,6 +23,7 @@ struct Options {
   bool checks = true;
   std::vector<Source>
       library; ///< files of a library `Lib`, compiled as such (with its bodies) when they are used
+  bool optimized = false; ///< small bodies are in the headers then
 };
 
 /// The C++ of a project. Errors of the front end are test failures.
