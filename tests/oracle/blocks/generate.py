@@ -47,7 +47,7 @@ def table(block):
         cells = [["t/ms"] + [n for n, _ in block.inputs] + ["|"] + [n for n, _ in block.outputs]]
         for t, values in rows:
             out = model.step(t, values)
-            cells.append([str(t)] + [cell(k, values[n]) for n, k in block.inputs] + ["|"] +
+            cells.append([str(t) if t == int(t) else f"{float(t):.6f}".rstrip("0")] + [cell(k, values[n]) for n, k in block.inputs] + ["|"] +
                          [cell(k, out[n]) for n, k in block.outputs])
         widths = [max(map(len, column)) for column in zip(*cells)]
         lines += ["", f"== {title}"]

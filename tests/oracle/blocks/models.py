@@ -80,7 +80,7 @@ class Counter:
     def __init__(self, kind, up, down, reset, load):
         self.low, self.high = LIMITS[kind]
         self.up, self.down, self.reset, self.load = up, down, reset, load
-        self.count, self.last = 0, {}
+        self.count, self.last, self.written = 0, {}, 0
 
     def edge(self, p, pin):
         if pin is None:
@@ -89,6 +89,8 @@ class Counter:
         return p[pin] and not was
 
     def step(self, t, p):
+        if p.get("tested.CV", self.written) != self.written: # its output, written from outside
+            self.count = self.written = p["tested.CV"]
         by = self.edge(p, self.up) - self.edge(p, self.down)
         if self.reset and p[self.reset]:
             self.count = 0
@@ -160,7 +162,7 @@ class Wide:
         self.timer = timer()
 
     def step(self, t, p):
-        return self.timer.step(t * 1_000_000, {**p, "PT": max(p["PT"], 0)})
+        return self.timer.step(int(t * 1_000_000), {**p, "PT": max(p["PT"], 0)})
 
 
 class RTC:

@@ -18,6 +18,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+from fractions import Fraction
 
 FOLDER = pathlib.Path(__file__).parent / "tables"
 
@@ -47,7 +48,7 @@ class Table:
                 bar = words.index("|")
                 if bar != len(self.inputs) + 1 or len(words) != bar + 1 + len(self.outputs):
                     raise SystemExit(f"{path}:{number}: not as many columns as the table has")
-                self.scenarios[-1].rows.append((int(words[0]), words[1:bar], words[bar + 1:]))
+                self.scenarios[-1].rows.append((Fraction(words[0]), words[1:bar], words[bar + 1:]))
             elif words[0] in ("inputs", "outputs"):
                 setattr(self, words[0], [tuple(w.split(":")) for w in words[1:]])
             elif words[0] == "call":
@@ -61,7 +62,7 @@ class Table:
     def program(self):
         """The text of the PROGRAM that calls the block with its inputs."""
         kinds = {"REAL": "RealBits", "DT": "UDINT", "GEN_MODE": "INT"}
-        inputs = [(n, k) for n, k in self.inputs if "[" not in n]
+        inputs = [(n, k) for n, k in self.inputs if "[" not in n and "." not in n]
         declared = [f"  {n} : {kinds.get(k, k)};" for n, k in inputs] + [f"  {n} : {k};" for n, k in self.outputs]
         declared += [f"  {line};" for line in self.local]
         given = [f"{n} := " + {"REAL": f"{n}.r", "DT": f"UDINT_TO_DT({n})"}.get(k, n) for n, k in inputs]
@@ -92,7 +93,7 @@ class Table:
                 if last.get(name) != text:
                     acts.append(f"P_{self.name}.{name}{'.d' if kind == 'REAL' else ''} := {value(kind, text)}")
                     last[name] = text
-            lines.append(f"at LT#{t}ms{again}us: " + "; ".join(acts + ["Main.tick := TRUE"]))
+            lines.append(f"at LT#{int(t * 1000000) + again * 1000}ns: " + "; ".join(acts + ["Main.tick := TRUE"]))
         return "\n".join(lines) + "\n"
 
     def differs(self, index, expected, actual):
@@ -144,7 +145,7 @@ def compare(table, scenario, trace):
         for i, expected in enumerate(outputs):
             if table.differs(i, expected, row[i]):
                 shown = " ".join(f"{n}={v}" for (n, _), v in zip(table.inputs, inputs))
-                return f"at {t} ms, {shown}: {table.outputs[i][0]} is {row[i]}, not {expected}"
+                return f"at {float(t):.12g} ms, {shown}: {table.outputs[i][0]} is {row[i]}, not {expected}"
     return ""
 
 
@@ -193,7 +194,7 @@ def main():
             script.write_text(table.script(number, scenario))
             kept = [f"P_{table.name}.kept_{n}" for n, _ in table.outputs]
             names = ",".join([f"P_{table.name}.calls"] + kept)
-            end = scenario.rows[-1][0] + 1
+            end = int(scenario.rows[-1][0]) + 1
             result = subprocess.run([options.host, "sim", str(app), "--for", f"LT#{end}ms", "--script", str(script), "--print", names, "--quiet"],
                                     capture_output=True, text=True, encoding="latin-1", check=False)
             if result.returncode:

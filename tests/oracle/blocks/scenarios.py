@@ -107,13 +107,18 @@ def counters():
         odd = lambda: rng.choice([0, 1, 2, 3, low, low + 1, high, high - 1, rng.randint(low, high)])
         pulses = lambda n: [rng.random() < 0.5 for _ in range(n)]
         rare = lambda n: [rng.random() < 0.08 for _ in range(n)]
-        yield Block(f"CTU{suffix}", [f"CTU{suffix}: up to {high}."], pins(f"CU:BOOL {reset}:BOOL PV:{kind}"), pins(f"Q:BOOL CV:{kind}"),
+        yield Block(f"CTU{suffix}", [f"CTU{suffix}: up to {high}."], pins(f"CU:BOOL {reset}:BOOL PV:{kind} tested.CV:{kind}"),
+                    pins(f"Q:BOOL CV:{kind}"),
                     lambda kind=kind, reset=reset: m.Counter(kind, "CU", None, reset, None),
-                    [("to 3, reset while CU stays", steps(every(10, 12), CU="#.##.#.#####", PV=3, **{reset: "........##.."})),
-                     ("at random", steps(every(1, 120), CU=pulses(120), PV=held(rng, 120, odd), **{reset: rare(120)}))])
+                    [("to 3, reset while CU stays", steps(every(10, 12), CU="#.##.#.#####", PV=3, **{reset: "........##..", "tested.CV": 0})),
+                     ("at the upper end", steps(every(10, 12), CU=".#.#.#.#.#.#", PV=high,
+                                                **{reset: ".........#..", "tested.CV": [0, 0] + [high - 2] * 10})),
+                     ("at random", steps(every(1, 120), CU=pulses(120), PV=held(rng, 120, odd),
+                                         **{reset: rare(120), "tested.CV": 0}))])
         yield Block(f"CTD{suffix}", [f"CTD{suffix}: down to {low}."], pins(f"CD:BOOL {load}:BOOL PV:{kind}"), pins(f"Q:BOOL CV:{kind}"),
                     lambda kind=kind, load=load: m.Counter(kind, None, "CD", None, load),
                     [("from 2 down, beyond 0", steps(every(10, 12), CD=".#.#.#.#.###", PV=2, **{load: "#.........#."})),
+                     ("at the upper end", steps(every(10, 8), CD=".#.#.#.#", PV=high, **{load: "#......."})),
                      ("at the lower end", steps(every(10, 8), CD=".#.#.#.#", PV=low + 2, **{load: "#......."})),
                      ("at random", steps(every(1, 120), CD=pulses(120), PV=held(rng, 120, odd), **{load: rare(120)}))])
         yield Block(f"CTUD{suffix}", [f"CTUD{suffix}: between {low} and {high}."],
@@ -147,6 +152,9 @@ def timers():
         for name in (f"L{base}", f"{base}_LTIME"):
             yield Block(name, [f"{name}: as {base}; LTIMEs in ns."], pins("IN:BOOL PT:LTIME"), pins("Q:BOOL ET:LTIME"), lambda base=base: m.Wide(getattr(m, base)), [
                 ("PT of 30.5 ms, and an interruption", steps(every(10, 20), IN=".#####..##.###.#.#..", PT=30_500_000)),
+                ("calls every quarter of a millisecond, PT of 0.6 ms",
+                 steps(every(Fraction(1, 4), 18), IN=".####...#.#.######", PT=600_000)),
+                ("calls a nanosecond apart", steps(every(Fraction(1, 10**6), 12), IN=".#####.....#", PT=3)),
                 ("PT is 0, or negative", steps(every(10, 12), IN=".##..#.##..#", PT=[0] * 6 + [-5] * 6)),
                 ("TIME would have wrapped", steps([0, 10, 40 * DAY, 80 * DAY, 100 * DAY + 9, 100 * DAY + 10, 100 * DAY + 20], IN=".#####.", PT=100 * DAY * ms)),
                 ("at random", steps(irregular(rng, 120, 20), IN=flags(rng, 120, 5), PT=held(rng, 120, lambda: rng.choice([0, 1, rng.randint(0, 60 * ms)]), 9))),
