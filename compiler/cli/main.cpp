@@ -128,6 +128,8 @@ private:
 
 /// What simulations and runs have in common.
 void addTraceOptions(const HostOptions &host) {
+  host.pass("--files", "Folder for the program's files (default: see [files] of stride.toml)",
+            "FOLDER");
   host.pass("--trace", "Variables to record in every cycle: Drive.fSetPosition,Main.n", "NAMES");
   host.pass("--out", "CSV file for the trace (default: standard output)", "FILE");
   host.pass("--print", "Variables to print at the end", "NAMES");

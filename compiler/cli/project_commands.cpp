@@ -124,6 +124,9 @@ int hostCommand(const ProjectOptions &options, const std::string &command,
   if (command == "run" &&
       std::find(hostArguments.begin(), hostArguments.end(), "--retain") == hostArguments.end())
     arguments.insert(arguments.end(), {"--retain", result->retainFile.string()});
+  if ((command == "run" || command == "sim") &&
+      std::find(hostArguments.begin(), hostArguments.end(), "--files") == hostArguments.end())
+    arguments.insert(arguments.end(), {"--files", result->filesRoot.string()});
   return becomeHost(std::move(arguments), options.output);
 }
 

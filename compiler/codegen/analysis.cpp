@@ -178,11 +178,9 @@ bool Analysis::pure(const PouSymbol *function) {
         runsMethods(v->type))
       result = false;
   }
-  if (result && function->decl->external) {
-    // Native functions on plain values compute, by agreement.
-  } else if (result) {
-    result = function->checked && pureBlock(function->decl->body, function);
-  }
+  // What a native function does is not known: it may write through an address or to a file.
+  result = result && !function->decl->external && function->checked &&
+           pureBlock(function->decl->body, function);
   pure_[function] = result;
   return result;
 }

@@ -443,6 +443,10 @@ private:
     field("bootupErrorOffset", place);
     field("encoderRefLayout", std::to_string(plc_.encoderLayout()) + "ULL");
     field("settle", copies_.empty() ? "nullptr" : "settle__");
+    field("filesRoot", config_.filesRoot.empty() ? std::string("nullptr")
+                                                 : "\"" + escaped(config_.filesRoot) + "\"");
+    field("filesAnywhere", config_.filesAnywhere ? "1" : "0");
+    field("filesDelay", std::to_string(config_.filesDelay));
     out += "};\n\n} // namespace st::user\n";
   }
 

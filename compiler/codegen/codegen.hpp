@@ -85,6 +85,9 @@ struct AppConfig {
   std::vector<AxisGroup> axisGroups;
   std::string retainFile;          ///< [retain] file
   std::int64_t retainPeriodNs = 0; ///< [retain] period; 0: the runtime's own
+  std::string filesRoot;           ///< [files] root; empty: the runtime's own
+  bool filesAnywhere = false;      ///< [files] anywhere
+  std::uint32_t filesDelay = 1;    ///< [files] delay
 };
 
 /// Headers `st/<Library>/<Name>.h` and sources `<Library>/<Name>.cpp` of one library (everything

@@ -143,7 +143,7 @@ private:
                                        : project_.path() / "build" / "cpp";
     if (!writeSources(folder))
       return std::nullopt;
-    return BuildResult{folder, 0, files_.size(), {}};
+    return BuildResult{folder, 0, files_.size(), {}, {}};
   }
 
   bool findToolchain() {
@@ -305,6 +305,7 @@ private:
       pruneCache(cache_);
     result.application = options_.output;
     result.retainFile = retainFileOf(project_);
+    result.filesRoot = filesRootOf(project_);
     if (result.application.empty())
       result.application = project_.isSingleFile() ? linked
                            : options_.isStatic     ? project_.path() / "build" / "app"
@@ -463,6 +464,11 @@ fs::path retainFileOf(const Project &project) {
     return folder / project.retainFile();
   return project.isSingleFile() ? folder / (project.path().stem().string() + ".retain")
                                 : folder / "retain" / project.name();
+}
+
+fs::path filesRootOf(const Project &project) {
+  const fs::path folder = project.isSingleFile() ? project.path().parent_path() : project.path();
+  return folder / (project.filesRoot().empty() ? "files" : project.filesRoot());
 }
 
 std::optional<BuildResult> build(Project &project, const BuildOptions &options) {

@@ -32,11 +32,16 @@ struct BuildResult {
       0; ///< translation units that were compiled; the others came from the cache
   std::size_t units = 0;
   std::filesystem::path retainFile; ///< for RETAIN and PERSISTENT variables
+  std::filesystem::path filesRoot;  ///< for the files of the program
 };
 
 /// Where `stride run` and `stride reset` look for retained data: as stride.toml says, relative to
 /// the project, or `retain/NAME` in it; beside a single file `NAME.retain`.
 [[nodiscard]] std::filesystem::path retainFileOf(const Project &project);
+
+/// The folder for the files of the program: as stride.toml says, or `files`, relative to the
+/// project or to the folder of a single file.
+[[nodiscard]] std::filesystem::path filesRootOf(const Project &project);
 
 /// Generates and compiles the project; it must be free of errors. What goes wrong is reported to
 /// the project's diagnostics, and nothing is returned.

@@ -46,6 +46,11 @@ public:
       config_.retainPeriodNs = parseInterval(retain.text("period")).value_or(0);
     }
     (void)top.sections("fmt", diagnostics_); // format_project.cpp reads it
+    for (const CheckedSection &files : top.sections("files", diagnostics_)) {
+      config_.filesRoot = files.text("root");
+      config_.filesAnywhere = files.boolean("anywhere", false);
+      config_.filesDelay = static_cast<std::uint32_t>(files.integer("delay", 1));
+    }
     for (const CheckedSection &task : top.sections("task", diagnostics_))
       readTask(task);
     for (const CheckedSection &bus : top.sections("bus", diagnostics_))

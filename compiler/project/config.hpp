@@ -102,6 +102,9 @@ struct ProjectConfig {
   std::array<std::uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs
   std::string retainFile;                    ///< [retain] file; empty: not given
   std::int64_t retainPeriodNs = 0;           ///< [retain] period; 0: not given
+  std::string filesRoot;                     ///< [files] root; empty: not given
+  bool filesAnywhere = false;                ///< [files] anywhere
+  std::uint32_t filesDelay = 1;              ///< [files] delay
   std::vector<Define> defines;               ///< for `{IF defined (…)}`
   std::vector<TaskConfig> tasks;
   std::vector<BusConfig> buses;

@@ -247,6 +247,9 @@ AppConfig Project::appConfig() const {
   app.name = config_.name;
   app.retainFile = config_.retainFile;
   app.retainPeriodNs = config_.retainPeriodNs;
+  app.filesRoot = config_.filesRoot;
+  app.filesAnywhere = config_.filesAnywhere;
+  app.filesDelay = config_.filesDelay;
   for (const TaskConfig &from : config_.tasks) {
     AppConfig::Task task;
     task.name = from.name.text;

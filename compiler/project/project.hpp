@@ -53,6 +53,8 @@ public:
   /// The unit tests, for Purpose::test; the task `Test` calls the one that which__ of kTestProgram
   /// names.
   [[nodiscard]] const std::vector<TestBlock> &tests() const { return tests_; }
+  /// [files] root of stride.toml; empty: not given.
+  [[nodiscard]] const std::string &filesRoot() const { return config_.filesRoot; }
   /// Tasks and axis groups for code generation; only without errors.
   [[nodiscard]] AppConfig appConfig() const;
 

@@ -125,6 +125,12 @@ constexpr std::array kRetainParameters = {
     Parameter{"period", ParameterType::interval, false, kSecond / 10, kHour},
 };
 
+constexpr std::array kFilesParameters = {
+    Parameter{"root", ParameterType::text},
+    flag("anywhere"),
+    count("delay", 0, 100000, "cycles"),
+};
+
 constexpr std::array kTaskParameters = {
     needed({"name", ParameterType::identifier}),
     choice("kind", kTaskKinds),
@@ -272,6 +278,7 @@ constexpr Section kProject = {"project", "the project", "project", false, kProje
 constexpr Section kImage = {"image", "the process image", "image", false, kImageParameters, {}};
 constexpr Section kFormat = {"fmt", "the format", "fmt", false, kFormatParameters, {}};
 constexpr Section kRetain = {"retain", "the retained data", "retain", false, kRetainParameters, {}};
+constexpr Section kFiles = {"files", "the program's files", "files", false, kFilesParameters, {}};
 constexpr Section kTask = {"task", "a task", "task", true, kTaskParameters, {}};
 constexpr Section kPhysics = {"physics", "the physics of a drive", "bus.axis_group.drive.physics",
                               false,     kPhysicsParameters,       {}};
@@ -330,8 +337,8 @@ struct DiagnosticSection {
 /// The whole of stride.toml.
 struct TopSection {
   DiagnosticSection diagnostics;
-  std::array<const Section *, 8> sections = {
-      &kProject, &diagnostics.section, &kImage, &kRetain, &kFormat, &kTask, &kBus, &kIo};
+  std::array<const Section *, 9> sections = {
+      &kProject, &diagnostics.section, &kImage, &kRetain, &kFiles, &kFormat, &kTask, &kBus, &kIo};
   Section top = {"", "stride.toml", "", false, {}, sections};
 };
 

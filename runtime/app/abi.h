@@ -314,6 +314,12 @@ struct StrideAppV1 {
   /// values have been put into the state before the tasks run (retained ones, those of another
   /// build). Raises no exception. Null when there is nothing to prepare.
   void (*settle)(Ctx *ctx) = nullptr;
+
+  /// stride.toml, [files]: the folder for the program's files, relative to the current one where
+  /// nobody says otherwise; null: `files`.
+  const char *filesRoot = nullptr;
+  uint32_t filesAnywhere = 0; ///< 1: names may lead out of it.
+  uint32_t filesDelay = 1;    ///< In virtual time answers come so many cycles later.
 };
 
 /// Number of elements of a table, for StrideAppV1's counts.

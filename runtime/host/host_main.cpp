@@ -36,6 +36,7 @@ struct SimTexts {
   std::string script;
   std::string out;
   std::string retain;
+  std::string files;
   int64_t loopBudget = 0;
   bool stateHash = false;
   bool quiet = false;
@@ -93,6 +94,9 @@ void declare(CLI::App &sim, SimTexts &texts, bool builtIn) {
   sim.add_option("--retain", texts.retain,
                  "Take RETAIN and PERSISTENT variables from this file, and save them at the end")
       ->type_name("FILE");
+  sim.add_option("--files", texts.files,
+                 "Folder for the program's files; the application's own without it")
+      ->type_name("FOLDER");
   sim.add_flag("--quiet", texts.quiet, "Neither progress nor summary");
   sim.add_flag("--summary", texts.summary, "A summary even when standard error is no terminal");
   sim.footer(kExitCodes);
@@ -143,6 +147,9 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
                  "File for RETAIN and PERSISTENT variables; the application's own, or NAME.retain, "
                  "without it")
       ->type_name("FILE");
+  run.add_option("--files", texts.options.files,
+                 "Folder for the program's files; the application's own without it")
+      ->type_name("FOLDER");
   run.add_option("--on-fault", texts.onFault,
                  "What happens when an exception stops an application: stop, restart")
       ->check(CLI::IsMember({"stop", "restart"}))
@@ -215,6 +222,7 @@ SimOptions understand(const SimTexts &texts) {
   options.loopBudget = texts.loopBudget;
   options.stateHash = texts.stateHash;
   options.retain = texts.retain;
+  options.files = texts.files;
   options.quiet = texts.quiet;
   options.summary = texts.summary;
   return options;

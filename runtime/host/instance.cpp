@@ -7,26 +7,36 @@
 
 namespace stride::host {
 
-void initialiseGuarded(app::Application &application, bool inCopyCode, bool keepRetains) {
-  application.initialise(
-      task::hostApi(), inCopyCode, keepRetains, [](void (*init)(Ctx *), Ctx &ctx) {
-        ctx.loopBudget = task::TaskSet::kDefaultLoopBudget;
-        if (const std::optional<StException> exception = task::guardedCall(init, ctx))
-          throw *exception;
-      });
+void initialiseGuarded(app::Application &application, const HostApi &host, bool inCopyCode,
+                       bool keepRetains) {
+  application.initialise(host, inCopyCode, keepRetains, [](void (*init)(Ctx *), Ctx &ctx) {
+    ctx.loopBudget = task::TaskSet::kDefaultLoopBudget;
+    if (const std::optional<StException> exception = task::guardedCall(init, ctx))
+      throw *exception;
+  });
 }
 
 Instance::Instance(std::unique_ptr<app::Application> application, task::LoopLimit limit)
     : application_(std::move(application)),
       symbols_(std::make_unique<app::SymbolTable>(application_->description())),
-      tasks_(application_->description(), application_->state(), task::hostApi(), limit) {}
+      system_(application_->description(), application_->state(), limit == task::LoopLimit::Clock),
+      initHost_(task::hostApi()),
+      tasks_(application_->description(), application_->state(), task::hostApi(), limit) {
+  initHost_.system = &system_.initApi();
+}
 
 void Instance::retain(const RetainSettings &settings, RetainKeeper::Say say) {
   retain_.emplace(app(), state(), settings, std::move(say));
 }
 
 void Instance::initialise() {
-  initialiseGuarded(*application_, false, retain_ && retain_->keepsRetains());
+  system::FileSettings files = fileSettings(app());
+  files.virtualTime = !tasks_.realClock();
+  if (!filesFolder_.empty())
+    files.root = filesFolder_;
+  system_.start(files, *inputs_);
+  tasks_.setSystem(system_.cycleApi());
+  initialiseGuarded(*application_, initHost_, false, retain_ && retain_->keepsRetains());
   if (retain_) {
     retain_->restore();
     retain_->addHooks(tasks_);
@@ -43,6 +53,11 @@ void Instance::addToAllTasks(task::CycleHook &hook) {
     tasks_.addHook(task, hook);
 }
 
+void Instance::initialiseFresh(app::Application &fresh) {
+  system_.setFresh(fresh.state(), fresh.description().stateSize);
+  initialiseGuarded(fresh, initHost_, true, false);
+}
+
 void Instance::prepareSwap(const app::Application &fresh) {
   tasks_.prepareRebind(fresh.description());
   if (retain_)
@@ -52,6 +67,7 @@ void Instance::prepareSwap(const app::Application &fresh) {
 void Instance::swap(std::unique_ptr<app::Application> &other) noexcept {
   application_.swap(other);
   tasks_.rebind(app(), state());
+  system_.swap(app(), state());
   if (retain_)
     retain_->change();
 }
@@ -63,11 +79,17 @@ void Instance::renewSymbols() {
 }
 
 std::optional<task::Fault> Instance::exit(int64_t timeNs) {
+  const std::optional<task::Fault> fault = callExit(timeNs);
+  system_.finish();
+  return fault;
+}
+
+std::optional<task::Fault> Instance::callExit(int64_t timeNs) {
   if (app().exit == nullptr || tasks_.fault())
     return std::nullopt;
   Ctx ctx{};
   ctx.state = state();
-  ctx.host = &task::hostApi();
+  ctx.host = &initHost_;
   ctx.cycleStartNs = timeNs;
   ctx.loopBudget = task::TaskSet::kDefaultLoopBudget;
   if (const std::optional<StException> exception = task::guardedCall(app().exit, ctx))
@@ -77,6 +99,8 @@ std::optional<task::Fault> Instance::exit(int64_t timeNs) {
 
 std::vector<std::string> Instance::takeNews() {
   std::vector<std::string> lines;
+  for (const std::string &news : system_.takeNews())
+    lines.push_back(fmt::format("warning: {}", news));
   for (const std::unique_ptr<task::CycleHook> &hook : hooks_)
     for (const std::string &news : hook->takeNews())
       lines.push_back(fmt::format("warning: {}", news));

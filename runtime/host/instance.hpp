@@ -6,6 +6,7 @@
 #include "runtime/app/symbols.hpp"
 #include "runtime/host/input_port.hpp"
 #include "runtime/host/retain_keeper.hpp"
+#include "runtime/host/system_services.hpp"
 #include "runtime/task/task_set.hpp"
 
 #include <memory>
@@ -17,7 +18,8 @@ namespace stride::host {
 
 /// Application::initialise with what guards a task's cycle, so that a bad pointer or an endless
 /// loop in an initialiser or FB_Init is an StException. From a thread with a MemoryGuard.
-void initialiseGuarded(app::Application &application, bool inCopyCode, bool keepRetains);
+void initialiseGuarded(app::Application &application, const HostApi &host, bool inCopyCode,
+                       bool keepRetains);
 
 /// One run of an application from its initial values to its end.
 class Instance {
@@ -27,6 +29,9 @@ public:
 
   /// Before initialise: where inputs pass on their way into the program. It lives longer.
   void setInputs(InputPort &inputs) { inputs_ = &inputs; }
+
+  /// Before initialise(): the folder for the program's files, in place of the application's own.
+  void setFiles(std::string folder) { filesFolder_ = std::move(folder); }
 
   /// Before initialise(): RETAIN and PERSISTENT variables come from and go to a file. Throws
   /// app::Error where that cannot be read.
@@ -43,10 +48,14 @@ public:
   /// initialise(). It must live as long as this.
   void addToAllTasks(task::CycleHook &hook);
 
-  /// FB_Exit of every instance, after the last cycle; what goes wrong in one of them. A program
+  /// FB_Exit of every instance, after the last cycle, then the program's files are closed; what goes wrong in one of them. A program
   /// that has failed is not called again.
   std::optional<task::Fault> exit(int64_t timeNs);
 
+  /// What initialisers, FB_Exit and FB_Reinit find in the host.
+  const HostApi &initHost() const { return initHost_; }
+  /// While the cycles go on: initialises a build that may take over. Throws StException.
+  void initialiseFresh(app::Application &fresh);
   /// While the cycles go on: what swap() with this build needs.
   void prepareSwap(const app::Application &fresh);
   /// Between two cycles: another build, with the values of this one, takes its place. Afterwards
@@ -69,8 +78,13 @@ public:
   std::vector<std::string> remarks() const;
 
 private:
+  std::optional<task::Fault> callExit(int64_t timeNs);
+
   std::unique_ptr<app::Application> application_;
   std::unique_ptr<app::SymbolTable> symbols_;
+  SystemServices system_;
+  HostApi initHost_;
+  std::string filesFolder_;
   task::TaskSet tasks_;
   std::optional<RetainKeeper> retain_;
   std::vector<std::unique_ptr<task::CycleHook>> hooks_;

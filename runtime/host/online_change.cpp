@@ -54,7 +54,7 @@ OnlineChange::OnlineChange(Instance &instance, const std::string &path) : instan
     throw app::Error(text);
   }
   try {
-    initialiseGuarded(*fresh_, true, false);
+    instance.initialiseFresh(*fresh_);
   } catch (const StException &exception) {
     throw app::Error(describeWithCalls(task::Fault{exception, "initialisation", 0, 0}));
   }
@@ -109,7 +109,7 @@ std::string OnlineChange::report(bool all) const {
 
 bool OnlineChange::apply(int64_t timeNs) {
   Ctx now{};
-  now.host = &task::hostApi();
+  now.host = &instance_->initHost();
   now.cycleStartNs = timeNs;
   now.loopBudget = task::TaskSet::kDefaultLoopBudget;
   std::optional<StException> exception;

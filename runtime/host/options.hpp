@@ -40,6 +40,7 @@ struct SimOptions {
   bool quiet = false;                ///< No progress and no summary.
   bool summary = false;              ///< A summary even when standard error is no terminal.
   std::string retain; ///< File for RETAIN and PERSISTENT variables; empty: they are not kept.
+  std::string files;  ///< Folder for the program's files; empty: the application's own.
 };
 
 /// What happens when an exception has stopped an application.
@@ -61,6 +62,7 @@ struct RunOptions {
   OnFault onFault = OnFault::Stop;
   bool acceptLosses = false; ///< An online change may lose values.
   std::string retain; ///< File for RETAIN and PERSISTENT variables; empty: the application's own.
+  std::string files;  ///< Folder for the program's files; empty: the application's own.
   std::optional<uint32_t> core; ///< For tasks that choose none; empty: the last one allowed.
   bool turns = false;           ///< One cycle at a time.
   bool histogram = false;       ///< Distributions behind the table of statistics.

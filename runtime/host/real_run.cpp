@@ -62,6 +62,8 @@ public:
     for (const std::string &path : own.print)
       (void)instance_.symbols().resolve(path);
     const StrideAppV1 &app = instance_.app();
+    if (!options.files.empty())
+      instance_.setFiles(options.files);
     RetainSettings retain = retainSettings(app);
     if (!options.retain.empty())
       retain.file = options.retain;
@@ -222,6 +224,7 @@ public:
     if (fault)
       say("error: " + describeWithCalls(*fault));
     const std::optional<task::Fault> atEnd = exitInstances();
+    lookAfter();
     if (atEnd)
       say("error: " + describeWithCalls(*atEnd));
     static_cast<void>(instance_.retainKeeper()->finish());

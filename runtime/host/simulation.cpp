@@ -243,6 +243,8 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
     for (const std::string &path : options.print)
       (void)instance.symbols().resolve(path);
   SetList sets(instance.symbols(), options.sets);
+  if (!options.files.empty())
+    instance.setFiles(options.files);
   if (!options.retain.empty())
     instance.retain({options.retain},
                     [](const std::string &line) { fmt::print(stderr, "{}\n", line); });
@@ -314,6 +316,8 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
         fmt::print(stderr, "{}\n", line);
   }
   const std::optional<task::Fault> atEnd = instance.exit(result.timeNs);
+  for (const std::string &line : instance.takeNews())
+    fmt::print(stderr, "{}\n", line);
   if (atEnd)
     fmt::print(stderr, "error: {}\n", describeWithCalls(*atEnd));
   if (RetainKeeper *const retain = instance.retainKeeper())

@@ -26,6 +26,7 @@ enum class ExceptionCode : uint32_t {
 };
 
 struct Ctx;
+struct SystemApi;
 
 /// An exception that __TRY has caught. Plain data on the stack of the body.
 struct Caught {
@@ -53,6 +54,8 @@ struct HostApi {
   /// catch (an endless loop, anything that is not of ST) goes on, so that it does not return. Null:
   /// nothing can be caught.
   void (*caught)(Ctx *ctx, Caught *out) = nullptr;
+  /// What the system libraries need (runtime/system/system_api.h); null: nothing of that.
+  const SystemApi *system = nullptr;
 };
 
 /// One task's view of the running application. Plain data; the host owns it.

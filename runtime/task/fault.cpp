@@ -148,6 +148,8 @@ MemoryGuard::~MemoryGuard() {
   ::sigaltstack(&impl_->oldStack, nullptr);
 }
 
+StackRange threadStack() noexcept { return {stackLow, stackLow + stackSize}; }
+
 std::optional<StException> guardedCall(void (*run)(Ctx *), Ctx &ctx) {
   Landing here;
   char onStack = 0;

@@ -42,6 +42,13 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
+/// The stack of a thread with a MemoryGuard; empty for others.
+struct StackRange {
+  uintptr_t low = 0;
+  uintptr_t high = 0;
+};
+StackRange threadStack() noexcept;
+
 /// Calls run(&ctx). Returns what stopped it, if something did. Never allocates.
 std::optional<StException> guardedCall(void (*run)(Ctx *), Ctx &ctx);
 

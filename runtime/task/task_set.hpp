@@ -64,6 +64,8 @@ public:
   void addHook(uint32_t task, CycleHook &hook);
   /// Loop iterations that one cycle may use, with LoopLimit::Budget.
   void setLoopBudget(int64_t budget) { loopBudget_ = budget; }
+  /// What the programs' system libraries find in the host. It must live as long as the tasks.
+  void setSystem(const SystemApi &system) { host_.system = &system; }
   /// Repeats a run by the real clock in which a loop of this cycle was ended: its loops go as far
   /// as they went there.
   void repeatEndedLoop(const Fault &fault) { repeated_ = fault; }

@@ -1,0 +1,80 @@
+// What the host offers to the system libraries of one application.
+#ifndef STRIDE_RUNTIME_HOST_SYSTEM_SERVICES_HPP
+#define STRIDE_RUNTIME_HOST_SYSTEM_SERVICES_HPP
+
+#include "runtime/app/application.hpp"
+#include "runtime/host/input_port.hpp"
+#include "runtime/system/file_service.hpp"
+#include "runtime/system/system_api.h"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace stride::host {
+
+/// [files] of the application's stride.toml.
+system::FileSettings fileSettings(const StrideAppV1 &app);
+
+/// Memory, clock and files for one application, also over online changes.
+class SystemServices {
+public:
+  /// `realClock`: what the clock says is read from the system; else 1970 plus the virtual time.
+  SystemServices(const StrideAppV1 &app, const std::byte *state, bool realClock);
+  SystemServices(const SystemServices &) = delete;
+  SystemServices &operator=(const SystemServices &) = delete;
+  ~SystemServices();
+
+  /// Before the first cycle. `inputs` lives longer.
+  void start(const system::FileSettings &files, InputPort &inputs);
+  /// After the last cycle: files are closed.
+  void finish();
+
+  /// For cycles, once it has started.
+  const SystemApi &cycleApi() const { return cycleApi_; }
+  /// For initialisers, FB_Exit and FB_Reinit: no files.
+  const SystemApi &initApi() const { return initApi_; }
+
+  /// Another build, which is being initialised; null: none.
+  void setFresh(const std::byte *state, uint64_t size);
+  /// The other build has taken over: between two cycles.
+  void swap(const StrideAppV1 &app, const std::byte *state) noexcept;
+
+  std::vector<std::string> takeNews();
+
+private:
+  class Pass;
+  /// What the clock said in a task's cycle.
+  struct Said {
+    uint64_t cycle = ~uint64_t{0};
+    int64_t ns = 0;
+  };
+  struct Range {
+    std::atomic<const std::byte *> at{nullptr};
+    std::atomic<uint64_t> size{0};
+  };
+
+  bool owns(const Ctx &ctx, const void *at, uint64_t size) const noexcept;
+  int64_t wallClock(const Ctx &ctx) noexcept;
+  int64_t offsetNow(int64_t cycleStartNs) noexcept;
+
+  bool realClock_;
+  uint32_t tasks_;
+  Range running_;
+  Range fresh_;
+  std::vector<Said> said_;          ///< By task.
+  std::atomic<int64_t> offset_{0};  ///< From the start of the run to 1970; 0: not known.
+  std::atomic<int64_t> checked_{0}; ///< When that was compared with the system's clock.
+  InputPort *inputs_ = nullptr;
+  std::unique_ptr<Pass> pass_;
+  std::optional<system::FileService> files_;
+  SystemApi cycleApi_{};
+  SystemApi initApi_{};
+};
+
+} // namespace stride::host
+
+#endif

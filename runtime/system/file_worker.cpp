@@ -1,0 +1,248 @@
+// The file service's thread: everything that may wait for the disk.
+#include "runtime/system/file_job.hpp"
+#include "runtime/system/file_service.hpp"
+#include "runtime/system/file_stream.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include <sys/stat.h>
+
+namespace stride::system {
+
+namespace {
+
+constexpr uint32_t kIndexBits = 8;
+
+const char *reason(FileError error) {
+  switch (error) {
+  case FileError::NoSpace:
+    return "the disk is full";
+  case FileError::AccessDenied:
+    return "it may not be written";
+  case FileError::TooLarge:
+    return "it has become too large";
+  default:
+    return "the disk reports an error";
+  }
+}
+
+} // namespace
+
+void FileService::Stream::copyIn(uint64_t at, const void *data, uint64_t size) noexcept {
+  const uint64_t place = at % kRing;
+  const uint64_t first = std::min(size, kRing - place);
+  std::memcpy(ring.get() + place, data, first);
+  std::memcpy(ring.get(), static_cast<const std::byte *>(data) + first, size - first);
+}
+
+void FileService::Stream::copyOut(uint64_t at, void *data, uint64_t size) const noexcept {
+  const uint64_t place = at % kRing;
+  const uint64_t first = std::min(size, kRing - place);
+  std::memcpy(data, ring.get() + place, first);
+  std::memcpy(static_cast<std::byte *>(data) + first, ring.get(), size - first);
+}
+
+void FileService::work() {
+  for (bool last = false; !last;) {
+    while (::sem_wait(&work_) != 0 && errno == EINTR) {
+    }
+    last = ending_.load(std::memory_order_acquire);
+    workOnce();
+    if (settings_.virtualTime)
+      ::sem_post(&done_);
+  }
+  for (std::size_t i = 0; i < kStreams; ++i)
+    if (streams_[i].state.load(std::memory_order_acquire) != Stream::Free)
+      (void)finishStream(streams_[i]);
+}
+
+void FileService::workOnce() {
+  drainAll();
+  while (Job *const job = next()) {
+    execute(*job);
+    job->state.store(job->taker == Job::Taker::Nobody ? Job::Free : Job::Done,
+                     std::memory_order_release);
+    drainAll();
+  }
+}
+
+FileService::Job *FileService::next() {
+  Job *oldest = nullptr;
+  for (std::size_t i = 0; i < kJobs; ++i)
+    if (jobs_[i].state.load(std::memory_order_acquire) == Job::Queued &&
+        (oldest == nullptr || jobs_[i].ticket < oldest->ticket))
+      oldest = &jobs_[i];
+  return oldest;
+}
+
+void FileService::execute(Job &job) {
+  Outcome outcome;
+  switch (job.op) {
+  case FileOp::None:
+    outcome.error = FileError::NotPossible;
+    break;
+  case FileOp::Open:
+    outcome = job.mode == 0 ? Outcome{FileError::BadMode, 0} : disk_.open(job.name, job.mode);
+    break;
+  case FileOp::Close:
+    outcome = disk_.close(job.file);
+    break;
+  case FileOp::Read:
+    outcome = disk_.read(job.file, job.data.get(), job.size);
+    break;
+  case FileOp::Write:
+    outcome = disk_.write(job.file, job.data.get(), job.size);
+    break;
+  case FileOp::SetPosition:
+    outcome = disk_.setPosition(job.file, job.position);
+    break;
+  case FileOp::GetPosition:
+    outcome = disk_.position(job.file);
+    break;
+  case FileOp::AtEnd:
+    outcome = disk_.atEnd(job.file);
+    break;
+  case FileOp::Size:
+    outcome = disk_.size(job.name);
+    break;
+  case FileOp::Times:
+    outcome = disk_.times(job.name, job.answer.times);
+    break;
+  case FileOp::Delete:
+    outcome = disk_.remove(job.name);
+    break;
+  case FileOp::Rename:
+    outcome = disk_.rename(job.name, job.second);
+    break;
+  case FileOp::Copy:
+    outcome = disk_.copy(job.name, job.second);
+    break;
+  case FileOp::OpenStream:
+    outcome = openStream(job);
+    break;
+  case FileOp::CloseStream:
+    outcome = closeStream(job.file);
+    break;
+  }
+  job.answer.error = outcome.error;
+  job.answer.value = outcome.value;
+}
+
+Outcome FileService::openStream(const Job &job) {
+  if (job.mode == 0)
+    return {FileError::BadMode, 0};
+  Stream *stream = nullptr;
+  for (std::size_t i = 0; i < kStreams && stream == nullptr; ++i)
+    if (streams_[i].state.load(std::memory_order_acquire) == Stream::Free)
+      stream = &streams_[i];
+  if (stream == nullptr)
+    return {FileError::TooMany, 0};
+  const bool reads = (job.mode & kFileWrite) == 0;
+  Outcome opened;
+  stream->position = 0;
+  if (reads) {
+    opened = disk_.load(job.name, stream->image, settings_.largest);
+    stream->length = stream->image.size();
+  } else {
+    opened = disk_.openFile(job.name, job.mode);
+    stream->file = opened.error == FileError::None ? static_cast<int>(opened.value) : -1;
+    stream->appends = (job.mode & kFileAppend) != 0;
+    struct stat about {};
+    stream->length = opened.error == FileError::None && ::fstat(stream->file, &about) == 0
+                         ? static_cast<uint64_t>(about.st_size)
+                         : 0;
+    stream->position = stream->appends ? stream->length : 0;
+    if (stream->ring == nullptr)
+      stream->ring = std::make_unique<std::byte[]>(Stream::kRing);
+  }
+  if (opened.error != FileError::None)
+    return {opened.error, 0};
+  stream->put.store(0, std::memory_order_relaxed);
+  stream->taken.store(0, std::memory_order_relaxed);
+  stream->error.store(FileError::None, std::memory_order_relaxed);
+  stream->lost = 0;
+  stream->name = job.name;
+  const uint32_t generation = (stream->generation.load(std::memory_order_relaxed) + 1) & 0xFFFFFF;
+  stream->generation.store(generation, std::memory_order_relaxed);
+  stream->state.store(reads ? Stream::Reading : Stream::Writing, std::memory_order_release);
+  return {FileError::None,
+          static_cast<uint64_t>(stream - streams_.get() + 1) | uint64_t{generation} << kIndexBits};
+}
+
+Outcome FileService::closeStream(uint32_t file) {
+  const uint32_t index = (file & ((1U << kIndexBits) - 1)) - 1;
+  if (index >= kStreams || streams_[index].generation != file >> kIndexBits ||
+      streams_[index].state.load(std::memory_order_acquire) == Stream::Free)
+    return {FileError::BadHandle, 0};
+  return finishStream(streams_[index]);
+}
+
+/// What is in the ring is written, the file closed, the place free.
+Outcome FileService::finishStream(Stream &stream) {
+  Outcome result;
+  if (stream.file >= 0) {
+    drain(stream);
+    result.error = stream.error.load(std::memory_order_relaxed);
+    const Outcome end = Disk::finish(stream.file, true);
+    stream.file = -1;
+    if (stream.lost != 0)
+      say("file '" + stream.name + "': " + reason(result.error) + "; " +
+          std::to_string(stream.lost) + " bytes that the program wrote are lost");
+    else if (end.error != FileError::None)
+      say("file '" + stream.name + "': " + reason(end.error) +
+          " when it is closed; what the program wrote may be lost");
+    if (result.error == FileError::None)
+      result.error = end.error;
+  }
+  stream.image = {};
+  stream.state.store(Stream::Free, std::memory_order_release);
+  return result;
+}
+
+/// Writes what is in the ring, neighbours together.
+void FileService::drain(Stream &stream) {
+  uint64_t at = stream.taken.load(std::memory_order_relaxed);
+  const uint64_t end = stream.put.load(std::memory_order_acquire);
+  scratch_.resize(Stream::kRing);
+  while (at != end) {
+    uint64_t start = 0;
+    uint64_t size = 0;
+    while (at != end) {
+      Stream::Record record;
+      stream.copyOut(at, &record, sizeof record);
+      if (size != 0 && record.position != start + size)
+        break;
+      if (size == 0)
+        start = record.position;
+      stream.copyOut(at + sizeof record, scratch_.data() + size, record.size);
+      size += record.size;
+      at += sizeof record + record.size;
+    }
+    if (stream.error.load(std::memory_order_relaxed) != FileError::None) {
+      stream.lost += size;
+    } else {
+      const Outcome written = stream.appends
+                                  ? Disk::writeAll(stream.file, scratch_.data(), size)
+                                  : Disk::writeAllAt(stream.file, scratch_.data(), size, start);
+      stream.lost += size - written.value;
+      if (written.error != FileError::None)
+        stream.error.store(written.error, std::memory_order_release);
+    }
+    stream.taken.store(at, std::memory_order_release);
+  }
+}
+
+void FileService::drainAll() {
+  for (std::size_t i = 0; i < kStreams; ++i)
+    if (streams_[i].file >= 0 && streams_[i].state.load(std::memory_order_acquire) != Stream::Free)
+      drain(streams_[i]);
+}
+
+void FileService::say(std::string text) {
+  const std::lock_guard lock(newsMutex_);
+  news_.push_back(std::move(text));
+}
+
+} // namespace stride::system
