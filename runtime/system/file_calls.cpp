@@ -2,6 +2,8 @@
 // in a later cycle, when they are called with the same inputs again.
 #include "runtime/system/host_side.hpp"
 
+#include "st/SysLibFile/FILETIME.h"
+#include "st/SysLibFile/SYSFILE_ERROR.h"
 #include "st/SysLibFile/SysFileClose.h"
 #include "st/SysLibFile/SysFileCopy.h"
 #include "st/SysLibFile/SysFileDelete.h"

@@ -3,8 +3,10 @@
 
 #include "st/SysLibTime/CurTime.h"
 #include "st/SysLibTime/CurTimeEx.h"
+#include "st/SysLibTime/SysTime64.h"
 #include "st/SysLibTime/SysTimeGetMs.h"
 #include "st/SysLibTime/SysTimeGetUs.h"
+#include "st/SysLibTime/SystemTimeDate.h"
 
 namespace {
 
