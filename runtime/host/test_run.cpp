@@ -107,7 +107,7 @@ public:
   TestResult run() {
     const auto start = std::chrono::steady_clock::now();
     try {
-      initialiseGuarded(application_, false, false);
+      initialiseGuarded(application_, task::hostApi(), false, false);
       cycles();
     } catch (const StException &exception) {
       fail("exception", describeWithCalls({exception, "initialisation", 0, 0}));
