@@ -45,6 +45,7 @@ int testCommand(const ProjectOptions &options, const TestOptions &test) {
       return exitCode;
     arguments = {result->application.string(), "--suite", project.name(), "--root",
                  project.isSingleFile() ? "." : project.path().string()};
+    arguments.insert(arguments.end(), {"--files", result->filesRoot.string()});
     if (!test.junit.empty())
       arguments.insert(arguments.end(), {"--junit", test.junit});
     for (const std::string &plan : plans)

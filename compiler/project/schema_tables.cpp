@@ -278,7 +278,7 @@ constexpr Section kProject = {"project", "the project", "project", false, kProje
 constexpr Section kImage = {"image", "the process image", "image", false, kImageParameters, {}};
 constexpr Section kFormat = {"fmt", "the format", "fmt", false, kFormatParameters, {}};
 constexpr Section kRetain = {"retain", "the retained data", "retain", false, kRetainParameters, {}};
-constexpr Section kFiles = {"files", "the program's files", "files", false, kFilesParameters, {}};
+constexpr Section kFiles = {"files", "the access to files", "files", false, kFilesParameters, {}};
 constexpr Section kTask = {"task", "a task", "task", true, kTaskParameters, {}};
 constexpr Section kPhysics = {"physics", "the physics of a drive", "bus.axis_group.drive.physics",
                               false,     kPhysicsParameters,       {}};

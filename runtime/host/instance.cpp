@@ -20,23 +20,16 @@ Instance::Instance(std::unique_ptr<app::Application> application, task::LoopLimi
     : application_(std::move(application)),
       symbols_(std::make_unique<app::SymbolTable>(application_->description())),
       system_(application_->description(), application_->state(), limit == task::LoopLimit::Clock),
-      initHost_(task::hostApi()),
-      tasks_(application_->description(), application_->state(), task::hostApi(), limit) {
-  initHost_.system = &system_.initApi();
-}
+      tasks_(application_->description(), application_->state(), task::hostApi(), limit) {}
 
 void Instance::retain(const RetainSettings &settings, RetainKeeper::Say say) {
   retain_.emplace(app(), state(), settings, std::move(say));
 }
 
 void Instance::initialise() {
-  system::FileSettings files = fileSettings(app());
-  files.virtualTime = !tasks_.realClock();
-  if (!filesFolder_.empty())
-    files.root = filesFolder_;
-  system_.start(files, *inputs_);
+  system_.start(app(), filesFolder_, *inputs_);
   tasks_.setSystem(system_.cycleApi());
-  initialiseGuarded(*application_, initHost_, false, retain_ && retain_->keepsRetains());
+  initialiseGuarded(*application_, system_.initHost(), false, retain_ && retain_->keepsRetains());
   if (retain_) {
     retain_->restore();
     retain_->addHooks(tasks_);
@@ -55,7 +48,7 @@ void Instance::addToAllTasks(task::CycleHook &hook) {
 
 void Instance::initialiseFresh(app::Application &fresh) {
   system_.setFresh(fresh.state(), fresh.description().stateSize);
-  initialiseGuarded(fresh, initHost_, true, false);
+  initialiseGuarded(fresh, system_.initHost(), true, false);
 }
 
 void Instance::prepareSwap(const app::Application &fresh) {
@@ -89,7 +82,7 @@ std::optional<task::Fault> Instance::callExit(int64_t timeNs) {
     return std::nullopt;
   Ctx ctx{};
   ctx.state = state();
-  ctx.host = &initHost_;
+  ctx.host = &system_.initHost();
   ctx.cycleStartNs = timeNs;
   ctx.loopBudget = task::TaskSet::kDefaultLoopBudget;
   if (const std::optional<StException> exception = task::guardedCall(app().exit, ctx))

@@ -48,12 +48,12 @@ public:
   /// initialise(). It must live as long as this.
   void addToAllTasks(task::CycleHook &hook);
 
-  /// FB_Exit of every instance, after the last cycle, then the program's files are closed; what goes wrong in one of them. A program
-  /// that has failed is not called again.
+  /// FB_Exit of every instance, after the last cycle; what goes wrong in one of them. A program
+  /// that has failed is not called again. Then the program's files are closed.
   std::optional<task::Fault> exit(int64_t timeNs);
 
   /// What initialisers, FB_Exit and FB_Reinit find in the host.
-  const HostApi &initHost() const { return initHost_; }
+  const HostApi &initHost() const { return system_.initHost(); }
   /// While the cycles go on: initialises a build that may take over. Throws StException.
   void initialiseFresh(app::Application &fresh);
   /// While the cycles go on: what swap() with this build needs.
@@ -71,6 +71,9 @@ public:
   const app::SymbolTable &symbols() const { return *symbols_; }
   task::TaskSet &tasks() { return tasks_; }
 
+  /// Every now and then while cycles go by the real clock: what they leave to others. From one
+  /// thread, not a task's.
+  void lookAfter() { system_.lookAfter(); }
   /// What has happened in the cycles since the last call: "warning: …". From one thread, not a
   /// task's.
   std::vector<std::string> takeNews();
@@ -83,7 +86,6 @@ private:
   std::unique_ptr<app::Application> application_;
   std::unique_ptr<app::SymbolTable> symbols_;
   SystemServices system_;
-  HostApi initHost_;
   std::string filesFolder_;
   task::TaskSet tasks_;
   std::optional<RetainKeeper> retain_;

@@ -121,6 +121,7 @@ public:
   }
 
   void lookAfter() {
+    instance_.lookAfter();
     for (const std::string &line : instance_.takeNews())
       say(line);
     if (ring_)

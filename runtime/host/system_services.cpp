@@ -1,6 +1,7 @@
 #include "runtime/host/system_services.hpp"
 
 #include "runtime/task/fault.hpp"
+#include "runtime/task/task_set.hpp"
 
 #include <cstdlib>
 #include <ctime>
@@ -32,17 +33,8 @@ private:
   InputPort *port_;
 };
 
-system::FileSettings fileSettings(const StrideAppV1 &app) {
-  system::FileSettings settings;
-  if (app.filesRoot != nullptr)
-    settings.root = app.filesRoot;
-  settings.anywhere = app.filesAnywhere != 0;
-  settings.delayCycles = app.filesDelay;
-  return settings;
-}
-
 SystemServices::SystemServices(const StrideAppV1 &app, const std::byte *state, bool realClock)
-    : realClock_(realClock), tasks_(app.taskCount), said_(app.taskCount) {
+    : realClock_(realClock), said_(app.taskCount), initHost_(task::hostApi()) {
   running_.at = state;
   running_.size = app.stateSize;
   initApi_.size = sizeof(SystemApi);
@@ -53,6 +45,7 @@ SystemServices::SystemServices(const StrideAppV1 &app, const std::byte *state, b
   initApi_.wallClock = [](void *self, const Ctx *ctx) {
     return static_cast<SystemServices *>(self)->realClock_ ? systemClockNs() : ctx->cycleStartNs;
   };
+  initHost_.system = &initApi_;
   cycleApi_ = initApi_;
   cycleApi_.wallClock = [](void *self, const Ctx *ctx) {
     return static_cast<SystemServices *>(self)->wallClock(*ctx);
@@ -61,10 +54,18 @@ SystemServices::SystemServices(const StrideAppV1 &app, const std::byte *state, b
 
 SystemServices::~SystemServices() = default;
 
-void SystemServices::start(const system::FileSettings &files, InputPort &inputs) {
+void SystemServices::start(const StrideAppV1 &app, const std::string &folder, InputPort &inputs) {
+  system::FileSettings settings;
+  if (!folder.empty())
+    settings.root = folder;
+  else if (app.filesRoot != nullptr)
+    settings.root = app.filesRoot;
+  settings.anywhere = app.filesAnywhere != 0;
+  settings.virtualTime = !realClock_;
+  settings.delayCycles = app.filesDelay;
   inputs_ = &inputs;
   pass_ = std::make_unique<Pass>(inputs);
-  files_.emplace(files, tasks_, *pass_);
+  files_.emplace(settings, app.taskCount, *pass_);
   cycleApi_.fileStart = [](void *self, const Ctx *ctx, const FileRequest *request) {
     return static_cast<SystemServices *>(self)->files_->start(*ctx, *request);
   };
@@ -99,6 +100,11 @@ void SystemServices::swap(const StrideAppV1 &app, const std::byte *state) noexce
   running_.at = state;
   running_.size = app.stateSize;
   fresh_.at = nullptr;
+}
+
+void SystemServices::lookAfter() {
+  if (files_)
+    files_->lookAfter();
 }
 
 std::vector<std::string> SystemServices::takeNews() {

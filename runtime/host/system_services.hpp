@@ -16,9 +16,6 @@
 
 namespace stride::host {
 
-/// [files] of the application's stride.toml.
-system::FileSettings fileSettings(const StrideAppV1 &app);
-
 /// Memory, clock and files for one application, also over online changes.
 class SystemServices {
 public:
@@ -28,21 +25,24 @@ public:
   SystemServices &operator=(const SystemServices &) = delete;
   ~SystemServices();
 
-  /// Before the first cycle. `inputs` lives longer.
-  void start(const system::FileSettings &files, InputPort &inputs);
+  /// Before the first cycle; `folder`: for the program's files, empty: the application's own.
+  /// `inputs` lives longer.
+  void start(const StrideAppV1 &app, const std::string &folder, InputPort &inputs);
   /// After the last cycle: files are closed.
   void finish();
 
   /// For cycles, once it has started.
   const SystemApi &cycleApi() const { return cycleApi_; }
-  /// For initialisers, FB_Exit and FB_Reinit: no files.
-  const SystemApi &initApi() const { return initApi_; }
+  /// The whole table for initialisers, FB_Exit and FB_Reinit, which have no files.
+  const HostApi &initHost() const { return initHost_; }
 
   /// Another build, which is being initialised; null: none.
   void setFresh(const std::byte *state, uint64_t size);
   /// The other build has taken over: between two cycles.
   void swap(const StrideAppV1 &app, const std::byte *state) noexcept;
 
+  /// Every now and then while the cycles go on, from one thread that is not a task's.
+  void lookAfter();
   std::vector<std::string> takeNews();
 
 private:
@@ -62,7 +62,6 @@ private:
   int64_t offsetNow(int64_t cycleStartNs) noexcept;
 
   bool realClock_;
-  uint32_t tasks_;
   Range running_;
   Range fresh_;
   std::vector<Said> said_;          ///< By task.
@@ -73,6 +72,7 @@ private:
   std::optional<system::FileService> files_;
   SystemApi cycleApi_{};
   SystemApi initApi_{};
+  HostApi initHost_;
 };
 
 } // namespace stride::host

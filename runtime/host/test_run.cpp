@@ -8,6 +8,7 @@
 #include "runtime/host/instance.hpp"
 #include "runtime/host/io_hooks.hpp"
 #include "runtime/host/st_backtrace.hpp"
+#include "runtime/host/system_services.hpp"
 #include "runtime/host/test_report.hpp"
 #include "runtime/iec/assert.h"
 #include "runtime/task/low_stack.hpp"
@@ -97,21 +98,26 @@ private:
 
 class TestRun {
 public:
-  TestRun(const std::string &application, const Plan &plan)
-      : plan_(plan), application_(app::Application::load(application, runtimeLayouts())) {
+  TestRun(const std::string &application, const std::string &files, const Plan &plan)
+      : plan_(plan), application_(app::Application::load(application, runtimeLayouts())),
+        system_(application_.description(), application_.state(), false) {
     result_.name = plan.name;
     result_.file = plan.file;
     result_.line = plan.line;
+    system_.start(application_.description(), files, inputs_);
   }
 
   TestResult run() {
     const auto start = std::chrono::steady_clock::now();
     try {
-      initialiseGuarded(application_, task::hostApi(), false, false);
+      initialiseGuarded(application_, system_.initHost(), false, false);
       cycles();
     } catch (const StException &exception) {
       fail("exception", describeWithCalls({exception, "initialisation", 0, 0}));
     }
+    system_.finish();
+    for (const std::string &news : system_.takeNews())
+      fmt::print(stderr, "warning: {}\n", news);
     result_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(result_);
@@ -133,9 +139,9 @@ private:
     const int64_t cycleNs = descs[0].intervalNs;
 
     TestTasks tasks(description, state, result_);
-    LiveInputs inputs;
-    const auto devices = addIoDevices(application_, tasks, inputs);
-    const auto axes = addAxisGroups(application_, tasks, inputs);
+    tasks.setSystem(system_.cycleApi());
+    const auto devices = addIoDevices(application_, tasks, inputs_);
+    const auto axes = addAxisGroups(application_, tasks, inputs_);
     for (int64_t timeNs = 0;; timeNs += cycleNs) {
       if (done != nullptr && timeNs >= plan_.timeoutNs) {
         fail("timeout",
@@ -161,7 +167,7 @@ private:
       return;
     Ctx ctx{};
     ctx.state = application_.state();
-    ctx.host = &task::hostApi();
+    ctx.host = &system_.initHost();
     ctx.cycleStartNs = result_.timeNs + cycleNs;
     ctx.loopBudget = task::TaskSet::kDefaultLoopBudget;
     if (const auto exception = task::guardedCall(application_.description().exit, ctx))
@@ -190,6 +196,8 @@ private:
 
   Plan plan_;
   app::Application application_;
+  LiveInputs inputs_;
+  SystemServices system_;
   TestResult result_;
 };
 
@@ -205,6 +213,7 @@ void writeReport(const std::string &path, const std::string &text) {
 void TestCommand::declare(CLI::App &command) {
   command.add_option("APP", application_, "The application that 'stride test' made")->required();
   command.add_option("--root", root_, "Folder of the sources")->type_name("FOLDER");
+  command.add_option("--files", files_, "Folder for the program's files")->type_name("FOLDER");
   command.add_option("--suite", suite_, "Name of the project")->type_name("NAME");
   command.add_option("--junit", junit_, "JUnit XML file to write")->type_name("FILE");
   command.add_option("--test", tests_, "INDEX;CYCLE;TIMEOUT;LINE;NAME;FILE (may be repeated)")
@@ -226,7 +235,7 @@ int TestCommand::run() {
     for (const Plan &plan : plans) {
       fmt::print("test {} ... ", plan.name);
       std::fflush(stdout);
-      results.push_back(TestRun(application_, plan).run());
+      results.push_back(TestRun(application_, files_, plan).run());
       const TestResult &result = results.back();
       fmt::print("{}\n", result.failures.empty() ? "ok" : "FAILED");
       failed += result.failures.empty() ? 0 : 1;

@@ -21,6 +21,7 @@ private:
   std::string application_;
   std::string root_ = ".";
   std::string suite_;
+  std::string files_;
   std::string junit_;
   std::vector<std::string> tests_;
 };

@@ -1,5 +1,7 @@
 #include "runtime/system/disk.hpp"
 
+#include "runtime/system/handle.hpp"
+
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
@@ -13,8 +15,6 @@
 namespace stride::system {
 
 namespace {
-
-constexpr uint32_t kIndexBits = 8;
 
 Outcome failed(int number) { return {fileErrorOf(number), 0}; }
 
@@ -54,7 +54,7 @@ FileError fileErrorOf(int number) {
 Disk::~Disk() {
   for (const File &file : files_)
     if (file.descriptor >= 0)
-      (void)finish(file.descriptor, file.writable);
+      (void)finish(file.descriptor, (file.mode & kFileWrite) != 0);
 }
 
 std::string Disk::resolve(std::string_view name, FileError &error) const {
@@ -143,11 +143,11 @@ Outcome Disk::writeAllAt(int file, const std::byte *data, uint64_t size, uint64_
 }
 
 Disk::File *Disk::find(uint32_t handle) {
-  const uint32_t index = (handle & ((1U << kIndexBits) - 1)) - 1;
-  if (index >= files_.size() || files_[index].descriptor < 0 ||
-      files_[index].generation != handle >> kIndexBits)
+  const Handle at(handle);
+  if (at.index() >= files_.size() || files_[at.index()].descriptor < 0 ||
+      files_[at.index()].generation != at.generation())
     return nullptr;
-  return &files_[index];
+  return &files_[at.index()];
 }
 
 Outcome Disk::open(std::string_view name, uint32_t mode) {
@@ -159,11 +159,10 @@ Outcome Disk::open(std::string_view name, uint32_t mode) {
   if (opened.error != FileError::None)
     return opened;
   place->descriptor = static_cast<int>(opened.value);
-  place->generation = (place->generation + 1) & 0xFFFFFF;
-  place->writable = (mode & kFileWrite) != 0;
-  place->appends = (mode & kFileAppend) != 0;
-  return {FileError::None, static_cast<uint64_t>(place - files_.begin() + 1) |
-                               uint64_t{place->generation} << kIndexBits};
+  place->generation = Handle::next(place->generation);
+  place->mode = mode;
+  const Handle handle(static_cast<std::size_t>(place - files_.begin()), place->generation);
+  return {FileError::None, handle.number()};
 }
 
 Outcome Disk::close(uint32_t handle) {
@@ -172,13 +171,15 @@ Outcome Disk::close(uint32_t handle) {
     return {FileError::BadHandle, 0};
   const int descriptor = file->descriptor;
   file->descriptor = -1;
-  return finish(descriptor, file->writable);
+  return finish(descriptor, (file->mode & kFileWrite) != 0);
 }
 
 Outcome Disk::read(uint32_t handle, std::byte *data, uint64_t size) {
   const File *const file = find(handle);
   if (file == nullptr)
     return {FileError::BadHandle, 0};
+  if ((file->mode & kFileRead) == 0)
+    return {FileError::NotPossible, 0};
   uint64_t done = 0;
   while (done < size) {
     const ssize_t count = ::read(file->descriptor, data + done, size - done);
@@ -197,6 +198,8 @@ Outcome Disk::write(uint32_t handle, const std::byte *data, uint64_t size) {
   const File *const file = find(handle);
   if (file == nullptr)
     return {FileError::BadHandle, 0};
+  if ((file->mode & kFileWrite) == 0)
+    return {FileError::NotPossible, 0};
   return writeAll(file->descriptor, data, size);
 }
 

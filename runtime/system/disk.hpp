@@ -61,8 +61,7 @@ private:
   struct File {
     int descriptor = -1;
     uint32_t generation = 0;
-    bool writable = false;
-    bool appends = false;
+    uint32_t mode = 0; ///< FileMode
   };
   File *find(uint32_t handle);
   /// Where the name leads; empty: nowhere that is allowed.

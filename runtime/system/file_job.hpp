@@ -30,7 +30,7 @@ struct FileService::Job {
   uint64_t size = 0;
   char name[kFileName] = {};
   char second[kFileName] = {};
-  std::unique_ptr<std::byte[]> data = std::make_unique<std::byte[]>(kFileChunk);
+  std::unique_ptr<std::byte[]> data = std::make_unique_for_overwrite<std::byte[]>(kFileChunk);
 
   FileAnswer answer{};
 };

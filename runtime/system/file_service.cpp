@@ -2,6 +2,7 @@
 
 #include "runtime/system/file_job.hpp"
 #include "runtime/system/file_stream.hpp"
+#include "runtime/system/handle.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -15,7 +16,6 @@ namespace stride::system {
 
 namespace {
 
-constexpr uint32_t kIndexBits = 8;
 /// An answer that nobody has taken for so many cycles makes room when there is none.
 constexpr uint64_t kForgotten = 100;
 
@@ -29,11 +29,6 @@ void copyText(char (&to)[kFileName], const char *from) {
   to[length] = 0;
 }
 
-void waitFor(::sem_t &semaphore) noexcept {
-  while (::sem_wait(&semaphore) != 0 && errno == EINTR) {
-  }
-}
-
 } // namespace
 
 FileService::FileService(FileSettings settings, uint32_t tasks, Inputs &inputs)
@@ -41,8 +36,15 @@ FileService::FileService(FileSettings settings, uint32_t tasks, Inputs &inputs)
       jobs_(std::make_unique<Job[]>(kJobs)), streams_(std::make_unique<Stream[]>(kStreams)),
       lastErrors_(tasks) {
   ::sem_init(&work_, 0, 0);
-  ::sem_init(&done_, 0, 0);
-  if (inputs.replays())
+}
+
+FileService::~FileService() {
+  finish();
+  ::sem_destroy(&work_);
+}
+
+void FileService::lookAfter() {
+  if (thread_.joinable() || ending_.load() || !wanted_.load(std::memory_order_acquire))
     return;
   // Signals are for the program's other threads.
   ::sigset_t all;
@@ -50,21 +52,19 @@ FileService::FileService(FileSettings settings, uint32_t tasks, Inputs &inputs)
   ::sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &before);
   thread_ = std::thread([this] { work(); });
+  ::pthread_setname_np(thread_.native_handle(), "stride files");
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
-FileService::~FileService() {
-  finish();
-  ::sem_destroy(&done_);
-  ::sem_destroy(&work_);
-}
-
 void FileService::finish() {
-  if (!thread_.joinable())
+  if (ending_.exchange(true, std::memory_order_acq_rel))
     return;
-  ending_.store(true, std::memory_order_release);
-  ::sem_post(&work_);
-  thread_.join();
+  if (thread_.joinable()) {
+    ::sem_post(&work_);
+    thread_.join();
+  }
+  workOnce();
+  finishStreams();
 }
 
 std::vector<std::string> FileService::takeNews() {
@@ -114,7 +114,7 @@ void FileService::recycle(const Ctx &ctx) noexcept {
 
 /// Who takes the answer stands there already.
 void FileService::submit(const Ctx &ctx, Job &job, const FileRequest &request) noexcept {
-  job.generation.store((job.generation.load(std::memory_order_relaxed) + 1) & 0xFFFFFF,
+  job.generation.store(Handle::next(job.generation.load(std::memory_order_relaxed)),
                        std::memory_order_relaxed);
   job.task.store(ctx.taskIndex, std::memory_order_relaxed);
   job.cycle = ctx.cycle;
@@ -134,18 +134,21 @@ void FileService::submit(const Ctx &ctx, Job &job, const FileRequest &request) n
 }
 
 void FileService::wake() noexcept {
+  if (settings_.virtualTime) {
+    workOnce();
+    return;
+  }
+  wanted_.store(true, std::memory_order_release);
   ::sem_post(&work_);
-  if (settings_.virtualTime)
-    waitFor(done_);
 }
 
 FileService::Job *FileService::findJob(uint32_t number) noexcept {
-  const uint32_t index = (number & ((1U << kIndexBits) - 1)) - 1;
-  if (index >= kJobs)
+  const Handle handle(number);
+  if (handle.index() >= kJobs)
     return nullptr;
-  Job &job = jobs_[index];
+  Job &job = jobs_[handle.index()];
   const uint32_t state = job.state.load(std::memory_order_acquire);
-  return (state == Job::Queued || state == Job::Done) && job.generation == number >> kIndexBits
+  return (state == Job::Queued || state == Job::Done) && job.generation == handle.generation()
              ? &job
              : nullptr;
 }
@@ -185,8 +188,9 @@ uint32_t FileService::start(const Ctx &ctx, const FileRequest &request) noexcept
     if (Job *const job = claim(ctx)) {
       job->taker = Job::Taker::Number;
       submit(ctx, *job, request);
-      number = static_cast<uint32_t>(job - jobs_.get() + 1) |
-               job->generation.load(std::memory_order_relaxed) << kIndexBits;
+      number = Handle(static_cast<std::size_t>(job - jobs_.get()),
+                      job->generation.load(std::memory_order_relaxed))
+                   .number();
     }
   }
   inputs_->pass(&number, sizeof number);
@@ -232,7 +236,7 @@ void FileService::askNow(const Ctx &ctx, const FileRequest &request, FileAnswer 
       job = claim(ctx);
       if (job == nullptr)
         return;
-      stream->state.store(Stream::Closing, std::memory_order_release);
+      stream->state.store(Stream::Closing);
     } else {
       job = claim(ctx);
       if (job == nullptr)
@@ -253,10 +257,13 @@ void FileService::stream(const Ctx &ctx, StreamOp op, uint32_t file, void *data,
     Stream *const stream = findStream(file);
     if (stream == nullptr) {
       answer.error = FileError::BadHandle;
-    } else if (stream->user.exchange(1, std::memory_order_acquire) != 0) {
+    } else if (stream->user.exchange(1) != 0) {
       answer.error = FileError::Pending;
     } else {
-      use(*stream, op, data, size, answer);
+      if (findStream(file) == stream) // no other task has closed it just now
+        use(*stream, op, data, size, answer);
+      else
+        answer.error = FileError::BadHandle;
       stream->user.store(0, std::memory_order_release);
       if (op == StreamOp::Write && answer.value != 0)
         wake();
@@ -264,18 +271,18 @@ void FileService::stream(const Ctx &ctx, StreamOp op, uint32_t file, void *data,
   }
   inputs_->pass(&answer, sizeof answer);
   if (op == StreamOp::Read)
-    inputs_->pass(data, answer.value);
+    inputs_->pass(data, std::min(answer.value, size));
   lastErrors_[ctx.taskIndex] = answer.error;
 }
 
 FileService::Stream *FileService::findStream(uint32_t file) noexcept {
-  const uint32_t index = (file & ((1U << kIndexBits) - 1)) - 1;
-  if (index >= kStreams)
+  const Handle handle(file);
+  if (handle.index() >= kStreams)
     return nullptr;
-  Stream &stream = streams_[index];
-  const uint32_t state = stream.state.load(std::memory_order_acquire);
+  Stream &stream = streams_[handle.index()];
+  const uint32_t state = stream.state.load();
   return (state == Stream::Reading || state == Stream::Writing) &&
-                 stream.generation == file >> kIndexBits
+                 stream.generation == handle.generation()
              ? &stream
              : nullptr;
 }

@@ -34,8 +34,8 @@ public:
 struct FileSettings {
   std::string root = "files"; ///< All names are relative to this folder.
   bool anywhere = false;      ///< Names may lead out of it.
-  /// In virtual time: the thread is waited for, and an answer comes so many cycles of the asking
-  /// task later, so that runs repeat.
+  /// In virtual time: what is asked is done at once, in the cycle, and the answer comes so many
+  /// cycles of the asking task later, so that runs repeat.
   bool virtualTime = false;
   uint32_t delayCycles = 1;
   uint64_t largest = uint64_t{16} << 20; ///< The largest file that OpenStream reads. [bytes]
@@ -43,7 +43,8 @@ struct FileSettings {
 
 /// Requests of the tasks of one application. A task claims one of a fixed number of places with an
 /// atomic operation, fills it and wakes the thread; it looks for the answer there in later cycles.
-/// It never waits for the thread (but in virtual time), locks nothing and allocates nothing.
+/// It never waits for the thread, locks nothing and allocates nothing. There is no thread before
+/// something is asked, and none in virtual time, where a cycle may wait for the disk.
 class FileService {
 public:
   FileService(FileSettings settings, uint32_t tasks, Inputs &inputs);
@@ -60,6 +61,9 @@ public:
               FileAnswer &answer) noexcept;
   FileError lastError(const Ctx &ctx) const noexcept { return lastErrors_[ctx.taskIndex]; }
 
+  /// Every now and then, not from a cycle: starts the thread once something has been asked. Always
+  /// from the same thread, which calls finish(), too.
+  void lookAfter();
   /// After the last cycle: waits until everything that was asked has been done, and closes all
   /// files.
   void finish();
@@ -87,7 +91,7 @@ private:
                   FileAnswer &answer) noexcept;
   static void put(Stream &stream, const void *data, uint64_t size, FileAnswer &answer) noexcept;
 
-  // In the thread.
+  // In the thread; in virtual time and at the end in whichever there is.
   void work();
   void workOnce();
   Job *next();
@@ -95,6 +99,7 @@ private:
   Outcome openStream(const Job &job);
   Outcome closeStream(uint32_t file);
   Outcome finishStream(Stream &stream);
+  void finishStreams();
   void drain(Stream &stream);
   void drainAll();
   void say(std::string text);
@@ -106,13 +111,13 @@ private:
   std::unique_ptr<Stream[]> streams_;
   std::vector<FileError> lastErrors_; ///< By task.
   std::atomic<uint64_t> tickets_{0};
+  std::atomic<bool> wanted_{false}; ///< There is something to do for a thread.
   std::atomic<bool> ending_{false};
   ::sem_t work_{};       ///< Posted for everything there is to do.
-  ::sem_t done_{};       ///< In virtual time: it has been done.
   std::mutex newsMutex_; ///< Between the thread and takeNews(): no cycle.
   std::vector<std::string> news_;
   std::vector<std::byte> scratch_;
-  std::thread thread_; ///< None in a replay.
+  std::thread thread_;
 };
 
 } // namespace stride::system

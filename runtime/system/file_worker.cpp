@@ -2,9 +2,11 @@
 #include "runtime/system/file_job.hpp"
 #include "runtime/system/file_service.hpp"
 #include "runtime/system/file_stream.hpp"
+#include "runtime/system/handle.hpp"
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 
 #include <sys/stat.h>
@@ -12,8 +14,6 @@
 namespace stride::system {
 
 namespace {
-
-constexpr uint32_t kIndexBits = 8;
 
 const char *reason(FileError error) {
   switch (error) {
@@ -50,12 +50,7 @@ void FileService::work() {
     }
     last = ending_.load(std::memory_order_acquire);
     workOnce();
-    if (settings_.virtualTime)
-      ::sem_post(&done_);
   }
-  for (std::size_t i = 0; i < kStreams; ++i)
-    if (streams_[i].state.load(std::memory_order_acquire) != Stream::Free)
-      (void)finishStream(streams_[i]);
 }
 
 void FileService::workOnce() {
@@ -164,23 +159,32 @@ Outcome FileService::openStream(const Job &job) {
   stream->error.store(FileError::None, std::memory_order_relaxed);
   stream->lost = 0;
   stream->name = job.name;
-  const uint32_t generation = (stream->generation.load(std::memory_order_relaxed) + 1) & 0xFFFFFF;
+  const uint32_t generation = Handle::next(stream->generation.load(std::memory_order_relaxed));
   stream->generation.store(generation, std::memory_order_relaxed);
   stream->state.store(reads ? Stream::Reading : Stream::Writing, std::memory_order_release);
-  return {FileError::None,
-          static_cast<uint64_t>(stream - streams_.get() + 1) | uint64_t{generation} << kIndexBits};
+  const Handle handle(static_cast<std::size_t>(stream - streams_.get()), generation);
+  return {FileError::None, handle.number()};
 }
 
 Outcome FileService::closeStream(uint32_t file) {
-  const uint32_t index = (file & ((1U << kIndexBits) - 1)) - 1;
-  if (index >= kStreams || streams_[index].generation != file >> kIndexBits ||
-      streams_[index].state.load(std::memory_order_acquire) == Stream::Free)
+  const Handle handle(file);
+  if (handle.index() >= kStreams || streams_[handle.index()].generation != handle.generation() ||
+      streams_[handle.index()].state.load(std::memory_order_acquire) == Stream::Free)
     return {FileError::BadHandle, 0};
-  return finishStream(streams_[index]);
+  return finishStream(streams_[handle.index()]);
+}
+
+void FileService::finishStreams() {
+  for (std::size_t i = 0; i < kStreams; ++i)
+    if (streams_[i].state.load(std::memory_order_acquire) != Stream::Free)
+      (void)finishStream(streams_[i]);
 }
 
 /// What is in the ring is written, the file closed, the place free.
 Outcome FileService::finishStream(Stream &stream) {
+  // A task that was at it when another one closed it; one that an exception stopped stays there.
+  while (stream.user.load() != 0 && !ending_.load(std::memory_order_acquire))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   Outcome result;
   if (stream.file >= 0) {
     drain(stream);

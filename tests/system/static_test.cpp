@@ -1,6 +1,7 @@
 // stride build --static: one executable that needs nothing else.
 #include "tests/support/process.hpp"
 #include "tests/support/text.hpp"
+#include "tests/system/files/file_program.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -67,6 +68,22 @@ TEST(Static, RunsLikeTheHost) {
   EXPECT_THAT(expected, HasSubstr("\n2.013,100,0\n")); // there
   const ProcessResult run = runProcess({program.string(), "run", "--for", "50ms"}, scratch.path());
   EXPECT_EQ(run.exitCode, 0) << run.err;
+}
+
+TEST(Static, WorksWithFilesInTheCurrentFolder) {
+  const ScratchDirectory scratch;
+  std::filesystem::create_directory(scratch.path() / "p");
+  stride::test::writeFile(scratch.path() / "p" / "stride.toml", stride::test::kFileProject);
+  stride::test::writeFile(scratch.path() / "p" / "Main.st", stride::test::kFileProgram);
+  const ProcessResult result =
+      runProcess({"sh", "-c",
+                  STRIDE_BINARY_DIR "/stride build p --static -o app -W off=lints && "
+                                    "./app sim --for 1s --print PLC_PRG.rounds,PLC_PRG.wrong && "
+                                    "./app run --for 1s --quiet --print PLC_PRG.wrong && ls files"},
+                 scratch.path());
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("PLC_PRG.wrong = 0\nPLC_PRG.wrong = 0\nf0\nf1\nf2\n"));
+  EXPECT_THAT(result.out, ::testing::Not(HasSubstr("PLC_PRG.rounds = 0\n")));
 }
 
 #ifdef STRIDE_AARCH64

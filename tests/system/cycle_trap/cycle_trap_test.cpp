@@ -1,6 +1,7 @@
 // No example allocates, locks or waits inside of a cycle, by the real clock and in virtual time.
 #include "tests/support/process.hpp"
 #include "tests/support/text.hpp"
+#include "tests/system/files/file_program.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -100,6 +101,24 @@ TEST_P(CycleTrapExample, NorWhileVariablesAreForced) {
 
 INSTANTIATE_TEST_SUITE_P(Example, CycleTrapExample,
                          ::testing::Values(STRIDE_SOURCE_DIR "/examples/PLCopenSingle"));
+
+/// Virtual time waits for the disk; the real clock never does.
+TEST(CycleTrapOfFiles, NothingIsAllocatedOrLockedInACycleThatWorksWithThem) {
+  const ScratchDirectory scratch;
+  fs::create_directory(scratch.path() / "p");
+  writeFile(scratch.path() / "p" / "stride.toml", kFileProject);
+  writeFile(scratch.path() / "p" / "Main.st", kFileProgram);
+  const ProcessResult result =
+      runProcess({"sh", "-c",
+                  STRIDE_BINARY_DIR "/stride build p -o app.so -W off=lints && " STRIDE_BINARY_DIR
+                                    "/tests/cycle_trap_host run app.so --for 1500ms --quiet "
+                                    "--record r --print PLC_PRG.rounds,PLC_PRG.wrong"},
+                 scratch.path());
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_THAT(result.err, Not(HasSubstr("TRAP")));
+  EXPECT_THAT(result.out, HasSubstr("PLC_PRG.wrong = 0\n"));
+  EXPECT_THAT(result.out, Not(HasSubstr("PLC_PRG.rounds = 0\n")));
+}
 
 using CycleTrapItself = CycleTrap;
 

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <filesystem>
 #include <thread>
 
 namespace stride::test {
@@ -40,6 +41,7 @@ protected:
       if (answer.done != 0)
         return answer;
       task.cycle();
+      task.files().lookAfter();
       std::this_thread::sleep_for(1ms);
     }
     return {};
@@ -98,6 +100,25 @@ TEST_F(Files, WhatWasAcceptedIsWrittenAtTheEnd) {
       ASSERT_EQ(task.write(static_cast<uint32_t>(file.value), "0123456789").value, 10U);
   }
   EXPECT_EQ(content("log").size(), 1000U);
+}
+
+TEST_F(Files, WhatWasAskedIsDoneAtTheEndIfThereWasNoTimeBefore) {
+  {
+    FileService files(settings(false), 1, inputs_);
+    FileTask task(files, 0);
+    EXPECT_EQ(task.open("log", kAnew).error, FileError::Pending);
+  }
+  EXPECT_EQ(content("log"), "");
+}
+
+TEST_F(Files, AreOverAfterTheEnd) {
+  FileService files(settings(false), 1, inputs_);
+  FileTask task(files, 0);
+  EXPECT_EQ(task.open("log", kAnew).error, FileError::Pending);
+  files.finish();
+  files.lookAfter();
+  EXPECT_EQ(task.open("other", kAnew).error, FileError::Pending);
+  EXPECT_FALSE(std::filesystem::exists(scratch_.path() / "files" / "other"));
 }
 
 TEST_F(Files, ASlowDiskIsNotWaitedFor) {

@@ -20,7 +20,17 @@ public:
   FileTask(system::FileService &files, uint32_t index) : files_(&files) { ctx_.taskIndex = index; }
 
   void cycle() { ++ctx_.cycle; }
-  Ctx &ctx() { return ctx_; }
+  system::FileService &files() { return *files_; }
+  const Ctx &ctx() const { return ctx_; }
+
+  /// A request of the blocks.
+  uint32_t start(const FileRequest &request) { return files_->start(ctx_, request); }
+  FileAnswer poll(uint32_t number, std::string *data = nullptr) {
+    FileAnswer answer{};
+    files_->poll(ctx_, number, data != nullptr ? data->data() : nullptr,
+                 data != nullptr ? data->size() : 0, answer);
+    return answer;
+  }
 
   FileAnswer ask(FileOp op, const char *name, const char *second = nullptr, uint32_t mode = 0,
                  uint32_t file = 0) {
@@ -37,9 +47,7 @@ public:
   FileAnswer open(const char *name, uint32_t mode) {
     return ask(FileOp::OpenStream, name, nullptr, mode);
   }
-  FileAnswer close(uint32_t file) {
-    return ask(FileOp::CloseStream, nullptr, nullptr, 0, file);
-  }
+  FileAnswer close(uint32_t file) { return ask(FileOp::CloseStream, nullptr, nullptr, 0, file); }
   FileAnswer write(uint32_t file, std::string_view text) {
     FileAnswer answer{};
     std::string copy(text);

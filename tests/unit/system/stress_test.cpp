@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <string>
 #include <thread>
 #include <vector>
@@ -49,8 +50,16 @@ TEST(FileStress, TasksDoNotMeet) {
   {
     system::FileService files(settings, 3, inputs);
     std::vector<std::thread> tasks;
+    std::atomic<std::size_t> finished{0};
     for (uint32_t i = 0; i < good.size(); ++i)
-      tasks.emplace_back([&, i] { work(files, i, kRounds, good[i]); });
+      tasks.emplace_back([&, i] {
+        work(files, i, kRounds, good[i]);
+        ++finished;
+      });
+    while (finished < good.size()) {
+      files.lookAfter();
+      std::this_thread::yield();
+    }
     for (std::thread &task : tasks)
       task.join();
   }
