@@ -177,7 +177,8 @@ void FileService::take(Job &job, void *data, uint64_t room, FileAnswer &answer) 
   answer.done = 1;
   if (job.op == FileOp::Read) {
     answer.value = std::min(answer.value, room);
-    std::memcpy(data, job.data.get(), answer.value);
+    if (data != nullptr)
+      std::memcpy(data, job.data.get(), answer.value);
   }
   job.state.store(Job::Free, std::memory_order_release);
 }
