@@ -18,6 +18,34 @@ namespace {
 
 Outcome failed(int number) { return {fileErrorOf(number), 0}; }
 
+/// Calls `part(done)`, which may do less than what is left, until all is done or nothing more is.
+template <class Part> Outcome inParts(uint64_t size, Part part) {
+  uint64_t done = 0;
+  while (done < size) {
+    const ssize_t count = part(done);
+    if (count < 0 && errno == EINTR)
+      continue;
+    if (count < 0)
+      return {fileErrorOf(errno), done};
+    if (count == 0)
+      break;
+    done += static_cast<uint64_t>(count);
+  }
+  return {FileError::None, done};
+}
+
+/// A disk that takes nothing and says nothing is broken.
+Outcome allOf(Outcome written, uint64_t size) {
+  if (written.error == FileError::None && written.value < size)
+    written.error = FileError::Device;
+  return written;
+}
+
+/// As many bytes as there are.
+Outcome readAll(int file, std::byte *data, uint64_t size) {
+  return inParts(size, [&](uint64_t done) { return ::read(file, data + done, size - done); });
+}
+
 } // namespace
 
 FileError fileErrorOf(int number) {
@@ -116,30 +144,15 @@ Outcome Disk::finish(int file, bool written) {
 }
 
 Outcome Disk::writeAll(int file, const std::byte *data, uint64_t size) {
-  uint64_t done = 0;
-  while (done < size) {
-    const ssize_t count = ::write(file, data + done, size - done);
-    if (count < 0 && errno == EINTR)
-      continue;
-    if (count <= 0)
-      return {count == 0 ? FileError::Device : fileErrorOf(errno), done};
-    done += static_cast<uint64_t>(count);
-  }
-  return {FileError::None, done};
+  const auto part = [&](uint64_t done) { return ::write(file, data + done, size - done); };
+  return allOf(inParts(size, part), size);
 }
 
 Outcome Disk::writeAllAt(int file, const std::byte *data, uint64_t size, uint64_t position) {
-  uint64_t done = 0;
-  while (done < size) {
-    const ssize_t count =
-        ::pwrite(file, data + done, size - done, static_cast<off_t>(position + done));
-    if (count < 0 && errno == EINTR)
-      continue;
-    if (count <= 0)
-      return {count == 0 ? FileError::Device : fileErrorOf(errno), done};
-    done += static_cast<uint64_t>(count);
-  }
-  return {FileError::None, done};
+  const auto part = [&](uint64_t done) {
+    return ::pwrite(file, data + done, size - done, static_cast<off_t>(position + done));
+  };
+  return allOf(inParts(size, part), size);
 }
 
 Disk::File *Disk::find(uint32_t handle) {
@@ -180,18 +193,7 @@ Outcome Disk::read(uint32_t handle, std::byte *data, uint64_t size) {
     return {FileError::BadHandle, 0};
   if ((file->mode & kFileRead) == 0)
     return {FileError::NotPossible, 0};
-  uint64_t done = 0;
-  while (done < size) {
-    const ssize_t count = ::read(file->descriptor, data + done, size - done);
-    if (count < 0 && errno == EINTR)
-      continue;
-    if (count < 0)
-      return {fileErrorOf(errno), done};
-    if (count == 0)
-      break;
-    done += static_cast<uint64_t>(count);
-  }
-  return {FileError::None, done};
+  return readAll(file->descriptor, data, size);
 }
 
 Outcome Disk::write(uint32_t handle, const std::byte *data, uint64_t size) {
@@ -302,19 +304,12 @@ Outcome Disk::copy(std::string_view from, std::string_view to) {
   const int out = static_cast<int>(target.value);
   std::vector<std::byte> part(65536);
   Outcome result;
-  for (;;) {
-    const ssize_t count = ::read(in, part.data(), part.size());
-    if (count < 0 && errno == EINTR)
-      continue;
-    if (count < 0)
-      result.error = fileErrorOf(errno);
-    if (count <= 0)
-      break;
-    const Outcome written = writeAll(out, part.data(), static_cast<uint64_t>(count));
+  for (bool more = true; more;) {
+    const Outcome got = readAll(in, part.data(), part.size());
+    const Outcome written = writeAll(out, part.data(), got.value);
     result.value += written.value;
-    result.error = written.error;
-    if (written.error != FileError::None)
-      break;
+    result.error = got.error != FileError::None ? got.error : written.error;
+    more = result.error == FileError::None && got.value == part.size();
   }
   ::close(in);
   const Outcome end = finish(out, true);
@@ -336,17 +331,8 @@ Outcome Disk::load(std::string_view name, std::vector<std::byte> &content, uint6
     result.error = FileError::TooLarge;
   else
     content.resize(static_cast<std::size_t>(about.st_size));
-  while (result.error == FileError::None && result.value < content.size()) {
-    const ssize_t count =
-        ::read(file, content.data() + result.value, content.size() - result.value);
-    if (count < 0 && errno == EINTR)
-      continue;
-    if (count < 0)
-      result.error = fileErrorOf(errno);
-    if (count <= 0)
-      break;
-    result.value += static_cast<uint64_t>(count);
-  }
+  if (result.error == FileError::None)
+    result = readAll(file, content.data(), content.size());
   content.resize(static_cast<std::size_t>(result.value));
   ::close(file);
   return result;
