@@ -89,9 +89,9 @@ inline constexpr uint32_t kFileName = 256;
 
 /// Nothing here waits, allocates or throws.
 struct SystemApi {
-  uint32_t size; ///< sizeof(SystemApi) of the host.
+  uint32_t size;     ///< sizeof(SystemApi) of the host.
   uint32_t reserved; ///< 0.
-  void *self; ///< The host's own object.
+  void *self;        ///< The host's own object.
   /// All of these bytes are the application's: its state, or live on the stack of the caller.
   BOOL (*owns)(void *self, const Ctx *ctx, const void *at, uint64_t size);
   /// Nanoseconds since 1970 at the start of the cycle.
