@@ -15,6 +15,13 @@ function(_stride_own_code target)
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
 endfunction()
 
+# Code of tests: what it tests is optimised, it itself is not, which halves the time g++ takes. A file's helpers
+# are its own.
+function(_stride_test_code target)
+  target_compile_options(${target} PRIVATE -O0)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
+endfunction()
+
 # _stride_precompiled(<target> library|test): its sources use that precompiled header of cmake/pch. There is
 # one for the libraries and one for the tests, which are executables and so compiled with other flags. That
 # the sources include what they use is seen where STRIDE_PCH is off, in the fuzzers' build.
@@ -29,6 +36,7 @@ function(_stride_precompiled target kind)
     else()
       add_executable(${header} ${PROJECT_SOURCE_DIR}/cmake/pch/main.cpp)
       target_link_libraries(${header} PRIVATE GTest::gmock GTest::gtest)
+      _stride_test_code(${header})
     endif()
     _stride_own_code(${header})
     target_precompile_headers(${header} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/pch/${kind}.hpp)
@@ -71,6 +79,7 @@ function(stride_test name)
   find_package(GTest REQUIRED)
   add_executable(${name} ${arg_SOURCES})
   _stride_own_code(${name})
+  _stride_test_code(${name})
   _stride_precompiled(${name} test)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/tests)
   target_compile_definitions(${name} PRIVATE

@@ -80,8 +80,6 @@ std::string_view severityText(Severity severity) {
   return {};
 }
 
-void print(const std::string &text) { std::fwrite(text.data(), 1, text.size(), stdout); }
-
 } // namespace
 
 int explainCommand(const std::string &what) {

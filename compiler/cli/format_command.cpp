@@ -12,8 +12,6 @@ namespace stc::cli {
 
 namespace {
 
-void print(const std::string &text) { std::fwrite(text.data(), 1, text.size(), stdout); }
-
 std::string readStdin() {
   std::string text;
   char block[1 << 16];

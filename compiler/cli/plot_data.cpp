@@ -19,7 +19,7 @@ std::string_view nextLine(std::string_view &rest) {
   return line;
 }
 
-std::string_view trim(std::string_view text) {
+std::string_view cellText(std::string_view text) {
   while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
     text.remove_prefix(1);
   while (!text.empty() && (text.back() == ' ' || text.back() == '\t'))
@@ -37,7 +37,7 @@ std::vector<std::string_view> cells(std::string_view line) {
   bool quoted = false;
   for (std::size_t i = 0; i <= line.size(); ++i) {
     if (i == line.size() || (line[i] == ',' && depth == 0 && !quoted)) {
-      result.push_back(trim(line.substr(begin, i - begin)));
+      result.push_back(cellText(line.substr(begin, i - begin)));
       begin = i + 1;
     } else if (line[i] == '"') {
       quoted = !quoted;
@@ -116,7 +116,7 @@ std::optional<Trace> readTrace(std::string_view csv, TraceError &error) {
   std::vector<bool> words(trace.series.size(), false);
   for (std::size_t number = 2; !rest.empty(); ++number) {
     const std::string_view line = nextLine(rest);
-    if (trim(line).empty())
+    if (cellText(line).empty())
       continue;
     const std::vector<std::string_view> row = cells(line);
     if (row.size() != header.size()) {

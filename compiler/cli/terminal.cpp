@@ -28,6 +28,8 @@ bool Output::useColor() const {
          (terminal == nullptr || std::string_view(terminal) != "dumb");
 }
 
+void print(const std::string &text) { write(stdout, text); }
+
 int show(const std::vector<Diagnostic> &diagnostics, const SourceManager &sources,
          const Output &output) {
   std::size_t errors = 0;

@@ -24,6 +24,9 @@ struct Output {
   [[nodiscard]] bool useColor() const;
 };
 
+/// Writes the text to standard output.
+void print(const std::string &text);
+
 /// Writes diagnostics, text with a summary line to standard error, JSON (an object a line) to
 /// standard output. As text nothing is shown behind `maxErrors` errors. Returns the exit code: 0
 /// exactly when none is an error.

@@ -27,13 +27,6 @@ struct Member {
   std::string name;
 };
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char &c : out)
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return out;
-}
-
 class Application {
 public:
   Application(Context &context, const AppConfig &config)
@@ -351,7 +344,7 @@ private:
 
   /// A global variable by name, and its place in the state.
   PlacedVariable global(std::string_view name) const {
-    const std::string wanted = lower(name);
+    const std::string wanted = lowerCase(name);
     for (const Member &m : members_) {
       if (m.root.symbol->kind != SymbolKind::globals || !m.root.symbol->library->isUser)
         continue;

@@ -156,7 +156,7 @@ void Emitter::literal(const ConstValue &constant, const Type *from, const Type *
     double value = constant.real;
     if (constant.kind == ConstKind::integer) {
       const Type *f = underlying(from);
-      const bool huge = f->kind == TypeKind::ulint || f->kind == TypeKind::lword;
+      const bool huge = isUnsigned64(f);
       value = huge ? static_cast<double>(static_cast<std::uint64_t>(constant.integer))
                    : static_cast<double>(constant.integer);
     }

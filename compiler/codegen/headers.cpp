@@ -72,7 +72,7 @@ public:
     const Type *base = underlying(type);
     for (const EnumeratorSymbol *e : type->enumerators) {
       body_ += "inline constexpr " + name_ + " " + name_ + "__" + std::string(e->name.text) + " = ";
-      const bool unsigned64 = base->kind == TypeKind::ulint || base->kind == TypeKind::lword;
+      const bool unsigned64 = isUnsigned64(base);
       body_ += unsigned64 ? std::to_string(static_cast<std::uint64_t>(e->value)) + "ULL"
                           : std::to_string(e->value);
       body_ += ";\n";

@@ -85,7 +85,7 @@ void Emitter::defaultStatement(std::string_view target, const Type *type) {
   case TypeKind::enumeration: {
     const EnumeratorSymbol *initial = typeAs<EnumType>(type)->initial;
     w_ << target << " = ";
-    literal({ConstKind::integer, initial->value, 0, {}}, type, type, initial);
+    literal(integerValue(initial->value), type, type, initial);
     w_ << ';';
     return;
   }

@@ -308,7 +308,7 @@ private:
       path->path = program_.arena.copy(std::vector<Name>{type});
       auto *variable = program_.arena.make<VarDecl>();
       variable->name = decl.name;
-      variable->section = Section::global;
+      variable->section = ast::Section::global;
       variable->qualifiers = decl.qualifiers;
       variable->type = path;
       variable->attributes = attribute(kProgramInstance, {});

@@ -33,15 +33,9 @@ constexpr std::array<std::string_view, 83> kReserved = {
 
 } // namespace
 
-std::string lowerCase(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), asciiLower);
-  return result;
-}
-
 bool equalIgnoringCase(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return asciiLower(x) == asciiLower(y); });
+                    [](char x, char y) { return lowerCase(x) == lowerCase(y); });
 }
 
 bool isReservedWord(std::string_view text) {
@@ -51,7 +45,7 @@ bool isReservedWord(std::string_view text) {
 
 bool isIdentifier(std::string_view text) {
   const auto letter = [](char c) {
-    return (asciiLower(c) >= 'a' && asciiLower(c) <= 'z') || c == '_';
+    return (lowerCase(c) >= 'a' && lowerCase(c) <= 'z') || c == '_';
   };
   if (text.empty() || !letter(text.front()) || isReservedWord(text) ||
       text.find("__") != std::string_view::npos)

@@ -1,15 +1,13 @@
 #pragma once
 // Names of Structured Text, as far as the configuration has to do with them.
 
+#include "compiler/source/identifier.hpp"
+
 #include <string>
 #include <string_view>
 
 namespace stc {
 
-[[nodiscard]] constexpr char asciiLower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-[[nodiscard]] std::string lowerCase(std::string_view text);
 [[nodiscard]] bool equalIgnoringCase(std::string_view a, std::string_view b);
 
 /// A word that can never be an identifier, whatever its case.

@@ -16,7 +16,7 @@ std::string canonical(std::string_view text) {
   std::string result;
   for (const char c : text)
     if (c != ' ' && c != '\t')
-      result += asciiLower(c);
+      result += lowerCase(c);
   return result;
 }
 

@@ -17,5 +17,6 @@ struct ConstValue {
   double real = 0;
   std::string_view text; ///< string, UTF-8
 };
+constexpr ConstValue integerValue(std::int64_t v) { return {ConstKind::integer, v, 0, {}}; }
 
 } // namespace stc

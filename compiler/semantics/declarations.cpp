@@ -171,7 +171,7 @@ const EnumType *Checker::makeEnum(EnumTypeExpr *expr, TypeSymbol *symbol) {
         next = *value;
     }
     enumerator->value = next;
-    const ConstValue value{ConstKind::integer, next, 0, {}};
+    const ConstValue value = integerValue(next);
     if (!constantFits(value, elementaryType(TypeKind::anyInteger), type->base))
       report(Code::constantOverflow, e.name.span,
              "the value " + std::to_string(next) + " of `" + std::string(e.name.text) +
@@ -423,8 +423,8 @@ const Type *Checker::resolveSubrange(SubrangeTypeExpr *expr, std::string_view hi
     return elementaryType(TypeKind::error);
   }
   const Type *any = elementaryType(TypeKind::anyInteger);
-  const bool fits = constantFits({ConstKind::integer, *low, 0, {}}, any, base) &&
-                    constantFits({ConstKind::integer, *high, 0, {}}, any, base);
+  const bool fits =
+      constantFits(integerValue(*low), any, base) && constantFits(integerValue(*high), any, base);
   if (*high < *low || !fits) {
     report(Code::invalidSubrange, expr->low->span.to(expr->high->span),
            *high < *low ? "the range holds no value"

@@ -107,7 +107,7 @@ const Type *Checker::useSymbol(Expr *expr, Symbol *symbol, const Name &name) {
   }
   case SymbolKind::enumerator: {
     const auto *e = static_cast<EnumeratorSymbol *>(symbol);
-    expr->constant = makeConstant({ConstKind::integer, e->value, 0, {}});
+    expr->constant = makeConstant(integerValue(e->value));
     return e->type;
   }
   case SymbolKind::pou: {

@@ -12,17 +12,11 @@ namespace {
 
 using ast::BinaryOp;
 
-ConstValue integerValue(std::int64_t v) { return {ConstKind::integer, v, 0, {}}; }
 ConstValue realValue(double v, const Type *type) {
   return {ConstKind::real,
           0,
           type->kind == TypeKind::real ? static_cast<double>(static_cast<float>(v)) : v,
           {}};
-}
-
-bool isUnsigned64(const Type *t) {
-  t = underlying(t);
-  return t->kind == TypeKind::ulint || t->kind == TypeKind::lword;
 }
 
 std::uint64_t bits(std::int64_t v) { return static_cast<std::uint64_t>(v); }

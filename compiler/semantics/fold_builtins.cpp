@@ -15,7 +15,6 @@ namespace {
 
 using ast::Builtin;
 
-ConstValue integerValue(std::int64_t v) { return {ConstKind::integer, v, 0, {}}; }
 ConstValue realValue(double v) { return {ConstKind::real, 0, v, {}}; }
 
 // -------------------------------------------------------------------------------------------------
@@ -207,11 +206,6 @@ template <class T> std::optional<ConstValue> foldMath(Builtin function, T x, T y
   default:
     return std::nullopt;
   }
-}
-
-bool isUnsigned64(const Type *t) {
-  t = underlying(t);
-  return t->kind == TypeKind::ulint || t->kind == TypeKind::lword;
 }
 
 std::optional<ConstValue> foldTruncation(double value, const Type *to) {

@@ -176,12 +176,11 @@ void Linter::comparison(const BinaryExpr *expr) {
                      (negated && !simple ? ")" : ""));
     return;
   }
-  if (constant->type->kind == TypeKind::ulint || constant->type->kind == TypeKind::lword)
+  if (isUnsigned64(constant->type))
     return;
   const BinaryOp op = constantLeft ? mirrored(expr->op) : expr->op;
   std::optional<ValueRange> range = valueRange(other);
-  if (!range && (other->type->kind == TypeKind::ulint || other->type->kind == TypeKind::lword) &&
-      constant->constant->integer <= 0)
+  if (!range && isUnsigned64(other->type) && constant->constant->integer <= 0)
     range = ValueRange{0, INT64_MAX};
   if (!range)
     return;

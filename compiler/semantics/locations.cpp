@@ -355,8 +355,7 @@ const Type *Checker::checkBitAddress(CallExpr *expr) {
   // The highest four bits name the area.
   constexpr std::int64_t kAreas[] = {0x80000000LL, 0xC0000000LL, 0x40000000LL};
   const std::int64_t bit = std::int64_t{at->byte} * 8 + std::max<std::int64_t>(at->bit, 0);
-  expr->constant =
-      makeConstant({ConstKind::integer, kAreas[static_cast<std::size_t>(at->area)] + bit, 0, {}});
+  expr->constant = makeConstant(integerValue(kAreas[static_cast<std::size_t>(at->area)] + bit));
   return elementaryType(TypeKind::dword);
 }
 

@@ -94,7 +94,7 @@ const Type *Checker::checkSizeof(CallExpr *expr) {
   const auto same = [type](const auto &entry) { return entry.first == type; };
   if (std::none_of(program_.measured.begin(), program_.measured.end(), same))
     program_.measured.emplace_back(type, size);
-  expr->constant = makeConstant({ConstKind::integer, static_cast<std::int64_t>(size), 0, {}});
+  expr->constant = makeConstant(integerValue(static_cast<std::int64_t>(size)));
   return elementaryType(TypeKind::anyInteger);
 }
 
@@ -112,7 +112,7 @@ const Type *Checker::checkIndexOf(CallExpr *expr) {
   value->type = elementaryType(TypeKind::none);
   const auto &pous = symbol->library->pous;
   const auto at = std::find(pous.begin(), pous.end(), symbol) - pous.begin();
-  expr->constant = makeConstant({ConstKind::integer, static_cast<std::int64_t>(at) + 1, 0, {}});
+  expr->constant = makeConstant(integerValue(static_cast<std::int64_t>(at) + 1));
   return elementaryType(TypeKind::anyInteger);
 }
 
@@ -151,8 +151,8 @@ const Type *Checker::checkBound(CallExpr *expr) {
   const auto *at = typeAs<ArrayType>(fixed);
   for (std::int64_t i = dynamic + 1; i < wanted; ++i)
     at = typeAs<ArrayType>(at->element);
-  expr->constant = makeConstant(
-      {ConstKind::integer, expr->builtin == Builtin::lowerBound ? at->low : at->high, 0, {}});
+  expr->constant =
+      makeConstant(integerValue(expr->builtin == Builtin::lowerBound ? at->low : at->high));
   return elementaryType(TypeKind::dint);
 }
 

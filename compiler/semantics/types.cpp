@@ -11,6 +11,10 @@ bool isUnsignedInteger(const Type *t) {
   return t->kind >= TypeKind::usint && t->kind <= TypeKind::ulint;
 }
 bool isBitString(const Type *t) { return t->kind >= TypeKind::byte && t->kind <= TypeKind::lword; }
+bool isUnsigned64(const Type *t) {
+  t = underlying(t);
+  return t->kind == TypeKind::ulint || t->kind == TypeKind::lword;
+}
 bool isInteger(const Type *t) { return t->kind >= TypeKind::sint && t->kind <= TypeKind::lword; }
 bool isReal(const Type *t) { return t->kind == TypeKind::real || t->kind == TypeKind::lreal; }
 bool isTimeOrDate(const Type *t) { return t->kind >= TypeKind::time && t->kind <= TypeKind::ldt; }

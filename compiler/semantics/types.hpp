@@ -137,6 +137,8 @@ isInteger(const Type *t); ///< signed, unsigned, bit string (no enumerations, su
 bitWidth(const Type *t); ///< of numbers, bit strings, times, enumerations, subranges; 1 for BOOL
 /// Subranges and enumerations give their base; others themselves.
 [[nodiscard]] const Type *underlying(const Type *t);
+/// ULINT or LWORD, whose values do not fit a signed 64-bit integer.
+[[nodiscard]] bool isUnsigned64(const Type *t);
 /// As diagnostics show it: `INT`, `ARRAY [1..3] OF REAL`, `STRING(20)`, `MC_Direction`.
 [[nodiscard]] std::string typeName(const Type *t);
 

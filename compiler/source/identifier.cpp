@@ -15,6 +15,13 @@ bool sameIdent(std::string_view lower, std::string_view spelling) {
 
 } // namespace
 
+std::string lowerCase(std::string_view text) {
+  std::string out(text);
+  for (char &c : out)
+    c = lowerCase(c);
+  return out;
+}
+
 Ident Interner::intern(std::string_view spelling, std::uint32_t hash) {
   if (slots_.size() < 2 * (std::size_t{size_} + 1))
     grow();
@@ -23,9 +30,8 @@ Ident Interner::intern(std::string_view spelling, std::uint32_t hash) {
   for (; slots_[slot] != nullptr; slot = (slot + 1) & mask)
     if (slots_[slot]->hash == hash && sameIdent(slots_[slot]->lower, spelling))
       return slots_[slot];
-  std::string lower(spelling);
-  std::transform(lower.begin(), lower.end(), lower.begin(), lowerCase);
-  slots_[slot] = arena_.make<IdentData>(arena_.copy(std::string_view(lower)), size_++, hash);
+  slots_[slot] =
+      arena_.make<IdentData>(arena_.copy(std::string_view(lowerCase(spelling))), size_++, hash);
   return slots_[slot];
 }
 

@@ -4,6 +4,7 @@
 #include "compiler/source/arena.hpp"
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,6 +20,7 @@ using Ident = const IdentData *;
 
 /// The letter's lower-case form (ASCII).
 constexpr char lowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
+[[nodiscard]] std::string lowerCase(std::string_view text);
 
 /// One step and the whole of the case-insensitive hash of identifiers.
 constexpr std::uint32_t hashStep(std::uint32_t hash, char c) {

@@ -33,8 +33,7 @@ Expr *AstBuilder::literal(const Token &start) {
     break;
   case Tok::TIME_LITERAL: {
     const std::size_t hash = spelling.find('#');
-    std::string prefix(spelling.substr(0, hash));
-    std::transform(prefix.begin(), prefix.end(), prefix.begin(), lowerCase);
+    const std::string prefix = lowerCase(spelling.substr(0, hash));
     std::string_view value = spelling.substr(hash + 1);
     const bool negative = value[0] == '-';
     if (negative || value[0] == '+')

@@ -11,12 +11,6 @@ namespace stc {
 
 namespace {
 
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), lowerCase);
-  return out;
-}
-
 /// Names that every build defines.
 constexpr std::string_view kAlways[] = {"stride", "islittleendian", "isfpusupported"};
 
@@ -41,10 +35,10 @@ Conditions::Conditions(const ParseOptions *options)
 }
 
 void Conditions::define(std::string_view name, std::string_view value) {
-  defines_[lower(name)] = value;
+  defines_[lowerCase(name)] = value;
 }
 
-void Conditions::undefine(std::string_view name) { defines_.erase(lower(name)); }
+void Conditions::undefine(std::string_view name) { defines_.erase(lowerCase(name)); }
 
 /// Recursive descent over the text of one condition.
 class ConditionParser {
@@ -94,7 +88,7 @@ private:
   }
   bool takeWord(std::string_view wanted) {
     const std::size_t before = at_;
-    if (lower(word()) == wanted)
+    if (lowerCase(word()) == wanted)
       return true;
     at_ = before;
     return false;
@@ -145,7 +139,7 @@ private:
     }
     skip();
     const std::size_t begin = at_;
-    const std::string name = lower(word());
+    const std::string name = lowerCase(word());
     if (name == "true" || name == "false")
       return name == "true";
     const bool known = name == "defined" || name == "hasattribute" || name == "hastype" ||
@@ -164,12 +158,12 @@ private:
   }
 
   std::string path() {
-    std::string out = lower(word());
+    std::string out = lowerCase(word());
     if (out.empty())
       fail(at_, std::min(at_ + 1, text_.size()), "expected a name here");
     while (!failed_ && take('.')) {
       out += '.';
-      out += lower(word());
+      out += lowerCase(word());
     }
     return out;
   }
@@ -210,7 +204,7 @@ private:
   const DeclaredNames::Entry *object(bool &known) {
     skip();
     const std::size_t begin = at_;
-    const std::string kind = lower(word());
+    const std::string kind = lowerCase(word());
     known = true;
     demand(':');
     if (failed_)
@@ -230,7 +224,7 @@ private:
 
   bool isDefined() {
     const std::size_t before = at_;
-    const std::string name = lower(word());
+    const std::string name = lowerCase(word());
     if (take(':')) {
       at_ = before;
       bool known = false;
@@ -243,7 +237,7 @@ private:
     bool known = false;
     const DeclaredNames::Entry *entry = object(known);
     demand(',');
-    const std::string name = lower(value());
+    const std::string name = lowerCase(value());
     return entry != nullptr && std::find(entry->attributes.begin(), entry->attributes.end(),
                                          name) != entry->attributes.end();
   }

@@ -3,18 +3,11 @@
 #include "compiler/syntax/conditions.hpp"
 #include "compiler/syntax/scanner.hpp"
 
-#include <algorithm>
 #include <filesystem>
 
 namespace stc {
 
 namespace {
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), lowerCase);
-  return out;
-}
 
 bool opensPou(std::uint16_t type) {
   switch (type) {
@@ -40,7 +33,7 @@ const DeclaredNames::Entry *DeclaredNames::find(Kind kind, std::string_view name
     for (const FileId file : files_)
       read(sources_.file(file));
   }
-  const auto [begin, end] = names_[static_cast<std::size_t>(kind)].equal_range(lower(name));
+  const auto [begin, end] = names_[static_cast<std::size_t>(kind)].equal_range(lowerCase(name));
   for (auto it = begin; it != end; ++it)
     if (it->second.local == 0 || it->second.local == from)
       return &it->second;
@@ -50,7 +43,7 @@ const DeclaredNames::Entry *DeclaredNames::find(Kind kind, std::string_view name
 void DeclaredNames::read(const SourceFile &file) {
   Diagnostics ignored;
   Scanner scanner(file, ignored);
-  const std::string list = lower(std::filesystem::path(file.name()).stem().string());
+  const std::string list = lowerCase(std::filesystem::path(file.name()).stem().string());
   std::string pou;
   std::uint16_t section = 0;           // TYPE or VAR…; 0: outside of them
   unsigned depth = 0;                  // of STRUCT within TYPE
@@ -61,7 +54,7 @@ void DeclaredNames::read(const SourceFile &file) {
     for (std::size_t i = 0; i < token.triviaCount; ++i)
       if (const Trivia &one = scanner.trivia()[token.triviaBegin + i];
           one.kind == Trivia::Kind::attribute)
-        attributes.push_back(lower(one.name));
+        attributes.push_back(lowerCase(one.name));
   };
   const auto add = [&](Kind kind, const std::string &name, Entry entry) {
     names_[static_cast<std::size_t>(kind)].emplace(name, std::move(entry));
@@ -74,7 +67,7 @@ void DeclaredNames::read(const SourceFile &file) {
         token = scanner.next();
       while (token.type >= Tok::ABSTRACT && token.type <= Tok::OVERRIDE);
       if (token.type == Tok::IDENT) {
-        std::string name = lower(scanner.text(token));
+        std::string name = lowerCase(scanner.text(token));
         if (type == Tok::METHOD || type == Tok::PROPERTY || type == Tok::ACTION)
           name.insert(0, pou + ".");
         else
@@ -97,7 +90,7 @@ void DeclaredNames::read(const SourceFile &file) {
       depth -= depth > 0;
       names.clear();
     } else if (section != 0 && depth == 0 && type == Tok::IDENT) {
-      names.push_back(lower(scanner.text(token)));
+      names.push_back(lowerCase(scanner.text(token)));
     } else if (section != 0 && depth == 0 && type == Tok::COLON && !names.empty()) {
       Entry entry;
       entry.attributes = std::move(attributes);
@@ -110,7 +103,7 @@ void DeclaredNames::read(const SourceFile &file) {
         if (token.type == Tok::ASSIGN && !inInit)
           inInit = true;
         else
-          (inInit ? entry.init : entry.type) += lower(scanner.text(token));
+          (inInit ? entry.init : entry.type) += lowerCase(scanner.text(token));
         token = scanner.next();
       }
       if (section == Tok::TYPE) {

@@ -239,17 +239,12 @@ bool FileParser::isJumpTarget(const Token &name) {
     Scanner scanner(file_, ignored);
     bool jump = false;
     for (Token token = scanner.next(); token.type != Token::kEnd; token = scanner.next()) {
-      if (jump && token.type == Tok::IDENT) {
-        std::string text(scanner.text(token));
-        std::transform(text.begin(), text.end(), text.begin(), lowerCase);
-        jumpTargets_->insert(std::move(text));
-      }
+      if (jump && token.type == Tok::IDENT)
+        jumpTargets_->insert(lowerCase(scanner.text(token)));
       jump = token.type == Tok::JMP;
     }
   }
-  std::string text(scanner_.text(name));
-  std::transform(text.begin(), text.end(), text.begin(), lowerCase);
-  return jumpTargets_->contains(text);
+  return jumpTargets_->contains(lowerCase(scanner_.text(name)));
 }
 
 /// A type that no statement can begin with.

@@ -111,17 +111,11 @@ private:
 
 std::vector<FormatItem> readItems(const SourceFile &file) { return ItemReader(file).read(); }
 
-std::string lowerText(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), lowerCase);
-  return out;
-}
-
 std::set<std::string> jumpTargets(const std::vector<FormatItem> &items) {
   std::set<std::string> out;
   for (std::size_t i = 1; i < items.size(); ++i)
     if (items[i - 1].type == Tok::JMP && items[i].type == Tok::IDENT)
-      out.insert(lowerText(items[i].text));
+      out.insert(lowerCase(items[i].text));
   return out;
 }
 
@@ -134,7 +128,7 @@ std::string pragmaWord(std::string_view comment) {
   std::size_t end = begin;
   while (end < comment.size() && isWordChar(comment[end]))
     ++end;
-  return lowerText(comment.substr(begin, end - begin));
+  return lowerCase(comment.substr(begin, end - begin));
 }
 
 bool isIntegerName(std::string_view text) { return isOneOf(text, kIntegers); }

@@ -39,8 +39,6 @@ inline constexpr std::uint16_t kUnknownText = Token::kEnd - 1;
 /// Names behind JMP, in lower case.
 [[nodiscard]] std::set<std::string> jumpTargets(const std::vector<FormatItem> &items);
 
-[[nodiscard]] std::string lowerText(std::string_view text);
-
 /// The word behind the brace of a pragma, in lower case; empty for comments.
 [[nodiscard]] std::string pragmaWord(std::string_view comment);
 

@@ -155,7 +155,7 @@ private:
     if (!type && !assignment && !isKeywordType(item.type))
       return out;
     if (style_.keywords == KeywordCase::lower)
-      std::transform(out.begin(), out.end(), out.begin(), lowerCase);
+      out = lowerCase(out);
     else if (style_.keywords == KeywordCase::upper)
       std::transform(out.begin(), out.end(), out.begin(), [](char c) {
         return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;

@@ -1,4 +1,5 @@
 // Which tokens make a line of a formatted text, and what they open and close.
+#include "compiler/source/identifier.hpp"
 #include "compiler/syntax/format_layout.hpp"
 
 #include "compiler/syntax/token_sets.hpp"
@@ -76,7 +77,7 @@ std::size_t FormatLayout::labelEnd(std::size_t i) const {
     case Tok::COLON:
       if (depth == 0)
         return k == i + 1 && type(i) == Tok::IDENT &&
-                       jumpTargets_.contains(lowerText(items_[i].text))
+                       jumpTargets_.contains(lowerCase(items_[i].text))
                    ? 0
                    : k + 1;
       break;

@@ -11,6 +11,8 @@ bool isAddressSlot(Kind kind) {
          kind == Kind::Interface;
 }
 
+bool isString(Kind kind) { return kind == Kind::STRING || kind == Kind::WSTRING; }
+
 bool hasMembers(Kind kind) {
   return kind == Kind::Struct || kind == Kind::Union || kind == Kind::FunctionBlock ||
          kind == Kind::Program;

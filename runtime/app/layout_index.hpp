@@ -12,6 +12,8 @@ namespace stride::app {
 
 /// True for kinds that hold an address: POINTER, REFERENCE, in-out, interface.
 bool isAddressSlot(Kind kind);
+/// True for STRING and WSTRING.
+bool isString(Kind kind);
 /// True for structures, unions, blocks and programs.
 bool hasMembers(Kind kind);
 

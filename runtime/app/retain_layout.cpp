@@ -29,8 +29,6 @@ constexpr const char *kLocated = "%";
 constexpr uint32_t kKept =
     kRetained | kSymBase | kSymHidden | kSymBit | (7U << kSymBitShift) | kSymNonRetain;
 
-bool isText(Kind kind) { return kind == Kind::STRING || kind == Kind::WSTRING; }
-
 /// Bytes of a value of an elementary kind; 0 for others.
 uint64_t elementarySize(Kind kind) {
   switch (kind) {
@@ -463,7 +461,7 @@ private:
         check(elementarySize(element.kind) != 0 && element.kind != Kind::REAL &&
               element.kind != Kind::LREAL);
     } else {
-      check(isText(t.kind) || (size != 0 && size == t.size));
+      check(isString(t.kind) || (size != 0 && size == t.size));
     }
     check(depth <= kMostDepth);
     depths_.push_back(depth);

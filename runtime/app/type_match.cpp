@@ -46,10 +46,8 @@ IntegerRange rangeOf(Kind kind) {
 
 char lowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-bool isText(Kind kind) { return kind == Kind::STRING || kind == Kind::WSTRING; }
-
 /// Numbers, times, characters: what has a kind of its own.
-bool isPlain(Kind kind) { return kind >= Kind::BOOL && kind < Kind::Enum && !isText(kind); }
+bool isPlain(Kind kind) { return kind >= Kind::BOOL && kind < Kind::Enum && !isString(kind); }
 
 /// The fields, without gaps other than those that alignment makes (without `padding`: without
 /// any), fill both types alike.
@@ -201,7 +199,7 @@ void TypeMatch::fill(TypePair &pair) {
   const TypeDesc &b = new_->types[pair.newType];
   if (isAddressSlot(a.kind) || isAddressSlot(b.kind))
     return fillSlot(pair);
-  if (isText(a.kind) || isText(b.kind)) {
+  if (isString(a.kind) || isString(b.kind)) {
     if (a.kind == b.kind)
       pair.carry = a.stringLength == b.stringLength ? Carry::Bytes : Carry::Text;
     pair.bitwise = pair.carry == Carry::Bytes;

@@ -36,7 +36,6 @@ void appendUtf8(std::string &out, uint32_t c) {
 }
 
 bool isNarrow(Kind kind) { return kind == Kind::STRING || kind == Kind::CHAR; }
-bool isText(Kind kind) { return isNarrow(kind) || kind == Kind::WSTRING || kind == Kind::WCHAR; }
 
 /// Calls `take` with each character of a STRING or WSTRING variable; surrogate pairs are joined.
 template <class F> void eachCharacter(const TypeDesc &type, const void *value, F take) {
@@ -118,6 +117,8 @@ template <class T> void appendNumber(std::string &out, T value) {
 }
 
 } // namespace
+
+bool isText(Kind kind) { return isNarrow(kind) || kind == Kind::WSTRING || kind == Kind::WCHAR; }
 
 std::string formatLiteral(const StrideAppV1 &app, const TypeDesc &type, const void *value) {
   if (isText(type.kind))

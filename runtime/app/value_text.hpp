@@ -9,6 +9,9 @@
 
 namespace stride::app {
 
+/// True for texts and single characters, narrow and wide.
+bool isText(Kind kind);
+
 /// The value as an ST literal: TRUE, 50, 100.0, T#1s500ms, 'it$'s', an enumerator's name (its
 /// number where it has none). Texts come out as UTF-8. Only for elementary kinds.
 std::string formatLiteral(const StrideAppV1 &app, const TypeDesc &type, const void *value);

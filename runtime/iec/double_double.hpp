@@ -5,7 +5,11 @@
 
 #include "runtime/iec/math_tables.hpp"
 
+#include <limits>
+
 namespace stride::detail {
+
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// a + b exactly, for |a| >= |b|.
 inline Pair fastTwoSum(double a, double b) {

@@ -13,8 +13,6 @@ namespace {
 using detail::Pair;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 /// 2^n for a normal result.
 double powerOfTwo(int n) { return std::bit_cast<double>(static_cast<uint64_t>(n + 1023) << 52); }
 
@@ -107,7 +105,7 @@ LREAL ln(LREAL x) {
   if (x == 0)
     return -kInfinity;
   if (x < 0)
-    return kNan;
+    return detail::kNan;
   return lnAsSum(x).hi;
 }
 
@@ -117,7 +115,7 @@ LREAL log10(LREAL x) {
   if (x == 0)
     return -kInfinity;
   if (x < 0)
-    return kNan;
+    return detail::kNan;
   return detail::multiply(lnAsSum(x), detail::kInvLn10).hi;
 }
 
@@ -125,7 +123,7 @@ LREAL pow(LREAL x, LREAL y) {
   if (y == 0 || x == 1)
     return 1.0;
   if (x != x || y != y)
-    return kNan;
+    return detail::kNan;
   const bool negative = std::signbit(x) && isOdd(y);
   const double sign = negative ? -1.0 : 1.0;
   const double a = std::fabs(x);
@@ -137,7 +135,7 @@ LREAL pow(LREAL x, LREAL y) {
   if (a == 0 || a == kInfinity)
     return (a == 0) == (y > 0) ? sign * 0.0 : sign * kInfinity;
   if (x < 0 && !isWhole(y))
-    return kNan;
+    return detail::kNan;
   if (a == 1)
     return sign;
   const Pair l = lnAsSum(a);

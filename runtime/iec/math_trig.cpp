@@ -12,8 +12,6 @@ namespace {
 
 using detail::Pair;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
 /// x = quadrant * pi/2 + rest, |rest| <= pi/4 (a little more at the seams).
 struct Reduced {
   unsigned quadrant;
@@ -162,7 +160,7 @@ Pair atanOfRatio(Pair y, Pair x) {
 LREAL sin(LREAL x) {
   const double a = std::fabs(x);
   if (!(a <= std::numeric_limits<double>::max()))
-    return kNan;
+    return detail::kNan;
   if (a < 0x1p-27)
     return x;
   const Reduced r = reduce(x);
@@ -172,7 +170,7 @@ LREAL sin(LREAL x) {
 
 LREAL cos(LREAL x) {
   if (!(std::fabs(x) <= std::numeric_limits<double>::max()))
-    return kNan;
+    return detail::kNan;
   const Reduced r = reduce(x);
   const double value = (r.quadrant & 1U) != 0 ? sum(sinNear0(r.rest)) : sum(cosNear0(r.rest));
   return r.quadrant == 1 || r.quadrant == 2 ? -value : value;
@@ -181,7 +179,7 @@ LREAL cos(LREAL x) {
 LREAL tan(LREAL x) {
   const double a = std::fabs(x);
   if (!(a <= std::numeric_limits<double>::max()))
-    return kNan;
+    return detail::kNan;
   if (a < 0x1p-27)
     return x;
   const Reduced r = reduce(x);
@@ -196,7 +194,7 @@ LREAL tan(LREAL x) {
 
 LREAL atan2(LREAL y, LREAL x) {
   if (x != x || y != y)
-    return kNan;
+    return detail::kNan;
   const double infinity = std::numeric_limits<double>::infinity();
   double ay = std::fabs(y);
   double ax = std::fabs(x);
@@ -242,7 +240,7 @@ LREAL atan(LREAL x) {
 LREAL asin(LREAL x) {
   const double a = std::fabs(x);
   if (!(a <= 1.0))
-    return kNan;
+    return detail::kNan;
   if (a < 0x1p-27)
     return x;
   if (a == 1.0)
@@ -255,7 +253,7 @@ LREAL asin(LREAL x) {
 LREAL acos(LREAL x) {
   const double a = std::fabs(x);
   if (!(a <= 1.0))
-    return kNan;
+    return detail::kNan;
   if (a == 1.0)
     return x > 0 ? 0.0 : detail::kPi.hi;
   if (a < 0x1p-60)

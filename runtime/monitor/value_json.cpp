@@ -45,10 +45,6 @@ json textOf(const StrideAppV1 &app, const TypeDesc &type, const void *value) {
   return text;
 }
 
-bool isText(Kind kind) {
-  return kind == Kind::STRING || kind == Kind::WSTRING || kind == Kind::CHAR || kind == Kind::WCHAR;
-}
-
 std::string quoted(Kind kind, const std::string &text) {
   const bool narrow = kind == Kind::STRING || kind == Kind::CHAR;
   const char quote = narrow ? '\'' : '"';
@@ -95,8 +91,8 @@ json valueToJson(const StrideAppV1 &app, const TypeDesc &type, const void *value
   case Kind::LREAL:
     return realOf(app, type, value);
   default:
-    return isText(type.kind) ? textOf(app, type, value)
-                             : json(app::formatLiteral(app, type, value));
+    return app::isText(type.kind) ? textOf(app, type, value)
+                                  : json(app::formatLiteral(app, type, value));
   }
 }
 
@@ -108,7 +104,7 @@ std::string literalOfJson(const TypeDesc &type, const json &value) {
   if (!value.is_string())
     throw app::Error("a value is true, false, a number or a text");
   const auto &text = value.get_ref<const std::string &>();
-  return isText(type.kind) ? quoted(type.kind, text) : text;
+  return app::isText(type.kind) ? quoted(type.kind, text) : text;
 }
 
 } // namespace stride::monitor

@@ -18,40 +18,40 @@ constexpr uint64_t kStep = uint64_t{1} << 29;
 constexpr uint64_t kFirstTop = 2 * kStep;
 constexpr uint64_t kFourGiB = uint64_t{1} << 32;
 
-/// Memory for one stack with its guard below.
-class Stack {
-public:
-  Stack() {
-    constexpr int kProtection = PROT_READ | PROT_WRITE;
-    constexpr int kFlags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
-    for (uint64_t top = kFirstTop; memory_ == nullptr && top <= kFourGiB; top += kStep) {
-      void *wanted = std::bit_cast<void *>(top - kMapped);
-      void *got = ::mmap(wanted, kMapped, kProtection, kFlags | MAP_FIXED_NOREPLACE, -1, 0);
-      if (got == wanted)
-        memory_ = got;
-      else if (got != MAP_FAILED) // a kernel that does not know MAP_FIXED_NOREPLACE
-        ::munmap(got, kMapped);
-    }
-    if (memory_ == nullptr)
-      memory_ = ::mmap(nullptr, kMapped, kProtection, kFlags, -1, 0);
-    if (memory_ == MAP_FAILED)
-      throw app::Error("the system has no memory for a task's stack");
-    ::mprotect(memory_, kGuard, PROT_NONE);
-  }
-  ~Stack() { ::munmap(memory_, kMapped); }
-  Stack(const Stack &) = delete;
-  Stack &operator=(const Stack &) = delete;
-
-  void *begin() const { return static_cast<std::byte *>(memory_) + kGuard; }
-
-private:
-  static constexpr std::size_t kMapped = kTaskStack + kGuard;
-  void *memory_ = nullptr;
-};
-
 } // namespace
 
 struct LowThread::Impl {
+  /// Memory for one stack with its guard below.
+  class Stack {
+  public:
+    Stack() {
+      constexpr int kProtection = PROT_READ | PROT_WRITE;
+      constexpr int kFlags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
+      for (uint64_t top = kFirstTop; memory_ == nullptr && top <= kFourGiB; top += kStep) {
+        void *wanted = std::bit_cast<void *>(top - kMapped);
+        void *got = ::mmap(wanted, kMapped, kProtection, kFlags | MAP_FIXED_NOREPLACE, -1, 0);
+        if (got == wanted)
+          memory_ = got;
+        else if (got != MAP_FAILED) // a kernel that does not know MAP_FIXED_NOREPLACE
+          ::munmap(got, kMapped);
+      }
+      if (memory_ == nullptr)
+        memory_ = ::mmap(nullptr, kMapped, kProtection, kFlags, -1, 0);
+      if (memory_ == MAP_FAILED)
+        throw app::Error("the system has no memory for a task's stack");
+      ::mprotect(memory_, kGuard, PROT_NONE);
+    }
+    ~Stack() { ::munmap(memory_, kMapped); }
+    Stack(const Stack &) = delete;
+    Stack &operator=(const Stack &) = delete;
+
+    void *begin() const { return static_cast<std::byte *>(memory_) + kGuard; }
+
+  private:
+    static constexpr std::size_t kMapped = kTaskStack + kGuard;
+    void *memory_ = nullptr;
+  };
+
   std::function<void()> function;
   Stack stack;
   pthread_t thread{};
