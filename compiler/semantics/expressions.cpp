@@ -220,7 +220,8 @@ Symbol *Checker::resolveNamespace(Expr *expr) {
       return nullptr;
     Symbol *symbol = nameInSpace(base, member->name);
     if (symbol != nullptr &&
-        (symbol->kind == SymbolKind::type || symbol->kind == SymbolKind::space)) {
+        (symbol->kind == SymbolKind::type || symbol->kind == SymbolKind::space ||
+         symbol->kind == SymbolKind::globals)) {
       member->symbol = symbol;
       return symbol;
     }

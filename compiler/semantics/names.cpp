@@ -34,8 +34,11 @@ Symbol *Checker::lookupInLibrary(Ident library, Ident id) {
     if (program_.interner.intern(entry.library) != library)
       continue;
     loadLibraryFile(entry);
-    if (Symbol *symbol = lookupInModule(module(std::string(entry.library)), id))
+    Module &found = module(std::string(entry.library));
+    if (Symbol *symbol = lookupInModule(found, id))
       return symbol;
+    if (const auto list = found.lists.find(id); list != found.lists.end())
+      return list->second;
   }
   return nullptr;
 }
@@ -60,6 +63,11 @@ Symbol *Checker::lookup(const Name &name) {
   const auto space = scope_.module->spaces.find(name.id);
   if (space != scope_.module->spaces.end())
     return space->second;
+  for (const LibraryIndex::Entry &entry : index_.find(name.id->lower)) { // loaded by now
+    const Module &library = module(std::string(entry.library));
+    if (const auto found = library.lists.find(name.id); found != library.lists.end())
+      return found->second;
+  }
   if (index_.isLibrary(name.id->lower)) {
     auto *symbol = arena_.make<LibrarySymbol>();
     symbol->kind = SymbolKind::library;

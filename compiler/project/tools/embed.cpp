@@ -98,8 +98,13 @@ private:
 
   void addNames(const stc::ast::Decl &decl, std::size_t file) {
     if (decl.kind == stc::ast::DeclKind::globals) {
-      for (const stc::ast::VarDecl *variable :
-           stc::ast::as<stc::ast::GlobalsDecl>(&decl)->variables)
+      // The list has the name of its file.
+      names_.push_back({stc::lowerCase(fs::path(files_[file].name).stem().string()), 1, file});
+      const auto *list = stc::ast::as<stc::ast::GlobalsDecl>(&decl);
+      if (std::any_of(list->attributes.begin(), list->attributes.end(),
+                      [](const auto &one) { return one.name == "qualified_only"; }))
+        return;
+      for (const stc::ast::VarDecl *variable : list->variables)
         add(variable->name, 1, file);
       return;
     }
