@@ -77,6 +77,8 @@ public:
     case StreamOp::Write:
       if (reads)
         return {FileError::NotPossible, 0, {}};
+      if (data.empty()) // leaves the end where it is, wherever the position is
+        return {};
       put(*file.bytes, (file.mode & kFileAppend) != 0 ? file.bytes->size() : file.position, data);
       file.position += data.size();
       file.length = std::max(file.length, file.position);

@@ -1,5 +1,6 @@
-// For LD_PRELOAD: opening files of a folder `files`, writing at a place, and fsync take
-// STRIDE_DISK_MS milliseconds; both of the latter fail with the errno STRIDE_DISK_ERROR.
+// For LD_PRELOAD: files of a folder `files` are on a disk of which every operation takes
+// STRIDE_DISK_MS milliseconds; writing and fsync fail with the errno STRIDE_DISK_ERROR.
+#include <atomic>
 #include <cerrno>
 #include <cstdarg>
 #include <cstdlib>
@@ -17,9 +18,16 @@ int setting(const char *name) {
   return text == nullptr ? 0 : std::atoi(text);
 }
 
+/// Descriptors of such files.
+std::atomic<bool> onDisk[1024];
+bool isOnDisk(int file) { return file >= 0 && file < 1024 && onDisk[file]; }
+
 void wait() { ::usleep(static_cast<useconds_t>(setting("STRIDE_DISK_MS")) * 1000); }
 
-bool fails() {
+/// Of something that writes.
+bool fails(int file) {
+  if (!isOnDisk(file))
+    return false;
   wait();
   errno = setting("STRIDE_DISK_ERROR");
   return errno != 0;
@@ -35,12 +43,24 @@ extern "C" {
 
 ssize_t pwrite(int file, const void *data, size_t size, off_t at) {
   static auto *const original = next<ssize_t(int, const void *, size_t, off_t)>("pwrite");
-  return fails() ? -1 : original(file, data, size, at);
+  return fails(file) ? -1 : original(file, data, size, at);
+}
+
+ssize_t write(int file, const void *data, size_t size) {
+  static auto *const original = next<ssize_t(int, const void *, size_t)>("write");
+  return fails(file) ? -1 : original(file, data, size);
+}
+
+ssize_t read(int file, void *data, size_t size) {
+  static auto *const original = next<ssize_t(int, void *, size_t)>("read");
+  if (isOnDisk(file))
+    wait();
+  return original(file, data, size);
 }
 
 int fsync(int file) {
   static auto *const original = next<int(int)>("fsync");
-  return fails() ? -1 : original(file);
+  return fails(file) ? -1 : original(file);
 }
 
 int open(const char *path, int flags, ...) {
@@ -49,9 +69,13 @@ int open(const char *path, int flags, ...) {
   va_start(arguments, flags);
   const mode_t mode = (flags & O_CREAT) != 0 ? static_cast<mode_t>(va_arg(arguments, int)) : 0;
   va_end(arguments);
-  if (std::strstr(path, "/files/") != nullptr)
+  const bool slow = std::strstr(path, "/files/") != nullptr;
+  if (slow)
     wait();
-  return original(path, flags, mode);
+  const int file = original(path, flags, mode);
+  if (file >= 0 && file < 1024)
+    onDisk[file] = slow;
+  return file;
 }
 
 } // extern "C"

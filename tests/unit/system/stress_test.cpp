@@ -40,6 +40,55 @@ void work(system::FileService &files, uint32_t index, int rounds, int &good) {
   }
 }
 
+/// Reads what another task opens and closes.
+void readShared(system::FileService &files, const std::atomic<uint32_t> &handle,
+                std::atomic<int> &reads, const std::atomic<bool> &end, int &wrong) {
+  FileTask task(files, 1);
+  while (!end) {
+    const std::string got = task.read(handle, 4096);
+    if (!got.empty())
+      reads.fetch_add(1, std::memory_order_relaxed);
+    wrong += got == std::string(got.size(), 'x') ? 0 : 1;
+    (void)task.stream(StreamOp::SetPosition, handle, 0);
+    task.cycle();
+  }
+}
+
+TEST(FileStress, AFileIsNotGoneWhileAnotherTaskReadsIt) {
+  const ScratchDirectory scratch;
+  writeFile(scratch.path() / "shared", std::string(4096, 'x'));
+  PlainInputs inputs;
+  system::FileSettings settings;
+  settings.root = scratch.path().string();
+  system::FileService files(settings, 2, inputs);
+  std::atomic<uint32_t> handle{0};
+  std::atomic<bool> end{false};
+  int wrong = 0;
+  std::atomic<int> reads{0};
+  std::thread reader([&] { readShared(files, handle, reads, end, wrong); });
+  FileTask task(files, 0);
+  const auto until = [&](auto ask) {
+    for (;;) {
+      const FileAnswer answer = ask();
+      task.cycle();
+      files.lookAfter();
+      if (answer.done != 0)
+        return answer;
+      std::this_thread::yield();
+    }
+  };
+  for (int round = 0; round < 300; ++round) {
+    const int before = reads.load(std::memory_order_relaxed);
+    handle = static_cast<uint32_t>(until([&] { return task.open("shared", kReading); }).value);
+    while (reads.load(std::memory_order_relaxed) == before)
+      std::this_thread::yield();
+    EXPECT_EQ(until([&] { return task.close(handle); }).error, FileError::None);
+  }
+  end = true;
+  reader.join();
+  EXPECT_EQ(wrong, 0);
+}
+
 TEST(FileStress, TasksDoNotMeet) {
   const ScratchDirectory scratch;
   PlainInputs inputs;
