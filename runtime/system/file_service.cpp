@@ -298,7 +298,8 @@ void FileService::use(Stream &stream, StreamOp op, void *data, uint64_t size,
       return;
     }
     answer.value = std::min<uint64_t>(size, stream.length - stream.position);
-    std::memcpy(data, stream.image.data() + stream.position, answer.value);
+    if (answer.value != 0) // an empty file has no image
+      std::memcpy(data, stream.image.data() + stream.position, answer.value);
     stream.position += answer.value;
     return;
   case StreamOp::Write:
