@@ -95,6 +95,7 @@ function(stride_test name)
     add_test(NAME ${name}.${shard} COMMAND ${name})
     set_tests_properties(${name}.${shard} PROPERTIES
       ENVIRONMENT "GTEST_TOTAL_SHARDS=${arg_SHARDS};GTEST_SHARD_INDEX=${shard}"
+      COST 100 # long ones: started early, so that the cores end together
       LABELS "${arg_LABELS}")
   endforeach()
 endfunction()
