@@ -3,8 +3,9 @@
 
 usage: generate.py
 
-Nothing here asks Stride. Integers are Python's, reals are exact fractions or mpmath (Debian's python3-mpmath) with enough
-digits, dates are those of `datetime`, texts are lists of characters. A table has the columns
+Nothing here asks Stride, nor do characters.py, libraries.py and selection.py. Integers are Python's, reals are exact
+fractions or mpmath (Debian's python3-mpmath) with enough digits, dates are those of `datetime`, texts are lists of
+characters. A table has the columns
 
   call       the call, $1, $2 … for the arguments, $r for an output
   types      of the arguments, separated by blanks
@@ -18,11 +19,16 @@ import json
 import math
 import pathlib
 import random
+import re
 import sys
 from fractions import Fraction
 
-from model import (BITS, DAY, EPOCH, INTEGERS, SIGNED, TIMES, UNIT, UNSIGNED, WIDTH, clock_text, date_text, double,
-                   from_bits, half_away, limits, literal, saturate, single, wrap)
+sys.dont_write_bytecode = True
+from characters import characters
+from libraries import memory, motion, system_strings
+from model import (BITS, CHARACTERS, DAY, EPOCH, INTEGERS, SIGNED, TIMES, UNIT, UNSIGNED, WIDTH, Raw, clock_text, date_text,
+                   double, from_bits, half_away, limits, literal, saturate, single, wrap)
+from selection import logic, measures, powers, selection, wide_strings
 
 HERE = pathlib.Path(__file__).parent
 INF = float("inf")
@@ -32,6 +38,7 @@ REALS = ("REAL", "LREAL")
 
 class Table:
     edition3 = []  #: rows of functions that only edition 3 of the standard has; they have a table of their own
+    written = {}  #: the rows of each table
 
     def __init__(self, name):
         self.name = name
@@ -56,15 +63,12 @@ class Table:
 
     def write(self):
         unique = [list(r) for r in dict.fromkeys(tuple(r) for r in self.rows)]
+        self.written[self.name] = unique
         with open(HERE / f"{self.name}.csv", "w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(["call", "types", "result", "arguments", "expected"])
             writer.writerows(sorted(unique, key=lambda r: (r[0], r[1], r[2])))
         print(f"{self.name}.csv: {len(unique)} rows")
-
-
-class Raw(str):
-    """An argument that is ST already."""
 
 
 def rounded(kind, x):
@@ -490,9 +494,13 @@ def conversions():
         for v in values:
             for b in ("BYTE", "INT", "UDINT", "LINT", "ULINT"):
                 put(a, b, v, wrap(b, v))
+            for b in ("SINT", "DINT", "USINT", "UINT", "WORD", "DWORD", "LWORD"):
+                put(a, b, v, wrap(b, v))
             put(a, "BOOL", v, int(v != 0))
             put(a, "LREAL", v, double(Fraction(v)))
             put(a, "REAL", v, single(Fraction(v)))
+        for v in (0, 1):
+            put("BOOL", a, v, v)
     table.write()
 
 
@@ -772,10 +780,37 @@ def dates():
     table.write()
 
 
+# ---------------------------------------------------------------------------------------------------------------------
+def conversions_to(table):
+    """TO_Y($1) as X_TO_Y($1) of some X, TRUNC_Y($1) as X_TRUNC_Y($1)."""
+    calls = {}
+    for name in ("conversions", "texts", "characters", "edition3"):
+        for row in Table.written[name]:
+            call = re.fullmatch(r"([A-Z]+)_(TO|TRUNC)_([A-Z]+)\(\$1\)", row[0])
+            if call and {call[1], call[3]} <= {*WIDTH, "STRING", "WSTRING"}:
+                calls.setdefault(f"{call[2]}_{call[3]}($1)", {}).setdefault((row[1], row[2]), []).append(row[3:])
+    for call, groups in calls.items():
+        for types in table.random.sample(sorted(groups), min(6, len(groups))):
+            rows = groups[types]
+            for row in rows if call.startswith("TRUNC") else table.random.sample(rows, min(4, len(rows))):
+                table.rows.append([call, *types, *row])
+
+
+def more(name, *functions):
+    table = Table(name)
+    for function in functions:
+        function(table)
+    table.write()
+
+
 if __name__ == "__main__":
     for function in (mathematics, numeric, bits, conversions, texts, strings, dates):
         function()
+    more("characters", characters)
+    more("selection", selection, logic, powers, measures, wide_strings)
+    more("libraries", memory, system_strings, motion)
     edition3 = Table("edition3")
     patterns(edition3)
     edition3.rows = Table.edition3
     edition3.write()
+    more("conversions_to", conversions_to)

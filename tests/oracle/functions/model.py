@@ -8,7 +8,8 @@ UNSIGNED = {"USINT": 8, "UINT": 16, "UDINT": 32, "ULINT": 64}
 BITS = {"BYTE": 8, "WORD": 16, "DWORD": 32, "LWORD": 64}
 INTEGERS = {**SIGNED, **UNSIGNED, **BITS}
 TIMES = {"TIME": 32, "LTIME": 64, "DATE": 32, "LDATE": 64, "TOD": 32, "LTOD": 64, "DT": 32, "LDT": 64}
-WIDTH = {**INTEGERS, **TIMES, "BOOL": 8, "REAL": 32, "LREAL": 64}
+CHARACTERS = {"CHAR": 8, "WCHAR": 16}
+WIDTH = {**INTEGERS, **TIMES, **CHARACTERS, "BOOL": 8, "REAL": 32, "LREAL": 64}
 SIGNED_KINDS = set(SIGNED) | {"LTIME", "LDATE", "LTOD", "LDT"}
 #: Nanoseconds per unit
 UNIT = {"TIME": 10**6, "TOD": 10**6, "DATE": 10**9, "DT": 10**9, "LTIME": 1, "LDATE": 1, "LTOD": 1, "LDT": 1}
@@ -93,6 +94,10 @@ def clock_text(ns, places):
     return text + (f".{rest:09}"[:places + 1] if places else "")
 
 
+class Raw(str):
+    """An argument that is ST already."""
+
+
 def literal(kind, value):
     """The value as an ST expression with a type of its own."""
     if kind == "BOOL":
@@ -110,8 +115,10 @@ def literal(kind, value):
         return f"{kind}#{text}"
     if kind == "TIME":
         return f"T#{value}ms"
-    if kind == "LTIME":
+    if kind == "LTIME" and value > -(1 << 63):  # which cannot be written
         return f"LTIME#{'-' if value < 0 else ''}{abs(value)}ns"
+    if kind == "LTIME":
+        return f"LINT_TO_LTIME({value})"
     if kind in ("TOD", "LTOD", "DATE", "LDATE", "DT", "LDT"):
         ns = value * UNIT[kind]
         days, clock = divmod(ns, DAY)
@@ -125,6 +132,11 @@ def literal(kind, value):
                 return f"{'D' if kind == 'DATE' else kind}#{date_text(days)}"
             return f"{kind}#{date_text(days)}-{clock_text(clock, places)}"
         return f"LINT_TO_{kind}({value})"
+    if kind in CHARACTERS:
+        if value == 0 or 0xD800 <= value < 0xE000:  # no characters of texts
+            return f"UINT_TO_{kind}({value})"
+        text = literal("WSTRING" if kind == "WCHAR" else "STRING", chr(value))
+        return f"{kind}#{text[text.index('#') + 1:]}"
     if kind.startswith(("STRING", "WSTRING")):
         wide = kind.startswith("W")
         quote = '"' if wide else "'"

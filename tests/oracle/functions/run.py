@@ -27,7 +27,7 @@ from model import WIDTH, from_bits, wrap
 BOUND = {"SQRT": Fraction(1, 2)}
 OTHERS = Fraction(1)
 #: Written in ST, and no constant expressions therefore.
-IN_ST = {f.stem for f in (pathlib.Path(__file__).parents[3] / "stdlib" / "Standard").glob("*.st")}
+IN_ST = {f.stem for f in (pathlib.Path(__file__).parents[3] / "stdlib").glob("*/*.st")}
 PATTERN = {8: "BYTE", 16: "WORD", 32: "DWORD", 64: "LWORD"}
 
 
@@ -95,7 +95,8 @@ def read(table, every):
     groups = []
     for key, members in itertools.groupby(rows, key=lambda r: (r["call"], r["types"], r["result"])):
         members = [(m["expected"], m["arguments"].split(" | ")) for m in itertools.islice(members, 0, None, every)]
-        groups.append(Group(len(groups), key[0], key[1].split(" "), key[2], members))
+        types = re.findall(r"ARRAY\[.*?\] OF \S+|\S+", key[1])
+        groups.append(Group(len(groups), key[0], types, key[2], members))
     return groups
 
 
