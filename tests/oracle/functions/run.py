@@ -28,6 +28,7 @@ BOUND = {"SQRT": Fraction(1, 2)}
 OTHERS = Fraction(1)
 #: Written in ST, and no constant expressions therefore.
 IN_ST = {f.stem for f in (pathlib.Path(__file__).parents[3] / "stdlib").glob("*/*.st")}
+GROUPS_OF_PROGRAM = 16
 PATTERN = {8: "BYTE", 16: "WORD", 32: "DWORD", 64: "LWORD"}
 
 
@@ -101,9 +102,14 @@ def read(table, every):
 
 
 def run(stride, groups):
-    text = "TYPE\n" + "".join(g.type_text() for g in groups) + "END_TYPE\nPROGRAM PLC_PRG\nVAR\n  i : DINT;\n"
-    text += "".join(g.variables() for g in groups) + "END_VAR\n" + "".join(g.body() for g in groups) + "END_PROGRAM\n"
-    paths = ",".join("PLC_PRG." + p for g in groups for p in g.paths().values())
+    text = "TYPE\n" + "".join(g.type_text() for g in groups) + "END_TYPE\n"
+    # The C++ compiler takes far longer for one long program than for several short ones.
+    parts = [groups[i:i + GROUPS_OF_PROGRAM] for i in range(0, len(groups), GROUPS_OF_PROGRAM)]
+    for k, part in enumerate(parts):
+        text += f"PROGRAM Part{k}\nVAR\n  i : DINT;\n" + "".join(g.variables() for g in part) + "END_VAR\n"
+        text += "".join(g.body() for g in part) + "END_PROGRAM\n"
+    text += "PROGRAM PLC_PRG\n" + "".join(f"Part{k}();\n" for k in range(len(parts))) + "END_PROGRAM\n"
+    paths = ",".join(f"Part{k}.{p}" for k, part in enumerate(parts) for g in part for p in g.paths().values())
     with tempfile.TemporaryDirectory() as folder:
         source = pathlib.Path(folder) / "oracle.st"
         source.write_text(text, encoding="utf-8")
@@ -115,7 +121,7 @@ def run(stride, groups):
         sys.exit(f"{stride} gave {done.returncode}")
     values = {}
     for line in done.stdout.decode("utf-8", "surrogatepass").splitlines():
-        match = re.match(r"PLC_PRG\.(\S+)\[(\d+)\] = (.*)$", line)
+        match = re.match(r"Part\d+\.(\S+)\[(\d+)\] = (.*)$", line)
         if match:
             values[match[1], int(match[2])] = match[3]
     return values
