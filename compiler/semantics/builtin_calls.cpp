@@ -215,12 +215,44 @@ void Checker::foldCall(CallExpr *expr, const Type *result) {
     expr->constant = makeConstant(*value);
 }
 
+namespace {
+
+/// The text that an argument is: edition 3 takes a CHAR where a text is put into another.
+const Type *textOf(const Argument &a) {
+  return a.value->target != nullptr && isString(a.value->target) ? a.value->target : a.value->type;
+}
+
+std::uint32_t lengthOf(const Argument &a) { return typeAs<StringType>(textOf(a))->length; }
+
+} // namespace
+
+/// CONCAT(a, b, c) is CONCAT(CONCAT(a, b), c).
+void Checker::concatInPairs(CallExpr *expr) {
+  for (Argument &a : expr->arguments)
+    a.name = {}; // they are in their order
+  const std::span<Argument> all = expr->arguments;
+  Argument joined = all.front();
+  for (std::size_t i = 1; i + 1 < all.size(); ++i) {
+    auto *pair = arena_.make<CallExpr>();
+    pair->kind = ExprKind::call;
+    pair->span = expr->span;
+    pair->callee = expr->callee;
+    pair->arguments = arena_.copy(std::vector<Argument>{joined, all[i]});
+    pair->resolved = Callee::builtin;
+    pair->builtin = Builtin::concat;
+    pair->type =
+        types_.string(textOf(joined)->kind == TypeKind::wstring,
+                      std::clamp<std::uint32_t>(lengthOf(joined) + lengthOf(all[i]), 1, 65535));
+    foldCall(pair, pair->type);
+    joined.value = pair;
+  }
+  expr->arguments = arena_.copy(std::vector<Argument>{joined, all.back()});
+}
+
 const Type *Checker::checkStringBuiltin(CallExpr *expr) {
   const Type *bad = elementaryType(TypeKind::error);
-  const auto string = [&](std::size_t i) { return isString(expr->arguments[i].value->type); };
-  const auto length = [&](std::size_t i) {
-    return typeAs<StringType>(expr->arguments[i].value->type)->length;
-  };
+  const auto textType = [&](std::size_t i) { return textOf(expr->arguments[i]); };
+  const auto length = [&](std::size_t i) { return lengthOf(expr->arguments[i]); };
   const auto integer = [&](std::size_t i) {
     Expr *value = expr->arguments[i].value;
     if (!isInteger(underlying(value->type)) && value->type->kind != TypeKind::anyInteger)
@@ -242,6 +274,8 @@ const Type *Checker::checkStringBuiltin(CallExpr *expr) {
     count = 3;
     break;
   case Builtin::concat:
+    count = strings = std::max<std::size_t>(2, expr->arguments.size());
+    break;
   case Builtin::find:
     count = strings = 2;
     break;
@@ -254,7 +288,7 @@ const Type *Checker::checkStringBuiltin(CallExpr *expr) {
     strings = 2;
     break;
   }
-  if (!requireCount(expr, count, count))
+  if (!requireCount(expr, count, expr->builtin == Builtin::concat ? SIZE_MAX : count))
     return bad;
   // CODESYS has WLEN, WLEFT … for WSTRING only.
   const std::string name = calleeName(expr);
@@ -262,22 +296,26 @@ const Type *Checker::checkStringBuiltin(CallExpr *expr) {
   for (std::size_t i = 0; i < count; ++i) {
     if (isError(expr->arguments[i].value->type))
       return bad;
-    if (wideOnly && i < strings && expr->arguments[i].value->type->kind != TypeKind::wstring)
+    Expr *value = expr->arguments[i].value;
+    if (isCharacter(underlying(value->type)) && i < strings &&
+        (i > 0 || expr->builtin == Builtin::concat))
+      setTarget(value, types_.string(underlying(value->type)->kind == TypeKind::wcharT, 1));
+    if (wideOnly && i < strings && textType(i)->kind != TypeKind::wstring)
       return argumentError(expr, i, "a WSTRING");
-    if (i < strings ? !string(i) : !integer(i))
+    if (i < strings ? !isString(textType(i)) : !integer(i))
       return argumentError(expr, i, i < strings ? "a string" : "an integer");
-    if (i == 1 && strings == 2 &&
-        expr->arguments[0].value->type->kind != expr->arguments[1].value->type->kind)
-      return argumentError(expr, 1, typeName(expr->arguments[0].value->type));
+    if (i > 0 && i < strings && textType(0)->kind != textType(i)->kind)
+      return argumentError(expr, i, typeName(textType(0)));
   }
   if (expr->builtin == Builtin::len || expr->builtin == Builtin::find)
-    return elementaryType(TypeKind::intT);
+    return elementaryType(length(0) > 32767 ? TypeKind::dint : TypeKind::intT);
+  if (expr->builtin == Builtin::concat && count > 2)
+    concatInPairs(expr);
   std::uint32_t result = length(0);
   if (expr->builtin == Builtin::concat || expr->builtin == Builtin::insert ||
       expr->builtin == Builtin::replace)
     result = std::min<std::uint32_t>(65535, length(0) + length(1));
-  return types_.string(expr->arguments[0].value->type->kind == TypeKind::wstring,
-                       std::max(result, 1U));
+  return types_.string(textType(0)->kind == TypeKind::wstring, std::max(result, 1U));
 }
 
 bool Checker::placeArguments(CallExpr *expr) {

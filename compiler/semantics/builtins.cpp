@@ -166,6 +166,7 @@ std::string_view formalNames(ast::Builtin function) {
   case deleteS:
     return "in|str l|len p|pos";
   case concat:
+    return "in#1|str#1";
   case find:
     return "in1|str1 in2|str2";
   case insert:

@@ -79,6 +79,7 @@ private:
   VarSymbol *findMember(const Type *type, Ident id);
   std::vector<std::string_view> visibleNames(bool types);
   std::vector<std::string_view> memberNames(const Type *type);
+  bool reportUnqualified(const ast::Name &name, const Type *expected);
   void reportUnknown(const ast::Name &name, bool asType);
   /// Says where else the name exists, or what another language's word is called here.
   bool helpElsewhere(Diagnostic &d, const ast::Name &name, bool asType);
@@ -255,6 +256,7 @@ private:
   /// reported.
   bool placeArguments(ast::CallExpr *expr);
   const Type *checkConversionCall(ast::CallExpr *expr, const ConversionName &conversion);
+  void concatInPairs(ast::CallExpr *expr);
   const Type *checkStringBuiltin(ast::CallExpr *expr);
 
   // standard_calls.cpp

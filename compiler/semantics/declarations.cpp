@@ -203,6 +203,9 @@ const EnumType *Checker::makeEnum(EnumTypeExpr *expr, TypeSymbol *symbol) {
       }
     }
   }
+  // Its own declaration may use the plain names.
+  type->qualifiedOnly =
+      symbol->decl != nullptr && hasAttribute(symbol->decl->attributes, "qualified_only");
   return type;
 }
 

@@ -180,7 +180,8 @@ const Type *Checker::checkName(NameExpr *expr, const Type *expected) {
     return types_.pointer(elementaryType(TypeKind::none));
   }
   if (symbol == nullptr) {
-    reportUnknown(expr->name, false);
+    if (!reportUnqualified(expr->name, expected))
+      reportUnknown(expr->name, false);
     return elementaryType(TypeKind::error);
   }
   expr->symbol = symbol;

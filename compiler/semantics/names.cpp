@@ -89,7 +89,8 @@ EnumeratorSymbol *Checker::lookupEnumerator(const Name &name, const Type *expect
                                             bool &ambiguous) {
   ambiguous = false;
   if (expected != nullptr && expected->kind == TypeKind::enumeration) {
-    if (EnumeratorSymbol *e = findEnumerator(typeAs<EnumType>(expected), name.id))
+    EnumeratorSymbol *e = findEnumerator(typeAs<EnumType>(expected), name.id);
+    if (e != nullptr && !typeAs<EnumType>(expected)->qualifiedOnly)
       return e;
   }
   const auto inModule = [&](Module &m) -> EnumeratorSymbol * {
@@ -291,6 +292,22 @@ std::string_view wordOfOtherLanguages(std::string_view lower) {
 
 } // namespace
 
+/// An enumerator of the expected type that must not be called by its plain name.
+bool Checker::reportUnqualified(const Name &name, const Type *expected) {
+  if (expected == nullptr || expected->kind != TypeKind::enumeration)
+    return false;
+  const EnumeratorSymbol *e = findEnumerator(typeAs<EnumType>(expected), name.id);
+  if (e == nullptr)
+    return false;
+  const std::string full = typeName(expected) + "." + std::string(name.text);
+  auto &d = report(Code::unknownName, name.span,
+                   "`" + std::string(name.text) + "` needs the name of its type in front",
+                   "`" + typeName(expected) + "` is `qualified_only`");
+  noteDeclaration(d, e);
+  d.suggest("write `" + full + "`", name.span, full);
+  return true;
+}
+
 void Checker::reportUnknown(const Name &name, bool asType) {
   if (!asType) {
     if (!unknown_.emplace(scope_.pou, name.id).second)
@@ -361,6 +378,12 @@ bool Checker::helpElsewhere(Diagnostic &d, const Name &name, bool asType) {
     const auto it = list->scope.find(name.id);
     if (it != list->scope.end())
       found(std::string(list->name.text) + "." + std::string(it->second->name.text));
+  }
+  for (const TypeSymbol *symbol : scope_.module->library->types) {
+    const Type *type = symbol->type;
+    if (type != nullptr && type->kind == TypeKind::enumeration &&
+        typeAs<EnumType>(type)->qualifiedOnly && findEnumerator(typeAs<EnumType>(type), name.id))
+      found(typeName(type) + "." + std::string(name.text));
   }
   constexpr std::size_t kMost = 3;
   if (places.empty() || places.size() > kMost)

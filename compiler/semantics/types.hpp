@@ -73,7 +73,8 @@ struct EnumType : Type {
   const Type *base;   ///< an integer or bit-string type
   TypeSymbol *symbol; ///< its declaration; for an in-line enumeration a synthesized one
   std::span<EnumeratorSymbol *> enumerators;
-  bool strict = false; ///< {attribute 'strict'}
+  bool strict = false;        ///< {attribute 'strict'}
+  bool qualifiedOnly = false; ///< {attribute 'qualified_only'}, once it is declared
   EnumeratorSymbol *initial =
       nullptr;        ///< the default value (the first one unless declared otherwise)
   bool named = false; ///< {attribute 'to_string'}: TO_STRING gives the enumerator's name

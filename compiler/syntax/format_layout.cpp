@@ -124,14 +124,21 @@ void FormatLayout::comments() {
     }
     for (std::size_t i = begin; i < k; ++i) {
       conditional(list[i].text);
-      prefix_ +=
-          (prefix_.empty() ? "" : " ") +
-          (i > begin ? commentText(list[i].text)
-                     : moved(list[i], indentation(style_, commentLevel()).size(), style_.tabs));
+      prefix_.push_back(&list[i]);
     }
     return; // the token follows on this line
   }
   blank_ = item.newlines > 1;
+}
+
+/// Only the line itself knows how deep it is: `END_VAR` behind a comment is less so than the
+/// comment would be alone.
+std::string FormatLayout::prefixAt(unsigned level) const {
+  std::string out;
+  for (const FormatComment *comment : prefix_)
+    out += out.empty() ? moved(*comment, indentation(style_, level).size(), style_.tabs)
+                       : " " + commentText(comment->text);
+  return out;
 }
 
 void FormatLayout::commentLine(std::size_t from, std::size_t to) {
@@ -169,7 +176,7 @@ void FormatLayout::emit(std::size_t to, unsigned level, LineKind kind) {
   request.to = to;
   request.level = level;
   request.kind = kind;
-  request.prefix = prefix_;
+  request.prefix = prefixAt(level);
   if (kind == LineKind::declaration && style_.align)
     request.colon = colonOf(at_, to, level);
   if (closing_)

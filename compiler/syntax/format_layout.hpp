@@ -63,6 +63,8 @@ private:
   /// The comments in front of the current token: behind the last line, on lines of their own, or in
   /// `prefix_`.
   void comments();
+  /// The comments of `prefix_` in front of a line of that level.
+  [[nodiscard]] std::string prefixAt(unsigned level) const;
   void commentLine(std::size_t from, std::size_t to);
   void conditional(std::string_view comment);
   /// Items [at_, to) become a line; `at_` moves on.
@@ -108,7 +110,7 @@ private:
   std::vector<Block> blocks_{Block{}};
   std::vector<std::vector<Block>> conditionals_; ///< what was open at each open `{IF …}`
   std::vector<Line> lines_;
-  std::string prefix_; ///< comments on the line of the token behind them
+  std::vector<const FormatComment *> prefix_; ///< on the line of the token behind them
   std::size_t at_ = 0;
   bool blank_ = false;       ///< an empty line is wanted in front of the next line
   bool afterOpener_ = true;  ///< none is

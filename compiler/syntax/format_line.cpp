@@ -311,7 +311,7 @@ private:
       if (column_ + 1 < wanted)
         write(std::string(wanted - column_ - 1, ' '));
     }
-    if (piece.blank && column_ > lineStart_ && !freshLine_)
+    if (piece.blank && at_ > 0 && !freshLine_)
       write(" ");
     if (element && !piece.comment)
       now.operand = column_;

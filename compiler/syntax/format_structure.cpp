@@ -526,9 +526,10 @@ void FormatLayout::branchLabel() {
       whole.level = choice.content;
       whole.kind = LineKind::label;
       const std::string text = layLine(items_, whole, style_);
-      if (text.find('\n') == std::string::npos &&
-          std::size_t{choice.content} * style_.indent + widthOf(text) + widthOf(prefix_) <
-              style_.width)
+      if (text.find('\n') == std::string::npos && std::size_t{choice.content} * style_.indent +
+                                                          widthOf(text) +
+                                                          widthOf(prefixAt(choice.content)) <
+                                                      style_.width)
         end = stop;
     }
   }

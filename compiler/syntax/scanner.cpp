@@ -430,6 +430,8 @@ std::uint16_t Scanner::sign(std::size_t begin, Token &token) {
   case '"':
     return quoted(begin, text_[begin], token);
   default:
+    if (isForeignLetter(text_[begin], next)) // a name is meant
+      return word(begin, token);
     badCharacters(begin);
     return 0;
   }

@@ -74,9 +74,17 @@ inline int compare(const S<N> &a, const S<M> &b) {
   return detail::textCompare(a.s, N, b.s, M);
 }
 
+namespace detail {
+template <bool Long> struct PositionOf { using Type = INT; };
+template <> struct PositionOf<true> { using Type = DINT; };
+} // namespace detail
+
+/// A number or position of the characters of a text declared with N: INT as far as it suffices.
+template <uint32_t N> using Position = typename detail::PositionOf<(N > 32767)>::Type;
+
 /// LEN.
-template <template <uint32_t> class S, uint32_t N> inline INT len(const S<N> &s) {
-  return static_cast<INT>(detail::textLength(s.s, N));
+template <template <uint32_t> class S, uint32_t N> inline Position<N> len(const S<N> &s) {
+  return static_cast<Position<N>>(detail::textLength(s.s, N));
 }
 
 // The functions that make strings exist twice: with the target as first argument (which may be one
@@ -165,8 +173,8 @@ inline S<R> remove(const S<N> &s, int64_t n, int64_t p) {
 }
 /// FIND(a, b): position of the first b in a, 0 when there is none or b is empty.
 template <template <uint32_t> class S, uint32_t N, uint32_t M>
-inline INT find(const S<N> &a, const S<M> &b) {
-  return static_cast<INT>(detail::textFind(a.s, N, b.s, M));
+inline Position<N> find(const S<N> &a, const S<M> &b) {
+  return static_cast<Position<N>>(detail::textFind(a.s, N, b.s, M));
 }
 
 } // namespace stride

@@ -175,7 +175,7 @@ TEST(Format, KeepsCommentsAnywhere) {
     unsigned number = 0;
     const std::string text = respaced(source.text, [&](const FormatItem &) -> std::string {
       const std::string n = std::to_string(++number);
-      switch (random() % 40) {
+      switch (random() % 50) {
       case 0:
         return " (* " + n + " *) ";
       case 1:
@@ -192,6 +192,14 @@ TEST(Format, KeepsCommentsAnywhere) {
         return " {attribute 'a" + n + "'}\n";
       case 7:
         return "(* a *)(* b *) // c\n   (* d *)\n\n\n";
+      case 8: // of several lines, on the line of what is in front of it, or behind it, or both
+        return "(* " + n + "\n  two *) ";
+      case 9:
+        return " (* " + n + "\n\n      three *)\n";
+      case 10:
+        return "\n    (* " + n + "\n  two *) (* one *) ";
+      case 11:
+        return "\n\t/* " + n + "\n\t  two\n three */";
       default:
         return random() % 4 == 0 ? "\n" : " ";
       }
