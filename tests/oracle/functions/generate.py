@@ -657,6 +657,15 @@ def strings():
                     table.third("WREPLACE($1, $2, $3, $4)", two + " INT INT", [s, t, n, p], result, spliced(s, t, n, p)[:255])
                     table.third("WFIND($1, $2)", two, [s, t], "INT", s.find(t) + 1 if t else 0)
                 table.add("MAX($1, $2)", two, [s, t], result, max(s, t))
+                u = "x€"[:n % 2] if name == "WSTRING" else "xy"[:n % 3]
+                table.add("CONCAT($1, $2, $3)", f"{two} {name}(20)", [s, t, u], result, (s + t + u)[:255])
+                table.add("CONCAT($1, $2, $3, $1)", f"{two} {name}(20)", [s, t, u], result, (s + t + u + s)[:255])
+    # at the limit of INT and beyond
+    for name, length in (("STRING", 32767), ("STRING", 32768), ("WSTRING", 32768)):
+        kind = f"{name}({length})"
+        table.add("LEN($1)", kind, ["a" * length], "DINT" if length > 32767 else "INT", length)
+    kind = "STRING(32769)"
+    table.add("FIND($1, $2)", f"{kind} STRING(80)", ["a" * 32767 + "bc", "bc"], "DINT", 32768)
     # characters that take two places
     face = "\U0001F600"
     kind = "WSTRING(20)"
