@@ -108,7 +108,9 @@ void Checker::checkHidden(Module &module, const PouSymbol *pou, const VarSymbol 
                                                  std::string(global->globals->name.text) + "." +
                                                  name + "` for the global one");
     } else if (symbol->kind == SymbolKind::pou && symbol != pou &&
-               static_cast<const PouSymbol *>(symbol)->decl->kind != DeclKind::functionBlock) {
+               (static_cast<const PouSymbol *>(symbol)->isFunction() ||
+                static_cast<const PouSymbol *>(symbol)->decl->kind == DeclKind::program)) {
+      // Blocks, classes and interfaces are types.
       const bool function = static_cast<const PouSymbol *>(symbol)->isFunction();
       reportHidden(v, symbol,
                    function ? "the function of the same name" : "the program of the same name")
