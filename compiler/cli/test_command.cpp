@@ -4,6 +4,7 @@
 #include "compiler/project/library_index.hpp"
 #include "compiler/project/project.hpp"
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fmt/format.h>
 #include <fnmatch.h>
@@ -27,9 +28,10 @@ int testCommand(const ProjectOptions &options, const TestOptions &test) {
                                   project.sources().position(one.place).line, one.name,
                                   project.sources().file(one.place.file).name()));
     }
+    const bool noneOfThatName = plans.empty() && !test.filter.empty();
     ProgressLine progress;
     std::optional<BuildResult> result;
-    if (!project.hasErrors() && !test.list) {
+    if (!project.hasErrors() && !test.list && !noneOfThatName) {
       BuildOptions build;
       build.debug = true;
       if (!project.isSingleFile())
@@ -41,6 +43,8 @@ int testCommand(const ProjectOptions &options, const TestOptions &test) {
     }
     progress.clear();
     const int exitCode = show(project.diagnostics(), project.sources(), options.output);
+    if (exitCode == 0 && noneOfThatName)
+      throw CLI::ValidationError("--filter", "no test is called '" + test.filter + "'");
     if (exitCode != 0 || !result)
       return exitCode;
     arguments = {result->application.string(), "--suite", project.name(), "--root",

@@ -53,6 +53,7 @@ public:
                  (e_.usesContext() ? "ctx__" : "") + ")");
     prologue();
     text_.append(body);
+    text_.sameLine(); // not that of the body's first statement
     functionEnd();
   }
 
@@ -94,6 +95,7 @@ public:
                  (e_.usesContext() ? "ctx__" : "") + ")");
     prologue();
     text_.append(body);
+    text_.sameLine(); // not that of the body's first statement
     functionEnd();
   }
 
@@ -136,6 +138,7 @@ public:
                  "__(::stride::Ctx &ctx__)");
     prologue();
     text_.append(body);
+    text_.sameLine(); // not that of the body's first statement
     functionEnd();
   }
 

@@ -47,6 +47,15 @@ void Writer::from(Span span) {
   believed_ = line;
 }
 
+void Writer::sameLine() {
+  if (mapped_ == 0)
+    return;
+  const std::uint32_t line = believed_ - 1;
+  *this << "#line " << line;
+  endLine();
+  believed_ = line;
+}
+
 void Writer::fromGenerated(std::string_view path) {
   if (mapped_ == 0 && believed_ == count_)
     return;

@@ -57,6 +57,8 @@ public:
 
   /// What follows stands in the ST at `span`: the next line is counted as that line.
   void from(Span span);
+  /// The next line is counted as the same line of the ST as the one before it.
+  void sameLine();
   /// What follows belongs to the generated file `path` itself, not to the ST.
   void fromGenerated(std::string_view path);
   /// Appends the text of another writer, whose lines bring their own directives.

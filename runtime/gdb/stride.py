@@ -1,4 +1,4 @@
-"""gdb for ST: values as ST literals, frames as POUs, `st print`, `st break`, `st roots`, `st catch`.
+"""gdb for ST: values as ST literals, frames as POUs, `st print`, `st set`, `st break`, `st roots`, `st catch`.
 
 Loaded by `stride debug`, or by hand: (gdb) source <prefix>/share/stride/gdb/stride.py
 Knows the form of generated code (docs/generated-code.md) and nothing of a particular program: types
@@ -7,6 +7,8 @@ come from the debug information, the names of enumerators from the application's
 
 import datetime
 import re
+import struct
+from fractions import Fraction
 
 import gdb
 import gdb.printing
@@ -256,7 +258,7 @@ class IndexWorker(gdb.xmethod.XMethodWorker):
         if not low <= int(index) <= high:
             raise gdb.GdbError(f"index {int(index)} is outside of {low}..{high}")
         kind, found = element_type(obj), obj["v"][int(index) - low]
-        return found.cast(kind) if kind else found
+        return found.address.cast(kind.pointer()).dereference() if kind else found
 
 
 class IndexMatcher(gdb.xmethod.XMethodMatcher):
@@ -431,6 +433,104 @@ def element(value, text):
     return IndexWorker()(value, index)
 
 
+# ---------------------------------------------------------------- literals
+
+NANOSECONDS = {"d": 86400 * 10**9, "h": 3600 * 10**9, "m": 60 * 10**9, "s": 10**9, "ms": 10**6, "us": 10**3, "ns": 1}
+PART = r"(\d[\d_]*(?:\.\d+)?)(ms|us|ns|d|h|m|s)"
+PER_SECOND = {"TIME": 1000, "TOD": 1000, "DATE": 1, "DT": 1}
+LIMITS = {"BYTE": (0, 8), "WORD": (0, 16), "DWORD": (0, 32), "LWORD": (0, 64), "CHAR": (0, 8), "WCHAR": (0, 16)}
+for bits, part in ((8, "SINT"), (16, "INT"), (32, "DINT"), (64, "LINT")):
+    LIMITS[part], LIMITS["U" + part] = (1, bits), (0, bits)
+
+
+def st_type(kind):
+    """The runtime's name of a type: INT, STRING<80>; what an enumeration or alias is made of."""
+    while kind.code == gdb.TYPE_CODE_TYPEDEF and not (kind.name or "").startswith("stride::"):
+        kind = kind.target()
+    if kind.code == gdb.TYPE_CODE_INT: # an element: template arguments lose their typedefs
+        return ("" if kind.is_signed else "U") + {1: "SINT", 2: "INT", 4: "DINT", 8: "LINT"}[kind.sizeof]
+    if kind.code == gdb.TYPE_CODE_FLT:
+        return "REAL" if kind.sizeof == 4 else "LREAL"
+    return (kind.unqualified().name or "").removeprefix("stride::")
+
+
+def seconds_of_day(text):
+    hours, minutes, seconds = (text.split(":") + ["0"])[:3]
+    return (int(hours) * 60 + int(minutes)) * 60 + Fraction(seconds)
+
+
+def moment(text):
+    """Nanoseconds of a time, date or time of day without its prefix; None: it is none."""
+    if re.fullmatch(rf"-?({PART}_?)+", text):
+        total = sum(Fraction(number.replace("_", "")) * NANOSECONDS[unit] for number, unit in re.findall(PART, text))
+        return -total if text.startswith("-") else total
+    found = re.fullmatch(r"(?:(\d+-\d+-\d+)(?:-|$))?(\d+:\d+(?::\d+(?:\.\d+)?)?)?", text)
+    if not text or found is None:
+        return None
+    days = (datetime.date(*map(int, found[1].split("-"))) - datetime.date(1970, 1, 1)).days if found[1] else 0
+    return (days * 86400 + (seconds_of_day(found[2]) if found[2] else 0)) * 10**9
+
+
+def characters(text):
+    """The codes of the text between the quotes."""
+    short = {"T": 9, "N": 10, "L": 10, "P": 12, "R": 13}
+    codes, digits = [], 2 if text[0] == "'" else 4
+    for escape, plain in re.findall(rf"\$([0-9A-Fa-f]{{{digits}}}|.)|(.)", text[1:-1]):
+        codes.append(ord(plain) if plain else int(escape, 16) if len(escape) > 1 else
+                     short.get(escape.upper(), ord(escape)))
+    return codes
+
+
+def encoded(text, value):
+    """The bytes of the literal `text` for the place `value`; None: it is no literal of that type."""
+    kind, size = st_type(value.type), value.type.sizeof
+    upper = text.upper()
+    plain = text.rsplit("#", 1)[-1].lower() if re.match(r"[A-Z]\w*#", upper) else text
+    if kind.startswith(("STRING<", "WSTRING<")) or kind in ("CHAR", "WCHAR"):
+        wide = kind.startswith("W")
+        if len(text) < 2 or text[0] != text[-1] or text[0] != ('"' if wide else "'"):
+            return None
+        unit = 2 if wide else 1
+        codes = characters(text)
+        room = 1 if kind.endswith("CHAR") else size // unit - 1
+        if len(codes) > room or kind.endswith("CHAR") and len(codes) != 1 or any(c >> 8 * unit for c in codes):
+            raise gdb.GdbError(f"{text} has no room in this {kind.split('<')[0]}")
+        return b"".join(c.to_bytes(unit, "little") for c in codes).ljust(size, b"\0")
+    if kind == "BOOL":
+        number = {"TRUE": 1, "FALSE": 0, "1": 1, "0": 0}.get(upper.removeprefix("BOOL#"))
+        return None if number is None else bytes([number])
+    if kind in ("REAL", "LREAL"):
+        try:
+            return struct.pack("<f" if kind == "REAL" else "<d", float(plain.replace("_", "")))
+        except ValueError:
+            return None
+    if kind.removeprefix("L") in PER_SECOND:
+        when = moment(plain) if "#" in text else None
+        if when is None:
+            return None
+        number = int(when * (10**9 if kind.startswith("L") else PER_SECOND[kind]) // 10**9)
+        signed, bits = kind == "LTIME", 8 * size
+    elif kind in LIMITS:
+        signed, bits = LIMITS[kind]
+        names = enumerators_of((value.type.name or "").rsplit("::", 1)[-1]) or {}
+        known = {name.lower(): number for number, name in names.items()}
+        found = re.fullmatch(r"(?:[A-Za-z]\w*#)?(-?)(?:(2|8|16)#)?([0-9A-Fa-f_]+)", text)
+        if text.rsplit(".", 1)[-1].lower() in known:
+            number = known[text.rsplit(".", 1)[-1].lower()]
+        else:
+            try:
+                number = int(found[1] + found[3].replace("_", ""), int(found[2] or 10)) if found else None
+            except ValueError:
+                number = None
+    else:
+        return None
+    if number is None:
+        return None
+    if not -(signed << bits - 1) <= number < 1 << bits - signed:
+        raise gdb.GdbError(f"{text} is outside of {kind}")
+    return number.to_bytes(size, "little", signed=bool(signed))
+
+
 # ---------------------------------------------------------------- commands
 
 
@@ -450,6 +550,34 @@ Local names first, then programs and global variables: st print Main.axis[3].fPo
 
     def invoke(self, argument, from_tty):
         print(f"{argument.strip()} = {resolve(argument).format_string()}")
+
+
+class Set(gdb.Command):
+    """st set PATH := VALUE: gives a variable a value, an ST literal or another variable of its type.
+st set Main.delay := T#2s, st set gText := 'new', st set Main.color := green"""
+
+    def __init__(self):
+        super().__init__("st set", gdb.COMMAND_DATA)
+
+    def invoke(self, argument, from_tty):
+        path, assign, text = argument.partition(":=")
+        path, text = path.strip(), text.strip()
+        if not assign or not path or not text:
+            raise gdb.GdbError("say what: st set Main.total := 20")
+        place = resolve(path)
+        if place.address is None:
+            raise gdb.GdbError(f"`{path}` has no address")
+        data = encoded(text, place)
+        if data is None:
+            kind = st_type(place.type)
+            try:
+                source = resolve(text)
+            except gdb.GdbError:
+                raise gdb.GdbError(f"`{text}` is neither a literal for `{path}` ({kind}) nor a variable")
+            if st_type(source.type) != kind or not kind or source.address is None:
+                raise gdb.GdbError(f"`{text}` is of another type than `{path}` ({kind})")
+            data = bytes(gdb.selected_inferior().read_memory(int(source.address), source.type.sizeof))
+        gdb.selected_inferior().write_memory(int(place.address), data)
 
 
 class Roots(gdb.Command):
@@ -500,6 +628,49 @@ class Break(gdb.Command):
         raise gdb.GdbError(f"there is no POU `{argument.strip()}`; {hint}")
 
 
+CONDITION = re.compile(r"\s(?:if\b|thread\s|task\s|mask\s)|$")
+
+
+def lasting(expression):
+    """What names the same place as gdb's expression without the frame, if it is in the application's state; or None."""
+    try:
+        base, table = int(state().address), next(s.value() for s in application_symbols())
+        place = gdb.parse_and_eval(f"&({expression})")
+        if not 0 <= int(place) - base < int(table["stateSize"]):
+            return None
+    except (gdb.error, gdb.GdbError, StopIteration):
+        return None
+    stem = name = "watched_" + re.sub(r"\W+", "_", expression.strip()).strip("_")
+    number = 1
+    while (known := gdb.convenience_variable(name)) is not None and int(known) != int(place):
+        number += 1
+        name = f"{stem}_{number}"
+    gdb.set_convenience_variable(name, place)
+    return "*$" + name
+
+
+class Watch(gdb.Command):
+    """Stops when a variable changes (rwatch: is read; awatch: either): watch total, watch total if n > 3.
+That of a program or an instance is watched from cycle to cycle, any other one until its POU ends."""
+
+    def __init__(self, name, kind):
+        super().__init__(name, gdb.COMMAND_BREAKPOINTS, gdb.COMPLETE_EXPRESSION)
+        self.kind = kind
+
+    def invoke(self, argument, from_tty):
+        if not argument.strip():
+            raise gdb.GdbError("say what: watch total, watch total if n > 3")
+        expression = argument[:CONDITION.search(argument).start()]
+        place = lasting(expression)
+        rest = argument[len(expression):]
+        if place: # in its condition, too, which is tested where the variable changes
+            rest = re.sub(rf"(?<![\w.]){re.escape(expression.strip())}(?![\w.\[])", lambda _: f"({place})", rest)
+        try:
+            gdb.Breakpoint((place or expression) + rest, gdb.BP_WATCHPOINT, self.kind)
+        except gdb.error as error:
+            raise gdb.GdbError(str(error))
+
+
 class Catch(gdb.Command):
     """st catch: stop where an ST exception (division by zero, index, null pointer …) is raised."""
 
@@ -515,8 +686,11 @@ def install():
     gdb.printing.register_pretty_printer(None, Lookup(), replace=True)
     gdb.xmethod.register_xmethod_matcher(None, IndexMatcher(), replace=True)
     PouFilter()
-    for command in (St, Start, Print, Roots, Break, Catch):
+    for command in (St, Start, Print, Set, Roots, Break, Catch):
         command()
+    Watch("watch", gdb.WP_WRITE)
+    Watch("rwatch", gdb.WP_READ)
+    Watch("awatch", gdb.WP_ACCESS)
     # The application is loaded by the host, so breakpoints in it wait; names are as in ST; `step` goes
     # over the runtime's helpers.
     gdb.execute("set breakpoint pending on")

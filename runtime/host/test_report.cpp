@@ -92,6 +92,10 @@ std::string describeFailure(const TestFailure &failure, const std::string &root)
   return out;
 }
 
+std::string describeOmitted(uint64_t count) {
+  return fmt::format("… and {} more failure{}", count, count == 1 ? "" : "s");
+}
+
 std::string junitXml(const std::string &suite, const std::vector<TestResult> &results) {
   double seconds = 0;
   std::size_t failures = 0;
@@ -116,6 +120,8 @@ std::string junitXml(const std::string &suite, const std::vector<TestResult> &re
                    ? escaped(headline(failure)) + "&#10;"
                    : fmt::format("{}:{}:{}: {}: {}&#10;", escaped(failure.file), failure.line,
                                  failure.column, escaped(failure.kind), escaped(headline(failure)));
+    if (result.omitted != 0)
+      cases += describeOmitted(result.omitted) + "&#10;";
     cases += fmt::format("</{}>\n    </testcase>\n", error ? "error" : "failure");
   }
   const std::string counts =

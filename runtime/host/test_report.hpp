@@ -27,10 +27,14 @@ struct TestResult {
   std::string file; ///< where the test is declared
   uint32_t line = 0;
   std::vector<TestFailure> failures;
+  uint64_t omitted = 0; ///< failures beyond the most that are kept
   uint64_t cycles = 0;
   int64_t timeNs = 0; ///< virtual
   double seconds = 0; ///< real
 };
+
+/// The line that stands for `count` failures that are not shown.
+std::string describeOmitted(uint64_t count);
 
 /// A failure as indented lines, with the line of the source below `root`.
 std::string describeFailure(const TestFailure &failure, const std::string &root);

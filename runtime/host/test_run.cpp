@@ -77,8 +77,10 @@ private:
       return;
     }
     auto *tasks = static_cast<TestTasks *>(static_cast<TaskSet *>(ctx->host->self));
-    if (tasks->result_->failures.size() >= kMostFailures)
+    if (tasks->result_->failures.size() >= kMostFailures) {
+      ++tasks->result_->omitted;
       return;
+    }
     const auto *assertion = reinterpret_cast<const FailedAssertion *>(text);
     TestFailure failure;
     failure.kind = assertion->function;
@@ -241,6 +243,8 @@ int TestCommand::run() {
       failed += result.failures.empty() ? 0 : 1;
       for (const TestFailure &failure : result.failures)
         fmt::print("{}", describeFailure(failure, root_));
+      if (result.omitted != 0)
+        fmt::print("  {}\n", describeOmitted(result.omitted));
       std::fflush(stdout);
     }
   });

@@ -75,8 +75,8 @@ END_PROGRAM
 /// What gdb prints when it executes these commands after the start of the program.
 class Debugging : public ::testing::Test {
 protected:
-  ProcessResult debug(const std::string &commands) {
-    writeFile(scratch_.path() / "Main.st", kProgram);
+  ProcessResult debug(const std::string &commands, const std::string &program = kProgram) {
+    writeFile(scratch_.path() / "Main.st", program);
     writeFile(scratch_.path() / "commands.gdb", commands);
     return runProcess({STRIDE_BINARY_DIR "/stride", "debug", "Main.st", "-W", "off=lints", "--for",
                        "T#50ms", "--batch", "-x", "commands.gdb"},
@@ -156,6 +156,59 @@ TEST_F(Debugging, ConditionsAndWatchpoints) {
   const ProcessResult gdb = debug("break Main.st:20 if total > 10\ncontinue\nprint total\n"
                                   "delete\nwatch total\ncontinue\n");
   expectInOrder(gdb, {"$1 = 12\n", "Old value = 12\n", "New value = 18\n", "21\t"});
+}
+
+TEST_F(Debugging, WatchesFromCycleToCycle) {
+  const ProcessResult gdb =
+      debug("break Main.st:53\ncontinue\ndelete\nwatch sums.total if sums.total > 12\ncontinue\n"
+            "delete\nup\nwatch n\ncontinue\ncontinue\nwatch nothing\n");
+  expectInOrder(gdb, {"Old value = 12\n", "New value = 18\n", "Old value = 5\n", "New value = 4\n",
+                      "55\t", "New value = 2\n"});
+  EXPECT_THAT(gdb.err, HasSubstr("No symbol \"nothing\" in current context"));
+  EXPECT_THAT(gdb.err, Not(HasSubstr("Python")));
+}
+
+// The initial values of variables on one line do not reach to the next one.
+TEST_F(Debugging, StopsAtTheFirstStatementInCyclesOnly) {
+  const ProcessResult gdb = debug("break Main.st:3\ncontinue\nbt\nwatch n\ncontinue\nbreak "
+                                  "Main.st:2\n",
+                                  "PROGRAM Main\nVAR n : INT; k : INT := 3; END_VAR\n"
+                                  "n := n + 1;\nk := n;\nEND_PROGRAM\n");
+  expectInOrder(gdb, {"#0  Main () at", "Main.st:3\n", "New value = 1\n", "4\t"});
+  EXPECT_THAT(gdb.out, Not(HasSubstr("2 locations")));
+}
+
+TEST_F(Debugging, SetsVariablesToLiterals) {
+  std::string commands = "break Main.st:53\ncontinue\nset print pretty off\n";
+  for (const char *set :
+       {"TEXT := 'n$'eu$N'", "wide := \"\u00e9$20AC\"", "delay := T#1h_2.5s",
+        "fine := LTIME#-1us7ns", "day := D#2030-01-31", "moment := DT#2030-01-31-23:59:58",
+        "noon := TOD#23:59:59.5", "list[-1] := -16#7F", "table[1, 2] := t#5ms",
+        "colors[2] := Color.red", "color := blue", "mask := 2#1111_0000", "on := FALSE",
+        "gSpeed := -1.5E3", "Main.places[3].x := LREAL#7", "places[4] := places[3]", "n := DINT#-5",
+        "sums.step := list[1]"})
+    commands += std::string("st set ") + set + "\n";
+  for (const char *print :
+       {"text", "wide", "delay", "fine", "day", "moment", "noon", "list[-1]", "table[1, 2]",
+        "colors[2]", "color", "mask", "on", "gSpeed", "places[4]", "n", "sums.step"})
+    commands += std::string("st print ") + print + "\n";
+  const ProcessResult gdb = debug(commands);
+  for (const char *line :
+       {"text = 'n$'eu$N'\n", "delay = T#1h2s500ms\n", "fine = LTIME#-1us7ns\n",
+        "day = D#2030-01-31\n", "moment = DT#2030-01-31-23:59:58\n", "noon = TOD#23:59:59.5\n",
+        "list[-1] = -127\n", "table[1, 2] = T#5ms\n", "colors[2] = red (0)\n", "color = blue (6)\n",
+        "mask = 16#F0\n", "on = FALSE\n", "gSpeed = -1.5e+03\n",
+        "places[4] = {x = 7.0, y = 0.0, name = 'home'}\n", "n = -5\n", "sums.step = 9\n"})
+    EXPECT_THAT(gdb.out, HasSubstr(line)) << gdb.err;
+  const std::string stop = "break Main.st:53\ncontinue\nst set ";
+  EXPECT_THAT(debug(stop + "mask := 256\n").err, HasSubstr("256 is outside of BYTE"));
+  EXPECT_THAT(debug(stop + "places[3].name := '123456789012345678901'\n").err,
+              HasSubstr("has no room in this STRING"));
+  EXPECT_THAT(debug(stop + "delay := 5\n").err,
+              HasSubstr("`5` is neither a literal for `delay` (TIME) nor a variable"));
+  EXPECT_THAT(debug(stop + "n := mask\n").err,
+              HasSubstr("`mask` is of another type than `n` (DINT)"));
+  EXPECT_THAT(debug(stop + "n\n").err, HasSubstr("say what: st set Main.total := 20"));
 }
 
 TEST_F(Debugging, StopsAtExceptions) {

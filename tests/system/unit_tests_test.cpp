@@ -85,11 +85,31 @@ TEST_F(UnitTests, SelectsByName) {
   EXPECT_EQ(test({"--list"}).exitCode, 0);
 }
 
+TEST_F(UnitTests, SaysHowManyFailuresItLeavesOut) {
+  writeFile(scratch_.path() / "t.st", "{attribute 'test'}\n"
+                                      "FUNCTION_BLOCK Wrong\n"
+                                      "VAR i : INT; END_VAR\n"
+                                      "FOR i := 1 TO 60 DO ASSERT_EQ(i, 0); END_FOR;\n"
+                                      "END_FUNCTION_BLOCK\n");
+  const ProcessResult result = test({"--junit", "report.xml"});
+  EXPECT_EQ(result.exitCode, 1) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("is 50\n  … and 10 more failures\n"));
+  EXPECT_THAT(readFile(scratch_.path() / "report.xml"), HasSubstr("… and 10 more failures&#10;</"));
+}
+
 TEST_F(UnitTests, BadUse) {
   EXPECT_EQ(test({"--wrong"}).exitCode, 1);
   const ProcessResult report = test({"--filter", "Right", "--junit", "missing/report.xml"});
   EXPECT_EQ(report.exitCode, 1);
   EXPECT_THAT(report.err, HasSubstr("'missing/report.xml' cannot be written"));
+  for (const std::vector<std::string> &list : {std::vector<std::string>{}, {"--list"}}) {
+    std::vector<std::string> arguments = list;
+    arguments.insert(arguments.end(), {"--filter", "R?ghtly"});
+    const ProcessResult none = test(arguments);
+    EXPECT_EQ(none.exitCode, 1);
+    EXPECT_THAT(none.err, HasSubstr("no test is called 'R?ghtly'"));
+    EXPECT_EQ(none.out, "");
+  }
   writeFile(scratch_.path() / "t.st", "{attribute 'test'}\nFUNCTION_BLOCK Wrong\nx := 1;\n"
                                       "END_FUNCTION_BLOCK\n");
   const ProcessResult wrong = test({});

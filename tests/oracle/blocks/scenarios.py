@@ -131,11 +131,13 @@ def counters():
 
 
 def timers():
-    rng = random.Random(3)
     about = {"TON": "Q is TRUE when IN has been TRUE for PT.", "TOF": "Q stays TRUE for PT behind IN.",
              "TP": "A rising edge of IN gives a pulse of PT."}
-    for name, text in about.items():
-        yield Block(name, [f"{name}: {text} TIMEs in ms."], pins("IN:BOOL PT:TIME"), pins("Q:BOOL ET:TIME"), getattr(m, name), [
+    for base, suffix in [(base, suffix) for suffix in ("", "_TIME") for base in about]:
+        if base == "TON":
+            rng = random.Random(3)  # the same inputs under both names
+        name, text = base + suffix, about[base]
+        yield Block(name, [f"{name}: {text} TIMEs in ms."], pins("IN:BOOL PT:TIME"), pins("Q:BOOL ET:TIME"), getattr(m, base), [
             ("PT of 30 ms, and an interruption", steps(every(10, 20), IN=".#####..##.###.#.#..", PT=30)),
             ("PT of 25 ms lies between two calls", steps(every(10, 12), IN="######......", PT=25)),
             ("PT = 0", steps(every(10, 8), IN=".##..#..", PT=0)),
