@@ -1,7 +1,9 @@
 // What the reference says of the functions that the compiler implements itself. They take several
 // types, which no ST declaration can say.
 
+#include "compiler/semantics/builtins.hpp"
 #include "compiler/doc/reference.hpp"
+#include "compiler/semantics/type_table.hpp"
 
 #include <algorithm>
 
@@ -21,6 +23,28 @@ constexpr BuiltinText kTexts[] = {
 #undef STC_BUILTIN_TEXT
 };
 
+/// INT_TO_REAL, TO_STRING, TRUNC_INT, BYTE_BCD_TO_USINT …
+std::vector<std::string> conversionNames() {
+  std::vector<std::string> types = {"TOD", "LTOD", "DT", "LDT"}; // beside their long names
+  for (auto kind = TypeKind::boolean; kind <= TypeKind::wcharT;
+       kind = static_cast<TypeKind>(static_cast<int>(kind) + 1))
+    types.push_back(typeName(elementaryType(kind)));
+  std::vector<std::string> names;
+  Interner interner;
+  const auto add = [&](const std::string &name) {
+    const std::optional<ConversionName> found = findConversion(interner.intern(name));
+    if (found && found->from != found->to)
+      names.push_back(name);
+  };
+  for (const std::string &to : types)
+    for (const char *verb : {"TO_", "TRUNC_", "BCD_TO_", "TO_BCD_"}) {
+      add(verb + to);
+      for (const std::string &from : types)
+        add(from + "_" + verb + to);
+    }
+  return names;
+}
+
 } // namespace
 
 Module builtinFunctions() {
@@ -32,9 +56,13 @@ Module builtinFunctions() {
       "every type. The result has the type of the arguments marked so.",
       {}};
   for (const BuiltinText &row : kTexts)
-    module.entries.push_back({"Function", row.name, row.parameters, row.text, {}, {}});
+    module.entries.push_back({"Function", row.name, row.parameters, row.text, {}, {}, {}});
   std::stable_sort(module.entries.begin(), module.entries.end(),
                    [](const Entry &a, const Entry &b) { return a.name < b.name; });
+  const auto conversions = std::find_if(module.entries.begin(), module.entries.end(),
+                                        [](const Entry &entry) { return entry.name == "TO_INT"; });
+  conversions->aliases = conversionNames();
+  std::erase(conversions->aliases, conversions->name);
   return module;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cctype>
 #include <map>
+#include <set>
 
 namespace stc::doc {
 
@@ -46,7 +47,7 @@ constexpr const char *kSearch = R"js('use strict';
       return name === words[0] ? 0 : name.startsWith(words[0]) ? 1 : name.includes(words[0]) ? 2 : 3;
     };
     const hits = index.filter(function (e) {
-      const text = (e[0] + ' ' + e[2] + ' ' + e[3]).toLowerCase();
+      const text = (e[0] + ' ' + e[2] + ' ' + e[3] + ' ' + (e[4] || '')).toLowerCase();
       return words.every(function (w) { return text.includes(w); });
     });
     hits.sort(function (a, b) { return rank(a) - rank(b) || a[0].localeCompare(b[0]); });
@@ -81,9 +82,13 @@ class Writer {
 public:
   Writer(const std::string &title, const std::vector<Module> &modules)
       : title_(title), modules_(modules) {
-    for (const Module &module : modules)
-      for (const Entry &entry : module.entries)
-        places_.try_emplace(entry.name, fileOf(module) + "#" + entry.name);
+    for (const Module &module : modules) {
+      std::set<std::string> used;
+      for (const Entry &entry : module.entries) {
+        name(entry, used);
+        places_.try_emplace(entry.name, fileOf(module) + "#" + ids_.at(&entry));
+      }
+    }
   }
 
   std::vector<Page> pages() {
@@ -109,10 +114,30 @@ private:
     return out + "];\n" + kSearch;
   }
 
-  static void row(std::string &out, const Module &module, const Entry &entry) {
-    out += '[' + literal(entry.name) + ',' + literal(fileOf(module) + "#" + entry.name) + ',' +
-           literal(module.name + ", " + entry.kind) + ',' + literal(firstSentence(entry.text)) +
-           "],\n";
+  /// A name, where it leads, what it is, a sentence on it, and what else the search looks through.
+  void row(std::string &out, const Module &module, const Entry &entry) const {
+    const std::string first = firstSentence(entry.text);
+    std::string more = entry.text.substr(first.size());
+    for (const Group &group : entry.groups)
+      for (const Member &member : group.members)
+        more += ' ' + member.name + ' ' + member.text;
+    const std::string place = literal(fileOf(module) + "#" + ids_.at(&entry));
+    const std::string what = literal(module.name + ", " + entry.kind);
+    out += '[' + literal(entry.name) + ',' + place + ',' + what + ',' + literal(first) + ',' +
+           literal(more) + "],\n";
+    for (const std::string &alias : entry.aliases)
+      out += '[' + literal(alias) + ',' + place + ',' + what + ",\"\"],\n";
+  }
+
+  /// Gives an entry and its parts the ids of their sections: their names, made different where a
+  /// page has one name twice (a program and the variables of its file).
+  void name(const Entry &entry, std::set<std::string> &used) {
+    std::string id = entry.name;
+    for (int i = 2; !used.insert(id).second; ++i)
+      id = entry.name + "-" + std::to_string(i);
+    ids_.emplace(&entry, id);
+    for (const Entry &part : entry.parts)
+      name(part, used);
   }
 
   [[nodiscard]] std::string page(const std::string &heading, const std::string &contents,
@@ -138,9 +163,9 @@ private:
       contents += "<li>" + link + "</li>\n";
       body += "<section>\n<h2>" + link + "</h2>\n" + paragraphs(module.text) + "<table>\n";
       for (const Entry &entry : module.entries)
-        body += "<tr><td class=\"name\"><a href=\"" + escaped(fileOf(module) + "#" + entry.name) +
-                "\">" + escaped(entry.name) + "</a></td><td>" +
-                linked(firstSentence(entry.text), entry.name) + "</td></tr>\n";
+        body += "<tr><td class=\"name\"><a href=\"" +
+                escaped(fileOf(module) + "#" + ids_.at(&entry)) + "\">" + escaped(entry.name) +
+                "</a></td><td>" + linked(firstSentence(entry.text), entry.name) + "</td></tr>\n";
       body += "</table>\n</section>\n";
     }
     return page(title_, contents, body);
@@ -150,15 +175,15 @@ private:
     std::string contents;
     std::string body = paragraphs(module.text);
     for (const Entry &entry : module.entries) {
-      contents +=
-          "<li><a href=\"#" + escaped(entry.name) + "\">" + escaped(entry.name) + "</a></li>\n";
+      contents += "<li><a href=\"#" + escaped(ids_.at(&entry)) + "\">" + escaped(entry.name) +
+                  "</a></li>\n";
       body += section(entry, "h2");
     }
     return page(module.name, contents, body);
   }
 
   std::string section(const Entry &entry, const std::string &heading) {
-    std::string out = "<section id=\"" + escaped(entry.name) + "\">\n<" + heading +
+    std::string out = "<section id=\"" + escaped(ids_.at(&entry)) + "\">\n<" + heading +
                       "><span class=\"kind\">" + escaped(entry.kind) + "</span>" +
                       escaped(entry.name);
     if (!entry.suffix.empty())
@@ -217,6 +242,7 @@ private:
 
   const std::string &title_;
   const std::vector<Module> &modules_;
+  std::map<const Entry *, std::string> ids_;  ///< of their sections
   std::map<std::string, std::string> places_; ///< name → page and anchor
 };
 

@@ -124,7 +124,8 @@ private:
 
   void declaration(const ast::Decl &decl, std::vector<Entry> &entries) {
     Entry entry;
-    entry.name = decl.name.text;
+    const std::string space = decl.space.empty() ? "" : path(decl.space) + ".";
+    entry.name = space + std::string(decl.name.text);
     entry.text = decl.doc;
     switch (decl.kind) {
     case ast::DeclKind::program:
@@ -132,7 +133,7 @@ private:
     case ast::DeclKind::functionBlock:
     case ast::DeclKind::classD:
     case ast::DeclKind::interface:
-      entry = pou(static_cast<const ast::PouDecl &>(decl), "");
+      entry = pou(static_cast<const ast::PouDecl &>(decl), space);
       break;
     case ast::DeclKind::structure: {
       const auto &structure = static_cast<const ast::StructDecl &>(decl);
@@ -163,10 +164,11 @@ private:
     }
     case ast::DeclKind::globals: {
       const auto &globals = static_cast<const ast::GlobalsDecl &>(decl);
-      if (entry.name.empty())
-        entry.name = sources_.file(decl.span.file).name();
-      entry.name = entry.name.substr(entry.name.rfind('/') + 1);
-      entry.name = entry.name.substr(0, entry.name.find('.'));
+      std::string list(decl.name.text);
+      if (list.empty())
+        list = sources_.file(decl.span.file).name();
+      list = list.substr(list.rfind('/') + 1);
+      entry.name = space + list.substr(0, list.find('.'));
       entry.kind = "Global variables";
       entry.groups.push_back(fields("Variables", globals.variables));
       break;

@@ -27,11 +27,12 @@ struct Group {
 /// One declaration.
 struct Entry {
   std::string kind;   ///< "Function block", "Enumeration" …
-  std::string name;   ///< "MC_Power"; a method's "Block.Method"
+  std::string name;   ///< "MC_Power"; a method's "Block.Method"; with the NAMESPACE around it
   std::string suffix; ///< what follows the name: ": REAL", "EXTENDS Base"
   std::string text;
   std::vector<Group> groups;
-  std::vector<Entry> parts; ///< methods, actions and properties
+  std::vector<Entry> parts;              ///< methods, actions and properties
+  std::vector<std::string> aliases = {}; ///< other names under which the search finds it
 };
 
 /// What stands on one page: a library, a namespace, or the operators of the language.

@@ -106,6 +106,55 @@ TEST_F(Reference, HtmlEscapesAndLinks) {
   }
 }
 
+std::size_t occurrences(const std::string &text, const std::string &part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++count;
+  return count;
+}
+
+TEST_F(Reference, NamespacesAndEqualNames) {
+  const Module module = describeText("FUNCTION_BLOCK Blk END_FUNCTION_BLOCK\n"
+                                     "NAMESPACE N1 FUNCTION Blk : INT END_FUNCTION END_NAMESPACE\n"
+                                     "PROGRAM Plant END_PROGRAM\n"
+                                     "VAR_GLOBAL g : INT; END_VAR\n");
+  ASSERT_EQ(module.entries.size(), 4U);
+  EXPECT_EQ(module.entries[0].name, "Blk");
+  EXPECT_EQ(module.entries[1].name, "N1.Blk");
+  EXPECT_EQ(module.entries[2].name, "Plant");
+  EXPECT_EQ(module.entries[3].name, "Plant");
+  for (const Page &page : htmlPages("Plant", {module})) {
+    if (page.path != "Plant.html")
+      continue;
+    EXPECT_EQ(occurrences(page.text, "id=\"Plant\""), 1U);
+    EXPECT_EQ(occurrences(page.text, "id=\"Plant-2\""), 1U);
+    EXPECT_EQ(occurrences(page.text, "id=\"N1.Blk\""), 1U);
+  }
+}
+
+TEST_F(Reference, TheSearchKnowsPins) {
+  const Module module = describeText("/// Opens. Slowly.\nFUNCTION_BLOCK Valve VAR_INPUT\n"
+                                     "/// Rising edge.\nbEnable : BOOL; END_VAR "
+                                     "END_FUNCTION_BLOCK\n");
+  for (const Page &page : htmlPages("Plant", {module})) {
+    if (page.path == "search.js") {
+      EXPECT_THAT(page.text, HasSubstr("[\"Valve\",\"Plant.html#Valve\",\"Plant, Function block\","
+                                       "\"Opens.\",\" Slowly. bEnable Rising edge.\"]"));
+    }
+  }
+}
+
+TEST(Builtins, TheSearchKnowsEveryConversion) {
+  for (const Page &page : htmlPages("All", {builtinFunctions()})) {
+    if (page.path == "search.js") {
+      for (const char *name : {"REAL_TO_INT", "DT_TO_DATE", "TO_WSTRING", "TRUNC_INT",
+                               "BCD_TO_UINT", "TO_BCD_BYTE", "WCHAR_TO_CHAR"})
+        EXPECT_THAT(page.text,
+                    HasSubstr(std::string("[\"") + name + "\",\"Operators.html#TO_INT\""));
+    }
+  }
+}
+
 // Every function of the compiler is described, and nothing else.
 TEST(Builtins, AllHaveTexts) {
   std::set<std::string> described;
