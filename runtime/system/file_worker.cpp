@@ -54,12 +54,14 @@ void FileService::work() {
 }
 
 void FileService::workOnce() {
-  drainAll();
-  while (Job *const job = next()) {
+  for (;;) {
+    Job *const job = next();
+    drainAll(); // what was written before the job was asked for, perhaps just now
+    if (job == nullptr)
+      return;
     execute(*job);
     job->state.store(job->taker == Job::Taker::Nobody ? Job::Free : Job::Done,
                      std::memory_order_release);
-    drainAll();
   }
 }
 
