@@ -7,7 +7,10 @@
 #include "compiler/project/project.hpp"
 #include "compiler/syntax/parser.hpp"
 
+#include <filesystem>
 #include <fmt/format.h>
+#include <iterator>
+#include <optional>
 
 namespace stc::cli {
 
@@ -41,11 +44,37 @@ std::vector<doc::Module> standardLibraryModules() {
   return modules;
 }
 
+/// The pages with the pictures that the folder has of entries of the modules.
+std::vector<doc::Page> pagesOf(const std::string &title, std::vector<doc::Module> modules,
+                               const std::string &figures) {
+  std::vector<doc::Page> pictures;
+  if (!figures.empty())
+    for (doc::Module &module : modules)
+      for (doc::Entry &entry : module.entries) {
+        const std::string file = module.name + "/" + entry.name;
+        std::optional<std::string> picture = readFile(figures + "/" + file + ".svg");
+        if (!picture)
+          continue;
+        entry.figure = "figures/" + file + ".svg";
+        entry.caption = readFile(figures + "/" + file + ".txt").value_or(std::string());
+        pictures.push_back({entry.figure, std::move(*picture)});
+      }
+  std::vector<doc::Page> pages = doc::htmlPages(title, modules);
+  pages.insert(pages.end(), std::make_move_iterator(pictures.begin()),
+               std::make_move_iterator(pictures.end()));
+  return pages;
+}
+
 } // namespace
 
-int documentCommand(const ProjectOptions &options, bool library, const std::string &out) {
+int documentCommand(const ProjectOptions &options, bool library, const std::string &figures,
+                    const std::string &out) {
+  if (!figures.empty() && !std::filesystem::is_directory(figures))
+    return showError(Code::unreadableFile, fmt::format("`{}` is not a folder", figures),
+                     options.output);
   if (library)
-    return write(doc::htmlPages("Stride's library", standardLibraryModules()), out, options.output);
+    return write(pagesOf("Stride's library", standardLibraryModules(), figures), out,
+                 options.output);
   const EmbeddedLibraryIndex index(standardLibrary());
   const Project project(options.path, Purpose::check, settingsOf(options), index);
   const int exitCode = show(project.diagnostics(), project.sources(), options.output);
@@ -54,7 +83,7 @@ int documentCommand(const ProjectOptions &options, bool library, const std::stri
   const std::vector<ast::File *> &parsed = project.program().files;
   const std::vector<const ast::File *> files(parsed.begin(), parsed.end());
   return write(
-      doc::htmlPages(project.name(), {doc::describe(project.name(), files, project.sources())}),
+      pagesOf(project.name(), {doc::describe(project.name(), files, project.sources())}, figures),
       out, options.output);
 }
 

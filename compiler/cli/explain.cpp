@@ -34,6 +34,16 @@ struct MotionError {
   std::string text;
 };
 
+// Lines of one paragraph are joined; an empty one begins another.
+void addDocLine(std::string &doc, std::string_view line) {
+  if (line.empty())
+    doc += "\n\n";
+  else if (doc.empty() || doc.ends_with('\n'))
+    doc += line;
+  else
+    doc.append(" ").append(line);
+}
+
 // Looks for an enumerator in the declaration of SMC_ERROR, by number or by name.
 std::optional<MotionError> findMotionError(std::string_view what) {
   const EmbeddedLibraryIndex index(standardLibrary());
@@ -48,7 +58,7 @@ std::optional<MotionError> findMotionError(std::string_view what) {
     const std::string_view line = trim(rest.substr(0, end));
     rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
     if (line.starts_with("///")) {
-      doc += (doc.empty() ? "" : " ") + std::string(trim(line.substr(3)));
+      addDocLine(doc, trim(line.substr(3)));
       continue;
     }
     const std::size_t assign = line.find(":=");

@@ -268,9 +268,14 @@ int run(int argc, char **argv) {
   CLI::App *document = app.add_subcommand("doc", "Write the reference of the project as HTML");
   addProjectOptions(*document, options, false);
   document->add_flag("--library", library, "That of the standard library instead");
+  std::string figures;
+  document
+      ->add_option("--figures", figures,
+                   "Pictures LIBRARY/NAME.svg, with what they show in NAME.txt")
+      ->type_name("FOLDER");
   document->add_option("-o,--out", out, "Folder for the pages (default: doc)")->type_name("FOLDER");
   document->callback(
-      [&] { exitCode = documentCommand(options, library, out.empty() ? "doc" : out); });
+      [&] { exitCode = documentCommand(options, library, figures, out.empty() ? "doc" : out); });
 
   TestOptions tests;
   CLI::App *test = app.add_subcommand("test", "Build and run the unit tests");

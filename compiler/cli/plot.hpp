@@ -46,8 +46,9 @@ struct Ticks {
 };
 [[nodiscard]] Ticks niceTicks(double low, double high, int count);
 
-/// The trace as an SVG picture: a panel per quantity with the curves of all its columns, BOOLs as
-/// lanes below.
+/// The trace as an SVG picture, in the order of its columns: a panel per quantity with the curves
+/// of all its columns; one with a thin lane per BOOL, as timing diagrams have them. Dashed lines
+/// lead from the changes of BOOLs through all panels, unless they are many.
 [[nodiscard]] std::string drawSvg(const Trace &trace);
 
 } // namespace stc::cli

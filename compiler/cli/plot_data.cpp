@@ -69,11 +69,15 @@ std::optional<Cell> parseCell(std::string_view text) {
   return cell;
 }
 
-// `bBusy`, whatever else its name says.
+// `bBusy`, `InVelocity`, MC_ReadStatus's `ConstantVelocity`, whatever else the name says.
 bool namedLikeBool(std::string_view variable) {
   const std::size_t dot = variable.rfind('.');
   const std::string_view name = dot == std::string_view::npos ? variable : variable.substr(dot + 1);
-  return name.size() >= 2 && name[0] == 'b' && name[1] >= 'A' && name[1] <= 'Z';
+  const auto beginsWith = [&](std::string_view word) {
+    return name.size() > word.size() && name.starts_with(word) && name[word.size()] >= 'A' &&
+           name[word.size()] <= 'Z';
+  };
+  return beginsWith("b") || beginsWith("In") || beginsWith("Constant");
 }
 
 struct Rule {

@@ -6,20 +6,27 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <set>
+#include <utility>
+#include <vector>
 
 namespace stc::cli {
 
 namespace {
 
 constexpr double kWidth = 960;
-constexpr double kLeft = 84;
+constexpr double kLeft = 84;      // before the plot area, at least
+constexpr double kLeftMost = 300; // … and at most
 constexpr double kRight = 24;
 constexpr double kTop = 14;
-constexpr double kHead = 26;   // legend above each panel
-constexpr double kPanel = 170; // plot area of a panel
-constexpr double kLane = 36;   // plot area of a BOOL
+constexpr double kHead = 26;      // legend above each panel
+constexpr double kLegendRow = 17; // each further row of it
+constexpr double kPanel = 170;    // plot area of a panel
+constexpr double kLane = 22;      // plot area of a BOOL
 constexpr double kGap = 12;
-constexpr double kFoot = 52; // time axis
+constexpr double kFoot = 52;            // time axis
+constexpr double kLetter = 6.4;         // mean width of a letter of a lane's name
+constexpr std::size_t kMostGuides = 40; // more than that hide the curves
 
 // Distinct also for colour-blind readers (Okabe and Ito).
 constexpr std::array<std::string_view, 7> kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
@@ -75,26 +82,42 @@ Range rangeOf(const std::vector<const Series *> &series) {
   return {range.low - margin, range.high + margin};
 }
 
+// Panels stand in the order in which the trace names the first column of each.
 std::vector<Panel> arrange(const Trace &trace) {
   std::vector<Panel> panels;
-  Panel lanes;
-  lanes.lanes = true;
   for (const Series &series : trace.series) {
-    if (series.isBool) {
-      lanes.series.push_back(&series);
-      continue;
-    }
-    const Quantity quantity = quantityOf(series.name);
-    const auto same = std::find_if(panels.begin(), panels.end(),
-                                   [&](const Panel &panel) { return panel.quantity == quantity; });
+    const Quantity quantity = series.isBool ? Quantity{} : quantityOf(series.name);
+    const auto same = std::find_if(panels.begin(), panels.end(), [&](const Panel &panel) {
+      return panel.lanes == series.isBool && panel.quantity == quantity;
+    });
     if (same != panels.end())
       same->series.push_back(&series);
     else
-      panels.push_back({quantity, {&series}, false});
+      panels.push_back({quantity, {&series}, series.isBool});
   }
-  if (!lanes.series.empty())
-    panels.push_back(std::move(lanes));
   return panels;
+}
+
+// The names of the lanes; without the program's where all are of one program and some lie within
+// its blocks: `First.Execute`, `Go`.
+std::vector<std::string> laneNames(const std::vector<const Series *> &lanes) {
+  std::vector<std::string> names;
+  std::string_view program;
+  bool common = lanes.size() > 1;
+  bool inside = false;
+  for (const Series *lane : lanes) {
+    const std::string_view name = lane->name;
+    const std::string_view first = name.substr(0, name.find('.'));
+    if (names.empty())
+      program = first;
+    common = common && first == program && first.size() < name.size();
+    inside = inside || std::count(name.begin(), name.end(), '.') > 1;
+    names.emplace_back(name);
+  }
+  if (common && inside)
+    for (std::string &name : names)
+      name.erase(0, program.size() + 1);
+  return names;
 }
 
 class Drawing {
@@ -104,26 +127,32 @@ public:
     if (!(times_.high > times_.low))
       times_.high = times_.low + 1;
     timeTicks_ = niceTicks(times_.low, times_.high, 10);
+    for (const Panel &panel : panels_)
+      if (panel.lanes)
+        for (const std::string &name : laneNames(panel.series))
+          left_ = std::max(left_, 20 + kLetter * static_cast<double>(name.size()));
+    left_ = std::min(left_, kLeftMost);
   }
 
   std::string draw() {
     double height = kTop + kFoot;
     for (const Panel &panel : panels_)
-      height += panel.height() + (panel.lanes ? 0 : kHead) + kGap;
+      height += headOf(panel) + panel.height() + kGap;
     svg_ = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
         "{1}\" font-family=\"Helvetica, Arial, 'Liberation Sans', sans-serif\" "
         "font-size=\"12\" fill=\"#374151\">\n"
         "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
         px(kWidth), px(height));
+    drawGuides(height - kFoot - kGap);
     double top = kTop;
     for (const Panel &panel : panels_) {
       if (panel.lanes) {
         drawLanes(panel, top);
         top += panel.height() + kGap;
       } else {
-        drawPanel(panel, top + kHead);
-        top += kHead + panel.height() + kGap;
+        drawPanel(panel, top + headOf(panel));
+        top += headOf(panel) + panel.height() + kGap;
       }
     }
     drawTimeAxis(top - kGap);
@@ -133,7 +162,47 @@ public:
 
 private:
   double x(double time) const {
-    return kLeft + (time - times_.low) / (times_.high - times_.low) * (kWidth - kLeft - kRight);
+    return left_ + (time - times_.low) / (times_.high - times_.low) * (kWidth - left_ - kRight);
+  }
+
+  // Dashed lines through all panels where a BOOL changes: what happened to the curves then.
+  void drawGuides(double bottom) {
+    std::set<double> changes;
+    for (const Panel &panel : panels_)
+      if (panel.lanes)
+        for (const Series *series : panel.series)
+          for (std::size_t i = 1; i < series->values.size(); ++i)
+            if (series->values[i] != series->values[i - 1])
+              changes.insert(std::round(x(trace_.time[i])));
+    if (panels_.size() < 2 || changes.size() > kMostGuides)
+      return;
+    for (const double at : changes)
+      svg_ += fmt::format("<path d=\"M{0} {1}V{2}\" stroke=\"#9ca3af\" stroke-width=\"0.8\" "
+                          "stroke-dasharray=\"3 3\"/>\n",
+                          px(at), px(kTop), px(bottom));
+  }
+
+  // Where the entries of a panel's legend begin, and in which row: as many in a row as there is
+  // room for.
+  std::vector<std::pair<double, int>> legendOf(const Panel &panel) const {
+    std::vector<std::pair<double, int>> places;
+    double at = left_;
+    int row = 0;
+    for (const Series *series : panel.series) {
+      const double width = 24 + 6.6 * static_cast<double>(series->name.size());
+      if (at > left_ && at + width > kWidth - kRight) {
+        at = left_;
+        ++row;
+      }
+      places.emplace_back(at, row);
+      at += width + 22;
+    }
+    return places;
+  }
+
+  // What stands above the plot area.
+  double headOf(const Panel &panel) const {
+    return panel.lanes ? 0 : kHead + kLegendRow * legendOf(panel).back().second;
   }
 
   void line(double x1, double y1, double x2, double y2, std::string_view color) {
@@ -152,7 +221,7 @@ private:
       line(x(tick), top, x(tick), top + height, "#e5e7eb");
     svg_ += fmt::format(
         "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#9ca3af\"/>\n",
-        px(kLeft), px(top), px(kWidth - kLeft - kRight), px(height));
+        px(left_), px(top), px(kWidth - left_ - kRight), px(height));
   }
 
   void drawPanel(const Panel &panel, double top) {
@@ -162,8 +231,8 @@ private:
       return top + kPanel * (range.high - value) / (range.high - range.low);
     };
     for (const double tick : ticks.values) {
-      line(kLeft, y(tick), kWidth - kRight, y(tick), "#e5e7eb");
-      text(kLeft - 8, y(tick) + 4, "end", tickLabel(tick, ticks));
+      line(left_, y(tick), kWidth - kRight, y(tick), "#e5e7eb");
+      text(left_ - 8, y(tick) + 4, "end", tickLabel(tick, ticks));
     }
     drawFrame(top, kPanel);
     const std::string label =
@@ -171,22 +240,24 @@ private:
             ? panel.quantity.title
             : fmt::format("{} [{}]", panel.quantity.title, panel.quantity.unit);
     const double middle = top + kPanel / 2;
-    text(20, middle, "middle", label,
-         fmt::format(" transform=\"rotate(-90 20 {})\" font-weight=\"600\"", px(middle)));
+    text(left_ - 64, middle, "middle", label,
+         fmt::format(" transform=\"rotate(-90 {} {})\" font-weight=\"600\"", px(left_ - 64),
+                     px(middle)));
     drawLegend(panel, top - 9);
     std::size_t color = 0;
     for (const Series *series : panel.series)
       drawCurve(*series, y, kColors[color++ % kColors.size()]);
   }
 
+  // The last row stands at `y`.
   void drawLegend(const Panel &panel, double y) {
-    double at = kLeft;
-    std::size_t color = 0;
-    for (const Series *series : panel.series) {
+    const std::vector<std::pair<double, int>> places = legendOf(panel);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double at = places[i].first;
+      const double row = y - kLegendRow * (places.back().second - places[i].second);
       svg_ += fmt::format("<path d=\"M{} {}h18\" stroke=\"{}\" stroke-width=\"2.5\"/>\n", px(at),
-                          px(y - 4), kColors[color++ % kColors.size()]);
-      text(at + 24, y, "start", series->name);
-      at += 24 + 6.6 * static_cast<double>(series->name.size()) + 22;
+                          px(row - 4), kColors[i % kColors.size()]);
+      text(at + 24, row, "start", panel.series[i]->name);
     }
   }
 
@@ -240,33 +311,41 @@ private:
   }
 
   void drawLanes(const Panel &panel, double top) {
+    const std::vector<std::string> names = laneNames(panel.series);
     drawFrame(top, panel.height());
-    std::size_t color = 0;
-    for (const Series *series : panel.series) {
-      const double low = top + kLane - 5;
-      const double high = top + 18;
-      std::string path = fmt::format("M{} {}", px(x(trace_.time.front())),
-                                     px(series->values.front() != 0 ? high : low));
-      for (std::size_t i = 1; i < series->values.size(); ++i)
-        if (series->values[i] != series->values[i - 1])
-          path +=
-              fmt::format("H{}V{}", px(x(trace_.time[i])), px(series->values[i] != 0 ? high : low));
-      path += fmt::format("H{}", px(x(trace_.time.back())));
-      svg_ += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\"/>\n",
-                          path, kColors[color++ % kColors.size()]);
-      text(kLeft + 6, top + 13, "start", series->name, " font-size=\"11\"");
-      text(kLeft - 8, high + 5, "end", "1", " font-size=\"9\"");
-      text(kLeft - 8, low + 3, "end", "0", " font-size=\"9\"");
-      top += kLane;
+    for (std::size_t k = 0; k < panel.series.size(); ++k, top += kLane) {
+      const Series &series = *panel.series[k];
+      const double low = top + kLane - 4;
+      const double high = top + 5;
+      if (k > 0)
+        line(left_, top, kWidth - kRight, top, "#e5e7eb");
+      bool up = series.values.front() != 0;
+      std::string path;
+      for (std::size_t i = 1; i < series.values.size(); ++i)
+        if ((series.values[i] != 0) != up) {
+          up = !up;
+          path += fmt::format("H{}V{}", px(x(trace_.time[i])), px(up ? high : low));
+        }
+      path += "H" + px(x(trace_.time.back()));
+      const std::string begin = px(x(trace_.time.front()));
+      const std::string first = px(series.values.front() != 0 ? high : low);
+      const std::string_view color = kColors[k % kColors.size()];
+      // Filled down to the base line, it shows how long the value was TRUE.
+      svg_ += fmt::format("<path d=\"M{0} {1}V{2}{3}V{1}\" fill=\"{4}\" fill-opacity=\"0.15\"/>\n"
+                          "<path d=\"M{0} {2}{3}\" fill=\"none\" stroke=\"{4}\" "
+                          "stroke-width=\"1.6\"/>\n",
+                          begin, px(low), first, path, color);
+      text(left_ - 8, low - 2, "end", names[k], " font-size=\"11\"");
     }
   }
 
   void drawTimeAxis(double top) {
     for (const double tick : timeTicks_.values)
       text(x(tick), top + 17, "middle", tickLabel(tick, timeTicks_));
-    text((kLeft + kWidth - kRight) / 2, top + 37, "middle", "Time [s]", " font-weight=\"600\"");
+    text((left_ + kWidth - kRight) / 2, top + 37, "middle", "Time [s]", " font-weight=\"600\"");
   }
 
+  double left_ = kLeft; ///< where the plot area begins
   const Trace &trace_;
   std::vector<Panel> panels_;
   Range times_;

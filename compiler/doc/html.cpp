@@ -28,6 +28,9 @@ h3 { font-size: 1rem; }
 table { border-collapse: collapse; width: 100%; font-size: 0.92rem; }
 td, th { border-bottom: 1px solid var(--soft); padding: 0.2rem 0.8rem 0.2rem 0; text-align: left; vertical-align: top; }
 td.name, td.type { font-family: ui-monospace, monospace; white-space: nowrap; }
+figure { margin: 1rem 0; }
+figure img { width: 100%; background: #fff; border-radius: 4px; }
+figcaption { font-size: 0.92rem; }
 caption { text-align: left; font-weight: 600; padding-top: 0.6rem; }
 @media (max-width: 50rem) { body { display: block; } nav { position: static; height: auto; max-height: 40vh; } }
 )css";
@@ -200,9 +203,18 @@ private:
                linked(member.text, entry.name) + "</td></tr>\n";
       out += "</table>\n";
     }
+    out += figure(entry);
     for (const Entry &part : entry.parts)
       out += section(part, "h3");
     return out + "</section>\n";
+  }
+
+  std::string figure(const Entry &entry) {
+    if (entry.figure.empty())
+      return {};
+    return "<figure>\n<img src=\"" + escaped(entry.figure) + "\" alt=\"" +
+           escaped(firstSentence(entry.caption)) + "\" loading=\"lazy\">\n<figcaption>" +
+           linked(entry.caption, entry.name) + "</figcaption>\n</figure>\n";
   }
 
   /// Empty lines part paragraphs.

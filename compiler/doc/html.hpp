@@ -20,7 +20,8 @@ struct Page {
 };
 
 /// An index, one page per module, a style sheet and the search. Names of entries link to them
-/// wherever a text or a type mentions them; every link leads somewhere within the pages.
+/// wherever a text or a type mentions them; every link leads somewhere within the pages, or to the
+/// figure of an entry, whose page is the caller's.
 [[nodiscard]] std::vector<Page> htmlPages(const std::string &title,
                                           const std::vector<Module> &modules);
 

@@ -33,6 +33,8 @@ struct Entry {
   std::vector<Group> groups;
   std::vector<Entry> parts;              ///< methods, actions and properties
   std::vector<std::string> aliases = {}; ///< other names under which the search finds it
+  std::string figure = {};               ///< page of a picture, `figures/Lib/Block.svg`; or empty
+  std::string caption = {};              ///< what the picture shows
 };
 
 /// What stands on one page: a library, a namespace, or the operators of the language.

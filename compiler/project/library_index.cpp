@@ -27,9 +27,25 @@ std::vector<LibraryIndex::Entry> EmbeddedLibraryIndex::find(std::string_view low
 }
 
 bool EmbeddedLibraryIndex::isLibrary(std::string_view lowerName) const {
-  return std::any_of(tables_.files.begin(), tables_.files.end(), [&](const EmbeddedFile &file) {
-    return equalIgnoringCase(file.library, lowerName);
-  });
+  return std::any_of(tables_.files.begin(), tables_.files.end(),
+                     [&](const EmbeddedFile &file) { return answersTo(file.library, lowerName); });
+}
+
+bool EmbeddedLibraryIndex::answersTo(std::string_view library, std::string_view lowerName) const {
+  struct OtherName {
+    std::string_view lowerName;
+    std::string_view library;
+  };
+  static constexpr OtherName kSoftMotion3[] = {
+      {"sm3_basic", "SM_DriveBasic"},
+      {"sm3_basic", "SM_PLCopen"},
+      {"sm3_cnc", "SM_CNC"},
+      {"sm3_error", "SM_Error"},
+  };
+  return equalIgnoringCase(library, lowerName) ||
+         std::any_of(std::begin(kSoftMotion3), std::end(kSoftMotion3), [&](const OtherName &other) {
+           return other.lowerName == lowerName && other.library == library;
+         });
 }
 
 std::vector<std::string_view> EmbeddedLibraryIndex::names() const {

@@ -40,6 +40,7 @@ public:
 
   [[nodiscard]] std::vector<Entry> find(std::string_view lowerName) const override;
   [[nodiscard]] bool isLibrary(std::string_view lowerName) const override;
+  [[nodiscard]] bool answersTo(std::string_view library, std::string_view lowerName) const override;
   [[nodiscard]] std::vector<std::string_view> names() const override;
   [[nodiscard]] std::vector<Entry> files(std::string_view library) const override;
   /// Names of all libraries, in the order of the tables.

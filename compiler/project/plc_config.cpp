@@ -401,7 +401,8 @@ void PlcReader::readLimits(const CheckedSection &section, ConfigFields &fields, 
 }
 
 void PlcReader::readRamp(const CheckedSection &section, ConfigFields &fields) {
-  constexpr std::array<std::string_view, 3> kNames = {"trapezoid", "sigmoid", "parabolic"};
+  constexpr std::array<std::string_view, 4> kNames = {"trapezoid", "sigmoid", "parabolic",
+                                                      "sigmoid_limited"};
   const auto ramp = static_cast<std::size_t>(section.choice("eRampType", 0));
   if (section.get("eRampType") != nullptr)
     fields.emplace_back("eRampType", fmt::format("SMC_RAMPTYPE.{}", kNames[ramp]));
@@ -412,8 +413,7 @@ void PlcReader::readRamp(const CheckedSection &section, ConfigFields &fields) {
                 fmt::format("the ramp type \"{}\" needs `fJerk`", kNames[ramp]), "limits the jerk")
         .help("add the largest jerk in u/s³, for example `fJerk = 20000.0`");
   else if (ramp == 0 && section.get("fJerk") != nullptr)
-    withoutEffect(diagnostics_, section, "fJerk",
-                  "only with eRampType = \"sigmoid\" or \"parabolic\"");
+    withoutEffect(diagnostics_, section, "fJerk", "only with another eRampType than \"trapezoid\"");
 }
 
 } // namespace stc

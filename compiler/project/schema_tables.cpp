@@ -25,7 +25,8 @@ constexpr std::array<Choice, 2> kGenerations = {{{"2.3", 2}, {"3", 3}}};
 
 constexpr std::array<Choice, 2> kMovementTypes = {{{"rotary", 0}, {"linear", 1}}};
 
-constexpr std::array<Choice, 3> kRampTypes = {{{"trapezoid", 0}, {"sigmoid", 1}, {"parabolic", 2}}};
+constexpr std::array<Choice, 4> kRampTypes = {
+    {{"trapezoid", 0}, {"sigmoid", 1}, {"parabolic", 2}, {"sigmoid_limited", 3}}};
 
 // Values as AXIS_REF.wControlType has them (Annex A, 1001).
 constexpr std::array<Choice, 7> kControlTypes = {{{"TOR ->", 1},
@@ -215,6 +216,8 @@ constexpr std::array kIoChannelParameters = {
     Parameter{"comment", ParameterType::text},
 };
 
+constexpr std::array<Choice, 2> kHomingDirections = {{{"negative", -1}, {"positive", 1}}};
+
 constexpr std::array kPhysicsParameters = {
     choice("model", kModels),
     Parameter{"time_constant", ParameterType::interval, false, kMicrosecond, kHour},
@@ -239,6 +242,11 @@ constexpr std::array kPhysicsParameters = {
     positive("index_distance", "u"),
     anyReal("probe_position", "u"),
     positive("probe_distance", "u"),
+    count("parameter_cycles", 1, 100000, "cycles"),
+    positive("homing_velocity", "u/s"),
+    positive("homing_velocity_slow", "u/s"),
+    positive("homing_acceleration", "u/s²"),
+    choice("homing_direction", kHomingDirections),
 };
 
 constexpr std::array kEncoderParameters = {

@@ -31,7 +31,7 @@ Symbol *Checker::lookupInLibraries(Ident id) {
 
 Symbol *Checker::lookupInLibrary(Ident library, Ident id) {
   for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
-    if (program_.interner.intern(entry.library) != library)
+    if (!index_.answersTo(entry.library, library->lower))
       continue;
     loadLibraryFile(entry);
     Module &found = module(std::string(entry.library));

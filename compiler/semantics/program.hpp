@@ -43,6 +43,10 @@ public:
   /// at most one per library.
   [[nodiscard]] virtual std::vector<Entry> find(std::string_view lowerName) const = 0;
   [[nodiscard]] virtual bool isLibrary(std::string_view lowerName) const = 0;
+  /// Whether `library` goes by this name: its own, or the one that SoftMotion 3 gives to what it
+  /// holds. Several libraries may go by one name.
+  [[nodiscard]] virtual bool answersTo(std::string_view library,
+                                       std::string_view lowerName) const = 0;
   /// Every name it declares, for "did you mean" (lower case).
   [[nodiscard]] virtual std::vector<std::string_view> names() const = 0;
   /// All files of one library, for generating its headers and for documentation.

@@ -3,10 +3,23 @@
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/task_access_names.hpp"
 
+#include <algorithm>
+
 namespace stc {
 
 using namespace ast;
 using namespace access;
+
+namespace {
+
+/// Blocks of the library that look at an axis, or ask its drive, without moving it.
+bool worksInAnyTask(const PouSymbol *block) {
+  const Attributes attributes = block->decl->attributes;
+  return std::any_of(attributes.begin(), attributes.end(),
+                     [](const Attribute &a) { return a.name == "any_task"; });
+}
+
+} // namespace
 
 void AccessReader::accessor(const Expr *object, const Symbol *symbol, bool writes, Span span) {
   const auto *property = static_cast<const PropertySymbol *>(symbol);
@@ -64,7 +77,7 @@ void AccessReader::argument(const CallExpr *e, const Argument &a) {
     const PouSymbol *block = blockOf(e->pou);
     if (block->library != nullptr && !block->library->isUser &&
         p->type->kind == TypeKind::structure &&
-        typeAs<StructType>(p->type)->symbol->name.id->lower == "axis_ref")
+        typeAs<StructType>(p->type)->symbol->name.id->lower == "axis_ref" && !worksInAnyTask(block))
       out_.axes.push_back({block, at, a.span});
     if (at.base != PlacePath::Base::none)
       out_.flows.push_back({p, std::move(at), nullptr});

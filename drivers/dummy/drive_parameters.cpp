@@ -15,6 +15,8 @@ constexpr double kVelocityBandwidth = 500; // 1/s: velocity_gain = inertia * thi
 constexpr double kIntegralTime = 0.02;     // s
 constexpr double kSubstep = 50e-6;         // s
 
+constexpr double kHomingVelocity = 10; // u/s, unless configured
+
 /// What a drive takes and gives in every cycle.
 struct CyclicMasks {
   uint8_t sent = 0;
@@ -139,6 +141,15 @@ DriveParameters driveParameters(const axis::SetupParameters &given, double cycle
   result.startUpCycles = static_cast<uint32_t>(number("start_up_cycles", result.startUpCycles));
   result.switchCycles = static_cast<uint32_t>(number("switch_cycles", result.switchCycles));
   result.deadTime = static_cast<uint32_t>(number("dead_time", 0));
+
+  result.parameterCycles =
+      static_cast<uint32_t>(number("parameter_cycles", result.parameterCycles));
+
+  const double fast = number("homing_velocity", kHomingVelocity);
+  result.homing.positive = number("homing_direction", -1) > 0;
+  result.homing.fast = fast * perUnit;
+  result.homing.slow = number("homing_velocity_slow", fast / 10.0) * perUnit;
+  result.homing.acceleration = number("homing_acceleration", fast * 10.0) * perUnit;
 
   result.hasLimitPositive = !rotary && has("limit_positive");
   result.hasLimitNegative = !rotary && has("limit_negative");

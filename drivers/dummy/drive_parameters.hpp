@@ -29,6 +29,14 @@ struct SwitchRange {
   [[nodiscard]] bool actuated(double position, double period) const;
 };
 
+/// The drive's reference run.
+struct HomingParameters {
+  bool positive = false;   ///< Direction in which the switch is looked for.
+  double fast = 0;         ///< Velocity on the way to the switch. [inc/s]
+  double slow = 0;         ///< Velocity off the switch. [inc/s]
+  double acceleration = 0; ///< Also for braking. [inc/s^2]
+};
+
 /// All about one drive.
 struct DriveParameters {
   MechanicsParameters mechanics;
@@ -37,12 +45,14 @@ struct DriveParameters {
   int64_t startPosition = 0;
   uint32_t startUpCycles = 3;
   uint32_t switchCycles = 2;
-  uint32_t deadTime = 0; ///< Cycles by which set values come later.
+  uint32_t deadTime = 0;        ///< Cycles by which set values come later.
+  uint32_t parameterCycles = 3; ///< That the answer to a question for a parameter takes.
   bool hasLimitPositive = false;
   bool hasLimitNegative = false;
   double limitPositive = 0; ///< [inc]
   double limitNegative = 0; ///< [inc]
   SwitchRange home;
+  HomingParameters homing;
   Marks index;
   Marks probe;
   uint8_t modes = 1U << kPositionMode | 1U << kVelocityMode; ///< Bit n: controller mode n.

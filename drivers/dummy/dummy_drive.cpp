@@ -1,5 +1,7 @@
 #include "drivers/dummy/dummy_drive.hpp"
 
+#include "drivers/dummy/parameter_list.hpp"
+
 #include "runtime/iec/math.h"
 
 #include <strings.h>
@@ -27,6 +29,10 @@ bool rising(BOOL now, BOOL &old) {
 
 double exactPosition(const Mechanics &mechanics) {
   return static_cast<double>(mechanics.position()) + mechanics.fraction();
+}
+
+double lag(int64_t reached, const Mechanics &mechanics) {
+  return static_cast<double>(reached - mechanics.position()) - mechanics.fraction();
 }
 
 uint32_t counter(int64_t increments) { return static_cast<uint32_t>(increments); }
@@ -111,7 +117,7 @@ void DummyDriver::reset(std::size_t drive) {
   d.status.communication = false;
   d.status.regulatorOn = false;
   d.status.driveStarted = false;
-  d.status.captured = false;
+  d.status.captured = 0;
   d.status.error = false;
   d.status.errorId = 0;
   if (d.sim != nullptr && d.sim->bErrorPersistent == 0)
@@ -133,10 +139,31 @@ void DummyDriver::bindData(std::size_t drive, void *data) {
   drives_[drive].sim = static_cast<DriveSim *>(data);
 }
 
+bool DummyDriver::startParameter(std::size_t drive, const axis::ParameterRequest &request) {
+  Drive &d = drives_[drive];
+  d.asked = request;
+  d.askedCycles = d.parameters.parameterCycles;
+  return true;
+}
+
+bool DummyDriver::pollParameter(std::size_t drive, axis::ParameterAnswer &answer) {
+  Drive &d = drives_[drive];
+  if (d.askedCycles > 0)
+    return false;
+  ParameterTarget target{d.parameters, d.mechanics, d.status, lag(d.reached, d.mechanics)};
+  answer = answerParameter(target, d.asked);
+  return true;
+}
+
+void DummyDriver::cancelParameter(std::size_t drive) { drives_[drive].askedCycles = 0; }
+
 void DummyDriver::executeStart() {
   for (Drive &d : drives_) {
     if (d.sim != nullptr)
       disturb(d);
+    const bool held = d.sim != nullptr && d.sim->bHoldParameters != 0;
+    if (d.askedCycles > 0 && d.status.communication && !held)
+      --d.askedCycles;
     updateSwitches(d);
     if (d.sim != nullptr)
       publish(d);
@@ -163,10 +190,9 @@ void DummyDriver::disturb(Drive &d) {
     d.index = true;
     d.indexMark = exactPosition(d.mechanics);
   }
-  const int input = d.command.captureInput < 0 ? 0 : d.command.captureInput;
-  for (int i = 0; i < 4; ++i)
-    if (rising(sim.abProbe.v[i], sim.abOldProbe.v[i]) && input == i)
-      latch(d, exactPosition(d.mechanics));
+  for (std::size_t i = 0; i < axis::DriveStatus::kCaptureInputs; ++i)
+    if (rising(sim.abProbe.v[i], sim.abOldProbe.v[i]))
+      latch(d, i, exactPosition(d.mechanics));
 }
 
 void DummyDriver::updateSwitches(Drive &d) {
@@ -186,13 +212,13 @@ void DummyDriver::publish(Drive &d) {
   const double units = d.parameters.unitsPerIncrement;
   sim.fPosition = exactPosition(d.mechanics) * units;
   sim.fVelocity = d.mechanics.velocity() * units;
-  sim.fLag =
-      (static_cast<double>(d.reached - d.mechanics.position()) - d.mechanics.fraction()) * units;
+  sim.fLag = lag(d.reached, d.mechanics) * units;
   sim.fTorque = d.mechanics.torque();
   sim.bSaturated = d.mechanics.saturated();
   sim.bLimitPositive = d.status.limitPositive;
   sim.bLimitNegative = d.status.limitNegative;
   sim.bHomeSwitch = d.status.homeSwitch;
+  sim.bHoming = d.status.homing != axis::Homing::None;
   sim.bIndex = d.index;
   if (d.index) {
     sim.fIndexPosition = d.indexMark * units;
@@ -201,17 +227,17 @@ void DummyDriver::publish(Drive &d) {
   d.index = false;
 }
 
-void DummyDriver::latch(Drive &d, double increments) {
-  if (!d.command.capture || d.status.captured)
+void DummyDriver::latch(Drive &d, std::size_t input, double increments) {
+  const auto bit = static_cast<uint8_t>(1U << input);
+  if ((d.command.capture & bit) == 0 || (d.status.captured & bit) != 0)
     return;
-  d.status.captured = true;
-  d.status.capturedPosition = counter(static_cast<int64_t>(stride::floor(increments + 0.5)));
+  d.status.captured = d.status.captured | bit;
+  d.status.capturedPosition[input] = counter(static_cast<int64_t>(stride::floor(increments + 0.5)));
 }
 
 void DummyDriver::executeEnd() {
   for (Drive &d : drives_) {
-    if (!d.command.capture)
-      d.status.captured = false;
+    d.status.captured = d.status.captured & d.command.capture;
     switchPower(d);
     move(d);
   }
@@ -251,6 +277,7 @@ Demand DummyDriver::nextDemand(Drive &d) {
   demand.velocityFrom = d.velocityDemanded;
   demand.velocity = d.velocityDemanded = d.command.velocity;
   demand.torque = d.command.torque;
+  demand.homing = d.command.homing && d.sim != nullptr; // an ideal drive has none
   if (!d.delayed.empty()) {
     std::swap(demand, d.delayed[d.oldest]);
     d.oldest = (d.oldest + 1) % d.delayed.size();
@@ -260,13 +287,32 @@ Demand DummyDriver::nextDemand(Drive &d) {
   return demand;
 }
 
+/// The set values that the drive makes itself while it looks for its reference; others stay.
+Demand DummyDriver::home(Drive &d, const Demand &demand) {
+  if (!demand.homing) {
+    d.homing.clear();
+    return demand;
+  }
+  const bool powered = d.status.regulatorOn && d.status.driveStarted;
+  if (d.homing.state() == axis::Homing::None)
+    d.homing.begin(d.parameters,
+                   demand.mode == kPositionMode ? demand.from : d.mechanics.position(),
+                   d.status.homeSwitch);
+  if (!powered || (d.sim != nullptr && d.sim->bFailHoming != 0))
+    d.homing.fail();
+  const Demand own = d.homing.next();
+  d.demanded = d.reached = own.to;
+  d.velocityDemanded = own.velocity;
+  return own;
+}
+
 void DummyDriver::move(Drive &d) {
   if (d.started < d.parameters.startUpCycles) {
     d.demanded = d.reached = d.mechanics.position(); // nobody has told it where to be
     d.command.position = counter(d.demanded);
   }
   const double before = exactPosition(d.mechanics);
-  const Demand demand = nextDemand(d);
+  const Demand demand = home(d, nextDemand(d));
   const double load = d.sim != nullptr ? d.sim->fLoadTorque : 0.0;
   if (!d.status.driveStarted)
     d.mechanics.hold();
@@ -278,13 +324,17 @@ void DummyDriver::move(Drive &d) {
   d.status.position = counter(d.mechanics.position());
   d.status.velocity = d.mechanics.velocity();
   d.status.torque = d.mechanics.torque();
+  updateSwitches(d);
+  d.homing.look(before, after, d.status.homeSwitch, d.status.limitPositive, d.status.limitNegative);
+  d.status.homing = d.homing.state();
+  d.status.homePosition = counter(static_cast<int64_t>(stride::floor(d.homing.reference() + 0.5)));
   double mark = 0;
   if (d.parameters.index.passed(before, after, mark)) {
     d.index = true;
     d.indexMark = mark;
   }
-  if (d.command.captureInput <= 0 && d.parameters.probe.passed(before, after, mark))
-    latch(d, mark);
+  if (d.parameters.probe.passed(before, after, mark))
+    latch(d, 0, mark);
 }
 
 void DummyDriver::raiseError(std::size_t drive, uint16_t errorId) {

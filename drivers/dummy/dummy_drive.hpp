@@ -3,6 +3,7 @@
 #define STRIDE_DRIVERS_DUMMY_DUMMY_DRIVE_HPP
 
 #include "drivers/dummy/drive_parameters.hpp"
+#include "drivers/dummy/reference_run.hpp"
 #include "runtime/axis/axis_driver.hpp"
 
 #include "st/DummyDrive/DUMMY_DRIVE_SIM.h"
@@ -31,8 +32,14 @@ public:
   [[nodiscard]] axis::DriveStatus status(std::size_t drive) const override;
   void command(std::size_t drive, const axis::DriveCommand &command) override;
   [[nodiscard]] uint8_t controllerModes(std::size_t drive) const override;
+  [[nodiscard]] uint8_t captureInputs(std::size_t /*drive*/) const override {
+    return axis::DriveStatus::kCaptureInputs;
+  }
   [[nodiscard]] uint32_t encoder(std::size_t encoder) const override;
   void bindData(std::size_t drive, void *data) override;
+  bool startParameter(std::size_t drive, const axis::ParameterRequest &request) override;
+  bool pollParameter(std::size_t drive, axis::ParameterAnswer &answer) override;
+  void cancelParameter(std::size_t drive) override;
 
   /// Simulates an error of the drive: it goes out of regulation until the error is acknowledged.
   void raiseError(std::size_t drive, uint16_t errorId);
@@ -49,6 +56,7 @@ private:
 
     DriveParameters parameters;
     Mechanics mechanics;
+    ReferenceRun homing;
     axis::DriveStatus status;
     axis::DriveCommand command;
     std::vector<Demand> delayed; ///< Set values under way: a ring.
@@ -59,7 +67,9 @@ private:
     uint32_t started = 0;
     uint32_t regulatorDelay = 0;
     uint32_t brakeDelay = 0;
-    bool lost = false; ///< By setCommunication.
+    bool lost = false;            ///< By setCommunication.
+    axis::ParameterRequest asked; ///< The question for a parameter …
+    uint32_t askedCycles = 0;     ///< … and the cycles until it is answered; 0: it is.
     bool index = false;
     double indexMark = 0; ///< [inc]
     DriveSim *sim = nullptr;
@@ -83,8 +93,9 @@ private:
   void updateSwitches(Drive &drive);
   void switchPower(Drive &drive);
   void move(Drive &drive);
-  void latch(Drive &drive, double increments);
+  static void latch(Drive &drive, std::size_t input, double increments);
   static Demand nextDemand(Drive &drive);
+  static Demand home(Drive &drive, const Demand &demand);
 
   std::vector<Drive> drives_;
   std::vector<Encoder> encoders_;

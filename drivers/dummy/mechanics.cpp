@@ -70,8 +70,12 @@ void moveBody(const MechanicsParameters &parameters, double torque, double time,
   }
 }
 
-Mechanics::Mechanics(const MechanicsParameters &parameters, int64_t position)
-    : p_(parameters), whole_(position) {
+Mechanics::Mechanics(const MechanicsParameters &parameters, int64_t position) : whole_(position) {
+  configure(parameters);
+}
+
+void Mechanics::configure(const MechanicsParameters &parameters) {
+  p_ = parameters;
   if (p_.model == Model::Lag)
     decay_ = stride::exp(-p_.cycle / p_.timeConstant);
 }

@@ -43,6 +43,7 @@ struct Demand {
   double velocity = 0;     ///< … and at its end. [inc/s]
   double torque = 0;       ///< For torque mode: all the time. [Nm]
   uint8_t mode = kPositionMode;
+  bool homing = false; ///< The drive shall look for its reference instead.
 };
 
 /// One axis.
@@ -59,6 +60,9 @@ public:
 
   /// The brake is closed.
   void hold();
+
+  /// Other parameters from now on. The model stays.
+  void configure(const MechanicsParameters &parameters);
 
   /// Puts the axis somewhere, at rest.
   void place(int64_t position);

@@ -1,7 +1,9 @@
 #include "runtime/axis/axis_group.hpp"
 
+#include "runtime/axis/capture.hpp"
 #include "runtime/axis/increments.hpp"
 #include "runtime/axis/set_point.hpp"
+#include "runtime/axis/shift_position.hpp"
 
 #include "st/SM_DriveBasic/SMC_CONTROLLER_MODE.h"
 
@@ -12,7 +14,6 @@
 namespace stride::axis {
 namespace {
 
-constexpr uint16_t kNormalOperation = 100;
 // SMC_AXISGROUP_REF.wState while the group is being reset …
 constexpr uint16_t kResetBraking = 200;  ///< Moving axes come to rest.
 constexpr uint16_t kResetPowerOff = 201; ///< Regulators go off.
@@ -29,8 +30,6 @@ constexpr uint8_t kCurrentControl = ::st::SM_DriveBasic::SMC_CONTROLLER_MODE__SM
 constexpr uint32_t kPowerOffCycles =
     1000; ///< A drive that does not switch off does not block a reset.
 
-bool usable(double limit) { return std::isfinite(limit) && limit > 0.0; }
-
 bool isMotion(int16_t axisState) {
   return axisState == state::kDiscrete || axisState == state::kContinuous ||
          axisState == state::kSynchronized || axisState == state::kHoming;
@@ -46,20 +45,12 @@ void leaveUnpowered(AxisRef &axis) {
   if (axis.iOwner != 0)
     axis.stPlanner.wStopReason = static_cast<uint16_t>(error::kNotPowered);
   releaseAxis(axis);
+  axis.stQueue.uiCount = 0;
+  endSuperimposed(axis);
   haltAt(axis);
   followActual(axis);
   if (axis.nAxisState != state::kErrorStop)
     axis.nAxisState = state::kPowerOff;
-}
-
-bool inCaptureWindow(const AxisRef &axis, double position) {
-  if (axis.bCaptureWindowActive == 0)
-    return true;
-  const double first = axis.fFirstCapturePosition;
-  const double last = axis.fLastCapturePosition;
-  if (first <= last)
-    return position >= first && position <= last;
-  return isRotary(axis) && (position >= first || position <= last); // across the start of a turn
 }
 
 std::string_view describe(ScalingError problem) {
@@ -82,13 +73,16 @@ void enterErrorStop(AxisRef &axis, int16_t reason) noexcept {
   auto &plan = axis.stPlanner;
   const double commanded = plan.fDeceleration;
   axis.iOwner = 0;
+  axis.stQueue.uiCount = 0;
+  endSuperimposed(axis);
   axis.nAxisState = state::kErrorStop;
   axis.wFBErrorID = static_cast<uint16_t>(reason);
+  listError(axis, reason);
   plan.wStopReason = static_cast<uint16_t>(reason);
   plan.bActive = 0;
   const double deceleration =
-      std::max(usable(axis.fSWMaxDeceleration) ? axis.fSWMaxDeceleration : 0.0,
-               usable(commanded) ? commanded : 0.0);
+      std::max(exact::isPositive(axis.fSWMaxDeceleration) ? axis.fSWMaxDeceleration : 0.0,
+               exact::isPositive(commanded) ? commanded : 0.0);
   const double velocity = axis.fSetVelocity;
   if (!(deceleration > 0.0) || velocity == 0.0 || !std::isfinite(velocity)) {
     writeMotion(axis, 0.0, 0.0);
@@ -96,9 +90,11 @@ void enterErrorStop(AxisRef &axis, int16_t reason) noexcept {
   }
   const double duration = std::fabs(velocity) / deceleration;
   const double target = axis.fSetPosition + 0.5 * velocity * duration;
-  beginPlan(axis, duration, target, deceleration);
-  appendSegment(axis, 0.0, duration, {target, 0.0, velocity > 0.0 ? -deceleration : deceleration},
-                0.0);
+  beginPlan(plan, axis.fTaskCycle, duration, target, 0.0);
+  plan.fTarget = shownPosition(axis, target);
+  plan.fDeceleration = deceleration;
+  appendSegment(plan, 0.0, duration, {target, 0.0, velocity > 0.0 ? -deceleration : deceleration},
+                0.0, 0.0);
 }
 
 AxisGroup::AxisGroup(std::unique_ptr<AxisDriver> driver, AxisGroupRef &group,
@@ -120,6 +116,10 @@ AxisGroup::AxisGroup(std::unique_ptr<AxisDriver> driver, AxisGroupRef &group,
                            axis.fPositionPeriod});
     driver_->bindData(i, axis.pMS);
   }
+  for (EncoderRef *encoder : encoders_) {
+    encoder->fTaskCycle = cycleSeconds;
+    encoder->bValid = 0;
+  }
 }
 
 void AxisGroup::executeStart() {
@@ -131,11 +131,14 @@ void AxisGroup::executeStart() {
     stepReset();
   if (group_->wState < kNormalOperation)
     startUp();
-  for (std::size_t i = 0; i < axes_.size(); ++i)
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
     readDrive(i);
+    serveParameters(i);
+  }
   if (group_->wState == kNormalOperation)
     for (std::size_t i = 0; i < encoders_.size(); ++i)
-      updateEncoder(*encoders_[i], driver_->encoder(i));
+      if (encoders_[i]->bFed == 0)
+        updateEncoder(*encoders_[i], driver_->encoder(i));
 }
 
 void AxisGroup::startUp() {
@@ -157,6 +160,7 @@ void AxisGroup::startUp() {
       }
       axis.wCommunicationState = kNormalOperation;
       axis.byControllerModes = driver_->controllerModes(i);
+      axis.byCaptureInputs = driver_->captureInputs(i);
       synchronizePosition(axis, driver_->status(i).position);
       break;
     case StartUp::Failed:
@@ -168,7 +172,8 @@ void AxisGroup::startUp() {
   group_->wState = least;
   if (least == kNormalOperation)
     for (std::size_t i = 0; i < encoders_.size(); ++i)
-      synchronizeEncoder(*encoders_[i], driver_->encoder(i));
+      if (encoders_[i]->bFed == 0)
+        synchronizeEncoder(*encoders_[i], driver_->encoder(i));
 }
 
 void AxisGroup::startFailed(std::size_t index, uint16_t state, std::string_view message) {
@@ -204,6 +209,9 @@ void AxisGroup::stepReset() {
   default:
     for (std::size_t i = 0; i < axes_.size(); ++i)
       restart(i);
+    for (EncoderRef *encoder : encoders_)
+      if (encoder->bFed == 0)
+        encoder->bValid = 0;
     group_->pErrorDrive = nullptr;
     bootupError_.set();
     group_->wState = 0;
@@ -214,6 +222,7 @@ void AxisGroup::stepReset() {
 /// Back to where the axis was before its first start-up.
 void AxisGroup::restart(std::size_t index) {
   AxisRef &axis = *axes_[index];
+  dropParameters(index);
   driver_->reset(index);
   if (group_->bKeepRatioSettings == 0) {
     const Scaling &scaling = configured_[index];
@@ -233,9 +242,10 @@ void AxisGroup::restart(std::size_t index) {
   axis.bError = 0;
   axis.wErrorID = 0;
   axis.wFBErrorID = 0;
+  axis.stFBErrors.uiCount = 0;
   axis.bErrorAckn = 0;
   axis.bErrorDuringStartup = 0;
-  axis.bCaptureArmed = 0;
+  clearCaptures(axis);
   axis.fActVelocity = 0;
   axis.fActAcceleration = 0;
   axis.fActDeceleration = 0;
@@ -284,7 +294,7 @@ void AxisGroup::readDrive(std::size_t index) {
     axis.fActTorque = status.torque * axis.fFactorTor;
   if ((status.received & kCurrent) != 0)
     axis.fActCurrent = status.current;
-  readCapture(axis, status);
+  readCaptures(axis, status);
 
   // Errors of the drive and of the bus.
   if (axis.nAxisState != state::kErrorStop) {
@@ -304,8 +314,8 @@ void AxisGroup::readDrive(std::size_t index) {
     leaveUnpowered(axis);
   else if (axis.nAxisState == state::kPowerOff)
     axis.nAxisState = state::kStandstill;
-  // A drive that regulates a torque or current goes where that takes it.
-  if (axis.byRealControllerMode == kTorqueControl || axis.byRealControllerMode == kCurrentControl)
+  readHoming(axis, status);
+  if (followsDrive(axis))
     followActual(axis);
 
   axis.fSavePosition = axis.fSetPosition;
@@ -313,35 +323,41 @@ void AxisGroup::readDrive(std::size_t index) {
   axis.fSaveAcceleration = axis.fSetAcceleration;
   axis.fSaveDeceleration = axis.fSetDeceleration;
   axis.bMovedInThisCycle = 0;
+  axis.bTravelGiven = 0;
+  axis.stSuperimposed.bMovedInThisCycle = 0;
+  axis.bHWLimitIgnored = 0;
 }
 
-void AxisGroup::readCapture(AxisRef &axis, const DriveStatus &status) {
-  if (axis.bCaptureArmed == 0 || !status.captured)
+/// Whether the drive moves the axis by itself, so that the set position follows the actual one: a
+/// regulated torque or current goes where it takes the axis, a reference run where the switch is.
+bool AxisGroup::followsDrive(const AxisRef &axis) const {
+  return axis.byRealControllerMode == kTorqueControl ||
+         axis.byRealControllerMode == kCurrentControl || isDriveHoming(axis);
+}
+
+/// The drive's reference run, started by MC_Home: the position at the reference becomes fReference.
+void AxisGroup::readHoming(AxisRef &axis, const DriveStatus &status) {
+  if (!isDriveHoming(axis)) {
+    axis.bStartReference = 0;
+    axis.byHoming = static_cast<uint8_t>(DriveHoming::None);
     return;
-  axis.bCaptureArmed = 0;
-  const double position = positionOf(axis, status.capturedPosition);
-  if (!inCaptureWindow(axis, position))
-    return; // armed anew
-  axis.fCaptPosition = position;
-  axis.bCaptureOccurred = 1;
-}
-
-/// The drive latches (tiTriggerInput.bFastLatching), or the input is looked at here.
-void AxisGroup::writeCapture(std::size_t index, DriveCommand &command) {
-  AxisRef &axis = *axes_[index];
-  const bool wanted = axis.bStartCapturing != 0 && axis.bCaptureOccurred == 0;
-  const auto &trigger = axis.tiTriggerInput;
-  if (wanted && trigger.bFastLatching == 0 && trigger.bInput != 0 &&
-      inCaptureWindow(axis, axis.fActPosition)) {
-    axis.fCaptPosition = axis.fActPosition;
-    axis.bCaptureOccurred = 1;
   }
-  if (!wanted || trigger.bFastLatching == 0)
-    axis.bCaptureArmed = 0;
-  else if (axis.bCaptureArmed == 0 && !driver_->status(index).captured)
-    axis.bCaptureArmed = 1;
-  command.capture = axis.bCaptureArmed != 0;
-  command.captureInput = trigger.iTriggerNumber;
+  switch (status.homing) {
+  case Homing::None:
+    break;
+  case Homing::Running:
+    axis.byHoming = static_cast<uint8_t>(DriveHoming::Running);
+    break;
+  case Homing::Found:
+    if (axis.byHoming != static_cast<uint8_t>(DriveHoming::Found))
+      shiftPosition(axis, axis.fReference - positionOf(axis, status.homePosition));
+    axis.byHoming = static_cast<uint8_t>(DriveHoming::Found);
+    break;
+  case Homing::Failed:
+    axis.byHoming = static_cast<uint8_t>(DriveHoming::Failed);
+    break;
+  }
+  writeMotion(axis, axis.fActVelocity, 0.0);
 }
 
 void AxisGroup::supervise(AxisRef &axis) {
@@ -349,10 +365,14 @@ void AxisGroup::supervise(AxisRef &axis) {
     leaveUnpowered(axis);
     return;
   }
-  // Whoever owns a moving axis moves it in every cycle.
-  if (axis.bMovedInThisCycle == 0) {
+  // Whoever moves an axis does it in every cycle.
+  if (axis.stSuperimposed.ulOwner != 0 && axis.stSuperimposed.bMovedInThisCycle == 0) {
+    enterErrorStop(axis, error::kNotCalled);
+  } else if (axis.bMovedInThisCycle == 0) {
+    // An owner that has failed said why.
+    const auto reason = static_cast<int16_t>(axis.stPlanner.wStopReason);
     if (axis.iOwner != 0 && isMotion(axis.nAxisState))
-      enterErrorStop(axis, error::kNotCalled);
+      enterErrorStop(axis, reason != error::kNone ? reason : error::kNotCalled);
     else if (axis.nAxisState == state::kStopping && axis.stPlanner.bActive != 0)
       enterErrorStop(axis, error::kStopBlocks);
   }
@@ -362,15 +382,21 @@ void AxisGroup::supervise(AxisRef &axis) {
     axis.bSWEndSwitchActive = axis.bSWLimitEnable != 0 && (above || below);
     const bool outward = (above && axis.fSetPosition > axis.fSavePosition) ||
                          (below && axis.fSetPosition < axis.fSavePosition);
-    if (axis.bHWLimitEnable != 0 && axis.nAxisState != state::kErrorStop &&
+    if (axis.bHWLimitEnable != 0 && axis.bHWLimitIgnored == 0 &&
+        axis.nAxisState != state::kErrorStop &&
         (axis.bLimitSwitchPositive != 0 || axis.bLimitSwitchNegative != 0))
       enterErrorStop(axis, error::kHwLimits);
-    if (axis.bSWEndSwitchActive != 0 && outward && axis.nAxisState != state::kErrorStop)
+    // Before homing is over the software limits mean nothing.
+    if (axis.bSWEndSwitchActive != 0 && outward && axis.nAxisState != state::kErrorStop &&
+        axis.nAxisState != state::kHoming)
       enterErrorStop(axis, error::kSwLimits);
   }
-  if (axis.nAxisState == state::kErrorStop && axis.stPlanner.bActive != 0 &&
-      axis.bMovedInThisCycle == 0)
+  if (axis.nAxisState != state::kErrorStop)
+    return;
+  if (axis.stPlanner.bActive != 0 && axis.bMovedInThisCycle == 0)
     (void)stepPlan(axis);
+  axis.fSetTorque = 0.0; // no set position brakes a drive that regulates a torque
+  axis.fSetCurrent = 0.0;
 }
 
 void AxisGroup::writeDrive(std::size_t index) {
@@ -378,8 +404,10 @@ void AxisGroup::writeDrive(std::size_t index) {
   if (axis.wCommunicationState != kNormalOperation)
     return;
   supervise(axis);
-  if (axis.bMovedInThisCycle != 0) {
-    const double travel = 0.5 * (axis.fSaveVelocity + axis.fSetVelocity) * axis.fTaskCycle;
+  if (axis.bMovedInThisCycle != 0 && !isDriveHoming(axis)) {
+    const double travel = axis.bTravelGiven != 0
+                              ? axis.fTravel
+                              : 0.5 * (axis.fSaveVelocity + axis.fSetVelocity) * axis.fTaskCycle;
     if (!updateSet(axis, travel)) {
       // Unlike the other error stops this one is abrupt: there is no range left to brake in.
       axis.fSetPosition = axis.fSavePosition;
@@ -397,7 +425,8 @@ void AxisGroup::writeDrive(std::size_t index) {
   command.regulatorOn = power && axis.bRegulatorOn != 0;
   command.driveStart = power && axis.bDriveStart != 0;
   command.errorAckn = axis.bErrorAckn != 0;
-  writeCapture(index, command);
+  command.homing = isDriveHoming(axis);
+  writeCaptures(axis, *driver_, index, command);
   command.controllerMode = axis.byControllerMode;
   driver_->command(index, command);
 }

@@ -73,10 +73,12 @@ private:
   void restart(std::size_t index);
   bool anyPower() const;
   void readDrive(std::size_t index);
-  void readCapture(AxisRef &axis, const DriveStatus &status);
+  bool followsDrive(const AxisRef &axis) const;
+  void readHoming(AxisRef &axis, const DriveStatus &status);
+  void serveParameters(std::size_t index);
+  void dropParameters(std::size_t index);
   void supervise(AxisRef &axis);
   void writeDrive(std::size_t index);
-  void writeCapture(std::size_t index, DriveCommand &command);
 
   std::unique_ptr<AxisDriver> driver_;
   AxisGroupRef *group_;

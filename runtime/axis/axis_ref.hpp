@@ -14,6 +14,9 @@ namespace stride::axis {
 
 using AxisRef = ::st::SM_DriveBasic::AXIS_REF;
 
+/// AXIS_REF.wCommunicationState and SMC_AXISGROUP_REF.wState when the start-up has ended well.
+inline constexpr uint16_t kNormalOperation = 100;
+
 /// AXIS_REF.nAxisState.
 namespace state {
 inline constexpr int16_t kPowerOff = ::st::SM_DriveBasic::SMC_AXIS_STATE__power_off;
@@ -42,6 +45,15 @@ inline constexpr int16_t kAxisChanged =
     ::st::SM_Error::SMC_ERROR__SMC_AXIS_REF_CHANGED_DURING_OPERATION;
 inline constexpr int16_t kNotReady = ::st::SM_Error::SMC_ERROR__SMC_AXIS_NOT_READY_FOR_MOTION;
 inline constexpr int16_t kTaskCycleEmpty = ::st::SM_Error::SMC_ERROR__SMC_P_FTASKCYCLE_EMPTY;
+inline constexpr int16_t kReadUnknown = ::st::SM_Error::SMC_ERROR__SMC_RP_PARAM_UNKNOWN;
+inline constexpr int16_t kReadTransfer = ::st::SM_Error::SMC_ERROR__SMC_RP_REQUESTING_ERROR;
+inline constexpr int16_t kWriteInvalid = ::st::SM_Error::SMC_ERROR__SMC_WP_PARAM_INVALID;
+inline constexpr int16_t kWriteTransfer = ::st::SM_Error::SMC_ERROR__SMC_WP_SENDING_ERROR;
+inline constexpr int16_t kHomeNotStandstill =
+    ::st::SM_Error::SMC_ERROR__SMC_H_AXIS_WASNT_STANDSTILL;
+inline constexpr int16_t kHomeNotStarted = ::st::SM_Error::SMC_ERROR__SMC_H_AXIS_DIDNT_START_HOMING;
+inline constexpr int16_t kHomeFailed = ::st::SM_Error::SMC_ERROR__SMC_H_AXIS_DIDNT_ANSWER;
+inline constexpr int16_t kHomeStop = ::st::SM_Error::SMC_ERROR__SMC_H_ERROR_WHEN_STOPPING;
 inline constexpr int16_t kStopUnknown = ::st::SM_Error::SMC_ERROR__SMC_MS_UNKNOWN_STOPPING_ERROR;
 inline constexpr int16_t kStopValues = ::st::SM_Error::SMC_ERROR__SMC_MS_INVALID_ACCDEC_VALUES;
 inline constexpr int16_t kStopInErrorStop = ::st::SM_Error::SMC_ERROR__SMC_MS_AXIS_IN_ERRORSTOP;
@@ -50,6 +62,33 @@ inline constexpr int16_t kMoveAbsoluteValues =
     ::st::SM_Error::SMC_ERROR__SMC_MA_INVALID_VELACC_VALUES;
 inline constexpr int16_t kMoveAbsoluteDirection =
     ::st::SM_Error::SMC_ERROR__SMC_MA_INVALID_DIRECTION;
+inline constexpr int16_t kMoveRelativeValues =
+    ::st::SM_Error::SMC_ERROR__SMC_MR_INVALID_VELACC_VALUES;
+inline constexpr int16_t kMoveRelativeDirection =
+    ::st::SM_Error::SMC_ERROR__SMC_MR_INVALID_DIRECTION;
+inline constexpr int16_t kMoveAdditiveValues =
+    ::st::SM_Error::SMC_ERROR__SMC_MAD_INVALID_VELACC_VALUES;
+inline constexpr int16_t kMoveAdditiveDirection =
+    ::st::SM_Error::SMC_ERROR__SMC_MAD_INVALID_DIRECTION;
+inline constexpr int16_t kOverride = ::st::SM_Error::SMC_ERROR__SMC_SO_INVALID_FACTOR;
+inline constexpr int16_t kHomingValues = ::st::SM_Error::SMC_ERROR__SMC_3SH_INVALID_VELACC_VALUES;
+inline constexpr int16_t kHomingNeedsLimits = ::st::SM_Error::SMC_ERROR__SMC_3SH_MODE_NEEDS_HWLIMIT;
+inline constexpr int16_t kSuperimposedValues =
+    ::st::SM_Error::SMC_ERROR__SMC_MSI_INVALID_VELACC_VALUES;
+inline constexpr int16_t kMoveVelocityValues =
+    ::st::SM_Error::SMC_ERROR__SMC_MV_INVALID_ACCDEC_VALUES;
+inline constexpr int16_t kMoveVelocityDirection =
+    ::st::SM_Error::SMC_ERROR__SMC_MV_DIRECTION_NOT_APPLICABLE;
+inline constexpr int16_t kContinuousRelativeValues =
+    ::st::SM_Error::SMC_ERROR__SMC_MCR_INVALID_VELACC_VALUES;
+inline constexpr int16_t kContinuousRelativeDirection =
+    ::st::SM_Error::SMC_ERROR__SMC_MCR_INVALID_DIRECTION;
+inline constexpr int16_t kContinuousAbsoluteValues =
+    ::st::SM_Error::SMC_ERROR__SMC_MCA_INVALID_VELACC_VALUES;
+inline constexpr int16_t kContinuousAbsoluteDirection =
+    ::st::SM_Error::SMC_ERROR__SMC_MCA_INVALID_DIRECTION;
+inline constexpr int16_t kContinuousAbsoluteFastest =
+    ::st::SM_Error::SMC_ERROR__SMC_MCA_DIRECTION_NOT_APPLICABLE;
 } // namespace error
 
 /// Whether the axis is in regulation with its brake released, by demand and in reality.
@@ -72,34 +111,66 @@ inline bool isRotary(const AxisRef &axis) noexcept {
   return axis.iMovementType == 0 && axis.fPositionPeriod > 0.0;
 }
 
+/// AXIS_REF.byHoming: the drive's reference run.
+enum class DriveHoming : uint8_t { None = 0, Asked = 1, Running = 2, Found = 3, Failed = 4 };
+
+/// Whether the drive carries out its reference run, or shall.
+inline bool isDriveHoming(const AxisRef &axis) noexcept {
+  return axis.nAxisState == state::kHoming && axis.bStartReference != 0;
+}
+
+/// Enters an error into the axis's list, which SMC_ReadFBError reads. One that repeats the newest
+/// entry is not entered again: a block that is called in every cycle must not drive out the others.
+inline void listError(AxisRef &axis, int16_t errorId) noexcept {
+  auto &list = axis.stFBErrors;
+  constexpr uint16_t kPlaces = sizeof list.aError.v / sizeof list.aError.v[0];
+  const auto place = [&list](unsigned index) {
+    return &list.aError.v[(list.uiFirst + index) % kPlaces];
+  };
+  if (errorId == error::kNone || (list.uiCount > 0 && *place(list.uiCount - 1U) == errorId))
+    return;
+  *place(list.uiCount) = errorId;
+  if (list.uiCount < kPlaces)
+    ++list.uiCount;
+  else
+    list.uiFirst = static_cast<uint16_t>((list.uiFirst + 1) % kPlaces);
+}
+
 /// Notes that a block met an error on the axis (chapter 9 of the manual: FB errors). What brought
-/// the axis into error stop stays noted there until the error has been acknowledged.
+/// the axis into error stop stays the last error until it has been acknowledged.
 inline void noteError(AxisRef &axis, int16_t errorId) noexcept {
+  listError(axis, errorId);
   if (axis.nAxisState != state::kErrorStop || axis.wFBErrorID == 0)
     axis.wFBErrorID = static_cast<uint16_t>(errorId);
 }
 
-/// What a block instance remembers of its ownership. `iOwner` alone, which applications see, wraps.
-struct Ownership {
-  int16_t &owner;
-  uint64_t &count;
-};
+/// Draws a number under which a block instance owns the axis or waits for it; never the same twice.
+inline uint64_t drawOwner(AxisRef &axis) noexcept { return ++axis.ulLastOwner; }
 
-/// Makes the calling instance the owner; whoever was it finds out at its next call.
-inline void takeAxis(AxisRef &axis, Ownership own) noexcept {
+/// Makes the instance with the number `owner` the axis's owner; whoever was it finds out at its
+/// next call. The plan in progress is over. A superimposed motion ends; what it has added is part
+/// of the set position from now on.
+inline void giveAxis(AxisRef &axis, uint64_t owner) noexcept {
   axis.iNoOwner = axis.iNoOwner >= 0 && axis.iNoOwner < INT16_MAX
                       ? static_cast<int16_t>(axis.iNoOwner + 1)
                       : int16_t{1};
   axis.iOwner = axis.iNoOwner;
-  ++axis.ulOwnerCount;
-  own.owner = axis.iOwner;
-  own.count = axis.ulOwnerCount;
+  axis.ulOwnerCount = owner;
+  axis.stSuperimposed = {};
+  axis.stPlanner.bActive = 0;
   axis.stPlanner.wStopReason = 0;
 }
 
+/// Makes the calling instance the owner; returns the number it owns the axis under.
+inline uint64_t takeAxis(AxisRef &axis) noexcept {
+  const uint64_t owner = drawOwner(axis);
+  giveAxis(axis, owner);
+  return owner;
+}
+
 /// Whether the instance still owns the axis.
-inline bool ownsAxis(const AxisRef &axis, Ownership own) noexcept {
-  return axis.iOwner != 0 && axis.iOwner == own.owner && axis.ulOwnerCount == own.count;
+inline bool ownsAxis(const AxisRef &axis, uint64_t owner) noexcept {
+  return axis.iOwner != 0 && axis.ulOwnerCount == owner;
 }
 
 /// Gives the axis up: nobody owns it.
@@ -110,8 +181,8 @@ inline void releaseAxis(AxisRef &axis) noexcept {
 
 /// Why an instance that lost the axis lost it: an SMC_ERROR if the runtime took it (error stop,
 /// power gone), kNone if another command did.
-inline int16_t lossReason(const AxisRef &axis, Ownership own) noexcept {
-  if (axis.iOwner == 0 && axis.ulOwnerCount == own.count)
+inline int16_t lossReason(const AxisRef &axis, uint64_t owner) noexcept {
+  if (axis.iOwner == 0 && axis.ulOwnerCount == owner)
     return static_cast<int16_t>(axis.stPlanner.wStopReason);
   return error::kNone;
 }

@@ -20,6 +20,8 @@ int64_t modulus(const EncoderRef &encoder) noexcept {
 void synchronizeEncoder(EncoderRef &encoder, uint32_t counter) noexcept {
   encoder.dwActPosition = counter;
   encoder.liActIncrements = int64_t{counter} % modulus(encoder);
+  encoder.liStep = 0;
+  encoder.bValid = 1;
 }
 
 void updateEncoder(EncoderRef &encoder, uint32_t counter) noexcept {
@@ -30,13 +32,25 @@ void updateEncoder(EncoderRef &encoder, uint32_t counter) noexcept {
   if (2 * step >= modulo) // the shorter way round; half of it counts as backwards
     step -= modulo;
   encoder.liActIncrements += step;
+  encoder.liStep = step;
   encoder.dwActPosition = counter;
 }
 
+bool usableEncoder(const EncoderRef &encoder) noexcept {
+  if (encoder.dwRatioTechUnitsDenom == 0 || encoder.iRatioTechUnitsNum <= 0)
+    return false;
+  if (encoder.iMovementType != kRotary)
+    return true;
+  const double increments = encoder.fPositionPeriod *
+                            static_cast<double>(encoder.dwRatioTechUnitsDenom) /
+                            static_cast<double>(encoder.iRatioTechUnitsNum);
+  return increments >= 1.0 && increments <= 0x1p31;
+}
+
 double encoderPosition(const EncoderRef &encoder) noexcept {
-  const uint32_t denominator = encoder.dwRatioTechUnitsDenom;
-  if (denominator == 0 || encoder.iRatioTechUnitsNum <= 0)
+  if (!usableEncoder(encoder))
     return 0.0;
+  const uint32_t denominator = encoder.dwRatioTechUnitsDenom;
   const auto units = [&](double increments) {
     return increments * static_cast<double>(encoder.iRatioTechUnitsNum) /
            static_cast<double>(denominator);
@@ -44,12 +58,6 @@ double encoderPosition(const EncoderRef &encoder) noexcept {
   if (encoder.iMovementType != kRotary)
     return units(static_cast<double>(encoder.liActIncrements));
   const double period = encoder.fPositionPeriod;
-  if (!exact::isfinite(period) || !(period > 0.0))
-    return 0.0;
-  const double increments =
-      period * static_cast<double>(denominator) / static_cast<double>(encoder.iRatioTechUnitsNum);
-  if (!(increments >= 1.0 && increments <= 0x1p31))
-    return 0.0;
   const TurnFraction turn =
       lengthOfTurn(period, denominator, static_cast<uint32_t>(encoder.iRatioTechUnitsNum));
   // increments modulo the turn, in units of 1/denominator of the turn's fraction: exact

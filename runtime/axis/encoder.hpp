@@ -18,6 +18,10 @@ void synchronizeEncoder(EncoderRef &encoder, uint32_t counter) noexcept;
 /// beyond the modulo are taken modulo it.
 void updateEncoder(EncoderRef &encoder, uint32_t counter) noexcept;
 
+/// Whether the encoder's ratio, and the period of a rotary one, can be used: both numbers of the
+/// ratio > 0, the period between 1 and 2^31 increments.
+[[nodiscard]] bool usableEncoder(const EncoderRef &encoder) noexcept;
+
 /// Where the encoder is: of a rotary one in [0, fPositionPeriod). Exact over any number of turns
 /// but for the rounding of the result. 0 if the scaling cannot be used. [u]
 [[nodiscard]] double encoderPosition(const EncoderRef &encoder) noexcept;

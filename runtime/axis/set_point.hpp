@@ -10,6 +10,8 @@
 
 namespace stride::axis {
 
+using PlannerState = ::st::SM_DriveBasic::SMC_PLANNER_STATE;
+
 /// Writes velocity and acceleration and what follows from them, except the position.
 inline void writeMotion(AxisRef &axis, double velocity, double acceleration) noexcept {
   axis.fSetVelocity = velocity + 0.0; // never -0
@@ -25,32 +27,51 @@ inline void writeMotion(AxisRef &axis, double velocity, double acceleration) noe
     axis.nDirection = ::st::SM_DriveBasic::MC_Direction__negative;
 }
 
-/// Writes this cycle's set values; the position may be any number of turns.
+/// `position` as the axis shows it: within the period on a rotary axis.
+inline double shownPosition(const AxisRef &axis, double position) noexcept {
+  return isRotary(axis) ? wrapPosition(position, axis.fPositionPeriod) : position;
+}
+
+/// Writes this cycle's set values; the position may be any number of turns. What a superimposed
+/// motion has added comes on top.
 inline void writeSetPoint(AxisRef &axis, const MotionState &state) noexcept {
-  axis.fSetPosition =
-      isRotary(axis) ? wrapPosition(state.position, axis.fPositionPeriod) : state.position;
-  writeMotion(axis, state.velocity, state.acceleration);
+  const auto &added = axis.stSuperimposed;
+  axis.fSetPosition = shownPosition(axis, state.position + added.fPosition);
+  writeMotion(axis, state.velocity + added.fVelocity, state.acceleration + added.fAcceleration);
   axis.bMovedInThisCycle = 1;
 }
 
-/// Starts an empty plan with the axis's cycle time; segments are appended by the caller.
-inline void beginPlan(AxisRef &axis, double duration, double target, double deceleration) noexcept {
-  auto &plan = axis.stPlanner;
+/// The present set values. [u] within the period on a rotary axis.
+inline MotionState setState(const AxisRef &axis) noexcept {
+  return {axis.fSetPosition, axis.fSetVelocity, axis.fSetAcceleration};
+}
+
+/// Ends a superimposed motion; what it has added is not added any more.
+inline void endSuperimposed(AxisRef &axis) noexcept { axis.stSuperimposed = {}; }
+
+/// Starts an empty plan with the cycle time `cycle` [s]; segments are appended by the caller. They
+/// last `duration` [s] and end at `end` with `endVelocity`.
+inline void beginPlan(PlannerState &plan, double cycle, double duration, double end,
+                      double endVelocity) noexcept {
   plan.bActive = 1;
+  plan.bReached = 0;
+  plan.bHeld = 0;
+  plan.bToGoal = 0;
   plan.uiSegmentCount = 0;
   plan.uiSegment = 0;
   plan.ulCycle = 0;
-  plan.fCycle = axis.fTaskCycle;
+  plan.fCycle = cycle;
+  plan.fShift = 0.0;
   plan.fDuration = duration;
-  plan.fTarget = isRotary(axis) ? wrapPosition(target, axis.fPositionPeriod) : target;
-  plan.fEndVelocity = 0.0;
-  plan.fDeceleration = deceleration;
+  plan.fEnd = end;
+  plan.fGoal = end;
+  plan.fTarget = end;
+  plan.fEndVelocity = endVelocity;
 }
 
-/// Appends a segment to the plan.
-inline void appendSegment(AxisRef &axis, double start, double reference, const MotionState &origin,
-                          double jerk) noexcept {
-  auto &plan = axis.stPlanner;
+/// Appends a segment to the plan; see SMC_PROFILE_SEGMENT.
+inline void appendSegment(PlannerState &plan, double start, double reference,
+                          const MotionState &origin, double jerk, double frequency) noexcept {
   auto &segment = plan.aSegment.v[plan.uiSegmentCount++];
   segment.fStart = start;
   segment.fReference = reference;
@@ -58,30 +79,64 @@ inline void appendSegment(AxisRef &axis, double start, double reference, const M
   segment.fVelocity = origin.velocity;
   segment.fAcceleration = origin.acceleration;
   segment.fJerk = jerk;
+  segment.fFrequency = frequency;
 }
 
-/// Moves the plan on by one cycle and writes the set values. Returns true when the end is reached:
-/// then the plan is over and the position is the target, bit for bit.
-inline bool stepPlan(AxisRef &axis) noexcept {
-  auto &plan = axis.stPlanner;
-  ++plan.ulCycle;
-  const double t = static_cast<double>(plan.ulCycle) * plan.fCycle;
-  // A move that ends with a cycle must not need one more because of the last digit of a product.
-  const double slack = 1e-9 * plan.fCycle;
-  if (!(t + slack < plan.fDuration)) {
-    axis.fSetPosition = plan.fTarget;
-    writeMotion(axis, 0.0, 0.0);
-    axis.bMovedInThisCycle = 1;
-    plan.bActive = 0;
-    return true;
-  }
+/// The time into the plan at its present cycle. [s]
+inline double planTime(const PlannerState &plan) noexcept {
+  return plan.fShift + static_cast<double>(plan.ulCycle) * plan.fCycle;
+}
+
+/// Whether the plan is at its end at time `t`. A move that ends with a cycle must not need one more
+/// because of the last digit of a product.
+inline bool isPlanOver(const PlannerState &plan, double t) noexcept {
+  return !(t + 1e-9 * plan.fCycle < plan.fDuration);
+}
+
+/// The state at time `t` before the end, which must not go back from call to call.
+inline MotionState pieceState(PlannerState &plan, double t) noexcept {
   while (plan.uiSegment + 1 < plan.uiSegmentCount &&
          t >= plan.aSegment.v[plan.uiSegment + 1].fStart)
     ++plan.uiSegment;
   const auto &segment = plan.aSegment.v[plan.uiSegment];
   const MotionState origin{segment.fPosition, segment.fVelocity, segment.fAcceleration};
-  writeSetPoint(axis, evaluateCubic(origin, segment.fJerk, t - segment.fReference));
-  return false;
+  return evaluatePiece(origin, segment.fJerk, segment.fFrequency, t - segment.fReference);
+}
+
+/// The state at time `t` at or after the end: on with the end velocity.
+inline MotionState stateAfterEnd(const PlannerState &plan, double t) noexcept {
+  if (plan.fEndVelocity == 0.0)
+    return {plan.fEnd, 0.0, 0.0};
+  return {plan.fEnd + plan.fEndVelocity * (t - plan.fDuration), plan.fEndVelocity, 0.0};
+}
+
+/// The state at time `t`, which must not go back from call to call. The position is on the scale of
+/// the segments.
+inline MotionState planState(PlannerState &plan, double t) noexcept {
+  return isPlanOver(plan, t) ? stateAfterEnd(plan, t) : pieceState(plan, t);
+}
+
+/// Moves the axis's plan on by one cycle and writes the set values. Returns true in the cycle in
+/// which the end is reached: without an end velocity the plan is over then, and the position is the
+/// target, bit for bit; with one, the axis goes on.
+inline bool stepPlan(AxisRef &axis) noexcept {
+  auto &plan = axis.stPlanner;
+  ++plan.ulCycle;
+  const double t = planTime(plan);
+  if (!isPlanOver(plan, t)) {
+    writeSetPoint(axis, pieceState(plan, t));
+    return false;
+  }
+  MotionState state = stateAfterEnd(plan, t);
+  if (plan.fEndVelocity == 0.0 && plan.bHeld == 0) {
+    state.position = plan.fTarget;
+    plan.bActive = 0;
+  }
+  writeSetPoint(axis, state);
+  if (plan.bReached != 0 || plan.bHeld != 0)
+    return false;
+  plan.bReached = 1;
+  return true;
 }
 
 } // namespace stride::axis

@@ -2,7 +2,7 @@
 #ifndef STRIDE_RUNTIME_MOTION_MODULO_HPP
 #define STRIDE_RUNTIME_MOTION_MODULO_HPP
 
-#include "runtime/motion/trapezoid.hpp"
+#include "runtime/motion/planner.hpp"
 
 namespace stride::motion {
 
@@ -17,19 +17,21 @@ enum class Direction : int8_t {
 
 /// A request to resolve a target on a rotary axis.
 struct ModuloRequest {
-  double position;        ///< Present set position. [u]
-  double velocity;        ///< Present set velocity. [u/s]
-  double target;          ///< Demanded position, any number of periods. [u]
-  double period;          ///< Modulo period, > 0. [u]
-  Direction direction;    ///< The demanded way.
-  Direction lastMotion;   ///< Positive or Negative: counts for Current at rest.
-  TrapezoidLimits limits; ///< Of the move: the way to standstill and the times depend on them.
+  State start;          ///< Present set values.
+  double target;        ///< Demanded position, any number of periods. [u]
+  double endVelocity;   ///< Demanded there. [u/s]
+  double period;        ///< Modulo period, > 0. [u]
+  Direction direction;  ///< The demanded way.
+  Direction lastMotion; ///< Positive or Negative: counts for Current at rest.
+  Dynamics dynamics;    ///< Of the move: the way to standstill and the times depend on them.
 };
 
-/// The target as a position on the unrolled axis that continues from `request.position`.
+/// The target as a position on the unrolled axis that continues from `request.start`.
 /// Positive and Negative never reverse, apart from braking when the axis moves the other way: a
-/// target that is too near to stop at is reached one turn later. Half a period away, Shortest goes
-/// in the positive direction. False if an argument is not finite, a limit or the period not > 0.
+/// target that is too near to stop at, or to reach the end velocity, is reached one turn later. (An
+/// end velocity against the direction has to reverse: then only for the arrival.) Half a period
+/// away, Shortest goes in the positive direction. False if an argument is not finite, a limit or
+/// the period not > 0.
 bool resolveModulo(const ModuloRequest &request, double &target) noexcept;
 
 } // namespace stride::motion

@@ -14,8 +14,7 @@ State Profile::at(double t) const noexcept {
   int32_t index = count - 1;
   while (index > 0 && t < segments[index].start)
     --index;
-  const Segment &segment = segments[index];
-  return axis::evaluateCubic(segment.origin, segment.jerk, t - segment.reference);
+  return segments[index].at(t);
 }
 
 } // namespace stride::motion

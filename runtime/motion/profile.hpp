@@ -2,6 +2,7 @@
 #ifndef STRIDE_RUNTIME_MOTION_PROFILE_HPP
 #define STRIDE_RUNTIME_MOTION_PROFILE_HPP
 
+#include "runtime/axis/exact_math.hpp"
 #include "runtime/axis/motion_state.hpp"
 
 #include <stdint.h>
@@ -11,21 +12,34 @@ namespace stride::motion {
 /// Position, velocity and acceleration at one instant. [u], [u/s], [u/s^2]
 using State = axis::MotionState;
 
-/// One piece of a profile: a polynomial of third degree in t - reference, valid from `start` until
-/// the next piece starts. A piece that ends at the target is anchored there (`reference` is its
-/// end), so that the approach to the target is exact. Times count from the profile's start. [s]
+inline bool isFinite(const State &state) noexcept {
+  return exact::isfinite(state.position) && exact::isfinite(state.velocity) &&
+         exact::isfinite(state.acceleration);
+}
+
+/// One piece of a profile, valid from `start` until the next piece starts. With u = t - reference:
+/// if `frequency` is 0, a polynomial of third degree in u; else the acceleration is
+/// origin.acceleration + jerk / frequency * sin(frequency * u), and velocity and position are its
+/// integrals. A piece that ends at the target is anchored there (`reference` is its end), so that
+/// the approach to the target is exact. Times count from the profile's start. [s]
 struct Segment {
   double start;
   double reference;
-  State origin; ///< The state at time `reference`.
-  double jerk;  ///< [u/s^3]
+  State origin;     ///< The state at time `reference`.
+  double jerk;      ///< At `reference`; throughout the piece if `frequency` is 0. [u/s^3]
+  double frequency; ///< Angular frequency of a sine-shaped acceleration, 0 for none. [rad/s]
+
+  /// The state at time `t`.
+  [[nodiscard]] State at(double t) const noexcept {
+    return axis::evaluatePiece(origin, jerk, frequency, t - reference);
+  }
 };
 
 /// A course of one axis as a value: no allocation, no reference to anything, evaluation in bounded
 /// time at any instant and in any order.
 struct Profile {
-  /// Enough for a stop, a reversal and a jerk-limited move of seven pieces.
-  static constexpr int32_t kMaxSegments = 12;
+  /// Enough for a jerk-limited stop (3), a move back (7) and a run-up (3).
+  static constexpr int32_t kMaxSegments = 16;
 
   Segment segments[kMaxSegments];
   int32_t count;   ///< Valid segments; 0 for a profile without any motion.

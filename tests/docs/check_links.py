@@ -36,7 +36,7 @@ def markdown_parts(path):
 
 
 def check_markdown(root):
-    files = [p for pattern in ("*.md", "docs/*.md", "examples/**/*.md", "stdlib/**/*.md", "tests/**/*.md")
+    files = [p for pattern in ("*.md", "docs/**/*.md", "examples/**/*.md", "stdlib/**/*.md", "tests/**/*.md")
              for p in root.glob(pattern)]
     parts = {p.resolve(): markdown_parts(p) for p in files}
     errors, count = [], 0

@@ -2,6 +2,7 @@
 // interrupts by another instance, by a new edge and by MC_Stop, on linear and rotary axes.
 #include "runtime/axis/modulo_wrap.hpp"
 
+#include "tests/support/random.hpp"
 #include "tests/unit/axis/axis_rig.hpp"
 
 #include <gtest/gtest.h>
@@ -17,23 +18,8 @@ namespace {
 
 using stride::axis::wrapPosition;
 using stride::test::AxisRig;
+using stride::test::Random;
 namespace state = stride::axis::state;
-
-class Random {
-public:
-  explicit Random(uint64_t seed) : engine_(seed) {}
-  double uniform(double lo, double hi) {
-    return std::uniform_real_distribution<double>(lo, hi)(engine_);
-  }
-  double magnitude(double loExponent, double hiExponent) {
-    return std::pow(10.0, uniform(loExponent, hiExponent));
-  }
-  bool chance(double p) { return uniform(0, 1) < p; }
-  double sign() { return chance(0.5) ? 1.0 : -1.0; }
-
-private:
-  std::mt19937_64 engine_;
-};
 
 /// Watches the set values of one axis.
 class Watch {

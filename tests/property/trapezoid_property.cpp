@@ -1,7 +1,7 @@
 // Properties of the trapezoid planner over random states, targets and limits.
-#include "runtime/axis/modulo_wrap.hpp"
-#include "runtime/motion/modulo.hpp"
-#include "runtime/motion/trapezoid.hpp"
+#include "runtime/motion/planner.hpp"
+
+#include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -13,15 +13,28 @@
 
 namespace {
 
-using stride::motion::Direction;
-using stride::motion::ModuloRequest;
 using stride::motion::PlanError;
-using stride::motion::planStop;
-using stride::motion::planTrapezoid;
 using stride::motion::Profile;
-using stride::motion::resolveModulo;
+using stride::motion::RampType;
 using stride::motion::State;
-using stride::motion::TrapezoidLimits;
+
+struct TrapezoidLimits {
+  double velocity;
+  double acceleration;
+  double deceleration;
+};
+
+PlanError planTrapezoid(Profile &profile, double position, double velocity, double target,
+                        const TrapezoidLimits &limits) {
+  return stride::motion::planMove(
+      profile, {position, velocity, 0}, target, 0,
+      {RampType::Trapezoid, limits.velocity, limits.acceleration, limits.deceleration, 0});
+}
+
+PlanError planStop(Profile &profile, double position, double velocity, double deceleration) {
+  return stride::motion::planStop(profile, {position, velocity, 0},
+                                  {RampType::Trapezoid, 1, 1, deceleration, 0});
+}
 
 struct Problem {
   double position;
@@ -37,18 +50,9 @@ std::ostream &operator<<(std::ostream &out, const Problem &p) {
              << " d=" << p.limits.deceleration;
 }
 
-class Random {
+class Random : public stride::test::Random {
 public:
-  explicit Random(uint64_t seed) : engine_(seed) {}
-  double uniform(double lo, double hi) {
-    return std::uniform_real_distribution<double>(lo, hi)(engine_);
-  }
-  /// Log-uniform magnitude.
-  double magnitude(double loExponent, double hiExponent) {
-    return std::pow(10.0, uniform(loExponent, hiExponent));
-  }
-  bool chance(double p) { return uniform(0, 1) < p; }
-  double sign() { return chance(0.5) ? 1.0 : -1.0; }
+  using stride::test::Random::Random;
 
   Problem problem() {
     const double length = magnitude(-6, 6);
@@ -62,9 +66,6 @@ public:
       p.velocity = sign() * p.limits.velocity * uniform(0, 3);
     return p;
   }
-
-private:
-  std::mt19937_64 engine_;
 };
 
 /// Checks a profile by sampling; false with a message in `why`.
@@ -289,69 +290,6 @@ TEST(TrapezoidProperty, AllScales) {
       ASSERT_LE(std::fabs(state.velocity),
                 std::max(std::fabs(p.velocity), p.limits.velocity) * (1 + 1e-9))
           << p;
-    }
-  }
-}
-
-TEST(TrapezoidProperty, ModuloDirections) {
-  Random random(5);
-  for (int i = 0; i < 20000; ++i) {
-    const double period = random.magnitude(-2, 4);
-    ModuloRequest r{};
-    r.position = random.uniform(0, 1) * period;
-    r.target = random.chance(0.1) ? r.position : random.uniform(-3, 3) * period;
-    r.period = period;
-    r.limits = {period * random.magnitude(-2, 2), period * random.magnitude(-2, 2),
-                period * random.magnitude(-2, 2)};
-    if (random.chance(0.7))
-      r.velocity = random.sign() * random.uniform(0, 2) * std::sqrt(period * r.limits.deceleration);
-    r.lastMotion = random.chance(0.5) ? Direction::Positive : Direction::Negative;
-    const double slack = 1e-9 * period;
-
-    const auto plan = [&](double target) {
-      Profile profile;
-      EXPECT_EQ(planTrapezoid(profile, r.position, r.velocity, target, r.limits), PlanError::None);
-      return profile;
-    };
-    const double halt = r.position + r.velocity * std::fabs(r.velocity) / r.limits.deceleration / 2;
-    const double wanted = stride::axis::wrapPosition(r.target, period);
-    double fastest = HUGE_VAL;
-    double nearest = HUGE_VAL;
-    double firstAbove = HUGE_VAL;
-    double firstBelow = -HUGE_VAL;
-    for (int k = -12; k <= 12; ++k) {
-      const double candidate = wanted + k * period;
-      fastest = std::min(fastest, plan(candidate).duration);
-      nearest = std::min(nearest, std::fabs(candidate - r.position));
-      if (candidate >= halt - slack)
-        firstAbove = std::min(firstAbove, candidate);
-      if (candidate <= halt + slack)
-        firstBelow = std::max(firstBelow, candidate);
-    }
-    for (const auto direction : {Direction::Positive, Direction::Negative, Direction::Current,
-                                 Direction::Shortest, Direction::Fastest}) {
-      r.direction = direction;
-      double target = 0;
-      ASSERT_TRUE(resolveModulo(r, target));
-      const double off = stride::axis::wrapPosition(target - wanted + 0.5 * period, period);
-      ASSERT_NEAR(off, 0.5 * period, slack) << "not the demanded position";
-      const bool up =
-          direction == Direction::Positive ||
-          (direction == Direction::Current &&
-           (r.velocity > 0 || (r.velocity == 0 && r.lastMotion == Direction::Positive)));
-      switch (direction) {
-      case Direction::Positive:
-      case Direction::Negative:
-      case Direction::Current:
-        ASSERT_NEAR(target, up ? firstAbove : firstBelow, slack);
-        break;
-      case Direction::Shortest:
-        ASSERT_NEAR(std::fabs(target - r.position), nearest, slack);
-        break;
-      case Direction::Fastest:
-        ASSERT_LE(plan(target).duration, fastest * (1 + 1e-9));
-        break;
-      }
     }
   }
 }

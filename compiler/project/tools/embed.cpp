@@ -91,6 +91,12 @@ private:
       addNames(*decl, index);
   }
 
+  static bool has(const stc::ast::Decl &decl, std::string_view attribute) {
+    return std::any_of(
+        decl.attributes.begin(), decl.attributes.end(),
+        [&](const stc::ast::Attribute &one) { return stc::lowerCase(one.name) == attribute; });
+  }
+
   void add(const stc::ast::Name &name, std::uint8_t rank, std::size_t file) {
     if (name)
       names_.push_back({stc::lowerCase(name.text), rank, file});
@@ -109,7 +115,9 @@ private:
       return;
     }
     add(decl.name, 0, file);
-    if (decl.kind == stc::ast::DeclKind::enumeration)
+    // The enumerators of private types take no name away from anybody.
+    if (decl.kind == stc::ast::DeclKind::enumeration &&
+        !(has(decl, "hide") && has(decl, "qualified_only")))
       for (const stc::ast::EnumeratorDecl &enumerator :
            stc::ast::as<stc::ast::EnumDecl>(&decl)->type->enumerators)
         add(enumerator.name, 2, file);

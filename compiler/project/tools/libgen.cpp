@@ -1,12 +1,13 @@
 // stride-libgen OUT: writes the C++ of the standard library below OUT: headers
 // `st/<Library>/<Name>.h`, the bodies that are written in ST, and one source `<Library>.cpp` per
-// library that includes its bodies. Runs when Stride is built; files that would not change are left
-// alone.
+// library that includes its bodies; and the table of the axis parameters. Runs when Stride is
+// built; files that would not change are left alone.
 
 #include "compiler/codegen/codegen.hpp"
 #include "compiler/project/content_hash.hpp"
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/library_index.hpp"
+#include "compiler/project/tools/axis_parameters.hpp"
 #include "compiler/source/render.hpp"
 
 #include <algorithm>
@@ -50,6 +51,8 @@ public:
       else
         headers.insert(file.path);
     }
+    if (!writeAxisParameters(**library))
+      return false;
     // The build system counts on a header per source file.
     for (const stc::LibraryIndex::Entry &entry : index_.files(name)) {
       const std::string stem = fs::path(entry.fileName).stem().string();
@@ -74,6 +77,19 @@ public:
   }
 
 private:
+  bool writeAxisParameters(const stc::Library &library) {
+    const stc::TypeSymbol *axisRef = findAxisRef(library);
+    if (axisRef == nullptr)
+      return true;
+    std::string error;
+    const std::string table = axisParameterTable(*axisRef, error);
+    if (!error.empty()) {
+      std::fprintf(stderr, "stride-libgen: %s\n", error.c_str());
+      return false;
+    }
+    return write("st/SM_DriveBasic/AXIS_REF_parameters.h", table);
+  }
+
   bool write(const std::string &path, const std::string &text) {
     if (stc::writeIfDifferent(out_ / path, text))
       return true;

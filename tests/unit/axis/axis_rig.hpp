@@ -7,6 +7,8 @@
 #include "runtime/axis/axis_group.hpp"
 #include "runtime/axis/increments.hpp"
 
+#include "tests/support/fresh.hpp"
+
 #include "st/SM_PLCopen/MC_MoveAbsolute.h"
 #include "st/SM_PLCopen/MC_Power.h"
 #include "st/SM_PLCopen/MC_Stop.h"
@@ -14,14 +16,6 @@
 #include <memory>
 
 namespace stride::test {
-
-/// A value of a generated type as an application would have it: zeroed, then with its defaults.
-template <class T> T fresh() {
-  T value{};
-  Ctx ctx{};
-  value.init__(ctx);
-  return value;
-}
 
 /// One axis group with one drive and an MC_Power that is called in every cycle.
 class AxisRig {

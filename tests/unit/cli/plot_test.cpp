@@ -47,6 +47,16 @@ TEST(Trace, ZeroAndOneWithoutAUnitAreTruthValues) {
   EXPECT_FALSE(trace.series[2].isBool);
 }
 
+TEST(Trace, OutputsAboutAVelocityAreTruthValues) {
+  const Trace trace =
+      read("t,M.Move.InVelocity,M.Status.ConstantVelocity,M.Move.Velocity,InitialVelocity\n"
+           "0,0,0,0,0\n1,1,1,1,1\n");
+  EXPECT_TRUE(trace.series[0].isBool);
+  EXPECT_TRUE(trace.series[1].isBool);
+  EXPECT_FALSE(trace.series[2].isBool);
+  EXPECT_FALSE(trace.series[3].isBool);
+}
+
 TEST(Trace, SaysWhatIsWrongAndWhere) {
   EXPECT_EQ(fail("").line, 1U);
   EXPECT_EQ(fail("x,y\n1,2\n").line, 1U);
@@ -81,6 +91,74 @@ TEST(Svg, HasAPanelPerQuantity) {
   EXPECT_EQ(count(svg, ">D.fActPosition<"), 1U);
   EXPECT_EQ(count(svg, "fill=\"none\" stroke=\"#9ca3af\""), 3U); // frames
   EXPECT_THAT(svg, HasSubstr("</svg>"));
+}
+
+// Where the text stands; a fault if it stands there not exactly once.
+double heightOf(std::string_view svg, std::string_view content) {
+  const std::string element = ">" + std::string(content) + "<";
+  EXPECT_EQ(count(svg, element), 1U) << content;
+  const std::size_t begin = svg.rfind("<text", svg.find(element));
+  return std::stod(std::string(svg.substr(svg.find(" y=\"", begin) + 4, 12)));
+}
+
+TEST(Svg, KeepsTheOrderOfTheTrace) {
+  const std::string svg = drawSvg(read("t,P.First.Done,D.fSetVelocity,P.Go,D.fSetPosition\n"
+                                       "0,FALSE,0,FALSE,0\n1,TRUE,1,TRUE,5\n2,TRUE,0,FALSE,6\n"));
+  EXPECT_LT(heightOf(svg, "First.Done"), heightOf(svg, "Go"));
+  EXPECT_LT(heightOf(svg, "Go"), heightOf(svg, "D.fSetVelocity"));
+  EXPECT_LT(heightOf(svg, "D.fSetVelocity"), heightOf(svg, "D.fSetPosition"));
+}
+
+TEST(Svg, DrawsTruthValuesAsLanes) {
+  // The plot area is 852 px wide, 84 to 936: 213 px for a second.
+  const std::string svg =
+      drawSvg(read("t,a.b,c\n0,FALSE,TRUE\n1,TRUE,TRUE\n3,FALSE,TRUE\n4,FALSE,TRUE\n"));
+  // TRUE from 1 s to 3 s; always TRUE. Above the base line they are filled.
+  EXPECT_THAT(svg, HasSubstr("<path d=\"M84 32H297V19H723V32H936\" fill=\"none\""));
+  EXPECT_THAT(svg, HasSubstr("<path d=\"M84 41H936\" fill=\"none\""));
+  EXPECT_THAT(svg, HasSubstr("<path d=\"M84 54V41H936V54\" fill=\"#d55e00\""));
+  EXPECT_EQ(count(svg, "stroke-dasharray"), 0U); // there is no other panel
+}
+
+TEST(Svg, LeadsFromLanesThroughAllPanels) {
+  const std::string csv = "t,a,b,D.fSetPosition\n0,FALSE,FALSE,0\n1,TRUE,TRUE,1\n2,FALSE,TRUE,2\n";
+  EXPECT_EQ(count(drawSvg(read(csv)), "stroke-dasharray"), 2U); // at 1 s and 2 s
+  std::string busy = "t,a,D.fSetPosition\n";
+  for (int i = 0; i < 100; ++i)
+    busy += std::to_string(i) + (i % 2 != 0 ? ",TRUE,0\n" : ",FALSE,0\n");
+  EXPECT_EQ(count(drawSvg(read(busy)), "stroke-dasharray"), 0U);
+}
+
+TEST(Svg, LeavesOutTheProgramOfLanesWithinItsBlocks) {
+  const std::string row = "\n0,FALSE,FALSE\n1,TRUE,TRUE\n";
+  EXPECT_THAT(drawSvg(read("t,Main.First.Done,Main.Go" + row)), HasSubstr(">First.Done<"));
+  EXPECT_THAT(drawSvg(read("t,Main.First.Done,Other.Go" + row)), HasSubstr(">Main.First.Done<"));
+  EXPECT_THAT(drawSvg(read("t,Main.Ready,Main.Go" + row)), HasSubstr(">Main.Ready<"));
+  EXPECT_THAT(drawSvg(read("t,Main.First.Done,Go" + row)), HasSubstr(">Main.First.Done<"));
+}
+
+TEST(Svg, GivesLongNamesOfLanesRoom) {
+  const std::string name(40, 'n');
+  const std::string svg = drawSvg(read("t," + name + "\n0,FALSE\n1,TRUE\n"));
+  EXPECT_THAT(svg, HasSubstr("<path d=\"M276 32")); // 20 + 40 * 6.4
+}
+
+TEST(Svg, BreaksLongLegends) {
+  std::string header = "t";
+  std::string row = "0";
+  for (int i = 0; i < 5; ++i) {
+    header += ",D.aLongNameOfSomeVariable" + std::to_string(i) + "fSetVelocity";
+    row += ",1.5";
+  }
+  const std::string svg = drawSvg(read(header + "\n" + row + "\n"));
+  const auto place = [&](int i) {
+    return heightOf(svg, "D.aLongNameOfSomeVariable" + std::to_string(i) + "fSetVelocity");
+  };
+  // 275 px each, with 22 px between them: two in a row of 852 px.
+  EXPECT_EQ(place(0), place(1));
+  EXPECT_EQ(place(2), place(0) + 17);
+  EXPECT_EQ(place(2), place(3));
+  EXPECT_EQ(place(4), place(2) + 17);
 }
 
 TEST(Svg, SurvivesOddValues) {

@@ -42,6 +42,9 @@ public:
     return found;
   }
   bool isLibrary(std::string_view lowerName) const override { return lowerName == "lib"; }
+  bool answersTo(std::string_view, std::string_view lowerName) const override {
+    return isLibrary(lowerName);
+  }
   std::vector<std::string_view> names() const override { return {}; }
   std::vector<Entry> files(std::string_view) const override {
     std::vector<Entry> all;

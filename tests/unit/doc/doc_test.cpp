@@ -132,6 +132,26 @@ TEST_F(Reference, NamespacesAndEqualNames) {
   }
 }
 
+TEST_F(Reference, ShowsFigures) {
+  Module module = describeText("/// Opens.\nFUNCTION_BLOCK Valve END_FUNCTION_BLOCK\n"
+                               "FUNCTION_BLOCK Pump END_FUNCTION_BLOCK\n");
+  for (Entry &entry : module.entries)
+    if (entry.name == "Valve") {
+      entry.figure = "figures/Plant/Valve.svg";
+      entry.caption = "Opens within 2.5 s. Then a Pump starts.";
+    }
+  for (const Page &page : htmlPages("Plant", {module})) {
+    EXPECT_EQ(occurrences(page.text, "<figure>"), page.path == "Plant.html" ? 1U : 0U);
+    if (page.path == "Plant.html") {
+      EXPECT_THAT(page.text, HasSubstr("<img src=\"figures/Plant/Valve.svg\" alt=\"Opens within "
+                                       "2.5 s.\" loading=\"lazy\">"));
+      EXPECT_THAT(page.text,
+                  HasSubstr("<figcaption>Opens within 2.5 s. Then a <a href=\"Plant.html#"
+                            "Pump\">Pump</a> starts.</figcaption>"));
+    }
+  }
+}
+
 TEST_F(Reference, TheSearchKnowsPins) {
   const Module module = describeText("/// Opens. Slowly.\nFUNCTION_BLOCK Valve VAR_INPUT\n"
                                      "/// Rising edge.\nbEnable : BOOL; END_VAR "

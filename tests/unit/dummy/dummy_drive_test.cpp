@@ -138,44 +138,43 @@ TEST_F(DummyDrive, LatchesTheExactPositionOfAMark) {
   powerUp();
   command.position += 5000; // not armed
   cycle();
-  EXPECT_FALSE(status().captured);
-  command.capture = true;
+  EXPECT_EQ(status().captured, 0);
+  command.capture = 1;
   command.position += 10000; // passes 11.2345
   cycle();
-  EXPECT_TRUE(status().captured);
-  EXPECT_EQ(status().capturedPosition, 11235U);
+  EXPECT_EQ(status().captured, 1);
+  EXPECT_EQ(status().capturedPosition[0], 11235U);
   command.position += 10000;
   cycle();
-  EXPECT_EQ(status().capturedPosition, 11235U) << "the first one counts";
-  command.capture = false;
+  EXPECT_EQ(status().capturedPosition[0], 11235U) << "the first one counts";
+  command.capture = 0;
   cycle();
-  EXPECT_FALSE(status().captured);
-  command.capture = true;
+  EXPECT_EQ(status().captured, 0);
+  command.capture = 1;
   command.position -= 10000; // back through 21.2345
   cycle();
-  EXPECT_EQ(status().capturedPosition, 21235U);
+  EXPECT_EQ(status().capturedPosition[0], 21235U);
 }
 
 TEST_F(DummyDrive, ProbeInputsAreEdges) {
   make({});
   powerUp();
-  command.capture = true;
-  command.captureInput = 3;
+  command.capture = 8;
   command.position += 700;
   cycle();
   sim.abProbe.v[1] = 1;
   cycle();
-  EXPECT_FALSE(status().captured) << "another input";
+  EXPECT_EQ(status().captured, 0) << "another input";
   sim.abProbe.v[3] = 1;
   cycle();
-  EXPECT_TRUE(status().captured);
-  EXPECT_EQ(status().capturedPosition, 700U);
-  command.capture = false;
+  EXPECT_EQ(status().captured, 8);
+  EXPECT_EQ(status().capturedPosition[3], 700U);
+  command.capture = 0;
   cycle();
-  command.capture = true;
+  command.capture = 8;
   cycle();
   cycle();
-  EXPECT_FALSE(status().captured) << "no new edge";
+  EXPECT_EQ(status().captured, 0) << "no new edge";
 }
 
 TEST_F(DummyDrive, IndexPulsesAreCounted) {

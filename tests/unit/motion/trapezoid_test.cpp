@@ -1,4 +1,4 @@
-#include "runtime/motion/trapezoid.hpp"
+#include "runtime/motion/planner.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,11 +10,27 @@
 namespace {
 
 using stride::motion::PlanError;
-using stride::motion::planStop;
-using stride::motion::planTrapezoid;
 using stride::motion::Profile;
+using stride::motion::RampType;
 using stride::motion::State;
-using stride::motion::TrapezoidLimits;
+
+struct TrapezoidLimits {
+  double velocity;
+  double acceleration;
+  double deceleration;
+};
+
+PlanError planTrapezoid(Profile &profile, double position, double velocity, double target,
+                        const TrapezoidLimits &limits) {
+  return stride::motion::planMove(
+      profile, {position, velocity, 0}, target, 0,
+      {RampType::Trapezoid, limits.velocity, limits.acceleration, limits.deceleration, 0});
+}
+
+PlanError planStop(Profile &profile, double position, double velocity, double deceleration) {
+  return stride::motion::planStop(profile, {position, velocity, 0},
+                                  {RampType::Trapezoid, 1, 1, deceleration, 0});
+}
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -184,7 +200,7 @@ TEST(Trapezoid, SameBitsEverywhere) {
       mix(state.velocity);
     }
   }
-  EXPECT_EQ(hash, 5887618524649810036U);
+  EXPECT_EQ(hash, 17550672269126823474U);
 }
 
 TEST(Stop, BrakesToRest) {

@@ -1,0 +1,40 @@
+// Windows for captured positions. Free of the C++ standard library: linked into every application.
+#ifndef STRIDE_RUNTIME_AXIS_CAPTURE_WINDOW_HPP
+#define STRIDE_RUNTIME_AXIS_CAPTURE_WINDOW_HPP
+
+#include "runtime/axis/axis_ref.hpp"
+#include "runtime/axis/modulo_wrap.hpp"
+
+namespace stride::axis {
+
+/// Whether there are positions between `first` and `last`, taken in positive direction. On a rotary
+/// axis there always are.
+inline bool isCaptureWindow(const AxisRef &axis, double first, double last) noexcept {
+  return exact::isfinite(first) && exact::isfinite(last) && (first <= last || isRotary(axis));
+}
+
+/// Whether `position` is between `first` and `last`, both included. On a rotary axis the window
+/// may reach across the start of a turn, and its ends may be outside of the period.
+inline bool inCaptureWindow(const AxisRef &axis, double first, double last,
+                            double position) noexcept {
+  if (!isRotary(axis))
+    return position >= first && position <= last;
+  const double period = axis.fPositionPeriod;
+  if (last - first >= period)
+    return true;
+  const double from = wrapPosition(first, period);
+  const double to = wrapPosition(last, period);
+  const double place = wrapPosition(position, period);
+  if (from <= to)
+    return place >= from && place <= to;
+  return place >= from || place <= to;
+}
+
+/// The drive's input of a trigger: -1 is the first one.
+inline int16_t captureInput(int16_t triggerNumber) noexcept {
+  return triggerNumber == -1 ? int16_t{0} : triggerNumber;
+}
+
+} // namespace stride::axis
+
+#endif

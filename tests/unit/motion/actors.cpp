@@ -1,0 +1,349 @@
+#include "tests/unit/motion/actors.hpp"
+
+#include "st/SM_DriveBasic/SMC_CheckLimits.h"
+#include "st/SM_DriveBasic/SMC_ControlAxisByPos.h"
+#include "st/SM_DriveBasic/SMC_ControlAxisByPosVel.h"
+#include "st/SM_DriveBasic/SMC_ControlAxisByVel.h"
+#include "st/SM_DriveBasic/SMC_FollowPosition.h"
+#include "st/SM_DriveBasic/SMC_FollowPositionVelocity.h"
+#include "st/SM_DriveBasic/SMC_FollowVelocity.h"
+#include "st/SM_DriveBasic/SMC_Homing.h"
+#include "st/SM_DriveBasic/SMC_MeasureDistance.h"
+#include "st/SM_DriveBasic/SMC_SetControllerMode.h"
+#include "st/SM_DriveBasic/TRIGGER_REF.h"
+#include "st/SM_PLCopen/MC_AbortTrigger.h"
+#include "st/SM_PLCopen/MC_AccelerationProfile.h"
+#include "st/SM_PLCopen/MC_Halt.h"
+#include "st/SM_PLCopen/MC_Home.h"
+#include "st/SM_PLCopen/MC_MoveAdditive.h"
+#include "st/SM_PLCopen/MC_MoveRelative.h"
+#include "st/SM_PLCopen/MC_MoveSuperImposed.h"
+#include "st/SM_PLCopen/MC_MoveVelocity.h"
+#include "st/SM_PLCopen/MC_PositionProfile.h"
+#include "st/SM_PLCopen/MC_ReadActualPosition.h"
+#include "st/SM_PLCopen/MC_ReadActualTorque.h"
+#include "st/SM_PLCopen/MC_ReadActualVelocity.h"
+#include "st/SM_PLCopen/MC_ReadAxisError.h"
+#include "st/SM_PLCopen/MC_ReadBoolParameter.h"
+#include "st/SM_PLCopen/MC_ReadParameter.h"
+#include "st/SM_PLCopen/MC_ReadStatus.h"
+#include "st/SM_PLCopen/MC_Reset.h"
+#include "st/SM_PLCopen/MC_SetOverride.h"
+#include "st/SM_PLCopen/MC_SetPosition.h"
+#include "st/SM_PLCopen/MC_TA_REF.h"
+#include "st/SM_PLCopen/MC_TP_REF.h"
+#include "st/SM_PLCopen/MC_TV_REF.h"
+#include "st/SM_PLCopen/MC_TouchProbe.h"
+#include "st/SM_PLCopen/MC_VelocityProfile.h"
+#include "st/SM_PLCopen/MC_WriteBoolParameter.h"
+#include "st/SM_PLCopen/MC_WriteParameter.h"
+#include "st/SM_PLCopen/SMC_MoveContinuousAbsolute.h"
+#include "st/SM_PLCopen/SMC_MoveContinuousRelative.h"
+#include "st/SM_PLCopen/SMC_ReadSetPosition.h"
+#include "st/SM_PLCopen/SMC_SetTorque.h"
+
+#include <map>
+#include <stdexcept>
+#include <type_traits>
+
+namespace stride::test {
+namespace {
+
+namespace basic = ::st::SM_DriveBasic;
+namespace pl = ::st::SM_PLCopen;
+
+template <class Block> void setExecute(Block &b, bool execute) {
+  const uint8_t value = execute ? 1 : 0;
+  if constexpr (requires { b.Execute; })
+    b.Execute = value;
+  else if constexpr (requires { b.bExecute; })
+    b.bExecute = value;
+  else if constexpr (requires { b.Enable; })
+    b.Enable = value;
+  else
+    b.bEnable = value;
+}
+
+template <class Block> void showOutcome(const Block &b, Shown &s) {
+  if constexpr (requires { b.CommandAborted; }) {
+    s.aborted = b.CommandAborted != 0;
+    s.hasAborted = true;
+  } else if constexpr (requires { b.bCommandAborted; }) {
+    s.aborted = b.bCommandAborted != 0;
+    s.hasAborted = true;
+  }
+  if constexpr (requires { b.Error; })
+    s.error = b.Error != 0;
+  else if constexpr (requires { b.bError; })
+    s.error = b.bError != 0;
+  if constexpr (requires { b.ErrorID; })
+    s.errorId = static_cast<int>(b.ErrorID);
+  else if constexpr (requires { b.iErrorID; })
+    s.errorId = static_cast<int>(b.iErrorID);
+  else if constexpr (requires { b.nErrorID; })
+    s.errorId = static_cast<int>(b.nErrorID);
+}
+
+template <class Block> Shown showBlock(const Block &b) {
+  Shown s;
+  if constexpr (requires { b.Done; })
+    s.done = b.Done != 0;
+  else if constexpr (requires { b.bDone; })
+    s.done = b.bDone != 0;
+  else if constexpr (requires { b.InVelocity; })
+    s.done = b.InVelocity != 0;
+  else if constexpr (requires { b.InEndVelocity; })
+    s.done = b.InEndVelocity != 0;
+  else if constexpr (requires { b.Enabled; })
+    s.done = b.Enabled != 0;
+  if constexpr (requires { b.Busy; }) {
+    s.busy = b.Busy != 0;
+    s.hasBusy = true;
+  } else if constexpr (requires { b.bBusy; }) {
+    s.busy = b.bBusy != 0;
+    s.hasBusy = true;
+  }
+  if constexpr (requires { b.Active; })
+    s.active = b.Active != 0;
+  showOutcome(b, s);
+  return s;
+}
+
+/// A block and what its in-out pins are bound to.
+template <class Block, class Extra> struct Held {
+  Block block = fresh<Block>();
+  Extra extra = fresh<Extra>();
+};
+
+struct Nothing {
+  void init__(Ctx & /*ctx*/) {}
+};
+
+template <class Block, class Extra>
+Actor actorOf(AxisRig &rig, std::shared_ptr<Held<Block, Extra>> h) {
+  h->block.Axis = &rig.axis;
+  Actor a;
+  a.call = [h, &rig](bool execute) {
+    setExecute(h->block, execute);
+    h->block.body__(rig.ctx);
+  };
+  a.show = [h] { return showBlock(h->block); };
+  a.bind = [h](axis::AxisRef &axis) { h->block.Axis = &axis; };
+  return a;
+}
+
+using Factory = std::function<Actor(AxisRig &)>;
+
+/// A block with inputs that `prepare(block, rig)` sets.
+template <class Block, class Prepare> Factory plain(Prepare prepare) {
+  return [prepare](AxisRig &rig) {
+    auto h = std::make_shared<Held<Block, Nothing>>();
+    prepare(h->block, rig);
+    return actorOf(rig, h);
+  };
+}
+
+template <class Block> Factory plain() {
+  return plain<Block>([](Block &, AxisRig &) {});
+}
+
+/// A block with a second in-out pin: `prepare(block, extra)` binds it.
+template <class Block, class Extra, class Prepare> Factory with(Prepare prepare) {
+  return [prepare](AxisRig &rig) {
+    auto h = std::make_shared<Held<Block, Extra>>();
+    prepare(h->block, h->extra);
+    return actorOf(rig, h);
+  };
+}
+
+template <class Block> void setDynamics(Block &b) {
+  if constexpr (requires { b.Velocity; })
+    b.Velocity = 20;
+  if constexpr (requires { b.VelocityDiff; })
+    b.VelocityDiff = 20;
+  if constexpr (requires { b.Acceleration; })
+    b.Acceleration = 50;
+  b.Deceleration = 50;
+}
+
+/// Steps of one second.
+template <class Pair> void setStep(Pair &pair) { pair.delta_time = 1000; }
+
+/// Set values of a Follow or ControlAxis block: where the axis is when it is first called.
+template <class Block> Factory following() {
+  return [](AxisRig &rig) {
+    auto h = std::make_shared<Held<Block, Nothing>>();
+    Actor a = actorOf(rig, h);
+    a.call = [h, &rig, started = false](bool execute) mutable {
+      if constexpr (requires { h->block.fSetPosition; }) {
+        if (!started)
+          h->block.fSetPosition = rig.axis.fSetPosition;
+        h->block.fSetPosition += 10 * rig.cycleSeconds;
+      }
+      if constexpr (requires { h->block.fSetVelocity; })
+        h->block.fSetVelocity = 10;
+      if constexpr (requires { h->block.iStatus; })
+        h->block.iStatus = ::st::SM_CNC::SMC_INT_STATUS__IPO_CONSTANT;
+      if constexpr (requires { h->block.bAvoidGaps; })
+        h->block.bAvoidGaps = 0;
+      started = started || execute;
+      setExecute(h->block, execute);
+      h->block.body__(rig.ctx);
+    };
+    return a;
+  };
+}
+
+Actor powerOff(AxisRig &rig) {
+  Actor a;
+  a.call = [&rig](bool execute) {
+    rig.power.bRegulatorOn = execute ? 0 : 1;
+    rig.power.body__(rig.ctx);
+  };
+  a.show = [&rig] { return showBlock(rig.power); };
+  return a;
+}
+
+template <class Block> Factory moving() {
+  return plain<Block>([](Block &b, AxisRig &) { setDynamics(b); });
+}
+
+template <class Block> Factory relative(double distance) {
+  return plain<Block>([distance](Block &b, AxisRig &) {
+    setDynamics(b);
+    b.Distance = distance;
+  });
+}
+
+const std::map<std::string, Factory> &positioning() {
+  static const std::map<std::string, Factory> table{
+      {"MC_MoveAbsolute", plain<pl::MC_MoveAbsolute>([](auto &b, AxisRig &) {
+         setDynamics(b);
+         b.Position = 90;
+       })},
+      {"MC_MoveRelative", relative<pl::MC_MoveRelative>(60)},
+      {"MC_MoveAdditive", relative<pl::MC_MoveAdditive>(60)},
+      {"MC_MoveSuperImposed", relative<pl::MC_MoveSuperImposed>(15)},
+      {"MC_MoveVelocity", plain<pl::MC_MoveVelocity>([](auto &b, AxisRig &) {
+         setDynamics(b);
+         b.Direction = basic::MC_Direction__positive;
+       })},
+      {"SMC_MoveContinuousAbsolute", plain<pl::SMC_MoveContinuousAbsolute>([](auto &b, AxisRig &) {
+         setDynamics(b);
+         b.Position = 90;
+         b.EndVelocity = 10;
+         b.EndVelocityDirection = basic::MC_Direction__positive;
+       })},
+      {"SMC_MoveContinuousRelative", plain<pl::SMC_MoveContinuousRelative>([](auto &b, AxisRig &) {
+         setDynamics(b);
+         b.Distance = 60;
+         b.EndVelocity = 10;
+         b.EndVelocityDirection = basic::MC_Direction__positive;
+       })},
+      {"MC_Halt", moving<pl::MC_Halt>()},
+      {"MC_Stop", moving<pl::MC_Stop>()},
+      {"MC_Home", plain<pl::MC_Home>([](auto &b, AxisRig &) {
+         b.Position = 5;
+         b.Deceleration = 50;
+       })},
+      {"SMC_Homing", plain<basic::SMC_Homing>([](auto &b, AxisRig &) {
+         b.fVelocityFast = 10;
+         b.fVelocitySlow = 2;
+         b.fAcceleration = 50;
+         b.fDeceleration = 50;
+       })},
+  };
+  return table;
+}
+
+const std::map<std::string, Factory> &courses() {
+  static const std::map<std::string, Factory> table{
+      {"MC_PositionProfile",
+       with<pl::MC_PositionProfile, pl::MC_TP_REF>([](auto &b, pl::MC_TP_REF &points) {
+         points.Number_of_pairs = 2;
+         points.IsAbsolute = 0;
+         b.ArraySize = 2;
+         for (int i = 0; i < 2; ++i) {
+           setStep(points.MC_TP_Array.v[i]);
+           points.MC_TP_Array.v[i].position = 10;
+         }
+         b.TimePosition = &points;
+       })},
+      {"MC_VelocityProfile",
+       with<pl::MC_VelocityProfile, pl::MC_TV_REF>([](auto &b, pl::MC_TV_REF &points) {
+         points.Number_of_pairs = 2;
+         b.ArraySize = 2;
+         for (int i = 0; i < 2; ++i) {
+           setStep(points.MC_TV_Array.v[i]);
+           points.MC_TV_Array.v[i].velocity = 10;
+         }
+         b.TimeVelocity = &points;
+       })},
+      {"MC_AccelerationProfile",
+       with<pl::MC_AccelerationProfile, pl::MC_TA_REF>([](auto &b, pl::MC_TA_REF &points) {
+         points.Number_of_pairs = 2;
+         b.ArraySize = 2;
+         for (int i = 0; i < 2; ++i) {
+           setStep(points.MC_TA_Array.v[i]);
+           points.MC_TA_Array.v[i].acceleration = i == 0 ? 5 : -5;
+         }
+         b.TimeAcceleration = &points;
+       })},
+      {"SMC_FollowPosition", following<basic::SMC_FollowPosition>()},
+      {"SMC_FollowPositionVelocity", following<basic::SMC_FollowPositionVelocity>()},
+      {"SMC_FollowVelocity", following<basic::SMC_FollowVelocity>()},
+      {"SMC_ControlAxisByPos", following<basic::SMC_ControlAxisByPos>()},
+      {"SMC_ControlAxisByPosVel", following<basic::SMC_ControlAxisByPosVel>()},
+      {"SMC_ControlAxisByVel", following<basic::SMC_ControlAxisByVel>()},
+  };
+  return table;
+}
+
+const std::map<std::string, Factory> &administrative() {
+  const auto velocity = [](auto &b, AxisRig &) { b.ParameterNumber = 1113; };
+  const auto limits = [](auto &b, AxisRig &) { b.ParameterNumber = 1205; };
+  const auto trigger = [](auto &b, basic::TRIGGER_REF &input) {
+    input.iTriggerNumber = 0;
+    b.TriggerInput = &input;
+  };
+  static const std::map<std::string, Factory> table{
+      {"MC_Power off", powerOff},
+      {"MC_Reset", plain<pl::MC_Reset>()},
+      {"MC_SetPosition", plain<pl::MC_SetPosition>([](auto &b, AxisRig &) {
+         b.Mode = 1;
+         b.Position = 3;
+       })},
+      {"MC_SetOverride", plain<pl::MC_SetOverride>()},
+      {"SMC_SetControllerMode", plain<basic::SMC_SetControllerMode>()},
+      {"SMC_SetTorque", plain<pl::SMC_SetTorque>()},
+      {"MC_TouchProbe", with<pl::MC_TouchProbe, basic::TRIGGER_REF>(trigger)},
+      {"MC_AbortTrigger", with<pl::MC_AbortTrigger, basic::TRIGGER_REF>(trigger)},
+      {"MC_ReadStatus", plain<pl::MC_ReadStatus>()},
+      {"MC_ReadAxisError", plain<pl::MC_ReadAxisError>()},
+      {"MC_ReadParameter", plain<pl::MC_ReadParameter>(velocity)},
+      {"MC_ReadBoolParameter", plain<pl::MC_ReadBoolParameter>(limits)},
+      {"MC_WriteParameter", plain<pl::MC_WriteParameter>([](auto &b, AxisRig &) {
+         b.ParameterNumber = 1113;
+         b.Value = 100;
+       })},
+      {"MC_WriteBoolParameter", plain<pl::MC_WriteBoolParameter>(limits)},
+      {"MC_ReadActualPosition", plain<pl::MC_ReadActualPosition>()},
+      {"MC_ReadActualVelocity", plain<pl::MC_ReadActualVelocity>()},
+      {"MC_ReadActualTorque", plain<pl::MC_ReadActualTorque>()},
+      {"SMC_ReadSetPosition", plain<pl::SMC_ReadSetPosition>()},
+      {"SMC_CheckLimits", plain<basic::SMC_CheckLimits>()},
+      {"SMC_MeasureDistance", plain<basic::SMC_MeasureDistance>()},
+  };
+  return table;
+}
+
+} // namespace
+
+Actor makeActor(AxisRig &rig, const std::string &block) {
+  for (const auto *table : {&positioning(), &courses(), &administrative()})
+    if (const auto found = table->find(block); found != table->end())
+      return found->second(rig);
+  throw std::invalid_argument("no block " + block);
+}
+
+} // namespace stride::test
