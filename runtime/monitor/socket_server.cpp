@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <map>
 #include <mutex>
@@ -30,6 +31,11 @@ namespace {
       fmt::format("--listen unix:{}: cannot {}: {}", path, what, std::strerror(errno)));
 }
 
+/// Behind the name of a socket's file until the socket listens.
+constexpr char kUnfinished[] = "~";
+/// Bytes in the longest path of a socket.
+constexpr std::size_t kMostInPath = sizeof(::sockaddr_un::sun_path) - sizeof kUnfinished;
+
 /// Removes a socket file that is left over.
 void removeStale(const std::string &path, const ::sockaddr_un &address) {
   struct ::stat status {};
@@ -47,18 +53,27 @@ void removeStale(const std::string &path, const ::sockaddr_un &address) {
   ::unlink(path.c_str());
 }
 
+/// The socket's file gets its name when the socket listens, so that whoever waits for the file can
+/// connect at once.
 FileHandle listenAt(const std::string &path) {
-  const ::sockaddr_un address = socketAddress(path);
-  removeStale(path, address);
+  removeStale(path, socketAddress(path));
+  const std::string unfinished = path + kUnfinished;
+  const ::sockaddr_un address = socketAddress(unfinished);
+  removeStale(unfinished, address);
   FileHandle socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (socket.number() < 0)
     failed(path, "make a socket");
-  // Before bind() gives the file its name, so that nobody else ever finds it open.
+  // Before bind() makes the file, so that nobody else ever finds it open.
   ::fchmod(socket.number(), S_IRUSR | S_IWUSR);
   if (::bind(socket.number(), reinterpret_cast<const ::sockaddr *>(&address), sizeof address) != 0)
     failed(path, "make the socket's file");
-  if (::chmod(path.c_str(), S_IRUSR | S_IWUSR) != 0 || ::listen(socket.number(), 8) != 0)
+  if (::chmod(unfinished.c_str(), S_IRUSR | S_IWUSR) != 0 || ::listen(socket.number(), 8) != 0 ||
+      ::rename(unfinished.c_str(), path.c_str()) != 0) {
+    const int reason = errno;
+    ::unlink(unfinished.c_str());
+    errno = reason;
     failed(path, "listen");
+  }
   return socket;
 }
 
@@ -68,9 +83,9 @@ std::string socketPath(const std::string &address) {
   if (!address.starts_with("unix:") || address.size() == 5)
     throw app::Error(fmt::format("'{}' is no address; write unix:PATH", address));
   std::string path = address.substr(5);
-  if (path.size() >= sizeof(::sockaddr_un::sun_path))
-    throw app::Error(fmt::format("'{}' is too long for a socket; {} bytes are possible", path,
-                                 sizeof(::sockaddr_un::sun_path) - 1));
+  if (path.size() > kMostInPath)
+    throw app::Error(
+        fmt::format("'{}' is too long for a socket; {} bytes are possible", path, kMostInPath));
   return path;
 }
 
