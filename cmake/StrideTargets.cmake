@@ -8,6 +8,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
        -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
 endif()
 
+# Code that ends up inside applications has the flags of generated code.
+set(STRIDE_APPLICATION_FLAGS
+    -fPIC -fwrapv -fno-strict-aliasing -fno-finite-loops -fno-delete-null-pointer-checks
+    -ffp-contract=off)
+
 # Our own code: warnings are errors, the include root is the top of the repository.
 function(_stride_own_code target)
   target_compile_features(${target} PUBLIC cxx_std_20)

@@ -1,0 +1,322 @@
+#include "runtime/cam/curve.hpp"
+
+#include "runtime/axis/exact_math.hpp"
+
+namespace stride::cam {
+namespace {
+
+template <class T> double numberAt(const void *data, int64_t index) noexcept {
+  T value;
+  __builtin_memcpy(&value, static_cast<const char *>(data) + index * int64_t{sizeof value},
+                   sizeof value);
+  return static_cast<double>(value);
+}
+
+double number(const Curve &curve, int64_t index) noexcept {
+  switch (curve.element) {
+  case Element::Int:
+    return numberAt<int16_t>(curve.data, index);
+  case Element::Uint:
+    return numberAt<uint16_t>(curve.data, index);
+  case Element::Dint:
+    return numberAt<int32_t>(curve.data, index);
+  case Element::Udint:
+    return numberAt<uint32_t>(curve.data, index);
+  case Element::Real:
+    return numberAt<float>(curve.data, index);
+  default:
+    return numberAt<double>(curve.data, index);
+  }
+}
+
+const Node &node(const Curve &curve, uint32_t index) noexcept {
+  return static_cast<const Node *>(curve.data)[index];
+}
+
+const Segment &segment(const Curve &curve, uint32_t index) noexcept {
+  return static_cast<const Segment *>(curve.data)[index];
+}
+
+/// The places of a table, numbered from 0 to count(); on a periodic one the pieces go on at both
+/// ends.
+class Table {
+public:
+  explicit Table(const Curve &curve) noexcept
+      : curve_(curve), last_(curve.open ? curve.count : curve.count - 1),
+        step_((curve.end - curve.start) / static_cast<double>(last_)) {}
+
+  int64_t last() const noexcept { return last_; }
+  double step() const noexcept { return step_; }
+
+  double x(int64_t i) const noexcept {
+    if (curve_.form == Form::PairTable)
+      return curve_.master.of(number(curve_, 2 * i));
+    return i == last_ ? curve_.end : curve_.start + static_cast<double>(i) * step_;
+  }
+  double y(int64_t i) const noexcept {
+    if (curve_.form == Form::PairTable)
+      return curve_.slave.of(number(curve_, 2 * i + 1));
+    if (curve_.open && i == last_)
+      return curve_.slave.of(number(curve_, 0)) + curve_.rise;
+    return curve_.slave.of(number(curve_, i));
+  }
+
+private:
+  const Curve &curve_;
+  int64_t last_;
+  double step_;
+};
+
+/// The greatest piece that begins at or before `x`, else the first; `begin(i)` ascends.
+template <class Begin>
+uint32_t pieceAt(double x, uint32_t pieces, uint32_t hint, Begin begin) noexcept {
+  if (hint >= pieces)
+    hint = pieces - 1;
+  uint32_t low = 0; // begins at or before x, or is the first
+  uint32_t high = pieces;
+  if (begin(hint) <= x) {
+    low = hint;
+    if (hint + 1 == pieces || x < begin(hint + 1))
+      return hint;
+    low = hint + 1;
+    if (hint + 2 == pieces || x < begin(hint + 2))
+      return low;
+  } else if (hint == 0) {
+    return 0;
+  } else {
+    if (begin(hint - 1) <= x)
+      return hint - 1;
+    high = hint - 1;
+  }
+  while (high - low > 1) {
+    const uint32_t middle = low + (high - low) / 2;
+    (begin(middle) <= x ? low : high) = middle;
+  }
+  return low;
+}
+
+/// Length and slope of piece `i` of a table; beyond the ends those of the other end.
+struct Secant {
+  double length;
+  double slope;
+};
+
+Secant secant(const Table &table, int64_t i) noexcept {
+  if (i < 0)
+    i += table.last();
+  else if (i >= table.last())
+    i -= table.last();
+  const double length = table.x(i + 1) - table.x(i);
+  return {length, (table.y(i + 1) - table.y(i)) / length};
+}
+
+/// The slope at place `i`: of the parabola through it and its neighbours.
+double slopeAt(const Table &table, int64_t i, bool periodic) noexcept {
+  if (table.last() == 1 && !periodic)
+    return secant(table, 0).slope;
+  if (!periodic && i == 0) {
+    const Secant near = secant(table, 0);
+    const Secant far = secant(table, 1);
+    return near.slope + (near.slope - far.slope) * near.length / (near.length + far.length);
+  }
+  if (!periodic && i == table.last()) {
+    const Secant near = secant(table, i - 1);
+    const Secant far = secant(table, i - 2);
+    return near.slope + (near.slope - far.slope) * near.length / (near.length + far.length);
+  }
+  const Secant left = secant(table, i - 1);
+  const Secant right = secant(table, i);
+  return (right.length * left.slope + left.length * right.slope) / (left.length + right.length);
+}
+
+Point evaluateTable(const Curve &curve, double x, bool periodic, uint32_t &index) noexcept {
+  const Table table(curve);
+  const auto pieces = static_cast<uint32_t>(table.last());
+  if (curve.form == Form::EvenTable) {
+    const double place = (x - curve.start) / table.step();
+    uint32_t i = place > 0.0 ? (place < pieces ? static_cast<uint32_t>(place) : pieces - 1) : 0;
+    // The quotient is rounded; the places decide.
+    if (i > 0 && x < table.x(i))
+      --i;
+    else if (i + 1 < pieces && x >= table.x(i + 1))
+      ++i;
+    index = i;
+  } else {
+    index = pieceAt(x, pieces, index, [&](uint32_t i) { return table.x(i); });
+  }
+  const double left = table.x(index);
+  const double y0 = table.y(index);
+  const double y1 = table.y(index + 1);
+  const double length = table.x(index + 1) - left;
+  const double way = x - left;
+  const double slope = (y1 - y0) / length;
+  if (!curve.cubic)
+    return {y0 + slope * way, slope, 0.0, 0.0};
+  const double m0 = slopeAt(table, index, periodic);
+  const double m1 = slopeAt(table, int64_t{index} + 1, periodic);
+  const double c2 = (3.0 * slope - 2.0 * m0 - m1) / length;
+  const double c3 = (m0 + m1 - 2.0 * slope) / (length * length);
+  return {y0 + (m0 + (c2 + c3 * way) * way) * way, m0 + (2.0 * c2 + 3.0 * c3 * way) * way,
+          2.0 * c2 + 6.0 * c3 * way, 6.0 * c3};
+}
+
+bool isFiniteNode(const Node &node) noexcept {
+  return exact::isfinite(node.x) && exact::isfinite(node.y) && exact::isfinite(node.v) &&
+         exact::isfinite(node.a);
+}
+
+bool isFiniteSegment(const Segment &segment) noexcept {
+  bool good = exact::isfinite(segment.start) && segment.end > segment.start &&
+              exact::isfinite(segment.end) && exact::isfinite(segment.stroke) &&
+              exact::isfinite(segment.lawBegin) && exact::isfinite(segment.lawEnd) &&
+              exact::isfinite(segment.parameter) && segment.law >= Law::Polynomial &&
+              segment.law <= Law::ModifiedTrapezoid;
+  for (const double coefficient : segment.coefficients)
+    good = good && exact::isfinite(coefficient);
+  return good;
+}
+
+bool isScale(const Scale &scale) noexcept {
+  return exact::isfinite(scale.zero) && exact::isfinite(scale.base) &&
+         exact::isfinite(scale.factor) && scale.factor != 0.0;
+}
+
+CurveError checkTable(const Curve &curve) noexcept {
+  const bool pairs = curve.form == Form::PairTable;
+  if (sizeOf(curve.element) == 0 || curve.count < (curve.open && !pairs ? 1 : 2) ||
+      !exact::isfinite(curve.rise))
+    return CurveError::NoCurve;
+  if (!isScale(curve.slave) || (pairs && !(isScale(curve.master) && curve.master.factor > 0.0)))
+    return CurveError::Scaling;
+  const Table table(curve);
+  double before = -exact::kInfinity;
+  for (int32_t i = 0; i < curve.count; ++i) {
+    const double x = table.x(i);
+    if (!exact::isfinite(x) || !(x > before) || !exact::isfinite(table.y(i)))
+      return CurveError::NoCurve;
+    before = x;
+  }
+  return CurveError::None;
+}
+
+bool areNodes(const Curve &curve) noexcept {
+  for (int32_t i = 0; i < curve.count; ++i) {
+    const Node &place = node(curve, static_cast<uint32_t>(i));
+    if (!isFiniteNode(place) || (i > 0 && !(place.x > node(curve, static_cast<uint32_t>(i - 1)).x)))
+      return false;
+  }
+  return curve.count >= 2;
+}
+
+bool areSegments(const Curve &curve) noexcept {
+  for (int32_t i = 0; i < curve.count; ++i) {
+    const Segment &piece = segment(curve, static_cast<uint32_t>(i));
+    if (!isFiniteSegment(piece) ||
+        (i > 0 && piece.start != segment(curve, static_cast<uint32_t>(i - 1)).end))
+      return false;
+  }
+  return curve.count >= 1;
+}
+
+} // namespace
+
+int32_t sizeOf(Element element) noexcept {
+  switch (element) {
+  case Element::Int:
+  case Element::Uint:
+    return 2;
+  case Element::Dint:
+  case Element::Udint:
+  case Element::Real:
+    return 4;
+  case Element::Lreal:
+    return 8;
+  }
+  return 0;
+}
+
+CurveError checkCurve(const Curve &curve) noexcept {
+  if (curve.data == nullptr || !exact::isfinite(curve.start) || !exact::isfinite(curve.end) ||
+      !(curve.end > curve.start))
+    return CurveError::NoCurve;
+  switch (curve.form) {
+  case Form::EvenTable:
+  case Form::PairTable:
+    return checkTable(curve);
+  case Form::Nodes:
+    return areNodes(curve) ? CurveError::None : CurveError::NoCurve;
+  case Form::Segments:
+    return areSegments(curve) ? CurveError::None : CurveError::NoCurve;
+  }
+  return CurveError::NoCurve;
+}
+
+Point evaluateQuintic(const Node &left, const Node &right, double x) noexcept {
+  const double h = right.x - left.x;
+  const double u = (x - left.x) / h;
+  const double v0 = left.v * h;
+  const double v1 = right.v * h;
+  const double a0 = left.a * h * h;
+  const double a1 = right.a * h * h;
+  const double d = right.y - left.y;
+  const double c2 = 0.5 * a0;
+  const double c3 = 10.0 * d - 6.0 * v0 - 4.0 * v1 - 1.5 * a0 + 0.5 * a1;
+  const double c4 = -15.0 * d + 8.0 * v0 + 7.0 * v1 + 1.5 * a0 - a1;
+  const double c5 = 6.0 * d - 3.0 * v0 - 3.0 * v1 - 0.5 * a0 + 0.5 * a1;
+  const double y = left.y + (v0 + (c2 + (c3 + (c4 + c5 * u) * u) * u) * u) * u;
+  const double v = v0 + (2.0 * c2 + (3.0 * c3 + (4.0 * c4 + 5.0 * c5 * u) * u) * u) * u;
+  const double a = 2.0 * c2 + (6.0 * c3 + (12.0 * c4 + 20.0 * c5 * u) * u) * u;
+  const double j = 6.0 * c3 + (24.0 * c4 + 60.0 * c5 * u) * u;
+  return {y, v / h, a / (h * h), j / (h * h * h)};
+}
+
+Point evaluateSegment(const Segment &segment, double x) noexcept {
+  const double h = segment.end - segment.start;
+  const double u = (x - segment.start) / h;
+  const double *c = segment.coefficients;
+  double y = c[7];
+  double v = 0.0;
+  double a = 0.0;
+  double j = 0.0;
+  for (int i = 6; i >= 0; --i) { // Horner, with the derivatives (divided by 2 and 6)
+    j = j * u + a;
+    a = a * u + v;
+    v = v * u + y;
+    y = y * u + c[i];
+  }
+  a *= 2.0;
+  j *= 6.0;
+  if (segment.law != Law::Polynomial) {
+    const double extent = segment.lawEnd - segment.lawBegin;
+    const Point law = evaluateLaw(segment.law, segment.parameter, segment.lawBegin + extent * u);
+    const double stroke = segment.stroke;
+    y += stroke * law.y;
+    v += stroke * extent * law.v;
+    a += stroke * extent * extent * law.a;
+    j += stroke * extent * extent * extent * law.j;
+  }
+  return {y, v / h, a / (h * h), j / (h * h * h)};
+}
+
+Point evaluateCurve(const Curve &curve, double x, bool periodic, uint32_t &index) noexcept {
+  const auto count = static_cast<uint32_t>(curve.count);
+  switch (curve.form) {
+  case Form::Nodes:
+    index = pieceAt(x, count - 1, index, [&](uint32_t i) { return node(curve, i).x; });
+    return evaluateQuintic(node(curve, index), node(curve, index + 1), x);
+  case Form::Segments:
+    index = pieceAt(x, count, index, [&](uint32_t i) { return segment(curve, i).start; });
+    return evaluateSegment(segment(curve, index), x);
+  default:
+    return evaluateTable(curve, x, periodic, index);
+  }
+}
+
+double riseOf(const Curve &curve) noexcept {
+  uint32_t first = 0;
+  auto last = static_cast<uint32_t>(curve.count - 1);
+  return evaluateCurve(curve, curve.end, false, last).y -
+         evaluateCurve(curve, curve.start, false, first).y;
+}
+
+} // namespace stride::cam

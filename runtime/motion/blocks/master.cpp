@@ -1,0 +1,69 @@
+#include "runtime/motion/blocks/master.hpp"
+
+#include "runtime/axis/modulo_wrap.hpp"
+
+namespace stride::motion {
+namespace {
+
+struct Seen {
+  double position; ///< As shown.
+  double velocity;
+  double acceleration;
+};
+
+Seen see(const axis::AxisRef &ref, bool actual) noexcept {
+  if (!actual)
+    return {ref.fSetPosition, ref.fSetVelocity, ref.fSetAcceleration};
+  return {ref.fActPosition, ref.fActVelocity, ref.fActAcceleration};
+}
+
+/// The shown position without what the zero point has been shifted by since the first look.
+double withoutShift(const MasterState &master, const axis::AxisRef &ref, double shown) noexcept {
+  const double shift = ref.fOffsetPosition - master.fOffset;
+  if (shift == 0.0)
+    return shown;
+  return axis::isRotary(ref) ? axis::wrapPosition(shown - shift, ref.fPositionPeriod)
+                             : shown - shift;
+}
+
+/// Periods, rounded to the nearest whole number.
+int64_t nearest(double periods) noexcept {
+  if (!(exact::fabs(periods) < 4503599627370496.0))
+    return 0;
+  return static_cast<int64_t>(exact::floor(periods + 0.5));
+}
+
+} // namespace
+
+MasterMotion beginMaster(MasterState &master, axis::AxisRef &ref) noexcept {
+  master.bActual = ref.bRegulatorOn == 0;
+  const Seen seen = see(ref, master.bActual != 0);
+  master.pAxis = &ref;
+  master.fOffset = ref.fOffsetPosition;
+  master.liTurns = 0;
+  master.fPosition = seen.position;
+  master.fVelocity = seen.velocity;
+  return {{seen.position, 0.0}, seen.velocity, seen.acceleration, 0.0};
+}
+
+MasterMotion readMaster(MasterState &master, axis::AxisRef &ref) noexcept {
+  master.bActual = ref.bRegulatorOn == 0;
+  master.pAxis = &ref;
+  const Seen seen = see(ref, master.bActual != 0);
+  const double position = withoutShift(master, ref, seen.position);
+  double travel = position - master.fPosition;
+  const double period = ref.fPositionPeriod;
+  const bool rotary = axis::isRotary(ref);
+  if (rotary) {
+    const double expected = 0.5 * (master.fVelocity + seen.velocity) * ref.fTaskCycle;
+    const int64_t turns = nearest((expected - travel) / period);
+    master.liTurns += turns;
+    travel += static_cast<double>(turns) * period;
+  }
+  master.fPosition = position;
+  master.fVelocity = seen.velocity;
+  return {rotary ? cam::totalOf(master.liTurns, period, position) : cam::Total{position, 0.0},
+          seen.velocity, seen.acceleration, travel};
+}
+
+} // namespace stride::motion
