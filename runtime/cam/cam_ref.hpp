@@ -19,6 +19,8 @@ static_assert(sizeof(Node) == sizeof(::st::SM_DriveBasic::SMC_CAMXYVA));
 static_assert(sizeof(Segment) == sizeof(::st::SM_DriveBasic::SMC_CAM_SEGMENT));
 static_assert(__builtin_offsetof(Segment, stroke) ==
               __builtin_offsetof(::st::SM_DriveBasic::SMC_CAM_SEGMENT, dStroke));
+static_assert(__builtin_offsetof(Segment, inflexion) ==
+              __builtin_offsetof(::st::SM_DriveBasic::SMC_CAM_SEGMENT, dInflexion));
 static_assert(__builtin_offsetof(Segment, law) ==
               __builtin_offsetof(::st::SM_DriveBasic::SMC_CAM_SEGMENT, eLaw));
 

@@ -169,8 +169,7 @@ bool isFiniteSegment(const Segment &segment) noexcept {
   bool good = exact::isfinite(segment.start) && segment.end > segment.start &&
               exact::isfinite(segment.end) && exact::isfinite(segment.stroke) &&
               exact::isfinite(segment.lawBegin) && exact::isfinite(segment.lawEnd) &&
-              exact::isfinite(segment.parameter) && segment.law >= Law::Polynomial &&
-              segment.law <= Law::ModifiedTrapezoid;
+              isUsable({segment.law, segment.parameter, segment.inflexion});
   for (const double coefficient : segment.coefficients)
     good = good && exact::isfinite(coefficient);
   return good;
@@ -270,6 +269,36 @@ Point evaluateQuintic(const Node &left, const Node &right, double x) noexcept {
   return {y, v / h, a / (h * h), j / (h * h * h)};
 }
 
+Segment makeSegment(const LawShape &shape, const Node &left, const Node &right) noexcept {
+  const double h = right.x - left.x;
+  const double d = right.y - left.y;
+  const double v0 = left.v * h;
+  const double v1 = right.v * h;
+  const bool harmonic = shape.law == Law::Harmonic;
+  const double a0 = harmonic ? 0.0 : left.a * h * h;
+  const double a1 = harmonic ? 0.0 : right.a * h * h;
+  Segment out{left.x,
+              right.x,
+              {left.y, v0, 0.5 * a0, 0.0, 0.0, 0.0, 0.0, 0.0},
+              0.0,
+              0.0,
+              1.0,
+              shape.parameter,
+              shape.inflexion,
+              shape.law};
+  if (shape.law == Law::Polynomial) {
+    out.coefficients[3] = 10.0 * d - 6.0 * v0 - 4.0 * v1 - 1.5 * a0 + 0.5 * a1;
+    out.coefficients[4] = -15.0 * d + 8.0 * v0 + 7.0 * v1 + 1.5 * a0 - a1;
+    out.coefficients[5] = 6.0 * d - 3.0 * v0 - 3.0 * v1 - 0.5 * a0 + 0.5 * a1;
+    return out;
+  }
+  // The velocity goes over in a cubic; the law does what is left of the way.
+  out.coefficients[3] = (3.0 * (v1 - v0) - 2.0 * a0 - a1) / 3.0;
+  out.coefficients[4] = 0.25 * (a0 + a1 - 2.0 * (v1 - v0));
+  out.stroke = d - (0.5 * (v0 + v1) + (a0 - a1) / 12.0);
+  return out;
+}
+
 Point evaluateSegment(const Segment &segment, double x) noexcept {
   const double h = segment.end - segment.start;
   const double u = (x - segment.start) / h;
@@ -288,7 +317,8 @@ Point evaluateSegment(const Segment &segment, double x) noexcept {
   j *= 6.0;
   if (segment.law != Law::Polynomial) {
     const double extent = segment.lawEnd - segment.lawBegin;
-    const Point law = evaluateLaw(segment.law, segment.parameter, segment.lawBegin + extent * u);
+    const Point law = evaluateLaw({segment.law, segment.parameter, segment.inflexion},
+                                  segment.lawBegin + extent * u);
     const double stroke = segment.stroke;
     y += stroke * law.y;
     v += stroke * extent * law.v;

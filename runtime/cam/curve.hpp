@@ -39,6 +39,7 @@ struct Segment {
   double lawBegin;
   double lawEnd;
   double parameter;
+  double inflexion;
   Law law;
 };
 
@@ -89,6 +90,15 @@ double riseOf(const Curve &curve) noexcept;
 
 /// The quintic through two nodes at `x`.
 Point evaluateQuintic(const Node &left, const Node &right, double x) noexcept;
+
+/// A segment between two places, whatever they are in VDI 2143: at rest (v = a = 0), with constant
+/// velocity (a = 0), reversal (v = 0) or moving. Position, velocity and acceleration are those of
+/// both places, except for Harmonic, whose accelerations at the ends are its own. Between places of
+/// one velocity with a = 0 the motion is the law and a line; between others a polynomial of degree
+/// 4 takes the velocity and acceleration from the one to the other and the law does the rest of the
+/// way. Polynomial: the quintic (3-4-5 from rest to rest). Needs isUsable(shape), finite places and
+/// right.x > left.x.
+Segment makeSegment(const LawShape &shape, const Node &left, const Node &right) noexcept;
 
 /// A segment at `x`.
 Point evaluateSegment(const Segment &segment, double x) noexcept;

@@ -23,8 +23,20 @@ struct Point {
   double j; ///< [slave u/master u^3]
 };
 
-/// The law at `u`, 0 to 1, with derivatives with respect to u; zeros for Polynomial.
-Point evaluateLaw(Law law, double parameter, double u) noexcept;
+/// What a law needs besides its name.
+struct LawShape {
+  Law law = Law::Polynomial;
+  double parameter = 0.25; ///< ModifiedSine: 0 (harmonic) to below 1; 0.5 is Cycloidal.
+  double inflexion = 0.5;  ///< Where the velocity is greatest, between 0 and 1; 0.5: symmetric.
+};
+
+/// Whether the parameters are numbers that the law can do with.
+bool isUsable(const LawShape &shape) noexcept;
+
+/// The law at `u`, 0 to 1, with derivatives with respect to u; zeros for Polynomial. 0 at 0 and 1
+/// at 1, exactly. Beyond that its outermost piece goes on. Where the jerk jumps it is that of one
+/// side. Source: VDI 2143 sheet 1; R. L. Norton, Cam Design and Manufacturing Handbook, chapter 3.
+Point evaluateLaw(const LawShape &shape, double u) noexcept;
 
 } // namespace stride::cam
 
