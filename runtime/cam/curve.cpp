@@ -343,10 +343,18 @@ Point evaluateCurve(const Curve &curve, double x, bool periodic, uint32_t &index
 }
 
 double riseOf(const Curve &curve) noexcept {
-  uint32_t first = 0;
-  auto last = static_cast<uint32_t>(curve.count - 1);
-  return evaluateCurve(curve, curve.end, false, last).y -
-         evaluateCurve(curve, curve.start, false, first).y;
+  const auto last = static_cast<uint32_t>(curve.count - 1);
+  switch (curve.form) {
+  case Form::Nodes:
+    return node(curve, last).y - node(curve, 0).y;
+  case Form::Segments:
+    return evaluateSegment(segment(curve, last), curve.end).y -
+           evaluateSegment(segment(curve, 0), curve.start).y;
+  default: {
+    const Table table(curve);
+    return table.y(table.last()) - table.y(0);
+  }
+  }
 }
 
 } // namespace stride::cam
