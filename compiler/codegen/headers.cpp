@@ -56,7 +56,10 @@ public:
     }
     for (const VarSymbol *v : type->fields)
       field(v);
-    init(c_.layouts.needsInit(type));
+    if (symbol->onDemand)
+      initHere(type);
+    else
+      init(c_.layouts.needsInit(type));
     lifecycle(type);
     assignment(type);
     body_ += "};\n";
@@ -244,6 +247,24 @@ private:
         needed ? "  void init__(::stride::Ctx &ctx__);\n" : "  void init__(::stride::Ctx &) {}\n";
   }
 
+  /// The whole function: no source of the library has it.
+  void initHere(const StructType *type) {
+    Emitter emitter(c_, nullptr);
+    emitter.writer().indent();
+    emitter.writer().indent();
+    for (const VarSymbol *v : type->fields)
+      if (c_.layouts.needsInit(v))
+        emitter.initVariable("this->" + fieldName(v), v);
+    body_ += "  void init__(::stride::Ctx &) {\n";
+    const std::string statements = emitter.takeWriter().take();
+    for (std::size_t at = 0, end = 0; at < statements.size(); at = end) {
+      end = statements.find('\n', at) + 1;
+      if (statements[at] != '#') // a place in the ST
+        body_ += statements.substr(at, end - at);
+    }
+    body_ += "  }\n";
+  }
+
   /// Assignment that leaves the bindings of in-outs as they are.
   void assignment(const Type *type) {
     if (c_.layouts.hasBindings(type))
@@ -364,6 +385,10 @@ bool rootHasLifecycle(Context &context, const Root &root, std::string_view lower
 
 void generateHeaders(Context &context, std::vector<GeneratedFile> &files) {
   const Library &library = *context.own;
+  for (const auto &other : context.program.libraries)
+    for (const TypeSymbol *t : other->types)
+      if (other.get() != &library && t->onDemand)
+        files.push_back(HeaderBuilder(context).structure(t));
   for (const TypeSymbol *t : library.types) {
     if (t->type->kind == TypeKind::structure && t->decl != nullptr &&
         t->decl->kind == DeclKind::structure)

@@ -370,7 +370,7 @@ void generateSources(Context &context, std::vector<GeneratedFile> &files) {
   bool any = false;
   for (const TypeSymbol *t : library.types) {
     if (t->type->kind != TypeKind::structure || t->decl == nullptr ||
-        t->decl->kind != DeclKind::structure)
+        t->decl->kind != DeclKind::structure || t->onDemand)
       continue;
     const auto *type = typeAs<StructType>(t->type);
     types.emitter().includes().symbol(t);

@@ -74,6 +74,8 @@ private:
   Symbol *lookupInLibraries(Ident id);
   /// `Library.Name`
   Symbol *lookupInLibrary(Ident library, Ident id);
+  /// A cam table of that name (cam_tables.hpp); null when it is none.
+  Symbol *declareCamTable(Ident id);
   EnumeratorSymbol *lookupEnumerator(const ast::Name &name, const Type *expected, bool &ambiguous);
   static EnumeratorSymbol *findEnumerator(const EnumType *type, Ident id);
   VarSymbol *findMember(const Type *type, Ident id);

@@ -361,6 +361,11 @@ void Checker::declareUsed() {
         declare(library->globals[i]);
       for (std::size_t i = 0; i < library->types.size(); ++i) {
         TypeSymbol *t = library->types[i];
+        if (t->onDemand) { // the application holds its code
+          const ScopeGuard guard(*this, {&moduleOf(t), nullptr, t->decl});
+          for (VarSymbol *field : typeAs<StructType>(t->type)->fields)
+            checkInitOf(field);
+        }
         const bool alias = t->decl != nullptr && t->decl->kind == DeclKind::alias;
         if (!alias || t->init == nullptr || t->init->type != nullptr)
           continue;

@@ -1,5 +1,6 @@
 // Looking names up.
 
+#include "compiler/semantics/cam_tables.hpp"
 #include "compiler/semantics/checker.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/suggest.hpp"
@@ -26,7 +27,21 @@ Symbol *Checker::lookupInLibraries(Ident id) {
       return symbol;
     }
   }
-  return nullptr;
+  return libraryMisses_[id] = declareCamTable(id);
+}
+
+Symbol *Checker::declareCamTable(Ident id) {
+  if (!looksLikeCamTable(id->lower))
+    return nullptr;
+  const CamTableName table = readCamTable(id->lower);
+  if (!table.problem.empty())
+    return nullptr;
+  const std::string library(kCamTableLibrary);
+  const std::string file = "<stdlib>/" + library + "/" + table.name + ".st";
+  loadLibraryFile({library, file, camTableDeclaration(table)});
+  Symbol *symbol = lookupInModule(module(library), id);
+  static_cast<TypeSymbol *>(symbol)->onDemand = true;
+  return symbol;
 }
 
 Symbol *Checker::lookupInLibrary(Ident library, Ident id) {
@@ -40,7 +55,7 @@ Symbol *Checker::lookupInLibrary(Ident library, Ident id) {
     if (const auto list = found.lists.find(id); list != found.lists.end())
       return list->second;
   }
-  return nullptr;
+  return index_.answersTo(kCamTableLibrary, library->lower) ? declareCamTable(id) : nullptr;
 }
 
 Symbol *Checker::lookup(const Name &name) {
@@ -320,6 +335,16 @@ void Checker::reportUnknown(const Name &name, bool asType) {
                       "cannot find type `" + std::string(name.text) + "`", "no type of this name")
              : report(Code::unknownName, name.span, "cannot find `" + std::string(name.text) + "`",
                       "not declared in this scope");
+  if (looksLikeCamTable(name.id->lower)) {
+    const CamTableName table = readCamTable(name.id->lower);
+    if (!table.problem.empty())
+      d.note(table.problem);
+    if (table.problem.empty())
+      d.help("it is in the library `" + std::string(kCamTableLibrary) + "`");
+    else if (!table.help.empty())
+      d.help(table.help);
+    return;
+  }
   if (helpElsewhere(d, name, asType))
     return;
   const std::string_view similar = nearest(name.text, visibleNames(asType));

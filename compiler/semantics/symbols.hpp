@@ -141,6 +141,7 @@ struct TypeSymbol : Symbol {
   ast::Decl *decl = nullptr;  ///< null for the elementary types
   const Type *type = nullptr; ///< what it names; null until resolved
   bool resolving = false;
+  bool onDemand = false; ///< declared because the program names it: no header of the library has it
   std::unordered_map<Ident, VarSymbol *> fields; ///< structure: also inherited ones
   ast::Expr *init = nullptr;                     ///< default of an alias or enumeration
 };

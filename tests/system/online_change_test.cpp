@@ -43,6 +43,33 @@ END_PROGRAM
             "24 6.0 TRUE 42 147");
 }
 
+// A type that the compiler provides: values of a longer table are kept as those of a longer array.
+TEST(OnlineChange, CamTables) {
+  Live live(R"(
+PROGRAM PLC_PRG
+VAR t : SMC_CAMTable_UINT_3_1 := (Table := [1, 2, 3], fEditorMasterMax := 360); n : INT; END_VAR
+  t.Table[n] := 70; n := n + 1;
+END_PROGRAM
+)");
+  live.run(1);
+  live.change(R"(
+PROGRAM PLC_PRG
+VAR
+  n : INT; added : SMC_CAMTable_REAL_2_2;
+  t : SMC_CAMTable_UINT_4_1 := (Table := [5, 5, 5, 5], fTableSlaveMin := 4);
+END_VAR
+  t.Table[n] := 80; n := n + 1;
+END_PROGRAM
+)");
+  EXPECT_EQ(live.verdict, Verdict::Silent);
+  live.run(1);
+  EXPECT_EQ(
+      live.values({"PLC_PRG.t.Table[0]", "PLC_PRG.t.Table[1]", "PLC_PRG.t.Table[2]",
+                   "PLC_PRG.t.Table[3]", "PLC_PRG.t.fEditorMasterMax", "PLC_PRG.t.fTableSlaveMin",
+                   "PLC_PRG.t.fTableSlaveMax", "PLC_PRG.added.fTableSlaveMax"}),
+      "70 80 3 5 360.0 0.0 1.0 1.0");
+}
+
 TEST(OnlineChange, RetypedAndRenamed) {
   Live live(R"(
 TYPE Mode : (off, manual, automatic); END_TYPE
