@@ -311,11 +311,22 @@ void planAnew(AxisRef &ref) noexcept {
   follow(ref, course, command);
 }
 
+/// Whether the command that waits next is that of a block which moves the axis by itself.
+bool isFollowerNext(const AxisRef &ref) noexcept {
+  const Command *next = nextOf(ref);
+  return next != nullptr && next->eKind == kind::kSynchronized;
+}
+
 /// The next command follows the motion that ends in `start`, `late` seconds before this cycle's
 /// set values. False if it cannot be planned.
 bool handOver(AxisRef &ref, const State &start, double late) noexcept {
   Command next = ref.stQueue.aCommand.v[0];
   removeAt(ref, 0);
+  if (next.eKind == kind::kSynchronized) {
+    axis::giveAxis(ref, next.ulOwner);
+    ref.nAxisState = axis::state::kSynchronized;
+    return true;
+  }
   settleDirections(ref, next, start);
   Course course;
   if (planCourse(course, ref, next, start, start.position, nextOf(ref)) != PlanError::None)
@@ -432,14 +443,39 @@ bool beginQueued(AxisRef &axis, uint64_t owner) noexcept {
          handOver(axis, axis::setState(axis), axis.fTaskCycle);
 }
 
+bool giveToNext(AxisRef &axis) noexcept {
+  while (axis.stQueue.uiCount > 0)
+    if (handOver(axis, axis::setState(axis), 0.0))
+      return true;
+  return false;
+}
+
+void beginCoasting(AxisRef &axis, uint64_t owner) noexcept {
+  const State start = presentState(axis);
+  axis.stQueue.uiCount = 0;
+  axis::giveAxis(axis, owner);
+  auto &plan = axis.stPlanner;
+  axis::beginPlan(plan, axis.fTaskCycle, 0.0, start.position, start.velocity);
+  plan.bReached = 1;
+  plan.fTarget = start.position;
+  plan.fDeceleration = 0.0; // an error stop brakes with fSWMaxDeceleration
+  plan.stCommand = {};
+  plan.stCommand.eKind = kind::kVelocity;
+  plan.stCommand.fVelocity = exact::fabs(start.velocity);
+  plan.stCommand.eDirection = static_cast<int16_t>(lastMotion(axis, start));
+  axis.fAimPosition = start.position;
+  axis.nAxisState = axis::state::kContinuous;
+}
+
 bool advance(AxisRef &axis) noexcept {
   auto &plan = axis.stPlanner;
   if (axis.bMovedInThisCycle != 0 || plan.bActive == 0)
     return false;
-  if (plan.bReached != 0 && plan.bHeld == 0 && axis.stQueue.uiCount > 0 &&
-      handOver(axis, axis::setState(axis), plan.fCycle))
+  const bool onItsWay = plan.bReached != 0 && plan.bHeld == 0 && axis.stQueue.uiCount > 0;
+  const bool follower = isFollowerNext(axis); // does not move the axis before its next call
+  if (onItsWay && !follower && handOver(axis, axis::setState(axis), plan.fCycle))
     return true; // it was on its way without an end
-  if (!axis::stepPlan(axis))
+  if (!axis::stepPlan(axis) && !(onItsWay && follower))
     return false;
   if (isContinuous(plan.stCommand)) {
     // From here on only the velocity is left of the command.

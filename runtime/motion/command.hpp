@@ -26,10 +26,12 @@ inline constexpr int16_t kContinuousRelative =
     ::st::SM_DriveBasic::SMC_MOTION_KIND__continuous_relative;
 inline constexpr int16_t kHalt = ::st::SM_DriveBasic::SMC_MOTION_KIND__halt;
 inline constexpr int16_t kStop = ::st::SM_DriveBasic::SMC_MOTION_KIND__stop;
+inline constexpr int16_t kSynchronized = ::st::SM_DriveBasic::SMC_MOTION_KIND__synchronized_motion;
 } // namespace kind
 
 /// Whether the axis can carry the command out from where it is: kNone, or the SMC_ERROR of the
 /// block that gives commands of this kind (invalid velocity or acceleration, invalid direction).
+/// Not for kSynchronized, of which only owner and kind count: its block moves the axis.
 int16_t checkCommand(const AxisRef &axis, const Command &command) noexcept;
 
 /// Makes the command the axis's motion, from its present set values; waiting commands and a
@@ -48,8 +50,18 @@ void withdrawCommand(AxisRef &axis, uint64_t owner) noexcept;
 bool isQueued(const AxisRef &axis, uint64_t owner) noexcept;
 
 /// Begins the instance's waiting command on an axis that nobody owns, and moves the axis by one
-/// cycle. False if it is not the next one or cannot be carried out.
+/// cycle (kSynchronized: gives it the axis). False if it is not the next one or cannot be carried
+/// out.
 bool beginQueued(AxisRef &axis, uint64_t owner) noexcept;
+
+/// Gives the axis to the command that waits next, which begins with the set values of this cycle.
+/// For blocks that move the axis by themselves, when they have what was asked of them. False if
+/// none waits that can be carried out.
+bool giveToNext(AxisRef &axis) noexcept;
+
+/// Lets the axis go on with the velocity of its present set values, until another command takes it:
+/// as a velocity command that has reached it. The instance `owner` owns the axis.
+void beginCoasting(AxisRef &axis, uint64_t owner) noexcept;
 
 /// Moves the axis's motion on by one cycle and writes its set values, unless they have been written
 /// in this cycle. Called by its owner. When the target has been reached, stPlanner.bReached is set,

@@ -5,8 +5,13 @@
 namespace stride::motion {
 
 void beginFollowing(FollowState &follow, BlockState &block, AxisRef &ref) noexcept {
-  const axis::MotionState start = axis::setState(ref);
   take(block, ref, axis::state::kSynchronized);
+  startFollowing(follow, ref);
+}
+
+void startFollowing(FollowState &follow, AxisRef &ref) noexcept {
+  const axis::MotionState start = axis::setState(ref);
+  ref.nAxisState = axis::state::kSynchronized;
   ref.stPlanner.fDeceleration = 0.0; // an error stop brakes with fSWMaxDeceleration
   follow.fPosition = start.position;
   follow.fVelocity = start.velocity;

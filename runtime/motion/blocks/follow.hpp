@@ -15,6 +15,9 @@ using FollowState = ::st::SM_DriveBasic::SMC_FOLLOW_STATE;
 /// synchronized_motion, no plan, nothing waiting.
 void beginFollowing(FollowState &follow, BlockState &block, AxisRef &ref) noexcept;
 
+/// The same for a block to which the axis has been given already.
+void startFollowing(FollowState &follow, AxisRef &ref) noexcept;
+
 /// First in every cycle: the last set position keeps its place when the zero point has been
 /// shifted.
 void alignFollowing(FollowState &follow, const AxisRef &ref) noexcept;

@@ -31,8 +31,9 @@ void move(BlockState &block, AxisRef &ref) noexcept {
     finish(block);
 }
 
-/// Whether the waiting command's turn has come; if it cannot come any more, the outcome says why.
-bool leaveQueue(BlockState &block, AxisRef &ref) noexcept {
+} // namespace
+
+bool awaitTurn(BlockState &block, AxisRef &ref) noexcept {
   if (axis::ownsAxis(ref, block.ulOwner)) {
     block.bWaiting = 0;
     return true;
@@ -50,8 +51,6 @@ bool leaveQueue(BlockState &block, AxisRef &ref) noexcept {
   }
   return false;
 }
-
-} // namespace
 
 void startCommand(BlockState &block, AxisRef &ref, const Command &inputs) noexcept {
   const bool owner = block.bRunning != 0 && axis::ownsAxis(ref, block.ulOwner);
@@ -86,7 +85,7 @@ void startCommand(BlockState &block, AxisRef &ref, const Command &inputs) noexce
 }
 
 void continueCommand(BlockState &block, AxisRef &ref) noexcept {
-  if (block.bWaiting != 0 && !leaveQueue(block, ref))
+  if (block.bWaiting != 0 && !awaitTurn(block, ref))
     return;
   if (keep(block, ref))
     move(block, ref);

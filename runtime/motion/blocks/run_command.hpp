@@ -15,6 +15,10 @@ void startCommand(BlockState &block, AxisRef &ref, const Command &command) noexc
 /// Moves the axis on, or waits for the command's turn.
 void continueCommand(BlockState &block, AxisRef &ref) noexcept;
 
+/// Whether the waiting command's turn has come, so that it owns the axis; if it cannot come any
+/// more, the outcome says why.
+bool awaitTurn(BlockState &block, AxisRef &ref) noexcept;
+
 /// One call: at a rising edge of `execute`, `read` fills in the command from the block's inputs.
 template <class Read>
 void runCommand(BlockState &block, bool execute, AxisRef *ref, const Read &read) noexcept {
