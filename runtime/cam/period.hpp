@@ -36,12 +36,14 @@ struct Place {
 /// Where `total` is on a scale that repeats itself every `length` > 0 from `start` on. Beyond 2^52
 /// periods the place is `start`.
 inline Place placeOf(Total total, double start, double length) noexcept {
-  const double count = exact::floor((total.hi - start) / length);
+  if (total.lo == 0.0 && total.hi >= start && total.hi < start + length)
+    return {0, total.hi};
+  const double count = (total.hi - start) / length;
   if (!(exact::fabs(count) < 4503599627370496.0))
     return {0, start};
-  auto period = static_cast<int64_t>(count);
-  if (period == 0 && total.lo == 0.0 && total.hi >= start && total.hi < start + length)
-    return {0, total.hi};
+  auto period = static_cast<int64_t>(count); // rounded towards 0: mended below
+  if (count < static_cast<double>(period))
+    --period;
   const auto rest = [&] {
     const Total begin = detail::twoProduct(static_cast<double>(period), length);
     return toDouble(detail::add(total, {-begin.hi, -begin.lo}));

@@ -23,6 +23,8 @@ cam::Place placeIn(const CamState &state, const cam::Curve &curve, cam::Total ma
   return {0, cam::toDouble(master)};
 }
 
+bool isFactor(double scaling) noexcept { return exact::isfinite(scaling) && scaling != 0.0; }
+
 } // namespace
 
 cam::Place placeInCam(const CamState &state, const cam::Curve &curve,
@@ -30,7 +32,7 @@ cam::Place placeInCam(const CamState &state, const cam::Curve &curve,
   return placeIn(state, curve, scaledMaster(state, master));
 }
 
-int16_t openCam(const CamId &id, const CamInputs &inputs, cam::Curve &curve) noexcept {
+int16_t openCam(const CamId &id, cam::Curve &curve) noexcept {
   if (id.pCam == nullptr)
     return number::SMC_ERROR__SMC_CI_NO_CAM_SELECTED;
   curve = cam::curveOf(*id.pCam);
@@ -39,14 +41,14 @@ int16_t openCam(const CamId &id, const CamInputs &inputs, cam::Curve &curve) noe
       curve.form < cam::Form::EvenTable || curve.form > cam::Form::Segments ||
       !exact::isfinite(curve.start) || !exact::isfinite(curve.end) || !(curve.end > curve.start))
     return number::SMC_ERROR__SMC_NO_CAM_REF_TYPE;
-  const bool usable = exact::isfinite(inputs.masterOffset) && exact::isfinite(inputs.slaveOffset) &&
-                      exact::isfinite(inputs.masterScaling) && inputs.masterScaling != 0.0 &&
-                      exact::isfinite(inputs.slaveScaling) && inputs.slaveScaling != 0.0;
-  return usable ? number::SMC_ERROR__SMC_NO_ERROR : number::SMC_ERROR__SMC_CI_SCALING_INCORRECT;
+  return number::SMC_ERROR__SMC_NO_ERROR;
 }
 
 int16_t enterCam(CamState &state, const cam::Curve &curve, const CamInputs &inputs,
                  const CamStart &start, const MasterMotion &master) noexcept {
+  if (!exact::isfinite(inputs.masterOffset) || !exact::isfinite(inputs.slaveOffset) ||
+      !isFactor(inputs.masterScaling) || !isFactor(inputs.slaveScaling))
+    return number::SMC_ERROR__SMC_CI_SCALING_INCORRECT;
   state.fMasterScaling = inputs.masterScaling;
   state.fSlaveScaling = inputs.slaveScaling;
   state.fMasterShift = inputs.masterOffset;

@@ -32,9 +32,9 @@ struct CamTarget {
   axis::MotionState state; ///< Position as the slave shows it, velocity, acceleration.
 };
 
-/// The curve of the selected cam: an SMC_ERROR if none is selected (625), it is none (750), or a
-/// scaling is wrong (628). Does not look at all of its data, which MC_CamTableSelect has done.
-int16_t openCam(const CamId &id, const CamInputs &inputs, cam::Curve &curve) noexcept;
+/// The curve of the selected cam: an SMC_ERROR if none is selected (625) or it is none (750). Does
+/// not look at all of its data, which MC_CamTableSelect has done.
+int16_t openCam(const CamId &id, cam::Curve &curve) noexcept;
 
 /// The master's place in the cam that `state` has been set up for.
 cam::Place placeInCam(const CamState &state, const cam::Curve &curve,
@@ -47,8 +47,8 @@ struct CamStart {
   bool relative;     ///< The slave's positions are relative.
 };
 
-/// Sets a cam up from where the master is; `state.stCam` names it. SMC_ERROR 626 if the master is
-/// outside of a cam that is not periodic.
+/// Sets a cam up from where the master is; `state.stCam` names it. An SMC_ERROR if a scaling is 0
+/// or an input no number (628), or the master is outside of a cam that is not periodic (626).
 int16_t enterCam(CamState &state, const cam::Curve &curve, const CamInputs &inputs,
                  const CamStart &start, const MasterMotion &master) noexcept;
 

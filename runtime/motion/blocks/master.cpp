@@ -30,7 +30,7 @@ double withoutShift(const MasterState &master, const axis::AxisRef &ref, double 
 int64_t nearest(double periods) noexcept {
   if (!(exact::fabs(periods) < 4503599627370496.0))
     return 0;
-  return static_cast<int64_t>(exact::floor(periods + 0.5));
+  return static_cast<int64_t>(periods + (periods < 0.0 ? -0.5 : 0.5));
 }
 
 } // namespace

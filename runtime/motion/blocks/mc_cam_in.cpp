@@ -142,8 +142,7 @@ int16_t enter(Block &block, AxisRef &slave, const motion::MasterMotion &master,
   auto &state = block.stCam;
   const motion::CamInputs inputs = inputsOf(block);
   cam::Curve curve;
-  if (const int16_t error = motion::openCam(block.CamTableID, inputs, curve);
-      error != axis::error::kNone)
+  if (const int16_t error = motion::openCam(block.CamTableID, curve); error != axis::error::kNone)
     return error;
   if (block.StartMode < mode::MC_StartMode__absolute ||
       block.StartMode > mode::MC_StartMode__ramp_in_dist)
@@ -215,8 +214,7 @@ int16_t replace(Block &block, AxisRef &slave, const cam::Curve &ended, motion::C
   const motion::CamInputs inputs{block.MasterOffset, block.SlaveOffset, state.fMasterScaling,
                                  state.fSlaveScaling};
   cam::Curve curve;
-  if (const int16_t error = motion::openCam(block.CamTableID, inputs, curve);
-      error != axis::error::kNone)
+  if (const int16_t error = motion::openCam(block.CamTableID, curve); error != axis::error::kNone)
     return error;
   // What is passed after the joint belongs to the other cam; it is reported in the next cycle.
   const cam::Place end{target.place.period, periodic ? ended.start : ended.end};
@@ -248,8 +246,7 @@ void go(Block &block, AxisRef &slave, int64_t cycleStart) noexcept {
   const motion::MasterMotion master = motion::readMaster(state.stMaster, *block.Master);
   cam::Curve curve;
   motion::CamTarget target;
-  int16_t problem =
-      motion::openCam(state.stCam, {0.0, 0.0, state.fMasterScaling, state.fSlaveScaling}, curve);
+  int16_t problem = motion::openCam(state.stCam, curve);
   if (problem == axis::error::kNone && !motion::evaluateCam(state, curve, master, slave, target))
     problem = axis::error::kOutOfRange;
   const axis::MotionState added = compensation(state);

@@ -42,7 +42,7 @@ void st::SM_PLCopen::SMC_GetCamSlaveSetPosition::body__(::stride::Ctx & /*ctx__*
       ErrorID = axis::error::kNoAxis;
     } else {
       state.stCam = *CamTableID;
-      ErrorID = motion::openCam(state.stCam, inputs, curve);
+      ErrorID = motion::openCam(state.stCam, curve);
     }
     if (ErrorID == axis::error::kNone) {
       const motion::MasterMotion master = motion::beginMaster(state.stMaster, *Master);

@@ -8,6 +8,7 @@
 
 #include "runtime/app/ctx.h"
 
+#include "tests/bench/motion/echo_driver.hpp"
 #include "tests/support/fresh.hpp"
 
 #include <benchmark/benchmark.h>
@@ -78,36 +79,6 @@ void planMove(benchmark::State &state) {
 }
 BENCHMARK(planMove)->ArgName("ramp")->DenseRange(0, 3);
 
-/// Drives that cost nothing: what they are told has happened in the next cycle.
-class EchoDriver final : public stride::axis::AxisDriver {
-public:
-  explicit EchoDriver(std::size_t count) : statuses_(count) {
-    for (auto &status : statuses_)
-      status.communication = true;
-  }
-  void executeStart() override {}
-  void executeEnd() override {}
-  stride::axis::StartUp init(std::size_t /*drive*/, uint16_t & /*progress*/,
-                             stride::axis::Message & /*message*/) override {
-    return stride::axis::StartUp::Started;
-  }
-  void reset(std::size_t /*drive*/) override {}
-  [[nodiscard]] stride::axis::DriveStatus status(std::size_t drive) const override {
-    return statuses_[drive];
-  }
-  void command(std::size_t drive, const stride::axis::DriveCommand &command) override {
-    auto &status = statuses_[drive];
-    status.position = command.position;
-    status.velocity = command.velocity;
-    status.regulatorOn = command.regulatorOn;
-    status.driveStarted = command.driveStart;
-  }
-  [[nodiscard]] uint8_t controllerModes(std::size_t /*drive*/) const override { return 8; }
-
-private:
-  std::vector<stride::axis::DriveStatus> statuses_;
-};
-
 /// One cycle of `axes` axes that move to and fro: power, block, ownership, limits, conversion; with
 /// drives that cost nothing, or with the simulated ones.
 void movingAxes(benchmark::State &state) {
@@ -137,9 +108,9 @@ void movingAxes(benchmark::State &state) {
     pointers.push_back(&axes[i]);
   }
   auto group = fresh<stride::axis::AxisGroupRef>();
-  auto driver =
-      simulated ? stride::dummy::makeDummyDriver(count)
-                : std::unique_ptr<stride::axis::AxisDriver>(std::make_unique<EchoDriver>(count));
+  auto driver = simulated ? stride::dummy::makeDummyDriver(count)
+                          : std::unique_ptr<stride::axis::AxisDriver>(
+                                std::make_unique<stride::bench::EchoDriver>(count));
   stride::axis::AxisGroup axisGroup(std::move(driver), group, pointers, 0.001);
   stride::Ctx ctx{};
   const auto cycle = [&] {
