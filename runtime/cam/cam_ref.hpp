@@ -3,7 +3,7 @@
 #ifndef STRIDE_RUNTIME_CAM_CAM_REF_HPP
 #define STRIDE_RUNTIME_CAM_CAM_REF_HPP
 
-#include "runtime/cam/curve.hpp"
+#include "runtime/cam/element_block.hpp"
 
 #include "st/SM_DriveBasic/MC_CAM_REF.h"
 #include "st/SM_DriveBasic/SMC_CAMTappet.h"
@@ -26,12 +26,6 @@ static_assert(__builtin_offsetof(Segment, law) ==
 
 /// MC_CAM_REF.wCamStructID of every cam.
 inline constexpr uint16_t kCamStructId = 0xDC34;
-
-/// What follows the numbers of an SMC_CAMTable_…: eight REALs.
-struct TableScaling {
-  float editorMasterMin, editorMasterMax, editorSlaveMin, editorSlaveMax;
-  float tableMasterMin, tableMasterMax, tableSlaveMin, tableSlaveMax;
-};
 
 /// The curve of a cam, good for one call of a block: the program may change it between two. Without
 /// data if the cam has none, or is none.
