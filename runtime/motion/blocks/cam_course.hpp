@@ -13,32 +13,19 @@
 namespace stride::motion {
 
 using CamId = ::st::SM_PLCopen::MC_CAM_ID;
+using CamCommand = ::st::SM_PLCopen::SMC_CAM_COMMAND;
 using CamState = ::st::SM_PLCopen::SMC_CAM_STATE;
 
-/// Offsets and scalings as the blocks' inputs give them.
-struct CamInputs {
-  double masterOffset;
-  double slaveOffset;
-  double masterScaling;
-  double slaveScaling;
-};
-
-/// Where a cam would have the slave.
+/// Where a cam has the slave.
 struct CamTarget {
   cam::Place place;        ///< Of the master in the cam.
   bool outside;            ///< Outside of a cam that is not periodic.
   double local;            ///< Slave position without whole periods and shifts, scaled. [u]
   double rise;             ///< Of one period, scaled; 0 unless needed. [u]
-  axis::MotionState state; ///< Position as the slave shows it, velocity, acceleration.
+  double velocity;         ///< Of the master in the cam. [master u/s]
+  double acceleration;     ///< Of the master in the cam. [master u/s^2]
+  axis::MotionState state; ///< Of the slave; the position as it shows it.
 };
-
-/// The curve of the selected cam: an SMC_ERROR if none is selected (625) or it is none (750). Does
-/// not look at all of its data, which MC_CamTableSelect has done.
-int16_t openCam(const CamId &id, cam::Curve &curve) noexcept;
-
-/// The master's place in the cam that `state` has been set up for.
-cam::Place placeInCam(const CamState &state, const cam::Curve &curve,
-                      const MasterMotion &master) noexcept;
 
 /// From what a cam begins.
 struct CamStart {
@@ -47,14 +34,29 @@ struct CamStart {
   bool relative;     ///< The slave's positions are relative.
 };
 
-/// Sets a cam up from where the master is; `state.stCam` names it. An SMC_ERROR if a scaling is 0
-/// or an input no number (628), or the master is outside of a cam that is not periodic (626).
-int16_t enterCam(CamState &state, const cam::Curve &curve, const CamInputs &inputs,
-                 const CamStart &start, const MasterMotion &master) noexcept;
+/// What is wrong with offsets and scalings (628), or kNone.
+int16_t checkCamInputs(const CamCommand &command) noexcept;
+
+/// The curve of the selected cam: an SMC_ERROR if none is selected (625) or it is none (750). Does
+/// not look at all of its data, which MC_CamTableSelect has done.
+int16_t openCam(const CamId &id, cam::Curve &curve) noexcept;
+
+/// Sets up the cam that state.stCommand names, from where the master is. SMC_ERROR 626 if that is
+/// outside of a cam that is not periodic.
+int16_t enterCam(CamState &state, const cam::Curve &curve, const CamStart &start,
+                 const MasterMotion &master) noexcept;
+
+/// The master's place in the cam.
+cam::Place placeInCam(const CamState &state, const cam::Curve &curve,
+                      const MasterMotion &master) noexcept;
 
 /// Where the cam has the slave now. False if that is no number.
 bool evaluateCam(CamState &state, const cam::Curve &curve, const MasterMotion &master,
                  const axis::AxisRef &slave, CamTarget &target) noexcept;
+
+/// The slave's position, as it shows it: `periods` after the first one, at `local` in it.
+double slavePosition(const CamState &state, const axis::AxisRef &slave, int64_t periods,
+                     double rise, double local) noexcept;
 
 } // namespace stride::motion
 

@@ -1,5 +1,5 @@
 // MC_CamTableSelect: chooses a cam; SMC_GetCamSlaveSetPosition: where it would have the slave.
-#include "runtime/motion/blocks/cam_course.hpp"
+#include "runtime/motion/blocks/cam_entry.hpp"
 
 #include "st/SM_PLCopen/MC_CamTableSelect.h"
 #include "st/SM_PLCopen/SMC_GetCamSlaveSetPosition.h"
@@ -9,6 +9,37 @@ namespace {
 namespace axis = ::stride::axis;
 namespace cam = ::stride::cam;
 namespace motion = ::stride::motion;
+using Query = ::st::SM_PLCopen::SMC_GetCamSlaveSetPosition;
+using axis::AxisRef;
+
+/// An SMC_ERROR.
+int16_t findPosition(const Query &query, const motion::CamId &id, AxisRef &master,
+                     const AxisRef &slave, double &position) noexcept {
+  motion::CamState state{};
+  auto &command = state.stCommand;
+  command.stCam = id;
+  command.fMasterOffset = query.MasterOffset;
+  command.fSlaveOffset = query.SlaveOffset;
+  command.fMasterScaling = query.MasterScaling;
+  command.fSlaveScaling = query.SlaveScaling;
+  cam::Curve curve;
+  if (const int16_t error = motion::openCam(id, curve); error != axis::error::kNone)
+    return error;
+  if (const int16_t error = motion::checkCamInputs(command); error != axis::error::kNone)
+    return error;
+  const motion::MasterMotion motion = motion::beginMaster(state.stMaster, master);
+  state.stFollow.fFirstOffset = slave.fOffsetPosition;
+  const motion::CamStart start{cam::toDouble(motion.position), motion::onwards(slave).position,
+                               id.SlaveAbsolute == 0};
+  if (const int16_t error = motion::enterCam(state, curve, start, motion);
+      error != axis::error::kNone)
+    return error;
+  motion::CamTarget target;
+  if (!motion::evaluateCam(state, curve, motion, slave, target))
+    return axis::error::kOutOfRange;
+  position = target.state.position;
+  return axis::error::kNone;
+}
 
 } // namespace
 
@@ -34,30 +65,9 @@ void st::SM_PLCopen::MC_CamTableSelect::body__(::stride::Ctx & /*ctx__*/) {
 
 void st::SM_PLCopen::SMC_GetCamSlaveSetPosition::body__(::stride::Ctx & /*ctx__*/) {
   ErrorID = axis::error::kNone;
-  if (Enable != 0) {
-    motion::CamState state{};
-    cam::Curve curve;
-    const motion::CamInputs inputs{MasterOffset, SlaveOffset, MasterScaling, SlaveScaling};
-    if (Master == nullptr || Slave == nullptr || CamTableID == nullptr) {
-      ErrorID = axis::error::kNoAxis;
-    } else {
-      state.stCam = *CamTableID;
-      ErrorID = motion::openCam(state.stCam, curve);
-    }
-    if (ErrorID == axis::error::kNone) {
-      const motion::MasterMotion master = motion::beginMaster(state.stMaster, *Master);
-      state.stFollow.fFirstOffset = Slave->fOffsetPosition;
-      ErrorID = motion::enterCam(
-          state, curve, inputs,
-          {cam::toDouble(master.position), Slave->fSetPosition, state.stCam.SlaveAbsolute == 0},
-          master);
-      motion::CamTarget target;
-      if (ErrorID == axis::error::kNone &&
-          !motion::evaluateCam(state, curve, master, *Slave, target))
-        ErrorID = axis::error::kOutOfRange;
-      if (ErrorID == axis::error::kNone)
-        fStartPosition = target.state.position;
-    }
-  }
+  if (Enable != 0)
+    ErrorID = Master == nullptr || Slave == nullptr || CamTableID == nullptr
+                  ? axis::error::kNoAxis
+                  : findPosition(*this, *CamTableID, *Master, *Slave, fStartPosition);
   Error = ErrorID != axis::error::kNone;
 }

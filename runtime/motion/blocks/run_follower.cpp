@@ -58,10 +58,15 @@ bool passOn(BlockState &block, AxisRef &slave, bool shown) noexcept {
   return true;
 }
 
-void showReached(BlockState &block, AxisRef &slave, bool reached) noexcept {
+void noteReached(BlockState &block, bool reached) noexcept {
   const bool before = block.bReached != 0;
   block.bReached = reached;
   block.bDone = reached && (block.bExecuteOld != 0 || !before);
+}
+
+void showReached(BlockState &block, AxisRef &slave, bool reached) noexcept {
+  const bool before = block.bReached != 0;
+  noteReached(block, reached);
   if (reached)
     (void)passOn(block, slave, before);
 }

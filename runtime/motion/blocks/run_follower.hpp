@@ -65,8 +65,11 @@ Turn callFollower(BlockState &block, MasterState &master, FollowState &follow, b
 /// is aborted, else it has finished. True if the block is over.
 bool passOn(BlockState &block, AxisRef &slave, bool shown) noexcept;
 
-/// As passOn, for blocks that show in one output (bDone: InGear and its like) whether they have
-/// what was asked of them: as long as Execute is TRUE, without it once.
+/// For the output that shows whether the block has what was asked of it (bDone: InGear, InSync): it
+/// is TRUE as long as Execute is, without Execute once.
+void noteReached(BlockState &block, bool reached) noexcept;
+
+/// noteReached, and passOn when it is so.
 void showReached(BlockState &block, AxisRef &slave, bool reached) noexcept;
 
 } // namespace stride::motion
