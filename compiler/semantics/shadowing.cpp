@@ -12,13 +12,11 @@ using namespace ast;
 
 namespace {
 
-/// Whether the text of a library file declares a FUNCTION of that name. Blocks and types do not
-/// count: a variable of the same name (`tp : TP`) takes nothing away.
-bool declaresFunction(std::string_view text, std::string_view lowerName) {
-  constexpr std::string_view kWord = "FUNCTION ";
-  for (std::size_t at = text.find(kWord); at != std::string_view::npos;
-       at = text.find(kWord, at + 1)) {
-    const std::string_view name = text.substr(at + kWord.size(), lowerName.size() + 1);
+/// Whether the text of a library file declares that name behind `word`.
+bool declares(std::string_view text, std::string_view word, std::string_view lowerName) {
+  for (std::size_t at = text.find(word); at != std::string_view::npos;
+       at = text.find(word, at + 1)) {
+    const std::string_view name = text.substr(at + word.size(), lowerName.size() + 1);
     if ((at == 0 || text[at - 1] == '\n') && name.size() > lowerName.size() &&
         std::equal(lowerName.begin(), lowerName.end(), name.begin(),
                    [](char wanted, char c) { return wanted == lowerCase(c); }) &&
@@ -26,6 +24,17 @@ bool declaresFunction(std::string_view text, std::string_view lowerName) {
       return true;
   }
   return false;
+}
+
+/// Blocks and types do not count: a variable of the same name (`tp : TP`) takes nothing away.
+bool declaresFunction(std::string_view text, std::string_view lowerName) {
+  return declares(text, "FUNCTION ", lowerName);
+}
+
+/// Enumerators do not count: they are found by the type that is expected.
+bool declaresPouOrType(std::string_view text, std::string_view lowerName) {
+  return declaresFunction(text, lowerName) || declares(text, "FUNCTION_BLOCK ", lowerName) ||
+         declares(text, "TYPE ", lowerName) || declares(text, "INTERFACE ", lowerName);
 }
 
 } // namespace
@@ -140,6 +149,8 @@ void Checker::checkHiddenLibrary(Module &module) {
     return;
   const auto look = [&](const Symbol *symbol, std::string_view what) {
     for (const LibraryIndex::Entry &entry : index_.find(symbol->name.id->lower)) {
+      if (!declaresPouOrType(entry.text, symbol->name.id->lower))
+        continue;
       const std::string library(entry.library);
       report(Code::hidesLibrary, symbol->name.span,
              "the " + std::string(what) + " `" + std::string(symbol->name.text) +
