@@ -154,12 +154,14 @@ bool isSame(const motion::CamId &a, const motion::CamId &b) noexcept {
          a.SlaveAbsolute == b.SlaveAbsolute;
 }
 
-/// Whether the cam has come to its end, forwards, and the program has given another one.
+/// Whether the cam has come to its end, forwards, and the program has given another one. After
+/// showEnd: exactly at the end counts for both, so that EndOfProfile is TRUE once.
 bool isReplaced(const Block &block, const motion::CamTarget &target) noexcept {
   const auto &state = block.stCam;
   const motion::CamId &id = state.stCommand.stCam;
-  const bool ended = id.Periodic != 0 ? target.place.period > state.liPeriod
-                                      : target.outside && target.place.position > id.pCam->xEnd;
+  const bool ended = id.Periodic != 0
+                         ? target.place.period > state.liPeriod
+                         : block.EndOfProfile != 0 && target.place.position >= id.pCam->xEnd;
   return ended && motion::phaseOf(state) == motion::CamPhase::OnCam &&
          block.CamTableID.pCam != nullptr && !isSame(block.CamTableID, id);
 }
