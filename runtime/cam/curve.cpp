@@ -129,6 +129,31 @@ double slopeAt(const Table &table, int64_t i, bool periodic) noexcept {
   return (right.length * left.slope + left.length * right.slope) / (left.length + right.length);
 }
 
+/// A piece of a table: y0 + (m + (c2 + c3 * way) * way) * way.
+struct TablePiece {
+  double left;
+  double length;
+  double y0;
+  double m;
+  double c2;
+  double c3;
+};
+
+TablePiece tablePiece(const Table &table, bool cubic, bool periodic, uint32_t index) noexcept {
+  const double left = table.x(index);
+  const double y0 = table.y(index);
+  const double y1 = table.y(index + 1);
+  const double length = table.x(index + 1) - left;
+  const double slope = (y1 - y0) / length;
+  if (!cubic)
+    return {left, length, y0, slope, 0.0, 0.0};
+  const double m0 = slopeAt(table, index, periodic);
+  const double m1 = slopeAt(table, int64_t{index} + 1, periodic);
+  const double c2 = (3.0 * slope - 2.0 * m0 - m1) / length;
+  const double c3 = (m0 + m1 - 2.0 * slope) / (length * length);
+  return {left, length, y0, m0, c2, c3};
+}
+
 Point evaluateTable(const Curve &curve, double x, bool periodic, uint32_t &index) noexcept {
   const Table table(curve);
   const auto pieces = static_cast<uint32_t>(table.last());
@@ -144,20 +169,13 @@ Point evaluateTable(const Curve &curve, double x, bool periodic, uint32_t &index
   } else {
     index = pieceAt(x, pieces, index, [&](uint32_t i) { return table.x(i); });
   }
-  const double left = table.x(index);
-  const double y0 = table.y(index);
-  const double y1 = table.y(index + 1);
-  const double length = table.x(index + 1) - left;
-  const double way = x - left;
-  const double slope = (y1 - y0) / length;
+  const TablePiece piece = tablePiece(table, curve.cubic, periodic, index);
+  const double way = x - piece.left;
   if (!curve.cubic)
-    return {y0 + slope * way, slope, 0.0, 0.0};
-  const double m0 = slopeAt(table, index, periodic);
-  const double m1 = slopeAt(table, int64_t{index} + 1, periodic);
-  const double c2 = (3.0 * slope - 2.0 * m0 - m1) / length;
-  const double c3 = (m0 + m1 - 2.0 * slope) / (length * length);
-  return {y0 + (m0 + (c2 + c3 * way) * way) * way, m0 + (2.0 * c2 + 3.0 * c3 * way) * way,
-          2.0 * c2 + 6.0 * c3 * way, 6.0 * c3};
+    return {piece.y0 + piece.m * way, piece.m, 0.0, 0.0};
+  return {piece.y0 + (piece.m + (piece.c2 + piece.c3 * way) * way) * way,
+          piece.m + (2.0 * piece.c2 + 3.0 * piece.c3 * way) * way,
+          2.0 * piece.c2 + 6.0 * piece.c3 * way, 6.0 * piece.c3};
 }
 
 bool isFiniteNode(const Node &node) noexcept {
@@ -167,8 +185,9 @@ bool isFiniteNode(const Node &node) noexcept {
 
 bool isFiniteSegment(const Segment &segment) noexcept {
   bool good = exact::isfinite(segment.start) && segment.end > segment.start &&
-              exact::isfinite(segment.end) && exact::isfinite(segment.stroke) &&
-              exact::isfinite(segment.lawBegin) && exact::isfinite(segment.lawEnd) &&
+              exact::isfinite(segment.end - segment.start) && exact::isfinite(segment.stroke) &&
+              segment.lawBegin >= 0.0 && segment.lawBegin <= 1.0 && segment.lawEnd >= 0.0 &&
+              segment.lawEnd <= 1.0 &&
               isUsable({segment.law, segment.parameter, segment.inflexion});
   for (const double coefficient : segment.coefficients)
     good = good && exact::isfinite(coefficient);
@@ -180,41 +199,23 @@ bool isScale(const Scale &scale) noexcept {
          exact::isfinite(scale.factor) && scale.factor != 0.0;
 }
 
-CurveError checkTable(const Curve &curve) noexcept {
+CurveError checkTableForm(const Curve &curve) noexcept {
   const bool pairs = curve.form == Form::PairTable;
   if (sizeOf(curve.element) == 0 || curve.count < (curve.open && !pairs ? 1 : 2) ||
       !exact::isfinite(curve.rise))
     return CurveError::NoCurve;
   if (!isScale(curve.slave) || (pairs && !(isScale(curve.master) && curve.master.factor > 0.0)))
     return CurveError::Scaling;
-  const Table table(curve);
-  double before = -exact::kInfinity;
-  for (int32_t i = 0; i < curve.count; ++i) {
-    const double x = table.x(i);
-    if (!exact::isfinite(x) || !(x > before) || !exact::isfinite(table.y(i)))
-      return CurveError::NoCurve;
-    before = x;
-  }
   return CurveError::None;
 }
 
-bool areNodes(const Curve &curve) noexcept {
-  for (int32_t i = 0; i < curve.count; ++i) {
-    const Node &place = node(curve, static_cast<uint32_t>(i));
-    if (!isFiniteNode(place) || (i > 0 && !(place.x > node(curve, static_cast<uint32_t>(i - 1)).x)))
-      return false;
-  }
-  return curve.count >= 2;
-}
-
-bool areSegments(const Curve &curve) noexcept {
-  for (int32_t i = 0; i < curve.count; ++i) {
-    const Segment &piece = segment(curve, static_cast<uint32_t>(i));
-    if (!isFiniteSegment(piece) ||
-        (i > 0 && piece.start != segment(curve, static_cast<uint32_t>(i - 1)).end))
-      return false;
-  }
-  return curve.count >= 1;
+bool isGoodTablePiece(const Curve &curve, uint32_t piece) noexcept {
+  const Table table(curve);
+  const double left = table.x(piece);
+  const double right = table.x(int64_t{piece} + 1);
+  return exact::isfinite(left) && exact::isfinite(right) && right > left &&
+         exact::isfinite(right - left) && exact::isfinite(table.y(piece)) &&
+         exact::isfinite(table.y(int64_t{piece} + 1));
 }
 
 } // namespace
@@ -234,20 +235,78 @@ int32_t sizeOf(Element element) noexcept {
   return 0;
 }
 
-CurveError checkCurve(const Curve &curve) noexcept {
+CurveError checkForm(const Curve &curve) noexcept {
   if (curve.data == nullptr || !exact::isfinite(curve.start) || !exact::isfinite(curve.end) ||
-      !(curve.end > curve.start))
+      !(curve.end > curve.start) || !exact::isfinite(curve.end - curve.start))
     return CurveError::NoCurve;
   switch (curve.form) {
   case Form::EvenTable:
   case Form::PairTable:
-    return checkTable(curve);
+    return checkTableForm(curve);
   case Form::Nodes:
-    return areNodes(curve) ? CurveError::None : CurveError::NoCurve;
+    return curve.count >= 2 ? CurveError::None : CurveError::NoCurve;
   case Form::Segments:
-    return areSegments(curve) ? CurveError::None : CurveError::NoCurve;
+    return curve.count >= 1 ? CurveError::None : CurveError::NoCurve;
   }
   return CurveError::NoCurve;
+}
+
+bool isGoodPiece(const Curve &curve, uint32_t piece) noexcept {
+  switch (curve.form) {
+  case Form::Nodes: {
+    const Node &left = node(curve, piece);
+    const Node &right = node(curve, piece + 1);
+    return isFiniteNode(left) && isFiniteNode(right) && right.x > left.x &&
+           exact::isfinite(right.x - left.x);
+  }
+  case Form::Segments:
+    return isFiniteSegment(segment(curve, piece)) &&
+           (piece == 0 || segment(curve, piece).start == segment(curve, piece - 1).end);
+  default:
+    return isGoodTablePiece(curve, piece);
+  }
+}
+
+CurveError checkCurve(const Curve &curve) noexcept {
+  if (const CurveError error = checkForm(curve); error != CurveError::None)
+    return error;
+  const uint32_t pieces = pieceCount(curve);
+  for (uint32_t i = 0; i < pieces; ++i)
+    if (!isGoodPiece(curve, i))
+      return CurveError::NoCurve;
+  return CurveError::None;
+}
+
+uint32_t pieceCount(const Curve &curve) noexcept {
+  const auto count = static_cast<uint32_t>(curve.count);
+  const bool whole = curve.form == Form::Segments || (curve.form == Form::EvenTable && curve.open);
+  return whole ? count : count - 1;
+}
+
+Segment pieceOf(const Curve &curve, uint32_t piece, bool periodic) noexcept {
+  if (curve.form == Form::Segments)
+    return segment(curve, piece);
+  if (curve.form == Form::Nodes)
+    return makeSegment({}, node(curve, piece), node(curve, piece + 1));
+  const TablePiece part = tablePiece(Table(curve), curve.cubic, periodic, piece);
+  const double h = part.length;
+  return {part.left,
+          part.left + h,
+          {part.y0, part.m * h, part.c2 * h * h, part.c3 * h * h * h, 0.0, 0.0, 0.0, 0.0},
+          0.0,
+          0.0,
+          1.0,
+          0.0,
+          0.5,
+          Law::Polynomial};
+}
+
+double endOfPiece(const Curve &curve, uint32_t piece) noexcept {
+  if (curve.form == Form::Segments)
+    return evaluateSegment(segment(curve, piece), segment(curve, piece).end).y;
+  if (curve.form == Form::Nodes)
+    return node(curve, piece + 1).y;
+  return Table(curve).y(int64_t{piece} + 1);
 }
 
 Point evaluateQuintic(const Node &left, const Node &right, double x) noexcept {

@@ -78,6 +78,21 @@ enum class CurveError : uint8_t {
 /// Looks at all of the curve, in a time that grows with its size.
 CurveError checkCurve(const Curve &curve) noexcept;
 
+/// The same in portions: first what does not depend on the places …
+CurveError checkForm(const Curve &curve) noexcept;
+
+/// … then each piece, 0 to pieceCount(curve) - 1, of a curve whose form is good.
+bool isGoodPiece(const Curve &curve, uint32_t piece) noexcept;
+
+/// How many pieces a curve whose form is good has.
+uint32_t pieceCount(const Curve &curve) noexcept;
+
+/// A piece of any curve as a segment: the same up to rounding. `periodic` as for evaluateCurve.
+Segment pieceOf(const Curve &curve, uint32_t piece, bool periodic) noexcept;
+
+/// The slave position at the end of a piece, as it is written there. [slave u]
+double endOfPiece(const Curve &curve, uint32_t piece) noexcept;
+
 /// The curve at `x` and its derivatives with respect to the master. Before the start and behind the
 /// end the first and the last piece go on. `periodic`: a cubic table looks around the corner at its
 /// ends. `index` is where the last look was; any number is right, a good one saves the search.
