@@ -311,6 +311,7 @@ double endOfPiece(const Curve &curve, uint32_t piece) noexcept {
 
 Point evaluateQuintic(const Node &left, const Node &right, double x) noexcept {
   const double h = right.x - left.x;
+  const double perWay = 1.0 / h;
   const double u = (x - left.x) / h;
   const double v0 = left.v * h;
   const double v1 = right.v * h;
@@ -325,7 +326,7 @@ Point evaluateQuintic(const Node &left, const Node &right, double x) noexcept {
   const double v = v0 + (2.0 * c2 + (3.0 * c3 + (4.0 * c4 + 5.0 * c5 * u) * u) * u) * u;
   const double a = 2.0 * c2 + (6.0 * c3 + (12.0 * c4 + 20.0 * c5 * u) * u) * u;
   const double j = 6.0 * c3 + (24.0 * c4 + 60.0 * c5 * u) * u;
-  return {y, v / h, a / (h * h), j / (h * h * h)};
+  return {y, v * perWay, a * perWay * perWay, j * perWay * perWay * perWay};
 }
 
 Segment makeSegment(const LawShape &shape, const Node &left, const Node &right) noexcept {
