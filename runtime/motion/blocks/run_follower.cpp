@@ -10,12 +10,16 @@ int16_t couplingRefusal(const AxisRef *master, const AxisRef &slave) noexcept {
   return refusal(slave);
 }
 
-Turn startFollower(BlockState &block, FollowState &follow, AxisRef &slave,
-                   int16_t bufferMode) noexcept {
-  const bool owner = block.bRunning != 0 && axis::ownsAxis(slave, block.ulOwner);
+void withdrawFollower(BlockState &block, AxisRef &slave) noexcept {
   if (block.bWaiting != 0)
     withdrawCommand(slave, block.ulOwner);
   block.bWaiting = 0;
+}
+
+Turn startFollower(BlockState &block, FollowState &follow, AxisRef &slave,
+                   int16_t bufferMode) noexcept {
+  const bool owner = block.bRunning != 0 && axis::ownsAxis(slave, block.ulOwner);
+  withdrawFollower(block, slave);
   block.bReached = 0;
   const bool aborting = bufferMode == ::st::SM_DriveBasic::MC_BUFFER_MODE__Aborting;
   if (aborting || slave.iOwner == 0 || owner) {

@@ -20,6 +20,9 @@ enum class Turn : uint8_t {
 /// slave itself (31), or the slave takes no command (see refusal).
 int16_t couplingRefusal(const AxisRef *master, const AxisRef &slave) noexcept;
 
+/// The block does not wait in the queue any more.
+void withdrawFollower(BlockState &block, AxisRef &slave) noexcept;
+
 /// A rising edge whose inputs are good: takes the slave, or lets the block wait for the motion
 /// before it. All modes of MC_BUFFER_MODE except Aborting mean Buffered. Begin or None.
 Turn startFollower(BlockState &block, FollowState &follow, AxisRef &slave,

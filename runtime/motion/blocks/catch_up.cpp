@@ -1,0 +1,130 @@
+#include "runtime/motion/blocks/catch_up.hpp"
+
+#include "runtime/motion/plan_axis.hpp"
+
+namespace stride::motion {
+namespace {
+
+Dynamics dynamicsOf(const CatchUpState &state, const AxisRef &ref) noexcept {
+  // Overrides are for the master: a slave that obeyed its own would never get there.
+  return plainDynamics(ref, {1.0, state.fAcceleration, state.fDeceleration, state.fJerk});
+}
+
+/// To a velocity that does not change: along a plan.
+bool rampOn(CatchUpState &state, const FollowState &follow, const AxisRef &ref,
+            const Demand &demand, axis::MotionState &now) noexcept {
+  auto &plan = state.stPlan;
+  if (state.bPlanned == 0) {
+    Profile profile;
+    if (planVelocity(profile, {0.0, follow.fVelocity, follow.fAcceleration}, demand.velocity,
+                     dynamicsOf(state, ref)) != PlanError::None)
+      return false;
+    loadPlan(plan, profile, ref.fTaskCycle);
+    state.bPlanned = 1;
+    state.fWay = 0.0;
+  }
+  ++plan.ulCycle;
+  const double t = axis::planTime(plan);
+  now = axis::planState(plan, t);
+  const double way = now.position;
+  now.position = way - state.fWay;
+  state.fWay = way;
+  return axis::isPlanOver(plan, t);
+}
+
+/// The greatest acceleration towards `side` at the slave's velocity. [u/s^2]
+double limitTowards(const CatchUpState &state, const FollowState &follow, double side) noexcept {
+  return side * follow.fVelocity >= 0.0 ? state.fAcceleration : state.fDeceleration;
+}
+
+/// The master gets away: with all that is allowed after it.
+axis::MotionState chase(const Dynamics &dynamics, const FollowState &follow, double wanted,
+                        double cycle) noexcept {
+  if (dynamics.ramp == RampType::Trapezoid)
+    return axis::evaluateCubic({0.0, follow.fVelocity, wanted}, 0.0, cycle);
+  const double change = wanted - follow.fAcceleration;
+  const double most = dynamics.jerk * cycle;
+  const double jerk =
+      exact::fabs(change) > most ? exact::signOf(change) * dynamics.jerk : change / cycle;
+  return axis::evaluateCubic({0.0, follow.fVelocity, follow.fAcceleration}, jerk, cycle);
+}
+
+} // namespace
+
+LimitError checkLimits(const AxisRef &ref, double acceleration, double deceleration,
+                       double jerk) noexcept {
+  if (!exact::isPositive(acceleration) || !exact::isfinite(jerk) || jerk < 0.0)
+    return LimitError::Acceleration;
+  if (!exact::isPositive(deceleration))
+    return LimitError::Deceleration;
+  const Dynamics dynamics = plainDynamics(ref, {1.0, acceleration, deceleration, jerk});
+  if (dynamics.ramp != RampType::Trapezoid && !exact::isPositive(dynamics.jerk))
+    return LimitError::Acceleration;
+  return LimitError::None;
+}
+
+Demand demandOf(const GearState &gear, const MasterState &state,
+                const MasterMotion &master) noexcept {
+  const double factor = gearFactor(gear);
+  const bool rough = state.bActual != 0;
+  return {factor * master.velocity, rough ? 0.0 : factor * master.acceleration,
+          factor * master.travel, rough};
+}
+
+MasterMotion cycleBefore(const AxisRef &slave, const MasterMotion &master) noexcept {
+  MasterMotion before = master;
+  before.velocity -= master.acceleration * slave.fTaskCycle;
+  return before;
+}
+
+MasterMotion sinceCycleBefore(const AxisRef &slave, const MasterMotion &master) noexcept {
+  MasterMotion now = master;
+  now.travel = (master.velocity - 0.5 * master.acceleration * slave.fTaskCycle) * slave.fTaskCycle;
+  return now;
+}
+
+void beginCatchUp(CatchUpState &state, const Demand &last) noexcept {
+  state.fVelocity = last.velocity;
+  state.fDemanded = last.acceleration;
+  state.bPlanned = 0;
+}
+
+bool catchUp(CatchUpState &state, const FollowState &follow, const AxisRef &ref,
+             const Demand &demand, axis::MotionState &now) noexcept {
+  const double cycle = ref.fTaskCycle;
+  const double before = state.fVelocity;
+  const double demanded = state.fDemanded;
+  state.fVelocity = demand.velocity;
+  state.fDemanded = demand.acceleration;
+  now = {follow.fVelocity * cycle, follow.fVelocity, 0.0};
+  if (demand.acceleration == 0.0 && demand.velocity == before)
+    return rampOn(state, follow, ref, demand, now);
+  state.bPlanned = 0;
+  // Seen from the master: the difference has to vanish.
+  const double mean = (demand.velocity - before) / cycle;
+  const double behind = follow.fVelocity - before;
+  const double side = behind < 0.0 ? 1.0 : -1.0;
+  const double limit = limitTowards(state, follow, side);
+  const double room =
+      limit - exact::larger(side * mean, demand.rough ? side * mean : side * demand.acceleration);
+  Dynamics dynamics = dynamicsOf(state, ref);
+  if (dynamics.ramp != RampType::Trapezoid)
+    dynamics.ramp = RampType::Parabolic;
+  if (behind != 0.0 && !(room > 1e-9 * limit)) {
+    now = chase(dynamics, follow, side * limit, cycle);
+    return false;
+  }
+  dynamics.acceleration = exact::larger(room, 1e-9 * limit);
+  dynamics.deceleration = dynamics.acceleration;
+  Profile profile;
+  if (planVelocity(profile, {0.0, behind, follow.fAcceleration - demanded}, 0.0, dynamics) !=
+      PlanError::None)
+    return false;
+  const bool over = !(cycle * (1.0 + 1e-9) < profile.duration);
+  const State rest = profile.at(cycle);
+  now = {demand.travel + rest.position, demand.velocity + rest.velocity,
+         demand.acceleration + rest.acceleration};
+  return over || (demand.rough && exact::fabs(rest.velocity) <= limit * cycle);
+}
+
+} // namespace stride::motion
