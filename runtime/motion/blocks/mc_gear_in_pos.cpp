@@ -150,10 +150,11 @@ bool moveOnWay(Block &block, AxisRef &slave, const MasterMotion &master) noexcep
   auto &sync = block.stSync;
   const double side = exact::signOf(sync.fLength);
   const double length = exact::fabs(sync.fLength);
-  if (side * master.travel < -1e-9 * length)
-    return false;
   const cam::Total begin{sync.fBegin, sync.fBeginRest};
   const double x = cam::toDouble(::stride::detail::add(master.position, {-begin.hi, -begin.lo}));
+  // Actual values tremble: they have to be back where the way began.
+  if (side * (block.stMaster.bActual != 0 ? x : master.travel) < -1e-9 * length)
+    return false;
   const double shift = slave.fOffsetPosition - sync.fOffset;
   if (side * x >= length || !(side * sync.fLength > 0.0)) {
     const double period = axis::isRotary(slave) ? slave.fPositionPeriod : 0.0;
