@@ -17,6 +17,10 @@ Seen see(const axis::AxisRef &ref, bool actual) noexcept {
   return {ref.fActPosition, ref.fActVelocity, ref.fActAcceleration};
 }
 
+bool isActual(const axis::AxisRef &ref, MasterView view) noexcept {
+  return view == MasterView::Actual || (view == MasterView::Auto && ref.bRegulatorOn == 0);
+}
+
 /// The shown position without what the zero point has been shifted by since the first look.
 double withoutShift(const MasterState &master, const axis::AxisRef &ref, double shown) noexcept {
   const double shift = ref.fOffsetPosition - master.fOffset;
@@ -35,8 +39,8 @@ int64_t nearest(double periods) noexcept {
 
 } // namespace
 
-MasterMotion beginMaster(MasterState &master, axis::AxisRef &ref) noexcept {
-  master.bActual = ref.bRegulatorOn == 0;
+MasterMotion beginMaster(MasterState &master, axis::AxisRef &ref, MasterView view) noexcept {
+  master.bActual = isActual(ref, view);
   const Seen seen = see(ref, master.bActual != 0);
   master.pAxis = &ref;
   master.fOffset = ref.fOffsetPosition;
@@ -46,8 +50,8 @@ MasterMotion beginMaster(MasterState &master, axis::AxisRef &ref) noexcept {
   return {{seen.position, 0.0}, seen.velocity, seen.acceleration, 0.0};
 }
 
-MasterMotion readMaster(MasterState &master, axis::AxisRef &ref) noexcept {
-  master.bActual = ref.bRegulatorOn == 0;
+MasterMotion readMaster(MasterState &master, axis::AxisRef &ref, MasterView view) noexcept {
+  master.bActual = isActual(ref, view);
   master.pAxis = &ref;
   const Seen seen = see(ref, master.bActual != 0);
   const double position = withoutShift(master, ref, seen.position);

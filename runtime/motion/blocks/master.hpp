@@ -20,14 +20,23 @@ struct MasterMotion {
   double travel;       ///< Since the last look. [u]
 };
 
+/// Which values of a master count.
+enum class MasterView : uint8_t {
+  Auto,   ///< The set values if it is in regulation, else the actual ones.
+  Set,    ///< The set values.
+  Actual, ///< The actual values.
+};
+
 /// The first look at a master.
-MasterMotion beginMaster(MasterState &master, axis::AxisRef &ref) noexcept;
+MasterMotion beginMaster(MasterState &master, axis::AxisRef &ref,
+                         MasterView view = MasterView::Auto) noexcept;
 
 /// The next look, one task cycle later. Turns of a rotary master are counted, also several in one
 /// cycle: its velocity tells how many. A shift of its zero point (MC_SetPosition) is no motion.
 /// When the master changes between set and actual values, or is another one, it is looked at anew
 /// with `travel` the way between the two positions.
-MasterMotion readMaster(MasterState &master, axis::AxisRef &ref) noexcept;
+MasterMotion readMaster(MasterState &master, axis::AxisRef &ref,
+                        MasterView view = MasterView::Auto) noexcept;
 
 } // namespace stride::motion
 
