@@ -1,5 +1,7 @@
 #include "tests/unit/motion/actors.hpp"
 
+#include "st/SM_DriveBasic/MC_CAM_REF.h"
+#include "st/SM_DriveBasic/SMC_CAMXYVA.h"
 #include "st/SM_DriveBasic/SMC_CheckLimits.h"
 #include "st/SM_DriveBasic/SMC_ControlAxisByPos.h"
 #include "st/SM_DriveBasic/SMC_ControlAxisByPosVel.h"
@@ -13,12 +15,18 @@
 #include "st/SM_DriveBasic/TRIGGER_REF.h"
 #include "st/SM_PLCopen/MC_AbortTrigger.h"
 #include "st/SM_PLCopen/MC_AccelerationProfile.h"
+#include "st/SM_PLCopen/MC_CamIn.h"
+#include "st/SM_PLCopen/MC_CamOut.h"
+#include "st/SM_PLCopen/MC_GearIn.h"
+#include "st/SM_PLCopen/MC_GearInPos.h"
+#include "st/SM_PLCopen/MC_GearOut.h"
 #include "st/SM_PLCopen/MC_Halt.h"
 #include "st/SM_PLCopen/MC_Home.h"
 #include "st/SM_PLCopen/MC_MoveAdditive.h"
 #include "st/SM_PLCopen/MC_MoveRelative.h"
 #include "st/SM_PLCopen/MC_MoveSuperImposed.h"
 #include "st/SM_PLCopen/MC_MoveVelocity.h"
+#include "st/SM_PLCopen/MC_Phasing.h"
 #include "st/SM_PLCopen/MC_PositionProfile.h"
 #include "st/SM_PLCopen/MC_ReadActualPosition.h"
 #include "st/SM_PLCopen/MC_ReadActualTorque.h"
@@ -30,6 +38,7 @@
 #include "st/SM_PLCopen/MC_Reset.h"
 #include "st/SM_PLCopen/MC_SetOverride.h"
 #include "st/SM_PLCopen/MC_SetPosition.h"
+#include "st/SM_PLCopen/MC_StartMode.h"
 #include "st/SM_PLCopen/MC_TA_REF.h"
 #include "st/SM_PLCopen/MC_TP_REF.h"
 #include "st/SM_PLCopen/MC_TV_REF.h"
@@ -94,6 +103,10 @@ template <class Block> Shown showBlock(const Block &b) {
     s.done = b.InVelocity != 0;
   else if constexpr (requires { b.InEndVelocity; })
     s.done = b.InEndVelocity != 0;
+  else if constexpr (requires { b.InGear; })
+    s.done = b.InGear != 0;
+  else if constexpr (requires { b.InSync; })
+    s.done = b.InSync != 0;
   else if constexpr (requires { b.Enabled; })
     s.done = b.Enabled != 0;
   if constexpr (requires { b.Busy; }) {
@@ -190,6 +203,61 @@ template <class Block> Factory following() {
       setExecute(h->block, execute);
       h->block.body__(rig.ctx);
     };
+    return a;
+  };
+}
+
+/// A master that runs with 10 u/s, and a cam that is a line.
+struct Leader {
+  axis::AxisRef ref = fresh<axis::AxisRef>();
+  ::st::SM_DriveBasic::SMC_CAMXYVA places[2] = {{0, 0, 1, 0}, {100, 100, 1, 0}};
+  ::st::SM_DriveBasic::MC_CAM_REF cam = fresh<::st::SM_DriveBasic::MC_CAM_REF>();
+
+  void init__(Ctx & /*ctx*/) {
+    ref.iMovementType = 1;
+    ref.fTaskCycle = 0.001;
+    ref.bRegulatorOn = 1;
+    ref.fSetVelocity = 10;
+    cam.xEnd = 100;
+    cam.byType = 3;
+    cam.nElements = 2;
+    cam.pce = reinterpret_cast<uint8_t *>(places);
+  }
+};
+
+/// A block that follows a Leader. `prepare(block, leader, slave)` sets its inputs at the first edge.
+template <class Block, class Prepare> Factory coupled(Prepare prepare) {
+  return [prepare](AxisRig &rig) {
+    auto h = std::make_shared<Held<Block, Leader>>();
+    h->extra.init__(rig.ctx); // its pointer is its own
+    h->block.Slave = &rig.axis;
+    h->block.Master = &h->extra.ref;
+    Actor a;
+    a.call = [h, prepare, &rig, started = false](bool execute) mutable {
+      if (execute && !started)
+        prepare(h->block, h->extra, rig.axis);
+      started = started || execute;
+      h->extra.ref.fSetPosition += 10 * rig.cycleSeconds;
+      setExecute(h->block, execute);
+      h->block.body__(rig.ctx);
+    };
+    a.show = [h] { return showBlock(h->block); };
+    a.bind = [h](axis::AxisRef &axis) { h->block.Slave = &axis; };
+    return a;
+  };
+}
+
+template <class Block> Factory uncoupling() {
+  return [](AxisRig &rig) {
+    auto h = std::make_shared<Held<Block, Nothing>>();
+    h->block.Slave = &rig.axis;
+    Actor a;
+    a.call = [h, &rig](bool execute) {
+      setExecute(h->block, execute);
+      h->block.body__(rig.ctx);
+    };
+    a.show = [h] { return showBlock(h->block); };
+    a.bind = [h](axis::AxisRef &axis) { h->block.Slave = &axis; };
     return a;
   };
 }
@@ -299,6 +367,34 @@ const std::map<std::string, Factory> &courses() {
   return table;
 }
 
+const std::map<std::string, Factory> &couplings() {
+  static const std::map<std::string, Factory> table{
+      {"MC_GearIn", coupled<pl::MC_GearIn>([](auto &b, auto & /*leader*/, auto & /*slave*/) {
+         b.Acceleration = 50;
+         b.Deceleration = 50;
+       })},
+      {"MC_GearInPos", coupled<pl::MC_GearInPos>([](auto &b, auto &leader, auto &slave) {
+         b.MasterSyncPosition = leader.ref.fSetPosition + 40;
+         b.SlaveSyncPosition = slave.fSetPosition + 20 + 2 * slave.fSetVelocity;
+       })},
+      {"MC_Phasing", coupled<pl::MC_Phasing>([](auto &b, auto & /*leader*/, auto & /*slave*/) {
+         setDynamics(b);
+         b.PhaseShift = 15;
+       })},
+      {"MC_CamIn", coupled<pl::MC_CamIn>([](auto &b, auto &leader, auto & /*slave*/) {
+         setDynamics(b);
+         b.CamTableID.pCam = &leader.cam;
+         b.CamTableID.Periodic = 1;
+         b.CamTableID.MasterAbsolute = 0;
+         b.CamTableID.SlaveAbsolute = 0;
+         b.StartMode = pl::MC_StartMode__ramp_in;
+       })},
+      {"MC_GearOut", uncoupling<pl::MC_GearOut>()},
+      {"MC_CamOut", uncoupling<pl::MC_CamOut>()},
+  };
+  return table;
+}
+
 const std::map<std::string, Factory> &administrative() {
   const auto velocity = [](auto &b, AxisRig &) { b.ParameterNumber = 1113; };
   const auto limits = [](auto &b, AxisRig &) { b.ParameterNumber = 1205; };
@@ -340,7 +436,7 @@ const std::map<std::string, Factory> &administrative() {
 } // namespace
 
 Actor makeActor(AxisRig &rig, const std::string &block) {
-  for (const auto *table : {&positioning(), &courses(), &administrative()})
+  for (const auto *table : {&positioning(), &courses(), &couplings(), &administrative()})
     if (const auto found = table->find(block); found != table->end())
       return found->second(rig);
   throw std::invalid_argument("no block " + block);

@@ -11,7 +11,7 @@ namespace stride::test {
 
 /// What a block shows.
 struct Shown {
-  bool done = false; ///< Done, InVelocity, InEndVelocity, Enabled, Valid: whichever it has.
+  bool done = false; ///< Done, InVelocity, InEndVelocity, InGear, InSync, Enabled: what it has.
   bool busy = false;
   bool active = false;
   bool aborted = false;
@@ -25,7 +25,7 @@ struct Shown {
 struct Actor {
   std::function<void(bool execute)> call;
   std::function<Shown()> show;
-  std::function<void(axis::AxisRef &)> bind; ///< Another axis from the next call on.
+  std::function<void(axis::AxisRef &)> bind; ///< Another axis (slave) from the next call on.
 };
 
 /// A block by name, with inputs that suit a linear axis near 0 with the limits of AxisRig: moves of

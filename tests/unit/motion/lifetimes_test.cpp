@@ -35,6 +35,10 @@ constexpr Kind kKinds[] = {
     {"MC_MoveVelocity", false, false},
     {"SMC_MoveContinuousAbsolute", false, false},
     {"SMC_MoveContinuousRelative", false, false},
+    {"MC_GearIn", false, false},
+    {"MC_GearInPos", false, false},
+    {"MC_Phasing", false, false},
+    {"MC_CamIn", false, false},
 };
 
 class Lifetimes : public testing::TestWithParam<Kind> {

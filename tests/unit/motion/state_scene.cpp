@@ -41,7 +41,8 @@ std::vector<std::string> waysInto(const std::string &state) {
         "SMC_MoveContinuousRelative", "MC_VelocityProfile", "MC_AccelerationProfile"}},
       {"synchronized_motion",
        {"SMC_FollowPosition", "SMC_FollowPositionVelocity", "SMC_FollowVelocity",
-        "SMC_ControlAxisByPos", "SMC_ControlAxisByPosVel", "SMC_ControlAxisByVel"}},
+        "SMC_ControlAxisByPos", "SMC_ControlAxisByPosVel", "SMC_ControlAxisByVel", "MC_GearIn",
+        "MC_GearInPos", "MC_Phasing", "MC_CamIn"}},
       {"homing", {"SMC_Homing", "MC_Home"}}};
   return ways.at(state);
 }
