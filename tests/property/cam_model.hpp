@@ -262,7 +262,7 @@ public:
     first_ = master.total();
     shownFirst_ = master.position();
     base_ = s_.relative ? slavePosition : 0;
-    const long double x = inCam(master);
+    const long double x = inCam(master.total());
     if (!s_.periodic)
       return x >= cam_.start() && x <= cam_.end();
     firstPeriod_ = period_ = periodOf(x);
@@ -279,12 +279,16 @@ public:
   };
 
   Out at(const ModelMaster &master) {
-    long double x = inCam(master);
+    return at({master.total(), master.velocity(), master.acceleration()}, master.haze());
+  }
+
+  /// With the master's position (over its turns) and its derivatives.
+  Out at(const ModelPoint &master, long double masterHaze) {
+    long double x = inCam(master.y);
     // What the implementation may lose.
     const long double haze =
         1e-12L * (cam_.length() + std::fabs(static_cast<long double>(cam_.start()))) +
-        1e-15L * std::fabs(x) +
-        std::fabs(static_cast<long double>(s_.masterScaling)) * master.haze();
+        1e-15L * std::fabs(x) + std::fabs(static_cast<long double>(s_.masterScaling)) * masterHaze;
     Out out{};
     out.haze = haze;
     long double rises = 0;
@@ -308,8 +312,8 @@ public:
     ModelPoint p = cam_.at(x);
     if (out.outside)
       p.v = p.a = 0;
-    const long double vx = static_cast<long double>(master.velocity()) * s_.masterScaling;
-    const long double ax = static_cast<long double>(master.acceleration()) * s_.masterScaling;
+    const long double vx = master.v * s_.masterScaling;
+    const long double ax = master.a * s_.masterScaling;
     out.slave.y = base_ + s_.slaveOffset + s_.slaveScaling * (p.y + rises);
     out.slave.v = s_.slaveScaling * p.v * vx;
     out.slave.a = s_.slaveScaling * (p.a * vx * vx + p.v * ax);
@@ -317,8 +321,8 @@ public:
   }
 
 private:
-  [[nodiscard]] long double inCam(const ModelMaster &master) const {
-    const long double way = master.total() - first_;
+  [[nodiscard]] long double inCam(long double total) const {
+    const long double way = total - first_;
     return (s_.masterAbsolute ? shownFirst_ + way : way) * s_.masterScaling + s_.masterOffset;
   }
   [[nodiscard]] long double periodOf(long double x) const {
