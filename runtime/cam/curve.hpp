@@ -97,7 +97,7 @@ double endOfPiece(const Curve &curve, uint32_t piece) noexcept;
 /// end the first and the last piece go on. `periodic`: a cubic table looks around the corner at its
 /// ends. `index` is where the last look was; any number is right, a good one saves the search.
 /// Depends on nothing but the curve and `x`, so that the way back is the same. O(1) for a master
-/// that moves on from look to look, else O(log count).
+/// that moves on from look to look and for even tables, else O(log count).
 Point evaluateCurve(const Curve &curve, double x, bool periodic, uint32_t &index) noexcept;
 
 /// The slave position at the end minus the one at the start. [slave u]
