@@ -6,8 +6,10 @@
 
 namespace stc {
 
+static bool isQualifiedOnly(const EmbeddedFile &file) { return file.library == "SM3_CamBuilder"; }
+
 static LibraryIndex::Entry entryOf(const EmbeddedFile &file) {
-  return {file.library, file.fileName, file.text};
+  return {file.library, file.fileName, file.text, isQualifiedOnly(file)};
 }
 
 std::vector<LibraryIndex::Entry> EmbeddedLibraryIndex::find(std::string_view lowerName) const {
@@ -41,6 +43,7 @@ bool EmbeddedLibraryIndex::answersTo(std::string_view library, std::string_view 
       {"sm3_basic", "SM_PLCopen"},
       {"sm3_cnc", "SM_CNC"},
       {"sm3_error", "SM_Error"},
+      {"smcb", "SM3_CamBuilder"},
   };
   return equalIgnoringCase(library, lowerName) ||
          std::any_of(std::begin(kSoftMotion3), std::end(kSoftMotion3), [&](const OtherName &other) {
@@ -51,7 +54,8 @@ bool EmbeddedLibraryIndex::answersTo(std::string_view library, std::string_view 
 std::vector<std::string_view> EmbeddedLibraryIndex::names() const {
   std::vector<std::string_view> result;
   for (const EmbeddedName &name : tables_.names)
-    if (result.empty() || result.back() != name.lower)
+    if (!isQualifiedOnly(tables_.files[name.file]) &&
+        (result.empty() || result.back() != name.lower))
       result.push_back(name.lower);
   return result;
 }

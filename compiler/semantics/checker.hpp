@@ -71,6 +71,8 @@ private:
   // names.cpp
   Symbol *lookup(const ast::Name &name);
   Symbol *lookupInModule(Module &module, Ident id);
+  /// Whether names of that file are seen here without the library's name.
+  [[nodiscard]] bool isSeenUnqualified(const LibraryIndex::Entry &entry) const;
   Symbol *lookupInLibraries(Ident id);
   /// `Library.Name`
   Symbol *lookupInLibrary(Ident library, Ident id);

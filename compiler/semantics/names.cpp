@@ -16,11 +16,24 @@ Symbol *Checker::lookupInModule(Module &module, Ident id) {
   return it == module.names.end() ? nullptr : it->second;
 }
 
+bool Checker::isSeenUnqualified(const LibraryIndex::Entry &entry) const {
+  return !entry.qualifiedOnly || scope_.module->library->name == entry.library;
+}
+
 Symbol *Checker::lookupInLibraries(Ident id) {
+  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+    if (!entry.qualifiedOnly || !isSeenUnqualified(entry))
+      continue;
+    loadLibraryFile(entry);
+    if (Symbol *symbol = lookupInModule(module(std::string(entry.library)), id))
+      return symbol;
+  }
   const auto [it, fresh] = libraryMisses_.emplace(id, nullptr);
   if (!fresh)
     return it->second;
   for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+    if (entry.qualifiedOnly)
+      continue;
     loadLibraryFile(entry);
     if (Symbol *symbol = lookupInModule(module(std::string(entry.library)), id)) {
       libraryMisses_[id] = symbol;
@@ -79,6 +92,8 @@ Symbol *Checker::lookup(const Name &name) {
   if (space != scope_.module->spaces.end())
     return space->second;
   for (const LibraryIndex::Entry &entry : index_.find(name.id->lower)) { // loaded by now
+    if (!isSeenUnqualified(entry))
+      continue;
     const Module &library = module(std::string(entry.library));
     if (const auto found = library.lists.find(name.id); found != library.lists.end())
       return found->second;
@@ -136,6 +151,8 @@ EnumeratorSymbol *Checker::lookupEnumerator(const Name &name, const Type *expect
       }
     }
   for (const LibraryIndex::Entry &entry : index_.find(name.id->lower)) {
+    if (!isSeenUnqualified(entry))
+      continue;
     loadLibraryFile(entry);
     if (EnumeratorSymbol *e = inModule(module(std::string(entry.library))))
       return e;

@@ -38,6 +38,9 @@ public:
     std::string_view library;  ///< `SM_PLCopen`
     std::string_view fileName; ///< `<stdlib>/SM_PLCopen/MC_Power.st`
     std::string_view text;
+    /// Its names are seen with the library's name in front only (`SMCB.Line`): they are words that
+    /// programs use for other things.
+    bool qualifiedOnly = false;
   };
   /// The files that declare `lowerName` (a POU, type, global variable, or enumerator), best first:
   /// at most one per library.
@@ -47,7 +50,7 @@ public:
   /// holds. Several libraries may go by one name.
   [[nodiscard]] virtual bool answersTo(std::string_view library,
                                        std::string_view lowerName) const = 0;
-  /// Every name it declares, for "did you mean" (lower case).
+  /// Every name it declares that is seen without a library's name, for "did you mean" (lower case).
   [[nodiscard]] virtual std::vector<std::string_view> names() const = 0;
   /// All files of one library, for generating its headers and for documentation.
   [[nodiscard]] virtual std::vector<Entry> files(std::string_view library) const = 0;

@@ -135,7 +135,7 @@ void Checker::checkHidden(Module &module, const PouSymbol *pou, const VarSymbol 
     return;
   }
   for (const LibraryIndex::Entry &entry : index_.find(v->name.id->lower)) {
-    if (!declaresFunction(entry.text, v->name.id->lower))
+    if (entry.qualifiedOnly || !declaresFunction(entry.text, v->name.id->lower))
       continue;
     const std::string library(entry.library);
     reportHidden(v, nullptr, "the function of the library `" + library + "`")
@@ -149,7 +149,7 @@ void Checker::checkHiddenLibrary(Module &module) {
     return;
   const auto look = [&](const Symbol *symbol, std::string_view what) {
     for (const LibraryIndex::Entry &entry : index_.find(symbol->name.id->lower)) {
-      if (!declaresPouOrType(entry.text, symbol->name.id->lower))
+      if (entry.qualifiedOnly || !declaresPouOrType(entry.text, symbol->name.id->lower))
         continue;
       const std::string library(entry.library);
       report(Code::hidesLibrary, symbol->name.span,
