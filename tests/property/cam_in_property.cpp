@@ -1,9 +1,13 @@
 // MC_CamIn against the formula of the manual, section 4.6.1, over random courses of the master.
 #include "cam_scene.hpp"
 
+#include "st/SM_PLCopen/SMC_GetCamSlaveSetPosition.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -12,7 +16,7 @@ namespace {
 using namespace stride::test;
 namespace state = stride::axis::state;
 struct Seen {
-  int cycles = 0, ends = 0, outside = 0, refused = 0, exact = 0, shifts = 0, switches = 0;
+  int cycles = 0, ends = 0, outside = 0, refused = 0, exact = 0, shifts = 0, switches = 0, foretold = 0;
 };
 
 /// A random course; all that MC_CamIn does is what the model says.
@@ -53,11 +57,15 @@ public:
         disturb(cycle > 0);
         if (cycle == 0)
           ok = model.begin(scene_.master, slaveBefore);
+        if (cycle == 0)
+          foretell();
         scene_.rig.call(scene_.camIn, true);
         if (ok)
           check(model.at(scene_.master), scale);
         else
           refused(slaveBefore);
+        if (cycle == 0)
+          compareForetold(ok);
         shift();
       });
     }
@@ -82,6 +90,31 @@ private:
     if (started && random_.chance(0.05) && (masterPeriod_ == 0 || most < masterPeriod_ / 4)) {
       ref.bRegulatorOn = ref.bRegulatorOn == 0;
       ++seen_.switches;
+    }
+  }
+
+  /// SMC_GetCamSlaveSetPosition with the same inputs, in front of MC_CamIn.
+  void foretell() {
+    told_.CamTableID = &scene_.select.CamTableID;
+    told_.Master = &scene_.master.ref;
+    told_.Slave = &scene_.rig.axis;
+    told_.Enable = 1;
+    told_.MasterOffset = scene_.camIn.MasterOffset;
+    told_.MasterScaling = scene_.camIn.MasterScaling;
+    told_.SlaveOffset = scene_.camIn.SlaveOffset;
+    told_.SlaveScaling = scene_.camIn.SlaveScaling;
+    const auto before = scene_.rig.axis;
+    told_.body__(scene_.rig.ctx);
+    ASSERT_EQ(std::memcmp(&before, &scene_.rig.axis, sizeof before), 0) << "touches the slave";
+  }
+
+  void compareForetold(bool ok) {
+    ASSERT_EQ(told_.Error != 0, !ok);
+    ASSERT_EQ(told_.ErrorID, ok ? 0 : 626);
+    // StartMode is none of its inputs.
+    if (ok && (!scene_.settings.relative || scene_.select.SlaveAbsolute == 0)) {
+      ASSERT_EQ(told_.fStartPosition, scene_.rig.axis.fSetPosition);
+      ++seen_.foretold;
     }
   }
 
@@ -139,6 +172,8 @@ private:
   ModelCam cam_;
   double masterPeriod_;
   CamScene scene_;
+  ::st::SM_PLCopen::SMC_GetCamSlaveSetPosition told_ =
+      fresh<::st::SM_PLCopen::SMC_GetCamSlaveSetPosition>();
 };
 
 TEST(CamInProperty, PositionVelocityAndAccelerationFollowTheFormula) {
@@ -155,6 +190,7 @@ TEST(CamInProperty, PositionVelocityAndAccelerationFollowTheFormula) {
   EXPECT_GT(seen.ends, cases);
   EXPECT_GT(seen.outside, cases);
   EXPECT_GT(seen.refused, cases / 100);
+  EXPECT_GT(seen.foretold, cases / 2);
 }
 
 /// A cam that fits together at its ends, with a rise; all numbers exact.
