@@ -1,0 +1,617 @@
+// MC_CamIn through its life: what it refuses, who takes the slave from it, how it starts anew, what
+// happens to its axes meanwhile. Expectations are those of the manual, sections 4.6 and 5.4.
+#include "tests/property/cam_scene.hpp"
+
+#include "st/SM_PLCopen/MC_CamOut.h"
+#include "st/SM_PLCopen/MC_MoveSuperImposed.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace {
+
+using namespace stride::test;
+namespace error = stride::axis::error;
+namespace state = stride::axis::state;
+namespace pl = ::st::SM_PLCopen;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+ModelCam line(double length, double height) {
+  ModelCam cam;
+  cam.nodes = {{0, 0, height / length, 0}, {length, height, height / length, 0}};
+  return cam;
+}
+
+/// From rest to rest.
+ModelCam hill(double length, double height) {
+  ModelCam cam;
+  cam.nodes = {{0, 0, 0, 0}, {length / 2, height, 0, 0}, {length, 0, 0, 0}};
+  return cam;
+}
+
+/// A scene in power, the master at `position`, nothing started.
+std::unique_ptr<CamScene> ready(const ModelCam &cam, double masterPeriod = 0,
+                                double slavePeriod = 0, double position = 0) {
+  auto scene = std::make_unique<CamScene>(masterPeriod, slavePeriod, cam);
+  EXPECT_GT(scene->rig.powerUp(), 0);
+  scene->master.place(position);
+  scene->prepare();
+  EXPECT_EQ(scene->select.ErrorID, 0);
+  return scene;
+}
+
+/// One cycle in which the master moves on with `velocity`.
+void go(CamScene &scene, double velocity, bool execute = true) {
+  scene.rig.cycle([&] {
+    scene.master.step(velocity);
+    scene.rig.call(scene.camIn, execute);
+  });
+}
+
+// ---------------------------------------------------------------- What it refuses
+
+struct Refusal {
+  const char *name;
+  int error;
+  void (*spoil)(CamScene &);
+};
+
+const Refusal kRefusals[] = {
+    {"no cam selected", 625, [](CamScene &s) { s.camIn.CamTableID = fresh<pl::MC_CAM_ID>(); }},
+    {"no MC_CAM_REF", 750, [](CamScene &s) { s.camRef.wCamStructID = 1; }},
+    {"no data", 750, [](CamScene &s) { s.camRef.pce = nullptr; }},
+    {"no points", 750, [](CamScene &s) { s.camRef.nElements = 0; }},
+    {"no length", 750, [](CamScene &s) { s.camRef.xEnd = s.camRef.xStart; }},
+    {"unknown form", 750, [](CamScene &s) { s.camRef.byType = 9; }},
+    {"outside", 626,
+     [](CamScene &s) {
+       s.camIn.CamTableID.Periodic = 0;
+       s.camIn.MasterOffset = 1000;
+     }},
+    {"relative outside", 626,
+     [](CamScene &s) {
+       s.camIn.CamTableID.Periodic = 0;
+       s.camIn.CamTableID.MasterAbsolute = 0;
+       s.camIn.MasterOffset = -1;
+     }},
+    {"MasterScaling 0", 628, [](CamScene &s) { s.camIn.MasterScaling = 0; }},
+    {"SlaveScaling 0", 628, [](CamScene &s) { s.camIn.SlaveScaling = 0; }},
+    {"MasterScaling NaN", 628, [](CamScene &s) { s.camIn.MasterScaling = kNan; }},
+    {"SlaveScaling infinite", 628, [](CamScene &s) { s.camIn.SlaveScaling = kInf; }},
+    {"MasterOffset NaN", 628, [](CamScene &s) { s.camIn.MasterOffset = kNan; }},
+    {"SlaveOffset infinite", 628, [](CamScene &s) { s.camIn.SlaveOffset = -kInf; }},
+    {"VelocityDiff 0", 627,
+     [](CamScene &s) {
+       s.camIn.StartMode = 2;
+       s.camIn.VelocityDiff = 0;
+     }},
+    {"VelocityDiff negative", 627,
+     [](CamScene &s) {
+       s.camIn.StartMode = 3;
+       s.camIn.VelocityDiff = -10;
+     }},
+    {"Acceleration 0", 627,
+     [](CamScene &s) {
+       s.camIn.StartMode = 4;
+       s.camIn.Acceleration = 0;
+     }},
+    {"Deceleration NaN", 627,
+     [](CamScene &s) {
+       s.camIn.StartMode = 2;
+       s.camIn.Deceleration = kNan;
+     }},
+    {"Acceleration infinite", 627,
+     [](CamScene &s) {
+       s.camIn.StartMode = 2;
+       s.camIn.Acceleration = kInf;
+     }},
+    {"no jerk", 627,
+     [](CamScene &s) {
+       s.camIn.StartMode = 2;
+       s.rig.axis.eRampType = 2;
+     }},
+    {"no slave", error::kNoAxis, [](CamScene &s) { s.camIn.Slave = nullptr; }},
+    {"no master", error::kNoAxis, [](CamScene &s) { s.camIn.Master = nullptr; }},
+    {"error stop", error::kNotReady,
+     [](CamScene &s) { stride::axis::enterErrorStop(s.rig.axis, error::kDrive); }},
+};
+
+class CamRefusals : public testing::TestWithParam<Refusal> {};
+
+TEST_P(CamRefusals, LeaveTheSlaveAlone) {
+  auto scene = ready(line(360, 360), 360, 0, 10);
+  scene->camIn.VelocityDiff = scene->camIn.Acceleration = scene->camIn.Deceleration = 100;
+  scene->rig.idle();
+  GetParam().spoil(*scene);
+  go(*scene, 0);
+  EXPECT_TRUE(scene->camIn.Error);
+  EXPECT_EQ(scene->camIn.ErrorID, GetParam().error);
+  EXPECT_FALSE(scene->camIn.Busy);
+  EXPECT_FALSE(scene->camIn.Active);
+  EXPECT_FALSE(scene->camIn.InSync);
+  EXPECT_FALSE(scene->camIn.CommandAborted);
+  EXPECT_EQ(scene->rig.axis.fSetPosition, 0);
+  EXPECT_EQ(scene->rig.axis.iOwner, 0);
+  go(*scene, 0);
+  EXPECT_TRUE(scene->camIn.Error) << "as long as Execute";
+  go(*scene, 0, false);
+  EXPECT_FALSE(scene->camIn.Error);
+  EXPECT_EQ(scene->camIn.ErrorID, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(CamIn, CamRefusals, testing::ValuesIn(kRefusals), [](const auto &info) {
+  std::string name = info.param.name;
+  for (char &c : name)
+    if (c == ' ')
+      c = '_';
+  return name;
+});
+
+TEST(CamIn, NeedsPower) {
+  CamScene scene(0, 0, line(10, 10));
+  scene.rig.start();
+  scene.prepare();
+  scene.rig.power.bRegulatorOn = 0;
+  scene.rig.idle(50);
+  go(scene, 0);
+  EXPECT_EQ(scene.camIn.ErrorID, error::kNotPowered);
+}
+
+TEST(CamIn, EndsWithThePowerOfTheSlave) {
+  auto scene = ready(line(10, 10));
+  for (int i = 0; i < 5; ++i)
+    go(*scene, 1);
+  scene->rig.power.bRegulatorOn = 0;
+  for (int i = 0; i < 3; ++i)
+    go(*scene, 1);
+  EXPECT_EQ(scene->camIn.ErrorID, error::kNotPowered);
+  EXPECT_FALSE(scene->camIn.Busy);
+  EXPECT_FALSE(scene->camIn.InSync);
+}
+
+TEST(CamIn, BringsASlaveThatIsNotCalledForIntoErrorStop) {
+  auto scene = ready(line(10, 10));
+  for (int i = 0; i < 5; ++i)
+    go(*scene, 1);
+  scene->rig.idle();
+  EXPECT_EQ(scene->rig.axis.nAxisState, state::kErrorStop);
+  go(*scene, 1);
+  EXPECT_EQ(scene->camIn.ErrorID, error::kNotCalled);
+  EXPECT_FALSE(scene->camIn.InSync);
+}
+
+TEST(CamIn, NoticesThatAnAxisIsChanged) {
+  auto scene = ready(line(10, 10));
+  AxisRig other(kCamCycle);
+  for (int i = 0; i < 5; ++i)
+    go(*scene, 1);
+  scene->camIn.Slave = &other.axis;
+  go(*scene, 1);
+  EXPECT_EQ(scene->camIn.ErrorID, error::kAxisChanged);
+  EXPECT_FALSE(scene->camIn.Busy);
+}
+
+TEST(CamIn, LosesItsMasterAndBrakes) {
+  auto scene = ready(line(10, 10));
+  for (int i = 0; i < 5; ++i)
+    go(*scene, 1);
+  scene->camIn.Master = nullptr;
+  go(*scene, 1);
+  EXPECT_NE(scene->camIn.ErrorID, 0);
+  for (int i = 0; i < 20; ++i)
+    go(*scene, 1);
+  EXPECT_TRUE(std::isfinite(scene->rig.axis.fSetPosition));
+  EXPECT_EQ(scene->rig.axis.nAxisState, state::kErrorStop);
+}
+
+// ---------------------------------------------------------------- Nothing but numbers
+
+TEST(CamIn, NeverWritesWhatIsNoNumber) {
+  const double values[] = {0,      1,      -1,  kNan, kInf,  -kInf, 1e308, -1e308,
+                           1e-308, 4e-324, 360, 1e17, -1e17, 0.1,   -0.0};
+  const auto any = [&](Random &random) { return values[random.below(std::size(values))]; };
+  int failures = 0;
+  for (int i = 0; i < casesOf(20000) && !HasFailure(); ++i) {
+    Random random(static_cast<uint64_t>(i));
+    SCOPED_TRACE("seed " + std::to_string(i));
+    const ModelCam cam = randomCam(random, true);
+    CamScene scene(random.chance(0.5) ? 360 : 0, random.chance(0.5) ? 270 : 0, cam);
+    ASSERT_GT(scene.rig.powerUp(), 0);
+    scene.prepare();
+    auto &camIn = scene.camIn;
+    const auto spoil = [&](double &value) {
+      if (random.chance(0.2))
+        value = any(random);
+    };
+    camIn.VelocityDiff = camIn.Acceleration = camIn.Deceleration = 1000;
+    camIn.StartMode = static_cast<int16_t>(random.below(7));
+    for (double *value :
+         {&camIn.MasterOffset, &camIn.MasterScaling, &camIn.SlaveOffset, &camIn.SlaveScaling,
+          &camIn.VelocityDiff, &camIn.Acceleration, &camIn.Deceleration, &camIn.Jerk,
+          &camIn.TappetHysteresis, &camIn.MasterStartDistance, &camIn.MasterSyncPosition})
+      spoil(*value);
+    camIn.CamTableID.Periodic = random.chance(0.5);
+    scene.rig.axis.eRampType = static_cast<int16_t>(random.below(4));
+    double velocity = 0;
+    for (int cycle = 0; cycle < 20 && !HasFailure(); ++cycle)
+      scene.rig.cycle([&] {
+        if (cycle > 0 && random.chance(0.1))
+          velocity = any(random);
+        scene.master.step(1);
+        scene.master.ref.fSetVelocity = velocity;
+        if (random.chance(0.03))
+          scene.master.ref.fSetPosition = any(random);
+        if (random.chance(0.03))
+          scene.master.ref.fPositionPeriod = any(random);
+        if (cycle > 0 && random.chance(0.05))
+          scene.cam
+              .nodes[static_cast<std::size_t>(random.below(static_cast<int>(cam.nodes.size())))]
+              .dY = any(random);
+        if (cycle > 0 && random.chance(0.02))
+          scene.cam.fill();
+        if (random.chance(0.02))
+          scene.camRef.nElements = static_cast<int16_t>(random.below(4) - 1);
+        if (random.chance(0.02))
+          scene.camRef.xEnd = any(random);
+        scene.rig.call(camIn, true);
+        const auto &axis = scene.rig.axis;
+        ASSERT_TRUE(std::isfinite(axis.fSetPosition));
+        ASSERT_TRUE(std::isfinite(axis.fSetVelocity));
+        ASSERT_TRUE(std::isfinite(axis.fSetAcceleration));
+        failures += camIn.Error;
+      });
+  }
+  EXPECT_GT(failures, casesOf(20000));
+}
+
+// ---------------------------------------------------------------- While it runs
+
+TEST(CamIn, RunsOnWithoutExecute) {
+  auto scene = ready(line(360, 720));
+  go(*scene, 100);
+  for (int i = 0; i < 50; ++i) {
+    go(*scene, 100, false);
+    ASSERT_TRUE(scene->camIn.Busy);
+    ASSERT_DOUBLE_EQ(scene->rig.axis.fSetPosition, 2 * scene->master.ref.fSetPosition);
+  }
+}
+
+TEST(CamIn, ReadsItsInputsAtTheEdge) {
+  auto scene = ready(line(360, 720));
+  go(*scene, 100);
+  scene->camIn.SlaveScaling = 5;
+  scene->camIn.SlaveOffset = 3;
+  scene->camIn.MasterScaling = 5;
+  scene->camIn.MasterOffset = 7;
+  go(*scene, 100);
+  EXPECT_DOUBLE_EQ(scene->rig.axis.fSetPosition, 2 * scene->master.ref.fSetPosition);
+  go(*scene, 100, false);
+  go(*scene, 100);
+  EXPECT_DOUBLE_EQ(scene->rig.axis.fSetPosition,
+                   3 + 5 * 2 * (5 * scene->master.ref.fSetPosition + 7));
+}
+
+TEST(CamIn, AnotherEdgeForgetsWhatHasGoneBefore) {
+  // 4.6.2: Offset1 and Offset2 are deleted; the original equation holds.
+  auto scene = ready(line(100, 30), 360, 0, 50);
+  scene->settings.periodic = true;
+  for (int i = 0; i < 50; ++i) // 500 on: five passages
+    go(*scene, i < 49 ? 5000 : 0);
+  const double master = scene->master.ref.fSetPosition;
+  EXPECT_GT(scene->rig.axis.fSetPosition, 120);
+  go(*scene, 0, false);
+  go(*scene, 0);
+  EXPECT_NEAR(scene->rig.axis.fSetPosition, 0.3 * std::fmod(master, 100), 1e-9);
+}
+
+TEST(CamIn, AHaltingMasterHoldsTheSlaveOnTheCam) {
+  auto scene = ready(hill(360, 50), 360);
+  for (int i = 0; i < 100; ++i)
+    go(*scene, 300);
+  for (int i = 0; i < 100; ++i)
+    go(*scene, 0);
+  EXPECT_TRUE(scene->camIn.InSync);
+  EXPECT_TRUE(scene->camIn.Busy);
+  EXPECT_EQ(scene->rig.axis.fSetVelocity, 0);
+  EXPECT_EQ(scene->rig.axis.fSetAcceleration, 0);
+  EXPECT_EQ(scene->rig.axis.nAxisState, state::kSynchronized);
+  go(*scene, -300);
+  EXPECT_TRUE(scene->camIn.InSync);
+  EXPECT_LT(scene->rig.axis.fSetVelocity, 0);
+}
+
+TEST(CamIn, FollowsAMasterThatLosesItsPower) {
+  auto scene = ready(line(360, 360), 360);
+  for (int i = 0; i < 10; ++i)
+    go(*scene, 300);
+  scene->master.ref.bRegulatorOn = 0;
+  scene->master.ref.nAxisState = state::kErrorStop;
+  for (int i = 0; i < 10; ++i)
+    go(*scene, 300 - 30 * i);
+  EXPECT_TRUE(scene->camIn.InSync);
+  EXPECT_DOUBLE_EQ(scene->rig.axis.fSetPosition, scene->master.ref.fActPosition);
+}
+
+TEST(CamIn, AShiftOfTheSlavesZeroPointIsNoMotion) {
+  for (const double slavePeriod : {0.0, 360.0}) {
+    SCOPED_TRACE(slavePeriod);
+    auto scene = ready(hill(360, 50), 360, slavePeriod);
+    auto twin = ready(hill(360, 50), 360, slavePeriod);
+    auto set = fresh<pl::MC_SetPosition>();
+    set.Axis = &scene->rig.axis;
+    for (int i = 0; i < 400; ++i) {
+      set.Position = i == 100 ? 77 : -500;
+      set.Mode = i < 200;
+      const bool before = i < 150;
+      scene->rig.cycle([&] {
+        scene->master.step(300);
+        if (before)
+          scene->rig.call(set, i == 100);
+        scene->rig.call(scene->camIn, true);
+        if (!before)
+          scene->rig.call(set, i == 300);
+      });
+      go(*twin, 300);
+      ASSERT_NEAR(static_cast<double>(scene->rig.axis.liSetIncrements),
+                  static_cast<double>(twin->rig.axis.liSetIncrements), 1)
+          << i;
+      ASSERT_TRUE(scene->camIn.InSync);
+      const double shift = scene->rig.axis.fSetPosition - twin->rig.axis.fSetPosition;
+      const double wanted = i < 100 ? 0 : 77;
+      if (i < 300 && slavePeriod == 0) {
+        ASSERT_NEAR(shift, wanted, 1e-9) << i;
+      }
+      ASSERT_NEAR(scene->rig.axis.fSetVelocity, twin->rig.axis.fSetVelocity, 1e-9);
+    }
+  }
+}
+
+// ---------------------------------------------------------------- Who takes the slave
+
+TEST(CamIn, AnotherBlockTakesTheSlaveWithoutAJump) {
+  auto scene = ready(line(360, 360), 360, 360);
+  auto move = scene->rig.move(200, 500, 1000, 1000);
+  for (int i = 0; i < 100; ++i)
+    go(*scene, 300);
+  double before = scene->rig.axis.fSetPosition;
+  for (int i = 0; i < 1000; ++i) {
+    const double velocity = scene->rig.axis.fSetVelocity;
+    scene->rig.cycle([&] {
+      scene->master.step(300);
+      scene->rig.call(scene->camIn, true);
+      scene->rig.call(move, true);
+    });
+    double way = scene->rig.axis.fSetPosition - before;
+    way -= 360 * std::round(way / 360);
+    if (i > 0) { // both have moved it in the first cycle
+      ASSERT_NEAR(way, velocity * kCamCycle, 1000 * kCamCycle * kCamCycle) << i;
+      ASSERT_TRUE(scene->camIn.CommandAborted);
+      ASSERT_FALSE(scene->camIn.InSync);
+      ASSERT_FALSE(scene->camIn.Busy);
+      ASSERT_FALSE(scene->camIn.Error);
+    } else {
+      ASSERT_NEAR(way, velocity * kCamCycle, 1000 * kCamCycle * kCamCycle) << "jump at the start";
+    }
+    before = scene->rig.axis.fSetPosition;
+  }
+  EXPECT_TRUE(move.Done);
+  EXPECT_EQ(scene->rig.axis.fSetPosition, 200);
+  scene->rig.cycle([&] { scene->rig.call(scene->camIn, false); });
+  EXPECT_FALSE(scene->camIn.CommandAborted);
+}
+
+TEST(CamIn, CamOutLetsTheSlaveGoOnWithItsVelocity) {
+  auto scene = ready(hill(360, 100), 360);
+  auto out = fresh<pl::MC_CamOut>();
+  out.Slave = &scene->rig.axis;
+  for (int i = 0; i < 100; ++i)
+    go(*scene, 300);
+  const double velocity = scene->rig.axis.fSetVelocity;
+  ASSERT_GT(velocity, 10);
+  double before = scene->rig.axis.fSetPosition;
+  for (int i = 0; i < 100; ++i) {
+    scene->rig.cycle([&] {
+      scene->master.step(0);
+      scene->rig.call(out, true);
+      scene->rig.call(scene->camIn, true);
+    });
+    ASSERT_TRUE(out.Done);
+    ASSERT_DOUBLE_EQ(scene->rig.axis.fSetVelocity, velocity);
+    ASSERT_NEAR(scene->rig.axis.fSetPosition - before, velocity * kCamCycle, 1e-9);
+    ASSERT_EQ(scene->rig.axis.nAxisState, state::kContinuous);
+    ASSERT_TRUE(scene->camIn.CommandAborted);
+    ASSERT_FALSE(scene->camIn.InSync);
+    before = scene->rig.axis.fSetPosition;
+  }
+}
+
+TEST(CamIn, CarriesASuperimposedMotion) {
+  for (const double slavePeriod : {0.0, 90.0}) {
+    auto scene = ready(hill(360, 100), 360, slavePeriod);
+    auto twin = ready(hill(360, 100), 360, slavePeriod);
+    auto super = fresh<pl::MC_MoveSuperImposed>();
+    super.Axis = &scene->rig.axis;
+    super.Distance = 37;
+    super.VelocityDiff = 50;
+    super.Acceleration = super.Deceleration = 500;
+    long double last = 0;
+    for (int i = 0; i < 1500; ++i) {
+      scene->rig.cycle([&] {
+        scene->master.step(300);
+        scene->rig.call(scene->camIn, true);
+        scene->rig.call(super, i >= 50);
+      });
+      go(*twin, 300);
+      ASSERT_TRUE(scene->camIn.InSync);
+      ASSERT_FALSE(scene->camIn.CommandAborted);
+      long double added = scene->offFrom(twin->rig.axis.fSetPosition);
+      if (slavePeriod > 0)
+        added -= slavePeriod * std::round((added - last) / slavePeriod);
+      ASSERT_LE(std::fabs(added - last), 50 * kCamCycle + 1e-9) << i;
+      last = added;
+    }
+    EXPECT_TRUE(super.Done);
+    EXPECT_NEAR(static_cast<double>(last), 37, 1e-9);
+  }
+}
+
+// ---------------------------------------------------------------- From one cam to another (4.6.2)
+
+/// Both cams rise by 360; their velocities fit.
+struct TwoCams {
+  ModelCam first, second;
+  CamRef secondRef;
+  pl::MC_CamTableSelect select = fresh<pl::MC_CamTableSelect>();
+  std::unique_ptr<CamScene> scene;
+
+  TwoCams(bool periodic, bool slaveAbsolute, double masterPeriod, double slavePeriod) {
+    first = line(360, 360);
+    first.nodes.insert(first.nodes.begin() + 1, {180, 100, 1.5, 0});
+    second = line(360, 360);
+    second.nodes.insert(second.nodes.begin() + 1, {100, 200, 0.5, 0});
+    secondRef = second.ref();
+    scene = ready(first, masterPeriod, slavePeriod);
+    scene->camIn.CamTableID.Periodic = periodic;
+    select.Master = &scene->master.ref;
+    select.Slave = &scene->rig.axis;
+    select.CamTable = &secondRef;
+    select.SlaveAbsolute = slaveAbsolute;
+    select.Periodic = periodic;
+    scene->rig.call(select, true);
+    EXPECT_TRUE(select.Done);
+  }
+  TwoCams(const TwoCams &) = delete;
+
+  /// One cycle of the manual's program: a restart at EndOfProfile. True if there was one.
+  bool cycle(double velocity, double slaveOffset = 0) {
+    bool changed = false;
+    scene->rig.cycle([&] {
+      scene->master.step(velocity);
+      scene->rig.call(scene->camIn, true);
+      if (scene->camIn.EndOfProfile != 0 && scene->camIn.CamTableID.pCam != &secondRef) {
+        atEnd = scene->rig.axis.fSetPosition;
+        scene->rig.call(scene->camIn, false);
+        scene->camIn.CamTableID = select.CamTableID;
+        scene->camIn.SlaveOffset = slaveOffset;
+        scene->rig.call(scene->camIn, true);
+        changed = true;
+      }
+    });
+    EXPECT_EQ(scene->camIn.ErrorID, 0);
+    return changed;
+  }
+  double atEnd = 0;
+};
+
+TEST(CamIn, GoesOverToARelativeCamWithoutLosingTheWay) {
+  // 2a: CAM1 not periodic stays at 360 (point 2b of the figure), CAM2 relative begins there.
+  TwoCams cams(false, false, 360, 0);
+  double last = 0;
+  int changes = 0;
+  for (int i = 0; i < 700; ++i) {
+    const bool change = cams.cycle(500);
+    changes += change;
+    const double slave = cams.scene->rig.axis.fSetPosition;
+    if (change) {
+      const double x = cams.scene->master.ref.fSetPosition;
+      EXPECT_DOUBLE_EQ(cams.atEnd, 360);
+      EXPECT_NEAR(slave, 360 + static_cast<double>(cams.second.at(x).y), 1e-9) << "point 3";
+      ASSERT_LT(x, 1.0);
+    }
+    ASSERT_NEAR(slave - last, 500 * kCamCycle, 3 * kCamCycle * 500) << i;
+    last = slave;
+  }
+  EXPECT_EQ(changes, 1);
+}
+
+TEST(CamIn, ARelativeCamAfterAPeriodicOneBeginsWhereThatHasGoneOn) {
+  // 2a, the other way: CAM1 periodic has begun again (point 2a); CAM2 is shifted by that.
+  TwoCams cams(true, false, 360, 0);
+  for (int i = 0; i < 700; ++i) {
+    if (!cams.cycle(500))
+      continue;
+    const double x = cams.scene->master.ref.fSetPosition;
+    const double again = 360 + static_cast<double>(cams.first.at(x).y);
+    EXPECT_NEAR(cams.atEnd, again, 1e-9);
+    EXPECT_NEAR(cams.scene->rig.axis.fSetPosition, again + static_cast<double>(cams.second.at(x).y),
+                1e-9);
+    return;
+  }
+  FAIL() << "no change";
+}
+
+TEST(CamIn, GoesOverToAnAbsoluteCamIfThePeriodsFit) {
+  // 2b: periods 360/360; periodic or not does not matter.
+  for (const bool periodic : {false, true}) {
+    TwoCams cams(periodic, true, 360, 360);
+    double last = 0;
+    int changes = 0;
+    for (int i = 0; i < 700; ++i) {
+      const bool change = cams.cycle(500);
+      changes += change;
+      const double slave = cams.scene->rig.axis.fSetPosition;
+      double way = slave - last;
+      way -= 360 * std::round(way / 360);
+      ASSERT_NEAR(way, 500 * kCamCycle, 3 * 500 * kCamCycle) << i;
+      if (change) {
+        EXPECT_NEAR(slave,
+                    static_cast<double>(cams.second.at(cams.scene->master.ref.fSetPosition).y),
+                    1e-9);
+      }
+      last = slave;
+    }
+    EXPECT_EQ(changes, 1);
+  }
+}
+
+TEST(CamIn, NeedsASlaveOffsetIfTheSlavesPeriodIsAnother) {
+  // 2b: the slave's period is 270, so it stands at 90; with SlaveOffset 90 nothing jumps.
+  for (const double offset : {0.0, 90.0}) {
+    TwoCams cams(false, true, 360, 270);
+    double last = 0;
+    for (int i = 0; i < 700; ++i) {
+      const bool change = cams.cycle(500, offset);
+      const double slave = cams.scene->rig.axis.fSetPosition;
+      double way = slave - last;
+      way -= 270 * std::round(way / 270);
+      if (change) {
+        EXPECT_NEAR(cams.atEnd, 90, 1e-9);
+        const double jump = offset - 90;
+        EXPECT_NEAR(way, jump + 500 * kCamCycle, 3 * 500 * kCamCycle);
+      } else {
+        ASSERT_NEAR(way, 500 * kCamCycle, 3 * 500 * kCamCycle) << i;
+      }
+      last = slave;
+    }
+  }
+}
+
+TEST(CamIn, GoesOverByItselfWhereTheCamEnds) {
+  // Another CamTableID while it runs: from the end of the running cam on, exactly.
+  for (const bool slaveAbsolute : {false, true}) {
+    TwoCams cams(true, slaveAbsolute, 360, 360);
+    cams.scene->camIn.CamTableID = cams.scene->select.CamTableID;
+    go(*cams.scene, 500);
+    cams.scene->camIn.CamTableID = cams.select.CamTableID;
+    int ends = 0;
+    for (int i = 0; i < 900; ++i) {
+      go(*cams.scene, 500);
+      const double x = cams.scene->master.ref.fSetPosition;
+      ends += cams.scene->camIn.EndOfProfile;
+      const ModelCam &cam = ends > 0 ? cams.second : cams.first;
+      const double y = static_cast<double>(cam.at(x).y); // both periods: whole turns
+      ASSERT_NEAR(static_cast<double>(cams.scene->offFrom(y)), 0, 1e-9) << i << " " << ends;
+      ASSERT_TRUE(cams.scene->camIn.InSync);
+    }
+    EXPECT_EQ(ends, 2);
+  }
+}
+
+} // namespace
