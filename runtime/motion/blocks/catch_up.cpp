@@ -49,6 +49,13 @@ axis::MotionState chase(const Dynamics &dynamics, const FollowState &follow, dou
   return axis::evaluateCubic({0.0, follow.fVelocity, follow.fAcceleration}, jerk, cycle);
 }
 
+/// Whether an acceleration is beyond the limit, and more so than the slave's present one.
+bool isTooMuch(const CatchUpState &state, const FollowState &follow, double acceleration) noexcept {
+  const double limit = limitTowards(state, follow, exact::signOf(acceleration));
+  return exact::fabs(acceleration) > limit * (1.0 + 1e-12) &&
+         exact::fabs(acceleration) > exact::fabs(follow.fAcceleration);
+}
+
 } // namespace
 
 LimitError checkLimits(const AxisRef &ref, double acceleration, double deceleration,
@@ -67,8 +74,7 @@ Demand demandOf(const GearState &gear, const MasterState &state,
                 const MasterMotion &master) noexcept {
   const double factor = gearFactor(gear);
   const bool rough = state.bActual != 0;
-  return {factor * master.velocity, rough ? 0.0 : factor * master.acceleration,
-          factor * master.travel, rough};
+  return {factor * master.velocity, factor * master.travel, master.acceleration == 0.0, rough};
 }
 
 MasterMotion cycleBefore(const AxisRef &slave, const MasterMotion &master) noexcept {
@@ -85,7 +91,6 @@ MasterMotion sinceCycleBefore(const AxisRef &slave, const MasterMotion &master) 
 
 void beginCatchUp(CatchUpState &state, const Demand &last) noexcept {
   state.fVelocity = last.velocity;
-  state.fDemanded = last.acceleration;
   state.bPlanned = 0;
 }
 
@@ -93,20 +98,18 @@ bool catchUp(CatchUpState &state, const FollowState &follow, const AxisRef &ref,
              const Demand &demand, axis::MotionState &now) noexcept {
   const double cycle = ref.fTaskCycle;
   const double before = state.fVelocity;
-  const double demanded = state.fDemanded;
   state.fVelocity = demand.velocity;
-  state.fDemanded = demand.acceleration;
   now = {follow.fVelocity * cycle, follow.fVelocity, 0.0};
-  if (demand.acceleration == 0.0 && demand.velocity == before)
+  if (demand.steady && demand.velocity == before)
     return rampOn(state, follow, ref, demand, now);
   state.bPlanned = 0;
-  // Seen from the master: the difference has to vanish.
+  // Seen from a place that moves with the master, and with its mean acceleration in this cycle: the
+  // difference has to vanish.
   const double mean = (demand.velocity - before) / cycle;
   const double behind = follow.fVelocity - before;
   const double side = behind < 0.0 ? 1.0 : -1.0;
   const double limit = limitTowards(state, follow, side);
-  const double room =
-      limit - exact::larger(side * mean, demand.rough ? side * mean : side * demand.acceleration);
+  const double room = limit - side * mean;
   Dynamics dynamics = dynamicsOf(state, ref);
   if (dynamics.ramp != RampType::Trapezoid)
     dynamics.ramp = RampType::Parabolic;
@@ -117,14 +120,18 @@ bool catchUp(CatchUpState &state, const FollowState &follow, const AxisRef &ref,
   dynamics.acceleration = exact::larger(room, 1e-9 * limit);
   dynamics.deceleration = dynamics.acceleration;
   Profile profile;
-  if (planVelocity(profile, {0.0, behind, follow.fAcceleration - demanded}, 0.0, dynamics) !=
+  if (planVelocity(profile, {0.0, behind, follow.fAcceleration - mean}, 0.0, dynamics) !=
       PlanError::None)
     return false;
-  const bool over = !(cycle * (1.0 + 1e-9) < profile.duration);
   const State rest = profile.at(cycle);
-  now = {demand.travel + rest.position, demand.velocity + rest.velocity,
-         demand.acceleration + rest.acceleration};
-  return over || (demand.rough && exact::fabs(rest.velocity) <= limit * cycle);
+  now = {demand.travel + rest.position, demand.velocity + rest.velocity, mean + rest.acceleration};
+  if (isTooMuch(state, follow, now.acceleration)) {
+    // The slave gets past the master in this cycle, and there the other limit counts.
+    now = chase(dynamics, follow, follow.fAcceleration, cycle);
+    return false;
+  }
+  return !(cycle * (1.0 + 1e-9) < profile.duration) ||
+         (demand.rough && exact::fabs(rest.velocity) <= limit * cycle);
 }
 
 } // namespace stride::motion

@@ -13,10 +13,10 @@ using CatchUpState = ::st::SM_PLCopen::SMC_CATCH_UP_STATE;
 
 /// What the master demands of the slave in a cycle: its own motion times the ratio (demandOf).
 struct Demand {
-  double velocity;     ///< At the end of the cycle. [u/s]
-  double acceleration; ///< At the end of the cycle; 0 where it is not known. [u/s^2]
-  double travel;       ///< In the cycle. [u]
-  bool rough;          ///< Actual values: velocities jump by what the encoder resolves.
+  double velocity; ///< At the end of the cycle. [u/s]
+  double travel;   ///< In the cycle. [u]
+  bool steady;     ///< The master has no acceleration.
+  bool rough;      ///< Actual values: velocities jump by what the encoder resolves.
 };
 
 /// What is wrong with limits for the axis: nothing, or which of both.
@@ -42,11 +42,11 @@ MasterMotion sinceCycleBefore(const AxisRef &slave, const MasterMotion &master) 
 void beginCatchUp(CatchUpState &state, const Demand &last) noexcept;
 
 /// The slave's next set values after those in `follow`: now.position is the way [u]. Acceleration
-/// and deceleration never exceed the limits, with jerk limited ramps nor does the jerk in relation
-/// to the master. True: the slave has the master's velocity (with such ramps also its
-/// acceleration). A master whose acceleration is more than the slave's limit gets away. While the
-/// demanded velocity does not change, the ramp is the axis's own; otherwise sin^2 ramps become
-/// parabolic ones.
+/// and deceleration never exceed the limits (with SMC_RAMPTYPE.sigmoid not more than such ramps
+/// do), with jerk limited ramps nor does the jerk. True: the slave has the master's velocity, with
+/// such ramps also its mean acceleration. A master whose acceleration is more than the slave's
+/// limit gets away. While the demanded velocity does not change, the ramp is the axis's own;
+/// otherwise sin^2 ramps become parabolic ones.
 bool catchUp(CatchUpState &state, const FollowState &follow, const AxisRef &ref,
              const Demand &demand, axis::MotionState &now) noexcept;
 

@@ -225,7 +225,8 @@ struct Leader {
   }
 };
 
-/// A block that follows a Leader. `prepare(block, leader, slave)` sets its inputs at the first edge.
+/// A block that follows a Leader. `prepare(block, leader, slave)` sets its inputs at the first
+/// edge.
 template <class Block, class Prepare> Factory coupled(Prepare prepare) {
   return [prepare](AxisRig &rig) {
     auto h = std::make_shared<Held<Block, Leader>>();
