@@ -62,8 +62,8 @@ private:
 };
 
 Range scaledRange(const Range &range, double factor) noexcept {
-  const double low = range.low * factor;
-  const double high = range.high * factor;
+  const double low = range.low * factor + 0.0; // no -0
+  const double high = range.high * factor + 0.0;
   return factor < 0.0 ? Range{high, low} : Range{low, high};
 }
 
