@@ -35,6 +35,24 @@ void setNode(decltype(CamState::stBegin) &out, const cam::Node &node) noexcept {
   out.dA = node.a;
 }
 
+/// At which whole turn from the cam the compensating motion of a rotary slave ends. Without a
+/// direction it is the one nearest to where the motion in progress can come to rest.
+bool findTurn(const axis::AxisRef &slave, int16_t startMode, const State &distance,
+              const Dynamics &dynamics, double &turn) noexcept {
+  const double period = slave.fPositionPeriod;
+  if (startMode == mode::MC_StartMode__ramp_in) {
+    Profile stop;
+    if (planStop(stop, distance, dynamics) != PlanError::None)
+      return false;
+    turn = period * exact::floor(stop.end.position / period + 0.5);
+    return true;
+  }
+  const Direction direction =
+      startMode == mode::MC_StartMode__ramp_in_pos ? Direction::Positive : Direction::Negative;
+  return resolveModulo({distance, 0.0, 0.0, period, direction, Direction::Positive, dynamics},
+                       turn);
+}
+
 /// The compensating motion leads the slave's distance from the cam to zero, on a rotary slave to a
 /// whole number of turns.
 int16_t planRamp(CamState &state, const axis::AxisRef &slave, const CamTarget &target) noexcept {
@@ -44,15 +62,8 @@ int16_t planRamp(CamState &state, const axis::AxisRef &slave, const CamTarget &t
                  now.acceleration - target.state.acceleration};
   if (axis::isRotary(slave)) {
     distance.position = axis::wrapPosition(distance.position, slave.fPositionPeriod);
-    Direction direction = Direction::Shortest;
-    if (state.stCommand.eStartMode == mode::MC_StartMode__ramp_in_pos)
-      direction = Direction::Positive;
-    else if (state.stCommand.eStartMode == mode::MC_StartMode__ramp_in_neg)
-      direction = Direction::Negative;
     double goal = 0.0;
-    if (!resolveModulo(
-            {distance, 0.0, 0.0, slave.fPositionPeriod, direction, Direction::Positive, dynamics},
-            goal))
+    if (!findTurn(slave, state.stCommand.eStartMode, distance, dynamics, goal))
       return number::SMC_ERROR__SMC_CI_RAMPIN_NEEDS_VELACC_VALUES;
     distance.position -= goal; // so that it ends at 0
   }
