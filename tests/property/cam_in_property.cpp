@@ -16,7 +16,8 @@ namespace {
 using namespace stride::test;
 namespace state = stride::axis::state;
 struct Seen {
-  int cycles = 0, ends = 0, outside = 0, refused = 0, exact = 0, shifts = 0, switches = 0, foretold = 0;
+  int cycles = 0, ends = 0, outside = 0, refused = 0, exact = 0, shifts = 0, switches = 0,
+      foretold = 0;
 };
 
 /// A random course; all that MC_CamIn does is what the model says.
