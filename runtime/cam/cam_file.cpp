@@ -70,6 +70,8 @@ bool isTable(const CamFileHeader &header) noexcept {
 }
 
 int64_t sizeInMemory(const CamFileHeader &header) noexcept {
+  if (header.elements == 0)
+    return 0;
   return elementBlockSize(header.form, header.element, header.elements);
 }
 
@@ -129,7 +131,7 @@ CamFileError readCamFileHeader(const uint8_t *bytes, CamFileHeader &header) noex
   header.start = get<double>(bytes, kStartAt);
   header.end = get<double>(bytes, kEndAt);
   header.rise = get<double>(bytes, kRiseAt);
-  if (get<uint16_t>(bytes, kReservedAt) != 0 || header.elements == 0 ||
+  if (get<uint16_t>(bytes, kReservedAt) != 0 || (header.elements == 0 && header.tappets == 0) ||
       header.elements > kCamFileMaxCount || header.tappets > kCamFileMaxCount ||
       !exact::isfinite(header.start) || !exact::isfinite(header.end) ||
       !exact::isfinite(header.rise) || !(header.start < header.end))
@@ -145,7 +147,7 @@ void writeFileElements(const CamFileHeader &header, const void *data, int64_t of
   if (header.form == Form::Segments)
     clearGaps(__builtin_offsetof(Segment, law) + sizeof(Law), sizeof(Segment), sizeof(Segment),
               offset, bytes, count);
-  if (isTable(header)) {
+  if (isTable(header) && size > 0) {
     const int64_t numbers =
         header.form == Form::PairTable ? 2 * int64_t{header.elements} : int64_t{header.elements};
     clearGaps(numbers * sizeOf(header.element), size - int64_t{sizeof(TableScaling)}, size + 8,
@@ -210,6 +212,8 @@ CamFileError openCamFile(const uint8_t *bytes, int64_t size, CamFile &file) noex
   // NOLINTNEXTLINE: the bytes of a file, aligned as the caller promises.
   file.tappets = reinterpret_cast<const FileTappet *>(bytes + kCamFileHeaderSize +
                                                       fileElementsSize(file.header));
+  if (file.header.elements == 0)
+    return CamFileError::None;
   return checkCurve(curveOfFile(file.header, file.elements)) == CurveError::None
              ? CamFileError::None
              : CamFileError::Damaged;

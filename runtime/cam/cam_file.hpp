@@ -31,7 +31,7 @@ struct CamFileHeader {
   Element element = Element::Lreal; ///< Of tables.
   bool cubic = false;               ///< Of tables.
   bool open = false;                ///< Even table without its last place; `rise` counts.
-  uint32_t elements = 0;
+  uint32_t elements = 0;            ///< 0: a cam without a curve, for its tappets.
   uint32_t tappets = 0;
   double start = 0.0; ///< [master u]
   double end = 0.0;   ///< [master u]
