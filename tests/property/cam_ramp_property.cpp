@@ -113,7 +113,7 @@ public:
             std::to_string(jerk_) + " period " + std::to_string(period_) + " master's " +
             (scene_.master.isRotary() ? "rotary" : "linear");
     SCOPED_TRACE(note_);
-    for (int cycle = 0; cycle < (cycle == 0 ? 1 : longest(mode)) && after < 20 &&
+    for (int cycle = 0; cycle < (cycle == 0 ? 1 : longest()) && after < 20 &&
                         !testing::Test::HasFatalFailure();
          ++cycle) {
       SCOPED_TRACE("cycle " + std::to_string(cycle));
@@ -139,7 +139,7 @@ public:
       });
       after += inSync_ ? 1 : 0;
     }
-    ASSERT_TRUE(inSync_) << "after " << longest(mode) << " cycles";
+    ASSERT_TRUE(inSync_) << "after " << longest() << " cycles";
     // The way round.
     const long double way = r_ - first_;
     if (period_ > 0) {
@@ -183,13 +183,13 @@ private:
   }
 
   /// Cycles that a compensation may take.
-  [[nodiscard]] int longest(int mode) const {
+  [[nodiscard]] int longest() const {
     const double stop = static_cast<double>(rv0_) / deceleration_;
     const double change = velocityDiff_ / acceleration_ + velocityDiff_ / deceleration_ +
                           4 * std::sqrt(velocityDiff_ / jerk_) + 4 * limit_ / jerk_;
     // Braking may lead far away.
     double way = static_cast<double>(std::fabs(first_)) + period_ + change * velocityDiff_;
-    if (period_ == 0 || mode == RampIn)
+    if (period_ == 0)
       way += static_cast<double>(std::fabs(rv0_)) * (stop + change);
     return static_cast<int>((stop + 4 * change + way / velocityDiff_) / kCamCycle) + 50;
   }
