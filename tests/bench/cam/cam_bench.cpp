@@ -16,8 +16,8 @@ namespace cam = stride::cam;
 
 /// The forms that are measured.
 enum Kind : int { kLines, kCubicEven, kPairs, kCubicPairs, kNodes, kPolynomials, kLaws };
-constexpr const char *kNames[] = {"even, lines",  "even, cubic",     "pairs, lines", "pairs, cubic",
-                                  "XYVA quintic", "polynomial segm", "modified sine"};
+constexpr const char *kNames[] = {"even lines", "even cubic",  "pairs lines",  "pairs cubic",
+                                  "XYVA",       "polynomials", "modified sine"};
 
 struct Made {
   cam::Curve curve;
