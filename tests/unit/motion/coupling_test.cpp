@@ -437,6 +437,71 @@ TEST_F(Couplings, AnotherMasterOnTheWayIsAnError) {
   EXPECT_EQ(rig.axis.nAxisState, state::kErrorStop);
 }
 
+TEST_F(Couplings, FollowAnEncoder) {
+  // Whole thousandths of a unit, so that the velocity is 7 or 8 u/s, 7.3 in the mean.
+  master.bRegulatorOn = 0;
+  for (const int8_t ramp : {int8_t{0}, int8_t{2}}) {
+    rig.axis.eRampType = ramp;
+    gear.Jerk = 1000;
+    double exact = master.fActPosition;
+    int cycles = 0;
+    const auto step = [&](double velocity) {
+      exact += velocity * 0.001;
+      const double seen = std::floor(exact * 1000) / 1000;
+      const double before = master.fActVelocity;
+      master.fActVelocity = (seen - master.fActPosition) / 0.001;
+      master.fActAcceleration = (master.fActVelocity - before) / 0.001;
+      master.fActPosition = seen;
+    };
+    for (int i = 0; i < 50; ++i)
+      rig.cycle([&] { step(7.3); });
+    call(gear, false);
+    for (; cycles < 2000 && !gear.InGear; ++cycles) {
+      const double before = rig.axis.fSetVelocity;
+      rig.cycle([&] {
+        step(7.3);
+        call(gear, true);
+      });
+      ASSERT_FALSE(gear.Error) << gear.ErrorID;
+      if (!gear.InGear) {
+        ASSERT_LE(std::fabs(rig.axis.fSetVelocity - before), 0.05 * (1 + 1e-9));
+      }
+    }
+    EXPECT_TRUE(gear.InGear);
+    EXPECT_NEAR(cycles, ramp == 0 ? 146 : 196, 15);
+    const double difference = rig.axis.fSetPosition - master.fActPosition;
+    for (int i = 0; i < 1000; ++i) {
+      rig.cycle([&] {
+        step(i < 500 ? 7.3 : -7.3);
+        call(gear, true);
+      });
+      ASSERT_NEAR(rig.axis.fSetPosition - master.fActPosition, difference, 1e-12);
+    }
+    auto stop = rig.stop(50);
+    for (int i = 0; i < 1000; ++i)
+      rig.cycle([&] {
+        call(stop, true);
+        call(gear, false);
+      });
+    rig.cycle([&] { call(stop, false); });
+  }
+}
+
+TEST_F(Couplings, ATremblingMasterDoesNotEndTheWay) {
+  master.bRegulatorOn = 0;
+  master.fActVelocity = 10;
+  sync.MasterSyncPosition = 10;
+  sync.SlaveSyncPosition = 5;
+  for (int i = 0; i < 1100; ++i)
+    rig.cycle([&] {
+      master.fActPosition += i % 3 == 2 ? -0.01 : 0.02;
+      call(sync, true);
+      ASSERT_FALSE(sync.Error) << i;
+    });
+  EXPECT_TRUE(sync.InSync);
+  EXPECT_NEAR(rig.axis.fSetPosition - 5, master.fActPosition - 10, 1e-9);
+}
+
 TEST_F(Couplings, ShiftsOfTheZeroPointAreNoMotion) {
   for (int i = 0; i < 500; ++i)
     cycle([&] { call(gear, true); });
