@@ -19,7 +19,7 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 DIAGRAMS = HERE / "diagrams"
 STDLIB = HERE.parent.parent / "stdlib"
-LIBRARIES = ("SM_DriveBasic", "SM_PLCopen")
+LIBRARIES = ("SM_DriveBasic", "SM_PLCopen", "SM3_CamBuilder")
 
 
 def public_blocks(library):

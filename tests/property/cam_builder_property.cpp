@@ -89,7 +89,7 @@ TEST(CamBuilderProperty, WhatIsGivenIsKept) {
   for (int i = 0; i < casesOf(3000); ++i) {
     const BuiltCam cam(chain(random, 1 + random.below(12), 30, true));
     ASSERT_EQ(cam.error, BuildError::None);
-    expectSmooth(cam, 1e-11);
+    expectSmooth(cam, 1e-12);
     for (size_t k = 0; k < cam.segments.size(); ++k) {
       const Boundary &given = cam.pieces[k].right;
       const Point end = cam.end(k);
