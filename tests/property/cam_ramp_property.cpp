@@ -113,8 +113,8 @@ public:
             std::to_string(jerk_) + " period " + std::to_string(period_) + " master's " +
             (scene_.master.isRotary() ? "rotary" : "linear");
     SCOPED_TRACE(note_);
-    for (int cycle = 0; cycle < (cycle == 0 ? 1 : longest()) && after < 20 &&
-                        !testing::Test::HasFatalFailure();
+    for (int cycle = 0;
+         cycle < (cycle == 0 ? 1 : longest()) && after < 20 && !testing::Test::HasFatalFailure();
          ++cycle) {
       SCOPED_TRACE("cycle " + std::to_string(cycle));
       rig.cycle([&] {
