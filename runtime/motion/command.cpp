@@ -465,6 +465,8 @@ void beginCoasting(AxisRef &axis, uint64_t owner) noexcept {
   plan.stCommand.eDirection = static_cast<int16_t>(lastMotion(axis, start));
   axis.fAimPosition = start.position;
   axis.nAxisState = axis::state::kContinuous;
+  if (axis.bMovedInThisCycle != 0)
+    axis::writeSetPoint(axis, start);
 }
 
 bool advance(AxisRef &axis) noexcept {

@@ -85,6 +85,10 @@ bool Forecast::followOn(double t) noexcept {
   base_ += (cycles + 1.0) * cycle;
   if (!advance(axis_))
     return false;
+  if (isForeign(axis_)) { // a block that computes its set values by itself
+    planned_ = false;
+    return false;
+  }
   // The new plan starts where the old one ended.
   auto begun = plan;
   begun.uiSegment = 0;
@@ -142,6 +146,8 @@ bool Forecast::at(double t, State &state, double &jerk) noexcept {
   }
   while (followOn(t)) {
   }
+  if (!planned_)
+    return false;
   // A command that was over in the cycle in which it began: when the next one begins, depends on
   // which block is called first.
   if (axis_.stPlanner.bActive == 0 && axis_.stQueue.uiCount > 0) {

@@ -2,6 +2,8 @@
 // 10 u/s.
 #include "tests/unit/axis/axis_rig.hpp"
 
+#include "runtime/motion/forecast.hpp"
+
 #include "st/SM_PLCopen/MC_CamOut.h"
 #include "st/SM_PLCopen/MC_GearIn.h"
 #include "st/SM_PLCopen/MC_GearInPos.h"
@@ -435,6 +437,40 @@ TEST_F(Couplings, AnotherMasterOnTheWayIsAnError) {
   rig.cycle([&] { call(gear, true); });
   EXPECT_EQ(gear.ErrorID, 32);
   EXPECT_EQ(rig.axis.nAxisState, state::kErrorStop);
+}
+
+TEST_F(Couplings, TheForecastEndsWhereACouplingBegins) {
+  gear.BufferMode = kBuffered;
+  for (int i = 0; i < 500; ++i)
+    cycle([&] {
+      call(move, true);
+      call(gear, i >= 10);
+    });
+  // The move takes 1 s + 0.4 s.
+  stride::motion::State at{};
+  double jerk = 0;
+  stride::motion::Forecast forecast(rig.axis);
+  EXPECT_TRUE(forecast.at(0.8, at, jerk));
+  EXPECT_NEAR(at.position, 20, 0.5);
+  EXPECT_FALSE(forecast.at(2.0, at, jerk));
+}
+
+TEST_F(Couplings, GearOutTakesASuperimposedMotionAlong) {
+  auto out = fresh<pl::MC_GearOut>();
+  out.Slave = &rig.axis;
+  auto add = fresh<pl::MC_MoveSuperImposed>();
+  add.Axis = &rig.axis;
+  add.Distance = 30;
+  add.VelocityDiff = 5;
+  add.Acceleration = add.Deceleration = 50;
+  for (int i = 0; i < 1500; ++i)
+    cycle([&] {
+      call(gear, true);
+      call(out, i >= 1200);
+      call(add, i >= 500);
+    });
+  EXPECT_TRUE(add.CommandAborted && out.Done);
+  EXPECT_NEAR(rig.axis.fSetVelocity, 15, 1e-9);
 }
 
 TEST_F(Couplings, FollowAnEncoder) {
