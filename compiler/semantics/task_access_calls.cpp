@@ -12,7 +12,8 @@ using namespace access;
 
 namespace {
 
-/// Blocks of the library that look at an axis, or ask its drive, without moving it.
+/// Blocks of the library that look at an axis, or ask its drive, without moving it; actions of the
+/// library that are made for another task than the rest of their block.
 bool worksInAnyTask(const PouSymbol *block) {
   const Attributes attributes = block->decl->attributes;
   return std::any_of(attributes.begin(), attributes.end(),
@@ -48,7 +49,11 @@ void AccessReader::instanceOf(const CallExpr *e) {
     note(at, accessRead, e->span);
     at = behind(addressVariable(object));
   }
-  const bool native = blockOf(e->pou)->decl->external;
+  const PouSymbol *block = blockOf(e->pou);
+  if (block->library != nullptr && !block->library->isUser && e->pou != block &&
+      worksInAnyTask(e->pou))
+    return;
+  const bool native = block->decl->external;
   note(std::move(at), accessCall | (native ? accessUnknown : 0U), e->span);
 }
 
