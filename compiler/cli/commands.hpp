@@ -83,6 +83,26 @@ int documentCommand(const ProjectOptions &options, bool library, const std::stri
 
 int plotCommand(const std::string &trace, const std::string &out);
 
+/// What `stride cam` does.
+enum class CamAction { check, bounds, plot, exportTable, importTable, reduce, write, read };
+
+struct CamOptions {
+  CamAction action = CamAction::check;
+  std::vector<std::string>
+      files;                 ///< cam files, binary ones, tables of positions; only check: several
+  std::string out;           ///< file to write; empty: named after the first
+  double masterVelocity = 1; ///< bounds: greatest of the master [u/s]
+  double masterAcceleration = 0; ///< bounds: the same [u/s²]
+  std::size_t points = 361;      ///< export: at least 2
+  double tolerance = 0;          ///< reduce, import: [slave u]; 0: keep all points
+  std::string name;              ///< of the cam that is written; empty: its own
+  bool periodic = false;         ///< import
+  double interval = 0;           ///< import
+  Output output;
+};
+/// Checks, draws, converts cams: their own curve, not the table that a cam file may want.
+int camCommand(const CamOptions &options);
+
 /// `what`: a diagnostic's code, or the number or name of a SoftMotion error.
 int explainCommand(const std::string &what);
 /// All codes with their titles, one a line.

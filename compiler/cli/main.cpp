@@ -1,10 +1,12 @@
 // The command `stride`.
 
 #include "compiler/cli/commands.hpp"
+#include "compiler/project/names.hpp"
 #include "compiler/semantics/suggest.hpp"
 #include "compiler/syntax/conditions.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <map>
@@ -172,6 +174,103 @@ void addRunOptions(const HostOptions &host) {
   host.passFlag("--quiet", "No statistics, no warnings about real time");
 }
 
+/// The commands below `stride cam`.
+void addCamCommands(CLI::App &app, CamOptions &options, int &exitCode) {
+  CLI::App *cam = app.add_subcommand("cam", "Check, draw and convert cams");
+  cam->require_subcommand(1);
+  const auto add = [&](const char *name, CamAction action, const char *what, const char *file) {
+    CLI::App *command = cam->add_subcommand(name, what);
+    CLI::Option *files = command->add_option("FILE", options.files, file)->required();
+    if (action != CamAction::check)
+      files->expected(1);
+    files->type_name("");
+    addOutputOptions(*command, options.output);
+    command->callback([&options, &exitCode, action] {
+      options.action = action;
+      exitCode = camCommand(options);
+    });
+    return command;
+  };
+  const auto out = [&](CLI::App *command, const char *what) {
+    command->add_option("-o,--out", options.out, what)->type_name("FILE");
+  };
+  const auto name = [&](CLI::App *command) {
+    command->add_option("--name", options.name, "The cam's name (default: the one it has)")
+        ->check(CLI::Validator(
+            [](std::string &text) {
+              return isIdentifier(text) ? std::string()
+                                        : "`" + text + "` is no name in Structured Text";
+            },
+            std::string()))
+        ->type_name("NAME");
+  };
+  constexpr const char *kAny = "Cam file (*.cam.toml), binary file (*.CAM) or table of positions";
+  const auto atLeast = [](bool zero) {
+    return CLI::Validator(
+        [zero](std::string &text) {
+          double value = 0;
+          const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) &&
+                            (value > 0 || (zero && value == 0));
+          return good ? std::string()
+                      : "`" + text + "` is no number " + (zero ? "from 0 on" : "greater than 0");
+        },
+        std::string());
+  };
+  const CLI::Validator positive = atLeast(false);
+  const CLI::Validator notNegative = atLeast(true);
+
+  add("check", CamAction::check, "Show what cams are, and fail if one of them jumps", kAny);
+  CLI::App *bounds = add("bounds", CamAction::bounds,
+                         "Compute how far, how fast and how hard the slave moves", kAny);
+  bounds->add_option("--master-vel", options.masterVelocity, "Greatest velocity of the master, u/s")
+      ->required()
+      ->check(notNegative)
+      ->type_name("V");
+  bounds
+      ->add_option("--master-acc", options.masterAcceleration,
+                   "Greatest acceleration of the master, u/s\xC2\xB2 (default: 0)")
+      ->check(notNegative)
+      ->type_name("A");
+  out(add("plot", CamAction::plot, "Draw position, velocity, acceleration and jerk over the master",
+          kAny),
+      "SVG file to write (default: FILE with .svg)");
+  CLI::App *write = add("export", CamAction::exportTable,
+                        "Write a table of positions, `master;slave` a line", kAny);
+  out(write, "Text file to write (default: FILE with .txt)");
+  write->add_option("--points", options.points, "Number of places (default: 361)")
+      ->check(CLI::Range(std::size_t{2}, std::size_t{1000000}).description(""))
+      ->type_name("N");
+  CLI::App *import =
+      add("import", CamAction::importTable, "Make a cam file of a table of positions",
+          "Text file, `master;slave` or `master:slave` a line");
+  out(import, "Cam file to write (default: FILE with .cam.toml)");
+  name(import);
+  import->add_flag("--periodic", options.periodic, "The cam is periodic");
+  import->add_option("--interval", options.interval, "The slave's period, of a periodic cam")
+      ->check(notNegative)
+      ->type_name("U");
+  import
+      ->add_option("--tolerance", options.tolerance,
+                   "Fewer points: the slave may be off by so much (default: all points)")
+      ->check(positive)
+      ->type_name("U");
+  CLI::App *reduce =
+      add("reduce", CamAction::reduce, "Make a cam file of fewer points within a tolerance", kAny);
+  reduce->add_option("--tolerance", options.tolerance, "So much the slave may be off")
+      ->required()
+      ->check(positive)
+      ->type_name("U");
+  out(reduce, "Cam file to write");
+  name(reduce);
+  out(add("write", CamAction::write, "Write the binary file that SMC_ReadCAM reads",
+          "Cam file (*.cam.toml)"),
+      "Binary file to write (default: FILE with .CAM)");
+  CLI::App *read = add("read", CamAction::read, "Make a cam file of a binary file",
+                       "Binary file (*.CAM), as SMC_WriteCAM writes it");
+  out(read, "Cam file to write (default: FILE with .cam.toml)");
+  name(read);
+}
+
 int run(int argc, char **argv) {
   CLI::App app("Structured Text and SoftMotion programs: check, build, simulate");
   app.set_version_flag("--version", kVersion);
@@ -308,6 +407,9 @@ int run(int argc, char **argv) {
   plot->add_option("-o,--out", out, "SVG file to write (default: TRACE with .svg)")
       ->type_name("FILE");
   plot->callback([&] { exitCode = plotCommand(trace, out); });
+
+  CamOptions cams;
+  addCamCommands(app, cams, exitCode);
 
   std::string what;
   bool list = false;

@@ -8,17 +8,33 @@
 
 namespace stc::cli {
 
+/// What a curve shows.
+struct Quantity {
+  std::string title; ///< "Velocity"; for an unknown quantity the variable's own name
+  std::string unit;  ///< "u/s"; may be empty
+  bool operator==(const Quantity &) const = default;
+};
+
 /// One column of a trace. BOOL values are 0 and 1.
 struct Series {
   std::string name;
   std::vector<double> values;
   bool isBool = false;
+  std::optional<Quantity> quantity = {}; ///< nothing: guessed from the name
 };
 
-/// A trace: values over time.
+/// A place on the horizontal axis that a dashed line and a text mark.
+struct Mark {
+  double at = 0;
+  std::string text;
+};
+
+/// A trace: values over time, or over something else that ascends.
 struct Trace {
   std::vector<double> time; ///< s
   std::vector<Series> series;
+  std::vector<Mark> marks;
+  std::string axis = "Time [s]"; ///< what the horizontal axis is
 };
 
 /// Why a CSV text is no trace.
@@ -32,11 +48,6 @@ struct TraceError {
 [[nodiscard]] std::optional<Trace> readTrace(std::string_view csv, TraceError &error);
 
 /// What a variable is a value of, guessed from its name: `Drive.fSetVelocity` is a velocity in u/s.
-struct Quantity {
-  std::string title; ///< "Velocity"; for an unknown quantity the variable's own name
-  std::string unit;  ///< "u/s"; may be empty
-  bool operator==(const Quantity &) const = default;
-};
 [[nodiscard]] Quantity quantityOf(std::string_view variable);
 
 /// Round numbers that divide a range into about `count` parts.

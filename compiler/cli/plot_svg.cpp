@@ -25,6 +25,7 @@ constexpr double kPanel = 170;    // plot area of a panel
 constexpr double kLane = 22;      // plot area of a BOOL
 constexpr double kGap = 12;
 constexpr double kFoot = 52;            // time axis
+constexpr double kMarkRow = 15;         // texts of marks
 constexpr double kLetter = 6.4;         // mean width of a letter of a lane's name
 constexpr std::size_t kMostGuides = 40; // more than that hide the curves
 
@@ -86,7 +87,9 @@ Range rangeOf(const std::vector<const Series *> &series) {
 std::vector<Panel> arrange(const Trace &trace) {
   std::vector<Panel> panels;
   for (const Series &series : trace.series) {
-    const Quantity quantity = series.isBool ? Quantity{} : quantityOf(series.name);
+    const Quantity quantity = series.isBool     ? Quantity{}
+                              : series.quantity ? *series.quantity
+                                                : quantityOf(series.name);
     const auto same = std::find_if(panels.begin(), panels.end(), [&](const Panel &panel) {
       return panel.lanes == series.isBool && panel.quantity == quantity;
     });
@@ -135,7 +138,7 @@ public:
   }
 
   std::string draw() {
-    double height = kTop + kFoot;
+    double height = kTop + kFoot + marksHeight();
     for (const Panel &panel : panels_)
       height += headOf(panel) + panel.height() + kGap;
     svg_ = fmt::format(
@@ -144,7 +147,7 @@ public:
         "font-size=\"12\" fill=\"#374151\">\n"
         "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
         px(kWidth), px(height));
-    drawGuides(height - kFoot - kGap);
+    drawGuides(height - kFoot - kGap - marksHeight());
     double top = kTop;
     for (const Panel &panel : panels_) {
       if (panel.lanes) {
@@ -155,7 +158,8 @@ public:
         top += headOf(panel) + panel.height() + kGap;
       }
     }
-    drawTimeAxis(top - kGap);
+    drawMarks(top - kGap);
+    drawTimeAxis(top - kGap + marksHeight());
     svg_ += "</svg>\n";
     return std::move(svg_);
   }
@@ -180,6 +184,44 @@ private:
       svg_ += fmt::format("<path d=\"M{0} {1}V{2}\" stroke=\"#9ca3af\" stroke-width=\"0.8\" "
                           "stroke-dasharray=\"3 3\"/>\n",
                           px(at), px(kTop), px(bottom));
+  }
+
+  // Texts that would overlap stand in rows below each other.
+  std::vector<std::pair<double, int>> markPlaces() const {
+    std::vector<std::pair<double, int>> places;
+    std::vector<double> ends; // of the rows
+    for (const Mark &mark : trace_.marks) {
+      const double width = kLetter * static_cast<double>(mark.text.size()) + 8;
+      const double at = std::clamp(x(mark.at) - width / 2, left_ - 30, kWidth - width);
+      std::size_t row = 0;
+      while (row < ends.size() && ends[row] > at)
+        ++row;
+      if (row == ends.size())
+        ends.push_back(0);
+      ends[row] = at + width;
+      places.emplace_back(at + width / 2, static_cast<int>(row));
+    }
+    return places;
+  }
+
+  double marksHeight() const {
+    int rows = 0;
+    for (const auto &[at, row] : markPlaces())
+      rows = std::max(rows, row + 1);
+    return rows == 0 ? 0 : kMarkRow * rows + 6;
+  }
+
+  // Dashed lines through all panels, their texts below.
+  void drawMarks(double bottom) {
+    const std::vector<std::pair<double, int>> places = markPlaces();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double row = bottom + 13 + kMarkRow * places[i].second;
+      svg_ += fmt::format("<path d=\"M{0} {1}V{2}\" stroke=\"#d55e00\" stroke-width=\"0.9\" "
+                          "stroke-dasharray=\"4 3\"/>\n",
+                          px(x(trace_.marks[i].at)), px(kTop + kHead), px(row - 10));
+      text(places[i].first, row, "middle", trace_.marks[i].text,
+           " font-size=\"11\" fill=\"#d55e00\"");
+    }
   }
 
   // Where the entries of a panel's legend begin, and in which row: as many in a row as there is
@@ -342,7 +384,7 @@ private:
   void drawTimeAxis(double top) {
     for (const double tick : timeTicks_.values)
       text(x(tick), top + 17, "middle", tickLabel(tick, timeTicks_));
-    text((left_ + kWidth - kRight) / 2, top + 37, "middle", "Time [s]", " font-weight=\"600\"");
+    text((left_ + kWidth - kRight) / 2, top + 37, "middle", trace_.axis, " font-weight=\"600\"");
   }
 
   double left_ = kLeft; ///< where the plot area begins

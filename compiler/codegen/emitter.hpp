@@ -326,6 +326,16 @@ private:
                             std::uint64_t at);
   bool constantTable(std::string_view target, const ArrayType *type,
                      const ast::AggregateExpr *init);
+  /// A constant inside of an initial value: where, and as what.
+  struct Leaf {
+    std::string path;
+    const Type *type;
+    const ast::Expr *value;
+  };
+  bool constantLeaves(const Type *type, const ast::Expr *init, const std::string &path,
+                      std::vector<Leaf> &leaves);
+  bool constantColumns(std::string_view target, const ArrayType *type,
+                       const ast::AggregateExpr *init);
 
   // Helpers.
   /// Begins a statement (or a later part of one) that stands at `span`.

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kMinTable = 8;
 constexpr std::uint64_t kMaxUnrolled = 16;
+constexpr std::size_t kMostColumns = 32;
 
 std::uint64_t repetition(const AggregateItem &item) {
   return item.repeat == nullptr ? 1 : static_cast<std::uint64_t>(item.repeat->constant->integer);
@@ -119,7 +120,7 @@ void Emitter::initValue(std::string_view target, const Type *type, const Expr *i
   const auto *list = as<AggregateExpr>(init);
   if (type->kind == TypeKind::array) {
     const auto *array = typeAs<ArrayType>(type);
-    if (!constantTable(target, array, list))
+    if (!constantTable(target, array, list) && !constantColumns(target, array, list))
       arrayValues(target, array, list->items, {}, 0);
     return;
   }
@@ -170,6 +171,79 @@ bool Emitter::constantTable(std::string_view target, const ArrayType *type,
   w_ << "for (::stride::ULINT i__ = 0; i__ < " << init->items.size() << "; ++i__) " << target
      << ".v[i__] = " << table << "[i__];";
   end();
+  return true;
+}
+
+bool Emitter::constantLeaves(const Type *type, const Expr *init, const std::string &path,
+                             std::vector<Leaf> &leaves) {
+  if (leaves.size() > kMostColumns)
+    return false;
+  if (init->kind != ExprKind::aggregate) {
+    leaves.push_back({path, type, init});
+    return init->constant != nullptr && !isString(type) &&
+           (isElementary(type) || type->kind == TypeKind::enumeration);
+  }
+  const auto *list = as<AggregateExpr>(init);
+  const bool isArray = type->kind == TypeKind::array;
+  std::size_t place = 0;
+  for (const AggregateItem &item : list->items) {
+    if (item.repeat != nullptr || item.value == nullptr || !item.values.empty() ||
+        (!isArray && (item.symbol == nullptr || item.symbol->isBit)))
+      return false;
+    std::string inner = path;
+    if (isArray) {
+      inner += ".v[" + std::to_string(place++) + "]";
+    } else {
+      const std::size_t start = w_.size();
+      basePath(type, item.symbol);
+      inner += "." + w_.cut(start) + fieldName(item.symbol);
+    }
+    const Type *innerType = isArray ? typeAs<ArrayType>(type)->element : item.symbol->type;
+    if (!constantLeaves(innerType, item.value, inner, leaves))
+      return false;
+  }
+  return true;
+}
+
+/// A long list of structures or arrays that all set the same places to constants: a table for each
+/// of these places.
+bool Emitter::constantColumns(std::string_view target, const ArrayType *type,
+                              const AggregateExpr *init) {
+  if (init->items.size() < kMinTable || isElementary(type->element))
+    return false;
+  std::vector<Leaf> columns;
+  std::vector<const Expr *> values; // row by row
+  for (const AggregateItem &item : init->items) {
+    std::vector<Leaf> row;
+    if (item.repeat != nullptr || item.value == nullptr || !item.values.empty() ||
+        item.value->kind != ExprKind::aggregate ||
+        !constantLeaves(type->element, item.value, {}, row))
+      return false;
+    if (columns.empty())
+      columns = row;
+    if (row.size() != columns.size() || row.empty())
+      return false;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      if (row[i].path != columns[i].path)
+        return false;
+      values.push_back(row[i].value);
+    }
+  }
+  for (std::size_t column = 0; column < columns.size(); ++column) {
+    const std::string table = temporary("table");
+    begin(initSpan_);
+    w_ << "static constexpr " << this->type(columns[column].type) << ' ' << table << "[] = {";
+    for (std::size_t i = column; i < values.size(); i += columns.size()) {
+      w_ << (i == column ? "" : ", ");
+      valueAs(values[i], columns[column].type);
+    }
+    w_ << "};";
+    end();
+    begin(initSpan_);
+    w_ << "for (::stride::ULINT i__ = 0; i__ < " << init->items.size() << "; ++i__) " << target
+       << ".v[i__]" << columns[column].path << " = " << table << "[i__];";
+    end();
+  }
   return true;
 }
 

@@ -13,6 +13,13 @@ namespace stc {
 /// The `name` of a section; with an invalid span when it is missing or wrong.
 [[nodiscard]] ConfigName nameOf(const CheckedSection &section);
 
+/// A number as a literal of ST.
+[[nodiscard]] std::string realLiteral(double value);
+
+/// Names in lower case that the files give to things of the whole project, and where.
+[[nodiscard]] std::unordered_map<std::string, Span>
+globalNames(const std::vector<ast::File *> &files);
+
 /// Reports the second use of a name or number, with the first one marked.
 class Unique {
 public:

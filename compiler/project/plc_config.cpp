@@ -22,15 +22,6 @@ constexpr double kLargestPeriod = 2147483648.0; // increments: 16#80000000
 constexpr std::int64_t kCanFastest = 1000;      // kBit/s
 constexpr std::int64_t kSercosSlowest = 2000;
 
-std::string realLiteral(double value) {
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".") == std::string::npos) {
-    const std::size_t exponent = text.find('e');
-    text.insert(exponent == std::string::npos ? text.size() : exponent, ".0");
-  }
-  return text;
-}
-
 void integerField(const CheckedSection &section, std::string_view name, ConfigFields &fields) {
   if (const TomlNode *value = section.get(name))
     fields.emplace_back(name, std::to_string(value->integer));
@@ -47,6 +38,15 @@ void flagField(const CheckedSection &section, std::string_view name, ConfigField
 }
 
 } // namespace
+
+std::string realLiteral(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".") == std::string::npos) {
+    const std::size_t exponent = text.find('e');
+    text.insert(exponent == std::string::npos ? text.size() : exponent, ".0");
+  }
+  return text;
+}
 
 ConfigName nameOf(const CheckedSection &section) {
   const TomlNode *name = section.get("name");

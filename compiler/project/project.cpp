@@ -1,5 +1,6 @@
 #include "compiler/project/project.hpp"
 
+#include "compiler/project/cam_source.hpp"
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/names.hpp"
 #include "compiler/syntax/parser.hpp"
@@ -18,9 +19,12 @@ constexpr std::string_view kManifest = "stride.toml";
 // The list of the drives' variables has this file's name, as in CoDeSys.
 constexpr std::string_view kPlcFile = "<plc>/Drive_Configuration_Data.st";
 
-} // namespace
+// The same for cams (manual, section 4.7).
+constexpr std::string_view kCamFile = "<cams>/CAM_Data.st";
 
-std::vector<fs::path> findSources(const fs::path &folder, std::error_code &error) {
+// All files below a project's folder whose names end like that, sorted.
+std::vector<fs::path> findFiles(const fs::path &folder, std::string_view suffix,
+                                std::error_code &error) {
   std::vector<fs::path> found;
   fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
   for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
@@ -31,11 +35,21 @@ std::vector<fs::path> findSources(const fs::path &folder, std::error_code &error
         at.disable_recursion_pending();
       continue;
     }
-    if (!name.starts_with('.') && lowerCase(at->path().extension().string()) == ".st")
+    if (!name.starts_with('.') && lowerCase(name).ends_with(suffix))
       found.push_back(at->path());
   }
   std::sort(found.begin(), found.end());
   return found;
+}
+
+} // namespace
+
+std::vector<fs::path> findSources(const fs::path &folder, std::error_code &error) {
+  return findFiles(folder, ".st", error);
+}
+
+std::vector<fs::path> findCams(const fs::path &folder, std::error_code &error) {
+  return findFiles(folder, kCamSuffix, error);
 }
 
 Project::Project(const fs::path &path, Purpose purpose, const Settings &settings,
@@ -96,6 +110,14 @@ void Project::loadFolder() {
         .help("`stride new NAME` makes a project to start from");
   for (const fs::path &source : sources)
     loadFile(source, source.lexically_relative(path_).string());
+  for (const fs::path &cam : findCams(path_, error)) {
+    const std::string name = cam.lexically_relative(path_).string();
+    if (const std::optional<FileId> id = program_.sources.load(cam, name))
+      camFiles_.push_back(*id);
+    else
+      program_.diagnostics.report(Code::unreadableFile, {},
+                                  fmt::format("`{}` cannot be read: {}", name, lastError()));
+  }
   loaded_ = !sources.empty();
 }
 
@@ -169,6 +191,8 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
     files.insert(files.begin(), parse(program_.sources.file(plcFile_), program_.interner,
                                       program_.arena, program_.diagnostics, &options));
   }
+  if (!declareCams(files, options))
+    return; // the program would miss them everywhere
   for (const TaskConfig &task : config_.tasks)
     if (!task.event.text.empty())
       files.insert(files.begin(), eventFile(task, options));
@@ -176,6 +200,25 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
   check(program_, files, index);
   if (!hasErrors())
     shareVariables();
+}
+
+/// Adds the cams of the cam files as global variables. False: some are wrong.
+bool Project::declareCams(std::vector<ast::File *> &files, ParseOptions options) {
+  const std::size_t errors = program_.diagnostics.errorCount();
+  std::vector<CamSource> cams;
+  for (const FileId id : camFiles_)
+    if (std::optional<CamSource> cam = readCam(program_.sources.file(id), program_.diagnostics))
+      cams.push_back(std::move(*cam));
+  const std::string declarations = camDeclarations(cams, files, camRanges_, program_.diagnostics);
+  if (program_.diagnostics.errorCount() != errors)
+    return false;
+  if (declarations.empty())
+    return true;
+  camFile_ = program_.sources.add(std::string(kCamFile), declarations);
+  options.generated = true;
+  files.insert(files.begin(), parse(program_.sources.file(camFile_), program_.interner,
+                                    program_.arena, program_.diagnostics, &options));
+  return true;
 }
 
 /// The FUNCTION for the event of a task, in a file of the name of that in which the event stands.
@@ -223,10 +266,15 @@ Span Project::origin(Span span) const {
   for (const auto &[file, event] : eventFiles_)
     if (span.file == file)
       return event;
-  const bool isPlc = plcFile_ != 0 && span.file == plcFile_;
-  if (!isPlc && (testFile_ == 0 || span.file != testFile_))
+  if (!span.valid())
     return span;
-  for (const DeclaredRange &range : isPlc ? ranges_ : testRanges_)
+  const std::vector<DeclaredRange> *ranges = span.file == plcFile_    ? &ranges_
+                                             : span.file == camFile_  ? &camRanges_
+                                             : span.file == testFile_ ? &testRanges_
+                                                                      : nullptr;
+  if (ranges == nullptr)
+    return span;
+  for (const DeclaredRange &range : *ranges)
     if (span.begin >= range.begin && span.begin < range.end)
       return range.origin;
   return {};

@@ -26,6 +26,10 @@ enum class Purpose {
 [[nodiscard]] std::vector<std::filesystem::path> findSources(const std::filesystem::path &folder,
                                                              std::error_code &error);
 
+/// The same of the cam files, *.cam.toml.
+[[nodiscard]] std::vector<std::filesystem::path> findCams(const std::filesystem::path &folder,
+                                                          std::error_code &error);
+
 /// The sources and the configuration of a project folder, or a single source file. Everything wrong
 /// is in diagnostics(); the program is fit for code generation when there is no error among them.
 class Project {
@@ -64,6 +68,7 @@ private:
   void loadFile(const std::filesystem::path &path, const std::string &name);
   void analyse(Purpose purpose, const LibraryIndex &index);
   void shareVariables();
+  bool declareCams(std::vector<ast::File *> &files, ParseOptions options);
   ast::File *eventFile(const TaskConfig &task, ParseOptions options);
   bool declaresNothing(const std::vector<ast::File *> &files) const;
   [[nodiscard]] Span origin(Span span) const;
@@ -77,6 +82,9 @@ private:
   FileId tomlFile_ = 0;
   FileId plcFile_ = 0; ///< synthetic declarations
   std::vector<DeclaredRange> ranges_;
+  std::vector<FileId> camFiles_;
+  FileId camFile_ = 0; ///< camDeclarations()
+  std::vector<DeclaredRange> camRanges_;
   std::vector<std::pair<FileId, Span>> eventFiles_; ///< and where the events stand
   std::vector<TestBlock> tests_;
   FileId testFile_ = 0; ///< testProgram()

@@ -253,10 +253,10 @@ void reportUnknown(const TomlNode &member, const Section &schema, Diagnostics &d
     names.push_back(parameter.name);
   for (const Section *section : schema.sections)
     names.push_back(section->name);
-  const bool top = schema.name.empty();
+  const bool top = schema.name.empty() && schema.parameters.empty();
   Diagnostic &d =
       diagnostics.report(Code::configUnknownKey, member.keySpan,
-                         top ? fmt::format("stride.toml has no section `{}`", member.key)
+                         top ? fmt::format("{} has no section `{}`", schema.what, member.key)
                          : schema.name == "diagnostics"
                              ? fmt::format("there is no diagnostic `{}`", member.key)
                              : fmt::format("{} has no parameter `{}`", schema.what, member.key),
@@ -266,7 +266,7 @@ void reportUnknown(const TomlNode &member, const Section &schema, Diagnostics &d
     d.help(fmt::format("write `{}`: upper and lower case count here", near));
   else if (!near.empty())
     d.help(fmt::format("did you mean `{}`?", near));
-  else if (const Section *owner = ownerOf(projectSchema(), member.key);
+  else if (const Section *owner = ownerOf(schema.file(), member.key);
            owner != nullptr && owner != &schema)
     d.help(fmt::format("`{}` belongs into {}", member.key, header(*owner)));
   if (near.empty() && schema.name == "diagnostics")

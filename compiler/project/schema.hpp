@@ -1,5 +1,5 @@
 #pragma once
-// What may stand in stride.toml: sections, parameters, their types and ranges.
+// What may stand in stride.toml and in cam files: sections, parameters, their types and ranges.
 
 #include "compiler/codegen/codegen.hpp"
 #include "compiler/project/toml_tree.hpp"
@@ -39,6 +39,11 @@ struct Parameter {
   std::string_view unit = {}; ///< for messages: `µs`, `u/s`
 };
 
+struct Section;
+
+/// The whole of stride.toml, as the section without a name.
+[[nodiscard]] const Section &projectSchema();
+
 /// A table (`[project]`) or a list of tables (`[[bus]]`) with its parameters and nested sections.
 struct Section {
   std::string_view name;
@@ -47,14 +52,16 @@ struct Section {
   bool list = false;
   std::span<const Parameter> parameters = {};
   std::span<const Section *const> sections = {};
+  /// The whole file, the section without a name, whose `what` is the file.
+  const Section &(*file)() = projectSchema;
 };
 
-/// The whole of stride.toml, as the section without a name.
-[[nodiscard]] const Section &projectSchema();
+/// The whole of a cam file, *.cam.toml.
+[[nodiscard]] const Section &camSchema();
 /// [fmt]: how sources are formatted.
 [[nodiscard]] const Section &formatSchema();
 
-/// A table of stride.toml that has been compared with its schema. Everything wrong with it has been
+/// A table of such a file that has been compared with its schema. Everything wrong with it has been
 /// reported; what is left can be read without further checks.
 class CheckedSection {
 public:

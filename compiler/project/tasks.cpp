@@ -321,21 +321,6 @@ private:
   std::unordered_set<const TaskConfig *> onBus_; ///< Started by the SYNC of a simulated bus.
 };
 
-// Names that the user's files give to things of the whole project.
-std::unordered_map<std::string, Span> globalNames(const std::vector<ast::File *> &files) {
-  std::unordered_map<std::string, Span> names;
-  for (const ast::File *file : files)
-    for (const ast::Decl *decl : file->declarations) {
-      if (decl->name && decl->space.empty() && decl->kind != ast::DeclKind::globals)
-        names.try_emplace(lowerCase(decl->name.text), decl->name.span);
-      if (decl->kind == ast::DeclKind::globals)
-        for (const ast::VarDecl *variable : ast::as<ast::GlobalsDecl>(decl)->variables)
-          if (variable->name)
-            names.try_emplace(lowerCase(variable->name.text), variable->name.span);
-    }
-  return names;
-}
-
 class DeclarationWriter {
 public:
   DeclarationWriter(const std::vector<ast::File *> &files, std::vector<DeclaredRange> &ranges,
@@ -423,6 +408,20 @@ private:
 };
 
 } // namespace
+
+std::unordered_map<std::string, Span> globalNames(const std::vector<ast::File *> &files) {
+  std::unordered_map<std::string, Span> names;
+  for (const ast::File *file : files)
+    for (const ast::Decl *decl : file->declarations) {
+      if (decl->name && decl->space.empty() && decl->kind != ast::DeclKind::globals)
+        names.try_emplace(lowerCase(decl->name.text), decl->name.span);
+      if (decl->kind == ast::DeclKind::globals)
+        for (const ast::VarDecl *variable : ast::as<ast::GlobalsDecl>(decl)->variables)
+          if (variable->name)
+            names.try_emplace(lowerCase(variable->name.text), variable->name.span);
+    }
+  return names;
+}
 
 void resolveTasks(ProjectConfig &config, const std::vector<ast::File *> &files,
                   ProgramCheck programCheck, Diagnostics &diagnostics) {

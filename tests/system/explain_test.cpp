@@ -22,6 +22,7 @@ ProcessResult stride(std::vector<std::string> arguments, const std::filesystem::
 struct Example {
   std::string st;
   std::string toml;
+  std::string cam; ///< of a cam file
 };
 
 bool startsWord(const std::string &line, std::string_view word) {
@@ -141,8 +142,11 @@ Example exampleOf(const std::string &text, std::string_view which) {
       continue;
     }
     static std::string ignored;
-    if (line == "```st" || line == "```toml") {
-      fence = inside ? (line == "```st" ? &example.st : &example.toml) : &ignored;
+    if (line == "```st" || line == "```toml" || line == "```cam") {
+      std::string &text = line == "```st"     ? example.st
+                          : line == "```toml" ? example.toml
+                                              : example.cam;
+      fence = inside ? &text : &ignored;
       continue;
     }
     if (line.starts_with("Wrong") || line.starts_with("Right"))
@@ -162,23 +166,26 @@ struct Answer {
 Answer check(const Example &example, const std::string &code, bool isOff) {
   const ScratchDirectory folder;
   // Text outside of declarations must stay there.
-  const bool asItStands = !example.toml.empty() || code == "SE0209";
+  const bool isProject = !example.toml.empty() || !example.cam.empty();
+  const bool asItStands = isProject || code == "SE0209";
   std::string st = asItStands ? example.st : wrapped(example.st);
-  if (!example.toml.empty()) {
-    writeFile(folder.path() / "stride.toml", example.toml);
+  if (isProject) {
+    if (!example.toml.empty())
+      writeFile(folder.path() / "stride.toml", example.toml);
+    if (!example.cam.empty())
+      writeFile(folder.path() / "Cam1.cam.toml", example.cam);
     if (st.empty())
       st = "PROGRAM Main\nVAR\n  n : INT;\nEND_VAR\nn := n + 1;\nEND_PROGRAM\n";
   }
   writeFile(folder.path() / "Main.st", st);
-  std::vector<std::string> arguments = {"check",    example.toml.empty() ? "Main.st" : ".",
-                                        "--format", "json",
-                                        "-W",       "off=unused-variable"};
+  std::vector<std::string> arguments = {"check", isProject ? "." : "Main.st", "--format", "json",
+                                        "-W",    "off=unused-variable"};
   if (isOff || code == "SE0390")
     arguments.insert(arguments.end(), {"-W", "warning=" + code});
   const ProcessResult result = stride(arguments, folder.path());
   Answer answer;
   answer.errors = result.exitCode != 0;
-  answer.shown = st + example.toml + "\n" + result.out + result.err;
+  answer.shown = st + example.toml + example.cam + "\n" + result.out + result.err;
   for (const std::string &line : splitLines(result.out)) {
     const auto json = nlohmann::json::parse(line);
     answer.codes.insert(json.at("code").get<std::string>());
@@ -190,8 +197,8 @@ Answer check(const Example &example, const std::string &code, bool isOff) {
 /// wants to read.
 bool needsNoExample(const std::string &code) {
   static const std::set<std::string> kCodes = {
-      "SE0101", "SE0102", "SE0114", "SE0117", "SE0118", "SE0830", "SE0831", "SE0832",
-      "SE0833", "SE0834", "SE0835", "SE0836", "SE0815", "SE0816", "SE0990", "SE0991"};
+      "SE0101", "SE0102", "SE0114", "SE0117", "SE0118", "SE0830", "SE0831", "SE0832", "SE0833",
+      "SE0834", "SE0835", "SE0836", "SE0837", "SE0815", "SE0816", "SE0990", "SE0991"};
   return kCodes.contains(code);
 }
 
@@ -207,13 +214,13 @@ TEST_P(Explain, ExamplesAreWhatTheySay) {
     const bool isOff = text.find("severity: off") != std::string::npos;
     const Example wrong = exampleOf(text, "Wrong");
     const Example right = exampleOf(text, "Right");
-    if (wrong.st.empty() && wrong.toml.empty()) {
+    if (wrong.st.empty() && wrong.toml.empty() && wrong.cam.empty()) {
       ADD_FAILURE() << code << " has no wrong example";
       continue;
     }
     const Answer bad = check(wrong, code, isOff);
     EXPECT_TRUE(bad.codes.contains(code)) << code << ", wrong example:\n" << bad.shown;
-    if (right.st.empty() && right.toml.empty()) {
+    if (right.st.empty() && right.toml.empty() && right.cam.empty()) {
       ADD_FAILURE() << code << " has no right example";
       continue;
     }

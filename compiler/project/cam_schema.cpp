@@ -1,0 +1,118 @@
+// The parameters of cam files: SoftMotion V2.3 manual, sections 4.3 and 4.4.
+
+#include "compiler/project/cam_source.hpp"
+#include "compiler/project/schema.hpp"
+
+#include <array>
+#include <limits>
+
+namespace stc {
+
+namespace {
+
+constexpr double kFarthest = 1e300;
+constexpr double kMicroseconds = 4294967295.0;
+constexpr double kGroups = 32767;
+
+constexpr Parameter coordinate(std::string_view name, bool required = false) {
+  return {name, ParameterType::real, required, -kFarthest, kFarthest};
+}
+
+constexpr std::array<Choice, 5> kLaws = {
+    {{"polynomial", static_cast<std::int64_t>(stride::cam::Law::Polynomial)},
+     {"harmonic", static_cast<std::int64_t>(stride::cam::Law::Harmonic)},
+     {"cycloidal", static_cast<std::int64_t>(stride::cam::Law::Cycloidal)},
+     {"modified_sine", static_cast<std::int64_t>(stride::cam::Law::ModifiedSine)},
+     {"modified_trapezoid", static_cast<std::int64_t>(stride::cam::Law::ModifiedTrapezoid)}}};
+
+// SMC_CAMTAPPETTYPE and SMC_CAMTAPPETACTION.
+constexpr std::array<Choice, 3> kPasses = {{{"positive", 0}, {"each", 1}, {"negative", 2}}};
+constexpr std::array<Choice, 4> kActions = {{{"on", 0}, {"off", 1}, {"invert", 2}, {"timed", 3}}};
+
+constexpr std::array<Choice, 4> kModes = {
+    {{"polynomial", static_cast<std::int64_t>(CamMode::polynomial)},
+     {"equidistant", static_cast<std::int64_t>(CamMode::equidistant)},
+     {"element_optimised", static_cast<std::int64_t>(CamMode::elementOptimised)},
+     {"none", static_cast<std::int64_t>(CamMode::none)}}};
+constexpr std::array<Choice, 6> kTypes = {
+    {{"INT", 1}, {"UINT", 2}, {"DINT", 3}, {"UDINT", 4}, {"REAL", 5}, {"LREAL", 6}}};
+constexpr std::array<Choice, 2> kInterpolations = {{{"linear", 1}, {"cubic", 3}}};
+
+constexpr std::array kMasterParameters = {
+    coordinate("start", true),
+    coordinate("end", true),
+    Parameter{"unit", ParameterType::text},
+};
+constexpr std::array kSlaveParameters = {
+    coordinate("minimum"),
+    coordinate("maximum"),
+    Parameter{"unit", ParameterType::text},
+};
+constexpr std::array kPointParameters = {
+    coordinate("x", true),
+    coordinate("y", true),
+    coordinate("v"),
+    coordinate("a"),
+};
+constexpr std::array kLineParameters = {
+    coordinate("x", true),
+    coordinate("y", true),
+    coordinate("x_end", true),
+    coordinate("y_end", true),
+};
+constexpr std::array kLawParameters = {
+    coordinate("x", true),
+    coordinate("y", true),
+    coordinate("v"),
+    coordinate("a"),
+    coordinate("x_end", true),
+    coordinate("y_end", true),
+    coordinate("v_end"),
+    coordinate("a_end"),
+    Parameter{"law", ParameterType::choice, true, 0, 0, kLaws},
+    Parameter{"parameter", ParameterType::real, false, 0, 0.999},
+    Parameter{"inflexion", ParameterType::real, false, 0.001, 0.999},
+};
+constexpr std::array kTappetParameters = {
+    coordinate("x", true),
+    Parameter{"group", ParameterType::integer, true, 0, kGroups},
+    Parameter{"pass", ParameterType::choice, false, 0, 0, kPasses},
+    Parameter{"action", ParameterType::choice, false, 0, 0, kActions},
+    Parameter{"delay", ParameterType::integer, false, 0, kMicroseconds, {}, "µs"},
+    Parameter{"duration", ParameterType::integer, false, 0, kMicroseconds, {}, "µs"},
+};
+constexpr std::array kCompileParameters = {
+    Parameter{"mode", ParameterType::choice, true, 0, 0, kModes},
+    Parameter{"type", ParameterType::choice, false, 0, 0, kTypes},
+    Parameter{"places", ParameterType::integer, false, 2, stride::cam::kCamFileMaxCount},
+    Parameter{"interpolation", ParameterType::choice, false, 0, 0, kInterpolations},
+    coordinate("master_minimum"),
+    coordinate("master_maximum"),
+    coordinate("slave_minimum"),
+    coordinate("slave_maximum"),
+};
+constexpr std::array kCamParameters = {
+    Parameter{"name", ParameterType::identifier},
+    Parameter{"periodic", ParameterType::boolean},
+    Parameter{"interval", ParameterType::real, false, 0, std::numeric_limits<double>::max()},
+};
+
+constexpr Section kMaster = {"master",          "the master", "master", false,
+                             kMasterParameters, {},           camSchema};
+constexpr Section kSlave = {"slave", "the slave", "slave", false, kSlaveParameters, {}, camSchema};
+constexpr Section kPoint = {"point", "a point", "point", true, kPointParameters, {}, camSchema};
+constexpr Section kLine = {"line", "a line", "line", true, kLineParameters, {}, camSchema};
+constexpr Section kLaw = {"law", "a law", "law", true, kLawParameters, {}, camSchema};
+constexpr Section kTappet = {"tappet",          "a tappet", "tappet", true,
+                             kTappetParameters, {},         camSchema};
+constexpr Section kCompile = {"compile",          "[compile]", "compile", false,
+                              kCompileParameters, {},          camSchema};
+constexpr std::array<const Section *, 7> kCamSections = {&kMaster, &kSlave,  &kPoint,  &kLine,
+                                                         &kLaw,    &kTappet, &kCompile};
+constexpr Section kCam = {"", "a cam", "", false, kCamParameters, kCamSections, camSchema};
+
+} // namespace
+
+const Section &camSchema() { return kCam; }
+
+} // namespace stc
