@@ -10,12 +10,15 @@ constexpr double kHalfTurn = 0x1.921fb54442d18p+1;
 
 bool isPlain(const Smooth &f) noexcept { return f.sine == 0.0 && f.cosine == 0.0; }
 
-/// Degree of the polynomial; -1 for none.
-int degreeOf(const Smooth &f) noexcept {
-  int degree = 7;
-  while (degree >= 0 && f.c[degree] == 0.0)
-    --degree;
-  return degree;
+/// Whether the polynomial is no more than a constant.
+bool isConstant(const Smooth &f) noexcept {
+  return f.degree == 0 || (f.degree == 1 && f.c[1] == 0.0);
+}
+
+/// Forgets highest coefficients that are 0.
+void trim(Smooth &f) noexcept {
+  while (f.degree > 0 && f.c[f.degree] == 0.0)
+    --f.degree;
 }
 
 /// The root between two arguments with values of different sign.
@@ -150,8 +153,8 @@ int lawPieces(const LawShape &shape, LawPiece (&pieces)[6]) noexcept {
 } // namespace
 
 double valueOf(const Smooth &f, double u) noexcept {
-  double y = f.c[7];
-  for (int i = 6; i >= 0; --i)
+  double y = f.c[f.degree];
+  for (int i = f.degree - 1; i >= 0; --i)
     y = y * u + f.c[i];
   if (isPlain(f))
     return y;
@@ -160,9 +163,11 @@ double valueOf(const Smooth &f, double u) noexcept {
 
 Smooth derivativeOf(const Smooth &f) noexcept {
   Smooth out = f;
-  for (int i = 0; i < 7; ++i)
+  for (int i = 0; i < f.degree; ++i)
     out.c[i] = (i + 1) * f.c[i + 1];
-  out.c[7] = 0.0;
+  out.c[f.degree] = 0.0;
+  if (out.degree > 0)
+    --out.degree;
   out.sine = -f.omega * f.cosine;
   out.cosine = f.omega * f.sine;
   return out;
@@ -170,6 +175,8 @@ Smooth derivativeOf(const Smooth &f) noexcept {
 
 Smooth combined(const Smooth &f, double factor, const Smooth &g, double factorG) noexcept {
   Smooth out = f;
+  if (g.degree > f.degree)
+    out.degree = g.degree;
   for (int i = 0; i < 8; ++i)
     out.c[i] = factor * f.c[i] + factorG * g.c[i];
   out.sine = factor * f.sine + factorG * g.sine;
@@ -180,8 +187,11 @@ Smooth combined(const Smooth &f, double factor, const Smooth &g, double factorG)
 int rootsOf(const Smooth &f, double (&roots)[kMostRoots]) noexcept {
   Smooth chain[9];
   chain[0] = f;
+  trim(chain[0]);
   int last = 0;
-  while (last < 8 && degreeOf(chain[last]) > (isPlain(chain[last]) ? 0 : -1)) {
+  // Down to a constant, or to a sine alone.
+  while (last < 8 && !(isPlain(chain[last]) ? isConstant(chain[last])
+                                            : isConstant(chain[last]) && chain[last].c[0] == 0.0)) {
     chain[last + 1] = derivativeOf(chain[last]);
     ++last;
   }
@@ -235,6 +245,7 @@ int partsOf(const Segment &segment, Smooth (&parts)[kMostParts]) noexcept {
     part.omega = piece.omega * extent;
     part.sine = stroke * piece.amplitude * ::stride::cos(phase);
     part.cosine = stroke * piece.amplitude * ::stride::sin(phase);
+    trim(part);
     parts[count++] = part;
   }
   if (count > 0) {
@@ -245,6 +256,7 @@ int partsOf(const Segment &segment, Smooth (&parts)[kMostParts]) noexcept {
     whole.c[0] +=
         segment.stroke *
         evaluateLaw({segment.law, segment.parameter, segment.inflexion}, segment.lawBegin).y;
+  trim(whole);
   parts[0] = whole;
   return 1;
 }

@@ -12,6 +12,7 @@ namespace stride::cam {
 /// its range the sine has no more than half a period.
 struct Smooth {
   double c[8] = {};
+  int degree = 7; ///< Coefficients beyond are 0.
   double sine = 0.0;
   double cosine = 0.0;
   double omega = 0.0;
