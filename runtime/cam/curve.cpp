@@ -20,6 +20,11 @@ bool isFiniteNode(const Node &node) noexcept {
          exact::isfinite(node.a);
 }
 
+bool isGoodQuintic(const Node &left, const Node &right) noexcept {
+  return isFiniteNode(left) && isFiniteNode(right) && right.x > left.x &&
+         exact::isfinite(right.x - left.x);
+}
+
 bool isFiniteSegment(const Segment &segment) noexcept {
   bool good = exact::isfinite(segment.start) && segment.end > segment.start &&
               exact::isfinite(segment.end - segment.start) && exact::isfinite(segment.stroke) &&
@@ -64,30 +69,22 @@ CurveError checkForm(const Curve &curve) noexcept {
   return CurveError::NoCurve;
 }
 
-bool isGoodPiece(const Curve &curve, uint32_t piece) noexcept {
-  switch (curve.form) {
-  case Form::Nodes: {
-    const Node &left = node(curve, piece);
-    const Node &right = node(curve, piece + 1);
-    return isFiniteNode(left) && isFiniteNode(right) && right.x > left.x &&
-           exact::isfinite(right.x - left.x);
-  }
-  case Form::Segments:
-    return isFiniteSegment(segment(curve, piece)) &&
-           (piece == 0 || segment(curve, piece).start == segment(curve, piece - 1).end);
-  default:
-    return isGoodTablePiece(curve, piece);
-  }
+bool areGoodPieces(const Curve &curve, uint32_t first, uint32_t end) noexcept {
+  if (curve.form != Form::Nodes && curve.form != Form::Segments)
+    return areGoodTablePieces(curve, first, end);
+  for (uint32_t i = first; i < end; ++i)
+    if (!(curve.form == Form::Nodes
+              ? isGoodQuintic(node(curve, i), node(curve, i + 1))
+              : isFiniteSegment(segment(curve, i)) &&
+                    (i == 0 || segment(curve, i).start == segment(curve, i - 1).end)))
+      return false;
+  return true;
 }
 
 CurveError checkCurve(const Curve &curve) noexcept {
   if (const CurveError error = checkForm(curve); error != CurveError::None)
     return error;
-  const uint32_t pieces = pieceCount(curve);
-  for (uint32_t i = 0; i < pieces; ++i)
-    if (!isGoodPiece(curve, i))
-      return CurveError::NoCurve;
-  return CurveError::None;
+  return areGoodPieces(curve, 0, pieceCount(curve)) ? CurveError::None : CurveError::NoCurve;
 }
 
 uint32_t pieceCount(const Curve &curve) noexcept {

@@ -81,8 +81,9 @@ CurveError checkCurve(const Curve &curve) noexcept;
 /// The same in portions: first what does not depend on the places …
 CurveError checkForm(const Curve &curve) noexcept;
 
-/// … then each piece, 0 to pieceCount(curve) - 1, of a curve whose form is good.
-bool isGoodPiece(const Curve &curve, uint32_t piece) noexcept;
+/// … then the pieces from `first` to the one before `end`, at most pieceCount(curve), of a curve
+/// whose form is good.
+bool areGoodPieces(const Curve &curve, uint32_t first, uint32_t end) noexcept;
 
 /// How many pieces a curve whose form is good has.
 uint32_t pieceCount(const Curve &curve) noexcept;

@@ -197,12 +197,17 @@ CurveError checkTableForm(const Curve &table) noexcept {
   return CurveError::None;
 }
 
-bool isGoodTablePiece(const Curve &table, uint32_t index) noexcept {
+bool areGoodTablePieces(const Curve &table, uint32_t first, uint32_t end) noexcept {
   return visitPlaces(table, [&](const auto &places) {
-    const double left = places.x(index);
-    const double right = places.x(int64_t{index} + 1);
-    return right > left && exact::isfinite(right - left) && exact::isfinite(left) &&
-           exact::isfinite(places.y(index)) && exact::isfinite(places.y(int64_t{index} + 1));
+    double left = places.x(first);
+    bool good = exact::isfinite(left) && exact::isfinite(places.y(first));
+    for (uint32_t i = first; i < end && good; ++i) {
+      const double right = places.x(int64_t{i} + 1);
+      good = right > left && exact::isfinite(right - left) &&
+             exact::isfinite(places.y(int64_t{i} + 1));
+      left = right;
+    }
+    return good;
   });
 }
 

@@ -28,9 +28,9 @@ double endOfTablePiece(const Curve &table, uint32_t index) noexcept;
 /// The slave position at the end minus the one at the start. [slave u]
 double riseOfTable(const Curve &table) noexcept;
 
-/// checkForm and isGoodPiece of a table.
+/// checkForm and areGoodPieces of a table.
 CurveError checkTableForm(const Curve &table) noexcept;
-bool isGoodTablePiece(const Curve &table, uint32_t index) noexcept;
+bool areGoodTablePieces(const Curve &table, uint32_t first, uint32_t end) noexcept;
 
 } // namespace stride::cam
 

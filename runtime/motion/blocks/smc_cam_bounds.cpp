@@ -63,15 +63,17 @@ int16_t goOn(BoundsState &state, const cam::CamRef *ref) noexcept {
   if (const int16_t error = open(ref, curve); error != kNoError)
     return error;
   const uint32_t pieces = cam::pieceCount(curve);
-  const uint32_t left = pieces > state.udiNext ? pieces - state.udiNext : 0;
+  if (state.udiNext >= pieces) { // the program has shortened the cam
+    state.bRunning = 0;
+    return kNoError;
+  }
+  const uint32_t left = pieces - state.udiNext;
   const uint32_t portion = left < portionOf(curve) ? left : portionOf(curve);
-  // A cubic table's slopes come from the places around a piece.
+  // A cubic table's slopes come from the places around a piece, at its ends round the corner.
   const uint32_t first = state.udiNext > 0 ? state.udiNext - 1 : 0;
-  for (uint32_t i = first; i < pieces && i <= state.udiNext + portion; ++i)
-    if (!cam::isGoodPiece(curve, i))
-      return number::SMC_ERROR__SMC_NO_CAM_REF_TYPE;
-  // The look around the corner.
-  if (!cam::isGoodPiece(curve, 0) || !cam::isGoodPiece(curve, pieces - 1))
+  const uint32_t end = state.udiNext + portion < pieces ? state.udiNext + portion + 1 : pieces;
+  if (!cam::areGoodPieces(curve, first, end) || !cam::areGoodPieces(curve, 0, 1) ||
+      !cam::areGoodPieces(curve, pieces - 1, pieces))
     return number::SMC_ERROR__SMC_NO_CAM_REF_TYPE;
   cam::Bounds bounds = load(state);
   cam::includePieces(curve, state.udiNext, portion, {state.fVelocity, state.fAcceleration}, bounds);
