@@ -5,6 +5,7 @@
 #include "runtime/motion/blocks/catch_up.hpp"
 #include "runtime/motion/blocks/gear.hpp"
 #include "runtime/motion/blocks/run_follower.hpp"
+#include "runtime/motion/profile.hpp"
 
 #include "st/SM_PLCopen/MC_GearInPos.h"
 
@@ -145,8 +146,9 @@ Attempt leave(Block &block, const axis::MotionState &from, const MasterMotion &m
   return {true, axis::error::kNone};
 }
 
-/// Writes the set values of a cycle on the way. False if the master turned back.
-bool moveOnWay(Block &block, AxisRef &slave, const MasterMotion &master) noexcept {
+/// Writes the set values of a cycle on the way. An SMC_ERROR: the master turned back, or the slave
+/// would have to be nowhere.
+int16_t moveOnWay(Block &block, AxisRef &slave, const MasterMotion &master) noexcept {
   auto &sync = block.stSync;
   const double side = exact::signOf(sync.fLength);
   const double length = exact::fabs(sync.fLength);
@@ -154,7 +156,7 @@ bool moveOnWay(Block &block, AxisRef &slave, const MasterMotion &master) noexcep
   const double x = cam::toDouble(::stride::detail::add(master.position, {-begin.hi, -begin.lo}));
   // Actual values tremble: they have to be back where the way began.
   if (side * (block.stMaster.bActual != 0 ? x : master.travel) < -1e-9 * length)
-    return false;
+    return ::st::SM_Error::SMC_ERROR__SMC_GIP_MASTER_DIRECTION_CHANGE;
   const double shift = slave.fOffsetPosition - sync.fOffset;
   if (side * x >= length || !(side * sync.fLength > 0.0)) {
     const double period = axis::isRotary(slave) ? slave.fPositionPeriod : 0.0;
@@ -164,16 +166,18 @@ bool moveOnWay(Block &block, AxisRef &slave, const MasterMotion &master) noexcep
         ::stride::detail::twoSum(sync.fFrom + shift, sync.fDone));
     sync.iStage = stage::kCoupled;
     motion::turnGear(block.stGear, block.stFollow, slave, master);
-    return true;
+    return axis::error::kNone;
   }
   const cam::Node left{0.0, 0.0, sync.fSlope, sync.fCurvature};
   const cam::Node right{sync.fLength, sync.fWay, motion::gearFactor(block.stGear), 0.0};
   const cam::Point place = cam::evaluateQuintic(left, right, x);
   axis::MotionState now = cam::motionOver(place, master.velocity, master.acceleration);
   now.position += sync.fFrom + shift;
+  if (!motion::isFinite(now))
+    return axis::error::kOutOfRange;
   motion::followState(block.stFollow, slave, now, place.y - sync.fDone);
   sync.fDone = place.y;
-  return true;
+  return axis::error::kNone;
 }
 
 /// One cycle of a slave that is the block's.
@@ -196,8 +200,8 @@ void move(Block &block, AxisRef &slave, const MasterMotion &master, bool moved) 
     motion::followState(follow, slave, {follow.fPosition + way, follow.fVelocity, 0.0}, way);
   } else if (sync.iStage == stage::kCoupled) {
     motion::turnGear(block.stGear, follow, slave, master);
-  } else if (!moveOnWay(block, slave, master)) {
-    motion::fail(block.stBlock, &slave, ::st::SM_Error::SMC_ERROR__SMC_GIP_MASTER_DIRECTION_CHANGE);
+  } else if (const int16_t error = moveOnWay(block, slave, master); error != axis::error::kNone) {
+    motion::fail(block.stBlock, &slave, error);
   }
 }
 

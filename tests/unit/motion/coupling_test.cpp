@@ -429,6 +429,30 @@ TEST_F(Couplings, RefuseWhatTheyCannotUse) {
   EXPECT_EQ(errorOf(phase), 725);
 }
 
+TEST_F(Couplings, NothingUnheardOfReachesTheAxis) {
+  // A way of next to nothing, and places that no axis has.
+  for (const double place : {1e-3, 1e200, 1e308, -1e308})
+    for (const double left : {1e-200, 1e-9, 5.0}) {
+      SCOPED_TRACE(place);
+      master.fSetVelocity = left < 1 ? left : 10;
+      sync.MasterSyncPosition = master.fSetPosition + left;
+      sync.SlaveSyncPosition = place;
+      for (int i = 0; i < 100; ++i) {
+        rig.cycle([&] {
+          master.fSetPosition += master.fSetVelocity * 0.001;
+          call(sync, i < 99);
+        });
+        ASSERT_TRUE(std::isfinite(rig.axis.fSetPosition));
+        ASSERT_TRUE(std::isfinite(rig.axis.fSetVelocity));
+        ASSERT_TRUE(std::isfinite(rig.axis.fSetAcceleration));
+      }
+      rig.axis.nAxisState = state::kStandstill; // as after MC_Reset
+      rig.axis.fSetPosition = rig.axis.fSetVelocity = 0;
+      rig.axis.iOwner = 0;
+      rig.axis.stPlanner.bActive = 0;
+    }
+}
+
 TEST_F(Couplings, AnotherMasterOnTheWayIsAnError) {
   auto other = master;
   for (int i = 0; i < 50; ++i)
@@ -471,6 +495,48 @@ TEST_F(Couplings, GearOutTakesASuperimposedMotionAlong) {
     });
   EXPECT_TRUE(add.CommandAborted && out.Done);
   EXPECT_NEAR(rig.axis.fSetVelocity, 15, 1e-9);
+}
+
+TEST(RotaryCouplings, TheDriveGetsEveryTurn) {
+  // Up to 4 turns of the slave in a cycle, and 10,000 cycles of it.
+  AxisRig rig;
+  rig.makeRotary(100);
+  rig.axis.dwRatioTechUnitsDenom = 1000;
+  rig.powerUp();
+  auto master = fresh<stride::axis::AxisRef>();
+  master.iMovementType = 0;
+  master.fPositionPeriod = 360;
+  master.fTaskCycle = 0.001;
+  master.bRegulatorOn = 1;
+  auto gear = fresh<pl::MC_GearIn>();
+  gear.Master = &master;
+  gear.Slave = &rig.axis;
+  gear.Acceleration = gear.Deceleration = 50;
+  gear.RatioNumerator = -4;
+  gear.RatioDenominator = 3;
+  const auto begin = rig.axis.liSetIncrements;
+  rig.cycle([&] { rig.call(gear, true); }); // both at rest: in gear
+  long turns = 0;                           // of the master
+  double velocity = 0;
+  for (int i = 0; i < 12000; ++i) {
+    const double wanted = i < 11000 ? 300000 : 0;
+    const double before = velocity;
+    velocity += std::fmax(-1000, std::fmin(1000, wanted - velocity));
+    double position = master.fSetPosition + 0.5 * (before + velocity) * 0.001;
+    while (position >= 360) {
+      position -= 360;
+      ++turns;
+    }
+    master.fSetPosition = position;
+    master.fSetVelocity = velocity;
+    rig.cycle([&] { rig.call(gear, true); });
+    ASSERT_TRUE(gear.InGear) << i;
+  }
+  EXPECT_GT(turns, 8000);
+  const double way = (static_cast<double>(turns) * 360 + master.fSetPosition) * -4 / 3;
+  EXPECT_NEAR(static_cast<double>(rig.axis.liSetIncrements - begin), way * 1000, 1);
+  rig.cycle([&] { rig.call(gear, true); });
+  EXPECT_NEAR(rig.axis.fActPosition, rig.axis.fSetPosition, 0.002);
 }
 
 TEST_F(Couplings, FollowAnEncoder) {
