@@ -362,6 +362,14 @@ void Checker::reportUnknown(const Name &name, bool asType) {
       d.help(table.help);
     return;
   }
+  for (const LibraryIndex::Entry &entry : index_.find(name.id->lower)) {
+    if (!entry.qualifiedOnly)
+      continue;
+    const std::string library(entry.library);
+    d.help("the library `" + library + "` has one: write `" + library + "." +
+           std::string(name.text) + "`");
+    return;
+  }
   if (helpElsewhere(d, name, asType))
     return;
   const std::string_view similar = nearest(name.text, visibleNames(asType));

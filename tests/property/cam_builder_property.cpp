@@ -219,7 +219,7 @@ void expectMinimal(bool seventh, bool closed, uint64_t seed) {
   Random random(seed);
   int compared = 0;
   for (int i = 0; i < casesOf(2000); ++i) {
-    std::vector<Piece> pieces = chain(random, 1 + random.below(8), 10, seventh);
+    std::vector<Piece> pieces = chain(random, 1 + random.below(8), 1000, seventh);
     if (closed) {
       const double shift = -pieces[0].left.x;
       for (Piece &piece : pieces)
