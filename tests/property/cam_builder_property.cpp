@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 
 using namespace stride::cam;
 using namespace stride::test;
@@ -280,6 +281,130 @@ TEST(CamBuilderProperty, FourDerivativesGoOnWhereOnlyPlacesAreGiven) {
                   1e-8 * size / std::pow(h, 4));
     }
   }
+}
+
+Curve curveOf(const BuiltCam &cam) {
+  Curve curve;
+  curve.form = Form::Segments;
+  curve.start = cam.segments.front().start;
+  curve.end = cam.segments.back().end;
+  curve.count = static_cast<int32_t>(cam.segments.size());
+  curve.data = cam.segments.data();
+  return curve;
+}
+
+/// Any kind between any boundaries, one of two that meet implicit or without derivatives.
+std::vector<Piece> mixture(Random &random) {
+  std::vector<Piece> pieces;
+  double x = random.uniform(-10, 10);
+  const auto boundary = [&] {
+    Boundary b = bound(x, random.uniform(-10, 10), random.uniform(-2, 2), random.uniform(-2, 2),
+                       random.uniform(-2, 2));
+    b.given = static_cast<int16_t>(2 + random.below(4));
+    return b;
+  };
+  Boundary left = random.chance(0.5) ? implicit() : boundary();
+  if (left.given == 0)
+    x = 0;
+  const int n = 1 + random.below(10);
+  for (int i = 0; i < n; ++i) {
+    x += random.uniform(0.2, 3);
+    const bool taken = i + 1 < n && random.chance(0.3); // from the neighbour on the right
+    Piece piece =
+        pieceOf(static_cast<PieceKind>(random.below(8)), left, taken ? implicit() : boundary());
+    piece.inflexion = random.uniform(0.1, 0.9);
+    piece.parameter = piece.kind == PieceKind::Law ? random.uniform(0.1, 0.7) : 30;
+    piece.law = static_cast<Law>(random.below(5));
+    if (piece.kind == PieceKind::Coefficients)
+      piece.kind = PieceKind::Line; // its places follow from its coefficients
+    pieces.push_back(piece);
+    left = taken ? boundary() : implicit();
+  }
+  return pieces;
+}
+
+bool isPolynomial(const Piece &piece) {
+  return piece.kind == PieceKind::Poly5 || piece.kind == PieceKind::Poly7;
+}
+
+TEST(CamBuilderProperty, PolynomialsJoinWhateverIsBeside) {
+  Random random(9);
+  int built = 0;
+  for (int i = 0; i < casesOf(5000); ++i) {
+    const std::vector<Piece> pieces = mixture(random);
+    const BuiltCam cam(pieces, random.chance(0.3));
+    if (cam.error == BuildError::InvalidParameter) // no such peak of the acceleration
+      continue;
+    ASSERT_EQ(cam.error, BuildError::None);
+    ++built;
+    EXPECT_EQ(checkCurve(curveOf(cam)), CurveError::None);
+    size_t piece = 0;
+    for (size_t k = 0; k + 1 < cam.segments.size(); ++k) {
+      const Point before = cam.end(k);
+      const Point behind = cam.start(k + 1);
+      // A polynomial of degree 7 that takes the jerk of a law gets large in between.
+      double size = 1.0;
+      for (const Segment &segment : {cam.segments[k], cam.segments[k + 1]})
+        for (const double c : segment.coefficients)
+          size = std::fmax(size, std::fabs(c) + std::fabs(segment.stroke));
+      EXPECT_NEAR(before.y, behind.y, 1e-13 * size);
+      const double end = cam.segments[k].end;
+      const Boundary &right = pieces[piece].right;
+      if (end !=
+          (right.given != 0 ? right.x : pieces[piece + 1].left.x)) { // within a modified sine
+        expectPoint(before, behind, 3, 1e-10 * size);
+        continue;
+      }
+      const Piece &left = pieces[piece];
+      const Piece &next = pieces[++piece];
+      // The one whose boundary is implicit takes what the other has, unless that is open on a law.
+      const Piece &taker = left.right.given == 0 ? left : next;
+      const Piece &giver = left.right.given == 0 ? next : left;
+      if (isPolynomial(taker) &&
+          (isPolynomial(giver) || giver.kind == PieceKind::Line ||
+           giver.kind == PieceKind::InclinedSine || giver.kind == PieceKind::ModifiedSine))
+        expectPoint(before, behind, 3, 1e-10 * size);
+    }
+  }
+  EXPECT_GT(built, casesOf(2500));
+}
+
+TEST(CamBuilderProperty, WhateverComesInOnlyNumbersComeOut) {
+  Random random(10);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double strange[] = {kInfinity, -kInfinity, std::numeric_limits<double>::quiet_NaN(),
+                            0.0,       -0.0,       1e308,
+                            -1e308,    1e-308,     5e-324,
+                            1e150,     1e-150};
+  int built = 0;
+  int refused = 0;
+  for (int i = 0; i < casesOf(20000); ++i) {
+    std::vector<Piece> pieces = mixture(random);
+    const int changes = random.below(3);
+    for (int k = 0; k < changes; ++k) {
+      Piece &piece = pieces[static_cast<size_t>(random.below(static_cast<int>(pieces.size())))];
+      Boundary &boundary = random.chance(0.5) ? piece.left : piece.right;
+      double *const places[] = {&boundary.x,      &boundary.y,           &boundary.v,
+                                &boundary.a,      &boundary.j,           &piece.inflexion,
+                                &piece.parameter, &piece.coefficients[2]};
+      *places[random.below(8)] = strange[random.below(11)];
+      if (random.chance(0.2))
+        boundary.given = static_cast<int16_t>(random.below(8) - 1);
+      if (random.chance(0.1))
+        piece.kind = static_cast<PieceKind>(random.below(12) - 2);
+      if (random.chance(0.1))
+        piece.law = static_cast<Law>(random.below(9) - 2);
+    }
+    const BuiltCam cam(pieces, random.chance(0.3));
+    if (cam.error != BuildError::None) {
+      ++refused;
+      continue;
+    }
+    ++built;
+    ASSERT_EQ(checkCurve(curveOf(cam)), CurveError::None) << i;
+  }
+  EXPECT_GT(built, casesOf(3000));
+  EXPECT_GT(refused, casesOf(3000));
 }
 
 TEST(CamBuilderProperty, LengthsThatDifferMuchKeepTheCamContinuous) {
