@@ -58,6 +58,16 @@ public:
   std::optional<LoadedCam> load(const std::string &path) {
     return loadCam(path, sources_, diagnostics_);
   }
+  /// Only a cam with a curve.
+  std::optional<LoadedCam> loadCurve(const std::string &path) {
+    std::optional<LoadedCam> cam = load(path);
+    if (cam && cam->segments.empty()) {
+      diagnostics_.report(Code::camUnreadable, {},
+                          fmt::format("`{}` has tappets only, no curve", path));
+      cam.reset();
+    }
+    return cam;
+  }
   Diagnostics &diagnostics() { return diagnostics_; }
   SourceManager &sources() { return sources_; }
 
@@ -138,6 +148,8 @@ std::string describeCam(const std::string &path, const LoadedCam &cam) {
   const std::string master = source.masterUnit.empty() ? "" : " " + source.masterUnit;
   text += fmt::format("  master        {} … {}{}{}\n", shown(source.start), shown(source.end),
                       master, source.periodic ? ", periodic" : "");
+  if (cam.segments.empty())
+    return text + fmt::format("  tappets       {}\n", source.tappets.size());
   const Bounds bounds = boundsOf(cam.curve(), {});
   text += fmt::format("  position      {}{}\n", rangeText(bounds.position), unitsOf(source, ""));
   text += fmt::format("  velocity      up to {}{}\n", shown(bounds.velocity.high),
@@ -190,7 +202,7 @@ int camCheck(const CamOptions &options) {
 
 int camBounds(const CamOptions &options) {
   Session session(options);
-  if (const std::optional<LoadedCam> cam = session.load(options.files.front())) {
+  if (const std::optional<LoadedCam> cam = session.loadCurve(options.files.front())) {
     const Bounds bounds =
         boundsOf(cam->curve(), {options.masterVelocity, options.masterAcceleration});
     const std::string slave = cam->source.slaveUnit.empty() ? "u" : cam->source.slaveUnit;
@@ -204,7 +216,7 @@ int camBounds(const CamOptions &options) {
 int camPlot(const CamOptions &options) {
   Session session(options);
   const std::string &path = options.files.front();
-  if (const std::optional<LoadedCam> cam = session.load(path))
+  if (const std::optional<LoadedCam> cam = session.loadCurve(path))
     session.write(options.out.empty() ? withEnding(path, ".svg") : options.out, drawCam(*cam));
   return session.finish();
 }
@@ -212,7 +224,7 @@ int camPlot(const CamOptions &options) {
 int camExport(const CamOptions &options) {
   Session session(options);
   const std::string &path = options.files.front();
-  if (const std::optional<LoadedCam> cam = session.load(path)) {
+  if (const std::optional<LoadedCam> cam = session.loadCurve(path)) {
     const Curve curve = cam->curve();
     std::vector<CamPlace> places;
     std::uint32_t index = 0;
@@ -274,7 +286,7 @@ bool reduce(Session &session, const LoadedCam &cam, double tolerance, CamSource 
 int camImport(const CamOptions &options) {
   Session session(options);
   const std::string &path = options.files.front();
-  if (const std::optional<LoadedCam> cam = session.load(path)) {
+  if (const std::optional<LoadedCam> cam = session.loadCurve(path)) {
     CamSource source = cam->source;
     source.periodic = options.periodic;
     source.interval = options.interval;
@@ -294,7 +306,7 @@ int camImport(const CamOptions &options) {
 int camReduce(const CamOptions &options) {
   Session session(options);
   const std::string &path = options.files.front();
-  if (const std::optional<LoadedCam> cam = session.load(path)) {
+  if (const std::optional<LoadedCam> cam = session.loadCurve(path)) {
     CamSource source = cam->source;
     const std::size_t before = source.elements.size();
     if (reduce(session, *cam, options.tolerance, source, path)) {

@@ -74,7 +74,8 @@ std::optional<LoadedCam> loadBinary(const std::string &path, Diagnostics &diagno
   cam.source.start = file.header.start;
   cam.source.end = file.header.end;
   cam.source.tappets = cam.data.tappets;
-  keepSegments(cam, cam.data.curve());
+  if (file.header.elements != 0)
+    keepSegments(cam, cam.data.curve());
   return cam;
 }
 

@@ -55,9 +55,8 @@ NumberRange rangeOf(Element element) {
 class NumberScale {
 public:
   NumberScale(Element element, std::pair<double, double> editor, std::pair<double, double> table)
-      : element_(element), editorMin(static_cast<float>(editor.first)),
-        editorMax(static_cast<float>(editor.second)), tableMin(static_cast<float>(table.first)),
-        tableMax(static_cast<float>(table.second)) {
+      : element_(element), editorMin(notAbove(editor.first)), editorMax(-notAbove(-editor.second)),
+        tableMin(static_cast<float>(table.first)), tableMax(static_cast<float>(table.second)) {
     scale_ = {tableMin, editorMin,
               (double{editorMax} - double{editorMin}) / (double{tableMax} - double{tableMin})};
   }
@@ -87,6 +86,13 @@ public:
   }
 
 private:
+  /// As REAL; the scale must not become smaller by that, or its ends would fall out of the table.
+  static float notAbove(double value) {
+    const auto near = static_cast<float>(value);
+    return double{near} > value ? std::nextafter(near, -std::numeric_limits<float>::infinity())
+                                : near;
+  }
+
   Element element_;
   Scale scale_;
 
@@ -140,12 +146,14 @@ public:
     data_.header.tappets = static_cast<std::uint32_t>(cam_.tappets.size());
     cam_.name.text.copy(data_.header.name, sizeof data_.header.name - 1);
     data_.tappets = cam_.tappets;
-    if (checkCurve(curve_) != CurveError::None || !isFinite())
-      return fail("the numbers of this cam are too large or too close together",
-                  "its curve cannot be computed");
     if (cam_.tappets.size() > kCamFileMaxCount)
       return fail(fmt::format("a cam has at most {} tappets", kCamFileMaxCount),
                   fmt::format("there are {}", cam_.tappets.size()));
+    if (cam_.elements.empty())
+      return std::move(data_); // tappets only
+    if (checkCurve(curve_) != CurveError::None || !isFinite())
+      return fail("the numbers of this cam are too large or too close together",
+                  "its curve cannot be computed");
     switch (cam_.compile.mode) {
     case CamMode::equidistant:
       return even();
@@ -324,6 +332,18 @@ std::vector<Segment> segmentsOf(const CamSource &cam) {
   return result;
 }
 
+namespace {
+
+/// How large the summands of a segment's derivative are: differences far below come from rounding.
+double summand(const Segment &segment, int derivative) {
+  double size = std::fabs(segment.stroke);
+  for (const double coefficient : segment.coefficients)
+    size = std::max(size, std::fabs(coefficient));
+  return size / std::pow(segment.end - segment.start, derivative);
+}
+
+} // namespace
+
 std::vector<CamJump> jumpsOf(const std::vector<Segment> &segments, bool periodic, double interval) {
   std::vector<CamJump> jumps;
   const auto joint = [&](const Segment &left, const Segment &right, bool around) {
@@ -331,18 +351,15 @@ std::vector<CamJump> jumpsOf(const std::vector<Segment> &segments, bool periodic
     Point behind = evaluateSegment(right, right.start);
     if (around && interval > 0)
       behind.y += std::round((before.y - behind.y) / interval) * interval;
-    // How large the values of a piece are: differences below are rounding.
-    const double h = std::min(left.end - left.start, right.end - right.start);
-    const double way = std::max({std::fabs(before.y), std::fabs(behind.y), std::fabs(left.stroke),
-                                 std::fabs(right.stroke), std::fabs(left.coefficients[0]),
-                                 std::fabs(evaluateSegment(right, right.end).y)});
-    const auto look = [&](std::string_view what, double a, double b, double size) {
-      if (std::fabs(a - b) > kContinuous * std::max({std::fabs(a), std::fabs(b), size}))
+    const auto look = [&](std::string_view what, double a, double b, int power) {
+      const double size =
+          std::max({std::fabs(a), std::fabs(b), summand(left, power), summand(right, power)});
+      if (std::fabs(a - b) > kContinuous * size)
         jumps.push_back({what, left.end, a, b});
     };
-    look("position", before.y, behind.y, way);
-    look("velocity", before.v, behind.v, way / h);
-    look("acceleration", before.a, behind.a, way / (h * h));
+    look("position", before.y, behind.y, 0);
+    look("velocity", before.v, behind.v, 1);
+    look("acceleration", before.a, behind.a, 2);
   };
   for (std::size_t i = 1; i < segments.size(); ++i)
     joint(segments[i - 1], segments[i], false);

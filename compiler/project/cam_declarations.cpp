@@ -164,6 +164,7 @@ public:
     std::string text = "VAR_GLOBAL\n" + body_;
     if (!names_.contains("_smc_cam_list"))
       text += fmt::format("  /// The cams of the project's cam files.\n"
+                          "  {{attribute 'init_on_onlchange'}}\n"
                           "  _SMC_CAM_LIST : ARRAY[0..{}] OF POINTER TO SM_DriveBasic.MC_CAM_REF "
                           ":= [{}];\n",
                           count_ - 1, list_);
@@ -203,7 +204,8 @@ private:
                             static_cast<int>(header.element), header.cubic ? 3 : 1);
     if (header.open)
       fields += fmt::format(", byCompatibilityMode := 1, fRise := {}", realLiteral(header.rise));
-    fields += fmt::format(", pce := ADR({})", dataOf(cam, elementsOf(*data)));
+    if (header.elements != 0)
+      fields += fmt::format(", pce := ADR({})", dataOf(cam, elementsOf(*data)));
     if (!data->tappets.empty())
       fields += fmt::format(", nTappets := {}, pt := ADR({})", data->tappets.size(),
                             dataOf(cam, tappetsOf(data->tappets)));

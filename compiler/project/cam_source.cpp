@@ -66,7 +66,7 @@ public:
     for (const CheckedSection &compile : top.sections("compile", diagnostics_))
       readCompile(compile);
     if (!failed())
-      arrange();
+      arrange(top);
     if (!failed() && cam_.periodic)
       closeCircle();
     if (failed())
@@ -298,8 +298,19 @@ private:
   }
 
   // Brings the elements into order and looks whether they follow each other.
-  void arrange() {
+  void arrange(const CheckedSection &top) {
     std::vector<CamElement> &elements = cam_.elements;
+    if (elements.empty() && !cam_.tappets.empty()) { // a digital cam table
+      for (const std::string_view name : {"periodic", "interval"})
+        if (top.get(name) != nullptr)
+          withoutEffect(diagnostics_, top, name, "only with points, lines or laws");
+      for (const CheckedSection &compile : top.sections("compile", diagnostics_))
+        if (cam_.compile.mode != CamMode::none)
+          withoutEffect(diagnostics_, compile, "mode", "only with points, lines or laws");
+      cam_.periodic = false;
+      cam_.interval = 0;
+      return;
+    }
     if (elements.empty()) {
       diagnostics_
           .report(Code::camElements, masterSpan_, "a cam needs elements",

@@ -50,7 +50,7 @@ struct CamSource {
   std::string masterUnit;
   std::string slaveUnit;
   std::optional<std::pair<double, double>> slaveScale; ///< minimum and maximum [slave u]
-  std::vector<CamElement> elements; ///< ascending; the first begins at start, the last ends at end
+  std::vector<CamElement> elements; ///< ascending, from start to end; none: tappets only
   std::vector<stride::cam::FileTappet> tappets; ///< in the order of the file
   CamCompile compile;
 };
