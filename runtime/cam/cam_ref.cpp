@@ -19,8 +19,8 @@ Curve curveOf(const CamRef &cam) noexcept {
   return curve;
 }
 
-int16_t checkCam(const CamRef &cam) noexcept {
-  switch (checkCurve(curveOf(cam))) {
+int16_t errorOf(CurveError error) noexcept {
+  switch (error) {
   case CurveError::None:
     return ::st::SM_Error::SMC_ERROR__SMC_NO_ERROR;
   case CurveError::Scaling:
@@ -30,5 +30,7 @@ int16_t checkCam(const CamRef &cam) noexcept {
   }
   return ::st::SM_Error::SMC_ERROR__SMC_NO_CAM_REF_TYPE;
 }
+
+int16_t checkCam(const CamRef &cam) noexcept { return errorOf(checkCurve(curveOf(cam))); }
 
 } // namespace stride::cam

@@ -31,6 +31,9 @@ inline constexpr uint16_t kCamStructId = 0xDC34;
 /// data if the cam has none, or is none.
 Curve curveOf(const CamRef &cam) noexcept;
 
+/// The SMC_ERROR of what is wrong with a cam's curve: 750 (no cam), 628 (scaling), or kNone.
+int16_t errorOf(CurveError error) noexcept;
+
 /// What is wrong with the cam: kNone, or SMC_ERROR 750 (no cam) or 628 (scaling). Takes a time that
 /// grows with its size.
 int16_t checkCam(const CamRef &cam) noexcept;

@@ -53,6 +53,13 @@ int32_t sizeOf(Element element) noexcept {
   return 0;
 }
 
+/// Whether pieces from `first` to `last` are the ones of the curve, but for the last digits.
+static bool spans(const Curve &curve, double first, double last) noexcept {
+  const double tolerance = 1e-9 * (curve.end - curve.start);
+  return exact::fabs(first - curve.start) <= tolerance &&
+         exact::fabs(last - curve.end) <= tolerance;
+}
+
 CurveError checkForm(const Curve &curve) noexcept {
   if (curve.data == nullptr || !exact::isfinite(curve.start) || !exact::isfinite(curve.end) ||
       !(curve.end > curve.start) || !exact::isfinite(curve.end - curve.start))
@@ -62,9 +69,15 @@ CurveError checkForm(const Curve &curve) noexcept {
   case Form::PairTable:
     return checkTableForm(curve);
   case Form::Nodes:
-    return curve.count >= 2 ? CurveError::None : CurveError::NoCurve;
+    if (curve.count >= 2 &&
+        spans(curve, node(curve, 0).x, node(curve, static_cast<uint32_t>(curve.count - 1)).x))
+      return CurveError::None;
+    break;
   case Form::Segments:
-    return curve.count >= 1 ? CurveError::None : CurveError::NoCurve;
+    if (curve.count >= 1 && spans(curve, segment(curve, 0).start,
+                                  segment(curve, static_cast<uint32_t>(curve.count - 1)).end))
+      return CurveError::None;
+    break;
   }
   return CurveError::NoCurve;
 }

@@ -26,6 +26,15 @@ cam::Place placeOf(const CamState &state, const cam::Curve &curve, cam::Total ma
   return {0, cam::toDouble(master)};
 }
 
+/// A master that is less than a rounding before the first start is at the start: a shift of its
+/// zero point must not lead it into the period before.
+cam::Place notBefore(const CamState &state, const cam::Curve &curve, cam::Place place) noexcept {
+  const bool justBefore = state.stCommand.stCam.Periodic != 0 &&
+                          place.period == state.liFirstPeriod - 1 &&
+                          curve.end - place.position < 1e-12 * (curve.end - curve.start);
+  return justBefore ? cam::Place{state.liFirstPeriod, curve.start} : place;
+}
+
 } // namespace
 
 int16_t checkCamInputs(const CamCommand &command) noexcept {
@@ -39,12 +48,7 @@ int16_t openCam(const CamId &id, cam::Curve &curve) noexcept {
   if (id.pCam == nullptr)
     return number::SMC_ERROR__SMC_CI_NO_CAM_SELECTED;
   curve = cam::curveOf(*id.pCam);
-  const int32_t least = curve.form == cam::Form::Segments || curve.open ? 1 : 2;
-  if (curve.data == nullptr || curve.count < least || curve.form < cam::Form::EvenTable ||
-      curve.form > cam::Form::Segments || !exact::isfinite(curve.start) ||
-      !exact::isfinite(curve.end) || !(curve.end > curve.start))
-    return number::SMC_ERROR__SMC_NO_CAM_REF_TYPE;
-  return number::SMC_ERROR__SMC_NO_ERROR;
+  return cam::errorOf(cam::checkForm(curve));
 }
 
 cam::Place placeInCam(const CamState &state, const cam::Curve &curve,
@@ -77,7 +81,7 @@ bool evaluateCam(CamState &state, const cam::Curve &curve, const MasterMotion &m
                  const axis::AxisRef &slave, CamTarget &target) noexcept {
   const CamCommand &command = state.stCommand;
   const cam::Total total = scaledMaster(state, master);
-  target.place = placeOf(state, curve, total);
+  target.place = notBefore(state, curve, placeOf(state, curve, total));
   double x = target.place.position;
   target.outside = x < curve.start || x > curve.end;
   if (target.outside)

@@ -172,12 +172,13 @@ axis::MotionState onwards(const axis::AxisRef &slave) noexcept {
 
 int16_t checkEntry(const axis::AxisRef &slave, const CamCommand &command) noexcept {
   if (command.eStartMode < mode::MC_StartMode__absolute ||
-      command.eStartMode > mode::MC_StartMode__ramp_in_dist)
-    return axis::error::kOutOfRange;
+      command.eStartMode > mode::MC_StartMode__ramp_in_dist ||
+      !exact::isfinite(command.fHysteresis) || command.fHysteresis < 0.0)
+    return number::SMC_ERROR__SMC_INVALID_PARAMETER;
   if (command.eStartMode == mode::MC_StartMode__ramp_in_dist)
     return exact::isfinite(command.fStartDistance) && exact::isfinite(command.fSyncPosition)
-               ? axis::error::kNone
-               : axis::error::kOutOfRange;
+               ? int16_t{axis::error::kNone}
+               : int16_t{number::SMC_ERROR__SMC_INVALID_PARAMETER};
   if (!isRamp(command.eStartMode))
     return axis::error::kNone;
   Profile profile;

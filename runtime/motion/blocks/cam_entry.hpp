@@ -21,7 +21,7 @@ inline CamPhase phaseOf(const CamState &state) noexcept {
 /// The slave's set values at the end of this cycle if it went on as it does.
 axis::MotionState onwards(const axis::AxisRef &slave) noexcept;
 
-/// What is wrong with the inputs of the start mode (627, or 12 for an unknown mode), or kNone.
+/// What is wrong with the start mode and its inputs, or with the hysteresis (627, 311), or kNone.
 int16_t checkEntry(const axis::AxisRef &slave, const CamCommand &command) noexcept;
 
 /// Begins the way onto the cam, where the slave should be at `target`. An SMC_ERROR.

@@ -30,6 +30,7 @@ motion::CamCommand commandOf(const Block &block) noexcept {
   command.fJerk = block.Jerk;
   command.fStartDistance = block.MasterStartDistance;
   command.fSyncPosition = block.MasterSyncPosition;
+  command.fHysteresis = block.TappetHysteresis;
   command.eStartMode = block.StartMode;
   return command;
 }
@@ -53,10 +54,8 @@ double earlierTravel(const AxisRef &slave) noexcept {
 void follow(Block &block, const cam::Place &place, int64_t now) noexcept {
   auto &state = block.stCam;
   const motion::CamId &id = state.stCommand.stCam;
-  const double hysteresis =
-      exact::isPositive(block.TappetHysteresis) ? block.TappetHysteresis : 0.0;
   cam::reportTappets(block.Tappets, state.stTappets, cam::tappetsOf(*id.pCam, id.Periodic != 0),
-                     place, hysteresis, now);
+                     place, block.stCam.stCommand.fHysteresis, now);
 }
 
 /// The command's cam begins, from where master and slave are: all that can be said before the slave
@@ -154,14 +153,16 @@ bool isSame(const motion::CamId &a, const motion::CamId &b) noexcept {
          a.SlaveAbsolute == b.SlaveAbsolute;
 }
 
-/// Whether the cam has come to its end, forwards, and the program has given another one. After
-/// showEnd: exactly at the end counts for both, so that EndOfProfile is TRUE once.
+/// Whether the cam has come to its end, forwards (who comes back to the start has not), and the
+/// program has given another one. After showEnd: exactly at the end counts for both, so that
+/// EndOfProfile is TRUE once.
 bool isReplaced(const Block &block, const motion::CamTarget &target) noexcept {
   const auto &state = block.stCam;
   const motion::CamId &id = state.stCommand.stCam;
-  const bool ended = id.Periodic != 0
-                         ? target.place.period > state.liPeriod
-                         : block.EndOfProfile != 0 && target.place.position >= id.pCam->xEnd;
+  const bool ended =
+      id.Periodic != 0
+          ? target.place.period > state.liPeriod && target.place.period > state.liFirstPeriod
+          : block.EndOfProfile != 0 && target.place.position >= id.pCam->xEnd;
   return ended && motion::phaseOf(state) == motion::CamPhase::OnCam &&
          block.CamTableID.pCam != nullptr && !isSame(block.CamTableID, id);
 }

@@ -31,15 +31,7 @@ int16_t open(const cam::CamRef *ref, cam::Curve &curve) noexcept {
       (table && cam::sizeOf(static_cast<cam::Element>(ref->byVarType)) == 0))
     return number::SMC_ERROR__SMC_CB_NOT_IMPLEMENTED;
   curve = cam::curveOf(*ref);
-  switch (cam::checkForm(curve)) {
-  case cam::CurveError::None:
-    return kNoError;
-  case cam::CurveError::Scaling:
-    return number::SMC_ERROR__SMC_CI_SCALING_INCORRECT;
-  case cam::CurveError::NoCurve:
-    break;
-  }
-  return number::SMC_ERROR__SMC_NO_CAM_REF_TYPE;
+  return cam::errorOf(cam::checkForm(curve));
 }
 
 void store(BoundsState &state, const cam::Bounds &bounds) noexcept {
