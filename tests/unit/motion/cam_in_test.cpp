@@ -4,6 +4,7 @@
 
 #include "st/SM_PLCopen/MC_CamOut.h"
 #include "st/SM_PLCopen/MC_MoveSuperImposed.h"
+#include "st/SM_PLCopen/MC_MoveVelocity.h"
 
 #include <gtest/gtest.h>
 
@@ -338,6 +339,74 @@ TEST(CamIn, FollowsAMasterThatLosesItsPower) {
   EXPECT_TRUE(scene->camIn.InSync);
   EXPECT_DOUBLE_EQ(scene->rig.axis.fSetPosition, scene->master.ref.fActPosition);
 }
+
+/// What ends the motion of a master that is a drive.
+enum class End { Stop, ErrorStop, PowerOff };
+
+class RealMaster : public testing::TestWithParam<End> {};
+
+TEST_P(RealMaster, IsFollowedUntilItStands) {
+  // Rotary, 360; the cam has two periods in a turn.
+  AxisRig masterRig(kCamCycle);
+  masterRig.makeRotary(360);
+  masterRig.axis.fSWMaxDeceleration = 500;
+  ASSERT_GT(masterRig.powerUp(), 0);
+  auto scene = ready(hill(180, 20));
+  auto &camIn = scene->camIn;
+  camIn.Master = &masterRig.axis;
+  auto move = fresh<pl::MC_MoveVelocity>();
+  move.Axis = &masterRig.axis;
+  move.Velocity = 400;
+  move.Acceleration = move.Deceleration = 1000;
+  move.Direction = 1;
+  auto stop = masterRig.stop(1000);
+  double position = 0; // of the master as the slave sees it: in error stop it brakes after that
+  const auto follow = [&] {
+    const auto &master = masterRig.axis;
+    position = master.bRegulatorOn != 0 ? master.fSetPosition : master.fActPosition;
+    scene->rig.cycle([&] { scene->rig.call(camIn, true); });
+  };
+  const auto cycle = [&](bool ended) {
+    masterRig.cycle([&] {
+      masterRig.call(move, true);
+      if (GetParam() == End::Stop)
+        masterRig.call(stop, ended);
+      follow();
+    });
+  };
+  const auto check = [&] {
+    const ModelPoint wanted = scene->cam.at(std::fmod(position, 180));
+    ASSERT_NEAR(scene->rig.axis.fSetPosition, static_cast<double>(wanted.y), 1e-9);
+    ASSERT_TRUE(camIn.InSync);
+    ASSERT_EQ(scene->rig.axis.nAxisState, state::kSynchronized);
+  };
+  for (int i = 0; i < 1000; ++i) {
+    cycle(false);
+    check();
+  }
+  ASSERT_DOUBLE_EQ(masterRig.axis.fSetVelocity, 400);
+  if (GetParam() == End::ErrorStop)
+    masterRig.cycle([&] {
+      stride::axis::enterErrorStop(masterRig.axis, error::kDrive);
+      follow();
+    });
+  if (GetParam() == End::PowerOff)
+    masterRig.power.bRegulatorOn = 0;
+  for (int i = 0; i < 1000; ++i) {
+    cycle(true);
+    check();
+  }
+  EXPECT_EQ(scene->rig.axis.fSetVelocity, 0);
+  EXPECT_NE(masterRig.axis.nAxisState, state::kContinuous);
+}
+
+INSTANTIATE_TEST_SUITE_P(CamIn, RealMaster,
+                         testing::Values(End::Stop, End::ErrorStop, End::PowerOff),
+                         [](const auto &info) {
+                           return info.param == End::Stop        ? "Stop"
+                                  : info.param == End::ErrorStop ? "ErrorStop"
+                                                                 : "PowerOff";
+                         });
 
 TEST(CamIn, AShiftOfTheSlavesZeroPointIsNoMotion) {
   for (const double slavePeriod : {0.0, 360.0}) {
