@@ -53,6 +53,7 @@ constexpr std::array kPointParameters = {
     coordinate("y", true),
     coordinate("v"),
     coordinate("a"),
+    Parameter{"smooth", ParameterType::boolean},
 };
 constexpr std::array kLineParameters = {
     coordinate("x", true),

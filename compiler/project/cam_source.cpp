@@ -69,6 +69,10 @@ public:
       arrange(top);
     if (!failed() && cam_.periodic)
       closeCircle();
+    if (!failed() && !smoothen(cam_))
+      diagnostics_.report(Code::camTable, masterSpan_,
+                          "the smooth points of this cam cannot be computed",
+                          "the numbers are too large or too close together");
     if (failed())
       return std::nullopt;
     reportJumps();
@@ -167,6 +171,13 @@ private:
                     section.real("a", 0)};
     element.right = element.left;
     element.span = section.table().span;
+    element.smooth = section.boolean("smooth", false);
+    element.given = section.has("v") ? 1 : 0;
+    if (element.smooth && section.has("a")) {
+      withoutEffect(diagnostics_, section, element.given == 0 ? "a" : "smooth",
+                    element.given == 0 ? "together with `v`, or without `smooth`" : "without `a`");
+      element.smooth = element.given == 0;
+    }
     if (cam_.periodic && element.left.x == cam_.end)
       for (const std::string_view name : {"v", "a"})
         if (section.get(name) != nullptr)
@@ -344,6 +355,8 @@ private:
     end.left.x = cam_.end;
     end.right = end.left;
     end.span = elements.front().span;
+    end.smooth = elements.front().smooth;
+    end.given = elements.front().given;
     elements.push_back(end);
   }
 
@@ -413,6 +426,8 @@ private:
             .label(cam_.elements.front().span, "the start");
     last.left.v = last.right.v = start.v;
     last.left.a = last.right.a = start.a;
+    last.smooth = cam_.elements.front().smooth;
+    last.given = cam_.elements.front().given;
   }
 
   void reportJumps() {

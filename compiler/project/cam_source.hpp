@@ -23,6 +23,9 @@ struct CamElement {
   stride::cam::Node left{};
   stride::cam::Node right{};
   stride::cam::LawShape shape;
+  /// Points: v and a are chosen so that the gaps around get the least jerk; with `given` 1 only a.
+  bool smooth = false;
+  int given = 0;
   Span span; ///< of its header
 };
 
@@ -57,6 +60,10 @@ struct CamSource {
 
 /// Reads and checks a cam file. Everything wrong is reported; with errors nothing is returned.
 [[nodiscard]] std::optional<CamSource> readCam(const SourceFile &file, Diagnostics &diagnostics);
+
+/// Gives the smooth points of a cam their velocity and acceleration: those with which the integral
+/// of the squared jerk over the gaps is least. False: they cannot be computed.
+[[nodiscard]] bool smoothen(CamSource &cam);
 
 /// The curve of a cam: its lines and laws, and between the elements polynomials of degree 5 that
 /// keep position, velocity and acceleration continuous.

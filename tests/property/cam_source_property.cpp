@@ -209,5 +209,85 @@ TEST(CamSource, DataFollowTheCurve) {
   }
 }
 
+/// The integral of the squared jerk, which is a polynomial of degree 4: three nodes of Gauss are
+/// exact.
+double roughnessOf(const std::vector<Segment> &segments) {
+  double sum = 0;
+  for (const Segment &segment : segments) {
+    const double h = segment.end - segment.start;
+    const double nodes[] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)};
+    const double weights[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    for (int i = 0; i < 3; ++i) {
+      const double jerk = evaluateSegment(segment, segment.start + h * nodes[i]).j;
+      sum += h * weights[i] * jerk * jerk;
+    }
+  }
+  return sum;
+}
+
+TEST(CamSource, SmoothPointsCannotBeSmoother) {
+  Random random(73);
+  int closed = 0;
+  for (int i = 0, n = casesOf(1000); i < n; ++i) {
+    CamSource cam;
+    cam.periodic = random.chance(0.4);
+    double x = random.uniform(-3, 3);
+    cam.start = x;
+    for (int k = 2 + random.below(6); k >= 0; --k) {
+      CamElement element;
+      element.left = randomNode(random, x, 1);
+      element.smooth = random.chance(0.7);
+      element.given = element.smooth && random.chance(0.2) ? 1 : 0;
+      element.right = element.left;
+      cam.elements.push_back(element);
+      cam.end = x;
+      x += random.uniform(0.3, 2);
+    }
+    CamElement &first = cam.elements.front();
+    CamElement &last = cam.elements.back();
+    if (cam.periodic) {
+      cam.interval = std::fabs(last.left.y - first.left.y);
+      last.left.v = first.left.v;
+      last.left.a = first.left.a;
+      last.right = last.left;
+      last.smooth = first.smooth;
+      last.given = first.given;
+    }
+    const std::vector<CamElement> before = cam.elements;
+    ASSERT_TRUE(stc::smoothen(cam));
+    for (std::size_t k = 0; k < before.size(); ++k) {
+      const CamElement &now = cam.elements[k];
+      ASSERT_EQ(now.left.y, before[k].left.y);
+      if (!now.smooth || now.given == 1) {
+        ASSERT_EQ(now.left.v, before[k].left.v);
+      }
+      if (!now.smooth) {
+        ASSERT_EQ(now.left.a, before[k].left.a);
+      }
+    }
+    ASSERT_TRUE(stc::jumpsOf(stc::segmentsOf(cam), cam.periodic, cam.interval).empty());
+    closed += cam.periodic && first.smooth ? 1 : 0;
+    const double least = roughnessOf(stc::segmentsOf(cam));
+    for (int trial = 0; trial < 20; ++trial) {
+      CamSource other = cam;
+      const double step = random.magnitude(-4, 0);
+      for (CamElement &element : other.elements) {
+        if (element.smooth && element.given == 0)
+          element.left.v += step * random.uniform(-1, 1);
+        if (element.smooth)
+          element.left.a += step * random.uniform(-1, 1);
+        element.right = element.left;
+      }
+      if (other.periodic) {
+        other.elements.back().left.v = other.elements.front().left.v;
+        other.elements.back().left.a = other.elements.front().left.a;
+        other.elements.back().right = other.elements.back().left;
+      }
+      ASSERT_GE(roughnessOf(stc::segmentsOf(other)), least * (1 - 1e-9) - 1e-12) << "case " << i;
+    }
+  }
+  EXPECT_GT(closed, casesOf(100));
+}
+
 } // namespace
 } // namespace stride::test

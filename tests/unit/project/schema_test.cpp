@@ -35,8 +35,26 @@ TEST(Schema, IsDocumented) {
   });
 }
 
-TEST(Schema, MakesSense) {
-  forEachSection(projectSchema(), [](const Section &section) {
+TEST(Schema, CamFilesAreDocumented) {
+  const std::optional<std::string> text =
+      readFile(STRIDE_SOURCE_DIR "/docs/synchronized-motion.md");
+  ASSERT_TRUE(text);
+  forEachSection(camSchema(), [&](const Section &section) {
+    if (!section.name.empty()) {
+      EXPECT_THAT(*text,
+                  HasSubstr((section.list ? "`[[" : "`[") + std::string(section.name) + "]"));
+    }
+    EXPECT_EQ(&section.file(), &camSchema()) << section.name;
+    for (const Parameter &parameter : section.parameters) {
+      EXPECT_THAT(*text, HasSubstr("`" + std::string(parameter.name) + "`"));
+      for (const Choice &choice : parameter.choices)
+        EXPECT_THAT(*text, HasSubstr("`\"" + std::string(choice.name) + "\"`"));
+    }
+  });
+}
+
+void expectSense(const Section &schema) {
+  forEachSection(schema, [](const Section &section) {
     std::set<std::string_view> names;
     for (const Parameter &parameter : section.parameters) {
       EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
@@ -49,6 +67,11 @@ TEST(Schema, MakesSense) {
     for (const Section *child : section.sections)
       EXPECT_TRUE(names.insert(child->name).second) << child->name;
   });
+}
+
+TEST(Schema, MakesSense) {
+  expectSense(projectSchema());
+  expectSense(camSchema());
 }
 
 } // namespace
