@@ -184,6 +184,11 @@ private:
       ASSERT_LE(a, acceleration_ * sine + slackV / T) << "accelerates too much";
       ASSERT_GE(a, -deceleration_ * sine - slackV / T) << "brakes too much";
     }
+    if (v * v_ < 0 && ramp_ == 0 && !gear.InGear) { // it brakes to 0 and accelerates from there
+      ASSERT_LE(std::fabs(v_) / deceleration_ + std::fabs(v) / acceleration_,
+                T * (1 + 1e-6L) + slackV / std::min(acceleration_, deceleration_))
+          << "turns round too quickly";
+    }
     ASSERT_LE(std::fabs(v - v_), most * T + slackV) << "velocity jumps";
     ASSERT_LE(std::fabs(way - T * (v + v_) / 2),
               most * T * T / 2 + 1e-12L * axis.fPositionPeriod +

@@ -37,11 +37,26 @@ double limitTowards(const CatchUpState &state, const FollowState &follow, double
   return side * follow.fVelocity >= 0.0 ? state.fAcceleration : state.fDeceleration;
 }
 
+/// Trapezoids: as far towards a velocity as the limits allow in a cycle; where the slave turns
+/// round the other one begins to count.
+axis::MotionState towards(const CatchUpState &state, const FollowState &follow, double velocity,
+                          double cycle) noexcept {
+  const double v = follow.fVelocity;
+  const double side = exact::signOf(velocity - v);
+  const double stop = exact::fabs(v) / state.fDeceleration;
+  if (v * velocity < 0.0 && stop < cycle) {
+    const double rest = cycle - stop;
+    const double a = side * exact::smaller(state.fAcceleration, exact::fabs(velocity) / rest);
+    return {0.5 * (v * stop + a * rest * rest), a * rest, a};
+  }
+  const double most = limitTowards(state, follow, side);
+  const double a = side * exact::smaller(most, exact::fabs(velocity - v) / cycle);
+  return axis::evaluateCubic({0.0, v, a}, 0.0, cycle);
+}
+
 /// The master gets away: with all that is allowed after it.
 axis::MotionState chase(const Dynamics &dynamics, const FollowState &follow, double wanted,
                         double cycle) noexcept {
-  if (dynamics.ramp == RampType::Trapezoid)
-    return axis::evaluateCubic({0.0, follow.fVelocity, wanted}, 0.0, cycle);
   const double change = wanted - follow.fAcceleration;
   const double most = dynamics.jerk * cycle;
   const double jerk =
@@ -111,10 +126,12 @@ bool catchUp(CatchUpState &state, const FollowState &follow, const AxisRef &ref,
   const double limit = limitTowards(state, follow, side);
   const double room = limit - side * mean;
   Dynamics dynamics = dynamicsOf(state, ref);
-  if (dynamics.ramp != RampType::Trapezoid)
+  const bool trapezoid = dynamics.ramp == RampType::Trapezoid;
+  if (!trapezoid)
     dynamics.ramp = RampType::Parabolic;
   if (behind != 0.0 && !(room > 1e-9 * limit)) {
-    now = chase(dynamics, follow, side * limit, cycle);
+    now = trapezoid ? towards(state, follow, demand.velocity, cycle)
+                    : chase(dynamics, follow, side * limit, cycle);
     return false;
   }
   dynamics.acceleration = exact::larger(room, 1e-9 * limit);
@@ -127,7 +144,13 @@ bool catchUp(CatchUpState &state, const FollowState &follow, const AxisRef &ref,
   now = {demand.travel + rest.position, demand.velocity + rest.velocity, mean + rest.acceleration};
   if (isTooMuch(state, follow, now.acceleration)) {
     // The slave gets past the master in this cycle, and there the other limit counts.
-    now = chase(dynamics, follow, follow.fAcceleration, cycle);
+    now = trapezoid ? towards(state, follow, demand.velocity, cycle)
+                    : chase(dynamics, follow, follow.fAcceleration, cycle);
+    return false;
+  }
+  if (trapezoid && now.velocity * follow.fVelocity < 0.0 &&
+      cycle * (1.0 + 1e-9) < profile.duration) {
+    now = towards(state, follow, demand.velocity, cycle);
     return false;
   }
   return !(cycle * (1.0 + 1e-9) < profile.duration) ||
