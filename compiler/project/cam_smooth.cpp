@@ -42,7 +42,7 @@ public:
       pieces_.front().left.given = 0; // what the end is
     const auto count = static_cast<std::int32_t>(pieces_.size());
     std::vector<JointWork> work(pieces_.size() + 1);
-    Builder builder(pieces_.data(), count, closed_, work.data());
+    stride::cam::Builder builder(pieces_.data(), count, closed_, work.data());
     if (builder.solve() != BuildError::None)
       return false;
     std::vector<Segment> segments;

@@ -36,7 +36,7 @@ constexpr std::array kOfModel = {
     OfModel{"substeps", kSecondOrder, false, {}},
 };
 
-constexpr std::array<std::string_view, 3> kModels = {"ideal", "lag", "second_order"};
+constexpr std::array<std::string_view, 3> kModelNames = {"ideal", "lag", "second_order"};
 
 } // namespace
 
@@ -45,12 +45,12 @@ void PlcReader::checkModel(const CheckedSection &section, std::int64_t model) {
     if (parameter.model != model && section.get(parameter.name) != nullptr)
       withoutEffect(diagnostics_, section, parameter.name,
                     fmt::format("only with model = \"{}\"",
-                                kModels[static_cast<std::size_t>(parameter.model)]));
+                                kModelNames[static_cast<std::size_t>(parameter.model)]));
     if (parameter.model == model && parameter.needed && !section.has(parameter.name))
       diagnostics_
           .report(Code::configMissingKey, section.get("model")->span,
                   fmt::format("the model \"{}\" needs `{}`",
-                              kModels[static_cast<std::size_t>(model)], parameter.name),
+                              kModelNames[static_cast<std::size_t>(model)], parameter.name),
                   "chosen here")
           .help(fmt::format("add it, for example `{} = {}`", parameter.name, parameter.example));
   }

@@ -61,7 +61,7 @@ bool isOperation(const CallExpr *expr) {
          as<BinaryExpr>(expr->arguments[0].value)->opSpan.begin == expr->callee->span.begin;
 }
 
-bool untyped(const Type *t) {
+bool isUntyped(const Type *t) {
   return t->kind == TypeKind::anyInteger || t->kind == TypeKind::anyReal;
 }
 
@@ -111,7 +111,7 @@ const Type *Checker::checkOperatorCall(CallExpr *expr) {
     const Type *second = underlying(expr->arguments[1].value->type);
     if (first->kind != function.duration)
       return argumentError(expr, 0, typeName(elementaryType(function.duration)));
-    if (!isInteger(second) && !isReal(second) && !untyped(second))
+    if (!isInteger(second) && !isReal(second) && !isUntyped(second))
       return argumentError(expr, 1, "a number");
   }
   Argument operation;
@@ -136,7 +136,7 @@ const Type *Checker::checkOrderCall(CallExpr *expr) {
     if (refuseOpenArray(value, "use") || refuseStrict(value))
       return bad;
     const Type *type = underlying(value->type);
-    if (!isElementary(type) && !untyped(type))
+    if (!isElementary(type) && !isUntyped(type))
       return argumentError(expr, i, "a value that can be compared");
   }
   if (isError(commonOfArguments(expr, 0)))
@@ -155,7 +155,7 @@ const Type *Checker::checkPatternCall(CallExpr *expr) {
   if (expr->builtin == Builtin::isValid) {
     if (!isReal(type) && type->kind != TypeKind::anyReal)
       return argumentError(expr, 0, "REAL or LREAL");
-    if (untyped(type))
+    if (isUntyped(type))
       settle(value);
     return boolean;
   }
@@ -166,7 +166,7 @@ const Type *Checker::checkPatternCall(CallExpr *expr) {
       return argumentError(expr, 0, "a bit string");
     return boolean;
   }
-  if (!isElementary(type) || isString(type) || untyped(type))
+  if (!isElementary(type) || isString(type) || isUntyped(type))
     return argumentError(expr, 0, "a number, a bit string or a time with a type of its own");
   setTarget(value, type);
   return type;
