@@ -126,6 +126,7 @@ function(stride_benchmark name)
   target_compile_definitions(${name} PRIVATE
     STRIDE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" STRIDE_BINARY_DIR="${CMAKE_BINARY_DIR}")
   target_link_libraries(${name} PRIVATE ${arg_DEPS} benchmark::benchmark benchmark::benchmark_main)
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF) # a file's helpers are its own
 endfunction()
 
 # stride_fuzz(<name> SOURCES <file>... [DEPS <target>...])

@@ -47,6 +47,10 @@ struct CamPlace {
 /// its neighbours. `cam` has at least two elements afterwards.
 void pointsThrough(const std::vector<CamPlace> &places, CamSource &cam);
 
+/// Makes the ends of a periodic cam of points fit: both get the parabola through the place before
+/// the end, the joint and the place behind the start.
+void joinEnds(CamSource &cam);
+
 /// Gives `cam` the elements of a curve: points of nodes, else lines and laws. False: the curve has
 /// pieces that a cam file cannot describe.
 [[nodiscard]] bool elementsOf(const LoadedCam &from, CamSource &cam);

@@ -286,7 +286,11 @@ bool reduce(Session &session, const LoadedCam &cam, double tolerance, CamSource 
 int camImport(const CamOptions &options) {
   Session session(options);
   const std::string &path = options.files.front();
-  if (const std::optional<LoadedCam> cam = session.loadCurve(path)) {
+  if (std::optional<LoadedCam> cam = session.loadCurve(path)) {
+    if (options.periodic && cam->kind == LoadedCam::Kind::table) {
+      joinEnds(cam->source);
+      cam->segments = segmentsOf(cam->source);
+    }
     CamSource source = cam->source;
     source.periodic = options.periodic;
     source.interval = options.interval;

@@ -130,6 +130,15 @@ bool isSame(const Segment &segment, const CamElement &element) {
   return most <= 1e-9 * size;
 }
 
+/// Gives the node velocity and acceleration of the parabola through three places.
+void bend(Node &node, const CamPlace &a, const CamPlace &b, const CamPlace &c) {
+  const double left = (b.y - a.y) / (b.x - a.x);
+  const double right = (c.y - b.y) / (c.x - b.x);
+  const double half = (right - left) / (c.x - a.x); // of the second derivative
+  node.v = left + half * (2 * node.x - a.x - b.x);
+  node.a = 2 * half;
+}
+
 } // namespace
 
 Curve LoadedCam::curve() const {
@@ -238,20 +247,28 @@ void pointsThrough(const std::vector<CamPlace> &places, CamSource &cam) {
       element.left.v = (places[1].y - places[0].y) / (places[1].x - places[0].x);
     } else {
       const std::size_t middle = std::min(std::max<std::size_t>(i, 1), count - 2);
-      const CamPlace &a = places[middle - 1];
-      const CamPlace &b = places[middle];
-      const CamPlace &c = places[middle + 1];
-      const double left = (b.y - a.y) / (b.x - a.x);
-      const double right = (c.y - b.y) / (c.x - b.x);
-      const double half = (right - left) / (c.x - a.x); // of the second derivative
-      element.left.v = left + half * (2 * places[i].x - a.x - b.x);
-      element.left.a = 2 * half;
+      bend(element.left, places[middle - 1], places[middle], places[middle + 1]);
     }
     element.right = element.left;
     cam.elements.push_back(element);
   }
   cam.start = places.front().x;
   cam.end = places.back().x;
+}
+
+void joinEnds(CamSource &cam) {
+  if (cam.elements.size() < 3)
+    return;
+  Node &first = cam.elements.front().left;
+  Node &last = cam.elements.back().left;
+  const Node &second = cam.elements[1].left;
+  const Node &previous = cam.elements[cam.elements.size() - 2].left;
+  const CamPlace before{previous.x - (last.x - first.x), previous.y - (last.y - first.y)};
+  bend(first, before, {first.x, first.y}, {second.x, second.y});
+  last.v = first.v;
+  last.a = first.a;
+  cam.elements.front().right = first;
+  cam.elements.back().right = last;
 }
 
 bool elementsOf(const LoadedCam &from, CamSource &cam) {
