@@ -71,44 +71,8 @@ bool isTooMuch(const CatchUpState &state, const FollowState &follow, double acce
          exact::fabs(acceleration) > exact::fabs(follow.fAcceleration);
 }
 
-} // namespace
-
-LimitError checkLimits(const AxisRef &ref, double acceleration, double deceleration,
-                       double jerk) noexcept {
-  if (!exact::isPositive(acceleration) || !exact::isfinite(jerk) || jerk < 0.0)
-    return LimitError::Acceleration;
-  if (!exact::isPositive(deceleration))
-    return LimitError::Deceleration;
-  const Dynamics dynamics = plainDynamics(ref, {1.0, acceleration, deceleration, jerk});
-  if (dynamics.ramp != RampType::Trapezoid && !exact::isPositive(dynamics.jerk))
-    return LimitError::Acceleration;
-  return LimitError::None;
-}
-
-Demand demandOf(const GearState &gear, const MasterState &state,
-                const MasterMotion &master) noexcept {
-  const double factor = gearFactor(gear);
-  const bool rough = state.bActual != 0;
-  return {factor * master.velocity, factor * master.travel, master.acceleration == 0.0, rough};
-}
-
-MasterMotion cycleBefore(const AxisRef &slave, const MasterMotion &master) noexcept {
-  MasterMotion before = master;
-  before.velocity -= master.acceleration * slave.fTaskCycle;
-  return before;
-}
-
-MasterMotion sinceCycleBefore(const AxisRef &slave, const MasterMotion &master) noexcept {
-  MasterMotion now = master;
-  now.travel = (master.velocity - 0.5 * master.acceleration * slave.fTaskCycle) * slave.fTaskCycle;
-  return now;
-}
-
-void beginCatchUp(CatchUpState &state, const Demand &last) noexcept {
-  state.fVelocity = last.velocity;
-  state.bPlanned = 0;
-}
-
+/// The slave's next set values after those in `follow`: now.position is the way [u]. True: the
+/// slave has the master's velocity.
 bool catchUp(CatchUpState &state, const FollowState &follow, const AxisRef &ref,
              const Demand &demand, axis::MotionState &now) noexcept {
   const double cycle = ref.fTaskCycle;
@@ -155,6 +119,59 @@ bool catchUp(CatchUpState &state, const FollowState &follow, const AxisRef &ref,
   }
   return !(cycle * (1.0 + 1e-9) < profile.duration) ||
          (demand.rough && exact::fabs(rest.velocity) <= limit * cycle);
+}
+
+} // namespace
+
+LimitError checkLimits(const AxisRef &ref, double acceleration, double deceleration,
+                       double jerk) noexcept {
+  if (!exact::isPositive(acceleration) || !exact::isfinite(jerk) || jerk < 0.0)
+    return LimitError::Acceleration;
+  if (!exact::isPositive(deceleration))
+    return LimitError::Deceleration;
+  const Dynamics dynamics = plainDynamics(ref, {1.0, acceleration, deceleration, jerk});
+  if (dynamics.ramp != RampType::Trapezoid && !exact::isPositive(dynamics.jerk))
+    return LimitError::Acceleration;
+  return LimitError::None;
+}
+
+Demand demandOf(const GearState &gear, const MasterState &state,
+                const MasterMotion &master) noexcept {
+  const double factor = gearFactor(gear);
+  const bool rough = state.bActual != 0;
+  return {factor * master.velocity, factor * master.travel, master.acceleration == 0.0, rough};
+}
+
+MasterMotion cycleBefore(const AxisRef &slave, const MasterMotion &master) noexcept {
+  MasterMotion before = master;
+  before.velocity -= master.acceleration * slave.fTaskCycle;
+  return before;
+}
+
+MasterMotion sinceCycleBefore(const AxisRef &slave, const MasterMotion &master) noexcept {
+  MasterMotion now = master;
+  now.travel = (master.velocity - 0.5 * master.acceleration * slave.fTaskCycle) * slave.fTaskCycle;
+  return now;
+}
+
+void beginCatchUp(CatchUpState &state, const Demand &last) noexcept {
+  state.fVelocity = last.velocity;
+  state.bPlanned = 0;
+}
+
+bool catchUpToGear(CatchUpState &state, GearState &gear, FollowState &follow, AxisRef &slave,
+                   const MasterState &masterState, const MasterMotion &master) noexcept {
+  axis::MotionState now;
+  const bool reached = catchUp(state, follow, slave, demandOf(gear, masterState, master), now);
+  const double way = now.position;
+  if (!reached) {
+    now.position += follow.fPosition;
+    followState(follow, slave, now, way);
+    return false;
+  }
+  engageGear(gear, slave, master.position, detail::twoSum(follow.fPosition, way),
+             {follow.fPosition, 0.0});
+  return true;
 }
 
 } // namespace stride::motion

@@ -41,14 +41,15 @@ MasterMotion sinceCycleBefore(const AxisRef &slave, const MasterMotion &master) 
 /// Starts from the demand of the last cycle.
 void beginCatchUp(CatchUpState &state, const Demand &last) noexcept;
 
-/// The slave's next set values after those in `follow`: now.position is the way [u]. Acceleration
-/// and deceleration never exceed the limits (with SMC_RAMPTYPE.sigmoid not more than such ramps
-/// do), with jerk limited ramps nor does the jerk. True: the slave has the master's velocity, with
-/// such ramps also its mean acceleration. A master whose acceleration is more than the slave's
-/// limit gets away. While the demanded velocity does not change, the ramp is the axis's own;
-/// otherwise sin^2 ramps become parabolic ones.
-bool catchUp(CatchUpState &state, const FollowState &follow, const AxisRef &ref,
-             const Demand &demand, axis::MotionState &now) noexcept;
+/// One cycle of the way to the master's velocity: writes the set values. Acceleration and
+/// deceleration never exceed the limits (with SMC_RAMPTYPE.sigmoid not more than such ramps do),
+/// with jerk limited ramps nor does the jerk. True: the slave has the master's velocity at the end
+/// of this cycle, with such ramps also its mean acceleration; then nothing has been written, and
+/// the gear is engaged there. A master whose acceleration is more than the slave's limit gets away.
+/// While the demanded velocity does not change, the ramp is the axis's own; otherwise sin^2 ramps
+/// become parabolic ones.
+bool catchUpToGear(CatchUpState &state, GearState &gear, FollowState &follow, AxisRef &slave,
+                   const MasterState &masterState, const MasterMotion &master) noexcept;
 
 } // namespace stride::motion
 

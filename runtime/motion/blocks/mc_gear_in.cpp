@@ -35,19 +35,9 @@ void move(Block &block, motion::AxisRef &slave, const motion::MasterMotion &mast
   auto &gear = block.stGear;
   auto &follow = block.stFollow;
   motion::alignFollowing(follow, slave);
-  if (gear.bEngaged == 0) {
-    axis::MotionState now;
-    const bool reached = motion::catchUp(block.stCatchUp, follow, slave,
-                                         motion::demandOf(gear, block.stMaster, master), now);
-    const double way = now.position;
-    if (!reached) {
-      now.position += follow.fPosition;
-      motion::followState(follow, slave, now, way);
-      return;
-    }
-    motion::engageGear(gear, slave, master.position,
-                       ::stride::detail::twoSum(follow.fPosition, way), {follow.fPosition, 0.0});
-  }
+  if (gear.bEngaged == 0 &&
+      !motion::catchUpToGear(block.stCatchUp, gear, follow, slave, block.stMaster, master))
+    return;
   motion::turnGear(gear, follow, slave, master);
 }
 

@@ -74,19 +74,10 @@ bool move(Block &block, AxisRef &slave, const MasterMotion &master) noexcept {
   auto &follow = block.stFollow;
   motion::alignFollowing(follow, slave);
   if (gear.bEngaged == 0) {
-    axis::MotionState now;
-    const bool reached = motion::catchUp(block.stCatchUp, follow, slave,
-                                         motion::demandOf(gear, block.stMaster, master), now);
-    const double way = now.position;
-    if (!reached) {
-      now.position += follow.fPosition;
-      motion::followState(follow, slave, now, way);
+    if (!motion::catchUpToGear(block.stCatchUp, gear, follow, slave, block.stMaster, master))
       return true;
-    }
     if (!planShift(block, slave, 0.0, 0.0))
       return false;
-    motion::engageGear(gear, slave, master.position,
-                       ::stride::detail::twoSum(follow.fPosition, way), {follow.fPosition, 0.0});
     motion::turnGear(gear, follow, slave, master);
     return true;
   }
