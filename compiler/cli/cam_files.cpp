@@ -66,7 +66,8 @@ std::optional<LoadedCam> loadBinary(const std::string &path, Diagnostics &diagno
   const auto size = static_cast<std::size_t>(
       elementBlockSize(file.header.form, file.header.element, file.header.elements));
   cam.data.storage.resize((size + sizeof(double) - 1) / sizeof(double));
-  std::memcpy(cam.data.storage.data(), file.elements, size);
+  if (size != 0)
+    std::memcpy(cam.data.storage.data(), file.elements, size);
   cam.data.tappets.assign(file.tappets, file.tappets + file.header.tappets);
   cam.source.name.text = file.header.name;
   if (!isIdentifier(cam.source.name.text))

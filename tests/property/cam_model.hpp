@@ -230,9 +230,11 @@ private:
   void go(double way) {
     const double before = ref.fSetPosition;
     ref.fSetPosition = shown(before + way);
-    if (isRotary())
-      turns_ += static_cast<int64_t>(
-          std::round((way - (ref.fSetPosition - before)) / ref.fPositionPeriod));
+    if (!isRotary())
+      return;
+    const double turns = std::round((way - (ref.fSetPosition - before)) / ref.fPositionPeriod);
+    if (std::fabs(turns) < 1e15) // else it is no course
+      turns_ += static_cast<int64_t>(turns);
   }
   /// Computed anew: nothing is summed up but shifts of the zero point.
   [[nodiscard]] long double setTotal() const {
