@@ -26,6 +26,17 @@ cam::Place placeOf(const CamState &state, const cam::Curve &curve, cam::Total ma
   return {0, cam::toDouble(master)};
 }
 
+/// Whether the cam is as long as a turn of the master and begins where that does, as most are: then
+/// its periods are the turns, and there is nothing to compute.
+bool isInStep(const CamState &state, const cam::Curve &curve) noexcept {
+  const CamCommand &command = state.stCommand;
+  const axis::AxisRef &master = *state.stMaster.pAxis;
+  return command.stCam.Periodic != 0 && state.fMasterStart == 0.0 &&
+         command.fMasterScaling == 1.0 && command.fMasterOffset == 0.0 && curve.start == 0.0 &&
+         curve.end == master.fPositionPeriod && axis::isRotary(master) &&
+         state.stMaster.fPosition >= 0.0 && state.stMaster.fPosition < curve.end;
+}
+
 /// A master that is less than a rounding before the first start is at the start: a shift of its
 /// zero point must not lead it into the period before.
 cam::Place notBefore(const CamState &state, const cam::Curve &curve, cam::Place place) noexcept {
@@ -72,16 +83,22 @@ double slavePosition(const CamState &state, const axis::AxisRef &slave, int64_t 
                      double rise, double local) noexcept {
   // A shift of the slave's zero point is no motion.
   const double shift = state.fSlaveShift + (slave.fOffsetPosition - state.stFollow.fFirstOffset);
-  const cam::Total position = detail::add(cam::totalOf(periods, rise, local), {shift, 0.0});
-  return axis::isRotary(slave) ? cam::placeOf(position, 0.0, slave.fPositionPeriod).position
-                               : cam::toDouble(position);
+  const double period = slave.fPositionPeriod;
+  if (!axis::isRotary(slave))
+    return cam::toDouble(detail::add(cam::totalOf(periods, rise, local), {shift, 0.0}));
+  if (rise == period || rise == -period) // whole turns
+    periods = 0;
+  return cam::placeOf(detail::add(cam::totalOf(periods, rise, local), {shift, 0.0}), 0.0, period)
+      .position;
 }
 
 bool evaluateCam(CamState &state, const cam::Curve &curve, const MasterMotion &master,
                  const axis::AxisRef &slave, CamTarget &target) noexcept {
   const CamCommand &command = state.stCommand;
-  const cam::Total total = scaledMaster(state, master);
-  target.place = notBefore(state, curve, placeOf(state, curve, total));
+  const bool inStep = isInStep(state, curve);
+  const cam::Total total = inStep ? master.position : scaledMaster(state, master);
+  target.place = inStep ? cam::Place{state.stMaster.liTurns, state.stMaster.fPosition}
+                        : notBefore(state, curve, placeOf(state, curve, total));
   double x = target.place.position;
   target.outside = x < curve.start || x > curve.end;
   if (target.outside)

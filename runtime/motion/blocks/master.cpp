@@ -60,9 +60,12 @@ MasterMotion readMaster(MasterState &master, axis::AxisRef &ref, MasterView view
   const bool rotary = axis::isRotary(ref);
   if (rotary) {
     const double expected = 0.5 * (master.fVelocity + seen.velocity) * ref.fTaskCycle;
-    const int64_t turns = nearest((expected - travel) / period);
-    master.liTurns += turns;
-    travel += static_cast<double>(turns) * period;
+    const double missing = expected - travel;
+    if (!(exact::fabs(missing) < 0.5 * period)) {
+      const int64_t turns = nearest(missing / period);
+      master.liTurns += turns;
+      travel += static_cast<double>(turns) * period;
+    }
   }
   master.fPosition = position;
   master.fVelocity = seen.velocity;
