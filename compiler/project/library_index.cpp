@@ -6,6 +6,8 @@
 
 namespace stc {
 
+/// Whether the library's names need its name in front: they are words that programs use themselves
+/// (Line, Bound). As in SoftMotion 3.
 static bool isQualifiedOnly(const EmbeddedFile &file) { return file.library == "SM3_CamBuilder"; }
 
 static LibraryIndex::Entry entryOf(const EmbeddedFile &file) {

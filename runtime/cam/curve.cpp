@@ -36,6 +36,13 @@ bool isFiniteSegment(const Segment &segment) noexcept {
   return good;
 }
 
+/// Whether pieces from `first` to `last` are the ones of the curve, but for the last digits.
+bool spans(const Curve &curve, double first, double last) noexcept {
+  const double tolerance = 1e-9 * (curve.end - curve.start);
+  return exact::fabs(first - curve.start) <= tolerance &&
+         exact::fabs(last - curve.end) <= tolerance;
+}
+
 } // namespace
 
 int32_t sizeOf(Element element) noexcept {
@@ -51,13 +58,6 @@ int32_t sizeOf(Element element) noexcept {
     return 8;
   }
   return 0;
-}
-
-/// Whether pieces from `first` to `last` are the ones of the curve, but for the last digits.
-static bool spans(const Curve &curve, double first, double last) noexcept {
-  const double tolerance = 1e-9 * (curve.end - curve.start);
-  return exact::fabs(first - curve.start) <= tolerance &&
-         exact::fabs(last - curve.end) <= tolerance;
 }
 
 CurveError checkForm(const Curve &curve) noexcept {
