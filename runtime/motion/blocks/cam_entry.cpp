@@ -170,6 +170,24 @@ axis::MotionState onwards(const axis::AxisRef &slave) noexcept {
   return state;
 }
 
+int16_t startCam(CamState &state, cam::Curve &curve, const axis::AxisRef &slave,
+                 axis::AxisRef &master, CamTarget &target) noexcept {
+  const CamCommand &command = state.stCommand;
+  if (const int16_t error = openCam(command.stCam, curve); error != axis::error::kNone)
+    return error;
+  if (const int16_t error = checkCamInputs(command); error != axis::error::kNone)
+    return error;
+  const MasterMotion motion = beginMaster(state.stMaster, master);
+  state.stFollow.fFirstOffset = slave.fOffsetPosition;
+  const bool relative =
+      command.eStartMode == mode::MC_StartMode__relative || command.stCam.SlaveAbsolute == 0;
+  const CamStart start{cam::toDouble(motion.position), onwards(slave).position, relative};
+  if (const int16_t error = enterCam(state, curve, start, motion); error != axis::error::kNone)
+    return error;
+  return evaluateCam(state, curve, motion, slave, target) ? axis::error::kNone
+                                                          : axis::error::kOutOfRange;
+}
+
 int16_t checkEntry(const axis::AxisRef &slave, const CamCommand &command) noexcept {
   if (command.eStartMode < mode::MC_StartMode__absolute ||
       command.eStartMode > mode::MC_StartMode__ramp_in_dist ||

@@ -21,6 +21,11 @@ inline CamPhase phaseOf(const CamState &state) noexcept {
 /// The slave's set values at the end of this cycle if it went on as it does.
 axis::MotionState onwards(const axis::AxisRef &slave) noexcept;
 
+/// Opens and sets up the cam of state.stCommand, from where master and slave are, and says where it
+/// has the slave. An SMC_ERROR.
+int16_t startCam(CamState &state, cam::Curve &curve, const axis::AxisRef &slave,
+                 axis::AxisRef &master, CamTarget &target) noexcept;
+
 /// What is wrong with the start mode and its inputs, or with the hysteresis (627, 311), or kNone.
 int16_t checkEntry(const axis::AxisRef &slave, const CamCommand &command) noexcept;
 

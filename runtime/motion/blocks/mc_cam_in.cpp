@@ -6,7 +6,6 @@
 #include "runtime/motion/blocks/run_follower.hpp"
 
 #include "st/SM_PLCopen/MC_CamIn.h"
-#include "st/SM_PLCopen/MC_StartMode.h"
 
 namespace {
 
@@ -35,12 +34,6 @@ motion::CamCommand commandOf(const Block &block) noexcept {
   return command;
 }
 
-/// Whether the slave's positions count from where it is when the cam begins.
-bool isRelative(const motion::CamCommand &command) noexcept {
-  return command.eStartMode == ::st::SM_PLCopen::MC_StartMode__relative ||
-         command.stCam.SlaveAbsolute == 0;
-}
-
 /// The way of the slave in this cycle before this call: another block may have moved it.
 double earlierTravel(const AxisRef &slave) noexcept {
   if (slave.bMovedInThisCycle == 0)
@@ -58,24 +51,12 @@ void follow(Block &block, const cam::Place &place, int64_t now) noexcept {
                      place, block.stCam.stCommand.fHysteresis, now);
 }
 
-/// The command's cam begins, from where master and slave are: all that can be said before the slave
-/// belongs to the block. An SMC_ERROR.
-int16_t enter(motion::CamState &state, AxisRef &slave, AxisRef &master,
+/// The command's cam begins, and the way onto it. Does not need the slave to belong to the block.
+/// An SMC_ERROR.
+int16_t enter(motion::CamState &state, cam::Curve &curve, AxisRef &slave, AxisRef &master,
               motion::CamTarget &target) noexcept {
-  cam::Curve curve;
-  if (const int16_t error = motion::openCam(state.stCommand.stCam, curve);
-      error != axis::error::kNone)
-    return error;
-  const motion::MasterMotion motion = motion::beginMaster(state.stMaster, master);
-  state.stFollow.fFirstOffset = slave.fOffsetPosition;
-  const motion::CamStart start{cam::toDouble(motion.position), motion::onwards(slave).position,
-                               isRelative(state.stCommand)};
-  if (const int16_t error = motion::enterCam(state, curve, start, motion);
-      error != axis::error::kNone)
-    return error;
-  if (!motion::evaluateCam(state, curve, motion, slave, target))
-    return axis::error::kOutOfRange;
-  return motion::beginEntry(state, curve, slave, target);
+  const int16_t problem = motion::startCam(state, curve, slave, master, target);
+  return problem != axis::error::kNone ? problem : motion::beginEntry(state, curve, slave, target);
 }
 
 /// What is wrong with the command at its rising edge. One that waits for its turn finds out then
@@ -93,7 +74,7 @@ int16_t check(Block &block) noexcept {
     motion::CamState trial = block.stCam;
     trial.stCommand = command;
     motion::CamTarget target;
-    problem = enter(trial, *block.Slave, *block.Master, target);
+    problem = enter(trial, curve, *block.Slave, *block.Master, target);
   }
   if (problem == axis::error::kNone)
     block.stCam.stCommand = command;
@@ -120,9 +101,7 @@ int16_t begin(Block &block, AxisRef &slave, int64_t cycleStart) noexcept {
   motion::CamTarget target;
   axis::MotionState set;
   cam::Curve curve;
-  int16_t problem = enter(state, slave, *block.Master, target);
-  if (problem == axis::error::kNone)
-    problem = motion::openCam(state.stCommand.stCam, curve);
+  int16_t problem = enter(state, curve, slave, *block.Master, target);
   if (problem == axis::error::kNone)
     problem = motion::stepEntry(state, curve, slave, target, set);
   if (problem != axis::error::kNone)

@@ -23,20 +23,10 @@ int16_t findPosition(const Query &query, const motion::CamId &id, AxisRef &maste
   command.fMasterScaling = query.MasterScaling;
   command.fSlaveScaling = query.SlaveScaling;
   cam::Curve curve;
-  if (const int16_t error = motion::openCam(id, curve); error != axis::error::kNone)
-    return error;
-  if (const int16_t error = motion::checkCamInputs(command); error != axis::error::kNone)
-    return error;
-  const motion::MasterMotion motion = motion::beginMaster(state.stMaster, master);
-  state.stFollow.fFirstOffset = slave.fOffsetPosition;
-  const motion::CamStart start{cam::toDouble(motion.position), motion::onwards(slave).position,
-                               id.SlaveAbsolute == 0};
-  if (const int16_t error = motion::enterCam(state, curve, start, motion);
+  motion::CamTarget target;
+  if (const int16_t error = motion::startCam(state, curve, slave, master, target);
       error != axis::error::kNone)
     return error;
-  motion::CamTarget target;
-  if (!motion::evaluateCam(state, curve, motion, slave, target))
-    return axis::error::kOutOfRange;
   position = target.state.position;
   return axis::error::kNone;
 }
