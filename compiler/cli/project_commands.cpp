@@ -2,6 +2,7 @@
 
 #include "compiler/cli/commands.hpp"
 #include "compiler/project/build.hpp"
+#include "compiler/project/file_system.hpp"
 #include "compiler/project/installation.hpp"
 #include "compiler/project/library_index.hpp"
 #include "compiler/project/project.hpp"
@@ -46,10 +47,39 @@ std::optional<BuildResult> buildProject(const ProjectOptions &options, BuildOpti
 }
 
 // As buildProject, with nothing left on the terminal; nothing when there is nothing to run.
-std::optional<BuildResult> buildToRun(const ProjectOptions &options, int &exitCode) {
+std::optional<BuildResult> buildToRun(const ProjectOptions &options, BuildUse use, int &exitCode) {
   ProgressLine progress;
-  std::optional<BuildResult> result = buildProject(options, {}, progress, exitCode);
+  BuildOptions build;
+  build.use = use;
+  std::optional<BuildResult> result = buildProject(options, build, progress, exitCode);
   return exitCode == 0 ? std::move(result) : std::nullopt;
+}
+
+bool has(const std::vector<std::string> &arguments, std::string_view option) {
+  return std::find(arguments.begin(), arguments.end(), option) != arguments.end();
+}
+
+// Adds `option` with a path of the project, unless the user has given it. False: links of the
+// project lead it elsewhere, which is shown.
+bool addPath(std::vector<std::string> &arguments, const std::string &option,
+             const std::filesystem::path &path, const std::filesystem::path &folder,
+             const Output &output) {
+  if (has(arguments, option))
+    return true;
+  const std::filesystem::path from = folder.empty() ? "." : folder;
+  const std::filesystem::path relative = path.lexically_relative(from);
+  // stride.toml may name another place outright; a link in the project is not the user's word.
+  const bool below = !relative.empty() && *relative.begin() != "..";
+  if (below && leadsOut(from, path)) {
+    showError(
+        Code::linkInTheWay,
+        fmt::format("`{}` leads out of the project; if that is wanted, name the place with {}",
+                    path.string(), option),
+        output);
+    return false;
+  }
+  arguments.insert(arguments.end(), {option, path.string()});
+  return true;
 }
 
 // Replaces this program by another one; returns only when that fails. `remedy`: what to do then.
@@ -116,49 +146,58 @@ int hostOnlyCommand(const std::string &command, const std::vector<std::string> &
 int hostCommand(const ProjectOptions &options, const std::string &command,
                 const std::vector<std::string> &hostArguments) {
   int exitCode = 0;
-  const std::optional<BuildResult> result = buildToRun(options, exitCode);
+  const bool isRun = command == "run";
+  const std::optional<BuildResult> result =
+      buildToRun(options, isRun ? BuildUse::run : BuildUse::runOnce, exitCode);
   if (!result)
     return exitCode;
-  std::vector<std::string> arguments = {command, result->application.string()};
+  std::vector<std::string> arguments = {command, result->runnable.string()};
+  if (isRun)
+    arguments.insert(arguments.end(), {"--name", result->name});
+  if (isRun && !result->latest.empty())
+    arguments.insert(arguments.end(), {"--latest", result->latest.string()});
   arguments.insert(arguments.end(), hostArguments.begin(), hostArguments.end());
-  if (command == "run" &&
-      std::find(hostArguments.begin(), hostArguments.end(), "--retain") == hostArguments.end())
-    arguments.insert(arguments.end(), {"--retain", result->retainFile.string()});
-  if ((command == "run" || command == "sim") &&
-      std::find(hostArguments.begin(), hostArguments.end(), "--files") == hostArguments.end())
-    arguments.insert(arguments.end(), {"--files", result->filesRoot.string()});
+  if ((isRun &&
+       !addPath(arguments, "--retain", result->retainFile, result->folder, options.output)) ||
+      ((isRun || command == "sim") &&
+       !addPath(arguments, "--files", result->filesRoot, result->folder, options.output)))
+    return 1;
   return becomeHost(std::move(arguments), options.output);
 }
 
 int debugCommand(const ProjectOptions &options, const std::vector<std::string> &hostArguments,
                  const DebugSession &session) {
   int exitCode = 0;
-  const std::optional<BuildResult> result = buildToRun(options, exitCode);
+  const std::optional<BuildResult> result = buildToRun(options, BuildUse::runOnce, exitCode);
   if (!result)
     return exitCode;
   // The names of the sources count from there.
   std::error_code error;
   std::filesystem::path folder = options.path;
   if (!std::filesystem::is_directory(folder, error))
-    folder = folder.filename() == "stride.toml" ? folder.parent_path() : std::filesystem::path();
+    folder = folder.parent_path();
   std::string missing;
   const std::optional<Installation> installation = findInstallation(missing);
   if (!installation)
     return showError(Code::toolchainMissing, missing, options.output);
   std::vector<std::string> arguments = {
       "-q",
+      "-iex",
+      "set auto-load local-gdbinit off", // of the folder, which may be the project's
       "-x",
       installation->debugScript.string(),
       "-ex",
       "directory " + (std::filesystem::current_path(error) / folder).string(),
+      "-ex",
+      fmt::format("set substitute-path {} {}", kHeadersInLineTables, result->headers.string()),
       "-ex",
       "st start"};
   if (session.batch)
     arguments.insert(arguments.begin(), "-batch");
   for (const std::string &script : session.scripts)
     arguments.insert(arguments.end(), {"-x", script});
-  arguments.insert(arguments.end(), {"--args", installation->host.string(), "sim",
-                                     std::filesystem::absolute(result->application).string()});
+  arguments.insert(arguments.end(),
+                   {"--args", installation->host.string(), "sim", result->runnable.string()});
   arguments.insert(arguments.end(), hostArguments.begin(), hostArguments.end());
   return become("gdb", std::move(arguments), options.output,
                 "; on Debian, `apt install gdb` installs it");

@@ -34,8 +34,7 @@ int testCommand(const ProjectOptions &options, const TestOptions &test) {
     if (!project.hasErrors() && !test.list && !noneOfThatName) {
       BuildOptions build;
       build.debug = true;
-      if (!project.isSingleFile())
-        build.output = project.path() / "build" / "tests.so";
+      build.use = BuildUse::runOnce;
       build.progress = [&](std::string_view what, std::size_t done, std::size_t total) {
         progress.update(what, done, total);
       };
@@ -47,7 +46,7 @@ int testCommand(const ProjectOptions &options, const TestOptions &test) {
       throw CLI::ValidationError("--filter", "no test is called '" + test.filter + "'");
     if (exitCode != 0 || !result)
       return exitCode;
-    arguments = {result->application.string(), "--suite", project.name(), "--root",
+    arguments = {result->runnable.string(), "--suite", project.name(), "--root",
                  project.isSingleFile() ? "." : project.path().string()};
     arguments.insert(arguments.end(), {"--files", result->filesRoot.string()});
     if (!test.junit.empty())

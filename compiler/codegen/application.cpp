@@ -115,8 +115,9 @@ public:
       const SourceFile &file = sources.file(id);
       Hash own;
       own.add(file.text());
-      all.add(file.name()).add(own.value());
-      files += "    {\"" + escaped(file.name()) + "\", " + std::to_string(own.value()) + "ULL},\n";
+      all.add(file.codeName()).add(own.value());
+      files +=
+          "    {\"" + escaped(file.codeName()) + "\", " + std::to_string(own.value()) + "ULL},\n";
     }
     std::string out = banner("Identification of this build");
     out += "#include \"runtime/app/abi.h\"\n\nnamespace st::user {\nextern const "

@@ -173,8 +173,8 @@ private:
     const SourceManager &sources = c_.program.sources;
     const LineColumn at = sources.position(m->name.span);
     text_ += "  default:\n    ::stride::raise(ctx__, ::stride::ExceptionCode::AbstractCall, \"" +
-             escaped(sources.file(m->name.span.file).name()) + "\", " + std::to_string(at.line) +
-             ", " + std::to_string(at.column) + ");\n";
+             escaped(sources.file(m->name.span.file).codeName()) + "\", " +
+             std::to_string(at.line) + ", " + std::to_string(at.column) + ");\n";
   }
 
   Context &c_;

@@ -272,7 +272,7 @@ private:
     std::size_t i = 0;
     for (const FileId file : e_.takeFiles()) {
       headLine() << "  constexpr const char *" << Emitter::fileConstant(i++) << " = \""
-                 << escaped(c_.program.sources.file(file).name()) << "\";";
+                 << escaped(c_.program.sources.file(file).codeName()) << "\";";
       text_.endLine();
     }
     for (const Emitter::RootUse &use : e_.takeRoots()) {

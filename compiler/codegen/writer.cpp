@@ -41,7 +41,7 @@ void Writer::from(Span span) {
     return;
   *this << "#line " << line;
   if (mapped_ != span.file)
-    *this << " \"" << escaped(sources_->file(span.file).name()) << '"';
+    *this << " \"" << escaped(sources_->file(span.file).codeName()) << '"';
   endLine();
   mapped_ = span.file;
   believed_ = line;

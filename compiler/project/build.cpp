@@ -2,33 +2,24 @@
 
 #include "compiler/project/content_hash.hpp"
 #include "compiler/project/file_system.hpp"
-#include "compiler/project/installation.hpp"
 #include "compiler/project/job_pool.hpp"
+#include "compiler/project/output_folder.hpp"
+#include "compiler/project/toolchain.hpp"
+#include "compiler/project/user_cache.hpp"
 
-#include <algorithm>
-#include <chrono>
+#include <cerrno>
 #include <cstdlib>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 namespace stc {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-// Files in a cache folder, before the oldest are removed.
-constexpr std::size_t kCacheFiles = 1000;
-
-// Takes the folder in which we are out of the debug information.
-constexpr std::string_view kHere = "-fdebug-prefix-map=";
-
-// Folders in the user's cache where the sources of single files are compiled.
-constexpr std::string_view kWorkPrefix = "work-";
 
 // The dialect's semantics depend on these: DESIGN, section 4.
 constexpr const char *kFixedFlags[] = {"-std=c++20",        "-fPIC",
@@ -37,37 +28,20 @@ constexpr const char *kFixedFlags[] = {"-std=c++20",        "-fPIC",
                                        "-ffp-contract=off", "-fvisibility=hidden",
                                        "-fno-rtti"};
 
-// Path of a program as execvp finds it, or empty.
-fs::path findProgram(const std::string &name) {
-  if (name.find('/') != std::string::npos)
-    return ::access(name.c_str(), X_OK) == 0 ? fs::path(name) : fs::path();
-  const char *path = std::getenv("PATH");
-  std::string_view rest = path != nullptr ? path : "/usr/bin:/bin";
-  while (true) {
-    const std::size_t end = rest.find(':');
-    const fs::path candidate = fs::path(rest.substr(0, end)) / name;
-    if (::access(candidate.c_str(), X_OK) == 0)
-      return candidate;
-    if (end == std::string_view::npos)
-      return {};
-    rest.remove_prefix(end + 1);
-  }
-}
+// In the folder of emitted sources: the names of those that Stride has written there.
+constexpr std::string_view kEmittedList = ".stride-sources";
 
-// Names, sizes and times of the headers that generated code includes.
-std::string headerStamp(const fs::path &include) {
-  std::vector<std::string> stamps;
-  std::error_code error;
-  for (const char *folder : {"runtime/iec", "runtime/app", "st"})
-    for (fs::recursive_directory_iterator at(include / folder, error), end; !error && at != end;
-         at.increment(error))
-      if (at->path().extension() == ".h")
-        stamps.push_back(fileStamp(at->path()));
-  std::sort(stamps.begin(), stamps.end());
-  ContentHash hash;
-  for (const std::string &stamp : stamps)
-    hash.add(stamp);
-  return hash.hex();
+std::vector<std::string> compileFlags(const Installation &installation, bool debug) {
+  std::vector<std::string> flags(std::begin(kFixedFlags), std::end(kFixedFlags));
+  flags.insert(flags.end(), installation.compileFlags.begin(), installation.compileFlags.end());
+  if (debug)
+    flags.insert(flags.end(), {"-O0", "-g"});
+  else
+    // Aligned, so that the speed of a loop does not depend on what lies in front of it; with line
+    // tables and all frames, so that an exception can say where it came from.
+    flags.insert(flags.end(), {"-O2", "-g1", "-fno-optimize-sibling-calls", "-falign-functions=64",
+                               "-falign-loops=32"});
+  return flags;
 }
 
 // Names in `#include "…"` of a generated text.
@@ -85,33 +59,17 @@ std::vector<std::string> includesOf(std::string_view text) {
   return names;
 }
 
-// Removes the files that were used longest ago when there are too many.
-void pruneCache(const fs::path &cache) {
-  std::error_code error;
-  std::vector<std::pair<fs::file_time_type, fs::path>> files;
-  for (const fs::directory_entry &entry : fs::directory_iterator(cache, error))
-    files.emplace_back(entry.last_write_time(error), entry.path());
-  if (files.size() <= kCacheFiles)
-    return;
-  std::sort(files.begin(), files.end());
-  for (std::size_t i = 0; i < files.size() - kCacheFiles / 2; ++i)
-    fs::remove(files[i].second, error);
+// A name of a generated file, as opposed to whatever else a list may hold.
+bool isGeneratedName(const fs::path &name) {
+  for (const fs::path &part : name)
+    if (part == ".." || part == "/")
+      return false;
+  return name.extension() == ".cpp" || name.extension() == ".h";
 }
 
-// Removes what failed builds of single files have left there for their message, after a day.
-void removeAbandoned(const fs::path &folder) {
-  std::error_code error;
-  const auto limit = fs::file_time_type::clock::now() - std::chrono::hours(24);
-  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
-    std::error_code ignored;
-    if (at->path().filename().string().starts_with(kWorkPrefix) &&
-        at->last_write_time(ignored) < limit)
-      fs::remove_all(at->path(), ignored);
-  }
+fs::path folderOf(const Project &project) {
+  return project.isSingleFile() ? project.path().parent_path() : project.path();
 }
-
-// Marks a file of the cache as used; false when it is not there.
-bool touch(const fs::path &path) { return ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0) == 0; }
 
 class Builder {
 public:
@@ -123,28 +81,64 @@ public:
     files_ = generateApplication(project_.program(), project_.appConfig());
     if (options_.emitOnly)
       return emit();
-    if (!findToolchain() || !chooseFolders())
+    if (!findToolchain() || !openCache())
       return std::nullopt;
     for (const GeneratedFile &file : files_)
       byPath_.emplace(file.path, &file);
+    base_ = identityOf(toolchain_, *cache_, work_->path());
     return compileAndLink();
   }
 
 private:
   struct Unit {
     const GeneratedFile *file;
-    fs::path object;
+    std::string key;
+    fs::path object; ///< in the work folder
   };
 
+  // ---- sources for a reader
+
   std::optional<BuildResult> emit() {
-    fs::path folder = options_.output;
-    if (folder.empty())
-      folder = project_.isSingleFile() ? fs::path(project_.path().stem().string() + "-cpp")
-                                       : project_.path() / "build" / "cpp";
-    if (!writeSources(folder))
+    fs::path root = options_.output;
+    fs::path below;
+    if (root.empty() && project_.isSingleFile()) {
+      root = project_.path().stem().string() + "-cpp";
+    } else if (root.empty()) {
+      root = project_.path();
+      below = "build/cpp";
+    }
+    if (!writeSources(root, below))
       return std::nullopt;
-    return BuildResult{folder, 0, files_.size(), {}, {}};
+    return BuildResult{root / below, {}, {}, {}, {}, 0, files_.size(), {}, {}, {}};
   }
+
+  // Writes the generated files; what an earlier build has written there and this one has not is
+  // removed.
+  bool writeSources(const fs::path &root, const fs::path &below) {
+    const std::optional<OutputFolder> folder = OutputFolder::open(root);
+    if (!folder)
+      return cannotWrite(root);
+    std::unordered_set<std::string> written;
+    std::string list;
+    for (const GeneratedFile &file : files_) {
+      if (!folder->write(below / file.path, file.text))
+        return cannotWrite(root / below / file.path);
+      written.insert(file.path);
+      list += file.path + '\n';
+    }
+    if (const std::optional<std::string> old = folder->read(below / kEmittedList))
+      for (std::string_view rest = *old; !rest.empty();) {
+        const std::string name(rest.substr(0, rest.find('\n')));
+        rest.remove_prefix(std::min(rest.size(), name.size() + 1));
+        if (!written.contains(name) && isGeneratedName(name))
+          static_cast<void>(folder->remove(below / name));
+      }
+    if (!folder->write(below / kEmittedList, list))
+      return cannotWrite(root / below / kEmittedList);
+    return true;
+  }
+
+  // ---- what is needed
 
   bool findToolchain() {
     std::string missing;
@@ -166,92 +160,63 @@ private:
                            options_.target, options_.target, options_.target));
       return false;
     }
-    installation_ = *found;
+    toolchain_.installation = *found;
+    toolchain_.compileFlags = compileFlags(*found, options_.debug);
+    return findCompiler();
+  }
+
+  bool findCompiler() {
     const char *configured = std::getenv("STRIDE_CXX");
     std::string name = configured != nullptr && *configured != 0 ? configured : "g++";
     if (!options_.target.empty())
       name = options_.target + "-g++";
-    compiler_ = findProgram(name);
-    if (compiler_.empty()) {
-      Diagnostic &d = diagnostics_.report(Code::toolchainMissing, {},
-                                          fmt::format("the C++ compiler `{}` was not found", name));
-      if (options_.target.empty())
-        d.help("install it (Debian: apt-get install g++), or name one in the environment variable "
-               "STRIDE_CXX");
-      else
-        d.help(fmt::format("install it (Debian: apt-get install g++-{})", options_.target));
-      return false;
-    }
-    const fs::path real = fs::canonical(compiler_, error);
-    base_.add(fileStamp(real)).add(headerStamp(installation_.include));
-    for (const char *flag : kFixedFlags)
-      base_.add(flag);
-    for (const std::string &flag : variableFlags())
-      base_.add(flag);
-    base_.add(kHere);
-    return true;
-  }
-
-  std::vector<std::string> variableFlags() const {
-    std::vector<std::string> flags = installation_.compileFlags;
-    if (options_.debug)
-      flags.insert(flags.end(), {"-O0", "-g"});
+    toolchain_.compiler = findProgram(name);
+    if (!toolchain_.compiler.empty())
+      return true;
+    Diagnostic &d = diagnostics_.report(Code::toolchainMissing, {},
+                                        fmt::format("the C++ compiler `{}` was not found", name));
+    if (options_.target.empty())
+      d.help("install it (Debian: apt-get install g++), or name one in the environment variable "
+             "STRIDE_CXX");
     else
-      // Aligned, so that the speed of a loop does not depend on what lies in front of it; with line
-      // tables and all frames, so that an exception can say where it came from.
-      flags.insert(flags.end(), {"-O2", "-g1", "-fno-optimize-sibling-calls",
-                                 "-falign-functions=64", "-falign-loops=32"});
-    return flags;
-  }
-
-  bool chooseFolders() {
-    std::error_code error;
-    if (project_.isSingleFile()) {
-      cache_ = userCacheFolder() / "objects";
-      removeAbandoned(userCacheFolder());
-      sources_ = userCacheFolder() / fmt::format("{}{}", kWorkPrefix, ::getpid());
-    } else {
-      const fs::path folder = project_.path() / "build";
-      cache_ = folder / "cache";
-      sources_ = folder / "cpp";
-      fs::create_directories(folder, error);
-      if (!fs::exists(folder / ".gitignore", error) && !writeFile(folder / ".gitignore", "*\n"))
-        return cannotWrite(folder);
-    }
-    fs::create_directories(cache_, error);
-    return error ? cannotWrite(cache_, error.message()) : true;
-  }
-
-  bool cannotWrite(const fs::path &path, const std::string &reason = lastError()) {
-    diagnostics_.report(Code::cannotWrite, {},
-                        fmt::format("`{}` cannot be written: {}", path.string(), reason));
+      d.help(fmt::format("install it (Debian: apt-get install g++-{})", options_.target));
     return false;
   }
 
-  // Writes the generated files; what an earlier build left there and this one has not is removed.
-  bool writeSources(const fs::path &folder) {
-    std::unordered_set<std::string> written;
-    for (const GeneratedFile &file : files_) {
-      const fs::path path = folder / file.path;
-      if (!writeIfDifferent(path, file.text))
-        return cannotWrite(path);
-      written.insert(path.lexically_normal().string());
+  bool openCache() {
+    cache_ = UserCache::open();
+    if (!cache_) {
+      diagnostics_.report(Code::cannotWrite, {},
+                          fmt::format("no folder can be made to compile in: {}", lastError()));
+      return false;
     }
-    std::error_code error;
-    std::vector<fs::path> stale;
-    for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end;
-         at.increment(error))
-      if (const std::string suffix = at->path().extension().string();
-          (suffix == ".cpp" || suffix == ".h") &&
-          !written.contains(at->path().lexically_normal().string()))
-        stale.push_back(at->path());
-    if (!options_.emitOnly)
-      for (const fs::path &path : stale)
-        fs::remove(path, error);
+    if (!cache_->problem().empty())
+      diagnostics_.report(Code::cacheNotPrivate, {}, "the cache folder " + cache_->problem())
+          .help("nothing is kept for the next build; give the folder to the user who builds, with "
+                "write permission for nobody else, or name another one in XDG_CACHE_HOME");
+    if (std::optional<WorkFolder> work = cache_->makeWorkFolder())
+      work_.emplace(std::move(*work));
+    else
+      return cannotWrite(cache_->folder() / "work");
+    sources_ = work_->path() / "src";
     return true;
   }
 
-  // Everything a translation unit depends on: flags, compiler, headers, its text and the generated
+  bool cannotWrite(const fs::path &path) {
+    if (errno == ELOOP)
+      diagnostics_
+          .report(Code::linkInTheWay, {},
+                  fmt::format("`{}` is not written: a symbolic link leads there", path.string()))
+          .help("Stride writes through no link that a project holds; remove it");
+    else
+      diagnostics_.report(Code::cannotWrite, {},
+                          fmt::format("`{}` cannot be written: {}", path.string(), lastError()));
+    return false;
+  }
+
+  // ---- compiling
+
+  // Everything a translation unit depends on besides the tool chain: its text and the generated
   // headers it includes.
   std::string keyOf(const GeneratedFile &unit) const {
     ContentHash hash = base_;
@@ -269,100 +234,115 @@ private:
     return hash.hex();
   }
 
+  std::vector<Unit> units() const {
+    std::vector<Unit> units;
+    for (const GeneratedFile &file : files_)
+      if (file.path.ends_with(".cpp"))
+        units.push_back({&file, keyOf(file), work_->path() / fmt::format("{}.o", units.size())});
+    return units;
+  }
+
+  std::string linkKey(const std::vector<Unit> &units) const {
+    ContentHash hash = base_;
+    hash.add(std::uint64_t{options_.isStatic});
+    for (const Unit &unit : units)
+      hash.add(unit.key);
+    for (const std::string &flag : toolchain_.installation.linkFlags)
+      hash.add(flag);
+    for (const fs::path &library : toolchain_.installation.libraries)
+      hash.add(fileStamp(library));
+    if (options_.isStatic)
+      for (const fs::path &library : toolchain_.installation.hostLibraries)
+        hash.add(fileStamp(library));
+    return hash.hex();
+  }
+
+  std::string_view kind() const { return options_.isStatic ? ".exe" : ".so"; }
+
   std::optional<BuildResult> compileAndLink() {
     BuildResult result;
-    std::vector<Unit> units;
-    std::vector<Unit> outdated;
-    ContentHash link = base_;
-    for (const GeneratedFile &file : files_) {
-      if (!file.path.ends_with(".cpp"))
-        continue;
-      const std::string key = keyOf(file);
-      units.push_back({&file, cache_ / (key + ".o")});
-      link.add(key);
-      if (!touch(units.back().object))
-        outdated.push_back(units.back());
+    const std::vector<Unit> all = units();
+    const std::string key = linkKey(all);
+    result.units = all.size();
+    if (!cache_->has(key, kind())) {
+      // Whoever has it builds the same, perhaps; then nothing is left to do.
+      const std::optional<CacheLock> lock = cache_->lock(key);
+      if (!cache_->has(key, kind()) && !make(key, all, result.compiled)) {
+        work_->keep();
+        return std::nullopt;
+      }
     }
-    for (const fs::path &library : installation_.libraries)
-      link.add(fileStamp(library));
-    if (options_.isStatic)
-      for (const fs::path &library : installation_.hostLibraries)
-        link.add(fileStamp(library));
-    result.units = units.size();
-    result.compiled = outdated.size();
+    return deliver(key, std::move(result));
+  }
 
-    const fs::path linked = cache_ / (link.hex() + (options_.isStatic ? ".exe" : ".so"));
-    // A project keeps its generated sources for the reader; a single file only while they are
-    // compiled.
-    if ((!project_.isSingleFile() || !outdated.empty()) && !writeSources(sources_))
-      return std::nullopt;
-    if (!compile(outdated) || (!touch(linked) && !linkTo(linked, units)))
-      return std::nullopt;
-    std::error_code error;
-    if (project_.isSingleFile())
-      fs::remove_all(sources_, error);
+  bool make(const std::string &key, const std::vector<Unit> &all, std::size_t &compiled) {
+    std::vector<Unit> outdated;
+    for (const Unit &unit : all)
+      if (!cache_->fetch(unit.key, ".o", unit.object))
+        outdated.push_back(unit);
+    compiled = outdated.size();
+    for (const GeneratedFile &file : files_)
+      if (!outdated.empty() && !writeFile(sources_ / file.path, file.text))
+        return cannotWrite(sources_ / file.path);
+    const fs::path linked = work_->path() / ("linked" + std::string(kind()));
+    if (!compile(outdated) || !linkTo(linked, all))
+      return false;
+    if (identityOf(toolchain_, *cache_, work_->path()).hex() != base_.hex()) {
+      diagnostics_
+          .report(Code::toolchainMissing, {},
+                  "the compiler or Stride itself was changed while this was built")
+          .help("build again when that has ended");
+      return false;
+    }
+    for (const Unit &unit : outdated) // without them the next build takes longer, no more
+      static_cast<void>(cache_->publish(unit.key, ".o", unit.object));
+    if (!cache_->publish(key, kind(), linked))
+      return cannotWrite(cache_->place(key, kind()));
     if (!outdated.empty())
-      pruneCache(cache_);
-    result.application = options_.output;
-    result.retainFile = retainFileOf(project_);
-    result.filesRoot = filesRootOf(project_);
-    if (result.application.empty())
-      result.application = project_.isSingleFile() ? linked
-                           : options_.isStatic     ? project_.path() / "build" / "app"
-                                                   : project_.path() / "build" / "app.so";
-    if (result.application != linked && !place(linked, result.application))
-      return std::nullopt;
-    return result;
+      cache_->prune(outdated.front().key, ".o");
+    cache_->prune(key, kind());
+    return true;
   }
 
-  std::vector<std::string> compileCommand(const Unit &unit, const fs::path &object) const {
-    std::vector<std::string> command = {compiler_.string()};
-    command.insert(command.end(), std::begin(kFixedFlags), std::end(kFixedFlags));
-    for (std::string &flag : variableFlags())
-      command.push_back(std::move(flag));
-    // Objects serve whoever has the same sources, wherever they lie: their files are relative.
-    std::error_code error;
-    command.push_back(std::string(kHere) + fs::current_path(error).string() + "=.");
+  std::vector<std::string> compileCommand(const Unit &unit) const {
+    std::vector<std::string> command = {toolchain_.compiler.string()};
+    command.insert(command.end(), toolchain_.compileFlags.begin(), toolchain_.compileFlags.end());
+    const std::string include = toolchain_.installation.include.string();
+    // The same bytes wherever sources, cache and Stride lie.
     command.insert(command.end(),
-                   {"-I", sources_.string(), "-I", installation_.include.string(), "-c",
-                    (sources_ / unit.file->path).string(), "-o", object.string()});
+                   {fmt::format("-ffile-prefix-map={}=.", sources_.string()),
+                    fmt::format("-ffile-prefix-map={}={}", include, kHeadersInLineTables), "-I",
+                    sources_.string(), "-I", include, "-c", (sources_ / unit.file->path).string(),
+                    "-o", unit.object.string()});
     return command;
-  }
-
-  // Cached files appear complete or not at all: they are written beside and then renamed.
-  fs::path beside(const fs::path &path) const {
-    return path.string() + fmt::format(".{}.tmp", ::getpid());
   }
 
   bool compile(const std::vector<Unit> &units) {
     std::vector<Job> jobs;
     for (const Unit &unit : units)
       jobs.push_back(
-          {compileCommand(unit, beside(unit.object)), fs::path(unit.file->path).stem().string()});
+          {compileCommand(unit), fs::path(unit.file->path).stem().string(), sources_.string()});
     const std::vector<JobResult> results = runJobs(jobs, [&](std::size_t job) {
       progress("compiling " + jobs[job].title, job, jobs.size() + 1);
     });
     bool good = true;
-    for (std::size_t i = 0; i < jobs.size(); ++i) {
-      if (results[i].status < 0)
-        continue;
-      if (results[i].status != 0) {
+    for (std::size_t i = 0; i < jobs.size(); ++i)
+      if (results[i].status > 0) {
         reportFailure("compiling", jobs[i], results[i]);
         good = false;
-      } else if (::rename(beside(units[i].object).c_str(), units[i].object.c_str()) != 0) {
-        good = cannotWrite(units[i].object);
       }
-    }
     return good;
   }
 
   bool linkTo(const fs::path &linked, const std::vector<Unit> &units) {
     progress("linking", units.size(), units.size() + 1);
+    const Installation &installation = toolchain_.installation;
     Job job;
-    job.command = {compiler_.string(),
+    job.folder = work_->path().string();
+    job.command = {toolchain_.compiler.string(),
                    options_.isStatic ? "-static" : "-shared",
                    "-o",
-                   beside(linked).string(),
+                   linked.string(),
                    "-Wl,--gc-sections",
                    "-Wl,--build-id=none"};
     // Debian's cross compilers do not look for it.
@@ -370,34 +350,32 @@ private:
       job.command.insert(job.command.begin() + 1, "-fuse-ld=lld");
     if (!options_.isStatic) {
       job.command.insert(job.command.end(), {"-Wl,--exclude-libs,ALL", "-Wl,-Bsymbolic"});
-      job.command.insert(job.command.end(), installation_.linkFlags.begin(),
-                         installation_.linkFlags.end());
+      job.command.insert(job.command.end(), installation.linkFlags.begin(),
+                         installation.linkFlags.end());
     }
     for (const Unit &unit : units)
       job.command.push_back(unit.object.string());
     job.command.emplace_back("-Wl,--start-group");
     if (options_.isStatic)
-      for (const fs::path &library : installation_.hostLibraries)
+      for (const fs::path &library : installation.hostLibraries)
         job.command.push_back(library.string());
-    for (const fs::path &library : installation_.libraries)
+    for (const fs::path &library : installation.libraries)
       job.command.push_back(library.string());
     job.command.emplace_back("-Wl,--end-group");
     if (options_.isStatic)
-      job.command.insert(job.command.end(), installation_.staticFlags.begin(),
-                         installation_.staticFlags.end());
+      job.command.insert(job.command.end(), installation.staticFlags.begin(),
+                         installation.staticFlags.end());
     const std::vector<JobResult> results = runJobs({job});
-    if (results[0].status != 0) {
+    if (results[0].status != 0)
       reportFailure("linking", job, results[0]);
-      return false;
-    }
-    return ::rename(beside(linked).c_str(), linked.c_str()) == 0 || cannotWrite(linked);
+    return results[0].status == 0;
   }
 
   void reportFailure(std::string_view step, const Job &job, const JobResult &result) {
     Diagnostic &d = diagnostics_.report(
         Code::compilerFailed, {},
         fmt::format("{} the generated C++ failed: this is a defect of Stride", step));
-    d.note("to reproduce: " + shellQuoted(job.command));
+    d.note("to reproduce: cd " + shellQuoted({job.folder}) + " && " + shellQuoted(job.command));
     std::string_view output = result.output;
     for (int lines = 0; lines < 12 && !output.empty(); ++lines) {
       const std::size_t end = output.find('\n');
@@ -406,29 +384,48 @@ private:
     }
   }
 
-  // Makes `to` the same file as the one in the cache, or a copy of it.
-  bool place(const fs::path &from, const fs::path &to) {
-    struct stat a {};
-    struct stat b {};
-    if (::stat(from.c_str(), &a) == 0 && ::stat(to.c_str(), &b) == 0 && a.st_dev == b.st_dev &&
-        a.st_ino == b.st_ino)
-      return true;
+  // ---- results
+
+  /// Copies what the store has to where it is wanted.
+  std::optional<BuildResult> deliver(const std::string &key, BuildResult result) {
+    result.runnable = cache_->place(key, kind());
+    result.name = project_.name();
+    result.headers = toolchain_.installation.include;
+    result.folder = folderOf(project_);
+    result.retainFile = retainFileOf(project_);
+    result.filesRoot = filesRootOf(project_);
+    if (options_.use == BuildUse::keep && !keep(result))
+      return std::nullopt;
+    if (project_.isSingleFile() || options_.isStatic || !options_.target.empty())
+      return result;
     std::error_code error;
-    if (to.has_parent_path())
-      fs::create_directories(to.parent_path(), error);
-    const fs::path temporary = beside(to);
-    fs::remove(temporary, error);
-    if (::link(from.c_str(), temporary.c_str()) != 0) {
-      error.clear();
-      fs::copy_file(from, temporary, error);
-      if (error)
-        return cannotWrite(to, error.message());
+    const std::string project = fs::canonical(project_.path(), error).string();
+    const std::string projectKey = ContentHash().add(project).hex();
+    result.latest = cache_->latest(projectKey);
+    const bool isLatest = options_.use == BuildUse::run ||
+                          (options_.use == BuildUse::keep && options_.output.empty());
+    if (isLatest && !cache_->setLatest(projectKey, result.runnable)) {
+      cannotWrite(result.latest);
+      return std::nullopt;
     }
-    if (::rename(temporary.c_str(), to.c_str()) == 0)
-      return true;
-    const std::string reason = lastError();
-    fs::remove(temporary, error);
-    return cannotWrite(to, reason);
+    return result;
+  }
+
+  bool keep(BuildResult &result) {
+    const std::optional<std::string> content = UserCache::unsealed(result.runnable);
+    if (!content)
+      return cannotWrite(result.runnable);
+    result.application = options_.output;
+    if (!result.application.empty())
+      return writeFile(result.application, *content, 0777) || cannotWrite(result.application);
+    const fs::path name = fs::path("build") / (options_.isStatic ? "app" : "app.so");
+    result.application = project_.path() / name;
+    const std::optional<OutputFolder> folder = OutputFolder::open(project_.path());
+    if (!folder || !folder->write(name, *content, 0777))
+      return cannotWrite(result.application);
+    const fs::path ignore = "build/.gitignore";
+    return folder->read(ignore) || folder->write(ignore, "*\n") ||
+           cannotWrite(project_.path() / ignore);
   }
 
   void progress(std::string_view what, std::size_t done, std::size_t total) const {
@@ -439,27 +436,19 @@ private:
   Project &project_;
   const BuildOptions &options_;
   Diagnostics &diagnostics_;
-  Installation installation_;
-  fs::path compiler_;
+  Toolchain toolchain_;
+  std::optional<UserCache> cache_;
+  std::optional<WorkFolder> work_;
   fs::path sources_;
-  fs::path cache_;
-  ContentHash base_;
+  ContentHash base_; ///< the tool chain's
   std::vector<GeneratedFile> files_;
   std::unordered_map<std::string, const GeneratedFile *> byPath_;
 };
 
 } // namespace
 
-fs::path userCacheFolder() {
-  if (const char *cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache == '/')
-    return fs::path(cache) / "stride";
-  if (const char *home = std::getenv("HOME"); home != nullptr && *home == '/')
-    return fs::path(home) / ".cache" / "stride";
-  return fs::path("/tmp") / fmt::format("stride-{}", ::getuid());
-}
-
 fs::path retainFileOf(const Project &project) {
-  const fs::path folder = project.isSingleFile() ? project.path().parent_path() : project.path();
+  const fs::path folder = folderOf(project);
   if (!project.retainFile().empty())
     return folder / project.retainFile();
   return project.isSingleFile() ? folder / (project.path().stem().string() + ".retain")
@@ -467,7 +456,7 @@ fs::path retainFileOf(const Project &project) {
 }
 
 fs::path filesRootOf(const Project &project) {
-  const fs::path folder = project.isSingleFile() ? project.path().parent_path() : project.path();
+  const fs::path folder = folderOf(project);
   return folder / (project.filesRoot().empty() ? "files" : project.filesRoot());
 }
 

@@ -3,6 +3,7 @@
 
 #include "compiler/project/project.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -11,10 +12,18 @@
 
 namespace stc {
 
+/// What a build is for.
+enum class BuildUse : std::uint8_t {
+  keep,    ///< the application is written where `output` says, and is the project's latest build
+  run,     ///< nothing is written; it is the project's latest build
+  runOnce, ///< nothing is written
+};
+
 struct BuildOptions {
+  BuildUse use = BuildUse::keep;
   bool debug = false; ///< -O0 -g: quick to compile, for tests and the debugger
-  /// Where the shared object (or with emitOnly the sources) goes. Empty: `<project>/build/app.so`;
-  /// for a single file a place in the user's cache folder.
+  /// Where the shared object (or with emitOnly the sources) goes. Empty: `<project>/build/app.so`,
+  /// which must not be a single file.
   std::filesystem::path output;
   bool emitOnly = false; ///< only the C++ sources
   /// One executable with stride-host and the application, without shared libraries; its name is
@@ -27,13 +36,22 @@ struct BuildOptions {
 
 /// What a build left behind.
 struct BuildResult {
-  std::filesystem::path application; ///< the shared object, or the folder of the sources
+  std::filesystem::path application; ///< what was written; empty: nothing
+  /// The application in the user's cache, where nobody else can change it: what is to be run.
+  std::filesystem::path runnable;
+  std::filesystem::path latest;  ///< leads to the project's latest build, then and later
+  std::string name;              ///< the application's, where it does not carry one itself
+  std::filesystem::path headers; ///< Stride's own, which the application's line tables name
   std::size_t compiled =
       0; ///< translation units that were compiled; the others came from the cache
   std::size_t units = 0;
+  std::filesystem::path folder;     ///< the project's, or that of the single file
   std::filesystem::path retainFile; ///< for RETAIN and PERSISTENT variables
   std::filesystem::path filesRoot;  ///< for the files of the program
 };
+
+/// Folder of Stride's headers in the line tables of applications.
+inline constexpr std::string_view kHeadersInLineTables = "/stride";
 
 /// Where `stride run` and `stride reset` look for retained data: as stride.toml says, relative to
 /// the project, or `retain/NAME` in it; beside a single file `NAME.retain`.
@@ -45,9 +63,10 @@ struct BuildResult {
 
 /// Generates and compiles the project; it must be free of errors. What goes wrong is reported to
 /// the project's diagnostics, and nothing is returned.
+///
+/// Each build compiles in a folder of its own in the user's cache, which also keeps its units and
+/// applications by the hash of everything they were made from; below the project it only writes
+/// results. The same sources give the same bytes, wherever they lie.
 [[nodiscard]] std::optional<BuildResult> build(Project &project, const BuildOptions &options);
-
-/// The user's folder for caches of single files: $XDG_CACHE_HOME/stride or ~/.cache/stride.
-[[nodiscard]] std::filesystem::path userCacheFolder();
 
 } // namespace stc

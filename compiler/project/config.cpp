@@ -5,6 +5,7 @@
 #include "compiler/project/io_config.hpp"
 #include "compiler/project/names.hpp"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace stc {
@@ -26,7 +27,7 @@ public:
     for (const CheckedSection &levels : top.sections("diagnostics", diagnostics_))
       readLevels(levels);
     for (const CheckedSection &project : top.sections("project", diagnostics_)) {
-      config_.name = project.text("name");
+      readName(project);
       config_.poolSize =
           (static_cast<std::uint64_t>(project.integer("new_pool", 65536)) + 15) / 16 * 16;
       config_.generation = static_cast<unsigned>(project.choice("softmotion", 2));
@@ -75,6 +76,27 @@ private:
     }
     levels.add(diagnostics_.levels());
     diagnostics_.setLevels(std::move(levels));
+  }
+
+  // It becomes part of the names of files: of retained data, of traces.
+  void readName(const CheckedSection &project) {
+    constexpr std::size_t kLongest = 200;
+    config_.name = project.text("name");
+    const TomlNode *node = project.get("name");
+    if (node == nullptr)
+      return;
+    const bool control = std::any_of(config_.name.begin(), config_.name.end(),
+                                     [](char c) { return static_cast<unsigned char>(c) < ' '; });
+    if (!config_.name.empty() && config_.name.front() != '.' && !control &&
+        config_.name.find('/') == std::string::npos && config_.name.size() <= kLongest)
+      return;
+    diagnostics_
+        .report(Code::configBadName, node->span, "this cannot be the name of a project",
+                "not a name")
+        .help(fmt::format("files are named after it: 1 to {} bytes without `/` and control "
+                          "characters, not beginning with a dot",
+                          kLongest));
+    config_.name.clear();
   }
 
   void readDefine(const TomlNode &node) {

@@ -1,56 +1,54 @@
 #include "compiler/project/content_hash.hpp"
 
 #include <array>
-#include <cstring>
 
 namespace stc {
 
 namespace {
 
-// The 128-bit product, folded.
-std::uint64_t multiplyFold(std::uint64_t x, std::uint64_t y) {
-  __extension__ using Wide = unsigned __int128;
-  const Wide product = static_cast<Wide>(x) * y;
-  return static_cast<std::uint64_t>(product) ^ static_cast<std::uint64_t>(product >> 64);
+constexpr std::size_t kBytes = 32;
+
+void update(blake2b_state &state, std::string_view bytes) {
+  ::blake2b_update(&state, reinterpret_cast<const std::uint8_t *>(bytes.data()), bytes.size());
+}
+
+std::string finish(blake2b_state state) {
+  std::array<std::uint8_t, kBytes> hash{};
+  ::blake2b_final(&state, hash.data(), hash.size());
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string digits;
+  for (const std::uint8_t byte : hash) {
+    digits += kDigits[byte >> 4U];
+    digits += kDigits[byte & 15U];
+  }
+  return digits;
 }
 
 } // namespace
 
-void ContentHash::mix(std::uint64_t word) {
-  const std::uint64_t a = multiplyFold(a_ ^ word, 0xA0761D6478BD642FU);
-  const std::uint64_t b = multiplyFold(b_ + word, 0xE7037ED1A0B428DBU);
-  a_ = a + (b_ << 23 | b_ >> 41);
-  b_ = b ^ (a_ << 17 | a_ >> 47);
-}
+ContentHash::ContentHash() { ::blake2b_init(&state_, kBytes); }
 
 ContentHash &ContentHash::add(std::uint64_t value) {
-  mix(value);
+  std::array<char, sizeof(value)> bytes{};
+  for (std::size_t i = 0; i < bytes.size(); ++i)
+    bytes[i] = static_cast<char>(value >> (8 * i));
+  update(state_, {bytes.data(), bytes.size()});
   return *this;
 }
 
 ContentHash &ContentHash::add(std::string_view text) {
-  mix(text.size());
-  while (!text.empty()) {
-    std::uint64_t word = 0;
-    const std::size_t count = text.size() < sizeof(word) ? text.size() : sizeof(word);
-    std::memcpy(&word, text.data(), count);
-    mix(word);
-    text.remove_prefix(count);
-  }
+  add(static_cast<std::uint64_t>(text.size()));
+  update(state_, text);
   return *this;
 }
 
-std::string ContentHash::hex() const {
-  ContentHash last = *this;
-  last.mix(0);
-  last.mix(1);
-  std::array<char, 33> digits{};
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  for (std::size_t i = 0; i < 16; ++i) {
-    digits[i] = kDigits[last.a_ >> (60 - 4 * i) & 15];
-    digits[16 + i] = kDigits[last.b_ >> (60 - 4 * i) & 15];
-  }
-  return {digits.data(), 32};
+std::string ContentHash::hex() const { return finish(state_); }
+
+std::string blake2b256(std::string_view bytes) {
+  blake2b_state state;
+  ::blake2b_init(&state, kBytes);
+  update(state, bytes);
+  return finish(state);
 }
 
 } // namespace stc

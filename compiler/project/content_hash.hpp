@@ -1,25 +1,28 @@
 #pragma once
-// Fingerprints of contents, for the build cache.
+// Fingerprints of contents: of what the build cache keeps.
 
+#include <blake2.h>
 #include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace stc {
 
-/// A 128-bit hash (not cryptographic) of a sequence of texts; each text counts with its length.
+/// BLAKE2b-256 (RFC 7693) of a sequence of texts; each text counts with its length, so that their
+/// boundaries matter.
 class ContentHash {
 public:
+  ContentHash();
   ContentHash &add(std::string_view text);
   ContentHash &add(std::uint64_t value);
-  /// 32 hexadecimal digits.
+  /// 64 hexadecimal digits of what was added so far.
   [[nodiscard]] std::string hex() const;
 
 private:
-  void mix(std::uint64_t word);
-
-  std::uint64_t a_ = 0x9E3779B97F4A7C15U;
-  std::uint64_t b_ = 0xC2B2AE3D27D4EB4FU;
+  blake2b_state state_;
 };
+
+/// BLAKE2b-256 of the bytes alone, as `b2sum -l 256` prints it.
+[[nodiscard]] std::string blake2b256(std::string_view bytes);
 
 } // namespace stc

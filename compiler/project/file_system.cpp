@@ -1,9 +1,12 @@
 #include "compiler/project/file_system.hpp"
 
+#include <algorithm>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/random.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -45,32 +48,74 @@ std::optional<std::string> readFile(const fs::path &path) {
   return text;
 }
 
+namespace {
+
+/// A new file in the folder under a name that nobody can know before; -1: errno.
+int createUnique(int folder, std::string &name, unsigned mode) {
+  constexpr int kTries = 8; // even the second one is not to be expected
+  for (int i = 0; i < kTries; ++i) {
+    std::uint64_t random = 0;
+    if (::getrandom(&random, sizeof random, 0) != static_cast<ssize_t>(sizeof random))
+      return -1;
+    name = fmt::format(".stride-{:016x}.tmp", random);
+    const int fd =
+        ::openat(folder, name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+    if (fd >= 0 || errno != EEXIST)
+      return fd;
+  }
+  return -1;
+}
+
+bool writeAll(int fd, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(fd, text.data(), text.size());
+    if (count < 0 && errno == EINTR)
+      continue;
+    if (count == 0)
+      errno = ENOSPC; // a disk that takes nothing and says nothing
+    if (count <= 0)
+      return false;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+} // namespace
+
+bool writeAt(int folder, const std::string &name, std::string_view text, unsigned mode) {
+  std::string beside;
+  const int fd = createUnique(folder, beside, mode);
+  if (fd < 0)
+    return false;
+  bool good = writeAll(fd, text);
+  int saved = errno;
+  if (::close(fd) != 0 && good) {
+    saved = errno;
+    good = false;
+  }
+  if (good && ::renameat(folder, beside.c_str(), folder, name.c_str()) != 0) {
+    saved = errno;
+    good = false;
+  }
+  if (!good)
+    ::unlinkat(folder, beside.c_str(), 0);
+  errno = saved;
+  return good;
+}
+
 bool writeFile(const fs::path &path, std::string_view text) { return writeFile(path, text, 0666); }
 
 bool writeFile(const fs::path &path, std::string_view text, unsigned mode) {
   std::error_code error;
-  if (path.has_parent_path())
-    fs::create_directories(path.parent_path(), error);
-  const std::string beside = path.string() + fmt::format(".{}.tmp", ::getpid());
-  const int fd = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode);
-  if (fd < 0)
+  const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  fs::create_directories(parent, error);
+  const int folder = ::open(parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0)
     return false;
-  bool good = true;
-  while (good && !text.empty()) {
-    const ssize_t count = ::write(fd, text.data(), text.size());
-    if (count < 0 && errno == EINTR)
-      continue;
-    good = count > 0;
-    if (good)
-      text.remove_prefix(static_cast<std::size_t>(count));
-  }
-  good = ::close(fd) == 0 && good;
-  good = good && ::rename(beside.c_str(), path.c_str()) == 0;
-  if (!good) {
-    const int saved = errno;
-    ::unlink(beside.c_str());
-    errno = saved;
-  }
+  const bool good = writeAt(folder, path.filename().string(), text, mode);
+  const int saved = errno;
+  ::close(folder);
+  errno = saved;
   return good;
 }
 
@@ -88,6 +133,14 @@ bool replaceFile(const fs::path &path, std::string_view text) {
   return ::chmod(target.c_str(), status.st_mode & kModes) == 0;
 }
 
+bool leadsOut(const fs::path &folder, const fs::path &path) {
+  std::error_code error;
+  const fs::path root = fs::weakly_canonical(fs::absolute(folder, error), error);
+  const fs::path real = fs::weakly_canonical(fs::absolute(path, error), error);
+  return error ||
+         std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first != root.end();
+}
+
 bool writeIfDifferent(const fs::path &path, std::string_view text) {
   const std::optional<std::string> old = readFile(path);
   return (old && *old == text) || writeFile(path, text);
@@ -99,8 +152,9 @@ std::string fileStamp(const fs::path &path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0)
     return {};
-  return fmt::format("{}:{}:{}.{}", path.string(), status.st_size, status.st_mtim.tv_sec,
-                     status.st_mtim.tv_nsec);
+  return fmt::format("{}:{}:{}.{}:{}.{}:{}", path.string(), status.st_size, status.st_mtim.tv_sec,
+                     status.st_mtim.tv_nsec, status.st_ctim.tv_sec, status.st_ctim.tv_nsec,
+                     status.st_ino);
 }
 
 } // namespace stc

@@ -18,9 +18,18 @@ namespace stc {
 [[nodiscard]] bool writeFile(const std::filesystem::path &path, std::string_view text,
                              unsigned mode);
 
+/// As writeFile, in an open folder: neither the file written beside it, which gets a name that
+/// nobody can know before, nor the renaming follows a link.
+[[nodiscard]] bool writeAt(int folder, const std::string &name, std::string_view text,
+                           unsigned mode);
+
 /// Gives an existing file new content at once; its permissions stay, and a link to it. False on
 /// failure (errno), also when the file must not be written.
 [[nodiscard]] bool replaceFile(const std::filesystem::path &path, std::string_view text);
+
+/// Whether links lead from `path` to something that does not lie in `folder`. What is not there
+/// leads nowhere.
+[[nodiscard]] bool leadsOut(const std::filesystem::path &folder, const std::filesystem::path &path);
 
 /// As writeFile, but leaves the file alone when it already has this content.
 [[nodiscard]] bool writeIfDifferent(const std::filesystem::path &path, std::string_view text);
@@ -28,7 +37,8 @@ namespace stc {
 /// Text of the last system error.
 [[nodiscard]] std::string lastError();
 
-/// Path, size and time of a file in one text, for fingerprints; empty when there is no such file.
+/// Path, size, times and inode of a file in one text, for fingerprints; empty when there is no such
+/// file.
 [[nodiscard]] std::string fileStamp(const std::filesystem::path &path);
 
 } // namespace stc

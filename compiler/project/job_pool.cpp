@@ -36,6 +36,8 @@ bool start(const Job &job, Running &running, JobResult &result) {
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
+  if (!job.folder.empty())
+    posix_spawn_file_actions_addchdir_np(&actions, job.folder.c_str());
   std::vector<char *> arguments;
   for (const std::string &argument : job.command)
     arguments.push_back(const_cast<char *>(argument.c_str())); // NOLINT: the C interface

@@ -82,8 +82,11 @@ void Project::load(const fs::path &given) {
   }
   path_ = given;
   single_ = true;
+  ownName_ = true;
   config_.name = given.stem().string();
   loadFile(given, given.string());
+  for (const FileId id : sourceFiles_)
+    program_.sources.file(id).setCodeName(given.filename().string());
   loaded_ = !hasErrors();
 }
 
@@ -139,7 +142,8 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
   if (tomlFile_ != 0) {
     ProjectConfig read = readConfig(program_.sources.file(tomlFile_), program_.diagnostics);
     program_.settings.poolSize = read.poolSize;
-    if (read.name.empty())
+    ownName_ = !read.name.empty();
+    if (!ownName_)
       read.name = config_.name;
     config_ = std::move(read);
     program_.settings.addressing = config_.addressing;
@@ -229,6 +233,7 @@ ast::File *Project::eventFile(const TaskConfig &task, ParseOptions options) {
   if (from.id() == tomlFile_)
     ++at.column; // behind the quotation mark
   const FileId id = program_.sources.add(from.name(), eventDeclaration(task, at));
+  program_.sources.file(id).setCodeName(from.codeName());
   eventFiles_.emplace_back(id, task.event.span);
   return parse(program_.sources.file(id), program_.interner, program_.arena, program_.diagnostics,
                &options);
@@ -292,7 +297,8 @@ std::vector<Diagnostic> Project::diagnostics() const {
 
 AppConfig Project::appConfig() const {
   AppConfig app;
-  app.name = config_.name;
+  if (ownName_)
+    app.name = config_.name;
   app.retainFile = config_.retainFile;
   app.retainPeriodNs = config_.retainPeriodNs;
   app.filesRoot = config_.filesRoot;

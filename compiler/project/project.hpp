@@ -77,6 +77,7 @@ private:
   ProjectConfig config_;
   std::filesystem::path path_;
   bool single_ = false;
+  bool ownName_ = false; ///< its name does not come from its folder's
   bool loaded_ = false;
   std::vector<FileId> sourceFiles_;
   FileId tomlFile_ = 0;

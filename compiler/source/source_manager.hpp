@@ -22,6 +22,12 @@ public:
   /// The name as diagnostics show it: a path relative to the project, `<stdlib>/…` for library
   /// files.
   [[nodiscard]] const std::string &name() const { return name_; }
+  /// The name as generated code carries it, which does not depend on where the project lies: of a
+  /// single file its name without folders.
+  [[nodiscard]] const std::string &codeName() const {
+    return codeName_.empty() ? name_ : codeName_;
+  }
+  void setCodeName(std::string name) { codeName_ = std::move(name); }
   [[nodiscard]] std::string_view text() const { return text_; }
   [[nodiscard]] LineColumn position(std::uint32_t offset) const;
   /// 1-based number of the line in which the byte lies.
@@ -39,6 +45,7 @@ public:
 private:
   FileId id_;
   std::string name_;
+  std::string codeName_; ///< empty: name_
   std::string text_;
   std::vector<std::uint32_t> lineStarts_;
   bool ascii_ = true; ///< every character is one byte
@@ -56,6 +63,7 @@ public:
   std::optional<FileId> load(const std::filesystem::path &path, std::string name);
 
   [[nodiscard]] const SourceFile &file(FileId id) const { return *files_[id - 1]; }
+  [[nodiscard]] SourceFile &file(FileId id) { return *files_[id - 1]; }
   [[nodiscard]] std::string_view text(Span span) const;
   [[nodiscard]] LineColumn position(Span span) const;
   [[nodiscard]] std::size_t size() const { return files_.size(); }

@@ -11,6 +11,7 @@
 #include <bit>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <utility>
 
 namespace stride::app {
@@ -29,7 +30,12 @@ std::string exactPath(const std::string &path) {
 void Application::Closer::operator()(void *library) const { ::dlclose(library); }
 
 Application::Application(const StrideAppV1 &description)
-    : description_(&description), state_(description.stateSize) {}
+    : description_(&description), name_(description.name), state_(description.stateSize) {}
+
+void Application::setDefaultName(const std::string &name) {
+  if (*description_->name == 0)
+    name_ = name;
+}
 
 Application Application::load(const std::string &path, const RuntimeLayouts &layouts) {
   struct ::stat info {};
@@ -61,13 +67,16 @@ Application Application::load(const std::string &path, const RuntimeLayouts &lay
   }
   Application application(*description);
   application.library_ = std::move(library);
+  application.setDefaultName(std::filesystem::path(path).stem().string());
   return application;
 }
 
 Application Application::fromDescription(const StrideAppV1 &description,
                                          const RuntimeLayouts &layouts) {
   validate(description, layouts);
-  return Application(description);
+  Application application(description);
+  application.setDefaultName("app");
+  return application;
 }
 
 void Application::initialise(const HostApi &host, bool inCopyCode, bool keepRetains,

@@ -42,6 +42,11 @@ public:
   void settle();
 
   const StrideAppV1 &description() const { return *description_; }
+  /// As its project calls it. A project without a name of its own leaves it to whoever loads the
+  /// application; until then it is that of the file.
+  const std::string &name() const { return name_; }
+  /// For one that carries no name.
+  void setDefaultName(const std::string &name);
   std::byte *state() const { return state_.data(); }
   const StateBlock &stateBlock() const { return state_; }
 
@@ -54,6 +59,7 @@ private:
 
   std::unique_ptr<void, Closer> library_; // closed after everything else is gone
   const StrideAppV1 *description_;
+  std::string name_;
   StateBlock state_;
 };
 

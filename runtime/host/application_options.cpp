@@ -26,7 +26,7 @@ bool has(const app::Application &application, const std::string &path) {
 
 std::optional<std::size_t> find(const Applications &applications, const std::string &name) {
   for (std::size_t i = 0; i < applications.size(); ++i)
-    if (applications[i]->description().name == name)
+    if (applications[i]->name() == name)
       return i;
   return std::nullopt;
 }
@@ -40,7 +40,7 @@ std::size_t ownerOf(const Applications &applications, std::string &path) {
       return *found;
     std::vector<std::string> names;
     for (const std::unique_ptr<app::Application> &application : applications)
-      names.emplace_back(application->description().name);
+      names.emplace_back(application->name());
     throw app::Error(fmt::format("'{}:{}': there is no application '{}'{}; there are {}", name,
                                  path, name, app::didYouMean(name, names), fmt::join(names, ", ")));
   }
@@ -70,12 +70,12 @@ std::vector<ApplicationOptions> optionsByApplication(const Applications &applica
     throw app::Error("--trace names variables of several applications, which have rows of their "
                      "own: give a file with --out, of which each gets its own");
   for (std::size_t i = 0; i < applications.size(); ++i)
-    result[i].out = traced < 2
-                        ? options.out
-                        : (out.parent_path() / fmt::format("{}.{}{}", out.stem().string(),
-                                                           applications[i]->description().name,
-                                                           out.extension().string()))
-                              .string();
+    result[i].out =
+        traced < 2
+            ? options.out
+            : (out.parent_path() / fmt::format("{}.{}{}", out.stem().string(),
+                                               applications[i]->name(), out.extension().string()))
+                  .string();
   for (const std::string &text : options.scripts) {
     const std::size_t equals = text.find('=');
     const std::optional<std::size_t> named =
@@ -85,7 +85,7 @@ std::vector<ApplicationOptions> optionsByApplication(const Applications &applica
       throw app::Error(
           fmt::format("--script '{}': the application '{}' has the script '{}' "
                       "already; write NAME=FILE for the script of the application NAME",
-                      text, applications[named.value_or(0)]->description().name, script));
+                      text, applications[named.value_or(0)]->name(), script));
     script = named ? text.substr(equals + 1) : text;
   }
   return result;

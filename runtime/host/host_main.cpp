@@ -117,6 +117,15 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
     run.add_option("APP", texts.options.applications,
                    "The applications that 'stride build' made; several run side by side")
         ->required();
+  if (!builtIn) {
+    run.add_option("--name", texts.options.name,
+                   "Name of the application whose project has none in its stride.toml")
+        ->type_name("NAME");
+    run.add_option(
+           "--latest", texts.options.latest,
+           "Where an online change finds the new build; where the application is without it")
+        ->type_name("FILE");
+  }
   run.add_option("--for", texts.duration, "How long to run: 5s, T#1h; until Ctrl-C without it")
       ->type_name("TIME");
   run.add_option("--trace", texts.trace,
@@ -243,6 +252,8 @@ RunOptions understand(const RunTexts &texts) {
   if (!options.retain.empty() && options.applications.size() > 1)
     throw app::Error("--retain names one file, but there are several applications; give each its "
                      "own in [retain] of its stride.toml");
+  if (options.applications.size() > 1 && !(options.name.empty() && options.latest.empty()))
+    throw app::Error("--name and --latest are for one application, but there are several");
   if (texts.core >= 0)
     options.core = static_cast<uint32_t>(texts.core);
   if (!options.record.empty() && options.applications.size() > 1)
@@ -270,6 +281,8 @@ int runFrom(const RunTexts &texts, const StrideAppV1 *builtIn) {
     applications.push_back(loadApplication(builtIn, {}));
   for (const std::string &path : options.applications)
     applications.push_back(loadApplication(nullptr, path));
+  if (!options.name.empty())
+    applications.front()->setDefaultName(options.name);
   return runReal(std::move(applications), options);
 }
 

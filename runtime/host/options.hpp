@@ -52,6 +52,8 @@ enum class OnFault : uint8_t {
 /// `stride-host run`.
 struct RunOptions {
   std::vector<std::string> applications;
+  std::string name;   ///< Of the one application, where it carries none; or empty.
+  std::string latest; ///< Where an online change finds the new build; empty: where the old one is.
   int64_t durationNs = 0;           ///< 0: until a signal.
   std::vector<std::string> trace;   ///< Paths, or NAME:PATH, in the order given.
   std::string out;                  ///< File of the trace; empty or "-": standard output.

@@ -56,7 +56,7 @@ public:
   Session(std::unique_ptr<app::Application> application, std::size_t number,
           const RunOptions &options, const ApplicationOptions &own,
           const task::RealOptions &realOptions)
-      : options_(&options), own_(&own), number_(number), name_(application->description().name),
+      : options_(&options), own_(&own), number_(number), name_(application->name()),
         instance_(std::move(application), task::LoopLimit::Clock),
         scheduler_(instance_.tasks(), realOptions) {
     for (const std::string &path : own.print)
@@ -68,7 +68,7 @@ public:
     if (!options.retain.empty())
       retain.file = options.retain;
     if (retain.file.empty())
-      retain.file = std::string(app.name) + ".retain";
+      retain.file = name_ + ".retain";
     instance_.retain(retain, [this](const std::string &line) { say(line); });
     if (!own.script.empty()) {
       script_.emplace(monitor::Script::fromFile(instance_.symbols(), own.script));
@@ -307,7 +307,8 @@ private:
 
 /// An application's file and its present session.
 struct Slot {
-  std::string path;                   ///< Empty: linked into this program.
+  /// Where an online change finds the new build; empty: it is linked into this program.
+  std::string path;
   std::unique_ptr<TraceWriter> trace; ///< Null: none of it is traced.
   std::unique_ptr<Session> session;
   bool stopped = false; ///< For good, with an exception.
@@ -334,7 +335,10 @@ public:
       if (!own_[i].trace.empty())
         trace = std::make_unique<TraceWriter>(app::SymbolTable(applications[i]->description()),
                                               own_[i].trace, own_[i].out);
-      slots_.push_back({i < options.applications.size() ? options.applications[i] : std::string(),
+      const bool isFile = i < options.applications.size();
+      slots_.push_back({!options.latest.empty() ? options.latest
+                        : isFile                ? options.applications[i]
+                                                : std::string(),
                         std::move(trace), newSession(std::move(applications[i]), i), false});
     }
     if (!options.listen.empty()) {
@@ -475,7 +479,7 @@ private:
   void restart(Slot &slot) {
     try {
       std::unique_ptr<app::Application> application = slot.session->release();
-      fmt::print(stderr, "note: '{}' is started again\n", application->description().name);
+      fmt::print(stderr, "note: '{}' is started again\n", application->name());
       slot.session.reset(); // gives its retained data up
       slot.session =
           newSession(std::move(application), static_cast<std::size_t>(&slot - slots_.data()));

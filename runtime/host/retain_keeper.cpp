@@ -161,7 +161,8 @@ RetainKeeper::RetainKeeper(const StrideAppV1 &app, std::byte *state, RetainSetti
                        settings_.file));
     return;
   }
-  if (image_->head.application != app.name)
+  // A project without a name in its stride.toml tells its data by their variables alone.
+  if (!image_->head.application.empty() && *app.name != 0 && image_->head.application != app.name)
     throw app::Error(fmt::format(
         "the retained data in '{}' belong to application '{}', not to '{}'\n  name another file in "
         "[retain] of stride.toml or with --retain, or give them up with 'stride reset origin'",

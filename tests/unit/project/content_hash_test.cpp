@@ -6,9 +6,18 @@
 namespace stc {
 namespace {
 
+// What `printf abc | b2sum -l 256` and `b2sum -l 256 </dev/null` print.
+TEST(ContentHash, IsBlake2b256) {
+  EXPECT_EQ(blake2b256("abc"), "bddd813c634239723171ef3fee98579b94964e3bb1cb3e427262c8c068d52319");
+  EXPECT_EQ(blake2b256(""), "0e5751c026e543b2e8ab2eb06099daa1d1e5df47778f7787faab45cdf12fe3a8");
+}
+
 TEST(ContentHash, IsARepeatableFingerprint) {
   EXPECT_EQ(ContentHash().add("abc").hex(), ContentHash().add("abc").hex());
-  EXPECT_EQ(ContentHash().add("abc").hex().size(), 32U);
+  EXPECT_EQ(ContentHash().add("abc").hex().size(), 64U);
+  ContentHash hash;
+  hash.add("abc");
+  EXPECT_EQ(hash.hex(), hash.hex()); // asking changes nothing
 }
 
 TEST(ContentHash, BoundariesCount) {

@@ -1,0 +1,158 @@
+#include "compiler/project/toolchain.hpp"
+
+#include "compiler/project/file_system.hpp"
+#include "compiler/project/job_pool.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+#include <unistd.h>
+
+namespace stc {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Variables with which GCC finds other headers or parts of itself (GCC manual, section 3.21).
+constexpr const char *kVariables[] = {
+    "CPATH",        "C_INCLUDE_PATH",  "CPLUS_INCLUDE_PATH", "COMPILER_PATH",
+    "LIBRARY_PATH", "GCC_EXEC_PREFIX", "SOURCE_DATE_EPOCH",  "LD_RUN_PATH"};
+
+// Parts of the compiler, as `-print-prog-name` knows them.
+constexpr const char *kParts[] = {"cc1plus", "as", "ld", "ld.lld", "collect2"};
+
+/// Stride's headers that generated code includes.
+std::vector<fs::path> ownHeaders(const fs::path &include) {
+  std::vector<fs::path> headers;
+  std::error_code error;
+  for (const char *folder : {"runtime/iec", "runtime/app", "st"})
+    for (fs::recursive_directory_iterator at(include / folder, error), end; !error && at != end;
+         at.increment(error))
+      if (at->path().extension() == ".h")
+        headers.push_back(at->path());
+  std::sort(headers.begin(), headers.end());
+  return headers;
+}
+
+/// Files named in a rule as `g++ -M` writes it: blanks in names have a backslash, `$` is doubled.
+std::vector<std::string> filesOfRule(std::string_view rule) {
+  std::vector<std::string> files;
+  std::string name;
+  const auto end = [&] {
+    if (!name.empty() && name.back() != ':')
+      files.push_back(name);
+    name.clear();
+  };
+  for (std::size_t i = 0; i < rule.size(); ++i) {
+    const char next = i + 1 < rule.size() ? rule[i + 1] : '\n';
+    if (rule[i] == '\\' && (next == ' ' || next == '#'))
+      name += rule[++i];
+    else if (rule[i] == '\\' && next == '\n')
+      ++i;
+    else if (rule[i] == '$' && next == '$')
+      name += rule[++i];
+    else if (rule[i] == ' ' || rule[i] == '\n')
+      end();
+    else
+      name += rule[i];
+  }
+  end();
+  return files;
+}
+
+/// The system's headers and the parts of the compiler; empty when it does not say.
+std::string askCompiler(const Toolchain &toolchain, const std::vector<fs::path> &headers,
+                        const fs::path &work) {
+  const fs::path probe = work / "headers.cpp";
+  const fs::path &include = toolchain.installation.include;
+  std::string text;
+  for (const fs::path &header : headers)
+    if (const std::string name = header.lexically_relative(include).string();
+        name.starts_with("runtime/")) // those of libraries include nothing else
+      text += "#include \"" + name + "\"\n";
+  if (!writeFile(probe, text))
+    return {};
+  std::vector<Job> jobs(1);
+  jobs[0].command = {toolchain.compiler.string()};
+  jobs[0].command.insert(jobs[0].command.end(), toolchain.compileFlags.begin(),
+                         toolchain.compileFlags.end());
+  jobs[0].command.insert(jobs[0].command.end(), {"-I", include.string(), "-M", probe.string()});
+  for (const char *part : kParts)
+    jobs.push_back(
+        {{toolchain.compiler.string(), std::string("-print-prog-name=") + part}, {}, {}});
+  const std::vector<JobResult> results = runJobs(jobs);
+  std::string list;
+  for (const JobResult &result : results) {
+    if (result.status != 0)
+      return {};
+    if (&result == &results.front()) {
+      for (const std::string &file : filesOfRule(result.output))
+        if (file.starts_with('/') && file != probe && !file.starts_with(include.string() + "/"))
+          list += file + '\n';
+    } else if (const fs::path part = findProgram(result.output.substr(0, result.output.find('\n')));
+               !part.empty()) {
+      list += part.string() + '\n';
+    }
+  }
+  return list;
+}
+
+/// Adds the stamps of the files, one a line; false: one of them is gone.
+bool addStamps(ContentHash &hash, std::string_view files) {
+  while (!files.empty()) {
+    const std::size_t end = files.find('\n');
+    const std::string stamp = fileStamp(fs::path(files.substr(0, end)));
+    if (stamp.empty() || end == std::string_view::npos)
+      return false;
+    hash.add(stamp);
+    files.remove_prefix(end + 1);
+  }
+  return true;
+}
+
+} // namespace
+
+fs::path findProgram(const std::string &name) {
+  std::error_code error;
+  if (name.find('/') != std::string::npos)
+    return ::access(name.c_str(), X_OK) == 0 ? fs::absolute(name, error) : fs::path();
+  const char *path = std::getenv("PATH");
+  std::string_view rest = path != nullptr ? path : "/usr/bin:/bin";
+  while (true) {
+    const std::size_t end = rest.find(':');
+    const fs::path candidate = fs::absolute(fs::path(rest.substr(0, end)) / name, error);
+    if (::access(candidate.c_str(), X_OK) == 0 && fs::is_regular_file(candidate, error))
+      return candidate;
+    if (end == std::string_view::npos)
+      return {};
+    rest.remove_prefix(end + 1);
+  }
+}
+
+ContentHash identityOf(const Toolchain &toolchain, const UserCache &cache, const fs::path &work) {
+  std::error_code error;
+  ContentHash hash;
+  hash.add(fileStamp(fs::canonical(toolchain.compiler, error)));
+  for (const std::string &flag : toolchain.compileFlags)
+    hash.add(flag);
+  for (const char *variable : kVariables)
+    if (const char *value = std::getenv(variable))
+      hash.add(variable).add(value);
+  const std::vector<fs::path> headers = ownHeaders(toolchain.installation.include);
+  for (const fs::path &header : headers)
+    hash.add(fileStamp(header));
+
+  const std::string key = hash.hex();
+  const ContentHash known = hash;
+  if (const std::optional<std::string> list = cache.note(key);
+      list && !list->empty() && addStamps(hash, *list))
+    return hash;
+  hash = known;
+  const std::string list = askCompiler(toolchain, headers, work);
+  if (!list.empty() && addStamps(hash, list))
+    cache.setNote(key, list);
+  return hash;
+}
+
+} // namespace stc

@@ -1,0 +1,31 @@
+#pragma once
+// The C++ compiler and everything besides the generated code that a result depends on.
+
+#include "compiler/project/content_hash.hpp"
+#include "compiler/project/installation.hpp"
+#include "compiler/project/user_cache.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stc {
+
+struct Toolchain {
+  Installation installation;
+  std::filesystem::path compiler; ///< absolute
+  /// All but include folders, mapped paths, input and output.
+  std::vector<std::string> compileFlags;
+};
+
+/// Path of a program as execvp finds it, absolute; or empty.
+[[nodiscard]] std::filesystem::path findProgram(const std::string &name);
+
+/// What identifies the tool chain: the compiler with its parts (its stages, assembler, linker), the
+/// flags, the environment that changes what it does, Stride's headers and all headers of the system
+/// that these include, each file with size, times and inode. What the compiler says about itself is
+/// kept in the cache; `work` is a folder to ask it in.
+[[nodiscard]] ContentHash identityOf(const Toolchain &toolchain, const UserCache &cache,
+                                     const std::filesystem::path &work);
+
+} // namespace stc

@@ -1,0 +1,304 @@
+#include "compiler/project/user_cache.hpp"
+
+#include "compiler/project/content_hash.hpp"
+#include "compiler/project/file_system.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace stc {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Programs that make backups know the first line: https://bford.info/cachedir/
+constexpr std::string_view kTag =
+    "Signature: 8a477f597d28d172789f06886806bc55\n"
+    "# This folder is Stride's cache. It may be removed at any time.\n";
+constexpr std::string_view kTagName = "CACHEDIR.TAG";
+constexpr std::string_view kVersion = "v1";
+
+// Before the hash at the end of a file of the store.
+constexpr std::string_view kSeal = "\nStride seal BLAKE2b-256 ";
+constexpr std::size_t kSealSize = kSeal.size() + 64;
+
+// Bytes of the files of one kind with one first digit, so that all together are 16 times that.
+constexpr std::uintmax_t kShardBytes = 128U << 20U;
+
+constexpr auto kAbandoned = std::chrono::hours(24);
+
+constexpr mode_t kForUser = 0700;
+
+/// Why somebody else could change what is in the folder; empty: nobody can.
+std::string whyNotPrivate(const fs::path &folder) {
+  struct stat status {};
+  if (::lstat(folder.c_str(), &status) != 0)
+    return lastError();
+  if (S_ISLNK(status.st_mode))
+    return "it is a symbolic link";
+  if (!S_ISDIR(status.st_mode))
+    return "it is not a folder";
+  if (status.st_uid != ::geteuid())
+    return fmt::format("it belongs to user {}", status.st_uid);
+  if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0)
+    return "others may write it";
+  return {};
+}
+
+/// Whether somebody else could put another folder in the place of one that lies in it.
+bool othersMayRenameIn(const fs::path &folder) {
+  struct stat status {};
+  if (::stat(folder.c_str(), &status) != 0)
+    return true;
+  const bool trusted = status.st_uid == ::geteuid() || status.st_uid == 0;
+  return !trusted || ((status.st_mode & S_IWOTH) != 0 && (status.st_mode & S_ISVTX) == 0);
+}
+
+bool makeFolder(const fs::path &folder) {
+  return ::mkdir(folder.c_str(), kForUser) == 0 || errno == EEXIST;
+}
+
+/// Makes a folder with the mark; it appears with it or not at all.
+bool makeMarked(const fs::path &folder) {
+  std::string fresh = (folder.parent_path() / "new-XXXXXX").string();
+  if (::mkdtemp(fresh.data()) == nullptr)
+    return false;
+  const bool good =
+      writeFile(fs::path(fresh) / kTagName, kTag) && ::rename(fresh.c_str(), folder.c_str()) == 0;
+  const int error = errno;
+  std::error_code ignored;
+  if (!good)
+    fs::remove_all(fresh, ignored);
+  errno = error;
+  return good || error == EEXIST || error == ENOTEMPTY; // somebody was quicker
+}
+
+/// The folder with the mark in `root`, made if needed; returns what is wrong with it.
+std::string openIn(const fs::path &root) {
+  std::error_code ignored; // the next step says what is wrong
+  fs::create_directories(root.parent_path(), ignored);
+  if (!makeFolder(root))
+    return lastError();
+  if (othersMayRenameIn(root.parent_path()))
+    return fmt::format("others may replace what is in `{}`", root.parent_path().string());
+  if (std::string problem = whyNotPrivate(root); !problem.empty())
+    return problem;
+  const fs::path folder = root / kVersion;
+  struct stat status {};
+  if (::lstat(folder.c_str(), &status) != 0 && !makeMarked(folder))
+    return lastError();
+  if (std::string problem = whyNotPrivate(folder); !problem.empty())
+    return fmt::format("`{}`: {}", folder.string(), problem);
+  if (readFile(folder / kTagName) != kTag)
+    return fmt::format("`{}` does not carry Stride's mark", folder.string());
+  return {};
+}
+
+fs::path temporaryFolder() {
+  const char *folder = std::getenv("TMPDIR");
+  return folder != nullptr && *folder == '/' ? folder : "/tmp";
+}
+
+fs::path usersRoot() {
+  if (const char *cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache == '/')
+    return fs::path(cache) / "stride";
+  if (const char *home = std::getenv("HOME"); home != nullptr && *home == '/')
+    return fs::path(home) / ".cache" / "stride";
+  return temporaryFolder() / fmt::format("stride-{}", ::geteuid());
+}
+
+bool isOld(const fs::path &path) {
+  std::error_code error;
+  const auto time = fs::last_write_time(path, error);
+  return !error && time < fs::file_time_type::clock::now() - kAbandoned;
+}
+
+/// Removes what processes that were ended have left in a folder of ours.
+void removeAbandoned(const fs::path &folder, std::string_view prefix) {
+  std::error_code error;
+  for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+    std::error_code ignored;
+    if (at->path().filename().string().starts_with(prefix) && whyNotPrivate(at->path()).empty() &&
+        isOld(at->path()))
+      fs::remove_all(at->path(), ignored);
+  }
+}
+
+/// A root that is nobody else's, for as long as the folder for temporary files keeps it: what is
+/// in it is run after this process has become another one.
+fs::path privateRoot() {
+  const std::string prefix = fmt::format("stride-{}-", ::geteuid());
+  removeAbandoned(temporaryFolder(), prefix);
+  std::string name = (temporaryFolder() / (prefix + "XXXXXX")).string();
+  return ::mkdtemp(name.data()) != nullptr ? fs::path(name) : fs::path();
+}
+
+/// The text without its seal, or nothing.
+std::optional<std::string_view> unseal(std::string_view text) {
+  if (text.size() < kSealSize)
+    return std::nullopt;
+  const std::string_view content = text.substr(0, text.size() - kSealSize);
+  const std::string_view seal = text.substr(content.size());
+  if (!seal.starts_with(kSeal) || seal.substr(kSeal.size()) != blake2b256(content))
+    return std::nullopt;
+  return content;
+}
+
+bool copyFile(const fs::path &from, const fs::path &to) {
+  const std::optional<std::string> text = readFile(from);
+  struct stat status {};
+  return text && ::stat(from.c_str(), &status) == 0 && writeFile(to, *text, status.st_mode & 0777);
+}
+
+} // namespace
+
+WorkFolder::~WorkFolder() {
+  std::error_code ignored;
+  if (!path_.empty())
+    fs::remove_all(path_, ignored);
+}
+
+CacheLock::~CacheLock() {
+  if (handle_ >= 0)
+    ::close(handle_);
+}
+
+std::optional<UserCache> UserCache::open() {
+  const fs::path root = usersRoot();
+  const std::string problem = openIn(root);
+  if (problem.empty()) {
+    removeAbandoned(root / kVersion / "work", "");
+    return UserCache(root / kVersion, {});
+  }
+  const fs::path other = privateRoot();
+  if (other.empty() || !openIn(other).empty())
+    return std::nullopt;
+  return UserCache(other / kVersion, fmt::format("`{}` is not used: {}", root.string(), problem));
+}
+
+std::optional<WorkFolder> UserCache::makeWorkFolder() const {
+  const fs::path all = folder_ / "work";
+  std::string name = (all / "XXXXXX").string();
+  if (!makeFolder(all) || ::mkdtemp(name.data()) == nullptr)
+    return std::nullopt;
+  return WorkFolder(name);
+}
+
+fs::path UserCache::place(std::string_view key, std::string_view kind) const {
+  return folder_ / (kind == ".o" ? "objects" : "applications") / key.substr(0, 1) /
+         fmt::format("{}{}", key, kind);
+}
+
+bool UserCache::has(std::string_view key, std::string_view kind) const {
+  const fs::path path = place(key, kind);
+  if (::utimensat(AT_FDCWD, path.c_str(), nullptr, AT_SYMLINK_NOFOLLOW) != 0)
+    return false;
+  if (unsealed(path))
+    return true;
+  ::unlink(path.c_str());
+  return false;
+}
+
+bool UserCache::fetch(std::string_view key, std::string_view kind, const fs::path &to) const {
+  const fs::path from = place(key, kind);
+  return has(key, kind) && (::link(from.c_str(), to.c_str()) == 0 || copyFile(from, to));
+}
+
+bool UserCache::publish(std::string_view key, std::string_view kind, const fs::path &from) const {
+  const std::optional<std::string> content = readFile(from);
+  struct stat status {};
+  if (!content || ::stat(from.c_str(), &status) != 0)
+    return false;
+  const fs::path to = place(key, kind);
+  return writeFile(to, fmt::format("{}{}{}", *content, kSeal, blake2b256(*content)),
+                   status.st_mode & 0777);
+}
+
+std::optional<std::string> UserCache::unsealed(const fs::path &path) {
+  std::optional<std::string> text = readFile(path);
+  if (!text)
+    return std::nullopt;
+  const std::optional<std::string_view> content = unseal(*text);
+  if (!content)
+    return std::nullopt;
+  text->resize(content->size());
+  return text;
+}
+
+std::optional<std::string> UserCache::note(std::string_view key) const {
+  return readFile(folder_ / "notes" / key);
+}
+
+void UserCache::setNote(std::string_view key, std::string_view text) const {
+  static_cast<void>(writeFile(folder_ / "notes" / key, text)); // it is found out again next time
+}
+
+fs::path UserCache::latest(std::string_view key) const {
+  return folder_ / "latest" / fmt::format("{}.so", key);
+}
+
+bool UserCache::setLatest(std::string_view key, const fs::path &to) const {
+  const fs::path link = latest(key);
+  if (!makeFolder(link.parent_path()))
+    return false;
+  // In a folder that is nobody else's, so that its name is.
+  const std::optional<WorkFolder> fresh = makeWorkFolder();
+  return fresh && ::symlink(to.c_str(), (fresh->path() / "link").c_str()) == 0 &&
+         ::rename((fresh->path() / "link").c_str(), link.c_str()) == 0;
+}
+
+std::optional<CacheLock> UserCache::lock(std::string_view key) const {
+  const fs::path folder = folder_ / "locks";
+  if (!makeFolder(folder))
+    return std::nullopt;
+  // Few files for all keys: two that meet in one wait without need, now and then.
+  const fs::path path = folder / key.substr(0, 2);
+  const int handle = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
+  if (handle < 0)
+    return std::nullopt;
+  CacheLock lock(handle);
+  while (::flock(handle, LOCK_EX) != 0)
+    if (errno != EINTR)
+      return std::nullopt;
+  return lock;
+}
+
+void UserCache::prune(std::string_view key, std::string_view kind) const {
+  struct Entry {
+    fs::file_time_type time;
+    std::uintmax_t size;
+    fs::path path;
+  };
+  std::vector<Entry> entries;
+  std::uintmax_t total = 0;
+  std::error_code error;
+  for (fs::directory_iterator at(place(key, kind).parent_path(), error), end; !error && at != end;
+       at.increment(error)) {
+    std::error_code ignored;
+    entries.push_back({at->last_write_time(ignored), at->file_size(ignored), at->path()});
+    total += entries.back().size;
+  }
+  std::sort(entries.begin(), entries.end(),
+            [](const Entry &a, const Entry &b) { return a.time < b.time; });
+  for (const Entry &entry : entries) {
+    // The newest stays, however large it is.
+    if (total <= kShardBytes || &entry == &entries.back())
+      break;
+    fs::remove(entry.path, error);
+    total -= entry.size;
+  }
+}
+
+} // namespace stc

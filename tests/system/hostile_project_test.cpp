@@ -1,0 +1,357 @@
+// Projects that somebody gave away to do harm, and folders that others may write: docs/security.md.
+#include "tests/support/process.hpp"
+#include "tests/support/text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace stride::test {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr const char *kCounter =
+    "PROGRAM PLC_PRG\nVAR\n  n : INT;\nEND_VAR\nn := n + 1;\nEND_PROGRAM\n";
+constexpr const char *kPhoto = "a photograph of somebody's cat";
+
+class HostileProject : public ::testing::Test {
+protected:
+  HostileProject() {
+    write("p/a.st", kCounter);
+    write("home/photo.cpp", kPhoto);
+    write("home/cache/photo.o", kPhoto);
+  }
+
+  using Environment = std::vector<std::pair<std::string, std::string>>;
+
+  ProcessResult stride(std::vector<std::string> arguments, Environment environment = {}) {
+    arguments.insert(arguments.begin(), STRIDE_BINARY_DIR "/stride");
+    environment.emplace_back("XDG_CACHE_HOME", at("cache").string());
+    return runProcess(arguments, scratch_.path(), environment);
+  }
+  void succeed(const std::vector<std::string> &arguments) {
+    const ProcessResult result = stride(arguments);
+    EXPECT_EQ(result.exitCode, 0) << result.out << result.err;
+  }
+  void refuse(const std::vector<std::string> &arguments, const std::string &code) {
+    const ProcessResult result = stride(arguments);
+    EXPECT_EQ(result.exitCode, 1) << result.out;
+    EXPECT_THAT(result.err, HasSubstr("error[" + code + "]"));
+  }
+
+  fs::path at(const std::string &name) const { return scratch_.path() / name; }
+  void write(const std::string &name, const std::string &text) {
+    fs::create_directories(at(name).parent_path());
+    writeFile(at(name), text);
+  }
+  std::string read(const std::string &name) { return readFile(at(name)); }
+  void link(const std::string &target, const std::string &name) {
+    fs::create_directories(at(name).parent_path());
+    fs::create_symlink(target, at(name));
+  }
+  /// Nothing of what is not the project's was touched.
+  void expectHomeUntouched() {
+    std::vector<std::string> files;
+    for (const fs::directory_entry &entry : fs::recursive_directory_iterator(at("home")))
+      if (!entry.is_directory())
+        files.push_back(entry.path().lexically_relative(at("home")).string());
+    EXPECT_THAT(files, ::testing::UnorderedElementsAre("photo.cpp", "cache/photo.o"));
+    EXPECT_EQ(read("home/photo.cpp"), kPhoto);
+    EXPECT_EQ(read("home/cache/photo.o"), kPhoto);
+  }
+
+  ScratchDirectory scratch_;
+};
+
+// -------------------------------------------------------------------------------------------------
+// links
+
+TEST_F(HostileProject, ABuildFolderThatIsALinkIsNotWritten) {
+  link("../home", "p/build");
+  refuse({"build", "p"}, "SE0838");
+  refuse({"build", "p", "--emit", "cpp"}, "SE0838");
+  refuse({"build", "p", "--static"}, "SE0838");
+  expectHomeUntouched();
+  // What only runs writes nothing there.
+  EXPECT_EQ(stride({"sim", "p", "--for", "T#30ms", "--print", "PLC_PRG.n"}).out, "PLC_PRG.n = 3\n");
+  expectHomeUntouched();
+}
+
+TEST_F(HostileProject, LinksInTheBuildFolderAreReplacedNotFollowed) {
+  link("../../home/photo.cpp", "p/build/app.so");
+  link("../../home/photo.cpp", "p/build/app");
+  link("../../home/photo.cpp", "p/build/.gitignore");
+  link("../../home", "p/build/cache"); // what earlier versions of Stride pruned
+  succeed({"build", "p"});
+  succeed({"build", "p", "--static"});
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(at("p/build/app.so"))));
+  EXPECT_EQ(read("p/build/.gitignore"), "*\n");
+  expectHomeUntouched();
+}
+
+TEST_F(HostileProject, EmittedSourcesFollowNoLinks) {
+  link("../../home", "p/build/cpp");
+  refuse({"build", "p", "--emit", "cpp"}, "SE0838");
+  fs::remove(at("p/build/cpp"));
+  link("../../../home", "p/build/cpp/user");
+  refuse({"build", "p", "--emit", "cpp"}, "SE0838");
+  fs::remove(at("p/build/cpp/user"));
+  link("../../../home/photo.cpp", "p/build/cpp/app.cpp");
+  succeed({"build", "p", "--emit", "cpp"});
+  EXPECT_THAT(read("p/build/cpp/app.cpp"), HasSubstr("PLC_PRG"));
+  expectHomeUntouched();
+}
+
+TEST_F(HostileProject, OnlyEmittedSourcesAreRemovedFromTheirFolder) {
+  write("p/b.st", "FUNCTION Gone : INT\nGone := 1;\nEND_FUNCTION\n");
+  succeed({"build", "p", "--emit", "cpp"});
+  ASSERT_TRUE(fs::exists(at("p/build/cpp/user/Gone.cpp")));
+  fs::remove(at("p/b.st"));
+  write("p/build/cpp/mine.cpp", "// the user's\n");
+  // A list that names what Stride has never written there.
+  const std::string list = read("p/build/cpp/.stride-sources");
+  writeFile(at("p/build/cpp/.stride-sources"), list + "../../../home/photo.cpp\n" +
+                                                   at("home/photo.cpp").string() +
+                                                   "\nlinked/photo.cpp\n../../a.st\n\n/\n..\n");
+  link("../../../home", "p/build/cpp/linked");
+  succeed({"build", "p", "--emit", "cpp"});
+  EXPECT_FALSE(fs::exists(at("p/build/cpp/user/Gone.cpp")));
+  EXPECT_TRUE(fs::exists(at("p/build/cpp/mine.cpp")));
+  EXPECT_EQ(read("p/a.st"), kCounter);
+  expectHomeUntouched();
+}
+
+TEST_F(HostileProject, TheFormatterWritesThroughNoLinkThatLeadsOut) {
+  const std::string ugly = "program   F\nvar x:int; end_var\nx:=1;\nend_program\n";
+  write("other/b.st", ugly);
+  write("p/real/c.st", "function   G:int\nG:=1;\nend_function\n");
+  link("../other/b.st", "p/b.st");
+  link("real/c.st", "p/c_link.st");
+  refuse({"fmt", "p"}, "SE0838");
+  EXPECT_EQ(read("other/b.st"), ugly);
+  EXPECT_THAT(read("p/real/c.st"), HasSubstr("FUNCTION G : INT"));
+  EXPECT_TRUE(fs::is_symlink(at("p/c_link.st")));
+  succeed({"fmt", "p/b.st"}); // the user's own word
+  EXPECT_THAT(read("other/b.st"), HasSubstr("PROGRAM F"));
+}
+
+TEST_F(HostileProject, DocumentationFollowsNoLinksUnlessTheUserNamesThem) {
+  link("home", "doc");
+  refuse({"doc", "p"}, "SE0838");
+  expectHomeUntouched();
+  fs::create_directory(at("pages"));
+  link("pages", "named");
+  succeed({"doc", "p", "-o", "named"});
+  EXPECT_TRUE(fs::exists(at("pages/index.html")));
+}
+
+TEST_F(HostileProject, RetainedDataAndFilesStayInTheProject) {
+  write("q/a.st", "PROGRAM PLC_PRG\nVAR RETAIN\n  n : INT;\nEND_VAR\nVAR\n  h : DWORD;\nEND_VAR\n"
+                  "n := n + 1;\nh := SysFileOpen('x.txt', 'w');\nEND_PROGRAM\n");
+  const std::vector<std::string> run = {"run", "q", "--for", "100ms", "--quiet"};
+  link("../home", "q/retain");
+  refuse(run, "SE0838");
+  fs::remove(at("q/retain"));
+  link("../home", "q/files");
+  refuse(run, "SE0838");
+  refuse({"sim", "q", "--for", "T#100ms"}, "SE0838");
+  fs::remove(at("q/files"));
+  // The image that is being written, and a file of the program's.
+  for (const char *name : {"q/retain/q.new", "q/files/x.txt"})
+    link("../../home/photo.cpp", name);
+  succeed(run);
+  EXPECT_TRUE(fs::exists(at("q/retain/q.a")));
+  EXPECT_TRUE(fs::is_symlink(at("q/files/x.txt"))); // OUTSIDE: it was not opened
+  expectHomeUntouched();
+}
+
+// -------------------------------------------------------------------------------------------------
+// names
+
+TEST_F(HostileProject, TheProjectsNameIsNoPath) {
+  for (const char *name : {"../../x", "/x", "x/y", ".", "..", ".x", "a\\nb"}) {
+    write("p/stride.toml", "[project]\nname = \"" + std::string(name) + "\"\n");
+    refuse({"check", "p"}, "SE0817");
+  }
+  for (const std::size_t length : {199U, 200U, 201U}) {
+    write("p/stride.toml", "[project]\nname = \"" + std::string(length, 'n') + "\"\n");
+    EXPECT_EQ(stride({"check", "p"}).exitCode, length <= 200 ? 0 : 1) << length;
+  }
+}
+
+TEST_F(HostileProject, FoldersMayHaveTheNamesOfOptions) {
+  for (const char *name : {"@p", "-p", "-o", "--help", "a b;c", "$(touch x)"}) {
+    write(std::string(name) + "/a.st", kCounter);
+    const ProcessResult result =
+        stride({"sim", "./" + std::string(name), "--for", "T#30ms", "--print", "PLC_PRG.n"});
+    EXPECT_EQ(result.out, "PLC_PRG.n = 3\n") << name << result.err;
+    succeed({"build", "./" + std::string(name)});
+    succeed({"build", "./" + std::string(name), "--emit", "cpp"});
+  }
+  // As the folder itself is named on the command line, and as the current one.
+  EXPECT_EQ(stride({"sim", "@p", "--for", "T#30ms", "--print", "PLC_PRG.n"}).out,
+            "PLC_PRG.n = 3\n");
+  const ProcessResult inside = runProcess({STRIDE_BINARY_DIR "/stride", "build"}, at("-p"),
+                                          {{"XDG_CACHE_HOME", at("cache").string()}});
+  EXPECT_EQ(inside.exitCode, 0) << inside.err;
+  EXPECT_FALSE(fs::exists(at("x")));
+}
+
+// -------------------------------------------------------------------------------------------------
+// native code
+
+/// A compiler's way to say that the wrong file was read.
+constexpr const char *kPoison = "#error this came with the project\n";
+
+TEST_F(HostileProject, NothingThatCameWithTheProjectIsCompiled) {
+  succeed({"build", "p", "--emit", "cpp"});
+  std::vector<fs::path> generated;
+  for (const fs::directory_entry &entry : fs::recursive_directory_iterator(at("p/build/cpp")))
+    if (entry.is_regular_file())
+      generated.push_back(entry.path());
+  ASSERT_GT(generated.size(), 3U);
+  for (const fs::path &path : generated) {
+    writeFile(path, kPoison);
+    writeFile(path.string() + ".gch", "gpch.013 and what runs when it is read");
+  }
+  // Folders of Stride's headers and of the system's, as the project might have its own.
+  for (const char *name : {"runtime/iec/ops.h", "runtime/iec/types.h", "st/Standard/TON.h",
+                           "cstdint", "cstring", "st/user/PLC_PRG.h"})
+    for (const char *folder : {"p/", "p/build/", "p/build/cpp/", ""})
+      write(folder + std::string(name), kPoison);
+  for (const std::string &folder : {std::string("p"), std::string(".")}) {
+    const ProcessResult result =
+        runProcess({STRIDE_BINARY_DIR "/stride", "sim", folder == "p" ? "p" : "p/a.st", "--for",
+                    "T#30ms", "--print", "PLC_PRG.n"},
+                   scratch_.path(), {{"XDG_CACHE_HOME", at("cache").string()}});
+    EXPECT_EQ(result.out, "PLC_PRG.n = 3\n") << result.err;
+  }
+  succeed({"build", "p"});
+}
+
+TEST_F(HostileProject, NothingThatCameWithTheProjectIsRun) {
+  // A shared object that shows itself as soon as it is loaded.
+  write("evil.cpp", "#include <cstdio>\nstruct E { E() { std::puts(\"EVIL\"); } } e;\n"
+                    "extern \"C\" const void *stride_app_v1() { return nullptr; }\n");
+  const ProcessResult compiled =
+      runProcess({"g++", "-shared", "-fPIC", "-o", "evil.so", "evil.cpp"}, scratch_.path());
+  ASSERT_EQ(compiled.exitCode, 0) << compiled.err;
+  write("p/t.st",
+        "{test}\nFUNCTION_BLOCK T\nVAR b : BOOL; END_VAR\nb := TRUE;\nEND_FUNCTION_BLOCK\n");
+  // Objects and applications under all names that Stride has ever used.
+  fs::create_directories(at("p/build/cache"));
+  for (const char *name : {"app.so", "tests.so", "cache/app.so", "libc.so.6", "libm.so.6"})
+    fs::copy_file(at("evil.so"), at("p/build") / name);
+  for (const std::vector<std::string> &arguments : std::vector<std::vector<std::string>>{
+           {"sim", "p", "--for", "T#30ms", "--print", "PLC_PRG.n"},
+           {"run", "p", "--for", "50ms", "--quiet"},
+           {"test", "p"}}) {
+    const ProcessResult result = stride(arguments);
+    EXPECT_THAT(result.out + result.err, Not(HasSubstr("EVIL"))) << arguments[0];
+  }
+  succeed({"build", "p"});
+  EXPECT_NE(readFile(at("p/build/app.so")), readFile(at("evil.so")));
+}
+
+// -------------------------------------------------------------------------------------------------
+// the cache
+
+class SharedCache : public HostileProject {
+protected:
+  /// The program counts as it should, and says or does not say that the cache is not used.
+  void expectRun(bool trusted, Environment environment) {
+    std::vector<std::string> command = {"/usr/bin/env", "-i", "PATH=/usr/bin:/bin"};
+    for (const auto &[name, value] : environment)
+      command.push_back(name + "=" + value);
+    command.insert(command.end(), {STRIDE_BINARY_DIR "/stride", "sim", at("p/a.st").string(),
+                                   "--for", "T#30ms", "--print", "PLC_PRG.n"});
+    const ProcessResult result = runProcess(command, scratch_.path());
+    EXPECT_EQ(result.out, "PLC_PRG.n = 3\n") << result.err;
+    if (trusted)
+      EXPECT_EQ(result.err, "");
+    else
+      EXPECT_THAT(result.err, HasSubstr("warning[SE0839]"));
+  }
+  std::string ownName() const { return "tmp/stride-" + std::to_string(::geteuid()); }
+  /// A cache that holds wrong code for this program: that of another one, under all keys.
+  void fillWithWrongCode(const fs::path &folder) {
+    std::vector<fs::path> applications;
+    for (const fs::directory_entry &entry : fs::recursive_directory_iterator(folder))
+      if (entry.path().extension() == ".so" || entry.path().extension() == ".o")
+        writeFile(entry.path(), "wrong code");
+  }
+};
+
+TEST_F(SharedCache, WithoutAHomeItIsInTheFolderForTemporaryFiles) {
+  fs::create_directory(at("tmp"));
+  const Environment temporary = {{"TMPDIR", at("tmp").string()}};
+  expectRun(true, temporary);
+  EXPECT_TRUE(fs::exists(at(ownName() + "/v1/CACHEDIR.TAG")));
+  EXPECT_EQ(fs::status(at(ownName())).permissions(), fs::perms::owner_all);
+  expectRun(true, temporary);
+}
+
+TEST_F(SharedCache, FoldersThatOthersMayWriteAreNotUsed) {
+  fs::create_directory(at("tmp"));
+  const Environment temporary = {{"TMPDIR", at("tmp").string()}};
+  // Somebody was there before us.
+  fs::create_directory(at(ownName()));
+  ASSERT_EQ(::chmod(at(ownName()).c_str(), 0777), 0);
+  expectRun(false, temporary);
+  EXPECT_TRUE(fs::is_empty(at(ownName())));
+  fs::remove(at(ownName()));
+  link("../home", ownName());
+  expectRun(false, temporary);
+  expectHomeUntouched();
+  fs::remove(at(ownName()));
+  write(ownName(), "a file");
+  expectRun(false, temporary);
+  if (::geteuid() == 0) {
+    fs::remove(at(ownName()));
+    fs::create_directory(at(ownName()));
+    ASSERT_EQ(::chown(at(ownName()).c_str(), 65534, 65534), 0);
+    expectRun(false, temporary);
+  }
+}
+
+TEST_F(SharedCache, AFolderWithoutOurMarkIsSomebodyElses) {
+  write("cache/stride/v1/work/thesis.txt", "years of work");
+  fs::permissions(at("cache/stride"), fs::perms::owner_all);
+  fs::permissions(at("cache/stride/v1"), fs::perms::owner_all);
+  expectRun(false,
+            {{"XDG_CACHE_HOME", at("cache").string()}, {"TMPDIR", scratch_.path().string()}});
+  EXPECT_EQ(read("cache/stride/v1/work/thesis.txt"), "years of work");
+  EXPECT_FALSE(fs::exists(at("cache/stride/v1/CACHEDIR.TAG")));
+}
+
+TEST_F(SharedCache, WhatIsDamagedIsMadeAnew) {
+  succeed({"sim", "p/a.st", "--for", "T#30ms"});
+  fillWithWrongCode(at("cache/stride/v1"));
+  EXPECT_EQ(stride({"sim", "p/a.st", "--for", "T#30ms", "--print", "PLC_PRG.n"}).out,
+            "PLC_PRG.n = 3\n");
+  // Cut off, as after a loss of power; one byte of it changed.
+  for (const bool cut : {true, false})
+    for (const fs::directory_entry &entry :
+         fs::recursive_directory_iterator(at("cache/stride/v1"))) {
+      if (entry.path().extension() != ".so" && entry.path().extension() != ".o")
+        continue;
+      std::string text = readFile(entry.path());
+      if (cut)
+        text.resize(text.size() / 2);
+      else
+        text[text.size() / 2] = static_cast<char>(text[text.size() / 2] ^ 1);
+      writeFile(entry.path(), text);
+      const ProcessResult result =
+          stride({"sim", "p/a.st", "--for", "T#30ms", "--print", "PLC_PRG.n"});
+      EXPECT_EQ(result.out, "PLC_PRG.n = 3\n") << entry.path() << result.err;
+    }
+}
+
+} // namespace
+} // namespace stride::test
