@@ -75,9 +75,9 @@ struct FormatOptions {
 int formatCommand(const FormatOptions &options);
 
 /// Writes the reference of the project, or with `library` of the standard library, as HTML into
-/// the folder `out`. With a folder `figures`, its pictures LIBRARY/NAME.svg (of a project
-/// PROJECT/NAME.svg) stand in the sections of what they are named after, and a text beside one,
-/// NAME.txt, below it.
+/// the folder `out` (empty: `doc`). With a folder `figures`, its pictures LIBRARY/NAME.svg (of a
+/// project PROJECT/NAME.svg) stand in the sections of what they are named after, and a text beside
+/// one, NAME.txt, below it.
 int documentCommand(const ProjectOptions &options, bool library, const std::string &figures,
                     const std::string &out);
 

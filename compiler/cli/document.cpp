@@ -4,9 +4,11 @@
 #include "compiler/doc/html.hpp"
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/library_index.hpp"
+#include "compiler/project/output_folder.hpp"
 #include "compiler/project/project.hpp"
 #include "compiler/syntax/parser.hpp"
 
+#include <cerrno>
 #include <filesystem>
 #include <fmt/format.h>
 #include <iterator>
@@ -16,12 +18,22 @@ namespace stc::cli {
 
 namespace {
 
-int write(const std::vector<doc::Page> &pages, const std::filesystem::path &folder,
-          const Output &output) {
-  for (const doc::Page &page : pages)
-    if (!writeIfDifferent(folder / page.path, page.text))
-      return showError(Code::cannotWrite,
-                       fmt::format("{}: {}", (folder / page.path).string(), lastError()), output);
+/// Into the folder that the user has named, or else into `doc` where he stands: perhaps in a
+/// project whose author has put a link there.
+int write(const std::vector<doc::Page> &pages, const std::string &out, const Output &output) {
+  const std::filesystem::path below = out.empty() ? "doc" : "";
+  const std::optional<OutputFolder> folder = OutputFolder::open(out);
+  for (const doc::Page &page : pages) {
+    const std::filesystem::path name = below / page.path;
+    if (folder && (folder->read(name) == page.text || folder->write(name, page.text)))
+      continue;
+    const std::string path = (std::filesystem::path(out) / name).string();
+    if (errno == ELOOP)
+      return showError(Code::linkInTheWay,
+                       fmt::format("`{}` is not written: a symbolic link leads there", path),
+                       output);
+    return showError(Code::cannotWrite, fmt::format("{}: {}", path, lastError()), output);
+  }
   return 0;
 }
 

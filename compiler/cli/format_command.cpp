@@ -30,7 +30,7 @@ int formatStdin(const FormatOptions &options) {
   SourceManager sources;
   Diagnostics diagnostics;
   const FormatSettings settings = readFormatSettings({}, sources, diagnostics);
-  std::vector<FormattedFile> files{{{}, "<stdin>", readStdin(), {}}};
+  std::vector<FormattedFile> files{{{}, "<stdin>", false, readStdin(), {}}};
   if (!diagnostics.hasErrors())
     formatFiles(files, settings, sources, diagnostics);
   const int exitCode = showAll(diagnostics, sources, options.output);
@@ -66,6 +66,11 @@ int formatCommand(const FormatOptions &options) {
         print(lineDiff(file.before, file.after, file.name));
       else if (options.check)
         print(file.name + "\n");
+      else if (file.outside)
+        diagnostics
+            .report(Code::linkInTheWay, {},
+                    fmt::format("`{}` is not written: a symbolic link leads there", file.name))
+            .help("format it where it is, or name it on the command line");
       else if (!replaceFile(file.path, file.after))
         diagnostics.report(Code::cannotWrite, {},
                            fmt::format("`{}` cannot be written: {}", file.name, lastError()));

@@ -373,8 +373,7 @@ int run(int argc, char **argv) {
                    "Pictures LIBRARY/NAME.svg, with what they show in NAME.txt")
       ->type_name("FOLDER");
   document->add_option("-o,--out", out, "Folder for the pages (default: doc)")->type_name("FOLDER");
-  document->callback(
-      [&] { exitCode = documentCommand(options, library, figures, out.empty() ? "doc" : out); });
+  document->callback([&] { exitCode = documentCommand(options, library, figures, out); });
 
   TestOptions tests;
   CLI::App *test = app.add_subcommand("test", "Build and run the unit tests");

@@ -141,7 +141,8 @@ std::vector<FormattedFile> formatPath(const fs::path &path, SourceManager &sourc
       continue;
     }
     const std::string name = one.lexically_normal().string();
-    files.push_back({one, name, std::move(*bytes), {}});
+    files.push_back(
+        {one, name, fs::is_directory(status) && leadsOut(path, one), std::move(*bytes), {}});
   }
   formatFiles(files, settings, sources, diagnostics);
   return files;

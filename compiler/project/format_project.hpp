@@ -15,7 +15,8 @@ namespace stc {
 /// A source file and its formatted form, both with the bytes of the file's encoding.
 struct FormattedFile {
   std::filesystem::path path;
-  std::string name; ///< as messages show it
+  std::string name;     ///< as messages show it
+  bool outside = false; ///< found in a folder, from which a link leads to it
   std::string before;
   std::string after; ///< equal to `before` when it cannot be formatted
 };

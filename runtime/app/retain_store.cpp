@@ -24,7 +24,10 @@ constexpr off_t kMostBytes = off_t{1} << 31;
 class SystemFiles final : public RetainFiles {
 public:
   int create(const std::string &path, int &handle) override {
-    handle = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    // What a process that was ended has left, or a link that somebody has put there.
+    if (::unlink(path.c_str()) != 0 && errno != ENOENT)
+      return errno;
+    handle = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
     return handle < 0 ? errno : 0;
   }
   int write(int handle, std::span<const std::byte> bytes) override {
@@ -53,7 +56,7 @@ public:
     return error;
   }
   int read(const std::string &path, std::vector<std::byte> &bytes) override {
-    const int handle = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    const int handle = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (handle < 0)
       return errno;
     const int error = readAll(handle, bytes);
@@ -66,8 +69,8 @@ private:
     struct ::stat info {};
     if (::fstat(handle, &info) != 0)
       return errno;
-    if (S_ISDIR(info.st_mode))
-      return EISDIR;
+    if (!S_ISREG(info.st_mode))
+      return S_ISDIR(info.st_mode) ? EISDIR : EINVAL;
     if (info.st_size > kMostBytes)
       return EFBIG;
     bytes.resize(static_cast<std::size_t>(info.st_size));
@@ -199,7 +202,7 @@ RetainLock::RetainLock(const std::string &file) {
   std::error_code ignored;
   std::filesystem::create_directories(folderOf(file), ignored);
   const std::string path = file + ".lock";
-  handle_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  handle_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0644);
   if (handle_ < 0)
     throw Error(fmt::format("cannot create '{}': {}\n  name a file for the retained data where you "
                             "may write, in [retain] of stride.toml or with --retain",

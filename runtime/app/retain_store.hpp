@@ -21,7 +21,7 @@ public:
   RetainFiles &operator=(const RetainFiles &) = delete;
   virtual ~RetainFiles() = default;
 
-  /// A new, empty file, or the existing one made empty.
+  /// A new, empty file in the place of what is there.
   virtual int create(const std::string &path, int &handle) = 0;
   virtual int write(int handle, std::span<const std::byte> bytes) = 0;
   /// What was written is on the disk.

@@ -41,6 +41,15 @@ Outcome allOf(Outcome written, uint64_t size) {
   return written;
 }
 
+/// Whether links on the way lead out of the folder. What is not there yet leads nowhere.
+bool leadsOut(const std::string &folder, const std::string &path) {
+  std::error_code error;
+  const std::filesystem::path root = std::filesystem::weakly_canonical(folder, error);
+  const std::filesystem::path real = std::filesystem::weakly_canonical(path, error);
+  return error ||
+         std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first != root.end();
+}
+
 /// As many bytes as there are.
 Outcome readAll(int file, std::byte *data, uint64_t size) {
   return inParts(size, [&](uint64_t done) { return ::read(file, data + done, size - done); });
@@ -102,6 +111,8 @@ std::string Disk::resolve(std::string_view name, FileError &error) const {
         return {};
       at = end + 1;
     }
+    if (leadsOut(root_, root_ + '/' + path))
+      return {};
   }
   error = FileError::None;
   return absolute ? path : root_ + '/' + path;
