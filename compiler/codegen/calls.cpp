@@ -68,7 +68,8 @@ void Emitter::defaultArgument(const VarSymbol *parameter) {
     return;
   }
   const std::string name = temporary("default");
-  w_ << "[&] { " << type << ' ' << name << "{}; ";
+  w_ << "[&] { ";
+  declareTemporary(parameter->type, name, Addressed::holdsBlock(parameter->type));
   inlineStatements([&](Emitter &inner) { inner.initVariable(name, parameter); });
   w_ << "return " << name << "; }()";
 }
@@ -99,7 +100,8 @@ void Emitter::inlineStatements(const std::function<void(Emitter &)> &write) {
 /// A list of values as a value.
 void Emitter::aggregateValue(const Type *type, const Expr *init) {
   const std::string name = temporary("value");
-  w_ << "[&] { " << this->type(type) << ' ' << name << "{}; ";
+  w_ << "[&] { ";
+  declareTemporary(type, name, Addressed::holdsBlock(type));
   inlineStatements([&](Emitter &inner) {
     inner.typeDefault(name, type);
     inner.initValue(name, type, init);
@@ -176,9 +178,16 @@ void Emitter::functionCall(const CallExpr *e, bool asStatement) {
     includes_.complete(object->type);
     const bool isValue = object->type->kind == TypeKind::interface ||
                          object->kind == ExprKind::call || writtenProperty(object) != nullptr;
-    w_ << (isValue ? "auto " : "auto &") << names.back() << " = ";
+    const bool placed = isValue && isInstance(object->type);
+    if (placed)
+      w_ << "::stride::OnDataStack<" << type(object->type) << "> " << names.back() << "__local("
+         << ctx() << ", ";
+    else
+      w_ << (isValue ? "auto " : "auto &") << names.back() << " = ";
     raw(object);
-    w_ << "; ";
+    w_ << (placed ? "); " : "; ");
+    if (placed)
+      w_ << "auto &" << names.back() << " = " << names.back() << "__local.value(); ";
   }
   for (const Argument &a : e->arguments) { // in the order of the call
     const VarSymbol *p = a.parameter;
@@ -190,7 +199,7 @@ void Emitter::functionCall(const CallExpr *e, bool asStatement) {
       if (!needsCopy(a))
         continue;
       name = temporary("copy");
-      w_ << type(p->type) << ' ' << name << "{}; ";
+      declareTemporary(p->type, name, c_.addressed.onDataStack(p));
       storeTo(name, p->type, a.value);
       w_ << ' ';
     } else if (order && isInput(p) && a.value->constant == nullptr) {
@@ -210,7 +219,7 @@ void Emitter::functionCall(const CallExpr *e, bool asStatement) {
     if (p->section != Section::output)
       continue;
     names[k] = temporary("out");
-    w_ << type(p->type) << ' ' << names[k] << "{}; ";
+    declareTemporary(p->type, names[k], c_.addressed.onDataStack(p));
     const Argument *a = argumentFor(e, p);
     if (a != nullptr && a->value != nullptr)
       results.emplace_back(a, names[k]);
@@ -296,7 +305,7 @@ void Emitter::instanceCall(const CallExpr *e, Span span) {
       if (!braces)
         w_ << "{ ";
       braces = true;
-      w_ << type(p->type) << ' ' << copy << "{}; ";
+      declareTemporary(p->type, copy, c_.addressed.onDataStack(p));
       storeTo(copy, p->type, a.value);
       w_ << ' ' << field << " = &" << copy << ';';
     } else if (isIndirect(p)) {

@@ -1,6 +1,7 @@
 #pragma once
 // Bodies and initial values: statements and expressions of one POU (or of a group of types) as C++.
 
+#include "compiler/codegen/addressed.hpp"
 #include "compiler/codegen/analysis.hpp"
 #include "compiler/codegen/layout.hpp"
 #include "compiler/codegen/loop_locals.hpp"
@@ -24,10 +25,11 @@ struct Context {
   Layouts layouts;
   Analysis analysis;
   LoopLocals loopLocals;
+  Addressed addressed;
 
   Context(const Program &p, const Library *library)
       : program(p), own(library), names(p), layouts(p, library), analysis(p.settings, p.sharing),
-        loopLocals(analysis) {}
+        loopLocals(analysis), addressed(p, library) {}
 };
 
 /// An object of its own in the application's state: a variable list, a program, or the statics of a
@@ -62,11 +64,16 @@ public:
   void block(ast::Block block);
 
   // initializers.cpp
+  /// What an input is called in the signature of its POU's definition.
+  static std::string inputName(Context &context, const VarSymbol *input);
   /// Brings zeroed memory to the variable's default; `target` is a C++ lvalue.
   void initVariable(std::string_view target, const VarSymbol *variable);
   /// Gives a local variable its default: `T x = 5;` or `T x{};` and what follows.
   /// Without an initial value of its own it counts as standing at `start`, where the body begins.
   void declareLocal(const VarSymbol *variable, Span start);
+  /// The place of an input on the data stack, which begins with what was passed; nothing for
+  /// others.
+  void declareInput(const VarSymbol *input, Span start);
   /// Gives what VAR_CONFIG says of a variable: its initial value.
   void initConfigured(const SlotPlace &entry);
 
@@ -262,6 +269,8 @@ private:
   void lifecycleOf(std::string_view target, const Type *type, std::string_view what);
   void exitAtEnd(const VarSymbol *variable);
   void aggregateValue(const Type *type, const ast::Expr *init);
+  /// `T name{}; `: a temporary of zeroed memory.
+  void declareTemporary(const Type *type, std::string_view name, bool onDataStack);
   /// Inline statements that bring `target` to a default, gathered on one line.
   void inlineStatements(const std::function<void(Emitter &)> &write);
 
@@ -316,7 +325,6 @@ private:
   /// not leave one.
   bool leaveTry(const ast::Stmt *s);
 
-  // initializers.cpp
   void writtenDefault(std::string_view target, const Type *type, const Written &written);
   void typeDefault(std::string_view target, const Type *type);
   void defaultStatement(std::string_view target, const Type *type);

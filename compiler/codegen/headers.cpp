@@ -33,12 +33,15 @@ std::string_view sectionName(Section section) {
 }
 
 /// `T *` and `T &` want no blank behind them.
-std::string declared(std::string_view type, std::string_view name) {
+std::string declaredAs(std::string_view type, std::string_view mangled) {
   std::string out(type);
   if (out.back() != '*' && out.back() != '&')
     out += ' ';
-  mangleTo(out, name);
-  return out;
+  return out.append(mangled);
+}
+
+std::string declared(std::string_view type, std::string_view name) {
+  return declaredAs(type, mangle(name));
 }
 
 class HeaderBuilder {
@@ -208,7 +211,9 @@ public:
       } else {
         includes_.complete(p->type);
       }
-      out += declared(type, p->name.text);
+      out += definition != nullptr && p->section == Section::input
+                 ? declaredAs(type, Emitter::inputName(c_, p))
+                 : declared(type, p->name.text);
     }
     return out + ")";
   }

@@ -316,6 +316,14 @@ void Emitter::declareLocal(const VarSymbol *variable, Span start) {
   const std::string name = mangle(variable->name.text);
   const Expr *init = c_.layouts.initOf(variable);
   begin(init == nullptr && start.valid() ? start : variable->name.span);
+  if (c_.addressed.onDataStack(variable)) {
+    declareTemporary(variable->type, name, true);
+    end();
+    initVariable(name, variable);
+    if (!variable->isResult)
+      exitAtEnd(variable);
+    return;
+  }
   if (!used(variable))
     w_ << "[[maybe_unused]] ";
   w_ << type(variable->type) << (c_.names.type(variable->type).back() == '*' ? "" : " ") << name;
@@ -332,6 +340,31 @@ void Emitter::declareLocal(const VarSymbol *variable, Span start) {
   initVariable(name, variable);
   if (!variable->isResult)
     exitAtEnd(variable);
+}
+
+std::string Emitter::inputName(Context &context, const VarSymbol *input) {
+  return mangle(input->name.text) + (context.addressed.onDataStack(input) ? "__in" : "");
+}
+
+void Emitter::declareInput(const VarSymbol *input, Span start) {
+  if (!c_.addressed.onDataStack(input))
+    return;
+  const std::string name = mangle(input->name.text);
+  begin(start.valid() ? start : input->name.span);
+  w_ << "::stride::OnDataStack<" << type(input->type) << "> " << name << "__local(" << ctx() << ", "
+     << inputName(c_, input) << "); [[maybe_unused]] auto &" << name << " = " << name
+     << "__local.value();";
+  end();
+}
+
+void Emitter::declareTemporary(const Type *type, std::string_view name, bool onDataStack) {
+  if (!onDataStack) {
+    w_ << this->type(type) << ' ' << name << "{}; ";
+    return;
+  }
+  includes_.complete(type);
+  w_ << "::stride::OnDataStack<" << this->type(type) << "> " << name << "__local(" << ctx()
+     << "); [[maybe_unused]] auto &" << name << " = " << name << "__local.value(); ";
 }
 
 } // namespace stc::codegen

@@ -32,7 +32,9 @@ std::string methodSignature(Context &context, Includes &includes, const PouSymbo
       type += type.back() == '*' ? "&" : " &";
     if (type.back() != '*' && type.back() != '&')
       type += ' ';
-    out += type + mangle(p->name.text);
+    out += type + (definition != nullptr && p->section == Section::input
+                       ? Emitter::inputName(context, p)
+                       : mangle(p->name.text));
   }
   return out + ")";
 }

@@ -152,7 +152,9 @@ public:
     if (pou->result != nullptr)
       e_.declareLocal(pou->result, startOf(pou));
     for (const VarSymbol *v : pou->variables) {
-      if (v->section == Section::output && c_.layouts.needsInit(v))
+      if (v->section == Section::input)
+        e_.declareInput(v, startOf(pou));
+      else if (v->section == Section::output && c_.layouts.needsInit(v))
         e_.initVariable(mangle(v->name.text), v);
       else if (v->section == Section::local || v->section == Section::temp)
         e_.declareLocal(v, startOf(pou));

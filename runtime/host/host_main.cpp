@@ -3,11 +3,13 @@
 #include "runtime/app/error.hpp"
 #include "runtime/host/axis_hooks.hpp"
 #include "runtime/host/control.hpp"
+#include "runtime/host/exit_code.hpp"
 #include "runtime/host/options.hpp"
 #include "runtime/host/real_run.hpp"
 #include "runtime/host/retain_reset.hpp"
 #include "runtime/host/simulation.hpp"
 #include "runtime/host/test_run.hpp"
+#include "runtime/task/fatal.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -22,7 +24,7 @@ namespace {
 
 constexpr const char *kExitCodes =
     "Exit codes: 0 the run reached its end, 1 bad input, 2 an application was stopped by an\n"
-    "exception, 130 a simulation was interrupted.";
+    "exception, 3 the runtime itself could not go on, 130 a simulation was interrupted.";
 
 /// The options as text, before they are understood.
 struct SimTexts {
@@ -289,6 +291,7 @@ int runFrom(const RunTexts &texts, const StrideAppV1 *builtIn) {
 } // namespace
 
 int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
+  const task::FatalReport lastWords(kExitFatal);
   CLI::App cli("Runs applications that 'stride build' has made.");
   cli.require_subcommand(1);
   cli.footer(kExitCodes);

@@ -277,7 +277,7 @@ private:
 
   /// Code of the application runs on such a stack and with signals as its tasks.
   static void onLowStack(const std::function<void()> &function) {
-    task::runOnLowStack([&] {
+    task::runOnTaskThread([&] {
       const task::MemoryGuard guard;
       function();
     });

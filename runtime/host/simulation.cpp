@@ -9,7 +9,7 @@
 #include "runtime/host/set_list.hpp"
 #include "runtime/host/st_backtrace.hpp"
 #include "runtime/host/trace_writer.hpp"
-#include "runtime/task/low_stack.hpp"
+#include "runtime/task/task_thread.hpp"
 #include "runtime/task/virtual_scheduler.hpp"
 
 #include <fmt/format.h>
@@ -333,7 +333,7 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
 
 ExitCode simulate(std::unique_ptr<app::Application> application, const SimOptions &options) {
   ExitCode code = kExitOk;
-  task::runOnLowStack([&] { code = simulateHere(std::move(application), options); });
+  task::runOnTaskThread([&] { code = simulateHere(std::move(application), options); });
   return code;
 }
 

@@ -126,9 +126,8 @@ bool SystemServices::owns(const Ctx &ctx, const void *at, uint64_t size) const n
         return true;
     }
   }
-  // What lies below this frame is not of the program.
-  const task::StackRange stack = task::threadStack();
-  return inside(reinterpret_cast<uintptr_t>(__builtin_frame_address(0)), stack.high);
+  // Variables of the calls that are active.
+  return inside(task::dataStack().low, reinterpret_cast<uintptr_t>(ctx.dataTop));
 }
 
 /// Constant within a cycle. Where somebody has set the system's clock, that is followed.

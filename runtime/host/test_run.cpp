@@ -11,7 +11,7 @@
 #include "runtime/host/system_services.hpp"
 #include "runtime/host/test_report.hpp"
 #include "runtime/iec/assert.h"
-#include "runtime/task/low_stack.hpp"
+#include "runtime/task/task_thread.hpp"
 #include "runtime/task/task_set.hpp"
 
 #include <fmt/format.h>
@@ -232,7 +232,7 @@ int TestCommand::run() {
   fmt::print("running {} test{}\n", plans.size(), plans.size() == 1 ? "" : "s");
   std::vector<TestResult> results;
   std::size_t failed = 0;
-  task::runOnLowStack([&] {
+  task::runOnTaskThread([&] {
     const task::MemoryGuard guard;
     for (const Plan &plan : plans) {
       fmt::print("test {} ... ", plan.name);

@@ -1,9 +1,15 @@
 #include "runtime/task/fault.hpp"
 
+#include "runtime/app/low_memory.hpp"
 #include "runtime/iec/text.h"
+#include "runtime/task/fatal.hpp"
+#include "runtime/task/signal_handlers.hpp"
+#include "runtime/task/task_thread.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <csetjmp>
 #include <csignal>
 #include <cstdio>
@@ -22,7 +28,9 @@ namespace {
 struct Landing {
   sigjmp_buf place;
   const volatile char *stack;
-  bool arrived = false; ///< A signal has come: another one while its calls are captured adds none.
+  const Ctx *ctx;
+  Landing *outer;        ///< Of a call around this one.
+  unsigned arrivals = 0; ///< Signals: one that comes while the calls are captured adds none.
   std::size_t callCount = 0;
   uintptr_t calls[StException::kMaxCalls];
 };
@@ -32,26 +40,38 @@ constexpr int kSignals[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 constexpr int kInvalidAccess = 1;
 constexpr int kStackOverflow = 2;
 
-/// Lower end and size of this thread's stack, known while a MemoryGuard lives.
+/// Signals of one call after which there is no use in landing once more.
+constexpr unsigned kMostArrivals = 3;
+
+/// Lower end and size of this thread's stack, known while a MemoryGuard lives; so is its data
+/// stack.
 thread_local uintptr_t stackLow = 0;
 thread_local std::size_t stackSize = 0;
+thread_local char *dataLow = nullptr;
+thread_local char *dataHigh = nullptr;
+
+/// Places for data stacks: 16 in the second half of each part of the memory below 4 GiB.
+constexpr auto kDataPlaces = [] {
+  constexpr uint64_t kPart = app::kPartOfLowMemory;
+  constexpr uint64_t kStep = kPart / 32;
+  static_assert(kDataStack + 2 * app::LowMemory::kGuard <= kStep);
+  std::array<uint64_t, 16 * (app::kFourGiB / kPart - 1)> places{};
+  for (std::size_t i = 0; i < places.size(); ++i)
+    places[i] = (i / 16 + 1) * kPart + kPart / 2 + i % 16 * kStep + app::LowMemory::kGuard;
+  return places;
+}();
 
 /// Near the lower end of the stack, on which the call is.
 bool isStackOverflow(const void *address) {
-  constexpr uintptr_t kBelow = 64U << 20; // a large frame reaches far behind the end
   const auto at = reinterpret_cast<uintptr_t>(address);
   return at < reinterpret_cast<uintptr_t>(landing->stack) && at < stackLow + stackSize / 2 &&
-         at + kBelow > stackLow;
+         at + kBelowTaskStack > stackLow;
 }
 
 extern "C" void strideOnSignal(int number, siginfo_t *info, void *) {
-  if (landing == nullptr) {
-    std::signal(number, SIG_DFL); // a defect of our own: end as usual
-    std::raise(number);
-    return;
-  }
-  if (!landing->arrived) {
-    landing->arrived = true;
+  if (landing == nullptr || landing->arrivals == kMostArrivals)
+    endBySignal(number, info->si_addr);
+  if (landing->arrivals++ == 0) {
     landing->callCount = captureCalls(landing->calls, StException::kMaxCalls);
   }
   siglongjmp(landing->place,
@@ -123,9 +143,13 @@ SignalHandlers &signalHandlers() {
 
 } // namespace
 
+void useSignalHandlers() { signalHandlers().use(); }
+void releaseSignalHandlers() { signalHandlers().release(); }
+
 struct MemoryGuard::Impl {
   std::vector<char> stack = std::vector<char>(64U << 10);
   stack_t oldStack{};
+  app::LowMemory data{kDataStack, kDataPlaces, "the data stack of a task"};
 };
 
 MemoryGuard::MemoryGuard() : impl_(std::make_unique<Impl>()) {
@@ -140,38 +164,81 @@ MemoryGuard::MemoryGuard() : impl_(std::make_unique<Impl>()) {
   stack.ss_sp = impl_->stack.data();
   stack.ss_size = impl_->stack.size();
   ::sigaltstack(&stack, &impl_->oldStack);
+  dataLow = reinterpret_cast<char *>(impl_->data.data());
+  dataHigh = dataLow + impl_->data.size();
   signalHandlers().use();
 }
 
 MemoryGuard::~MemoryGuard() {
   signalHandlers().release();
+  dataLow = dataHigh = nullptr;
   ::sigaltstack(&impl_->oldStack, nullptr);
 }
 
-StackRange threadStack() noexcept { return {stackLow, stackLow + stackSize}; }
+DataStackRange dataStack() noexcept {
+  return {reinterpret_cast<uintptr_t>(dataLow), reinterpret_cast<uintptr_t>(dataHigh)};
+}
+
+void touchDataStack(std::size_t bytes) noexcept {
+  constexpr std::size_t kPage = 4096;
+  if (dataLow == nullptr)
+    return;
+  volatile char *const low = dataLow;
+  for (std::size_t at = 0; at < std::min(bytes, kDataStack); at += kPage)
+    low[at] = 0;
+}
+
+namespace {
+
+/// The data stack as the call finds it, and where the thread lands; both are as before when the
+/// call has ended.
+class Guarded {
+public:
+  Guarded(Landing &here, Ctx &ctx)
+      : ctx_(ctx), outer_(landing), oldTop_(ctx.dataTop), oldEnd_(ctx.dataEnd) {
+    here.ctx = &ctx;
+    here.outer = landing;
+    ctx.dataTop = outer_ != nullptr ? outer_->ctx->dataTop : dataLow;
+    ctx.dataEnd = dataHigh;
+    landing = &here;
+  }
+  ~Guarded() {
+    landing = outer_;
+    ctx_.dataTop = oldTop_;
+    ctx_.dataEnd = oldEnd_;
+  }
+  Guarded(const Guarded &) = delete;
+  Guarded &operator=(const Guarded &) = delete;
+
+private:
+  Ctx &ctx_;
+  Landing *outer_;
+  char *oldTop_;
+  char *oldEnd_;
+};
+
+} // namespace
 
 std::optional<StException> guardedCall(void (*run)(Ctx *), Ctx &ctx) {
   Landing here;
   char onStack = 0;
   here.stack = &onStack;
-  // ST frames hold nothing to destroy, so a jump out of them leaves nothing behind.
+  const Guarded guarded(here, ctx);
+  // ST frames hold nothing to destroy but their places on the data stack, so a jump out of them
+  // leaves nothing behind.
   const int arrived = sigsetjmp(here.place, 0);
   if (arrived != 0) {
-    landing = nullptr;
     StException exception(arrived == kStackOverflow ? ExceptionCode::StackOverflow
                                                     : ExceptionCode::AccessViolation,
                           nullptr, 0, 0, nullptr);
     exception.setCalls(here.calls, here.callCount);
     return exception;
   }
-  landing = &here;
   try {
     run(&ctx);
   } catch (const StException &exception) {
-    landing = nullptr;
     return exception;
   }
-  landing = nullptr;
   return std::nullopt;
 }
 

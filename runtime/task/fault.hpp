@@ -28,8 +28,9 @@ std::string describe(const Fault &fault, std::string_view place = {});
 
 /// While it lives, invalid memory accesses and stack overflows of this thread inside guardedCall
 /// end the call instead of the process: signal handlers, on a stack of their own. Elsewhere they
-/// end the process as usual. Every thread that runs cycles has one; the handlers, which belong to
-/// the process, come with the first and go with the last.
+/// end the process (fatal.hpp). It also holds the thread's data stack. Every thread that runs
+/// cycles has one; the handlers, which belong to the process, come with the first and go with the
+/// last.
 class MemoryGuard {
 public:
   MemoryGuard();
@@ -42,14 +43,22 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-/// The stack of a thread with a MemoryGuard; empty for others.
-struct StackRange {
+/// Bytes of a data stack (runtime/iec/data_stack.h). It lies below 4 GiB, at the first free of a
+/// fixed series of addresses, so that addresses repeat from run to run.
+inline constexpr std::size_t kDataStack = std::size_t{8} << 20;
+
+/// The data stack of a thread with a MemoryGuard; empty for others.
+struct DataStackRange {
   uintptr_t low = 0;
   uintptr_t high = 0;
 };
-StackRange threadStack() noexcept;
+DataStackRange dataStack() noexcept;
 
-/// Calls run(&ctx). Returns what stopped it, if something did. Never allocates.
+/// Touches the first so many bytes, before real time begins.
+void touchDataStack(std::size_t bytes) noexcept;
+
+/// Calls run(&ctx) with the thread's data stack. Returns what stopped it, if something did. Never
+/// allocates. Within such a call there may be another one.
 std::optional<StException> guardedCall(void (*run)(Ctx *), Ctx &ctx);
 
 /// The host's table for applications in simulation: raise throws StException, an endless loop ends

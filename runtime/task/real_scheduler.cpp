@@ -56,7 +56,7 @@ RealScheduler::~RealScheduler() {
 void RealScheduler::start() {
   try {
     for (const std::unique_ptr<Worker> &worker : workers_)
-      worker->thread = std::make_unique<LowThread>([this, w = worker.get()] { work(*w); });
+      worker->thread = std::make_unique<TaskThread>([this, w = worker.get()] { work(*w); });
   } catch (...) {
     end();
     throw;
@@ -79,6 +79,7 @@ void RealScheduler::prepareThread(const Worker &worker) const {
   else if (options_.core)
     pinTo(*options_.core);
   touchStack(kTouchedStack);
+  touchDataStack(kTouchedStack);
   useExactTimers();
   if (options_.fifo)
     useFifo(desc.priority);

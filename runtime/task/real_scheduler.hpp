@@ -3,7 +3,7 @@
 #define STRIDE_RUNTIME_TASK_REAL_SCHEDULER_HPP
 
 #include "runtime/task/cycle_gate.hpp"
-#include "runtime/task/low_stack.hpp"
+#include "runtime/task/task_thread.hpp"
 #include "runtime/task/task_set.hpp"
 
 #include <semaphore.h>
@@ -63,7 +63,7 @@ private:
     ::sem_t raised{};               ///< An event, or the end.
     std::atomic<bool> level{false}; ///< Of the event, when it was last looked at.
     std::atomic<bool> pending{false};
-    std::unique_ptr<LowThread> thread;
+    std::unique_ptr<TaskThread> thread;
   };
 
   void work(Worker &worker);

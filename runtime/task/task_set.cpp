@@ -1,6 +1,7 @@
 #include "runtime/task/task_set.hpp"
 
 #include "runtime/app/error.hpp"
+#include "runtime/task/fatal.hpp"
 
 #include <fmt/format.h>
 
@@ -102,6 +103,7 @@ StException TaskSet::watchdogIn(const StException &loop, const Task &task,
 void TaskSet::runCycle(uint32_t index, int64_t startNs, int64_t latencyNs) noexcept {
   Task &task = *tasks_[index];
   Ctx &ctx = task.ctx;
+  noteCycle(app_->tasks[index].name, ctx.cycle);
   task.startedNs = monotonicNs();
   ctx.cycleStartNs = startNs;
   task.looks = 0;
@@ -135,6 +137,7 @@ void TaskSet::runCycle(uint32_t index, int64_t startNs, int64_t latencyNs) noexc
   task.statistics.add({startNs, startNs + latencyNs, run});
   if (limit_ == LoopLimit::Clock)
     watch(index, run);
+  noteCycle(nullptr, 0);
   ctx.firstCycle = 0;
   ++ctx.cycle;
 }

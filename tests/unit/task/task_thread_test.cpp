@@ -1,4 +1,4 @@
-#include "runtime/task/low_stack.hpp"
+#include "runtime/task/task_thread.hpp"
 
 #include "runtime/app/state_block.hpp"
 #include "runtime/task/fault.hpp"
@@ -11,29 +11,29 @@
 
 namespace {
 
-using stride::task::runOnLowStack;
+using stride::task::runOnTaskThread;
 
 constexpr uint64_t kFourGiB = uint64_t{1} << 32;
 
 uint64_t addressOf(const void *p) { return reinterpret_cast<uint64_t>(p); }
 
-TEST(LowStackTest, LocalsLieBelowFourGiBAtTheSamePlaceEachTime) {
+TEST(TaskThreadTest, LocalsLieBelowFourGiBAtTheSamePlaceEachTime) {
   uint64_t first = 0;
   uint64_t second = 0;
-  runOnLowStack([&] { first = addressOf(__builtin_frame_address(0)); });
-  runOnLowStack([&] { second = addressOf(__builtin_frame_address(0)); });
+  runOnTaskThread([&] { first = addressOf(__builtin_frame_address(0)); });
+  runOnTaskThread([&] { second = addressOf(__builtin_frame_address(0)); });
   EXPECT_LT(first, kFourGiB);
   EXPECT_EQ(first, second);
 }
 
-TEST(LowStackTest, StacksAndStatesOfTwoApplicationsDoNotMeet) {
+TEST(TaskThreadTest, StacksAndStatesOfTwoApplicationsDoNotMeet) {
   const stride::app::StateBlock one(1U << 20);
   const stride::app::StateBlock two(1U << 20);
   ASSERT_TRUE(one.belowFourGiB());
   ASSERT_TRUE(two.belowFourGiB());
-  runOnLowStack([&] {
+  runOnTaskThread([&] {
     const uint64_t outer = addressOf(__builtin_frame_address(0));
-    runOnLowStack([&] {
+    runOnTaskThread([&] {
       const uint64_t inner = addressOf(__builtin_frame_address(0));
       const uint64_t distance = inner > outer ? inner - outer : outer - inner;
       EXPECT_GT(distance, stride::task::kTaskStack);
@@ -47,8 +47,8 @@ TEST(LowStackTest, StacksAndStatesOfTwoApplicationsDoNotMeet) {
   });
 }
 
-TEST(LowStackTest, ExceptionsArePassedOn) {
-  EXPECT_THROW(runOnLowStack([] { throw std::runtime_error("x"); }), std::runtime_error);
+TEST(TaskThreadTest, ExceptionsArePassedOn) {
+  EXPECT_THROW(runOnTaskThread([] { throw std::runtime_error("x"); }), std::runtime_error);
 }
 
 [[gnu::noinline]] int dig(int depth) {
@@ -60,8 +60,8 @@ TEST(LowStackTest, ExceptionsArePassedOn) {
 void digForever(stride::Ctx *) { static_cast<void>(dig(100'000'000)); }
 void touchWildMemory(stride::Ctx *) { *reinterpret_cast<volatile int *>(uint64_t{0x10}) = 1; }
 
-TEST(LowStackTest, OverflowsAndWildPointersEndTheCallOnly) {
-  runOnLowStack([] {
+TEST(TaskThreadTest, OverflowsAndWildPointersEndTheCallOnly) {
+  runOnTaskThread([] {
     const stride::task::MemoryGuard guard;
     stride::Ctx ctx{};
     const auto overflow = stride::task::guardedCall(digForever, ctx);

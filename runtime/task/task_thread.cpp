@@ -1,55 +1,37 @@
-#include "runtime/task/low_stack.hpp"
+#include "runtime/task/task_thread.hpp"
 
 #include "runtime/app/error.hpp"
 
 #include <pthread.h>
 #include <sys/mman.h>
 
-#include <bit>
-#include <cstdint>
 #include <utility>
 
 namespace stride::task {
 
-namespace {
-
-constexpr std::size_t kGuard = 4096;
-constexpr uint64_t kStep = uint64_t{1} << 29;
-constexpr uint64_t kFirstTop = 2 * kStep;
-constexpr uint64_t kFourGiB = uint64_t{1} << 32;
-
-} // namespace
-
-struct LowThread::Impl {
-  /// Memory for one stack with its guard below.
+struct TaskThread::Impl {
+  /// Memory for one stack with what lies below.
   class Stack {
   public:
-    Stack() {
-      constexpr int kProtection = PROT_READ | PROT_WRITE;
-      constexpr int kFlags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
-      for (uint64_t top = kFirstTop; memory_ == nullptr && top <= kFourGiB; top += kStep) {
-        void *wanted = std::bit_cast<void *>(top - kMapped);
-        void *got = ::mmap(wanted, kMapped, kProtection, kFlags | MAP_FIXED_NOREPLACE, -1, 0);
-        if (got == wanted)
-          memory_ = got;
-        else if (got != MAP_FAILED) // a kernel that does not know MAP_FIXED_NOREPLACE
-          ::munmap(got, kMapped);
-      }
-      if (memory_ == nullptr)
-        memory_ = ::mmap(nullptr, kMapped, kProtection, kFlags, -1, 0);
+    Stack()
+        : memory_(::mmap(nullptr, kMapped, PROT_NONE,
+                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE | MAP_STACK, -1, 0)) {
       if (memory_ == MAP_FAILED)
         throw app::Error("the system has no memory for a task's stack");
-      ::mprotect(memory_, kGuard, PROT_NONE);
+      if (::mprotect(begin(), kTaskStack, PROT_READ | PROT_WRITE) != 0) {
+        ::munmap(memory_, kMapped);
+        throw app::Error("the system has no memory for a task's stack");
+      }
     }
     ~Stack() { ::munmap(memory_, kMapped); }
     Stack(const Stack &) = delete;
     Stack &operator=(const Stack &) = delete;
 
-    void *begin() const { return static_cast<std::byte *>(memory_) + kGuard; }
+    void *begin() const { return static_cast<std::byte *>(memory_) + kBelowTaskStack; }
 
   private:
-    static constexpr std::size_t kMapped = kTaskStack + kGuard;
-    void *memory_ = nullptr;
+    static constexpr std::size_t kMapped = kBelowTaskStack + kTaskStack;
+    void *memory_;
   };
 
   std::function<void()> function;
@@ -69,7 +51,7 @@ struct LowThread::Impl {
   }
 };
 
-LowThread::LowThread(std::function<void()> function) : impl_(std::make_unique<Impl>()) {
+TaskThread::TaskThread(std::function<void()> function) : impl_(std::make_unique<Impl>()) {
   impl_->function = std::move(function);
   pthread_attr_t attributes;
   ::pthread_attr_init(&attributes);
@@ -80,12 +62,12 @@ LowThread::LowThread(std::function<void()> function) : impl_(std::make_unique<Im
     throw app::Error("the system cannot start a thread for the tasks");
 }
 
-LowThread::~LowThread() {
+TaskThread::~TaskThread() {
   if (impl_->running)
     ::pthread_join(impl_->thread, nullptr);
 }
 
-void LowThread::join() {
+void TaskThread::join() {
   if (impl_->running)
     ::pthread_join(impl_->thread, nullptr);
   impl_->running = false;
@@ -93,6 +75,6 @@ void LowThread::join() {
     std::rethrow_exception(std::exchange(impl_->exception, nullptr));
 }
 
-void runOnLowStack(const std::function<void()> &function) { LowThread(function).join(); }
+void runOnTaskThread(const std::function<void()> &function) { TaskThread(function).join(); }
 
 } // namespace stride::task
