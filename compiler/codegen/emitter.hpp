@@ -68,6 +68,9 @@ public:
   static std::string inputName(Context &context, const VarSymbol *input);
   /// Brings zeroed memory to the variable's default; `target` is a C++ lvalue.
   void initVariable(std::string_view target, const VarSymbol *variable);
+  /// The same for the first of these fields of `owner` (a C++ type), which follow each other in it,
+  /// if enough of them are alike; gives how many it has dealt with, perhaps 0.
+  std::size_t initRun(std::span<const VarSymbol *const> variables, std::string_view owner);
   /// Gives a local variable its default: `T x = 5;` or `T x{};` and what follows.
   /// Without an initial value of its own it counts as standing at `start`, where the body begins.
   void declareLocal(const VarSymbol *variable, Span start);
@@ -344,6 +347,12 @@ private:
                       std::vector<Leaf> &leaves);
   bool constantColumns(std::string_view target, const ArrayType *type,
                        const ast::AggregateExpr *init);
+
+  // initializer_runs.cpp
+  std::vector<std::vector<Leaf>> similarValues(std::span<const VarSymbol *const> variables);
+  std::string columnOf(const std::vector<std::vector<Leaf>> &rows, std::size_t column);
+  /// A long list of addresses of global variables: a table of their places.
+  bool addressTable(std::string_view target, const ArrayType *type, const ast::AggregateExpr *init);
 
   // Helpers.
   /// Begins a statement (or a later part of one) that stands at `span`.

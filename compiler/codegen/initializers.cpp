@@ -120,7 +120,8 @@ void Emitter::initValue(std::string_view target, const Type *type, const Expr *i
   const auto *list = as<AggregateExpr>(init);
   if (type->kind == TypeKind::array) {
     const auto *array = typeAs<ArrayType>(type);
-    if (!constantTable(target, array, list) && !constantColumns(target, array, list))
+    if (!constantTable(target, array, list) && !constantColumns(target, array, list) &&
+        !addressTable(target, array, list))
       arrayValues(target, array, list->items, {}, 0);
     return;
   }

@@ -44,9 +44,12 @@ public:
                          << "U;";
       e_.writer().endLine();
     }
-    for (const VarSymbol *v : variables) {
-      if (c_.layouts.needsInit(v))
-        e_.initVariable("this->" + fieldName(v), v);
+    for (std::size_t i = 0; i < variables.size();) {
+      const std::span<const VarSymbol *const> rest = std::span(variables).subspan(i);
+      const std::size_t run = e_.initRun(rest, name);
+      if (run == 0 && c_.layouts.needsInit(rest[0]))
+        e_.initVariable("this->" + fieldName(rest[0]), rest[0]);
+      i += run == 0 ? 1 : run;
     }
     const Writer body = e_.takeWriter();
     functionHead("void " + std::string(name) + "::init__(::stride::Ctx &" +
