@@ -161,6 +161,7 @@ private:
   void text(const ast::Expr *e);
   /// A variable (or element, field, bit base …) that can be assigned to.
   void place(const ast::Expr *e);
+  void placeValue(std::size_t start, const Type *type, const PouSymbol *from);
   [[nodiscard]] std::string placeText(const ast::Expr *e);
   /// The place as something to be assigned to: `x`, or `::stride::shared(x)` when several tasks use
   /// it.

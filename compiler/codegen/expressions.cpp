@@ -198,10 +198,26 @@ void Emitter::place(const Expr *e) {
     w_ << ')';
     return;
   }
-  default: // a value that is looked into: `f().x`
+  default: { // a value that is looked into: `f().x`
+    const std::size_t start = w_.size();
     raw(e);
+    if (e->kind == ExprKind::call)
+      placeValue(start, e->type, as<CallExpr>(e)->pou);
     return;
   }
+  }
+}
+
+/// The value that has been written since `start`, which `from` returns, as a place: methods of it
+/// may take its address.
+void Emitter::placeValue(std::size_t start, const Type *type, const PouSymbol *from) {
+  if (from == nullptr || from->result == nullptr ||
+      from->result->type->kind == TypeKind::reference || !Addressed::holdsBlock(type))
+    return;
+  includes_.complete(type);
+  const std::string value = w_.cut(start);
+  w_ << "::stride::OnDataStack<" << this->type(type) << ">(" << ctx() << ", " << value
+     << ").value()";
 }
 
 void Emitter::slot(const Expr *e) {

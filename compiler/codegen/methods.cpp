@@ -180,8 +180,11 @@ void Emitter::propertyGet(const Expr *instance, const PropertySymbol *property, 
     if (checks())
       w_ << ctx() << ", ";
   }
+  const std::size_t start = w_.size();
   methodPrefix(instance, get, {}, span);
   w_ << ')';
+  if (!reference)
+    placeValue(start, property->type, get);
   if (reference && checks()) {
     w_ << ", ";
     position(span);

@@ -37,16 +37,15 @@ struct Shared {
   std::atomic<int> inside{0};
   std::atomic<bool> overlap{false};
   std::atomic<bool> offGrid{false};
-  std::atomic<bool> highStack{false};
+  std::atomic<bool> highData{false};
 };
 
 Shared &shared(Ctx *ctx) { return *static_cast<Shared *>(ctx->state); }
 
 void fast(Ctx *ctx) {
   Shared &s = shared(ctx);
-  int local = 0;
-  if (reinterpret_cast<uintptr_t>(&local) >> 32 != 0)
-    s.highStack = true;
+  if (ctx->dataTop == nullptr || reinterpret_cast<uintptr_t>(ctx->dataTop) >> 32 != 0)
+    s.highData = true;
   if (s.inside.fetch_add(1) != 0)
     s.overlap = true;
   if (ctx->cycleStartNs % kMs != 0)
@@ -119,7 +118,7 @@ TEST(RealSchedulerTest, AllKindsOfTasksInTurns) {
   }
   EXPECT_FALSE(state.overlap) << "in turns two tasks were in their cycles at once";
   EXPECT_FALSE(state.offGrid);
-  EXPECT_FALSE(state.highStack);
+  EXPECT_FALSE(state.highData);
   EXPECT_FALSE(tasks.fault());
   EXPECT_GE(tasks.statistics(0).figures().cycles, 60U);
   EXPECT_GE(tasks.statistics(1).figures().maxRunNs, 2 * kMs);
