@@ -16,21 +16,33 @@ enum Effect : unsigned {
   effectReads = 1,  ///< its value depends on variables
   effectRaises = 2, ///< a check in it may end the cycle
   effectCalls = 4,  ///< calls code that may change variables
+  effectStrays = 8, ///< follows an address or index that may lead nowhere, checked or not
 };
 
 class Analysis {
 public:
-  Analysis(const Settings &settings, const Sharing &sharing)
-      : checks_(settings.checks), sharing_(sharing) {}
+  explicit Analysis(const Program &program)
+      : checks_(program.settings.checks), ownChecks_(program.implicitChecks),
+        sharing_(program.sharing) {}
 
   /// Effect bits of evaluating the expression with its conversion.
   [[nodiscard]] unsigned effects(const ast::Expr *expr);
+  /// Effect bits of finding where the place is: none for a variable, `effectReads` for `a[i]`.
+  [[nodiscard]] unsigned placeEffects(const ast::Expr *place);
+  /// The same of the target of an assignment: of a property that is set, of finding its object.
+  [[nodiscard]] unsigned targetEffects(const ast::Expr *target);
+  /// The same of the instance or interface whose method is called.
+  [[nodiscard]] unsigned objectEffects(const ast::Expr *object);
   /// A FUNCTION that only computes: it changes nothing but its own variables.
   [[nodiscard]] bool pure(const PouSymbol *function);
-  /// Evaluating `first` before `second` or behind it makes a difference.
+  /// Evaluating `first` before `second` or after it makes a difference for their values.
   [[nodiscard]] static bool orderMatters(unsigned first, unsigned second) {
     return ((first & effectCalls) != 0 && second != effectNone) ||
            ((second & effectCalls) != 0 && first != effectNone);
+  }
+  /// It makes one for their values, or for which of two exceptions comes.
+  [[nodiscard]] static bool orderShows(unsigned first, unsigned second) {
+    return orderMatters(first, second) || (first & second & effectRaises) != 0;
   }
   /// The FOR loop and those in it end after at most kShortLoop rounds altogether, whatever happens;
   /// nothing but the loop changes its variable.
@@ -64,6 +76,11 @@ public:
   [[nodiscard]] bool provenIndex(const ast::Expr *index, const ArrayType *array) const;
 
 private:
+  unsigned checkedBy(ImplicitCheck first, ImplicitCheck last);
+  unsigned following();
+  unsigned indexing(const ast::IndexExpr *e);
+  unsigned dividing(const ast::BinaryExpr *e);
+  unsigned calling(const ast::CallExpr *e);
   bool pureBlock(ast::Block block, const PouSymbol *function);
   bool pureExpr(const ast::Expr *expr);
   bool localTarget(const ast::Expr *target, const PouSymbol *function) const;
@@ -81,6 +98,7 @@ private:
   };
 
   bool checks_;
+  const ImplicitChecks &ownChecks_;
   const Sharing &sharing_;
   std::vector<Range> ranges_;
   std::unordered_map<const PouSymbol *, bool> pure_;
@@ -102,6 +120,10 @@ private:
 [[nodiscard]] bool followsAddress(const ast::IndexExpr *e);
 /// The variable an expression names directly (`x`, `GVL.x`, not `a.x`); null for all others.
 [[nodiscard]] const VarSymbol *namedVariable(const ast::Expr *expr);
+/// What a name or member stands for; null for all other expressions.
+[[nodiscard]] const Symbol *symbolAt(const ast::Expr *place);
+/// The property that an assignment to the target sets; null where it sets a variable.
+[[nodiscard]] const PropertySymbol *writtenProperty(const ast::Expr *target);
 /// The name in front of the dot is a namespace: a library, a variable list, an enumeration.
 [[nodiscard]] bool isNamespace(const ast::Expr *expr);
 

@@ -121,7 +121,7 @@ bool Emitter::selectedOnly(const CallExpr *e) {
   unsigned result = effectNone;
   for (std::size_t i = 1; i < e->arguments.size(); ++i)
     result |= effects(e->arguments[i].value);
-  if ((result & (effectCalls | effectRaises)) == 0)
+  if ((result & (effectCalls | effectRaises | effectStrays)) == 0)
     return false;
   const std::size_t last = e->arguments.size() - 1;
   w_ << "[&]() -> " << type(e->type) << " { switch (";
@@ -235,7 +235,8 @@ void Emitter::deleteObject(const CallExpr *e) {
   w_ << "); " << pointer << " = nullptr; }";
 }
 
-/// The order of the arguments matters only if one of them calls what may change the others.
+/// The order of the arguments shows if one of them calls what may change the others, or if two of
+/// them may raise an exception.
 bool Emitter::ordersArguments(const CallExpr *e) {
   unsigned before = effectNone;
   for (const Argument &a : e->arguments) {
@@ -244,7 +245,7 @@ bool Emitter::ordersArguments(const CallExpr *e) {
         e->builtin == Builtin::queryInterface || e->builtin == Builtin::queryPointer)
       continue;
     const unsigned after = effects(a.value);
-    if (Analysis::orderMatters(before, after))
+    if (Analysis::orderShows(before, after))
       return true;
     before |= after;
   }
@@ -268,34 +269,48 @@ void Emitter::builtin(const CallExpr *e) {
     builtinPlain(e, nullptr);
 }
 
+/// The arguments as constants `in__…`, from left to right; gives their names. What nothing changes
+/// until the call is not copied.
+std::vector<std::string> Emitter::takeArguments(const CallExpr *e) {
+  unsigned all = effectNone;
+  for (const Argument &a : e->arguments)
+    all |= effects(a.value);
+  std::vector<std::string> names;
+  for (const Argument &a : e->arguments) {
+    names.push_back(temporary("in"));
+    const Type *t = a.value->target != nullptr ? a.value->target : a.value->type;
+    w_ << type(t) << ((all & effectCalls) != 0 ? " const " : " const &") << names.back() << " = ";
+    value(a.value);
+    w_ << "; ";
+  }
+  return names;
+}
+
 /// `target := CONCAT(…)` without a copy in between; false for other values.
 bool Emitter::stringInto(std::string_view target, const Expr *value) {
   if (value->kind != ExprKind::call || value->constant != nullptr || !isString(value->type))
     return false;
   const auto *call = as<CallExpr>(value);
-  if (call->resolved != Callee::builtin || !isStringFunction(call->builtin) ||
-      ordersArguments(call))
+  if (call->resolved != Callee::builtin || !isStringFunction(call->builtin))
     return false;
+  const bool ordered = ordersArguments(call);
+  std::vector<std::string> names;
+  w_ << (ordered ? "{ " : "");
+  if (ordered)
+    names = takeArguments(call);
   w_ << "::stride::" << runtimeName(call->builtin) << '<' << typeAs<StringType>(value->type)->length
      << ">(" << target;
   for (std::size_t i = 0; i < call->arguments.size(); ++i) {
     w_ << ", ";
-    builtinArgument(call, i, nullptr, true);
+    builtinArgument(call, i, ordered ? &names : nullptr, true);
   }
-  w_ << ");";
+  w_ << (ordered ? "); }" : ");");
   return true;
 }
 
 void Emitter::orderedBuiltin(const CallExpr *e) {
-  std::vector<std::string> names;
   w_ << "[&] { ";
-  for (const Argument &a : e->arguments) {
-    names.push_back(temporary("in"));
-    const Type *t = a.value->target != nullptr ? a.value->target : a.value->type;
-    w_ << "const " << type(t) << ' ' << names.back() << " = ";
-    value(a.value);
-    w_ << "; ";
-  }
+  const std::vector<std::string> names = takeArguments(e);
   w_ << "return ";
   builtinPlain(e, &names);
   w_ << "; }()";

@@ -48,8 +48,6 @@ bool needsCopy(const Argument &a) {
          (a.parameter->isConstant && !isPlace(a.value));
 }
 
-bool isInput(const VarSymbol *p) { return p->section == Section::input; }
-
 } // namespace
 
 /// The value of an input that the call leaves out.
@@ -109,13 +107,24 @@ void Emitter::aggregateValue(const Type *type, const Expr *init) {
   w_ << "return " << name << "; }()";
 }
 
-/// `::st::user::F(ctx__, …)`; `names` holds, by parameter, what stands for a value that has been
-/// taken before.
+/// What is passed to a function or method.
+void Emitter::argument(const Argument &a) {
+  const VarSymbol *p = a.parameter;
+  if (p->type->kind == TypeKind::openArray)
+    openArray(a.value, typeAs<OpenArrayType>(p->type));
+  else if (p->section == Section::inOut)
+    placeAs(a.value, p->type);
+  else if (p->type->kind == TypeKind::reference)
+    addressAs(a.value, typeAs<PointerType>(p->type)->pointee);
+  else
+    valueAs(a.value, p->type);
+}
+
+/// `::st::user::F(ctx__, …)`; `names` holds, by parameter, what stands for a value (or a place) that
+/// has been taken before.
 void Emitter::functionArguments(const CallExpr *e, const std::vector<std::string> &names) {
   if (e->resolved == Callee::method) {
-    const bool taken = names.size() > e->pou->parameters().size();
-    methodPrefix(objectOf(e), e->pou, taken ? std::string_view(names.back()) : std::string_view(),
-                 e->callee->span);
+    methodPrefix(objectOf(e), e->pou, e->callee->span);
   } else {
     includes_.called(e->pou);
     w_ << c_.names.qualified(e->pou) << '(' << ctx();
@@ -128,101 +137,98 @@ void Emitter::functionArguments(const CallExpr *e, const std::vector<std::string
       w_ << names[k];
     else if (a == nullptr || a->value == nullptr)
       defaultArgument(p);
-    else if (p->type->kind == TypeKind::openArray)
-      openArray(a->value, typeAs<OpenArrayType>(p->type));
-    else if (p->section == Section::inOut)
-      placeAs(a->value, p->type);
-    else if (p->type->kind == TypeKind::reference)
-      addressAs(a->value, typeAs<PointerType>(p->type)->pointee);
     else
-      valueAs(a->value, p->type);
+      argument(*a);
     ++k;
   }
   w_ << ')';
 }
 
-void Emitter::functionCall(const CallExpr *e, bool asStatement) {
-  const PouSymbol *pou = e->pou;
-  // Temporaries are needed for outputs, and where the order of the arguments matters.
-  bool outputs = false;
-  bool copies = false;
-  const std::vector<VarSymbol *> parameters = pou->parameters();
-  for (const VarSymbol *p : parameters)
-    outputs = outputs || p->section == Section::output;
-  bool order = false;
-  unsigned before = effectNone;
+/// Effects of what a call does for the argument before it: a value is computed, or a place found.
+unsigned Emitter::argumentEffects(const Argument &a) {
+  if (a.output)
+    return c_.analysis.targetEffects(a.value);
+  const VarSymbol *p = a.parameter;
+  const bool isAddress = p != nullptr && !needsCopy(a) && isIndirect(p);
+  return isAddress ? c_.analysis.placeEffects(a.value) : effects(a.value);
+}
+
+/// C++ leaves the order of arguments open, ST does not.
+Emitter::CallOrder Emitter::callOrder(const CallExpr *e) {
+  CallOrder order;
   for (const Argument &a : e->arguments) {
     if (a.value == nullptr)
       continue;
-    copies = copies || needsCopy(a);
-    if (a.output)
-      continue;
-    const unsigned after = effects(a.value);
-    order = order || (before != effectNone && Analysis::orderMatters(before, after));
-    before |= after;
+    order.statements = order.statements || (a.parameter != nullptr && needsCopy(a));
+    const unsigned own = argumentEffects(a);
+    order.arguments = order.arguments || Analysis::orderShows(order.effects, own);
+    order.effects |= own;
   }
-  // The instance is found before its arguments are evaluated.
   const Expr *object = e->resolved == Callee::method ? objectOf(e) : nullptr;
-  const bool takeObject =
-      object != nullptr && before != effectNone && Analysis::orderMatters(effects(object), before);
-  if (!outputs && !order && !copies && !takeObject) {
+  order.object = object != nullptr &&
+                 Analysis::orderShows(c_.analysis.objectEffects(object), order.effects);
+  for (const VarSymbol *p : e->pou->parameters())
+    order.statements = order.statements || p->section == Section::output;
+  order.statements = order.statements || order.arguments || order.object;
+  return order;
+}
+
+/// Takes the argument's value, or finds its place, ahead of the call; gives its name, which is
+/// empty where nothing is to be done before the call itself.
+std::string Emitter::takeArgument(Found &found, const Argument &a, const CallOrder &order) {
+  const VarSymbol *p = a.parameter;
+  std::string name;
+  if (a.output) {
+    findTarget(found, a.value);
+  } else if (needsCopy(a)) {
+    name = temporary("copy");
+    declareTemporary(p->type, name, c_.addressed.onDataStack(p));
+    storeTo(name, p->type, a.value);
+    w_ << ' ';
+  } else if (order.arguments && argumentEffects(a) != effectNone) {
+    name = temporary("in");
+    if (p->type->kind == TypeKind::openArray)
+      w_ << "const auto " << name;
+    else if (p->section == Section::inOut)
+      w_ << type(p->type) << " &" << name;
+    else // nothing changes it before the call? Then it is copied only there
+      w_ << type(p->type) << ((order.effects & effectCalls) != 0 ? " const " : " const &") << name;
+    w_ << " = ";
+    argument(a);
+    w_ << "; ";
+  }
+  return name;
+}
+
+void Emitter::functionCall(const CallExpr *e, bool asStatement) {
+  const PouSymbol *pou = e->pou;
+  const CallOrder order = callOrder(e);
+  if (!order.statements) {
     functionArguments(e, {});
     if (asStatement)
       w_ << ';';
     return;
   }
+  const std::vector<VarSymbol *> parameters = pou->parameters();
   std::vector<std::string> names(parameters.size());
+  const auto nameOf = [&](const VarSymbol *p) -> std::string & {
+    return names[static_cast<std::size_t>(std::find(parameters.begin(), parameters.end(), p) -
+                                          parameters.begin())];
+  };
+  Found found(*this);
   w_ << (asStatement ? "{ " : "[&] { ");
-  if (takeObject) {
-    names.push_back(temporary("object"));
-    includes_.complete(object->type);
-    const bool isValue = object->type->kind == TypeKind::interface ||
-                         object->kind == ExprKind::call || writtenProperty(object) != nullptr;
-    const bool placed = isValue && isInstance(object->type);
-    if (placed)
-      w_ << "::stride::OnDataStack<" << type(object->type) << "> " << names.back() << "__local("
-         << ctx() << ", ";
-    else
-      w_ << (isValue ? "auto " : "auto &") << names.back() << " = ";
-    raw(object);
-    w_ << (placed ? "); " : "; ");
-    if (placed)
-      w_ << "auto &" << names.back() << " = " << names.back() << "__local.value(); ";
-  }
+  if (order.object)
+    findObject(found, objectOf(e));
   for (const Argument &a : e->arguments) { // in the order of the call
-    const VarSymbol *p = a.parameter;
-    if (a.value == nullptr || a.output || p == nullptr)
-      continue;
-    std::string &name = names[static_cast<std::size_t>(
-        std::find(parameters.begin(), parameters.end(), p) - parameters.begin())];
-    if (p->section == Section::inOut) {
-      if (!needsCopy(a))
-        continue;
-      name = temporary("copy");
-      declareTemporary(p->type, name, c_.addressed.onDataStack(p));
-      storeTo(name, p->type, a.value);
-      w_ << ' ';
-    } else if (order && isInput(p) && a.value->constant == nullptr) {
-      name = temporary("in");
-      w_ << type(p->type) << " const " << name << " = ";
-      if (p->type->kind == TypeKind::reference)
-        addressAs(a.value, typeAs<PointerType>(p->type)->pointee);
-      else
-        valueAs(a.value, p->type);
-      w_ << "; ";
-    }
+    if (a.value != nullptr && a.parameter != nullptr)
+      nameOf(a.parameter) = takeArgument(found, a, order);
   }
   // Every output gets a variable of its own; those asked for are copied after the call.
-  std::vector<std::pair<const Argument *, std::string>> results;
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const VarSymbol *p = parameters[k];
+  for (const VarSymbol *p : parameters) {
     if (p->section != Section::output)
       continue;
-    names[k] = temporary("out");
-    declareTemporary(p->type, names[k], c_.addressed.onDataStack(p));
-    const Argument *a = argumentFor(e, p);
-    if (a != nullptr && a->value != nullptr)
-      results.emplace_back(a, names[k]);
+    nameOf(p) = temporary("out");
+    declareTemporary(p->type, nameOf(p), c_.addressed.onDataStack(p));
   }
   const bool hasResult = !asStatement && pou->result != nullptr;
   const std::string result = hasResult ? temporary("result") : std::string();
@@ -230,9 +236,11 @@ void Emitter::functionCall(const CallExpr *e, bool asStatement) {
     w_ << type(pou->result->type) << " const " << result << " = ";
   functionArguments(e, names);
   w_ << ';';
-  for (const auto &[a, name] : results) {
+  for (const Argument &a : e->arguments) {
+    if (a.value == nullptr || !a.output || a.parameter == nullptr)
+      continue;
     w_ << ' ';
-    outputTo(a->value, name, a->parameter->type, a->span);
+    outputTo(a.value, nameOf(a.parameter), a.parameter->type, a.span);
   }
   if (hasResult)
     w_ << " return " << result << ';';
@@ -255,7 +263,7 @@ void Emitter::outputTo(const Expr *target, std::string_view source, const Type *
     return;
   }
   if (isBitPlace(target)) {
-    bitStore(target, {}, [&] { convertedText(source, sourceType, type, span); });
+    bitStore(target, [&] { convertedText(source, sourceType, type, span); });
     return;
   }
   if (isString(type) && type != sourceType) {
@@ -271,23 +279,49 @@ void Emitter::outputTo(const Expr *target, std::string_view source, const Type *
   w_ << (bindings ? ");" : ";");
 }
 
+/// One input or in-out of an instance's call.
+void Emitter::passToInstance(const Argument &a, const std::string &field) {
+  const VarSymbol *p = a.parameter;
+  if (needsCopy(a)) {
+    const std::string copy = temporary("copy");
+    declareTemporary(p->type, copy, c_.addressed.onDataStack(p));
+    storeTo(copy, p->type, a.value);
+    w_ << ' ' << field << " = &" << copy << ';';
+    return;
+  }
+  if (!isIndirect(p)) {
+    storeTo(isShared(p) ? "::stride::shared(" + field + ")" : field, p->type, a.value);
+    return;
+  }
+  w_ << field << " = ";
+  if (p->type->kind == TypeKind::openArray)
+    openArray(a.value, typeAs<OpenArrayType>(p->type));
+  else
+    addressAs(a.value,
+              p->section == Section::inOut ? p->type : typeAs<PointerType>(p->type)->pointee);
+  w_ << ';';
+}
+
+/// The instance is found, then each argument is evaluated and passed in the order of the call.
 void Emitter::instanceCall(const CallExpr *e, Span span) {
   const PouSymbol *pou = e->pou;
   includes_.called(pou);
-  std::string instance;
-  bool braces = false;
-  if (e->resolved == Callee::program) {
-    instance = std::string(root({pou, false}));
-  } else {
-    instance = placeText(e->callee);
-    if (instance.find('(') != std::string::npos || instance.find('[') != std::string::npos) {
-      // Found once, however many inputs are set.
-      const std::string name = temporary("fb");
-      w_ << "{ auto &" << name << " = " << instance << "; ";
-      instance = name;
-      braces = true;
-    }
+  const bool isProgram = e->resolved == Callee::program;
+  // Found once, however many inputs are set.
+  bool braces = !isProgram && c_.analysis.placeEffects(e->callee) != effectNone;
+  for (const Argument &a : e->arguments) {
+    if (a.value != nullptr && a.parameter != nullptr)
+      braces = braces || (a.output ? c_.analysis.targetEffects(a.value) != effectNone
+                                   : needsCopy(a));
   }
+  Found found(*this);
+  w_ << (braces ? "{ " : "");
+  if (!isProgram)
+    findPlace(found, e->callee);
+  const std::string instance = isProgram ? std::string(root({pou, false})) : placeText(e->callee);
+  const auto field = [&](const VarSymbol *p) {
+    return instance + "." + pathToBase(pou, p->owner) + fieldName(p);
+  };
   bool first = true;
   const auto part = [&](Span where) {
     if (!first)
@@ -295,30 +329,14 @@ void Emitter::instanceCall(const CallExpr *e, Span span) {
     first = false;
   };
   for (const Argument &a : e->arguments) {
-    if (a.value == nullptr || a.output || a.parameter == nullptr)
+    if (a.value == nullptr || a.parameter == nullptr)
       continue;
-    part(a.span);
-    const VarSymbol *p = a.parameter;
-    const std::string field = instance + "." + pathToBase(pou, p->owner) + fieldName(p);
-    if (needsCopy(a)) {
-      const std::string copy = temporary("copy");
-      if (!braces)
-        w_ << "{ ";
-      braces = true;
-      declareTemporary(p->type, copy, c_.addressed.onDataStack(p));
-      storeTo(copy, p->type, a.value);
-      w_ << ' ' << field << " = &" << copy << ';';
-    } else if (isIndirect(p)) {
-      w_ << field << " = ";
-      if (p->type->kind == TypeKind::openArray)
-        openArray(a.value, typeAs<OpenArrayType>(p->type));
-      else
-        addressAs(a.value,
-                  p->section == Section::inOut ? p->type : typeAs<PointerType>(p->type)->pointee);
-      w_ << ';';
-    } else {
-      storeTo(isShared(p) ? "::stride::shared(" + field + ")" : field, p->type, a.value);
+    if (a.output) {
+      findTarget(found, a.value);
+      continue;
     }
+    part(a.span);
+    passToInstance(a, field(a.parameter));
   }
   part(first ? span : Span{});
   const bool dispatch =
@@ -329,18 +347,15 @@ void Emitter::instanceCall(const CallExpr *e, Span span) {
     if (a.value == nullptr || !a.output || a.parameter == nullptr)
       continue;
     part(a.span);
-    const std::string output =
-        instance + "." + pathToBase(pou, a.parameter->owner) + fieldName(a.parameter);
+    const std::string output = field(a.parameter);
     outputTo(a.value, isShared(a.parameter) ? "::stride::load(" + output + ")" : output,
              a.parameter->type, a.span);
   }
   for (const Argument &a : e->arguments) { // copies end with the statement
     if (a.value != nullptr && !a.output && a.parameter != nullptr && needsCopy(a))
-      w_ << ' ' << instance << '.' << pathToBase(pou, a.parameter->owner) << fieldName(a.parameter)
-         << " = nullptr;";
+      w_ << ' ' << field(a.parameter) << " = nullptr;";
   }
-  if (braces)
-    w_ << " }";
+  w_ << (braces ? " }" : "");
 }
 
 } // namespace stc::codegen

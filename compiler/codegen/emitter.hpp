@@ -28,8 +28,8 @@ struct Context {
   Addressed addressed;
 
   Context(const Program &p, const Library *library)
-      : program(p), own(library), names(p), layouts(p, library), analysis(p.settings, p.sharing),
-        loopLocals(analysis), addressed(p, library) {}
+      : program(p), own(library), names(p), layouts(p, library), analysis(p), loopLocals(analysis),
+        addressed(p, library) {}
 };
 
 /// An object of its own in the application's state: a variable list, a program, or the statics of a
@@ -147,6 +147,27 @@ private:
     std::vector<const ast::Stmt *> leaves; ///< RETURN, EXIT, JMP … that lead out of it
   };
 
+  /// What has been found before its use, until the scope ends.
+  class Found {
+  public:
+    explicit Found(Emitter &emitter) : emitter_(emitter) {}
+    ~Found() {
+      for (const ast::Expr *e : places_)
+        emitter_.found_.erase(e);
+    }
+    Found(const Found &) = delete;
+    Found &operator=(const Found &) = delete;
+    /// From now on `name` is written for the place.
+    void set(const ast::Expr *place, std::string name) {
+      emitter_.found_.insert_or_assign(place, std::move(name));
+      places_.push_back(place);
+    }
+
+  private:
+    Emitter &emitter_;
+    std::vector<const ast::Expr *> places_;
+  };
+
   // expressions.cpp
   /// The value in the expression's own type.
   void raw(const ast::Expr *e);
@@ -187,11 +208,18 @@ private:
   void basePath(const Type *base, const VarSymbol *field);
   /// A field of the block whose code is written, maybe one of its bases'.
   void ownField(const VarSymbol *v);
-  void index(const ast::IndexExpr *e, bool slotOnly);
   /// Follows the reference that has been written since `start`.
   void followReference(std::size_t start, const Type *pointee, Span span);
   [[nodiscard]] int level(const ast::Expr *e) const;
   [[nodiscard]] static const ast::Expr *shown(const ast::Expr *e);
+
+  // elements.cpp
+  void index(const ast::IndexExpr *e, bool slotOnly);
+  void arrayElement(const ArrayType *array, const ast::Expr *i);
+  void openElement(std::string base, const OpenArrayType *array, const ast::Expr *i,
+                   bool takesBase);
+  void pointedElement(std::string base, const Type *type, const ast::Expr *i, bool takesBase);
+  std::string openBase(const std::string &base, const Type *type);
 
   // places.cpp
   /// The base of an area of the process image.
@@ -200,11 +228,10 @@ private:
   template <class Slot> void located(const Location &at, const Type *type, Slot &&slot);
   /// The value of a bit or part (isBitPlace).
   void bitValue(const ast::Expr *e);
-  /// Stores what `value` writes in it. `bound` stands for the variable it is a part of; empty: it
-  /// is found here.
-  template <class Value> void bitStore(const ast::Expr *e, std::string_view bound, Value &&value);
+  /// Stores what `value` writes in it.
+  template <class Value> void bitStore(const ast::Expr *e, Value &&value);
   /// `Bit(image__m[3], 5`: the end of the runtime function's name and the first arguments.
-  void bitAccess(const ast::Expr *e, std::string_view bound, bool writes);
+  void bitAccess(const ast::Expr *e, bool writes);
   /// The variable that a bit or part belongs to.
   [[nodiscard]] static const ast::Expr *bitOwner(const ast::Expr *e);
   void initLocated(std::string_view target, const VarSymbol *variable);
@@ -241,6 +268,18 @@ private:
 
   // calls.cpp
   void functionCall(const ast::CallExpr *e, bool asStatement);
+  /// What is written so that arguments are evaluated in their order.
+  struct CallOrder {
+    unsigned effects = 0;    ///< of all arguments
+    bool statements = false; ///< the call takes more than a C++ expression
+    bool arguments = false;  ///< their order shows
+    bool object = false;     ///< the instance must be found before them
+  };
+  [[nodiscard]] CallOrder callOrder(const ast::CallExpr *e);
+  [[nodiscard]] unsigned argumentEffects(const ast::Argument &a);
+  std::string takeArgument(Found &found, const ast::Argument &a, const CallOrder &order);
+  void argument(const ast::Argument &a);
+  void passToInstance(const ast::Argument &a, const std::string &field);
   void functionArguments(const ast::CallExpr *e, const std::vector<std::string> &names);
   void defaultArgument(const VarSymbol *parameter);
   void instanceCall(const ast::CallExpr *e, Span span);
@@ -253,12 +292,11 @@ private:
   void typeIdOf(const ast::Expr *instance);
   void placeAs(const ast::Expr *e, const Type *type);
   void addressAs(const ast::Expr *e, const Type *type);
-  void methodPrefix(const ast::Expr *object, const PouSymbol *method, std::string_view taken,
-                    Span span);
+  void methodPrefix(const ast::Expr *object, const PouSymbol *method, Span span);
+  void interfaceOf(const ast::Expr *object, Span span);
   [[nodiscard]] static const ast::Expr *objectOf(const ast::CallExpr *e);
   void propertyGet(const ast::Expr *instance, const PropertySymbol *property, Span span);
   [[nodiscard]] static const PouSymbol *accessor(const PropertySymbol *property, bool get);
-  [[nodiscard]] static const PropertySymbol *writtenProperty(const ast::Expr *target);
   void propertySet(const ast::Expr *target, const std::function<void()> &writeValue);
   void query(const ast::CallExpr *e);
 
@@ -284,6 +322,7 @@ private:
   void newObject(const ast::CallExpr *e);
   void deleteObject(const ast::CallExpr *e);
   void orderedBuiltin(const ast::CallExpr *e);
+  std::vector<std::string> takeArguments(const ast::CallExpr *e);
   void builtinPlain(const ast::CallExpr *e, const std::vector<std::string> *names);
   [[nodiscard]] bool ordersArguments(const ast::CallExpr *e);
   bool stringInto(std::string_view target, const ast::Expr *value);
@@ -300,12 +339,23 @@ private:
   void keepValues(std::string_view target, std::string_view old, const Type *type,
                   std::string_view all);
 
-  // statements.cpp
-  void statement(const ast::Stmt *s);
-  bool findPlaces(const ast::AssignStmt *s);
+  // assignments.cpp
+  /// Writes `auto &to = a[i]; ` where finding the place takes more than its name; until `found`
+  /// ends, `to` stands for it.
+  void findPlace(Found &found, const ast::Expr *place);
+  /// The same of the target of an assignment: of a property that is set, its object is found.
+  void findTarget(Found &found, const ast::Expr *target);
+  /// The same of the instance, or the (checked) interface, whose method is called.
+  void findObject(Found &found, const ast::Expr *object);
   void assign(const ast::AssignStmt *s);
+  void assignValue(const ast::AssignStmt *s);
+  void assignReference(const ast::AssignStmt *s);
+  void setOrReset(const ast::AssignStmt *s);
   void store(const ast::Expr *target, const ast::Expr *value);
   void storeTo(std::string_view target, const Type *type, const ast::Expr *value);
+
+  // statements.cpp
+  void statement(const ast::Stmt *s);
   void callStatement(const ast::CallStmt *s);
   void ifStatement(const ast::IfStmt *s);
   void caseStatement(const ast::CaseStmt *s);
@@ -393,7 +443,7 @@ private:
   Includes includes_;
   bool noCheck_ = false; ///< {attribute 'no_check'}
   bool isCheck_ = false; ///< the body of a check: no check calls itself
-  std::unordered_map<const ast::Expr *, std::string> found_; ///< places that have a reference
+  std::unordered_map<const ast::Expr *, std::string> found_; ///< see Found
   bool writing_ = false;                                     ///< the place is about to be written
   bool usesContext_ = false;
   bool usesBudget_ = false;

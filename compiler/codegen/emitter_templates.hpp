@@ -272,7 +272,7 @@ template <class Slot> void Emitter::located(const Location &at, const Type *type
 }
 
 template <class Value>
-void Emitter::bitStore(const ast::Expr *e, std::string_view bound, Value &&value) {
+void Emitter::bitStore(const ast::Expr *e, Value &&value) {
   if (isBitField(e)) {
     place(e);
     w_ << " = ";
@@ -281,7 +281,7 @@ void Emitter::bitStore(const ast::Expr *e, std::string_view bound, Value &&value
     return;
   }
   w_ << "::stride::set";
-  bitAccess(e, bound, true);
+  bitAccess(e, true);
   w_ << ", ";
   value();
   w_ << ");";

@@ -11,12 +11,6 @@ using namespace ast;
 
 namespace {
 
-const Type *innermost(const Type *type) {
-  while (type->kind == TypeKind::array)
-    type = typeAs<ArrayType>(type)->element;
-  return type;
-}
-
 /// Kept whatever INI is asked for: what an in-out is bound to, a place of VAR_CONFIG.
 bool isBinding(const VarSymbol *v) { return v->section == Section::inOut || isSlot(v); }
 

@@ -27,6 +27,13 @@ private:
   return v->section == ast::Section::inOut || v->type->kind == TypeKind::reference;
 }
 
+/// The type of the elements of an array (of arrays …); every other type itself.
+[[nodiscard]] inline const Type *innermost(const Type *type) {
+  while (type->kind == TypeKind::array)
+    type = typeAs<ArrayType>(type)->element;
+  return type;
+}
+
 /// A type as a declaration spells it, followed into arrays: where aliases with defaults are seen.
 struct Written {
   const ast::TypeExpr *expr = nullptr;

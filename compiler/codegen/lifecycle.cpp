@@ -17,12 +17,6 @@ const PouSymbol *ownMethod(const PouSymbol *block, std::string_view lower) {
   return nullptr;
 }
 
-const Type *innermost(const Type *type) {
-  while (type->kind == TypeKind::array)
-    type = typeAs<ArrayType>(type)->element;
-  return type;
-}
-
 /// The type as written, where it names a block; null: it does not.
 const NamedTypeExpr *constructOf(const VarSymbol *variable) {
   if (variable->decl == nullptr || variable->decl->type == nullptr)

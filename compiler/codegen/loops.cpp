@@ -1,17 +1,13 @@
 // Loops.
 
 #include "compiler/codegen/emitter.hpp"
+#include "compiler/semantics/locations.hpp"
 
 namespace stc::codegen {
 
 using namespace ast;
 
 namespace {
-
-/// A path that costs nothing to follow twice.
-bool isPlain(std::string_view place) {
-  return place.find_first_of("([*") == std::string_view::npos;
-}
 
 /// RETURN, or (with `exits`) EXIT of the loop around: it may end before its last round.
 bool mayLeave(Block block, bool exits) {
@@ -175,7 +171,9 @@ void Emitter::forStatement(const ForStmt *s) {
   const std::string number = std::to_string(++next_);
   begin(s->span);
   std::string variable = writableText(s->variable);
-  if (!isPlain(variable)) {
+  // Found once, before the bounds are computed; and followed once where that takes a call.
+  if (c_.analysis.placeEffects(s->variable) != effectNone || isShared(s->variable) ||
+      locationOf(s->variable) != nullptr) {
     w_ << (isShared(s->variable) ? "const auto counter__" : "auto &counter__") << number << " = "
        << variable << "; ";
     variable = "counter__" + number;

@@ -119,10 +119,25 @@ void Emitter::addressAs(const Expr *e, const Type *type) {
 // ------------------------------------------------------------------------------------------------
 // calls
 
-/// `this->Run(ctx__`, `m.base__.Run(ctx__`, `m.Run__call(ctx__`, `IShape__Area(ctx__, i`; `object`
-/// stands for the instance (or interface) where it has been taken before.
-void Emitter::methodPrefix(const Expr *object, const PouSymbol *method, std::string_view taken,
-                           Span span) {
+/// The interface whose method is called; raises where it is 0.
+void Emitter::interfaceOf(const Expr *object, Span span) {
+  if (const auto found = found_.find(object); found != found_.end()) {
+    w_ << found->second;
+    return;
+  }
+  w_ << (checks() ? "::stride::used(" : "");
+  if (checks())
+    w_ << ctx() << ", ";
+  value(object);
+  if (checks()) {
+    w_ << ", ";
+    position(object->span.valid() ? object->span : span);
+    w_ << ')';
+  }
+}
+
+/// `this->Run(ctx__`, `m.base__.Run(ctx__`, `m.Run__call(ctx__`, `IShape__Area(ctx__, i`.
+void Emitter::methodPrefix(const Expr *object, const PouSymbol *method, Span span) {
   const PouSymbol *owner = method->owner;
   for (const VarSymbol *p : method->parameters())
     includes_.complete(p->type);
@@ -131,18 +146,7 @@ void Emitter::methodPrefix(const Expr *object, const PouSymbol *method, std::str
   if (owner->isInterface()) {
     includes_.symbol(owner);
     w_ << c_.names.qualified(method) << '(' << ctx() << ", ";
-    if (checks()) {
-      w_ << "::stride::used(" << ctx() << ", ";
-    }
-    if (taken.empty())
-      value(object);
-    else
-      w_ << taken;
-    if (checks()) {
-      w_ << ", ";
-      position(object->span.valid() ? object->span : span);
-      w_ << ')';
-    }
+    interfaceOf(object, span);
     return;
   }
   const PouSymbol *from = nullptr;
@@ -154,10 +158,7 @@ void Emitter::methodPrefix(const Expr *object, const PouSymbol *method, std::str
     from = typeAs<PouType>(object->type)->symbol;
     exact = isExact(object) || isSuper(object);
     includes_.complete(object->type);
-    if (taken.empty())
-      place(object);
-    else
-      w_ << taken;
+    place(object);
     w_ << '.';
   }
   w_ << pathToBase(from, owner) << methodName(method);
@@ -181,7 +182,7 @@ void Emitter::propertyGet(const Expr *instance, const PropertySymbol *property, 
       w_ << ctx() << ", ";
   }
   const std::size_t start = w_.size();
-  methodPrefix(instance, get, {}, span);
+  methodPrefix(instance, get, span);
   w_ << ')';
   if (!reference)
     placeValue(start, property->type, get);
@@ -206,21 +207,11 @@ const PouSymbol *Emitter::accessor(const PropertySymbol *property, bool get) {
   return nullptr;
 }
 
-const PropertySymbol *Emitter::writtenProperty(const Expr *target) {
-  const Symbol *symbol = target->kind == ExprKind::name     ? as<NameExpr>(target)->symbol
-                         : target->kind == ExprKind::member ? as<MemberExpr>(target)->symbol
-                                                            : nullptr;
-  if (symbol == nullptr || symbol->kind != SymbolKind::property)
-    return nullptr;
-  const auto *property = static_cast<const PropertySymbol *>(symbol);
-  return property->type->kind == TypeKind::reference ? nullptr : property;
-}
-
 /// `instance.Speed__set(ctx__, value);` with the value as `writeValue` writes it.
 void Emitter::propertySet(const Expr *target, const std::function<void()> &writeValue) {
   const PropertySymbol *property = writtenProperty(target);
   const Expr *instance = target->kind == ExprKind::member ? as<MemberExpr>(target)->base : nullptr;
-  methodPrefix(instance, accessor(property, false), {}, target->span);
+  methodPrefix(instance, accessor(property, false), target->span);
   w_ << ", ";
   writeValue();
   w_ << ");";

@@ -23,7 +23,7 @@ const Expr *Emitter::bitOwner(const Expr *e) {
   return e;
 }
 
-void Emitter::bitAccess(const Expr *e, std::string_view bound, bool writes) {
+void Emitter::bitAccess(const Expr *e, bool writes) {
   const bool shared = isShared(bitOwner(e));
   const std::string_view kind = shared && writes ? "Shared" : "";
   const bool loads = shared && !writes;
@@ -51,16 +51,13 @@ void Emitter::bitAccess(const Expr *e, std::string_view bound, bool writes) {
   else
     w_ << kind << "Part<" << type(e->type) << ">(";
   w_ << (loads ? "::stride::load(" : "");
-  if (bound.empty())
-    place(bitOwner(e));
-  else
-    w_ << bound;
+  place(bitOwner(e));
   w_ << (loads ? ")" : "") << ", " << first / width;
 }
 
 void Emitter::bitValue(const Expr *e) {
   w_ << "::stride::get";
-  bitAccess(e, {}, false);
+  bitAccess(e, false);
   w_ << ')';
 }
 

@@ -19,7 +19,7 @@ enum class FileKind {
 
 /// Runs one .st file whose expected output stands in its trailing `//!` block. The result is what
 /// is wrong, ready to be printed; empty when nothing is. With `bless` the block is rewritten
-/// instead.
+/// instead. A program's `MODES` line has it run in further modes, which must print the same.
 std::string runFile(FileKind kind, const std::filesystem::path &file, bool bless);
 
 /// Runs the commands of a folder's golden.toml in a copy of the project. Result and `bless` as

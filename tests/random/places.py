@@ -1,6 +1,4 @@
 """Places that are read and written; calls; whatever may be assigned to a type."""
-import re
-
 from model import BITS, INTS, NUMBERS, REALS, TIMES, Array, Enum, OpenArray, OpenRef, Skip, Ref, StringType, Struct, Subrange, same
 from nodes import Node
 from pous import Interface
@@ -141,13 +139,13 @@ class Places:
             return text, lambda f: OpenRef(place(f), kind.bounds)
         return text, place
 
-    def target(self, wanted, shared=True, but=()):
+    def target(self, wanted):
         """A place of exactly this type that may be written: (text, function)"""
         choices = [v for v in self.scope.variables if v.writable and v.name not in self.scope.busy and
-                   self.holds(v.kind, wanted) and v.name[0] != "%" and (shared or not v.shared) and v.name not in but]
+                   self.holds(v.kind, wanted) and v.name[0] != "%"]
         if not choices:
             raise Skip
-        v = self.rng.choice(choices)
+        v = self.rng.choice(self.rather_movable(choices))
         return self.reach(v.name, v.kind, v.place, wanted)
 
     def implementer(self, interface):
@@ -163,7 +161,8 @@ class Places:
         choices += [(m, o) for o in self.objects for m in o.methods if m.result and wanted(m.result)]
         if not choices or self.in_call > 2:
             raise Skip
-        return self.call_of(*self.rng.choice(choices), depth)
+        movers = [c for c in choices if c[0] in self.moving]
+        return self.call_of(*self.rng.choice(movers if movers and self.rng.random() < 0.5 else choices), depth)
 
     def call_of(self, function, owner, depth):
         rng = self.rng
@@ -175,17 +174,14 @@ class Places:
                 parameters = [p for p in parameters if p.needed or rng.random() < 0.7] + list(function.in_outs)
                 parameters += [p for p in function.outputs if rng.random() < 0.7]
                 rng.shuffle(parameters)
-            texts, steps, roots = [], [], set()
+            texts, steps = [], []
             for p in parameters:
                 if p in function.inputs:
                     a = self.any(p.kind, max(0, depth - 1))
                     texts.append(f"{p.name} := {a.text}" if named else a.text)
                     steps.append((p, a.fn))
                 else:
-                    # An output must not be another name of something that the function uses.
-                    text, place = self.target(p.kind, p in function.in_outs and not function.outputs, roots)
-                    if function.outputs:
-                        roots.add(re.split(r"[.\[]", text)[0])
+                    text, place = self.target(p.kind)
                     texts.append(f"{p.name} {':=' if p in function.in_outs else '=>'} {text}")
                     steps.append((p, place))
         finally:

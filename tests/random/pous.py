@@ -64,6 +64,9 @@ class Pou:
         self.body, self.budget = None, None
         self.key, self.rank = name, 0  # what finds a method; a method uses those of lower rank only
 
+    def __deepcopy__(self, memo):
+        return self  # what instances are of, not what they hold
+
     def run(self, this, arguments):
         """A call of a function, or of a method of instance this. Arguments: parameter with a value, or with a place."""
         if this and self.virtual:

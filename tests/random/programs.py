@@ -4,13 +4,14 @@ import copy
 from declarations import Declarations
 from expressions import Expressions
 from model import Array, OpenArray, Ref
+from movers import Movers
 from nodes import ELEMENTARY, Scope, Variable
 from pous import Budget, Group, Instance, Interface, Member, Owner, Parameter, Pou
 from sections import Sections
 from statements import Statements
 
 
-class Generator(Declarations, Statements, Sections, Expressions):
+class Generator(Declarations, Statements, Sections, Expressions, Movers):
     """Everything of one project; `globals` are the values while it runs."""
 
     def __init__(self, rng):
@@ -23,6 +24,7 @@ class Generator(Declarations, Statements, Sections, Expressions):
         self.interfaces, self.implementers = [], []
         self.make_types()
         self.make_globals()
+        self.make_movers()
 
     # Functions and blocks
 
@@ -232,10 +234,12 @@ class Generator(Declarations, Statements, Sections, Expressions):
         return lambda f: f[name]
 
     def enter(self, variables, instances=(), objects=()):
-        self.scope = Scope(variables + self.shared)
-        self.objects = [*objects, *(Owner(i.text, i.place, list(i.block.all_methods().values())) for i in instances)]
+        self.scope = Scope(variables + self.shared + self.movable)
+        self.objects = [*objects, *(Owner(i.text, i.place, list(i.block.all_methods().values())) for i in instances),
+                        *self.movable_objects]
         self.implementers = [(i.text, i.place, i.block.interface) for i in instances if i.block.interface]
-        self.instances, self.in_loop, self.guards, self.faces = list(instances), 0, [], set()
+        self.instances = [*instances, *self.movable_instances]
+        self.in_loop, self.guards, self.faces = 0, [], set()
 
     def failing(self, count):
         """The text of a project that fails at run time, what it prints, the message and line and column"""
@@ -251,11 +255,11 @@ class Generator(Declarations, Statements, Sections, Expressions):
         line = next(i for i, t in enumerate(text) if t == "  Quotient := a / b;")
         return text, expected, message, (line + 1, 17)
 
-    def program(self, groups, count):
-        """The text of a project of groups × count programs, and (path, type, value) of what it must print"""
+    def program(self, groups, count, pous):
+        """The text of a project of groups × count programs with so many functions, and (path, type, value) of what it must print"""
         rng = self.rng
         self.make_interfaces()
-        for i in range(8):
+        for i in range(pous):
             self.pou(f"Fun{i}", True)
             if i in (1, 3, 4, 6):
                 self.pou(f"Block{i}", False, rng.choice(self.blocks) if i > 3 and rng.random() < 0.7 else None)
@@ -271,11 +275,13 @@ class Generator(Declarations, Statements, Sections, Expressions):
         for group in made:
             text += [f"FUNCTION_BLOCK {group.name}", "VAR", *group.lines, "END_VAR", *group.body, "END_FUNCTION_BLOCK"]
         text += ["PROGRAM PLC_PRG", "VAR", *(f"  g{i} : {g.name};" for i, g in enumerate(made)), "END_VAR",
-                 *(f"  g{i}();" for i in range(len(made))), "END_PROGRAM", ""]
+                 "  Start();", *(f"  g{i}();" for i in range(len(made))), "END_PROGRAM", ""]
         expected = []
         for i, group in enumerate(made):
             for name, kind, value in group.fields:
                 expected += kind.flat(f"PLC_PRG.g{i}.{name}", value)
         for v in self.shared:
             expected += v.kind.flat(v.name, v.place({}).get())
+        for name, kind in self.led:
+            expected += kind.flat(name, self.globals[name])
         return text, expected

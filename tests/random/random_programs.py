@@ -7,7 +7,8 @@ A seed is a project: types, variables (also at overlapping addresses), interface
 programs (sections of five blocks, each with variables of its own). `stride sim` runs it in each MODE (O2, O0,
 O2-unchecked, O0-unchecked; without --modes in all of them); every variable must have the value that the model in this
 folder gives it. Every fifth seed is a smaller project that ends with a run-time error, whose message and place are
-known: it runs in the checked modes. A project that disagrees is left in FOLDER (default: the temporary folder) and named.
+known: it runs in the checked modes. With --small a seed has twelve programs and one function and block, besides those of
+movers.py, for many seeds in little time. A project that disagrees is left in FOLDER (default: the temporary folder) and named.
 """
 import argparse
 import pathlib
@@ -20,19 +21,20 @@ from model import agrees
 from programs import Generator
 
 MODES = {"O2": [], "O0": ["--debug"], "O2-unchecked": ["--unchecked"], "O0-unchecked": ["--debug", "--unchecked"]}
-GROUPS, COUNT = 5, 20
+GROUPS, COUNT, POUS = 5, 20, 8
 
 
 def check(options, seed):
     """How many programs agree in all modes, or None"""
     generator = Generator(random.Random(seed))
-    error, programs = None, GROUPS * COUNT
+    groups, count, pous = (1, 12, 2) if options.small else (GROUPS, COUNT, POUS)
+    error, programs = None, groups * count
     if seed % 5 == 0:
         programs = 3
         text, expected, message, (line, column) = generator.failing(programs - 1)
         error = f"error: {message} at random{seed}.st:{line}:{column} "
     else:
-        text, expected = generator.program(GROUPS, COUNT)
+        text, expected = generator.program(groups, count, pous)
     source = options.keep / f"random{seed}.st"
     source.write_text("\n".join(text), encoding="utf-8")
     names = ["PLC_PRG", *(path for path, _, _ in expected if not path.startswith("PLC_PRG"))]
@@ -69,6 +71,7 @@ def main():
     parser.add_argument("stride", type=lambda text: pathlib.Path(text).resolve())
     parser.add_argument("--seeds", default="1..4")
     parser.add_argument("--modes", type=lambda text: text.split(","))
+    parser.add_argument("--small", action="store_true")
     parser.add_argument("--keep", type=pathlib.Path, default=pathlib.Path(tempfile.gettempdir()))
     options = parser.parse_args()
     first, last = map(int, options.seeds.split(".."))

@@ -75,6 +75,10 @@ class Statements:
             return self.property_assignment()
         if choice < 0.4:
             return self.binding()
+        if choice < 0.43:
+            return self.rebinding()
+        if choice < 0.45:
+            return self.counting_elsewhere()
         return self.assignment()
 
     def any_target(self, shared=True):
@@ -82,7 +86,7 @@ class Statements:
         rng = self.rng
         choices = [v for v in self.scope.variables if v.writable and v.name not in self.scope.busy and
                    (shared or not v.shared)]
-        v = rng.choice(choices)
+        v = rng.choice(self.rather_movable(choices))
         text, kind, place = v.name, v.kind, v.place
         while isinstance(kind, OpenArray) or isinstance(kind, (Array, Struct, Union)) and rng.random() < 0.85:
             if isinstance(kind, (Array, OpenArray)):
@@ -183,37 +187,35 @@ class Statements:
         block = target.block
         in_outs = block.all_in_outs()
         parameters = [p for p in block.all_inputs() if rng.random() < 0.7] + in_outs
+        wanted = [p for p in block.all_outputs() if rng.random() < 0.3]
+        parameters += wanted
         rng.shuffle(parameters)
-        texts, steps, after = [], [], []
+        texts, steps = [], []
         self.in_call += 1
         for p in parameters:
-            if p in in_outs:
-                text, place = self.target(p.kind)
-                texts.append(f"{p.name} := {text}")
-                steps.append((p.name, place))
+            if p in in_outs or p in wanted:
+                text, step = self.target(p.kind)
             else:
                 value = self.any(p.kind, 2)
-                texts.append(f"{p.name} := {value.text}")
-                steps.append((p.name, value.fn))
-        for p in block.all_outputs():
-            if rng.random() < 0.3:
-                text, place = self.target(p.kind, shared=False)
-                if text.startswith("f") or "[" in text:
-                    continue
-                texts.append(f"{p.name} => {text}")
-                after.append((p, place))
+                text, step = value.text, value.fn
+            texts.append(f"{p.name} {'=>' if p in wanted else ':='} {text}")
+            steps.append((p, step))
         self.in_call -= 1
 
         def run(f):
             self.budget.tick()
             instance = target.place(f).get()
-            for name, step in steps:
-                instance[name] = step(f)
+            results = []
+            for p, step in steps:
+                if p in wanted:
+                    results.append((p, step(f)))
+                else:
+                    instance[p.name] = step(f)
             block.execute(instance)
             for p in in_outs:
                 del instance[p.name]
-            for p, place in after:
-                place(f).set(p.kind.copy(instance[p.name]))
+            for p, place in results:
+                place.set(p.kind.copy(instance[p.name]))
 
         return [f"{target.text}({', '.join(texts)});"], run
 
