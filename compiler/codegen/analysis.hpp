@@ -27,12 +27,13 @@ public:
 
   /// Effect bits of evaluating the expression with its conversion.
   [[nodiscard]] unsigned effects(const ast::Expr *expr);
-  /// Effect bits of finding where the place is: none for a variable, `effectReads` for `a[i]`.
-  [[nodiscard]] unsigned placeEffects(const ast::Expr *place);
+  /// Effect bits of finding where the place is, in the code of `body`: none for a variable,
+  /// `effectReads` for `a[i]`.
+  [[nodiscard]] unsigned placeEffects(const ast::Expr *place, const PouSymbol *body);
   /// The same of the target of an assignment: of a property that is set, of finding its object.
-  [[nodiscard]] unsigned targetEffects(const ast::Expr *target);
+  [[nodiscard]] unsigned targetEffects(const ast::Expr *target, const PouSymbol *body);
   /// The same of the instance or interface whose method is called.
-  [[nodiscard]] unsigned objectEffects(const ast::Expr *object);
+  [[nodiscard]] unsigned objectEffects(const ast::Expr *object, const PouSymbol *body);
   /// A FUNCTION that only computes: it changes nothing but its own variables.
   [[nodiscard]] bool pure(const PouSymbol *function);
   /// Evaluating `first` before `second` or after it makes a difference for their values.
@@ -120,6 +121,9 @@ private:
 [[nodiscard]] bool followsAddress(const ast::IndexExpr *e);
 /// The variable an expression names directly (`x`, `GVL.x`, not `a.x`); null for all others.
 [[nodiscard]] const VarSymbol *namedVariable(const ast::Expr *expr);
+/// What the place is a bit, a part or a field of, with no address followed in between: `a[i]` of
+/// `a[i].w.3`.
+[[nodiscard]] const ast::Expr *containerOf(const ast::Expr *place);
 /// What a name or member stands for; null for all other expressions.
 [[nodiscard]] const Symbol *symbolAt(const ast::Expr *place);
 /// The property that an assignment to the target sets; null where it sets a variable.

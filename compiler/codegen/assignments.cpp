@@ -41,17 +41,6 @@ bool mayOverlap(const Expr *target) {
   }
 }
 
-/// The field lies in what its base is: no address is followed, nothing is called.
-bool liesInBase(const Expr *e) {
-  if (e->kind != ExprKind::member || isNamespace(as<MemberExpr>(e)->base))
-    return false;
-  const Symbol *symbol = as<MemberExpr>(e)->symbol;
-  if (symbol == nullptr)
-    return true; // a bit or part
-  return symbol->kind == SymbolKind::variable &&
-         !isIndirect(static_cast<const VarSymbol *>(symbol));
-}
-
 } // namespace
 
 void Emitter::storeTo(std::string_view target, const Type *type, const Expr *value) {
@@ -89,15 +78,12 @@ void Emitter::storeTo(std::string_view target, const Type *type, const Expr *val
   w_ << (bindings ? ");" : ";");
 }
 
-
 // -------------------------------------------------------------------------------------------------
 // finding places
 
-void Emitter::findPlace(Found &found, const Expr *place) {
-  const Expr *at = isBitPlace(place) ? bitOwner(place) : place;
-  while (liesInBase(at)) // also because nothing can be bound to a packed field
-    at = as<MemberExpr>(at)->base;
-  if (c_.analysis.placeEffects(at) == effectNone)
+void Emitter::findPlace(Found &found, const Expr *place, bool always) {
+  const Expr *at = containerOf(place); // also because nothing can be bound to a packed field
+  if (c_.analysis.placeEffects(at, pou_) == effectNone && !(always && at->kind == ExprKind::index))
     return;
   const std::string name = temporary("to");
   writing_ = true;
@@ -162,7 +148,7 @@ void Emitter::store(const Expr *target, const Expr *value) {
 void Emitter::assignValue(const AssignStmt *s) {
   unsigned places = effectNone;
   for (const Expr *target : s->targets)
-    places |= c_.analysis.targetEffects(target);
+    places |= c_.analysis.targetEffects(target, pou_);
   const bool finds = s->targets.size() > 1 ? places != effectNone
                                            : Analysis::orderShows(places, effects(s->value));
   Found found(*this);
@@ -188,11 +174,10 @@ void Emitter::assignReference(const AssignStmt *s) {
   const Expr *target = s->targets.back();
   const bool isMember =
       target->kind == ExprKind::member && !isNamespace(as<MemberExpr>(target)->base);
-  const unsigned where =
-      isMember                            ? c_.analysis.placeEffects(as<MemberExpr>(target)->base)
-      : target->kind == ExprKind::index ? c_.analysis.placeEffects(target)
-                                          : unsigned{effectNone};
-  const bool finds = Analysis::orderShows(where, c_.analysis.placeEffects(s->value));
+  const unsigned where = isMember ? c_.analysis.placeEffects(as<MemberExpr>(target)->base, pou_)
+                         : target->kind == ExprKind::index ? c_.analysis.placeEffects(target, pou_)
+                                                           : unsigned{effectNone};
+  const bool finds = Analysis::orderShows(where, c_.analysis.placeEffects(s->value, pou_));
   Found found(*this);
   w_ << (finds ? "{ " : "");
   if (finds && isMember)
@@ -215,7 +200,7 @@ void Emitter::setOrReset(const AssignStmt *s) {
   const std::string_view set = s->op == AssignOp::set ? "true" : "false";
   unsigned places = effectNone;
   for (const Expr *target : s->targets)
-    places |= c_.analysis.targetEffects(target);
+    places |= c_.analysis.targetEffects(target, pou_);
   const bool finds = (places & (effectRaises | effectCalls)) != 0 ||
                      Analysis::orderMatters(places, effects(s->value));
   Found found(*this);

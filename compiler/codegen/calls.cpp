@@ -120,8 +120,8 @@ void Emitter::argument(const Argument &a) {
     valueAs(a.value, p->type);
 }
 
-/// `::st::user::F(ctx__, …)`; `names` holds, by parameter, what stands for a value (or a place) that
-/// has been taken before.
+/// `::st::user::F(ctx__, …)`; `names` holds, by parameter, what stands for a value (or a place)
+/// that has been taken before.
 void Emitter::functionArguments(const CallExpr *e, const std::vector<std::string> &names) {
   if (e->resolved == Callee::method) {
     methodPrefix(objectOf(e), e->pou, e->callee->span);
@@ -147,10 +147,10 @@ void Emitter::functionArguments(const CallExpr *e, const std::vector<std::string
 /// Effects of what a call does for the argument before it: a value is computed, or a place found.
 unsigned Emitter::argumentEffects(const Argument &a) {
   if (a.output)
-    return c_.analysis.targetEffects(a.value);
+    return c_.analysis.targetEffects(a.value, pou_);
   const VarSymbol *p = a.parameter;
   const bool isAddress = p != nullptr && !needsCopy(a) && isIndirect(p);
-  return isAddress ? c_.analysis.placeEffects(a.value) : effects(a.value);
+  return isAddress ? c_.analysis.placeEffects(a.value, pou_) : effects(a.value);
 }
 
 /// C++ leaves the order of arguments open, ST does not.
@@ -166,7 +166,7 @@ Emitter::CallOrder Emitter::callOrder(const CallExpr *e) {
   }
   const Expr *object = e->resolved == Callee::method ? objectOf(e) : nullptr;
   order.object = object != nullptr &&
-                 Analysis::orderShows(c_.analysis.objectEffects(object), order.effects);
+                 Analysis::orderShows(c_.analysis.objectEffects(object, pou_), order.effects);
   for (const VarSymbol *p : e->pou->parameters())
     order.statements = order.statements || p->section == Section::output;
   order.statements = order.statements || order.arguments || order.object;
@@ -308,16 +308,17 @@ void Emitter::instanceCall(const CallExpr *e, Span span) {
   includes_.called(pou);
   const bool isProgram = e->resolved == Callee::program;
   // Found once, however many inputs are set.
-  bool braces = !isProgram && c_.analysis.placeEffects(e->callee) != effectNone;
+  bool braces = !isProgram && (containerOf(e->callee)->kind == ExprKind::index ||
+                               c_.analysis.placeEffects(e->callee, pou_) != effectNone);
   for (const Argument &a : e->arguments) {
     if (a.value != nullptr && a.parameter != nullptr)
-      braces = braces || (a.output ? c_.analysis.targetEffects(a.value) != effectNone
-                                   : needsCopy(a));
+      braces = braces ||
+               (a.output ? c_.analysis.targetEffects(a.value, pou_) != effectNone : needsCopy(a));
   }
   Found found(*this);
   w_ << (braces ? "{ " : "");
   if (!isProgram)
-    findPlace(found, e->callee);
+    findPlace(found, e->callee, true);
   const std::string instance = isProgram ? std::string(root({pou, false})) : placeText(e->callee);
   const auto field = [&](const VarSymbol *p) {
     return instance + "." + pathToBase(pou, p->owner) + fieldName(p);

@@ -57,6 +57,19 @@ const PropertySymbol *writtenProperty(const Expr *target) {
   return property->type->kind == TypeKind::reference ? nullptr : property;
 }
 
+const Expr *containerOf(const Expr *place) {
+  while (place->kind == ExprKind::member && !isNamespace(as<MemberExpr>(place)->base)) {
+    const Symbol *symbol = as<MemberExpr>(place)->symbol;
+    const bool isField = symbol == nullptr || // a bit or part
+                         (symbol->kind == SymbolKind::variable &&
+                          !isIndirect(static_cast<const VarSymbol *>(symbol)));
+    if (!isField && as<MemberExpr>(place)->bit < 0)
+      break;
+    place = as<MemberExpr>(place)->base;
+  }
+  return place;
+}
+
 namespace {
 
 /// `^` of THIS or SUPER: always the same place, never null.
@@ -71,10 +84,10 @@ bool followsSlot(const Symbol *symbol) {
          isIndirect(static_cast<const VarSymbol *>(symbol));
 }
 
-/// The in-out of a function or method: the same place as long as the call lasts.
-bool isFixed(const VarSymbol *variable) {
-  return variable->section == Section::inOut && variable->owner != nullptr &&
-         variable->owner->type == nullptr;
+/// The in-out of the function, method or body whose code it is: the same place as long as the call
+/// lasts.
+bool isFixed(const VarSymbol *variable, const PouSymbol *body) {
+  return variable->section == Section::inOut && variable->owner == body;
 }
 
 } // namespace
@@ -131,8 +144,8 @@ unsigned Analysis::calling(const CallExpr *e) {
     if (e->builtin == Builtin::newT || e->builtin == Builtin::deleteT ||
         e->builtin == Builtin::ini || isAssertion(e->builtin))
       return result | effectReads | effectRaises | effectCalls;
-    return result | (e->builtin == Builtin::time || e->builtin == Builtin::ltime ? effectReads
-                                                                                 : effectNone);
+    return result |
+           (e->builtin == Builtin::time || e->builtin == Builtin::ltime ? effectReads : effectNone);
   }
   result |= effectReads | effectRaises;
   if (e->resolved != Callee::function || !pure(e->pou))
@@ -146,8 +159,7 @@ unsigned Analysis::effects(const Expr *expr) {
   unsigned result = effectNone;
   if (checks_ && expr->target != nullptr && expr->target->kind == TypeKind::subrange &&
       expr->type != expr->target)
-    result = effectRaises |
-             checkedBy(ImplicitCheck::rangeSigned, ImplicitCheck::rangeLongUnsigned);
+    result = effectRaises | checkedBy(ImplicitCheck::rangeSigned, ImplicitCheck::rangeLongUnsigned);
   switch (expr->kind) {
   case ExprKind::literal:
   case ExprKind::enumLiteral:
@@ -179,8 +191,7 @@ unsigned Analysis::effects(const Expr *expr) {
     // Sums of thousands of terms lean to the left: they are walked, not descended into.
     const Expr *left = expr;
     while (left->kind == ExprKind::binary && left->constant == nullptr &&
-           (left == expr || left->target == nullptr ||
-            left->target->kind != TypeKind::subrange)) {
+           (left == expr || left->target == nullptr || left->target->kind != TypeKind::subrange)) {
       const auto *binary = as<BinaryExpr>(left);
       result |= dividing(binary) | effects(binary->right);
       left = binary->left;
@@ -193,7 +204,7 @@ unsigned Analysis::effects(const Expr *expr) {
   return result;
 }
 
-unsigned Analysis::placeEffects(const Expr *place) {
+unsigned Analysis::placeEffects(const Expr *place, const PouSymbol *body) {
   switch (place->kind) {
   case ExprKind::direct:
     return effectNone;
@@ -204,15 +215,15 @@ unsigned Analysis::placeEffects(const Expr *place) {
     const Symbol *symbol = symbolAt(place);
     if (symbol != nullptr && symbol->kind == SymbolKind::property)
       return effects(place);
-    unsigned result = base == nullptr ? effectNone : placeEffects(base);
-    if (followsSlot(symbol) && !isFixed(static_cast<const VarSymbol *>(symbol)))
+    unsigned result = base == nullptr ? effectNone : placeEffects(base, body);
+    if (followsSlot(symbol) && !isFixed(static_cast<const VarSymbol *>(symbol), body))
       result |= effectReads | effectStrays | (checks_ ? effectRaises : effectNone);
     return result;
   }
   case ExprKind::index: {
     const auto *index = as<IndexExpr>(place);
     const bool points = index->base->type->kind == TypeKind::pointer;
-    return indexing(index) | (points ? effects(index->base) : placeEffects(index->base));
+    return indexing(index) | (points ? effects(index->base) : placeEffects(index->base, body));
   }
   case ExprKind::deref: {
     const Expr *pointer = as<DerefExpr>(place)->base;
@@ -223,17 +234,17 @@ unsigned Analysis::placeEffects(const Expr *place) {
   }
 }
 
-unsigned Analysis::targetEffects(const Expr *target) {
+unsigned Analysis::targetEffects(const Expr *target, const PouSymbol *body) {
   if (writtenProperty(target) == nullptr)
-    return placeEffects(target);
+    return placeEffects(target, body);
   const bool isOwn = target->kind == ExprKind::name || isNamespace(as<MemberExpr>(target)->base);
-  return isOwn ? unsigned{effectNone} : objectEffects(as<MemberExpr>(target)->base);
+  return isOwn ? unsigned{effectNone} : objectEffects(as<MemberExpr>(target)->base, body);
 }
 
-unsigned Analysis::objectEffects(const Expr *object) {
+unsigned Analysis::objectEffects(const Expr *object, const PouSymbol *body) {
   if (object->type != nullptr && object->type->kind == TypeKind::interface)
     return effects(object) | effectStrays | (checks_ ? effectRaises : effectNone);
-  return placeEffects(object);
+  return placeEffects(object, body);
 }
 
 } // namespace stc::codegen

@@ -6,12 +6,12 @@ namespace stc::codegen {
 
 using namespace ast;
 
-/// An argument list takes what is indexed, and C++ would be free to read it after the index. Begins a
-/// lambda that takes it first; gives what stands for it there.
+/// An argument list takes what is indexed, and C++ would be free to read it after the index. Begins
+/// a lambda that takes it first; gives what stands for it there.
 std::string Emitter::openBase(const std::string &base, const Type *type) {
   const std::string name = temporary("base");
-  w_ << "[&]() -> decltype(auto) { " << (isString(type) ? "auto &&" : "const auto ") << name << " = "
-     << base << "; return ";
+  w_ << "[&]() -> decltype(auto) { " << (isString(type) ? "auto &&" : "const auto ") << name
+     << " = " << base << "; return ";
   return name;
 }
 
@@ -93,7 +93,7 @@ void Emitter::index(const IndexExpr *e, bool slotOnly) {
     value(e->base);
   else
     place(e->base);
-  unsigned before = points ? effects(e->base) : c_.analysis.placeEffects(e->base);
+  unsigned before = points ? effects(e->base) : c_.analysis.placeEffects(e->base, pou_);
   for (const Expr *i : e->indices) {
     if (t->kind == TypeKind::reference) {
       t = typeAs<PointerType>(t)->pointee;

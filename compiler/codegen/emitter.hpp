@@ -341,8 +341,8 @@ private:
 
   // assignments.cpp
   /// Writes `auto &to = a[i]; ` where finding the place takes more than its name; until `found`
-  /// ends, `to` stands for it.
-  void findPlace(Found &found, const ast::Expr *place);
+  /// ends, `to` stands for it. With `always` also where the order does not show, for brevity.
+  void findPlace(Found &found, const ast::Expr *place, bool always = false);
   /// The same of the target of an assignment: of a property that is set, its object is found.
   void findTarget(Found &found, const ast::Expr *target);
   /// The same of the instance, or the (checked) interface, whose method is called.

@@ -172,7 +172,7 @@ void Emitter::forStatement(const ForStmt *s) {
   begin(s->span);
   std::string variable = writableText(s->variable);
   // Found once, before the bounds are computed; and followed once where that takes a call.
-  if (c_.analysis.placeEffects(s->variable) != effectNone || isShared(s->variable) ||
+  if (c_.analysis.placeEffects(s->variable, pou_) != effectNone || isShared(s->variable) ||
       locationOf(s->variable) != nullptr) {
     w_ << (isShared(s->variable) ? "const auto counter__" : "auto &counter__") << number << " = "
        << variable << "; ";

@@ -216,7 +216,7 @@ void Emitter::binary(const BinaryExpr *e) {
     };
     const unsigned l = effects(e->left);
     const unsigned r = effects(e->right);
-    if (Analysis::orderMatters(l, r)) {
+    if (Analysis::orderShows(l, r)) { // they are arguments of a function
       ordered(e);
       return;
     }
@@ -266,15 +266,17 @@ void Emitter::binary(const BinaryExpr *e) {
     w_ << "; }()";
 }
 
-/// C++ leaves the order of operands open, ST does not: the values are taken one after the other.
+/// C++ leaves the order of operands open, ST does not: the values are taken one after the other,
+/// and copied where a call may change what they come from.
 void Emitter::ordered(const BinaryExpr *e) {
   const std::string left = temporary("left");
   const std::string right = temporary("right");
+  const bool calls = ((effects(e->left) | effects(e->right)) & effectCalls) != 0;
   const auto keep = [&](const std::string &name, const Expr *side) {
     const Type *t = side->target != nullptr ? side->target : side->type;
     if (e->operandType != nullptr && !isString(e->operandType))
       t = underlying(e->operandType);
-    w_ << "const " << type(t) << ' ' << name << " = ";
+    w_ << type(t) << (calls ? " const " : " const &") << name << " = "; // a text is not copied
     valueAs(side, t);
     w_ << "; ";
   };

@@ -48,7 +48,7 @@ struct Printed {
 } // namespace
 
 static Printed runOnce(FileKind kind, const fs::path &file, const std::string &source,
-                   const std::vector<std::string> &mode) {
+                       const std::vector<std::string> &mode) {
   const test::ScratchDirectory scratch;
   const std::string name = file.filename();
   test::writeFile(scratch.path() / name, source);

@@ -39,8 +39,11 @@ class Declarations:
     def make_unions(self):
         """Unions of numbers and of what is made of them"""
         rng = self.rng
-        fields = {f"r{k}": self.raw() for k in range(rng.randint(2, 4))}
-        raw = Struct("Raw", fields, {n: t.default() for n, t in fields.items()})
+        while True:
+            fields = {f"r{k}": self.raw() for k in range(rng.randint(2, 4))}
+            raw = Struct("Raw", fields, {n: t.default() for n, t in fields.items()})
+            if layout(raw)[0] == sum(layout(t)[0] for t in fields.values()):
+                break  # what a copy leaves in gaps would be seen through the other fields
         self.text += ["TYPE Raw : STRUCT", *(f"  {n} : {t.name};" for n, t in fields.items()), "END_STRUCT END_TYPE"]
         for i in range(2):
             fields = {f"u{k}": self.raw() for k in range(rng.randint(1, 3))}
