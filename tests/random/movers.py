@@ -1,6 +1,6 @@
 """What calls move: references, pointers, indices and interfaces that lead elsewhere after a function, method or block has
 run. They are globals, so that any expression may move what an assignment or a call around it has to find first."""
-from model import NUMBERS, Array, Ref
+from model import NUMBERS, Array, Ref, wrap
 from nodes import ELEMENTARY, Variable
 from pous import BlockArray, Instance, Owner, Parameter, Pou
 
@@ -221,6 +221,6 @@ class Movers:
                 step(f)
                 i = ref.get()
                 more = i < limit
-                ref.set(i + 1)
+                ref.set(wrap(kind, i + 1))
 
         return [f"FOR {v.name} := {first} TO TO_{kind}({first} + (TO_INT({bound.text}) AND 3)) DO", *("  " + line for line in lines), "END_FOR"], run
