@@ -319,8 +319,6 @@ private:
   // builtin_calls.cpp
   void builtin(const ast::CallExpr *e);
   bool selectedOnly(const ast::CallExpr *e);
-  void newObject(const ast::CallExpr *e);
-  void deleteObject(const ast::CallExpr *e);
   void orderedBuiltin(const ast::CallExpr *e);
   std::vector<std::string> takeArguments(const ast::CallExpr *e);
   void builtinPlain(const ast::CallExpr *e, const std::vector<std::string> *names);
@@ -331,6 +329,8 @@ private:
 
   // instances.cpp
   void unbind(std::string_view target, const Type *type);
+  void newObject(const ast::CallExpr *e);
+  void deleteObject(const ast::CallExpr *e);
   void copyOf(const ast::Expr *e, const Type *type);
   void reinitialise(const ast::CallExpr *e);
   void initialValues(std::string_view target, const Type *type, const VarSymbol *declared,

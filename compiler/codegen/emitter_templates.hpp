@@ -271,8 +271,7 @@ template <class Slot> void Emitter::located(const Location &at, const Type *type
   w_ << (aligned ? ")" : ").v");
 }
 
-template <class Value>
-void Emitter::bitStore(const ast::Expr *e, Value &&value) {
+template <class Value> void Emitter::bitStore(const ast::Expr *e, Value &&value) {
   if (isBitField(e)) {
     place(e);
     w_ << " = ";

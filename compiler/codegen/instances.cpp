@@ -1,4 +1,5 @@
-// Instances as a whole: copies of them, and INI, which gives them their initial values once more.
+// Instances as a whole: copies of them, INI, which gives them their initial values once more, and
+// those of __NEW.
 
 #include "compiler/codegen/units.hpp"
 #include "compiler/semantics/hierarchy.hpp"
@@ -258,6 +259,93 @@ void Emitter::reinitialise(const CallExpr *e) {
   w_ << "default: { ";
   each(target, type, nullptr);
   w_ << "break; } } return ::stride::BOOL{1}; }()";
+}
+
+// -------------------------------------------------------------------------------------------------
+// __NEW, __DELETE
+
+/// Memory of the pool, with the defaults of its type.
+void Emitter::newObject(const CallExpr *e) {
+  const Type *t = e->arguments[0].value->type;
+  const bool initialise = c_.layouts.needsInit(t);
+  const std::string objects = temporary("objects");
+  const std::string count = temporary("count");
+  if (initialise) {
+    w_ << "[&] { const ::stride::LINT " << count << " = ";
+    if (e->arguments.size() > 1)
+      value(e->arguments[1].value);
+    else
+      w_ << '1';
+    w_ << "; auto *const " << objects << " = ";
+  }
+  w_ << "::stride::newObjects<" << type(t) << ">(" << ctx() << ", ";
+  if (initialise)
+    w_ << count;
+  else if (e->arguments.size() > 1)
+    value(e->arguments[1].value);
+  else
+    w_ << '1';
+  w_ << ", " << c_.layouts.hash(t) << "ULL)";
+  if (!initialise)
+    return;
+  const std::string i = temporary("i");
+  w_ << "; for (::stride::LINT " << i << " = 0; " << objects << " != nullptr && " << i << " < "
+     << count << "; ++" << i << ") { ";
+  const std::string object = objects + "[" + i + "]";
+  inlineStatements([&](Emitter &inner) {
+    inner.initSpan_ = e->span;
+    inner.typeDefault(object, t);
+    inner.constructPlain(object, t);
+    inner.afterInit(object, t);
+  });
+  w_ << "} return " << objects << "; }()";
+}
+
+/// The pointer is followed once, and 0 afterwards.
+void Emitter::deleteObject(const CallExpr *e) {
+  const std::string pointer = temporary("pointer");
+  const Expr *variable = e->arguments[0].value;
+  w_ << "{ auto &" << pointer << " = ";
+  place(variable);
+  w_ << "; ";
+  const Type *pointee = typeAs<PointerType>(variable->type)->pointee;
+  const auto exits = [&](const Type *real, const std::string &first) {
+    if (!c_.layouts.hasLifecycle(real, "fb_exit"))
+      return;
+    includes_.complete(real);
+    const std::string i = temporary("i");
+    w_ << "for (::stride::ULINT " << i << " = 0; " << i << " < ::stride::poolCount(" << ctx()
+       << ", " << pointer << "); ++" << i << ") " << first << '[' << i << "].exit__(" << ctx()
+       << "); ";
+  };
+  // What was created may be a block that extends the one pointed to.
+  std::vector<const PouSymbol *> derived;
+  if (pointee->kind == TypeKind::functionBlock && hasTypeId(typeAs<PouType>(pointee)->symbol)) {
+    for (const PouSymbol *p : derivedBlocks(c_.program, typeAs<PouType>(pointee)->symbol)) {
+      if (c_.layouts.hasLifecycle(p->type, "fb_exit"))
+        derived.push_back(p);
+    }
+  }
+  if (derived.empty()) {
+    exits(pointee, pointer);
+  } else {
+    includes_.complete(pointee);
+    w_ << "if (::stride::poolCount(" << ctx() << ", " << pointer << ") != 0) { switch (" << pointer
+       << "->" << pathToTypeId(typeAs<PouType>(pointee)->symbol) << ") { ";
+    for (const PouSymbol *p : derived) {
+      const std::string real = temporary("real");
+      w_ << "case " << c_.names.typeId(p) << "U: { auto *const " << real << " = reinterpret_cast<"
+         << type(p->type) << " *>(" << pointer << "); ";
+      exits(p->type, real);
+      w_ << "break; } ";
+    }
+    w_ << "default: ";
+    exits(pointee, pointer);
+    w_ << "break; } } ";
+  }
+  w_ << "::stride::poolDelete(" << ctx() << ", " << pointer << ", ";
+  position(e->span);
+  w_ << "); " << pointer << " = nullptr; }";
 }
 
 } // namespace stc::codegen
