@@ -81,11 +81,29 @@ void Emitter::storeTo(std::string_view target, const Type *type, const Expr *val
 // -------------------------------------------------------------------------------------------------
 // finding places
 
+/// A value, not a place, whose methods may take its address.
+bool Emitter::isBlockValue(const Expr *e) const {
+  const PropertySymbol *property = writtenProperty(e);
+  const PouSymbol *from = property != nullptr         ? accessor(property, true)
+                          : e->kind == ExprKind::call ? as<CallExpr>(e)->pou
+                                                      : nullptr;
+  return from != nullptr && from->result != nullptr &&
+         from->result->type->kind != TypeKind::reference && Addressed::holdsBlock(e->type);
+}
+
 void Emitter::findPlace(Found &found, const Expr *place, bool always) {
   const Expr *at = containerOf(place); // also because nothing can be bound to a packed field
   if (c_.analysis.placeEffects(at, pou_) == effectNone && !(always && at->kind == ExprKind::index))
     return;
   const std::string name = temporary("to");
+  if (isBlockValue(at)) { // in a place of its own for as long as something is done with it
+    includes_.complete(at->type);
+    w_ << "::stride::OnDataStack<" << type(at->type) << "> " << name << "__local(" << ctx() << ", ";
+    raw(at);
+    w_ << "); auto &" << name << " = " << name << "__local.value(); ";
+    found.set(at, name);
+    return;
+  }
   writing_ = true;
   const std::string text = placeText(at);
   writing_ = false;

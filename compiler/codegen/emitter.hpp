@@ -347,6 +347,7 @@ private:
   void findTarget(Found &found, const ast::Expr *target);
   /// The same of the instance, or the (checked) interface, whose method is called.
   void findObject(Found &found, const ast::Expr *object);
+  [[nodiscard]] bool isBlockValue(const ast::Expr *e) const;
   void assign(const ast::AssignStmt *s);
   void assignValue(const ast::AssignStmt *s);
   void assignReference(const ast::AssignStmt *s);
