@@ -1,0 +1,34 @@
+// Many mutated sources through the commands, each crash caught and kept.
+#pragma once
+
+#include "tests/fuzz/token_mutator.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace stride::fuzz {
+
+/// A source that ended the process that worked on it.
+struct Failure {
+  std::uint64_t number = 0;
+  int signal = 0; ///< SIGALRM: it took too long
+  std::string source;
+};
+
+struct Campaign {
+  std::vector<Failure> failures;
+  double slowestSeconds = 0; ///< of processor time
+  std::uint64_t slowest = 0; ///< its number
+};
+
+/// Source `number` of all that can be made from the corpus; sometimes of several files.
+[[nodiscard]] std::string mutatedSource(const TokenMutator &mutator, std::uint64_t number);
+
+/// Runs the commands on the sources `first` … `first + count - 1` in child processes, which use
+/// `folder`. Gives up after 20 failures. Throws std::system_error when no process can be started.
+[[nodiscard]] Campaign runCampaign(const TokenMutator &mutator, std::uint64_t first,
+                                   std::uint64_t count, const std::filesystem::path &folder);
+
+} // namespace stride::fuzz
