@@ -1,8 +1,8 @@
 // Reading and writing cams in all the forms that `stride cam` knows.
 
 #include "compiler/cli/cam.hpp"
-#include "compiler/project/file_system.hpp"
 #include "compiler/project/names.hpp"
+#include "compiler/source/read_source.hpp"
 
 #include <charconv>
 #include <cmath>
@@ -44,10 +44,10 @@ std::string_view reasonOf(CamFileError error) {
 }
 
 std::optional<LoadedCam> loadBinary(const std::string &path, Diagnostics &diagnostics) {
-  const std::optional<std::string> bytes = readFile(path);
+  const std::optional<std::string> bytes = readSource(path);
   if (!bytes) {
     diagnostics.report(Code::unreadableFile, {},
-                       fmt::format("`{}` cannot be read: {}", path, lastError()));
+                       fmt::format("`{}` cannot be read: {}", path, readSourceError()));
     return std::nullopt;
   }
   std::vector<double> aligned((bytes->size() + sizeof(double) - 1) / sizeof(double) + 1);
@@ -204,7 +204,7 @@ std::optional<LoadedCam> loadCam(const std::string &path, SourceManager &sources
   const std::optional<FileId> id = sources.load(path, path);
   if (!id) {
     diagnostics.report(Code::unreadableFile, {},
-                       fmt::format("`{}` cannot be read: {}", path, lastError()));
+                       fmt::format("`{}` cannot be read: {}", path, readSourceError()));
     return std::nullopt;
   }
   LoadedCam cam;

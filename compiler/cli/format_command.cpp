@@ -3,20 +3,27 @@
 #include "compiler/cli/line_diff.hpp"
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/format_project.hpp"
+#include "compiler/source/read_source.hpp"
 
+#include <cerrno>
 #include <cstdio>
 #include <fmt/format.h>
 #include <iterator>
+#include <optional>
 
 namespace stc::cli {
 
 namespace {
 
-std::string readStdin() {
+/// Nothing when it is longer than a source file may be.
+std::optional<std::string> readStdin() {
   std::string text;
   char block[1 << 16];
-  for (std::size_t count = 0; (count = std::fread(block, 1, sizeof block, stdin)) != 0;)
+  for (std::size_t count = 0; (count = std::fread(block, 1, sizeof block, stdin)) != 0;) {
     text.append(block, count);
+    if (text.size() > kMaxSourceBytes)
+      return std::nullopt;
+  }
   return text;
 }
 
@@ -30,7 +37,14 @@ int formatStdin(const FormatOptions &options) {
   SourceManager sources;
   Diagnostics diagnostics;
   const FormatSettings settings = readFormatSettings({}, sources, diagnostics);
-  std::vector<FormattedFile> files{{{}, "<stdin>", false, readStdin(), {}}};
+  const std::optional<std::string> text = readStdin();
+  if (!text) {
+    errno = EFBIG;
+    return showError(Code::unreadableFile,
+                     fmt::format("`<stdin>` cannot be read: {}", readSourceError()),
+                     options.output);
+  }
+  std::vector<FormattedFile> files{{{}, "<stdin>", false, *text, {}}};
   if (!diagnostics.hasErrors())
     formatFiles(files, settings, sources, diagnostics);
   const int exitCode = showAll(diagnostics, sources, options.output);

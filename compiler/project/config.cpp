@@ -12,6 +12,9 @@ namespace stc {
 
 namespace {
 
+/// Longest name of a project, in bytes: file systems know names of 255, and some are longer.
+constexpr std::size_t kMaxProjectName = 200;
+
 class Reader {
 public:
   Reader(const SourceFile &file, Diagnostics &diagnostics)
@@ -27,7 +30,8 @@ public:
     for (const CheckedSection &levels : top.sections("diagnostics", diagnostics_))
       readLevels(levels);
     for (const CheckedSection &project : top.sections("project", diagnostics_)) {
-      readName(project);
+      config_.name = project.text("name");
+      checkProjectName(project.get("name"));
       config_.poolSize =
           (static_cast<std::uint64_t>(project.integer("new_pool", 65536)) + 15) / 16 * 16;
       config_.generation = static_cast<unsigned>(project.choice("softmotion", 2));
@@ -78,27 +82,6 @@ private:
     diagnostics_.setLevels(std::move(levels));
   }
 
-  // It becomes part of the names of files: of retained data, of traces.
-  void readName(const CheckedSection &project) {
-    constexpr std::size_t kLongest = 200;
-    config_.name = project.text("name");
-    const TomlNode *node = project.get("name");
-    if (node == nullptr)
-      return;
-    const bool control = std::any_of(config_.name.begin(), config_.name.end(),
-                                     [](char c) { return static_cast<unsigned char>(c) < ' '; });
-    if (!config_.name.empty() && config_.name.front() != '.' && !control &&
-        config_.name.find('/') == std::string::npos && config_.name.size() <= kLongest)
-      return;
-    diagnostics_
-        .report(Code::configBadName, node->span, "this cannot be the name of a project",
-                "not a name")
-        .help(fmt::format("files are named after it: 1 to {} bytes without `/` and control "
-                          "characters, not beginning with a dot",
-                          kLongest));
-    config_.name.clear();
-  }
-
   void readDefine(const TomlNode &node) {
     if (const std::optional<Define> define = stc::readDefine(node.text))
       config_.defines.push_back(*define);
@@ -107,6 +90,32 @@ private:
           .report(Code::configBadName, node.span, fmt::format("`{}` cannot be defined", node.text),
                   "not a name")
           .help("write \"NAME\" or \"NAME=VALUE\"");
+  }
+
+  /// Files are named after the project.
+  /// What is wrong with it as a part of the names of files; empty: nothing.
+  static std::string projectNameProblem(std::string_view name) {
+    if (name.size() > kMaxProjectName)
+      return fmt::format("longer than {} bytes", kMaxProjectName);
+    if (name.find('/') != std::string_view::npos)
+      return "with a `/`";
+    if (name.starts_with('.'))
+      return "begins with a dot";
+    const bool control = std::any_of(name.begin(), name.end(),
+                                     [](char c) { return static_cast<unsigned char>(c) < ' '; });
+    return control ? "with a control character" : "";
+  }
+
+  void checkProjectName(const TomlNode *name) {
+    if (name == nullptr)
+      return;
+    const std::string problem = projectNameProblem(name->text);
+    if (problem.empty())
+      return;
+    config_.name.clear();
+    diagnostics_
+        .report(Code::configBadName, name->span, "the project cannot have this name", problem)
+        .note("its files have the project's name, that of the retained data for one");
   }
 
   void readTask(const CheckedSection &section) {

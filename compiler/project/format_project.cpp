@@ -1,9 +1,9 @@
 #include "compiler/project/format_project.hpp"
 
 #include "compiler/project/config.hpp"
-#include "compiler/project/file_system.hpp"
 #include "compiler/project/project.hpp"
 #include "compiler/project/schema.hpp"
+#include "compiler/source/read_source.hpp"
 #include "compiler/syntax/parser.hpp"
 
 #include <algorithm>
@@ -62,7 +62,7 @@ FormatSettings readFormatSettings(const fs::path &place, SourceManager &sources,
   const std::optional<FileId> id = sources.load(manifest, manifest.filename().string());
   if (!id) {
     diagnostics.report(Code::unreadableFile, {},
-                       fmt::format("`{}` cannot be read: {}", manifest.string(), lastError()));
+                       fmt::format("`{}` cannot be read: {}", manifest.string(), readSourceError()));
     return settings;
   }
   const std::unique_ptr<TomlNode> document = parseToml(sources.file(*id), diagnostics);
@@ -134,10 +134,10 @@ std::vector<FormattedFile> formatPath(const fs::path &path, SourceManager &sourc
   if (diagnostics.hasErrors())
     return files;
   for (const fs::path &one : paths) {
-    std::optional<std::string> bytes = readFile(one);
+    std::optional<std::string> bytes = readSource(one);
     if (!bytes) {
       diagnostics.report(Code::unreadableFile, {},
-                         fmt::format("`{}` cannot be read: {}", one.string(), lastError()));
+                         fmt::format("`{}` cannot be read: {}", one.string(), readSourceError()));
       continue;
     }
     const std::string name = one.lexically_normal().string();

@@ -1,8 +1,8 @@
 #include "compiler/project/project.hpp"
 
 #include "compiler/project/cam_source.hpp"
-#include "compiler/project/file_system.hpp"
 #include "compiler/project/names.hpp"
+#include "compiler/source/read_source.hpp"
 #include "compiler/syntax/parser.hpp"
 
 #include <algorithm>
@@ -99,7 +99,7 @@ void Project::loadFolder() {
     else
       program_.diagnostics.report(
           Code::unreadableFile, {},
-          fmt::format("`{}` cannot be read: {}", manifest.string(), lastError()));
+          fmt::format("`{}` cannot be read: {}", manifest.string(), readSourceError()));
   }
   const std::vector<fs::path> sources = findSources(path_, error);
   if (error)
@@ -119,7 +119,7 @@ void Project::loadFolder() {
       camFiles_.push_back(*id);
     else
       program_.diagnostics.report(Code::unreadableFile, {},
-                                  fmt::format("`{}` cannot be read: {}", name, lastError()));
+                                  fmt::format("`{}` cannot be read: {}", name, readSourceError()));
   }
   loaded_ = !sources.empty();
 }
@@ -129,7 +129,7 @@ void Project::loadFile(const fs::path &path, const std::string &name) {
     sourceFiles_.push_back(*id);
   else
     program_.diagnostics.report(Code::unreadableFile, {},
-                                fmt::format("`{}` cannot be read: {}", path.string(), lastError()));
+                                fmt::format("`{}` cannot be read: {}", path.string(), readSourceError()));
 }
 
 bool Project::declaresNothing(const std::vector<ast::File *> &files) const {

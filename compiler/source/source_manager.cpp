@@ -1,9 +1,9 @@
 #include "compiler/source/source_manager.hpp"
 
+#include "compiler/source/read_source.hpp"
+
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
-#include <fstream>
 
 namespace stc {
 
@@ -115,35 +115,10 @@ FileId SourceManager::addBytes(std::string name, std::string bytes) {
 }
 
 std::optional<FileId> SourceManager::load(const std::filesystem::path &path, std::string name) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) {
-    errno = EISDIR;
+  std::optional<std::string> bytes = readSource(path);
+  if (!bytes)
     return std::nullopt;
-  }
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  std::string bytes;
-  if (in) {
-    constexpr std::size_t kBlock = 1 << 16;
-    while (in) {
-      const std::size_t size = bytes.size();
-      bytes.resize(size + kBlock);
-      in.read(bytes.data() + size, kBlock);
-      bytes.resize(size + static_cast<std::size_t>(in.gcount()));
-    }
-    in.clear(in.rdstate() & std::ios::badbit);
-  }
-  // Places are 32-bit offsets.
-  if (bytes.size() > 0x7FFFFFFF) {
-    errno = EFBIG;
-    return std::nullopt;
-  }
-  if (!in || in.bad()) {
-    if (errno == 0)
-      errno = EIO;
-    return std::nullopt;
-  }
-  return addBytes(std::move(name), std::move(bytes));
+  return addBytes(std::move(name), std::move(*bytes));
 }
 
 std::string_view SourceManager::text(Span span) const {

@@ -59,7 +59,7 @@ public:
   /// Adds raw file bytes: drops a BOM, converts Latin-1 to UTF-8 when the bytes are not valid
   /// UTF-8.
   FileId addBytes(std::string name, std::string bytes);
-  /// Reads a file from disk; nullopt when it cannot be read (errno tells why).
+  /// Reads a file from disk; nullopt when it cannot be read (readSourceError() tells why).
   std::optional<FileId> load(const std::filesystem::path &path, std::string name);
 
   [[nodiscard]] const SourceFile &file(FileId id) const { return *files_[id - 1]; }

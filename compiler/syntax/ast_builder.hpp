@@ -55,6 +55,8 @@ private:
   [[nodiscard]] std::string_view text(const Token &token) const { return scanner_.text(token); }
   [[nodiscard]] Span span(const Context *context) const;
   [[nodiscard]] std::span<ast::Name> path(const Context *context);
+  /// The paths that are the children, without those that hold no name (`EXTENDS A,`).
+  [[nodiscard]] std::span<ast::NamePath> paths(const Context *context);
 
   // declarations
   void modifiers(const Context *context, ast::Decl &out);

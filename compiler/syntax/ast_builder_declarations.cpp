@@ -57,6 +57,14 @@ std::span<Name> AstBuilder::path(const Context *context) {
   return arena_.copy(names);
 }
 
+std::span<NamePath> AstBuilder::paths(const Context *context) {
+  std::vector<NamePath> list;
+  for (std::size_t i = 0; i < context->children.size(); ++i)
+    if (const NamePath names = path(child(context, i)); !names.empty())
+      list.push_back(names);
+  return arena_.copy(list);
+}
+
 Attributes AstBuilder::attributes(const Token &token) {
   std::vector<Attribute> list;
   for (std::size_t i = 0; i < token.triviaCount; ++i)
@@ -171,10 +179,7 @@ PouDecl *AstBuilder::head(Grammar::PouHeadContext *context, NamePath &owner) {
       break;
     case Grammar::RuleExtendsClause:
       if (node->kind == DeclKind::interface) {
-        std::vector<NamePath> list;
-        for (std::size_t k = 0; k < part->children.size(); ++k)
-          list.push_back(path(child(part, k)));
-        node->interfaces = arena_.copy(list);
+        node->interfaces = paths(part);
       } else if (node->kind != DeclKind::functionBlock && node->kind != DeclKind::classD) {
         diagnostics_.report(
             Code::unexpectedToken, span(part),
@@ -198,10 +203,7 @@ PouDecl *AstBuilder::head(Grammar::PouHeadContext *context, NamePath &owner) {
           d.help("an INTERFACE takes in others with EXTENDS");
         break;
       }
-      std::vector<NamePath> list;
-      for (std::size_t k = 0; k < part->children.size(); ++k)
-        list.push_back(path(child(part, k)));
-      node->interfaces = arena_.copy(list);
+      node->interfaces = paths(part);
       break;
     }
   }
@@ -470,9 +472,8 @@ NamePath AstBuilder::namespaceNames(Grammar::NamespaceHeadContext *context) {
 }
 
 void AstBuilder::usings(Grammar::UsingDirectiveContext *context, std::vector<NamePath> &out) {
-  for (std::size_t i = 0; i < context->children.size(); ++i)
-    if (const NamePath names = path(child(context, i)); !names.empty())
-      out.push_back(names);
+  const std::span<NamePath> list = paths(context);
+  out.insert(out.end(), list.begin(), list.end());
 }
 
 void AstBuilder::resourceHead(Grammar::ResourceHeadContext *context, ResourceDecl &out) {

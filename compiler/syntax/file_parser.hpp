@@ -168,6 +168,7 @@ template <class Context> Context *FileParser::parseUnit(Context *(Grammar::*rule
     parser_.setErrorHandler(report_);
     parser_.setReporting(true);
     parser_.reset();
+    parser_.clearExpected(); // where the first run gave up
   }
   try {
     return (parser_.*rule)();

@@ -45,6 +45,28 @@ void appendUtf8(std::string &out, std::uint32_t c) {
   }
 }
 
+bool isHighSurrogate(std::uint32_t unit) { return unit >= 0xD800 && unit < 0xDC00; }
+bool isLowSurrogate(std::uint32_t unit) { return unit >= 0xDC00 && unit < 0xE000; }
+
+/// Appends a UTF-16 code unit. Half of a surrogate pair takes three bytes, as if it was a character;
+/// where the other half follows, both are the character that they mean.
+void appendUnit(std::string &out, std::uint32_t unit, bool joins) {
+  if (joins && isLowSurrogate(unit)) {
+    const auto byte = [&](std::size_t fromEnd) {
+      return static_cast<unsigned char>(out[out.size() - fromEnd]);
+    };
+    const std::uint32_t high = (byte(3) & 0x0FU) << 12 | (byte(2) & 0x3FU) << 6 | (byte(1) & 0x3FU);
+    out.resize(out.size() - 3);
+    const std::uint32_t point = 0x10000 + ((high - 0xD800) << 10) + (unit - 0xDC00);
+    out += static_cast<char>(0xF0 | (point >> 18));
+    out += static_cast<char>(0x80 | ((point >> 12) & 0x3F));
+    out += static_cast<char>(0x80 | ((point >> 6) & 0x3F));
+    out += static_cast<char>(0x80 | (point & 0x3F));
+    return;
+  }
+  appendUtf8(out, unit);
+}
+
 /// A decimal number with a fraction as an exact multiple of 10^-9.
 struct Decimal {
   std::uint64_t whole = 0;
@@ -240,6 +262,7 @@ bool LiteralReader::string(std::string_view text, Span span, ast::Literal &out) 
     return true;
   }
   std::string value;
+  std::size_t behindHigh = std::string::npos; // where the other half of a surrogate pair may follow
   for (std::size_t i = 0; i < content.size(); ++i) {
     if (content[i] != '$') {
       value += content[i];
@@ -275,7 +298,7 @@ bool LiteralReader::string(std::string_view text, Span span, ast::Literal &out) 
         good = digit < 16;
         code = code * 16 + static_cast<std::uint32_t>(digit);
       }
-      if (!good || (code >= 0xD800 && code < 0xE000)) {
+      if (!good) {
         const std::uint32_t end =
             at + (c != '\0' && static_cast<unsigned char>(c) < 0x80 ? 2U : 1U);
         diagnostics_.report(Code::invalidEscape, {span.file, at, end}, "unknown escape in a string")
@@ -283,7 +306,8 @@ bool LiteralReader::string(std::string_view text, Span span, ast::Literal &out) 
                   std::string(wide ? "$hhhh" : "$hh"));
         return false;
       }
-      appendUtf8(value, code);
+      appendUnit(value, code, behindHigh == value.size());
+      behindHigh = isHighSurrogate(code) ? value.size() : std::string::npos;
       i += digits;
       continue;
     }

@@ -11,7 +11,6 @@
 #include <cstring>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <type_traits>
 #include <utility>
 
@@ -405,13 +404,19 @@ Script::Script(const app::SymbolTable &symbols, std::string_view text, std::stri
 }
 
 Script Script::fromFile(const app::SymbolTable &symbols, const std::string &file) {
+  constexpr std::size_t kMostBytes = std::size_t{16} << 20U;
   std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (in)
-    text << in.rdbuf();
-  if (!in || in.bad())
+  std::string text;
+  char block[1 << 14];
+  while (in && text.size() <= kMostBytes) {
+    in.read(block, sizeof block);
+    text.append(block, static_cast<std::size_t>(in.gcount()));
+  }
+  if (text.size() > kMostBytes) // a device has no end
+    throw app::Error(fmt::format("cannot read '{}': it is longer than 16 MiB", file));
+  if (!in.eof() || in.bad())
     throw app::Error(fmt::format("cannot read '{}': {}", file, std::strerror(errno)));
-  return Script(symbols, text.str(), file);
+  return Script(symbols, text, file);
 }
 
 } // namespace stride::monitor

@@ -106,6 +106,76 @@ TEST(Robustness, UnterminatedThings) {
             "SE0105 2:6 this string has no end\n");
 }
 
+/// The limit at it and above it, for each thing that nests.
+TEST(Robustness, NestingLimitOfEachKind) {
+  struct Kind {
+    std::string name;
+    std::string begin;
+    std::string open;
+    std::string middle;
+    std::string close;
+    std::string end;
+    std::size_t most; ///< so many are accepted
+  };
+  const std::string body = "PROGRAM P\n";
+  const Kind kinds[] = {
+      {"parentheses", body + "x := ", "(", "1", ")", ";", 256},
+      {"brackets", body + "x := a", "[a", "[1]", "]", ";", 255},
+      {"calls", body + "x := ", "f(", "1", ")", ";", 256},
+      {"IF", body, "IF a THEN ", "", "END_IF ", "", 256},
+      {"CASE", body, "CASE a OF 1: ", "", "END_CASE ", "", 256},
+      {"FOR", body, "FOR i := 0 TO 1 DO ", "", "END_FOR ", "", 256},
+      {"WHILE", body, "WHILE a DO ", "", "END_WHILE ", "", 256},
+      {"REPEAT", body, "REPEAT ", "", "UNTIL a END_REPEAT ", "", 256},
+      {"TRY", body, "__TRY ", "", "__CATCH (e) __ENDTRY ", "", 256},
+      {"arrays", "VAR_GLOBAL x : ", "ARRAY[0..1] OF ", "INT", "", "; END_VAR", 255},
+      {"pointers", "VAR_GLOBAL x : ", "POINTER TO ", "INT", "", "; END_VAR", 256},
+      {"references", "TYPE T : ", "REFERENCE TO ", "INT", "", "; END_TYPE", 256},
+      {"initial values", "VAR_GLOBAL x : T := ", "[", "1", "]", "; END_VAR", 256},
+      {"fields", "VAR_GLOBAL x : T := ", "(a := ", "1", ")", "; END_VAR", 256},
+  };
+  for (const Kind &kind : kinds) {
+    for (const std::size_t count : {kind.most, kind.most + 1, std::size_t{50'000}}) {
+      const std::string text = kind.begin + repeat(kind.open, count) + kind.middle +
+                               repeat(kind.close, count) + kind.end;
+      const std::string found = errors(text);
+      if (count == kind.most) {
+        EXPECT_EQ(found, "") << kind.name;
+      } else {
+        EXPECT_NE(found, "") << kind.name << ' ' << count;
+        EXPECT_LT(found.size(), 20'000U) << kind.name << ' ' << count;
+      }
+    }
+  }
+}
+
+/// What has no limit needs no stack.
+TEST(Robustness, DeepThingsWithoutLimit) {
+  const std::size_t count = 50'000;
+  EXPECT_EQ(errors(repeat("(* ", count) + repeat("*) ", count)), "");
+  EXPECT_EQ(errors(repeat("{IF defined (x)}\n", count) + repeat("{END_IF}\n", count)), "");
+  EXPECT_EQ(errors("{IF " + repeat("NOT ", count) + "defined (x)}\n{END_IF}\n"), "");
+  EXPECT_NE(
+      errors("{IF " + repeat("(", count) + "defined (x)" + repeat(")", count) + "}\n{END_IF}\n"),
+      "");
+  EXPECT_EQ(bodyErrors(repeat("a := ", 1000) + "b;"), "");
+  const Parsed spaces(repeat("NAMESPACE a ", count) + repeat("END_NAMESPACE ", count));
+  EXPECT_LE(spaces.diagnostics.errorCount(), 200U);
+  const Parsed blocks(repeat("FUNCTION_BLOCK b METHOD m ", count));
+  EXPECT_LE(blocks.diagnostics.errorCount(), 200U);
+}
+
+/// What the second, reporting run expects does not depend on where the first one gave up.
+TEST(Robustness, KeywordsInPlaceOfNames) {
+  EXPECT_EQ(errors("PROGRAM END_VAR:=i.()"),
+            "SE0201 1:9 expected a name, found `END_VAR`\n"
+            "SE0201 1:20 expected the name of a member behind the point, found `(`\n");
+  EXPECT_NE(errors("PROGRAM END_VAR:=n.+;"), "");
+  EXPECT_NE(errors("PROGRAM END_FOR [].\xC2\xAC+10"), "");
+  EXPECT_NE(errors("FUNCTION_BLOCK B IMPLEMENTS IA,\nEND_FUNCTION_BLOCK"), "");
+  EXPECT_NE(errors("INTERFACE B EXTENDS IA,\nEND_INTERFACE"), "");
+}
+
 /// Every prefix of a text, and the text without any one of its tokens, is read without a crash.
 TEST(Robustness, CutTexts) {
   const std::string text =

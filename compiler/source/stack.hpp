@@ -1,0 +1,20 @@
+#pragma once
+// How much of the stack is left: for recursions whose depth the input decides.
+
+#include <cstddef>
+
+namespace stc {
+
+/// What is kept for everything that does not ask.
+inline constexpr std::size_t kStackReserve = std::size_t{1} << 20U;
+
+/// Where the stack of the calling thread ends; null when that is not known.
+[[nodiscard]] const char *endOfStack();
+
+/// Less than kStackReserve bytes are left in front of `end`.
+[[nodiscard]] inline bool stackIsShort(const char *end) {
+  const auto *here = static_cast<const char *>(__builtin_frame_address(0));
+  return end != nullptr && static_cast<std::size_t>(here - end) < kStackReserve;
+}
+
+} // namespace stc
