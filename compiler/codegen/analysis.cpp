@@ -1,5 +1,6 @@
 #include "compiler/codegen/analysis.hpp"
 
+#include "compiler/semantics/held.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
 #include "compiler/semantics/fold.hpp"
@@ -15,28 +16,13 @@ namespace {
 
 /// A variable of the type calls methods when it comes into being or goes away (FB_Init, FB_Exit).
 bool runsMethods(const Type *type) {
-  while (type->kind == TypeKind::array)
-    type = typeAs<ArrayType>(type)->element;
-  if (type->kind == TypeKind::structure) {
-    for (const auto *s = typeAs<StructType>(type); s != nullptr; s = s->base) {
-      for (const VarSymbol *field : s->fields) {
-        if (runsMethods(field->type))
-          return true;
-      }
-    }
-    return false;
-  }
-  if (type->kind != TypeKind::functionBlock)
-    return false;
-  for (const PouSymbol *p = typeAs<PouType>(type)->symbol; p != nullptr; p = p->base) {
-    if (!p->methods.empty())
-      return true;
-    for (const VarSymbol *v : p->variables) {
-      if (v->section != Section::inOut && runsMethods(v->type))
-        return true;
-    }
-  }
-  return false;
+  return anyHeld(type, [](const Type *t, const VarSymbol *v) {
+    if ((v != nullptr && v->section == Section::inOut) || t->kind == TypeKind::program)
+      return Held::over;
+    return t->kind == TypeKind::functionBlock && !typeAs<PouType>(t)->symbol->methods.empty()
+               ? Held::found
+               : Held::inside;
+  });
 }
 
 } // namespace
@@ -45,6 +31,9 @@ bool Analysis::pure(const PouSymbol *function) {
   const auto [it, fresh] = pure_.try_emplace(function, false); // a recursive one counts as not pure
   if (!fresh)
     return it->second;
+  if (calls_ >= kMaxCalls) // nor does one that calls others, which call others …
+    return false;
+  ++calls_;
   bool result = function->isFunction();
   for (const VarSymbol *v : function->variables) {
     if (v->section == Section::inOut || v->section == Section::output ||
@@ -57,6 +46,7 @@ bool Analysis::pure(const PouSymbol *function) {
   result = result && !function->decl->external && function->checked &&
            pureBlock(function->decl->body, function);
   pure_[function] = result;
+  --calls_;
   return result;
 }
 

@@ -102,6 +102,9 @@ private:
   const ImplicitChecks &ownChecks_;
   const Sharing &sharing_;
   std::vector<Range> ranges_;
+  /// Functions that call functions are looked at so many levels deep.
+  static constexpr unsigned kMaxCalls = 64;
+  unsigned calls_ = 0;
   std::unordered_map<const PouSymbol *, bool> pure_;
 };
 

@@ -105,6 +105,11 @@ void Emitter::quoted(const ConstValue &constant, bool wide) {
     } else if (c < 0x100) { // three octal digits, whatever follows
       w_ << '\\' << static_cast<char>('0' + (c >> 6U)) << static_cast<char>('0' + (c >> 3U & 7U))
          << static_cast<char>('0' + (c & 7U));
+    } else if (wide && c >= 0xD800 && c < 0xE000) { // half a pair: as a number, which ends here
+      char digits[4];
+      for (int i = 3; i >= 0; --i, c >>= 4U)
+        digits[i] = "0123456789abcdef"[c & 15U];
+      w_ << "\\x" << std::string_view(digits, 4) << "\" u\"";
     } else if (wide) {
       char digits[9];
       const bool pair = c > 0xFFFF;

@@ -328,16 +328,23 @@ private:
                        bool anyText);
 
   // instances.cpp
-  void unbind(std::string_view target, const Type *type);
+  /// What is done to the values of a type, as the name of a local function for each.
+  using HeldFunctions = std::unordered_map<const Type *, std::string>;
+  template <class Statement>
+  void eachElement(const std::string &target, const Type *type, Statement &&statement);
+  void unbind(const std::string &target, const Type *type);
+  [[nodiscard]] std::string fieldPath(const Type *type, const VarSymbol *field);
   void newObject(const ast::CallExpr *e);
   void deleteObject(const ast::CallExpr *e);
   void copyOf(const ast::Expr *e, const Type *type);
   void reinitialise(const ast::CallExpr *e);
   void initialValues(std::string_view target, const Type *type, const VarSymbol *declared,
                      bool here);
-  bool keeps(const Type *type, bool retained);
-  void keepValues(std::string_view target, std::string_view old, const Type *type,
-                  std::string_view all);
+  void initLine(const std::string &text);
+  void callForBoth(const HeldFunctions &functions, const std::string &it, const std::string &was,
+                   const Type *type);
+  void keepValues(const std::string &target, const std::string &old, const Type *type,
+                  const std::string &all);
 
   // assignments.cpp
   /// Writes `auto &to = a[i]; ` where finding the place takes more than its name; until `found`

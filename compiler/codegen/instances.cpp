@@ -2,6 +2,7 @@
 // those of __NEW.
 
 #include "compiler/codegen/units.hpp"
+#include "compiler/semantics/held.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
 #include <algorithm>
@@ -19,6 +20,18 @@ bool isRetained(const VarSymbol *v) {
   return v->decl != nullptr && (v->decl->qualifiers & (qualRetain | qualPersistent)) != 0;
 }
 
+/// A value of the type holds a field of which `matches` is true, not counting what unions share.
+template <class Matches> bool holdsField(const Type *type, Matches &&matches) {
+  return anyHeld(type, [&](const Type *t, const VarSymbol *v) {
+    if (v != nullptr && !isField(v))
+      return Held::over;
+    if (v != nullptr && matches(v))
+      return Held::found;
+    return t->kind == TypeKind::structure && typeAs<StructType>(t)->isUnion ? Held::over
+                                                                            : Held::inside;
+  });
+}
+
 /// The fields of a structure or block, those of its bases included.
 std::vector<const VarSymbol *> allFields(const Type *type) {
   std::vector<const VarSymbol *> list;
@@ -30,6 +43,18 @@ std::vector<const VarSymbol *> allFields(const Type *type) {
       std::copy_if(p->variables.begin(), p->variables.end(), std::back_inserter(list), isField);
   }
   return list;
+}
+
+/// Structures and instances in a value of the type that satisfy `wanted`, what they hold before
+/// them, each once.
+template <class Wanted>
+void collectHeld(const Type *type, Wanted &&wanted, std::vector<const Type *> &list) {
+  type = innermost(type);
+  if (!wanted(type) || std::find(list.begin(), list.end(), type) != list.end())
+    return;
+  for (const VarSymbol *v : allFields(type))
+    collectHeld(v->type, wanted, list);
+  list.push_back(type);
 }
 
 /// The value means the same wherever it is written.
@@ -81,34 +106,55 @@ std::vector<const PouSymbol *> derivedBlocks(const Program &program, const PouSy
 // copies
 
 bool holdsInOut(const Type *type) {
-  const std::vector<const VarSymbol *> fields = allFields(innermost(type));
-  return std::any_of(fields.begin(), fields.end(), [](const VarSymbol *v) {
-    return v->section == Section::inOut || holdsInOut(v->type);
-  });
+  return holdsField(type, [](const VarSymbol *v) { return v->section == Section::inOut; });
 }
 
-/// A copy is bound to nothing.
-void Emitter::unbind(std::string_view target, const Type *type) {
-  if (!holdsInOut(type))
-    return;
-  if (type->kind == TypeKind::array) {
-    const std::string element = temporary("element");
-    w_ << "for (auto &" << element << " : " << target << ".v) { ";
-    unbind(element, typeAs<ArrayType>(type)->element);
-    w_ << "} ";
+/// Calls `statement(place of one instance)` for `target`, or in loops for its elements.
+template <class Statement>
+void Emitter::eachElement(const std::string &target, const Type *type, Statement &&statement) {
+  if (type->kind != TypeKind::array) {
+    statement(target);
     return;
   }
-  for (const VarSymbol *v : allFields(type)) {
-    const std::size_t start = w_.size();
-    w_ << '.';
-    basePath(type, v);
-    w_ << fieldName(v);
-    const std::string field = std::string(target) + w_.cut(start);
-    if (v->section == Section::inOut)
-      w_ << field << " = {}; ";
-    else
-      unbind(field, v->type);
+  const std::string element = temporary("element");
+  w_ << "for (auto &" << element << " : " << target << ".v) { ";
+  eachElement(element, typeAs<ArrayType>(type)->element, statement);
+  w_ << "} ";
+}
+
+/// A copy is bound to nothing. One function for each type: a value may hold it at many places.
+void Emitter::unbind(const std::string &target, const Type *type) {
+  std::vector<const Type *> types;
+  collectHeld(type, holdsInOut, types);
+  HeldFunctions functions;
+  for (const Type *t : types) {
+    const std::string function = temporary("unbind");
+    w_ << "const auto " << function << " = [&](auto &it) { ";
+    for (const VarSymbol *v : allFields(t)) {
+      const auto inner = functions.find(innermost(v->type));
+      if (v->section != Section::inOut && inner == functions.end())
+        continue;
+      const std::string field = "it." + fieldPath(t, v);
+      if (v->section == Section::inOut)
+        w_ << field << " = {}; ";
+      else
+        eachElement(field, v->type,
+                    [&](const std::string &each) { w_ << inner->second << '(' << each << "); "; });
+    }
+    w_ << "}; ";
+    functions.emplace(t, function);
   }
+  if (const auto outer = functions.find(innermost(type)); outer != functions.end())
+    eachElement(target, type,
+                [&](const std::string &each) { w_ << outer->second << '(' << each << "); "; });
+}
+
+/// The field of a value of the type, through the bases that have it: `base__.x`.
+std::string Emitter::fieldPath(const Type *type, const VarSymbol *field) {
+  const std::size_t start = w_.size();
+  basePath(type, field);
+  w_ << fieldName(field);
+  return w_.cut(start);
 }
 
 /// A structure, block or array as a value. A copy has the type id of what it is, not of what it was
@@ -156,49 +202,57 @@ void Emitter::initialValues(std::string_view target, const Type *type, const Var
   afterInit(target, type);
 }
 
-/// INI leaves something in values of the type as it is: bindings, and what is `retained`.
-bool Emitter::keeps(const Type *type, bool retained) {
-  const std::vector<const VarSymbol *> fields = allFields(innermost(type));
-  return std::any_of(fields.begin(), fields.end(), [&](const VarSymbol *v) {
-    return isBinding(v) || (retained && isRetained(v)) || keeps(v->type, retained);
-  });
+/// INI leaves something in values of the type as it is: bindings, and what is retained.
+static bool keepsValues(const Type *type) {
+  return holdsField(type, [](const VarSymbol *v) { return isBinding(v) || isRetained(v); });
 }
 
-/// Puts that back from the copy `old`; what is retained only when not `all` are initialised.
-void Emitter::keepValues(std::string_view target, std::string_view old, const Type *type,
-                         std::string_view all) {
-  if (!keeps(type, true))
-    return;
-  if (type->kind == TypeKind::array) {
-    const std::string i = temporary("i");
-    begin(initSpan_);
-    w_ << "for (::stride::ULINT " << i << " = 0; " << i << " < " << typeAs<ArrayType>(type)->count()
-       << "; ++" << i << ") {";
-    end();
-    const std::string element = ".v[" + i + "]";
-    keepValues(std::string(target) + element, std::string(old) + element,
-               typeAs<ArrayType>(type)->element, all);
-    begin(initSpan_);
-    w_ << '}';
-    end();
+/// A line of statements of INI.
+void Emitter::initLine(const std::string &text) {
+  begin(initSpan_);
+  w_ << text;
+  end();
+}
+
+/// Calls the function of `functions` for `it` and `was`, or in loops for their elements.
+void Emitter::callForBoth(const HeldFunctions &functions, const std::string &it,
+                          const std::string &was, const Type *type) {
+  if (type->kind != TypeKind::array) {
+    initLine(functions.at(type) + '(' + it + ", " + was + ");");
     return;
   }
-  for (const VarSymbol *v : allFields(type)) {
-    const std::size_t start = w_.size();
-    w_ << '.';
-    basePath(type, v);
-    w_ << fieldName(v);
-    const std::string field = w_.cut(start);
-    if (isBinding(v) || isRetained(v)) {
-      begin(initSpan_);
-      if (!isBinding(v))
-        w_ << "if (!" << all << ") ";
-      w_ << target << field << " = " << old << field << ';';
-      end();
+  const auto *array = typeAs<ArrayType>(type);
+  const std::string i = temporary("i");
+  initLine("for (::stride::ULINT " + i + " = 0; " + i + " < " + std::to_string(array->count()) +
+           "; ++" + i + ") {");
+  const std::string element = ".v[" + i + "]";
+  callForBoth(functions, it + element, was + element, array->element);
+  initLine("}");
+}
+
+/// Puts that back from the copy `old`; what is retained only when not `all` are initialised. One
+/// function for each type: a value may hold it at many places.
+void Emitter::keepValues(const std::string &target, const std::string &old, const Type *type,
+                         const std::string &all) {
+  std::vector<const Type *> types;
+  collectHeld(type, keepsValues, types);
+  HeldFunctions functions;
+  for (const Type *t : types) {
+    const std::string function = temporary("keep");
+    initLine("const auto " + function + " = [&](auto &it, const auto &was) {");
+    for (const VarSymbol *v : allFields(t)) {
+      const std::string field = "." + fieldPath(t, v);
+      if (isBinding(v))
+        initLine("it" + field + " = was" + field + ";");
+      else if (isRetained(v))
+        initLine("if (!" + all + ") it" + field + " = was" + field + ";");
+      if (!isBinding(v) && functions.contains(innermost(v->type)))
+        callForBoth(functions, "it" + field, "was" + field, v->type);
     }
-    if (!isBinding(v))
-      keepValues(std::string(target) + field, std::string(old) + field, v->type, all);
+    initLine("};");
+    functions.emplace(t, function);
   }
+  callForBoth(functions, target, old, type);
 }
 
 void Emitter::reinitialise(const CallExpr *e) {
@@ -220,7 +274,7 @@ void Emitter::reinitialise(const CallExpr *e) {
     inlineStatements([&](Emitter &inner) {
       inner.initSpan_ = e->span;
       const std::string old = inner.temporary("old");
-      const bool kept = keeps(t, true);
+      const bool kept = keepsValues(t);
       inner.begin(e->span);
       if (kept)
         inner.w_ << "const auto " << old << " = " << place << "; ";

@@ -1,5 +1,6 @@
 #include "compiler/codegen/layout.hpp"
 
+#include "compiler/semantics/held.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
 #include <algorithm>
@@ -191,28 +192,17 @@ bool Layouts::computeNeedsInit(const PouSymbol *pou) {
 }
 
 bool Layouts::hasLifecycle(const Type *type, std::string_view lowerName) {
-  while (type->kind == TypeKind::array)
-    type = typeAs<ArrayType>(type)->element;
-  if (type->kind == TypeKind::structure) {
-    const auto *s = typeAs<StructType>(type);
-    if (s->base != nullptr && hasLifecycle(s->base, lowerName))
-      return true;
-    return std::any_of(s->fields.begin(), s->fields.end(),
-                       [&](const VarSymbol *v) { return hasLifecycle(v->type, lowerName); });
-  }
-  if (!isInstance(type))
-    return false;
-  for (const PouSymbol *p = typeAs<PouType>(type)->symbol; p != nullptr; p = p->base) {
-    for (const PouSymbol *m : p->methods) {
-      if (m->property == nullptr && p->isBlock() && m->name.id->lower == lowerName)
-        return true;
-    }
-    for (const VarSymbol *v : p->variables) {
-      if (isField(v) && v->section != Section::inOut && hasLifecycle(v->type, lowerName))
-        return true;
-    }
-  }
-  return false;
+  return anyHeld(type, [&](const Type *t, const VarSymbol *v) {
+    if (v != nullptr && (v->section == Section::inOut || !isField(v)))
+      return Held::over;
+    if (!isInstance(t) || !typeAs<PouType>(t)->symbol->isBlock())
+      return Held::inside;
+    const auto &methods = typeAs<PouType>(t)->symbol->methods;
+    const bool has = std::any_of(methods.begin(), methods.end(), [&](const PouSymbol *m) {
+      return m->property == nullptr && m->name.id->lower == lowerName;
+    });
+    return has ? Held::found : Held::inside;
+  });
 }
 
 std::uint64_t Layouts::hash(const Type *type) {

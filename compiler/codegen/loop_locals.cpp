@@ -1,6 +1,7 @@
 #include "compiler/codegen/loop_locals.hpp"
 
 #include "compiler/codegen/layout.hpp"
+#include "compiler/semantics/held.hpp"
 
 #include <algorithm>
 
@@ -18,21 +19,11 @@ bool isScalar(const Type *type) {
 
 /// Copying it copies variables of blocks.
 bool holdsInstance(const Type *type) {
-  switch (type->kind) {
-  case TypeKind::array:
-    return holdsInstance(typeAs<ArrayType>(type)->element);
-  case TypeKind::structure: {
-    for (const auto *s = typeAs<StructType>(type); s != nullptr; s = s->base) {
-      for (const VarSymbol *field : s->fields) {
-        if (holdsInstance(field->type))
-          return true;
-      }
-    }
-    return false;
-  }
-  default:
-    return !isElementary(type);
-  }
+  return anyHeld(type, [](const Type *t, const VarSymbol *) {
+    return t->kind == TypeKind::structure ? Held::inside
+           : isElementary(t)              ? Held::over
+                                          : Held::found;
+  });
 }
 
 /// Builtins that look at the values of their arguments only.

@@ -67,6 +67,23 @@ std::string identifier(std::string_view text) {
   return out;
 }
 
+/// A file's name of at most so many bytes, what the build appends to it (`.inline.h`, a number, `.tmp`)
+/// left out: file systems know names of up to 255 bytes.
+constexpr std::size_t kMaxFileName = 160;
+
+/// A name for a file: the beginning of one that is too long, and the hash of the whole.
+std::string shortened(const std::string &name) {
+  if (name.size() <= kMaxFileName)
+    return name;
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : name)
+    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  std::string digits(16, '0');
+  for (std::size_t i = digits.size(); i-- > 0; hash >>= 4U)
+    digits[i] = "0123456789abcdef"[hash & 15U];
+  return name.substr(0, kMaxFileName - digits.size() - 2) + "__" + digits;
+}
+
 bool isUpper(char c) { return c >= 'A' && c <= 'Z'; }
 
 bool needsUnderscore(std::string_view name) {
@@ -203,12 +220,12 @@ const Names::Entry &Names::entry(const Symbol *symbol) {
     file += "__globals__";
     entry.local += "__globals__";
   }
-  const std::string folder = "st/" + std::string(space(symbol->library)) + "/";
+  const std::string path = "st/" + std::string(space(symbol->library)) + "/" + shortened(file);
   std::string suffix;
-  for (int n = 2; !taken_.emplace(folder + file + suffix + ".h", symbol).second; ++n)
+  for (int n = 2; !taken_.emplace(path + suffix + ".h", symbol).second; ++n)
     suffix = "__" + std::to_string(n);
   entry.local += suffix;
-  entry.header = folder + file + suffix + ".h";
+  entry.header = path + suffix + ".h";
   entry.qualified = "::st::" + std::string(space(symbol->library)) + "::" + entry.local;
   return entry;
 }

@@ -91,9 +91,20 @@ std::uint32_t TypeTable::index(const Type *type, bool inOut) {
   const std::uint32_t at = it->second;
   if (fresh) {
     types_.emplace_back();
-    fill(at, type, inOut);
+    pending_.push_back({at, type, inOut});
+    if (pending_.size() == 1)
+      fillPending();
   }
   return at;
+}
+
+/// One after the other: pointers may make long chains of types.
+void TypeTable::fillPending() {
+  for (std::size_t i = 0; i < pending_.size(); ++i) {
+    const Pending next = pending_[i];
+    fill(next.at, next.type, next.inOut);
+  }
+  pending_.clear();
 }
 
 void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
@@ -188,7 +199,7 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
 
 void TypeTable::members(Row &row, const Type *type, const Type *base, const std::string &owner,
                         const std::vector<const VarSymbol *> &variables, bool typeId) {
-  std::vector<std::uint32_t> types; // first: they append rows of their own
+  std::vector<std::uint32_t> types;
   types.reserve(variables.size());
   const std::uint32_t baseIndex = base == nullptr ? 0 : index(base);
   const std::uint32_t idIndex = typeId ? index(elementaryType(TypeKind::udint)) : 0;

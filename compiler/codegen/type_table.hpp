@@ -74,6 +74,13 @@ private:
     std::uint32_t typeId = 0;
     std::string_view renamedFrom;
   };
+  /// A row that has its number and no content yet.
+  struct Pending {
+    std::uint32_t at = 0;
+    const Type *type = nullptr;
+    bool inOut = false;
+  };
+  void fillPending();
   void fill(std::uint32_t at, const Type *type, bool inOut);
   void members(Row &row, const Type *type, const Type *base, const std::string &owner,
                const std::vector<const VarSymbol *> &variables, bool typeId = false);
@@ -83,6 +90,7 @@ private:
   Storage storage_;
   std::unordered_map<Key, std::uint32_t, KeyHash> indices_;
   std::vector<Row> types_;
+  std::vector<Pending> pending_;
   std::vector<std::string> memberRows_;
   std::vector<std::string> enumeratorRows_;
   std::vector<std::string> rootRows_;

@@ -37,12 +37,17 @@ unsigned alignmentOf(const Type *type) {
     return 2;
   case TypeKind::structure: {
     const auto *s = typeAs<StructType>(type);
+    if (s->alignment != 0)
+      return s->alignment;
+    s->alignment = 1; // of a structure inside of itself, which is reported
     unsigned align = s->base == nullptr ? 1 : alignmentOf(s->base);
     for (const VarSymbol *field : s->fields) {
       if (field->type != nullptr)
         align = std::max(align, alignmentOf(field->type));
     }
-    return s->isUnion ? align : limited(align);
+    align = s->isUnion ? align : limited(align);
+    s->alignment = s->symbol->resolving ? 0 : align; // not all fields are known
+    return align;
   }
   case TypeKind::functionBlock:
   case TypeKind::program:

@@ -1,6 +1,7 @@
 // ARRAY[*] and UNION: what may be declared with them and how they are used.
 
 #include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/held.hpp"
 
 namespace stc {
 
@@ -51,24 +52,16 @@ bool Checker::refuseOpenArray(Expr *expr, std::string_view action) {
 
 namespace {
 
-/// The first thing in a value of the type that cannot be in a union: a block or a reference.
+/// Something in a value of the type that cannot be in a union: a block or a reference.
 const Type *forbiddenInUnion(const Type *type) {
-  while (type->kind == TypeKind::array)
-    type = typeAs<ArrayType>(type)->element;
-  if (isInstance(type) || type->kind == TypeKind::reference)
-    return type;
-  if (type->kind == TypeKind::structure) {
-    const auto *s = typeAs<StructType>(type);
-    if (s->base != nullptr) {
-      if (const Type *inner = forbiddenInUnion(s->base))
-        return inner;
-    }
-    for (const VarSymbol *f : s->fields) {
-      if (const Type *inner = forbiddenInUnion(f->type))
-        return inner;
-    }
-  }
-  return nullptr;
+  const Type *result = nullptr;
+  anyHeld(type, [&](const Type *t, const VarSymbol *) {
+    if (!isInstance(t) && t->kind != TypeKind::reference)
+      return Held::inside;
+    result = t;
+    return Held::found;
+  });
+  return result;
 }
 
 } // namespace

@@ -57,7 +57,15 @@ private:
   /// Declares the blocks and lists read from libraries: an instance that nobody calls has members
   /// and defaults too.
   void declareUsed();
+  // containment.cpp
+  /// Reports types that hold themselves, and what is nested too deeply or too large; cuts them there.
   void checkContainment(Module &module);
+  /// The levels of types in `type`; `level`: so many hold it on the way to it.
+  unsigned checkContained(const Type *type, unsigned level,
+                          std::unordered_map<const Type *, unsigned> &depths);
+  void checkSize(VarSymbol *variable);
+  /// Reports a name that is reached through so many declarations that the stack ends.
+  bool isTooDeep(const ast::Name &name);
   /// Looks for what is probably not meant; only in programs without errors.
   void lint(Module &module);
 
@@ -118,6 +126,8 @@ private:
 
   // declarations.cpp
   void resolve(TypeSymbol *symbol);
+  /// Makes `type` extend `base`, unless that makes too long a chain.
+  void extendStruct(StructType *type, const ast::Name &baseName, const StructType *base);
   void resolveStruct(TypeSymbol *symbol, ast::StructDecl *decl);
   /// The alignment that {attribute 'pack_mode'} gives.
   unsigned packMode(const ast::Attributes &attributes, unsigned otherwise);
@@ -392,6 +402,7 @@ private:
   const LibraryIndex &index_;
   TypeTable types_;
   Storage storage_;
+  const char *stackEnd_; ///< of the thread that checks
   std::unordered_map<std::string, std::unique_ptr<Module>>
       modules_; ///< by library name; the project is ""
   std::unordered_map<Ident, BuiltinSymbol *> builtins_;

@@ -3,6 +3,7 @@
 #include "compiler/semantics/checker.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/suggest.hpp"
+#include "compiler/syntax/parser.hpp"
 
 #include <algorithm>
 #include <map>
@@ -189,6 +190,8 @@ void Checker::link(PouSymbol *pou) {
   if (pou->linked)
     return;
   pou->linked = true;
+  if (isTooDeep(pou->name))
+    return;
   pou->linking = true;
   const ScopeGuard guard(*this, {&moduleOf(pou), nullptr, pou->decl});
   makeMembers(pou);
@@ -203,10 +206,21 @@ void Checker::link(PouSymbol *pou) {
     d.label(other->name.span, "`" + std::string(other->name.text) + "` is declared here");
     return true;
   };
+  const auto isChainTooLong = [&](const PouSymbol *other, const Name &name) {
+    if (other->bases < kMaxNesting) {
+      pou->bases = std::max(pou->bases, other->bases + 1);
+      return false;
+    }
+    report(Code::tooDeep, name.span,
+           "`" + std::string(name.text) + "` extends too many others, one after the other",
+           "more than " + std::to_string(kMaxNesting));
+    return true;
+  };
   if (!pou->decl->base.empty()) {
     PouSymbol *base = lookupBase(pou->decl->base, false, pou);
-    if (base != nullptr && !circle(base, pou->decl->base.back())) {
+    if (base != nullptr && !circle(base, pou->decl->base.back()))
       link(base);
+    if (base != nullptr && !base->linking && !isChainTooLong(base, pou->decl->base.back())) {
       pou->base = base;
       base->extended = true;
     }
@@ -216,6 +230,8 @@ void Checker::link(PouSymbol *pou) {
     if (interface == nullptr || circle(interface, path.back()))
       continue;
     link(interface);
+    if (isChainTooLong(interface, path.back()))
+      continue;
     if (std::find(pou->interfaces.begin(), pou->interfaces.end(), interface) !=
         pou->interfaces.end())
       report(Code::duplicateName, path.back().span,

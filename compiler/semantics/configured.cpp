@@ -14,6 +14,8 @@ using namespace ast;
 namespace {
 
 constexpr std::size_t kMaxShown = 8;
+/// Variables that VAR_CONFIG can place.
+constexpr std::size_t kMaxSlots = 65536;
 
 std::string lowered(std::string text) {
   for (char &c : text)
@@ -86,7 +88,8 @@ bool Checker::hasSlots(const Type *type) {
 void Checker::collectSlots(const Type *type, StatePath &path, std::vector<SlotPlace> &out) {
   if (type->kind == TypeKind::array) {
     const auto *array = typeAs<ArrayType>(type);
-    for (std::uint64_t i = 0; hasSlots(array->element) && i < array->count(); ++i) {
+    for (std::uint64_t i = 0;
+         hasSlots(array->element) && i < array->count() && out.size() <= kMaxSlots; ++i) {
       path.steps.push_back({nullptr, i});
       collectSlots(array->element, path, out);
       path.steps.pop_back();
@@ -96,6 +99,8 @@ void Checker::collectSlots(const Type *type, StatePath &path, std::vector<SlotPl
   if (!hasSlots(type))
     return;
   visitHeld(type, [&](VarSymbol *v) {
+    if (out.size() > kMaxSlots) // instances in instances soon are too many to list
+      return;
     path.steps.push_back({v, 0});
     if (v->location != nullptr && v->location->isSlot)
       out.push_back({path, v, {}, nullptr, false});
@@ -353,6 +358,13 @@ void Checker::reportMissingPlaces(const std::vector<SlotPlace> &slots) {
   std::array<std::uint64_t, 3> next{}; // proposals lie behind everything that is used
   for (std::size_t area = 0; area < next.size(); ++area)
     next[area] = program_.image.bytes[area];
+  if (slots.size() > kMaxSlots) {
+    const VarSymbol *v = slots.back().variable;
+    report(Code::placeMissing, v->decl->address->span,
+           "more than " + std::to_string(kMaxSlots) + " variables need a place of VAR_CONFIG",
+           "`" + std::string(v->name.text) + "` is one of them, in each instance");
+    return;
+  }
   for (const VarSymbol *v : order) {
     const auto &list = missing[v];
     auto &d = report(Code::placeMissing, v->decl->address->span,

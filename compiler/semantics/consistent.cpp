@@ -2,6 +2,7 @@
 // (sharing_consistent.cpp).
 
 #include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/held.hpp"
 #include "compiler/semantics/task_access.hpp"
 
 #include <algorithm>
@@ -34,17 +35,13 @@ std::string obstacle(const VarSymbol *v) {
 } // namespace
 
 bool isPlainData(const Type *type) {
-  while (type->kind == TypeKind::array)
-    type = typeAs<ArrayType>(type)->element;
-  if (type->kind != TypeKind::structure)
-    return isScalarValue(type) || isString(type);
-  if (isAxisType(type))
-    return false;
-  const auto *s = typeAs<StructType>(type);
-  return (s->base == nullptr || isPlainData(s->base)) &&
-         std::all_of(s->fields.begin(), s->fields.end(), [](const VarSymbol *f) {
-           return f->type != nullptr && f->location == nullptr && isPlainData(f->type);
-         });
+  return !anyHeld(type, [](const Type *t, const VarSymbol *v) {
+    if ((v != nullptr && v->location != nullptr) || isAxisType(t))
+      return Held::found;
+    if (t->kind == TypeKind::structure)
+      return Held::inside;
+    return isScalarValue(t) || isString(t) ? Held::over : Held::found;
+  });
 }
 
 void Checker::reportConsistent(const Attributes &attributes, const std::string &why) {

@@ -2,6 +2,8 @@
 
 #include "compiler/semantics/checker.hpp"
 #include "compiler/semantics/fold.hpp"
+#include "compiler/source/stack.hpp"
+#include "compiler/syntax/parser.hpp"
 
 #include <algorithm>
 
@@ -35,6 +37,10 @@ void Checker::resolve(TypeSymbol *symbol) {
                      "type `" + std::string(symbol->name.text) + "` is defined by itself",
                      "this definition is a circle");
     d.help("break the circle, for instance with POINTER TO");
+    symbol->type = elementaryType(TypeKind::error);
+    return;
+  }
+  if (isTooDeep(symbol->name)) {
     symbol->type = elementaryType(TypeKind::error);
     return;
   }
@@ -79,6 +85,27 @@ unsigned Checker::packMode(const Attributes &attributes, unsigned otherwise) {
   return otherwise;
 }
 
+bool Checker::isTooDeep(const Name &name) {
+  if (!stackIsShort(stackEnd_))
+    return false;
+  report(Code::tooDeep, name.span,
+         "`" + std::string(name.text) + "` depends on too many other declarations",
+         "one leads to the next");
+  return true;
+}
+
+void Checker::extendStruct(StructType *type, const Name &baseName, const StructType *base) {
+  if (base->bases >= kMaxNesting) {
+    report(Code::tooDeep, baseName.span,
+           "`" + std::string(baseName.text) + "` extends too many other structures",
+           "more than " + std::to_string(kMaxNesting));
+    return;
+  }
+  type->base = base;
+  type->bases = base->bases + 1;
+  type->symbol->fields = base->symbol->fields;
+}
+
 void Checker::resolveStruct(TypeSymbol *symbol, StructDecl *decl) {
   auto *type = arena_.make<StructType>();
   type->kind = TypeKind::structure;
@@ -96,8 +123,7 @@ void Checker::resolveStruct(TypeSymbol *symbol, StructDecl *decl) {
       const bool circle = baseSymbol->resolving;
       resolve(baseSymbol);
       if (!circle && baseSymbol->type->kind == TypeKind::structure) {
-        type->base = typeAs<StructType>(baseSymbol->type);
-        symbol->fields = baseSymbol->fields;
+        extendStruct(type, baseName, typeAs<StructType>(baseSymbol->type));
       } else if (!isError(baseSymbol->type)) {
         report(circle ? Code::recursiveType : Code::wrongBase, baseName.span,
                circle ? "`" + std::string(symbol->name.text) + "` extends itself"
@@ -382,8 +408,9 @@ const Type *Checker::resolveArray(ArrayTypeExpr *expr, std::string_view hint) {
     const auto high = constantInteger(range.high, "an array bound");
     if (!low || !high || isError(type))
       return elementaryType(TypeKind::error);
-    if (*high < *low || __builtin_mul_overflow(total, *high - *low + 1, &total) ||
-        total > kMaxArrayElements) {
+    std::int64_t count = 0;
+    if (*high < *low || __builtin_sub_overflow(*high, *low, &count) || count >= kMaxArrayElements ||
+        __builtin_mul_overflow(total, count + 1, &total) || total > kMaxArrayElements) {
       auto &d =
           report(Code::invalidArrayBounds, range.span,
                  *high < *low ? "the upper bound " + std::to_string(*high) +

@@ -8,6 +8,7 @@
 #include "compiler/semantics/lint.hpp"
 #include "compiler/semantics/locations.hpp"
 #include "compiler/semantics/suggest.hpp"
+#include "compiler/source/stack.hpp"
 
 namespace stc {
 
@@ -17,6 +18,12 @@ const Type *Checker::check(Expr *expr, const Type *expected) {
   if (expected != nullptr && expected->kind == TypeKind::subrange)
     expected = typeAs<SubrangeType>(expected)->base;
   const Type *type = elementaryType(TypeKind::error);
+  if (stackIsShort(stackEnd_)) { // constants in the values of constants add up
+    report(Code::tooDeep, expr->span, "this depends on too many other declarations",
+           "one leads to the next");
+    expr->type = type;
+    return type;
+  }
   switch (expr->kind) {
   case ExprKind::literal:
     type = checkLiteral(as<Literal>(expr));

@@ -18,7 +18,7 @@ using ast::Builtin;
 ConstValue realValue(double v) { return {ConstKind::real, 0, v, {}}; }
 
 // -------------------------------------------------------------------------------------------------
-// texts: UTF-8 in the compiler, Latin-1 or UTF-16 at run time
+// texts: UTF-8 in the compiler (with halves of surrogate pairs), Latin-1 or UTF-16 at run time
 
 using Units = std::u16string;
 
@@ -66,17 +66,14 @@ void appendUtf8(std::string &out, std::uint32_t point) {
   }
 }
 
-/// Nothing when the units are no text of whole characters (half of a surrogate pair).
-std::optional<ConstValue> encode(const Units &units, Arena &arena) {
+/// Half of a surrogate pair becomes three bytes, as if it was a character; decode() knows it.
+ConstValue encode(const Units &units, Arena &arena) {
   std::string text;
   for (std::size_t i = 0; i < units.size(); ++i) {
     std::uint32_t point = units[i];
-    if (point >= 0xD800 && point < 0xE000) {
-      if (point >= 0xDC00 || i + 1 == units.size() || units[i + 1] < 0xDC00 ||
-          units[i + 1] > 0xDFFF)
-        return std::nullopt;
+    if (point >= 0xD800 && point < 0xDC00 && i + 1 < units.size() && units[i + 1] >= 0xDC00 &&
+        units[i + 1] < 0xE000)
       point = 0x10000 + ((point - 0xD800) << 10U) + (units[++i] - 0xDC00U);
-    }
     appendUtf8(text, point);
   }
   return ConstValue{ConstKind::string, 0, 0, arena.copy(std::string_view(text))};

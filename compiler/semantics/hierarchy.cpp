@@ -3,25 +3,42 @@
 #include "compiler/semantics/program.hpp"
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace stc {
+
+namespace {
+
+/// Calls `found` for the interface and those it extends, each once, in the order of the
+/// declarations, until it returns true. Interfaces may be reached on many ways.
+template <class Found>
+bool anyInterface(const PouSymbol *interface, std::unordered_set<const PouSymbol *> &seen,
+                  Found &&found) {
+  if (!seen.insert(interface).second)
+    return false;
+  return found(interface) ||
+         std::any_of(interface->interfaces.begin(), interface->interfaces.end(),
+                     [&](const PouSymbol *i) { return anyInterface(i, seen, found); });
+}
+
+} // namespace
 
 bool derivesFrom(const PouSymbol *pou, const PouSymbol *base) {
   for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
     if (p == base)
       return true;
   }
-  if (pou != nullptr && pou->isInterface()) {
-    return std::any_of(pou->interfaces.begin(), pou->interfaces.end(),
-                       [&](const PouSymbol *i) { return derivesFrom(i, base); });
-  }
-  return false;
+  if (pou == nullptr || !pou->isInterface() || base == nullptr)
+    return false;
+  std::unordered_set<const PouSymbol *> seen;
+  return anyInterface(pou, seen, [&](const PouSymbol *i) { return i == base; });
 }
 
 bool implements(const PouSymbol *pou, const PouSymbol *interface) {
+  std::unordered_set<const PouSymbol *> seen;
   for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
     for (const PouSymbol *i : p->interfaces) {
-      if (derivesFrom(i, interface))
+      if (anyInterface(i, seen, [&](const PouSymbol *one) { return one == interface; }))
         return true;
     }
   }
@@ -44,18 +61,20 @@ VarSymbol *findVariable(const PouSymbol *pou, Ident id) {
 }
 
 Symbol *memberNamed(const PouSymbol *pou, Ident id) {
-  for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
+  Symbol *symbol = nullptr;
+  const auto find = [&](const PouSymbol *p) {
     const auto it = p->members.find(id);
-    if (it != p->members.end())
-      return it->second;
+    symbol = it == p->members.end() ? nullptr : it->second;
+    return symbol != nullptr;
+  };
+  for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
+    if (find(p))
+      return symbol;
   }
-  if (pou->isInterface()) {
-    for (const PouSymbol *i : pou->interfaces) {
-      if (Symbol *symbol = memberNamed(i, id))
-        return symbol;
-    }
-  }
-  return nullptr;
+  std::unordered_set<const PouSymbol *> seen;
+  if (pou->isInterface())
+    anyInterface(pou, seen, find);
+  return symbol;
 }
 
 PouSymbol *findMethod(const PouSymbol *pou, Ident id) {
@@ -80,8 +99,11 @@ PouSymbol *implementation(const PouSymbol *pou, const PouSymbol *method) {
   return nullptr;
 }
 
-bool carriesTypeId(const PouSymbol *pou) {
-  if (!pou->isBlock() || (pou->base != nullptr && hasTypeId(pou->base)))
+namespace {
+
+/// It needs a type id, be it its own or its base's.
+bool needsTypeId(const PouSymbol *pou) {
+  if (!pou->isBlock())
     return false;
   if (pou->base != nullptr || !pou->interfaces.empty())
     return true;
@@ -91,9 +113,15 @@ bool carriesTypeId(const PouSymbol *pou) {
              : !pou->methods.empty() || pou->isAbstract();
 }
 
+} // namespace
+
+bool carriesTypeId(const PouSymbol *pou) {
+  return needsTypeId(pou) && (pou->base == nullptr || !hasTypeId(pou->base));
+}
+
 bool hasTypeId(const PouSymbol *pou) {
   for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
-    if (carriesTypeId(p))
+    if (needsTypeId(p))
       return true;
   }
   return false;
@@ -158,11 +186,10 @@ bool isBodyDispatched(const PouSymbol *block) {
 
 namespace {
 
-void collect(const PouSymbol *interface, std::vector<const PouSymbol *> &seen,
+void collect(const PouSymbol *interface, std::unordered_set<const PouSymbol *> &seen,
              std::vector<PouSymbol *> &methods) {
-  if (std::find(seen.begin(), seen.end(), interface) != seen.end())
+  if (!seen.insert(interface).second)
     return;
-  seen.push_back(interface);
   for (const PouSymbol *base : interface->interfaces)
     collect(base, seen, methods);
   methods.insert(methods.end(), interface->methods.begin(), interface->methods.end());
@@ -179,7 +206,7 @@ void collectInterfaces(PouSymbol *interface, std::vector<PouSymbol *> &list) {
 } // namespace
 
 std::vector<PouSymbol *> demandedMethods(const PouSymbol *interface) {
-  std::vector<const PouSymbol *> seen;
+  std::unordered_set<const PouSymbol *> seen;
   std::vector<PouSymbol *> methods;
   collect(interface, seen, methods);
   return methods;

@@ -31,6 +31,10 @@ void Checker::checkInitOf(VarSymbol *variable) {
   if (variable->initChecked)
     return;
   variable->initChecked = true;
+  if (isTooDeep(variable->name)) {
+    variable->constant = makeConstant({});
+    return;
+  }
   const Type *type = typeOf(variable);
   const ScopeGuard guard(*this, {&moduleOf(variable), variable->owner, variable->home});
   checkConstruct(variable);

@@ -119,6 +119,7 @@ private:
   std::unordered_map<const ast::PouDecl *, std::size_t> bodyOf_;
   std::vector<const ast::CallExpr *> ignored_; ///< calls of functions whose result nobody takes
   std::unordered_map<const ast::PouDecl *, bool> purity_;
+  unsigned purityCalls_ = 0; ///< isPure() within isPure()
   struct CallCount {
     unsigned all = 0;
     unsigned asStatement = 0;

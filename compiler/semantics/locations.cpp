@@ -2,6 +2,7 @@
 
 #include "compiler/semantics/locations.hpp"
 #include "compiler/semantics/checker.hpp"
+#include "compiler/semantics/held.hpp"
 
 #include <algorithm>
 
@@ -42,17 +43,11 @@ char sizeLetter(std::uint64_t bytes) {
 
 /// Pointers, references and instances cannot lie in memory that others write byte by byte.
 bool holdsAddress(const Type *type) {
-  while (type->kind == TypeKind::array)
-    type = typeAs<ArrayType>(type)->element;
-  if (type->kind == TypeKind::structure) {
-    const auto *s = typeAs<StructType>(type);
-    if (s->base != nullptr && holdsAddress(s->base))
-      return true;
-    return std::any_of(s->fields.begin(), s->fields.end(), [](const VarSymbol *field) {
-      return field->type != nullptr && holdsAddress(field->type);
-    });
-  }
-  return !isElementary(type) && !isError(type);
+  return anyHeld(type, [](const Type *t, const VarSymbol *) {
+    return t->kind == TypeKind::structure  ? Held::inside
+           : isElementary(t) || isError(t) ? Held::over
+                                           : Held::found;
+  });
 }
 
 } // namespace

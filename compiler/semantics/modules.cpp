@@ -3,6 +3,7 @@
 #include "compiler/semantics/checker.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/lint.hpp"
+#include "compiler/source/stack.hpp"
 #include "compiler/syntax/parser.hpp"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ std::vector<VarSymbol *> PouSymbol::parameters() const {
 
 Checker::Checker(Program &program, const LibraryIndex &index)
     : program_(program), errorLimit_(program.diagnostics.errorCount() + kMaxErrors),
-      arena_(program.arena), index_(index), types_(program.arena) {
+      arena_(program.arena), index_(index), types_(program.arena), stackEnd_(endOfStack()) {
   for (const auto &[name, function] : builtins()) {
     const Ident id = program.interner.intern(name);
     auto *symbol = arena_.make<BuiltinSymbol>();
@@ -251,66 +252,6 @@ void Checker::checkModule(Module &module) {
       checkInitOf(v);
   });
   byIndex(library->pous, [&](PouSymbol *p) { checkBody(p); });
-}
-
-namespace {
-
-/// Types held by value.
-template <class Visit> void visitContained(const Type *type, Visit &&visit) {
-  while (type->kind == TypeKind::array)
-    type = typeAs<ArrayType>(type)->element;
-  if (type->kind == TypeKind::structure || isInstance(type))
-    visit(type);
-}
-
-template <class Visit> void visitMembers(const Type *type, Visit &&visit) {
-  if (type->kind == TypeKind::structure) {
-    const auto *s = typeAs<StructType>(type);
-    if (s->base != nullptr)
-      visit(static_cast<const Type *>(s->base), nullptr);
-    for (VarSymbol *field : s->fields)
-      visitContained(field->type, [&](const Type *t) { visit(t, field); });
-  } else {
-    const PouSymbol *pou = typeAs<PouType>(type)->symbol;
-    if (pou->base != nullptr && pou->base->type != nullptr)
-      visit(static_cast<const Type *>(pou->base->type), nullptr);
-    for (VarSymbol *v : pou->variables) {
-      if (v->section != Section::inOut && v->section != Section::temp)
-        visitContained(v->type, [&](const Type *t) { visit(t, v); });
-    }
-  }
-}
-
-} // namespace
-
-void Checker::checkContainment(Module &module) {
-  enum class State : std::uint8_t { running, done };
-  std::unordered_map<const Type *, State> state;
-  const auto walk = [&](auto &&self, const Type *type) -> void {
-    state[type] = State::running;
-    visitMembers(type, [&](const Type *member, VarSymbol *through) {
-      const auto it = state.find(member);
-      if (it == state.end()) {
-        self(self, member);
-      } else if (it->second == State::running && through != nullptr) {
-        auto &d = report(Code::recursiveType, through->name.span,
-                         "`" + typeName(member) + "` contains itself",
-                         "this member has a `" + typeName(member) + "` inside it again");
-        d.note("a value of this type would be infinitely large");
-        d.help("hold a POINTER TO or REFERENCE TO `" + typeName(member) + "` instead");
-        through->type = elementaryType(TypeKind::error);
-      }
-    });
-    state[type] = State::done;
-  };
-  for (TypeSymbol *t : module.library->types) {
-    if (t->type->kind == TypeKind::structure && !state.contains(t->type))
-      walk(walk, t->type);
-  }
-  for (PouSymbol *p : module.library->pous) {
-    if (p->type != nullptr && !state.contains(p->type))
-      walk(walk, p->type);
-  }
 }
 
 void Checker::checkUser(const std::vector<File *> &files) {

@@ -70,8 +70,14 @@ bool Linter::isPure(const PouSymbol *pou) {
       purity_.emplace(pou->decl, true); // in a circle: until shown otherwise
   if (!fresh)
     return known->second;
-  const bool pure = std::all_of(body.calls.begin(), body.calls.end(),
-                                [this](const CallExpr *call) { return isPure(call->pou); });
+  constexpr unsigned kMaxCalls = 256; // functions that call functions, levels deep
+  const bool pure = purityCalls_ < kMaxCalls && [&] {
+    ++purityCalls_;
+    const bool all = std::all_of(body.calls.begin(), body.calls.end(),
+                                 [this](const CallExpr *call) { return isPure(call->pou); });
+    --purityCalls_;
+    return all;
+  }();
   purity_[pou->decl] = pure;
   return pure;
 }

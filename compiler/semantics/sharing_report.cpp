@@ -38,6 +38,25 @@ void add(TaskUses &to, const TaskUses &from, unsigned mask) {
   }
 }
 
+/// All that decides what a visit finds, but for the path that it names.
+std::vector<std::uint64_t> keyOf(const std::vector<NodeView> &views, const TaskUses &inherited,
+                                 bool quiet) {
+  std::vector<std::uint64_t> key{quiet ? 1U : 0U};
+  for (const NodeView &view : views) {
+    key.push_back(reinterpret_cast<std::uintptr_t>(view.node));
+    key.push_back(view.tasks == nullptr ? ~std::uint64_t{0} : view.tasks->size());
+    if (view.tasks != nullptr)
+      key.insert(key.end(), view.tasks->begin(), view.tasks->end());
+  }
+  for (const auto &[task, use] : inherited)
+    key.push_back(std::uint64_t{task} << 32U | use.flags);
+  return key;
+}
+
+/// Instances of one block in the same situation that are looked at, and named in reports. They may
+/// be many: instances of blocks that hold instances.
+constexpr unsigned kMostAlike = 16;
+
 Span firstOf(const TaskUse &use, bool writes) {
   if (writes && use.write.valid())
     return use.write;
@@ -62,6 +81,8 @@ void SharingGraph::visit(const std::vector<NodeView> &views, const Path &path,
   add(users, inherited, ~0U);
   if (users.size() < 2)
     return; // whatever is called there is called by one task
+  if (++visits_[keyOf(views, inherited, quiet)] > kMostAlike)
+    return;
   const TaskUses own = together(views, false);
   const Type *type = views.front().node->type;
   if (type != nullptr && isScalarValue(type)) {

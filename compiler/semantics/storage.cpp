@@ -7,11 +7,18 @@
 
 namespace stc {
 
+namespace {
+
+/// Sizes end here: no sum of them overflows, and what is so large has been reported.
+constexpr std::uint64_t kMaxStorage = std::uint64_t{1} << 48U;
+
+} // namespace
+
 std::uint64_t Storage::Layout::add(StorageExtent member) {
   if (pack != 0)
     member.align = std::min(member.align, pack);
   const std::uint64_t at = (extent.size + member.align - 1) / member.align * member.align;
-  extent.size = at + member.size;
+  extent.size = std::min(at + member.size, kMaxStorage);
   extent.align = std::max(extent.align, member.align);
   bits = 0;
   return at;
@@ -109,7 +116,10 @@ StorageExtent Storage::compute(const Type *type) {
   case TypeKind::array: {
     const auto *array = typeAs<ArrayType>(type);
     const StorageExtent element = of(array->element);
-    return {element.size * array->count(), element.align};
+    std::uint64_t size = 0;
+    if (__builtin_mul_overflow(element.size, array->count(), &size))
+      size = kMaxStorage;
+    return {std::min(size, kMaxStorage), element.align};
   }
   case TypeKind::structure:
   case TypeKind::functionBlock:

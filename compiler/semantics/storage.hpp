@@ -26,6 +26,9 @@ namespace stc {
 /// Kept in each instance.
 [[nodiscard]] inline bool isField(const VarSymbol *v) { return isOwn(v) && !isPlaced(v); }
 
+/// So many bytes a variable has at most.
+inline constexpr std::uint64_t kMaxTypeBytes = std::uint64_t{1} << 31U;
+
 /// Size and alignment in bytes.
 struct StorageExtent {
   std::uint64_t size = 1;

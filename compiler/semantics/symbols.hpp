@@ -99,6 +99,7 @@ struct PouSymbol : Symbol {
   PouSymbol *owner = nullptr;                  ///< METHOD, ACTION, accessor: what it belongs to
   PropertySymbol *property = nullptr;          ///< accessor: of this
   PouSymbol *base = nullptr;                   ///< EXTENDS of a block or class
+  unsigned bases = 0; ///< length of the longest way through bases and interfaces
   std::vector<PouSymbol *> interfaces;         ///< IMPLEMENTS; of an INTERFACE: EXTENDS
   std::vector<PouSymbol *> methods;            ///< own methods, actions and accessors
   std::vector<PropertySymbol *> properties;    ///< own properties

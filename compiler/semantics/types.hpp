@@ -106,9 +106,11 @@ struct OpenArrayType : Type {
 struct StructType : Type {
   TypeSymbol *symbol;
   const StructType *base = nullptr; ///< EXTENDS
+  unsigned bases = 0;               ///< structures that it extends, directly or not
   std::span<VarSymbol *> fields;    ///< own fields
   unsigned pack = 0; ///< {attribute 'pack_mode'}: members are aligned to this at most; 0: naturally
   bool isUnion = false; ///< the fields share their memory
+  mutable unsigned alignment = 0; ///< alignmentOf() keeps its result here; 0: not asked for yet
 };
 
 /// FUNCTION_BLOCK, CLASS or PROGRAM as the type of its instances; INTERFACE.

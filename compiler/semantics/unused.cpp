@@ -147,25 +147,30 @@ void Linter::reportResults(const Body &body) {
 }
 
 void Linter::markUsed(const Type *type) {
-  for (; type != nullptr && usedTypes_.insert(type).second;) {
+  // A list of those to come: chains of pointers may be long.
+  for (std::vector<const Type *> pending{type}; !pending.empty();) {
+    type = pending.back();
+    pending.pop_back();
+    if (type == nullptr || !usedTypes_.insert(type).second)
+      continue;
     switch (type->kind) {
     case TypeKind::array:
-      type = typeAs<ArrayType>(type)->element;
+      pending.push_back(typeAs<ArrayType>(type)->element);
       break;
     case TypeKind::pointer:
     case TypeKind::reference:
-      type = typeAs<PointerType>(type)->pointee;
+      pending.push_back(typeAs<PointerType>(type)->pointee);
       break;
     case TypeKind::functionBlock:
       usedPous_.insert(typeAs<PouType>(type)->symbol);
-      return;
+      break;
     case TypeKind::structure:
       for (const VarSymbol *field : typeAs<StructType>(type)->fields)
-        markUsed(field->type);
-      type = typeAs<StructType>(type)->base;
+        pending.push_back(field->type);
+      pending.push_back(typeAs<StructType>(type)->base);
       break;
     default:
-      return;
+      break;
     }
   }
 }
