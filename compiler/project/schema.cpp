@@ -3,6 +3,7 @@
 #include "compiler/project/interval.hpp"
 #include "compiler/project/names.hpp"
 #include "compiler/semantics/suggest.hpp"
+#include "compiler/syntax/parser.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -90,7 +91,7 @@ public:
     case ParameterType::text:
       return !value_.text.empty() || parameter_.name == "sTask" || reportEmpty();
     case ParameterType::identifier:
-      return isIdentifier(value_.text) || reportIdentifier();
+      return (isIdentifier(value_.text) && value_.text.size() <= kMaxName) || reportIdentifier();
     case ParameterType::integer:
     case ParameterType::real:
       return checkRange(value_.floating);
@@ -131,6 +132,13 @@ private:
   }
 
   bool reportIdentifier() {
+    if (value_.text.size() > kMaxName) {
+      diagnostics_
+          .report(Code::nameTooLong, value_.span,
+                  fmt::format("this name has {} characters", value_.text.size()))
+          .note(fmt::format("a name has at most {} characters", kMaxName));
+      return false;
+    }
     diagnostics_
         .report(Code::configBadName, value_.span,
                 fmt::format("`{}` cannot be a name in Structured Text", value_.text),

@@ -428,7 +428,15 @@ void resolveTasks(ProjectConfig &config, const std::vector<ast::File *> &files,
   TaskResolver(config, files, diagnostics).resolve(programCheck);
 }
 
-std::string eventFunction(const TaskConfig &task) { return task.name.text + "__event"; }
+std::string eventFunction(const TaskConfig &task) {
+  constexpr std::size_t kMostOfName =
+      200; // so that the function's name is no longer than names may be
+  const std::string &name = task.name.text;
+  if (name.size() <= kMostOfName)
+    return name + "__event";
+  return fmt::format("{}__{}_{}__event", name.substr(0, kMostOfName), task.name.span.file,
+                     task.name.span.begin);
+}
 
 std::string eventDeclaration(const TaskConfig &task, LineColumn at) {
   const std::string name = eventFunction(task);

@@ -5,6 +5,13 @@
 
 namespace stc {
 
+namespace {
+
+/// Deepest nesting of namespaces.
+constexpr std::size_t kMaxSpaces = 32;
+
+} // namespace
+
 // -----------------------------------------------------------------------------------------------
 // namespaces
 
@@ -26,6 +33,11 @@ void FileParser::namespaceHead() {
     for (const ast::Name &name :
          builder_.namespaceNames(static_cast<Grammar::NamespaceHeadContext *>(unit->children[0])))
       space_.push_back(name);
+  if (space_.size() > kMaxSpaces) { // each declaration has the whole path
+    diagnostics_.report(Code::tooDeep, open.head, "namespaces are nested too deeply",
+                        "deeper than " + std::to_string(kMaxSpaces));
+    space_.resize(kMaxSpaces);
+  }
   spaceNow_ = arena_.copy(space_);
   namespaces_.push_back(open);
   closers_.push_back(Tok::END_NAMESPACE);

@@ -13,6 +13,9 @@ namespace stc {
 /// Deepest nesting of parentheses, brackets and statement blocks that is accepted.
 inline constexpr unsigned kMaxNesting = 256;
 
+/// Longest name, in characters.
+inline constexpr std::size_t kMaxName = 255;
+
 /// Parses one file. Always returns a tree (what could be read); reports every syntax error to
 /// `diagnostics`. The tree lives in `arena` and refers to the file's text, which must outlive it.
 /// `options` answer the conditions of `{IF …}`.

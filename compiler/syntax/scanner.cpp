@@ -2,6 +2,7 @@
 
 #include "compiler/source/identifier.hpp"
 #include "compiler/syntax/characters.hpp"
+#include "compiler/syntax/parser.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -11,7 +12,6 @@ namespace stc {
 namespace {
 
 constexpr unsigned kMaxBadCharacters = 20;
-constexpr std::size_t kMaxName = 255;
 
 /// Operators of the language whose names have two underscores.
 bool isKnownDoubleUnderscore(std::string_view word) {

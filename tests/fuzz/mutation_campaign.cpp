@@ -4,9 +4,12 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <sys/mman.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <time.h>
@@ -18,7 +21,7 @@ namespace {
 
 constexpr std::size_t kMostBytes = 16'384;
 constexpr std::size_t kMostFailures = 20;
-constexpr unsigned kTooLong = 120; // seconds: only what would never end takes that long
+constexpr time_t kTooLong = 60; // seconds of processor time: what would never end takes longer
 
 // What the child writes and its parent reads when it is gone.
 struct Progress {
@@ -55,7 +58,8 @@ double processorSeconds() {
                        const std::filesystem::path &folder) {
   try {
     for (; progress.number <= last; ++progress.number) {
-      ::alarm(kTooLong);
+      const itimerval limit{{0, 0}, {kTooLong, 0}};
+      ::setitimer(ITIMER_PROF, &limit, nullptr);
       const std::string source = mutatedSource(mutator, progress.number);
       const double begin = processorSeconds();
       runCommands(source, folder);
@@ -107,6 +111,8 @@ Campaign runCampaign(const TokenMutator &mutator, std::uint64_t first, std::uint
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
       break;
     const std::uint64_t number = (*progress).number++;
+    ::fprintf(stderr, "source %llu: %s\n", static_cast<unsigned long long>(number),
+              WIFSIGNALED(status) ? ::strsignal(WTERMSIG(status)) : "ended by itself");
     campaign.failures.push_back(
         {number, WIFSIGNALED(status) ? WTERMSIG(status) : 0, mutatedSource(mutator, number)});
   }

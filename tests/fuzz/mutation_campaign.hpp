@@ -13,7 +13,7 @@ namespace stride::fuzz {
 /// A source that ended the process that worked on it.
 struct Failure {
   std::uint64_t number = 0;
-  int signal = 0; ///< SIGALRM: it took too long
+  int signal = 0; ///< SIGPROF: it took too long
   std::string source;
 };
 

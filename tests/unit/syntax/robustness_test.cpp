@@ -127,7 +127,7 @@ TEST(Robustness, NestingLimitOfEachKind) {
       {"FOR", body, "FOR i := 0 TO 1 DO ", "", "END_FOR ", "", 256},
       {"WHILE", body, "WHILE a DO ", "", "END_WHILE ", "", 256},
       {"REPEAT", body, "REPEAT ", "", "UNTIL a END_REPEAT ", "", 256},
-      {"TRY", body, "__TRY ", "", "__CATCH (e) __ENDTRY ", "", 256},
+      {"TRY", body, "__TRY ", "", "__FINALLY __ENDTRY ", "", 256},
       {"arrays", "VAR_GLOBAL x : ", "ARRAY[0..1] OF ", "INT", "", "; END_VAR", 255},
       {"pointers", "VAR_GLOBAL x : ", "POINTER TO ", "INT", "", "; END_VAR", 256},
       {"references", "TYPE T : ", "REFERENCE TO ", "INT", "", "; END_TYPE", 256},
@@ -159,7 +159,9 @@ TEST(Robustness, DeepThingsWithoutLimit) {
       errors("{IF " + repeat("(", count) + "defined (x)" + repeat(")", count) + "}\n{END_IF}\n"),
       "");
   EXPECT_EQ(bodyErrors(repeat("a := ", 1000) + "b;"), "");
+  EXPECT_EQ(errors(repeat("NAMESPACE a ", 32) + repeat("END_NAMESPACE ", 32)), "");
   const Parsed spaces(repeat("NAMESPACE a ", count) + repeat("END_NAMESPACE ", count));
+  EXPECT_GE(spaces.diagnostics.errorCount(), 1U);
   EXPECT_LE(spaces.diagnostics.errorCount(), 200U);
   const Parsed blocks(repeat("FUNCTION_BLOCK b METHOD m ", count));
   EXPECT_LE(blocks.diagnostics.errorCount(), 200U);
