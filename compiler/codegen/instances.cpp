@@ -53,7 +53,8 @@ void collectHeld(const Type *type, Wanted &&wanted, std::vector<const Type *> &l
   if (!wanted(type) || std::find(list.begin(), list.end(), type) != list.end())
     return;
   for (const VarSymbol *v : allFields(type))
-    collectHeld(v->type, wanted, list);
+    if (!isBinding(v)) // what an in-out is bound to lies elsewhere
+      collectHeld(v->type, wanted, list);
   list.push_back(type);
 }
 
