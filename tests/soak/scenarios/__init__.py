@@ -1,0 +1,1 @@
+"""One module per scenario; each has `play(round)`, which makes its choices with round.rng."""

@@ -1,0 +1,188 @@
+"""A small file system that fills up and gets room again at random, below everything that a run or a build writes: retained data,
+trace, recording, statistics, the program's files, the project itself. Runs go on; what is written is whole or is not there; with
+room again all is as if nothing had been. Needs root, to mount the file system."""
+import os
+import subprocess
+import time
+
+import client
+import invariants
+import motion
+import retained
+from frame import wait_until
+
+WRITER = """PROGRAM Writer
+VAR h : DWORD; state : DINT; lines, failed : UDINT; text : STRING(40); name : STRING(20) := 'lines.txt'; END_VAR
+CASE state OF
+  0:
+    h := SysFileOpen(name, 'w');
+    IF h <> 0 THEN state := 1; ELSIF SysFileGetError() <> SYSFILE_ERROR.PENDING THEN failed := failed + 1; END_IF
+  1:
+    text := CONCAT(UDINT_TO_STRING(lines), '$N');
+    IF SysFileWrite(h, ADR(text), INT_TO_DINT(LEN(text))) <> 0 THEN lines := lines + 1; END_IF
+    IF lines MOD 50 = 0 THEN state := 2; END_IF
+  2:
+    IF SysFileClose(h) THEN state := 0; ELSIF SysFileGetError() <> SYSFILE_ERROR.PENDING THEN failed := failed + 1; state := 0; END_IF
+END_CASE
+END_PROGRAM
+"""
+
+
+class Disk:
+    """A file system of `kib` KiB in the round's folder"""
+
+    def __init__(self, round_, kib):
+        self.round, self.folder = round_, round_.folder / "disk"
+        self.folder.mkdir()
+        subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={kib}k", "soak", self.folder], check=True)
+        round_.at_end(self.remove)
+        self.filler = self.folder / "filler"
+
+    def remove(self):
+        keep = self.round.folder / "disk-copy"
+        self.empty()
+        if self.round.violations:
+            subprocess.run(["cp", "-a", self.folder, keep], check=False)
+        subprocess.run(["umount", "-l", self.folder], check=True)
+
+    def free(self):
+        """Bytes"""
+        size = os.statvfs(self.folder)
+        return size.f_bavail * size.f_frsize
+
+    def fill(self, leave=0):
+        """Until so many bytes are left"""
+        with open(self.filler, "ab") as file:
+            try:
+                while (left := self.free() - leave) > 0:
+                    os.write(file.fileno(), bytes(min(left, 1 << 16)))
+            except OSError:
+                pass
+        self.round.counts["fills"] += 1
+
+    def empty(self):
+        self.filler.unlink(missing_ok=True)
+
+
+def play(round_):
+    if not round_.settings.can_mount:
+        round_.counts["skipped"] += 1
+        return
+    if round_.choose("what", round_.rng.choice(["run", "run", "build"])) == "run":
+        during_a_run(round_)
+    else:
+        during_builds(round_)
+
+
+def project_of(round_):
+    rng = round_.rng
+    project = motion.MotionProject(rng, axes=rng.randint(1, 3), interval_ms=rng.choice([2, 5, 10]))
+    rows = round_.choose("rows", rng.choice([1, 100, 2000]))
+    project.extra = WRITER + retained.GLOBALS.replace("n : LINT", "number : LINT") + retained.PROGRAM.format(last=rows - 1).replace("GVL.n", "Other.number")
+    more = '\n[[task]]\nname = "Slow"\ninterval = "T#20ms"\npriority = 10\nprograms = ["Keeper", "Writer"]\n\n[retain]\nperiod = "T#100ms"\n'
+    return project, more
+
+
+def during_a_run(round_):
+    rng = round_.rng
+    project, more = project_of(round_)
+    folder = project.write(round_.folder / "project", more=more)
+    round_.build(folder)
+    app = folder / "build" / "app.so"
+    disk = Disk(round_, round_.choose("kib", rng.choice([300, 1000, 3000])))
+    for name in ("retain", "files"):
+        (disk.folder / name).mkdir()
+    retain, trace = disk.folder / "retain" / "Kept", disk.folder / "run.csv"
+    what = round_.choose("written", rng.choice(["trace", "recording", "messages"]))
+    options = {"trace": ["--trace", ",".join(project.columns()), "--out", trace], "recording": ["--record", disk.folder / "run.rec"], "messages": []}[what]
+    run = round_.start(round_.settings.product.host, "run", app, "--retain", retain, "--files", disk.folder / "files", "--listen", "unix:plc.sock", "--statistics",
+                       disk.folder / "statistics.json", *options, name="run", place=disk.folder if what == "messages" else None)
+    with client.connect(round_.folder / "plc.sock", run) as asking:
+        for _ in range(2 if round_.quick else round_.choose("fillings", rng.randint(2, 8))):
+            full_for_a_while(round_, disk, run, asking)
+        disk.empty()
+        recovers(round_, disk, asking, run, project, traced=what != "messages")
+    run.stop()
+    round_.expect(run.code == 0, f"the run ends with exit code {run.code}: {run.err[-1500:]}")
+    at_the_end(round_, project, disk, app, retain, what)
+
+
+def full_for_a_while(round_, disk, run, asking):
+    rng = round_.rng
+    disk.fill(leave=rng.choice([0, 0, 1000, 10000]))
+    before = asking.read("GVL.cycles")["GVL.cycles"]
+    time.sleep(rng.uniform(0.1, 1.0))
+    round_.demand(run.alive(), f"the run has ended on a full disk, exit code {run.code}: {run.err[-1500:]}")
+    going = wait_until(lambda: asking.read("GVL.cycles")["GVL.cycles"] > before, 30)
+    round_.expect(going, "the program's cycles stand still on a full disk")
+    if rng.random() < 0.7:
+        disk.empty()
+        time.sleep(rng.uniform(0, 0.5))
+
+
+def recovers(round_, disk, asking, run, project, traced):
+    """With room again, retained data and the program's files are written. A trace may have taken the room itself."""
+    number = asking.read("Other.number")["Other.number"]
+    lines = asking.read("Writer.lines")["Writer.lines"]
+    wait_until(lambda: asking.read("Other.number")["Other.number"] > number + 50, 30)
+    round_.number_at_recovery = number if disk.free() > 100_000 else 0
+    if disk.free() > 100_000 and not traced:
+        round_.expect(wait_until(lambda: asking.read("Writer.lines")["Writer.lines"] > lines, 30), "the program's file is not written again with room on the disk")
+    names = [f"PLC_PRG.m{a.name}.{v}" for a in project.axes for v in ("maxStep", "maxChange", "errors", "moves")]
+    values = asking.read(*names)
+    invariants.movers_within_limits(round_, project, values, "on a full disk")
+
+
+def at_the_end(round_, project, disk, app, retain, what):
+    kept = retained.look(round_, app, retain, "after a full disk")
+    round_.expect(kept is None and not round_.number_at_recovery or kept is not None and kept >= round_.number_at_recovery,
+                  f"with room on the disk the retained data were not saved: {kept}, it should be {round_.number_at_recovery} at least")
+    if what == "trace":
+        trace = disk.folder / "run.csv"
+        columns, rows = invariants.read_trace(trace)
+        torn = [number for number, row in enumerate(rows) if len(row) != len(columns)]
+        if round_.expect(columns and not torn, f"rows {torn[:5]} of the trace are torn: {[rows[t] for t in torn[:2]]}") and rows:
+            reference = round_.folder / "reference.csv"
+            last = max(int(row[1]) for row in rows)
+            round_.host("sim", app, "--for", f"{(last + 1) * project.interval_ms}ms", "--quiet", "--files", round_.folder / "other", "--trace",
+                        ",".join(project.columns()), "--out", reference)
+            invariants.same_course(round_, (columns, rows), invariants.read_trace(reference), "on a full disk")
+            invariants.steps_within_limits(round_, project, (columns, rows), "on a full disk")
+            round_.counts["cycles_run"] += last
+    if what == "recording" and (disk.folder / "run.rec").stat().st_size > 0:
+        replay = round_.host("sim", app, "--replay", disk.folder / "run.rec", "--quiet", "--print", "GVL.cycles")
+        round_.expect(replay.code in (0, 1) and "GVL.cycles" in replay.out, f"the recording cannot be replayed: exit code {replay.code}, {replay.err[-800:]}")
+
+
+def during_builds(round_):
+    """Every build ends well, or with a message and the application that was there before."""
+    rng = round_.rng
+    disk = Disk(round_, 20_000)
+    project = motion.MotionProject(rng, axes=rng.randint(1, 3))
+    folder = project.write(disk.folder / "project")
+    round_.build(folder)
+    app, good = folder / "build" / "app.so", project.version
+    for _ in range(1 if round_.quick else round_.choose("builds", rng.randint(3, 10))):
+        for _ in range(rng.randint(1, 3)):
+            project.edit()
+        project.write(folder)
+        disk.fill(leave=rng.choice([0, 4096, 20_000, 100_000, 300_000, 600_000, 1_000_000, 2_000_000]))
+        options = rng.choice([[], ["--debug"], ["--unchecked"]])
+        made = round_.stride("build", folder, "-W", "off=lints", *options)
+        round_.counts["builds"] += 1
+        if made.code == 0:
+            good = project.version
+        else:
+            round_.counts["failed_builds"] += 1
+            round_.expect(made.code == 1 and "error" in made.err, f"a build on a full disk: exit code {made.code}, it says {made.err[-800:]!r}")
+        round_.expect(version_of(round_, app) == good, f"on a full disk (exit code {made.code}) build/app.so is {version_of(round_, app)}, not version {good}: {made.err[-800:]}")
+        if rng.random() < 0.5:
+            disk.empty()
+            round_.build(folder, *options)
+            good = project.version
+            round_.expect(version_of(round_, app) == good, f"with room again build/app.so is {version_of(round_, app)}, not version {good}")
+
+
+def version_of(round_, app):
+    ran = round_.host("sim", app, "--for", "1ms", "--quiet", "--print", "GVL.version")
+    return int(invariants.printed(ran.out).get("GVL.version", -1)) if ran.code == 0 else f"unusable: {ran.err[-300:]}"
