@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <utility>
@@ -17,14 +18,14 @@ namespace stride::host {
 namespace {
 
 /// Another spelling of the path, so that the loader does not take the old file for the new one: it
-/// knows files of this process by their names.
+/// knows files of this process by their names. The digits of a number that counts up, "/." is a one
+/// and "/" a zero: a path must not grow with every change, its length is limited.
 std::string spelledAnew(const std::string &path) {
-  static std::atomic<unsigned> spellings{0};
-  const unsigned number = ++spellings;
+  static std::atomic<uint64_t> spellings{0};
   const std::filesystem::path given(path);
   std::string folder = given.has_parent_path() ? given.parent_path().string() : ".";
-  for (unsigned i = 0; i < number; ++i)
-    folder += "/.";
+  for (uint64_t number = ++spellings; number != 0; number >>= 1)
+    folder += (number & 1) != 0 ? "/." : "/";
   return folder + '/' + given.filename().string();
 }
 

@@ -1,5 +1,6 @@
-// Loaded into a run by LD_PRELOAD: the wall clock jumps by what the soak writes into a shared file. The monotonic clock stays as it
-// is. Waiting for a time of the wall clock, which a jump would shorten or prolong, is counted.
+// Loaded into a run by LD_PRELOAD: the wall clock jumps by what the soak writes into a shared file.
+// The monotonic clock stays as it is. Waiting for a time of the wall clock, which a jump would
+// shorten or prolong, is counted.
 #include <cstdint>
 #include <cstdlib>
 
@@ -92,11 +93,13 @@ time_t time(time_t *place) noexcept {
 int clock_nanosleep(clockid_t clock, int flags, const timespec *until, timespec *rest) {
   if (clock == CLOCK_REALTIME && (flags & TIMER_ABSTIME) != 0)
     lookAt(until);
-  static auto *const real = next<int(clockid_t, int, const timespec *, timespec *)>("clock_nanosleep");
+  static auto *const real =
+      next<int(clockid_t, int, const timespec *, timespec *)>("clock_nanosleep");
   return real(clock, flags, until, rest);
 }
 
-int pthread_cond_timedwait(pthread_cond_t *condition, pthread_mutex_t *mutex, const timespec *until) {
+int pthread_cond_timedwait(pthread_cond_t *condition, pthread_mutex_t *mutex,
+                           const timespec *until) {
   lookAt(until);
   static auto *const real =
       next<int(pthread_cond_t *, pthread_mutex_t *, const timespec *)>("pthread_cond_timedwait");

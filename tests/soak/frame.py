@@ -138,7 +138,8 @@ class Process:
         self.round, self.name, self.arguments = round_, name, arguments
         self.out_path, self.err_path = place / f"{name}.out", place / f"{name}.err"
         with open(self.out_path, "wb") as out, open(self.err_path, "wb") as err:
-            self.popen = subprocess.Popen(arguments, cwd=cwd, env=environment, stdin=subprocess.DEVNULL, stdout=out, stderr=err)
+            self.popen = subprocess.Popen(arguments, cwd=cwd, env=environment, stdin=subprocess.DEVNULL, stdout=out, stderr=err,
+                                          start_new_session=True)
         self.killed = False
 
     @property

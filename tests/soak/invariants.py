@@ -91,3 +91,8 @@ def descriptors(pid):
 def resident_kib(pid):
     """VmRSS"""
     return int(re.search(r"VmRSS:\s+(\d+)", pathlib.Path(f"/proc/{pid}/status").read_text()).group(1))
+
+
+def mappings(pid):
+    """How many pieces of memory a process has mapped"""
+    return len(pathlib.Path(f"/proc/{pid}/maps").read_text().splitlines())

@@ -181,12 +181,12 @@ class MotionProject:
 
     # Edits that leave the axes alone
 
-    def edit(self):
-        """One random edit; what it was"""
+    def edit(self, both_ways=False):
+        """One random edit; what it was. `both_ways`: also the change back keeps all values."""
         self.version += 1
-        edit = self.rng.choice([self.add_variable, self.add_variable, self.remove_variable, self.add_statement, self.add_comment, self.add_global,
-                                self.remove_global, self.shuffle, self.widen, self.rename, self.add_block])
-        return edit()
+        edits = [self.add_variable, self.add_variable, self.remove_variable, self.add_statement, self.add_comment, self.add_global, self.remove_global,
+                 self.shuffle, self.add_block]
+        return self.rng.choice(edits if both_ways else [*edits, self.widen, self.rename])()
 
     def fresh(self, prefix):
         self.count += 1

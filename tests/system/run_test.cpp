@@ -596,6 +596,19 @@ TEST_F(RunChange, ParametersThatTakeEffectLaterAreNamed) {
               HasSubstr("fSWLimitNegative is -400 instead of -5000"));
 }
 
+TEST_F(Run, ChangesThatFollowEachOtherDoNotUseUpThePath) {
+  build("a", kCounter);
+  std::string path; // near the limit of 4096
+  for (int i = 0; i < 1990; ++i)
+    path += "./";
+  std::string sim = "\"$HOST\" sim a.so --for 1s --quiet --print PLC_PRG.n";
+  for (int i = 1; i <= 100; ++i)
+    sim += fmt::format(" --change {}ms,{}a.so", i, path);
+  const ProcessResult result = shell(sim);
+  EXPECT_EQ(result.exitCode, 0) << result.err.substr(0, 100);
+  EXPECT_EQ(result.out, "PLC_PRG.n = 1000\n");
+}
+
 TEST_F(RunChange, ASimulationChangesAtAnInstantBitForBit) {
   buildNew("  unrelated : ARRAY[0..999] OF LREAL := [1000(1.5)];\n");
   const std::string sim = "\"$HOST\" sim old.so --for 4s --set T#2500ms,Ipo.p=50 "

@@ -3,6 +3,7 @@ clock. The axes must do what they do without a change, bit for bit; values survi
 import re
 import shutil
 import signal
+import time
 
 import client
 import invariants
@@ -15,10 +16,7 @@ def play(round_):
     project = motion.MotionProject(rng, interval_ms=rng.choice([2, 4, 5, 10]))
     round_.choose("axes", [a.kind for a in project.axes])
     round_.choose("interval_ms", project.interval_ms)
-    if round_.choose("clock", rng.choice(["virtual", "real", "real"])) == "virtual":
-        simulated(round_, project)
-    else:
-        by_the_clock(round_, project)
+    {"virtual": simulated, "real": by_the_clock, "to and fro": to_and_fro}[round_.choose("how", rng.choice(["virtual", "real", "real", "to and fro"]))](round_, project)
 
 
 def reference(round_, project, app, cycles):
@@ -84,12 +82,39 @@ class Live:
     def version(self):
         return self.client.read("GVL.version")["GVL.version"]
 
+    def build(self):
+        """Of the sources as they are; signals to change may come at any moment of it."""
+        options = ["--debug"] if self.round.rng.random() < 0.3 else []
+        self.project.write(self.folder)
+        if self.round.rng.random() < 0.7:
+            self.round.build(self.folder, *options)
+            return
+        building = self.round.start(self.round.settings.product.stride, "build", self.folder, "-W", "off=lints", *options)
+        while building.alive():
+            time.sleep(self.round.rng.uniform(0, 0.05))
+            self.process.signal(signal.SIGHUP)
+        building.finish(1)
+        self.round.demand(building.code == 0, f"a build beside a run fails: {building.err[-1500:]}")
+
+    def refused(self):
+        """A build that cannot take over: the old one goes on."""
+        manifest = self.project.write(self.folder) / "stride.toml"
+        text = manifest.read_text(encoding="utf-8")
+        manifest.write_text(text.replace("priority = 1", "priority = 2"), encoding="utf-8")
+        self.round.build(self.folder)
+        before = self.version()
+        answer = self.client.ask("online_change")["applications"]
+        self.round.expect(answer[0]["result"] == "refused", f"a change of the tasks was not refused: {answer}")
+        self.round.expect(self.version() == before, "a refused change has taken over")
+        self.round.counts["refused_changes"] += 1
+        self.check_values()
+
     def change(self):
         """Some edits, a build, and one way to make the run look at it."""
         rng = self.round.rng
         for _ in range(rng.randint(1, 4)):
             self.round.note(f"edit: {self.project.edit()}")
-        self.round.build(self.project.write(self.folder), *(["--debug"] if rng.random() < 0.3 else []))
+        self.build()
         how = rng.choice(["SIGHUP", "storm", "request", "ctl"])
         self.round.note(f"change by {how}")
         if how == "request":
@@ -120,13 +145,49 @@ class Live:
 
 def by_the_clock(round_, project):
     live = Live(round_, project)
+    refused = 0
     for _ in range(1 if round_.quick else round_.choose("changes", round_.rng.randint(1, 8))):
         live.change()
+        if round_.rng.random() < 0.2:
+            live.refused()
+            refused += 1
+    finish(round_, project, live, refused)
+
+
+def to_and_fro(round_, project):
+    """Two builds that take over from each other many times: nothing grows."""
+    live = Live(round_, project)
+    builds = [live.first]
+    for _ in range(5):
+        round_.note(f"edit: {project.edit(both_ways=True)}")
+    round_.build(project.write(live.folder))
+    builds.append(round_.folder / "second.so")
+    shutil.copy(live.folder / "build" / "app.so", builds[1])
+    count = 4 if round_.quick else round_.choose("changes", round_.rng.choice([50, 100, 300]))
+    sizes = []
+    for number in range(count):
+        fresh = live.folder / "build" / "fresh.so"
+        shutil.copy(builds[(number + 1) % 2], fresh)
+        fresh.replace(live.folder / "build" / "app.so")
+        answer = live.client.ask("online_change")["applications"][0]
+        round_.demand(answer["result"] == "done", f"change {number} was refused: {answer['report']}")
+        if number % 10 == 9:
+            live.check_values()
+            sizes.append((invariants.resident_kib(live.process.pid), invariants.mappings(live.process.pid), invariants.descriptors(live.process.pid)))
+    round_.counts["changes"] += count
+    if len(sizes) > 4:
+        began, ended = sizes[1], sizes[-1]
+        round_.expect(ended[0] - began[0] < 20_000 and ended[1] - began[1] < 20 and ended[2] == began[2],
+                      f"after 20 changes {began} KiB, mappings, descriptors; after {count} {ended}")
+    finish(round_, project, live)
+
+
+def finish(round_, project, live, refused=0):
     live.client.close()
     live.process.stop()
     said = live.process.err
     round_.demand(live.process.code == 0, f"the run ends with exit code {live.process.code}: {said[-1500:]}")
-    round_.expect(not re.search(r"^error", said, re.MULTILINE), f"the run says: {said[-1500:]}")
+    round_.expect(len(re.findall(r"^error", said, re.MULTILINE)) == refused, f"the run says: {said[-1500:]}")
     traced = invariants.read_trace(live.trace)
     last = int(traced[1][-1][1])
     same = invariants.same_course(round_, traced, reference(round_, project, live.first, last + 1), "change by the real clock")

@@ -1,6 +1,7 @@
 """A small file system that fills up and gets room again at random, below everything that a run or a build writes: retained data,
 trace, recording, statistics, the program's files, the project itself. Runs go on; what is written is whole or is not there; with
 room again all is as if nothing had been. Needs root, to mount the file system."""
+import json
 import os
 import subprocess
 import time
@@ -10,6 +11,7 @@ import invariants
 import motion
 import retained
 from frame import wait_until
+from scenarios.kills import version_of
 
 WRITER = """PROGRAM Writer
 VAR h : DWORD; state : DINT; lines, failed : UDINT; text : STRING(40); name : STRING(20) := 'lines.txt'; END_VAR
@@ -102,7 +104,11 @@ def during_a_run(round_):
             full_for_a_while(round_, disk, run, asking)
         disk.empty()
         recovers(round_, disk, asking, run, project, traced=what != "messages")
+    room = disk.free() > 100_000
     run.stop()
+    statistics = disk.folder / "statistics.json"
+    if room and round_.expect(statistics.exists(), "with room on the disk the statistics were not written"):
+        json.loads(statistics.read_text())
     round_.expect(run.code == 0, f"the run ends with exit code {run.code}: {run.err[-1500:]}")
     at_the_end(round_, project, disk, app, retain, what)
 
@@ -161,7 +167,7 @@ def during_builds(round_):
     project = motion.MotionProject(rng, axes=rng.randint(1, 3))
     folder = project.write(disk.folder / "project")
     round_.build(folder)
-    app, good = folder / "build" / "app.so", project.version
+    good = project.version
     for _ in range(1 if round_.quick else round_.choose("builds", rng.randint(3, 10))):
         for _ in range(rng.randint(1, 3)):
             project.edit()
@@ -175,14 +181,10 @@ def during_builds(round_):
         else:
             round_.counts["failed_builds"] += 1
             round_.expect(made.code == 1 and "error" in made.err, f"a build on a full disk: exit code {made.code}, it says {made.err[-800:]!r}")
-        round_.expect(version_of(round_, app) == good, f"on a full disk (exit code {made.code}) build/app.so is {version_of(round_, app)}, not version {good}: {made.err[-800:]}")
+        round_.expect(version_of(round_, folder) == good, f"on a full disk (exit code {made.code}) build/app.so is {version_of(round_, folder)}, not version {good}: {made.err[-800:]}")
         if rng.random() < 0.5:
             disk.empty()
             round_.build(folder, *options)
             good = project.version
-            round_.expect(version_of(round_, app) == good, f"with room again build/app.so is {version_of(round_, app)}, not version {good}")
+            round_.expect(version_of(round_, folder) == good, f"with room again build/app.so is {version_of(round_, folder)}, not version {good}")
 
-
-def version_of(round_, app):
-    ran = round_.host("sim", app, "--for", "1ms", "--quiet", "--print", "GVL.version")
-    return int(invariants.printed(ran.out).get("GVL.version", -1)) if ran.code == 0 else f"unusable: {ran.err[-300:]}"

@@ -1,12 +1,61 @@
-"""kill -9 at random times while retained data are saved: the next start finds the values of one moment, never older ones than
-the start before, never none once there were some."""
+"""kill -9 at random times. While retained data are saved: the next start finds the values of one moment, never older ones than
+the start before, never none once there were some. During builds: the application is the one that was there before or the new
+one, and the next build is right, whatever the killed ones have left."""
+import os
+import signal
 import time
 
 import client
+import invariants
+import motion
 import retained
 
 
 def play(round_):
+    if round_.choose("what", round_.rng.choice(["run", "run", "build"])) == "run":
+        killed_runs(round_)
+    else:
+        killed_builds(round_)
+
+
+def killed_builds(round_):
+    rng = round_.rng
+    project = motion.MotionProject(rng, axes=rng.randint(1, 4))
+    folder = project.write(round_.folder / "project")
+    round_.build(folder)
+    good = project.version
+    for _ in range(2 if round_.quick else round_.choose("kills", rng.randint(5, 20))):
+        for _ in range(rng.randint(1, 3)):
+            project.edit()
+        project.write(folder)
+        options = rng.choice([[], ["--debug"], ["--unchecked"]])
+        building = round_.start(round_.settings.product.stride, "build", folder, "-W", "off=lints", *options)
+        time.sleep(rng.choice([rng.uniform(0, 0.1), rng.uniform(0, 1), rng.uniform(0, 3)]))
+        if not building.alive():
+            good = project.version
+        elif rng.random() < 0.5:
+            building.kill()  # its compilers go on for a while
+        else:
+            os.killpg(building.pid, signal.SIGKILL)
+            building.kill()
+        round_.counts["kills"] += 1
+        found = version_of(round_, folder)
+        round_.expect(found in (good, project.version), f"after a killed build build/app.so is {found}, not version {good} or {project.version}")
+        if rng.random() < 0.7:
+            round_.build(folder, *options)
+            good = project.version
+            found = version_of(round_, folder)
+            round_.expect(found == good, f"after killed builds and a whole one build/app.so is {found}, not version {good}")
+        else:
+            good = found
+
+
+def version_of(round_, folder):
+    ran = round_.host("sim", folder / "build" / "app.so", "--for", "20ms", "--quiet", "--print", "GVL.version")
+    return int(invariants.printed(ran.out).get("GVL.version", -1)) if ran.code == 0 else f"unusable: {ran.err[-300:]}"
+
+
+def killed_runs(round_):
     rng = round_.rng
     folder = retained.write_project(round_.folder / "project", round_.choose("interval_ms", rng.choice([1, 2, 5])),
                                     round_.choose("rows", rng.choice([1, 10, 1000, 8000])))
