@@ -601,10 +601,19 @@ TEST_F(Run, ChangesThatFollowEachOtherDoNotUseUpThePath) {
   std::string path; // near the limit of 4096
   for (int i = 0; i < 1990; ++i)
     path += "./";
-  std::string sim = "\"$HOST\" sim a.so --for 1s --quiet --print PLC_PRG.n";
-  for (int i = 1; i <= 100; ++i)
-    sim += fmt::format(" --change {}ms,{}a.so", i, path);
-  const ProcessResult result = shell(sim);
+  std::vector<std::string> sim = {STRIDE_BINARY_DIR "/stride-host",
+                                  "sim",
+                                  "a.so",
+                                  "--for",
+                                  "1s",
+                                  "--quiet",
+                                  "--print",
+                                  "PLC_PRG.n"};
+  for (int i = 1; i <= 100; ++i) {
+    sim.emplace_back("--change");
+    sim.push_back(fmt::format("{}ms,{}a.so", i, path));
+  }
+  const ProcessResult result = command(sim);
   EXPECT_EQ(result.exitCode, 0) << result.err.substr(0, 100);
   EXPECT_EQ(result.out, "PLC_PRG.n = 1000\n");
 }
