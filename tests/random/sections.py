@@ -1,7 +1,7 @@
 """Programs: sections of the body of a group, each with variables of its own."""
 import copy
 
-from model import Array, Ref, Skip, Struct
+from model import Array, Ref, Skip, StringType, Struct
 from nodes import ELEMENTARY, Variable
 from overlays import Union
 from pous import BlockArray, Holder, Owner
@@ -85,7 +85,7 @@ class Sections:
             lines.append(f"  {name} : {'POINTER' if is_pointer else 'REFERENCE'} TO {kind.name};")
             bound.append((f"{name} := ADR({text});" if is_pointer else f"{name} REF= {text};", name, place))
             variables.append(Variable(f"{name}^" if is_pointer else name, kind, self.in_out_place(name), shared=True))
-            if row and is_pointer:
+            if row and is_pointer and not isinstance(kind, StringType):  # an index of a pointer to a text is a character
                 # Elements beside the one that it points to
                 index = int(text[text.rindex("[") + 1:-1])
                 for other in rng.sample(range(row.count), min(2, row.count)):

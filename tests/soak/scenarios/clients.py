@@ -98,8 +98,8 @@ def play(round_):
         round_.demand(run.alive(), f"the run has ended: {run.err[-1500:]}")
         asked_properly(round_, project, path)
         sizes.append(invariants.resident_kib(run.pid))
-    after = invariants.descriptors(run.pid)
-    round_.expect(after == before[1], f"{before[1]} descriptors were open before the storms, {after} after")
+    round_.expect(wait_until(lambda: invariants.descriptors(run.pid) == before[1], 30),
+                  f"{before[1]} descriptors were open before the storms, {invariants.descriptors(run.pid)} after")
     round_.choose("resident_kib", [before[0], *sizes])
     # A client may take 8 MiB for its answers, for a while; what stays after storm upon storm is a leak.
     round_.expect(len(sizes) < 3 or sizes[-1] - sizes[0] < 16 * 1024, f"memory grows: {before[0]} KiB, then {sizes}")

@@ -12,7 +12,7 @@ def play(round_):
     mode = round_.choose("mode", round_.rng.choice(list(random_programs.MODES)))
     # Every fifth seed ends with a run-time error; the tiny ones are these.
     seed = round_.choose("seed", 1000 + 5 * round_.rng.randrange(10**8) + (0 if round_.quick else round_.rng.randrange(5)))
-    options = argparse.Namespace(stride=round_.settings.product.stride, keep=round_.folder, modes=[mode])
+    options = argparse.Namespace(stride=round_.settings.product.stride, keep=round_.folder, modes=[mode], small=round_.rng.random() < 0.3)
     said = io.StringIO()
     with contextlib.redirect_stdout(said), round_.surroundings():
         programs = random_programs.check(options, seed)
