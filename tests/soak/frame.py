@@ -53,6 +53,7 @@ class Round:
         self.processes = []
         self.cleanups = []
         self.started = time.monotonic()
+        self.scratch = folder  # for caches and temporary files
         folder.mkdir(parents=True)
         self.log = open(folder / "log.txt", "w", encoding="utf-8")
 
@@ -79,9 +80,8 @@ class Round:
             raise Violation(text)
 
     def environment(self, extra=None):
-        environment = {**os.environ, "XDG_CACHE_HOME": str(self.folder / "cache"), "TMPDIR": str(self.folder / "tmp"), **(extra or {})}
-        (self.folder / "tmp").mkdir(exist_ok=True)
-        return environment
+        (self.scratch / "tmp").mkdir(exist_ok=True)
+        return {**os.environ, "XDG_CACHE_HOME": str(self.scratch / "cache"), "TMPDIR": str(self.scratch / "tmp"), **(extra or {})}
 
     @contextlib.contextmanager
     def surroundings(self):

@@ -1,7 +1,8 @@
 """Several commands work on one project at once, with different options, while its sources change: each one's result is that of its
-own options and of the sources as they were, as if it had been alone."""
+own options and of the sources as they were, as if it had been alone; applications are the same byte for byte."""
 import itertools
 import os
+import shutil
 import time
 
 import invariants
@@ -74,11 +75,11 @@ class Job:
         self.defines = rng.choice([[], [], ["A"], ["B"], ["A", "B"]])
         self.kind = rng.choice(["build", "out", "out", "sim", "sim", "check", "test"])
         self.app = round_.folder / f"out{number}.so"
-        options = [f"-D{d}" for d in self.defines] + ["-W", "off=lints"]
+        self.options = [f"-D{d}" for d in self.defines] + ["-W", "off=lints"]
         if self.kind != "check" and self.kind != "test":
-            options += rng.choice([[], ["--debug"], ["--unchecked"]])
+            self.options += rng.choice([[], ["--debug"], ["--unchecked"]])
         more = {"build": [], "out": ["-o", self.app], "sim": ["--for", "20ms", "--quiet", "--print", "PLC_PRG.sum"], "check": [], "test": []}[self.kind]
-        self.process = round_.start(stride, "build" if self.kind == "out" else self.kind, sources.folder, *options, *more)
+        self.process = round_.start(stride, "build" if self.kind == "out" else self.kind, sources.folder, *self.options, *more)
 
     def check(self):
         self.process.finish(600)
@@ -93,6 +94,15 @@ class Job:
             allowed = self.sources.sums(self.defines)
             self.round.expect(found is not None and int(found) in allowed, f"{what}: the sum is {found}, not {sorted(allowed)[:8]}")
 
+    def is_like_alone(self):
+        """A build of a copy of the sources, in another place and without what others have cached, gives the same bytes."""
+        place = self.round.folder / f"alone-{self.app.stem}"
+        shutil.copytree(self.sources.folder, place, ignore=shutil.ignore_patterns("build", ".*"))
+        alone = place / "alone.so"
+        self.round.stride("build", place, *self.options, "-o", alone, env={"XDG_CACHE_HOME": str(place / "cache")})
+        self.round.expect(alone.read_bytes() == self.app.read_bytes(), f"{' '.join(self.options)}: other bytes than a build alone, {place}")
+        self.round.counts["compared_builds"] += 1
+
 
 def play(round_):
     rng = round_.rng
@@ -104,12 +114,16 @@ def play(round_):
             jobs.append(Job(round_, sources, number))
             number += 1
             time.sleep(rng.choice([0, 0, rng.uniform(0, 0.5)]))
-        for _ in range(rng.choice([0, 0, 1, 3])):
+        edits = rng.choice([0, 0, 1, 3])
+        for _ in range(edits):
             time.sleep(rng.uniform(0, 0.3))
             sources.edit()
         for job in jobs:
             job.check()
         round_.counts["commands"] += len(jobs)
+        built = [job for job in jobs if job.kind == "out" and job.process.code == 0]
+        if built and not edits:
+            rng.choice(built).is_like_alone()
         sources.settle()
         alone = Job(round_, sources, number)
         number += 1

@@ -164,6 +164,8 @@ def during_builds(round_):
     """Every build ends well, or with a message and the application that was there before."""
     rng = round_.rng
     disk = Disk(round_, 20_000)
+    if round_.choose("cache", rng.random() < 0.5):
+        round_.scratch = disk.folder
     project = motion.MotionProject(rng, axes=rng.randint(1, 3))
     folder = project.write(disk.folder / "project")
     round_.build(folder)
