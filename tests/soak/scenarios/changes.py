@@ -1,5 +1,6 @@
 """Online changes under motion: builds of the same moving project with random edits take over, in simulation and by the real
 clock. The axes must do what they do without a change, bit for bit; values survive; every change is answered."""
+import random
 import shutil
 import signal
 import time
@@ -89,8 +90,9 @@ class Live:
             self.round.build(self.folder, *options)
             return
         building = self.round.start(self.round.settings.product.stride, "build", self.folder, "-W", "off=lints", *options)
+        pauses = random.Random(self.round.rng.getrandbits(64))  # how many are needed depends on the time
         while building.alive():
-            time.sleep(self.round.rng.uniform(0, 0.05))
+            time.sleep(pauses.uniform(0, 0.05))
             self.process.signal(signal.SIGHUP)
         building.finish(1)
         self.round.demand(building.code == 0, f"a build beside a run fails: {building.err[-1500:]}")

@@ -29,11 +29,12 @@ def killed_builds(round_):
             project.edit()
         project.write(folder)
         options = rng.choice([[], ["--debug"], ["--unchecked"]])
+        pause, alone, again = rng.choice([rng.uniform(0, 0.1), rng.uniform(0, 1), rng.uniform(0, 3)]), rng.random() < 0.5, rng.random() < 0.7
         building = round_.start(round_.settings.product.stride, "build", folder, "-W", "off=lints", *options)
-        time.sleep(rng.choice([rng.uniform(0, 0.1), rng.uniform(0, 1), rng.uniform(0, 3)]))
+        time.sleep(pause)
         if not building.alive():
             good = project.version
-        elif rng.random() < 0.5:
+        elif alone:
             building.kill()  # its compilers go on for a while
         else:
             os.killpg(building.pid, signal.SIGKILL)
@@ -41,7 +42,7 @@ def killed_builds(round_):
         round_.counts["kills"] += 1
         found = version_of(round_, folder)
         round_.expect(found in (good, project.version), f"after a killed build build/app.so is {found}, not version {good} or {project.version}")
-        if rng.random() < 0.7:
+        if again:
             round_.build(folder, *options)
             good = project.version
             found = version_of(round_, folder)
