@@ -6,10 +6,14 @@
 #include "compiler/syntax/conditions.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <map>
+#include <new>
 
 namespace stc::cli {
 
@@ -459,14 +463,28 @@ int run(int argc, char **argv) {
   return exitCode;
 }
 
+/// The exit code when what was shown could not be written.
+int concluded(int exitCode) {
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    std::fprintf(stderr, "stride: standard output cannot be written: %s\n", std::strerror(errno));
+    exitCode = std::max(exitCode, 1);
+  }
+  return std::ferror(stderr) != 0 ? std::max(exitCode, 1) : exitCode;
+}
+
 } // namespace
 
 } // namespace stc::cli
 
 int main(int argc, char **argv) {
+  // Whatever the caller ignores: compilers that are started get the default, too. The host of
+  // `stride run` ignores it.
   std::signal(SIGPIPE, SIG_DFL);
   try {
-    return stc::cli::run(argc, argv);
+    return stc::cli::concluded(stc::cli::run(argc, argv));
+  } catch (const std::bad_alloc &) {
+    std::fputs("stride: there is not enough memory\n", stderr);
+    return 1;
   } catch (const std::exception &error) {
     std::fprintf(stderr, "stride: internal error: %s\n", error.what());
     return 70;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <fmt/format.h>
@@ -97,6 +98,15 @@ int become(const std::string &program, std::vector<std::string> arguments, const
       fmt::format("`{}` cannot be started: {}{}", program, std::strerror(errno), remedy), output);
 }
 
+// Signals that the host of a run takes wait until it does: the first of them would end it.
+void holdSignalsOfRuns() {
+  ::sigset_t signals;
+  ::sigemptyset(&signals);
+  ::sigaddset(&signals, SIGUSR1);
+  ::sigaddset(&signals, SIGHUP);
+  ::sigprocmask(SIG_BLOCK, &signals, nullptr);
+}
+
 int becomeHost(std::vector<std::string> arguments, const Output &output) {
   std::string missing;
   const std::optional<Installation> installation = findInstallation(missing);
@@ -162,6 +172,8 @@ int hostCommand(const ProjectOptions &options, const std::string &command,
       ((isRun || command == "sim") &&
        !addPath(arguments, "--files", result->filesRoot, result->folder, options.output)))
     return 1;
+  if (isRun)
+    holdSignalsOfRuns();
   return becomeHost(std::move(arguments), options.output);
 }
 

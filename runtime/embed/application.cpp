@@ -214,5 +214,6 @@ std::span<const std::byte> Application::outputs() const { return impl_->area(kIm
 std::span<std::byte> Application::memory() { return impl_->area(kImageMemory); }
 
 std::vector<std::string> Application::problems() const { return impl_->instance.remarks(); }
+std::vector<std::string> Application::takeMessages() { return impl_->instance.takeNews(); }
 
 } // namespace stride::embed

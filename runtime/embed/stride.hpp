@@ -142,6 +142,9 @@ public:
 
   /// What keeps the drives from working, to be shown; empty if nothing does.
   std::vector<std::string> problems() const;
+  /// What was to be said since the last call: a failed assertion, a drive that has reported an
+  /// error, a file that could not be written. Nothing is written to standard error.
+  std::vector<std::string> takeMessages();
 
 private:
   enum class ValueClass : uint8_t { Bool, Signed, Unsigned, Real };

@@ -15,6 +15,7 @@
 #include <iostream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace stride::host {
@@ -23,6 +24,13 @@ namespace {
 
 using monitor::SocketClient;
 using nlohmann::json;
+
+/// What cannot be printed shows in the exit code.
+template <class... Values>
+void put(std::FILE *to, fmt::format_string<Values...> format, Values &&...values) {
+  const std::string text = fmt::format(format, std::forward<Values>(values)...);
+  std::fwrite(text.data(), 1, text.size(), to);
+}
 
 /// `NAME=VALUE` or `NAME:=VALUE` as an entry of `values`.
 json namedLiteral(const std::string &text) {
@@ -46,23 +54,23 @@ std::string literalOf(const json &value) {
 
 void showValues(const json &result) {
   for (const json &value : result.at("values"))
-    fmt::print("{} = {}\n", value.at("name").get<std::string>(), literalOf(value.at("value")));
+    put(stdout, "{} = {}\n", value.at("name").get<std::string>(), literalOf(value.at("value")));
 }
 
 double micro(const json &ns) { return ns.get<double>() * 1e-3; }
 
 void showStatistics(const json &result) {
-  fmt::print("{:<16} {:>10} {:>8}  {:>28}  {:>28}\n", "task", "cycles", "overruns",
-             "run time p50/p99/max [us]", "delay p50/p99/max [us]");
+  put(stdout, "{:<16} {:>10} {:>8}  {:>28}  {:>28}\n", "task", "cycles", "overruns",
+      "run time p50/p99/max [us]", "delay p50/p99/max [us]");
   for (const json &task : result.at("tasks")) {
     const json &run = task.at("run_ns");
     const json &delay = task.at("delay_ns");
-    fmt::print("{:<16} {:>10} {:>8}  {:>28}  {:>28}\n", task.at("name").get<std::string>(),
-               task.at("cycles").get<uint64_t>(), task.at("overruns").get<uint64_t>(),
-               fmt::format("{:.1f} / {:.1f} / {:.1f}", micro(run.at("p50")), micro(run.at("p99")),
-                           micro(run.at("max"))),
-               fmt::format("{:.1f} / {:.1f} / {:.1f}", micro(delay.at("p50")),
-                           micro(delay.at("p99")), micro(delay.at("max"))));
+    put(stdout, "{:<16} {:>10} {:>8}  {:>28}  {:>28}\n", task.at("name").get<std::string>(),
+        task.at("cycles").get<uint64_t>(), task.at("overruns").get<uint64_t>(),
+        fmt::format("{:.1f} / {:.1f} / {:.1f}", micro(run.at("p50")), micro(run.at("p99")),
+                    micro(run.at("max"))),
+        fmt::format("{:.1f} / {:.1f} / {:.1f}", micro(delay.at("p50")), micro(delay.at("p99")),
+                    micro(delay.at("max"))));
   }
 }
 
@@ -74,9 +82,9 @@ void showList(SocketClient &client, json request) {
     const json page = client.ask(request);
     for (const json &entry : page.at("entries")) {
       const auto children = entry.at("children").get<uint64_t>();
-      fmt::print("{} : {}{}\n", entry.at("path").get<std::string>(),
-                 entry.at("type").get<std::string>(),
-                 children == 0 ? std::string() : fmt::format(" ({})", children));
+      put(stdout, "{} : {}{}\n", entry.at("path").get<std::string>(),
+          entry.at("type").get<std::string>(),
+          children == 0 ? std::string() : fmt::format(" ({})", children));
     }
     shown += page.at("entries").size();
     if (page.at("entries").empty() || shown >= page.at("total").get<uint64_t>())
@@ -92,9 +100,9 @@ void showChange(const json &result) {
     const bool good = one.at("result") == "done";
     done = done && good;
     for (const json &line : one.at("report"))
-      fmt::print(good ? stdout : stderr, "{}{}\n",
-                 applications.size() > 1 ? one.at("name").get<std::string>() + ": " : std::string(),
-                 line.get<std::string>());
+      put(good ? stdout : stderr, "{}{}\n",
+          applications.size() > 1 ? one.at("name").get<std::string>() + ": " : std::string(),
+          line.get<std::string>());
   }
   if (!done)
     throw app::Error("the online change was refused");
@@ -169,7 +177,7 @@ void Control::Impl::watch(SocketClient &client) const {
   std::string header = "t";
   for (const json &column : subscription.at("columns"))
     header += "\t" + column.at("name").get<std::string>();
-  fmt::print("{}\n", header);
+  put(stdout, "{}\n", header);
   for (uint64_t seen = 0; count == 0 || seen < count; ++seen) {
     json event = client.receive();
     while (!event.contains("event"))
@@ -179,8 +187,9 @@ void Control::Impl::watch(SocketClient &client) const {
     std::string line = fmt::format("{:.6f}", event.at("time").get<double>());
     for (const json &value : event.at("values"))
       line += "\t" + literalOf(value);
-    fmt::print("{}\n", line);
-    std::fflush(stdout);
+    put(stdout, "{}\n", line);
+    if (std::fflush(stdout) != 0)
+      return; // nobody watches any more
   }
 }
 
@@ -246,7 +255,7 @@ void Control::declare(CLI::App &command) {
   impl.add(command, "forces", "Show what is forced", [&impl](SocketClient &client) {
     const json forced = client.ask(impl.request("forces"));
     for (const json &value : forced.at("values"))
-      fmt::print("{} = {}\n", value.at("name").get<std::string>(), literalOf(value.at("literal")));
+      put(stdout, "{} = {}\n", value.at("name").get<std::string>(), literalOf(value.at("literal")));
   });
   impl.add(command, "list", "Show the names below a name",
            [&impl](SocketClient &client) {
@@ -279,10 +288,10 @@ void Control::declare(CLI::App &command) {
   });
   impl.add(command, "state", "Show what the application is doing", [&impl](SocketClient &client) {
     const json state = client.ask(impl.request("state"));
-    fmt::print("{}: {} at {:.3f} s\n", state.at("name").get<std::string>(),
-               state.at("state").get<std::string>(), state.at("time").get<double>());
+    put(stdout, "{}: {} at {:.3f} s\n", state.at("name").get<std::string>(),
+        state.at("state").get<std::string>(), state.at("time").get<double>());
     if (state.contains("fault"))
-      fmt::print("{}\n", state.at("fault").get<std::string>());
+      put(stdout, "{}\n", state.at("fault").get<std::string>());
   });
   impl.add(
       command, "change", "Take new builds of the applications over (online change)",

@@ -15,8 +15,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <exception>
 #include <filesystem>
+#include <functional>
+#include <new>
 
 namespace stride::host {
 
@@ -24,7 +30,8 @@ namespace {
 
 constexpr const char *kExitCodes =
     "Exit codes: 0 the run reached its end, 1 bad input, 2 an application was stopped by an\n"
-    "exception, 3 the runtime itself could not go on, 130 a simulation was interrupted.";
+    "exception, 3 output that was asked for is not complete, 4 the runtime itself could not go on,\n"
+    "130 a simulation was interrupted.";
 
 /// The options as text, before they are understood.
 struct SimTexts {
@@ -271,12 +278,22 @@ std::unique_ptr<app::Application> loadApplication(const StrideAppV1 *builtIn,
                          : app::Application::load(path, runtimeLayouts()));
 }
 
-int simulateFrom(const SimTexts &texts, const StrideAppV1 *builtIn) {
+int simulateFrom(const SimTexts &texts, const StrideAppV1 *builtIn, Messages &messages) {
   const SimOptions options = understand(texts);
-  return simulate(loadApplication(builtIn, options.application), options);
+  return simulate(loadApplication(builtIn, options.application), options, messages);
 }
 
-int runFrom(const RunTexts &texts, const StrideAppV1 *builtIn) {
+/// A run outlives who reads its messages, and the signals that it is sent before it can take them.
+void prepareSignals() {
+  std::signal(SIGPIPE, SIG_IGN);
+  ::sigset_t signals;
+  ::sigemptyset(&signals);
+  ::sigaddset(&signals, SIGUSR1);
+  ::sigaddset(&signals, SIGHUP);
+  ::pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+}
+
+int runFrom(const RunTexts &texts, const StrideAppV1 *builtIn, Messages &messages) {
   const RunOptions options = understand(texts);
   std::vector<std::unique_ptr<app::Application>> applications;
   if (builtIn != nullptr)
@@ -285,7 +302,33 @@ int runFrom(const RunTexts &texts, const StrideAppV1 *builtIn) {
     applications.push_back(loadApplication(nullptr, path));
   if (!options.name.empty())
     applications.front()->setDefaultName(options.name);
-  return runReal(std::move(applications), options);
+  return runReal(std::move(applications), options, messages);
+}
+
+int resetFrom(const std::string &kind, const std::string &file, Messages &messages) {
+  const bool found = resetRetained(kind == "warm"   ? ResetKind::Warm
+                                   : kind == "cold" ? ResetKind::Cold
+                                                    : ResetKind::Origin,
+                                   file, messages);
+  return found ? kExitOk : kExitBadInput;
+}
+
+/// Does the command and says what keeps it from that. The exit code: also of output that got lost.
+int conclude(Output::Wait wait, const std::function<int(Messages &)> &command) {
+  Messages messages(wait);
+  int code = kExitBadInput;
+  try {
+    code = command(messages);
+  } catch (const std::bad_alloc &) {
+    messages.say("error: there is not enough memory");
+  } catch (const std::exception &error) {
+    messages.say({"error: ", error.what()});
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    messages.say({"error: standard output cannot be written: ", ::strerrordesc_np(errno)});
+    code = code == kExitOk ? kExitIncomplete : code;
+  }
+  return !messages.finish() && code == kExitOk ? kExitIncomplete : code;
 }
 
 } // namespace
@@ -321,35 +364,29 @@ int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
     const std::string program = builtIn != nullptr && argc > 0
                                     ? std::filesystem::path(argv[0]).filename().string()
                                     : "stride-host";
-    fmt::print(stderr, "error: {}\n  '{} {} --help' lists the options\n", error.what(), program,
-               ctl->parsed()     ? "ctl"
-               : run->parsed()   ? "run"
-               : test->parsed()  ? "test"
-               : reset->parsed() ? "reset"
-               : ctl->parsed()   ? "ctl"
-                                 : "sim");
+    Messages(Output::Wait::Always)
+        .say({"error: ", error.what(), "\n  '", program, " ",
+              ctl->parsed()     ? "ctl"
+              : run->parsed()   ? "run"
+              : test->parsed()  ? "test"
+              : reset->parsed() ? "reset"
+                                : "sim",
+              " --help' lists the options"});
     return kExitBadInput;
   }
-  try {
-    if (ctl->parsed())
-      return control.run();
-    if (test->parsed())
-      return testCommand.run();
-    if (reset->parsed()) {
-      const bool found = resetRetained(resetKind == "warm"   ? ResetKind::Warm
-                                       : resetKind == "cold" ? ResetKind::Cold
-                                                             : ResetKind::Origin,
-                                       resetFile);
-      return found ? kExitOk : kExitBadInput;
-    }
-    return run->parsed() ? runFrom(runTexts, builtIn) : simulateFrom(texts, builtIn);
-  } catch (const app::Error &error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return kExitBadInput;
-  } catch (const std::exception &error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return kExitBadInput;
-  }
+  if (run->parsed())
+    prepareSignals();
+  return conclude(run->parsed() ? Output::Wait::Never : Output::Wait::Always,
+                  [&](Messages &messages) -> int {
+                    if (ctl->parsed())
+                      return control.run();
+                    if (test->parsed())
+                      return testCommand.run(messages);
+                    if (reset->parsed())
+                      return resetFrom(resetKind, resetFile, messages);
+                    return run->parsed() ? runFrom(runTexts, builtIn, messages)
+                                         : simulateFrom(texts, builtIn, messages);
+                  });
 }
 
 } // namespace stride::host

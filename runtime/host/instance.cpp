@@ -52,6 +52,7 @@ void Instance::initialiseFresh(app::Application &fresh) {
 }
 
 void Instance::prepareSwap(const app::Application &fresh) {
+  nextSymbols_ = std::make_unique<app::SymbolTable>(fresh.description());
   tasks_.prepareRebind(fresh.description());
   if (retain_)
     retain_->prepareChange(fresh.description(), fresh.state());
@@ -65,8 +66,8 @@ void Instance::swap(std::unique_ptr<app::Application> &other) noexcept {
     retain_->change();
 }
 
-void Instance::renewSymbols() {
-  symbols_ = std::make_unique<app::SymbolTable>(app());
+void Instance::renewSymbols() noexcept {
+  symbols_ = std::move(nextSymbols_);
   if (retain_)
     retain_->adopt();
 }
@@ -91,7 +92,7 @@ std::optional<task::Fault> Instance::callExit(int64_t timeNs) {
 }
 
 std::vector<std::string> Instance::takeNews() {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = tasks_.takeLog();
   for (const std::string &news : system_.takeNews())
     lines.push_back(fmt::format("warning: {}", news));
   for (const std::unique_ptr<task::CycleHook> &hook : hooks_)

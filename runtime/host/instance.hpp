@@ -61,7 +61,8 @@ public:
   /// Between two cycles: another build, with the values of this one, takes its place. Afterwards
   /// `other` is the old one, to which symbols() belong until renewSymbols().
   void swap(std::unique_ptr<app::Application> &other) noexcept;
-  void renewSymbols();
+  /// Behind swap(): symbols() are those of the build that has taken over.
+  void renewSymbols() noexcept;
   /// Gives the application up, after the last cycle.
   std::unique_ptr<app::Application> release() { return std::move(application_); }
 
@@ -85,6 +86,7 @@ private:
 
   std::unique_ptr<app::Application> application_;
   std::unique_ptr<app::SymbolTable> symbols_;
+  std::unique_ptr<app::SymbolTable> nextSymbols_; ///< From prepareSwap() to renewSymbols().
   SystemServices system_;
   std::string filesFolder_;
   task::TaskSet tasks_;

@@ -4,6 +4,7 @@
 
 #include "runtime/app/application.hpp"
 #include "runtime/host/exit_code.hpp"
+#include "runtime/host/messages.hpp"
 #include "runtime/host/options.hpp"
 
 #include <memory>
@@ -12,10 +13,11 @@
 namespace stride::host {
 
 /// Runs them side by side until the time is over, SIGINT or SIGTERM comes, or all have stopped with
-/// an exception. SIGUSR1 shows the statistics. Values to print go to standard output, messages to
-/// standard error. Throws app::Error for bad input.
+/// an exception. SIGUSR1 shows the statistics. Values to print go to standard output. What cannot
+/// be written does not end a run; SIGINT, SIGTERM, SIGUSR1 and SIGHUP stay blocked. Throws
+/// app::Error for bad input.
 ExitCode runReal(std::vector<std::unique_ptr<app::Application>> applications,
-                 const RunOptions &options);
+                 const RunOptions &options, Messages &messages);
 
 } // namespace stride::host
 

@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -16,6 +18,7 @@ namespace stride::host {
 namespace {
 
 constexpr std::size_t kRing = std::size_t{8} << 20;
+constexpr std::size_t kBlockPiece = std::size_t{64} << 10;
 constexpr uint64_t kMagic = 0x32434552'44525453; // "STRDREC2"
 
 /// The file is a row of blocks; whole records are in each.
@@ -98,11 +101,8 @@ private:
   const task::TaskSet *tasks_;
 };
 
-Recording::Recording(const std::string &path) : path_(path), ring_(kRing) {
-  file_ = std::fopen(path.c_str(), "wb");
-  if (file_ == nullptr)
-    throw app::Error(fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
-}
+Recording::Recording(const std::string &path)
+    : path_(path), output_(path, kRing + sizeof(BlockHead), Output::Wait::Never), ring_(kRing) {}
 
 void Recording::begin(const app::Application &application, const monitor::Script *script) {
   const StrideAppV1 &app = application.description();
@@ -121,7 +121,9 @@ void Recording::begin(const app::Application &application, const monitor::Script
               {state_, stateSize_}});
 }
 
-void Recording::writeBlock(std::initializer_list<std::span<const std::byte>> parts) {
+/// What finds no room in the output's memory, which is before and after the cycles only, waits for
+/// the file.
+void Recording::writeBlock(std::initializer_list<std::span<const std::byte>> parts) noexcept {
   BlockHead head;
   for (const std::span<const std::byte> part : parts) {
     head.size += part.size();
@@ -129,17 +131,22 @@ void Recording::writeBlock(std::initializer_list<std::span<const std::byte>> par
   }
   head.checksum = checksum_;
   const auto write = [&](std::span<const std::byte> part) {
-    writeFailed_ = std::fwrite(part.data(), 1, part.size(), file_) != part.size() || writeFailed_;
+    while (!part.empty()) {
+      const std::size_t size = std::min(part.size(), kBlockPiece);
+      if (!output_.ready(size) && !output_.settle())
+        incomplete_ = true;
+      if (incomplete_)
+        return;
+      output_.append({reinterpret_cast<const char *>(part.data()), size});
+      part = part.subspan(size);
+    }
   };
   write(bytesOf(head));
   for (const std::span<const std::byte> part : parts)
     write(part);
 }
 
-Recording::~Recording() {
-  if (file_ != nullptr)
-    std::fclose(file_);
-}
+Recording::~Recording() = default;
 
 void Recording::addHooks(task::TaskSet &tasks) {
   for (uint32_t i = 0; i < tasks.count(); ++i) {
@@ -185,20 +192,23 @@ void Recording::copyIn(uint64_t at, const void *data, std::size_t size) noexcept
   std::memcpy(ring_.data(), static_cast<const std::byte *>(data) + first, size - first);
 }
 
-void Recording::drain() {
+/// One block after the other, so that all of it finds room in the output's memory.
+void Recording::drain() noexcept {
   const uint64_t end = put_.load(std::memory_order_acquire);
   const uint64_t at = taken_.load(std::memory_order_relaxed);
-  if (at == end)
+  if (at == end || (!output_.advance() && output_.error() == 0))
     return;
   const std::size_t place = at % ring_.size();
   const std::size_t first = std::min<std::size_t>(end - at, ring_.size() - place);
   const std::span<const std::byte> ring(ring_);
   writeBlock({ring.subspan(place, first), ring.first(end - at - first)});
   taken_.store(end, std::memory_order_release);
+  output_.advance();
 }
 
-std::string Recording::finish(const std::optional<task::Fault> &fault) {
-  drain();
+bool Recording::finish(const std::optional<task::Fault> &fault) noexcept {
+  if (output_.settle())
+    drain();
   const EndMark end{full_ || beyond_ ? 0U : 1U, app::crc64({state_, stateSize_})};
   writeBlock({bytesOf(kEnd), bytesOf(end)});
   if (fault && !full_) {
@@ -217,10 +227,14 @@ std::string Recording::finish(const std::optional<task::Fault> &fault) {
                          fault->looks};
     writeBlock({bytesOf(kFault), bytesOf(mark), bytesOf(file), bytesOf(detail), bytesOf(task)});
   }
-  writeFailed_ = std::fclose(file_) != 0 || writeFailed_;
-  file_ = nullptr;
-  if (writeFailed_)
-    return fmt::format("the recording '{}' could not be written: {}", path_, std::strerror(errno));
+  incomplete_ = !output_.finish() || incomplete_;
+  return !incomplete_ && !beyond_ && !full_;
+}
+
+std::string Recording::problem() const {
+  if (output_.error() != 0 || incomplete_)
+    return fmt::format("the recording '{}' could not be written: {}", path_,
+                       output_.error() != 0 ? std::strerror(output_.error()) : "nobody reads it");
   if (beyond_)
     return fmt::format("the recording '{}' cannot be replayed exactly: a variable was written from "
                        "outside that a pointer leads to and that is not the application's",

@@ -4,12 +4,12 @@
 
 #include "runtime/app/application.hpp"
 #include "runtime/host/input_port.hpp"
+#include "runtime/host/output.hpp"
 #include "runtime/monitor/script.hpp"
 #include "runtime/monitor/symbol_server.hpp"
 #include "runtime/task/task_set.hpp"
 
 #include <atomic>
-#include <cstdio>
 #include <initializer_list>
 #include <memory>
 #include <optional>
@@ -24,7 +24,7 @@ namespace stride::host {
 /// recording ends there, which is told; the cycles are never delayed.
 class Recording final : public InputPort, public monitor::WriteLog {
 public:
-  /// Throws app::Error when the file cannot be written.
+  /// Throws app::Error when the file cannot be created.
   explicit Recording(const std::string &path);
   ~Recording() override;
 
@@ -40,22 +40,23 @@ public:
   void wrote(const std::byte *place, std::size_t size, bool behindPous) noexcept override;
 
   /// Writes what has come so far. From one thread, not a task's.
-  void drain();
-  /// After the last cycle, with what stopped the run, if something did; what is wrong with the
-  /// recording, or empty.
-  std::string finish(const std::optional<task::Fault> &fault);
+  void drain() noexcept;
+  /// After the last cycle, with what stopped the run, if something did. False: see problem().
+  bool finish(const std::optional<task::Fault> &fault) noexcept;
+  /// What is wrong with the recording, or empty.
+  std::string problem() const;
 
 private:
   class CycleNote;
   void put(uint32_t mark, std::span<const std::byte> first,
            std::span<const std::byte> second = {}) noexcept;
-  void writeBlock(std::initializer_list<std::span<const std::byte>> parts);
+  void writeBlock(std::initializer_list<std::span<const std::byte>> parts) noexcept;
   void copyIn(uint64_t at, const void *data, std::size_t size) noexcept;
 
   std::string path_;
-  std::FILE *file_ = nullptr;
-  bool writeFailed_ = false;
-  uint64_t checksum_ = 0; ///< Of what is in the file.
+  Output output_;
+  bool incomplete_ = false; ///< A reader has not taken the end of it.
+  uint64_t checksum_ = 0;   ///< Of what is in the file.
   std::vector<std::byte> ring_;
   std::atomic<uint64_t> put_{0};
   std::atomic<uint64_t> taken_{0};

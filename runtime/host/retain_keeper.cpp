@@ -9,6 +9,8 @@
 #include <atomic>
 #include <chrono>
 #include <cstring>
+#include <exception>
+#include <new>
 
 namespace stride::host {
 
@@ -231,7 +233,7 @@ void RetainKeeper::prepareChange(const StrideAppV1 &app, std::byte *state) {
 
 void RetainKeeper::change() noexcept { publish(*next_); }
 
-void RetainKeeper::adopt() {
+void RetainKeeper::adopt() noexcept {
   const std::lock_guard lock(mutex_);
   // The old one's buffers go with it; no task is in the middle of using them since change().
   binding_ = std::move(next_);
@@ -241,8 +243,8 @@ void RetainKeeper::adopt() {
       lock_.emplace(settings_.file);
       std::vector<std::string> problems;
       static_cast<void>(store_.load(problems));
-    } catch (const app::Error &error) {
-      say_(fmt::format("warning: retained data are not saved: {}", error.what()));
+    } catch (const std::exception &error) {
+      sayNotSaved(error.what());
       // The tasks go on handing over what nobody saves.
       binding_->saved = false;
     }
@@ -268,58 +270,90 @@ void RetainKeeper::saveLoop() {
   const auto period = std::chrono::nanoseconds(settings_.periodNs);
   std::unique_lock lock(mutex_);
   while (!wake_.wait_for(lock, period, [&] { return stopping_; })) {
-    const std::shared_ptr<Binding> binding = binding_;
-    if (!binding->saved)
-      continue;
-    std::vector<Part *> missing;
-    for (const std::unique_ptr<Part> &part : binding->parts) {
-      if (part == nullptr)
-        continue;
-      static_cast<void>(part->take()); // what has become old meanwhile
-      part->ask();
-      if (!part->everyCycle())
-        missing.push_back(part.get());
+    try {
+      saveOnce(lock);
+    } catch (const std::bad_alloc &) { // tried again in the next period
+      notSaved("there is not enough memory");
     }
-    const auto end =
-        std::chrono::steady_clock::now() + std::max<std::chrono::nanoseconds>(period, kPatience);
-    while (!missing.empty() && std::chrono::steady_clock::now() < end) {
-      std::erase_if(missing, [](Part *part) { return part->take(); });
-      if (!missing.empty() && wake_.wait_for(lock, kLook, [&] { return stopping_; }))
-        return;
-    }
-    if (binding != binding_)
-      continue; // another build has taken over meanwhile
-    std::vector<std::byte> values(binding->layout.bytes());
-    for (const std::unique_ptr<Part> &part : binding->parts)
-      if (part != nullptr)
-        part->collect(values);
-    lock.unlock();
-    static_cast<void>(save(*binding, values));
-    lock.lock();
   }
 }
 
-bool RetainKeeper::save(const Binding &binding, const std::vector<std::byte> &values) {
+/// Asks the tasks for their values and writes them.
+void RetainKeeper::saveOnce(std::unique_lock<std::mutex> &lock) {
+  const std::shared_ptr<Binding> binding = binding_;
+  if (!binding->saved)
+    return;
+  std::vector<std::byte> values(binding->layout.bytes());
+  std::vector<Part *> missing;
+  for (const std::unique_ptr<Part> &part : binding->parts) {
+    if (part == nullptr)
+      continue;
+    static_cast<void>(part->take()); // what has become old meanwhile
+    part->ask();
+    if (!part->everyCycle())
+      missing.push_back(part.get());
+  }
+  const auto end =
+      std::chrono::steady_clock::now() +
+      std::max<std::chrono::nanoseconds>(std::chrono::nanoseconds(settings_.periodNs), kPatience);
+  while (!missing.empty() && std::chrono::steady_clock::now() < end) {
+    std::erase_if(missing, [](Part *part) { return part->take(); });
+    if (!missing.empty() && wake_.wait_for(lock, kLook, [&] { return stopping_; }))
+      return;
+  }
+  if (binding != binding_)
+    return; // another build has taken over meanwhile
+  for (const std::unique_ptr<Part> &part : binding->parts)
+    if (part != nullptr)
+      part->collect(values);
+  lock.unlock();
+  static_cast<void>(save(*binding, values));
+  lock.lock();
+}
+
+bool RetainKeeper::save(const Binding &binding, const std::vector<std::byte> &values) noexcept {
   try {
     store_.save(binding.name, binding.buildHash, binding.encoded, values);
     if (failing_)
       say_("note: retained data are saved again");
     failing_ = false;
-  } catch (const app::Error &error) {
-    if (!failing_)
-      say_(fmt::format("warning: retained data are not saved: {}", error.what()));
-    failing_ = true;
+    return true;
+  } catch (const std::bad_alloc &) {
+    notSaved("there is not enough memory");
+  } catch (const std::exception &error) {
+    notSaved(error.what());
   }
-  return !failing_;
+  return false;
 }
 
-bool RetainKeeper::finish() {
+/// Says it once until it works again.
+void RetainKeeper::notSaved(const char *reason) noexcept {
+  if (!failing_)
+    sayNotSaved(reason);
+  failing_ = true;
+}
+
+/// Also where there is no memory for a text.
+void RetainKeeper::sayNotSaved(const char *reason) noexcept {
+  try {
+    say_(fmt::format("warning: retained data are not saved: {}", reason));
+  } catch (const std::bad_alloc &) {
+    say_("warning: retained data are not saved: there is not enough memory");
+  }
+}
+
+bool RetainKeeper::finish() noexcept {
   endThread();
   if (!binding_->saved)
     return true;
-  std::vector<std::byte> values(binding_->layout.bytes());
-  app::copyRetained(binding_->state, binding_->layout.ranges(), values.data());
-  return save(*binding_, values);
+  try {
+    std::vector<std::byte> values(binding_->layout.bytes());
+    app::copyRetained(binding_->state, binding_->layout.ranges(), values.data());
+    return save(*binding_, values);
+  } catch (const std::bad_alloc &) {
+    notSaved("there is not enough memory");
+  }
+  return false;
 }
 
 } // namespace stride::host

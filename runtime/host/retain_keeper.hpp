@@ -15,6 +15,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -36,7 +37,7 @@ RetainSettings retainSettings(const StrideAppV1 &app);
 class RetainKeeper {
 public:
   /// Told lines such as "warning: …", also from the thread that saves.
-  using Say = std::function<void(const std::string &)>;
+  using Say = std::function<void(std::string_view)>;
 
   /// Loads the file. Nothing is done with the file, here and later, while the application has
   /// nothing to retain. Throws app::Error: in use by others, unreadable, of another application.
@@ -55,7 +56,7 @@ public:
   /// From now on it is saved every period.
   void startSaving();
   /// No task is in a cycle any more: saves what the variables are now. False: it did not succeed.
-  bool finish();
+  bool finish() noexcept;
 
   /// Online change, while the cycles go on: allocates what change() needs.
   void prepareChange(const StrideAppV1 &app, std::byte *state);
@@ -64,7 +65,7 @@ public:
   /// saved as it is now.
   void change() noexcept;
   /// Behind change(), while the tasks run: from now on the new build is saved.
-  void adopt();
+  void adopt() noexcept;
 
 private:
   class Part;
@@ -75,7 +76,10 @@ private:
   void publish(const Binding &binding) noexcept;
   void endThread();
   void saveLoop();
-  bool save(const Binding &binding, const std::vector<std::byte> &values);
+  void saveOnce(std::unique_lock<std::mutex> &lock);
+  bool save(const Binding &binding, const std::vector<std::byte> &values) noexcept;
+  void notSaved(const char *reason) noexcept;
+  void sayNotSaved(const char *reason) noexcept;
 
   RetainSettings settings_;
   Say say_;

@@ -3,6 +3,7 @@
 #define STRIDE_RUNTIME_HOST_RETAIN_RESET_HPP
 
 #include "runtime/app/retain_store.hpp"
+#include "runtime/host/messages.hpp"
 
 #include <cstdint>
 #include <string>
@@ -17,9 +18,8 @@ enum class ResetKind : uint8_t {
 };
 
 /// Does it to the file and says (standard output) what is left; false: there is nothing, which it
-/// says (standard error). Throws app::Error, also while the
-/// application runs.
-bool resetRetained(ResetKind kind, const std::string &file,
+/// says, too. Throws app::Error, also while the application runs.
+bool resetRetained(ResetKind kind, const std::string &file, Messages &messages,
                    app::RetainFiles &files = app::systemFiles());
 
 } // namespace stride::host

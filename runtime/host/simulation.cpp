@@ -17,7 +17,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <cstdio>
+#include <cstring>
 #include <limits>
 #include <optional>
 
@@ -40,7 +40,8 @@ extern "C" void strideRequestStop(int) { stopRequested = 1; }
 /// One line on a terminal that shows how far a long run is.
 class Progress {
 public:
-  Progress(int64_t endNs, bool enabled) : endNs_(endNs), enabled_(enabled) {}
+  Progress(Messages &messages, int64_t endNs, bool enabled)
+      : messages_(&messages), endNs_(endNs), enabled_(enabled) {}
   ~Progress() { clear(); }
   Progress(const Progress &) = delete;
   Progress &operator=(const Progress &) = delete;
@@ -53,20 +54,21 @@ public:
       return;
     next_ = wall + 0.1;
     const double simulated = static_cast<double>(timeNs) * 1e-9;
-    fmt::print(stderr, "\r\033[Ksimulated {:.1f} s of {:.1f} s ({:.0f} %), {:.0f} times real time",
-               simulated, static_cast<double>(endNs_) * 1e-9,
-               100.0 * static_cast<double>(timeNs) / static_cast<double>(endNs_), simulated / wall);
-    std::fflush(stderr);
+    messages_->show(fmt::format(
+        "\r\033[Ksimulated {:.1f} s of {:.1f} s ({:.0f} %), {:.0f} times real time", simulated,
+        static_cast<double>(endNs_) * 1e-9,
+        100.0 * static_cast<double>(timeNs) / static_cast<double>(endNs_), simulated / wall));
     shown_ = true;
   }
   void clear() {
     if (shown_)
-      std::fputs("\r\033[K", stderr);
+      messages_->show("\r\033[K");
     shown_ = false;
   }
   double wall() const { return secondsSince(start_); }
 
 private:
+  Messages *messages_;
   Clock::time_point start_ = Clock::now();
   int64_t endNs_;
   double next_ = 0.5; // short runs show nothing
@@ -79,9 +81,9 @@ private:
 class Observer final : public task::InstantObserver {
 public:
   Observer(Instance &instance, const std::vector<ChangeOption> &changes, SetList &sets,
-           monitor::Script *script, TraceWriter *trace, Progress &progress)
+           monitor::Script *script, TraceWriter *trace, Progress &progress, Messages &messages)
       : instance_(&instance), changes_(&changes), sets_(&sets), script_(script), trace_(trace),
-        progress_(&progress) {}
+        progress_(&progress), messages_(&messages) {}
 
   void beforeInstant(int64_t timeNs) override {
     for (; next_ < changes_->size() && (*changes_)[next_].timeNs <= timeNs; ++next_)
@@ -95,7 +97,7 @@ public:
       trace_->row(timeNs, instance_->state());
     for (const std::string &line : instance_->takeNews()) {
       progress_->clear();
-      fmt::print(stderr, "{}\n", line);
+      messages_->say(line);
     }
     progress_->update(timeNs);
   }
@@ -122,7 +124,7 @@ private:
       throw app::Error(fmt::format("--change '{}': the application must be started anew: {}", path,
                                    change.report(false)));
     if (change.verdict() == app::Verdict::Losses)
-      fmt::print(stderr, "{}", change.report(false));
+      messages_->say(change.report(false));
     const app::SymbolTable symbols(change.fresh());
     sets_->resolveIn(symbols);
     if (script_ != nullptr) {
@@ -137,9 +139,9 @@ private:
       throw app::Error(fmt::format("--change '{}': {}", path, change.events().front()));
     instance_->renewSymbols();
     for (const std::string &line : change.atNextStart())
-      fmt::print(stderr, "warning: {}\n", line);
+      messages_->say({"warning: ", line});
     for (const std::string &event : change.events())
-      fmt::print(stderr, "warning: {}\n", event);
+      messages_->say({"warning: ", event});
   }
 
   Instance *instance_;
@@ -149,6 +151,7 @@ private:
   monitor::Script *script_;
   TraceWriter *trace_;
   Progress *progress_;
+  Messages *messages_;
 };
 
 /// FNV-1a.
@@ -159,13 +162,13 @@ uint64_t hashOf(const std::byte *data, uint64_t size) {
   return hash;
 }
 
-void printSummary(const task::TaskSet &tasks, const task::RunResult &result, double wall) {
+std::string summaryOf(const task::TaskSet &tasks, const task::RunResult &result, double wall) {
   uint64_t cycles = 0;
   for (uint32_t i = 0; i < tasks.count(); ++i)
     cycles += tasks.statistics(i).figures().cycles;
   const double simulated = static_cast<double>(result.timeNs) * 1e-9;
-  fmt::print(stderr, "{} cycles, {:g} s simulated in {:.3f} s ({:.0f} times real time)\n", cycles,
-             simulated, wall, wall > 0 ? simulated / wall : 0.0);
+  return fmt::format("{} cycles, {:g} s simulated in {:.3f} s ({:.0f} times real time)", cycles,
+                     simulated, wall, wall > 0 ? simulated / wall : 0.0);
 }
 
 /// Ctrl-C and SIGTERM end the run between two instants; a second one ends the program.
@@ -235,7 +238,7 @@ static task::RunResult repeat(Replay &replay, Instance &instance, Observer &obse
 }
 
 static ExitCode simulateHere(std::unique_ptr<app::Application> application,
-                             const SimOptions &options) {
+                             const SimOptions &options, Messages &messages) {
   Instance instance(std::move(application), task::LoopLimit::Budget);
 
   // Everything that can be wrong with the input is found before the first cycle.
@@ -246,8 +249,7 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
   if (!options.files.empty())
     instance.setFiles(options.files);
   if (!options.retain.empty())
-    instance.retain({options.retain},
-                    [](const std::string &line) { fmt::print(stderr, "{}\n", line); });
+    instance.retain({options.retain}, [&messages](std::string_view line) { messages.say(line); });
   if (options.loopBudget > 0)
     instance.tasks().setLoopBudget(options.loopBudget);
   std::optional<TraceWriter> trace;
@@ -270,7 +272,7 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
     instance.initialise();
   } catch (const StException &exception) {
     const task::Fault fault{exception, "initialisation", 0, 0};
-    fmt::print(stderr, "error: {}\n", describeWithCalls(fault));
+    messages.say({"error: ", describeWithCalls(fault)});
     return kExitException;
   }
 
@@ -287,53 +289,61 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
   }
 
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
-  Progress progress(options.durationNs, terminal && !options.quiet && !replay);
+  Progress progress(messages, options.durationNs, terminal && !options.quiet && !replay);
   Observer observer(instance, options.changes, sets, script ? &*script : nullptr,
-                    trace ? &*trace : nullptr, progress);
+                    trace ? &*trace : nullptr, progress, messages);
   const task::RunResult result = replay ? repeat(*replay, instance, observer)
                                         : advance(instance, observer, options.durationNs);
   const double wall = progress.wall();
   progress.clear();
 
-  if (trace)
-    trace->finish();
-  printValues(instance.symbols(), options.print, instance.state());
+  bool complete = !trace || trace->finish();
+  if (!complete)
+    messages.say({"error: ", trace->problem()});
+  std::string printed = printedValues(instance.symbols(), options.print, instance.state());
   if (options.stateHash)
-    fmt::print("state {:016x}\n", hashOf(instance.state(), instance.app().stateSize));
+    printed += fmt::format("state {:016x}\n", hashOf(instance.state(), instance.app().stateSize));
+  if (const int error = print(printed, Output::Wait::Always); error != 0) {
+    complete = false;
+    messages.say({"error: standard output cannot be written: ", ::strerrordesc_np(error)});
+  }
   for (const std::string &line : instance.remarks())
-    fmt::print(stderr, "{}\n", line);
+    messages.say(line);
   if (replay && !replay->problem().empty())
-    fmt::print(stderr, "error: {}\n", replay->problem());
+    messages.say({"error: ", replay->problem()});
   if (result.fault)
-    fmt::print(stderr, "error: {}\n", describeWithCalls(*result.fault));
+    messages.say({"error: ", describeWithCalls(*result.fault)});
   else if (!result.interrupted) {
     for (const std::string &left : sets.left())
-      fmt::print(stderr, "warning: --set '{}' was not used: the run ends before\n", left);
+      messages.say({"warning: --set '", left, "' was not used: the run ends before"});
     for (const std::string &left : observer.changesLeft())
-      fmt::print(stderr, "warning: --change '{}' was not done: the run ends before\n", left);
+      messages.say({"warning: --change '", left, "' was not done: the run ends before"});
     if (script)
       for (const std::string &line : script->remarks())
-        fmt::print(stderr, "{}\n", line);
+        messages.say(line);
   }
   const std::optional<task::Fault> atEnd = instance.exit(result.timeNs);
   for (const std::string &line : instance.takeNews())
-    fmt::print(stderr, "{}\n", line);
+    messages.say(line);
   if (atEnd)
-    fmt::print(stderr, "error: {}\n", describeWithCalls(*atEnd));
+    messages.say({"error: ", describeWithCalls(*atEnd)});
   if (RetainKeeper *const retain = instance.retainKeeper())
-    static_cast<void>(retain->finish());
+    complete = retain->finish() && complete;
   if ((terminal || options.summary) && !options.quiet)
-    printSummary(instance.tasks(), result, wall);
+    messages.say(summaryOf(instance.tasks(), result, wall));
   if (replay && !replay->problem().empty())
     return kExitBadInput;
   if (result.fault || atEnd)
     return kExitException;
-  return result.interrupted ? kExitInterrupted : kExitOk;
+  if (result.interrupted)
+    return kExitInterrupted;
+  return complete ? kExitOk : kExitIncomplete;
 }
 
-ExitCode simulate(std::unique_ptr<app::Application> application, const SimOptions &options) {
+ExitCode simulate(std::unique_ptr<app::Application> application, const SimOptions &options,
+                  Messages &messages) {
   ExitCode code = kExitOk;
-  task::runOnTaskThread([&] { code = simulateHere(std::move(application), options); });
+  task::runOnTaskThread([&] { code = simulateHere(std::move(application), options, messages); });
   return code;
 }
 

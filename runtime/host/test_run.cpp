@@ -18,6 +18,7 @@
 
 #include <charconv>
 #include <chrono>
+#include <cstdio>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -100,8 +101,10 @@ private:
 
 class TestRun {
 public:
-  TestRun(const std::string &application, const std::string &files, const Plan &plan)
-      : plan_(plan), application_(app::Application::load(application, runtimeLayouts())),
+  TestRun(const std::string &application, const std::string &files, const Plan &plan,
+          Messages &messages)
+      : messages_(&messages), plan_(plan),
+        application_(app::Application::load(application, runtimeLayouts())),
         system_(application_.description(), application_.state(), false) {
     result_.name = plan.name;
     result_.file = plan.file;
@@ -119,7 +122,7 @@ public:
     }
     system_.finish();
     for (const std::string &news : system_.takeNews())
-      fmt::print(stderr, "warning: {}\n", news);
+      messages_->say({"warning: ", news});
     result_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(result_);
@@ -196,12 +199,16 @@ private:
     result_.failures.push_back(std::move(failure));
   }
 
+  Messages *messages_;
   Plan plan_;
   app::Application application_;
   LiveInputs inputs_;
   SystemServices system_;
   TestResult result_;
 };
+
+/// What cannot be printed shows in the exit code.
+void tell(const std::string &text) { std::fputs(text.c_str(), stdout); }
 
 void writeReport(const std::string &path, const std::string &text) {
   std::ofstream out(path, std::ios::binary);
@@ -225,31 +232,31 @@ void TestCommand::declare(CLI::App &command) {
       ->type_name("TEST");
 }
 
-int TestCommand::run() {
+int TestCommand::run(Messages &messages) {
   std::vector<Plan> plans;
   for (const std::string &text : tests_)
     plans.push_back(parsePlan(text));
-  fmt::print("running {} test{}\n", plans.size(), plans.size() == 1 ? "" : "s");
+  tell(fmt::format("running {} test{}\n", plans.size(), plans.size() == 1 ? "" : "s"));
   std::vector<TestResult> results;
   std::size_t failed = 0;
   task::runOnTaskThread([&] {
     const task::MemoryGuard guard;
     for (const Plan &plan : plans) {
-      fmt::print("test {} ... ", plan.name);
+      tell(fmt::format("test {} ... ", plan.name));
       std::fflush(stdout);
-      results.push_back(TestRun(application_, files_, plan).run());
+      results.push_back(TestRun(application_, files_, plan, messages).run());
       const TestResult &result = results.back();
-      fmt::print("{}\n", result.failures.empty() ? "ok" : "FAILED");
+      tell(result.failures.empty() ? "ok\n" : "FAILED\n");
       failed += result.failures.empty() ? 0 : 1;
       for (const TestFailure &failure : result.failures)
-        fmt::print("{}", describeFailure(failure, root_));
+        tell(describeFailure(failure, root_));
       if (result.omitted != 0)
-        fmt::print("  {}\n", describeOmitted(result.omitted));
+        tell(fmt::format("  {}\n", describeOmitted(result.omitted)));
       std::fflush(stdout);
     }
   });
-  fmt::print("\ntest result: {}. {} passed; {} failed\n", failed == 0 ? "ok" : "FAILED",
-             results.size() - failed, failed);
+  tell(fmt::format("\ntest result: {}. {} passed; {} failed\n", failed == 0 ? "ok" : "FAILED",
+                   results.size() - failed, failed));
   if (!junit_.empty())
     writeReport(junit_, junitXml(suite_, results));
   return failed == 0 ? kExitOk : kExitBadInput;

@@ -2,6 +2,8 @@
 #ifndef STRIDE_RUNTIME_HOST_TEST_RUN_HPP
 #define STRIDE_RUNTIME_HOST_TEST_RUN_HPP
 
+#include "runtime/host/messages.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <string>
@@ -15,7 +17,7 @@ class TestCommand {
 public:
   void declare(CLI::App &command);
   /// The exit code: kExitOk exactly when no test has failed. Throws app::Error for bad input.
-  int run();
+  int run(Messages &messages);
 
 private:
   std::string application_;

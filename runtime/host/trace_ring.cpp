@@ -20,7 +20,8 @@ void TraceRing::afterPous(Ctx &ctx) {
 
 void TraceRing::drain(TraceWriter &writer) {
   const uint64_t taken = taken_.load(std::memory_order_acquire);
-  for (uint64_t number = written_.load(std::memory_order_relaxed); number != taken; ++number) {
+  for (uint64_t number = written_.load(std::memory_order_relaxed);
+       number != taken && writer.ready(); ++number) {
     writer.row(place(number));
     written_.store(number + 1, std::memory_order_release);
   }

@@ -21,9 +21,11 @@ public:
   void beforePous(Ctx &) override {}
   void afterPous(Ctx &ctx) override;
 
-  /// Writes the rows that wait. From one thread.
+  /// Writes the rows that wait, as far as the writer can take them. From one thread.
   void drain(TraceWriter &writer);
   uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
+  /// Rows that wait.
+  uint64_t waiting() const { return taken_.load() - written_.load(); }
 
 private:
   std::byte *place(uint64_t number) { return memory_.data() + number % rows_ * rowSize_; }

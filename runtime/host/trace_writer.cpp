@@ -1,12 +1,11 @@
 #include "runtime/host/trace_writer.hpp"
 
-#include "runtime/app/error.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstring>
+
+#include <unistd.h>
 
 namespace stride::host {
 
@@ -14,22 +13,21 @@ namespace {
 
 constexpr std::size_t kBufferSize = std::size_t{1} << 18;
 
+bool isStandard(const std::string &out) { return out.empty() || out == "-"; }
+
+Output outputOf(const TraceColumns &columns, const std::string &out, Output::Wait wait) {
+  const std::size_t capacity =
+      std::max(columns.header().size() + 1, kBufferSize) + columns.lineWidth() + 1;
+  return isStandard(out) ? Output(STDOUT_FILENO, capacity, wait) : Output(out, capacity, wait);
+}
+
 } // namespace
 
 TraceWriter::TraceWriter(const app::SymbolTable &symbols, const std::vector<std::string> &paths,
-                         const std::string &out)
-    : columns_(symbols, paths), row_(columns_.rowSize()), name_(out) {
-  buffer_ = columns_.header() + '\n';
-  buffer_.reserve(std::max(buffer_.size(), kBufferSize) + columns_.lineWidth());
-  const bool toStdout = out.empty() || out == "-";
-  file_ = toStdout ? stdout : std::fopen(out.c_str(), "wb");
-  if (file_ == nullptr)
-    throw app::Error(fmt::format("cannot write '{}': {}", out, std::strerror(errno)));
-}
-
-TraceWriter::~TraceWriter() {
-  if (file_ != nullptr && file_ != stdout)
-    std::fclose(file_);
+                         const std::string &out, Output::Wait wait)
+    : columns_(symbols, paths), row_(columns_.rowSize()),
+      name_(isStandard(out) ? "standard output" : out), output_(outputOf(columns_, out, wait)) {
+  output_.append(columns_.header() + '\n');
 }
 
 void TraceWriter::row(int64_t timeNs, std::byte *state) {
@@ -37,27 +35,30 @@ void TraceWriter::row(int64_t timeNs, std::byte *state) {
   row(row_.data());
 }
 
+/// What comes after an error is taken and forgotten.
+bool TraceWriter::ready() noexcept {
+  return output_.error() != 0 || output_.ready(columns_.lineWidth() + 1);
+}
+
 void TraceWriter::row(const std::byte *sampled) {
-  if (buffer_.capacity() - buffer_.size() < columns_.lineWidth())
-    flush();
-  columns_.appendLine(sampled, buffer_);
-  buffer_.push_back('\n');
+  if (!ready() || output_.error() != 0)
+    return;
+  columns_.appendLine(sampled, output_.text());
+  output_.text().push_back('\n');
 }
 
-void TraceWriter::flush() {
-  failed_ = std::fwrite(buffer_.data(), 1, buffer_.size(), file_) != buffer_.size() || failed_;
-  buffer_.clear();
+void TraceWriter::flush() noexcept { static_cast<void>(output_.settle()); }
+
+bool TraceWriter::finish() noexcept {
+  incomplete_ = !output_.finish() || incomplete_;
+  return !incomplete_;
 }
 
-void TraceWriter::finish() {
-  flush();
-  failed_ = std::fflush(file_) != 0 || failed_;
-  if (file_ != stdout)
-    failed_ = std::fclose(file_) != 0 || failed_;
-  file_ = nullptr;
-  if (failed_)
-    throw app::Error(
-        fmt::format("cannot write '{}': {}", name_.empty() ? "-" : name_, std::strerror(errno)));
+std::string TraceWriter::problem() const {
+  if (output_.error() == 0 && !incomplete_)
+    return {};
+  return fmt::format("cannot write the trace to '{}': {}", name_,
+                     output_.error() != 0 ? std::strerror(output_.error()) : "nobody reads it");
 }
 
 } // namespace stride::host

@@ -2,10 +2,10 @@
 #ifndef STRIDE_RUNTIME_HOST_TRACE_WRITER_HPP
 #define STRIDE_RUNTIME_HOST_TRACE_WRITER_HPP
 
+#include "runtime/host/output.hpp"
 #include "runtime/monitor/trace_columns.hpp"
 
 #include <cstdint>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,38 +14,38 @@ namespace stride::host {
 
 using monitor::TraceColumns;
 
-/// Writes a trace: a header line and a line per row.
+/// Writes a trace: a header line and a line per row. What cannot be written ends the trace, not
+/// the run: see problem().
 class TraceWriter {
 public:
   /// `out` empty or "-": standard output. Throws app::Error as TraceColumns does, and when the file
-  /// cannot be written.
+  /// cannot be created.
   TraceWriter(const app::SymbolTable &symbols, const std::vector<std::string> &paths,
-              const std::string &out);
-  ~TraceWriter();
-  TraceWriter(const TraceWriter &) = delete;
-  TraceWriter &operator=(const TraceWriter &) = delete;
+              const std::string &out, Output::Wait wait = Output::Wait::Always);
 
   const TraceColumns &columns() const { return columns_; }
   /// Another build has taken over: `columns` are these columns in it. Between two cycles;
-  /// afterwards `columns` are the old ones.
+  /// `columns` gets the old ones.
   void swapColumns(TraceColumns &columns) noexcept { std::swap(columns_, columns); }
-
-  /// The values as they are now. Does not allocate.
+  /// Whether there is room for a row; with Output::Wait::Always there always is.
+  bool ready() noexcept;
+  /// While ready(): a row with the values as they are now.
   void row(int64_t timeNs, std::byte *state);
-  /// A row that TraceColumns::sample has made. Does not allocate.
+  /// The same, with the values that TraceColumns::sample() took. Neither allocates.
   void row(const std::byte *sampled);
-  /// Flushes everything; throws app::Error when the file could not be written.
-  void finish();
+  /// Writes the rest of what there is, for something else that follows; may wait a little.
+  void flush() noexcept;
+  /// Writes the rest and closes the file. False: something is missing, see problem().
+  bool finish() noexcept;
+  /// Why the trace is not complete: "cannot write 'a.csv': …"; empty while it is.
+  std::string problem() const;
 
 private:
-  void flush();
-
   TraceColumns columns_;
   std::vector<std::byte> row_;
-  std::string buffer_;
   std::string name_;
-  std::FILE *file_ = nullptr;
-  bool failed_ = false;
+  Output output_;
+  bool incomplete_ = false;
 };
 
 } // namespace stride::host

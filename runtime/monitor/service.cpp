@@ -26,6 +26,15 @@ std::string lineOf(const json &message) {
 
 } // namespace
 
+/// A client that cannot be told what it waits for must not wait for it.
+template <class F> void Service::orGiveUp(ClientId client, const F &work) const noexcept {
+  try {
+    work();
+  } catch (const std::exception &) {
+    giveUp_(client);
+  }
+}
+
 void Service::addOperation(const std::string &name, Operation operation) {
   const std::lock_guard lock(mutex_);
   operations_[name] = std::move(operation);
@@ -58,26 +67,34 @@ void Service::attach(std::size_t number, ServedApplication application) {
   applications_[number] = std::move(application);
 }
 
-void Service::detach(std::size_t number) {
+void Service::detach(std::size_t number) noexcept {
   const std::lock_guard lock(mutex_);
   if (number >= applications_.size())
     return;
   std::erase_if(pending_, [&](const Pending &pending) {
     if (pending.application != number)
       return false;
-    refuse(pending.client, pending.id, {"gone", "the application does not run any more"});
+    orGiveUp(pending.client, [&] {
+      refuse(pending.client, pending.id, {"gone", "the application does not run any more"});
+    });
     return true;
   });
   std::erase_if(subscriptions_, [&](const Subscription &subscription) {
     if (subscription.application != number)
       return false;
-    send_(subscription.client, lineOf({{"event", "ended"}, {"subscription", subscription.number}}));
+    orGiveUp(subscription.client, [&] {
+      send_(subscription.client,
+            lineOf({{"event", "ended"}, {"subscription", subscription.number}}));
+    });
     return true;
   });
-  last_.resize(applications_.size());
-  if (applications_[number].symbols != nullptr) {
-    last_[number] = stateOf(applications_[number]);
-    last_[number]["state"] = "stopped";
+  try {
+    last_.resize(applications_.size());
+    if (applications_[number].symbols != nullptr) {
+      last_[number] = stateOf(applications_[number]);
+      last_[number]["state"] = "stopped";
+    }
+  } catch (const std::exception &) { // nothing is known of it then
   }
   applications_[number].symbols = nullptr;
   applications_[number].tasks = nullptr;
@@ -91,8 +108,12 @@ std::string Service::hello() const {
   return lineOf({{"hello", "stride"}, {"version", kVersion}, {"applications", names}});
 }
 
-void Service::handle(ClientId client, std::string_view line) {
+void Service::handle(ClientId client, std::string_view line) noexcept {
   const std::lock_guard lock(mutex_);
+  orGiveUp(client, [&] { handleHere(client, line); });
+}
+
+void Service::handleHere(ClientId client, std::string_view line) {
   json id;
   try {
     const json request = parseRequest(line);
@@ -197,7 +218,16 @@ void Service::checkPending(ClientId client) const {
                                                kMostPending)};
 }
 
-void Service::forget(ClientId client) {
+bool Service::busy(ClientId client) const noexcept {
+  const std::lock_guard lock(mutex_);
+  const auto mine = [client](const auto &one) { return one.client == client; };
+  const auto late = late_.find(client);
+  return std::any_of(pending_.begin(), pending_.end(), mine) ||
+         std::any_of(subscriptions_.begin(), subscriptions_.end(), mine) ||
+         (late != late_.end() && late->second != 0);
+}
+
+void Service::forget(ClientId client) noexcept {
   const std::lock_guard lock(mutex_);
   late_.erase(client);
   std::erase_if(pending_, [&](const Pending &pending) { return pending.client == client; });
@@ -205,7 +235,7 @@ void Service::forget(ClientId client) {
                 [&](const Subscription &subscription) { return subscription.client == client; });
 }
 
-void Service::poll(int64_t nowNs) {
+void Service::poll(int64_t nowNs) noexcept {
   const std::lock_guard lock(mutex_);
   pollPending(nowNs);
   pollSubscriptions(nowNs);
@@ -222,7 +252,7 @@ int64_t Service::idleNs(int64_t nowNs) const {
   return idle;
 }
 
-void Service::pollPending(int64_t nowNs) {
+void Service::pollPending(int64_t nowNs) noexcept {
   std::erase_if(pending_, [&](Pending &pending) {
     if (pending.untilNs == 0)
       pending.untilNs = nowNs + kTimeoutNs;
@@ -231,63 +261,81 @@ void Service::pollPending(int64_t nowNs) {
         pending.request ? pending.request->done() : application.symbols->forcesTaken();
     if (!done && nowNs < pending.untilNs)
       return false;
-    if (!done)
-      refuse(pending.client, pending.id,
-             {"timeout", fmt::format("no cycle has done it within {} s; does the task run?",
-                                     kTimeoutNs / 1'000'000'000)});
-    else if (!pending.request)
-      answer(pending.client, pending.id, json::object());
-    else if (!application.symbols->valid(*pending.request))
-      refuse(pending.client, pending.id,
-             {"gone", "the application was changed before a cycle has done it; ask again"});
-    else if (!pending.writes)
-      answer(pending.client, pending.id,
-             valuesOf(application, *pending.request, pending.literals, true));
-    else {
-      std::vector<std::string> missed;
-      for (const SymbolRequest::Value &value : pending.request->values())
-        if (!value.reached)
-          missed.push_back("'" + value.symbol.path() + "'");
-      if (missed.empty())
-        answer(pending.client, pending.id, {{"time", secondsOf(pending.request->timeNs())}});
-      else
-        refuse(pending.client, pending.id,
-               {"unreachable", fmt::format("not written: {}; a pointer on the way is null",
-                                           fmt::join(missed, ", "))});
-    }
+    orGiveUp(pending.client, [&] { conclude(application, pending, done); });
     return true;
   });
 }
 
-void Service::pollSubscriptions(int64_t nowNs) {
+/// Answers a request that is done, or that nobody has done in time.
+void Service::conclude(const ServedApplication &application, const Pending &pending, bool done) {
+  if (!done) {
+    refuse(pending.client, pending.id,
+           {"timeout", fmt::format("no cycle has done it within {} s; does the task run?",
+                                   kTimeoutNs / 1'000'000'000)});
+    return;
+  }
+  if (!pending.request) {
+    answer(pending.client, pending.id, json::object());
+    return;
+  }
+  if (!application.symbols->valid(*pending.request)) {
+    refuse(pending.client, pending.id,
+           {"gone", "the application was changed before a cycle has done it; ask again"});
+    return;
+  }
+  if (!pending.writes) {
+    answer(pending.client, pending.id,
+           valuesOf(application, *pending.request, pending.literals, true));
+    return;
+  }
+  std::vector<std::string> missed;
+  for (const SymbolRequest::Value &value : pending.request->values())
+    if (!value.reached)
+      missed.push_back("'" + value.symbol.path() + "'");
+  if (missed.empty())
+    answer(pending.client, pending.id, {{"time", secondsOf(pending.request->timeNs())}});
+  else
+    refuse(pending.client, pending.id,
+           {"unreachable",
+            fmt::format("not written: {}; a pointer on the way is null", fmt::join(missed, ", "))});
+}
+
+void Service::pollSubscriptions(int64_t nowNs) noexcept {
   std::erase_if(subscriptions_, [&](Subscription &subscription) {
-    SymbolServer &server = *applications_[subscription.application].symbols;
-    if (subscription.asked && subscription.request->done()) {
-      subscription.asked = false;
-      if (subscription.nextNs == 0)
-        subscription.nextNs = nowNs + subscription.periodNs;
-      if (server.valid(*subscription.request)) {
-        json event = valuesOf(applications_[subscription.application], *subscription.request,
-                              subscription.literals, false);
-        event["event"] = "values";
-        event["subscription"] = subscription.number;
-        send_(subscription.client, lineOf(event));
-      }
-    }
-    if (subscription.asked || nowNs < subscription.nextNs)
-      return false;
-    try {
-      server.again(subscription.request);
-    } catch (const app::Error &error) {
-      send_(subscription.client, lineOf({{"event", "ended"},
-                                         {"subscription", subscription.number},
-                                         {"message", error.what()}}));
-      return true;
-    }
-    subscription.asked = true;
-    subscription.nextNs = std::max(subscription.nextNs + subscription.periodNs, nowNs);
-    return false;
+    bool ended = true;
+    orGiveUp(subscription.client, [&] { ended = !serve(subscription, nowNs); });
+    return ended;
   });
+}
+
+/// Sends what is there and asks for the next values when it is time. False: it has ended.
+bool Service::serve(Subscription &subscription, int64_t nowNs) {
+  SymbolServer &server = *applications_[subscription.application].symbols;
+  if (subscription.asked && subscription.request->done()) {
+    subscription.asked = false;
+    if (subscription.nextNs == 0)
+      subscription.nextNs = nowNs + subscription.periodNs;
+    if (server.valid(*subscription.request)) {
+      json event = valuesOf(applications_[subscription.application], *subscription.request,
+                            subscription.literals, false);
+      event["event"] = "values";
+      event["subscription"] = subscription.number;
+      send_(subscription.client, lineOf(event));
+    }
+  }
+  if (subscription.asked || nowNs < subscription.nextNs)
+    return true;
+  try {
+    server.again(subscription.request);
+  } catch (const app::Error &error) {
+    send_(subscription.client, lineOf({{"event", "ended"},
+                                       {"subscription", subscription.number},
+                                       {"message", error.what()}}));
+    return false;
+  }
+  subscription.asked = true;
+  subscription.nextNs = std::max(subscription.nextNs + subscription.periodNs, nowNs);
+  return true;
 }
 
 } // namespace stride::monitor

@@ -57,7 +57,12 @@ public:
   /// An operation that is answered with answerLate() or refuseLate(), from another thread.
   using LateOperation = std::function<void(Ticket)>;
 
-  explicit Service(Send send) : send_(std::move(send)) {}
+  /// A client that cannot be given its answer, for want of memory, is better hung up on.
+  using GiveUp = std::function<void(ClientId)>;
+
+  explicit Service(
+      Send send, GiveUp giveUp = [](ClientId) {})
+      : send_(std::move(send)), giveUp_(std::move(giveUp)) {}
 
   /// Before the first request.
   void addOperation(const std::string &name, Operation operation);
@@ -67,18 +72,20 @@ public:
   /// Sets the application with that number, the next one or one that is there.
   void attach(std::size_t number, ServedApplication application);
   /// It does not run any more: what waits for it is answered with an error.
-  void detach(std::size_t number);
+  void detach(std::size_t number) noexcept;
 
   /// While it is held no request is served: for a change of what is attached, or of the build.
   std::unique_lock<std::mutex> hold() const { return std::unique_lock(mutex_); }
 
   /// The first line for a client.
   std::string hello() const;
-  void handle(ClientId client, std::string_view line);
+  void handle(ClientId client, std::string_view line) noexcept;
+  /// The client waits for an answer or has subscribed to something.
+  bool busy(ClientId client) const noexcept;
   /// The client has gone.
-  void forget(ClientId client);
+  void forget(ClientId client) noexcept;
   /// Answers what is done, sends what is due. `nowNs` is of the monotonic clock.
-  void poll(int64_t nowNs);
+  void poll(int64_t nowNs) noexcept;
   /// How long poll() need not be called, if nothing comes in. [ns]
   int64_t idleNs(int64_t nowNs) const;
 
@@ -104,6 +111,10 @@ private:
     bool literals = false;
   };
 
+  template <class F> void orGiveUp(ClientId client, const F &work) const noexcept;
+  void handleHere(ClientId client, std::string_view line);
+  void conclude(const ServedApplication &application, const Pending &pending, bool done);
+  bool serve(Subscription &subscription, int64_t nowNs);
   void dispatch(ClientId client, const Json &id, const Json &request);
   void answer(ClientId client, const Json &id, Json result);
   void refuse(ClientId client, const Json &id, const ServiceError &error);
@@ -128,8 +139,8 @@ private:
   Json recordRead(const Json &request) const;
   Json recordStop(const Json &request);
 
-  void pollPending(int64_t nowNs);
-  void pollSubscriptions(int64_t nowNs);
+  void pollPending(int64_t nowNs) noexcept;
+  void pollSubscriptions(int64_t nowNs) noexcept;
   Json valuesOf(const ServedApplication &application, const SymbolRequest &request, bool literals,
                 bool named) const;
   std::vector<NamedValue> namedValues(const ServedApplication &application,
@@ -137,6 +148,7 @@ private:
 
   mutable std::mutex mutex_;
   Send send_;
+  GiveUp giveUp_;
   std::map<std::string, Operation> operations_;
   std::map<std::string, LateOperation> lateOperations_;
   std::map<ClientId, std::size_t> late_; ///< How many late answers a client waits for.

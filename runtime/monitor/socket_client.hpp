@@ -14,7 +14,8 @@ namespace stride::monitor {
 /// the connection breaks.
 class SocketClient {
 public:
-  /// `unix:PATH`. Throws app::Error when nobody listens there, or speaks another protocol.
+  /// `unix:PATH`. Throws app::Error when nobody listens there, or speaks another protocol, and when
+  /// one is not let in within ten seconds.
   explicit SocketClient(const std::string &address);
 
   /// The result of an operation; `id` is added to the request. Throws app::Error with the message
@@ -25,6 +26,7 @@ public:
 
 private:
   void send(const std::string &line);
+  void waitAtMost(int seconds) const noexcept;
 
   std::string address_;
   FileHandle socket_;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -12,6 +13,8 @@
 #include <cstring>
 #include <map>
 #include <mutex>
+#include <new>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -35,6 +38,9 @@ namespace {
 constexpr char kUnfinished[] = "~";
 /// Bytes in the longest path of a socket.
 constexpr std::size_t kMostInPath = sizeof(::sockaddr_un::sun_path) - sizeof kUnfinished;
+
+/// After a failure to take somebody in. [ns]
+constexpr int64_t kPauseNs = 1'000'000'000;
 
 /// Removes a socket file that is left over.
 void removeStale(const std::string &path, const ::sockaddr_un &address) {
@@ -102,12 +108,17 @@ struct SocketServer::Impl {
     std::string input;
     std::string output;
     std::atomic<bool> dropped{false};
+    int64_t heardNs = 0; ///< When its last complete request came, or it itself.
+    int64_t tookNs = 0;  ///< When it last took something, or had taken everything.
   };
 
   explicit Impl(const std::string &address)
       : path(socketPath(address)), listener(listenAt(path)),
         wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-        service([this](Service::ClientId id, const std::string &line) { send(id, line); }) {
+        service([this](Service::ClientId id, const std::string &line) { send(id, line); },
+                [this](Service::ClientId id) { drop(id); }) {
+    files.reserve(kMostClients + 2);
+    ids.reserve(kMostClients);
     if (wake.number() < 0)
       failed(path, "wait for the end");
   }
@@ -128,7 +139,14 @@ struct SocketServer::Impl {
     client.output += '\n';
   }
 
-  void run() {
+  void drop(Service::ClientId id) noexcept {
+    const std::lock_guard lock(outputMutex);
+    if (const auto found = clients.find(id); found != clients.end())
+      found->second.dropped = true;
+  }
+
+  /// Nothing ends this thread but the run: for want of memory a client is lost at most.
+  void run() noexcept {
     while (!ending.load()) {
       service.poll(task::monotonicNs());
       for (auto &[id, client] : clients)
@@ -140,18 +158,19 @@ struct SocketServer::Impl {
       flush(client); // what was said last: that it has ended
   }
 
-  void wait() {
-    std::vector<::pollfd> files = {{listener.number(), POLLIN, 0}, {wake.number(), POLLIN, 0}};
-    if (clients.size() >= kMostClients)
-      files[0].fd = -1; // they wait at the door
-    std::vector<Service::ClientId> ids;
+  void wait() noexcept {
+    const int64_t now = task::monotonicNs();
+    files.clear();
+    ids.clear();
+    files.push_back({now < doorNs ? -1 : listener.number(), POLLIN, 0});
+    files.push_back({wake.number(), POLLIN, 0});
     for (auto &[id, client] : clients) {
       const std::lock_guard lock(outputMutex);
       const auto events = static_cast<short>(client.output.empty() ? POLLIN : POLLIN | POLLOUT);
       files.push_back({client.socket.number(), events, 0});
       ids.push_back(id);
     }
-    const int64_t idle = service.idleNs(task::monotonicNs());
+    const int64_t idle = service.idleNs(now);
     const ::timespec limit = {static_cast<time_t>(idle / 1'000'000'000),
                               static_cast<long>(idle % 1'000'000'000)};
     if (::ppoll(files.data(), files.size(), &limit, nullptr) <= 0)
@@ -160,23 +179,99 @@ struct SocketServer::Impl {
       if ((files[i + 2].revents & (POLLIN | POLLHUP | POLLERR)) != 0)
         receive(ids[i], clients.at(ids[i]));
     if ((files[0].revents & POLLIN) != 0)
-      letIn();
+      answerTheDoor();
   }
 
-  void letIn() {
+  /// Somebody wants to come in. When all places are taken, the client that has been silent for the
+  /// longest time loses its own, if that was long enough; else one waits for that.
+  void answerTheDoor() noexcept {
+    const int64_t now = task::monotonicNs();
+    if (clients.size() < kMostClients) {
+      letIn(now);
+      return;
+    }
+    Client *silent = nullptr;
+    int64_t sinceNs = 0;
+    Service::ClientId who = 0;
+    for (auto &[id, client] : clients) {
+      const int64_t since = service.busy(id) ? stuckSince(client, now) : client.heardNs;
+      if (silent == nullptr || since < sinceNs) {
+        silent = &client;
+        sinceNs = since;
+        who = id;
+      }
+    }
+    if (sinceNs == now) {
+      sendAway();
+    } else if (now < sinceNs + kSilentNs) {
+      doorNs = sinceNs + kSilentNs;
+    } else {
+      tell(who, R"({"id":null,"error":{"code":"silent","message":"others need the place"}})");
+      flush(*silent);
+      silent->dropped = true;
+    }
+  }
+
+  /// Who waits for something is not silent, unless it does not take what it is sent.
+  int64_t stuckSince(const Client &client, int64_t now) {
+    const std::lock_guard lock(outputMutex);
+    return client.output.empty() ? now : std::min(client.tookNs, now);
+  }
+
+  FileHandle take() noexcept {
     FileHandle socket(::accept4(listener.number(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+    if (socket.number() < 0 && errno != EAGAIN && errno != EINTR && errno != ECONNABORTED)
+      doorNs = task::monotonicNs() + kPauseNs; // no files, no memory: it is still at the door
+    return socket;
+  }
+
+  void sendAway() noexcept {
+    const FileHandle socket = take();
+    constexpr std::string_view kBusy =
+        R"({"id":null,"error":{"code":"busy","message":"all places for clients are taken, and all )"
+        R"(of them are busy; try again later"}})"
+        "\n";
+    if (socket.number() >= 0)
+      (void)::send(socket.number(), kBusy.data(), kBusy.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  }
+
+  void letIn(int64_t now) noexcept {
+    FileHandle socket = take();
     if (socket.number() < 0)
       return;
     const Service::ClientId id = ++lastClient;
-    const std::string hello = service.hello();
-    {
-      const std::lock_guard lock(outputMutex);
-      clients[id].socket = std::move(socket);
+    try {
+      const std::string hello = service.hello();
+      {
+        const std::lock_guard lock(outputMutex);
+        Client &client = clients[id];
+        client.socket = std::move(socket);
+        client.heardNs = client.tookNs = now;
+      }
+      send(id, hello);
+    } catch (const std::bad_alloc &) {
+      drop(id);
     }
-    send(id, hello);
   }
 
-  void receive(Service::ClientId id, Client &client) {
+  /// As send(), for want of memory nothing.
+  void tell(Service::ClientId id, const char *line) noexcept {
+    try {
+      send(id, line);
+    } catch (const std::bad_alloc &) {
+      drop(id);
+    }
+  }
+
+  void receive(Service::ClientId id, Client &client) noexcept {
+    try {
+      receiveHere(id, client);
+    } catch (const std::bad_alloc &) {
+      client.dropped = true;
+    }
+  }
+
+  void receiveHere(Service::ClientId id, Client &client) {
     char buffer[16384];
     const ::ssize_t size = ::recv(client.socket.number(), buffer, sizeof buffer, 0);
     if (size == 0 || (size < 0 && errno != EAGAIN && errno != EINTR)) {
@@ -192,8 +287,10 @@ struct SocketServer::Impl {
       std::string_view line(client.input.data() + begin, end - begin);
       if (line.ends_with('\r'))
         line.remove_suffix(1);
-      if (!line.empty())
-        service.handle(id, line);
+      if (line.empty())
+        continue;
+      client.heardNs = task::monotonicNs();
+      service.handle(id, line);
     }
     client.input.erase(0, begin);
     if (client.input.size() > kLongestLine) {
@@ -203,8 +300,10 @@ struct SocketServer::Impl {
     }
   }
 
-  void flush(Client &client) {
+  void flush(Client &client) noexcept {
     const std::lock_guard lock(outputMutex);
+    if (client.output.empty())
+      client.tookNs = task::monotonicNs();
     while (!client.output.empty() && !client.dropped) {
       const ::ssize_t sent = ::send(client.socket.number(), client.output.data(),
                                     client.output.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
@@ -213,18 +312,20 @@ struct SocketServer::Impl {
         return;
       }
       client.output.erase(0, static_cast<std::size_t>(sent));
+      client.tookNs = task::monotonicNs();
     }
   }
 
-  void removeDropped() {
-    std::vector<Service::ClientId> gone;
-    for (const auto &[id, client] : clients)
-      if (client.dropped)
-        gone.push_back(id);
-    for (const Service::ClientId id : gone) {
-      service.forget(id);
+  void removeDropped() noexcept {
+    for (auto client = clients.begin(); client != clients.end();) {
+      if (!client->second.dropped) {
+        ++client;
+        continue;
+      }
+      service.forget(client->first);
       const std::lock_guard lock(outputMutex);
-      clients.erase(id);
+      client = clients.erase(client);
+      doorNs = 0;
     }
   }
 
@@ -234,6 +335,9 @@ struct SocketServer::Impl {
   std::mutex outputMutex; // of which clients there are and what is sent to them
   std::map<Service::ClientId, Client> clients; // changed by the server's thread only
   Service::ClientId lastClient = 0;
+  int64_t doorNs = 0; ///< Until then nobody can be let in.
+  std::vector<::pollfd> files;
+  std::vector<Service::ClientId> ids;
   Service service;
   std::atomic<bool> ending{false};
   std::thread thread;

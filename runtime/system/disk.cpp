@@ -294,6 +294,7 @@ Outcome Disk::rename(std::string_view from, std::string_view to) {
 }
 
 Outcome Disk::copy(std::string_view from, std::string_view to) {
+  std::vector<std::byte> part(65536);
   const Outcome source = openFile(from, kFileRead);
   if (source.error != FileError::None)
     return source;
@@ -313,7 +314,6 @@ Outcome Disk::copy(std::string_view from, std::string_view to) {
     return target;
   }
   const int out = static_cast<int>(target.value);
-  std::vector<std::byte> part(65536);
   Outcome result;
   for (bool more = true; more;) {
     const Outcome got = readAll(in, part.data(), part.size());

@@ -34,7 +34,7 @@ void copyText(char (&to)[kFileName], const char *from) {
 FileService::FileService(FileSettings settings, uint32_t tasks, Inputs &inputs)
     : settings_(std::move(settings)), inputs_(&inputs), disk_(settings_.root, settings_.anywhere),
       jobs_(std::make_unique<Job[]>(kJobs)), streams_(std::make_unique<Stream[]>(kStreams)),
-      lastErrors_(tasks) {
+      lastErrors_(tasks), scratch_(Stream::kRing) {
   ::sem_init(&work_, 0, 0);
 }
 
@@ -69,6 +69,8 @@ void FileService::finish() {
 
 std::vector<std::string> FileService::takeNews() {
   const std::lock_guard lock(newsMutex_);
+  if (unsaid_.exchange(false))
+    news_.emplace_back("what the program wrote into a file is lost");
   return std::exchange(news_, {});
 }
 

@@ -102,6 +102,7 @@ private:
   void finishStreams();
   void drain(Stream &stream);
   void drainAll();
+  void sayLosses(const Stream &stream, FileError error, FileError end) noexcept;
   void say(std::string text);
 
   FileSettings settings_;
@@ -116,6 +117,7 @@ private:
   ::sem_t work_{};       ///< Posted for everything there is to do.
   std::mutex newsMutex_; ///< Between the thread and takeNews(): no cycle.
   std::vector<std::string> news_;
+  std::atomic<bool> unsaid_{false}; ///< There was no memory for news.
   std::vector<std::byte> scratch_;
   std::thread thread_;
 };

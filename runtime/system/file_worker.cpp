@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <new>
 
 #include <sys/stat.h>
 
@@ -59,7 +60,12 @@ void FileService::workOnce() {
     drainAll(); // what was written before the job was asked for, perhaps just now
     if (job == nullptr)
       return;
-    execute(*job);
+    try {
+      execute(*job);
+    } catch (const std::bad_alloc &) {
+      job->answer.error = FileError::Device;
+      job->answer.value = 0;
+    }
     job->state.store(job->taker == Job::Taker::Nobody ? Job::Free : Job::Done,
                      std::memory_order_release);
   }
@@ -137,6 +143,10 @@ Outcome FileService::openStream(const Job &job) {
   if (stream == nullptr)
     return {FileError::TooMany, 0};
   const bool reads = (job.mode & kFileWrite) == 0;
+  // What needs memory comes before there is a file to be closed.
+  if (!reads && stream->ring == nullptr)
+    stream->ring = std::make_unique<std::byte[]>(Stream::kRing);
+  stream->name = job.name;
   Outcome opened;
   stream->position = 0;
   if (reads) {
@@ -151,8 +161,6 @@ Outcome FileService::openStream(const Job &job) {
                          ? static_cast<uint64_t>(about.st_size)
                          : 0;
     stream->position = stream->appends ? stream->length : 0;
-    if (stream->ring == nullptr)
-      stream->ring = std::make_unique<std::byte[]>(Stream::kRing);
   }
   if (opened.error != FileError::None)
     return {opened.error, 0};
@@ -160,7 +168,6 @@ Outcome FileService::openStream(const Job &job) {
   stream->taken.store(0, std::memory_order_relaxed);
   stream->error.store(FileError::None, std::memory_order_relaxed);
   stream->lost = 0;
-  stream->name = job.name;
   const uint32_t generation = Handle::next(stream->generation.load(std::memory_order_relaxed));
   stream->generation.store(generation, std::memory_order_relaxed);
   stream->state.store(reads ? Stream::Reading : Stream::Writing, std::memory_order_release);
@@ -193,12 +200,7 @@ Outcome FileService::finishStream(Stream &stream) {
     result.error = stream.error.load(std::memory_order_relaxed);
     const Outcome end = Disk::finish(stream.file, true);
     stream.file = -1;
-    if (stream.lost != 0)
-      say("file '" + stream.name + "': " + reason(result.error) + "; " +
-          std::to_string(stream.lost) + " bytes that the program wrote are lost");
-    else if (end.error != FileError::None)
-      say("file '" + stream.name + "': " + reason(end.error) +
-          " when it is closed; what the program wrote may be lost");
+    sayLosses(stream, result.error, end.error);
     if (result.error == FileError::None)
       result.error = end.error;
   }
@@ -207,11 +209,24 @@ Outcome FileService::finishStream(Stream &stream) {
   return result;
 }
 
+/// `end`: of closing it.
+void FileService::sayLosses(const Stream &stream, FileError error, FileError end) noexcept {
+  try {
+    if (stream.lost != 0)
+      say("file '" + stream.name + "': " + reason(error) + "; " + std::to_string(stream.lost) +
+          " bytes that the program wrote are lost");
+    else if (end != FileError::None)
+      say("file '" + stream.name + "': " + reason(end) +
+          " when it is closed; what the program wrote may be lost");
+  } catch (const std::bad_alloc &) {
+    unsaid_.store(true);
+  }
+}
+
 /// Writes what is in the ring, neighbours together.
 void FileService::drain(Stream &stream) {
   uint64_t at = stream.taken.load(std::memory_order_relaxed);
   const uint64_t end = stream.put.load(std::memory_order_acquire);
-  scratch_.resize(Stream::kRing);
   while (at != end) {
     uint64_t start = 0;
     uint64_t size = 0;

@@ -62,7 +62,8 @@ void touchDataStack(std::size_t bytes) noexcept;
 std::optional<StException> guardedCall(void (*run)(Ctx *), Ctx &ctx);
 
 /// The host's table for applications in simulation: raise throws StException, an endless loop ends
-/// when its budget is used up, log lines go to standard error.
+/// when its budget is used up, log lines go to standard error. That may wait: TaskSet has another
+/// log for cycles.
 const HostApi &hostApi();
 
 } // namespace stride::task

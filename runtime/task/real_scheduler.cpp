@@ -1,5 +1,6 @@
 #include "runtime/task/real_scheduler.hpp"
 
+#include "runtime/app/error.hpp"
 #include "runtime/task/realtime.hpp"
 
 #include <ctime>
@@ -8,6 +9,7 @@
 #include <cerrno>
 #include <chrono>
 #include <limits>
+#include <optional>
 #include <thread>
 
 namespace stride::task {
@@ -61,10 +63,14 @@ void RealScheduler::start() {
     end();
     throw;
   }
-  started_ = true;
   // The threads set themselves up first, so that time 0 finds all of them waiting.
   for (uint32_t ready = ready_.load(); ready != workers_.size(); ready = ready_.load())
     ready_.wait(ready);
+  if (failed_.load()) {
+    end();
+    throw app::Error("the system has not enough memory for the tasks");
+  }
+  started_ = true;
   originNs_ = monotonicNs() + 1'000'000;
   if (tasks_->hasEvents())
     lookAtEvents();
@@ -86,11 +92,21 @@ void RealScheduler::prepareThread(const Worker &worker) const {
 }
 
 void RealScheduler::work(Worker &worker) {
-  const MemoryGuard guard;
-  prepareThread(worker);
+  std::optional<MemoryGuard> guard;
+  try {
+    guard.emplace();
+    prepareThread(worker);
+  } catch (...) {
+    failed_.store(true);
+  }
   ready_.fetch_add(1);
   ready_.notify_all();
   go_.wait(0);
+  if (!failed_.load())
+    serve(worker);
+}
+
+void RealScheduler::serve(Worker &worker) {
   switch (tasks_->desc(worker.task).kind) {
   case TaskKind::Cyclic:
     runCyclic(worker);

@@ -41,7 +41,7 @@ public:
   ~RealScheduler();
 
   /// Starts the threads; time 0 of the program is when this returns. Throws app::Error when the
-  /// system has no threads.
+  /// system has no threads or no memory for them.
   void start();
 
   const RealOptions &options() const { return options_; }
@@ -67,6 +67,7 @@ private:
   };
 
   void work(Worker &worker);
+  void serve(Worker &worker);
   void end();
   void prepareThread(const Worker &worker) const;
   void cycle(Worker &worker, int64_t plannedNs);
@@ -86,6 +87,7 @@ private:
   int64_t originNs_ = 0;
   std::atomic<uint32_t> ready_{0};
   std::atomic<uint32_t> go_{0};
+  std::atomic<bool> failed_{false}; ///< A thread could not get ready.
   std::atomic<bool> ending_{false};
   std::atomic<uint32_t> looks_{0}; ///< At the events, that have been asked for.
   bool started_ = false;

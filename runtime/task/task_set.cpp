@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <new>
 #include <utility>
 
 namespace stride::task {
@@ -64,6 +65,8 @@ TaskSet::TaskSet(const StrideAppV1 &app, std::byte *state, const HostApi &host, 
     throw app::Error("the application has no task; add one to stride.toml or a CONFIGURATION");
   host_.self = this;
   host_.refillLoopBudget = refill;
+  if (host_.log == hostApi().log)
+    host_.log = log;
   for (uint32_t i = 0; i < app.taskCount; ++i) {
     const TaskDesc &desc = app.tasks[i];
     checkTask(desc);
@@ -168,6 +171,10 @@ void TaskSet::watch(uint32_t index, int64_t runNs) noexcept {
        task.ctx.cycleStartNs);
 }
 
+void TaskSet::log(Ctx *ctx, uint32_t, const char *text) {
+  static_cast<TaskSet *>(ctx->host->self)->log_.put(text);
+}
+
 int64_t TaskSet::refill(Ctx *ctx) {
   const auto *self = static_cast<const TaskSet *>(ctx->host->self);
   if ((self->limit_ == LoopLimit::Budget && !self->repeated_) || ctx->cycle == kNoCycle)
@@ -223,7 +230,12 @@ bool TaskSet::eventLevel(uint32_t index, int64_t nowNs) noexcept {
 
 void TaskSet::fail(const StException &exception, uint32_t task, uint64_t cycle,
                    int64_t timeNs) noexcept {
-  fail({exception, app_->tasks[task].name, cycle, timeNs, tasks_[task]->looks});
+  Fault fault{exception, {}, cycle, timeNs, tasks_[task]->looks};
+  try {
+    fault.task = app_->tasks[task].name;
+  } catch (const std::bad_alloc &) { // without it then
+  }
+  fail(std::move(fault));
 }
 
 void TaskSet::fail(Fault fault) noexcept {
@@ -250,6 +262,11 @@ bool TaskSet::atRest() const noexcept {
 std::optional<Fault> TaskSet::fault() const {
   const std::lock_guard lock(faultMutex_);
   return fault_;
+}
+
+bool TaskSet::failed() const noexcept {
+  const std::lock_guard lock(faultMutex_);
+  return fault_.has_value();
 }
 
 void TaskSet::prepareRebind(const StrideAppV1 &app) {

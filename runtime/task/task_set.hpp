@@ -4,6 +4,7 @@
 
 #include "runtime/app/abi.h"
 #include "runtime/task/cycle_hook.hpp"
+#include "runtime/task/cycle_log.hpp"
 #include "runtime/task/fault.hpp"
 #include "runtime/task/statistics.hpp"
 
@@ -40,8 +41,8 @@ public:
   /// Tasks with longer intervals run at once, and then so often.
   static constexpr int64_t kLongIntervalNs = 1'000'000'000;
 
-  /// `state` is initialised. Throws app::Error for an application without tasks or with a task
-  /// that cannot be scheduled.
+  /// `state` is initialised. A `host` with the log of hostApi() gets one that suits cycles. Throws
+  /// app::Error for an application without tasks or with a task that cannot be scheduled.
   TaskSet(const StrideAppV1 &app, std::byte *state, const HostApi &host, LoopLimit limit);
   TaskSet(const TaskSet &) = delete;
   TaskSet &operator=(const TaskSet &) = delete;
@@ -88,6 +89,11 @@ public:
   /// After stop: every hook has been told and is at rest.
   bool atRest() const noexcept;
   std::optional<Fault> fault() const;
+  /// Whether there is one.
+  bool failed() const noexcept;
+  /// The lines that the program has logged in its cycles since the last call (a failed assertion).
+  /// From one thread, not a task's.
+  std::vector<std::string> takeLog() { return log_.take(); }
 
   const TaskStatistics &statistics(uint32_t task) const { return tasks_[task]->statistics; }
 
@@ -110,6 +116,7 @@ private:
   };
 
   static int64_t refill(Ctx *ctx);
+  static void log(Ctx *ctx, uint32_t severity, const char *text);
   bool repeats(uint32_t task, int64_t startNs) const noexcept;
   static StException watchdogIn(const StException &loop, const Task &task,
                                 const TaskDesc &desc) noexcept;
@@ -129,6 +136,7 @@ private:
   std::atomic<bool> stopped_{false};
   mutable std::mutex faultMutex_;
   std::optional<Fault> fault_;
+  CycleLog log_;
 };
 
 /// Nanoseconds of the system's monotonic clock.

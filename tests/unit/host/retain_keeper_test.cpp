@@ -62,9 +62,9 @@ struct Build : test::AppModel {
 class Lines {
 public:
   RetainKeeper::Say say() {
-    return [this](const std::string &line) {
+    return [this](std::string_view line) {
       const std::lock_guard lock(mutex_);
-      lines_.push_back(line);
+      lines_.emplace_back(line);
     };
   }
   std::vector<std::string> get() {
@@ -126,6 +126,7 @@ protected:
   std::string file = (scratch.path() / "kept").string();
   RetainSettings settings{file, 5'000'000};
   Lines lines;
+  host::Messages messages{host::Output::Wait::Always};
 
   template <class Done> void runUntil(task::TaskSet &tasks, Done done) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
@@ -249,9 +250,9 @@ TEST_F(RetainKeeperTest, AResetToOriginIsNotDoneBeforeTheFolderIsDurable) {
     EXPECT_TRUE(keeper.finish());
   }
   disk.folderFails = true;
-  EXPECT_THROW(host::resetRetained(host::ResetKind::Origin, file, disk), app::Error);
+  EXPECT_THROW(host::resetRetained(host::ResetKind::Origin, file, messages, disk), app::Error);
   disk.folderFails = false;
-  EXPECT_NO_THROW(host::resetRetained(host::ResetKind::Origin, file, disk));
+  EXPECT_NO_THROW(host::resetRetained(host::ResetKind::Origin, file, messages, disk));
   EXPECT_EQ(savedGeneration(file), 0U);
 }
 
