@@ -21,7 +21,7 @@ public:
     Never,  ///< The text stays where it is; settle() waits for a limited time.
   };
   /// For a reader who does not read, when nothing else is to be done any more.
-  static constexpr std::chrono::milliseconds kPatience{5000};
+  static constexpr std::chrono::milliseconds kPatience{2000};
 
   /// Creates the file, or empties it. Throws app::Error. `capacity`: of the memory. [bytes]
   Output(const std::string &path, std::size_t capacity, Wait wait);
