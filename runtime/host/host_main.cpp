@@ -23,6 +23,9 @@
 #include <filesystem>
 #include <functional>
 #include <new>
+#include <string_view>
+
+#include <unistd.h>
 
 namespace stride::host {
 
@@ -314,11 +317,11 @@ int resetFrom(const std::string &kind, const std::string &file, Messages &messag
 }
 
 /// Does the command and says what keeps it from that. The exit code: also of output that got lost.
-int conclude(Output::Wait wait, const std::function<int(Messages &)> &command) {
+int conclude(Output::Wait wait, const std::function<int(Messages &)> &work) {
   Messages messages(wait);
   int code = kExitBadInput;
   try {
-    code = command(messages);
+    code = work(messages);
   } catch (const std::bad_alloc &) {
     messages.say("error: there is not enough memory");
   } catch (const std::exception &error) {
@@ -331,10 +334,7 @@ int conclude(Output::Wait wait, const std::function<int(Messages &)> &command) {
   return !messages.finish() && code == kExitOk ? kExitIncomplete : code;
 }
 
-} // namespace
-
-int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
-  const task::FatalReport lastWords(kExitFatal);
+int command(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
   CLI::App cli("Runs applications that 'stride build' has made.");
   cli.require_subcommand(1);
   cli.footer(kExitCodes);
@@ -387,6 +387,19 @@ int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
                     return run->parsed() ? runFrom(runTexts, builtIn, messages)
                                          : simulateFrom(texts, builtIn, messages);
                   });
+}
+
+} // namespace
+
+int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
+  const task::FatalReport lastWords(kExitFatal);
+  try {
+    return command(argc, argv, builtIn);
+  } catch (const std::exception &) { // there is not even memory for what it wanted to say
+    constexpr std::string_view kText = "error: there is not enough memory\n";
+    (void)!::write(STDERR_FILENO, kText.data(), kText.size());
+    return kExitBadInput;
+  }
 }
 
 } // namespace stride::host

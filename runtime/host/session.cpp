@@ -93,7 +93,7 @@ bool Session::start(TraceWriter *trace, monitor::Service *service) {
   scheduler_.start();
   // From here on there are axes to serve.
   if (service != nullptr && monitor_([&] {
-        service->attach(number_, {instance_.app().name, served_.get(), &instance_.tasks(),
+        service->attach(number_, {name_, served_.get(), &instance_.tasks(),
                                   [this] { return scheduler_.nowNs(); }});
       }))
     service_ = service;

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -31,11 +32,14 @@ unsigned long numberIn(const char *name, unsigned long otherwise) {
   return text == nullptr ? otherwise : std::strtoul(text, nullptr, 10);
 }
 
-/// Behind the constructors of the libraries that this one needs; the program's come after it.
-__attribute__((constructor)) void begin() {
+using Main = int(int, char **, char **);
+Main *program = nullptr;
+
+int begin(int argc, char **argv, char **environment) {
   first = numberIn("STRIDE_FAIL_ALLOCATION", 0);
   count = numberIn("STRIDE_FAIL_ALLOCATIONS", 1);
   begun.store(true);
+  return program(argc, argv, environment);
 }
 
 __attribute__((destructor)) void end() {
@@ -63,6 +67,15 @@ bool fails() {
 } // namespace
 
 extern "C" {
+
+/// The program begins behind the constructors of all libraries.
+int __libc_start_main(Main *main, int argc, char **argv, void (*init)(), void (*fini)(),
+                      void (*loaderFini)(), void *stackEnd) {
+  program = main;
+  const auto next =
+      reinterpret_cast<decltype(&__libc_start_main)>(::dlsym(RTLD_NEXT, "__libc_start_main"));
+  return next(begin, argc, argv, init, fini, loaderFini, stackEnd);
+}
 
 void *malloc(std::size_t size) { return fails() ? nullptr : __libc_malloc(size); }
 void *calloc(std::size_t number, std::size_t size) {

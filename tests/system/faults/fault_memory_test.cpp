@@ -30,14 +30,14 @@ protected:
       fs::remove(scratch_.path() / name);
     return runProcess(
         {"sh", "-c",
-         "LD_PRELOAD=$PRELOAD timeout -s KILL 60 $HOST run moving.so --for 500ms --trace "
+         "LD_PRELOAD=$PRELOAD $HOST run moving.so --for 500ms --trace "
          "Drive.fSetPosition --out t.csv --print Main.done --statistics s.json --retain kept "
          "--record r.rec --listen unix:s --script a.script & p=$!; "
          "i=0; while ! [ -e s ] && [ $i -lt 40 ] && kill -0 $p 2>/dev/null; do sleep 0.01; "
          "i=$((i+1)); done; "
          "[ -e s ] && { sleep 0.1; timeout -s KILL 15 $HOST ctl unix:s read Main.done >ctl 2>&1; "
          "}; "
-         "wait $p"},
+         "( sleep 60; kill -KILL $p ) >/dev/null 2>&1 & w=$!; wait $p; c=$?; kill $w; exit $c"},
         scratch_.path(),
         {{"HOST", STRIDE_BINARY_DIR "/stride-host"},
          {"PRELOAD", STRIDE_BINARY_DIR "/tests/libfail_allocation.so"},
@@ -86,7 +86,8 @@ TEST_F(NoMemory, EachAllocationFails) {
       chosen.push_back(1 + (calls * i + random() % calls) / 24);
   }
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const unsigned long count = i % 3 == 2 ? 20 : 1;
+    static constexpr unsigned long kCounts[] = {1, 20, 1'000'000'000};
+    const unsigned long count = kCounts[i % 3];
     SCOPED_TRACE("allocation " + std::to_string(chosen[i]) + " of " + std::to_string(calls) +
                  ", so many fail: " + std::to_string(count));
     expectSound(run(chosen[i], count));
