@@ -278,5 +278,46 @@ TEST_F(HostileClients, TheApplicationGoesOnAndNothingGrows) {
   });
 }
 
+/// They keep nobody waiting for ever.
+TEST_F(HostileClients, SilentOnesGiveWay) {
+  std::vector<std::unique_ptr<RawClient>> silent;
+  for (int i = 0; i < 16; ++i) {
+    silent.push_back(std::make_unique<RawClient>(socket()));
+    EXPECT_THAT(silent.back()->line(), HasSubstr("hello"));
+  }
+  silent[3]->send("{\"id\":1,\"op\":\"read\","); // half a request is none
+  const ProcessResult asked = shell("$HOST ctl unix:plc.sock read Main.n");
+  EXPECT_EQ(asked.exitCode, 0) << asked.err;
+  EXPECT_THAT(asked.out, StartsWith("Main.n = "));
+  EXPECT_THAT(silent.front()->line(), HasSubstr("\"code\":\"silent\""));
+  EXPECT_TRUE(silent.back()->send("{\"id\":1,\"op\":\"state\"}\n"));
+  EXPECT_THAT(silent.back()->line(), HasSubstr("running"));
+}
+
+TEST_F(HostileClients, WhoWaitsForSomethingKeepsItsPlace) {
+  std::vector<std::unique_ptr<RawClient>> busy;
+  for (int i = 0; i < 16; ++i) {
+    busy.push_back(std::make_unique<RawClient>(socket()));
+    EXPECT_THAT(busy.back()->line(), HasSubstr("hello"));
+    busy.back()->send("{\"id\":1,\"op\":\"subscribe\",\"names\":[\"Main.n\"],\"period\":1}\n");
+    EXPECT_THAT(busy.back()->line(), HasSubstr("\"subscription\":"));
+  }
+  const ProcessResult asked = shell("$HOST ctl unix:plc.sock read Main.n");
+  EXPECT_EQ(asked.exitCode, 1);
+  EXPECT_THAT(asked.err, HasSubstr("unix:plc.sock lets nobody in: all places for clients are "
+                                   "taken, and all of them are busy"));
+  busy.pop_back();
+  expectServed();
+}
+
+/// A run that is stopped itself: who asks learns that it does not answer.
+TEST_F(HostileClients, AServerThatDoesNotAnswer) {
+  ::kill(pid_, SIGSTOP);
+  const ProcessResult asked = shell("$HOST ctl unix:plc.sock read Main.n");
+  ::kill(pid_, SIGCONT);
+  EXPECT_EQ(asked.exitCode, 1);
+  EXPECT_THAT(asked.err, HasSubstr("has not answered for 10 s"));
+}
+
 } // namespace
 } // namespace stride::test
