@@ -92,7 +92,9 @@ std::optional<task::Fault> Instance::callExit(int64_t timeNs) {
 }
 
 std::vector<std::string> Instance::takeNews() {
-  std::vector<std::string> lines = tasks_.takeLog();
+  std::vector<std::string> lines = system_.takeLog();
+  for (std::string &line : tasks_.takeLog())
+    lines.push_back(std::move(line));
   for (const std::string &news : system_.takeNews())
     lines.push_back(fmt::format("warning: {}", news));
   for (const std::unique_ptr<task::CycleHook> &hook : hooks_)

@@ -86,6 +86,8 @@ bool Session::start(TraceWriter *trace, monitor::Service *service) {
     if (served_ && recording_)
       served_->setWriteLog(*recording_);
   } catch (const StException &exception) {
+    for (const std::string &line : instance_.takeNews())
+      say(line);
     sayFault(task::Fault{exception, "initialisation", 0, 0});
     return false;
   }

@@ -271,6 +271,8 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
   try {
     instance.initialise();
   } catch (const StException &exception) {
+    for (const std::string &line : instance.takeNews())
+      messages.say(line);
     const task::Fault fault{exception, "initialisation", 0, 0};
     messages.say({"error: ", describeWithCalls(fault)});
     return kExitException;

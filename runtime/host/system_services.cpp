@@ -46,6 +46,10 @@ SystemServices::SystemServices(const StrideAppV1 &app, const std::byte *state, b
     return static_cast<SystemServices *>(self)->realClock_ ? systemClockNs() : ctx->cycleStartNs;
   };
   initHost_.system = &initApi_;
+  initHost_.self = this;
+  initHost_.log = [](Ctx *ctx, uint32_t, const char *text) {
+    static_cast<SystemServices *>(ctx->host->self)->log_.put(text);
+  };
   cycleApi_ = initApi_;
   cycleApi_.wallClock = [](void *self, const Ctx *ctx) {
     return static_cast<SystemServices *>(self)->wallClock(*ctx);

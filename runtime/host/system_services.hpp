@@ -6,6 +6,7 @@
 #include "runtime/host/input_port.hpp"
 #include "runtime/system/file_service.hpp"
 #include "runtime/system/system_api.h"
+#include "runtime/task/cycle_log.hpp"
 
 #include <atomic>
 #include <cstdint>
@@ -44,6 +45,8 @@ public:
   /// Every now and then while the cycles go on, from one thread that is not a task's.
   void lookAfter();
   std::vector<std::string> takeNews();
+  /// The lines that initialisers, FB_Exit and FB_Reinit have logged since the last call.
+  std::vector<std::string> takeLog() { return log_.take(); }
 
 private:
   class Pass;
@@ -73,6 +76,7 @@ private:
   SystemApi cycleApi_{};
   SystemApi initApi_{};
   HostApi initHost_;
+  task::CycleLog log_;
 };
 
 } // namespace stride::host

@@ -121,6 +121,8 @@ public:
       fail("exception", describeWithCalls({exception, "initialisation", 0, 0}));
     }
     system_.finish();
+    for (const std::string &line : system_.takeLog())
+      messages_->say(line);
     for (const std::string &news : system_.takeNews())
       messages_->say({"warning: ", news});
     result_.seconds =

@@ -44,7 +44,7 @@ const std::vector<Tool> &tools() {
       {"camCheck", {"cam", "check", "a.cam.toml"}},
       {"explain", {"explain", "SE0203"}},
       {"check", {"check", "a.st", "--format=json"}},
-      {"build", {"build", "p", "-o", "old.so"}, 6},
+      {"build", {"build", "p", "-o", "old.so"}, 3},
       {"sim",
        {"sim", "p", "--for", "100ms", "--trace", "Main.n", "--out", "old.csv", "--print", "Main.n",
         "--retain", "kept"},
