@@ -57,10 +57,10 @@ void Messages::lookAfter() noexcept {
   push();
 }
 
-/// First of all what is missing, if that can be written.
+/// First of all what is missing, once there is so much room that other lines find some after it.
 void Messages::tellLosses() noexcept {
   push();
-  if (lost_ == 0 || !output_.room(256))
+  if (lost_ == 0 || !output_.room(kCapacity / 2))
     return;
   char digits[24];
   const auto end = std::to_chars(digits, digits + sizeof digits, lost_).ptr;
