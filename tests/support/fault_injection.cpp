@@ -175,22 +175,22 @@ private:
              asked.data.args[0] == STDERR_FILENO;
     }
     case CallClass::Open:
-      return opensToWrite(asked, process);
+      return opensToWrite(asked);
     default:
       return true;
     }
   }
-  bool opensToWrite(const ::seccomp_notif &asked, const std::string &process) const {
+  bool opensToWrite(const ::seccomp_notif &asked) const {
     const bool at = asked.data.nr == SYS_openat;
     const uint64_t flags = asked.data.args[at ? 2 : 1];
-    const bool writes = (flags & O_ACCMODE) != O_RDONLY || (flags & O_CREAT) != 0 ||
-                        (at ? false : !hasFlags(asked));
+    const bool writes =
+        (flags & O_ACCMODE) != O_RDONLY || (flags & O_CREAT) != 0 || !hasFlags(asked);
     char path[512]{};
     ::iovec here{path, sizeof path - 1};
     ::iovec there{reinterpret_cast<void *>(asked.data.args[at ? 1 : 0]), sizeof path - 1};
     if (!writes || ::process_vm_readv(static_cast<pid_t>(asked.pid), &here, 1, &there, 1, 0) <= 0)
       return false;
-    return path[0] != '/' || ours(path) || (process.empty());
+    return path[0] != '/' || ours(path);
   }
   static bool hasFlags([[maybe_unused]] const ::seccomp_notif &asked) {
 #ifdef SYS_creat
