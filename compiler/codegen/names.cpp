@@ -67,8 +67,8 @@ std::string identifier(std::string_view text) {
   return out;
 }
 
-/// A file's name of at most so many bytes, what the build appends to it (`.inline.h`, a number, `.tmp`)
-/// left out: file systems know names of up to 255 bytes.
+/// A file's name of at most so many bytes, what the build appends to it (`.inline.h`, a number,
+/// `.tmp`) left out: file systems know names of up to 255 bytes.
 constexpr std::size_t kMaxFileName = 160;
 
 /// A name for a file: the beginning of one that is too long, and the hash of the whole.

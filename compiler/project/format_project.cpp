@@ -61,8 +61,9 @@ FormatSettings readFormatSettings(const fs::path &place, SourceManager &sources,
   const fs::path manifest = folder / "stride.toml";
   const std::optional<FileId> id = sources.load(manifest, manifest.filename().string());
   if (!id) {
-    diagnostics.report(Code::unreadableFile, {},
-                       fmt::format("`{}` cannot be read: {}", manifest.string(), readSourceError()));
+    diagnostics.report(
+        Code::unreadableFile, {},
+        fmt::format("`{}` cannot be read: {}", manifest.string(), readSourceError()));
     return settings;
   }
   const std::unique_ptr<TomlNode> document = parseToml(sources.file(*id), diagnostics);

@@ -128,8 +128,9 @@ void Project::loadFile(const fs::path &path, const std::string &name) {
   if (const std::optional<FileId> id = program_.sources.load(path, name))
     sourceFiles_.push_back(*id);
   else
-    program_.diagnostics.report(Code::unreadableFile, {},
-                                fmt::format("`{}` cannot be read: {}", path.string(), readSourceError()));
+    program_.diagnostics.report(
+        Code::unreadableFile, {},
+        fmt::format("`{}` cannot be read: {}", path.string(), readSourceError()));
 }
 
 bool Project::declaresNothing(const std::vector<ast::File *> &files) const {

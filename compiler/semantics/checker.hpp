@@ -58,7 +58,8 @@ private:
   /// and defaults too.
   void declareUsed();
   // containment.cpp
-  /// Reports types that hold themselves, and what is nested too deeply or too large; cuts them there.
+  /// Reports types that hold themselves, and what is nested too deeply or too large; cuts them
+  /// there.
   void checkContainment(Module &module);
   /// The levels of types in `type`; `level`: so many hold it on the way to it.
   unsigned checkContained(const Type *type, unsigned level,

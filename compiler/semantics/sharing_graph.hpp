@@ -130,7 +130,7 @@ private:
     std::vector<bool> write;
     std::map<std::uint32_t, Span> writeAt; ///< by first byte: where
   };
-  std::vector<std::array<Bytes, 3>> image_; ///< by task, area
+  std::vector<std::array<Bytes, 3>> image_;               ///< by task, area
   std::map<std::vector<std::uint64_t>, unsigned> visits_; ///< of visit(): what it was given
 };
 

@@ -96,12 +96,12 @@ struct PouSymbol : Symbol {
   bool isTemplate = false; ///< PROGRAM: only instances with names of their own exist
                            ///< (CONFIGURATION)
 
-  PouSymbol *owner = nullptr;                  ///< METHOD, ACTION, accessor: what it belongs to
-  PropertySymbol *property = nullptr;          ///< accessor: of this
-  PouSymbol *base = nullptr;                   ///< EXTENDS of a block or class
-  unsigned bases = 0; ///< length of the longest way through bases and interfaces
-  std::vector<PouSymbol *> interfaces;         ///< IMPLEMENTS; of an INTERFACE: EXTENDS
-  std::vector<PouSymbol *> methods;            ///< own methods, actions and accessors
+  PouSymbol *owner = nullptr;          ///< METHOD, ACTION, accessor: what it belongs to
+  PropertySymbol *property = nullptr;  ///< accessor: of this
+  PouSymbol *base = nullptr;           ///< EXTENDS of a block or class
+  unsigned bases = 0;                  ///< length of the longest way through bases and interfaces
+  std::vector<PouSymbol *> interfaces; ///< IMPLEMENTS; of an INTERFACE: EXTENDS
+  std::vector<PouSymbol *> methods;    ///< own methods, actions and accessors
   std::vector<PropertySymbol *> properties;    ///< own properties
   std::unordered_map<Ident, Symbol *> members; ///< own methods, actions, properties
   PouSymbol *overrides = nullptr; ///< method: the one of the nearest base that it replaces

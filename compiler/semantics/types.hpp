@@ -109,7 +109,7 @@ struct StructType : Type {
   unsigned bases = 0;               ///< structures that it extends, directly or not
   std::span<VarSymbol *> fields;    ///< own fields
   unsigned pack = 0; ///< {attribute 'pack_mode'}: members are aligned to this at most; 0: naturally
-  bool isUnion = false; ///< the fields share their memory
+  bool isUnion = false;           ///< the fields share their memory
   mutable unsigned alignment = 0; ///< alignmentOf() keeps its result here; 0: not asked for yet
 };
 

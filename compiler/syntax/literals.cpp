@@ -48,8 +48,8 @@ void appendUtf8(std::string &out, std::uint32_t c) {
 bool isHighSurrogate(std::uint32_t unit) { return unit >= 0xD800 && unit < 0xDC00; }
 bool isLowSurrogate(std::uint32_t unit) { return unit >= 0xDC00 && unit < 0xE000; }
 
-/// Appends a UTF-16 code unit. Half of a surrogate pair takes three bytes, as if it was a character;
-/// where the other half follows, both are the character that they mean.
+/// Appends a UTF-16 code unit. Half of a surrogate pair takes three bytes, as if it was a
+/// character; where the other half follows, both are the character that they mean.
 void appendUnit(std::string &out, std::uint32_t unit, bool joins) {
   if (joins && isLowSurrogate(unit)) {
     const auto byte = [&](std::size_t fromEnd) {
