@@ -176,7 +176,7 @@ class Declarations:
             lines.append(line)
             self.shared.append(Variable(f"g{i}", kind, self.global_place(f"g{i}"), shared=True))
         self.globals["%"] = Image(64)
-        located = []
+        located = ["  last AT %MB63 : BYTE;"]  # so that what no program uses of the image can be printed
         for i in range(4):
             kind = Array(self.raw(), [(1, self.rng.randint(2, 4))]) if i == 3 else self.raw()
             size, _ = layout(kind.element if i == 3 else kind)
