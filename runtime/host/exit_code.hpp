@@ -9,8 +9,8 @@ enum ExitCode : int {
   kExitOk = 0,         ///< The run reached its end, or was asked to end (run).
   kExitBadInput = 1,   ///< Command line, application, names, values or files are bad.
   kExitException = 2,  ///< An application was stopped by an exception.
-  kExitIncomplete = 3, ///< The run reached its end, but output that was asked for is not complete.
-  kExitFatal = 4, ///< The runtime itself could not go on: its memory is damaged.
+  kExitFatal = 3,      ///< The runtime itself could not go on: its memory is damaged.
+  kExitIncomplete = 4, ///< The run reached its end, but output that was asked for is not complete.
   kExitInterrupted =
       130 ///< Ctrl-C or SIGTERM ended a simulation; the trace up to then is complete.
 };

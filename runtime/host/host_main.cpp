@@ -33,7 +33,7 @@ namespace {
 
 constexpr const char *kExitCodes =
     "Exit codes: 0 the run reached its end, 1 bad input, 2 an application was stopped by an\n"
-    "exception, 3 output that was asked for is not complete, 4 the runtime itself could not go on,\n"
+    "exception, 3 the runtime itself could not go on, 4 output that was asked for is not complete,\n"
     "130 a simulation was interrupted.";
 
 /// The options as text, before they are understood.

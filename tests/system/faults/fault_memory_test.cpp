@@ -47,7 +47,7 @@ protected:
   }
   void expectSound(const ProcessResult &result) {
     EXPECT_THAT(result.err, Not(AnyOf(HasSubstr("terminate"), HasSubstr("nternal error"))));
-    ASSERT_THAT(result.exitCode, AnyOf(0, 1, 3)) << result.err;
+    ASSERT_THAT(result.exitCode, AnyOf(0, 1, 4)) << result.err;
     EXPECT_FALSE(fs::exists(scratch_.path() / "s")) << "the socket's file is left";
     const bool printed = result.out.find("Main.done = TRUE") != std::string::npos;
     const bool traced = readTrace().find("\n0.4") != std::string::npos;
