@@ -136,7 +136,11 @@ bool replaceFile(const fs::path &path, std::string_view text) {
 bool leadsOut(const fs::path &folder, const fs::path &path) {
   std::error_code error;
   const fs::path root = fs::weakly_canonical(fs::absolute(folder, error), error);
-  const fs::path real = fs::weakly_canonical(fs::absolute(path, error), error);
+  fs::path part = fs::absolute(path, error);
+  for (; !fs::exists(part, error) && part.has_relative_path(); part = part.parent_path())
+    if (fs::is_symlink(fs::symlink_status(part, error)))
+      return true; // to what is not there, but could be made there
+  const fs::path real = fs::weakly_canonical(part, error);
   return error ||
          std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first != root.end();
 }

@@ -11,7 +11,7 @@ namespace stc {
 struct Job {
   std::vector<std::string> command; ///< program (looked up in PATH) and arguments
   std::string title;                ///< for progress
-  std::string folder;               ///< where it runs; empty: in ours
+  std::string folder = {};          ///< where it runs; empty: in ours
 };
 
 /// How a command ended.

@@ -143,7 +143,7 @@ TEST_F(HostileProject, TheFormatterWritesThroughNoLinkThatLeadsOut) {
 
 TEST_F(HostileProject, DocumentationFollowsNoLinksUnlessTheUserNamesThem) {
   link("home", "doc");
-  refuse({"doc", "p"}, "SE0838");
+  EXPECT_THAT(stride({"doc", "p"}).err, HasSubstr("error[SE0838]: `doc/"));
   expectHomeUntouched();
   fs::create_directory(at("pages"));
   link("pages", "named");
@@ -162,6 +162,15 @@ TEST_F(HostileProject, RetainedDataAndFilesStayInTheProject) {
   refuse(run, "SE0838");
   refuse({"sim", "q", "--for", "T#100ms"}, "SE0838");
   fs::remove(at("q/files"));
+  link("../home/new", "q/files"); // to what is not there yet
+  refuse(run, "SE0838");
+  fs::remove(at("q/files"));
+  link("../../home/made", "q/files/x.txt");
+  succeed(run);
+  EXPECT_TRUE(fs::is_symlink(at("q/files/x.txt"))); // OUTSIDE: it was not made
+  expectHomeUntouched();
+  fs::remove_all(at("q/files"));
+  fs::remove_all(at("q/retain"));
   // The image that is being written, and a file of the program's.
   for (const char *name : {"q/retain/q.new", "q/files/x.txt"})
     link("../../home/photo.cpp", name);

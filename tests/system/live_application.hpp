@@ -7,6 +7,7 @@
 #include "runtime/app/symbols.hpp"
 #include "runtime/app/value_text.hpp"
 #include "runtime/task/fault.hpp"
+#include "tests/support/data_stack.hpp"
 #include "tests/support/process.hpp"
 #include "tests/support/text.hpp"
 
@@ -107,6 +108,7 @@ private:
     ctx.cycle = cycle_;
     ctx.loopBudget = 1'000'000;
     ctx.firstCycle = cycle_ == 0 ? 1 : 0;
+    dataStack_.giveTo(ctx);
     return ctx;
   }
 
@@ -129,6 +131,7 @@ private:
   int builds_ = 0;
   uint64_t cycle_ = 0;
   std::unique_ptr<app::Application> application_;
+  DataStack dataStack_;
 };
 
 } // namespace stride::test

@@ -3,6 +3,7 @@
 // ThreadSanitizer. Prints `program.variable = value` for all members of programs called errors,
 // changes, taken.
 #include "runtime/app/abi.h"
+#include "tests/support/data_stack.hpp"
 
 #include <atomic>
 #include <cstdio>
@@ -64,6 +65,8 @@ int main() {
   for (uint32_t task = 0; task < app.taskCount; ++task) {
     threads.emplace_back([&, task] {
       stride::Ctx ctx = first;
+      stride::test::DataStack dataStack;
+      dataStack.giveTo(ctx);
       ctx.taskIndex = task;
       ready.fetch_add(1, std::memory_order_relaxed);
       while (ready.load(std::memory_order_relaxed) < app.taskCount) {

@@ -212,6 +212,7 @@ void App::load(const std::vector<GeneratedFile> &files, const Options &options) 
   ctx_.host = &kHost;
   ctx_.taskIntervalNs = 10'000'000;
   ctx_.loopBudget = 100'000;
+  dataStack_.giveTo(ctx_);
   try {
     app_->init(&ctx_);
   } catch (const Thrown &thrown) {

@@ -4,6 +4,7 @@
 
 #include "compiler/codegen/codegen.hpp"
 #include "runtime/app/abi.h"
+#include "tests/support/data_stack.hpp"
 
 #include <cstddef>
 #include <memory>
@@ -62,6 +63,7 @@ private:
   const stride::StrideAppV1 *app_ = nullptr;
   std::vector<std::max_align_t> state_;
   stride::Ctx ctx_{};
+  stride::test::DataStack dataStack_;
   std::string exception_;
 };
 
