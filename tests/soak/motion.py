@@ -249,7 +249,8 @@ class MotionProject:
 
     def rename(self):
         kept = self.rng.choice(self.kept)
-        kept.renamed_from, kept.name = kept.name, self.fresh("renamed")
+        kept.renamed_from = kept.renamed_from or kept.name  # as the running build knows it
+        kept.name = self.fresh("renamed")
         return f"rename {kept.renamed_from} to {kept.name}"
 
     def add_block(self):
