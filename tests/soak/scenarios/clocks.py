@@ -20,7 +20,10 @@ VAR
   ton : TON;
   wall : CurTime;
   wallTime : SysTime64;
+  i : DINT;
+  sum : LREAL;
 END_VAR
+FOR i := 1 TO {work} DO sum := sum + i; END_FOR
 now := TIME();
 IF cycles > 0 THEN
   IF now <= last THEN backwards := backwards + 1; END_IF
@@ -82,8 +85,9 @@ class WallClock:
 def play(round_):
     rng = round_.rng
     project = motion.MotionProject(rng, axes=rng.randint(1, 4), interval_ms=rng.choice([2, 4, 5, 10]))
-    project.extra = WATCH.format(interval=project.interval_ms)
-    watchdog = round_.choose("watchdog", rng.choice([None, None, None, 30]))
+    watchdog = round_.choose("watchdog", rng.choice([None, None, 30]))
+    # So that a freeze is within a cycle now and then; only there the watchdog sees it.
+    project.extra = WATCH.format(interval=project.interval_ms, work=500_000 if watchdog else 0)
     text = project.write(round_.folder / "project", more=f'watchdog = "T#{watchdog}ms"\n' if watchdog else "")
     manifest = text / "stride.toml"
     manifest.write_text(manifest.read_text().replace('programs = ["PLC_PRG"]', 'programs = ["PLC_PRG", "Watch"]'))
