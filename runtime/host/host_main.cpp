@@ -286,9 +286,11 @@ int simulateFrom(const SimTexts &texts, const StrideAppV1 *builtIn, Messages &me
   return simulate(loadApplication(builtIn, options.application), options, messages);
 }
 
-/// A run outlives who reads its messages, and the signals that it is sent before it can take them.
+/// A run outlives who reads its messages, the largest file that it may write, and the signals that
+/// it is sent before it can take them.
 void prepareSignals() {
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   ::sigset_t signals;
   ::sigemptyset(&signals);
   ::sigaddset(&signals, SIGUSR1);

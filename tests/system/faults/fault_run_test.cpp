@@ -137,6 +137,14 @@ TEST_F(FaultyRun, AFullDiskUnderTheMessagesAndTheValues) {
   EXPECT_THAT(trace.out, HasSubstr(kDone));
 }
 
+TEST_F(FaultyRun, AFileThatMayNotGrow) {
+  const ProcessResult result =
+      shell("ulimit -f 8; $RUN --trace Drive.fSetPosition --out t.csv --print Main.done");
+  EXPECT_EQ(result.exitCode, kIncomplete) << result.err;
+  EXPECT_THAT(result.out, HasSubstr(kDone));
+  EXPECT_THAT(result.err, HasSubstr("cannot write the trace to 't.csv': File too large"));
+}
+
 TEST_F(FaultyRun, ALogCollectorThatHasGone) {
   const ProcessResult result = shell("{ $RUN --print Main.done --histogram 3>&1 >out 2>&3; echo $? "
                                      ">code; } | true; cat out code");
