@@ -135,7 +135,7 @@ class Soak:
         (self.out / "summary.json").write_text(json.dumps(summary, indent=2) + "\n", encoding="utf-8")
         lines = [f"soak: began {summary['began']}, {summary['seconds']} s, seed {summary['seed']}"]
         if not self.settings.can_mount:
-            lines.append("skipped: full disks by a small file system; mounting needs root")
+            lines.append("skipped: full disks by a small file system, mounting needs root; limits of the size of files were played")
         for name, counts in [*summary["scenarios"].items(), ("total", summary["total"])]:
             shown = ", ".join(f"{k} {round(v, 1)}" for k, v in counts.items() if k not in ("rounds", "findings"))
             lines.append(f"  {name:9} rounds {counts.get('rounds', 0)}, findings {counts.get('findings', 0)}, {shown}")

@@ -1,8 +1,9 @@
 """A small file system that fills up and gets room again at random, below everything that a run or a build writes: retained data,
 trace, recording, statistics, the program's files, the project itself. Runs go on; what is written is whole or is not there; with
-room again all is as if nothing had been. Needs root, to mount the file system."""
+room again all is as if nothing had been. Mounting needs root; a limit of the size of the run's files comes and goes without."""
 import json
 import os
+import resource
 import subprocess
 import time
 
@@ -65,13 +66,44 @@ class Disk:
     def empty(self):
         self.filler.unlink(missing_ok=True)
 
+    def below(self, run):
+        """`run` works on it."""
+
+
+class Limit:
+    """A folder like any other; the files of the run there may not grow while it is "full"."""
+
+    def __init__(self, round_):
+        self.round, self.folder, self.run, self.full = round_, round_.folder / "disk", None, False
+        self.folder.mkdir()
+
+    def below(self, run):
+        self.run = run
+
+    def set(self, size):
+        _, largest = resource.prlimit(self.run.pid, resource.RLIMIT_FSIZE)
+        resource.prlimit(self.run.pid, resource.RLIMIT_FSIZE, (largest if size is None else size, largest))
+        self.full = size is not None
+
+    def free(self):
+        return 0 if self.full else 1 << 30
+
+    def fill(self, leave=0):
+        self.set(leave)
+        self.round.counts["limits"] += 1
+
+    def empty(self):
+        self.set(None)
+
 
 def play(round_):
-    if not round_.settings.can_mount:
+    what = round_.choose("what", round_.rng.choice(["run", "run", "build", "limit"]))
+    if what == "limit":
+        during_a_run(round_, Limit(round_))
+    elif not round_.settings.can_mount:
         round_.counts["skipped"] += 1
-        return
-    if round_.choose("what", round_.rng.choice(["run", "run", "build"])) == "run":
-        during_a_run(round_)
+    elif what == "run":
+        during_a_run(round_, Disk(round_, round_.choose("kib", round_.rng.choice([300, 1000, 3000]))))
     else:
         during_builds(round_)
 
@@ -85,13 +117,12 @@ def project_of(round_):
     return project, more
 
 
-def during_a_run(round_):
+def during_a_run(round_, disk):
     rng = round_.rng
     project, more = project_of(round_)
     folder = project.write(round_.folder / "project", more=more)
     round_.build(folder)
     app = folder / "build" / "app.so"
-    disk = Disk(round_, round_.choose("kib", rng.choice([300, 1000, 3000])))
     for name in ("retain", "files"):
         (disk.folder / name).mkdir()
     retain, trace = disk.folder / "retain" / "Kept", disk.folder / "run.csv"
@@ -99,6 +130,7 @@ def during_a_run(round_):
     options = {"trace": ["--trace", ",".join(project.columns()), "--out", trace], "recording": ["--record", disk.folder / "run.rec"], "messages": []}[what]
     run = round_.start(round_.settings.product.host, "run", app, "--retain", retain, "--files", disk.folder / "files", "--listen", "unix:plc.sock", "--statistics",
                        disk.folder / "statistics.json", *options, name="run", place=disk.folder if what == "messages" else None)
+    disk.below(run)
     with client.connect(round_.folder / "plc.sock", run) as asking:
         for _ in range(2 if round_.quick else round_.choose("fillings", rng.randint(2, 8))):
             full_for_a_while(round_, disk, run, asking)
