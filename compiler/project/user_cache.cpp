@@ -13,6 +13,7 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <system_error>
+#include <thread>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -38,6 +39,10 @@ constexpr std::size_t kSealSize = kSeal.size() + 64;
 constexpr std::uintmax_t kShardBytes = 128U << 20U;
 
 constexpr auto kAbandoned = std::chrono::hours(24);
+
+// For somebody who builds the same, and how often that is looked for.
+constexpr auto kLongestWait = std::chrono::seconds(60);
+constexpr auto kLook = std::chrono::milliseconds(10);
 
 constexpr mode_t kForUser = 0700;
 
@@ -171,8 +176,10 @@ WorkFolder::~WorkFolder() {
 }
 
 CacheLock::~CacheLock() {
-  if (handle_ >= 0)
-    ::close(handle_);
+  if (handle_ < 0)
+    return;
+  ::unlink(path_.c_str()); // whoever waits for it comes next, and need not wait for anybody else
+  ::close(handle_);
 }
 
 std::optional<UserCache> UserCache::open() {
@@ -260,19 +267,21 @@ bool UserCache::setLatest(std::string_view key, const fs::path &to) const {
 }
 
 std::optional<CacheLock> UserCache::lock(std::string_view key) const {
-  const fs::path folder = folder_ / "locks";
-  if (!makeFolder(folder))
+  const fs::path path = folder_ / "locks" / key;
+  if (!makeFolder(path.parent_path()))
     return std::nullopt;
-  // Few files for all keys: two that meet in one wait without need, now and then.
-  const fs::path path = folder / key.substr(0, 2);
   const int handle = ::open(path.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
   if (handle < 0)
     return std::nullopt;
-  CacheLock lock(handle);
-  while (::flock(handle, LOCK_EX) != 0)
-    if (errno != EINTR)
+  const auto end = std::chrono::steady_clock::now() + kLongestWait;
+  while (::flock(handle, LOCK_EX | LOCK_NB) != 0) {
+    if ((errno != EWOULDBLOCK && errno != EINTR) || std::chrono::steady_clock::now() > end) {
+      ::close(handle);
       return std::nullopt;
-  return lock;
+    }
+    std::this_thread::sleep_for(kLook);
+  }
+  return CacheLock(handle, path);
 }
 
 void UserCache::prune(std::string_view key, std::string_view kind) const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace stc {
 
@@ -29,8 +30,10 @@ private:
 /// The right to do something that another process would do as well; it ends with the object.
 class CacheLock {
 public:
-  explicit CacheLock(int handle) : handle_(handle) {}
-  CacheLock(CacheLock &&other) noexcept : handle_(other.handle_) { other.handle_ = -1; }
+  CacheLock(int handle, std::filesystem::path path) : handle_(handle), path_(std::move(path)) {}
+  CacheLock(CacheLock &&other) noexcept : handle_(other.handle_), path_(std::move(other.path_)) {
+    other.handle_ = -1;
+  }
   CacheLock &operator=(CacheLock &&) = delete;
   CacheLock(const CacheLock &) = delete;
   CacheLock &operator=(const CacheLock &) = delete;
@@ -38,6 +41,7 @@ public:
 
 private:
   int handle_;
+  std::filesystem::path path_;
 };
 
 /// The user's cache of Stride: `$XDG_CACHE_HOME/stride`, `~/.cache/stride`, or `stride-UID` in the
@@ -84,8 +88,8 @@ public:
   /// From now on that leads to `to`. False on failure (errno).
   [[nodiscard]] bool setLatest(std::string_view key, const std::filesystem::path &to) const;
 
-  /// Waits for whoever does what has this key. Nothing when locks do not work here: the same work
-  /// is done twice then.
+  /// Waits for whoever does what has this key, but not for ever: somebody may have suspended it.
+  /// Nothing then, and where locks do not work: the same work is done twice, which harms nobody.
   [[nodiscard]] std::optional<CacheLock> lock(std::string_view key) const;
 
   /// Removes the files that were used longest ago from the part of the store that `key` is in, when
