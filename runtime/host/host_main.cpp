@@ -33,7 +33,8 @@ namespace {
 
 constexpr const char *kExitCodes =
     "Exit codes: 0 the run reached its end, 1 bad input, 2 an application was stopped by an\n"
-    "exception, 3 the runtime itself could not go on, 4 output that was asked for is not complete,\n"
+    "exception, 3 the runtime itself could not go on, 4 output that was asked for is not "
+    "complete,\n"
     "130 a simulation was interrupted.";
 
 /// The options as text, before they are understood.

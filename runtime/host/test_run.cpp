@@ -11,8 +11,8 @@
 #include "runtime/host/system_services.hpp"
 #include "runtime/host/test_report.hpp"
 #include "runtime/iec/assert.h"
-#include "runtime/task/task_thread.hpp"
 #include "runtime/task/task_set.hpp"
+#include "runtime/task/task_thread.hpp"
 
 #include <fmt/format.h>
 

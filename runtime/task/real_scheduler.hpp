@@ -3,8 +3,8 @@
 #define STRIDE_RUNTIME_TASK_REAL_SCHEDULER_HPP
 
 #include "runtime/task/cycle_gate.hpp"
-#include "runtime/task/task_thread.hpp"
 #include "runtime/task/task_set.hpp"
+#include "runtime/task/task_thread.hpp"
 
 #include <semaphore.h>
 
