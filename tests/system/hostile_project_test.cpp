@@ -18,6 +18,11 @@ using ::testing::Not;
 
 constexpr const char *kCounter =
     "PROGRAM PLC_PRG\nVAR\n  n : INT;\nEND_VAR\nn := n + 1;\nEND_PROGRAM\n";
+#ifdef STRIDE_SANITIZED
+constexpr bool kStatic = false; // sanitizers need shared libraries
+#else
+constexpr bool kStatic = true;
+#endif
 constexpr const char *kPhoto = "a photograph of somebody's cat";
 
 class HostileProject : public ::testing::Test {
@@ -76,7 +81,8 @@ TEST_F(HostileProject, ABuildFolderThatIsALinkIsNotWritten) {
   link("../home", "p/build");
   refuse({"build", "p"}, "SE0838");
   refuse({"build", "p", "--emit", "cpp"}, "SE0838");
-  refuse({"build", "p", "--static"}, "SE0838");
+  if (kStatic)
+    refuse({"build", "p", "--static"}, "SE0838");
   expectHomeUntouched();
   // What only runs writes nothing there.
   EXPECT_EQ(stride({"sim", "p", "--for", "T#30ms", "--print", "PLC_PRG.n"}).out, "PLC_PRG.n = 3\n");
@@ -89,7 +95,8 @@ TEST_F(HostileProject, LinksInTheBuildFolderAreReplacedNotFollowed) {
   link("../../home/photo.cpp", "p/build/.gitignore");
   link("../../home", "p/build/cache"); // what earlier versions of Stride pruned
   succeed({"build", "p"});
-  succeed({"build", "p", "--static"});
+  if (kStatic)
+    succeed({"build", "p", "--static"});
   EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(at("p/build/app.so"))));
   EXPECT_EQ(read("p/build/.gitignore"), "*\n");
   expectHomeUntouched();
