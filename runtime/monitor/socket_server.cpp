@@ -185,6 +185,7 @@ struct SocketServer::Impl {
   /// Somebody wants to come in. When all places are taken, the client that has been silent for the
   /// longest time loses its own, if that was long enough; else one waits for that.
   void answerTheDoor() noexcept {
+    removeDropped(); // who has just left has no place any more
     const int64_t now = task::monotonicNs();
     if (clients.size() < kMostClients) {
       letIn(now);
