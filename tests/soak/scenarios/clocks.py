@@ -46,6 +46,7 @@ last := now;
 cycles := cycles + 1;
 END_PROGRAM
 """
+PRINTED = "Watch.now,Watch.cycles,Watch.wallTime"
 WRONG = ("Watch.backwards", "Watch.uneven", "Watch.wrong")
 
 
@@ -93,9 +94,10 @@ def play(round_):
     manifest.write_text(manifest.read_text().replace('programs = ["PLC_PRG"]', 'programs = ["PLC_PRG", "Watch"]'))
     round_.build(text)
     clock = WallClock(round_)
-    trace = round_.folder / "run.csv"
+    trace, recording = round_.folder / "run.csv", round_.folder / "run.rec"
+    recorded = ["--record", recording] if round_.choose("recorded", rng.random() < 0.5) else []
     run = round_.start(round_.settings.product.host, "run", text / "build" / "app.so", "--listen", "unix:plc.sock", "--trace", ",".join(project.columns()), "--out", trace,
-                       "--print", "Watch.now,Watch.cycles", env=clock.environment, name="run")
+                       "--print", PRINTED, *recorded, env=clock.environment, name="run")
     began = time.monotonic()
     asking = client.connect(round_.folder / "plc.sock", run)
     offset = frozen = 0.0
@@ -117,6 +119,21 @@ def play(round_):
         look(round_, asking, clock, began, watchdog)
     asking.close()
     finish(round_, project, text / "build" / "app.so", run, trace, clock, watchdog)
+    if recorded:
+        replays(round_, project, text / "build" / "app.so", run, trace, recording)
+
+
+def replays(round_, project, app, run, trace, recording):
+    """The recording of the run gives the same rows at the same times, and the same values of what the clock showed."""
+    again = round_.folder / "replay.csv"
+    replay = round_.host("sim", app, "--replay", recording, "--quiet", "--trace", ",".join(project.columns()), "--out", again, "--print", PRINTED)
+    round_.expect(replay.code == run.code, f"the replay of a run with exit code {run.code} ends with {replay.code}: {replay.err[-800:]}")
+    round_.expect(replay.out == run.out, f"the replay prints {replay.out!r}, the run {run.out!r}")
+    rows, expected = invariants.read_trace(again)[1], invariants.read_trace(trace)[1]
+    lost = "lacks" in run.err
+    round_.expect(lost or rows == expected, f"the replay's trace has {len(rows)} rows, the run's {len(expected)}; the first that differs: "
+                                            f"{next(((a, b) for a, b in zip(rows, expected) if a != b), None)}")
+    round_.counts["replays"] += 1
 
 
 def look(round_, asking, clock, began, watchdog):
