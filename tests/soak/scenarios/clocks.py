@@ -10,6 +10,7 @@ import time
 import client
 import invariants
 import motion
+from replay import replays
 
 WATCH = """PROGRAM Watch
 VAR
@@ -120,20 +121,7 @@ def play(round_):
     asking.close()
     finish(round_, project, text / "build" / "app.so", run, trace, clock, watchdog)
     if recorded:
-        replays(round_, project, text / "build" / "app.so", run, trace, recording)
-
-
-def replays(round_, project, app, run, trace, recording):
-    """The recording of the run gives the same rows at the same times, and the same values of what the clock showed."""
-    again = round_.folder / "replay.csv"
-    replay = round_.host("sim", app, "--replay", recording, "--quiet", "--trace", ",".join(project.columns()), "--out", again, "--print", PRINTED)
-    round_.expect(replay.code == run.code, f"the replay of a run with exit code {run.code} ends with {replay.code}: {replay.err[-800:]}")
-    round_.expect(replay.out == run.out, f"the replay prints {replay.out!r}, the run {run.out!r}")
-    rows, expected = invariants.read_trace(again)[1], invariants.read_trace(trace)[1]
-    lost = "lacks" in run.err
-    round_.expect(lost or rows == expected, f"the replay's trace has {len(rows)} rows, the run's {len(expected)}; the first that differs: "
-                                            f"{next(((a, b) for a, b in zip(rows, expected) if a != b), None)}")
-    round_.counts["replays"] += 1
+        replays(round_, text / "build" / "app.so", run, recording, PRINTED, (project.columns(), trace))
 
 
 def look(round_, asking, clock, began, watchdog):
