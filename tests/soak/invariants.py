@@ -67,11 +67,6 @@ def printed(text):
     return dict(line.split(" = ", 1) for line in text.splitlines() if " = " in line)
 
 
-def is_torn(text):
-    """Whether a text file ends in the middle of a line"""
-    return bool(text) and not text.endswith("\n")
-
-
 STATISTICS = re.compile(r"^\s*(\S+)\s+(\d+)\s+(\d+)\s+(\d+)\s", re.MULTILINE)
 
 

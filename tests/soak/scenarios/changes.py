@@ -45,8 +45,8 @@ def simulated(round_, project):
     # Changes in the same cycle would skip a build, and with it a renaming.
     times = [t - t % project.interval_ms + i * project.interval_ms for i, t in enumerate(times)]
     options = []
-    for time, app in zip(times, builds[1:]):
-        options += ["--change", f"{time}ms,{app}"]
+    for at, app in zip(times, builds[1:]):
+        options += ["--change", f"{at}ms,{app}"]
     out = round_.folder / "changed.csv"
     movers = ",".join(f"PLC_PRG.m{a.name}" for a in project.axes)
     ran = round_.host("sim", builds[0], "--for", f"{seconds * 1000}ms", "--quiet", "--trace", ",".join(project.columns()), "--out", out,

@@ -135,7 +135,7 @@ def during_a_run(round_, disk):
         for _ in range(2 if round_.quick else round_.choose("fillings", rng.randint(2, 8))):
             full_for_a_while(round_, disk, run, asking)
         disk.empty()
-        recovers(round_, disk, asking, run, project, traced=what != "messages")
+        saved = recovers(round_, disk, asking, project, traced=what != "messages")
     room = disk.free() > 100_000
     run.stop()
     statistics = disk.folder / "statistics.json"
@@ -144,7 +144,9 @@ def during_a_run(round_, disk):
     # 4: all went well, but not everything was written, which the messages say if there was room for them.
     told = "cannot write" in run.err or "could not be written" in run.err or what == "messages"
     round_.expect(run.code == 0 or (run.code == 4 and told), f"the run ends with exit code {run.code}: {run.err[-1500:]}")
-    at_the_end(round_, project, disk, app, retain, what)
+    kept = retained.look(round_, app, retain, "after a full disk")
+    round_.expect(not saved or (kept or 0) >= saved, f"with room on the disk the retained data were not saved: {kept}, it should be {saved} at least")
+    at_the_end(round_, project, disk, app, what)
 
 
 def full_for_a_while(round_, disk, run, asking):
@@ -160,23 +162,23 @@ def full_for_a_while(round_, disk, run, asking):
         time.sleep(rng.uniform(0, 0.5))
 
 
-def recovers(round_, disk, asking, run, project, traced):
-    """With room again, retained data and the program's files are written. A trace may have taken the room itself."""
+def recovers(round_, disk, asking, project, traced):
+    """With room again, retained data and the program's files are written. A trace may have taken the room itself. The number that
+    must be saved at least."""
     number = asking.read("Other.number")["Other.number"]
     lines = asking.read("Writer.lines")["Writer.lines"]
     wait_until(lambda: asking.read("Other.number")["Other.number"] > number + 50, 30)
-    round_.number_at_recovery = number if disk.free() > 100_000 else 0
-    if disk.free() > 100_000 and not traced:
+    room = disk.free() > 100_000
+    if room and not traced:
         round_.expect(wait_until(lambda: asking.read("Writer.lines")["Writer.lines"] > lines, 30), "the program's file is not written again with room on the disk")
     names = [f"PLC_PRG.m{a.name}.{v}" for a in project.axes for v in ("maxStep", "maxChange", "errors", "moves")]
     values = asking.read(*names)
     invariants.movers_within_limits(round_, project, values, "on a full disk")
+    return number if room else 0
 
 
-def at_the_end(round_, project, disk, app, retain, what):
-    kept = retained.look(round_, app, retain, "after a full disk")
-    round_.expect(kept is None and not round_.number_at_recovery or kept is not None and kept >= round_.number_at_recovery,
-                  f"with room on the disk the retained data were not saved: {kept}, it should be {round_.number_at_recovery} at least")
+def at_the_end(round_, project, disk, app, what):
+    """What was written of the trace or the recording is whole and right."""
     if what == "trace":
         trace = disk.folder / "run.csv"
         columns, rows = invariants.read_trace(trace)
