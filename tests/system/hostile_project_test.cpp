@@ -295,9 +295,8 @@ protected:
       EXPECT_THAT(result.err, HasSubstr("warning[SE0839]"));
   }
   std::string ownName() const { return "tmp/stride-" + std::to_string(::geteuid()); }
-  /// A cache that holds wrong code for this program: that of another one, under all keys.
-  void fillWithWrongCode(const fs::path &folder) {
-    std::vector<fs::path> applications;
+  /// All units and applications of the cache become something else.
+  void damageAll(const fs::path &folder) {
     for (const fs::directory_entry &entry : fs::recursive_directory_iterator(folder))
       if (entry.path().extension() == ".so" || entry.path().extension() == ".o")
         writeFile(entry.path(), "wrong code");
@@ -348,7 +347,7 @@ TEST_F(SharedCache, AFolderWithoutOurMarkIsSomebodyElses) {
 
 TEST_F(SharedCache, WhatIsDamagedIsMadeAnew) {
   succeed({"sim", "p/a.st", "--for", "T#30ms"});
-  fillWithWrongCode(at("cache/stride/v1"));
+  damageAll(at("cache/stride/v1"));
   EXPECT_EQ(stride({"sim", "p/a.st", "--for", "T#30ms", "--print", "PLC_PRG.n"}).out,
             "PLC_PRG.n = 3\n");
   // Cut off, as after a loss of power; one byte of it changed.
