@@ -6,6 +6,7 @@
 #include "compiler/project/installation.hpp"
 #include "compiler/project/library_index.hpp"
 #include "compiler/project/project.hpp"
+#include "compiler/source/render.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -60,6 +61,14 @@ bool has(const std::vector<std::string> &arguments, std::string_view option) {
   return std::find(arguments.begin(), arguments.end(), option) != arguments.end();
 }
 
+// Whether a link in the project leads a path of it elsewhere. stride.toml may name another place
+// outright; a link is not the user's word.
+bool isLedOut(const std::filesystem::path &path, const std::filesystem::path &folder) {
+  const std::filesystem::path from = folder.empty() ? "." : folder;
+  const std::filesystem::path relative = path.lexically_relative(from);
+  return !relative.empty() && *relative.begin() != ".." && leadsOut(from, path);
+}
+
 // Adds `option` with a path of the project, unless the user has given it. False: links of the
 // project lead it elsewhere, which is shown.
 bool addPath(std::vector<std::string> &arguments, const std::string &option,
@@ -67,11 +76,7 @@ bool addPath(std::vector<std::string> &arguments, const std::string &option,
              const Output &output) {
   if (has(arguments, option))
     return true;
-  const std::filesystem::path from = folder.empty() ? "." : folder;
-  const std::filesystem::path relative = path.lexically_relative(from);
-  // stride.toml may name another place outright; a link in the project is not the user's word.
-  const bool below = !relative.empty() && *relative.begin() != "..";
-  if (below && leadsOut(from, path)) {
+  if (isLedOut(path, folder)) {
     showError(
         Code::linkInTheWay,
         fmt::format("`{}` leads out of the project; if that is wanted, name the place with {}",
@@ -138,9 +143,9 @@ int buildCommand(const ProjectOptions &options, const std::string &out, const Bu
   int exitCode = 0;
   const std::optional<BuildResult> result = buildProject(options, build, progress, exitCode);
   if (result && progress.isTerminal())
-    std::fputs(emitCpp ? fmt::format("Written: {}\n", result->application.string()).c_str()
+    std::fputs(emitCpp ? fmt::format("Written: {}\n", visible(result->application.string())).c_str()
                        : fmt::format("Built {} in {:.2f} s ({} of {} units compiled)\n",
-                                     result->application.string(), progress.seconds(),
+                                     visible(result->application.string()), progress.seconds(),
                                      result->compiled, result->units)
                              .c_str(),
                stderr);
@@ -221,7 +226,14 @@ int resetCommand(const ProjectOptions &options, const std::string &kind) {
   const Project project(options.path, Purpose::check, settingsOf(options), index);
   if (project.name().empty())
     return show(project.diagnostics(), project.sources(), options.output);
-  return becomeHost({"reset", kind, retainFileOf(project).string()}, options.output);
+  const std::filesystem::path file = retainFileOf(project);
+  if (isLedOut(file, folderOf(project)))
+    return showError(Code::linkInTheWay,
+                     fmt::format("`{}` leads out of the project; if that is wanted, use `stride-host "
+                                 "reset {} FILE` with the place it leads to",
+                                 file.string(), kind),
+                     options.output);
+  return becomeHost({"reset", kind, file.string()}, options.output);
 }
 
 } // namespace stc::cli

@@ -28,7 +28,9 @@ bool Output::useColor() const {
          (terminal == nullptr || std::string_view(terminal) != "dumb");
 }
 
-void print(const std::string &text) { write(stdout, text); }
+void print(const std::string &text) {
+  write(stdout, ::isatty(STDOUT_FILENO) != 0 ? visible(text, "\n\t") : text);
+}
 
 int show(const std::vector<Diagnostic> &diagnostics, const SourceManager &sources,
          const Output &output) {
@@ -83,7 +85,7 @@ ProgressLine::ProgressLine()
 void ProgressLine::update(std::string_view what, std::size_t done, std::size_t total) {
   if (!terminal_)
     return;
-  write(stderr, fmt::format("\r\x1b[K[{}/{}] {}", done, total, what));
+  write(stderr, fmt::format("\r\x1b[K[{}/{}] {}", done, total, visible(what)));
   std::fflush(stderr);
   shown_ = true;
 }

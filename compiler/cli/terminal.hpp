@@ -24,7 +24,7 @@ struct Output {
   [[nodiscard]] bool useColor() const;
 };
 
-/// Writes the text to standard output.
+/// Writes the text to standard output; to a terminal without control characters.
 void print(const std::string &text);
 
 /// Writes diagnostics, text with a summary line to standard error, JSON (an object a line) to

@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unordered_map>
@@ -30,6 +31,7 @@ constexpr const char *kFixedFlags[] = {"-std=c++20",        "-fPIC",
 
 // In the folder of emitted sources: the names of those that Stride has written there.
 constexpr std::string_view kEmittedList = ".stride-sources";
+constexpr std::uintmax_t kMaxListBytes = 16U << 20U; // of whatever a project ships under that name
 
 std::vector<std::string> compileFlags(const Installation &installation, bool debug) {
   std::vector<std::string> flags(std::begin(kFixedFlags), std::end(kFixedFlags));
@@ -65,10 +67,6 @@ bool isGeneratedName(const fs::path &name) {
     if (part == ".." || part == "/")
       return false;
   return name.extension() == ".cpp" || name.extension() == ".h";
-}
-
-fs::path folderOf(const Project &project) {
-  return project.isSingleFile() ? project.path().parent_path() : project.path();
 }
 
 class Builder {
@@ -126,7 +124,7 @@ private:
       written.insert(file.path);
       list += file.path + '\n';
     }
-    if (const std::optional<std::string> old = folder->read(below / kEmittedList))
+    if (const std::optional<std::string> old = folder->read(below / kEmittedList, kMaxListBytes))
       for (std::string_view rest = *old; !rest.empty();) {
         const std::string name(rest.substr(0, rest.find('\n')));
         rest.remove_prefix(std::min(rest.size(), name.size() + 1));
@@ -371,7 +369,31 @@ private:
     return results[0].status == 0;
   }
 
+  /// What is no defect of Stride's: the folder went away, or there is no room.
+  bool reportSurroundings(const JobResult &result) {
+    std::error_code error;
+    if (!fs::exists(work_->path(), error)) {
+      diagnostics_.report(Code::cannotWrite, {},
+                          fmt::format("`{}` was removed while it was compiled in",
+                                      work_->path().string()))
+          .help("build again");
+      return true;
+    }
+    for (const int reason : {ENOSPC, EDQUOT, EFBIG, EROFS})
+      if (const char *text = ::strerrordesc_np(reason);
+          result.output.find(text) != std::string::npos) {
+        diagnostics_.report(Code::cannotWrite, {},
+                            fmt::format("the C++ compiler cannot write its results: {}", text))
+            .help(fmt::format("it writes to `{}` and to the folder for temporary files, TMPDIR",
+                              work_->path().parent_path().string()));
+        return true;
+      }
+    return false;
+  }
+
   void reportFailure(std::string_view step, const Job &job, const JobResult &result) {
+    if (reportSurroundings(result))
+      return;
     Diagnostic &d = diagnostics_.report(
         Code::compilerFailed, {},
         fmt::format("{} the generated C++ failed: this is a defect of Stride", step));
@@ -424,7 +446,7 @@ private:
     if (!folder || !folder->write(name, *content, 0777))
       return cannotWrite(result.application);
     const fs::path ignore = "build/.gitignore";
-    return folder->read(ignore) || folder->write(ignore, "*\n") ||
+    return folder->hasFile(ignore) || folder->write(ignore, "*\n") ||
            cannotWrite(project_.path() / ignore);
   }
 
@@ -446,6 +468,10 @@ private:
 };
 
 } // namespace
+
+fs::path folderOf(const Project &project) {
+  return project.isSingleFile() ? project.path().parent_path() : project.path();
+}
 
 fs::path retainFileOf(const Project &project) {
   const fs::path folder = folderOf(project);

@@ -53,6 +53,9 @@ struct BuildResult {
 /// Folder of Stride's headers in the line tables of applications.
 inline constexpr std::string_view kHeadersInLineTables = "/stride";
 
+/// The project's folder, or that of the single file.
+[[nodiscard]] std::filesystem::path folderOf(const Project &project);
+
 /// Where `stride run` and `stride reset` look for retained data: as stride.toml says, relative to
 /// the project, or `retain/NAME` in it; beside a single file `NAME.retain`.
 [[nodiscard]] std::filesystem::path retainFileOf(const Project &project);

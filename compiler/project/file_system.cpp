@@ -14,20 +14,13 @@ namespace stc {
 
 namespace fs = std::filesystem;
 
-std::optional<std::string> readFile(const fs::path &path) {
-  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0)
-    return std::nullopt;
-  struct stat status {};
-  std::string text;
-  bool good = ::fstat(fd, &status) == 0;
-  if (good && S_ISDIR(status.st_mode)) {
-    errno = EISDIR;
-    good = false;
-  }
-  if (good)
-    text.resize(status.st_size > 0 ? static_cast<std::size_t>(status.st_size) : 0);
+namespace {
+
+/// Reads and closes; nothing: errno.
+std::optional<std::string> readAndClose(int fd, off_t size) {
+  std::string text(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
   std::size_t filled = 0;
+  bool good = true;
   while (good) {
     if (filled == text.size())
       text.resize(text.size() + 4096); // a pipe, or it grows
@@ -46,6 +39,43 @@ std::optional<std::string> readFile(const fs::path &path) {
     return std::nullopt;
   text.resize(filled);
   return text;
+}
+
+std::optional<std::string> refuse(int fd, int error) {
+  ::close(fd);
+  errno = error;
+  return std::nullopt;
+}
+
+} // namespace
+
+std::optional<std::string> readFile(const fs::path &path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  struct stat status {};
+  if (fd < 0)
+    return std::nullopt;
+  if (::fstat(fd, &status) != 0 || S_ISDIR(status.st_mode))
+    return refuse(fd, S_ISDIR(status.st_mode) ? EISDIR : errno);
+  return readAndClose(fd, status.st_size);
+}
+
+std::optional<std::string> readRegularFile(const fs::path &path, std::uintmax_t limit) {
+  return readRegularFileAt(AT_FDCWD, path.string(), limit);
+}
+
+std::optional<std::string> readRegularFileAt(int folder, const std::string &name,
+                                             std::uintmax_t limit) {
+  const int fd = ::openat(folder, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  struct stat status {};
+  if (fd < 0)
+    return std::nullopt;
+  if (::fstat(fd, &status) != 0)
+    return refuse(fd, errno);
+  if (!S_ISREG(status.st_mode))
+    return refuse(fd, EINVAL);
+  if (static_cast<std::uintmax_t>(status.st_size) > limit)
+    return refuse(fd, EFBIG);
+  return readAndClose(fd, status.st_size);
 }
 
 namespace {

@@ -1,6 +1,7 @@
 #include "compiler/project/format_project.hpp"
 
 #include "compiler/project/config.hpp"
+#include "compiler/project/file_system.hpp"
 #include "compiler/project/project.hpp"
 #include "compiler/project/schema.hpp"
 #include "compiler/source/read_source.hpp"

@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <string_view>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -22,6 +23,23 @@ struct Running {
   std::size_t job;
   pid_t pid;
   int output; // read end of its pipe
+};
+
+/// The environment, but for the language: messages are looked at, and shown in reports of defects.
+class JobEnvironment {
+public:
+  JobEnvironment() {
+    for (char **variable = environ; *variable != nullptr; ++variable)
+      if (!std::string_view(*variable).starts_with("LC_ALL="))
+        variables_.push_back(*variable);
+    variables_.push_back(language_.data());
+    variables_.push_back(nullptr);
+  }
+  [[nodiscard]] char *const *get() const { return variables_.data(); }
+
+private:
+  std::string language_ = "LC_ALL=C";
+  std::vector<char *> variables_;
 };
 
 // Starts the command with both output streams in a pipe.
@@ -42,8 +60,9 @@ bool start(const Job &job, Running &running, JobResult &result) {
   for (const std::string &argument : job.command)
     arguments.push_back(const_cast<char *>(argument.c_str())); // NOLINT: the C interface
   arguments.push_back(nullptr);
-  const int error =
-      ::posix_spawnp(&running.pid, arguments[0], &actions, nullptr, arguments.data(), environ);
+  const JobEnvironment environment;
+  const int error = ::posix_spawnp(&running.pid, arguments[0], &actions, nullptr,
+                                   arguments.data(), environment.get());
   posix_spawn_file_actions_destroy(&actions);
   ::close(ends[1]);
   if (error != 0) {

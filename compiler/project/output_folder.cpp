@@ -4,7 +4,6 @@
 
 #include <cerrno>
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -88,22 +87,25 @@ bool OutputFolder::write(const fs::path &name, std::string_view text, unsigned m
   return good;
 }
 
-std::optional<std::string> OutputFolder::read(const fs::path &name) const {
+std::optional<std::string> OutputFolder::read(const fs::path &name, std::uintmax_t limit) const {
   const int parent = parentOf(name, false);
   if (parent < 0)
     return std::nullopt;
-  const int fd =
-      ::openat(parent, name.filename().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  std::optional<std::string> text = readRegularFileAt(parent, name.filename().string(), limit);
   closeKeepingError(parent);
-  struct stat status {};
-  if (fd < 0 || ::fstat(fd, &status) != 0 || !S_ISREG(status.st_mode)) {
-    if (fd >= 0)
-      ::close(fd);
-    return std::nullopt;
-  }
-  std::optional<std::string> text = readFile(fmt::format("/proc/self/fd/{}", fd));
-  closeKeepingError(fd);
   return text;
+}
+
+bool OutputFolder::hasFile(const fs::path &name) const {
+  const int parent = parentOf(name, false);
+  struct stat status {};
+  const bool good =
+      parent >= 0 &&
+      ::fstatat(parent, name.filename().c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+      S_ISREG(status.st_mode);
+  if (parent >= 0)
+    closeKeepingError(parent);
+  return good;
 }
 
 bool OutputFolder::remove(const fs::path &name) const {

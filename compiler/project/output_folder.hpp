@@ -1,6 +1,7 @@
 #pragma once
 // Writing below a folder that somebody else has filled.
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -24,8 +25,11 @@ public:
   /// False on failure (errno): ELOOP where one of them is a link.
   [[nodiscard]] bool write(const std::filesystem::path &name, std::string_view text,
                            unsigned mode = 0666) const;
-  /// The contents of a file; nothing when it is none, or a link or below one (errno).
-  [[nodiscard]] std::optional<std::string> read(const std::filesystem::path &name) const;
+  /// The contents of a file; nothing when it is none, or a link or below one, or has more bytes
+  /// (errno).
+  [[nodiscard]] std::optional<std::string> read(const std::filesystem::path &name,
+                                                std::uintmax_t limit) const;
+  [[nodiscard]] bool hasFile(const std::filesystem::path &name) const;
   /// Removes a file, or a link. False on failure (errno).
   [[nodiscard]] bool remove(const std::filesystem::path &name) const;
 

@@ -93,7 +93,8 @@ void Project::load(const fs::path &given) {
 void Project::loadFolder() {
   std::error_code error;
   const fs::path manifest = path_ / kManifest;
-  if (fs::exists(manifest, error)) {
+  // A link that leads nowhere, or to itself, was meant to be one, too.
+  if (fs::exists(fs::symlink_status(manifest, error))) {
     if (const std::optional<FileId> id = program_.sources.load(manifest, std::string(kManifest)))
       tomlFile_ = *id;
     else

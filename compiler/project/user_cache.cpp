@@ -10,6 +10,8 @@
 #include <cstdlib>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <grp.h>
+#include <pwd.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <system_error>
@@ -62,17 +64,79 @@ std::string whyNotPrivate(const fs::path &folder) {
   return {};
 }
 
-/// Whether somebody else could put another folder in the place of one that lies in it.
-bool othersMayRenameIn(const fs::path &folder) {
-  struct stat status {};
-  if (::stat(folder.c_str(), &status) != 0)
-    return true;
-  const bool trusted = status.st_uid == ::geteuid() || status.st_uid == 0;
-  return !trusted || ((status.st_mode & S_IWOTH) != 0 && (status.st_mode & S_ISVTX) == 0);
+/// Whether nobody is in the group but the user: it has the user's name, as many systems make one
+/// for each user, or root's.
+bool isOwnGroup(gid_t id) {
+  const struct group *group = ::getgrgid(id);
+  if (group == nullptr)
+    return false;
+  const std::string name = group->gr_name;
+  const struct passwd *user = ::getpwuid(::geteuid());
+  const std::string own = user != nullptr ? user->pw_name : "root";
+  const auto isTrusted = [&own](std::string_view one) { return one == own || one == "root"; };
+  bool good = isTrusted(name);
+  for (char **member = group->gr_mem; good && *member != nullptr; ++member)
+    good = isTrusted(*member);
+  return good;
+}
+
+/// Whether somebody else could put something else in the place of what lies in the folder.
+/// Whoever owns `/` has everything anyway.
+bool othersMayRenameIn(const struct stat &folder) {
+  struct stat all {};
+  const bool trusted = folder.st_uid == ::geteuid() || folder.st_uid == 0 ||
+                       (::stat("/", &all) == 0 && folder.st_uid == all.st_uid);
+  const bool sticky = (folder.st_mode & S_ISVTX) != 0;
+  const bool others = (folder.st_mode & S_IWOTH) != 0 ||
+                      ((folder.st_mode & S_IWGRP) != 0 && !isOwnGroup(folder.st_gid));
+  return !trusted || (others && !sticky);
+}
+
+/// Puts the parts of a path before those that are still to be gone.
+void goNext(std::vector<fs::path> &pending, const fs::path &path) {
+  const std::vector<fs::path> parts(path.begin(), path.end());
+  pending.insert(pending.end(), parts.rbegin(), parts.rend());
+}
+
+/// Why somebody else could put another folder in the place of what lies in this one: each folder on
+/// the way, and each that a link on the way leads through, is looked at. Empty: nobody can.
+std::string whyReplaceable(const fs::path &folder) {
+  constexpr int kMostLinks = 40; // as the kernel
+  std::vector<fs::path> pending;
+  std::error_code error;
+  goNext(pending, fs::absolute(folder, error));
+  fs::path real;
+  for (int links = 0; !pending.empty();) {
+    const fs::path part = std::move(pending.back());
+    pending.pop_back();
+    const fs::path next = part == ".." ? real.parent_path() : real / part;
+    struct stat status {};
+    if (::lstat(next.c_str(), &status) != 0)
+      return fmt::format("`{}`: {}", next.string(), lastError());
+    // In a folder with S_ISVTX anybody may have made the link.
+    const bool isOwn = status.st_uid == ::geteuid() || status.st_uid == 0;
+    if (S_ISLNK(status.st_mode) && (!isOwn || ++links > kMostLinks))
+      return fmt::format("the link `{}` is not to be trusted", next.string());
+    if (S_ISLNK(status.st_mode)) {
+      goNext(pending, fs::read_symlink(next, error));
+    } else if (!S_ISDIR(status.st_mode) || othersMayRenameIn(status)) {
+      return fmt::format("others may replace what is in `{}`", next.string());
+    } else {
+      real = next;
+    }
+  }
+  return {};
 }
 
 bool makeFolder(const fs::path &folder) {
   return ::mkdir(folder.c_str(), kForUser) == 0 || errno == EEXIST;
+}
+
+/// Also the folders it lies in; whatever the umask is, they are the user's alone.
+bool makeFolders(const fs::path &folder) {
+  std::error_code error;
+  return fs::is_directory(folder, error) ||
+         (folder.has_relative_path() && makeFolders(folder.parent_path()) && makeFolder(folder));
 }
 
 /// Makes a folder with the mark; it appears with it or not at all.
@@ -92,12 +156,10 @@ bool makeMarked(const fs::path &folder) {
 
 /// The folder with the mark in `root`, made if needed; returns what is wrong with it.
 std::string openIn(const fs::path &root) {
-  std::error_code ignored; // the next step says what is wrong
-  fs::create_directories(root.parent_path(), ignored);
-  if (!makeFolder(root))
+  if (!makeFolders(root.parent_path()) || !makeFolder(root))
     return lastError();
-  if (othersMayRenameIn(root.parent_path()))
-    return fmt::format("others may replace what is in `{}`", root.parent_path().string());
+  if (std::string problem = whyReplaceable(root.parent_path()); !problem.empty())
+    return problem;
   if (std::string problem = whyNotPrivate(root); !problem.empty())
     return problem;
   const fs::path folder = root / kVersion;
@@ -106,14 +168,16 @@ std::string openIn(const fs::path &root) {
     return lastError();
   if (std::string problem = whyNotPrivate(folder); !problem.empty())
     return fmt::format("`{}`: {}", folder.string(), problem);
-  if (readFile(folder / kTagName) != kTag)
+  if (readRegularFile(folder / kTagName) != kTag)
     return fmt::format("`{}` does not carry Stride's mark", folder.string());
   return {};
 }
 
+constexpr const char *kTemporary = "/tmp";
+
 fs::path temporaryFolder() {
   const char *folder = std::getenv("TMPDIR");
-  return folder != nullptr && *folder == '/' ? folder : "/tmp";
+  return folder != nullptr && *folder == '/' ? folder : kTemporary;
 }
 
 fs::path usersRoot() {
@@ -143,11 +207,21 @@ void removeAbandoned(const fs::path &folder, std::string_view prefix) {
 
 /// A root that is nobody else's, for as long as the folder for temporary files keeps it: what is
 /// in it is run after this process has become another one.
+/// Empty when there can be none (errno).
 fs::path privateRoot() {
   const std::string prefix = fmt::format("stride-{}-", ::geteuid());
-  removeAbandoned(temporaryFolder(), prefix);
-  std::string name = (temporaryFolder() / (prefix + "XXXXXX")).string();
-  return ::mkdtemp(name.data()) != nullptr ? fs::path(name) : fs::path();
+  for (const fs::path &folder : {temporaryFolder(), fs::path(kTemporary)}) {
+    removeAbandoned(folder, prefix);
+    std::string name = (folder / (prefix + "XXXXXX")).string();
+    if (::mkdtemp(name.data()) == nullptr)
+      continue;
+    if (openIn(name).empty())
+      return name;
+    std::error_code ignored;
+    fs::remove_all(name, ignored);
+    errno = EACCES; // others may write there
+  }
+  return {};
 }
 
 /// The text without its seal, or nothing.
@@ -162,7 +236,7 @@ std::optional<std::string_view> unseal(std::string_view text) {
 }
 
 bool copyFile(const fs::path &from, const fs::path &to) {
-  const std::optional<std::string> text = readFile(from);
+  const std::optional<std::string> text = readRegularFile(from);
   struct stat status {};
   return text && ::stat(from.c_str(), &status) == 0 && writeFile(to, *text, status.st_mode & 0777);
 }
@@ -190,7 +264,7 @@ std::optional<UserCache> UserCache::open() {
     return UserCache(root / kVersion, {});
   }
   const fs::path other = privateRoot();
-  if (other.empty() || !openIn(other).empty())
+  if (other.empty())
     return std::nullopt;
   return UserCache(other / kVersion, fmt::format("`{}` is not used: {}", root.string(), problem));
 }
@@ -214,7 +288,8 @@ bool UserCache::has(std::string_view key, std::string_view kind) const {
     return false;
   if (unsealed(path))
     return true;
-  ::unlink(path.c_str());
+  std::error_code ignored; // whatever it is, be it a folder
+  fs::remove_all(path, ignored);
   return false;
 }
 
@@ -224,7 +299,7 @@ bool UserCache::fetch(std::string_view key, std::string_view kind, const fs::pat
 }
 
 bool UserCache::publish(std::string_view key, std::string_view kind, const fs::path &from) const {
-  const std::optional<std::string> content = readFile(from);
+  const std::optional<std::string> content = readRegularFile(from);
   struct stat status {};
   if (!content || ::stat(from.c_str(), &status) != 0)
     return false;
@@ -234,7 +309,7 @@ bool UserCache::publish(std::string_view key, std::string_view kind, const fs::p
 }
 
 std::optional<std::string> UserCache::unsealed(const fs::path &path) {
-  std::optional<std::string> text = readFile(path);
+  std::optional<std::string> text = readRegularFile(path);
   if (!text)
     return std::nullopt;
   const std::optional<std::string_view> content = unseal(*text);
@@ -245,7 +320,7 @@ std::optional<std::string> UserCache::unsealed(const fs::path &path) {
 }
 
 std::optional<std::string> UserCache::note(std::string_view key) const {
-  return readFile(folder_ / "notes" / key);
+  return readRegularFile(folder_ / "notes" / key);
 }
 
 void UserCache::setNote(std::string_view key, std::string_view text) const {

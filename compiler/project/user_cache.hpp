@@ -46,7 +46,8 @@ private:
 
 /// The user's cache of Stride: `$XDG_CACHE_HOME/stride`, `~/.cache/stride`, or `stride-UID` in the
 /// folder for temporary files. It is used only where it belongs to the user, nobody else may write
-/// it and it is no link; otherwise a private folder for temporary files takes its place. In it is a
+/// it or put something else in its place, and it is no link; otherwise a private folder for
+/// temporary files takes its place. In it is a
 /// folder `v1` that carries a mark (CACHEDIR.TAG): nothing outside of that is written or removed.
 ///
 /// Files of the store have names that say what they were made from (a ContentHash) and end with a

@@ -52,15 +52,15 @@ std::size_t widthOf(std::string_view text) {
 }
 
 /// A part of a line, without tabs and control characters.
-std::string shown(std::string_view text) {
+std::string excerptOf(std::string_view line) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : line) {
     if (c == '\t')
       out.append(kTab, ' ');
     else
-      out += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c;
+      out += c;
   }
-  return out;
+  return visible(out);
 }
 
 /// One marked range on one line, in bytes of that line.
@@ -156,7 +156,7 @@ private:
     out_ += "[" + codeName(diagnostic_.code) + "]";
     out_ += style_.reset;
     out_ += style_.bold;
-    out_ += ": " + diagnostic_.message;
+    out_ += ": " + visible(diagnostic_.message);
     out_ += style_.reset;
     out_ += '\n';
   }
@@ -183,7 +183,7 @@ private:
     out_ += style_.frame;
     out_ += isFirst ? "--> " : "::: ";
     out_ += style_.reset;
-    out_ += source.name() + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) +
+    out_ += visible(source.name()) + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) +
             "\n";
     bar();
     out_ += '\n';
@@ -223,7 +223,7 @@ private:
         ++to;
     }
     bar(std::to_string(number));
-    const std::string excerpt = shown(line.substr(from, to - from));
+    const std::string excerpt = excerptOf(line.substr(from, to - from));
     if (!line.empty()) {
       out_ += ' ';
       out_ += from > 0 ? "…" : "";
@@ -310,7 +310,7 @@ private:
 
   void paint(const Mark &mark, std::string_view text) {
     out_ += mark.primary ? severityStyle() : style_.frame;
-    out_ += text;
+    out_ += visible(text);
     out_ += style_.reset;
   }
 
@@ -333,10 +333,10 @@ private:
       // Further lines are aligned under the first.
       std::size_t at = 0;
       for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', at)) {
-        out_ += text.substr(at, end - at) + "\n" + std::string(gutter_ + 5 + kind.size(), ' ');
+        out_ += visible(std::string_view(text).substr(at, end - at)) + "\n" + std::string(gutter_ + 5 + kind.size(), ' ');
         at = end + 1;
       }
-      out_ += text.substr(at) + "\n";
+      out_ += visible(std::string_view(text).substr(at)) + "\n";
     };
     for (const std::string &note : diagnostic_.notes)
       line("note", note);
@@ -353,6 +353,22 @@ private:
 };
 
 } // namespace
+
+std::string visible(std::string_view text, std::string_view kept) {
+  std::string out(text);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const auto byte = [&](std::size_t at) {
+      return at < out.size() ? static_cast<unsigned char>(out[at]) : 0U;
+    };
+    if (kept.find(out[i]) != std::string_view::npos)
+      continue;
+    if (byte(i) < 0x20 || byte(i) == 0x7F)
+      out[i] = '?';
+    else if (byte(i) == 0xC2 && byte(i + 1) >= 0x80 && byte(i + 1) < 0xA0) // U+0080 to U+009F
+      out.replace(i, 2, "?");
+  }
+  return out;
+}
 
 std::string renderText(const Diagnostic &diagnostic, const SourceManager &sources,
                        const RenderOptions &options) {

@@ -5,8 +5,13 @@
 #include "compiler/source/source_manager.hpp"
 
 #include <string>
+#include <string_view>
 
 namespace stc {
+
+/// The text with a `?` for each control character (U+0000 to U+001F, U+007F to U+009F) but those in
+/// `kept`: names of files and texts of a project must not command the user's terminal.
+[[nodiscard]] std::string visible(std::string_view text, std::string_view kept = {});
 
 struct RenderOptions {
   bool color = false; ///< ANSI colours

@@ -85,6 +85,12 @@ std::vector<std::byte> encodeImage(const RetainHead &head, std::span<const std::
   return out.take();
 }
 
+bool mayBeImage(std::span<const std::byte> bytes) {
+  const std::span<const std::byte> begin = bytes.first(std::min(bytes.size(), kMagic.size()));
+  return std::memcmp(begin.data(), kMagic.data(), begin.size()) == 0 ||
+         std::all_of(begin.begin(), begin.end(), [](std::byte b) { return b == std::byte{0}; });
+}
+
 RetainImage decodeImage(std::span<const std::byte> bytes, bool checked) {
   if (bytes.size() < kFrame)
     throw Error("it ends too early");

@@ -45,6 +45,10 @@ public:
   using Error::Error;
 };
 
+/// Whether a file with these bytes may be an image, a part of one, or what a lost write has left of
+/// one: it is empty, or begins as images do or with zeros.
+bool mayBeImage(std::span<const std::byte> bytes);
+
 /// Throws Error when the bytes are not a complete image, RetainVersionError when a newer Stride
 /// wrote them. `checked` false: without comparing the checksum, for tests of what lies behind it.
 RetainImage decodeImage(std::span<const std::byte> bytes, bool checked = true);

@@ -173,7 +173,19 @@ void RetainStore::save(const std::string &application, uint64_t buildHash,
   nextIsB_ = !nextIsB_;
 }
 
+/// A name that a project has given may be that of somebody's photograph.
+void RetainStore::refuseOthers() const {
+  for (const char *ending : {".a", ".b", ".new"}) {
+    std::vector<std::byte> bytes;
+    if (files_->read(file_ + ending, bytes) == 0 && !mayBeImage(bytes))
+      throw Error(fmt::format("'{}{}' does not begin as retained data do, so nothing is removed\n"
+                              "  remove it yourself if it is not needed",
+                              file_, ending));
+  }
+}
+
 void RetainStore::clear() {
+  refuseOthers();
   // What cannot be read counts as older than all else.
   std::array<std::pair<uint64_t, std::string>, 2> images;
   for (std::size_t i = 0; i < images.size(); ++i) {

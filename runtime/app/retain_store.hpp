@@ -56,7 +56,8 @@ public:
             std::span<const std::byte> values);
 
   /// Removes all images, the newest last: up to that moment it is what a start would find. Throws
-  /// Error, also when it is not certain that they are gone for good.
+  /// Error: it is not certain that they are gone for good; a file that was never an image stands in
+  /// the place of one, and all are left.
   void clear();
 
   /// Of the last image that was loaded or saved.
@@ -64,6 +65,7 @@ public:
   const std::string &file() const { return file_; }
 
 private:
+  void refuseOthers() const;
   [[noreturn]] void fail(const char *what, const std::string &path, int error) const;
 
   std::string file_;

@@ -3,6 +3,7 @@
 #include "runtime/app/error.hpp"
 #include "runtime/host/exit_code.hpp"
 #include "runtime/host/options.hpp"
+#include "runtime/host/output.hpp"
 #include "runtime/monitor/socket_client.hpp"
 
 #include <CLI/CLI.hpp>
@@ -28,7 +29,7 @@ using nlohmann::json;
 /// What cannot be printed shows in the exit code.
 template <class... Values>
 void put(std::FILE *to, fmt::format_string<Values...> format, Values &&...values) {
-  const std::string text = fmt::format(format, std::forward<Values>(values)...);
+  const std::string text = shownOn(to, fmt::format(format, std::forward<Values>(values)...));
   std::fwrite(text.data(), 1, text.size(), to);
 }
 
@@ -212,14 +213,17 @@ void Control::Impl::recordRows(SocketClient &client) const {
       throw app::Error(fmt::format("cannot write '{}'", out));
   }
   std::ostream &to = file.is_open() ? static_cast<std::ostream &>(file) : std::cout;
+  const auto shown = [&](const json &line) {
+    return file.is_open() ? line.get<std::string>() : shownOn(stdout, line.get<std::string>());
+  };
   for (uint64_t row = 0;;) {
     json next = request("record_read");
     next["from"] = row;
     const json page = client.ask(next);
     if (row == 0)
-      to << page.at("header").get<std::string>() << '\n';
+      to << shown(page.at("header")) << '\n';
     for (const json &line : page.at("lines"))
-      to << line.get<std::string>() << '\n';
+      to << shown(line) << '\n';
     row += page.at("lines").size();
     if (page.at("lines").empty() || row >= page.at("rows").get<uint64_t>())
       break;

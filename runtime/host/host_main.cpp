@@ -9,6 +9,7 @@
 #include "runtime/host/retain_reset.hpp"
 #include "runtime/host/simulation.hpp"
 #include "runtime/host/test_run.hpp"
+#include "runtime/system/standard_handles.hpp"
 #include "runtime/task/fatal.hpp"
 
 #include <CLI/CLI.hpp>
@@ -287,11 +288,11 @@ int simulateFrom(const SimTexts &texts, const StrideAppV1 *builtIn, Messages &me
   return simulate(loadApplication(builtIn, options.application), options, messages);
 }
 
-/// A run outlives who reads its messages, the largest file that it may write, and the signals that
-/// it is sent before it can take them.
+/// A run outlives who reads its messages, a terminal that stops those who write in the background,
+/// the largest file that it may write, and the signals that it is sent before it can take them.
 void prepareSignals() {
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int signal : {SIGPIPE, SIGTTOU, SIGXFSZ})
+    std::signal(signal, SIG_IGN);
   ::sigset_t signals;
   ::sigemptyset(&signals);
   ::sigaddset(&signals, SIGUSR1);
@@ -395,6 +396,7 @@ int command(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
 } // namespace
 
 int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
+  system::openStandardHandles();
   const task::FatalReport lastWords(kExitFatal);
   try {
     return command(argc, argv, builtIn);

@@ -48,7 +48,7 @@ void Messages::say(std::initializer_list<std::string_view> parts) noexcept {
 
 void Messages::show(std::string_view text) noexcept {
   const std::lock_guard lock(mutex_);
-  if (lost_ == 0 && output_.append(text))
+  if (lost_ == 0 && output_.appendControls(text))
     push();
 }
 

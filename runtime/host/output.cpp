@@ -17,6 +17,24 @@
 
 namespace stride::host {
 
+/// In place, so that nothing gets longer. U+0080 to U+009F are two bytes.
+void hideControls(std::string &text, std::size_t from) noexcept {
+  for (std::size_t i = from; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const unsigned before = i == 0 ? 0U : static_cast<unsigned char>(text[i - 1]);
+    if ((byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7F)
+      text[i] = '?';
+    else if (before == 0xC2 && byte >= 0x80 && byte < 0xA0)
+      text[i - 1] = text[i] = '?';
+  }
+}
+
+std::string shownOn(std::FILE *file, std::string text) {
+  if (::isatty(::fileno(file)) != 0)
+    hideControls(text);
+  return text;
+}
+
 Output::Output(const std::string &path, std::size_t capacity, Wait wait)
     : wait_(wait), capacity_(capacity) {
   text_.reserve(capacity);
@@ -34,6 +52,7 @@ Output::Output(const std::string &path, std::size_t capacity, Wait wait)
 Output::Output(int handle, std::size_t capacity, Wait wait)
     : handle_(handle), wait_(wait), capacity_(capacity) {
   text_.reserve(capacity);
+  isTerminal_ = ::isatty(handle) != 0;
   struct ::stat about {};
   if (wait == Wait::Always || ::fstat(handle, &about) != 0)
     return;
@@ -58,6 +77,7 @@ bool Output::room(std::size_t size) noexcept {
   if (capacity_ - text_.size() >= size)
     return true;
   text_.erase(0, written_);
+  screened_ -= std::min(screened_, written_);
   written_ = 0;
   return capacity_ - text_.size() >= size;
 }
@@ -84,6 +104,20 @@ bool Output::append(std::string_view text) noexcept {
   return true;
 }
 
+bool Output::appendControls(std::string_view text) noexcept {
+  if (isTerminal_)
+    screen();
+  if (!append(text))
+    return false;
+  screened_ = text_.size();
+  return true;
+}
+
+void Output::screen() noexcept {
+  hideControls(text_, std::max(screened_, written_));
+  screened_ = text_.size();
+}
+
 /// As ::write().
 long Output::writeSome(std::string_view text) const noexcept {
   if (isSocket_)
@@ -103,6 +137,8 @@ bool Output::waitForReader(int limitMs) const noexcept {
 }
 
 bool Output::advance() noexcept {
+  if (isTerminal_)
+    screen();
   while (error_ == 0 && !empty()) {
     const long done = writeSome(rest());
     if (done > 0) {
@@ -123,6 +159,7 @@ bool Output::advance() noexcept {
     return false;
   text_.clear();
   written_ = 0;
+  screened_ = 0;
   return error_ == 0;
 }
 
@@ -138,6 +175,7 @@ void Output::forgive() noexcept {
   error_ = 0;
   text_.clear();
   written_ = 0;
+  screened_ = 0;
 }
 
 bool Output::finish(std::chrono::milliseconds patience) noexcept {

@@ -5,10 +5,18 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <string>
 #include <string_view>
 
 namespace stride::host {
+
+/// Shows control characters, but line ends and tabs, as `?` from `from` on: names of files and values
+/// of variables must not command a terminal.
+void hideControls(std::string &text, std::size_t from = 0) noexcept;
+
+/// The text as the file may show it: to a terminal without control characters.
+std::string shownOn(std::FILE *file, std::string text);
 
 /// Text that waits in memory until it is written. Once it exists, nothing throws or allocates, and
 /// what cannot be written is no exception but an error() to look at: whoever writes for a running
@@ -40,6 +48,9 @@ public:
   /// Appends all of it, in pieces if need be. With Wait::Never false, and nothing of it is there,
   /// when there is no room.
   bool append(std::string_view text) noexcept;
+  /// As append(), for text that moves the cursor on purpose: all other control characters, but line
+  /// ends and tabs, are shown to a terminal as `?`. They come from the application.
+  bool appendControls(std::string_view text) noexcept;
   bool empty() const noexcept { return text_.size() == written_; }
   /// What is not written yet.
   std::string_view rest() const noexcept { return std::string_view(text_).substr(written_); }
@@ -58,6 +69,7 @@ public:
   bool finish(std::chrono::milliseconds patience = kPatience) noexcept;
 
 private:
+  void screen() noexcept;
   long writeSome(std::string_view text) const noexcept;
   bool waitForReader(int limitMs) const noexcept;
 
@@ -69,6 +81,8 @@ private:
   std::size_t capacity_;
   std::string text_;
   std::size_t written_ = 0;
+  bool isTerminal_ = false;
+  std::size_t screened_ = 0; ///< So much of the text is fit for a terminal.
   int error_ = 0;
 };
 

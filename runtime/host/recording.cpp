@@ -21,6 +21,10 @@ constexpr std::size_t kRing = std::size_t{8} << 20;
 constexpr std::size_t kBlockPiece = std::size_t{64} << 10;
 constexpr uint64_t kMagic = 0x32434552'44525453; // "STRDREC2"
 
+app::Error cutOffTooEarly(const std::string &path) {
+  return app::Error(fmt::format("'{}' is cut off before its first cycle: there is nothing to replay", path));
+}
+
 /// The file is a row of blocks; whole records are in each.
 struct BlockHead {
   uint64_t size = 0;     ///< Of what follows.
@@ -264,7 +268,7 @@ Replay::Replay(const std::string &path, const app::Application &application,
         fmt::format("'{}' cannot be replayed: the state lies at another address", path));
   const std::size_t left = data_.size() - at_;
   if (left < header.scriptNameSize || left - header.scriptNameSize < app.stateSize)
-    throw app::Error(fmt::format("'{}' is cut off", path));
+    throw cutOffTooEarly(path);
   std::string name(header.scriptNameSize, '\0');
   take(name.data(), name.size());
   if (script == nullptr && !name.empty())
@@ -314,7 +318,7 @@ void Replay::readBlocks() {
     at += head.size;
   }
   if (data_.empty() && all.size() >= sizeof(BlockHead) + sizeof kMagic)
-    throw app::Error(fmt::format("'{}' is cut off", path_));
+    throw cutOffTooEarly(path_);
 }
 
 /// The last records: the end, and the exception, if one stopped the run; an endless loop must be

@@ -7,6 +7,7 @@
 #include "runtime/host/exit_code.hpp"
 #include "runtime/host/instance.hpp"
 #include "runtime/host/io_hooks.hpp"
+#include "runtime/host/output.hpp"
 #include "runtime/host/st_backtrace.hpp"
 #include "runtime/host/system_services.hpp"
 #include "runtime/host/test_report.hpp"
@@ -210,7 +211,7 @@ private:
 };
 
 /// What cannot be printed shows in the exit code.
-void tell(const std::string &text) { std::fputs(text.c_str(), stdout); }
+void tell(const std::string &text) { std::fputs(shownOn(stdout, text).c_str(), stdout); }
 
 void writeReport(const std::string &path, const std::string &text) {
   std::ofstream out(path, std::ios::binary);
