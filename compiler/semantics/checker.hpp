@@ -91,6 +91,7 @@ private:
   static EnumeratorSymbol *findEnumerator(const EnumType *type, Ident id);
   VarSymbol *findMember(const Type *type, Ident id);
   std::vector<std::string_view> visibleNames(bool types);
+  std::string_view similarName(const ast::Name &name, bool asType);
   std::vector<std::string_view> memberNames(const Type *type);
   bool reportUnqualified(const ast::Name &name, const Type *expected);
   void reportUnknown(const ast::Name &name, bool asType);
@@ -385,8 +386,11 @@ private:
   void checkJumps(ast::Block body);
   void checkTry(ast::TryStmt *stmt);
 
+  [[nodiscard]] bool keepsErrors() const {
+    return program_.diagnostics.errorCount() < errorLimit_;
+  }
   Diagnostic &report(Code code, Span where, std::string message, std::string label = {}) {
-    if (program_.diagnostics.errorCount() >= errorLimit_) {
+    if (!keepsErrors()) {
       notKept_ = {};
       return notKept_;
     }
@@ -398,6 +402,7 @@ private:
 
   Program &program_;
   std::size_t errorLimit_; ///< so many errors are kept
+  std::size_t namesLookedAt_ = 0; ///< for names that are similar to unknown ones
   Diagnostic notKept_;     ///< takes the others
   Arena &arena_;
   const LibraryIndex &index_;

@@ -340,10 +340,23 @@ bool Checker::reportUnqualified(const Name &name, const Type *expected) {
   return true;
 }
 
+/// Empty also when there have been so many mistakes in so large a program that looking for what was
+/// meant would take longer than the check.
+std::string_view Checker::similarName(const Name &name, bool asType) {
+  constexpr std::size_t kMostLooks = 2'000'000;
+  if (namesLookedAt_ >= kMostLooks)
+    return {};
+  const std::vector<std::string_view> names = visibleNames(asType);
+  namesLookedAt_ += names.size();
+  return nearest(name.text, names);
+}
+
 void Checker::reportUnknown(const Name &name, bool asType) {
   if (!asType) {
     if (!unknown_.emplace(scope_.pou, name.id).second)
       return; // one missing declaration is one mistake
+    if (!keepsErrors())
+      return; // nobody would see what is found out for it
     if (reportSelf(name))
       return;
   }
@@ -372,7 +385,7 @@ void Checker::reportUnknown(const Name &name, bool asType) {
   }
   if (helpElsewhere(d, name, asType))
     return;
-  const std::string_view similar = nearest(name.text, visibleNames(asType));
+  const std::string_view similar = similarName(name, asType);
   if (!similar.empty())
     d.suggest("a similar name exists: `" + std::string(similar) + "`", name.span,
               std::string(similar));

@@ -1,23 +1,27 @@
 #include "compiler/semantics/suggest.hpp"
 
 #include <algorithm>
-#include <cctype>
+#include <array>
 #include <cstddef>
 
 namespace stc {
 
 namespace {
 
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 /// Edits (insert, delete, replace, swap of neighbours) from a to b, or `limit + 1` when there are
 /// more.
 std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) {
   const std::size_t n = a.size();
   const std::size_t m = b.size();
-  if ((n > m ? n - m : m - n) > limit)
+  constexpr std::size_t kLongest = 255; // no name is longer
+  if ((n > m ? n - m : m - n) > limit || m > kLongest)
     return limit + 1;
-  std::vector<std::size_t> before(m + 1), previous(m + 1), current(m + 1);
+  std::array<std::array<std::size_t, kLongest + 1>, 3> rows;
+  std::size_t *before = rows[0].data();
+  std::size_t *previous = rows[1].data();
+  std::size_t *current = rows[2].data();
   for (std::size_t j = 0; j <= m; ++j)
     previous[j] = j;
   for (std::size_t i = 1; i <= n; ++i) {
@@ -29,6 +33,9 @@ std::size_t distance(std::string_view a, std::string_view b, std::size_t limit) 
           lower(a[i - 2]) == lower(b[j - 1]))
         current[j] = std::min(current[j], before[j - 2] + 1);
     }
+    if (*std::min_element(current, current + m + 1) > limit &&
+        *std::min_element(previous, previous + m + 1) > limit)
+      return limit + 1; // it does not get less
     std::swap(before, previous);
     std::swap(previous, current);
   }

@@ -12,6 +12,21 @@ namespace {
 /// After that many errors the rest of a file is not looked at.
 constexpr std::size_t kMaxErrors = 100;
 
+/// A token and what becomes of it takes about 360 bytes while a unit is parsed.
+constexpr std::size_t kMaxTokens = 4'000'000;
+
+/// Where the first token is that is too much; the file's size when there is none.
+std::size_t limitOf(const SourceFile &file) {
+  if (file.text().size() <= kMaxTokens)
+    return file.text().size(); // not even when each character is one
+  Diagnostics ignored;
+  Scanner scanner(file, ignored);
+  for (std::size_t count = 0; count < kMaxTokens; ++count)
+    if (scanner.next().type == Token::kEnd)
+      return file.text().size();
+  return scanner.next().begin;
+}
+
 } // namespace
 
 FileParser::FileParser(const SourceFile &file, Interner &interner, Arena &arena,
@@ -30,6 +45,14 @@ ast::File *FileParser::run() {
   out->id = file_.id();
   if (looksBinary(file_.text())) {
     diagnostics_.report(Code::binaryFile, {}, "`" + file_.name() + "` is not a text file");
+    return out;
+  }
+  if (const std::size_t limit = limitOf(file_); limit < file_.text().size()) {
+    const auto place = static_cast<std::uint32_t>(limit);
+    diagnostics_
+        .report(Code::fileTooLong, {file_.id(), place, place + 1},
+                "the file has more than 4,000,000 words and signs")
+        .help("make several files of it, or let the program read its table from a file");
     return out;
   }
   now_ = scanner_.next();

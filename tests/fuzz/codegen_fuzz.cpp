@@ -4,6 +4,7 @@
 #include "compiler/codegen/codegen.hpp"
 #include "compiler/semantics/program.hpp"
 #include "compiler/syntax/parser.hpp"
+#include "tests/support/no_library.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,14 +16,6 @@
 
 namespace {
 
-class NoLibraries final : public stc::LibraryIndex {
-public:
-  std::vector<Entry> find(std::string_view) const override { return {}; }
-  bool isLibrary(std::string_view) const override { return false; }
-  std::vector<std::string_view> names() const override { return {}; }
-  std::vector<Entry> files(std::string_view) const override { return {}; }
-};
-
 std::vector<stc::GeneratedFile> generate(const std::string &bytes) {
   stc::Program program;
   const stc::FileId id = program.sources.addBytes("fuzz.st", bytes);
@@ -30,7 +23,7 @@ std::vector<stc::GeneratedFile> generate(const std::string &bytes) {
       stc::parse(program.sources.file(id), program.interner, program.arena, program.diagnostics);
   if (program.diagnostics.hasErrors())
     return {};
-  stc::check(program, {file}, NoLibraries());
+  stc::check(program, {file}, stc::test::NoLibrary());
   if (program.diagnostics.hasErrors())
     return {};
   stc::AppConfig config;

@@ -2,23 +2,11 @@
 #include "compiler/semantics/program.hpp"
 #include "compiler/source/render.hpp"
 #include "compiler/syntax/parser.hpp"
+#include "tests/support/no_library.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
-
-namespace {
-
-// A compiler without libraries.
-class NoLibraries final : public stc::LibraryIndex {
-public:
-  std::vector<Entry> find(std::string_view) const override { return {}; }
-  bool isLibrary(std::string_view) const override { return false; }
-  std::vector<std::string_view> names() const override { return {}; }
-  std::vector<Entry> files(std::string_view) const override { return {}; }
-};
-
-} // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
   stc::Program program;
@@ -27,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   stc::ast::File *file =
       stc::parse(program.sources.file(id), program.interner, program.arena, program.diagnostics);
   if (!program.diagnostics.hasErrors())
-    stc::check(program, {file}, NoLibraries());
+    stc::check(program, {file}, stc::test::NoLibrary());
   program.diagnostics.sort();
   for (const stc::Diagnostic &diagnostic : program.diagnostics.all()) {
     (void)stc::renderText(diagnostic, program.sources);

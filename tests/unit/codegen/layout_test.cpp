@@ -4,6 +4,7 @@
 
 #include "compiler/semantics/storage.hpp"
 #include "compiler/syntax/parser.hpp"
+#include "tests/support/no_library.hpp"
 
 #include <gtest/gtest.h>
 #include <random>
@@ -11,15 +12,6 @@
 namespace stc::test {
 
 namespace {
-
-class NoLibrary : public LibraryIndex {
-public:
-  std::vector<Entry> find(std::string_view) const override { return {}; }
-  bool isLibrary(std::string_view) const override { return false; }
-  bool answersTo(std::string_view, std::string_view) const override { return false; }
-  std::vector<std::string_view> names() const override { return {}; }
-  std::vector<Entry> files(std::string_view) const override { return {}; }
-};
 
 /// Random structures and blocks that hold each other, and a program with one of each.
 class RandomTypes {
