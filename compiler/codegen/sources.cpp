@@ -24,6 +24,10 @@ std::string_view sourcePrelude() {
 
 namespace {
 
+/// Variables that one function initialises: g++ takes long for long functions, more than twice as
+/// long for twice the length.
+constexpr std::size_t kMostInits = 200;
+
 class SourceBuilder {
 public:
   SourceBuilder(Context &context, const PouSymbol *pou, std::string path)
@@ -44,12 +48,19 @@ public:
                          << "U;";
       e_.writer().endLine();
     }
+    const bool inParts = variables.size() > kMostInits;
+    std::size_t part = 0;
     for (std::size_t i = 0; i < variables.size();) {
       const std::span<const VarSymbol *const> rest = std::span(variables).subspan(i);
+      if (inParts && part == 0)
+        generatedLine("[&]() __attribute__((noinline)) {");
       const std::size_t run = e_.initRun(rest, name);
       if (run == 0 && c_.layouts.needsInit(rest[0]))
         e_.initVariable("this->" + fieldName(rest[0]), rest[0]);
       i += run == 0 ? 1 : run;
+      part = (part + 1) % kMostInits;
+      if (inParts && (part == 0 || i == variables.size()))
+        generatedLine("}();");
     }
     const Writer body = e_.takeWriter();
     functionHead("void " + std::string(name) + "::init__(::stride::Ctx &" +
@@ -236,6 +247,13 @@ private:
     Writer text;
     bool isBody = false;
   };
+
+  /// Between initial values; it counts as a line of the ST as the one before it does.
+  void generatedLine(std::string_view text) {
+    e_.writer().sameLine();
+    e_.writer().line() << text;
+    e_.writer().endLine();
+  }
 
   /// Line by line, to count them.
   static void lines(Writer &file, std::string_view text) {
