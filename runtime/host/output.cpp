@@ -57,7 +57,8 @@ Output::Output(int handle, std::size_t capacity, Wait wait)
   if (wait == Wait::Always || ::fstat(handle, &about) != 0)
     return;
   isSocket_ = S_ISSOCK(about.st_mode);
-  if (!S_ISFIFO(about.st_mode) && !S_ISCHR(about.st_mode))
+  const bool mayWrite = (::fcntl(handle, F_GETFL) & O_ACCMODE) != O_RDONLY;
+  if (!mayWrite || (!S_ISFIFO(about.st_mode) && !S_ISCHR(about.st_mode)))
     return;
   const std::string name = fmt::format("/proc/self/fd/{}", handle);
   const int own = ::open(name.c_str(), O_WRONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);

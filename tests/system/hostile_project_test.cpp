@@ -187,6 +187,82 @@ TEST_F(HostileProject, RetainedDataAndFilesStayInTheProject) {
   expectHomeUntouched();
 }
 
+TEST_F(HostileProject, AResetFollowsNoLinkAndRemovesNothingButImages) {
+  write("home/p.a", kPhoto);
+  write("home/p.new", kPhoto);
+  link("../home", "p/retain");
+  for (const char *kind : {"warm", "cold", "origin"})
+    refuse({"reset", kind, "p"}, "SE0838");
+  // stride.toml may name any place, but what lies there is not Stride's.
+  fs::remove(at("p/retain"));
+  write("p/stride.toml", "[retain]\nfile = \"../home/p\"\n");
+  EXPECT_THAT(stride({"reset", "origin", "p"}).err,
+              HasSubstr("home/p.a' does not begin as retained data do, so nothing is removed"));
+  EXPECT_EQ(read("home/p.a"), kPhoto);
+  EXPECT_EQ(read("home/p.new"), kPhoto);
+  // A part of an image, and what a loss of power has left of one, do not hinder.
+  write("home/p.a", "STRDR");
+  write("home/p.b", std::string(4096, '\0'));
+  write("home/p.new", "");
+  succeed({"reset", "origin", "p"});
+  EXPECT_FALSE(fs::exists(at("home/p.a")) || fs::exists(at("home/p.b")) ||
+               fs::exists(at("home/p.new")));
+}
+
+TEST_F(HostileProject, AManifestThatLeadsNowhereIsMissed) {
+  for (const char *target : {"stride.toml", "nowhere"}) {
+    link(target, "p/stride.toml");
+    refuse({"check", "p"}, "SE0101");
+    fs::remove(at("p/stride.toml"));
+  }
+}
+
+TEST_F(HostileProject, WhatLiesWhereResultsAreWrittenIsNotRead) {
+  fs::create_directories(at("p/build/cpp"));
+  for (const char *name : {"p/build/.gitignore", "p/build/cpp/.stride-sources"}) {
+    write(name, "x\n");
+    fs::resize_file(at(name), std::uintmax_t{64} << 30); // no such memory
+  }
+  succeed({"build", "p"});
+  succeed({"build", "p", "--emit", "cpp"});
+}
+
+// -------------------------------------------------------------------------------------------------
+// the terminal
+
+TEST_F(HostileProject, NothingOfAProjectCommandsTheTerminal) {
+  // The window's title, the screen, a line of its own, an eight-bit sequence.
+  const std::string evil = "\x1b]0;owned\x07\x1b[2J\r\x7f\xc2\x9b";
+  write("q/" + evil + ".st", "PROGRAM P\nVAR x : INT; END_VAR\n{warning 'w" + evil + "'}\n{text 't" +
+                                 evil + "'}\nx := y;\nEND_PROGRAM\n");
+  write("q/stride.toml", "[project]\nname = \"a\\u001b]0;owned\\u0007\"\n");
+  write("q/c.cam.toml", "[cam]\nname = \"\\u001b[2J\"\n");
+  write("r/a.st", "PROGRAM PLC_PRG\nVAR s : STRING; END_VAR\ns := '$1B]0;owned$07$9B';\nEND_PROGRAM\n");
+  const Environment cache = {{"XDG_CACHE_HOME", at("cache").string()}, {"TERM", "xterm"}};
+  for (const std::vector<std::string> &arguments : std::vector<std::vector<std::string>>{
+           {"check", "q"},
+           {"check", "q/" + evil + ".st"},
+           {"fmt", "--diff", "q"},
+           {"fmt", "--check", "q"},
+           {"sim", "r", "--for", "T#30ms", "--quiet", "--trace", "PLC_PRG.s", "--print", "PLC_PRG.s"},
+           {"sim", "r", "--for", "T#30ms", "--quiet", "--trace", evil}}) {
+    std::vector<std::string> command = {STRIDE_BINARY_DIR "/stride"};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    std::string shown = runOnTerminal(command, scratch_.path(), cache).out;
+    // Stride's own: a line that changes.
+    for (const char *own : {"\r\x1b[K", "\r\n"})
+      for (std::size_t i = 0; (i = shown.find(own, i)) != std::string::npos;)
+        shown.erase(i, std::string_view(own).size());
+    EXPECT_FALSE(shown.empty()) << arguments[0];
+    EXPECT_EQ(shown.find_first_of("\x1b\x07\r\x7f"), std::string::npos)
+        << arguments[0] << ' ' << ::testing::PrintToString(shown);
+    EXPECT_EQ(shown.find("\xc2\x9b"), std::string::npos) << arguments[0];
+  }
+  // A file gets the values as they are.
+  succeed({"sim", "r", "--for", "T#30ms", "--trace", "PLC_PRG.s", "--out", "t.csv"});
+  EXPECT_THAT(read("t.csv"), HasSubstr("\x1b]0;owned\x07"));
+}
+
 // -------------------------------------------------------------------------------------------------
 // names
 
@@ -333,6 +409,102 @@ TEST_F(SharedCache, FoldersThatOthersMayWriteAreNotUsed) {
     ASSERT_EQ(::chown(at(ownName()).c_str(), 65534, 65534), 0);
     expectRun(false, temporary);
   }
+}
+
+TEST_F(SharedCache, EveryFolderAboveIsLookedAt) {
+  if (::geteuid() != 0)
+    GTEST_SKIP() << "folders of somebody else need root";
+  const auto cache = [&](const std::string &name) {
+    return Environment{{"XDG_CACHE_HOME", at(name).string()}, {"TMPDIR", "/tmp"}};
+  };
+  fs::create_directories(at("up/middle/mine"));
+  expectRun(true, cache("up/middle/mine"));
+  // At, below and above what is let through.
+  for (const auto &[mode, trusted] : std::vector<std::pair<mode_t, bool>>{
+           {0755, true}, {0775, true}, {0777, false}, {01777, true}, {0757, false}, {0700, true}}) {
+    ASSERT_EQ(::chmod(at("up").c_str(), mode), 0);
+    expectRun(trusted, cache("up/middle/mine"));
+  }
+  // A group that somebody else is in.
+  ASSERT_EQ(::chown(at("up").c_str(), 0, 100), 0);
+  for (const auto &[mode, trusted] :
+       std::vector<std::pair<mode_t, bool>>{{0755, true}, {0775, false}, {01775, true}}) {
+    ASSERT_EQ(::chmod(at("up").c_str(), mode), 0);
+    expectRun(trusted, cache("up/middle/mine"));
+  }
+  ASSERT_EQ(::chmod(at("up").c_str(), 0755), 0);
+  ASSERT_EQ(::chown(at("up").c_str(), 65534, 0), 0);
+  expectRun(false, cache("up/middle/mine"));
+  ASSERT_EQ(::chown(at("up").c_str(), 0, 0), 0);
+  // Links: ours, ours through a folder that is open to all, somebody else's, and round in circles.
+  link("middle/mine", "up/link");
+  expectRun(true, cache("up/link"));
+  fs::create_directories(at("open/mine"));
+  ASSERT_EQ(::chmod(at("open").c_str(), 0777), 0);
+  link("../open/mine", "up/out");
+  expectRun(false, cache("up/out"));
+  ASSERT_EQ(::lchown(at("up/link").c_str(), 65534, 65534), 0);
+  expectRun(false, cache("up/link"));
+  link("round", "up/round");
+  expectRun(false, cache("up/round"));
+}
+
+TEST_F(SharedCache, FoldersThatStrideMakesAreTheUsersAlone) {
+  const ProcessResult result =
+      runProcess({"sh", "-c", "umask 0; exec " STRIDE_BINARY_DIR "/stride sim p --for T#30ms"},
+                 scratch_.path(), {{"XDG_CACHE_HOME", at("new/cache").string()}});
+  EXPECT_EQ(result.err, "");
+  for (const char *name : {"new", "new/cache", "new/cache/stride", "new/cache/stride/v1"})
+    EXPECT_EQ(fs::status(at(name)).permissions(), fs::perms::owner_all) << name;
+}
+
+TEST_F(SharedCache, WhatIsNoFileInItDoesNotHinder) {
+  succeed({"sim", "p", "--for", "T#30ms"});
+  // A folder in the place of each result.
+  std::vector<fs::path> results;
+  for (const fs::directory_entry &entry : fs::recursive_directory_iterator(at("cache/stride/v1")))
+    if (entry.is_regular_file() && entry.path().filename() != "CACHEDIR.TAG")
+      results.push_back(entry.path());
+  ASSERT_GE(results.size(), 3U);
+  for (const fs::path &path : results) {
+    fs::remove(path);
+    fs::create_directories(path / "inside");
+  }
+  expectRun(true, {{"XDG_CACHE_HOME", at("cache").string()}});
+  succeed({"sim", "p", "--for", "T#30ms"});
+  // A pipe in the place of the mark is not waited for.
+  fs::remove(at("cache/stride/v1/CACHEDIR.TAG"));
+  ASSERT_EQ(::mkfifo(at("cache/stride/v1/CACHEDIR.TAG").c_str(), 0600), 0);
+  expectRun(false, {{"XDG_CACHE_HOME", at("cache").string()}, {"TMPDIR", "/tmp"}});
+}
+
+TEST_F(SharedCache, ACacheThatGoesAwayOrIsFullIsNoDefectOfStride) {
+  // A compiler that does it.
+  write("gone", "#!/bin/sh\ncase \"$*\" in *-c*) rm -rf " + at("cache").string() +
+                    ";; esac\nexec g++ \"$@\"\n");
+  write("full", "#!/bin/sh\ncase \"$*\" in *' -c '*) echo 'fatal error: error writing to x.s: No "
+                "space left on device'; exit 1;; esac\nexec g++ \"$@\"\n");
+  for (const char *name : {"gone", "full"}) {
+    ASSERT_EQ(::chmod(at(name).c_str(), 0755), 0);
+    const ProcessResult result = stride({"build", "p"}, {{"STRIDE_CXX", at(name).string()}});
+    EXPECT_EQ(result.exitCode, 1) << name;
+    EXPECT_THAT(result.err, AllOf(HasSubstr("error[SE0833]"), Not(HasSubstr("defect")))) << name;
+  }
+  succeed({"build", "p"});
+}
+
+TEST_F(SharedCache, AFileThatMayNotGrowEndsNothing) {
+  succeed({"build", "p"});
+  const std::string before = read("p/build/app.so");
+  write("p/a.st", std::string(kCounter) + "FUNCTION More : INT\nMore := 1;\nEND_FUNCTION\n");
+  const ProcessResult result =
+      runProcess({"sh", "-c", "ulimit -f 4; exec " STRIDE_BINARY_DIR "/stride build p"},
+                 scratch_.path(), {{"XDG_CACHE_HOME", at("cache").string()}});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_THAT(result.err, HasSubstr("error[SE0833]"));
+  EXPECT_EQ(read("p/build/app.so"), before);
+  for (const fs::directory_entry &entry : fs::directory_iterator(at("p/build")))
+    EXPECT_THAT(entry.path().filename().string(), ::testing::AnyOf("app.so", ".gitignore"));
 }
 
 TEST_F(SharedCache, AFolderWithoutOurMarkIsSomebodyElses) {

@@ -160,6 +160,35 @@ TEST_F(FaultyRun, APipeThatNobodyReads) {
   EXPECT_EQ(result.out, "4\nkept.a\n") << result.err;
 }
 
+TEST_F(FaultyRun, ATerminalThatStopsWhoWritesInTheBackground) {
+  const ProcessResult result = runOnTerminal(
+      {"timeout", "-s", "KILL", "30", "bash", "-mc",
+       "stty tostop; $RUN --print Main.done > values & sleep 0.3; kill -USR1 $!; sleep 0.2; "
+       "kill -USR1 $!; wait $!; echo ended with $?"},
+      scratch_.path(), {{"RUN", STRIDE_BINARY_DIR "/stride-host run moving.so --for 800ms"}});
+  EXPECT_THAT(result.out, HasSubstr("ended with 0"));
+  EXPECT_THAT(result.out, HasSubstr("cycles"));
+  EXPECT_EQ(file("values"), std::string(kDone) + "\n");
+}
+
+TEST_F(FaultyRun, StandardFilesThatAreClosed) {
+  // Whatever is opened next does not get their numbers: nothing that is printed lands in it.
+  const std::string print = "$RUN --retain kept --record r.rec --print Main.done ";
+  for (const char *closed : {"<&-", "2>&-", "<&- 2>&-"}) {
+    const ProcessResult result = shell(print + closed);
+    EXPECT_EQ(result.exitCode, 0) << closed << result.err;
+    EXPECT_EQ(result.out, std::string(kDone) + "\n") << closed;
+    clean();
+  }
+  for (const char *closed : {">&-", "<&- >&-", ">&- 2>&-", "<&- >&- 2>&-"}) {
+    EXPECT_EQ(shell(print + closed).exitCode, kIncomplete) << closed; // the values
+    for (const char *name : {"kept.lock", "kept.a", "r.rec"})
+      EXPECT_THAT(file(name), Not(HasSubstr("Main.done ="))) << closed << ' ' << name;
+    EXPECT_EQ(shell("$HOST sim moving.so --replay r.rec --quiet").exitCode, 0) << closed;
+    clean();
+  }
+}
+
 TEST_F(FaultyRun, ItStartsAgainThoughNobodyHearsOfIt) {
   writeFile(scratch_.path() / "bad.st", R"(
 PROGRAM Main
