@@ -25,7 +25,8 @@ int write(const std::vector<doc::Page> &pages, const std::string &out, const Out
   const std::optional<OutputFolder> folder = OutputFolder::open(out);
   for (const doc::Page &page : pages) {
     const std::filesystem::path name = below / page.path;
-    if (folder && (folder->read(name, page.text.size()) == page.text || folder->write(name, page.text)))
+    if (folder &&
+        (folder->read(name, page.text.size()) == page.text || folder->write(name, page.text)))
       continue;
     const std::string path = (std::filesystem::path(out) / name).string();
     if (errno == ELOOP)

@@ -228,11 +228,12 @@ int resetCommand(const ProjectOptions &options, const std::string &kind) {
     return show(project.diagnostics(), project.sources(), options.output);
   const std::filesystem::path file = retainFileOf(project);
   if (isLedOut(file, folderOf(project)))
-    return showError(Code::linkInTheWay,
-                     fmt::format("`{}` leads out of the project; if that is wanted, use `stride-host "
-                                 "reset {} FILE` with the place it leads to",
-                                 file.string(), kind),
-                     options.output);
+    return showError(
+        Code::linkInTheWay,
+        fmt::format("`{}` leads out of the project; if that is wanted, use `stride-host "
+                    "reset {} FILE` with the place it leads to",
+                    file.string(), kind),
+        options.output);
   return becomeHost({"reset", kind, file.string()}, options.output);
 }
 

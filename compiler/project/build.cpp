@@ -373,17 +373,18 @@ private:
   bool reportSurroundings(const JobResult &result) {
     std::error_code error;
     if (!fs::exists(work_->path(), error)) {
-      diagnostics_.report(Code::cannotWrite, {},
-                          fmt::format("`{}` was removed while it was compiled in",
-                                      work_->path().string()))
+      diagnostics_
+          .report(Code::cannotWrite, {},
+                  fmt::format("`{}` was removed while it was compiled in", work_->path().string()))
           .help("build again");
       return true;
     }
     for (const int reason : {ENOSPC, EDQUOT, EFBIG, EROFS})
       if (const char *text = ::strerrordesc_np(reason);
           result.output.find(text) != std::string::npos) {
-        diagnostics_.report(Code::cannotWrite, {},
-                            fmt::format("the C++ compiler cannot write its results: {}", text))
+        diagnostics_
+            .report(Code::cannotWrite, {},
+                    fmt::format("the C++ compiler cannot write its results: {}", text))
             .help(fmt::format("it writes to `{}` and to the folder for temporary files, TMPDIR",
                               work_->path().parent_path().string()));
         return true;

@@ -12,14 +12,14 @@ namespace stc {
 /// The whole file; nothing when it cannot be read (errno tells why).
 [[nodiscard]] std::optional<std::string> readFile(const std::filesystem::path &path);
 
-/// As readFile, of a regular file that has not more than `limit` bytes; a link is not followed, and a
-/// pipe not waited for.
+/// As readFile, of a regular file that has not more than `limit` bytes; a link is not followed, and
+/// a pipe not waited for.
 [[nodiscard]] std::optional<std::string> readRegularFile(const std::filesystem::path &path,
                                                          std::uintmax_t limit = UINTMAX_MAX);
 
 /// As readRegularFile, in an open folder.
-[[nodiscard]] std::optional<std::string>
-readRegularFileAt(int folder, const std::string &name, std::uintmax_t limit = UINTMAX_MAX);
+[[nodiscard]] std::optional<std::string> readRegularFileAt(int folder, const std::string &name,
+                                                           std::uintmax_t limit = UINTMAX_MAX);
 
 /// Replaces the file at once (written beside it, then renamed), making its folder; false on failure
 /// (errno).

@@ -61,8 +61,8 @@ bool start(const Job &job, Running &running, JobResult &result) {
     arguments.push_back(const_cast<char *>(argument.c_str())); // NOLINT: the C interface
   arguments.push_back(nullptr);
   const JobEnvironment environment;
-  const int error = ::posix_spawnp(&running.pid, arguments[0], &actions, nullptr,
-                                   arguments.data(), environment.get());
+  const int error = ::posix_spawnp(&running.pid, arguments[0], &actions, nullptr, arguments.data(),
+                                   environment.get());
   posix_spawn_file_actions_destroy(&actions);
   ::close(ends[1]);
   if (error != 0) {

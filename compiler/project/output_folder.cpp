@@ -99,10 +99,9 @@ std::optional<std::string> OutputFolder::read(const fs::path &name, std::uintmax
 bool OutputFolder::hasFile(const fs::path &name) const {
   const int parent = parentOf(name, false);
   struct stat status {};
-  const bool good =
-      parent >= 0 &&
-      ::fstatat(parent, name.filename().c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
-      S_ISREG(status.st_mode);
+  const bool good = parent >= 0 &&
+                    ::fstatat(parent, name.filename().c_str(), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
+                    S_ISREG(status.st_mode);
   if (parent >= 0)
     closeKeepingError(parent);
   return good;

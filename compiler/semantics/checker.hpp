@@ -386,9 +386,7 @@ private:
   void checkJumps(ast::Block body);
   void checkTry(ast::TryStmt *stmt);
 
-  [[nodiscard]] bool keepsErrors() const {
-    return program_.diagnostics.errorCount() < errorLimit_;
-  }
+  [[nodiscard]] bool keepsErrors() const { return program_.diagnostics.errorCount() < errorLimit_; }
   Diagnostic &report(Code code, Span where, std::string message, std::string label = {}) {
     if (!keepsErrors()) {
       notKept_ = {};
@@ -401,9 +399,9 @@ private:
   void noteDeclaration(Diagnostic &diagnostic, const Symbol *symbol);
 
   Program &program_;
-  std::size_t errorLimit_; ///< so many errors are kept
+  std::size_t errorLimit_;        ///< so many errors are kept
   std::size_t namesLookedAt_ = 0; ///< for names that are similar to unknown ones
-  Diagnostic notKept_;     ///< takes the others
+  Diagnostic notKept_;            ///< takes the others
   Arena &arena_;
   const LibraryIndex &index_;
   TypeTable types_;

@@ -183,8 +183,8 @@ private:
     out_ += style_.frame;
     out_ += isFirst ? "--> " : "::: ";
     out_ += style_.reset;
-    out_ += visible(source.name()) + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) +
-            "\n";
+    out_ += visible(source.name()) + ":" + std::to_string(place.line) + ":" +
+            std::to_string(place.column) + "\n";
     bar();
     out_ += '\n';
     std::uint32_t previous = 0;
@@ -333,7 +333,8 @@ private:
       // Further lines are aligned under the first.
       std::size_t at = 0;
       for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', at)) {
-        out_ += visible(std::string_view(text).substr(at, end - at)) + "\n" + std::string(gutter_ + 5 + kind.size(), ' ');
+        out_ += visible(std::string_view(text).substr(at, end - at)) + "\n" +
+                std::string(gutter_ + 5 + kind.size(), ' ');
         at = end + 1;
       }
       out_ += visible(std::string_view(text).substr(at)) + "\n";

@@ -11,8 +11,8 @@
 
 namespace stride::host {
 
-/// Shows control characters, but line ends and tabs, as `?` from `from` on: names of files and values
-/// of variables must not command a terminal.
+/// Shows control characters, but line ends and tabs, as `?` from `from` on: names of files and
+/// values of variables must not command a terminal.
 void hideControls(std::string &text, std::size_t from = 0) noexcept;
 
 /// The text as the file may show it: to a terminal without control characters.

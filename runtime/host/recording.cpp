@@ -22,7 +22,8 @@ constexpr std::size_t kBlockPiece = std::size_t{64} << 10;
 constexpr uint64_t kMagic = 0x32434552'44525453; // "STRDREC2"
 
 app::Error cutOffTooEarly(const std::string &path) {
-  return app::Error(fmt::format("'{}' is cut off before its first cycle: there is nothing to replay", path));
+  return app::Error(
+      fmt::format("'{}' is cut off before its first cycle: there is nothing to replay", path));
 }
 
 /// The file is a row of blocks; whole records are in each.

@@ -22,11 +22,10 @@ ProcessResult runProcess(const std::vector<std::string> &arguments,
                          const std::filesystem::path &directory,
                          const std::vector<std::pair<std::string, std::string>> &environment = {});
 
-/// As runProcess, but as the first process on a terminal of its own, which all three files are; what
-/// it shows is `out`.
-ProcessResult runOnTerminal(const std::vector<std::string> &arguments,
-                            const std::filesystem::path &directory,
-                            const std::vector<std::pair<std::string, std::string>> &environment =
-                                {});
+/// As runProcess, but as the first process on a terminal of its own, which all three files are;
+/// what it shows is `out`.
+ProcessResult
+runOnTerminal(const std::vector<std::string> &arguments, const std::filesystem::path &directory,
+              const std::vector<std::pair<std::string, std::string>> &environment = {});
 
 } // namespace stride::test

@@ -233,18 +233,20 @@ TEST_F(HostileProject, WhatLiesWhereResultsAreWrittenIsNotRead) {
 TEST_F(HostileProject, NothingOfAProjectCommandsTheTerminal) {
   // The window's title, the screen, a line of its own, an eight-bit sequence.
   const std::string evil = "\x1b]0;owned\x07\x1b[2J\r\x7f\xc2\x9b";
-  write("q/" + evil + ".st", "PROGRAM P\nVAR x : INT; END_VAR\n{warning 'w" + evil + "'}\n{text 't" +
-                                 evil + "'}\nx := y;\nEND_PROGRAM\n");
+  write("q/" + evil + ".st", "PROGRAM P\nVAR x : INT; END_VAR\n{warning 'w" + evil +
+                                 "'}\n{text 't" + evil + "'}\nx := y;\nEND_PROGRAM\n");
   write("q/stride.toml", "[project]\nname = \"a\\u001b]0;owned\\u0007\"\n");
   write("q/c.cam.toml", "[cam]\nname = \"\\u001b[2J\"\n");
-  write("r/a.st", "PROGRAM PLC_PRG\nVAR s : STRING; END_VAR\ns := '$1B]0;owned$07$9B';\nEND_PROGRAM\n");
+  write("r/a.st",
+        "PROGRAM PLC_PRG\nVAR s : STRING; END_VAR\ns := '$1B]0;owned$07$9B';\nEND_PROGRAM\n");
   const Environment cache = {{"XDG_CACHE_HOME", at("cache").string()}, {"TERM", "xterm"}};
   for (const std::vector<std::string> &arguments : std::vector<std::vector<std::string>>{
            {"check", "q"},
            {"check", "q/" + evil + ".st"},
            {"fmt", "--diff", "q"},
            {"fmt", "--check", "q"},
-           {"sim", "r", "--for", "T#30ms", "--quiet", "--trace", "PLC_PRG.s", "--print", "PLC_PRG.s"},
+           {"sim", "r", "--for", "T#30ms", "--quiet", "--trace", "PLC_PRG.s", "--print",
+            "PLC_PRG.s"},
            {"sim", "r", "--for", "T#30ms", "--quiet", "--trace", evil}}) {
     std::vector<std::string> command = {STRIDE_BINARY_DIR "/stride"};
     command.insert(command.end(), arguments.begin(), arguments.end());

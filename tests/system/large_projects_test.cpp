@@ -59,15 +59,19 @@ TEST_F(LargeProject, ManyVariablesHaveTheirValues) {
     std::string expected;
     for (int i = 0; i < count; ++i) {
       const std::string number = std::to_string(3 * i + 1);
-      variables += "  v" + std::to_string(i) + " : S := (a := " + number + ", s := 'x" + number + "');\n";
+      variables +=
+          "  v" + std::to_string(i) + " : S := (a := " + number + ", s := 'x" + number + "');\n";
       expected += "V.v" + std::to_string(i) + ".a = " + number + "\nV.v" + std::to_string(i) +
                   ".s = 'x" + number + "'\n";
     }
     write("TYPE S : STRUCT a : INT; s : STRING(20); END_STRUCT END_TYPE\n"
-          "FUNCTION_BLOCK B\nVAR_INPUT\n" + variables + "END_VAR\nEND_FUNCTION_BLOCK\n"
-          "PROGRAM V\nVAR\n  b : B;\n" + variables + "END_VAR\nb();\nEND_PROGRAM\n");
-    const ProcessResult result = stride({"sim", "a.st", "--for", "T#10ms", "--quiet", "-W",
-                                         "off=lints", "--print", "V"});
+          "FUNCTION_BLOCK B\nVAR_INPUT\n" +
+          variables +
+          "END_VAR\nEND_FUNCTION_BLOCK\n"
+          "PROGRAM V\nVAR\n  b : B;\n" +
+          variables + "END_VAR\nb();\nEND_PROGRAM\n");
+    const ProcessResult result =
+        stride({"sim", "a.st", "--for", "T#10ms", "--quiet", "-W", "off=lints", "--print", "V"});
     ASSERT_EQ(result.exitCode, 0) << result.err;
     std::string inBlock = expected;
     for (std::size_t i = 0; (i = inBlock.find("V.v", i)) != std::string::npos; i += 3)
