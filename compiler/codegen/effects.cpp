@@ -123,9 +123,10 @@ unsigned Analysis::indexing(const IndexExpr *e) {
 }
 
 unsigned Analysis::dividing(const BinaryExpr *e) {
-  if ((e->op != BinaryOp::divide && e->op != BinaryOp::modulo) || e->operandType == nullptr ||
-      e->right->constant != nullptr)
+  if ((e->op != BinaryOp::divide && e->op != BinaryOp::modulo) || e->right->constant != nullptr)
     return effectNone;
+  if (e->operandType == nullptr) // a duration by a number
+    return isReal(underlying(e->right->type)) ? effectNone : effectRaises;
   const unsigned own = checkedBy(ImplicitCheck::divByte, ImplicitCheck::divLreal);
   return isReal(e->operandType) ? own : own | effectRaises;
 }
