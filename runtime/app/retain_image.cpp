@@ -87,7 +87,7 @@ std::vector<std::byte> encodeImage(const RetainHead &head, std::span<const std::
 
 bool mayBeImage(std::span<const std::byte> bytes) {
   const std::span<const std::byte> begin = bytes.first(std::min(bytes.size(), kMagic.size()));
-  return std::memcmp(begin.data(), kMagic.data(), begin.size()) == 0 ||
+  return std::equal(begin.begin(), begin.end(), std::as_bytes(std::span(kMagic)).begin()) ||
          std::all_of(begin.begin(), begin.end(), [](std::byte b) { return b == std::byte{0}; });
 }
 
