@@ -49,12 +49,17 @@ function(_stride_precompiled target kind)
   target_precompile_headers(${target} REUSE_FROM ${header})
 endfunction()
 
-# stride_library(<name> SOURCES <file>... [DEPS <target>...])
-# A static library of the project; DEPS are public. Without sources: an interface library.
+# stride_library(<name> SOURCES <file>... [DEPS <target>...] [SHARED_BY_THREADS <file>...])
+# A static library of the project; DEPS are public. Without sources: an interface library. What several
+# threads use at once is named, so that a stride_thread_test can compile it.
 function(stride_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;DEPS;SHARED_BY_THREADS")
   if(arg_SOURCES)
     add_library(${name} STATIC ${arg_SOURCES})
+    # Objects of their own, so that those of a test take their place when it is linked.
+    set_source_files_properties(${arg_SHARED_BY_THREADS} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    list(TRANSFORM arg_SHARED_BY_THREADS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+    set_target_properties(${name} PROPERTIES STRIDE_SHARED_BY_THREADS "${arg_SHARED_BY_THREADS}")
     _stride_own_code(${name})
     _stride_precompiled(${name} library)
     target_link_libraries(${name} PUBLIC ${arg_DEPS})
@@ -64,6 +69,15 @@ function(stride_library name)
     target_include_directories(${name} INTERFACE ${PROJECT_SOURCE_DIR})
     target_link_libraries(${name} INTERFACE ${arg_DEPS})
   endif()
+endfunction()
+
+# stride_native_library(<name> SOURCES <file>... [DEPS <target>...])
+# A library that applications link, too: with the flags of generated code, an object for each source, so that an
+# application gets only those that it uses.
+function(stride_native_library name)
+  stride_library(${name} ${ARGN})
+  target_compile_options(${name} PRIVATE ${STRIDE_APPLICATION_FLAGS})
+  set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
 endfunction()
 
 # stride_executable(<name> SOURCES <file>... [DEPS <target>...])
@@ -103,6 +117,24 @@ function(stride_test name)
       COST 100 # long ones: started early, so that the cores end together
       LABELS "${arg_LABELS}")
   endforeach()
+endfunction()
+
+# stride_thread_test(<name> SOURCES <file>... OF <library>... [DEPS <target>...])
+# A stride_test under ThreadSanitizer, with what the libraries share between threads. The sanitizers exclude
+# each other, so there is none in other sanitized builds.
+function(stride_thread_test name)
+  if(STRIDE_SANITIZE OR STRIDE_FUZZ)
+    return()
+  endif()
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;OF;DEPS")
+  foreach(library IN LISTS arg_OF)
+    get_target_property(shared ${library} STRIDE_SHARED_BY_THREADS)
+    list(APPEND arg_SOURCES ${shared})
+  endforeach()
+  stride_test(${name} SOURCES ${arg_SOURCES} DEPS ${arg_DEPS})
+  target_compile_options(${name} PRIVATE -fsanitize=thread)
+  target_link_options(${name} PRIVATE -fsanitize=thread)
+  set_target_properties(${name} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
 endfunction()
 
 # stride_property_test(<name> SOURCES <file>... [DEPS <target>...] [SHARDS <n>])
@@ -152,8 +184,8 @@ endfunction()
 # (main, stride-host and what it consists of).
 set(STRIDE_APPLICATION_ARCHIVES stride_stdlib stride_native stride_runtime_iec)
 set(STRIDE_HOST_ARCHIVES stride_static_main stride_host_main stride_runtime_host stride_runtime_monitor
-    stride_drivers_io stride_runtime_io stride_runtime_system stride_runtime_task
-    stride_runtime_axis stride_driver_dummy stride_runtime_app stride_fmt)
+    stride_runtime_script stride_drivers_io stride_runtime_io stride_runtime_system stride_runtime_task
+    stride_runtime_bus stride_driver_dummy stride_runtime_app stride_fmt)
 
 # stride_stdlib_archive(<generated file>...): the ST bodies of the standard library.
 function(stride_stdlib_archive)

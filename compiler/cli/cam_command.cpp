@@ -4,9 +4,9 @@
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/names.hpp"
 
-#include "runtime/cam/bounds.hpp"
-#include "runtime/cam/element_block.hpp"
-#include "runtime/cam/reduce.hpp"
+#include "runtime/numeric/cam/bounds.hpp"
+#include "runtime/numeric/cam/element_block.hpp"
+#include "runtime/numeric/cam/reduce.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include "compiler/project/cam_source.hpp"
 
-#include "runtime/cam/element_block.hpp"
-#include "runtime/cam/reduce.hpp"
+#include "runtime/numeric/cam/element_block.hpp"
+#include "runtime/numeric/cam/reduce.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "compiler/project/content_hash.hpp"
 #include "compiler/project/names.hpp"
 
-#include "runtime/cam/element_block.hpp"
+#include "runtime/numeric/cam/element_block.hpp"
 
 #include <array>
 #include <cstring>

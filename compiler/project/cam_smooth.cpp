@@ -2,7 +2,7 @@
 
 #include "compiler/project/cam_source.hpp"
 
-#include "runtime/cam/builder.hpp"
+#include "runtime/numeric/cam/builder.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // Cam files, *.cam.toml: what the cam editor of SoftMotion shows (V2.3 manual, chapter 4).
 
 #include "compiler/project/config.hpp"
-#include "runtime/cam/cam_file.hpp"
+#include "runtime/numeric/cam/cam_file.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "drivers/dummy/drive_parameters.hpp"
 
-#include "runtime/axis/axis_driver.hpp"
+#include "runtime/bus/axis_driver.hpp"
 #include "runtime/iec/math.h"
 
 #include <algorithm>
@@ -23,11 +23,11 @@ struct CyclicMasks {
   uint8_t received = 0;
 };
 
-CyclicMasks cyclicMasks(const axis::SetupParameters &parameters) {
-  using axis::kCurrent;
-  using axis::kPosition;
-  using axis::kTorque;
-  using axis::kVelocity;
+CyclicMasks cyclicMasks(const bus::SetupParameters &parameters) {
+  using bus::kCurrent;
+  using bus::kPosition;
+  using bus::kTorque;
+  using bus::kVelocity;
   const auto mask = [](int number) -> uint8_t {
     switch (number) {
     case 1100:
@@ -104,7 +104,7 @@ bool SwitchRange::actuated(double place, double period) const {
   return inTurn(place - from) <= inTurn(to - from);
 }
 
-DriveParameters driveParameters(const axis::SetupParameters &given, double cycle) {
+DriveParameters driveParameters(const bus::SetupParameters &given, double cycle) {
   DriveParameters result;
   const double increments = given.number("dwRatioTechUnitsDenom", 1);
   const double units = given.number("iRatioTechUnitsNum", 1);
@@ -165,14 +165,14 @@ DriveParameters driveParameters(const axis::SetupParameters &given, double cycle
 
   const CyclicMasks masks = cyclicMasks(given);
   result.modes = 0;
-  if ((masks.sent & axis::kPosition) != 0)
+  if ((masks.sent & bus::kPosition) != 0)
     result.modes |= 1U << kPositionMode;
-  if ((masks.sent & axis::kVelocity) != 0)
+  if ((masks.sent & bus::kVelocity) != 0)
     result.modes |= 1U << kVelocityMode;
-  if ((masks.sent & axis::kTorque) != 0 && m.model == Model::SecondOrder)
+  if ((masks.sent & bus::kTorque) != 0 && m.model == Model::SecondOrder)
     result.modes |= 1U << kTorqueMode;
   // Torque and current cost nothing on this bus, so they always come.
-  result.received = static_cast<uint8_t>(masks.received | axis::kTorque | axis::kCurrent);
+  result.received = static_cast<uint8_t>(masks.received | bus::kTorque | bus::kCurrent);
   return result;
 }
 

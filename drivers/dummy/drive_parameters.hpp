@@ -3,7 +3,7 @@
 #define STRIDE_DRIVERS_DUMMY_DRIVE_PARAMETERS_HPP
 
 #include "drivers/dummy/mechanics.hpp"
-#include "runtime/axis/group_setup.hpp"
+#include "runtime/bus/group_setup.hpp"
 
 #include <cstdint>
 
@@ -56,11 +56,11 @@ struct DriveParameters {
   Marks index;
   Marks probe;
   uint8_t modes = 1U << kPositionMode | 1U << kVelocityMode; ///< Bit n: controller mode n.
-  uint8_t received = 0x0F;                                   ///< axis::CyclicData.
+  uint8_t received = 0x0F;                                   ///< bus::CyclicData.
 };
 
 /// Reads them; what is missing gets its default. `cycle`: of the task. [s]
-DriveParameters driveParameters(const axis::SetupParameters &parameters, double cycle);
+DriveParameters driveParameters(const bus::SetupParameters &parameters, double cycle);
 
 } // namespace stride::dummy
 

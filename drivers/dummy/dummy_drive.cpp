@@ -50,25 +50,25 @@ DummyDriver::Drive::Drive(const DriveParameters &given)
 }
 
 DummyDriver::DummyDriver(std::size_t drives)
-    : drives_(drives, Drive(driveParameters(axis::SetupParameters(), 0.01))) {}
+    : drives_(drives, Drive(driveParameters(bus::SetupParameters(), 0.01))) {}
 
-DummyDriver::DummyDriver(const axis::GroupSetup &setup) {
+DummyDriver::DummyDriver(const bus::GroupSetup &setup) {
   drives_.reserve(setup.drives.size());
-  for (const axis::DriveSetup &drive : setup.drives)
+  for (const bus::DriveSetup &drive : setup.drives)
     drives_.emplace_back(driveParameters(drive.parameters, setup.cycleSeconds));
-  for (const axis::EncoderSetup &encoder : setup.encoders)
+  for (const bus::EncoderSetup &encoder : setup.encoders)
     encoders_.push_back(makeEncoder(encoder, setup));
 }
 
-DummyDriver::Encoder DummyDriver::makeEncoder(const axis::EncoderSetup &encoder,
-                                              const axis::GroupSetup &setup) {
-  const axis::SetupParameters &given = encoder.parameters;
+DummyDriver::Encoder DummyDriver::makeEncoder(const bus::EncoderSetup &encoder,
+                                              const bus::GroupSetup &setup) {
+  const bus::SetupParameters &given = encoder.parameters;
   Encoder result;
   result.perUnit = given.number("dwRatioTechUnitsDenom", 1) / given.number("iRatioTechUnitsNum", 1);
   const auto modulo = static_cast<int64_t>(given.number("dwEncoderModulo", 0));
   result.modulo = modulo == 0 ? int64_t{1} << 32 : modulo;
   result.way = given.number("physics.own_velocity", 0) * result.perUnit * setup.cycleSeconds;
-  const axis::SetupParameter *follows = given.find("physics.follows");
+  const bus::SetupParameter *follows = given.find("physics.follows");
   for (std::size_t i = 0; follows != nullptr && i < setup.drives.size(); ++i) {
     const std::string &name = setup.drives[i].name;
     if (::strcasecmp(name.c_str(), follows->text.c_str()) == 0) {
@@ -92,19 +92,19 @@ void DummyDriver::show(Encoder &encoder) {
   encoder.count = static_cast<uint32_t>(count < 0 ? count + encoder.modulo : count);
 }
 
-axis::StartUp DummyDriver::init(std::size_t drive, uint16_t &progress, axis::Message &message) {
+bus::StartUp DummyDriver::init(std::size_t drive, uint16_t &progress, bus::Message &message) {
   Drive &d = drives_[drive];
   if (d.sim != nullptr && d.sim->bFailStartUp != 0) {
     message.set(std::string_view("the simulation lets it fail (bFailStartUp)"));
-    return axis::StartUp::Failed;
+    return bus::StartUp::Failed;
   }
   const uint32_t cycles = d.parameters.startUpCycles;
   ++d.started;
   progress = static_cast<uint16_t>(uint64_t{99} * d.started / cycles);
   if (d.started < cycles)
-    return axis::StartUp::Busy;
+    return bus::StartUp::Busy;
   d.status.communication = !d.lost;
-  return axis::StartUp::Started;
+  return bus::StartUp::Started;
 }
 
 void DummyDriver::reset(std::size_t drive) {
@@ -125,9 +125,9 @@ void DummyDriver::reset(std::size_t drive) {
   d.mechanics.hold();
 }
 
-axis::DriveStatus DummyDriver::status(std::size_t drive) const { return drives_[drive].status; }
+bus::DriveStatus DummyDriver::status(std::size_t drive) const { return drives_[drive].status; }
 
-void DummyDriver::command(std::size_t drive, const axis::DriveCommand &command) {
+void DummyDriver::command(std::size_t drive, const bus::DriveCommand &command) {
   drives_[drive].command = command;
 }
 
@@ -139,14 +139,14 @@ void DummyDriver::bindData(std::size_t drive, void *data) {
   drives_[drive].sim = static_cast<DriveSim *>(data);
 }
 
-bool DummyDriver::startParameter(std::size_t drive, const axis::ParameterRequest &request) {
+bool DummyDriver::startParameter(std::size_t drive, const bus::ParameterRequest &request) {
   Drive &d = drives_[drive];
   d.asked = request;
   d.askedCycles = d.parameters.parameterCycles;
   return true;
 }
 
-bool DummyDriver::pollParameter(std::size_t drive, axis::ParameterAnswer &answer) {
+bool DummyDriver::pollParameter(std::size_t drive, bus::ParameterAnswer &answer) {
   Drive &d = drives_[drive];
   if (d.askedCycles > 0)
     return false;
@@ -190,7 +190,7 @@ void DummyDriver::disturb(Drive &d) {
     d.index = true;
     d.indexMark = exactPosition(d.mechanics);
   }
-  for (std::size_t i = 0; i < axis::DriveStatus::kCaptureInputs; ++i)
+  for (std::size_t i = 0; i < bus::DriveStatus::kCaptureInputs; ++i)
     if (rising(sim.abProbe.v[i], sim.abOldProbe.v[i]))
       latch(d, i, exactPosition(d.mechanics));
 }
@@ -218,7 +218,7 @@ void DummyDriver::publish(Drive &d) {
   sim.bLimitPositive = d.status.limitPositive;
   sim.bLimitNegative = d.status.limitNegative;
   sim.bHomeSwitch = d.status.homeSwitch;
-  sim.bHoming = d.status.homing != axis::Homing::None;
+  sim.bHoming = d.status.homing != bus::Homing::None;
   sim.bIndex = d.index;
   if (d.index) {
     sim.fIndexPosition = d.indexMark * units;
@@ -294,7 +294,7 @@ Demand DummyDriver::home(Drive &d, const Demand &demand) {
     return demand;
   }
   const bool powered = d.status.regulatorOn && d.status.driveStarted;
-  if (d.homing.state() == axis::Homing::None)
+  if (d.homing.state() == bus::Homing::None)
     d.homing.begin(d.parameters,
                    demand.mode == kPositionMode ? demand.from : d.mechanics.position(),
                    d.status.homeSwitch);
@@ -355,11 +355,11 @@ void DummyDriver::setPosition(std::size_t drive, uint32_t position) {
   d.status.position = position;
 }
 
-std::unique_ptr<axis::AxisDriver> makeDummyDriver(const axis::GroupSetup &setup) {
+std::unique_ptr<bus::AxisDriver> makeDummyDriver(const bus::GroupSetup &setup) {
   return std::make_unique<DummyDriver>(setup);
 }
 
-std::unique_ptr<axis::AxisDriver> makeDummyDriver(std::size_t drives) {
+std::unique_ptr<bus::AxisDriver> makeDummyDriver(std::size_t drives) {
   return std::make_unique<DummyDriver>(drives);
 }
 

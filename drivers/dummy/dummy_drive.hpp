@@ -4,7 +4,7 @@
 
 #include "drivers/dummy/drive_parameters.hpp"
 #include "drivers/dummy/reference_run.hpp"
-#include "runtime/axis/axis_driver.hpp"
+#include "runtime/bus/axis_driver.hpp"
 
 #include "st/DummyDrive/DUMMY_DRIVE_SIM.h"
 
@@ -19,26 +19,26 @@ using DriveSim = ::st::DummyDrive::DUMMY_DRIVE_SIM;
 /// the next one, as far as the mechanics let it. Without a `physics` section a drive needs three
 /// cycles to start up and two to switch its regulator or brake, and is in regulation exactly where
 /// the cycle before told it to be. Out of regulation, or with the brake applied, it stands still.
-class DummyDriver final : public axis::AxisDriver {
+class DummyDriver final : public bus::AxisDriver {
 public:
   /// Drives as they are without any configuration.
   explicit DummyDriver(std::size_t drives);
-  explicit DummyDriver(const axis::GroupSetup &setup);
+  explicit DummyDriver(const bus::GroupSetup &setup);
 
   void executeStart() override;
   void executeEnd() override;
-  axis::StartUp init(std::size_t drive, uint16_t &progress, axis::Message &message) override;
+  bus::StartUp init(std::size_t drive, uint16_t &progress, bus::Message &message) override;
   void reset(std::size_t drive) override;
-  [[nodiscard]] axis::DriveStatus status(std::size_t drive) const override;
-  void command(std::size_t drive, const axis::DriveCommand &command) override;
+  [[nodiscard]] bus::DriveStatus status(std::size_t drive) const override;
+  void command(std::size_t drive, const bus::DriveCommand &command) override;
   [[nodiscard]] uint8_t controllerModes(std::size_t drive) const override;
   [[nodiscard]] uint8_t captureInputs(std::size_t /*drive*/) const override {
-    return axis::DriveStatus::kCaptureInputs;
+    return bus::DriveStatus::kCaptureInputs;
   }
   [[nodiscard]] uint32_t encoder(std::size_t encoder) const override;
   void bindData(std::size_t drive, void *data) override;
-  bool startParameter(std::size_t drive, const axis::ParameterRequest &request) override;
-  bool pollParameter(std::size_t drive, axis::ParameterAnswer &answer) override;
+  bool startParameter(std::size_t drive, const bus::ParameterRequest &request) override;
+  bool pollParameter(std::size_t drive, bus::ParameterAnswer &answer) override;
   void cancelParameter(std::size_t drive) override;
 
   /// Simulates an error of the drive: it goes out of regulation until the error is acknowledged.
@@ -57,8 +57,8 @@ private:
     DriveParameters parameters;
     Mechanics mechanics;
     ReferenceRun homing;
-    axis::DriveStatus status;
-    axis::DriveCommand command;
+    bus::DriveStatus status;
+    bus::DriveCommand command;
     std::vector<Demand> delayed; ///< Set values under way: a ring.
     std::size_t oldest = 0;
     int64_t demanded = 0;        ///< Last set position, over any number of turns. [inc]
@@ -67,9 +67,9 @@ private:
     uint32_t started = 0;
     uint32_t regulatorDelay = 0;
     uint32_t brakeDelay = 0;
-    bool lost = false;            ///< By setCommunication.
-    axis::ParameterRequest asked; ///< The question for a parameter …
-    uint32_t askedCycles = 0;     ///< … and the cycles until it is answered; 0: it is.
+    bool lost = false;           ///< By setCommunication.
+    bus::ParameterRequest asked; ///< The question for a parameter …
+    uint32_t askedCycles = 0;    ///< … and the cycles until it is answered; 0: it is.
     bool index = false;
     double indexMark = 0; ///< [inc]
     DriveSim *sim = nullptr;
@@ -86,7 +86,7 @@ private:
     uint32_t count = 0;
   };
 
-  static Encoder makeEncoder(const axis::EncoderSetup &encoder, const axis::GroupSetup &setup);
+  static Encoder makeEncoder(const bus::EncoderSetup &encoder, const bus::GroupSetup &setup);
   void show(Encoder &encoder);
   void disturb(Drive &drive);
   void publish(Drive &drive);
@@ -101,11 +101,11 @@ private:
   std::vector<Encoder> encoders_;
 };
 
-/// The driver for one axis group of interface type "Dummy".
-std::unique_ptr<axis::AxisDriver> makeDummyDriver(const axis::GroupSetup &setup);
+/// The driver for one drive group of interface type "Dummy".
+std::unique_ptr<bus::AxisDriver> makeDummyDriver(const bus::GroupSetup &setup);
 
 /// The same for drives without any configuration.
-std::unique_ptr<axis::AxisDriver> makeDummyDriver(std::size_t drives);
+std::unique_ptr<bus::AxisDriver> makeDummyDriver(std::size_t drives);
 
 } // namespace stride::dummy
 

@@ -7,7 +7,7 @@
 namespace stride::dummy {
 namespace {
 
-using Answer = axis::ParameterAnswer;
+using Answer = bus::ParameterAnswer;
 using Type = Answer::Type;
 using Target = ParameterTarget;
 
@@ -199,8 +199,8 @@ Answer::Result write(Target &target, const Entry &entry, double value) {
 
 } // namespace
 
-Answer answerParameter(Target &target, const axis::ParameterRequest &request) {
-  using Kind = axis::ParameterRequest::Kind;
+Answer answerParameter(Target &target, const bus::ParameterRequest &request) {
+  using Kind = bus::ParameterRequest::Kind;
   Answer answer;
   const Entry *entry = request.kind == Kind::Describe ? findPlace(target, request.number)
                                                       : find(target, request.number);

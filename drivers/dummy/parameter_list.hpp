@@ -4,7 +4,7 @@
 #define STRIDE_DRIVERS_DUMMY_PARAMETER_LIST_HPP
 
 #include "drivers/dummy/drive_parameters.hpp"
-#include "runtime/axis/axis_driver.hpp"
+#include "runtime/bus/axis_driver.hpp"
 
 namespace stride::dummy {
 
@@ -12,13 +12,12 @@ namespace stride::dummy {
 struct ParameterTarget {
   DriveParameters &parameters;
   Mechanics &mechanics;
-  const axis::DriveStatus &status;
+  const bus::DriveStatus &status;
   double lag; ///< Set position at the drive minus actual position. [inc]
 };
 
 /// Answers a question for a parameter of the drive.
-axis::ParameterAnswer answerParameter(ParameterTarget &target,
-                                      const axis::ParameterRequest &request);
+bus::ParameterAnswer answerParameter(ParameterTarget &target, const bus::ParameterRequest &request);
 
 } // namespace stride::dummy
 

@@ -11,7 +11,7 @@ void ReferenceRun::begin(const DriveParameters &parameters, int64_t position, bo
   home_ = parameters.home;
   period_ = parameters.period;
   cycle_ = parameters.mechanics.cycle;
-  state_ = axis::Homing::Running;
+  state_ = bus::Homing::Running;
   leaving_ = onSwitch_ = onSwitch;
   whole_ = position;
   rest_ = 0;
@@ -20,7 +20,7 @@ void ReferenceRun::begin(const DriveParameters &parameters, int64_t position, bo
 }
 
 double ReferenceRun::wantedVelocity() const {
-  if (state_ == axis::Homing::Failed)
+  if (state_ == bus::Homing::Failed)
     return 0;
   const double velocity = leaving_ ? -p_.slow : p_.fast;
   return p_.positive ? velocity : -velocity;
@@ -57,21 +57,21 @@ void ReferenceRun::look(double before, double after, bool onSwitch, bool limitPo
                         bool limitNegative) {
   const bool was = onSwitch_;
   onSwitch_ = onSwitch;
-  if (state_ != axis::Homing::Running)
+  if (state_ != bus::Homing::Running)
     return;
   if (!leaving_) {
     way_ += after > before ? after - before : before - after;
     if (onSwitch)
       leaving_ = true;
     else if ((p_.positive ? limitPositive : limitNegative) || (period_ > 0 && way_ > 2 * period_))
-      state_ = axis::Homing::Failed;
+      state_ = bus::Homing::Failed;
     return;
   }
   const bool backwards = p_.positive ? after < before : after > before;
   if (!was || onSwitch || !backwards)
     return;
   reference_ = edge(before, after);
-  state_ = axis::Homing::Found;
+  state_ = bus::Homing::Found;
 }
 
 } // namespace stride::dummy

@@ -3,7 +3,7 @@
 #define STRIDE_DRIVERS_DUMMY_REFERENCE_RUN_HPP
 
 #include "drivers/dummy/drive_parameters.hpp"
-#include "runtime/axis/axis_driver.hpp"
+#include "runtime/bus/axis_driver.hpp"
 
 #include <cstdint>
 
@@ -17,10 +17,10 @@ public:
   void begin(const DriveParameters &parameters, int64_t position, bool onSwitch);
 
   /// There is none.
-  void clear() { state_ = axis::Homing::None; }
+  void clear() { state_ = bus::Homing::None; }
 
   /// The drive gives up and brakes.
-  void fail() { state_ = axis::Homing::Failed; }
+  void fail() { state_ = bus::Homing::Failed; }
 
   /// Set values for the next cycle.
   [[nodiscard]] Demand next();
@@ -28,7 +28,7 @@ public:
   /// After a cycle in which the mechanics went from `before` to `after`: what the switches say now.
   void look(double before, double after, bool onSwitch, bool limitPositive, bool limitNegative);
 
-  [[nodiscard]] axis::Homing state() const { return state_; }
+  [[nodiscard]] bus::Homing state() const { return state_; }
 
   /// Found: where. [inc]
   [[nodiscard]] double reference() const { return reference_; }
@@ -41,7 +41,7 @@ private:
   SwitchRange home_;
   double period_ = 0;
   double cycle_ = 0;
-  axis::Homing state_ = axis::Homing::None;
+  bus::Homing state_ = bus::Homing::None;
   bool leaving_ = false; ///< The switch has been found: slowly off it.
   bool onSwitch_ = false;
   int64_t whole_ = 0; ///< Last set position …

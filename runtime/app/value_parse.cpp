@@ -30,7 +30,7 @@ struct Range {
   uint64_t max;
 };
 
-std::optional<Range> rangeOf(Kind kind) {
+std::optional<Range> literalRange(Kind kind) {
   switch (kind) {
   case Kind::SINT:
     return Range{INT8_MIN, INT8_MAX};
@@ -302,7 +302,7 @@ void parseLiteral(const StrideAppV1 &app, const TypeDesc &type, std::string_view
     throw Error(fmt::format("a value of type {} is missing", type.name));
   const char *data = text.data();
   const uint32_t size = length(text);
-  if (const std::optional<Range> range = rangeOf(type.kind))
+  if (const std::optional<Range> range = literalRange(type.kind))
     return storeInteger(type, *range, text, value);
   switch (type.kind) {
   case Kind::BOOL:

@@ -1,6 +1,6 @@
 #include "runtime/axis/axis_parameters.hpp"
 
-#include "runtime/axis/exact_math.hpp"
+#include "runtime/numeric/exact_math.hpp"
 
 #include "st/SM_DriveBasic/AXIS_REF_parameters.h"
 

@@ -3,7 +3,7 @@
 #define STRIDE_RUNTIME_AXIS_CAPTURE_WINDOW_HPP
 
 #include "runtime/axis/axis_ref.hpp"
-#include "runtime/axis/modulo_wrap.hpp"
+#include "runtime/numeric/modulo_wrap.hpp"
 
 namespace stride::axis {
 
@@ -22,9 +22,9 @@ inline bool inCaptureWindow(const AxisRef &axis, double first, double last,
   const double period = axis.fPositionPeriod;
   if (last - first >= period)
     return true;
-  const double from = wrapPosition(first, period);
-  const double to = wrapPosition(last, period);
-  const double place = wrapPosition(position, period);
+  const double from = numeric::wrapPosition(first, period);
+  const double to = numeric::wrapPosition(last, period);
+  const double place = numeric::wrapPosition(position, period);
   if (from <= to)
     return place >= from && place <= to;
   return place >= from || place <= to;

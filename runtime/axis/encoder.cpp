@@ -1,8 +1,8 @@
 #include "runtime/axis/encoder.hpp"
 
-#include "runtime/axis/exact_math.hpp"
 #include "runtime/axis/increments.hpp"
-#include "runtime/axis/modulo_wrap.hpp"
+#include "runtime/numeric/exact_math.hpp"
+#include "runtime/numeric/modulo_wrap.hpp"
 
 namespace stride::axis {
 namespace {
@@ -67,10 +67,10 @@ double encoderPosition(const EncoderRef &encoder) noexcept {
     place += length;
   const Wide whole = place / turn.denominator;
   const Wide rest = place % turn.denominator;
-  return wrapPosition(units(static_cast<double>(static_cast<int64_t>(whole)) +
-                            static_cast<double>(static_cast<int64_t>(rest)) /
-                                static_cast<double>(turn.denominator)),
-                      period);
+  return numeric::wrapPosition(units(static_cast<double>(static_cast<int64_t>(whole)) +
+                                     static_cast<double>(static_cast<int64_t>(rest)) /
+                                         static_cast<double>(turn.denominator)),
+                               period);
 }
 
 } // namespace stride::axis

@@ -1,6 +1,6 @@
 #include "runtime/axis/increments.hpp"
 
-#include "runtime/axis/modulo_wrap.hpp"
+#include "runtime/numeric/modulo_wrap.hpp"
 
 #include <math.h>
 
@@ -110,7 +110,8 @@ double positionOf(const AxisRef &axis, uint32_t counter) noexcept {
     return unitsPerIncrement(axis, static_cast<double>(increments)) + axis.fOffsetPosition;
   const double place = static_cast<double>(increments - axis.liActTurnStart) -
                        remainder(axis.liActTurnRest, axis.liTurnDenominator);
-  return wrapPosition(unitsPerIncrement(axis, place) + axis.fOffsetPosition, axis.fPositionPeriod);
+  return numeric::wrapPosition(unitsPerIncrement(axis, place) + axis.fOffsetPosition,
+                               axis.fPositionPeriod);
 }
 
 ScalingError configureScaling(AxisRef &axis) noexcept {
@@ -173,8 +174,8 @@ void updateActual(AxisRef &axis, uint32_t counter) noexcept {
                  static_cast<int64_t>(::floor(place / turn)));
     place = inTurn();
   }
-  axis.fActPosition =
-      wrapPosition(unitsPerIncrement(axis, place) + axis.fOffsetPosition, axis.fPositionPeriod);
+  axis.fActPosition = numeric::wrapPosition(unitsPerIncrement(axis, place) + axis.fOffsetPosition,
+                                            axis.fPositionPeriod);
 }
 
 bool updateSet(AxisRef &axis, double travel) noexcept {
@@ -187,7 +188,7 @@ bool updateSet(AxisRef &axis, double travel) noexcept {
     return true;
   }
   const double period = axis.fPositionPeriod;
-  const double place = wrapPosition(position, period);
+  const double place = numeric::wrapPosition(position, period);
   const double surplus = (travel - (place - axis.fLastPosition)) / period;
   if (::fabs(surplus) >= 0.5 && ::fabs(surplus) < 0x1p31) {
     const int64_t turns = ::llround(surplus);
@@ -209,7 +210,8 @@ void followActual(AxisRef &axis) noexcept {
     return;
   axis.liSetTurnStart = axis.liActTurnStart;
   axis.liSetTurnRest = axis.liActTurnRest;
-  axis.fLastPosition = wrapPosition(axis.fActPosition - axis.fOffsetPosition, axis.fPositionPeriod);
+  axis.fLastPosition =
+      numeric::wrapPosition(axis.fActPosition - axis.fOffsetPosition, axis.fPositionPeriod);
   mirrorResiduals(axis);
 }
 

@@ -1,5 +1,5 @@
 // The way from blocks to a drive's own parameters: AXIS_REF.stChannel. Blocks may be called in
-// other tasks than that of the axis group, so whoever wants to ask claims the channel first. Free
+// other tasks than that of the drive group, so whoever wants to ask claims the channel first. Free
 // of the C++ standard library: linked into every application.
 #ifndef STRIDE_RUNTIME_AXIS_PARAMETER_CHANNEL_HPP
 #define STRIDE_RUNTIME_AXIS_PARAMETER_CHANNEL_HPP

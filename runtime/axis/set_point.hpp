@@ -4,9 +4,9 @@
 #define STRIDE_RUNTIME_AXIS_SET_POINT_HPP
 
 #include "runtime/axis/axis_ref.hpp"
-#include "runtime/axis/exact_math.hpp"
-#include "runtime/axis/modulo_wrap.hpp"
-#include "runtime/axis/motion_state.hpp"
+#include "runtime/numeric/exact_math.hpp"
+#include "runtime/numeric/modulo_wrap.hpp"
+#include "runtime/numeric/motion_state.hpp"
 
 namespace stride::axis {
 
@@ -29,12 +29,12 @@ inline void writeMotion(AxisRef &axis, double velocity, double acceleration) noe
 
 /// `position` as the axis shows it: within the period on a rotary axis.
 inline double shownPosition(const AxisRef &axis, double position) noexcept {
-  return isRotary(axis) ? wrapPosition(position, axis.fPositionPeriod) : position;
+  return isRotary(axis) ? numeric::wrapPosition(position, axis.fPositionPeriod) : position;
 }
 
 /// Writes this cycle's set values; the position may be any number of turns. What a superimposed
 /// motion has added comes on top.
-inline void writeSetPoint(AxisRef &axis, const MotionState &state) noexcept {
+inline void writeSetPoint(AxisRef &axis, const numeric::MotionState &state) noexcept {
   const auto &added = axis.stSuperimposed;
   axis.fSetPosition = shownPosition(axis, state.position + added.fPosition);
   writeMotion(axis, state.velocity + added.fVelocity, state.acceleration + added.fAcceleration);
@@ -42,7 +42,7 @@ inline void writeSetPoint(AxisRef &axis, const MotionState &state) noexcept {
 }
 
 /// The present set values. [u] within the period on a rotary axis.
-inline MotionState setState(const AxisRef &axis) noexcept {
+inline numeric::MotionState setState(const AxisRef &axis) noexcept {
   return {axis.fSetPosition, axis.fSetVelocity, axis.fSetAcceleration};
 }
 
@@ -71,7 +71,8 @@ inline void beginPlan(PlannerState &plan, double cycle, double duration, double 
 
 /// Appends a segment to the plan; see SMC_PROFILE_SEGMENT.
 inline void appendSegment(PlannerState &plan, double start, double reference,
-                          const MotionState &origin, double jerk, double frequency) noexcept {
+                          const numeric::MotionState &origin, double jerk,
+                          double frequency) noexcept {
   auto &segment = plan.aSegment.v[plan.uiSegmentCount++];
   segment.fStart = start;
   segment.fReference = reference;
@@ -94,17 +95,17 @@ inline bool isPlanOver(const PlannerState &plan, double t) noexcept {
 }
 
 /// The state at time `t` before the end, which must not go back from call to call.
-inline MotionState pieceState(PlannerState &plan, double t) noexcept {
+inline numeric::MotionState pieceState(PlannerState &plan, double t) noexcept {
   while (plan.uiSegment + 1 < plan.uiSegmentCount &&
          t >= plan.aSegment.v[plan.uiSegment + 1].fStart)
     ++plan.uiSegment;
   const auto &segment = plan.aSegment.v[plan.uiSegment];
-  const MotionState origin{segment.fPosition, segment.fVelocity, segment.fAcceleration};
-  return evaluatePiece(origin, segment.fJerk, segment.fFrequency, t - segment.fReference);
+  const numeric::MotionState origin{segment.fPosition, segment.fVelocity, segment.fAcceleration};
+  return numeric::evaluatePiece(origin, segment.fJerk, segment.fFrequency, t - segment.fReference);
 }
 
 /// The state at time `t` at or after the end: on with the end velocity.
-inline MotionState stateAfterEnd(const PlannerState &plan, double t) noexcept {
+inline numeric::MotionState stateAfterEnd(const PlannerState &plan, double t) noexcept {
   if (plan.fEndVelocity == 0.0)
     return {plan.fEnd, 0.0, 0.0};
   return {plan.fEnd + plan.fEndVelocity * (t - plan.fDuration), plan.fEndVelocity, 0.0};
@@ -112,7 +113,7 @@ inline MotionState stateAfterEnd(const PlannerState &plan, double t) noexcept {
 
 /// The state at time `t`, which must not go back from call to call. The position is on the scale of
 /// the segments.
-inline MotionState planState(PlannerState &plan, double t) noexcept {
+inline numeric::MotionState planState(PlannerState &plan, double t) noexcept {
   return isPlanOver(plan, t) ? stateAfterEnd(plan, t) : pieceState(plan, t);
 }
 
@@ -127,7 +128,7 @@ inline bool stepPlan(AxisRef &axis) noexcept {
     writeSetPoint(axis, pieceState(plan, t));
     return false;
   }
-  MotionState state = stateAfterEnd(plan, t);
+  numeric::MotionState state = stateAfterEnd(plan, t);
   if (plan.fEndVelocity == 0.0 && plan.bHeld == 0) {
     state.position = plan.fTarget;
     plan.bActive = 0;

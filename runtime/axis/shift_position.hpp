@@ -4,7 +4,7 @@
 #define STRIDE_RUNTIME_AXIS_SHIFT_POSITION_HPP
 
 #include "runtime/axis/axis_ref.hpp"
-#include "runtime/axis/modulo_wrap.hpp"
+#include "runtime/numeric/modulo_wrap.hpp"
 
 #include "st/SM_DriveBasic/SMC_MOTION_KIND.h"
 
@@ -16,7 +16,8 @@ namespace stride::axis {
 inline void shiftPosition(AxisRef &axis, double shift) noexcept {
   const bool rotary = isRotary(axis);
   const auto moved = [&](double position) {
-    return rotary ? wrapPosition(position + shift, axis.fPositionPeriod) : position + shift;
+    return rotary ? numeric::wrapPosition(position + shift, axis.fPositionPeriod)
+                  : position + shift;
   };
   axis.fOffsetPosition = moved(axis.fOffsetPosition);
   axis.fSetPosition = moved(axis.fSetPosition);

@@ -1,10 +1,10 @@
 #include "runtime/embed/stride.hpp"
 
+#include "runtime/app/condition.hpp"
 #include "runtime/app/error.hpp"
 #include "runtime/app/value_text.hpp"
 #include "runtime/host/axis_hooks.hpp"
 #include "runtime/host/instance.hpp"
-#include "runtime/monitor/condition.hpp"
 #include "runtime/monitor/symbol_server.hpp"
 #include "runtime/task/virtual_scheduler.hpp"
 
@@ -152,7 +152,7 @@ bool Application::stopped() const { return impl_->instance.tasks().stopped(); }
 Result<std::string> Application::read(std::string_view name) const {
   try {
     const app::SymbolTable &symbols = impl_->instance.symbols();
-    const app::Symbol symbol = monitor::resolveElementary(symbols, name);
+    const app::Symbol symbol = app::resolveElementary(symbols, name);
     std::byte bit{};
     const void *value = symbol.read(impl_->instance.state(), bit);
     if (value == nullptr)
@@ -166,8 +166,8 @@ Result<std::string> Application::read(std::string_view name) const {
 Status Application::write(std::string_view name, std::string_view literal) {
   return attempt([&] {
     const app::SymbolTable &symbols = impl_->instance.symbols();
-    const app::Symbol symbol = monitor::resolveWritable(symbols, name);
-    const std::vector<std::byte> value = monitor::literalBytes(symbols, symbol, literal);
+    const app::Symbol symbol = app::resolveWritable(symbols, name);
+    const std::vector<std::byte> value = app::literalBytes(symbols, symbol, literal);
     if (!symbol.write(impl_->instance.state(), value.data(), value.size()))
       throw app::Error(fmt::format("symbol '{}': a pointer on the way is null", name));
   });
@@ -186,7 +186,7 @@ Result<Place> Application::findPlace(std::string_view name, std::size_t size,
   try {
     const app::SymbolTable &symbols = impl_->instance.symbols();
     auto place = std::make_shared<Place::Impl>();
-    place->symbol = monitor::resolveElementary(symbols, name);
+    place->symbol = app::resolveElementary(symbols, name);
     place->state = impl_->instance.state();
     place->size = size;
     const TypeDesc &type = symbols.type(place->symbol);

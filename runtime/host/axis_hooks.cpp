@@ -2,7 +2,7 @@
 
 #include "drivers/dummy/dummy_drive.hpp"
 #include "runtime/app/error.hpp"
-#include "runtime/axis/axis_group.hpp"
+#include "runtime/bus/drive_group.hpp"
 #include "runtime/host/error_names.hpp"
 #include "runtime/host/task_times.hpp"
 
@@ -65,7 +65,7 @@ private:
 class AxisGroupHook final : public task::CycleHook {
 public:
   AxisGroupHook(const StrideAppV1 &app, uint32_t index, std::byte *state,
-                std::unique_ptr<axis::AxisDriver> driver, double cycleSeconds, InputPort &inputs,
+                std::unique_ptr<bus::AxisDriver> driver, double cycleSeconds, InputPort &inputs,
                 bool realClock, std::shared_ptr<BootupErrors> errors)
       : errors_(std::move(errors)), inputs_(&inputs), realClock_(realClock),
         ref_(&groupOf(app, state, index)), index_(index), name_(app.axisGroups[index].name),
@@ -139,8 +139,8 @@ public:
   }
 
 private:
-  static axis::AxisGroupRef &groupOf(const StrideAppV1 &app, std::byte *state, uint32_t index) {
-    return at<axis::AxisGroupRef>(state, app.axisGroups[index].groupOffset);
+  static bus::AxisGroupRef &groupOf(const StrideAppV1 &app, std::byte *state, uint32_t index) {
+    return at<bus::AxisGroupRef>(state, app.axisGroups[index].groupOffset);
   }
   /// In virtual time a cycle takes none, so that simulations are repeatable.
   int64_t measuredNow(const Ctx &ctx) noexcept {
@@ -196,7 +196,7 @@ private:
   std::shared_ptr<BootupErrors> errors_; ///< Of all groups.
   InputPort *inputs_;
   bool realClock_;
-  axis::AxisGroupRef *ref_;
+  bus::AxisGroupRef *ref_;
   TaskTimes times_;
   uint32_t index_;
   std::string name_;
@@ -206,12 +206,12 @@ private:
   std::vector<bool> stopped_; ///< By applicationStopped(), so that it is no error of the program.
   uint64_t bootupErrorOffset_;
   uint32_t bootupErrorLength_; ///< 0: the application has no g_strBootupError
-  axis::AxisGroup group_;
+  bus::DriveGroup group_;
   bool shown_ = false;
 };
 
-axis::SetupParameters parametersOf(const StrideAppV1 &app, uint32_t first, uint32_t count) {
-  axis::SetupParameters result;
+bus::SetupParameters parametersOf(const StrideAppV1 &app, uint32_t first, uint32_t count) {
+  bus::SetupParameters result;
   for (uint32_t i = 0; i < count; ++i) {
     const ParameterDesc &parameter = app.parameters[first + i];
     result.add({parameter.name, parameter.text != nullptr ? parameter.text : "", parameter.number});
@@ -220,8 +220,8 @@ axis::SetupParameters parametersOf(const StrideAppV1 &app, uint32_t first, uint3
 }
 
 /// The configuration of an axis group as its driver gets it.
-axis::GroupSetup setupOf(const StrideAppV1 &app, const AxisGroupDesc &group) {
-  axis::GroupSetup setup;
+bus::GroupSetup setupOf(const StrideAppV1 &app, const AxisGroupDesc &group) {
+  bus::GroupSetup setup;
   setup.name = group.name;
   setup.bus = group.busName;
   if (group.bus != kNoIndex) {
@@ -247,8 +247,8 @@ axis::GroupSetup setupOf(const StrideAppV1 &app, const AxisGroupDesc &group) {
   return setup;
 }
 
-std::unique_ptr<axis::AxisDriver> makeDriver(const AxisGroupDesc &group,
-                                             const axis::GroupSetup &setup) {
+std::unique_ptr<bus::AxisDriver> makeDriver(const AxisGroupDesc &group,
+                                            const bus::GroupSetup &setup) {
   const std::string name = group.driverName;
   if (name == "Dummy")
     return dummy::makeDummyDriver(setup);
@@ -283,7 +283,7 @@ addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPo
   const auto errors = std::make_shared<BootupErrors>(app.axisGroupCount);
   for (uint32_t i = 0; i < app.axisGroupCount; ++i) {
     const AxisGroupDesc &group = app.axisGroups[i];
-    const axis::GroupSetup setup = setupOf(app, group);
+    const bus::GroupSetup setup = setupOf(app, group);
     for (uint32_t d = 0; d < group.driveCount; ++d)
       bindData(app.drives[group.firstDrive + d], application.state());
     hooks.push_back(std::make_unique<AxisGroupHook>(app, i, application.state(),

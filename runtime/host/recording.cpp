@@ -109,7 +109,7 @@ private:
 Recording::Recording(const std::string &path)
     : path_(path), output_(path, kRing + sizeof(BlockHead), Output::Wait::Never), ring_(kRing) {}
 
-void Recording::begin(const app::Application &application, const monitor::Script *script) {
+void Recording::begin(const app::Application &application, const script::Script *script) {
   const StrideAppV1 &app = application.description();
   Header header;
   header.buildHash = app.buildHash;
@@ -252,7 +252,7 @@ std::string Recording::problem() const {
 }
 
 Replay::Replay(const std::string &path, const app::Application &application,
-               const monitor::Script *script)
+               const script::Script *script)
     : path_(path) {
   readBlocks();
   const StrideAppV1 &app = application.description();

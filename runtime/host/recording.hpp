@@ -5,8 +5,8 @@
 #include "runtime/app/application.hpp"
 #include "runtime/host/input_port.hpp"
 #include "runtime/host/output.hpp"
-#include "runtime/monitor/script.hpp"
 #include "runtime/monitor/symbol_server.hpp"
+#include "runtime/script/script.hpp"
 #include "runtime/task/task_set.hpp"
 
 #include <atomic>
@@ -32,7 +32,7 @@ public:
   void addHooks(task::TaskSet &tasks);
   /// Before the first cycle: the file begins with the state as it is now, initialised and with its
   /// retained values. `script`: what the replay must be given again, or null.
-  void begin(const app::Application &application, const monitor::Script *script);
+  void begin(const app::Application &application, const script::Script *script);
 
   using InputPort::pass;
   void pass(void *value, std::size_t size) noexcept override;
@@ -80,7 +80,7 @@ public:
   /// Throws app::Error: unreadable, no recording, damaged, of another build of the application or
   /// of another script than that one (or null).
   Replay(const std::string &path, const app::Application &application,
-         const monitor::Script *script);
+         const script::Script *script);
   ~Replay() override;
 
   /// The exception that stopped the run.

@@ -51,7 +51,7 @@ Session::Session(std::unique_ptr<app::Application> application, std::size_t numb
     retain.file = name_ + ".retain";
   instance_.retain(retain, [this](std::string_view line) { say(line); });
   if (!own.script.empty()) {
-    script_.emplace(monitor::Script::fromFile(instance_.symbols(), own.script));
+    script_.emplace(script::Script::fromFile(instance_.symbols(), own.script));
     scriptHook_.emplace(*script_);
   }
 }
@@ -64,7 +64,7 @@ bool Session::start(TraceWriter *trace, monitor::Service *service) {
     }
     // First of all hooks, so that it sees the end of the cycle behind the others.
     if (trace != nullptr) {
-      const TraceColumns &columns = trace->columns();
+      const app::TraceColumns &columns = trace->columns();
       trace_ = trace;
       ring_ = std::make_unique<TraceRing>(columns, kTraceBytes / columns.rowSize());
       instance_.tasks().addHook(instance_.tasks().fastest(), *ring_);
@@ -153,10 +153,10 @@ void Session::takeOver(OnlineChange &change, ChangeResult &result, const Tell &t
   const app::SymbolTable symbols(change.fresh());
   for (const std::string &name : own_->print)
     (void)symbols.resolve(name);
-  std::optional<TraceColumns> columns;
+  std::optional<app::TraceColumns> columns;
   if (trace_ != nullptr)
     columns = trace_->columns().in(symbols);
-  std::optional<monitor::Script> script;
+  std::optional<script::Script> script;
   if (script_)
     script.emplace(script_->in(symbols));
   auto servedSymbols = std::make_unique<app::SymbolTable>(change.fresh());

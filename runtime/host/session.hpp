@@ -85,7 +85,7 @@ private:
   std::unique_ptr<TraceRing> ring_;
   bool traceFailed_ = false; ///< Which has been said.
   std::unique_ptr<Recording> recording_;
-  std::optional<monitor::Script> script_;
+  std::optional<script::Script> script_;
   std::optional<ScriptHook> scriptHook_;
   std::unique_ptr<monitor::SymbolServer> served_;
   monitor::Service *service_ = nullptr;

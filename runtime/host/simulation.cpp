@@ -81,7 +81,7 @@ private:
 class Observer final : public task::InstantObserver {
 public:
   Observer(Instance &instance, const std::vector<ChangeOption> &changes, SetList &sets,
-           monitor::Script *script, TraceWriter *trace, Progress &progress, Messages &messages)
+           script::Script *script, TraceWriter *trace, Progress &progress, Messages &messages)
       : instance_(&instance), changes_(&changes), sets_(&sets), script_(script), trace_(trace),
         progress_(&progress), messages_(&messages) {}
 
@@ -128,11 +128,11 @@ private:
     const app::SymbolTable symbols(change.fresh());
     sets_->resolveIn(symbols);
     if (script_ != nullptr) {
-      monitor::Script script = script_->in(symbols);
+      script::Script script = script_->in(symbols);
       script_->takeOver(script);
     }
     if (trace_ != nullptr) {
-      TraceColumns columns = trace_->columns().in(symbols);
+      app::TraceColumns columns = trace_->columns().in(symbols);
       trace_->swapColumns(columns);
     }
     if (!change.apply(timeNs))
@@ -148,7 +148,7 @@ private:
   const std::vector<ChangeOption> *changes_;
   std::size_t next_ = 0;
   SetList *sets_;
-  monitor::Script *script_;
+  script::Script *script_;
   TraceWriter *trace_;
   Progress *progress_;
   Messages *messages_;
@@ -256,9 +256,9 @@ static ExitCode simulateHere(std::unique_ptr<app::Application> application,
   if (!options.trace.empty())
     trace.emplace(instance.symbols(), options.trace, options.out);
 
-  std::optional<monitor::Script> script;
+  std::optional<script::Script> script;
   if (!options.script.empty())
-    script.emplace(monitor::Script::fromFile(instance.symbols(), options.script));
+    script.emplace(script::Script::fromFile(instance.symbols(), options.script));
 
   std::optional<Replay> replay;
   if (!options.replay.empty()) {

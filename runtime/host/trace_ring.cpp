@@ -4,7 +4,7 @@
 
 namespace stride::host {
 
-TraceRing::TraceRing(const TraceColumns &columns, std::size_t rows)
+TraceRing::TraceRing(const app::TraceColumns &columns, std::size_t rows)
     : columns_(&columns), rows_(std::max<std::size_t>(rows, 1)), rowSize_(columns.rowSize()),
       memory_(rows_ * rowSize_) {}
 

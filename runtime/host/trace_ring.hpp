@@ -16,7 +16,7 @@ namespace stride::host {
 class TraceRing final : public task::CycleHook {
 public:
   /// `columns` lives longer. `rows`: how many may wait.
-  TraceRing(const TraceColumns &columns, std::size_t rows);
+  TraceRing(const app::TraceColumns &columns, std::size_t rows);
 
   void beforePous(Ctx &) override {}
   void afterPous(Ctx &ctx) override;
@@ -30,7 +30,7 @@ public:
 private:
   std::byte *place(uint64_t number) { return memory_.data() + number % rows_ * rowSize_; }
 
-  const TraceColumns *columns_;
+  const app::TraceColumns *columns_;
   std::size_t rows_;
   std::size_t rowSize_;
   std::vector<std::byte> memory_;

@@ -2,8 +2,8 @@
 #ifndef STRIDE_RUNTIME_HOST_TRACE_WRITER_HPP
 #define STRIDE_RUNTIME_HOST_TRACE_WRITER_HPP
 
+#include "runtime/app/trace_columns.hpp"
 #include "runtime/host/output.hpp"
-#include "runtime/monitor/trace_columns.hpp"
 
 #include <cstdint>
 #include <string>
@@ -11,8 +11,6 @@
 #include <vector>
 
 namespace stride::host {
-
-using monitor::TraceColumns;
 
 /// Writes a trace: a header line and a line per row. What cannot be written ends the trace, not
 /// the run: see problem().
@@ -23,10 +21,10 @@ public:
   TraceWriter(const app::SymbolTable &symbols, const std::vector<std::string> &paths,
               const std::string &out, Output::Wait wait = Output::Wait::Always);
 
-  const TraceColumns &columns() const { return columns_; }
+  const app::TraceColumns &columns() const { return columns_; }
   /// Another build has taken over: `columns` are these columns in it. Between two cycles;
   /// `columns` gets the old ones.
-  void swapColumns(TraceColumns &columns) noexcept { std::swap(columns_, columns); }
+  void swapColumns(app::TraceColumns &columns) noexcept { std::swap(columns_, columns); }
   /// Whether there is room for a row; with Output::Wait::Always there always is.
   bool ready() noexcept;
   /// While ready(): a row with the values as they are now.
@@ -41,7 +39,7 @@ public:
   std::string problem() const;
 
 private:
-  TraceColumns columns_;
+  app::TraceColumns columns_;
   std::vector<std::byte> row_;
   std::string name_;
   Output output_;

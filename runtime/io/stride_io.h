@@ -6,8 +6,8 @@
  * writes bytes, adds 1 to `end`. Whoever reads takes `end`, the bytes, then `begin`: when both are
  * equal the bytes belong together, else it tries again. Nobody ever waits for the other one.
  */
-#ifndef STRIDE_IO_H
-#define STRIDE_IO_H
+#ifndef STRIDE_RUNTIME_IO_STRIDE_IO_H
+#define STRIDE_RUNTIME_IO_STRIDE_IO_H
 
 #include <stddef.h>
 #include <stdint.h>

@@ -10,22 +10,22 @@ namespace stride::monitor {
 
 namespace {
 
-std::optional<Comparison> signalOf(const app::SymbolTable &symbols,
-                                   const std::optional<TriggerSettings> &trigger) {
+std::optional<app::Comparison> signalOf(const app::SymbolTable &symbols,
+                                        const std::optional<TriggerSettings> &trigger) {
   if (!trigger)
     return std::nullopt;
-  const app::Symbol symbol = resolveElementary(symbols, trigger->name);
+  const app::Symbol symbol = app::resolveElementary(symbols, trigger->name);
   const TypeDesc &type = symbols.type(symbol);
   if (type.kind == Kind::BOOL) {
     if (!trigger->threshold.empty())
       throw app::Error(fmt::format("trigger '{}': a BOOL has no threshold", trigger->name));
-    return Comparison(symbols, symbol, Relation::Equal, {std::byte{1}});
+    return app::Comparison(symbols, symbol, app::Relation::Equal, {std::byte{1}});
   }
   if (trigger->threshold.empty())
     throw app::Error(fmt::format("trigger '{}': it is {}, not BOOL; give a threshold",
                                  trigger->name, type.name));
-  return Comparison(symbols, symbol, Relation::GreaterEqual,
-                    literalBytes(symbols, symbol, trigger->threshold));
+  return app::Comparison(symbols, symbol, app::Relation::GreaterEqual,
+                         app::literalBytes(symbols, symbol, trigger->threshold));
 }
 
 } // namespace

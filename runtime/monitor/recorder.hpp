@@ -2,8 +2,8 @@
 #ifndef STRIDE_RUNTIME_MONITOR_RECORDER_HPP
 #define STRIDE_RUNTIME_MONITOR_RECORDER_HPP
 
-#include "runtime/monitor/condition.hpp"
-#include "runtime/monitor/trace_columns.hpp"
+#include "runtime/app/condition.hpp"
+#include "runtime/app/trace_columns.hpp"
 
 #include <atomic>
 #include <cstddef>
@@ -72,10 +72,10 @@ private:
   bool triggers(std::byte *state) noexcept;
   uint64_t firstRow() const noexcept;
 
-  TraceColumns columns_;
+  app::TraceColumns columns_;
   std::size_t depth_;
   std::size_t behind_; ///< Rows from the trigger on.
-  std::optional<Comparison> signal_;
+  std::optional<app::Comparison> signal_;
   TriggerEdge edge_ = TriggerEdge::Rising;
   bool hasLevel_ = false;
   bool level_ = false; ///< The signal in the last cycle.

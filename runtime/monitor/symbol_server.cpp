@@ -1,9 +1,9 @@
 #include "runtime/monitor/symbol_server.hpp"
 
+#include "runtime/app/condition.hpp"
 #include "runtime/app/error.hpp"
 #include "runtime/app/nearest.hpp"
 #include "runtime/app/value_text.hpp"
-#include "runtime/monitor/condition.hpp"
 #include "runtime/monitor/symbol_channel.hpp"
 
 #include <fmt/format.h>
@@ -129,8 +129,8 @@ std::shared_ptr<SymbolRequest> SymbolServer::write(const std::vector<NamedValue>
   std::vector<app::Symbol> wanted;
   std::vector<std::byte> bytes;
   for (const auto &[name, literal] : values) {
-    wanted.push_back(resolveWritable(*symbols_, name));
-    const std::vector<std::byte> value = literalBytes(*symbols_, wanted.back(), literal);
+    wanted.push_back(app::resolveWritable(*symbols_, name));
+    const std::vector<std::byte> value = app::literalBytes(*symbols_, wanted.back(), literal);
     bytes.insert(bytes.end(), value.begin(), value.end());
   }
   std::shared_ptr<SymbolRequest> request = newRequest(std::move(wanted));
@@ -163,8 +163,8 @@ void SymbolServer::force(const std::vector<NamedValue> &values) {
   const std::lock_guard lock(mutex_);
   std::vector<Forced> next = forced_;
   for (const auto &[name, literal] : values) {
-    app::Symbol symbol = resolveWritable(*symbols_, name);
-    std::vector<std::byte> value = literalBytes(*symbols_, symbol, literal);
+    app::Symbol symbol = app::resolveWritable(*symbols_, name);
+    std::vector<std::byte> value = app::literalBytes(*symbols_, symbol, literal);
     const std::string key = app::lowered(name);
     const auto found = std::find_if(next.begin(), next.end(), [&](const Forced &forced) {
       return app::lowered(forced.symbol.path()) == key;
@@ -281,7 +281,7 @@ SymbolServer::Change SymbolServer::prepareChange(std::unique_ptr<app::SymbolTabl
   for (const Forced &forced : forced_) {
     const TypeDesc &before = symbols_->type(forced.symbol);
     try {
-      app::Symbol symbol = resolveWritable(*symbols, forced.symbol.path());
+      app::Symbol symbol = app::resolveWritable(*symbols, forced.symbol.path());
       if (symbols->type(symbol).layoutHash == before.layoutHash) {
         parts.forced.push_back({std::move(symbol), forced.value});
         continue;

@@ -1,6 +1,6 @@
 // Cam files as a disk may hold them: whatever the bytes are, they are refused or give a curve that
 // can be evaluated.
-#include "runtime/cam/cam_file.hpp"
+#include "runtime/numeric/cam/cam_file.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // Any bytes as an input script: read, and stepped if it is one.
 #include "runtime/app/application.hpp"
 #include "runtime/app/error.hpp"
-#include "runtime/monitor/script.hpp"
+#include "runtime/script/script.hpp"
 #include "runtime/task/fault.hpp"
 
 #include <cstddef>
@@ -14,8 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   application.initialise(task::hostApi());
   const app::SymbolTable symbols(application.description());
   try {
-    monitor::Script script(symbols, std::string_view(reinterpret_cast<const char *>(data), size),
-                           "fuzz");
+    script::Script script(symbols, std::string_view(reinterpret_cast<const char *>(data), size),
+                          "fuzz");
     for (int64_t time = 0; time < 1'000'000'000; time += 100'000'000)
       script.step(time, application.state());
     (void)script.nextNs();

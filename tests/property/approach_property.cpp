@@ -1,6 +1,6 @@
 // The way onto a curve: chain rule there and back, and whether it goes backwards, against a walk in
 // small steps.
-#include "runtime/cam/approach.hpp"
+#include "runtime/numeric/cam/approach.hpp"
 
 #include "motion_problems.hpp"
 
@@ -11,7 +11,7 @@
 namespace {
 
 namespace cam = stride::cam;
-using stride::axis::MotionState;
+using stride::numeric::MotionState;
 using stride::test::casesOf;
 using stride::test::Random;
 

@@ -1,6 +1,6 @@
 // The bounds of cams: every sampled value lies within, and each bound is reached.
-#include "runtime/cam/bounds.hpp"
-#include "runtime/cam/extremes.hpp"
+#include "runtime/numeric/cam/bounds.hpp"
+#include "runtime/numeric/cam/extremes.hpp"
 
 #include "random_curves.hpp"
 

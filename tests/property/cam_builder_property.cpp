@@ -1,6 +1,6 @@
 // Cams from pieces against oracles: a dense solve for the natural quintic spline, numeric
 // minimisation by random changes of what the builder chose, exactness of what was given.
-#include "runtime/cam/builder.hpp"
+#include "runtime/numeric/cam/builder.hpp"
 
 #include "tests/support/random.hpp"
 #include "tests/unit/cam/built_cam.hpp"

@@ -195,7 +195,8 @@ TEST(CamRampInDist, LeadsByOnePolynomialOverTheMasterOntoTheCam) {
     scene.rig.cycle([&] { scene.master.step(velocity); });
     // What the place of the next cycle will be.
     const double next = scene.master.position() + velocity * kCamCycle;
-    const double shown = masterPeriod > 0 ? stride::axis::wrapPosition(next, masterPeriod) : next;
+    const double shown =
+        masterPeriod > 0 ? stride::numeric::wrapPosition(next, masterPeriod) : next;
     s.masterOffset = from * length - (s.masterAbsolute ? shown * s.masterScaling : 0);
     scene.prepare();
     auto &camIn = scene.camIn;

@@ -4,7 +4,7 @@
 #define STRIDE_TESTS_PROPERTY_CAM_MODEL_HPP
 
 #include "runtime/axis/axis_ref.hpp"
-#include "runtime/axis/modulo_wrap.hpp"
+#include "runtime/numeric/modulo_wrap.hpp"
 
 #include "tests/support/fresh.hpp"
 #include "tests/support/random.hpp"
@@ -225,7 +225,7 @@ public:
 
 private:
   [[nodiscard]] double shown(double position) const {
-    return isRotary() ? axis::wrapPosition(position, ref.fPositionPeriod) : position;
+    return isRotary() ? numeric::wrapPosition(position, ref.fPositionPeriod) : position;
   }
   void go(double way) {
     const double before = ref.fSetPosition;

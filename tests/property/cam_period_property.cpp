@@ -1,6 +1,6 @@
 // Counting periods, against whole numbers of 128 bits, in which everything is exact: no drift after
 // 10^12 periods that have nothing in common.
-#include "runtime/cam/period.hpp"
+#include "runtime/numeric/cam/period.hpp"
 
 #include "motion_problems.hpp"
 

@@ -1,7 +1,7 @@
 // What a forecast says comes true: random programs of commands that wait for each other, on linear
 // and rotary axes, with every ramp type and overrides.
-#include "runtime/axis/modulo_wrap.hpp"
-#include "runtime/motion/forecast.hpp"
+#include "runtime/axis/forecast.hpp"
+#include "runtime/numeric/modulo_wrap.hpp"
 
 #include "tests/unit/axis/axis_rig.hpp"
 
@@ -22,9 +22,9 @@
 
 namespace {
 
-using stride::axis::wrapPosition;
 using stride::motion::Forecast;
 using stride::motion::State;
+using stride::numeric::wrapPosition;
 using stride::test::AxisRig;
 using stride::test::fresh;
 namespace pl = ::st::SM_PLCopen;

@@ -90,11 +90,11 @@ TEST(GearInPosModel, LeadsByOnePolynomialOverTheMasterIntoGear) {
     const double here = master.position() + speed * kCamCycle; // in the cycle of the edge
     const double there = here + direction * ahead;
     gear.MasterSyncPosition =
-        masterPeriod > 0 ? stride::axis::wrapPosition(there, masterPeriod) : there;
+        masterPeriod > 0 ? stride::numeric::wrapPosition(there, masterPeriod) : there;
     const long double sync = master.total() + speed * kCamCycle + direction * ahead;
     gear.SlaveSyncPosition = random.uniform(-1, 1) * (slavePeriod > 0 ? slavePeriod : 100);
     if (slavePeriod > 0)
-      gear.SlaveSyncPosition = stride::axis::wrapPosition(gear.SlaveSyncPosition, slavePeriod);
+      gear.SlaveSyncPosition = stride::numeric::wrapPosition(gear.SlaveSyncPosition, slavePeriod);
     const double distance = random.chance(0.3) ? 0 : ahead * random.uniform(0.5, 0.99);
     gear.MasterStartDistance = distance;
     const bool reverse = random.chance(0.1);

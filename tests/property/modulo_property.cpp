@@ -1,14 +1,13 @@
 // Directions on a rotary axis against a search over many turns, for every ramp type.
 #include "motion_problems.hpp"
 
-#include "runtime/axis/modulo_wrap.hpp"
-#include "runtime/motion/modulo.hpp"
+#include "runtime/numeric/modulo_wrap.hpp"
+#include "runtime/numeric/profile/modulo.hpp"
 
 #include <gtest/gtest.h>
 
 namespace {
 
-using stride::axis::wrapPosition;
 using stride::motion::Direction;
 using stride::motion::ModuloRequest;
 using stride::motion::PlanError;
@@ -18,6 +17,7 @@ using stride::motion::planVelocity;
 using stride::motion::Profile;
 using stride::motion::RampType;
 using stride::motion::resolveModulo;
+using stride::numeric::wrapPosition;
 using stride::test::casesOf;
 using stride::test::MotionProblem;
 using stride::test::MotionRandom;

@@ -1,7 +1,7 @@
 // Random programs of motion commands on one axis with a drive: every positioning and velocity
 // block, buffer mode, ramp type, overrides, superimposed motions, stops. Whatever they ask for, the
 // axis moves steadily within what was allowed, and every command ends once.
-#include "runtime/axis/modulo_wrap.hpp"
+#include "runtime/numeric/modulo_wrap.hpp"
 
 #include "tests/support/random.hpp"
 #include "tests/unit/axis/axis_rig.hpp"
@@ -28,7 +28,7 @@
 
 namespace {
 
-using stride::axis::wrapPosition;
+using stride::numeric::wrapPosition;
 using stride::test::AxisRig;
 using stride::test::fresh;
 using stride::test::Random;

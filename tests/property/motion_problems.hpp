@@ -2,7 +2,7 @@
 #ifndef STRIDE_TESTS_PROPERTY_MOTION_PROBLEMS_HPP
 #define STRIDE_TESTS_PROPERTY_MOTION_PROBLEMS_HPP
 
-#include "runtime/motion/planner.hpp"
+#include "runtime/numeric/profile/planner.hpp"
 
 #include "tests/support/random.hpp"
 

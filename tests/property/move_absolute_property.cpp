@@ -1,6 +1,6 @@
 // Properties of MC_MoveAbsolute on an axis with a drive, observed cycle by cycle: random moves,
 // interrupts by another instance, by a new edge and by MC_Stop, on linear and rotary axes.
-#include "runtime/axis/modulo_wrap.hpp"
+#include "runtime/numeric/modulo_wrap.hpp"
 
 #include "tests/support/random.hpp"
 #include "tests/unit/axis/axis_rig.hpp"
@@ -16,7 +16,7 @@
 
 namespace {
 
-using stride::axis::wrapPosition;
+using stride::numeric::wrapPosition;
 using stride::test::AxisRig;
 using stride::test::Random;
 namespace state = stride::axis::state;

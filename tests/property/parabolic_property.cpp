@@ -1,5 +1,5 @@
 // Properties of the jerk-limited planner over random states, targets and limits.
-#include "runtime/motion/parabolic.hpp"
+#include "runtime/numeric/profile/parabolic.hpp"
 
 #include "tests/support/random.hpp"
 
@@ -61,7 +61,7 @@ public:
 };
 
 State at(const Segment &segment, double t) {
-  return stride::axis::evaluateCubic(segment.origin, segment.jerk, t - segment.reference);
+  return stride::numeric::evaluateCubic(segment.origin, segment.jerk, t - segment.reference);
 }
 
 /// Sizes of the numbers of a profile, for tolerances.

@@ -3,7 +3,7 @@
 #ifndef STRIDE_TESTS_PROPERTY_RANDOM_CURVES_HPP
 #define STRIDE_TESTS_PROPERTY_RANDOM_CURVES_HPP
 
-#include "runtime/cam/curve.hpp"
+#include "runtime/numeric/cam/curve.hpp"
 
 #include "tests/support/random.hpp"
 

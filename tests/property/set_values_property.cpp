@@ -16,7 +16,7 @@
 
 namespace {
 
-using stride::axis::wrapPosition;
+using stride::numeric::wrapPosition;
 using stride::test::AxisRig;
 using stride::test::fresh;
 using stride::test::Random;

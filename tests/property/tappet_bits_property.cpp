@@ -1,7 +1,7 @@
 // Tappet bits against a record of everything that has happened.
 #include "motion_problems.hpp"
 
-#include "runtime/cam/tappet_bits.hpp"
+#include "runtime/axis/cam/tappet_bits.hpp"
 
 #include "st/SM_DriveBasic/SMC_CAMTAPPETACTION.h"
 

@@ -1,6 +1,6 @@
 // Passes of tappets against a walk in small steps, on a grid where everything is exact, and against
 // counting.
-#include "runtime/cam/tappets.hpp"
+#include "runtime/axis/cam/tappets.hpp"
 
 #include "motion_problems.hpp"
 

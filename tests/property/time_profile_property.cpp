@@ -1,6 +1,6 @@
 // Properties of courses through points in time, against definitions: a dense linear system for the
 // cubic course, numeric integration, reproduction of polynomials.
-#include "runtime/motion/time_profile.hpp"
+#include "runtime/numeric/profile/time_profile.hpp"
 
 #include "tests/support/random.hpp"
 
@@ -53,7 +53,7 @@ public:
 };
 
 State at(const TimePiece &piece, double t) {
-  return stride::axis::evaluateCubic(piece.origin, piece.jerk, t - piece.start);
+  return stride::numeric::evaluateCubic(piece.origin, piece.jerk, t - piece.start);
 }
 
 /// Greatest magnitudes in a course.
@@ -268,7 +268,7 @@ TEST(TimeProfileProperty, ParabolasAreReproduced) {
     const Sizes sizes = sizesOf(profile);
     for (int i = 0; i < 5; ++i) {
       const double u = random.uniform(0, t);
-      const State expected = stride::axis::evaluateCubic(s, jerk, u);
+      const State expected = stride::numeric::evaluateCubic(s, jerk, u);
       ASSERT_NEAR(profile.at(u).velocity, expected.velocity, 1e-9 * sizes.velocity + 1e-300);
       ASSERT_NEAR(profile.at(u).position, expected.position, 1e-9 * sizes.position + 1e-300);
     }

@@ -1,7 +1,7 @@
 // Digital cam switches against a course that is looked at in small steps.
 #include "motion_problems.hpp"
 
-#include "runtime/cam/track.hpp"
+#include "runtime/axis/cam/track.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Properties of the trapezoid planner over random states, targets and limits.
-#include "runtime/motion/planner.hpp"
+#include "runtime/numeric/profile/planner.hpp"
 
 #include "tests/support/random.hpp"
 
@@ -139,7 +139,7 @@ bool follows(const Profile &profile, const Problem &p, double target, std::strin
     const double to = i + 1 < profile.count ? profile.segments[i + 1].start : profile.duration;
     const auto velocityAt = [&](double t) {
       const auto &s = profile.segments[i];
-      return stride::axis::evaluateCubic(s.origin, s.jerk, t - s.reference).velocity;
+      return stride::numeric::evaluateCubic(s.origin, s.jerk, t - s.reference).velocity;
     };
     integral +=
         (to - from) / 6 * (velocityAt(from) + 4 * velocityAt(0.5 * (from + to)) + velocityAt(to));

@@ -2,7 +2,7 @@
 #include "live_application.hpp"
 
 #include "drivers/dummy/dummy_drive.hpp"
-#include "runtime/axis/axis_group.hpp"
+#include "runtime/bus/drive_group.hpp"
 
 #include <gmock/gmock.h>
 
@@ -45,8 +45,8 @@ public:
   double fastest = 0;
 
 private:
-  static axis::AxisGroupRef &ref(app::Application &application) {
-    return *reinterpret_cast<axis::AxisGroupRef *>(
+  static bus::AxisGroupRef &ref(app::Application &application) {
+    return *reinterpret_cast<bus::AxisGroupRef *>(
         application.state() + application.description().axisGroups[0].groupOffset);
   }
   static std::vector<axis::AxisRef *> axes(app::Application &application) {
@@ -56,7 +56,7 @@ private:
           application.state() + application.description().drives[i].axisOffset));
     return out;
   }
-  axis::AxisGroup group_;
+  bus::DriveGroup group_;
   app::Application *application_;
 };
 

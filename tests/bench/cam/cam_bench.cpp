@@ -1,7 +1,7 @@
 // What the curve of a cam costs: one look per cycle, with a master that moves on or jumps about,
 // and its bounds per piece.
-#include "runtime/cam/bounds.hpp"
-#include "runtime/cam/curve.hpp"
+#include "runtime/numeric/cam/bounds.hpp"
+#include "runtime/numeric/cam/curve.hpp"
 
 #include <benchmark/benchmark.h>
 

@@ -74,7 +74,7 @@ private:
 void sampleRow(benchmark::State &state) {
   Wide wide(static_cast<uint64_t>(state.range(0)));
   const app::SymbolTable symbols(wide.app());
-  const monitor::TraceColumns columns(symbols, {"b", "i", "r", "l"});
+  const app::TraceColumns columns(symbols, {"b", "i", "r", "l"});
   std::vector<std::byte> row(columns.rowSize());
   for (auto _ : state) {
     columns.sample(0, wide.state(), row.data());

@@ -1,6 +1,6 @@
 // What axes cost that follow a master by a cam.
 #include "runtime/app/ctx.h"
-#include "runtime/axis/axis_group.hpp"
+#include "runtime/bus/drive_group.hpp"
 #include "tests/bench/motion/echo_driver.hpp"
 #include "tests/support/fresh.hpp"
 
@@ -71,8 +71,8 @@ void camSlaves(benchmark::State &state) {
     blocks[i].Slave = &axes[i];
     pointers.push_back(&axes[i]);
   }
-  auto group = fresh<stride::axis::AxisGroupRef>();
-  stride::axis::AxisGroup axisGroup(std::make_unique<stride::bench::EchoDriver>(count), group,
+  auto group = fresh<stride::bus::AxisGroupRef>();
+  stride::bus::DriveGroup axisGroup(std::make_unique<stride::bench::EchoDriver>(count), group,
                                     pointers, kCycle);
   stride::Ctx ctx{};
   select.Execute = 1;

@@ -1,7 +1,7 @@
 // What courses over time and looking ahead cost.
 #include "runtime/axis/axis_ref.hpp"
-#include "runtime/motion/forecast.hpp"
-#include "runtime/motion/time_profile.hpp"
+#include "runtime/axis/forecast.hpp"
+#include "runtime/numeric/profile/time_profile.hpp"
 
 #include "st/SM_DriveBasic/SMC_GetTravelTime.h"
 #include "st/SM_DriveBasic/SMC_ReadSetValues.h"

@@ -1,7 +1,7 @@
 #ifndef STRIDE_TESTS_BENCH_MOTION_ECHO_DRIVER_HPP
 #define STRIDE_TESTS_BENCH_MOTION_ECHO_DRIVER_HPP
 
-#include "runtime/axis/axis_driver.hpp"
+#include "runtime/bus/axis_driver.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -10,7 +10,7 @@
 namespace stride::bench {
 
 /// Drives that cost nothing: what they are told has happened in the next cycle.
-class EchoDriver final : public stride::axis::AxisDriver {
+class EchoDriver final : public stride::bus::AxisDriver {
 public:
   explicit EchoDriver(std::size_t count) : statuses_(count) {
     for (auto &status : statuses_)
@@ -18,15 +18,15 @@ public:
   }
   void executeStart() override {}
   void executeEnd() override {}
-  stride::axis::StartUp init(std::size_t /*drive*/, uint16_t & /*progress*/,
-                             stride::axis::Message & /*message*/) override {
-    return stride::axis::StartUp::Started;
+  stride::bus::StartUp init(std::size_t /*drive*/, uint16_t & /*progress*/,
+                            stride::bus::Message & /*message*/) override {
+    return stride::bus::StartUp::Started;
   }
   void reset(std::size_t /*drive*/) override {}
-  [[nodiscard]] stride::axis::DriveStatus status(std::size_t drive) const override {
+  [[nodiscard]] stride::bus::DriveStatus status(std::size_t drive) const override {
     return statuses_[drive];
   }
-  void command(std::size_t drive, const stride::axis::DriveCommand &command) override {
+  void command(std::size_t drive, const stride::bus::DriveCommand &command) override {
     auto &status = statuses_[drive];
     status.position = command.position;
     status.velocity = command.velocity;
@@ -36,7 +36,7 @@ public:
   [[nodiscard]] uint8_t controllerModes(std::size_t /*drive*/) const override { return 8; }
 
 private:
-  std::vector<stride::axis::DriveStatus> statuses_;
+  std::vector<stride::bus::DriveStatus> statuses_;
 };
 
 } // namespace stride::bench

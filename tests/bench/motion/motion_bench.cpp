@@ -1,7 +1,7 @@
 // What motion costs: planning a move, and one cycle of many axes with everything around them.
 #include "drivers/dummy/dummy_drive.hpp"
-#include "runtime/axis/axis_group.hpp"
-#include "runtime/motion/planner.hpp"
+#include "runtime/bus/drive_group.hpp"
+#include "runtime/numeric/profile/planner.hpp"
 
 #include "st/SM_PLCopen/MC_MoveAbsolute.h"
 #include "st/SM_PLCopen/MC_Power.h"
@@ -107,11 +107,11 @@ void movingAxes(benchmark::State &state) {
     moves[i].Acceleration = moves[i].Deceleration = 1000;
     pointers.push_back(&axes[i]);
   }
-  auto group = fresh<stride::axis::AxisGroupRef>();
+  auto group = fresh<stride::bus::AxisGroupRef>();
   auto driver = simulated ? stride::dummy::makeDummyDriver(count)
-                          : std::unique_ptr<stride::axis::AxisDriver>(
+                          : std::unique_ptr<stride::bus::AxisDriver>(
                                 std::make_unique<stride::bench::EchoDriver>(count));
-  stride::axis::AxisGroup axisGroup(std::move(driver), group, pointers, 0.001);
+  stride::bus::DriveGroup axisGroup(std::move(driver), group, pointers, 0.001);
   stride::Ctx ctx{};
   const auto cycle = [&] {
     axisGroup.executeStart();

@@ -1,6 +1,7 @@
 // Linked into a stride-host of its own: allocations, locks and waits inside a cycle end the program
 // with the calls that led there. TaskSet::runCycle is wrapped by the linker (--wrap), malloc and
 // the others by defining them here.
+#include "runtime/host/host_main.hpp"
 
 #include <dlfcn.h>
 #include <execinfo.h>
@@ -159,3 +160,5 @@ void __wrap__ZN6stride4task7TaskSet8runCycleEjll(stride::task::TaskSet *self, ui
 }
 
 } // extern "C"
+
+int main(int argc, char **argv) { return stride::host::hostMain(argc, argv, nullptr); }

@@ -4,8 +4,8 @@
 
 #include "drivers/dummy/dummy_drive.hpp"
 #include "runtime/app/ctx.h"
-#include "runtime/axis/axis_group.hpp"
 #include "runtime/axis/increments.hpp"
+#include "runtime/bus/drive_group.hpp"
 
 #include "tests/support/fresh.hpp"
 
@@ -42,7 +42,7 @@ public:
   void start() {
     auto driver = std::make_unique<dummy::DummyDriver>(1);
     drive = driver.get();
-    axisGroup = std::make_unique<axis::AxisGroup>(
+    axisGroup = std::make_unique<bus::DriveGroup>(
         std::move(driver), group, std::vector<axis::AxisRef *>{&axis}, cycleSeconds);
   }
 
@@ -99,9 +99,9 @@ public:
   double cycleSeconds;
   Ctx ctx{};
   axis::AxisRef axis = fresh<axis::AxisRef>();
-  axis::AxisGroupRef group = fresh<axis::AxisGroupRef>();
+  bus::AxisGroupRef group = fresh<bus::AxisGroupRef>();
   ::st::SM_PLCopen::MC_Power power = fresh<::st::SM_PLCopen::MC_Power>();
-  std::unique_ptr<axis::AxisGroup> axisGroup;
+  std::unique_ptr<bus::DriveGroup> axisGroup;
   dummy::DummyDriver *drive = nullptr;
 };
 

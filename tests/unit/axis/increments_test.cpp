@@ -1,5 +1,5 @@
 #include "runtime/axis/increments.hpp"
-#include "runtime/axis/modulo_wrap.hpp"
+#include "runtime/numeric/modulo_wrap.hpp"
 
 #include "tests/unit/axis/axis_rig.hpp"
 
@@ -134,7 +134,7 @@ TEST(Increments, ResidualsAreExactOverManyTurns) {
       ASSERT_EQ(axis.liActIncrements, axis.liSetIncrements);
       // Half an increment, and modulo the period.
       const double off =
-          stride::axis::wrapPosition(axis.fActPosition - place + 0.5 * c.period, c.period);
+          stride::numeric::wrapPosition(axis.fActPosition - place + 0.5 * c.period, c.period);
       ASSERT_NEAR(off, 0.5 * c.period, 0.5001 * c.numerator / c.denominator);
     }
   }

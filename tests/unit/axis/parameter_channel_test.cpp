@@ -12,35 +12,36 @@
 namespace {
 
 namespace axis = stride::axis;
+namespace bus = stride::bus;
 using axis::Asked;
 using axis::ChannelKind;
 using axis::ChannelResult;
 using axis::ChannelStep;
 
 /// A drive that takes questions and answers them when the test says so.
-class SlowDriver final : public axis::AxisDriver {
+class SlowDriver final : public bus::AxisDriver {
 public:
   void executeStart() override {}
   void executeEnd() override {}
-  axis::StartUp init(std::size_t, uint16_t &, axis::Message &) override {
-    return axis::StartUp::Started;
+  bus::StartUp init(std::size_t, uint16_t &, bus::Message &) override {
+    return bus::StartUp::Started;
   }
   void reset(std::size_t) override {}
-  axis::DriveStatus status(std::size_t) const override {
-    axis::DriveStatus status;
+  bus::DriveStatus status(std::size_t) const override {
+    bus::DriveStatus status;
     status.communication = true;
     return status;
   }
-  void command(std::size_t, const axis::DriveCommand &) override {}
+  void command(std::size_t, const bus::DriveCommand &) override {}
   uint8_t controllerModes(std::size_t) const override { return 1U << 3; }
-  bool startParameter(std::size_t, const axis::ParameterRequest &request) override {
+  bool startParameter(std::size_t, const bus::ParameterRequest &request) override {
     if (busy)
       return false;
     asked = request;
     ++started;
     return true;
   }
-  bool pollParameter(std::size_t, axis::ParameterAnswer &answer) override {
+  bool pollParameter(std::size_t, bus::ParameterAnswer &answer) override {
     if (!answers)
       return false;
     answer.value = asked.number * 1.5;
@@ -53,14 +54,14 @@ public:
   bool answers = false;
   int started = 0;
   int cancelled = 0;
-  axis::ParameterRequest asked;
+  bus::ParameterRequest asked;
 };
 
 struct Channel : testing::Test {
   Channel() {
     auto own = std::make_unique<SlowDriver>();
     driver = own.get();
-    group = std::make_unique<axis::AxisGroup>(std::move(own), groupRef,
+    group = std::make_unique<bus::DriveGroup>(std::move(own), groupRef,
                                               std::vector<axis::AxisRef *>{&ref}, 0.001);
     cycle(2);
   }
@@ -76,9 +77,9 @@ struct Channel : testing::Test {
   ChannelResult result() const { return static_cast<ChannelResult>(ref.stChannel.byResult); }
 
   axis::AxisRef ref = stride::test::fresh<axis::AxisRef>();
-  axis::AxisGroupRef groupRef = stride::test::fresh<axis::AxisGroupRef>();
+  bus::AxisGroupRef groupRef = stride::test::fresh<bus::AxisGroupRef>();
   SlowDriver *driver = nullptr;
-  std::unique_ptr<axis::AxisGroup> group;
+  std::unique_ptr<bus::DriveGroup> group;
 };
 
 TEST_F(Channel, AnswersOneQuestionAtATime) {
@@ -194,10 +195,10 @@ TEST_F(Channel, ClaimNumbersWrapWithoutZero) {
 }
 
 TEST_F(Channel, ADriverWithoutParametersKnowsNone) {
-  stride::axis::ParameterAnswer answer;
-  EXPECT_TRUE(driver->axis::AxisDriver::startParameter(0, {}));
-  EXPECT_TRUE(driver->axis::AxisDriver::pollParameter(0, answer));
-  EXPECT_EQ(answer.result, axis::ParameterAnswer::Result::Unknown);
+  stride::bus::ParameterAnswer answer;
+  EXPECT_TRUE(driver->bus::AxisDriver::startParameter(0, {}));
+  EXPECT_TRUE(driver->bus::AxisDriver::pollParameter(0, answer));
+  EXPECT_EQ(answer.result, bus::ParameterAnswer::Result::Unknown);
 }
 
 /// Two threads ask, a third one is the group: everybody gets the answer to his own question.

@@ -1,6 +1,6 @@
 // Cams from pieces: what each kind is at its ends, what implicit boundaries take over, what is
 // refused.
-#include "runtime/cam/builder.hpp"
+#include "runtime/numeric/cam/builder.hpp"
 
 #include "tests/unit/cam/built_cam.hpp"
 

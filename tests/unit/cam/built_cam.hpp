@@ -2,7 +2,7 @@
 #ifndef STRIDE_TESTS_UNIT_CAM_BUILT_CAM_HPP
 #define STRIDE_TESTS_UNIT_CAM_BUILT_CAM_HPP
 
-#include "runtime/cam/builder.hpp"
+#include "runtime/numeric/cam/builder.hpp"
 
 #include <cstddef>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // *.CAM files: the bytes, there and back, and that nothing damaged is taken for a cam.
-#include "runtime/cam/cam_file.hpp"
+#include "runtime/numeric/cam/cam_file.hpp"
 
 #include <gtest/gtest.h>
 

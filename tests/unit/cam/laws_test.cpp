@@ -1,7 +1,7 @@
 // The laws of motion against the literature's peak values (VDI 2143; Norton, Cam Design and
 // Manufacturing Handbook, table 3-3) and against numeric differentiation.
-#include "runtime/cam/curve.hpp"
-#include "runtime/cam/laws.hpp"
+#include "runtime/numeric/cam/curve.hpp"
+#include "runtime/numeric/cam/laws.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Cams with fewer places, and tables of cams.
-#include "runtime/cam/reduce.hpp"
+#include "runtime/numeric/cam/reduce.hpp"
 
 #include "tests/support/random.hpp"
 

@@ -1,6 +1,6 @@
 // A shared cam under ThreadSanitizer: two threads that write, two that read, all at once. No copy
 // may be torn, and no reader may go back in time.
-#include "runtime/cam/shared_cam.hpp"
+#include "runtime/numeric/cam/shared_cam.hpp"
 
 #include <gtest/gtest.h>
 

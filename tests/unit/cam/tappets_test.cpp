@@ -1,5 +1,5 @@
 // Tappets at the edges: under the master at the start, at the ends of the cam, at a turn; times.
-#include "runtime/cam/tappets.hpp"
+#include "runtime/axis/cam/tappets.hpp"
 
 #include "st/SM_DriveBasic/SMC_CAMTAPPETTYPE.h"
 

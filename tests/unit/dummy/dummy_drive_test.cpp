@@ -9,12 +9,12 @@ namespace {
 /// One drive with 1000 increments per unit and cycles of 1 ms.
 class DummyDrive : public ::testing::Test {
 protected:
-  void make(std::vector<axis::SetupParameter> parameters) {
-    axis::GroupSetup setup;
+  void make(std::vector<bus::SetupParameter> parameters) {
+    bus::GroupSetup setup;
     setup.cycleSeconds = 0.001;
-    axis::DriveSetup &drive = setup.drives.emplace_back();
+    bus::DriveSetup &drive = setup.drives.emplace_back();
     drive.parameters.add({"dwRatioTechUnitsDenom", "", 1000});
-    for (axis::SetupParameter &parameter : parameters)
+    for (bus::SetupParameter &parameter : parameters)
       drive.parameters.add(std::move(parameter));
     driver = std::make_unique<DummyDriver>(setup);
     driver->bindData(0, &sim);
@@ -34,9 +34,9 @@ protected:
     driver->executeStart();
     if (!started) {
       uint16_t progress = 0;
-      const axis::StartUp result = driver->init(0, progress, message);
-      started = result == axis::StartUp::Started;
-      failed = result == axis::StartUp::Failed;
+      const bus::StartUp result = driver->init(0, progress, message);
+      started = result == bus::StartUp::Started;
+      failed = result == bus::StartUp::Failed;
       if (started)
         command.position = status().position;
     }
@@ -45,12 +45,12 @@ protected:
     driver->executeEnd();
   }
 
-  axis::DriveStatus status() const { return driver->status(0); }
+  bus::DriveStatus status() const { return driver->status(0); }
 
   std::unique_ptr<DummyDriver> driver;
   DriveSim sim{};
-  axis::DriveCommand command;
-  axis::Message message;
+  bus::DriveCommand command;
+  bus::Message message;
   bool started = false;
   bool failed = false;
 };
@@ -193,7 +193,7 @@ TEST_F(DummyDrive, IndexPulsesAreCounted) {
 TEST_F(DummyDrive, OnlyWhatIsSentCanBeControlled) {
   make({{"wControlType", "VEL -> POS", 3}});
   EXPECT_EQ(driver->controllerModes(0), 1U << kVelocityMode);
-  EXPECT_EQ(status().received & (axis::kPosition | axis::kVelocity), axis::kPosition);
+  EXPECT_EQ(status().received & (bus::kPosition | bus::kVelocity), bus::kPosition);
   make({{"wControlType", "CONFIGURABLE", 0},
         {"wCyclicDataS1", "SetPosition", 1100},
         {"wCyclicDataS2", "SetTorque", 1160},
@@ -201,7 +201,7 @@ TEST_F(DummyDrive, OnlyWhatIsSentCanBeControlled) {
         {"physics.model", "second_order", 2},
         {"physics.torque_limit", "", 1}});
   EXPECT_EQ(driver->controllerModes(0), 1U << kPositionMode | 1U << kTorqueMode);
-  EXPECT_EQ(status().received & (axis::kPosition | axis::kVelocity), axis::kVelocity);
+  EXPECT_EQ(status().received & (bus::kPosition | bus::kVelocity), bus::kVelocity);
 }
 
 } // namespace

@@ -154,7 +154,7 @@ TEST_F(Host, NothingIsAllocatedInCyclesAndRows) {
 TEST_F(Host, Seconds) {
   const auto text = [](int64_t ns) {
     std::string out;
-    stride::monitor::appendSeconds(ns, out);
+    stride::app::appendSeconds(ns, out);
     return out;
   };
   EXPECT_EQ(text(0), "0");

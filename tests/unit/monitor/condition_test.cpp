@@ -1,16 +1,16 @@
 // Conditions on variables.
-#include "runtime/monitor/condition.hpp"
+#include "runtime/app/condition.hpp"
 #include "tests/unit/app/fixture.hpp"
 
 namespace {
 
-using namespace stride::monitor;
+using namespace stride::app;
 using ::testing::HasSubstr;
 
 class Conditions : public stride::test::HandmadeApp {
 protected:
   bool holds(const std::string &path, Relation relation, const std::string &literal) const {
-    const stride::app::Symbol symbol = resolveElementary(symbols, path);
+    const Symbol symbol = resolveElementary(symbols, path);
     return Comparison(symbols, symbol, relation, literalBytes(symbols, symbol, literal))
         .holds(application.state());
   }
@@ -54,7 +54,7 @@ TEST_F(Conditions, Joined) {
     write("PLC_PRG.count", (bits & 2) != 0 ? "1" : "0");
     write("total", (bits & 4) != 0 ? "1" : "0");
     const auto comparison = [&](const char *path, const char *literal) {
-      const stride::app::Symbol symbol = resolveElementary(symbols, path);
+      const Symbol symbol = resolveElementary(symbols, path);
       return Comparison(symbols, symbol, Relation::Equal, literalBytes(symbols, symbol, literal));
     };
     Condition condition; // flag OR NOT (count = 1 AND total = 1)

@@ -1,5 +1,5 @@
 // Input scripts.
-#include "runtime/monitor/script.hpp"
+#include "runtime/script/script.hpp"
 #include "runtime/task/task_set.hpp"
 #include "tests/unit/app/fixture.hpp"
 
@@ -13,7 +13,7 @@ std::size_t allocations();
 
 namespace {
 
-using namespace stride::monitor;
+using namespace stride::script;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;

@@ -121,7 +121,7 @@ const Refusal kRefusals[] = {
     {"no slave", error::kNoAxis, [](CamScene &s) { s.camIn.Slave = nullptr; }},
     {"no master", error::kNoAxis, [](CamScene &s) { s.camIn.Master = nullptr; }},
     {"error stop", error::kNotReady,
-     [](CamScene &s) { stride::axis::enterErrorStop(s.rig.axis, error::kDrive); }},
+     [](CamScene &s) { stride::bus::enterErrorStop(s.rig.axis, error::kDrive); }},
 };
 
 class CamRefusals : public testing::TestWithParam<Refusal> {};
@@ -387,7 +387,7 @@ TEST_P(RealMaster, IsFollowedUntilItStands) {
   ASSERT_DOUBLE_EQ(masterRig.axis.fSetVelocity, 400);
   if (GetParam() == End::ErrorStop)
     masterRig.cycle([&] {
-      stride::axis::enterErrorStop(masterRig.axis, error::kDrive);
+      stride::bus::enterErrorStop(masterRig.axis, error::kDrive);
       follow();
     });
   if (GetParam() == End::PowerOff)

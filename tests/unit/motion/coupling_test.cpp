@@ -2,7 +2,7 @@
 // 10 u/s.
 #include "tests/unit/axis/axis_rig.hpp"
 
-#include "runtime/motion/forecast.hpp"
+#include "runtime/axis/forecast.hpp"
 
 #include "st/SM_PLCopen/MC_CamOut.h"
 #include "st/SM_PLCopen/MC_GearIn.h"

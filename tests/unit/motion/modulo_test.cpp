@@ -1,6 +1,6 @@
-#include "runtime/motion/modulo.hpp"
+#include "runtime/numeric/profile/modulo.hpp"
 
-#include "runtime/axis/modulo_wrap.hpp"
+#include "runtime/numeric/modulo_wrap.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,12 @@
 
 namespace {
 
-using stride::axis::wrapPosition;
 using stride::motion::Direction;
 using stride::motion::Dynamics;
 using stride::motion::ModuloRequest;
 using stride::motion::RampType;
 using stride::motion::resolveModulo;
+using stride::numeric::wrapPosition;
 
 double resolve(double position, double velocity, double target, Direction direction,
                Direction lastMotion = Direction::Positive) {

@@ -1,5 +1,5 @@
 // Plans of every ramp type against numbers worked out by hand.
-#include "runtime/motion/planner.hpp"
+#include "runtime/numeric/profile/planner.hpp"
 
 #include <gtest/gtest.h>
 
@@ -52,17 +52,17 @@ void expectSteady(const Profile &profile, const State &start) {
 TEST(Sine, PiecesAreSinesAndTheirIntegrals) {
   const State origin = {3, -2, 0.5};
   for (const double t : {-2.0, -1e-3, 0.0, 1e-9, 1e-4, 0.1, 0.7, 2.5}) {
-    const State s = stride::axis::evaluatePiece(origin, 1.5, 1.25, t);
+    const State s = stride::numeric::evaluatePiece(origin, 1.5, 1.25, t);
     const double x = 1.25 * t;
     EXPECT_NEAR(s.acceleration, 0.5 + 1.2 * std::sin(x), 1e-15);
     EXPECT_NEAR(s.velocity, -2 + 0.5 * t + 0.96 * (1 - std::cos(x)), 2e-15);
     EXPECT_NEAR(s.position, 3 - 2 * t + 0.25 * t * t + 0.96 * t - 0.768 * std::sin(x), 4e-15);
   }
   // Where differences of sines would be rounding, it is the cubic.
-  const State tiny = stride::axis::evaluatePiece({0, 0, 0}, 6, 1e-3, 1e-3);
+  const State tiny = stride::numeric::evaluatePiece({0, 0, 0}, 6, 1e-3, 1e-3);
   EXPECT_NEAR(tiny.position, 1e-9, 1e-21);
   EXPECT_NEAR(tiny.velocity, 3e-6, 1e-18);
-  EXPECT_EQ(stride::axis::evaluatePiece(origin, 1.5, 0, 2).position, 3 - 4 + 1 + 2);
+  EXPECT_EQ(stride::numeric::evaluatePiece(origin, 1.5, 0, 2).position, 3 - 4 + 1 + 2);
 }
 
 // Up in 0.5 s (25 u), down in 1 s (50 u): as the trapezoid. The acceleration peaks at pi/2 times.

@@ -178,7 +178,7 @@ public:
     if (axisState_ == state::kStopping)
       rig_.cycle([this] { call(); });
     if (axisState_ == state::kErrorStop)
-      rig_.cycle([this] { stride::axis::enterErrorStop(rig_.axis, error::kDrive); });
+      rig_.cycle([this] { stride::bus::enterErrorStop(rig_.axis, error::kDrive); });
     if (axisState_ == state::kHoming)
       rig_.axis.nAxisState = state::kHoming;
   }

@@ -1,4 +1,4 @@
-#include "runtime/motion/planner.hpp"
+#include "runtime/numeric/profile/planner.hpp"
 
 #include <gtest/gtest.h>
 

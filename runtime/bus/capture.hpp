@@ -1,0 +1,25 @@
+// Latching of positions at a drive's inputs: what AXIS_REF demands and what the drive reports.
+#ifndef STRIDE_RUNTIME_BUS_CAPTURE_HPP
+#define STRIDE_RUNTIME_BUS_CAPTURE_HPP
+
+#include "runtime/axis/axis_ref.hpp"
+#include "runtime/bus/axis_driver.hpp"
+
+namespace stride::bus {
+
+/// At the cycle's start: hands latched positions to those who wait for them, the blocks (aCapture)
+/// and the program (bStartCapturing). What is outside of a window is dropped; the input is armed
+/// anew.
+void readCaptures(axis::AxisRef &axis, const DriveStatus &status) noexcept;
+
+/// At the cycle's end: says in `command` at which inputs the `driver`'s `drive` shall latch, and
+/// looks at the input that the PLC latches for the program (bStartCapturing without bFastLatching).
+void writeCaptures(axis::AxisRef &axis, const AxisDriver &driver, std::size_t drive,
+                   DriveCommand &command) noexcept;
+
+/// Nobody waits any more: the drive is being given up.
+void clearCaptures(axis::AxisRef &axis) noexcept;
+
+} // namespace stride::bus
+
+#endif

@@ -1,0 +1,21 @@
+// Reduction of a position to the modulo period. Free of the C++ standard library.
+#ifndef STRIDE_RUNTIME_NUMERIC_MODULO_WRAP_HPP
+#define STRIDE_RUNTIME_NUMERIC_MODULO_WRAP_HPP
+
+#include "runtime/numeric/exact_math.hpp"
+
+namespace stride::numeric {
+
+/// `position` reduced to [0, period). `period` must be finite and > 0.
+inline double wrapPosition(double position, double period) noexcept {
+  if (position >= 0.0 && position < period)
+    return position;
+  double wrapped = exact::fmod(position, period); // exact
+  if (wrapped < 0.0)
+    wrapped += period;
+  return wrapped >= period ? 0.0 : wrapped + 0.0; // -0 becomes 0
+}
+
+} // namespace stride::numeric
+
+#endif

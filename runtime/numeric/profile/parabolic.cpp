@@ -1,0 +1,363 @@
+#include "runtime/numeric/profile/parabolic.hpp"
+
+#include "runtime/numeric/exact_math.hpp"
+#include "runtime/numeric/profile/bracketed_root.hpp"
+#include "runtime/numeric/profile/parabolic_route.hpp"
+#include "runtime/numeric/profile/scale.hpp"
+
+namespace stride::motion {
+namespace {
+
+using namespace parabolic;
+
+/// So many units of the scaled problem are as good as no limit. Rates have squares.
+constexpr double kUnlimited = 0x1p400;
+constexpr double kUnlimitedJerk = 0x1p1000;
+
+/// Puts phases, in scaled units and in the direction `sign`, into a profile.
+class Builder {
+public:
+  Builder(Profile &profile, const Scale &scale, const State &start) noexcept
+      : profile_(profile), scale_(scale),
+        place_(start.position), state_{0.0, exact::ldexp(start.velocity, -scale.velocity),
+                                       exact::ldexp(start.acceleration, -scale.acceleration)} {
+    profile.count = 0;
+    profile.duration = 0.0;
+  }
+
+  /// Goes on with a phase.
+  void forward(const Phase &phase, double sign) noexcept {
+    if (!(phase.duration > 0.0))
+      return;
+    append(profile_.duration, place_, state_, sign * phase.jerk);
+    state_ = after(state_, {phase.duration, sign * phase.jerk, sign * phase.acceleration});
+    place_ += length(state_.position);
+    state_.position = 0.0;
+    profile_.duration += seconds(phase.duration);
+  }
+
+  void forward(const VelocityChange &change, double sign) noexcept {
+    for (const Phase &phase : change.phases)
+      forward(phase, sign);
+  }
+
+  /// How the axis moves now; its position is 0.
+  [[nodiscard]] const State &state() const noexcept { return state_; }
+
+  /// A distance in user units.
+  [[nodiscard]] double length(double scaled) const noexcept {
+    return exact::ldexp(scaled, scale_.length);
+  }
+
+  /// The axis is at rest now, or moves at a constant velocity: without the rounding of the phases.
+  void settle(double velocity) noexcept { state_ = {0.0, velocity, 0.0}; }
+
+  void route(const Route &route, double sign, double target, double endVelocity) noexcept {
+    for (int i = 0; i < route.headCount; ++i)
+      forward(route.head[i], sign);
+    if (route.cruise > 0.0) {
+      settle(sign * route.cruiseVelocity);
+      forward({route.cruise, 0.0, 0.0}, sign);
+    }
+    arrive(route.tail, sign, target, endVelocity);
+  }
+
+  /// A change of velocity that ends at `target` and is anchored there.
+  void arrive(const VelocityChange &change, double sign, double target,
+              double endVelocity) noexcept {
+    double starts[3];
+    double time = profile_.duration;
+    for (int i = 0; i < 3; ++i) {
+      starts[i] = time;
+      time += seconds(change.phases[i].duration);
+    }
+    // Back from the end; each piece is anchored at its own.
+    State ends[3];
+    ends[2] = {0.0, endVelocity, 0.0};
+    for (int i = 2; i > 0; --i) {
+      ends[i - 1] =
+          numeric::evaluateCubic(ends[i], sign * change.phases[i].jerk, -change.phases[i].duration);
+      ends[i - 1].acceleration = sign * change.phases[i - 1].acceleration;
+    }
+    for (int i = 0; i < 3; ++i) {
+      if (!(change.phases[i].duration > 0.0))
+        continue;
+      profile_.duration = starts[i];
+      append(starts[i] + seconds(change.phases[i].duration), target + length(ends[i].position),
+             ends[i], sign * change.phases[i].jerk);
+    }
+    profile_.duration = time;
+    place_ = target;
+    settle(endVelocity);
+  }
+
+  /// Ends the profile with this velocity, and where the axis is. False if a number of the profile
+  /// cannot be represented; then it is empty.
+  bool finish(double position, double velocity) noexcept {
+    profile_.end = {place_, velocity, 0.0};
+    bool good = exact::isfinite(profile_.duration) && exact::isfinite(place_);
+    for (int32_t i = 0; i < profile_.count; ++i) {
+      const Segment &segment = profile_.segments[i];
+      good = good && exact::isfinite(segment.reference) && exact::isfinite(segment.jerk) &&
+             exact::isfinite(segment.origin.position) && exact::isfinite(segment.origin.velocity) &&
+             exact::isfinite(segment.origin.acceleration);
+    }
+    if (!good)
+      profile_ = Profile{{}, 0, 0.0, {position, 0.0, 0.0}};
+    return good;
+  }
+
+private:
+  [[nodiscard]] double seconds(double scaled) const noexcept {
+    return exact::ldexp(scaled, scale_.time);
+  }
+
+  void append(double reference, double position, const State &state, double jerk) noexcept {
+    Segment &segment = profile_.segments[profile_.count++];
+    segment.start = profile_.duration;
+    segment.reference = reference;
+    segment.origin.position = position;
+    segment.origin.velocity = exact::ldexp(state.velocity, scale_.velocity);
+    segment.origin.acceleration = exact::ldexp(state.acceleration, scale_.acceleration);
+    segment.jerk = exact::ldexp(jerk, scale_.acceleration - scale_.time);
+    segment.frequency = 0.0;
+  }
+
+  Profile &profile_;
+  Scale scale_;
+  double place_; ///< Where the axis is. [u]
+  State state_;  ///< How it moves there; its position is 0.
+};
+
+/// The limits in scaled units.
+struct Limits {
+  double velocity;
+  double acceleration;
+  double deceleration;
+  double jerk;
+
+  Limits(const JerkLimits &limits, const Scale &scale) noexcept
+      : velocity(scaled(limits.velocity, scale.velocity)),
+        acceleration(scaled(limits.acceleration, scale.acceleration)),
+        deceleration(scaled(limits.deceleration, scale.acceleration)),
+        jerk(scaled(limits.jerk, scale.acceleration - scale.time, kUnlimitedJerk)) {}
+
+  /// For velocities in the direction of motion.
+  [[nodiscard]] Rates ahead() const noexcept { return {acceleration, deceleration, jerk}; }
+  [[nodiscard]] Rates stopping() const noexcept { return {deceleration, deceleration, jerk}; }
+
+private:
+  static double scaled(double limit, int exponent, double most = kUnlimited) noexcept {
+    const double value = exact::ldexp(limit, -exponent);
+    return value < most ? value : most;
+  }
+};
+
+void clear(Profile &profile, double position) noexcept {
+  profile.count = 0;
+  profile.duration = 0.0;
+  profile.end = {position, 0.0, 0.0};
+}
+
+bool areLimits(const JerkLimits &limits) noexcept {
+  return exact::isPositive(limits.velocity) && exact::isPositive(limits.acceleration) &&
+         exact::isPositive(limits.deceleration) && exact::isPositive(limits.jerk);
+}
+
+Scale scaleOf(double distance, const State &start, double endVelocity,
+              const JerkLimits &limits) noexcept {
+  const double swing = start.acceleration * (start.acceleration / (2.0 * limits.jerk));
+  const double fastest =
+      exact::larger(exact::larger(exact::fabs(start.velocity), exact::fabs(endVelocity)), swing);
+  return Scale::of(distance, fastest, limits.acceleration, limits.deceleration);
+}
+
+/// What is rounding of a way in scaled units.
+double noiseOf(const State &start, double target, double way, const Scale &scale) noexcept {
+  const double places = exact::larger(exact::fabs(start.position), exact::fabs(target));
+  return 16.0 * kEpsilon * (exact::ldexp(places, -scale.length) + exact::fabs(way));
+}
+
+PlanError result(bool representable) noexcept {
+  return representable ? PlanError::None : PlanError::Unrepresentable;
+}
+
+/// The axis stands; goes on to `target`, which is `distance` away, with `endVelocity` there.
+void moveFromRest(Builder &builder, double distance, double target, double endVelocity,
+                  const Limits &limits, double noise) noexcept {
+  const double side = endVelocity != 0.0 ? exact::signOf(endVelocity) : exact::signOf(distance);
+  const double speed = side * endVelocity;
+  const double ahead = side * distance;
+  const VelocityChange runUp(0.0, 0.0, speed, limits.ahead());
+  const double runUpWay = runUp.distance(0.0, 0.0, speed);
+  Task task = {0.0, 0.0, ahead, speed, limits.velocity, 0.0, limits.ahead(), noise};
+  Route route;
+  if (ahead >= runUpWay - noise) {
+    (void)findRoute(route, task);
+    builder.route(route, side, target, endVelocity);
+    return;
+  }
+  // Back to where the run-up must begin.
+  task.distance = runUpWay - ahead;
+  task.endVelocity = 0.0;
+  (void)findRoute(route, task);
+  builder.route(route, -side, target - builder.length(side * runUpWay), 0.0);
+  builder.arrive(runUp, side, target, endVelocity);
+}
+
+/// The motion between different rates for rising and falling: they hold for the magnitude of the
+/// velocity, so its sign may change only at rest.
+void moveOnOneSide(Builder &builder, const State &state, double distance, double target,
+                   double endVelocity, const Limits &limits, double noise) noexcept {
+  const double side =
+      state.velocity != 0.0 ? exact::signOf(state.velocity) : exact::signOf(state.acceleration);
+  const double velocity = side * state.velocity;
+  const double acceleration = side * state.acceleration;
+  if (settledVelocity(velocity, acceleration, limits.jerk) >= 0.0) {
+    Task task = {velocity,        acceleration, side * distance, side * endVelocity,
+                 limits.velocity, 0.0,          limits.ahead(),  noise};
+    const double back = -task.endVelocity; // at the target
+    const VelocityChange runUp(0.0, 0.0, back, limits.ahead());
+    const double runUpWay = back > 0.0 ? runUp.distance(0.0, 0.0, back) : 0.0;
+    if (back > 0.0) { // first as far as the run-up needs
+      task.distance += runUpWay;
+      task.endVelocity = 0.0;
+    }
+    Route route;
+    if (findRoute(route, task)) {
+      builder.route(route, side, target + builder.length(side * runUpWay), side * task.endVelocity);
+      if (back > 0.0)
+        builder.arrive(runUp, -side, target, endVelocity);
+      return;
+    }
+  }
+  const VelocityChange stop(velocity, acceleration, 0.0, limits.stopping());
+  builder.forward(stop, side);
+  builder.settle(0.0);
+  moveFromRest(builder, distance - side * stop.distance(velocity, acceleration, 0.0), target,
+               endVelocity, limits, noise);
+}
+
+} // namespace
+
+PlanError planParabolic(Profile &profile, const State &start, double target, double endVelocity,
+                        const JerkLimits &limits) noexcept {
+  clear(profile, start.position);
+  if (!isFinite(start) || !exact::isfinite(target) || !exact::isfinite(endVelocity))
+    return PlanError::InvalidState;
+  if (!areLimits(limits))
+    return PlanError::InvalidLimit;
+  const double distance = target - start.position;
+  if (!exact::isfinite(distance))
+    return PlanError::Unrepresentable;
+  if (distance == 0.0 && start.velocity == endVelocity && start.acceleration == 0.0) {
+    profile.end = {target, endVelocity, 0.0};
+    return PlanError::None;
+  }
+
+  const Scale scale = scaleOf(distance, start, endVelocity, limits);
+  const Limits scaled(limits, scale);
+  Builder builder(profile, scale, start);
+  const State &state = builder.state();
+  const double way = exact::ldexp(distance, -scale.length);
+  const double last = exact::ldexp(endVelocity, -scale.velocity);
+  const double noise = noiseOf(start, target, way, scale);
+  if (scaled.acceleration == scaled.deceleration) {
+    Route route;
+    (void)findRoute(route, {state.velocity, state.acceleration, way, last, scaled.velocity,
+                            -scaled.velocity, scaled.ahead(), noise});
+    builder.route(route, 1.0, target, last);
+  } else if (state.velocity == 0.0 && state.acceleration == 0.0) {
+    moveFromRest(builder, way, target, last, scaled, noise);
+  } else {
+    moveOnOneSide(builder, state, way, target, last, scaled, noise);
+  }
+  return result(builder.finish(start.position, endVelocity));
+}
+
+PlanError planParabolicVelocity(Profile &profile, const State &start, double velocity,
+                                const JerkLimits &limits) noexcept {
+  clear(profile, start.position);
+  if (!isFinite(start) || !exact::isfinite(velocity))
+    return PlanError::InvalidState;
+  if (!areLimits(limits))
+    return PlanError::InvalidLimit;
+
+  const Scale scale = scaleOf(0.0, start, velocity, limits);
+  const Limits scaled(limits, scale);
+  Builder builder(profile, scale, start);
+  const State &state = builder.state();
+  const double last = exact::ldexp(velocity, -scale.velocity);
+  const double side = state.velocity != 0.0       ? exact::signOf(state.velocity)
+                      : state.acceleration != 0.0 ? exact::signOf(state.acceleration)
+                                                  : exact::signOf(last);
+  const double speed = side * state.velocity;
+  const double rate = side * state.acceleration;
+  if (scaled.acceleration == scaled.deceleration ||
+      (settledVelocity(speed, rate, scaled.jerk) >= 0.0 && side * last >= 0.0)) {
+    builder.forward(VelocityChange(speed, rate, side * last, scaled.ahead()), side);
+  } else {
+    builder.forward(VelocityChange(speed, rate, 0.0, scaled.stopping()), side);
+    builder.settle(0.0);
+    const double to = exact::signOf(last);
+    builder.forward(VelocityChange(0.0, 0.0, to * last, scaled.ahead()), to);
+  }
+  return result(builder.finish(start.position, velocity));
+}
+
+PlanError planParabolicStop(Profile &profile, const State &start, double deceleration,
+                            double jerk) noexcept {
+  return planParabolicVelocity(profile, start, 0.0, {1.0, deceleration, deceleration, jerk});
+}
+
+double reachableByParabola(const State &start, double target, double wanted,
+                           const JerkLimits &limits) noexcept {
+  const double distance = target - start.position;
+  const Scale scale = scaleOf(distance, start, wanted, limits);
+  const Limits scaled(limits, scale);
+  double velocity = exact::ldexp(start.velocity, -scale.velocity);
+  double acceleration = exact::ldexp(start.acceleration, -scale.acceleration);
+  double way = exact::ldexp(distance, -scale.length);
+  const VelocityChange stop(velocity, acceleration, 0.0, scaled.stopping());
+  const double halt = stop.distance(velocity, acceleration, 0.0);
+  double side = way - halt; // the way of the motion to the target
+  if (exact::fabs(side) <=
+      noiseOf(start, target, way, scale) + blurOf(stop, velocity, acceleration, scaled.jerk))
+    side = velocity;
+  const double sign = side < 0.0 ? -1.0 : 1.0;
+  const double speed = sign * exact::ldexp(wanted, -scale.velocity);
+  if (!(speed > 0.0) || side == 0.0 || !exact::isfinite(way) || !exact::isfinite(halt))
+    return 0.0;
+  velocity *= sign;
+  acceleration *= sign;
+  way *= sign;
+  double settled = settledVelocity(velocity, acceleration, scaled.jerk);
+  const bool turns = velocity < 0.0 || settled < 0.0;
+  if (turns && scaled.acceleration != scaled.deceleration) { // it stops first
+    way -= sign * halt;
+    velocity = acceleration = settled = 0.0;
+  }
+  const auto beyond = [&](double to) noexcept {
+    return VelocityChange(velocity, acceleration, to, scaled.ahead())
+               .distance(velocity, acceleration, to) -
+           way;
+  };
+  if (!(beyond(speed) > 0.0))
+    return wanted;
+  const double slowest = exact::larger(settled, 0.0);
+  // The jerk makes a small change take more way than a larger one: a stop may be possible where a
+  // mere slowing down is not.
+  double low = 0.0;
+  double high = speed;
+  if (speed > slowest) {
+    const bool slower = beyond(slowest) > 0.0;
+    (slower ? high : low) = slowest;
+  }
+  if (!(beyond(low) < 0.0))
+    return exact::ldexp(sign * low, scale.velocity);
+  // Not the last digits: they must not make the way too short.
+  const double reached = bracketedRoot(beyond, low, high) * (1.0 - 4.0 * kEpsilon);
+  return exact::ldexp(sign * exact::larger(reached, low), scale.velocity);
+}
+
+} // namespace stride::motion

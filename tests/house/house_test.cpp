@@ -1,0 +1,225 @@
+// The rooms of the house, by what the sources say (docs/contributing.md): who may include whom,
+// what a folder's library consists of, where native bodies are.
+#include "tests/support/text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace stride::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kRoot = STRIDE_SOURCE_DIR;
+
+/// Whom a room may include besides itself. Rooms below a name ending with a slash are meant, too;
+/// "st" are the headers that the compiler makes of stdlib.
+const std::map<std::string, std::vector<std::string>> &arrows() {
+  static const std::map<std::string, std::vector<std::string>> kArrows = {
+      {"compiler/source", {}},
+      {"compiler/syntax", {"compiler/source"}},
+      {"compiler/semantics", {"compiler/syntax", "compiler/source", "runtime/iec"}},
+      {"compiler/codegen", {"compiler/semantics", "compiler/syntax", "compiler/source"}},
+      {"compiler/project",
+       {"compiler/codegen", "compiler/semantics", "compiler/syntax", "compiler/source",
+        "runtime/numeric/"}},
+      {"compiler/doc",
+       {"compiler/project", "compiler/semantics", "compiler/syntax", "compiler/source"}},
+      {"compiler/cli",
+       {"compiler/doc", "compiler/project", "compiler/codegen", "compiler/semantics",
+        "compiler/syntax", "compiler/source", "runtime/numeric/", "runtime/system"}},
+      {"runtime/iec", {}},
+      {"runtime/numeric", {"runtime/iec"}},
+      {"runtime/numeric/profile", {"runtime/numeric", "runtime/iec"}},
+      {"runtime/numeric/cam", {"runtime/numeric", "runtime/iec"}},
+      {"runtime/axis", {"runtime/numeric/", "runtime/iec", "st"}},
+      {"runtime/axis/cam", {"runtime/axis", "runtime/numeric/", "runtime/iec", "st"}},
+      // app: the context of a call (ctx.h); system: the interface to the host (system_api.h).
+      {"runtime/blocks",
+       {"runtime/axis/", "runtime/numeric/", "runtime/iec", "runtime/app", "runtime/system", "st"}},
+      {"runtime/bus", {"runtime/axis", "runtime/iec", "st"}},
+      {"runtime/app", {"runtime/iec"}},
+      {"runtime/system", {"runtime/iec"}},
+      {"runtime/task", {"runtime/app", "runtime/iec"}},
+      {"runtime/io", {"runtime/task", "runtime/app", "runtime/iec"}},
+      {"runtime/script", {"runtime/task", "runtime/app", "runtime/iec"}},
+      {"runtime/monitor", {"runtime/script", "runtime/task", "runtime/app", "runtime/iec"}},
+      {"runtime/host",
+       {"runtime/monitor", "runtime/script", "runtime/task", "runtime/bus", "runtime/io",
+        "runtime/system", "runtime/app", "runtime/iec", "drivers/", "st"}},
+      {"runtime/embed",
+       {"runtime/host", "runtime/monitor", "runtime/script", "runtime/task", "runtime/app"}},
+      {"drivers/dummy", {"runtime/bus", "runtime/iec", "st"}},
+      {"drivers/io", {"runtime/io", "runtime/app"}},
+  };
+  return kArrows;
+}
+
+bool isSource(const fs::path &path) {
+  const std::string ending = path.extension().string();
+  return ending == ".cpp" || ending == ".hpp" || ending == ".h";
+}
+
+std::vector<fs::path> sourcesBelow(const std::string &folder) {
+  std::vector<fs::path> found;
+  for (const fs::directory_entry &entry : fs::recursive_directory_iterator(kRoot / folder))
+    if (entry.is_regular_file() && isSource(entry.path()))
+      found.push_back(entry.path().lexically_relative(kRoot));
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// The longest name of a room that the path lies in; empty: none.
+std::string roomOf(const std::string &path) {
+  if (path.starts_with("st/"))
+    return "st";
+  std::string best;
+  for (const auto &[room, allowed] : arrows())
+    if (path.starts_with(room + "/") && room.size() > best.size())
+      best = room;
+  return best;
+}
+
+bool mayInclude(const std::string &room, const std::string &other) {
+  const std::vector<std::string> &allowed = arrows().at(room);
+  return room == other || std::any_of(allowed.begin(), allowed.end(), [&](const std::string &one) {
+           return one == other || (one.ends_with('/') && (other + "/").starts_with(one)) ||
+                  (one == "drivers/" && other.starts_with(one));
+         });
+}
+
+std::vector<std::string> matches(const std::string &text, const std::regex &pattern) {
+  std::vector<std::string> found;
+  for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at)
+    found.push_back((*at)[1]);
+  return found;
+}
+
+std::vector<std::string> includesOf(const fs::path &source) {
+  static const std::regex kInclude(R"re(#include "([^"]+)")re");
+  return matches(readFile(kRoot / source), kInclude);
+}
+
+TEST(House, ArrowsPointDown) {
+  std::size_t looked = 0;
+  for (const char *top : {"compiler", "runtime", "drivers"})
+    for (const fs::path &source : sourcesBelow(top)) {
+      const std::string room = roomOf(source.string());
+      if (source.string().find("/tools/") != std::string::npos ||
+          source.string().find("/gdb/") != std::string::npos)
+        continue;
+      ASSERT_FALSE(room.empty()) << source << " lies in no room: name it in arrows()";
+      for (const std::string &name : includesOf(source)) {
+        const std::string other = roomOf(name);
+        ++looked;
+        EXPECT_TRUE(other.empty() || mayInclude(room, other)) << source << " includes " << name;
+      }
+    }
+  EXPECT_GT(looked, 1000U);
+}
+
+TEST(House, ThereAreNoCircles) {
+  // By the arrows that are really used.
+  std::map<std::string, std::set<std::string>> used;
+  for (const char *top : {"compiler", "runtime", "drivers"})
+    for (const fs::path &source : sourcesBelow(top))
+      for (const std::string &name : includesOf(source))
+        if (const std::string from = roomOf(source.string()), to = roomOf(name);
+            !from.empty() && !to.empty() && from != to)
+          used[from].insert(to);
+  std::set<std::string> done;
+  for (std::size_t before = 1; before != 0;) { // what only leads to what is done is done
+    before = 0;
+    for (const auto &[room, others] : used)
+      if (!done.contains(room) &&
+          std::all_of(others.begin(), others.end(), [&](const std::string &other) {
+            return done.contains(other) || !used.contains(other);
+          }))
+        before += done.insert(room).second ? 1 : 0;
+  }
+  for (const auto &[room, others] : used)
+    EXPECT_TRUE(done.contains(room)) << room << " is part of a circle";
+}
+
+TEST(House, NumericsThatApplicationsLinkUseNoHeapAndNoSystem) {
+  static const std::regex kSystem("#include <([^>]+)>");
+  const std::set<std::string> allowed = {"algorithm", "array",    "bit",      "cmath",
+                                         "cstddef",   "cstdint",  "cstring",  "limits",
+                                         "math.h",    "stddef.h", "stdint.h", "span"};
+  for (const char *folder : {"runtime/numeric", "runtime/axis", "runtime/blocks"})
+    for (const fs::path &source : sourcesBelow(folder)) {
+      if (source.stem() == "reduce") // for the tools
+        continue;
+      for (const std::string &name : matches(readFile(kRoot / source), kSystem))
+        EXPECT_TRUE(allowed.contains(name) || name.starts_with("Eigen/"))
+            << source << " includes <" << name << ">";
+    }
+}
+
+TEST(House, AFolderIsALibrary) {
+  static const std::regex kOther(
+      R"((\$\{PROJECT_SOURCE_DIR\}/(?:compiler|runtime|drivers)/\S+\.cpp|\.\./\S+\.cpp))");
+  std::size_t lists = 0;
+  for (const char *top : {"compiler", "runtime", "drivers", "stdlib", "tests", "examples"})
+    for (const fs::directory_entry &entry : fs::recursive_directory_iterator(kRoot / top)) {
+      if (entry.path().filename() != "CMakeLists.txt")
+        continue;
+      ++lists;
+      const std::string text =
+          std::regex_replace(readFile(entry.path()), std::regex("#[^\n]*"), "");
+      const std::string name = entry.path().lexically_relative(kRoot).string();
+      EXPECT_THAT(matches(text, kOther), ::testing::IsEmpty()) << name;
+      if (std::string(top) == "tests")
+        continue;
+      // Each source of the folder is named once.
+      for (const fs::directory_entry &source : fs::directory_iterator(entry.path().parent_path())) {
+        if (source.path().extension() != ".cpp")
+          continue;
+        const std::regex word("(?:^|[\\s(])(" + source.path().stem().string() +
+                              "\\.cpp)(?=[\\s)])");
+        std::string named = std::regex_replace(
+            text,
+            std::regex("SHARED_BY_THREADS[^)]*?(?=DEPS|\\))|set_source_files_properties[^)]*\\)"),
+            "");
+        EXPECT_EQ(matches(named, word).size(), 1U) << name << ' ' << source.path().filename();
+      }
+    }
+  EXPECT_GT(lists, 30U);
+}
+
+/// What `{external}` blocks and functions of a library are implemented is next to each other.
+TEST(House, NativeBodiesLieInTheFolderOfTheirLibrary) {
+  std::size_t bodies = 0;
+  for (const fs::directory_entry &library : fs::directory_iterator(kRoot / "stdlib")) {
+    if (!library.is_directory())
+      continue;
+    const std::string name = library.path().filename().string();
+    std::set<std::string> included; // by the sources of runtime/blocks/NAME
+    if (fs::exists(kRoot / "runtime/blocks" / name))
+      for (const fs::path &source : sourcesBelow("runtime/blocks/" + name))
+        for (const std::string &header : includesOf(source))
+          included.insert(header);
+    for (const fs::directory_entry &file : fs::directory_iterator(library.path())) {
+      if (file.path().extension() != ".st" ||
+          readFile(file.path()).find("\n{external}") == std::string::npos)
+        continue;
+      ++bodies;
+      const std::string header = "st/" + name + "/" + file.path().stem().string() + ".h";
+      EXPECT_TRUE(included.contains(header))
+          << "nothing in runtime/blocks/" << name << " includes " << header;
+    }
+  }
+  EXPECT_GT(bodies, 90U);
+}
+
+} // namespace
+} // namespace stride::test
