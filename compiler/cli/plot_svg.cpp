@@ -1,5 +1,6 @@
 #include "compiler/cli/plot.hpp"
 #include "compiler/doc/html.hpp"
+#include "runtime/common/text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -255,7 +256,7 @@ private:
   void text(double x, double y, std::string_view anchor, std::string_view content,
             std::string_view more = {}) {
     svg_ += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\"{}>{}</text>\n", px(x), px(y),
-                        anchor, more, doc::escaped(content));
+                        anchor, more, stride::common::escapedMarkup(content));
   }
 
   void drawFrame(double top, double height) {

@@ -11,15 +11,13 @@ namespace stc::codegen {
 using namespace ast;
 
 Hash &Hash::add(std::string_view text) {
-  for (const char c : text)
-    value_ = (value_ ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  value_ = (value_ ^ 0xFFU) * 1099511628211ULL; // an end mark: "ab" + "c" is not "a" + "bc"
+  hash_.add(text).add(0xFF); // an end mark: "ab" + "c" is not "a" + "bc"
   return *this;
 }
 
 Hash &Hash::add(std::uint64_t value) {
   for (int i = 0; i < 8; ++i) {
-    value_ = (value_ ^ (value & 0xFFU)) * 1099511628211ULL;
+    hash_.add(static_cast<unsigned char>(value & 0xFFU));
     value >>= 8U;
   }
   return *this;

@@ -4,6 +4,7 @@
 
 #include "compiler/codegen/names.hpp"
 #include "compiler/semantics/storage.hpp"
+#include "runtime/common/fnv.hpp"
 
 #include <cstdint>
 #include <unordered_map>
@@ -11,15 +12,15 @@
 
 namespace stc::codegen {
 
-/// FNV-1a, 64 bits.
+/// Of layouts: FNV-1a of 64 bits, texts with an end mark each.
 class Hash {
 public:
   Hash &add(std::string_view text);
   Hash &add(std::uint64_t value);
-  [[nodiscard]] std::uint64_t value() const { return value_; }
+  [[nodiscard]] std::uint64_t value() const { return hash_.value(); }
 
 private:
-  std::uint64_t value_ = 14695981039346656037ULL;
+  stride::common::Fnv1a<std::uint64_t> hash_;
 };
 
 /// Held as a pointer: VAR_IN_OUT of an instance, REFERENCE TO.

@@ -2,6 +2,7 @@
 
 #include "compiler/codegen/inlining.hpp"
 #include "compiler/semantics/hierarchy.hpp"
+#include "runtime/common/fnv.hpp"
 
 #include <algorithm>
 #include <array>
@@ -75,9 +76,7 @@ constexpr std::size_t kMaxFileName = 160;
 std::string shortened(const std::string &name) {
   if (name.size() <= kMaxFileName)
     return name;
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : name)
-    hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  std::uint64_t hash = stride::common::Fnv1a<std::uint64_t>().add(name).value();
   std::string digits(16, '0');
   for (std::size_t i = digits.size(); i-- > 0; hash >>= 4U)
     digits[i] = "0123456789abcdef"[hash & 15U];
@@ -151,12 +150,12 @@ std::uint32_t Names::typeId(const PouSymbol *block) {
         for (const PouSymbol *p : library->pous) {
           if (!p->isBlock())
             continue;
-          std::uint32_t id = 2166136261U;
-          for (const std::string_view part : {std::string_view(library->name), p->name.id->lower}) {
-            for (const char c : part)
-              id = (id ^ static_cast<unsigned char>(c)) * 16777619U;
-            id = (id ^ 0xFFU) * 16777619U;
-          }
+          std::uint32_t id = stride::common::Fnv1a<std::uint32_t>()
+                                 .add(library->name)
+                                 .add(0xFF)
+                                 .add(p->name.id->lower)
+                                 .add(0xFF)
+                                 .value();
           while (!taken.insert(id).second)
             ++id;
           typeIds_.emplace(p, id);

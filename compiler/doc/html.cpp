@@ -1,10 +1,14 @@
 #include "compiler/doc/html.hpp"
 
+#include "runtime/common/text.hpp"
+
 #include <cctype>
 #include <map>
 #include <set>
 
 namespace stc::doc {
+
+using stride::common::escapedMarkup;
 
 namespace {
 
@@ -147,13 +151,13 @@ private:
                                  const std::string &body) const {
     return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width\">\n<title>" +
-           escaped(heading) +
+           escapedMarkup(heading) +
            "</title>\n<link rel=\"stylesheet\" href=\"style.css\">\n</head>\n<body>\n<nav>\n"
            "<p><a href=\"index.html\">" +
-           escaped(title_) +
+           escapedMarkup(title_) +
            "</a></p>\n<input id=\"search\" type=\"search\" placeholder=\"Search\" "
            "aria-label=\"Search\">\n<ul id=\"found\"></ul>\n<ul id=\"contents\">\n" +
-           contents + "</ul>\n</nav>\n<main>\n<h1>" + escaped(heading) + "</h1>\n" + body +
+           contents + "</ul>\n</nav>\n<main>\n<h1>" + escapedMarkup(heading) + "</h1>\n" + body +
            "</main>\n<script src=\"search.js\"></script>\n</body>\n</html>\n";
   }
 
@@ -161,14 +165,15 @@ private:
     std::string contents;
     std::string body;
     for (const Module &module : modules_) {
-      const std::string link =
-          "<a href=\"" + escaped(fileOf(module)) + "\">" + escaped(module.name) + "</a>";
+      const std::string link = "<a href=\"" + escapedMarkup(fileOf(module)) + "\">" +
+                               escapedMarkup(module.name) + "</a>";
       contents += "<li>" + link + "</li>\n";
       body += "<section>\n<h2>" + link + "</h2>\n" + paragraphs(module.text) + "<table>\n";
       for (const Entry &entry : module.entries)
         body += "<tr><td class=\"name\"><a href=\"" +
-                escaped(fileOf(module) + "#" + ids_.at(&entry)) + "\">" + escaped(entry.name) +
-                "</a></td><td>" + linked(firstSentence(entry.text), entry.name) + "</td></tr>\n";
+                escapedMarkup(fileOf(module) + "#" + ids_.at(&entry)) + "\">" +
+                escapedMarkup(entry.name) + "</a></td><td>" +
+                linked(firstSentence(entry.text), entry.name) + "</td></tr>\n";
       body += "</table>\n</section>\n";
     }
     return page(title_, contents, body);
@@ -178,28 +183,28 @@ private:
     std::string contents;
     std::string body = paragraphs(module.text);
     for (const Entry &entry : module.entries) {
-      contents += "<li><a href=\"#" + escaped(ids_.at(&entry)) + "\">" + escaped(entry.name) +
-                  "</a></li>\n";
+      contents += "<li><a href=\"#" + escapedMarkup(ids_.at(&entry)) + "\">" +
+                  escapedMarkup(entry.name) + "</a></li>\n";
       body += section(entry, "h2");
     }
     return page(module.name, contents, body);
   }
 
   std::string section(const Entry &entry, const std::string &heading) {
-    std::string out = "<section id=\"" + escaped(ids_.at(&entry)) + "\">\n<" + heading +
-                      "><span class=\"kind\">" + escaped(entry.kind) + "</span>" +
-                      escaped(entry.name);
+    std::string out = "<section id=\"" + escapedMarkup(ids_.at(&entry)) + "\">\n<" + heading +
+                      "><span class=\"kind\">" + escapedMarkup(entry.kind) + "</span>" +
+                      escapedMarkup(entry.name);
     if (!entry.suffix.empty())
       out += " <span class=\"suffix\">" + linked(entry.suffix, entry.name) + "</span>";
     out += "</" + heading + ">\n" + paragraphs(entry.text, entry.name);
     for (const Group &group : entry.groups) {
       if (group.members.empty())
         continue;
-      out += "<table>\n<caption>" + escaped(group.title) + "</caption>\n";
+      out += "<table>\n<caption>" + escapedMarkup(group.title) + "</caption>\n";
       for (const Member &member : group.members)
-        out += "<tr><td class=\"name\">" + escaped(member.name) + "</td><td class=\"type\">" +
+        out += "<tr><td class=\"name\">" + escapedMarkup(member.name) + "</td><td class=\"type\">" +
                linked(member.type, entry.name) +
-               (member.init.empty() ? "" : escaped(" := " + member.init)) + "</td><td>" +
+               (member.init.empty() ? "" : escapedMarkup(" := " + member.init)) + "</td><td>" +
                linked(member.text, entry.name) + "</td></tr>\n";
       out += "</table>\n";
     }
@@ -212,8 +217,8 @@ private:
   std::string figure(const Entry &entry) {
     if (entry.figure.empty())
       return {};
-    return "<figure>\n<img src=\"" + escaped(entry.figure) + "\" alt=\"" +
-           escaped(firstSentence(entry.caption)) + "\" loading=\"lazy\">\n<figcaption>" +
+    return "<figure>\n<img src=\"" + escapedMarkup(entry.figure) + "\" alt=\"" +
+           escapedMarkup(firstSentence(entry.caption)) + "\" loading=\"lazy\">\n<figcaption>" +
            linked(entry.caption, entry.name) + "</figcaption>\n</figure>\n";
   }
 
@@ -238,13 +243,13 @@ private:
       while (end < text.size() && isWord(text[end]))
         ++end;
       if (end == at) {
-        out += escaped(text.substr(at++, 1));
+        out += escapedMarkup(text.substr(at++, 1));
         continue;
       }
       const std::string word = text.substr(at, end - at);
       const auto place = places_.find(word);
       if (place != places_.end() && word != self)
-        out += "<a href=\"" + escaped(place->second) + "\">" + word + "</a>";
+        out += "<a href=\"" + escapedMarkup(place->second) + "\">" + word + "</a>";
       else
         out += word;
       at = end;
@@ -259,29 +264,6 @@ private:
 };
 
 } // namespace
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-    case '&':
-      out += "&amp;";
-      break;
-    case '<':
-      out += "&lt;";
-      break;
-    case '>':
-      out += "&gt;";
-      break;
-    case '"':
-      out += "&quot;";
-      break;
-    default:
-      out += c;
-    }
-  }
-  return out;
-}
 
 std::vector<Page> htmlPages(const std::string &title, const std::vector<Module> &modules) {
   return Writer(title, modules).pages();

@@ -10,9 +10,6 @@
 
 namespace stc::doc {
 
-/// The text with what HTML and XML keep for themselves replaced (`&lt;`).
-[[nodiscard]] std::string escaped(std::string_view text);
-
 /// One file of the reference.
 struct Page {
   std::string path; ///< `index.html`, `SM_PLCopen.html`, `search.js` …

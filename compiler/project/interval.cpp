@@ -1,5 +1,7 @@
 #include "compiler/project/interval.hpp"
 
+#include "compiler/source/identifier.hpp"
+
 #include <array>
 #include <cctype>
 
@@ -25,7 +27,7 @@ std::string lowered(std::string_view text) {
   std::string result;
   for (const char c : text)
     if (c != '_')
-      result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      result += lowerCase(c);
   return result;
 }
 

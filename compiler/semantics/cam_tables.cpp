@@ -1,5 +1,7 @@
 #include "compiler/semantics/cam_tables.hpp"
 
+#include "compiler/source/identifier.hpp"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -13,13 +15,6 @@ constexpr std::string_view kPrefix = "smc_camtable";
 constexpr std::array<std::string_view, 6> kElements = {"INT",   "UINT", "DINT",
                                                        "UDINT", "REAL", "LREAL"};
 constexpr std::string_view kForm = "SMC_CAMTable_<type>_<places>_1 or …_2";
-
-std::string lowered(std::string_view text) {
-  std::string result(text);
-  for (char &c : result)
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return result;
-}
 
 std::string raised(std::string_view text) {
   std::string result(text);
@@ -61,7 +56,7 @@ CamTableName readCamTable(std::string_view lowerName) {
     return table;
   }
   for (const std::string_view element : kElements)
-    if (lowered(element) == words[1])
+    if (lowerCase(element) == words[1])
       table.element = element;
   if (table.element.empty()) {
     table.problem = "no cam table has numbers of type " + raised(words[1]);

@@ -3,6 +3,7 @@
 #include "compiler/semantics/checker.hpp"
 #include "compiler/semantics/locations.hpp"
 #include "compiler/semantics/suggest.hpp"
+#include "compiler/source/identifier.hpp"
 
 #include <algorithm>
 #include <map>
@@ -16,12 +17,6 @@ namespace {
 constexpr std::size_t kMaxShown = 8;
 /// Variables that VAR_CONFIG can place.
 constexpr std::size_t kMaxSlots = 65536;
-
-std::string lowered(std::string text) {
-  for (char &c : text)
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
-}
 
 } // namespace
 
@@ -267,9 +262,9 @@ void Checker::checkConfigEntry(VarDecl *decl, Module &module, std::vector<SlotPl
       noteDeclaration(d, variable);
   };
   // What has an entry, be it wrong, is not missing.
-  const std::string key = lowered(path);
+  const std::string key = lowerCase(path);
   const auto slot = std::find_if(slots.begin(), slots.end(), [&](const SlotPlace &s) {
-    return lowered(pathText(s.path)) == key;
+    return lowerCase(pathText(s.path)) == key;
   });
   if (slot != slots.end()) {
     if (slot->decl != nullptr) {

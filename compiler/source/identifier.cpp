@@ -15,13 +15,6 @@ bool sameIdent(std::string_view lower, std::string_view spelling) {
 
 } // namespace
 
-std::string lowerCase(std::string_view text) {
-  std::string out(text);
-  for (char &c : out)
-    c = lowerCase(c);
-  return out;
-}
-
 Ident Interner::intern(std::string_view spelling, std::uint32_t hash) {
   if (slots_.size() < 2 * (std::size_t{size_} + 1))
     grow();

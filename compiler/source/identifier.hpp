@@ -2,6 +2,7 @@
 // Interned, case-insensitive identifiers.
 
 #include "compiler/source/arena.hpp"
+#include "runtime/common/text.hpp"
 
 #include <cstdint>
 #include <string>
@@ -18,9 +19,7 @@ struct IdentData {
 };
 using Ident = const IdentData *;
 
-/// The letter's lower-case form (ASCII).
-constexpr char lowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
-[[nodiscard]] std::string lowerCase(std::string_view text);
+using stride::common::lowerCase;
 
 /// One step and the whole of the case-insensitive hash of identifiers.
 constexpr std::uint32_t hashStep(std::uint32_t hash, char c) {

@@ -1,5 +1,7 @@
 #include "compiler/source/render.hpp"
 
+#include "runtime/common/text.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -357,17 +359,7 @@ private:
 
 std::string visible(std::string_view text, std::string_view kept) {
   std::string out(text);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const auto byte = [&](std::size_t at) {
-      return at < out.size() ? static_cast<unsigned char>(out[at]) : 0U;
-    };
-    if (kept.find(out[i]) != std::string_view::npos)
-      continue;
-    if (byte(i) < 0x20 || byte(i) == 0x7F)
-      out[i] = '?';
-    else if (byte(i) == 0xC2 && byte(i + 1) >= 0x80 && byte(i + 1) < 0xA0) // U+0080 to U+009F
-      out.replace(i, 2, "?");
-  }
+  stride::common::hideControls(out, kept);
   return out;
 }
 

@@ -8,9 +8,6 @@
 
 namespace stride::app {
 
-/// ASCII lower case.
-std::string lowered(std::string_view text);
-
 /// "; did you mean 'a', 'b' or 'c'?" with at most three near candidates, or an empty text.
 std::string didYouMean(std::string_view name, const std::vector<std::string> &candidates);
 

@@ -4,6 +4,7 @@
 #include "runtime/app/checksum.hpp"
 #include "runtime/app/nearest.hpp"
 #include "runtime/app/symbols.hpp"
+#include "runtime/common/text.hpp"
 
 #include <fmt/format.h>
 
@@ -143,11 +144,11 @@ std::function<bool(const TypeDesc &)> changedNative(const StrideAppV1 &app) {
   std::map<std::string, uint64_t> native;
   for (uint32_t i = 0; i < app.typeCount; ++i)
     if ((app.types[i].flags & kTypeExternal) != 0)
-      native.emplace(lowered(app.types[i].name), app.types[i].layoutHash);
+      native.emplace(common::lowerCase(app.types[i].name), app.types[i].layoutHash);
   return [native = std::move(native)](const TypeDesc &type) {
     if ((type.flags & kTypeExternal) == 0)
       return false;
-    const auto found = native.find(lowered(type.name));
+    const auto found = native.find(common::lowerCase(type.name));
     return found != native.end() && found->second != type.layoutHash;
   };
 }
@@ -238,8 +239,9 @@ void RetainRestore::explain(RetainReport &report) const {
   const auto dropped = [&](const std::string &path) {
     if (!exists(symbols, path))
       return lose(path, "the program does not have it any more");
-    if (std::any_of(retained.begin(), retained.end(),
-                    [&](const std::string &own) { return isInside(lowered(path), lowered(own)); }))
+    if (std::any_of(retained.begin(), retained.end(), [&](const std::string &own) {
+          return isInside(common::lowerCase(path), common::lowerCase(own));
+        }))
       return lose(path, "this is another build of the program, and only PERSISTENT variables "
                         "survive that, not RETAIN");
     lose(path, "it is neither RETAIN nor PERSISTENT any more");

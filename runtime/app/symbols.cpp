@@ -3,6 +3,7 @@
 #include "runtime/app/error.hpp"
 #include "runtime/app/layout_index.hpp"
 #include "runtime/app/nearest.hpp"
+#include "runtime/common/text.hpp"
 #include "runtime/iec/text.h"
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ std::optional<FoundMember> findMember(const StrideAppV1 &app, const TypeDesc &ty
     const MemberDesc &member = app.members[type.firstMember + i];
     if ((member.flags & kSymBase) != 0)
       base = &member;
-    else if (lowered(member.name) == name)
+    else if (common::lowerCase(member.name) == name)
       return FoundMember{member.offset, &member};
   }
   if (base == nullptr)
@@ -247,12 +248,13 @@ private:
       const std::size_t back = at_;
       ++at_;
       const std::string second = name();
-      const auto found = table_.roots_.find(lowered(first) + "." + lowered(second));
+      const auto found =
+          table_.roots_.find(common::lowerCase(first) + "." + common::lowerCase(second));
       if (found != table_.roots_.end())
         return take(found->second.front());
       at_ = back;
     }
-    const auto found = table_.roots_.find(lowered(first));
+    const auto found = table_.roots_.find(common::lowerCase(first));
     if (found == table_.roots_.end())
       unknownRoot(first);
     if (found->second.size() > 1) {
@@ -285,7 +287,7 @@ private:
     static constexpr std::string_view kAreas = "iqm";
     static constexpr std::string_view kSizes = "xbwdl";
     ++at_;
-    const std::string start = lowered(std::string(path_.substr(at_, 2)));
+    const std::string start = common::lowerCase(std::string(path_.substr(at_, 2)));
     const std::size_t area = start.empty() ? std::string_view::npos : kAreas.find(start[0]);
     if (area == std::string_view::npos)
       fail("an address begins with %I, %Q or %M");
@@ -340,7 +342,7 @@ private:
       for (uint32_t i = 0; i < app().rootCount && hint.empty(); ++i) {
         const RootDesc &root = app().roots[i];
         const TypeDesc &type = app().types[root.type];
-        if (type.kind == Kind::Program && findMember(app(), type, lowered(first)))
+        if (type.kind == Kind::Program && findMember(app(), type, common::lowerCase(first)))
           hint = fmt::format("; did you mean '{}.{}'?", root.name, path_);
       }
     }
@@ -360,7 +362,7 @@ private:
     if (!hasMembers(type().kind))
       fail(fmt::format("'{}' is of type {} and has no members",
                        path_.substr(0, at_ - name.size() - 1), type().name));
-    const auto found = findMember(app(), type(), lowered(name));
+    const auto found = findMember(app(), type(), common::lowerCase(name));
     if (!found) {
       std::vector<std::string> names;
       memberNames(app(), type(), names);
@@ -419,9 +421,9 @@ SymbolTable::SymbolTable(const StrideAppV1 &app) : app_(&app) {
   for (uint32_t i = 0; i < app.rootCount; ++i) {
     const RootDesc &root = app.roots[i];
     if (root.list != nullptr)
-      roots_[lowered(root.list) + "." + lowered(root.name)].push_back(i);
+      roots_[common::lowerCase(root.list) + "." + common::lowerCase(root.name)].push_back(i);
     if (root.list == nullptr || (root.flags & kSymQualifiedOnly) == 0)
-      roots_[lowered(root.name)].push_back(i);
+      roots_[common::lowerCase(root.name)].push_back(i);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "runtime/app/layout_index.hpp"
 #include "runtime/app/nearest.hpp"
+#include "runtime/common/text.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -44,8 +45,6 @@ IntegerRange rangeOf(Kind kind) {
   }
 }
 
-char lowerCase(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
 /// Numbers, times, characters: what has a kind of its own.
 bool isPlain(Kind kind) { return kind >= Kind::BOOL && kind < Kind::Enum && !isString(kind); }
 
@@ -72,9 +71,9 @@ bool fillsAlike(const StrideAppV1 &app, const TypeDesc &type,
 bool sameName(const char *a, const char *b) {
   if (a == nullptr || b == nullptr)
     return a == b;
-  for (; *a != 0 && lowerCase(*a) == lowerCase(*b); ++a, ++b) {
+  for (; *a != 0 && common::lowerCase(*a) == common::lowerCase(*b); ++a, ++b) {
   }
-  return lowerCase(*a) == lowerCase(*b);
+  return common::lowerCase(*a) == common::lowerCase(*b);
 }
 
 bool keepsEveryValue(Kind from, Kind to) {
@@ -116,8 +115,9 @@ void flatten(const StrideAppV1 &app, uint32_t type, uint64_t offset, std::vector
       flatten(app, member.type, offset + member.offset, out);
       continue;
     }
-    std::string key = lowered(member.name);
-    std::string renamed = member.renamedFrom != nullptr ? lowered(member.renamedFrom) : "";
+    std::string key = common::lowerCase(member.name);
+    std::string renamed =
+        member.renamedFrom != nullptr ? common::lowerCase(member.renamedFrom) : "";
     // VAR_INST of a method: METHOD__NAME
     if (const std::size_t end = key.rfind("__"); end != std::string::npos && !renamed.empty())
       renamed.insert(0, key, 0, end + 2);
@@ -247,24 +247,24 @@ void TypeMatch::fillEnumeration(TypePair &pair) {
   std::unordered_map<std::string, int64_t> byName;
   std::unordered_map<int64_t, const char *> byValue;
   for (uint32_t i = 0; i < b.memberCount; ++i) {
-    byName.emplace(lowered(newNames[i].name), newNames[i].value);
+    byName.emplace(common::lowerCase(newNames[i].name), newNames[i].value);
     byValue.emplace(newNames[i].value, newNames[i].name);
   }
   std::unordered_map<std::string, int64_t> before;
   for (uint32_t i = 0; i < a.memberCount; ++i)
-    before.emplace(lowered(oldNames[i].name), oldNames[i].value);
+    before.emplace(common::lowerCase(oldNames[i].name), oldNames[i].value);
   bool moved = false;
   bool lost = false;
   for (uint32_t i = 0; i < a.memberCount; ++i) {
     const int64_t from = oldNames[i].value;
     EnumeratorMove move{from, from, false};
-    const auto own = byName.find(lowered(oldNames[i].name));
+    const auto own = byName.find(common::lowerCase(oldNames[i].name));
     if (own != byName.end()) {
       move.to = own->second;
     } else {
       // A new name for the same number is a renamed enumerator.
       const auto other = byValue.find(from);
-      move.gone = other == byValue.end() || before.contains(lowered(other->second));
+      move.gone = other == byValue.end() || before.contains(common::lowerCase(other->second));
     }
     const auto same = std::find_if(pair.moves.begin(), pair.moves.end(),
                                    [&](const EnumeratorMove &m) { return m.from == from; });
@@ -466,12 +466,14 @@ void TypeMatch::matchRoots() {
       const RootDesc &root = app.roots[i];
       if ((root.flags & kSymLocated) != 0)
         continue; // another name for what lies in the process image or in another root
-      const std::string list = root.list == nullptr ? std::string() : lowered(root.list) + ".";
-      std::string renamed = root.renamedFrom == nullptr ? std::string() : lowered(root.renamedFrom);
+      const std::string list =
+          root.list == nullptr ? std::string() : common::lowerCase(root.list) + ".";
+      std::string renamed =
+          root.renamedFrom == nullptr ? std::string() : common::lowerCase(root.renamedFrom);
       if (!renamed.empty() && renamed.find('.') == std::string::npos)
         renamed.insert(0, list);
-      out.push_back(
-          {list + lowered(root.name), std::move(renamed), root.offset, root.type, root.flags, i});
+      out.push_back({list + common::lowerCase(root.name), std::move(renamed), root.offset,
+                     root.type, root.flags, i});
     }
     return out;
   };

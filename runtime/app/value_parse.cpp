@@ -1,6 +1,7 @@
 #include "runtime/app/error.hpp"
 #include "runtime/app/nearest.hpp"
 #include "runtime/app/value_text.hpp"
+#include "runtime/common/text.hpp"
 #include "runtime/iec/text.h"
 
 #include <fmt/format.h>
@@ -60,7 +61,7 @@ std::optional<Range> literalRange(Kind kind) {
 /// Without a prefix TYPE# in any case; 16# and the like stay.
 std::string_view withoutPrefix(std::string_view text, std::string_view type) {
   if (text.size() > type.size() && text[type.size()] == '#' &&
-      lowered(text.substr(0, type.size())) == lowered(type))
+      common::lowerCase(text.substr(0, type.size())) == common::lowerCase(type))
     return text.substr(type.size() + 1);
   return text;
 }
@@ -94,7 +95,7 @@ void storeInteger(const TypeDesc &type, const Range &range, std::string_view tex
 }
 
 void storeBool(std::string_view text, void *value) {
-  const std::string word = lowered(withoutPrefix(text, "BOOL"));
+  const std::string word = common::lowerCase(withoutPrefix(text, "BOOL"));
   if (word == "true" || word == "1")
     store(value, BOOL{1});
   else if (word == "false" || word == "0")
@@ -271,13 +272,14 @@ void storeString(const TypeDesc &type, std::string_view text, void *value) {
 void storeEnum(const StrideAppV1 &app, const TypeDesc &type, std::string_view text, void *value) {
   std::string_view name = withoutPrefix(text, type.name);
   const std::size_t dot = name.find('.');
-  if (dot != std::string_view::npos && lowered(name.substr(0, dot)) == lowered(type.name))
+  if (dot != std::string_view::npos &&
+      common::lowerCase(name.substr(0, dot)) == common::lowerCase(type.name))
     name = name.substr(dot + 1);
-  const std::string wanted = lowered(name);
+  const std::string wanted = common::lowerCase(name);
   std::vector<std::string> names;
   for (uint32_t i = 0; i < type.memberCount; ++i) {
     const EnumeratorDesc &enumerator = app.enumerators[type.firstMember + i];
-    if (lowered(enumerator.name) == wanted) {
+    if (common::lowerCase(enumerator.name) == wanted) {
       std::memcpy(value, &enumerator.value, type.size); // little-endian: the low bytes
       return;
     }

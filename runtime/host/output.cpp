@@ -1,6 +1,7 @@
 #include "runtime/host/output.hpp"
 
 #include "runtime/app/error.hpp"
+#include "runtime/common/text.hpp"
 
 #include <fmt/format.h>
 
@@ -17,21 +18,15 @@
 
 namespace stride::host {
 
-/// In place, so that nothing gets longer. U+0080 to U+009F are two bytes.
-void hideControls(std::string &text, std::size_t from) noexcept {
-  for (std::size_t i = from; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const unsigned before = i == 0 ? 0U : static_cast<unsigned char>(text[i - 1]);
-    if ((byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7F)
-      text[i] = '?';
-    else if (before == 0xC2 && byte >= 0x80 && byte < 0xA0)
-      text[i - 1] = text[i] = '?';
-  }
-}
+namespace {
+
+constexpr std::string_view kShown = "\n\t";
+
+} // namespace
 
 std::string shownOn(std::FILE *file, std::string text) {
   if (::isatty(::fileno(file)) != 0)
-    hideControls(text);
+    common::hideControls(text, kShown);
   return text;
 }
 
@@ -115,7 +110,7 @@ bool Output::appendControls(std::string_view text) noexcept {
 }
 
 void Output::screen() noexcept {
-  hideControls(text_, std::max(screened_, written_));
+  common::hideControls(text_, kShown, std::max(screened_, written_));
   screened_ = text_.size();
 }
 

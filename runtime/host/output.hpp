@@ -11,10 +11,6 @@
 
 namespace stride::host {
 
-/// Shows control characters, but line ends and tabs, as `?` from `from` on: names of files and
-/// values of variables must not command a terminal.
-void hideControls(std::string &text, std::size_t from = 0) noexcept;
-
 /// The text as the file may show it: to a terminal without control characters.
 std::string shownOn(std::FILE *file, std::string text);
 

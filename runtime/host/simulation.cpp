@@ -1,6 +1,7 @@
 #include "runtime/host/simulation.hpp"
 
 #include "runtime/app/error.hpp"
+#include "runtime/common/fnv.hpp"
 #include "runtime/host/instance.hpp"
 #include "runtime/host/online_change.hpp"
 #include "runtime/host/print_values.hpp"
@@ -154,12 +155,8 @@ private:
   Messages *messages_;
 };
 
-/// FNV-1a.
 uint64_t hashOf(const std::byte *data, uint64_t size) {
-  uint64_t hash = 0xCBF29CE484222325;
-  for (uint64_t i = 0; i < size; ++i)
-    hash = (hash ^ static_cast<uint64_t>(data[i])) * 0x100000001B3;
-  return hash;
+  return common::Fnv1a<uint64_t>().add(std::span(data, size)).value();
 }
 
 std::string summaryOf(const task::TaskSet &tasks, const task::RunResult &result, double wall) {

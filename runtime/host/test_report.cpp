@@ -1,5 +1,6 @@
 #include "runtime/host/test_report.hpp"
 
+#include "runtime/common/text.hpp"
 #include "runtime/iec/text.h"
 
 #include <fmt/format.h>
@@ -41,29 +42,11 @@ std::string headline(const TestFailure &failure) {
   return text.empty() ? failure.kind + " failed" : text;
 }
 
-std::string escaped(const std::string &text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-    case '&':
-      out += "&amp;";
-      break;
-    case '<':
-      out += "&lt;";
-      break;
-    case '>':
-      out += "&gt;";
-      break;
-    case '"':
-      out += "&quot;";
-      break;
-    case '\n':
-      out += "&#10;";
-      break;
-    default:
-      out += static_cast<unsigned char>(c) < 0x20 && c != '\t' ? '?' : c; // not allowed in XML
-    }
-  }
+/// For an attribute, in which a line's end would become a blank.
+std::string escaped(std::string_view text) {
+  std::string out = common::escapedMarkup(text);
+  for (std::size_t i = 0; (i = out.find('\n', i)) != std::string::npos;)
+    out.replace(i, 1, "&#10;");
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include "runtime/app/error.hpp"
 #include "runtime/app/nearest.hpp"
 #include "runtime/app/value_text.hpp"
+#include "runtime/common/text.hpp"
 #include "runtime/monitor/symbol_channel.hpp"
 
 #include <fmt/format.h>
@@ -165,9 +166,9 @@ void SymbolServer::force(const std::vector<NamedValue> &values) {
   for (const auto &[name, literal] : values) {
     app::Symbol symbol = app::resolveWritable(*symbols_, name);
     std::vector<std::byte> value = app::literalBytes(*symbols_, symbol, literal);
-    const std::string key = app::lowered(name);
+    const std::string key = common::lowerCase(name);
     const auto found = std::find_if(next.begin(), next.end(), [&](const Forced &forced) {
-      return app::lowered(forced.symbol.path()) == key;
+      return common::lowerCase(forced.symbol.path()) == key;
     });
     if (found != next.end())
       found->value = std::move(value);
@@ -185,9 +186,9 @@ void SymbolServer::release(const std::vector<std::string> &names) {
   const std::lock_guard lock(mutex_);
   std::vector<Forced> next = forced_;
   for (const std::string &name : names) {
-    const std::string key = app::lowered(name);
+    const std::string key = common::lowerCase(name);
     const auto found = std::find_if(next.begin(), next.end(), [&](const Forced &forced) {
-      return app::lowered(forced.symbol.path()) == key;
+      return common::lowerCase(forced.symbol.path()) == key;
     });
     if (found == next.end())
       throw app::Error(fmt::format("'{}' is not forced", name));

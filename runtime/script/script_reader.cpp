@@ -1,6 +1,7 @@
 // Reads scripts: line by line, every mistake with its place.
 #include "runtime/app/error.hpp"
 #include "runtime/app/nearest.hpp"
+#include "runtime/common/text.hpp"
 #include "runtime/iec/text.h"
 #include "runtime/script/script.hpp"
 
@@ -61,7 +62,7 @@ public:
     std::size_t end = at_;
     while (end < text_.size() && isWordCharacter(text_[end]))
       ++end;
-    if (app::lowered(text_.substr(at_, end - at_)) != keyword)
+    if (common::lowerCase(text_.substr(at_, end - at_)) != keyword)
       return false;
     std::size_t next = end;
     while (next < text_.size() && isBlank(text_[next]))
