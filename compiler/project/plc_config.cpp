@@ -3,6 +3,7 @@
 #include "compiler/project/config_reader.hpp"
 #include "compiler/project/names.hpp"
 #include "compiler/semantics/suggest.hpp"
+#include "drivers/registry.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,6 @@ namespace stc {
 
 namespace {
 
-constexpr std::array<std::string_view, 1> kDrivers = {"Dummy"};
 constexpr int kConfigurable = 0; // wControlType
 constexpr int kPosVelToPosVel = 5;
 constexpr int kRotary = 0;
@@ -93,19 +93,22 @@ void PlcReader::readBus(const CheckedSection &section) {
 
 std::string PlcReader::readDriver(const TomlNode &type) {
   const std::string word = type.text.substr(0, type.text.find(' '));
-  for (const std::string_view driver : kDrivers)
-    if (driver == word)
-      return word;
+  if (stride::drivers::findSchema(word) != nullptr)
+    return word;
   Diagnostic &d =
       diagnostics_.report(Code::configUnknownDriver, type.span,
                           fmt::format("there is no driver `{}`", word), "names the driver");
-  const std::vector<std::string_view> known(kDrivers.begin(), kDrivers.end());
+  std::vector<std::string_view> known;
+  std::string examples;
+  for (const stride::bus::DriverSchema &driver : stride::drivers::kSchemas) {
+    known.push_back(driver.name);
+    examples += fmt::format("{}\"{}\"", examples.empty() ? "" : ", ", driver.interfaceType);
+  }
   if (const std::string_view near = nearest(word, known); !near.empty())
     d.help(fmt::format("did you mean `{}`?", near));
   else if (equalIgnoringCase(word, "CAN") || equalIgnoringCase(word, "Sercos"))
     d.help(fmt::format("\"Dummy ({})\" simulates the drives of such a bus", word));
-  d.note("the text before the first blank of InterfaceType names the driver; known: "
-         "\"Dummy (simulated drives)\"");
+  d.note("the text before the first blank of InterfaceType names the driver; known: " + examples);
   return {};
 }
 

@@ -6,6 +6,7 @@
 #include "compiler/project/interval.hpp"
 #include "compiler/project/names.hpp"
 #include "compiler/semantics/suggest.hpp"
+#include "drivers/registry.hpp"
 
 #include <fmt/format.h>
 
@@ -230,8 +231,9 @@ private:
                                 group.name.text, task->name.text),
                     "how long is a cycle?")
             .help("add the time between two events in µs, for example `dwCycle = 2000`");
-      // The simulated bus has a SYNC every dwCycle, which the task need not wait for.
-      if (group.driver == "Dummy" && task->start == TaskStart::event &&
+      // The bus has a SYNC every dwCycle, which the task need not wait for.
+      const stride::bus::DriverSchema *driver = stride::drivers::findSchema(group.driver);
+      if (driver != nullptr && driver->givesSync && task->start == TaskStart::event &&
           equalIgnoringCase(task->event.text, group.name.text + ".bSync")) {
         task->intervalNs = std::int64_t{group.cycleUs} * 1000;
         onBus_.insert(task);
@@ -318,7 +320,7 @@ private:
   std::vector<const ast::Decl *> programs_;
   Declarations declarations_;
   bool hadTasks_ = false;
-  std::unordered_set<const TaskConfig *> onBus_; ///< Started by the SYNC of a simulated bus.
+  std::unordered_set<const TaskConfig *> onBus_; ///< Started by the SYNC of their bus.
 };
 
 class DeclarationWriter {
@@ -360,7 +362,7 @@ private:
         variable("drive", drive.name, "SM_DriveBasic.AXIS_REF", fields);
         if (drive.simulated)
           variable("simulation of drive", {simulationOf(drive), drive.name.span},
-                   "DummyDrive.DUMMY_DRIVE_SIM", {});
+                   stride::drivers::findSchema(group.driver)->driveData, {});
       }
       for (const EncoderConfig &encoder : group.encoders)
         variable("encoder", encoder.name, "SM_DriveBasic.SMC_ENCODER_REF", encoder.fields);

@@ -1,12 +1,10 @@
 #include "runtime/host/axis_hooks.hpp"
 
-#include "drivers/dummy/dummy_drive.hpp"
+#include "drivers/axis_drivers.hpp"
 #include "runtime/app/error.hpp"
 #include "runtime/bus/drive_group.hpp"
 #include "runtime/host/error_names.hpp"
 #include "runtime/host/task_times.hpp"
-
-#include "st/DummyDrive/DUMMY_DRIVE_SIM.h"
 
 #include <fmt/format.h>
 
@@ -247,25 +245,24 @@ bus::GroupSetup setupOf(const StrideAppV1 &app, const AxisGroupDesc &group) {
   return setup;
 }
 
-std::unique_ptr<bus::AxisDriver> makeDriver(const AxisGroupDesc &group,
-                                            const bus::GroupSetup &setup) {
-  const std::string name = group.driverName;
-  if (name == "Dummy")
-    return dummy::makeDummyDriver(setup);
-  throw app::Error(fmt::format("axis group '{}' asks for driver '{}', which this runtime does not "
-                               "have; it has 'Dummy (simulated drives)'",
-                               group.name, name));
+const drivers::DriverEntry &driverOf(const AxisGroupDesc &group) {
+  const drivers::DriverEntry *driver = drivers::findDriver(group.driverName);
+  if (driver == nullptr)
+    throw app::Error(fmt::format("axis group '{}' asks for driver '{}', which this runtime does "
+                                 "not have; {}",
+                                 group.name, group.driverName, drivers::knownDrivers()));
+  return *driver;
 }
 
 /// Lets AXIS_REF.pMS lead to what the driver and the program share about the drive.
-void bindData(const DriveDesc &drive, std::byte *state) {
+void bindData(const DriveDesc &drive, const drivers::DriverEntry &driver, std::byte *state) {
   if (drive.dataLayout == 0)
     return;
-  if (drive.dataLayout != ::st::DummyDrive::DUMMY_DRIVE_SIM__layout__)
-    throw app::Error(fmt::format("the application was built with another layout of "
-                                 "DUMMY_DRIVE_SIM (drive '{}') than this runtime has; build it "
-                                 "again with this version of Stride",
-                                 drive.name));
+  const std::string_view type = driver.schema.driveData;
+  if (drive.dataLayout != driver.driveDataLayout)
+    throw app::Error(fmt::format("the application was built with another layout of {} (drive '{}') "
+                                 "than this runtime has; build it again with this version of Stride",
+                                 type.substr(type.find('.') + 1), drive.name));
   at<axis::AxisRef>(state, drive.axisOffset).pMS = &at<BYTE>(state, drive.dataOffset);
 }
 
@@ -284,10 +281,11 @@ addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPo
   for (uint32_t i = 0; i < app.axisGroupCount; ++i) {
     const AxisGroupDesc &group = app.axisGroups[i];
     const bus::GroupSetup setup = setupOf(app, group);
+    const drivers::DriverEntry &driver = driverOf(group);
     for (uint32_t d = 0; d < group.driveCount; ++d)
-      bindData(app.drives[group.firstDrive + d], application.state());
+      bindData(app.drives[group.firstDrive + d], driver, application.state());
     hooks.push_back(std::make_unique<AxisGroupHook>(app, i, application.state(),
-                                                    makeDriver(group, setup), setup.cycleSeconds,
+                                                    driver.make(setup), setup.cycleSeconds,
                                                     inputs, tasks.realClock(), errors));
     tasks.addHook(group.task, *hooks.back());
   }

@@ -31,7 +31,7 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
       {"compiler/codegen", {"compiler/semantics", "compiler/syntax", "compiler/source"}},
       {"compiler/project",
        {"compiler/codegen", "compiler/semantics", "compiler/syntax", "compiler/source",
-        "runtime/numeric/"}},
+        "runtime/numeric/", "drivers"}},
       {"compiler/doc",
        {"compiler/project", "compiler/semantics", "compiler/syntax", "compiler/source"}},
       {"compiler/cli",
@@ -56,9 +56,10 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
       {"runtime/monitor", {"runtime/script", "runtime/task", "runtime/app", "runtime/iec"}},
       {"runtime/host",
        {"runtime/monitor", "runtime/script", "runtime/task", "runtime/bus", "runtime/io",
-        "runtime/system", "runtime/app", "runtime/iec", "drivers/", "st"}},
+        "runtime/system", "runtime/app", "runtime/iec", "drivers", "drivers/io", "st"}},
       {"runtime/embed",
        {"runtime/host", "runtime/monitor", "runtime/script", "runtime/task", "runtime/app"}},
+      {"drivers", {"drivers/dummy", "runtime/bus", "st"}},
       {"drivers/dummy", {"runtime/bus", "runtime/iec", "st"}},
       {"drivers/io", {"runtime/io", "runtime/app"}},
   };
@@ -97,8 +98,7 @@ bool mayInclude(const std::string &room, const std::string &other) {
            !room.starts_with("runtime/axis") && !room.starts_with("runtime/blocks");
   const std::vector<std::string> &allowed = arrows().at(room);
   return room == other || std::any_of(allowed.begin(), allowed.end(), [&](const std::string &one) {
-           return one == other || (one.ends_with('/') && (other + "/").starts_with(one)) ||
-                  (one == "drivers/" && other.starts_with(one));
+           return one == other || (one.ends_with('/') && (other + "/").starts_with(one));
          });
 }
 
