@@ -417,7 +417,7 @@ TEST_F(SharedCache, EveryFolderAboveIsLookedAt) {
   if (::geteuid() != 0)
     GTEST_SKIP() << "folders of somebody else need root";
   const auto cache = [&](const std::string &name) {
-    return Environment{{"XDG_CACHE_HOME", at(name).string()}, {"TMPDIR", "/tmp"}};
+    return Environment{{"XDG_CACHE_HOME", at(name).string()}, {"TMPDIR", scratch_.path().string()}};
   };
   fs::create_directories(at("up/middle/mine"));
   expectRun(true, cache("up/middle/mine"));
@@ -477,7 +477,7 @@ TEST_F(SharedCache, WhatIsNoFileInItDoesNotHinder) {
   // A pipe in the place of the mark is not waited for.
   fs::remove(at("cache/stride/v1/CACHEDIR.TAG"));
   ASSERT_EQ(::mkfifo(at("cache/stride/v1/CACHEDIR.TAG").c_str(), 0600), 0);
-  expectRun(false, {{"XDG_CACHE_HOME", at("cache").string()}, {"TMPDIR", "/tmp"}});
+  expectRun(false, {{"XDG_CACHE_HOME", at("cache").string()}, {"TMPDIR", scratch_.path().string()}});
 }
 
 TEST_F(SharedCache, ACacheThatGoesAwayOrIsFullIsNoDefectOfStride) {
