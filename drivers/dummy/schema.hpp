@@ -6,8 +6,8 @@
 
 namespace stride::dummy {
 
-inline constexpr bus::DriverSchema kSchema = {
-    "Dummy", "Dummy (simulated drives)", "DummyDrive.DUMMY_DRIVE_SIM", true};
+inline constexpr bus::DriverSchema kSchema = {"Dummy", "Dummy (simulated drives)",
+                                              "DummyDrive.DUMMY_DRIVE_SIM", true};
 
 } // namespace stride::dummy
 

@@ -12,7 +12,8 @@ struct DriverSchema {
   /// The ST type, with its library, of a variable that driver and program share for each drive that
   /// asks for one (AXIS_REF.pMS leads there); empty: there is none.
   std::string_view driveData;
-  bool givesSync; ///< The bus has a SYNC every dwCycle of its own, so that bSync needs no other task.
+  bool givesSync; ///< The bus has a SYNC every dwCycle of its own, so that bSync needs no other
+                  ///< task.
 };
 
 } // namespace stride::bus

@@ -260,9 +260,10 @@ void bindData(const DriveDesc &drive, const drivers::DriverEntry &driver, std::b
     return;
   const std::string_view type = driver.schema.driveData;
   if (drive.dataLayout != driver.driveDataLayout)
-    throw app::Error(fmt::format("the application was built with another layout of {} (drive '{}') "
-                                 "than this runtime has; build it again with this version of Stride",
-                                 type.substr(type.find('.') + 1), drive.name));
+    throw app::Error(
+        fmt::format("the application was built with another layout of {} (drive '{}') "
+                    "than this runtime has; build it again with this version of Stride",
+                    type.substr(type.find('.') + 1), drive.name));
   at<axis::AxisRef>(state, drive.axisOffset).pMS = &at<BYTE>(state, drive.dataOffset);
 }
 
@@ -284,9 +285,9 @@ addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPo
     const drivers::DriverEntry &driver = driverOf(group);
     for (uint32_t d = 0; d < group.driveCount; ++d)
       bindData(app.drives[group.firstDrive + d], driver, application.state());
-    hooks.push_back(std::make_unique<AxisGroupHook>(app, i, application.state(),
-                                                    driver.make(setup), setup.cycleSeconds,
-                                                    inputs, tasks.realClock(), errors));
+    hooks.push_back(std::make_unique<AxisGroupHook>(app, i, application.state(), driver.make(setup),
+                                                    setup.cycleSeconds, inputs, tasks.realClock(),
+                                                    errors));
     tasks.addHook(group.task, *hooks.back());
   }
   return hooks;

@@ -477,7 +477,8 @@ TEST_F(SharedCache, WhatIsNoFileInItDoesNotHinder) {
   // A pipe in the place of the mark is not waited for.
   fs::remove(at("cache/stride/v1/CACHEDIR.TAG"));
   ASSERT_EQ(::mkfifo(at("cache/stride/v1/CACHEDIR.TAG").c_str(), 0600), 0);
-  expectRun(false, {{"XDG_CACHE_HOME", at("cache").string()}, {"TMPDIR", scratch_.path().string()}});
+  expectRun(false,
+            {{"XDG_CACHE_HOME", at("cache").string()}, {"TMPDIR", scratch_.path().string()}});
 }
 
 TEST_F(SharedCache, ACacheThatGoesAwayOrIsFullIsNoDefectOfStride) {
