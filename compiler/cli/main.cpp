@@ -4,7 +4,7 @@
 #include "compiler/project/names.hpp"
 #include "compiler/semantics/suggest.hpp"
 #include "compiler/syntax/conditions.hpp"
-#include "runtime/system/standard_handles.hpp"
+#include "runtime/common/standard_handles.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -478,7 +478,7 @@ int concluded(int exitCode) {
 } // namespace stc::cli
 
 int main(int argc, char **argv) {
-  stride::system::openStandardHandles();
+  stride::common::openStandardHandles();
   std::signal(SIGXFSZ, SIG_IGN); // like a full disk: nothing half written stays
   // Whatever the caller ignores: compilers that are started get the default, too. The host of
   // `stride run` ignores it.

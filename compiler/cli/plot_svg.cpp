@@ -1,5 +1,4 @@
 #include "compiler/cli/plot.hpp"
-#include "compiler/doc/html.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>

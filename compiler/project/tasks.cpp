@@ -346,6 +346,13 @@ public:
   }
 
 private:
+  /// What an unknown driver shares about a drive is not known; that it is unknown has been said,
+  /// and that the variable has no type need not be.
+  static std::string_view driveDataOf(const AxisGroupConfig &group) {
+    const stride::bus::DriverSchema *driver = stride::drivers::findSchema(group.driver);
+    return (driver != nullptr ? *driver : stride::drivers::kSchemas.front()).driveData;
+  }
+
   void axisGroups(const ProjectConfig &config) {
     std::size_t index = 0;
     for (const AxisGroupConfig &group : config.axisGroups) {
@@ -362,7 +369,7 @@ private:
         variable("drive", drive.name, "SM_DriveBasic.AXIS_REF", fields);
         if (drive.simulated)
           variable("simulation of drive", {simulationOf(drive), drive.name.span},
-                   stride::drivers::findSchema(group.driver)->driveData, {});
+                   driveDataOf(group), {});
       }
       for (const EncoderConfig &encoder : group.encoders)
         variable("encoder", encoder.name, "SM_DriveBasic.SMC_ENCODER_REF", encoder.fields);

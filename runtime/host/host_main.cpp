@@ -1,6 +1,7 @@
 #include "runtime/host/host_main.hpp"
 
 #include "runtime/app/error.hpp"
+#include "runtime/common/standard_handles.hpp"
 #include "runtime/host/axis_hooks.hpp"
 #include "runtime/host/control.hpp"
 #include "runtime/host/exit_code.hpp"
@@ -9,7 +10,6 @@
 #include "runtime/host/retain_reset.hpp"
 #include "runtime/host/simulation.hpp"
 #include "runtime/host/test_run.hpp"
-#include "runtime/system/standard_handles.hpp"
 #include "runtime/task/fatal.hpp"
 
 #include <CLI/CLI.hpp>
@@ -396,7 +396,7 @@ int command(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
 } // namespace
 
 int hostMain(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
-  system::openStandardHandles();
+  common::openStandardHandles();
   const task::FatalReport lastWords(kExitFatal);
   try {
     return command(argc, argv, builtIn);

@@ -36,7 +36,7 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
        {"compiler/project", "compiler/semantics", "compiler/syntax", "compiler/source"}},
       {"compiler/cli",
        {"compiler/doc", "compiler/project", "compiler/codegen", "compiler/semantics",
-        "compiler/syntax", "compiler/source", "runtime/numeric/", "runtime/system"}},
+        "compiler/syntax", "compiler/source", "runtime/numeric/"}},
       {"runtime/common", {}},
       {"runtime/iec", {}},
       {"runtime/numeric", {"runtime/iec"}},

@@ -1,13 +1,13 @@
 // The three open files a program is started with.
-#ifndef STRIDE_RUNTIME_SYSTEM_STANDARD_HANDLES_HPP
-#define STRIDE_RUNTIME_SYSTEM_STANDARD_HANDLES_HPP
+#ifndef STRIDE_RUNTIME_COMMON_STANDARD_HANDLES_HPP
+#define STRIDE_RUNTIME_COMMON_STANDARD_HANDLES_HPP
 
 #include <array>
 
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace stride::system {
+namespace stride::common {
 
 /// Gives standard input, output and error a file each where whoever started the program has closed
 /// them; else the next file that is opened gets their number, and whatever is said goes into it.
@@ -22,6 +22,6 @@ inline void openStandardHandles() noexcept {
   }
 }
 
-} // namespace stride::system
+} // namespace stride::common
 
 #endif
