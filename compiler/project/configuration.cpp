@@ -71,7 +71,6 @@ public:
       add(addition);
     if (!variables_.empty()) {
       auto *list = program_.arena.make<GlobalsDecl>();
-      list->kind = DeclKind::globals;
       list->name = first->name;
       list->span = first->span;
       for (VarDecl *variable : variables_) {
@@ -303,7 +302,6 @@ private:
     }
     if (own) {
       auto *path = program_.arena.make<NamedTypeExpr>();
-      path->kind = TypeExprKind::named;
       path->span = type.span;
       path->path = program_.arena.copy(std::vector<Name>{type});
       auto *variable = program_.arena.make<VarDecl>();
@@ -344,7 +342,6 @@ private:
 
   Expr *nameOf(const Name &name) {
     auto *expr = program_.arena.make<NameExpr>();
-    expr->kind = ExprKind::name;
     expr->span = name.span;
     expr->name = name;
     return expr;
@@ -352,7 +349,6 @@ private:
 
   Expr *member(const Name &program, const Name &action, Span span) {
     auto *expr = program_.arena.make<MemberExpr>();
-    expr->kind = ExprKind::member;
     expr->span = span;
     expr->base = nameOf(program);
     expr->name = action;
@@ -364,12 +360,10 @@ private:
                      std::span<Argument> arguments) {
     Arena &arena = program_.arena;
     auto *call = arena.make<CallExpr>();
-    call->kind = ExprKind::call;
     call->span = span;
     call->callee = callee;
     call->arguments = arguments;
     auto *statement = arena.make<CallStmt>();
-    statement->kind = StmtKind::call;
     statement->span = span;
     statement->expr = call;
     auto *pou = arena.make<PouDecl>();

@@ -54,6 +54,8 @@ std::string_view describe(ast::DeclKind kind) {
     return "a METHOD";
   case ast::DeclKind::action:
     return "an ACTION";
+  case ast::DeclKind::property:
+    return "a PROPERTY";
   case ast::DeclKind::configuration:
     return "a CONFIGURATION";
   case ast::DeclKind::globals:

@@ -234,7 +234,6 @@ void Checker::concatInPairs(CallExpr *expr) {
   Argument joined = all.front();
   for (std::size_t i = 1; i + 1 < all.size(); ++i) {
     auto *pair = arena_.make<CallExpr>();
-    pair->kind = ExprKind::call;
     pair->span = expr->span;
     pair->callee = expr->callee;
     pair->arguments = arena_.copy(std::vector<Argument>{joined, all[i]});

@@ -87,7 +87,6 @@ Expr *Checker::checkInit(Expr *init, const Type *type) {
     }
     if (list->isStruct) { // V2.3: one structure without brackets around it
       auto *outer = arena_.make<AggregateExpr>();
-      outer->kind = ExprKind::aggregate;
       outer->span = list->span;
       AggregateItem item;
       item.value = list;
@@ -250,7 +249,6 @@ Expr *Checker::checkArrayInit(AggregateExpr *init, const ArrayType *type) {
     std::vector<AggregateItem> rows;
     for (std::size_t at = 0; at < flat.size(); at += perRow) {
       auto *row = arena_.make<AggregateExpr>();
-      row->kind = ExprKind::aggregate;
       row->span = flat[at].span;
       row->items = arena_.copy(std::vector<AggregateItem>(
           flat.begin() + static_cast<std::ptrdiff_t>(at),

@@ -58,7 +58,6 @@ void Checker::followSelf(Expr *&expr) {
   if (symbol == nullptr || symbol->kind != SymbolKind::self)
     return;
   auto *deref = arena_.make<DerefExpr>();
-  deref->kind = ExprKind::deref;
   deref->span = expr->span;
   deref->base = expr;
   expr = deref;

@@ -147,6 +147,7 @@ void Checker::declareFile(Module &module, File *file) {
       break;
     case DeclKind::method: // they stand in their blocks
     case DeclKind::action:
+    case DeclKind::property:
       break;
     }
   }

@@ -94,7 +94,6 @@ const Type *Checker::checkOperatorCall(CallExpr *expr) {
   Expr *left = expr->arguments[0].value;
   for (std::size_t i = 1; i < expr->arguments.size(); ++i) {
     auto *operation = arena_.make<BinaryExpr>();
-    operation->kind = ExprKind::binary;
     operation->span = expr->span;
     operation->parenthesized = true;
     operation->op = function.op;

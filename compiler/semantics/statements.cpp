@@ -63,7 +63,6 @@ CallExpr *Checker::bareCall(Expr *expr) {
   if (kind != DeclKind::program && kind != DeclKind::action)
     return nullptr;
   auto *call = arena_.make<CallExpr>();
-  call->kind = ExprKind::call;
   call->span = expr->span;
   call->callee = expr;
   return call;

@@ -6,6 +6,7 @@
 #include "compiler/source/identifier.hpp"
 #include "compiler/source/span.hpp"
 
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -53,6 +54,14 @@ struct Attribute {
 };
 using Attributes = std::span<const Attribute>;
 
+/// A node of one kind (the first), or of one of several that it is given after it has been made.
+template <class Base, auto First, auto... Others> struct Node : Base {
+  constexpr Node() : Base{} { this->kind = First; }
+  [[nodiscard]] static constexpr bool holds(decltype(First) kind) {
+    return kind == First || (... || (kind == Others));
+  }
+};
+
 // ---------------------------------------------------------------------------------------------------
 // expressions
 
@@ -73,7 +82,7 @@ enum class ExprKind : std::uint8_t {
 };
 
 struct Expr {
-  ExprKind kind;
+  ExprKind kind = ExprKind::error;
   bool parenthesized = false;
   Span span;
   const Type *type = nullptr; ///< [sema] the expression's own type
@@ -104,7 +113,7 @@ enum class LiteralKind : std::uint8_t {
 
 /// A literal, its value already read. `typeName` is the prefix of a typed literal (`INT#5`),
 /// otherwise empty.
-struct Literal : Expr {
+struct Literal : Node<Expr, ExprKind::literal> {
   LiteralKind literal = LiteralKind::integer;
   Name typeName;
   std::uint64_t integer = 0; ///< integer: magnitude; boolean: 0/1; time: ms (32 bit); ltime, ldate,
@@ -117,14 +126,14 @@ struct Literal : Expr {
 /// A plain identifier. A variable of REFERENCE type has the referenced type here (the symbol's type
 /// is the reference).
 /// THIS and SUPER are names too: sema resolves them inside of methods and blocks.
-struct NameExpr : Expr {
+struct NameExpr : Node<Expr, ExprKind::name> {
   Name name;
   Symbol *symbol = nullptr; ///< [sema]
 };
 
 /// `base.name`, also `lib.Name`, `Enum.value`. Bit access `w.3` has an empty name and `bit` >= 0;
 /// so has partial access `.%X3`, `.%B1`, `.%W0`, where `bit` counts parts of `width` bits.
-struct MemberExpr : Expr {
+struct MemberExpr : Node<Expr, ExprKind::member> {
   Expr *base = nullptr;
   Name name;
   std::int32_t bit = -1;    ///< of `w.cBit` too, after [sema]
@@ -133,13 +142,13 @@ struct MemberExpr : Expr {
 };
 
 /// `base[i, j]`; sema guarantees indices.size() <= number of dimensions reached from base's type.
-struct IndexExpr : Expr {
+struct IndexExpr : Node<Expr, ExprKind::index> {
   Expr *base = nullptr;
   std::span<Expr *> indices;
 };
 
 /// `base^`
-struct DerefExpr : Expr {
+struct DerefExpr : Node<Expr, ExprKind::deref> {
   Expr *base = nullptr;
 };
 
@@ -164,7 +173,7 @@ enum class Callee : std::uint8_t {
 
 enum class Builtin : std::uint16_t; // semantics/builtins.hpp
 
-struct CallExpr : Expr {
+struct CallExpr : Node<Expr, ExprKind::call> {
   Expr *callee = nullptr;
   std::span<Argument> arguments;
   Callee resolved = Callee::unresolved; ///< [sema]
@@ -177,7 +186,7 @@ enum class UnaryOp : std::uint8_t { negate, plus, logicalNot };
 /// The operand is converted to the expression's `type`. NOT, AND, OR, XOR work on the type as it is
 /// (NOT on a BYTE gives a BYTE: the complement is cut to 8 bits); arithmetic works on 32 or 64
 /// bits.
-struct UnaryExpr : Expr {
+struct UnaryExpr : Node<Expr, ExprKind::unary> {
   UnaryOp op = UnaryOp::negate;
   Expr *operand = nullptr;
 };
@@ -204,7 +213,7 @@ enum class BinaryOp : std::uint8_t {
 
 /// After sema both operands are converted (Expr::target) to `operandType`, on which the operator
 /// works.
-struct BinaryExpr : Expr {
+struct BinaryExpr : Node<Expr, ExprKind::binary> {
   BinaryOp op = BinaryOp::add;
   Span opSpan;
   Expr *left = nullptr;
@@ -224,13 +233,13 @@ struct AggregateItem {
 };
 
 /// `[1, 2, 3(0)]`, `(a := 1, b := 2)`, V2.3's bracket-less `1, 2, 3(0)` and `(a := 1), (a := 2)`.
-struct AggregateExpr : Expr {
+struct AggregateExpr : Node<Expr, ExprKind::aggregate> {
   std::span<AggregateItem> items;
   bool isStruct = false; ///< fields by name
 };
 
 /// `%IX0.0` in a statement.
-struct DirectExpr : Expr {
+struct DirectExpr : Node<Expr, ExprKind::direct> {
   DirectAddress *address = nullptr;
   const Location *location = nullptr; ///< [sema]
 };
@@ -239,12 +248,12 @@ struct TypeExpr;
 
 /// A type that begins with a keyword as an argument: `SIZEOF(STRING(20))`, `__NEW(ARRAY[1..3] OF
 /// INT)`. Other types are NameExpr.
-struct TypeNameExpr : Expr {
+struct TypeNameExpr : Node<Expr, ExprKind::typeName> {
   TypeExpr *name = nullptr;
 };
 
 /// `color#green`
-struct EnumLiteralExpr : Expr {
+struct EnumLiteralExpr : Node<Expr, ExprKind::enumLiteral> {
   Name typeName;
   Name enumerator;
   Symbol *symbol = nullptr; ///< [sema]
@@ -265,12 +274,12 @@ enum class TypeExprKind : std::uint8_t {
 };
 
 struct TypeExpr {
-  TypeExprKind kind;
+  TypeExprKind kind = TypeExprKind::error;
   Span span;
 };
 
 /// `INT`, `Lib.Type`, `Block(a := 1)` with arguments for FB_Init
-struct NamedTypeExpr : TypeExpr {
+struct NamedTypeExpr : Node<TypeExpr, TypeExprKind::named> {
   std::span<Name> path;
   bool hasArguments = false;     ///< `Block(…)`, also with nothing between the parentheses
   std::span<Argument> arguments; ///< of `Block(…)`
@@ -284,26 +293,26 @@ struct ArrayRange {
   Span span;
 };
 
-struct ArrayTypeExpr : TypeExpr {
+struct ArrayTypeExpr : Node<TypeExpr, TypeExprKind::array> {
   std::span<ArrayRange> ranges;
   TypeExpr *element = nullptr;
 };
 
 /// STRING, STRING(n), STRING[n], WSTRING…
-struct StringTypeExpr : TypeExpr {
+struct StringTypeExpr : Node<TypeExpr, TypeExprKind::string> {
   bool wide = false;
   Expr *length = nullptr; ///< null: 80
 };
 
 /// POINTER TO / REFERENCE TO / REF_TO
-struct PointerTypeExpr : TypeExpr {
+struct PointerTypeExpr : Node<TypeExpr, TypeExprKind::pointer, TypeExprKind::reference> {
   TypeExpr *pointee = nullptr;
   bool refTo =
       false; ///< edition 3's REF_TO: a pointer that is only assigned, compared and followed
 };
 
 /// `INT(0..10)`
-struct SubrangeTypeExpr : TypeExpr {
+struct SubrangeTypeExpr : Node<TypeExpr, TypeExprKind::subrange> {
   TypeExpr *base = nullptr;
   Expr *low = nullptr;
   Expr *high = nullptr;
@@ -316,7 +325,7 @@ struct EnumeratorDecl {
 };
 
 /// `(a, b := 5, c) BYTE := a`, in a TYPE or in line in a variable declaration.
-struct EnumTypeExpr : TypeExpr {
+struct EnumTypeExpr : Node<TypeExpr, TypeExprKind::enumeration> {
   std::span<EnumeratorDecl> enumerators;
   TypeExpr *base = nullptr; ///< null: INT
 };
@@ -342,7 +351,7 @@ enum class StmtKind : std::uint8_t {
 };
 
 struct Stmt {
-  StmtKind kind;
+  StmtKind kind = StmtKind::empty;
   Span span;
 };
 using Block = std::span<Stmt *>;
@@ -350,7 +359,7 @@ using Block = std::span<Stmt *>;
 enum class AssignOp : std::uint8_t { assign, set, reset, reference };
 
 /// `a := b`, `a := b := c`, `a S= b`, `a R= b`, `a REF= b`
-struct AssignStmt : Stmt {
+struct AssignStmt : Node<Stmt, StmtKind::assign> {
   AssignOp op = AssignOp::assign;
   Span opSpan;
   std::span<Expr *> targets; ///< from left to right; the value goes to the last first
@@ -358,7 +367,7 @@ struct AssignStmt : Stmt {
 };
 
 /// A call as a statement. `expr` is a CallExpr (sema reports anything else).
-struct CallStmt : Stmt {
+struct CallStmt : Node<Stmt, StmtKind::call> {
   Expr *expr = nullptr;
 };
 
@@ -367,7 +376,7 @@ struct IfBranch {
   Block body;
 };
 
-struct IfStmt : Stmt {
+struct IfStmt : Node<Stmt, StmtKind::ifS> {
   std::span<IfBranch> branches; ///< IF, then each ELSIF
   bool hasElse = false;
   Block elseBody;
@@ -385,14 +394,14 @@ struct CaseBranch {
   Block body;
 };
 
-struct CaseStmt : Stmt {
+struct CaseStmt : Node<Stmt, StmtKind::caseS> {
   Expr *selector = nullptr;
   std::span<CaseBranch> branches;
   bool hasElse = false;
   Block elseBody;
 };
 
-struct ForStmt : Stmt {
+struct ForStmt : Node<Stmt, StmtKind::forS> {
   Expr *variable = nullptr;
   Expr *from = nullptr;
   Expr *to = nullptr;
@@ -400,30 +409,30 @@ struct ForStmt : Stmt {
   Block body;
 };
 
-struct WhileStmt : Stmt {
+struct WhileStmt : Node<Stmt, StmtKind::whileS> {
   Expr *condition = nullptr;
   Block body;
 };
 
-struct RepeatStmt : Stmt {
+struct RepeatStmt : Node<Stmt, StmtKind::repeatS> {
   Block body;
   Expr *until = nullptr;
 };
 
 /// `JMP name;`
-struct JumpStmt : Stmt {
+struct JumpStmt : Node<Stmt, StmtKind::jump> {
   Name label;
   struct LabelStmt *target = nullptr; ///< [sema]
 };
 
 /// `name:` in front of a statement.
-struct LabelStmt : Stmt {
+struct LabelStmt : Node<Stmt, StmtKind::label> {
   Name label;
   bool used = false; ///< [sema] some JMP leads here
 };
 
 /// `__TRY … __CATCH (exc) … __FINALLY … __ENDTRY`
-struct TryStmt : Stmt {
+struct TryStmt : Node<Stmt, StmtKind::tryS> {
   Block body;
   bool hasCatch = false;
   Expr *exception = nullptr; ///< the variable in parentheses; null: none
@@ -484,6 +493,7 @@ enum class DeclKind : std::uint8_t {
   interface, ///< INTERFACE: methods and properties without bodies
   method,    ///< only inside of a block, class, interface or program
   action,    ///< only inside of a block or program
+  property,  ///< only inside of a block, class or interface
   structure, ///< STRUCT, UNION
   enumeration,
   alias,
@@ -497,7 +507,7 @@ enum class DeclKind : std::uint8_t {
 enum Modifier : std::uint8_t { modAbstract = 1, modFinal = 2, modOverride = 4 };
 
 struct Decl {
-  DeclKind kind;
+  DeclKind kind = DeclKind::program;
   Name name; ///< globals: empty unless the file names the list
   Span span;
   Attributes attributes;
@@ -512,7 +522,8 @@ struct PropertyDecl;
 
 /// PROGRAM, FUNCTION, FUNCTION_BLOCK, CLASS, INTERFACE, METHOD, ACTION, and the GET and SET of a
 /// property (a method without parameters, with a result; with the one input named as the property).
-struct PouDecl : Decl {
+struct PouDecl : Node<Decl, DeclKind::program, DeclKind::function, DeclKind::functionBlock,
+                      DeclKind::classD, DeclKind::interface, DeclKind::method, DeclKind::action> {
   std::span<VarDecl *> variables; ///< of all sections in the order of the text
   TypeExpr *returnType = nullptr; ///< FUNCTION, METHOD; null: none
   Block body;
@@ -526,34 +537,34 @@ struct PouDecl : Decl {
 };
 
 /// PROPERTY n : T … GET … END_GET SET … END_SET END_PROPERTY
-struct PropertyDecl : Decl {
+struct PropertyDecl : Node<Decl, DeclKind::property> {
   TypeExpr *type = nullptr;
   PouDecl *get = nullptr; ///< kind method; null: write-only
   PouDecl *set = nullptr; ///< kind method; null: read-only
 };
 
 /// TYPE n : STRUCT … END_STRUCT END_TYPE, UNION … END_UNION
-struct StructDecl : Decl {
+struct StructDecl : Node<Decl, DeclKind::structure> {
   NamePath base; ///< EXTENDS; empty: none
   bool isUnion = false;
   std::span<VarDecl *> fields;
 };
 
 /// TYPE n : (a, b, c) BYTE := a; END_TYPE
-struct EnumDecl : Decl {
+struct EnumDecl : Node<Decl, DeclKind::enumeration> {
   EnumTypeExpr *type = nullptr;
   Expr *init = nullptr;
 };
 
 /// TYPE n : INT := 5; END_TYPE, also arrays, strings, subranges, pointers
-struct AliasDecl : Decl {
+struct AliasDecl : Node<Decl, DeclKind::alias> {
   TypeExpr *type = nullptr;
   Expr *init = nullptr;
 };
 
 /// One VAR_GLOBAL, VAR_CONFIG or VAR_ACCESS block.
 struct PouDecl;
-struct GlobalsDecl : Decl {
+struct GlobalsDecl : Node<Decl, DeclKind::globals, DeclKind::config, DeclKind::access> {
   std::span<VarDecl *> variables;
   const PouDecl *program = nullptr; ///< VAR_ACCESS: the PROGRAM that it stands in; null: none
 };
@@ -586,7 +597,7 @@ struct ResourceDecl {
 
 /// CONFIGURATION. Its VAR_GLOBAL, VAR_CONFIG and VAR_ACCESS blocks (its resources' too) follow as
 /// declarations of their own.
-struct ConfigurationDecl : Decl {
+struct ConfigurationDecl : Node<Decl, DeclKind::configuration> {
   std::span<ResourceDecl> resources;
 };
 
@@ -604,9 +615,13 @@ struct File {
   std::span<StrayMember> strayMembers; ///< for attachMembers()
 };
 
-/// Checked downcast by kind is the caller's business: `as<CallExpr>(expr)`.
-template <class T, class Base> T *as(Base *node) { return static_cast<T *>(node); }
+/// Downcast of a node whose kind is known: `as<CallExpr>(expr)`.
+template <class T, class Base> T *as(Base *node) {
+  assert(T::holds(node->kind));
+  return static_cast<T *>(node);
+}
 template <class T, class Base> const T *as(const Base *node) {
+  assert(T::holds(node->kind));
   return static_cast<const T *>(node);
 }
 

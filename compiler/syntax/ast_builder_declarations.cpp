@@ -411,8 +411,7 @@ Decl *AstBuilder::typeDeclaration(Context *context) {
   if (i < context->children.size() &&
       child(context, i)->getRuleIndex() == Grammar::RuleExtendsClause)
     extends(child(context, i++));
-  const auto common = [&](Decl *node, DeclKind kind) {
-    node->kind = kind;
+  const auto common = [&](Decl *node) {
     node->name = name;
     node->span = span(context);
     node->attributes = attributes(start);
@@ -423,7 +422,7 @@ Decl *AstBuilder::typeDeclaration(Context *context) {
   const auto failedType = [&] {
     auto *node = arena_.make<AliasDecl>();
     node->type = errorType(name.span);
-    return common(node, DeclKind::alias);
+    return common(node);
   };
   if (failed(context) || i >= context->children.size())
     return failedType();
@@ -446,7 +445,7 @@ Decl *AstBuilder::typeDeclaration(Context *context) {
     std::vector<VarDecl *> fields;
     declarations(body, firstField, Section::local, 0, fields);
     node->fields = arena_.copy(fields);
-    return common(node, DeclKind::structure);
+    return common(node);
   }
   if (!base.empty())
     diagnostics_.report(Code::unexpectedToken, baseSpan, "only a STRUCT can extend another type");
@@ -456,12 +455,12 @@ Decl *AstBuilder::typeDeclaration(Context *context) {
     auto *node = arena_.make<EnumDecl>();
     node->type = as<EnumTypeExpr>(type);
     node->init = init;
-    return common(node, DeclKind::enumeration);
+    return common(node);
   }
   auto *node = arena_.make<AliasDecl>();
   node->type = type;
   node->init = init;
-  return common(node, DeclKind::alias);
+  return common(node);
 }
 
 // ---------------------------------------------------------------------------------------------------------

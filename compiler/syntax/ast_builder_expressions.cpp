@@ -63,7 +63,6 @@ Operator operatorOf(std::uint16_t type) {
 
 Expr *AstBuilder::error(Span span) {
   auto *node = arena_.make<Expr>();
-  node->kind = ExprKind::error;
   node->span = span;
   return node;
 }
@@ -78,7 +77,6 @@ const Token *AstBuilder::plainName(const Context *expression) const {
 
 Expr *AstBuilder::binary(const Token &op, Expr *left, Expr *right) {
   auto *node = arena_.make<BinaryExpr>();
-  node->kind = ExprKind::binary;
   node->span = left->span.to(right->span);
   node->op = operatorOf(op.type).op;
   node->opSpan = span(op);
@@ -147,7 +145,6 @@ Expr *AstBuilder::prefixed(Context *context, std::size_t operators, Expr *operan
   }
   for (std::size_t i = chain.size(); i-- > 0;) {
     auto *node = arena_.make<UnaryExpr>();
-    node->kind = ExprKind::unary;
     node->span = span(*chain[i]).to(operand->span);
     node->op = chain[i]->type == Tok::NOT     ? UnaryOp::logicalNot
                : chain[i]->type == Tok::MINUS ? UnaryOp::negate
@@ -179,7 +176,6 @@ Expr *AstBuilder::primary(Context *context, std::size_t &at, std::size_t &nextCh
     if (start.reported) // not a name of anything
       return error(span(start));
     auto *node = arena_.make<NameExpr>();
-    node->kind = ExprKind::name;
     node->name = name(start);
     node->span = node->name.span;
     return node;
@@ -212,7 +208,6 @@ Expr *AstBuilder::primary(Context *context, std::size_t &at, std::size_t &nextCh
     if (direct == nullptr)
       return error(span(start));
     auto *node = arena_.make<DirectExpr>();
-    node->kind = ExprKind::direct;
     node->span = span(start);
     node->address = direct;
     return node;
@@ -221,7 +216,6 @@ Expr *AstBuilder::primary(Context *context, std::size_t &at, std::size_t &nextCh
     Context *type = child(context, nextChild++);
     at = last(type) + 1;
     auto *node = arena_.make<TypeNameExpr>();
-    node->kind = ExprKind::typeName;
     node->span = span(type);
     node->name = this->type(type);
     return node;
@@ -285,7 +279,6 @@ Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::si
         break;
       }
       auto *node = arena_.make<MemberExpr>();
-      node->kind = ExprKind::member;
       node->base = base;
       node->span = base->span.to(span(member));
       if (member.type == Tok::INTEGER) {
@@ -302,7 +295,6 @@ Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::si
     }
     case Tok::CARET: {
       auto *node = arena_.make<DerefExpr>();
-      node->kind = ExprKind::deref;
       node->base = base;
       node->span = base->span.to(span(start));
       base = node;
@@ -318,7 +310,6 @@ Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::si
         whole = whole.to(span(token(at++)));
       if (start.type == Tok::LPAREN) {
         auto *node = arena_.make<CallExpr>();
-        node->kind = ExprKind::call;
         node->callee = base;
         node->arguments = arguments(inside);
         node->span = whole;
@@ -330,7 +321,6 @@ Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::si
         break;
       }
       auto *node = arena_.make<IndexExpr>();
-      node->kind = ExprKind::index;
       node->base = base;
       node->span = whole;
       std::vector<Expr *> indices;
@@ -365,14 +355,12 @@ Expr *AstBuilder::partOf(Expr *base, const Token &member) {
     if (direct == nullptr)
       return error(whole);
     auto *node = arena_.make<DirectExpr>();
-    node->kind = ExprKind::direct;
     node->span = whole;
     node->address = direct;
     return node;
   }
   spelling.remove_prefix(1);
   auto *node = arena_.make<MemberExpr>();
-  node->kind = ExprKind::member;
   node->base = base;
   node->span = whole;
   node->name.span = span(member);
@@ -479,7 +467,6 @@ AggregateItem AstBuilder::item(Context *expression) {
 
 Expr *AstBuilder::aggregate(std::vector<AggregateItem> items, bool isStruct, Span whole) {
   auto *node = arena_.make<AggregateExpr>();
-  node->kind = ExprKind::aggregate;
   node->span = whole;
   node->items = arena_.copy(items);
   node->isStruct = isStruct;

@@ -10,7 +10,6 @@ Expr *AstBuilder::literal(const Token &start) {
   if (start.reported)
     return error(span(start));
   auto *node = arena_.make<Literal>();
-  node->kind = ExprKind::literal;
   node->span = span(start);
   const std::string_view spelling = text(start);
   bool good = true;
@@ -42,7 +41,6 @@ Expr *AstBuilder::literal(const Token &start) {
     good = literals_.timeOrDate(prefix, value, node->span, *node);
     if (good && negative) {
       auto *negated = arena_.make<UnaryExpr>();
-      negated->kind = ExprKind::unary;
       negated->span = node->span;
       negated->op = UnaryOp::negate;
       negated->operand = node;
@@ -64,7 +62,6 @@ Expr *AstBuilder::typedLiteral(const Token &start) {
   const std::string_view spelling = text(start);
   const auto hash = static_cast<std::uint32_t>(spelling.find('#'));
   auto *node = arena_.make<Literal>();
-  node->kind = ExprKind::literal;
   node->span = whole;
   const std::string_view typeName = spelling.substr(0, hash);
   node->typeName = {interner_.intern(typeName), typeName, {file_, whole.begin, whole.begin + hash}};
@@ -101,7 +98,6 @@ Expr *AstBuilder::enumLiteral(const Token &start) {
   const std::string_view typeName = spelling.substr(0, hash);
   const std::string_view enumerator = spelling.substr(hash + 1);
   auto *node = arena_.make<EnumLiteralExpr>();
-  node->kind = ExprKind::enumLiteral;
   node->span = whole;
   node->typeName = {interner_.intern(typeName), typeName, {file_, whole.begin, whole.begin + hash}};
   node->enumerator = {

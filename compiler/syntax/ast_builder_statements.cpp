@@ -73,13 +73,11 @@ Stmt *AstBuilder::statement(Context *context) {
         return nullptr;
       if (start.type == Tok::JMP) {
         auto *node = arena_.make<JumpStmt>();
-        node->kind = StmtKind::jump;
         node->label = name(target);
         node->span = span(start).to(node->label.span);
         return node;
       }
       auto *node = arena_.make<LabelStmt>();
-      node->kind = StmtKind::label;
       node->label = name(target);
       node->span = node->label.span;
       return node;
@@ -116,7 +114,6 @@ Stmt *AstBuilder::statement(Context *context) {
     return tryStatement(inner);
   case Grammar::RuleWhileStatement: {
     auto *node = arena_.make<WhileStmt>();
-    node->kind = StmtKind::whileS;
     node->span = span(inner);
     node->condition = condition(child(inner, 0));
     node->body = block(child(inner, 1));
@@ -124,7 +121,6 @@ Stmt *AstBuilder::statement(Context *context) {
   }
   default: {
     auto *node = arena_.make<RepeatStmt>();
-    node->kind = StmtKind::repeatS;
     node->span = span(inner);
     node->body = block(child(inner, 0));
     node->until = condition(child(inner, 1));
@@ -142,7 +138,6 @@ Stmt *AstBuilder::simpleStatement(Context *context) {
   const auto assignment = [&](AssignOp op, const Token &opToken, const std::vector<Expr *> &targets,
                               Expr *value) {
     auto *node = arena_.make<AssignStmt>();
-    node->kind = StmtKind::assign;
     node->op = op;
     node->opSpan = span(opToken);
     node->value = value;
@@ -163,7 +158,6 @@ Stmt *AstBuilder::simpleStatement(Context *context) {
                         flat(context, 1, count));
     }
     auto *node = arena_.make<CallStmt>();
-    node->kind = StmtKind::call;
     node->expr = flat(context, 0, count);
     node->span = node->expr->span;
     return node;
@@ -189,7 +183,6 @@ Stmt *AstBuilder::simpleStatement(Context *context) {
   std::vector<Stmt *> body;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     auto *yes = arena_.make<Literal>();
-    yes->kind = ExprKind::literal;
     yes->span = value->span;
     yes->literal = LiteralKind::boolean;
     yes->integer = 1;
@@ -197,7 +190,6 @@ Stmt *AstBuilder::simpleStatement(Context *context) {
     body.push_back(assignment(opOf(*signs[i]), *signs[i], {targets[i]}, yes));
   }
   auto *node = arena_.make<IfStmt>();
-  node->kind = StmtKind::ifS;
   node->span = targets.front()->span.to(value->span);
   IfBranch branch;
   branch.condition = value;
@@ -222,7 +214,6 @@ Expr *AstBuilder::condition(Context *context) {
 
 Stmt *AstBuilder::ifStatement(Context *context) {
   auto *node = arena_.make<IfStmt>();
-  node->kind = StmtKind::ifS;
   node->span = span(context);
   const std::size_t count = context->children.size();
   std::vector<IfBranch> branches;
@@ -244,7 +235,6 @@ Stmt *AstBuilder::ifStatement(Context *context) {
 
 Stmt *AstBuilder::caseStatement(Context *context) {
   auto *node = arena_.make<CaseStmt>();
-  node->kind = StmtKind::caseS;
   node->span = span(context);
   node->selector = condition(child(context, 0));
   std::vector<CaseBranch> branches;
@@ -283,7 +273,6 @@ Stmt *AstBuilder::caseStatement(Context *context) {
 
 Stmt *AstBuilder::forStatement(Context *context) {
   auto *node = arena_.make<ForStmt>();
-  node->kind = StmtKind::forS;
   node->span = span(context);
   Context *control = child(context, 0);
   if (failed(control)) {
@@ -301,7 +290,6 @@ Stmt *AstBuilder::forStatement(Context *context) {
 
 Stmt *AstBuilder::tryStatement(Context *context) {
   auto *node = arena_.make<TryStmt>();
-  node->kind = StmtKind::tryS;
   node->span = span(context);
   node->body = block(child(context, 0));
   for (std::size_t i = 1; i < context->children.size(); ++i) {

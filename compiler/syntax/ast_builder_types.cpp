@@ -23,7 +23,6 @@ bool isElementaryInteger(std::string_view word) {
 
 TypeExpr *AstBuilder::errorType(Span span) {
   auto *node = arena_.make<TypeExpr>();
-  node->kind = TypeExprKind::error;
   node->span = span;
   return node;
 }
@@ -34,7 +33,6 @@ TypeExpr *AstBuilder::type(Context *context, bool declared) {
   switch (start.type) {
   case Tok::ARRAY: {
     auto *node = arena_.make<ArrayTypeExpr>();
-    node->kind = TypeExprKind::array;
     node->span = whole;
     std::vector<ArrayRange> ranges;
     for (std::size_t i = 0; i + 1 < context->children.size(); ++i) {
@@ -64,7 +62,6 @@ TypeExpr *AstBuilder::type(Context *context, bool declared) {
   case Tok::STRING:
   case Tok::WSTRING: {
     auto *node = arena_.make<StringTypeExpr>();
-    node->kind = TypeExprKind::string;
     node->span = whole;
     node->wide = start.type == Tok::WSTRING;
     if (!context->children.empty())
@@ -77,7 +74,6 @@ TypeExpr *AstBuilder::type(Context *context, bool declared) {
     if (Context *end = child(context, arguments - 1); end->getRuleIndex() == Grammar::RulePath) {
       --arguments;
       auto *named = arena_.make<NamedTypeExpr>();
-      named->kind = TypeExprKind::named;
       named->span = span(end);
       named->path = path(end);
       base = named;
@@ -96,7 +92,6 @@ TypeExpr *AstBuilder::type(Context *context, bool declared) {
 TypeExpr *AstBuilder::namedType(Context *context, bool declared) {
   Context *names = child(context, 0);
   auto *named = arena_.make<NamedTypeExpr>();
-  named->kind = TypeExprKind::named;
   named->span = span(names);
   named->path = path(names);
   if (last(names) == last(context))
@@ -114,7 +109,6 @@ TypeExpr *AstBuilder::namedType(Context *context, bool declared) {
       argument->children.size() > 1 ? token(last(child(argument, 0)) + 1).type : std::uint16_t{0};
   if (sign == Tok::DOTDOT) {
     auto *node = arena_.make<SubrangeTypeExpr>();
-    node->kind = TypeExprKind::subrange;
     node->span = span(context);
     node->base = named;
     node->low = expression(child(argument, 0));
@@ -202,7 +196,6 @@ DirectAddress *AstBuilder::address(const Token &token) {
 EnumTypeExpr *AstBuilder::enumeration(Context *context, std::size_t firstArgument,
                                       std::size_t arguments) {
   auto *node = arena_.make<EnumTypeExpr>();
-  node->kind = TypeExprKind::enumeration;
   node->span = span(context);
   std::vector<EnumeratorDecl> list;
   for (std::size_t i = firstArgument; i < arguments; ++i) {

@@ -179,7 +179,6 @@ void FileParser::configuration() {
   unit_.clear();
   advance();
   auto *node = arena_.make<ast::ConfigurationDecl>();
-  node->kind = ast::DeclKind::configuration;
   node->attributes = builder_.attributes(start);
   node->doc = builder_.doc(start);
   node->name = builder_.name(now_);

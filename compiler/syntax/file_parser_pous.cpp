@@ -519,7 +519,7 @@ void FileParser::property(OpenPou *enclosing) {
   sawExternal_ = false;
   if (head.node == nullptr)
     return;
-  node->kind = ast::DeclKind::method;
+  node->kind = ast::DeclKind::property; // not the head's
   if (node->get == nullptr && node->set == nullptr && !strayReported)
     diagnostics_
         .report(Code::propertyAccessor, node->name.span,

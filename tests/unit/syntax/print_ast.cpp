@@ -556,9 +556,9 @@ public:
 
   void declaration(const Decl *node, const char *end = ")\n") {
     static constexpr const char *kKinds[] = {
-        "PROGRAM",    "FUNCTION",   "FUNCTION_BLOCK", "CLASS",        "INTERFACE",
-        "METHOD",     "ACTION",     "STRUCT",         "ENUM",         "ALIAS",
-        "VAR_GLOBAL", "VAR_CONFIG", "VAR_ACCESS",     "CONFIGURATION"};
+        "PROGRAM", "FUNCTION",   "FUNCTION_BLOCK", "CLASS",      "INTERFACE",
+        "METHOD",  "ACTION",     "PROPERTY",       "STRUCT",     "ENUM",
+        "ALIAS",   "VAR_GLOBAL", "VAR_CONFIG",     "VAR_ACCESS", "CONFIGURATION"};
     out_ << '(' << kKinds[static_cast<std::size_t>(node->kind)];
     head(node);
     switch (node->kind) {
@@ -603,6 +603,8 @@ public:
     case DeclKind::access:
       variables(as<GlobalsDecl>(node)->variables);
       break;
+    case DeclKind::property:
+      break; // printed by its block
     }
     out_ << end;
   }

@@ -1,0 +1,161 @@
+#pragma once
+// The children of a node, and walks over all that is below one. Who needs to know what kind of node
+// a child hangs at asks for the kind; who needs only to see everything walks.
+
+#include "compiler/syntax/ast.hpp"
+
+#include <span>
+#include <type_traits>
+
+namespace stc::ast {
+
+namespace detail {
+
+/// What could not be parsed may be missing.
+template <class Visit> void visitOne(Expr *expr, Visit &visit) {
+  if (expr != nullptr)
+    visit(expr);
+}
+
+template <class Visit> void visitItems(std::span<const AggregateItem> items, Visit &visit) {
+  for (const AggregateItem &item : items) {
+    visitOne(item.repeat, visit);
+    visitOne(item.value, visit);
+    visitItems(std::span<const AggregateItem>(item.values), visit);
+  }
+}
+
+template <class OnExpr, class OnBlock>
+void visitCase(const CaseStmt *stmt, OnExpr &onExpr, OnBlock &onBlock) {
+  visitOne(stmt->selector, onExpr);
+  for (const CaseBranch &branch : stmt->branches) {
+    for (const CaseLabel &label : branch.labels) {
+      visitOne(label.low, onExpr);
+      visitOne(label.high, onExpr);
+    }
+    onBlock(branch.body);
+  }
+  onBlock(stmt->elseBody);
+}
+
+/// Calls `visit`, which may say whether to look below the node.
+template <class Visit, class Node> bool goesOn(Visit &visit, Node *node) {
+  if constexpr (std::is_same_v<std::invoke_result_t<Visit &, Node *>, bool>) {
+    return visit(node);
+  } else {
+    visit(node);
+    return true;
+  }
+}
+
+} // namespace detail
+
+/// Calls `visit(Expr *)` for each expression right below `expr`, from left to right. What a type
+/// that is written as an argument contains is not among them.
+template <class Visit> void forEachChild(const Expr *expr, Visit &&visit) {
+  switch (expr->kind) {
+  case ExprKind::literal:
+  case ExprKind::name:
+  case ExprKind::enumLiteral:
+  case ExprKind::direct:
+  case ExprKind::typeName:
+  case ExprKind::error:
+    return;
+  case ExprKind::member:
+    return detail::visitOne(as<MemberExpr>(expr)->base, visit);
+  case ExprKind::index:
+    detail::visitOne(as<IndexExpr>(expr)->base, visit);
+    for (Expr *index : as<IndexExpr>(expr)->indices)
+      detail::visitOne(index, visit);
+    return;
+  case ExprKind::deref:
+    return detail::visitOne(as<DerefExpr>(expr)->base, visit);
+  case ExprKind::call:
+    detail::visitOne(as<CallExpr>(expr)->callee, visit);
+    for (const Argument &argument : as<CallExpr>(expr)->arguments)
+      detail::visitOne(argument.value, visit);
+    return;
+  case ExprKind::unary:
+    return detail::visitOne(as<UnaryExpr>(expr)->operand, visit);
+  case ExprKind::binary:
+    detail::visitOne(as<BinaryExpr>(expr)->left, visit);
+    return detail::visitOne(as<BinaryExpr>(expr)->right, visit);
+  case ExprKind::aggregate:
+    return detail::visitItems(as<AggregateExpr>(expr)->items, visit);
+  }
+}
+
+/// Calls `onExpr(Expr *)` and `onBlock(Block)` for what is right below a statement, in the order of
+/// the text. The values of a CASE's labels are expressions like others.
+template <class OnExpr, class OnBlock>
+void forEachChild(const Stmt *stmt, OnExpr &&onExpr, OnBlock &&onBlock) {
+  switch (stmt->kind) {
+  case StmtKind::empty:
+  case StmtKind::exit:
+  case StmtKind::continueS:
+  case StmtKind::returnS:
+  case StmtKind::jump:
+  case StmtKind::label:
+    return;
+  case StmtKind::assign:
+    for (Expr *target : as<AssignStmt>(stmt)->targets)
+      detail::visitOne(target, onExpr);
+    return detail::visitOne(as<AssignStmt>(stmt)->value, onExpr);
+  case StmtKind::call:
+    return detail::visitOne(as<CallStmt>(stmt)->expr, onExpr);
+  case StmtKind::ifS:
+    for (const IfBranch &branch : as<IfStmt>(stmt)->branches) {
+      detail::visitOne(branch.condition, onExpr);
+      onBlock(branch.body);
+    }
+    return onBlock(as<IfStmt>(stmt)->elseBody);
+  case StmtKind::caseS:
+    return detail::visitCase(as<CaseStmt>(stmt), onExpr, onBlock);
+  case StmtKind::forS: {
+    const auto *loop = as<ForStmt>(stmt);
+    for (Expr *expr : {loop->variable, loop->from, loop->to, loop->by})
+      detail::visitOne(expr, onExpr);
+    return onBlock(loop->body);
+  }
+  case StmtKind::whileS:
+    detail::visitOne(as<WhileStmt>(stmt)->condition, onExpr);
+    return onBlock(as<WhileStmt>(stmt)->body);
+  case StmtKind::repeatS:
+    onBlock(as<RepeatStmt>(stmt)->body);
+    return detail::visitOne(as<RepeatStmt>(stmt)->until, onExpr);
+  case StmtKind::tryS: {
+    const auto *attempt = as<TryStmt>(stmt);
+    onBlock(attempt->body);
+    detail::visitOne(attempt->exception, onExpr);
+    onBlock(attempt->catchBody);
+    return onBlock(attempt->finallyBody);
+  }
+  }
+}
+
+/// Calls `visit(Expr *)` for `expr` and everything below it, each node before its children. A
+/// `visit` that gives a bool says whether to look below the node.
+template <class Visit> void walk(Expr *expr, Visit &&visit) {
+  if (detail::goesOn(visit, expr))
+    forEachChild(expr, [&](Expr *child) { walk(child, visit); });
+}
+
+/// Calls `visit(Stmt *)` for each statement of the block and of the blocks inside of it, each
+/// before what it holds. A `visit` that gives a bool says whether to look inside.
+template <class Visit> void walkStatements(Block block, Visit &&visit) {
+  for (Stmt *stmt : block) {
+    if (detail::goesOn(visit, stmt))
+      forEachChild(
+          stmt, [](Expr *) {}, [&](Block inner) { walkStatements(inner, visit); });
+  }
+}
+
+/// Calls `visit` as walk() does for each expression of the block, in the order of the text.
+template <class Visit> void walkExpressions(Block block, Visit &&visit) {
+  for (const Stmt *stmt : block)
+    forEachChild(
+        stmt, [&](Expr *expr) { walk(expr, visit); },
+        [&](Block inner) { walkExpressions(inner, visit); });
+}
+
+} // namespace stc::ast
