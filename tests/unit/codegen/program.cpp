@@ -87,10 +87,6 @@ void raise(stride::Ctx *, stride::ExceptionCode code, const char *file, std::uin
                std::to_string(line) + ":" + std::to_string(col)};
 }
 
-std::int64_t noBudget(stride::Ctx *) { return 0; }
-
-constexpr stride::HostApi kHost = {sizeof(stride::HostApi), 0, nullptr, raise, noBudget, nullptr};
-
 void write(const fs::path &path, const std::string &text) {
   fs::create_directories(path.parent_path());
   std::ofstream(path, std::ios::binary) << text;
@@ -209,9 +205,10 @@ void App::load(const std::vector<GeneratedFile> &files, const Options &options) 
   state_.resize(app_->stateSize / sizeof(std::max_align_t) + 1);
   std::memset(state_.data(), 0, state_.size() * sizeof(std::max_align_t));
   ctx_.state = state_.data();
-  ctx_.host = &kHost;
+  host_ = {sizeof(stride::HostApi), 0, this, raise, refill, nullptr};
+  ctx_.host = &host_;
   ctx_.taskIntervalNs = 10'000'000;
-  ctx_.loopBudget = 100'000;
+  ctx_.loopBudget = budget_;
   dataStack_.giveTo(ctx_);
   try {
     app_->init(&ctx_);
@@ -228,7 +225,8 @@ void App::run(int cycles) {
   exception_.clear();
   try {
     for (int i = 0; i < cycles; ++i) {
-      ctx_.loopBudget = 100'000;
+      ctx_.loopBudget = budget_;
+      refills_ = 0;
       app_->tasks[0].run(&ctx_);
       ++ctx_.cycle;
       ctx_.cycleStartNs += ctx_.taskIntervalNs;
@@ -236,6 +234,17 @@ void App::run(int cycles) {
   } catch (const Thrown &thrown) {
     exception_ = thrown.text;
   }
+}
+
+void App::setLoopBudget(std::int64_t budget, std::int64_t more, int times) {
+  budget_ = budget;
+  more_ = more;
+  times_ = times;
+}
+
+std::int64_t App::refill(stride::Ctx *ctx) {
+  auto &app = *static_cast<App *>(ctx->host->self);
+  return app.refills_++ < app.times_ ? app.more_ : 0;
 }
 
 void App::exit(bool inCopyCode) {

@@ -45,6 +45,13 @@ public:
 
   /// Runs cycles of 10 ms; stops at the first exception.
   void run(int cycles = 1);
+  /// How many loop iterations each cycle from now on may make. The host adds `more` so many `times`
+  /// per cycle.
+  void setLoopBudget(std::int64_t budget, std::int64_t more = 0, int times = 0);
+  /// What is left of the last cycle's loop budget.
+  [[nodiscard]] std::int64_t loopBudgetLeft() const { return ctx_.loopBudget; }
+  /// How often the host was asked for more in the last cycle.
+  [[nodiscard]] int refills() const { return refills_; }
   /// FB_Exit and FB_Reinit of all instances.
   void exit(bool inCopyCode);
   void reinit();
@@ -58,11 +65,17 @@ public:
 
 private:
   void load(const std::vector<GeneratedFile> &files, const Options &options);
+  static std::int64_t refill(stride::Ctx *ctx);
 
   void *handle_ = nullptr;
   const stride::StrideAppV1 *app_ = nullptr;
   std::vector<std::max_align_t> state_;
   stride::Ctx ctx_{};
+  stride::HostApi host_{};
+  std::int64_t budget_ = 100'000;
+  std::int64_t more_ = 0;
+  int times_ = 0;
+  int refills_ = 0;
   stride::test::DataStack dataStack_;
   std::string exception_;
 };

@@ -139,6 +139,51 @@ TEST(RealSchedulerTest, CyclesThatTakeTooLongSkipOnesOnTheGrid) {
   EXPECT_GE(figures.overruns, figures.cycles) << "each cycle of 2 ms skips at least one of 1 ms";
 }
 
+constexpr int64_t kInterval = 10 * kMs;
+
+/// Cycles that take longer than one interval, or two.
+struct Overrunning {
+  TaskSet *tasks = nullptr;
+  std::vector<int64_t> starts;
+  std::vector<uint64_t> overruns; ///< Before the cycle.
+};
+
+void overrun(Ctx *ctx) {
+  auto &s = *static_cast<Overrunning *>(ctx->state);
+  s.overruns.push_back(s.tasks->statistics(0).figures().overruns);
+  const bool twice = s.starts.size() % 2 == 1;
+  s.starts.push_back(ctx->cycleStartNs);
+  std::this_thread::sleep_for(twice ? 21ms : 12ms);
+  if (s.starts.size() == 8)
+    s.tasks->stop();
+}
+
+/// A place on the grid that has passed while the task was busy is skipped and counted, also when it
+/// has passed by less than an interval: the cycle that follows starts on the first place that is
+/// still to come.
+TEST(RealSchedulerTest, ACycleNeverStartsForAPlaceOnTheGridThatHasPassed) {
+  const std::vector<TaskDesc> list = {task("Late", TaskKind::Cyclic, 1, 10, overrun)};
+  StrideAppV1 app = appWith(list);
+  Overrunning state;
+  TaskSet tasks(app, reinterpret_cast<std::byte *>(&state), stride::task::hostApi(),
+                LoopLimit::Clock);
+  state.tasks = &tasks;
+  RealScheduler scheduler(tasks, kInTurns);
+  scheduler.start();
+  waitUntil([&] { return tasks.stopped(); });
+  scheduler.finish();
+  ASSERT_EQ(state.starts.size(), 8U);
+  for (std::size_t i = 0; i < state.starts.size(); ++i) {
+    SCOPED_TRACE(i);
+    // A slow machine skips more of them, but counts each.
+    EXPECT_EQ(state.starts[i], kInterval * static_cast<int64_t>(i + state.overruns[i]));
+    if (i == 0)
+      continue;
+    const int64_t least = i % 2 == 1 ? 2 : 3; // after 12 ms and after 21 ms
+    EXPECT_GE(state.starts[i] - state.starts[i - 1], least * kInterval);
+  }
+}
+
 TEST(RealSchedulerTest, BetweenCyclesNoTaskIsInside) {
   const std::vector<TaskDesc> list = {task("Fast", TaskKind::Cyclic, 1, 1, fast),
                                       task("Slow", TaskKind::Cyclic, 9, 3, slow)};
