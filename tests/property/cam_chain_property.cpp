@@ -1,5 +1,7 @@
 // MC_CamIn from cam to cam by another CamTableID, and onto a cam over a way of the master
 // (ramp_in_dist): against models that know only the places where things begin.
+#include "tests/support/kinematics.hpp"
+
 #include "cam_scene.hpp"
 
 #include "st/SM_PLCopen/MC_MoveVelocity.h"
@@ -195,8 +197,7 @@ TEST(CamRampInDist, LeadsByOnePolynomialOverTheMasterOntoTheCam) {
     scene.rig.cycle([&] { scene.master.step(velocity); });
     // What the place of the next cycle will be.
     const double next = scene.master.position() + velocity * kCamCycle;
-    const double shown =
-        masterPeriod > 0 ? stride::numeric::wrapPosition(next, masterPeriod) : next;
+    const double shown = masterPeriod > 0 ? stride::test::onCircle(next, masterPeriod) : next;
     s.masterOffset = from * length - (s.masterAbsolute ? shown * s.masterScaling : 0);
     scene.prepare();
     auto &camIn = scene.camIn;

@@ -4,9 +4,9 @@
 #define STRIDE_TESTS_PROPERTY_CAM_MODEL_HPP
 
 #include "runtime/axis/axis_ref.hpp"
-#include "runtime/numeric/modulo_wrap.hpp"
 
 #include "tests/support/fresh.hpp"
+#include "tests/support/kinematics.hpp"
 #include "tests/support/random.hpp"
 
 #include "st/SM_DriveBasic/MC_CAM_REF.h"
@@ -225,7 +225,7 @@ public:
 
 private:
   [[nodiscard]] double shown(double position) const {
-    return isRotary() ? numeric::wrapPosition(position, ref.fPositionPeriod) : position;
+    return isRotary() ? onCircle(position, ref.fPositionPeriod) : position;
   }
   void go(double way) {
     const double before = ref.fSetPosition;

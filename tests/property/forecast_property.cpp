@@ -1,8 +1,8 @@
 // What a forecast says comes true: random programs of commands that wait for each other, on linear
 // and rotary axes, with every ramp type and overrides.
 #include "runtime/axis/forecast.hpp"
-#include "runtime/numeric/modulo_wrap.hpp"
 
+#include "tests/support/kinematics.hpp"
 #include "tests/unit/axis/axis_rig.hpp"
 
 #include "st/SM_DriveBasic/SMC_GetTravelTime.h"
@@ -24,7 +24,6 @@ namespace {
 
 using stride::motion::Forecast;
 using stride::motion::State;
-using stride::numeric::wrapPosition;
 using stride::test::AxisRig;
 using stride::test::fresh;
 namespace pl = ::st::SM_PLCopen;
@@ -158,7 +157,7 @@ private:
   double apart(double a, double b) const {
     if (!rotary_)
       return std::fabs(a - b);
-    return std::fabs(wrapPosition(a - b + 180, 360) - 180);
+    return std::fabs(stride::test::shortWay(a - b, 360));
   }
 
   /// Takes a forecast, then lets the axis go on and compares.

@@ -1,5 +1,7 @@
 // MC_GearInPos and MC_Phasing against plain models: one polynomial over the master, from place to
 // place; a distance that is kept.
+#include "tests/support/kinematics.hpp"
+
 #include "cam_scene.hpp"
 
 #include "st/SM_PLCopen/MC_GearInPos.h"
@@ -90,11 +92,11 @@ TEST(GearInPosModel, LeadsByOnePolynomialOverTheMasterIntoGear) {
     const double here = master.position() + speed * kCamCycle; // in the cycle of the edge
     const double there = here + direction * ahead;
     gear.MasterSyncPosition =
-        masterPeriod > 0 ? stride::numeric::wrapPosition(there, masterPeriod) : there;
+        masterPeriod > 0 ? stride::test::onCircle(there, masterPeriod) : there;
     const long double sync = master.total() + speed * kCamCycle + direction * ahead;
     gear.SlaveSyncPosition = random.uniform(-1, 1) * (slavePeriod > 0 ? slavePeriod : 100);
     if (slavePeriod > 0)
-      gear.SlaveSyncPosition = stride::numeric::wrapPosition(gear.SlaveSyncPosition, slavePeriod);
+      gear.SlaveSyncPosition = stride::test::onCircle(gear.SlaveSyncPosition, slavePeriod);
     const double distance = random.chance(0.3) ? 0 : ahead * random.uniform(0.5, 0.99);
     gear.MasterStartDistance = distance;
     const bool reverse = random.chance(0.1);

@@ -1,8 +1,8 @@
 // Directions on a rotary axis against a search over many turns, for every ramp type.
 #include "motion_problems.hpp"
 
-#include "runtime/numeric/modulo_wrap.hpp"
 #include "runtime/numeric/profile/modulo.hpp"
+#include "tests/support/kinematics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,6 @@ using stride::motion::planVelocity;
 using stride::motion::Profile;
 using stride::motion::RampType;
 using stride::motion::resolveModulo;
-using stride::numeric::wrapPosition;
 using stride::test::casesOf;
 using stride::test::MotionProblem;
 using stride::test::MotionRandom;
@@ -55,7 +54,7 @@ TEST_P(ModuloProperty, Directions) {
   for (int i = 0; i < casesOf(10000); ++i) {
     ModuloRequest r = randomRequest(random, GetParam());
     const double period = r.period;
-    const double wanted = wrapPosition(r.target, period);
+    const double wanted = stride::test::onCircle(r.target, period);
     Profile stop;
     ASSERT_EQ(planStop(stop, r.start, r.dynamics), PlanError::None);
     const double slack = 1e-9 * (period + std::fabs(stop.end.position - r.start.position));
@@ -80,8 +79,8 @@ TEST_P(ModuloProperty, Directions) {
       r.direction = direction;
       double target = 0;
       ASSERT_TRUE(resolveModulo(r, target));
-      const double off = wrapPosition(target - wanted + 0.5 * period, period);
-      ASSERT_NEAR(off, 0.5 * period, slack) << "not the demanded position";
+      ASSERT_NEAR(stride::test::shortWay(target - wanted, period), 0.0, slack)
+          << "not the demanded position";
       if (direction == Direction::Shortest) {
         ASSERT_NEAR(std::fabs(target - r.start.position), nearest, slack);
         continue;

@@ -1,8 +1,8 @@
 // Random programs of motion commands on one axis with a drive: every positioning and velocity
 // block, buffer mode, ramp type, overrides, superimposed motions, stops. Whatever they ask for, the
 // axis moves steadily within what was allowed, and every command ends once.
-#include "runtime/numeric/modulo_wrap.hpp"
 
+#include "tests/support/kinematics.hpp"
 #include "tests/support/random.hpp"
 #include "tests/unit/axis/axis_rig.hpp"
 
@@ -28,7 +28,6 @@
 
 namespace {
 
-using stride::numeric::wrapPosition;
 using stride::test::AxisRig;
 using stride::test::fresh;
 using stride::test::Random;
@@ -280,8 +279,7 @@ private:
     double way = axis.fSetPosition - s0;
     const double expected = 0.5 * (v0 + v1) * T;
     if (rotary_) {
-      const double half = 0.5 * axis.fPositionPeriod;
-      way = expected + wrapPosition(way - expected + half, axis.fPositionPeriod) - half;
+      way = expected + stride::test::shortWay(way - expected, axis.fPositionPeriod);
     }
     ASSERT_LE(std::fabs(way - expected), 0.5 * peak * T * T + 1e-9 * limits_.length)
         << "position jumps\n"

@@ -1,7 +1,7 @@
 // Properties of MC_MoveAbsolute on an axis with a drive, observed cycle by cycle: random moves,
 // interrupts by another instance, by a new edge and by MC_Stop, on linear and rotary axes.
-#include "runtime/numeric/modulo_wrap.hpp"
 
+#include "tests/support/kinematics.hpp"
 #include "tests/support/random.hpp"
 #include "tests/unit/axis/axis_rig.hpp"
 
@@ -16,7 +16,6 @@
 
 namespace {
 
-using stride::numeric::wrapPosition;
 using stride::test::AxisRig;
 using stride::test::Random;
 namespace state = stride::axis::state;
@@ -57,9 +56,8 @@ public:
       what << "velocity jumps from " << v0 << " to " << v1 << "; ";
     double way = axis.fSetPosition - s0;
     if (axis.iMovementType == 0) {
-      const double half = 0.5 * axis.fPositionPeriod;
       const double expected = 0.5 * (v0 + v1) * T;
-      way = expected + wrapPosition(way - expected + half, axis.fPositionPeriod) - half;
+      way = expected + stride::test::shortWay(way - expected, axis.fPositionPeriod);
     }
     // The mean velocity lies between those reachable from both ends.
     if (std::fabs(way - 0.5 * (v0 + v1) * T) > 0.25 * a * T * T * (1 + 1e-9) + 1e-12 * scale_)
@@ -183,7 +181,7 @@ TEST(MoveAbsoluteProperty, RandomMovesAndInterrupts) {
       if (block.Busy != 0)
         continue;
       ASSERT_EQ(block.Done, 1);
-      const double target = rotary ? wrapPosition(c.position, length) : c.position;
+      const double target = rotary ? stride::test::onCircle(c.position, length) : c.position;
       ASSERT_EQ(rig.axis.fSetPosition, target) << "exactly";
       ASSERT_EQ(rig.axis.fSetVelocity, 0.0);
       ASSERT_EQ(rig.axis.nAxisState, state::kStandstill);
@@ -205,7 +203,7 @@ TEST(MoveAbsoluteProperty, RandomMovesAndInterrupts) {
     const double perIncrement = rig.axis.fScalefactor;
     double off = rig.axis.fActPosition - rig.axis.fSetPosition;
     if (rotary)
-      off = wrapPosition(off + 0.5 * length, length) - 0.5 * length;
+      off = stride::test::shortWay(off, length);
     ASSERT_LE(std::fabs(off), 0.5001 * perIncrement + 1e-9 * length) << run;
   }
   EXPECT_GE(moves, 5000);
@@ -273,7 +271,7 @@ RC_GTEST_PROP(MoveAbsoluteProperty, WholeNumbers, (bool rotary)) {
   if (!steps.empty()) {
     const double target = steps.back().position;
     RC_ASSERT(block.Done != 0);
-    RC_ASSERT(rig.axis.fSetPosition == (rotary ? wrapPosition(target, 360) : target));
+    RC_ASSERT(rig.axis.fSetPosition == (rotary ? stride::test::onCircle(target, 360) : target));
   }
 }
 

@@ -1,6 +1,7 @@
 // Properties of the jerk-limited planner over random states, targets and limits.
 #include "runtime/numeric/profile/parabolic.hpp"
 
+#include "tests/support/kinematics.hpp"
 #include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
@@ -61,7 +62,7 @@ public:
 };
 
 State at(const Segment &segment, double t) {
-  return stride::numeric::evaluateCubic(segment.origin, segment.jerk, t - segment.reference);
+  return stride::test::movedOn(segment.origin, segment.jerk, t - segment.reference);
 }
 
 /// Sizes of the numbers of a profile, for tolerances.

@@ -2,6 +2,7 @@
 // captured positions.
 #include "runtime/axis/capture_window.hpp"
 
+#include "tests/support/kinematics.hpp"
 #include "tests/support/random.hpp"
 #include "tests/unit/axis/axis_rig.hpp"
 
@@ -16,7 +17,6 @@
 
 namespace {
 
-using stride::numeric::wrapPosition;
 using stride::test::AxisRig;
 using stride::test::fresh;
 using stride::test::Random;
@@ -94,7 +94,7 @@ TEST(SetValuesProperty, GapsInPositionsAreBridged) {
       const double set = rig.axis.fSetPosition;
       double way = set - before;
       if (rotary)
-        way = wrapPosition(way + 180, 360) - 180;
+        way = stride::test::shortWay(way, 360);
       // Whatever comes in, the axis is never faster than allowed; the sets are what they seem.
       ASSERT_LE(std::fabs(way), kMaxVelocity * kCycle * (1 + 1e-6)) << seed << " " << cycle;
       ASSERT_NEAR(way, 0.5 * (velocityBefore + rig.axis.fSetVelocity) * kCycle,
@@ -108,7 +108,7 @@ TEST(SetValuesProperty, GapsInPositionsAreBridged) {
         continue;
       }
       bridging = 0;
-      const double shown = rotary ? wrapPosition(path.position, 360) : path.position;
+      const double shown = rotary ? stride::test::onCircle(path.position, 360) : path.position;
       ASSERT_EQ(set, shown) << seed << " " << cycle;
     }
     ASSERT_EQ(rig.axis.wFBErrorID, 0);
@@ -117,7 +117,7 @@ TEST(SetValuesProperty, GapsInPositionsAreBridged) {
       block.fSetPosition = path.position;
       block.body__(rig.ctx);
     });
-    ASSERT_NEAR(rotary ? wrapPosition(rig.axis.fActPosition - before + 180, 360) - 180
+    ASSERT_NEAR(rotary ? stride::test::shortWay(rig.axis.fActPosition - before, 360)
                        : rig.axis.fActPosition - before,
                 0.0, 1e-4);
   }
@@ -190,8 +190,9 @@ TEST(SetValuesProperty, WindowsAreTheWayFromFirstToLast) {
     bool expected = first <= place && place <= last;
     if (rotary) {
       // In positive direction from `first`, does `place` come before `last`?
-      const double toPlace = wrapPosition(place - first, period);
-      const double toLast = last >= first + period ? period : wrapPosition(last - first, period);
+      const double toPlace = stride::test::onCircle(place - first, period);
+      const double toLast =
+          last >= first + period ? period : stride::test::onCircle(last - first, period);
       if (std::fabs(toPlace - toLast) < 1e-9 * period)
         continue;
       expected = toPlace <= toLast;

@@ -2,6 +2,7 @@
 // cubic course, numeric integration, reproduction of polynomials.
 #include "runtime/numeric/profile/time_profile.hpp"
 
+#include "tests/support/kinematics.hpp"
 #include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
@@ -53,7 +54,7 @@ public:
 };
 
 State at(const TimePiece &piece, double t) {
-  return stride::numeric::evaluateCubic(piece.origin, piece.jerk, t - piece.start);
+  return stride::test::movedOn(piece.origin, piece.jerk, t - piece.start);
 }
 
 /// Greatest magnitudes in a course.
@@ -268,7 +269,7 @@ TEST(TimeProfileProperty, ParabolasAreReproduced) {
     const Sizes sizes = sizesOf(profile);
     for (int i = 0; i < 5; ++i) {
       const double u = random.uniform(0, t);
-      const State expected = stride::numeric::evaluateCubic(s, jerk, u);
+      const State expected = stride::test::movedOn(s, jerk, u);
       ASSERT_NEAR(profile.at(u).velocity, expected.velocity, 1e-9 * sizes.velocity + 1e-300);
       ASSERT_NEAR(profile.at(u).position, expected.position, 1e-9 * sizes.position + 1e-300);
     }

@@ -1,6 +1,7 @@
 // Properties of the trapezoid planner over random states, targets and limits.
 #include "runtime/numeric/profile/planner.hpp"
 
+#include "tests/support/kinematics.hpp"
 #include "tests/support/random.hpp"
 
 #include <gtest/gtest.h>
@@ -139,7 +140,7 @@ bool follows(const Profile &profile, const Problem &p, double target, std::strin
     const double to = i + 1 < profile.count ? profile.segments[i + 1].start : profile.duration;
     const auto velocityAt = [&](double t) {
       const auto &s = profile.segments[i];
-      return stride::numeric::evaluateCubic(s.origin, s.jerk, t - s.reference).velocity;
+      return stride::test::movedOn(s.origin, s.jerk, t - s.reference).velocity;
     };
     integral +=
         (to - from) / 6 * (velocityAt(from) + 4 * velocityAt(0.5 * (from + to)) + velocityAt(to));

@@ -1,6 +1,6 @@
 #include "runtime/axis/increments.hpp"
-#include "runtime/numeric/modulo_wrap.hpp"
 
+#include "tests/support/kinematics.hpp"
 #include "tests/unit/axis/axis_rig.hpp"
 
 #include <gtest/gtest.h>
@@ -133,9 +133,8 @@ TEST(Increments, ResidualsAreExactOverManyTurns) {
       updateActual(axis, static_cast<uint32_t>(axis.liSetIncrements));
       ASSERT_EQ(axis.liActIncrements, axis.liSetIncrements);
       // Half an increment, and modulo the period.
-      const double off =
-          stride::numeric::wrapPosition(axis.fActPosition - place + 0.5 * c.period, c.period);
-      ASSERT_NEAR(off, 0.5 * c.period, 0.5001 * c.numerator / c.denominator);
+      ASSERT_NEAR(stride::test::shortWay(axis.fActPosition - place, c.period), 0.0,
+                  0.5001 * c.numerator / c.denominator);
     }
   }
 }
