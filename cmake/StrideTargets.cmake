@@ -89,12 +89,12 @@ function(stride_executable name)
   target_link_libraries(${name} PRIVATE ${arg_DEPS})
 endfunction()
 
-# stride_test(<name> SOURCES <file>... [DEPS <target>...] [SHARDS <n>] [LABELS <l>...])
-# One GoogleTest executable, registered with ctest as one test (or as n shards of it, which run in
+# stride_test(<name> [STARTS_PROGRAMS] SOURCES <file>... [DEPS <target>...] [SHARDS <n>] [LABELS <l>...])
+# STARTS_PROGRAMS: it starts what the target stride_programs consists of, which is built with it. One GoogleTest executable, registered with ctest as one test (or as n shards of it, which run in
 # parallel). Tests find the repository and the built `stride` through the macros STRIDE_SOURCE_DIR and
 # STRIDE_BINARY_DIR.
 function(stride_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "SHARDS" "SOURCES;DEPS;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "STARTS_PROGRAMS" "SHARDS" "SOURCES;DEPS;LABELS")
   find_package(GTest REQUIRED)
   add_executable(${name} ${arg_SOURCES})
   _stride_own_code(${name})
@@ -104,6 +104,9 @@ function(stride_test name)
   target_compile_definitions(${name} PRIVATE
     STRIDE_SOURCE_DIR="${PROJECT_SOURCE_DIR}" STRIDE_BINARY_DIR="${CMAKE_BINARY_DIR}")
   target_link_libraries(${name} PRIVATE ${arg_DEPS} GTest::gmock GTest::gtest GTest::gmock_main)
+  if(arg_STARTS_PROGRAMS)
+    add_dependencies(${name} stride_programs)
+  endif()
   if(NOT arg_SHARDS)
     add_test(NAME ${name} COMMAND ${name})
     set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}")

@@ -226,5 +226,38 @@ TEST(House, NativeBodiesLieInTheFolderOfTheirLibrary) {
   EXPECT_GT(bodies, 90U);
 }
 
+/// The text of a source of a test and of the tests' headers that it includes.
+std::string withHeaders(const fs::path &source) {
+  std::string text = readFile(kRoot / source);
+  for (const std::string &include : includesOf(source))
+    if (include.starts_with("tests/"))
+      text += withHeaders(include);
+  return text;
+}
+
+/// A test that is built alone finds the programs that it starts, and not those of last week.
+TEST(House, TestsThatStartProgramsSayThatTheyDo) {
+  const std::regex test(R"re((?:stride_(?:thread_|property_)?test)\(([^)]*)\))re");
+  const std::regex file(R"re(([\w/]+\.cpp))re");
+  std::size_t starting = 0;
+  for (const fs::directory_entry &entry : fs::recursive_directory_iterator(kRoot / "tests")) {
+    if (entry.path().filename() != "CMakeLists.txt")
+      continue;
+    const fs::path folder = entry.path().parent_path().lexically_relative(kRoot);
+    for (const std::string &words : matches(readFile(entry.path()), test)) {
+      bool starts = false;
+      for (const std::string &source : matches(words, file))
+        starts = starts || (fs::exists(kRoot / folder / source) &&
+                            withHeaders(folder / source).find("STRIDE_BINARY_DIR \"/stride") !=
+                                std::string::npos);
+      if (!starts)
+        continue;
+      ++starting;
+      EXPECT_NE(words.find("STARTS_PROGRAMS"), std::string::npos) << folder << ": " << words;
+    }
+  }
+  EXPECT_GT(starting, 15U);
+}
+
 } // namespace
 } // namespace stride::test
