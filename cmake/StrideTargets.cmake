@@ -71,6 +71,19 @@ function(stride_library name)
   endif()
 endfunction()
 
+# stride_topics(<name> FOLDERS <folder>... [DEPS <target>...])
+# A static library whose folders need each other in circles: each names its own sources by target_sources().
+function(stride_topics name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "FOLDERS;DEPS")
+  add_library(${name} STATIC)
+  _stride_own_code(${name})
+  _stride_precompiled(${name} library)
+  target_link_libraries(${name} PUBLIC ${arg_DEPS})
+  foreach(folder IN LISTS arg_FOLDERS)
+    add_subdirectory(${folder})
+  endforeach()
+endfunction()
+
 # stride_native_library(<name> SOURCES <file>... [DEPS <target>...])
 # A library that applications link, too: with the flags of generated code, an object for each source, so that an
 # application gets only those that it uses.

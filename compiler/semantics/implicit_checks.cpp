@@ -1,10 +1,6 @@
 #include "compiler/semantics/implicit_checks.hpp"
 
-#include "compiler/semantics/checker.hpp"
-
 namespace stc {
-
-using namespace ast;
 
 std::span<const ImplicitCheckName, kImplicitChecks> implicitCheckNames() {
   using enum TypeKind;
@@ -32,44 +28,6 @@ std::span<const ImplicitCheckName, kImplicitChecks> implicitCheckNames() {
        none, 4},
   }};
   return kNames;
-}
-
-void Checker::findImplicitChecks(Module &module) {
-  const auto names = implicitCheckNames();
-  for (PouSymbol *pou : module.library->pous) {
-    if (!pou->isFunction())
-      continue;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      if (pou->name.id->lower == names[i].lowerName && implicitCheckFits(pou, i))
-        program_.implicitChecks[i] = pou;
-    }
-  }
-}
-
-bool Checker::implicitCheckFits(PouSymbol *pou, std::size_t check) {
-  const ImplicitCheckName &wanted = implicitCheckNames()[check];
-  const std::vector<VarSymbol *> parameters = pou->parameters();
-  const bool isPointer = wanted.value == TypeKind::none;
-  const auto fits = [&](const Type *type, std::size_t at) { // 0: the result, then the inputs
-    if (!isPointer)
-      return type->kind == wanted.value;
-    if (at < 2)
-      return type->kind == TypeKind::pointer && isByteView(typeAs<PointerType>(type)->pointee);
-    return type->kind == (at == 4 ? TypeKind::boolean : TypeKind::dint);
-  };
-  bool good =
-      pou->result != nullptr && fits(pou->result->type, 0) && parameters.size() == wanted.inputs;
-  for (std::size_t i = 0; good && i < parameters.size(); ++i)
-    good = parameters[i]->section == Section::input && fits(parameters[i]->type, i + 1);
-  if (!good)
-    report(Code::implicitCheckSignature, pou->name.span,
-           "`" + std::string(pou->name.text) +
-               "` replaces a run-time check, but has another signature",
-           "its inputs or its result do not fit")
-        .help("declare it as FUNCTION " + std::string(wanted.signature))
-        .note(
-            "functions of this name are called by the program itself wherever the check is needed");
-  return good;
 }
 
 } // namespace stc

@@ -10,6 +10,10 @@ namespace stc {
 
 /// `input`, `output`, `memory`
 [[nodiscard]] std::string_view areaName(Area area);
+/// Bytes of what a size letter names: 1 for X and B, 2 for W, 4 for D, 8 for L.
+[[nodiscard]] unsigned unitBytes(char size);
+/// The size letter of so many bytes; B if none has that size.
+[[nodiscard]] char sizeLetter(std::uint64_t bytes);
 /// I, Q, M
 [[nodiscard]] char areaLetter(Area area);
 /// `%MW3`: the address of a variable of `bytes` bytes there.

@@ -50,6 +50,14 @@ struct Location {
                        ///< bit >= 0 says that it is a single bit
 };
 
+/// Bits of VarSymbol::uses.
+enum Use : std::uint8_t {
+  useRead = 1,
+  useWritten = 2,
+  useAddress = 4, ///< ADR, REF=, passed to a VAR_IN_OUT: anything may happen to it
+  useCalled = 8,  ///< an instance is called
+};
+
 /// A variable, parameter or structure field.
 struct VarSymbol : Symbol {
   ast::VarDecl *decl = nullptr; ///< null only for a function's result
@@ -69,7 +77,7 @@ struct VarSymbol : Symbol {
   bool typeRunning = false; ///< the type is being resolved: meeting it again is a circle
   bool initChecked = false; ///< the initial value has been checked (or is being checked)
   bool initRunning = false; ///< is being checked: meeting it again is a circle
-  // Of the lints (lint.hpp).
+  // Of the lints (lint/lint.hpp).
   std::uint8_t uses = 0;                ///< bits of Use
   const ast::Expr *earlyRead = nullptr; ///< the first read, when nothing can have written before
   std::uint32_t earlyLoop = 0;          ///< the outermost loop of that read; 0: none

@@ -1,6 +1,7 @@
 #include "compiler/semantics/types.hpp"
 
 #include "compiler/semantics/symbols.hpp"
+#include "compiler/semantics/type_table.hpp"
 
 namespace stc {
 
@@ -194,6 +195,43 @@ std::string typeName(const Type *t) {
     return "REFERENCE TO " + typeName(typeAs<PointerType>(t)->pointee);
   default:
     return std::string(elementaryName(t->kind));
+  }
+}
+
+bool isUntyped(const Type *t) {
+  return t->kind == TypeKind::anyInteger || t->kind == TypeKind::anyReal;
+}
+bool isNumber(const Type *t) {
+  const Type *u = underlying(t);
+  return isInteger(u) || isReal(u) || isUntyped(u);
+}
+bool isDuration(const Type *t) { return t->kind == TypeKind::time || t->kind == TypeKind::ltime; }
+
+bool isByteView(const Type *pointee) {
+  return pointee->kind == TypeKind::none || pointee->kind == TypeKind::byte ||
+         pointee->kind == TypeKind::usint || pointee->kind == TypeKind::sint;
+}
+
+const Type *indexStep(const Type *type) {
+  if (type->kind == TypeKind::reference)
+    type = typeAs<PointerType>(type)->pointee;
+  switch (type->kind) {
+  case TypeKind::array:
+    return typeAs<ArrayType>(type)->element;
+  case TypeKind::openArray:
+    return typeAs<OpenArrayType>(type)->rest;
+  case TypeKind::string:
+    return elementaryType(TypeKind::byte);
+  case TypeKind::wstring:
+    return elementaryType(TypeKind::word);
+  case TypeKind::pointer: {
+    const Type *pointee = typeAs<PointerType>(type)->pointee;
+    if (pointee->kind == TypeKind::none)
+      return nullptr;
+    return isString(pointee) ? indexStep(pointee) : pointee;
+  }
+  default:
+    return nullptr;
   }
 }
 

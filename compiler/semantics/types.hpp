@@ -135,6 +135,10 @@ isInteger(const Type *t); ///< signed, unsigned, bit string (no enumerations, su
 [[nodiscard]] bool isString(const Type *t);    ///< STRING, WSTRING
 [[nodiscard]] bool isCharacter(const Type *t); ///< CHAR, WCHAR
 [[nodiscard]] bool isElementary(const Type *t);
+[[nodiscard]] bool isUntyped(const Type *t); ///< a constant whose type the context decides
+[[nodiscard]] bool
+isNumber(const Type *t); ///< integer, real, subrange, enumeration, untyped constant
+[[nodiscard]] bool isDuration(const Type *t); ///< TIME, LTIME
 [[nodiscard]] bool isInstance(const Type *t); ///< FUNCTION_BLOCK or PROGRAM
 [[nodiscard]] unsigned
 bitWidth(const Type *t); ///< of numbers, bit strings, times, enumerations, subranges; 1 for BOOL

@@ -28,6 +28,16 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
       {"compiler/source", {}},
       {"compiler/syntax", {"compiler/source"}},
       {"compiler/semantics", {"compiler/syntax", "compiler/source", "runtime/iec"}},
+      {"compiler/semantics/context", {"compiler/semantics", "compiler/source"}},
+      {"compiler/semantics/checking",
+       {"compiler/semantics/context", "compiler/semantics", "compiler/syntax", "compiler/source"}},
+      {"compiler/semantics/statements",
+       {"compiler/semantics/checking", "compiler/semantics/context", "compiler/semantics"}},
+      {"compiler/semantics/lint", {"compiler/semantics/context", "compiler/semantics"}},
+      {"compiler/semantics/sharing", {"compiler/semantics"}},
+      {"compiler/semantics/program",
+       {"compiler/semantics/lint", "compiler/semantics/statements", "compiler/semantics/checking",
+        "compiler/semantics/context", "compiler/semantics"}},
       {"compiler/codegen", {"compiler/semantics", "compiler/syntax", "compiler/source"}},
       {"compiler/project",
        {"compiler/codegen", "compiler/semantics", "compiler/syntax", "compiler/source",
@@ -80,8 +90,21 @@ std::vector<fs::path> sourcesBelow(const std::string &folder) {
   return found;
 }
 
+/// Folders that need each other in circles: declarations need the values of constants, expressions
+/// need declarations. They are one library and one room, compiler/semantics/checking.
+bool isChecking(const std::string &path) {
+  const std::string semantics = "compiler/semantics/";
+  for (const char *folder :
+       {"builtins", "calls", "classes", "config", "declarations", "expressions", "lookup", "types"})
+    if (path.starts_with(semantics + folder + "/"))
+      return true;
+  return false;
+}
+
 /// The longest name of a room that the path lies in; empty: none.
 std::string roomOf(const std::string &path) {
+  if (isChecking(path))
+    return "compiler/semantics/checking";
   if (path.starts_with("st/"))
     return "st";
   std::string best;

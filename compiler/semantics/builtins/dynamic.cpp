@@ -1,0 +1,121 @@
+// __NEW, __DELETE and INI.
+
+#include "compiler/semantics/builtins/internal.hpp"
+
+#include "compiler/semantics/builtins/builtin_calls.hpp"
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/context/describe.hpp"
+#include "compiler/semantics/declarations/declarations.hpp"
+#include "compiler/semantics/expressions/expressions.hpp"
+
+#include <algorithm>
+
+namespace stc::sema {
+
+using namespace ast;
+
+namespace {
+
+/// The first block without the attribute that an object of the type holds or is.
+const PouSymbol *withoutAttribute(const Type *type) {
+  while (type->kind == TypeKind::array)
+    type = typeAs<ArrayType>(type)->element;
+  if (!isInstance(type))
+    return nullptr;
+  const PouSymbol *pou = typeAs<PouType>(type)->symbol;
+  const bool enabled =
+      std::any_of(pou->decl->attributes.begin(), pou->decl->attributes.end(),
+                  [](const Attribute &a) { return a.name == "enable_dynamic_creation"; });
+  return enabled ? nullptr : pou;
+}
+
+} // namespace
+
+const Type *checkNew(Context &c, CallExpr *expr) {
+  const Type *bad = elementaryType(TypeKind::error);
+  if (!requireCount(c, expr, 1, 2) || expr->arguments[0].value == nullptr)
+    return bad;
+  Expr *named = expr->arguments[0].value;
+  const Type *type = namedType(c, named);
+  if (type == nullptr) {
+    if (!isError(check(c, named)))
+      c.report(Code::newNeedsType, named->span, "`__NEW` creates an object of a type",
+               "this is a value, not the name of a type")
+          .help("write the type: `p := __NEW(INT);` or `p := __NEW(BYTE, 100);`");
+    return bad;
+  }
+  named->type = type;
+  if (isError(type))
+    return bad;
+  if (type->kind == TypeKind::program)
+    return argumentError(c, expr, 0, "a type or a function block");
+  if (const PouSymbol *pou = withoutAttribute(type)) {
+    auto &d = c.report(Code::newNotEnabled, named->span,
+                       "`" + std::string(pou->name.text) + "` cannot be created with `__NEW`",
+                       "its declaration does not allow it");
+    noteDeclaration(d, pou);
+    d.help("write `{attribute 'enable_dynamic_creation'}` in front of its FUNCTION_BLOCK");
+    return bad;
+  }
+  if (expr->arguments.size() == 2) {
+    Expr *count = expr->arguments[1].value;
+    const Type *countType = check(c, count);
+    if (isError(countType))
+      return bad;
+    if (!isInteger(underlying(countType)) && countType->kind != TypeKind::anyInteger)
+      return argumentError(c, expr, 1, "the number of elements");
+    setTarget(count, elementaryType(TypeKind::lint));
+  }
+  c.program.usesPool = true;
+  if (isInstance(type))
+    declare(c, typeAs<PouType>(type)->symbol);
+  if (std::find(c.program.created.begin(), c.program.created.end(), type) ==
+      c.program.created.end())
+    c.program.created.push_back(type);
+  return c.types.pointer(type);
+}
+
+const Type *checkDelete(Context &c, CallExpr *expr) {
+  const Type *bad = elementaryType(TypeKind::error);
+  if (!requireCount(c, expr, 1, 1))
+    return bad;
+  Expr *pointer = expr->arguments[0].value;
+  if (pointer->type->kind != TypeKind::pointer)
+    return argumentError(c, expr, 0, "a pointer variable");
+  if (!requireVariable(c, pointer, "delete"))
+    return bad;
+  c.program.usesPool = true;
+  return elementaryType(TypeKind::none);
+}
+
+const Type *checkIni(Context &c, CallExpr *expr) {
+  const Type *bad = elementaryType(TypeKind::error);
+  if (!requireCount(c, expr, 2, 2))
+    return bad;
+  Expr *instance = expr->arguments[0].value;
+  const Type *type = instance->type;
+  while (type->kind == TypeKind::array)
+    type = typeAs<ArrayType>(type)->element;
+  if (type->kind != TypeKind::functionBlock && type->kind != TypeKind::structure) {
+    auto &d = c.report(Code::wrongArgumentType, instance->span,
+                       "`INI` needs the instance of a function block here, not " +
+                           typeName(instance->type),
+                       "expected an instance");
+    if (type->kind == TypeKind::pointer)
+      d.help("write `^` behind the pointer: what it points to is initialised");
+    else if (type->kind == TypeKind::program)
+      d.help("a PROGRAM is initialised when the application starts; name one of its instances");
+    else
+      d.help("assign the initial value: `x := 0;`");
+    return bad;
+  }
+  if (!requireVariable(c, instance, "initialise"))
+    return bad;
+  if (type->kind == TypeKind::functionBlock)
+    declare(c, typeAs<PouType>(type)->symbol);
+  coerce(c, expr->arguments[1].value, elementaryType(TypeKind::boolean),
+         "the second argument of INI");
+  return elementaryType(TypeKind::boolean);
+}
+
+} // namespace stc::sema

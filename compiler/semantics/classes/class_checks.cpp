@@ -1,0 +1,207 @@
+// Whether the members of a block fit each other and its base.
+
+#include "compiler/semantics/classes/classes.hpp"
+
+#include "compiler/semantics/classes/internal.hpp"
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/context/describe.hpp"
+#include "compiler/semantics/hierarchy.hpp"
+#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/suggest.hpp"
+
+#include <map>
+
+namespace stc::sema {
+
+using namespace ast;
+
+static void checkNameClashes(Context &c, PouSymbol *pou);
+static void checkMethod(Context &c, PouSymbol *method);
+static std::string nearestMethod(const PouSymbol *pou, const Name &name);
+
+namespace {
+
+std::string_view accessName(Access access) {
+  switch (access) {
+  case Access::privateA:
+    return "PRIVATE";
+  case Access::protectedA:
+    return "PROTECTED";
+  case Access::internalA:
+    return "INTERNAL";
+  default:
+    return "PUBLIC";
+  }
+}
+
+/// How far a member can be seen: less is less.
+int reach(Access access) {
+  switch (access) {
+  case Access::privateA:
+    return 0;
+  case Access::protectedA:
+    return 1;
+  case Access::internalA:
+    return 2;
+  default:
+    return 3;
+  }
+}
+
+} // namespace
+
+void checkClass(Context &c, PouSymbol *pou) {
+  if (pou->base == nullptr && pou->interfaces.empty() && pou->methods.empty() &&
+      (pou->decl->modifiers & (modAbstract | modFinal)) == 0)
+    return;
+  const ScopeGuard guard(c, {&moduleOf(c, pou), pou});
+  if (pou->isAbstract() && pou->isFinal())
+    c.report(Code::modifierNotAllowed, pou->name.span,
+             "`" + std::string(pou->name.text) + "` cannot be ABSTRACT and FINAL",
+             "nobody could ever make an instance of it");
+  if (pou->base != nullptr && pou->base->isFinal()) {
+    auto &d =
+        c.report(Code::finalBase, pou->decl->base.back().span,
+                 "`" + std::string(pou->base->name.text) + "` is FINAL", "it cannot be extended");
+    noteDeclaration(d, pou->base);
+  }
+  checkNameClashes(c, pou);
+  for (PouSymbol *m : pou->methods)
+    checkMethod(c, m);
+  if (pou->isInterface()) {
+    checkInterfaceBases(c, pou);
+    return;
+  }
+  checkInterfaces(c, pou);
+  checkAbstractMethods(c, pou);
+}
+
+static void checkNameClashes(Context &c, PouSymbol *pou) {
+  if (pou->base == nullptr)
+    return;
+  const auto clash = [&](const Symbol *own, const Symbol *inherited, const PouSymbol *where) {
+    auto &d =
+        c.report(Code::inheritedName, own->name.span,
+                 "`" + std::string(where->name.text) + "`, which `" + std::string(pou->name.text) +
+                     "` extends, has `" + std::string(own->name.text) + "` already",
+                 "this name is taken");
+    d.label(inherited->name.span, "inherited from here");
+    d.help("give it another name");
+  };
+  const auto where = [](const Symbol *s) -> const PouSymbol * {
+    if (s->kind == SymbolKind::variable)
+      return static_cast<const VarSymbol *>(s)->owner;
+    if (s->kind == SymbolKind::property)
+      return static_cast<const PropertySymbol *>(s)->owner;
+    return static_cast<const PouSymbol *>(s)->owner;
+  };
+  for (VarSymbol *v : pou->variables) {
+    if (v->owner != pou)
+      continue;
+    const Symbol *inherited = findVariable(pou->base, v->name.id);
+    if (inherited == nullptr)
+      inherited = memberNamed(pou->base, v->name.id);
+    if (inherited != nullptr && where(inherited) != nullptr)
+      clash(v, inherited, where(inherited));
+  }
+  for (const auto &[id, member] : std::map<std::string_view, Symbol *>([&] {
+         std::map<std::string_view, Symbol *> sorted;
+         for (const auto &[key, symbol] : pou->members)
+           sorted.emplace(key->lower, symbol);
+         return sorted;
+       }())) {
+    const Symbol *inherited = findVariable(pou->base, member->name.id);
+    const Symbol *other = memberNamed(pou->base, member->name.id);
+    if (inherited == nullptr && other != nullptr && other->kind != member->kind)
+      inherited = other; // a method where the base has a property
+    if (inherited != nullptr && where(inherited) != nullptr)
+      clash(member, inherited, where(inherited));
+  }
+}
+
+static void checkMethod(Context &c, PouSymbol *method) {
+  PouSymbol *owner = method->owner;
+  const std::string name(method->name.text);
+  const Span at = method->name.span;
+  if (isLifecycle(method) && owner->isBlock())
+    checkLifecycle(c, method);
+  if (owner->isInterface())
+    return;
+  if (method->isAbstract() && !method->decl->body.empty())
+    c.report(Code::modifierNotAllowed, at, "the ABSTRACT method `" + name + "` has a body",
+             "an abstract method has none")
+        .help("remove the statements, or the word ABSTRACT");
+  if (method->isAbstract() && !owner->isAbstract() && owner->isBlock()) {
+    auto &d =
+        c.report(Code::abstractInConcrete, at,
+                 "`" + name + "` is ABSTRACT, but `" + std::string(owner->name.text) + "` is not",
+                 "instances would have nothing to run here");
+    noteDeclaration(d, owner);
+    d.help("declare the block ABSTRACT: `FUNCTION_BLOCK ABSTRACT " + std::string(owner->name.text) +
+           "`");
+  }
+  if (method->isAbstract() && method->isFinal())
+    c.report(Code::modifierNotAllowed, at, "`" + name + "` cannot be ABSTRACT and FINAL",
+             "nobody could ever implement it");
+  const bool saysOverride = (method->decl->modifiers & modOverride) != 0;
+  const PouSymbol *base = method->overrides;
+  if (base == nullptr) {
+    if (saysOverride && !isLifecycle(method)) {
+      auto &d = c.report(Code::nothingOverridden, at,
+                         "`" + name + "` is declared OVERRIDE, but there is nothing to override",
+                         owner->base == nullptr
+                             ? "`" + std::string(owner->name.text) + "` extends no block"
+                             : "no block that `" + std::string(owner->name.text) +
+                                   "` extends has this method");
+      if (owner->base != nullptr) {
+        const auto similar = nearestMethod(owner->base, method->name);
+        if (!similar.empty())
+          d.help("a similar one exists: `" + similar + "`");
+      }
+    }
+    return;
+  }
+  if (base->isFinal()) {
+    auto &d = c.report(Code::finalMethod, at, "`" + memberName(base) + "` is FINAL",
+                       "it cannot be replaced");
+    d.label(base->name.span, "declared FINAL here");
+    return;
+  }
+  const Access own = memberAccess(method);
+  const Access inherited = memberAccess(base);
+  if (inherited == Access::privateA) {
+    auto &d = c.report(Code::inheritedName, at,
+                       "`" + memberName(base) + "` is PRIVATE and cannot be replaced",
+                       "this name is taken");
+    d.label(base->name.span, "declared PRIVATE here");
+    d.help("give it another name, or declare the base's method PROTECTED");
+    return;
+  }
+  if (reach(own) < reach(inherited)) {
+    auto &d = c.report(Code::accessNarrowed, at,
+                       "`" + memberName(method) + "` is " + std::string(accessName(own)) + ", `" +
+                           memberName(base) + "` is " + std::string(accessName(inherited)),
+                       "less visible than what it replaces");
+    d.label(base->name.span, "the replaced one");
+    d.help("declare it " + std::string(accessName(inherited)));
+  }
+  if (!sameSignature(method, base)) {
+    auto &d = c.report(Code::overrideMismatch, at,
+                       "`" + memberName(method) + "` does not fit `" + memberName(base) +
+                           "`, which it replaces",
+                       "`" + signatureText(method) + "`");
+    d.label(base->name.span, "`" + signatureText(base) + "`");
+    d.help("parameters and result must be the same, in the same order");
+  }
+}
+
+static std::string nearestMethod(const PouSymbol *pou, const Name &name) {
+  std::vector<std::string_view> names;
+  for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
+    for (const PouSymbol *m : p->methods)
+      names.push_back(m->name.text);
+  }
+  return std::string(nearest(name.text, names));
+}
+
+} // namespace stc::sema

@@ -1,0 +1,321 @@
+// Direct addresses: the places they name, and what may lie there.
+
+#include "compiler/semantics/config/config.hpp"
+
+#include "compiler/semantics/builtins/builtin_calls.hpp"
+#include "compiler/semantics/config/internal.hpp"
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/context/describe.hpp"
+#include "compiler/semantics/fold.hpp"
+#include "compiler/semantics/held.hpp"
+#include "compiler/semantics/locations.hpp"
+
+#include <algorithm>
+
+namespace stc::sema {
+
+using namespace ast;
+
+static bool locateType(Context &c, VarSymbol *variable, std::uint64_t bytes, bool isBool);
+
+namespace {
+
+/// Bytes of one area; an address behind is a slip of the pen.
+constexpr std::uint64_t kMaxArea = std::uint64_t{1} << 24;
+
+/// Pointers, references and instances cannot lie in memory that others write byte by byte.
+bool holdsAddress(const Type *type) {
+  return anyHeld(type, [](const Type *t, const VarSymbol *) {
+    return t->kind == TypeKind::structure  ? Held::inside
+           : isElementary(t) || isError(t) ? Held::over
+                                           : Held::found;
+  });
+}
+
+} // namespace
+
+std::optional<Location> locate(Context &c, const DirectAddress &address) {
+  Location at;
+  at.area = address.area == 'I' ? Area::input : address.area == 'Q' ? Area::output : Area::memory;
+  const std::string text(address.text);
+  std::span<const std::uint32_t> numbers = address.numbers;
+  if (numbers.empty())
+    return std::nullopt; // reported by the scanner
+  const Addressing addressing = c.program.settings.addressing;
+  const auto bit = [&](std::uint64_t base, std::uint32_t number,
+                       unsigned width) -> std::optional<Location> {
+    if (number >= width) {
+      auto &d = c.report(Code::addressBeyond, address.span,
+                         "`" + text + "` has no bit " + std::to_string(number),
+                         "the bits are 0 to " + std::to_string(width - 1));
+      if (address.size == 'X')
+        d.help("the number before the dot counts " +
+               std::string(width == 8 ? "bytes: this bit is `%" : "words: this bit is `%") +
+               address.area + 'X' + std::to_string(numbers.front() + number / width) + "." +
+               std::to_string(number % width) + "`");
+      return std::nullopt;
+    }
+    const std::uint64_t byte = base + number / 8;
+    if (byte >= kMaxArea) {
+      reserve(c, address, byte, 1);
+      return std::nullopt;
+    }
+    at.byte = static_cast<std::uint32_t>(byte);
+    at.bit = static_cast<std::int8_t>(number % 8);
+    return at;
+  };
+  const unsigned unit = unitBytes(address.size);
+  const auto byteOf = [&](std::uint32_t number) {
+    return addressing == Addressing::bytes ? std::uint64_t{number} : std::uint64_t{number} * unit;
+  };
+  if (address.size == 'X') {
+    if (numbers.size() == 3 && numbers.front() == 0)
+      numbers = numbers.subspan(1); // V2.3's number of the memory segment: there is one
+    if (numbers.size() == 1)
+      return bit(numbers[0] / 8, numbers[0] % 8, 8);
+    if (numbers.size() == 2)
+      return addressing == Addressing::words ? bit(std::uint64_t{numbers[0]} * 2, numbers[1], 16)
+                                             : bit(numbers[0], numbers[1], 8);
+  } else {
+    if (numbers.size() == 2)
+      return bit(byteOf(numbers[0]), numbers[1], unit * 8);
+    if (numbers.size() == 1) {
+      const std::uint64_t byte = byteOf(numbers[0]);
+      if (byte >= kMaxArea) {
+        reserve(c, address, byte, 1);
+        return std::nullopt;
+      }
+      at.byte = static_cast<std::uint32_t>(byte);
+      return at;
+    }
+  }
+  auto &d =
+      c.report(Code::addressBeyond, address.span,
+               "`" + text + "` does not name a place in the process image", "too many numbers");
+  d.note("addresses that follow the tree of a PLC configuration depend on its devices; here the "
+         "process image is one row of bytes");
+  d.help("write the byte and the bit: `%" + std::string(1, address.area) +
+         "X3.7`; or the unit: `%" + std::string(1, address.area) + "W3`");
+  return std::nullopt;
+}
+
+bool reserve(Context &c, const DirectAddress &address, std::uint64_t byte, std::uint64_t size) {
+  const std::size_t area = address.area == 'I' ? 0 : address.area == 'Q' ? 1 : 2;
+  const std::uint32_t configured = c.program.settings.imageBytes[area];
+  const std::uint64_t limit = configured != 0 ? configured : kMaxArea;
+  if (size > limit || byte > limit - size) {
+    const char *const kKeys[] = {"inputs", "outputs", "memory"};
+    auto &d = c.report(Code::addressBeyond, address.span,
+                       "`" + std::string(address.text) + "` lies behind the end of the " +
+                           std::string(areaName(static_cast<Area>(area))) + " area",
+                       size <= 1 ? "this is byte " + std::to_string(byte)
+                                 : "bytes " + std::to_string(byte) + " to " +
+                                       std::to_string(byte + size - 1));
+    if (configured != 0)
+      d.help("stride.toml gives the area " + std::to_string(configured) + " bytes: enlarge `" +
+             kKeys[area] + "` in [image]");
+    else
+      d.note("an area holds 16,777,216 bytes at most");
+    return false;
+  }
+  std::uint32_t &bytes = c.program.image.bytes[area];
+  bytes = std::max(bytes, static_cast<std::uint32_t>(byte + size));
+  return true;
+}
+
+const Type *checkDirect(Context &c, DirectExpr *expr) {
+  const Type *error = elementaryType(TypeKind::error);
+  const DirectAddress &address = *expr->address;
+  if (address.incomplete) {
+    c.report(Code::addressNotAllowed, expr->span,
+             "`" + std::string(address.text) + "` does not say where: it cannot be used as a value",
+             "this address has no number")
+        .help("give the number, `%" + std::string(1, address.area) +
+              "W0`; or declare a variable `x AT " + std::string(address.text) + " : …`");
+    return error;
+  }
+  const auto at = locate(c, address);
+  if (!at)
+    return error;
+  const unsigned bytes = at->bit >= 0 ? 1 : unitBytes(address.size);
+  if (!reserve(c, address, at->byte, bytes))
+    return error;
+  if (!c.scope.module->library->isUser) {
+    c.report(Code::addressNotAllowed, expr->span, "a library cannot use a direct address",
+             "belongs to the project")
+        .help("pass the value as a parameter");
+    return error;
+  }
+  expr->location = c.arena.make<Location>(*at);
+  if (at->bit >= 0)
+    return elementaryType(TypeKind::boolean);
+  return elementaryType(bytes == 1   ? TypeKind::byte
+                        : bytes == 2 ? TypeKind::word
+                        : bytes == 4 ? TypeKind::dword
+                                     : TypeKind::lword);
+}
+
+void placeVariable(Context &c, VarSymbol *variable) {
+  const VarDecl *decl = variable->decl;
+  const DirectAddress &address = *decl->address;
+  const std::string name(variable->name.text);
+  const auto refuse = [&](std::string message, std::string label) -> Diagnostic & {
+    return c.report(Code::addressNotAllowed, address.span, std::move(message), std::move(label));
+  };
+  if (variable->owner == nullptr && variable->globals == nullptr) {
+    refuse("the field `" + name + "` of a structure cannot have an address", "belongs to no place")
+        .help("give the address to the variable of the structure's type");
+    return;
+  }
+  const DeclKind owner =
+      variable->owner == nullptr ? DeclKind::globals : variable->owner->decl->kind;
+  if (owner != DeclKind::globals && owner != DeclKind::program &&
+      owner != DeclKind::functionBlock && owner != DeclKind::classD) {
+    refuse("a variable of " + describe(variable->owner) + " cannot have an address",
+           "it exists only during the call")
+        .help("declare it in VAR_GLOBAL, or in the VAR of a program or function block");
+    return;
+  }
+  if (owner != DeclKind::globals && decl->section != Section::local &&
+      (decl->section != Section::stat || address.incomplete)) {
+    refuse("only variables of VAR and VAR_GLOBAL can have an address",
+           "`" + name + "` is declared in another section");
+    return;
+  }
+  if (variable->isConstant) {
+    refuse("the constant `" + name + "` cannot have an address", "a constant is not stored")
+        .help("remove CONSTANT");
+    return;
+  }
+  if (!variable->library->isUser && !address.incomplete) {
+    refuse("a library cannot use a direct address", "belongs to the project");
+    return;
+  }
+  const Type *type = variable->type;
+  if (isError(type))
+    return;
+  if (holdsAddress(type)) {
+    c.report(Code::addressType, address.span,
+             "a variable of type " + typeName(type) + " cannot lie in the process image",
+             "holds addresses of other variables")
+        .note("the process image is memory that the devices and other variables write byte by "
+              "byte");
+    return;
+  }
+  const bool isBool = type->kind == TypeKind::boolean;
+  const std::uint64_t bytes = c.storage.of(type).size;
+  // A letter behind `%I` is optional in front of `*`.
+  const bool letter = !address.incomplete || (address.text.size() > 2 && address.text[2] != '*');
+  const auto place = letter ? locateType(c, variable, bytes, isBool) : true;
+  if (!place)
+    return;
+  Location at;
+  if (address.incomplete) {
+    at.area = address.area == 'I' ? Area::input : address.area == 'Q' ? Area::output : Area::memory;
+    at.isSlot = true;
+    at.bit = isBool ? 0 : -1;
+    variable->location = c.arena.make<Location>(at);
+    return;
+  }
+  const auto found = locate(c, address);
+  if (!found)
+    return;
+  if (found->bit >= 0 && !isBool) { // `%MW3.2`
+    c.report(Code::addressType, address.span,
+             "`" + std::string(address.text) + "` is a single bit, `" + name + "` is " +
+                 typeName(type),
+             "only a BOOL fits into a bit");
+    return;
+  }
+  if (!reserve(c, address, found->byte, found->bit >= 0 ? 1 : bytes))
+    return;
+  variable->location = c.arena.make<Location>(*found);
+}
+
+/// Whether the letter of the address suits the type.
+static bool locateType(Context &c, VarSymbol *variable, std::uint64_t bytes, bool isBool) {
+  const DirectAddress &address = *variable->decl->address;
+  const Type *type = variable->type;
+  if (address.size == 'X' && !isBool) {
+    auto &d = c.report(Code::addressType, address.span,
+                       "`" + std::string(address.text) + "` is a single bit, `" +
+                           std::string(variable->name.text) + "` is " + typeName(type),
+                       "only a BOOL fits into a bit");
+    d.help(std::string("write the size of the type: `%") + address.area +
+           (isElementary(type) ? sizeLetter(bytes) : 'B') + "…`");
+    return false;
+  }
+  if (isBool || !isElementary(type) || isString(type) || address.size == sizeLetter(bytes))
+    return true;
+  c.report(Code::addressSize, address.span,
+           "`" + std::string(address.text) + "` is " + std::to_string(unitBytes(address.size) * 8) +
+               " bits wide, " + typeName(type) + " is " + std::to_string(bytes * 8),
+           "`" + std::string(variable->name.text) + "` begins there and is " +
+               std::to_string(bytes * 8) + " bits wide")
+      .help(std::string("write `%") + address.area + sizeLetter(bytes) +
+            "…` for a variable of this type");
+  return true;
+}
+
+void reportInputWritten(Context &c, const Expr *expr, const Location &at) {
+  if (at.area != Area::input)
+    return;
+  c.report(Code::inputWritten, expr->span, "this writes to an input",
+           "the device overwrites it at the start of the next cycle")
+      .help("write to an output (%Q) or to memory (%M)");
+}
+
+const Type *checkBitAddress(Context &c, CallExpr *expr) {
+  const Type *error = elementaryType(TypeKind::error);
+  if (!requireCount(c, expr, 1, 1))
+    return error;
+  const Expr *value = expr->arguments[0].value;
+  const Location *at = locationOf(value);
+  if (at == nullptr || at->isSlot)
+    return argumentError(c, expr, 0, "a variable with an address (`AT %IX2.3`)");
+  // The highest four bits name the area.
+  constexpr std::int64_t kAreas[] = {0x80000000LL, 0xC0000000LL, 0x40000000LL};
+  const std::int64_t bit = std::int64_t{at->byte} * 8 + std::max<std::int64_t>(at->bit, 0);
+  expr->constant = c.makeConstant(integerValue(kAreas[static_cast<std::size_t>(at->area)] + bit));
+  return elementaryType(TypeKind::dword);
+}
+
+void checkRetain(Context &c, const VarSymbol *variable) {
+  if (variable->decl == nullptr ||
+      (variable->decl->qualifiers & (qualRetain | qualPersistent)) == 0)
+    return;
+  const bool perCall =
+      variable->section == Section::temp || variable->section == Section::inOut ||
+      (variable->owner != nullptr && variable->owner->type == nullptr &&
+       variable->section != Section::stat && variable->section != Section::instance);
+  const Location *const at = variable->location;
+  const bool input = at != nullptr && at->area == Area::input;
+  if (!perCall && !variable->isConstant && !input) {
+    if (at != nullptr && at->isSlot)
+      c.report(Code::retainWithoutEffect, variable->name.span,
+               "`" + std::string(variable->name.text) + "` is not retained",
+               "VAR_CONFIG says where it lies, and such places are not saved")
+          .help(
+              "declare it at an address of its own (`AT %MW3`), which is saved, or without AT; or "
+              "remove RETAIN or PERSISTENT");
+    return;
+  }
+  c.report(Code::retainWithoutEffect, variable->name.span,
+           "`" + std::string(variable->name.text) + "` has no value to retain",
+           perCall                ? "it lives only during a call"
+           : variable->isConstant ? "a constant never changes"
+                                  : "the device gives its value in every cycle")
+      .help("remove RETAIN or PERSISTENT, or declare the variable in a section without it");
+}
+
+void finishImage(Context &c) {
+  Image &image = c.program.image;
+  for (std::size_t area = 0; area < image.bytes.size(); ++area) {
+    std::uint32_t &bytes = image.bytes[area];
+    bytes = (std::max(bytes, c.program.settings.imageBytes[area]) + 7) / 8 * 8;
+    if (bytes != 0)
+      image.types[area] = c.types.array(elementaryType(TypeKind::byte), 0, std::int64_t{bytes} - 1);
+  }
+}
+
+} // namespace stc::sema

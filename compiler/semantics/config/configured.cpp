@@ -1,0 +1,207 @@
+// VAR_CONFIG: variables placed and initialised from the outside, instance by instance.
+
+#include "compiler/semantics/config/config.hpp"
+
+#include "compiler/semantics/config/internal.hpp"
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/context/describe.hpp"
+#include "compiler/semantics/declarations/declarations.hpp"
+#include "compiler/semantics/locations.hpp"
+#include "compiler/semantics/types/resolve.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace stc::sema {
+
+using namespace ast;
+
+namespace {
+
+constexpr std::size_t kMaxShown = 8;
+
+} // namespace
+
+static void checkConfigEntry(Context &c, VarDecl *decl, Module &module,
+                             std::vector<SlotPlace> &slots) {
+  const auto target = resolvePath(c, decl->path, module);
+  const Type *type = resolveType(c, decl->type, "config");
+  if (!target || isError(type) || isError(target->type))
+    return;
+  VarSymbol *variable = target->variable;
+  const std::string path = pathText(target->path);
+  const auto mismatch = [&](Span where, std::string message, std::string label) {
+    auto &d = c.report(Code::configMismatch, where, std::move(message), std::move(label));
+    if (variable != nullptr)
+      noteDeclaration(d, variable);
+  };
+  // What has an entry, be it wrong, is not missing.
+  const std::string key = lowerCase(path);
+  const auto slot = std::find_if(slots.begin(), slots.end(), [&](const SlotPlace &s) {
+    return lowerCase(pathText(s.path)) == key;
+  });
+  if (slot != slots.end()) {
+    if (slot->decl != nullptr) {
+      auto &d = c.report(Code::configMismatch, decl->path->span,
+                         "`" + path + "` gets a place twice", "placed again here");
+      d.label(slot->decl->path->span, "placed first here");
+      return;
+    }
+    slot->decl = decl;
+  }
+  if (type != target->type) {
+    mismatch(decl->type->span,
+             "`" + path + "` is " + typeName(target->type) + ", not " + typeName(type),
+             "this type differs from the variable's");
+    return;
+  }
+  if (decl->init != nullptr)
+    decl->init = checkInit(c, decl->init, type);
+  const bool isSlot = slot != slots.end();
+  if (decl->address == nullptr) {
+    if (isSlot)
+      mismatch(decl->path->span, "the entry for `" + path + "` gives no address",
+               "where does it lie?");
+    else
+      c.program.slotPlaces.push_back({target->path, nullptr, {}, decl, true});
+    return;
+  }
+  const DirectAddress &address = *decl->address;
+  if (!isSlot) {
+    mismatch(address.span, "`" + path + "` is not declared with `*`: it has a place already",
+             "another place");
+    return;
+  }
+  if (address.incomplete) {
+    mismatch(address.span, "`" + std::string(address.text) + "` does not say where",
+             "a number is needed here");
+    return;
+  }
+  if (address.area != areaLetter(variable->location->area)) {
+    mismatch(address.span,
+             "`" + path + "` is declared as `%" + areaLetter(variable->location->area) +
+                 "*` and cannot lie at `" + std::string(address.text) + "`",
+             "another area");
+    return;
+  }
+  const bool isBool = type->kind == TypeKind::boolean;
+  const auto at = locate(c, address);
+  if (!at)
+    return;
+  const StorageExtent extent = c.storage.of(type);
+  if ((at->bit >= 0) != isBool) {
+    auto &d =
+        c.report(Code::addressType, address.span,
+                 isBool ? "`" + std::string(address.text) + "` is no single bit"
+                        : "`" + std::string(address.text) + "` is a single bit, `" + path +
+                              "` is " + typeName(type),
+                 isBool ? "a BOOL declared with `*` needs a bit" : "only a BOOL fits into a bit");
+    if (isBool)
+      d.help("write the bit: `%" + std::string(1, address.area) + "X0.0`");
+    return;
+  }
+  if (!isBool && at->byte % extent.align != 0) {
+    c.report(Code::misaligned, address.span,
+             "`" + path + "` must lie at a multiple of " + std::to_string(extent.align) + " bytes",
+             "this is byte " + std::to_string(at->byte))
+        .note("the code of a function block is the same for all instances");
+    return;
+  }
+  if (!reserve(c, address, at->byte, isBool ? 1 : extent.size))
+    return;
+  slot->at = *at;
+  slot->placed = true;
+}
+
+static void reportMissingPlaces(Context &c, const std::vector<SlotPlace> &slots) {
+  std::map<const VarSymbol *, std::vector<const SlotPlace *>> missing;
+  std::vector<const VarSymbol *> order;
+  for (const SlotPlace &slot : slots) {
+    if (slot.decl != nullptr)
+      continue;
+    auto &list = missing[slot.variable];
+    if (list.empty())
+      order.push_back(slot.variable);
+    list.push_back(&slot);
+  }
+  std::array<std::uint64_t, 3> next{}; // proposals lie behind everything that is used
+  for (std::size_t area = 0; area < next.size(); ++area)
+    next[area] = c.program.image.bytes[area];
+  if (slots.size() > kMaxSlots) {
+    const VarSymbol *v = slots.back().variable;
+    c.report(Code::placeMissing, v->decl->address->span,
+             "more than " + std::to_string(kMaxSlots) + " variables need a place of VAR_CONFIG",
+             "`" + std::string(v->name.text) + "` is one of them, in each instance");
+    return;
+  }
+  for (const VarSymbol *v : order) {
+    const auto &list = missing[v];
+    auto &d = c.report(Code::placeMissing, v->decl->address->span,
+                       list.size() == 1 ? "`" + pathText(list.front()->path) + "` has no place"
+                                        : "`" + std::string(v->name.text) + "` has no place in " +
+                                              std::to_string(list.size()) + " instances",
+                       "VAR_CONFIG must say where it lies");
+    std::string text = "add\nVAR_CONFIG\n";
+    std::uint64_t &free = next[static_cast<std::size_t>(v->location->area)];
+    for (std::size_t i = 0; i < list.size() && i < kMaxShown; ++i) {
+      Location at = *v->location;
+      at.isSlot = false;
+      const StorageExtent extent = c.storage.of(v->type);
+      free = (free + extent.align - 1) / extent.align * extent.align;
+      at.byte = static_cast<std::uint32_t>(free);
+      free += std::max<std::uint64_t>(extent.size, 1);
+      text += "  " + pathText(list[i]->path) + " AT " +
+              addressText(at, extent.align, c.program.settings.addressing) + " : " +
+              typeName(v->type) + ";\n";
+    }
+    if (list.size() > kMaxShown)
+      text += "  // and " + std::to_string(list.size() - kMaxShown) + " more\n";
+    d.help(text + "END_VAR");
+  }
+}
+
+void checkConfigured(Context &c, Module &module) {
+  const ScopeGuard guard(c, {&module, nullptr});
+  std::vector<SlotPlace> slots;
+  for (PouSymbol *pou : module.library->pous) {
+    if (pou->decl->kind == DeclKind::program && !pou->isTemplate) {
+      StatePath path{pou, {}};
+      collectSlots(c, pou->type, path, slots);
+    }
+    for (const VarSymbol *v : pou->variables) {
+      const bool perCall = pou->isFunction() || v->section == Section::temp;
+      if ((perCall || v->section == Section::stat) && v->section != Section::inOut &&
+          v->type != nullptr && hasSlots(c, v->type))
+        c.report(Code::placeMissing, v->name.span,
+                 "no VAR_CONFIG can place the variables of `" + std::string(v->name.text) + "`",
+                 "`" + typeName(v->type) + "` has variables declared with `*`")
+            .help("declare the instance in the VAR of a program or function block, or in "
+                  "VAR_GLOBAL");
+    }
+  }
+  for (GlobalsSymbol *list : module.library->globals) {
+    for (VarSymbol *v : list->variables) {
+      if (v->type == nullptr)
+        continue;
+      StatePath path{v, {}};
+      if (v->location != nullptr && v->location->isSlot)
+        slots.push_back({path, v, {}, nullptr, false});
+      else
+        collectSlots(c, v->type, path, slots);
+    }
+  }
+  for (GlobalsDecl *list : c.configs) {
+    for (VarDecl *decl : list->variables) {
+      if (decl->path != nullptr)
+        checkConfigEntry(c, decl, module, slots);
+    }
+  }
+  reportMissingPlaces(c, slots);
+  for (SlotPlace &slot : slots) {
+    if (slot.placed)
+      c.program.slotPlaces.push_back(std::move(slot));
+  }
+  checkAccesses(c, module);
+}
+
+} // namespace stc::sema

@@ -1,0 +1,29 @@
+#pragma once
+// What the sources of this folder have in common.
+
+#include "compiler/semantics/context/context.hpp"
+
+namespace stc::sema {
+
+/// What an expression of VAR_CONFIG or VAR_ACCESS leads to.
+struct PathTarget {
+  StatePath path;
+  const Type *type = nullptr;
+  VarSymbol *variable = nullptr; ///< the last name; null for a program
+};
+
+/// Variables that VAR_CONFIG can place.
+inline constexpr std::size_t kMaxSlots = 65536;
+/// The place a complete address names; reports what names none.
+std::optional<Location> locate(Context &c, const ast::DirectAddress &address);
+/// Makes the area hold the bytes; false (and reported) when it cannot.
+bool reserve(Context &c, const ast::DirectAddress &address, std::uint64_t byte, std::uint64_t size);
+/// A value of the type holds variables declared `AT %I*`.
+bool hasSlots(Context &c, const Type *type);
+void collectSlots(Context &c, const Type *type, StatePath &path, std::vector<SlotPlace> &out);
+/// A variable by its path; `inside`: a program whose own variables can be named without it.
+std::optional<PathTarget> resolvePath(Context &c, ast::Expr *expr, Module &module,
+                                      const ast::PouDecl *inside = nullptr);
+void checkAccesses(Context &c, Module &module);
+
+} // namespace stc::sema

@@ -1,0 +1,163 @@
+// The paths of VAR_CONFIG and VAR_ACCESS, `Main.fbs[3].in`.
+
+#include "compiler/semantics/config/internal.hpp"
+
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/context/describe.hpp"
+#include "compiler/semantics/declarations/declarations.hpp"
+#include "compiler/semantics/expressions/expressions.hpp"
+#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/suggest.hpp"
+
+#include <algorithm>
+
+namespace stc::sema {
+
+using namespace ast;
+
+/// The object of a path's first name; null (and reported) when there is none.
+static Symbol *pathRoot(Context &c, const Name &name, Module &module) {
+  Symbol *symbol = lookupInModule(module, name.id);
+  if (symbol == nullptr) {
+    for (const auto &[id, list] : module.lists) {
+      const auto it = list->scope.find(name.id);
+      if (it != list->scope.end())
+        symbol = it->second;
+    }
+  }
+  const bool good =
+      symbol != nullptr && (symbol->kind == SymbolKind::variable ||
+                            (symbol->kind == SymbolKind::pou &&
+                             static_cast<PouSymbol *>(symbol)->decl->kind == DeclKind::program));
+  if (good)
+    return symbol;
+  auto &d = c.report(Code::configPath, name.span,
+                     "there is no program or global variable `" + std::string(name.text) + "`",
+                     symbol == nullptr ? "not found" : "this is " + describe(symbol));
+  std::vector<std::string_view> names;
+  for (const auto &[id, other] : module.names) {
+    if (other->kind == SymbolKind::variable ||
+        (other->kind == SymbolKind::pou &&
+         static_cast<PouSymbol *>(other)->decl->kind == DeclKind::program))
+      names.push_back(other->name.text);
+  }
+  std::sort(names.begin(), names.end());
+  if (const auto similar = nearest(name.text, names); !similar.empty())
+    d.help("a similar name exists: `" + std::string(similar) + "`");
+  return nullptr;
+}
+
+/// The path of a program's own variable; nothing if it has none of that name.
+static std::optional<PathTarget> ownVariable(Context &c, const PouDecl &program, const Name &name,
+                                             Module &module) {
+  const auto found = module.names.find(program.name.id);
+  if (found == module.names.end() || found->second->kind != SymbolKind::pou)
+    return std::nullopt;
+  auto *pou = static_cast<PouSymbol *>(found->second);
+  declare(c, pou);
+  VarSymbol *variable = pou->isTemplate ? nullptr : findMember(c, pou->type, name.id);
+  if (variable == nullptr || variable->section == Section::temp ||
+      variable->section == Section::stat || variable->section == Section::external)
+    return std::nullopt;
+  PathTarget target;
+  target.path = {pou, {{variable, 0}}};
+  target.variable = variable;
+  target.type = typeOf(c, variable);
+  return target;
+}
+
+std::optional<PathTarget> resolvePath(Context &c, Expr *expr, Module &module,
+                                      const PouDecl *inside) {
+  const auto start = [&](const Name &name) -> std::optional<PathTarget> {
+    if (auto own = inside == nullptr ? std::nullopt : ownVariable(c, *inside, name, module))
+      return own;
+    Symbol *root = pathRoot(c, name, module);
+    if (root == nullptr)
+      return std::nullopt;
+    PathTarget target;
+    target.path.root = root;
+    if (root->kind == SymbolKind::variable) {
+      target.variable = static_cast<VarSymbol *>(root);
+      target.type = typeOf(c, target.variable);
+    } else {
+      declare(c, static_cast<PouSymbol *>(root));
+      target.type = static_cast<PouSymbol *>(root)->type;
+    }
+    return target;
+  };
+  switch (expr->kind) {
+  case ExprKind::name:
+    return start(as<NameExpr>(expr)->name);
+  case ExprKind::member: {
+    auto *member = as<MemberExpr>(expr);
+    if (!member->name)
+      break;
+    // In front may stand the configuration's, a resource's or a variable list's name.
+    if (member->base->kind == ExprKind::name) {
+      const Name &first = as<NameExpr>(member->base)->name;
+      if (lookupInModule(module, first.id) == nullptr &&
+          (c.resourceNames.contains(first.id) || module.lists.contains(first.id)))
+        return start(member->name);
+    } else if (member->base->kind == ExprKind::member) {
+      auto *second = as<MemberExpr>(member->base);
+      if (second->base->kind == ExprKind::name && second->name &&
+          c.resourceNames.contains(as<NameExpr>(second->base)->name.id) &&
+          c.resourceNames.contains(second->name.id))
+        return start(member->name);
+    }
+    auto base = resolvePath(c, member->base, module, inside);
+    if (!base || isError(base->type))
+      return std::nullopt;
+    VarSymbol *found = findMember(c, base->type, member->name.id);
+    if (found == nullptr || found->section == Section::inOut || found->section == Section::temp ||
+        found->section == Section::stat || found->section == Section::external || found->isResult) {
+      auto &d = c.report(Code::configPath, member->name.span,
+                         "`" + typeName(base->type) + "` has no variable `" +
+                             std::string(member->name.text) + "`" +
+                             (found != nullptr ? " of its own" : ""),
+                         "not found");
+      if (found == nullptr)
+        helpMembers(d, member->name, memberNames(base->type));
+      return std::nullopt;
+    }
+    base->type = typeOf(c, found);
+    base->variable = found;
+    base->path.steps.push_back({found, 0});
+    return base;
+  }
+  case ExprKind::index: {
+    auto *index = as<IndexExpr>(expr);
+    auto base = resolvePath(c, index->base, module, inside);
+    for (Expr *i : index->indices) {
+      const auto value = constantInteger(c, i, "an index in a path");
+      if (!value || !base || isError(base->type))
+        return std::nullopt;
+      if (base->type->kind != TypeKind::array) {
+        c.report(Code::configPath, index->base->span, typeName(base->type) + " is not an array",
+                 "cannot be indexed");
+        return std::nullopt;
+      }
+      const auto *array = typeAs<ArrayType>(base->type);
+      if (*value < array->low || *value > array->high) {
+        c.report(Code::configPath, i->span,
+                 "index " + std::to_string(*value) + " is outside of the array",
+                 "the bounds are " + std::to_string(array->low) + ".." +
+                     std::to_string(array->high));
+        return std::nullopt;
+      }
+      base->path.steps.push_back({nullptr, static_cast<std::uint64_t>(*value - array->low)});
+      base->type = array->element;
+    }
+    return base;
+  }
+  case ExprKind::error:
+    return std::nullopt;
+  default:
+    break;
+  }
+  c.report(Code::configPath, expr->span, "this is not the path of a variable",
+           "write `Program.instance.variable`");
+  return std::nullopt;
+}
+
+} // namespace stc::sema

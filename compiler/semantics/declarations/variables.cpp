@@ -1,0 +1,88 @@
+// Variables: VAR sections become symbols with types.
+
+#include "compiler/semantics/declarations/declarations.hpp"
+
+#include "compiler/semantics/attributes.hpp"
+#include "compiler/semantics/config/config.hpp"
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/context/describe.hpp"
+#include "compiler/semantics/declarations/internal.hpp"
+#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/types/resolve.hpp"
+
+namespace stc::sema {
+
+using namespace ast;
+
+VarSymbol *makeVariable(Context &c, VarDecl *decl, Module &module, PouSymbol *owner) {
+  auto *symbol = c.arena.make<VarSymbol>();
+  symbol->kind = SymbolKind::variable;
+  symbol->name = decl->name;
+  symbol->library = module.library;
+  symbol->decl = decl;
+  symbol->section = decl->section;
+  symbol->owner = owner;
+  symbol->isConstant = (decl->qualifiers & qualConstant) != 0;
+  symbol->hidden = hasAttribute(decl->attributes, "hide");
+  decl->symbol = symbol;
+  return symbol;
+}
+
+const Type *typeOf(Context &c, VarSymbol *variable) {
+  if (variable->type != nullptr)
+    return variable->type;
+  if (variable->typeRunning) {
+    c.report(Code::circularConstant, variable->name.span,
+             "the type of `" + std::string(variable->name.text) + "` depends on its own value",
+             "declared here");
+    variable->type = elementaryType(TypeKind::error);
+    return variable->type;
+  }
+  variable->typeRunning = true;
+  const ModeGuard programs(c.programTypes, isProgramInstance(variable));
+  const ScopeGuard guard(c, {&moduleOf(c, variable), variable->owner, variable->home});
+  const TypeExpr *inOutType = variable->section == Section::inOut ? variable->decl->type : nullptr;
+  const ModeGuard openArrays(c.openArrayAllowed, inOutType);
+  const Symbol *home =
+      variable->owner != nullptr ? static_cast<const Symbol *>(variable->owner) : variable->globals;
+  const std::string hint = std::string(home->name.text) + "__" + std::string(variable->name.text);
+  const bool ofBlock =
+      variable->owner != nullptr && variable->owner->isBlock() &&
+      (variable->section == Section::local || variable->section == Section::input ||
+       variable->section == Section::output);
+  const Type *type =
+      ofBlock ? resolveMember(c, variable, hint) : resolveType(c, variable->decl->type, hint);
+  if (variable->type == nullptr)
+    variable->type = type;
+  variable->typeRunning = false;
+  if (variable->decl->address != nullptr)
+    placeVariable(c, variable);
+  checkRetain(c, variable);
+  return variable->type;
+}
+
+void bindExternal(Context &c, PouSymbol *pou, VarDecl *decl) {
+  Symbol *global = lookupInModule(*c.scope.module, decl->name.id);
+  if (global == nullptr)
+    global = lookupInLibraries(c, decl->name.id);
+  if (global == nullptr || global->kind != SymbolKind::variable) {
+    c.report(Code::externalMismatch, decl->name.span,
+             "there is no global variable `" + std::string(decl->name.text) + "`",
+             "declared as external here")
+        .help("declare it in a VAR_GLOBAL list");
+    return;
+  }
+  auto *variable = static_cast<VarSymbol *>(global);
+  typeOf(c, variable);
+  const Type *type = resolveType(c, decl->type, {});
+  if (type != variable->type && !isError(type) && !isError(variable->type)) {
+    auto &d = c.report(Code::externalMismatch, decl->type->span,
+                       "`" + std::string(decl->name.text) + "` is " + typeName(variable->type) +
+                           ", not " + typeName(type),
+                       "this type differs from the global variable's");
+    noteDeclaration(d, variable);
+  }
+  pou->scope.emplace(decl->name.id, variable);
+}
+
+} // namespace stc::sema

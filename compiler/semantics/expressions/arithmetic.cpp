@@ -1,0 +1,157 @@
+// Arithmetic of numbers, times and dates.
+
+#include "compiler/semantics/expressions/internal.hpp"
+
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/conversions.hpp"
+#include "compiler/semantics/expressions/expressions.hpp"
+
+namespace stc::sema {
+
+using namespace ast;
+
+static const Type *checkTimeArithmetic(Context &c, BinaryExpr *expr);
+
+const Type *unwidened(const Expr *e) {
+  // What is LREAL stays LREAL; its `common` only keeps an assignment to REAL silent.
+  return e->common != nullptr && !isReal(e->type) ? e->common : underlying(e->type);
+}
+
+/// Gives untyped constants the type of the other side where they fit.
+const Type *commonOf(Expr *a, Expr *b) {
+  const auto typeOfOperand = [](Expr *e, const Expr *other) -> const Type * {
+    if (e->type->kind == TypeKind::anyReal)
+      return isReal(underlying(other->type)) ? underlying(other->type)
+                                             : elementaryType(TypeKind::lreal);
+    if (e->type->kind == TypeKind::anyInteger) {
+      const Type *o = unwidened(other);
+      if (other->type->kind == TypeKind::anyReal)
+        return elementaryType(TypeKind::lreal);
+      if ((isInteger(o) || isReal(o)) && constantFits(*e->constant, e->type, o))
+        return o;
+      return smallestInteger(e->constant->integer);
+    }
+    return unwidened(e);
+  };
+  return commonNumber(typeOfOperand(a, b), typeOfOperand(b, a));
+}
+
+const Type *checkArithmetic(Context &c, BinaryExpr *expr) {
+  const Type *l = underlying(expr->left->type);
+  const Type *r = underlying(expr->right->type);
+  if (refuseStrict(c, expr->left) || refuseStrict(c, expr->right))
+    return elementaryType(TypeKind::error);
+  if (isTimeOrDate(l) || isTimeOrDate(r))
+    return checkTimeArithmetic(c, expr);
+  if (l->kind == TypeKind::pointer || r->kind == TypeKind::pointer)
+    return checkPointerArithmetic(c, expr);
+  if (!isNumber(l) || !isNumber(r))
+    return operatorError(c, expr);
+  if (l->kind == TypeKind::anyInteger && r->kind == TypeKind::anyInteger) {
+    expr->operandType = l;
+  } else if (isUntyped(l) && isUntyped(r)) {
+    expr->operandType = elementaryType(TypeKind::anyReal);
+  } else {
+    const Type *common = commonOf(expr->left, expr->right);
+    if (common == nullptr) {
+      auto &d = c.report(Code::signedWithUlint, expr->opSpan,
+                         "no integer type holds both " + typeName(expr->left->type) + " and " +
+                             typeName(expr->right->type),
+                         "signed and 64-bit unsigned values cannot be mixed");
+      d.label(expr->left->span, typeName(expr->left->type));
+      d.label(expr->right->span, typeName(expr->right->type));
+      d.help("convert one of them: `" + typeName(l) + "_TO_" + typeName(r) + "(…)`");
+      return elementaryType(TypeKind::error);
+    }
+    const auto narrow = [](const Expr *e) {
+      return isUntyped(e->type) || (e->common != nullptr && e->common->kind == TypeKind::real);
+    };
+    const bool constants =
+        common->kind == TypeKind::lreal && narrow(expr->left) && narrow(expr->right);
+    expr->common = constants ? elementaryType(TypeKind::real) : common;
+    const Type *operation = widened(common);
+    // An operand that had been widened already keeps its width (a*b + c).
+    for (const Expr *e : {expr->left, expr->right}) {
+      if (isInteger(operation) && isInteger(underlying(e->type)) && !isUntyped(e->type)) {
+        if (const Type *both = commonNumber(operation, underlying(e->type)))
+          operation = both;
+      }
+    }
+    expr->operandType = operation;
+  }
+  if (expr->op == BinaryOp::modulo &&
+      (isReal(expr->operandType) || expr->operandType->kind == TypeKind::anyReal)) {
+    auto &d = c.report(Code::operatorNotDefined, expr->opSpan,
+                       "`MOD` is not defined for REAL and LREAL", "integers only");
+    d.help("for a real remainder use SMC_fmod(x, m) of SM_DriveBasic");
+    return elementaryType(TypeKind::error);
+  }
+  if ((expr->op == BinaryOp::divide || expr->op == BinaryOp::modulo) &&
+      expr->right->constant != nullptr && expr->right->constant->kind == ConstKind::integer &&
+      expr->right->constant->integer == 0 && !isReal(expr->operandType) &&
+      expr->operandType->kind != TypeKind::anyReal) {
+    c.report(Code::divisionByZero, expr->right->span, "division by zero", "this is always 0");
+    return elementaryType(TypeKind::error);
+  }
+  if (!isUntyped(expr->operandType)) {
+    setTarget(expr->left, expr->operandType);
+    setTarget(expr->right, expr->operandType);
+  }
+  return expr->operandType;
+}
+
+static const Type *checkTimeArithmetic(Context &c, BinaryExpr *expr) {
+  const Type *l = underlying(expr->left->type);
+  const Type *r = underlying(expr->right->type);
+  const bool sum = expr->op == BinaryOp::add;
+  const bool difference = expr->op == BinaryOp::subtract;
+  using enum TypeKind;
+  // Durations with durations.
+  if (isDuration(l) && isDuration(r)) {
+    if (!sum && !difference && expr->op != BinaryOp::modulo)
+      return operatorError(c, expr);
+    expr->operandType = elementaryType(l->kind == ltime || r->kind == ltime ? ltime : time);
+    setTarget(expr->left, expr->operandType);
+    setTarget(expr->right, expr->operandType);
+    return expr->operandType;
+  }
+  // A duration times or divided by a number.
+  if ((isDuration(l) && isNumber(r) &&
+       (expr->op == BinaryOp::multiply || expr->op == BinaryOp::divide)) ||
+      (isNumber(l) && isDuration(r) && expr->op == BinaryOp::multiply)) {
+    Expr *number = isDuration(l) ? expr->right : expr->left;
+    if (isUntyped(number->type))
+      settle(number);
+    if (number->constant != nullptr && expr->op == BinaryOp::divide &&
+        number->constant->kind == ConstKind::integer && number->constant->integer == 0) {
+      c.report(Code::divisionByZero, number->span, "division by zero", "this is always 0");
+      return elementaryType(error);
+    }
+    return isDuration(l) ? l : r; // operandType stays null: the operands have different types
+  }
+  // Points in time plus or minus a duration; differences of points in time.
+  const bool pointLeft = isTimeOrDate(l) && !isDuration(l);
+  const bool pointRight = isTimeOrDate(r) && !isDuration(r);
+  if (pointLeft && isDuration(r) && l->kind != date && l->kind != ldate && (sum || difference))
+    return l;
+  if (pointLeft && pointRight && l == r && difference)
+    return elementaryType(l->kind == date || l->kind == tod || l->kind == dt ? time : ltime);
+  return operatorError(c, expr);
+}
+
+const Type *checkPower(Context &c, BinaryExpr *expr) {
+  const Type *l = underlying(expr->left->type);
+  const Type *r = underlying(expr->right->type);
+  if (!isNumber(l) || !isNumber(r))
+    return operatorError(c, expr);
+  expr->operandType = elementaryType(
+      l->kind == TypeKind::real && (r->kind == TypeKind::real || isUntyped(r)) ? TypeKind::real
+                                                                               : TypeKind::lreal);
+  if (isUntyped(l) && isUntyped(r)) // `r := 2.0 ** 0.5` is silent, as `r := 2.0` is
+    expr->common = elementaryType(TypeKind::real);
+  setTarget(expr->left, expr->operandType);
+  setTarget(expr->right, expr->operandType);
+  return expr->operandType;
+}
+
+} // namespace stc::sema

@@ -1,0 +1,247 @@
+// Implicit conversions and what is said about those that are not.
+
+#include "compiler/semantics/expressions/expressions.hpp"
+
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/context/describe.hpp"
+#include "compiler/semantics/conversions.hpp"
+#include "compiler/semantics/expressions/internal.hpp"
+#include "compiler/semantics/fold_builtins.hpp"
+
+namespace stc::sema {
+
+using namespace ast;
+
+namespace {
+
+std::string upper(std::string text) {
+  for (char &c : text) {
+    if (c >= 'a' && c <= 'z')
+      c = static_cast<char>(c - 'a' + 'A');
+  }
+  return text;
+}
+
+/// `DINT_TO_INT`, or nothing when no such function exists.
+std::string conversionFunction(const Type *from, const Type *to) {
+  from = underlying(from);
+  to = underlying(to);
+  if (!isElementary(from) || !isElementary(to) || from == to)
+    return {};
+  const auto plain = [](const Type *t) {
+    return t->kind == TypeKind::string    ? std::string("STRING")
+           : t->kind == TypeKind::wstring ? std::string("WSTRING")
+                                          : upper(typeName(t));
+  };
+  return plain(from) + "_TO_" + plain(to);
+}
+
+/// V2.3 stored AXIS_REF's values as REAL, Stride as LREAL; reading one into a REAL is not worth a
+/// warning.
+bool isAxisField(const Expr *expr) {
+  if (expr->kind != ExprKind::member)
+    return false;
+  const Type *base = as<MemberExpr>(expr)->base->type;
+  return base != nullptr && base->kind == TypeKind::structure &&
+         typeAs<StructType>(base)->symbol->name.id->lower == "axis_ref";
+}
+
+/// The expression's text where it is short enough to be shown inside of a proposal, else `…`.
+std::string excerpt(const SourceManager &sources, const Expr *expr) {
+  const std::string_view text = sources.text(expr->span);
+  const bool usable =
+      !text.empty() && text.size() <= 40 && text.find('\n') == std::string_view::npos;
+  return usable ? std::string(text) : "…";
+}
+
+/// `INT`, `an integer constant`
+std::string found(const Type *type) {
+  const std::string_view article = type->kind == TypeKind::anyInteger ? "an "
+                                   : type->kind == TypeKind::anyReal  ? "a "
+                                                                      : "";
+  return std::string(article) + typeName(type);
+}
+
+/// Something that ADR can be asked of, or a pointer can be followed from, without parentheses.
+bool isPath(const Expr *expr) {
+  return expr->kind == ExprKind::name || expr->kind == ExprKind::member ||
+         expr->kind == ExprKind::index || expr->kind == ExprKind::deref;
+}
+
+int rank(Conversion c) { return static_cast<int>(c); }
+
+} // namespace
+
+void setTarget(Expr *expr, const Type *type) {
+  if (type != expr->type)
+    expr->target = type;
+}
+
+const Type *settle(Expr *expr) {
+  if (expr->type->kind == TypeKind::anyReal) {
+    expr->target = elementaryType(TypeKind::lreal);
+  } else if (expr->type->kind == TypeKind::anyInteger) {
+    const Type *smallest = smallestInteger(expr->constant->integer);
+    expr->target = bitWidth(smallest) > 32 ? smallest : elementaryType(TypeKind::dint);
+    if (smallest->kind == TypeKind::udint)
+      expr->target = smallest;
+  }
+  return expr->target != nullptr ? expr->target : expr->type;
+}
+
+void coerce(Context &c, Expr *expr, const Type *type, std::string_view what) {
+  const Type *from = expr->type;
+  if (isError(from) || isError(type) || from == type)
+    return;
+  if (type->kind == TypeKind::reference)
+    type = typeAs<PointerType>(type)->pointee;
+  if (from == type || coercePointer(c, expr, type, what))
+    return;
+  if (coerceToInterface(c, expr, type))
+    return;
+  const auto strict = [](const Type *t) {
+    return t->kind == TypeKind::enumeration && typeAs<EnumType>(t)->strict;
+  };
+  if (strict(from) || strict(type)) {
+    const Type *named = strict(type) ? type : from;
+    const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
+    auto &d =
+        c.report(Code::strictEnumeration, expr->span,
+                 prefix + "`" + typeName(named) + "` is a strict enumeration: no conversion from " +
+                     typeName(from) + " to " + typeName(type),
+                 "this is " + typeName(from));
+    noteDeclaration(d, typeAs<EnumType>(named)->symbol);
+    if (strict(type))
+      d.help("use one of its enumerators: `" + typeName(type) + ".…`");
+    else
+      d.help("convert it if its number is meant: `TO_" + upper(typeName(underlying(type))) +
+             "(…)`");
+    return;
+  }
+  if (expr->constant != nullptr && constantFits(*expr->constant, from, type)) {
+    if (expr->constant->kind == ConstKind::string && isString(type)) {
+      const auto length = typeAs<StringType>(type)->length;
+      const std::string wanted =
+          std::to_string(textLength(expr->constant->text, type->kind == TypeKind::wstring));
+      if (std::stoul(wanted) > length)
+        c.report(Code::stringCut, expr->span,
+                 "the text has " + wanted + " characters but " + typeName(type) + " holds " +
+                     std::to_string(length),
+                 "the end is cut off")
+            .help("declare the string longer: `" +
+                  std::string(type->kind == TypeKind::wstring ? "W" : "") + "STRING(" + wanted +
+                  ")`");
+    }
+    setTarget(expr, type);
+    return;
+  }
+  if (from->kind == TypeKind::anyInteger || from->kind == TypeKind::anyReal) {
+    if (from->kind == TypeKind::anyInteger && isInteger(underlying(type)) &&
+        type->kind != TypeKind::enumeration) {
+      const IntegerRange range = integerRange(type);
+      c.report(Code::constantOverflow, expr->span,
+               "the constant " + std::to_string(expr->constant->integer) + " does not fit into " +
+                   typeName(type),
+               typeName(underlying(type)) + " holds " + std::to_string(range.low) + " to " +
+                   (range.high == -1 ? "18446744073709551615" : std::to_string(range.high)));
+      return;
+    }
+    const Type *own = from->kind == TypeKind::anyReal ? elementaryType(TypeKind::lreal)
+                                                      : smallestInteger(expr->constant->integer);
+    const Conversion kind = classify(own, type);
+    reportConversion(c, expr, from, type, kind == Conversion::lossy ? Conversion::narrowing : kind,
+                     what);
+    return;
+  }
+  Conversion conversion = classify(from, type);
+  // `i := i + 1` computes in DINT, but stays silent because all operands are INT.
+  if (expr->common != nullptr && expr->common != from) {
+    const Conversion ofCommon =
+        expr->common == type ? Conversion::identity : classify(expr->common, type);
+    if (rank(ofCommon) < rank(conversion))
+      conversion = ofCommon == Conversion::identity ? Conversion::free : ofCommon;
+  }
+  if (from->kind == TypeKind::lreal && type->kind == TypeKind::real && isAxisField(expr))
+    conversion = Conversion::free;
+  // A product is computed in its operands' type, however large the variable is that takes it.
+  if (expr->kind == ExprKind::binary && as<BinaryExpr>(expr)->op == BinaryOp::multiply &&
+      isInteger(from) && isInteger(underlying(type)) && bitWidth(type) > bitWidth(from)) {
+    auto &d = c.report(Code::computedNarrow, expr->span,
+                       "this product is computed in " + typeName(from) +
+                           " and only then widened to " + typeName(type),
+                       "wraps beyond " + std::to_string(bitWidth(from)) + " bits");
+    d.help("convert an operand first: `" + conversionFunction(from, type) + "(…) * …`");
+  }
+  if (conversion == Conversion::narrowing || conversion == Conversion::forbidden ||
+      conversion == Conversion::lossy)
+    reportConversion(c, expr, from, type, conversion, what);
+  if (conversion != Conversion::forbidden && conversion != Conversion::narrowing)
+    setTarget(expr, type);
+}
+
+void reportConversion(Context &c, Expr *expr, const Type *from, const Type *to,
+                      Conversion conversion, std::string_view what) {
+  const std::string function = conversionFunction(from, to);
+  const std::string text = excerpt(c.program.sources, expr);
+  const auto quoted = [&c](const Expr *literal, char quote) {
+    std::string source(c.program.sources.text(literal->span));
+    if (source.size() >= 2)
+      source.front() = source.back() = quote;
+    return source;
+  };
+  const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
+  if (conversion == Conversion::lossy) {
+    auto &d = c.report(Code::lossyConversion, expr->span,
+                       prefix + "implicit conversion from " + typeName(from) + " to " +
+                           typeName(to) + " may change the value",
+                       "this is " + typeName(from));
+    if (to->kind == TypeKind::enumeration)
+      d.help("assign one of the enumerators of " + typeName(to));
+    else if (!function.empty())
+      d.suggest("say that it is meant: `" + function + "(" + text + ")`", expr->span,
+                function + "(" + std::string(c.program.sources.text(expr->span)) + ")");
+    return;
+  }
+  if (conversion == Conversion::narrowing) {
+    auto &d = c.report(Code::narrowingConversion, expr->span,
+                       prefix + "cannot convert from " + typeName(from) + " to " + typeName(to) +
+                           " implicitly",
+                       "this is " + found(from) + ", " + typeName(to) + " is expected");
+    if (from->kind == TypeKind::anyReal && isInteger(underlying(to)))
+      d.help("write it without a fraction, or convert it: `LREAL_TO_" +
+             upper(typeName(underlying(to))) + "(…)`");
+    else if (to->kind == TypeKind::boolean && expr->constant != nullptr)
+      d.help("write TRUE or FALSE");
+    else if (to->kind == TypeKind::boolean)
+      d.help("compare it: `… <> 0`, or convert it" +
+             (function.empty() ? "" : ": `" + function + "(…)`"));
+    else if (to->kind == TypeKind::time && from->kind == TypeKind::anyInteger)
+      d.help("write a duration with its unit: `T#" + text + "ms`");
+    else if (expr->kind == ExprKind::literal && from->kind == TypeKind::wstring &&
+             to->kind == TypeKind::string && !function.empty())
+      d.suggest("a STRING stands in single quotes", expr->span, quoted(expr, '\''));
+    else if (expr->kind == ExprKind::literal && from->kind == TypeKind::string &&
+             to->kind == TypeKind::wstring)
+      d.suggest("a WSTRING stands in double quotes", expr->span, quoted(expr, '"'));
+    else if (!function.empty() && from->kind != TypeKind::anyInteger)
+      d.suggest("convert it: `" + function + "(" + text + ")`", expr->span,
+                function + "(" + std::string(c.program.sources.text(expr->span)) + ")");
+    return;
+  }
+  auto &d = c.report(Code::typeMismatch, expr->span,
+                     prefix + "expected " + typeName(to) + ", found " + found(from),
+                     "this is " + found(from));
+  const auto pointee = [](const Type *type) {
+    return type->kind == TypeKind::pointer ? typeAs<PointerType>(type)->pointee : nullptr;
+  };
+  const std::string source(c.program.sources.text(expr->span));
+  if (isInstance(from) && isElementary(to))
+    d.help("name one of its outputs: `….Q`");
+  else if (pointee(to) == from && isPath(expr))
+    d.suggest("take its address: `ADR(" + text + ")`", expr->span, "ADR(" + source + ")");
+  else if (pointee(from) != nullptr && isPath(expr) &&
+           (pointee(from) == to || classify(pointee(from), to) == Conversion::free))
+    d.suggest("follow the pointer: `" + text + "^`", expr->span, source + "^");
+}
+
+} // namespace stc::sema

@@ -1,0 +1,117 @@
+// Expressions: from the node to the function that checks it.
+
+#include "compiler/semantics/expressions/expressions.hpp"
+
+#include "compiler/semantics/calls/calls.hpp"
+#include "compiler/semantics/config/config.hpp"
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/expressions/internal.hpp"
+#include "compiler/source/stack.hpp"
+
+namespace stc::sema {
+
+using namespace ast;
+
+std::optional<std::int64_t> constantInteger(Context &c, Expr *expr, std::string_view what) {
+  const Type *type = check(c, expr);
+  if (isError(type))
+    return std::nullopt;
+  if (expr->constant == nullptr || expr->constant->kind != ConstKind::integer ||
+      !(type->kind == TypeKind::anyInteger || isInteger(underlying(type)))) {
+    c.report(Code::notConstant, expr->span, std::string(what) + " must be an integer constant",
+             expr->constant == nullptr ? "its value is only known at run time"
+                                       : "this is " + typeName(type))
+        .help("use a literal, or a variable declared in VAR CONSTANT or VAR_GLOBAL CONSTANT");
+    return std::nullopt;
+  }
+  if (type->kind == TypeKind::anyInteger)
+    settle(expr);
+  return expr->constant->integer;
+}
+
+const Type *check(Context &c, Expr *expr, const Type *expected) {
+  if (expected != nullptr && expected->kind == TypeKind::subrange)
+    expected = typeAs<SubrangeType>(expected)->base;
+  const Type *type = elementaryType(TypeKind::error);
+  if (stackIsShort(c.stackEnd)) { // constants in the values of constants add up
+    c.report(Code::tooDeep, expr->span, "this depends on too many other declarations",
+             "one leads to the next");
+    expr->type = type;
+    return type;
+  }
+  switch (expr->kind) {
+  case ExprKind::literal:
+    type = checkLiteral(c, as<Literal>(expr));
+    break;
+  case ExprKind::name:
+    type = checkName(c, as<NameExpr>(expr), expected);
+    break;
+  case ExprKind::member:
+    type = checkMember(c, as<MemberExpr>(expr));
+    break;
+  case ExprKind::index:
+    type = checkIndex(c, as<IndexExpr>(expr));
+    break;
+  case ExprKind::deref:
+    type = checkDeref(c, as<DerefExpr>(expr));
+    break;
+  case ExprKind::call: {
+    type = checkCall(c, as<CallExpr>(expr), false);
+    break;
+  }
+  case ExprKind::unary:
+    type = checkUnary(c, as<UnaryExpr>(expr), expected);
+    break;
+  case ExprKind::binary:
+    type = checkBinary(c, as<BinaryExpr>(expr), expected);
+    break;
+  case ExprKind::enumLiteral:
+    type = checkEnumLiteral(c, as<EnumLiteralExpr>(expr));
+    break;
+  case ExprKind::aggregate:
+    c.report(Code::aggregateNotAllowed, expr->span, "a list of values can only be an initial value",
+             "not an expression")
+        .help("assign the elements one by one");
+    break;
+  case ExprKind::direct:
+    type = checkDirect(c, as<DirectExpr>(expr));
+    break;
+  case ExprKind::typeName:
+    c.report(Code::notAVariable, expr->span, "a type is not a value", "a type stands here");
+    break;
+  case ExprKind::error:
+    break;
+  }
+  expr->type = type;
+  return type;
+}
+
+void checkAs(Context &c, Expr *expr, const Type *type, std::string_view what) {
+  check(c, expr, type);
+  coerce(c, expr, type, what);
+}
+
+void checkCondition(Context &c, Expr *expr, std::string_view what) {
+  const Type *boolean = elementaryType(TypeKind::boolean);
+  const Type *type = check(c, expr, boolean);
+  if (isError(type) || type == boolean)
+    return;
+  auto &d =
+      c.report(Code::conditionNotBool, expr->span,
+               std::string(what) + " must be BOOL, this is " + typeName(type), "expected BOOL");
+  if (isInteger(underlying(type)) || isReal(type) || type->kind == TypeKind::anyInteger ||
+      type->kind == TypeKind::pointer) {
+    const Span behind{expr->span.file, expr->span.end, expr->span.end};
+    const std::string_view text = c.program.sources.text(expr->span);
+    d.suggest("compare it with a value: `" + (text.size() <= 40 ? std::string(text) : "…") +
+                  " <> 0`",
+              behind, " <> 0");
+  }
+}
+
+const Type *checkTarget(Context &c, Expr *expr) {
+  const ModeGuard target(c.assignTarget, static_cast<const Expr *>(expr));
+  return check(c, expr);
+}
+
+} // namespace stc::sema

@@ -1,0 +1,42 @@
+#pragma once
+// Expressions.
+
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/conversions.hpp"
+
+namespace stc::sema {
+
+std::optional<std::int64_t> constantInteger(Context &c, ast::Expr *expr, std::string_view what);
+const Type *check(Context &c, ast::Expr *expr, const Type *expected = nullptr);
+/// `expr` whose base has been checked to be of type `base` and is no namespace.
+const Type *checkMemberOf(Context &c, ast::MemberExpr *expr, const Type *base);
+Symbol *resolveNamespace(Context &c, ast::Expr *expr);
+/// Checks `expr` and converts it to `type`.
+void checkAs(Context &c, ast::Expr *expr, const Type *type, std::string_view what);
+void checkCondition(Context &c, ast::Expr *expr, std::string_view what);
+bool requireVariable(Context &c, ast::Expr *expr, std::string_view what);
+/// Reports a variable that cannot be referred to because it is misaligned.
+bool requireAligned(Context &c, const ast::Expr *expr, std::string_view what);
+/// Reports a strict enumeration where a number is needed.
+bool refuseStrict(Context &c, ast::Expr *expr);
+/// Converts a checked expression to `type`; reports what does not convert.
+void coerce(Context &c, ast::Expr *expr, const Type *type, std::string_view what);
+void reportConversion(Context &c, ast::Expr *expr, const Type *from, const Type *to,
+                      Conversion conversion, std::string_view what);
+/// Gives an untyped constant a type of its own.
+const Type *settle(ast::Expr *expr);
+void setTarget(ast::Expr *expr, const Type *type);
+/// The expression names a REFERENCE (that is followed where its value is meant).
+bool isReference(ast::Expr *expr);
+void checkReferenceAssign(Context &c, ast::AssignStmt *stmt);
+/// Edition 3 writes `THIS.x` and `SUPER()` for what CODESYS writes as `THIS^.x` and `SUPER^()`.
+void followSelf(Context &c, ast::Expr *&expr);
+/// Reports a member that may not be used here.
+bool requireAccess(Context &c, Span span, const Symbol *member, const PouSymbol *owner,
+                   ast::Access access);
+/// A property is no variable: nothing can refer to it.
+bool rejectProperty(Context &c, const ast::Expr *expr, std::string_view action);
+/// Checks an expression that is going to be assigned to.
+const Type *checkTarget(Context &c, ast::Expr *expr);
+
+} // namespace stc::sema

@@ -1,0 +1,132 @@
+// `base.name`: members of variables, names of namespaces, lists and enumerations.
+
+#include "compiler/semantics/expressions/expressions.hpp"
+
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/context/describe.hpp"
+#include "compiler/semantics/declarations/declarations.hpp"
+#include "compiler/semantics/expressions/internal.hpp"
+#include "compiler/semantics/hierarchy.hpp"
+#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/types/resolve.hpp"
+
+namespace stc::sema {
+
+using namespace ast;
+
+/// `THIS^` or `SUPER^`
+static bool isSelf(const Expr *expr) {
+  if (expr->kind != ExprKind::deref)
+    return false;
+  const Expr *pointer = as<DerefExpr>(expr)->base;
+  if (pointer->kind != ExprKind::name)
+    return false;
+  const Symbol *symbol = as<NameExpr>(pointer)->symbol;
+  return symbol != nullptr && symbol->kind == SymbolKind::self;
+}
+
+const Type *checkMember(Context &c, MemberExpr *expr) {
+  if (expr->bit >= 0)
+    return checkBit(c, expr);
+  followSelf(c, expr->base);
+  const std::string name(expr->name.text);
+  if (Symbol *space = resolveNamespace(c, expr->base)) {
+    Symbol *found = nullptr;
+    std::vector<std::string_view> candidates;
+    if (space->kind == SymbolKind::type) {
+      auto *type = static_cast<TypeSymbol *>(space);
+      resolve(c, type);
+      if (type->type->kind == TypeKind::enumeration)
+        found = findEnumerator(typeAs<EnumType>(type->type), expr->name.id);
+      candidates = memberNames(type->type);
+      if (type->type->kind != TypeKind::enumeration) {
+        auto &d = c.report(Code::notAVariable, expr->base->span,
+                           "`" + std::string(space->name.text) + "` is a type, not a variable",
+                           "only variables have members");
+        d.help("declare a variable: `x : " + std::string(space->name.text) + ";`");
+        return elementaryType(TypeKind::error);
+      }
+    } else if (space->kind == SymbolKind::globals) {
+      auto *list = static_cast<GlobalsSymbol *>(space);
+      const auto it = list->scope.find(expr->name.id);
+      found = it == list->scope.end() ? nullptr : it->second;
+      for (const VarSymbol *v : list->variables)
+        candidates.push_back(v->name.text);
+    } else {
+      found = nameInSpace(c, space, expr->name);
+      if (space->kind == SymbolKind::space)
+        for (const auto &[id, symbol] : static_cast<NamespaceSymbol *>(space)->names)
+          candidates.push_back(symbol->name.text);
+    }
+    if (found == nullptr) {
+      const Code code =
+          space->kind == SymbolKind::type ? Code::unknownEnumerator : Code::unknownMember;
+      auto &d = c.report(code, expr->name.span,
+                         "`" + std::string(space->name.text) + "` has no `" + name + "`",
+                         "not found in " + describe(space));
+      helpMembers(d, expr->name, candidates);
+      return elementaryType(TypeKind::error);
+    }
+    expr->symbol = found;
+    return useSymbol(c, expr, found, expr->name);
+  }
+  const Type *base = check(c, expr->base);
+  if (isSelf(expr->base))
+    c.throughSelf.emplace(c.scope.pou, expr->name.id);
+  return checkMemberOf(c, expr, base);
+}
+
+const Type *checkMemberOf(Context &c, MemberExpr *expr, const Type *base) {
+  const std::string name(expr->name.text);
+  if (isError(base))
+    return base;
+  if (bitByName(c, expr))
+    return checkBit(c, expr);
+  if (isInstance(base) || base->kind == TypeKind::interface) {
+    PouSymbol *pou = typeAs<PouType>(base)->symbol;
+    declare(c, pou);
+    if (Symbol *member = memberNamed(pou, expr->name.id)) {
+      expr->symbol = member;
+      return useSymbol(c, expr, member, expr->name);
+    }
+  }
+  if (base->kind != TypeKind::structure && !isInstance(base) && base->kind != TypeKind::interface) {
+    auto &d = c.report(Code::unknownMember, expr->name.span, typeName(base) + " has no members",
+                       "`." + name + "` is not possible here");
+    if (base->kind == TypeKind::pointer)
+      d.help("follow the pointer first: `" + std::string(c.program.sources.text(expr->base->span)) +
+             "^." + name + "`");
+    else if (isInteger(underlying(base)))
+      d.help("a bit is selected by its number, `.3`, or by the name of an integer constant");
+    return elementaryType(TypeKind::error);
+  }
+  VarSymbol *member = findMember(c, base, expr->name.id);
+  if (member != nullptr &&
+      (member->isResult || (member->owner == nullptr && member->globals != nullptr)))
+    member = nullptr; // names that are only visible inside the POU
+  if (member == nullptr) {
+    // `w.cBit`: a bit by the name of a constant belongs to integers, which were handled above.
+    auto &d = c.report(Code::unknownMember, expr->name.span,
+                       "`" + typeName(base) + "` has no member `" + name + "`", "unknown member");
+    helpMembers(d, expr->name, memberNames(base));
+    return elementaryType(TypeKind::error);
+  }
+  const Access access = member->decl == nullptr ? Access::none : member->decl->access;
+  if (access == Access::privateA && member->owner != nullptr &&
+      !requireAccess(c, expr->name.span, member, member->owner, access))
+    return elementaryType(TypeKind::error);
+  if (member->owner != nullptr && access != Access::publicA && !insideOf(c, member->owner) &&
+      (member->section == Section::temp ||
+       (member->section == Section::local && base->kind == TypeKind::functionBlock))) {
+    auto &d = c.report(Code::notAccessible, expr->name.span,
+                       "`" + name + "` is private to `" + typeName(base) + "`",
+                       "only its own code can use it");
+    noteDeclaration(d, member);
+    d.help("make it a VAR_OUTPUT (or VAR_INPUT) of `" + typeName(base) + "`");
+    return elementaryType(TypeKind::error);
+  }
+  expr->symbol = member;
+  return useSymbol(c, expr, member, expr->name);
+}
+
+} // namespace stc::sema

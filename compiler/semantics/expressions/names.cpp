@@ -1,0 +1,175 @@
+// Plain names in expressions, and what a name on the left of a dot stands for.
+
+#include "compiler/semantics/expressions/expressions.hpp"
+
+#include "compiler/semantics/config/config.hpp"
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/context/describe.hpp"
+#include "compiler/semantics/declarations/declarations.hpp"
+#include "compiler/semantics/expressions/internal.hpp"
+#include "compiler/semantics/fold.hpp"
+#include "compiler/semantics/lookup/names.hpp"
+
+namespace stc::sema {
+
+using namespace ast;
+
+const Type *useSymbol(Context &c, Expr *expr, Symbol *symbol, const Name &name) {
+  switch (symbol->kind) {
+  case SymbolKind::variable: {
+    auto *variable = static_cast<VarSymbol *>(symbol);
+    const Type *type = typeOf(c, variable);
+    // A constant parameter has the caller's value.
+    const bool parameter =
+        variable->section == Section::input || variable->section == Section::inOut;
+    if (variable->isConstant && !parameter && isElementary(type)) {
+      checkInitOf(c, variable);
+      expr->constant = variable->constant;
+    }
+    if (type->kind == TypeKind::reference)
+      type = typeAs<PointerType>(type)->pointee;
+    return type;
+  }
+  case SymbolKind::enumerator: {
+    const auto *e = static_cast<EnumeratorSymbol *>(symbol);
+    expr->constant = c.makeConstant(integerValue(e->value));
+    return e->type;
+  }
+  case SymbolKind::pou: {
+    auto *pou = static_cast<PouSymbol *>(symbol);
+    if (pou->decl->kind == DeclKind::program) {
+      if (pou->isTemplate) {
+        reportTemplate(c, name, pou);
+        return elementaryType(TypeKind::error);
+      }
+      declare(c, pou);
+      return pou->type;
+    }
+    if (pou->isMethod()) {
+      auto &d = c.report(Code::methodNotCalled, name.span,
+                         "`" + std::string(name.text) + "` is " + describe(pou) + ", not a value",
+                         "it has to be called");
+      noteDeclaration(d, pou);
+      d.help("call it: `" + std::string(name.text) + "()`");
+      return elementaryType(TypeKind::error);
+    }
+    break;
+  }
+  case SymbolKind::property:
+    return useProperty(c, expr, static_cast<PropertySymbol *>(symbol), name);
+  case SymbolKind::self: {
+    auto *self = static_cast<SelfSymbol *>(symbol);
+    declare(c, self->block);
+    return c.types.pointer(self->block->type);
+  }
+  default:
+    break;
+  }
+  auto &d =
+      c.report(Code::notAVariable, name.span, "`" + std::string(name.text) + "` is not a value",
+               "this is " + describe(symbol));
+  noteDeclaration(d, symbol);
+  if (symbol->kind == SymbolKind::pou && static_cast<PouSymbol *>(symbol)->isFunction())
+    d.help("call it: `" + std::string(name.text) + "(…)`");
+  else if (symbol->kind == SymbolKind::pou && static_cast<PouSymbol *>(symbol)->isInterface())
+    d.help("declare a variable of it: `x : " + std::string(name.text) + ";`");
+  else if (symbol->kind == SymbolKind::pou)
+    d.help("declare an instance of it: `x : " + std::string(name.text) + ";`");
+  else if (symbol->kind == SymbolKind::builtin)
+    d.help("call it: `" + std::string(name.text) + "(…)`");
+  return elementaryType(TypeKind::error);
+}
+
+const Type *checkName(Context &c, NameExpr *expr, const Type *expected) {
+  Symbol *symbol = lookup(c, expr->name);
+  const bool isValue = symbol != nullptr &&
+                       (symbol->kind == SymbolKind::variable || symbol->kind == SymbolKind::pou ||
+                        symbol->kind == SymbolKind::property || symbol->kind == SymbolKind::self);
+  if (!isValue) {
+    bool ambiguous = false;
+    if (EnumeratorSymbol *e = lookupEnumerator(c, expr->name, expected, ambiguous)) {
+      if (ambiguous) {
+        auto &d =
+            c.report(Code::ambiguousName, expr->name.span,
+                     "`" + std::string(expr->name.text) + "` is an enumerator of several types",
+                     "which one is meant?");
+        for (EnumeratorSymbol *other : c.scope.module->enumerators[expr->name.id])
+          d.label(other->name.span, "of `" + typeName(other->type) + "`");
+        d.help("write the type too: `" + typeName(e->type) + "." + std::string(expr->name.text) +
+               "`");
+        return elementaryType(TypeKind::error);
+      }
+      symbol = e;
+    }
+  }
+  if (symbol == nullptr && expr->name.id->lower == "null") { // edition 3: the pointer to nothing
+    expr->constant = c.makeConstant({});
+    return c.types.pointer(elementaryType(TypeKind::none));
+  }
+  if (symbol == nullptr) {
+    if (!reportUnqualified(c, expr->name, expected))
+      reportUnknown(c, expr->name, false);
+    return elementaryType(TypeKind::error);
+  }
+  expr->symbol = symbol;
+  return useSymbol(c, expr, symbol, expr->name);
+}
+
+Symbol *resolveNamespace(Context &c, Expr *expr) {
+  if (expr->kind == ExprKind::name) {
+    auto *name = as<NameExpr>(expr);
+    Symbol *symbol = lookup(c, name->name);
+    if (symbol != nullptr && symbol->kind == SymbolKind::variable &&
+        isElementary(typeOf(c, static_cast<VarSymbol *>(symbol)))) {
+      // `color : Color := Color.red`: a variable without members does not hide a type, list or
+      // library.
+      Symbol *other = lookupDeclared(c, name->name);
+      if (other == symbol || other == nullptr)
+        other = lookupInLibraries(c, name->name.id);
+      if (other != nullptr && other->kind == SymbolKind::type)
+        symbol = other;
+    }
+    // `GVL.x`, although a variable or a POU may have the list's name, is not decided here: the
+    // value wins.
+    if (symbol != nullptr &&
+        (symbol->kind == SymbolKind::type || symbol->kind == SymbolKind::library ||
+         symbol->kind == SymbolKind::globals || symbol->kind == SymbolKind::space)) {
+      name->symbol = symbol;
+      return symbol;
+    }
+    return nullptr;
+  }
+  if (expr->kind == ExprKind::member) { // Library.Enum.value, Library.GVL.x
+    auto *member = as<MemberExpr>(expr);
+    if (member->bit >= 0)
+      return nullptr;
+    Symbol *base = resolveNamespace(c, member->base);
+    if (base == nullptr)
+      return nullptr;
+    Symbol *symbol = nameInSpace(c, base, member->name);
+    if (symbol != nullptr &&
+        (symbol->kind == SymbolKind::type || symbol->kind == SymbolKind::space ||
+         symbol->kind == SymbolKind::globals)) {
+      member->symbol = symbol;
+      return symbol;
+    }
+  }
+  return nullptr;
+}
+
+void followSelf(Context &c, Expr *&expr) {
+  if (expr->kind != ExprKind::name)
+    return;
+  const Name &name = as<NameExpr>(expr)->name;
+  if (name.id->lower != "this" && name.id->lower != "super")
+    return;
+  const Symbol *symbol = lookup(c, name);
+  if (symbol == nullptr || symbol->kind != SymbolKind::self)
+    return;
+  auto *deref = c.arena.make<DerefExpr>();
+  deref->span = expr->span;
+  deref->base = expr;
+  expr = deref;
+}
+
+} // namespace stc::sema

@@ -1,0 +1,300 @@
+// Operators: what all of them have in common; NOT, AND, OR, XOR.
+
+#include "compiler/semantics/expressions/expressions.hpp"
+
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/context/describe.hpp"
+#include "compiler/semantics/conversions.hpp"
+#include "compiler/semantics/expressions/internal.hpp"
+#include "compiler/semantics/fold.hpp"
+
+#include <limits>
+
+namespace stc::sema {
+
+using namespace ast;
+
+static const Type *checkLogical(Context &c, BinaryExpr *expr);
+
+namespace {
+
+std::string_view spelling(BinaryOp op) {
+  switch (op) {
+  case BinaryOp::add:
+    return "+";
+  case BinaryOp::subtract:
+    return "-";
+  case BinaryOp::multiply:
+    return "*";
+  case BinaryOp::divide:
+    return "/";
+  case BinaryOp::modulo:
+    return "MOD";
+  case BinaryOp::power:
+    return "**";
+  case BinaryOp::equal:
+    return "=";
+  case BinaryOp::notEqual:
+    return "<>";
+  case BinaryOp::less:
+    return "<";
+  case BinaryOp::lessEqual:
+    return "<=";
+  case BinaryOp::greater:
+    return ">";
+  case BinaryOp::greaterEqual:
+    return ">=";
+  case BinaryOp::logicalAnd:
+    return "AND";
+  case BinaryOp::logicalOr:
+    return "OR";
+  case BinaryOp::logicalXor:
+    return "XOR";
+  case BinaryOp::andThen:
+    return "AND_THEN";
+  case BinaryOp::orElse:
+    return "OR_ELSE";
+  }
+  return {};
+}
+
+bool isComparison(BinaryOp op) { return op >= BinaryOp::equal && op <= BinaryOp::greaterEqual; }
+
+bool isLogical(BinaryOp op) { return op >= BinaryOp::logicalAnd; }
+
+} // namespace
+
+const Type *operatorError(Context &c, BinaryExpr *expr) {
+  const std::string op(spelling(expr->op));
+  auto &d = c.report(Code::operatorNotDefined, expr->opSpan,
+                     "`" + op + "` is not defined for " + typeName(expr->left->type) + " and " +
+                         typeName(expr->right->type),
+                     "no such operation");
+  d.label(expr->left->span, typeName(expr->left->type));
+  d.label(expr->right->span, typeName(expr->right->type));
+  const Type *l = underlying(expr->left->type);
+  const Type *r = underlying(expr->right->type);
+  const auto aggregate = [](const Type *t) {
+    return t->kind == TypeKind::array || t->kind == TypeKind::structure || isInstance(t);
+  };
+  if (isComparison(expr->op) && aggregate(l) && aggregate(r))
+    d.help(l->kind == TypeKind::array ? "compare the elements one by one, in a loop"
+                                      : "compare the members one by one: `a.x = b.x AND …`");
+  else if (isString(l) && isString(r) && expr->op == BinaryOp::add)
+    d.help("join strings with CONCAT(…, …)");
+  else if (l->kind == TypeKind::boolean || r->kind == TypeKind::boolean) {
+    if (!isLogical(expr->op))
+      d.help("convert the BOOL first: `BOOL_TO_INT(…)`");
+    else if (expr->left->kind == ExprKind::binary && isNumber(r) &&
+             as<BinaryExpr>(expr->left)->op == BinaryOp::equal)
+      d.help("each side is a condition of its own: `… " + op + " " +
+             std::string(c.program.sources.text(as<BinaryExpr>(expr->left)->left->span)) + " = " +
+             std::string(c.program.sources.text(expr->right->span)) + "`");
+    else if (isNumber(l) || isNumber(r))
+      d.help("compare the number first: `… <> 0`");
+  }
+  return elementaryType(TypeKind::error);
+}
+
+static const Type *fold(Context &c, BinaryExpr *expr) {
+  const ConstValue *l = expr->left->constant;
+  const ConstValue *r = expr->right->constant;
+  if (l == nullptr || r == nullptr)
+    return expr->type;
+  if (expr->operandType == nullptr) { // `T#1s * 2`: the operands have different types
+    const Type *duration = underlying(expr->type);
+    const Expr *number = isNumber(underlying(expr->left->type)) ? expr->left : expr->right;
+    if (isDuration(duration) && isNumber(underlying(number->type)) &&
+        l->kind == ConstKind::integer && r->kind == ConstKind::integer &&
+        number->constant->integer >= 0) {
+      if (const auto value = foldBinary(expr->op, *l, *r, duration))
+        expr->constant = c.makeConstant(*value);
+    }
+    return expr->type;
+  }
+  const auto left = convertConstant(*l, expr->left->type, expr->operandType);
+  const auto right = convertConstant(*r, expr->right->type, expr->operandType);
+  if (!left || !right)
+    return expr->type;
+  if (const auto value = foldBinary(expr->op, *left, *right, expr->operandType)) {
+    expr->constant = c.makeConstant(*value);
+  } else if (expr->operandType->kind == TypeKind::anyInteger) {
+    if (expr->op != BinaryOp::power &&
+        !((expr->op == BinaryOp::divide || expr->op == BinaryOp::modulo) && right->integer == 0))
+      c.report(Code::constantOverflow, expr->span,
+               "this constant expression does not fit into 64 bits", "too large");
+    expr->type = elementaryType(TypeKind::error);
+  }
+  return expr->type;
+}
+
+const Type *checkUnary(Context &c, UnaryExpr *expr, const Type *expected) {
+  // Long chains (NOT NOT …, - - …) must not eat the stack.
+  std::vector<UnaryExpr *> chain{expr};
+  while (chain.back()->operand->kind == ExprKind::unary)
+    chain.push_back(as<UnaryExpr>(chain.back()->operand));
+  check(c, chain.back()->operand, expected);
+  for (std::size_t i = chain.size(); i-- > 0;) {
+    UnaryExpr *u = chain[i];
+    Expr *operand = u->operand;
+    const Type *type = operand->type;
+    const Type *own = underlying(type);
+    u->type = elementaryType(TypeKind::error);
+    if (isError(type))
+      continue;
+    if (refuseStrict(c, operand))
+      continue;
+    const bool isNot = u->op == UnaryOp::logicalNot;
+    if (isNot ? !(own->kind == TypeKind::boolean || isInteger(own) ||
+                  own->kind == TypeKind::anyInteger)
+              : !(isNumber(own) || own->kind == TypeKind::ltime)) {
+      const std::string op = isNot ? "NOT" : u->op == UnaryOp::negate ? "-" : "+";
+      auto &d = c.report(Code::operatorNotDefined, u->span,
+                         "`" + op + "` is not defined for " + typeName(type),
+                         isNot ? "expected BOOL, an integer or a bit string" : "expected a number");
+      if (!isNot && own->kind == TypeKind::boolean)
+        d.help("negate a BOOL with NOT");
+      continue;
+    }
+    if (isNot) {
+      const Type *wanted = expected != nullptr ? underlying(expected) : nullptr;
+      if (own->kind != TypeKind::anyInteger)
+        u->type = own;
+      else if (wanted != nullptr && isInteger(wanted) && operand->constant != nullptr &&
+               constantFits(*operand->constant, own, wanted))
+        u->type = wanted; // `w AND NOT 16#0F`: a mask as wide as the result
+      else
+        u->type = settle(operand);
+      setTarget(operand, u->type);
+    } else if (isUntyped(own) || isReal(own) || own->kind == TypeKind::ltime) {
+      u->type = own;
+    } else {
+      u->common = unwidened(operand);
+      u->type = widened(own);
+      if (u->op == UnaryOp::negate && !isSignedInteger(u->type)) // -UDINT needs a sign
+        u->type = elementaryType(isBitString(own) && bitWidth(own) < 32 ? TypeKind::dint
+                                                                        : TypeKind::lint);
+      setTarget(operand, u->type);
+    }
+    if (u->op == UnaryOp::negate && operand->kind == ExprKind::literal &&
+        type->kind == TypeKind::ulint && !as<Literal>(operand)->typeName &&
+        operand->constant->integer == std::numeric_limits<std::int64_t>::min()) {
+      // `-9223372036854775808` is LINT's smallest value, written with a magnitude that is none.
+      u->common = nullptr;
+      u->type = elementaryType(TypeKind::anyInteger);
+      u->constant = operand->constant;
+    } else if (operand->constant != nullptr) {
+      const auto value = convertConstant(*operand->constant, type, u->type);
+      const auto folded = value ? foldUnary(u->op, *value, u->type) : std::nullopt;
+      if (folded)
+        u->constant = c.makeConstant(*folded);
+      else if (isUntyped(u->type)) {
+        c.report(Code::constantOverflow, u->span,
+                 "this constant expression does not fit into 64 bits", "too large");
+        u->type = elementaryType(TypeKind::error);
+      }
+    }
+  }
+  return expr->type;
+}
+
+const Type *checkBinary(Context &c, BinaryExpr *expr, const Type *expected) {
+  // Sums of ten thousand terms lean to the left; walk down instead of recursing.
+  std::vector<BinaryExpr *> chain{expr};
+  while (chain.back()->left->kind == ExprKind::binary)
+    chain.push_back(as<BinaryExpr>(chain.back()->left));
+  const bool comparison = isComparison(chain.back()->op);
+  check(c, chain.back()->left, comparison ? nullptr : expected);
+  for (std::size_t i = chain.size(); i-- > 0;) {
+    BinaryExpr *b = chain[i];
+    const Type *hint = isComparison(b->op) ? b->left->type : expected;
+    check(c, b->right, hint);
+    // `positive = direction`: the enumerator on the left takes its type from the right side.
+    b->type = elementaryType(TypeKind::error);
+    if (isError(b->left->type) || isError(b->right->type))
+      continue;
+    if (b->left->type->kind == TypeKind::none || b->right->type->kind == TypeKind::none) {
+      c.report(Code::noValue, (b->left->type->kind == TypeKind::none ? b->left : b->right)->span,
+               "this call has no value", "the function has no result type");
+      continue;
+    }
+    if (isComparison(b->op))
+      b->type = checkComparison(c, b);
+    else if (isLogical(b->op))
+      b->type = checkLogical(c, b);
+    else if (b->op == BinaryOp::power)
+      b->type = checkPower(c, b);
+    else
+      b->type = checkArithmetic(c, b);
+    if (!isError(b->type))
+      fold(c, b);
+  }
+  return expr->type;
+}
+
+bool refuseStrict(Context &c, Expr *expr) {
+  if (expr->type->kind != TypeKind::enumeration || !typeAs<EnumType>(expr->type)->strict)
+    return false;
+  const std::string name = typeName(expr->type);
+  auto &d = c.report(Code::strictEnumeration, expr->span,
+                     "`" + name + "` is a strict enumeration, nothing is computed with it",
+                     "this is " + name);
+  noteDeclaration(d, typeAs<EnumType>(expr->type)->symbol);
+  d.help("convert it if its number is meant: `TO_INT(…)`");
+  return true;
+}
+
+static const Type *checkLogical(Context &c, BinaryExpr *expr) {
+  if (refuseStrict(c, expr->left) || refuseStrict(c, expr->right))
+    return elementaryType(TypeKind::error);
+  const Type *l = underlying(expr->left->type);
+  const Type *r = underlying(expr->right->type);
+  const Type *boolean = elementaryType(TypeKind::boolean);
+  const auto isBool = [&](const Expr *e, const Type *t) {
+    return t->kind == TypeKind::boolean ||
+           (e->constant != nullptr && constantFits(*e->constant, e->type, boolean));
+  };
+  const bool shortCircuit = expr->op == BinaryOp::andThen || expr->op == BinaryOp::orElse;
+  if ((l->kind == TypeKind::boolean || r->kind == TypeKind::boolean || shortCircuit) &&
+      isBool(expr->left, l) && isBool(expr->right, r)) {
+    expr->operandType = boolean;
+  } else if (!shortCircuit && l->kind == TypeKind::anyInteger && r->kind == TypeKind::anyInteger) {
+    expr->operandType = l;
+    return l;
+  } else {
+    // An address is a number here: `ADR(x) AND 16#3`.
+    for (Expr *side : {expr->left, expr->right}) {
+      if (!shortCircuit && underlying(side->type)->kind == TypeKind::pointer) {
+        const Type *address = elementaryType(TypeKind::ulint);
+        setTarget(side, address);
+        Expr *other = side == expr->left ? expr->right : expr->left;
+        const Type *o = underlying(other->type);
+        if (!isInteger(o) && o->kind != TypeKind::anyInteger)
+          return operatorError(c, expr);
+        setTarget(other, address);
+        expr->operandType = address;
+        return address;
+      }
+    }
+    const auto integral = [](const Type *t) {
+      return isInteger(t) || t->kind == TypeKind::anyInteger;
+    };
+    if (shortCircuit || !integral(l) || !integral(r))
+      return operatorError(c, expr);
+    expr->operandType = commonOf(expr->left, expr->right);
+    if (expr->operandType == nullptr) { // bit patterns have no sign: take the unsigned one
+      expr->operandType = isSignedInteger(l) || l->kind == TypeKind::anyInteger ? r : l;
+      for (Expr *side : {expr->left, expr->right}) {
+        if (side->type->kind == TypeKind::anyInteger) { // a negative constant
+          coerce(c, side, expr->operandType, {});
+          return elementaryType(TypeKind::error);
+        }
+      }
+    }
+  }
+  setTarget(expr->left, expr->operandType);
+  setTarget(expr->right, expr->operandType);
+  return expr->operandType;
+}
+
+} // namespace stc::sema

@@ -1,0 +1,181 @@
+// Pointers and references: arithmetic in bytes, comparisons, conversions and what may be pointed
+// to.
+
+#include "compiler/semantics/expressions/expressions.hpp"
+
+#include "compiler/semantics/calls/calls.hpp"
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/conversions.hpp"
+#include "compiler/semantics/expressions/internal.hpp"
+#include "compiler/semantics/locations.hpp"
+
+namespace stc::sema {
+
+using namespace ast;
+
+const Type *checkPointerArithmetic(Context &c, BinaryExpr *expr) {
+  const Type *l = underlying(expr->left->type);
+  const Type *r = underlying(expr->right->type);
+  const Type *address = elementaryType(TypeKind::ulint);
+  const auto number = [](const Type *t) { return isInteger(t) || t->kind == TypeKind::anyInteger; };
+  const bool sum = expr->op == BinaryOp::add;
+  const bool difference = expr->op == BinaryOp::subtract;
+  const bool both = l->kind == TypeKind::pointer && r->kind == TypeKind::pointer;
+  if (both && difference)
+    return address; // operandType stays null: bytes between the two
+  if (!both && (sum || (difference && l->kind == TypeKind::pointer)) &&
+      number(l->kind == TypeKind::pointer ? r : l)) {
+    Expr *offset = l->kind == TypeKind::pointer ? expr->right : expr->left;
+    if (offset->type->kind == TypeKind::anyInteger)
+      setTarget(offset, elementaryType(TypeKind::lint));
+    return l->kind == TypeKind::pointer ? l : r;
+  }
+  if (both || sum || difference || !number(l->kind == TypeKind::pointer ? r : l))
+    return operatorError(c, expr);
+  // An address as a number: `ADR(x) MOD 4`.
+  expr->operandType = address;
+  setTarget(expr->left, address);
+  setTarget(expr->right, address);
+  return address;
+}
+
+bool comparePointers(BinaryExpr *expr) {
+  const Type *l = underlying(expr->left->type);
+  const Type *r = underlying(expr->right->type);
+  const auto comparable = [](const Type *t) {
+    return t->kind == TypeKind::pointer || isInteger(t) || t->kind == TypeKind::anyInteger;
+  };
+  if (!comparable(l) || !comparable(r))
+    return false;
+  if (l == r) {
+    expr->operandType = l;
+    return true;
+  }
+  const bool zero = expr->right->constant != nullptr && expr->right->constant->integer == 0;
+  if (l->kind == TypeKind::pointer && zero) {
+    expr->operandType = l;
+    setTarget(expr->right, l);
+    return true;
+  }
+  expr->operandType = elementaryType(TypeKind::ulint);
+  setTarget(expr->left, expr->operandType);
+  setTarget(expr->right, expr->operandType);
+  return true;
+}
+
+bool coercePointer(Context &c, Expr *expr, const Type *type, std::string_view what) {
+  const Type *from = expr->type;
+  const bool toPointer = type->kind == TypeKind::pointer;
+  const bool fromPointer = from->kind == TypeKind::pointer;
+  const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
+  if (toPointer && fromPointer) {
+    // The address of an array is that of its first element, too.
+    const Type *first = typeAs<PointerType>(from)->pointee;
+    while (first->kind == TypeKind::array && first != typeAs<PointerType>(type)->pointee)
+      first = typeAs<ArrayType>(first)->element;
+    if (classify(from, type) != Conversion::free &&
+        !isByteView(typeAs<PointerType>(type)->pointee) &&
+        !isByteView(typeAs<PointerType>(from)->pointee) &&
+        first != typeAs<PointerType>(type)->pointee) {
+      auto &d = c.report(Code::pointerOfOtherType, expr->span,
+                         prefix + "this is a " + typeName(from) + ", not a " + typeName(type),
+                         "what it points to will be read as another type");
+      d.help("declare the pointer as `" + typeName(from) +
+             "`, or take the address as bytes with "
+             "`POINTER TO BYTE`");
+    }
+    setTarget(expr, type);
+    return true;
+  }
+  const bool null = expr->constant != nullptr && expr->constant->integer == 0;
+  if (toPointer && ((isInteger(underlying(from)) && (null || bitWidth(from) >= 32)) ||
+                    from->kind == TypeKind::anyInteger)) {
+    if (!null) {
+      auto &d = c.report(Code::pointerFromInteger, expr->span,
+                         prefix + "a number becomes an address: " + typeName(from) + " to " +
+                             typeName(type),
+                         "nothing says that there is a variable at this address");
+      const std::string source(c.program.sources.text(expr->span));
+      if (from == typeAs<PointerType>(type)->pointee && expr->kind == ExprKind::name)
+        d.suggest("take the address of `" + source + "`: `ADR(" + source + ")`", expr->span,
+                  "ADR(" + source + ")");
+      else
+        d.help("keep the address in a variable of type `" + typeName(type) + "`");
+    }
+    setTarget(expr, type);
+    return true;
+  }
+  if (fromPointer && isInteger(type) && bitWidth(type) >= 32) {
+    if (bitWidth(type) == 32)
+      c.report(Code::pointerAsInteger, expr->span,
+               prefix + "an address has 64 bits, " + typeName(type) + " has 32",
+               "works while the application's memory lies below 4 GiB")
+          .help("keep it in a `" + typeName(from) + "` or in a variable of type `__UXINT`");
+    setTarget(expr, type);
+    return true;
+  }
+  // `diff : DINT := p - q`: the distance of two places in one variable.
+  if (isInteger(type) && bitWidth(type) == 32 && expr->kind == ExprKind::binary &&
+      as<BinaryExpr>(expr)->op == BinaryOp::subtract &&
+      underlying(as<BinaryExpr>(expr)->left->type)->kind == TypeKind::pointer &&
+      from->kind == TypeKind::ulint) {
+    setTarget(expr, type);
+    return true;
+  }
+  return false;
+}
+
+/// The variable of REFERENCE type that the expression names, or null.
+static VarSymbol *referenceVariable(Expr *expr) {
+  Symbol *symbol = expr->kind == ExprKind::name     ? as<NameExpr>(expr)->symbol
+                   : expr->kind == ExprKind::member ? as<MemberExpr>(expr)->symbol
+                                                    : nullptr;
+  auto *variable = symbol != nullptr && symbol->kind == SymbolKind::variable
+                       ? static_cast<VarSymbol *>(symbol)
+                       : nullptr;
+  return variable != nullptr && variable->type->kind == TypeKind::reference ? variable : nullptr;
+}
+
+bool isReference(Expr *expr) {
+  if (expr->kind == ExprKind::index)
+    return elementBeforeReference(as<IndexExpr>(expr))->kind == TypeKind::reference;
+  return referenceVariable(expr) != nullptr;
+}
+
+void checkReferenceAssign(Context &c, AssignStmt *stmt) {
+  Expr *last = stmt->targets.back();
+  if (!isReference(last)) {
+    if (!isError(last->type))
+      c.report(Code::notAReference, last->span,
+               "only a REFERENCE can be set with REF=", "this is " + typeName(last->type));
+    check(c, stmt->value);
+    return;
+  }
+  const Type *value = check(c, stmt->value, last->type);
+  if (isError(value))
+    return;
+  const bool null = stmt->value->constant != nullptr && stmt->value->constant->integer == 0 &&
+                    (value->kind == TypeKind::anyInteger || value->kind == TypeKind::pointer);
+  if (null) { // `r REF= 0` makes it refer to nothing
+    setTarget(stmt->value, c.types.pointer(last->type));
+    return;
+  }
+  const bool fromCall = stmt->value->kind == ExprKind::call &&
+                        as<CallExpr>(stmt->value)->resolved == Callee::function &&
+                        as<CallExpr>(stmt->value)->pou->result != nullptr &&
+                        as<CallExpr>(stmt->value)->pou->result->type->kind == TypeKind::reference;
+  if (!fromCall && !requireVariable(c, stmt->value, "refer to"))
+    return;
+  const bool isBit = isBitPlace(stmt->value);
+  if (isBit)
+    c.report(Code::typeMismatch, stmt->value->span, "a reference cannot stand for a single bit",
+             "bits have no address");
+  else if (!refersTo(value, last->type))
+    c.report(Code::typeMismatch, stmt->value->span,
+             "expected " + typeName(last->type) + ", found " + typeName(value),
+             "a reference needs a variable of exactly its type");
+  else if (!fromCall)
+    requireAligned(c, stmt->value, "refer to");
+}
+
+} // namespace stc::sema

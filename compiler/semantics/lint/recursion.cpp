@@ -1,0 +1,103 @@
+// The call graph of functions: recursion, and functions that only compute a value.
+
+#include "compiler/semantics/lint/lint.hpp"
+
+#include <algorithm>
+
+namespace stc {
+
+using namespace ast;
+
+void Linter::reportRecursion() {
+  if (!program_.diagnostics.wants(Code::recursion))
+    return;
+  enum class State : std::uint8_t { fresh, running, done };
+  std::vector<State> state(bodies_.size(), State::fresh);
+  struct Frame {
+    std::size_t body;
+    std::size_t next = 0;
+  };
+  // An explicit stack: call chains of generated code may be long.
+  for (std::size_t start = 0; start < bodies_.size(); ++start) {
+    if (state[start] != State::fresh)
+      continue;
+    std::vector<Frame> path{{start}};
+    state[start] = State::running;
+    while (!path.empty()) {
+      Frame &top = path.back();
+      const Body &body = bodies_[top.body];
+      if (top.next == body.calls.size()) {
+        state[top.body] = State::done;
+        path.pop_back();
+        continue;
+      }
+      const CallExpr *call = body.calls[top.next++];
+      const auto callee = bodyOf_.find(call->pou->decl);
+      if (callee == bodyOf_.end())
+        continue;
+      const std::size_t to = callee->second;
+      if (state[to] == State::fresh) {
+        state[to] = State::running;
+        path.push_back({to});
+      } else if (state[to] == State::running && !(to == top.body && body.recursesAlways)) {
+        std::string circle;
+        const auto first = std::find_if(path.begin(), path.end(),
+                                        [&](const Frame &frame) { return frame.body == to; });
+        for (auto it = first; it != path.end(); ++it)
+          circle += "`" + std::string(bodies_[it->body].decl->name.text) + "` → ";
+        const std::string name = "`" + std::string(bodies_[to].decl->name.text) + "`";
+        auto &d = report(Code::recursion, call->span,
+                         to == top.body ? name + " calls itself"
+                                        : name + " calls itself through other functions",
+                         "this call closes the circle");
+        d.label(bodies_[to].decl->name.span, "the circle begins here");
+        d.note(circle + name);
+        d.help("each call takes room on the stack of the task: make sure that the depth has a "
+               "limit");
+      }
+    }
+  }
+}
+
+bool Linter::isPure(const PouSymbol *pou) {
+  const auto at = bodyOf_.find(pou->decl);
+  if (at == bodyOf_.end())
+    return false;
+  const Body &body = bodies_[at->second];
+  if (body.sideEffects || body.decl->external)
+    return false;
+  const auto [known, fresh] =
+      purity_.emplace(pou->decl, true); // in a circle: until shown otherwise
+  if (!fresh)
+    return known->second;
+  constexpr unsigned kMaxCalls = 256; // functions that call functions, levels deep
+  const bool pure = purityCalls_ < kMaxCalls && [&] {
+    ++purityCalls_;
+    const bool all = std::all_of(body.calls.begin(), body.calls.end(),
+                                 [this](const CallExpr *call) { return isPure(call->pou); });
+    --purityCalls_;
+    return all;
+  }();
+  purity_[pou->decl] = pure;
+  return pure;
+}
+
+void Linter::reportIgnored() {
+  for (const CallExpr *call : ignored_) {
+    const bool function = call->resolved == Callee::function && call->pou != nullptr &&
+                          call->pou->decl->returnType != nullptr;
+    const bool builtin = call->resolved == Callee::builtin && call->builtin <= Builtin::time;
+    if (!function && !builtin)
+      continue;
+    const bool gives = std::any_of(call->arguments.begin(), call->arguments.end(),
+                                   [](const Argument &a) { return a.output; });
+    if (function && (gives || !isPure(call->pou)))
+      continue;
+    const std::string name = text(call->callee->span);
+    report(Code::ignoredResult, call->span, "the result of `" + name + "` is not used",
+           "this call has no other effect")
+        .help("assign it: `… := " + text(call->span) + ";`, or remove the call");
+  }
+}
+
+} // namespace stc

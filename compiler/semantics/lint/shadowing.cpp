@@ -1,0 +1,179 @@
+// Names that hide other names. Standard functions do not count: `left` and `max` are good names for
+// variables, and calling the function anyway is an error that says so.
+
+#include "compiler/semantics/lint/shadowing.hpp"
+
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/hierarchy.hpp"
+
+#include <algorithm>
+
+namespace stc::sema {
+
+using namespace ast;
+
+static void checkHiddenMember(Context &c, const PouSymbol *method, const VarSymbol *v);
+static void checkHidden(Context &c, Module &module, const PouSymbol *pou, const VarSymbol *v);
+
+namespace {
+
+/// Whether the text of a library file declares that name behind `word`.
+bool declares(std::string_view text, std::string_view word, std::string_view lowerName) {
+  for (std::size_t at = text.find(word); at != std::string_view::npos;
+       at = text.find(word, at + 1)) {
+    const std::string_view name = text.substr(at + word.size(), lowerName.size() + 1);
+    if ((at == 0 || text[at - 1] == '\n') && name.size() > lowerName.size() &&
+        std::equal(lowerName.begin(), lowerName.end(), name.begin(),
+                   [](char wanted, char c) { return wanted == lowerCase(c); }) &&
+        (name.back() == ' ' || name.back() == ':' || name.back() == '\n'))
+      return true;
+  }
+  return false;
+}
+
+/// Blocks and types do not count: a variable of the same name (`tp : TP`) takes nothing away.
+bool declaresFunction(std::string_view text, std::string_view lowerName) {
+  return declares(text, "FUNCTION ", lowerName);
+}
+
+/// Enumerators do not count: they are found by the type that is expected.
+bool declaresPouOrType(std::string_view text, std::string_view lowerName) {
+  return declaresFunction(text, lowerName) || declares(text, "FUNCTION_BLOCK ", lowerName) ||
+         declares(text, "TYPE ", lowerName) || declares(text, "INTERFACE ", lowerName);
+}
+
+} // namespace
+
+static Diagnostic &reportHidden(Context &c, const VarSymbol *v, const Symbol *hidden,
+                                const std::string &what) {
+  auto &d = c.report(Code::shadowedName, v->name.span,
+                     "`" + std::string(v->name.text) + "` hides " + what, "declared again here");
+  if (hidden != nullptr && hidden->name.span.valid())
+    d.label(hidden->name.span, "this one cannot be reached by its plain name");
+  return d;
+}
+
+void checkShadowing(Context &c, Module &module) {
+  if (!c.program.diagnostics.wants(Code::shadowedName))
+    return;
+  const auto look = [&](const PouSymbol *pou) {
+    for (const VarSymbol *v : pou->variables) {
+      if (v->hidden || v->decl == nullptr || v->section == Section::external || !v->storage.empty())
+        continue;
+      if (pou->isMethod())
+        checkHiddenMember(c, pou, v);
+      else
+        checkHidden(c, module, pou, v);
+    }
+  };
+  for (const PouSymbol *pou : module.library->pous) {
+    look(pou);
+    for (const PouSymbol *method : pou->methods)
+      look(method);
+  }
+}
+
+/// What a variable of a method hides of its block, the block's bases included.
+static void checkHiddenMember(Context &c, const PouSymbol *method, const VarSymbol *v) {
+  const PouSymbol *owner = method->owner;
+  if (owner->isInterface() || (method->decl->modifiers & modAbstract) != 0 ||
+      c.throughSelf.contains({method, v->name.id})) // `THIS^.speed := speed` knows both
+    return;
+  const std::string name(v->name.text);
+  const std::string help =
+      "give one of them another name, or write `THIS^." + name + "` for the one of the block";
+  for (const PouSymbol *block = owner; block != nullptr; block = block->base) {
+    const auto it = block->scope.find(v->name.id);
+    if (it == block->scope.end() || it->second->isResult || it->second->section == Section::temp ||
+        it->second->hidden)
+      continue;
+    const VarSymbol *member = it->second;
+    if (block != owner && member->decl != nullptr && member->decl->access == Access::privateA)
+      continue;
+    reportHidden(c, v, member,
+                 block == owner
+                     ? "the variable of the block"
+                     : "the variable inherited from `" + std::string(block->name.text) + "`")
+        .help(help);
+    return;
+  }
+  // `METHOD MoveTo VAR_INPUT position …` beside PROPERTY Position is named for the caller.
+  const bool parameter =
+      v->section == Section::input || v->section == Section::output || v->section == Section::inOut;
+  if (const Symbol *member = memberNamed(owner, v->name.id);
+      member != nullptr && member->kind == SymbolKind::property && member != method->property &&
+      !parameter)
+    reportHidden(c, v, member, "the property of the same name").help(help);
+}
+
+/// Inputs and outputs are named for the caller, so only what the body could mean counts.
+static void checkHidden(Context &c, Module &module, const PouSymbol *pou, const VarSymbol *v) {
+  const std::string name(v->name.text);
+  if (const auto it = module.names.find(v->name.id); it != module.names.end()) {
+    const Symbol *symbol = it->second;
+    if (symbol->kind == SymbolKind::variable) {
+      const auto *global = static_cast<const VarSymbol *>(symbol);
+      if (global->decl != nullptr &&
+          c.program.sources.file(global->name.span.file).name().front() == '<')
+        return; // a drive of the PLC configuration
+      reportHidden(c, v, symbol, "the global variable of the same name")
+          .help(global->globals == nullptr ? std::string("give one of them another name")
+                                           : "give one of them another name, or write `" +
+                                                 std::string(global->globals->name.text) + "." +
+                                                 name + "` for the global one");
+    } else if (symbol->kind == SymbolKind::pou && symbol != pou &&
+               (static_cast<const PouSymbol *>(symbol)->isFunction() ||
+                static_cast<const PouSymbol *>(symbol)->decl->kind == DeclKind::program)) {
+      // Blocks, classes and interfaces are types.
+      const bool function = static_cast<const PouSymbol *>(symbol)->isFunction();
+      reportHidden(c, v, symbol,
+                   function ? "the function of the same name" : "the program of the same name")
+          .help("give one of them another name");
+    }
+    return;
+  }
+  if (const auto e = module.enumerators.find(v->name.id); e != module.enumerators.end()) {
+    const EnumeratorSymbol *enumerator = e->second.front();
+    reportHidden(c, v, enumerator, "the enumerator of `" + typeName(enumerator->type) + "`")
+        .help("give the variable another name, or write `" + typeName(enumerator->type) + "." +
+              name + "` for the enumerator");
+    return;
+  }
+  for (const LibraryIndex::Entry &entry : c.index.find(v->name.id->lower)) {
+    if (entry.qualifiedOnly || !declaresFunction(entry.text, v->name.id->lower))
+      continue;
+    const std::string library(entry.library);
+    reportHidden(c, v, nullptr, "the function of the library `" + library + "`")
+        .help("give it another name, or write `" + library + "." + name + "(…)` for the function");
+    return;
+  }
+}
+
+void checkHiddenLibrary(Context &c, Module &module) {
+  if (!module.library->isUser || !c.program.diagnostics.wants(Code::hidesLibrary))
+    return;
+  const auto look = [&](const Symbol *symbol, std::string_view what) {
+    for (const LibraryIndex::Entry &entry : c.index.find(symbol->name.id->lower)) {
+      if (entry.qualifiedOnly || !declaresPouOrType(entry.text, symbol->name.id->lower))
+        continue;
+      const std::string library(entry.library);
+      c.report(Code::hidesLibrary, symbol->name.span,
+               "the " + std::string(what) + " `" + std::string(symbol->name.text) +
+                   "` hides the one of the library `" + library + "`",
+               "the library has this name too")
+          .help("give it another name; the library's is `" + library + "." +
+                std::string(symbol->name.text) + "`");
+      return;
+    }
+  };
+  for (const PouSymbol *pou : module.library->pous)
+    look(pou, pou->isFunction()                      ? "function"
+              : pou->decl->kind == DeclKind::program ? "program"
+                                                     : "function block");
+  for (const TypeSymbol *type : module.declaredTypes) {
+    if (type->decl != nullptr)
+      look(type, "type");
+  }
+}
+
+} // namespace stc::sema

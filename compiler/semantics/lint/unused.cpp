@@ -1,0 +1,194 @@
+// What is said about variables, results and POUs when all uses are known.
+
+#include "compiler/semantics/lint/lint.hpp"
+
+#include <algorithm>
+
+namespace stc {
+
+using namespace ast;
+
+namespace {
+
+/// Methods that the language calls with fixed parameters.
+bool isLifecycle(const PouDecl *decl) {
+  const std::string_view name = decl->name.id == nullptr ? "" : decl->name.id->lower;
+  return name == "fb_init" || name == "fb_exit" || name == "fb_reinit";
+}
+
+/// Instances whose FB_Init or FB_Exit does something need no other use.
+bool doesSomethingItself(const Type *type) {
+  while (type->kind == TypeKind::array)
+    type = typeAs<ArrayType>(type)->element;
+  if (type->kind != TypeKind::functionBlock)
+    return false;
+  for (const PouSymbol *pou = typeAs<PouType>(type)->symbol; pou != nullptr; pou = pou->base) {
+    if (std::any_of(pou->methods.begin(), pou->methods.end(),
+                    [](const PouSymbol *method) { return isLifecycle(method->decl); }))
+      return true;
+  }
+  return false;
+}
+
+/// Local variables end with the call, so nobody can see them from outside.
+bool endsWithCall(const PouDecl *decl, const VarSymbol *v) {
+  return v->section == Section::temp ||
+         ((decl->kind == DeclKind::function || decl->kind == DeclKind::method) &&
+          v->section == Section::local);
+}
+
+bool hasBody(const PouDecl *decl) {
+  return std::any_of(decl->body.begin(), decl->body.end(),
+                     [](const Stmt *s) { return s->kind != StmtKind::empty; });
+}
+
+/// Written as an elementary type, so that its default is 0 and was not chosen by anybody.
+bool hasPlainDefault(const VarSymbol *v) {
+  if (v->decl == nullptr || v->decl->type == nullptr || v->decl->init != nullptr)
+    return false;
+  return v->decl->type->kind == TypeExprKind::string ||
+         (v->decl->type->kind == TypeExprKind::named && isElementary(v->type) &&
+          v->type->kind != TypeKind::enumeration && v->type->kind != TypeKind::subrange &&
+          as<NamedTypeExpr>(v->decl->type)->path.size() == 1 &&
+          typeName(v->type).size() == as<NamedTypeExpr>(v->decl->type)->path[0].text.size());
+}
+
+} // namespace
+
+void Linter::reportVariables(const Body &body) {
+  if (body.decl->external || (body.decl->modifiers & modAbstract) != 0 ||
+      body.decl->kind == DeclKind::interface)
+    return;
+  for (const VarDecl *decl : body.decl->variables) {
+    if (decl->symbol != nullptr && decl->symbol->type != nullptr && !isError(decl->symbol->type))
+      reportVariable(body, decl->symbol);
+  }
+}
+
+void Linter::reportVariable(const Body &body, VarSymbol *v) {
+  if (usedOutside_.contains(v) || v->hidden || v->decl->address != nullptr ||
+      v->decl->access == Access::publicA || !v->decl->attributes.empty())
+    return;
+  const PouDecl *decl = body.decl;
+  const std::string name(v->name.text);
+  const bool written = (v->uses & (useWritten | useAddress)) != 0;
+  const bool filled = decl->kind == DeclKind::function || decl->kind == DeclKind::method;
+  switch (v->section) {
+  case Section::local:
+  case Section::temp:
+  case Section::stat:
+  case Section::instance:
+    if (v->uses == 0 && !doesSomethingItself(v->type))
+      report(Code::unusedVariable, v->name.span, "`" + name + "` is never used", "only declared")
+          .help("remove the declaration");
+    else if (endsWithCall(decl, v) && (v->uses & useRead) == 0 && isElementary(v->type))
+      report(Code::neverRead, v->name.span, "`" + name + "` is assigned but never read",
+             "its value is not used")
+          .help("use the value, or remove the variable and its assignments");
+    break;
+  case Section::input: {
+    const bool free =
+        decl == body.owner || (body.owner->interfaces.empty() && !body.pou->extended &&
+                               body.owner->base.empty() && (decl->modifiers & modOverride) == 0);
+    const auto &checks = program_.implicitChecks; // their inputs are prescribed
+    const bool isCheck = std::find(checks.begin(), checks.end(), body.pou) != checks.end();
+    if (filled && hasBody(decl) && free && !isLifecycle(decl) && !isCheck)
+      reportUnused(body, v);
+    break;
+  }
+  case Section::output:
+    if (!written && v->decl->init == nullptr && hasBody(decl) && body.owner == decl)
+      report(Code::outputNotAssigned, v->name.span, "the output `" + name + "` is never assigned",
+             "always keeps its default value")
+          .help("assign it in the body, or remove it");
+    break;
+  default:
+    break;
+  }
+  if (v->earlyRead != nullptr && written && !body.hasLabels && hasPlainDefault(v) &&
+      (endsWithCall(decl, v) || (filled && v->section == Section::output)))
+    report(Code::readBeforeWritten, v->earlyRead->span,
+           "`" + name + "` is read before anything is assigned to it",
+           isString(v->type) ? "always empty here" : "always has the default value here")
+        .label(v->name.span, "declared without an initial value")
+        .help("assign it first, or give it an initial value: `" + name + " : " + typeName(v->type) +
+              " := …;`");
+}
+
+void Linter::reportUnused(const Body &body, VarSymbol *v) {
+  if (v->uses != 0)
+    return;
+  report(Code::unusedParameter, v->name.span,
+         "the input `" + std::string(v->name.text) + "` of `" + std::string(body.decl->name.text) +
+             "` is never used",
+         "its value has no effect")
+      .help("use it, or remove it here and at the calls");
+}
+
+void Linter::reportResults(const Body &body) {
+  const PouDecl *decl = body.decl;
+  if (decl->returnType == nullptr || decl->external || !hasBody(decl) ||
+      (decl->modifiers & modAbstract) != 0 || isLifecycle(decl) || resultsWritten_.contains(decl))
+    return;
+  // Methods get a result type from an interface, or because a tool puts one there.
+  const bool accessor =
+      std::any_of(body.owner->properties.begin(), body.owner->properties.end(),
+                  [decl](const PropertyDecl *property) { return property->get == decl; });
+  if (decl->kind == DeclKind::method && !accessor && !resultsTaken_.contains(decl->name.id))
+    return;
+  // V2.3 demands a result type also where nobody wants a result.
+  if (const auto calls = functionCalls_.find(decl);
+      calls != functionCalls_.end() && calls->second.all == calls->second.asStatement)
+    return;
+  report(Code::resultNotAssigned, decl->name.span,
+         "the result of `" + std::string(decl->name.text) + "` is never assigned",
+         "always gives the default value")
+      .help("assign it to the function's name: `" + std::string(decl->name.text) + " := …;`");
+}
+
+void Linter::markUsed(const Type *type) {
+  // A list of those to come: chains of pointers may be long.
+  for (std::vector<const Type *> pending{type}; !pending.empty();) {
+    type = pending.back();
+    pending.pop_back();
+    if (type == nullptr || !usedTypes_.insert(type).second)
+      continue;
+    switch (type->kind) {
+    case TypeKind::array:
+      pending.push_back(typeAs<ArrayType>(type)->element);
+      break;
+    case TypeKind::pointer:
+    case TypeKind::reference:
+      pending.push_back(typeAs<PointerType>(type)->pointee);
+      break;
+    case TypeKind::functionBlock:
+      usedPous_.insert(typeAs<PouType>(type)->symbol);
+      break;
+    case TypeKind::structure:
+      for (const VarSymbol *field : typeAs<StructType>(type)->fields)
+        pending.push_back(field->type);
+      pending.push_back(typeAs<StructType>(type)->base);
+      break;
+    default:
+      break;
+    }
+  }
+}
+
+void Linter::reportUnusedPous(const Library &library) {
+  for (const PouSymbol *pou : library.pous) {
+    const DeclKind kind = pou->decl->kind;
+    if ((kind != DeclKind::function && kind != DeclKind::functionBlock) || usedPous_.contains(pou))
+      continue;
+    const bool base =
+        std::any_of(library.pous.begin(), library.pous.end(), [&](const PouSymbol *other) {
+          return !other->decl->base.empty() && other->decl->base.back().id == pou->name.id;
+        });
+    if (!base)
+      report(Code::unusedPou, pou->name.span, "`" + std::string(pou->name.text) + "` is never used",
+             kind == DeclKind::function ? "nothing calls this function"
+                                        : "there is no instance of this block");
+  }
+}
+
+} // namespace stc

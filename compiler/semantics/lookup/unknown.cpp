@@ -1,0 +1,272 @@
+// What is said about a name that nothing has.
+
+#include "compiler/semantics/lookup/names.hpp"
+
+#include "compiler/semantics/cam_tables.hpp"
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/context/describe.hpp"
+#include "compiler/semantics/hierarchy.hpp"
+#include "compiler/semantics/lookup/internal.hpp"
+#include "compiler/semantics/suggest.hpp"
+
+#include <algorithm>
+
+namespace stc::sema {
+
+using namespace ast;
+
+static bool helpElsewhere(Context &c, Diagnostic &d, const Name &name, bool asType);
+
+/// THIS or SUPER where there is none; true when it was one of them.
+static bool reportSelf(Context &c, const Name &name) {
+  const bool isSuper = name.id->lower == "super";
+  if (!isSuper && name.id->lower != "this")
+    return false;
+  const PouSymbol *block = c.scope.pou == nullptr ? nullptr : blockOf(c.scope.pou);
+  if (isSuper && block != nullptr && block->isBlock()) {
+    auto &d =
+        c.report(Code::noSelf, name.span,
+                 "there is no SUPER: `" + std::string(block->name.text) + "` extends no block",
+                 "no base block");
+    noteDeclaration(d, block);
+    d.help("write `FUNCTION_BLOCK " + std::string(block->name.text) + " EXTENDS …`");
+  } else {
+    c.report(Code::noSelf, name.span,
+             std::string(isSuper ? "SUPER" : "THIS") +
+                 " is only possible inside of a function block",
+             "there is no instance here");
+  }
+  return true;
+}
+
+namespace {
+
+struct Word {
+  std::string_view theirs;
+  std::string_view ours;
+};
+
+/// What a type of another language is called here.
+std::string_view typeOfOtherLanguages(std::string_view lower) {
+  static constexpr Word kTypes[] = {
+      {"float", "REAL"},
+      {"double", "LREAL"},
+      {"single", "REAL"},
+      {"boolean", "BOOL"},
+      {"integer", "INT"},
+      {"short", "INT"},
+      {"long", "DINT"},
+      {"unsigned", "UDINT"},
+      {"int8", "SINT"},
+      {"int16", "INT"},
+      {"int32", "DINT"},
+      {"int64", "LINT"},
+      {"uint8", "USINT"},
+      {"uint16", "UINT"},
+      {"uint32", "UDINT"},
+      {"uint64", "ULINT"},
+      {"int8_t", "SINT"},
+      {"int16_t", "INT"},
+      {"int32_t", "DINT"},
+      {"int64_t", "LINT"},
+      {"uint8_t", "USINT"},
+      {"uint16_t", "UINT"},
+      {"uint32_t", "UDINT"},
+      {"uint64_t", "ULINT"},
+      {"float32", "REAL"},
+      {"float64", "LREAL"},
+      {"size_t", "UDINT"},
+      {"str", "STRING"},
+      {"qword", "LWORD"},
+      {"timer", "TON"},
+      {"counter", "CTU"},
+      {"datetime", "DT"},
+      {"void", "a FUNCTION without a result has no type behind its name"}};
+  const auto at = std::find_if(std::begin(kTypes), std::end(kTypes),
+                               [&](const Word &word) { return word.theirs == lower; });
+  return at == std::end(kTypes) ? std::string_view() : at->ours;
+}
+
+/// What to write for a word of another language.
+std::string_view wordOfOtherLanguages(std::string_view lower) {
+  static constexpr Word kWords[] = {
+      {"break", "leave a loop with EXIT; a branch of CASE ends by itself"},
+      {"null", "0"},
+      {"nullptr", "0"},
+      {"nil", "0"},
+      {"default", "the last branch of a CASE begins with ELSE, without a colon"},
+      {"otherwise", "the last branch of a CASE begins with ELSE, without a colon"},
+      {"switch", "choose by a value with CASE … OF … END_CASE"},
+      {"pass", "a statement that does nothing is a `;`"},
+      {"this", "THIS stands in methods and function blocks only"},
+      {"self", "THIS"},
+      {"printf", "nothing is printed from a program: write into a variable and watch it"},
+      {"print", "nothing is printed from a program: write into a variable and watch it"},
+      {"strlen", "LEN"},
+      {"strcat", "CONCAT"},
+      {"fabs", "ABS"},
+      {"pow", "EXPT"},
+      {"fmod", "SMC_fmod"},
+      {"ceil", "write `TRUNC(x)` and add 1 where x is larger"},
+      {"begin", "statements follow the last END_VAR directly"},
+      {"end", "each block is closed by its own word: END_IF, END_FOR, END_WHILE, END_CASE"}};
+  const auto at = std::find_if(std::begin(kWords), std::end(kWords),
+                               [&](const Word &word) { return word.theirs == lower; });
+  return at == std::end(kWords) ? std::string_view() : at->ours;
+}
+
+} // namespace
+
+bool reportUnqualified(Context &c, const Name &name, const Type *expected) {
+  if (expected == nullptr || expected->kind != TypeKind::enumeration)
+    return false;
+  const EnumeratorSymbol *e = findEnumerator(typeAs<EnumType>(expected), name.id);
+  if (e == nullptr)
+    return false;
+  const std::string full = typeName(expected) + "." + std::string(name.text);
+  auto &d = c.report(Code::unknownName, name.span,
+                     "`" + std::string(name.text) + "` needs the name of its type in front",
+                     "`" + typeName(expected) + "` is `qualified_only`");
+  noteDeclaration(d, e);
+  d.suggest("write `" + full + "`", name.span, full);
+  return true;
+}
+
+/// Empty also when there have been so many mistakes in so large a program that looking for what was
+/// meant would take longer than the check.
+static std::string_view similarName(Context &c, const Name &name, bool asType) {
+  constexpr std::size_t kMostLooks = 2'000'000;
+  if (c.namesLookedAt >= kMostLooks)
+    return {};
+  const std::vector<std::string_view> names = visibleNames(c, asType);
+  c.namesLookedAt += names.size();
+  return nearest(name.text, names);
+}
+
+void reportUnknown(Context &c, const Name &name, bool asType) {
+  if (!asType) {
+    if (!c.unknown.emplace(c.scope.pou, name.id).second)
+      return; // one missing declaration is one mistake
+    if (!c.keepsErrors())
+      return; // nobody would see what is found out for it
+    if (reportSelf(c, name))
+      return;
+  }
+  auto &d =
+      asType
+          ? c.report(Code::unknownType, name.span,
+                     "cannot find type `" + std::string(name.text) + "`", "no type of this name")
+          : c.report(Code::unknownName, name.span, "cannot find `" + std::string(name.text) + "`",
+                     "not declared in this scope");
+  if (looksLikeCamTable(name.id->lower)) {
+    const CamTableName table = readCamTable(name.id->lower);
+    if (!table.problem.empty())
+      d.note(table.problem);
+    if (table.problem.empty())
+      d.help("it is in the library `" + std::string(kCamTableLibrary) + "`");
+    else if (!table.help.empty())
+      d.help(table.help);
+    return;
+  }
+  for (const LibraryIndex::Entry &entry : c.index.find(name.id->lower)) {
+    if (!entry.qualifiedOnly)
+      continue;
+    const std::string library(entry.library);
+    d.help("the library `" + library + "` has one: write `" + library + "." +
+           std::string(name.text) + "`");
+    return;
+  }
+  if (helpElsewhere(c, d, name, asType))
+    return;
+  const std::string_view similar = similarName(c, name, asType);
+  if (!similar.empty())
+    d.suggest("a similar name exists: `" + std::string(similar) + "`", name.span,
+              std::string(similar));
+  else if (!asType)
+    d.help("declare it in a VAR section of this POU or in a VAR_GLOBAL list");
+}
+
+/// Says where else the name exists, or what another language's word is called here.
+static bool helpElsewhere(Context &c, Diagnostic &d, const Name &name, bool asType) {
+  const std::string text(name.text);
+  if (const std::string_view meant =
+          asType ? typeOfOtherLanguages(name.id->lower) : wordOfOtherLanguages(name.id->lower);
+      !meant.empty()) {
+    const bool plain = meant.find(' ') == std::string_view::npos;
+    const std::string help =
+        plain ? "in Structured Text this is `" + std::string(meant) + "`" : std::string(meant);
+    if (plain)
+      d.suggest(help, name.span, std::string(meant));
+    else
+      d.help(help);
+    return true;
+  }
+  if (asType)
+    return false;
+  // A member of something that is in scope, a variable of a program, a list that must be named.
+  std::vector<std::string> places;
+  const auto found = [&](std::string place) {
+    if (std::find(places.begin(), places.end(), place) == places.end())
+      places.push_back(std::move(place));
+  };
+  if (c.scope.pou != nullptr) {
+    for (VarSymbol *v : c.scope.pou->variables) {
+      if (v->type == nullptr || v->hidden)
+        continue;
+      if (v->type->kind != TypeKind::structure && !isInstance(v->type))
+        continue;
+      const VarSymbol *member = findMember(c, v->type, name.id);
+      const bool open = member != nullptr && !member->hidden && !member->isResult &&
+                        (member->owner == nullptr || member->section == Section::input ||
+                         member->section == Section::output);
+      if (open)
+        found(std::string(v->name.text) + "." + std::string(member->name.text));
+    }
+  }
+  for (const PouSymbol *pou : c.scope.module->library->pous) {
+    if (pou == c.scope.pou || pou->decl->kind != DeclKind::program)
+      continue;
+    for (const VarDecl *v : pou->decl->variables) {
+      if (v->name.id == name.id && v->section != Section::temp)
+        found(std::string(pou->name.text) + "." + std::string(v->name.text));
+    }
+  }
+  for (const GlobalsSymbol *list : c.scope.module->library->globals) {
+    const auto it = list->scope.find(name.id);
+    if (it != list->scope.end())
+      found(std::string(list->name.text) + "." + std::string(it->second->name.text));
+  }
+  for (const TypeSymbol *symbol : c.scope.module->library->types) {
+    const Type *type = symbol->type;
+    if (type != nullptr && type->kind == TypeKind::enumeration &&
+        typeAs<EnumType>(type)->qualifiedOnly && findEnumerator(typeAs<EnumType>(type), name.id))
+      found(typeName(type) + "." + std::string(name.text));
+  }
+  constexpr std::size_t kMost = 3;
+  if (places.empty() || places.size() > kMost)
+    return false;
+  if (places.size() == 1) {
+    d.suggest("did you mean `" + places[0] + "`?", name.span, places[0]);
+    return true;
+  }
+  std::string list;
+  for (const std::string &place : places)
+    list += (list.empty() ? "`" : ", `") + place + "`";
+  d.help("did you mean one of these: " + list + "?");
+  return true;
+}
+
+void helpMembers(Diagnostic &d, const Name &name, const std::vector<std::string_view> &members) {
+  constexpr std::size_t kFew = 8;
+  if (const std::string_view similar = nearest(name.text, members); !similar.empty()) {
+    d.suggest("a similar one exists: `" + std::string(similar) + "`", name.span,
+              std::string(similar));
+  } else if (!members.empty() && members.size() <= kFew) {
+    std::string list;
+    for (const std::string_view member : members)
+      list += (list.empty() ? "`" : ", `") + std::string(member) + "`";
+    d.help("there is " + list);
+  }
+}
+
+} // namespace stc::sema

@@ -1,0 +1,466 @@
+#include "compiler/semantics/sharing.hpp"
+
+#include "compiler/semantics/alignment.hpp"
+#include "compiler/semantics/hierarchy.hpp"
+#include "compiler/semantics/locations.hpp"
+#include "compiler/semantics/sharing/graph.hpp"
+
+#include <algorithm>
+
+namespace stc {
+
+using namespace ast;
+
+namespace {
+
+constexpr int kMaxDepth = 32;
+
+const Type *memberType(const Type *type) {
+  while (type != nullptr && type->kind == TypeKind::reference)
+    type = typeAs<PointerType>(type)->pointee;
+  return type;
+}
+
+bool isSharedVariable(const Sharing &sharing, const VarSymbol *v) {
+  const bool alias = v->section == Section::inOut || v->type->kind == TypeKind::reference;
+  return alias ? sharing.contents.contains(v) : sharing.variables.contains(v);
+}
+
+const VarSymbol *variableOf(const Expr *e) {
+  const Symbol *symbol = e->kind == ExprKind::name     ? as<NameExpr>(e)->symbol
+                         : e->kind == ExprKind::member ? as<MemberExpr>(e)->symbol
+                                                       : nullptr;
+  return symbol != nullptr && symbol->kind == SymbolKind::variable
+             ? static_cast<const VarSymbol *>(symbol)
+             : nullptr;
+}
+
+} // namespace
+
+// ----------------------------------------------------------------------------------------------------
+// the result
+
+bool Sharing::shares(const Location &at, std::uint64_t bytes) const {
+  const std::vector<bool> &area = imageBytes[static_cast<std::size_t>(at.area)];
+  for (std::uint64_t i = at.byte; i < at.byte + bytes && i < area.size(); ++i) {
+    if (area[i])
+      return true;
+  }
+  return false;
+}
+
+bool Sharing::holds(const Expr *e) const {
+  if (empty() || e->type == nullptr || e->constant != nullptr)
+    return false;
+  if (!isScalarValue(e->type))
+    return false;
+  if (const Location *at = locationOf(e)) {
+    if (at->isSlot)
+      return variables.contains(locatedVariable(e));
+    const std::uint64_t bytes =
+        at->bit >= 0 ? 1 : std::max<std::uint64_t>(bitWidth(e->type) / 8, 1);
+    return at->byte % bytes == 0 && shares(*at, bytes);
+  }
+  switch (e->kind) {
+  case ExprKind::name:
+  case ExprKind::member: {
+    const VarSymbol *v = variableOf(e);
+    return v != nullptr && !v->isBit && isSharedVariable(*this, v) && !isMisaligned(e);
+  }
+  case ExprKind::index: {
+    const Expr *base = as<IndexExpr>(e)->base;
+    const Type *type = memberType(base->type);
+    if (type != nullptr && isString(type))
+      return false;
+    const VarSymbol *v = variableOf(base);
+    return v != nullptr && contents.contains(v) && !isMisaligned(e);
+  }
+  case ExprKind::deref: {
+    const Expr *pointer = as<DerefExpr>(e)->base;
+    while (pointer->kind == ExprKind::index)
+      pointer = as<IndexExpr>(pointer)->base;
+    const VarSymbol *v = variableOf(pointer);
+    return v != nullptr && contents.contains(v);
+  }
+  default:
+    return false;
+  }
+}
+
+void TaskUse::add(unsigned more, Span span) {
+  flags |= more;
+  if ((more & (accessRead | accessWholeRead)) != 0 && !read.valid())
+    read = span;
+  if ((more & (accessWrite | accessWholeWrite | accessUnknown)) != 0 && !write.valid())
+    write = span;
+  if ((more & accessUnknown) != 0 && !read.valid())
+    read = span;
+  if ((more & accessCall) != 0 && !call.valid())
+    call = span;
+}
+
+void TaskUse::merge(const TaskUse &other) {
+  flags |= other.flags;
+  if (!read.valid())
+    read = other.read;
+  if (!write.valid())
+    write = other.write;
+  if (!call.valid())
+    call = other.call;
+}
+
+// ----------------------------------------------------------------------------------------------------
+// the trees
+
+PlaceNode &PlaceNode::child(const AccessStep &step) {
+  int depth = 0;
+  for (const PlaceNode *n = this; n != nullptr; n = n->parent)
+    ++depth;
+  if (depth > kMaxDepth)
+    return *this;
+  std::unique_ptr<PlaceNode> &found = children[{step.member, step.element}];
+  if (found == nullptr) {
+    found = std::make_unique<PlaceNode>();
+    found->parent = this;
+    found->member = step.member;
+    found->element = step.element;
+    found->type = step.member != nullptr ? memberType(step.member->type)
+                  : type == nullptr      ? nullptr
+                                         : indexStep(type);
+  }
+  return *found;
+}
+
+void PlaceNode::use(std::uint32_t task, unsigned flags, Span span) {
+  uses[task].add(flags, span);
+  for (PlaceNode *n = this; n != nullptr; n = n->parent)
+    n->inside[task].add(flags, span);
+}
+
+const VarSymbol *PlaceNode::variable() const {
+  const PlaceNode *n = this;
+  while (n != nullptr && n->member == nullptr)
+    n = n->parent;
+  return n == nullptr ? nullptr : n->member;
+}
+
+// ----------------------------------------------------------------------------------------------------
+// who calls whom
+
+SharingGraph::SharingGraph(Program &program, const std::vector<TaskEntry> &tasks)
+    : program_(program), tasks_(tasks), reader_(storage_), reached_(tasks.size()),
+      image_(tasks.size()) {
+  std::vector<const VarSymbol *> variables;
+  const auto addVariables = [&](const PouSymbol *pou) {
+    variables.insert(variables.end(), pou->variables.begin(), pou->variables.end());
+  };
+  for (const std::unique_ptr<Library> &library : program.libraries) {
+    for (PouSymbol *pou : library->pous) {
+      if (pou->isBlock())
+        blocks_.push_back(pou);
+      addVariables(pou);
+      for (const PouSymbol *method : pou->methods)
+        addVariables(method);
+    }
+    for (const GlobalsSymbol *list : library->globals)
+      variables.insert(variables.end(), list->variables.begin(), list->variables.end());
+  }
+  if (tasks.size() > 1)
+    initial_ = reader_.initial(variables);
+  for (std::array<Bytes, 3> &areas : image_) {
+    for (std::size_t area = 0; area < 3; ++area) {
+      areas[area].read.resize(program.image.bytes[area]);
+      areas[area].write.resize(program.image.bytes[area]);
+    }
+  }
+}
+
+const PouAccess &SharingGraph::accessOf(const PouSymbol *pou) {
+  const auto found = read_.find(pou);
+  if (found != read_.end())
+    return found->second;
+  PouAccess access;
+  if (pou->checked && !pou->decl->external)
+    access = reader_.read(pou);
+  return read_.emplace(pou, std::move(access)).first->second;
+}
+
+std::vector<const PouSymbol *> SharingGraph::implementations(const CallEdge &call) const {
+  std::vector<const PouSymbol *> result{call.pou};
+  const PouSymbol *block = blockOf(call.pou);
+  if (!call.open || (!block->isInterface() && !block->extended))
+    return result;
+  for (const PouSymbol *other : blocks_) {
+    if (other == block || !convertsTo(other, block))
+      continue;
+    const PouSymbol *own = call.pou == block
+                               ? (other->decl->kind == DeclKind::functionBlock ? other : nullptr)
+                               : implementation(other, call.pou);
+    if (own != nullptr && std::find(result.begin(), result.end(), own) == result.end())
+      result.push_back(own);
+  }
+  return result;
+}
+
+void SharingGraph::reach(std::uint32_t task) {
+  std::vector<const PouSymbol *> &all = reached_[task];
+  std::unordered_set<const PouSymbol *> known;
+  const auto add = [&](const PouSymbol *pou) {
+    if (known.insert(pou).second)
+      all.push_back(pou);
+  };
+  for (const PouSymbol *pou : tasks_[task].pous)
+    add(pou);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (const CallEdge &call : accessOf(all[i]).calls) {
+      for (const PouSymbol *pou : implementations(call))
+        add(pou);
+    }
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------
+// where addresses lead
+
+/// An address that is kept in a variable of the whole project leads for every task wherever one of
+/// them has let it lead; those of blocks and functions are told apart by task.
+std::pair<const VarSymbol *, std::uint32_t> SharingGraph::key(const VarSymbol *v,
+                                                              std::uint32_t task) const {
+  const bool ofAll = v->owner == nullptr || v->section == Section::stat ||
+                     v->owner->decl->kind == DeclKind::program;
+  return {v, ofAll ? kNoTask : task};
+}
+
+PlaceNode &SharingGraph::rootNode(const Symbol *symbol) {
+  std::unique_ptr<PlaceNode> &node = roots_[symbol];
+  if (node == nullptr) {
+    node = std::make_unique<PlaceNode>();
+    rootOrder_.push_back(symbol);
+    if (symbol->kind == SymbolKind::variable) {
+      node->member = static_cast<const VarSymbol *>(symbol);
+      node->type = memberType(node->member->type);
+    } else {
+      node->type = static_cast<const PouSymbol *>(symbol)->type;
+    }
+  }
+  return *node;
+}
+
+SharingGraph::Nodes SharingGraph::nodesAt(const PlacePath &place, std::uint32_t task) {
+  Nodes nodes;
+  switch (place.base) {
+  case PlacePath::Base::none:
+    return nodes;
+  case PlacePath::Base::root:
+    nodes.insert(&rootNode(place.symbol));
+    break;
+  case PlacePath::Base::self: {
+    if (place.symbol == nullptr)
+      return nodes;
+    std::unique_ptr<PlaceNode> &node = own_[place.symbol];
+    if (node == nullptr) {
+      node = std::make_unique<PlaceNode>();
+      node->member = static_cast<const VarSymbol *>(place.symbol);
+      node->type = memberType(node->member->type);
+    }
+    nodes.insert(node.get());
+    break;
+  }
+  case PlacePath::Base::address: {
+    const auto found = leads_.find(key(static_cast<const VarSymbol *>(place.symbol), task));
+    if (found == leads_.end())
+      return nodes;
+    nodes = found->second;
+    break;
+  }
+  }
+  for (const AccessStep &step : place.steps) {
+    Nodes next;
+    for (PlaceNode *node : nodes)
+      next.insert(&node->child(step));
+    nodes = std::move(next);
+  }
+  return nodes;
+}
+
+bool SharingGraph::flowOnce(std::uint32_t task, const PouAccess &access) {
+  bool changed = false;
+  for (const AddressFlow &flow : access.flows) {
+    Nodes from;
+    if (flow.from != nullptr) {
+      const auto found = leads_.find(key(flow.from, task));
+      if (found == leads_.end())
+        continue;
+      from = found->second;
+    } else {
+      from = nodesAt(flow.place, task);
+    }
+    Nodes &to = leads_[key(flow.target, task)];
+    for (PlaceNode *node : from)
+      changed = to.insert(node).second || changed;
+  }
+  return changed;
+}
+
+void SharingGraph::solve() {
+  const auto count = static_cast<std::uint32_t>(tasks_.size());
+  for (std::uint32_t task = 0; task < count; ++task)
+    reach(task);
+  if (count > 1) {
+    constexpr int kRounds = 100; // chains of pointers are not longer
+    bool changed = true;
+    for (int round = 0; changed && round < kRounds; ++round) {
+      changed = false;
+      for (std::uint32_t task = 0; task < count; ++task) {
+        changed = flowOnce(task, initial_) || changed;
+        for (const PouSymbol *pou : reached_[task])
+          changed = flowOnce(task, accessOf(pou)) || changed;
+      }
+    }
+  }
+  findEvents();
+  for (std::uint32_t task = 0; task < count; ++task) {
+    for (const PouSymbol *pou : tasks_[task].pous) {
+      if (pou->decl->kind == DeclKind::program)
+        rootNode(pou).use(task, accessCall, {});
+    }
+    for (const PouSymbol *pou : reached_[task]) {
+      const PouAccess &access = accessOf(pou);
+      for (const PlaceAccess &a : access.accesses) {
+        if (readsCopy(task, pou, a))
+          continue;
+        for (PlaceNode *node : nodesAt(a.place, task))
+          node->use(task, a.flags, a.span);
+      }
+      for (const ImageAccess &a : access.image)
+        useImage(task, a);
+    }
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------
+// the process image
+
+void SharingGraph::useImage(std::uint32_t task, const ImageAccess &access) {
+  const auto mark = [&](Area area, std::uint64_t first) {
+    Bytes &bytes = image_[task][static_cast<std::size_t>(area)];
+    std::vector<bool> &used = access.writes ? bytes.write : bytes.read;
+    for (std::uint64_t i = first; i < first + access.bytes && i < used.size(); ++i)
+      used[i] = true;
+    if (access.writes)
+      bytes.writeAt.try_emplace(static_cast<std::uint32_t>(first), access.span);
+  };
+  if (access.slot == nullptr) {
+    mark(access.at->area, access.at->byte);
+    return;
+  }
+  for (const SlotPlace &slot : program_.slotPlaces) {
+    if (slot.variable == access.slot && slot.placed)
+      mark(slot.at.area, slot.at.byte);
+  }
+}
+
+void SharingGraph::concludeImage() {
+  Sharing &sharing = program_.sharing;
+  const auto count = static_cast<std::uint32_t>(tasks_.size());
+  for (std::uint32_t task = 0; task < count; ++task) {
+    for (std::size_t area = 0; area < 3; ++area) {
+      for (const bool writes : {false, true}) {
+        const Bytes &bytes = image_[task][area];
+        const std::vector<bool> &used = writes ? bytes.write : bytes.read;
+        for (std::size_t i = 0; i < used.size(); ++i) {
+          if (!used[i])
+            continue;
+          std::size_t end = i;
+          while (end < used.size() && used[end])
+            ++end;
+          sharing.imageUses.push_back({task, static_cast<std::uint8_t>(area), writes,
+                                       static_cast<std::uint32_t>(i),
+                                       static_cast<std::uint32_t>(end - i)});
+          i = end;
+        }
+      }
+    }
+  }
+  if (count < 2)
+    return;
+  for (std::size_t area = 0; area < 3; ++area) {
+    const std::size_t size = program_.image.bytes[area];
+    std::vector<bool> shared(size);
+    for (std::size_t i = 0; i < size; ++i) {
+      unsigned users = 0;
+      bool written = area == static_cast<std::size_t>(Area::input); // by the devices
+      for (std::uint32_t task = 0; task < count; ++task) {
+        const Bytes &bytes = image_[task][area];
+        written = written || bytes.write[i];
+        users += bytes.write[i] || bytes.read[i] ? 1U : 0U;
+      }
+      shared[i] = written && users > 1;
+    }
+    if (std::find(shared.begin(), shared.end(), true) != shared.end())
+      sharing.imageBytes[area] = std::move(shared);
+  }
+  for (const SlotPlace &slot : program_.slotPlaces) {
+    if (slot.variable != nullptr && slot.placed &&
+        sharing.shares(slot.at, slot.at.bit >= 0 ? 1 : storage_.of(slot.variable->type).size))
+      sharing.variables.insert(slot.variable);
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------
+// conclusions
+
+void SharingGraph::concludeWriters() {
+  for (const auto &[symbol, node] : roots_) {
+    std::uint32_t writer = kNoTask;
+    unsigned writers = 0;
+    for (const auto &[task, use] : node->inside) {
+      if ((use.flags & (accessWrite | accessWholeWrite | accessUnknown | accessCall)) == 0)
+        continue;
+      writer = task;
+      ++writers;
+    }
+    if (writers == 1)
+      program_.sharing.writers.emplace(symbol, writer);
+  }
+}
+
+/// Whoever follows an address to something shared does it atomically, too.
+void SharingGraph::concludeAddresses() {
+  Sharing &sharing = program_.sharing;
+  for (const auto &[key, nodes] : leads_) {
+    for (const PlaceNode *node : nodes) {
+      const VarSymbol *v = node->variable();
+      if (v == nullptr)
+        continue;
+      const bool element = node->member == nullptr;
+      const bool array = node->type != nullptr && node->type->kind == TypeKind::array;
+      if (element || array ? sharing.contents.contains(v) : sharing.variables.contains(v))
+        sharing.contents.insert(key.first);
+    }
+  }
+}
+
+void SharingGraph::conclude() {
+  concludeImage();
+  concludeWriters();
+  if (tasks_.size() < 2)
+    return;
+  concludeConsistent();
+  for (const Symbol *symbol : rootOrder_)
+    visit({{roots_.at(symbol).get(), nullptr}}, {std::string(symbol->name.text), symbol}, {},
+          false);
+  concludeAddresses();
+  reportOutputs();
+}
+
+void findSharing(Program &program, const std::vector<TaskEntry> &tasks,
+                 const DriveTask &taskOfDrive) {
+  SharingGraph graph(program, tasks);
+  graph.solve();
+  graph.conclude();
+  if (tasks.size() > 1)
+    graph.reportAxes(taskOfDrive);
+}
+
+} // namespace stc

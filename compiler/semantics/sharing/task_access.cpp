@@ -1,0 +1,413 @@
+#include "compiler/semantics/sharing/task_access_names.hpp"
+
+#include "compiler/semantics/hierarchy.hpp"
+#include "compiler/semantics/locations.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace stc {
+
+using namespace ast;
+using namespace access;
+
+namespace {
+
+/// The expression that names the global variable in which a place lies: `GVL.list` of
+/// `GVL.list[3].x`. Null if an address leads there, or it is none.
+const Expr *namedGlobal(const Expr *e) {
+  while (e->kind == ExprKind::index ||
+         (e->kind == ExprKind::member && !isNamespaceName(as<MemberExpr>(e)->base))) {
+    e = e->kind == ExprKind::index ? as<IndexExpr>(e)->base : as<MemberExpr>(e)->base;
+    if (e->type == nullptr || isAddress(e->type))
+      return nullptr;
+  }
+  const Symbol *symbol = symbolOf(e);
+  return symbol != nullptr && symbol->kind == SymbolKind::variable &&
+                 static_cast<const VarSymbol *>(symbol)->globals != nullptr
+             ? e
+             : nullptr;
+}
+
+} // namespace
+
+PouAccess AccessReader::read(const PouSymbol *pou) {
+  out_ = {};
+  block(pou->decl->body);
+  return std::exchange(out_, {});
+}
+
+PouAccess AccessReader::initial(const std::vector<const VarSymbol *> &variables) {
+  out_ = {};
+  for (const VarSymbol *v : variables) {
+    if (v->decl != nullptr && v->decl->init != nullptr && v->type != nullptr)
+      initialValue(v, v->decl->init);
+  }
+  out_.accesses.clear(); // only addresses count
+  out_.calls.clear();
+  out_.image.clear();
+  return std::exchange(out_, {});
+}
+
+void AccessReader::initialValue(const VarSymbol *variable, const Expr *init) {
+  if (init->kind == ExprKind::aggregate) {
+    for (const AggregateItem &item : as<AggregateExpr>(init)->items) {
+      const VarSymbol *to = item.symbol != nullptr ? item.symbol : variable;
+      if (to->type == nullptr)
+        continue;
+      if (item.value != nullptr)
+        initialValue(to, item.value);
+      for (const AggregateItem &inner : item.values) {
+        if (inner.value != nullptr)
+          initialValue(to, inner.value);
+      }
+    }
+    return;
+  }
+  if (variable->type->kind == TypeKind::reference)
+    flowPlace(variable, init);
+  else
+    flow(variable, init);
+}
+
+void AccessReader::block(Block block) {
+  for (const Stmt *s : block)
+    statement(s);
+}
+
+void AccessReader::statement(const Stmt *s) {
+  switch (s->kind) {
+  case StmtKind::empty:
+  case StmtKind::exit:
+  case StmtKind::continueS:
+  case StmtKind::returnS:
+  case StmtKind::jump:
+  case StmtKind::label:
+    return;
+  case StmtKind::assign: {
+    const auto *a = as<AssignStmt>(s);
+    if (a->op == AssignOp::reference) {
+      if (const VarSymbol *v = addressVariable(a->targets.back()))
+        flowPlace(v, a->value);
+      place(a->value, true);
+      return;
+    }
+    value(a->value);
+    for (const Expr *t : a->targets) {
+      target(t);
+      if (!isAddress(t->type))
+        escape(a->value);
+      else if (const VarSymbol *v = addressVariable(t))
+        flow(v, a->value);
+    }
+    return;
+  }
+  case StmtKind::call:
+    value(as<CallStmt>(s)->expr);
+    return;
+  case StmtKind::ifS:
+    for (const IfBranch &b : as<IfStmt>(s)->branches) {
+      value(b.condition);
+      block(b.body);
+    }
+    block(as<IfStmt>(s)->elseBody);
+    return;
+  case StmtKind::caseS:
+    value(as<CaseStmt>(s)->selector);
+    for (const CaseBranch &b : as<CaseStmt>(s)->branches)
+      block(b.body);
+    block(as<CaseStmt>(s)->elseBody);
+    return;
+  case StmtKind::forS: {
+    const auto *f = as<ForStmt>(s);
+    value(f->from);
+    value(f->to);
+    if (f->by != nullptr)
+      value(f->by);
+    access(f->variable, accessRead | accessWrite, accessWholeRead | accessWholeWrite);
+    block(f->body);
+    return;
+  }
+  case StmtKind::whileS:
+    value(as<WhileStmt>(s)->condition);
+    block(as<WhileStmt>(s)->body);
+    return;
+  case StmtKind::repeatS:
+    block(as<RepeatStmt>(s)->body);
+    value(as<RepeatStmt>(s)->until);
+    return;
+  case StmtKind::tryS: {
+    const auto *t = as<TryStmt>(s);
+    block(t->body);
+    if (t->exception != nullptr)
+      target(t->exception);
+    block(t->catchBody);
+    block(t->finallyBody);
+    return;
+  }
+  }
+}
+
+void AccessReader::value(const Expr *e) {
+  while (e != nullptr && e->constant == nullptr) {
+    switch (e->kind) {
+    case ExprKind::literal:
+    case ExprKind::enumLiteral:
+    case ExprKind::typeName:
+    case ExprKind::error:
+      return;
+    case ExprKind::aggregate:
+      for (const AggregateItem &item : as<AggregateExpr>(e)->items) {
+        value(item.value);
+        for (const AggregateItem &inner : item.values)
+          value(inner.value);
+      }
+      return;
+    case ExprKind::unary:
+      e = as<UnaryExpr>(e)->operand;
+      continue;
+    case ExprKind::binary:
+      value(as<BinaryExpr>(e)->left);
+      e = as<BinaryExpr>(e)->right;
+      continue;
+    case ExprKind::call:
+      call(as<CallExpr>(e));
+      return;
+    default:
+      // An instance becomes an interface: its address is taken, nothing is read.
+      if (isInstance(e->type) && e->target != nullptr && e->target->kind == TypeKind::interface)
+        place(e, true);
+      else
+        access(e, accessRead, accessWholeRead);
+      return;
+    }
+  }
+}
+
+void AccessReader::target(const Expr *e) { access(e, accessWrite, accessWholeWrite); }
+
+void AccessReader::access(const Expr *e, unsigned scalar, unsigned whole) {
+  const bool writes = (scalar & accessWrite) != 0;
+  if (e->kind == ExprKind::call) {
+    call(as<CallExpr>(e));
+    return;
+  }
+  if (const Symbol *symbol = symbolOf(e);
+      symbol != nullptr && symbol->kind == SymbolKind::property) {
+    const Expr *object = e->kind == ExprKind::member ? as<MemberExpr>(e)->base : nullptr;
+    if (object != nullptr)
+      place(object, true);
+    accessor(object, symbol, writes, e->span);
+    return;
+  }
+  const Expr *owner = e;
+  while (owner->kind == ExprKind::member && as<MemberExpr>(owner)->bit >= 0) {
+    owner = as<MemberExpr>(owner)->base;
+    if (writes)
+      scalar |= accessRead; // the other bits stay
+  }
+  image(owner, writes);
+  const bool scalarValue = isScalarValue(owner->type);
+  note(place(owner, true), scalarValue ? scalar : whole, e->span,
+       writes ? nullptr : namedGlobal(owner));
+}
+
+void AccessReader::note(PlacePath place, unsigned flags, Span span, const Expr *named) {
+  if (place.base != PlacePath::Base::none)
+    out_.accesses.push_back({std::move(place), flags, span, named});
+}
+
+/// A place in the process image, also an element or member of a located variable.
+void AccessReader::image(const Expr *e, bool writes) {
+  while (true) {
+    if (const Location *at = locationOf(e)) {
+      ImageAccess access{at, at->isSlot ? locatedVariable(e) : nullptr, 1, writes, e->span};
+      if (at->bit < 0)
+        access.bytes = storage_.of(e->type).size;
+      out_.image.push_back(access);
+      return;
+    }
+    if (e->kind == ExprKind::index)
+      e = as<IndexExpr>(e)->base;
+    else if (e->kind == ExprKind::member && !isNamespaceName(as<MemberExpr>(e)->base))
+      e = as<MemberExpr>(e)->base;
+    else
+      return;
+  }
+}
+
+PlacePath AccessReader::placeOf(const VarSymbol *v) const {
+  using Base = PlacePath::Base;
+  if (v->isConstant && v->section != Section::inOut)
+    return {};
+  if (isAlias(v))
+    return {Base::address, v, {}};
+  if (v->location != nullptr)
+    return {};
+  if (v->globals != nullptr || v->section == Section::stat)
+    return {Base::root, v, {}};
+  if (v->section == Section::temp || v->owner == nullptr || v->isResult)
+    return {};
+  const bool onStack =
+      v->owner->isFunction() || (v->owner->isMethod() && v->section != Section::instance);
+  return onStack ? PlacePath{} : PlacePath{Base::self, v, {}};
+}
+
+PlacePath AccessReader::place(const Expr *e, bool walk) {
+  switch (e->kind) {
+  case ExprKind::name: {
+    const Symbol *symbol = as<NameExpr>(e)->symbol;
+    if (symbol == nullptr)
+      return {};
+    if (symbol->kind == SymbolKind::pou)
+      return {PlacePath::Base::root, symbol, {}};
+    if (symbol->kind == SymbolKind::property && walk)
+      accessor(nullptr, symbol, false, e->span);
+    if (symbol->kind != SymbolKind::variable)
+      return {};
+    return placeOf(static_cast<const VarSymbol *>(symbol));
+  }
+  case ExprKind::member: {
+    const auto *m = as<MemberExpr>(e);
+    if (m->symbol == nullptr)
+      return m->bit >= 0 ? place(m->base, walk) : PlacePath{};
+    if (isNamespaceName(m->base)) {
+      if (m->symbol->kind == SymbolKind::pou)
+        return {PlacePath::Base::root, m->symbol, {}};
+      return m->symbol->kind == SymbolKind::variable
+                 ? placeOf(static_cast<const VarSymbol *>(m->symbol))
+                 : PlacePath{};
+    }
+    PlacePath base = place(m->base, walk);
+    if (m->symbol->kind == SymbolKind::property && walk)
+      accessor(m->base, m->symbol, false, e->span);
+    if (m->symbol->kind != SymbolKind::variable)
+      return {};
+    const auto *v = static_cast<const VarSymbol *>(m->symbol);
+    if (isAlias(v))
+      return {PlacePath::Base::address, v, {}};
+    if (v->section == Section::stat)
+      return {PlacePath::Base::root, v, {}};
+    if (v->location != nullptr || v->isConstant || base.base == PlacePath::Base::none)
+      return {};
+    if (base.base == PlacePath::Base::self && base.symbol == nullptr) // THIS^.v
+      return {PlacePath::Base::self, v, {}};
+    if (!isUnionType(m->base->type)) // its members share their bytes
+      base.steps.push_back({v, 0});
+    return base;
+  }
+  case ExprKind::index: {
+    const auto *x = as<IndexExpr>(e);
+    PlacePath at = place(x->base, walk);
+    const Type *t = x->base->type;
+    for (const Expr *i : x->indices) {
+      if (walk)
+        value(i);
+      if (t != nullptr && t->kind == TypeKind::reference) {
+        at = behind(addressVariable(x->base));
+        t = typeAs<PointerType>(t)->pointee;
+      }
+      if (t != nullptr && t->kind == TypeKind::pointer) {
+        if (walk)
+          note(at, accessRead, e->span);
+        at = behind(addressVariable(x->base));
+      } else if (at.base != PlacePath::Base::none) {
+        at.steps.push_back({nullptr, i->constant != nullptr ? i->constant->integer : kAnyElement});
+      }
+      t = t == nullptr ? nullptr : indexStep(t);
+    }
+    if (elementBeforeReference(x) != nullptr &&
+        elementBeforeReference(x)->kind == TypeKind::reference)
+      return behind(addressVariable(x->base));
+    return at;
+  }
+  case ExprKind::deref: {
+    const Expr *pointer = as<DerefExpr>(e)->base;
+    if (const Symbol *symbol = symbolOf(pointer);
+        symbol != nullptr && symbol->kind == SymbolKind::self)
+      return {PlacePath::Base::self, nullptr, {}};
+    if (walk)
+      value(pointer);
+    if (pointer->kind == ExprKind::call) {
+      const auto *c = as<CallExpr>(pointer);
+      if (c->resolved == Callee::builtin && c->builtin == Builtin::adr)
+        return place(c->arguments[0].value, false);
+      return c->pou != nullptr ? behind(c->pou->result) : PlacePath{};
+    }
+    return behind(addressVariable(pointer));
+  }
+  case ExprKind::call:
+    if (walk)
+      call(as<CallExpr>(e));
+    return as<CallExpr>(e)->pou != nullptr && as<CallExpr>(e)->pou->result != nullptr &&
+                   as<CallExpr>(e)->pou->result->type->kind == TypeKind::reference
+               ? behind(as<CallExpr>(e)->pou->result)
+               : PlacePath{};
+  default:
+    return {};
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------
+// addresses
+
+void AccessReader::flowPlace(const VarSymbol *to, const Expr *e) {
+  PlacePath at = place(e, false);
+  if (at.base != PlacePath::Base::none)
+    out_.flows.push_back({to, std::move(at), nullptr});
+}
+
+/// Every address inside of the value may be the one that `to` gets.
+void AccessReader::flow(const VarSymbol *to, const Expr *e) {
+  if (e == nullptr || e->constant != nullptr || to == nullptr)
+    return;
+  switch (e->kind) {
+  case ExprKind::unary:
+    flow(to, as<UnaryExpr>(e)->operand);
+    return;
+  case ExprKind::binary:
+    flow(to, as<BinaryExpr>(e)->left);
+    flow(to, as<BinaryExpr>(e)->right);
+    return;
+  case ExprKind::call: {
+    const auto *c = as<CallExpr>(e);
+    if (c->resolved != Callee::builtin) {
+      if (c->pou != nullptr && c->pou->result != nullptr)
+        out_.flows.push_back({to, {}, c->pou->result});
+      return;
+    }
+    if (c->builtin == Builtin::adr) {
+      flowPlace(to, c->arguments[0].value);
+      return;
+    }
+    for (const Argument &a : c->arguments)
+      flow(to, a.value);
+    return;
+  }
+  default:
+    if (e->type == nullptr)
+      return;
+    if (isInstance(e->type))
+      flowPlace(to, e);
+    else if (const VarSymbol *v = addressVariable(e); v != nullptr && isAddress(e->type))
+      out_.flows.push_back({to, {}, v});
+    return;
+  }
+}
+
+/// An address goes where nobody can follow it (native code, a DWORD): anything may happen there.
+void AccessReader::escape(const Expr *e) {
+  if (e->constant != nullptr || e->kind == ExprKind::name || e->kind == ExprKind::member)
+    return;
+  const std::size_t before = out_.flows.size();
+  static const VarSymbol nowhere{};
+  flow(&nowhere, e);
+  std::vector<AddressFlow> taken(
+      std::make_move_iterator(out_.flows.begin() + static_cast<std::ptrdiff_t>(before)),
+      std::make_move_iterator(out_.flows.end()));
+  out_.flows.resize(before);
+  for (AddressFlow &f : taken)
+    note(std::move(f.place), accessUnknown | accessRead | accessWrite, e->span);
+}
+
+} // namespace stc

@@ -1,0 +1,128 @@
+#pragma once
+// What one POU does to variables: its accesses, which addresses it passes on, whom it calls. The
+// same whoever calls it; sharing.cpp puts it together for each task.
+
+#include "compiler/semantics/builtins.hpp"
+#include "compiler/semantics/plain_data.hpp"
+#include "compiler/semantics/program.hpp"
+#include "compiler/semantics/storage.hpp"
+
+#include <limits>
+#include <unordered_map>
+#include <vector>
+
+namespace stc {
+
+/// Bits of an access.
+enum AccessFlag : unsigned {
+  accessRead = 1,       ///< a value that fits a register
+  accessWrite = 2,      ///< the same
+  accessWholeRead = 4,  ///< a string, an array, a structure, an instance as a whole
+  accessWholeWrite = 8, ///< the same
+  accessCall = 16,      ///< the body or a method of the instance runs
+  accessUnknown = 32,   ///< native code or an address leads there: anything inside of it
+};
+
+/// What anything inside of it may be when an access has one of these bits.
+inline constexpr unsigned kInheritedAccess = accessWholeRead | accessWholeWrite | accessUnknown;
+
+/// One step from a variable to something inside of it.
+struct AccessStep {
+  const VarSymbol *member = nullptr; ///< null: an element
+  std::int64_t element = 0;          ///< its index, or kAnyElement
+  bool operator==(const AccessStep &) const = default;
+};
+inline constexpr std::int64_t kAnyElement = std::numeric_limits<std::int64_t>::min();
+
+/// A place as the code of a POU names it.
+struct PlacePath {
+  enum class Base : std::uint8_t {
+    none,    ///< a variable on the stack, or nothing that is known
+    root,    ///< a global variable, a VAR_STAT, a program
+    self,    ///< a variable of the instance that runs
+    address, ///< what `symbol` (a pointer, reference, in-out or interface) leads to
+  };
+  Base base = Base::none;
+  const Symbol *symbol = nullptr;
+  std::vector<AccessStep> steps;
+};
+
+struct PlaceAccess {
+  PlacePath place;
+  unsigned flags = 0;
+  Span span;
+  /// Where a read names a global variable itself; null: it is written, or found by an address.
+  const ast::Expr *named = nullptr;
+};
+
+/// `target` may lead to the place, or to wherever `from` leads.
+struct AddressFlow {
+  const VarSymbol *target = nullptr;
+  PlacePath place;
+  const VarSymbol *from = nullptr;
+};
+
+struct CallEdge {
+  const PouSymbol *pou = nullptr;
+  bool open = false; ///< the instance's type decides which method or body it is
+};
+
+struct ImageAccess {
+  const Location *at = nullptr;
+  const VarSymbol *slot = nullptr; ///< `AT %I*`: VAR_CONFIG says where
+  std::uint64_t bytes = 1;
+  bool writes = false;
+  Span span;
+};
+
+/// A call of a library's block with an axis.
+struct AxisCall {
+  const PouSymbol *block = nullptr;
+  PlacePath axis;
+  Span span;
+};
+
+struct PouAccess {
+  std::vector<PlaceAccess> accesses;
+  std::vector<AddressFlow> flows;
+  std::vector<CallEdge> calls;
+  std::vector<ImageAccess> image;
+  std::vector<AxisCall> axes;
+};
+
+/// Reads the bodies of POUs.
+class AccessReader {
+public:
+  explicit AccessReader(Storage &storage) : storage_(storage) {}
+
+  [[nodiscard]] PouAccess read(const PouSymbol *pou);
+  /// What initial values bind: they hold before any task runs.
+  [[nodiscard]] PouAccess initial(const std::vector<const VarSymbol *> &variables);
+
+private:
+  void block(ast::Block block);
+  void statement(const ast::Stmt *s);
+  void value(const ast::Expr *e);
+  void target(const ast::Expr *e);
+  void access(const ast::Expr *e, unsigned scalar, unsigned whole);
+  void note(PlacePath place, unsigned flags, Span span, const ast::Expr *named = nullptr);
+  void image(const ast::Expr *e, bool writes);
+  void call(const ast::CallExpr *e);
+  void builtin(const ast::CallExpr *e);
+  void argument(const ast::CallExpr *call, const ast::Argument &a);
+  void instanceOf(const ast::CallExpr *e);
+  bool isOpen(const ast::CallExpr *e);
+  void accessor(const ast::Expr *object, const Symbol *property, bool writes, Span span);
+  void escape(const ast::Expr *e);
+  void flow(const VarSymbol *target, const ast::Expr *value);
+  void flowPlace(const VarSymbol *target, const ast::Expr *place);
+  void initialValue(const VarSymbol *variable, const ast::Expr *init);
+  /// The place, after its indices and the pointers on the way to it have been read.
+  PlacePath place(const ast::Expr *e, bool walk);
+  PlacePath placeOf(const VarSymbol *v) const;
+
+  Storage &storage_;
+  PouAccess out_;
+};
+
+} // namespace stc

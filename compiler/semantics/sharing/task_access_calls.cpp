@@ -1,0 +1,188 @@
+// Calls: the instances and arguments they use, and the accesses of builtins.
+
+#include "compiler/semantics/hierarchy.hpp"
+#include "compiler/semantics/sharing/task_access_names.hpp"
+
+#include <algorithm>
+
+namespace stc {
+
+using namespace ast;
+using namespace access;
+
+namespace {
+
+/// Blocks of the library that look at an axis, or ask its drive, without moving it; actions of the
+/// library that are made for another task than the rest of their block.
+bool worksInAnyTask(const PouSymbol *block) {
+  const Attributes attributes = block->decl->attributes;
+  return std::any_of(attributes.begin(), attributes.end(),
+                     [](const Attribute &a) { return a.name == "any_task"; });
+}
+
+} // namespace
+
+void AccessReader::accessor(const Expr *object, const Symbol *symbol, bool writes, Span span) {
+  const auto *property = static_cast<const PropertySymbol *>(symbol);
+  const PouSymbol *pou = writes ? property->set : property->get;
+  if (pou == nullptr)
+    return;
+  out_.calls.push_back({pou, true});
+  if (object == nullptr)
+    return;
+  PlacePath at = object->type != nullptr && isAddress(object->type)
+                     ? behind(addressVariable(object))
+                     : place(object, false);
+  note(std::move(at), accessCall, span);
+}
+
+/// The instance whose body or method runs.
+void AccessReader::instanceOf(const CallExpr *e) {
+  const Expr *object = e->callee;
+  if (e->resolved == Callee::method) {
+    if (object->kind != ExprKind::member || isNamespaceName(as<MemberExpr>(object)->base))
+      return; // of the own instance
+    object = as<MemberExpr>(object)->base;
+  }
+  PlacePath at = place(object, true);
+  if (object->type != nullptr && isAddress(object->type)) {
+    note(at, accessRead, e->span);
+    at = behind(addressVariable(object));
+  }
+  const PouSymbol *block = blockOf(e->pou);
+  if (block->library != nullptr && !block->library->isUser && e->pou != block &&
+      worksInAnyTask(e->pou))
+    return;
+  const bool native = block->decl->external;
+  note(std::move(at), accessCall | (native ? accessUnknown : 0U), e->span);
+}
+
+void AccessReader::argument(const CallExpr *e, const Argument &a) {
+  if (a.value == nullptr)
+    return;
+  const VarSymbol *p = a.parameter;
+  if (a.output) {
+    if (p != nullptr && isAddress(a.value->type))
+      if (const VarSymbol *to = addressVariable(a.value))
+        out_.flows.push_back({to, {}, p});
+    target(a.value);
+    return;
+  }
+  const bool native = e->pou->decl->external;
+  if (p != nullptr && isAlias(p)) {
+    PlacePath at = place(a.value, true);
+    image(a.value, !p->isConstant);
+    if (native) {
+      const bool reads = p->isConstant;
+      const unsigned flags = isScalarValue(p->type) ? accessRead | (reads ? 0U : accessWrite)
+                             : reads                ? unsigned{accessWholeRead}
+                                                    : unsigned{accessUnknown};
+      note(at, flags, a.span);
+    }
+    const PouSymbol *block = blockOf(e->pou);
+    if (block->library != nullptr && !block->library->isUser &&
+        p->type->kind == TypeKind::structure &&
+        typeAs<StructType>(p->type)->symbol->name.id->lower == "axis_ref" && !worksInAnyTask(block))
+      out_.axes.push_back({block, at, a.span});
+    if (at.base != PlacePath::Base::none)
+      out_.flows.push_back({p, std::move(at), nullptr});
+    return;
+  }
+  value(a.value);
+  if (p == nullptr)
+    return;
+  if (native || !isAddress(p->type))
+    escape(a.value);
+  else
+    flow(p, a.value);
+}
+
+void AccessReader::call(const CallExpr *e) {
+  switch (e->resolved) {
+  case Callee::unresolved:
+    return;
+  case Callee::builtin:
+    builtin(e);
+    return;
+  case Callee::function:
+    break;
+  case Callee::functionBlock:
+  case Callee::method:
+    instanceOf(e);
+    break;
+  case Callee::program:
+    note({PlacePath::Base::root, e->pou, {}}, accessCall, e->span);
+    break;
+  }
+  for (const Argument &a : e->arguments)
+    argument(e, a);
+  // Inputs and outputs of an instance are its members.
+  if (e->resolved == Callee::functionBlock || e->resolved == Callee::program) {
+    const PlacePath instance = e->resolved == Callee::program
+                                   ? PlacePath{PlacePath::Base::root, e->pou, {}}
+                                   : place(e->callee, false);
+    for (const Argument &a : e->arguments) {
+      if (a.parameter == nullptr || a.value == nullptr || isAlias(a.parameter) ||
+          instance.base == PlacePath::Base::none)
+        continue;
+      PlacePath member = instance;
+      member.steps.push_back({a.parameter, 0});
+      const bool scalar = isScalarValue(a.parameter->type);
+      note(std::move(member),
+           a.output ? (scalar ? accessRead : accessWholeRead)
+                    : (scalar ? accessWrite : accessWholeWrite),
+           a.span);
+    }
+  }
+  out_.calls.push_back({e->pou, isOpen(e)});
+}
+
+/// The instance is found by an address, or is the one that runs: its type may be a derived one.
+bool AccessReader::isOpen(const CallExpr *e) {
+  const Expr *object = e->callee;
+  if (e->resolved == Callee::method) {
+    if (object->kind != ExprKind::member || isNamespaceName(as<MemberExpr>(object)->base))
+      return true;
+    object = as<MemberExpr>(object)->base;
+  } else if (e->resolved != Callee::functionBlock) {
+    return false;
+  }
+  if (object->type != nullptr && isAddress(object->type))
+    return true;
+  const PlacePath at = place(object, false);
+  return at.base == PlacePath::Base::none || at.base == PlacePath::Base::address ||
+         at.symbol == nullptr;
+}
+
+void AccessReader::builtin(const CallExpr *e) {
+  switch (e->builtin) {
+  case Builtin::sizeofT:
+  case Builtin::indexOf:
+  case Builtin::newT:
+    return;
+  case Builtin::adr: // the access is where the address is followed
+    place(e->arguments[0].value, true);
+    return;
+  case Builtin::isValidRef:
+    return;
+  case Builtin::ini:
+    access(e->arguments[0].value, accessWrite, accessWholeWrite);
+    value(e->arguments[1].value);
+    return;
+  case Builtin::queryInterface:
+  case Builtin::queryPointer:
+    value(e->arguments[0].value);
+    target(e->arguments[1].value);
+    flow(addressVariable(e->arguments[1].value), e->arguments[0].value);
+    return;
+  case Builtin::lowerBound:
+  case Builtin::upperBound:
+    return;
+  default:
+    for (const Argument &a : e->arguments)
+      value(a.value);
+    return;
+  }
+}
+
+} // namespace stc

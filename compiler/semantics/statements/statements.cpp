@@ -1,0 +1,247 @@
+// Bodies and statements.
+
+#include "compiler/semantics/statements/statements.hpp"
+
+#include "compiler/semantics/calls/calls.hpp"
+#include "compiler/semantics/classes/classes.hpp"
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/conversions.hpp"
+#include "compiler/semantics/declarations/declarations.hpp"
+#include "compiler/semantics/expressions/expressions.hpp"
+#include "compiler/semantics/hierarchy.hpp"
+#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/statements/internal.hpp"
+#include "compiler/semantics/types/resolve.hpp"
+
+namespace stc::sema {
+
+using namespace ast;
+
+static void checkStatement(Context &c, Stmt *stmt);
+static void checkAssign(Context &c, AssignStmt *stmt);
+static void checkFor(Context &c, ForStmt *stmt);
+
+void checkBody(Context &c, PouSymbol *pou) {
+  if (pou->checked)
+    return;
+  pou->checked = true;
+  const ScopeGuard guard(c, {&moduleOf(c, pou), pou});
+  for (VarSymbol *v : pou->variables)
+    checkInitOf(c, v);
+  const ModeGuard loops(c.loopDepth, 0U);
+  checkBlock(c, pou->decl->body);
+  checkJumps(c, pou->decl->body);
+  for (PouSymbol *method : pou->methods) {
+    declare(c, method);
+    if (pou->isInterface()) { // callers use the default values
+      for (VarSymbol *v : method->variables)
+        checkInitOf(c, v);
+      continue;
+    }
+    checkAfterInit(c, method);
+    checkBody(c, method);
+  }
+}
+
+void checkBlock(Context &c, Block block) {
+  for (Stmt *stmt : block)
+    checkStatement(c, stmt);
+}
+
+static void checkLoopBody(Context &c, Block body) {
+  const ModeGuard loop(c.loopDepth, c.loopDepth + 1);
+  checkBlock(c, body);
+}
+
+/// `Visu;` and `fb.Rewind;` call a program and an action, as in V2.3; null: this is no such call.
+static CallExpr *bareCall(Context &c, Expr *expr) {
+  const Symbol *symbol = nullptr;
+  if (expr->kind == ExprKind::name) {
+    symbol = lookup(c, as<NameExpr>(expr)->name);
+  } else if (expr->kind == ExprKind::member && as<MemberExpr>(expr)->bit < 0 &&
+             as<MemberExpr>(expr)->base->kind == ExprKind::name) {
+    const auto *member = as<MemberExpr>(expr);
+    Symbol *base = lookup(c, as<NameExpr>(member->base)->name);
+    const Type *type = nullptr;
+    if (base != nullptr && base->kind == SymbolKind::variable)
+      type = typeOf(c, static_cast<VarSymbol *>(base));
+    else if (base != nullptr && base->kind == SymbolKind::pou)
+      type = static_cast<PouSymbol *>(base)->type;
+    if (type == nullptr || !isInstance(type))
+      return nullptr;
+    PouSymbol *owner = typeAs<PouType>(type)->symbol;
+    declare(c, owner);
+    symbol = memberNamed(owner, member->name.id);
+  }
+  if (symbol == nullptr || symbol->kind != SymbolKind::pou)
+    return nullptr;
+  const DeclKind kind = static_cast<const PouSymbol *>(symbol)->decl->kind;
+  if (kind != DeclKind::program && kind != DeclKind::action)
+    return nullptr;
+  auto *call = c.arena.make<CallExpr>();
+  call->span = expr->span;
+  call->callee = expr;
+  return call;
+}
+
+static void checkStatement(Context &c, Stmt *stmt) {
+  switch (stmt->kind) {
+  case StmtKind::empty:
+  case StmtKind::returnS:
+    break;
+  case StmtKind::assign:
+    checkAssign(c, as<AssignStmt>(stmt));
+    break;
+  case StmtKind::call: {
+    Expr *expr = as<CallStmt>(stmt)->expr;
+    if (expr->kind == ExprKind::call) {
+      expr->type = checkCall(c, as<CallExpr>(expr), true);
+    } else if (CallExpr *call = bareCall(c, expr)) {
+      as<CallStmt>(stmt)->expr = call;
+      call->type = checkCall(c, call, true);
+    } else if (expr->kind != ExprKind::error) {
+      check(c, expr);
+      if (isError(expr->type))
+        break;
+      auto &d = c.report(Code::noEffect, expr->span, "this statement has no effect",
+                         "its value is not used");
+      if (isInstance(expr->type))
+        d.help("call it: `" + std::string(c.program.sources.text(expr->span)) + "();`");
+      else if (expr->kind == ExprKind::binary && as<BinaryExpr>(expr)->op == BinaryOp::equal)
+        d.help("`=` compares; assign with `:=`");
+    }
+    break;
+  }
+  case StmtKind::ifS: {
+    auto *s = as<IfStmt>(stmt);
+    for (IfBranch &branch : s->branches) {
+      checkCondition(c, branch.condition, "the condition of IF");
+      checkBlock(c, branch.body);
+    }
+    checkBlock(c, s->elseBody);
+    break;
+  }
+  case StmtKind::caseS:
+    checkCase(c, as<CaseStmt>(stmt));
+    break;
+  case StmtKind::forS:
+    checkFor(c, as<ForStmt>(stmt));
+    break;
+  case StmtKind::whileS: {
+    auto *s = as<WhileStmt>(stmt);
+    checkCondition(c, s->condition, "the condition of WHILE");
+    checkLoopBody(c, s->body);
+    break;
+  }
+  case StmtKind::repeatS: {
+    auto *s = as<RepeatStmt>(stmt);
+    checkLoopBody(c, s->body);
+    checkCondition(c, s->until, "the condition of UNTIL");
+    break;
+  }
+  case StmtKind::jump: // checkJumps() looks at the body as a whole
+  case StmtKind::label:
+    break;
+  case StmtKind::tryS:
+    checkTry(c, as<TryStmt>(stmt));
+    break;
+  case StmtKind::exit:
+  case StmtKind::continueS:
+    if (c.loopDepth == 0) {
+      const std::string word = stmt->kind == StmtKind::exit ? "EXIT" : "CONTINUE";
+      auto &d = c.report(Code::outsideLoop, stmt->span, word + " outside of a loop",
+                         "there is no FOR, WHILE or REPEAT around it");
+      if (stmt->kind == StmtKind::exit)
+        d.help("leave the POU with RETURN");
+    }
+    break;
+  }
+}
+
+static void checkAssign(Context &c, AssignStmt *stmt) {
+  // The last target takes the value, the one before it what that one has taken, and so on.
+  const Type *expected = nullptr;
+  for (std::size_t i = stmt->targets.size(); i-- > 0;) {
+    Expr *target = stmt->targets[i];
+    const Type *type = stmt->op == AssignOp::reference ? check(c, target) : checkTarget(c, target);
+    const bool assignable = requireVariable(c, target, "assign to");
+    if (i + 1 == stmt->targets.size())
+      expected = assignable ? type : elementaryType(TypeKind::error);
+  }
+  Expr *last = stmt->targets.back();
+  if (stmt->op == AssignOp::reference) {
+    checkReferenceAssign(c, stmt);
+    return;
+  }
+  if (expected == nullptr || isError(expected)) {
+    check(c, stmt->value);
+    return;
+  }
+  if (stmt->op == AssignOp::set || stmt->op == AssignOp::reset) {
+    if (expected->kind != TypeKind::boolean) {
+      c.report(Code::setResetNotBool, last->span,
+               "S= and R= work on BOOL, this is " + typeName(expected), "expected BOOL");
+      check(c, stmt->value);
+      return;
+    }
+    checkCondition(c, stmt->value, "the right side of S= and R=");
+    return;
+  }
+  const Type *value = check(c, stmt->value, expected);
+  if (isError(value))
+    return;
+  if (value->kind == TypeKind::none) {
+    c.report(Code::noValue, stmt->value->span, "this call has no value",
+             "the function has no result type")
+        .help("give the function a result type: `FUNCTION f : INT`");
+    return;
+  }
+  if (isInstance(value) && value == expected && value->kind == TypeKind::program) {
+    c.report(Code::typeMismatch, stmt->span, "a program cannot be copied",
+             "there is only one of it");
+    return;
+  }
+  if (refuseOpenArray(c, last, "assign") || refuseOpenArray(c, stmt->value, "copy"))
+    return;
+  coerce(c, stmt->value, expected, {});
+  for (std::size_t i = stmt->targets.size() - 1; i-- > 0;) {
+    Expr *target = stmt->targets[i];
+    const Conversion kind = classify(stmt->targets[i + 1]->type, target->type);
+    if (kind == Conversion::narrowing || kind == Conversion::forbidden ||
+        kind == Conversion::lossy) {
+      Expr from = *stmt->targets[i + 1];
+      reportConversion(c, &from, from.type, target->type, kind, {});
+    }
+  }
+}
+
+static void checkFor(Context &c, ForStmt *stmt) {
+  const Type *type = check(c, stmt->variable);
+  bool ok = !isError(type) && requireVariable(c, stmt->variable, "count with");
+  if (ok && (!isInteger(underlying(type)) || type->kind == TypeKind::enumeration)) {
+    c.report(Code::forVariable, stmt->variable->span,
+             "FOR counts with an integer variable, this is " + typeName(type),
+             "expected an integer");
+    ok = false;
+  }
+  for (Expr *e : {stmt->from, stmt->to, stmt->by}) {
+    if (e == nullptr)
+      continue;
+    check(c, e, ok ? type : nullptr);
+    if (ok && e != stmt->by)
+      coerce(c, e, type, "FOR");
+  }
+  if (stmt->by != nullptr && ok && !isError(stmt->by->type)) {
+    if (stmt->by->constant != nullptr && stmt->by->constant->kind == ConstKind::integer &&
+        stmt->by->constant->integer == 0)
+      c.report(Code::forStepZero, stmt->by->span, "a FOR loop with step 0 never ends", "the step");
+    // The step has a sign even where the variable has none (`FOR u := 10 TO 0 BY -1`).
+    const Type *step = underlying(type);
+    if (!isSignedInteger(step))
+      step = elementaryType(bitWidth(step) < 32 ? TypeKind::dint : TypeKind::lint);
+    coerce(c, stmt->by, step, "the step of FOR");
+  }
+  checkLoopBody(c, stmt->body);
+}
+
+} // namespace stc::sema

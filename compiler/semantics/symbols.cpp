@@ -1,0 +1,28 @@
+#include "compiler/semantics/symbols.hpp"
+
+#include "compiler/semantics/type_table.hpp"
+
+namespace stc {
+
+using namespace ast;
+
+std::vector<VarSymbol *> PouSymbol::parameters() const {
+  std::vector<VarSymbol *> list;
+  if (base != nullptr)
+    list = base->parameters();
+  for (VarSymbol *v : variables) {
+    if (v->section == Section::input || v->section == Section::output ||
+        v->section == Section::inOut)
+      list.push_back(v);
+  }
+  return list;
+}
+
+const Type *elementBeforeReference(const IndexExpr *expr) {
+  const Type *type = expr->base->type;
+  for (std::size_t i = 0; i < expr->indices.size() && type != nullptr; ++i)
+    type = indexStep(type);
+  return type != nullptr ? type : elementaryType(TypeKind::error);
+}
+
+} // namespace stc

@@ -1,0 +1,224 @@
+// Named types: structures, enumerations and aliases become types.
+
+#include "compiler/semantics/types/resolve.hpp"
+
+#include "compiler/semantics/attributes.hpp"
+#include "compiler/semantics/config/config.hpp"
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/context/describe.hpp"
+#include "compiler/semantics/conversions.hpp"
+#include "compiler/semantics/declarations/declarations.hpp"
+#include "compiler/semantics/expressions/expressions.hpp"
+#include "compiler/semantics/fold.hpp"
+#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/types/internal.hpp"
+#include "compiler/syntax/parser.hpp"
+
+#include <unordered_map>
+
+namespace stc::sema {
+
+using namespace ast;
+
+static void resolveStruct(Context &c, TypeSymbol *symbol, StructDecl *decl);
+
+void resolve(Context &c, TypeSymbol *symbol) {
+  if (symbol->type != nullptr)
+    return;
+  if (symbol->resolving) {
+    auto &d = c.report(Code::recursiveType, symbol->name.span,
+                       "type `" + std::string(symbol->name.text) + "` is defined by itself",
+                       "this definition is a circle");
+    d.help("break the circle, for instance with POINTER TO");
+    symbol->type = elementaryType(TypeKind::error);
+    return;
+  }
+  if (isTooDeep(c, symbol->name)) {
+    symbol->type = elementaryType(TypeKind::error);
+    return;
+  }
+  symbol->resolving = true;
+  const ScopeGuard guard(c, {&moduleOf(c, symbol), nullptr, symbol->decl});
+  switch (symbol->decl->kind) {
+  case DeclKind::structure:
+    resolveStruct(c, symbol, as<StructDecl>(symbol->decl));
+    break;
+  case DeclKind::enumeration: {
+    auto *decl = as<EnumDecl>(symbol->decl);
+    symbol->init = decl->init;
+    symbol->type = makeEnum(c, decl->type, symbol);
+    break;
+  }
+  default: {
+    auto *decl = as<AliasDecl>(symbol->decl);
+    const Type *type = resolveType(c, decl->type, symbol->name.text);
+    if (symbol->type == nullptr) // a circle has set it to error
+      symbol->type = type;
+    symbol->init = decl->init;
+    break;
+  }
+  }
+  symbol->resolving = false;
+  symbol->library->types.push_back(symbol);
+}
+
+unsigned packMode(Context &c, const Attributes &attributes, unsigned otherwise) {
+  for (const Attribute &a : attributes) {
+    if (a.name != "pack_mode")
+      continue;
+    if (a.value == "0" || a.value == "1")
+      return 1;
+    if (a.value == "2" || a.value == "4" || a.value == "8")
+      return static_cast<unsigned>(a.value[0] - '0');
+    c.report(Code::packMode, a.span,
+             "`" + std::string(a.value) + "` is no way to align the members of a structure",
+             "0, 1, 2, 4 or 8 is possible")
+        .note("0 and 1 leave no gaps; 2, 4 and 8 align each member to that many bytes at most");
+  }
+  return otherwise;
+}
+
+/// Makes `type` extend `base`, unless that makes too long a chain.
+static void extendStruct(Context &c, StructType *type, const Name &baseName,
+                         const StructType *base) {
+  if (base->bases >= kMaxNesting) {
+    c.report(Code::tooDeep, baseName.span,
+             "`" + std::string(baseName.text) + "` extends too many other structures",
+             "more than " + std::to_string(kMaxNesting));
+    return;
+  }
+  type->base = base;
+  type->bases = base->bases + 1;
+  type->symbol->fields = base->symbol->fields;
+}
+
+static void resolveStruct(Context &c, TypeSymbol *symbol, StructDecl *decl) {
+  auto *type = c.arena.make<StructType>();
+  type->kind = TypeKind::structure;
+  type->symbol = symbol;
+  type->isUnion = decl->isUnion;
+  symbol->type = type; // members may point back to it
+  type->pack = packMode(c, decl->attributes, symbol->library->isUser ? c.program.settings.pack : 0);
+  if (!decl->base.empty()) {
+    const Name &baseName = decl->base.back();
+    Symbol *base = lookupPath(c, decl->base, true);
+    if (base == nullptr) {
+      type->base = nullptr; // reported
+    } else if (base->kind == SymbolKind::type) {
+      auto *baseSymbol = static_cast<TypeSymbol *>(base);
+      const bool circle = baseSymbol->resolving;
+      resolve(c, baseSymbol);
+      if (!circle && baseSymbol->type->kind == TypeKind::structure) {
+        extendStruct(c, type, baseName, typeAs<StructType>(baseSymbol->type));
+      } else if (!isError(baseSymbol->type)) {
+        c.report(circle ? Code::recursiveType : Code::wrongBase, baseName.span,
+                 circle ? "`" + std::string(symbol->name.text) + "` extends itself"
+                        : "`" + std::string(baseName.text) + "` is not a structure",
+                 "a structure can only extend another structure");
+      }
+    } else {
+      auto &d = c.report(Code::wrongBase, baseName.span,
+                         "`" + std::string(baseName.text) + "` is not a structure",
+                         "this is " + describe(base));
+      noteDeclaration(d, base);
+    }
+  }
+  std::vector<VarSymbol *> fields;
+  for (VarDecl *f : decl->fields) {
+    VarSymbol *field = makeVariable(c, f, moduleOf(c, symbol), nullptr);
+    field->home = decl;
+    const auto [it, fresh] = symbol->fields.emplace(f->name.id, field);
+    if (!fresh) {
+      auto &d = c.report(Code::duplicateName, f->name.span,
+                         "the field `" + std::string(f->name.text) + "` is declared twice",
+                         "declared again here");
+      d.label(it->second->name.span, "first declared here");
+      continue;
+    }
+    const std::string hint = std::string(symbol->name.text) + "__" + std::string(f->name.text);
+    field->type = decl->isUnion ? resolveType(c, f->type, hint) : resolveMember(c, field, hint);
+    if (f->address != nullptr)
+      placeVariable(c, field);
+    fields.push_back(field);
+    for (const Attribute &a : f->attributes) { // a second name of the same field
+      if (a.name == "alias")
+        symbol->fields.emplace(c.program.interner.intern(a.value), field);
+    }
+  }
+  type->fields = c.arena.copy(fields);
+}
+
+const EnumType *makeEnum(Context &c, EnumTypeExpr *expr, TypeSymbol *symbol) {
+  auto *type = c.arena.make<EnumType>();
+  type->kind = TypeKind::enumeration;
+  type->symbol = symbol;
+  symbol->type = type;
+  type->base = elementaryType(TypeKind::intT);
+  if (expr->base != nullptr) {
+    const Type *base = resolveType(c, expr->base, {});
+    if (isInteger(base))
+      type->base = base;
+    else if (!isError(base))
+      c.report(Code::wrongBase, expr->base->span,
+               "an enumeration cannot be based on " + typeName(base),
+               "an integer or bit-string type is expected here");
+  }
+  if (symbol->decl != nullptr)
+    type->strict = hasAttribute(symbol->decl->attributes, "strict");
+  if (symbol->decl != nullptr)
+    type->named = hasAttribute(symbol->decl->attributes, "to_string");
+  Module &module = moduleOf(c, symbol);
+  std::vector<EnumeratorSymbol *> list;
+  std::unordered_map<Ident, EnumeratorSymbol *> seen;
+  std::int64_t next = 0;
+  for (EnumeratorDecl &e : expr->enumerators) {
+    auto *enumerator = c.arena.make<EnumeratorSymbol>();
+    enumerator->kind = SymbolKind::enumerator;
+    enumerator->name = e.name;
+    enumerator->library = symbol->library;
+    enumerator->space = symbol->space;
+    enumerator->type = type;
+    if (e.value != nullptr) {
+      if (const auto value = constantInteger(c, e.value, "the value of an enumerator"))
+        next = *value;
+    }
+    enumerator->value = next;
+    const ConstValue value = integerValue(next);
+    if (!constantFits(value, elementaryType(TypeKind::anyInteger), type->base))
+      c.report(Code::constantOverflow, e.name.span,
+               "the value " + std::to_string(next) + " of `" + std::string(e.name.text) +
+                   "` does not fit into " + typeName(type->base))
+          .help("give the enumeration a larger base type: `(…) DINT`");
+    ++next;
+    const auto [it, fresh] = seen.emplace(e.name.id, enumerator);
+    if (!fresh) {
+      auto &d = c.report(Code::duplicateName, e.name.span,
+                         "the enumerator `" + std::string(e.name.text) + "` is declared twice",
+                         "declared again here");
+      d.label(it->second->name.span, "first declared here");
+      continue;
+    }
+    list.push_back(enumerator);
+    if (symbol->decl == nullptr || !hasAttribute(symbol->decl->attributes, "qualified_only"))
+      (symbol->space == nullptr ? module.enumerators : symbol->space->enumerators)[e.name.id]
+          .push_back(enumerator);
+  }
+  type->enumerators = c.arena.copy(list);
+  type->initial = list.empty() ? nullptr : list.front();
+  if (symbol->init != nullptr) {
+    check(c, symbol->init, type);
+    coerce(c, symbol->init, type, "the initial value");
+    if (symbol->init->constant != nullptr && !isError(symbol->init->type)) {
+      for (EnumeratorSymbol *e : list) {
+        if (e->value == symbol->init->constant->integer)
+          type->initial = e;
+      }
+    }
+  }
+  // Its own declaration may use the plain names.
+  type->qualifiedOnly =
+      symbol->decl != nullptr && hasAttribute(symbol->decl->attributes, "qualified_only");
+  return type;
+}
+
+} // namespace stc::sema

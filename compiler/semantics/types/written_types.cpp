@@ -1,0 +1,275 @@
+// Types as written become types.
+
+#include "compiler/semantics/types/resolve.hpp"
+
+#include "compiler/semantics/classes/classes.hpp"
+#include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/context/describe.hpp"
+#include "compiler/semantics/conversions.hpp"
+#include "compiler/semantics/expressions/expressions.hpp"
+#include "compiler/semantics/fold.hpp"
+#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/types/internal.hpp"
+
+namespace stc::sema {
+
+using namespace ast;
+
+static const Type *resolveNamed(Context &c, NamedTypeExpr *expr);
+static const Type *resolveArray(Context &c, ArrayTypeExpr *expr, std::string_view hint);
+static const Type *resolveString(Context &c, StringTypeExpr *expr);
+static const Type *resolveSubrange(Context &c, SubrangeTypeExpr *expr, std::string_view hint);
+static const Type *resolvePointer(Context &c, PointerTypeExpr *expr, std::string_view hint);
+
+static const Type *resolveOpenArray(Context &c, ArrayTypeExpr *expr, const Type *element) {
+  const Type *bad = elementaryType(TypeKind::error);
+  for (ArrayRange &range : expr->ranges) {
+    if (range.low != nullptr) {
+      c.report(Code::openArrayNotAllowed, range.span,
+               "an array has either bounds or `*` in all of its dimensions", "bounds beside a `*`")
+          .help("write `*` for each dimension, or give all bounds");
+      return bad;
+    }
+  }
+  if (expr != c.openArrayAllowed) {
+    c.report(Code::openArrayNotAllowed, expr->span,
+             "an array of variable length is only possible as a VAR_IN_OUT",
+             "there is no caller's array to take the bounds from")
+        .help("give the bounds, or pass the array as a VAR_IN_OUT of this type");
+    return bad;
+  }
+  if (isError(element))
+    return bad;
+  return c.types.openArray(element, static_cast<std::uint32_t>(expr->ranges.size()));
+}
+
+namespace {
+
+constexpr std::int64_t kMaxArrayElements = std::int64_t{1} << 28;
+
+constexpr std::int64_t kMaxStringLength = 65535;
+
+} // namespace
+
+const Type *resolveType(Context &c, TypeExpr *expr, std::string_view hint) {
+  switch (expr->kind) {
+  case TypeExprKind::named:
+    return resolveNamed(c, as<NamedTypeExpr>(expr));
+  case TypeExprKind::array:
+    return resolveArray(c, as<ArrayTypeExpr>(expr), hint);
+  case TypeExprKind::string:
+    return resolveString(c, as<StringTypeExpr>(expr));
+  case TypeExprKind::subrange:
+    return resolveSubrange(c, as<SubrangeTypeExpr>(expr), hint);
+  case TypeExprKind::pointer:
+  case TypeExprKind::reference:
+    return resolvePointer(c, as<PointerTypeExpr>(expr), hint);
+  case TypeExprKind::enumeration: {
+    // An enumeration in line gets a name of its own, made of the variable's.
+    TypeSymbol &symbol = c.program.typeStorage.emplace_back();
+    symbol.kind = SymbolKind::type;
+    symbol.name.text = c.arena.copy(hint);
+    symbol.name.id = c.program.interner.intern(hint);
+    symbol.name.span = expr->span;
+    symbol.library = c.scope.module->library;
+    const Type *type = makeEnum(c, as<EnumTypeExpr>(expr), &symbol);
+    symbol.library->types.push_back(&symbol);
+    return type;
+  }
+  case TypeExprKind::error:
+    break;
+  }
+  return elementaryType(TypeKind::error);
+}
+
+/// The type is written as BIT, and BIT is not the name of a type of the program.
+static bool namesBit(Context &c, const TypeExpr *expr) {
+  if (expr->kind != TypeExprKind::named || as<NamedTypeExpr>(expr)->path.size() != 1)
+    return false;
+  const Name &name = as<NamedTypeExpr>(expr)->path.front();
+  if (name.id->lower != "bit")
+    return false;
+  const Symbol *own = lookupDeclared(c, name);
+  return own == nullptr || own->kind == SymbolKind::variable;
+}
+
+const Type *resolveMember(Context &c, VarSymbol *variable, std::string_view hint) {
+  const VarDecl *decl = variable->decl;
+  if (!namesBit(c, decl->type))
+    return resolveType(c, decl->type, hint);
+  if (decl->address != nullptr) {
+    c.report(Code::bitNotPossible, decl->type->span, "a BIT cannot have an address of its own",
+             "declared with AT")
+        .help("write `BOOL`: a BOOL at `%IX0.0` is a single bit");
+    return elementaryType(TypeKind::boolean);
+  }
+  variable->isBit = !variable->isConstant;
+  return elementaryType(TypeKind::boolean);
+}
+
+static const Type *resolveNamed(Context &c, NamedTypeExpr *expr) {
+  const Name &name = expr->path.back();
+  Symbol *symbol = nullptr;
+  if (expr->path.size() == 1) {
+    const auto elementary = c.elementary.find(name.id);
+    if (elementary != c.elementary.end()) {
+      if (elementary->second != nullptr)
+        return elementary->second;
+    } else {
+      const Type *type = findElementaryType(name.id->lower);
+      if (type != nullptr && isCharacter(type)) { // V2.3 programs have types of this name
+        const Symbol *own = lookupInModule(*c.scope.module, name.id);
+        if (own != nullptr && own->kind == SymbolKind::type)
+          type = nullptr;
+      }
+      c.elementary.emplace(name.id, type);
+      if (type != nullptr)
+        return type;
+    }
+    // Types are not hidden by variables of the same name (`TON : TON`).
+    symbol = lookupDeclared(c, name);
+    if (symbol == nullptr || symbol->kind == SymbolKind::variable) {
+      Symbol *inLibrary = lookupInLibraries(c, name.id);
+      symbol = inLibrary != nullptr ? inLibrary : symbol;
+    }
+    if (symbol == nullptr && c.scope.pou != nullptr && c.scope.pou->scope.contains(name.id))
+      symbol = c.scope.pou->scope.at(name.id);
+  } else {
+    symbol = lookupPath(c, expr->path, true);
+    if (symbol == nullptr)
+      return elementaryType(TypeKind::error);
+  }
+  if (symbol == nullptr) {
+    if (!namesBit(c, expr)) {
+      reportUnknown(c, name, true);
+      return elementaryType(TypeKind::error);
+    }
+    c.report(Code::bitNotPossible, name.span, "there is no BIT here",
+             "only fields of a STRUCT and variables of a FUNCTION_BLOCK can be BIT")
+        .note(
+            "a BIT shares its byte with others and has no address, so that there are no arrays of "
+            "BIT and no pointers to it")
+        .help("write `BOOL`");
+    return elementaryType(TypeKind::error);
+  }
+  if (symbol->kind == SymbolKind::type) {
+    auto *type = static_cast<TypeSymbol *>(symbol);
+    resolve(c, type);
+    return type->type;
+  }
+  if (symbol->kind == SymbolKind::pou && (static_cast<PouSymbol *>(symbol)->isBlock() ||
+                                          static_cast<PouSymbol *>(symbol)->isInterface())) {
+    auto *pou = static_cast<PouSymbol *>(symbol);
+    link(c, pou);
+    if (pou->space == nullptr) // of a namespace: see nameInSpace()
+      requireAccess(c, name.span, pou, pou, pou->decl->access);
+    return pou->type;
+  }
+  if (c.programTypes && symbol->kind == SymbolKind::pou &&
+      static_cast<PouSymbol *>(symbol)->decl->kind == DeclKind::program)
+    return static_cast<PouSymbol *>(symbol)->type;
+  auto &d = c.report(Code::notAType, name.span, "`" + std::string(name.text) + "` is not a type",
+                     "this is " + describe(symbol));
+  noteDeclaration(d, symbol);
+  return elementaryType(TypeKind::error);
+}
+
+static const Type *resolveArray(Context &c, ArrayTypeExpr *expr, std::string_view hint) {
+  const Type *type = resolveType(c, expr->element, hint);
+  for (const ArrayRange &range : expr->ranges) {
+    if (range.low == nullptr)
+      return resolveOpenArray(c, expr, type);
+  }
+  std::int64_t total = 1;
+  for (std::size_t i = expr->ranges.size(); i-- > 0;) {
+    ArrayRange &range = expr->ranges[i];
+    const auto low = constantInteger(c, range.low, "an array bound");
+    const auto high = constantInteger(c, range.high, "an array bound");
+    if (!low || !high || isError(type))
+      return elementaryType(TypeKind::error);
+    std::int64_t count = 0;
+    if (*high < *low || __builtin_sub_overflow(*high, *low, &count) || count >= kMaxArrayElements ||
+        __builtin_mul_overflow(total, count + 1, &total) || total > kMaxArrayElements) {
+      auto &d = c.report(Code::invalidArrayBounds, range.span,
+                         *high < *low ? "the upper bound " + std::to_string(*high) +
+                                            " is below the lower bound " + std::to_string(*low)
+                                      : std::string("the array is too large"),
+                         *high < *low ? "these bounds hold no element"
+                                      : "more than 268,435,456 elements");
+      if (*high < *low)
+        d.help("write the lower bound first: `" + std::to_string(*high) + ".." +
+               std::to_string(*low) + "`");
+      return elementaryType(TypeKind::error);
+    }
+    type = c.types.array(type, *low, *high);
+  }
+  return type;
+}
+
+static const Type *resolveString(Context &c, StringTypeExpr *expr) {
+  if (expr->length == nullptr)
+    return c.types.string(expr->wide, 80);
+  const auto length = constantInteger(c, expr->length, "the length of a string");
+  if (!length)
+    return elementaryType(TypeKind::error);
+  if (*length < 1 || *length > kMaxStringLength) {
+    c.report(Code::invalidStringLength, expr->length->span,
+             "a string cannot have the length " + std::to_string(*length),
+             "1 to 65535 is possible");
+    return elementaryType(TypeKind::error);
+  }
+  return c.types.string(expr->wide, static_cast<std::uint32_t>(*length));
+}
+
+static const Type *resolveSubrange(Context &c, SubrangeTypeExpr *expr, std::string_view hint) {
+  const Type *base = resolveType(c, expr->base, hint);
+  const auto low = constantInteger(c, expr->low, "a bound of the range");
+  const auto high = constantInteger(c, expr->high, "a bound of the range");
+  if (isError(base) || !low || !high)
+    return elementaryType(TypeKind::error);
+  if (!isInteger(base)) {
+    c.report(Code::invalidSubrange, expr->base->span,
+             typeName(base) + " cannot be limited to a range", "an integer type is expected here");
+    return elementaryType(TypeKind::error);
+  }
+  const Type *any = elementaryType(TypeKind::anyInteger);
+  const bool fits =
+      constantFits(integerValue(*low), any, base) && constantFits(integerValue(*high), any, base);
+  if (*high < *low || !fits) {
+    c.report(
+        Code::invalidSubrange, expr->low->span.to(expr->high->span),
+        *high < *low ? "the range holds no value" : "the range does not fit into " + typeName(base),
+        *high < *low ? "the upper bound is below the lower one"
+                     : typeName(base) + " goes from " + std::to_string(integerRange(base).low) +
+                           " to " + std::to_string(integerRange(base).high));
+    return elementaryType(TypeKind::error);
+  }
+  return c.types.subrange(base, *low, *high);
+}
+
+static const Type *resolvePointer(Context &c, PointerTypeExpr *expr, std::string_view hint) {
+  const bool isPointer = expr->kind == TypeExprKind::pointer;
+  const Type *pointee = nullptr;
+  if (isPointer && expr->pointee->kind == TypeExprKind::named) {
+    const auto *named = as<NamedTypeExpr>(expr->pointee);
+    if (named->path.size() == 1 && named->path.front().id->lower == "void" &&
+        lookupInModule(*c.scope.module, named->path.front().id) == nullptr)
+      pointee = elementaryType(TypeKind::none);
+  }
+  if (pointee == nullptr)
+    pointee = resolveType(c, expr->pointee, hint);
+  if (isError(pointee))
+    return pointee;
+  if (pointee->kind == TypeKind::reference) {
+    auto &d = c.report(Code::invalidIndirection, expr->pointee->span,
+                       std::string(isPointer ? "a pointer" : "a reference") +
+                           " to a REFERENCE is not possible",
+                       "a reference has no place of its own");
+    d.help(std::string("write `") + (isPointer ? "POINTER" : "REFERENCE") + " TO " +
+           typeName(typeAs<PointerType>(pointee)->pointee) + "`");
+    return elementaryType(TypeKind::error);
+  }
+  return isPointer ? c.types.pointer(pointee) : c.types.reference(pointee);
+}
+
+} // namespace stc::sema
