@@ -1,33 +1,33 @@
 #include "drivers/axis_drivers.hpp"
 
-#include "drivers/dummy/dummy_drive.hpp"
 #include "drivers/registry.hpp"
 
 #include <array>
 #include <cstddef>
 
+// What every driver of the registry implements in its folder.
+#define STRIDE_DECLARE_DRIVER(folder)                                                              \
+  namespace stride::folder {                                                                       \
+  uint64_t driveDataLayout();                                                                      \
+  std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup);                       \
+  }
+STRIDE_AXIS_DRIVERS(STRIDE_DECLARE_DRIVER)
+#undef STRIDE_DECLARE_DRIVER
+
 namespace stride::drivers {
 
 namespace {
 
-constexpr std::array kDrivers = {
-    DriverEntry{dummy::kSchema, ::st::DummyDrive::DUMMY_DRIVE_SIM__layout__,
-                dummy::makeDummyDriver},
-};
-
-constexpr bool sameNames() {
-  for (std::size_t i = 0; i < kDrivers.size(); ++i)
-    if (kDrivers[i].schema.name != kSchemas[i].name)
-      return false;
-  return kDrivers.size() == kSchemas.size();
-}
-static_assert(sameNames(), "a driver that the compiler knows is missing here, or the other way");
+#define STRIDE_DRIVER_ENTRY(folder)                                                                \
+  DriverEntry{&folder::kSchema, folder::driveDataLayout, folder::makeDriver},
+constexpr std::array kDrivers = {STRIDE_AXIS_DRIVERS(STRIDE_DRIVER_ENTRY)};
+#undef STRIDE_DRIVER_ENTRY
 
 } // namespace
 
 const DriverEntry *findDriver(std::string_view name) {
   for (const DriverEntry &driver : kDrivers)
-    if (driver.schema.name == name)
+    if (driver.schema->name == name)
       return &driver;
   return nullptr;
 }
@@ -36,7 +36,7 @@ std::string knownDrivers() {
   std::string text = "it has ";
   for (std::size_t i = 0; i < kDrivers.size(); ++i) {
     text += i == 0 ? "'" : ", '";
-    text.append(kDrivers[i].schema.interfaceType).append("'");
+    text.append(kDrivers[i].schema->interfaceType).append("'");
   }
   return text;
 }

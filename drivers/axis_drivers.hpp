@@ -15,8 +15,9 @@ namespace stride::drivers {
 
 /// A driver of this runtime.
 struct DriverEntry {
-  bus::DriverSchema schema;
-  uint64_t driveDataLayout; ///< The layout hash of schema.driveData, as this runtime knows it.
+  const bus::DriverSchema *schema;
+  /// The layout hash of the type in schema->driveData, as this runtime knows it; 0: it has none.
+  uint64_t (*driveDataLayout)();
   std::unique_ptr<bus::AxisDriver> (*make)(const bus::GroupSetup &setup);
 };
 

@@ -7,16 +7,22 @@
 #include <array>
 #include <string_view>
 
+/// Every driver by its folder, which is its namespace, too: it has a `kSchema` (schema.hpp),
+/// `makeDriver` and `driveDataLayout` (axis_drivers.hpp). A new driver: a name here, and the
+/// include of its schema above.
+#define STRIDE_AXIS_DRIVERS(DRIVER) DRIVER(dummy)
+
 namespace stride::drivers {
 
-/// A new driver: a line here, and one in axis_drivers.cpp.
-inline constexpr std::array kSchemas = {dummy::kSchema};
+#define STRIDE_SCHEMA_OF(folder) &folder::kSchema,
+inline constexpr std::array kSchemas = {STRIDE_AXIS_DRIVERS(STRIDE_SCHEMA_OF)};
+#undef STRIDE_SCHEMA_OF
 
 /// The driver with that name, or null.
 constexpr const bus::DriverSchema *findSchema(std::string_view name) {
-  for (const bus::DriverSchema &schema : kSchemas)
-    if (schema.name == name)
-      return &schema;
+  for (const bus::DriverSchema *schema : kSchemas)
+    if (schema->name == name)
+      return schema;
   return nullptr;
 }
 

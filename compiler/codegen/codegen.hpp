@@ -73,10 +73,7 @@ struct AppConfig {
     std::uint32_t outputCount = 0;
     std::vector<std::uint8_t> safeOutputs;
     std::vector<std::uint8_t> safeInputs; ///< empty: inputs of a lost device stay
-    bool loopBack = false;
-    std::uint32_t delayCycles = 0;
-    std::string segment;
-    std::int64_t timeoutNs = 0;
+    std::vector<ConfigParameter> parameters;
   };
   std::string name;
   std::vector<IoDevice> ioDevices;

@@ -41,8 +41,32 @@ PlcTables::PlcTables(Context &context, const AppConfig &config, FindGlobal find)
     : c_(context), config_(config), find_(std::move(find)) {}
 
 void PlcTables::write() {
+  addBuses();
   addAxisGroups();
   addIoDevices();
+  addTable("{name, text, number}", "ParameterDesc", "kParameters", parameters_);
+  addTable("{name, interfaceType, driverName, firstParameter, parameterCount}", "BusDesc", "kBuses",
+           buses_);
+  addTable("{name, axisOffset, driveId, 0, dataOffset, dataLayout, firstParameter, parameterCount}",
+           "DriveDesc", "kDrives", drives_);
+  addTable("{name, encoderOffset, encoderId, firstParameter, parameterCount, 0}", "EncoderDesc",
+           "kEncoders", encoders_);
+  addTable("{name, busName, driverName, groupOffset, task, cycleUs, firstDrive, driveCount, bus, "
+           "firstEncoder, encoderCount, firstParameter, parameterCount}",
+           "AxisGroupDesc", "kAxisGroups", groupRows_);
+  if (!ioRows_.empty())
+    text_ += "\n" + ioBytes_ +
+             "// {name, driverName, stateOffset, inputFirst, inputCount, outputFirst, outputCount, "
+             "safeOutputs,\n// safeInputs, firstParameter, parameterCount}\n"
+             "constexpr ::stride::IoDeviceDesc kIoDevices[] = {\n" +
+             ioRows_ + "};\n";
+}
+
+void PlcTables::addTable(const char *columns, const char *type, const char *name,
+                         const std::string &rows) {
+  if (!rows.empty())
+    text_ += std::string("\n// ") + columns + "\nconstexpr ::stride::" + type + " " + name +
+             "[] = {\n" + rows + "};\n";
 }
 
 /// Appends parameters to their table; returns "first, count".
@@ -84,12 +108,13 @@ void PlcTables::addEncoder(const AppConfig::Encoder &encoder) {
   ++encoderCount_;
 }
 
-void PlcTables::addAxisGroups() {
-  std::string buses;
-  std::string groups;
+void PlcTables::addBuses() {
   for (const AppConfig::Bus &bus : config_.buses)
-    buses += "    {\"" + escaped(bus.name) + "\", \"" + escaped(bus.interfaceType) + "\", \"" +
-             escaped(bus.driver) + "\", " + addParameters(bus.parameters) + "},\n";
+    buses_ += "    {\"" + escaped(bus.name) + "\", \"" + escaped(bus.interfaceType) + "\", \"" +
+              escaped(bus.driver) + "\", " + addParameters(bus.parameters) + "},\n";
+}
+
+void PlcTables::addAxisGroups() {
   for (const AppConfig::AxisGroup &group : config_.axisGroups) {
     const auto [variable, place] = find_(group.name);
     if (variable == nullptr)
@@ -107,35 +132,18 @@ void PlcTables::addAxisGroups() {
         task = std::to_string(i);
     }
     const AppConfig::Bus &bus = config_.buses[group.bus];
-    groups += "    {\"" + escaped(group.name) + "\", \"" + escaped(bus.name) + "\", \"" +
-              escaped(bus.driver) + "\", offsetof(App__, " + place + "), " + task + ", " +
-              std::to_string(group.cycleUs) + ", " + std::to_string(firstDrive) + ", " +
-              std::to_string(driveCount_ - firstDrive) + ", " + std::to_string(group.bus) + ", " +
-              std::to_string(firstEncoder) + ", " + std::to_string(encoderCount_ - firstEncoder) +
-              ", " + addParameters(group.parameters) + "},\n";
+    groupRows_ += "    {\"" + escaped(group.name) + "\", \"" + escaped(bus.name) + "\", \"" +
+                  escaped(bus.driver) + "\", offsetof(App__, " + place + "), " + task + ", " +
+                  std::to_string(group.cycleUs) + ", " + std::to_string(firstDrive) + ", " +
+                  std::to_string(driveCount_ - firstDrive) + ", " + std::to_string(group.bus) +
+                  ", " + std::to_string(firstEncoder) + ", " +
+                  std::to_string(encoderCount_ - firstEncoder) + ", " +
+                  addParameters(group.parameters) + "},\n";
     ++groupCount_;
   }
-  const auto table = [&](const char *columns, const char *type, const char *name,
-                         const std::string &rows) {
-    if (!rows.empty())
-      text_ += std::string("\n// ") + columns + "\nconstexpr ::stride::" + type + " " + name +
-               "[] = {\n" + rows + "};\n";
-  };
-  table("{name, text, number}", "ParameterDesc", "kParameters", parameters_);
-  table("{name, interfaceType, driverName, firstParameter, parameterCount}", "BusDesc", "kBuses",
-        buses);
-  table("{name, axisOffset, driveId, 0, dataOffset, dataLayout, firstParameter, parameterCount}",
-        "DriveDesc", "kDrives", drives_);
-  table("{name, encoderOffset, encoderId, firstParameter, parameterCount, 0}", "EncoderDesc",
-        "kEncoders", encoders_);
-  table("{name, busName, driverName, groupOffset, task, cycleUs, firstDrive, driveCount, bus, "
-        "firstEncoder, encoderCount, firstParameter, parameterCount}",
-        "AxisGroupDesc", "kAxisGroups", groups);
 }
 
 void PlcTables::addIoDevices() {
-  std::string rows;
-  std::string bytes;
   for (const AppConfig::IoDevice &device : config_.ioDevices) {
     const auto [variable, place] = find_(device.name);
     if (variable == nullptr)
@@ -145,29 +153,20 @@ void PlcTables::addIoDevices() {
       if (values.empty())
         return std::string("nullptr");
       const std::string constant = name + number;
-      bytes += "constexpr uint8_t " + constant + "[] = {";
+      ioBytes_ += "constexpr uint8_t " + constant + "[] = {";
       for (std::size_t i = 0; i < values.size(); ++i)
-        bytes += (i == 0 ? "" : ", ") + std::to_string(values[i]);
-      bytes += "};\n";
+        ioBytes_ += (i == 0 ? "" : ", ") + std::to_string(values[i]);
+      ioBytes_ += "};\n";
       return constant;
     };
     const std::string outputs = table("kSafeOutputs", device.safeOutputs);
     const std::string inputs = table("kSafeInputs", device.safeInputs);
-    rows +=
-        "    {\"" + escaped(device.name) + "\", \"" + escaped(device.driver) +
-        "\", offsetof(App__, " + place + "), " + std::to_string(device.inputFirst) + ", " +
-        std::to_string(device.inputCount) + ", " + std::to_string(device.outputFirst) + ", " +
-        std::to_string(device.outputCount) + ", " + outputs + ", " + inputs + ", " +
-        (device.loopBack ? "1, " : "0, ") + std::to_string(device.delayCycles) + ", " +
-        (device.segment.empty() ? std::string("nullptr") : "\"" + escaped(device.segment) + "\"") +
-        ", " + std::to_string(device.timeoutNs) + "},\n";
+    ioRows_ += "    {\"" + escaped(device.name) + "\", \"" + escaped(device.driver) +
+               "\", offsetof(App__, " + place + "), " + std::to_string(device.inputFirst) + ", " +
+               std::to_string(device.inputCount) + ", " + std::to_string(device.outputFirst) +
+               ", " + std::to_string(device.outputCount) + ", " + outputs + ", " + inputs + ", " +
+               addParameters(device.parameters) + "},\n";
   }
-  if (!rows.empty())
-    text_ += "\n" + bytes +
-             "// {name, driverName, stateOffset, inputFirst, inputCount, outputFirst, outputCount, "
-             "safeOutputs,\n// safeInputs, loopBack, delayCycles, segment, timeoutNs}\n"
-             "constexpr ::stride::IoDeviceDesc kIoDevices[] = {\n" +
-             rows + "};\n";
 }
 
 } // namespace stc::codegen

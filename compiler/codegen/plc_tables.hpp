@@ -42,8 +42,10 @@ private:
   std::string addParameters(const std::vector<ConfigParameter> &list);
   void addDrive(const AppConfig::Drive &drive);
   void addEncoder(const AppConfig::Encoder &encoder);
+  void addBuses();
   void addAxisGroups();
   void addIoDevices();
+  void addTable(const char *columns, const char *type, const char *name, const std::string &rows);
 
   Context &c_;
   const AppConfig &config_;
@@ -51,7 +53,11 @@ private:
   std::string text_;
   std::string parameters_; ///< rows of the tables
   std::string drives_;
+  std::string buses_;
   std::string encoders_;
+  std::string groupRows_;
+  std::string ioRows_;
+  std::string ioBytes_; ///< tables of safe values
   std::size_t parameterCount_ = 0;
   std::size_t driveCount_ = 0;
   std::size_t encoderCount_ = 0;

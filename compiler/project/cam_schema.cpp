@@ -15,7 +15,7 @@ constexpr double kMicroseconds = 4294967295.0;
 constexpr double kGroups = 32767;
 
 constexpr Parameter coordinate(std::string_view name, bool required = false) {
-  return {name, ParameterType::real, required, -kFarthest, kFarthest};
+  return {name, ParameterType::Real, required, -kFarthest, kFarthest};
 }
 
 constexpr std::array<Choice, 5> kLaws = {
@@ -41,19 +41,19 @@ constexpr std::array<Choice, 2> kInterpolations = {{{"linear", 1}, {"cubic", 3}}
 constexpr std::array kMasterParameters = {
     coordinate("start", true),
     coordinate("end", true),
-    Parameter{"unit", ParameterType::text},
+    Parameter{"unit", ParameterType::Text},
 };
 constexpr std::array kSlaveParameters = {
     coordinate("minimum"),
     coordinate("maximum"),
-    Parameter{"unit", ParameterType::text},
+    Parameter{"unit", ParameterType::Text},
 };
 constexpr std::array kPointParameters = {
     coordinate("x", true),
     coordinate("y", true),
     coordinate("v"),
     coordinate("a"),
-    Parameter{"smooth", ParameterType::boolean},
+    Parameter{"smooth", ParameterType::Boolean},
 };
 constexpr std::array kLineParameters = {
     coordinate("x", true),
@@ -70,32 +70,32 @@ constexpr std::array kLawParameters = {
     coordinate("y_end", true),
     coordinate("v_end"),
     coordinate("a_end"),
-    Parameter{"law", ParameterType::choice, true, 0, 0, kLaws},
-    Parameter{"parameter", ParameterType::real, false, 0, 0.999},
-    Parameter{"inflexion", ParameterType::real, false, 0.001, 0.999},
+    Parameter{"law", ParameterType::Choice, true, 0, 0, kLaws},
+    Parameter{"parameter", ParameterType::Real, false, 0, 0.999},
+    Parameter{"inflexion", ParameterType::Real, false, 0.001, 0.999},
 };
 constexpr std::array kTappetParameters = {
     coordinate("x", true),
-    Parameter{"group", ParameterType::integer, true, 0, kGroups},
-    Parameter{"pass", ParameterType::choice, false, 0, 0, kPasses},
-    Parameter{"action", ParameterType::choice, false, 0, 0, kActions},
-    Parameter{"delay", ParameterType::integer, false, 0, kMicroseconds, {}, "µs"},
-    Parameter{"duration", ParameterType::integer, false, 0, kMicroseconds, {}, "µs"},
+    Parameter{"group", ParameterType::Integer, true, 0, kGroups},
+    Parameter{"pass", ParameterType::Choice, false, 0, 0, kPasses},
+    Parameter{"action", ParameterType::Choice, false, 0, 0, kActions},
+    Parameter{"delay", ParameterType::Integer, false, 0, kMicroseconds, {}, "µs"},
+    Parameter{"duration", ParameterType::Integer, false, 0, kMicroseconds, {}, "µs"},
 };
 constexpr std::array kCompileParameters = {
-    Parameter{"mode", ParameterType::choice, true, 0, 0, kModes},
-    Parameter{"type", ParameterType::choice, false, 0, 0, kTypes},
-    Parameter{"places", ParameterType::integer, false, 2, stride::cam::kCamFileMaxCount},
-    Parameter{"interpolation", ParameterType::choice, false, 0, 0, kInterpolations},
+    Parameter{"mode", ParameterType::Choice, true, 0, 0, kModes},
+    Parameter{"type", ParameterType::Choice, false, 0, 0, kTypes},
+    Parameter{"places", ParameterType::Integer, false, 2, stride::cam::kCamFileMaxCount},
+    Parameter{"interpolation", ParameterType::Choice, false, 0, 0, kInterpolations},
     coordinate("master_minimum"),
     coordinate("master_maximum"),
     coordinate("slave_minimum"),
     coordinate("slave_maximum"),
 };
 constexpr std::array kCamParameters = {
-    Parameter{"name", ParameterType::identifier},
-    Parameter{"periodic", ParameterType::boolean},
-    Parameter{"interval", ParameterType::real, false, 0, std::numeric_limits<double>::max()},
+    Parameter{"name", ParameterType::Identifier},
+    Parameter{"periodic", ParameterType::Boolean},
+    Parameter{"interval", ParameterType::Real, false, 0, std::numeric_limits<double>::max()},
 };
 
 constexpr Section kMaster = {"master",          "the master", "master", false,

@@ -1,6 +1,7 @@
 #include "compiler/project/config.hpp"
 
 #include "compiler/project/config_reader.hpp"
+#include "compiler/project/driver_sections.hpp"
 #include "compiler/project/interval.hpp"
 #include "compiler/project/io_config.hpp"
 #include "compiler/project/names.hpp"
@@ -58,10 +59,10 @@ public:
     }
     for (const CheckedSection &task : top.sections("task", diagnostics_))
       readTask(task);
-    for (const CheckedSection &bus : top.sections("bus", diagnostics_))
-      plc_.readBus(bus);
-    for (const CheckedSection &io : top.sections("io", diagnostics_))
-      readIoDevice(io, config_, diagnostics_);
+    for (const TomlNode &bus : top.tables("bus"))
+      plc_.readBus({bus, busSection(bus), diagnostics_});
+    for (const TomlNode &io : top.tables("io"))
+      readIoDevice({io, ioSection(io), diagnostics_}, config_, diagnostics_);
     return std::move(config_);
   }
 

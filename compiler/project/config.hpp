@@ -7,6 +7,7 @@
 #include "compiler/source/source_manager.hpp"
 #include "compiler/syntax/ast.hpp"
 #include "compiler/syntax/conditions.hpp"
+#include "runtime/bus/driver_schema.hpp"
 
 #include <array>
 #include <cstdint>
@@ -47,12 +48,14 @@ struct DriveConfig {
   ConfigName name;
   ConfigFields fields;
   std::vector<ConfigParameter> parameters;
-  bool simulated = false; ///< has a `physics` section and so a variable `<name>_Sim`
+  /// The variable that driver and program share about it; null: there is none.
+  const stride::bus::SharedData *shared = nullptr;
 };
 
-/// The variable through which a program sees and disturbs the simulation of a drive.
-[[nodiscard]] inline std::string simulationOf(const DriveConfig &drive) {
-  return drive.name.text + "_Sim";
+/// The name of DriveConfig::shared; empty: there is none.
+[[nodiscard]] inline std::string sharedVariable(const DriveConfig &drive) {
+  return drive.shared != nullptr ? drive.name.text + std::string(drive.shared->suffix)
+                                 : std::string();
 }
 
 struct EncoderConfig {

@@ -63,15 +63,11 @@ private:
   void readCyclicData(const CheckedSection &section, ConfigFields &fields);
   bool checkCyclicData(const CheckedSection &section, std::string_view direction);
   void readEncoder(const CheckedSection &section, AxisGroupConfig &group, Unique &ids);
-  void readEncoderPhysics(const CheckedSection &section, const AxisGroupConfig &group,
-                          EncoderConfig &encoder);
   void readScaling(const CheckedSection &section, ConfigFields &fields, std::string_view what);
   void checkPeriod(const CheckedSection &section, const TomlNode &period, std::string_view what);
   void readLimits(const CheckedSection &section, ConfigFields &fields, bool rotary,
                   std::string_view what);
   void readRamp(const CheckedSection &section, ConfigFields &fields);
-  void readPhysics(const CheckedSection &section, DriveConfig &drive, bool rotary);
-  void checkModel(const CheckedSection &section, std::int64_t model);
   bool addVariable(const ConfigName &name);
 
   ProjectConfig &config_;

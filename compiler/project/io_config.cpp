@@ -1,8 +1,10 @@
 #include "compiler/project/io_config.hpp"
 
-#include "compiler/project/interval.hpp"
+#include "compiler/project/driver_sections.hpp"
 #include "compiler/project/names.hpp"
+#include "drivers/io/registry.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <fmt/format.h>
 #include <optional>
@@ -87,24 +89,18 @@ public:
     }
     AppConfig::IoDevice &device = io.device;
     device.name = name->text;
-    const bool memory = section_.choice("device", 0) == 1;
-    device.driver = memory ? "SharedMemory" : "Simulated";
+    const stride::io::IoSchema &driver =
+        *stride::drivers::kIoSchemas[static_cast<std::size_t>(section_.choice("device"))];
+    device.driver = driver.name;
     device.inputFirst = number("inputs_at");
     device.inputCount = number("inputs");
     device.outputFirst = number("outputs_at");
     device.outputCount = number("outputs");
-    device.loopBack = section_.boolean("loop_back", false);
-    device.delayCycles = number("delay");
     device.safeOutputs.resize(device.outputCount);
-    if (section_.choice("on_loss", 0) == 1)
+    if (section_.choice("on_loss") == 1)
       device.safeInputs.resize(device.inputCount);
-    if (memory) {
-      device.segment = section_.text("segment", "/" + config_.name + "-" + device.name);
-      if (device.segment.empty() || device.segment.front() != '/')
-        device.segment.insert(0, "/");
-      device.timeoutNs = parseInterval(section_.text("timeout")).value_or(0);
-    }
-    unused(memory);
+    readParameters(driver, device);
+    checkRules(section_, {.counts = {}}, diagnostics_);
     io.inputSpan = spanOf("inputs", name->span);
     io.outputSpan = spanOf("outputs", name->span);
     checkOverlap(io);
@@ -115,29 +111,30 @@ public:
 
 private:
   std::uint32_t number(std::string_view key) const {
-    return static_cast<std::uint32_t>(section_.integer(key, 0));
+    return static_cast<std::uint32_t>(section_.integer(key));
   }
   Span spanOf(std::string_view key, Span otherwise) const {
     const TomlNode *node = section_.get(key);
     return node != nullptr ? node->keySpan.to(node->span) : otherwise;
   }
 
-  /// Parameters that are for the other kind of device.
-  void unused(bool memory) {
-    const auto report = [&](std::string_view key, std::string_view reason) {
-      if (section_.has(key) && section_.get(key) != nullptr)
-        diagnostics_.report(Code::configWithoutEffect, section_.get(key)->keySpan,
-                            fmt::format("`{}` has no effect here", key), std::string(reason));
-    };
-    if (memory) {
-      report("loop_back", "only with device = \"Simulated\"");
-      report("delay", "only with device = \"Simulated\"");
-      return;
+  /// Those of the driver with their defaults, so that an online change sees what has changed. Names
+  /// that a text contains are known only here.
+  void readParameters(const stride::io::IoSchema &driver, AppConfig::IoDevice &device) {
+    std::vector<ConfigParameter> all;
+    section_.parameters({}, all);
+    for (const Parameter &row : driver.parameters) {
+      const auto given = std::find_if(
+          all.begin(), all.end(), [&](const ConfigParameter &one) { return one.name == row.name; });
+      if (given != all.end())
+        device.parameters.push_back(std::move(*given));
+      else if (row.otherwise.any)
+        device.parameters.push_back(
+            {std::string(row.name),
+             fmt::format(fmt::runtime(row.otherwise.text), fmt::arg("project", config_.name),
+                         fmt::arg("name", device.name)),
+             row.otherwise.number});
     }
-    report("segment", "only with device = \"SharedMemory\"");
-    report("timeout", "only with device = \"SharedMemory\"");
-    if (!section_.boolean("loop_back", false))
-      report("delay", "only with loop_back = true");
   }
 
   void checkOverlap(const IoConfig &io) {

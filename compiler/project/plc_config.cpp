@@ -1,9 +1,11 @@
 // The PLC configuration: SoftMotion V2.3 manual, section 2.1.
 
 #include "compiler/project/config_reader.hpp"
+#include "compiler/project/driver_sections.hpp"
 #include "compiler/project/names.hpp"
 #include "compiler/semantics/suggest.hpp"
 #include "drivers/registry.hpp"
+#include "runtime/bus/plc_schema.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,10 +16,9 @@ namespace stc {
 
 namespace {
 
-constexpr int kConfigurable = 0; // wControlType
-constexpr int kPosVelToPosVel = 5;
-constexpr int kRotary = 0;
-constexpr int kLinear = 1;
+using stride::bus::plc::kConfigurable;
+using stride::bus::plc::kRotary;
+
 constexpr double kLargestPeriod = 2147483648.0; // increments: 16#80000000
 constexpr std::int64_t kCanFastest = 1000;      // kBit/s
 constexpr std::int64_t kSercosSlowest = 2000;
@@ -86,13 +87,14 @@ void PlcReader::readBus(const CheckedSection &section) {
       kind = BusKind::sercos;
   }
   section.parameters("", bus.parameters);
+  checkRules(section, {.what = "bus"}, diagnostics_);
   for (const CheckedSection &group : section.sections("axis_group", diagnostics_))
     readAxisGroup(group, bus, kind);
   config_.buses.push_back(std::move(bus));
 }
 
 std::string PlcReader::readDriver(const TomlNode &type) {
-  const std::string word = type.text.substr(0, type.text.find(' '));
+  const std::string word(driverOf(type.text));
   if (stride::drivers::findSchema(word) != nullptr)
     return word;
   Diagnostic &d =
@@ -100,14 +102,15 @@ std::string PlcReader::readDriver(const TomlNode &type) {
                           fmt::format("there is no driver `{}`", word), "names the driver");
   std::vector<std::string_view> known;
   std::string examples;
-  for (const stride::bus::DriverSchema &driver : stride::drivers::kSchemas) {
-    known.push_back(driver.name);
-    examples += fmt::format("{}\"{}\"", examples.empty() ? "" : ", ", driver.interfaceType);
+  for (const stride::bus::DriverSchema *driver : stride::drivers::kSchemas) {
+    known.push_back(driver->name);
+    examples += fmt::format("{}\"{}\"", examples.empty() ? "" : ", ", driver->interfaceType);
   }
   if (const std::string_view near = nearest(word, known); !near.empty())
     d.help(fmt::format("did you mean `{}`?", near));
   else if (equalIgnoringCase(word, "CAN") || equalIgnoringCase(word, "Sercos"))
-    d.help(fmt::format("\"Dummy ({})\" simulates the drives of such a bus", word));
+    d.help(fmt::format("\"{} ({})\" simulates the drives of such a bus",
+                       stride::drivers::kSchemas.front()->name, word));
   d.note("the text before the first blank of InterfaceType names the driver; known: " + examples);
   return {};
 }
@@ -131,6 +134,8 @@ void PlcReader::readAxisGroup(const CheckedSection &section, BusConfig &bus, Bus
   readCan(section, group, kind);
   readSercos(section, group, kind);
   section.parameters("", group.parameters);
+  readDriverTables(section, {.what = "axis group", .group = &group}, group.parameters,
+                   diagnostics_);
   const bool declared = addVariable(group.name);
   Unique driveIds(Code::configDuplicateDriveId, diagnostics_);
   for (const CheckedSection &drive : section.sections("drive", diagnostics_))
@@ -223,23 +228,24 @@ void PlcReader::readDrive(const CheckedSection &section, AxisGroupConfig &group,
   readScaling(section, drive.fields, "drive");
   for (const std::string_view name : {"fSWMaxVelocity", "fSWMaxAcceleration", "fSWMaxDeceleration"})
     realField(section, name, drive.fields);
-  const bool rotary = section.choice("iMovementType", kLinear) == kRotary;
+  const bool rotary = section.choice("iMovementType") == kRotary;
   flagField(section, "bHWLimitEnable", drive.fields);
   if (rotary && section.boolean("bHWLimitEnable", false))
     withoutEffect(diagnostics_, section, "bHWLimitEnable", "only for linear drives");
   readRamp(section, drive.fields);
   section.parameters("", drive.parameters);
-  for (const CheckedSection &physics : section.sections("physics", diagnostics_))
-    readPhysics(physics, drive, rotary);
+  readDriverTables(section, {.what = "drive", .rotary = rotary, .group = &group}, drive.parameters,
+                   diagnostics_);
+  drive.shared = sharedDataOf(section, group.driver);
   if (!addVariable(drive.name))
     return;
-  if (drive.simulated && !addVariable({simulationOf(drive), drive.name.span}))
+  if (drive.shared != nullptr && !addVariable({sharedVariable(drive), drive.name.span}))
     return;
   group.drives.push_back(std::move(drive));
 }
 
 void PlcReader::readCyclicData(const CheckedSection &section, ConfigFields &fields) {
-  const std::int64_t type = section.choice("wControlType", kPosVelToPosVel);
+  const std::int64_t type = section.choice("wControlType");
   fields.emplace_back("wControlType", std::to_string(type));
   bool torque = type == 1;
   bool velocity = type == 2 || type == 3 || type == 6;
@@ -310,8 +316,9 @@ void PlcReader::readEncoder(const CheckedSection &section, AxisGroupConfig &grou
                                       "dwParam6", "dwParam7", "dwParam8"})
     integerField(section, name, encoder.fields);
   section.parameters("", encoder.parameters);
-  for (const CheckedSection &physics : section.sections("physics", diagnostics_))
-    readEncoderPhysics(physics, group, encoder);
+  const bool rotary = section.choice("iMovementType") == kRotary;
+  readDriverTables(section, {.what = "encoder", .rotary = rotary, .group = &group},
+                   encoder.parameters, diagnostics_);
   if (addVariable(encoder.name))
     group.encoders.push_back(std::move(encoder));
 }
@@ -320,7 +327,7 @@ void PlcReader::readScaling(const CheckedSection &section, ConfigFields &fields,
                             std::string_view what) {
   for (const std::string_view name : {"dwRatioTechUnitsDenom", "iRatioTechUnitsNum"})
     integerField(section, name, fields);
-  const auto type = section.choice("iMovementType", kLinear);
+  const auto type = section.choice("iMovementType");
   fields.emplace_back("iMovementType", std::to_string(type));
   const TomlNode *period = section.get("fPositionPeriod");
   if (type == kRotary && !section.has("fPositionPeriod"))
@@ -344,8 +351,8 @@ void PlcReader::readScaling(const CheckedSection &section, ConfigFields &fields,
 // The period in increments must be at least one and fit a 32-bit position (manual, section 2.1.3).
 void PlcReader::checkPeriod(const CheckedSection &section, const TomlNode &period,
                             std::string_view what) {
-  const double denominator = section.real("dwRatioTechUnitsDenom", 1);
-  const double numerator = section.real("iRatioTechUnitsNum", 1);
+  const double denominator = section.real("dwRatioTechUnitsDenom");
+  const double numerator = section.real("iRatioTechUnitsNum");
   const double increments = period.floating * denominator / numerator;
   const std::string computed = fmt::format("{} u × {} / {} = {:.15g} increments", period.floating,
                                            denominator, numerator, increments);
@@ -406,7 +413,7 @@ void PlcReader::readLimits(const CheckedSection &section, ConfigFields &fields, 
 void PlcReader::readRamp(const CheckedSection &section, ConfigFields &fields) {
   constexpr std::array<std::string_view, 4> kNames = {"trapezoid", "sigmoid", "parabolic",
                                                       "sigmoid_limited"};
-  const auto ramp = static_cast<std::size_t>(section.choice("eRampType", 0));
+  const auto ramp = static_cast<std::size_t>(section.choice("eRampType"));
   if (section.get("eRampType") != nullptr)
     fields.emplace_back("eRampType", fmt::format("SMC_RAMPTYPE.{}", kNames[ramp]));
   realField(section, "fJerk", fields);

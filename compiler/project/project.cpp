@@ -338,9 +338,7 @@ AppConfig Project::appConfig() const {
     group.cycleUs = from.cycleUs;
     group.parameters = from.parameters;
     for (const DriveConfig &drive : from.drives)
-      group.drives.push_back({drive.name.text,
-                              drive.simulated ? simulationOf(drive) : std::string(),
-                              drive.parameters});
+      group.drives.push_back({drive.name.text, sharedVariable(drive), drive.parameters});
     for (const EncoderConfig &encoder : from.encoders)
       group.encoders.push_back({encoder.name.text, encoder.parameters});
     app.axisGroups.push_back(std::move(group));

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <vector>
 
 namespace stc {
 
@@ -35,19 +36,20 @@ std::string listChoices(const Parameter &parameter) {
 
 std::string_view expectation(ParameterType type) {
   switch (type) {
-  case ParameterType::text:
-  case ParameterType::identifier:
-  case ParameterType::choice:
+  case ParameterType::Text:
+  case ParameterType::Identifier:
+  case ParameterType::DriveName:
+  case ParameterType::Choice:
     return "text in quotes";
-  case ParameterType::boolean:
+  case ParameterType::Boolean:
     return "`true` or `false`";
-  case ParameterType::integer:
+  case ParameterType::Integer:
     return "an integer";
-  case ParameterType::real:
+  case ParameterType::Real:
     return "a number";
-  case ParameterType::interval:
+  case ParameterType::Interval:
     return "a duration in quotes, such as \"T#3ms\"";
-  case ParameterType::nameList:
+  case ParameterType::NameList:
     return "a list of names, such as [\"PLC_PRG\"]";
   }
   return "";
@@ -55,19 +57,20 @@ std::string_view expectation(ParameterType type) {
 
 bool hasType(ParameterType type, const TomlNode &value) {
   switch (type) {
-  case ParameterType::text:
-  case ParameterType::identifier:
-  case ParameterType::interval:
+  case ParameterType::Text:
+  case ParameterType::Identifier:
+  case ParameterType::DriveName:
+  case ParameterType::Interval:
     return value.kind == TomlKind::string;
-  case ParameterType::choice:
+  case ParameterType::Choice:
     return value.kind == TomlKind::string || value.kind == TomlKind::integer;
-  case ParameterType::boolean:
+  case ParameterType::Boolean:
     return value.kind == TomlKind::boolean;
-  case ParameterType::integer:
+  case ParameterType::Integer:
     return value.kind == TomlKind::integer;
-  case ParameterType::real:
+  case ParameterType::Real:
     return value.kind == TomlKind::integer || value.kind == TomlKind::floating;
-  case ParameterType::nameList:
+  case ParameterType::NameList:
     if (value.kind != TomlKind::array)
       return false;
     for (const TomlNode &element : value.children)
@@ -88,20 +91,21 @@ public:
     if (!hasType(parameter_.type, value_))
       return reportType();
     switch (parameter_.type) {
-    case ParameterType::text:
+    case ParameterType::Text:
       return !value_.text.empty() || parameter_.name == "sTask" || reportEmpty();
-    case ParameterType::identifier:
+    case ParameterType::Identifier:
+    case ParameterType::DriveName:
       return (isIdentifier(value_.text) && value_.text.size() <= kMaxName) || reportIdentifier();
-    case ParameterType::integer:
-    case ParameterType::real:
+    case ParameterType::Integer:
+    case ParameterType::Real:
       return checkRange(value_.floating);
-    case ParameterType::choice:
-      return findChoice(parameter_, value_) >= 0 || reportChoice();
-    case ParameterType::interval:
+    case ParameterType::Choice:
+      return findChoice(parameter_, value_) || reportChoice();
+    case ParameterType::Interval:
       return checkInterval();
-    case ParameterType::nameList:
+    case ParameterType::NameList:
       return !value_.children.empty() || reportEmpty();
-    case ParameterType::boolean:
+    case ParameterType::Boolean:
       break;
     }
     return true;
@@ -113,14 +117,14 @@ private:
         Code::configWrongType, value_.span,
         fmt::format("`{}` must be {}", parameter_.name, expectation(parameter_.type)),
         fmt::format("this is {}", describe(value_)));
-    if (parameter_.type == ParameterType::boolean && value_.kind == TomlKind::string)
+    if (parameter_.type == ParameterType::Boolean && value_.kind == TomlKind::string)
       d.help("write it without quotes");
-    else if (parameter_.type == ParameterType::boolean && value_.kind == TomlKind::integer)
+    else if (parameter_.type == ParameterType::Boolean && value_.kind == TomlKind::integer)
       d.help(value_.integer != 0 ? "write `true`" : "write `false`");
     else if (value_.kind == TomlKind::string &&
-             (parameter_.type == ParameterType::integer || parameter_.type == ParameterType::real))
+             (parameter_.type == ParameterType::Integer || parameter_.type == ParameterType::Real))
       d.help("numbers stand without quotes");
-    else if (parameter_.type == ParameterType::nameList && value_.kind == TomlKind::string)
+    else if (parameter_.type == ParameterType::NameList && value_.kind == TomlKind::string)
       d.help(fmt::format("write [\"{}\"]", value_.text));
     return false;
   }
@@ -154,14 +158,14 @@ private:
     const std::string unit = parameter_.unit.empty() ? "" : fmt::format(" {}", parameter_.unit);
     std::string message;
     std::string label;
-    if (parameter_.type == ParameterType::real && !std::isfinite(value)) {
+    if (parameter_.type == ParameterType::Real && !std::isfinite(value)) {
       message = fmt::format("`{}` must be a finite number", parameter_.name);
       label = "not finite";
-    } else if (parameter_.type == ParameterType::real && parameter_.low == 0 &&
+    } else if (parameter_.type == ParameterType::Real && parameter_.low == 0 &&
                parameter_.high > 1e300) {
       message = fmt::format("`{}` must not be negative", parameter_.name);
       label = "negative";
-    } else if (parameter_.type == ParameterType::real && parameter_.high > 1e300) {
+    } else if (parameter_.type == ParameterType::Real && parameter_.high > 1e300) {
       message = fmt::format("`{}` must be greater than 0{}", parameter_.name, unit);
       label = "not positive";
     } else {
@@ -233,13 +237,6 @@ const Section *findSection(const Section &schema, std::string_view name) {
   return nullptr;
 }
 
-const Parameter *findParameter(const Section &schema, std::string_view name) {
-  for (const Parameter &parameter : schema.parameters)
-    if (parameter.name == name)
-      return &parameter;
-  return nullptr;
-}
-
 std::string header(const Section &section) {
   return section.list ? fmt::format("[[{}]]", section.path) : fmt::format("[{}]", section.path);
 }
@@ -302,7 +299,14 @@ bool checkSectionKind(const TomlNode &member, const Section &section, Diagnostic
 
 } // namespace
 
-std::int64_t findChoice(const Parameter &parameter, const TomlNode &value) {
+const Parameter *findParameter(const Section &schema, std::string_view name) {
+  for (const Parameter &parameter : schema.parameters)
+    if (parameter.name == name)
+      return &parameter;
+  return nullptr;
+}
+
+std::optional<std::int64_t> findChoice(const Parameter &parameter, const TomlNode &value) {
   for (const Choice &choice : parameter.choices)
     if (value.kind == TomlKind::integer ? choice.value == value.integer
                                         : canonical(choice.name) == canonical(value.text))
@@ -311,7 +315,7 @@ std::int64_t findChoice(const Parameter &parameter, const TomlNode &value) {
   if (value.kind == TomlKind::integer && parameter.name.starts_with("wCyclicData") &&
       value.integer >= 0 && value.integer <= 65535)
     return value.integer;
-  return -1;
+  return std::nullopt;
 }
 
 CheckedSection::CheckedSection(const TomlNode &table, const Section &schema,
@@ -335,6 +339,14 @@ CheckedSection::CheckedSection(const TomlNode &table, const Section &schema,
                   fmt::format("{} needs `{}`", schema.what, parameter.name),
                   fmt::format("`{}` is missing", parameter.name))
           .help(fmt::format("add `{} = …`: {}", parameter.name, expectation(parameter.type)));
+  for (const Foreign &foreign : schema.foreign) {
+    const TomlNode *value = get(foreign.name);
+    if (value == nullptr)
+      continue;
+    diagnostics.report(Code::configWithoutEffect, value->keySpan,
+                       fmt::format("`{}` has no effect here", foreign.name), foreign.reason);
+    std::erase(values_, value);
+  }
 }
 
 const TomlNode *CheckedSection::get(std::string_view name) const {
@@ -366,7 +378,30 @@ std::string CheckedSection::text(std::string_view name, std::string_view otherwi
 
 std::int64_t CheckedSection::choice(std::string_view name, std::int64_t otherwise) const {
   const TomlNode *value = get(name);
-  return value != nullptr ? findChoice(*findParameter(*schema_, name), *value) : otherwise;
+  return value != nullptr ? findChoice(*findParameter(*schema_, name), *value).value_or(otherwise)
+                          : otherwise;
+}
+
+std::int64_t CheckedSection::integer(std::string_view name) const {
+  return integer(name, static_cast<std::int64_t>(findParameter(*schema_, name)->otherwise.number));
+}
+
+double CheckedSection::real(std::string_view name) const {
+  return real(name, findParameter(*schema_, name)->otherwise.number);
+}
+
+bool CheckedSection::boolean(std::string_view name) const {
+  return boolean(name, findParameter(*schema_, name)->otherwise.number != 0);
+}
+
+std::int64_t CheckedSection::choice(std::string_view name) const {
+  return choice(name, static_cast<std::int64_t>(findParameter(*schema_, name)->otherwise.number));
+}
+
+std::span<const TomlNode> CheckedSection::tables(std::string_view name) const {
+  const TomlNode *value = get(name);
+  return value != nullptr ? std::span<const TomlNode>(value->children)
+                          : std::span<const TomlNode>();
 }
 
 void CheckedSection::parameters(std::string_view prefix, std::vector<ConfigParameter> &out) const {
@@ -377,29 +412,30 @@ void CheckedSection::parameters(std::string_view prefix, std::vector<ConfigParam
     ConfigParameter &result = out.emplace_back();
     result.name = std::string(prefix) + std::string(parameter.name);
     switch (parameter.type) {
-    case ParameterType::text:
-    case ParameterType::identifier:
+    case ParameterType::Text:
+    case ParameterType::Identifier:
+    case ParameterType::DriveName:
       result.text = value->text;
       break;
-    case ParameterType::boolean:
+    case ParameterType::Boolean:
       result.number = value->boolean ? 1 : 0;
       break;
-    case ParameterType::integer:
-    case ParameterType::real:
+    case ParameterType::Integer:
+    case ParameterType::Real:
       result.number = value->floating;
       break;
-    case ParameterType::choice: {
-      const std::int64_t number = findChoice(parameter, *value);
+    case ParameterType::Choice: {
+      const std::int64_t number = findChoice(parameter, *value).value_or(0);
       result.number = static_cast<double>(number);
       for (const Choice &choice : parameter.choices)
         if (choice.value == number)
           result.text = choice.name;
       break;
     }
-    case ParameterType::interval:
+    case ParameterType::Interval:
       result.number = static_cast<double>(parseInterval(value->text).value_or(0)) * 1e-9;
       break;
-    case ParameterType::nameList: // no driver has any
+    case ParameterType::NameList: // no driver has any
       break;
     }
   }

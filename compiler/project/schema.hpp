@@ -4,39 +4,25 @@
 #include "compiler/codegen/codegen.hpp"
 #include "compiler/project/toml_tree.hpp"
 #include "compiler/source/diagnostic.hpp"
+#include "runtime/common/parameter.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace stc {
 
-enum class ParameterType : std::uint8_t {
-  text,
-  identifier, ///< names an ST variable or a task
-  boolean,
-  integer,  ///< low … high
-  real,     ///< low … high
-  choice,   ///< one of `choices`, by name or by value
-  interval, ///< a duration as text, `T#3ms`, low … high in nanoseconds
-  nameList, ///< a list of texts
-};
+using stride::common::Choice;
+using stride::common::Parameter;
+using stride::common::ParameterType;
 
-/// A named value of a parameter.
-struct Choice {
+/// A parameter that counts with other drivers only.
+struct Foreign {
   std::string_view name;
-  std::int64_t value;
-};
-
-struct Parameter {
-  std::string_view name; ///< as the manual spells it
-  ParameterType type;
-  bool required = false;
-  double low = 0;
-  double high = 0;
-  std::span<const Choice> choices = {};
-  std::string_view unit = {}; ///< for messages: `µs`, `u/s`
+  std::string reason; ///< "only with device = \"SharedMemory\""
 };
 
 struct Section;
@@ -54,6 +40,8 @@ struct Section {
   std::span<const Section *const> sections = {};
   /// The whole file, the section without a name, whose `what` is the file.
   const Section &(*file)() = projectSchema;
+  /// Of `parameters` and `sections`: without effect here, which is a warning.
+  std::span<const Foreign> foreign = {};
 };
 
 /// The whole of a cam file, *.cam.toml.
@@ -68,6 +56,7 @@ public:
   CheckedSection(const TomlNode &table, const Section &schema, Diagnostics &diagnostics);
 
   [[nodiscard]] const TomlNode &table() const { return *table_; }
+  [[nodiscard]] const Section &schema() const { return *schema_; }
   /// The value of a parameter, or null when it is absent or was wrong.
   [[nodiscard]] const TomlNode *get(std::string_view name) const;
   /// Whether the text has the parameter, right or wrong.
@@ -78,9 +67,16 @@ public:
   [[nodiscard]] std::string text(std::string_view name, std::string_view otherwise = {}) const;
   /// Value of a parameter of type choice.
   [[nodiscard]] std::int64_t choice(std::string_view name, std::int64_t otherwise) const;
+  // The same with the schema's default, which is a number.
+  [[nodiscard]] std::int64_t integer(std::string_view name) const;
+  [[nodiscard]] double real(std::string_view name) const;
+  [[nodiscard]] bool boolean(std::string_view name) const;
+  [[nodiscard]] std::int64_t choice(std::string_view name) const;
   /// Appends all valid parameters, in the schema's order: numbers, choices with their name,
   /// durations in seconds.
   void parameters(std::string_view prefix, std::vector<ConfigParameter> &out) const;
+  /// The tables of a nested list of tables, not yet compared with a schema.
+  [[nodiscard]] std::span<const TomlNode> tables(std::string_view name) const;
   /// The tables of a nested section.
   [[nodiscard]] std::vector<CheckedSection> sections(std::string_view name,
                                                      Diagnostics &diagnostics) const;
@@ -91,7 +87,11 @@ private:
   std::vector<const TomlNode *> values_; ///< valid ones
 };
 
-/// Value of a choice written as text or number; -1 when it is none of them.
-[[nodiscard]] std::int64_t findChoice(const Parameter &parameter, const TomlNode &value);
+/// The section's parameter, or null.
+[[nodiscard]] const Parameter *findParameter(const Section &schema, std::string_view name);
+
+/// Value of a choice written as text or number; nothing when it is none of them.
+[[nodiscard]] std::optional<std::int64_t> findChoice(const Parameter &parameter,
+                                                     const TomlNode &value);
 
 } // namespace stc

@@ -348,13 +348,6 @@ public:
   }
 
 private:
-  /// What an unknown driver shares about a drive is not known; that it is unknown has been said,
-  /// and that the variable has no type need not be.
-  static std::string_view driveDataOf(const AxisGroupConfig &group) {
-    const stride::bus::DriverSchema *driver = stride::drivers::findSchema(group.driver);
-    return (driver != nullptr ? *driver : stride::drivers::kSchemas.front()).driveData;
-  }
-
   void axisGroups(const ProjectConfig &config) {
     std::size_t index = 0;
     for (const AxisGroupConfig &group : config.axisGroups) {
@@ -369,9 +362,9 @@ private:
         fields = drive.fields;
         fields.emplace_back("wAxisGroupId", std::to_string(index));
         variable("drive", drive.name, "SM_DriveBasic.AXIS_REF", fields);
-        if (drive.simulated)
-          variable("simulation of drive", {simulationOf(drive), drive.name.span},
-                   driveDataOf(group), {});
+        if (drive.shared != nullptr)
+          variable(drive.shared->what, {sharedVariable(drive), drive.name.span}, drive.shared->type,
+                   {});
       }
       for (const EncoderConfig &encoder : group.encoders)
         variable("encoder", encoder.name, "SM_DriveBasic.SMC_ENCODER_REF", encoder.fields);

@@ -3,19 +3,10 @@
 #include "runtime/bus/axis_driver.hpp"
 #include "runtime/iec/math.h"
 
-#include <algorithm>
 #include <string>
 
 namespace stride::dummy {
 namespace {
-
-// Controllers of the second-order model, unless configured.
-constexpr double kPositionGain = 50.0;     // 1/s
-constexpr double kVelocityBandwidth = 500; // 1/s: velocity_gain = inertia * this
-constexpr double kIntegralTime = 0.02;     // s
-constexpr double kSubstep = 50e-6;         // s
-
-constexpr double kHomingVelocity = 10; // u/s, unless configured
 
 /// What a drive takes and gives in every cycle.
 struct CyclicMasks {
@@ -46,12 +37,12 @@ CyclicMasks cyclicMasks(const bus::SetupParameters &parameters) {
       return 0;
     }
   };
-  switch (static_cast<int>(parameters.number("wControlType", 5))) {
+  switch (static_cast<int>(parameters.number("wControlType"))) {
   case 0: {
     CyclicMasks masks;
     for (const char place : {'1', '2', '3'}) {
       const auto number = [&](const char *direction) {
-        return static_cast<int>(parameters.number(std::string(direction) + place, 0));
+        return static_cast<int>(parameters.number(std::string(direction) + place));
       };
       masks.sent |= mask(number("wCyclicDataS"));
       masks.received |= mask(number("wCyclicDataR"));
@@ -104,64 +95,53 @@ bool SwitchRange::actuated(double place, double period) const {
   return inTurn(place - from) <= inTurn(to - from);
 }
 
-DriveParameters driveParameters(const bus::SetupParameters &given, double cycle) {
+DriveParameters driveParameters(const bus::SetupParameters &given) {
   DriveParameters result;
-  const double increments = given.number("dwRatioTechUnitsDenom", 1);
-  const double units = given.number("iRatioTechUnitsNum", 1);
+  const double increments = given.number("dwRatioTechUnitsDenom");
+  const double units = given.number("iRatioTechUnitsNum");
   const double perUnit = increments / units;
   result.unitsPerIncrement = units / increments;
-  const bool rotary = given.number("iMovementType", 1) == 0;
+  const bool rotary = given.number("iMovementType") == bus::plc::kRotary;
   if (rotary)
-    result.period = given.number("fPositionPeriod", 0) * perUnit;
+    result.period = given.number("fPositionPeriod") * perUnit;
 
-  const auto number = [&](const char *name, double otherwise) {
-    return given.number(std::string("physics.") + name, otherwise);
+  const auto number = [&](const char *name) {
+    return given.number(std::string("physics.") + name);
   };
-  const auto has = [&](const char *name) {
-    return given.find(std::string("physics.") + name) != nullptr;
-  };
+  const auto length = [&](const char *name) { return number(name) * perUnit; };
+  const auto whole = [&](const char *name) { return static_cast<uint32_t>(number(name)); };
+  const auto has = [&](const char *name) { return given.given(std::string("physics.") + name); };
 
   MechanicsParameters &m = result.mechanics;
-  m.model = static_cast<Model>(static_cast<uint8_t>(number("model", 0)));
-  m.cycle = cycle;
-  m.timeConstant = number("time_constant", 0);
-  const double inertia = number("inertia", 1);
-  m.inertia = inertia * result.unitsPerIncrement;
-  m.viscousFriction = number("viscous_friction", 0) * result.unitsPerIncrement;
-  m.coulombFriction = number("coulomb_friction", 0);
-  m.torqueLimit = number("torque_limit", 0);
-  m.positionGain = number("position_gain", kPositionGain);
-  m.velocityGain = number("velocity_gain", inertia * kVelocityBandwidth) * result.unitsPerIncrement;
-  m.integralTime = number("velocity_integral_time", kIntegralTime);
-  m.velocityFeedforward = number("velocity_feedforward", 0);
-  m.substeps = static_cast<uint32_t>(
-      number("substeps", std::clamp(stride::ceil(cycle / kSubstep), 1.0, 1000.0)));
+  m.model = static_cast<Model>(whole("model"));
+  m.cycle = given.cycleSeconds();
+  m.timeConstant = number("time_constant");
+  m.inertia = number("inertia") * result.unitsPerIncrement;
+  m.viscousFriction = number("viscous_friction") * result.unitsPerIncrement;
+  m.coulombFriction = number("coulomb_friction");
+  m.torqueLimit = number("torque_limit");
+  m.positionGain = number("position_gain");
+  m.velocityGain = number("velocity_gain") * result.unitsPerIncrement;
+  m.integralTime = number("velocity_integral_time");
+  m.velocityFeedforward = number("velocity_feedforward");
+  m.substeps = whole("substeps");
 
-  result.startPosition = wholeIncrements(number("start_position", 0) * perUnit);
-  result.startUpCycles = static_cast<uint32_t>(number("start_up_cycles", result.startUpCycles));
-  result.switchCycles = static_cast<uint32_t>(number("switch_cycles", result.switchCycles));
-  result.deadTime = static_cast<uint32_t>(number("dead_time", 0));
+  result.startPosition = wholeIncrements(length("start_position"));
+  result.startUpCycles = whole("start_up_cycles");
+  result.switchCycles = whole("switch_cycles");
+  result.deadTime = whole("dead_time");
+  result.parameterCycles = whole("parameter_cycles");
 
-  result.parameterCycles =
-      static_cast<uint32_t>(number("parameter_cycles", result.parameterCycles));
-
-  const double fast = number("homing_velocity", kHomingVelocity);
-  result.homing.positive = number("homing_direction", -1) > 0;
-  result.homing.fast = fast * perUnit;
-  result.homing.slow = number("homing_velocity_slow", fast / 10.0) * perUnit;
-  result.homing.acceleration = number("homing_acceleration", fast * 10.0) * perUnit;
+  result.homing = {number("homing_direction") > 0, length("homing_velocity"),
+                   length("homing_velocity_slow"), length("homing_acceleration")};
 
   result.hasLimitPositive = !rotary && has("limit_positive");
   result.hasLimitNegative = !rotary && has("limit_negative");
-  result.limitPositive = number("limit_positive", 0) * perUnit;
-  result.limitNegative = number("limit_negative", 0) * perUnit;
-  result.home = {has("home_switch_from"), number("home_switch_from", 0) * perUnit,
-                 number("home_switch_to", 0) * perUnit};
-  const double turn = result.period * result.unitsPerIncrement;
-  result.index = {has("index_position"), number("index_position", 0) * perUnit,
-                  number("index_distance", turn) * perUnit};
-  result.probe = {has("probe_position"), number("probe_position", 0) * perUnit,
-                  number("probe_distance", turn) * perUnit};
+  result.limitPositive = length("limit_positive");
+  result.limitNegative = length("limit_negative");
+  result.home = {has("home_switch_from"), length("home_switch_from"), length("home_switch_to")};
+  result.index = {has("index_position"), length("index_position"), length("index_distance")};
+  result.probe = {has("probe_position"), length("probe_position"), length("probe_distance")};
 
   const CyclicMasks masks = cyclicMasks(given);
   result.modes = 0;

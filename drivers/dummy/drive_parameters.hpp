@@ -43,10 +43,10 @@ struct DriveParameters {
   double unitsPerIncrement = 1;
   double period = 0; ///< Of a rotary axis, else 0. [inc]
   int64_t startPosition = 0;
-  uint32_t startUpCycles = 3;
-  uint32_t switchCycles = 2;
+  uint32_t startUpCycles = 0;
+  uint32_t switchCycles = 0;
   uint32_t deadTime = 0;        ///< Cycles by which set values come later.
-  uint32_t parameterCycles = 3; ///< That the answer to a question for a parameter takes.
+  uint32_t parameterCycles = 0; ///< That the answer to a question for a parameter takes.
   bool hasLimitPositive = false;
   bool hasLimitNegative = false;
   double limitPositive = 0; ///< [inc]
@@ -59,8 +59,8 @@ struct DriveParameters {
   uint8_t received = 0x0F;                                   ///< bus::CyclicData.
 };
 
-/// Reads them; what is missing gets its default. `cycle`: of the task. [s]
-DriveParameters driveParameters(const bus::SetupParameters &parameters, double cycle);
+/// Reads them.
+DriveParameters driveParameters(const bus::SetupParameters &parameters);
 
 } // namespace stride::dummy
 

@@ -49,13 +49,10 @@ DummyDriver::Drive::Drive(const DriveParameters &given)
   status.received = given.received;
 }
 
-DummyDriver::DummyDriver(std::size_t drives)
-    : drives_(drives, Drive(driveParameters(bus::SetupParameters(), 0.01))) {}
-
 DummyDriver::DummyDriver(const bus::GroupSetup &setup) {
   drives_.reserve(setup.drives.size());
   for (const bus::DriveSetup &drive : setup.drives)
-    drives_.emplace_back(driveParameters(drive.parameters, setup.cycleSeconds));
+    drives_.emplace_back(driveParameters(drive.parameters));
   for (const bus::EncoderSetup &encoder : setup.encoders)
     encoders_.push_back(makeEncoder(encoder, setup));
 }
@@ -64,14 +61,14 @@ DummyDriver::Encoder DummyDriver::makeEncoder(const bus::EncoderSetup &encoder,
                                               const bus::GroupSetup &setup) {
   const bus::SetupParameters &given = encoder.parameters;
   Encoder result;
-  result.perUnit = given.number("dwRatioTechUnitsDenom", 1) / given.number("iRatioTechUnitsNum", 1);
-  const auto modulo = static_cast<int64_t>(given.number("dwEncoderModulo", 0));
+  result.perUnit = given.number("dwRatioTechUnitsDenom") / given.number("iRatioTechUnitsNum");
+  const auto modulo = static_cast<int64_t>(given.number("dwEncoderModulo"));
   result.modulo = modulo == 0 ? int64_t{1} << 32 : modulo;
-  result.way = given.number("physics.own_velocity", 0) * result.perUnit * setup.cycleSeconds;
-  const bus::SetupParameter *follows = given.find("physics.follows");
-  for (std::size_t i = 0; follows != nullptr && i < setup.drives.size(); ++i) {
+  result.way = given.number("physics.own_velocity") * result.perUnit * setup.cycleSeconds;
+  const std::string follows = given.text("physics.follows");
+  for (std::size_t i = 0; !follows.empty() && i < setup.drives.size(); ++i) {
     const std::string &name = setup.drives[i].name;
-    if (::strcasecmp(name.c_str(), follows->text.c_str()) == 0) {
+    if (::strcasecmp(name.c_str(), follows.c_str()) == 0) {
       result.drive = i;
       result.follows = true;
     }
@@ -355,12 +352,17 @@ void DummyDriver::setPosition(std::size_t drive, uint32_t position) {
   d.status.position = position;
 }
 
-std::unique_ptr<bus::AxisDriver> makeDummyDriver(const bus::GroupSetup &setup) {
+std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup) {
   return std::make_unique<DummyDriver>(setup);
 }
 
-std::unique_ptr<bus::AxisDriver> makeDummyDriver(std::size_t drives) {
-  return std::make_unique<DummyDriver>(drives);
+uint64_t driveDataLayout() { return ::st::DummyDrive::DUMMY_DRIVE_SIM__layout__; }
+
+bus::GroupSetup plainSetup(std::size_t drives, double cycleSeconds) {
+  bus::GroupSetup setup(kSchema, cycleSeconds);
+  for (std::size_t i = 0; i < drives; ++i)
+    setup.addDrive({}, static_cast<uint32_t>(i));
+  return setup;
 }
 
 } // namespace stride::dummy

@@ -4,6 +4,7 @@
 
 #include "drivers/dummy/drive_parameters.hpp"
 #include "drivers/dummy/reference_run.hpp"
+#include "drivers/dummy/schema.hpp"
 #include "runtime/bus/axis_driver.hpp"
 
 #include "st/DummyDrive/DUMMY_DRIVE_SIM.h"
@@ -21,8 +22,6 @@ using DriveSim = ::st::DummyDrive::DUMMY_DRIVE_SIM;
 /// the cycle before told it to be. Out of regulation, or with the brake applied, it stands still.
 class DummyDriver final : public bus::AxisDriver {
 public:
-  /// Drives as they are without any configuration.
-  explicit DummyDriver(std::size_t drives);
   explicit DummyDriver(const bus::GroupSetup &setup);
 
   void executeStart() override;
@@ -102,10 +101,13 @@ private:
 };
 
 /// The driver for one drive group of interface type "Dummy".
-std::unique_ptr<bus::AxisDriver> makeDummyDriver(const bus::GroupSetup &setup);
+std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup);
 
-/// The same for drives without any configuration.
-std::unique_ptr<bus::AxisDriver> makeDummyDriver(std::size_t drives);
+/// The layout hash of DUMMY_DRIVE_SIM, as this runtime knows it.
+uint64_t driveDataLayout();
+
+/// What a group of drives without any configuration is told.
+bus::GroupSetup plainSetup(std::size_t drives, double cycleSeconds = 0.01);
 
 } // namespace stride::dummy
 

@@ -2,16 +2,11 @@
 #ifndef STRIDE_DRIVERS_DUMMY_MECHANICS_HPP
 #define STRIDE_DRIVERS_DUMMY_MECHANICS_HPP
 
+#include "drivers/dummy/physics_schema.hpp"
+
 #include <cstdint>
 
 namespace stride::dummy {
-
-/// How the mechanics follow the set values.
-enum class Model : uint8_t {
-  Ideal = 0,       ///< At the end of each cycle exactly where they should be.
-  Lag = 1,         ///< First-order lag.
-  SecondOrder = 2, ///< Mass with friction, driven by a cascade of controllers with limited torque.
-};
 
 /// Controller modes, numbered as in AXIS_REF.byControllerMode.
 inline constexpr uint8_t kTorqueMode = 1;

@@ -7,32 +7,41 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
+#include <string>
 
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace stride::io {
+namespace stride::io::shared_memory {
 
 namespace {
 
 constexpr uint32_t roundUp(uint32_t bytes) { return (bytes + 63U) / 64U * 64U; }
 
+/// The name of a segment begins with a slash.
+std::string segmentOf(const IoSettings &settings) {
+  const std::string segment = settings.parameters.text("segment");
+  return segment.starts_with('/') ? segment : "/" + segment;
+}
+
 [[noreturn]] void fail(const IoSettings &settings, const char *what) {
   throw app::Error(fmt::format(
       "I/O device '{}': the shared memory '{}' {}: {}; see what is in /dev/shm and who may use it",
-      settings.name, settings.segment, what, std::strerror(errno)));
+      settings.name, segmentOf(settings), what, std::strerror(errno)));
 }
 
 class SharedMemoryIo final : public IoDriver {
 public:
-  explicit SharedMemoryIo(const IoSettings &settings) : timeoutNs_(settings.timeoutNs) {
+  explicit SharedMemoryIo(const IoSettings &settings)
+      : timeoutNs_(std::llround(settings.parameters.number("timeout") * 1e9)) {
     const uint32_t inputs = roundUp(sizeof(stride_io_header));
     const uint32_t outputs = inputs + roundUp(settings.inputBytes);
     size_ = outputs + roundUp(settings.outputBytes);
-    const int file = ::shm_open(settings.segment.c_str(), O_RDWR | O_CREAT, 0660);
+    const int file = ::shm_open(segmentOf(settings).c_str(), O_RDWR | O_CREAT, 0660);
     if (file < 0)
       fail(settings, "cannot be opened");
     if (::ftruncate(file, static_cast<off_t>(size_)) != 0) {
@@ -110,8 +119,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<IoDriver> makeSharedMemoryIo(const IoSettings &settings) {
+std::unique_ptr<IoDriver> makeDriver(const IoSettings &settings) {
   return std::make_unique<SharedMemoryIo>(settings);
 }
 
-} // namespace stride::io
+} // namespace stride::io::shared_memory

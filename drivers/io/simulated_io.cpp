@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <vector>
 
-namespace stride::io {
+namespace stride::io::simulated {
 
 namespace {
 
 class SimulatedIo final : public IoDriver {
 public:
   explicit SimulatedIo(const IoSettings &settings)
-      : loopBack_(settings.loopBack), depth_(settings.delayCycles + 1),
+      : loopBack_(settings.parameters.flag("loop_back")),
+        depth_(static_cast<uint32_t>(settings.parameters.number("delay")) + 1),
         bytes_(std::min(settings.inputBytes, settings.outputBytes)),
         history_(loopBack_ ? size_t{depth_} * bytes_ : 0), next_(loopBack_ ? bytes_ : 0) {}
 
-  bool isExternal() const noexcept override { return false; }
   bool works(int64_t) noexcept override { return true; }
 
   bool read(uint32_t first, std::span<BYTE> to) noexcept override {
@@ -51,8 +51,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<IoDriver> makeSimulatedIo(const IoSettings &settings) {
+std::unique_ptr<IoDriver> makeDriver(const IoSettings &settings) {
   return std::make_unique<SimulatedIo>(settings);
 }
 
-} // namespace stride::io
+} // namespace stride::io::simulated

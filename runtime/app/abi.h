@@ -17,7 +17,7 @@
 namespace stride {
 
 /// The first member of StrideAppV1. Grows with every change that an older host cannot read.
-inline constexpr uint32_t kAbiVersion = 5;
+inline constexpr uint32_t kAbiVersion = 6;
 /// The second member: tells a description from other data ("STRD").
 inline constexpr uint32_t kAbiMagic = 0x44525453;
 /// "No index" in the tables below.
@@ -209,7 +209,7 @@ struct ImageUseDesc {
 /// A device of the process image ([[io]] of stride.toml). Bytes are counted in the area.
 struct IoDeviceDesc {
   const char *name;
-  const char *driverName; ///< "Simulated", "SharedMemory".
+  const char *driverName; ///< `device`: "Simulated", "SharedMemory".
   uint64_t stateOffset;   ///< Of its IO_DEVICE, from the start of the state.
   uint32_t inputFirst;
   uint32_t inputCount; ///< Bytes; 0: it has no inputs.
@@ -218,10 +218,8 @@ struct IoDeviceDesc {
   const uint8_t *safeOutputs; ///< One byte per output byte, for when the application stops or the
                               ///< device is lost; null: zeros.
   const uint8_t *safeInputs;  ///< What inputs become when the device is lost; null: they stay.
-  uint32_t loopBack;          ///< Simulated: 1: its inputs are its outputs …
-  uint32_t delayCycles;       ///< … so many cycles later.
-  const char *segment;        ///< SharedMemory: name of the segment; else null.
-  int64_t timeoutNs;          ///< SharedMemory: see IoSettings.
+  uint32_t firstParameter;    ///< Into the parameter table.
+  uint32_t parameterCount;
 };
 
 /// What the numbers of direct addresses count (stride.toml: [image] addressing).

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 #include <string_view>
 
 namespace stride::app {
@@ -16,6 +17,19 @@ constexpr uint32_t kRoots = kNoIndex;
 
 std::string bytesText(uint32_t first, uint32_t count) {
   return count == 0 ? "none" : fmt::format("byte {} to {}", first, first + count - 1);
+}
+
+constexpr const char *kNotGiven = "nothing";
+
+/// A parameter of an I/O device, as stride.toml says it.
+std::string parameterText(const StrideAppV1 &app, const IoDeviceDesc &device,
+                          std::string_view name) {
+  for (uint32_t i = 0; i < device.parameterCount; ++i) {
+    const ParameterDesc &parameter = app.parameters[device.firstParameter + i];
+    if (name == parameter.name)
+      return parameter.text != nullptr ? parameter.text : fmt::format("{}", parameter.number);
+  }
+  return kNotGiven;
 }
 
 const char *word(Finding::Kind kind) {
@@ -128,11 +142,16 @@ void CarryReport::compareIoDevices() {
             bytesText(y.inputFirst, y.inputCount));
     compare("place of its outputs", bytesText(x.outputFirst, x.outputCount),
             bytesText(y.outputFirst, y.outputCount));
-    compare("`loop_back`", x.loopBack != 0, y.loopBack != 0);
-    compare("`delay`", x.delayCycles, y.delayCycles);
-    compare("`segment`", text(x.segment), text(y.segment));
-    compare("`timeout`", fmt::format("{} us", x.timeoutNs / 1000),
-            fmt::format("{} us", y.timeoutNs / 1000));
+    for (uint32_t p = 0; p < x.parameterCount; ++p) {
+      const char *name = a.parameters[x.firstParameter + p].name;
+      compare(fmt::format("`{}`", name).c_str(), parameterText(a, x, name),
+              parameterText(b, y, name));
+    }
+    for (uint32_t p = 0; p < y.parameterCount; ++p)
+      if (const char *name = b.parameters[y.firstParameter + p].name;
+          parameterText(a, x, name) == kNotGiven)
+        compare(fmt::format("`{}`", name).c_str(), std::string(kNotGiven),
+                parameterText(b, y, name));
   }
 }
 

@@ -121,7 +121,8 @@ void validate(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
   for (uint32_t i = 0; i < app.ioDeviceCount; ++i) {
     const IoDeviceDesc &device = app.ioDevices[i];
     if (device.name == nullptr || device.driverName == nullptr ||
-        !fits(device.stateOffset, 8, app.stateSize))
+        !fits(device.stateOffset, 8, app.stateSize) ||
+        !fits(device.firstParameter, device.parameterCount, app.parameterCount))
       damaged(fmt::format("I/O device {}", i));
   }
   for (uint32_t i = 0; i < app.taskCount; ++i) {

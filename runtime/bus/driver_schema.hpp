@@ -2,18 +2,36 @@
 #ifndef STRIDE_RUNTIME_BUS_DRIVER_SCHEMA_HPP
 #define STRIDE_RUNTIME_BUS_DRIVER_SCHEMA_HPP
 
+#include "runtime/common/parameter.hpp"
+
+#include <span>
 #include <string_view>
 
 namespace stride::bus {
 
+/// A variable that driver and program share about a drive (AXIS_REF.pMS leads there).
+struct SharedData {
+  std::string_view type = {};   ///< In ST, with its library; empty: there is none.
+  std::string_view table = {};  ///< There is one for each drive with this table in stride.toml.
+  std::string_view suffix = {}; ///< Of its name, after that of the drive.
+  std::string_view what = {};   ///< For messages: "simulation of drive".
+};
+
 struct DriverSchema {
   std::string_view name;          ///< The first word of InterfaceType.
   std::string_view interfaceType; ///< An InterfaceType of it, for messages.
-  /// The ST type, with its library, of a variable that driver and program share for each drive that
-  /// asks for one (AXIS_REF.pMS leads there); empty: there is none.
-  std::string_view driveData;
-  bool givesSync; ///< The bus has a SYNC every dwCycle of its own, so that bSync needs no other
-                  ///< task.
+  SharedData driveData = {};
+  /// The bus has a SYNC every dwCycle: it starts the task on bSync of its axis group (waitSync).
+  bool givesSync = false;
+  // Parameters of its own, besides those of plc_schema.hpp.
+  std::span<const common::Parameter> bus = {};
+  std::span<const common::Parameter> axisGroup = {};
+  std::span<const common::Parameter> drive = {};
+  std::span<const common::Parameter> encoder = {};
+  // Tables below, by names of their own.
+  std::span<const common::ParameterTable> axisGroupTables = {};
+  std::span<const common::ParameterTable> driveTables = {};
+  std::span<const common::ParameterTable> encoderTables = {};
 };
 
 } // namespace stride::bus

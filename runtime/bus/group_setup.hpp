@@ -2,40 +2,19 @@
 #ifndef STRIDE_RUNTIME_BUS_GROUP_SETUP_HPP
 #define STRIDE_RUNTIME_BUS_GROUP_SETUP_HPP
 
+#include "runtime/bus/driver_schema.hpp"
+#include "runtime/bus/plc_schema.hpp"
+#include "runtime/common/setup_parameters.hpp"
+
 #include <cstdint>
 #include <string>
-#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace stride::bus {
 
-/// A value of stride.toml.
-struct SetupParameter {
-  std::string
-      name; ///< As in stride.toml; in a table below with its name in front: "physics.model".
-  std::string text; ///< Texts and choices by name.
-  double number;    ///< Numbers, choices by value, BOOLs as 0 and 1, durations in seconds.
-};
-
-/// The values of one section of stride.toml.
-class SetupParameters {
-public:
-  void add(SetupParameter parameter) { list_.push_back(std::move(parameter)); }
-
-  [[nodiscard]] const SetupParameter *find(std::string_view name) const {
-    for (const SetupParameter &parameter : list_)
-      if (parameter.name == name)
-        return &parameter;
-    return nullptr;
-  }
-  [[nodiscard]] double number(std::string_view name, double otherwise) const {
-    const SetupParameter *parameter = find(name);
-    return parameter != nullptr ? parameter->number : otherwise;
-  }
-
-private:
-  std::vector<SetupParameter> list_;
-};
+using common::SetupParameter;
+using common::SetupParameters;
 
 struct DriveSetup {
   std::string name;
@@ -49,7 +28,26 @@ struct EncoderSetup {
   SetupParameters parameters;
 };
 
+/// All values that stride.toml does not give are those of the driver's schema and of
+/// plc_schema.hpp.
 struct GroupSetup {
+  /// Without drives; `schema` must live as long as this.
+  GroupSetup(const DriverSchema &driver, double cycle)
+      : cycleSeconds(cycle), busParameters({plc::kBus, driver.bus}, cycle),
+        parameters({plc::kAxisGroup, driver.axisGroup, driver.axisGroupTables}, cycle),
+        schema(&driver) {}
+
+  DriveSetup &addDrive(std::string drive, uint32_t id) {
+    return drives.emplace_back(DriveSetup{
+        std::move(drive), id,
+        SetupParameters({plc::kDrive, schema->drive, schema->driveTables}, cycleSeconds)});
+  }
+  EncoderSetup &addEncoder(std::string encoder, uint32_t id) {
+    return encoders.emplace_back(EncoderSetup{
+        std::move(encoder), id,
+        SetupParameters({plc::kEncoder, schema->encoder, schema->encoderTables}, cycleSeconds)});
+  }
+
   std::string name;
   std::string bus;
   std::string interfaceType;
@@ -58,6 +56,7 @@ struct GroupSetup {
   SetupParameters parameters;
   std::vector<DriveSetup> drives;
   std::vector<EncoderSetup> encoders;
+  const DriverSchema *schema;
 };
 
 } // namespace stride::bus

@@ -208,39 +208,42 @@ private:
   bool shown_ = false;
 };
 
-bus::SetupParameters parametersOf(const StrideAppV1 &app, uint32_t first, uint32_t count) {
-  bus::SetupParameters result;
+void addParameters(const StrideAppV1 &app, uint32_t first, uint32_t count,
+                   bus::SetupParameters &to) {
   for (uint32_t i = 0; i < count; ++i) {
     const ParameterDesc &parameter = app.parameters[first + i];
-    result.add({parameter.name, parameter.text != nullptr ? parameter.text : "", parameter.number});
+    to.add({parameter.name, parameter.text != nullptr ? parameter.text : "", parameter.number});
   }
-  return result;
+}
+
+double cycleSecondsOf(const StrideAppV1 &app, const AxisGroupDesc &group) {
+  const TaskDesc &task = app.tasks[group.task];
+  const bool paced = task.kind == TaskKind::Cyclic || task.kind == TaskKind::Freewheeling;
+  return paced ? static_cast<double>(task.intervalNs) * 1e-9
+               : static_cast<double>(group.cycleUs) * 1e-6;
 }
 
 /// The configuration of an axis group as its driver gets it.
-bus::GroupSetup setupOf(const StrideAppV1 &app, const AxisGroupDesc &group) {
-  bus::GroupSetup setup;
+bus::GroupSetup setupOf(const StrideAppV1 &app, const AxisGroupDesc &group,
+                        const bus::DriverSchema &schema) {
+  bus::GroupSetup setup(schema, cycleSecondsOf(app, group));
   setup.name = group.name;
   setup.bus = group.busName;
   if (group.bus != kNoIndex) {
     const BusDesc &bus = app.buses[group.bus];
     setup.interfaceType = bus.interfaceType;
-    setup.busParameters = parametersOf(app, bus.firstParameter, bus.parameterCount);
+    addParameters(app, bus.firstParameter, bus.parameterCount, setup.busParameters);
   }
-  setup.parameters = parametersOf(app, group.firstParameter, group.parameterCount);
-  const TaskDesc &task = app.tasks[group.task];
-  const bool paced = task.kind == TaskKind::Cyclic || task.kind == TaskKind::Freewheeling;
-  setup.cycleSeconds = paced ? static_cast<double>(task.intervalNs) * 1e-9
-                             : static_cast<double>(group.cycleUs) * 1e-6;
+  addParameters(app, group.firstParameter, group.parameterCount, setup.parameters);
   for (uint32_t i = 0; i < group.driveCount; ++i) {
     const DriveDesc &drive = app.drives[group.firstDrive + i];
-    setup.drives.push_back(
-        {drive.name, drive.driveId, parametersOf(app, drive.firstParameter, drive.parameterCount)});
+    addParameters(app, drive.firstParameter, drive.parameterCount,
+                  setup.addDrive(drive.name, drive.driveId).parameters);
   }
   for (uint32_t i = 0; i < group.encoderCount; ++i) {
     const EncoderDesc &encoder = app.encoders[group.firstEncoder + i];
-    setup.encoders.push_back({encoder.name, encoder.encoderId,
-                              parametersOf(app, encoder.firstParameter, encoder.parameterCount)});
+    addParameters(app, encoder.firstParameter, encoder.parameterCount,
+                  setup.addEncoder(encoder.name, encoder.encoderId).parameters);
   }
   return setup;
 }
@@ -258,8 +261,8 @@ const drivers::DriverEntry &driverOf(const AxisGroupDesc &group) {
 void bindData(const DriveDesc &drive, const drivers::DriverEntry &driver, std::byte *state) {
   if (drive.dataLayout == 0)
     return;
-  const std::string_view type = driver.schema.driveData;
-  if (drive.dataLayout != driver.driveDataLayout)
+  const std::string_view type = driver.schema->driveData.type;
+  if (drive.dataLayout != driver.driveDataLayout())
     throw app::Error(
         fmt::format("the application was built with another layout of {} (drive '{}') "
                     "than this runtime has; build it again with this version of Stride",
@@ -281,8 +284,8 @@ addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPo
   const auto errors = std::make_shared<BootupErrors>(app.axisGroupCount);
   for (uint32_t i = 0; i < app.axisGroupCount; ++i) {
     const AxisGroupDesc &group = app.axisGroups[i];
-    const bus::GroupSetup setup = setupOf(app, group);
     const drivers::DriverEntry &driver = driverOf(group);
+    const bus::GroupSetup setup = setupOf(app, group, *driver.schema);
     for (uint32_t d = 0; d < group.driveCount; ++d)
       bindData(app.drives[group.firstDrive + d], driver, application.state());
     hooks.push_back(std::make_unique<AxisGroupHook>(app, i, application.state(), driver.make(setup),

@@ -1,14 +1,12 @@
 #include "runtime/host/io_hooks.hpp"
 
-#include "drivers/io/shared_memory_io.hpp"
-#include "drivers/io/simulated_io.hpp"
+#include "drivers/io/io_drivers.hpp"
 #include "runtime/app/error.hpp"
 #include "runtime/io/process_image.hpp"
 
 #include <fmt/format.h>
 
 #include <span>
-#include <string_view>
 
 namespace stride::host {
 
@@ -33,25 +31,36 @@ private:
   InputPort *port_;
 };
 
-std::unique_ptr<io::IoDriver> makeDriver(const IoDeviceDesc &desc, bool replays) {
+const drivers::IoDriverEntry &driverOf(const IoDeviceDesc &desc) {
+  const drivers::IoDriverEntry *driver = drivers::findIoDriver(desc.driverName);
+  if (driver == nullptr)
+    throw app::Error(
+        fmt::format("I/O device '{}' asks for driver '{}', which this runtime does not "
+                    "have; {}",
+                    desc.name, desc.driverName, drivers::knownIoDrivers()));
+  return *driver;
+}
+
+io::IoSettings settingsOf(const StrideAppV1 &app, const IoDeviceDesc &desc,
+                          const io::IoSchema &schema) {
   io::IoSettings settings;
   settings.name = desc.name;
   settings.inputBytes = desc.inputCount;
   settings.outputBytes = desc.outputCount;
-  settings.loopBack = desc.loopBack != 0;
-  settings.delayCycles = desc.delayCycles;
-  settings.segment = desc.segment != nullptr ? desc.segment : "";
-  settings.timeoutNs = desc.timeoutNs;
-  const std::string_view driver = desc.driverName;
-  if (driver == "Simulated")
-    return io::makeSimulatedIo(settings);
-  if (driver == "SharedMemory" && replays)
+  settings.parameters = common::SetupParameters({{}, schema.parameters});
+  for (uint32_t i = 0; i < desc.parameterCount; ++i) {
+    const ParameterDesc &parameter = app.parameters[desc.firstParameter + i];
+    settings.parameters.add(
+        {parameter.name, parameter.text != nullptr ? parameter.text : "", parameter.number});
+  }
+  return settings;
+}
+
+std::unique_ptr<io::IoDriver> makeDriver(const StrideAppV1 &app, const IoDeviceDesc &desc,
+                                         const drivers::IoDriverEntry &driver, bool replays) {
+  if (driver.schema->external && replays)
     return std::make_unique<RecordedIo>();
-  if (driver == "SharedMemory")
-    return io::makeSharedMemoryIo(settings);
-  throw app::Error(fmt::format("I/O device '{}' asks for driver '{}', which this runtime does not "
-                               "have; it has 'Simulated' and 'SharedMemory'",
-                               desc.name, driver));
+  return driver.make(settingsOf(app, desc, *driver.schema));
 }
 
 std::shared_ptr<Devices> openDevices(const StrideAppV1 &app, bool replays) {
@@ -60,7 +69,9 @@ std::shared_ptr<Devices> openDevices(const StrideAppV1 &app, bool replays) {
     const IoDeviceDesc &desc = app.ioDevices[i];
     auto device = std::make_unique<io::IoDevice>();
     device->name = desc.name;
-    device->driver = makeDriver(desc, replays);
+    const drivers::IoDriverEntry &driver = driverOf(desc);
+    device->driver = makeDriver(app, desc, driver, replays);
+    device->external = driver.schema->external;
     device->index = i;
     device->inputBytes = desc.inputCount;
     device->outputBytes = desc.outputCount;

@@ -2,6 +2,7 @@
 #ifndef STRIDE_RUNTIME_IO_IO_DRIVER_HPP
 #define STRIDE_RUNTIME_IO_IO_DRIVER_HPP
 
+#include "runtime/common/setup_parameters.hpp"
 #include "runtime/iec/types.h"
 
 #include <cstdint>
@@ -16,11 +17,7 @@ struct IoSettings {
   std::string name;
   uint32_t inputBytes = 0;
   uint32_t outputBytes = 0;
-  bool loopBack = false;    ///< Simulated: inputs are the outputs.
-  uint32_t delayCycles = 0; ///< Simulated: so many cycles later.
-  std::string segment;      ///< SharedMemory: its name.
-  int64_t timeoutNs =
-      0; ///< SharedMemory: the other side shows a sign of life in this time; 0: need not.
+  common::SetupParameters parameters; ///< Of its schema.
 };
 
 /// One device. Its bytes are counted from 0 here. The tasks' threads call it in their cycles, each
@@ -33,8 +30,6 @@ public:
   IoDriver &operator=(const IoDriver &) = delete;
   virtual ~IoDriver() = default;
 
-  /// What it gives does not follow from what the program does: it belongs into a recording.
-  virtual bool isExternal() const noexcept { return true; }
   /// Whether the device answers, as seen at `nowNs` (start of a cycle).
   virtual bool works(int64_t nowNs) noexcept = 0;
   /// Takes inputs; false: there are none to be had just now, those of the last cycle stay.

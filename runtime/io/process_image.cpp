@@ -117,7 +117,7 @@ void ImageHook::watch(Ctx &ctx, IoDevice &device) {
   IoDeviceState &state = stateOf(device);
   const bool fault = __atomic_load_n(&state.bFault, __ATOMIC_RELAXED) != 0;
   bool works = device.driver->works(ctx.cycleStartNs);
-  if (device.driver->isExternal())
+  if (device.external)
     inputs_->pass(&works, sizeof works);
   const bool lost = fault || !works;
   const bool before = device.lost.exchange(lost, std::memory_order_relaxed);
@@ -132,9 +132,8 @@ void ImageHook::watch(Ctx &ctx, IoDevice &device) {
 
 /// Takes the bytes into the buffer; false: there are none.
 bool ImageHook::read(const Part &part) noexcept {
-  IoDriver &driver = *part.device->driver;
-  bool got = driver.read(part.deviceByte, {buffer_.data(), part.count});
-  if (!driver.isExternal())
+  bool got = part.device->driver->read(part.deviceByte, {buffer_.data(), part.count});
+  if (!part.device->external)
     return got;
   inputs_->pass(&got, sizeof got);
   if (got)

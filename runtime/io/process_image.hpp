@@ -24,7 +24,8 @@ struct IoDeviceState {
 struct IoDevice {
   std::string name;
   std::unique_ptr<IoDriver> driver;
-  uint32_t index = 0; ///< Into StrideAppV1::ioDevices.
+  bool external = true; ///< IoSchema::external.
+  uint32_t index = 0;   ///< Into StrideAppV1::ioDevices.
   uint32_t inputBytes = 0;
   uint32_t outputBytes = 0;
   std::string lostText; ///< To be shown.

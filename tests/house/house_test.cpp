@@ -41,7 +41,7 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
       {"compiler/codegen", {"compiler/semantics", "compiler/syntax", "compiler/source"}},
       {"compiler/project",
        {"compiler/codegen", "compiler/semantics", "compiler/syntax", "compiler/source",
-        "runtime/numeric/", "drivers"}},
+        "runtime/numeric/", "runtime/bus", "runtime/io", "drivers", "drivers/io"}},
       {"compiler/doc",
        {"compiler/project", "compiler/semantics", "compiler/syntax", "compiler/source"}},
       {"compiler/cli",
@@ -69,7 +69,7 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
         "runtime/system", "runtime/app", "runtime/iec", "drivers", "drivers/io", "st"}},
       {"runtime/embed",
        {"runtime/host", "runtime/monitor", "runtime/script", "runtime/task", "runtime/app"}},
-      {"drivers", {"drivers/dummy", "runtime/bus", "st"}},
+      {"drivers", {"drivers/dummy", "runtime/bus"}},
       {"drivers/dummy", {"runtime/bus", "runtime/iec", "st"}},
       {"drivers/io", {"runtime/io", "runtime/app"}},
   };
@@ -153,6 +153,21 @@ TEST(House, ArrowsPointDown) {
       }
     }
   EXPECT_GT(looked, 1000U);
+}
+
+/// Of drivers and their interfaces the compiler sees data only.
+TEST(House, TheCompilerKnowsDriversBySchemasOnly) {
+  static const std::regex kSchema(".*schema\\.hpp|drivers/(io/)?registry\\.hpp");
+  std::size_t looked = 0;
+  for (const fs::path &source : sourcesBelow("compiler"))
+    for (const std::string &name : includesOf(source)) {
+      if (!name.starts_with("drivers/") && !name.starts_with("runtime/bus/") &&
+          !name.starts_with("runtime/io/"))
+        continue;
+      ++looked;
+      EXPECT_TRUE(std::regex_match(name, kSchema)) << source << " includes " << name;
+    }
+  EXPECT_GT(looked, 4U);
 }
 
 TEST(House, ThereAreNoCircles) {

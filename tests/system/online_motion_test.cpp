@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 class Group final : public Around {
 public:
   explicit Group(app::Application &application)
-      : group_(dummy::makeDummyDriver(application.description().axisGroups[0].driveCount),
+      : group_(dummy::makeDriver(
+                   dummy::plainSetup(application.description().axisGroups[0].driveCount)),
                ref(application), axes(application),
                static_cast<double>(application.description().tasks[0].intervalNs) * 1e-9),
         application_(&application) {}

@@ -108,7 +108,7 @@ void movingAxes(benchmark::State &state) {
     pointers.push_back(&axes[i]);
   }
   auto group = fresh<stride::bus::AxisGroupRef>();
-  auto driver = simulated ? stride::dummy::makeDummyDriver(count)
+  auto driver = simulated ? stride::dummy::makeDriver(stride::dummy::plainSetup(count))
                           : std::unique_ptr<stride::bus::AxisDriver>(
                                 std::make_unique<stride::bench::EchoDriver>(count));
   stride::bus::DriveGroup axisGroup(std::move(driver), group, pointers, 0.001);

@@ -40,7 +40,7 @@ public:
   }
 
   void start() {
-    auto driver = std::make_unique<dummy::DummyDriver>(1);
+    auto driver = std::make_unique<dummy::DummyDriver>(dummy::plainSetup(1));
     drive = driver.get();
     axisGroup = std::make_unique<bus::DriveGroup>(
         std::move(driver), group, std::vector<axis::AxisRef *>{&axis}, cycleSeconds);

@@ -10,9 +10,8 @@ namespace {
 class DummyDrive : public ::testing::Test {
 protected:
   void make(std::vector<bus::SetupParameter> parameters) {
-    bus::GroupSetup setup;
-    setup.cycleSeconds = 0.001;
-    bus::DriveSetup &drive = setup.drives.emplace_back();
+    bus::GroupSetup setup(kSchema, 0.001);
+    bus::DriveSetup &drive = setup.addDrive({}, 1);
     drive.parameters.add({"dwRatioTechUnitsDenom", "", 1000});
     for (bus::SetupParameter &parameter : parameters)
       drive.parameters.add(std::move(parameter));
@@ -54,6 +53,43 @@ protected:
   bool started = false;
   bool failed = false;
 };
+
+TEST(DummySetup, DefaultsStandInTheSchema) {
+  bus::GroupSetup setup(kSchema, 0.00022);
+  bus::SetupParameters &drive = setup.addDrive("X", 7).parameters;
+  EXPECT_EQ(drive.text("physics.model"), "ideal");
+  EXPECT_EQ(drive.number("physics.homing_direction"), -1);
+  EXPECT_EQ(drive.text("physics.homing_direction"), "negative");
+  EXPECT_EQ(drive.number("physics.velocity_integral_time"), 0.02);
+  EXPECT_EQ(drive.number("physics.substeps"), 5) << "220 us in steps of 50 us at most";
+  EXPECT_EQ(drive.number("iMovementType"), 1);
+  EXPECT_EQ(drive.text("wControlType"), "POS, VEL -> POS, VEL");
+  EXPECT_EQ(drive.number("physics.index_distance"), 0) << "linear";
+  EXPECT_FALSE(drive.given("physics.homing_velocity"));
+  drive.add({"physics.homing_velocity", "", 30});
+  drive.add({"physics.inertia", "", 0.25});
+  drive.add({"iMovementType", "rotary", 0});
+  drive.add({"fPositionPeriod", "", 360});
+  EXPECT_TRUE(drive.given("physics.homing_velocity"));
+  EXPECT_EQ(drive.number("physics.homing_velocity_slow"), 3);
+  EXPECT_EQ(drive.number("physics.homing_acceleration"), 300);
+  EXPECT_EQ(drive.number("physics.velocity_gain"), 125);
+  EXPECT_EQ(drive.number("physics.index_distance"), 360);
+  EXPECT_EQ(drive.number("physics.nothing"), 0);
+  EXPECT_EQ(drive.text("physics.velocity_gain"), "") << "computed, not a text";
+}
+
+TEST(DummySetup, SubstepsHaveTheirLimits) {
+  const auto substeps = [](double cycle) {
+    return bus::GroupSetup(kSchema, cycle).addDrive("X", 1).parameters.number("physics.substeps");
+  };
+  EXPECT_EQ(substeps(0), 1);
+  EXPECT_EQ(substeps(20e-6), 1);
+  EXPECT_EQ(substeps(50e-6), 1);
+  EXPECT_EQ(substeps(51e-6), 2);
+  EXPECT_EQ(substeps(0.05), 1000);
+  EXPECT_EQ(substeps(10), 1000);
+}
 
 TEST_F(DummyDrive, StartsWhereItStands) {
   make({{"physics.start_position", "", -12.3456}});

@@ -39,8 +39,9 @@ protected:
     devices_.push_back(std::make_unique<IoDevice>());
     IoSettings settings;
     settings.inputBytes = settings.outputBytes = 4;
-    settings.loopBack = true;
-    devices_[0]->driver = makeSimulatedIo(settings);
+    settings.parameters.add({"loop_back", "", 1});
+    devices_[0]->driver = simulated::makeDriver(settings);
+    devices_[0]->external = false;
     devices_[0]->inputBytes = devices_[0]->outputBytes = 4;
     devices_[0]->lostText = "lost";
     for (uint32_t task = 0; task < 2; ++task)
@@ -155,9 +156,9 @@ TEST(CopyWhole, AnyPlaceAndLength) {
 TEST(SimulatedIo, Delay) {
   IoSettings settings;
   settings.inputBytes = settings.outputBytes = 1;
-  settings.loopBack = true;
-  settings.delayCycles = 2;
-  const std::unique_ptr<IoDriver> io = makeSimulatedIo(settings);
+  settings.parameters.add({"loop_back", "", 1});
+  settings.parameters.add({"delay", "", 2});
+  const std::unique_ptr<IoDriver> io = simulated::makeDriver(settings);
   BYTE in = 99;
   for (BYTE n = 1; n < 10; ++n) {
     io->write(0, {&n, 1});

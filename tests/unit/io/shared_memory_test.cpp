@@ -20,25 +20,26 @@ class SharedMemory : public ::testing::Test {
 protected:
   SharedMemory() {
     settings_.name = "D";
-    settings_.segment = "/stride-unit-io-" + std::to_string(::getpid());
+    settings_.parameters.add({"segment", segment_, 0});
     settings_.inputBytes = 64;
     settings_.outputBytes = 64;
   }
-  ~SharedMemory() override { ::shm_unlink(settings_.segment.c_str()); }
+  ~SharedMemory() override { ::shm_unlink(segment_.c_str()); }
 
   /// The other side.
   stride_io_header *header() {
-    const int file = ::shm_open(settings_.segment.c_str(), O_RDWR, 0);
+    const int file = ::shm_open(segment_.c_str(), O_RDWR, 0);
     void *memory = ::mmap(nullptr, 4096, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
     ::close(file);
     return static_cast<stride_io_header *>(memory);
   }
 
+  std::string segment_ = "/stride-unit-io-" + std::to_string(::getpid());
   IoSettings settings_;
 };
 
 TEST_F(SharedMemory, BothDirections) {
-  const std::unique_ptr<IoDriver> io = makeSharedMemoryIo(settings_);
+  const std::unique_ptr<IoDriver> io = shared_memory::makeDriver(settings_);
   stride_io_header *other = header();
   EXPECT_EQ(other->magic, STRIDE_IO_MAGIC);
   EXPECT_EQ(other->state, STRIDE_IO_RUNNING);
@@ -56,7 +57,7 @@ TEST_F(SharedMemory, BothDirections) {
 }
 
 TEST_F(SharedMemory, HalfWrittenInputsAreNotTaken) {
-  const std::unique_ptr<IoDriver> io = makeSharedMemoryIo(settings_);
+  const std::unique_ptr<IoDriver> io = shared_memory::makeDriver(settings_);
   stride_io_header *other = header();
   ++other->input_begin; // in the middle of writing, for ever
   std::array<BYTE, 3> in{};
@@ -64,8 +65,8 @@ TEST_F(SharedMemory, HalfWrittenInputsAreNotTaken) {
 }
 
 TEST_F(SharedMemory, Timeout) {
-  settings_.timeoutNs = 1000;
-  const std::unique_ptr<IoDriver> io = makeSharedMemoryIo(settings_);
+  settings_.parameters.add({"timeout", "", 1e-6});
+  const std::unique_ptr<IoDriver> io = shared_memory::makeDriver(settings_);
   stride_io_header *other = header();
   EXPECT_TRUE(io->works(500));
   EXPECT_FALSE(io->works(1500));
@@ -77,7 +78,7 @@ TEST_F(SharedMemory, Timeout) {
 }
 
 TEST_F(SharedMemory, NeverTorn) {
-  const std::unique_ptr<IoDriver> io = makeSharedMemoryIo(settings_);
+  const std::unique_ptr<IoDriver> io = shared_memory::makeDriver(settings_);
   stride_io_header *other = header();
   std::atomic<bool> stop{false};
   std::thread plant([&] {
@@ -110,9 +111,10 @@ TEST_F(SharedMemory, NeverTorn) {
 }
 
 TEST_F(SharedMemory, WhatIsWrongIsSaid) {
-  settings_.segment = "/no/such";
+  settings_.parameters = {};
+  settings_.parameters.add({"segment", "no/such", 0}); // becomes "/no/such"
   try {
-    makeSharedMemoryIo(settings_);
+    shared_memory::makeDriver(settings_);
     FAIL();
   } catch (const app::Error &error) {
     EXPECT_NE(std::string(error.what()).find("I/O device 'D': the shared memory '/no/such'"),

@@ -1,0 +1,106 @@
+#pragma once
+// The sections of stride.toml that depend on a driver: what the registries of drivers/ say becomes
+// schemas, and the rules between parameters of a section are checked.
+
+#include "compiler/project/config.hpp"
+#include "compiler/project/schema.hpp"
+#include "runtime/bus/driver_schema.hpp"
+#include "runtime/io/io_schema.hpp"
+
+#include <deque>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stc {
+
+/// The driver's name in an InterfaceType: its first word.
+[[nodiscard]] std::string_view driverOf(std::string_view interfaceType);
+
+/// A section of several drivers, with all that is below it.
+class DriverSection {
+public:
+  DriverSection() = default;
+  DriverSection(const DriverSection &) = delete;
+  DriverSection &operator=(const DriverSection &) = delete;
+  ~DriverSection() = default;
+
+  /// The section but for its parameters.
+  void begin(const Section &section) { section_ = section; }
+  /// Parameters and tables that it has now; those that another driver has as well stay as they are.
+  /// `reason`: why they are without effect; empty: they are not.
+  void add(std::span<const Parameter> parameters, const std::string &reason = {});
+  void add(std::span<const stride::common::ParameterTable> tables, const std::string &reason = {});
+  /// A section below, whatever the driver; it must live as long.
+  void add(const Section &section) { sections_.push_back(&section); }
+  /// When everything has been added.
+  [[nodiscard]] const Section &finish();
+
+private:
+  Section section_;
+  std::vector<Parameter> parameters_;
+  std::vector<Foreign> foreign_;
+  std::deque<Section> tables_;
+  std::deque<std::string> paths_;
+  std::vector<const Section *> sections_;
+};
+
+/// `[[bus]]` as one driver has it.
+class BusSection {
+public:
+  /// `driver`: null for one that nobody knows; then the parameters of `all` count.
+  BusSection(const stride::bus::DriverSchema *driver,
+             std::span<const stride::bus::DriverSchema *const> all);
+  [[nodiscard]] const Section &section() const { return *section_; }
+
+private:
+  DriverSection drive_;
+  DriverSection encoder_;
+  DriverSection axisGroup_;
+  DriverSection bus_;
+  const Section *section_;
+};
+
+/// `[[io]]` as one device has it.
+class IoSection {
+public:
+  /// `driver`: null for one that nobody knows; then the parameters of `all` count.
+  IoSection(const stride::io::IoSchema *driver, std::span<const stride::io::IoSchema *const> all);
+  [[nodiscard]] const Section &section() const { return *section_; }
+
+private:
+  std::vector<Choice> devices_;
+  std::vector<Parameter> general_;
+  DriverSection io_;
+  const Section *section_;
+};
+
+/// The section of this table of the list `[[bus]]` or `[[io]]`, by the driver that it names.
+[[nodiscard]] const Section &busSection(const TomlNode &bus);
+[[nodiscard]] const Section &ioSection(const TomlNode &io);
+/// The sections with the parameters of all drivers.
+[[nodiscard]] const Section &anyBusSection();
+[[nodiscard]] const Section &anyIoSection();
+
+/// What the rules between parameters need to know besides their section.
+struct RuleScope {
+  std::string_view counts = "counts "; ///< Before "only with …".
+  std::string_view what = "drive";     ///< "only for linear {}s"
+  bool rotary = false;
+  const AxisGroupConfig *group = nullptr; ///< Of drives that parameters name.
+};
+
+/// Reports what contradicts the rules of the section's rows: parameters without effect, missing
+/// ones, those in the wrong order. What is wrong by itself has been reported.
+void checkRules(const CheckedSection &section, const RuleScope &scope, Diagnostics &diagnostics);
+
+/// Reads a driver's tables below the section of an axis group, a drive or an encoder.
+void readDriverTables(const CheckedSection &section, const RuleScope &scope,
+                      std::vector<ConfigParameter> &parameters, Diagnostics &diagnostics);
+
+/// What driver and program share about a drive, as its section says; null: nothing.
+[[nodiscard]] const stride::bus::SharedData *sharedDataOf(const CheckedSection &drive,
+                                                          std::string_view driver);
+
+} // namespace stc
