@@ -1,0 +1,254 @@
+"""Builds the mutated copy, finds out which test reaches which mutant, and runs those."""
+
+import hashlib
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+import tomllib
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import draw
+from tree import write_tree
+
+HERE = Path(__file__).parent
+TOP = HERE.parent.parent
+FOLDER = TOP / os.environ.get("STRIDE_MUTATION_FOLDER", "build/mutation")
+TREE = FOLDER / "tree"
+BUILD = TREE / "build/mutation"  # as deep below the sources as other builds, so that ccache knows what they have compiled
+# Slow, about something else, or about the sources themselves.
+NOT_RUN = re.compile(r"^(qemu\.|faults_test|soak_|hostile_|install_test|docs\.|bench_|large_projects|concurrent_builds|mutation_test|house|"
+                     r"conformance|codegen_random|slow_disk|explain_test|bad_input|cycle_trap|debug_test|fmt_test|golden\.format|format_test|syntax_test|"
+                     r"readme_test|shared_tasks|diagnostics\.coverage|unit_headers)")
+MOST_MUTANTS = 4095
+
+
+def equivalents():
+    """key: reason"""
+    path = HERE / "equivalent.toml"
+    listed = tomllib.loads(path.read_text())["mutant"] if path.exists() else []
+    return {entry["key"]: entry["reason"] for entry in listed}
+
+
+class State:
+    """What is known so far; kept on disk, so that a campaign can go on where it was stopped"""
+
+    def __init__(self):
+        self.path = FOLDER / "state.json"
+        known = json.loads(self.path.read_text()) if self.path.exists() else {}
+        self.broken = set(known.get("broken", []))  # keys of what does not compile
+        self.tests = known.get("tests", {})         # name: {"seconds", "fingerprint", "reached"}
+        self.keys = known.get("keys", [])           # the mutants that were there when it was found out what the tests reach
+        self.results = known.get("results", {})     # key: {"killed_by"} (null: it survives)
+
+    def save(self):
+        """After every result"""
+        FOLDER.mkdir(parents=True, exist_ok=True)
+        fresh = self.path.with_suffix(".new")
+        fresh.write_text(json.dumps({"broken": sorted(self.broken), "keys": self.keys, "tests": self.tests, "results": self.results}, indent=1))
+        fresh.rename(self.path)
+
+
+def drawn(state, areas):
+    """All mutants by number"""
+    numbered = {}
+    for area in areas:
+        for mutant in draw.draw(TOP, area, lambda mutant: mutant.key not in state.broken):
+            numbered[len(numbered) + 1] = mutant
+    assert len(numbered) <= MOST_MUTANTS
+    return numbered
+
+
+def environment(**more):
+    return {**os.environ, "CCACHE_SLOPPINESS": "pch_defines,time_macros", **more}
+
+
+def build(state, areas, jobs):
+    """Draws again without what does not compile, until all of it does"""
+    while True:
+        numbered = drawn(state, areas)
+        write_tree(TOP, TREE, numbered)
+        configure = ["cmake", "-S", str(TREE), "-B", str(BUILD), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON"]
+        subprocess.run(configure, check=True, stdout=subprocess.DEVNULL)
+        done = subprocess.run(["ninja", "-C", str(BUILD), "-k", "0", f"-j{jobs}"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              text=True, errors="replace", env=environment())
+        (FOLDER / "build.log").write_text(done.stdout)
+        if done.returncode == 0:
+            (FOLDER / "drawn.json").write_text(json.dumps([mutant.key for mutant in numbered.values()]))
+            return numbered
+        wrong = {int(number) for number in re.findall(r"stride_mutant_(\d+):\d+:\d+: (?:\x1b\[[\d;]*[mK])*(?:fatal )?error", plain(done.stdout))}
+        if not wrong:
+            raise SystemExit(f"the mutated copy does not build; see {FOLDER / 'build.log'}")
+        print(f"{len(wrong)} mutants do not compile", flush=True)
+        state.broken |= {numbered[number].key for number in wrong}
+        state.save()
+
+
+def built(state, areas):
+    """What was drawn when it was built"""
+    numbered = drawn(state, areas)
+    if [mutant.key for mutant in numbered.values()] != json.loads((FOLDER / "drawn.json").read_text()):
+        raise SystemExit("other mutants are drawn now than when the copy was built: leave out --built")
+    return numbered
+
+
+def plain(text):
+    return re.sub(r"\x1b\[[\d;]*[mK]", "", text)
+
+
+def tests_of_build(areas):
+    """name: (command, folder, environment) of the tests of any of these areas"""
+    listed = subprocess.run(["ctest", "--test-dir", str(BUILD), "--show-only=json-v1"], check=True, capture_output=True, text=True)
+    out = {}
+    for test in json.loads(listed.stdout)["tests"]:
+        properties = {entry["name"]: entry["value"] for entry in test.get("properties", [])}
+        wanted = any(re.match(area.tests, test["name"]) for area in areas)
+        if wanted and not NOT_RUN.match(test["name"]) and "command" in test:
+            variables = dict(pair.split("=", 1) for pair in properties.get("ENVIRONMENT", []))
+            out[test["name"]] = (test["command"], properties.get("WORKING_DIRECTORY", str(BUILD)), variables)
+    if any(re.match(area.tests, "random_small") for area in areas):
+        out["random_small"] = ([sys.executable, str(TREE / "tests/random/random_programs.py"), str(BUILD / "stride"), "--small",
+                                "--seeds", "1..8", "--modes", "O0"], str(BUILD), {"PYTHONDONTWRITEBYTECODE": "1"})
+    return out
+
+
+def run(test, limit, **variables):
+    """Whether the test passes: True, False, or None when it takes longer than `limit` seconds"""
+    command, folder, own = test
+    process = subprocess.Popen(command, cwd=folder, env=environment(GTEST_FAIL_FAST="1", GTEST_BRIEF="1", **own, **variables),
+                               stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+    try:
+        return process.wait(limit) == 0
+    except subprocess.TimeoutExpired:
+        return None
+    finally:
+        try:
+            os.killpg(process.pid, signal.SIGKILL)  # what it has started
+        except ProcessLookupError:
+            pass
+        process.wait()
+
+
+def reach(state, tests, numbered, jobs):
+    """Runs every test without a mutant; which it reaches, and how long that takes"""
+    def one(name):
+        path = FOLDER / f"reached.{name.replace('/', '_')}"
+        path.write_bytes(bytes(MOST_MUTANTS + 1))
+        begin = time.monotonic()
+        passed = run(tests[name], 600, STRIDE_MUTATION_REACHED=str(path))
+        seconds = time.monotonic() - begin
+        marks = path.read_bytes()
+        path.unlink()
+        if not passed:
+            print(f"{name} fails without a mutant: not used", flush=True)
+        state.tests[name] = {"seconds": seconds, "fingerprint": fingerprint(tests[name]), "reached": [numbered[n].key for n in numbered if marks[n]] if passed else []}
+
+    missing = [name for name in tests if name not in state.tests]
+    with ThreadPoolExecutor(jobs) as pool:
+        for done, _ in enumerate(pool.map(one, missing), 1):
+            if done % 10 == 0:
+                state.save()
+    state.save()
+
+
+def order_of(mutant, state, tests, golden):
+    """(seconds, name) of the tests that reach it, quick ones first; of the golden tests, which are many, so many (0: all)"""
+    wanted = re.compile(next(area.tests for area in draw.AREAS if area.name == mutant.area))
+    found = sorted((state.tests[name]["seconds"], name) for name in tests
+                   if name in state.tests and mutant.key in state.tests[name]["reached"] and wanted.match(name))
+    some = {name for _, name in [entry for entry in found if entry[1].startswith("golden.")][:golden or None]}
+    return [entry for entry in found if entry[1] in some or not entry[1].startswith("golden.")]
+
+
+def killer_of(number, mutant, state, tests, jobs, golden):
+    """The first test that fails, or None"""
+    found = order_of(mutant, state, tests, golden)
+    killers = []
+
+    def one(entry):
+        seconds, name = entry
+        if killers:
+            return
+        limit = 20 + 8 * seconds
+        passed = run(tests[name], limit, STRIDE_MUTANT=str(number))
+        # Twice, so that a test that fails by chance kills nothing.
+        if passed is None or passed is False and not run(tests[name], limit, STRIDE_MUTANT=str(number)):
+            killers.append(name + (" (time limit)" if passed is None else ""))
+
+    with ThreadPoolExecutor(jobs) as pool:
+        list(pool.map(one, found))
+    return killers[0] if killers else None
+
+
+def campaign(state, numbered, tests, options):
+    equivalent = equivalents()
+    for number, mutant in numbered.items():
+        known = state.results.get(mutant.key)
+        if mutant.key in equivalent or known and not (options.again and known["killed_by"] is None):
+            continue
+        begin = time.monotonic()
+        killer = killer_of(number, mutant, state, tests, options.jobs, options.golden)
+        state.results[mutant.key] = {"killed_by": killer}
+        state.save()
+        print(f"{number:4} {time.monotonic() - begin:6.1f} s  {'killed by ' + killer if killer else 'SURVIVES'}  {mutant.file}:{mutant.line}  {mutant.key}",
+              flush=True)
+
+
+def report(state, numbered):
+    """Per area: killed, survived, equivalent; then every survivor"""
+    equivalent = equivalents()
+    rows, survivors = {}, []
+    for number, mutant in numbered.items():
+        row = rows.setdefault(mutant.area, {"drawn": 0, "killed": 0, "survived": 0, "equivalent": 0, "open": 0})
+        row["drawn"] += 1
+        known = state.results.get(mutant.key)
+        verdict = ("equivalent" if mutant.key in equivalent else "open" if known is None
+                   else "killed" if known["killed_by"] else "survived")
+        row[verdict] += 1
+        if verdict == "survived":
+            survivors.append((number, mutant))
+    rows["all"] = {column: sum(row[column] for row in rows.values()) for column in next(iter(rows.values()))}
+    print(f"{'area':12} {'drawn':>6} {'killed':>7} {'survived':>9} {'equivalent':>11} {'open':>5}  killed of the others")
+    for name, row in rows.items():
+        judged = row["killed"] + row["survived"]
+        print(f"{name:12} {row['drawn']:6} {row['killed']:7} {row['survived']:9} {row['equivalent']:11} {row['open']:5}  "
+              + (f"{100 * row['killed'] / judged:.1f} %" if judged else "-"))
+    for number, mutant in survivors:
+        reached = sum(mutant.key in test["reached"] for test in state.tests.values())
+        print(f"\n{number}: {mutant.file}:{mutant.line}, reached by {reached} tests\n  {mutant.key}")
+
+
+def fingerprint(test):
+    """Changes with the files that the command names: the program, the case"""
+    files = []
+    for word in test[0]:
+        path = Path(word)
+        found = path.rglob("*") if path.is_dir() and TREE in path.parents else [path] if path.is_file() else []
+        files += [f"{file} {file.stat().st_mtime_ns}" for file in found if file.is_file() and ".stride" not in file.parts]
+    return hashlib.sha256("\n".join(sorted(files)).encode()).hexdigest()
+
+
+def forget_changed(state, tests, numbered):
+    """Tests that are not what they were when it was found out what they reach"""
+    keys = sorted(mutant.key for mutant in numbered.values())
+    if not set(keys) <= set(state.keys):
+        state.tests = {}
+    state.keys = sorted(set(keys) | set(state.keys)) if state.tests else keys
+    for name in list(state.tests):
+        if name not in tests or state.tests[name]["fingerprint"] != fingerprint(tests[name]):
+            del state.tests[name]
+
+
+def whole(state, areas, options):
+    """Build, reach, run, report"""
+    numbered = built(state, areas) if options.built else build(state, areas, options.jobs)
+    tests = tests_of_build(areas)
+    forget_changed(state, tests, numbered)
+    reach(state, tests, numbered, options.jobs)
+    chosen = {number: mutant for number, mutant in numbered.items() if options.file in mutant.file}
+    campaign(state, chosen, tests, options)
+    report(state, numbered)
