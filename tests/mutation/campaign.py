@@ -67,18 +67,18 @@ def environment(**more):
     return {**os.environ, "CCACHE_SLOPPINESS": "pch_defines,time_macros", **more}
 
 
-def build(state, areas, jobs):
+def build(state, areas, options):
     """Draws again without what does not compile, until all of it does"""
     while True:
-        numbered = drawn(state, areas)
+        numbered = chosen(drawn(state, areas), options)
         write_tree(TOP, TREE, numbered)
         configure = ["cmake", "-S", str(TREE), "-B", str(BUILD), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON"]
         subprocess.run(configure, check=True, stdout=subprocess.DEVNULL)
-        done = subprocess.run(["ninja", "-C", str(BUILD), "-k", "0", f"-j{jobs}"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+        done = subprocess.run(["ninja", "-C", str(BUILD), "-k", "0", f"-j{options.jobs}", *targets_of(areas)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               text=True, errors="replace", env=environment())
         (FOLDER / "build.log").write_text(done.stdout)
         if done.returncode == 0:
-            (FOLDER / "drawn.json").write_text(json.dumps([mutant.key for mutant in numbered.values()]))
+            (FOLDER / "drawn.json").write_text(json.dumps({number: mutant.key for number, mutant in numbered.items()}))
             return numbered
         wrong = {int(number) for number in re.findall(r"stride_mutant_(\d+):\d+:\d+: (?:\x1b\[[\d;]*[mK])*(?:fatal )?error", plain(done.stdout))}
         if not wrong:
@@ -88,10 +88,26 @@ def build(state, areas, jobs):
         state.save()
 
 
-def built(state, areas):
+def targets_of(areas):
+    """The programs of the tests of these areas, and what tests start"""
+    listed = "".join(path.read_text() for path in BUILD.rglob("CTestTestfile.cmake"))
+    programs = re.findall(rf'^add_test\((?:\[=+\[)?([^\s\]]+)(?:\]=+\])? "{re.escape(str(BUILD))}/([^"]+)"', listed, re.MULTILINE)
+    return ["stride_programs", *sorted({program for name, program in programs if is_wanted(name, areas)})]
+
+
+def is_wanted(name, areas):
+    return not NOT_RUN.match(name) and any(re.match(area.tests, name) for area in areas)
+
+
+def chosen(numbered, options):
+    return {number: mutant for number, mutant in numbered.items() if options.file in mutant.file}
+
+
+def built(state, areas, options):
     """What was drawn when it was built"""
-    numbered = drawn(state, areas)
-    if [mutant.key for mutant in numbered.values()] != json.loads((FOLDER / "drawn.json").read_text()):
+    known = json.loads((FOLDER / "drawn.json").read_text())
+    numbered = chosen(drawn(state, areas), options)
+    if any(known.get(str(number)) != mutant.key for number, mutant in numbered.items()):
         raise SystemExit("other mutants are drawn now than when the copy was built: leave out --built")
     return numbered
 
@@ -106,8 +122,7 @@ def tests_of_build(areas):
     out = {}
     for test in json.loads(listed.stdout)["tests"]:
         properties = {entry["name"]: entry["value"] for entry in test.get("properties", [])}
-        wanted = any(re.match(area.tests, test["name"]) for area in areas)
-        if wanted and not NOT_RUN.match(test["name"]) and "command" in test:
+        if is_wanted(test["name"], areas) and "command" in test:
             variables = dict(pair.split("=", 1) for pair in properties.get("ENVIRONMENT", []))
             out[test["name"]] = (test["command"], properties.get("WORKING_DIRECTORY", str(BUILD)), variables)
     if any(re.match(area.tests, "random_small") for area in areas):
@@ -155,18 +170,20 @@ def reach(state, tests, numbered, jobs):
     state.save()
 
 
-def order_of(mutant, state, tests, golden):
-    """(seconds, name) of the tests that reach it, quick ones first; of the golden tests, which are many, so many (0: all)"""
+def order_of(mutant, state, tests, golden, longest):
+    """(seconds, name) of the tests that reach it, quick ones first; of the golden tests, which are many, so many (0: all); none
+    that takes longer than so many seconds"""
     wanted = re.compile(next(area.tests for area in draw.AREAS if area.name == mutant.area))
     found = sorted((state.tests[name]["seconds"], name) for name in tests
-                   if name in state.tests and mutant.key in state.tests[name]["reached"] and wanted.match(name))
+                   if name in state.tests and mutant.key in state.tests[name]["reached"] and wanted.match(name)
+                   and state.tests[name]["seconds"] <= longest)
     some = {name for _, name in [entry for entry in found if entry[1].startswith("golden.")][:golden or None]}
     return [entry for entry in found if entry[1] in some or not entry[1].startswith("golden.")]
 
 
-def killer_of(number, mutant, state, tests, jobs, golden):
+def killer_of(number, mutant, state, tests, options):
     """The first test that fails, or None"""
-    found = order_of(mutant, state, tests, golden)
+    found = order_of(mutant, state, tests, options.golden, options.longest)
     killers = []
 
     def one(entry):
@@ -179,7 +196,7 @@ def killer_of(number, mutant, state, tests, jobs, golden):
         if passed is None or passed is False and not run(tests[name], limit, STRIDE_MUTANT=str(number)):
             killers.append(name + (" (time limit)" if passed is None else ""))
 
-    with ThreadPoolExecutor(jobs) as pool:
+    with ThreadPoolExecutor(options.jobs) as pool:
         list(pool.map(one, found))
     return killers[0] if killers else None
 
@@ -191,7 +208,7 @@ def campaign(state, numbered, tests, options):
         if mutant.key in equivalent or known and not (options.again and known["killed_by"] is None):
             continue
         begin = time.monotonic()
-        killer = killer_of(number, mutant, state, tests, options.jobs, options.golden)
+        killer = killer_of(number, mutant, state, tests, options)
         state.results[mutant.key] = {"killed_by": killer}
         state.save()
         print(f"{number:4} {time.monotonic() - begin:6.1f} s  {'killed by ' + killer if killer else 'SURVIVES'}  {mutant.file}:{mutant.line}  {mutant.key}",
@@ -245,10 +262,9 @@ def forget_changed(state, tests, numbered):
 
 def whole(state, areas, options):
     """Build, reach, run, report"""
-    numbered = built(state, areas) if options.built else build(state, areas, options.jobs)
+    numbered = (built if options.built else build)(state, areas, options)
     tests = tests_of_build(areas)
     forget_changed(state, tests, numbered)
     reach(state, tests, numbered, options.jobs)
-    chosen = {number: mutant for number, mutant in numbered.items() if options.file in mutant.file}
-    campaign(state, chosen, tests, options)
-    report(state, numbered)
+    campaign(state, numbered, tests, options)
+    report(state, drawn(state, areas))

@@ -25,7 +25,7 @@ class Area:
 
 
 RUNTIME_TESTS = r"(?!codegen_|random_|oracle|golden\.diagnostics)"
-COMPILER_TESTS = r"golden\.(?!format)|codegen_test|random_|oracle|unit_(iec|semantics|syntax|project|app|tests_test)|headers"
+COMPILER_TESTS = r"golden\.(programs|diagnostics)|codegen_test|random_|oracle|unit_(iec|semantics|syntax|project|app|tests_test)|headers"
 AREAS = (
     Area("numerics", 70, ("runtime/numeric/**/*.[ch]pp",), RUNTIME_TESTS),
     Area("scheduler", 35, ("runtime/task/*.[ch]pp",), RUNTIME_TESTS),

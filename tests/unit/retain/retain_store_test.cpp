@@ -366,6 +366,34 @@ TEST(RetainStore, FailedCallsAreReportedAndTriedAgain) {
   }
 }
 
+/// What is to be done about it depends on what is wrong.
+TEST(RetainStore, SaysWhatHelps) {
+  const Generations generations;
+  struct Case {
+    int error;
+    const char *help;
+  };
+  for (const auto &[error, help] :
+       {Case{ENOSPC, "make room on that disk"}, Case{EDQUOT, "make room on that disk"},
+        Case{EACCES, "the right to write there"}, Case{EPERM, "the right to write there"},
+        Case{EROFS, "the right to write there"}, Case{EIO, ""}}) {
+    FakeFiles files;
+    files.failing = 0;
+    files.error = error;
+    RetainStore store("/folder/file", files);
+    try {
+      generations.save(store, 1);
+      FAIL();
+    } catch (const app::Error &caught) {
+      const std::string text = caught.what();
+      EXPECT_THAT(text, ::testing::StartsWith("cannot write '/folder/file.new': " +
+                                              std::string(std::strerror(error))));
+      EXPECT_THAT(text, ::testing::HasSubstr(help));
+      EXPECT_EQ(text.find('\n') != std::string::npos, *help != 0) << text;
+    }
+  }
+}
+
 TEST(RetainStore, FallsBackToTheOtherFileAndSaysWhy) {
   const Generations generations;
   const test::ScratchDirectory scratch;

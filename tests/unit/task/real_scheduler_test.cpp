@@ -265,6 +265,7 @@ TEST(RealSchedulerTest, AnEventMayContainLoopsAndAStopDoesNotWaitForALongInterva
   RealScheduler scheduler(tasks, kInTurns);
   scheduler.start();
   waitUntil([&] { return state.events > 2; });
+  EXPECT_EQ(state.slow, 1) << "the next one comes in an hour";
   int meanwhile = 0;
   EXPECT_TRUE(scheduler.finish([&] { ++meanwhile; }));
   EXPECT_GT(meanwhile, 0);

@@ -2,8 +2,10 @@
 #include "tests/unit/app/fixture.hpp"
 #include "tests/unit/task/logged_tasks.hpp"
 
+#include <chrono>
 #include <cstdint>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -333,6 +335,22 @@ TEST(VirtualSchedulerTest, AnEventThatFailsStopsTheApplication) {
   ASSERT_TRUE(result.fault);
   EXPECT_EQ(result.fault->task, "E");
   EXPECT_THAT(log.lines, ElementsAre());
+}
+
+void sleepFor2Ms(Ctx *) { std::this_thread::sleep_for(std::chrono::milliseconds(2)); }
+
+/// What the message says is never less than the time that the cycle took.
+TEST(TaskSetTest, TheWatchdogSaysHowLongTheCycleTookRoundedUp) {
+  std::vector<TaskDesc> tasks = {cyclic("Main", 0, 10, sleepFor2Ms)};
+  tasks[0].watchdogNs = 1'500'000;
+  const StrideAppV1 app = appWith(tasks);
+  Log log;
+  TaskSet set(app, reinterpret_cast<std::byte *>(&log), stride::task::hostApi(), LoopLimit::Clock);
+  set.runCycle(0, 0, 0);
+  ASSERT_TRUE(set.fault());
+  const int64_t ran = set.statistics(0).figures().lastRunNs;
+  EXPECT_EQ(std::string(set.fault()->exception.detail()),
+            std::to_string(ran / 1000 + (ran % 1000 != 0 ? 1 : 0)) + " us, allowed are 1500 us");
 }
 
 class HandmadeRun : public stride::test::HandmadeApp {};

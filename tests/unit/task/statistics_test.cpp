@@ -56,6 +56,20 @@ TEST(HistogramTest, QuantilesAreThoseOfTheSortedValues) {
   EXPECT_EQ(histogram.total(), 20000U);
 }
 
+TEST(HistogramTest, TheFirstAndTheLastBucketCount) {
+  Histogram histogram;
+  for (const int64_t ns : {int64_t{-5}, int64_t{0}, int64_t{0}})
+    histogram.record(ns);
+  EXPECT_EQ(histogram.total(), 3U);
+  EXPECT_EQ(histogram.quantile(1.0), 0);
+  histogram.record(INT64_MAX);
+  EXPECT_EQ(histogram.total(), 4U);
+  EXPECT_EQ(histogram.quantile(0.75), 0);
+  EXPECT_EQ(histogram.quantile(0.76), Histogram::lowerEnd(Histogram::kBuckets) - 1);
+  histogram.clear();
+  EXPECT_EQ(histogram.total(), 0U);
+}
+
 TEST(TaskStatisticsTest, Figures) {
   TaskStatistics statistics;
   EXPECT_EQ(statistics.figures().minRunNs, 0);
