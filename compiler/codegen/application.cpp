@@ -241,9 +241,8 @@ private:
         open = m.root.symbol->library;
         out += "\nnamespace st::" + std::string(c_.names.space(open)) + " {\n";
       }
-      std::string place = rootPlace(c_.names, m.root);
-      place.erase(0, place.rfind(':') + 1);
-      out += "const ::stride::ULINT " + place + " = offsetof(::st::user::App__, " + m.name + ");\n";
+      out += "const ::stride::ULINT " + rootLocalPlace(c_.names, m.root) +
+             " = offsetof(::st::user::App__, " + m.name + ");\n";
     }
     if (open != nullptr)
       out += "}\n";

@@ -1,7 +1,12 @@
-// Assignments: the place is found before the value is computed, whatever the value's calls do to
-// what leads to the place.
+#include "compiler/codegen/assignments.hpp"
 
-#include "compiler/codegen/emitter.hpp"
+#include "compiler/codegen/builtin_calls.hpp"
+#include "compiler/codegen/calls.hpp"
+#include "compiler/codegen/constants.hpp"
+#include "compiler/codegen/expressions.hpp"
+#include "compiler/codegen/located.hpp"
+#include "compiler/codegen/methods.hpp"
+#include "compiler/codegen/places.hpp"
 #include "compiler/semantics/alignment.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
@@ -41,222 +46,224 @@ bool mayOverlap(const Expr *target) {
   }
 }
 
-} // namespace
-
-void Emitter::storeTo(std::string_view target, const Type *type, const Expr *value) {
-  if (type->kind == TypeKind::reference) {
-    w_ << target << " = ";
-    address(value);
-    w_ << ';';
-    return;
-  }
-  if (isString(type) && stringInto(target, value))
-    return;
-  if (isString(type) && isString(value->type) &&
-      (value->constant != nullptr || value->type != type)) {
-    w_ << "::stride::assign(" << target << ", ";
-    if (value->constant != nullptr)
-      quoted(*value->constant, type->kind == TypeKind::wstring);
-    else
-      raw(value);
-    w_ << ");";
-    return;
-  }
-  // Copying a block copies no binding of its in-outs: the target keeps its own.
-  const bool bindings = c_.layouts.hasBindings(type);
-  w_ << (bindings ? "::stride::assignBound(" : "") << target << (bindings ? ", " : " = ");
-  if (type->kind == TypeKind::functionBlock && isInstance(value->type) && value->type != type) {
-    raw(value); // the part of a block that it extends
-    const std::string path =
-        pathToBase(typeAs<PouType>(value->type)->symbol, typeAs<PouType>(type)->symbol);
-    w_ << '.' << std::string_view(path).substr(0, path.size() - 1);
-  } else if (bindings && value->type == type) {
-    raw(value); // only what assign__ takes of it is copied
-  } else {
-    valueAs(value, type);
-  }
-  w_ << (bindings ? ");" : ";");
-}
-
 // -------------------------------------------------------------------------------------------------
 // finding places
 
 /// A value, not a place, whose methods may take its address.
-bool Emitter::isBlockValue(const Expr *e) const {
+bool isBlockValue(const Expr *e) {
   const PropertySymbol *property = writtenProperty(e);
-  const PouSymbol *from = property != nullptr         ? accessor(property, true)
-                          : e->kind == ExprKind::call ? as<CallExpr>(e)->pou
-                                                      : nullptr;
-  return from != nullptr && from->result != nullptr &&
-         from->result->type->kind != TypeKind::reference && Addressed::holdsBlock(e->type);
+  if (property != nullptr)
+    return returnsBlock(accessorOf(property, true), e->type);
+  return e->kind == ExprKind::call && returnsBlock(as<CallExpr>(e)->pou, e->type);
 }
 
-void Emitter::findPlace(Found &found, const Expr *place, bool always) {
-  const Expr *at = containerOf(place); // also because nothing can be bound to a packed field
-  if (c_.analysis.placeEffects(at, pou_) == effectNone && !(always && at->kind == ExprKind::index))
-    return;
-  const std::string name = temporary("to");
-  if (isBlockValue(at)) { // in a place of its own for as long as something is done with it
-    includes_.complete(at->type);
-    w_ << "::stride::OnDataStack<" << type(at->type) << "> " << name << "__local(" << ctx() << ", ";
-    raw(at);
-    w_ << "); auto &" << name << " = " << name << "__local.value(); ";
-    found.set(at, name);
-    return;
-  }
-  writing_ = true;
-  const std::string text = placeText(at);
-  writing_ = false;
-  const bool packed = isMisaligned(at);
-  if (packed) {
-    w_ << "auto &" << name << " = reinterpret_cast<::stride::Unaligned<" << type(at->type)
-       << "> &>(" << text << "); ";
-  } else {
-    const bool mayBeValue = at->kind == ExprKind::call || writtenProperty(at) != nullptr;
-    w_ << (mayBeValue ? "auto &&" : "auto &") << name << " = " << text << "; ";
-  }
-  found.set(at, packed ? name + ".v" : name);
-}
-
-void Emitter::findTarget(Found &found, const Expr *target) {
-  if (writtenProperty(target) == nullptr)
-    findPlace(found, target);
-  else if (target->kind == ExprKind::member && !isNamespace(as<MemberExpr>(target)->base))
-    findObject(found, as<MemberExpr>(target)->base);
-}
-
-void Emitter::findObject(Found &found, const Expr *object) {
-  if (object->type->kind != TypeKind::interface) {
-    findPlace(found, object);
-    return;
-  }
-  const std::string name = temporary("object");
-  w_ << "const ::stride::Interface " << name << " = ";
-  interfaceOf(object, object->span);
-  w_ << "; ";
-  found.set(object, name);
+/// The place as checks of pointers see it that is about to be written.
+std::string writtenPlaceText(EmitContext &cx, const Expr *place) {
+  const Scoped<bool> writing(cx.modes.writing, true);
+  return placeText(cx, place);
 }
 
 // -------------------------------------------------------------------------------------------------
 // statements
 
-void Emitter::store(const Expr *target, const Expr *value) {
+void emitStore(EmitContext &cx, const Expr *target, const Expr *value) {
   if (writtenProperty(target) != nullptr) {
-    propertySet(target, [&] { valueAs(value, target->type); });
+    emitPropertySet(cx, target, [&] { emitValueAs(cx, value, target->type); });
     return;
   }
   if (isBitPlace(target)) {
-    bitStore(target, [&] { valueAs(value, target->type); });
+    emitBitStore(cx, target, [&] { emitValueAs(cx, value, target->type); });
     return;
   }
-  writing_ = true;
-  const std::string to = writableText(target);
-  writing_ = false;
-  if (mayOverlap(target) && !c_.layouts.hasBindings(target->type)) {
-    includes_.complete(target->type);
-    w_ << "::stride::copy(" << to << ", ";
-    valueAs(value, target->type);
-    w_ << ");";
+  const std::string to = writableText(cx, target, writtenPlaceText(cx, target));
+  if (mayOverlap(target) && !cx.run.layouts.hasBindings(target->type)) {
+    cx.includes.complete(target->type);
+    cx.out << "::stride::copy(" << to << ", ";
+    emitValueAs(cx, value, target->type);
+    cx.out << ");";
     return;
   }
-  storeTo(to, target->type, value);
+  emitStoreTo(cx, to, target->type, value);
+}
+
+unsigned targetEffects(EmitContext &cx, const AssignStmt *s) {
+  unsigned places = effectNone;
+  for (const Expr *target : s->targets)
+    places |= cx.run.analysis.targetEffects(target, cx.pou);
+  return places;
 }
 
 /// `a := b := value`: the places from left to right, then the value, which goes from right to left.
-void Emitter::assignValue(const AssignStmt *s) {
-  unsigned places = effectNone;
-  for (const Expr *target : s->targets)
-    places |= c_.analysis.targetEffects(target, pou_);
+void emitValueAssignment(EmitContext &cx, const AssignStmt *s) {
+  const unsigned places = targetEffects(cx, s);
   const bool finds = s->targets.size() > 1 ? places != effectNone
-                                           : Analysis::orderShows(places, effects(s->value));
-  Found found(*this);
+                                           : Analysis::orderShows(places, cx.effects(s->value));
+  Found found(cx);
   if (finds) {
-    w_ << "{ ";
+    cx.out << "{ ";
     for (const Expr *target : s->targets)
-      findTarget(found, target);
+      findTarget(cx, found, target);
   }
-  store(s->targets.back(), s->value);
+  emitStore(cx, s->targets.back(), s->value);
   for (std::size_t i = s->targets.size() - 1; i-- > 0;) {
-    w_ << ' ';
+    cx.out << ' ';
     const Expr *from = s->targets[i + 1];
-    const std::size_t start = w_.size();
-    raw(from);
-    const std::string source = w_.cut(start);
-    outputTo(s->targets[i], source, from->type, s->span);
+    const std::string source = cx.text([&] { emitRaw(cx, from); });
+    emitOutputTo(cx, s->targets[i], source, from->type, s->span);
   }
-  w_ << (finds ? " }" : "");
+  cx.out << (finds ? " }" : "");
 }
 
 /// `r REF= place`: what holds the reference is found first.
-void Emitter::assignReference(const AssignStmt *s) {
+void emitReferenceAssignment(EmitContext &cx, const AssignStmt *s) {
   const Expr *target = s->targets.back();
   const bool isMember =
       target->kind == ExprKind::member && !isNamespace(as<MemberExpr>(target)->base);
-  const unsigned where = isMember ? c_.analysis.placeEffects(as<MemberExpr>(target)->base, pou_)
-                         : target->kind == ExprKind::index ? c_.analysis.placeEffects(target, pou_)
-                                                           : unsigned{effectNone};
-  const bool finds = Analysis::orderShows(where, c_.analysis.placeEffects(s->value, pou_));
-  Found found(*this);
-  w_ << (finds ? "{ " : "");
+  const unsigned where =
+      isMember ? cx.run.analysis.placeEffects(as<MemberExpr>(target)->base, cx.pou)
+      : target->kind == ExprKind::index ? cx.run.analysis.placeEffects(target, cx.pou)
+                                        : unsigned{effectNone};
+  const bool finds = Analysis::orderShows(where, cx.run.analysis.placeEffects(s->value, cx.pou));
+  Found found(cx);
+  cx.out << (finds ? "{ " : "");
   if (finds && isMember)
-    findPlace(found, as<MemberExpr>(target)->base);
+    findPlace(cx, found, as<MemberExpr>(target)->base);
   if (finds && !isMember) {
-    const std::string name = temporary("to");
-    w_ << "auto &" << name << " = ";
-    slot(target);
-    w_ << "; " << name;
+    const std::string name = cx.temporary("to");
+    cx.out << "auto &" << name << " = ";
+    emitSlot(cx, target);
+    cx.out << "; " << name;
   } else {
-    slot(target);
+    emitSlot(cx, target);
   }
-  w_ << " = ";
-  addressAs(s->value, target->type);
-  w_ << (finds ? "; }" : ";");
+  cx.out << " = ";
+  emitAddressAs(cx, s->value, target->type);
+  cx.out << (finds ? "; }" : ";");
 }
 
 /// `S=`, `R=`: the places are found even where the condition is not met.
-void Emitter::setOrReset(const AssignStmt *s) {
+void emitSetOrReset(EmitContext &cx, const AssignStmt *s) {
   const std::string_view set = s->op == AssignOp::set ? "true" : "false";
-  unsigned places = effectNone;
-  for (const Expr *target : s->targets)
-    places |= c_.analysis.targetEffects(target, pou_);
+  const unsigned places = targetEffects(cx, s);
   const bool finds = (places & (effectRaises | effectCalls)) != 0 ||
-                     Analysis::orderMatters(places, effects(s->value));
-  Found found(*this);
+                     Analysis::orderMatters(places, cx.effects(s->value));
+  Found found(cx);
   if (finds) {
-    w_ << "{ ";
+    cx.out << "{ ";
     for (const Expr *target : s->targets)
-      findTarget(found, target);
+      findTarget(cx, found, target);
   }
-  w_ << "if (";
-  condition(s->value);
-  w_ << ") { ";
+  cx.out << "if (";
+  emitValue(cx, s->value);
+  cx.out << ") { ";
   for (const Expr *target : s->targets) {
     if (isBitPlace(target))
-      bitStore(target, [&] { w_ << set; });
+      emitBitStore(cx, target, [&] { cx.out << set; });
     else if (writtenProperty(target) != nullptr)
-      propertySet(target, [&] { w_ << set; });
+      emitPropertySet(cx, target, [&] { cx.out << set; });
     else
-      w_ << writableText(target) << " = " << set << ';';
-    w_ << ' ';
+      cx.out << writableText(cx, target) << " = " << set << ';';
+    cx.out << ' ';
   }
-  w_ << (finds ? "} }" : "}");
+  cx.out << (finds ? "} }" : "}");
 }
 
-void Emitter::assign(const AssignStmt *s) {
-  begin(s->span);
+} // namespace
+
+void emitStoreTo(EmitContext &cx, std::string_view target, const Type *type, const Expr *value) {
+  if (type->kind == TypeKind::reference) {
+    cx.out << target << " = ";
+    emitAddress(cx, value);
+    cx.out << ';';
+    return;
+  }
+  if (isString(type) && emitStringInto(cx, target, value))
+    return;
+  if (isString(type) && isString(value->type) &&
+      (value->constant != nullptr || value->type != type)) {
+    cx.out << "::stride::assign(" << target << ", ";
+    if (value->constant != nullptr)
+      emitQuoted(cx, *value->constant, type->kind == TypeKind::wstring);
+    else
+      emitRaw(cx, value);
+    cx.out << ");";
+    return;
+  }
+  // Copying a block copies no binding of its in-outs: the target keeps its own.
+  const bool bindings = cx.run.layouts.hasBindings(type);
+  cx.out << (bindings ? "::stride::assignBound(" : "") << target << (bindings ? ", " : " = ");
+  if (type->kind == TypeKind::functionBlock && isInstance(value->type) && value->type != type) {
+    emitRaw(cx, value); // the part of a block that it extends
+    cx.out << baseSuffix(typeAs<PouType>(value->type)->symbol, typeAs<PouType>(type)->symbol);
+  } else if (bindings && value->type == type) {
+    emitRaw(cx, value); // only what assign__ takes of it is copied
+  } else {
+    emitValueAs(cx, value, type);
+  }
+  cx.out << (bindings ? ");" : ";");
+}
+
+void findPlace(EmitContext &cx, Found &found, const Expr *place, bool always) {
+  const Expr *at = containerOf(place); // also because nothing can be bound to a packed field
+  if (cx.run.analysis.placeEffects(at, cx.pou) == effectNone &&
+      !(always && at->kind == ExprKind::index))
+    return;
+  const std::string name = cx.temporary("to");
+  if (isBlockValue(at)) { // in a place of its own for as long as something is done with it
+    cx.includes.complete(at->type);
+    cx.out << "::stride::OnDataStack<" << cx.type(at->type) << "> " << name << "__local("
+           << cx.ctx() << ", ";
+    emitRaw(cx, at);
+    cx.out << "); auto &" << name << " = " << name << "__local.value(); ";
+    found.set(at, name);
+    return;
+  }
+  const std::string text = writtenPlaceText(cx, at);
+  const bool packed = isMisaligned(at);
+  if (packed) {
+    cx.out << "auto &" << name << " = reinterpret_cast<::stride::Unaligned<" << cx.type(at->type)
+           << "> &>(" << text << "); ";
+  } else {
+    const bool mayBeValue = at->kind == ExprKind::call || writtenProperty(at) != nullptr;
+    cx.out << (mayBeValue ? "auto &&" : "auto &") << name << " = " << text << "; ";
+  }
+  found.set(at, packed ? name + ".v" : name);
+}
+
+void findTarget(EmitContext &cx, Found &found, const Expr *target) {
+  if (writtenProperty(target) == nullptr)
+    findPlace(cx, found, target);
+  else if (target->kind == ExprKind::member && !isNamespace(as<MemberExpr>(target)->base))
+    findObject(cx, found, as<MemberExpr>(target)->base);
+}
+
+void findObject(EmitContext &cx, Found &found, const Expr *object) {
+  if (object->type->kind != TypeKind::interface) {
+    findPlace(cx, found, object);
+    return;
+  }
+  const std::string name = cx.temporary("object");
+  cx.out << "const ::stride::Interface " << name << " = ";
+  emitInterface(cx, object, object->span);
+  cx.out << "; ";
+  found.set(object, name);
+}
+
+void emitAssignment(EmitContext &cx, const AssignStmt *s) {
+  cx.begin(s->span);
   switch (s->op) {
   case AssignOp::reference:
-    assignReference(s);
+    emitReferenceAssignment(cx, s);
     break;
   case AssignOp::set:
   case AssignOp::reset:
-    setOrReset(s);
+    emitSetOrReset(cx, s);
     break;
   case AssignOp::assign:
-    assignValue(s);
+    emitValueAssignment(cx, s);
     break;
   }
-  end();
+  cx.end();
 }
 
 } // namespace stc::codegen

@@ -1,6 +1,12 @@
-// Calls of functions, function blocks and programs.
+#include "compiler/codegen/calls.hpp"
 
-#include "compiler/codegen/emitter.hpp"
+#include "compiler/codegen/assignments.hpp"
+#include "compiler/codegen/conversions.hpp"
+#include "compiler/codegen/expressions.hpp"
+#include "compiler/codegen/initializers.hpp"
+#include "compiler/codegen/located.hpp"
+#include "compiler/codegen/methods.hpp"
+#include "compiler/codegen/places.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
 
@@ -48,125 +54,89 @@ bool needsCopy(const Argument &a) {
          (a.parameter->isConstant && !isPlace(a.value));
 }
 
-} // namespace
+/// What is written so that arguments are evaluated in their order.
+struct CallOrder {
+  unsigned effects = 0;    ///< of all arguments
+  bool statements = false; ///< the call takes more than a C++ expression
+  bool arguments = false;  ///< their order shows
+  bool object = false;     ///< the instance must be found before them
+};
 
-/// The value of an input that the call leaves out.
-void Emitter::defaultArgument(const VarSymbol *parameter) {
-  const Expr *init = c_.layouts.initOf(parameter);
-  if (init != nullptr && init->kind != ExprKind::aggregate && init->type != nullptr) {
-    if (parameter->type->kind == TypeKind::reference)
-      address(init);
-    else
-      valueAs(init, parameter->type);
-    return;
+/// What stands for the arguments of a call, by parameter; empty: they are written where they are
+/// passed.
+struct CallNames {
+  explicit CallNames(const PouSymbol *pou)
+      : parameters(pou->parameters()), names(parameters.size()) {}
+  std::string &operator[](const VarSymbol *parameter) {
+    return names[static_cast<std::size_t>(
+        std::find(parameters.begin(), parameters.end(), parameter) - parameters.begin())];
   }
-  const std::string_view type = this->type(parameter->type);
-  if (init == nullptr && !c_.layouts.needsInit(parameter->type)) {
-    w_ << type << "{}";
-    return;
-  }
-  const std::string name = temporary("default");
-  w_ << "[&] { ";
-  declareTemporary(parameter->type, name, Addressed::holdsBlock(parameter->type));
-  inlineStatements([&](Emitter &inner) { inner.initVariable(name, parameter); });
-  w_ << "return " << name << "; }()";
-}
 
-void Emitter::inlineStatements(const std::function<void(Emitter &)> &write) {
-  const std::uint32_t line = currentLine_;
-  Emitter inner(c_, pou_); // statements, gathered on this line
-  inner.next_ = next_ + 100;
-  write(inner);
-  std::string statements = inner.w_.take();
-  for (std::size_t at = 0; at < statements.size();) {
-    std::size_t lineEnd = statements.find('\n', at);
-    lineEnd = lineEnd == std::string::npos ? statements.size() : lineEnd;
-    std::string_view one = std::string_view(statements).substr(at, lineEnd - at);
-    while (!one.empty() && one.front() == ' ')
-      one.remove_prefix(1);
-    if (!one.empty() && one.front() != '#')
-      w_ << one << ' ';
-    at = lineEnd + 1;
-  }
-  for (const FileId file : inner.files_)
-    fileName(file);
-  usesContext_ = usesContext_ || inner.usesContext_;
-  includes_.merge(inner.includes_);
-  currentLine_ = line;
-}
-
-/// A list of values as a value.
-void Emitter::aggregateValue(const Type *type, const Expr *init) {
-  const std::string name = temporary("value");
-  w_ << "[&] { ";
-  declareTemporary(type, name, Addressed::holdsBlock(type));
-  inlineStatements([&](Emitter &inner) {
-    inner.typeDefault(name, type);
-    inner.initValue(name, type, init);
-  });
-  w_ << "return " << name << "; }()";
-}
+  std::vector<VarSymbol *> parameters;
+  std::vector<std::string> names;
+};
 
 /// What is passed to a function or method.
-void Emitter::argument(const Argument &a) {
+void emitArgument(EmitContext &cx, const Argument &a) {
   const VarSymbol *p = a.parameter;
   if (p->type->kind == TypeKind::openArray)
-    openArray(a.value, typeAs<OpenArrayType>(p->type));
+    emitOpenArray(cx, a.value, typeAs<OpenArrayType>(p->type));
   else if (p->section == Section::inOut)
-    placeAs(a.value, p->type);
+    emitPlaceAs(cx, a.value, p->type);
   else if (p->type->kind == TypeKind::reference)
-    addressAs(a.value, typeAs<PointerType>(p->type)->pointee);
+    emitAddressAs(cx, a.value, typeAs<PointerType>(p->type)->pointee);
   else
-    valueAs(a.value, p->type);
+    emitValueAs(cx, a.value, p->type);
 }
 
 /// `::st::user::F(ctx__, …)`; `names` holds, by parameter, what stands for a value (or a place)
 /// that has been taken before.
-void Emitter::functionArguments(const CallExpr *e, const std::vector<std::string> &names) {
+void emitFunctionArguments(EmitContext &cx, const CallExpr *e,
+                           const std::vector<std::string> &names) {
   if (e->resolved == Callee::method) {
-    methodPrefix(objectOf(e), e->pou, e->callee->span);
+    openMethodCall(cx, objectOf(e), e->pou, e->callee->span);
   } else {
-    includes_.called(e->pou);
-    w_ << c_.names.qualified(e->pou) << '(' << ctx();
+    cx.includes.called(e->pou);
+    cx.out << cx.run.names.qualified(e->pou) << '(' << cx.ctx();
   }
   std::size_t k = 0;
   for (const VarSymbol *p : e->pou->parameters()) {
-    w_ << ", ";
+    cx.out << ", ";
     const Argument *a = argumentFor(e, p);
     if (k < names.size() && !names[k].empty())
-      w_ << names[k];
+      cx.out << names[k];
     else if (a == nullptr || a->value == nullptr)
-      defaultArgument(p);
+      emitDefaultArgument(cx, p);
     else
-      argument(*a);
+      emitArgument(cx, *a);
     ++k;
   }
-  w_ << ')';
+  cx.out << ')';
 }
 
 /// Effects of what a call does for the argument before it: a value is computed, or a place found.
-unsigned Emitter::argumentEffects(const Argument &a) {
+unsigned argumentEffects(EmitContext &cx, const Argument &a) {
   if (a.output)
-    return c_.analysis.targetEffects(a.value, pou_);
+    return cx.run.analysis.targetEffects(a.value, cx.pou);
   const VarSymbol *p = a.parameter;
   const bool isAddress = p != nullptr && !needsCopy(a) && isIndirect(p);
-  return isAddress ? c_.analysis.placeEffects(a.value, pou_) : effects(a.value);
+  return isAddress ? cx.run.analysis.placeEffects(a.value, cx.pou) : cx.effects(a.value);
 }
 
 /// C++ leaves the order of arguments open, ST does not.
-Emitter::CallOrder Emitter::callOrder(const CallExpr *e) {
+CallOrder callOrder(EmitContext &cx, const CallExpr *e) {
   CallOrder order;
   for (const Argument &a : e->arguments) {
     if (a.value == nullptr)
       continue;
     order.statements = order.statements || (a.parameter != nullptr && needsCopy(a));
-    const unsigned own = argumentEffects(a);
+    const unsigned own = argumentEffects(cx, a);
     order.arguments = order.arguments || Analysis::orderShows(order.effects, own);
     order.effects |= own;
   }
   const Expr *object = e->resolved == Callee::method ? objectOf(e) : nullptr;
   order.object = object != nullptr &&
-                 Analysis::orderShows(c_.analysis.objectEffects(object, pou_), order.effects);
+                 Analysis::orderShows(cx.run.analysis.objectEffects(object, cx.pou), order.effects);
   for (const VarSymbol *p : e->pou->parameters())
     order.statements = order.statements || p->section == Section::output;
   order.statements = order.statements || order.arguments || order.object;
@@ -175,81 +145,220 @@ Emitter::CallOrder Emitter::callOrder(const CallExpr *e) {
 
 /// Takes the argument's value, or finds its place, ahead of the call; gives its name, which is
 /// empty where nothing is to be done before the call itself.
-std::string Emitter::takeArgument(Found &found, const Argument &a, const CallOrder &order) {
+std::string takeArgument(EmitContext &cx, Found &found, const Argument &a, const CallOrder &order) {
   const VarSymbol *p = a.parameter;
   std::string name;
   if (a.output) {
-    findTarget(found, a.value);
+    findTarget(cx, found, a.value);
   } else if (needsCopy(a)) {
-    name = temporary("copy");
-    declareTemporary(p->type, name, c_.addressed.onDataStack(p));
-    storeTo(name, p->type, a.value);
-    w_ << ' ';
-  } else if (order.arguments && argumentEffects(a) != effectNone) {
-    name = temporary("in");
+    name = cx.temporary("copy");
+    declareTemporary(cx, p->type, name, cx.run.addressed.onDataStack(p));
+    emitStoreTo(cx, name, p->type, a.value);
+    cx.out << ' ';
+  } else if (order.arguments && argumentEffects(cx, a) != effectNone) {
+    name = cx.temporary("in");
     if (p->type->kind == TypeKind::openArray)
-      w_ << "const auto " << name;
+      cx.out << "const auto " << name;
     else if (p->section == Section::inOut)
-      w_ << type(p->type) << " &" << name;
+      cx.out << cx.type(p->type) << " &" << name;
     else // nothing changes it before the call? Then it is copied only there
-      w_ << type(p->type) << ((order.effects & effectCalls) != 0 ? " const " : " const &") << name;
-    w_ << " = ";
-    argument(a);
-    w_ << "; ";
+      cx.out << cx.type(p->type) << ((order.effects & effectCalls) != 0 ? " const " : " const &")
+             << name;
+    cx.out << " = ";
+    emitArgument(cx, a);
+    cx.out << "; ";
   }
   return name;
 }
 
-void Emitter::functionCall(const CallExpr *e, bool asStatement) {
-  const PouSymbol *pou = e->pou;
-  const CallOrder order = callOrder(e);
-  if (!order.statements) {
-    functionArguments(e, {});
-    if (asStatement)
-      w_ << ';';
-    return;
-  }
-  const std::vector<VarSymbol *> parameters = pou->parameters();
-  std::vector<std::string> names(parameters.size());
-  const auto nameOf = [&](const VarSymbol *p) -> std::string & {
-    return names[static_cast<std::size_t>(std::find(parameters.begin(), parameters.end(), p) -
-                                          parameters.begin())];
-  };
-  Found found(*this);
-  w_ << (asStatement ? "{ " : "[&] { ");
+/// What is done before the call: in the order of the call its arguments are taken, then every
+/// output gets a variable of its own.
+void takeArguments(EmitContext &cx, Found &found, const CallExpr *e, const CallOrder &order,
+                   CallNames &names) {
   if (order.object)
-    findObject(found, objectOf(e));
-  for (const Argument &a : e->arguments) { // in the order of the call
+    findObject(cx, found, objectOf(e));
+  for (const Argument &a : e->arguments) {
     if (a.value != nullptr && a.parameter != nullptr)
-      nameOf(a.parameter) = takeArgument(found, a, order);
+      names[a.parameter] = takeArgument(cx, found, a, order);
   }
-  // Every output gets a variable of its own; those asked for are copied after the call.
-  for (const VarSymbol *p : parameters) {
+  for (const VarSymbol *p : names.parameters) {
     if (p->section != Section::output)
       continue;
-    nameOf(p) = temporary("out");
-    declareTemporary(p->type, nameOf(p), c_.addressed.onDataStack(p));
+    names[p] = cx.temporary("out");
+    declareTemporary(cx, p->type, names[p], cx.run.addressed.onDataStack(p));
   }
-  const bool hasResult = !asStatement && pou->result != nullptr;
-  const std::string result = hasResult ? temporary("result") : std::string();
-  if (hasResult)
-    w_ << type(pou->result->type) << " const " << result << " = ";
-  functionArguments(e, names);
-  w_ << ';';
+}
+
+/// Those outputs that are asked for are copied after the call.
+void giveOutputs(EmitContext &cx, const CallExpr *e, CallNames &names) {
   for (const Argument &a : e->arguments) {
     if (a.value == nullptr || !a.output || a.parameter == nullptr)
       continue;
-    w_ << ' ';
-    outputTo(a.value, nameOf(a.parameter), a.parameter->type, a.span);
+    cx.out << ' ';
+    emitOutputTo(cx, a.value, names[a.parameter], a.parameter->type, a.span);
   }
+}
+
+/// One input or in-out of an instance's call.
+void passToInstance(EmitContext &cx, const Argument &a, const std::string &field) {
+  const VarSymbol *p = a.parameter;
+  if (needsCopy(a)) {
+    const std::string copy = cx.temporary("copy");
+    declareTemporary(cx, p->type, copy, cx.run.addressed.onDataStack(p));
+    emitStoreTo(cx, copy, p->type, a.value);
+    cx.out << ' ' << field << " = &" << copy << ';';
+    return;
+  }
+  if (!isIndirect(p)) {
+    emitStoreTo(cx, cx.isShared(p) ? "::stride::shared(" + field + ")" : field, p->type, a.value);
+    return;
+  }
+  cx.out << field << " = ";
+  if (p->type->kind == TypeKind::openArray)
+    emitOpenArray(cx, a.value, typeAs<OpenArrayType>(p->type));
+  else
+    emitAddressAs(cx, a.value,
+                  p->section == Section::inOut ? p->type : typeAs<PointerType>(p->type)->pointee);
+  cx.out << ';';
+}
+
+/// An instance's call, in parts: each on its line of the ST.
+class InstanceCall {
+public:
+  InstanceCall(EmitContext &cx, const CallExpr *e)
+      : cx_(cx), e_(e), found_(cx), isProgram_(e->resolved == Callee::program) {}
+
+  /// The instance is found, then each argument is evaluated and passed in the order of the call.
+  void emit(Span span) {
+    const bool braces = takesScope();
+    cx_.out << (braces ? "{ " : "");
+    if (!isProgram_)
+      findPlace(cx_, found_, e_->callee, true);
+    instance_ = isProgram_ ? std::string(cx_.root({e_->pou, false})) : placeText(cx_, e_->callee);
+    pass();
+    part(first_ ? span : Span{});
+    const bool dispatch =
+        isBodyDispatched(e_->pou) && !isExact(e_->callee) && !isSuper(e_->callee); // SUPER^()
+    cx_.out << instance_ << (dispatch ? ".body__call(" : ".body__(") << cx_.ctx() << ");";
+    give();
+    cx_.out << (braces ? " }" : "");
+  }
+
+private:
+  /// Something is found, or copied, for the statement only. The instance is found once, however
+  /// many inputs are set.
+  [[nodiscard]] bool takesScope() const {
+    Analysis &analysis = cx_.run.analysis;
+    const auto takes = [&](const Argument &a) {
+      if (a.value == nullptr || a.parameter == nullptr)
+        return false;
+      return a.output ? analysis.targetEffects(a.value, cx_.pou) != effectNone : needsCopy(a);
+    };
+    return (!isProgram_ && (containerOf(e_->callee)->kind == ExprKind::index ||
+                            analysis.placeEffects(e_->callee, cx_.pou) != effectNone)) ||
+           std::any_of(e_->arguments.begin(), e_->arguments.end(), takes);
+  }
+
+  [[nodiscard]] std::string field(const VarSymbol *p) const {
+    return instance_ + "." + pathToBase(e_->pou, p->owner) + fieldName(p);
+  }
+
+  void part(Span where) {
+    if (!first_)
+      cx_.next(where);
+    first_ = false;
+  }
+
+  void pass() {
+    for (const Argument &a : e_->arguments) {
+      if (a.value == nullptr || a.parameter == nullptr)
+        continue;
+      if (a.output) {
+        findTarget(cx_, found_, a.value);
+        continue;
+      }
+      part(a.span);
+      passToInstance(cx_, a, field(a.parameter));
+    }
+  }
+
+  /// The outputs, and the end of copies that in-outs are bound to.
+  void give() {
+    for (const Argument &a : e_->arguments) {
+      if (a.value == nullptr || !a.output || a.parameter == nullptr)
+        continue;
+      part(a.span);
+      const std::string output = field(a.parameter);
+      emitOutputTo(cx_, a.value,
+                   cx_.isShared(a.parameter) ? "::stride::load(" + output + ")" : output,
+                   a.parameter->type, a.span);
+    }
+    for (const Argument &a : e_->arguments) {
+      if (a.value != nullptr && !a.output && a.parameter != nullptr && needsCopy(a))
+        cx_.out << ' ' << field(a.parameter) << " = nullptr;";
+    }
+  }
+
+  EmitContext &cx_;
+  const CallExpr *e_;
+  Found found_;
+  bool isProgram_;
+  std::string instance_; ///< the C++ of it
+  bool first_ = true;    ///< no part has been written
+};
+
+} // namespace
+
+/// The value of an input that the call leaves out.
+void emitDefaultArgument(EmitContext &cx, const VarSymbol *parameter) {
+  const Expr *init = cx.run.layouts.initOf(parameter);
+  if (init != nullptr && init->kind != ExprKind::aggregate && init->type != nullptr) {
+    if (parameter->type->kind == TypeKind::reference)
+      emitAddress(cx, init);
+    else
+      emitValueAs(cx, init, parameter->type);
+    return;
+  }
+  const std::string_view type = cx.type(parameter->type);
+  if (init == nullptr && !cx.run.layouts.needsInit(parameter->type)) {
+    cx.out << type << "{}";
+    return;
+  }
+  const std::string name = cx.temporary("default");
+  cx.out << "[&] { ";
+  declareTemporary(cx, parameter->type, name, Addressed::holdsBlock(parameter->type));
+  cx.inlined([&] { initVariable(cx, name, parameter); });
+  cx.out << "return " << name << "; }()";
+}
+
+void emitFunctionCall(EmitContext &cx, const CallExpr *e, bool asStatement) {
+  const PouSymbol *pou = e->pou;
+  const CallOrder order = callOrder(cx, e);
+  if (!order.statements) {
+    emitFunctionArguments(cx, e, {});
+    if (asStatement)
+      cx.out << ';';
+    return;
+  }
+  Found found(cx);
+  CallNames names(pou);
+  cx.out << (asStatement ? "{ " : "[&] { ");
+  takeArguments(cx, found, e, order, names);
+  const bool hasResult = !asStatement && pou->result != nullptr;
+  const std::string result = hasResult ? cx.temporary("result") : std::string();
   if (hasResult)
-    w_ << " return " << result << ';';
-  w_ << (asStatement ? " }" : " }()");
+    cx.out << cx.type(pou->result->type) << " const " << result << " = ";
+  emitFunctionArguments(cx, e, names.names);
+  cx.out << ';';
+  giveOutputs(cx, e, names);
+  if (hasResult)
+    cx.out << " return " << result << ';';
+  cx.out << (asStatement ? " }" : " }()");
 }
 
 /// `target = source;` from an output of type `sourceType` to the variable behind `=>`.
-void Emitter::outputTo(const Expr *target, std::string_view source, const Type *sourceType,
-                       Span span) {
+void emitOutputTo(EmitContext &cx, const Expr *target, std::string_view source,
+                  const Type *sourceType, Span span) {
   const bool reference = sourceType->kind == TypeKind::reference;
   std::string pointee;
   if (reference) { // the value it refers to
@@ -259,104 +368,29 @@ void Emitter::outputTo(const Expr *target, std::string_view source, const Type *
   }
   const Type *type = target->type;
   if (writtenProperty(target) != nullptr) {
-    propertySet(target, [&] { convertedText(source, sourceType, type, span); });
+    emitPropertySet(cx, target, [&] { emitConvertedText(cx, source, sourceType, type, span); });
     return;
   }
   if (isBitPlace(target)) {
-    bitStore(target, [&] { convertedText(source, sourceType, type, span); });
+    emitBitStore(cx, target, [&] { emitConvertedText(cx, source, sourceType, type, span); });
     return;
   }
   if (isString(type) && type != sourceType) {
-    w_ << "::stride::assign(";
-    place(target);
-    w_ << ", " << source << ");";
+    cx.out << "::stride::assign(";
+    emitPlace(cx, target);
+    cx.out << ", " << source << ");";
     return;
   }
-  const bool bindings = c_.layouts.hasBindings(type);
-  w_ << (bindings ? "::stride::assignBound(" : "") << writableText(target)
-     << (bindings ? ", " : " = ");
-  convertedText(source, sourceType, type, span);
-  w_ << (bindings ? ");" : ";");
+  const bool bindings = cx.run.layouts.hasBindings(type);
+  cx.out << (bindings ? "::stride::assignBound(" : "") << writableText(cx, target)
+         << (bindings ? ", " : " = ");
+  emitConvertedText(cx, source, sourceType, type, span);
+  cx.out << (bindings ? ");" : ";");
 }
 
-/// One input or in-out of an instance's call.
-void Emitter::passToInstance(const Argument &a, const std::string &field) {
-  const VarSymbol *p = a.parameter;
-  if (needsCopy(a)) {
-    const std::string copy = temporary("copy");
-    declareTemporary(p->type, copy, c_.addressed.onDataStack(p));
-    storeTo(copy, p->type, a.value);
-    w_ << ' ' << field << " = &" << copy << ';';
-    return;
-  }
-  if (!isIndirect(p)) {
-    storeTo(isShared(p) ? "::stride::shared(" + field + ")" : field, p->type, a.value);
-    return;
-  }
-  w_ << field << " = ";
-  if (p->type->kind == TypeKind::openArray)
-    openArray(a.value, typeAs<OpenArrayType>(p->type));
-  else
-    addressAs(a.value,
-              p->section == Section::inOut ? p->type : typeAs<PointerType>(p->type)->pointee);
-  w_ << ';';
-}
-
-/// The instance is found, then each argument is evaluated and passed in the order of the call.
-void Emitter::instanceCall(const CallExpr *e, Span span) {
-  const PouSymbol *pou = e->pou;
-  includes_.called(pou);
-  const bool isProgram = e->resolved == Callee::program;
-  // Found once, however many inputs are set.
-  bool braces = !isProgram && (containerOf(e->callee)->kind == ExprKind::index ||
-                               c_.analysis.placeEffects(e->callee, pou_) != effectNone);
-  for (const Argument &a : e->arguments) {
-    if (a.value != nullptr && a.parameter != nullptr)
-      braces = braces ||
-               (a.output ? c_.analysis.targetEffects(a.value, pou_) != effectNone : needsCopy(a));
-  }
-  Found found(*this);
-  w_ << (braces ? "{ " : "");
-  if (!isProgram)
-    findPlace(found, e->callee, true);
-  const std::string instance = isProgram ? std::string(root({pou, false})) : placeText(e->callee);
-  const auto field = [&](const VarSymbol *p) {
-    return instance + "." + pathToBase(pou, p->owner) + fieldName(p);
-  };
-  bool first = true;
-  const auto part = [&](Span where) {
-    if (!first)
-      next(where);
-    first = false;
-  };
-  for (const Argument &a : e->arguments) {
-    if (a.value == nullptr || a.parameter == nullptr)
-      continue;
-    if (a.output) {
-      findTarget(found, a.value);
-      continue;
-    }
-    part(a.span);
-    passToInstance(a, field(a.parameter));
-  }
-  part(first ? span : Span{});
-  const bool dispatch =
-      isBodyDispatched(pou) && !isExact(e->callee) &&
-      !(e->callee->kind == ExprKind::deref && instance == "this->base__"); // SUPER^()
-  w_ << instance << (dispatch ? ".body__call(" : ".body__(") << ctx() << ");";
-  for (const Argument &a : e->arguments) {
-    if (a.value == nullptr || !a.output || a.parameter == nullptr)
-      continue;
-    part(a.span);
-    const std::string output = field(a.parameter);
-    outputTo(a.value, isShared(a.parameter) ? "::stride::load(" + output + ")" : output,
-             a.parameter->type, a.span);
-  }
-  for (const Argument &a : e->arguments) { // copies end with the statement
-    if (a.value != nullptr && !a.output && a.parameter != nullptr && needsCopy(a))
-      w_ << ' ' << field(a.parameter) << " = nullptr;";
-  }
-  w_ << (braces ? " }" : "");
+void emitInstanceCall(EmitContext &cx, const CallExpr *e, Span span) {
+  cx.includes.called(e->pou);
+  InstanceCall(cx, e).emit(span);
 }
 
 } // namespace stc::codegen

@@ -2,11 +2,6 @@
 
 namespace stc::codegen {
 
-std::string copiesPlace(Names &names, const VarSymbol *variable) {
-  return rootType(names, {variable->globals, false}) + std::string(mangle(variable->name.text)) +
-         "__at__";
-}
-
 /// Its member of the state.
 std::string ConsistentCopies::member(const ConsistentVariable &v) {
   return rootName(c_.names, {v.variable->globals, false}, c_.program.user) +
@@ -31,10 +26,8 @@ std::string ConsistentCopies::members() {
 std::string ConsistentCopies::places() {
   std::string out;
   for (const ConsistentVariable &v : all()) {
-    const std::string place = copiesPlace(c_.names, v.variable);
-    const std::size_t name = place.rfind(':') + 1;
-    out += "const ::stride::ULINT " + place.substr(name) + " = offsetof(::st::user::App__, " +
-           member(v) + ");\n";
+    out += "const ::stride::ULINT " + copiesLocalPlace(c_.names, v.variable) +
+           " = offsetof(::st::user::App__, " + member(v) + ");\n";
   }
   return out.empty() ? out
                      : "\nnamespace st::" + std::string(c_.names.space(c_.program.user)) + " {\n" +

@@ -1,12 +1,9 @@
 #pragma once
 // What app.cpp holds for variables with {attribute 'consistent'} (runtime/iec/consistent.h).
 
-#include "compiler/codegen/emitter.hpp"
+#include "compiler/codegen/context.hpp"
 
 namespace stc::codegen {
-
-/// `::st::user::GVL__globals__x__at__`: the constant that holds the place of the copies.
-std::string copiesPlace(Names &names, const VarSymbol *variable);
 
 class ConsistentCopies {
 public:

@@ -1,213 +1,180 @@
-// Constants as C++ text, and which conversions C++ makes by itself.
+#include "compiler/codegen/conversions.hpp"
 
-#include "compiler/codegen/emitter.hpp"
-#include "compiler/semantics/fold.hpp"
-#include "compiler/semantics/fold_builtins.hpp"
-
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <limits>
+#include "compiler/codegen/expressions.hpp"
+#include "compiler/codegen/own_checks.hpp"
+#include "compiler/semantics/conversions.hpp"
 
 namespace stc::codegen {
 
 using namespace ast;
 
-void Emitter::number(std::int64_t value, const Type *type) {
-  const Type *t = underlying(type);
-  if (t->kind == TypeKind::boolean) {
-    w_ << (value != 0 ? "true" : "false");
-    return;
-  }
-  switch (t->kind) {
-  case TypeKind::ulint:
-  case TypeKind::lword:
-    w_ << static_cast<std::uint64_t>(value) << "ULL";
-    return;
-  case TypeKind::udint:
-  case TypeKind::dword:
-  case TypeKind::time:
-  case TypeKind::date:
-  case TypeKind::tod:
-  case TypeKind::dt:
-    w_ << static_cast<std::uint32_t>(value) << 'U';
-    return;
-  default:
-    break;
-  }
-  const bool wide = bitWidth(t) == 64 && t->kind != TypeKind::anyInteger;
-  const bool large = value > std::numeric_limits<std::int32_t>::max() ||
-                     value < std::numeric_limits<std::int32_t>::min();
-  const std::string_view suffix = wide || large ? "LL" : "";
-  // The smallest value has no literal of its own: its digits alone are too large for the type.
-  if (value == std::numeric_limits<std::int64_t>::min() ||
-      (value == std::numeric_limits<std::int32_t>::min() && !wide))
-    w_ << '(' << value + 1 << suffix << " - 1)";
-  else
-    w_ << value << suffix;
-}
-
-void Emitter::real(double value, const Type *type) {
-  const bool single = underlying(type)->kind == TypeKind::real;
-  if (std::isnan(value)) {
-    w_ << (single ? "__builtin_nanf(\"\")" : "__builtin_nan(\"\")");
-    return;
-  }
-  if (std::isinf(value)) {
-    w_ << (value < 0 ? "-" : "") << (single ? "__builtin_inff()" : "__builtin_inf()");
-    return;
-  }
-  char digits[40];
-  const auto end =
-      single ? std::to_chars(digits, digits + sizeof digits, static_cast<float>(value)).ptr
-             : std::to_chars(digits, digits + sizeof digits, value).ptr;
-  const std::string_view text(digits, static_cast<std::size_t>(end - digits));
-  w_ << text;
-  if (text.find_first_of(".e") == std::string_view::npos)
-    w_ << ".0";
-  if (single)
-    w_ << 'F';
-}
-
 namespace {
 
-/// The next code point of UTF-8 text; wrong bytes stand for themselves.
-std::uint32_t nextCodePoint(std::string_view text, std::size_t &at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const std::uint32_t first = byte(at++);
-  const unsigned extra = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : first >= 0xC0 ? 1 : 0;
-  if (extra == 0 || at + extra > text.size())
-    return first;
-  std::uint32_t point = first & (0x3FU >> extra);
-  for (unsigned i = 0; i < extra; ++i)
-    point = point << 6U | (byte(at++) & 0x3FU);
-  return point;
+/// `before` and what `value` writes and `after`.
+void emitBetween(EmitContext &cx, std::string_view before, Part value, std::string_view after) {
+  cx.out << before;
+  value();
+  cx.out << after;
 }
 
-/// Number of places the constant takes in a string of its kind.
-std::uint32_t stringLength(std::string_view text, bool wide) {
-  std::uint32_t length = 0;
-  for (std::size_t at = 0; at < text.size();)
-    length += nextCodePoint(text, at) > 0xFFFF && wide ? 2 : 1;
-  return length;
+/// `function<argument>(value)`
+void emitTemplate(EmitContext &cx, std::string_view function, std::string_view argument,
+                  Part value) {
+  cx.out << function << '<' << argument << ">(";
+  value();
+  cx.out << ')';
 }
+
+/// Values of `from` may lie outside of the subrange `to`.
+bool checksRange(const EmitContext &cx, const Type *from, const Type *to) {
+  if (to->kind != TypeKind::subrange || !cx.checks())
+    return false;
+  const auto *range = typeAs<SubrangeType>(to);
+  const auto *own = from->kind == TypeKind::subrange ? typeAs<SubrangeType>(from) : nullptr;
+  return own == nullptr || own->low < range->low || own->high > range->high;
+}
+
+void emitInRange(EmitContext &cx, const Type *from, const SubrangeType *to, Span span, Part value) {
+  const Type *f = underlying(from);
+  const Type *t = underlying(to);
+  if (f != t)
+    cx.out << "static_cast<" << cx.type(t) << ">(";
+  cx.out << "::stride::subrange<" << to->low << ", " << to->high << ">(" << cx.ctx() << ", ";
+  const bool own = openRangeCheck(cx, to);
+  value();
+  if (own)
+    cx.out << ", " << to->low << ", " << to->high << ')';
+  cx.out << ", ";
+  cx.position(span);
+  cx.out << (f != t ? "))" : ")");
+}
+
+/// Pointers, and the numbers that hold their addresses.
+void emitPointerConversion(EmitContext &cx, const Type *f, const Type *t, Part value) {
+  const bool from = f->kind == TypeKind::pointer;
+  const bool to = t->kind == TypeKind::pointer;
+  cx.out << (to ? "reinterpret_cast<" : "static_cast<") << cx.type(t);
+  if (!to)
+    emitBetween(cx, ">(reinterpret_cast<::stride::UXINT>(", value, "))");
+  else if (from)
+    emitBetween(cx, ">(", value, ")");
+  else if (bitWidth(f) == 32) // an address kept in a DINT
+    emitBetween(cx, ">(static_cast<::stride::UDINT>(", value, "))");
+  else
+    emitBetween(cx, ">(static_cast<::stride::UXINT>(", value, "))");
+}
+
+std::string kindName(const Type *t) {
+  return "::stride::Kind::" + std::string(Names::elementary(t->kind));
+}
+
+/// A character to a text.
+void emitCharacterText(EmitContext &cx, const Type *f, const StringType *t, Part value) {
+  const bool wide = t->kind == TypeKind::wstring;
+  const bool cut = f->kind == TypeKind::wcharT && !wide;
+  cx.out << "::stride::" << (wide ? "wideCharacterText<" : "characterText<") << t->length << ">(";
+  emitBetween(cx, cut ? "::stride::narrowCharacter(" : "", value, cut ? "))" : ")");
+}
+
+/// The first character of a text.
+void emitFirstCharacter(EmitContext &cx, const Type *f, const Type *t, Part value) {
+  const bool cut = f->kind == TypeKind::wstring && t->kind == TypeKind::charT;
+  cx.out << (cut ? "::stride::narrowCharacter(" : "");
+  emitBetween(cx, "::stride::firstCharacter(", value, cut ? "))" : ")");
+}
+
+/// The name of an enumerator, or its number.
+void emitEnumeratorText(EmitContext &cx, const EnumType *from, const StringType *t, Part value) {
+  cx.includes.complete(from);
+  const std::string name = cx.temporary("value");
+  cx.out << "[&] { const " << cx.type(from) << ' ' << name << " = ";
+  value();
+  cx.out << "; return ::stride::enumeratorText<" << t->length << ">("
+         << cx.run.names.qualified(from->symbol) << "__name__(" << name << "), " << name
+         << "); }()";
+}
+
+/// Anything else to a text.
+void emitTextOf(EmitContext &cx, const Type *f, const StringType *t, Part value) {
+  const bool wide = t->kind == TypeKind::wstring;
+  const std::string length = std::to_string(t->length);
+  if (!isString(f))
+    emitTemplate(cx, wide ? "::stride::toWstring" : "::stride::toString",
+                 kindName(f) + ", " + length, value);
+  else if (f->kind == t->kind)
+    emitTemplate(cx, "::stride::resize", length, value);
+  else
+    emitTemplate(cx, wide ? "::stride::widen" : "::stride::narrow", length, value);
+}
+
+/// Texts and characters, on one side at least.
+void emitTextConversion(EmitContext &cx, const Type *from, const Type *f, const Type *t,
+                        Part value) {
+  if (isString(t) && isCharacter(f))
+    emitCharacterText(cx, f, typeAs<StringType>(t), value);
+  else if (isString(f) && isCharacter(t))
+    emitFirstCharacter(cx, f, t, value);
+  else if (t->kind == TypeKind::string && from->kind == TypeKind::enumeration &&
+           typeAs<EnumType>(from)->named)
+    emitEnumeratorText(cx, typeAs<EnumType>(from), typeAs<StringType>(t), value);
+  else if (isString(t))
+    emitTextOf(cx, f, typeAs<StringType>(t), value);
+  else
+    emitTemplate(cx, "::stride::fromString", kindName(t), value);
+}
+
+bool isPlainNumber(const Type *t) { return isInteger(t) || isReal(t); }
+
+bool isInterface(const Type *t) { return t->kind == TypeKind::interface; }
 
 } // namespace
 
-void Emitter::quoted(const ConstValue &constant, bool wide) {
-  w_ << (wide ? "u\"" : "\"");
-  for (std::size_t at = 0; at < constant.text.size();) {
-    std::uint32_t c = nextCodePoint(constant.text, at);
-    if (c == '"' || c == '\\') {
-      w_ << '\\' << static_cast<char>(c);
-    } else if (c >= 0x20 && c < 0x7F) {
-      w_ << static_cast<char>(c);
-    } else if (c < 0x100) { // three octal digits, whatever follows
-      w_ << '\\' << static_cast<char>('0' + (c >> 6U)) << static_cast<char>('0' + (c >> 3U & 7U))
-         << static_cast<char>('0' + (c & 7U));
-    } else if (wide && c >= 0xD800 && c < 0xE000) { // half a pair: as a number, which ends here
-      char digits[4];
-      for (int i = 3; i >= 0; --i, c >>= 4U)
-        digits[i] = "0123456789abcdef"[c & 15U];
-      w_ << "\\x" << std::string_view(digits, 4) << "\" u\"";
-    } else if (wide) {
-      char digits[9];
-      const bool pair = c > 0xFFFF;
-      for (int i = pair ? 7 : 3; i >= 0; --i, c >>= 4U)
-        digits[i] = "0123456789abcdef"[c & 15U];
-      w_ << (pair ? "\\U" : "\\u") << std::string_view(digits, pair ? 8 : 4);
-    } else {
-      w_ << '?';
-    }
-  }
-  w_ << '"';
-}
-
-void Emitter::exactString(const ConstValue &constant, const Type *type) {
-  const auto *string = typeAs<StringType>(type);
-  const bool wide = type->kind == TypeKind::wstring;
-  const bool same = stringLength(constant.text, wide) == string->length;
-  if (!same)
-    w_ << "::stride::resize<" << string->length << ">(";
-  w_ << "::stride::lit(";
-  quoted(constant, wide);
-  w_ << (same ? ")" : "))");
-}
-
-void Emitter::literal(const ConstValue &constant, const Type *from, const Type *to,
-                      const Symbol *symbol) {
-  if (constant.kind == ConstKind::string && isCharacter(to)) {
-    number(firstUnit(constant.text, from->kind == TypeKind::wstring), to);
-    return;
-  }
-  if (isString(to) && constant.kind == ConstKind::integer) { // a CHAR constant
-    converted(from, to, {}, [&] { number(constant.integer, from); });
-    return;
-  }
-  if (constant.kind == ConstKind::string) {
-    exactString(constant, isString(to) ? to : from);
-    return;
-  }
+void emitConverted(EmitContext &cx, const Type *from, const Type *to, Span span, Part value) {
+  const Type *f = underlying(from);
   const Type *t = underlying(to);
-  if (t->kind == TypeKind::pointer || t->kind == TypeKind::interface) {
-    if (constant.integer == 0)
-      w_ << "nullptr";
-    else
-      w_ << "reinterpret_cast<" << type(t) << ">(" << static_cast<std::uint64_t>(constant.integer)
-         << "ULL)";
-    return;
-  }
-  if (isReal(t) || t->kind == TypeKind::anyReal) {
-    double value = constant.real;
-    if (constant.kind == ConstKind::integer) {
-      const Type *f = underlying(from);
-      const bool huge = isUnsigned64(f);
-      value = huge ? static_cast<double>(static_cast<std::uint64_t>(constant.integer))
-                   : static_cast<double>(constant.integer);
-    }
-    real(value, t);
-    return;
-  }
-  if (symbol != nullptr && symbol->kind == SymbolKind::enumerator && (isInteger(t) || from == to)) {
-    const auto *e = static_cast<const EnumeratorSymbol *>(symbol);
-    if (e->type == from) {
-      includes_.complete(from);
-      w_ << c_.names.qualified(e->type->symbol) << "__" << e->name.text;
-      return;
-    }
-  }
-  std::int64_t value = constant.integer;
-  if (from != to) {
-    if (const auto v = convertConstant(constant, from, to))
-      value = v->integer;
-  }
-  number(value, t);
+  if (from != to && checksRange(cx, from, to))
+    emitInRange(cx, from, typeAs<SubrangeType>(to), span, value);
+  else if (f == t || (isInterface(f) && isInterface(t)))
+    value();
+  else if (t->kind == TypeKind::array) // the same elements between other bounds
+    emitTemplate(cx, "::stride::reshape", cx.type(t), value);
+  else if (f->kind == TypeKind::pointer || t->kind == TypeKind::pointer)
+    emitPointerConversion(cx, f, t, value);
+  else if (f->kind == TypeKind::wcharT && t->kind == TypeKind::charT)
+    emitBetween(cx, "::stride::narrowCharacter(", value, ")");
+  else if (isString(f) || isString(t))
+    emitTextConversion(cx, from, f, t, value);
+  else if (isPlainNumber(f) && isPlainNumber(t))
+    emitTemplate(cx, isReal(f) && !isReal(t) ? "::stride::convert" : "static_cast", cx.type(t),
+                 value);
+  else
+    emitTemplate(cx, "::stride::convert", kindName(t) + ", " + kindName(f), value);
 }
 
-bool Emitter::implicitStore(const Type *from, const Type *to) const {
+bool isImplicitStore(const EmitContext &cx, const Type *from, const Type *to) {
   if (from == to)
     return true;
-  if (to->kind == TypeKind::subrange && checks())
+  if (to->kind == TypeKind::subrange && cx.checks())
     return false;
   const Type *f = underlying(from);
   const Type *t = underlying(to);
-  if (f == t || (f->kind == TypeKind::interface && t->kind == TypeKind::interface))
+  if (f == t || (isInterface(f) && isInterface(t)))
     return true;
   if (isInteger(f) && (isInteger(t) || isReal(t)))
     return classify(f, t) == Conversion::free;
   return f->kind == TypeKind::real && t->kind == TypeKind::lreal;
 }
 
-void Emitter::convertedText(std::string_view code, const Type *from, const Type *to, Span span) {
-  if (implicitStore(from, to)) {
-    w_ << code;
-    return;
-  }
-  converted(from, to, span, [&] { w_ << code; });
+void emitConvertedText(EmitContext &cx, std::string_view code, const Type *from, const Type *to,
+                       Span span) {
+  if (isImplicitStore(cx, from, to))
+    cx.out << code;
+  else
+    emitConverted(cx, from, to, span, [&] { cx.out << code; });
 }
 
-void Emitter::convertedExpr(const Expr *e, const Type *from, const Type *to) {
-  converted(from, to, e->span, [&] { raw(e); });
+void emitConvertedExpr(EmitContext &cx, const Expr *e, const Type *from, const Type *to) {
+  emitConverted(cx, from, to, e->span, [&] { emitRaw(cx, e); });
 }
 
 } // namespace stc::codegen

@@ -1,117 +1,162 @@
-// Elements of arrays, characters of strings, what lies beside the target of a pointer.
+#include "compiler/codegen/elements.hpp"
 
-#include "compiler/codegen/emitter.hpp"
+#include "compiler/codegen/expressions.hpp"
+#include "compiler/codegen/own_checks.hpp"
+#include "compiler/codegen/places.hpp"
+
+#include <algorithm>
 
 namespace stc::codegen {
 
 using namespace ast;
 
+namespace {
+
 /// An argument list takes what is indexed, and C++ would be free to read it after the index. Begins
 /// a lambda that takes it first; gives what stands for it there.
-std::string Emitter::openBase(const std::string &base, const Type *type) {
-  const std::string name = temporary("base");
-  w_ << "[&]() -> decltype(auto) { " << (isString(type) ? "auto &&" : "const auto ") << name
-     << " = " << base << "; return ";
+std::string openBase(EmitContext &cx, const std::string &base, const Type *type) {
+  const std::string name = cx.temporary("base");
+  cx.out << "[&]() -> decltype(auto) { " << (isString(type) ? "auto &&" : "const auto ") << name
+         << " = " << base << "; return ";
   return name;
 }
 
 /// `at(ctx__, base, i)`: an element of an ARRAY[*], or a row.
-void Emitter::openElement(std::string base, const OpenArrayType *array, const Expr *i,
-                          bool takesBase) {
-  includes_.complete(array);
-  includes_.complete(array->element);
-  const PouSymbol *own = ownCheck(ImplicitCheck::bounds);
+void emitOpenElement(EmitContext &cx, std::string base, const OpenArrayType *array, const Expr *i,
+                     bool takesBase) {
+  cx.includes.complete(array);
+  cx.includes.complete(array->element);
+  const PouSymbol *own = ownCheck(cx, ImplicitCheck::bounds);
   const bool opens = takesBase || own != nullptr; // the bounds are those of the array passed
   if (opens)
-    base = openBase(base, array);
-  w_ << "::stride::at" << (checks() ? "(" : "Place(");
-  if (checks())
-    w_ << ctx() << ", ";
-  w_ << base << ", ";
+    base = openBase(cx, base, array);
+  cx.out << "::stride::at" << (cx.checks() ? "(" : "Place(");
+  if (cx.checks())
+    cx.out << cx.ctx() << ", ";
+  cx.out << base << ", ";
   if (own != nullptr)
-    w_ << c_.names.qualified(own) << '(' << ctx() << ", static_cast<::stride::DINT>(";
-  value(i);
+    cx.out << cx.run.names.qualified(own) << '(' << cx.ctx() << ", static_cast<::stride::DINT>(";
+  emitValue(cx, i);
   if (own != nullptr)
-    w_ << "), static_cast<::stride::DINT>(" << base << ".lo[0]), static_cast<::stride::DINT>("
-       << base << ".hi[0]))";
-  if (checks()) {
-    w_ << ", ";
-    position(i->span);
+    cx.out << "), static_cast<::stride::DINT>(" << base << ".lo[0]), static_cast<::stride::DINT>("
+           << base << ".hi[0]))";
+  if (cx.checks()) {
+    cx.out << ", ";
+    cx.position(i->span);
   }
-  w_ << (opens ? "); }()" : ")");
+  cx.out << (opens ? "); }()" : ")");
 }
 
 /// `element(ctx__, p, i)`, `character(ctx__, s, i)`.
-void Emitter::pointedElement(std::string base, const Type *type, const Expr *i, bool takesBase) {
+void emitPointedElement(EmitContext &cx, std::string base, const Type *type, const Expr *i,
+                        bool takesBase) {
   const bool points = type->kind == TypeKind::pointer;
   if (points)
-    includes_.complete(typeAs<PointerType>(type)->pointee);
+    cx.includes.complete(typeAs<PointerType>(type)->pointee);
   const bool text = isString(points ? typeAs<PointerType>(type)->pointee : type);
   if (takesBase)
-    base = openBase(base, type);
-  w_ << "::stride::" << (text ? "character" : "element") << (checks() ? "(" : "At(");
-  if (checks())
-    w_ << ctx() << ", ";
-  w_ << base << ", ";
-  value(i);
-  if (checks()) {
-    w_ << ", ";
-    position(i->span);
+    base = openBase(cx, base, type);
+  cx.out << "::stride::" << (text ? "character" : "element") << (cx.checks() ? "(" : "At(");
+  if (cx.checks())
+    cx.out << cx.ctx() << ", ";
+  cx.out << base << ", ";
+  emitValue(cx, i);
+  if (cx.checks()) {
+    cx.out << ", ";
+    cx.position(i->span);
   }
-  w_ << (takesBase ? "); }()" : ")");
+  cx.out << (takesBase ? "); }()" : ")");
 }
 
 /// `.v[i]`: C++ evaluates what is in front of the brackets first.
-void Emitter::arrayElement(const ArrayType *array, const Expr *i) {
-  w_ << ".v[";
+void emitArrayElement(EmitContext &cx, const ArrayType *array, const Expr *i) {
+  cx.out << ".v[";
   if (inBounds(i, array)) {
-    w_ << i->constant->integer - array->low;
-  } else if (array->low == 0 && c_.analysis.provenIndex(i, array)) {
-    value(i);
-  } else if (checks() && !c_.analysis.provenIndex(i, array)) {
-    w_ << "::stride::index<" << array->low << ", " << array->high << ">(" << ctx() << ", ";
-    checkedIndex(i, array);
-    w_ << ", ";
-    position(i->span);
-    w_ << ')';
+    cx.out << i->constant->integer - array->low;
+  } else if (array->low == 0 && cx.run.analysis.provenIndex(i, array)) {
+    emitValue(cx, i);
+  } else if (cx.checks() && !cx.run.analysis.provenIndex(i, array)) {
+    cx.out << "::stride::index<" << array->low << ", " << array->high << ">(" << cx.ctx() << ", ";
+    emitCheckedIndex(cx, i, array);
+    cx.out << ", ";
+    cx.position(i->span);
+    cx.out << ')';
   } else {
-    w_ << "::stride::place<" << array->low << ">(";
-    value(i);
-    w_ << ')';
+    cx.out << "::stride::place<" << array->low << ">(";
+    emitValue(cx, i);
+    cx.out << ')';
   }
-  w_ << ']';
+  cx.out << ']';
 }
 
-void Emitter::index(const IndexExpr *e, bool slotOnly) {
-  const std::size_t start = w_.size();
-  includes_.complete(e->base->type); // C++ must know the size of the elements
-  const Type *t = e->base->type;
-  const bool points = t->kind == TypeKind::pointer;
-  if (points && checks())
-    checkedPointer(e->base);
-  else if (points)
-    value(e->base);
+/// The C++ of what is indexed, and its type: each index makes another one of it.
+struct Indexed {
+  std::string code;
+  const Type *type;
+};
+
+void follow(EmitContext &cx, Indexed &at, Span span) {
+  at.type = typeAs<PointerType>(at.type)->pointee;
+  cx.includes.complete(at.type);
+  at.code = cx.text([&] { emitFollowed(cx, Slot::reference, span, [&] { cx.out << at.code; }); });
+}
+
+/// What the expression begins with: the place of the array, or the value of the pointer.
+void emitBase(EmitContext &cx, const Expr *base) {
+  cx.includes.complete(base->type); // C++ must know the size of the elements
+  if (base->type->kind == TypeKind::pointer)
+    emitCheckedPointer(cx, base);
   else
-    place(e->base);
-  unsigned before = points ? effects(e->base) : c_.analysis.placeEffects(e->base, pou_);
-  for (const Expr *i : e->indices) {
-    if (t->kind == TypeKind::reference) {
-      t = typeAs<PointerType>(t)->pointee;
-      followReference(start, t, e->span);
-    }
-    const unsigned own = effects(i);
-    const bool takesBase = Analysis::orderShows(before, own);
-    before |= own;
-    if (t->kind == TypeKind::array)
-      arrayElement(typeAs<ArrayType>(t), i);
-    else if (t->kind == TypeKind::openArray)
-      openElement(w_.cut(start), typeAs<OpenArrayType>(t), i, takesBase);
-    else
-      pointedElement(w_.cut(start), t, i, takesBase);
-    t = indexStep(t);
+    emitPlace(cx, base);
+}
+
+void step(EmitContext &cx, Indexed &at, const Expr *i, bool takesBase) {
+  if (at.type->kind == TypeKind::array)
+    at.code += cx.text([&] { emitArrayElement(cx, typeAs<ArrayType>(at.type), i); });
+  else if (at.type->kind == TypeKind::openArray)
+    at.code = cx.text(
+        [&] { emitOpenElement(cx, at.code, typeAs<OpenArrayType>(at.type), i, takesBase); });
+  else
+    at.code = cx.text([&] { emitPointedElement(cx, at.code, at.type, i, takesBase); });
+  at.type = indexStep(at.type);
+}
+
+/// Each index stands behind what it is an index into: nothing goes around it.
+bool isPlain(const IndexExpr *e) {
+  const Type *t = e->base->type;
+  for (std::size_t i = 0; i < e->indices.size(); ++i) {
+    if (t->kind != TypeKind::array)
+      return false;
+    t = typeAs<ArrayType>(t)->element;
   }
-  if (t->kind == TypeKind::reference && !slotOnly)
-    followReference(start, typeAs<PointerType>(t)->pointee, e->span);
+  return t->kind != TypeKind::reference;
+}
+
+} // namespace
+
+void emitIndex(EmitContext &cx, const IndexExpr *e, bool slotOnly) {
+  const Type *type = e->base->type;
+  if (isPlain(e)) {
+    emitBase(cx, e->base);
+    for (const Expr *i : e->indices) {
+      emitArrayElement(cx, typeAs<ArrayType>(type), i);
+      type = typeAs<ArrayType>(type)->element;
+    }
+    return;
+  }
+  Indexed at{cx.text([&] { emitBase(cx, e->base); }), type};
+  unsigned before = type->kind == TypeKind::pointer ? cx.effects(e->base)
+                                                    : cx.run.analysis.placeEffects(e->base, cx.pou);
+  for (const Expr *i : e->indices) {
+    if (at.type->kind == TypeKind::reference)
+      follow(cx, at, e->span);
+    const unsigned own = cx.effects(i);
+    step(cx, at, i, Analysis::orderShows(before, own));
+    before |= own;
+  }
+  if (at.type->kind == TypeKind::reference && !slotOnly)
+    follow(cx, at, e->span);
+  cx.out << at.code;
 }
 
 } // namespace stc::codegen

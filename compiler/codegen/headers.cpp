@@ -1,6 +1,7 @@
 // Headers: one per type, POU and variable list.
 
-#include "compiler/codegen/consistent_copies.hpp"
+#include "compiler/codegen/initializers.hpp"
+#include "compiler/codegen/signatures.hpp"
 #include "compiler/codegen/units.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
@@ -30,18 +31,6 @@ std::string_view sectionName(Section section) {
   default:
     return "VAR";
   }
-}
-
-/// `T *` and `T &` want no blank behind them.
-std::string declaredAs(std::string_view type, std::string_view mangled) {
-  std::string out(type);
-  if (out.back() != '*' && out.back() != '&')
-    out += ' ';
-  return out.append(mangled);
-}
-
-std::string declared(std::string_view type, std::string_view name) {
-  return declaredAs(type, mangle(name));
 }
 
 class HeaderBuilder {
@@ -116,8 +105,7 @@ public:
     for (const ConsistentVariable &v : c_.program.sharing.consistent) {
       if (v.variable->globals != symbol)
         continue;
-      const std::string place = copiesPlace(c_.names, v.variable);
-      body_ += "extern const ::stride::ULINT " + place.substr(place.rfind(':') + 1) +
+      body_ += "extern const ::stride::ULINT " + copiesLocalPlace(c_.names, v.variable) +
                "; // what each task reads\n";
     }
     return close(symbol);
@@ -179,43 +167,9 @@ public:
   GeneratedFile function(const PouSymbol *symbol) {
     open(symbol);
     statics(symbol);
-    body_ += functionSignature(symbol, nullptr);
+    body_ += functionSignature(c_, includes_, symbol, nullptr);
     body_ += ";\n";
     return close(symbol);
-  }
-
-  /// `R Name(::stride::Ctx &ctx__, T a)`; in the definition unused parameters are marked and an
-  /// unused context has no name.
-  std::string functionSignature(const PouSymbol *symbol, const Emitter *definition) {
-    std::string out;
-    if (symbol->result != nullptr) {
-      includes_.complete(symbol->result->type);
-      out += c_.names.type(symbol->result->type);
-      out += out.back() == '*' ? "" : " ";
-    } else {
-      out += "void ";
-    }
-    out += std::string(c_.names.local(symbol)) + "(::stride::Ctx &";
-    if (definition == nullptr || definition->usesContext())
-      out += "ctx__";
-    for (const VarSymbol *p : symbol->parameters()) {
-      out += ", ";
-      if (definition != nullptr && !definition->used(p))
-        out += "[[maybe_unused]] ";
-      std::string type(c_.names.type(p->type));
-      if (p->type->kind == TypeKind::openArray) {
-        includes_.complete(p->type);
-      } else if (p->section != Section::input) {
-        includes_.pointed(p->type);
-        type += type.back() == '*' ? "&" : " &";
-      } else {
-        includes_.complete(p->type);
-      }
-      out += definition != nullptr && p->section == Section::input
-                 ? declaredAs(type, Emitter::inputName(c_, p))
-                 : declared(type, p->name.text);
-    }
-    return out + ")";
   }
 
 private:
@@ -232,19 +186,18 @@ private:
 
   void field(const VarSymbol *v) {
     if (isSlot(v)) {
-      body_ += "  " + declared("::stride::UDINT", v->name.text) + "; // its place (VAR_CONFIG)\n";
+      body_ += "  " + declared("::stride::UDINT", mangle(v->name.text)) +
+               "; // its place (VAR_CONFIG)\n";
       return;
     }
     std::string type(c_.names.type(v->type));
     if (v->section == Section::inOut && v->type->kind != TypeKind::openArray) {
       includes_.pointed(v->type);
-      type += type.back() == '*' ? "*" : " *";
+      type = declared(type, "*");
     } else {
       includes_.complete(v->type);
     }
-    if (type.back() != '*' && type.back() != '&')
-      type += ' ';
-    body_ += "  " + type + fieldName(v) + (v->isBit ? " : 1;\n" : ";\n");
+    body_ += "  " + declared(type, fieldName(v)) + (v->isBit ? " : 1;\n" : ";\n");
   }
 
   void init(bool needed) {
@@ -254,20 +207,14 @@ private:
 
   /// The whole function: no source of the library has it.
   void initHere(const StructType *type) {
-    Emitter emitter(c_, nullptr);
-    emitter.writer().indent();
-    emitter.writer().indent();
+    EmitContext cx(c_, nullptr);
+    cx.out.withoutDirectives();
+    cx.open();
+    cx.open();
     for (const VarSymbol *v : type->fields)
       if (c_.layouts.needsInit(v))
-        emitter.initVariable("this->" + fieldName(v), v);
-    body_ += "  void init__(::stride::Ctx &) {\n";
-    const std::string statements = emitter.takeWriter().take();
-    for (std::size_t at = 0, end = 0; at < statements.size(); at = end) {
-      end = statements.find('\n', at) + 1;
-      if (statements[at] != '#') // a place in the ST
-        body_ += statements.substr(at, end - at);
-    }
-    body_ += "  }\n";
+        initVariable(cx, "this->" + fieldName(v), v);
+    body_ += "  void init__(::stride::Ctx &) {\n" + cx.out.take() + "  }\n";
   }
 
   /// Assignment that leaves the bindings of in-outs as they are.
@@ -304,11 +251,9 @@ private:
   }
 
   void place(const Root &root) {
-    std::string name = rootPlace(c_.names, root);
-    name.erase(0, name.rfind(':') + 1);
     body_ += "/// Its place in the application's state, which the application defines.\nextern "
              "const ::stride::ULINT " +
-             name + ";\n";
+             rootLocalPlace(c_.names, root) + ";\n";
   }
 
   void statics(const PouSymbol *symbol) {
@@ -343,15 +288,6 @@ private:
 };
 
 } // namespace
-
-std::string banner(std::string_view what) {
-  return "// " + std::string(what) + ": generated by Stride; changes are lost.\n";
-}
-
-std::string functionSignature(Context &context, const PouSymbol *symbol,
-                              const Emitter *definition) {
-  return HeaderBuilder(context).functionSignature(symbol, definition);
-}
 
 std::vector<const VarSymbol *> rootVariables(const Root &root) {
   std::vector<const VarSymbol *> list;

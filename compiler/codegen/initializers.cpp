@@ -1,6 +1,13 @@
-// Initial values. Memory is zero before, so that only what differs from zero is written.
+#include "compiler/codegen/initializers.hpp"
 
-#include "compiler/codegen/emitter.hpp"
+#include "compiler/codegen/assignments.hpp"
+#include "compiler/codegen/constants.hpp"
+#include "compiler/codegen/expressions.hpp"
+#include "compiler/codegen/initializer_tables.hpp"
+#include "compiler/codegen/lifecycle.hpp"
+#include "compiler/codegen/located.hpp"
+#include "compiler/codegen/places.hpp"
+#include "compiler/codegen/signatures.hpp"
 
 namespace stc::codegen {
 
@@ -8,364 +15,294 @@ using namespace ast;
 
 namespace {
 
-constexpr std::size_t kMinTable = 8;
 constexpr std::uint64_t kMaxUnrolled = 16;
-constexpr std::size_t kMostColumns = 32;
+
+/// `target = its address;`
+void initReference(EmitContext &cx, std::string_view target, const Expr *value) {
+  cx.begin(cx.modes.init.span);
+  cx.out << target << " = ";
+  emitAddress(cx, value);
+  cx.out << ';';
+  cx.end();
+}
+
+/// The type's default as one statement.
+void emitDefault(EmitContext &cx, std::string_view target, const Type *type) {
+  switch (type->kind) {
+  case TypeKind::enumeration: {
+    const EnumeratorSymbol *initial = typeAs<EnumType>(type)->initial;
+    cx.out << target << " = ";
+    emitLiteral(cx, integerValue(initial->value), type, type, initial);
+    cx.out << ';';
+    return;
+  }
+  case TypeKind::subrange:
+    cx.out << target << " = ";
+    emitNumber(cx, subrangeDefault(typeAs<SubrangeType>(type)), type);
+    cx.out << ';';
+    return;
+  case TypeKind::array: {
+    const std::string element = cx.temporary("element");
+    cx.out << "for (auto &" << element << " : " << target << ".v) ";
+    emitDefault(cx, element, typeAs<ArrayType>(type)->element);
+    return;
+  }
+  default:
+    cx.includes.complete(type);
+    cx.out << target << ".init__(" << cx.ctx() << ");";
+    return;
+  }
+}
+
+// -------------------------------------------------------------------------------------------------
+// lists of values
+
+void initFields(EmitContext &cx, std::string_view target, const Type *type,
+                const AggregateExpr *list) {
+  for (const AggregateItem &item : list->items) {
+    if (item.symbol == nullptr || item.value == nullptr)
+      continue;
+    const std::string field =
+        std::string(target) + '.' + basePath(type, item.symbol) + fieldName(item.symbol);
+    if (item.symbol->type->kind == TypeKind::reference) {
+      initReference(cx, field, item.value);
+      continue;
+    }
+    const Span span = item.span.valid() ? item.span : cx.modes.init.span;
+    const Scoped<Span> own(cx.modes.init.span, span);
+    initValue(cx, field, item.symbol->type, item.value);
+  }
+}
+
+/// The elements of an array, one after the other.
+struct Elements {
+  std::string_view target;
+  const ArrayType *type;
+};
+
+std::uint64_t initItems(EmitContext &cx, const Elements &array, std::span<AggregateItem> items,
+                        const std::string &base, std::uint64_t at);
 
 std::uint64_t repetition(const AggregateItem &item) {
   return item.repeat == nullptr ? 1 : static_cast<std::uint64_t>(item.repeat->constant->integer);
 }
 
-} // namespace
-
-void Emitter::initVariable(std::string_view target, const VarSymbol *variable) {
-  if (variable->section == Section::inOut)
-    return;
-  initSpan_ = variable->name.span;
-  if (variable->location != nullptr) {
-    initLocated(target, variable);
-    return;
-  }
-  const Expr *init = c_.layouts.initOf(variable);
-  if (init != nullptr && variable->type->kind == TypeKind::reference) {
-    if (init->constant != nullptr)
-      return;
-    begin(initSpan_);
-    w_ << target << " = ";
-    address(init);
-    w_ << ';';
-    end();
-    return;
-  }
-  const bool whole =
-      init != nullptr && init->kind != ExprKind::aggregate; // replaces the type's default
-  if (!whole)
-    writtenDefault(target, variable->type, Layouts::written(variable));
-  construct(target, variable);
-  zeroed_ = whole || (!c_.layouts.needsInit(variable->type) &&
-                      !c_.layouts.elementsHaveDefaults(Layouts::written(variable), variable->type));
-  if (init != nullptr)
-    initValue(target, variable->type, init);
-  afterInit(target, variable->type);
+/// How many elements the items stand for.
+std::uint64_t widthOf(std::span<AggregateItem> items) {
+  std::uint64_t total = 0;
+  for (const AggregateItem &item : items)
+    total += repetition(item) * (item.values.empty() ? 1 : widthOf(item.values));
+  return total;
 }
 
-/// The type's default, with those of aliases that array elements are declared with.
-void Emitter::writtenDefault(std::string_view target, const Type *type, const Written &written) {
-  typeDefault(target, type);
-  if (!c_.layouts.elementsHaveDefaults(written, type))
-    return;
-  const Written inner = c_.layouts.elementOf(written, type);
-  const Type *elementType = typeAs<ArrayType>(type)->element;
-  const std::string element = temporary("element");
-  begin(initSpan_);
-  w_ << "for (auto &" << element << " : " << target << ".v) {";
-  end();
-  open();
-  if (const Expr *init = c_.layouts.aliasDefault(inner, elementType)) {
-    zeroed_ = !c_.layouts.needsInit(elementType);
-    initValue(element, elementType, init);
-  } else
-    writtenDefault(element, elementType, inner);
-  close();
-  begin(initSpan_);
-  w_ << '}';
-  end();
+/// `for (::stride::ULINT i = 0; i < count; ++i) `
+void openCount(EmitContext &cx, const std::string &i, std::uint64_t count) {
+  cx.out << "for (::stride::ULINT " << i << " = 0; " << i << " < " << count << "; ++" << i << ") ";
 }
 
-void Emitter::typeDefault(std::string_view target, const Type *type) {
-  if (!c_.layouts.needsInit(type))
+/// One value, `count` times from element `base` + `at` on.
+void initRepeated(EmitContext &cx, const Elements &array, const Expr *value, std::uint64_t count,
+                  const std::string &base, std::uint64_t at) {
+  const std::string place = std::string(array.target) + ".v[" + base;
+  if (count == 1) {
+    initValue(cx, place + std::to_string(at) + "]", array.type->element, value);
     return;
-  begin(initSpan_);
-  defaultStatement(target, type);
-  end();
+  }
+  const std::string i = cx.temporary("i");
+  const std::string each = place + i + " + " + std::to_string(at) + "]";
+  if (value->kind == ExprKind::aggregate) {
+    initLoop(
+        cx,
+        [&] {
+          openCount(cx, i, count);
+          cx.out << '{';
+        },
+        [&] { initValue(cx, each, array.type->element, value); });
+    return;
+  }
+  cx.begin(cx.modes.init.span);
+  openCount(cx, i, count);
+  emitStoreTo(cx, each, array.type->element, value);
+  cx.end();
 }
 
-/// One statement.
-void Emitter::defaultStatement(std::string_view target, const Type *type) {
-  switch (type->kind) {
-  case TypeKind::enumeration: {
-    const EnumeratorSymbol *initial = typeAs<EnumType>(type)->initial;
-    w_ << target << " = ";
-    literal(integerValue(initial->value), type, type, initial);
-    w_ << ';';
-    return;
+/// Several values, `count` times; gives the next element.
+std::uint64_t initRepeatedList(EmitContext &cx, const Elements &array,
+                               std::span<AggregateItem> values, std::uint64_t count,
+                               const std::string &base, std::uint64_t at) {
+  if (count <= kMaxUnrolled) {
+    for (std::uint64_t i = 0; i < count; ++i)
+      at = initItems(cx, array, values, base, at);
+    return at;
   }
-  case TypeKind::subrange:
-    w_ << target << " = ";
-    number(subrangeDefault(typeAs<SubrangeType>(type)), type);
-    w_ << ';';
-    return;
-  case TypeKind::array: {
-    const std::string element = temporary("element");
-    w_ << "for (auto &" << element << " : " << target << ".v) ";
-    defaultStatement(element, typeAs<ArrayType>(type)->element);
-    return;
-  }
-  default:
-    includes_.complete(type);
-    w_ << target << ".init__(" << ctx() << ");";
-    return;
-  }
+  const std::uint64_t width = widthOf(values);
+  const std::string i = cx.temporary("i");
+  initLoop(
+      cx,
+      [&] {
+        openCount(cx, i, count);
+        cx.out << '{';
+      },
+      [&] { initItems(cx, array, values, base + i + " * " + std::to_string(width) + " + ", at); });
+  return at + count * width;
 }
 
-void Emitter::initValue(std::string_view target, const Type *type, const Expr *init) {
-  if (init->kind != ExprKind::aggregate) {
-    if (zeroed_ && isZero(init))
-      return;
-    begin(initSpan_);
-    storeTo(target, type, init);
-    end();
-    return;
-  }
-  const auto *list = as<AggregateExpr>(init);
-  if (type->kind == TypeKind::array) {
-    const auto *array = typeAs<ArrayType>(type);
-    if (!constantTable(target, array, list) && !constantColumns(target, array, list) &&
-        !addressTable(target, array, list))
-      arrayValues(target, array, list->items, {}, 0);
-    return;
-  }
-  for (const AggregateItem &item : list->items) {
-    if (item.symbol == nullptr || item.value == nullptr)
-      continue;
-    std::string field(target);
-    field += '.';
-    const std::size_t start = w_.size();
-    basePath(type, item.symbol);
-    field += w_.cut(start);
-    field += fieldName(item.symbol);
-    if (item.symbol->type->kind == TypeKind::reference) {
-      begin(initSpan_);
-      w_ << field << " = ";
-      address(item.value);
-      w_ << ';';
-      end();
-      continue;
-    }
-    const Span whole = initSpan_;
-    if (item.span.valid())
-      initSpan_ = item.span;
-    initValue(field, item.symbol->type, item.value);
-    initSpan_ = whole;
-  }
-}
-
-bool Emitter::constantTable(std::string_view target, const ArrayType *type,
-                            const AggregateExpr *init) {
-  const Type *element = type->element;
-  if (init->items.size() < kMinTable || !isElementary(element) || isString(element))
-    return false;
-  for (const AggregateItem &item : init->items) {
-    if (item.repeat != nullptr || item.value == nullptr || item.value->constant == nullptr)
-      return false;
-  }
-  const std::string table = temporary("table");
-  begin(initSpan_);
-  w_ << "static constexpr " << this->type(element) << ' ' << table << "[] = {";
-  for (std::size_t i = 0; i < init->items.size(); ++i) {
-    w_ << (i == 0 ? "" : ", ");
-    valueAs(init->items[i].value, element);
-  }
-  w_ << "};";
-  end();
-  begin(initSpan_);
-  w_ << "for (::stride::ULINT i__ = 0; i__ < " << init->items.size() << "; ++i__) " << target
-     << ".v[i__] = " << table << "[i__];";
-  end();
-  return true;
-}
-
-bool Emitter::constantLeaves(const Type *type, const Expr *init, const std::string &path,
-                             std::vector<Leaf> &leaves) {
-  if (leaves.size() > kMostColumns)
-    return false;
-  if (init->kind != ExprKind::aggregate) {
-    leaves.push_back({path, type, init});
-    return init->constant != nullptr && !isString(type) &&
-           (isElementary(type) || type->kind == TypeKind::enumeration);
-  }
-  const auto *list = as<AggregateExpr>(init);
-  const bool isArray = type->kind == TypeKind::array;
-  std::size_t place = 0;
-  for (const AggregateItem &item : list->items) {
-    if (item.repeat != nullptr || item.value == nullptr || !item.values.empty() ||
-        (!isArray && (item.symbol == nullptr || item.symbol->isBit)))
-      return false;
-    std::string inner = path;
-    if (isArray) {
-      inner += ".v[" + std::to_string(place++) + "]";
-    } else {
-      const std::size_t start = w_.size();
-      basePath(type, item.symbol);
-      inner += "." + w_.cut(start) + fieldName(item.symbol);
-    }
-    const Type *innerType = isArray ? typeAs<ArrayType>(type)->element : item.symbol->type;
-    if (!constantLeaves(innerType, item.value, inner, leaves))
-      return false;
-  }
-  return true;
-}
-
-/// A long list of structures or arrays that all set the same places to constants: a table for each
-/// of these places.
-bool Emitter::constantColumns(std::string_view target, const ArrayType *type,
-                              const AggregateExpr *init) {
-  if (init->items.size() < kMinTable || isElementary(type->element))
-    return false;
-  std::vector<Leaf> columns;
-  std::vector<const Expr *> values; // row by row
-  for (const AggregateItem &item : init->items) {
-    std::vector<Leaf> row;
-    if (item.repeat != nullptr || item.value == nullptr || !item.values.empty() ||
-        item.value->kind != ExprKind::aggregate ||
-        !constantLeaves(type->element, item.value, {}, row))
-      return false;
-    if (columns.empty())
-      columns = row;
-    if (row.size() != columns.size() || row.empty())
-      return false;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      if (row[i].path != columns[i].path)
-        return false;
-      values.push_back(row[i].value);
-    }
-  }
-  for (std::size_t column = 0; column < columns.size(); ++column) {
-    const std::string table = temporary("table");
-    begin(initSpan_);
-    w_ << "static constexpr " << this->type(columns[column].type) << ' ' << table << "[] = {";
-    for (std::size_t i = column; i < values.size(); i += columns.size()) {
-      w_ << (i == column ? "" : ", ");
-      valueAs(values[i], columns[column].type);
-    }
-    w_ << "};";
-    end();
-    begin(initSpan_);
-    w_ << "for (::stride::ULINT i__ = 0; i__ < " << init->items.size() << "; ++i__) " << target
-       << ".v[i__]" << columns[column].path << " = " << table << "[i__];";
-    end();
-  }
-  return true;
-}
-
-std::uint64_t Emitter::arrayValues(std::string_view target, const ArrayType *type,
-                                   std::span<AggregateItem> items, const std::string &base,
-                                   std::uint64_t at) {
-  const auto element = [&](std::uint64_t place) {
-    return std::string(target) + ".v[" + base + std::to_string(place) + "]";
-  };
+/// Places are `base` and a number, from `at` on; gives the number after the last one.
+std::uint64_t initItems(EmitContext &cx, const Elements &array, std::span<AggregateItem> items,
+                        const std::string &base, std::uint64_t at) {
   for (const AggregateItem &item : items) {
     const std::uint64_t count = repetition(item);
-    if (item.values.empty()) {
-      const bool skip = item.value == nullptr || (zeroed_ && isZero(item.value));
-      if (!skip && count == 1) {
-        initValue(element(at), type->element, item.value);
-      } else if (!skip && count > 1) {
-        const std::string i = temporary("i");
-        const std::string each =
-            std::string(target) + ".v[" + base + i + " + " + std::to_string(at) + "]";
-        begin(initSpan_);
-        w_ << "for (::stride::ULINT " << i << " = 0; " << i << " < " << count << "; ++" << i
-           << ") ";
-        if (item.value->kind != ExprKind::aggregate) {
-          storeTo(each, type->element, item.value);
-          end();
-          at += count;
-          continue;
-        }
-        w_ << '{';
-        end();
-        open();
-        initValue(each, type->element, item.value);
-        close();
-        begin(initSpan_);
-        w_ << '}';
-        end();
-      }
-      at += count;
+    if (!item.values.empty()) {
+      at = initRepeatedList(cx, array, item.values, count, base, at);
       continue;
     }
-    if (count <= kMaxUnrolled) {
-      for (std::uint64_t i = 0; i < count; ++i)
-        at = arrayValues(target, type, item.values, base, at);
-      continue;
-    }
-    std::uint64_t width = 0; // of one repetition
-    const auto measure = [](auto &&self, std::span<AggregateItem> list) -> std::uint64_t {
-      std::uint64_t total = 0;
-      for (const AggregateItem &inner : list)
-        total += repetition(inner) * (inner.values.empty() ? 1 : self(self, inner.values));
-      return total;
-    };
-    width = measure(measure, item.values);
-    const std::string i = temporary("i");
-    begin(initSpan_);
-    w_ << "for (::stride::ULINT " << i << " = 0; " << i << " < " << count << "; ++" << i << ") {";
-    end();
-    open();
-    arrayValues(target, type, item.values, base + i + " * " + std::to_string(width) + " + ", at);
-    close();
-    begin(initSpan_);
-    w_ << '}';
-    end();
-    at += count * width;
+    const bool skip = item.value == nullptr || (cx.modes.init.zeroed && isZero(item.value));
+    if (!skip && count > 0)
+      initRepeated(cx, array, item.value, count, base, at);
+    at += count;
   }
   return at;
 }
 
-void Emitter::declareLocal(const VarSymbol *variable, Span start) {
+} // namespace
+
+// -------------------------------------------------------------------------------------------------
+// variables
+
+void initVariable(EmitContext &cx, std::string_view target, const VarSymbol *variable) {
+  if (variable->section == Section::inOut)
+    return;
+  Layouts &layouts = cx.run.layouts;
+  const Scoped<Initialised> mode(cx.modes.init, {variable->name.span});
+  if (variable->location != nullptr) {
+    initLocated(cx, target, variable);
+    return;
+  }
+  const Expr *init = layouts.initOf(variable);
+  if (init != nullptr && variable->type->kind == TypeKind::reference) {
+    if (init->constant == nullptr)
+      initReference(cx, target, init);
+    return;
+  }
+  const bool whole =
+      init != nullptr && init->kind != ExprKind::aggregate; // replaces the type's default
+  const Written written = Layouts::written(variable);
+  if (!whole)
+    initWritten(cx, target, variable->type, written);
+  construct(cx, target, variable);
+  cx.modes.init.zeroed = whole || (!layouts.needsInit(variable->type) &&
+                                   !layouts.elementsHaveDefaults(written, variable->type));
+  if (init != nullptr)
+    initValue(cx, target, variable->type, init);
+  callAfterInit(cx, target, variable->type);
+}
+
+void initWritten(EmitContext &cx, std::string_view target, const Type *type,
+                 const Written &written) {
+  initDefault(cx, target, type);
+  Layouts &layouts = cx.run.layouts;
+  if (!layouts.elementsHaveDefaults(written, type))
+    return;
+  const Written inner = layouts.elementOf(written, type);
+  const Type *elementType = typeAs<ArrayType>(type)->element;
+  const std::string element = cx.temporary("element");
+  initLoop(
+      cx, [&] { cx.out << "for (auto &" << element << " : " << target << ".v) {"; },
+      [&] {
+        if (const Expr *init = layouts.aliasDefault(inner, elementType)) {
+          const Scoped<bool> zeroed(cx.modes.init.zeroed, !layouts.needsInit(elementType));
+          initValue(cx, element, elementType, init);
+        } else {
+          initWritten(cx, element, elementType, inner);
+        }
+      });
+}
+
+void initDefault(EmitContext &cx, std::string_view target, const Type *type) {
+  if (!cx.run.layouts.needsInit(type))
+    return;
+  cx.begin(cx.modes.init.span);
+  emitDefault(cx, target, type);
+  cx.end();
+}
+
+void initValue(EmitContext &cx, std::string_view target, const Type *type, const Expr *init) {
+  if (init->kind != ExprKind::aggregate) {
+    if (cx.modes.init.zeroed && isZero(init))
+      return;
+    cx.begin(cx.modes.init.span);
+    emitStoreTo(cx, target, type, init);
+    cx.end();
+    return;
+  }
+  const auto *list = as<AggregateExpr>(init);
+  if (type->kind != TypeKind::array) {
+    initFields(cx, target, type, list);
+    return;
+  }
+  const auto *array = typeAs<ArrayType>(type);
+  if (!initFromTable(cx, target, array, list))
+    initItems(cx, {target, array}, list->items, {}, 0);
+}
+
+void emitAggregateValue(EmitContext &cx, const Type *type, const Expr *init) {
+  const std::string name = cx.temporary("value");
+  cx.out << "[&] { ";
+  declareTemporary(cx, type, name, Addressed::holdsBlock(type));
+  cx.inlined([&] {
+    initDefault(cx, name, type);
+    initValue(cx, name, type, init);
+  });
+  cx.out << "return " << name << "; }()";
+}
+
+// -------------------------------------------------------------------------------------------------
+// declarations
+
+void declareLocal(EmitContext &cx, const VarSymbol *variable, Span start) {
   const std::string name = mangle(variable->name.text);
-  const Expr *init = c_.layouts.initOf(variable);
-  begin(init == nullptr && start.valid() ? start : variable->name.span);
-  if (c_.addressed.onDataStack(variable)) {
-    declareTemporary(variable->type, name, true);
-    end();
-    initVariable(name, variable);
-    if (!variable->isResult)
-      exitAtEnd(variable);
-    return;
+  const Expr *init = cx.run.layouts.initOf(variable);
+  cx.begin(init == nullptr && start.valid() ? start : variable->name.span);
+  if (cx.run.addressed.onDataStack(variable)) {
+    declareTemporary(cx, variable->type, name, true);
+  } else {
+    if (!cx.uses.has(variable))
+      cx.out << "[[maybe_unused]] ";
+    cx.out << declared(cx.type(variable->type), name);
+    if (init != nullptr && init->constant != nullptr && !isString(variable->type) &&
+        isElementary(variable->type)) {
+      cx.out << " = ";
+      emitValueAs(cx, init, variable->type);
+      cx.out << ';';
+      cx.end();
+      return;
+    }
+    cx.out << "{};";
   }
-  if (!used(variable))
-    w_ << "[[maybe_unused]] ";
-  w_ << type(variable->type) << (c_.names.type(variable->type).back() == '*' ? "" : " ") << name;
-  if (init != nullptr && init->constant != nullptr && !isString(variable->type) &&
-      isElementary(variable->type)) {
-    w_ << " = ";
-    valueAs(init, variable->type);
-    w_ << ';';
-    end();
-    return;
-  }
-  w_ << "{};";
-  end();
-  initVariable(name, variable);
+  cx.end();
+  initVariable(cx, name, variable);
   if (!variable->isResult)
-    exitAtEnd(variable);
+    exitAtEnd(cx, variable);
 }
 
-std::string Emitter::inputName(Context &context, const VarSymbol *input) {
-  return mangle(input->name.text) + (context.addressed.onDataStack(input) ? "__in" : "");
-}
-
-void Emitter::declareInput(const VarSymbol *input, Span start) {
-  if (!c_.addressed.onDataStack(input))
+void declareInput(EmitContext &cx, const VarSymbol *input, Span start) {
+  if (!cx.run.addressed.onDataStack(input))
     return;
   const std::string name = mangle(input->name.text);
-  begin(start.valid() ? start : input->name.span);
-  w_ << "::stride::OnDataStack<" << type(input->type) << "> " << name << "__local(" << ctx() << ", "
-     << inputName(c_, input) << "); [[maybe_unused]] auto &" << name << " = " << name
-     << "__local.value();";
-  end();
+  cx.begin(start.valid() ? start : input->name.span);
+  cx.out << "::stride::OnDataStack<" << cx.type(input->type) << "> " << name << "__local("
+         << cx.ctx() << ", " << inputName(cx.run, input) << "); [[maybe_unused]] auto &" << name
+         << " = " << name << "__local.value();";
+  cx.end();
 }
 
-void Emitter::declareTemporary(const Type *type, std::string_view name, bool onDataStack) {
+void declareTemporary(EmitContext &cx, const Type *type, std::string_view name, bool onDataStack) {
   if (!onDataStack) {
-    w_ << this->type(type) << ' ' << name << "{}; ";
+    cx.out << cx.type(type) << ' ' << name << "{}; ";
     return;
   }
-  includes_.complete(type);
-  w_ << "::stride::OnDataStack<" << this->type(type) << "> " << name << "__local(" << ctx()
-     << "); [[maybe_unused]] auto &" << name << " = " << name << "__local.value(); ";
+  cx.out << "::stride::OnDataStack<" << cx.type(type) << "> " << name << "__local(" << cx.ctx()
+         << "); [[maybe_unused]] auto &" << name << " = " << name << "__local.value(); ";
 }
 
 } // namespace stc::codegen

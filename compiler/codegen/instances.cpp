@@ -1,7 +1,10 @@
-// Instances as a whole: copies of them, INI, which gives them their initial values once more, and
-// those of __NEW.
+#include "compiler/codegen/instances.hpp"
 
-#include "compiler/codegen/units.hpp"
+#include "compiler/codegen/expressions.hpp"
+#include "compiler/codegen/initializers.hpp"
+#include "compiler/codegen/lifecycle.hpp"
+#include "compiler/codegen/methods.hpp"
+#include "compiler/codegen/places.hpp"
 #include "compiler/semantics/held.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
@@ -90,6 +93,185 @@ bool isPlainlyDeclared(const VarSymbol *variable) {
          });
 }
 
+/// What is done to the values of a type, as the name of a local function for each.
+using HeldFunctions = std::unordered_map<const Type *, std::string>;
+
+/// The field of a value of the type, through the bases that have it: `base__.x`.
+std::string fieldPath(const Type *type, const VarSymbol *field) {
+  return basePath(type, field) + fieldName(field);
+}
+
+/// Calls `statement(place of one instance)` for `target`, or in loops for its elements.
+template <class Statement>
+void forEachElement(EmitContext &cx, const std::string &target, const Type *type,
+                    Statement &&statement) {
+  if (type->kind != TypeKind::array) {
+    statement(target);
+    return;
+  }
+  const std::string element = cx.temporary("element");
+  cx.out << "for (auto &" << element << " : " << target << ".v) { ";
+  forEachElement(cx, element, typeAs<ArrayType>(type)->element, statement);
+  cx.out << "} ";
+}
+
+/// A copy is bound to nothing. One function for each type: a value may hold it at many places.
+void emitUnbind(EmitContext &cx, const std::string &target, const Type *type) {
+  std::vector<const Type *> types;
+  collectHeld(type, holdsInOut, types);
+  HeldFunctions functions;
+  for (const Type *t : types) {
+    const std::string function = cx.temporary("unbind");
+    cx.out << "const auto " << function << " = [&](auto &it) { ";
+    for (const VarSymbol *v : allFields(t)) {
+      const auto inner = functions.find(innermost(v->type));
+      if (v->section != Section::inOut && inner == functions.end())
+        continue;
+      const std::string field = "it." + fieldPath(t, v);
+      if (v->section == Section::inOut)
+        cx.out << field << " = {}; ";
+      else
+        forEachElement(cx, field, v->type, [&](const std::string &each) {
+          cx.out << inner->second << '(' << each << "); ";
+        });
+    }
+    cx.out << "}; ";
+    functions.emplace(t, function);
+  }
+  if (const auto outer = functions.find(innermost(type)); outer != functions.end())
+    forEachElement(cx, target, type, [&](const std::string &each) {
+      cx.out << outer->second << '(' << each << "); ";
+    });
+}
+
+// ------------------------------------------------------------------------------------------------
+// INI
+
+/// `target` is zero and gets its initial values: those of its declaration, where one is named, else
+/// those of its type.
+void emitInitialValues(EmitContext &cx, std::string_view target, const Type *type,
+                       const VarSymbol *declared, bool here) {
+  if (declared != nullptr && (here || isPlainlyDeclared(declared))) {
+    initVariable(cx, target, declared);
+    return;
+  }
+  initDefault(cx, target, type);
+  constructPlain(cx, target, type);
+  callAfterInit(cx, target, type);
+}
+
+/// INI leaves something in values of the type as it is: bindings, and what is retained.
+bool keepsValues(const Type *type) {
+  return holdsField(type, [](const VarSymbol *v) { return isBinding(v) || isRetained(v); });
+}
+
+/// A line of statements of INI.
+void initLine(EmitContext &cx, const std::string &text) {
+  cx.begin(cx.modes.init.span);
+  cx.out << text;
+  cx.end();
+}
+
+/// Calls the function of `functions` for `it` and `was`, or in loops for their elements.
+void callForBoth(EmitContext &cx, const HeldFunctions &functions, const std::string &it,
+                 const std::string &was, const Type *type) {
+  if (type->kind != TypeKind::array) {
+    initLine(cx, functions.at(type) + '(' + it + ", " + was + ");");
+    return;
+  }
+  const auto *array = typeAs<ArrayType>(type);
+  const std::string i = cx.temporary("i");
+  initLine(cx, "for (::stride::ULINT " + i + " = 0; " + i + " < " + std::to_string(array->count()) +
+                   "; ++" + i + ") {");
+  const std::string element = ".v[" + i + "]";
+  callForBoth(cx, functions, it + element, was + element, array->element);
+  initLine(cx, "}");
+}
+
+/// Puts that back from the copy `old`; what is retained only when not `all` are initialised. One
+/// function for each type: a value may hold it at many places.
+void keepValues(EmitContext &cx, const std::string &target, const std::string &old,
+                const Type *type, const std::string &all) {
+  std::vector<const Type *> types;
+  collectHeld(type, keepsValues, types);
+  HeldFunctions functions;
+  for (const Type *t : types) {
+    const std::string function = cx.temporary("keep");
+    initLine(cx, "const auto " + function + " = [&](auto &it, const auto &was) {");
+    for (const VarSymbol *v : allFields(t)) {
+      const std::string field = "." + fieldPath(t, v);
+      if (isBinding(v))
+        initLine(cx, "it" + field + " = was" + field + ";");
+      else if (isRetained(v))
+        initLine(cx, "if (!" + all + ") it" + field + " = was" + field + ";");
+      if (!isBinding(v) && functions.contains(innermost(v->type)))
+        callForBoth(cx, functions, "it" + field, "was" + field, v->type);
+    }
+    initLine(cx, "};");
+    functions.emplace(t, function);
+  }
+  callForBoth(cx, functions, target, old, type);
+}
+
+/// INI of one place, which is known to be of the type; `declared` is the variable that it is,
+/// `here` the one that the call names.
+struct Reinitialised {
+  std::string place;
+  const Type *type;
+  const VarSymbol *declared = nullptr;
+  bool here = false;
+};
+
+/// `all` is the name of what says that retained values are initialised, too.
+void emitReinitialised(EmitContext &cx, const Reinitialised &one, const std::string &all,
+                       Span span) {
+  cx.inlined([&] {
+    cx.modes.init.span = span;
+    const std::string old = cx.temporary("old");
+    const bool kept = keepsValues(one.type);
+    cx.begin(span);
+    if (kept)
+      cx.out << "const auto " << old << " = " << one.place << "; ";
+    cx.out << "__builtin_memset(&" << one.place << ", 0, sizeof " << one.place << ");";
+    cx.end();
+    emitInitialValues(cx, one.place, one.type, one.declared, one.here);
+    if (kept)
+      keepValues(cx, one.place, old, one.type, all);
+  });
+}
+
+/// The blocks that an instance of the type may really be, besides its own.
+std::vector<const PouSymbol *> possibleBlocks(const EmitContext &cx, const Type *type) {
+  if (type->kind != TypeKind::functionBlock || !hasTypeId(typeAs<PouType>(type)->symbol))
+    return {};
+  return derivedBlocks(cx.run.program, typeAs<PouType>(type)->symbol);
+}
+
+/// The variable that the expression names, if it is that and nothing that extends it.
+const VarSymbol *exactVariable(const Expr *instance) {
+  const Symbol *symbol = symbolAt(instance);
+  return isExact(instance) && symbol != nullptr && symbol->kind == SymbolKind::variable
+             ? static_cast<const VarSymbol *>(symbol)
+             : nullptr;
+}
+
+/// One case for each block that the instance may be.
+void emitReinitialisedByType(EmitContext &cx, const std::vector<const PouSymbol *> &blocks,
+                             const Reinitialised &own, const std::string &all, Span span) {
+  cx.out << "switch (" << own.place << '.' << pathToTypeId(typeAs<PouType>(own.type)->symbol)
+         << ") { ";
+  for (const PouSymbol *p : blocks) {
+    const std::string real = cx.temporary("real");
+    cx.out << "case " << cx.run.names.typeId(p) << "U: { auto &" << real << " = reinterpret_cast<"
+           << cx.type(p->type) << " &>(" << own.place << "); ";
+    emitReinitialised(cx, {real, p->type}, all, span);
+    cx.out << "break; } ";
+  }
+  cx.out << "default: { ";
+  emitReinitialised(cx, own, all, span);
+  cx.out << "break; } } ";
+}
+
 } // namespace
 
 std::vector<const PouSymbol *> derivedBlocks(const Program &program, const PouSymbol *base) {
@@ -110,297 +292,59 @@ bool holdsInOut(const Type *type) {
   return holdsField(type, [](const VarSymbol *v) { return v->section == Section::inOut; });
 }
 
-/// Calls `statement(place of one instance)` for `target`, or in loops for its elements.
-template <class Statement>
-void Emitter::eachElement(const std::string &target, const Type *type, Statement &&statement) {
-  if (type->kind != TypeKind::array) {
-    statement(target);
-    return;
-  }
-  const std::string element = temporary("element");
-  w_ << "for (auto &" << element << " : " << target << ".v) { ";
-  eachElement(element, typeAs<ArrayType>(type)->element, statement);
-  w_ << "} ";
-}
-
-/// A copy is bound to nothing. One function for each type: a value may hold it at many places.
-void Emitter::unbind(const std::string &target, const Type *type) {
-  std::vector<const Type *> types;
-  collectHeld(type, holdsInOut, types);
-  HeldFunctions functions;
-  for (const Type *t : types) {
-    const std::string function = temporary("unbind");
-    w_ << "const auto " << function << " = [&](auto &it) { ";
-    for (const VarSymbol *v : allFields(t)) {
-      const auto inner = functions.find(innermost(v->type));
-      if (v->section != Section::inOut && inner == functions.end())
-        continue;
-      const std::string field = "it." + fieldPath(t, v);
-      if (v->section == Section::inOut)
-        w_ << field << " = {}; ";
-      else
-        eachElement(field, v->type,
-                    [&](const std::string &each) { w_ << inner->second << '(' << each << "); "; });
-    }
-    w_ << "}; ";
-    functions.emplace(t, function);
-  }
-  if (const auto outer = functions.find(innermost(type)); outer != functions.end())
-    eachElement(target, type,
-                [&](const std::string &each) { w_ << outer->second << '(' << each << "); "; });
-}
-
-/// The field of a value of the type, through the bases that have it: `base__.x`.
-std::string Emitter::fieldPath(const Type *type, const VarSymbol *field) {
-  const std::size_t start = w_.size();
-  basePath(type, field);
-  w_ << fieldName(field);
-  return w_.cut(start);
-}
-
 /// A structure, block or array as a value. A copy has the type id of what it is, not of what it was
 /// taken from, and none of its bindings.
-void Emitter::copyOf(const Expr *e, const Type *type) {
+void emitCopy(EmitContext &cx, const Expr *e, const Type *type) {
   std::string path;
   const PouSymbol *renamed = nullptr; // a block whose type id may be that of another
   if (isInstance(type)) {
     const PouSymbol *from = typeAs<PouType>(e->type)->symbol;
     const PouSymbol *to = typeAs<PouType>(type)->symbol;
-    path = pathToBase(from, to);
-    if (!path.empty())
-      path = "." + path.substr(0, path.size() - 1);
+    path = baseSuffix(from, to);
     if (hasTypeId(to) && (from != to || !isExact(e)))
       renamed = to;
   }
   if (renamed == nullptr && !holdsInOut(type)) {
-    raw(e);
-    w_ << path;
+    emitRaw(cx, e);
+    cx.out << path;
     return;
   }
-  const std::string copy = temporary("copy");
-  w_ << "[&] { auto " << copy << " = ";
-  raw(e);
-  w_ << path << "; ";
+  const std::string copy = cx.temporary("copy");
+  cx.out << "[&] { auto " << copy << " = ";
+  emitRaw(cx, e);
+  cx.out << path << "; ";
   if (renamed != nullptr)
-    w_ << copy << '.' << pathToTypeId(renamed) << " = " << c_.names.typeId(renamed) << "U; ";
-  unbind(copy, type);
-  w_ << "return " << copy << "; }()";
+    cx.out << copy << '.' << pathToTypeId(renamed) << " = " << cx.run.names.typeId(renamed)
+           << "U; ";
+  emitUnbind(cx, copy, type);
+  cx.out << "return " << copy << "; }()";
 }
 
-// ------------------------------------------------------------------------------------------------
-// INI
-
-/// `target` is zero and gets its initial values: those of its declaration, where one is named, else
-/// those of its type.
-void Emitter::initialValues(std::string_view target, const Type *type, const VarSymbol *declared,
-                            bool here) {
-  if (declared != nullptr && (here || isPlainlyDeclared(declared))) {
-    initVariable(target, declared);
-    return;
-  }
-  typeDefault(target, type);
-  constructPlain(target, type);
-  afterInit(target, type);
-}
-
-/// INI leaves something in values of the type as it is: bindings, and what is retained.
-static bool keepsValues(const Type *type) {
-  return holdsField(type, [](const VarSymbol *v) { return isBinding(v) || isRetained(v); });
-}
-
-/// A line of statements of INI.
-void Emitter::initLine(const std::string &text) {
-  begin(initSpan_);
-  w_ << text;
-  end();
-}
-
-/// Calls the function of `functions` for `it` and `was`, or in loops for their elements.
-void Emitter::callForBoth(const HeldFunctions &functions, const std::string &it,
-                          const std::string &was, const Type *type) {
-  if (type->kind != TypeKind::array) {
-    initLine(functions.at(type) + '(' + it + ", " + was + ");");
-    return;
-  }
-  const auto *array = typeAs<ArrayType>(type);
-  const std::string i = temporary("i");
-  initLine("for (::stride::ULINT " + i + " = 0; " + i + " < " + std::to_string(array->count()) +
-           "; ++" + i + ") {");
-  const std::string element = ".v[" + i + "]";
-  callForBoth(functions, it + element, was + element, array->element);
-  initLine("}");
-}
-
-/// Puts that back from the copy `old`; what is retained only when not `all` are initialised. One
-/// function for each type: a value may hold it at many places.
-void Emitter::keepValues(const std::string &target, const std::string &old, const Type *type,
-                         const std::string &all) {
-  std::vector<const Type *> types;
-  collectHeld(type, keepsValues, types);
-  HeldFunctions functions;
-  for (const Type *t : types) {
-    const std::string function = temporary("keep");
-    initLine("const auto " + function + " = [&](auto &it, const auto &was) {");
-    for (const VarSymbol *v : allFields(t)) {
-      const std::string field = "." + fieldPath(t, v);
-      if (isBinding(v))
-        initLine("it" + field + " = was" + field + ";");
-      else if (isRetained(v))
-        initLine("if (!" + all + ") it" + field + " = was" + field + ";");
-      if (!isBinding(v) && functions.contains(innermost(v->type)))
-        callForBoth(functions, "it" + field, "was" + field, v->type);
-    }
-    initLine("};");
-    functions.emplace(t, function);
-  }
-  callForBoth(functions, target, old, type);
-}
-
-void Emitter::reinitialise(const CallExpr *e) {
+void emitReinitialise(EmitContext &cx, const CallExpr *e) {
   const Expr *instance = e->arguments[0].value;
   const Type *type = instance->type;
-  const std::string target = temporary("instance");
-  const std::string all = temporary("all");
-  const std::string keep = temporary("keep");
-  includes_.complete(type);
-  w_ << "[&] { auto &" << target << " = ";
-  place(instance);
-  w_ << "; const ::stride::BOOL " << all << " = ";
-  value(e->arguments[1].value);
+  const std::string target = cx.temporary("instance");
+  const std::string all = cx.temporary("all");
+  const std::string keep = cx.temporary("keep");
+  cx.includes.complete(type);
+  cx.out << "[&] { auto &" << target << " = ";
+  emitPlace(cx, instance);
+  cx.out << "; const ::stride::BOOL " << all << " = ";
+  emitValue(cx, e->arguments[1].value);
   // FB_Init is told by the context.
-  w_ << "; const ::stride::BOOL " << keep << " = " << ctx() << ".keepRetains; " << ctx()
-     << ".keepRetains = !" << all << "; const ::stride::AtEnd " << temporary("end") << "{[&] { "
-     << ctx() << ".keepRetains = " << keep << "; }}; ";
-  const auto each = [&](const std::string &place, const Type *t, const VarSymbol *declared) {
-    inlineStatements([&](Emitter &inner) {
-      inner.initSpan_ = e->span;
-      const std::string old = inner.temporary("old");
-      const bool kept = keepsValues(t);
-      inner.begin(e->span);
-      if (kept)
-        inner.w_ << "const auto " << old << " = " << place << "; ";
-      inner.w_ << "__builtin_memset(&" << place << ", 0, sizeof " << place << ");";
-      inner.end();
-      inner.initialValues(place, t, declared,
-                          declared != nullptr && namedVariable(instance) == declared);
-      inner.initSpan_ = e->span;
-      if (kept)
-        inner.keepValues(place, old, t, all);
-    });
-  };
-  const bool exact = isExact(instance);
-  const Symbol *symbol = instance->kind == ExprKind::name     ? as<NameExpr>(instance)->symbol
-                         : instance->kind == ExprKind::member ? as<MemberExpr>(instance)->symbol
-                                                              : nullptr;
-  const auto *declared = exact && symbol != nullptr && symbol->kind == SymbolKind::variable
-                             ? static_cast<const VarSymbol *>(symbol)
-                             : nullptr;
-  std::vector<const PouSymbol *> derived;
-  if (!exact && type->kind == TypeKind::functionBlock && hasTypeId(typeAs<PouType>(type)->symbol))
-    derived = derivedBlocks(c_.program, typeAs<PouType>(type)->symbol);
-  if (derived.empty()) {
-    each(target, type, declared);
-    w_ << "return ::stride::BOOL{1}; }()";
-    return;
-  }
-  w_ << "switch (" << target << '.' << pathToTypeId(typeAs<PouType>(type)->symbol) << ") { ";
-  for (const PouSymbol *p : derived) {
-    const std::string real = temporary("real");
-    w_ << "case " << c_.names.typeId(p) << "U: { auto &" << real << " = reinterpret_cast<"
-       << this->type(p->type) << " &>(" << target << "); ";
-    each(real, p->type, nullptr);
-    w_ << "break; } ";
-  }
-  w_ << "default: { ";
-  each(target, type, nullptr);
-  w_ << "break; } } return ::stride::BOOL{1}; }()";
-}
-
-// -------------------------------------------------------------------------------------------------
-// __NEW, __DELETE
-
-/// Memory of the pool, with the defaults of its type.
-void Emitter::newObject(const CallExpr *e) {
-  const Type *t = e->arguments[0].value->type;
-  const bool initialise = c_.layouts.needsInit(t);
-  const std::string objects = temporary("objects");
-  const std::string count = temporary("count");
-  if (initialise) {
-    w_ << "[&] { const ::stride::LINT " << count << " = ";
-    if (e->arguments.size() > 1)
-      value(e->arguments[1].value);
-    else
-      w_ << '1';
-    w_ << "; auto *const " << objects << " = ";
-  }
-  w_ << "::stride::newObjects<" << type(t) << ">(" << ctx() << ", ";
-  if (initialise)
-    w_ << count;
-  else if (e->arguments.size() > 1)
-    value(e->arguments[1].value);
+  cx.out << "; const ::stride::BOOL " << keep << " = " << cx.ctx() << ".keepRetains; " << cx.ctx()
+         << ".keepRetains = !" << all << "; const ::stride::AtEnd " << cx.temporary("end")
+         << "{[&] { " << cx.ctx() << ".keepRetains = " << keep << "; }}; ";
+  const VarSymbol *declared = exactVariable(instance);
+  const std::vector<const PouSymbol *> blocks =
+      isExact(instance) ? std::vector<const PouSymbol *>() : possibleBlocks(cx, type);
+  const Reinitialised own{target, type, declared,
+                          declared != nullptr && namedVariable(instance) == declared};
+  if (blocks.empty())
+    emitReinitialised(cx, own, all, e->span);
   else
-    w_ << '1';
-  w_ << ", " << c_.layouts.hash(t) << "ULL)";
-  if (!initialise)
-    return;
-  const std::string i = temporary("i");
-  w_ << "; for (::stride::LINT " << i << " = 0; " << objects << " != nullptr && " << i << " < "
-     << count << "; ++" << i << ") { ";
-  const std::string object = objects + "[" + i + "]";
-  inlineStatements([&](Emitter &inner) {
-    inner.initSpan_ = e->span;
-    inner.typeDefault(object, t);
-    inner.constructPlain(object, t);
-    inner.afterInit(object, t);
-  });
-  w_ << "} return " << objects << "; }()";
-}
-
-/// The pointer is followed once, and 0 afterwards.
-void Emitter::deleteObject(const CallExpr *e) {
-  const std::string pointer = temporary("pointer");
-  const Expr *variable = e->arguments[0].value;
-  w_ << "{ auto &" << pointer << " = ";
-  place(variable);
-  w_ << "; ";
-  const Type *pointee = typeAs<PointerType>(variable->type)->pointee;
-  const auto exits = [&](const Type *real, const std::string &first) {
-    if (!c_.layouts.hasLifecycle(real, "fb_exit"))
-      return;
-    includes_.complete(real);
-    const std::string i = temporary("i");
-    w_ << "for (::stride::ULINT " << i << " = 0; " << i << " < ::stride::poolCount(" << ctx()
-       << ", " << pointer << "); ++" << i << ") " << first << '[' << i << "].exit__(" << ctx()
-       << "); ";
-  };
-  // What was created may be a block that extends the one pointed to.
-  std::vector<const PouSymbol *> derived;
-  if (pointee->kind == TypeKind::functionBlock && hasTypeId(typeAs<PouType>(pointee)->symbol)) {
-    for (const PouSymbol *p : derivedBlocks(c_.program, typeAs<PouType>(pointee)->symbol)) {
-      if (c_.layouts.hasLifecycle(p->type, "fb_exit"))
-        derived.push_back(p);
-    }
-  }
-  if (derived.empty()) {
-    exits(pointee, pointer);
-  } else {
-    includes_.complete(pointee);
-    w_ << "if (::stride::poolCount(" << ctx() << ", " << pointer << ") != 0) { switch (" << pointer
-       << "->" << pathToTypeId(typeAs<PouType>(pointee)->symbol) << ") { ";
-    for (const PouSymbol *p : derived) {
-      const std::string real = temporary("real");
-      w_ << "case " << c_.names.typeId(p) << "U: { auto *const " << real << " = reinterpret_cast<"
-         << type(p->type) << " *>(" << pointer << "); ";
-      exits(p->type, real);
-      w_ << "break; } ";
-    }
-    w_ << "default: ";
-    exits(pointee, pointer);
-    w_ << "break; } } ";
-  }
-  w_ << "::stride::poolDelete(" << ctx() << ", " << pointer << ", ";
-  position(e->span);
-  w_ << "); " << pointer << " = nullptr; }";
+    emitReinitialisedByType(cx, blocks, own, all, e->span);
+  cx.out << "return ::stride::BOOL{1}; }()";
 }
 
 } // namespace stc::codegen

@@ -1,11 +1,7 @@
-// JMP, labels, __TRY.
-//
-// __TRY is a C++ try, but what __CATCH and __FINALLY hold is written behind it: there may be jumps
-// in them, and a fault of the memory guard must not leave a C++ handler open. `leave__N` says how
-// the statements were left: 0 at their end, 1 with an exception, from 2 on with RETURN, EXIT,
-// CONTINUE or JMP, which happens behind __FINALLY.
+#include "compiler/codegen/jumps.hpp"
 
-#include "compiler/codegen/emitter.hpp"
+#include "compiler/codegen/places.hpp"
+#include "compiler/codegen/statements.hpp"
 
 namespace stc::codegen {
 
@@ -27,36 +23,36 @@ bool sameLeave(const Stmt *a, const Stmt *b) {
 
 } // namespace
 
-void Emitter::jump(const JumpStmt *s) {
-  if (s->target == nullptr || leaveTry(s))
+void emitJump(EmitContext &cx, const JumpStmt *s) {
+  if (s->target == nullptr || leaveTry(cx, s))
     return;
-  begin(s->span);
+  cx.begin(s->span);
   if (s->target->span.begin <= s->span.begin) { // a loop
-    usesBudget_ = true;
-    w_ << "budget__.refill(--budget__.left <= 0, " << ctx() << ", ";
-    position(s->span);
-    w_ << "); ";
+    cx.uses.budget = true;
+    cx.out << "budget__.refill(--budget__.left <= 0, " << cx.ctx() << ", ";
+    cx.position(s->span);
+    cx.out << "); ";
   }
-  w_ << "goto " << labelName(s->target) << ';';
-  end();
+  cx.out << "goto " << labelName(s->target) << ';';
+  cx.end();
 }
 
-void Emitter::label(const LabelStmt *s) {
+void emitLabel(EmitContext &cx, const LabelStmt *s) {
   if (!s->used)
     return;
-  begin(s->span);
-  w_ << labelName(s) << ":;";
-  end();
+  cx.begin(s->span);
+  cx.out << labelName(s) << ":;";
+  cx.end();
 }
 
-bool Emitter::leaveTry(const Stmt *s) {
-  if (tries_.empty())
+bool leaveTry(EmitContext &cx, const Stmt *s) {
+  if (cx.modes.tries.empty())
     return false;
-  Try &frame = tries_.back();
+  Try &frame = cx.modes.tries.back();
   switch (s->kind) {
   case StmtKind::exit:
   case StmtKind::continueS:
-    if (loops_.size() > frame.loops)
+    if (cx.modes.loops.around.size() > frame.loops)
       return false;
     break;
   case StmtKind::jump:
@@ -72,105 +68,124 @@ bool Emitter::leaveTry(const Stmt *s) {
     ++which;
   if (which == frame.leaves.size())
     frame.leaves.push_back(s);
-  begin(s->span);
-  w_ << "leave__" << frame.id << " = " << which + kFirstLeave << "; goto finally__" << frame.id
-     << ';';
-  end();
+  cx.begin(s->span);
+  cx.out << "leave__" << frame.id << " = " << which + kFirstLeave << "; goto finally__" << frame.id
+         << ';';
+  cx.end();
   return true;
 }
 
-void Emitter::catchAll(unsigned id) {
-  w_.line() << "} catch (...) {";
-  end();
-  open();
-  w_.line() << "::stride::caught(" << ctx() << ", caught__" << id << ");";
-  end();
-  w_.line() << "leave__" << id << " = 1;";
-  end();
-  close();
-  w_.line() << '}';
-  end();
-}
+namespace {
 
-void Emitter::tryStatement(const TryStmt *s) {
-  const unsigned id = ++next_;
-  begin(s->span);
-  w_ << '{';
-  end();
-  open();
-  w_.line() << "unsigned leave__" << id << " = 0;";
-  end();
-  w_.line() << "::stride::Caught caught__" << id << ';';
-  end();
-  if (s->hasFinally)
-    tries_.push_back({id, s, loops_.size(), {}});
-  w_.line() << "try {";
-  end();
-  open();
-  block(s->body);
-  close();
-  catchAll(id);
-  if (s->hasCatch) {
-    w_.line() << "if (leave__" << id << " == 1) {";
-    end();
-    open();
-    w_.line() << "leave__" << id << " = 0;";
-    end();
-    if (s->hasFinally) {
-      w_.line() << "try {";
-      end();
-      open();
-    }
-    if (s->exception != nullptr) {
-      begin(s->exception->span);
-      const std::string target = placeText(s->exception);
-      w_ << target << " = static_cast<" << type(s->exception->type)
-         << ">(::stride::exceptionNumber(caught__" << id << ".code));";
-      end();
-    }
-    block(s->catchBody);
-    if (s->hasFinally) {
-      close();
-      catchAll(id);
-    }
-    close();
-    w_.line() << '}';
-    end();
+/// The C++ of one __TRY; what belongs to it has its number in its names.
+class TryBlocks {
+public:
+  TryBlocks(EmitContext &cx, const TryStmt *s)
+      : cx_(cx), s_(s), id_(cx.number()), number_(std::to_string(id_)) {}
+
+  void emit() {
+    cx_.begin(s_->span);
+    cx_.out << '{';
+    cx_.end();
+    cx_.open();
+    cx_.line("unsigned leave__" + number_ + " = 0;");
+    cx_.line("::stride::Caught caught__" + number_ + ";");
+    if (s_->hasFinally)
+      cx_.modes.tries.push_back({id_, s_, cx_.modes.loops.around.size(), {}});
+    guarded(s_->body);
+    if (s_->hasCatch)
+      handler();
+    if (s_->hasFinally)
+      finally();
+    if (s_->hasFinally || !s_->hasCatch)
+      raiseAgain();
+    leave();
+    cx_.close();
+    cx_.line("}");
   }
-  std::vector<const Stmt *> leaves;
-  if (s->hasFinally) {
-    leaves = std::move(tries_.back().leaves);
-    tries_.pop_back();
-    if (!leaves.empty()) {
-      w_.line() << "finally__" << id << ":;";
-      end();
+
+private:
+  /// Statements whose exceptions are caught.
+  template <class Write> void guard(Write &&write) {
+    cx_.line("try {");
+    cx_.open();
+    write();
+    cx_.close();
+    cx_.line("} catch (...) {");
+    cx_.open();
+    cx_.out.line() << "::stride::caught(" << cx_.ctx() << ", caught__" << number_ << ");";
+    cx_.end();
+    cx_.line("leave__" + number_ + " = 1;");
+    cx_.close();
+    cx_.line("}");
+  }
+
+  void guarded(Block body) {
+    guard([&] { emitBlock(cx_, body); });
+  }
+
+  void caught() {
+    if (s_->exception != nullptr) {
+      cx_.begin(s_->exception->span);
+      emitPlace(cx_, s_->exception);
+      cx_.out << " = static_cast<" << cx_.type(s_->exception->type)
+              << ">(::stride::exceptionNumber(caught__" << number_ << ".code));";
+      cx_.end();
     }
-    w_.line() << '{';
-    end();
-    open();
-    block(s->finallyBody);
-    close();
-    w_.line() << '}';
-    end();
+    emitBlock(cx_, s_->catchBody);
   }
-  if (s->hasFinally || !s->hasCatch) {
-    w_.line() << "if (leave__" << id << " == 1)";
-    end();
-    w_.line() << "  ::stride::raiseAgain(" << ctx() << ", caught__" << id << ");";
-    end();
+
+  void handler() {
+    cx_.line("if (leave__" + number_ + " == 1) {");
+    cx_.open();
+    cx_.line("leave__" + number_ + " = 0;");
+    if (s_->hasFinally)
+      guard([&] { caught(); });
+    else
+      caught();
+    cx_.close();
+    cx_.line("}");
   }
-  for (std::size_t i = 0; i < leaves.size(); ++i) {
-    w_.line() << "if (leave__" << id << " == " << i + kFirstLeave << ") {";
-    end();
-    open();
-    statement(leaves[i]);
-    close();
-    w_.line() << '}';
-    end();
+
+  void finally() {
+    leaves_ = std::move(cx_.modes.tries.back().leaves);
+    cx_.modes.tries.pop_back();
+    if (!leaves_.empty())
+      cx_.line("finally__" + number_ + ":;");
+    cx_.line("{");
+    cx_.open();
+    emitBlock(cx_, s_->finallyBody);
+    cx_.close();
+    cx_.line("}");
   }
-  close();
-  w_.line() << '}';
-  end();
-}
+
+  void raiseAgain() {
+    cx_.line("if (leave__" + number_ + " == 1)");
+    cx_.out.line() << "  ::stride::raiseAgain(" << cx_.ctx() << ", caught__" << number_ << ");";
+    cx_.end();
+  }
+
+  /// What the statements were left with happens now.
+  void leave() {
+    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+      cx_.out.line() << "if (leave__" << number_ << " == " << i + kFirstLeave << ") {";
+      cx_.end();
+      cx_.open();
+      emitStatement(cx_, leaves_[i]);
+      cx_.close();
+      cx_.line("}");
+    }
+  }
+
+  EmitContext &cx_;
+  const TryStmt *s_;
+  unsigned id_;
+  std::string number_;
+  std::vector<const Stmt *> leaves_;
+};
+
+} // namespace
+
+void emitTry(EmitContext &cx, const TryStmt *s) { TryBlocks(cx, s).emit(); }
 
 } // namespace stc::codegen

@@ -1,7 +1,12 @@
-// FB_Init, FB_Exit and FB_Reinit of instances.
+#include "compiler/codegen/lifecycle.hpp"
 
-#include "compiler/codegen/emitter.hpp"
+#include "compiler/codegen/calls.hpp"
+#include "compiler/codegen/expressions.hpp"
+#include "compiler/codegen/initializers.hpp"
+#include "compiler/codegen/methods.hpp"
 #include "compiler/semantics/hierarchy.hpp"
+
+#include <algorithm>
 
 namespace stc::codegen {
 
@@ -27,62 +32,146 @@ const NamedTypeExpr *constructOf(const VarSymbol *variable) {
   return type->kind == TypeExprKind::named ? as<NamedTypeExpr>(type) : nullptr;
 }
 
-} // namespace
-
-/// Something for each instance in (the arrays of) `target`; `each` gets its place and its number.
-void Emitter::eachInstance(std::string_view target, const Type *type,
-                           const std::function<void(std::string_view)> &each) {
+/// Something for each instance in (the arrays of) `target`; `each` gets its place.
+template <class Each>
+void forEachInstance(EmitContext &cx, std::string_view target, const Type *type, Each &&each) {
   if (type->kind != TypeKind::array) {
     each(target);
     return;
   }
-  const std::string element = temporary("element");
-  begin(initSpan_);
-  w_ << "for (auto &" << element << " : " << target << ".v) {";
-  end();
-  open();
-  eachInstance(element, typeAs<ArrayType>(type)->element, each);
-  close();
-  begin(initSpan_);
-  w_ << '}';
-  end();
+  const std::string element = cx.temporary("element");
+  initLoop(
+      cx, [&] { cx.out << "for (auto &" << element << " : " << target << ".v) {"; },
+      [&] { forEachInstance(cx, element, typeAs<ArrayType>(type)->element, each); });
+}
+
+/// An input of FB_Init.
+void emitConstructInput(EmitContext &cx, const VarSymbol *input,
+                        std::span<const Argument> arguments) {
+  const auto given = std::find_if(arguments.rbegin(), arguments.rend(), [&](const Argument &a) {
+    return a.parameter != nullptr && a.parameter->name.id == input->name.id;
+  });
+  if (given == arguments.rend() || given->value == nullptr)
+    emitDefaultArgument(cx, input);
+  else if (given->value->kind == ExprKind::aggregate)
+    emitAggregateValue(cx, input->type, given->value);
+  else if (input->type->kind == TypeKind::reference)
+    emitAddressAs(cx, given->value, typeAs<PointerType>(input->type)->pointee);
+  else
+    emitValueAs(cx, given->value, input->type);
 }
 
 /// The FB_Inits of one instance, the base's first.
-void Emitter::callInit(std::string_view target, const PouSymbol *block,
-                       std::span<const Argument> arguments) {
+void callInits(EmitContext &cx, std::string_view target, const PouSymbol *block,
+               std::span<const Argument> arguments) {
   std::vector<const PouSymbol *> chain;
   for (const PouSymbol *p = block; p != nullptr; p = p->base)
     chain.push_back(p);
-  for (std::size_t i = chain.size(); i-- > 0;) {
-    const PouSymbol *init = ownMethod(chain[i], "fb_init");
+  for (auto at = chain.rbegin(); at != chain.rend(); ++at) {
+    const PouSymbol *init = ownMethod(*at, "fb_init");
     if (init == nullptr)
       continue;
-    begin(initSpan_);
-    w_ << target << '.' << pathToBase(block, chain[i]) << methodName(init) << '(' << ctx()
-       << ", ctx__.keepRetains == 0, ctx__.inCopyCode";
-    for (const VarSymbol *p : constructInputs(chain[i])) {
-      w_ << ", ";
-      const Argument *given = nullptr;
-      for (const Argument &a : arguments) {
-        if (a.parameter != nullptr && a.parameter->name.id == p->name.id)
-          given = &a;
-      }
-      if (given == nullptr || given->value == nullptr)
-        defaultArgument(p);
-      else if (given->value->kind == ExprKind::aggregate)
-        aggregateValue(p->type, given->value);
-      else if (p->type->kind == TypeKind::reference)
-        addressAs(given->value, typeAs<PointerType>(p->type)->pointee);
-      else
-        valueAs(given->value, p->type);
+    cx.begin(cx.modes.init.span);
+    cx.out << target << '.' << pathToBase(block, *at) << methodName(init) << '(' << cx.ctx()
+           << ", ctx__.keepRetains == 0, ctx__.inCopyCode";
+    for (const VarSymbol *p : constructInputs(*at)) {
+      cx.out << ", ";
+      emitConstructInput(cx, p, arguments);
     }
-    w_ << ");";
-    end();
+    cx.out << ");";
+    cx.end();
   }
 }
 
-void Emitter::construct(std::string_view target, const VarSymbol *variable) {
+/// The elements of an array with a list of inputs each: they are written one after the other, from
+/// element `at` of all; gives the number of the next one.
+std::size_t constructEach(EmitContext &cx, const std::string &target, const Type *type,
+                          const NamedTypeExpr *written, std::size_t at) {
+  if (type->kind != TypeKind::array) {
+    callInits(cx, target, typeAs<PouType>(type)->symbol,
+              at < written->elements.size() ? written->elements[at] : std::span<Argument>());
+    return at + 1;
+  }
+  const auto *array = typeAs<ArrayType>(type);
+  for (std::uint64_t i = 0; i < array->count(); ++i)
+    at = constructEach(cx, target + ".v[" + std::to_string(i) + "]", array->element, written, at);
+  return at;
+}
+
+/// A method with {attribute 'call_after_init'}: it may have inputs with defaults, and outputs,
+/// which nobody wants.
+void callAfterInit(EmitContext &cx, std::string_view target, const PouSymbol *block,
+                   const PouSymbol *method) {
+  cx.begin(cx.modes.init.span);
+  const std::vector<VarSymbol *> parameters = method->parameters();
+  const bool outputs = std::any_of(parameters.begin(), parameters.end(), [](const VarSymbol *p) {
+    return p->section == Section::output;
+  });
+  if (outputs)
+    cx.out << "{ ";
+  std::string arguments;
+  for (const VarSymbol *p : parameters) {
+    if (p->section == Section::output) {
+      const std::string out = cx.temporary("out");
+      cx.out << cx.type(p->type) << ' ' << out << "{}; ";
+      arguments += ", " + out;
+    } else {
+      arguments += ", " + cx.text([&] { emitDefaultArgument(cx, p); });
+    }
+  }
+  cx.out << target << '.' << pathToBase(block, method->owner) << methodName(method) << '('
+         << cx.ctx() << arguments << ");" << (outputs ? " }" : "");
+  cx.end();
+}
+
+/// `exit`, `reinit` of `fb_exit`, `fb_reinit`
+std::string_view withoutPrefix(std::string_view what) { return what.substr(3); }
+
+/// What exit__ and reinit__ do with one variable.
+void emitLifecycleOf(EmitContext &cx, std::string_view target, const Type *type,
+                     std::string_view what) {
+  if (!cx.run.layouts.hasLifecycle(type, what))
+    return;
+  cx.includes.complete(innermost(type));
+  forEachInstance(cx, target, type, [&](std::string_view each) {
+    initLine(cx, each, '.', withoutPrefix(what), "__(", cx.ctx(), ");");
+  });
+}
+
+void emitMembers(EmitContext &cx, const std::vector<const VarSymbol *> &variables,
+                 const std::string &path, std::string_view what) {
+  for (const VarSymbol *v : variables) {
+    if (v->section == Section::inOut)
+      continue;
+    const Scoped<Initialised> mode(cx.modes.init, {v->name.span});
+    emitLifecycleOf(cx, path + fieldName(v), v->type, what);
+  }
+}
+
+/// The method of `block` or a base of it itself; false: `at` has none.
+bool callOwn(EmitContext &cx, const PouSymbol *block, const PouSymbol *at, std::string_view what) {
+  const PouSymbol *method = ownMethod(at, what);
+  if (method == nullptr)
+    return false;
+  cx.begin(method->name.span);
+  cx.out << "this->" << pathToBase(block, at) << methodName(method) << '(' << cx.ctx()
+         << (what == "fb_exit" ? ", ctx__.inCopyCode);" : ");");
+  cx.end();
+  return true;
+}
+
+/// The members of a block and its bases.
+void emitBlockMembers(EmitContext &cx, const PouSymbol *block, std::string_view what) {
+  for (const PouSymbol *p = block; p != nullptr; p = p->base) {
+    std::vector<const VarSymbol *> fields;
+    std::copy_if(p->variables.begin(), p->variables.end(), std::back_inserter(fields), isField);
+    emitMembers(cx, fields, "this->" + pathToBase(block, p), what);
+  }
+}
+
+} // namespace
+
+void construct(EmitContext &cx, std::string_view target, const VarSymbol *variable) {
   const Type *type = innermost(variable->type);
   if (type->kind != TypeKind::functionBlock)
     return;
@@ -90,41 +179,27 @@ void Emitter::construct(std::string_view target, const VarSymbol *variable) {
   if (findInit(block) == nullptr)
     return;
   const NamedTypeExpr *written = constructOf(variable);
-  if (written == nullptr || written->elements.empty()) {
-    const std::span<const Argument> arguments =
-        written == nullptr ? std::span<const Argument>() : written->arguments;
-    eachInstance(target, variable->type,
-                 [&](std::string_view each) { callInit(each, block, arguments); });
+  if (written != nullptr && !written->elements.empty()) {
+    constructEach(cx, std::string(target), variable->type, written, 0);
     return;
   }
-  // One list of inputs for each element: they are written one after the other.
-  std::uint64_t at = 0;
-  const auto walk = [&](auto &&go, const std::string &place, const Type *t) -> void {
-    if (t->kind != TypeKind::array) {
-      callInit(place, block,
-               at < written->elements.size() ? written->elements[at] : std::span<Argument>());
-      ++at;
-      return;
-    }
-    for (std::uint64_t i = 0; i < typeAs<ArrayType>(t)->count(); ++i)
-      go(go, place + ".v[" + std::to_string(i) + "]", typeAs<ArrayType>(t)->element);
-  };
-  walk(walk, std::string(target), variable->type);
+  const std::span<const Argument> arguments =
+      written == nullptr ? std::span<const Argument>() : written->arguments;
+  forEachInstance(cx, target, variable->type,
+                  [&](std::string_view each) { callInits(cx, each, block, arguments); });
 }
 
-/// FB_Init of instances that come without a declaration of their own.
-void Emitter::constructPlain(std::string_view target, const Type *type) {
+void constructPlain(EmitContext &cx, std::string_view target, const Type *type) {
   const Type *element = innermost(type);
   if (element->kind != TypeKind::functionBlock ||
       findInit(typeAs<PouType>(element)->symbol) == nullptr)
     return;
-  eachInstance(target, type, [&](std::string_view each) {
-    callInit(each, typeAs<PouType>(element)->symbol, {});
+  forEachInstance(cx, target, type, [&](std::string_view each) {
+    callInits(cx, each, typeAs<PouType>(element)->symbol, {});
   });
 }
 
-/// {attribute 'call_after_init'}
-void Emitter::afterInit(std::string_view target, const Type *type) {
+void callAfterInit(EmitContext &cx, std::string_view target, const Type *type) {
   const Type *element = innermost(type);
   if (element->kind != TypeKind::functionBlock)
     return;
@@ -132,111 +207,45 @@ void Emitter::afterInit(std::string_view target, const Type *type) {
   const std::vector<PouSymbol *> methods = afterInitMethods(block);
   if (methods.empty())
     return;
-  eachInstance(target, type, [&](std::string_view each) {
-    for (const PouSymbol *m : methods) {
-      begin(initSpan_);
-      bool outputs = false;
-      for (const VarSymbol *p : m->parameters())
-        outputs = outputs || p->section == Section::output;
-      if (outputs)
-        w_ << "{ ";
-      std::string arguments;
-      for (const VarSymbol *p : m->parameters()) {
-        if (p->section == Section::output) {
-          const std::string out = temporary("out");
-          w_ << this->type(p->type) << ' ' << out << "{}; ";
-          arguments += ", " + out;
-        } else {
-          const std::size_t start = w_.size();
-          defaultArgument(p);
-          arguments += ", " + w_.cut(start);
-        }
-      }
-      w_ << each << '.' << pathToBase(block, m->owner) << methodName(m) << '(' << ctx() << arguments
-         << ");" << (outputs ? " }" : "");
-      end();
-    }
+  forEachInstance(cx, target, type, [&](std::string_view each) {
+    for (const PouSymbol *m : methods)
+      callAfterInit(cx, each, block, m);
   });
 }
 
-/// What exit__ and reinit__ do with one variable.
-void Emitter::lifecycleOf(std::string_view target, const Type *type, std::string_view what) {
-  if (!c_.layouts.hasLifecycle(type, what))
+void exitAtEnd(EmitContext &cx, const VarSymbol *variable) {
+  if (!cx.run.layouts.hasLifecycle(variable->type, "fb_exit"))
     return;
-  includes_.complete(innermost(type));
-  eachInstance(target, type, [&](std::string_view each) {
-    begin(initSpan_);
-    w_ << each << '.' << what.substr(3) << "__(" << ctx() << ");";
-    end();
-  });
+  const Scoped<Initialised> mode(cx.modes.init, {variable->name.span});
+  const std::string end = cx.temporary("end");
+  initLine(cx, "const ::stride::AtEnd ", end, "{[&] {");
+  cx.open();
+  emitLifecycleOf(cx, mangle(variable->name.text), variable->type, "fb_exit");
+  cx.close();
+  initLine(cx, "}};");
 }
 
-void Emitter::lifecycle(const std::vector<const VarSymbol *> &variables, std::string_view what,
-                        const Type *base, const PouSymbol *block) {
-  const bool isExit = what == "fb_exit";
-  const auto members = [&](const std::vector<const VarSymbol *> &list, const std::string &path) {
-    for (const VarSymbol *v : list) {
-      if (v->section == Section::inOut)
-        continue;
-      initSpan_ = v->name.span;
-      lifecycleOf(path + fieldName(v), v->type, what);
-    }
-  };
-  const auto own = [&](const PouSymbol *at) {
-    const PouSymbol *method = ownMethod(at, what);
-    if (method == nullptr)
-      return false;
-    begin(method->name.span);
-    w_ << "this->" << pathToBase(block, at) << methodName(method) << '(' << ctx()
-       << (isExit ? ", ctx__.inCopyCode);" : ");");
-    end();
-    return true;
-  };
+void emitLifecycle(EmitContext &cx, const std::vector<const VarSymbol *> &variables,
+                   std::string_view what, const Type *base, const PouSymbol *block) {
   // FB_Exit: derived before base, the owner before what it holds. FB_Reinit: the other way round,
   // and only the last one (it calls its base's itself).
-  if (block != nullptr && isExit) {
+  const bool isExit = what == "fb_exit";
+  if (isExit) {
     for (const PouSymbol *p = block; p != nullptr; p = p->base)
-      own(p);
+      callOwn(cx, block, p, what);
   }
-  if (base != nullptr && c_.layouts.hasLifecycle(base, what)) {
-    begin(initSpan_);
-    w_ << "this->base__." << what.substr(3) << "__(" << ctx() << ");";
-    end();
-  }
-  if (block == nullptr) {
-    members(variables, "this->");
-    return;
-  }
-  for (const PouSymbol *p = block; p != nullptr; p = p->base) {
-    std::vector<const VarSymbol *> fields;
-    for (const VarSymbol *v : p->variables) {
-      if (isField(v))
-        fields.push_back(v);
-    }
-    members(fields, "this->" + pathToBase(block, p));
-  }
+  if (base != nullptr && cx.run.layouts.hasLifecycle(base, what))
+    initLine(cx, "this->base__.", withoutPrefix(what), "__(", cx.ctx(), ");");
+  if (block == nullptr)
+    emitMembers(cx, variables, "this->", what);
+  else
+    emitBlockMembers(cx, block, what);
   if (!isExit) {
     for (const PouSymbol *p = block; p != nullptr; p = p->base) {
-      if (own(p))
+      if (callOwn(cx, block, p, what))
         break;
     }
   }
-}
-
-/// FB_Exit of a local variable, at the end of the call.
-void Emitter::exitAtEnd(const VarSymbol *variable) {
-  if (!c_.layouts.hasLifecycle(variable->type, "fb_exit"))
-    return;
-  initSpan_ = variable->name.span;
-  begin(initSpan_);
-  w_ << "const ::stride::AtEnd " << temporary("end") << "{[&] {";
-  end();
-  open();
-  lifecycleOf(mangle(variable->name.text), variable->type, "fb_exit");
-  close();
-  begin(initSpan_);
-  w_ << "}};";
-  end();
 }
 
 } // namespace stc::codegen

@@ -1,43 +1,12 @@
-// Methods, properties, THIS and SUPER; instances as values and behind interfaces.
+#include "compiler/codegen/methods.hpp"
 
-#include "compiler/codegen/units.hpp"
+#include "compiler/codegen/expressions.hpp"
+#include "compiler/codegen/places.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
 namespace stc::codegen {
 
 using namespace ast;
-
-std::string methodSignature(Context &context, Includes &includes, const PouSymbol *method,
-                            std::string_view name, bool self, const Emitter *definition) {
-  std::string out;
-  if (method->result != nullptr) {
-    includes.pointed(method->result->type);
-    out += context.names.type(method->result->type);
-    out += out.back() == '*' ? "" : " ";
-  } else {
-    out += "void ";
-  }
-  out += std::string(name) + "(::stride::Ctx &";
-  if (definition == nullptr || definition->usesContext())
-    out += "ctx__";
-  if (self)
-    out += ", ::stride::Interface self__";
-  for (const VarSymbol *p : method->parameters()) {
-    out += ", ";
-    if (definition != nullptr && !definition->used(p))
-      out += "[[maybe_unused]] ";
-    std::string type(context.names.type(p->type));
-    includes.pointed(p->type);
-    if (p->section != Section::input && p->type->kind != TypeKind::openArray)
-      type += type.back() == '*' ? "&" : " &";
-    if (type.back() != '*' && type.back() != '&')
-      type += ' ';
-    out += type + (definition != nullptr && p->section == Section::input
-                       ? Emitter::inputName(context, p)
-                       : mangle(p->name.text));
-  }
-  return out + ")";
-}
 
 namespace {
 
@@ -50,6 +19,8 @@ const SelfSymbol *selfOf(const Expr *e) {
              : nullptr;
 }
 
+} // namespace
+
 bool isSuper(const Expr *place) {
   if (place->kind != ExprKind::deref)
     return false;
@@ -57,18 +28,16 @@ bool isSuper(const Expr *place) {
   return self != nullptr && self->isSuper;
 }
 
-} // namespace
-
 /// `this`, or a pointer to its base part.
-void Emitter::self(const SelfSymbol *symbol) {
+void emitSelf(EmitContext &cx, const SelfSymbol *symbol) {
   if (symbol->isSuper)
-    w_ << "&this->base__";
+    cx.out << "&this->base__";
   else
-    w_ << "this";
+    cx.out << "this";
 }
 
 /// The instance is exactly of the expression's type, not of one that extends it.
-bool Emitter::isExact(const Expr *place) {
+bool isExact(const Expr *place) {
   const Symbol *symbol = nullptr;
   switch (place->kind) {
   case ExprKind::name:
@@ -88,114 +57,107 @@ bool Emitter::isExact(const Expr *place) {
 }
 
 /// The type id field of the instance, behind a `.`.
-void Emitter::typeIdOf(const Expr *instance) {
-  includes_.complete(instance->type);
-  place(instance);
-  w_ << '.' << pathToTypeId(typeAs<PouType>(instance->type)->symbol);
+void emitTypeIdOf(EmitContext &cx, const Expr *instance) {
+  cx.includes.complete(instance->type);
+  emitPlace(cx, instance);
+  cx.out << '.' << pathToTypeId(typeAs<PouType>(instance->type)->symbol);
 }
 
 /// A place of a derived block as one of its base `type`.
-void Emitter::placeAs(const Expr *e, const Type *type) {
-  place(e);
+void emitPlaceAs(EmitContext &cx, const Expr *e, const Type *type) {
+  emitPlace(cx, e);
   if (e->type == type || !isInstance(e->type) || !isInstance(type))
     return;
-  includes_.complete(e->type);
-  const std::string path =
-      pathToBase(typeAs<PouType>(e->type)->symbol, typeAs<PouType>(type)->symbol);
-  w_ << '.' << std::string_view(path).substr(0, path.size() - 1);
+  cx.includes.complete(e->type);
+  cx.out << baseSuffix(typeAs<PouType>(e->type)->symbol, typeAs<PouType>(type)->symbol);
 }
 
 /// A pointer to the place as one to its base `type`; null references stay null.
-void Emitter::addressAs(const Expr *e, const Type *type) {
+void emitAddressAs(EmitContext &cx, const Expr *e, const Type *type) {
   if (e->type == type || !isInstance(e->type) || !isInstance(type)) {
-    address(e);
+    emitAddress(cx, e);
     return;
   }
-  w_ << "reinterpret_cast<" << this->type(type) << " *>(";
-  address(e);
-  w_ << ')';
+  cx.out << "reinterpret_cast<" << cx.type(type) << " *>(";
+  emitAddress(cx, e);
+  cx.out << ')';
 }
 
 // ------------------------------------------------------------------------------------------------
 // calls
 
 /// The interface whose method is called; raises where it is 0.
-void Emitter::interfaceOf(const Expr *object, Span span) {
-  if (const auto found = found_.find(object); found != found_.end()) {
-    w_ << found->second;
+void emitInterface(EmitContext &cx, const Expr *object, Span span) {
+  if (const auto found = cx.found.find(object); found != cx.found.end()) {
+    cx.out << found->second;
     return;
   }
-  w_ << (checks() ? "::stride::used(" : "");
-  if (checks())
-    w_ << ctx() << ", ";
-  value(object);
-  if (checks()) {
-    w_ << ", ";
-    position(object->span.valid() ? object->span : span);
-    w_ << ')';
+  cx.out << (cx.checks() ? "::stride::used(" : "");
+  if (cx.checks())
+    cx.out << cx.ctx() << ", ";
+  emitValue(cx, object);
+  if (cx.checks()) {
+    cx.out << ", ";
+    cx.position(object->span.valid() ? object->span : span);
+    cx.out << ')';
   }
 }
 
 /// `this->Run(ctx__`, `m.base__.Run(ctx__`, `m.Run__call(ctx__`, `IShape__Area(ctx__, i`.
-void Emitter::methodPrefix(const Expr *object, const PouSymbol *method, Span span) {
+void openMethodCall(EmitContext &cx, const Expr *object, const PouSymbol *method, Span span) {
   const PouSymbol *owner = method->owner;
   for (const VarSymbol *p : method->parameters())
-    includes_.complete(p->type);
+    cx.includes.complete(p->type);
   if (method->result != nullptr)
-    includes_.complete(method->result->type);
+    cx.includes.complete(method->result->type);
   if (owner->isInterface()) {
-    includes_.symbol(owner);
-    w_ << c_.names.qualified(method) << '(' << ctx() << ", ";
-    interfaceOf(object, span);
+    cx.includes.symbol(owner);
+    cx.out << cx.run.names.qualified(method) << '(' << cx.ctx() << ", ";
+    emitInterface(cx, object, span);
     return;
   }
   const PouSymbol *from = nullptr;
   bool exact = false;
   if (object == nullptr) { // a method of the block itself
-    from = blockOf(pou_);
-    w_ << "this->";
+    from = blockOf(cx.pou);
+    cx.out << "this->";
   } else {
     from = typeAs<PouType>(object->type)->symbol;
     exact = isExact(object) || isSuper(object);
-    includes_.complete(object->type);
-    place(object);
-    w_ << '.';
+    cx.includes.complete(object->type);
+    emitPlace(cx, object);
+    cx.out << '.';
   }
-  w_ << pathToBase(from, owner) << methodName(method);
+  cx.out << pathToBase(from, owner) << methodName(method);
   if (!exact && isDispatched(method))
-    w_ << "__call";
-  w_ << '(' << ctx();
+    cx.out << "__call";
+  cx.out << '(' << cx.ctx();
 }
 
-const Expr *Emitter::objectOf(const CallExpr *e) {
+const Expr *objectOf(const CallExpr *e) {
   return e->callee->kind == ExprKind::member ? as<MemberExpr>(e->callee)->base : nullptr;
 }
 
 /// Reading a property: `instance` is null inside of the block.
-void Emitter::propertyGet(const Expr *instance, const PropertySymbol *property, Span span) {
-  const PouSymbol *get = accessor(property, true);
-  const bool reference = property->type->kind == TypeKind::reference;
-  if (reference) {
-    includes_.complete(typeAs<PointerType>(property->type)->pointee);
-    w_ << (checks() ? "::stride::deref(" : "(*");
-    if (checks())
-      w_ << ctx() << ", ";
+void emitPropertyGet(EmitContext &cx, const Expr *instance, const PropertySymbol *property,
+                     Span span) {
+  const PouSymbol *get = accessorOf(property, true);
+  const auto call = [&] {
+    openMethodCall(cx, instance, get, span);
+    cx.out << ')';
+  };
+  if (property->type->kind == TypeKind::reference) {
+    cx.includes.complete(typeAs<PointerType>(property->type)->pointee);
+    emitFollowed(cx, Slot::reference, span, call);
+  } else if (returnsBlock(get, property->type)) {
+    emitBlockResult(cx, property->type, call);
+  } else {
+    call();
   }
-  const std::size_t start = w_.size();
-  methodPrefix(instance, get, span);
-  w_ << ')';
-  if (!reference)
-    placeValue(start, property->type, get);
-  if (reference && checks()) {
-    w_ << ", ";
-    position(span);
-  }
-  if (reference)
-    w_ << ')';
 }
 
 /// The accessor that `property` names: its own, or the inherited half.
-const PouSymbol *Emitter::accessor(const PropertySymbol *property, bool get) {
+const PouSymbol *accessorOf(const PropertySymbol *property, bool get) {
   for (const PouSymbol *p = property->owner; p != nullptr; p = p->base) {
     const auto it = p->members.find(property->name.id);
     if (it == p->members.end() || it->second->kind != SymbolKind::property)
@@ -207,51 +169,51 @@ const PouSymbol *Emitter::accessor(const PropertySymbol *property, bool get) {
   return nullptr;
 }
 
-/// `instance.Speed__set(ctx__, value);` with the value as `writeValue` writes it.
-void Emitter::propertySet(const Expr *target, const std::function<void()> &writeValue) {
+/// `instance.Speed__set(ctx__, value);` with the value as `value` writes it.
+void emitPropertySet(EmitContext &cx, const Expr *target, Part value) {
   const PropertySymbol *property = writtenProperty(target);
   const Expr *instance = target->kind == ExprKind::member ? as<MemberExpr>(target)->base : nullptr;
-  methodPrefix(instance, accessor(property, false), target->span);
-  w_ << ", ";
-  writeValue();
-  w_ << ");";
+  openMethodCall(cx, instance, accessorOf(property, false), target->span);
+  cx.out << ", ";
+  value();
+  cx.out << ");";
 }
 
 // ------------------------------------------------------------------------------------------------
 // __QUERYINTERFACE, __QUERYPOINTER
 
-void Emitter::query(const CallExpr *e) {
+void emitQuery(EmitContext &cx, const CallExpr *e) {
   const Expr *source = e->arguments[0].value;
   const Expr *target = e->arguments[1].value;
-  const std::string from = temporary("from");
-  const std::string has = temporary("has");
+  const std::string from = cx.temporary("from");
+  const std::string has = cx.temporary("has");
   const bool toPointer = e->builtin == Builtin::queryPointer;
   const Type *wanted = toPointer ? typeAs<PointerType>(target->type)->pointee : target->type;
   const PouSymbol *pou = typeAs<PouType>(wanted)->symbol;
-  includes_.symbol(pou);
-  w_ << "[&] { const ::stride::Interface " << from << " = ";
+  cx.includes.symbol(pou);
+  cx.out << "[&] { const ::stride::Interface " << from << " = ";
   if (isInstance(source->type)) {
-    w_ << '&';
-    typeIdOf(source);
+    cx.out << '&';
+    emitTypeIdOf(cx, source);
   } else {
-    value(source);
+    emitValue(cx, source);
   }
-  w_ << "; const bool " << has << " = " << from << " != nullptr && " << c_.names.qualified(pou)
-     << "__is__(*" << from << "); ";
+  cx.out << "; const bool " << has << " = " << from << " != nullptr && "
+         << cx.run.names.qualified(pou) << "__is__(*" << from << "); ";
   std::string result = from;
   if (toPointer) {
-    const std::string type(c_.names.qualified(pou));
+    const std::string type(cx.run.names.qualified(pou));
     result = "reinterpret_cast<" + type + " *>(reinterpret_cast<char *>(" + from + ") - offsetof(" +
              type + ", " + pathToTypeId(pou) + "))";
   }
   const std::string stored = has + " ? " + result + " : nullptr";
   if (writtenProperty(target) != nullptr) {
-    propertySet(target, [&] { w_ << stored; });
+    emitPropertySet(cx, target, [&] { cx.out << stored; });
   } else {
-    place(target);
-    w_ << " = " << stored << ';';
+    emitPlace(cx, target);
+    cx.out << " = " << stored << ';';
   }
-  w_ << " return " << has << "; }()";
+  cx.out << " return " << has << "; }()";
 }
 
 } // namespace stc::codegen

@@ -113,6 +113,13 @@ std::string mangle(std::string_view name) {
   return out;
 }
 
+std::string declared(std::string_view type, std::string_view mangled) {
+  std::string out(type);
+  if (out.back() != '*' && out.back() != '&')
+    out += ' ';
+  return out.append(mangled);
+}
+
 std::string fieldName(const VarSymbol *variable) {
   return mangle(variable->storage.empty() ? variable->name.text : variable->storage);
 }
@@ -131,6 +138,13 @@ std::string pathToBase(const PouSymbol *from, const PouSymbol *to) {
   for (const PouSymbol *p = from; p != nullptr && p != to; p = p->base)
     path += "base__.";
   return path;
+}
+
+std::string baseSuffix(const PouSymbol *from, const PouSymbol *to) {
+  std::string suffix;
+  for (const PouSymbol *p = from; p != nullptr && p != to; p = p->base)
+    suffix += ".base__";
+  return suffix;
 }
 
 std::string pathToTypeId(const PouSymbol *block) {
@@ -192,6 +206,7 @@ const Names::Entry &Names::entry(const Symbol *symbol) {
     entry.local = owner.local + "__" + methodName(method);
     entry.qualified = owner.qualified + "__" + methodName(method);
     entry.header = owner.header;
+    entry.file = owner.file;
     return entry;
   }
   std::string file(symbol->name.text);
@@ -215,22 +230,25 @@ const Names::Entry &Names::entry(const Symbol *symbol) {
         c = '_';
     if (file.empty() || (file.front() >= '0' && file.front() <= '9'))
       file.insert(0, "_");
-    entry.local = file;
+    entry.local = file + "__globals__";
+    entry.list = file + "__";
     file += "__globals__";
-    entry.local += "__globals__";
   }
   const std::string path = "st/" + std::string(space(symbol->library)) + "/" + shortened(file);
   std::string suffix;
   for (int n = 2; !taken_.emplace(path + suffix + ".h", symbol).second; ++n)
     suffix = "__" + std::to_string(n);
   entry.local += suffix;
+  entry.list += suffix;
   entry.header = path + suffix + ".h";
+  entry.file = std::string(space(symbol->library)) + "/" + shortened(file) + suffix;
   entry.qualified = "::st::" + std::string(space(symbol->library)) + "::" + entry.local;
   return entry;
 }
 
 std::string_view Names::local(const Symbol *symbol) { return entry(symbol).local; }
 std::string_view Names::qualified(const Symbol *symbol) { return entry(symbol).qualified; }
+std::string_view Names::listName(const GlobalsSymbol *list) { return entry(list).list; }
 std::string_view Names::header(const Symbol *symbol) { return entry(symbol).header; }
 
 const Symbol *Names::symbolOf(const Type *type) {
@@ -262,10 +280,10 @@ std::string_view Names::elementary(TypeKind kind) {
                                   : std::string_view("None");
 }
 
+std::string Names::source(const Symbol *symbol) { return entry(symbol).file + ".cpp"; }
+
 std::string Names::inlineHeader(const Symbol *symbol) {
-  std::string path(header(symbol));
-  path.insert(path.size() - 1, "inline.");
-  return path;
+  return "st/" + entry(symbol).file + ".inline.h";
 }
 
 std::string_view Names::type(const Type *type) {

@@ -17,12 +17,17 @@ std::string mangle(std::string_view name);
 /// Appends it.
 void mangleTo(std::string &out, std::string_view name);
 
+/// `T name`, `T *name`: pointers want no blank in between.
+[[nodiscard]] std::string declared(std::string_view type, std::string_view mangled);
+
 /// The field of an instance, structure or list that holds the variable.
 [[nodiscard]] std::string fieldName(const VarSymbol *variable);
 /// The member function of a method, action or accessor: `Run`, `Speed__get`.
 [[nodiscard]] std::string methodName(const PouSymbol *method);
 /// The way from an instance of `from` to its part `to`, which it is or extends: `base__.base__.`
 [[nodiscard]] std::string pathToBase(const PouSymbol *from, const PouSymbol *to);
+/// The same behind the instance: `.base__.base__`
+[[nodiscard]] std::string baseSuffix(const PouSymbol *from, const PouSymbol *to);
 /// The way to the type id of an instance that has one: `base__.type__`
 [[nodiscard]] std::string pathToTypeId(const PouSymbol *block);
 
@@ -41,9 +46,13 @@ public:
   [[nodiscard]] std::string_view local(const Symbol *symbol);
   /// `::st::user::Foo`
   [[nodiscard]] std::string_view qualified(const Symbol *symbol);
+  /// `GVL__`: what a list of variables is called in bodies and in the state.
+  [[nodiscard]] std::string_view listName(const GlobalsSymbol *list);
   /// `st/user/Foo.h`
   [[nodiscard]] std::string_view header(const Symbol *symbol);
 
+  /// `user/Foo.cpp`
+  [[nodiscard]] std::string source(const Symbol *symbol);
   /// `st/user/Foo.inline.h`
   [[nodiscard]] std::string inlineHeader(const Symbol *symbol);
   /// What the type__ of its instances holds: never 0, different for all blocks of a program.
@@ -62,6 +71,8 @@ private:
     std::string local;
     std::string qualified;
     std::string header;
+    std::string file; ///< `user/Foo`
+    std::string list; ///< of a list of variables
   };
   const Entry &entry(const Symbol *symbol);
 

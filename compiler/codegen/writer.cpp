@@ -34,7 +34,7 @@ Place Writer::place(Span span) {
 }
 
 void Writer::from(Span span) {
-  if (!span.valid())
+  if (!span.valid() || form_ != Form::mapped)
     return;
   const std::uint32_t line = place(span).line;
   if (mapped_ == span.file && believed_ == line)

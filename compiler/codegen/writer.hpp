@@ -1,6 +1,7 @@
 #pragma once
 // Text of one generated file, and where each of its lines comes from.
 
+#include "compiler/codegen/scoped.hpp"
 #include "compiler/source/source_manager.hpp"
 
 #include <charconv>
@@ -8,6 +9,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace stc::codegen {
 
@@ -20,6 +22,8 @@ struct Place {
 /// Appends to a text, with indentation and `#line` directives. A directive is written only where
 /// the compiler's own count of lines would be wrong.
 class Writer {
+  enum class Form : std::uint8_t { mapped, unmapped, gathered };
+
 public:
   explicit Writer(const SourceManager &sources) : sources_(&sources) { text_.reserve(4096); }
 
@@ -43,10 +47,15 @@ public:
 
   /// Begins a line of its own; end it with endLine().
   Writer &line() {
-    text_.append(2 * indent_, ' ');
+    if (form_ != Form::gathered)
+      text_.append(2 * indent_, ' ');
     return *this;
   }
   void endLine() {
+    if (form_ == Form::gathered) {
+      text_.push_back(' ');
+      return;
+    }
     text_.push_back('\n');
     ++count_;
     ++believed_;
@@ -67,23 +76,38 @@ public:
   /// The place of the span's begin.
   [[nodiscard]] Place place(Span span);
 
-  [[nodiscard]] std::size_t size() const { return text_.size(); }
-  /// Takes back everything behind `size` (within the current line).
-  [[nodiscard]] std::string cut(std::size_t size) {
-    std::string tail = text_.substr(size);
-    text_.resize(size);
-    return tail;
+  /// What `write` appends, apart from the text (within the current line).
+  template <class Write> [[nodiscard]] std::string aside(Write &&write) {
+    std::string before = std::exchange(text_, std::exchange(spare_, {}));
+    write();
+    std::string result(text_);
+    text_.clear();
+    spare_ = std::exchange(text_, std::move(before));
+    return result;
   }
-  [[nodiscard]] const std::string &text() const { return text_; }
+  [[nodiscard]] bool empty() const { return text_.empty(); }
   [[nodiscard]] std::string take() { return std::move(text_); }
+
+  /// Until the scope ends lines follow each other with a blank in between, on the current line.
+  class Gathered {
+  public:
+    explicit Gathered(Writer &writer) : form_(writer.form_, Form::gathered) {}
+
+  private:
+    Scoped<Form> form_;
+  };
+  /// No directives are written from now on: the lines are a header's own.
+  void withoutDirectives() { form_ = Form::unmapped; }
 
 private:
   const SourceManager *sources_;
   std::string text_;
+  std::string spare_; ///< empty, with room for what is written aside
   std::size_t indent_ = 0;
   std::uint32_t count_ = 1;    ///< number of the line being written
   std::uint32_t believed_ = 1; ///< what the C++ compiler takes it for
-  FileId mapped_ = 0;          ///< the file it takes it to be in; 0: the generated one
+  Form form_ = Form::mapped;
+  FileId mapped_ = 0; ///< the file it takes it to be in; 0: the generated one
   // The place that was asked for last; the next one is usually near.
   FileId cachedFile_ = 0;
   std::uint32_t cachedBegin_ = 1; ///< of its line in the text
