@@ -40,8 +40,9 @@ class State:
     def __init__(self):
         self.path = FOLDER / "state.json"
         known = json.loads(self.path.read_text()) if self.path.exists() else {}
-        self.broken = set(known.get("broken", []))  # keys of what does not compile
+        self.broken = set(known.get("broken", []))  # keys of what does not compile or is computed by the compiler
         self.tests = known.get("tests", {})         # name: {"seconds", "fingerprint", "reached"}
+        self.numbers = known.get("numbers", {})     # key: the number that it keeps, so that others need not be compiled again
         self.keys = known.get("keys", [])           # the mutants that were there when it was found out what the tests reach
         self.results = known.get("results", {})     # key: {"killed_by"} (null: it survives)
 
@@ -49,7 +50,7 @@ class State:
         """After every result"""
         FOLDER.mkdir(parents=True, exist_ok=True)
         fresh = self.path.with_suffix(".new")
-        fresh.write_text(json.dumps({"broken": sorted(self.broken), "keys": self.keys, "tests": self.tests, "results": self.results}, indent=1))
+        fresh.write_text(json.dumps({"broken": sorted(self.broken), "numbers": self.numbers, "keys": self.keys, "tests": self.tests, "results": self.results}, indent=1))
         fresh.rename(self.path)
 
 
@@ -58,9 +59,10 @@ def drawn(state, areas):
     numbered = {}
     for area in areas:
         for mutant in draw.draw(TOP, area, lambda mutant: mutant.key not in state.broken):
-            numbered[len(numbered) + 1] = mutant
-    assert len(numbered) <= MOST_MUTANTS
-    return numbered
+            number = state.numbers.setdefault(mutant.key, max(state.numbers.values(), default=0) + 1)
+            numbered[number] = mutant
+    assert max(numbered) <= MOST_MUTANTS
+    return dict(sorted(numbered.items()))
 
 
 def environment(**more):
@@ -260,11 +262,25 @@ def forget_changed(state, tests, numbered):
             del state.tests[name]
 
 
+def at_compile_time(state, numbered):
+    """Keys of those in functions that no test reaches and that the compiler computes, as it does for tables"""
+    reached = {key for test in state.tests.values() for key in test["reached"]}
+    return {mutant.key for mutant in numbered.values()
+            if mutant.key not in reached and {"constexpr", "consteval"} & {token.text for token in mutant.body.head}}
+
+
 def whole(state, areas, options):
     """Build, reach, run, report"""
-    numbered = (built if options.built else build)(state, areas, options)
-    tests = tests_of_build(areas)
-    forget_changed(state, tests, numbered)
-    reach(state, tests, numbered, options.jobs)
+    while True:
+        numbered = (built if options.built else build)(state, areas, options)
+        tests = tests_of_build(areas)
+        forget_changed(state, tests, numbered)
+        reach(state, tests, numbered, options.jobs)
+        computed = at_compile_time(state, numbered)
+        if not computed or options.built:
+            break
+        print(f"{len(computed)} mutants are of functions that the compiler computes", flush=True)
+        state.broken |= computed
+        state.save()
     campaign(state, numbered, tests, options)
     report(state, drawn(state, areas))

@@ -256,4 +256,20 @@ TEST_F(RetainKeeperTest, AResetToOriginIsNotDoneBeforeTheFolderIsDurable) {
   EXPECT_EQ(savedGeneration(file), 0U);
 }
 
+/// A reset says what is wrong with the other image, and counts what it keeps.
+TEST_F(RetainKeeperTest, AResetSaysWhatItCannotUse) {
+  Build build(1);
+  for (int i = 0; i < 2; ++i) {
+    RetainKeeper keeper(build.app(), build.state(), settings, lines.say());
+    EXPECT_TRUE(keeper.finish());
+  }
+  std::string bytes = test::readFile(file + ".a");
+  bytes.back() = static_cast<char>(bytes.back() ^ 1);
+  test::writeFile(file + ".a", bytes);
+  ::testing::internal::CaptureStderr();
+  EXPECT_TRUE(host::resetRetained(host::ResetKind::Warm, file, messages, app::systemFiles()));
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(),
+            "warning: retained data: '" + file + ".a' is not used: its checksum is wrong\n");
+}
+
 } // namespace

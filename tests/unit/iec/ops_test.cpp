@@ -84,6 +84,10 @@ TEST(Integers, Power) {
   EXPECT_EQ(power<DINT>(2, 32), 0);
   EXPECT_EQ(power<DINT>(0, 0), 1);
   EXPECT_EQ(power<DINT>(-1, -3), -1);
+  EXPECT_EQ(power<DINT>(-1, -4), 1);
+  EXPECT_EQ(power<DINT>(1, -3), 1);
+  EXPECT_EQ(power<UDINT>(1, -4), 1U);
+  EXPECT_EQ(power<UDINT>(UINT32_MAX, -1), 0U) << "which has no sign";
   EXPECT_EQ(power<DINT>(5, -1), 0);
   EXPECT_EQ(power<LINT>(3, 39), 4052555153018976267);
 }
@@ -150,6 +154,28 @@ TEST(Conversions, RealToInteger) {
   EXPECT_EQ(truncate<DINT>(2.9), 2);
   EXPECT_EQ(truncate<DINT>(-2.9), -2);
   EXPECT_EQ(truncate<DINT>(1e12), kMax);
+}
+
+/// At, below and above the limits of 64 bits: the numbers next to them are 1024 or 2048 away.
+TEST(Conversions, RealToIntegerAtTheLimits) {
+  constexpr LREAL k2To63 = 9223372036854775808.0;
+  constexpr LREAL k2To64 = 2 * k2To63;
+  const LREAL below63 = std::nextafter(k2To63, 0.0);
+  EXPECT_EQ(convert<LINT>(below63), INT64_MAX - 1023);
+  EXPECT_EQ(convert<LINT>(k2To63), INT64_MAX);
+  EXPECT_EQ(convert<LINT>(std::nextafter(k2To63, HUGE_VAL)), INT64_MAX);
+  EXPECT_EQ(convert<LINT>(-below63), INT64_MIN + 1024);
+  EXPECT_EQ(convert<LINT>(-k2To63), INT64_MIN);
+  EXPECT_EQ(convert<LINT>(std::nextafter(-k2To63, -HUGE_VAL)), INT64_MIN);
+  EXPECT_EQ(convert<ULINT>(below63), (uint64_t{1} << 63) - 1024);
+  EXPECT_EQ(convert<ULINT>(k2To63), uint64_t{1} << 63);
+  EXPECT_EQ(convert<ULINT>(std::nextafter(k2To64, 0.0)), UINT64_MAX - 2047);
+  EXPECT_EQ(convert<ULINT>(k2To64), UINT64_MAX);
+  EXPECT_EQ(convert<DINT>(k2To63), INT32_MAX);
+  EXPECT_EQ(convert<DINT>(2147483647.4), INT32_MAX);
+  EXPECT_EQ(convert<DINT>(2147483646.5), INT32_MAX);
+  EXPECT_EQ(convert<DINT>(2147483646.4), INT32_MAX - 1);
+  EXPECT_EQ(truncate<DINT>(-2147483648.9), INT32_MIN);
 }
 
 TEST(Conversions, IntegersWrap) {

@@ -180,6 +180,42 @@ TEST_F(RetainImageTest, AnotherBuildTakesPersistentVariablesOnly) {
   EXPECT_STREQ(reinterpret_cast<char *>(b.state() + b.at(8)), "abc");
 }
 
+/// A variable at an address may be renamed within its list, or have come from another one.
+TEST_F(RetainImageTest, RenamedVariablesInTheProcessImage) {
+  for (Build *build : {&a, &b}) {
+    const bool before = build == &a;
+    const ModelType *dint = build->elementary(Kind::DINT);
+    const uint32_t flags = kSymLocated | kSymPersistent;
+    build->root("GVL", before ? "old" : "renamed", dint, flags, before ? "" : "old");
+    build->root(before ? "Other" : "GVL", before ? "there" : "here", dint, flags,
+                before ? "" : "Other.there");
+    build->root("GVL", "same", dint, flags);
+    build->ready(before ? 1 : 2);
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    a.set<int32_t>(a.at(i), static_cast<int32_t>(21 + i));
+  EXPECT_THAT(restore().lost, IsEmpty());
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(b.get<int32_t>(b.at(i)), static_cast<int32_t>(21 + i)) << i;
+}
+
+TEST_F(RetainImageTest, AFieldThatIsGoneIsSaid) {
+  for (Build *build : {&a, &b}) {
+    const ModelType *dint = build->elementary(Kind::DINT);
+    std::vector<ModelField> fields = {{"x", dint}, {"y", dint}, {"z", dint}};
+    if (build == &b)
+      fields.erase(fields.begin() + 1);
+    build->root("GVL", "s", build->structure("S", fields), kSymPersistent);
+    build->ready(build == &a ? 1 : 2);
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    a.set<int32_t>(4 * i, static_cast<int32_t>(31 + i));
+  EXPECT_THAT(restore().lost,
+              ElementsAre("GVL.s.y is not restored: the program does not have it any more"));
+  EXPECT_EQ(b.get<int32_t>(0), 31);
+  EXPECT_EQ(b.get<int32_t>(4), 33);
+}
+
 TEST_F(RetainImageTest, ResetColdKeepsPersistentVariables) {
   const ModelType *dint = a.elementary(Kind::DINT);
   a.root("G", "r", dint, kSymRetain);
@@ -308,6 +344,32 @@ TEST_F(RetainImageTest, DamagedBytesAreNoImage) {
                app::RetainVersionError);
   EXPECT_THROW(static_cast<void>(app::decodeImage(withVersion(std::byte{1}, false))),
                app::RetainVersionError);
+  // The same of the first version: told apart only where it is not damaged.
+  std::vector<std::byte> first = withVersion(std::byte{1}, false);
+  first.back() ^= std::byte{1};
+  try {
+    static_cast<void>(app::decodeImage(first));
+    FAIL();
+  } catch (const app::Error &error) {
+    EXPECT_STREQ(error.what(), "its checksum is wrong");
+  }
+}
+
+TEST_F(RetainImageTest, LowerBoundsOfArraysAreReadWithinTheirLimits) {
+  constexpr int64_t kMost = int64_t{1} << 40;
+  for (const int64_t low :
+       {-kMost - 1, -kMost, -kMost + 1, int64_t{-7}, kMost - 1, kMost, kMost + 1}) {
+    Build build;
+    build.root("G", "r", build.array(build.elementary(Kind::DINT), low, low + 2), kSymRetain);
+    build.finish();
+    const std::vector<std::byte> encoded = RetainLayout(build.app(), app::kRetained).encode();
+    if (low < -kMost || low > kMost) {
+      EXPECT_THROW(static_cast<void>(RetainLayout::decode(encoded)), app::Error) << low;
+      continue;
+    }
+    const RetainLayout layout = RetainLayout::decode(encoded);
+    EXPECT_EQ(layout.description().types[layout.description().roots[0].type].lowerBound, low);
+  }
 }
 
 TEST_F(RetainImageTest, RangesBelongToTheTaskOfTheirProgram) {

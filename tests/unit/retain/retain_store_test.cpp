@@ -556,6 +556,22 @@ TEST(RetainStore, SaysWhereItCannotWrite) {
   }
 }
 
+/// A process that was started with its standard input closed gives the file that number.
+TEST(RetainStore, SavesAlsoWhereTheFirstFreeHandleIs0) {
+  const Generations generations;
+  const test::ScratchDirectory scratch;
+  RetainStore store((scratch.path() / "retain").string());
+  const int input = ::dup(0);
+  ::close(0);
+  EXPECT_NO_THROW(generations.save(store, 3));
+  if (input >= 0) {
+    ::dup2(input, 0);
+    ::close(input);
+  }
+  std::vector<std::string> problems;
+  EXPECT_EQ(Generations::load(store, problems), 3U);
+}
+
 TEST(RetainLock, OneAtATime) {
   const test::ScratchDirectory scratch;
   const std::string file = (scratch.path() / "sub" / "retain").string();
