@@ -297,5 +297,24 @@ TEST(House, TestsThatStartProgramsSayThatTheyDo) {
   EXPECT_GT(starting, 15U);
 }
 
+/// A test that no CMakeLists.txt names is compiled by nobody.
+TEST(House, EveryTestIsBuilt) {
+  std::string lists;
+  std::vector<fs::path> tests;
+  for (const fs::directory_entry &entry : fs::recursive_directory_iterator(kRoot / "tests")) {
+    const std::string name = entry.path().filename().string();
+    if (name == "CMakeLists.txt")
+      lists += readFile(entry.path());
+    else if (name.ends_with("_test.cpp") || name.ends_with("_property.cpp") ||
+             name.ends_with("_stress.cpp"))
+      tests.push_back(entry.path());
+  }
+  EXPECT_GT(tests.size(), 100U);
+  for (const fs::path &test : tests)
+    EXPECT_TRUE(
+        std::regex_search(lists, std::regex("(^|[\\s/])" + test.stem().string() + "\\.cpp")))
+        << test;
+}
+
 } // namespace
 } // namespace stride::test

@@ -157,6 +157,19 @@ TEST(EndVelocity, OfTheTrapezoid) {
   EXPECT_EQ(move({7, 30, 0}, 7, 30, dynamics).count, 0);
 }
 
+// Beyond its end a profile goes on with the velocity of its end.
+TEST(EndVelocity, GoesOnBeyondTheEnd) {
+  for (const RampType ramp : {RampType::Trapezoid, RampType::Sigmoid, RampType::Parabolic}) {
+    const Profile profile = move({2, 0, 0}, 100, 30, {ramp, 50, 100, 200, 1000});
+    EXPECT_EQ(profile.at(profile.duration).position, 100.0);
+    EXPECT_NEAR(profile.at(profile.duration + 0.25).position, 107.5, 1e-12);
+    EXPECT_NEAR(profile.at(profile.duration + 2).position, 160, 1e-12);
+    EXPECT_EQ(profile.at(profile.duration + 2).velocity, 30.0);
+    EXPECT_EQ(profile.at(-1).position, 2.0);
+    EXPECT_EQ(move({2, 0, 0}, 100, 0, {ramp, 50, 100, 200, 1000}).at(1e6).position, 100.0);
+  }
+}
+
 // The bits do not depend on compiler, optimisation or machine.
 TEST(Planner, SameBitsEverywhere) {
   uint64_t seed = 1;
