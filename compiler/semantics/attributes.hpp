@@ -1,16 +1,17 @@
 #pragma once
 // `{attribute 'name' := 'value'}` where one is looked for.
 
+#include "compiler/semantics/reporter.hpp"
 #include "compiler/syntax/ast.hpp"
 
-#include <algorithm>
 #include <string_view>
 
 namespace stc {
 
-[[nodiscard]] inline bool hasAttribute(const ast::Attributes &attributes, std::string_view name) {
-  return std::any_of(attributes.begin(), attributes.end(),
-                     [&](const ast::Attribute &a) { return a.name == name; });
-}
+[[nodiscard]] bool hasAttribute(const ast::Attributes &attributes, std::string_view name);
+
+/// The alignment in bytes that {attribute 'pack_mode'} gives; `otherwise` where there is none or a
+/// wrong one, which is reported.
+unsigned packMode(Reporter &reporter, const ast::Attributes &attributes, unsigned otherwise);
 
 } // namespace stc

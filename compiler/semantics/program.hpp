@@ -147,6 +147,10 @@ struct Program {
 /// reported.
 void check(Program &program, const std::vector<ast::File *> &files, const LibraryIndex &index);
 
+class Lookup;
+/// The same with a table of names (lookup/lookup.hpp) that can be asked afterwards.
+void check(Program &program, Lookup &names, const std::vector<ast::File *> &files);
+
 /// Declares and checks all of one library (for its headers and its compiled bodies).
 void checkLibrary(Program &program, std::string_view library, const LibraryIndex &index);
 

@@ -285,6 +285,7 @@ struct NamedTypeExpr : Node<TypeExpr, TypeExprKind::named> {
   std::span<Argument> arguments; ///< of `Block(…)`
   /// Of `ARRAY[…] OF Block[(…), (…)]`: the arguments of each element; empty otherwise.
   std::span<std::span<Argument>> elements;
+  Symbol *symbol = nullptr; ///< [sema] the type or block; null: an elementary type, or unknown
 };
 
 struct ArrayRange {

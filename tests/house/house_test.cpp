@@ -28,16 +28,20 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
       {"compiler/source", {}},
       {"compiler/syntax", {"compiler/source"}},
       {"compiler/semantics", {"compiler/syntax", "compiler/source", "runtime/iec"}},
-      {"compiler/semantics/context", {"compiler/semantics", "compiler/source"}},
+      {"compiler/semantics/lookup", {"compiler/semantics", "compiler/syntax", "compiler/source"}},
+      {"compiler/semantics/context",
+       {"compiler/semantics/lookup", "compiler/semantics", "compiler/source"}},
       {"compiler/semantics/checking",
        {"compiler/semantics/context", "compiler/semantics", "compiler/syntax", "compiler/source"}},
       {"compiler/semantics/statements",
-       {"compiler/semantics/checking", "compiler/semantics/context", "compiler/semantics"}},
-      {"compiler/semantics/lint", {"compiler/semantics/context", "compiler/semantics"}},
-      {"compiler/semantics/sharing", {"compiler/semantics"}},
+       {"compiler/semantics/checking", "compiler/semantics/context", "compiler/semantics",
+        "compiler/syntax"}},
+      {"compiler/semantics/lint",
+       {"compiler/semantics/context", "compiler/semantics", "compiler/syntax"}},
+      {"compiler/semantics/sharing", {"compiler/semantics", "compiler/syntax"}},
       {"compiler/semantics/program",
        {"compiler/semantics/lint", "compiler/semantics/statements", "compiler/semantics/checking",
-        "compiler/semantics/context", "compiler/semantics"}},
+        "compiler/semantics/context", "compiler/semantics/lookup", "compiler/semantics"}},
       {"compiler/codegen", {"compiler/semantics", "compiler/syntax", "compiler/source"}},
       {"compiler/project",
        {"compiler/codegen", "compiler/semantics", "compiler/syntax", "compiler/source",
@@ -95,7 +99,7 @@ std::vector<fs::path> sourcesBelow(const std::string &folder) {
 bool isChecking(const std::string &path) {
   const std::string semantics = "compiler/semantics/";
   for (const char *folder :
-       {"builtins", "calls", "classes", "config", "declarations", "expressions", "lookup", "types"})
+       {"builtins", "calls", "classes", "config", "declarations", "expressions", "names", "types"})
     if (path.starts_with(semantics + folder + "/"))
       return true;
   return false;

@@ -8,7 +8,7 @@
 #include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/expressions/expressions.hpp"
 #include "compiler/semantics/fold.hpp"
-#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/names/names.hpp"
 #include "compiler/semantics/types/resolve.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ const Type *namedType(Context &c, Expr *expr) {
     auto *member = as<MemberExpr>(expr);
     if (Symbol *space = resolveNamespace(c, member->base);
         space != nullptr && space->kind == SymbolKind::library)
-      symbol = lookupInLibrary(c, space->name.id, member->name.id);
+      symbol = c.names.inLibrary(space->name.id, member->name.id);
   }
   if (symbol == nullptr)
     return nullptr;

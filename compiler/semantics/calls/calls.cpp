@@ -10,7 +10,7 @@
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/expressions/expressions.hpp"
-#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/names/names.hpp"
 
 namespace stc::sema {
 
@@ -22,7 +22,7 @@ static const Type *notCallable(Context &c, CallExpr *expr, std::string message) 
     const auto *name = as<NameExpr>(expr->callee);
     if (name->symbol != nullptr)
       noteDeclaration(d, name->symbol);
-    if (c.builtins.contains(name->name.id))
+    if (c.names.isBuiltin(name->name.id))
       d.help("this variable hides the standard function; give it another name");
   }
   for (Argument &a : expr->arguments) {

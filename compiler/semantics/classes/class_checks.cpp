@@ -6,7 +6,6 @@
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/hierarchy.hpp"
-#include "compiler/semantics/lookup/names.hpp"
 #include "compiler/semantics/suggest.hpp"
 
 #include <map>
@@ -54,7 +53,7 @@ void checkClass(Context &c, PouSymbol *pou) {
   if (pou->base == nullptr && pou->interfaces.empty() && pou->methods.empty() &&
       (pou->decl->modifiers & (modAbstract | modFinal)) == 0)
     return;
-  const ScopeGuard guard(c, {&moduleOf(c, pou), pou});
+  const ScopeGuard guard(c, {&c.names.moduleOf(pou), pou});
   if (pou->isAbstract() && pou->isFinal())
     c.report(Code::modifierNotAllowed, pou->name.span,
              "`" + std::string(pou->name.text) + "` cannot be ABSTRACT and FINAL",

@@ -7,7 +7,7 @@
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/hierarchy.hpp"
-#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/names/names.hpp"
 #include "compiler/semantics/types/resolve.hpp"
 #include "compiler/syntax/parser.hpp"
 
@@ -68,7 +68,7 @@ static PouSymbol *lookupBase(Context &c, NamePath path, bool interface, const Po
   if (path.size() == 1) {
     symbol = lookupDeclared(c, name);
     if (symbol == nullptr || symbol->kind == SymbolKind::variable) {
-      Symbol *inLibrary = lookupInLibraries(c, name.id);
+      Symbol *inLibrary = c.names.inLibraries(c.scope, name.id);
       symbol = inLibrary != nullptr ? inLibrary : symbol;
     }
   } else {
@@ -102,7 +102,7 @@ void link(Context &c, PouSymbol *pou) {
   if (isTooDeep(c, pou->name))
     return;
   pou->linking = true;
-  const ScopeGuard guard(c, {&moduleOf(c, pou), nullptr, pou->decl});
+  const ScopeGuard guard(c, {&c.names.moduleOf(pou), nullptr, pou->decl});
   makeMembers(c, pou);
   const auto circle = [&](PouSymbol *other, const Name &name) {
     if (!other->linking)

@@ -14,7 +14,7 @@ using namespace ast;
 
 void checkAccesses(Context &c, Module &module) {
   std::unordered_map<Ident, const VarDecl *> names;
-  for (GlobalsDecl *list : c.accesses) {
+  for (GlobalsDecl *list : c.names.configuration().accesses) {
     for (VarDecl *decl : list->variables) {
       const auto [first, fresh] = names.emplace(decl->name.id, decl);
       if (!fresh) {

@@ -190,7 +190,7 @@ void checkConfigured(Context &c, Module &module) {
         collectSlots(c, v->type, path, slots);
     }
   }
-  for (GlobalsDecl *list : c.configs) {
+  for (GlobalsDecl *list : c.names.configuration().configs) {
     for (VarDecl *decl : list->variables) {
       if (decl->path != nullptr)
         checkConfigEntry(c, decl, module, slots);

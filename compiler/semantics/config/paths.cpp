@@ -6,7 +6,7 @@
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/expressions/expressions.hpp"
-#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/names/names.hpp"
 #include "compiler/semantics/suggest.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using namespace ast;
 
 /// The object of a path's first name; null (and reported) when there is none.
 static Symbol *pathRoot(Context &c, const Name &name, Module &module) {
-  Symbol *symbol = lookupInModule(module, name.id);
+  Symbol *symbol = module.find(name.id);
   if (symbol == nullptr) {
     for (const auto &[id, list] : module.lists) {
       const auto it = list->scope.find(name.id);
@@ -95,14 +95,15 @@ std::optional<PathTarget> resolvePath(Context &c, Expr *expr, Module &module,
     // In front may stand the configuration's, a resource's or a variable list's name.
     if (member->base->kind == ExprKind::name) {
       const Name &first = as<NameExpr>(member->base)->name;
-      if (lookupInModule(module, first.id) == nullptr &&
-          (c.resourceNames.contains(first.id) || module.lists.contains(first.id)))
+      if (module.find(first.id) == nullptr &&
+          (c.names.configuration().resourceNames.contains(first.id) ||
+           module.lists.contains(first.id)))
         return start(member->name);
     } else if (member->base->kind == ExprKind::member) {
       auto *second = as<MemberExpr>(member->base);
       if (second->base->kind == ExprKind::name && second->name &&
-          c.resourceNames.contains(as<NameExpr>(second->base)->name.id) &&
-          c.resourceNames.contains(second->name.id))
+          c.names.configuration().resourceNames.contains(as<NameExpr>(second->base)->name.id) &&
+          c.names.configuration().resourceNames.contains(second->name.id))
         return start(member->name);
     }
     auto base = resolvePath(c, member->base, module, inside);

@@ -8,7 +8,7 @@
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/expressions/expressions.hpp"
 #include "compiler/semantics/fold.hpp"
-#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/names/names.hpp"
 
 #include <algorithm>
 #include <unordered_set>
@@ -49,7 +49,7 @@ void checkInitOf(Context &c, VarSymbol *variable) {
     return;
   }
   const Type *type = typeOf(c, variable);
-  const ScopeGuard guard(c, {&moduleOf(c, variable), variable->owner, variable->home});
+  const ScopeGuard guard(c, {&c.names.moduleOf(variable), variable->owner, variable->home});
   checkConstruct(c, variable);
   if (variable->decl->init == nullptr) {
     if (variable->isConstant && variable->section != Section::input &&

@@ -6,7 +6,6 @@
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/declarations/internal.hpp"
-#include "compiler/semantics/lookup/names.hpp"
 #include "compiler/semantics/types/resolve.hpp"
 
 namespace stc::sema {
@@ -27,7 +26,7 @@ void declare(Context &c, PouSymbol *pou) {
     declare(c, pou->base);
   for (PouSymbol *interface : pou->interfaces)
     declare(c, interface);
-  Module &home = moduleOf(c, pou);
+  Module &home = c.names.moduleOf(pou);
   const ScopeGuard guard(c, {&home, pou});
   std::vector<VarSymbol *> variables;
   PouDecl *decl = pou->decl;
@@ -59,7 +58,7 @@ void declare(Context &c, PouSymbol *pou) {
           .help(pou->isInterface() ? "declare a PROPERTY" : "use VAR, a METHOD or a PROPERTY");
       continue;
     }
-    VarSymbol *symbol = makeVariable(c, v, home, pou);
+    VarSymbol *symbol = makeVariable(c.arena, v, home, pou);
     const auto [it, fresh] = pou->scope.emplace(v->name.id, symbol);
     if (!fresh) {
       auto &d = c.report(Code::duplicateName, v->name.span,

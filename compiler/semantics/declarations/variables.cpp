@@ -7,26 +7,12 @@
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/declarations/internal.hpp"
-#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/types/resolve.hpp"
 
 namespace stc::sema {
 
 using namespace ast;
-
-VarSymbol *makeVariable(Context &c, VarDecl *decl, Module &module, PouSymbol *owner) {
-  auto *symbol = c.arena.make<VarSymbol>();
-  symbol->kind = SymbolKind::variable;
-  symbol->name = decl->name;
-  symbol->library = module.library;
-  symbol->decl = decl;
-  symbol->section = decl->section;
-  symbol->owner = owner;
-  symbol->isConstant = (decl->qualifiers & qualConstant) != 0;
-  symbol->hidden = hasAttribute(decl->attributes, "hide");
-  decl->symbol = symbol;
-  return symbol;
-}
 
 const Type *typeOf(Context &c, VarSymbol *variable) {
   if (variable->type != nullptr)
@@ -40,7 +26,7 @@ const Type *typeOf(Context &c, VarSymbol *variable) {
   }
   variable->typeRunning = true;
   const ModeGuard programs(c.programTypes, isProgramInstance(variable));
-  const ScopeGuard guard(c, {&moduleOf(c, variable), variable->owner, variable->home});
+  const ScopeGuard guard(c, {&c.names.moduleOf(variable), variable->owner, variable->home});
   const TypeExpr *inOutType = variable->section == Section::inOut ? variable->decl->type : nullptr;
   const ModeGuard openArrays(c.openArrayAllowed, inOutType);
   const Symbol *home =
@@ -62,9 +48,9 @@ const Type *typeOf(Context &c, VarSymbol *variable) {
 }
 
 void bindExternal(Context &c, PouSymbol *pou, VarDecl *decl) {
-  Symbol *global = lookupInModule(*c.scope.module, decl->name.id);
+  Symbol *global = c.scope.module->find(decl->name.id);
   if (global == nullptr)
-    global = lookupInLibraries(c, decl->name.id);
+    global = c.names.inLibraries(c.scope, decl->name.id);
   if (global == nullptr || global->kind != SymbolKind::variable) {
     c.report(Code::externalMismatch, decl->name.span,
              "there is no global variable `" + std::string(decl->name.text) + "`",
@@ -83,6 +69,20 @@ void bindExternal(Context &c, PouSymbol *pou, VarDecl *decl) {
     noteDeclaration(d, variable);
   }
   pou->scope.emplace(decl->name.id, variable);
+}
+
+VarSymbol *findMember(Context &c, const Type *type, Ident id) {
+  if (type->kind == TypeKind::structure) {
+    const auto &fields = typeAs<StructType>(type)->symbol->fields;
+    const auto it = fields.find(id);
+    return it == fields.end() ? nullptr : it->second;
+  }
+  if (isInstance(type)) {
+    PouSymbol *pou = typeAs<PouType>(type)->symbol;
+    declare(c, pou);
+    return findVariable(pou, id);
+  }
+  return nullptr;
 }
 
 } // namespace stc::sema

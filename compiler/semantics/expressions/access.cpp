@@ -6,7 +6,6 @@
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/expressions/internal.hpp"
 #include "compiler/semantics/hierarchy.hpp"
-#include "compiler/semantics/lookup/names.hpp"
 
 namespace stc::sema {
 
@@ -35,7 +34,7 @@ bool requireAccess(Context &c, Span span, const Symbol *member, const PouSymbol 
     who = "only `" + std::string(owner->name.text) + "` and blocks that extend it can use it";
     break;
   case Access::internalA:
-    if (seesInternals(c, member->library, owner->space))
+    if (c.names.seesInternals(c.scope, member->library, owner->space))
       return true;
     word = "INTERNAL";
     who = owner->space != nullptr ? "only the namespace `" + owner->space->path + "` can use it"

@@ -7,7 +7,7 @@
 #include "compiler/semantics/conversions.hpp"
 #include "compiler/semantics/fold.hpp"
 #include "compiler/semantics/fold_builtins.hpp"
-#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/names/names.hpp"
 #include "compiler/semantics/types/resolve.hpp"
 
 #include <algorithm>

@@ -7,7 +7,7 @@
 #include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/expressions/internal.hpp"
 #include "compiler/semantics/hierarchy.hpp"
-#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/names/names.hpp"
 #include "compiler/semantics/types/resolve.hpp"
 
 namespace stc::sema {

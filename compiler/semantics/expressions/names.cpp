@@ -8,7 +8,7 @@
 #include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/expressions/internal.hpp"
 #include "compiler/semantics/fold.hpp"
-#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/names/names.hpp"
 
 namespace stc::sema {
 
@@ -86,9 +86,9 @@ const Type *checkName(Context &c, NameExpr *expr, const Type *expected) {
                        (symbol->kind == SymbolKind::variable || symbol->kind == SymbolKind::pou ||
                         symbol->kind == SymbolKind::property || symbol->kind == SymbolKind::self);
   if (!isValue) {
-    bool ambiguous = false;
-    if (EnumeratorSymbol *e = lookupEnumerator(c, expr->name, expected, ambiguous)) {
-      if (ambiguous) {
+    const FoundEnumerator found = c.names.enumerator(c.scope, expr->name.id, expected);
+    if (EnumeratorSymbol *e = found.enumerator) {
+      if (found.isAmbiguous) {
         auto &d =
             c.report(Code::ambiguousName, expr->name.span,
                      "`" + std::string(expr->name.text) + "` is an enumerator of several types",
@@ -125,7 +125,7 @@ Symbol *resolveNamespace(Context &c, Expr *expr) {
       // library.
       Symbol *other = lookupDeclared(c, name->name);
       if (other == symbol || other == nullptr)
-        other = lookupInLibraries(c, name->name.id);
+        other = c.names.inLibraries(c.scope, name->name.id);
       if (other != nullptr && other->kind == SymbolKind::type)
         symbol = other;
     }

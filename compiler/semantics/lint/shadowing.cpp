@@ -139,7 +139,7 @@ static void checkHidden(Context &c, Module &module, const PouSymbol *pou, const 
               name + "` for the enumerator");
     return;
   }
-  for (const LibraryIndex::Entry &entry : c.index.find(v->name.id->lower)) {
+  for (const LibraryIndex::Entry &entry : c.names.index().find(v->name.id->lower)) {
     if (entry.qualifiedOnly || !declaresFunction(entry.text, v->name.id->lower))
       continue;
     const std::string library(entry.library);
@@ -153,7 +153,7 @@ void checkHiddenLibrary(Context &c, Module &module) {
   if (!module.library->isUser || !c.program.diagnostics.wants(Code::hidesLibrary))
     return;
   const auto look = [&](const Symbol *symbol, std::string_view what) {
-    for (const LibraryIndex::Entry &entry : c.index.find(symbol->name.id->lower)) {
+    for (const LibraryIndex::Entry &entry : c.names.index().find(symbol->name.id->lower)) {
       if (entry.qualifiedOnly || !declaresPouOrType(entry.text, symbol->name.id->lower))
         continue;
       const std::string library(entry.library);

@@ -8,7 +8,7 @@
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/lint/lint.hpp"
 #include "compiler/semantics/lint/shadowing.hpp"
-#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/names/names.hpp"
 #include "compiler/semantics/program.hpp"
 #include "compiler/semantics/program/own_checks.hpp"
 #include "compiler/semantics/statements/statements.hpp"
@@ -23,12 +23,13 @@ using namespace ast;
 static void lintModule(Context &c, Module &module);
 static void declareUsed(Context &c);
 
+template <class List, class Action> static void byIndex(List &list, Action &&action) {
+  for (std::size_t i = 0; i < list.size(); ++i) // the list may grow meanwhile
+    action(list[i]);
+}
+
 static void checkModule(Context &c, Module &module) {
   Library *library = module.library;
-  const auto byIndex = [](auto &list, auto &&action) {
-    for (std::size_t i = 0; i < list.size(); ++i) // the list may grow meanwhile
-      action(list[i]);
-  };
   resolveInstances(c, module);
   // Enumerators are visible without their type's name, so they come first.
   resolveEnumerations(c, module);
@@ -63,9 +64,9 @@ static void checkModule(Context &c, Module &module) {
 }
 
 static void checkUser(Context &c, const std::vector<File *> &files) {
-  Module &user = moduleNamed(c, "");
+  Module &user = c.names.module("");
   for (File *file : files)
-    declareFile(c, user, file);
+    c.names.declare(user, file);
   {
     const ScopeGuard guard(c, {&user, nullptr});
     for (const File *file : files)
@@ -93,10 +94,43 @@ static void lintModule(Context &c, Module &module) {
   Linter(c.program).run(*module.library);
 }
 
+/// Initial values of what a library's types are made with.
+static void checkDefaults(Context &c, TypeSymbol *t) {
+  if (t->onDemand) { // the application holds its code
+    const ScopeGuard guard(c, {&c.names.moduleOf(t), nullptr, t->decl});
+    for (VarSymbol *field : typeAs<StructType>(t->type)->fields)
+      checkInitOf(c, field);
+  }
+  const bool alias = t->decl != nullptr && t->decl->kind == DeclKind::alias;
+  if (!alias || t->init == nullptr || t->init->type != nullptr)
+    return;
+  const ScopeGuard guard(c, {&c.names.moduleOf(t), nullptr});
+  t->init = checkInit(c, t->init, t->type); // the default of the user's variables, too
+}
+
+/// Blocks of it are extended or implement interfaces: which ones must be known in full.
+static bool isHierarchyUsed(const Library &library) {
+  return std::any_of(library.pous.begin(), library.pous.end(), [](const PouSymbol *p) {
+    return p->isInterface() || (p->isBlock() && hasTypeId(p));
+  });
+}
+
+static void declareUsed(Context &c, Library &library) {
+  byIndex(library.pous, [&](PouSymbol *p) { declare(c, p); });
+  byIndex(library.globals, [&](GlobalsSymbol *g) { declare(c, g); });
+  byIndex(library.types, [&](TypeSymbol *t) { checkDefaults(c, t); });
+  // The library's own code has been compiled; what it uses must be in the application.
+  byIndex(library.pous, [&](PouSymbol *p) {
+    if (!p->decl->external)
+      checkBody(c, p);
+  });
+  if (!library.isUser && isHierarchyUsed(library))
+    c.names.loadAll(library.name);
+}
+
 /// Declares the blocks and lists read from libraries: an instance that nobody calls has members
-/// and defaults too.
+/// and defaults too. That pulls in what they use, so that the lists grow meanwhile.
 static void declareUsed(Context &c) {
-  // Declarations and bodies pull in what they use, so that the lists grow meanwhile.
   const auto count = [&c] {
     std::size_t total = c.program.libraries.size();
     for (const auto &library : c.program.libraries)
@@ -105,47 +139,14 @@ static void declareUsed(Context &c) {
   };
   for (std::size_t before = 0; before != count();) {
     before = count();
-    for (std::size_t l = 0; l < c.program.libraries.size(); ++l) {
-      Library *library = c.program.libraries[l].get();
-      for (std::size_t i = 0; i < library->pous.size(); ++i)
-        declare(c, library->pous[i]);
-      for (std::size_t i = 0; i < library->globals.size(); ++i)
-        declare(c, library->globals[i]);
-      for (std::size_t i = 0; i < library->types.size(); ++i) {
-        TypeSymbol *t = library->types[i];
-        if (t->onDemand) { // the application holds its code
-          const ScopeGuard guard(c, {&moduleOf(c, t), nullptr, t->decl});
-          for (VarSymbol *field : typeAs<StructType>(t->type)->fields)
-            checkInitOf(c, field);
-        }
-        const bool alias = t->decl != nullptr && t->decl->kind == DeclKind::alias;
-        if (!alias || t->init == nullptr || t->init->type != nullptr)
-          continue;
-        const ScopeGuard guard(c, {&moduleOf(c, t), nullptr});
-        t->init = checkInit(c, t->init, t->type); // the default of the user's variables, too
-      }
-      // The library's own code has been compiled; what it uses must be in the application.
-      for (std::size_t i = 0; i < library->pous.size(); ++i) {
-        if (!library->pous[i]->decl->external)
-          checkBody(c, library->pous[i]);
-      }
-      // Which blocks extend a library's block or implement its interface must be known in full.
-      if (!library->isUser && !c.wholeLibraries.contains(library) &&
-          std::any_of(library->pous.begin(), library->pous.end(), [](const PouSymbol *p) {
-            return p->isInterface() || (p->isBlock() && hasTypeId(p));
-          })) {
-        c.wholeLibraries.insert(library);
-        for (const LibraryIndex::Entry &entry : c.index.files(library->name))
-          loadLibraryFile(c, entry);
-      }
-    }
+    for (std::size_t l = 0; l < c.program.libraries.size(); ++l)
+      declareUsed(c, *c.program.libraries[l]);
   }
 }
 
 static void checkWholeLibrary(Context &c, std::string_view name) {
-  Module &target = moduleNamed(c, std::string(name));
-  for (const LibraryIndex::Entry &entry : c.index.files(name))
-    loadLibraryFile(c, entry);
+  Module &target = c.names.module(name);
+  c.names.loadAll(name);
   checkModule(c, target);
   declareUsed(c);
   lintModule(c, target);
@@ -155,14 +156,40 @@ static void checkWholeLibrary(Context &c, std::string_view name) {
 
 namespace stc {
 
-void check(Program &program, const std::vector<ast::File *> &files, const LibraryIndex &index) {
+namespace {
+
+/// Lets the check resolve enumerations of the files that are read while it runs.
+class LoadGuard {
+public:
+  explicit LoadGuard(sema::Context &c) : names_(c.names) {
+    names_.onLoad([&c](Module &module) { sema::resolveEnumerations(c, module); });
+  }
+  ~LoadGuard() { names_.onLoad({}); }
+  LoadGuard(const LoadGuard &) = delete;
+  LoadGuard &operator=(const LoadGuard &) = delete;
+
+private:
+  Lookup &names_;
+};
+
+} // namespace
+
+void check(Program &program, Lookup &names, const std::vector<ast::File *> &files) {
   program.files = files;
-  sema::Context context(program, index);
+  sema::Context context(program, names);
+  const LoadGuard guard(context);
   sema::checkUser(context, files);
 }
 
+void check(Program &program, const std::vector<ast::File *> &files, const LibraryIndex &index) {
+  Lookup names(program, index);
+  check(program, names, files);
+}
+
 void checkLibrary(Program &program, std::string_view library, const LibraryIndex &index) {
-  sema::Context context(program, index);
+  Lookup names(program, index);
+  sema::Context context(program, names);
+  const LoadGuard guard(context);
   sema::checkWholeLibrary(context, library);
 }
 

@@ -9,7 +9,7 @@
 #include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/expressions/expressions.hpp"
 #include "compiler/semantics/hierarchy.hpp"
-#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/names/names.hpp"
 #include "compiler/semantics/statements/internal.hpp"
 #include "compiler/semantics/types/resolve.hpp"
 
@@ -25,7 +25,7 @@ void checkBody(Context &c, PouSymbol *pou) {
   if (pou->checked)
     return;
   pou->checked = true;
-  const ScopeGuard guard(c, {&moduleOf(c, pou), pou});
+  const ScopeGuard guard(c, {&c.names.moduleOf(pou), pou});
   for (VarSymbol *v : pou->variables)
     checkInitOf(c, v);
   const ModeGuard loops(c.loopDepth, 0U);

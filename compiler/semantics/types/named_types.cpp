@@ -10,7 +10,7 @@
 #include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/expressions/expressions.hpp"
 #include "compiler/semantics/fold.hpp"
-#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/names/names.hpp"
 #include "compiler/semantics/types/internal.hpp"
 #include "compiler/syntax/parser.hpp"
 
@@ -38,7 +38,7 @@ void resolve(Context &c, TypeSymbol *symbol) {
     return;
   }
   symbol->resolving = true;
-  const ScopeGuard guard(c, {&moduleOf(c, symbol), nullptr, symbol->decl});
+  const ScopeGuard guard(c, {&c.names.moduleOf(symbol), nullptr, symbol->decl});
   switch (symbol->decl->kind) {
   case DeclKind::structure:
     resolveStruct(c, symbol, as<StructDecl>(symbol->decl));
@@ -62,22 +62,6 @@ void resolve(Context &c, TypeSymbol *symbol) {
   symbol->library->types.push_back(symbol);
 }
 
-unsigned packMode(Context &c, const Attributes &attributes, unsigned otherwise) {
-  for (const Attribute &a : attributes) {
-    if (a.name != "pack_mode")
-      continue;
-    if (a.value == "0" || a.value == "1")
-      return 1;
-    if (a.value == "2" || a.value == "4" || a.value == "8")
-      return static_cast<unsigned>(a.value[0] - '0');
-    c.report(Code::packMode, a.span,
-             "`" + std::string(a.value) + "` is no way to align the members of a structure",
-             "0, 1, 2, 4 or 8 is possible")
-        .note("0 and 1 leave no gaps; 2, 4 and 8 align each member to that many bytes at most");
-  }
-  return otherwise;
-}
-
 /// Makes `type` extend `base`, unless that makes too long a chain.
 static void extendStruct(Context &c, StructType *type, const Name &baseName,
                          const StructType *base) {
@@ -98,7 +82,8 @@ static void resolveStruct(Context &c, TypeSymbol *symbol, StructDecl *decl) {
   type->symbol = symbol;
   type->isUnion = decl->isUnion;
   symbol->type = type; // members may point back to it
-  type->pack = packMode(c, decl->attributes, symbol->library->isUser ? c.program.settings.pack : 0);
+  type->pack =
+      packMode(c.reporter, decl->attributes, symbol->library->isUser ? c.program.settings.pack : 0);
   if (!decl->base.empty()) {
     const Name &baseName = decl->base.back();
     Symbol *base = lookupPath(c, decl->base, true);
@@ -125,7 +110,7 @@ static void resolveStruct(Context &c, TypeSymbol *symbol, StructDecl *decl) {
   }
   std::vector<VarSymbol *> fields;
   for (VarDecl *f : decl->fields) {
-    VarSymbol *field = makeVariable(c, f, moduleOf(c, symbol), nullptr);
+    VarSymbol *field = makeVariable(c.arena, f, c.names.moduleOf(symbol), nullptr);
     field->home = decl;
     const auto [it, fresh] = symbol->fields.emplace(f->name.id, field);
     if (!fresh) {
@@ -167,7 +152,7 @@ const EnumType *makeEnum(Context &c, EnumTypeExpr *expr, TypeSymbol *symbol) {
     type->strict = hasAttribute(symbol->decl->attributes, "strict");
   if (symbol->decl != nullptr)
     type->named = hasAttribute(symbol->decl->attributes, "to_string");
-  Module &module = moduleOf(c, symbol);
+  Module &module = c.names.moduleOf(symbol);
   std::vector<EnumeratorSymbol *> list;
   std::unordered_map<Ident, EnumeratorSymbol *> seen;
   std::int64_t next = 0;
@@ -219,6 +204,13 @@ const EnumType *makeEnum(Context &c, EnumTypeExpr *expr, TypeSymbol *symbol) {
   type->qualifiedOnly =
       symbol->decl != nullptr && hasAttribute(symbol->decl->attributes, "qualified_only");
   return type;
+}
+
+void resolveEnumerations(Context &c, Module &module) {
+  for (std::size_t i = 0; i < module.declaredTypes.size(); ++i) { // the list may grow meanwhile
+    if (module.declaredTypes[i]->decl->kind == DeclKind::enumeration)
+      resolve(c, module.declaredTypes[i]);
+  }
 }
 
 } // namespace stc::sema

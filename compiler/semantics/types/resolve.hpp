@@ -9,8 +9,8 @@ namespace stc::sema {
 /// there.
 void checkContainment(Context &c, Module &module);
 void resolve(Context &c, TypeSymbol *symbol);
-/// The alignment that {attribute 'pack_mode'} gives.
-unsigned packMode(Context &c, const ast::Attributes &attributes, unsigned otherwise);
+/// The enumerations of a module: their enumerators can be named without them.
+void resolveEnumerations(Context &c, Module &module);
 const Type *resolveType(Context &c, ast::TypeExpr *expr, std::string_view hint);
 /// The type of a variable of a structure or block, which may be a BIT.
 const Type *resolveMember(Context &c, VarSymbol *variable, std::string_view hint);

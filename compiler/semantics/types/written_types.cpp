@@ -8,7 +8,7 @@
 #include "compiler/semantics/conversions.hpp"
 #include "compiler/semantics/expressions/expressions.hpp"
 #include "compiler/semantics/fold.hpp"
-#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/names/names.hpp"
 #include "compiler/semantics/types/internal.hpp"
 
 namespace stc::sema {
@@ -107,71 +107,83 @@ const Type *resolveMember(Context &c, VarSymbol *variable, std::string_view hint
   return elementaryType(TypeKind::boolean);
 }
 
-static const Type *resolveNamed(Context &c, NamedTypeExpr *expr) {
-  const Name &name = expr->path.back();
-  Symbol *symbol = nullptr;
-  if (expr->path.size() == 1) {
-    const auto elementary = c.elementary.find(name.id);
-    if (elementary != c.elementary.end()) {
-      if (elementary->second != nullptr)
-        return elementary->second;
-    } else {
-      const Type *type = findElementaryType(name.id->lower);
-      if (type != nullptr && isCharacter(type)) { // V2.3 programs have types of this name
-        const Symbol *own = lookupInModule(*c.scope.module, name.id);
-        if (own != nullptr && own->kind == SymbolKind::type)
-          type = nullptr;
-      }
-      c.elementary.emplace(name.id, type);
-      if (type != nullptr)
-        return type;
-    }
-    // Types are not hidden by variables of the same name (`TON : TON`).
-    symbol = lookupDeclared(c, name);
-    if (symbol == nullptr || symbol->kind == SymbolKind::variable) {
-      Symbol *inLibrary = lookupInLibraries(c, name.id);
-      symbol = inLibrary != nullptr ? inLibrary : symbol;
-    }
-    if (symbol == nullptr && c.scope.pou != nullptr && c.scope.pou->scope.contains(name.id))
-      symbol = c.scope.pou->scope.at(name.id);
-  } else {
-    symbol = lookupPath(c, expr->path, true);
-    if (symbol == nullptr)
-      return elementaryType(TypeKind::error);
+/// The elementary type that a plain name stands for; null: it is none of them.
+static const Type *elementaryNamed(Context &c, const Name &name) {
+  const auto [it, fresh] = c.elementary.emplace(name.id, nullptr);
+  if (!fresh)
+    return it->second;
+  const Type *type = findElementaryType(name.id->lower);
+  if (type != nullptr && isCharacter(type)) { // V2.3 programs have types of this name
+    const Symbol *own = c.scope.module->find(name.id);
+    if (own != nullptr && own->kind == SymbolKind::type)
+      type = nullptr;
   }
-  if (symbol == nullptr) {
-    if (!namesBit(c, expr)) {
-      reportUnknown(c, name, true);
-      return elementaryType(TypeKind::error);
-    }
-    c.report(Code::bitNotPossible, name.span, "there is no BIT here",
-             "only fields of a STRUCT and variables of a FUNCTION_BLOCK can be BIT")
-        .note(
-            "a BIT shares its byte with others and has no address, so that there are no arrays of "
+  it->second = type;
+  return type;
+}
+
+/// What a plain name stands for where a type is meant; null: nothing.
+static Symbol *lookupType(Context &c, const Name &name) {
+  // Types are not hidden by variables of the same name (`TON : TON`).
+  Symbol *symbol = lookupDeclared(c, name);
+  if (symbol == nullptr || symbol->kind == SymbolKind::variable) {
+    Symbol *inLibrary = c.names.inLibraries(c.scope, name.id);
+    symbol = inLibrary != nullptr ? inLibrary : symbol;
+  }
+  if (symbol == nullptr && c.scope.pou != nullptr && c.scope.pou->scope.contains(name.id))
+    symbol = c.scope.pou->scope.at(name.id);
+  return symbol;
+}
+
+static void reportNoType(Context &c, const NamedTypeExpr *expr, const Name &name) {
+  if (!namesBit(c, expr)) {
+    reportUnknown(c, name, true);
+    return;
+  }
+  c.report(Code::bitNotPossible, name.span, "there is no BIT here",
+           "only fields of a STRUCT and variables of a FUNCTION_BLOCK can be BIT")
+      .note("a BIT shares its byte with others and has no address, so that there are no arrays of "
             "BIT and no pointers to it")
-        .help("write `BOOL`");
-    return elementaryType(TypeKind::error);
-  }
+      .help("write `BOOL`");
+}
+
+/// The type that a symbol is, as the name at `expr` may use it; null (reported): it is no type.
+static const Type *typeOfSymbol(Context &c, Symbol *symbol, const Name &name) {
   if (symbol->kind == SymbolKind::type) {
     auto *type = static_cast<TypeSymbol *>(symbol);
     resolve(c, type);
     return type->type;
   }
-  if (symbol->kind == SymbolKind::pou && (static_cast<PouSymbol *>(symbol)->isBlock() ||
-                                          static_cast<PouSymbol *>(symbol)->isInterface())) {
+  if (symbol->kind == SymbolKind::pou) {
     auto *pou = static_cast<PouSymbol *>(symbol);
-    link(c, pou);
-    if (pou->space == nullptr) // of a namespace: see nameInSpace()
-      requireAccess(c, name.span, pou, pou, pou->decl->access);
-    return pou->type;
+    if (pou->isBlock() || pou->isInterface()) {
+      link(c, pou);
+      if (pou->space == nullptr) // of a namespace: see nameInSpace()
+        requireAccess(c, name.span, pou, pou, pou->decl->access);
+      return pou->type;
+    }
+    if (c.programTypes && pou->decl->kind == DeclKind::program)
+      return pou->type;
   }
-  if (c.programTypes && symbol->kind == SymbolKind::pou &&
-      static_cast<PouSymbol *>(symbol)->decl->kind == DeclKind::program)
-    return static_cast<PouSymbol *>(symbol)->type;
   auto &d = c.report(Code::notAType, name.span, "`" + std::string(name.text) + "` is not a type",
                      "this is " + describe(symbol));
   noteDeclaration(d, symbol);
   return elementaryType(TypeKind::error);
+}
+
+static const Type *resolveNamed(Context &c, NamedTypeExpr *expr) {
+  const Name &name = expr->path.back();
+  if (expr->path.size() == 1) {
+    if (const Type *type = elementaryNamed(c, name))
+      return type;
+    expr->symbol = lookupType(c, name);
+    if (expr->symbol == nullptr)
+      reportNoType(c, expr, name);
+  } else {
+    expr->symbol = lookupPath(c, expr->path, true);
+  }
+  return expr->symbol == nullptr ? elementaryType(TypeKind::error)
+                                 : typeOfSymbol(c, expr->symbol, name);
 }
 
 static const Type *resolveArray(Context &c, ArrayTypeExpr *expr, std::string_view hint) {
@@ -253,7 +265,7 @@ static const Type *resolvePointer(Context &c, PointerTypeExpr *expr, std::string
   if (isPointer && expr->pointee->kind == TypeExprKind::named) {
     const auto *named = as<NamedTypeExpr>(expr->pointee);
     if (named->path.size() == 1 && named->path.front().id->lower == "void" &&
-        lookupInModule(*c.scope.module, named->path.front().id) == nullptr)
+        c.scope.module->find(named->path.front().id) == nullptr)
       pointee = elementaryType(TypeKind::none);
   }
   if (pointee == nullptr)

@@ -1,12 +1,12 @@
 // What is said about a name that nothing has.
 
-#include "compiler/semantics/lookup/names.hpp"
+#include "compiler/semantics/names/names.hpp"
 
 #include "compiler/semantics/cam_tables.hpp"
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/context/describe.hpp"
+#include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/hierarchy.hpp"
-#include "compiler/semantics/lookup/internal.hpp"
 #include "compiler/semantics/suggest.hpp"
 
 #include <algorithm>
@@ -132,22 +132,55 @@ bool reportUnqualified(Context &c, const Name &name, const Type *expected) {
   return true;
 }
 
+std::vector<std::string_view> memberNames(const Type *type) {
+  std::vector<std::string_view> list;
+  for (const Symbol *member : Lookup::members(type))
+    list.push_back(member->name.text);
+  return list;
+}
+
+/// The names that can be meant by a wrong one: of types, or of all but types.
+static std::vector<std::string_view> visibleNames(Context &c, bool types) {
+  std::vector<std::string_view> list;
+  for (const Symbol *symbol : c.names.visible(c.scope)) {
+    const bool isType =
+        symbol->kind == SymbolKind::type ||
+        (symbol->kind == SymbolKind::pou && !static_cast<const PouSymbol *>(symbol)->isFunction());
+    const bool isPrefix = // of longer names, which are not what was written
+        symbol->kind == SymbolKind::globals ||
+        ((symbol->kind == SymbolKind::space || symbol->kind == SymbolKind::enumerator) &&
+         (symbol->space == nullptr) == (symbol->kind == SymbolKind::space));
+    if (types ? isType : symbol->kind != SymbolKind::type && !isPrefix)
+      list.push_back(symbol->name.text);
+  }
+  if (types) {
+    for (const char *name : {"BOOL",  "SINT",  "INT",   "DINT", "LINT",   "USINT",  "UINT",
+                             "UDINT", "ULINT", "BYTE",  "WORD", "DWORD",  "LWORD",  "REAL",
+                             "LREAL", "TIME",  "LTIME", "DATE", "STRING", "WSTRING"})
+      list.emplace_back(name);
+  }
+  std::sort(list.begin(), list.end());
+  for (const std::string_view name : c.names.libraryNames())
+    list.push_back(name);
+  return list;
+}
+
 /// Empty also when there have been so many mistakes in so large a program that looking for what was
 /// meant would take longer than the check.
 static std::string_view similarName(Context &c, const Name &name, bool asType) {
   constexpr std::size_t kMostLooks = 2'000'000;
-  if (c.namesLookedAt >= kMostLooks)
+  if (c.reported.namesLookedAt >= kMostLooks)
     return {};
   const std::vector<std::string_view> names = visibleNames(c, asType);
-  c.namesLookedAt += names.size();
+  c.reported.namesLookedAt += names.size();
   return nearest(name.text, names);
 }
 
 void reportUnknown(Context &c, const Name &name, bool asType) {
   if (!asType) {
-    if (!c.unknown.emplace(c.scope.pou, name.id).second)
+    if (!c.reported.unknown.emplace(c.scope.pou, name.id).second)
       return; // one missing declaration is one mistake
-    if (!c.keepsErrors())
+    if (!c.reporter.keepsErrors())
       return; // nobody would see what is found out for it
     if (reportSelf(c, name))
       return;
@@ -168,7 +201,7 @@ void reportUnknown(Context &c, const Name &name, bool asType) {
       d.help(table.help);
     return;
   }
-  for (const LibraryIndex::Entry &entry : c.index.find(name.id->lower)) {
+  for (const LibraryIndex::Entry &entry : c.names.index().find(name.id->lower)) {
     if (!entry.qualifiedOnly)
       continue;
     const std::string library(entry.library);

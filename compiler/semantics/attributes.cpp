@@ -1,0 +1,31 @@
+#include "compiler/semantics/attributes.hpp"
+
+#include <algorithm>
+
+namespace stc {
+
+using namespace ast;
+
+bool hasAttribute(const Attributes &attributes, std::string_view name) {
+  return std::any_of(attributes.begin(), attributes.end(),
+                     [&](const Attribute &a) { return a.name == name; });
+}
+
+unsigned packMode(Reporter &reporter, const Attributes &attributes, unsigned otherwise) {
+  for (const Attribute &a : attributes) {
+    if (a.name != "pack_mode")
+      continue;
+    if (a.value == "0" || a.value == "1")
+      return 1;
+    if (a.value == "2" || a.value == "4" || a.value == "8")
+      return static_cast<unsigned>(a.value[0] - '0');
+    reporter
+        .report(Code::packMode, a.span,
+                "`" + std::string(a.value) + "` is no way to align the members of a structure",
+                "0, 1, 2, 4 or 8 is possible")
+        .note("0 and 1 leave no gaps; 2, 4 and 8 align each member to that many bytes at most");
+  }
+  return otherwise;
+}
+
+} // namespace stc

@@ -1,0 +1,208 @@
+// Looking names up, in the order in which places hide each other.
+
+#include "compiler/semantics/lookup/lookup.hpp"
+
+#include "compiler/semantics/builtins.hpp"
+#include "compiler/semantics/cam_tables.hpp"
+#include "compiler/semantics/hierarchy.hpp"
+
+namespace stc {
+
+using namespace ast;
+
+namespace {
+
+/// Names of that file are seen in the scope without the library's name.
+bool isSeenUnqualified(const Scope &scope, const LibraryIndex::Entry &entry) {
+  return !entry.qualifiedOnly || scope.module->library->name == entry.library;
+}
+
+FoundEnumerator
+enumeratorOf(const std::unordered_map<Ident, std::vector<EnumeratorSymbol *>> &enumerators,
+             Ident id) {
+  const auto it = enumerators.find(id);
+  return it == enumerators.end() ? FoundEnumerator{}
+                                 : FoundEnumerator{it->second.front(), it->second.size() > 1};
+}
+
+} // namespace
+
+Symbol *Module::find(Ident id) const {
+  const auto it = names.find(id);
+  return it == names.end() ? nullptr : it->second;
+}
+
+EnumeratorSymbol *findEnumerator(const EnumType *type, Ident id) {
+  for (EnumeratorSymbol *e : type->enumerators) {
+    if (e->name.id == id)
+      return e;
+  }
+  return nullptr;
+}
+
+Lookup::Lookup(Program &program, const LibraryIndex &index)
+    : program_(program), arena_(program.arena), index_(index), reporter_(program.diagnostics) {
+  for (const auto &[name, function] : builtins()) {
+    const Ident id = program.interner.intern(name);
+    auto *symbol = arena_.make<BuiltinSymbol>();
+    symbol->kind = SymbolKind::builtin;
+    symbol->name = {id, id->lower, {}};
+    symbol->id = function;
+    builtins_.emplace(id, symbol);
+  }
+}
+
+Symbol *Lookup::inPou(PouSymbol *pou, Ident id) {
+  for (PouSymbol *p = pou; p != nullptr; p = p->owner) {
+    VarSymbol *v = findVariable(p, id);
+    if (v != nullptr && (p == pou || v->section != Section::temp)) // VAR_TEMP is the body's own
+      return v;
+    if (p->owner == nullptr && !p->isFunction()) {
+      if (Symbol *member = memberNamed(p, id))
+        return member;
+    }
+  }
+  return nullptr;
+}
+
+Symbol *Lookup::self(const Scope &scope, const Name &name) {
+  const bool isSuper = name.id->lower == "super";
+  if (!isSuper && name.id->lower != "this")
+    return nullptr;
+  PouSymbol *block = scope.pou == nullptr ? nullptr : blockOf(scope.pou);
+  if (block == nullptr || block->isFunction() || block->isInterface() ||
+      (isSuper && block->base == nullptr))
+    return nullptr;
+  auto *symbol = arena_.make<SelfSymbol>();
+  symbol->kind = SymbolKind::self;
+  symbol->name = name;
+  symbol->library = block->library;
+  symbol->block = isSuper ? block->base : block;
+  symbol->isSuper = isSuper;
+  return symbol;
+}
+
+Symbol *Lookup::library(const Name &name) {
+  if (!index_.isLibrary(name.id->lower))
+    return nullptr;
+  auto *symbol = arena_.make<LibrarySymbol>();
+  symbol->kind = SymbolKind::library;
+  symbol->name = name;
+  return symbol;
+}
+
+Symbol *Lookup::listOfLibraries(const Scope &scope, Ident id) const {
+  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+    const Module *library =
+        isSeenUnqualified(scope, entry) ? findModule(entry.library) : nullptr; // loaded by now
+    if (library == nullptr)
+      continue;
+    if (const auto found = library->lists.find(id); found != library->lists.end())
+      return found->second;
+  }
+  return nullptr;
+}
+
+Found Lookup::find(const Scope &scope, const Name &name) {
+  if (scope.pou != nullptr) {
+    if (Symbol *symbol = inPou(scope.pou, name.id))
+      return {symbol};
+  }
+  if (const Found found = declared(scope, name.id))
+    return found;
+  if (Symbol *symbol = self(scope, name))
+    return {symbol};
+  const auto builtin = builtins_.find(name.id);
+  if (builtin != builtins_.end())
+    return {builtin->second};
+  if (Symbol *symbol = inLibraries(scope, name.id))
+    return {symbol};
+  const auto list = scope.module->lists.find(name.id);
+  if (list != scope.module->lists.end())
+    return {list->second};
+  const auto space = scope.module->spaces.find(name.id);
+  if (space != scope.module->spaces.end())
+    return {space->second};
+  if (Symbol *symbol = listOfLibraries(scope, name.id))
+    return {symbol};
+  return {library(name)};
+}
+
+Symbol *Lookup::inLibraries(const Scope &scope, Ident id) {
+  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+    if (!entry.qualifiedOnly || !isSeenUnqualified(scope, entry))
+      continue;
+    load(entry);
+    if (Symbol *symbol = module(entry.library).find(id))
+      return symbol;
+  }
+  const auto [it, fresh] = inLibraries_.emplace(id, nullptr);
+  if (!fresh)
+    return it->second;
+  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+    if (entry.qualifiedOnly)
+      continue;
+    load(entry);
+    if (Symbol *symbol = module(entry.library).find(id)) {
+      inLibraries_[id] = symbol;
+      return symbol;
+    }
+  }
+  return inLibraries_[id] = declareCamTable(id);
+}
+
+Symbol *Lookup::inLibrary(Ident library, Ident id) {
+  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+    if (!index_.answersTo(entry.library, library->lower))
+      continue;
+    load(entry);
+    Module &found = module(entry.library);
+    if (Symbol *symbol = found.find(id))
+      return symbol;
+    if (const auto list = found.lists.find(id); list != found.lists.end())
+      return list->second;
+  }
+  return index_.answersTo(kCamTableLibrary, library->lower) ? declareCamTable(id) : nullptr;
+}
+
+FoundEnumerator Lookup::usedEnumerator(const Scope &scope, Ident id) {
+  const Decl *decl = homeOf(scope);
+  if (decl == nullptr)
+    return {};
+  for (const NamePath &path : decl->usings) {
+    Symbol *space = used(scope, path);
+    if (space == nullptr || space->kind != SymbolKind::space)
+      continue;
+    const auto found = enumeratorOf(static_cast<NamespaceSymbol *>(space)->enumerators, id);
+    if (found.enumerator != nullptr)
+      return found;
+  }
+  return {};
+}
+
+FoundEnumerator Lookup::enumerator(const Scope &scope, Ident id, const Type *expected) {
+  if (expected != nullptr && expected->kind == TypeKind::enumeration) {
+    EnumeratorSymbol *e = findEnumerator(typeAs<EnumType>(expected), id);
+    if (e != nullptr && !typeAs<EnumType>(expected)->qualifiedOnly)
+      return {e};
+  }
+  for (const NamespaceSymbol *space : spaces(scope)) {
+    if (const auto found = enumeratorOf(space->enumerators, id); found.enumerator != nullptr)
+      return found;
+  }
+  if (const auto found = enumeratorOf(scope.module->enumerators, id); found.enumerator != nullptr)
+    return found;
+  if (const auto found = usedEnumerator(scope, id); found.enumerator != nullptr)
+    return found;
+  for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
+    if (!isSeenUnqualified(scope, entry))
+      continue;
+    load(entry);
+    if (const auto found = enumeratorOf(module(entry.library).enumerators, id);
+        found.enumerator != nullptr)
+      return found;
+  }
+  return {};
+}
+
+} // namespace stc

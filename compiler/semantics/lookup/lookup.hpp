@@ -1,0 +1,148 @@
+#pragma once
+// Names: what they stand for, what can be named somewhere, where it is declared. Who uses it:
+// references.hpp. The checker asks while it checks; who keeps the Lookup can go on asking.
+
+#include "compiler/semantics/lookup/module.hpp"
+#include "compiler/semantics/reporter.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+namespace stc {
+
+/// What a name stands for.
+struct Found {
+  Symbol *symbol = nullptr;
+  Symbol *other = nullptr; ///< what another USING gives: nobody knows which one is meant
+  bool isForeign = false;  ///< INTERNAL, and the place belongs to another namespace or library
+  explicit operator bool() const { return symbol != nullptr; }
+};
+
+struct FoundEnumerator {
+  EnumeratorSymbol *enumerator = nullptr;
+  bool isAmbiguous = false; ///< several enumerations of the place have one of this name
+};
+
+/// What CONFIGURATIONs and the like declare: it is no name, but found where files are declared.
+struct ConfigurationParts {
+  std::vector<ast::GlobalsDecl *> configs;  ///< VAR_CONFIG
+  std::vector<ast::GlobalsDecl *> accesses; ///< VAR_ACCESS
+  std::unordered_set<Ident> resourceNames;  ///< of CONFIGURATIONs and RESOURCEs
+};
+
+/// The enumerator of that name; null: none.
+[[nodiscard]] EnumeratorSymbol *findEnumerator(const EnumType *type, Ident id);
+/// A symbol for the declaration; neither its type nor its initial value is looked at.
+VarSymbol *makeVariable(Arena &arena, ast::VarDecl *decl, Module &module, PouSymbol *owner);
+
+class Lookup {
+public:
+  /// Both must outlive it. Diagnostics go to the program.
+  Lookup(Program &program, const LibraryIndex &index);
+  Lookup(const Lookup &) = delete;
+  Lookup &operator=(const Lookup &) = delete;
+
+  // -----------------------------------------------------------------------------------------------
+  // What is known. Of libraries this is what has been used.
+
+  /// The place of a source file of the project as a scope: a body, a type, or the project.
+  /// Nothing before a file is declared.
+  [[nodiscard]] std::optional<Scope> scopeAt(FileId file, std::uint32_t offset) const;
+  /// What can be named there without anything in front. What is nearer comes first; what it hides
+  /// is among the others. Names that only libraries have: libraryNames().
+  [[nodiscard]] std::vector<const Symbol *> visible(const Scope &scope) const;
+  /// Names of libraries that can be used everywhere, in lower case.
+  [[nodiscard]] std::vector<std::string_view> libraryNames() const { return index_.names(); }
+  /// What can stand after the dot of a value: fields, variables, methods, properties, enumerators;
+  /// inherited ones after one's own. Hidden and temporary ones are left out.
+  [[nodiscard]] static std::vector<const Symbol *> members(const Type *type);
+  /// What can stand after the dot of a library, namespace, list, type or POU.
+  [[nodiscard]] std::vector<const Symbol *> members(const Symbol *symbol) const;
+  /// Where a symbol is declared: its name there. Nothing for what the compiler knows by itself.
+  [[nodiscard]] static std::optional<Span> declaration(const Symbol *symbol);
+
+  /// The namespaces around, from inside to outside.
+  [[nodiscard]] std::vector<NamespaceSymbol *> spaces(const Scope &scope) const;
+  /// What is INTERNAL and declared there can be used in the scope.
+  [[nodiscard]] bool seesInternals(const Scope &scope, const Library *library,
+                                   const NamespaceSymbol *space) const;
+  [[nodiscard]] bool isBuiltin(Ident id) const { return builtins_.contains(id); }
+  [[nodiscard]] const ConfigurationParts &configuration() const { return configuration_; }
+  /// Null: nothing of the library has been used.
+  [[nodiscard]] Module *findModule(std::string_view library) const;
+  [[nodiscard]] Module &moduleOf(const Symbol *symbol) const;
+
+  // -----------------------------------------------------------------------------------------------
+  // Looking up. Files of libraries are read where a name leads into them.
+
+  /// What a plain name stands for in an expression. Enumerators: enumerator().
+  Found find(const Scope &scope, const ast::Name &name);
+  /// A name of the project (or library): in the namespaces around, outside of all, by USING.
+  Found declared(const Scope &scope, Ident id);
+  /// By the USING directives of the place.
+  Found inUsings(const Scope &scope, Ident id);
+  /// In the namespaces around.
+  [[nodiscard]] Symbol *inSpaces(const Scope &scope, Ident id) const;
+  /// A name that needs no library's name in front.
+  Symbol *inLibraries(const Scope &scope, Ident id);
+  /// `Library.Name`
+  Symbol *inLibrary(Ident library, Ident id);
+  /// What `space.name` is, of a namespace or a library.
+  Found inSpace(const Scope &scope, Symbol *space, Ident id);
+  /// What a USING directive names: a namespace or a library; null: neither.
+  Symbol *used(const Scope &scope, ast::NamePath path);
+  /// The enumerator that a plain name stands for where a value of `expected` (null: any) is needed.
+  FoundEnumerator enumerator(const Scope &scope, Ident id, const Type *expected);
+  /// A variable, method or property of the POU, of its bases or of the block around.
+  [[nodiscard]] static Symbol *inPou(PouSymbol *pou, Ident id);
+
+  // -----------------------------------------------------------------------------------------------
+  // Declaring.
+
+  /// The names of a library (of the project: ""), made when they are new.
+  Module &module(std::string_view library);
+  /// Makes symbols of what the file declares, reports names that are declared twice.
+  void declare(Module &module, ast::File *file);
+  /// Reads a file of a library, unless that has been done.
+  void load(const LibraryIndex::Entry &entry);
+  /// Reads all files of a library.
+  void loadAll(std::string_view library);
+  /// Is called after each file that has been read: its enumerators can be named without their type,
+  /// so whoever resolves types does that with enumerations at once.
+  void onLoad(std::function<void(Module &)> action) { loaded_ = std::move(action); }
+
+  [[nodiscard]] Reporter &reporter() { return reporter_; }
+  [[nodiscard]] const LibraryIndex &index() const { return index_; }
+
+private:
+  void addName(Module &module, Symbol *symbol);
+  void declarePou(Module &module, ast::PouDecl *decl);
+  void declareType(Module &module, ast::Decl *decl);
+  void declareGlobals(Module &module, ast::GlobalsDecl *decl);
+  NamespaceSymbol *declareSpace(Module &module, ast::NamePath path);
+  NamespaceSymbol *makeSpace(Module &module, NamespaceSymbol *around, const ast::Name &name);
+  Symbol *declareCamTable(Ident id);
+
+  Symbol *memberOfSpace(Symbol *space, Ident id);
+  Symbol *self(const Scope &scope, const ast::Name &name);
+  Symbol *library(const ast::Name &name);
+  Symbol *listOfLibraries(const Scope &scope, Ident id) const;
+  FoundEnumerator usedEnumerator(const Scope &scope, Ident id);
+
+  Program &program_;
+  Arena &arena_;
+  const LibraryIndex &index_;
+  Reporter reporter_;
+  std::function<void(Module &)> loaded_;
+  std::unordered_map<std::string, std::unique_ptr<Module>> modules_; ///< by library
+  std::unordered_map<Ident, BuiltinSymbol *> builtins_;
+  std::unordered_map<Ident, Symbol *> inLibraries_; ///< what has been found there, also nothing
+  ConfigurationParts configuration_;
+};
+
+} // namespace stc
