@@ -2,6 +2,7 @@
 
 #include "compiler/codegen/analysis.hpp"
 #include "compiler/semantics/hierarchy.hpp"
+#include "compiler/syntax/visit.hpp"
 
 #include <algorithm>
 
@@ -106,12 +107,12 @@ void Addressed::declaration(const VarSymbol *variable) {
     type = as<ArrayTypeExpr>(type)->element;
   if (type == nullptr || type->kind != TypeExprKind::named)
     return;
-  arguments(as<NamedTypeExpr>(type)->arguments);
+  constructing(as<NamedTypeExpr>(type)->arguments);
   for (const std::span<Argument> &element : as<NamedTypeExpr>(type)->elements)
-    arguments(element);
+    constructing(element);
 }
 
-void Addressed::initial(const VarSymbol *variable, const Expr *init) {
+void Addressed::initial(const VarSymbol *variable, Expr *init) {
   if (init->kind != ExprKind::aggregate) {
     if (variable->type->kind == TypeKind::reference)
       expose(init);
@@ -130,104 +131,32 @@ void Addressed::initial(const VarSymbol *variable, const Expr *init) {
 }
 
 void Addressed::block(Block block) {
-  for (const Stmt *s : block)
-    statement(s);
+  walkStatements(block, [this](const Stmt *s) {
+    if (s->kind == StmtKind::assign && as<AssignStmt>(s)->op == AssignOp::reference)
+      expose(as<AssignStmt>(s)->value);
+    forEachChild(
+        s, [this](Expr *e) { expression(e); }, [](Block) {});
+  });
 }
 
-void Addressed::assignment(const AssignStmt *s) {
-  for (const Expr *target : s->targets)
-    expression(target);
-  if (s->op == AssignOp::reference)
-    expose(s->value);
-  expression(s->value);
-}
-
-void Addressed::statement(const Stmt *s) {
-  switch (s->kind) {
-  case StmtKind::empty:
-  case StmtKind::exit:
-  case StmtKind::continueS:
-  case StmtKind::returnS:
-  case StmtKind::jump:
-  case StmtKind::label:
-    return;
-  case StmtKind::assign:
-    return assignment(as<AssignStmt>(s));
-  case StmtKind::call:
-    return expression(as<CallStmt>(s)->expr);
-  case StmtKind::ifS:
-    for (const IfBranch &b : as<IfStmt>(s)->branches) {
-      expression(b.condition);
-      block(b.body);
-    }
-    return block(as<IfStmt>(s)->elseBody);
-  case StmtKind::caseS:
-    expression(as<CaseStmt>(s)->selector);
-    for (const CaseBranch &b : as<CaseStmt>(s)->branches)
-      block(b.body);
-    return block(as<CaseStmt>(s)->elseBody);
-  case StmtKind::forS: {
-    const auto *loop = as<ForStmt>(s);
-    for (const Expr *e : {loop->variable, loop->from, loop->to, loop->by})
-      expression(e);
-    return block(loop->body);
-  }
-  case StmtKind::whileS:
-    expression(as<WhileStmt>(s)->condition);
-    return block(as<WhileStmt>(s)->body);
-  case StmtKind::repeatS:
-    expression(as<RepeatStmt>(s)->until);
-    return block(as<RepeatStmt>(s)->body);
-  case StmtKind::tryS:
-    block(as<TryStmt>(s)->body);
-    block(as<TryStmt>(s)->catchBody);
-    return block(as<TryStmt>(s)->finallyBody);
-  }
-}
-
-void Addressed::expression(const Expr *e) {
-  while (e != nullptr) {
+void Addressed::expression(Expr *expr) {
+  walk(expr, [this](const Expr *e) {
     // An instance where an interface or a reference is wanted gives its address.
     if (e->target != nullptr && e->target != e->type &&
         (e->target->kind == TypeKind::interface || e->target->kind == TypeKind::reference))
       expose(e);
-    switch (e->kind) {
-    case ExprKind::member:
-      e = as<MemberExpr>(e)->base;
-      continue;
-    case ExprKind::index:
-      for (const Expr *i : as<IndexExpr>(e)->indices)
-        expression(i);
-      e = as<IndexExpr>(e)->base;
-      continue;
-    case ExprKind::deref:
-      e = as<DerefExpr>(e)->base;
-      continue;
-    case ExprKind::unary:
-      e = as<UnaryExpr>(e)->operand;
-      continue;
-    case ExprKind::binary:
-      expression(as<BinaryExpr>(e)->right);
-      e = as<BinaryExpr>(e)->left;
-      continue;
-    case ExprKind::call:
-      return call(as<CallExpr>(e));
-    case ExprKind::aggregate:
-      for (const AggregateItem &item : as<AggregateExpr>(e)->items) {
-        if (item.symbol != nullptr && item.value != nullptr)
-          initial(item.symbol, item.value);
-        else
-          expression(item.value);
-      }
-      return;
-    default:
-      return;
+    if (e->kind == ExprKind::call)
+      call(as<CallExpr>(e));
+    if (e->kind == ExprKind::aggregate) {
+      for (const AggregateItem &item : as<AggregateExpr>(e)->items)
+        if (item.symbol != nullptr && item.value != nullptr &&
+            item.symbol->type->kind == TypeKind::reference)
+          expose(item.value);
     }
-  }
+  });
 }
 
 void Addressed::call(const CallExpr *e) {
-  expression(e->callee);
   if (e->resolved == Callee::builtin &&
       (e->builtin == Builtin::adr || e->builtin == Builtin::queryInterface ||
        e->builtin == Builtin::queryPointer) &&
@@ -236,18 +165,24 @@ void Addressed::call(const CallExpr *e) {
   arguments(e->arguments);
 }
 
+/// What is passed by its address.
 void Addressed::arguments(std::span<const Argument> arguments) {
   for (const Argument &a : arguments) {
-    if (a.value == nullptr)
-      continue;
-    expression(a.value);
-    if (a.output || a.parameter == nullptr || a.parameter->type == nullptr)
+    if (a.value == nullptr || a.output || a.parameter == nullptr || a.parameter->type == nullptr)
       continue;
     if (a.parameter->section == Section::inOut)
       bind(a.value, a.parameter);
     else if (a.parameter->type->kind == TypeKind::reference)
       expose(a.value);
   }
+}
+
+/// Those of FB_Init, which stand in no call.
+void Addressed::constructing(std::span<const Argument> list) {
+  for (const Argument &a : list)
+    if (a.value != nullptr)
+      expression(a.value);
+  arguments(list);
 }
 
 void Addressed::expose(const Expr *place) {

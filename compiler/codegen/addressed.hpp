@@ -32,13 +32,12 @@ private:
   void replacements(const PouSymbol *block);
   void link(const PouSymbol *method, const PouSymbol *replacement);
   void declaration(const VarSymbol *variable);
-  void initial(const VarSymbol *variable, const ast::Expr *init);
+  void initial(const VarSymbol *variable, ast::Expr *init);
   void block(ast::Block block);
-  void assignment(const ast::AssignStmt *s);
-  void statement(const ast::Stmt *s);
-  void expression(const ast::Expr *e);
+  void expression(ast::Expr *expr);
   void call(const ast::CallExpr *e);
   void arguments(std::span<const ast::Argument> arguments);
+  void constructing(std::span<const ast::Argument> list);
   /// Somebody gets the address of the place.
   void expose(const ast::Expr *place);
   void expose(const VarSymbol *variable) { found_.push_back(variable); }

@@ -4,6 +4,7 @@
 #include "compiler/semantics/hierarchy.hpp"
 
 #include "compiler/semantics/fold.hpp"
+#include "compiler/syntax/visit.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -25,32 +26,8 @@ bool runsMethods(const Type *type) {
   });
 }
 
-} // namespace
-
-bool Analysis::pure(const PouSymbol *function) {
-  const auto [it, fresh] = pure_.try_emplace(function, false); // a recursive one counts as not pure
-  if (!fresh)
-    return it->second;
-  if (calls_ >= kMaxCalls) // nor does one that calls others, which call others …
-    return false;
-  ++calls_;
-  bool result = function->isFunction();
-  for (const VarSymbol *v : function->variables) {
-    if (v->section == Section::inOut || v->section == Section::output ||
-        v->section == Section::stat || v->type->kind == TypeKind::pointer ||
-        v->type->kind == TypeKind::reference || v->type->kind == TypeKind::interface ||
-        runsMethods(v->type))
-      result = false;
-  }
-  // What a native function does is not known: it may write through an address or to a file.
-  result = result && !function->decl->external && function->checked &&
-           pureBlock(function->decl->body, function);
-  pure_[function] = result;
-  --calls_;
-  return result;
-}
-
-bool Analysis::localTarget(const Expr *target, const PouSymbol *function) const {
+/// A variable of the function itself, or a part of it.
+bool isLocal(const Expr *target, const PouSymbol *function) {
   while (true) {
     switch (target->kind) {
     case ExprKind::name: {
@@ -73,69 +50,30 @@ bool Analysis::localTarget(const Expr *target, const PouSymbol *function) const 
   }
 }
 
-bool Analysis::pureExpr(const Expr *expr) { return (effects(expr) & effectCalls) == 0; }
+} // namespace
 
-bool Analysis::pureBlock(Block block, const PouSymbol *function) {
-  for (const Stmt *s : block) {
-    switch (s->kind) {
-    case StmtKind::assign: {
-      const auto *a = as<AssignStmt>(s);
-      for (const Expr *t : a->targets) {
-        if (!localTarget(t, function) || !pureExpr(t))
-          return false;
-      }
-      if (!pureExpr(a->value))
-        return false;
-      break;
-    }
-    case StmtKind::call:
-    case StmtKind::jump:
-    case StmtKind::label:
-    case StmtKind::tryS:
-      return false;
-    case StmtKind::ifS: {
-      const auto *i = as<IfStmt>(s);
-      for (const IfBranch &b : i->branches) {
-        if (!pureExpr(b.condition) || !pureBlock(b.body, function))
-          return false;
-      }
-      if (!pureBlock(i->elseBody, function))
-        return false;
-      break;
-    }
-    case StmtKind::caseS: {
-      const auto *c = as<CaseStmt>(s);
-      if (!pureExpr(c->selector) || !pureBlock(c->elseBody, function))
-        return false;
-      for (const CaseBranch &b : c->branches) {
-        if (!pureBlock(b.body, function))
-          return false;
-      }
-      break;
-    }
-    case StmtKind::forS: {
-      const auto *f = as<ForStmt>(s);
-      if (!localTarget(f->variable, function) || !pureExpr(f->from) || !pureExpr(f->to) ||
-          (f->by != nullptr && !pureExpr(f->by)) || !pureBlock(f->body, function))
-        return false;
-      break;
-    }
-    case StmtKind::whileS:
-      if (!pureExpr(as<WhileStmt>(s)->condition) || !pureBlock(as<WhileStmt>(s)->body, function))
-        return false;
-      break;
-    case StmtKind::repeatS:
-      if (!pureExpr(as<RepeatStmt>(s)->until) || !pureBlock(as<RepeatStmt>(s)->body, function))
-        return false;
-      break;
-    case StmtKind::empty:
-    case StmtKind::exit:
-    case StmtKind::continueS:
-    case StmtKind::returnS:
-      break;
-    }
+bool Analysis::pure(const PouSymbol *function) {
+  const auto [it, fresh] = pure_.try_emplace(function, false); // a recursive one counts as not pure
+  if (!fresh)
+    return it->second;
+  if (calls_ >= kMaxCalls) // nor does one that calls others, which call others …
+    return false;
+  ++calls_;
+  bool result = function->isFunction();
+  for (const VarSymbol *v : function->variables) {
+    if (v->section == Section::inOut || v->section == Section::output ||
+        v->section == Section::stat || v->type->kind == TypeKind::pointer ||
+        v->type->kind == TypeKind::reference || v->type->kind == TypeKind::interface ||
+        runsMethods(v->type))
+      result = false;
   }
-  return true;
+  // What a native function does is not known: it may write through an address or to a file.
+  result =
+      result && !function->decl->external && function->checked &&
+      computes(function->decl->body, [&](const Expr *target) { return isLocal(target, function); });
+  pure_[function] = result;
+  --calls_;
+  return result;
 }
 
 namespace {
@@ -175,71 +113,36 @@ bool mayChange(const Expr *target, const Symbol *variable) {
 
 } // namespace
 
-bool Analysis::plainExpr(const Expr *expr) { return (effects(expr) & effectCalls) == 0; }
+bool Analysis::computes(Block block, MayWrite mayWrite) {
+  return std::all_of(block.begin(), block.end(),
+                     [&](const Stmt *s) { return computes(s, mayWrite); });
+}
 
-bool Analysis::plainBlock(Block block, const Symbol *variable, bool innerLoops) {
-  for (const Stmt *s : block) {
-    switch (s->kind) {
-    case StmtKind::assign: {
-      const auto *a = as<AssignStmt>(s);
-      for (const Expr *t : a->targets) {
-        if (mayChange(t, variable) || !plainExpr(t))
-          return false;
-      }
-      if (!plainExpr(a->value))
-        return false;
-      break;
-    }
-    case StmtKind::ifS: {
-      const auto *i = as<IfStmt>(s);
-      for (const IfBranch &b : i->branches) {
-        if (!plainExpr(b.condition) || !plainBlock(b.body, variable, innerLoops))
-          return false;
-      }
-      if (!plainBlock(i->elseBody, variable, innerLoops))
-        return false;
-      break;
-    }
-    case StmtKind::empty:
-    case StmtKind::exit:
-    case StmtKind::continueS:
-    case StmtKind::returnS:
-      break;
-    case StmtKind::caseS: {
-      const auto *c = as<CaseStmt>(s);
-      if (!plainExpr(c->selector) || !plainBlock(c->elseBody, variable, innerLoops))
-        return false;
-      for (const CaseBranch &b : c->branches) {
-        if (!plainBlock(b.body, variable, innerLoops))
-          return false;
-      }
-      break;
-    }
-    case StmtKind::forS: {
-      const auto *f = as<ForStmt>(s);
-      if (!innerLoops || mayChange(f->variable, variable) || !plainExpr(f->variable) ||
-          !plainExpr(f->from) || !plainExpr(f->to) || (f->by != nullptr && !plainExpr(f->by)) ||
-          !plainBlock(f->body, variable, true))
-        return false;
-      break;
-    }
-    case StmtKind::whileS: {
-      const auto *w = as<WhileStmt>(s);
-      if (!innerLoops || !plainExpr(w->condition) || !plainBlock(w->body, variable, true))
-        return false;
-      break;
-    }
-    case StmtKind::repeatS: {
-      const auto *r = as<RepeatStmt>(s);
-      if (!innerLoops || !plainExpr(r->until) || !plainBlock(r->body, variable, true))
-        return false;
-      break;
-    }
-    default: // calls
+bool Analysis::computes(const Stmt *s, MayWrite mayWrite) {
+  switch (s->kind) {
+  case StmtKind::call:
+  case StmtKind::jump:
+  case StmtKind::label:
+  case StmtKind::tryS:
+    return false;
+  case StmtKind::assign: {
+    const auto &targets = as<AssignStmt>(s)->targets;
+    if (!std::all_of(targets.begin(), targets.end(), mayWrite))
       return false;
-    }
+    break;
   }
-  return true;
+  case StmtKind::forS:
+    if (!mayWrite(as<ForStmt>(s)->variable))
+      return false;
+    break;
+  default:
+    break;
+  }
+  bool plain = true;
+  forEachChild(
+      s, [&](const Expr *e) { plain = plain && (effects(e) & effectCalls) == 0; },
+      [&](Block inner) { plain = plain && computes(inner, mayWrite); });
+  return plain;
 }
 
 namespace {
@@ -289,16 +192,13 @@ std::int64_t Analysis::rounds(Block block) {
   };
   for (const Stmt *s : block) {
     switch (s->kind) {
-    case StmtKind::ifS:
-      for (const IfBranch &b : as<IfStmt>(s)->branches)
-        nested(b.body, 1);
-      nested(as<IfStmt>(s)->elseBody, 1);
-      break;
-    case StmtKind::caseS:
-      for (const CaseBranch &b : as<CaseStmt>(s)->branches)
-        nested(b.body, 1);
-      nested(as<CaseStmt>(s)->elseBody, 1);
-      break;
+    case StmtKind::whileS:
+    case StmtKind::repeatS:
+    case StmtKind::call:
+    case StmtKind::jump:
+    case StmtKind::label:
+    case StmtKind::tryS:
+      return kHuge;
     case StmtKind::forS: {
       const auto *inner = as<ForStmt>(s);
       const auto bounds = constantBounds(inner);
@@ -309,14 +209,10 @@ std::int64_t Analysis::rounds(Block block) {
              std::max<std::int64_t>((bounds->to - bounds->from) / bounds->step + 1, 1));
       break;
     }
-    case StmtKind::empty:
-    case StmtKind::assign:
-    case StmtKind::exit:
-    case StmtKind::continueS:
-    case StmtKind::returnS:
-      break;
     default:
-      return kHuge;
+      forEachChild(
+          s, [](const Expr *) {}, [&](Block inner) { nested(inner, 1); });
+      break;
     }
   }
   return most;
@@ -350,7 +246,7 @@ bool Analysis::endsInside(const ForStmt *loop) const {
 
 /// Inner loops over the same variable are in it: they change it.
 bool Analysis::unchanged(Block body, const VarSymbol *variable) {
-  return plainBlock(body, variable, true);
+  return computes(body, [&](const Expr *target) { return !mayChange(target, variable); });
 }
 
 void Analysis::enterLoop(const ForStmt *loop, bool countsAlone) {
@@ -362,7 +258,7 @@ void Analysis::enterLoop(const ForStmt *loop, bool countsAlone) {
   if (own && loop->from->constant != nullptr && loop->to->constant != nullptr &&
       (loop->by == nullptr ||
        (loop->by->constant != nullptr && loop->by->constant->integer != 0)) &&
-      (countsAlone || plainBlock(loop->body, variable, true))) {
+      (countsAlone || unchanged(loop->body, variable))) {
     const std::int64_t from = loop->from->constant->integer;
     const std::int64_t to = loop->to->constant->integer;
     const bool up = loop->by == nullptr || loop->by->constant->integer > 0;

@@ -5,6 +5,7 @@
 #include "compiler/semantics/builtins.hpp"
 #include "compiler/semantics/program.hpp"
 
+#include <functional>
 #include <unordered_map>
 #include <vector>
 
@@ -82,11 +83,10 @@ private:
   unsigned indexing(const ast::IndexExpr *e);
   unsigned dividing(const ast::BinaryExpr *e);
   unsigned calling(const ast::CallExpr *e);
-  bool pureBlock(ast::Block block, const PouSymbol *function);
-  bool pureExpr(const ast::Expr *expr);
-  bool localTarget(const ast::Expr *target, const PouSymbol *function) const;
-  bool plainBlock(ast::Block block, const Symbol *variable, bool innerLoops);
-  bool plainExpr(const ast::Expr *expr);
+  using MayWrite = const std::function<bool(const ast::Expr *target)> &;
+  /// Nothing is called but what only computes, and only what `mayWrite` allows is written.
+  bool computes(ast::Block block, MayWrite mayWrite);
+  bool computes(const ast::Stmt *s, MayWrite mayWrite);
   std::int64_t rounds(ast::Block block);
   bool unchanged(ast::Block body, const VarSymbol *variable);
 

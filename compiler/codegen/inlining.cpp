@@ -1,5 +1,7 @@
 #include "compiler/codegen/inlining.hpp"
 
+#include "compiler/syntax/visit.hpp"
+
 namespace stc::codegen {
 
 using namespace ast;
@@ -27,23 +29,13 @@ private:
     switch (s->kind) {
     case StmtKind::empty:
     case StmtKind::returnS:
-      return;
     case StmtKind::assign:
-      for (const Expr *target : as<AssignStmt>(s)->targets)
-        expression(target);
-      expression(as<AssignStmt>(s)->value);
-      return;
     case StmtKind::call:
-      expression(as<CallStmt>(s)->expr);
-      return;
     case StmtKind::ifS:
-      for (const IfBranch &b : as<IfStmt>(s)->branches) {
-        expression(b.condition);
-        block(b.body);
-      }
-      block(as<IfStmt>(s)->elseBody);
+      forEachChild(
+          s, [this](Expr *e) { expression(e); }, [this](Block inner) { block(inner); });
       return;
-    case StmtKind::caseS:
+    case StmtKind::caseS: // a label counts once, whatever its value looks like
       expression(as<CaseStmt>(s)->selector);
       for (const CaseBranch &b : as<CaseStmt>(s)->branches) {
         left_ -= static_cast<int>(b.labels.size());
@@ -57,38 +49,12 @@ private:
     }
   }
 
-  void expression(const Expr *e) {
-    while (e != nullptr && fits()) {
-      --left_;
-      switch (e->kind) {
-      case ExprKind::member:
-        e = as<MemberExpr>(e)->base;
-        continue;
-      case ExprKind::index:
-        for (const Expr *i : as<IndexExpr>(e)->indices)
-          expression(i);
-        e = as<IndexExpr>(e)->base;
-        continue;
-      case ExprKind::deref:
-        e = as<DerefExpr>(e)->base;
-        continue;
-      case ExprKind::unary:
-        e = as<UnaryExpr>(e)->operand;
-        continue;
-      case ExprKind::binary:
-        expression(as<BinaryExpr>(e)->right);
-        e = as<BinaryExpr>(e)->left;
-        continue;
-      case ExprKind::call:
-        left_ -= 5;
-        for (const Argument &a : as<CallExpr>(e)->arguments)
-          expression(a.value);
-        e = as<CallExpr>(e)->callee;
-        continue;
-      default:
-        return;
-      }
-    }
+  void expression(Expr *expr) {
+    walk(expr, [this](const Expr *e) {
+      if (fits())
+        left_ -= e->kind == ExprKind::call ? 6 : 1;
+      return fits();
+    });
   }
 
   int left_ = kLimit;

@@ -2,6 +2,7 @@
 
 #include "compiler/codegen/layout.hpp"
 #include "compiler/semantics/held.hpp"
+#include "compiler/syntax/visit.hpp"
 
 #include <algorithm>
 
@@ -126,67 +127,32 @@ void LoopLocals::block(Block block, Facts &facts) {
 }
 
 void LoopLocals::statement(const Stmt *s, Facts &facts) {
+  const auto value = [&](const Expr *e) { expression(e, facts); };
+  const auto inner = [&](Block b) { block(b, facts); };
   switch (s->kind) {
-  case StmtKind::empty:
-  case StmtKind::exit:
-  case StmtKind::continueS:
-  case StmtKind::returnS:
-    return;
   case StmtKind::assign: {
     const auto *a = as<AssignStmt>(s);
-    if (a->op == AssignOp::reference) {
-      facts.opaque = true;
-      return;
-    }
+    facts.opaque = facts.opaque || a->op == AssignOp::reference;
     for (const Expr *t : a->targets)
       target(t, facts);
-    expression(a->value, facts);
-    return;
+    return value(a->value);
   }
-  case StmtKind::ifS: {
-    const auto *i = as<IfStmt>(s);
-    for (const IfBranch &b : i->branches) {
-      expression(b.condition, facts);
-      block(b.body, facts);
-    }
-    block(i->elseBody, facts);
-    return;
-  }
-  case StmtKind::caseS: {
-    const auto *c = as<CaseStmt>(s);
-    expression(c->selector, facts);
-    for (const CaseBranch &b : c->branches)
-      block(b.body, facts);
-    block(c->elseBody, facts);
-    return;
-  }
-  case StmtKind::forS: {
-    const auto *f = as<ForStmt>(s);
-    target(f->variable, facts);
-    expression(f->from, facts);
-    expression(f->to, facts);
-    if (f->by != nullptr)
-      expression(f->by, facts);
-    block(f->body, facts);
-    return;
-  }
-  case StmtKind::whileS:
-    expression(as<WhileStmt>(s)->condition, facts);
-    block(as<WhileStmt>(s)->body, facts);
-    return;
-  case StmtKind::repeatS:
-    block(as<RepeatStmt>(s)->body, facts);
-    expression(as<RepeatStmt>(s)->until, facts);
-    return;
+  case StmtKind::forS:
+    target(as<ForStmt>(s)->variable, facts);
+    return forEachChild(s, value, inner);
   case StmtKind::call:
     if (as<CallStmt>(s)->expr->kind == ExprKind::call)
       call(as<CallExpr>(as<CallStmt>(s)->expr), facts);
     else
       facts.opaque = true;
     return;
-  default: // jumps, __TRY
+  case StmtKind::jump:
+  case StmtKind::label:
+  case StmtKind::tryS:
     facts.opaque = true;
     return;
+  default:
+    return forEachChild(s, value, inner);
   }
 }
 

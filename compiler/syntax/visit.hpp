@@ -6,6 +6,7 @@
 
 #include <span>
 #include <type_traits>
+#include <vector>
 
 namespace stc::ast {
 
@@ -136,8 +137,19 @@ void forEachChild(const Stmt *stmt, OnExpr &&onExpr, OnBlock &&onBlock) {
 /// Calls `visit(Expr *)` for `expr` and everything below it, each node before its children. A
 /// `visit` that gives a bool says whether to look below the node.
 template <class Visit> void walk(Expr *expr, Visit &&visit) {
-  if (detail::goesOn(visit, expr))
+  // Sums of thousands of terms lean to the left: they are not descended into.
+  std::vector<BinaryExpr *> spine;
+  bool below = detail::goesOn(visit, expr);
+  while (below && expr->kind == ExprKind::binary) {
+    spine.push_back(as<BinaryExpr>(expr));
+    expr = spine.back()->left;
+    below = expr != nullptr && detail::goesOn(visit, expr);
+  }
+  if (below)
     forEachChild(expr, [&](Expr *child) { walk(child, visit); });
+  for (auto node = spine.rbegin(); node != spine.rend(); ++node)
+    if ((*node)->right != nullptr)
+      walk((*node)->right, visit);
 }
 
 /// Calls `visit(Stmt *)` for each statement of the block and of the blocks inside of it, each

@@ -1,11 +1,13 @@
-// Pasted at the top of every mutated copy: which mutant is active. STRIDE_MUTANT is its number; STRIDE_MUTATION_REACHED
-// names a file with a byte for each mutant, which becomes 1 when control reaches the function that it is in.
+// Pasted at the top of every mutated copy: which mutant is active. STRIDE_MUTANT is its number;
+// STRIDE_MUTATION_REACHED names a file with a byte for each mutant, which becomes 1 when control
+// reaches the function that it is in.
 #ifndef STRIDE_TESTS_MUTATION_H
 #define STRIDE_TESTS_MUTATION_H
 
 namespace stride_mutation {
 
-// Generated code includes this, too: no header of the system, and no name that one of them declares.
+// Generated code includes this, too: no header of the system, and no name that one of them
+// declares.
 extern "C" char *stride_mutation_getenv(const char *) __asm__("getenv");
 extern "C" int stride_mutation_open(const char *, int, ...) __asm__("open");
 extern "C" int stride_mutation_close(int) __asm__("close");
