@@ -1,7 +1,7 @@
 #pragma once
 // What app.cpp holds for variables with {attribute 'consistent'} (runtime/iec/consistent.h).
 
-#include "compiler/codegen/context.hpp"
+#include "compiler/codegen/context/context.hpp"
 
 namespace stc::codegen {
 

@@ -2,7 +2,7 @@
 // weak functions that know its own blocks; those of an application know all blocks and replace
 // them.
 
-#include "compiler/codegen/signatures.hpp"
+#include "compiler/codegen/calls/signatures.hpp"
 #include "compiler/codegen/units.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 

@@ -1,11 +1,11 @@
 #include "compiler/codegen/generated_source.hpp"
 
-#include "compiler/codegen/initializer_tables.hpp"
-#include "compiler/codegen/initializers.hpp"
-#include "compiler/codegen/lifecycle.hpp"
-#include "compiler/codegen/located.hpp"
-#include "compiler/codegen/signatures.hpp"
-#include "compiler/codegen/statements.hpp"
+#include "compiler/codegen/calls/signatures.hpp"
+#include "compiler/codegen/initial/initializer_tables.hpp"
+#include "compiler/codegen/initial/initializers.hpp"
+#include "compiler/codegen/initial/lifecycle.hpp"
+#include "compiler/codegen/places/located.hpp"
+#include "compiler/codegen/statements/statements.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
 namespace stc::codegen {

@@ -3,7 +3,7 @@
 // need.
 
 #include "compiler/codegen/codegen.hpp"
-#include "compiler/codegen/context.hpp"
+#include "compiler/codegen/context/context.hpp"
 
 #include <string>
 #include <string_view>

@@ -1,7 +1,7 @@
 // Headers: one per type, POU and variable list.
 
-#include "compiler/codegen/initializers.hpp"
-#include "compiler/codegen/signatures.hpp"
+#include "compiler/codegen/calls/signatures.hpp"
+#include "compiler/codegen/initial/initializers.hpp"
 #include "compiler/codegen/units.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 

@@ -1,6 +1,6 @@
 // Sources: one per POU, one for the initial values of structures and variable lists.
 
-#include "compiler/codegen/inlining.hpp"
+#include "compiler/codegen/cpp/inlining.hpp"
 #include "compiler/codegen/units.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 // The application's description of its types, members and roots (runtime/app/abi.h).
 
-#include "compiler/codegen/context.hpp"
+#include "compiler/codegen/context/context.hpp"
 
 #include <optional>
 #include <string>

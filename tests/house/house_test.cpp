@@ -42,7 +42,17 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
       {"compiler/semantics/program",
        {"compiler/semantics/lint", "compiler/semantics/statements", "compiler/semantics/checking",
         "compiler/semantics/context", "compiler/semantics/lookup", "compiler/semantics"}},
-      {"compiler/codegen", {"compiler/semantics", "compiler/syntax", "compiler/source"}},
+      {"compiler/codegen/cpp", {"compiler/semantics", "compiler/syntax", "compiler/source"}},
+      {"compiler/codegen/analysis",
+       {"compiler/codegen/cpp", "compiler/semantics", "compiler/syntax"}},
+      {"compiler/codegen/context",
+       {"compiler/codegen/analysis", "compiler/codegen/cpp", "compiler/semantics"}},
+      {"compiler/codegen/emission",
+       {"compiler/codegen/context", "compiler/codegen/cpp", "compiler/semantics",
+        "compiler/syntax"}},
+      {"compiler/codegen",
+       {"compiler/codegen/emission", "compiler/codegen/context", "compiler/codegen/analysis",
+        "compiler/codegen/cpp", "compiler/semantics", "compiler/syntax", "compiler/source"}},
       {"compiler/project",
        {"compiler/codegen", "compiler/semantics", "compiler/syntax", "compiler/source",
         "runtime/numeric/", "runtime/bus", "runtime/io", "drivers", "drivers/io"}},
@@ -94,21 +104,32 @@ std::vector<fs::path> sourcesBelow(const std::string &folder) {
   return found;
 }
 
-/// Folders that need each other in circles: declarations need the values of constants, expressions
-/// need declarations. They are one library and one room, compiler/semantics/checking.
-bool isChecking(const std::string &path) {
-  const std::string semantics = "compiler/semantics/";
-  for (const char *folder :
-       {"builtins", "calls", "classes", "config", "declarations", "expressions", "names", "types"})
-    if (path.starts_with(semantics + folder + "/"))
-      return true;
-  return false;
+/// Folders that need each other in circles (declarations need the values of constants, expressions
+/// need declarations) are one library and one room: its name, and where they lie.
+struct Circle {
+  const char *room;
+  const char *top;
+  std::vector<const char *> folders;
+};
+
+const std::vector<Circle> &circles() {
+  static const std::vector<Circle> kCircles = {
+      {"compiler/semantics/checking",
+       "compiler/semantics/",
+       {"builtins", "calls", "classes", "config", "declarations", "expressions", "names", "types"}},
+      {"compiler/codegen/emission",
+       "compiler/codegen/",
+       {"calls", "expressions", "initial", "places", "statements"}},
+  };
+  return kCircles;
 }
 
 /// The longest name of a room that the path lies in; empty: none.
 std::string roomOf(const std::string &path) {
-  if (isChecking(path))
-    return "compiler/semantics/checking";
+  for (const Circle &circle : circles())
+    for (const char *folder : circle.folders)
+      if (path.starts_with(std::string(circle.top) + folder + "/"))
+        return circle.room;
   if (path.starts_with("st/"))
     return "st";
   std::string best;

@@ -1,0 +1,331 @@
+#include "compiler/codegen/analysis/loop_locals.hpp"
+
+#include "compiler/codegen/cpp/layout.hpp"
+#include "compiler/semantics/held.hpp"
+#include "compiler/syntax/visit.hpp"
+
+#include <algorithm>
+
+namespace stc::codegen {
+
+using namespace ast;
+
+namespace {
+
+/// Values that fit a register. Texts and aggregates stay where they are.
+bool isScalar(const Type *type) {
+  const Type *t = underlying(type);
+  return t->kind == TypeKind::boolean || isInteger(t) || isReal(t) || isTimeOrDate(t);
+}
+
+/// Copying it copies variables of blocks.
+bool holdsInstance(const Type *type) {
+  return anyHeld(type, [](const Type *t, const VarSymbol *) {
+    return t->kind == TypeKind::structure ? Held::inside
+           : isElementary(t)              ? Held::over
+                                          : Held::found;
+  });
+}
+
+/// Builtins that look at the values of their arguments only.
+bool onlyComputes(Builtin id) {
+  return id <= Builtin::find || id == Builtin::convert || id == Builtin::time ||
+         id == Builtin::ltime || id == Builtin::sizeofT || id == Builtin::lowerBound ||
+         id == Builtin::upperBound;
+}
+
+/// Calls save the locals: with more of them that costs more than it gains.
+constexpr std::size_t kLocalsOverCalls = 4;
+
+/// An instance that is found without following an address, so that its block is known.
+bool isOwnPlace(const Expr *place) {
+  while (true) {
+    switch (place->kind) {
+    case ExprKind::name: {
+      const VarSymbol *v = namedVariable(place);
+      return v != nullptr && !isIndirect(v);
+    }
+    case ExprKind::member: {
+      const auto *m = as<MemberExpr>(place);
+      if (m->symbol == nullptr || m->symbol->kind != SymbolKind::variable ||
+          isIndirect(static_cast<const VarSymbol *>(m->symbol)))
+        return false;
+      if (isNamespace(m->base))
+        return true;
+      place = m->base;
+      continue;
+    }
+    case ExprKind::index:
+      if (followsAddress(as<IndexExpr>(place)))
+        return false;
+      place = as<IndexExpr>(place)->base;
+      continue;
+    default:
+      return false;
+    }
+  }
+}
+
+/// A block that stands for itself alone: no other one shares its variables or replaces its code.
+bool standsAlone(const PouSymbol *block) {
+  return block->base == nullptr && !block->extended && !block->isAbstract();
+}
+
+template <class T> bool contains(const std::vector<T> &all, T one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
+
+} // namespace
+
+std::vector<const VarSymbol *> LoopLocals::of(const Stmt *loop, const PouSymbol *pou) {
+  if (pou == nullptr ||
+      (pou->decl->kind != DeclKind::program && pou->decl->kind != DeclKind::functionBlock))
+    return {}; // a function's variables are C++ locals anyway
+  Facts facts;
+  statement(loop, facts);
+  if (facts.opaque || contains(facts.called, pou) ||
+      (!facts.called.empty() && pou->isBlock() && !standsAlone(pou)))
+    return {};
+  std::vector<const VarSymbol *> result;
+  for (const VarSymbol *v : facts.written) {
+    const bool member = v->section == Section::local || v->section == Section::input ||
+                        v->section == Section::output;
+    if (v->owner != pou || !member || v->isConstant || v->decl == nullptr ||
+        v->decl->address != nullptr || v->isBit || analysis_.isShared(v) || !isScalar(v->type) ||
+        contains(result, v) || contains<const Symbol *>(facts.foreign, v) ||
+        contains(facts.indirect, underlying(v->type)))
+      continue;
+    result.push_back(v);
+  }
+  if (!facts.called.empty() && result.size() > kLocalsOverCalls)
+    result.resize(kLocalsOverCalls);
+  return result;
+}
+
+bool LoopLocals::countsAlone(const ForStmt *loop, const PouSymbol *pou) {
+  const VarSymbol *v = namedVariable(loop->variable);
+  if (v == nullptr || pou == nullptr || v->owner != pou || isIndirect(v) ||
+      v->location != nullptr || v->section == Section::stat || v->section == Section::instance ||
+      analysis_.isShared(v))
+    return false;
+  Facts facts;
+  block(loop->body, facts);
+  // A method shares the variables of its block with whatever it calls.
+  const bool shares =
+      contains(facts.called, pou) || (!facts.called.empty() && pou->isBlock() && !standsAlone(pou));
+  return !facts.opaque && !shares && !contains(facts.written, v) &&
+         !contains<const Symbol *>(facts.foreign, v) &&
+         !contains(facts.indirect, underlying(v->type));
+}
+
+void LoopLocals::block(Block block, Facts &facts) {
+  for (const Stmt *s : block) {
+    if (facts.opaque)
+      return;
+    statement(s, facts);
+  }
+}
+
+void LoopLocals::statement(const Stmt *s, Facts &facts) {
+  const auto value = [&](const Expr *e) { expression(e, facts); };
+  const auto inner = [&](Block b) { block(b, facts); };
+  switch (s->kind) {
+  case StmtKind::assign: {
+    const auto *a = as<AssignStmt>(s);
+    facts.opaque = facts.opaque || a->op == AssignOp::reference;
+    for (const Expr *t : a->targets)
+      target(t, facts);
+    return value(a->value);
+  }
+  case StmtKind::forS:
+    target(as<ForStmt>(s)->variable, facts);
+    return forEachChild(s, value, inner);
+  case StmtKind::call:
+    if (as<CallStmt>(s)->expr->kind == ExprKind::call)
+      call(as<CallExpr>(as<CallStmt>(s)->expr), facts);
+    else
+      facts.opaque = true;
+    return;
+  case StmtKind::jump:
+  case StmtKind::label:
+  case StmtKind::tryS:
+    facts.opaque = true;
+    return;
+  default:
+    return forEachChild(s, value, inner);
+  }
+}
+
+void LoopLocals::target(const Expr *expr, Facts &facts) {
+  if (holdsInstance(expr->type)) {
+    facts.opaque = true;
+    return;
+  }
+  const Expr *whole = expr;
+  if (whole->kind == ExprKind::member && as<MemberExpr>(whole)->bit >= 0)
+    whole = as<MemberExpr>(whole)->base;
+  if (whole->kind == ExprKind::name) {
+    if (const VarSymbol *v = namedVariable(whole); v != nullptr && !isIndirect(v))
+      facts.written.push_back(v);
+  }
+  expression(expr, facts);
+}
+
+void LoopLocals::name(const Symbol *symbol, Facts &facts) {
+  if (symbol == nullptr) {
+    facts.opaque = true;
+    return;
+  }
+  if (symbol->kind != SymbolKind::variable) {
+    facts.opaque = facts.opaque || symbol->kind != SymbolKind::enumerator;
+    return;
+  }
+  const auto *v = static_cast<const VarSymbol *>(symbol);
+  if (v->section == Section::access) // another name of some variable
+    facts.opaque = true;
+  if (isIndirect(v)) {
+    const Type *pointee =
+        v->type->kind == TypeKind::reference ? typeAs<PointerType>(v->type)->pointee : v->type;
+    facts.indirect.push_back(underlying(pointee));
+  }
+}
+
+void LoopLocals::expression(const Expr *e, Facts &facts) {
+  while (!facts.opaque) {
+    if (e->constant != nullptr)
+      return;
+    if (holdsInstance(e->type) && e->kind != ExprKind::name && e->kind != ExprKind::member &&
+        e->kind != ExprKind::index) {
+      facts.opaque = true;
+      return;
+    }
+    switch (e->kind) {
+    case ExprKind::literal:
+    case ExprKind::enumLiteral:
+      return;
+    case ExprKind::name:
+      name(as<NameExpr>(e)->symbol, facts);
+      return;
+    case ExprKind::member: {
+      const auto *m = as<MemberExpr>(e);
+      if (m->symbol == nullptr) {
+        facts.opaque = facts.opaque || m->bit < 0;
+      } else {
+        name(m->symbol, facts);
+        facts.foreign.push_back(m->symbol);
+      }
+      if (isNamespace(m->base))
+        return;
+      // A program in front of the dot is a place, too.
+      if (m->base->kind == ExprKind::name) {
+        const Symbol *base = as<NameExpr>(m->base)->symbol;
+        if (base != nullptr && base->kind == SymbolKind::pou)
+          return;
+      }
+      e = m->base;
+      continue;
+    }
+    case ExprKind::index: {
+      const auto *i = as<IndexExpr>(e);
+      facts.opaque = facts.opaque || followsAddress(i);
+      for (const Expr *x : i->indices)
+        expression(x, facts);
+      e = i->base;
+      continue;
+    }
+    case ExprKind::unary:
+      e = as<UnaryExpr>(e)->operand;
+      continue;
+    case ExprKind::binary:
+      expression(as<BinaryExpr>(e)->right, facts);
+      e = as<BinaryExpr>(e)->left;
+      continue;
+    case ExprKind::call:
+      call(as<CallExpr>(e), facts);
+      return;
+    default: // pointers, direct addresses
+      facts.opaque = true;
+      return;
+    }
+  }
+}
+
+void LoopLocals::call(const CallExpr *e, Facts &facts) {
+  if (e->resolved == Callee::functionBlock || e->resolved == Callee::method) {
+    instanceCall(e, facts);
+    return;
+  }
+  const bool isFunction = e->resolved == Callee::function && analysis_.pure(e->pou);
+  if (!isFunction && (e->resolved != Callee::builtin || !onlyComputes(e->builtin))) {
+    facts.opaque = true;
+    return;
+  }
+  if (!isFunction && e->builtin == Builtin::sizeofT)
+    return;
+  arguments(e, facts);
+  if (!isFunction)
+    return;
+  // A pure function writes its own variables only; what counts is which others it reads.
+  const Facts &inner = body(e->pou);
+  facts.opaque = facts.opaque || inner.opaque;
+  facts.foreign.insert(facts.foreign.end(), inner.foreign.begin(), inner.foreign.end());
+}
+
+void LoopLocals::arguments(const CallExpr *e, Facts &facts) {
+  for (const Argument &a : e->arguments) {
+    if (a.value == nullptr)
+      continue;
+    if (a.output) {
+      target(a.value, facts);
+      continue;
+    }
+    const bool binds = a.parameter != nullptr && isIndirect(a.parameter);
+    if (holdsInstance(a.value->type) && !binds)
+      facts.opaque = true;
+    // What an in-out or a reference is bound to stays in memory.
+    if (const VarSymbol *bound = binds ? namedVariable(a.value) : nullptr; bound != nullptr)
+      facts.foreign.push_back(bound);
+    expression(a.value, facts);
+  }
+}
+
+/// A block or one of its methods: it reaches its own variables, those it names with a dot, and what
+/// its in-outs and references may stand for.
+void LoopLocals::instanceCall(const CallExpr *e, Facts &facts) {
+  const bool isMethod = e->resolved == Callee::method;
+  const PouSymbol *block = isMethod ? e->pou->owner : e->pou;
+  const bool isPlain =
+      !isMethod || (e->callee->kind == ExprKind::member && e->pou->decl->kind == DeclKind::method);
+  const Expr *object = isMethod && isPlain ? as<MemberExpr>(e->callee)->base : e->callee;
+  if (!isPlain || !block->isBlock() || !standsAlone(block) || !isOwnPlace(object)) {
+    facts.opaque = true;
+    return;
+  }
+  expression(object, facts);
+  arguments(e, facts);
+  const Facts &inner = body(e->pou);
+  facts.opaque = facts.opaque || inner.opaque;
+  facts.foreign.insert(facts.foreign.end(), inner.foreign.begin(), inner.foreign.end());
+  facts.indirect.insert(facts.indirect.end(), inner.indirect.begin(), inner.indirect.end());
+  facts.called.insert(facts.called.end(), inner.called.begin(), inner.called.end());
+  facts.called.push_back(block);
+}
+
+const LoopLocals::Facts &LoopLocals::body(const PouSymbol *pou) {
+  const auto found = bodies_.find(pou);
+  if (found != bodies_.end())
+    return found->second;
+  Facts unknown; // what calls itself
+  unknown.opaque = true;
+  bodies_.emplace(pou, unknown);
+  Facts facts;
+  if (!pou->checked)
+    facts.opaque = true;
+  else if (!pou->decl->external)
+    block(pou->decl->body, facts);
+  else // native functions on plain values compute, by agreement
+    facts.opaque = !pou->isFunction();
+  return bodies_[pou] = std::move(facts);
+}
+
+} // namespace stc::codegen

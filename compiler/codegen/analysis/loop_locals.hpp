@@ -1,0 +1,52 @@
+#pragma once
+// Which variables of a block or program a loop may keep in C++ locals: those that nothing but the
+// loop's own statements can reach while it runs. Registers are the difference between generated and
+// hand-written loops.
+
+#include "compiler/codegen/analysis/analysis.hpp"
+
+#include <unordered_map>
+#include <vector>
+
+namespace stc::codegen {
+
+class LoopLocals {
+public:
+  explicit LoopLocals(Analysis &analysis) : analysis_(analysis) {}
+
+  /// The elementary variables of `pou` that the loop writes and nothing else touches during it; in
+  /// the order of their first write.
+  [[nodiscard]] std::vector<const VarSymbol *> of(const ast::Stmt *loop, const PouSymbol *pou);
+  /// Nothing in the body of the loop changes its variable, whatever it calls.
+  [[nodiscard]] bool countsAlone(const ast::ForStmt *loop, const PouSymbol *pou);
+
+private:
+  /// What a piece of code touches.
+  struct Facts {
+    /// It calls, jumps or follows pointers: anything may happen.
+    bool opaque = false;
+    /// Variables named directly on the left of an assignment.
+    std::vector<const VarSymbol *> written;
+    /// Members of other instances (perhaps of this one by another way).
+    std::vector<const Symbol *> foreign;
+    /// Types of the elementary variables behind in-outs and references.
+    std::vector<const Type *> indirect;
+    /// The blocks whose bodies and methods are called: their variables are in reach.
+    std::vector<const PouSymbol *> called;
+  };
+
+  void block(ast::Block block, Facts &facts);
+  void statement(const ast::Stmt *statement, Facts &facts);
+  void expression(const ast::Expr *expr, Facts &facts);
+  void name(const Symbol *symbol, Facts &facts);
+  void call(const ast::CallExpr *call, Facts &facts);
+  void arguments(const ast::CallExpr *call, Facts &facts);
+  void instanceCall(const ast::CallExpr *call, Facts &facts);
+  void target(const ast::Expr *expr, Facts &facts);
+  const Facts &body(const PouSymbol *pou);
+
+  Analysis &analysis_;
+  std::unordered_map<const PouSymbol *, Facts> bodies_;
+};
+
+} // namespace stc::codegen

@@ -1,0 +1,91 @@
+#include "compiler/codegen/calls/assertions.hpp"
+
+#include "compiler/codegen/cpp/names.hpp"
+#include "compiler/semantics/symbols.hpp"
+#include "compiler/semantics/type_table.hpp"
+
+#include <algorithm>
+
+namespace stc::codegen {
+
+using namespace ast;
+
+namespace {
+
+std::string_view demandOf(Builtin id) {
+  return id == Builtin::assertNe   ? "NotEqual"
+         : id == Builtin::assertGt ? "Greater"
+         : id == Builtin::assertGe ? "GreaterEqual"
+         : id == Builtin::assertLt ? "Less"
+         : id == Builtin::assertLe ? "LessEqual"
+                                   : "Equal";
+}
+
+/// ASSERT_EQ
+std::string nameOf(Builtin id) {
+  std::string out;
+  for (const auto &[name, builtin] : builtins())
+    if (builtin == id)
+      out = name;
+  std::transform(out.begin(), out.end(), out.begin(), [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  });
+  return out;
+}
+
+/// A function that spells the values of an enumeration.
+std::string spellings(const EnumType *enumeration) {
+  std::string out = "[](::stride::LINT value__) -> const char * { switch (value__) { ";
+  std::vector<std::int64_t> seen;
+  for (const EnumeratorSymbol *one : enumeration->enumerators) {
+    if (std::find(seen.begin(), seen.end(), one->value) != seen.end())
+      continue;
+    seen.push_back(one->value);
+    // Its smallest number cannot be written as a literal.
+    out += "case " +
+           (one->value == INT64_MIN ? std::string("(-9223372036854775807 - 1)")
+                                    : std::to_string(one->value)) +
+           ": return \"" + std::string(one->name.text) + "\"; ";
+  }
+  return out + "default: return nullptr; } }";
+}
+
+} // namespace
+
+const Type *assertedType(const CallExpr *call) {
+  const std::size_t values = assertedValues(call->builtin);
+  if (values == 0)
+    return nullptr;
+  if (values != 2)
+    return elementaryType(values == 1 ? TypeKind::boolean : TypeKind::lreal);
+  const Expr *first = call->arguments[0].value;
+  const Type *own = first->target != nullptr ? first->target : first->type;
+  return own->kind == TypeKind::enumeration ? own : underlying(own);
+}
+
+std::string assertionText(const CallExpr *call, const std::string &context,
+                          const std::vector<std::string> &arguments, const std::string &position) {
+  const Builtin id = call->builtin;
+  const std::size_t values = assertedValues(id);
+  const std::string place =
+      "{\"" + nameOf(id) + "\", " +
+      (arguments.size() > values ? "(" + arguments[values] + ").s" : std::string("nullptr")) +
+      ", " + position + "})";
+  if (values == 0)
+    return "::stride::failTest(" + context + ", " + place;
+  if (values == 3)
+    return "::stride::assertNear(" + context + ", " + arguments[0] + ", " + arguments[1] + ", " +
+           arguments[2] + ", " + place;
+  const Type *type = assertedType(call);
+  const auto *enumeration = type->kind == TypeKind::enumeration ? typeAs<EnumType>(type) : nullptr;
+  const TypeKind shown = enumeration != nullptr ? TypeKind::lint : type->kind;
+  std::string out = std::string("::stride::") + (isString(type) ? "assertTexts" : "assertValues") +
+                    "<::stride::Kind::" + std::string(Names::elementary(shown)) + ">(" + context +
+                    ", ::stride::Demand::" + std::string(demandOf(id)) + ", " + arguments[0] + ", ";
+  out += values == 2 ? arguments[1] : id == Builtin::assertTrue ? "true" : "false";
+  if (!isString(type))
+    out += ", " + (enumeration != nullptr ? spellings(enumeration) : std::string("nullptr"));
+  return out + ", " + place;
+}
+
+} // namespace stc::codegen

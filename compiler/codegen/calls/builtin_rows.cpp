@@ -1,0 +1,302 @@
+#include "compiler/codegen/calls/builtin_rows.hpp"
+
+#include "compiler/codegen/calls/assertions.hpp"
+#include "compiler/codegen/calls/instances.hpp"
+#include "compiler/codegen/calls/methods.hpp"
+#include "compiler/codegen/calls/pool_objects.hpp"
+#include "compiler/codegen/expressions/conversions.hpp"
+#include "compiler/codegen/expressions/expressions.hpp"
+#include "compiler/codegen/places/places.hpp"
+#include "compiler/semantics/alignment.hpp"
+#include "compiler/semantics/hierarchy.hpp"
+
+#include <array>
+
+namespace stc::codegen {
+
+using namespace ast;
+
+namespace {
+
+/// `a, b)` of the arguments from the first on.
+void closeWithArguments(EmitContext &cx, const BuiltinCall &call) {
+  for (std::size_t i = 0; i < call.count(); ++i) {
+    cx.out << (i > 0 ? ", " : "");
+    emitBuiltinArgument(cx, call, i);
+  }
+  cx.out << ')';
+}
+
+/// `name<T>(a, b …)` with the type of the result
+void emitOfResult(EmitContext &cx, const BuiltinCall &call, std::string_view name) {
+  cx.out << "::stride::" << name << '<' << cx.type(underlying(call.expr->type)) << ">(";
+  closeWithArguments(cx, call);
+}
+
+/// Overloads for REAL and LREAL: an integer argument must choose one.
+void emitMath(EmitContext &cx, const BuiltinCall &call, std::string_view name) {
+  const std::string_view type = cx.type(underlying(call.expr->type));
+  cx.out << "::stride::" << name;
+  for (std::size_t i = 0; i < call.count(); ++i) {
+    cx.out << (i == 0 ? "(" : ", ") << "static_cast<" << type << ">(";
+    emitBuiltinArgument(cx, call, i);
+    cx.out << ')';
+  }
+  cx.out << ')';
+}
+
+/// The smallest or the largest, as a chain: `max(max(a, b), c)`.
+void emitExtreme(EmitContext &cx, const BuiltinCall &call, std::string_view name) {
+  const Type *result = underlying(call.expr->type);
+  for (std::size_t i = 1; i < call.count(); ++i) {
+    cx.out << "::stride::" << name;
+    if (isString(result))
+      cx.out << "Text(";
+    else
+      cx.out << '<' << cx.type(result) << ">(";
+  }
+  emitBuiltinArgument(cx, call, 0);
+  for (std::size_t i = 1; i < call.count(); ++i) {
+    cx.out << ", ";
+    emitBuiltinArgument(cx, call, i);
+    cx.out << ')';
+  }
+}
+
+void emitLimit(EmitContext &cx, const BuiltinCall &call, std::string_view name) {
+  if (!isString(underlying(call.expr->type))) {
+    emitOfResult(cx, call, name);
+    return;
+  }
+  cx.out << "::stride::minText(::stride::maxText(";
+  emitBuiltinArgument(cx, call, 1);
+  cx.out << ", ";
+  emitBuiltinArgument(cx, call, 0);
+  cx.out << "), ";
+  emitBuiltinArgument(cx, call, 2);
+  cx.out << ')';
+}
+
+/// All values are computed, from left to right, as braces evaluate them.
+void emitMux(EmitContext &cx, const BuiltinCall &call, std::string_view) {
+  const Type *result = underlying(call.expr->type);
+  const bool number = isInteger(result) || result->kind == TypeKind::boolean || isReal(result);
+  const std::string values = cx.temporary("values");
+  cx.out << "[&] { const auto selector__ = ";
+  emitBuiltinArgument(cx, call, 0);
+  cx.out << "; const " << cx.type(call.expr->type) << ' ' << values << "[] = {";
+  for (std::size_t i = 1; i < call.count(); ++i) {
+    cx.out << (i > 1 ? ", " : "");
+    if (number)
+      cx.out << "static_cast<" << cx.type(result) << ">(";
+    emitBuiltinArgument(cx, call, i);
+    cx.out << (number ? ")" : "");
+  }
+  cx.out << "}; return " << values << "[::stride::index<0, " << call.count() - 2 << ">(" << cx.ctx()
+         << ", selector__, ";
+  cx.position(call.expr->span);
+  cx.out << ")]; }()";
+}
+
+/// Comparisons of many; `order` is how each argument must relate to the next one.
+void emitInOrder(EmitContext &cx, const BuiltinCall &call, std::string_view order) {
+  const Type *operands = underlying(call.type(0));
+  const bool strings = isString(operands);
+  cx.out << "::stride::inOrder([](const auto &a__, const auto &b__) { return ";
+  if (strings)
+    cx.out << "::stride::compare(a__, b__) " << order << " 0";
+  else
+    cx.out << "a__ " << order << " b__";
+  cx.out << "; }";
+  for (std::size_t i = 0; i < call.count(); ++i) {
+    cx.out << ", ";
+    if (!strings)
+      cx.out << "static_cast<" << cx.type(operands) << ">(";
+    emitBuiltinArgument(cx, call, i);
+    cx.out << (strings ? "" : ")");
+  }
+  cx.out << ')';
+}
+
+/// The argument as it is.
+void emitItself(EmitContext &cx, const BuiltinCall &call, std::string_view) {
+  cx.out << '(';
+  emitBuiltinArgument(cx, call, 0);
+  cx.out << ')';
+}
+
+void emitConversion(EmitContext &cx, const BuiltinCall &call, std::string_view name) {
+  if (call.type(0) == call.expr->type)
+    emitItself(cx, call, name);
+  else
+    emitConverted(cx, call.type(0), call.expr->type, call.expr->span,
+                  [&] { emitBuiltinArgument(cx, call, 0); });
+}
+
+/// The cycle's start.
+void emitTime(EmitContext &cx, const BuiltinCall &, std::string_view) {
+  cx.uses.context = true;
+  cx.out << "static_cast<::stride::TIME>(" << kContext << ".cycleStartNs / 1000000)";
+}
+
+void emitLongTime(EmitContext &cx, const BuiltinCall &, std::string_view) {
+  cx.uses.context = true;
+  cx.out << "static_cast<::stride::LTIME>(" << kContext << ".cycleStartNs)";
+}
+
+void emitAdr(EmitContext &cx, const BuiltinCall &call, std::string_view) {
+  cx.out << (isMisaligned(call.value(0)) ? "reinterpret_cast<::stride::BYTE *>(" : "(");
+  emitAddress(cx, call.value(0));
+  cx.out << ')';
+}
+
+/// A bound of an ARRAY[*]; those of other arrays are constants.
+void emitBound(EmitContext &cx, const BuiltinCall &call, std::string_view name) {
+  cx.out << "static_cast<::stride::DINT>(";
+  emitPlace(cx, call.value(0));
+  cx.out << '.' << name << '[' << call.value(1)->constant->integer - 1 << "])";
+}
+
+void emitIsValidRef(EmitContext &cx, const BuiltinCall &call, std::string_view) {
+  const Expr *reference = call.value(0);
+  const VarSymbol *v = indirectVariable(reference);
+  if (v == nullptr || v->section != Section::inOut || reference->kind != ExprKind::name) {
+    cx.out << '(';
+    emitSlot(cx, reference);
+    cx.out << " != nullptr)";
+  } else if (cx.pou->isFunction()) {
+    cx.out << "true";
+  } else { // its C++ reference is bound only where the in-out is used
+    cx.out << "(this->" << pathToBase(blockOf(cx.pou), v->owner) << fieldName(v) << " != nullptr)";
+  }
+}
+
+void emitAssertion(EmitContext &cx, const BuiltinCall &call, std::string_view) {
+  const CallExpr *e = call.expr;
+  cx.includes.assertion();
+  const Type *asserted = assertedType(e);
+  const bool texts = asserted != nullptr && isString(asserted);
+  std::vector<std::string> arguments;
+  for (std::size_t i = 0; i < call.count(); ++i)
+    arguments.push_back(cx.text([&] {
+      if (texts || i >= assertedValues(e->builtin)) // a message is a text, too
+        emitTextArgument(cx, call, i);
+      else
+        emitBuiltinArgument(cx, call, i);
+    }));
+  cx.out << assertionText(e, std::string(cx.ctx()), arguments,
+                          cx.text([&] { cx.position(e->span); }));
+}
+
+/// What is no more than a call: its arguments are its own matter.
+template <void (*emit)(EmitContext &, const CallExpr *)>
+void emitCall(EmitContext &cx, const BuiltinCall &call, std::string_view) {
+  emit(cx, call.expr);
+}
+
+constexpr BuiltinRow kRows[] = {
+    {Builtin::abs, emitOfResult, "abs"},
+    {Builtin::sqrt, emitMath, "sqrt"},
+    {Builtin::ln, emitMath, "ln"},
+    {Builtin::log, emitMath, "log10"},
+    {Builtin::exp, emitMath, "exp"},
+    {Builtin::sin, emitMath, "sin"},
+    {Builtin::cos, emitMath, "cos"},
+    {Builtin::tan, emitMath, "tan"},
+    {Builtin::asin, emitMath, "asin"},
+    {Builtin::acos, emitMath, "acos"},
+    {Builtin::atan, emitMath, "atan"},
+    {Builtin::atan2, emitMath, "atan2"},
+    {Builtin::expt, emitMath, "pow"},
+    {Builtin::trunc, emitOfResult, "truncate"},
+    {Builtin::min, emitExtreme, "min"},
+    {Builtin::max, emitExtreme, "max"},
+    {Builtin::limit, emitLimit, "limit"},
+    {Builtin::sel, emitOfResult, "sel"},
+    {Builtin::mux, emitMux},
+    {Builtin::move, emitItself},
+    {Builtin::greater, emitInOrder, ">"},
+    {Builtin::greaterEqual, emitInOrder, ">="},
+    {Builtin::equal, emitInOrder, "=="},
+    {Builtin::lessEqual, emitInOrder, "<="},
+    {Builtin::less, emitInOrder, "<"},
+    {Builtin::shl, emitOfResult, "shl"},
+    {Builtin::shr, emitOfResult, "shr"},
+    {Builtin::rol, emitOfResult, "rol"},
+    {Builtin::ror, emitOfResult, "ror"},
+    {Builtin::fromBcd, emitOfResult, "fromBcd"},
+    {Builtin::toBcd, emitOfResult, "toBcd"},
+    {Builtin::isValidBcd, emitOfResult, "isValidBcd"},
+    {Builtin::isValid, emitOfResult, "isValid"},
+    {Builtin::bigEndian, emitOfResult, "swapBytes"},
+    {Builtin::littleEndian, emitItself},
+    {Builtin::len, emitTextFunction, "len"},
+    {Builtin::left, emitTextFunction, "left"},
+    {Builtin::right, emitTextFunction, "right"},
+    {Builtin::mid, emitTextFunction, "mid"},
+    {Builtin::concat, emitTextFunction, "concat"},
+    {Builtin::insert, emitTextFunction, "insert"},
+    {Builtin::deleteS, emitTextFunction, "remove"},
+    {Builtin::replace, emitTextFunction, "replace"},
+    {Builtin::find, emitTextFunction, "find"},
+    {Builtin::convert, emitConversion},
+    {Builtin::ltime, emitLongTime},
+    {Builtin::time, emitTime},
+    {Builtin::adr, emitAdr, {}, false},
+    {Builtin::queryInterface, emitCall<emitQuery>, {}, false},
+    {Builtin::queryPointer, emitCall<emitQuery>, {}, false},
+    {Builtin::newT, emitCall<emitNew>, {}, false},
+    {Builtin::ini, emitCall<emitReinitialise>, {}, false},
+    {Builtin::isValidRef, emitIsValidRef, {}, false},
+    {Builtin::lowerBound, emitBound, "lo", false},
+    {Builtin::upperBound, emitBound, "hi", false},
+    {Builtin::assertTrue, emitAssertion},
+    {Builtin::assertFalse, emitAssertion},
+    {Builtin::assertEq, emitAssertion},
+    {Builtin::assertNe, emitAssertion},
+    {Builtin::assertGt, emitAssertion},
+    {Builtin::assertGe, emitAssertion},
+    {Builtin::assertLt, emitAssertion},
+    {Builtin::assertLe, emitAssertion},
+    {Builtin::assertNear, emitAssertion},
+    {Builtin::failTest, emitAssertion},
+};
+
+constexpr auto kById = [] {
+  std::array<const BuiltinRow *, static_cast<std::size_t>(Builtin::failTest) + 1> rows{};
+  for (const BuiltinRow &row : kRows)
+    rows[static_cast<std::size_t>(row.id)] = &row;
+  return rows;
+}();
+
+} // namespace
+
+const BuiltinRow *builtinRow(Builtin id) { return kById[static_cast<std::size_t>(id)]; }
+
+void emitBuiltinArgument(EmitContext &cx, const BuiltinCall &call, std::size_t i) {
+  if (call.names.empty())
+    emitValue(cx, call.value(i));
+  else
+    cx.out << call.names[i];
+}
+
+void emitTextArgument(EmitContext &cx, const BuiltinCall &call, std::size_t i) {
+  if (call.names.empty() && isString(call.value(i)->type))
+    emitText(cx, call.value(i));
+  else
+    emitBuiltinArgument(cx, call, i);
+}
+
+void emitTextFunction(EmitContext &cx, const BuiltinCall &call, std::string_view name) {
+  const Type *result = underlying(call.expr->type);
+  cx.out << "::stride::" << name;
+  if (isString(result))
+    cx.out << '<' << typeAs<StringType>(result)->length << '>';
+  for (std::size_t i = 0; i < call.count(); ++i) {
+    cx.out << (i == 0 ? "(" : ", ");
+    emitTextArgument(cx, call, i);
+  }
+  cx.out << ')';
+}
+
+} // namespace stc::codegen

@@ -1,0 +1,39 @@
+#pragma once
+// How each built-in function is written: one row for each.
+
+#include "compiler/codegen/context/context.hpp"
+
+namespace stc::codegen {
+
+/// A call whose arguments may have been taken before.
+struct BuiltinCall {
+  const ast::CallExpr *expr;
+  std::span<const std::string> names; ///< what stands for the arguments; empty: nothing does
+
+  [[nodiscard]] std::size_t count() const { return expr->arguments.size(); }
+  [[nodiscard]] const ast::Expr *value(std::size_t i) const { return expr->arguments[i].value; }
+  /// Its type after the conversion to what the function wants.
+  [[nodiscard]] const Type *type(std::size_t i) const {
+    return value(i)->target != nullptr ? value(i)->target : value(i)->type;
+  }
+};
+
+struct BuiltinRow {
+  ast::Builtin id;
+  void (*emit)(EmitContext &cx, const BuiltinCall &call, std::string_view name);
+  std::string_view name = {}; ///< the runtime's
+  /// It is written with what its arguments are, or takes them in their order by itself.
+  bool ordersArguments = true;
+};
+
+/// Null: a function that the checker replaces by others, or by a constant.
+[[nodiscard]] const BuiltinRow *builtinRow(ast::Builtin id);
+
+/// An argument's value, or what stands for it.
+void emitBuiltinArgument(EmitContext &cx, const BuiltinCall &call, std::size_t i);
+/// The same where the runtime takes texts of any length.
+void emitTextArgument(EmitContext &cx, const BuiltinCall &call, std::size_t i);
+/// The functions on texts: `name<length>(a, b …)`
+void emitTextFunction(EmitContext &cx, const BuiltinCall &call, std::string_view name);
+
+} // namespace stc::codegen

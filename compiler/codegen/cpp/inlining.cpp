@@ -1,0 +1,74 @@
+#include "compiler/codegen/cpp/inlining.hpp"
+
+#include "compiler/syntax/visit.hpp"
+
+namespace stc::codegen {
+
+using namespace ast;
+
+namespace {
+
+constexpr int kLimit = 160;
+
+/// Counts nodes until there are too many.
+class Size {
+public:
+  [[nodiscard]] bool fits() const { return left_ >= 0; }
+
+  void block(Block block) {
+    for (const Stmt *s : block) {
+      if (!fits())
+        return;
+      statement(s);
+    }
+  }
+
+private:
+  void statement(const Stmt *s) {
+    --left_;
+    switch (s->kind) {
+    case StmtKind::empty:
+    case StmtKind::returnS:
+    case StmtKind::assign:
+    case StmtKind::call:
+    case StmtKind::ifS:
+      forEachChild(
+          s, [this](Expr *e) { expression(e); }, [this](Block inner) { block(inner); });
+      return;
+    case StmtKind::caseS: // a label counts once, whatever its value looks like
+      expression(as<CaseStmt>(s)->selector);
+      for (const CaseBranch &b : as<CaseStmt>(s)->branches) {
+        left_ -= static_cast<int>(b.labels.size());
+        block(b.body);
+      }
+      block(as<CaseStmt>(s)->elseBody);
+      return;
+    default: // a loop outweighs its call
+      left_ = -1;
+      return;
+    }
+  }
+
+  void expression(Expr *expr) {
+    walk(expr, [this](const Expr *e) {
+      if (fits())
+        left_ -= e->kind == ExprKind::call ? 6 : 1;
+      return fits();
+    });
+  }
+
+  int left_ = kLimit;
+};
+
+} // namespace
+
+bool isInlinable(const PouSymbol *pou) {
+  const DeclKind kind = pou->decl->kind;
+  if ((kind != DeclKind::function && kind != DeclKind::functionBlock) || pou->decl->external)
+    return false;
+  Size size;
+  size.block(pou->decl->body);
+  return size.fits();
+}
+
+} // namespace stc::codegen

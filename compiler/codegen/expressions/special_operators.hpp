@@ -1,0 +1,13 @@
+#pragma once
+// Operators that are not C++ operators.
+
+#include "compiler/codegen/context/context.hpp"
+#include "compiler/codegen/cpp/part.hpp"
+
+namespace stc::codegen {
+
+/// `left` and `right` write the operands, already of the operator's type. Of texts it is what is
+/// compared with 0.
+void emitSpecial(EmitContext &cx, const ast::BinaryExpr *e, Part left, Part right);
+
+} // namespace stc::codegen

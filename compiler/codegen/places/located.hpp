@@ -1,0 +1,20 @@
+#pragma once
+// Places that are no plain C++ variables: the process image, bits and parts.
+
+#include "compiler/codegen/context/context.hpp"
+#include "compiler/codegen/cpp/part.hpp"
+
+namespace stc::codegen {
+
+/// A variable in the process image; `slot` writes what holds its place.
+void emitLocated(EmitContext &cx, const Location &at, const Type *type, Part slot);
+/// The value of a bit or part (isBitPlace).
+void emitBitValue(EmitContext &cx, const ast::Expr *e);
+/// Stores what `value` writes in it.
+void emitBitStore(EmitContext &cx, const ast::Expr *e, Part value);
+/// Brings zeroed memory to the variable's default; `target` is what holds its place.
+void initLocated(EmitContext &cx, std::string_view target, const VarSymbol *variable);
+/// Gives what VAR_CONFIG says of a variable: its initial value.
+void initConfigured(EmitContext &cx, const SlotPlace &entry);
+
+} // namespace stc::codegen

@@ -1,0 +1,11 @@
+#pragma once
+// IF and CASE.
+
+#include "compiler/codegen/context/context.hpp"
+
+namespace stc::codegen {
+
+void emitIf(EmitContext &cx, const ast::IfStmt *s);
+void emitCase(EmitContext &cx, const ast::CaseStmt *s);
+
+} // namespace stc::codegen

@@ -1,0 +1,291 @@
+#include "compiler/codegen/statements/loops.hpp"
+
+#include "compiler/codegen/expressions/expressions.hpp"
+#include "compiler/codegen/places/places.hpp"
+#include "compiler/codegen/statements/assignments.hpp"
+#include "compiler/codegen/statements/statements.hpp"
+#include "compiler/semantics/locations.hpp"
+#include "compiler/syntax/visit.hpp"
+
+namespace stc::codegen {
+
+using namespace ast;
+
+namespace {
+
+/// RETURN, or (with `exits`) EXIT of the loop around: it may end before its last round.
+bool mayLeave(Block block, bool exits) {
+  bool leaves = false;
+  for (const Stmt *s : block) {
+    const bool isLoop =
+        s->kind == StmtKind::forS || s->kind == StmtKind::whileS || s->kind == StmtKind::repeatS;
+    if (s->kind == StmtKind::returnS || (exits && s->kind == StmtKind::exit))
+      return true;
+    if (s->kind != StmtKind::tryS)
+      forEachChild(
+          s, [](const Expr *) {},
+          [&](Block inner) { leaves = leaves || mayLeave(inner, exits && !isLoop); });
+  }
+  return leaves;
+}
+
+/// The outer one of a loop's two C++ loops.
+void openRefillLoop(EmitContext &cx, std::string_view run, std::string_view first, Span span) {
+  cx.uses.budget = true;
+  cx.out << "for (bool " << run << " = " << first << "; " << run << "; budget__.refill(" << run
+         << ", " << cx.ctx() << ", ";
+  cx.position(span);
+  cx.out << ")) ";
+}
+
+/// The body with its closing brace and, after it, the label that EXIT jumps to.
+void emitLoopBody(EmitContext &cx, Block body, bool isDouble) {
+  std::vector<Loop> &loops = cx.modes.loops.around;
+  loops.push_back({cx.number(), isDouble});
+  cx.open();
+  emitBlock(cx, body);
+  cx.close();
+  cx.line("}");
+  if (loops.back().labelled)
+    cx.line("exit__" + std::to_string(loops.back().id) + ":;");
+  loops.pop_back();
+}
+
+void emitWhile(EmitContext &cx, const WhileStmt *s) {
+  const std::string run = cx.temporary("run");
+  cx.begin(s->span);
+  openRefillLoop(cx, run, "true", s->span);
+  cx.out << "while (--budget__.left >= 0 && (" << run << " = ";
+  emitValue(cx, s->condition);
+  cx.out << ")) {";
+  cx.end();
+  emitLoopBody(cx, s->body, true);
+}
+
+void emitRepeat(EmitContext &cx, const RepeatStmt *s) {
+  const std::string run = cx.temporary("run");
+  cx.begin(s->span);
+  openRefillLoop(cx, run, "true", s->span);
+  cx.out << "for (; " << run << " && --budget__.left >= 0; " << run << " = !(";
+  emitValue(cx, s->until);
+  cx.out << ")) {";
+  cx.end();
+  emitLoopBody(cx, s->body, true);
+}
+
+// -------------------------------------------------------------------------------------------------
+// FOR
+
+/// A FOR loop whose variable has been found.
+struct Counter {
+  const ForStmt *stmt;
+  const Type *type;     ///< of the variable, no subrange
+  std::string number;   ///< of the names that belong to the loop
+  std::string variable; ///< the C++ of it
+  bool hasStep = false; ///< the step is a constant:
+  std::int64_t step = 0;
+  bool isShort = false;     ///< it ends soon, whatever happens
+  bool countsAlone = false; ///< nothing else changes the variable
+};
+
+/// While the body is written the range of the variable may be known.
+class KnownRange {
+public:
+  KnownRange(EmitContext &cx, const Counter &counter) : analysis_(cx.run.analysis) {
+    analysis_.enterLoop(counter.stmt, counter.countsAlone);
+  }
+  ~KnownRange() { analysis_.leaveLoop(); }
+  KnownRange(const KnownRange &) = delete;
+  KnownRange &operator=(const KnownRange &) = delete;
+
+private:
+  Analysis &analysis_;
+};
+
+/// The variable is found once, before the bounds are computed; and followed once where that takes a
+/// call.
+std::string findCounter(EmitContext &cx, const Expr *variable, const std::string &number) {
+  std::string text = writableText(cx, variable);
+  const bool shared = cx.isShared(variable);
+  if (cx.run.analysis.placeEffects(variable, cx.pou) == effectNone && !shared &&
+      locationOf(variable) == nullptr)
+    return text;
+  cx.out << (shared ? "const auto counter__" : "auto &counter__") << number << " = " << text
+         << "; ";
+  return "counter__" + number;
+}
+
+Counter counterOf(EmitContext &cx, const ForStmt *s) {
+  Counter counter{s, underlying(s->variable->type), std::to_string(cx.number()), {}};
+  cx.begin(s->span);
+  counter.variable = findCounter(cx, s->variable, counter.number);
+  counter.hasStep = s->by == nullptr || s->by->constant != nullptr;
+  counter.step = s->by == nullptr ? 1 : counter.hasStep ? s->by->constant->integer : 0;
+  counter.isShort = cx.run.analysis.shortLoop(s);
+  counter.countsAlone = !counter.isShort && cx.run.loopLocals.countsAlone(s, cx.pou);
+  return counter;
+}
+
+/// `i = static_cast<…>(i + 2)`
+void emitStep(EmitContext &cx, const Counter &counter) {
+  const std::int64_t step = counter.step;
+  if (step == 1 || step == -1)
+    cx.out << (step > 0 ? "++" : "--") << counter.variable;
+  else if (bitWidth(counter.type) < 32)
+    cx.out << counter.variable << " = static_cast<" << cx.type(counter.type) << ">("
+           << counter.variable << (step > 0 ? " + " : " - ") << (step > 0 ? step : -step) << ')';
+  else
+    cx.out << counter.variable << (step > 0 ? " += " : " -= ") << (step > 0 ? step : -step);
+}
+
+/// `for (i = 1; i <= 10; ++i)`, where that means the same: the body does not change the variable,
+/// and it does not wrap after the end.
+void emitCounted(EmitContext &cx, const Counter &counter) {
+  const ForStmt *s = counter.stmt;
+  const KnownRange range(cx, counter);
+  cx.out << "for (";
+  emitStoreTo(cx, counter.variable, s->variable->type, s->from);
+  cx.out << ' ' << counter.variable << (counter.step > 0 ? " <= " : " >= ");
+  emitValueAs(cx, s->to, counter.type);
+  cx.out << "; ";
+  emitStep(cx, counter);
+  cx.out << ") {";
+  cx.end();
+  emitLoopBody(cx, s->body, false);
+}
+
+/// All rounds are taken from the loop budget at once.
+void takeRounds(EmitContext &cx, const ForStmt *s) {
+  cx.uses.budget = true;
+  cx.out << "budget__.refill((budget__.left -= " << cx.run.analysis.ownRounds(s) << ") < 0, "
+         << cx.ctx() << ", ";
+  cx.position(s->span);
+  cx.out << "); ";
+}
+
+/// The end is evaluated once; gives what stands for it.
+std::string takeEnd(EmitContext &cx, const Counter &counter) {
+  const ForStmt *s = counter.stmt;
+  std::string last = cx.text([&] { emitValueAs(cx, s->to, counter.type); });
+  if (s->to->constant != nullptr)
+    return last;
+  cx.out << "const " << cx.type(counter.type) << " end__" << counter.number << " = " << last
+         << "; ";
+  return "end__" + counter.number;
+}
+
+/// Whether there is a first round.
+std::string firstRound(EmitContext &cx, const Counter &counter, const std::string &last) {
+  return counter.hasStep ? counter.variable + (counter.step >= 0 ? " <= " : " >= ") + last
+                         : "::stride::forFirst<" + std::string(cx.type(counter.type)) + ">(" +
+                               counter.variable + ", " + last + ", step__" + counter.number + ")";
+}
+
+/// `run = forUp<T>(i, last)`: to the next round, if there is one.
+std::string nextRound(EmitContext &cx, const Counter &counter, const std::string &run,
+                      const std::string &last) {
+  const std::int64_t step = counter.step;
+  const auto size = static_cast<std::uint64_t>(step);
+  std::string out = run + " = ::stride::" +
+                    (!counter.hasStep ? "forNext<"
+                     : step >= 0      ? "forUp<"
+                                      : "forDown<") +
+                    std::string(cx.type(counter.type)) + ">(" + counter.variable + ", " + last;
+  if (!counter.hasStep)
+    out += ", step__" + counter.number;
+  else if (step != 1 && step != -1)
+    out += ", " + std::to_string(step >= 0 ? size : 0 - size) + "U";
+  return out + ")";
+}
+
+/// Any FOR loop.
+void emitGeneral(EmitContext &cx, const Counter &counter) {
+  const ForStmt *s = counter.stmt;
+  emitStoreTo(cx, counter.variable, s->variable->type, s->from);
+  cx.out << ' ';
+  const std::string last = takeEnd(cx, counter);
+  if (!counter.hasStep) {
+    cx.out << "const ::stride::LINT step__" << counter.number << " = ";
+    emitValue(cx, s->by);
+    cx.out << "; ";
+  }
+  const std::string run = "run__" + counter.number;
+  const std::string first = firstRound(cx, counter, last);
+  const std::string next = nextRound(cx, counter, run, last);
+  if (counter.isShort) {
+    cx.out << "for (bool " << run << " = " << first << "; " << run << "; " << next << ") {";
+  } else {
+    openRefillLoop(cx, run, first, s->span);
+    cx.out << "for (; budget__.left > 0 && " << run << "; --budget__.left, " << next << ") {";
+  }
+  cx.end();
+  const KnownRange range(cx, counter);
+  emitLoopBody(cx, s->body, !counter.isShort);
+}
+
+void emitFor(EmitContext &cx, const ForStmt *s) {
+  const Analysis &analysis = cx.run.analysis;
+  const Counter counter = counterOf(cx, s);
+  // Rounds that are taken from the budget and not made would count as made.
+  const bool atOnce = counter.countsAlone && analysis.fewRounds(s) && !mayLeave(s->body, true);
+  const bool counted = (counter.isShort || atOnce) && analysis.endsInside(s);
+  if (counted && !counter.isShort)
+    takeRounds(cx, s);
+  if (counted)
+    emitCounted(cx, counter);
+  else
+    emitGeneral(cx, counter);
+}
+
+void emitPlainLoop(EmitContext &cx, const Stmt *s) {
+  if (s->kind == StmtKind::forS)
+    emitFor(cx, as<ForStmt>(s));
+  else if (s->kind == StmtKind::whileS)
+    emitWhile(cx, as<WhileStmt>(s));
+  else
+    emitRepeat(cx, as<RepeatStmt>(s));
+}
+
+/// `{ T x = this->x; const LoopContext loop{…};`: gives the name of what stands for the context.
+std::string openLocals(EmitContext &cx, Span span) {
+  cx.begin(span);
+  cx.out << '{';
+  std::string back;
+  for (const VarSymbol *v : cx.modes.loops.locals) {
+    const std::string name = mangle(v->name.text);
+    cx.out << ' ' << cx.type(v->type) << ' ' << name << " = this->" << name << ';';
+    // Neighbouring reals would be gathered in vectors, whose loads wait for the stores of halves.
+    back += " this->" + name + " = " +
+            (isReal(underlying(v->type)) ? "::stride::single(" + name + ")" : name) + ";";
+  }
+  std::string context = cx.temporary("loop");
+  cx.out << " const ::stride::LoopContext " << context << '{' << cx.ctx()
+         << ", [&]() __attribute__((always_inline)) {" << back << " }};";
+  cx.end();
+  return context;
+}
+
+} // namespace
+
+void emitLoop(EmitContext &cx, const Stmt *s) {
+  Loops &loops = cx.modes.loops;
+  std::vector<const VarSymbol *> locals;
+  if (loops.locals.empty()) // the outermost one
+    locals = cx.run.loopLocals.of(s, cx.pou);
+  if (locals.empty()) {
+    emitPlainLoop(cx, s);
+    return;
+  }
+  const Scoped<std::vector<const VarSymbol *>> kept(loops.locals, std::move(locals));
+  const std::string context = openLocals(cx, s->span);
+  cx.open();
+  {
+    const Scoped<std::string> own(loops.context, context);
+    emitPlainLoop(cx, s);
+  }
+  cx.line(context + ".save();");
+  cx.close();
+  cx.line("}");
+}
+
+} // namespace stc::codegen

@@ -1,0 +1,140 @@
+#include "compiler/codegen/statements/statements.hpp"
+
+#include "compiler/codegen/calls/builtin_calls.hpp"
+#include "compiler/codegen/calls/calls.hpp"
+#include "compiler/codegen/calls/pool_objects.hpp"
+#include "compiler/codegen/statements/assignments.hpp"
+#include "compiler/codegen/statements/branches.hpp"
+#include "compiler/codegen/statements/jumps.hpp"
+#include "compiler/codegen/statements/loops.hpp"
+#include "compiler/semantics/hierarchy.hpp"
+#include "compiler/semantics/locations.hpp"
+
+#include <algorithm>
+
+namespace stc::codegen {
+
+using namespace ast;
+
+namespace {
+
+void emitExit(EmitContext &cx);
+void emitReturn(EmitContext &cx);
+
+/// EXIT, CONTINUE and RETURN that leave no __TRY with __FINALLY.
+void emitLeave(EmitContext &cx, const Stmt *s) {
+  cx.begin(s->span);
+  if (s->kind == StmtKind::exit)
+    emitExit(cx);
+  else if (s->kind == StmtKind::continueS)
+    cx.out << "continue;";
+  else
+    emitReturn(cx);
+  cx.end();
+}
+
+void emitExit(EmitContext &cx) {
+  Loop &loop = cx.modes.loops.around.back();
+  if (loop.isDouble || loop.switches > 0) { // `break` would not leave it all
+    loop.labelled = true;
+    cx.out << "goto exit__" << loop.id << ';';
+  } else {
+    cx.out << "break;";
+  }
+}
+
+void emitReturn(EmitContext &cx) {
+  if (cx.uses.budget) // a RETURN before the first loop has used nothing
+    cx.out << "budget__.done(" << cx.ctx() << "); ";
+  if (!cx.modes.loops.locals.empty())
+    cx.out << cx.modes.loops.context << ".save(); ";
+  cx.out << "return";
+  if (const VarSymbol *result = cx.pou->result) {
+    cx.uses.add(result);
+    cx.out << ' ' << mangle(result->name.text);
+  }
+  cx.out << ';';
+}
+
+void emitCallStatement(EmitContext &cx, const CallStmt *s) {
+  if (s->expr->kind != ExprKind::call)
+    return;
+  const auto *call = as<CallExpr>(s->expr);
+  cx.begin(s->span);
+  switch (call->resolved) {
+  case Callee::function:
+  case Callee::method:
+    emitFunctionCall(cx, call, true);
+    break;
+  case Callee::functionBlock:
+  case Callee::program:
+    emitInstanceCall(cx, call, s->span);
+    break;
+  case Callee::builtin:
+    if (call->builtin == Builtin::deleteT) {
+      emitDelete(cx, call);
+      break;
+    }
+    cx.out << "static_cast<void>(";
+    emitBuiltin(cx, call);
+    cx.out << ");";
+    break;
+  case Callee::unresolved:
+    break;
+  }
+  cx.end();
+}
+
+} // namespace
+
+void emitBlock(EmitContext &cx, Block block) {
+  // A `goto` must not cross the temporaries of the statements between it and its label.
+  const bool labelled = std::any_of(block.begin(), block.end(), [](const Stmt *s) {
+    return s->kind == StmtKind::label && as<LabelStmt>(s)->used;
+  });
+  for (const Stmt *s : block) {
+    const bool alone = labelled && s->kind != StmtKind::label && s->kind != StmtKind::empty;
+    if (alone) {
+      cx.line("{");
+      cx.open();
+    }
+    emitStatement(cx, s);
+    if (alone) {
+      cx.close();
+      cx.line("}");
+    }
+  }
+}
+
+void emitStatement(EmitContext &cx, const Stmt *s) {
+  switch (s->kind) {
+  case StmtKind::empty:
+    return;
+  case StmtKind::jump:
+    return emitJump(cx, as<JumpStmt>(s));
+  case StmtKind::label:
+    return emitLabel(cx, as<LabelStmt>(s));
+  case StmtKind::tryS:
+    return emitTry(cx, as<TryStmt>(s));
+  case StmtKind::assign:
+    return emitAssignment(cx, as<AssignStmt>(s));
+  case StmtKind::call:
+    return emitCallStatement(cx, as<CallStmt>(s));
+  case StmtKind::ifS:
+    return emitIf(cx, as<IfStmt>(s));
+  case StmtKind::caseS:
+    return emitCase(cx, as<CaseStmt>(s));
+  case StmtKind::forS:
+  case StmtKind::whileS:
+  case StmtKind::repeatS:
+    return emitLoop(cx, s);
+  case StmtKind::exit:
+  case StmtKind::continueS:
+  case StmtKind::returnS:
+    if (!leaveTry(cx, s))
+      emitLeave(cx, s);
+    return;
+  }
+}
+
+} // namespace stc::codegen
