@@ -1,8 +1,8 @@
 #pragma once
 // What the commands of `stride cam` work on.
 
+#include "compiler/assets/cam/cam_source.hpp"
 #include "compiler/cli/commands.hpp"
-#include "compiler/project/cam_source.hpp"
 #include "compiler/source/source_manager.hpp"
 
 #include <optional>

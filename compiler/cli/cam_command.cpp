@@ -2,7 +2,7 @@
 
 #include "compiler/cli/cam.hpp"
 #include "compiler/project/file_system.hpp"
-#include "compiler/project/names.hpp"
+#include "compiler/syntax/st_text.hpp"
 
 #include "runtime/numeric/cam/bounds.hpp"
 #include "runtime/numeric/cam/element_block.hpp"

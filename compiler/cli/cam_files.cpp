@@ -1,8 +1,8 @@
 // Reading and writing cams in all the forms that `stride cam` knows.
 
 #include "compiler/cli/cam.hpp"
-#include "compiler/project/names.hpp"
 #include "compiler/source/read_source.hpp"
+#include "compiler/syntax/st_text.hpp"
 
 #include <charconv>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Drawing a cam.
 
 #include "compiler/cli/cam.hpp"
-#include "compiler/cli/plot.hpp"
+#include "compiler/plot/plot.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -11,6 +11,7 @@ namespace stc::cli {
 namespace {
 
 using namespace stride::cam;
+using namespace plot;
 
 constexpr double kSamples = 2000; // over the whole cam
 constexpr int kLeast = 16;        // of a piece

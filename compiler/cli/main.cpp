@@ -1,9 +1,9 @@
 // The command `stride`.
 
 #include "compiler/cli/commands.hpp"
-#include "compiler/project/names.hpp"
 #include "compiler/semantics/suggest.hpp"
 #include "compiler/syntax/conditions.hpp"
+#include "compiler/syntax/st_text.hpp"
 #include "runtime/common/standard_handles.hpp"
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,6 @@
 #include "compiler/cli/commands.hpp"
 #include "compiler/project/file_system.hpp"
-#include "compiler/project/names.hpp"
+#include "compiler/syntax/st_text.hpp"
 
 #include <array>
 #include <cstdio>

@@ -1,5 +1,4 @@
-#include "compiler/cli/plot.hpp"
-
+#include "compiler/plot/plot.hpp"
 #include "compiler/cli/commands.hpp"
 #include "compiler/project/file_system.hpp"
 
@@ -13,8 +12,8 @@ int plotCommand(const std::string &trace, const std::string &out) {
   if (!csv)
     return showError(Code::unreadableFile,
                      fmt::format("`{}` cannot be read: {}", trace, lastError()));
-  TraceError error;
-  const std::optional<Trace> data = readTrace(*csv, error);
+  plot::TraceError error;
+  const std::optional<plot::Trace> data = plot::readTrace(*csv, error);
   if (!data)
     return showError(Code::badTrace,
                      error.line == 0 ? fmt::format("`{}` is not a trace: {}", trace, error.message)
@@ -22,7 +21,7 @@ int plotCommand(const std::string &trace, const std::string &out) {
                                                    error.line, error.message));
   const std::string path =
       out.empty() ? std::filesystem::path(trace).replace_extension(".svg").string() : out;
-  if (!writeFile(path, drawSvg(*data)))
+  if (!writeFile(path, plot::drawSvg(*data)))
     return showError(Code::cannotWrite,
                      fmt::format("`{}` cannot be written: {}", path, lastError()));
   return 0;

@@ -40,12 +40,14 @@ struct AppConfig {
     std::vector<PouSymbol *> programs; ///< called in this order
   };
   struct Drive {
-    std::string name; ///< of the global AXIS_REF
-    std::string data; ///< of the global that belongs to the driver; empty: none
+    std::string name;     ///< of the global AXIS_REF
+    std::string data;     ///< of the global that belongs to the driver; empty: none
+    std::uint32_t id = 0; ///< wDriveId
     std::vector<ConfigParameter> parameters;
   };
   struct Encoder {
-    std::string name; ///< of the global SMC_ENCODER_REF
+    std::string name;     ///< of the global SMC_ENCODER_REF
+    std::uint32_t id = 0; ///< wEncoderId
     std::vector<ConfigParameter> parameters;
   };
   struct Bus {

@@ -1,32 +1,12 @@
 #include "compiler/codegen/plc_tables.hpp"
 
+#include "compiler/source/identifier.hpp"
+
 #include <charconv>
 
 namespace stc::codegen {
 
-using namespace ast;
-
 namespace {
-
-bool equalNames(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [&](char x, char y) { return lower(x) == lower(y); });
-}
-
-/// The constant that an initial value gives to a field; 0 when it gives none.
-std::int64_t initialField(const VarSymbol *v, std::string_view field) {
-  if (v->decl == nullptr || v->decl->init == nullptr || v->decl->init->kind != ExprKind::aggregate)
-    return 0;
-  for (const AggregateItem &item : as<AggregateExpr>(v->decl->init)->items) {
-    if (item.field && item.field.id->lower == field && item.value != nullptr &&
-        item.value->constant != nullptr)
-      return item.value->constant->integer;
-  }
-  return 0;
-}
 
 /// Shortest decimal that reads back as the same number.
 std::string numberText(double value) {
@@ -92,8 +72,8 @@ void PlcTables::addDrive(const AppConfig::Drive &drive) {
     data =
         "offsetof(App__, " + ownPlace + "), " + std::to_string(c_.layouts.hash(own->type)) + "ULL";
   drives_ += "    {\"" + escaped(drive.name) + "\", offsetof(App__, " + axis + "), " +
-             std::to_string(initialField(v, "wdriveid")) + ", 0, " + data + ", " +
-             addParameters(drive.parameters) + "},\n";
+             std::to_string(drive.id) + ", 0, " + data + ", " + addParameters(drive.parameters) +
+             "},\n";
   ++driveCount_;
 }
 
@@ -103,8 +83,7 @@ void PlcTables::addEncoder(const AppConfig::Encoder &encoder) {
     return;
   encoderLayout_ = c_.layouts.hash(v->type);
   encoders_ += "    {\"" + escaped(encoder.name) + "\", offsetof(App__, " + place + "), " +
-               std::to_string(initialField(v, "wencoderid")) + ", " +
-               addParameters(encoder.parameters) + ", 0},\n";
+               std::to_string(encoder.id) + ", " + addParameters(encoder.parameters) + ", 0},\n";
   ++encoderCount_;
 }
 
@@ -128,7 +107,7 @@ void PlcTables::addAxisGroups() {
       addEncoder(one);
     std::string task = "::stride::kNoIndex";
     for (std::size_t i = 0; i < config_.tasks.size(); ++i) {
-      if (equalNames(config_.tasks[i].name, group.task))
+      if (equalIgnoringCase(config_.tasks[i].name, group.task))
         task = std::to_string(i);
     }
     const AppConfig::Bus &bus = config_.buses[group.bus];

@@ -1,6 +1,6 @@
 #include "compiler/doc/reference.hpp"
 
-#include "compiler/project/names.hpp"
+#include "compiler/syntax/st_text.hpp"
 
 #include <algorithm>
 

@@ -1,11 +1,11 @@
 #include "compiler/project/build.hpp"
 
-#include "compiler/project/content_hash.hpp"
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/job_pool.hpp"
 #include "compiler/project/output_folder.hpp"
 #include "compiler/project/toolchain.hpp"
 #include "compiler/project/user_cache.hpp"
+#include "compiler/source/content_hash.hpp"
 
 #include <cerrno>
 #include <cstdlib>

@@ -2,9 +2,9 @@
 
 #include "compiler/project/config_reader.hpp"
 #include "compiler/project/driver_sections.hpp"
-#include "compiler/project/interval.hpp"
 #include "compiler/project/io_config.hpp"
-#include "compiler/project/names.hpp"
+#include "compiler/syntax/st_text.hpp"
+#include "compiler/toml/interval.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -7,6 +7,7 @@
 #include "compiler/source/source_manager.hpp"
 #include "compiler/syntax/ast.hpp"
 #include "compiler/syntax/conditions.hpp"
+#include "compiler/toml/schema.hpp"
 #include "runtime/bus/driver_schema.hpp"
 
 #include <array>
@@ -17,12 +18,6 @@
 #include <vector>
 
 namespace stc {
-
-/// A name and where stride.toml says it; the span is invalid for defaults.
-struct ConfigName {
-  std::string text;
-  Span span;
-};
 
 struct TaskConfig {
   ConfigName name;
@@ -46,6 +41,7 @@ using ConfigFields = std::vector<std::pair<std::string, std::string>>;
 
 struct DriveConfig {
   ConfigName name;
+  std::uint32_t id = 0; ///< wDriveId
   ConfigFields fields;
   std::vector<ConfigParameter> parameters;
   /// The variable that driver and program share about it; null: there is none.
@@ -60,6 +56,7 @@ struct DriveConfig {
 
 struct EncoderConfig {
   ConfigName name;
+  std::uint32_t id = 0; ///< wEncoderId
   ConfigFields fields;
   std::vector<ConfigParameter> parameters;
 };
@@ -139,26 +136,19 @@ void resolveTasks(ProjectConfig &config, const std::vector<ast::File *> &files,
 [[nodiscard]] ast::File *
 readConfigurations(ProjectConfig &config, const std::vector<ast::File *> &files, Program &program);
 
-/// A part of the synthetic declarations and the part of stride.toml it stands for.
-struct DeclaredRange {
-  std::uint32_t begin = 0;
-  std::uint32_t end = 0;
-  Span origin;
-};
-
 /// Name of the hidden FUNCTION that evaluates the event of a task.
 [[nodiscard]] std::string eventFunction(const TaskConfig &task);
 
-/// That FUNCTION as ST, in which the expression stands where the user has written it: at `at`.
-[[nodiscard]] std::string eventDeclaration(const TaskConfig &task, LineColumn at);
+/// That FUNCTION as ST, in which the expression stands where the user has written it: in a file of
+/// that name, at `at`.
+[[nodiscard]] SyntheticSource eventDeclaration(const TaskConfig &task, const std::string &file,
+                                               LineColumn at);
 
 /// The configuration as ST: one VAR_GLOBAL with an AXIS_REF per drive, an SMC_ENCODER_REF per
 /// encoder and an SMC_AXISGROUP_REF per axis group, and g_DRIVESTRUCT, which leads to all of them.
-/// May be empty. Drives and groups named like
-/// something in `files` are reported and left out.
-[[nodiscard]] std::string plcDeclarations(const ProjectConfig &config,
-                                          const std::vector<ast::File *> &files,
-                                          std::vector<DeclaredRange> &ranges,
-                                          Diagnostics &diagnostics);
+/// May be empty. Drives and groups named like something in `files` are reported and left out.
+[[nodiscard]] SyntheticSource plcDeclarations(const ProjectConfig &config,
+                                              const std::vector<ast::File *> &files,
+                                              Diagnostics &diagnostics);
 
 } // namespace stc

@@ -2,41 +2,23 @@
 // What the readers of stride.toml's sections share.
 
 #include "compiler/project/config.hpp"
-#include "compiler/project/schema.hpp"
+#include "compiler/toml/schema.hpp"
 
 #include <string>
 #include <string_view>
-#include <unordered_map>
+#include <vector>
 
 namespace stc {
 
-/// The `name` of a section; with an invalid span when it is missing or wrong.
-[[nodiscard]] ConfigName nameOf(const CheckedSection &section);
+/// The whole of stride.toml, as the section without a name.
+[[nodiscard]] const Section &projectSchema();
+/// [fmt]: how sources are formatted.
+[[nodiscard]] const Section &formatSchema();
 
-/// A number as a literal of ST.
-[[nodiscard]] std::string realLiteral(double value);
-
-/// Names in lower case that the files give to things of the whole project, and where.
-[[nodiscard]] std::unordered_map<std::string, Span>
-globalNames(const std::vector<ast::File *> &files);
-
-/// Reports the second use of a name or number, with the first one marked.
-class Unique {
-public:
-  Unique(Code code, Diagnostics &diagnostics) : code_(code), diagnostics_(diagnostics) {}
-
-  /// True for a new one; else `message` has been reported at `where`.
-  bool add(const std::string &key, Span where, const std::string &message);
-
-private:
-  Code code_;
-  Diagnostics &diagnostics_;
-  std::unordered_map<std::string, Span> seen_;
-};
-
-/// Warns that a valid parameter changes nothing; `reason` completes "counts …".
-void withoutEffect(Diagnostics &diagnostics, const CheckedSection &section, std::string_view name,
-                   std::string_view reason);
+/// Appends all valid parameters of a section, in the schema's order: numbers, choices with their
+/// name, durations in seconds.
+void addParameters(const CheckedSection &section, std::string_view prefix,
+                   std::vector<ConfigParameter> &out);
 
 /// ST that declares g_DRIVESTRUCT and its type; the axis groups, drives and encoders are declared
 /// elsewhere.

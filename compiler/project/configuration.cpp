@@ -3,9 +3,9 @@
 // arguments, a hidden program that calls it.
 
 #include "compiler/project/config.hpp"
-#include "compiler/project/interval.hpp"
-#include "compiler/project/names.hpp"
 #include "compiler/semantics/suggest.hpp"
+#include "compiler/syntax/st_text.hpp"
+#include "compiler/toml/interval.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

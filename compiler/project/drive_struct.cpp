@@ -8,16 +8,6 @@ namespace stc {
 
 namespace {
 
-std::string stringLiteral(std::string_view text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'' || c == '$')
-      result += '$';
-    result += c;
-  }
-  return result + "'";
-}
-
 /// A list of values that may be empty in the configuration but not in ST.
 class List {
 public:

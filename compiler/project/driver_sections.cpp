@@ -1,6 +1,6 @@
 #include "compiler/project/driver_sections.hpp"
 
-#include "compiler/project/names.hpp"
+#include "compiler/syntax/st_text.hpp"
 #include "compiler/semantics/suggest.hpp"
 #include "drivers/io/registry.hpp"
 #include "drivers/registry.hpp"

@@ -3,7 +3,7 @@
 // schemas, and the rules between parameters of a section are checked.
 
 #include "compiler/project/config.hpp"
-#include "compiler/project/schema.hpp"
+#include "compiler/toml/schema.hpp"
 #include "runtime/bus/driver_schema.hpp"
 #include "runtime/io/io_schema.hpp"
 

@@ -1,9 +1,8 @@
 #include "compiler/project/format_project.hpp"
 
-#include "compiler/project/config.hpp"
+#include "compiler/project/config_reader.hpp"
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/project.hpp"
-#include "compiler/project/schema.hpp"
 #include "compiler/source/read_source.hpp"
 #include "compiler/syntax/parser.hpp"
 
@@ -75,7 +74,7 @@ FormatSettings readFormatSettings(const fs::path &place, SourceManager &sources,
   const TomlNode *table = document->find("fmt");
   if (table == nullptr || table->kind != TomlKind::table)
     return settings;
-  const CheckedSection section(*table, formatSchema(), diagnostics);
+  const CheckedSection section(*table, formatSchema(), diagnostics, &projectSchema());
   FormatStyle &style = settings.style;
   style.width = static_cast<unsigned>(section.integer("width", style.width));
   style.indent = static_cast<unsigned>(section.integer("indent", style.indent));

@@ -1,7 +1,7 @@
 #include "compiler/project/io_config.hpp"
 
 #include "compiler/project/driver_sections.hpp"
-#include "compiler/project/names.hpp"
+#include "compiler/syntax/st_text.hpp"
 #include "drivers/io/registry.hpp"
 
 #include <algorithm>

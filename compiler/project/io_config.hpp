@@ -2,7 +2,7 @@
 // [[io]] of stride.toml: devices of the process image.
 
 #include "compiler/project/config.hpp"
-#include "compiler/project/schema.hpp"
+#include "compiler/toml/schema.hpp"
 
 namespace stc {
 

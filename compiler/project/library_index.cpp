@@ -1,6 +1,6 @@
 #include "compiler/project/library_index.hpp"
 
-#include "compiler/project/names.hpp"
+#include "compiler/syntax/st_text.hpp"
 
 #include <algorithm>
 

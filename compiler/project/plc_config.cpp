@@ -2,8 +2,8 @@
 
 #include "compiler/project/config_reader.hpp"
 #include "compiler/project/driver_sections.hpp"
-#include "compiler/project/names.hpp"
 #include "compiler/semantics/suggest.hpp"
+#include "compiler/syntax/st_text.hpp"
 #include "drivers/registry.hpp"
 #include "runtime/bus/plc_schema.hpp"
 
@@ -40,35 +40,6 @@ void flagField(const CheckedSection &section, std::string_view name, ConfigField
 
 } // namespace
 
-std::string realLiteral(double value) {
-  std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".") == std::string::npos) {
-    const std::size_t exponent = text.find('e');
-    text.insert(exponent == std::string::npos ? text.size() : exponent, ".0");
-  }
-  return text;
-}
-
-ConfigName nameOf(const CheckedSection &section) {
-  const TomlNode *name = section.get("name");
-  return name != nullptr ? ConfigName{name->text, name->span} : ConfigName{};
-}
-
-bool Unique::add(const std::string &key, Span where, const std::string &message) {
-  const auto [first, isNew] = seen_.try_emplace(key, where);
-  if (!isNew)
-    diagnostics_.report(code_, where, message, "used again here")
-        .label(first->second, "first used here");
-  return isNew;
-}
-
-void withoutEffect(Diagnostics &diagnostics, const CheckedSection &section, std::string_view name,
-                   std::string_view reason) {
-  diagnostics.report(Code::configWithoutEffect, section.get(name)->keySpan,
-                     fmt::format("`{}` has no effect here", name),
-                     fmt::format("counts {}", reason));
-}
-
 void PlcReader::readBus(const CheckedSection &section) {
   BusConfig bus;
   bus.name = nameOf(section);
@@ -86,7 +57,7 @@ void PlcReader::readBus(const CheckedSection &section) {
     else if (lower.starts_with("sercos") || lower.find("(sercos") != std::string::npos)
       kind = BusKind::sercos;
   }
-  section.parameters("", bus.parameters);
+  addParameters(section, "", bus.parameters);
   checkRules(section, {.what = "bus"}, diagnostics_);
   for (const CheckedSection &group : section.sections("axis_group", diagnostics_))
     readAxisGroup(group, bus, kind);
@@ -133,7 +104,7 @@ void PlcReader::readAxisGroup(const CheckedSection &section, BusConfig &bus, Bus
   readBaudRate(section, kind);
   readCan(section, group, kind);
   readSercos(section, group, kind);
-  section.parameters("", group.parameters);
+  addParameters(section, "", group.parameters);
   readDriverTables(section, {.what = "axis group", .group = &group}, group.parameters,
                    diagnostics_);
   const bool declared = addVariable(group.name);
@@ -222,7 +193,8 @@ void PlcReader::readDrive(const CheckedSection &section, AxisGroupConfig &group,
     ids.add(std::to_string(id->integer), id->span,
             fmt::format("two drives of axis group `{}` have the wDriveId {}", group.name.text,
                         id->integer));
-  drive.fields.emplace_back("wDriveId", std::to_string(section.integer("wDriveId", 0)));
+  drive.id = static_cast<std::uint32_t>(section.integer("wDriveId", 0));
+  drive.fields.emplace_back("wDriveId", std::to_string(drive.id));
   drive.fields.emplace_back("bRealDrive", "TRUE");
   readCyclicData(section, drive.fields);
   readScaling(section, drive.fields, "drive");
@@ -233,7 +205,7 @@ void PlcReader::readDrive(const CheckedSection &section, AxisGroupConfig &group,
   if (rotary && section.boolean("bHWLimitEnable", false))
     withoutEffect(diagnostics_, section, "bHWLimitEnable", "only for linear drives");
   readRamp(section, drive.fields);
-  section.parameters("", drive.parameters);
+  addParameters(section, "", drive.parameters);
   readDriverTables(section, {.what = "drive", .rotary = rotary, .group = &group}, drive.parameters,
                    diagnostics_);
   drive.shared = sharedDataOf(section, group.driver);
@@ -302,6 +274,7 @@ void PlcReader::readEncoder(const CheckedSection &section, AxisGroupConfig &grou
     ids.add(std::to_string(id->integer), id->span,
             fmt::format("two encoders of axis group `{}` have the wEncoderId {}", group.name.text,
                         id->integer));
+  encoder.id = static_cast<std::uint32_t>(section.integer("wEncoderId", 0));
   integerField(section, "wEncoderId", encoder.fields);
   readScaling(section, encoder.fields, "encoder");
   integerField(section, "dwEncoderModulo", encoder.fields);
@@ -315,7 +288,7 @@ void PlcReader::readEncoder(const CheckedSection &section, AxisGroupConfig &grou
   for (const std::string_view name : {"dwParam1", "dwParam2", "dwParam3", "dwParam4", "dwParam5",
                                       "dwParam6", "dwParam7", "dwParam8"})
     integerField(section, name, encoder.fields);
-  section.parameters("", encoder.parameters);
+  addParameters(section, "", encoder.parameters);
   const bool rotary = section.choice("iMovementType") == kRotary;
   readDriverTables(section, {.what = "encoder", .rotary = rotary, .group = &group},
                    encoder.parameters, diagnostics_);

@@ -1,9 +1,9 @@
 #include "compiler/project/project.hpp"
 
-#include "compiler/project/cam_source.hpp"
-#include "compiler/project/names.hpp"
+#include "compiler/assets/cam/cam_source.hpp"
 #include "compiler/source/read_source.hpp"
 #include "compiler/syntax/parser.hpp"
+#include "compiler/syntax/st_text.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -16,11 +16,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kManifest = "stride.toml";
-// The list of the drives' variables has this file's name, as in CoDeSys.
-constexpr std::string_view kPlcFile = "<plc>/Drive_Configuration_Data.st";
-
-// The same for cams (manual, section 4.7).
-constexpr std::string_view kCamFile = "<cams>/CAM_Data.st";
 
 // All files below a project's folder whose names end like that, sorted.
 std::vector<fs::path> findFiles(const fs::path &folder, std::string_view suffix,
@@ -179,23 +174,17 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
   if (ast::File *instances = readConfigurations(config_, files, program_))
     files.push_back(instances);
   if (purpose == Purpose::test) {
-    testFile_ = program_.sources.add("<tests>", testProgram(tests_, testRanges_));
-    ParseOptions own = options;
-    own.generated = true;
-    files.push_back(parse(program_.sources.file(testFile_), program_.interner, program_.arena,
-                          program_.diagnostics, &own));
+    files.push_back(parseSynthetic(testProgram(tests_), options));
     configureTests(config_);
   }
   const ProgramCheck programCheck = syntaxErrors                ? ProgramCheck::skip
                                     : purpose == Purpose::build ? ProgramCheck::runnable
                                                                 : ProgramCheck::existing;
   resolveTasks(config_, files, programCheck, program_.diagnostics);
-  const std::string declarations = plcDeclarations(config_, files, ranges_, program_.diagnostics);
-  if (!declarations.empty()) {
-    plcFile_ = program_.sources.add(std::string(kPlcFile), declarations);
-    options.generated = true;
-    files.insert(files.begin(), parse(program_.sources.file(plcFile_), program_.interner,
-                                      program_.arena, program_.diagnostics, &options));
+  const SyntheticSource plc = plcDeclarations(config_, files, program_.diagnostics);
+  if (!plc.empty()) {
+    files.insert(files.begin(), parseSynthetic(plc, options));
+    plcFile_ = files.front()->id;
   }
   if (!declareCams(files, options))
     return; // the program would miss them everywhere
@@ -208,37 +197,36 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
     shareVariables();
 }
 
+ast::File *Project::parseSynthetic(const SyntheticSource &source, ParseOptions options) {
+  options.generated = true;
+  return parse(program_.sources.file(program_.sources.add(source)), program_.interner,
+               program_.arena, program_.diagnostics, &options);
+}
+
 /// Adds the cams of the cam files as global variables. False: some are wrong.
-bool Project::declareCams(std::vector<ast::File *> &files, ParseOptions options) {
+bool Project::declareCams(std::vector<ast::File *> &files, const ParseOptions &options) {
   const std::size_t errors = program_.diagnostics.errorCount();
   std::vector<CamSource> cams;
   for (const FileId id : camFiles_)
     if (std::optional<CamSource> cam = readCam(program_.sources.file(id), program_.diagnostics))
       cams.push_back(std::move(*cam));
-  const std::string declarations = camDeclarations(cams, files, camRanges_, program_.diagnostics);
+  const SyntheticSource declarations = camDeclarations(cams, files, program_.diagnostics);
   if (program_.diagnostics.errorCount() != errors)
     return false;
-  if (declarations.empty())
-    return true;
-  camFile_ = program_.sources.add(std::string(kCamFile), declarations);
-  options.generated = true;
-  files.insert(files.begin(), parse(program_.sources.file(camFile_), program_.interner,
-                                    program_.arena, program_.diagnostics, &options));
+  if (!declarations.empty())
+    files.insert(files.begin(), parseSynthetic(declarations, options));
   return true;
 }
 
 /// The FUNCTION for the event of a task, in a file of the name of that in which the event stands.
-ast::File *Project::eventFile(const TaskConfig &task, ParseOptions options) {
-  options.generated = true;
+ast::File *Project::eventFile(const TaskConfig &task, const ParseOptions &options) {
   const SourceFile &from = program_.sources.file(task.event.span.file);
   LineColumn at = from.position(task.event.span.begin);
   if (from.id() == tomlFile_)
-    ++at.column; // behind the quotation mark
-  const FileId id = program_.sources.add(from.name(), eventDeclaration(task, at));
-  program_.sources.file(id).setCodeName(from.codeName());
-  eventFiles_.emplace_back(id, task.event.span);
-  return parse(program_.sources.file(id), program_.interner, program_.arena, program_.diagnostics,
-               &options);
+    ++at.column; // after the quotation mark
+  ast::File *file = parseSynthetic(eventDeclaration(task, from.name(), at), options);
+  program_.sources.file(file->id).setCodeName(from.codeName());
+  return file;
 }
 
 /// What tasks have in common, and what they must not.
@@ -269,31 +257,13 @@ void Project::shareVariables() {
   });
 }
 
-Span Project::origin(Span span) const {
-  for (const auto &[file, event] : eventFiles_)
-    if (span.file == file)
-      return event;
-  if (!span.valid())
-    return span;
-  const std::vector<DeclaredRange> *ranges = span.file == plcFile_    ? &ranges_
-                                             : span.file == camFile_  ? &camRanges_
-                                             : span.file == testFile_ ? &testRanges_
-                                                                      : nullptr;
-  if (ranges == nullptr)
-    return span;
-  for (const DeclaredRange &range : *ranges)
-    if (span.begin >= range.begin && span.begin < range.end)
-      return range.origin;
-  return {};
-}
-
 std::vector<Diagnostic> Project::diagnostics() const {
   Diagnostics sorted = program_.diagnostics;
   sorted.sort();
   std::vector<Diagnostic> result = sorted.all();
   for (Diagnostic &diagnostic : result)
     for (Label &label : diagnostic.labels)
-      label.span = origin(label.span);
+      label.span = program_.sources.origin(label.span);
   return result;
 }
 
@@ -338,9 +308,9 @@ AppConfig Project::appConfig() const {
     group.cycleUs = from.cycleUs;
     group.parameters = from.parameters;
     for (const DriveConfig &drive : from.drives)
-      group.drives.push_back({drive.name.text, sharedVariable(drive), drive.parameters});
+      group.drives.push_back({drive.name.text, sharedVariable(drive), drive.id, drive.parameters});
     for (const EncoderConfig &encoder : from.encoders)
-      group.encoders.push_back({encoder.name.text, encoder.parameters});
+      group.encoders.push_back({encoder.name.text, encoder.id, encoder.parameters});
     app.axisGroups.push_back(std::move(group));
   }
   return app;

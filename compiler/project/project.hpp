@@ -68,10 +68,10 @@ private:
   void loadFile(const std::filesystem::path &path, const std::string &name);
   void analyse(Purpose purpose, const LibraryIndex &index);
   void shareVariables();
-  bool declareCams(std::vector<ast::File *> &files, ParseOptions options);
-  ast::File *eventFile(const TaskConfig &task, ParseOptions options);
+  ast::File *parseSynthetic(const SyntheticSource &source, ParseOptions options);
+  bool declareCams(std::vector<ast::File *> &files, const ParseOptions &options);
+  ast::File *eventFile(const TaskConfig &task, const ParseOptions &options);
   bool declaresNothing(const std::vector<ast::File *> &files) const;
-  [[nodiscard]] Span origin(Span span) const;
 
   Program program_;
   ProjectConfig config_;
@@ -81,15 +81,9 @@ private:
   bool loaded_ = false;
   std::vector<FileId> sourceFiles_;
   FileId tomlFile_ = 0;
-  FileId plcFile_ = 0; ///< synthetic declarations
-  std::vector<DeclaredRange> ranges_;
+  FileId plcFile_ = 0; ///< plcDeclarations()
   std::vector<FileId> camFiles_;
-  FileId camFile_ = 0; ///< camDeclarations()
-  std::vector<DeclaredRange> camRanges_;
-  std::vector<std::pair<FileId, Span>> eventFiles_; ///< and where the events stand
   std::vector<TestBlock> tests_;
-  FileId testFile_ = 0; ///< testProgram()
-  std::vector<DeclaredRange> testRanges_;
 };
 
 } // namespace stc

@@ -1,9 +1,9 @@
 // The parameters of stride.toml, but for those of drivers (driver_sections.cpp).
 
-#include "compiler/codegen/codegen.hpp"
+#include "compiler/project/config_reader.hpp"
 #include "compiler/project/driver_sections.hpp"
-#include "compiler/project/schema.hpp"
 #include "compiler/syntax/format.hpp"
+#include "compiler/toml/interval.hpp"
 
 #include <array>
 #include <limits>
@@ -135,6 +135,44 @@ const Section &formatSchema() { return kFormat; }
 const Section &projectSchema() {
   static const TopSection schema;
   return schema.top;
+}
+
+void addParameters(const CheckedSection &section, std::string_view prefix,
+                   std::vector<ConfigParameter> &out) {
+  for (const Parameter &parameter : section.schema().parameters) {
+    const TomlNode *value = section.get(parameter.name);
+    if (value == nullptr)
+      continue;
+    ConfigParameter &result = out.emplace_back();
+    result.name = std::string(prefix) + std::string(parameter.name);
+    switch (parameter.type) {
+    case ParameterType::Text:
+    case ParameterType::Identifier:
+    case ParameterType::DriveName:
+      result.text = value->text;
+      break;
+    case ParameterType::Boolean:
+      result.number = value->boolean ? 1 : 0;
+      break;
+    case ParameterType::Integer:
+    case ParameterType::Real:
+      result.number = value->floating;
+      break;
+    case ParameterType::Choice: {
+      const std::int64_t number = findChoice(parameter, *value).value_or(0);
+      result.number = static_cast<double>(number);
+      for (const Choice &choice : parameter.choices)
+        if (choice.value == number)
+          result.text = choice.name;
+      break;
+    }
+    case ParameterType::Interval:
+      result.number = static_cast<double>(parseInterval(value->text).value_or(0)) * 1e-9;
+      break;
+    case ParameterType::NameList: // no driver has any
+      break;
+    }
+  }
 }
 
 } // namespace stc

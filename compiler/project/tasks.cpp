@@ -3,9 +3,10 @@
 
 #include "compiler/project/config.hpp"
 #include "compiler/project/config_reader.hpp"
-#include "compiler/project/interval.hpp"
-#include "compiler/project/names.hpp"
 #include "compiler/semantics/suggest.hpp"
+#include "compiler/syntax/global_names.hpp"
+#include "compiler/syntax/st_text.hpp"
+#include "compiler/toml/interval.hpp"
 #include "drivers/registry.hpp"
 
 #include <fmt/format.h>
@@ -327,24 +328,22 @@ private:
 
 class DeclarationWriter {
 public:
-  DeclarationWriter(const std::vector<ast::File *> &files, std::vector<DeclaredRange> &ranges,
-                    Diagnostics &diagnostics)
-      : names_(globalNames(files)), ranges_(ranges), diagnostics_(diagnostics) {}
+  DeclarationWriter(const std::vector<ast::File *> &files, Diagnostics &diagnostics)
+      : names_(globalNames(files)), diagnostics_(diagnostics) {}
 
-  std::string write(const ProjectConfig &config) {
+  SyntheticSource write(const ProjectConfig &config) {
     axisGroups(config);
     for (const IoConfig &io : config.ioDevices)
       variable("I/O device", io.name, "IO_DEVICE", {});
-    std::string globals;
-    if (!body_.empty()) {
-      globals = std::string(kBegin) + body_ + "END_VAR\n";
+    if (!out_.empty()) {
+      out_.add("END_VAR\n");
       if (!config.axisGroups.empty() && !clash_ && !names_.contains("g_drivestruct") &&
           !names_.contains("drivestruct"))
-        globals += driveStruct(config);
+        out_.add(driveStruct(config));
     }
     if (!config.ioDevices.empty())
-      globals += kIoDevice;
-    return globals;
+      out_.add(kIoDevice);
+    return std::move(out_);
   }
 
 private:
@@ -385,16 +384,15 @@ private:
       clash_ = true;
       return;
     }
-    const std::size_t begin = kBegin.size() + body_.size();
-    body_ += fmt::format("  {} : {}", name.text, type);
+    if (out_.empty())
+      out_.add("VAR_GLOBAL\n");
+    std::string text = fmt::format("  {} : {}", name.text, type);
     std::string_view separator = " := (";
     for (const auto &[field, value] : fields) {
-      body_ += fmt::format("{}{} := {}", separator, field, value);
+      text += fmt::format("{}{} := {}", separator, field, value);
       separator = ", ";
     }
-    body_ += fields.empty() ? ";\n" : ");\n";
-    ranges_.push_back({static_cast<std::uint32_t>(begin),
-                       static_cast<std::uint32_t>(kBegin.size() + body_.size()), name.span});
+    out_.add(text + (fields.empty() ? ";\n" : ");\n"), name.span);
   }
 
   /// runtime/io/process_image.hpp: IoDeviceState.
@@ -403,29 +401,14 @@ private:
       "  /// Set it to simulate the loss of the device.\n  bFault : BOOL;\n"
       "  /// The device does not answer: outputs have their safe values.\n  bLost : BOOL;\n"
       "  /// How often it was lost.\n  udiLosses : UDINT;\nEND_STRUCT END_TYPE\n";
-  static constexpr std::string_view kBegin = "VAR_GLOBAL\n";
-  std::string body_;
+  // The list of the drives' variables has this file's name, as in CoDeSys.
+  SyntheticSource out_{"<plc>/Drive_Configuration_Data.st"};
   std::unordered_map<std::string, Span> names_;
   bool clash_ = false; ///< something has been left out
-  std::vector<DeclaredRange> &ranges_;
   Diagnostics &diagnostics_;
 };
 
 } // namespace
-
-std::unordered_map<std::string, Span> globalNames(const std::vector<ast::File *> &files) {
-  std::unordered_map<std::string, Span> names;
-  for (const ast::File *file : files)
-    for (const ast::Decl *decl : file->declarations) {
-      if (decl->name && decl->space.empty() && decl->kind != ast::DeclKind::globals)
-        names.try_emplace(lowerCase(decl->name.text), decl->name.span);
-      if (decl->kind == ast::DeclKind::globals)
-        for (const ast::VarDecl *variable : ast::as<ast::GlobalsDecl>(decl)->variables)
-          if (variable->name)
-            names.try_emplace(lowerCase(variable->name.text), variable->name.span);
-    }
-  return names;
-}
 
 void resolveTasks(ProjectConfig &config, const std::vector<ast::File *> &files,
                   ProgramCheck programCheck, Diagnostics &diagnostics) {
@@ -442,20 +425,23 @@ std::string eventFunction(const TaskConfig &task) {
                      task.name.span.begin);
 }
 
-std::string eventDeclaration(const TaskConfig &task, LineColumn at) {
+SyntheticSource eventDeclaration(const TaskConfig &task, const std::string &file, LineColumn at) {
+  SyntheticSource out(file);
   const std::string name = eventFunction(task);
   const std::string begin =
       fmt::format("{{attribute 'hide'}} FUNCTION {} : BOOL {} :=", name, name);
   // So much before the expression that an exception in it has its place.
-  return (at.line > 1
-              ? std::string(at.line - 2, '\n') + begin + '\n' + std::string(at.column - 1, ' ')
-              : begin + ' ') +
-         task.event.text + "; END_FUNCTION\n";
+  out.add((at.line > 1
+               ? std::string(at.line - 2, '\n') + begin + '\n' + std::string(at.column - 1, ' ')
+               : begin + ' ') +
+              task.event.text + "; END_FUNCTION\n",
+          task.event.span);
+  return out;
 }
 
-std::string plcDeclarations(const ProjectConfig &config, const std::vector<ast::File *> &files,
-                            std::vector<DeclaredRange> &ranges, Diagnostics &diagnostics) {
-  return DeclarationWriter(files, ranges, diagnostics).write(config);
+SyntheticSource plcDeclarations(const ProjectConfig &config, const std::vector<ast::File *> &files,
+                                Diagnostics &diagnostics) {
+  return DeclarationWriter(files, diagnostics).write(config);
 }
 
 } // namespace stc

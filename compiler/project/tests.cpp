@@ -1,7 +1,7 @@
 #include "compiler/project/tests.hpp"
 
-#include "compiler/project/interval.hpp"
-#include "compiler/project/names.hpp"
+#include "compiler/syntax/st_text.hpp"
+#include "compiler/toml/interval.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -73,22 +73,21 @@ void removeTests(const std::vector<ast::File *> &files, Arena &arena) {
   }
 }
 
-std::string testProgram(const std::vector<TestBlock> &tests, std::vector<DeclaredRange> &ranges) {
-  std::string out = fmt::format("PROGRAM {}\nVAR\n  which__ : DINT := -1;\n", kTestProgram);
-  const auto add = [&](const TestBlock &test, const std::string &text) {
-    const auto begin = static_cast<std::uint32_t>(out.size());
-    out += text;
-    ranges.push_back({begin, static_cast<std::uint32_t>(out.size()), test.place});
-  };
+SyntheticSource testProgram(const std::vector<TestBlock> &tests) {
+  SyntheticSource out("<tests>");
+  out.add(fmt::format("PROGRAM {}\nVAR\n  which__ : DINT := -1;\n", kTestProgram));
   for (std::size_t i = 0; i < tests.size(); ++i)
-    add(tests[i], fmt::format("  t{}__ : {};\n", i, tests[i].name));
-  out += "END_VAR\n";
-  if (tests.empty())
-    return out + "which__ := 0;\nEND_PROGRAM\n";
-  out += "CASE which__ OF\n";
+    out.add(fmt::format("  t{}__ : {};\n", i, tests[i].name), tests[i].place);
+  out.add("END_VAR\n");
+  if (tests.empty()) {
+    out.add("which__ := 0;\nEND_PROGRAM\n");
+    return out;
+  }
+  out.add("CASE which__ OF\n");
   for (std::size_t i = 0; i < tests.size(); ++i)
-    add(tests[i], fmt::format("  {}: t{}__();\n", i, i));
-  return out + "END_CASE\nEND_PROGRAM\n";
+    out.add(fmt::format("  {}: t{}__();\n", i, i), tests[i].place);
+  out.add("END_CASE\nEND_PROGRAM\n");
+  return out;
 }
 
 void configureTests(ProjectConfig &config) {

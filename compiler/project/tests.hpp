@@ -27,10 +27,8 @@ void removeTests(const std::vector<ast::File *> &files, Arena &arena);
 /// Name of the PROGRAM that runs the tests, and of its variable that says which one.
 inline constexpr const char *kTestProgram = "Test__Run";
 
-/// That PROGRAM, which has an instance of every test and calls one. `ranges` says which part stands
-/// for which test.
-[[nodiscard]] std::string testProgram(const std::vector<TestBlock> &tests,
-                                      std::vector<DeclaredRange> &ranges);
+/// That PROGRAM, which has an instance of every test and calls one.
+[[nodiscard]] SyntheticSource testProgram(const std::vector<TestBlock> &tests);
 
 /// Replaces the tasks by one that calls the PROGRAM, and serves all axis groups.
 void configureTests(ProjectConfig &config);

@@ -1,9 +1,9 @@
 #pragma once
 // The C++ compiler and everything besides the generated code that a result depends on.
 
-#include "compiler/project/content_hash.hpp"
 #include "compiler/project/installation.hpp"
 #include "compiler/project/user_cache.hpp"
+#include "compiler/source/content_hash.hpp"
 
 #include <filesystem>
 #include <string>

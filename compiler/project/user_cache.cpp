@@ -1,7 +1,7 @@
 #include "compiler/project/user_cache.hpp"
 
-#include "compiler/project/content_hash.hpp"
 #include "compiler/project/file_system.hpp"
+#include "compiler/source/content_hash.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -42,4 +42,9 @@ void Interner::grow() {
   }
 }
 
+bool equalIgnoringCase(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return lowerCase(x) == lowerCase(y); });
+}
+
 } // namespace stc

@@ -49,4 +49,7 @@ private:
   std::uint32_t size_ = 0;
 };
 
+/// Whether two texts are the same but for the case of ASCII letters.
+[[nodiscard]] bool equalIgnoringCase(std::string_view a, std::string_view b);
+
 } // namespace stc

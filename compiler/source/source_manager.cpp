@@ -114,6 +114,13 @@ FileId SourceManager::addBytes(std::string name, std::string bytes) {
   return add(std::move(name), std::move(bytes));
 }
 
+FileId SourceManager::add(const SyntheticSource &source) {
+  const FileId id = add(source.name(), source.text());
+  files_.back()->synthetic_ = true;
+  files_.back()->parts_ = source.parts();
+  return id;
+}
+
 std::optional<FileId> SourceManager::load(const std::filesystem::path &path, std::string name) {
   std::optional<std::string> bytes = readSource(path);
   if (!bytes)
@@ -124,6 +131,16 @@ std::optional<FileId> SourceManager::load(const std::filesystem::path &path, std
 std::string_view SourceManager::text(Span span) const {
   return span.valid() ? file(span.file).text().substr(span.begin, span.end - span.begin)
                       : std::string_view{};
+}
+
+Span SourceManager::origin(Span span) const {
+  if (!span.valid() || !file(span.file).isSynthetic())
+    return span;
+  const std::vector<SyntheticSource::Part> &parts = file(span.file).parts_;
+  const auto part = std::upper_bound(
+      parts.begin(), parts.end(), span.begin,
+      [](std::uint32_t place, const SyntheticSource::Part &one) { return place < one.end; });
+  return part != parts.end() && part->begin <= span.begin ? part->origin : Span{};
 }
 
 LineColumn SourceManager::position(Span span) const {

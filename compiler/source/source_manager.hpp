@@ -2,6 +2,7 @@
 // The files that one compilation reads.
 
 #include "compiler/source/span.hpp"
+#include "compiler/source/synthetic_source.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -29,6 +30,8 @@ public:
   }
   void setCodeName(std::string name) { codeName_ = std::move(name); }
   [[nodiscard]] std::string_view text() const { return text_; }
+  /// Stride has written it; see SourceManager::origin().
+  [[nodiscard]] bool isSynthetic() const { return synthetic_; }
   [[nodiscard]] LineColumn position(std::uint32_t offset) const;
   /// 1-based number of the line in which the byte lies.
   [[nodiscard]] std::uint32_t lineNumber(std::uint32_t offset) const;
@@ -43,11 +46,14 @@ public:
   }
 
 private:
+  friend class SourceManager;
   FileId id_;
   std::string name_;
   std::string codeName_; ///< empty: name_
   std::string text_;
   std::vector<std::uint32_t> lineStarts_;
+  std::vector<SyntheticSource::Part> parts_; ///< of a synthetic text
+  bool synthetic_ = false;
   bool ascii_ = true; ///< every character is one byte
 };
 
@@ -59,6 +65,8 @@ public:
   /// Adds raw file bytes: drops a BOM, converts Latin-1 to UTF-8 when the bytes are not valid
   /// UTF-8.
   FileId addBytes(std::string name, std::string bytes);
+  /// Adds a text that Stride has written.
+  FileId add(const SyntheticSource &source);
   /// Reads a file from disk; nullopt when it cannot be read (readSourceError() tells why).
   std::optional<FileId> load(const std::filesystem::path &path, std::string name);
 
@@ -66,6 +74,9 @@ public:
   [[nodiscard]] SourceFile &file(FileId id) { return *files_[id - 1]; }
   [[nodiscard]] std::string_view text(Span span) const;
   [[nodiscard]] LineColumn position(Span span) const;
+  /// The place for which a place in a synthetic text stands, perhaps none; others stand for
+  /// themselves.
+  [[nodiscard]] Span origin(Span span) const;
   [[nodiscard]] std::size_t size() const { return files_.size(); }
 
 private:

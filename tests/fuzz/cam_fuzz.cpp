@@ -1,5 +1,5 @@
 // Any bytes as a cam file: read, compiled, turned into declarations, written again.
-#include "compiler/project/cam_source.hpp"
+#include "compiler/assets/cam/cam_source.hpp"
 #include "compiler/source/render.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // Cam files: written and read again they are the same; gaps are filled continuously; compiled in
 // any mode the data follow the curve as closely as their numbers can.
-#include "compiler/project/cam_source.hpp"
+#include "compiler/assets/cam/cam_source.hpp"
 #include "compiler/source/render.hpp"
 #include "tests/support/random.hpp"
 

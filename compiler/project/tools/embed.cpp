@@ -3,9 +3,9 @@
 
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/library_index.hpp"
-#include "compiler/project/names.hpp"
 #include "compiler/source/render.hpp"
 #include "compiler/syntax/parser.hpp"
+#include "compiler/syntax/st_text.hpp"
 
 #include <algorithm>
 #include <cstdio>

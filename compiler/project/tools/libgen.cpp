@@ -4,10 +4,10 @@
 // built; files that would not change are left alone.
 
 #include "compiler/codegen/codegen.hpp"
-#include "compiler/project/content_hash.hpp"
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/library_index.hpp"
 #include "compiler/project/tools/axis_parameters.hpp"
+#include "compiler/source/content_hash.hpp"
 #include "compiler/source/render.hpp"
 
 #include <algorithm>

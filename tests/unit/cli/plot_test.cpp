@@ -1,9 +1,9 @@
-#include "compiler/cli/plot.hpp"
+#include "compiler/plot/plot.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace stc::cli {
+namespace stc::plot {
 namespace {
 
 using ::testing::ElementsAre;
@@ -176,4 +176,4 @@ TEST(Svg, LongTracesStaySmall) {
 }
 
 } // namespace
-} // namespace stc::cli
+} // namespace stc::plot

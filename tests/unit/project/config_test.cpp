@@ -44,7 +44,7 @@ protected:
     const FileId id = sources_.add("Main.st", program);
     files_ = {parse(sources_.file(id), interner_, arena_, diagnostics_)};
     resolveTasks(config, files_, check, diagnostics_);
-    declarations_ = plcDeclarations(config, files_, ranges_, diagnostics_);
+    declarations_ = plcDeclarations(config, files_, diagnostics_);
     return config;
   }
 
@@ -69,8 +69,7 @@ protected:
   Arena arena_;
   Diagnostics diagnostics_;
   std::vector<ast::File *> files_;
-  std::vector<DeclaredRange> ranges_;
-  std::string declarations_;
+  SyntheticSource declarations_{""};
 };
 
 TEST_F(Config, ReadsTasksGroupsAndDrives) {
@@ -320,12 +319,20 @@ TEST_F(Config, AfterSyntaxErrorsProgramsAreNotMissed) {
 
 TEST_F(Config, DrivesBecomeGlobalVariables) {
   resolve(kGroup, kIpo);
-  EXPECT_THAT(declarations_, HasSubstr("Drive : SM_DriveBasic.AXIS_REF := (wDriveId := 1"));
-  EXPECT_THAT(declarations_, HasSubstr("fTaskCycle := 0.003000000"));
-  EXPECT_THAT(declarations_,
+  const std::string &text = declarations_.text();
+  EXPECT_THAT(text, HasSubstr("Drive : SM_DriveBasic.AXIS_REF := (wDriveId := 1"));
+  EXPECT_THAT(text, HasSubstr("fTaskCycle := 0.003000000"));
+  EXPECT_THAT(text,
               HasSubstr("AxisGroup : SM_DriveBasic.SMC_AXISGROUP_REF := (sTask := 'BusTask'"));
-  ASSERT_EQ(ranges_.size(), 2U);
-  EXPECT_EQ(sources_.text(ranges_[1].origin), "\"Drive\"");
+  const FileId id = sources_.add(declarations_);
+  const auto originOf = [&](std::string_view what) {
+    const auto at = static_cast<std::uint32_t>(text.find(what));
+    return sources_.text(sources_.origin({id, at, at + 1}));
+  };
+  EXPECT_EQ(originOf("SM_DriveBasic.AXIS_REF"), "\"Drive\"");
+  EXPECT_EQ(originOf("SM_DriveBasic.SMC_AXISGROUP_REF"), "\"AxisGroup\"");
+  EXPECT_EQ(originOf("VAR_GLOBAL"), "");
+  EXPECT_EQ(originOf("END_VAR"), "");
 }
 
 TEST_F(Config, DriveNamedLikeAProgram) {
@@ -333,7 +340,7 @@ TEST_F(Config, DriveNamedLikeAProgram) {
   toml.replace(toml.find("\"Drive\""), 7, "\"IPO\"");
   resolve(toml, kIpo);
   EXPECT_THAT(found(), ElementsAre(Pair("SE0818", "\"IPO\"")));
-  EXPECT_THAT(declarations_, ::testing::Not(HasSubstr("IPO")));
+  EXPECT_THAT(declarations_.text(), ::testing::Not(HasSubstr("IPO")));
 }
 
 } // namespace

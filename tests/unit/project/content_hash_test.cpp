@@ -1,4 +1,4 @@
-#include "compiler/project/content_hash.hpp"
+#include "compiler/source/content_hash.hpp"
 
 #include <gtest/gtest.h>
 #include <unordered_set>

@@ -1,4 +1,5 @@
-#include "compiler/project/schema.hpp"
+#include "compiler/assets/cam/cam_source.hpp"
+#include "compiler/project/config_reader.hpp"
 
 #include "compiler/project/driver_sections.hpp"
 #include "compiler/project/file_system.hpp"
@@ -206,7 +207,6 @@ TEST(Schema, CamFilesAreDocumented) {
       EXPECT_THAT(*text,
                   HasSubstr((section.list ? "`[[" : "`[") + std::string(section.name) + "]"));
     }
-    EXPECT_EQ(&section.file(), &camSchema()) << section.name;
     for (const Parameter &parameter : section.parameters) {
       EXPECT_THAT(*text, HasSubstr("`" + std::string(parameter.name) + "`"));
       for (const Choice &choice : parameter.choices)

@@ -1,6 +1,6 @@
-#include "compiler/project/content_hash.hpp"
 #include "compiler/project/output_folder.hpp"
 #include "compiler/project/user_cache.hpp"
+#include "compiler/source/content_hash.hpp"
 #include "tests/support/text.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "compiler/project/interval.hpp"
+#include "compiler/toml/interval.hpp"
 
 #include "compiler/source/identifier.hpp"
 

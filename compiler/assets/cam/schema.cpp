@@ -1,7 +1,7 @@
 // The parameters of cam files: SoftMotion V2.3 manual, sections 4.3 and 4.4.
 
-#include "compiler/project/cam_source.hpp"
-#include "compiler/project/schema.hpp"
+#include "compiler/toml/schema.hpp"
+#include "compiler/assets/cam/cam_source.hpp"
 
 #include <array>
 #include <limits>
@@ -98,19 +98,16 @@ constexpr std::array kCamParameters = {
     Parameter{"interval", ParameterType::Real, false, 0, std::numeric_limits<double>::max()},
 };
 
-constexpr Section kMaster = {"master",          "the master", "master", false,
-                             kMasterParameters, {},           camSchema};
-constexpr Section kSlave = {"slave", "the slave", "slave", false, kSlaveParameters, {}, camSchema};
-constexpr Section kPoint = {"point", "a point", "point", true, kPointParameters, {}, camSchema};
-constexpr Section kLine = {"line", "a line", "line", true, kLineParameters, {}, camSchema};
-constexpr Section kLaw = {"law", "a law", "law", true, kLawParameters, {}, camSchema};
-constexpr Section kTappet = {"tappet",          "a tappet", "tappet", true,
-                             kTappetParameters, {},         camSchema};
-constexpr Section kCompile = {"compile",          "[compile]", "compile", false,
-                              kCompileParameters, {},          camSchema};
+constexpr Section kMaster = {"master", "the master", "master", false, kMasterParameters, {}};
+constexpr Section kSlave = {"slave", "the slave", "slave", false, kSlaveParameters, {}};
+constexpr Section kPoint = {"point", "a point", "point", true, kPointParameters, {}};
+constexpr Section kLine = {"line", "a line", "line", true, kLineParameters, {}};
+constexpr Section kLaw = {"law", "a law", "law", true, kLawParameters, {}};
+constexpr Section kTappet = {"tappet", "a tappet", "tappet", true, kTappetParameters, {}};
+constexpr Section kCompile = {"compile", "[compile]", "compile", false, kCompileParameters, {}};
 constexpr std::array<const Section *, 7> kCamSections = {&kMaster, &kSlave,  &kPoint,  &kLine,
                                                          &kLaw,    &kTappet, &kCompile};
-constexpr Section kCam = {"", "a cam", "", false, kCamParameters, kCamSections, camSchema};
+constexpr Section kCam = {"", "a cam", "", false, kCamParameters, kCamSections};
 
 } // namespace
 

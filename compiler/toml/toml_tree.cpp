@@ -1,6 +1,6 @@
-#include "compiler/project/toml_tree.hpp"
+#include "compiler/toml/toml_tree.hpp"
 
-#include "compiler/project/names.hpp"
+#include "compiler/syntax/st_text.hpp"
 
 #include <algorithm>
 

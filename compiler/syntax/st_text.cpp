@@ -1,7 +1,8 @@
-#include "compiler/project/names.hpp"
+#include "compiler/syntax/st_text.hpp"
 
 #include <algorithm>
 #include <array>
+#include <fmt/format.h>
 
 namespace stc {
 
@@ -33,11 +34,6 @@ constexpr std::array<std::string_view, 83> kReserved = {
 
 } // namespace
 
-bool equalIgnoringCase(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return lowerCase(x) == lowerCase(y); });
-}
-
 bool isReservedWord(std::string_view text) {
   const std::string lower = lowerCase(text);
   return std::binary_search(kReserved.begin(), kReserved.end(), lower);
@@ -52,6 +48,25 @@ bool isIdentifier(std::string_view text) {
     return false;
   return std::all_of(text.begin(), text.end(),
                      [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+std::string realLiteral(double value) {
+  std::string text = fmt::format("{}", value);
+  if (text.find_first_of(".") == std::string::npos) {
+    const std::size_t exponent = text.find('e');
+    text.insert(exponent == std::string::npos ? text.size() : exponent, ".0");
+  }
+  return text;
+}
+
+std::string stringLiteral(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (c == '\'' || c == '$')
+      result += '$';
+    result += c;
+  }
+  return result + "'";
 }
 
 } // namespace stc

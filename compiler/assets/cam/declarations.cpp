@@ -1,9 +1,9 @@
 // Cams as ST, and as cam files.
 
-#include "compiler/project/cam_source.hpp"
-#include "compiler/project/config_reader.hpp"
-#include "compiler/project/content_hash.hpp"
-#include "compiler/project/names.hpp"
+#include "compiler/assets/cam/cam_source.hpp"
+#include "compiler/source/content_hash.hpp"
+#include "compiler/syntax/global_names.hpp"
+#include "compiler/syntax/st_text.hpp"
 
 #include "runtime/numeric/cam/element_block.hpp"
 
@@ -152,28 +152,26 @@ Declared tappetsOf(const std::vector<FileTappet> &tappets) {
 
 class CamWriter {
 public:
-  CamWriter(const std::vector<ast::File *> &files, std::vector<DeclaredRange> &ranges,
-            Diagnostics &diagnostics)
-      : names_(globalNames(files)), ranges_(ranges), diagnostics_(diagnostics) {}
+  CamWriter(const std::vector<ast::File *> &files, Diagnostics &diagnostics)
+      : names_(globalNames(files)), diagnostics_(diagnostics) {}
 
-  std::string write(const std::vector<CamSource> &cams) {
+  SyntheticSource write(const std::vector<CamSource> &cams) {
     for (const CamSource &cam : cams)
       declare(cam);
     if (count_ == 0)
-      return {};
-    std::string text = "VAR_GLOBAL\n" + body_;
+      return std::move(out_);
     if (!names_.contains("_smc_cam_list"))
-      text += fmt::format("  /// The cams of the project's cam files.\n"
-                          "  {{attribute 'init_on_onlchange'}}\n"
-                          "  _SMC_CAM_LIST : ARRAY[0..{}] OF POINTER TO SM_DriveBasic.MC_CAM_REF "
-                          ":= [{}];\n",
-                          count_ - 1, list_);
-    text += "END_VAR\n";
+      out_.add(fmt::format("  /// The cams of the project's cam files.\n"
+                           "  {{attribute 'init_on_onlchange'}}\n"
+                           "  _SMC_CAM_LIST : ARRAY[0..{}] OF POINTER TO SM_DriveBasic.MC_CAM_REF "
+                           ":= [{}];\n",
+                           count_ - 1, list_));
+    out_.add("END_VAR\n");
     if (!names_.contains("_smc_cam_count"))
-      text += fmt::format("VAR_GLOBAL CONSTANT\n  /// How many cams _SMC_CAM_LIST has.\n"
-                          "  _SMC_CAM_COUNT : INT := {};\nEND_VAR\n",
-                          count_);
-    return text;
+      out_.add(fmt::format("VAR_GLOBAL CONSTANT\n  /// How many cams _SMC_CAM_LIST has.\n"
+                           "  _SMC_CAM_COUNT : INT := {};\nEND_VAR\n",
+                           count_));
+    return std::move(out_);
   }
 
 private:
@@ -228,17 +226,15 @@ private:
   }
 
   void add(const CamSource &cam, const std::string &text) {
-    constexpr std::size_t kBegin = std::string_view("VAR_GLOBAL\n").size();
-    const std::size_t begin = kBegin + body_.size();
-    body_ += text;
-    ranges_.push_back({static_cast<std::uint32_t>(begin),
-                       static_cast<std::uint32_t>(kBegin + body_.size()), cam.name.span});
+    if (out_.empty())
+      out_.add("VAR_GLOBAL\n");
+    out_.add(text, cam.name.span);
   }
 
   std::unordered_map<std::string, Span> names_;
-  std::vector<DeclaredRange> &ranges_;
   Diagnostics &diagnostics_;
-  std::string body_;
+  // The list of the cams has this file's name, as in CoDeSys (manual, section 4.7).
+  SyntheticSource out_{"<cams>/CAM_Data.st"};
   std::string list_;
   std::size_t count_ = 0;
 };
@@ -248,10 +244,9 @@ std::string tomlNumber(double value) { return realLiteral(value == 0 ? 0 : value
 
 } // namespace
 
-std::string camDeclarations(const std::vector<CamSource> &cams,
-                            const std::vector<ast::File *> &files,
-                            std::vector<DeclaredRange> &ranges, Diagnostics &diagnostics) {
-  return CamWriter(files, ranges, diagnostics).write(cams);
+SyntheticSource camDeclarations(const std::vector<CamSource> &cams,
+                                const std::vector<ast::File *> &files, Diagnostics &diagnostics) {
+  return CamWriter(files, diagnostics).write(cams);
 }
 
 std::string camFileText(const CamSource &cam, std::string_view comment) {

@@ -1,12 +1,12 @@
-#include "compiler/cli/plot.hpp"
-#include "compiler/project/names.hpp"
+#include "compiler/plot/plot.hpp"
+#include "compiler/source/identifier.hpp"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
 
-namespace stc::cli {
+namespace stc::plot {
 
 namespace {
 
@@ -187,4 +187,4 @@ Ticks niceTicks(double low, double high, int count) {
   return ticks;
 }
 
-} // namespace stc::cli
+} // namespace stc::plot

@@ -1,5 +1,5 @@
 #pragma once
-// Names of Structured Text, as far as the configuration has to do with them.
+// Structured Text that is written, not read: names and literals.
 
 #include "compiler/source/identifier.hpp"
 
@@ -8,11 +8,14 @@
 
 namespace stc {
 
-[[nodiscard]] bool equalIgnoringCase(std::string_view a, std::string_view b);
-
 /// A word that can never be an identifier, whatever its case.
 [[nodiscard]] bool isReservedWord(std::string_view text);
 /// Letters, digits and single underscores, beginning with a letter or underscore, no reserved word.
 [[nodiscard]] bool isIdentifier(std::string_view text);
+
+/// A number as a literal: `0.5`, `1.0`, `1.0e300`. It reads back as the same number.
+[[nodiscard]] std::string realLiteral(double value);
+/// A text as a literal of type STRING: `'it$'s'`.
+[[nodiscard]] std::string stringLiteral(std::string_view text);
 
 } // namespace stc

@@ -1,4 +1,4 @@
-#include "compiler/cli/plot.hpp"
+#include "compiler/plot/plot.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace stc::cli {
+namespace stc::plot {
 
 namespace {
 
@@ -399,4 +399,4 @@ private:
 
 std::string drawSvg(const Trace &trace) { return Drawing(trace).draw(); }
 
-} // namespace stc::cli
+} // namespace stc::plot

@@ -1,9 +1,9 @@
-#include "compiler/project/schema.hpp"
+#include "compiler/toml/schema.hpp"
 
-#include "compiler/project/interval.hpp"
-#include "compiler/project/names.hpp"
 #include "compiler/semantics/suggest.hpp"
 #include "compiler/syntax/parser.hpp"
+#include "compiler/syntax/st_text.hpp"
+#include "compiler/toml/interval.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -252,7 +252,8 @@ const Section *ownerOf(const Section &schema, std::string_view name) {
   return nullptr;
 }
 
-void reportUnknown(const TomlNode &member, const Section &schema, Diagnostics &diagnostics) {
+void reportUnknown(const TomlNode &member, const Section &schema, const Section &file,
+                   Diagnostics &diagnostics) {
   std::vector<std::string_view> names;
   for (const Parameter &parameter : schema.parameters)
     names.push_back(parameter.name);
@@ -271,8 +272,7 @@ void reportUnknown(const TomlNode &member, const Section &schema, Diagnostics &d
     d.help(fmt::format("write `{}`: upper and lower case count here", near));
   else if (!near.empty())
     d.help(fmt::format("did you mean `{}`?", near));
-  else if (const Section *owner = ownerOf(schema.file(), member.key);
-           owner != nullptr && owner != &schema)
+  else if (const Section *owner = ownerOf(file, member.key); owner != nullptr && owner != &schema)
     d.help(fmt::format("`{}` belongs into {}", member.key, header(*owner)));
   if (near.empty() && schema.name == "diagnostics")
     d.help("`stride explain --list` shows all codes and names");
@@ -319,8 +319,8 @@ std::optional<std::int64_t> findChoice(const Parameter &parameter, const TomlNod
 }
 
 CheckedSection::CheckedSection(const TomlNode &table, const Section &schema,
-                               Diagnostics &diagnostics)
-    : table_(&table), schema_(&schema) {
+                               Diagnostics &diagnostics, const Section *file)
+    : table_(&table), schema_(&schema), file_(file != nullptr ? file : &schema) {
   for (const TomlNode &member : table.children) {
     if (const Parameter *parameter = findParameter(schema, member.key)) {
       if (ValueChecker(*parameter, member, diagnostics).check())
@@ -329,7 +329,7 @@ CheckedSection::CheckedSection(const TomlNode &table, const Section &schema,
       if (checkSectionKind(member, *section, diagnostics))
         values_.push_back(&member);
     } else {
-      reportUnknown(member, schema, diagnostics);
+      reportUnknown(member, schema, *file_, diagnostics);
     }
   }
   for (const Parameter &parameter : schema.parameters)
@@ -404,43 +404,6 @@ std::span<const TomlNode> CheckedSection::tables(std::string_view name) const {
                           : std::span<const TomlNode>();
 }
 
-void CheckedSection::parameters(std::string_view prefix, std::vector<ConfigParameter> &out) const {
-  for (const Parameter &parameter : schema_->parameters) {
-    const TomlNode *value = get(parameter.name);
-    if (value == nullptr)
-      continue;
-    ConfigParameter &result = out.emplace_back();
-    result.name = std::string(prefix) + std::string(parameter.name);
-    switch (parameter.type) {
-    case ParameterType::Text:
-    case ParameterType::Identifier:
-    case ParameterType::DriveName:
-      result.text = value->text;
-      break;
-    case ParameterType::Boolean:
-      result.number = value->boolean ? 1 : 0;
-      break;
-    case ParameterType::Integer:
-    case ParameterType::Real:
-      result.number = value->floating;
-      break;
-    case ParameterType::Choice: {
-      const std::int64_t number = findChoice(parameter, *value).value_or(0);
-      result.number = static_cast<double>(number);
-      for (const Choice &choice : parameter.choices)
-        if (choice.value == number)
-          result.text = choice.name;
-      break;
-    }
-    case ParameterType::Interval:
-      result.number = static_cast<double>(parseInterval(value->text).value_or(0)) * 1e-9;
-      break;
-    case ParameterType::NameList: // no driver has any
-      break;
-    }
-  }
-}
-
 std::vector<CheckedSection> CheckedSection::sections(std::string_view name,
                                                      Diagnostics &diagnostics) const {
   std::vector<CheckedSection> result;
@@ -449,12 +412,32 @@ std::vector<CheckedSection> CheckedSection::sections(std::string_view name,
   if (value == nullptr || section == nullptr)
     return result;
   if (!section->list) {
-    result.emplace_back(*value, *section, diagnostics);
+    result.emplace_back(*value, *section, diagnostics, file_);
     return result;
   }
   for (const TomlNode &element : value->children)
-    result.emplace_back(element, *section, diagnostics);
+    result.emplace_back(element, *section, diagnostics, file_);
   return result;
+}
+
+ConfigName nameOf(const CheckedSection &section) {
+  const TomlNode *name = section.get("name");
+  return name != nullptr ? ConfigName{name->text, name->span} : ConfigName{};
+}
+
+bool Unique::add(const std::string &key, Span where, const std::string &message) {
+  const auto [first, isNew] = seen_.try_emplace(key, where);
+  if (!isNew)
+    diagnostics_.report(code_, where, message, "used again here")
+        .label(first->second, "first used here");
+  return isNew;
+}
+
+void withoutEffect(Diagnostics &diagnostics, const CheckedSection &section, std::string_view name,
+                   std::string_view reason) {
+  diagnostics.report(Code::configWithoutEffect, section.get(name)->keySpan,
+                     fmt::format("`{}` has no effect here", name),
+                     fmt::format("counts {}", reason));
 }
 
 } // namespace stc

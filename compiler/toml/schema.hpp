@@ -1,9 +1,8 @@
 #pragma once
 // What may stand in stride.toml and in cam files: sections, parameters, their types and ranges.
 
-#include "compiler/codegen/codegen.hpp"
-#include "compiler/project/toml_tree.hpp"
 #include "compiler/source/diagnostic.hpp"
+#include "compiler/toml/toml_tree.hpp"
 #include "runtime/common/parameter.hpp"
 
 #include <cstdint>
@@ -11,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace stc {
@@ -25,11 +25,6 @@ struct Foreign {
   std::string reason; ///< "only with device = \"SharedMemory\""
 };
 
-struct Section;
-
-/// The whole of stride.toml, as the section without a name.
-[[nodiscard]] const Section &projectSchema();
-
 /// A table (`[project]`) or a list of tables (`[[bus]]`) with its parameters and nested sections.
 struct Section {
   std::string_view name;
@@ -38,22 +33,17 @@ struct Section {
   bool list = false;
   std::span<const Parameter> parameters = {};
   std::span<const Section *const> sections = {};
-  /// The whole file, the section without a name, whose `what` is the file.
-  const Section &(*file)() = projectSchema;
   /// Of `parameters` and `sections`: without effect here, which is a warning.
   std::span<const Foreign> foreign = {};
 };
-
-/// The whole of a cam file, *.cam.toml.
-[[nodiscard]] const Section &camSchema();
-/// [fmt]: how sources are formatted.
-[[nodiscard]] const Section &formatSchema();
 
 /// A table of such a file that has been compared with its schema. Everything wrong with it has been
 /// reported; what is left can be read without further checks.
 class CheckedSection {
 public:
-  CheckedSection(const TomlNode &table, const Section &schema, Diagnostics &diagnostics);
+  /// `file`: the whole file, as the section without a name; null: `schema` is.
+  CheckedSection(const TomlNode &table, const Section &schema, Diagnostics &diagnostics,
+                 const Section *file = nullptr);
 
   [[nodiscard]] const TomlNode &table() const { return *table_; }
   [[nodiscard]] const Section &schema() const { return *schema_; }
@@ -72,9 +62,6 @@ public:
   [[nodiscard]] double real(std::string_view name) const;
   [[nodiscard]] bool boolean(std::string_view name) const;
   [[nodiscard]] std::int64_t choice(std::string_view name) const;
-  /// Appends all valid parameters, in the schema's order: numbers, choices with their name,
-  /// durations in seconds.
-  void parameters(std::string_view prefix, std::vector<ConfigParameter> &out) const;
   /// The tables of a nested list of tables, not yet compared with a schema.
   [[nodiscard]] std::span<const TomlNode> tables(std::string_view name) const;
   /// The tables of a nested section.
@@ -84,6 +71,7 @@ public:
 private:
   const TomlNode *table_;
   const Section *schema_;
+  const Section *file_;
   std::vector<const TomlNode *> values_; ///< valid ones
 };
 
@@ -93,5 +81,32 @@ private:
 /// Value of a choice written as text or number; nothing when it is none of them.
 [[nodiscard]] std::optional<std::int64_t> findChoice(const Parameter &parameter,
                                                      const TomlNode &value);
+
+/// A name and where the file says it; the span is invalid for defaults.
+struct ConfigName {
+  std::string text;
+  Span span;
+};
+
+/// The `name` of a section; with an invalid span when it is missing or wrong.
+[[nodiscard]] ConfigName nameOf(const CheckedSection &section);
+
+/// Reports the second use of a name or number, with the first one marked.
+class Unique {
+public:
+  Unique(Code code, Diagnostics &diagnostics) : code_(code), diagnostics_(diagnostics) {}
+
+  /// True for a new one; else `message` has been reported at `where`.
+  bool add(const std::string &key, Span where, const std::string &message);
+
+private:
+  Code code_;
+  Diagnostics &diagnostics_;
+  std::unordered_map<std::string, Span> seen_;
+};
+
+/// Warns that a valid parameter changes nothing; `reason` completes "counts …".
+void withoutEffect(Diagnostics &diagnostics, const CheckedSection &section, std::string_view name,
+                   std::string_view reason);
 
 } // namespace stc

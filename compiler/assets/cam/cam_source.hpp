@@ -1,7 +1,10 @@
 #pragma once
 // Cam files, *.cam.toml: what the cam editor of SoftMotion shows (V2.3 manual, chapter 4).
 
-#include "compiler/project/config.hpp"
+#include "compiler/source/diagnostic.hpp"
+#include "compiler/source/source_manager.hpp"
+#include "compiler/syntax/ast.hpp"
+#include "compiler/toml/schema.hpp"
 #include "runtime/numeric/cam/cam_file.hpp"
 
 #include <cstdint>
@@ -28,6 +31,9 @@ struct CamElement {
   int given = 0;
   Span span; ///< of its header
 };
+
+/// The whole of a cam file, as the section without a name.
+[[nodiscard]] const Section &camSchema();
 
 /// How a cam becomes data: manual, section 4.4.3.
 enum class CamMode : std::uint8_t { polynomial, equidistant, elementOptimised, none };
@@ -101,10 +107,9 @@ struct CamData {
 /// Cams as ST: the list of globals CAM_Data with an MC_CAM_REF per cam, hidden variables with its
 /// points and tappets, _SMC_CAM_LIST and _SMC_CAM_COUNT. May be empty. Cams named like something in
 /// `files` or like another cam are reported and left out.
-[[nodiscard]] std::string camDeclarations(const std::vector<CamSource> &cams,
-                                          const std::vector<ast::File *> &files,
-                                          std::vector<DeclaredRange> &ranges,
-                                          Diagnostics &diagnostics);
+[[nodiscard]] SyntheticSource camDeclarations(const std::vector<CamSource> &cams,
+                                              const std::vector<ast::File *> &files,
+                                              Diagnostics &diagnostics);
 
 /// A cam file that describes the points, with the tappets; `comment` stands above.
 [[nodiscard]] std::string camFileText(const CamSource &cam, std::string_view comment);

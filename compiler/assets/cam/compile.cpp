@@ -1,7 +1,7 @@
 // From the elements of a cam to its curve and its data: SoftMotion V2.3 manual, sections 4.2 and
 // 4.4.3.
 
-#include "compiler/project/cam_source.hpp"
+#include "compiler/assets/cam/cam_source.hpp"
 
 #include "runtime/numeric/cam/element_block.hpp"
 #include "runtime/numeric/cam/reduce.hpp"

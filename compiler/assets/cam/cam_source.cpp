@@ -1,9 +1,8 @@
 // Reading cam files.
 
-#include "compiler/project/cam_source.hpp"
+#include "compiler/assets/cam/cam_source.hpp"
 
-#include "compiler/project/config_reader.hpp"
-#include "compiler/project/names.hpp"
+#include "compiler/syntax/st_text.hpp"
 
 #include <algorithm>
 #include <cmath>

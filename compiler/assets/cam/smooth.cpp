@@ -1,6 +1,6 @@
 // The derivatives at the smooth points of a cam.
 
-#include "compiler/project/cam_source.hpp"
+#include "compiler/assets/cam/cam_source.hpp"
 
 #include "runtime/numeric/cam/builder.hpp"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace stc::cli {
+namespace stc::plot {
 
 /// What a curve shows.
 struct Quantity {
@@ -62,4 +62,4 @@ struct Ticks {
 /// lead from the changes of BOOLs through all panels, unless they are many.
 [[nodiscard]] std::string drawSvg(const Trace &trace);
 
-} // namespace stc::cli
+} // namespace stc::plot
