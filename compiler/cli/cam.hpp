@@ -3,7 +3,7 @@
 
 #include "compiler/assets/cam/cam_source.hpp"
 #include "compiler/cli/commands.hpp"
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 
 #include <optional>
 #include <string>
@@ -32,7 +32,7 @@ struct CamPlace {
 
 /// Reads any of the three by what the name ends with: `.cam.toml`, `.cam`, anything else is a
 /// table. What is wrong is reported.
-[[nodiscard]] std::optional<LoadedCam> loadCam(const std::string &path, SourceManager &sources,
+[[nodiscard]] std::optional<LoadedCam> loadCam(const std::string &path, Sources &sources,
                                                Diagnostics &diagnostics);
 
 /// Reads `master;slave` or `master:slave`, a place a line, ascending by the master; decimals behind

@@ -69,7 +69,7 @@ public:
     return cam;
   }
   Diagnostics &diagnostics() { return diagnostics_; }
-  SourceManager &sources() { return sources_; }
+  Sources &sources() { return sources_; }
 
   void write(const std::string &path, const std::string &text) {
     if (!writeFile(path, text))
@@ -90,7 +90,7 @@ public:
 
 private:
   const CamOptions &options_;
-  SourceManager sources_;
+  Sources sources_;
   Diagnostics diagnostics_;
   std::string written_;
 };

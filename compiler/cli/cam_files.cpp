@@ -43,8 +43,9 @@ std::string_view reasonOf(CamFileError error) {
   return "";
 }
 
-std::optional<LoadedCam> loadBinary(const std::string &path, Diagnostics &diagnostics) {
-  const std::optional<std::string> bytes = readSource(path);
+std::optional<LoadedCam> loadBinary(const std::string &path, const Sources &sources,
+                                    Diagnostics &diagnostics) {
+  const std::optional<std::string> bytes = sources.read(path);
   if (!bytes) {
     diagnostics.report(Code::unreadableFile, {},
                        fmt::format("`{}` cannot be read: {}", path, readSourceError()));
@@ -196,11 +197,11 @@ std::string placesText(const std::vector<CamPlace> &places) {
   return text;
 }
 
-std::optional<LoadedCam> loadCam(const std::string &path, SourceManager &sources,
+std::optional<LoadedCam> loadCam(const std::string &path, Sources &sources,
                                  Diagnostics &diagnostics) {
   const std::string lower = lowerCase(path);
   if (lower.ends_with(".cam"))
-    return loadBinary(path, diagnostics);
+    return loadBinary(path, sources, diagnostics);
   const std::optional<FileId> id = sources.load(path, path);
   if (!id) {
     diagnostics.report(Code::unreadableFile, {},

@@ -42,7 +42,7 @@ std::vector<doc::Module> standardLibraryModules() {
   const EmbeddedLibraryIndex index(standardLibrary());
   Interner interner;
   Arena arena;
-  SourceManager sources;
+  Sources sources;
   Diagnostics diagnostics;
   std::vector<doc::Module> modules;
   modules.push_back(doc::builtinFunctions());

@@ -27,14 +27,14 @@ std::optional<std::string> readStdin() {
   return text;
 }
 
-int showAll(const Diagnostics &diagnostics, const SourceManager &sources, const Output &output) {
+int showAll(const Diagnostics &diagnostics, const Sources &sources, const Output &output) {
   Diagnostics sorted = diagnostics;
   sorted.sort();
   return show(sorted.all(), sources, output);
 }
 
 int formatStdin(const FormatOptions &options) {
-  SourceManager sources;
+  Sources sources;
   Diagnostics diagnostics;
   const FormatSettings settings = readFormatSettings({}, sources, diagnostics);
   const std::optional<std::string> text = readStdin();
@@ -69,7 +69,7 @@ int formatCommand(const FormatOptions &options) {
   int exitCode = 0;
   std::size_t changed = 0;
   for (const std::string &path : paths) {
-    SourceManager sources;
+    Sources sources;
     Diagnostics diagnostics;
     const std::vector<FormattedFile> files = formatPath(path, sources, diagnostics);
     for (const FormattedFile &file : files) {

@@ -32,8 +32,7 @@ void print(const std::string &text) {
   write(stdout, ::isatty(STDOUT_FILENO) != 0 ? visible(text, "\n\t") : text);
 }
 
-int show(const std::vector<Diagnostic> &diagnostics, const SourceManager &sources,
-         const Output &output) {
+int show(const std::vector<Diagnostic> &diagnostics, const Sources &sources, const Output &output) {
   std::size_t errors = 0;
   std::size_t warnings = 0;
   std::size_t notShown = 0;

@@ -2,7 +2,7 @@
 // What a command shows its user.
 
 #include "compiler/source/diagnostic.hpp"
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 
 #include <chrono>
 #include <string>
@@ -30,8 +30,7 @@ void print(const std::string &text);
 /// Writes diagnostics, text with a summary line to standard error, JSON (an object a line) to
 /// standard output. As text nothing is shown behind `maxErrors` errors. Returns the exit code: 0
 /// exactly when none is an error.
-int show(const std::vector<Diagnostic> &diagnostics, const SourceManager &sources,
-         const Output &output);
+int show(const std::vector<Diagnostic> &diagnostics, const Sources &sources, const Output &output);
 
 /// A single error without a place.
 int showError(Code code, std::string message, const Output &output = {});

@@ -107,7 +107,7 @@ public:
   }
 
   GeneratedFile build() {
-    const SourceManager &sources = c_.program.sources;
+    const Sources &sources = c_.program.sources;
     Hash all;
     all.add(STRIDE_VERSION).add(std::uint64_t{c_.program.settings.checks});
     std::string files;

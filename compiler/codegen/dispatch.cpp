@@ -171,7 +171,7 @@ private:
   }
 
   void fail(const PouSymbol *m) {
-    const SourceManager &sources = c_.program.sources;
+    const Sources &sources = c_.program.sources;
     const LineColumn at = sources.position(m->name.span);
     text_ += "  default:\n    ::stride::raise(ctx__, ::stride::ExceptionCode::AbstractCall, \"" +
              escaped(sources.file(m->name.span.file).codeName()) + "\", " +

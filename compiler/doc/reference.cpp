@@ -17,7 +17,7 @@ bool isPrivate(ast::Access access) { return access == ast::Access::privateA; }
 
 class Describer {
 public:
-  explicit Describer(const SourceManager &sources) : sources_(sources) {}
+  explicit Describer(const Sources &sources) : sources_(sources) {}
 
   void file(const ast::File &file, std::vector<Entry> &entries) {
     for (const ast::Decl *decl : file.declarations)
@@ -179,13 +179,12 @@ private:
     entries.push_back(std::move(entry));
   }
 
-  const SourceManager &sources_;
+  const Sources &sources_;
 };
 
 } // namespace
 
-Module describe(std::string name, std::span<const ast::File *const> files,
-                const SourceManager &sources) {
+Module describe(std::string name, std::span<const ast::File *const> files, const Sources &sources) {
   Module module{std::move(name), {}, {}};
   Describer describer(sources);
   for (const ast::File *file : files)

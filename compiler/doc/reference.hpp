@@ -1,7 +1,7 @@
 #pragma once
 // What a reference says of ST declarations: data between the syntax tree and HTML.
 
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 #include "compiler/syntax/ast.hpp"
 
 #include <span>
@@ -47,7 +47,7 @@ struct Module {
 /// Everything in `files` that other code can use: nothing that is PRIVATE or has
 /// `{attribute 'hide'}`, and no VAR of a block or function.
 [[nodiscard]] Module describe(std::string name, std::span<const ast::File *const> files,
-                              const SourceManager &sources);
+                              const Sources &sources);
 
 /// The functions that the compiler implements itself (`LEN`, `LIMIT`, `TO_INT` …).
 [[nodiscard]] Module builtinFunctions();

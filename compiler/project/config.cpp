@@ -60,9 +60,9 @@ public:
     for (const CheckedSection &task : top.sections("task", diagnostics_))
       readTask(task);
     for (const TomlNode &bus : top.tables("bus"))
-      plc_.readBus({bus, busSection(bus), diagnostics_});
+      plc_.readBus({bus, busSection(bus), diagnostics_, &projectSchema()});
     for (const TomlNode &io : top.tables("io"))
-      readIoDevice({io, ioSection(io), diagnostics_}, config_, diagnostics_);
+      readIoDevice({io, ioSection(io), diagnostics_, &projectSchema()}, config_, diagnostics_);
     return std::move(config_);
   }
 

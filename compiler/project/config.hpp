@@ -4,7 +4,7 @@
 #include "compiler/codegen/codegen.hpp"
 #include "compiler/semantics/program.hpp"
 #include "compiler/source/diagnostic.hpp"
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 #include "compiler/syntax/ast.hpp"
 #include "compiler/syntax/conditions.hpp"
 #include "compiler/toml/schema.hpp"

@@ -11,14 +11,9 @@
 namespace stc {
 
 /// The whole of stride.toml, as the section without a name.
-[[nodiscard]] const Section &projectSchema();
+[[nodiscard]] const SectionSchema &projectSchema();
 /// [fmt]: how sources are formatted.
-[[nodiscard]] const Section &formatSchema();
-
-/// Appends all valid parameters of a section, in the schema's order: numbers, choices with their
-/// name, durations in seconds.
-void addParameters(const CheckedSection &section, std::string_view prefix,
-                   std::vector<ConfigParameter> &out);
+[[nodiscard]] const SectionSchema &formatSchema();
 
 /// ST that declares g_DRIVESTRUCT and its type; the axis groups, drives and encoders are declared
 /// elsewhere.

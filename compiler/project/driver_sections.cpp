@@ -1,7 +1,8 @@
 #include "compiler/project/driver_sections.hpp"
 
-#include "compiler/syntax/st_text.hpp"
 #include "compiler/semantics/suggest.hpp"
+#include "compiler/syntax/st_text.hpp"
+#include "compiler/toml/interval.hpp"
 #include "drivers/io/registry.hpp"
 #include "drivers/registry.hpp"
 #include "runtime/bus/plc_schema.hpp"
@@ -40,8 +41,8 @@ constexpr std::array kIoChannelParameters = {
     common::whole("safe_value", -2147483648.0, common::kLargestDword),
     common::text("comment"),
 };
-constexpr Section kIoChannel = {"channel", "a channel",          "io.channel",
-                                true,      kIoChannelParameters, {}};
+constexpr SectionSchema kIoChannel = {"channel", "a channel",          "io.channel",
+                                      true,      kIoChannelParameters, {}};
 
 /// The driver's own first, so that they go before those of others with the same name.
 template <class Schema, class Visit>
@@ -73,10 +74,10 @@ void DriverSection::add(std::span<const Parameter> parameters, const std::string
 void DriverSection::add(std::span<const common::ParameterTable> tables, const std::string &reason) {
   for (const common::ParameterTable &table : tables) {
     if (std::any_of(sections_.begin(), sections_.end(),
-                    [&](const Section *known) { return known->name == table.name; }))
+                    [&](const SectionSchema *known) { return known->name == table.name; }))
       continue;
     paths_.push_back(fmt::format("{}.{}", section_.path, table.name));
-    Section &section = tables_.emplace_back();
+    SectionSchema &section = tables_.emplace_back();
     section.name = table.name;
     section.what = table.what;
     section.path = paths_.back();
@@ -87,7 +88,7 @@ void DriverSection::add(std::span<const common::ParameterTable> tables, const st
   }
 }
 
-const Section &DriverSection::finish() {
+const SectionSchema &DriverSection::finish() {
   section_.parameters = parameters_;
   section_.sections = sections_;
   section_.foreign = foreign_;
@@ -149,14 +150,14 @@ sectionsOf(std::span<const Schema *const> all) {
   return sections;
 }
 
-const Section &busSectionOf(std::string_view driver) {
+const SectionSchema &busSectionOf(std::string_view driver) {
   static const auto sections =
       sectionsOf<BusSection, DriverSchema>(std::span(stride::drivers::kSchemas));
   const auto found = sections.find(driver);
   return (found != sections.end() ? found : sections.find(""))->second->section();
 }
 
-const Section &ioSectionOf(std::string_view driver) {
+const SectionSchema &ioSectionOf(std::string_view driver) {
   static const auto sections =
       sectionsOf<IoSection, IoSchema>(std::span(stride::drivers::kIoSchemas));
   const auto found = sections.find(driver);
@@ -165,16 +166,16 @@ const Section &ioSectionOf(std::string_view driver) {
 
 } // namespace
 
-const Section &anyBusSection() { return busSectionOf({}); }
-const Section &anyIoSection() { return ioSectionOf({}); }
+const SectionSchema &anyBusSection() { return busSectionOf({}); }
+const SectionSchema &anyIoSection() { return ioSectionOf({}); }
 
-const Section &busSection(const TomlNode &bus) {
+const SectionSchema &busSection(const TomlNode &bus) {
   const TomlNode *type = bus.find("InterfaceType");
   return busSectionOf(type != nullptr && type->kind == TomlKind::string ? driverOf(type->text)
                                                                         : std::string_view());
 }
 
-const Section &ioSection(const TomlNode &io) {
+const SectionSchema &ioSection(const TomlNode &io) {
   const TomlNode *device = io.find("device");
   if (device == nullptr)
     return anyIoSection();
@@ -292,14 +293,52 @@ void checkRules(const CheckedSection &section, const RuleScope &scope, Diagnosti
   RuleChecker(section, scope, diagnostics).check();
 }
 
+void addParameters(const CheckedSection &section, std::string_view prefix,
+                   std::vector<ConfigParameter> &out) {
+  for (const Parameter &parameter : section.schema().parameters) {
+    const TomlNode *value = section.get(parameter.name);
+    if (value == nullptr)
+      continue;
+    ConfigParameter &result = out.emplace_back();
+    result.name = std::string(prefix) + std::string(parameter.name);
+    switch (parameter.type) {
+    case ParameterType::Text:
+    case ParameterType::Identifier:
+    case ParameterType::DriveName:
+      result.text = value->text;
+      break;
+    case ParameterType::Boolean:
+      result.number = value->boolean ? 1 : 0;
+      break;
+    case ParameterType::Integer:
+    case ParameterType::Real:
+      result.number = value->floating;
+      break;
+    case ParameterType::Choice: {
+      const std::int64_t number = findChoice(parameter, *value).value_or(0);
+      result.number = static_cast<double>(number);
+      for (const Choice &choice : parameter.choices)
+        if (choice.value == number)
+          result.text = choice.name;
+      break;
+    }
+    case ParameterType::Interval:
+      result.number = static_cast<double>(parseInterval(value->text).value_or(0)) * 1e-9;
+      break;
+    case ParameterType::NameList: // no driver has any
+      break;
+    }
+  }
+}
+
 void readDriverTables(const CheckedSection &section, const RuleScope &scope,
                       std::vector<ConfigParameter> &parameters, Diagnostics &diagnostics) {
   checkRules(section, scope, diagnostics);
-  for (const Section *below : section.schema().sections) {
+  for (const SectionSchema *below : section.schema().sections) {
     if (below->list)
       continue;
     for (const CheckedSection &table : section.sections(below->name, diagnostics)) {
-      table.parameters(fmt::format("{}.", below->name), parameters);
+      addParameters(table, fmt::format("{}.", below->name), parameters);
       checkRules(table, scope, diagnostics);
     }
   }

@@ -27,23 +27,23 @@ public:
   ~DriverSection() = default;
 
   /// The section but for its parameters.
-  void begin(const Section &section) { section_ = section; }
+  void begin(const SectionSchema &section) { section_ = section; }
   /// Parameters and tables that it has now; those that another driver has as well stay as they are.
   /// `reason`: why they are without effect; empty: they are not.
   void add(std::span<const Parameter> parameters, const std::string &reason = {});
   void add(std::span<const stride::common::ParameterTable> tables, const std::string &reason = {});
   /// A section below, whatever the driver; it must live as long.
-  void add(const Section &section) { sections_.push_back(&section); }
+  void add(const SectionSchema &section) { sections_.push_back(&section); }
   /// When everything has been added.
-  [[nodiscard]] const Section &finish();
+  [[nodiscard]] const SectionSchema &finish();
 
 private:
-  Section section_;
+  SectionSchema section_;
   std::vector<Parameter> parameters_;
   std::vector<Foreign> foreign_;
-  std::deque<Section> tables_;
+  std::deque<SectionSchema> tables_;
   std::deque<std::string> paths_;
-  std::vector<const Section *> sections_;
+  std::vector<const SectionSchema *> sections_;
 };
 
 /// `[[bus]]` as one driver has it.
@@ -52,14 +52,14 @@ public:
   /// `driver`: null for one that nobody knows; then the parameters of `all` count.
   BusSection(const stride::bus::DriverSchema *driver,
              std::span<const stride::bus::DriverSchema *const> all);
-  [[nodiscard]] const Section &section() const { return *section_; }
+  [[nodiscard]] const SectionSchema &section() const { return *section_; }
 
 private:
   DriverSection drive_;
   DriverSection encoder_;
   DriverSection axisGroup_;
   DriverSection bus_;
-  const Section *section_;
+  const SectionSchema *section_;
 };
 
 /// `[[io]]` as one device has it.
@@ -67,21 +67,21 @@ class IoSection {
 public:
   /// `driver`: null for one that nobody knows; then the parameters of `all` count.
   IoSection(const stride::io::IoSchema *driver, std::span<const stride::io::IoSchema *const> all);
-  [[nodiscard]] const Section &section() const { return *section_; }
+  [[nodiscard]] const SectionSchema &section() const { return *section_; }
 
 private:
   std::vector<Choice> devices_;
   std::vector<Parameter> general_;
   DriverSection io_;
-  const Section *section_;
+  const SectionSchema *section_;
 };
 
 /// The section of this table of the list `[[bus]]` or `[[io]]`, by the driver that it names.
-[[nodiscard]] const Section &busSection(const TomlNode &bus);
-[[nodiscard]] const Section &ioSection(const TomlNode &io);
+[[nodiscard]] const SectionSchema &busSection(const TomlNode &bus);
+[[nodiscard]] const SectionSchema &ioSection(const TomlNode &io);
 /// The sections with the parameters of all drivers.
-[[nodiscard]] const Section &anyBusSection();
-[[nodiscard]] const Section &anyIoSection();
+[[nodiscard]] const SectionSchema &anyBusSection();
+[[nodiscard]] const SectionSchema &anyIoSection();
 
 /// What the rules between parameters need to know besides their section.
 struct RuleScope {
@@ -94,6 +94,11 @@ struct RuleScope {
 /// Reports what contradicts the rules of the section's rows: parameters without effect, missing
 /// ones, those in the wrong order. What is wrong by itself has been reported.
 void checkRules(const CheckedSection &section, const RuleScope &scope, Diagnostics &diagnostics);
+
+/// Appends all valid parameters of a section, in the schema's order: numbers, choices with their
+/// name, durations in seconds.
+void addParameters(const CheckedSection &section, std::string_view prefix,
+                   std::vector<ConfigParameter> &out);
 
 /// Reads a driver's tables below the section of an axis group, a drive or an encoder.
 void readDriverTables(const CheckedSection &section, const RuleScope &scope,

@@ -46,7 +46,7 @@ bool isWellFormed(const SourceFile &source, const ParseOptions &options) {
 
 } // namespace
 
-FormatSettings readFormatSettings(const fs::path &place, SourceManager &sources,
+FormatSettings readFormatSettings(const fs::path &place, Sources &sources,
                                   Diagnostics &diagnostics) {
   FormatSettings settings;
   std::error_code error;
@@ -86,7 +86,7 @@ FormatSettings readFormatSettings(const fs::path &place, SourceManager &sources,
 }
 
 void formatFiles(std::vector<FormattedFile> &files, const FormatSettings &settings,
-                 SourceManager &sources, Diagnostics &diagnostics) {
+                 Sources &sources, Diagnostics &diagnostics) {
   std::vector<FileId> ids;
   for (const FormattedFile &file : files)
     ids.push_back(sources.addBytes(file.name, file.before));
@@ -111,7 +111,7 @@ void formatFiles(std::vector<FormattedFile> &files, const FormatSettings &settin
   }
 }
 
-std::vector<FormattedFile> formatPath(const fs::path &path, SourceManager &sources,
+std::vector<FormattedFile> formatPath(const fs::path &path, Sources &sources,
                                       Diagnostics &diagnostics) {
   std::vector<FormattedFile> files;
   std::error_code error;
@@ -123,7 +123,7 @@ std::vector<FormattedFile> formatPath(const fs::path &path, SourceManager &sourc
   }
   std::vector<fs::path> paths{path};
   if (fs::is_directory(status)) {
-    paths = findSources(path, error);
+    paths = findSources(sources, path, error);
     if (error)
       diagnostics.report(Code::unreadableFile, {},
                          fmt::format("`{}` cannot be read: {}", path.string(), error.message()));
@@ -135,7 +135,7 @@ std::vector<FormattedFile> formatPath(const fs::path &path, SourceManager &sourc
   if (diagnostics.hasErrors())
     return files;
   for (const fs::path &one : paths) {
-    std::optional<std::string> bytes = readSource(one);
+    std::optional<std::string> bytes = sources.read(one);
     if (!bytes) {
       diagnostics.report(Code::unreadableFile, {},
                          fmt::format("`{}` cannot be read: {}", one.string(), readSourceError()));

@@ -2,7 +2,7 @@
 // Formatting files as their project wants it.
 
 #include "compiler/source/diagnostic.hpp"
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 #include "compiler/syntax/conditions.hpp"
 #include "compiler/syntax/format.hpp"
 
@@ -27,17 +27,17 @@ struct FormatSettings {
   std::vector<Define> defines;
 };
 [[nodiscard]] FormatSettings readFormatSettings(const std::filesystem::path &place,
-                                                SourceManager &sources, Diagnostics &diagnostics);
+                                                Sources &sources, Diagnostics &diagnostics);
 
 /// Formats all sources of a project folder, or one source file. Files with syntax errors stay as
 /// they are, and the errors are reported. The encoding of a file (UTF-8 with or without a byte
 /// order mark, Latin-1) is kept. Throws std::logic_error when formatting would change what a file
 /// says.
-[[nodiscard]] std::vector<FormattedFile>
-formatPath(const std::filesystem::path &path, SourceManager &sources, Diagnostics &diagnostics);
+[[nodiscard]] std::vector<FormattedFile> formatPath(const std::filesystem::path &path,
+                                                    Sources &sources, Diagnostics &diagnostics);
 
 /// Fills `files[].after`; the files belong together.
 void formatFiles(std::vector<FormattedFile> &files, const FormatSettings &settings,
-                 SourceManager &sources, Diagnostics &diagnostics);
+                 Sources &sources, Diagnostics &diagnostics);
 
 } // namespace stc

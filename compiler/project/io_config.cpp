@@ -122,7 +122,7 @@ private:
   /// that a text contains are known only here.
   void readParameters(const stride::io::IoSchema &driver, AppConfig::IoDevice &device) {
     std::vector<ConfigParameter> all;
-    section_.parameters({}, all);
+    addParameters(section_, {}, all);
     for (const Parameter &row : driver.parameters) {
       const auto given = std::find_if(
           all.begin(), all.end(), [&](const ConfigParameter &one) { return one.name == row.name; });

@@ -17,38 +17,68 @@ namespace {
 
 constexpr std::string_view kManifest = "stride.toml";
 
-// All files below a project's folder whose names end like that, sorted.
-std::vector<fs::path> findFiles(const fs::path &folder, std::string_view suffix,
-                                std::error_code &error) {
+bool isHiddenFolder(const std::string &name) { return name.starts_with('.') || name == "build"; }
+
+/// The folder is a project of its own.
+bool isProject(const Sources &sources, const fs::path &folder) {
+  std::error_code ignored;
+  return sources.isUnsaved(folder / kManifest) || fs::exists(folder / kManifest, ignored);
+}
+
+bool hasSuffix(const std::string &name, std::string_view suffix) {
+  return !name.starts_with('.') && lowerCase(name).ends_with(suffix);
+}
+
+/// Whether all folders between `top` and the file are looked into.
+bool isReached(const Sources &sources, const fs::path &top, const fs::path &file) {
+  fs::path folder = top;
+  for (const fs::path &part : file.parent_path().lexically_relative(top)) {
+    folder /= part;
+    if (part != "." && (isHiddenFolder(part.string()) || isProject(sources, folder)))
+      return false;
+  }
+  return true;
+}
+
+/// All files below a project's folder whose names end like that, sorted.
+std::vector<fs::path> findFiles(const Sources &sources, const fs::path &folder,
+                                std::string_view suffix, std::error_code &error) {
   std::vector<fs::path> found;
   fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
   for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
     const std::string name = at->path().filename().string();
     std::error_code ignored;
     if (at->is_directory(ignored)) {
-      if (name.starts_with('.') || name == "build" || fs::exists(at->path() / kManifest, ignored))
+      if (isHiddenFolder(name) || isProject(sources, at->path()))
         at.disable_recursion_pending();
       continue;
     }
-    if (!name.starts_with('.') && lowerCase(name).ends_with(suffix))
+    if (hasSuffix(name, suffix))
       found.push_back(at->path());
   }
+  for (const fs::path &unsaved : sources.unsavedBelow(folder))
+    if (hasSuffix(unsaved.filename().string(), suffix) && isReached(sources, folder, unsaved))
+      found.push_back(unsaved);
   std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
 } // namespace
 
-std::vector<fs::path> findSources(const fs::path &folder, std::error_code &error) {
-  return findFiles(folder, ".st", error);
+std::vector<fs::path> findSources(const Sources &sources, const fs::path &folder,
+                                  std::error_code &error) {
+  return findFiles(sources, folder, ".st", error);
 }
 
-std::vector<fs::path> findCams(const fs::path &folder, std::error_code &error) {
-  return findFiles(folder, kCamSuffix, error);
+std::vector<fs::path> findCams(const Sources &sources, const fs::path &folder,
+                               std::error_code &error) {
+  return findFiles(sources, folder, kCamSuffix, error);
 }
 
 Project::Project(const fs::path &path, Purpose purpose, const Settings &settings,
-                 const LibraryIndex &index) {
+                 const LibraryIndex &index, const Overlay *overlay) {
+  program_.sources = Sources(overlay);
   program_.settings = settings;
   program_.diagnostics.setLevels(settings.levels);
   load(path.empty() ? fs::path(".") : path);
@@ -59,7 +89,7 @@ Project::Project(const fs::path &path, Purpose purpose, const Settings &settings
 void Project::load(const fs::path &given) {
   std::error_code error;
   const fs::file_status status = fs::status(given, error);
-  if (!fs::exists(status)) {
+  if (!fs::exists(status) && !program_.sources.isUnsaved(given)) {
     program_.diagnostics.report(Code::pathNotFound, {},
                                 fmt::format("there is no file or folder `{}`", given.string()));
     return;
@@ -89,7 +119,7 @@ void Project::loadFolder() {
   std::error_code error;
   const fs::path manifest = path_ / kManifest;
   // A link that leads nowhere, or to itself, was meant to be one, too.
-  if (fs::exists(fs::symlink_status(manifest, error))) {
+  if (program_.sources.isUnsaved(manifest) || fs::exists(fs::symlink_status(manifest, error))) {
     if (const std::optional<FileId> id = program_.sources.load(manifest, std::string(kManifest)))
       tomlFile_ = *id;
     else
@@ -97,7 +127,7 @@ void Project::loadFolder() {
           Code::unreadableFile, {},
           fmt::format("`{}` cannot be read: {}", manifest.string(), readSourceError()));
   }
-  const std::vector<fs::path> sources = findSources(path_, error);
+  const std::vector<fs::path> sources = findSources(program_.sources, path_, error);
   if (error)
     program_.diagnostics.report(
         Code::unreadableFile, {},
@@ -109,7 +139,7 @@ void Project::loadFolder() {
         .help("`stride new NAME` makes a project to start from");
   for (const fs::path &source : sources)
     loadFile(source, source.lexically_relative(path_).string());
-  for (const fs::path &cam : findCams(path_, error)) {
+  for (const fs::path &cam : findCams(program_.sources, path_, error)) {
     const std::string name = cam.lexically_relative(path_).string();
     if (const std::optional<FileId> id = program_.sources.load(cam, name))
       camFiles_.push_back(*id);

@@ -21,22 +21,23 @@ enum class Purpose {
   test,  ///< the unit tests run instead of the tasks
 };
 
-/// All source files below a project's folder, sorted by path. Hidden and `build` folders are left
-/// out, and other projects.
-[[nodiscard]] std::vector<std::filesystem::path> findSources(const std::filesystem::path &folder,
-                                                             std::error_code &error);
+/// All source files below a project's folder, sorted by path, also those that are not saved yet.
+/// Hidden and `build` folders are left out, and other projects.
+[[nodiscard]] std::vector<std::filesystem::path>
+findSources(const Sources &sources, const std::filesystem::path &folder, std::error_code &error);
 
 /// The same of the cam files, *.cam.toml.
-[[nodiscard]] std::vector<std::filesystem::path> findCams(const std::filesystem::path &folder,
-                                                          std::error_code &error);
+[[nodiscard]] std::vector<std::filesystem::path>
+findCams(const Sources &sources, const std::filesystem::path &folder, std::error_code &error);
 
 /// The sources and the configuration of a project folder, or a single source file. Everything wrong
 /// is in diagnostics(); the program is fit for code generation when there is no error among them.
 class Project {
 public:
-  /// `path`: a folder, a stride.toml or a source file; empty: the current folder.
+  /// `path`: a folder, a stride.toml or a source file; empty: the current folder. `overlay`: what
+  /// an editor has not saved, or null; it must outlive the project.
   Project(const std::filesystem::path &path, Purpose purpose, const Settings &settings,
-          const LibraryIndex &index);
+          const LibraryIndex &index, const Overlay *overlay = nullptr);
 
   /// All diagnostics so far, sorted; places in the synthetic declarations of the PLC configuration
   /// are given as the places of stride.toml they come from.
@@ -45,7 +46,7 @@ public:
 
   [[nodiscard]] Program &program() { return program_; }
   [[nodiscard]] const Program &program() const { return program_; }
-  [[nodiscard]] const SourceManager &sources() const { return program_.sources; }
+  [[nodiscard]] const Sources &sources() const { return program_.sources; }
   /// A project that is one source file, with nothing of its own on disk.
   [[nodiscard]] bool isSingleFile() const { return single_; }
   /// The project's folder, or the single source file.

@@ -3,7 +3,6 @@
 #include "compiler/project/config_reader.hpp"
 #include "compiler/project/driver_sections.hpp"
 #include "compiler/syntax/format.hpp"
-#include "compiler/toml/interval.hpp"
 
 #include <array>
 #include <limits>
@@ -85,12 +84,16 @@ constexpr std::array kFormatParameters = {
     flag("align"),
 };
 
-constexpr Section kProject = {"project", "the project", "project", false, kProjectParameters, {}};
-constexpr Section kImage = {"image", "the process image", "image", false, kImageParameters, {}};
-constexpr Section kFormat = {"fmt", "the format", "fmt", false, kFormatParameters, {}};
-constexpr Section kRetain = {"retain", "the retained data", "retain", false, kRetainParameters, {}};
-constexpr Section kFiles = {"files", "the access to files", "files", false, kFilesParameters, {}};
-constexpr Section kTask = {"task", "a task", "task", true, kTaskParameters, {}};
+constexpr SectionSchema kProject = {"project", "the project",      "project",
+                                    false,     kProjectParameters, {}};
+constexpr SectionSchema kImage = {"image", "the process image", "image",
+                                  false,   kImageParameters,    {}};
+constexpr SectionSchema kFormat = {"fmt", "the format", "fmt", false, kFormatParameters, {}};
+constexpr SectionSchema kRetain = {"retain", "the retained data", "retain",
+                                   false,    kRetainParameters,   {}};
+constexpr SectionSchema kFiles = {"files", "the access to files", "files",
+                                  false,   kFilesParameters,      {}};
+constexpr SectionSchema kTask = {"task", "a task", "task", true, kTaskParameters, {}};
 constexpr std::array<Choice, 4> kSeverities = {
     {{"error", static_cast<std::int64_t>(Severity::error)},
      {"warning", static_cast<std::int64_t>(Severity::warning)},
@@ -116,63 +119,25 @@ struct DiagnosticSection {
   std::vector<std::string> names;
   std::vector<std::string> errors;
   std::vector<Parameter> parameters;
-  Section section;
+  SectionSchema section;
 };
 
 /// The whole of stride.toml.
 struct TopSection {
   DiagnosticSection diagnostics;
-  std::array<const Section *, 9> sections = {
+  std::array<const SectionSchema *, 9> sections = {
       &kProject, &diagnostics.section, &kImage,        &kRetain, &kFiles, &kFormat,
       &kTask,    &anyBusSection(),     &anyIoSection()};
-  Section top = {"", "stride.toml", "", false, {}, sections};
+  SectionSchema top = {"", "stride.toml", "", false, {}, sections};
 };
 
 } // namespace
 
-const Section &formatSchema() { return kFormat; }
+const SectionSchema &formatSchema() { return kFormat; }
 
-const Section &projectSchema() {
+const SectionSchema &projectSchema() {
   static const TopSection schema;
   return schema.top;
-}
-
-void addParameters(const CheckedSection &section, std::string_view prefix,
-                   std::vector<ConfigParameter> &out) {
-  for (const Parameter &parameter : section.schema().parameters) {
-    const TomlNode *value = section.get(parameter.name);
-    if (value == nullptr)
-      continue;
-    ConfigParameter &result = out.emplace_back();
-    result.name = std::string(prefix) + std::string(parameter.name);
-    switch (parameter.type) {
-    case ParameterType::Text:
-    case ParameterType::Identifier:
-    case ParameterType::DriveName:
-      result.text = value->text;
-      break;
-    case ParameterType::Boolean:
-      result.number = value->boolean ? 1 : 0;
-      break;
-    case ParameterType::Integer:
-    case ParameterType::Real:
-      result.number = value->floating;
-      break;
-    case ParameterType::Choice: {
-      const std::int64_t number = findChoice(parameter, *value).value_or(0);
-      result.number = static_cast<double>(number);
-      for (const Choice &choice : parameter.choices)
-        if (choice.value == number)
-          result.text = choice.name;
-      break;
-    }
-    case ParameterType::Interval:
-      result.number = static_cast<double>(parseInterval(value->text).value_or(0)) * 1e-9;
-      break;
-    case ParameterType::NameList: // no driver has any
-      break;
-    }
-  }
 }
 
 } // namespace stc

@@ -6,7 +6,7 @@
 #include "compiler/semantics/symbols.hpp"
 #include "compiler/source/arena.hpp"
 #include "compiler/source/diagnostic.hpp"
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 #include "compiler/syntax/conditions.hpp"
 
 #include <array>
@@ -117,7 +117,7 @@ struct Image {
 
 /// Everything of one compilation; owns sources, identifiers, trees, symbols.
 struct Program {
-  SourceManager sources;
+  Sources sources;
   Interner interner;
   Arena arena;
   Diagnostics diagnostics;

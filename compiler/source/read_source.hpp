@@ -11,9 +11,9 @@ namespace stc {
 /// So many bytes a source file, a configuration or a cam file has at most.
 inline constexpr std::size_t kMaxSourceBytes = std::size_t{16} << 20U;
 
-/// The bytes of a regular file. Nothing when it cannot be read, is longer than kMaxSourceBytes, or
-/// is something else than a file: a pipe without a writer, a device and the like are not waited
-/// for. Then errno tells why, and readSourceError() says it.
+/// The bytes of a regular file of the disk; compilations ask Sources. Nothing when it cannot be
+/// read, is longer than kMaxSourceBytes, or is something else than a file: a pipe without a writer,
+/// a device and the like are not waited for. Then errno tells why, and readSourceError() says it.
 [[nodiscard]] std::optional<std::string> readSource(const std::filesystem::path &path);
 
 /// Why the last readSource() gave nothing.

@@ -88,7 +88,7 @@ struct Drawn {
 
 class TextRenderer {
 public:
-  TextRenderer(const Diagnostic &diagnostic, const SourceManager &sources, const Style &style)
+  TextRenderer(const Diagnostic &diagnostic, const Sources &sources, const Style &style)
       : diagnostic_(diagnostic), sources_(sources), style_(style) {}
 
   std::string run() {
@@ -348,7 +348,7 @@ private:
   }
 
   const Diagnostic &diagnostic_;
-  const SourceManager &sources_;
+  const Sources &sources_;
   const Style &style_;
   std::vector<FileMarks> files_;
   std::size_t gutter_ = 1;
@@ -363,7 +363,7 @@ std::string visible(std::string_view text, std::string_view kept) {
   return out;
 }
 
-std::string renderText(const Diagnostic &diagnostic, const SourceManager &sources,
+std::string renderText(const Diagnostic &diagnostic, const Sources &sources,
                        const RenderOptions &options) {
   static constexpr Style kPlain;
   return TextRenderer(diagnostic, sources, options.color ? kColors : kPlain).run();
@@ -371,7 +371,7 @@ std::string renderText(const Diagnostic &diagnostic, const SourceManager &source
 
 namespace {
 
-nlohmann::ordered_json jsonOf(Span span, const SourceManager &sources, const std::string &text) {
+nlohmann::ordered_json jsonOf(Span span, const Sources &sources, const std::string &text) {
   const SourceFile &source = sources.file(span.file);
   const LineColumn begin = source.position(span.begin);
   const LineColumn end = source.position(span.end);
@@ -381,7 +381,7 @@ nlohmann::ordered_json jsonOf(Span span, const SourceManager &sources, const std
 
 } // namespace
 
-std::string renderJson(const Diagnostic &diagnostic, const SourceManager &sources) {
+std::string renderJson(const Diagnostic &diagnostic, const Sources &sources) {
   nlohmann::ordered_json json;
   json["code"] = codeName(diagnostic.code);
   json["name"] = kebabName(diagnostic.code);

@@ -2,7 +2,7 @@
 // How diagnostics are shown: text in the manner of rustc, or JSON for tools.
 
 #include "compiler/source/diagnostic.hpp"
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 
 #include <string>
 #include <string_view>
@@ -28,12 +28,12 @@ struct RenderOptions {
 ///       |
 ///       = help: a variable with a similar name exists: `Fob`
 ///
-[[nodiscard]] std::string renderText(const Diagnostic &diagnostic, const SourceManager &sources,
+[[nodiscard]] std::string renderText(const Diagnostic &diagnostic, const Sources &sources,
                                      const RenderOptions &options = {});
 
 /// One JSON object on one line: code, name, severity, message, labels (file, line, column, endLine,
 /// endColumn, text), notes, helps, suggestions (message, edits: like labels, their text replaces
 /// what stands there). The first label is the primary one.
-[[nodiscard]] std::string renderJson(const Diagnostic &diagnostic, const SourceManager &sources);
+[[nodiscard]] std::string renderJson(const Diagnostic &diagnostic, const Sources &sources);
 
 } // namespace stc

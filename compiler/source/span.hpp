@@ -5,7 +5,7 @@
 
 namespace stc {
 
-/// Index of a file in the SourceManager; 0 is "no file".
+/// Index of a file in the Sources; 0 is "no file".
 using FileId = std::uint32_t;
 
 /// A half-open byte range [begin, end) of one source file.

@@ -2,7 +2,7 @@
 // Conditional compilation: what `{IF …}` may ask, and its answers.
 
 #include "compiler/source/diagnostic.hpp"
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 
 #include <memory>
 #include <optional>
@@ -33,7 +33,7 @@ public:
     FileId local = 0;                    ///< of a POU's variable: the file; else 0
   };
 
-  DeclaredNames(const SourceManager &sources, std::vector<FileId> files)
+  DeclaredNames(const Sources &sources, std::vector<FileId> files)
       : sources_(sources), files_(std::move(files)) {}
 
   /// `name` may be a path (`GVL.x`, `Main.x`); a plain name finds variables of POUs only from the
@@ -43,7 +43,7 @@ public:
 private:
   void read(const SourceFile &file);
 
-  const SourceManager &sources_;
+  const Sources &sources_;
   std::vector<FileId> files_;
   bool isRead_ = false;
   std::unordered_multimap<std::string, Entry> names_[3];

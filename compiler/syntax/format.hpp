@@ -1,7 +1,7 @@
 #pragma once
 // The formatter of Structured Text: lays a file out anew without changing what it says.
 
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 
 #include <cstdint>
 #include <optional>

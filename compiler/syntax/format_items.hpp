@@ -1,7 +1,7 @@
 #pragma once
 // What a text to be formatted consists of. Internal to compiler/syntax: includes ANTLR.
 
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 #include "compiler/syntax/token.hpp"
 
 #include <cstddef>

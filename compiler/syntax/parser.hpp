@@ -4,7 +4,7 @@
 #include "compiler/source/arena.hpp"
 #include "compiler/source/diagnostic.hpp"
 #include "compiler/source/identifier.hpp"
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 #include "compiler/syntax/ast.hpp"
 #include "compiler/syntax/conditions.hpp"
 

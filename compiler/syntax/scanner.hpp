@@ -2,7 +2,7 @@
 // From characters to tokens. Internal to compiler/syntax.
 
 #include "compiler/source/diagnostic.hpp"
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 #include "compiler/syntax/conditions.hpp"
 #include "compiler/syntax/token.hpp"
 

@@ -230,34 +230,34 @@ private:
   Diagnostics &diagnostics_;
 };
 
-const Section *findSection(const Section &schema, std::string_view name) {
-  for (const Section *section : schema.sections)
+const SectionSchema *findSection(const SectionSchema &schema, std::string_view name) {
+  for (const SectionSchema *section : schema.sections)
     if (section->name == name)
       return section;
   return nullptr;
 }
 
-std::string header(const Section &section) {
+std::string header(const SectionSchema &section) {
   return section.list ? fmt::format("[[{}]]", section.path) : fmt::format("[{}]", section.path);
 }
 
 // The section anywhere below `schema` that knows the parameter, to say where a misplaced one
 // belongs.
-const Section *ownerOf(const Section &schema, std::string_view name) {
+const SectionSchema *ownerOf(const SectionSchema &schema, std::string_view name) {
   if (findParameter(schema, name) != nullptr)
     return &schema;
-  for (const Section *section : schema.sections)
-    if (const Section *owner = ownerOf(*section, name))
+  for (const SectionSchema *section : schema.sections)
+    if (const SectionSchema *owner = ownerOf(*section, name))
       return owner;
   return nullptr;
 }
 
-void reportUnknown(const TomlNode &member, const Section &schema, const Section &file,
+void reportUnknown(const TomlNode &member, const SectionSchema &schema, const SectionSchema &file,
                    Diagnostics &diagnostics) {
   std::vector<std::string_view> names;
   for (const Parameter &parameter : schema.parameters)
     names.push_back(parameter.name);
-  for (const Section *section : schema.sections)
+  for (const SectionSchema *section : schema.sections)
     names.push_back(section->name);
   const bool top = schema.name.empty() && schema.parameters.empty();
   Diagnostic &d =
@@ -272,7 +272,8 @@ void reportUnknown(const TomlNode &member, const Section &schema, const Section 
     d.help(fmt::format("write `{}`: upper and lower case count here", near));
   else if (!near.empty())
     d.help(fmt::format("did you mean `{}`?", near));
-  else if (const Section *owner = ownerOf(file, member.key); owner != nullptr && owner != &schema)
+  else if (const SectionSchema *owner = ownerOf(file, member.key);
+           owner != nullptr && owner != &schema)
     d.help(fmt::format("`{}` belongs into {}", member.key, header(*owner)));
   if (near.empty() && schema.name == "diagnostics")
     d.help("`stride explain --list` shows all codes and names");
@@ -284,7 +285,8 @@ void reportUnknown(const TomlNode &member, const Section &schema, const Section 
   }
 }
 
-bool checkSectionKind(const TomlNode &member, const Section &section, Diagnostics &diagnostics) {
+bool checkSectionKind(const TomlNode &member, const SectionSchema &section,
+                      Diagnostics &diagnostics) {
   const bool good = section.list ? member.arrayOfTables : member.kind == TomlKind::table;
   if (good)
     return true;
@@ -299,7 +301,7 @@ bool checkSectionKind(const TomlNode &member, const Section &section, Diagnostic
 
 } // namespace
 
-const Parameter *findParameter(const Section &schema, std::string_view name) {
+const Parameter *findParameter(const SectionSchema &schema, std::string_view name) {
   for (const Parameter &parameter : schema.parameters)
     if (parameter.name == name)
       return &parameter;
@@ -318,14 +320,14 @@ std::optional<std::int64_t> findChoice(const Parameter &parameter, const TomlNod
   return std::nullopt;
 }
 
-CheckedSection::CheckedSection(const TomlNode &table, const Section &schema,
-                               Diagnostics &diagnostics, const Section *file)
+CheckedSection::CheckedSection(const TomlNode &table, const SectionSchema &schema,
+                               Diagnostics &diagnostics, const SectionSchema *file)
     : table_(&table), schema_(&schema), file_(file != nullptr ? file : &schema) {
   for (const TomlNode &member : table.children) {
     if (const Parameter *parameter = findParameter(schema, member.key)) {
       if (ValueChecker(*parameter, member, diagnostics).check())
         values_.push_back(&member);
-    } else if (const Section *section = findSection(schema, member.key)) {
+    } else if (const SectionSchema *section = findSection(schema, member.key)) {
       if (checkSectionKind(member, *section, diagnostics))
         values_.push_back(&member);
     } else {
@@ -408,7 +410,7 @@ std::vector<CheckedSection> CheckedSection::sections(std::string_view name,
                                                      Diagnostics &diagnostics) const {
   std::vector<CheckedSection> result;
   const TomlNode *value = get(name);
-  const Section *section = findSection(*schema_, name);
+  const SectionSchema *section = findSection(*schema_, name);
   if (value == nullptr || section == nullptr)
     return result;
   if (!section->list) {

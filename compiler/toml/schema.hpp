@@ -26,13 +26,13 @@ struct Foreign {
 };
 
 /// A table (`[project]`) or a list of tables (`[[bus]]`) with its parameters and nested sections.
-struct Section {
+struct SectionSchema {
   std::string_view name;
   std::string_view what; ///< for messages: "a drive"
   std::string_view path; ///< `bus.axis_group.drive`
   bool list = false;
   std::span<const Parameter> parameters = {};
-  std::span<const Section *const> sections = {};
+  std::span<const SectionSchema *const> sections = {};
   /// Of `parameters` and `sections`: without effect here, which is a warning.
   std::span<const Foreign> foreign = {};
 };
@@ -42,11 +42,11 @@ struct Section {
 class CheckedSection {
 public:
   /// `file`: the whole file, as the section without a name; null: `schema` is.
-  CheckedSection(const TomlNode &table, const Section &schema, Diagnostics &diagnostics,
-                 const Section *file = nullptr);
+  CheckedSection(const TomlNode &table, const SectionSchema &schema, Diagnostics &diagnostics,
+                 const SectionSchema *file = nullptr);
 
   [[nodiscard]] const TomlNode &table() const { return *table_; }
-  [[nodiscard]] const Section &schema() const { return *schema_; }
+  [[nodiscard]] const SectionSchema &schema() const { return *schema_; }
   /// The value of a parameter, or null when it is absent or was wrong.
   [[nodiscard]] const TomlNode *get(std::string_view name) const;
   /// Whether the text has the parameter, right or wrong.
@@ -70,13 +70,13 @@ public:
 
 private:
   const TomlNode *table_;
-  const Section *schema_;
-  const Section *file_;
+  const SectionSchema *schema_;
+  const SectionSchema *file_;
   std::vector<const TomlNode *> values_; ///< valid ones
 };
 
 /// The section's parameter, or null.
-[[nodiscard]] const Parameter *findParameter(const Section &schema, std::string_view name);
+[[nodiscard]] const Parameter *findParameter(const SectionSchema &schema, std::string_view name);
 
 /// Value of a choice written as text or number; nothing when it is none of them.
 [[nodiscard]] std::optional<std::int64_t> findChoice(const Parameter &parameter,

@@ -3,7 +3,7 @@
 // toml_tree.cpp.
 
 #include "compiler/source/diagnostic.hpp"
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 
 #include <cstdint>
 #include <memory>

@@ -9,7 +9,7 @@
 #include <string>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
-  stc::SourceManager sources;
+  stc::Sources sources;
   stc::Diagnostics diagnostics;
   const stc::FileId id =
       sources.addBytes("Cam1.cam.toml", std::string(reinterpret_cast<const char *>(data), size));

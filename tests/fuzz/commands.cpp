@@ -59,7 +59,7 @@ std::vector<InputFile> splitFiles(std::string_view text) {
   return files;
 }
 
-void drawAll(const std::vector<stc::Diagnostic> &diagnostics, const stc::SourceManager &sources) {
+void drawAll(const std::vector<stc::Diagnostic> &diagnostics, const stc::Sources &sources) {
   for (const stc::Diagnostic &diagnostic : diagnostics) {
     for (const stc::Label &label : diagnostic.labels)
       demand(!label.span.valid() || (label.span.begin <= label.span.end &&
@@ -81,7 +81,7 @@ void checkAndGenerate(const fs::path &path, stc::Purpose purpose) {
 }
 
 void format(const fs::path &path) {
-  stc::SourceManager sources;
+  stc::Sources sources;
   stc::Diagnostics diagnostics;
   std::vector<stc::FormattedFile> once = stc::formatPath(path, sources, diagnostics);
   drawAll(diagnostics.all(), sources);

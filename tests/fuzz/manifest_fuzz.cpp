@@ -7,7 +7,7 @@
 #include <string>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
-  stc::SourceManager sources;
+  stc::Sources sources;
   stc::Diagnostics diagnostics;
   const stc::FileId id =
       sources.addBytes("stride.toml", std::string(reinterpret_cast<const char *>(data), size));

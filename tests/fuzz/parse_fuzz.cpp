@@ -18,7 +18,7 @@ void demand(bool condition) {
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
-  stc::SourceManager sources;
+  stc::Sources sources;
   stc::Interner interner;
   stc::Arena arena;
   stc::Diagnostics diagnostics;

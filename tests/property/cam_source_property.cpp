@@ -104,7 +104,7 @@ TEST(CamSource, WrittenAndReadAgain) {
   for (int i = 0, n = casesOf(2000); i < n; ++i) {
     const CamSource cam = randomCam(random, true);
     const std::string text = stc::camFileText(cam, "random");
-    stc::SourceManager sources;
+    stc::Sources sources;
     stc::Diagnostics diagnostics;
     const stc::FileId id = sources.add("Cam1.cam.toml", text);
     const auto again = stc::readCam(sources.file(id), diagnostics);

@@ -2,7 +2,7 @@
 // Cam files, *.cam.toml: what the cam editor of SoftMotion shows (V2.3 manual, chapter 4).
 
 #include "compiler/source/diagnostic.hpp"
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 #include "compiler/syntax/ast.hpp"
 #include "compiler/toml/schema.hpp"
 #include "runtime/numeric/cam/cam_file.hpp"
@@ -33,7 +33,7 @@ struct CamElement {
 };
 
 /// The whole of a cam file, as the section without a name.
-[[nodiscard]] const Section &camSchema();
+[[nodiscard]] const SectionSchema &camSchema();
 
 /// How a cam becomes data: manual, section 4.4.3.
 enum class CamMode : std::uint8_t { polynomial, equidistant, elementOptimised, none };

@@ -98,19 +98,20 @@ constexpr std::array kCamParameters = {
     Parameter{"interval", ParameterType::Real, false, 0, std::numeric_limits<double>::max()},
 };
 
-constexpr Section kMaster = {"master", "the master", "master", false, kMasterParameters, {}};
-constexpr Section kSlave = {"slave", "the slave", "slave", false, kSlaveParameters, {}};
-constexpr Section kPoint = {"point", "a point", "point", true, kPointParameters, {}};
-constexpr Section kLine = {"line", "a line", "line", true, kLineParameters, {}};
-constexpr Section kLaw = {"law", "a law", "law", true, kLawParameters, {}};
-constexpr Section kTappet = {"tappet", "a tappet", "tappet", true, kTappetParameters, {}};
-constexpr Section kCompile = {"compile", "[compile]", "compile", false, kCompileParameters, {}};
-constexpr std::array<const Section *, 7> kCamSections = {&kMaster, &kSlave,  &kPoint,  &kLine,
-                                                         &kLaw,    &kTappet, &kCompile};
-constexpr Section kCam = {"", "a cam", "", false, kCamParameters, kCamSections};
+constexpr SectionSchema kMaster = {"master", "the master", "master", false, kMasterParameters, {}};
+constexpr SectionSchema kSlave = {"slave", "the slave", "slave", false, kSlaveParameters, {}};
+constexpr SectionSchema kPoint = {"point", "a point", "point", true, kPointParameters, {}};
+constexpr SectionSchema kLine = {"line", "a line", "line", true, kLineParameters, {}};
+constexpr SectionSchema kLaw = {"law", "a law", "law", true, kLawParameters, {}};
+constexpr SectionSchema kTappet = {"tappet", "a tappet", "tappet", true, kTappetParameters, {}};
+constexpr SectionSchema kCompile = {"compile", "[compile]",        "compile",
+                                    false,     kCompileParameters, {}};
+constexpr std::array<const SectionSchema *, 7> kCamSections = {&kMaster, &kSlave,  &kPoint,  &kLine,
+                                                               &kLaw,    &kTappet, &kCompile};
+constexpr SectionSchema kCam = {"", "a cam", "", false, kCamParameters, kCamSections};
 
 } // namespace
 
-const Section &camSchema() { return kCam; }
+const SectionSchema &camSchema() { return kCam; }
 
 } // namespace stc

@@ -2,7 +2,7 @@
 // Text of one generated file, and where each of its lines comes from.
 
 #include "compiler/codegen/cpp/scoped.hpp"
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 
 #include <charconv>
 #include <concepts>
@@ -25,7 +25,7 @@ class Writer {
   enum class Form : std::uint8_t { mapped, unmapped, gathered };
 
 public:
-  explicit Writer(const SourceManager &sources) : sources_(&sources) { text_.reserve(4096); }
+  explicit Writer(const Sources &sources) : sources_(&sources) { text_.reserve(4096); }
 
   Writer &operator<<(std::string_view text) {
     text_.append(text);
@@ -100,7 +100,7 @@ public:
   void withoutDirectives() { form_ = Form::unmapped; }
 
 private:
-  const SourceManager *sources_;
+  const Sources *sources_;
   std::string text_;
   std::string spare_; ///< empty, with room for what is written aside
   std::size_t indent_ = 0;

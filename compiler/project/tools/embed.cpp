@@ -138,7 +138,7 @@ private:
   }
 
   fs::path folder_;
-  stc::SourceManager sources_;
+  stc::Sources sources_;
   stc::Interner interner_;
   stc::Arena arena_;
   stc::Diagnostics diagnostics_;

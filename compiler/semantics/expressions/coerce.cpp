@@ -47,7 +47,7 @@ bool isAxisField(const Expr *expr) {
 }
 
 /// The expression's text where it is short enough to be shown inside of a proposal, else `…`.
-std::string excerpt(const SourceManager &sources, const Expr *expr) {
+std::string excerpt(const Sources &sources, const Expr *expr) {
   const std::string_view text = sources.text(expr->span);
   const bool usable =
       !text.empty() && text.size() <= 40 && text.find('\n') == std::string_view::npos;

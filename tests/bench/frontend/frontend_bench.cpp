@@ -33,7 +33,7 @@ const std::string &projectText() {
 }
 
 void parseProject(benchmark::State &state) {
-  stc::SourceManager sources;
+  stc::Sources sources;
   const stc::SourceFile &file = sources.file(sources.add("Main.st", projectText()));
   if (file.text().empty()) {
     state.SkipWithError("the project cannot be generated");

@@ -34,7 +34,7 @@ protected:
     return result;
   }
 
-  SourceManager sources_;
+  Sources sources_;
   Interner interner_;
   Arena arena_;
   Diagnostics diagnostics_;

@@ -64,7 +64,7 @@ protected:
     return text;
   }
 
-  SourceManager sources_;
+  Sources sources_;
   Interner interner_;
   Arena arena_;
   Diagnostics diagnostics_;

@@ -21,16 +21,16 @@ namespace {
 using ::testing::HasSubstr;
 
 // Calls `visit` for a section and all below it.
-template <class Visit> void forEachSection(const Section &section, const Visit &visit) {
+template <class Visit> void forEachSection(const SectionSchema &section, const Visit &visit) {
   visit(section);
-  for (const Section *child : section.sections)
+  for (const SectionSchema *child : section.sections)
     forEachSection(*child, visit);
 }
 
 TEST(Schema, IsDocumented) {
   const std::optional<std::string> text = readFile(STRIDE_SOURCE_DIR "/docs/projects.md");
   ASSERT_TRUE(text);
-  forEachSection(projectSchema(), [&](const Section &section) {
+  forEachSection(projectSchema(), [&](const SectionSchema &section) {
     EXPECT_THAT(*text, HasSubstr(std::string(section.path)));
     if (section.path == "diagnostics")
       return; // its keys are the codes and names that `stride explain --list` shows
@@ -157,20 +157,20 @@ constexpr stride::bus::DriverSchema kRed = {
     .name = "Red", .interfaceType = "Red (sunset)", .drive = kRedRows, .driveTables = kRedTables};
 constexpr std::array kBoth = {&kBlue, &kRed};
 
-const Section &driveOf(const BusSection &bus) {
+const SectionSchema &driveOf(const BusSection &bus) {
   return *bus.section().sections.front()->sections.front();
 }
 
 /// What a drive with this text gets to hear.
-std::string saidOf(const Section &drive, const std::string &text) {
-  SourceManager sources;
+std::string saidOf(const SectionSchema &drive, const std::string &text) {
+  Sources sources;
   Diagnostics diagnostics;
   const SourceFile &file =
       sources.file(sources.add("stride.toml", "name = \"X\"\nwDriveId = 1\n" + text));
   const std::unique_ptr<TomlNode> document = parseToml(file, diagnostics);
   const CheckedSection section(*document, drive, diagnostics);
   std::vector<ConfigParameter> parameters;
-  section.parameters("", parameters);
+  addParameters(section, "", parameters);
   std::string said;
   for (const Diagnostic &diagnostic : diagnostics.all())
     said += fmt::format("{} ({}); ", diagnostic.message, diagnostic.labels.front().text);
@@ -202,7 +202,7 @@ TEST(Schema, CamFilesAreDocumented) {
   const std::optional<std::string> text =
       readFile(STRIDE_SOURCE_DIR "/docs/synchronized-motion.md");
   ASSERT_TRUE(text);
-  forEachSection(camSchema(), [&](const Section &section) {
+  forEachSection(camSchema(), [&](const SectionSchema &section) {
     if (!section.name.empty()) {
       EXPECT_THAT(*text,
                   HasSubstr((section.list ? "`[[" : "`[") + std::string(section.name) + "]"));
@@ -215,8 +215,8 @@ TEST(Schema, CamFilesAreDocumented) {
   });
 }
 
-void expectSense(const Section &schema) {
-  forEachSection(schema, [](const Section &section) {
+void expectSense(const SectionSchema &schema) {
+  forEachSection(schema, [](const SectionSchema &section) {
     std::set<std::string_view> names;
     for (const Parameter &parameter : section.parameters) {
       EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name;
@@ -226,7 +226,7 @@ void expectSense(const Section &schema) {
         EXPECT_LT(parameter.low, parameter.high) << parameter.name;
       }
     }
-    for (const Section *child : section.sections)
+    for (const SectionSchema *child : section.sections)
       EXPECT_TRUE(names.insert(child->name).second) << child->name;
   });
 }

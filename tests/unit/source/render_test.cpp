@@ -26,7 +26,7 @@ protected:
     d.label(where, std::move(label));
     return d;
   }
-  SourceManager sources;
+  Sources sources;
 };
 
 TEST_F(Render, OneLabel) {

@@ -54,7 +54,7 @@ const std::vector<Source> &sources() {
     for (std::size_t i = 0; i < files.size(); i += kEvery) {
       std::ifstream in(files[i], std::ios::binary);
       const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-      SourceManager manager;
+      Sources manager;
       const FileId id = manager.addBytes("x", bytes);
       std::string text(manager.file(id).text());
       if (isClean(Parsed(text)))
@@ -65,12 +65,12 @@ const std::vector<Source> &sources() {
   return all;
 }
 
-std::vector<FormatItem> itemsOf(const SourceManager &manager, FileId id) {
+std::vector<FormatItem> itemsOf(const Sources &manager, FileId id) {
   return readItems(manager.file(id));
 }
 
 std::optional<std::string> formatText(const std::string &text, const FormatStyle &style = {}) {
-  SourceManager manager;
+  Sources manager;
   return format(manager.file(manager.add("T.st", text)), style);
 }
 
@@ -132,7 +132,7 @@ TEST(Format, IsStableInEveryStyle) {
 
 /// The tokens alone, with what `gap` returns between them.
 template <class Gap> std::string respaced(const std::string &text, Gap gap) {
-  SourceManager manager;
+  Sources manager;
   std::string out;
   for (const FormatItem &item : itemsOf(manager, manager.add("T.st", text))) {
     out += item.text;

@@ -13,7 +13,7 @@ std::string errors(const std::string &text) { return Parsed(text).errors(); }
 /// The statements that are left of `text`, with `defines` and the declarations of `others`.
 std::string body(const std::string &text, std::vector<Define> defines = {},
                  const std::string &others = {}) {
-  SourceManager sources;
+  Sources sources;
   Interner interner;
   Arena arena;
   Diagnostics diagnostics;

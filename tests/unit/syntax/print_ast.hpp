@@ -26,7 +26,7 @@ struct Parsed {
   [[nodiscard]] std::string rendered() const;
   [[nodiscard]] std::string_view text(Span span) const { return sources.text(span); }
 
-  SourceManager sources;
+  Sources sources;
   Interner interner;
   Arena arena;
   Diagnostics diagnostics;

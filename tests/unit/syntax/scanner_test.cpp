@@ -104,7 +104,7 @@ void compare(const SourceFile &file) {
 }
 
 void compareText(std::string text) {
-  SourceManager sources;
+  Sources sources;
   compare(sources.file(sources.add("text", std::move(text))));
 }
 
@@ -161,7 +161,7 @@ TEST(Scanner, AgreesWithTheReferenceOnTheSourcesOfTheRepository) {
     for (const auto &entry : fs::recursive_directory_iterator(root)) {
       if (entry.path().extension() != ".st")
         continue;
-      SourceManager sources;
+      Sources sources;
       const auto id = sources.load(entry.path(), entry.path().filename());
       ASSERT_TRUE(id.has_value());
       compare(sources.file(*id));

@@ -1,8 +1,9 @@
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 
 #include "compiler/source/read_source.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 
 namespace stc {
@@ -100,13 +101,13 @@ std::string_view SourceFile::line(std::uint32_t number) const {
   return std::string_view(text_).substr(begin, end - begin);
 }
 
-FileId SourceManager::add(std::string name, std::string text) {
+FileId Sources::add(std::string name, std::string text) {
   const auto id = static_cast<FileId>(files_.size() + 1);
   files_.push_back(std::make_unique<SourceFile>(id, std::move(name), std::move(text)));
   return id;
 }
 
-FileId SourceManager::addBytes(std::string name, std::string bytes) {
+FileId Sources::addBytes(std::string name, std::string bytes) {
   if (bytes.starts_with("\xEF\xBB\xBF"))
     bytes.erase(0, 3);
   if (!isUtf8(bytes))
@@ -114,26 +115,37 @@ FileId SourceManager::addBytes(std::string name, std::string bytes) {
   return add(std::move(name), std::move(bytes));
 }
 
-FileId SourceManager::add(const SyntheticSource &source) {
+FileId Sources::add(const SyntheticSource &source) {
   const FileId id = add(source.name(), source.text());
   files_.back()->synthetic_ = true;
   files_.back()->parts_ = source.parts();
   return id;
 }
 
-std::optional<FileId> SourceManager::load(const std::filesystem::path &path, std::string name) {
-  std::optional<std::string> bytes = readSource(path);
+std::optional<std::string> Sources::read(const std::filesystem::path &path) const {
+  const std::string *unsaved = overlay_ != nullptr ? overlay_->find(path) : nullptr;
+  if (unsaved == nullptr)
+    return readSource(path);
+  if (unsaved->size() > kMaxSourceBytes) {
+    errno = EFBIG;
+    return std::nullopt;
+  }
+  return *unsaved;
+}
+
+std::optional<FileId> Sources::load(const std::filesystem::path &path, std::string name) {
+  std::optional<std::string> bytes = read(path);
   if (!bytes)
     return std::nullopt;
   return addBytes(std::move(name), std::move(*bytes));
 }
 
-std::string_view SourceManager::text(Span span) const {
+std::string_view Sources::text(Span span) const {
   return span.valid() ? file(span.file).text().substr(span.begin, span.end - span.begin)
                       : std::string_view{};
 }
 
-Span SourceManager::origin(Span span) const {
+Span Sources::origin(Span span) const {
   if (!span.valid() || !file(span.file).isSynthetic())
     return span;
   const std::vector<SyntheticSource::Part> &parts = file(span.file).parts_;
@@ -143,7 +155,7 @@ Span SourceManager::origin(Span span) const {
   return part != parts.end() && part->begin <= span.begin ? part->origin : Span{};
 }
 
-LineColumn SourceManager::position(Span span) const {
+LineColumn Sources::position(Span span) const {
   return span.valid() ? file(span.file).position(span.begin) : LineColumn{};
 }
 

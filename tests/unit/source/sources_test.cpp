@@ -1,4 +1,4 @@
-#include "compiler/source/source_manager.hpp"
+#include "compiler/source/sources.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 namespace stc {
 namespace {
 
-TEST(SourceManager, FindsLinesAndColumns) {
-  SourceManager sources;
+TEST(Sources, FindsLinesAndColumns) {
+  Sources sources;
   const FileId id = sources.add("a.st", "one\r\ntwo\n\n\tfünf");
   const SourceFile &file = sources.file(id);
   EXPECT_EQ(file.lineCount(), 4U);
@@ -30,16 +30,16 @@ TEST(SourceManager, FindsLinesAndColumns) {
   EXPECT_EQ(sources.position({id, 6, 8}).column, 2U);
 }
 
-TEST(SourceManager, EmptyTextHasOneLine) {
-  SourceManager sources;
+TEST(Sources, EmptyTextHasOneLine) {
+  Sources sources;
   const SourceFile &file = sources.file(sources.add("a.st", ""));
   EXPECT_EQ(file.lineCount(), 1U);
   EXPECT_EQ(file.position(0).line, 1U);
   EXPECT_EQ(file.position(99).column, 1U);
 }
 
-TEST(SourceManager, ReadsUtf8AndLatin1) {
-  SourceManager sources;
+TEST(Sources, ReadsUtf8AndLatin1) {
+  Sources sources;
   EXPECT_EQ(sources.file(sources.addBytes("bom", "\xEF\xBB\xBFx")).text(), "x");
   EXPECT_EQ(
       sources.file(sources.addBytes("utf8", "gr\xC3\xBC\xC3\x9F \xE2\x82\xAC \xF0\x9F\x98\x80"))
@@ -52,10 +52,10 @@ TEST(SourceManager, ReadsUtf8AndLatin1) {
   EXPECT_EQ(sources.file(sources.addBytes("cut", "a\xE2\x82")).text().size(), 5U);
 }
 
-TEST(SourceManager, LoadsFilesAndSaysWhyNot) {
+TEST(Sources, LoadsFilesAndSaysWhyNot) {
   const auto path = std::filesystem::temp_directory_path() / "stride_source_manager_test.st";
   std::ofstream(path, std::ios::binary) << std::string(100'000, 'x') << "\nend";
-  SourceManager sources;
+  Sources sources;
   const auto id = sources.load(path, "shown.st");
   ASSERT_TRUE(id.has_value());
   EXPECT_EQ(sources.file(*id).name(), "shown.st");

@@ -1,6 +1,8 @@
 #pragma once
-// The files that one compilation reads.
+// The texts of one compilation: files of the disk, what an editor has not saved, what Stride
+// writes.
 
+#include "compiler/source/overlay.hpp"
 #include "compiler/source/span.hpp"
 #include "compiler/source/synthetic_source.hpp"
 
@@ -30,7 +32,7 @@ public:
   }
   void setCodeName(std::string name) { codeName_ = std::move(name); }
   [[nodiscard]] std::string_view text() const { return text_; }
-  /// Stride has written it; see SourceManager::origin().
+  /// Stride has written it; see Sources::origin().
   [[nodiscard]] bool isSynthetic() const { return synthetic_; }
   [[nodiscard]] LineColumn position(std::uint32_t offset) const;
   /// 1-based number of the line in which the byte lies.
@@ -46,7 +48,7 @@ public:
   }
 
 private:
-  friend class SourceManager;
+  friend class Sources;
   FileId id_;
   std::string name_;
   std::string codeName_; ///< empty: name_
@@ -57,9 +59,14 @@ private:
   bool ascii_ = true; ///< every character is one byte
 };
 
-/// Owns all source texts; addresses of files stay valid for its lifetime.
-class SourceManager {
+/// Owns all source texts; addresses of files stay valid for its lifetime. Every file that a
+/// compilation reads comes through here.
+class Sources {
 public:
+  Sources() = default;
+  /// `overlay` goes before the disk, and must outlive this; null: there is none.
+  explicit Sources(const Overlay *overlay) : overlay_(overlay) {}
+
   /// Adds a text that is already UTF-8 (library text, generated declarations, tests).
   FileId add(std::string name, std::string text);
   /// Adds raw file bytes: drops a BOM, converts Latin-1 to UTF-8 when the bytes are not valid
@@ -67,7 +74,9 @@ public:
   FileId addBytes(std::string name, std::string bytes);
   /// Adds a text that Stride has written.
   FileId add(const SyntheticSource &source);
-  /// Reads a file from disk; nullopt when it cannot be read (readSourceError() tells why).
+  /// The bytes of a file; nullopt when it cannot be read (readSourceError() tells why).
+  [[nodiscard]] std::optional<std::string> read(const std::filesystem::path &path) const;
+  /// Reads a file; nullopt when it cannot be read (readSourceError() tells why).
   std::optional<FileId> load(const std::filesystem::path &path, std::string name);
 
   [[nodiscard]] const SourceFile &file(FileId id) const { return *files_[id - 1]; }
@@ -79,7 +88,19 @@ public:
   [[nodiscard]] Span origin(Span span) const;
   [[nodiscard]] std::size_t size() const { return files_.size(); }
 
+  /// Whether the overlay has the file.
+  [[nodiscard]] bool isUnsaved(const std::filesystem::path &path) const {
+    return overlay_ != nullptr && overlay_->find(path) != nullptr;
+  }
+  /// The overlay's files below a folder.
+  [[nodiscard]] std::vector<std::filesystem::path>
+  unsavedBelow(const std::filesystem::path &folder) const {
+    return overlay_ != nullptr ? overlay_->filesBelow(folder)
+                               : std::vector<std::filesystem::path>();
+  }
+
 private:
+  const Overlay *overlay_ = nullptr;
   std::vector<std::unique_ptr<SourceFile>> files_;
 };
 
