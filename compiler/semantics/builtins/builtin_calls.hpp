@@ -6,9 +6,13 @@
 
 namespace stc::sema {
 
+/// Checks the call of a built-in function (`expr->builtin`) and gives the type of its result.
 const Type *checkBuiltin(Context &c, ast::CallExpr *expr, const Type *expected);
+/// The same of X_TO_Y and its like.
 const Type *checkConversionCall(Context &c, ast::CallExpr *expr, const ConversionName &conversion);
+/// Reports another number of arguments than that; SIZE_MAX: no limit.
 bool requireCount(Context &c, ast::CallExpr *expr, std::size_t least, std::size_t most);
+/// Reports an argument that is not what is wanted; gives the error type.
 const Type *argumentError(Context &c, ast::CallExpr *expr, std::size_t index,
                           std::string_view wanted);
 /// Gives a call whose arguments are all constants its value.

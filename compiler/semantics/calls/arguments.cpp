@@ -92,95 +92,126 @@ bool namedEnumerator(const Expr *e) {
 
 } // namespace
 
-void bindArguments(Context &c, CallExpr *expr, PouSymbol *pou) {
-  const std::vector<VarSymbol *> all = pou->parameters();
-  // Positional arguments go to inputs and in-outs, then to outputs, in the order of the
-  // declaration.
-  std::vector<VarSymbol *> positional;
-  for (VarSymbol *p : all) {
-    if (p->section != Section::output && !p->hidden)
-      positional.push_back(p);
-  }
-  for (VarSymbol *p : all) {
-    if (p->section == Section::output && !p->hidden)
-      positional.push_back(p);
-  }
+namespace {
+
+/// A call whose arguments are being given to parameters.
+struct Binding {
+  CallExpr *expr;
+  PouSymbol *pou;
+  std::vector<VarSymbol *> positional; ///< inputs and in-outs, then outputs, as they are declared
   std::unordered_set<VarSymbol *> given;
-  bool named = false;
-  bool failed = false;
-  std::size_t next = 0;
-  for (Argument &a : expr->arguments) {
-    VarSymbol *parameter = nullptr;
-    if (a.name) {
-      named = true;
-      VarSymbol *found = findVariable(pou, a.name.id);
-      if (found != nullptr && (found->owner == nullptr || !derivesFrom(pou, found->owner)))
-        found = nullptr;
-      if (found != nullptr && !found->isResult && found->section != Section::temp &&
-          found->section != Section::local && found->section != Section::stat &&
-          found->section != Section::instance)
-        parameter = found;
-      if (parameter == nullptr) {
-        failed = true;
-        auto &d = c.report(Code::unknownParameter, a.name.span,
-                           "`" + std::string(pou->name.text) + "` has no parameter `" +
-                               std::string(a.name.text) + "`",
-                           found != nullptr ? "this is private" : "unknown parameter");
-        std::vector<std::string_view> names;
-        for (const VarSymbol *p : positional)
-          names.push_back(p->name.text);
-        if (const auto similar = nearest(a.name.text, names); !similar.empty())
-          d.suggest("a similar one exists: `" + std::string(similar) + "`", a.name.span,
-                    std::string(similar));
-        noteSignature(d, pou);
-        if (a.value != nullptr)
-          check(c, a.value);
-        continue;
-      }
-      const bool isOutput = parameter->section == Section::output;
-      if (a.output != isOutput) {
-        failed = true;
-        auto &d =
-            c.report(Code::wrongDirection, a.span,
+  std::size_t next = 0; ///< of `positional`
+  bool isNamed = false; ///< an argument had a name
+  bool hasFailed = false;
+};
+
+Binding bindingOf(CallExpr *expr, PouSymbol *pou) {
+  Binding binding{expr, pou, {}, {}};
+  const std::vector<VarSymbol *> all = pou->parameters();
+  for (const bool outputs : {false, true}) {
+    for (VarSymbol *p : all) {
+      if ((p->section == Section::output) == outputs && !p->hidden)
+        binding.positional.push_back(p);
+    }
+  }
+  return binding;
+}
+
+bool isParameter(const VarSymbol *v) {
+  return !v->isResult && v->section != Section::temp && v->section != Section::local &&
+         v->section != Section::stat && v->section != Section::instance;
+}
+
+} // namespace
+
+static void reportUnknownParameter(Context &c, const Binding &binding, const Argument &a,
+                                   bool isPrivate) {
+  auto &d = c.report(Code::unknownParameter, a.name.span,
+                     "`" + std::string(binding.pou->name.text) + "` has no parameter `" +
+                         std::string(a.name.text) + "`",
+                     isPrivate ? "this is private" : "unknown parameter");
+  std::vector<std::string_view> names;
+  for (const VarSymbol *p : binding.positional)
+    names.push_back(p->name.text);
+  if (const auto similar = nearest(a.name.text, names); !similar.empty())
+    d.suggest("a similar one exists: `" + std::string(similar) + "`", a.name.span,
+              std::string(similar));
+  noteSignature(d, binding.pou);
+}
+
+static void reportWrongDirection(Context &c, const Argument &a, const VarSymbol *parameter) {
+  const bool isOutput = parameter->section == Section::output;
+  auto &d = c.report(Code::wrongDirection, a.span,
                      "`" + std::string(a.name.text) + "` is a " + sectionName(parameter->section) +
                          (isOutput ? " and gives a value" : " and takes a value"),
                      isOutput ? "write `=>` here" : "write `:=` here");
-        noteDeclaration(d, parameter);
-        if (a.value != nullptr) {
-          const std::string argument = std::string(a.name.text) + (isOutput ? " => " : " := ") +
-                                       std::string(c.program.sources.text(a.value->span));
-          d.suggest("write `" + argument + "`", a.span, argument);
-        }
-        if (a.value != nullptr)
-          check(c, a.value);
-        continue;
-      }
-    } else {
-      if (named) {
-        failed = true;
-        auto &d = c.report(Code::mixedArguments, a.span,
-                           "a positional argument cannot follow a named one", "name this argument");
-        noteSignature(d, pou);
-        check(c, a.value);
-        continue;
-      }
-      if (next >= positional.size()) {
-        auto &d = c.report(Code::tooManyArguments, a.span,
-                           "`" + std::string(pou->name.text) + "` takes " +
-                               std::to_string(positional.size()) +
-                               (positional.size() == 1 ? " argument" : " arguments"),
-                           "one too many");
-        noteSignature(d, pou);
-        for (std::size_t i = next; i < expr->arguments.size(); ++i) {
-          if (expr->arguments[i].value != nullptr)
-            check(c, expr->arguments[i].value);
-        }
-        return;
-      }
-      parameter = positional[next++];
-      a.output = parameter->section == Section::output;
+  noteDeclaration(d, parameter);
+  if (a.value != nullptr) {
+    const std::string argument = std::string(a.name.text) + (isOutput ? " => " : " := ") +
+                                 std::string(c.program.sources.text(a.value->span));
+    d.suggest("write `" + argument + "`", a.span, argument);
+  }
+}
+
+/// The parameter of a named argument; null: there is none (reported).
+static VarSymbol *namedParameter(Context &c, Binding &binding, const Argument &a) {
+  binding.isNamed = true;
+  VarSymbol *found = findVariable(binding.pou, a.name.id);
+  if (found != nullptr && (found->owner == nullptr || !derivesFrom(binding.pou, found->owner)))
+    found = nullptr;
+  const bool fits = found != nullptr && isParameter(found);
+  if (fits && a.output == (found->section == Section::output))
+    return found;
+  binding.hasFailed = true;
+  if (fits)
+    reportWrongDirection(c, a, found);
+  else
+    reportUnknownParameter(c, binding, a, found != nullptr);
+  if (a.value != nullptr)
+    check(c, a.value);
+  return nullptr;
+}
+
+/// The same of a positional argument.
+static VarSymbol *positionalParameter(Context &c, Binding &binding, Argument &a) {
+  if (binding.isNamed) {
+    binding.hasFailed = true;
+    auto &d = c.report(Code::mixedArguments, a.span,
+                       "a positional argument cannot follow a named one", "name this argument");
+    noteSignature(d, binding.pou);
+    check(c, a.value);
+    return nullptr;
+  }
+  VarSymbol *parameter = binding.positional[binding.next++];
+  a.output = parameter->section == Section::output;
+  return parameter;
+}
+
+static void reportTooMany(Context &c, const Binding &binding, const Argument &a) {
+  const std::size_t count = binding.positional.size();
+  auto &d = c.report(Code::tooManyArguments, a.span,
+                     "`" + std::string(binding.pou->name.text) + "` takes " +
+                         std::to_string(count) + (count == 1 ? " argument" : " arguments"),
+                     "one too many");
+  noteSignature(d, binding.pou);
+  for (const Argument &rest : binding.expr->arguments.subspan(binding.next)) {
+    if (rest.value != nullptr)
+      check(c, rest.value);
+  }
+}
+
+void bindArguments(Context &c, CallExpr *expr, PouSymbol *pou) {
+  Binding binding = bindingOf(expr, pou);
+  for (Argument &a : expr->arguments) {
+    if (!a.name && !binding.isNamed && binding.next >= binding.positional.size()) {
+      reportTooMany(c, binding, a);
+      return;
     }
-    if (!given.insert(parameter).second) {
+    VarSymbol *parameter =
+        a.name ? namedParameter(c, binding, a) : positionalParameter(c, binding, a);
+    if (parameter == nullptr)
+      continue;
+    if (!binding.given.insert(parameter).second) {
       c.report(Code::duplicateArgument, a.span,
                "`" + std::string(parameter->name.text) + "` is given twice", "given again here");
       if (a.value != nullptr)
@@ -189,8 +220,8 @@ void bindArguments(Context &c, CallExpr *expr, PouSymbol *pou) {
     }
     checkArgument(c, a, parameter);
   }
-  if (!failed)
-    reportMissing(c, expr, pou, given);
+  if (!binding.hasFailed)
+    reportMissing(c, expr, pou, binding.given);
 }
 
 static void checkArgument(Context &c, Argument &argument, VarSymbol *parameter) {

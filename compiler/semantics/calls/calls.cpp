@@ -16,6 +16,15 @@ namespace stc::sema {
 
 using namespace ast;
 
+/// Checks the arguments of a call that is wrong for itself.
+static const Type *checkArguments(Context &c, CallExpr *expr) {
+  for (Argument &a : expr->arguments) {
+    if (a.value != nullptr)
+      check(c, a.value);
+  }
+  return elementaryType(TypeKind::error);
+}
+
 static const Type *notCallable(Context &c, CallExpr *expr, std::string message) {
   auto &d = c.report(Code::notCallable, expr->callee->span, std::move(message), "cannot be called");
   if (expr->callee->kind == ExprKind::name) {
@@ -25,104 +34,100 @@ static const Type *notCallable(Context &c, CallExpr *expr, std::string message) 
     if (c.names.isBuiltin(name->name.id))
       d.help("this variable hides the standard function; give it another name");
   }
+  return checkArguments(c, expr);
+}
+
+/// What a plain name calls; null: a value, or a built-in function, whose call then has the type
+/// `result`.
+static PouSymbol *calledByName(Context &c, CallExpr *expr, const Type *&result) {
+  auto *name = as<NameExpr>(expr->callee);
+  Symbol *symbol = lookup(c, name->name);
+  if (symbol != nullptr && symbol->kind == SymbolKind::variable &&
+      static_cast<VarSymbol *>(symbol)->isResult)
+    symbol = static_cast<VarSymbol *>(symbol)->owner; // recursion
+  if (symbol == nullptr) {
+    if (const auto conversion = findConversion(name->name.id))
+      result = checkConversionCall(c, expr, *conversion);
+    return nullptr;
+  }
+  if (symbol->kind == SymbolKind::builtin) {
+    name->symbol = symbol;
+    expr->resolved = Callee::builtin;
+    expr->builtin = static_cast<BuiltinSymbol *>(symbol)->id;
+    result = checkBuiltin(c, expr, nullptr);
+    foldCall(c, expr, result);
+    return nullptr;
+  }
+  if (symbol->kind != SymbolKind::pou)
+    return nullptr;
+  name->symbol = symbol;
+  return static_cast<PouSymbol *>(symbol);
+}
+
+/// What `Library.Name` or `Space.Name` calls; null: nothing that belongs to a namespace.
+static PouSymbol *calledInNamespace(Context &c, MemberExpr *member) {
+  Symbol *space = resolveNamespace(c, member->base);
+  Symbol *symbol = space == nullptr ? nullptr : nameInSpace(c, space, member->name);
+  if (symbol == nullptr || symbol->kind != SymbolKind::pou)
+    return nullptr;
+  member->symbol = symbol;
+  return static_cast<PouSymbol *>(symbol);
+}
+
+static const Type *reportTypeCalled(Context &c, CallExpr *expr, const PouSymbol *pou) {
+  auto &d = c.report(Code::notCallable, expr->callee->span,
+                     "`" + std::string(pou->name.text) + "` is " + describe(pou) +
+                         ", not an instance of one",
+                     pou->isBlock() ? "a block is called through a variable"
+                                    : "only methods of an interface can be called");
+  if (pou->decl->kind == DeclKind::functionBlock)
+    d.help("declare an instance, `x : " + std::string(pou->name.text) + ";`, and call `x(…)`");
   for (Argument &a : expr->arguments) {
-    if (a.value != nullptr)
+    if (a.value != nullptr && !a.output)
       check(c, a.value);
   }
   return elementaryType(TypeKind::error);
 }
 
-const Type *checkCall(Context &c, CallExpr *expr, bool asStatement) {
-  followSelf(c, expr->callee);
+/// The block of the instance that is called; null: a method or something wrong, and the call has
+/// the type `result`.
+static PouSymbol *calledInstance(Context &c, CallExpr *expr, const Type *&result) {
   Expr *callee = expr->callee;
-  PouSymbol *pou = nullptr;
-  // Functions, by plain or library-qualified name.
-  if (callee->kind == ExprKind::name) {
-    auto *name = as<NameExpr>(callee);
-    Symbol *symbol = lookup(c, name->name);
-    if (symbol != nullptr && symbol->kind == SymbolKind::variable &&
-        static_cast<VarSymbol *>(symbol)->isResult)
-      symbol = static_cast<VarSymbol *>(symbol)->owner; // recursion
-    if (symbol == nullptr) {
-      if (const auto conversion = findConversion(name->name.id))
-        return checkConversionCall(c, expr, *conversion);
-    } else if (symbol->kind == SymbolKind::builtin) {
-      name->symbol = symbol;
-      expr->resolved = Callee::builtin;
-      expr->builtin = static_cast<BuiltinSymbol *>(symbol)->id;
-      const Type *type = checkBuiltin(c, expr, nullptr);
-      foldCall(c, expr, type);
-      return type;
-    } else if (symbol->kind == SymbolKind::pou) {
-      pou = static_cast<PouSymbol *>(symbol);
-      name->symbol = symbol;
-    }
-  } else if (callee->kind == ExprKind::member && as<MemberExpr>(callee)->bit < 0) {
-    auto *member = as<MemberExpr>(callee);
-    if (Symbol *space = resolveNamespace(c, member->base); space != nullptr) {
-      Symbol *symbol = nameInSpace(c, space, member->name);
-      if (symbol != nullptr && symbol->kind == SymbolKind::pou) {
-        pou = static_cast<PouSymbol *>(symbol);
-        member->symbol = symbol;
-      }
-    }
+  const Type *base = nullptr;
+  if (PouSymbol *method = methodOf(c, callee, base)) {
+    result = checkMethodCall(c, expr, method);
+    return nullptr;
   }
-  if (pou != nullptr && (pou->isBlock() || pou->isInterface())) {
-    auto &d = c.report(Code::notCallable, callee->span,
-                       "`" + std::string(pou->name.text) + "` is " + describe(pou) +
-                           ", not an instance of one",
-                       pou->isBlock() ? "a block is called through a variable"
-                                      : "only methods of an interface can be called");
-    if (pou->decl->kind == DeclKind::functionBlock)
-      d.help("declare an instance, `x : " + std::string(pou->name.text) + ";`, and call `x(…)`");
-    for (Argument &a : expr->arguments) {
-      if (a.value != nullptr && !a.output)
-        check(c, a.value);
-    }
-    return elementaryType(TypeKind::error);
+  const Type *type =
+      base != nullptr ? checkMemberOf(c, as<MemberExpr>(callee), base) : check(c, callee);
+  callee->type = type;
+  if (isError(type)) {
+    checkArguments(c, expr);
+    result = type;
+    return nullptr;
   }
-  if (pou != nullptr && pou->isMethod()) {
-    as<NameExpr>(callee)->symbol = pou;
-    return checkMethodCall(c, expr, pou);
+  if (!isInstance(type)) {
+    const bool isPointer =
+        type->kind == TypeKind::pointer && isInstance(typeAs<PointerType>(type)->pointee);
+    result = notCallable(c, expr,
+                         isPointer ? "a pointer must be followed before the call: `…^(…)`"
+                                   : typeName(type) + " cannot be called");
+    return nullptr;
   }
-  if (pou == nullptr) {
-    const Type *base = nullptr;
-    if (PouSymbol *method = methodOf(c, callee, base))
-      return checkMethodCall(c, expr, method);
-    const Type *type =
-        base != nullptr ? checkMemberOf(c, as<MemberExpr>(callee), base) : check(c, callee);
-    callee->type = type;
-    if (isError(type)) {
-      for (Argument &a : expr->arguments) {
-        if (a.value != nullptr)
-          check(c, a.value);
-      }
-      return type;
-    }
-    if (type->kind == TypeKind::pointer && isInstance(typeAs<PointerType>(type)->pointee))
-      return notCallable(c, expr, "a pointer must be followed before the call: `…^(…)`");
-    if (!isInstance(type))
-      return notCallable(c, expr, typeName(type) + " cannot be called");
-    pou = typeAs<PouType>(type)->symbol;
-    if (pou->decl->kind == DeclKind::classD) {
-      c.report(Code::classCalled, callee->span,
-               "`" + std::string(pou->name.text) + "` is a CLASS: its instances cannot be called",
-               "a class has no body")
-          .help("call one of its methods, or make it a FUNCTION_BLOCK");
-      for (Argument &a : expr->arguments) {
-        if (a.value != nullptr)
-          check(c, a.value);
-      }
-      return elementaryType(TypeKind::error);
-    }
-  }
-  declare(c, pou);
-  expr->pou = pou;
-  const bool named = callee->kind == ExprKind::name && as<NameExpr>(callee)->symbol == pou;
-  if (named && pou->isTemplate) {
-    reportTemplate(c, as<NameExpr>(callee)->name, pou);
-    return elementaryType(TypeKind::error);
-  }
+  PouSymbol *pou = typeAs<PouType>(type)->symbol;
+  if (pou->decl->kind != DeclKind::classD)
+    return pou;
+  c.report(Code::classCalled, callee->span,
+           "`" + std::string(pou->name.text) + "` is a CLASS: its instances cannot be called",
+           "a class has no body")
+      .help("call one of its methods, or make it a FUNCTION_BLOCK");
+  result = checkArguments(c, expr);
+  return nullptr;
+}
+
+/// Notes what kind of call it is. `named`: the callee is the POU's own name.
+static void resolveCall(Context &c, CallExpr *expr, const PouSymbol *pou, bool named) {
+  Expr *callee = expr->callee;
   switch (pou->decl->kind) {
   case DeclKind::function:
     expr->resolved = Callee::function;
@@ -139,21 +144,54 @@ const Type *checkCall(Context &c, CallExpr *expr, bool asStatement) {
     requireAligned(c, callee, "call");
     break;
   }
-  bindArguments(c, expr, pou);
+}
+
+static const Type *resultOf(Context &c, const CallExpr *expr, bool asStatement) {
+  const PouSymbol *pou = expr->pou;
   if (expr->resolved != Callee::function) {
-    if (!asStatement) {
-      auto &d = c.report(Code::blockCallAsValue, expr->span,
-                         "the call of `" + std::string(pou->name.text) + "` has no value",
-                         "used as a value here");
-      d.help("call it in a statement of its own, then read one of its outputs");
-      return elementaryType(TypeKind::error);
-    }
-    return elementaryType(TypeKind::none);
+    if (asStatement)
+      return elementaryType(TypeKind::none);
+    auto &d = c.report(Code::blockCallAsValue, expr->span,
+                       "the call of `" + std::string(pou->name.text) + "` has no value",
+                       "used as a value here");
+    d.help("call it in a statement of its own, then read one of its outputs");
+    return elementaryType(TypeKind::error);
   }
   if (pou->result == nullptr)
     return elementaryType(TypeKind::none);
   const Type *result = pou->result->type;
   return result->kind == TypeKind::reference ? typeAs<PointerType>(result)->pointee : result;
+}
+
+const Type *checkCall(Context &c, CallExpr *expr, bool asStatement) {
+  followSelf(c, expr->callee);
+  Expr *callee = expr->callee;
+  const Type *result = nullptr;
+  PouSymbol *pou = nullptr;
+  if (callee->kind == ExprKind::name)
+    pou = calledByName(c, expr, result);
+  else if (callee->kind == ExprKind::member && as<MemberExpr>(callee)->bit < 0)
+    pou = calledInNamespace(c, as<MemberExpr>(callee));
+  if (pou != nullptr && (pou->isBlock() || pou->isInterface()))
+    return reportTypeCalled(c, expr, pou);
+  if (pou != nullptr && pou->isMethod()) {
+    as<NameExpr>(callee)->symbol = pou;
+    return checkMethodCall(c, expr, pou);
+  }
+  if (pou == nullptr && result == nullptr)
+    pou = calledInstance(c, expr, result);
+  if (pou == nullptr)
+    return result;
+  declare(c, pou);
+  expr->pou = pou;
+  const bool named = callee->kind == ExprKind::name && as<NameExpr>(callee)->symbol == pou;
+  if (named && pou->isTemplate) {
+    reportTemplate(c, as<NameExpr>(callee)->name, pou);
+    return elementaryType(TypeKind::error);
+  }
+  resolveCall(c, expr, pou, named);
+  bindArguments(c, expr, pou);
+  return resultOf(c, expr, asStatement);
 }
 
 } // namespace stc::sema

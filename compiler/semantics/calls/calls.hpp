@@ -5,6 +5,7 @@
 
 namespace stc::sema {
 
+/// Checks a call and gives the type of its result. `asStatement`: no value is needed.
 const Type *checkCall(Context &c, ast::CallExpr *expr, bool asStatement);
 /// A REFERENCE TO input refers to a variable of exactly its type.
 void checkReference(Context &c, ast::Expr *value, const Type *wanted);

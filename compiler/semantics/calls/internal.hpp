@@ -5,10 +5,12 @@
 
 namespace stc::sema {
 
+/// Gives the arguments to the parameters; reports what does not fit and what is missing.
 void bindArguments(Context &c, ast::CallExpr *expr, PouSymbol *pou);
 /// The method that a callee of the form `instance.m` names, or null; `base` becomes the type of
 /// `instance` when that has been checked.
 PouSymbol *methodOf(Context &c, ast::Expr *callee, const Type *&base);
+/// Checks a call of that method and gives the type of its result.
 const Type *checkMethodCall(Context &c, ast::CallExpr *expr, PouSymbol *method);
 
 } // namespace stc::sema

@@ -22,68 +22,54 @@ constexpr std::size_t kMaxShown = 8;
 
 } // namespace
 
-static void checkConfigEntry(Context &c, VarDecl *decl, Module &module,
-                             std::vector<SlotPlace> &slots) {
-  const auto target = resolvePath(c, decl->path, module);
-  const Type *type = resolveType(c, decl->type, "config");
-  if (!target || isError(type) || isError(target->type))
-    return;
-  VarSymbol *variable = target->variable;
-  const std::string path = pathText(target->path);
-  const auto mismatch = [&](Span where, std::string message, std::string label) {
-    auto &d = c.report(Code::configMismatch, where, std::move(message), std::move(label));
-    if (variable != nullptr)
-      noteDeclaration(d, variable);
-  };
-  // What has an entry, be it wrong, is not missing.
+static void reportMismatch(Context &c, const PathTarget &target, Span where, std::string message,
+                           std::string label) {
+  auto &d = c.report(Code::configMismatch, where, std::move(message), std::move(label));
+  if (target.variable != nullptr)
+    noteDeclaration(d, target.variable);
+}
+
+/// The slot that the entry is for; null: the variable is none, or (reported) has an entry already.
+static SlotPlace *takeSlot(Context &c, VarDecl *decl, const std::string &path,
+                           std::vector<SlotPlace> &slots, bool &isTaken) {
   const std::string key = lowerCase(path);
   const auto slot = std::find_if(slots.begin(), slots.end(), [&](const SlotPlace &s) {
     return lowerCase(pathText(s.path)) == key;
   });
-  if (slot != slots.end()) {
-    if (slot->decl != nullptr) {
-      auto &d = c.report(Code::configMismatch, decl->path->span,
-                         "`" + path + "` gets a place twice", "placed again here");
-      d.label(slot->decl->path->span, "placed first here");
-      return;
-    }
-    slot->decl = decl;
+  isTaken = slot != slots.end() && slot->decl != nullptr;
+  if (isTaken) {
+    auto &d = c.report(Code::configMismatch, decl->path->span, "`" + path + "` gets a place twice",
+                       "placed again here");
+    d.label(slot->decl->path->span, "placed first here");
   }
-  if (type != target->type) {
-    mismatch(decl->type->span,
-             "`" + path + "` is " + typeName(target->type) + ", not " + typeName(type),
-             "this type differs from the variable's");
-    return;
-  }
-  if (decl->init != nullptr)
-    decl->init = checkInit(c, decl->init, type);
-  const bool isSlot = slot != slots.end();
-  if (decl->address == nullptr) {
-    if (isSlot)
-      mismatch(decl->path->span, "the entry for `" + path + "` gives no address",
-               "where does it lie?");
-    else
-      c.program.slotPlaces.push_back({target->path, nullptr, {}, decl, true});
-    return;
-  }
-  const DirectAddress &address = *decl->address;
-  if (!isSlot) {
-    mismatch(address.span, "`" + path + "` is not declared with `*`: it has a place already",
-             "another place");
-    return;
-  }
+  if (slot == slots.end() || isTaken)
+    return nullptr;
+  slot->decl = decl; // what has an entry, be it wrong, is not missing
+  return &*slot;
+}
+
+/// Whether the address may be that of the slot's variable.
+static bool fitsSlot(Context &c, const PathTarget &target, const std::string &path,
+                     const DirectAddress &address) {
   if (address.incomplete) {
-    mismatch(address.span, "`" + std::string(address.text) + "` does not say where",
-             "a number is needed here");
-    return;
+    reportMismatch(c, target, address.span,
+                   "`" + std::string(address.text) + "` does not say where",
+                   "a number is needed here");
+    return false;
   }
-  if (address.area != areaLetter(variable->location->area)) {
-    mismatch(address.span,
-             "`" + path + "` is declared as `%" + areaLetter(variable->location->area) +
-                 "*` and cannot lie at `" + std::string(address.text) + "`",
-             "another area");
-    return;
-  }
+  const char area = areaLetter(target.variable->location->area);
+  if (address.area == area)
+    return true;
+  reportMismatch(c, target, address.span,
+                 "`" + path + "` is declared as `%" + area + "*` and cannot lie at `" +
+                     std::string(address.text) + "`",
+                 "another area");
+  return false;
+}
+
+/// Gives the slot the place of the address, if that is one for values of the type.
+static void placeSlot(Context &c, SlotPlace &slot, const Type *type, const std::string &path,
+                      const DirectAddress &address) {
   const bool isBool = type->kind == TypeKind::boolean;
   const auto at = locate(c, address);
   if (!at)
@@ -109,8 +95,40 @@ static void checkConfigEntry(Context &c, VarDecl *decl, Module &module,
   }
   if (!reserve(c, address, at->byte, isBool ? 1 : extent.size))
     return;
-  slot->at = *at;
-  slot->placed = true;
+  slot.at = *at;
+  slot.placed = true;
+}
+
+static void checkConfigEntry(Context &c, VarDecl *decl, Module &module,
+                             std::vector<SlotPlace> &slots) {
+  const auto target = resolvePath(c, decl->path, module);
+  const Type *type = resolveType(c, decl->type, "config");
+  if (!target || isError(type) || isError(target->type))
+    return;
+  const std::string path = pathText(target->path);
+  bool isTaken = false;
+  SlotPlace *slot = takeSlot(c, decl, path, slots, isTaken);
+  if (isTaken)
+    return;
+  if (type != target->type) {
+    reportMismatch(c, *target, decl->type->span,
+                   "`" + path + "` is " + typeName(target->type) + ", not " + typeName(type),
+                   "this type differs from the variable's");
+    return;
+  }
+  if (decl->init != nullptr)
+    decl->init = checkInit(c, decl->init, type);
+  if (slot == nullptr && decl->address == nullptr)
+    c.program.slotPlaces.push_back({target->path, nullptr, {}, decl, true});
+  else if (decl->address == nullptr)
+    reportMismatch(c, *target, decl->path->span, "the entry for `" + path + "` gives no address",
+                   "where does it lie?");
+  else if (slot == nullptr)
+    reportMismatch(c, *target, decl->address->span,
+                   "`" + path + "` is not declared with `*`: it has a place already",
+                   "another place");
+  else if (fitsSlot(c, *target, path, *decl->address))
+    placeSlot(c, *slot, type, path, *decl->address);
 }
 
 static void reportMissingPlaces(Context &c, const std::vector<SlotPlace> &slots) {

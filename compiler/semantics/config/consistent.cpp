@@ -42,7 +42,7 @@ static void reportConsistent(Context &c, const Attributes &attributes, const std
               "and others read");
 }
 
-void checkConsistent(Context &c, std::span<VarDecl *const> variables) {
+static void checkConsistent(Context &c, std::span<VarDecl *const> variables) {
   for (const VarDecl *decl : variables) {
     if (consistentOf(decl->attributes) == nullptr)
       continue;

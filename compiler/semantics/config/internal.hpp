@@ -20,10 +20,12 @@ std::optional<Location> locate(Context &c, const ast::DirectAddress &address);
 bool reserve(Context &c, const ast::DirectAddress &address, std::uint64_t byte, std::uint64_t size);
 /// A value of the type holds variables declared `AT %I*`.
 bool hasSlots(Context &c, const Type *type);
+/// Adds the variables `AT %I*` in a value of the type; `path` leads to it.
 void collectSlots(Context &c, const Type *type, StatePath &path, std::vector<SlotPlace> &out);
 /// A variable by its path; `inside`: a program whose own variables can be named without it.
 std::optional<PathTarget> resolvePath(Context &c, ast::Expr *expr, Module &module,
                                       const ast::PouDecl *inside = nullptr);
+/// The entries of VAR_ACCESS.
 void checkAccesses(Context &c, Module &module);
 
 } // namespace stc::sema

@@ -66,91 +66,105 @@ static std::optional<PathTarget> ownVariable(Context &c, const PouDecl &program,
   return target;
 }
 
+/// The path of a program or a global variable, or of a variable of `inside`.
+static std::optional<PathTarget> startOfPath(Context &c, const Name &name, Module &module,
+                                             const PouDecl *inside) {
+  if (auto own = inside == nullptr ? std::nullopt : ownVariable(c, *inside, name, module))
+    return own;
+  Symbol *root = pathRoot(c, name, module);
+  if (root == nullptr)
+    return std::nullopt;
+  PathTarget target;
+  target.path.root = root;
+  if (root->kind == SymbolKind::variable) {
+    target.variable = static_cast<VarSymbol *>(root);
+    target.type = typeOf(c, target.variable);
+  } else {
+    declare(c, static_cast<PouSymbol *>(root));
+    target.type = static_cast<PouSymbol *>(root)->type;
+  }
+  return target;
+}
+
+/// In front may stand the configuration's, a resource's or a variable list's name, or the
+/// configuration's and a resource's.
+static bool isPrefix(Context &c, const Expr *base, const Module &module) {
+  const std::unordered_set<Ident> &resources = c.names.configuration().resourceNames;
+  if (base->kind == ExprKind::name) {
+    const Name &first = as<NameExpr>(base)->name;
+    return module.find(first.id) == nullptr &&
+           (resources.contains(first.id) || module.lists.contains(first.id));
+  }
+  if (base->kind != ExprKind::member)
+    return false;
+  const auto *second = as<MemberExpr>(base);
+  return second->base->kind == ExprKind::name && second->name &&
+         resources.contains(as<NameExpr>(second->base)->name.id) &&
+         resources.contains(second->name.id);
+}
+
+static std::optional<PathTarget> memberOfPath(Context &c, const MemberExpr *member, Module &module,
+                                              const PouDecl *inside) {
+  auto base = resolvePath(c, member->base, module, inside);
+  if (!base || isError(base->type))
+    return std::nullopt;
+  VarSymbol *found = findMember(c, base->type, member->name.id);
+  if (found == nullptr || found->section == Section::inOut || found->section == Section::temp ||
+      found->section == Section::stat || found->section == Section::external || found->isResult) {
+    auto &d =
+        c.report(Code::configPath, member->name.span,
+                 "`" + typeName(base->type) + "` has no variable `" +
+                     std::string(member->name.text) + "`" + (found != nullptr ? " of its own" : ""),
+                 "not found");
+    if (found == nullptr)
+      helpMembers(d, member->name, memberNames(base->type));
+    return std::nullopt;
+  }
+  base->type = typeOf(c, found);
+  base->variable = found;
+  base->path.steps.push_back({found, 0});
+  return base;
+}
+
+static std::optional<PathTarget> elementOfPath(Context &c, const IndexExpr *index, Module &module,
+                                               const PouDecl *inside) {
+  auto base = resolvePath(c, index->base, module, inside);
+  for (Expr *i : index->indices) {
+    const auto value = constantInteger(c, i, "an index in a path");
+    if (!value || !base || isError(base->type))
+      return std::nullopt;
+    if (base->type->kind != TypeKind::array) {
+      c.report(Code::configPath, index->base->span, typeName(base->type) + " is not an array",
+               "cannot be indexed");
+      return std::nullopt;
+    }
+    const auto *array = typeAs<ArrayType>(base->type);
+    if (*value < array->low || *value > array->high) {
+      c.report(Code::configPath, i->span,
+               "index " + std::to_string(*value) + " is outside of the array",
+               "the bounds are " + std::to_string(array->low) + ".." + std::to_string(array->high));
+      return std::nullopt;
+    }
+    base->path.steps.push_back({nullptr, static_cast<std::uint64_t>(*value - array->low)});
+    base->type = array->element;
+  }
+  return base;
+}
+
 std::optional<PathTarget> resolvePath(Context &c, Expr *expr, Module &module,
                                       const PouDecl *inside) {
-  const auto start = [&](const Name &name) -> std::optional<PathTarget> {
-    if (auto own = inside == nullptr ? std::nullopt : ownVariable(c, *inside, name, module))
-      return own;
-    Symbol *root = pathRoot(c, name, module);
-    if (root == nullptr)
-      return std::nullopt;
-    PathTarget target;
-    target.path.root = root;
-    if (root->kind == SymbolKind::variable) {
-      target.variable = static_cast<VarSymbol *>(root);
-      target.type = typeOf(c, target.variable);
-    } else {
-      declare(c, static_cast<PouSymbol *>(root));
-      target.type = static_cast<PouSymbol *>(root)->type;
-    }
-    return target;
-  };
   switch (expr->kind) {
   case ExprKind::name:
-    return start(as<NameExpr>(expr)->name);
+    return startOfPath(c, as<NameExpr>(expr)->name, module, inside);
   case ExprKind::member: {
-    auto *member = as<MemberExpr>(expr);
+    const auto *member = as<MemberExpr>(expr);
     if (!member->name)
       break;
-    // In front may stand the configuration's, a resource's or a variable list's name.
-    if (member->base->kind == ExprKind::name) {
-      const Name &first = as<NameExpr>(member->base)->name;
-      if (module.find(first.id) == nullptr &&
-          (c.names.configuration().resourceNames.contains(first.id) ||
-           module.lists.contains(first.id)))
-        return start(member->name);
-    } else if (member->base->kind == ExprKind::member) {
-      auto *second = as<MemberExpr>(member->base);
-      if (second->base->kind == ExprKind::name && second->name &&
-          c.names.configuration().resourceNames.contains(as<NameExpr>(second->base)->name.id) &&
-          c.names.configuration().resourceNames.contains(second->name.id))
-        return start(member->name);
-    }
-    auto base = resolvePath(c, member->base, module, inside);
-    if (!base || isError(base->type))
-      return std::nullopt;
-    VarSymbol *found = findMember(c, base->type, member->name.id);
-    if (found == nullptr || found->section == Section::inOut || found->section == Section::temp ||
-        found->section == Section::stat || found->section == Section::external || found->isResult) {
-      auto &d = c.report(Code::configPath, member->name.span,
-                         "`" + typeName(base->type) + "` has no variable `" +
-                             std::string(member->name.text) + "`" +
-                             (found != nullptr ? " of its own" : ""),
-                         "not found");
-      if (found == nullptr)
-        helpMembers(d, member->name, memberNames(base->type));
-      return std::nullopt;
-    }
-    base->type = typeOf(c, found);
-    base->variable = found;
-    base->path.steps.push_back({found, 0});
-    return base;
+    return isPrefix(c, member->base, module) ? startOfPath(c, member->name, module, inside)
+                                             : memberOfPath(c, member, module, inside);
   }
-  case ExprKind::index: {
-    auto *index = as<IndexExpr>(expr);
-    auto base = resolvePath(c, index->base, module, inside);
-    for (Expr *i : index->indices) {
-      const auto value = constantInteger(c, i, "an index in a path");
-      if (!value || !base || isError(base->type))
-        return std::nullopt;
-      if (base->type->kind != TypeKind::array) {
-        c.report(Code::configPath, index->base->span, typeName(base->type) + " is not an array",
-                 "cannot be indexed");
-        return std::nullopt;
-      }
-      const auto *array = typeAs<ArrayType>(base->type);
-      if (*value < array->low || *value > array->high) {
-        c.report(Code::configPath, i->span,
-                 "index " + std::to_string(*value) + " is outside of the array",
-                 "the bounds are " + std::to_string(array->low) + ".." +
-                     std::to_string(array->high));
-        return std::nullopt;
-      }
-      base->path.steps.push_back({nullptr, static_cast<std::uint64_t>(*value - array->low)});
-      base->type = array->element;
-    }
-    return base;
-  }
+  case ExprKind::index:
+    return elementOfPath(c, as<IndexExpr>(expr), module, inside);
   case ExprKind::error:
     return std::nullopt;
   default:

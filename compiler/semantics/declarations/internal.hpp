@@ -5,6 +5,7 @@
 
 namespace stc::sema {
 
+/// Makes a VAR_EXTERNAL stand for its global variable.
 void bindExternal(Context &c, PouSymbol *pou, ast::VarDecl *decl);
 
 } // namespace stc::sema

@@ -17,47 +17,44 @@ void declare(Context &c, GlobalsSymbol *globals) {
     typeOf(c, v);
 }
 
-void declare(Context &c, PouSymbol *pou) {
-  if (pou->declared)
-    return;
-  pou->declared = true;
-  link(c, pou);
-  if (pou->base != nullptr)
-    declare(c, pou->base);
-  for (PouSymbol *interface : pou->interfaces)
-    declare(c, interface);
-  Module &home = c.names.moduleOf(pou);
-  const ScopeGuard guard(c, {&home, pou});
+/// Reports a VAR section that the POU cannot have.
+static bool mayStandIn(Context &c, const PouSymbol *pou, const VarDecl *v) {
+  if (v->section == Section::global || v->section == Section::config ||
+      v->section == Section::access) {
+    c.report(Code::sectionNotAllowed, v->name.span,
+             std::string(v->section == Section::global ? "VAR_GLOBAL" : "this VAR section") +
+                 " cannot stand inside of " + describe(pou),
+             "declared here")
+        .help("move it out of the POU");
+    return false;
+  }
+  if (v->section == Section::instance && !pou->isMethod()) {
+    c.report(Code::sectionNotAllowed, v->name.span, "VAR_INST is only possible in a METHOD",
+             "declared here")
+        .help("use VAR: the variables of " + describe(pou) +
+              (pou->isFunction() ? " live as long as its call" : " are kept anyway"));
+    return false;
+  }
+  if (pou->isInterface() || (pou->decl->kind == DeclKind::classD && v->section != Section::local &&
+                             v->section != Section::stat)) {
+    c.report(Code::sectionNotAllowed, v->name.span, describe(pou) + " has no such variables",
+             "declared here")
+        .help(pou->isInterface() ? "declare a PROPERTY" : "use VAR, a METHOD or a PROPERTY");
+    return false;
+  }
+  return true;
+}
+
+/// The variables of a POU by their names; their types come later.
+static std::vector<VarSymbol *> declareVariables(Context &c, PouSymbol *pou, Module &home) {
   std::vector<VarSymbol *> variables;
-  PouDecl *decl = pou->decl;
-  for (VarDecl *v : decl->variables) {
+  for (VarDecl *v : pou->decl->variables) {
     if (v->section == Section::external) {
       bindExternal(c, pou, v);
       continue;
     }
-    if (v->section == Section::global || v->section == Section::config ||
-        v->section == Section::access) {
-      c.report(Code::sectionNotAllowed, v->name.span,
-               std::string(v->section == Section::global ? "VAR_GLOBAL" : "this VAR section") +
-                   " cannot stand inside of " + describe(pou),
-               "declared here")
-          .help("move it out of the POU");
+    if (!mayStandIn(c, pou, v))
       continue;
-    }
-    if (v->section == Section::instance && !pou->isMethod()) {
-      c.report(Code::sectionNotAllowed, v->name.span, "VAR_INST is only possible in a METHOD",
-               "declared here")
-          .help("use VAR: the variables of " + describe(pou) +
-                (pou->isFunction() ? " live as long as its call" : " are kept anyway"));
-      continue;
-    }
-    if (pou->isInterface() || (pou->decl->kind == DeclKind::classD &&
-                               v->section != Section::local && v->section != Section::stat)) {
-      c.report(Code::sectionNotAllowed, v->name.span, describe(pou) + " has no such variables",
-               "declared here")
-          .help(pou->isInterface() ? "declare a PROPERTY" : "use VAR, a METHOD or a PROPERTY");
-      continue;
-    }
     VarSymbol *symbol = makeVariable(c.arena, v, home, pou);
     const auto [it, fresh] = pou->scope.emplace(v->name.id, symbol);
     if (!fresh) {
@@ -69,42 +66,66 @@ void declare(Context &c, PouSymbol *pou) {
     }
     variables.push_back(symbol);
   }
-  TypeExpr *returnType = decl->returnType;
+  return variables;
+}
+
+/// The variable that holds the result of a function or method.
+static void declareResult(Context &c, PouSymbol *pou) {
+  TypeExpr *returnType = pou->decl->returnType;
   if (pou->property != nullptr && pou->property->get == pou)
     returnType = pou->property->decl->type;
-  if ((pou->isFunction() || pou->isMethod()) && returnType != nullptr) {
-    auto *result = c.arena.make<VarSymbol>();
-    result->kind = SymbolKind::variable;
-    result->name = pou->name;
-    result->library = pou->library;
-    result->owner = pou;
-    result->isResult = true;
-    const auto [it, fresh] = pou->scope.emplace(pou->name.id, result);
-    if (!fresh) {
-      auto &d = c.report(Code::duplicateName, it->second->name.span,
-                         "a variable of `" + std::string(pou->name.text) + "` has " +
-                             (pou->isMethod() ? "its" : "the function's") + " own name",
-                         "this name stands for the result");
-      d.label(pou->name.span, pou->isFunction()          ? "the function"
-                              : pou->property != nullptr ? "the property"
-                                                         : "the method");
-    }
-    result->type = resolveType(c, returnType, std::string(pou->name.text) + "__result");
-    pou->result = result;
+  if ((!pou->isFunction() && !pou->isMethod()) || returnType == nullptr)
+    return;
+  auto *result = c.arena.make<VarSymbol>();
+  result->kind = SymbolKind::variable;
+  result->name = pou->name;
+  result->library = pou->library;
+  result->owner = pou;
+  result->isResult = true;
+  const auto [it, fresh] = pou->scope.emplace(pou->name.id, result);
+  if (!fresh) {
+    auto &d = c.report(Code::duplicateName, it->second->name.span,
+                       "a variable of `" + std::string(pou->name.text) + "` has " +
+                           (pou->isMethod() ? "its" : "the function's") + " own name",
+                       "this name stands for the result");
+    d.label(pou->name.span, pou->isFunction()          ? "the function"
+                            : pou->property != nullptr ? "the property"
+                                                       : "the method");
   }
+  result->type = resolveType(c, returnType, std::string(pou->name.text) + "__result");
+  pou->result = result;
+}
+
+static void rejectInitOfInOut(Context &c, const VarSymbol *v) {
+  if (v->section != Section::inOut || v->decl->init == nullptr)
+    return;
+  c.report(Code::inOutWithInit, v->decl->init->span,
+           "a VAR_IN_OUT variable cannot have an initial value",
+           "it always stands for the caller's variable")
+      .help("remove the value, or make the variable a VAR_INPUT");
+  v->decl->init = nullptr;
+}
+
+void declare(Context &c, PouSymbol *pou) {
+  if (pou->declared)
+    return;
+  pou->declared = true;
+  link(c, pou);
+  if (pou->base != nullptr)
+    declare(c, pou->base);
+  for (PouSymbol *interface : pou->interfaces)
+    declare(c, interface);
+  Module &home = c.names.moduleOf(pou);
+  const ScopeGuard guard(c, {&home, pou});
+  std::vector<VarSymbol *> variables = declareVariables(c, pou, home);
+  declareResult(c, pou);
   if (!pou->isMethod())
     declareMembers(c, pou, variables);
   pou->variables = c.arena.copy(variables);
   // Types after names: an array bound may use a constant of the same POU.
   for (VarSymbol *v : variables) {
     typeOf(c, v);
-    if (v->section == Section::inOut && v->decl->init != nullptr) {
-      c.report(Code::inOutWithInit, v->decl->init->span,
-               "a VAR_IN_OUT variable cannot have an initial value",
-               "it always stands for the caller's variable")
-          .help("remove the value, or make the variable a VAR_INPUT");
-      v->decl->init = nullptr;
-    }
+    rejectInitOfInOut(c, v);
   }
   if (!home.library->isUser && (pou->isFunction() || pou->isMethod())) {
     for (VarSymbol *v : variables)

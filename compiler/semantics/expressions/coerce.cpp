@@ -89,89 +89,114 @@ const Type *settle(Expr *expr) {
   return expr->target != nullptr ? expr->target : expr->type;
 }
 
+static bool isStrict(const Type *t) {
+  return t->kind == TypeKind::enumeration && typeAs<EnumType>(t)->strict;
+}
+
+static void reportStrict(Context &c, const Expr *expr, const Type *type, std::string_view what) {
+  const Type *from = expr->type;
+  const Type *named = isStrict(type) ? type : from;
+  const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
+  auto &d =
+      c.report(Code::strictEnumeration, expr->span,
+               prefix + "`" + typeName(named) + "` is a strict enumeration: no conversion from " +
+                   typeName(from) + " to " + typeName(type),
+               "this is " + typeName(from));
+  noteDeclaration(d, typeAs<EnumType>(named)->symbol);
+  if (isStrict(type))
+    d.help("use one of its enumerators: `" + typeName(type) + ".…`");
+  else
+    d.help("convert it if its number is meant: `TO_" + upper(typeName(underlying(type))) + "(…)`");
+}
+
+/// Warns of a text that is longer than the STRING it becomes.
+static void checkTextLength(Context &c, const Expr *expr, const Type *type) {
+  if (expr->constant->kind != ConstKind::string || !isString(type))
+    return;
+  const auto length = typeAs<StringType>(type)->length;
+  const bool wide = type->kind == TypeKind::wstring;
+  const std::size_t wanted = textLength(expr->constant->text, wide);
+  if (wanted > length)
+    c.report(Code::stringCut, expr->span,
+             "the text has " + std::to_string(wanted) + " characters but " + typeName(type) +
+                 " holds " + std::to_string(length),
+             "the end is cut off")
+        .help("declare the string longer: `" + std::string(wide ? "W" : "") + "STRING(" +
+              std::to_string(wanted) + ")`");
+}
+
+/// A constant without type that is none of the type's values.
+static void reportUntyped(Context &c, Expr *expr, const Type *type, std::string_view what) {
+  const Type *from = expr->type;
+  if (from->kind == TypeKind::anyInteger && isInteger(underlying(type)) &&
+      type->kind != TypeKind::enumeration) {
+    const IntegerRange range = integerRange(type);
+    c.report(Code::constantOverflow, expr->span,
+             "the constant " + std::to_string(expr->constant->integer) + " does not fit into " +
+                 typeName(type),
+             typeName(underlying(type)) + " holds " + std::to_string(range.low) + " to " +
+                 (range.high == -1 ? "18446744073709551615" : std::to_string(range.high)));
+    return;
+  }
+  const Type *own = from->kind == TypeKind::anyReal ? elementaryType(TypeKind::lreal)
+                                                    : smallestInteger(expr->constant->integer);
+  const Conversion kind = classify(own, type);
+  reportConversion(c, expr, from, type, kind == Conversion::lossy ? Conversion::narrowing : kind,
+                   what);
+}
+
+/// How the value becomes one of the type, by what is known about it.
+static Conversion conversionOf(const Expr *expr, const Type *type) {
+  const Type *from = expr->type;
+  if (from->kind == TypeKind::lreal && type->kind == TypeKind::real && isAxisField(expr))
+    return Conversion::free;
+  const Conversion conversion = classify(from, type);
+  // `i := i + 1` computes in DINT, but stays silent because all operands are INT.
+  if (expr->common == nullptr || expr->common == from)
+    return conversion;
+  const Conversion ofCommon =
+      expr->common == type ? Conversion::identity : classify(expr->common, type);
+  if (rank(ofCommon) >= rank(conversion))
+    return conversion;
+  return ofCommon == Conversion::identity ? Conversion::free : ofCommon;
+}
+
+/// A product is computed in its operands' type, however large the variable is that takes it.
+static void checkProduct(Context &c, const Expr *expr, const Type *type) {
+  const Type *from = expr->type;
+  if (expr->kind != ExprKind::binary || as<BinaryExpr>(expr)->op != BinaryOp::multiply ||
+      !isInteger(from) || !isInteger(underlying(type)) || bitWidth(type) <= bitWidth(from))
+    return;
+  auto &d = c.report(Code::computedNarrow, expr->span,
+                     "this product is computed in " + typeName(from) +
+                         " and only then widened to " + typeName(type),
+                     "wraps beyond " + std::to_string(bitWidth(from)) + " bits");
+  d.help("convert an operand first: `" + conversionFunction(from, type) + "(…) * …`");
+}
+
 void coerce(Context &c, Expr *expr, const Type *type, std::string_view what) {
   const Type *from = expr->type;
   if (isError(from) || isError(type) || from == type)
     return;
   if (type->kind == TypeKind::reference)
     type = typeAs<PointerType>(type)->pointee;
-  if (from == type || coercePointer(c, expr, type, what))
+  if (from == type || coercePointer(c, expr, type, what) || coerceToInterface(c, expr, type))
     return;
-  if (coerceToInterface(c, expr, type))
-    return;
-  const auto strict = [](const Type *t) {
-    return t->kind == TypeKind::enumeration && typeAs<EnumType>(t)->strict;
-  };
-  if (strict(from) || strict(type)) {
-    const Type *named = strict(type) ? type : from;
-    const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
-    auto &d =
-        c.report(Code::strictEnumeration, expr->span,
-                 prefix + "`" + typeName(named) + "` is a strict enumeration: no conversion from " +
-                     typeName(from) + " to " + typeName(type),
-                 "this is " + typeName(from));
-    noteDeclaration(d, typeAs<EnumType>(named)->symbol);
-    if (strict(type))
-      d.help("use one of its enumerators: `" + typeName(type) + ".…`");
-    else
-      d.help("convert it if its number is meant: `TO_" + upper(typeName(underlying(type))) +
-             "(…)`");
+  if (isStrict(from) || isStrict(type)) {
+    reportStrict(c, expr, type, what);
     return;
   }
   if (expr->constant != nullptr && constantFits(*expr->constant, from, type)) {
-    if (expr->constant->kind == ConstKind::string && isString(type)) {
-      const auto length = typeAs<StringType>(type)->length;
-      const std::string wanted =
-          std::to_string(textLength(expr->constant->text, type->kind == TypeKind::wstring));
-      if (std::stoul(wanted) > length)
-        c.report(Code::stringCut, expr->span,
-                 "the text has " + wanted + " characters but " + typeName(type) + " holds " +
-                     std::to_string(length),
-                 "the end is cut off")
-            .help("declare the string longer: `" +
-                  std::string(type->kind == TypeKind::wstring ? "W" : "") + "STRING(" + wanted +
-                  ")`");
-    }
+    checkTextLength(c, expr, type);
     setTarget(expr, type);
     return;
   }
-  if (from->kind == TypeKind::anyInteger || from->kind == TypeKind::anyReal) {
-    if (from->kind == TypeKind::anyInteger && isInteger(underlying(type)) &&
-        type->kind != TypeKind::enumeration) {
-      const IntegerRange range = integerRange(type);
-      c.report(Code::constantOverflow, expr->span,
-               "the constant " + std::to_string(expr->constant->integer) + " does not fit into " +
-                   typeName(type),
-               typeName(underlying(type)) + " holds " + std::to_string(range.low) + " to " +
-                   (range.high == -1 ? "18446744073709551615" : std::to_string(range.high)));
-      return;
-    }
-    const Type *own = from->kind == TypeKind::anyReal ? elementaryType(TypeKind::lreal)
-                                                      : smallestInteger(expr->constant->integer);
-    const Conversion kind = classify(own, type);
-    reportConversion(c, expr, from, type, kind == Conversion::lossy ? Conversion::narrowing : kind,
-                     what);
+  if (isUntyped(from)) {
+    reportUntyped(c, expr, type, what);
     return;
   }
-  Conversion conversion = classify(from, type);
-  // `i := i + 1` computes in DINT, but stays silent because all operands are INT.
-  if (expr->common != nullptr && expr->common != from) {
-    const Conversion ofCommon =
-        expr->common == type ? Conversion::identity : classify(expr->common, type);
-    if (rank(ofCommon) < rank(conversion))
-      conversion = ofCommon == Conversion::identity ? Conversion::free : ofCommon;
-  }
-  if (from->kind == TypeKind::lreal && type->kind == TypeKind::real && isAxisField(expr))
-    conversion = Conversion::free;
-  // A product is computed in its operands' type, however large the variable is that takes it.
-  if (expr->kind == ExprKind::binary && as<BinaryExpr>(expr)->op == BinaryOp::multiply &&
-      isInteger(from) && isInteger(underlying(type)) && bitWidth(type) > bitWidth(from)) {
-    auto &d = c.report(Code::computedNarrow, expr->span,
-                       "this product is computed in " + typeName(from) +
-                           " and only then widened to " + typeName(type),
-                       "wraps beyond " + std::to_string(bitWidth(from)) + " bits");
-    d.help("convert an operand first: `" + conversionFunction(from, type) + "(…) * …`");
-  }
+  const Conversion conversion = conversionOf(expr, type);
+  checkProduct(c, expr, type);
   if (conversion == Conversion::narrowing || conversion == Conversion::forbidden ||
       conversion == Conversion::lossy)
     reportConversion(c, expr, from, type, conversion, what);

@@ -12,6 +12,81 @@ namespace stc::sema {
 
 using namespace ast;
 
+static const Type *compareNumbers(Context &c, BinaryExpr *expr) {
+  const Type *l = expr->left->type;
+  const Type *r = expr->right->type;
+  const Type *ul = underlying(l);
+  const Type *ur = underlying(r);
+  const Type *boolean = elementaryType(TypeKind::boolean);
+  if (isUntyped(ul) && isUntyped(ur)) {
+    expr->operandType = ul->kind == TypeKind::anyInteger && ur->kind == TypeKind::anyInteger
+                            ? ul
+                            : elementaryType(TypeKind::anyReal);
+    return boolean;
+  }
+  const Type *operation = commonOf(expr->left, expr->right);
+  if (operation == nullptr) {
+    auto &d = c.report(Code::signedWithUlint, expr->opSpan,
+                       "no integer type holds both " + typeName(l) + " and " + typeName(r),
+                       "signed and 64-bit unsigned values cannot be compared");
+    d.label(expr->left->span, typeName(l));
+    d.label(expr->right->span, typeName(r));
+    d.help("convert one of them: `" + typeName(ul) + "_TO_" + typeName(ur) + "(…)`");
+    return elementaryType(TypeKind::error);
+  }
+  operation = widened(operation);
+  for (const Type *t : {ul, ur}) {
+    if (isInteger(operation) && isInteger(t)) {
+      if (const Type *both = commonNumber(operation, t))
+        operation = both;
+    }
+  }
+  expr->operandType = operation;
+  setTarget(expr->left, operation);
+  setTarget(expr->right, operation);
+  return boolean;
+}
+
+/// The type in which values that are no numbers are compared; null: they cannot be.
+static const Type *comparedAs(const BinaryExpr *expr) {
+  const Type *l = underlying(expr->left->type);
+  const Type *r = underlying(expr->right->type);
+  const auto fits = [](const Expr *constant, const Type *type) {
+    return constant->constant != nullptr && constantFits(*constant->constant, constant->type, type);
+  };
+  if (l->kind == TypeKind::boolean && r->kind == TypeKind::boolean)
+    return l;
+  if (l->kind == TypeKind::boolean || r->kind == TypeKind::boolean) {
+    // `b = 1`: 0 and 1 are BOOL literals too.
+    const Type *boolean = elementaryType(TypeKind::boolean);
+    return fits(l->kind == TypeKind::boolean ? expr->right : expr->left, boolean) ? boolean
+                                                                                  : nullptr;
+  }
+  if (isCharacter(l) || isCharacter(r)) {
+    const Type *type = isCharacter(l) ? l : r;
+    return l == r || fits(isCharacter(l) ? expr->right : expr->left, type) ? type : nullptr;
+  }
+  if (!isTimeOrDate(l) || !isTimeOrDate(r))
+    return nullptr;
+  if (l == r)
+    return l;
+  if (classify(l, r) == Conversion::free)
+    return r;
+  return classify(r, l) == Conversion::free ? l : nullptr;
+}
+
+/// Interfaces are equal when they stand for the same instance, whatever their types are.
+static const Type *compareInterfaces(Context &c, BinaryExpr *expr) {
+  const Type *l = underlying(expr->left->type);
+  const bool isLeft = l->kind == TypeKind::interface;
+  expr->operandType = isLeft ? l : underlying(expr->right->type);
+  Expr *other = isLeft ? expr->right : expr->left;
+  if (other->type->kind != TypeKind::interface &&
+      (!coerceToInterface(c, other, expr->operandType) || other->target == nullptr))
+    return elementaryType(TypeKind::error);
+  return elementaryType(TypeKind::boolean);
+}
+
 const Type *checkComparison(Context &c, BinaryExpr *expr) {
   Expr *left = expr->left;
   Expr *right = expr->right;
@@ -22,83 +97,33 @@ const Type *checkComparison(Context &c, BinaryExpr *expr) {
     check(c, left, right->type);
   const Type *l = left->type;
   const Type *r = right->type;
-  const bool equality = expr->op == BinaryOp::equal || expr->op == BinaryOp::notEqual;
   if (l->kind == TypeKind::enumeration && r->kind == TypeKind::enumeration && l != r)
     return operatorError(c, expr);
   if (l != r && (refuseStrict(c, left) || refuseStrict(c, right)))
     return elementaryType(TypeKind::error);
   const Type *ul = underlying(l);
   const Type *ur = underlying(r);
-  if (isNumber(ul) && isNumber(ur)) {
-    if (isUntyped(ul) && isUntyped(ur)) {
-      expr->operandType = ul->kind == TypeKind::anyInteger && ur->kind == TypeKind::anyInteger
-                              ? ul
-                              : elementaryType(TypeKind::anyReal);
-      return boolean;
-    }
-    const Type *common = commonOf(left, right);
-    if (common == nullptr) {
-      auto &d = c.report(Code::signedWithUlint, expr->opSpan,
-                         "no integer type holds both " + typeName(l) + " and " + typeName(r),
-                         "signed and 64-bit unsigned values cannot be compared");
-      d.label(left->span, typeName(l));
-      d.label(right->span, typeName(r));
-      d.help("convert one of them: `" + typeName(ul) + "_TO_" + typeName(ur) + "(…)`");
-      return elementaryType(TypeKind::error);
-    }
-    const Type *operation = widened(common);
-    for (const Type *t : {ul, ur}) {
-      if (isInteger(operation) && isInteger(t)) {
-        if (const Type *both = commonNumber(operation, t))
-          operation = both;
-      }
-    }
-    expr->operandType = operation;
-  } else if (ul->kind == TypeKind::boolean && ur->kind == TypeKind::boolean) {
-    expr->operandType = ul;
-  } else if (ul->kind == TypeKind::boolean || ur->kind == TypeKind::boolean) {
-    // `b = 1`: 0 and 1 are BOOL literals too.
-    Expr *other = ul->kind == TypeKind::boolean ? right : left;
-    if (other->constant == nullptr || !constantFits(*other->constant, other->type, boolean))
-      return operatorError(c, expr);
-    expr->operandType = boolean;
-  } else if (isCharacter(ul) || isCharacter(ur)) {
-    Expr *other = isCharacter(ul) ? right : left;
-    expr->operandType = isCharacter(ul) ? ul : ur;
-    if (ul != ur && (other->constant == nullptr ||
-                     !constantFits(*other->constant, other->type, expr->operandType)))
-      return operatorError(c, expr);
-  } else if (isString(ul) && ul->kind == ur->kind) {
+  if (isNumber(ul) && isNumber(ur))
+    return compareNumbers(c, expr);
+  if (isString(ul) && ul->kind == ur->kind) {
     const auto length = std::max(typeAs<StringType>(ul)->length, typeAs<StringType>(ur)->length);
     expr->operandType = c.types.string(ul->kind == TypeKind::wstring, length);
     return boolean; // the runtime compares strings of any two lengths: no conversion
-  } else if (isTimeOrDate(ul) && isTimeOrDate(ur)) {
-    if (ul == ur)
-      expr->operandType = ul;
-    else if (classify(ul, ur) == Conversion::free)
-      expr->operandType = ur;
-    else if (classify(ur, ul) == Conversion::free)
-      expr->operandType = ul;
-    else
-      return operatorError(c, expr);
-  } else if (equality && (ul->kind == TypeKind::interface || ur->kind == TypeKind::interface)) {
-    // Interfaces are equal when they stand for the same instance, whatever their types are.
-    expr->operandType = ul->kind == TypeKind::interface ? ul : ur;
-    Expr *other = ul->kind == TypeKind::interface ? right : left;
-    if (other->type->kind == TypeKind::interface)
-      return boolean;
-    if (!coerceToInterface(c, other, expr->operandType) || other->target == nullptr)
-      return elementaryType(TypeKind::error);
-    return boolean;
-  } else if ((ul->kind == TypeKind::pointer || ur->kind == TypeKind::pointer) &&
-             comparePointers(expr)) {
-    return boolean;
-  } else {
-    return operatorError(c, expr);
   }
-  setTarget(left, expr->operandType);
-  setTarget(right, expr->operandType);
-  return boolean;
+  if (const Type *type = comparedAs(expr)) {
+    expr->operandType = type;
+    setTarget(left, type);
+    setTarget(right, type);
+    return boolean;
+  }
+  const bool equality = expr->op == BinaryOp::equal || expr->op == BinaryOp::notEqual;
+  if (equality && (ul->kind == TypeKind::interface || ur->kind == TypeKind::interface) &&
+      ul->kind != TypeKind::boolean && ur->kind != TypeKind::boolean && !isCharacter(ul) &&
+      !isCharacter(ur))
+    return compareInterfaces(c, expr);
+  if ((ul->kind == TypeKind::pointer || ur->kind == TypeKind::pointer) && comparePointers(expr))
+    return boolean;
+  return operatorError(c, expr);
 }
 
 } // namespace stc::sema

@@ -6,14 +6,22 @@
 
 namespace stc::sema {
 
+/// The value of an integer constant; nothing (reported) when it is none. `what` it is, for the
+/// words.
 std::optional<std::int64_t> constantInteger(Context &c, ast::Expr *expr, std::string_view what);
+/// Checks an expression and gives its type, the error type when something has been reported.
+/// `expected`: the type that its place asks for, which decides about enumerators; null: any.
 const Type *check(Context &c, ast::Expr *expr, const Type *expected = nullptr);
 /// `expr` whose base has been checked to be of type `base` and is no namespace.
 const Type *checkMemberOf(Context &c, ast::MemberExpr *expr, const Type *base);
+/// What stands before a dot, if that is a library, namespace, list or type; null: a value.
 Symbol *resolveNamespace(Context &c, ast::Expr *expr);
 /// Checks `expr` and converts it to `type`.
 void checkAs(Context &c, ast::Expr *expr, const Type *type, std::string_view what);
+/// Checks an expression that must be BOOL. `what`: for the words.
 void checkCondition(Context &c, ast::Expr *expr, std::string_view what);
+/// Reports what is no variable, or cannot be written, for the action `what`: `assign to`, `pass`,
+/// `refer to`, `call` …
 bool requireVariable(Context &c, ast::Expr *expr, std::string_view what);
 /// Reports a variable that cannot be referred to because it is misaligned.
 bool requireAligned(Context &c, const ast::Expr *expr, std::string_view what);
@@ -21,13 +29,16 @@ bool requireAligned(Context &c, const ast::Expr *expr, std::string_view what);
 bool refuseStrict(Context &c, ast::Expr *expr);
 /// Converts a checked expression to `type`; reports what does not convert.
 void coerce(Context &c, ast::Expr *expr, const Type *type, std::string_view what);
+/// Reports a conversion that is not done silently, with what to write.
 void reportConversion(Context &c, ast::Expr *expr, const Type *from, const Type *to,
                       Conversion conversion, std::string_view what);
 /// Gives an untyped constant a type of its own.
 const Type *settle(ast::Expr *expr);
+/// Notes the implicit conversion of a checked expression.
 void setTarget(ast::Expr *expr, const Type *type);
 /// The expression names a REFERENCE (that is followed where its value is meant).
 bool isReference(ast::Expr *expr);
+/// `a REF= b`, whose targets have been checked.
 void checkReferenceAssign(Context &c, ast::AssignStmt *stmt);
 /// Edition 3 writes `THIS.x` and `SUPER()` for what CODESYS writes as `THIS^.x` and `SUPER^()`.
 void followSelf(Context &c, ast::Expr *&expr);

@@ -1,6 +1,7 @@
 // Walks all bodies once and notes how variables are used.
 
 #include "compiler/semantics/lint/lint.hpp"
+#include "compiler/syntax/visit.hpp"
 
 #include <algorithm>
 
@@ -16,37 +17,12 @@ bool onlyReads(Builtin builtin) {
 }
 
 bool containsLabel(Block block) {
-  return std::any_of(block.begin(), block.end(), [](const Stmt *stmt) {
-    switch (stmt->kind) {
-    case StmtKind::label:
-    case StmtKind::jump:
-      return true;
-    case StmtKind::ifS: {
-      const auto *s = as<IfStmt>(stmt);
-      return std::any_of(s->branches.begin(), s->branches.end(),
-                         [](const IfBranch &b) { return containsLabel(b.body); }) ||
-             containsLabel(s->elseBody);
-    }
-    case StmtKind::caseS: {
-      const auto *s = as<CaseStmt>(stmt);
-      return std::any_of(s->branches.begin(), s->branches.end(),
-                         [](const CaseBranch &b) { return containsLabel(b.body); }) ||
-             containsLabel(s->elseBody);
-    }
-    case StmtKind::forS:
-      return containsLabel(as<ForStmt>(stmt)->body);
-    case StmtKind::whileS:
-      return containsLabel(as<WhileStmt>(stmt)->body);
-    case StmtKind::repeatS:
-      return containsLabel(as<RepeatStmt>(stmt)->body);
-    case StmtKind::tryS: {
-      const auto *s = as<TryStmt>(stmt);
-      return containsLabel(s->body) || containsLabel(s->catchBody) || containsLabel(s->finallyBody);
-    }
-    default:
-      return false;
-    }
+  bool found = false;
+  walkStatements(block, [&](const Stmt *stmt) {
+    found = found || stmt->kind == StmtKind::label || stmt->kind == StmtKind::jump;
+    return !found;
   });
+  return found;
 }
 
 } // namespace

@@ -5,7 +5,9 @@
 
 namespace stc::sema {
 
+/// Variables that hide others of the project, or functions of libraries.
 void checkShadowing(Context &c, Module &module);
+/// POUs and types of the project that have the name of a library's.
 void checkHiddenLibrary(Context &c, Module &module);
 
 } // namespace stc::sema

@@ -5,6 +5,7 @@
 
 namespace stc::sema {
 
+/// Notes the project's CheckBounds, CheckDivInt … and reports those with other parameters.
 void findImplicitChecks(Context &c, Module &module);
 
 } // namespace stc::sema

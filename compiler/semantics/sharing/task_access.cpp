@@ -2,6 +2,7 @@
 
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
+#include "compiler/syntax/visit.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -75,76 +76,40 @@ void AccessReader::block(Block block) {
     statement(s);
 }
 
+void AccessReader::assignment(const AssignStmt *a) {
+  if (a->op == AssignOp::reference) {
+    if (const VarSymbol *v = addressVariable(a->targets.back()))
+      flowPlace(v, a->value);
+    place(a->value, true);
+    return;
+  }
+  value(a->value);
+  for (const Expr *t : a->targets) {
+    target(t);
+    if (!isAddress(t->type))
+      escape(a->value);
+    else if (const VarSymbol *v = addressVariable(t))
+      flow(v, a->value);
+  }
+}
+
 void AccessReader::statement(const Stmt *s) {
   switch (s->kind) {
-  case StmtKind::empty:
-  case StmtKind::exit:
-  case StmtKind::continueS:
-  case StmtKind::returnS:
-  case StmtKind::jump:
-  case StmtKind::label:
-    return;
-  case StmtKind::assign: {
-    const auto *a = as<AssignStmt>(s);
-    if (a->op == AssignOp::reference) {
-      if (const VarSymbol *v = addressVariable(a->targets.back()))
-        flowPlace(v, a->value);
-      place(a->value, true);
-      return;
-    }
-    value(a->value);
-    for (const Expr *t : a->targets) {
-      target(t);
-      if (!isAddress(t->type))
-        escape(a->value);
-      else if (const VarSymbol *v = addressVariable(t))
-        flow(v, a->value);
-    }
-    return;
-  }
-  case StmtKind::call:
-    value(as<CallStmt>(s)->expr);
-    return;
-  case StmtKind::ifS:
-    for (const IfBranch &b : as<IfStmt>(s)->branches) {
-      value(b.condition);
-      block(b.body);
-    }
-    block(as<IfStmt>(s)->elseBody);
-    return;
-  case StmtKind::caseS:
-    value(as<CaseStmt>(s)->selector);
-    for (const CaseBranch &b : as<CaseStmt>(s)->branches)
-      block(b.body);
-    block(as<CaseStmt>(s)->elseBody);
-    return;
+  case StmtKind::assign:
+    return assignment(as<AssignStmt>(s));
   case StmtKind::forS: {
     const auto *f = as<ForStmt>(s);
-    value(f->from);
-    value(f->to);
-    if (f->by != nullptr)
-      value(f->by);
+    for (const Expr *bound : {f->from, f->to, f->by})
+      value(bound);
     access(f->variable, accessRead | accessWrite, accessWholeRead | accessWholeWrite);
-    block(f->body);
-    return;
+    return block(f->body);
   }
-  case StmtKind::whileS:
-    value(as<WhileStmt>(s)->condition);
-    block(as<WhileStmt>(s)->body);
-    return;
-  case StmtKind::repeatS:
-    block(as<RepeatStmt>(s)->body);
-    value(as<RepeatStmt>(s)->until);
-    return;
-  case StmtKind::tryS: {
-    const auto *t = as<TryStmt>(s);
-    block(t->body);
-    if (t->exception != nullptr)
-      target(t->exception);
-    block(t->catchBody);
-    block(t->finallyBody);
-    return;
-  }
+  case StmtKind::tryS: // what it names takes the exception
+    return forEachChild(
+        s, [this](Expr *e) { target(e); }, [this](Block inner) { block(inner); });
+  default: // expressions are read
+    return forEachChild(
+        s, [this](Expr *e) { value(e); }, [this](Block inner) { block(inner); });
   }
 }
 
@@ -253,96 +218,106 @@ PlacePath AccessReader::placeOf(const VarSymbol *v) const {
   return onStack ? PlacePath{} : PlacePath{Base::self, v, {}};
 }
 
+PlacePath AccessReader::namedPlace(const NameExpr *e, bool walk) {
+  const Symbol *symbol = e->symbol;
+  if (symbol == nullptr)
+    return {};
+  if (symbol->kind == SymbolKind::pou)
+    return {PlacePath::Base::root, symbol, {}};
+  if (symbol->kind == SymbolKind::property && walk)
+    accessor(nullptr, symbol, false, e->span);
+  if (symbol->kind != SymbolKind::variable)
+    return {};
+  return placeOf(static_cast<const VarSymbol *>(symbol));
+}
+
+PlacePath AccessReader::memberPlace(const MemberExpr *m, bool walk) {
+  if (m->symbol == nullptr)
+    return m->bit >= 0 ? place(m->base, walk) : PlacePath{};
+  if (isNamespaceName(m->base)) {
+    if (m->symbol->kind == SymbolKind::pou)
+      return {PlacePath::Base::root, m->symbol, {}};
+    return m->symbol->kind == SymbolKind::variable
+               ? placeOf(static_cast<const VarSymbol *>(m->symbol))
+               : PlacePath{};
+  }
+  PlacePath base = place(m->base, walk);
+  if (m->symbol->kind == SymbolKind::property && walk)
+    accessor(m->base, m->symbol, false, m->span);
+  if (m->symbol->kind != SymbolKind::variable)
+    return {};
+  const auto *v = static_cast<const VarSymbol *>(m->symbol);
+  if (isAlias(v))
+    return {PlacePath::Base::address, v, {}};
+  if (v->section == Section::stat)
+    return {PlacePath::Base::root, v, {}};
+  if (v->location != nullptr || v->isConstant || base.base == PlacePath::Base::none)
+    return {};
+  if (base.base == PlacePath::Base::self && base.symbol == nullptr) // THIS^.v
+    return {PlacePath::Base::self, v, {}};
+  if (!isUnionType(m->base->type)) // its members share their bytes
+    base.steps.push_back({v, 0});
+  return base;
+}
+
+PlacePath AccessReader::elementPlace(const IndexExpr *x, bool walk) {
+  PlacePath at = place(x->base, walk);
+  const Type *t = x->base->type;
+  for (const Expr *i : x->indices) {
+    if (walk)
+      value(i);
+    if (t != nullptr && t->kind == TypeKind::reference) {
+      at = behind(addressVariable(x->base));
+      t = typeAs<PointerType>(t)->pointee;
+    }
+    if (t != nullptr && t->kind == TypeKind::pointer) {
+      if (walk)
+        note(at, accessRead, x->span);
+      at = behind(addressVariable(x->base));
+    } else if (at.base != PlacePath::Base::none) {
+      at.steps.push_back({nullptr, i->constant != nullptr ? i->constant->integer : kAnyElement});
+    }
+    t = t == nullptr ? nullptr : indexStep(t);
+  }
+  if (elementBeforeReference(x) != nullptr &&
+      elementBeforeReference(x)->kind == TypeKind::reference)
+    return behind(addressVariable(x->base));
+  return at;
+}
+
+PlacePath AccessReader::followedPlace(const Expr *pointer, bool walk) {
+  if (const Symbol *symbol = symbolOf(pointer);
+      symbol != nullptr && symbol->kind == SymbolKind::self)
+    return {PlacePath::Base::self, nullptr, {}};
+  if (walk)
+    value(pointer);
+  if (pointer->kind != ExprKind::call)
+    return behind(addressVariable(pointer));
+  const auto *c = as<CallExpr>(pointer);
+  if (c->resolved == Callee::builtin && c->builtin == Builtin::adr)
+    return place(c->arguments[0].value, false);
+  return c->pou != nullptr ? behind(c->pou->result) : PlacePath{};
+}
+
 PlacePath AccessReader::place(const Expr *e, bool walk) {
   switch (e->kind) {
-  case ExprKind::name: {
-    const Symbol *symbol = as<NameExpr>(e)->symbol;
-    if (symbol == nullptr)
-      return {};
-    if (symbol->kind == SymbolKind::pou)
-      return {PlacePath::Base::root, symbol, {}};
-    if (symbol->kind == SymbolKind::property && walk)
-      accessor(nullptr, symbol, false, e->span);
-    if (symbol->kind != SymbolKind::variable)
-      return {};
-    return placeOf(static_cast<const VarSymbol *>(symbol));
-  }
-  case ExprKind::member: {
-    const auto *m = as<MemberExpr>(e);
-    if (m->symbol == nullptr)
-      return m->bit >= 0 ? place(m->base, walk) : PlacePath{};
-    if (isNamespaceName(m->base)) {
-      if (m->symbol->kind == SymbolKind::pou)
-        return {PlacePath::Base::root, m->symbol, {}};
-      return m->symbol->kind == SymbolKind::variable
-                 ? placeOf(static_cast<const VarSymbol *>(m->symbol))
-                 : PlacePath{};
-    }
-    PlacePath base = place(m->base, walk);
-    if (m->symbol->kind == SymbolKind::property && walk)
-      accessor(m->base, m->symbol, false, e->span);
-    if (m->symbol->kind != SymbolKind::variable)
-      return {};
-    const auto *v = static_cast<const VarSymbol *>(m->symbol);
-    if (isAlias(v))
-      return {PlacePath::Base::address, v, {}};
-    if (v->section == Section::stat)
-      return {PlacePath::Base::root, v, {}};
-    if (v->location != nullptr || v->isConstant || base.base == PlacePath::Base::none)
-      return {};
-    if (base.base == PlacePath::Base::self && base.symbol == nullptr) // THIS^.v
-      return {PlacePath::Base::self, v, {}};
-    if (!isUnionType(m->base->type)) // its members share their bytes
-      base.steps.push_back({v, 0});
-    return base;
-  }
-  case ExprKind::index: {
-    const auto *x = as<IndexExpr>(e);
-    PlacePath at = place(x->base, walk);
-    const Type *t = x->base->type;
-    for (const Expr *i : x->indices) {
-      if (walk)
-        value(i);
-      if (t != nullptr && t->kind == TypeKind::reference) {
-        at = behind(addressVariable(x->base));
-        t = typeAs<PointerType>(t)->pointee;
-      }
-      if (t != nullptr && t->kind == TypeKind::pointer) {
-        if (walk)
-          note(at, accessRead, e->span);
-        at = behind(addressVariable(x->base));
-      } else if (at.base != PlacePath::Base::none) {
-        at.steps.push_back({nullptr, i->constant != nullptr ? i->constant->integer : kAnyElement});
-      }
-      t = t == nullptr ? nullptr : indexStep(t);
-    }
-    if (elementBeforeReference(x) != nullptr &&
-        elementBeforeReference(x)->kind == TypeKind::reference)
-      return behind(addressVariable(x->base));
-    return at;
-  }
-  case ExprKind::deref: {
-    const Expr *pointer = as<DerefExpr>(e)->base;
-    if (const Symbol *symbol = symbolOf(pointer);
-        symbol != nullptr && symbol->kind == SymbolKind::self)
-      return {PlacePath::Base::self, nullptr, {}};
+  case ExprKind::name:
+    return namedPlace(as<NameExpr>(e), walk);
+  case ExprKind::member:
+    return memberPlace(as<MemberExpr>(e), walk);
+  case ExprKind::index:
+    return elementPlace(as<IndexExpr>(e), walk);
+  case ExprKind::deref:
+    return followedPlace(as<DerefExpr>(e)->base, walk);
+  case ExprKind::call: {
+    const auto *c = as<CallExpr>(e);
     if (walk)
-      value(pointer);
-    if (pointer->kind == ExprKind::call) {
-      const auto *c = as<CallExpr>(pointer);
-      if (c->resolved == Callee::builtin && c->builtin == Builtin::adr)
-        return place(c->arguments[0].value, false);
-      return c->pou != nullptr ? behind(c->pou->result) : PlacePath{};
-    }
-    return behind(addressVariable(pointer));
-  }
-  case ExprKind::call:
-    if (walk)
-      call(as<CallExpr>(e));
-    return as<CallExpr>(e)->pou != nullptr && as<CallExpr>(e)->pou->result != nullptr &&
-                   as<CallExpr>(e)->pou->result->type->kind == TypeKind::reference
-               ? behind(as<CallExpr>(e)->pou->result)
+      call(c);
+    return c->pou != nullptr && c->pou->result != nullptr &&
+                   c->pou->result->type->kind == TypeKind::reference
+               ? behind(c->pou->result)
                : PlacePath{};
+  }
   default:
     return {};
   }

@@ -102,6 +102,7 @@ public:
 private:
   void block(ast::Block block);
   void statement(const ast::Stmt *s);
+  void assignment(const ast::AssignStmt *a);
   void value(const ast::Expr *e);
   void target(const ast::Expr *e);
   void access(const ast::Expr *e, unsigned scalar, unsigned whole);
@@ -119,6 +120,10 @@ private:
   void initialValue(const VarSymbol *variable, const ast::Expr *init);
   /// The place, after its indices and the pointers on the way to it have been read.
   PlacePath place(const ast::Expr *e, bool walk);
+  PlacePath namedPlace(const ast::NameExpr *e, bool walk);
+  PlacePath memberPlace(const ast::MemberExpr *m, bool walk);
+  PlacePath elementPlace(const ast::IndexExpr *x, bool walk);
+  PlacePath followedPlace(const ast::Expr *pointer, bool walk);
   PlacePath placeOf(const VarSymbol *v) const;
 
   Storage &storage_;

@@ -5,6 +5,7 @@
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/expressions/expressions.hpp"
 #include "compiler/semantics/suggest.hpp"
+#include "compiler/syntax/visit.hpp"
 
 #include <unordered_map>
 
@@ -43,47 +44,38 @@ private:
     path_.pop_back();
   }
 
-  void collect(Stmt *s) {
-    switch (s->kind) {
-    case StmtKind::label:
-      labels.push_back({as<LabelStmt>(s), path_});
-      break;
-    case StmtKind::jump:
-      jumps.push_back({as<JumpStmt>(s), path_});
-      break;
-    case StmtKind::ifS: {
-      auto *i = as<IfStmt>(s);
-      for (const IfBranch &branch : i->branches)
-        inside(branch.body, "IF");
-      inside(i->elseBody, "IF");
-      break;
-    }
-    case StmtKind::caseS: {
-      auto *c = as<CaseStmt>(s);
-      for (const CaseBranch &branch : c->branches)
-        inside(branch.body, "CASE");
-      inside(c->elseBody, "CASE");
-      break;
-    }
+  /// What a block of the statement is called.
+  static std::string_view wordOf(StmtKind kind) {
+    switch (kind) {
+    case StmtKind::ifS:
+      return "IF";
+    case StmtKind::caseS:
+      return "CASE";
     case StmtKind::forS:
-      inside(as<ForStmt>(s)->body, "FOR");
-      break;
+      return "FOR";
     case StmtKind::whileS:
-      inside(as<WhileStmt>(s)->body, "WHILE");
-      break;
+      return "WHILE";
     case StmtKind::repeatS:
-      inside(as<RepeatStmt>(s)->body, "REPEAT");
-      break;
-    case StmtKind::tryS: {
-      auto *t = as<TryStmt>(s);
+      return "REPEAT";
+    default:
+      return {};
+    }
+  }
+
+  void collect(Stmt *s) {
+    if (s->kind == StmtKind::label)
+      labels.push_back({as<LabelStmt>(s), path_});
+    if (s->kind == StmtKind::jump)
+      jumps.push_back({as<JumpStmt>(s), path_});
+    if (s->kind == StmtKind::tryS) {
+      const auto *t = as<TryStmt>(s);
       inside(t->body, "__TRY");
       inside(t->catchBody, "__CATCH");
       inside(t->finallyBody, "__FINALLY");
-      break;
+      return;
     }
-    default:
-      break;
-    }
+    forEachChild(
+        s, [](Expr *) {}, [&](Block block) { inside(block, wordOf(s->kind)); });
   }
 
   std::vector<std::pair<unsigned, std::string_view>> path_;

@@ -5,6 +5,7 @@
 
 namespace stc::sema {
 
+/// Checks initial values and the body of a POU and its methods, once.
 void checkBody(Context &c, PouSymbol *pou);
 
 } // namespace stc::sema

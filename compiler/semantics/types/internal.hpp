@@ -5,6 +5,7 @@
 
 namespace stc::sema {
 
+/// The type of `(a, b := 5)`; its enumerators become names of the module or namespace.
 const EnumType *makeEnum(Context &c, ast::EnumTypeExpr *expr, TypeSymbol *symbol);
 
 } // namespace stc::sema

@@ -1,0 +1,113 @@
+// Numeric functions of one or two arguments, selection, shifts.
+
+#include "compiler/semantics/builtins/internal.hpp"
+
+#include "compiler/semantics/builtins/builtin_calls.hpp"
+#include "compiler/semantics/expressions/expressions.hpp"
+
+namespace stc::sema {
+
+using namespace ast;
+
+const Type *settledKindOf(const CallExpr *expr, std::size_t index) {
+  Expr *value = valueOf(expr, index);
+  return isUntyped(value->type) ? settle(value) : underlying(value->type);
+}
+
+static bool isIntegerOrUntyped(const Type *type) {
+  return isInteger(type) || type->kind == TypeKind::anyInteger;
+}
+
+const Type *checkAbs(Context &c, CallExpr *expr) {
+  const Type *kind = kindOf(expr, 0);
+  if (!isNumber(kind) && kind->kind != TypeKind::ltime)
+    return argumentError(c, expr, 0, "a number");
+  const Type *type = settledKindOf(expr, 0);
+  setTarget(valueOf(expr, 0), type);
+  return type;
+}
+
+const Type *checkRealFunction(Context &c, CallExpr *expr) {
+  const Type *kind = kindOf(expr, 0);
+  if (!isNumber(kind))
+    return argumentError(c, expr, 0, "a number");
+  const Type *result = kind->kind == TypeKind::real ? kind : elementaryType(TypeKind::lreal);
+  if (isUntyped(kind)) // `r := SQRT(2.0)` is silent, as `r := 2.0` is
+    expr->common = elementaryType(TypeKind::real);
+  setTarget(valueOf(expr, 0), result);
+  return result;
+}
+
+const Type *checkPowerFunction(Context &c, CallExpr *expr) {
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!isNumber(kindOf(expr, i)))
+      return argumentError(c, expr, i, "a number");
+  }
+  const Type *first = kindOf(expr, 0);
+  const Type *second = kindOf(expr, 1);
+  const bool real =
+      first->kind == TypeKind::real && (second->kind == TypeKind::real || isUntyped(second));
+  const Type *result = elementaryType(real ? TypeKind::real : TypeKind::lreal);
+  if (isUntyped(first) && isUntyped(second))
+    expr->common = elementaryType(TypeKind::real);
+  setTarget(valueOf(expr, 0), result);
+  setTarget(valueOf(expr, 1), result);
+  return result;
+}
+
+const Type *checkTrunc(Context &c, CallExpr *expr) {
+  const Type *kind = kindOf(expr, 0);
+  if (!isReal(kind) && kind->kind != TypeKind::anyReal)
+    return argumentError(c, expr, 0, "REAL or LREAL");
+  settledKindOf(expr, 0);
+  return elementaryType(TypeKind::dint);
+}
+
+const Type *checkExtreme(Context &c, CallExpr *expr) {
+  for (std::size_t i = 0; i < expr->arguments.size(); ++i) {
+    if (!isElementary(kindOf(expr, i)))
+      return argumentError(c, expr, i, "a value that can be compared");
+  }
+  return commonOfArguments(c, expr, 0);
+}
+
+const Type *checkSel(Context &c, CallExpr *expr) {
+  coerce(c, valueOf(expr, 0), elementaryType(TypeKind::boolean), "the selector of SEL");
+  return commonOfArguments(c, expr, 1);
+}
+
+const Type *checkMux(Context &c, CallExpr *expr) {
+  if (!isIntegerOrUntyped(kindOf(expr, 0)))
+    return argumentError(c, expr, 0, "an integer");
+  settledKindOf(expr, 0);
+  return commonOfArguments(c, expr, 1);
+}
+
+const Type *checkMove(Context &, CallExpr *expr) {
+  Expr *value = valueOf(expr, 0);
+  return isUntyped(value->type) ? settle(value) : value->type;
+}
+
+const Type *checkShift(Context &c, CallExpr *expr) {
+  if (!isIntegerOrUntyped(kindOf(expr, 0)))
+    return argumentError(c, expr, 0, "a bit string or an integer");
+  if (!isIntegerOrUntyped(kindOf(expr, 1)))
+    return argumentError(c, expr, 1, "an integer");
+  Expr *pattern = valueOf(expr, 0);
+  const Type *type = settledKindOf(expr, 0);
+  if (pattern->type->kind == TypeKind::anyInteger) // a pattern, not a number
+    type =
+        elementaryType(pattern->constant->integer < 0 || pattern->constant->integer > 0xFFFFFFFFLL
+                           ? TypeKind::lword
+                           : TypeKind::dword);
+  pattern->target = nullptr;
+  setTarget(pattern, type);
+  settledKindOf(expr, 1);
+  return type;
+}
+
+const Type *checkClock(Context &, CallExpr *expr) {
+  return elementaryType(expr->builtin == Builtin::time ? TypeKind::time : TypeKind::ltime);
+}
+
+} // namespace stc::sema
