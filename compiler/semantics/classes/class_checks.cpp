@@ -118,19 +118,17 @@ static void checkNameClashes(Context &c, PouSymbol *pou) {
   }
 }
 
-static void checkMethod(Context &c, PouSymbol *method) {
-  PouSymbol *owner = method->owner;
+static void checkAbstract(Context &c, const PouSymbol *method) {
+  const PouSymbol *owner = method->owner;
   const std::string name(method->name.text);
   const Span at = method->name.span;
-  if (isLifecycle(method) && owner->isBlock())
-    checkLifecycle(c, method);
-  if (owner->isInterface())
+  if (!method->isAbstract())
     return;
-  if (method->isAbstract() && !method->decl->body.empty())
+  if (!method->decl->body.empty())
     c.report(Code::modifierNotAllowed, at, "the ABSTRACT method `" + name + "` has a body",
              "an abstract method has none")
         .help("remove the statements, or the word ABSTRACT");
-  if (method->isAbstract() && !owner->isAbstract() && owner->isBlock()) {
+  if (!owner->isAbstract() && owner->isBlock()) {
     auto &d =
         c.report(Code::abstractInConcrete, at,
                  "`" + name + "` is ABSTRACT, but `" + std::string(owner->name.text) + "` is not",
@@ -139,27 +137,33 @@ static void checkMethod(Context &c, PouSymbol *method) {
     d.help("declare the block ABSTRACT: `FUNCTION_BLOCK ABSTRACT " + std::string(owner->name.text) +
            "`");
   }
-  if (method->isAbstract() && method->isFinal())
+  if (method->isFinal())
     c.report(Code::modifierNotAllowed, at, "`" + name + "` cannot be ABSTRACT and FINAL",
              "nobody could ever implement it");
-  const bool saysOverride = (method->decl->modifiers & modOverride) != 0;
-  const PouSymbol *base = method->overrides;
-  if (base == nullptr) {
-    if (saysOverride && !isLifecycle(method)) {
-      auto &d = c.report(Code::nothingOverridden, at,
-                         "`" + name + "` is declared OVERRIDE, but there is nothing to override",
-                         owner->base == nullptr
-                             ? "`" + std::string(owner->name.text) + "` extends no block"
-                             : "no block that `" + std::string(owner->name.text) +
-                                   "` extends has this method");
-      if (owner->base != nullptr) {
-        const auto similar = nearestMethod(owner->base, method->name);
-        if (!similar.empty())
-          d.help("a similar one exists: `" + similar + "`");
-      }
-    }
+}
+
+/// OVERRIDE where no base has such a method.
+static void checkNothingOverridden(Context &c, const PouSymbol *method) {
+  if ((method->decl->modifiers & modOverride) == 0 || isLifecycle(method))
     return;
-  }
+  const PouSymbol *owner = method->owner;
+  const std::string block(owner->name.text);
+  auto &d =
+      c.report(Code::nothingOverridden, method->name.span,
+               "`" + std::string(method->name.text) +
+                   "` is declared OVERRIDE, but there is nothing to override",
+               owner->base == nullptr ? "`" + block + "` extends no block"
+                                      : "no block that `" + block + "` extends has this method");
+  if (owner->base == nullptr)
+    return;
+  const auto similar = nearestMethod(owner->base, method->name);
+  if (!similar.empty())
+    d.help("a similar one exists: `" + similar + "`");
+}
+
+/// Whether the method may replace the one of a base, and fits it.
+static void checkOverride(Context &c, const PouSymbol *method, const PouSymbol *base) {
+  const Span at = method->name.span;
   if (base->isFinal()) {
     auto &d = c.report(Code::finalMethod, at, "`" + memberName(base) + "` is FINAL",
                        "it cannot be replaced");
@@ -192,6 +196,19 @@ static void checkMethod(Context &c, PouSymbol *method) {
     d.label(base->name.span, "`" + signatureText(base) + "`");
     d.help("parameters and result must be the same, in the same order");
   }
+}
+
+static void checkMethod(Context &c, PouSymbol *method) {
+  const PouSymbol *owner = method->owner;
+  if (isLifecycle(method) && owner->isBlock())
+    checkLifecycle(c, method);
+  if (owner->isInterface())
+    return;
+  checkAbstract(c, method);
+  if (method->overrides == nullptr)
+    checkNothingOverridden(c, method);
+  else
+    checkOverride(c, method, method->overrides);
 }
 
 static std::string nearestMethod(const PouSymbol *pou, const Name &name) {

@@ -155,44 +155,51 @@ const Type *checkDirect(Context &c, DirectExpr *expr) {
                                      : TypeKind::lword);
 }
 
-void placeVariable(Context &c, VarSymbol *variable) {
+/// Whether a variable declared there may have an address; reports why not.
+static bool mayBePlaced(Context &c, const VarSymbol *variable) {
   const VarDecl *decl = variable->decl;
   const DirectAddress &address = *decl->address;
   const std::string name(variable->name.text);
   const auto refuse = [&](std::string message, std::string label) -> Diagnostic & {
     return c.report(Code::addressNotAllowed, address.span, std::move(message), std::move(label));
   };
-  if (variable->owner == nullptr && variable->globals == nullptr) {
-    refuse("the field `" + name + "` of a structure cannot have an address", "belongs to no place")
-        .help("give the address to the variable of the structure's type");
-    return;
-  }
   const DeclKind owner =
       variable->owner == nullptr ? DeclKind::globals : variable->owner->decl->kind;
-  if (owner != DeclKind::globals && owner != DeclKind::program &&
-      owner != DeclKind::functionBlock && owner != DeclKind::classD) {
+  if (variable->owner == nullptr && variable->globals == nullptr)
+    refuse("the field `" + name + "` of a structure cannot have an address", "belongs to no place")
+        .help("give the address to the variable of the structure's type");
+  else if (owner != DeclKind::globals && owner != DeclKind::program &&
+           owner != DeclKind::functionBlock && owner != DeclKind::classD)
     refuse("a variable of " + describe(variable->owner) + " cannot have an address",
            "it exists only during the call")
         .help("declare it in VAR_GLOBAL, or in the VAR of a program or function block");
-    return;
-  }
-  if (owner != DeclKind::globals && decl->section != Section::local &&
-      (decl->section != Section::stat || address.incomplete)) {
+  else if (owner != DeclKind::globals && decl->section != Section::local &&
+           (decl->section != Section::stat || address.incomplete))
     refuse("only variables of VAR and VAR_GLOBAL can have an address",
            "`" + name + "` is declared in another section");
-    return;
-  }
-  if (variable->isConstant) {
+  else if (variable->isConstant)
     refuse("the constant `" + name + "` cannot have an address", "a constant is not stored")
         .help("remove CONSTANT");
-    return;
-  }
-  if (!variable->library->isUser && !address.incomplete) {
+  else if (!variable->library->isUser && !address.incomplete)
     refuse("a library cannot use a direct address", "belongs to the project");
-    return;
-  }
+  else
+    return true;
+  return false;
+}
+
+/// The place in each instance that VAR_CONFIG gives.
+static Location slotAt(const DirectAddress &address, bool isBool) {
+  Location at;
+  at.area = address.area == 'I' ? Area::input : address.area == 'Q' ? Area::output : Area::memory;
+  at.isSlot = true;
+  at.bit = isBool ? 0 : -1;
+  return at;
+}
+
+void placeVariable(Context &c, VarSymbol *variable) {
+  const DirectAddress &address = *variable->decl->address;
   const Type *type = variable->type;
-  if (isError(type))
+  if (!mayBePlaced(c, variable) || isError(type))
     return;
   if (holdsAddress(type)) {
     c.report(Code::addressType, address.span,
@@ -204,17 +211,12 @@ void placeVariable(Context &c, VarSymbol *variable) {
   }
   const bool isBool = type->kind == TypeKind::boolean;
   const std::uint64_t bytes = c.storage.of(type).size;
-  // A letter behind `%I` is optional in front of `*`.
+  // A letter after `%I` is optional before `*`.
   const bool letter = !address.incomplete || (address.text.size() > 2 && address.text[2] != '*');
-  const auto place = letter ? locateType(c, variable, bytes, isBool) : true;
-  if (!place)
+  if (letter && !locateType(c, variable, bytes, isBool))
     return;
-  Location at;
   if (address.incomplete) {
-    at.area = address.area == 'I' ? Area::input : address.area == 'Q' ? Area::output : Area::memory;
-    at.isSlot = true;
-    at.bit = isBool ? 0 : -1;
-    variable->location = c.arena.make<Location>(at);
+    variable->location = c.arena.make<Location>(slotAt(address, isBool));
     return;
   }
   const auto found = locate(c, address);
@@ -222,8 +224,8 @@ void placeVariable(Context &c, VarSymbol *variable) {
     return;
   if (found->bit >= 0 && !isBool) { // `%MW3.2`
     c.report(Code::addressType, address.span,
-             "`" + std::string(address.text) + "` is a single bit, `" + name + "` is " +
-                 typeName(type),
+             "`" + std::string(address.text) + "` is a single bit, `" +
+                 std::string(variable->name.text) + "` is " + typeName(type),
              "only a BOOL fits into a bit");
     return;
   }

@@ -16,62 +16,57 @@ namespace stc::sema {
 
 using namespace ast;
 
-const Type *checkLiteral(Context &c, Literal *expr) {
-  ConstValue value;
-  const Type *type = nullptr;
+/// The type and the value of a literal without its prefix.
+static const Type *valueOfLiteral(Context &c, const Literal *expr, ConstValue &value) {
+  const auto ofType = [&](TypeKind kind) {
+    value.integer = static_cast<std::int64_t>(expr->integer);
+    return elementaryType(kind);
+  };
   switch (expr->literal) {
   case LiteralKind::boolean:
-    type = elementaryType(TypeKind::boolean);
-    value.integer = static_cast<std::int64_t>(expr->integer);
-    break;
+    return ofType(TypeKind::boolean);
   case LiteralKind::integer: {
     const std::uint64_t most = std::uint64_t{1} << 63U;
     const bool untyped = expr->integer < most || (expr->negative && expr->integer == most);
-    type = elementaryType(untyped ? TypeKind::anyInteger : TypeKind::ulint);
     value.integer =
         static_cast<std::int64_t>(expr->negative && untyped ? 0 - expr->integer : expr->integer);
-    break;
+    return elementaryType(untyped ? TypeKind::anyInteger : TypeKind::ulint);
   }
   case LiteralKind::real:
-    type = elementaryType(TypeKind::anyReal);
     value.kind = ConstKind::real;
     value.real = expr->negative ? -expr->real : expr->real;
-    break;
+    return elementaryType(TypeKind::anyReal);
   case LiteralKind::string:
-  case LiteralKind::wstring:
-    type = c.types.string(expr->literal == LiteralKind::wstring,
-                          static_cast<std::uint32_t>(std::max<std::size_t>(
-                              textLength(expr->text, expr->literal == LiteralKind::wstring), 1)));
+  case LiteralKind::wstring: {
+    const bool wide = expr->literal == LiteralKind::wstring;
     value.kind = ConstKind::string;
     value.text = expr->text;
-    break;
-  case LiteralKind::time:
-    type = elementaryType(TypeKind::time);
-    break;
-  case LiteralKind::ltime:
-    type = elementaryType(TypeKind::ltime);
-    break;
-  case LiteralKind::date:
-    type = elementaryType(TypeKind::date);
-    break;
-  case LiteralKind::ldate:
-    type = elementaryType(TypeKind::ldate);
-    break;
-  case LiteralKind::tod:
-    type = elementaryType(TypeKind::tod);
-    break;
-  case LiteralKind::ltod:
-    type = elementaryType(TypeKind::ltod);
-    break;
-  case LiteralKind::dt:
-    type = elementaryType(TypeKind::dt);
-    break;
-  case LiteralKind::ldt:
-    type = elementaryType(TypeKind::ldt);
-    break;
+    return c.types.string(
+        wide, static_cast<std::uint32_t>(std::max<std::size_t>(textLength(expr->text, wide), 1)));
   }
-  if (isTimeOrDate(type))
-    value.integer = static_cast<std::int64_t>(expr->integer);
+  case LiteralKind::time:
+    return ofType(TypeKind::time);
+  case LiteralKind::ltime:
+    return ofType(TypeKind::ltime);
+  case LiteralKind::date:
+    return ofType(TypeKind::date);
+  case LiteralKind::ldate:
+    return ofType(TypeKind::ldate);
+  case LiteralKind::tod:
+    return ofType(TypeKind::tod);
+  case LiteralKind::ltod:
+    return ofType(TypeKind::ltod);
+  case LiteralKind::dt:
+    return ofType(TypeKind::dt);
+  case LiteralKind::ldt:
+    return ofType(TypeKind::ldt);
+  }
+  return elementaryType(TypeKind::error);
+}
+
+const Type *checkLiteral(Context &c, Literal *expr) {
+  ConstValue value;
+  const Type *type = valueOfLiteral(c, expr, value);
   if (expr->typeName) {
     const Type *named = findElementaryType(expr->typeName.id->lower);
     if (named == nullptr) {

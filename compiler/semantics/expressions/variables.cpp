@@ -13,8 +13,51 @@ namespace stc::sema {
 
 using namespace ast;
 
-bool requireVariable(Context &c, Expr *expr, std::string_view what) {
+/// A variable that is named itself, or as a member: whether it can be assigned to, passed …
+static bool requireWritable(Context &c, const Expr *expr, const VarSymbol *variable,
+                            std::string_view what) {
   const std::string action(what);
+  if (variable->isConstant) {
+    auto &d =
+        c.report(Code::assignToConstant, expr->span,
+                 "cannot " + action + " the constant `" + std::string(variable->name.text) + "`",
+                 "declared CONSTANT");
+    noteDeclaration(d, variable);
+    return false;
+  }
+  if (variable->location != nullptr && what == "assign to")
+    reportInputWritten(c, expr, *variable->location);
+  const bool isOutput = expr->kind == ExprKind::member && variable->section == Section::output &&
+                        !insideOf(c, variable->owner);
+  if (!isOutput || what == "pass") // outputs may be passed on as in-outs (TimeAxis.Axis)
+    return true;
+  auto &d = c.report(Code::assignToOutput, expr->span,
+                     "cannot " + action + " the output `" + std::string(variable->name.text) +
+                         "` of `" + std::string(variable->owner->name.text) + "`",
+                     "only the block itself writes its outputs");
+  noteDeclaration(d, variable);
+  return false;
+}
+
+static bool requireNamed(Context &c, Expr *expr, Symbol *symbol, std::string_view what) {
+  if (symbol == nullptr || isError(expr->type))
+    return true; // reported before
+  if (symbol->kind != SymbolKind::variable) {
+    auto &d = c.report(Code::notAssignable, expr->span,
+                       "cannot " + std::string(what) + " this: it is " + describe(symbol),
+                       "a variable is needed here");
+    noteDeclaration(d, symbol);
+    return false;
+  }
+  const auto *variable = static_cast<const VarSymbol *>(symbol);
+  if (!requireWritable(c, expr, variable, what))
+    return false;
+  // A field of a constant structure is constant, a field of a POU's variable is not.
+  return expr->kind != ExprKind::member || variable->owner != nullptr ||
+         variable->globals != nullptr || requireVariable(c, as<MemberExpr>(expr)->base, what);
+}
+
+bool requireVariable(Context &c, Expr *expr, std::string_view what) {
   if (const PropertySymbol *property = propertyOf(expr);
       property != nullptr && (what == "assign to" || property->type == nullptr ||
                               property->type->kind == TypeKind::reference))
@@ -29,56 +72,19 @@ bool requireVariable(Context &c, Expr *expr, std::string_view what) {
     if (const Location *at = as<DirectExpr>(expr)->location; at != nullptr && what == "assign to")
       reportInputWritten(c, expr, *at);
     return true;
-  case ExprKind::index: // what a pointer points to is a variable, even if the pointer is constant
-    if (as<IndexExpr>(expr)->base->type != nullptr &&
-        as<IndexExpr>(expr)->base->type->kind == TypeKind::pointer)
-      return true;
-    return requireVariable(c, as<IndexExpr>(expr)->base, what);
-  case ExprKind::name:
-  case ExprKind::member: {
-    Symbol *symbol =
-        expr->kind == ExprKind::name ? as<NameExpr>(expr)->symbol : as<MemberExpr>(expr)->symbol;
-    if (expr->kind == ExprKind::member && as<MemberExpr>(expr)->bit >= 0)
-      return requireVariable(c, as<MemberExpr>(expr)->base, what);
-    if (symbol == nullptr || isError(expr->type))
-      return true; // reported before
-    if (symbol->kind != SymbolKind::variable) {
-      auto &d = c.report(Code::notAssignable, expr->span,
-                         "cannot " + action + " this: it is " + describe(symbol),
-                         "a variable is needed here");
-      noteDeclaration(d, symbol);
-      return false;
-    }
-    auto *variable = static_cast<VarSymbol *>(symbol);
-    if (variable->isConstant) {
-      auto &d =
-          c.report(Code::assignToConstant, expr->span,
-                   "cannot " + action + " the constant `" + std::string(variable->name.text) + "`",
-                   "declared CONSTANT");
-      noteDeclaration(d, variable);
-      return false;
-    }
-    if (variable->location != nullptr && what == "assign to")
-      reportInputWritten(c, expr, *variable->location);
-    if (expr->kind == ExprKind::member && variable->section == Section::output &&
-        !insideOf(c, variable->owner)) {
-      if (what == "pass")
-        return true; // outputs of a block may be passed on as in-outs (TimeAxis.Axis)
-      auto &d = c.report(Code::assignToOutput, expr->span,
-                         "cannot " + action + " the output `" + std::string(variable->name.text) +
-                             "` of `" + std::string(variable->owner->name.text) + "`",
-                         "only the block itself writes its outputs");
-      noteDeclaration(d, variable);
-      return false;
-    }
-    // A field of a constant structure is constant, a field of a POU's variable is not.
-    if (expr->kind == ExprKind::member && variable->owner == nullptr &&
-        variable->globals == nullptr)
-      return requireVariable(c, as<MemberExpr>(expr)->base, what);
-    return true;
+  case ExprKind::index: { // what a pointer points to is a variable, even if the pointer is constant
+    Expr *base = as<IndexExpr>(expr)->base;
+    const bool isPointer = base->type != nullptr && base->type->kind == TypeKind::pointer;
+    return isPointer || requireVariable(c, base, what);
   }
+  case ExprKind::name:
+    return requireNamed(c, expr, as<NameExpr>(expr)->symbol, what);
+  case ExprKind::member:
+    return as<MemberExpr>(expr)->bit >= 0
+               ? requireVariable(c, as<MemberExpr>(expr)->base, what)
+               : requireNamed(c, expr, as<MemberExpr>(expr)->symbol, what);
   default:
-    c.report(Code::notAssignable, expr->span, "cannot " + action + " an expression",
+    c.report(Code::notAssignable, expr->span, "cannot " + std::string(what) + " an expression",
              "this is not a variable");
     return false;
   }

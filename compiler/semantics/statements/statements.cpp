@@ -84,77 +84,70 @@ static CallExpr *bareCall(Context &c, Expr *expr) {
   return call;
 }
 
+static void checkCallStatement(Context &c, CallStmt *stmt) {
+  Expr *expr = stmt->expr;
+  if (expr->kind == ExprKind::call) {
+    expr->type = checkCall(c, as<CallExpr>(expr), true);
+    return;
+  }
+  if (CallExpr *call = bareCall(c, expr)) {
+    stmt->expr = call;
+    call->type = checkCall(c, call, true);
+    return;
+  }
+  if (expr->kind == ExprKind::error || isError(check(c, expr)))
+    return;
+  auto &d =
+      c.report(Code::noEffect, expr->span, "this statement has no effect", "its value is not used");
+  if (isInstance(expr->type))
+    d.help("call it: `" + std::string(c.program.sources.text(expr->span)) + "();`");
+  else if (expr->kind == ExprKind::binary && as<BinaryExpr>(expr)->op == BinaryOp::equal)
+    d.help("`=` compares; assign with `:=`");
+}
+
+/// EXIT, CONTINUE
+static void checkInLoop(Context &c, const Stmt *stmt) {
+  if (c.loopDepth != 0)
+    return;
+  const std::string word = stmt->kind == StmtKind::exit ? "EXIT" : "CONTINUE";
+  auto &d = c.report(Code::outsideLoop, stmt->span, word + " outside of a loop",
+                     "there is no FOR, WHILE or REPEAT around it");
+  if (stmt->kind == StmtKind::exit)
+    d.help("leave the POU with RETURN");
+}
+
 static void checkStatement(Context &c, Stmt *stmt) {
   switch (stmt->kind) {
   case StmtKind::empty:
   case StmtKind::returnS:
-    break;
+  case StmtKind::jump: // checkJumps() looks at the body as a whole
+  case StmtKind::label:
+    return;
   case StmtKind::assign:
-    checkAssign(c, as<AssignStmt>(stmt));
-    break;
-  case StmtKind::call: {
-    Expr *expr = as<CallStmt>(stmt)->expr;
-    if (expr->kind == ExprKind::call) {
-      expr->type = checkCall(c, as<CallExpr>(expr), true);
-    } else if (CallExpr *call = bareCall(c, expr)) {
-      as<CallStmt>(stmt)->expr = call;
-      call->type = checkCall(c, call, true);
-    } else if (expr->kind != ExprKind::error) {
-      check(c, expr);
-      if (isError(expr->type))
-        break;
-      auto &d = c.report(Code::noEffect, expr->span, "this statement has no effect",
-                         "its value is not used");
-      if (isInstance(expr->type))
-        d.help("call it: `" + std::string(c.program.sources.text(expr->span)) + "();`");
-      else if (expr->kind == ExprKind::binary && as<BinaryExpr>(expr)->op == BinaryOp::equal)
-        d.help("`=` compares; assign with `:=`");
-    }
-    break;
-  }
-  case StmtKind::ifS: {
-    auto *s = as<IfStmt>(stmt);
-    for (IfBranch &branch : s->branches) {
+    return checkAssign(c, as<AssignStmt>(stmt));
+  case StmtKind::call:
+    return checkCallStatement(c, as<CallStmt>(stmt));
+  case StmtKind::ifS:
+    for (const IfBranch &branch : as<IfStmt>(stmt)->branches) {
       checkCondition(c, branch.condition, "the condition of IF");
       checkBlock(c, branch.body);
     }
-    checkBlock(c, s->elseBody);
-    break;
-  }
+    return checkBlock(c, as<IfStmt>(stmt)->elseBody);
   case StmtKind::caseS:
-    checkCase(c, as<CaseStmt>(stmt));
-    break;
+    return checkCase(c, as<CaseStmt>(stmt));
   case StmtKind::forS:
-    checkFor(c, as<ForStmt>(stmt));
-    break;
-  case StmtKind::whileS: {
-    auto *s = as<WhileStmt>(stmt);
-    checkCondition(c, s->condition, "the condition of WHILE");
-    checkLoopBody(c, s->body);
-    break;
-  }
-  case StmtKind::repeatS: {
-    auto *s = as<RepeatStmt>(stmt);
-    checkLoopBody(c, s->body);
-    checkCondition(c, s->until, "the condition of UNTIL");
-    break;
-  }
-  case StmtKind::jump: // checkJumps() looks at the body as a whole
-  case StmtKind::label:
-    break;
+    return checkFor(c, as<ForStmt>(stmt));
+  case StmtKind::whileS:
+    checkCondition(c, as<WhileStmt>(stmt)->condition, "the condition of WHILE");
+    return checkLoopBody(c, as<WhileStmt>(stmt)->body);
+  case StmtKind::repeatS:
+    checkLoopBody(c, as<RepeatStmt>(stmt)->body);
+    return checkCondition(c, as<RepeatStmt>(stmt)->until, "the condition of UNTIL");
   case StmtKind::tryS:
-    checkTry(c, as<TryStmt>(stmt));
-    break;
+    return checkTry(c, as<TryStmt>(stmt));
   case StmtKind::exit:
   case StmtKind::continueS:
-    if (c.loopDepth == 0) {
-      const std::string word = stmt->kind == StmtKind::exit ? "EXIT" : "CONTINUE";
-      auto &d = c.report(Code::outsideLoop, stmt->span, word + " outside of a loop",
-                         "there is no FOR, WHILE or REPEAT around it");
-      if (stmt->kind == StmtKind::exit)
-        d.help("leave the POU with RETURN");
-    }
-    break;
+    return checkInLoop(c, stmt);
   }
 }
 

@@ -133,48 +133,55 @@ static void resolveStruct(Context &c, TypeSymbol *symbol, StructDecl *decl) {
   type->fields = c.arena.copy(fields);
 }
 
-const EnumType *makeEnum(Context &c, EnumTypeExpr *expr, TypeSymbol *symbol) {
-  auto *type = c.arena.make<EnumType>();
-  type->kind = TypeKind::enumeration;
-  type->symbol = symbol;
-  symbol->type = type;
-  type->base = elementaryType(TypeKind::intT);
-  if (expr->base != nullptr) {
-    const Type *base = resolveType(c, expr->base, {});
-    if (isInteger(base))
-      type->base = base;
-    else if (!isError(base))
-      c.report(Code::wrongBase, expr->base->span,
-               "an enumeration cannot be based on " + typeName(base),
-               "an integer or bit-string type is expected here");
-  }
-  if (symbol->decl != nullptr)
-    type->strict = hasAttribute(symbol->decl->attributes, "strict");
-  if (symbol->decl != nullptr)
-    type->named = hasAttribute(symbol->decl->attributes, "to_string");
+static const Type *baseOfEnum(Context &c, const EnumTypeExpr *expr) {
+  const Type *otherwise = elementaryType(TypeKind::intT);
+  if (expr->base == nullptr)
+    return otherwise;
+  const Type *base = resolveType(c, expr->base, {});
+  if (isInteger(base))
+    return base;
+  if (!isError(base))
+    c.report(Code::wrongBase, expr->base->span,
+             "an enumeration cannot be based on " + typeName(base),
+             "an integer or bit-string type is expected here");
+  return otherwise;
+}
+
+/// `next` is the value that an enumerator has by its place.
+static EnumeratorSymbol *makeEnumerator(Context &c, const EnumeratorDecl &e,
+                                        const TypeSymbol *symbol, const EnumType *type,
+                                        std::int64_t next) {
+  auto *enumerator = c.arena.make<EnumeratorSymbol>();
+  enumerator->kind = SymbolKind::enumerator;
+  enumerator->name = e.name;
+  enumerator->library = symbol->library;
+  enumerator->space = symbol->space;
+  enumerator->type = type;
+  enumerator->value = next;
+  if (e.value != nullptr)
+    enumerator->value = constantInteger(c, e.value, "the value of an enumerator").value_or(next);
+  if (!constantFits(integerValue(enumerator->value), elementaryType(TypeKind::anyInteger),
+                    type->base))
+    c.report(Code::constantOverflow, e.name.span,
+             "the value " + std::to_string(enumerator->value) + " of `" + std::string(e.name.text) +
+                 "` does not fit into " + typeName(type->base))
+        .help("give the enumeration a larger base type: `(…) DINT`");
+  return enumerator;
+}
+
+/// The enumerators, each name once; names that need no type before them can be looked up then.
+static std::vector<EnumeratorSymbol *> makeEnumerators(Context &c, const EnumTypeExpr *expr,
+                                                       const TypeSymbol *symbol,
+                                                       const EnumType *type) {
   Module &module = c.names.moduleOf(symbol);
+  const bool isQualified =
+      symbol->decl != nullptr && hasAttribute(symbol->decl->attributes, "qualified_only");
   std::vector<EnumeratorSymbol *> list;
   std::unordered_map<Ident, EnumeratorSymbol *> seen;
   std::int64_t next = 0;
-  for (EnumeratorDecl &e : expr->enumerators) {
-    auto *enumerator = c.arena.make<EnumeratorSymbol>();
-    enumerator->kind = SymbolKind::enumerator;
-    enumerator->name = e.name;
-    enumerator->library = symbol->library;
-    enumerator->space = symbol->space;
-    enumerator->type = type;
-    if (e.value != nullptr) {
-      if (const auto value = constantInteger(c, e.value, "the value of an enumerator"))
-        next = *value;
-    }
-    enumerator->value = next;
-    const ConstValue value = integerValue(next);
-    if (!constantFits(value, elementaryType(TypeKind::anyInteger), type->base))
-      c.report(Code::constantOverflow, e.name.span,
-               "the value " + std::to_string(next) + " of `" + std::string(e.name.text) +
-                   "` does not fit into " + typeName(type->base))
-          .help("give the enumeration a larger base type: `(…) DINT`");
-    ++next;
+  for (const EnumeratorDecl &e : expr->enumerators) {
+    EnumeratorSymbol *enumerator = makeEnumerator(c, e, symbol, type, next);
+    next = enumerator->value + 1;
     const auto [it, fresh] = seen.emplace(e.name.id, enumerator);
     if (!fresh) {
       auto &d = c.report(Code::duplicateName, e.name.span,
@@ -184,10 +191,26 @@ const EnumType *makeEnum(Context &c, EnumTypeExpr *expr, TypeSymbol *symbol) {
       continue;
     }
     list.push_back(enumerator);
-    if (symbol->decl == nullptr || !hasAttribute(symbol->decl->attributes, "qualified_only"))
+    if (!isQualified)
       (symbol->space == nullptr ? module.enumerators : symbol->space->enumerators)[e.name.id]
           .push_back(enumerator);
   }
+  return list;
+}
+
+const EnumType *makeEnum(Context &c, EnumTypeExpr *expr, TypeSymbol *symbol) {
+  auto *type = c.arena.make<EnumType>();
+  type->kind = TypeKind::enumeration;
+  type->symbol = symbol;
+  symbol->type = type;
+  type->base = elementaryType(TypeKind::intT);
+  type->base = baseOfEnum(c, expr);
+  const auto has = [&](std::string_view attribute) {
+    return symbol->decl != nullptr && hasAttribute(symbol->decl->attributes, attribute);
+  };
+  type->strict = has("strict");
+  type->named = has("to_string");
+  const std::vector<EnumeratorSymbol *> list = makeEnumerators(c, expr, symbol, type);
   type->enumerators = c.arena.copy(list);
   type->initial = list.empty() ? nullptr : list.front();
   if (symbol->init != nullptr) {
@@ -200,9 +223,7 @@ const EnumType *makeEnum(Context &c, EnumTypeExpr *expr, TypeSymbol *symbol) {
       }
     }
   }
-  // Its own declaration may use the plain names.
-  type->qualifiedOnly =
-      symbol->decl != nullptr && hasAttribute(symbol->decl->attributes, "qualified_only");
+  type->qualifiedOnly = has("qualified_only"); // its own declaration may use the plain names
   return type;
 }
 
