@@ -29,42 +29,57 @@ namespace {
 constexpr unsigned kHasAddress = 1;
 constexpr unsigned kExternal = 2;
 
-/// The flags as an expression: `::stride::kSymInput | ::stride::kSymRetain`.
-std::string symbolFlags(const VarSymbol *v, bool qualifiedOnly = false) {
-  std::string out;
-  const auto add = [&](bool set, std::string_view name) {
+/// The flags of a variable as an expression: `::stride::kSymInput | ::stride::kSymRetain`.
+class Flags {
+public:
+  Flags &add(bool set, std::string_view name) {
     if (set)
-      out.append(out.empty() ? "::stride::kSym" : " | ::stride::kSym").append(name);
-  };
-  const unsigned qualifiers = v->decl == nullptr ? 0U : v->decl->qualifiers;
-  add(v->section == Section::input, "Input");
-  add(v->section == Section::output, "Output");
-  add(v->section == Section::inOut, "InOut");
-  add((qualifiers & qualRetain) != 0, "Retain");
-  add((qualifiers & qualPersistent) != 0, "Persistent");
-  add((qualifiers & qualNonRetain) != 0, "NonRetain");
-  add(v->isConstant, "Constant");
-  add(v->hidden, "Hidden");
-  add(v->decl != nullptr && findAttribute(v->decl->attributes, "init_on_onlchange") != nullptr,
-      "InitOnChange");
-  add(qualifiedOnly, "QualifiedOnly");
-  return out.empty() ? "0" : out;
-}
+      text_.append(text_.empty() ? "::stride::kSym" : " | ::stride::kSym").append(name);
+    return *this;
+  }
+  /// `number << kSym…Shift`
+  Flags &addNumber(unsigned number, std::string_view shift) {
+    text_ += (text_.empty() ? "" : " | ") + std::to_string(number) + "U << ::stride::kSym";
+    text_ += shift;
+    return *this;
+  }
+  [[nodiscard]] std::string text() const { return text_.empty() ? "0" : text_; }
 
-/// Flags, offset and type of a variable in the process image are not those of an ordinary one.
-std::string locatedFlags(const Location &at, std::string flags) {
-  flags = flags == "0" ? "" : flags + " | ";
-  flags += at.isSlot ? "::stride::kSymSlot | " + std::to_string(static_cast<unsigned>(at.area)) +
-                           "U << ::stride::kSymAreaShift"
-                     : "::stride::kSymLocated";
-  if (at.bit >= 0)
-    flags += " | ::stride::kSymBit";
-  if (!at.isSlot && at.bit > 0)
-    flags += " | " + std::to_string(at.bit) + "U << ::stride::kSymBitShift";
+private:
+  std::string text_;
+};
+
+Flags symbolFlags(const VarSymbol *v, bool qualifiedOnly = false) {
+  const unsigned qualifiers = v->decl == nullptr ? 0U : v->decl->qualifiers;
+  Flags flags;
+  flags.add(v->section == Section::input, "Input")
+      .add(v->section == Section::output, "Output")
+      .add(v->section == Section::inOut, "InOut")
+      .add((qualifiers & qualRetain) != 0, "Retain")
+      .add((qualifiers & qualPersistent) != 0, "Persistent")
+      .add((qualifiers & qualNonRetain) != 0, "NonRetain")
+      .add(v->isConstant, "Constant")
+      .add(v->hidden, "Hidden")
+      .add(v->decl != nullptr &&
+               findAttribute(v->decl->attributes, "init_on_onlchange") != nullptr,
+           "InitOnChange")
+      .add(qualifiedOnly, "QualifiedOnly");
   return flags;
 }
 
-std::string locatedFlags(const VarSymbol *v, std::string flags) {
+/// Flags, offset and type of a variable in the process image are not those of an ordinary one.
+Flags locatedFlags(const Location &at, Flags flags) {
+  if (at.isSlot)
+    flags.add(true, "Slot").addNumber(static_cast<unsigned>(at.area), "AreaShift");
+  else
+    flags.add(true, "Located");
+  flags.add(at.bit >= 0, "Bit");
+  if (!at.isSlot && at.bit > 0)
+    flags.addNumber(static_cast<unsigned>(at.bit), "BitShift");
+  return flags;
+}
+
+Flags locatedFlags(const VarSymbol *v, Flags flags) {
   return v->location == nullptr ? flags : locatedFlags(*v->location, std::move(flags));
 }
 
@@ -113,46 +128,40 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
   row.cppType = c_.names.type(type);
   includes_.complete(type);
   if (inOut) {
-    row.kind = "InOut";
-    row.flags = kHasAddress;
-    row.hash = Hash().add("in-out").add(row.name).value();
-    if (type->kind == TypeKind::openArray) { // address and bounds
-      row.element = index(typeAs<OpenArrayType>(type)->element);
-    } else {
-      row.cppType = "void *";
-      row.element = index(type);
-    }
-    types_[at] = std::move(row);
-    return;
+    fillInOut(row, type);
+  } else {
+    row.hash = c_.layouts.hash(type);
+    if (c_.layouts.hasAddress(type))
+      row.flags |= kHasAddress;
+    fillKind(row, type);
   }
-  row.hash = c_.layouts.hash(type);
-  if (c_.layouts.hasAddress(type))
-    row.flags |= kHasAddress;
+  types_[at] = std::move(row);
+}
+
+/// The slot of an in-out: an address, of an ARRAY[*] with its bounds.
+void TypeTable::fillInOut(Row &row, const Type *type) {
+  row.kind = "InOut";
+  row.flags = kHasAddress;
+  row.hash = Hash().add("in-out").add(row.name).value();
+  if (type->kind == TypeKind::openArray) {
+    row.element = index(typeAs<OpenArrayType>(type)->element);
+  } else {
+    row.cppType = "void *";
+    row.element = index(type);
+  }
+}
+
+void TypeTable::fillKind(Row &row, const Type *type) {
   switch (type->kind) {
-  case TypeKind::string:
-  case TypeKind::wstring:
-    row.kind = Names::elementary(type->kind);
-    row.stringLength = typeAs<StringType>(type)->length;
-    break;
-  case TypeKind::enumeration: {
-    const auto *e = typeAs<EnumType>(type);
-    row.kind = "Enum";
-    row.element = index(e->base);
-    row.firstMember = enumeratorRows_.size();
-    row.memberCount = e->enumerators.size();
-    if (e->symbol->decl != nullptr)
-      row.renamedFrom = renamedFrom(e->symbol->decl->attributes);
-    for (const EnumeratorSymbol *x : e->enumerators)
-      enumeratorRows_.push_back("{" + quote(x->name.text) + ", " + std::to_string(x->value) + "}");
-    break;
-  }
+  case TypeKind::enumeration:
+    return fillEnumeration(row, typeAs<EnumType>(type));
   case TypeKind::array: {
     const auto *a = typeAs<ArrayType>(type);
     row.kind = "Array";
     row.lowerBound = a->low;
     row.elementCount = a->count();
     row.element = index(a->element);
-    break;
+    return;
   }
   case TypeKind::pointer:
   case TypeKind::reference: {
@@ -161,40 +170,69 @@ void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
     row.cppType = "void *";
     if (pointee->kind != TypeKind::none)
       row.element = index(pointee);
-    break;
+    return;
   }
   case TypeKind::interface:
     row.kind = "Interface";
-    break;
+    return;
   case TypeKind::structure: {
     const auto *s = typeAs<StructType>(type);
     row.kind = s->isUnion ? "Union" : "Struct";
     row.renamedFrom = renamedFrom(s->symbol->decl->attributes);
-    members(row, type, s->base, row.cppType, {s->fields.begin(), s->fields.end()});
-    break;
+    return members(row, type, s->base, row.cppType, {s->fields.begin(), s->fields.end()});
   }
   case TypeKind::functionBlock:
-  case TypeKind::program: {
-    const PouSymbol *pou = typeAs<PouType>(type)->symbol;
-    row.kind = type->kind == TypeKind::program ? "Program" : "FunctionBlock";
-    row.renamedFrom = renamedFrom(pou->decl->attributes);
-    if (pou->decl->external)
-      row.flags |= kExternal;
-    if (pou->isBlock() && hasTypeId(pou))
-      row.typeId = c_.names.typeId(pou);
-    members(row, type, pou->base == nullptr ? nullptr : pou->base->type, row.cppType,
-            rootVariables({pou, false}), carriesTypeId(pou));
-    break;
-  }
-  case TypeKind::charT:
-  case TypeKind::wcharT:
-    row.stringLength = 1;
-    [[fallthrough]];
+  case TypeKind::program:
+    return fillInstance(row, typeAs<PouType>(type));
   default:
     row.kind = Names::elementary(type->kind);
-    break;
+    if (isString(type))
+      row.stringLength = typeAs<StringType>(type)->length;
+    else if (isCharacter(type))
+      row.stringLength = 1;
+    return;
   }
-  types_[at] = std::move(row);
+}
+
+void TypeTable::fillEnumeration(Row &row, const EnumType *type) {
+  row.kind = "Enum";
+  row.element = index(type->base);
+  row.firstMember = enumeratorRows_.size();
+  row.memberCount = type->enumerators.size();
+  if (type->symbol->decl != nullptr)
+    row.renamedFrom = renamedFrom(type->symbol->decl->attributes);
+  for (const EnumeratorSymbol *x : type->enumerators)
+    enumeratorRows_.push_back("{" + quote(x->name.text) + ", " + std::to_string(x->value) + "}");
+}
+
+void TypeTable::fillInstance(Row &row, const PouType *type) {
+  const PouSymbol *pou = type->symbol;
+  row.kind = type->kind == TypeKind::program ? "Program" : "FunctionBlock";
+  row.renamedFrom = renamedFrom(pou->decl->attributes);
+  if (pou->decl->external)
+    row.flags |= kExternal;
+  if (pou->isBlock() && hasTypeId(pou))
+    row.typeId = c_.names.typeId(pou);
+  members(row, type, pou->base == nullptr ? nullptr : pou->base->type, row.cppType,
+          rootVariables({pou, false}), carriesTypeId(pou));
+}
+
+std::string TypeTable::memberRow(const Type *type, const VarSymbol *v, std::uint32_t typeIndex,
+                                 const std::string &owner) {
+  const Flags flags = locatedFlags(v, symbolFlags(v));
+  std::string row = "{" + quote(v->storage.empty() ? v->name.text : v->storage) + ", ";
+  std::string bit;
+  if (v->isBit) { // offsetof is not for bits
+    const Storage::BitPlace at = storage_.bit(type, v);
+    row += std::to_string(at.byte);
+    bit = " | ::stride::kSymBit | " + std::to_string(at.bit) + "U << ::stride::kSymBitShift";
+  } else if (isPlaced(v)) {
+    row += placeInImage(*v->location);
+  } else {
+    row.append("offsetof(").append(owner).append(", ").append(fieldName(v)).append(")");
+  }
+  row.append(", ").append(std::to_string(typeIndex)).append(", ").append(flags.text());
+  return row.append(bit).append(renamedColumn(renamedFrom(v->decl->attributes))).append("}");
 }
 
 void TypeTable::members(Row &row, const Type *type, const Type *base, const std::string &owner,
@@ -213,22 +251,8 @@ void TypeTable::members(Row &row, const Type *type, const Type *base, const std:
     memberRows_.push_back("{\"type__\", offsetof(" + owner + ", type__), " +
                           std::to_string(idIndex) +
                           ", ::stride::kSymTypeId | ::stride::kSymHidden}");
-  for (std::size_t i = 0; i < variables.size(); ++i) {
-    const VarSymbol *v = variables[i];
-    std::string flags = locatedFlags(v, symbolFlags(v));
-    std::string offset;
-    if (v->isBit) { // offsetof is not for bits
-      const Storage::BitPlace at = storage_.bit(type, v);
-      offset = std::to_string(at.byte);
-      flags += " | ::stride::kSymBit | " + std::to_string(at.bit) + "U << ::stride::kSymBitShift";
-    } else {
-      offset = isPlaced(v) ? placeInImage(*v->location)
-                           : "offsetof(" + owner + ", " + fieldName(v) + ")";
-    }
-    memberRows_.push_back("{" + quote(v->storage.empty() ? v->name.text : v->storage) + ", " +
-                          offset + ", " + std::to_string(types[i]) + ", " + flags +
-                          renamedColumn(renamedFrom(v->decl->attributes)) + "}");
-  }
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    memberRows_.push_back(memberRow(type, variables[i], types[i], owner));
   row.memberCount = memberRows_.size() - row.firstMember;
 }
 
@@ -252,7 +276,7 @@ void TypeTable::addRoot(std::string_view list, const VarSymbol *variable, const 
       isPlaced(variable) ? placeInImage(*variable->location) : "offsetof(App__, " + place + ")";
   rootRows_.push_back("{" + (list.empty() ? std::string("nullptr") : quote(list)) + ", " +
                       quote(variable->name.text) + ", " + offset + ", " + std::to_string(type) +
-                      ", " + locatedFlags(variable, symbolFlags(variable, qualifiedOnly)) +
+                      ", " + locatedFlags(variable, symbolFlags(variable, qualifiedOnly)).text() +
                       lastColumns(renamed, task) + "}");
 }
 
@@ -277,16 +301,16 @@ void TypeTable::addImage() {
 }
 
 void TypeTable::addAccess(const AccessPath &access) {
-  std::string flags = access.decl->readWrite ? "0" : "::stride::kSymConstant";
+  Flags own;
+  own.add(!access.decl->readWrite, "Constant");
   std::string offset;
   if (access.location == nullptr || access.location->isSlot)
     offset = "offsetof(App__, " + statePath(c_.names, access.path, c_.program.user) + ")";
   else
     offset = placeInImage(*access.location);
-  if (access.location != nullptr)
-    flags = locatedFlags(*access.location, flags);
-  else
-    flags = "::stride::kSymLocated | " + flags;
+  const std::string flags = access.location != nullptr
+                                ? locatedFlags(*access.location, own).text()
+                                : "::stride::kSymLocated | " + own.text();
   const std::uint32_t type = index(access.type);
   rootRows_.push_back("{nullptr, " + quote(access.decl->name.text) + ", " + offset + ", " +
                       std::to_string(type) + ", " + flags + "}");

@@ -82,6 +82,12 @@ private:
   };
   void fillPending();
   void fill(std::uint32_t at, const Type *type, bool inOut);
+  void fillInOut(Row &row, const Type *type);
+  void fillKind(Row &row, const Type *type);
+  void fillEnumeration(Row &row, const EnumType *type);
+  void fillInstance(Row &row, const PouType *type);
+  std::string memberRow(const Type *type, const VarSymbol *v, std::uint32_t typeIndex,
+                        const std::string &owner);
   void members(Row &row, const Type *type, const Type *base, const std::string &owner,
                const std::vector<const VarSymbol *> &variables, bool typeId = false);
 
