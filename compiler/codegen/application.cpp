@@ -2,6 +2,7 @@
 // stays the same when only a body changes.
 
 #include "compiler/codegen/consistent_copies.hpp"
+#include "compiler/codegen/description.hpp"
 #include "compiler/codegen/plc_tables.hpp"
 #include "compiler/codegen/type_table.hpp"
 #include "compiler/codegen/units.hpp"
@@ -36,55 +37,11 @@ public:
   }
 
   GeneratedFile app() {
-    for (const Member &m : members_)
-      addRoots(m);
-    types_.addImage();
-    for (const AccessPath &access : c_.program.accessPaths)
-      types_.addAccess(access);
-    for (const Type *type : c_.program.created)
-      types_.index(type); // the headers of their objects name them by hash
-    if (c_.program.usesPool)
-      types_.addPool(c_.program.settings.poolSize);
-    std::string tables = types_.text();
-    std::string measures;
-    for (const auto &[type, size] : c_.program.measured) {
-      types_.includes().complete(type);
-      measures += "static_assert(sizeof(" + std::string(c_.names.type(type)) +
-                  ") == " + std::to_string(size) + ");\n";
-    }
-    if (!measures.empty())
-      measures.insert(0, "\n// What SIZEOF has given.\n");
-    for (const Member &m : members_)
-      types_.includes().symbol(m.root.symbol);
-    for (const AppConfig::Task &task : config_.tasks)
-      if (task.event != nullptr)
-        types_.includes().symbol(task.event);
-    std::string out = banner("The application object");
-    out += "#include \"runtime/app/abi.h\"\n#include \"runtime/iec/image.h\"\n";
-    if (c_.program.usesPool)
-      out += "#include \"runtime/iec/pool.h\"\n";
-    if (!copies_.empty())
-      out += "#include \"runtime/iec/consistent.h\"\n";
-    out += types_.includes().text(nullptr);
-    out += "\n#pragma GCC diagnostic ignored \"-Winvalid-offsetof\"\n";
-    out += "\nnamespace st::user {\n\n/// All state of the application.\nstruct App__ {\n";
-    for (const Member &m : members_)
-      out += "  " + rootType(c_.names, m.root) + " " + m.name + ";\n";
-    out += copies_.members();
-    for (std::size_t area = 0; area < 3; ++area) {
-      if (const std::uint32_t bytes = c_.program.image.bytes[area]; bytes != 0)
-        out += std::string("  alignas(8) ::stride::BYTE image__") + "iqm"[area] + "[" +
-               std::to_string(bytes) + "]; // %" + "IQM"[area] + "\n";
-    }
-    if (c_.program.usesPool)
-      out += "  ::stride::Pool<" + std::to_string(c_.program.settings.poolSize) +
-             "> pool__; // of __NEW\n";
-    else if (members_.empty())
-      out += "  ::stride::BYTE empty__;\n";
-    out += "};\n";
-    if (hasConfiguredValues(c_.program))
-      out += "\nvoid configure__(::stride::Ctx &ctx__);\n";
-    out += "\n} // namespace st::user\n" + measures;
+    const std::string tables = typeTables();
+    const std::string sizes = measures();
+    std::string out = banner("The application object") + includes();
+    state(out);
+    out += sizes;
     places(out);
     out += copies_.places();
     if (c_.program.usesPool)
@@ -102,7 +59,9 @@ public:
     out += plc_.text();
     sharing(out);
     out += "\n} // namespace\n";
-    description(out);
+    const auto [length, place] = bootupError();
+    out += description(
+        {c_.program, config_, types_, plc_, hasExit_, hasReinit_, !copies_.empty(), length, place});
     return {"app.cpp", std::move(out)};
   }
 
@@ -256,19 +215,6 @@ private:
     out += "}\n";
   }
 
-  /// The areas of the process image for the description.
-  [[nodiscard]] std::string image() const {
-    std::string out = "{";
-    for (std::size_t area = 0; area < 3; ++area) {
-      const std::uint32_t bytes = c_.program.image.bytes[area];
-      out += area == 0 ? "{" : ", {";
-      out += bytes == 0 ? std::string("0, 0}")
-                        : std::string("offsetof(App__, image__") + "iqm"[area] + "), " +
-                              std::to_string(bytes) + "}";
-    }
-    return out + "}";
-  }
-
   void init(std::string &out) {
     out += "\n// Libraries first, then files by path, then in the order of declaration.\nvoid "
            "init__(::stride::Ctx *";
@@ -342,6 +288,66 @@ private:
              rows + "};\n";
   }
 
+  std::string typeTables() {
+    for (const Member &m : members_)
+      addRoots(m);
+    types_.addImage();
+    for (const AccessPath &access : c_.program.accessPaths)
+      types_.addAccess(access);
+    for (const Type *type : c_.program.created)
+      types_.index(type); // the headers of their objects name them by hash
+    if (c_.program.usesPool)
+      types_.addPool(c_.program.settings.poolSize);
+    return types_.text();
+  }
+
+  /// What the compiler has computed with is what g++ sees.
+  std::string measures() {
+    std::string out;
+    for (const auto &[type, size] : c_.program.measured) {
+      types_.includes().complete(type);
+      out += "static_assert(sizeof(" + std::string(c_.names.type(type)) +
+             ") == " + std::to_string(size) + ");\n";
+    }
+    return out.empty() ? out : "\n// What SIZEOF has given.\n" + out;
+  }
+
+  std::string includes() {
+    for (const Member &m : members_)
+      types_.includes().symbol(m.root.symbol);
+    for (const AppConfig::Task &task : config_.tasks)
+      if (task.event != nullptr)
+        types_.includes().symbol(task.event);
+    std::string out = "#include \"runtime/app/abi.h\"\n#include \"runtime/iec/image.h\"\n";
+    if (c_.program.usesPool)
+      out += "#include \"runtime/iec/pool.h\"\n";
+    if (!copies_.empty())
+      out += "#include \"runtime/iec/consistent.h\"\n";
+    return out + types_.includes().text(nullptr) +
+           "\n#pragma GCC diagnostic ignored \"-Winvalid-offsetof\"\n";
+  }
+
+  void state(std::string &out) {
+    out += "\nnamespace st::user {\n\n/// All state of the application.\nstruct App__ {\n";
+    for (const Member &m : members_)
+      out += "  " + rootType(c_.names, m.root) + " " + m.name + ";\n";
+    out += copies_.members();
+    for (std::size_t area = 0; area < 3; ++area) {
+      if (const std::uint32_t bytes = c_.program.image.bytes[area]; bytes != 0)
+        out += std::string("  alignas(8) ::stride::BYTE image__") + "iqm"[area] + "[" +
+               std::to_string(bytes) + "]; // %" + "IQM"[area] + "\n";
+    }
+    if (c_.program.usesPool)
+      out += "  ::stride::Pool<" + std::to_string(c_.program.settings.poolSize) +
+             "> pool__; // of __NEW\n";
+    else if (members_.empty())
+      out += "  ::stride::BYTE empty__;\n";
+    out += "};\n";
+    if (hasConfiguredValues(c_.program))
+      out += "\nvoid configure__(::stride::Ctx &ctx__);\n";
+    out += "\n} // namespace st::user\n";
+  }
+
   /// A global variable by name, and its place in the state.
   PlacedVariable global(std::string_view name) const {
     const std::string wanted = lowerCase(name);
@@ -368,79 +374,6 @@ private:
                   "offsetof(App__, " + m.name + "." + std::string(mangle(v->name.text)) + ")"};
     }
     return {"0", "0"};
-  }
-
-  void description(std::string &out) {
-    const auto table = [](std::size_t count, const char *name) {
-      return count == 0 ? "nullptr" : name;
-    };
-    const auto field = [&](std::string_view name, const std::string &value) {
-      out.append("    .").append(name).append(" = ").append(value).append(",\n");
-    };
-    out += "\nnamespace st::user {\n\n/// Completed by build.cpp.\nextern const "
-           "::stride::StrideAppV1 application__;\n"
-           "const ::stride::StrideAppV1 application__ = {\n";
-    field("abiVersion", "::stride::kAbiVersion");
-    field("magic", "::stride::kAbiMagic");
-    field("size", "sizeof(::stride::StrideAppV1)");
-    field("flags", "0");
-    field("name", "\"" + escaped(config_.name) + "\"");
-    field("compiler", "\"Stride " STRIDE_VERSION "\"");
-    field("buildHash", "0");
-    field("stateSize", "sizeof(App__)");
-    field("stateAlign", "alignof(App__)");
-    field("reserved", "0");
-    field("init", "init__");
-    field("exit", hasExit_ ? "exit__" : "nullptr");
-    field("reinit", hasReinit_ ? "reinit__" : "nullptr");
-    field("types", table(types_.typeCount(), "kTypes"));
-    field("members", table(types_.memberCount(), "kMembers"));
-    field("enumerators", table(types_.enumeratorCount(), "kEnumerators"));
-    field("roots", table(types_.rootCount(), "kRoots"));
-    field("tasks", table(config_.tasks.size(), "kTasks"));
-    field("axisGroups", table(plc_.groups(), "kAxisGroups"));
-    field("drives", table(plc_.drives(), "kDrives"));
-    field("files", "nullptr");
-    field("typeCount", std::to_string(types_.typeCount()));
-    field("memberCount", std::to_string(types_.memberCount()));
-    field("enumeratorCount", std::to_string(types_.enumeratorCount()));
-    field("rootCount", std::to_string(types_.rootCount()));
-    field("taskCount", std::to_string(config_.tasks.size()));
-    field("axisGroupCount", std::to_string(plc_.groups()));
-    field("driveCount", std::to_string(plc_.drives()));
-    field("fileCount", "0");
-    field("axisRefLayout", std::to_string(plc_.axisLayout()) + "ULL");
-    field("axisGroupRefLayout", std::to_string(plc_.groupLayout()) + "ULL");
-    field("image", image());
-    static constexpr std::string_view kAddressing[] = {"Units", "Bytes", "Words"};
-    field("imageAddressing",
-          "::stride::ImageAddressing::" +
-              std::string(kAddressing[static_cast<std::size_t>(c_.program.settings.addressing)]));
-    field("reserved2", "0");
-    field("retainFile", config_.retainFile.empty() ? std::string("nullptr")
-                                                   : "\"" + escaped(config_.retainFile) + "\"");
-    field("retainPeriodNs", std::to_string(config_.retainPeriodNs));
-    const std::size_t imageUses = c_.program.sharing.imageUses.size();
-    field("imageUses", table(imageUses, "kImageUses"));
-    field("imageUseCount", std::to_string(imageUses));
-    field("ioDevices", table(plc_.ioDevices(), "kIoDevices"));
-    field("ioDeviceCount", std::to_string(plc_.ioDevices()));
-    field("parameters", table(plc_.parameters(), "kParameters"));
-    field("buses", table(config_.buses.size(), "kBuses"));
-    field("encoders", table(plc_.encoders(), "kEncoders"));
-    field("parameterCount", std::to_string(plc_.parameters()));
-    field("busCount", std::to_string(config_.buses.size()));
-    field("encoderCount", std::to_string(plc_.encoders()));
-    const auto [length, place] = bootupError();
-    field("bootupErrorLength", length);
-    field("bootupErrorOffset", place);
-    field("encoderRefLayout", std::to_string(plc_.encoderLayout()) + "ULL");
-    field("settle", copies_.empty() ? "nullptr" : "settle__");
-    field("filesRoot", config_.filesRoot.empty() ? std::string("nullptr")
-                                                 : "\"" + escaped(config_.filesRoot) + "\"");
-    field("filesAnywhere", config_.filesAnywhere ? "1" : "0");
-    field("filesDelay", std::to_string(config_.filesDelay));
-    out += "};\n\n} // namespace st::user\n";
   }
 
   Context &c_;

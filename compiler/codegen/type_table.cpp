@@ -60,8 +60,7 @@ Flags symbolFlags(const VarSymbol *v, bool qualifiedOnly = false) {
       .add((qualifiers & qualNonRetain) != 0, "NonRetain")
       .add(v->isConstant, "Constant")
       .add(v->hidden, "Hidden")
-      .add(v->decl != nullptr &&
-               findAttribute(v->decl->attributes, "init_on_onlchange") != nullptr,
+      .add(v->decl != nullptr && findAttribute(v->decl->attributes, "init_on_onlchange") != nullptr,
            "InitOnChange")
       .add(qualifiedOnly, "QualifiedOnly");
   return flags;
@@ -308,9 +307,8 @@ void TypeTable::addAccess(const AccessPath &access) {
     offset = "offsetof(App__, " + statePath(c_.names, access.path, c_.program.user) + ")";
   else
     offset = placeInImage(*access.location);
-  const std::string flags = access.location != nullptr
-                                ? locatedFlags(*access.location, own).text()
-                                : "::stride::kSymLocated | " + own.text();
+  const std::string flags = access.location != nullptr ? locatedFlags(*access.location, own).text()
+                                                       : "::stride::kSymLocated | " + own.text();
   const std::uint32_t type = index(access.type);
   rootRows_.push_back("{nullptr, " + quote(access.decl->name.text) + ", " + offset + ", " +
                       std::to_string(type) + ", " + flags + "}");
