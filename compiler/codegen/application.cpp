@@ -279,11 +279,11 @@ private:
           ", " + std::to_string(task.priority) + ", " + std::to_string(task.intervalNs) + ", " +
           std::to_string(task.watchdogNs) + ", " + std::to_string(task.watchdogSensitivity) + ", " +
           (task.core ? std::to_string(*task.core) : "::stride::kNoIndex") + ", " + name + ", " +
-          event + "},\n";
+          event + (task.sync ? ", " + std::to_string(*task.sync) : "") + "},\n";
     }
     if (!rows.empty())
       out += "\n// {name, kind, priority, intervalNs, watchdogNs, watchdogSensitivity, core, run, "
-             "event}\n"
+             "event, sync}\n"
              "constexpr ::stride::TaskDesc kTasks[] = {\n" +
              rows + "};\n";
   }

@@ -38,6 +38,7 @@ struct AppConfig {
     unsigned watchdogSensitivity = 1;  ///< violations that stop the application
     std::optional<unsigned> core;      ///< processor to run on
     std::vector<PouSymbol *> programs; ///< called in this order
+    std::optional<std::size_t> sync;   ///< axis group whose bSync is the event
   };
   struct Drive {
     std::string name;     ///< of the global AXIS_REF

@@ -84,6 +84,9 @@ struct AxisGroupConfig {
   std::vector<EncoderConfig> encoders;
 };
 
+/// Whether the task's event is the bSync of this axis group, which its driver gives.
+[[nodiscard]] bool isSyncOf(const TaskConfig &task, const AxisGroupConfig &group);
+
 /// What stride.toml says of one device of the process image.
 struct IoConfig {
   ConfigName name;

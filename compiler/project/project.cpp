@@ -319,6 +319,9 @@ AppConfig Project::appConfig() const {
       for (const PouSymbol *pou : program_.user->pous)
         if (equalIgnoringCase(pou->name.text, eventFunction(from)))
           task.event = pou;
+    for (std::size_t i = 0; i < config_.axisGroups.size(); ++i)
+      if (isSyncOf(from, config_.axisGroups[i]))
+        task.sync = i;
     for (const ConfigName &program : from.programs)
       for (PouSymbol *pou : program_.user->pous)
         if (pou->decl->kind == ast::DeclKind::program &&

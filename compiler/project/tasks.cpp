@@ -234,10 +234,7 @@ private:
                                 group.name.text, task->name.text),
                     "how long is a cycle?")
             .help("add the time between two events in µs, for example `dwCycle = 2000`");
-      // The bus has a SYNC every dwCycle, which the task need not wait for.
-      const stride::bus::DriverSchema *driver = stride::drivers::findSchema(group.driver);
-      if (driver != nullptr && driver->givesSync && task->start == TaskStart::event &&
-          equalIgnoringCase(task->event.text, group.name.text + ".bSync")) {
+      if (isSyncOf(*task, group)) { // from SYNC to SYNC
         task->intervalNs = std::int64_t{group.cycleUs} * 1000;
         onBus_.insert(task);
       }
@@ -413,6 +410,12 @@ private:
 void resolveTasks(ProjectConfig &config, const std::vector<ast::File *> &files,
                   ProgramCheck programCheck, Diagnostics &diagnostics) {
   TaskResolver(config, files, diagnostics).resolve(programCheck);
+}
+
+bool isSyncOf(const TaskConfig &task, const AxisGroupConfig &group) {
+  const stride::bus::DriverSchema *driver = stride::drivers::findSchema(group.driver);
+  return driver != nullptr && driver->givesSync && task.start == TaskStart::event &&
+         equalIgnoringCase(task.event.text, group.name.text + ".bSync");
 }
 
 std::string eventFunction(const TaskConfig &task) {

@@ -143,6 +143,9 @@ DriveParameters driveParameters(const bus::SetupParameters &given) {
   result.index = {has("index_position"), length("index_position"), length("index_distance")};
   result.probe = {has("probe_position"), length("probe_position"), length("probe_distance")};
 
+  result.probeInputs = static_cast<uint8_t>(whole("probe_inputs"));
+  result.quickStop = length("quick_stop");
+
   const CyclicMasks masks = cyclicMasks(given);
   result.modes = 0;
   if ((masks.sent & bus::kPosition) != 0)

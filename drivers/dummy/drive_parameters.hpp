@@ -3,6 +3,7 @@
 #define STRIDE_DRIVERS_DUMMY_DRIVE_PARAMETERS_HPP
 
 #include "drivers/dummy/mechanics.hpp"
+#include "runtime/bus/axis_driver.hpp"
 #include "runtime/bus/group_setup.hpp"
 
 #include <cstdint>
@@ -55,9 +56,19 @@ struct DriveParameters {
   HomingParameters homing;
   Marks index;
   Marks probe;
+  uint8_t probeInputs = 0;                                   ///< Bit n: there is input n.
+  double quickStop = 0;                                      ///< 0: it has none. [inc/s^2]
   uint8_t modes = 1U << kPositionMode | 1U << kVelocityMode; ///< Bit n: controller mode n.
   uint8_t received = 0x0F;                                   ///< bus::CyclicData.
+  // Of its parameter list only: what is no number. As a CANopen drive has it.
+  uint32_t deviceType = 0x00020192; ///< 1000h: servo drive, profile 402.
+  uint32_t userBits = 0;
+  bus::ByteString deviceName{std::string_view("Stride Dummy")}; ///< 1008h.
+  bus::ByteString userText;
 };
+
+/// Longest userText. [bytes]
+inline constexpr std::size_t kUserText = 32;
 
 /// Reads them.
 DriveParameters driveParameters(const bus::SetupParameters &parameters);

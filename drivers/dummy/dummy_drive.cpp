@@ -49,7 +49,7 @@ DummyDriver::Drive::Drive(const DriveParameters &given)
   status.received = given.received;
 }
 
-DummyDriver::DummyDriver(const bus::GroupSetup &setup) {
+DummyDriver::DummyDriver(const bus::GroupSetup &setup) : sync_(setup) {
   drives_.reserve(setup.drives.size());
   for (const bus::DriveSetup &drive : setup.drives)
     drives_.emplace_back(driveParameters(drive.parameters));
@@ -154,7 +154,66 @@ bool DummyDriver::pollParameter(std::size_t drive, bus::ParameterAnswer &answer)
 
 void DummyDriver::cancelParameter(std::size_t drive) { drives_[drive].askedCycles = 0; }
 
+bus::SyncWake DummyDriver::waitSync(int64_t afterNs, int64_t deadlineNs, bus::BusClock &clock) {
+  return sync_.wait(afterNs, deadlineNs, clock);
+}
+
+/// The SYNC with which a cycle begins, and what there is to say when it has not come.
+void DummyDriver::giveSync() {
+  if (host_ == nullptr || stopped_)
+    return;
+  missingUs_ = sync_.missingUs();
+  if (missingUs_ == 0) {
+    host_->raise(bus::BusEvent::Sync);
+    return;
+  }
+  bus::Message news;
+  problem(news);
+  host_->say(news);
+}
+
+void DummyDriver::problem(bus::Message &text) const {
+  if (missingUs_ != 0)
+    text.set(std::string_view("no SYNC for "), missingUs_,
+             std::string_view(" us: the task has run without it"));
+}
+
+void DummyDriver::applicationStopped() {
+  stopped_ = true;
+  for (Drive &d : drives_)
+    d.stops = d.parameters.quickStop > 0 && d.status.regulatorOn && d.status.driveStarted &&
+              d.homing.state() == bus::Homing::None && d.status.controllerMode != kTorqueMode;
+}
+
+bool DummyDriver::atRest() const {
+  for (const Drive &d : drives_)
+    if (d.stops && d.velocityDemanded != 0)
+      return false;
+  return true;
+}
+
+/// Set values of a drive that brakes by itself.
+Demand DummyDriver::quickStop(Drive &d) {
+  const double cycle = d.parameters.mechanics.cycle;
+  const double deceleration = d.parameters.quickStop;
+  const double before = d.velocityDemanded;
+  const double speed = before < 0 ? -before : before;
+  const double time = speed > deceleration * cycle ? cycle : speed / deceleration;
+  const double left = speed > deceleration * cycle ? speed - deceleration * cycle : 0;
+  Demand own;
+  own.mode = d.status.controllerMode;
+  own.from = d.demanded;
+  own.velocityFrom = before;
+  own.velocity = d.velocityDemanded = before < 0 ? -left : left;
+  d.stopRest += 0.5 * (before + own.velocity) * time;
+  const double whole = stride::floor(d.stopRest + 0.5);
+  d.stopRest -= whole;
+  own.to = d.demanded = d.reached = own.from + static_cast<int64_t>(whole);
+  return own;
+}
+
 void DummyDriver::executeStart() {
+  giveSync();
   for (Drive &d : drives_) {
     if (d.sim != nullptr)
       disturb(d);
@@ -226,7 +285,7 @@ void DummyDriver::publish(Drive &d) {
 
 void DummyDriver::latch(Drive &d, std::size_t input, double increments) {
   const auto bit = static_cast<uint8_t>(1U << input);
-  if ((d.command.capture & bit) == 0 || (d.status.captured & bit) != 0)
+  if ((d.command.capture & d.parameters.probeInputs & bit) == 0 || (d.status.captured & bit) != 0)
     return;
   d.status.captured = d.status.captured | bit;
   d.status.capturedPosition[input] = counter(static_cast<int64_t>(stride::floor(increments + 0.5)));
@@ -309,7 +368,7 @@ void DummyDriver::move(Drive &d) {
     d.command.position = counter(d.demanded);
   }
   const double before = exactPosition(d.mechanics);
-  const Demand demand = home(d, nextDemand(d));
+  const Demand demand = d.stops ? quickStop(d) : home(d, nextDemand(d));
   const double load = d.sim != nullptr ? d.sim->fLoadTorque : 0.0;
   if (!d.status.driveStarted)
     d.mechanics.hold();

@@ -5,6 +5,7 @@
 #include "drivers/dummy/drive_parameters.hpp"
 #include "drivers/dummy/reference_run.hpp"
 #include "drivers/dummy/schema.hpp"
+#include "drivers/dummy/simulated_sync.hpp"
 #include "runtime/bus/axis_driver.hpp"
 
 #include "st/DummyDrive/DUMMY_DRIVE_SIM.h"
@@ -31,14 +32,19 @@ public:
   [[nodiscard]] bus::DriveStatus status(std::size_t drive) const override;
   void command(std::size_t drive, const bus::DriveCommand &command) override;
   [[nodiscard]] uint8_t controllerModes(std::size_t drive) const override;
-  [[nodiscard]] uint8_t captureInputs(std::size_t /*drive*/) const override {
-    return bus::DriveStatus::kCaptureInputs;
+  [[nodiscard]] uint8_t captureInputs(std::size_t drive) const override {
+    return drives_[drive].parameters.probeInputs;
   }
   [[nodiscard]] uint32_t encoder(std::size_t encoder) const override;
   void bindData(std::size_t drive, void *data) override;
   bool startParameter(std::size_t drive, const bus::ParameterRequest &request) override;
   bool pollParameter(std::size_t drive, bus::ParameterAnswer &answer) override;
   void cancelParameter(std::size_t drive) override;
+  void attach(bus::DriverHost &host) override { host_ = &host; }
+  bus::SyncWake waitSync(int64_t afterNs, int64_t deadlineNs, bus::BusClock &clock) override;
+  void applicationStopped() override;
+  [[nodiscard]] bool atRest() const override;
+  void problem(bus::Message &text) const override;
 
   /// Simulates an error of the drive: it goes out of regulation until the error is acknowledged.
   void raiseError(std::size_t drive, uint16_t errorId);
@@ -69,6 +75,8 @@ private:
     bool lost = false;           ///< By setCommunication.
     bus::ParameterRequest asked; ///< The question for a parameter …
     uint32_t askedCycles = 0;    ///< … and the cycles until it is answered; 0: it is.
+    bool stops = false;          ///< By itself: a quick stop.
+    double stopRest = 0;         ///< Of its set position, below one increment.
     bool index = false;
     double indexMark = 0; ///< [inc]
     DriveSim *sim = nullptr;
@@ -95,9 +103,15 @@ private:
   static void latch(Drive &drive, std::size_t input, double increments);
   static Demand nextDemand(Drive &drive);
   static Demand home(Drive &drive, const Demand &demand);
+  static Demand quickStop(Drive &drive);
+  void giveSync();
 
   std::vector<Drive> drives_;
   std::vector<Encoder> encoders_;
+  bus::DriverHost *host_ = nullptr;
+  SimulatedSync sync_;
+  uint32_t missingUs_ = 0; ///< Of the SYNC of the last cycle before the stop.
+  bool stopped_ = false;
 };
 
 /// The driver for one drive group of interface type "Dummy".

@@ -26,6 +26,8 @@ struct Entry {
   Range range;
   double (*get)(const Target &);
   void (*set)(Target &, double);
+  uint32_t DriveParameters::*raw = nullptr;          ///< Type::Raw.
+  bus::ByteString DriveParameters::*bytes = nullptr; ///< Type::Bytes.
 };
 
 double units(const Target &t, double increments) {
@@ -34,6 +36,7 @@ double units(const Target &t, double increments) {
 double increments(const Target &t, double units) { return units / t.parameters.unitsPerIncrement; }
 
 void neverSet(Target & /*t*/, double /*value*/) {}
+double noNumber(const Target & /*t*/) { return 0; }
 
 // Everything of the mechanics that is set goes on from where it is.
 template <double MechanicsParameters::*Member> void setMechanics(Target &t, double value) {
@@ -140,7 +143,29 @@ constexpr std::array kEntries = {
           [](const Target &t) -> double { return t.status.homeSwitch ? 1 : 0; }, neverSet},
     Entry{106, kWhole, "ErrorNumber", "", Of::All, Range::ReadOnly,
           [](const Target &t) -> double { return t.status.errorId; }, neverSet},
+    Entry{200, Type::Raw, "DeviceType", "", Of::All, Range::ReadOnly, noNumber, neverSet,
+          &D::deviceType},
+    Entry{201, Type::Raw, "UserBits", "", Of::All, Range::Any, noNumber, neverSet, &D::userBits},
+    Entry{210, Type::Bytes, "DeviceName", "", Of::All, Range::ReadOnly, noNumber, neverSet, nullptr,
+          &D::deviceName},
+    Entry{211, Type::Bytes, "UserText", "", Of::All, Range::Any, noNumber, neverSet, nullptr,
+          &D::userText},
 };
+
+bus::ParameterForm formOf(const Entry &entry) {
+  switch (entry.type) {
+  case Type::Bool:
+    return bus::ParameterForm::Bool;
+  case Type::Raw:
+    return bus::ParameterForm::Raw;
+  case Type::Bytes:
+    return bus::ParameterForm::Bytes;
+  case Type::Whole:
+  case Type::Real:
+    break;
+  }
+  return bus::ParameterForm::Number;
+}
 
 bool applies(const Entry &entry, const Target &target) {
   switch (entry.of) {
@@ -176,17 +201,17 @@ const Entry *find(const Target &target, int32_t number) {
   return nullptr;
 }
 
-const Entry *findPlace(const Target &target, int32_t place) {
+const Entry *findPlace(const Target &target, const bus::ParameterRequest &request) {
+  int32_t place = request.number;
   for (const Entry &entry : kEntries)
-    if (applies(entry, target) && place-- == 0)
+    if (applies(entry, target) && (request.forms & bus::formBit(formOf(entry))) != 0 &&
+        place-- == 0)
       return &entry;
   return nullptr;
 }
 
-Answer::Result write(Target &target, const Entry &entry, double value) {
+Answer::Result writeNumber(Target &target, const Entry &entry, double value) {
   constexpr double kLargest = 1e9; // any further whole number fits
-  if (entry.range == Range::ReadOnly)
-    return Answer::Result::ReadOnly;
   if (!(value > -1e300 && value < 1e300))
     return Answer::Result::Refused;
   if (entry.type == Type::Whole)
@@ -197,24 +222,47 @@ Answer::Result write(Target &target, const Entry &entry, double value) {
   return Answer::Result::Done;
 }
 
+Answer::Result write(Target &target, const Entry &entry, const bus::ParameterRequest &request) {
+  if (entry.range == Range::ReadOnly)
+    return Answer::Result::ReadOnly;
+  if (entry.raw != nullptr) {
+    target.parameters.*entry.raw = request.raw;
+  } else if (entry.bytes != nullptr) {
+    if (request.bytes.size() > kUserText)
+      return Answer::Result::Refused;
+    target.parameters.*entry.bytes = request.bytes;
+  } else {
+    return writeNumber(target, entry, request.value);
+  }
+  return Answer::Result::Done;
+}
+
+void read(const Target &target, const Entry &entry, Answer &answer) {
+  if (entry.raw != nullptr)
+    answer.raw = target.parameters.*entry.raw;
+  else if (entry.bytes != nullptr)
+    answer.bytes = target.parameters.*entry.bytes;
+  else
+    answer.value = entry.get(target);
+}
+
 } // namespace
 
 Answer answerParameter(Target &target, const bus::ParameterRequest &request) {
   using Kind = bus::ParameterRequest::Kind;
   Answer answer;
-  const Entry *entry = request.kind == Kind::Describe ? findPlace(target, request.number)
-                                                      : find(target, request.number);
-  if (entry == nullptr ||
-      (request.kind != Kind::Describe && (entry->type == Type::Bool) != request.boolean)) {
+  const Entry *entry =
+      request.kind == Kind::Describe ? findPlace(target, request) : find(target, request.number);
+  if (entry == nullptr || (request.kind != Kind::Describe && formOf(*entry) != request.form)) {
     answer.result = Answer::Result::Unknown;
     return answer;
   }
   switch (request.kind) {
   case Kind::Read:
-    answer.value = entry->get(target);
+    read(target, *entry, answer);
     break;
   case Kind::Write:
-    answer.result = write(target, *entry, request.value);
+    answer.result = write(target, *entry, request);
     break;
   case Kind::Describe:
     answer.number = entry->number;

@@ -125,6 +125,9 @@ inline constexpr std::array kDrive = {
         .together("probe_position")
         .defaultsTo(turn, "a turn of a rotary drive")
         .says("from one mark to the next"),
+    whole("probe_inputs", 0, 15)
+        .defaultsTo(15)
+        .says("the touch probe inputs that the drive has, 1 + 2 + 4 + 8 for all four"),
     whole("parameter_cycles", 1, 100000, "cycles")
         .defaultsTo(3)
         .says("until the drive answers a question for one of its parameters"),
@@ -144,6 +147,10 @@ inline constexpr std::array kDrive = {
     choice("homing_direction", kDirections)
         .defaultsTo(-1)
         .says("where the home switch is looked for"),
+    positive("quick_stop", "u/s²")
+        .says("when the application stops, the drive brakes by itself with this deceleration; "
+              "without it, "
+              "it follows its set values to the end"),
 };
 
 inline constexpr std::array kEncoder = {

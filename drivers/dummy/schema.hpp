@@ -9,6 +9,17 @@
 
 namespace stride::dummy {
 
+// Faults of a simulated SYNC, for groups whose task waits for it.
+inline constexpr std::array kGroupSimulation = {
+    common::duration("sync_offset")
+        .defaultsTo(0)
+        .says("SYNC comes so much after the beginning of a cycle of dwCycle"),
+    common::whole("sync_lost", 2, 1000000, "SYNCs")
+        .says("each last one of so many does not come; without it all do"),
+};
+inline constexpr std::array kAxisGroupTables = {
+    common::ParameterTable{"simulation", "the simulation of a bus", kGroupSimulation}};
+
 inline constexpr std::array kDriveTables = {
     common::ParameterTable{"physics", "the physics of a drive", physics::kDrive}};
 inline constexpr std::array kEncoderTables = {
@@ -22,6 +33,7 @@ inline constexpr bus::DriverSchema kSchema = {
                   .suffix = "_Sim",
                   .what = "simulation of drive"},
     .givesSync = true,
+    .axisGroupTables = kAxisGroupTables,
     .driveTables = kDriveTables,
     .encoderTables = kEncoderTables,
 };

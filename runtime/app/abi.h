@@ -125,6 +125,9 @@ struct TaskDesc {
   uint32_t core;                ///< The processor it runs on with the real clock; kNoIndex: any.
   void (*run)(Ctx *ctx);        ///< Calls the task's POUs in their order.
   BOOL (*event)(Ctx *ctx) = nullptr; ///< Event, Status: what starts it. Else null.
+  /// Event: the axis group whose bSync it is; the driver of that bus starts the task. For the task
+  /// that serves the group, intervalNs is the time from SYNC to SYNC. Else kNoIndex.
+  uint32_t sync = kNoIndex;
 };
 
 /// One parameter of the PLC configuration, as the driver gets it. Which there are, the driver's

@@ -127,7 +127,8 @@ void validate(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
   }
   for (uint32_t i = 0; i < app.taskCount; ++i) {
     const TaskDesc &task = app.tasks[i];
-    if (task.name == nullptr || task.run == nullptr || task.kind > TaskKind::Status)
+    if (task.name == nullptr || task.run == nullptr || task.kind > TaskKind::Status ||
+        (task.sync != kNoIndex && task.sync >= app.axisGroupCount))
       damaged(fmt::format("task {}", i));
   }
   for (uint32_t i = 0; i < app.axisGroupCount; ++i) {

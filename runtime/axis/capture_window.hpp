@@ -35,6 +35,12 @@ inline int16_t captureInput(int16_t triggerNumber) noexcept {
   return triggerNumber == -1 ? int16_t{0} : triggerNumber;
 }
 
+/// Whether the axis's drive has that input.
+inline bool hasCaptureInput(const AxisRef &axis, int16_t input) noexcept {
+  return input >= 0 && input < int16_t{decltype(AxisRef::aCapture)::kSize} &&
+         ((axis.byCaptureInputs >> input) & 1) != 0;
+}
+
 } // namespace stride::axis
 
 #endif

@@ -5,6 +5,19 @@
 
 namespace stride::bus {
 
+ByteString::ByteString(std::string_view text) {
+  assign({reinterpret_cast<const uint8_t *>(text.data()), text.size()});
+}
+
+void ByteString::assign(std::span<const uint8_t> bytes) {
+  size_ = static_cast<uint8_t>(std::min(bytes.size(), kMost));
+  std::copy_n(bytes.data(), size_, bytes_.data());
+}
+
+std::string_view ByteString::text() const {
+  return {reinterpret_cast<const char *>(bytes_.data()), size_};
+}
+
 void Message::append(std::string_view text) {
   const std::size_t count = std::min(text.size(), text_.size() - length_);
   std::copy_n(text.data(), count, text_.data() + length_);

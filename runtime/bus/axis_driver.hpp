@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 namespace stride::bus {
@@ -64,27 +65,71 @@ struct DriveCommand {
   uint8_t controllerMode = 3; ///< As in DriveStatus.
 };
 
+/// Bytes of a parameter that is no number, such as a drive's name; without memory of its own
+/// elsewhere.
+class ByteString {
+public:
+  static constexpr std::size_t kMost = 128;
+
+  ByteString() = default;
+  /// Takes as many as there is room for.
+  explicit ByteString(std::span<const uint8_t> bytes) { assign(bytes); }
+  explicit ByteString(std::string_view text);
+
+  void assign(std::span<const uint8_t> bytes);
+  [[nodiscard]] std::span<const uint8_t> bytes() const { return {bytes_.data(), size_}; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  /// The bytes as they are, as text.
+  [[nodiscard]] std::string_view text() const;
+  friend bool operator==(const ByteString &a, const ByteString &b) { return a.text() == b.text(); }
+
+private:
+  std::array<uint8_t, kMost> bytes_{};
+  uint8_t size_ = 0;
+};
+
+/// How the value of a parameter travels. A parameter has one form.
+enum class ParameterForm : uint8_t {
+  Number, ///< As a double, in the parameter's unit.
+  Bool,   ///< As a double, 0 or 1.
+  Raw,    ///< As the 32 bits that they are: neither BOOL nor number to anybody but the drive.
+  Bytes,  ///< As up to ByteString::kMost bytes.
+};
+
+/// Several forms: bit n stands for form n.
+using ParameterForms = uint8_t;
+constexpr ParameterForms formBit(ParameterForm form) {
+  return static_cast<ParameterForms>(1U << static_cast<unsigned>(form));
+}
+inline constexpr ParameterForms kAllForms = 0x0F;
+
 /// A question for one of the drive's own parameters.
 struct ParameterRequest {
   enum class Kind : uint8_t { Read, Write, Describe };
   Kind kind = Kind::Read;
-  int32_t number = 0;   ///< The drive's number; Describe: the place in its list, from 0.
-  bool boolean = false; ///< Read, Write: it is meant as a BOOL.
-  double value = 0;     ///< Write: a BOOL as 0 or 1.
+  /// The drive's number; Describe: the place in its list, from 0, among those of `forms`.
+  int32_t number = 0;
+  ParameterForm form = ParameterForm::Number; ///< Read, Write: as what it is meant.
+  double value = 0;                           ///< Write: a number, or a BOOL.
+  uint32_t raw = 0;                           ///< Write: the raw bits.
+  ByteString bytes;                           ///< Write: the bytes.
+  ParameterForms forms = kAllForms;           ///< Describe: what the asker can deal with.
 };
 
 /// The answer.
 struct ParameterAnswer {
   enum class Result : uint8_t {
     Done,
-    Unknown,  ///< There is no such parameter, or not of that type; Describe: the list is shorter.
+    Unknown,  ///< There is no such parameter, or not of that form; Describe: the list is shorter.
     ReadOnly, ///< Write: it is not to be written.
     Refused,  ///< Write: not with this value, or not now.
     Failed,   ///< The transfer has failed.
   };
-  enum class Type : uint8_t { Bool = 1, Whole = 2, Real = 3 };
+  enum class Type : uint8_t { Bool = 1, Whole = 2, Real = 3, Raw = 4, Bytes = 5 };
   Result result = Result::Done;
-  double value = 0; ///< Read.
+  double value = 0; ///< Read: a number, or a BOOL.
+  uint32_t raw = 0; ///< Read: the raw bits.
+  ByteString bytes; ///< Read: the bytes.
   // Describe:
   int32_t number = 0;
   Type type = Type::Real;
@@ -111,6 +156,48 @@ public:
 private:
   std::array<char, 255> text_{};
   std::size_t length_ = 0;
+};
+
+/// What happens on a bus and starts tasks of the program.
+enum class BusEvent : uint8_t {
+  Sync, ///< The SYNC of this cycle: SMC_AXISGROUP_REF.bSync.
+};
+
+/// Whoever runs a driver, as it sees him. From the driver's calls, in the cyclic path.
+class DriverHost {
+public:
+  DriverHost() = default;
+  DriverHost(const DriverHost &) = delete;
+  DriverHost &operator=(const DriverHost &) = delete;
+  virtual ~DriverHost() = default;
+
+  /// Event tasks of the program that wait for it run.
+  virtual void raise(BusEvent event) noexcept = 0;
+  /// News for people, shown later and with the name of the drive group before it. When more comes
+  /// than is shown meanwhile, it is counted only.
+  virtual void say(const Message &news) noexcept = 0;
+};
+
+/// The program's time. In virtual time whoever sleeps is there at once.
+class BusClock {
+public:
+  BusClock() = default;
+  BusClock(const BusClock &) = delete;
+  BusClock &operator=(const BusClock &) = delete;
+  virtual ~BusClock() = default;
+
+  [[nodiscard]] virtual int64_t nowNs() const noexcept = 0;
+  virtual void sleepUntil(int64_t timeNs) noexcept = 0;
+  /// That time by the system's monotonic clock, to wait at a socket until then; virtual time:
+  /// INT64_MAX.
+  [[nodiscard]] virtual int64_t monotonicNs(int64_t timeNs) const noexcept = 0;
+};
+
+/// How a wait for SYNC has ended.
+struct SyncWake {
+  int64_t timeNs = 0;   ///< When SYNC came; else when the wait ended.
+  bool arrived = false; ///< FALSE: the deadline came first.
+  uint64_t missed = 0;  ///< SYNCs that came before it, while the task was in its cycle.
 };
 
 /// One bus with the drives and encoders of a drive group, numbered from 0 as configured: the
@@ -146,8 +233,8 @@ public:
   /// drive has started.
   [[nodiscard]] virtual uint8_t controllerModes(std::size_t drive) const = 0;
 
-  /// How many inputs the drive has at which it latches its position, at most
-  /// DriveStatus::kCaptureInputs. Known once the drive has started.
+  /// The inputs at which the drive latches its position: bit n stands for input n, which is less
+  /// than DriveStatus::kCaptureInputs. Known once the drive has started.
   [[nodiscard]] virtual uint8_t captureInputs(std::size_t /*drive*/) const { return 0; }
 
   /// Asks the drive for one of its own parameters, without waiting; one question at a time for each
@@ -171,6 +258,33 @@ public:
   /// Where the structure that driver and program share about a drive (AXIS_REF.pMS) is now; null:
   /// there is none. Called before the first cycle and whenever the application has moved.
   virtual void bindData(std::size_t /*drive*/, void * /*data*/) {}
+
+  /// Whom it may talk to, before the first cycle; he lives as long as the driver is called.
+  virtual void attach(DriverHost & /*host*/) {}
+
+  /// For drivers that give SYNC (DriverSchema::givesSync) and a task on bSync: waits for the first
+  /// SYNC after `afterNs`, the time of the task's last cycle (-1: there was none yet), but not
+  /// beyond `deadlineNs`. If one came while the task could not wait, the last of them counts. From
+  /// the task's thread, between its cycles. In virtual time it is called as soon as the cycle is
+  /// over, and the time that it returns is when the next one will be: it must depend on nothing but
+  /// the calls. All times in the program's time. [ns]
+  virtual SyncWake waitSync(int64_t /*afterNs*/, int64_t deadlineNs, BusClock &clock) {
+    clock.sleepUntil(deadlineNs);
+    return {deadlineNs};
+  }
+
+  /// The application has stopped, with an exception or because the run ends: no program moves the
+  /// axes any more. The cycles go on, with set values that brake what moves, until all axes and the
+  /// driver are at rest; the driver may bring its drives to a stop in a better way (a quick stop),
+  /// and must keep the bus alive. Called once.
+  virtual void applicationStopped() {}
+
+  /// After applicationStopped: nothing moves any more that the driver stops by itself.
+  [[nodiscard]] virtual bool atRest() const { return true; }
+
+  /// What keeps the whole bus from working just now, for people; nothing set: it works. Not in the
+  /// cyclic path: when no cycle runs any more.
+  virtual void problem(Message & /*text*/) const {}
 };
 
 } // namespace stride::bus

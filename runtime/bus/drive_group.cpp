@@ -30,6 +30,8 @@ constexpr uint8_t kCurrentControl = ::st::SM_DriveBasic::SMC_CONTROLLER_MODE__SM
 constexpr uint32_t kPowerOffCycles =
     1000; ///< A drive that does not switch off does not block a reset.
 
+constexpr uint8_t kCaptureInputs = (1U << DriveStatus::kCaptureInputs) - 1;
+
 bool isMotion(int16_t axisState) {
   return axisState == axis::state::kDiscrete || axisState == axis::state::kContinuous ||
          axisState == axis::state::kSynchronized || axisState == axis::state::kHoming;
@@ -161,7 +163,7 @@ void DriveGroup::startUp() {
       }
       axis.wCommunicationState = axis::kNormalOperation;
       axis.byControllerModes = driver_->controllerModes(i);
-      axis.byCaptureInputs = driver_->captureInputs(i);
+      axis.byCaptureInputs = driver_->captureInputs(i) & kCaptureInputs;
       axis::synchronizePosition(axis, driver_->status(i).position);
       break;
     case StartUp::Failed:
@@ -200,7 +202,7 @@ void DriveGroup::beginReset() {
 void DriveGroup::stepReset() {
   switch (group_->wState) {
   case kResetBraking:
-    if (atRest())
+    if (axesAtRest())
       group_->wState = kResetPowerOff;
     break;
   case kResetPowerOff:
@@ -445,9 +447,10 @@ void DriveGroup::stopAll() {
         axis->nAxisState != axis::state::kErrorStop && axis->fSetVelocity != 0.0)
       enterErrorStop(*axis, axis::error::kNotCalled);
   }
+  driver_->applicationStopped();
 }
 
-bool DriveGroup::atRest() const {
+bool DriveGroup::axesAtRest() const {
   return std::all_of(axes_.begin(), axes_.end(),
                      [](const axis::AxisRef *axis) { return axis->fSetVelocity == 0.0; });
 }

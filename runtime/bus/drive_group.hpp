@@ -48,17 +48,18 @@ public:
   /// values and sends them.
   void executeEnd();
 
-  /// The application has stopped with an exception: brakes all moving axes to errorstop. Keep
+  /// The application has stopped: brakes all moving axes to errorstop, and tells the driver. Keep
   /// calling executeStart and executeEnd without POUs until atRest().
   void stopAll();
 
-  /// No axis of the group moves.
-  [[nodiscard]] bool atRest() const;
+  /// No axis of the group moves, and the driver is at rest.
+  [[nodiscard]] bool atRest() const { return axesAtRest() && driver_->atRest(); }
 
   /// Why start-up failed, for g_strBootupError; empty if it did not.
   [[nodiscard]] std::string_view bootupError() const { return bootupError_.text(); }
 
   [[nodiscard]] AxisDriver &driver() { return *driver_; }
+  [[nodiscard]] const AxisDriver &driver() const { return *driver_; }
 
 private:
   /// What SMC_ResetAxisGroup goes back to.
@@ -75,6 +76,7 @@ private:
   void stepReset();
   void restart(std::size_t index);
   bool anyPower() const;
+  bool axesAtRest() const;
   void readDrive(std::size_t index);
   bool followsDrive(const axis::AxisRef &axis) const;
   void readHoming(axis::AxisRef &axis, const DriveStatus &status);

@@ -9,6 +9,10 @@ namespace {
 
 constexpr uint16_t kLongest = 1000; ///< Cycles: without an answer, or with one nobody fetches.
 
+/// What AXIS_REF.stChannel can carry.
+constexpr ParameterForms kChannelForms =
+    formBit(ParameterForm::Number) | formBit(ParameterForm::Bool);
+
 template <class Text> void copyText(Text &to, std::string_view from) {
   const std::size_t count = std::min<std::size_t>(from.size(), Text::kLength);
   std::copy_n(from.data(), count, to.s);
@@ -57,8 +61,12 @@ void DriveGroup::serveParameters(std::size_t index) {
       finish(channel, axis::ChannelResult::Late);
       return;
     }
-    const ParameterRequest request{static_cast<ParameterRequest::Kind>(channel.byKind),
-                                   channel.diNumber, channel.bBool != 0, channel.fValue};
+    ParameterRequest request;
+    request.kind = static_cast<ParameterRequest::Kind>(channel.byKind);
+    request.number = channel.diNumber;
+    request.form = channel.bBool != 0 ? ParameterForm::Bool : ParameterForm::Number;
+    request.value = channel.fValue;
+    request.forms = kChannelForms;
     if (axis.wCommunicationState != axis::kNormalOperation ||
         !driver_->startParameter(index, request))
       return;

@@ -4,6 +4,7 @@
 #include "runtime/app/error.hpp"
 #include "runtime/bus/drive_group.hpp"
 #include "runtime/host/error_names.hpp"
+#include "runtime/host/news_ring.hpp"
 #include "runtime/host/task_times.hpp"
 
 #include <fmt/format.h>
@@ -60,12 +61,36 @@ private:
   std::atomic_flag taken_;
 };
 
-class AxisGroupHook final : public task::CycleHook {
+/// The program's time as a driver sees it.
+class DriverClock final : public bus::BusClock {
+public:
+  explicit DriverClock(task::TaskClock &clock) : clock_(&clock) {}
+  int64_t nowNs() const noexcept override { return clock_->nowNs(); }
+  void sleepUntil(int64_t timeNs) noexcept override { clock_->sleepUntil(timeNs); }
+  int64_t monotonicNs(int64_t timeNs) const noexcept override {
+    return clock_->monotonicNs(timeNs);
+  }
+
+private:
+  task::TaskClock *clock_;
+};
+
+/// The event tasks that the SYNC of this group raises; its own task waits for it otherwise.
+std::vector<uint32_t> tasksOnSync(const StrideAppV1 &app, uint32_t group) {
+  std::vector<uint32_t> tasks;
+  for (uint32_t i = 0; i < app.taskCount; ++i)
+    if (app.tasks[i].sync == group && i != app.axisGroups[group].task)
+      tasks.push_back(i);
+  return tasks;
+}
+
+class AxisGroupHook final : public task::CycleHook, private task::Pacer, private bus::DriverHost {
 public:
   AxisGroupHook(const StrideAppV1 &app, uint32_t index, std::byte *state,
                 std::unique_ptr<bus::AxisDriver> driver, double cycleSeconds, InputPort &inputs,
-                bool realClock, std::shared_ptr<BootupErrors> errors)
-      : errors_(std::move(errors)), inputs_(&inputs), realClock_(realClock),
+                task::TaskSet &tasks, std::shared_ptr<BootupErrors> errors)
+      : errors_(std::move(errors)), inputs_(&inputs), tasks_(&tasks),
+        onSync_(tasksOnSync(app, index)), realClock_(tasks.realClock()),
         ref_(&groupOf(app, state, index)), index_(index), name_(app.axisGroups[index].name),
         bootupErrorOffset_(app.bootupErrorOffset), bootupErrorLength_(app.bootupErrorLength),
         group_(std::move(driver), *ref_, axesOf(app, state), cycleSeconds, encodersOf(app, state)) {
@@ -76,6 +101,10 @@ public:
       ids_.push_back(app.drives[group.firstDrive + i].driveId);
     }
     stopped_.resize(axes_.size());
+    group_.driver().attach(*this);
+    tasks.addHook(group.task, *this);
+    if (const TaskDesc &task = app.tasks[group.task]; task.sync == index && task.intervalNs > 0)
+      tasks.setPacer(group.task, *this);
   }
 
   void beforePous(Ctx &ctx) override {
@@ -115,11 +144,22 @@ public:
     }
   }
   bool atRest() const override { return group_.atRest(); }
+  std::vector<std::string> takeNews() override {
+    std::vector<std::string> news = news_.take();
+    for (std::string &one : news)
+      one = fmt::format("axis group '{}'{}", name_, one);
+    return news;
+  }
   std::string problem() const override {
     char text[320];
-    const std::string_view failure = bootupError(text);
-    return failure.empty() ? std::string()
-                           : fmt::format("axis group '{}' did not start: {}", name_, failure);
+    if (const std::string_view failure = bootupError(text); !failure.empty())
+      return realClock_ && shown_
+                 ? std::string()
+                 : fmt::format("axis group '{}' did not start: {}", name_, failure);
+    bus::Message message;
+    group_.driver().problem(message);
+    return message.text().empty() ? std::string()
+                                  : fmt::format("axis group '{}': {}", name_, message.text());
   }
 
   void rebind(const StrideAppV1 &app, std::byte *state) noexcept override {
@@ -137,6 +177,26 @@ public:
   }
 
 private:
+  task::Wake wait(int64_t afterNs, int64_t deadlineNs, task::TaskClock &clock) noexcept override {
+    DriverClock driverClock(clock);
+    const bus::SyncWake wake = group_.driver().waitSync(afterNs, deadlineNs, driverClock);
+    return {wake.timeNs, wake.arrived, wake.missed};
+  }
+  void raise(bus::BusEvent event) noexcept override {
+    switch (event) {
+    case bus::BusEvent::Sync:
+      for (const uint32_t task : onSync_)
+        tasks_->raise(task);
+      break;
+    }
+  }
+  void say(const bus::Message &news) noexcept override { sayNews(": ", news.text()); }
+  void sayNews(std::string_view begin, std::string_view text) noexcept {
+    bus::Message all;
+    all.set(begin, text);
+    news_.put(all.text());
+  }
+
   static bus::AxisGroupRef &groupOf(const StrideAppV1 &app, std::byte *state, uint32_t index) {
     return at<bus::AxisGroupRef>(state, app.axisGroups[index].groupOffset);
   }
@@ -185,14 +245,22 @@ private:
   /// A new failure, or the end of one, in g_strBootupError.
   void show(Ctx &ctx, bool failed) {
     char text[320];
-    if (bootupErrorLength_ == 0 ||
-        errors_->show(index_, bootupError(text),
-                      static_cast<char *>(ctx.state) + bootupErrorOffset_, bootupErrorLength_))
-      shown_ = failed;
+    const std::string_view failure = bootupError(text);
+    if (bootupErrorLength_ != 0 &&
+        !errors_->show(index_, failure, static_cast<char *>(ctx.state) + bootupErrorOffset_,
+                       bootupErrorLength_))
+      return;
+    shown_ = failed;
+    // Nobody waits for the end of a run by the real clock; a simulation says it there.
+    if (failed && realClock_)
+      sayNews(" did not start: ", failure);
   }
 
   std::shared_ptr<BootupErrors> errors_; ///< Of all groups.
   InputPort *inputs_;
+  task::TaskSet *tasks_;
+  std::vector<uint32_t> onSync_;
+  NewsRing news_;
   bool realClock_;
   bus::AxisGroupRef *ref_;
   TaskTimes times_;
@@ -289,9 +357,7 @@ addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPo
     for (uint32_t d = 0; d < group.driveCount; ++d)
       bindData(app.drives[group.firstDrive + d], driver, application.state());
     hooks.push_back(std::make_unique<AxisGroupHook>(app, i, application.state(), driver.make(setup),
-                                                    setup.cycleSeconds, inputs, tasks.realClock(),
-                                                    errors));
-    tasks.addHook(group.task, *hooks.back());
+                                                    setup.cycleSeconds, inputs, tasks, errors));
   }
   return hooks;
 }

@@ -38,6 +38,11 @@ std::string durationText(int64_t ns) {
   return fmt::format("{}ns", ns);
 }
 
+std::string syncText(const StrideAppV1 &app, uint32_t group) {
+  return group == kNoIndex ? std::string("none")
+                           : fmt::format("{}.bSync", app.axisGroups[group].name);
+}
+
 std::string coreText(uint32_t core) {
   return core == kNoIndex ? "the one of the run" : std::to_string(core);
 }
@@ -93,6 +98,8 @@ void OnlineChange::compareTasks() {
       differs("interval", durationText(b.intervalNs), durationText(a.intervalNs));
     if (a.priority != b.priority)
       differs("priority", std::to_string(b.priority), std::to_string(a.priority));
+    if (a.sync != b.sync)
+      differs("SYNC", syncText(is, b.sync), syncText(was, a.sync));
     if (a.core != b.core)
       differs("processor", coreText(b.core), coreText(a.core));
   }

@@ -23,8 +23,9 @@ public:
   virtual void beforePous(Ctx &ctx) = 0;
   virtual void afterPous(Ctx &ctx) = 0;
 
-  /// The application has stopped with an exception; from now on the hooks are called without the
-  /// POUs between them, until all are at rest. Brings its part of the machine to a safe stop.
+  /// The application has stopped, with an exception or because the run ends; from now on the hooks
+  /// are called without the POUs between them, until all are at rest. Brings its part of the
+  /// machine to a safe stop.
   virtual void applicationStopped() {}
   /// Nothing of this hook's part of the machine moves any more.
   virtual bool atRest() const { return true; }

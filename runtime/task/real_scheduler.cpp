@@ -39,6 +39,21 @@ std::vector<uint32_t> ranksOf(const TaskSet &tasks) {
 
 } // namespace
 
+class RealScheduler::Clock final : public TaskClock {
+public:
+  explicit Clock(int64_t originNs) : originNs_(originNs) {}
+  int64_t nowNs() const noexcept override { return task::monotonicNs() - originNs_; }
+  void sleepUntil(int64_t timeNs) noexcept override {
+    const ::timespec until = toTimespec(originNs_ + timeNs);
+    while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+    }
+  }
+  int64_t monotonicNs(int64_t timeNs) const noexcept override { return originNs_ + timeNs; }
+
+private:
+  int64_t originNs_;
+};
+
 RealScheduler::RealScheduler(TaskSet &tasks, const RealOptions &options)
     : tasks_(&tasks), options_(options), gate_(ranksOf(tasks), options.turns || !options.fifo) {
   for (uint32_t i = 0; i < tasks.count(); ++i) {
@@ -47,10 +62,12 @@ RealScheduler::RealScheduler(TaskSet &tasks, const RealOptions &options)
     ::sem_init(&worker->raised, 0, 0);
     workers_.push_back(std::move(worker));
   }
+  tasks.setRaiser(this);
 }
 
 RealScheduler::~RealScheduler() {
   finish();
+  tasks_->setRaiser(nullptr);
   for (const std::unique_ptr<Worker> &worker : workers_)
     ::sem_destroy(&worker->raised);
 }
@@ -107,6 +124,10 @@ void RealScheduler::work(Worker &worker) {
 }
 
 void RealScheduler::serve(Worker &worker) {
+  if (Pacer *pacer = tasks_->pacer(worker.task)) {
+    runPaced(worker, *pacer);
+    return;
+  }
   switch (tasks_->desc(worker.task).kind) {
   case TaskKind::Cyclic:
     runCyclic(worker);
@@ -146,7 +167,7 @@ void RealScheduler::lookOnce() {
     return;
   for (const std::unique_ptr<Worker> &worker : workers_) {
     const TaskDesc &desc = tasks_->desc(worker->task);
-    if (desc.event == nullptr)
+    if (desc.event == nullptr || tasks_->pacer(worker->task) != nullptr)
       continue;
     const bool level = tasks_->eventLevel(worker->task, nowNs());
     const bool rising = level && !worker->level.exchange(level);
@@ -217,6 +238,47 @@ bool RealScheduler::waitForEvent(Worker &worker, int64_t untilNs) {
     if (tasks_->stopped() && untilNs == kNever)
       return !ending(); // its hooks go on without events
   }
+}
+
+void RealScheduler::runPaced(Worker &worker, Pacer &pacer) {
+  const int64_t limit = tasks_->paceLimitNs(worker.task);
+  int64_t last = -1;
+  while (const std::optional<Wake> wake = waitPaced(worker.task, pacer, last, limit)) {
+    tasks_->addOverruns(worker.task, wake->missed);
+    cycle(worker, wake->timeNs);
+    last = std::max(wake->timeNs, last + 1);
+  }
+}
+
+/// Nothing: the end has come. When the application stops, the hooks do not wait for a slow bus.
+std::optional<Wake> RealScheduler::waitPaced(uint32_t task, Pacer &pacer, int64_t afterNs,
+                                             int64_t limitNs) {
+  Clock clock(originNs_);
+  while (!ending()) {
+    const bool stopped = tasks_->stopped();
+    if (stopped && !tasks_->told(task))
+      return Wake{nowNs()};
+    const int64_t limit = stopped ? std::min(limitNs, TaskSet::kLongIntervalNs) : limitNs;
+    const int64_t deadline = std::max<int64_t>(afterNs, 0) + limit;
+    Wake wake = pacer.wait(afterNs, std::min(deadline, nowNs() + kLongestSleepNs), clock);
+    if (ending() || (!wake.arrived && wake.timeNs < deadline))
+      continue;
+    if (const int64_t late = nowNs() - wake.timeNs; !wake.arrived && late >= limit) {
+      wake.missed += static_cast<uint64_t>(late / limit);
+      wake.timeNs += late / limit * limit;
+    }
+    return wake;
+  }
+  return std::nullopt;
+}
+
+/// In a cycle of the task that raises it.
+void RealScheduler::raise(uint32_t task) noexcept {
+  Worker &worker = *workers_[task];
+  if (worker.pending.exchange(true))
+    tasks_->addOverruns(task, 1);
+  else
+    ::sem_post(&worker.raised);
 }
 
 /// `orStop`: at once when the application stops, if it has not before. False: the end has come.

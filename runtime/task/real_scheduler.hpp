@@ -3,6 +3,7 @@
 #define STRIDE_RUNTIME_TASK_REAL_SCHEDULER_HPP
 
 #include "runtime/task/cycle_gate.hpp"
+#include "runtime/task/pacer.hpp"
 #include "runtime/task/task_set.hpp"
 #include "runtime/task/task_thread.hpp"
 
@@ -29,8 +30,9 @@ struct RealOptions {
 /// A cyclic task whose cycle is not over at its next planned start skips what it has missed, so
 /// that it stays on the grid of its interval (an overrun each). A freewheeling task pauses
 /// kFreewheelingPauseNs after each cycle. Events are looked at after every cycle of every task; see
-/// VirtualScheduler for what they do, with the actual time for the virtual one.
-class RealScheduler {
+/// VirtualScheduler for what they do, with the actual time for the virtual one. The thread of a
+/// task with a pacer waits in that.
+class RealScheduler final : private TaskRaiser {
 public:
   static constexpr int64_t kFreewheelingPauseNs = 1'000'000;
 
@@ -38,7 +40,7 @@ public:
   RealScheduler(const RealScheduler &) = delete;
   RealScheduler &operator=(const RealScheduler &) = delete;
   /// Stops as finish() does.
-  ~RealScheduler();
+  ~RealScheduler() override;
 
   /// Starts the threads; time 0 of the program is when this returns. Throws app::Error when the
   /// system has no threads or no memory for them.
@@ -58,6 +60,7 @@ public:
   int64_t betweenCycles(const std::function<void()> &change);
 
 private:
+  class Clock;
   struct Worker {
     uint32_t task = 0;
     ::sem_t raised{};               ///< An event, or the end.
@@ -76,6 +79,9 @@ private:
   void runCyclic(Worker &worker);
   void runFreewheeling(Worker &worker);
   void runOnEvent(Worker &worker);
+  void runPaced(Worker &worker, Pacer &pacer);
+  std::optional<Wake> waitPaced(uint32_t task, Pacer &pacer, int64_t afterNs, int64_t limitNs);
+  void raise(uint32_t task) noexcept override;
   bool waitForEvent(Worker &worker, int64_t untilNs);
   bool sleepUntil(int64_t timeNs, bool orStop = false) const;
   bool ending() const { return ending_.load(std::memory_order_acquire); }

@@ -6,6 +6,7 @@
 #include "runtime/task/cycle_hook.hpp"
 #include "runtime/task/cycle_log.hpp"
 #include "runtime/task/fault.hpp"
+#include "runtime/task/pacer.hpp"
 #include "runtime/task/statistics.hpp"
 
 #include <atomic>
@@ -63,6 +64,20 @@ public:
   /// Before the first cycle. The hooks of a task run around its POUs: before in the order of
   /// adding, after in reverse. They must live as long as the tasks.
   void addHook(uint32_t task, CycleHook &hook);
+  /// Before the first cycle: starts that event task in place of its event. It must live as long.
+  void setPacer(uint32_t task, Pacer &pacer) { tasks_[task]->pacer = &pacer; }
+  /// Null: it has none.
+  Pacer *pacer(uint32_t task) const { return tasks_[task]->pacer; }
+  /// How long a paced task waits after its last cycle before it runs without its SYNC.
+  int64_t paceLimitNs(uint32_t task) const { return desc(task).intervalNs * 3 / 2; }
+  /// What carries out raise(), or null; a scheduler sets itself.
+  void setRaiser(TaskRaiser *raiser) { raiser_ = raiser; }
+  /// Lets an event task run once more, as an edge of its event would. One can wait; what comes
+  /// beside it is an overrun. From any task's cycle, but always the same one's.
+  void raise(uint32_t task) noexcept {
+    if (raiser_ != nullptr && !stopped())
+      raiser_->raise(task);
+  }
   /// Loop iterations that one cycle may use, with LoopLimit::Budget.
   void setLoopBudget(int64_t budget) { loopBudget_ = budget; }
   /// What the programs' system libraries find in the host. It must live as long as the tasks.
@@ -107,6 +122,7 @@ private:
   struct Task {
     Ctx ctx{};
     std::vector<CycleHook *> hooks;
+    Pacer *pacer = nullptr;
     TaskStatistics statistics;
     int64_t startedNs = 0;   ///< Of the clock, not of virtual time.
     uint32_t violations = 0; ///< In a row.
@@ -133,6 +149,7 @@ private:
   bool hasEvents_ = false;
   int64_t loopBudget_ = kDefaultLoopBudget;
   std::optional<Fault> repeated_;
+  TaskRaiser *raiser_ = nullptr;
   std::atomic<bool> stopped_{false};
   mutable std::mutex faultMutex_;
   std::optional<Fault> fault_;

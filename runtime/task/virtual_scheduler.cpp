@@ -1,10 +1,30 @@
 #include "runtime/task/virtual_scheduler.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace stride::task {
 
+namespace {
+
+/// Sleeping takes no time.
+class VirtualClock final : public TaskClock {
+public:
+  explicit VirtualClock(int64_t nowNs) : nowNs_(nowNs) {}
+  int64_t nowNs() const noexcept override { return nowNs_; }
+  void sleepUntil(int64_t timeNs) noexcept override { nowNs_ = std::max(nowNs_, timeNs); }
+  int64_t monotonicNs(int64_t) const noexcept override {
+    return std::numeric_limits<int64_t>::max();
+  }
+
+private:
+  int64_t nowNs_;
+};
+
+} // namespace
+
 VirtualScheduler::VirtualScheduler(TaskSet &tasks) : tasks_(&tasks), due_(tasks.count()) {
+  tasks.setRaiser(this);
   for (uint32_t i = 0; i < tasks.count(); ++i) {
     const TaskDesc &desc = tasks.desc(i);
     if (desc.kind != TaskKind::Status && desc.intervalNs > 0)
@@ -21,13 +41,17 @@ int64_t VirtualScheduler::nextInstant() const {
 
 RunResult VirtualScheduler::runUntil(int64_t endNs) {
   RunResult result;
+  for (uint32_t i = 0; i < due_.size() && !begun_; ++i)
+    if (Pacer *pacer = tasks_->pacer(i))
+      due_[i].atNs = waitFor(i, *pacer, -1);
+  begun_ = true;
   for (;;) {
     const int64_t now = nextInstant();
     if (now >= endNs) {
       result.timeNs = endNs;
       break;
     }
-    result.timeNs = now;
+    result.timeNs = nowNs_ = now;
     if (stop_ && stop_()) {
       result.interrupted = true;
       break;
@@ -64,7 +88,7 @@ void VirtualScheduler::lookAtEvents(int64_t nowNs) {
     return;
   for (const uint32_t i : tasks_->order()) {
     const TaskDesc &desc = tasks_->desc(i);
-    if (desc.event == nullptr)
+    if (desc.event == nullptr || tasks_->pacer(i) != nullptr)
       continue;
     Due &due = due_[i];
     const bool level = tasks_->eventLevel(i, nowNs);
@@ -92,20 +116,46 @@ bool VirtualScheduler::runDueTask(int64_t nowNs, bool &fastest) {
     Due &due = due_[i];
     if (due.atNs > nowNs)
       continue;
-    const TaskDesc &desc = tasks_->desc(i);
-    const bool periodic =
-        desc.intervalNs > 0 && !(desc.kind == TaskKind::Event && due.level && stoppedNs_ < 0);
     due.ranNs = nowNs;
-    if (periodic)
-      due.atNs = nowNs + (stoppedNs_ < 0 ? desc.intervalNs
-                                         : std::min(desc.intervalNs, TaskSet::kLongIntervalNs));
-    else
-      due.atNs = stoppedNs_ < 0 ? kNever : nowNs + TaskSet::kStoppedIntervalNs;
+    due.raised = false;
+    due.atNs = nextOf(i, nowNs);
     tasks_->runCycle(i, nowNs, 0);
+    if (Pacer *pacer = tasks_->pacer(i)) {
+      due.atNs = waitFor(i, *pacer, nowNs);
+      if (stoppedNs_ >= 0)
+        due.atNs = std::min(due.atNs, nowNs + TaskSet::kLongIntervalNs);
+    }
     fastest = fastest || i == tasks_->fastest();
     return true;
   }
   return false;
+}
+
+/// When a task without a pacer runs again by itself.
+int64_t VirtualScheduler::nextOf(uint32_t task, int64_t nowNs) const {
+  const TaskDesc &desc = tasks_->desc(task);
+  const bool waits = desc.kind == TaskKind::Event && due_[task].level && stoppedNs_ < 0;
+  if (desc.intervalNs <= 0 || waits)
+    return stoppedNs_ < 0 ? kNever : nowNs + TaskSet::kStoppedIntervalNs;
+  return nowNs +
+         (stoppedNs_ < 0 ? desc.intervalNs : std::min(desc.intervalNs, TaskSet::kLongIntervalNs));
+}
+
+int64_t VirtualScheduler::waitFor(uint32_t task, Pacer &pacer, int64_t afterNs) const {
+  VirtualClock clock(std::max<int64_t>(afterNs, 0));
+  const int64_t deadline = std::max<int64_t>(afterNs, 0) + tasks_->paceLimitNs(task);
+  const Wake wake = pacer.wait(afterNs, deadline, clock);
+  tasks_->addOverruns(task, wake.missed);
+  return std::max(wake.timeNs, afterNs + 1); // time goes on, whatever the bus says
+}
+
+/// In the cycle of another task, at nowNs_.
+void VirtualScheduler::raise(uint32_t task) noexcept {
+  Due &due = due_[task];
+  if (due.raised)
+    tasks_->addOverruns(task, 1);
+  due.raised = true;
+  due.atNs = std::min(due.atNs, due.ranNs == nowNs_ ? nowNs_ + kAgainNs : nowNs_);
 }
 
 } // namespace stride::task

@@ -2,6 +2,7 @@
 #ifndef STRIDE_RUNTIME_TASK_VIRTUAL_SCHEDULER_HPP
 #define STRIDE_RUNTIME_TASK_VIRTUAL_SCHEDULER_HPP
 
+#include "runtime/task/pacer.hpp"
 #include "runtime/task/task_set.hpp"
 
 #include <functional>
@@ -44,12 +45,16 @@ struct RunResult {
 /// once and then every interval. A task that has already run at this instant becomes due kAgainNs
 /// later.
 ///
+/// A task with a pacer runs when that says, or without it after TaskSet::paceLimitNs. A raised task
+/// is due as after an edge of its event.
+///
 /// After an exception the hooks go on until all are at rest, at most TaskSet::kStopLimitNs.
-class VirtualScheduler {
+class VirtualScheduler final : private TaskRaiser {
 public:
   static constexpr int64_t kAgainNs = 1'000;
 
   explicit VirtualScheduler(TaskSet &tasks);
+  ~VirtualScheduler() override { tasks_->setRaiser(nullptr); }
 
   /// The observer must live as long as the scheduler.
   void setObserver(InstantObserver *observer) { observer_ = observer; }
@@ -65,16 +70,22 @@ private:
     int64_t atNs = kNever;
     int64_t ranNs = -1; ///< When its last cycle was.
     bool level = false; ///< Of the event, when it was last looked at.
+    bool raised = false;
   };
 
   int64_t nextInstant() const;
   void stopAt(int64_t nowNs);
   void lookAtEvents(int64_t nowNs);
   bool runDueTask(int64_t nowNs, bool &fastest);
+  int64_t nextOf(uint32_t task, int64_t nowNs) const;
+  int64_t waitFor(uint32_t task, Pacer &pacer, int64_t afterNs) const;
+  void raise(uint32_t task) noexcept override;
 
   TaskSet *tasks_;
   std::vector<Due> due_; // by task
   int64_t stoppedNs_ = -1;
+  int64_t nowNs_ = 0;
+  bool begun_ = false;
   InstantObserver *observer_ = nullptr;
   std::function<bool()> stop_;
 };

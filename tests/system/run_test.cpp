@@ -274,6 +274,56 @@ CONFIGURATION C
 END_CONFIGURATION
 )";
 
+/// The numbers that `--print` has shown.
+std::vector<int> numbersIn(const std::string &printed) {
+  std::vector<int> numbers;
+  std::istringstream lines(printed);
+  for (std::string line; std::getline(lines, line);)
+    numbers.push_back(std::stoi(line.substr(line.find(" = ") + 3)));
+  return numbers;
+}
+
+TEST_F(Run, DriversRaiseTheTasksOnTheirSync) {
+  fs::copy(STRIDE_SOURCE_DIR "/tests/golden/projects/bus_sync_raised", scratch_.path() / "p",
+           fs::copy_options::recursive);
+  const std::string print = "--print Main.uiRuns,Urgent.uiRuns,Calm.uiRuns,Other.uiRuns";
+  const ProcessResult result =
+      shell("\"$STRIDE\" run p --for T#1s --record a.rec --quiet " + print);
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const std::vector<int> runs = numbersIn(result.out);
+  ASSERT_EQ(runs.size(), 4U) << result.out;
+  EXPECT_GT(runs[0], 20) << "cyclic: it sends SYNC";
+  EXPECT_GT(runs[1], 10) << "raised by it";
+  EXPECT_LE(runs[1], runs[0]) << "at most once per SYNC";
+  EXPECT_GT(runs[2], 0) << "raised, too, when the others leave time";
+  EXPECT_LE(runs[2], runs[0]);
+  EXPECT_GT(runs[3], 10) << "waits for SYNC of its own bus";
+  const ProcessResult replay = shell("\"$STRIDE\" sim p --replay a.rec " + print);
+  EXPECT_EQ(replay.exitCode, 0) << replay.err;
+  EXPECT_EQ(replay.out, result.out);
+}
+
+TEST_F(Run, ADriverSaysWhenItsSyncIsMissing) {
+  fs::copy(STRIDE_SOURCE_DIR "/tests/golden/projects/bus_sync_faults", scratch_.path() / "p",
+           fs::copy_options::recursive);
+  const ProcessResult result = shell("\"$STRIDE\" run p --for T#500ms --quiet --print Main.uiRuns");
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_GT(numbersIn(result.out).at(0), 10);
+  EXPECT_THAT(result.err, HasSubstr("warning: axis group 'Axes': no SYNC for 3000 us: the task has "
+                                    "run without it\n"));
+}
+
+TEST_F(Run, AStartUpThatFailsIsSaidWhenItFails) {
+  fs::copy(STRIDE_SOURCE_DIR "/tests/golden/projects/quick_stop", scratch_.path() / "p",
+           fs::copy_options::recursive);
+  write("p/Main.st", "PROGRAM Main\nA_Sim.bFailStartUp := TRUE;\nEND_PROGRAM\n");
+  const ProcessResult result = shell("\"$STRIDE\" run p --for T#500ms --quiet");
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  const std::string said = "warning: axis group 'Axes' did not start: drive A (1): ";
+  EXPECT_THAT(result.err, HasSubstr(said));
+  EXPECT_EQ(result.err.find(said), result.err.rfind(said)) << "once";
+}
+
 TEST_F(Run, ARecordingIsReplayedBitForBit) {
   build("a", kSeveralTasks);
   const ProcessResult result = shell(

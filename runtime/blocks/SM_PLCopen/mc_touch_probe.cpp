@@ -59,7 +59,7 @@ int16_t refusal(const Block &block) noexcept {
   if (!answers(ref))
     return kNoDrive;
   const int16_t input = axis::captureInput(trigger.iTriggerNumber);
-  if (trigger.bFastLatching != 0 && (input < 0 || input >= ref.byCaptureInputs))
+  if (trigger.bFastLatching != 0 && !axis::hasCaptureInput(ref, input))
     return kNoDrive;
   if (trigger.bActive != 0 || (trigger.bFastLatching != 0 && ref.aCapture.v[input].bOccupied != 0))
     return kOccupied;
@@ -189,7 +189,7 @@ void st::SM_PLCopen::MC_AbortTrigger::body__(::stride::Ctx & /*ctx__*/) {
   }
   TriggerInput->bActive = 0;
   const int16_t input = axis::captureInput(TriggerInput->iTriggerNumber);
-  if (TriggerInput->bFastLatching != 0 && input >= 0 && input < Axis->byCaptureInputs)
+  if (TriggerInput->bFastLatching != 0 && axis::hasCaptureInput(*Axis, input))
     Axis->aCapture.v[input] = {};
   Done = 1;
 }

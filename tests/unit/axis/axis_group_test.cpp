@@ -24,6 +24,43 @@ TEST(AxisGroup, StartsUpOverSomeCycles) {
   EXPECT_EQ(rig.group.udiCycleCount, 3U);
 }
 
+TEST(AxisGroup, AfterAStopItIsAtRestWhenAxesAndDriverAre) {
+  for (const bool quickStop : {false, true}) {
+    AxisRig rig;
+    stride::bus::GroupSetup setup = stride::dummy::plainSetup(1, 0.001);
+    if (quickStop) // of a drive whose unit is the increment: it takes twice as long as the axis
+      setup.drives[0].parameters.add({"physics.quick_stop", "", 500000});
+    rig.start(setup);
+    rig.powerUp();
+    auto move = rig.move(1000, 10, 100, 100);
+    move.Execute = 1;
+    for (int i = 0; i < 300; ++i)
+      rig.cycle([&] { move.body__(rig.ctx); });
+    ASSERT_EQ(rig.axis.fSetVelocity, 10);
+    EXPECT_FALSE(rig.axisGroup->atRest());
+    rig.axisGroup->stopAll();
+    int axis = 0;
+    int cycles = 0;
+    for (; !rig.axisGroup->atRest() && cycles < 1000; ++cycles) {
+      axis += rig.axis.fSetVelocity != 0 ? 1 : 0;
+      rig.axisGroup->executeStart();
+      rig.axisGroup->executeEnd();
+    }
+    EXPECT_NEAR(axis, 100, 1) << "10 u/s with 100 u/s²";
+    EXPECT_NEAR(cycles, quickStop ? 200 : 100, 1);
+    EXPECT_EQ(rig.drive->status(0).velocity, 0);
+  }
+}
+
+TEST(AxisGroup, KnowsOnlyCaptureInputsThatThereAre) {
+  AxisRig rig;
+  stride::bus::GroupSetup setup = stride::dummy::plainSetup(1);
+  setup.drives[0].parameters.add({"physics.probe_inputs", "", 0xF5}); // more than four
+  rig.start(setup);
+  rig.powerUp();
+  EXPECT_EQ(rig.axis.byCaptureInputs, 0x05);
+}
+
 TEST(AxisGroup, PowersUpToStandstillAndDown) {
   AxisRig rig;
   EXPECT_EQ(rig.powerUp(), 5);

@@ -39,8 +39,8 @@ public:
     axis.fPositionPeriod = period;
   }
 
-  void start() {
-    auto driver = std::make_unique<dummy::DummyDriver>(dummy::plainSetup(1));
+  void start(const bus::GroupSetup &setup = dummy::plainSetup(1)) {
+    auto driver = std::make_unique<dummy::DummyDriver>(setup);
     drive = driver.get();
     axisGroup = std::make_unique<bus::DriveGroup>(
         std::move(driver), group, std::vector<axis::AxisRef *>{&axis}, cycleSeconds);

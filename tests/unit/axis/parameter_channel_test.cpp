@@ -82,6 +82,29 @@ struct Channel : testing::Test {
   std::unique_ptr<bus::DriveGroup> group;
 };
 
+TEST_F(Channel, AsksForWhatItCanCarryOnly) {
+  ASSERT_NE(ask(4), 0U);
+  cycle();
+  EXPECT_EQ(driver->asked.form, bus::ParameterForm::Number);
+  EXPECT_EQ(driver->asked.forms,
+            bus::formBit(bus::ParameterForm::Number) | bus::formBit(bus::ParameterForm::Bool))
+      << "neither raw bits nor bytes";
+}
+
+TEST(ByteString, KeepsAsManyBytesAsItHasRoomFor) {
+  using bus::ByteString;
+  for (const std::size_t size : {std::size_t{0}, ByteString::kMost - 1, ByteString::kMost,
+                                 ByteString::kMost + 1, std::size_t{1000}}) {
+    std::string text;
+    for (std::size_t i = 0; i < size; ++i)
+      text += static_cast<char>(i % 251); // zeros, too
+    const ByteString bytes{std::string_view(text)};
+    EXPECT_EQ(bytes.size(), std::min(size, ByteString::kMost));
+    EXPECT_EQ(bytes.text(), text.substr(0, ByteString::kMost));
+    EXPECT_EQ(bytes == ByteString{std::string_view(text).substr(0, bytes.size() / 2)}, size == 0);
+  }
+}
+
 TEST_F(Channel, AnswersOneQuestionAtATime) {
   driver->answers = true;
   uint32_t claim = ask(4);

@@ -3,6 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace stride::dummy {
 namespace {
 
@@ -89,6 +95,271 @@ TEST(DummySetup, SubstepsHaveTheirLimits) {
   EXPECT_EQ(substeps(51e-6), 2);
   EXPECT_EQ(substeps(0.05), 1000);
   EXPECT_EQ(substeps(10), 1000);
+}
+
+/// Virtual time.
+struct Clock final : bus::BusClock {
+  int64_t nowNs() const noexcept override { return now; }
+  void sleepUntil(int64_t timeNs) noexcept override { now = std::max(now, timeNs); }
+  int64_t monotonicNs(int64_t) const noexcept override { return INT64_MAX; }
+  int64_t now = 0;
+};
+
+/// What a driver says and raises.
+struct Host final : bus::DriverHost {
+  void raise(bus::BusEvent event) noexcept override { syncs += event == bus::BusEvent::Sync; }
+  void say(const bus::Message &text) noexcept override { news.emplace_back(text.text()); }
+  int syncs = 0;
+  std::vector<std::string> news;
+};
+
+constexpr int64_t kUs = 1000;
+
+/// SYNC every millisecond.
+struct Sync : ::testing::Test {
+  void make(double offset, double lost) {
+    bus::GroupSetup setup(kSchema, 0.001);
+    setup.parameters.add({"simulation.sync_offset", "", offset});
+    if (lost != 0)
+      setup.parameters.add({"simulation.sync_lost", "", lost});
+    driver.emplace(setup);
+    driver->attach(host);
+  }
+  /// As a scheduler does it.
+  bus::SyncWake next(int64_t limit = 1500 * kUs) {
+    const bus::SyncWake wake = driver->waitSync(last, std::max<int64_t>(last, 0) + limit, clock);
+    last = wake.timeNs;
+    return wake;
+  }
+  std::string problem() const {
+    bus::Message text;
+    driver->problem(text);
+    return std::string(text.text());
+  }
+  std::optional<DummyDriver> driver;
+  Host host;
+  Clock clock;
+  int64_t last = -1;
+};
+
+TEST_F(Sync, ComesEveryCycleFromTheBeginning) {
+  make(0, 0);
+  for (int64_t i = 0; i < 5; ++i) {
+    const bus::SyncWake wake = next();
+    EXPECT_EQ(wake.timeNs, i * 1000 * kUs);
+    EXPECT_TRUE(wake.arrived);
+    EXPECT_EQ(wake.missed, 0U);
+    driver->executeStart();
+    driver->executeEnd();
+  }
+  EXPECT_EQ(host.syncs, 5);
+  EXPECT_TRUE(host.news.empty());
+  EXPECT_EQ(problem(), "");
+}
+
+TEST_F(Sync, HasAnOffset) {
+  make(250e-6, 0);
+  EXPECT_EQ(next().timeNs, 250 * kUs);
+  EXPECT_EQ(next().timeNs, 1250 * kUs);
+}
+
+TEST_F(Sync, ThatIsLostLetsTheTaskRunAtTheDeadline) {
+  make(0, 3); // 0 1 . 3 4 . 6
+  std::string seen;
+  for (int i = 0; i < 8; ++i) {
+    const bus::SyncWake wake = next();
+    seen += std::to_string(wake.timeNs / kUs) + (wake.arrived ? " " : "! ");
+    driver->executeStart();
+    driver->executeEnd();
+    EXPECT_EQ(problem(), wake.arrived ? "" : "no SYNC for 1500 us: the task has run without it");
+  }
+  EXPECT_EQ(seen, "0 1000 2500! 3000 4000 5500! 6000 7000 ");
+  EXPECT_EQ(host.syncs, 6) << "what did not come raises nothing";
+  ASSERT_EQ(host.news.size(), 2U);
+  EXPECT_EQ(host.news[0], "no SYNC for 1500 us: the task has run without it");
+}
+
+TEST_F(Sync, ThatComesDuringACycleCountsAndTheLastOneServes) {
+  make(0, 3);
+  EXPECT_EQ(next().timeNs, 0);
+  clock.now = 999 * kUs; // in time
+  EXPECT_EQ(next().timeNs, 1000 * kUs);
+  clock.now = 6200 * kUs; // 3, 4 and 6 have come
+  const bus::SyncWake wake = next();
+  EXPECT_EQ(wake.timeNs, 6000 * kUs);
+  EXPECT_TRUE(wake.arrived);
+  EXPECT_EQ(wake.missed, 2U);
+  clock.now = 8100 * kUs; // 7 has come, 8 is a lost one
+  const bus::SyncWake lost = next();
+  EXPECT_EQ(lost.timeNs, 7000 * kUs);
+  EXPECT_EQ(lost.missed, 0U);
+  EXPECT_EQ(clock.now, 8100 * kUs) << "at once";
+}
+
+TEST_F(Sync, IsRaisedInEveryCycleWhereTheTaskGivesIt) {
+  make(0, 2);
+  for (int i = 0; i < 4; ++i)
+    driver->executeStart(); // nobody waits
+  EXPECT_EQ(host.syncs, 4);
+}
+
+TEST_F(DummyDrive, HasTheProbeInputsThatItsSetupSays) {
+  EXPECT_EQ(DummyDriver(plainSetup(1)).captureInputs(0), 0x0F);
+  for (const int inputs : {0x00, 0x01, 0x05, 0x0F}) {
+    make({{"physics.probe_inputs", "", static_cast<double>(inputs)}});
+    EXPECT_EQ(driver->captureInputs(0), inputs);
+    sim = {};
+    command = {};
+    command.capture = 0x0F;
+    started = false;
+    for (int i = 0; i < 4; ++i)
+      cycle();
+    for (BOOL &probe : sim.abProbe.v)
+      probe = 1;
+    cycle();
+    EXPECT_EQ(status().captured, inputs) << "what it does not have latches nothing";
+  }
+}
+
+TEST_F(DummyDrive, WhatArrivesIsWhatItsControlTypeSays) {
+  constexpr uint8_t kAlways = bus::kTorque | bus::kCurrent; // they cost nothing on this bus
+  constexpr std::array<uint8_t, 7> kOf = {
+      0, 0, bus::kVelocity, bus::kPosition, bus::kPosition, bus::kPosition | bus::kVelocity, 0};
+  for (std::size_t type = 1; type < kOf.size(); ++type) {
+    make({{"wControlType", "", static_cast<double>(type)}});
+    EXPECT_EQ(status().received, kOf[type] | kAlways) << type;
+  }
+  make({{"wControlType", "", 0}, {"wCyclicDataR2", "", 1111}});
+  EXPECT_EQ(status().received, bus::kVelocity | kAlways);
+  make({});
+  EXPECT_EQ(status().received, 0x0F) << "by default positions and velocities";
+}
+
+/// Drives away with 1000 u/s² up to 2 u/s, as a motion does.
+struct Stopping : DummyDrive {
+  void driveOff() {
+    powerUp();
+    const auto start = static_cast<int32_t>(status().position);
+    for (int i = 1; i <= 100; ++i) {
+      command.velocity = 2000;
+      command.position = static_cast<uint32_t>(start + 2 * i);
+      cycle();
+    }
+  }
+};
+
+TEST_F(Stopping, WithoutAQuickStopItFollowsItsSetValues) {
+  make({});
+  driveOff();
+  driver->applicationStopped();
+  EXPECT_TRUE(driver->atRest()) << "nothing that the driver does by itself";
+  command.position += 2;
+  cycle();
+  EXPECT_EQ(status().position, command.position);
+}
+
+TEST_F(Stopping, AQuickStopBrakesWhateverTheSetValuesSay) {
+  make({{"physics.quick_stop", "", 80}}); // 2 u/s: 25 cycles, 25 increments
+  driveOff();
+  const uint32_t from = status().position;
+  driver->applicationStopped();
+  int cycles = 0;
+  while (!driver->atRest()) {
+    ASSERT_LT(++cycles, 100);
+    command.position += 2;
+    cycle();
+  }
+  EXPECT_EQ(cycles, 25);
+  EXPECT_EQ(status().position - from, 25U);
+  EXPECT_EQ(status().velocity, 0);
+  cycle();
+  EXPECT_EQ(status().position - from, 25U) << "it stays";
+}
+
+TEST_F(Stopping, ADriveWithoutPowerHasNoQuickStop) {
+  make({{"physics.quick_stop", "", 80}});
+  cycle();
+  driver->applicationStopped();
+  EXPECT_TRUE(driver->atRest());
+}
+
+/// The parameters that are no numbers.
+struct Parameters : DummyDrive {
+  Parameters() {
+    make({});
+    powerUp();
+  }
+  bus::ParameterAnswer ask(const bus::ParameterRequest &request) {
+    EXPECT_TRUE(driver->startParameter(0, request));
+    bus::ParameterAnswer answer;
+    for (int i = 0; !driver->pollParameter(0, answer) && i < 10; ++i)
+      cycle();
+    return answer;
+  }
+  static bus::ParameterRequest read(int32_t number, bus::ParameterForm form) {
+    bus::ParameterRequest request;
+    request.number = number;
+    request.form = form;
+    return request;
+  }
+};
+using Form = bus::ParameterForm;
+using Result = bus::ParameterAnswer::Result;
+using Kind = bus::ParameterRequest::Kind;
+
+TEST_F(Parameters, RawBitsAreNoNumber) {
+  EXPECT_EQ(ask(read(200, Form::Raw)).raw, 0x00020192U);
+  EXPECT_EQ(ask(read(200, Form::Number)).result, Result::Unknown);
+  EXPECT_EQ(ask(read(200, Form::Bool)).result, Result::Unknown);
+  EXPECT_EQ(ask(read(100, Form::Raw)).result, Result::Unknown) << "a number is no raw one";
+  bus::ParameterRequest write = read(201, Form::Raw);
+  write.kind = Kind::Write;
+  write.raw = 0xFFFFFFFF;
+  EXPECT_EQ(ask(write).result, Result::Done);
+  EXPECT_EQ(ask(read(201, Form::Raw)).raw, 0xFFFFFFFFU) << "all 32 bits";
+  write.number = 200;
+  EXPECT_EQ(ask(write).result, Result::ReadOnly);
+}
+
+TEST_F(Parameters, BytesHaveALength) {
+  EXPECT_EQ(ask(read(210, Form::Bytes)).bytes.text(), "Stride Dummy");
+  EXPECT_EQ(ask(read(211, Form::Bytes)).bytes.size(), 0U);
+  bus::ParameterRequest write = read(211, Form::Bytes);
+  write.kind = Kind::Write;
+  const std::string text = std::string("with a zero ") + '\0' + " in it";
+  for (const std::size_t size : {std::size_t{31}, std::size_t{32}}) {
+    const std::string own = (text + std::string(40, '.')).substr(0, size);
+    write.bytes = bus::ByteString{std::string_view(own)};
+    EXPECT_EQ(ask(write).result, Result::Done);
+    EXPECT_EQ(ask(read(211, Form::Bytes)).bytes.text(), own);
+  }
+  write.bytes = bus::ByteString{std::string_view("one byte more than 32 of them ...")};
+  ASSERT_EQ(write.bytes.size(), 33U);
+  EXPECT_EQ(ask(write).result, Result::Refused);
+  EXPECT_EQ(ask(read(211, Form::Bytes)).bytes.size(), 32U) << "as it was";
+  EXPECT_EQ(ask(read(211, Form::Raw)).result, Result::Unknown);
+}
+
+TEST_F(Parameters, AListHasThoseThatTheAskerCanDealWith) {
+  const auto numbers = [&](bus::ParameterForms forms) {
+    std::vector<int32_t> found;
+    for (int32_t place = 0;; ++place) {
+      bus::ParameterRequest describe;
+      describe.kind = Kind::Describe;
+      describe.number = place;
+      describe.forms = forms;
+      const bus::ParameterAnswer answer = ask(describe);
+      if (answer.result != Result::Done)
+        return found;
+      found.push_back(answer.number);
+    }
+  };
+  EXPECT_EQ(numbers(bus::formBit(Form::Raw)), (std::vector<int32_t>{200, 201}));
+  EXPECT_EQ(numbers(bus::formBit(Form::Bytes)), (std::vector<int32_t>{210, 211}));
+  EXPECT_EQ(numbers(0), std::vector<int32_t>{});
+  const std::vector<int32_t> all = numbers(bus::kAllForms);
+  EXPECT_EQ(all.size(), numbers(bus::formBit(Form::Number) | bus::formBit(Form::Bool)).size() + 4);
+  EXPECT_EQ(all.back(), 211);
 }
 
 TEST_F(DummyDrive, StartsWhereItStands) {

@@ -139,6 +139,119 @@ TEST(RealSchedulerTest, CyclesThatTakeTooLongSkipOnesOnTheGrid) {
   EXPECT_GE(figures.overruns, figures.cycles) << "each cycle of 2 ms skips at least one of 1 ms";
 }
 
+/// SYNC at 0.5 ms, 1.5 ms, 2.5 ms …; from `silentFrom` on none comes.
+class HalfSync final : public stride::task::Pacer {
+public:
+  explicit HalfSync(int64_t silentFromNs) : silentFrom_(silentFromNs) {}
+  stride::task::Wake wait(int64_t afterNs, int64_t deadlineNs,
+                          stride::task::TaskClock &clock) noexcept override {
+    const int64_t next = (afterNs + kMs / 2) / kMs * kMs + kMs / 2;
+    const bool comes = next < silentFrom_ && next <= deadlineNs;
+    clock.sleepUntil(comes ? next : deadlineNs);
+    late = late || clock.nowNs() < (comes ? next : deadlineNs) ||
+           clock.monotonicNs(clock.nowNs()) > stride::task::monotonicNs();
+    return {comes ? next : deadlineNs, comes};
+  }
+  std::atomic<bool> late{false};
+
+private:
+  int64_t silentFrom_;
+};
+
+/// When the cycles of a task were.
+class StartsHook final : public CycleHook {
+public:
+  void beforePous(Ctx &ctx) override {
+    const int at = count.load();
+    if (at < static_cast<int>(starts.size()))
+      starts[static_cast<std::size_t>(at)] = ctx.cycleStartNs;
+    count.store(at + 1);
+  }
+  void afterPous(Ctx &) override {}
+  std::vector<int64_t> starts = std::vector<int64_t>(1000);
+  std::atomic<int> count{0};
+};
+
+stride::BOOL noEvent(Ctx *) { return 0; }
+
+TEST(RealSchedulerTest, ThePacerSaysWhenATaskRuns) {
+  const std::vector<TaskDesc> list = {task("Sync", TaskKind::Event, 1, 1, event, noEvent)};
+  Started started(list);
+  auto &[app, state, tasks] = started;
+  constexpr int64_t kSilent = 20 * kMs;
+  HalfSync sync(kSilent);
+  StartsHook hook;
+  tasks.addHook(0, hook);
+  tasks.setPacer(0, sync);
+  RealScheduler scheduler(tasks, kInTurns);
+  scheduler.start();
+  waitUntil([&] { return hook.count > 40; });
+  EXPECT_TRUE(scheduler.finish());
+  EXPECT_FALSE(sync.late);
+  constexpr int kWith = 20; // 0.5 ms to 19.5 ms
+  for (int i = 0; i < kWith; ++i)
+    EXPECT_EQ(hook.starts[static_cast<std::size_t>(i)], i * kMs + kMs / 2) << i;
+  // Without SYNC the task runs 1.5 ms after its last cycle; a slow machine leaves some out.
+  const int64_t lastSync = 19 * kMs + kMs / 2;
+  for (std::size_t i = kWith; i < 40; ++i) {
+    EXPECT_EQ((hook.starts[i] - lastSync) % (kMs * 3 / 2), 0) << i;
+    EXPECT_GT(hook.starts[i], hook.starts[i - 1]) << i;
+  }
+}
+
+TEST(RealSchedulerTest, AStopDoesNotWaitForALongPace) {
+  const std::vector<TaskDesc> list = {task("Sync", TaskKind::Event, 1, 3'600'000, event, noEvent)};
+  Started started(list);
+  auto &[app, state, tasks] = started;
+  HalfSync sync(0);
+  tasks.setPacer(0, sync);
+  StartsHook hook;
+  tasks.addHook(0, hook);
+  RealScheduler scheduler(tasks, kInTurns);
+  scheduler.start();
+  EXPECT_TRUE(scheduler.finish());
+  EXPECT_EQ(state.events, 0) << "its POUs do not run, its hooks do";
+  EXPECT_GE(hook.count, 1);
+}
+
+/// Raises a task in each cycle.
+class RaisingHook final : public CycleHook {
+public:
+  RaisingHook(TaskSet &tasks, uint32_t task) : tasks_(&tasks), task_(task) {}
+  void beforePous(Ctx &) override {
+    tasks_->raise(task_);
+    ++raised;
+  }
+  void afterPous(Ctx &) override {}
+  std::atomic<uint64_t> raised{0};
+
+private:
+  TaskSet *tasks_;
+  uint32_t task_;
+};
+
+TEST(RealSchedulerTest, RaisedTasksRunAndWhatIsTooMuchIsCounted) {
+  const std::vector<TaskDesc> list = {task("Fast", TaskKind::Cyclic, 1, 1, fast),
+                                      task("Raised", TaskKind::Event, 9, 0, slow, noEvent)};
+  Started started(list);
+  auto &[app, state, tasks] = started;
+  RaisingHook hook(tasks, 1);
+  tasks.addHook(0, hook);
+  {
+    RealScheduler scheduler(tasks, kInTurns);
+    tasks.raise(1); // before the start: kept
+    scheduler.start();
+    waitUntil([&] { return state.slow > 5; });
+    EXPECT_TRUE(scheduler.finish());
+  }
+  const auto figures = tasks.statistics(1).figures();
+  // Cycles of 2 ms, raised every ms; the last raise may have come too late, and cycles after the
+  // stop are nobody's.
+  EXPECT_LE(static_cast<uint64_t>(state.slow.load()) + figures.overruns, hook.raised + 1);
+  EXPECT_GE(static_cast<uint64_t>(state.slow.load()) + figures.overruns + 2, hook.raised / 2);
+  tasks.raise(1); // nobody is there to do it
+}
+
 constexpr int64_t kInterval = 10 * kMs;
 
 /// Cycles that take longer than one interval, or two.

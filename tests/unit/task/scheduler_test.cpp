@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -59,6 +60,127 @@ TEST(VirtualSchedulerTest, RefusesWhatItCannotRun) {
   tasks[0].kind = TaskKind::Event;
   const StrideAppV1 event = appWith(tasks);
   EXPECT_THROW(Scheduled(event, log), stride::app::Error);
+}
+
+/// SYNCs at given times; what is missed is reported with the next one.
+class ListedSync final : public stride::task::Pacer {
+public:
+  explicit ListedSync(std::vector<int64_t> timesMs, uint64_t missed = 0)
+      : times_(std::move(timesMs)), missed_(missed) {}
+  stride::task::Wake wait(int64_t afterNs, int64_t deadlineNs,
+                          stride::task::TaskClock &clock) noexcept override {
+    asked.push_back(afterNs < 0 ? -1 : afterNs / kMs);
+    EXPECT_EQ(clock.nowNs(), std::max<int64_t>(afterNs, 0));
+    for (const int64_t time : times_)
+      if (time * kMs > afterNs && time * kMs <= deadlineNs) {
+        clock.sleepUntil(time * kMs);
+        return {clock.nowNs(), true, std::exchange(missed_, 0)};
+      }
+    return {deadlineNs};
+  }
+  std::vector<int64_t> asked;
+
+private:
+  std::vector<int64_t> times_;
+  uint64_t missed_;
+};
+
+stride::BOOL never(Ctx *) { return 0; }
+
+TaskDesc onSync(const char *name, uint32_t priority, int64_t ms, void (*run)(Ctx *)) {
+  return {name, TaskKind::Event, priority, ms * kMs, 0, 0, stride::kNoIndex, run, never};
+}
+
+TEST(VirtualSchedulerTest, TheBusSaysWhenAPacedTaskRuns) {
+  const std::vector<TaskDesc> tasks = {cyclic("A", 1, 10, note<'a'>), onSync("S", 5, 4, note<'s'>)};
+  const StrideAppV1 app = appWith(tasks);
+  Log log;
+  Scheduled run(app, log);
+  // 9 comes late, in time; 16 is more than 6 ms after it: the task runs without its SYNC at 15.
+  ListedSync sync({3, 4, 9, 16, 20}, 2);
+  run.tasks.setPacer(1, sync);
+  run.scheduler.runUntil(12 * kMs);
+  run.scheduler.runUntil(21 * kMs);
+  EXPECT_THAT(log.lines, ElementsAre("a0!", "s3!", "s4", "s9", "a10", "s15", "s16", "a20", "s20"));
+  EXPECT_THAT(sync.asked, ElementsAre(-1, 3, 4, 9, 15, 16, 20));
+  EXPECT_EQ(run.tasks.statistics(1).figures().overruns, 2U);
+  EXPECT_EQ(run.tasks.statistics(0).figures().overruns, 0U);
+}
+
+TEST(VirtualSchedulerTest, ABusWithoutTimeDoesNotStandStill) {
+  struct Stuck final : stride::task::Pacer {
+    stride::task::Wake wait(int64_t, int64_t, stride::task::TaskClock &) noexcept override {
+      return {0, true};
+    }
+  } sync;
+  const std::vector<TaskDesc> tasks = {onSync("S", 5, 4, note<'s'>)};
+  const StrideAppV1 app = appWith(tasks);
+  Log log;
+  Scheduled run(app, log);
+  run.tasks.setPacer(0, sync);
+  EXPECT_EQ(run.scheduler.runUntil(3).timeNs, 3);
+  EXPECT_EQ(log.lines.size(), 3U);
+}
+
+/// Raises a task in its cycles.
+class RaisingHook final : public CycleHook {
+public:
+  RaisingHook(TaskSet &tasks, uint32_t task, int times)
+      : tasks_(&tasks), task_(task), times_(times) {}
+  void beforePous(Ctx &) override {
+    for (int i = 0; i < times_; ++i)
+      tasks_->raise(task_);
+  }
+  void afterPous(Ctx &) override {}
+
+private:
+  TaskSet *tasks_;
+  uint32_t task_;
+  int times_;
+};
+
+TEST(VirtualSchedulerTest, ARaisedTaskRunsOnceAtTheSameInstant) {
+  const std::vector<TaskDesc> tasks = {cyclic("A", 3, 10, note<'a'>), onSync("R", 1, 0, note<'r'>),
+                                       cyclic("B", 5, 10, note<'b'>)};
+  const StrideAppV1 app = appWith(tasks);
+  Log log;
+  Scheduled run(app, log);
+  RaisingHook raises(run.tasks, 1, 1);
+  run.tasks.addHook(0, raises);
+  run.scheduler.runUntil(20 * kMs);
+  EXPECT_THAT(log.lines, ElementsAre("a0!", "r0!", "b0!", "a10", "r10", "b10"));
+  EXPECT_EQ(run.tasks.statistics(1).figures().overruns, 0U);
+}
+
+TEST(VirtualSchedulerTest, RaisesBesideOneThatWaitsAreOverruns) {
+  const std::vector<TaskDesc> tasks = {cyclic("A", 3, 10, note<'a'>), onSync("R", 1, 0, note<'r'>)};
+  const StrideAppV1 app = appWith(tasks);
+  Log log;
+  Scheduled run(app, log);
+  RaisingHook raises(run.tasks, 1, 3);
+  run.tasks.addHook(0, raises);
+  run.scheduler.runUntil(20 * kMs);
+  EXPECT_THAT(log.lines, ElementsAre("a0!", "r0!", "a10", "r10"));
+  EXPECT_EQ(run.tasks.statistics(1).figures().overruns, 4U);
+}
+
+TEST(VirtualSchedulerTest, ATaskThatHasRunAtThisInstantIsRaisedALittleLater) {
+  const std::vector<TaskDesc> tasks = {cyclic("A", 3, 10, note<'a'>), onSync("R", 1, 0, note<'r'>),
+                                       cyclic("B", 5, 10, note<'b'>)};
+  const StrideAppV1 app = appWith(tasks);
+  Log log;
+  Scheduled run(app, log);
+  RaisingHook first(run.tasks, 1, 1);
+  RaisingHook second(run.tasks, 1, 1);
+  run.tasks.addHook(0, first);
+  run.tasks.addHook(2, second);
+  run.scheduler.runUntil(5 * kMs);
+  EXPECT_THAT(log.lines, ElementsAre("a0!", "r0!", "b0!", "r0"));
+  EXPECT_EQ(run.tasks.statistics(1).figures().maxIntervalNs, VirtualScheduler::kAgainNs);
+  run.tasks.stop();
+  run.tasks.raise(1); // nothing runs any more
+  run.scheduler.runUntil(9 * kMs);
+  EXPECT_EQ(log.lines.size(), 4U);
 }
 
 class NotingHook final : public CycleHook {
