@@ -1,0 +1,48 @@
+#pragma once
+// The command line of `stride`: a function for each group of commands declares them and what they
+// do. Everything here needs CLI11.
+
+#include "compiler/cli/commands.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <vector>
+
+namespace stc::cli {
+
+/// What a call of `stride` says: options of all commands, of which one is given.
+struct Invocation {
+  int exitCode = 0;
+  ProjectOptions project;
+  std::vector<std::string> host; ///< for stride-host
+  std::string name;              ///< of a new project
+  std::string projectTemplate = "axis";
+  std::string out;
+  std::string emit;
+  BuildKind kind;
+  DebugSession session;
+  std::string resetKind;
+  bool library = false;
+  std::string figures;
+  TestOptions tests;
+  FormatOptions formatting;
+  std::string trace;
+  CamOptions cams;
+  std::string code;
+  bool listCodes = false;
+  std::string topic;
+  std::string overview; ///< what `stride help` shows
+};
+
+/// How diagnostics are shown.
+void addOutputOptions(CLI::App &command, Output &output);
+/// Options that all commands on a project have; `build`: those of its C++ as well.
+void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build);
+
+/// sim, run, debug, reset, ctl: what becomes stride-host.
+void declareRuns(CLI::App &app, Invocation &call);
+/// The commands below `stride cam`.
+void declareCams(CLI::App &app, Invocation &call);
+
+} // namespace stc::cli
