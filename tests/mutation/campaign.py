@@ -162,11 +162,13 @@ def reach(state, tests, numbered, jobs):
         path.unlink()
         if not passed:
             print(f"{name} fails without a mutant: not used", flush=True)
-        state.tests[name] = {"seconds": seconds, "fingerprint": fingerprint(tests[name]), "reached": [numbered[n].key for n in numbered if marks[n]] if passed else []}
+        return name, {"seconds": seconds, "fingerprint": fingerprint(tests[name]),
+                      "reached": [numbered[n].key for n in numbered if marks[n]] if passed else []}
 
     missing = [name for name in tests if name not in state.tests]
     with ThreadPoolExecutor(jobs) as pool:
-        for done, _ in enumerate(pool.map(one, missing), 1):
+        for done, (name, found) in enumerate(pool.map(one, missing), 1):
+            state.tests[name] = found
             if done % 10 == 0:
                 state.save()
     state.save()

@@ -5,6 +5,7 @@ those: when files move or lines are added elsewhere, what is left is drawn in th
 """
 
 import hashlib
+import re
 from collections import defaultdict
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -87,12 +88,17 @@ def sequence(top, area):
             yield mutant
 
 
+def is_stream(mutant):
+    """<< that writes: what it would be with >> does not compile"""
+    return mutant.operator == "<< to >>" and re.search(r"""\bout <<|\bw_ <<|["']""", mutant.key) is not None
+
+
 def draw(top, area, works=lambda mutant: True):
     """The first of the sequence; those that do not compile (`works`) are passed over"""
     per_file = defaultdict(int)
     drawn = []
     for mutant in sequence(top, area):
-        if per_file[mutant.file] + 1 > area.count * MOST_OF_A_FILE or not works(mutant):
+        if per_file[mutant.file] + 1 > area.count * MOST_OF_A_FILE or is_stream(mutant) or not works(mutant):
             continue
         per_file[mutant.file] += 1
         drawn.append(mutant)

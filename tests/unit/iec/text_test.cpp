@@ -108,4 +108,15 @@ TEST(Text, WideStrings) {
   EXPECT_EQ(fromString<Kind::INT>(lit(u"42")), 42);
 }
 
+/// Digits without end: those that fit count, and nothing is written beyond them.
+TEST(Text, RealsOfAnyLength) {
+  for (std::size_t zeros = 490; zeros < 530; ++zeros) {
+    const std::string small = "1e" + std::string(zeros, '0');
+    EXPECT_EQ(text::scanReal(small.data(), static_cast<uint32_t>(small.size())).real, 1.0) << zeros;
+    const std::string leading = std::string(zeros, '0') + ".5";
+    const double read = text::scanReal(leading.data(), static_cast<uint32_t>(leading.size())).real;
+    EXPECT_TRUE(read == 0.5 || (zeros > 500 && read == 0.0)) << zeros << ' ' << read;
+  }
+}
+
 } // namespace

@@ -107,6 +107,26 @@ TEST(Conversion, ConstantsConvertWhereTheirValueFits) {
                             named("real")));
 }
 
+/// At, below and above both ends of each type, smaller ones first and signed ones before unsigned
+/// ones.
+TEST(Conversion, TheSmallestIntegerThatHoldsAValue) {
+  const char *const order[] = {"sint", "usint", "int", "uint", "dint", "udint", "lint"};
+  for (const Number &type : kIntegers)
+    for (const long double limit : {type.low, type.high})
+      for (const long double value : {limit - 1, limit, limit + 1}) {
+        if (value < kIntegers[3].low || value > kIntegers[3].high)
+          continue;
+        const char *expected = nullptr;
+        for (const char *name : order)
+          for (const Number &one : kIntegers)
+            if (expected == nullptr && std::string(one.name) == name && value >= one.low &&
+                value <= one.high)
+              expected = name;
+        EXPECT_EQ(smallestInteger(static_cast<std::int64_t>(value)), named(expected))
+            << static_cast<std::int64_t>(value);
+      }
+}
+
 TEST(Conversion, CommonTypeHoldsBothAndIsTheSmallest) {
   for (const Number &a : kIntegers) {
     for (const Number &b : kIntegers) {
