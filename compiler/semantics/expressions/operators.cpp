@@ -128,6 +128,72 @@ static const Type *fold(Context &c, BinaryExpr *expr) {
   return expr->type;
 }
 
+/// Reports an operand that the operator does not take.
+static bool takesOperand(Context &c, const UnaryExpr *u) {
+  const Type *own = underlying(u->operand->type);
+  const bool isNot = u->op == UnaryOp::logicalNot;
+  if (isNot ? own->kind == TypeKind::boolean || isInteger(own) || own->kind == TypeKind::anyInteger
+            : isNumber(own) || own->kind == TypeKind::ltime)
+    return true;
+  const std::string op = isNot ? "NOT" : u->op == UnaryOp::negate ? "-" : "+";
+  auto &d = c.report(Code::operatorNotDefined, u->span,
+                     "`" + op + "` is not defined for " + typeName(u->operand->type),
+                     isNot ? "expected BOOL, an integer or a bit string" : "expected a number");
+  if (!isNot && own->kind == TypeKind::boolean)
+    d.help("negate a BOOL with NOT");
+  return false;
+}
+
+/// Gives the operation its type, and the operand the conversion to it.
+static void setUnaryType(UnaryExpr *u, const Type *expected) {
+  Expr *operand = u->operand;
+  const Type *own = underlying(operand->type);
+  if (u->op == UnaryOp::logicalNot) {
+    const Type *wanted = expected != nullptr ? underlying(expected) : nullptr;
+    if (own->kind != TypeKind::anyInteger)
+      u->type = own;
+    else if (wanted != nullptr && isInteger(wanted) && operand->constant != nullptr &&
+             constantFits(*operand->constant, own, wanted))
+      u->type = wanted; // `w AND NOT 16#0F`: a mask as wide as the result
+    else
+      u->type = settle(operand);
+    setTarget(operand, u->type);
+  } else if (isUntyped(own) || isReal(own) || own->kind == TypeKind::ltime) {
+    u->type = own;
+  } else {
+    u->common = unwidened(operand);
+    u->type = widened(own);
+    if (u->op == UnaryOp::negate && !isSignedInteger(u->type)) // -UDINT needs a sign
+      u->type =
+          elementaryType(isBitString(own) && bitWidth(own) < 32 ? TypeKind::dint : TypeKind::lint);
+    setTarget(operand, u->type);
+  }
+}
+
+static void foldUnaryOf(Context &c, UnaryExpr *u) {
+  const Expr *operand = u->operand;
+  if (u->op == UnaryOp::negate && operand->kind == ExprKind::literal &&
+      operand->type->kind == TypeKind::ulint && !as<Literal>(operand)->typeName &&
+      operand->constant->integer == std::numeric_limits<std::int64_t>::min()) {
+    // `-9223372036854775808` is LINT's smallest value, written with a magnitude that is none.
+    u->common = nullptr;
+    u->type = elementaryType(TypeKind::anyInteger);
+    u->constant = operand->constant;
+    return;
+  }
+  if (operand->constant == nullptr)
+    return;
+  const auto value = convertConstant(*operand->constant, operand->type, u->type);
+  const auto folded = value ? foldUnary(u->op, *value, u->type) : std::nullopt;
+  if (folded) {
+    u->constant = c.makeConstant(*folded);
+  } else if (isUntyped(u->type)) {
+    c.report(Code::constantOverflow, u->span, "this constant expression does not fit into 64 bits",
+             "too large");
+    u->type = elementaryType(TypeKind::error);
+  }
+}
+
 const Type *checkUnary(Context &c, UnaryExpr *expr, const Type *expected) {
   // Long chains (NOT NOT …, - - …) must not eat the stack.
   std::vector<UnaryExpr *> chain{expr};
@@ -136,64 +202,11 @@ const Type *checkUnary(Context &c, UnaryExpr *expr, const Type *expected) {
   check(c, chain.back()->operand, expected);
   for (std::size_t i = chain.size(); i-- > 0;) {
     UnaryExpr *u = chain[i];
-    Expr *operand = u->operand;
-    const Type *type = operand->type;
-    const Type *own = underlying(type);
     u->type = elementaryType(TypeKind::error);
-    if (isError(type))
+    if (isError(u->operand->type) || refuseStrict(c, u->operand) || !takesOperand(c, u))
       continue;
-    if (refuseStrict(c, operand))
-      continue;
-    const bool isNot = u->op == UnaryOp::logicalNot;
-    if (isNot ? !(own->kind == TypeKind::boolean || isInteger(own) ||
-                  own->kind == TypeKind::anyInteger)
-              : !(isNumber(own) || own->kind == TypeKind::ltime)) {
-      const std::string op = isNot ? "NOT" : u->op == UnaryOp::negate ? "-" : "+";
-      auto &d = c.report(Code::operatorNotDefined, u->span,
-                         "`" + op + "` is not defined for " + typeName(type),
-                         isNot ? "expected BOOL, an integer or a bit string" : "expected a number");
-      if (!isNot && own->kind == TypeKind::boolean)
-        d.help("negate a BOOL with NOT");
-      continue;
-    }
-    if (isNot) {
-      const Type *wanted = expected != nullptr ? underlying(expected) : nullptr;
-      if (own->kind != TypeKind::anyInteger)
-        u->type = own;
-      else if (wanted != nullptr && isInteger(wanted) && operand->constant != nullptr &&
-               constantFits(*operand->constant, own, wanted))
-        u->type = wanted; // `w AND NOT 16#0F`: a mask as wide as the result
-      else
-        u->type = settle(operand);
-      setTarget(operand, u->type);
-    } else if (isUntyped(own) || isReal(own) || own->kind == TypeKind::ltime) {
-      u->type = own;
-    } else {
-      u->common = unwidened(operand);
-      u->type = widened(own);
-      if (u->op == UnaryOp::negate && !isSignedInteger(u->type)) // -UDINT needs a sign
-        u->type = elementaryType(isBitString(own) && bitWidth(own) < 32 ? TypeKind::dint
-                                                                        : TypeKind::lint);
-      setTarget(operand, u->type);
-    }
-    if (u->op == UnaryOp::negate && operand->kind == ExprKind::literal &&
-        type->kind == TypeKind::ulint && !as<Literal>(operand)->typeName &&
-        operand->constant->integer == std::numeric_limits<std::int64_t>::min()) {
-      // `-9223372036854775808` is LINT's smallest value, written with a magnitude that is none.
-      u->common = nullptr;
-      u->type = elementaryType(TypeKind::anyInteger);
-      u->constant = operand->constant;
-    } else if (operand->constant != nullptr) {
-      const auto value = convertConstant(*operand->constant, type, u->type);
-      const auto folded = value ? foldUnary(u->op, *value, u->type) : std::nullopt;
-      if (folded)
-        u->constant = c.makeConstant(*folded);
-      else if (isUntyped(u->type)) {
-        c.report(Code::constantOverflow, u->span,
-                 "this constant expression does not fit into 64 bits", "too large");
-        u->type = elementaryType(TypeKind::error);
-      }
-    }
+    setUnaryType(u, expected);
+    foldUnaryOf(c, u);
   }
   return expr->type;
 }

@@ -219,61 +219,75 @@ void reportUnknown(Context &c, const Name &name, bool asType) {
     d.help("declare it in a VAR section of this POU or in a VAR_GLOBAL list");
 }
 
-/// Says where else the name exists, or what another language's word is called here.
-static bool helpElsewhere(Context &c, Diagnostic &d, const Name &name, bool asType) {
-  const std::string text(name.text);
-  if (const std::string_view meant =
-          asType ? typeOfOtherLanguages(name.id->lower) : wordOfOtherLanguages(name.id->lower);
-      !meant.empty()) {
-    const bool plain = meant.find(' ') == std::string_view::npos;
-    const std::string help =
-        plain ? "in Structured Text this is `" + std::string(meant) + "`" : std::string(meant);
-    if (plain)
-      d.suggest(help, name.span, std::string(meant));
-    else
-      d.help(help);
-    return true;
-  }
-  if (asType)
+/// What a word of another language is called here.
+static bool helpOtherLanguages(Diagnostic &d, const Name &name, bool asType) {
+  const std::string_view meant =
+      asType ? typeOfOtherLanguages(name.id->lower) : wordOfOtherLanguages(name.id->lower);
+  if (meant.empty())
     return false;
-  // A member of something that is in scope, a variable of a program, a list that must be named.
-  std::vector<std::string> places;
-  const auto found = [&](std::string place) {
-    if (std::find(places.begin(), places.end(), place) == places.end())
-      places.push_back(std::move(place));
-  };
-  if (c.scope.pou != nullptr) {
-    for (VarSymbol *v : c.scope.pou->variables) {
-      if (v->type == nullptr || v->hidden)
-        continue;
-      if (v->type->kind != TypeKind::structure && !isInstance(v->type))
-        continue;
-      const VarSymbol *member = findMember(c, v->type, name.id);
-      const bool open = member != nullptr && !member->hidden && !member->isResult &&
-                        (member->owner == nullptr || member->section == Section::input ||
-                         member->section == Section::output);
-      if (open)
-        found(std::string(v->name.text) + "." + std::string(member->name.text));
-    }
+  const std::string word(meant);
+  if (meant.find(' ') == std::string_view::npos)
+    d.suggest("in Structured Text this is `" + word + "`", name.span, word);
+  else
+    d.help(word);
+  return true;
+}
+
+/// What the members of instances and structures in the POU that have the name are called.
+static void addMembers(Context &c, const Name &name, std::vector<std::string> &places) {
+  if (c.scope.pou == nullptr)
+    return;
+  for (const VarSymbol *v : c.scope.pou->variables) {
+    if (v->type == nullptr || v->hidden)
+      continue;
+    if (v->type->kind != TypeKind::structure && !isInstance(v->type))
+      continue;
+    const VarSymbol *member = findMember(c, v->type, name.id);
+    const bool open = member != nullptr && !member->hidden && !member->isResult &&
+                      (member->owner == nullptr || member->section == Section::input ||
+                       member->section == Section::output);
+    if (open)
+      places.push_back(std::string(v->name.text) + "." + std::string(member->name.text));
   }
-  for (const PouSymbol *pou : c.scope.module->library->pous) {
+}
+
+/// The same of programs' variables, lists of globals and enumerations that must be named.
+static void addQualified(const Context &c, const Name &name, std::vector<std::string> &places) {
+  const Library &library = *c.scope.module->library;
+  for (const PouSymbol *pou : library.pous) {
     if (pou == c.scope.pou || pou->decl->kind != DeclKind::program)
       continue;
     for (const VarDecl *v : pou->decl->variables) {
       if (v->name.id == name.id && v->section != Section::temp)
-        found(std::string(pou->name.text) + "." + std::string(v->name.text));
+        places.push_back(std::string(pou->name.text) + "." + std::string(v->name.text));
     }
   }
-  for (const GlobalsSymbol *list : c.scope.module->library->globals) {
+  for (const GlobalsSymbol *list : library.globals) {
     const auto it = list->scope.find(name.id);
     if (it != list->scope.end())
-      found(std::string(list->name.text) + "." + std::string(it->second->name.text));
+      places.push_back(std::string(list->name.text) + "." + std::string(it->second->name.text));
   }
-  for (const TypeSymbol *symbol : c.scope.module->library->types) {
+  for (const TypeSymbol *symbol : library.types) {
     const Type *type = symbol->type;
     if (type != nullptr && type->kind == TypeKind::enumeration &&
         typeAs<EnumType>(type)->qualifiedOnly && findEnumerator(typeAs<EnumType>(type), name.id))
-      found(typeName(type) + "." + std::string(name.text));
+      places.push_back(typeName(type) + "." + std::string(name.text));
+  }
+}
+
+/// Says where else the name exists, or what another language's word is called here.
+static bool helpElsewhere(Context &c, Diagnostic &d, const Name &name, bool asType) {
+  if (helpOtherLanguages(d, name, asType))
+    return true;
+  if (asType)
+    return false;
+  std::vector<std::string> all;
+  addMembers(c, name, all);
+  addQualified(c, name, all);
+  std::vector<std::string> places; // each once, in that order
+  for (std::string &place : all) {
+    if (std::find(places.begin(), places.end(), place) == places.end())
+      places.push_back(std::move(place));
   }
   constexpr std::size_t kMost = 3;
   if (places.empty() || places.size() > kMost)
