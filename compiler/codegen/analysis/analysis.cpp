@@ -240,8 +240,8 @@ bool Analysis::endsInside(const ForStmt *loop) const {
   if (!bounds)
     return false;
   const Type *type = underlying(loop->variable->type);
-  const std::int64_t behind = bounds->to + bounds->step;
-  return wrapTo(type, behind) == behind && (behind >= 0 || isSignedInteger(type));
+  const std::int64_t after = bounds->to + bounds->step;
+  return wrapTo(type, after) == after && (after >= 0 || isSignedInteger(type));
 }
 
 /// Inner loops over the same variable are in it: they change it.

@@ -131,7 +131,7 @@ private:
 [[nodiscard]] const Symbol *symbolAt(const ast::Expr *place);
 /// The property that an assignment to the target sets; null where it sets a variable.
 [[nodiscard]] const PropertySymbol *writtenProperty(const ast::Expr *target);
-/// The name in front of the dot is a namespace: a library, a variable list, an enumeration.
+/// The name before the dot is a namespace: a library, a variable list, an enumeration.
 [[nodiscard]] bool isNamespace(const ast::Expr *expr);
 
 } // namespace stc::codegen

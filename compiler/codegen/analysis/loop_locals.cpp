@@ -216,7 +216,7 @@ void LoopLocals::expression(const Expr *e, Facts &facts) {
       }
       if (isNamespace(m->base))
         return;
-      // A program in front of the dot is a place, too.
+      // A program before the dot is a place, too.
       if (m->base->kind == ExprKind::name) {
         const Symbol *base = as<NameExpr>(m->base)->symbol;
         if (base != nullptr && base->kind == SymbolKind::pou)

@@ -356,7 +356,7 @@ void emitFunctionCall(EmitContext &cx, const CallExpr *e, bool asStatement) {
   cx.out << (asStatement ? " }" : " }()");
 }
 
-/// `target = source;` from an output of type `sourceType` to the variable behind `=>`.
+/// `target = source;` from an output of type `sourceType` to the variable after `=>`.
 void emitOutputTo(EmitContext &cx, const Expr *target, std::string_view source,
                   const Type *sourceType, Span span) {
   const bool reference = sourceType->kind == TypeKind::reference;

@@ -56,7 +56,6 @@ bool isExact(const Expr *place) {
   return !isIndirect(static_cast<const VarSymbol *>(symbol));
 }
 
-/// The type id field of the instance, behind a `.`.
 void emitTypeIdOf(EmitContext &cx, const Expr *instance) {
   cx.includes.complete(instance->type);
   emitPlace(cx, instance);

@@ -228,6 +228,33 @@ void Layouts::addMember(Hash &hash, const VarSymbol *v) {
   hash.add(this->hash(v->type));
 }
 
+void Layouts::addStructure(Hash &hash, const StructType *type) {
+  hash.add(typeName(type));
+  if (type->pack != 0)
+    hash.add("pack").add(std::uint64_t{type->pack});
+  if (type->isUnion)
+    hash.add("union");
+  if (type->base != nullptr)
+    hash.add("base").add(this->hash(type->base));
+  for (const VarSymbol *v : type->fields)
+    addMember(hash, v);
+}
+
+void Layouts::addInstance(Hash &hash, const PouType *type) {
+  const PouSymbol *pou = type->symbol;
+  hash.add(typeName(type));
+  if (pou->base != nullptr)
+    hash.add("base").add(this->hash(pou->base->type));
+  if (carriesTypeId(pou))
+    hash.add("type id");
+  if (type->pack != 0)
+    hash.add("pack").add(std::uint64_t{type->pack});
+  for (const VarSymbol *v : pou->variables) {
+    if (isField(v))
+      addMember(hash, v);
+  }
+}
+
 std::uint64_t Layouts::computeHash(const Type *type) {
   Hash h;
   h.add(static_cast<std::uint64_t>(type->kind));
@@ -255,35 +282,13 @@ std::uint64_t Layouts::computeHash(const Type *type) {
   case TypeKind::reference: // by name only: types may point to themselves
     h.add(typeName(typeAs<PointerType>(type)->pointee));
     break;
-  case TypeKind::structure: {
-    const auto *s = typeAs<StructType>(type);
-    h.add(typeName(type));
-    if (s->pack != 0)
-      h.add("pack").add(std::uint64_t{s->pack});
-    if (s->isUnion)
-      h.add("union");
-    if (s->base != nullptr)
-      h.add("base").add(hash(s->base));
-    for (const VarSymbol *v : s->fields)
-      addMember(h, v);
+  case TypeKind::structure:
+    addStructure(h, typeAs<StructType>(type));
     break;
-  }
   case TypeKind::functionBlock:
-  case TypeKind::program: {
-    const PouSymbol *pou = typeAs<PouType>(type)->symbol;
-    h.add(typeName(type));
-    if (pou->base != nullptr)
-      h.add("base").add(hash(pou->base->type));
-    if (carriesTypeId(pou))
-      h.add("type id");
-    if (const unsigned pack = typeAs<PouType>(type)->pack; pack != 0)
-      h.add("pack").add(std::uint64_t{pack});
-    for (const VarSymbol *v : pou->variables) {
-      if (isField(v))
-        addMember(h, v);
-    }
+  case TypeKind::program:
+    addInstance(h, typeAs<PouType>(type));
     break;
-  }
   default:
     break;
   }

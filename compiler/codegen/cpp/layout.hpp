@@ -78,6 +78,8 @@ private:
   bool computeNeedsInit(const Type *type);
   std::uint64_t computeHash(const Type *type);
   void addMember(Hash &hash, const VarSymbol *v);
+  void addStructure(Hash &hash, const StructType *type);
+  void addInstance(Hash &hash, const PouType *type);
   bool computeNeedsInit(const PouSymbol *pou);
 
   const Library *own_;

@@ -26,7 +26,7 @@ void mangleTo(std::string &out, std::string_view name);
 [[nodiscard]] std::string methodName(const PouSymbol *method);
 /// The way from an instance of `from` to its part `to`, which it is or extends: `base__.base__.`
 [[nodiscard]] std::string pathToBase(const PouSymbol *from, const PouSymbol *to);
-/// The same behind the instance: `.base__.base__`
+/// The same way, after the instance: `.base__.base__`
 [[nodiscard]] std::string baseSuffix(const PouSymbol *from, const PouSymbol *to);
 /// The way to the type id of an instance that has one: `base__.type__`
 [[nodiscard]] std::string pathToTypeId(const PouSymbol *block);

@@ -48,7 +48,7 @@ void Writer::from(Span span) {
 }
 
 void Writer::sameLine() {
-  if (mapped_ == 0)
+  if (mapped_ == 0 || form_ != Form::mapped)
     return;
   const std::uint32_t line = believed_ - 1;
   *this << "#line " << line;

@@ -274,10 +274,8 @@ void emitArgumentOf(EmitContext &cx, const BinaryExpr *e, const Expr *side) {
     emitOperand(cx, side, e->operandType, nullptr, false);
 }
 
-/// Takes an operand's value; gives its name. It is copied where a call may change what it comes
-/// from.
-std::string keepOperand(EmitContext &cx, const BinaryExpr *e, const Expr *side,
-                        const std::string &name) {
+/// Takes an operand's value as `name`. It is copied where a call may change what it comes from.
+void keepOperand(EmitContext &cx, const BinaryExpr *e, const Expr *side, const std::string &name) {
   const bool calls = ((cx.effects(e->left) | cx.effects(e->right)) & effectCalls) != 0;
   const Type *t = side->target != nullptr ? side->target : side->type;
   if (e->operandType != nullptr && !isString(e->operandType))
@@ -285,13 +283,12 @@ std::string keepOperand(EmitContext &cx, const BinaryExpr *e, const Expr *side,
   cx.out << cx.type(t) << (calls ? " const " : " const &") << name << " = "; // a text is not copied
   emitValueAs(cx, side, t);
   cx.out << "; ";
-  return name;
 }
 
 /// C++ leaves the order of operands open, ST does not: the values are taken one after the other.
 void emitOrdered(EmitContext &cx, const BinaryExpr *e) {
-  const std::string leftName = cx.temporary("left");
-  const std::string rightName = cx.temporary("right");
+  const std::string left = cx.temporary("left");
+  const std::string right = cx.temporary("right");
   const Infix op = infixOf(cx, e);
   if (isSequenced(op)) { // by itself
     emitInfixOperand(cx, e, op, e->left);
@@ -300,8 +297,8 @@ void emitOrdered(EmitContext &cx, const BinaryExpr *e) {
     return;
   }
   cx.out << "[&] { ";
-  const std::string left = keepOperand(cx, e, e->left, leftName);
-  const std::string right = keepOperand(cx, e, e->right, rightName);
+  keepOperand(cx, e, e->left, left);
+  keepOperand(cx, e, e->right, right);
   cx.out << "return ";
   if (isInfix(e, op))
     cx.out << left << ' ' << op.op << ' ' << right;

@@ -68,7 +68,7 @@ void emitPointedElement(EmitContext &cx, std::string base, const Type *type, con
   cx.out << (takesBase ? "); }()" : ")");
 }
 
-/// `.v[i]`: C++ evaluates what is in front of the brackets first.
+/// `.v[i]`: C++ evaluates what stands before the brackets first.
 void emitArrayElement(EmitContext &cx, const ArrayType *array, const Expr *i) {
   cx.out << ".v[";
   if (inBounds(i, array)) {
@@ -121,7 +121,7 @@ void step(EmitContext &cx, Indexed &at, const Expr *i, bool takesBase) {
   at.type = indexStep(at.type);
 }
 
-/// Each index stands behind what it is an index into: nothing goes around it.
+/// Each index is written after what it is an index into: nothing goes around it.
 bool isPlain(const IndexExpr *e) {
   const Type *t = e->base->type;
   for (std::size_t i = 0; i < e->indices.size(); ++i) {
