@@ -94,6 +94,9 @@ private:
   ast::Expr *operand(Context *context);
   ast::Expr *primary(Context *context, std::size_t &at, std::size_t &nextChild);
   ast::Expr *postfix(Context *context, ast::Expr *base, std::size_t &at, std::size_t &nextChild);
+  ast::Expr *memberOf(ast::Expr *base, const Token &member);
+  ast::Expr *bracketed(ast::Expr *base, Context *inside, std::size_t &at, std::size_t end);
+  ast::Expr *indexOf(ast::Expr *base, Context *inside, Span brackets, Span whole);
   [[nodiscard]] static bool hasNames(const Context *arguments);
   ast::Expr *partOf(ast::Expr *base, const Token &member);
   ast::Expr *parentheses(Context *arguments, Span span);

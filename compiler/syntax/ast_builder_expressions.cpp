@@ -256,6 +256,66 @@ bool AstBuilder::hasNames(const Context *arguments) {
   });
 }
 
+Expr *AstBuilder::memberOf(Expr *base, const Token &member) {
+  if (member.type == Tok::DIRECT && !member.reported)
+    return partOf(base, member);
+  if (member.reported)
+    return error(base->span.to(span(member)));
+  auto *node = arena_.make<MemberExpr>();
+  node->base = base;
+  node->span = base->span.to(span(member));
+  if (member.type == Tok::INTEGER) {
+    std::int32_t bit = 0;
+    for (const char c : text(member))
+      bit = c >= '0' && c <= '9' && bit < 100000 ? bit * 10 + (c - '0') : 100000;
+    node->bit = bit;
+    node->name.span = span(member);
+  } else {
+    node->name = name(member);
+  }
+  return node;
+}
+
+Expr *AstBuilder::indexOf(Expr *base, Context *inside, Span brackets, Span whole) {
+  auto *node = arena_.make<IndexExpr>();
+  node->base = base;
+  node->span = whole;
+  std::vector<Expr *> indices;
+  for (std::size_t i = 0; i < inside->children.size(); ++i) {
+    Context *argument = child(inside, i);
+    indices.push_back(expression(child(argument, 0)));
+    if (last(argument) != last(child(argument, 0)))
+      diagnostics_.report(Code::unexpectedToken, span(token(last(child(argument, 0)) + 1)),
+                          "an index has no name", "expected `,` or `]`");
+  }
+  if (indices.empty()) {
+    diagnostics_.report(Code::unexpectedToken, brackets, "expected an index between the brackets");
+    indices.push_back(error(brackets));
+  }
+  node->indices = arena_.copy(indices);
+  return node;
+}
+
+/// A call or an index; `at` is at its bracket, and is behind the closing one afterwards.
+Expr *AstBuilder::bracketed(Expr *base, Context *inside, std::size_t &at, std::size_t end) {
+  const Token &start = token(at);
+  at = inside->children.empty() ? at + 1 : last(inside) + 1;
+  Span whole = base->span.to(span(start)).to(span(inside));
+  const std::uint16_t closer = start.type == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET;
+  if (at <= end && token(at).type == closer)
+    whole = whole.to(span(token(at++)));
+  if (start.type == Tok::LPAREN) {
+    auto *node = arena_.make<CallExpr>();
+    node->callee = base;
+    node->arguments = arguments(inside);
+    node->span = whole;
+    return node;
+  }
+  if (token(at - 1).type != Tok::RBRACKET && hasNames(inside))
+    return error(whole); // the missing bracket was reported in front of the `:=`
+  return indexOf(base, inside, {file_, start.begin, whole.end}, whole);
+}
+
 Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::size_t &nextChild) {
   const std::size_t end = last(context);
   std::size_t count = 0;
@@ -266,80 +326,17 @@ Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::si
                           "more than " + std::to_string(kMaxPostfix));
       return error(span(context));
     }
-    switch (start.type) {
-    case Tok::DOT: {
-      const Token &member = token(at + 1);
+    if (start.type == Tok::DOT) {
+      base = memberOf(base, token(at + 1));
       at += 2;
-      if (member.type == Tok::DIRECT && !member.reported) {
-        base = partOf(base, member);
-        break;
-      }
-      if (member.reported) {
-        base = error(base->span.to(span(member)));
-        break;
-      }
-      auto *node = arena_.make<MemberExpr>();
-      node->base = base;
-      node->span = base->span.to(span(member));
-      if (member.type == Tok::INTEGER) {
-        std::int32_t bit = 0;
-        for (const char c : text(member))
-          bit = c >= '0' && c <= '9' && bit < 100000 ? bit * 10 + (c - '0') : 100000;
-        node->bit = bit;
-        node->name.span = span(member);
-      } else {
-        node->name = name(member);
-      }
-      base = node;
-      break;
-    }
-    case Tok::CARET: {
+    } else if (start.type == Tok::CARET) {
       auto *node = arena_.make<DerefExpr>();
       node->base = base;
       node->span = base->span.to(span(start));
       base = node;
       ++at;
-      break;
-    }
-    default: { // LPAREN, LBRACKET
-      Context *inside = child(context, nextChild++);
-      at = inside->children.empty() ? at + 1 : last(inside) + 1;
-      Span whole = base->span.to(span(start)).to(span(inside));
-      const std::uint16_t closer = start.type == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET;
-      if (at <= end && token(at).type == closer)
-        whole = whole.to(span(token(at++)));
-      if (start.type == Tok::LPAREN) {
-        auto *node = arena_.make<CallExpr>();
-        node->callee = base;
-        node->arguments = arguments(inside);
-        node->span = whole;
-        base = node;
-        break;
-      }
-      if (token(at - 1).type != Tok::RBRACKET && hasNames(inside)) {
-        base = error(whole); // the missing bracket was reported in front of the `:=`
-        break;
-      }
-      auto *node = arena_.make<IndexExpr>();
-      node->base = base;
-      node->span = whole;
-      std::vector<Expr *> indices;
-      for (std::size_t i = 0; i < inside->children.size(); ++i) {
-        Context *argument = child(inside, i);
-        indices.push_back(expression(child(argument, 0)));
-        if (last(argument) != last(child(argument, 0)))
-          diagnostics_.report(Code::unexpectedToken, span(token(last(child(argument, 0)) + 1)),
-                              "an index has no name", "expected `,` or `]`");
-      }
-      if (indices.empty()) {
-        diagnostics_.report(Code::unexpectedToken, {file_, start.begin, whole.end},
-                            "expected an index between the brackets");
-        indices.push_back(error({file_, start.begin, whole.end}));
-      }
-      node->indices = arena_.copy(indices);
-      base = node;
-      break;
-    }
+    } else { // LPAREN, LBRACKET
+      base = bracketed(base, child(context, nextChild++), at, end);
     }
   }
   return base;
@@ -423,115 +420,6 @@ std::span<Argument> AstBuilder::arguments(Context *context, std::size_t begin) {
       out.value = expression(child(argument, 1));
   }
   return {list, count};
-}
-
-// ------------------------------------------------------------------------------------------------
-// initial values
-
-bool AstBuilder::isRepetition(Context *expression) const {
-  if (expression->children.size() != 1)
-    return false;
-  const Context *only = child(expression, 0);
-  const std::size_t at = first(only);
-  return token(at).type == Tok::INTEGER && token(at + 1).type == Tok::LPAREN &&
-         only->children.size() == 1 &&
-         last(only) == (child(only, 0)->children.empty() ? at + 2 : last(child(only, 0)) + 1);
-}
-
-AggregateItem AstBuilder::item(Context *expression) {
-  AggregateItem out;
-  out.span = span(expression);
-  if (!isRepetition(expression)) {
-    out.value = initialValue(expression);
-    return out;
-  }
-  Context *only = child(expression, 0);
-  out.repeat = literal(token(first(only)));
-  Context *inside = child(only, 0);
-  std::vector<AggregateItem> values;
-  for (std::size_t i = 0; i < inside->children.size(); ++i) {
-    Context *argument = child(inside, i);
-    if (argument->children.size() != 1) {
-      // `3(a := 1)` repeats a structure written without its own parentheses.
-      out.value = structAggregate(inside, span(inside));
-      return out;
-    }
-    values.push_back(item(child(argument, 0)));
-  }
-  if (values.size() == 1 && values[0].repeat == nullptr)
-    out.value = values[0].value;
-  else
-    out.values = arena_.copy(values);
-  return out;
-}
-
-Expr *AstBuilder::aggregate(std::vector<AggregateItem> items, bool isStruct, Span whole) {
-  auto *node = arena_.make<AggregateExpr>();
-  node->span = whole;
-  node->items = arena_.copy(items);
-  node->isStruct = isStruct;
-  return node;
-}
-
-Expr *AstBuilder::structAggregate(Context *inside, Span whole) {
-  std::vector<AggregateItem> fields;
-  std::vector<AggregateItem> elements; // of an array field in V2.3's way: `(a := 1, 2, 3, b := 0)`
-  const auto closeField = [&] {
-    if (!fields.empty() && elements.size() > 1) {
-      const Span of = elements.front().span.to(elements.back().span);
-      fields.back().value = aggregate(elements, false, of);
-      fields.back().span = fields.back().span.to(of);
-    }
-    elements.clear();
-  };
-  for (std::size_t i = 0; i < inside->children.size(); ++i) {
-    Context *argument = child(inside, i);
-    Context *front = child(argument, 0);
-    if (last(front) == last(argument)) { // no name
-      if (fields.empty()) {
-        diagnostics_
-            .report(Code::unexpectedToken, span(argument), "this value has no name",
-                    "expected `name := value`")
-            .help("the elements of an array stand in brackets: `[1, 2, 3]`");
-        return error(whole);
-      }
-      elements.push_back(item(front));
-      continue;
-    }
-    closeField();
-    const Token *plain = plainName(front);
-    if (plain == nullptr || token(last(front) + 1).type != Tok::ASSIGN ||
-        argument->children.size() < 2) {
-      diagnostics_.report(Code::argumentName, span(argument),
-                          "expected `name := value` in the list of fields");
-      return error(whole);
-    }
-    AggregateItem field;
-    field.field = name(*plain);
-    field.span = span(argument);
-    elements.push_back(item(child(argument, 1)));
-    field.value = elements.front().repeat == nullptr
-                      ? elements.front().value
-                      : aggregate({elements.front()}, false, elements.front().span);
-    fields.push_back(field);
-  }
-  closeField();
-  return aggregate(std::move(fields), true, whole);
-}
-
-Expr *AstBuilder::initialValue(Context *context) {
-  if (isRepetition(context))
-    return aggregate({item(context)}, false, span(context));
-  return expression(context);
-}
-
-Expr *AstBuilder::initializer(Context *context) {
-  if (context->children.size() == 1)
-    return initialValue(child(context, 0));
-  std::vector<AggregateItem> items;
-  for (std::size_t i = 0; i < context->children.size(); ++i)
-    items.push_back(item(child(context, i)));
-  return aggregate(std::move(items), false, span(context));
 }
 
 } // namespace stc

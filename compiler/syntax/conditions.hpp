@@ -41,6 +41,7 @@ public:
   const Entry *find(Kind kind, std::string_view name, FileId from);
 
 private:
+  class Reader;
   void read(const SourceFile &file);
 
   const Sources &sources_;

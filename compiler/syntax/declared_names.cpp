@@ -3,7 +3,9 @@
 #include "compiler/syntax/conditions.hpp"
 #include "compiler/syntax/scanner.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 
 namespace stc {
 
@@ -40,92 +42,129 @@ const DeclaredNames::Entry *DeclaredNames::find(Kind kind, std::string_view name
   return nullptr;
 }
 
-void DeclaredNames::read(const SourceFile &file) {
-  Diagnostics ignored;
-  Scanner scanner(file, ignored);
-  const std::string list = lowerCase(std::filesystem::path(file.name()).stem().string());
-  std::string pou;
-  std::uint16_t section = 0;           // TYPE or VAR…; 0: outside of them
-  unsigned depth = 0;                  // of STRUCT within TYPE
-  std::vector<std::string> attributes; // of what is being declared
-  std::vector<std::string> names;      // in front of the colon
-  Token token = scanner.next();
-  const auto collect = [&] {
-    for (std::size_t i = 0; i < token.triviaCount; ++i)
-      if (const Trivia &one = scanner.trivia()[token.triviaBegin + i];
-          one.kind == Trivia::Kind::attribute)
-        attributes.push_back(lowerCase(one.name));
-  };
-  const auto add = [&](Kind kind, const std::string &name, Entry entry) {
-    names_[static_cast<std::size_t>(kind)].emplace(name, std::move(entry));
-  };
-  while (token.type != Token::kEnd) {
-    collect();
-    const std::uint16_t type = token.type;
-    if (section == 0 && opensPou(type)) {
-      do
-        token = scanner.next();
-      while (token.type >= Tok::ABSTRACT && token.type <= Tok::OVERRIDE);
-      if (token.type == Tok::IDENT) {
-        std::string name = lowerCase(scanner.text(token));
-        if (type == Tok::METHOD || type == Tok::PROPERTY || type == Tok::ACTION)
-          name.insert(0, pou + ".");
-        else
-          pou = name;
-        add(Kind::pou, name, {std::move(attributes), {}, {}, 0});
-        if (type == Tok::FUNCTION_BLOCK || type == Tok::CLASS || type == Tok::INTERFACE)
-          add(Kind::type, name, {});
-      }
-      attributes.clear();
-    } else if (section == 0 && (type == Tok::TYPE || (type >= Tok::VAR && type <= Tok::VAR_INST))) {
-      section = type;
-      names.clear();
-    } else if (type == Tok::END_TYPE || type == Tok::END_VAR) {
-      section = 0;
-      depth = 0;
-      attributes.clear();
-    } else if (section == Tok::TYPE && (type == Tok::STRUCT || type == Tok::UNION)) {
-      ++depth;
-    } else if (section == Tok::TYPE && (type == Tok::END_STRUCT || type == Tok::END_UNION)) {
-      depth -= depth > 0;
-      names.clear();
-    } else if (section != 0 && depth == 0 && type == Tok::IDENT) {
-      names.push_back(lowerCase(scanner.text(token)));
-    } else if (section != 0 && depth == 0 && type == Tok::COLON && !names.empty()) {
-      Entry entry;
-      entry.attributes = std::move(attributes);
-      attributes.clear();
-      bool inInit = false;
-      token = scanner.next();
-      const bool isStruct = token.type == Tok::STRUCT || token.type == Tok::UNION;
-      while (!isStruct && token.type != Tok::SEMICOLON && token.type != Tok::END_VAR &&
-             token.type != Tok::END_TYPE && token.type != Token::kEnd) {
-        if (token.type == Tok::ASSIGN && !inInit)
-          inInit = true;
-        else
-          (inInit ? entry.init : entry.type) += lowerCase(scanner.text(token));
-        token = scanner.next();
-      }
-      if (section == Tok::TYPE) {
-        add(Kind::type, names.front(), std::move(entry));
-      } else {
-        for (const std::string &name : names) {
-          Entry local = entry;
-          local.local = section == Tok::VAR_GLOBAL ? 0 : file.id();
-          add(Kind::variable, name, std::move(local));
-          add(Kind::variable, (section == Tok::VAR_GLOBAL ? list : pou) + "." + name, entry);
-        }
-      }
-      names.clear();
-      if (isStruct || token.type == Tok::END_VAR || token.type == Tok::END_TYPE)
-        continue; // looked at above
-    } else if (type == Tok::SEMICOLON) {
-      names.clear();
-      attributes.clear();
+/// Reads the words of one file.
+class DeclaredNames::Reader {
+public:
+  Reader(const SourceFile &file, DeclaredNames &into)
+      : into_(into), file_(file.id()), scanner_(file, ignored_),
+        list_(lowerCase(std::filesystem::path(file.name()).stem().string())),
+        token_(scanner_.next()) {}
+
+  void run() {
+    while (token_.type != Token::kEnd) {
+      collectAttributes();
+      if (word() && token_.type != Token::kEnd)
+        next();
     }
-    if (token.type != Token::kEnd)
-      token = scanner.next();
   }
-}
+
+private:
+  void next() { token_ = scanner_.next(); }
+  [[nodiscard]] std::string text() const { return lowerCase(scanner_.text(token_)); }
+  [[nodiscard]] bool isNow(std::initializer_list<std::uint16_t> types) const {
+    return std::find(types.begin(), types.end(), token_.type) != types.end();
+  }
+
+  void collectAttributes() {
+    for (std::size_t i = 0; i < token_.triviaCount; ++i)
+      if (const Trivia &one = scanner_.trivia()[token_.triviaBegin + i];
+          one.kind == Trivia::Kind::attribute)
+        attributes_.push_back(lowerCase(one.name));
+  }
+
+  void add(Kind kind, const std::string &name, Entry entry) {
+    into_.names_[static_cast<std::size_t>(kind)].emplace(name, std::move(entry));
+  }
+
+  /// Looks at one word; false: the next one is there already.
+  bool word() {
+    const std::uint16_t type = token_.type;
+    if (section_ == 0 && opensPou(type)) {
+      pou(type);
+    } else if (section_ == 0 &&
+               (type == Tok::TYPE || (type >= Tok::VAR && type <= Tok::VAR_INST))) {
+      section_ = type;
+      names_.clear();
+    } else if (isNow({Tok::END_TYPE, Tok::END_VAR})) {
+      section_ = 0;
+      depth_ = 0;
+      attributes_.clear();
+    } else if (section_ == Tok::TYPE && isNow({Tok::STRUCT, Tok::UNION})) {
+      ++depth_;
+    } else if (section_ == Tok::TYPE && isNow({Tok::END_STRUCT, Tok::END_UNION})) {
+      depth_ -= depth_ > 0;
+      names_.clear();
+    } else if (section_ != 0 && depth_ == 0 && type == Tok::IDENT) {
+      names_.push_back(text());
+    } else if (section_ != 0 && depth_ == 0 && type == Tok::COLON && !names_.empty()) {
+      return declaration();
+    } else if (type == Tok::SEMICOLON) {
+      names_.clear();
+      attributes_.clear();
+    }
+    return true;
+  }
+
+  void pou(std::uint16_t type) {
+    do
+      next();
+    while (token_.type >= Tok::ABSTRACT && token_.type <= Tok::OVERRIDE);
+    if (token_.type == Tok::IDENT) {
+      std::string name = text();
+      if (type == Tok::METHOD || type == Tok::PROPERTY || type == Tok::ACTION)
+        name.insert(0, pou_ + ".");
+      else
+        pou_ = name;
+      add(Kind::pou, name, {std::move(attributes_), {}, {}, 0});
+      if (type == Tok::FUNCTION_BLOCK || type == Tok::CLASS || type == Tok::INTERFACE)
+        add(Kind::type, name, {});
+    }
+    attributes_.clear();
+  }
+
+  /// What follows the colon, for all names before it.
+  bool declaration() {
+    Entry entry;
+    entry.attributes = std::move(attributes_);
+    attributes_.clear();
+    bool inInit = false;
+    next();
+    const bool isStruct = isNow({Tok::STRUCT, Tok::UNION});
+    while (!isStruct && !isNow({Tok::SEMICOLON, Tok::END_VAR, Tok::END_TYPE, Token::kEnd})) {
+      if (token_.type == Tok::ASSIGN && !inInit)
+        inInit = true;
+      else
+        (inInit ? entry.init : entry.type) += text();
+      next();
+    }
+    if (section_ == Tok::TYPE) {
+      add(Kind::type, names_.front(), std::move(entry));
+    } else {
+      const bool isGlobal = section_ == Tok::VAR_GLOBAL;
+      for (const std::string &name : names_) {
+        Entry local = entry;
+        local.local = isGlobal ? 0 : file_;
+        add(Kind::variable, name, std::move(local));
+        add(Kind::variable, (isGlobal ? list_ : pou_) + "." + name, entry);
+      }
+    }
+    names_.clear();
+    return !isStruct && !isNow({Tok::END_VAR, Tok::END_TYPE}); // else looked at next
+  }
+
+  DeclaredNames &into_;
+  FileId file_;
+  Diagnostics ignored_;
+  Scanner scanner_;
+  std::string list_; ///< the name of the file's list of global variables
+  std::string pou_;
+  std::uint16_t section_ = 0;           ///< TYPE or VAR…; 0: outside of them
+  unsigned depth_ = 0;                  ///< of STRUCT within TYPE
+  std::vector<std::string> attributes_; ///< of what is being declared
+  std::vector<std::string> names_;      ///< before the colon
+  Token token_;
+};
+
+void DeclaredNames::read(const SourceFile &file) { Reader(file, *this).run(); }
 
 } // namespace stc

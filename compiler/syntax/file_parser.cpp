@@ -40,21 +40,83 @@ FileParser::FileParser(const SourceFile &file, Interner &interner, Arena &arena,
   stream_.reset(unit_);
 }
 
+bool FileParser::refuses() {
+  if (looksBinary(file_.text())) {
+    diagnostics_.report(Code::binaryFile, {}, "`" + file_.name() + "` is not a text file");
+    return true;
+  }
+  const std::size_t limit = limitOf(file_);
+  if (limit >= file_.text().size())
+    return false;
+  const auto place = static_cast<std::uint32_t>(limit);
+  diagnostics_
+      .report(Code::fileTooLong, {file_.id(), place, place + 1},
+              "the file has more than 4,000,000 words and signs")
+      .help("make several files of it, or let the program read its table from a file");
+  return true;
+}
+
+void FileParser::declaration() {
+  switch (now_.type) {
+  case Tok::SEMICOLON:
+    return advance();
+  case Tok::PROGRAM:
+  case Tok::FUNCTION:
+  case Tok::FUNCTION_BLOCK:
+  case Tok::CLASS:
+  case Tok::INTERFACE:
+    return pou();
+  case Tok::METHOD:
+  case Tok::PROPERTY:
+  case Tok::ACTION:
+  case Tok::ACTIONS:
+    return lateMember();
+  case Tok::TYPE:
+    return types();
+  case Tok::VAR_GLOBAL:
+  case Tok::VAR_CONFIG:
+  case Tok::VAR_ACCESS:
+    return globals();
+  case Tok::NAMESPACE:
+    return namespaceHead();
+  case Tok::USING:
+    usingDirective(usings_);
+    usingsNow_ = arena_.copy(usings_);
+    return;
+  case Tok::CONFIGURATION:
+    return configuration();
+  default:
+    return now_.type == Tok::END_NAMESPACE && !namespaces_.empty() ? namespaceEnd() : outside();
+  }
+}
+
+void FileParser::giveMembers(OpenPou &open) {
+  const auto inherit = [&](ast::Decl *member) {
+    if (member == nullptr)
+      return;
+    member->space = open.node->space;
+    if (member->usings.empty())
+      member->usings = open.node->usings;
+  };
+  for (ast::PouDecl *one : open.methods)
+    inherit(one);
+  for (ast::PouDecl *one : open.actions)
+    inherit(one);
+  for (ast::PropertyDecl *one : open.properties) {
+    inherit(one);
+    inherit(one->get);
+    inherit(one->set);
+  }
+  open.node->methods = arena_.copy(open.methods);
+  open.node->actions = arena_.copy(open.actions);
+  open.node->properties = arena_.copy(open.properties);
+}
+
 ast::File *FileParser::run() {
   auto *out = arena_.make<ast::File>();
   out->id = file_.id();
-  if (looksBinary(file_.text())) {
-    diagnostics_.report(Code::binaryFile, {}, "`" + file_.name() + "` is not a text file");
+  if (refuses())
     return out;
-  }
-  if (const std::size_t limit = limitOf(file_); limit < file_.text().size()) {
-    const auto place = static_cast<std::uint32_t>(limit);
-    diagnostics_
-        .report(Code::fileTooLong, {file_.id(), place, place + 1},
-                "the file has more than 4,000,000 words and signs")
-        .help("make several files of it, or let the program read its table from a file");
-    return out;
-  }
   now_ = scanner_.next();
   ahead_ = scanner_.next();
   const std::size_t before = diagnostics_.errorCount();
@@ -64,72 +126,13 @@ ast::File *FileParser::run() {
                           "too many errors; the rest of the file is not checked");
       break;
     }
-    switch (now_.type) {
-    case Tok::SEMICOLON:
-      advance();
-      break;
-    case Tok::PROGRAM:
-    case Tok::FUNCTION:
-    case Tok::FUNCTION_BLOCK:
-    case Tok::CLASS:
-    case Tok::INTERFACE:
-      pou();
-      break;
-    case Tok::METHOD:
-    case Tok::PROPERTY:
-    case Tok::ACTION:
-    case Tok::ACTIONS:
-      lateMember();
-      break;
-    case Tok::TYPE:
-      types();
-      break;
-    case Tok::VAR_GLOBAL:
-    case Tok::VAR_CONFIG:
-    case Tok::VAR_ACCESS:
-      globals();
-      break;
-    case Tok::NAMESPACE:
-      namespaceHead();
-      break;
-    case Tok::USING:
-      usingDirective(usings_);
-      usingsNow_ = arena_.copy(usings_);
-      break;
-    case Tok::CONFIGURATION:
-      configuration();
-      break;
-    default:
-      if (now_.type == Tok::END_NAMESPACE && !namespaces_.empty())
-        namespaceEnd();
-      else
-        outside();
-    }
+    declaration();
   }
   for (const OpenNamespace &open : namespaces_)
     diagnostics_.report(Code::missingEnd, open.head, "missing `END_NAMESPACE`",
                         "this is not closed");
-  for (OpenPou &open : pous_) {
-    const auto inherit = [&](ast::Decl *member) {
-      if (member == nullptr)
-        return;
-      member->space = open.node->space;
-      if (member->usings.empty())
-        member->usings = open.node->usings;
-    };
-    for (ast::PouDecl *one : open.methods)
-      inherit(one);
-    for (ast::PouDecl *one : open.actions)
-      inherit(one);
-    for (ast::PropertyDecl *one : open.properties) {
-      inherit(one);
-      inherit(one->get);
-      inherit(one->set);
-    }
-    open.node->methods = arena_.copy(open.methods);
-    open.node->actions = arena_.copy(open.actions);
-    open.node->properties = arena_.copy(open.properties);
-  }
+  for (OpenPou &open : pous_)
+    giveMembers(open);
   out->declarations = arena_.copy(declarations_);
   out->strayMembers = arena_.copy(strays_);
   return out;

@@ -67,7 +67,17 @@ private:
   [[nodiscard]] bool startsAccessor() const;
   void finishUnit();
 
+  /// Reports a file that is not read at all.
+  bool refuses();
+  /// Whatever may stand outside of everything, once.
+  void declaration();
+  void giveMembers(OpenPou &open);
+
   // Program units and their members.
+  /// The END_… of a keyword; 0: it has none.
+  static std::uint16_t endOf(std::uint16_t keyword);
+  /// "a METHOD", "an ACTION"
+  static std::string article(std::uint16_t keyword);
   void pou();
   Head head();
   void readHead(std::vector<Token> &usings);
@@ -88,8 +98,23 @@ private:
   bool instructionList();
   void chart();
 
+  /// How deep a declaration is nested: brackets, and ARRAY OF, POINTER TO before a type.
+  struct Nesting {
+    unsigned brackets = 0;
+    unsigned types = 0;
+    void count(std::uint16_t type);
+    [[nodiscard]] bool isTooDeep() const;
+  };
+  /// Reports that the declaration which begins at `start` of the unit is nested too deeply, and
+  /// leaves it out; `end` closes what it stands in.
+  void leaveOut(std::size_t start, std::uint16_t end);
+  /// Closes what the unit has of a long block, as if `end` stood here.
+  void closeUnit(std::uint16_t end);
+
   // Other parts of a file.
   void sections(std::vector<ast::VarDecl *> &out);
+  [[nodiscard]] bool endsSection(std::size_t start) const;
+  void markAccess();
   void types();
   void body(std::vector<ast::Stmt *> &out);
   void readStatements();

@@ -20,6 +20,66 @@ constexpr std::size_t kUnitTokens = 2048;
 // -------------------------------------------------------------------------------------------------
 // declarations
 
+void FileParser::Nesting::count(std::uint16_t type) {
+  switch (type) {
+  case Tok::LPAREN:
+  case Tok::LBRACKET:
+    ++brackets;
+    return;
+  case Tok::RPAREN:
+  case Tok::RBRACKET:
+    brackets -= brackets > 0;
+    return;
+  case Tok::ARRAY:
+  case Tok::POINTER:
+  case Tok::REFERENCE:
+  case Tok::REF_TO:
+    ++types;
+    return;
+  default:
+    return;
+  }
+}
+
+bool FileParser::Nesting::isTooDeep() const { return brackets + types > kMaxNesting; }
+
+void FileParser::leaveOut(std::size_t start, std::uint16_t end) {
+  diagnostics_.report(Code::tooDeep, span(now_), "this declaration is nested too deeply",
+                      "deeper than " + std::to_string(kMaxNesting));
+  unit_.resize(start);
+  while (now_.type != Tok::SEMICOLON && now_.type != end && !endsUnit() && !startsDeclaration())
+    advance();
+  if (now_.type == Tok::SEMICOLON)
+    advance();
+}
+
+void FileParser::closeUnit(std::uint16_t end) {
+  Token token = now_;
+  token.type = end;
+  token.end = token.begin;
+  token.triviaCount = 0;
+  unit_.push_back(token);
+}
+
+/// `start`: where the unit's last declaration begins.
+bool FileParser::endsSection(std::size_t start) const {
+  return endsUnit() || startsDeclaration() || startsSection() ||
+         (isMember(now_.type) && ahead_.type == Tok::IDENT) ||
+         (startsBlock(now_.type) && ahead_.type != Tok::COLON && ahead_.type != Tok::COMMA) ||
+         (unit_.size() == start && unit_.front().type != Tok::VAR_CONFIG &&
+          startsStatementInSection());
+}
+
+/// READ_ONLY and READ_WRITE are words of VAR_ACCESS only.
+void FileParser::markAccess() {
+  if (now_.type != Tok::IDENT || ahead_.type != Tok::SEMICOLON)
+    return;
+  if (isNow("read_only"))
+    now_.type = Tok::READ_ONLY;
+  else if (isNow("read_write"))
+    now_.type = Tok::READ_WRITE;
+}
+
 void FileParser::sections(std::vector<ast::VarDecl *> &out) {
   unit_.clear();
   take();
@@ -34,72 +94,31 @@ void FileParser::sections(std::vector<ast::VarDecl *> &out) {
     if (unit != nullptr && !unit->children.empty())
       builder_.section(static_cast<Grammar::VarSectionContext *>(unit->children[0]), out);
   };
-  unsigned depth = 0; // of brackets
-  unsigned types = 0; // ARRAY OF, POINTER TO in one declaration
+  Nesting nesting;
   std::size_t start = unit_.size();
-  for (;;) {
-    if (endsUnit() || startsDeclaration() || startsSection() ||
-        (isMember(now_.type) && ahead_.type == Tok::IDENT) ||
-        (startsBlock(now_.type) && ahead_.type != Tok::COLON && ahead_.type != Tok::COMMA) ||
-        (unit_.size() == start && unit_.front().type != Tok::VAR_CONFIG &&
-         startsStatementInSection()))
-      break;
-    switch (now_.type) {
-    case Tok::LPAREN:
-    case Tok::LBRACKET:
-      ++depth;
-      break;
-    case Tok::RPAREN:
-    case Tok::RBRACKET:
-      depth -= depth > 0;
-      break;
-    case Tok::ARRAY:
-    case Tok::POINTER:
-    case Tok::REFERENCE:
-    case Tok::REF_TO:
-      ++types;
-      break;
-    case Tok::IDENT:
-      if (isAccess && ahead_.type == Tok::SEMICOLON) {
-        if (isNow("read_only"))
-          now_.type = Tok::READ_ONLY;
-        else if (isNow("read_write"))
-          now_.type = Tok::READ_WRITE;
-      }
-      break;
-    default:
-      break;
-    }
+  while (!endsSection(start)) {
+    nesting.count(now_.type);
+    if (isAccess)
+      markAccess();
     markTypeArgument();
     const std::uint16_t type = now_.type;
-    if (depth + types > kMaxNesting) {
-      diagnostics_.report(Code::tooDeep, span(now_), "this declaration is nested too deeply",
-                          "deeper than " + std::to_string(kMaxNesting));
-      unit_.resize(start);
-      while (now_.type != Tok::SEMICOLON && now_.type != Tok::END_VAR && !endsUnit() &&
-             !startsDeclaration())
-        advance();
-      if (now_.type == Tok::SEMICOLON)
-        advance();
-      depth = types = 0;
+    if (nesting.isTooDeep()) {
+      leaveOut(start, Tok::END_VAR);
+      nesting = {};
       continue;
     }
     take();
     if (type == Tok::END_VAR)
       break;
-    if (type == Tok::SEMICOLON) {
-      types = depth = 0;
+    if (type != Tok::SEMICOLON)
+      continue;
+    nesting = {};
+    start = unit_.size();
+    if (unit_.size() >= kUnitTokens) {
+      closeUnit(Tok::END_VAR);
+      parseSection();
+      unit_ = head;
       start = unit_.size();
-      if (unit_.size() >= kUnitTokens) {
-        Token end = now_;
-        end.type = Tok::END_VAR;
-        end.end = end.begin;
-        end.triviaCount = 0;
-        unit_.push_back(end);
-        parseSection();
-        unit_ = head;
-        start = unit_.size();
-      }
     }
   }
   parseSection();
@@ -134,69 +153,36 @@ void FileParser::types() {
     for (ast::Decl *one : list)
       add(one);
   };
-  unsigned depth = 0;
-  unsigned chain = 0;
+  Nesting nesting;
   bool inStruct = false;
   std::size_t start = unit_.size();
-  for (bool first = true;; first = false) {
-    if ((!first && (startsDeclaration() || isMember(now_.type))) || endsUnit() || startsSection())
-      break;
-    switch (now_.type) {
-    case Tok::LPAREN:
-    case Tok::LBRACKET:
-      ++depth;
-      break;
-    case Tok::RPAREN:
-    case Tok::RBRACKET:
-      depth -= depth > 0;
-      break;
-    case Tok::ARRAY:
-    case Tok::POINTER:
-    case Tok::REFERENCE:
-    case Tok::REF_TO:
-      ++chain;
-      break;
-    case Tok::STRUCT:
-    case Tok::UNION:
+  for (bool first = true;
+       (first || !(startsDeclaration() || isMember(now_.type))) && !endsUnit() && !startsSection();
+       first = false) {
+    nesting.count(now_.type);
+    if (now_.type == Tok::STRUCT || now_.type == Tok::UNION)
       inStruct = inStruct || ahead_.type != Tok::COLON;
-      break;
-    case Tok::END_STRUCT:
-    case Tok::END_UNION:
+    else if (now_.type == Tok::END_STRUCT || now_.type == Tok::END_UNION)
       inStruct = false;
-      break;
-    default:
-      break;
-    }
     markTypeArgument();
     const std::uint16_t type = now_.type;
-    if (depth + chain > kMaxNesting) {
-      diagnostics_.report(Code::tooDeep, span(now_), "this declaration is nested too deeply",
-                          "deeper than " + std::to_string(kMaxNesting));
-      unit_.resize(start);
-      while (now_.type != Tok::SEMICOLON && now_.type != Tok::END_TYPE && !endsUnit() &&
-             !startsDeclaration())
-        advance();
-      if (now_.type == Tok::SEMICOLON)
-        advance();
-      depth = chain = 0;
+    if (nesting.isTooDeep()) {
+      leaveOut(start, Tok::END_TYPE);
+      nesting = {};
       continue;
     }
     take();
     if (type == Tok::END_TYPE)
       break;
-    if (type == Tok::SEMICOLON) {
-      chain = depth = 0;
+    if (type != Tok::SEMICOLON)
+      continue;
+    nesting = {};
+    start = unit_.size();
+    if (!inStruct && unit_.size() >= kUnitTokens && now_.type != Tok::SEMICOLON) {
+      closeUnit(Tok::END_TYPE);
+      parseTypes();
+      unit_.assign(1, head);
       start = unit_.size();
-      if (!inStruct && unit_.size() >= kUnitTokens && now_.type != Tok::SEMICOLON) {
-        Token end = now_;
-        end.type = Tok::END_TYPE;
-        end.end = end.begin;
-        end.triviaCount = 0;
-        unit_.push_back(end);
-        parseTypes();
-        unit_.assign(1, head);
-        start = unit_.size();
-      }
     }
   }
   parseTypes();

@@ -1,6 +1,7 @@
 #include "compiler/syntax/literals.hpp"
 
 #include "compiler/source/identifier.hpp"
+#include "compiler/syntax/characters.hpp"
 
 #include <charconv>
 #include <chrono>
@@ -16,8 +17,6 @@ namespace {
 using ast::LiteralKind;
 
 constexpr std::uint64_t kMax64 = std::numeric_limits<std::uint64_t>::max();
-
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
 
 int digitValue(char c) {
   if (isDigit(c))
