@@ -203,7 +203,8 @@ public:
         checkOrder(row);
       if (!row.with.empty())
         checkTogether(row);
-      if (row.type == ParameterType::DriveName && section_.get(row.name) != nullptr)
+      if (row.type == ParameterType::DriveName && scope_.group != nullptr &&
+          section_.get(row.name) != nullptr)
         checkDrive(*section_.get(row.name));
     }
   }

@@ -88,7 +88,8 @@ struct RuleScope {
   std::string_view counts = "counts "; ///< Before "only with …".
   std::string_view what = "drive";     ///< "only for linear {}s"
   bool rotary = false;
-  const AxisGroupConfig *group = nullptr; ///< Of drives that parameters name.
+  /// Of drives that parameters name; null: it is not looked whether there is such a drive.
+  const AxisGroupConfig *group = nullptr;
 };
 
 /// Reports what contradicts the rules of the section's rows: parameters without effect, missing
