@@ -1,7 +1,7 @@
 // Options that several commands have.
 
 #include "compiler/cli/command_line.hpp"
-#include "compiler/semantics/suggest.hpp"
+#include "compiler/source/suggest.hpp"
 #include "compiler/syntax/conditions.hpp"
 
 #include <map>

@@ -3,7 +3,7 @@
 // arguments, a hidden program that calls it.
 
 #include "compiler/project/config.hpp"
-#include "compiler/semantics/suggest.hpp"
+#include "compiler/source/suggest.hpp"
 #include "compiler/syntax/st_text.hpp"
 #include "compiler/toml/interval.hpp"
 

@@ -1,6 +1,6 @@
 #include "compiler/project/driver_sections.hpp"
 
-#include "compiler/semantics/suggest.hpp"
+#include "compiler/source/suggest.hpp"
 #include "compiler/syntax/st_text.hpp"
 #include "compiler/toml/interval.hpp"
 #include "drivers/io/registry.hpp"

@@ -2,7 +2,7 @@
 
 #include "compiler/project/config_reader.hpp"
 #include "compiler/project/driver_sections.hpp"
-#include "compiler/semantics/suggest.hpp"
+#include "compiler/source/suggest.hpp"
 #include "compiler/syntax/st_text.hpp"
 #include "drivers/registry.hpp"
 #include "runtime/bus/plc_schema.hpp"

@@ -3,7 +3,7 @@
 
 #include "compiler/project/config.hpp"
 #include "compiler/project/config_reader.hpp"
-#include "compiler/semantics/suggest.hpp"
+#include "compiler/source/suggest.hpp"
 #include "compiler/syntax/global_names.hpp"
 #include "compiler/syntax/st_text.hpp"
 #include "compiler/toml/interval.hpp"

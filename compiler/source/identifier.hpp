@@ -2,6 +2,7 @@
 // Interned, case-insensitive identifiers.
 
 #include "compiler/source/arena.hpp"
+#include "runtime/common/fnv.hpp"
 #include "runtime/common/text.hpp"
 
 #include <cstdint>
@@ -21,16 +22,20 @@ using Ident = const IdentData *;
 
 using stride::common::lowerCase;
 
-/// One step and the whole of the case-insensitive hash of identifiers.
-constexpr std::uint32_t hashStep(std::uint32_t hash, char c) {
-  return (hash ^ static_cast<unsigned char>(lowerCase(c))) * 0x01000193U;
-}
-inline constexpr std::uint32_t kHashSeed = 0x811C9DC5U;
+/// The hash of an identifier, whatever its case: letter by letter, and as a whole.
+class IdentHash {
+public:
+  constexpr void add(char c) { hash_.add(static_cast<unsigned char>(lowerCase(c))); }
+  [[nodiscard]] constexpr std::uint32_t value() const { return hash_.value(); }
+
+private:
+  stride::common::Fnv1a<std::uint32_t> hash_;
+};
 constexpr std::uint32_t hashIdent(std::string_view spelling) {
-  std::uint32_t hash = kHashSeed;
-  for (char c : spelling)
-    hash = hashStep(hash, c);
-  return hash;
+  IdentHash hash;
+  for (const char c : spelling)
+    hash.add(c);
+  return hash.value();
 }
 
 /// Gives each identifier its IdentData. One per compilation.

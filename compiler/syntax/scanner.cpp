@@ -256,7 +256,7 @@ bool Scanner::firstOf(std::uint32_t hash) {
 std::uint16_t Scanner::word(std::size_t begin, Token &token) {
   const char *const data = text_.data();
   const std::size_t size = text_.size();
-  std::uint32_t hash = kHashSeed;
+  IdentHash running;
   std::size_t end = begin;
   bool foreignLetters = false;
   bool doubled = false;
@@ -268,9 +268,10 @@ std::uint16_t Scanner::word(std::size_t begin, Token &token) {
       foreignLetters = true;
     }
     doubled |= c == '_' && end > begin && data[end - 1] == '_';
-    hash = hashStep(hash, c);
+    running.add(c);
   }
   place_ = end;
+  const std::uint32_t hash = running.value();
   token.hash = hash;
   const std::string_view spelling = text_.substr(begin, end - begin);
   if (foreignLetters) {

@@ -1,6 +1,6 @@
 #include "compiler/toml/schema.hpp"
 
-#include "compiler/semantics/suggest.hpp"
+#include "compiler/source/suggest.hpp"
 #include "compiler/syntax/parser.hpp"
 #include "compiler/syntax/st_text.hpp"
 #include "compiler/toml/interval.hpp"

@@ -9,8 +9,8 @@
 #include "compiler/semantics/expressions/expressions.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
-#include "compiler/semantics/suggest.hpp"
 #include "compiler/semantics/types/resolve.hpp"
+#include "compiler/source/suggest.hpp"
 
 #include <unordered_set>
 

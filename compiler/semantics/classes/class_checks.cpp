@@ -6,7 +6,7 @@
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/hierarchy.hpp"
-#include "compiler/semantics/suggest.hpp"
+#include "compiler/source/suggest.hpp"
 
 #include <map>
 

@@ -8,7 +8,7 @@
 #include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/expressions/expressions.hpp"
 #include "compiler/semantics/hierarchy.hpp"
-#include "compiler/semantics/suggest.hpp"
+#include "compiler/source/suggest.hpp"
 
 #include <unordered_set>
 

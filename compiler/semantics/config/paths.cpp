@@ -7,7 +7,7 @@
 #include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/expressions/expressions.hpp"
 #include "compiler/semantics/names/names.hpp"
-#include "compiler/semantics/suggest.hpp"
+#include "compiler/source/suggest.hpp"
 
 #include <algorithm>
 

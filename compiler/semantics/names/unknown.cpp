@@ -7,7 +7,7 @@
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/hierarchy.hpp"
-#include "compiler/semantics/suggest.hpp"
+#include "compiler/source/suggest.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/expressions/expressions.hpp"
-#include "compiler/semantics/suggest.hpp"
+#include "compiler/source/suggest.hpp"
 #include "compiler/syntax/visit.hpp"
 
 #include <unordered_map>

@@ -1,8 +1,8 @@
 // Constant arithmetic against the hardware's.
 
 #include "compiler/semantics/fold.hpp"
-#include "compiler/semantics/suggest.hpp"
 #include "compiler/semantics/type_table.hpp"
+#include "compiler/source/suggest.hpp"
 
 #include <gtest/gtest.h>
 

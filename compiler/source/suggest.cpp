@@ -1,4 +1,4 @@
-#include "compiler/semantics/suggest.hpp"
+#include "compiler/source/suggest.hpp"
 
 #include "runtime/common/edit_distance.hpp"
 
