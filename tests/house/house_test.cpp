@@ -35,7 +35,7 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
        {"compiler/semantics/context", "compiler/semantics", "compiler/syntax", "compiler/source"}},
       {"compiler/semantics/statements",
        {"compiler/semantics/checking", "compiler/semantics/context", "compiler/semantics",
-        "compiler/syntax"}},
+        "compiler/syntax", "compiler/source"}},
       {"compiler/semantics/lint",
        {"compiler/semantics/context", "compiler/semantics", "compiler/syntax"}},
       {"compiler/semantics/sharing", {"compiler/semantics", "compiler/syntax"}},

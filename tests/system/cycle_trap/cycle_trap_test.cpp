@@ -25,6 +25,8 @@ std::vector<std::string> projects() {
     for (const fs::directory_entry &entry :
          fs::directory_iterator(std::string(STRIDE_SOURCE_DIR) + root)) {
       const std::string name = entry.path().filename().string();
+      if (name == "quick_stop") // ends with an exception, for which there is memory
+        continue;
       if (entry.is_directory() && fs::exists(entry.path() / "stride.toml") &&
           name.rfind("fail_", 0) != 0 && name.rfind("warn_", 0) != 0)
         found.push_back(entry.path().string());
