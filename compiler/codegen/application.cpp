@@ -6,6 +6,7 @@
 #include "compiler/codegen/plc_tables.hpp"
 #include "compiler/codegen/type_table.hpp"
 #include "compiler/codegen/units.hpp"
+#include "compiler/semantics/attributes.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
 #include <algorithm>
@@ -103,7 +104,7 @@ private:
       for (const Decl *decl : file->declarations) {
         if (decl->kind != DeclKind::globals)
           continue;
-        const bool qualified = findAttribute(decl->attributes, "qualified_only") != nullptr;
+        const bool qualified = hasAttribute(decl->attributes, "qualified_only");
         const std::string_view renamed = renamedFrom(decl->attributes);
         for (const VarDecl *v : as<GlobalsDecl>(decl)->variables) {
           if (qualified)

@@ -1,6 +1,7 @@
 #include "compiler/codegen/type_table.hpp"
 
 #include "compiler/codegen/units.hpp"
+#include "compiler/semantics/attributes.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/type_table.hpp"
 
@@ -10,17 +11,12 @@ namespace stc::codegen {
 
 using namespace ast;
 
-const Attribute *findAttribute(const Attributes &attributes, std::string_view name) {
-  for (const Attribute &a : attributes) {
-    if (a.name == name)
-      return &a;
-  }
-  return nullptr;
-}
-
 std::string_view renamedFrom(const Attributes &attributes) {
-  const Attribute *attribute = findAttribute(attributes, "renamed_from");
-  return attribute == nullptr ? std::string_view() : attribute->value;
+  for (const Attribute &a : attributes) {
+    if (a.name == "renamed_from")
+      return a.value;
+  }
+  return {};
 }
 
 namespace {
@@ -60,7 +56,7 @@ Flags symbolFlags(const VarSymbol *v, bool qualifiedOnly = false) {
       .add((qualifiers & qualNonRetain) != 0, "NonRetain")
       .add(v->isConstant, "Constant")
       .add(v->hidden, "Hidden")
-      .add(v->decl != nullptr && findAttribute(v->decl->attributes, "init_on_onlchange") != nullptr,
+      .add(v->decl != nullptr && hasAttribute(v->decl->attributes, "init_on_onlchange"),
            "InitOnChange")
       .add(qualifiedOnly, "QualifiedOnly");
   return flags;

@@ -10,9 +10,6 @@
 
 namespace stc::codegen {
 
-/// The attribute of this name, or null.
-[[nodiscard]] const ast::Attribute *findAttribute(const ast::Attributes &attributes,
-                                                  std::string_view name);
 /// The value of {attribute 'renamed_from'}, empty without one.
 [[nodiscard]] std::string_view renamedFrom(const ast::Attributes &attributes);
 
