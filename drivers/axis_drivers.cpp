@@ -34,7 +34,7 @@ const DriverEntry *findDriver(std::string_view name) {
 
 std::string knownDrivers() {
   std::string text = "it has ";
-  for (std::size_t i = 0; i < kDrivers.size(); ++i) {
+  for (size_t i = 0; i < kDrivers.size(); ++i) {
     text += i == 0 ? "'" : ", '";
     text.append(kDrivers[i].schema->interfaceType).append("'");
   }

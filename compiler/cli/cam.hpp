@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CLI_CAM_HPP
+#define STRIDE_COMPILER_CLI_CAM_HPP
 // What the commands of `stride cam` work on.
 
 #include "compiler/assets/cam/cam_source.hpp"
@@ -14,8 +15,8 @@ namespace stc::cli {
 
 /// A cam that a command was given: a cam file, a binary file, or a table of positions.
 struct LoadedCam {
-  enum class Kind { source, binary, table };
-  Kind kind = Kind::source;
+  enum class Kind { Source, Binary, Table };
+  Kind kind = Kind::Source;
   CamSource source; ///< of the other two what they say: name, ends, tappets
   CamData data;     ///< compiled; of a table of positions without elements
   std::vector<stride::cam::Segment> segments; ///< its curve
@@ -59,3 +60,5 @@ void joinEnds(CamSource &cam);
 [[nodiscard]] std::string drawCam(const LoadedCam &cam);
 
 } // namespace stc::cli
+
+#endif // STRIDE_COMPILER_CLI_CAM_HPP

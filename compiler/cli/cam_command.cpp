@@ -62,7 +62,7 @@ public:
   std::optional<LoadedCam> loadCurve(const std::string &path) {
     std::optional<LoadedCam> cam = load(path);
     if (cam && cam->segments.empty()) {
-      diagnostics_.report(Code::camUnreadable, {},
+      diagnostics_.report(Code::CamUnreadable, {},
                           fmt::format("`{}` has tappets only, no curve", path));
       cam.reset();
     }
@@ -73,7 +73,7 @@ public:
 
   void write(const std::string &path, const std::string &text) {
     if (!writeFile(path, text))
-      diagnostics_.report(Code::cannotWrite, {},
+      diagnostics_.report(Code::CannotWrite, {},
                           fmt::format("`{}` cannot be written: {}", path, lastError()));
     else
       written_ += path + "\n";
@@ -111,12 +111,12 @@ std::string dataText(const LoadedCam &cam) {
   case Form::PairTable:
     text = fmt::format("{} {} of {}, {} between them", header.elements,
                        header.form == Form::EvenTable ? "places at even distances" : "pairs",
-                       kNumbers[static_cast<std::size_t>(header.element)],
+                       kNumbers[static_cast<size_t>(header.element)],
                        header.cubic ? "cubic curves" : "lines");
     break;
   }
   return fmt::format("{}, {} bytes{}", text, bytes,
-                     cam.kind == LoadedCam::Kind::source && cam.source.compile.mode == CamMode::none
+                     cam.kind == LoadedCam::Kind::Source && cam.source.compile.mode == CamMode::None
                          ? " (not compiled into the project)"
                          : "");
 }
@@ -125,11 +125,11 @@ std::string dataText(const LoadedCam &cam) {
 double deviationOf(const LoadedCam &cam) {
   const Curve ideal = cam.curve();
   const Curve table = cam.data.curve();
-  std::uint32_t at = 0;
-  std::uint32_t in = 0;
+  uint32_t at = 0;
+  uint32_t in = 0;
   double most = 0;
-  const std::uint32_t pieces = pieceCount(table);
-  for (std::uint32_t i = 0; i < pieces; ++i) {
+  const uint32_t pieces = pieceCount(table);
+  for (uint32_t i = 0; i < pieces; ++i) {
     const Segment piece = pieceOf(table, i, cam.source.periodic);
     for (int k = 0; k <= 8; ++k) {
       const double x = std::clamp(piece.start + (piece.end - piece.start) * k / 8, cam.source.start,
@@ -163,11 +163,11 @@ std::string describeCam(const std::string &path, const LoadedCam &cam) {
   text += fmt::format("  rise          {}{}\n", none ? "0" : shown(rise), unitsOf(source, ""));
   if (!source.tappets.empty())
     text += fmt::format("  tappets       {}\n", source.tappets.size());
-  if (cam.kind != LoadedCam::Kind::table)
+  if (cam.kind != LoadedCam::Kind::Table)
     text += fmt::format("  data          {}\n", dataText(cam));
   const bool isTable = cam.data.header.elements != 0 && (cam.data.header.form == Form::EvenTable ||
                                                          cam.data.header.form == Form::PairTable);
-  if (isTable && cam.kind == LoadedCam::Kind::source)
+  if (isTable && cam.kind == LoadedCam::Kind::Source)
     text += fmt::format("  off the curve up to {}{}\n", fmt::format("{:.3g}", deviationOf(cam)),
                         unitsOf(source, ""));
   return text;
@@ -175,10 +175,10 @@ std::string describeCam(const std::string &path, const LoadedCam &cam) {
 
 /// A table of the runtime has jumps of velocity by nature.
 void reportJumps(const std::string &path, const LoadedCam &cam, Diagnostics &diagnostics) {
-  if (cam.kind != LoadedCam::Kind::binary || cam.data.header.form != Form::Segments)
+  if (cam.kind != LoadedCam::Kind::Binary || cam.data.header.form != Form::Segments)
     return;
   for (const CamJump &jump : jumpsOf(cam.segments, false, 0))
-    diagnostics.report(Code::camJump, {},
+    diagnostics.report(Code::CamJump, {},
                        fmt::format("`{}`: the {} jumps from {:.6g} to {:.6g} at master position {}",
                                    path, jump.what, jump.before, jump.behind, jump.x));
 }
@@ -188,7 +188,7 @@ int camCheck(const CamOptions &options) {
   for (const std::string &path : options.files) {
     Session session(options);
     Levels levels;
-    levels.set(Code::camJump, Severity::error);
+    levels.set(Code::CamJump, Severity::Error);
     session.diagnostics().setLevels(levels);
     const std::optional<LoadedCam> cam = session.load(path);
     if (cam) {
@@ -227,8 +227,8 @@ int camExport(const CamOptions &options) {
   if (const std::optional<LoadedCam> cam = session.loadCurve(path)) {
     const Curve curve = cam->curve();
     std::vector<CamPlace> places;
-    std::uint32_t index = 0;
-    for (std::size_t i = 0; i < options.points; ++i) {
+    uint32_t index = 0;
+    for (size_t i = 0; i < options.points; ++i) {
       const double part = static_cast<double>(i) / static_cast<double>(options.points - 1);
       const double x =
           i + 1 == options.points ? curve.end : curve.start + part * (curve.end - curve.start);
@@ -246,7 +246,7 @@ void writeSource(Session &session, const CamOptions &options, CamSource &source,
   const std::string target = options.out.empty() ? withEnding(path, kCamSuffix) : options.out;
   if (options.out.empty() && target == path) {
     session.diagnostics()
-        .report(Code::cannotWrite, {}, fmt::format("`{}` would be replaced", path))
+        .report(Code::CannotWrite, {}, fmt::format("`{}` would be replaced", path))
         .help("name another file with `-o FILE`");
     return;
   }
@@ -259,7 +259,7 @@ void writeSource(Session &session, const CamOptions &options, CamSource &source,
     session.write(target, text);
 }
 
-std::string reducedText(std::size_t points, double tolerance) {
+std::string reducedText(size_t points, double tolerance) {
   return fmt::format("{} points, off the curve by {} at most", points, shown(tolerance));
 }
 
@@ -269,7 +269,7 @@ bool reduce(Session &session, const LoadedCam &cam, double tolerance, CamSource 
   const std::vector<Node> nodes = reduceCurve(cam.curve(), source.periodic, tolerance);
   if (nodes.empty()) {
     session.diagnostics().report(
-        Code::camTable, {},
+        Code::CamTable, {},
         fmt::format("`{}` cannot be reduced within {}: the tolerance is too small", path,
                     shown(tolerance)));
     return false;
@@ -287,7 +287,7 @@ int camImport(const CamOptions &options) {
   Session session(options);
   const std::string &path = options.files.front();
   if (std::optional<LoadedCam> cam = session.loadCurve(path)) {
-    if (options.periodic && cam->kind == LoadedCam::Kind::table) {
+    if (options.periodic && cam->kind == LoadedCam::Kind::Table) {
       joinEnds(cam->source);
       cam->segments = segmentsOf(cam->source);
     }
@@ -312,7 +312,7 @@ int camReduce(const CamOptions &options) {
   const std::string &path = options.files.front();
   if (const std::optional<LoadedCam> cam = session.loadCurve(path)) {
     CamSource source = cam->source;
-    const std::size_t before = source.elements.size();
+    const size_t before = source.elements.size();
     if (reduce(session, *cam, options.tolerance, source, path)) {
       writeSource(session, options, source,
                   fmt::format("{}: {}", std::filesystem::path(path).filename().string(),
@@ -330,15 +330,15 @@ int camWrite(const CamOptions &options) {
   Session session(options);
   const std::string &path = options.files.front();
   if (const std::optional<LoadedCam> cam = session.load(path)) {
-    if (cam->kind == LoadedCam::Kind::table) {
+    if (cam->kind == LoadedCam::Kind::Table) {
       session.diagnostics()
-          .report(Code::camUnreadable, {}, fmt::format("`{}` is a table of positions", path))
+          .report(Code::CamUnreadable, {}, fmt::format("`{}` is a table of positions", path))
           .help("make a cam file of it first: `stride cam import`");
       return session.finish();
     }
-    std::string bytes(static_cast<std::size_t>(camFileSize(cam->data.header)), '\0');
+    std::string bytes(static_cast<size_t>(camFileSize(cam->data.header)), '\0');
     writeCamFile(cam->data.header, cam->data.elements(), cam->data.tappets.data(),
-                 reinterpret_cast<std::uint8_t *>(bytes.data()));
+                 reinterpret_cast<uint8_t *>(bytes.data()));
     session.write(options.out.empty() ? withEnding(path, ".CAM") : options.out, bytes);
   }
   return session.finish();
@@ -349,9 +349,9 @@ int camRead(const CamOptions &options) {
   const std::string &path = options.files.front();
   if (const std::optional<LoadedCam> cam = session.load(path)) {
     CamSource source = cam->source;
-    if (cam->kind == LoadedCam::Kind::binary && !elementsOf(*cam, source)) {
+    if (cam->kind == LoadedCam::Kind::Binary && !elementsOf(*cam, source)) {
       session.diagnostics()
-          .report(Code::camUnreadable, {},
+          .report(Code::CamUnreadable, {},
                   fmt::format("`{}` has segments that a cam file cannot describe", path))
           .help("`stride cam reduce` describes its curve by points, within a tolerance");
       return session.finish();
@@ -366,21 +366,21 @@ int camRead(const CamOptions &options) {
 
 int camCommand(const CamOptions &options) {
   switch (options.action) {
-  case CamAction::check:
+  case CamAction::Check:
     return camCheck(options);
-  case CamAction::bounds:
+  case CamAction::Bounds:
     return camBounds(options);
-  case CamAction::plot:
+  case CamAction::Plot:
     return camPlot(options);
-  case CamAction::exportTable:
+  case CamAction::ExportTable:
     return camExport(options);
-  case CamAction::importTable:
+  case CamAction::ImportTable:
     return camImport(options);
-  case CamAction::reduce:
+  case CamAction::Reduce:
     return camReduce(options);
-  case CamAction::write:
+  case CamAction::Write:
     return camWrite(options);
-  case CamAction::read:
+  case CamAction::Read:
     return camRead(options);
   }
   return 0;

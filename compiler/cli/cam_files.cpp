@@ -23,7 +23,7 @@ std::string stemOf(const std::string &path) {
 }
 
 void keepSegments(LoadedCam &cam, const Curve &curve) {
-  for (std::uint32_t i = 0; i < pieceCount(curve); ++i)
+  for (uint32_t i = 0; i < pieceCount(curve); ++i)
     cam.segments.push_back(pieceOf(curve, i, false));
 }
 
@@ -47,24 +47,24 @@ std::optional<LoadedCam> loadBinary(const std::string &path, const Sources &sour
                                     Diagnostics &diagnostics) {
   const std::optional<std::string> bytes = sources.read(path);
   if (!bytes) {
-    diagnostics.report(Code::unreadableFile, {},
+    diagnostics.report(Code::UnreadableFile, {},
                        fmt::format("`{}` cannot be read: {}", path, readSourceError()));
     return std::nullopt;
   }
   std::vector<double> aligned((bytes->size() + sizeof(double) - 1) / sizeof(double) + 1);
   std::memcpy(aligned.data(), bytes->data(), bytes->size());
   CamFile file;
-  const CamFileError error = openCamFile(reinterpret_cast<const std::uint8_t *>(aligned.data()),
-                                         static_cast<std::int64_t>(bytes->size()), file);
+  const CamFileError error = openCamFile(reinterpret_cast<const uint8_t *>(aligned.data()),
+                                         static_cast<int64_t>(bytes->size()), file);
   if (error != CamFileError::None) {
-    diagnostics.report(Code::camUnreadable, {},
+    diagnostics.report(Code::CamUnreadable, {},
                        fmt::format("`{}` cannot be read: {}", path, reasonOf(error)));
     return std::nullopt;
   }
   LoadedCam cam;
-  cam.kind = LoadedCam::Kind::binary;
+  cam.kind = LoadedCam::Kind::Binary;
   cam.data.header = file.header;
-  const auto size = static_cast<std::size_t>(
+  const auto size = static_cast<size_t>(
       elementBlockSize(file.header.form, file.header.element, file.header.elements));
   cam.data.storage.resize((size + sizeof(double) - 1) / sizeof(double));
   if (size != 0)
@@ -105,7 +105,7 @@ CamElement elementOf(const Segment &segment) {
     return Node{x, at.y, at.v, at.a};
   };
   CamElement element;
-  element.kind = CamElement::Kind::law;
+  element.kind = CamElement::Kind::Law;
   element.left = node(segment.start);
   element.right = node(segment.end);
   element.shape = {segment.law, segment.parameter, segment.inflexion};
@@ -113,12 +113,12 @@ CamElement elementOf(const Segment &segment) {
   for (int i = 2; i < 8; ++i)
     straight = straight && segment.coefficients[i] == 0.0;
   if (straight)
-    element.kind = CamElement::Kind::line;
+    element.kind = CamElement::Kind::Line;
   return element;
 }
 
 bool isSame(const Segment &segment, const CamElement &element) {
-  if (element.kind == CamElement::Kind::line)
+  if (element.kind == CamElement::Kind::Line)
     return true;
   const Segment again = makeSegment(element.shape, element.left, element.right);
   double size = 1;
@@ -148,17 +148,17 @@ Curve LoadedCam::curve() const {
   curve.start = source.start;
   curve.end = source.end;
   curve.form = Form::Segments;
-  curve.count = static_cast<std::int32_t>(segments.size());
+  curve.count = static_cast<int32_t>(segments.size());
   curve.data = segments.data();
   return curve;
 }
 
 std::optional<std::vector<CamPlace>> readPlaces(const SourceFile &file, Diagnostics &diagnostics) {
   std::vector<CamPlace> places;
-  for (std::uint32_t number = 1; number <= file.lineCount(); ++number) {
+  for (uint32_t number = 1; number <= file.lineCount(); ++number) {
     const std::string_view line = file.line(number);
-    const std::uint32_t begin = file.lineStart(number);
-    const Span where{file.id(), begin, begin + static_cast<std::uint32_t>(line.size())};
+    const uint32_t begin = file.lineStart(number);
+    const Span where{file.id(), begin, begin + static_cast<uint32_t>(line.size())};
     std::string_view rest = line;
     if (rest.find_first_not_of(" \t\r") == std::string_view::npos)
       continue;
@@ -168,14 +168,14 @@ std::optional<std::vector<CamPlace>> readPlaces(const SourceFile &file, Diagnost
                       (rest.remove_prefix(1), takeNumber(rest, place.y)) && rest.empty();
     if (!good) {
       diagnostics
-          .report(Code::camUnreadable, where, fmt::format("`{}` is no table of a cam", file.name()),
+          .report(Code::CamUnreadable, where, fmt::format("`{}` is no table of a cam", file.name()),
                   "not a place")
           .help("each line has a master and a slave position: `120;45.5`");
       return std::nullopt;
     }
     if (!places.empty() && place.x <= places.back().x) {
       diagnostics.report(
-          Code::camUnreadable, where, fmt::format("`{}` is no table of a cam", file.name()),
+          Code::CamUnreadable, where, fmt::format("`{}` is no table of a cam", file.name()),
           fmt::format("the master does not ascend: {} comes behind {}", place.x, places.back().x));
       return std::nullopt;
     }
@@ -183,7 +183,7 @@ std::optional<std::vector<CamPlace>> readPlaces(const SourceFile &file, Diagnost
   }
   if (places.size() >= 2 && places.size() <= kCamFileMaxCount)
     return places;
-  diagnostics.report(Code::camUnreadable, {},
+  diagnostics.report(Code::CamUnreadable, {},
                      fmt::format("`{}` is no table of a cam: it has {} places, and 2 to {} are "
                                  "possible",
                                  file.name(), places.size(), kCamFileMaxCount));
@@ -204,7 +204,7 @@ std::optional<LoadedCam> loadCam(const std::string &path, Sources &sources,
     return loadBinary(path, sources, diagnostics);
   const std::optional<FileId> id = sources.load(path, path);
   if (!id) {
-    diagnostics.report(Code::unreadableFile, {},
+    diagnostics.report(Code::UnreadableFile, {},
                        fmt::format("`{}` cannot be read: {}", path, readSourceError()));
     return std::nullopt;
   }
@@ -224,7 +224,7 @@ std::optional<LoadedCam> loadCam(const std::string &path, Sources &sources,
   const std::optional<std::vector<CamPlace>> places = readPlaces(sources.file(*id), diagnostics);
   if (!places)
     return std::nullopt;
-  cam.kind = LoadedCam::Kind::table;
+  cam.kind = LoadedCam::Kind::Table;
   cam.source.name.text = stemOf(path);
   if (!isIdentifier(cam.source.name.text))
     cam.source.name.text.clear();
@@ -233,7 +233,7 @@ std::optional<LoadedCam> loadCam(const std::string &path, Sources &sources,
   if (checkCurve(cam.curve()) == CurveError::None)
     return cam;
   diagnostics.report(
-      Code::camUnreadable, {},
+      Code::CamUnreadable, {},
       fmt::format("`{}` is no table of a cam: its numbers are too large or too close "
                   "together",
                   path));
@@ -241,14 +241,14 @@ std::optional<LoadedCam> loadCam(const std::string &path, Sources &sources,
 }
 
 void pointsThrough(const std::vector<CamPlace> &places, CamSource &cam) {
-  const std::size_t count = places.size();
-  for (std::size_t i = 0; i < count; ++i) {
+  const size_t count = places.size();
+  for (size_t i = 0; i < count; ++i) {
     CamElement element;
     element.left = {places[i].x, places[i].y, 0, 0};
     if (count == 2) {
       element.left.v = (places[1].y - places[0].y) / (places[1].x - places[0].x);
     } else {
-      const std::size_t middle = std::min(std::max<std::size_t>(i, 1), count - 2);
+      const size_t middle = std::min(std::max<size_t>(i, 1), count - 2);
       bend(element.left, places[middle - 1], places[middle], places[middle + 1]);
     }
     element.right = element.left;
@@ -275,8 +275,8 @@ void joinEnds(CamSource &cam) {
 
 bool elementsOf(const LoadedCam &from, CamSource &cam) {
   cam.elements.clear();
-  if (from.data.header.form == Form::Nodes && from.kind == LoadedCam::Kind::binary) {
-    for (std::uint32_t i = 0; i < from.data.header.elements; ++i) {
+  if (from.data.header.form == Form::Nodes && from.kind == LoadedCam::Kind::Binary) {
+    for (uint32_t i = 0; i < from.data.header.elements; ++i) {
       CamElement element;
       std::memcpy(&element.left, from.data.storage.data() + 4 * i, sizeof element.left);
       element.right = element.left;

@@ -32,17 +32,17 @@ public:
   }
 
   void declare() const {
-    add("check", CamAction::check, "Show what cams are, and fail if one of them jumps", kAny);
+    add("check", CamAction::Check, "Show what cams are, and fail if one of them jumps", kAny);
     declareBounds();
-    out(add("plot", CamAction::plot,
+    out(add("plot", CamAction::Plot,
             "Draw position, velocity, acceleration and jerk over the master", kAny),
         "SVG file to write (default: FILE with .svg)");
     declareTables();
     declareReduce();
-    out(add("write", CamAction::write, "Write the binary file that SMC_ReadCAM reads",
+    out(add("write", CamAction::Write, "Write the binary file that SMC_ReadCAM reads",
             "Cam file (*.cam.toml)"),
         "Binary file to write (default: FILE with .CAM)");
-    CLI::App *read = add("read", CamAction::read, "Make a cam file of a binary file",
+    CLI::App *read = add("read", CamAction::Read, "Make a cam file of a binary file",
                          "Binary file (*.CAM), as SMC_WriteCAM writes it");
     out(read, "Cam file to write (default: FILE with .cam.toml)");
     name(read);
@@ -52,7 +52,7 @@ private:
   CLI::App *add(const char *name, CamAction action, const char *what, const char *file) const {
     CLI::App *command = cam_->add_subcommand(name, what);
     CLI::Option *files = command->add_option("FILE", options_->files, file)->required();
-    if (action != CamAction::check)
+    if (action != CamAction::Check)
       files->expected(1);
     files->type_name("");
     addOutputOptions(*command, options_->output);
@@ -79,7 +79,7 @@ private:
   }
 
   void declareBounds() const {
-    CLI::App *bounds = add("bounds", CamAction::bounds,
+    CLI::App *bounds = add("bounds", CamAction::Bounds,
                            "Compute how far, how fast and how hard the slave moves", kAny);
     bounds
         ->add_option("--master-vel", options_->masterVelocity,
@@ -95,14 +95,14 @@ private:
   }
 
   void declareTables() const {
-    CLI::App *write = add("export", CamAction::exportTable,
+    CLI::App *write = add("export", CamAction::ExportTable,
                           "Write a table of positions, `master;slave` a line", kAny);
     out(write, "Text file to write (default: FILE with .txt)");
     write->add_option("--points", options_->points, "Number of places (default: 361)")
-        ->check(CLI::Range(std::size_t{2}, std::size_t{1000000}).description(""))
+        ->check(CLI::Range(size_t{2}, size_t{1000000}).description(""))
         ->type_name("N");
     CLI::App *import =
-        add("import", CamAction::importTable, "Make a cam file of a table of positions",
+        add("import", CamAction::ImportTable, "Make a cam file of a table of positions",
             "Text file, `master;slave` or `master:slave` a line");
     out(import, "Cam file to write (default: FILE with .cam.toml)");
     name(import);
@@ -118,7 +118,7 @@ private:
   }
 
   void declareReduce() const {
-    CLI::App *reduce = add("reduce", CamAction::reduce,
+    CLI::App *reduce = add("reduce", CamAction::Reduce,
                            "Make a cam file of fewer points within a tolerance", kAny);
     reduce->add_option("--tolerance", options_->tolerance, "So much the slave may be off")
         ->required()

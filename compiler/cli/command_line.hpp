@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CLI_COMMAND_LINE_HPP
+#define STRIDE_COMPILER_CLI_COMMAND_LINE_HPP
 // The command line of `stride`: a function for each group of commands declares them and what they
 // do. Everything here needs CLI11.
 
@@ -46,3 +47,5 @@ void declareRuns(CLI::App &app, Invocation &call);
 void declareCams(CLI::App &app, Invocation &call);
 
 } // namespace stc::cli
+
+#endif // STRIDE_COMPILER_CLI_COMMAND_LINE_HPP

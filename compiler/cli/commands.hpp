@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CLI_COMMANDS_HPP
+#define STRIDE_COMPILER_CLI_COMMANDS_HPP
 // The commands of `stride`. Each returns the exit code: 0 exactly when there was no error.
 
 #include "compiler/cli/terminal.hpp"
@@ -84,16 +85,16 @@ int documentCommand(const ProjectOptions &options, bool library, const std::stri
 int plotCommand(const std::string &trace, const std::string &out);
 
 /// What `stride cam` does.
-enum class CamAction { check, bounds, plot, exportTable, importTable, reduce, write, read };
+enum class CamAction { Check, Bounds, Plot, ExportTable, ImportTable, Reduce, Write, Read };
 
 struct CamOptions {
-  CamAction action = CamAction::check;
+  CamAction action = CamAction::Check;
   std::vector<std::string>
       files;                 ///< cam files, binary ones, tables of positions; only check: several
   std::string out;           ///< file to write; empty: named after the first
   double masterVelocity = 1; ///< bounds: greatest of the master [u/s]
   double masterAcceleration = 0; ///< bounds: the same [u/s²]
-  std::size_t points = 361;      ///< export: at least 2
+  size_t points = 361;           ///< export: at least 2
   double tolerance = 0;          ///< reduce, import: [slave u]; 0: keep all points
   std::string name;              ///< of the cam that is written; empty: its own
   bool periodic = false;         ///< import
@@ -113,3 +114,5 @@ int newCommand(const std::string &name, const std::string &projectTemplate);
 [[nodiscard]] std::vector<std::string> templateNames();
 
 } // namespace stc::cli
+
+#endif // STRIDE_COMPILER_CLI_COMMANDS_HPP

@@ -30,10 +30,10 @@ int write(const std::vector<doc::Page> &pages, const std::string &out, const Out
       continue;
     const std::string path = (std::filesystem::path(out) / name).string();
     if (errno == ELOOP)
-      return showError(Code::linkInTheWay,
+      return showError(Code::LinkInTheWay,
                        fmt::format("`{}` is not written: a symbolic link leads there", path),
                        output);
-    return showError(Code::cannotWrite, fmt::format("{}: {}", path, lastError()), output);
+    return showError(Code::CannotWrite, fmt::format("{}: {}", path, lastError()), output);
   }
   return 0;
 }
@@ -83,13 +83,13 @@ std::vector<doc::Page> pagesOf(const std::string &title, std::vector<doc::Module
 int documentCommand(const ProjectOptions &options, bool library, const std::string &figures,
                     const std::string &out) {
   if (!figures.empty() && !std::filesystem::is_directory(figures))
-    return showError(Code::unreadableFile, fmt::format("`{}` is not a folder", figures),
+    return showError(Code::UnreadableFile, fmt::format("`{}` is not a folder", figures),
                      options.output);
   if (library)
     return write(pagesOf("Stride's library", standardLibraryModules(), figures), out,
                  options.output);
   const EmbeddedLibraryIndex index(standardLibrary());
-  const Project project(options.path, Purpose::check, settingsOf(options), index);
+  const Project project(options.path, Purpose::Check, settingsOf(options), index);
   const int exitCode = show(project.diagnostics(), project.sources(), options.output);
   if (exitCode != 0)
     return exitCode;

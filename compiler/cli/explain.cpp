@@ -54,14 +54,14 @@ std::optional<MotionError> findMotionError(std::string_view what) {
   std::string_view rest = entries.front().text;
   std::string doc;
   while (!rest.empty()) {
-    const std::size_t end = rest.find('\n');
+    const size_t end = rest.find('\n');
     const std::string_view line = trim(rest.substr(0, end));
     rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
     if (line.starts_with("///")) {
       addDocLine(doc, trim(line.substr(3)));
       continue;
     }
-    const std::size_t assign = line.find(":=");
+    const size_t assign = line.find(":=");
     if (assign != std::string_view::npos) {
       std::string_view value = trim(line.substr(assign + 2));
       if (value.ends_with(','))
@@ -78,13 +78,13 @@ std::optional<MotionError> findMotionError(std::string_view what) {
 
 std::string_view severityText(Severity severity) {
   switch (severity) {
-  case Severity::off:
+  case Severity::Off:
     return "off unless it is switched on";
-  case Severity::note:
+  case Severity::Note:
     return "note";
-  case Severity::warning:
+  case Severity::Warning:
     return "warning";
-  case Severity::error:
+  case Severity::Error:
     return "error";
   }
   return {};
@@ -105,7 +105,7 @@ int explainCommand(const std::string &what) {
     print(fmt::format("SMC_ERROR {}: {}\n\n{}\n", error->number, error->name, error->text));
     return 0;
   }
-  return showError(Code::unknownCode,
+  return showError(Code::UnknownCode,
                    fmt::format("there is no diagnostic and no SoftMotion error `{}`", what));
 }
 

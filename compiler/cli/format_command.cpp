@@ -19,7 +19,7 @@ namespace {
 std::optional<std::string> readStdin() {
   std::string text;
   char block[1 << 16];
-  for (std::size_t count = 0; (count = std::fread(block, 1, sizeof block, stdin)) != 0;) {
+  for (size_t count = 0; (count = std::fread(block, 1, sizeof block, stdin)) != 0;) {
     text.append(block, count);
     if (text.size() > kMaxSourceBytes)
       return std::nullopt;
@@ -40,7 +40,7 @@ int formatStdin(const FormatOptions &options) {
   const std::optional<std::string> text = readStdin();
   if (!text) {
     errno = EFBIG;
-    return showError(Code::unreadableFile,
+    return showError(Code::UnreadableFile,
                      fmt::format("`<stdin>` cannot be read: {}", readSourceError()),
                      options.output);
   }
@@ -67,7 +67,7 @@ int formatCommand(const FormatOptions &options) {
   if (paths.empty())
     paths.emplace_back(".");
   int exitCode = 0;
-  std::size_t changed = 0;
+  size_t changed = 0;
   for (const std::string &path : paths) {
     Sources sources;
     Diagnostics diagnostics;
@@ -82,11 +82,11 @@ int formatCommand(const FormatOptions &options) {
         print(file.name + "\n");
       else if (file.outside)
         diagnostics
-            .report(Code::linkInTheWay, {},
+            .report(Code::LinkInTheWay, {},
                     fmt::format("`{}` is not written: a symbolic link leads there", file.name))
             .help("format it where it is, or name it on the command line");
       else if (!replaceFile(file.path, file.after))
-        diagnostics.report(Code::cannotWrite, {},
+        diagnostics.report(Code::CannotWrite, {},
                            fmt::format("`{}` cannot be written: {}", file.name, lastError()));
     }
     if (showAll(diagnostics, sources, options.output) != 0)

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CLI_LINE_DIFF_HPP
+#define STRIDE_COMPILER_CLI_LINE_DIFF_HPP
 // The difference of two texts, as `diff -u` shows it.
 
 #include <string>
@@ -11,3 +12,5 @@ namespace stc::cli {
                                    std::string_view name);
 
 } // namespace stc::cli
+
+#endif // STRIDE_COMPILER_CLI_LINE_DIFF_HPP

@@ -103,7 +103,7 @@ constexpr std::array<Template, 2> kTemplates = {{
 std::string withName(std::string_view text, const std::string &name) {
   std::string result(text);
   constexpr std::string_view kPlace = "{name}";
-  for (std::size_t at = result.find(kPlace); at != std::string::npos;
+  for (size_t at = result.find(kPlace); at != std::string::npos;
        at = result.find(kPlace, at + name.size()))
     result.replace(at, kPlace.size(), name);
   return result;
@@ -124,20 +124,20 @@ int newCommand(const std::string &name, const std::string &projectTemplate) {
       (folder.has_filename() ? folder : folder.parent_path()).filename().string();
   for (const char c : last)
     if (static_cast<unsigned char>(c) < ' ' || c == '"' || c == '\\' || c == '\'')
-      return showError(Code::configBadName,
+      return showError(Code::ConfigBadName,
                        fmt::format("`{}` cannot be the name of a project", last));
   if (last.empty() || last == "." || last == "..")
-    return showError(Code::configBadName,
+    return showError(Code::ConfigBadName,
                      fmt::format("`{}` cannot be the name of a project", name));
   std::error_code error;
   if (fs::exists(fs::symlink_status(folder, error)))
-    return showError(Code::targetExists, fmt::format("`{}` already exists", name));
+    return showError(Code::TargetExists, fmt::format("`{}` already exists", name));
   for (const Template &each : kTemplates) {
     if (each.name != projectTemplate)
       continue;
     for (const TemplateFile &file : each.files)
       if (const fs::path path = folder / file.path; !writeFile(path, withName(file.text, last)))
-        return showError(Code::cannotWrite,
+        return showError(Code::CannotWrite,
                          fmt::format("`{}` cannot be written: {}", path.string(), lastError()));
     std::fputs(fmt::format("Created {}. Try:\n\n    cd {}\n    {}\n", folder.string(),
                            folder.string(), each.hint)

@@ -10,19 +10,19 @@ namespace stc::cli {
 int plotCommand(const std::string &trace, const std::string &out) {
   const std::optional<std::string> csv = readFile(trace);
   if (!csv)
-    return showError(Code::unreadableFile,
+    return showError(Code::UnreadableFile,
                      fmt::format("`{}` cannot be read: {}", trace, lastError()));
   plot::TraceError error;
   const std::optional<plot::Trace> data = plot::readTrace(*csv, error);
   if (!data)
-    return showError(Code::badTrace,
+    return showError(Code::BadTrace,
                      error.line == 0 ? fmt::format("`{}` is not a trace: {}", trace, error.message)
                                      : fmt::format("`{}` is not a trace: line {}: {}", trace,
                                                    error.line, error.message));
   const std::string path =
       out.empty() ? std::filesystem::path(trace).replace_extension(".svg").string() : out;
   if (!writeFile(path, plot::drawSvg(*data)))
-    return showError(Code::cannotWrite,
+    return showError(Code::CannotWrite,
                      fmt::format("`{}` cannot be written: {}", path, lastError()));
   return 0;
 }

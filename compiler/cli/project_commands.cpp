@@ -34,11 +34,11 @@ namespace {
 std::optional<BuildResult> buildProject(const ProjectOptions &options, BuildOptions build,
                                         ProgressLine &progress, int &exitCode) {
   const EmbeddedLibraryIndex index(standardLibrary());
-  Project project(options.path, Purpose::build, settingsOf(options), index);
+  Project project(options.path, Purpose::Build, settingsOf(options), index);
   std::optional<BuildResult> result;
   if (!project.hasErrors()) {
     build.debug = options.debug;
-    build.progress = [&](std::string_view what, std::size_t done, std::size_t total) {
+    build.progress = [&](std::string_view what, size_t done, size_t total) {
       progress.update(what, done, total);
     };
     result = stc::build(project, build);
@@ -78,7 +78,7 @@ bool addPath(std::vector<std::string> &arguments, const std::string &option,
     return true;
   if (isLedOut(path, folder)) {
     showError(
-        Code::linkInTheWay,
+        Code::LinkInTheWay,
         fmt::format("`{}` leads out of the project; if that is wanted, name the place with {}",
                     path.string(), option),
         output);
@@ -99,7 +99,7 @@ int become(const std::string &program, std::vector<std::string> arguments, const
   std::fflush(nullptr);
   ::execvp(program.c_str(), pointers.data());
   return showError(
-      Code::toolchainMissing,
+      Code::ToolchainMissing,
       fmt::format("`{}` cannot be started: {}{}", program, std::strerror(errno), remedy), output);
 }
 
@@ -122,7 +122,7 @@ int becomeHost(std::vector<std::string> arguments, const Output &output) {
 
 int checkCommand(const ProjectOptions &options) {
   const EmbeddedLibraryIndex index(standardLibrary());
-  const Project project(options.path, Purpose::check, settingsOf(options), index);
+  const Project project(options.path, Purpose::Check, settingsOf(options), index);
   return show(project.diagnostics(), project.sources(), options.output);
 }
 
@@ -163,7 +163,7 @@ int hostCommand(const ProjectOptions &options, const std::string &command,
   int exitCode = 0;
   const bool isRun = command == "run";
   const std::optional<BuildResult> result =
-      buildToRun(options, isRun ? BuildUse::run : BuildUse::runOnce, exitCode);
+      buildToRun(options, isRun ? BuildUse::Run : BuildUse::RunOnce, exitCode);
   if (!result)
     return exitCode;
   std::vector<std::string> arguments = {command, result->runnable.string()};
@@ -185,7 +185,7 @@ int hostCommand(const ProjectOptions &options, const std::string &command,
 int debugCommand(const ProjectOptions &options, const std::vector<std::string> &hostArguments,
                  const DebugSession &session) {
   int exitCode = 0;
-  const std::optional<BuildResult> result = buildToRun(options, BuildUse::runOnce, exitCode);
+  const std::optional<BuildResult> result = buildToRun(options, BuildUse::RunOnce, exitCode);
   if (!result)
     return exitCode;
   // The names of the sources count from there.
@@ -196,7 +196,7 @@ int debugCommand(const ProjectOptions &options, const std::vector<std::string> &
   std::string missing;
   const std::optional<Installation> installation = findInstallation(missing);
   if (!installation)
-    return showError(Code::toolchainMissing, missing, options.output);
+    return showError(Code::ToolchainMissing, missing, options.output);
   std::vector<std::string> arguments = {
       "-q",
       "-iex",
@@ -223,13 +223,13 @@ int debugCommand(const ProjectOptions &options, const std::vector<std::string> &
 int resetCommand(const ProjectOptions &options, const std::string &kind) {
   const EmbeddedLibraryIndex index(standardLibrary());
   // Only where the file is, which errors in the sources do not change.
-  const Project project(options.path, Purpose::check, settingsOf(options), index);
+  const Project project(options.path, Purpose::Check, settingsOf(options), index);
   if (project.name().empty())
     return show(project.diagnostics(), project.sources(), options.output);
   const std::filesystem::path file = retainFileOf(project);
   if (isLedOut(file, folderOf(project)))
     return showError(
-        Code::linkInTheWay,
+        Code::LinkInTheWay,
         fmt::format("`{}` leads out of the project; if that is wanted, use `stride-host "
                     "reset {} FILE` with the place it leads to",
                     file.string(), kind),

@@ -12,13 +12,13 @@ namespace {
 
 /// `error=SE0390`, `off=unused-variable`, `error=all-warnings`
 void addLevel(Levels &levels, const std::string &text) {
-  const std::size_t equal = text.find('=');
+  const size_t equal = text.find('=');
   const std::string level = text.substr(0, equal);
   const std::string what = equal == std::string::npos ? "all-warnings" : text.substr(equal + 1);
-  static const std::map<std::string, Severity> known = {{"error", Severity::error},
-                                                        {"warning", Severity::warning},
-                                                        {"note", Severity::note},
-                                                        {"off", Severity::off}};
+  static const std::map<std::string, Severity> known = {{"error", Severity::Error},
+                                                        {"warning", Severity::Warning},
+                                                        {"note", Severity::Note},
+                                                        {"off", Severity::Off}};
   const auto severity = known.find(level);
   if (severity == known.end())
     throw CLI::ValidationError("-W", "`" + level + "` is none of error, warning, note, off");
@@ -34,7 +34,7 @@ void addLevel(Levels &levels, const std::string &text) {
         "-W", "there is no diagnostic `" + what + "`" +
                   (near.empty() ? std::string() : "; did you mean `" + std::string(near) + "`?"));
   }
-  if (code->severity == Severity::error && severity->second != Severity::error)
+  if (code->severity == Severity::Error && severity->second != Severity::Error)
     throw CLI::ValidationError("-W", "`" + what + "` is an error, and errors cannot be lowered");
   levels.set(code->code, severity->second);
 }
@@ -42,11 +42,11 @@ void addLevel(Levels &levels, const std::string &text) {
 } // namespace
 
 void addOutputOptions(CLI::App &command, Output &output) {
-  static const std::map<std::string, ColorChoice> colors = {{"auto", ColorChoice::automatic},
-                                                            {"always", ColorChoice::always},
-                                                            {"never", ColorChoice::never}};
-  static const std::map<std::string, Format> formats = {{"text", Format::text},
-                                                        {"json", Format::json}};
+  static const std::map<std::string, ColorChoice> colors = {{"auto", ColorChoice::Automatic},
+                                                            {"always", ColorChoice::Always},
+                                                            {"never", ColorChoice::Never}};
+  static const std::map<std::string, Format> formats = {{"text", Format::Text},
+                                                        {"json", Format::Json}};
   command.add_option("--color", output.color, "Colours: auto (default), always, never")
       ->transform(CLI::CheckedTransformer(colors).description(""))
       ->type_name("WHEN");

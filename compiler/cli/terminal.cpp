@@ -11,7 +11,7 @@ namespace stc::cli {
 
 namespace {
 
-std::string count(std::size_t number, std::string_view what) {
+std::string count(size_t number, std::string_view what) {
   return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
 }
 
@@ -20,8 +20,8 @@ void write(std::FILE *to, const std::string &text) { std::fwrite(text.data(), 1,
 } // namespace
 
 bool Output::useColor() const {
-  if (color != ColorChoice::automatic)
-    return color == ColorChoice::always;
+  if (color != ColorChoice::Automatic)
+    return color == ColorChoice::Always;
   const char *none = std::getenv("NO_COLOR");
   const char *terminal = std::getenv("TERM");
   return ::isatty(STDERR_FILENO) != 0 && (none == nullptr || *none == 0) &&
@@ -33,16 +33,16 @@ void print(const std::string &text) {
 }
 
 int show(const std::vector<Diagnostic> &diagnostics, const Sources &sources, const Output &output) {
-  std::size_t errors = 0;
-  std::size_t warnings = 0;
-  std::size_t notShown = 0;
-  const bool color = output.format == Format::text && output.useColor();
+  size_t errors = 0;
+  size_t warnings = 0;
+  size_t notShown = 0;
+  const bool color = output.format == Format::Text && output.useColor();
   std::string text;
   for (const Diagnostic &diagnostic : diagnostics) {
     const bool full = output.maxErrors != 0 && errors >= output.maxErrors;
-    errors += diagnostic.severity == Severity::error ? 1 : 0;
-    warnings += diagnostic.severity == Severity::warning ? 1 : 0;
-    if (output.format == Format::json) {
+    errors += diagnostic.severity == Severity::Error ? 1 : 0;
+    warnings += diagnostic.severity == Severity::Warning ? 1 : 0;
+    if (output.format == Format::Json) {
       text += renderJson(diagnostic, sources);
       if (text.back() != '\n')
         text += '\n';
@@ -52,7 +52,7 @@ int show(const std::vector<Diagnostic> &diagnostics, const Sources &sources, con
       text += renderText(diagnostic, sources, {color});
     }
   }
-  if (output.format == Format::json) {
+  if (output.format == Format::Json) {
     write(stdout, text);
     std::fflush(stdout);
     return errors == 0 ? 0 : 1;
@@ -81,7 +81,7 @@ int showError(Code code, std::string message, const Output &output) {
 ProgressLine::ProgressLine()
     : terminal_(::isatty(STDERR_FILENO) != 0), start_(std::chrono::steady_clock::now()) {}
 
-void ProgressLine::update(std::string_view what, std::size_t done, std::size_t total) {
+void ProgressLine::update(std::string_view what, size_t done, size_t total) {
   if (!terminal_)
     return;
   write(stderr, fmt::format("\r\x1b[K[{}/{}] {}", done, total, visible(what)));

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CLI_TERMINAL_HPP
+#define STRIDE_COMPILER_CLI_TERMINAL_HPP
 // What a command shows its user.
 
 #include "compiler/source/diagnostic.hpp"
@@ -11,14 +12,14 @@
 
 namespace stc::cli {
 
-enum class ColorChoice { automatic, always, never };
-enum class Format { text, json };
+enum class ColorChoice { Automatic, Always, Never };
+enum class Format { Text, Json };
 
 /// How diagnostics are shown.
 struct Output {
-  ColorChoice color = ColorChoice::automatic;
-  Format format = Format::text;
-  std::size_t maxErrors = 100; ///< as text; 0: all
+  ColorChoice color = ColorChoice::Automatic;
+  Format format = Format::Text;
+  size_t maxErrors = 100; ///< as text; 0: all
 
   /// Whether standard error gets colours: on a terminal unless NO_COLOR is set, or as chosen.
   [[nodiscard]] bool useColor() const;
@@ -44,7 +45,7 @@ public:
   ProgressLine(const ProgressLine &) = delete;
   ProgressLine &operator=(const ProgressLine &) = delete;
 
-  void update(std::string_view what, std::size_t done, std::size_t total);
+  void update(std::string_view what, size_t done, size_t total);
   void clear();
   [[nodiscard]] bool isTerminal() const { return terminal_; }
   [[nodiscard]] double seconds() const;
@@ -56,3 +57,5 @@ private:
 };
 
 } // namespace stc::cli
+
+#endif // STRIDE_COMPILER_CLI_TERMINAL_HPP

@@ -16,9 +16,9 @@ int testCommand(const ProjectOptions &options, const TestOptions &test) {
   std::string application;
   {
     const EmbeddedLibraryIndex index(standardLibrary());
-    Project project(options.path, Purpose::test, settingsOf(options), index);
+    Project project(options.path, Purpose::Test, settingsOf(options), index);
     std::vector<std::string> plans;
-    for (std::size_t i = 0; i < project.tests().size(); ++i) {
+    for (size_t i = 0; i < project.tests().size(); ++i) {
       const TestBlock &one = project.tests()[i];
       if (!test.filter.empty() && ::fnmatch(test.filter.c_str(), one.name.c_str(), 0) != 0)
         continue;
@@ -34,8 +34,8 @@ int testCommand(const ProjectOptions &options, const TestOptions &test) {
     if (!project.hasErrors() && !test.list && !noneOfThatName) {
       BuildOptions build;
       build.debug = true;
-      build.use = BuildUse::runOnce;
-      build.progress = [&](std::string_view what, std::size_t done, std::size_t total) {
+      build.use = BuildUse::RunOnce;
+      build.progress = [&](std::string_view what, size_t done, size_t total) {
         progress.update(what, done, total);
       };
       result = stc::build(project, build);

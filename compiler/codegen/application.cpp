@@ -69,7 +69,7 @@ public:
   GeneratedFile build() {
     const Sources &sources = c_.program.sources;
     Hash all;
-    all.add(STRIDE_VERSION).add(std::uint64_t{c_.program.settings.checks});
+    all.add(STRIDE_VERSION).add(uint64_t{c_.program.settings.checks});
     std::string files;
     for (FileId id = 1; id <= sources.size(); ++id) {
       const SourceFile &file = sources.file(id);
@@ -102,7 +102,7 @@ private:
   void collect() {
     for (const File *file : c_.program.files) {
       for (const Decl *decl : file->declarations) {
-        if (decl->kind != DeclKind::globals)
+        if (decl->kind != DeclKind::Globals)
           continue;
         const bool qualified = hasAttribute(decl->attributes, "qualified_only");
         const std::string_view renamed = renamedFrom(decl->attributes);
@@ -126,7 +126,7 @@ private:
       for (const GlobalsSymbol *g : library->globals)
         roots.push_back({g, false});
       for (const PouSymbol *p : library->pous) {
-        if (p->decl->kind == DeclKind::program && !p->isTemplate)
+        if (p->decl->kind == DeclKind::Program && !p->isTemplate)
           roots.push_back({p, false});
         if (hasStatics(p))
           roots.push_back({p, true});
@@ -150,7 +150,7 @@ private:
   std::string memberName(const Root &root) { return rootName(c_.names, root, c_.program.user); }
 
   void addRoots(const Member &m) {
-    if (m.root.symbol->kind == SymbolKind::pou && !m.root.isStatic) {
+    if (m.root.symbol->kind == SymbolKind::Pou && !m.root.isStatic) {
       const auto *program = static_cast<const PouSymbol *>(m.root.symbol);
       types_.addProgram(program, m.name, writerOf(program));
       return;
@@ -166,7 +166,7 @@ private:
   }
 
   /// The one task that writes the variable or calls the program.
-  std::optional<std::uint32_t> writerOf(const Symbol *symbol) const {
+  std::optional<uint32_t> writerOf(const Symbol *symbol) const {
     const auto &writers = c_.program.sharing.writers;
     const auto found = writers.find(symbol);
     return found == writers.end() ? std::nullopt : std::optional(found->second);
@@ -207,7 +207,7 @@ private:
     if (open != nullptr)
       out += "}\n";
     out += "\nnamespace st {\n";
-    for (std::size_t area = 0; area < 3; ++area)
+    for (size_t area = 0; area < 3; ++area)
       out += std::string("const ::stride::ULINT image__") + "iqm"[area] + "__at__ = " +
              (c_.program.image.bytes[area] == 0
                   ? std::string("0")
@@ -223,9 +223,9 @@ private:
     for (const SlotPlace &slot : c_.program.slotPlaces) {
       if (!slot.placed || slot.variable == nullptr)
         continue;
-      const std::uint64_t number =
-          slot.at.bit >= 0 ? std::uint64_t{slot.at.byte} * 8 + static_cast<unsigned>(slot.at.bit)
-                           : slot.at.byte;
+      const uint64_t number = slot.at.bit >= 0
+                                  ? uint64_t{slot.at.byte} * 8 + static_cast<unsigned>(slot.at.bit)
+                                  : slot.at.byte;
       if (number != 0)
         body += "  app__(ctx__)." + statePath(c_.names, slot.path, c_.program.user) + " = " +
                 std::to_string(number) + "; // " + std::string(slot.decl->address->text) + "\n";
@@ -259,7 +259,7 @@ private:
 
   void tasks(std::string &out) {
     std::string rows;
-    for (std::size_t i = 0; i < config_.tasks.size(); ++i) {
+    for (size_t i = 0; i < config_.tasks.size(); ++i) {
       const AppConfig::Task &task = config_.tasks[i];
       const std::string name = "task" + std::to_string(i) + "__";
       out += "\n/// " + task.name + "\nvoid " + name + "(::stride::Ctx *" +
@@ -274,13 +274,12 @@ private:
                std::string(c_.names.qualified(task.event)) + "(*ctx__); }\n";
       }
       static constexpr std::string_view kKinds[] = {"Cyclic", "Freewheeling", "Event", "Status"};
-      rows +=
-          "    {\"" + escaped(task.name) +
-          "\", ::stride::TaskKind::" + std::string(kKinds[static_cast<std::size_t>(task.start)]) +
-          ", " + std::to_string(task.priority) + ", " + std::to_string(task.intervalNs) + ", " +
-          std::to_string(task.watchdogNs) + ", " + std::to_string(task.watchdogSensitivity) + ", " +
-          (task.core ? std::to_string(*task.core) : "::stride::kNoIndex") + ", " + name + ", " +
-          event + (task.sync ? ", " + std::to_string(*task.sync) : "") + "},\n";
+      rows += "    {\"" + escaped(task.name) +
+              "\", ::stride::TaskKind::" + std::string(kKinds[static_cast<size_t>(task.start)]) +
+              ", " + std::to_string(task.priority) + ", " + std::to_string(task.intervalNs) + ", " +
+              std::to_string(task.watchdogNs) + ", " + std::to_string(task.watchdogSensitivity) +
+              ", " + (task.core ? std::to_string(*task.core) : "::stride::kNoIndex") + ", " + name +
+              ", " + event + (task.sync ? ", " + std::to_string(*task.sync) : "") + "},\n";
     }
     if (!rows.empty())
       out += "\n// {name, kind, priority, intervalNs, watchdogNs, watchdogSensitivity, core, run, "
@@ -333,8 +332,8 @@ private:
     for (const Member &m : members_)
       out += "  " + rootType(c_.names, m.root) + " " + m.name + ";\n";
     out += copies_.members();
-    for (std::size_t area = 0; area < 3; ++area) {
-      if (const std::uint32_t bytes = c_.program.image.bytes[area]; bytes != 0)
+    for (size_t area = 0; area < 3; ++area) {
+      if (const uint32_t bytes = c_.program.image.bytes[area]; bytes != 0)
         out += std::string("  alignas(8) ::stride::BYTE image__") + "iqm"[area] + "[" +
                std::to_string(bytes) + "]; // %" + "IQM"[area] + "\n";
     }
@@ -353,7 +352,7 @@ private:
   PlacedVariable global(std::string_view name) const {
     const std::string wanted = lowerCase(name);
     for (const Member &m : members_) {
-      if (m.root.symbol->kind != SymbolKind::globals || !m.root.symbol->library->isUser)
+      if (m.root.symbol->kind != SymbolKind::Globals || !m.root.symbol->library->isUser)
         continue;
       for (const VarSymbol *v : static_cast<const GlobalsSymbol *>(m.root.symbol)->variables) {
         if (v->name.id->lower == wanted)
@@ -366,7 +365,7 @@ private:
   /// g_strBootupError for the description: length and place.
   [[nodiscard]] std::pair<std::string, std::string> bootupError() const {
     for (const Member &m : members_) {
-      if (m.root.symbol->kind != SymbolKind::globals ||
+      if (m.root.symbol->kind != SymbolKind::Globals ||
           m.root.symbol->library->name != "SM_DriveBasic")
         continue;
       for (const VarSymbol *v : static_cast<const GlobalsSymbol *>(m.root.symbol)->variables)

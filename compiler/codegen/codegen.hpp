@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CODEGEN_HPP
+#define STRIDE_COMPILER_CODEGEN_CODEGEN_HPP
 // From a checked program to C++20.
 
 #include "compiler/semantics/program.hpp"
@@ -17,7 +18,7 @@ struct GeneratedFile {
 };
 
 /// How a task is started.
-enum class TaskStart : std::uint8_t { cyclic, freewheeling, event, status };
+enum class TaskStart : uint8_t { Cyclic, Freewheeling, Event, Status };
 
 /// A parameter of the PLC configuration, for the driver: ParameterDesc.
 struct ConfigParameter {
@@ -30,25 +31,25 @@ struct ConfigParameter {
 struct AppConfig {
   struct Task {
     std::string name;
-    TaskStart start = TaskStart::cyclic;
-    std::int64_t intervalNs = 0;       ///< as TaskDesc::intervalNs
+    TaskStart start = TaskStart::Cyclic;
+    int64_t intervalNs = 0;            ///< as TaskDesc::intervalNs
     unsigned priority = 0;             ///< 0 highest … 31
     const PouSymbol *event = nullptr;  ///< a FUNCTION : BOOL without parameters
-    std::int64_t watchdogNs = 0;       ///< 0: none
+    int64_t watchdogNs = 0;            ///< 0: none
     unsigned watchdogSensitivity = 1;  ///< violations that stop the application
     std::optional<unsigned> core;      ///< processor to run on
     std::vector<PouSymbol *> programs; ///< called in this order
-    std::optional<std::size_t> sync;   ///< axis group whose bSync is the event
+    std::optional<size_t> sync;        ///< axis group whose bSync is the event
   };
   struct Drive {
-    std::string name;     ///< of the global AXIS_REF
-    std::string data;     ///< of the global that belongs to the driver; empty: none
-    std::uint32_t id = 0; ///< wDriveId
+    std::string name; ///< of the global AXIS_REF
+    std::string data; ///< of the global that belongs to the driver; empty: none
+    uint32_t id = 0;  ///< wDriveId
     std::vector<ConfigParameter> parameters;
   };
   struct Encoder {
-    std::string name;     ///< of the global SMC_ENCODER_REF
-    std::uint32_t id = 0; ///< wEncoderId
+    std::string name; ///< of the global SMC_ENCODER_REF
+    uint32_t id = 0;  ///< wEncoderId
     std::vector<ConfigParameter> parameters;
   };
   struct Bus {
@@ -58,10 +59,10 @@ struct AppConfig {
     std::vector<ConfigParameter> parameters;
   };
   struct AxisGroup {
-    std::string name;    ///< of the global SMC_AXISGROUP_REF
-    std::size_t bus = 0; ///< index into buses
+    std::string name; ///< of the global SMC_AXISGROUP_REF
+    size_t bus = 0;   ///< index into buses
     std::string task;
-    std::uint32_t cycleUs = 0; ///< dwCycle
+    uint32_t cycleUs = 0; ///< dwCycle
     std::vector<ConfigParameter> parameters;
     std::vector<Drive> drives;
     std::vector<Encoder> encoders;
@@ -70,12 +71,12 @@ struct AppConfig {
   struct IoDevice {
     std::string name; ///< of the global IO_DEVICE, too
     std::string driver;
-    std::uint32_t inputFirst = 0; ///< bytes of the areas
-    std::uint32_t inputCount = 0;
-    std::uint32_t outputFirst = 0;
-    std::uint32_t outputCount = 0;
-    std::vector<std::uint8_t> safeOutputs;
-    std::vector<std::uint8_t> safeInputs; ///< empty: inputs of a lost device stay
+    uint32_t inputFirst = 0; ///< bytes of the areas
+    uint32_t inputCount = 0;
+    uint32_t outputFirst = 0;
+    uint32_t outputCount = 0;
+    std::vector<uint8_t> safeOutputs;
+    std::vector<uint8_t> safeInputs; ///< empty: inputs of a lost device stay
     std::vector<ConfigParameter> parameters;
   };
   std::string name;
@@ -83,11 +84,11 @@ struct AppConfig {
   std::vector<Task> tasks;
   std::vector<Bus> buses;
   std::vector<AxisGroup> axisGroups;
-  std::string retainFile;          ///< [retain] file
-  std::int64_t retainPeriodNs = 0; ///< [retain] period; 0: the runtime's own
-  std::string filesRoot;           ///< [files] root; empty: the runtime's own
-  bool filesAnywhere = false;      ///< [files] anywhere
-  std::uint32_t filesDelay = 1;    ///< [files] delay
+  std::string retainFile;     ///< [retain] file
+  int64_t retainPeriodNs = 0; ///< [retain] period; 0: the runtime's own
+  std::string filesRoot;      ///< [files] root; empty: the runtime's own
+  bool filesAnywhere = false; ///< [files] anywhere
+  uint32_t filesDelay = 1;    ///< [files] delay
 };
 
 /// Headers `st/<Library>/<Name>.h` and sources `<Library>/<Name>.cpp` of one library (everything
@@ -104,3 +105,5 @@ std::vector<GeneratedFile> generateLibrary(const Program &program, const Library
 std::vector<GeneratedFile> generateApplication(const Program &program, const AppConfig &config);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_CODEGEN_CODEGEN_HPP

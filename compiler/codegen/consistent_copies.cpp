@@ -48,17 +48,17 @@ std::string ConsistentCopies::settle() {
       "\n// What the tasks read of each other.\nvoid settle__(::stride::Ctx *ctx__) {\n";
   for (const ConsistentVariable &v : all()) {
     out += "  app__(ctx__)." + member(v) + ".settle(*ctx__, " + live(v) + ", {";
-    for (std::size_t i = 0; i < v.readers.size(); ++i)
+    for (size_t i = 0; i < v.readers.size(); ++i)
       out += (i == 0 ? "" : ", ") + std::to_string(v.readers[i]);
     out += "});\n";
   }
   return out + "}\n";
 }
 
-std::string ConsistentCopies::take(std::size_t task) {
+std::string ConsistentCopies::take(size_t task) {
   std::string out;
   for (const ConsistentVariable &v : all()) {
-    for (std::size_t i = 0; i < v.readers.size(); ++i) {
+    for (size_t i = 0; i < v.readers.size(); ++i) {
       if (v.readers[i] == task)
         out += "  app__(ctx__)." + member(v) + ".take(*ctx__, " + std::to_string(i) + ");\n";
     }
@@ -66,7 +66,7 @@ std::string ConsistentCopies::take(std::size_t task) {
   return out;
 }
 
-std::string ConsistentCopies::give(std::size_t task) {
+std::string ConsistentCopies::give(size_t task) {
   std::string out;
   for (const ConsistentVariable &v : all()) {
     if (v.writer == task)

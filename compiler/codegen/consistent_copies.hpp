@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CONSISTENT_COPIES_HPP
+#define STRIDE_COMPILER_CODEGEN_CONSISTENT_COPIES_HPP
 // What app.cpp holds for variables with {attribute 'consistent'} (runtime/iec/consistent.h).
 
 #include "compiler/codegen/context/context.hpp"
@@ -7,7 +8,7 @@ namespace stc::codegen {
 
 class ConsistentCopies {
 public:
-  ConsistentCopies(Context &context, std::size_t tasks) : c_(context), tasks_(tasks) {}
+  ConsistentCopies(Context &context, size_t tasks) : c_(context), tasks_(tasks) {}
 
   [[nodiscard]] bool empty() const { return all().empty(); }
   /// Members of App__.
@@ -19,8 +20,8 @@ public:
   /// The function settle__.
   [[nodiscard]] std::string settle();
   /// Statements in front of what a task calls, and behind it.
-  [[nodiscard]] std::string take(std::size_t task);
-  [[nodiscard]] std::string give(std::size_t task);
+  [[nodiscard]] std::string take(size_t task);
+  [[nodiscard]] std::string give(size_t task);
 
 private:
   [[nodiscard]] const std::vector<ConsistentVariable> &all() const {
@@ -30,7 +31,9 @@ private:
   std::string live(const ConsistentVariable &v);
 
   Context &c_;
-  std::size_t tasks_;
+  size_t tasks_;
 };
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CONSISTENT_COPIES_HPP

@@ -11,8 +11,8 @@ namespace {
 /// The areas of the process image for the description.
 std::string image(const Program &program) {
   std::string out = "{";
-  for (std::size_t area = 0; area < 3; ++area) {
-    const std::uint32_t bytes = program.image.bytes[area];
+  for (size_t area = 0; area < 3; ++area) {
+    const uint32_t bytes = program.image.bytes[area];
     out += area == 0 ? "{" : ", {";
     out += bytes == 0 ? std::string("0, 0}")
                       : std::string("offsetof(App__, image__") + "iqm"[area] + "), " +
@@ -24,11 +24,11 @@ std::string image(const Program &program) {
 void field(std::string &out, std::string_view name, std::string_view value) {
   out.append("    .").append(name).append(" = ").append(value).append(",\n");
 }
-void field(std::string &out, std::string_view name, std::size_t value) {
+void field(std::string &out, std::string_view name, size_t value) {
   field(out, name, std::to_string(value));
 }
 /// A table, null where it has no rows.
-void table(std::string &out, std::string_view name, std::size_t rows, std::string_view table) {
+void table(std::string &out, std::string_view name, size_t rows, std::string_view table) {
   field(out, name, rows == 0 ? "nullptr" : table);
 }
 void text(std::string &out, std::string_view name, std::string_view text) {
@@ -74,11 +74,11 @@ void describeTables(std::string &out, const Described &app) {
 
 void describeConfiguration(std::string &out, const Described &app) {
   static constexpr std::string_view kAddressing[] = {"Units", "Bytes", "Words"};
-  const std::size_t imageUses = app.program.sharing.imageUses.size();
+  const size_t imageUses = app.program.sharing.imageUses.size();
   field(out, "image", image(app.program));
   field(out, "imageAddressing",
         "::stride::ImageAddressing::" +
-            std::string(kAddressing[static_cast<std::size_t>(app.program.settings.addressing)]));
+            std::string(kAddressing[static_cast<size_t>(app.program.settings.addressing)]));
   field(out, "reserved2", "0");
   text(out, "retainFile", app.config.retainFile);
   field(out, "retainPeriodNs", std::to_string(app.config.retainPeriodNs));

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_DESCRIPTION_HPP
+#define STRIDE_COMPILER_CODEGEN_DESCRIPTION_HPP
 // What the runtime is told of the application: StrideAppV1.
 
 #include "compiler/codegen/codegen.hpp"
@@ -26,3 +27,5 @@ struct Described {
 [[nodiscard]] std::string description(const Described &app);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_DESCRIPTION_HPP

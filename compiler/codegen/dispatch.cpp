@@ -29,7 +29,7 @@ public:
     for (const auto &library : c_.program.libraries) {
       if (library.get() != c_.own && !c_.own->isUser)
         continue;
-      const std::size_t start = text_.size();
+      const size_t start = text_.size();
       for (const PouSymbol *p : library->pous) {
         if (p->isInterface())
           interface(p);
@@ -143,7 +143,7 @@ private:
              "::body__call(::stride::Ctx &ctx__) {\n  switch (this->" + pathToTypeId(symbol) +
              ") {\n";
     for (const PouSymbol *p : blocks_) {
-      if (p == symbol || !derivesFrom(p, symbol) || p->decl->kind != DeclKind::functionBlock)
+      if (p == symbol || !derivesFrom(p, symbol) || p->decl->kind != DeclKind::FunctionBlock)
         continue;
       const std::string type(c_.names.qualified(p));
       includes_.symbol(p);

@@ -16,7 +16,7 @@ namespace {
 
 /// Variables that one function initialises: g++ takes long for long functions, more than twice as
 /// long for twice the length.
-constexpr std::size_t kMostInits = 200;
+constexpr size_t kMostInits = 200;
 
 /// Where the body begins: what stands before it in the C++ counts as that place, so that a
 /// debugger enters a POU at its first statement.
@@ -26,8 +26,8 @@ Span startOf(const PouSymbol *pou) {
 
 /// Line by line, to count them.
 void lines(Writer &file, std::string_view text) {
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t lineEnd = text.find('\n', at);
+  for (size_t at = 0; at < text.size();) {
+    const size_t lineEnd = text.find('\n', at);
     file << text.substr(at, lineEnd - at);
     file.endLine();
     at = lineEnd + 1;
@@ -94,7 +94,7 @@ void GeneratedSource::close(Writer text, bool isBody) {
 
 /// What the statements have turned out to use.
 void GeneratedSource::prologue(Writer &text, const Head &head) {
-  std::size_t i = 0;
+  size_t i = 0;
   for (const FileId file : cx_.uses.files) {
     headLine(text, head.start) << "  constexpr const char *" << Uses::fileConstant(i++) << " = \""
                                << escaped(cx_.run.program.sources.file(file).codeName()) << "\";";
@@ -147,12 +147,12 @@ void GeneratedSource::init(std::string_view name, const std::vector<const VarSym
 void GeneratedSource::initialValues(std::string_view name,
                                     const std::vector<const VarSymbol *> &variables) {
   const bool inParts = variables.size() > kMostInits;
-  std::size_t part = 0;
-  for (std::size_t i = 0; i < variables.size();) {
+  size_t part = 0;
+  for (size_t i = 0; i < variables.size();) {
     const std::span<const VarSymbol *const> rest = std::span(variables).subspan(i);
     if (inParts && part == 0)
       generatedLine("[&]() __attribute__((noinline)) {");
-    const std::size_t run = initRun(cx_, rest, name);
+    const size_t run = initRun(cx_, rest, name);
     if (run == 0 && cx_.run.layouts.needsInit(rest[0]))
       initVariable(cx_, "this->" + fieldName(rest[0]), rest[0]);
     i += run == 0 ? 1 : run;
@@ -183,7 +183,7 @@ void GeneratedSource::assignment(std::string_view name,
     for (const VarSymbol *v : variables) {
       cx_.includes.complete(v->type);
       // An instance keeps its places in the process image, too.
-      if (v->section != Section::inOut && isField(v) && !isSlot(v))
+      if (v->section != Section::InOut && isField(v) && !isSlot(v))
         copy(fieldName(v), v->type);
     }
   });
@@ -217,7 +217,7 @@ void GeneratedSource::lifecycle(std::string_view name,
 void GeneratedSource::inOutReference(Writer &out, const VarSymbol *v) {
   cx_.includes.complete(v->type);
   const std::string name = mangle(v->name.text);
-  const bool open = v->type->kind == TypeKind::openArray; // the slot holds it itself
+  const bool open = v->type->kind == TypeKind::OpenArray; // the slot holds it itself
   out.line() << declared(declared(cx_.run.names.type(v->type), "&"), name) << " = ";
   if (cx_.checks()) {
     cx_.uses.context = true;
@@ -235,7 +235,7 @@ Writer GeneratedSource::inOutReferences(const PouSymbol *pou) {
   Writer bound(cx_.run.program.sources);
   bound.indent();
   for (const VarSymbol *v : pou->variables) {
-    if (v->section != Section::inOut || !cx_.uses.has(v))
+    if (v->section != Section::InOut || !cx_.uses.has(v))
       continue;
     bound.from(startOf(pou));
     inOutReference(bound, v);
@@ -249,7 +249,7 @@ void GeneratedSource::blockBody(const PouSymbol *pou, std::string_view name) {
   const Writer body = cx_.lines([&] { emitBlock(cx_, pou->decl->body); });
   const Writer locals = cx_.lines([&] {
     for (const VarSymbol *v : pou->variables) {
-      if (v->section == Section::temp)
+      if (v->section == Section::Temp)
         declareLocal(cx_, v, start);
     }
   });
@@ -273,11 +273,11 @@ Writer GeneratedSource::functionLocals(const PouSymbol *pou) {
     if (pou->result != nullptr)
       declareLocal(cx_, pou->result, start);
     for (const VarSymbol *v : pou->variables) {
-      if (v->section == Section::input)
+      if (v->section == Section::Input)
         declareInput(cx_, v, start);
-      else if (v->section == Section::output && cx_.run.layouts.needsInit(v))
+      else if (v->section == Section::Output && cx_.run.layouts.needsInit(v))
         initVariable(cx_, mangle(v->name.text), v);
-      else if (v->section == Section::local || v->section == Section::temp)
+      else if (v->section == Section::Local || v->section == Section::Temp)
         declareLocal(cx_, v, start);
     }
   });

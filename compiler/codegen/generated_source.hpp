@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_GENERATED_SOURCE_HPP
+#define STRIDE_COMPILER_CODEGEN_GENERATED_SOURCE_HPP
 // One source that is generated: the functions in it, each with what its body has turned out to
 // need.
 
@@ -78,3 +79,5 @@ private:
 };
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_GENERATED_SOURCE_HPP

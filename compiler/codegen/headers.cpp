@@ -11,22 +11,22 @@ using namespace ast;
 
 namespace {
 
-std::string hex(std::uint64_t value) {
+std::string hex(uint64_t value) {
   std::string out = "0x0000000000000000ULL";
-  for (std::size_t i = 17; i > 1; --i, value >>= 4U)
+  for (size_t i = 17; i > 1; --i, value >>= 4U)
     out[i] = "0123456789abcdef"[value & 15U];
   return out;
 }
 
 std::string_view sectionName(Section section) {
   switch (section) {
-  case Section::input:
+  case Section::Input:
     return "VAR_INPUT";
-  case Section::output:
+  case Section::Output:
     return "VAR_OUTPUT";
-  case Section::inOut:
+  case Section::InOut:
     return "VAR_IN_OUT";
-  case Section::stat:
+  case Section::Stat:
     return "VAR_STAT";
   default:
     return "VAR";
@@ -68,7 +68,7 @@ public:
     for (const EnumeratorSymbol *e : type->enumerators) {
       body_ += "inline constexpr " + name_ + " " + name_ + "__" + std::string(e->name.text) + " = ";
       const bool unsigned64 = isUnsigned64(base);
-      body_ += unsigned64 ? std::to_string(static_cast<std::uint64_t>(e->value)) + "ULL"
+      body_ += unsigned64 ? std::to_string(static_cast<uint64_t>(e->value)) + "ULL"
                           : std::to_string(e->value);
       body_ += ";\n";
     }
@@ -115,7 +115,7 @@ public:
     open(symbol);
     packed(symbol->type->pack);
     body_ += "struct " + name_ + " {\n";
-    Section section = Section::access;
+    Section section = Section::Access;
     if (symbol->base != nullptr) {
       includes_.complete(symbol->base->type);
       body_ += "  " + std::string(c_.names.type(symbol->base->type)) + " base__; // EXTENDS\n";
@@ -131,10 +131,10 @@ public:
       field(v);
     }
     init(c_.layouts.needsInit(symbol->type));
-    if (symbol->type->kind == TypeKind::functionBlock) // there is only one of a program
+    if (symbol->type->kind == TypeKind::FunctionBlock) // there is only one of a program
       assignment(symbol->type);
     lifecycle(symbol->type);
-    if (symbol->decl->kind != DeclKind::classD)
+    if (symbol->decl->kind != DeclKind::Class)
       body_ += "  void body__(::stride::Ctx &ctx__);\n";
     if (isBodyDispatched(symbol))
       body_ += "  void body__call(::stride::Ctx &ctx__); // of the block this really is\n";
@@ -143,7 +143,7 @@ public:
     body_ += "};\n";
     unpacked(symbol->type->pack);
     layout(symbol->type);
-    if (symbol->decl->kind == DeclKind::program)
+    if (symbol->decl->kind == DeclKind::Program)
       place({symbol, false});
     statics(symbol);
     for (const PouSymbol *m : symbol->methods)
@@ -191,7 +191,7 @@ private:
       return;
     }
     std::string type(c_.names.type(v->type));
-    if (v->section == Section::inOut && v->type->kind != TypeKind::openArray) {
+    if (v->section == Section::InOut && v->type->kind != TypeKind::OpenArray) {
       includes_.pointed(v->type);
       type = declared(type, "*");
     } else {
@@ -261,7 +261,7 @@ private:
       return;
     body_ += "\nstruct " + std::string(c_.names.local(symbol)) + "__static__ {\n";
     for (const VarSymbol *v : symbol->variables) {
-      if (v->section == Section::stat && !isPlaced(v))
+      if (v->section == Section::Stat && !isPlaced(v))
         field(v);
     }
     init(rootNeedsInit(c_, {symbol, true}));
@@ -291,13 +291,13 @@ private:
 
 std::vector<const VarSymbol *> rootVariables(const Root &root) {
   std::vector<const VarSymbol *> list;
-  if (root.symbol->kind == SymbolKind::globals) {
+  if (root.symbol->kind == SymbolKind::Globals) {
     for (const VarSymbol *v : static_cast<const GlobalsSymbol *>(root.symbol)->variables)
       list.push_back(v);
     return list;
   }
   for (const VarSymbol *v : static_cast<const PouSymbol *>(root.symbol)->variables) {
-    if (root.isStatic ? v->section == Section::stat : isOwn(v))
+    if (root.isStatic ? v->section == Section::Stat : isOwn(v))
       list.push_back(v);
   }
   return list;
@@ -314,11 +314,11 @@ bool rootNeedsInit(Context &context, const Root &root) {
 }
 
 bool rootHasLifecycle(Context &context, const Root &root, std::string_view lowerName) {
-  if (root.symbol->kind == SymbolKind::pou && !root.isStatic)
+  if (root.symbol->kind == SymbolKind::Pou && !root.isStatic)
     return context.layouts.hasLifecycle(static_cast<const PouSymbol *>(root.symbol)->type,
                                         lowerName);
   for (const VarSymbol *v : rootVariables(root)) {
-    if (v->section != Section::inOut && context.layouts.hasLifecycle(v->type, lowerName))
+    if (v->section != Section::InOut && context.layouts.hasLifecycle(v->type, lowerName))
       return true;
   }
   return false;
@@ -331,10 +331,10 @@ void generateHeaders(Context &context, std::vector<GeneratedFile> &files) {
       if (other.get() != &library && t->onDemand)
         files.push_back(HeaderBuilder(context).structure(t));
   for (const TypeSymbol *t : library.types) {
-    if (t->type->kind == TypeKind::structure && t->decl != nullptr &&
-        t->decl->kind == DeclKind::structure)
+    if (t->type->kind == TypeKind::Structure && t->decl != nullptr &&
+        t->decl->kind == DeclKind::Structure)
       files.push_back(HeaderBuilder(context).structure(t));
-    else if (t->type->kind == TypeKind::enumeration && typeAs<EnumType>(t->type)->symbol == t)
+    else if (t->type->kind == TypeKind::Enumeration && typeAs<EnumType>(t->type)->symbol == t)
       files.push_back(HeaderBuilder(context).enumeration(t));
     else
       files.push_back(HeaderBuilder(context).alias(t));

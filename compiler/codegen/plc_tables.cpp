@@ -51,7 +51,7 @@ void PlcTables::addTable(const char *columns, const char *type, const char *name
 
 /// Appends parameters to their table; returns "first, count".
 std::string PlcTables::addParameters(const std::vector<ConfigParameter> &list) {
-  const std::size_t first = parameterCount_;
+  const size_t first = parameterCount_;
   for (const ConfigParameter &parameter : list) {
     parameters_ += "    {\"" + escaped(parameter.name) + "\", " +
                    (parameter.text.empty() ? "nullptr" : "\"" + escaped(parameter.text) + "\"") +
@@ -99,14 +99,14 @@ void PlcTables::addAxisGroups() {
     if (variable == nullptr)
       continue;
     groupLayout_ = c_.layouts.hash(variable->type);
-    const std::size_t firstDrive = driveCount_;
+    const size_t firstDrive = driveCount_;
     for (const AppConfig::Drive &one : group.drives)
       addDrive(one);
-    const std::size_t firstEncoder = encoderCount_;
+    const size_t firstEncoder = encoderCount_;
     for (const AppConfig::Encoder &one : group.encoders)
       addEncoder(one);
     std::string task = "::stride::kNoIndex";
-    for (std::size_t i = 0; i < config_.tasks.size(); ++i) {
+    for (size_t i = 0; i < config_.tasks.size(); ++i) {
       if (equalIgnoringCase(config_.tasks[i].name, group.task))
         task = std::to_string(i);
     }
@@ -128,12 +128,12 @@ void PlcTables::addIoDevices() {
     if (variable == nullptr)
       continue;
     const std::string number = std::to_string(ioCount_++);
-    const auto table = [&](const char *name, const std::vector<std::uint8_t> &values) {
+    const auto table = [&](const char *name, const std::vector<uint8_t> &values) {
       if (values.empty())
         return std::string("nullptr");
       const std::string constant = name + number;
       ioBytes_ += "constexpr uint8_t " + constant + "[] = {";
-      for (std::size_t i = 0; i < values.size(); ++i)
+      for (size_t i = 0; i < values.size(); ++i)
         ioBytes_ += (i == 0 ? "" : ", ") + std::to_string(values[i]);
       ioBytes_ += "};\n";
       return constant;

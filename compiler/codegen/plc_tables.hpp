@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_PLC_TABLES_HPP
+#define STRIDE_COMPILER_CODEGEN_PLC_TABLES_HPP
 // The PLC configuration and the I/O devices in app.cpp: tables of runtime/app/abi.h.
 
 #include "compiler/codegen/codegen.hpp"
@@ -28,15 +29,15 @@ public:
   void write();
 
   [[nodiscard]] const std::string &text() const { return text_; }
-  [[nodiscard]] std::size_t parameters() const { return parameterCount_; }
-  [[nodiscard]] std::size_t drives() const { return driveCount_; }
-  [[nodiscard]] std::size_t encoders() const { return encoderCount_; }
-  [[nodiscard]] std::size_t groups() const { return groupCount_; }
-  [[nodiscard]] std::size_t ioDevices() const { return ioCount_; }
+  [[nodiscard]] size_t parameters() const { return parameterCount_; }
+  [[nodiscard]] size_t drives() const { return driveCount_; }
+  [[nodiscard]] size_t encoders() const { return encoderCount_; }
+  [[nodiscard]] size_t groups() const { return groupCount_; }
+  [[nodiscard]] size_t ioDevices() const { return ioCount_; }
   /// Layout hashes of AXIS_REF, SMC_AXISGROUP_REF and SMC_ENCODER_REF; 0: not used.
-  [[nodiscard]] std::uint64_t axisLayout() const { return axisLayout_; }
-  [[nodiscard]] std::uint64_t groupLayout() const { return groupLayout_; }
-  [[nodiscard]] std::uint64_t encoderLayout() const { return encoderLayout_; }
+  [[nodiscard]] uint64_t axisLayout() const { return axisLayout_; }
+  [[nodiscard]] uint64_t groupLayout() const { return groupLayout_; }
+  [[nodiscard]] uint64_t encoderLayout() const { return encoderLayout_; }
 
 private:
   std::string addParameters(const std::vector<ConfigParameter> &list);
@@ -58,14 +59,16 @@ private:
   std::string groupRows_;
   std::string ioRows_;
   std::string ioBytes_; ///< tables of safe values
-  std::size_t parameterCount_ = 0;
-  std::size_t driveCount_ = 0;
-  std::size_t encoderCount_ = 0;
-  std::size_t groupCount_ = 0;
-  std::size_t ioCount_ = 0;
-  std::uint64_t axisLayout_ = 0;
-  std::uint64_t groupLayout_ = 0;
-  std::uint64_t encoderLayout_ = 0;
+  size_t parameterCount_ = 0;
+  size_t driveCount_ = 0;
+  size_t encoderCount_ = 0;
+  size_t groupCount_ = 0;
+  size_t ioCount_ = 0;
+  uint64_t axisLayout_ = 0;
+  uint64_t groupLayout_ = 0;
+  uint64_t encoderLayout_ = 0;
 };
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_PLC_TABLES_HPP

@@ -32,8 +32,8 @@ void statics(Context &context, GeneratedSource &source, const PouSymbol *pou) {
 
 /// A structure of this library that has functions of its own; null for other types.
 const StructType *ownStructure(const TypeSymbol *t) {
-  return t->type->kind == TypeKind::structure && t->decl != nullptr &&
-                 t->decl->kind == DeclKind::structure
+  return t->type->kind == TypeKind::Structure && t->decl != nullptr &&
+                 t->decl->kind == DeclKind::Structure
              ? typeAs<StructType>(t->type)
              : nullptr;
 }
@@ -97,7 +97,7 @@ void instanceFunctions(Context &context, GeneratedSource &source, const PouSymbo
   const std::vector<const VarSymbol *> variables = rootVariables({p, false});
   if (context.layouts.needsInit(p->type))
     source.init(name, variables, base, p);
-  if (p->type->kind == TypeKind::functionBlock && context.layouts.hasBindings(p->type))
+  if (p->type->kind == TypeKind::FunctionBlock && context.layouts.hasBindings(p->type))
     source.assignment(name, variables, base);
   for (const std::string_view what : kLifecycle) {
     if (context.layouts.hasLifecycle(p->type, what))
@@ -126,7 +126,7 @@ void pou(Context &context, const PouSymbol *p, std::vector<GeneratedFile> &files
   if (!p->decl->external) {
     if (p->isFunction())
       source.functionBody(p);
-    else if (p->decl->kind != DeclKind::classD)
+    else if (p->decl->kind != DeclKind::Class)
       source.blockBody(p, context.names.local(p));
   }
   if (isInlinable(p))

@@ -48,12 +48,12 @@ private:
 Flags symbolFlags(const VarSymbol *v, bool qualifiedOnly = false) {
   const unsigned qualifiers = v->decl == nullptr ? 0U : v->decl->qualifiers;
   Flags flags;
-  flags.add(v->section == Section::input, "Input")
-      .add(v->section == Section::output, "Output")
-      .add(v->section == Section::inOut, "InOut")
-      .add((qualifiers & qualRetain) != 0, "Retain")
-      .add((qualifiers & qualPersistent) != 0, "Persistent")
-      .add((qualifiers & qualNonRetain) != 0, "NonRetain")
+  flags.add(v->section == Section::Input, "Input")
+      .add(v->section == Section::Output, "Output")
+      .add(v->section == Section::InOut, "InOut")
+      .add((qualifiers & kQualRetain) != 0, "Retain")
+      .add((qualifiers & kQualPersistent) != 0, "Persistent")
+      .add((qualifiers & kQualNonRetain) != 0, "NonRetain")
       .add(v->isConstant, "Constant")
       .add(v->hidden, "Hidden")
       .add(v->decl != nullptr && hasAttribute(v->decl->attributes, "init_on_onlchange"),
@@ -93,12 +93,12 @@ std::string renamedColumn(std::string_view renamed) {
 
 } // namespace
 
-std::uint32_t TypeTable::index(const Type *type, bool inOut) {
-  if (!inOut && type->kind == TypeKind::subrange)
+uint32_t TypeTable::index(const Type *type, bool inOut) {
+  if (!inOut && type->kind == TypeKind::Subrange)
     type = underlying(type);
   const auto [it, fresh] =
-      indices_.try_emplace({type, inOut}, static_cast<std::uint32_t>(types_.size()));
-  const std::uint32_t at = it->second;
+      indices_.try_emplace({type, inOut}, static_cast<uint32_t>(types_.size()));
+  const uint32_t at = it->second;
   if (fresh) {
     types_.emplace_back();
     pending_.push_back({at, type, inOut});
@@ -110,14 +110,14 @@ std::uint32_t TypeTable::index(const Type *type, bool inOut) {
 
 /// One after the other: pointers may make long chains of types.
 void TypeTable::fillPending() {
-  for (std::size_t i = 0; i < pending_.size(); ++i) {
+  for (size_t i = 0; i < pending_.size(); ++i) {
     const Pending next = pending_[i];
     fill(next.at, next.type, next.inOut);
   }
   pending_.clear();
 }
 
-void TypeTable::fill(std::uint32_t at, const Type *type, bool inOut) {
+void TypeTable::fill(uint32_t at, const Type *type, bool inOut) {
   Row row;
   row.name = typeName(type);
   row.cppType = c_.names.type(type);
@@ -138,7 +138,7 @@ void TypeTable::fillInOut(Row &row, const Type *type) {
   row.kind = "InOut";
   row.flags = kHasAddress;
   row.hash = Hash().add("in-out").add(row.name).value();
-  if (type->kind == TypeKind::openArray) {
+  if (type->kind == TypeKind::OpenArray) {
     row.element = index(typeAs<OpenArrayType>(type)->element);
   } else {
     row.cppType = "void *";
@@ -148,9 +148,9 @@ void TypeTable::fillInOut(Row &row, const Type *type) {
 
 void TypeTable::fillKind(Row &row, const Type *type) {
   switch (type->kind) {
-  case TypeKind::enumeration:
+  case TypeKind::Enumeration:
     return fillEnumeration(row, typeAs<EnumType>(type));
-  case TypeKind::array: {
+  case TypeKind::Array: {
     const auto *a = typeAs<ArrayType>(type);
     row.kind = "Array";
     row.lowerBound = a->low;
@@ -158,26 +158,26 @@ void TypeTable::fillKind(Row &row, const Type *type) {
     row.element = index(a->element);
     return;
   }
-  case TypeKind::pointer:
-  case TypeKind::reference: {
+  case TypeKind::Pointer:
+  case TypeKind::Reference: {
     const Type *pointee = typeAs<PointerType>(type)->pointee;
-    row.kind = type->kind == TypeKind::pointer ? "Pointer" : "Reference";
+    row.kind = type->kind == TypeKind::Pointer ? "Pointer" : "Reference";
     row.cppType = "void *";
-    if (pointee->kind != TypeKind::none)
+    if (pointee->kind != TypeKind::None)
       row.element = index(pointee);
     return;
   }
-  case TypeKind::interface:
+  case TypeKind::Interface:
     row.kind = "Interface";
     return;
-  case TypeKind::structure: {
+  case TypeKind::Structure: {
     const auto *s = typeAs<StructType>(type);
     row.kind = s->isUnion ? "Union" : "Struct";
     row.renamedFrom = renamedFrom(s->symbol->decl->attributes);
     return members(row, type, s->base, row.cppType, {s->fields.begin(), s->fields.end()});
   }
-  case TypeKind::functionBlock:
-  case TypeKind::program:
+  case TypeKind::FunctionBlock:
+  case TypeKind::Program:
     return fillInstance(row, typeAs<PouType>(type));
   default:
     row.kind = Names::elementary(type->kind);
@@ -202,7 +202,7 @@ void TypeTable::fillEnumeration(Row &row, const EnumType *type) {
 
 void TypeTable::fillInstance(Row &row, const PouType *type) {
   const PouSymbol *pou = type->symbol;
-  row.kind = type->kind == TypeKind::program ? "Program" : "FunctionBlock";
+  row.kind = type->kind == TypeKind::Program ? "Program" : "FunctionBlock";
   row.renamedFrom = renamedFrom(pou->decl->attributes);
   if (pou->decl->external)
     row.flags |= kExternal;
@@ -212,7 +212,7 @@ void TypeTable::fillInstance(Row &row, const PouType *type) {
           rootVariables({pou, false}), carriesTypeId(pou));
 }
 
-std::string TypeTable::memberRow(const Type *type, const VarSymbol *v, std::uint32_t typeIndex,
+std::string TypeTable::memberRow(const Type *type, const VarSymbol *v, uint32_t typeIndex,
                                  const std::string &owner) {
   const Flags flags = locatedFlags(v, symbolFlags(v));
   std::string row = "{" + quote(v->storage.empty() ? v->name.text : v->storage) + ", ";
@@ -232,12 +232,12 @@ std::string TypeTable::memberRow(const Type *type, const VarSymbol *v, std::uint
 
 void TypeTable::members(Row &row, const Type *type, const Type *base, const std::string &owner,
                         const std::vector<const VarSymbol *> &variables, bool typeId) {
-  std::vector<std::uint32_t> types;
+  std::vector<uint32_t> types;
   types.reserve(variables.size());
-  const std::uint32_t baseIndex = base == nullptr ? 0 : index(base);
-  const std::uint32_t idIndex = typeId ? index(elementaryType(TypeKind::udint)) : 0;
+  const uint32_t baseIndex = base == nullptr ? 0 : index(base);
+  const uint32_t idIndex = typeId ? index(elementaryType(TypeKind::Udint)) : 0;
   for (const VarSymbol *v : variables)
-    types.push_back(index(v->type, v->section == Section::inOut));
+    types.push_back(index(v->type, v->section == Section::InOut));
   row.firstMember = memberRows_.size();
   if (base != nullptr)
     memberRows_.push_back("{" + quote(typeName(base)) + ", offsetof(" + owner + ", base__), " +
@@ -246,13 +246,13 @@ void TypeTable::members(Row &row, const Type *type, const Type *base, const std:
     memberRows_.push_back("{\"type__\", offsetof(" + owner + ", type__), " +
                           std::to_string(idIndex) +
                           ", ::stride::kSymTypeId | ::stride::kSymHidden}");
-  for (std::size_t i = 0; i < variables.size(); ++i)
+  for (size_t i = 0; i < variables.size(); ++i)
     memberRows_.push_back(memberRow(type, variables[i], types[i], owner));
   row.memberCount = memberRows_.size() - row.firstMember;
 }
 
 /// renamedFrom and task of a root.
-static std::string lastColumns(std::string_view renamed, std::optional<std::uint32_t> task) {
+static std::string lastColumns(std::string_view renamed, std::optional<uint32_t> task) {
   const std::string column = renamedColumn(renamed);
   if (!task)
     return column;
@@ -261,12 +261,12 @@ static std::string lastColumns(std::string_view renamed, std::optional<std::uint
 
 void TypeTable::addRoot(std::string_view list, const VarSymbol *variable, const std::string &place,
                         bool qualifiedOnly, std::string_view listRenamedFrom,
-                        std::optional<std::uint32_t> task) {
+                        std::optional<uint32_t> task) {
   std::string renamed(variable->decl == nullptr ? std::string_view()
                                                 : renamedFrom(variable->decl->attributes));
   if (renamed.empty() && !listRenamedFrom.empty())
     renamed.append(listRenamedFrom).append(".").append(variable->name.text);
-  const std::uint32_t type = index(variable->type, variable->section == Section::inOut);
+  const uint32_t type = index(variable->type, variable->section == Section::InOut);
   const std::string offset =
       isPlaced(variable) ? placeInImage(*variable->location) : "offsetof(App__, " + place + ")";
   rootRows_.push_back("{" + (list.empty() ? std::string("nullptr") : quote(list)) + ", " +
@@ -278,7 +278,7 @@ void TypeTable::addRoot(std::string_view list, const VarSymbol *variable, const 
 void TypeTable::addImage() {
   const Image &image = c_.program.image;
   bool any = false;
-  for (std::size_t area = 0; area < image.types.size(); ++area) {
+  for (size_t area = 0; area < image.types.size(); ++area) {
     if (image.types[area] == nullptr)
       continue;
     any = true;
@@ -291,7 +291,7 @@ void TypeTable::addImage() {
     return;
   // Hosts show and set direct addresses as these.
   for (const TypeKind kind :
-       {TypeKind::boolean, TypeKind::byte, TypeKind::word, TypeKind::dword, TypeKind::lword})
+       {TypeKind::Boolean, TypeKind::Byte, TypeKind::Word, TypeKind::Dword, TypeKind::Lword})
     index(elementaryType(kind));
 }
 
@@ -305,28 +305,28 @@ void TypeTable::addAccess(const AccessPath &access) {
     offset = placeInImage(*access.location);
   const std::string flags = access.location != nullptr ? locatedFlags(*access.location, own).text()
                                                        : "::stride::kSymLocated | " + own.text();
-  const std::uint32_t type = index(access.type);
+  const uint32_t type = index(access.type);
   rootRows_.push_back("{nullptr, " + quote(access.decl->name.text) + ", " + offset + ", " +
                       std::to_string(type) + ", " + flags + "}");
 }
 
-void TypeTable::addPool(std::uint64_t size) {
+void TypeTable::addPool(uint64_t size) {
   Row row;
   row.kind = "Array";
   row.name = "ARRAY [0.." + std::to_string(size - 1) + "] OF BYTE";
   row.cppType = "::stride::BYTE[" + std::to_string(size) + "]"; // the maps lie behind
   row.hash = Hash().add("pool").add(size).value();
-  row.element = index(elementaryType(TypeKind::byte));
+  row.element = index(elementaryType(TypeKind::Byte));
   row.elementCount = size;
-  const std::size_t type = types_.size();
+  const size_t type = types_.size();
   types_.push_back(std::move(row));
   rootRows_.push_back("{nullptr, \"__pool\", offsetof(App__, pool__), " + std::to_string(type) +
                       ", ::stride::kSymHidden}");
 }
 
 void TypeTable::addProgram(const PouSymbol *program, const std::string &place,
-                           std::optional<std::uint32_t> task) {
-  const std::uint32_t type = index(program->type);
+                           std::optional<uint32_t> task) {
+  const uint32_t type = index(program->type);
   const bool hidden =
       std::any_of(program->decl->attributes.begin(), program->decl->attributes.end(),
                   [](const Attribute &a) { return a.name == "hide"; });

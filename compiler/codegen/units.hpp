@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_UNITS_HPP
+#define STRIDE_COMPILER_CODEGEN_UNITS_HPP
 // The generated files of one library: headers with layouts, sources with bodies and initial values.
 
 #include "compiler/codegen/generated_source.hpp"
@@ -29,3 +30,5 @@ void generateSources(Context &context, std::vector<GeneratedFile> &files);
 void generateDispatch(Context &context, std::vector<GeneratedFile> &files);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_UNITS_HPP

@@ -26,7 +26,7 @@ constexpr BuiltinText kTexts[] = {
 /// INT_TO_REAL, TO_STRING, TRUNC_INT, BYTE_BCD_TO_USINT …
 std::vector<std::string> conversionNames() {
   std::vector<std::string> types = {"TOD", "LTOD", "DT", "LDT"}; // beside their long names
-  for (auto kind = TypeKind::boolean; kind <= TypeKind::wcharT;
+  for (auto kind = TypeKind::Boolean; kind <= TypeKind::Wchar;
        kind = static_cast<TypeKind>(static_cast<int>(kind) + 1))
     types.push_back(typeName(elementaryType(kind)));
   std::vector<std::string> names;

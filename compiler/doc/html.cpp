@@ -225,8 +225,8 @@ private:
   /// Empty lines part paragraphs.
   std::string paragraphs(const std::string &text, const std::string &self = {}) {
     std::string out;
-    for (std::size_t at = 0; at < text.size();) {
-      std::size_t end = text.find("\n\n", at);
+    for (size_t at = 0; at < text.size();) {
+      size_t end = text.find("\n\n", at);
       if (end == std::string::npos)
         end = text.size();
       out += "<p>" + linked(text.substr(at, end - at), self) + "</p>\n";
@@ -238,8 +238,8 @@ private:
   /// The text with links from the names of entries, but for `self`.
   std::string linked(const std::string &text, const std::string &self) {
     std::string out;
-    for (std::size_t at = 0; at < text.size();) {
-      std::size_t end = at;
+    for (size_t at = 0; at < text.size();) {
+      size_t end = at;
       while (end < text.size() && isWord(text[end]))
         ++end;
       if (end == at) {

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_DOC_HTML_HPP
+#define STRIDE_COMPILER_DOC_HTML_HPP
 // A reference as a folder of HTML pages that need no server.
 
 #include "compiler/doc/reference.hpp"
@@ -23,3 +24,5 @@ struct Page {
                                           const std::vector<Module> &modules);
 
 } // namespace stc::doc
+
+#endif // STRIDE_COMPILER_DOC_HTML_HPP

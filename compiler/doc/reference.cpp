@@ -13,7 +13,7 @@ bool isHidden(const ast::Attributes &attributes) {
                      [](const ast::Attribute &a) { return equalIgnoringCase(a.name, "hide"); });
 }
 
-bool isPrivate(ast::Access access) { return access == ast::Access::privateA; }
+bool isPrivate(ast::Access access) { return access == ast::Access::Private; }
 
 class Describer {
 public:
@@ -45,9 +45,9 @@ private:
   [[nodiscard]] std::vector<Group> parameters(std::span<ast::VarDecl *const> variables) const {
     std::vector<Group> groups;
     for (const ast::VarDecl *variable : variables) {
-      const char *title = variable->section == ast::Section::input    ? "Inputs"
-                          : variable->section == ast::Section::inOut  ? "In-outs"
-                          : variable->section == ast::Section::output ? "Outputs"
+      const char *title = variable->section == ast::Section::Input    ? "Inputs"
+                          : variable->section == ast::Section::InOut  ? "In-outs"
+                          : variable->section == ast::Section::Output ? "Outputs"
                                                                       : nullptr;
       if (title != nullptr && !isHidden(variable->attributes))
         groupOf(groups, title).members.push_back(member(*variable));
@@ -72,17 +72,17 @@ private:
 
   static const char *kindOf(ast::DeclKind kind) {
     switch (kind) {
-    case ast::DeclKind::program:
+    case ast::DeclKind::Program:
       return "Program";
-    case ast::DeclKind::function:
+    case ast::DeclKind::Function:
       return "Function";
-    case ast::DeclKind::classD:
+    case ast::DeclKind::Class:
       return "Class";
-    case ast::DeclKind::interface:
+    case ast::DeclKind::Interface:
       return "Interface";
-    case ast::DeclKind::method:
+    case ast::DeclKind::Method:
       return "Method";
-    case ast::DeclKind::action:
+    case ast::DeclKind::Action:
       return "Action";
     default:
       return "Function block";
@@ -98,7 +98,7 @@ private:
       entry.suffix = ": " + text(decl.returnType->span);
     if (!decl.base.empty())
       entry.suffix += (entry.suffix.empty() ? "EXTENDS " : " EXTENDS ") + path(decl.base);
-    for (std::size_t i = 0; i < decl.interfaces.size(); ++i)
+    for (size_t i = 0; i < decl.interfaces.size(); ++i)
       entry.suffix += (i == 0 ? " IMPLEMENTS " : ", ") + path(decl.interfaces[i]);
     entry.groups = parameters(decl.variables);
     const std::string inner = entry.name + ".";
@@ -128,14 +128,14 @@ private:
     entry.name = space + std::string(decl.name.text);
     entry.text = decl.doc;
     switch (decl.kind) {
-    case ast::DeclKind::program:
-    case ast::DeclKind::function:
-    case ast::DeclKind::functionBlock:
-    case ast::DeclKind::classD:
-    case ast::DeclKind::interface:
+    case ast::DeclKind::Program:
+    case ast::DeclKind::Function:
+    case ast::DeclKind::FunctionBlock:
+    case ast::DeclKind::Class:
+    case ast::DeclKind::Interface:
       entry = pou(static_cast<const ast::PouDecl &>(decl), space);
       break;
-    case ast::DeclKind::structure: {
+    case ast::DeclKind::Structure: {
       const auto &structure = static_cast<const ast::StructDecl &>(decl);
       entry.kind = structure.isUnion ? "Union" : "Structure";
       if (!structure.base.empty())
@@ -143,7 +143,7 @@ private:
       entry.groups.push_back(fields("Fields", structure.fields));
       break;
     }
-    case ast::DeclKind::enumeration: {
+    case ast::DeclKind::Enumeration: {
       const auto &enumeration = static_cast<const ast::EnumDecl &>(decl);
       entry.kind = "Enumeration";
       if (enumeration.type->base != nullptr)
@@ -156,13 +156,13 @@ private:
       entry.groups.push_back(std::move(group));
       break;
     }
-    case ast::DeclKind::alias: {
+    case ast::DeclKind::Alias: {
       const auto &alias = static_cast<const ast::AliasDecl &>(decl);
       entry.kind = "Type";
       entry.suffix = ": " + text(alias.type->span);
       break;
     }
-    case ast::DeclKind::globals: {
+    case ast::DeclKind::Globals: {
       const auto &globals = static_cast<const ast::GlobalsDecl &>(decl);
       std::string list(decl.name.text);
       if (list.empty())
@@ -195,7 +195,7 @@ Module describe(std::string name, std::span<const ast::File *const> files, const
 }
 
 std::string firstSentence(const std::string &text) {
-  for (std::size_t i = 0; i < text.size(); ++i)
+  for (size_t i = 0; i < text.size(); ++i)
     if (text[i] == '.' && (i + 1 == text.size() || text[i + 1] == ' ' || text[i + 1] == '\n'))
       return text.substr(0, i + 1);
   return text;

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_DOC_REFERENCE_HPP
+#define STRIDE_COMPILER_DOC_REFERENCE_HPP
 // What a reference says of ST declarations: data between the syntax tree and HTML.
 
 #include "compiler/source/sources.hpp"
@@ -56,3 +57,5 @@ struct Module {
 [[nodiscard]] std::string firstSentence(const std::string &text);
 
 } // namespace stc::doc
+
+#endif // STRIDE_COMPILER_DOC_REFERENCE_HPP

@@ -11,7 +11,7 @@ namespace stc::plot {
 namespace {
 
 std::string_view nextLine(std::string_view &rest) {
-  const std::size_t end = rest.find('\n');
+  const size_t end = rest.find('\n');
   std::string_view line = rest.substr(0, end);
   rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
   if (line.ends_with('\r'))
@@ -32,10 +32,10 @@ std::string_view cellText(std::string_view text) {
 // Splits at commas outside brackets and quotes: `a[1,2]` is one cell.
 std::vector<std::string_view> cells(std::string_view line) {
   std::vector<std::string_view> result;
-  std::size_t begin = 0;
+  size_t begin = 0;
   int depth = 0;
   bool quoted = false;
-  for (std::size_t i = 0; i <= line.size(); ++i) {
+  for (size_t i = 0; i <= line.size(); ++i) {
     if (i == line.size() || (line[i] == ',' && depth == 0 && !quoted)) {
       result.push_back(cellText(line.substr(begin, i - begin)));
       begin = i + 1;
@@ -71,7 +71,7 @@ std::optional<Cell> parseCell(std::string_view text) {
 
 // `bBusy`, `InVelocity`, MC_ReadStatus's `ConstantVelocity`, whatever else the name says.
 bool namedLikeBool(std::string_view variable) {
-  const std::size_t dot = variable.rfind('.');
+  const size_t dot = variable.rfind('.');
   const std::string_view name = dot == std::string_view::npos ? variable : variable.substr(dot + 1);
   const auto beginsWith = [&](std::string_view word) {
     return name.size() > word.size() && name.starts_with(word) && name[word.size()] >= 'A' &&
@@ -115,10 +115,10 @@ std::optional<Trace> readTrace(std::string_view csv, TraceError &error) {
     return std::nullopt;
   }
   Trace trace;
-  for (std::size_t i = 1; i < header.size(); ++i)
+  for (size_t i = 1; i < header.size(); ++i)
     trace.series.push_back({std::string(header[i]), {}, false});
   std::vector<bool> words(trace.series.size(), false);
-  for (std::size_t number = 2; !rest.empty(); ++number) {
+  for (size_t number = 2; !rest.empty(); ++number) {
     const std::string_view line = nextLine(rest);
     if (cellText(line).empty())
       continue;
@@ -127,7 +127,7 @@ std::optional<Trace> readTrace(std::string_view csv, TraceError &error) {
       error = {number, fmt::format("expected {} values, found {}", header.size(), row.size())};
       return std::nullopt;
     }
-    for (std::size_t i = 0; i < row.size(); ++i) {
+    for (size_t i = 0; i < row.size(); ++i) {
       const std::optional<Cell> cell = parseCell(row[i]);
       if (!cell) {
         error = {number, fmt::format("`{}` in column `{}` is not a number", row[i], header[i])};
@@ -145,7 +145,7 @@ std::optional<Trace> readTrace(std::string_view csv, TraceError &error) {
     error = {0, "there are no rows"};
     return std::nullopt;
   }
-  for (std::size_t i = 0; i < trace.series.size(); ++i) {
+  for (size_t i = 0; i < trace.series.size(); ++i) {
     Series &series = trace.series[i];
     const bool binary = std::all_of(series.values.begin(), series.values.end(),
                                     [](double value) { return value == 0 || value == 1; });
@@ -156,7 +156,7 @@ std::optional<Trace> readTrace(std::string_view csv, TraceError &error) {
 }
 
 Quantity quantityOf(std::string_view variable) {
-  const std::size_t dot = variable.rfind('.');
+  const size_t dot = variable.rfind('.');
   const std::string_view name = dot == std::string_view::npos ? variable : variable.substr(dot + 1);
   const std::string lower = lowerCase(name);
   for (const Rule &rule : kRules)

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PLOT_PLOT_HPP
+#define STRIDE_COMPILER_PLOT_PLOT_HPP
 // Drawing a trace as SVG.
 
 #include <optional>
@@ -39,7 +40,7 @@ struct Trace {
 
 /// Why a CSV text is no trace.
 struct TraceError {
-  std::size_t line = 0; ///< 1-based; 0: the text as a whole
+  size_t line = 0; ///< 1-based; 0: the text as a whole
   std::string message;
 };
 
@@ -63,3 +64,5 @@ struct Ticks {
 [[nodiscard]] std::string drawSvg(const Trace &trace);
 
 } // namespace stc::plot
+
+#endif // STRIDE_COMPILER_PLOT_PLOT_HPP

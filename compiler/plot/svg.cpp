@@ -24,10 +24,10 @@ constexpr double kLegendRow = 17; // each further row of it
 constexpr double kPanel = 170;    // plot area of a panel
 constexpr double kLane = 22;      // plot area of a BOOL
 constexpr double kGap = 12;
-constexpr double kFoot = 52;            // time axis
-constexpr double kMarkRow = 15;         // texts of marks
-constexpr double kLetter = 6.4;         // mean width of a letter of a lane's name
-constexpr std::size_t kMostGuides = 40; // more than that hide the curves
+constexpr double kFoot = 52;       // time axis
+constexpr double kMarkRow = 15;    // texts of marks
+constexpr double kLetter = 6.4;    // mean width of a letter of a lane's name
+constexpr size_t kMostGuides = 40; // more than that hide the curves
 
 // Distinct also for colour-blind readers (Okabe and Ito).
 constexpr std::array<std::string_view, 7> kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
@@ -175,7 +175,7 @@ private:
     for (const Panel &panel : panels_)
       if (panel.lanes)
         for (const Series *series : panel.series)
-          for (std::size_t i = 1; i < series->values.size(); ++i)
+          for (size_t i = 1; i < series->values.size(); ++i)
             if (series->values[i] != series->values[i - 1])
               changes.insert(std::round(x(trace_.time[i])));
     if (panels_.size() < 2 || changes.size() > kMostGuides)
@@ -193,7 +193,7 @@ private:
     for (const Mark &mark : trace_.marks) {
       const double width = kLetter * static_cast<double>(mark.text.size()) + 8;
       const double at = std::clamp(x(mark.at) - width / 2, left_ - 30, kWidth - width);
-      std::size_t row = 0;
+      size_t row = 0;
       while (row < ends.size() && ends[row] > at)
         ++row;
       if (row == ends.size())
@@ -214,7 +214,7 @@ private:
   // Dashed lines through all panels, their texts below.
   void drawMarks(double bottom) {
     const std::vector<std::pair<double, int>> places = markPlaces();
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (size_t i = 0; i < places.size(); ++i) {
       const double row = bottom + 13 + kMarkRow * places[i].second;
       svg_ += fmt::format("<path d=\"M{0} {1}V{2}\" stroke=\"#d55e00\" stroke-width=\"0.9\" "
                           "stroke-dasharray=\"4 3\"/>\n",
@@ -286,7 +286,7 @@ private:
          fmt::format(" transform=\"rotate(-90 {} {})\" font-weight=\"600\"", px(left_ - 64),
                      px(middle)));
     drawLegend(panel, top - 9);
-    std::size_t color = 0;
+    size_t color = 0;
     for (const Series *series : panel.series)
       drawCurve(*series, y, kColors[color++ % kColors.size()]);
   }
@@ -294,7 +294,7 @@ private:
   // The last row stands at `y`.
   void drawLegend(const Panel &panel, double y) {
     const std::vector<std::pair<double, int>> places = legendOf(panel);
-    for (std::size_t i = 0; i < places.size(); ++i) {
+    for (size_t i = 0; i < places.size(); ++i) {
       const double at = places[i].first;
       const double row = y - kLegendRow * (places.back().second - places[i].second);
       svg_ += fmt::format("<path d=\"M{} {}h18\" stroke=\"{}\" stroke-width=\"2.5\"/>\n", px(at),
@@ -310,7 +310,7 @@ private:
     bool pen = false;
     double lastX = std::numeric_limits<double>::quiet_NaN();
     double lastY = lastX;
-    const auto point = [&](std::size_t i) {
+    const auto point = [&](size_t i) {
       const double px1 = std::round(x(trace_.time[i]) * 100) / 100;
       const double py1 = std::round(y(series.values[i]) * 100) / 100;
       if (pen && px1 == lastX && py1 == lastY)
@@ -320,8 +320,8 @@ private:
       lastX = px1;
       lastY = py1;
     };
-    std::size_t i = 0;
-    const std::size_t size = trace_.time.size();
+    size_t i = 0;
+    const size_t size = trace_.time.size();
     while (i < size) {
       if (!std::isfinite(series.values[i])) {
         pen = false; // a gap
@@ -329,9 +329,9 @@ private:
         continue;
       }
       const double column = std::floor(x(trace_.time[i]));
-      std::size_t end = i;
-      std::size_t low = i;
-      std::size_t high = i;
+      size_t end = i;
+      size_t low = i;
+      size_t high = i;
       while (end < size && std::isfinite(series.values[end]) &&
              std::floor(x(trace_.time[end])) == column) {
         if (series.values[end] < series.values[low])
@@ -340,9 +340,9 @@ private:
           high = end;
         ++end;
       }
-      std::array<std::size_t, 4> chosen = {i, low, high, end - 1};
+      std::array<size_t, 4> chosen = {i, low, high, end - 1};
       std::sort(chosen.begin(), chosen.end());
-      for (std::size_t k = 0; k < chosen.size(); ++k)
+      for (size_t k = 0; k < chosen.size(); ++k)
         if (k == 0 || chosen[k] != chosen[k - 1])
           point(chosen[k]);
       i = end;
@@ -355,7 +355,7 @@ private:
   void drawLanes(const Panel &panel, double top) {
     const std::vector<std::string> names = laneNames(panel.series);
     drawFrame(top, panel.height());
-    for (std::size_t k = 0; k < panel.series.size(); ++k, top += kLane) {
+    for (size_t k = 0; k < panel.series.size(); ++k, top += kLane) {
       const Series &series = *panel.series[k];
       const double low = top + kLane - 4;
       const double high = top + 5;
@@ -363,7 +363,7 @@ private:
         line(left_, top, kWidth - kRight, top, "#e5e7eb");
       bool up = series.values.front() != 0;
       std::string path;
-      for (std::size_t i = 1; i < series.values.size(); ++i)
+      for (size_t i = 1; i < series.values.size(); ++i)
         if ((series.values[i] != 0) != up) {
           up = !up;
           path += fmt::format("H{}V{}", px(x(trace_.time[i])), px(up ? high : low));

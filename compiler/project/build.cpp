@@ -31,7 +31,7 @@ constexpr const char *kFixedFlags[] = {"-std=c++20",        "-fPIC",
 
 // In the folder of emitted sources: the names of those that Stride has written there.
 constexpr std::string_view kEmittedList = ".stride-sources";
-constexpr std::uintmax_t kMaxListBytes = 16U << 20U; // of whatever a project ships under that name
+constexpr uintmax_t kMaxListBytes = 16U << 20U; // of whatever a project ships under that name
 
 std::vector<std::string> compileFlags(const Installation &installation, bool debug) {
   std::vector<std::string> flags(std::begin(kFixedFlags), std::end(kFixedFlags));
@@ -50,10 +50,10 @@ std::vector<std::string> compileFlags(const Installation &installation, bool deb
 std::vector<std::string> includesOf(std::string_view text) {
   constexpr std::string_view kInclude = "#include \"";
   std::vector<std::string> names;
-  for (std::size_t at = text.find(kInclude); at != std::string_view::npos;
+  for (size_t at = text.find(kInclude); at != std::string_view::npos;
        at = text.find(kInclude, at)) {
     at += kInclude.size();
-    const std::size_t end = text.find('"', at);
+    const size_t end = text.find('"', at);
     if (end == std::string_view::npos)
       break;
     names.emplace_back(text.substr(at, end - at));
@@ -142,7 +142,7 @@ private:
     std::string missing;
     std::optional<Installation> found = findInstallation(missing, options_.target);
     std::error_code error;
-    for (std::size_t i = 0; found && options_.isStatic && i < found->hostLibraries.size(); ++i) {
+    for (size_t i = 0; found && options_.isStatic && i < found->hostLibraries.size(); ++i) {
       if (fs::exists(found->hostLibraries[i], error))
         continue;
       missing = found->hostLibraries[i].string();
@@ -150,7 +150,7 @@ private:
     }
     if (!found) {
       Diagnostic &d = diagnostics_.report(
-          Code::toolchainMissing, {}, fmt::format("Stride's own file `{}` is missing", missing));
+          Code::ToolchainMissing, {}, fmt::format("Stride's own file `{}` is missing", missing));
       if (!options_.target.empty())
         d.help(fmt::format("this installation has no runtime for {}: install the cross compiler "
                            "g++-{}, then build and install Stride from its sources with cmake "
@@ -171,7 +171,7 @@ private:
     toolchain_.compiler = findProgram(name);
     if (!toolchain_.compiler.empty())
       return true;
-    Diagnostic &d = diagnostics_.report(Code::toolchainMissing, {},
+    Diagnostic &d = diagnostics_.report(Code::ToolchainMissing, {},
                                         fmt::format("the C++ compiler `{}` was not found", name));
     if (options_.target.empty())
       d.help("install it (Debian: apt-get install g++), or name one in the environment variable "
@@ -184,12 +184,12 @@ private:
   bool openCache() {
     cache_ = UserCache::open();
     if (!cache_) {
-      diagnostics_.report(Code::cannotWrite, {},
+      diagnostics_.report(Code::CannotWrite, {},
                           fmt::format("no folder can be made to compile in: {}", lastError()));
       return false;
     }
     if (!cache_->problem().empty())
-      diagnostics_.report(Code::cacheNotPrivate, {}, "the cache folder " + cache_->problem())
+      diagnostics_.report(Code::CacheNotPrivate, {}, "the cache folder " + cache_->problem())
           .help("nothing is kept for the next build; give the folder to the user who builds, with "
                 "write permission for nobody else, or name another one in XDG_CACHE_HOME");
     if (std::optional<WorkFolder> work = cache_->makeWorkFolder())
@@ -203,11 +203,11 @@ private:
   bool cannotWrite(const fs::path &path) {
     if (errno == ELOOP)
       diagnostics_
-          .report(Code::linkInTheWay, {},
+          .report(Code::LinkInTheWay, {},
                   fmt::format("`{}` is not written: a symbolic link leads there", path.string()))
           .help("Stride writes through no link that a project holds; remove it");
     else
-      diagnostics_.report(Code::cannotWrite, {},
+      diagnostics_.report(Code::CannotWrite, {},
                           fmt::format("`{}` cannot be written: {}", path.string(), lastError()));
     return false;
   }
@@ -242,7 +242,7 @@ private:
 
   std::string linkKey(const std::vector<Unit> &units) const {
     ContentHash hash = base_;
-    hash.add(std::uint64_t{options_.isStatic});
+    hash.add(uint64_t{options_.isStatic});
     for (const Unit &unit : units)
       hash.add(unit.key);
     for (const std::string &flag : toolchain_.installation.linkFlags)
@@ -273,7 +273,7 @@ private:
     return deliver(key, std::move(result));
   }
 
-  bool make(const std::string &key, const std::vector<Unit> &all, std::size_t &compiled) {
+  bool make(const std::string &key, const std::vector<Unit> &all, size_t &compiled) {
     std::vector<Unit> outdated;
     for (const Unit &unit : all)
       if (!cache_->fetch(unit.key, ".o", unit.object))
@@ -287,7 +287,7 @@ private:
       return false;
     if (identityOf(toolchain_, *cache_, work_->path()).hex() != base_.hex()) {
       diagnostics_
-          .report(Code::toolchainMissing, {},
+          .report(Code::ToolchainMissing, {},
                   "the compiler or Stride itself was changed while this was built")
           .help("build again when that has ended");
       return false;
@@ -320,11 +320,10 @@ private:
     for (const Unit &unit : units)
       jobs.push_back(
           {compileCommand(unit), fs::path(unit.file->path).stem().string(), sources_.string()});
-    const std::vector<JobResult> results = runJobs(jobs, [&](std::size_t job) {
-      progress("compiling " + jobs[job].title, job, jobs.size() + 1);
-    });
+    const std::vector<JobResult> results = runJobs(
+        jobs, [&](size_t job) { progress("compiling " + jobs[job].title, job, jobs.size() + 1); });
     bool good = true;
-    for (std::size_t i = 0; i < jobs.size(); ++i)
+    for (size_t i = 0; i < jobs.size(); ++i)
       if (results[i].status > 0) {
         reportFailure("compiling", jobs[i], results[i]);
         good = false;
@@ -374,7 +373,7 @@ private:
     std::error_code error;
     if (!fs::exists(work_->path(), error)) {
       diagnostics_
-          .report(Code::cannotWrite, {},
+          .report(Code::CannotWrite, {},
                   fmt::format("`{}` was removed while it was compiled in", work_->path().string()))
           .help("build again");
       return true;
@@ -383,7 +382,7 @@ private:
       if (const char *text = ::strerrordesc_np(reason);
           result.output.find(text) != std::string::npos) {
         diagnostics_
-            .report(Code::cannotWrite, {},
+            .report(Code::CannotWrite, {},
                     fmt::format("the C++ compiler cannot write its results: {}", text))
             .help(fmt::format("it writes to `{}` and to the folder for temporary files, TMPDIR",
                               work_->path().parent_path().string()));
@@ -396,12 +395,12 @@ private:
     if (reportSurroundings(result))
       return;
     Diagnostic &d = diagnostics_.report(
-        Code::compilerFailed, {},
+        Code::CompilerFailed, {},
         fmt::format("{} the generated C++ failed: this is a defect of Stride", step));
     d.note("to reproduce: cd " + shellQuoted({job.folder}) + " && " + shellQuoted(job.command));
     std::string_view output = result.output;
     for (int lines = 0; lines < 12 && !output.empty(); ++lines) {
-      const std::size_t end = output.find('\n');
+      const size_t end = output.find('\n');
       d.note(std::string(output.substr(0, end)));
       output = end == std::string_view::npos ? std::string_view() : output.substr(end + 1);
     }
@@ -417,7 +416,7 @@ private:
     result.folder = folderOf(project_);
     result.retainFile = retainFileOf(project_);
     result.filesRoot = filesRootOf(project_);
-    if (options_.use == BuildUse::keep && !keep(result))
+    if (options_.use == BuildUse::Keep && !keep(result))
       return std::nullopt;
     if (project_.isSingleFile() || options_.isStatic || !options_.target.empty())
       return result;
@@ -425,8 +424,8 @@ private:
     const std::string project = fs::canonical(project_.path(), error).string();
     const std::string projectKey = ContentHash().add(project).hex();
     result.latest = cache_->latest(projectKey);
-    const bool isLatest = options_.use == BuildUse::run ||
-                          (options_.use == BuildUse::keep && options_.output.empty());
+    const bool isLatest = options_.use == BuildUse::Run ||
+                          (options_.use == BuildUse::Keep && options_.output.empty());
     if (isLatest && !cache_->setLatest(projectKey, result.runnable)) {
       cannotWrite(result.latest);
       return std::nullopt;
@@ -451,7 +450,7 @@ private:
            cannotWrite(project_.path() / ignore);
   }
 
-  void progress(std::string_view what, std::size_t done, std::size_t total) const {
+  void progress(std::string_view what, size_t done, size_t total) const {
     if (options_.progress)
       options_.progress(what, done, total);
   }

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_BUILD_HPP
+#define STRIDE_COMPILER_PROJECT_BUILD_HPP
 // From a checked project to a shared object that stride-host runs, or to one static executable.
 
 #include "compiler/project/project.hpp"
@@ -13,14 +14,14 @@
 namespace stc {
 
 /// What a build is for.
-enum class BuildUse : std::uint8_t {
-  keep,    ///< the application is written where `output` says, and is the project's latest build
-  run,     ///< nothing is written; it is the project's latest build
-  runOnce, ///< nothing is written
+enum class BuildUse : uint8_t {
+  Keep,    ///< the application is written where `output` says, and is the project's latest build
+  Run,     ///< nothing is written; it is the project's latest build
+  RunOnce, ///< nothing is written
 };
 
 struct BuildOptions {
-  BuildUse use = BuildUse::keep;
+  BuildUse use = BuildUse::Keep;
   bool debug = false; ///< -O0 -g: quick to compile, for tests and the debugger
   /// Where the shared object (or with emitOnly the sources) goes. Empty: `<project>/build/app.so`,
   /// which must not be a single file.
@@ -31,7 +32,7 @@ struct BuildOptions {
   bool isStatic = false;
   std::string target; ///< a processor as Debian's cross compilers name it; empty: this machine's
   /// Called now and then with what is being done and how much is done of how much.
-  std::function<void(std::string_view what, std::size_t done, std::size_t total)> progress;
+  std::function<void(std::string_view what, size_t done, size_t total)> progress;
 };
 
 /// What a build left behind.
@@ -42,9 +43,8 @@ struct BuildResult {
   std::filesystem::path latest;  ///< leads to the project's latest build, then and later
   std::string name;              ///< the application's, where it does not carry one itself
   std::filesystem::path headers; ///< Stride's own, which the application's line tables name
-  std::size_t compiled =
-      0; ///< translation units that were compiled; the others came from the cache
-  std::size_t units = 0;
+  size_t compiled = 0; ///< translation units that were compiled; the others came from the cache
+  size_t units = 0;
   std::filesystem::path folder;     ///< the project's, or that of the single file
   std::filesystem::path retainFile; ///< for RETAIN and PERSISTENT variables
   std::filesystem::path filesRoot;  ///< for the files of the program
@@ -73,3 +73,5 @@ inline constexpr std::string_view kHeadersInLineTables = "/stride";
 [[nodiscard]] std::optional<BuildResult> build(Project &project, const BuildOptions &options);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_BUILD_HPP

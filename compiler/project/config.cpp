@@ -14,7 +14,7 @@ namespace stc {
 namespace {
 
 /// Longest name of a project, in bytes: file systems know names of 255, and some are longer.
-constexpr std::size_t kMaxProjectName = 200;
+constexpr size_t kMaxProjectName = 200;
 
 class Reader {
 public:
@@ -33,8 +33,7 @@ public:
     for (const CheckedSection &project : top.sections("project", diagnostics_)) {
       config_.name = project.text("name");
       checkProjectName(project.get("name"));
-      config_.poolSize =
-          (static_cast<std::uint64_t>(project.integer("new_pool", 65536)) + 15) / 16 * 16;
+      config_.poolSize = (static_cast<uint64_t>(project.integer("new_pool", 65536)) + 15) / 16 * 16;
       config_.generation = static_cast<unsigned>(project.choice("softmotion", 2));
       config_.pack = static_cast<unsigned>(project.choice("layout", 0));
       if (const TomlNode *defines = project.get("defines"))
@@ -43,9 +42,9 @@ public:
     }
     for (const CheckedSection &image : top.sections("image", diagnostics_)) {
       config_.addressing = static_cast<Addressing>(image.choice("addressing", 0));
-      std::size_t area = 0;
+      size_t area = 0;
       for (const std::string_view name : {"inputs", "outputs", "memory"})
-        config_.imageBytes[area++] = static_cast<std::uint32_t>(image.integer(name, 0));
+        config_.imageBytes[area++] = static_cast<uint32_t>(image.integer(name, 0));
     }
     for (const CheckedSection &retain : top.sections("retain", diagnostics_)) {
       config_.retainFile = retain.text("file");
@@ -55,7 +54,7 @@ public:
     for (const CheckedSection &files : top.sections("files", diagnostics_)) {
       config_.filesRoot = files.text("root");
       config_.filesAnywhere = files.boolean("anywhere", false);
-      config_.filesDelay = static_cast<std::uint32_t>(files.integer("delay", 1));
+      config_.filesDelay = static_cast<uint32_t>(files.integer("delay", 1));
     }
     for (const CheckedSection &task : top.sections("task", diagnostics_))
       readTask(task);
@@ -88,7 +87,7 @@ private:
       config_.defines.push_back(*define);
     else
       diagnostics_
-          .report(Code::configBadName, node.span, fmt::format("`{}` cannot be defined", node.text),
+          .report(Code::ConfigBadName, node.span, fmt::format("`{}` cannot be defined", node.text),
                   "not a name")
           .help("write \"NAME\" or \"NAME=VALUE\"");
   }
@@ -115,7 +114,7 @@ private:
       return;
     config_.name.clear();
     diagnostics_
-        .report(Code::configBadName, name->span, "the project cannot have this name", problem)
+        .report(Code::ConfigBadName, name->span, "the project cannot have this name", problem)
         .note("its files have the project's name, that of the retained data for one");
   }
 
@@ -132,8 +131,8 @@ private:
       if (task.own.text.empty() && member.key != "name" && member.key != "watchdog" &&
           member.key != "watchdog_sensitivity" && member.key != "core")
         task.own = {member.key, member.span};
-    task.start = static_cast<TaskStart>(
-        section.choice("kind", static_cast<std::int64_t>(TaskStart::cyclic)));
+    task.start =
+        static_cast<TaskStart>(section.choice("kind", static_cast<int64_t>(TaskStart::Cyclic)));
     if (!adds || !task.own.text.empty()) {
       if (!section.has("programs"))
         missing(section, "programs", "a list of names, such as [\"PLC_PRG\"]");
@@ -157,10 +156,10 @@ private:
   /// What starts it: an interval, an event, or nothing.
   void readStart(const CheckedSection &section, TaskConfig &task) {
     if (section.has("kind") && section.get("kind") == nullptr)
-      return;                                     // unknown, which has been reported
-    constexpr std::int64_t kOwnPace = 10'000'000; // of freewheeling and status tasks
+      return;                                // unknown, which has been reported
+    constexpr int64_t kOwnPace = 10'000'000; // of freewheeling and status tasks
     task.intervalNs = parseInterval(section.text("interval")).value_or(0);
-    const bool onEvent = task.start == TaskStart::event || task.start == TaskStart::status;
+    const bool onEvent = task.start == TaskStart::Event || task.start == TaskStart::Status;
     if (onEvent) {
       if (const TomlNode *event = section.get("event"))
         task.event = {event->text, event->span};
@@ -169,16 +168,16 @@ private:
     } else if (section.has("event")) {
       withoutEffect(diagnostics_, section, "event", "only with kind = \"event\" or \"status\"");
     }
-    if (task.start == TaskStart::cyclic && !section.has("interval"))
+    if (task.start == TaskStart::Cyclic && !section.has("interval"))
       missing(section, "interval", "a duration such as \"T#10ms\"");
     if (task.intervalNs == 0 &&
-        (task.start == TaskStart::freewheeling || task.start == TaskStart::status))
+        (task.start == TaskStart::Freewheeling || task.start == TaskStart::Status))
       task.intervalNs = kOwnPace;
   }
 
   void missing(const CheckedSection &section, std::string_view name, std::string_view what) {
     diagnostics_
-        .report(Code::configMissingKey, section.table().span,
+        .report(Code::ConfigMissingKey, section.table().span,
                 fmt::format("a task needs `{}`", name), fmt::format("`{}` is missing", name))
         .help(fmt::format("add `{} = …`: {}", name, what));
   }
@@ -187,7 +186,7 @@ private:
   Diagnostics &diagnostics_;
   ProjectConfig config_;
   PlcReader plc_{config_, diagnostics_};
-  Unique taskNames_{Code::configDuplicateName, diagnostics_};
+  Unique taskNames_{Code::ConfigDuplicateName, diagnostics_};
 };
 
 } // namespace

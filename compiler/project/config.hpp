@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_CONFIG_HPP
+#define STRIDE_COMPILER_PROJECT_CONFIG_HPP
 // What stride.toml says: tasks and PLC configuration (SoftMotion V2.3 manual, section 2.1).
 
 #include "compiler/codegen/codegen.hpp"
@@ -21,12 +22,12 @@ namespace stc {
 
 struct TaskConfig {
   ConfigName name;
-  TaskStart start = TaskStart::cyclic;
+  TaskStart start = TaskStart::Cyclic;
   /// 0: none, or wrong, which has been reported. Beside an event: see TaskDesc::intervalNs.
-  std::int64_t intervalNs = 0;
+  int64_t intervalNs = 0;
   unsigned priority = 1;
   ConfigName event;                 ///< an expression of ST, for event and status tasks
-  std::int64_t watchdogNs = 0;      ///< 0: none
+  int64_t watchdogNs = 0;           ///< 0: none
   unsigned watchdogSensitivity = 1; ///< violations that stop the application
   std::optional<unsigned> core;     ///< processor to run on
   std::vector<ConfigName> programs; ///< called in this order
@@ -41,7 +42,7 @@ using ConfigFields = std::vector<std::pair<std::string, std::string>>;
 
 struct DriveConfig {
   ConfigName name;
-  std::uint32_t id = 0; ///< wDriveId
+  uint32_t id = 0; ///< wDriveId
   ConfigFields fields;
   std::vector<ConfigParameter> parameters;
   /// The variable that driver and program share about it; null: there is none.
@@ -56,7 +57,7 @@ struct DriveConfig {
 
 struct EncoderConfig {
   ConfigName name;
-  std::uint32_t id = 0; ///< wEncoderId
+  uint32_t id = 0; ///< wEncoderId
   ConfigFields fields;
   std::vector<ConfigParameter> parameters;
 };
@@ -66,16 +67,16 @@ struct BusConfig {
   std::string interfaceType;
   std::string driver; ///< first word of InterfaceType
   std::vector<ConfigParameter> parameters;
-  std::size_t axisGroups = 0;
+  size_t axisGroups = 0;
 };
 
 struct AxisGroupConfig {
   ConfigName name;
-  std::size_t bus = 0; ///< index into ProjectConfig::buses
-  std::string driver;  ///< first word of InterfaceType
-  ConfigName task;     ///< sTask; empty: the only task
+  size_t bus = 0;     ///< index into ProjectConfig::buses
+  std::string driver; ///< first word of InterfaceType
+  ConfigName task;    ///< sTask; empty: the only task
   Span groupSpan;
-  std::uint32_t cycleUs = 0; ///< dwCycle; 0: not given
+  uint32_t cycleUs = 0; ///< dwCycle; 0: not given
   Span cycleSpan;
   ConfigName syncProducer; ///< of a CAN bus; empty: not given
   ConfigFields fields;
@@ -98,17 +99,17 @@ struct IoConfig {
 /// The configuration of one project. Without stride.toml it is empty but for the name.
 struct ProjectConfig {
   std::string name;
-  std::uint64_t poolSize = 65536; ///< new_pool: bytes for the objects of __NEW, a multiple of 16
-  unsigned generation = 2;        ///< softmotion: 2 = "2.3", 3 = "3"
-  unsigned pack = 0;              ///< layout: 4 = "v2.3"
-  Addressing addressing = Addressing::units;
-  std::array<std::uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs
-  std::string retainFile;                    ///< [retain] file; empty: not given
-  std::int64_t retainPeriodNs = 0;           ///< [retain] period; 0: not given
-  std::string filesRoot;                     ///< [files] root; empty: not given
-  bool filesAnywhere = false;                ///< [files] anywhere
-  std::uint32_t filesDelay = 1;              ///< [files] delay
-  std::vector<Define> defines;               ///< for `{IF defined (…)}`
+  uint64_t poolSize = 65536; ///< new_pool: bytes for the objects of __NEW, a multiple of 16
+  unsigned generation = 2;   ///< softmotion: 2 = "2.3", 3 = "3"
+  unsigned pack = 0;         ///< layout: 4 = "v2.3"
+  Addressing addressing = Addressing::Units;
+  std::array<uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs
+  std::string retainFile;               ///< [retain] file; empty: not given
+  int64_t retainPeriodNs = 0;           ///< [retain] period; 0: not given
+  std::string filesRoot;                ///< [files] root; empty: not given
+  bool filesAnywhere = false;           ///< [files] anywhere
+  uint32_t filesDelay = 1;              ///< [files] delay
+  std::vector<Define> defines;          ///< for `{IF defined (…)}`
   std::vector<TaskConfig> tasks;
   std::vector<BusConfig> buses;
   std::vector<AxisGroupConfig> axisGroups;
@@ -121,10 +122,10 @@ struct ProjectConfig {
 [[nodiscard]] ProjectConfig readConfig(const SourceFile &toml, Diagnostics &diagnostics);
 
 /// What resolveTasks demands of the PROGRAMs.
-enum class ProgramCheck : std::uint8_t {
-  skip,     ///< nothing: the sources have syntax errors, so that PROGRAMs may be missing
-  existing, ///< those named by tasks must exist; a project without any is fine (check)
-  runnable, ///< there must also be something to call (build, sim)
+enum class ProgramCheck : uint8_t {
+  Skip,     ///< nothing: the sources have syntax errors, so that PROGRAMs may be missing
+  Existing, ///< those named by tasks must exist; a project without any is fine (check)
+  Runnable, ///< there must also be something to call (build, sim)
 };
 
 /// Completes the tasks with the sources' help: without [[task]] one cyclic task (`Task`, 10 ms or
@@ -155,3 +156,5 @@ readConfigurations(ProjectConfig &config, const std::vector<ast::File *> &files,
                                               Diagnostics &diagnostics);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_CONFIG_HPP

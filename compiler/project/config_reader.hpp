@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_CONFIG_READER_HPP
+#define STRIDE_COMPILER_PROJECT_CONFIG_READER_HPP
 // What the readers of stride.toml's sections share.
 
 #include "compiler/project/config.hpp"
@@ -29,7 +30,7 @@ public:
 
 private:
   /// The kind of bus, which decides about the parameters of an axis group.
-  enum class BusKind : std::uint8_t { any, can, sercos };
+  enum class BusKind : uint8_t { Any, Can, Sercos };
 
   std::string readDriver(const TomlNode &type);
   void readAxisGroup(const CheckedSection &section, BusConfig &bus, BusKind kind);
@@ -49,8 +50,10 @@ private:
 
   ProjectConfig &config_;
   Diagnostics &diagnostics_;
-  Unique busNames_{Code::configDuplicateName, diagnostics_};
-  Unique variableNames_{Code::configDuplicateName, diagnostics_};
+  Unique busNames_{Code::ConfigDuplicateName, diagnostics_};
+  Unique variableNames_{Code::ConfigDuplicateName, diagnostics_};
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_CONFIG_READER_HPP

@@ -18,8 +18,8 @@ namespace {
 
 using namespace ast;
 
-constexpr std::int64_t kMinIntervalNs = 1'000;
-constexpr std::int64_t kMaxIntervalNs = 3'600'000'000'000;
+constexpr int64_t kMinIntervalNs = 1'000;
+constexpr int64_t kMaxIntervalNs = 3'600'000'000'000;
 constexpr unsigned kLowestPriority = 31;
 
 class ConfigurationReader {
@@ -31,14 +31,14 @@ public:
     const ConfigurationDecl *first = nullptr;
     for (File *file : files) {
       for (Decl *decl : file->declarations) {
-        if (decl->kind == DeclKind::program)
+        if (decl->kind == DeclKind::Program)
           programs_.emplace(decl->name.id, decl);
-        else if (decl->name && decl->kind != DeclKind::globals)
+        else if (decl->name && decl->kind != DeclKind::Globals)
           others_.emplace(decl->name.id, decl);
-        if (decl->kind != DeclKind::configuration)
+        if (decl->kind != DeclKind::Configuration)
           continue;
         if (first != nullptr) {
-          report(Code::configurationTwice, decl->name.span, "there are two CONFIGURATIONs",
+          report(Code::ConfigurationTwice, decl->name.span, "there are two CONFIGURATIONs",
                  "the second one")
               .label(first->name.span, "the first one")
               .help("put all resources into one");
@@ -56,7 +56,7 @@ public:
     for (const TaskConfig &task : additions) {
       if (task.own.text.empty())
         continue;
-      Diagnostic &d = report(Code::configurationTwice, first->name.span,
+      Diagnostic &d = report(Code::ConfigurationTwice, first->name.span,
                              "the tasks are configured twice", "a CONFIGURATION …");
       d.label(task.name.span, "… and [[task]] in stride.toml");
       if (task.own.span.valid())
@@ -98,7 +98,7 @@ private:
   void reportAdditions() {
     for (const TaskConfig &task : config_.tasks)
       if (task.own.text.empty())
-        report(Code::configMissingKey, task.section, "a task needs `programs`",
+        report(Code::ConfigMissingKey, task.section, "a task needs `programs`",
                "`programs` is missing")
             .help("add `programs = …`: a list of names, such as [\"PLC_PRG\"]")
             .note("only to a task of a CONFIGURATION, [[task]] can add just a watchdog or a "
@@ -116,7 +116,7 @@ private:
       return;
     }
     Diagnostic &d =
-        report(Code::configUnknownTask, addition.name.span,
+        report(Code::ConfigUnknownTask, addition.name.span,
                fmt::format("the CONFIGURATION has no task `{}`", addition.name.text), "not found");
     std::vector<std::string_view> names;
     for (const TaskConfig &task : config_.tasks)
@@ -129,7 +129,7 @@ private:
   void readActions() {
     for (TaskConfig &task : config_.tasks) {
       for (ConfigName &entry : task.programs) {
-        const std::size_t dot = entry.text.find('.');
+        const size_t dot = entry.text.find('.');
         if (dot == std::string::npos)
           continue;
         const auto name = [&](std::string_view text) {
@@ -172,7 +172,7 @@ private:
     task.priority = kLowestPriority;
     for (const TaskConfig &other : config_.tasks) {
       if (equalIgnoringCase(other.name.text, task.name.text)) {
-        report(Code::configurationTask, decl.name.span,
+        report(Code::ConfigurationTask, decl.name.span,
                fmt::format("two tasks are named `{}`", task.name.text), "named again")
             .label(other.name.span, "the first one");
         return;
@@ -183,38 +183,38 @@ private:
     for (const Argument &a : decl.arguments) {
       const std::string name = a.name ? lowerCase(a.name.text) : std::string();
       const auto *literal =
-          a.value != nullptr && a.value->kind == ExprKind::literal ? as<Literal>(a.value) : nullptr;
+          a.value != nullptr && a.value->kind == ExprKind::Literal ? as<Literal>(a.value) : nullptr;
       if (name == "interval") {
         hasInterval = true;
         bad = !readInterval(a, literal, task) || bad;
       } else if (name == "priority") {
-        if (literal == nullptr || literal->literal != LiteralKind::integer ||
+        if (literal == nullptr || literal->literal != LiteralKind::Integer ||
             literal->integer > kLowestPriority)
-          report(Code::configurationTask, a.span, "a PRIORITY is a number from 0 to 31",
+          report(Code::ConfigurationTask, a.span, "a PRIORITY is a number from 0 to 31",
                  "0 is the highest");
         else
           task.priority = static_cast<unsigned>(literal->integer);
       } else if (name == "single") {
         if (a.value == nullptr) {
           bad = true;
-          report(Code::configurationTask, a.span, "SINGLE is a BOOL", "an expression is expected");
+          report(Code::ConfigurationTask, a.span, "SINGLE is a BOOL", "an expression is expected");
           continue;
         }
         const Span at = a.value->span;
-        task.start = TaskStart::event;
+        task.start = TaskStart::Event;
         task.event = {
             std::string(program_.sources.file(at.file).text().substr(at.begin, at.end - at.begin)),
             at};
       } else {
-        Diagnostic &d = report(Code::configurationTask, a.span, "a TASK has no such property",
+        Diagnostic &d = report(Code::ConfigurationTask, a.span, "a TASK has no such property",
                                "not INTERVAL, PRIORITY or SINGLE");
         if (const auto near = nearest(name, {"INTERVAL", "PRIORITY", "SINGLE"}); !near.empty())
           d.help(fmt::format("did you mean `{}`?", near));
         bad = true;
       }
     }
-    if (!hasInterval && !bad && task.start == TaskStart::cyclic)
-      report(Code::configurationTask, decl.name.span,
+    if (!hasInterval && !bad && task.start == TaskStart::Cyclic)
+      report(Code::ConfigurationTask, decl.name.span,
              fmt::format("the task `{}` has no INTERVAL", task.name.text), "how often does it run?")
           .help(
               fmt::format("write `TASK {} (INTERVAL := T#10ms, PRIORITY := 1);`", task.name.text));
@@ -222,16 +222,16 @@ private:
   }
 
   bool readInterval(const Argument &a, const Literal *literal, TaskConfig &task) {
-    std::int64_t ns = 0;
-    if (literal != nullptr && literal->literal == LiteralKind::time)
-      ns = static_cast<std::int64_t>(literal->integer) * 1'000'000;
-    else if (literal != nullptr && literal->literal == LiteralKind::ltime)
-      ns = static_cast<std::int64_t>(literal->integer);
+    int64_t ns = 0;
+    if (literal != nullptr && literal->literal == LiteralKind::Time)
+      ns = static_cast<int64_t>(literal->integer) * 1'000'000;
+    else if (literal != nullptr && literal->literal == LiteralKind::Ltime)
+      ns = static_cast<int64_t>(literal->integer);
     if (ns >= kMinIntervalNs && ns <= kMaxIntervalNs) {
       task.intervalNs = ns;
       return true;
     }
-    report(Code::configurationTask, a.span, "an INTERVAL is a duration from 1 µs to one hour",
+    report(Code::ConfigurationTask, a.span, "an INTERVAL is a duration from 1 µs to one hour",
            literal == nullptr ? "a literal is expected here" : "not such a duration")
         .help("write `INTERVAL := T#10ms`");
     return false;
@@ -241,12 +241,12 @@ private:
     if (!instance.task) { // runs when nothing else does
       constexpr std::string_view kName = "Background";
       for (TaskConfig &task : config_.tasks)
-        if (task.name.text == kName && task.start == TaskStart::freewheeling)
+        if (task.name.text == kName && task.start == TaskStart::Freewheeling)
           return &task;
       TaskConfig task;
       task.name.text = kName;
       task.priority = kLowestPriority;
-      task.start = TaskStart::freewheeling;
+      task.start = TaskStart::Freewheeling;
       task.intervalNs = 10'000'000;
       config_.tasks.push_back(std::move(task));
       return &config_.tasks.back();
@@ -257,7 +257,7 @@ private:
     for (TaskConfig &task : config_.tasks)
       if (equalIgnoringCase(task.name.text, instance.task.text))
         return &task;
-    Diagnostic &d = report(Code::configurationTask, instance.task.span,
+    Diagnostic &d = report(Code::ConfigurationTask, instance.task.span,
                            fmt::format("there is no task `{}`", instance.task.text), "not found");
     if (const auto near = nearest(instance.task.text, names); !near.empty())
       d.help(fmt::format("did you mean `{}`?", near));
@@ -267,7 +267,7 @@ private:
   void readProgram(const ProgramInstanceDecl &decl, const ResourceDecl &resource) {
     const Name type = decl.type.empty() ? decl.name : decl.type.back();
     if (const auto [first, fresh] = instances_.emplace(decl.name.id, decl.name.span); !fresh) {
-      report(Code::configurationProgram, decl.name.span,
+      report(Code::ConfigurationProgram, decl.name.span,
              fmt::format("two programs are named `{}`", decl.name.text), "named again")
           .label(first->second, "the first one");
       return;
@@ -292,7 +292,7 @@ private:
     const bool own = decl.name.id != type.id;
     if (own && (programs_.contains(decl.name.id) || others_.contains(decl.name.id))) {
       const auto other = programs_.find(decl.name.id);
-      report(Code::configurationProgram, decl.name.span,
+      report(Code::ConfigurationProgram, decl.name.span,
              fmt::format("the instance `{}` has the name of something else", decl.name.text),
              "another name is needed")
           .label(other != programs_.end() ? other->second->name.span
@@ -306,7 +306,7 @@ private:
       path->path = program_.arena.copy(std::vector<Name>{type});
       auto *variable = program_.arena.make<VarDecl>();
       variable->name = decl.name;
-      variable->section = ast::Section::global;
+      variable->section = ast::Section::Global;
       variable->qualifiers = decl.qualifiers;
       variable->type = path;
       variable->attributes = attribute(kProgramInstance, {});
@@ -324,7 +324,7 @@ private:
   void unknownProgram(const Name &type) {
     const auto other = others_.find(type.id);
     Diagnostic &d = report(
-        other == others_.end() ? Code::configUnknownProgram : Code::configNotAProgram, type.span,
+        other == others_.end() ? Code::ConfigUnknownProgram : Code::ConfigNotAProgram, type.span,
         other == others_.end() ? fmt::format("there is no PROGRAM `{}`", type.text)
                                : fmt::format("`{}` is not a PROGRAM", type.text),
         other == others_.end() ? "not found" : "cannot be called by a task");
@@ -367,7 +367,7 @@ private:
     statement->span = span;
     statement->expr = call;
     auto *pou = arena.make<PouDecl>();
-    pou->kind = DeclKind::program;
+    pou->kind = DeclKind::Program;
     pou->span = span;
     const std::string name = what + "__call";
     pou->name = {program_.interner.intern(name), arena.copy(std::string_view(name)), callee->span};

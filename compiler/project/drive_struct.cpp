@@ -25,13 +25,13 @@ public:
   [[nodiscard]] std::string value() const {
     return count_ == 0 ? std::string() : fmt::format(", {} := [{}]", name_, values_);
   }
-  [[nodiscard]] std::size_t count() const { return count_; }
+  [[nodiscard]] size_t count() const { return count_; }
 
 private:
   std::string_view name_;
   std::string_view type_;
   std::string values_;
-  std::size_t count_ = 0;
+  size_t count_ = 0;
 };
 
 } // namespace

@@ -124,7 +124,7 @@ BusSection::BusSection(const DriverSchema *driver, std::span<const DriverSchema 
 
 IoSection::IoSection(const IoSchema *driver, std::span<const IoSchema *const> all) {
   for (const IoSchema *one : all)
-    devices_.push_back({one->name, static_cast<std::int64_t>(devices_.size())});
+    devices_.push_back({one->name, static_cast<int64_t>(devices_.size())});
   general_.assign(kIoParameters.begin(), kIoParameters.end());
   general_.insert(general_.begin() + 1, common::choice("device", devices_).needed());
   io_.begin({"io", "an I/O device", "io", true});
@@ -171,7 +171,7 @@ const SectionSchema &anyIoSection() { return ioSectionOf({}); }
 
 const SectionSchema &busSection(const TomlNode &bus) {
   const TomlNode *type = bus.find("InterfaceType");
-  return busSectionOf(type != nullptr && type->kind == TomlKind::string ? driverOf(type->text)
+  return busSectionOf(type != nullptr && type->kind == TomlKind::String ? driverOf(type->text)
                                                                         : std::string_view());
 }
 
@@ -180,7 +180,7 @@ const SectionSchema &ioSection(const TomlNode &io) {
   if (device == nullptr)
     return anyIoSection();
   const auto number = findChoice(*findParameter(anyIoSection(), "device"), *device);
-  return number ? ioSectionOf(stride::drivers::kIoSchemas[static_cast<std::size_t>(*number)]->name)
+  return number ? ioSectionOf(stride::drivers::kIoSchemas[static_cast<size_t>(*number)]->name)
                 : anyIoSection();
 }
 
@@ -212,7 +212,7 @@ public:
 private:
   void withoutEffect(const Parameter &row, std::string_view reason) {
     if (const TomlNode *value = section_.get(row.name))
-      diagnostics_.report(Code::configWithoutEffect, value->keySpan,
+      diagnostics_.report(Code::ConfigWithoutEffect, value->keySpan,
                           fmt::format("`{}` has no effect here", row.name),
                           fmt::format("{}{}", scope_.counts, reason));
   }
@@ -224,8 +224,8 @@ private:
       return;
     const Parameter &of = *findParameter(section_.schema(), on);
     const bool isChoice = of.type == ParameterType::Choice;
-    const std::int64_t value =
-        isChoice ? section_.choice(on) : static_cast<std::int64_t>(section_.boolean(on));
+    const int64_t value =
+        isChoice ? section_.choice(on) : static_cast<int64_t>(section_.boolean(on));
     if (value != row.only.value) {
       withoutEffect(row, fmt::format("only with {} = {}", on, valueText(of, row.only.value)));
       return;
@@ -234,13 +234,13 @@ private:
       return;
     const TomlNode *given = section_.get(on);
     diagnostics_
-        .report(Code::configMissingKey, given != nullptr ? given->span : section_.table().span,
+        .report(Code::ConfigMissingKey, given != nullptr ? given->span : section_.table().span,
                 fmt::format("the {} {} needs `{}`", on, valueText(of, value), row.name),
                 "chosen here")
         .help(fmt::format("add it, for example `{} = {}`", row.name, row.example));
   }
 
-  static std::string valueText(const Parameter &of, std::int64_t value) {
+  static std::string valueText(const Parameter &of, int64_t value) {
     for (const Choice &choice : of.choices)
       if (choice.value == value)
         return fmt::format("\"{}\"", choice.name);
@@ -252,7 +252,7 @@ private:
     const TomlNode *to = section_.get(row.lessThan);
     if (from != nullptr && to != nullptr && !(from->floating < to->floating))
       diagnostics_
-          .report(Code::configLimits, from->span,
+          .report(Code::ConfigLimits, from->span,
                   fmt::format("{} must be less than {}", row.name, row.lessThan), "not less than …")
           .label(to->span, "… this");
   }
@@ -262,7 +262,7 @@ private:
       return;
     const Parameter &with = *findParameter(section_.schema(), row.with);
     diagnostics_
-        .report(Code::configMissingKey, section_.get(row.name)->keySpan,
+        .report(Code::ConfigMissingKey, section_.get(row.name)->keySpan,
                 fmt::format("`{}` needs `{}`", row.name, row.with), "is not enough")
         .help(fmt::format("add `{} = …`{}", row.with,
                           with.unit == "u" ? ", a position in technical units" : ""));
@@ -276,7 +276,7 @@ private:
       names.push_back(drive.name.text);
     }
     Diagnostic &d = diagnostics_.report(
-        Code::configUnknownChoice, value.span,
+        Code::ConfigUnknownChoice, value.span,
         fmt::format("axis group `{}` has no drive `{}`", scope_.group->name.text, value.text),
         "an encoder follows a drive of its axis group");
     if (const std::string_view near = nearest(value.text, names); !near.empty())
@@ -316,7 +316,7 @@ void addParameters(const CheckedSection &section, std::string_view prefix,
       result.number = value->floating;
       break;
     case ParameterType::Choice: {
-      const std::int64_t number = findChoice(parameter, *value).value_or(0);
+      const int64_t number = findChoice(parameter, *value).value_or(0);
       result.number = static_cast<double>(number);
       for (const Choice &choice : parameter.choices)
         if (choice.value == number)

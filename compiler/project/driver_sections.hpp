@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_DRIVER_SECTIONS_HPP
+#define STRIDE_COMPILER_PROJECT_DRIVER_SECTIONS_HPP
 // The sections of stride.toml that depend on a driver: what the registries of drivers/ say becomes
 // schemas, and the rules between parameters of a section are checked.
 
@@ -110,3 +111,5 @@ void readDriverTables(const CheckedSection &section, const RuleScope &scope,
                                                           std::string_view driver);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_DRIVER_SECTIONS_HPP

@@ -18,8 +18,8 @@ namespace {
 
 /// Reads and closes; nothing: errno.
 std::optional<std::string> readAndClose(int fd, off_t size) {
-  std::string text(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
-  std::size_t filled = 0;
+  std::string text(size > 0 ? static_cast<size_t>(size) : 0, '\0');
+  size_t filled = 0;
   bool good = true;
   while (good) {
     if (filled == text.size())
@@ -30,7 +30,7 @@ std::optional<std::string> readAndClose(int fd, off_t size) {
     good = count >= 0;
     if (count <= 0)
       break;
-    filled += static_cast<std::size_t>(count);
+    filled += static_cast<size_t>(count);
   }
   const int error = errno;
   ::close(fd);
@@ -59,12 +59,11 @@ std::optional<std::string> readFile(const fs::path &path) {
   return readAndClose(fd, status.st_size);
 }
 
-std::optional<std::string> readRegularFile(const fs::path &path, std::uintmax_t limit) {
+std::optional<std::string> readRegularFile(const fs::path &path, uintmax_t limit) {
   return readRegularFileAt(AT_FDCWD, path.string(), limit);
 }
 
-std::optional<std::string> readRegularFileAt(int folder, const std::string &name,
-                                             std::uintmax_t limit) {
+std::optional<std::string> readRegularFileAt(int folder, const std::string &name, uintmax_t limit) {
   const int fd = ::openat(folder, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   struct stat status {};
   if (fd < 0)
@@ -73,7 +72,7 @@ std::optional<std::string> readRegularFileAt(int folder, const std::string &name
     return refuse(fd, errno);
   if (!S_ISREG(status.st_mode))
     return refuse(fd, EINVAL);
-  if (static_cast<std::uintmax_t>(status.st_size) > limit)
+  if (static_cast<uintmax_t>(status.st_size) > limit)
     return refuse(fd, EFBIG);
   return readAndClose(fd, status.st_size);
 }
@@ -84,7 +83,7 @@ namespace {
 int createUnique(int folder, std::string &name, unsigned mode) {
   constexpr int kTries = 8; // even the second one is not to be expected
   for (int i = 0; i < kTries; ++i) {
-    std::uint64_t random = 0;
+    uint64_t random = 0;
     if (::getrandom(&random, sizeof random, 0) != static_cast<ssize_t>(sizeof random))
       return -1;
     name = fmt::format(".stride-{:016x}.tmp", random);
@@ -105,7 +104,7 @@ bool writeAll(int fd, std::string_view text) {
       errno = ENOSPC; // a disk that takes nothing and says nothing
     if (count <= 0)
       return false;
-    text.remove_prefix(static_cast<std::size_t>(count));
+    text.remove_prefix(static_cast<size_t>(count));
   }
   return true;
 }

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_FILE_SYSTEM_HPP
+#define STRIDE_COMPILER_PROJECT_FILE_SYSTEM_HPP
 // Reading and writing files without surprises.
 
 #include <cstdint>
@@ -15,11 +16,11 @@ namespace stc {
 /// As readFile, of a regular file that has not more than `limit` bytes; a link is not followed, and
 /// a pipe not waited for.
 [[nodiscard]] std::optional<std::string> readRegularFile(const std::filesystem::path &path,
-                                                         std::uintmax_t limit = UINTMAX_MAX);
+                                                         uintmax_t limit = UINTMAX_MAX);
 
 /// As readRegularFile, in an open folder.
 [[nodiscard]] std::optional<std::string> readRegularFileAt(int folder, const std::string &name,
-                                                           std::uintmax_t limit = UINTMAX_MAX);
+                                                           uintmax_t limit = UINTMAX_MAX);
 
 /// Replaces the file at once (written beside it, then renamed), making its folder; false on failure
 /// (errno).
@@ -52,3 +53,5 @@ namespace stc {
 [[nodiscard]] std::string fileStamp(const std::filesystem::path &path);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_FILE_SYSTEM_HPP

@@ -21,7 +21,7 @@ constexpr std::string_view kMark = "\xEF\xBB\xBF";
 /// The characters of UTF-8 text as bytes of Latin-1, from which the text was read.
 std::string toLatin1(std::string_view text) {
   std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  for (size_t i = 0; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
     if (byte < 0x80 || i + 1 == text.size()) {
       out += text[i];
@@ -40,7 +40,7 @@ bool isWellFormed(const SourceFile &source, const ParseOptions &options) {
   Diagnostics found;
   parse(source, interner, arena, found, &options);
   return std::none_of(found.all().begin(), found.all().end(), [](const Diagnostic &diagnostic) {
-    return diagnostic.severity == Severity::error && diagnostic.code != Code::errorPragma;
+    return diagnostic.severity == Severity::Error && diagnostic.code != Code::ErrorPragma;
   });
 }
 
@@ -62,7 +62,7 @@ FormatSettings readFormatSettings(const fs::path &place, Sources &sources,
   const std::optional<FileId> id = sources.load(manifest, manifest.filename().string());
   if (!id) {
     diagnostics.report(
-        Code::unreadableFile, {},
+        Code::UnreadableFile, {},
         fmt::format("`{}` cannot be read: {}", manifest.string(), readSourceError()));
     return settings;
   }
@@ -72,7 +72,7 @@ FormatSettings readFormatSettings(const fs::path &place, Sources &sources,
   Diagnostics ignored; // what else is wrong with the project does not matter here
   settings.defines = readConfig(sources.file(*id), ignored).defines;
   const TomlNode *table = document->find("fmt");
-  if (table == nullptr || table->kind != TomlKind::table)
+  if (table == nullptr || table->kind != TomlKind::Table)
     return settings;
   const CheckedSection section(*table, formatSchema(), diagnostics, &projectSchema());
   FormatStyle &style = settings.style;
@@ -80,8 +80,8 @@ FormatSettings readFormatSettings(const fs::path &place, Sources &sources,
   style.indent = static_cast<unsigned>(section.integer("indent", style.indent));
   style.tabs = section.boolean("tabs", style.tabs);
   style.align = section.boolean("align", style.align);
-  style.keywords = static_cast<KeywordCase>(
-      section.choice("keywords", static_cast<std::int64_t>(style.keywords)));
+  style.keywords =
+      static_cast<KeywordCase>(section.choice("keywords", static_cast<int64_t>(style.keywords)));
   return settings;
 }
 
@@ -92,7 +92,7 @@ void formatFiles(std::vector<FormattedFile> &files, const FormatSettings &settin
     ids.push_back(sources.addBytes(file.name, file.before));
   DeclaredNames names(sources, ids);
   const ParseOptions options{settings.defines, &names};
-  for (std::size_t i = 0; i < files.size(); ++i) {
+  for (size_t i = 0; i < files.size(); ++i) {
     FormattedFile &file = files[i];
     file.after = file.before;
     const SourceFile &source = sources.file(ids[i]);
@@ -117,7 +117,7 @@ std::vector<FormattedFile> formatPath(const fs::path &path, Sources &sources,
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (!fs::exists(status)) {
-    diagnostics.report(Code::pathNotFound, {},
+    diagnostics.report(Code::PathNotFound, {},
                        fmt::format("there is no file or folder `{}`", path.string()));
     return files;
   }
@@ -125,10 +125,10 @@ std::vector<FormattedFile> formatPath(const fs::path &path, Sources &sources,
   if (fs::is_directory(status)) {
     paths = findSources(sources, path, error);
     if (error)
-      diagnostics.report(Code::unreadableFile, {},
+      diagnostics.report(Code::UnreadableFile, {},
                          fmt::format("`{}` cannot be read: {}", path.string(), error.message()));
     else if (paths.empty())
-      diagnostics.report(Code::noSources, {},
+      diagnostics.report(Code::NoSources, {},
                          fmt::format("there are no `.st` files in `{}`", path.string()));
   }
   const FormatSettings settings = readFormatSettings(path, sources, diagnostics);
@@ -137,7 +137,7 @@ std::vector<FormattedFile> formatPath(const fs::path &path, Sources &sources,
   for (const fs::path &one : paths) {
     std::optional<std::string> bytes = sources.read(one);
     if (!bytes) {
-      diagnostics.report(Code::unreadableFile, {},
+      diagnostics.report(Code::UnreadableFile, {},
                          fmt::format("`{}` cannot be read: {}", one.string(), readSourceError()));
       continue;
     }

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_FORMAT_PROJECT_HPP
+#define STRIDE_COMPILER_PROJECT_FORMAT_PROJECT_HPP
 // Formatting files as their project wants it.
 
 #include "compiler/source/diagnostic.hpp"
@@ -41,3 +42,5 @@ void formatFiles(std::vector<FormattedFile> &files, const FormatSettings &settin
                  Sources &sources, Diagnostics &diagnostics);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_FORMAT_PROJECT_HPP

@@ -9,10 +9,10 @@ namespace fs = std::filesystem;
 // Lines `library NAME`, `host NAME`, `compile FLAG`, `link FLAG`, `static FLAG`.
 static void readToolchain(std::string_view text, const fs::path &libraries, Installation &to) {
   while (!text.empty()) {
-    const std::size_t end = text.find('\n');
+    const size_t end = text.find('\n');
     const std::string_view line = text.substr(0, end);
     text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
-    const std::size_t space = line.find(' ');
+    const size_t space = line.find(' ');
     if (space == std::string_view::npos)
       continue;
     const std::string_view word = line.substr(0, space);

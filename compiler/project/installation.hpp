@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_INSTALLATION_HPP
+#define STRIDE_COMPILER_PROJECT_INSTALLATION_HPP
 // Where Stride's own files lie.
 
 #include <filesystem>
@@ -29,3 +30,5 @@ struct Installation {
                                                            const std::string &target = {});
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_INSTALLATION_HPP

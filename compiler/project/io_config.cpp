@@ -16,8 +16,8 @@ namespace {
 /// `%QX0.3`, `%QW2` in bytes and bits of its area.
 struct Channel {
   bool output = false;
-  std::uint32_t byte = 0;
-  std::uint32_t bytes = 1;
+  uint32_t byte = 0;
+  uint32_t bytes = 1;
   int bit = -1;
 };
 
@@ -36,23 +36,23 @@ std::optional<Channel> readAddress(std::string_view text, Addressing addressing)
     text.remove_prefix(1);
   }
   constexpr std::string_view kSizes = "XBWDL";
-  const std::size_t known = kSizes.find(size);
+  const size_t known = kSizes.find(size);
   if (known == std::string_view::npos)
     return std::nullopt;
   channel.bytes = known == 0 ? 1 : 1U << (known - 1);
-  std::uint32_t first = 0;
+  uint32_t first = 0;
   const char *end = text.data() + text.size();
   auto [at, error] = std::from_chars(text.data(), end, first);
   if (error != std::errc() || first > 16'777'216)
     return std::nullopt;
   if (size != 'X') {
-    channel.byte = addressing == Addressing::bytes ? first : first * channel.bytes;
+    channel.byte = addressing == Addressing::Bytes ? first : first * channel.bytes;
     return at == end ? std::optional(channel) : std::nullopt;
   }
-  std::uint32_t bit = first % 8;
+  uint32_t bit = first % 8;
   channel.byte = first / 8;
   if (at != end) {
-    const unsigned perUnit = addressing == Addressing::words ? 16 : 8;
+    const unsigned perUnit = addressing == Addressing::Words ? 16 : 8;
     if (*at != '.')
       return std::nullopt;
     const auto [behind, bad] = std::from_chars(at + 1, end, bit);
@@ -81,7 +81,7 @@ public:
     for (const IoConfig &other : config_.ioDevices) {
       if (equalIgnoringCase(other.name.text, io.name.text)) {
         diagnostics_
-            .report(Code::configDuplicateName, name->span,
+            .report(Code::ConfigDuplicateName, name->span,
                     fmt::format("two I/O devices are named `{}`", name->text), "used again here")
             .label(other.name.span, "first used here");
         return;
@@ -90,7 +90,7 @@ public:
     AppConfig::IoDevice &device = io.device;
     device.name = name->text;
     const stride::io::IoSchema &driver =
-        *stride::drivers::kIoSchemas[static_cast<std::size_t>(section_.choice("device"))];
+        *stride::drivers::kIoSchemas[static_cast<size_t>(section_.choice("device"))];
     device.driver = driver.name;
     device.inputFirst = number("inputs_at");
     device.inputCount = number("inputs");
@@ -110,8 +110,8 @@ public:
   }
 
 private:
-  std::uint32_t number(std::string_view key) const {
-    return static_cast<std::uint32_t>(section_.integer(key));
+  uint32_t number(std::string_view key) const {
+    return static_cast<uint32_t>(section_.integer(key));
   }
   Span spanOf(std::string_view key, Span otherwise) const {
     const TomlNode *node = section_.get(key);
@@ -141,14 +141,14 @@ private:
     const auto check = [&](const IoConfig &other, bool output) {
       const AppConfig::IoDevice &a = io.device;
       const AppConfig::IoDevice &b = other.device;
-      const std::uint32_t first = output ? a.outputFirst : a.inputFirst;
-      const std::uint32_t count = output ? a.outputCount : a.inputCount;
-      const std::uint32_t otherFirst = output ? b.outputFirst : b.inputFirst;
-      const std::uint32_t otherCount = output ? b.outputCount : b.inputCount;
+      const uint32_t first = output ? a.outputFirst : a.inputFirst;
+      const uint32_t count = output ? a.outputCount : a.inputCount;
+      const uint32_t otherFirst = output ? b.outputFirst : b.inputFirst;
+      const uint32_t otherCount = output ? b.outputCount : b.inputCount;
       if (first >= otherFirst + otherCount || otherFirst >= first + count)
         return;
       diagnostics_
-          .report(Code::ioOverlap, output ? io.outputSpan : io.inputSpan,
+          .report(Code::IoOverlap, output ? io.outputSpan : io.inputSpan,
                   fmt::format("`{}` and `{}` have {}put byte {} in common", other.name.text,
                               io.name.text, output ? "out" : "in", std::max(first, otherFirst)),
                   fmt::format("bytes {} to {}", first, first + count - 1))
@@ -170,18 +170,18 @@ private:
     const std::optional<Channel> at = readAddress(address->text, config_.addressing);
     if (!at) {
       diagnostics_
-          .report(Code::ioChannel, address->span,
+          .report(Code::IoChannel, address->span,
                   fmt::format("`{}` is no address of an input or output", address->text),
                   "not understood")
           .help("write \"%IX0.3\", \"%QB1\", \"%IW2\" or the like");
       return;
     }
     AppConfig::IoDevice &device = io.device;
-    const std::uint32_t first = at->output ? device.outputFirst : device.inputFirst;
-    const std::uint32_t count = at->output ? device.outputCount : device.inputCount;
+    const uint32_t first = at->output ? device.outputFirst : device.inputFirst;
+    const uint32_t count = at->output ? device.outputCount : device.inputCount;
     if (at->byte < first || at->byte + at->bytes > first + count) {
       Diagnostic &d = diagnostics_.report(
-          Code::ioChannel, address->span,
+          Code::IoChannel, address->span,
           fmt::format("`{}` does not belong to device `{}`", address->text, io.name.text),
           fmt::format("byte {} of the {}puts", at->byte, at->output ? "out" : "in"));
       if (count == 0)
@@ -194,30 +194,29 @@ private:
     const TomlNode *safe = channel.get("safe_value");
     if (safe == nullptr)
       return;
-    std::vector<std::uint8_t> &bytes = at->output ? device.safeOutputs : device.safeInputs;
+    std::vector<uint8_t> &bytes = at->output ? device.safeOutputs : device.safeInputs;
     if (bytes.empty()) {
-      diagnostics_.report(Code::configWithoutEffect, safe->keySpan,
+      diagnostics_.report(Code::ConfigWithoutEffect, safe->keySpan,
                           "`safe_value` of an input has no effect here",
                           "only with on_loss = \"safe\"");
       return;
     }
-    const std::int64_t value = channel.integer("safe_value", 0);
-    const std::uint32_t place = at->byte - first;
+    const int64_t value = channel.integer("safe_value", 0);
+    const uint32_t place = at->byte - first;
     const unsigned bits = at->bit >= 0 ? 1 : at->bytes * 8;
     if (bits < 33 && (value >> bits) != 0 && (value >> (bits - 1)) != -1) {
-      diagnostics_.report(Code::ioChannel, safe->span,
+      diagnostics_.report(Code::IoChannel, safe->span,
                           fmt::format("{} does not fit into `{}`", value, address->text),
                           fmt::format("the channel has {} bit{}", bits, bits == 1 ? "" : "s"));
       return;
     }
     if (at->bit >= 0) {
-      const auto mask = static_cast<std::uint8_t>(1U << at->bit);
-      bytes[place] =
-          static_cast<std::uint8_t>(value != 0 ? bytes[place] | mask : bytes[place] & ~mask);
+      const auto mask = static_cast<uint8_t>(1U << at->bit);
+      bytes[place] = static_cast<uint8_t>(value != 0 ? bytes[place] | mask : bytes[place] & ~mask);
       return;
     }
-    for (std::uint32_t i = 0; i < at->bytes; ++i)
-      bytes[place + i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * i));
+    for (uint32_t i = 0; i < at->bytes; ++i)
+      bytes[place + i] = static_cast<uint8_t>(static_cast<uint64_t>(value) >> (8 * i));
   }
 
   const CheckedSection &section_;

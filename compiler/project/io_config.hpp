@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_IO_CONFIG_HPP
+#define STRIDE_COMPILER_PROJECT_IO_CONFIG_HPP
 // [[io]] of stride.toml: devices of the process image.
 
 #include "compiler/project/config.hpp"
@@ -10,3 +11,5 @@ namespace stc {
 void readIoDevice(const CheckedSection &section, ProjectConfig &config, Diagnostics &diagnostics);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_IO_CONFIG_HPP

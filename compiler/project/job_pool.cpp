@@ -20,7 +20,7 @@ namespace stc {
 namespace {
 
 struct Running {
-  std::size_t job;
+  size_t job;
   pid_t pid;
   int output; // read end of its pipe
 };
@@ -80,7 +80,7 @@ bool drain(const Running &running, JobResult &result) {
   const ssize_t count = ::read(running.output, buffer, sizeof(buffer));
   if (count < 0)
     return errno != EINTR && errno != EAGAIN;
-  result.output.append(buffer, static_cast<std::size_t>(count));
+  result.output.append(buffer, static_cast<size_t>(count));
   return count == 0;
 }
 
@@ -95,11 +95,11 @@ int waitFor(pid_t pid) {
 } // namespace
 
 std::vector<JobResult> runJobs(const std::vector<Job> &jobs,
-                               const std::function<void(std::size_t)> &started) {
+                               const std::function<void(size_t)> &started) {
   std::vector<JobResult> results(jobs.size(), JobResult{-1, {}});
-  const std::size_t limit = std::max(1U, std::thread::hardware_concurrency());
+  const size_t limit = std::max(1U, std::thread::hardware_concurrency());
   std::vector<Running> running;
-  std::size_t next = 0;
+  size_t next = 0;
   bool failed = false;
   while (!running.empty() || (next < jobs.size() && !failed)) {
     while (running.size() < limit && next < jobs.size() && !failed) {
@@ -120,13 +120,13 @@ std::vector<JobResult> runJobs(const std::vector<Job> &jobs,
       waits.push_back({entry.output, POLLIN, 0});
     if (::poll(waits.data(), waits.size(), -1) < 0 && errno != EINTR)
       break;
-    for (std::size_t i = running.size(); i-- > 0;) {
+    for (size_t i = running.size(); i-- > 0;) {
       if (waits[i].revents == 0 || !drain(running[i], results[running[i].job]))
         continue;
       ::close(running[i].output);
       results[running[i].job].status = waitFor(running[i].pid);
       failed = failed || results[running[i].job].status != 0;
-      running.erase(running.begin() + static_cast<std::ptrdiff_t>(i));
+      running.erase(running.begin() + static_cast<ptrdiff_t>(i));
     }
   }
   return results;

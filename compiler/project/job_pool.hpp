@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_JOB_POOL_HPP
+#define STRIDE_COMPILER_PROJECT_JOB_POOL_HPP
 // Running compilers in parallel.
 
 #include <functional>
@@ -24,9 +25,11 @@ struct JobResult {
 /// failure no further job is started (its status is then -1). `started` is called before each job
 /// with its index.
 [[nodiscard]] std::vector<JobResult> runJobs(const std::vector<Job> &jobs,
-                                             const std::function<void(std::size_t)> &started = {});
+                                             const std::function<void(size_t)> &started = {});
 
 /// The command as a shell would take it.
 [[nodiscard]] std::string shellQuoted(const std::vector<std::string> &command);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_JOB_POOL_HPP

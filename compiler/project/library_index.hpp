@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_LIBRARY_INDEX_HPP
+#define STRIDE_COMPILER_PROJECT_LIBRARY_INDEX_HPP
 // The standard library inside the program `stride`: its texts, and an index of the names they
 // declare. Both are made when Stride is built (stdlib/CMakeLists.txt), so that nothing is parsed
 // that a project does not use.
@@ -22,8 +23,8 @@ struct EmbeddedFile {
 /// A name that a file declares.
 struct EmbeddedName {
   std::string_view lower; ///< lower-case spelling
-  std::uint16_t file;     ///< index into the files
-  std::uint8_t rank;      ///< 0: POU or type, 1: global variable, 2: enumerator
+  uint16_t file;          ///< index into the files
+  uint8_t rank;           ///< 0: POU or type, 1: global variable, 2: enumerator
 };
 
 /// The tables as the generator writes them: files grouped by library, names sorted by (lower, rank,
@@ -54,3 +55,5 @@ private:
 [[nodiscard]] EmbeddedTables standardLibrary();
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_LIBRARY_INDEX_HPP

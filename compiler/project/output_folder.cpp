@@ -87,7 +87,7 @@ bool OutputFolder::write(const fs::path &name, std::string_view text, unsigned m
   return good;
 }
 
-std::optional<std::string> OutputFolder::read(const fs::path &name, std::uintmax_t limit) const {
+std::optional<std::string> OutputFolder::read(const fs::path &name, uintmax_t limit) const {
   const int parent = parentOf(name, false);
   if (parent < 0)
     return std::nullopt;

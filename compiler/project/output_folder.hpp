@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_OUTPUT_FOLDER_HPP
+#define STRIDE_COMPILER_PROJECT_OUTPUT_FOLDER_HPP
 // Writing below a folder that somebody else has filled.
 
 #include <cstdint>
@@ -28,7 +29,7 @@ public:
   /// The contents of a file; nothing when it is none, or a link or below one, or has more bytes
   /// (errno).
   [[nodiscard]] std::optional<std::string> read(const std::filesystem::path &name,
-                                                std::uintmax_t limit) const;
+                                                uintmax_t limit) const;
   [[nodiscard]] bool hasFile(const std::filesystem::path &name) const;
   /// Removes a file, or a link. False on failure (errno).
   [[nodiscard]] bool remove(const std::filesystem::path &name) const;
@@ -41,3 +42,5 @@ private:
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_OUTPUT_FOLDER_HPP

@@ -20,8 +20,8 @@ using stride::bus::plc::kConfigurable;
 using stride::bus::plc::kRotary;
 
 constexpr double kLargestPeriod = 2147483648.0; // increments: 16#80000000
-constexpr std::int64_t kCanFastest = 1000;      // kBit/s
-constexpr std::int64_t kSercosSlowest = 2000;
+constexpr int64_t kCanFastest = 1000;           // kBit/s
+constexpr int64_t kSercosSlowest = 2000;
 
 void integerField(const CheckedSection &section, std::string_view name, ConfigFields &fields) {
   if (const TomlNode *value = section.get(name))
@@ -46,16 +46,16 @@ void PlcReader::readBus(const CheckedSection &section) {
   if (bus.name.span.valid())
     busNames_.add(lowerCase(bus.name.text), bus.name.span,
                   fmt::format("two buses are named `{}`", bus.name.text));
-  BusKind kind = BusKind::any;
+  BusKind kind = BusKind::Any;
   if (const TomlNode *type = section.get("InterfaceType")) {
     bus.driver = readDriver(*type);
     bus.interfaceType = type->text;
     // "Dummy (CAN)": simulated drives that stand for some on a CAN bus
     const std::string lower = lowerCase(type->text);
     if (lower.starts_with("can") || lower.find("(can") != std::string::npos)
-      kind = BusKind::can;
+      kind = BusKind::Can;
     else if (lower.starts_with("sercos") || lower.find("(sercos") != std::string::npos)
-      kind = BusKind::sercos;
+      kind = BusKind::Sercos;
   }
   addParameters(section, "", bus.parameters);
   checkRules(section, {.what = "bus"}, diagnostics_);
@@ -69,7 +69,7 @@ std::string PlcReader::readDriver(const TomlNode &type) {
   if (stride::drivers::findSchema(word) != nullptr)
     return word;
   Diagnostic &d =
-      diagnostics_.report(Code::configUnknownDriver, type.span,
+      diagnostics_.report(Code::ConfigUnknownDriver, type.span,
                           fmt::format("there is no driver `{}`", word), "names the driver");
   std::vector<std::string_view> known;
   std::string examples;
@@ -95,7 +95,7 @@ void PlcReader::readAxisGroup(const CheckedSection &section, BusConfig &bus, Bus
   if (const TomlNode *task = section.get("sTask"))
     group.task = {task->text, task->span};
   if (const TomlNode *cycle = section.get("dwCycle")) {
-    group.cycleUs = static_cast<std::uint32_t>(cycle->integer);
+    group.cycleUs = static_cast<uint32_t>(cycle->integer);
     group.cycleSpan = cycle->span;
   }
   for (const std::string_view name :
@@ -108,10 +108,10 @@ void PlcReader::readAxisGroup(const CheckedSection &section, BusConfig &bus, Bus
   readDriverTables(section, {.what = "axis group", .group = &group}, group.parameters,
                    diagnostics_);
   const bool declared = addVariable(group.name);
-  Unique driveIds(Code::configDuplicateDriveId, diagnostics_);
+  Unique driveIds(Code::ConfigDuplicateDriveId, diagnostics_);
   for (const CheckedSection &drive : section.sections("drive", diagnostics_))
     readDrive(drive, group, driveIds);
-  Unique encoderIds(Code::configDuplicateDriveId, diagnostics_);
+  Unique encoderIds(Code::ConfigDuplicateDriveId, diagnostics_);
   for (const CheckedSection &encoder : section.sections("encoder", diagnostics_))
     readEncoder(encoder, group, encoderIds);
   if (declared) {
@@ -124,24 +124,24 @@ void PlcReader::readBaudRate(const CheckedSection &section, BusKind kind) {
   const TomlNode *rate = section.get("BaudRate");
   if (rate == nullptr)
     return;
-  const std::int64_t value = section.choice("BaudRate", 0);
-  if (kind == BusKind::any) {
+  const int64_t value = section.choice("BaudRate", 0);
+  if (kind == BusKind::Any) {
     withoutEffect(diagnostics_, section, "BaudRate", "for CAN and Sercos buses only");
     return;
   }
-  const bool fits = kind == BusKind::can ? value <= kCanFastest : value >= kSercosSlowest;
+  const bool fits = kind == BusKind::Can ? value <= kCanFastest : value >= kSercosSlowest;
   if (!fits)
     diagnostics_
-        .report(Code::configOutOfRange, rate->span,
+        .report(Code::ConfigOutOfRange, rate->span,
                 fmt::format("{} has no baud rate of {} kBit/s",
-                            kind == BusKind::can ? "a CAN bus" : "Sercos", value),
+                            kind == BusKind::Can ? "a CAN bus" : "Sercos", value),
                 "does not fit the bus")
-        .note(kind == BusKind::can ? "possible: 10, 20, 50, 100, 125, 250, 500, 800, 1000 kBit/s"
+        .note(kind == BusKind::Can ? "possible: 10, 20, 50, 100, 125, 250, 500, 800, 1000 kBit/s"
                                    : "possible: 2000, 4000, 8000, 16000 kBit/s");
 }
 
 void PlcReader::readCan(const CheckedSection &section, AxisGroupConfig &group, BusKind kind) {
-  if (kind == BusKind::can) {
+  if (kind == BusKind::Can) {
     if (const TomlNode *producer = section.get("SyncProducer"))
       group.syncProducer = {producer->text, producer->span};
     return;
@@ -153,12 +153,12 @@ void PlcReader::readCan(const CheckedSection &section, AxisGroupConfig &group, B
 
 // Sercos cards take the baud rate from wParam1 and the brightness from wParam2 (manual, 11.2).
 void PlcReader::readSercos(const CheckedSection &section, AxisGroupConfig &group, BusKind kind) {
-  if (kind != BusKind::sercos) {
+  if (kind != BusKind::Sercos) {
     if (section.get("LedBrightness") != nullptr)
       withoutEffect(diagnostics_, section, "LedBrightness", "for Sercos buses only");
     return;
   }
-  const auto pass = [&](std::string_view name, std::string_view word, std::int64_t value) {
+  const auto pass = [&](std::string_view name, std::string_view word, int64_t value) {
     const TomlNode *given = section.get(name);
     const TomlNode *parameter = section.get(word);
     if (given == nullptr)
@@ -167,7 +167,7 @@ void PlcReader::readSercos(const CheckedSection &section, AxisGroupConfig &group
       group.fields.emplace_back(word, std::to_string(value));
     else if (parameter->integer != value)
       diagnostics_
-          .report(Code::configOutOfRange, parameter->span,
+          .report(Code::ConfigOutOfRange, parameter->span,
                   fmt::format("`{}` contradicts `{}`", word, name),
                   fmt::format("would have to be {}", value))
           .label(given->span, "the same, said otherwise")
@@ -193,7 +193,7 @@ void PlcReader::readDrive(const CheckedSection &section, AxisGroupConfig &group,
     ids.add(std::to_string(id->integer), id->span,
             fmt::format("two drives of axis group `{}` have the wDriveId {}", group.name.text,
                         id->integer));
-  drive.id = static_cast<std::uint32_t>(section.integer("wDriveId", 0));
+  drive.id = static_cast<uint32_t>(section.integer("wDriveId", 0));
   drive.fields.emplace_back("wDriveId", std::to_string(drive.id));
   drive.fields.emplace_back("bRealDrive", "TRUE");
   readCyclicData(section, drive.fields);
@@ -217,7 +217,7 @@ void PlcReader::readDrive(const CheckedSection &section, AxisGroupConfig &group,
 }
 
 void PlcReader::readCyclicData(const CheckedSection &section, ConfigFields &fields) {
-  const std::int64_t type = section.choice("wControlType");
+  const int64_t type = section.choice("wControlType");
   fields.emplace_back("wControlType", std::to_string(type));
   bool torque = type == 1;
   bool velocity = type == 2 || type == 3 || type == 6;
@@ -227,7 +227,7 @@ void PlcReader::readCyclicData(const CheckedSection &section, ConfigFields &fiel
                                       "wCyclicDataR1", "wCyclicDataR2", "wCyclicDataR3"}) {
     if (section.get(name) == nullptr)
       continue;
-    const std::int64_t number = section.choice(name, 0);
+    const int64_t number = section.choice(name, 0);
     fields.emplace_back(name, std::to_string(number));
     if (type != kConfigurable) {
       withoutEffect(diagnostics_, section, name, "only with wControlType = \"CONFIGURABLE\"");
@@ -243,7 +243,7 @@ void PlcReader::readCyclicData(const CheckedSection &section, ConfigFields &fiel
     checkCyclicData(section, "wCyclicDataR");
     if (!sends)
       diagnostics_
-          .report(Code::configMissingKey, section.get("wControlType")->span,
+          .report(Code::ConfigMissingKey, section.get("wControlType")->span,
                   "a drive with wControlType = \"CONFIGURABLE\" needs `wCyclicDataS1`",
                   "sends nothing to the drive")
           .help("add what is sent in every cycle, for example `wCyclicDataS1 = \"SetPosition\"`");
@@ -254,7 +254,7 @@ void PlcReader::readCyclicData(const CheckedSection &section, ConfigFields &fiel
 
 // Whether any is given, right or wrong; a value that travels twice is reported.
 bool PlcReader::checkCyclicData(const CheckedSection &section, std::string_view direction) {
-  Unique values(Code::configDuplicateName, diagnostics_);
+  Unique values(Code::ConfigDuplicateName, diagnostics_);
   bool any = false;
   for (const char place : {'1', '2', '3'}) {
     const std::string name = std::string(direction) + place;
@@ -274,14 +274,14 @@ void PlcReader::readEncoder(const CheckedSection &section, AxisGroupConfig &grou
     ids.add(std::to_string(id->integer), id->span,
             fmt::format("two encoders of axis group `{}` have the wEncoderId {}", group.name.text,
                         id->integer));
-  encoder.id = static_cast<std::uint32_t>(section.integer("wEncoderId", 0));
+  encoder.id = static_cast<uint32_t>(section.integer("wEncoderId", 0));
   integerField(section, "wEncoderId", encoder.fields);
   readScaling(section, encoder.fields, "encoder");
   integerField(section, "dwEncoderModulo", encoder.fields);
   if (const TomlNode *modulo = section.get("dwEncoderModulo");
       modulo != nullptr && modulo->integer == 1)
     diagnostics_
-        .report(Code::configOutOfRange, modulo->span,
+        .report(Code::ConfigOutOfRange, modulo->span,
                 "`dwEncoderModulo` must be 0 or at least 2 increments",
                 "an encoder that never moves")
         .help("0 stands for 32 bits, 65536 for 16 bits, 4096 for 12 bits");
@@ -305,7 +305,7 @@ void PlcReader::readScaling(const CheckedSection &section, ConfigFields &fields,
   const TomlNode *period = section.get("fPositionPeriod");
   if (type == kRotary && !section.has("fPositionPeriod"))
     diagnostics_
-        .report(Code::configMissingKey, section.get("iMovementType")->span,
+        .report(Code::ConfigMissingKey, section.get("iMovementType")->span,
                 fmt::format("a rotary {} needs `fPositionPeriod`", what),
                 fmt::format("makes the {} rotary", what))
         .help("add the length of one turn in technical units, for example `fPositionPeriod = "
@@ -331,7 +331,7 @@ void PlcReader::checkPeriod(const CheckedSection &section, const TomlNode &perio
                                            denominator, numerator, increments);
   if (increments < 1.0) {
     diagnostics_
-        .report(Code::configOutOfRange, period.span,
+        .report(Code::ConfigOutOfRange, period.span,
                 fmt::format("one period of the {} must be at least one increment", what), computed)
         .help("give the ratio of increments to technical units with dwRatioTechUnitsDenom and "
               "iRatioTechUnitsNum");
@@ -340,7 +340,7 @@ void PlcReader::checkPeriod(const CheckedSection &section, const TomlNode &perio
   if (increments <= kLargestPeriod)
     return;
   Diagnostic &d = diagnostics_.report(
-      Code::configPeriodTooLarge, period.span,
+      Code::ConfigPeriodTooLarge, period.span,
       fmt::format("one period of the {} is more than 16#80000000 increments", what), computed);
   if (const TomlNode *ratio = section.get("dwRatioTechUnitsDenom"))
     d.label(ratio->span, "increments …");
@@ -372,13 +372,13 @@ void PlcReader::readLimits(const CheckedSection &section, ConfigFields &fields, 
     return; // wrong and reported
   if (low != nullptr && high != nullptr) {
     diagnostics_
-        .report(Code::configLimits, low->span,
+        .report(Code::ConfigLimits, low->span,
                 "fSWLimitNegative must be less than fSWLimitPositive", "not less than …")
         .label(high->span, "… this");
     return;
   }
   diagnostics_
-      .report(Code::configLimits, section.get("bSWLimitEnable")->span,
+      .report(Code::ConfigLimits, section.get("bSWLimitEnable")->span,
               "software limits are switched on but not both given", "needs both limits")
       .help("add `fSWLimitNegative = …` and `fSWLimitPositive = …`");
 }
@@ -386,13 +386,13 @@ void PlcReader::readLimits(const CheckedSection &section, ConfigFields &fields, 
 void PlcReader::readRamp(const CheckedSection &section, ConfigFields &fields) {
   constexpr std::array<std::string_view, 4> kNames = {"trapezoid", "sigmoid", "parabolic",
                                                       "sigmoid_limited"};
-  const auto ramp = static_cast<std::size_t>(section.choice("eRampType"));
+  const auto ramp = static_cast<size_t>(section.choice("eRampType"));
   if (section.get("eRampType") != nullptr)
     fields.emplace_back("eRampType", fmt::format("SMC_RAMPTYPE.{}", kNames[ramp]));
   realField(section, "fJerk", fields);
   if (ramp != 0 && !section.has("fJerk"))
     diagnostics_
-        .report(Code::configMissingKey, section.get("eRampType")->span,
+        .report(Code::ConfigMissingKey, section.get("eRampType")->span,
                 fmt::format("the ramp type \"{}\" needs `fJerk`", kNames[ramp]), "limits the jerk")
         .help("add the largest jerk in u/s³, for example `fJerk = 20000.0`");
   else if (ramp == 0 && section.get("fJerk") != nullptr)

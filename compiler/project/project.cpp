@@ -90,7 +90,7 @@ void Project::load(const fs::path &given) {
   std::error_code error;
   const fs::file_status status = fs::status(given, error);
   if (!fs::exists(status) && !program_.sources.isUnsaved(given)) {
-    program_.diagnostics.report(Code::pathNotFound, {},
+    program_.diagnostics.report(Code::PathNotFound, {},
                                 fmt::format("there is no file or folder `{}`", given.string()));
     return;
   }
@@ -124,17 +124,17 @@ void Project::loadFolder() {
       tomlFile_ = *id;
     else
       program_.diagnostics.report(
-          Code::unreadableFile, {},
+          Code::UnreadableFile, {},
           fmt::format("`{}` cannot be read: {}", manifest.string(), readSourceError()));
   }
   const std::vector<fs::path> sources = findSources(program_.sources, path_, error);
   if (error)
     program_.diagnostics.report(
-        Code::unreadableFile, {},
+        Code::UnreadableFile, {},
         fmt::format("`{}` cannot be read: {}", path_.string(), error.message()));
   else if (sources.empty())
     program_.diagnostics
-        .report(Code::noSources, {},
+        .report(Code::NoSources, {},
                 fmt::format("there are no `.st` files in `{}`", path_.string()))
         .help("`stride new NAME` makes a project to start from");
   for (const fs::path &source : sources)
@@ -144,7 +144,7 @@ void Project::loadFolder() {
     if (const std::optional<FileId> id = program_.sources.load(cam, name))
       camFiles_.push_back(*id);
     else
-      program_.diagnostics.report(Code::unreadableFile, {},
+      program_.diagnostics.report(Code::UnreadableFile, {},
                                   fmt::format("`{}` cannot be read: {}", name, readSourceError()));
   }
   loaded_ = !sources.empty();
@@ -155,7 +155,7 @@ void Project::loadFile(const fs::path &path, const std::string &name) {
     sourceFiles_.push_back(*id);
   else
     program_.diagnostics.report(
-        Code::unreadableFile, {},
+        Code::UnreadableFile, {},
         fmt::format("`{}` cannot be read: {}", path.string(), readSourceError()));
 }
 
@@ -177,7 +177,7 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
     program_.settings.imageBytes = config_.imageBytes;
     program_.settings.pack = config_.pack;
   }
-  const std::size_t configErrors = program_.diagnostics.errorCount();
+  const size_t configErrors = program_.diagnostics.errorCount();
   std::vector<ast::File *> files;
   DeclaredNames names(program_.sources, sourceFiles_);
   ParseOptions options{config_.defines, &names};
@@ -189,11 +189,11 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
   attachMembers(files, program_.arena, program_.diagnostics);
   const bool syntaxErrors = program_.diagnostics.errorCount() != configErrors;
   tests_ = findTests(files, program_.diagnostics);
-  if (purpose == Purpose::build)
+  if (purpose == Purpose::Build)
     removeTests(files, program_.arena);
   if (declaresNothing(files)) {
     program_.diagnostics.report(
-        Code::nothingDeclared, {},
+        Code::NothingDeclared, {},
         sourceFiles_.size() == 1
             ? fmt::format("`{}` declares nothing", program_.sources.file(sourceFiles_[0]).name())
             : std::string("the source files declare nothing"));
@@ -203,13 +203,13 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
     return; // what is missing of the configuration would be missed everywhere in the program
   if (ast::File *instances = readConfigurations(config_, files, program_))
     files.push_back(instances);
-  if (purpose == Purpose::test) {
+  if (purpose == Purpose::Test) {
     files.push_back(parseSynthetic(testProgram(tests_), options));
     configureTests(config_);
   }
-  const ProgramCheck programCheck = syntaxErrors                ? ProgramCheck::skip
-                                    : purpose == Purpose::build ? ProgramCheck::runnable
-                                                                : ProgramCheck::existing;
+  const ProgramCheck programCheck = syntaxErrors                ? ProgramCheck::Skip
+                                    : purpose == Purpose::Build ? ProgramCheck::Runnable
+                                                                : ProgramCheck::Existing;
   resolveTasks(config_, files, programCheck, program_.diagnostics);
   const SyntheticSource plc = plcDeclarations(config_, files, program_.diagnostics);
   if (!plc.empty()) {
@@ -235,7 +235,7 @@ ast::File *Project::parseSynthetic(const SyntheticSource &source, ParseOptions o
 
 /// Adds the cams of the cam files as global variables. False: some are wrong.
 bool Project::declareCams(std::vector<ast::File *> &files, const ParseOptions &options) {
-  const std::size_t errors = program_.diagnostics.errorCount();
+  const size_t errors = program_.diagnostics.errorCount();
   std::vector<CamSource> cams;
   for (const FileId id : camFiles_)
     if (std::optional<CamSource> cam = readCam(program_.sources.file(id), program_.diagnostics))
@@ -271,9 +271,9 @@ void Project::shareVariables() {
         tasks.back().pous.push_back(other.event);
     }
   }
-  std::unordered_map<std::string, std::uint32_t> drives;
+  std::unordered_map<std::string, uint32_t> drives;
   for (const AxisGroupConfig &group : config_.axisGroups) {
-    for (std::uint32_t task = 0; task < tasks.size(); ++task) {
+    for (uint32_t task = 0; task < tasks.size(); ++task) {
       if (!equalIgnoringCase(tasks[task].name, group.task.text))
         continue;
       for (const DriveConfig &drive : group.drives)
@@ -319,12 +319,12 @@ AppConfig Project::appConfig() const {
       for (const PouSymbol *pou : program_.user->pous)
         if (equalIgnoringCase(pou->name.text, eventFunction(from)))
           task.event = pou;
-    for (std::size_t i = 0; i < config_.axisGroups.size(); ++i)
+    for (size_t i = 0; i < config_.axisGroups.size(); ++i)
       if (isSyncOf(from, config_.axisGroups[i]))
         task.sync = i;
     for (const ConfigName &program : from.programs)
       for (PouSymbol *pou : program_.user->pous)
-        if (pou->decl->kind == ast::DeclKind::program &&
+        if (pou->decl->kind == ast::DeclKind::Program &&
             equalIgnoringCase(pou->name.text, program.text))
           task.programs.push_back(pou);
     app.tasks.push_back(std::move(task));

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_PROJECT_HPP
+#define STRIDE_COMPILER_PROJECT_PROJECT_HPP
 // A project, from its path to a checked program.
 
 #include "compiler/codegen/codegen.hpp"
@@ -16,9 +17,9 @@ namespace stc {
 
 /// What a project is opened for.
 enum class Purpose {
-  check, ///< a project without a PROGRAM is fine
-  build, ///< there must be something to run; unit tests are left out
-  test,  ///< the unit tests run instead of the tasks
+  Check, ///< a project without a PROGRAM is fine
+  Build, ///< there must be something to run; unit tests are left out
+  Test,  ///< the unit tests run instead of the tasks
 };
 
 /// All source files below a project's folder, sorted by path, also those that are not saved yet.
@@ -55,7 +56,7 @@ public:
   [[nodiscard]] const std::string &name() const { return config_.name; }
   /// [retain] file of stride.toml; empty: not given.
   [[nodiscard]] const std::string &retainFile() const { return config_.retainFile; }
-  /// The unit tests, for Purpose::test; the task `Test` calls the one that which__ of kTestProgram
+  /// The unit tests, for Purpose::Test; the task `Test` calls the one that which__ of kTestProgram
   /// names.
   [[nodiscard]] const std::vector<TestBlock> &tests() const { return tests_; }
   /// [files] root of stride.toml; empty: not given.
@@ -88,3 +89,5 @@ private:
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_PROJECT_HPP

@@ -43,10 +43,10 @@ constexpr std::array kProjectParameters = {
 };
 
 constexpr std::array<Choice, 4> kTaskKinds = {
-    {{"cyclic", static_cast<std::int64_t>(TaskStart::cyclic)},
-     {"freewheeling", static_cast<std::int64_t>(TaskStart::freewheeling)},
-     {"event", static_cast<std::int64_t>(TaskStart::event)},
-     {"status", static_cast<std::int64_t>(TaskStart::status)}}};
+    {{"cyclic", static_cast<int64_t>(TaskStart::Cyclic)},
+     {"freewheeling", static_cast<int64_t>(TaskStart::Freewheeling)},
+     {"event", static_cast<int64_t>(TaskStart::Event)},
+     {"status", static_cast<int64_t>(TaskStart::Status)}}};
 
 constexpr double kSecond = 1e9;
 constexpr std::array kRetainParameters = {
@@ -73,9 +73,9 @@ constexpr std::array kTaskParameters = {
 };
 
 constexpr std::array<Choice, 3> kKeywordCases = {
-    {{"upper", static_cast<std::int64_t>(KeywordCase::upper)},
-     {"lower", static_cast<std::int64_t>(KeywordCase::lower)},
-     {"keep", static_cast<std::int64_t>(KeywordCase::keep)}}};
+    {{"upper", static_cast<int64_t>(KeywordCase::Upper)},
+     {"lower", static_cast<int64_t>(KeywordCase::Lower)},
+     {"keep", static_cast<int64_t>(KeywordCase::Keep)}}};
 constexpr std::array kFormatParameters = {
     whole("width", 40, 1000, "characters"),
     whole("indent", 1, 16, "blanks"),
@@ -95,17 +95,17 @@ constexpr SectionSchema kFiles = {"files", "the access to files", "files",
                                   false,   kFilesParameters,      {}};
 constexpr SectionSchema kTask = {"task", "a task", "task", true, kTaskParameters, {}};
 constexpr std::array<Choice, 4> kSeverities = {
-    {{"error", static_cast<std::int64_t>(Severity::error)},
-     {"warning", static_cast<std::int64_t>(Severity::warning)},
-     {"note", static_cast<std::int64_t>(Severity::note)},
-     {"off", static_cast<std::int64_t>(Severity::off)}}};
+    {{"error", static_cast<int64_t>(Severity::Error)},
+     {"warning", static_cast<int64_t>(Severity::Warning)},
+     {"note", static_cast<int64_t>(Severity::Note)},
+     {"off", static_cast<int64_t>(Severity::Off)}}};
 
 /// `SE0390` and `unused-variable`, for every code; errors have no choice.
 struct DiagnosticSection {
   DiagnosticSection() {
     names = settingNames();
     for (const CodeInfo &entry : allCodes()) {
-      if (entry.severity == Severity::error) {
+      if (entry.severity == Severity::Error) {
         errors.push_back(codeName(entry.code));
         errors.push_back(kebabName(entry.code));
       }

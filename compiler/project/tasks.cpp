@@ -19,7 +19,7 @@ namespace stc {
 
 namespace {
 
-constexpr std::int64_t kDefaultIntervalNs = 10'000'000;
+constexpr int64_t kDefaultIntervalNs = 10'000'000;
 constexpr unsigned kLowestPriority = 31;
 /// No name that a user can choose.
 constexpr const char *kServiceTask = "(service)";
@@ -30,38 +30,38 @@ std::vector<const ast::Decl *> programsOf(const std::vector<ast::File *> &files)
   std::vector<const ast::Decl *> programs;
   for (const ast::File *file : files)
     for (const ast::Decl *decl : file->declarations)
-      if (decl->kind == ast::DeclKind::program && decl->name)
+      if (decl->kind == ast::DeclKind::Program && decl->name)
         programs.push_back(decl);
   return programs;
 }
 
 std::string_view describe(ast::DeclKind kind) {
   switch (kind) {
-  case ast::DeclKind::program:
+  case ast::DeclKind::Program:
     return "a PROGRAM";
-  case ast::DeclKind::function:
+  case ast::DeclKind::Function:
     return "a FUNCTION";
-  case ast::DeclKind::functionBlock:
+  case ast::DeclKind::FunctionBlock:
     return "a FUNCTION_BLOCK";
-  case ast::DeclKind::structure:
-  case ast::DeclKind::enumeration:
-  case ast::DeclKind::alias:
+  case ast::DeclKind::Structure:
+  case ast::DeclKind::Enumeration:
+  case ast::DeclKind::Alias:
     return "a type";
-  case ast::DeclKind::classD:
+  case ast::DeclKind::Class:
     return "a CLASS";
-  case ast::DeclKind::interface:
+  case ast::DeclKind::Interface:
     return "an INTERFACE";
-  case ast::DeclKind::method:
+  case ast::DeclKind::Method:
     return "a METHOD";
-  case ast::DeclKind::action:
+  case ast::DeclKind::Action:
     return "an ACTION";
-  case ast::DeclKind::property:
+  case ast::DeclKind::Property:
     return "a PROPERTY";
-  case ast::DeclKind::configuration:
+  case ast::DeclKind::Configuration:
     return "a CONFIGURATION";
-  case ast::DeclKind::globals:
-  case ast::DeclKind::config:
-  case ast::DeclKind::access:
+  case ast::DeclKind::Globals:
+  case ast::DeclKind::Config:
+  case ast::DeclKind::Access:
     break;
   }
   return "a global variable list";
@@ -74,15 +74,15 @@ public:
       : config_(config), diagnostics_(diagnostics), programs_(programsOf(files)) {
     for (const ast::File *file : files)
       for (const ast::Decl *decl : file->declarations)
-        if (decl->name && (decl->space.empty() || decl->kind == ast::DeclKind::program))
+        if (decl->name && (decl->space.empty() || decl->kind == ast::DeclKind::Program))
           declarations_.try_emplace(lowerCase(decl->name.text), decl);
   }
 
   void resolve(ProgramCheck check) {
     hadTasks_ = !config_.tasks.empty();
     if (!hadTasks_)
-      addDefaultTask(check == ProgramCheck::runnable);
-    else if (check != ProgramCheck::skip)
+      addDefaultTask(check == ProgramCheck::Runnable);
+    else if (check != ProgramCheck::Skip)
       checkPrograms();
     for (AxisGroupConfig &group : config_.axisGroups)
       resolveGroup(group);
@@ -95,7 +95,7 @@ private:
   void addServiceTask() {
     const bool comesAround =
         std::any_of(config_.tasks.begin(), config_.tasks.end(), [this](const TaskConfig &task) {
-          return task.start == TaskStart::cyclic || task.start == TaskStart::freewheeling ||
+          return task.start == TaskStart::Cyclic || task.start == TaskStart::Freewheeling ||
                  onBus_.contains(&task);
         });
     if (comesAround)
@@ -113,7 +113,7 @@ private:
     task.intervalNs = kDefaultIntervalNs;
     for (const AxisGroupConfig &group : config_.axisGroups)
       if (group.cycleUs != 0) {
-        task.intervalNs = std::int64_t{group.cycleUs} * 1000;
+        task.intervalNs = int64_t{group.cycleUs} * 1000;
         break;
       }
     if (const ast::Decl *program = defaultProgram(needsProgram))
@@ -130,15 +130,15 @@ private:
     if (!needed)
       return nullptr;
     if (programs_.empty()) {
-      diagnostics_.report(Code::noProgram, {}, "there is no PROGRAM to run")
+      diagnostics_.report(Code::NoProgram, {}, "there is no PROGRAM to run")
           .help("write `PROGRAM PLC_PRG … END_PROGRAM`: it is called in every cycle");
       return nullptr;
     }
     Diagnostic &d = diagnostics_.report(
-        Code::severalPrograms, programs_[0]->name.span,
+        Code::SeveralPrograms, programs_[0]->name.span,
         fmt::format("there are {} PROGRAMs and no task that calls them", programs_.size()),
         "this one?");
-    for (std::size_t i = 1; i < programs_.size() && i < 4; ++i)
+    for (size_t i = 1; i < programs_.size() && i < 4; ++i)
       d.label(programs_[i]->name.span, "or this one?");
     d.help(fmt::format(
         "add a task to stride.toml: [[task]] with name = \"Task\", interval = \"T#10ms\", "
@@ -160,14 +160,14 @@ private:
           tasks[key] = &task;
         else if (tasks[key] == &task)
           diagnostics_
-              .report(Code::configCalledTwice, program.span,
+              .report(Code::ConfigCalledTwice, program.span,
                       fmt::format("task `{}` calls `{}` twice in a cycle", task.name.text,
                                   program.text),
                       "called again")
               .label(first->second->span, "called first");
         else
           diagnostics_
-              .report(Code::configCalledTwice, program.span,
+              .report(Code::ConfigCalledTwice, program.span,
                       fmt::format("`{}` is called by two tasks, `{}` and `{}`", program.text,
                                   tasks[key]->name.text, task.name.text),
                       "called again")
@@ -180,7 +180,7 @@ private:
     const auto found = declarations_.find(lowerCase(program.text));
     if (found == declarations_.end()) {
       Diagnostic &d =
-          diagnostics_.report(Code::configUnknownProgram, program.span,
+          diagnostics_.report(Code::ConfigUnknownProgram, program.span,
                               fmt::format("there is no PROGRAM `{}`", program.text), "not found");
       std::vector<std::string_view> names;
       for (const ast::Decl *candidate : programs_)
@@ -189,9 +189,9 @@ private:
         d.help(fmt::format("did you mean `{}`?", near));
       return false;
     }
-    if (found->second->kind != ast::DeclKind::program) {
+    if (found->second->kind != ast::DeclKind::Program) {
       diagnostics_
-          .report(Code::configNotAProgram, program.span,
+          .report(Code::ConfigNotAProgram, program.span,
                   fmt::format("`{}` is {}, a task calls PROGRAMs", program.text,
                               describe(found->second->kind)),
                   "cannot be called by a task")
@@ -206,7 +206,7 @@ private:
     if (group.task.text.empty()) {
       if (config_.tasks.size() != 1) {
         diagnostics_
-            .report(Code::configUnknownTask, group.groupSpan,
+            .report(Code::ConfigUnknownTask, group.groupSpan,
                     fmt::format("axis group `{}` needs `sTask`: there are several tasks",
                                 group.name.text),
                     "which task serves the drives?")
@@ -225,26 +225,26 @@ private:
     }
     group.task.text = task->name.text;
     checkSync(group, *task);
-    const bool onEvent = task->start == TaskStart::event || task->start == TaskStart::status;
+    const bool onEvent = task->start == TaskStart::Event || task->start == TaskStart::Status;
     if (onEvent) {
       if (group.cycleUs == 0)
         diagnostics_
-            .report(Code::configMissingKey, group.groupSpan,
+            .report(Code::ConfigMissingKey, group.groupSpan,
                     fmt::format("axis group `{}` needs `dwCycle`: an event starts task `{}`",
                                 group.name.text, task->name.text),
                     "how long is a cycle?")
             .help("add the time between two events in µs, for example `dwCycle = 2000`");
       if (isSyncOf(*task, group)) { // from SYNC to SYNC
-        task->intervalNs = std::int64_t{group.cycleUs} * 1000;
+        task->intervalNs = int64_t{group.cycleUs} * 1000;
         onBus_.insert(task);
       }
       setTaskCycle(group, group.cycleUs * 1e-6);
       return;
     }
     if (task->intervalNs != 0 && group.cycleUs != 0 &&
-        std::int64_t{group.cycleUs} * 1000 != task->intervalNs) {
+        int64_t{group.cycleUs} * 1000 != task->intervalNs) {
       diagnostics_
-          .report(Code::configCycleMismatch, group.cycleSpan,
+          .report(Code::ConfigCycleMismatch, group.cycleSpan,
                   fmt::format("dwCycle is {} µs, but task `{}` runs every {}", group.cycleUs,
                               task->name.text, formatInterval(task->intervalNs)),
                   "does not fit the task")
@@ -253,7 +253,7 @@ private:
                     : "leave it out");
       return;
     }
-    group.cycleUs = static_cast<std::uint32_t>(task->intervalNs / 1000);
+    group.cycleUs = static_cast<uint32_t>(task->intervalNs / 1000);
     setTaskCycle(group, static_cast<double>(task->intervalNs) * 1e-9);
   }
 
@@ -263,12 +263,12 @@ private:
     if (producer.empty())
       return;
     const std::string event = group.name.text + ".bSync";
-    const bool waits = task.start == TaskStart::event && equalIgnoringCase(task.event.text, event);
+    const bool waits = task.start == TaskStart::Event && equalIgnoringCase(task.event.text, event);
     const bool sends = equalIgnoringCase(producer, "PLC");
-    if (waits != sends && (waits || task.start == TaskStart::cyclic))
+    if (waits != sends && (waits || task.start == TaskStart::Cyclic))
       return;
     Diagnostic &d = diagnostics_.report(
-        Code::configSyncTask, group.syncProducer.span,
+        Code::ConfigSyncTask, group.syncProducer.span,
         sends
             ? fmt::format("task `{}` is to send SYNC, but does not run at regular times",
                           task.name.text)
@@ -291,7 +291,7 @@ private:
 
   void reportUnknownTask(const ConfigName &name) {
     Diagnostic &d =
-        diagnostics_.report(Code::configUnknownTask, name.span,
+        diagnostics_.report(Code::ConfigUnknownTask, name.span,
                             fmt::format("there is no task `{}`", name.text), "not found");
     if (!hadTasks_) {
       d.help(fmt::format(
@@ -345,7 +345,7 @@ public:
 
 private:
   void axisGroups(const ProjectConfig &config) {
-    std::size_t index = 0;
+    size_t index = 0;
     for (const AxisGroupConfig &group : config.axisGroups) {
       ConfigFields fields = {{"sTask", fmt::format("'{}'", group.task.text)},
                              {"dwCycle", std::to_string(group.cycleUs)}};
@@ -373,7 +373,7 @@ private:
     if (const auto clash = names_.find(lowerCase(name.text)); clash != names_.end()) {
       diagnostics_
           .report(
-              Code::configNameClash, name.span,
+              Code::ConfigNameClash, name.span,
               fmt::format("the {} `{}` has the name of something in the program", what, name.text),
               "becomes a global variable of this name")
           .label(clash->second, "already declared here")
@@ -414,13 +414,12 @@ void resolveTasks(ProjectConfig &config, const std::vector<ast::File *> &files,
 
 bool isSyncOf(const TaskConfig &task, const AxisGroupConfig &group) {
   const stride::bus::DriverSchema *driver = stride::drivers::findSchema(group.driver);
-  return driver != nullptr && driver->givesSync && task.start == TaskStart::event &&
+  return driver != nullptr && driver->givesSync && task.start == TaskStart::Event &&
          equalIgnoringCase(task.event.text, group.name.text + ".bSync");
 }
 
 std::string eventFunction(const TaskConfig &task) {
-  constexpr std::size_t kMostOfName =
-      200; // so that the function's name is no longer than names may be
+  constexpr size_t kMostOfName = 200; // so that the function's name is no longer than names may be
   const std::string &name = task.name.text;
   if (name.size() <= kMostOfName)
     return name + "__event";

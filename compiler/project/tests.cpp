@@ -10,9 +10,9 @@ namespace stc {
 
 namespace {
 
-constexpr std::int64_t kDefaultCycleNs = 10'000'000;
-constexpr std::int64_t kDefaultTimeoutNs = 10'000'000'000;
-constexpr std::int64_t kShortestCycleNs = 1'000;
+constexpr int64_t kDefaultCycleNs = 10'000'000;
+constexpr int64_t kDefaultTimeoutNs = 10'000'000'000;
+constexpr int64_t kShortestCycleNs = 1'000;
 
 const ast::Attribute *attributeOf(const ast::Decl &decl, std::string_view name) {
   for (const ast::Attribute &attribute : decl.attributes)
@@ -22,21 +22,21 @@ const ast::Attribute *attributeOf(const ast::Decl &decl, std::string_view name) 
 }
 
 bool isTest(const ast::Decl &decl) {
-  return decl.kind == ast::DeclKind::functionBlock && decl.name &&
+  return decl.kind == ast::DeclKind::FunctionBlock && decl.name &&
          attributeOf(decl, "test") != nullptr;
 }
 
 /// A duration, or `otherwise`.
-std::int64_t durationOf(const ast::Decl &decl, std::string_view name, std::int64_t otherwise,
-                        Diagnostics &diagnostics) {
+int64_t durationOf(const ast::Decl &decl, std::string_view name, int64_t otherwise,
+                   Diagnostics &diagnostics) {
   const ast::Attribute *attribute = attributeOf(decl, name);
   if (attribute == nullptr)
     return otherwise;
-  const std::optional<std::int64_t> value = parseInterval(attribute->value);
+  const std::optional<int64_t> value = parseInterval(attribute->value);
   if (value && *value >= kShortestCycleNs)
     return *value;
   diagnostics
-      .report(Code::configBadInterval, attribute->span.valid() ? attribute->span : decl.name.span,
+      .report(Code::ConfigBadInterval, attribute->span.valid() ? attribute->span : decl.name.span,
               fmt::format("`{}` is a duration of 1 µs or more", name), "not such a duration")
       .help(fmt::format("write `{{attribute '{}' := 'T#10ms'}}`", name));
   return otherwise;
@@ -76,7 +76,7 @@ void removeTests(const std::vector<ast::File *> &files, Arena &arena) {
 SyntheticSource testProgram(const std::vector<TestBlock> &tests) {
   SyntheticSource out("<tests>");
   out.add(fmt::format("PROGRAM {}\nVAR\n  which__ : DINT := -1;\n", kTestProgram));
-  for (std::size_t i = 0; i < tests.size(); ++i)
+  for (size_t i = 0; i < tests.size(); ++i)
     out.add(fmt::format("  t{}__ : {};\n", i, tests[i].name), tests[i].place);
   out.add("END_VAR\n");
   if (tests.empty()) {
@@ -84,7 +84,7 @@ SyntheticSource testProgram(const std::vector<TestBlock> &tests) {
     return out;
   }
   out.add("CASE which__ OF\n");
-  for (std::size_t i = 0; i < tests.size(); ++i)
+  for (size_t i = 0; i < tests.size(); ++i)
     out.add(fmt::format("  {}: t{}__();\n", i, i), tests[i].place);
   out.add("END_CASE\nEND_PROGRAM\n");
   return out;
@@ -98,7 +98,7 @@ void configureTests(ProjectConfig &config) {
   for (AxisGroupConfig &group : config.axisGroups) {
     group.task = {task.name.text, {}};
     if (group.cycleUs != 0)
-      task.intervalNs = std::int64_t{group.cycleUs} * 1000;
+      task.intervalNs = int64_t{group.cycleUs} * 1000;
   }
   for (AxisGroupConfig &group : config.axisGroups) // one task serves all
     group.cycleUs = 0;

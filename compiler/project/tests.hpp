@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_TESTS_HPP
+#define STRIDE_COMPILER_PROJECT_TESTS_HPP
 // Unit tests in ST: function blocks with {attribute 'test'}.
 
 #include "compiler/project/config.hpp"
@@ -11,10 +12,10 @@ namespace stc {
 
 /// A FUNCTION_BLOCK with {attribute 'test'}.
 struct TestBlock {
-  std::string name;           ///< with its namespaces
-  Span place;                 ///< of its name
-  std::int64_t cycleNs = 0;   ///< {attribute 'test_cycle' := 'T#1ms'}; 0: not given
-  std::int64_t timeoutNs = 0; ///< {attribute 'test_timeout' := 'T#10s'}
+  std::string name;      ///< with its namespaces
+  Span place;            ///< of its name
+  int64_t cycleNs = 0;   ///< {attribute 'test_cycle' := 'T#1ms'}; 0: not given
+  int64_t timeoutNs = 0; ///< {attribute 'test_timeout' := 'T#10s'}
 };
 
 /// The tests among the declarations, in their order; wrong attributes are reported.
@@ -34,3 +35,5 @@ inline constexpr const char *kTestProgram = "Test__Run";
 void configureTests(ProjectConfig &config);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_TESTS_HPP

@@ -44,7 +44,7 @@ std::vector<std::string> filesOfRule(std::string_view rule) {
       files.push_back(name);
     name.clear();
   };
-  for (std::size_t i = 0; i < rule.size(); ++i) {
+  for (size_t i = 0; i < rule.size(); ++i) {
     const char next = i + 1 < rule.size() ? rule[i + 1] : '\n';
     if (rule[i] == '\\' && (next == ' ' || next == '#'))
       name += rule[++i];
@@ -101,7 +101,7 @@ std::string askCompiler(const Toolchain &toolchain, const std::vector<fs::path> 
 /// Adds the stamps of the files, one a line; false: one of them is gone.
 bool addStamps(ContentHash &hash, std::string_view files) {
   while (!files.empty()) {
-    const std::size_t end = files.find('\n');
+    const size_t end = files.find('\n');
     const std::string stamp = fileStamp(fs::path(files.substr(0, end)));
     if (stamp.empty() || end == std::string_view::npos)
       return false;
@@ -120,7 +120,7 @@ fs::path findProgram(const std::string &name) {
   const char *path = std::getenv("PATH");
   std::string_view rest = path != nullptr ? path : "/usr/bin:/bin";
   while (true) {
-    const std::size_t end = rest.find(':');
+    const size_t end = rest.find(':');
     const fs::path candidate = fs::absolute(fs::path(rest.substr(0, end)) / name, error);
     if (::access(candidate.c_str(), X_OK) == 0 && fs::is_regular_file(candidate, error))
       return candidate;

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_TOOLCHAIN_HPP
+#define STRIDE_COMPILER_PROJECT_TOOLCHAIN_HPP
 // The C++ compiler and everything besides the generated code that a result depends on.
 
 #include "compiler/project/installation.hpp"
@@ -29,3 +30,5 @@ struct Toolchain {
                                      const std::filesystem::path &work);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_TOOLCHAIN_HPP

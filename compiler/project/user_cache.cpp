@@ -35,10 +35,10 @@ constexpr std::string_view kVersion = "v1";
 
 // Before the hash at the end of a file of the store.
 constexpr std::string_view kSeal = "\nStride seal BLAKE2b-256 ";
-constexpr std::size_t kSealSize = kSeal.size() + 64;
+constexpr size_t kSealSize = kSeal.size() + 64;
 
 // Bytes of the files of one kind with one first digit, so that all together are 16 times that.
-constexpr std::uintmax_t kShardBytes = 128U << 20U;
+constexpr uintmax_t kShardBytes = 128U << 20U;
 
 constexpr auto kAbandoned = std::chrono::hours(24);
 
@@ -362,11 +362,11 @@ std::optional<CacheLock> UserCache::lock(std::string_view key) const {
 void UserCache::prune(std::string_view key, std::string_view kind) const {
   struct Entry {
     fs::file_time_type time;
-    std::uintmax_t size;
+    uintmax_t size;
     fs::path path;
   };
   std::vector<Entry> entries;
-  std::uintmax_t total = 0;
+  uintmax_t total = 0;
   std::error_code error;
   for (fs::directory_iterator at(place(key, kind).parent_path(), error), end; !error && at != end;
        at.increment(error)) {

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_USER_CACHE_HPP
+#define STRIDE_COMPILER_PROJECT_USER_CACHE_HPP
 // What Stride keeps for a user between builds: compiled units and applications.
 
 #include <filesystem>
@@ -106,3 +107,5 @@ private:
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_USER_CACHE_HPP

@@ -16,14 +16,14 @@ constexpr unsigned kEnough = 4;
 } // namespace
 
 unsigned packOf(const Type *type) {
-  if (type->kind == TypeKind::structure)
+  if (type->kind == TypeKind::Structure)
     return typeAs<StructType>(type)->pack;
   return isInstance(type) ? typeAs<PouType>(type)->pack : 0;
 }
 
 unsigned alignmentOf(const Type *type) {
   type = underlying(type);
-  while (type->kind == TypeKind::array)
+  while (type->kind == TypeKind::Array)
     type = typeAs<ArrayType>(type)->element;
   type = underlying(type);
   const auto limited = [type](unsigned align) {
@@ -31,11 +31,11 @@ unsigned alignmentOf(const Type *type) {
     return pack == 0 ? align : std::min(align, pack);
   };
   switch (type->kind) {
-  case TypeKind::string:
+  case TypeKind::String:
     return 1;
-  case TypeKind::wstring:
+  case TypeKind::Wstring:
     return 2;
-  case TypeKind::structure: {
+  case TypeKind::Structure: {
     const auto *s = typeAs<StructType>(type);
     if (s->alignment != 0)
       return s->alignment;
@@ -49,11 +49,11 @@ unsigned alignmentOf(const Type *type) {
     s->alignment = s->symbol->resolving ? 0 : align; // not all fields are known
     return align;
   }
-  case TypeKind::functionBlock:
-  case TypeKind::program:
+  case TypeKind::FunctionBlock:
+  case TypeKind::Program:
     return limited(kMaxAlign);
-  case TypeKind::pointer:
-  case TypeKind::reference:
+  case TypeKind::Pointer:
+  case TypeKind::Reference:
     return 8;
   default:
     return std::max(bitWidth(type) / 8, 1U);
@@ -63,29 +63,29 @@ unsigned alignmentOf(const Type *type) {
 unsigned placeAlignment(const Expr *place) {
   const auto natural = [&] { return alignmentOf(place->type); };
   switch (place->kind) {
-  case ExprKind::direct: {
+  case ExprKind::Direct: {
     const Location *at = as<DirectExpr>(place)->location;
     return at == nullptr || at->byte == 0 ? kMaxAlign : at->byte & (0U - at->byte);
   }
-  case ExprKind::name:
-  case ExprKind::member: {
+  case ExprKind::Name:
+  case ExprKind::Member: {
     const Symbol *symbol =
-        place->kind == ExprKind::name ? as<NameExpr>(place)->symbol : as<MemberExpr>(place)->symbol;
-    if (symbol == nullptr || symbol->kind != SymbolKind::variable)
+        place->kind == ExprKind::Name ? as<NameExpr>(place)->symbol : as<MemberExpr>(place)->symbol;
+    if (symbol == nullptr || symbol->kind != SymbolKind::Variable)
       return natural();
     const auto *variable = static_cast<const VarSymbol *>(symbol);
-    if (variable->section == Section::inOut || variable->type->kind == TypeKind::reference)
+    if (variable->section == Section::InOut || variable->type->kind == TypeKind::Reference)
       return natural();
     if (const Location *at = variable->location; at != nullptr && !at->isSlot)
       return at->byte == 0 ? kMaxAlign : at->byte & (0U - at->byte);
     unsigned result = natural();
     if (variable->owner != nullptr && variable->owner->type != nullptr &&
-        variable->owner->type->pack != 0 && variable->section != Section::temp)
+        variable->owner->type->pack != 0 && variable->section != Section::Temp)
       result = std::min(result, variable->owner->type->pack);
-    if (place->kind == ExprKind::member && variable->globals == nullptr) {
+    if (place->kind == ExprKind::Member && variable->globals == nullptr) {
       const Expr *base = as<MemberExpr>(place)->base;
-      if (base->type != nullptr && (base->type->kind == TypeKind::structure ||
-                                    base->type->kind == TypeKind::functionBlock)) {
+      if (base->type != nullptr && (base->type->kind == TypeKind::Structure ||
+                                    base->type->kind == TypeKind::FunctionBlock)) {
         const unsigned pack = packOf(base->type);
         result = std::min(result, placeAlignment(base));
         if (pack != 0)
@@ -94,7 +94,7 @@ unsigned placeAlignment(const Expr *place) {
     }
     return result;
   }
-  case ExprKind::index:
+  case ExprKind::Index:
     return std::min(natural(), placeAlignment(as<IndexExpr>(place)->base));
   default:
     return natural();

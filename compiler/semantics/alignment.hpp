@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_ALIGNMENT_HPP
+#define STRIDE_COMPILER_SEMANTICS_ALIGNMENT_HPP
 // Where values may lie: alignments of types and of places, as the generated code has them. Sizes
 // and offsets: storage.hpp.
 
@@ -20,3 +21,5 @@ namespace stc {
 [[nodiscard]] bool isMisaligned(const ast::Expr *place);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_ALIGNMENT_HPP

@@ -20,7 +20,7 @@ unsigned packMode(Reporter &reporter, const Attributes &attributes, unsigned oth
     if (a.value == "2" || a.value == "4" || a.value == "8")
       return static_cast<unsigned>(a.value[0] - '0');
     reporter
-        .report(Code::packMode, a.span,
+        .report(Code::PackMode, a.span,
                 "`" + std::string(a.value) + "` is no way to align the members of a structure",
                 "0, 1, 2, 4 or 8 is possible")
         .note("0 and 1 leave no gaps; 2, 4 and 8 align each member to that many bytes at most");

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_ATTRIBUTES_HPP
+#define STRIDE_COMPILER_SEMANTICS_ATTRIBUTES_HPP
 // `{attribute 'name' := 'value'}` where one is looked for.
 
 #include "compiler/semantics/reporter.hpp"
@@ -15,3 +16,5 @@ namespace stc {
 unsigned packMode(Reporter &reporter, const ast::Attributes &attributes, unsigned otherwise);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_ATTRIBUTES_HPP

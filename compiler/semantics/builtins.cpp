@@ -10,100 +10,100 @@ namespace stc {
 const std::vector<std::pair<std::string_view, ast::Builtin>> &builtins() {
   using enum ast::Builtin;
   static const std::vector<std::pair<std::string_view, ast::Builtin>> kTable = {
-      {"abs", abs},
-      {"sqrt", sqrt},
-      {"ln", ln},
-      {"log", log},
-      {"exp", exp},
-      {"sin", sin},
-      {"cos", cos},
-      {"tan", tan},
-      {"asin", asin},
-      {"acos", acos},
-      {"atan", atan},
-      {"atan2", atan2},
-      {"expt", expt},
-      {"trunc", trunc},
-      {"min", min},
-      {"max", max},
-      {"limit", limit},
-      {"sel", sel},
-      {"mux", mux},
-      {"move", move},
-      {"add", add},
-      {"sub", subtract},
-      {"mul", multiply},
-      {"div", divide},
-      {"gt", greater},
-      {"ge", greaterEqual},
-      {"eq", equal},
-      {"le", lessEqual},
-      {"lt", less},
-      {"ne", notEqual},
-      {"mul_time", multiplyTime},
-      {"multime", multiplyTime},
-      {"mul_ltime", multiplyLtime},
-      {"div_time", divideTime},
-      {"divtime", divideTime},
-      {"div_ltime", divideLtime},
-      {"and", logicalAnd},
-      {"or", logicalOr},
-      {"xor", logicalXor},
-      {"mod", modulo},
-      {"shl", shl},
-      {"shr", shr},
-      {"rol", rol},
-      {"ror", ror},
-      {"is_valid", isValid},
-      {"is_valid_bcd", isValidBcd},
-      {"to_big_endian", bigEndian},
-      {"from_big_endian", bigEndian},
-      {"to_little_endian", littleEndian},
-      {"from_little_endian", littleEndian},
-      {"len", len},
-      {"left", left},
-      {"right", right},
-      {"mid", mid},
-      {"concat", concat},
-      {"insert", insert},
-      {"delete", deleteS},
-      {"replace", replace},
-      {"find", find},
-      {"wlen", len},
-      {"wleft", left},
-      {"wright", right},
-      {"wmid", mid},
-      {"wconcat", concat},
-      {"winsert", insert},
-      {"wdelete", deleteS},
-      {"wreplace", replace},
-      {"wfind", find},
-      {"time", time},
-      {"ltime", ltime},
-      {"adr", adr},
-      {"bitadr", bitadr},
-      {"sizeof", sizeofT},
-      {"__queryinterface", queryInterface},
-      {"__querypointer", queryPointer},
-      {"xsizeof", sizeofT},
-      {"ref", adr},
-      {"__new", newT},
-      {"indexof", indexOf},
-      {"__delete", deleteT},
-      {"ini", ini},
-      {"__isvalidref", isValidRef},
-      {"lower_bound", lowerBound},
-      {"upper_bound", upperBound},
-      {"assert_true", assertTrue},
-      {"assert_false", assertFalse},
-      {"assert_eq", assertEq},
-      {"assert_ne", assertNe},
-      {"assert_gt", assertGt},
-      {"assert_ge", assertGe},
-      {"assert_lt", assertLt},
-      {"assert_le", assertLe},
-      {"assert_near", assertNear},
-      {"fail", failTest},
+      {"abs", Abs},
+      {"sqrt", Sqrt},
+      {"ln", Ln},
+      {"log", Log},
+      {"exp", Exp},
+      {"sin", Sin},
+      {"cos", Cos},
+      {"tan", Tan},
+      {"asin", Asin},
+      {"acos", Acos},
+      {"atan", Atan},
+      {"atan2", Atan2},
+      {"expt", Expt},
+      {"trunc", Trunc},
+      {"min", Min},
+      {"max", Max},
+      {"limit", Limit},
+      {"sel", Sel},
+      {"mux", Mux},
+      {"move", Move},
+      {"add", Add},
+      {"sub", Subtract},
+      {"mul", Multiply},
+      {"div", Divide},
+      {"gt", Greater},
+      {"ge", GreaterEqual},
+      {"eq", Equal},
+      {"le", LessEqual},
+      {"lt", Less},
+      {"ne", NotEqual},
+      {"mul_time", MultiplyTime},
+      {"multime", MultiplyTime},
+      {"mul_ltime", MultiplyLtime},
+      {"div_time", DivideTime},
+      {"divtime", DivideTime},
+      {"div_ltime", DivideLtime},
+      {"and", LogicalAnd},
+      {"or", LogicalOr},
+      {"xor", LogicalXor},
+      {"mod", Modulo},
+      {"shl", Shl},
+      {"shr", Shr},
+      {"rol", Rol},
+      {"ror", Ror},
+      {"is_valid", IsValid},
+      {"is_valid_bcd", IsValidBcd},
+      {"to_big_endian", BigEndian},
+      {"from_big_endian", BigEndian},
+      {"to_little_endian", LittleEndian},
+      {"from_little_endian", LittleEndian},
+      {"len", Len},
+      {"left", Left},
+      {"right", Right},
+      {"mid", Mid},
+      {"concat", Concat},
+      {"insert", Insert},
+      {"delete", Delete},
+      {"replace", Replace},
+      {"find", Find},
+      {"wlen", Len},
+      {"wleft", Left},
+      {"wright", Right},
+      {"wmid", Mid},
+      {"wconcat", Concat},
+      {"winsert", Insert},
+      {"wdelete", Delete},
+      {"wreplace", Replace},
+      {"wfind", Find},
+      {"time", Time},
+      {"ltime", Ltime},
+      {"adr", Adr},
+      {"bitadr", Bitadr},
+      {"sizeof", Sizeof},
+      {"__queryinterface", QueryInterface},
+      {"__querypointer", QueryPointer},
+      {"xsizeof", Sizeof},
+      {"ref", Adr},
+      {"__new", NewObject},
+      {"indexof", IndexOf},
+      {"__delete", DeleteObject},
+      {"ini", Ini},
+      {"__isvalidref", IsValidRef},
+      {"lower_bound", LowerBound},
+      {"upper_bound", UpperBound},
+      {"assert_true", AssertTrue},
+      {"assert_false", AssertFalse},
+      {"assert_eq", AssertEq},
+      {"assert_ne", AssertNe},
+      {"assert_gt", AssertGt},
+      {"assert_ge", AssertGe},
+      {"assert_lt", AssertLt},
+      {"assert_le", AssertLe},
+      {"assert_near", AssertNear},
+      {"fail", FailTest},
   };
   return kTable;
 }
@@ -121,60 +121,60 @@ std::string_view formalNames(ast::Builtin function) {
   }
   using enum ast::Builtin;
   switch (function) {
-  case limit:
+  case Limit:
     return "mn in mx";
-  case sel:
+  case Sel:
     return "g in0 in1";
-  case mux:
+  case Mux:
     return "k in#0";
-  case min:
-  case max:
-  case add:
-  case multiply:
-  case greater:
-  case greaterEqual:
-  case equal:
-  case lessEqual:
-  case less:
-  case logicalAnd:
-  case logicalOr:
-  case logicalXor:
+  case Min:
+  case Max:
+  case Add:
+  case Multiply:
+  case Greater:
+  case GreaterEqual:
+  case Equal:
+  case LessEqual:
+  case Less:
+  case LogicalAnd:
+  case LogicalOr:
+  case LogicalXor:
     return "in#1";
-  case subtract:
-  case divide:
-  case notEqual:
-  case multiplyTime:
-  case multiplyLtime:
-  case divideTime:
-  case divideLtime:
-  case modulo:
-  case expt:
+  case Subtract:
+  case Divide:
+  case NotEqual:
+  case MultiplyTime:
+  case MultiplyLtime:
+  case DivideTime:
+  case DivideLtime:
+  case Modulo:
+  case Expt:
     return "in1 in2";
-  case atan2:
+  case Atan2:
     return "y x";
-  case shl:
-  case shr:
-  case rol:
-  case ror:
+  case Shl:
+  case Shr:
+  case Rol:
+  case Ror:
     return "in n";
-  case len:
+  case Len:
     return "in|str";
-  case left:
-  case right:
+  case Left:
+  case Right:
     return "in|str l|size";
-  case mid:
-  case deleteS:
+  case Mid:
+  case Delete:
     return "in|str l|len p|pos";
-  case concat:
+  case Concat:
     return "in#1|str#1";
-  case find:
+  case Find:
     return "in1|str1 in2|str2";
-  case insert:
+  case Insert:
     return "in1|str1 in2|str2 p|pos";
-  case replace:
+  case Replace:
     return "in1|str1 in2|str2 l p";
-  case lowerBound:
-  case upperBound:
+  case LowerBound:
+  case UpperBound:
     return "arr dim";
   default:
     return "in";
@@ -183,15 +183,15 @@ std::string_view formalNames(ast::Builtin function) {
 
 } // namespace
 
-std::optional<std::size_t> formalPosition(ast::Builtin function, std::string_view lowerName) {
+std::optional<size_t> formalPosition(ast::Builtin function, std::string_view lowerName) {
   std::string_view rest = formalNames(function);
-  for (std::size_t position = 0; !rest.empty(); ++position) {
+  for (size_t position = 0; !rest.empty(); ++position) {
     std::string_view names = rest.substr(0, rest.find(' '));
     rest.remove_prefix(std::min(rest.size(), names.size() + 1));
     while (!names.empty()) {
       const std::string_view name = names.substr(0, names.find('|'));
       names.remove_prefix(std::min(names.size(), name.size() + 1));
-      const std::size_t hash = name.find('#');
+      const size_t hash = name.find('#');
       if (hash == std::string_view::npos) {
         if (name == lowerName)
           return position;
@@ -218,7 +218,7 @@ namespace {
 std::optional<ConversionName> findSpecial(std::string_view text, std::string_view word,
                                           ast::Builtin function, bool (*takes)(const Type *),
                                           bool (*gives)(const Type *)) {
-  const std::size_t at = text.find(word);
+  const size_t at = text.find(word);
   if (at == std::string_view::npos || (at > 0 && text[at - 1] != '_'))
     return std::nullopt;
   const Type *from = at > 0 ? findElementaryType(text.substr(0, at - 1)) : nullptr;
@@ -235,24 +235,24 @@ bool isWhole(const Type *t) { return isSignedInteger(t) || isUnsignedInteger(t);
 std::optional<ConversionName> findConversion(Ident name) {
   const std::string_view text = name->lower;
   using enum ast::Builtin;
-  if (const auto cut = findSpecial(text, "trunc_", trunc, isReal, isWhole))
+  if (const auto cut = findSpecial(text, "trunc_", Trunc, isReal, isWhole))
     return cut;
-  if (const auto bcd = findSpecial(text, "bcd_to_", fromBcd, isBitString, isUnsignedInteger))
+  if (const auto bcd = findSpecial(text, "bcd_to_", FromBcd, isBitString, isUnsignedInteger))
     return bcd;
-  if (const auto bcd = findSpecial(text, "to_bcd_", toBcd, isUnsignedInteger, isBitString))
+  if (const auto bcd = findSpecial(text, "to_bcd_", ToBcd, isUnsignedInteger, isBitString))
     return bcd;
   if (text.starts_with("to_")) {
     if (const Type *to = findElementaryType(text.substr(3)))
-      return ConversionName{nullptr, to, convert};
+      return ConversionName{nullptr, to, Convert};
     return std::nullopt;
   }
   // Type names contain underscores too (TIME_OF_DAY), so try every place.
-  for (std::size_t at = text.find("_to_"); at != std::string_view::npos;
+  for (size_t at = text.find("_to_"); at != std::string_view::npos;
        at = text.find("_to_", at + 1)) {
     const Type *from = findElementaryType(text.substr(0, at));
     const Type *to = findElementaryType(text.substr(at + 4));
     if (from != nullptr && to != nullptr && from != to)
-      return ConversionName{from, to, convert};
+      return ConversionName{from, to, Convert};
   }
   return std::nullopt;
 }

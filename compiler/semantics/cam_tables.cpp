@@ -26,7 +26,7 @@ std::string raised(std::string_view text) {
 std::vector<std::string_view> parts(std::string_view text) {
   std::vector<std::string_view> result;
   while (true) {
-    const std::size_t end = text.find('_');
+    const size_t end = text.find('_');
     result.push_back(text.substr(0, end));
     if (end == std::string_view::npos)
       return result;

@@ -26,21 +26,21 @@ bool survives(const Type *from, const Type *to) {
 
 Conversion classifyInteger(const Type *from, const Type *to) {
   if (survives(from, to))
-    return Conversion::free;
-  return bitWidth(from) == bitWidth(to) ? Conversion::lossy : Conversion::narrowing;
+    return Conversion::Free;
+  return bitWidth(from) == bitWidth(to) ? Conversion::Lossy : Conversion::Narrowing;
 }
 
 Conversion classifyTime(TypeKind from, TypeKind to) {
   using enum TypeKind;
-  const bool widens = (from == time && to == ltime) || (from == date && to == ldate) ||
-                      (from == tod && to == ltod) || (from == dt && to == ldt);
-  return widens ? Conversion::free : Conversion::narrowing;
+  const bool widens = (from == Time && to == Ltime) || (from == Date && to == Ldate) ||
+                      (from == Tod && to == Ltod) || (from == Dt && to == Ldt);
+  return widens ? Conversion::Free : Conversion::Narrowing;
 }
 
 } // namespace
 
 bool sameShape(const Type *a, const Type *b) {
-  while (a != b && a->kind == TypeKind::array && b->kind == TypeKind::array &&
+  while (a != b && a->kind == TypeKind::Array && b->kind == TypeKind::Array &&
          typeAs<ArrayType>(a)->count() == typeAs<ArrayType>(b)->count()) {
     a = typeAs<ArrayType>(a)->element;
     b = typeAs<ArrayType>(b)->element;
@@ -50,114 +50,113 @@ bool sameShape(const Type *a, const Type *b) {
 
 Conversion classify(const Type *from, const Type *to) {
   if (from == to || isError(from) || isError(to))
-    return Conversion::identity;
-  const auto isPou = [](const Type *t) { return isInstance(t) || t->kind == TypeKind::interface; };
+    return Conversion::Identity;
+  const auto isPou = [](const Type *t) { return isInstance(t) || t->kind == TypeKind::Interface; };
   if (isPou(from) && isPou(to))
     return convertsTo(typeAs<PouType>(from)->symbol, typeAs<PouType>(to)->symbol)
-               ? Conversion::free
-               : Conversion::forbidden;
-  if (to->kind == TypeKind::subrange) {
+               ? Conversion::Free
+               : Conversion::Forbidden;
+  if (to->kind == TypeKind::Subrange) {
     const Type *base = typeAs<SubrangeType>(to)->base;
-    return from == base ? Conversion::free : classify(underlying(from), base);
+    return from == base ? Conversion::Free : classify(underlying(from), base);
   }
-  if (from->kind == TypeKind::subrange)
+  if (from->kind == TypeKind::Subrange)
     return classify(typeAs<SubrangeType>(from)->base, to);
-  if (from->kind == TypeKind::enumeration) {
-    if (to->kind == TypeKind::enumeration)
-      return Conversion::forbidden;
+  if (from->kind == TypeKind::Enumeration) {
+    if (to->kind == TypeKind::Enumeration)
+      return Conversion::Forbidden;
     const Type *base = typeAs<EnumType>(from)->base;
     if (isInteger(to) && bitWidth(to) == bitWidth(base))
-      return Conversion::free;
+      return Conversion::Free;
     return classify(base, to);
   }
-  if (to->kind == TypeKind::enumeration)
-    return isInteger(from) ? Conversion::lossy : Conversion::forbidden;
+  if (to->kind == TypeKind::Enumeration)
+    return isInteger(from) ? Conversion::Lossy : Conversion::Forbidden;
   if (isInteger(from)) {
     if (isInteger(to))
       return classifyInteger(from, to);
-    if (to->kind == TypeKind::real)
-      return bitWidth(from) <= 16 ? Conversion::free : Conversion::narrowing;
-    if (to->kind == TypeKind::lreal)
-      return bitWidth(from) <= 32 ? Conversion::free : Conversion::narrowing;
-    return isElementary(to) ? Conversion::narrowing : Conversion::forbidden;
+    if (to->kind == TypeKind::Real)
+      return bitWidth(from) <= 16 ? Conversion::Free : Conversion::Narrowing;
+    if (to->kind == TypeKind::Lreal)
+      return bitWidth(from) <= 32 ? Conversion::Free : Conversion::Narrowing;
+    return isElementary(to) ? Conversion::Narrowing : Conversion::Forbidden;
   }
   if (isReal(from)) {
     if (isReal(to))
-      return to->kind == TypeKind::lreal ? Conversion::free : Conversion::lossy;
-    return isElementary(to) ? Conversion::narrowing : Conversion::forbidden;
+      return to->kind == TypeKind::Lreal ? Conversion::Free : Conversion::Lossy;
+    return isElementary(to) ? Conversion::Narrowing : Conversion::Forbidden;
   }
   if (isString(from) && isString(to))
-    return from->kind == to->kind ? Conversion::free : Conversion::narrowing;
+    return from->kind == to->kind ? Conversion::Free : Conversion::Narrowing;
   if (isCharacter(from) && isString(to)) // edition 3: a text of one character
-    return (from->kind == TypeKind::charT) == (to->kind == TypeKind::string)
-               ? Conversion::free
-               : Conversion::narrowing;
+    return (from->kind == TypeKind::Char) == (to->kind == TypeKind::String) ? Conversion::Free
+                                                                            : Conversion::Narrowing;
   if (isTimeOrDate(from) && isTimeOrDate(to))
     return classifyTime(from->kind, to->kind);
-  if (from->kind == TypeKind::pointer && to->kind == TypeKind::pointer) {
+  if (from->kind == TypeKind::Pointer && to->kind == TypeKind::Pointer) {
     const Type *f = typeAs<PointerType>(from)->pointee;
     const Type *t = typeAs<PointerType>(to)->pointee;
     if (isInstance(f) && isInstance(t) &&
         derivesFrom(typeAs<PouType>(f)->symbol, typeAs<PouType>(t)->symbol))
-      return Conversion::free; // a derived instance begins with its base
+      return Conversion::Free; // a derived instance begins with its base
   }
-  if (from->kind == TypeKind::pointer && to->kind == TypeKind::pointer)
+  if (from->kind == TypeKind::Pointer && to->kind == TypeKind::Pointer)
     return isByteView(typeAs<PointerType>(to)->pointee) ||
                    isByteView(typeAs<PointerType>(from)->pointee)
-               ? Conversion::free
-               : Conversion::lossy;
-  if (from->kind == TypeKind::pointer && isInteger(to) && bitWidth(to) >= 32)
-    return bitWidth(to) == 64 ? Conversion::free : Conversion::lossy;
+               ? Conversion::Free
+               : Conversion::Lossy;
+  if (from->kind == TypeKind::Pointer && isInteger(to) && bitWidth(to) >= 32)
+    return bitWidth(to) == 64 ? Conversion::Free : Conversion::Lossy;
   if (isElementary(from) && isElementary(to))
-    return Conversion::narrowing;
-  return sameShape(from, to) ? Conversion::free : Conversion::forbidden;
+    return Conversion::Narrowing;
+  return sameShape(from, to) ? Conversion::Free : Conversion::Forbidden;
 }
 
 bool constantFits(const ConstValue &value, const Type *from, const Type *to) {
-  if (to->kind == TypeKind::enumeration) {
-    if (value.kind != ConstKind::integer ||
-        !(from->kind == TypeKind::anyInteger || isInteger(from)))
+  if (to->kind == TypeKind::Enumeration) {
+    if (value.kind != ConstKind::Integer ||
+        !(from->kind == TypeKind::AnyInteger || isInteger(from)))
       return false;
     const auto &list = typeAs<EnumType>(to)->enumerators;
     return std::any_of(list.begin(), list.end(),
                        [&](const EnumeratorSymbol *e) { return e->value == value.integer; });
   }
-  if (value.kind == ConstKind::string && isCharacter(to))
-    return isString(from) && (from->kind == TypeKind::string) == (to->kind == TypeKind::charT) &&
-           textLength(value.text, from->kind == TypeKind::wstring) == 1;
-  if (value.kind == ConstKind::string)
+  if (value.kind == ConstKind::String && isCharacter(to))
+    return isString(from) && (from->kind == TypeKind::String) == (to->kind == TypeKind::Char) &&
+           textLength(value.text, from->kind == TypeKind::Wstring) == 1;
+  if (value.kind == ConstKind::String)
     return isString(from) && from->kind == to->kind;
-  if (value.kind == ConstKind::real)
+  if (value.kind == ConstKind::Real)
     return isReal(to) &&
-           (to->kind == TypeKind::lreal || !std::isfinite(value.real) ||
+           (to->kind == TypeKind::Lreal || !std::isfinite(value.real) ||
             std::fabs(value.real) <= static_cast<double>(std::numeric_limits<float>::max()));
-  const bool number = from->kind == TypeKind::anyInteger || isInteger(underlying(from));
+  const bool number = from->kind == TypeKind::AnyInteger || isInteger(underlying(from));
   if (!number)
     return false;
   if (isReal(to))
-    return from->kind == TypeKind::anyInteger || classify(from, to) == Conversion::free ||
-           std::abs(value.integer) <= (std::int64_t{1} << 24);
-  if (to->kind == TypeKind::boolean)
-    return from->kind == TypeKind::anyInteger && (value.integer == 0 || value.integer == 1);
+    return from->kind == TypeKind::AnyInteger || classify(from, to) == Conversion::Free ||
+           std::abs(value.integer) <= (int64_t{1} << 24);
+  if (to->kind == TypeKind::Boolean)
+    return from->kind == TypeKind::AnyInteger && (value.integer == 0 || value.integer == 1);
   if (!isInteger(underlying(to)))
     return false;
   const bool hugeUnsigned =
-      from->kind != TypeKind::anyInteger && unsignedKind(underlying(from)) && value.integer < 0;
+      from->kind != TypeKind::AnyInteger && unsignedKind(underlying(from)) && value.integer < 0;
   const IntegerRange range = integerRange(to);
-  if (unsignedKind(underlying(to)) && bitWidth(to) == 64 && to->kind != TypeKind::subrange)
+  if (unsignedKind(underlying(to)) && bitWidth(to) == 64 && to->kind != TypeKind::Subrange)
     return hugeUnsigned || value.integer >= 0;
   return !hugeUnsigned && value.integer >= range.low && value.integer <= range.high;
 }
 
-const Type *smallestInteger(std::int64_t value) {
-  for (const TypeKind kind : {TypeKind::sint, TypeKind::usint, TypeKind::intT, TypeKind::uint,
-                              TypeKind::dint, TypeKind::udint, TypeKind::lint}) {
+const Type *smallestInteger(int64_t value) {
+  for (const TypeKind kind : {TypeKind::Sint, TypeKind::Usint, TypeKind::Int, TypeKind::Uint,
+                              TypeKind::Dint, TypeKind::Udint, TypeKind::Lint}) {
     const Type *t = elementaryType(kind);
     const IntegerRange range = integerRange(t);
     if (value >= range.low && value <= range.high)
       return t;
   }
-  return elementaryType(TypeKind::lint);
+  return elementaryType(TypeKind::Lint);
 }
 
 const Type *commonNumber(const Type *a, const Type *b) {
@@ -167,9 +166,9 @@ const Type *commonNumber(const Type *a, const Type *b) {
     return a;
   if (isReal(a) || isReal(b)) {
     const auto needsLreal = [](const Type *t) {
-      return t->kind == TypeKind::lreal || (isInteger(t) && bitWidth(t) > 16);
+      return t->kind == TypeKind::Lreal || (isInteger(t) && bitWidth(t) > 16);
     };
-    return elementaryType(needsLreal(a) || needsLreal(b) ? TypeKind::lreal : TypeKind::real);
+    return elementaryType(needsLreal(a) || needsLreal(b) ? TypeKind::Lreal : TypeKind::Real);
   }
   // Between a bit string and an unsigned integer of one width the integer is the common type.
   if (isBitString(a) && isUnsignedInteger(b) && survives(a, b))
@@ -180,7 +179,7 @@ const Type *commonNumber(const Type *a, const Type *b) {
     return b;
   if (survives(b, a))
     return a;
-  for (const TypeKind kind : {TypeKind::intT, TypeKind::dint, TypeKind::lint}) {
+  for (const TypeKind kind : {TypeKind::Int, TypeKind::Dint, TypeKind::Lint}) {
     const Type *t = elementaryType(kind);
     if (survives(a, t) && survives(b, t))
       return t;
@@ -192,7 +191,7 @@ const Type *widened(const Type *t) {
   t = underlying(t);
   if (!isInteger(t) || bitWidth(t) >= 32)
     return t;
-  return elementaryType(isBitString(t) ? TypeKind::dword : TypeKind::dint);
+  return elementaryType(isBitString(t) ? TypeKind::Dword : TypeKind::Dint);
 }
 
 } // namespace stc

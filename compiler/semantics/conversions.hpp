@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_CONVERSIONS_HPP
+#define STRIDE_COMPILER_SEMANTICS_CONVERSIONS_HPP
 // Which type converts to which without being asked (dialect table: "implicit conversion").
 
 #include "compiler/semantics/constant.hpp"
@@ -6,12 +7,12 @@
 
 namespace stc {
 
-enum class Conversion : std::uint8_t {
-  identity,
-  free,      ///< every value survives
-  lossy,     ///< allowed with a warning
-  narrowing, ///< an error that names the `X_TO_Y` to write
-  forbidden, ///< no such conversion
+enum class Conversion : uint8_t {
+  Identity,
+  Free,      ///< every value survives
+  Lossy,     ///< allowed with a warning
+  Narrowing, ///< an error that names the `X_TO_Y` to write
+  Forbidden, ///< no such conversion
 };
 
 /// How a value of `from` (not a constant) becomes a value of `to`.
@@ -25,7 +26,7 @@ enum class Conversion : std::uint8_t {
 
 /// The smallest integer type of at least 8 bits that holds the value: SINT, USINT, INT … for an
 /// untyped constant.
-[[nodiscard]] const Type *smallestInteger(std::int64_t value);
+[[nodiscard]] const Type *smallestInteger(int64_t value);
 
 /// The type that holds all values of both number types before widening; null when there is none
 /// (LINT with ULINT). Constants without type have been given one before.
@@ -35,3 +36,5 @@ enum class Conversion : std::uint8_t {
 [[nodiscard]] const Type *widened(const Type *t);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_CONVERSIONS_HPP

@@ -13,68 +13,68 @@ namespace {
 using ast::BinaryOp;
 
 ConstValue realValue(double v, const Type *type) {
-  return {ConstKind::real,
+  return {ConstKind::Real,
           0,
-          type->kind == TypeKind::real ? static_cast<double>(static_cast<float>(v)) : v,
+          type->kind == TypeKind::Real ? static_cast<double>(static_cast<float>(v)) : v,
           {}};
 }
 
-std::uint64_t bits(std::int64_t v) { return static_cast<std::uint64_t>(v); }
+uint64_t bits(int64_t v) { return static_cast<uint64_t>(v); }
 
 double toDouble(const ConstValue &v, const Type *from) {
-  if (v.kind == ConstKind::real)
+  if (v.kind == ConstKind::Real)
     return v.real;
   return isUnsigned64(from) ? static_cast<double>(bits(v.integer)) : static_cast<double>(v.integer);
 }
 
 /// Rounds half away from zero and saturates, NaN gives 0 (dialect table).
-std::int64_t roundToInteger(double v, const Type *to) {
+int64_t roundToInteger(double v, const Type *to) {
   if (std::isnan(v))
     return 0;
   const double r = std::round(v);
   const Type *u = underlying(to);
   const unsigned width = bitWidth(u);
-  const bool isSigned = isSignedInteger(u) || u->kind == TypeKind::ltime;
+  const bool isSigned = isSignedInteger(u) || u->kind == TypeKind::Ltime;
   if (isSigned) {
-    const auto high = std::numeric_limits<std::int64_t>::max() >> (64 - width);
+    const auto high = std::numeric_limits<int64_t>::max() >> (64 - width);
     if (r >= static_cast<double>(high))
       return high;
     if (r <= static_cast<double>(-high - 1))
       return -high - 1;
-    return static_cast<std::int64_t>(r);
+    return static_cast<int64_t>(r);
   }
   if (r <= 0)
     return 0;
-  const std::uint64_t high = std::numeric_limits<std::uint64_t>::max() >> (64 - width);
+  const uint64_t high = std::numeric_limits<uint64_t>::max() >> (64 - width);
   if (r >= static_cast<double>(high))
-    return static_cast<std::int64_t>(high);
-  return static_cast<std::int64_t>(static_cast<std::uint64_t>(r));
+    return static_cast<int64_t>(high);
+  return static_cast<int64_t>(static_cast<uint64_t>(r));
 }
 
 std::optional<ConstValue> foldReal(BinaryOp op, double a, double b, const Type *type) {
   switch (op) {
-  case BinaryOp::add:
+  case BinaryOp::Add:
     return realValue(a + b, type);
-  case BinaryOp::subtract:
+  case BinaryOp::Subtract:
     return realValue(a - b, type);
-  case BinaryOp::multiply:
+  case BinaryOp::Multiply:
     return realValue(a * b, type);
-  case BinaryOp::divide:
+  case BinaryOp::Divide:
     return realValue(a / b, type);
-  case BinaryOp::equal:
+  case BinaryOp::Equal:
     return integerValue(a == b);
-  case BinaryOp::notEqual:
+  case BinaryOp::NotEqual:
     return integerValue(a != b);
-  case BinaryOp::less:
+  case BinaryOp::Less:
     return integerValue(a < b);
-  case BinaryOp::lessEqual:
+  case BinaryOp::LessEqual:
     return integerValue(a <= b);
-  case BinaryOp::greater:
+  case BinaryOp::Greater:
     return integerValue(a > b);
-  case BinaryOp::greaterEqual:
+  case BinaryOp::GreaterEqual:
     return integerValue(a >= b);
-  case BinaryOp::power: // the run time's own, so that both give the same bits
-    if (type->kind == TypeKind::real)
+  case BinaryOp::Power: // the run time's own, so that both give the same bits
+    if (type->kind == TypeKind::Real)
       return realValue(
           static_cast<double>(stride::pow(static_cast<float>(a), static_cast<float>(b))), type);
     return realValue(stride::pow(a, b), type);
@@ -85,36 +85,36 @@ std::optional<ConstValue> foldReal(BinaryOp op, double a, double b, const Type *
 
 std::optional<ConstValue> foldTexts(BinaryOp op, const ConstValue &a, const ConstValue &b,
                                     const Type *type) {
-  const int order = compareTexts(a.text, b.text, type->kind == TypeKind::wstring);
+  const int order = compareTexts(a.text, b.text, type->kind == TypeKind::Wstring);
   switch (op) {
-  case BinaryOp::equal:
+  case BinaryOp::Equal:
     return integerValue(order == 0);
-  case BinaryOp::notEqual:
+  case BinaryOp::NotEqual:
     return integerValue(order != 0);
-  case BinaryOp::less:
+  case BinaryOp::Less:
     return integerValue(order < 0);
-  case BinaryOp::lessEqual:
+  case BinaryOp::LessEqual:
     return integerValue(order <= 0);
-  case BinaryOp::greater:
+  case BinaryOp::Greater:
     return integerValue(order > 0);
-  case BinaryOp::greaterEqual:
+  case BinaryOp::GreaterEqual:
     return integerValue(order >= 0);
   default:
     return std::nullopt;
   }
 }
 
-bool less(std::int64_t a, std::int64_t b, const Type *type) {
+bool less(int64_t a, int64_t b, const Type *type) {
   return isUnsigned64(type) ? bits(a) < bits(b) : a < b;
 }
 
 /// Untyped constants have 64 bits and no wrap-around.
-std::optional<ConstValue> foldUntyped(BinaryOp op, std::int64_t a, std::int64_t b) {
-  std::int64_t r = 0;
+std::optional<ConstValue> foldUntyped(BinaryOp op, int64_t a, int64_t b) {
+  int64_t r = 0;
   bool overflow = false;
-  if (op == BinaryOp::add)
+  if (op == BinaryOp::Add)
     overflow = __builtin_add_overflow(a, b, &r);
-  else if (op == BinaryOp::subtract)
+  else if (op == BinaryOp::Subtract)
     overflow = __builtin_sub_overflow(a, b, &r);
   else
     overflow = __builtin_mul_overflow(a, b, &r);
@@ -123,144 +123,141 @@ std::optional<ConstValue> foldUntyped(BinaryOp op, std::int64_t a, std::int64_t 
   return integerValue(r);
 }
 
-std::optional<ConstValue> foldDivision(BinaryOp op, std::int64_t a, std::int64_t b,
-                                       const Type *type) {
+std::optional<ConstValue> foldDivision(BinaryOp op, int64_t a, int64_t b, const Type *type) {
   if (b == 0)
     return std::nullopt;
-  const bool quotient = op == BinaryOp::divide;
+  const bool quotient = op == BinaryOp::Divide;
   if (isUnsigned64(type)) {
-    const std::uint64_t r = quotient ? bits(a) / bits(b) : bits(a) % bits(b);
-    return integerValue(static_cast<std::int64_t>(r));
+    const uint64_t r = quotient ? bits(a) / bits(b) : bits(a) % bits(b);
+    return integerValue(static_cast<int64_t>(r));
   }
   if (b == -1) { // MIN / -1 = MIN, MIN MOD -1 = 0
-    if (type->kind == TypeKind::anyInteger && quotient &&
-        a == std::numeric_limits<std::int64_t>::min())
+    if (type->kind == TypeKind::AnyInteger && quotient && a == std::numeric_limits<int64_t>::min())
       return std::nullopt;
-    return integerValue(quotient ? wrapTo(type, static_cast<std::int64_t>(0 - bits(a))) : 0);
+    return integerValue(quotient ? wrapTo(type, static_cast<int64_t>(0 - bits(a))) : 0);
   }
   return integerValue(quotient ? a / b : a % b);
 }
 
 } // namespace
 
-std::int64_t wrapTo(const Type *type, std::int64_t value) {
+int64_t wrapTo(const Type *type, int64_t value) {
   const Type *u = underlying(type);
-  if (u->kind == TypeKind::anyInteger)
+  if (u->kind == TypeKind::AnyInteger)
     return value;
-  if (u->kind == TypeKind::boolean)
+  if (u->kind == TypeKind::Boolean)
     return value & 1;
   const unsigned width = bitWidth(u);
   if (width == 64)
     return value;
   const unsigned shift = 64 - width;
   if (isSignedInteger(u))
-    return static_cast<std::int64_t>(bits(value) << shift) >> shift;
-  return static_cast<std::int64_t>((bits(value) << shift) >> shift);
+    return static_cast<int64_t>(bits(value) << shift) >> shift;
+  return static_cast<int64_t>((bits(value) << shift) >> shift);
 }
 
 std::optional<ConstValue> convertConstant(const ConstValue &value, const Type *from,
                                           const Type *to) {
   const Type *f = underlying(from);
   const Type *t = underlying(to);
-  if (value.kind == ConstKind::string && isCharacter(t))
-    return integerValue(wrapTo(t, firstUnit(value.text, f->kind == TypeKind::wstring)));
-  if (value.kind == ConstKind::string)
+  if (value.kind == ConstKind::String && isCharacter(t))
+    return integerValue(wrapTo(t, firstUnit(value.text, f->kind == TypeKind::Wstring)));
+  if (value.kind == ConstKind::String)
     return isString(t) && f->kind == t->kind ? std::optional(value) : std::nullopt;
   if (isString(t))
     return std::nullopt;
-  if (isReal(t) || t->kind == TypeKind::anyReal) {
+  if (isReal(t) || t->kind == TypeKind::AnyReal) {
     if (isTimeOrDate(f))
       return std::nullopt;
-    if (t->kind == TypeKind::real && value.kind == ConstKind::integer) // rounded once, not twice
+    if (t->kind == TypeKind::Real && value.kind == ConstKind::Integer) // rounded once, not twice
       return realValue(static_cast<double>(isUnsigned64(f) ? static_cast<float>(bits(value.integer))
                                                            : static_cast<float>(value.integer)),
                        t);
     return realValue(toDouble(value, f), t);
   }
-  if (t->kind == TypeKind::boolean)
-    return integerValue(value.kind == ConstKind::real ? value.real != 0 : value.integer != 0);
+  if (t->kind == TypeKind::Boolean)
+    return integerValue(value.kind == ConstKind::Real ? value.real != 0 : value.integer != 0);
   if (isTimeOrDate(f) || isTimeOrDate(t)) {
     using enum TypeKind;
     if (f->kind == t->kind)
       return value;
-    if ((f->kind == time && t->kind == ltime) || (f->kind == tod && t->kind == ltod))
+    if ((f->kind == Time && t->kind == Ltime) || (f->kind == Tod && t->kind == Ltod))
       return integerValue(value.integer * 1'000'000); // ms to ns
-    if ((f->kind == date && t->kind == ldate) || (f->kind == dt && t->kind == ldt))
+    if ((f->kind == Date && t->kind == Ldate) || (f->kind == Dt && t->kind == Ldt))
       return integerValue(value.integer * 1'000'000'000); // s to ns
     return std::nullopt;                                  // the runtime converts
   }
-  if (value.kind == ConstKind::real)
+  if (value.kind == ConstKind::Real)
     return integerValue(roundToInteger(value.real, t));
   return integerValue(wrapTo(t, value.integer));
 }
 
 std::optional<ConstValue> foldBinary(BinaryOp op, const ConstValue &left, const ConstValue &right,
                                      const Type *type) {
-  if (left.kind == ConstKind::string && right.kind == ConstKind::string)
+  if (left.kind == ConstKind::String && right.kind == ConstKind::String)
     return foldTexts(op, left, right, type);
-  if (left.kind == ConstKind::string || right.kind == ConstKind::string)
+  if (left.kind == ConstKind::String || right.kind == ConstKind::String)
     return std::nullopt;
-  if (left.kind == ConstKind::real || right.kind == ConstKind::real)
+  if (left.kind == ConstKind::Real || right.kind == ConstKind::Real)
     return foldReal(op, toDouble(left, type), toDouble(right, type), type);
-  const std::int64_t a = left.integer;
-  const std::int64_t b = right.integer;
+  const int64_t a = left.integer;
+  const int64_t b = right.integer;
   switch (op) {
-  case BinaryOp::add:
-  case BinaryOp::subtract:
-  case BinaryOp::multiply: {
-    if (type->kind == TypeKind::anyInteger)
+  case BinaryOp::Add:
+  case BinaryOp::Subtract:
+  case BinaryOp::Multiply: {
+    if (type->kind == TypeKind::AnyInteger)
       return foldUntyped(op, a, b);
-    const std::uint64_t r = op == BinaryOp::add        ? bits(a) + bits(b)
-                            : op == BinaryOp::subtract ? bits(a) - bits(b)
-                                                       : bits(a) * bits(b);
-    return integerValue(wrapTo(type, static_cast<std::int64_t>(r)));
+    const uint64_t r = op == BinaryOp::Add        ? bits(a) + bits(b)
+                       : op == BinaryOp::Subtract ? bits(a) - bits(b)
+                                                  : bits(a) * bits(b);
+    return integerValue(wrapTo(type, static_cast<int64_t>(r)));
   }
-  case BinaryOp::divide:
-  case BinaryOp::modulo:
+  case BinaryOp::Divide:
+  case BinaryOp::Modulo:
     return foldDivision(op, a, b, type);
-  case BinaryOp::power:
+  case BinaryOp::Power:
     return std::nullopt;
-  case BinaryOp::equal:
+  case BinaryOp::Equal:
     return integerValue(a == b);
-  case BinaryOp::notEqual:
+  case BinaryOp::NotEqual:
     return integerValue(a != b);
-  case BinaryOp::less:
+  case BinaryOp::Less:
     return integerValue(less(a, b, type));
-  case BinaryOp::lessEqual:
+  case BinaryOp::LessEqual:
     return integerValue(!less(b, a, type));
-  case BinaryOp::greater:
+  case BinaryOp::Greater:
     return integerValue(less(b, a, type));
-  case BinaryOp::greaterEqual:
+  case BinaryOp::GreaterEqual:
     return integerValue(!less(a, b, type));
-  case BinaryOp::logicalAnd:
-  case BinaryOp::andThen:
+  case BinaryOp::LogicalAnd:
+  case BinaryOp::AndThen:
     return integerValue(wrapTo(type, a & b));
-  case BinaryOp::logicalOr:
-  case BinaryOp::orElse:
+  case BinaryOp::LogicalOr:
+  case BinaryOp::OrElse:
     return integerValue(wrapTo(type, a | b));
-  case BinaryOp::logicalXor:
+  case BinaryOp::LogicalXor:
     return integerValue(wrapTo(type, a ^ b));
   }
   return std::nullopt;
 }
 
 std::optional<ConstValue> foldUnary(ast::UnaryOp op, const ConstValue &value, const Type *type) {
-  if (value.kind == ConstKind::string)
+  if (value.kind == ConstKind::String)
     return std::nullopt;
-  if (op == ast::UnaryOp::plus)
+  if (op == ast::UnaryOp::Plus)
     return value;
-  if (op == ast::UnaryOp::logicalNot) {
-    if (value.kind == ConstKind::real)
+  if (op == ast::UnaryOp::LogicalNot) {
+    if (value.kind == ConstKind::Real)
       return std::nullopt;
-    return integerValue(type->kind == TypeKind::boolean ? (value.integer == 0)
+    return integerValue(type->kind == TypeKind::Boolean ? (value.integer == 0)
                                                         : wrapTo(type, ~value.integer));
   }
-  if (value.kind == ConstKind::real)
+  if (value.kind == ConstKind::Real)
     return realValue(-value.real, type);
-  if (type->kind == TypeKind::anyInteger &&
-      value.integer == std::numeric_limits<std::int64_t>::min())
+  if (type->kind == TypeKind::AnyInteger && value.integer == std::numeric_limits<int64_t>::min())
     return std::nullopt;
-  return integerValue(wrapTo(type, static_cast<std::int64_t>(0 - bits(value.integer))));
+  return integerValue(wrapTo(type, static_cast<int64_t>(0 - bits(value.integer))));
 }
 
 } // namespace stc

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_FOLD_HPP
+#define STRIDE_COMPILER_SEMANTICS_FOLD_HPP
 // Arithmetic on constants, with the meaning the generated code has.
 
 #include "compiler/semantics/constant.hpp"
@@ -11,7 +12,7 @@ namespace stc {
 
 /// Cuts a 64-bit pattern to the width of an integer, bit-string, BOOL, time or date type and
 /// extends it again (sign for signed types, zero for the others).
-[[nodiscard]] std::int64_t wrapTo(const Type *type, std::int64_t value);
+[[nodiscard]] int64_t wrapTo(const Type *type, int64_t value);
 
 /// The value of `from` as a value of `to`: the meaning of X_TO_Y. Nothing for strings.
 [[nodiscard]] std::optional<ConstValue> convertConstant(const ConstValue &value, const Type *from,
@@ -28,3 +29,5 @@ namespace stc {
                                                   const Type *type);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_FOLD_HPP

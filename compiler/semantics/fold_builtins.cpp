@@ -15,7 +15,7 @@ namespace {
 
 using ast::Builtin;
 
-ConstValue realValue(double v) { return {ConstKind::real, 0, v, {}}; }
+ConstValue realValue(double v) { return {ConstKind::Real, 0, v, {}}; }
 
 // -------------------------------------------------------------------------------------------------
 // texts: UTF-8 in the compiler (with halves of surrogate pairs), Latin-1 or UTF-16 at run time
@@ -24,9 +24,9 @@ using Units = std::u16string;
 
 Units decode(std::string_view text, bool wide) {
   Units units;
-  for (std::size_t at = 0; at < text.size();) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    std::uint32_t point = byte(at++);
+  for (size_t at = 0; at < text.size();) {
+    const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
+    uint32_t point = byte(at++);
     const unsigned extra = point >= 0xF0 ? 3 : point >= 0xE0 ? 2 : point >= 0xC0 ? 1 : 0;
     if (extra != 0 && at + extra <= text.size()) {
       point &= 0x3FU >> extra;
@@ -45,7 +45,7 @@ Units decode(std::string_view text, bool wide) {
   return units.substr(0, units.find(u'\0')); // a text ends at its first NUL
 }
 
-void appendUtf8(std::string &out, std::uint32_t point) {
+void appendUtf8(std::string &out, uint32_t point) {
   const auto tail = [&](unsigned shift) {
     out += static_cast<char>(0x80U | (point >> shift & 0x3FU));
   };
@@ -69,64 +69,62 @@ void appendUtf8(std::string &out, std::uint32_t point) {
 /// Half of a surrogate pair becomes three bytes, as if it was a character; decode() knows it.
 ConstValue encode(const Units &units, Arena &arena) {
   std::string text;
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    std::uint32_t point = units[i];
+  for (size_t i = 0; i < units.size(); ++i) {
+    uint32_t point = units[i];
     if (point >= 0xD800 && point < 0xDC00 && i + 1 < units.size() && units[i + 1] >= 0xDC00 &&
         units[i + 1] < 0xE000)
       point = 0x10000 + ((point - 0xD800) << 10U) + (units[++i] - 0xDC00U);
     appendUtf8(text, point);
   }
-  return ConstValue{ConstKind::string, 0, 0, arena.copy(std::string_view(text))};
+  return ConstValue{ConstKind::String, 0, 0, arena.copy(std::string_view(text))};
 }
 
-std::size_t count(std::int64_t n) {
-  return n < 0 ? 0 : static_cast<std::size_t>(std::min<std::int64_t>(n, 0x10000));
-}
+size_t count(int64_t n) { return n < 0 ? 0 : static_cast<size_t>(std::min<int64_t>(n, 0x10000)); }
 
 /// The part [from, from + n) as far as there is one.
-Units part(const Units &s, std::size_t from, std::size_t n = Units::npos) {
+Units part(const Units &s, size_t from, size_t n = Units::npos) {
   return from >= s.size() ? Units() : s.substr(from, n);
 }
 
 std::optional<ConstValue> foldText(Builtin function, std::span<const ConstArgument> arguments,
                                    const Type *result, Arena &arena) {
-  const bool wide = arguments[0].type->kind == TypeKind::wstring;
-  const auto text = [&](std::size_t i) { return decode(arguments[i].value.text, wide); };
-  const auto number = [&](std::size_t i) { return arguments[i].value.integer; };
+  const bool wide = arguments[0].type->kind == TypeKind::Wstring;
+  const auto text = [&](size_t i) { return decode(arguments[i].value.text, wide); };
+  const auto number = [&](size_t i) { return arguments[i].value.integer; };
   const Units a = text(0);
   Units out;
   switch (function) {
-  case Builtin::len:
-    return integerValue(static_cast<std::int64_t>(a.size()));
-  case Builtin::find: {
+  case Builtin::Len:
+    return integerValue(static_cast<int64_t>(a.size()));
+  case Builtin::Find: {
     const Units b = text(1);
-    const std::size_t at = b.empty() ? Units::npos : a.find(b);
-    return integerValue(at == Units::npos ? 0 : static_cast<std::int64_t>(at + 1));
+    const size_t at = b.empty() ? Units::npos : a.find(b);
+    return integerValue(at == Units::npos ? 0 : static_cast<int64_t>(at + 1));
   }
-  case Builtin::left:
+  case Builtin::Left:
     out = part(a, 0, count(number(1)));
     break;
-  case Builtin::right:
+  case Builtin::Right:
     out = part(a, a.size() - std::min(a.size(), count(number(1))));
     break;
-  case Builtin::mid:
+  case Builtin::Mid:
     out = part(a, count(number(2) - (number(2) > 0 ? 1 : 0)), count(number(1)));
     break;
-  case Builtin::concat:
+  case Builtin::Concat:
     out = a + text(1);
     break;
-  case Builtin::insert: {
-    const std::size_t at = count(number(2));
+  case Builtin::Insert: {
+    const size_t at = count(number(2));
     out = part(a, 0, at) + text(1) + part(a, at);
     break;
   }
-  case Builtin::deleteS: {
-    const std::size_t from = count(number(2) - (number(2) > 0 ? 1 : 0));
+  case Builtin::Delete: {
+    const size_t from = count(number(2) - (number(2) > 0 ? 1 : 0));
     out = part(a, 0, from) + part(a, from + count(number(1)));
     break;
   }
-  case Builtin::replace: {
-    const std::size_t from = count(number(3) - (number(3) > 0 ? 1 : 0));
+  case Builtin::Replace: {
+    const size_t from = count(number(3) - (number(3) > 0 ? 1 : 0));
     out = part(a, 0, from) + text(1) + part(a, from + count(number(2)));
     break;
   }
@@ -141,64 +139,63 @@ std::optional<ConstValue> foldText(Builtin function, std::span<const ConstArgume
 // -------------------------------------------------------------------------------------------------
 // numbers
 
-template <class T> std::int64_t shifted(Builtin function, std::int64_t x, std::int64_t n) {
+template <class T> int64_t shifted(Builtin function, int64_t x, int64_t n) {
   const T value = static_cast<T>(x);
   switch (function) {
-  case Builtin::shl:
-    return static_cast<std::int64_t>(stride::shl(value, n));
-  case Builtin::shr:
-    return static_cast<std::int64_t>(stride::shr(value, n));
-  case Builtin::rol:
-    return static_cast<std::int64_t>(stride::rol(value, n));
+  case Builtin::Shl:
+    return static_cast<int64_t>(stride::shl(value, n));
+  case Builtin::Shr:
+    return static_cast<int64_t>(stride::shr(value, n));
+  case Builtin::Rol:
+    return static_cast<int64_t>(stride::rol(value, n));
   default:
-    return static_cast<std::int64_t>(stride::ror(value, n));
+    return static_cast<int64_t>(stride::ror(value, n));
   }
 }
 
-std::optional<ConstValue> foldShift(Builtin function, std::int64_t x, std::int64_t n,
-                                    const Type *type) {
+std::optional<ConstValue> foldShift(Builtin function, int64_t x, int64_t n, const Type *type) {
   const bool isSigned = isSignedInteger(type);
   switch (bitWidth(type)) {
   case 8:
-    return integerValue(isSigned ? shifted<std::int8_t>(function, x, n)
-                                 : shifted<std::uint8_t>(function, x, n));
+    return integerValue(isSigned ? shifted<int8_t>(function, x, n)
+                                 : shifted<uint8_t>(function, x, n));
   case 16:
-    return integerValue(isSigned ? shifted<std::int16_t>(function, x, n)
-                                 : shifted<std::uint16_t>(function, x, n));
+    return integerValue(isSigned ? shifted<int16_t>(function, x, n)
+                                 : shifted<uint16_t>(function, x, n));
   case 32:
-    return integerValue(isSigned ? shifted<std::int32_t>(function, x, n)
-                                 : shifted<std::uint32_t>(function, x, n));
+    return integerValue(isSigned ? shifted<int32_t>(function, x, n)
+                                 : shifted<uint32_t>(function, x, n));
   default:
-    return integerValue(isSigned ? shifted<std::int64_t>(function, x, n)
-                                 : shifted<std::uint64_t>(function, x, n));
+    return integerValue(isSigned ? shifted<int64_t>(function, x, n)
+                                 : shifted<uint64_t>(function, x, n));
   }
 }
 
 template <class T> std::optional<ConstValue> foldMath(Builtin function, T x, T y) {
   switch (function) {
-  case Builtin::sqrt:
+  case Builtin::Sqrt:
     return realValue(stride::sqrt(x));
-  case Builtin::ln:
+  case Builtin::Ln:
     return realValue(stride::ln(x));
-  case Builtin::log:
+  case Builtin::Log:
     return realValue(stride::log10(x));
-  case Builtin::exp:
+  case Builtin::Exp:
     return realValue(stride::exp(x));
-  case Builtin::sin:
+  case Builtin::Sin:
     return realValue(stride::sin(x));
-  case Builtin::cos:
+  case Builtin::Cos:
     return realValue(stride::cos(x));
-  case Builtin::tan:
+  case Builtin::Tan:
     return realValue(stride::tan(x));
-  case Builtin::asin:
+  case Builtin::Asin:
     return realValue(stride::asin(x));
-  case Builtin::acos:
+  case Builtin::Acos:
     return realValue(stride::acos(x));
-  case Builtin::atan:
+  case Builtin::Atan:
     return realValue(stride::atan(x));
-  case Builtin::atan2:
+  case Builtin::Atan2:
     return realValue(stride::atan2(x, y));
-  case Builtin::expt:
+  case Builtin::Expt:
     return realValue(stride::pow(x, y));
   default:
     return std::nullopt;
@@ -209,41 +206,40 @@ std::optional<ConstValue> foldTruncation(double value, const Type *to) {
   const Type *t = underlying(to);
   const auto cut = [&](auto narrow) {
     using T = decltype(narrow);
-    return integerValue(static_cast<std::int64_t>(stride::truncate<T>(value)));
+    return integerValue(static_cast<int64_t>(stride::truncate<T>(value)));
   };
   switch (bitWidth(t)) {
   case 8:
-    return isSignedInteger(t) ? cut(std::int8_t{}) : cut(std::uint8_t{});
+    return isSignedInteger(t) ? cut(int8_t{}) : cut(uint8_t{});
   case 16:
-    return isSignedInteger(t) ? cut(std::int16_t{}) : cut(std::uint16_t{});
+    return isSignedInteger(t) ? cut(int16_t{}) : cut(uint16_t{});
   case 32:
-    return isSignedInteger(t) ? cut(std::int32_t{}) : cut(std::uint32_t{});
+    return isSignedInteger(t) ? cut(int32_t{}) : cut(uint32_t{});
   default:
-    return isSignedInteger(t) ? cut(std::int64_t{}) : cut(std::uint64_t{});
+    return isSignedInteger(t) ? cut(int64_t{}) : cut(uint64_t{});
   }
 }
 
 bool less(const ConstArgument &a, const ConstArgument &b) {
-  if (a.value.kind == ConstKind::string)
-    return compareTexts(a.value.text, b.value.text, a.type->kind == TypeKind::wstring) < 0;
-  if (a.value.kind == ConstKind::real)
+  if (a.value.kind == ConstKind::String)
+    return compareTexts(a.value.text, b.value.text, a.type->kind == TypeKind::Wstring) < 0;
+  if (a.value.kind == ConstKind::Real)
     return a.value.real < b.value.real;
   if (isUnsigned64(a.type))
-    return static_cast<std::uint64_t>(a.value.integer) <
-           static_cast<std::uint64_t>(b.value.integer);
+    return static_cast<uint64_t>(a.value.integer) < static_cast<uint64_t>(b.value.integer);
   return a.value.integer < b.value.integer;
 }
 
 /// GT(a, b, c …): each argument with the one behind it.
 std::optional<ConstValue> foldOrder(Builtin function, std::span<const ConstArgument> arguments) {
   using enum ast::BinaryOp;
-  const ast::BinaryOp op = function == Builtin::greater        ? greater
-                           : function == Builtin::greaterEqual ? greaterEqual
-                           : function == Builtin::equal        ? equal
-                           : function == Builtin::lessEqual    ? lessEqual
-                                                               : less;
+  const ast::BinaryOp op = function == Builtin::Greater        ? Greater
+                           : function == Builtin::GreaterEqual ? GreaterEqual
+                           : function == Builtin::Equal        ? Equal
+                           : function == Builtin::LessEqual    ? LessEqual
+                                                               : Less;
   bool all = true;
-  for (std::size_t i = 1; i < arguments.size(); ++i) {
+  for (size_t i = 1; i < arguments.size(); ++i) {
     const auto pair = foldBinary(op, arguments[i - 1].value, arguments[i].value, arguments[i].type);
     if (!pair)
       return std::nullopt;
@@ -252,26 +248,26 @@ std::optional<ConstValue> foldOrder(Builtin function, std::span<const ConstArgum
   return integerValue(all ? 1 : 0);
 }
 
-std::int64_t swapped(const Type *type, std::int64_t value) {
+int64_t swapped(const Type *type, int64_t value) {
   switch (bitWidth(underlying(type))) {
   case 64:
-    return static_cast<std::int64_t>(stride::swapBytes(static_cast<std::uint64_t>(value)));
+    return static_cast<int64_t>(stride::swapBytes(static_cast<uint64_t>(value)));
   case 32:
-    return wrapTo(type, stride::swapBytes(static_cast<std::uint32_t>(value)));
+    return wrapTo(type, stride::swapBytes(static_cast<uint32_t>(value)));
   case 16:
-    return wrapTo(type, stride::swapBytes(static_cast<std::uint16_t>(value)));
+    return wrapTo(type, stride::swapBytes(static_cast<uint16_t>(value)));
   default:
     return value;
   }
 }
 
 std::optional<ConstValue> foldAbs(const ConstArgument &x) {
-  if (x.value.kind == ConstKind::real)
+  if (x.value.kind == ConstKind::Real)
     return realValue(stride::abs(x.value.real));
   const Type *u = underlying(x.type);
-  if (x.value.integer < 0 && (isSignedInteger(u) || u->kind == TypeKind::ltime))
+  if (x.value.integer < 0 && (isSignedInteger(u) || u->kind == TypeKind::Ltime))
     return integerValue(
-        wrapTo(u, static_cast<std::int64_t>(0 - static_cast<std::uint64_t>(x.value.integer))));
+        wrapTo(u, static_cast<int64_t>(0 - static_cast<uint64_t>(x.value.integer))));
   return x.value;
 }
 
@@ -281,18 +277,18 @@ std::optional<ConstValue> foldAbs(const ConstArgument &x) {
 /// The run time's name of an elementary kind; both lists have the same order.
 stride::Kind runtimeKind(const Type *type) {
   static_assert(
-      static_cast<unsigned>(TypeKind::wstring) - static_cast<unsigned>(TypeKind::boolean) ==
+      static_cast<unsigned>(TypeKind::Wstring) - static_cast<unsigned>(TypeKind::Boolean) ==
       static_cast<unsigned>(stride::Kind::WSTRING) - static_cast<unsigned>(stride::Kind::BOOL));
   return static_cast<stride::Kind>(static_cast<unsigned>(underlying(type)->kind) -
-                                   static_cast<unsigned>(TypeKind::boolean) +
+                                   static_cast<unsigned>(TypeKind::Boolean) +
                                    static_cast<unsigned>(stride::Kind::BOOL));
 }
 
-std::int64_t betweenTimes(std::int64_t value, stride::Kind from, stride::Kind to) {
+int64_t betweenTimes(int64_t value, stride::Kind from, stride::Kind to) {
   using namespace stride::detail;
   using stride::floorDivide;
-  auto ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(value) *
-                                      static_cast<std::uint64_t>(unitNs(from)));
+  auto ns =
+      static_cast<int64_t>(static_cast<uint64_t>(value) * static_cast<uint64_t>(unitNs(from)));
   if (isDate(to) && (isDateAndTime(from) || isDate(from)))
     ns = floorDivide(ns, kDayNs) * kDayNs;
   else if (isTimeOfDay(to) && isDateAndTime(from))
@@ -305,28 +301,28 @@ std::optional<ConstValue> toText(const ConstValue &value, const Type *from, cons
   char buffer[stride::text::kBufferSize];
   const auto single = static_cast<float>(value.real);
   const Type *u = underlying(from);
-  const void *memory = u->kind == TypeKind::lreal  ? static_cast<const void *>(&value.real)
-                       : u->kind == TypeKind::real ? static_cast<const void *>(&single)
+  const void *memory = u->kind == TypeKind::Lreal  ? static_cast<const void *>(&value.real)
+                       : u->kind == TypeKind::Real ? static_cast<const void *>(&single)
                                                    : static_cast<const void *>(&value.integer);
-  const std::uint32_t length = stride::text::formatValue(buffer, runtimeKind(from), memory);
-  const std::uint32_t room = typeAs<StringType>(to)->length;
-  return ConstValue{ConstKind::string, 0, 0,
+  const uint32_t length = stride::text::formatValue(buffer, runtimeKind(from), memory);
+  const uint32_t room = typeAs<StringType>(to)->length;
+  return ConstValue{ConstKind::String, 0, 0,
                     arena.copy(std::string_view(buffer, std::min(length, room)))};
 }
 
 std::optional<ConstValue> fromText(const ConstValue &value, const Type *from, const Type *to) {
   std::string text;
-  for (const char16_t unit : decode(value.text, from->kind == TypeKind::wstring))
+  for (const char16_t unit : decode(value.text, from->kind == TypeKind::Wstring))
     text += unit < 256 ? static_cast<char>(unit) : '?';
-  std::uint64_t memory = 0;
+  uint64_t memory = 0;
   const Type *u = underlying(to);
-  stride::text::parseValue(runtimeKind(to), text.c_str(), static_cast<std::uint32_t>(text.size()),
+  stride::text::parseValue(runtimeKind(to), text.c_str(), static_cast<uint32_t>(text.size()),
                            &memory);
-  if (u->kind == TypeKind::lreal)
+  if (u->kind == TypeKind::Lreal)
     return realValue(std::bit_cast<double>(memory));
-  if (u->kind == TypeKind::real)
-    return realValue(static_cast<double>(std::bit_cast<float>(static_cast<std::uint32_t>(memory))));
-  return integerValue(wrapTo(u, static_cast<std::int64_t>(memory)));
+  if (u->kind == TypeKind::Real)
+    return realValue(static_cast<double>(std::bit_cast<float>(static_cast<uint32_t>(memory))));
+  return integerValue(wrapTo(u, static_cast<int64_t>(memory)));
 }
 
 } // namespace
@@ -335,11 +331,11 @@ int compareTexts(std::string_view a, std::string_view b, bool wide) {
   return decode(a, wide).compare(decode(b, wide));
 }
 
-std::size_t textLength(std::string_view text, bool wide) { return decode(text, wide).size(); }
+size_t textLength(std::string_view text, bool wide) { return decode(text, wide).size(); }
 
-std::uint16_t firstUnit(std::string_view text, bool wide) {
+uint16_t firstUnit(std::string_view text, bool wide) {
   const Units units = decode(text, wide);
-  return units.empty() ? std::uint16_t{0} : static_cast<std::uint16_t>(units.front());
+  return units.empty() ? uint16_t{0} : static_cast<uint16_t>(units.front());
 }
 
 std::optional<ConstValue> foldConversion(const ConstValue &value, const Type *from, const Type *to,
@@ -347,19 +343,19 @@ std::optional<ConstValue> foldConversion(const ConstValue &value, const Type *fr
   const Type *f = underlying(from);
   const Type *t = underlying(to);
   if (isString(f) && isString(t)) {
-    Units units = decode(value.text, f->kind == TypeKind::wstring);
-    if (t->kind == TypeKind::string)
+    Units units = decode(value.text, f->kind == TypeKind::Wstring);
+    if (t->kind == TypeKind::String)
       std::replace_if(
           units.begin(), units.end(), [](char16_t c) { return c > 0xFF; }, u'?');
     if (units.size() > typeAs<StringType>(t)->length)
       units.resize(typeAs<StringType>(t)->length);
     return encode(units, arena);
   }
-  if (from->kind == TypeKind::enumeration && typeAs<EnumType>(from)->named &&
-      t->kind == TypeKind::string) {
+  if (from->kind == TypeKind::Enumeration && typeAs<EnumType>(from)->named &&
+      t->kind == TypeKind::String) {
     for (const EnumeratorSymbol *e : typeAs<EnumType>(from)->enumerators) {
       if (e->value == value.integer)
-        return ConstValue{ConstKind::string, 0, 0,
+        return ConstValue{ConstKind::String, 0, 0,
                           e->name.text.substr(0, typeAs<StringType>(t)->length)};
     }
   }
@@ -367,16 +363,16 @@ std::optional<ConstValue> foldConversion(const ConstValue &value, const Type *fr
     Units one;
     const auto unit = static_cast<char16_t>(value.integer);
     if (unit != 0)
-      one += unit > 0xFF && t->kind == TypeKind::string ? u'?' : unit;
+      one += unit > 0xFF && t->kind == TypeKind::String ? u'?' : unit;
     return encode(one, arena);
   }
-  if (f->kind == TypeKind::wcharT && t->kind == TypeKind::charT)
+  if (f->kind == TypeKind::Wchar && t->kind == TypeKind::Char)
     return integerValue(value.integer > 0xFF ? '?' : value.integer);
   if (isString(t))
     return toText(value, from, to, arena);
   if (isString(f) && isCharacter(t)) {
-    const std::uint16_t unit = firstUnit(value.text, f->kind == TypeKind::wstring);
-    return integerValue(unit > 0xFF && t->kind == TypeKind::charT ? '?' : unit);
+    const uint16_t unit = firstUnit(value.text, f->kind == TypeKind::Wstring);
+    return integerValue(unit > 0xFF && t->kind == TypeKind::Char ? '?' : unit);
   }
   if (isString(f))
     return fromText(value, from, to);
@@ -387,13 +383,13 @@ std::optional<ConstValue> foldConversion(const ConstValue &value, const Type *fr
   if (isTimeOrDate(f) && isReal(t)) {
     const auto wide = static_cast<double>(value.integer);
     return realValue(
-        t->kind == TypeKind::real ? static_cast<double>(static_cast<float>(value.integer)) : wide);
+        t->kind == TypeKind::Real ? static_cast<double>(static_cast<float>(value.integer)) : wide);
   }
   if (isTimeOrDate(f) && isInteger(t))
     return integerValue(wrapTo(t, value.integer));
-  if (isTimeOrDate(t) && value.kind == ConstKind::real)
-    return bitWidth(t) == 32 ? integerValue(stride::convert<std::uint32_t>(value.real))
-                             : integerValue(stride::convert<std::int64_t>(value.real));
+  if (isTimeOrDate(t) && value.kind == ConstKind::Real)
+    return bitWidth(t) == 32 ? integerValue(stride::convert<uint32_t>(value.real))
+                             : integerValue(stride::convert<int64_t>(value.real));
   if (isTimeOrDate(t))
     return integerValue(wrapTo(t, value.integer));
   return convertConstant(value, from, to);
@@ -405,71 +401,70 @@ std::optional<ConstValue> foldBuiltin(Builtin function, std::span<const ConstArg
     return std::nullopt;
   const ConstArgument &first = arguments.front();
   switch (function) {
-  case Builtin::abs:
+  case Builtin::Abs:
     return foldAbs(first);
-  case Builtin::min:
-  case Builtin::max: {
+  case Builtin::Min:
+  case Builtin::Max: {
     const ConstArgument *best = &first;
     for (const ConstArgument &a : arguments.subspan(1)) {
-      if (function == Builtin::min ? less(a, *best) : less(*best, a))
+      if (function == Builtin::Min ? less(a, *best) : less(*best, a))
         best = &a;
     }
     return best->value;
   }
-  case Builtin::limit: {
+  case Builtin::Limit: {
     const ConstArgument &low = less(arguments[1], first) ? first : arguments[1];
     return (less(arguments[2], low) ? arguments[2] : low).value;
   }
-  case Builtin::sel:
+  case Builtin::Sel:
     return arguments[first.value.integer != 0 ? 2 : 1].value;
-  case Builtin::mux: {
-    const std::int64_t at = first.value.integer;
-    if (at < 0 || static_cast<std::uint64_t>(at) + 1 >= arguments.size())
+  case Builtin::Mux: {
+    const int64_t at = first.value.integer;
+    if (at < 0 || static_cast<uint64_t>(at) + 1 >= arguments.size())
       return std::nullopt;
-    return arguments[static_cast<std::size_t>(at) + 1].value;
+    return arguments[static_cast<size_t>(at) + 1].value;
   }
-  case Builtin::move:
+  case Builtin::Move:
     return first.value;
-  case Builtin::shl:
-  case Builtin::shr:
-  case Builtin::rol:
-  case Builtin::ror:
+  case Builtin::Shl:
+  case Builtin::Shr:
+  case Builtin::Rol:
+  case Builtin::Ror:
     return foldShift(function, first.value.integer, arguments[1].value.integer, result);
-  case Builtin::trunc:
+  case Builtin::Trunc:
     return foldTruncation(first.value.real, result);
-  case Builtin::greater:
-  case Builtin::greaterEqual:
-  case Builtin::equal:
-  case Builtin::lessEqual:
-  case Builtin::less:
+  case Builtin::Greater:
+  case Builtin::GreaterEqual:
+  case Builtin::Equal:
+  case Builtin::LessEqual:
+  case Builtin::Less:
     return foldOrder(function, arguments);
-  case Builtin::fromBcd:
-    return integerValue(wrapTo(
-        result, stride::fromBcd<std::int64_t>(static_cast<std::uint64_t>(first.value.integer))));
-  case Builtin::toBcd:
-    return integerValue(wrapTo(
-        result, stride::toBcd<std::int64_t>(static_cast<std::uint64_t>(first.value.integer))));
-  case Builtin::isValidBcd:
+  case Builtin::FromBcd:
     return integerValue(
-        stride::isValidBcd<std::uint8_t>(static_cast<std::uint64_t>(first.value.integer)));
-  case Builtin::isValid:
-    return integerValue(stride::isValid<std::uint8_t>(first.value.real));
-  case Builtin::bigEndian: // what a REAL's bytes mean backwards has bits that no constant keeps
-    return first.value.kind == ConstKind::real
+        wrapTo(result, stride::fromBcd<int64_t>(static_cast<uint64_t>(first.value.integer))));
+  case Builtin::ToBcd:
+    return integerValue(
+        wrapTo(result, stride::toBcd<int64_t>(static_cast<uint64_t>(first.value.integer))));
+  case Builtin::IsValidBcd:
+    return integerValue(stride::isValidBcd<uint8_t>(static_cast<uint64_t>(first.value.integer)));
+  case Builtin::IsValid:
+    return integerValue(stride::isValid<uint8_t>(first.value.real));
+  case Builtin::BigEndian: // what a REAL's bytes mean backwards has bits that no constant keeps
+    return first.value.kind == ConstKind::Real
                ? std::nullopt
                : std::optional(integerValue(swapped(result, first.value.integer)));
-  case Builtin::littleEndian:
+  case Builtin::LittleEndian:
     return first.value;
   default:
     break;
   }
-  if (function >= Builtin::len && function <= Builtin::find)
+  if (function >= Builtin::Len && function <= Builtin::Find)
     return foldText(function, arguments, result, arena);
-  if (function < Builtin::sqrt || function > Builtin::expt)
+  if (function < Builtin::Sqrt || function > Builtin::Expt)
     return std::nullopt;
   const double x = first.value.real;
   const double y = arguments.size() > 1 ? arguments[1].value.real : 0;
-  if (underlying(result)->kind == TypeKind::real)
+  if (underlying(result)->kind == TypeKind::Real)
     return foldMath(function, static_cast<float>(x), static_cast<float>(y));
   return foldMath(function, x, y);
 }

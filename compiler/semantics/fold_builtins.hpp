@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_FOLD_BUILTINS_HPP
+#define STRIDE_COMPILER_SEMANTICS_FOLD_BUILTINS_HPP
 // Standard functions of constants, computed by the functions that the generated code calls, so that
 // both give the same bits.
 
@@ -31,8 +32,10 @@ struct ConstArgument {
 [[nodiscard]] int compareTexts(std::string_view a, std::string_view b, bool wide);
 
 /// The first of them; 0 of an empty text.
-[[nodiscard]] std::uint16_t firstUnit(std::string_view text, bool wide);
+[[nodiscard]] uint16_t firstUnit(std::string_view text, bool wide);
 /// Number of places a text takes: characters of Latin-1, or units of UTF-16.
-[[nodiscard]] std::size_t textLength(std::string_view text, bool wide);
+[[nodiscard]] size_t textLength(std::string_view text, bool wide);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_FOLD_BUILTINS_HPP

@@ -54,7 +54,7 @@ bool convertsTo(const PouSymbol *from, const PouSymbol *to) {
 VarSymbol *findVariable(const PouSymbol *pou, Ident id) {
   for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
     const auto it = p->scope.find(id);
-    if (it != p->scope.end() && (p == pou || it->second->section != ast::Section::temp))
+    if (it != p->scope.end() && (p == pou || it->second->section != ast::Section::Temp))
       return it->second;
   }
   return nullptr;
@@ -79,7 +79,7 @@ Symbol *memberNamed(const PouSymbol *pou, Ident id) {
 
 PouSymbol *findMethod(const PouSymbol *pou, Ident id) {
   Symbol *symbol = memberNamed(pou, id);
-  return symbol != nullptr && symbol->kind == SymbolKind::pou ? static_cast<PouSymbol *>(symbol)
+  return symbol != nullptr && symbol->kind == SymbolKind::Pou ? static_cast<PouSymbol *>(symbol)
                                                               : nullptr;
 }
 
@@ -90,7 +90,7 @@ PouSymbol *implementation(const PouSymbol *pou, const PouSymbol *method) {
   const bool get = method->property->get == method;
   for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
     const auto it = p->members.find(method->property->name.id);
-    if (it == p->members.end() || it->second->kind != SymbolKind::property)
+    if (it == p->members.end() || it->second->kind != SymbolKind::Property)
       continue;
     const auto *property = static_cast<const PropertySymbol *>(it->second);
     if (PouSymbol *accessor = get ? property->get : property->set)
@@ -143,7 +143,7 @@ std::vector<VarSymbol *> constructInputs(const PouSymbol *pou) {
   if (init == nullptr)
     return list;
   for (VarSymbol *v : init->variables) {
-    if (v->section == ast::Section::input && v->name.id->lower != "binitretains" &&
+    if (v->section == ast::Section::Input && v->name.id->lower != "binitretains" &&
         v->name.id->lower != "bincopycode")
       list.push_back(v);
   }
@@ -170,7 +170,7 @@ std::vector<PouSymbol *> afterInitMethods(const PouSymbol *pou) {
 bool isDispatched(const PouSymbol *method) {
   const PouSymbol *owner = method->owner;
   if (!owner->isBlock() || method->isFinal() || owner->isFinal() ||
-      method->decl->access == ast::Access::privateA || method->name.id->lower == "fb_init" ||
+      method->decl->access == ast::Access::Private || method->name.id->lower == "fb_init" ||
       method->name.id->lower == "fb_exit" || method->name.id->lower == "fb_reinit")
     return false;
   if (!owner->library->isUser)
@@ -179,7 +179,7 @@ bool isDispatched(const PouSymbol *method) {
 }
 
 bool isBodyDispatched(const PouSymbol *block) {
-  if (block->decl->kind != ast::DeclKind::functionBlock || block->isFinal())
+  if (block->decl->kind != ast::DeclKind::FunctionBlock || block->isFinal())
     return false;
   return block->library->isUser ? block->extended : hasTypeId(block);
 }

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_HIERARCHY_HPP
+#define STRIDE_COMPILER_SEMANTICS_HIERARCHY_HPP
 // Questions about EXTENDS and IMPLEMENTS, for the checker and the code generator.
 
 #include "compiler/semantics/symbols.hpp"
@@ -57,3 +58,5 @@ namespace stc {
 [[nodiscard]] std::vector<PouSymbol *> allInterfaces(const PouSymbol *pou);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_HIERARCHY_HPP

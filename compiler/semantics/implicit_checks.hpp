@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_IMPLICIT_CHECKS_HPP
+#define STRIDE_COMPILER_SEMANTICS_IMPLICIT_CHECKS_HPP
 // Functions of the project that replace the built-in run-time checks, by their names as CODESYS has
 // them.
 
@@ -11,24 +12,24 @@
 
 namespace stc {
 
-enum class ImplicitCheck : std::uint8_t {
-  bounds,  ///< CheckBounds(index, lower, upper : DINT) : DINT
-  divByte, ///< CheckDivByte … CheckDivLReal(divisor) : type of the divisor
-  divWord,
-  divDword,
-  divInt,
-  divDint,
-  divLint,
-  divReal,
-  divLreal,
-  rangeSigned,     ///< CheckRangeSigned(value, lower, upper : DINT) : DINT
-  rangeUnsigned,   ///< … UDINT
-  rangeLongSigned, ///< CheckLRangeSigned … LINT
-  rangeLongUnsigned,
-  pointer, ///< CheckPointer(p : POINTER TO BYTE, size, gran : DINT, write : BOOL) : POINTER TO BYTE
+enum class ImplicitCheck : uint8_t {
+  Bounds,  ///< CheckBounds(index, lower, upper : DINT) : DINT
+  DivByte, ///< CheckDivByte … CheckDivLReal(divisor) : type of the divisor
+  DivWord,
+  DivDword,
+  DivInt,
+  DivDint,
+  DivLint,
+  DivReal,
+  DivLreal,
+  RangeSigned,     ///< CheckRangeSigned(value, lower, upper : DINT) : DINT
+  RangeUnsigned,   ///< … UDINT
+  RangeLongSigned, ///< CheckLRangeSigned … LINT
+  RangeLongUnsigned,
+  Pointer, ///< CheckPointer(p : POINTER TO BYTE, size, gran : DINT, write : BOOL) : POINTER TO BYTE
 };
 
-inline constexpr std::size_t kImplicitChecks = static_cast<std::size_t>(ImplicitCheck::pointer) + 1;
+inline constexpr size_t kImplicitChecks = static_cast<size_t>(ImplicitCheck::Pointer) + 1;
 
 /// The functions of the project; null where it has none.
 using ImplicitChecks = std::array<PouSymbol *, kImplicitChecks>;
@@ -37,9 +38,11 @@ struct ImplicitCheckName {
   std::string_view lowerName;
   std::string_view signature; ///< as diagnostics show it
   TypeKind value;             ///< of the result and of the inputs; none: CheckPointer
-  std::size_t inputs;
+  size_t inputs;
 };
 /// By ImplicitCheck.
 [[nodiscard]] std::span<const ImplicitCheckName, kImplicitChecks> implicitCheckNames();
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_IMPLICIT_CHECKS_HPP

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_LOCATIONS_HPP
+#define STRIDE_COMPILER_SEMANTICS_LOCATIONS_HPP
 // Places in the process image.
 
 #include "compiler/semantics/program.hpp"
@@ -13,12 +14,11 @@ namespace stc {
 /// Bytes of what a size letter names: 1 for X and B, 2 for W, 4 for D, 8 for L.
 [[nodiscard]] unsigned unitBytes(char size);
 /// The size letter of so many bytes; B if none has that size.
-[[nodiscard]] char sizeLetter(std::uint64_t bytes);
+[[nodiscard]] char sizeLetter(uint64_t bytes);
 /// I, Q, M
 [[nodiscard]] char areaLetter(Area area);
 /// `%MW3`: the address of a variable of `bytes` bytes there.
-[[nodiscard]] std::string addressText(const Location &at, std::uint64_t bytes,
-                                      Addressing addressing);
+[[nodiscard]] std::string addressText(const Location &at, uint64_t bytes, Addressing addressing);
 
 /// The located variable that the expression names; null for all others.
 [[nodiscard]] const VarSymbol *locatedVariable(const ast::Expr *expr);
@@ -30,3 +30,5 @@ namespace stc {
 [[nodiscard]] bool isBitField(const ast::Expr *expr);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_LOCATIONS_HPP

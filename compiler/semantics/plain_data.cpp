@@ -5,7 +5,7 @@
 namespace stc {
 
 bool isAddress(const Type *type) {
-  return type->kind == TypeKind::pointer || type->kind == TypeKind::interface;
+  return type->kind == TypeKind::Pointer || type->kind == TypeKind::Interface;
 }
 
 bool isScalarValue(const Type *type) {
@@ -13,23 +13,23 @@ bool isScalarValue(const Type *type) {
 }
 
 bool isAxisType(const Type *type) {
-  if (type == nullptr || type->kind != TypeKind::structure)
+  if (type == nullptr || type->kind != TypeKind::Structure)
     return false;
   const std::string_view name = typeAs<StructType>(type)->symbol->name.id->lower;
   return name == "axis_ref" || name == "smc_axisgroup_ref";
 }
 
 bool isUnionType(const Type *type) {
-  return type->kind == TypeKind::structure && typeAs<StructType>(type)->isUnion;
+  return type->kind == TypeKind::Structure && typeAs<StructType>(type)->isUnion;
 }
 
 bool isPlainData(const Type *type) {
   return !anyHeld(type, [](const Type *t, const VarSymbol *v) {
     if ((v != nullptr && v->location != nullptr) || isAxisType(t))
-      return Held::found;
-    if (t->kind == TypeKind::structure)
-      return Held::inside;
-    return isScalarValue(t) || isString(t) ? Held::over : Held::found;
+      return Held::Found;
+    if (t->kind == TypeKind::Structure)
+      return Held::Inside;
+    return isScalarValue(t) || isString(t) ? Held::Over : Held::Found;
   });
 }
 

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_PLAIN_DATA_HPP
+#define STRIDE_COMPILER_SEMANTICS_PLAIN_DATA_HPP
 // Types by how their values are read and written: in one step, byte by byte, or not at all by
 // several tasks.
 
@@ -19,3 +20,5 @@ namespace stc {
 [[nodiscard]] bool isPlainData(const Type *type);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_PLAIN_DATA_HPP

@@ -4,7 +4,7 @@ namespace stc {
 
 std::string pathText(const StatePath &path) {
   std::string text(path.root->name.text);
-  const Type *type = path.root->kind == SymbolKind::pou
+  const Type *type = path.root->kind == SymbolKind::Pou
                          ? static_cast<const PouSymbol *>(path.root)->type
                          : static_cast<const VarSymbol *>(path.root)->type;
   for (const PathStep &step : path.steps) {
@@ -14,7 +14,7 @@ std::string pathText(const StatePath &path) {
       continue;
     }
     const auto *array = typeAs<ArrayType>(type);
-    const std::string index = std::to_string(array->low + static_cast<std::int64_t>(step.element));
+    const std::string index = std::to_string(array->low + static_cast<int64_t>(step.element));
     if (text.back() == ']')
       text.replace(text.size() - 1, 1, "," + index + "]");
     else

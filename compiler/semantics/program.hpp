@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_PROGRAM_HPP
+#define STRIDE_COMPILER_SEMANTICS_PROGRAM_HPP
 // A checked program: what codegen works on.
 
 #include "compiler/semantics/implicit_checks.hpp"
@@ -57,16 +58,16 @@ public:
 };
 
 /// What the numbers of direct addresses count.
-enum class Addressing : std::uint8_t {
-  units, ///< units of their size: `%MW3` is bytes 6 and 7; bits by byte: `%MX3.1`
-  bytes, ///< bytes: `%MW3` is bytes 3 and 4
-  words, ///< units of their size; bits by word: `%MX3.9` is bit 1 of byte 7
+enum class Addressing : uint8_t {
+  Units, ///< units of their size: `%MW3` is bytes 6 and 7; bits by byte: `%MX3.1`
+  Bytes, ///< bytes: `%MW3` is bytes 3 and 4
+  Words, ///< units of their size; bits by word: `%MX3.9` is bit 1 of byte 7
 };
 
 /// From an object to something inside of it.
 struct PathStep {
   const VarSymbol *member = nullptr; ///< null: an element
-  std::uint64_t element = 0;         ///< counted from 0
+  uint64_t element = 0;              ///< counted from 0
 };
 
 /// A variable of the application's state.
@@ -99,11 +100,11 @@ struct AccessPath {
 inline constexpr std::string_view kProgramInstance = "program instance";
 
 struct Settings {
-  std::uint64_t poolSize = 65536; ///< bytes for the objects of __NEW, a multiple of 16
-  bool checks = true;             ///< run-time checks (index, division, null, subrange)
-  Levels levels; ///< severities given on the command line; they go before stride.toml's
-  Addressing addressing = Addressing::units;
-  std::array<std::uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs
+  uint64_t poolSize = 65536; ///< bytes for the objects of __NEW, a multiple of 16
+  bool checks = true;        ///< run-time checks (index, division, null, subrange)
+  Levels levels;             ///< severities given on the command line; they go before stride.toml's
+  Addressing addressing = Addressing::Units;
+  std::array<uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs
   unsigned pack = 0; ///< of the project's structures without pack_mode; 0: natural alignment
   std::vector<Define>
       defines; ///< names that `{IF defined (…)}` knows, besides those of stride.toml
@@ -111,7 +112,7 @@ struct Settings {
 
 /// The process image: bytes per area, by Area.
 struct Image {
-  std::array<std::uint32_t, 3> bytes{};
+  std::array<uint32_t, 3> bytes{};
   std::array<const Type *, 3> types{}; ///< ARRAY [0..n-1] OF BYTE; null where an area is empty
 };
 
@@ -129,7 +130,7 @@ struct Program {
   Library *user = nullptr;        ///< the project; null while a library itself is compiled
   std::vector<ast::File *> files; ///< parsed user files
   /// Types whose size the program asks for (SIZEOF), with what the checker has computed.
-  std::vector<std::pair<const Type *, std::uint64_t>> measured;
+  std::vector<std::pair<const Type *, uint64_t>> measured;
   /// Types that the program creates objects of (__NEW), in the order of first use.
   std::vector<const Type *> created;
   ImplicitChecks implicitChecks{}; ///< the project's own run-time checks
@@ -155,3 +156,5 @@ void check(Program &program, Lookup &names, const std::vector<ast::File *> &file
 void checkLibrary(Program &program, std::string_view library, const LibraryIndex &index);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_PROGRAM_HPP

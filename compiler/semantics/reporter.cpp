@@ -7,7 +7,7 @@ namespace stc {
 namespace {
 
 /// How many are shown is up to the command; this only bounds what is kept.
-constexpr std::size_t kMaxErrors = 1000;
+constexpr size_t kMaxErrors = 1000;
 
 } // namespace
 

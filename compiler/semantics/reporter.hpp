@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_REPORTER_HPP
+#define STRIDE_COMPILER_SEMANTICS_REPORTER_HPP
 // Diagnostics of one check, up to a limit.
 
 #include "compiler/source/diagnostic.hpp"
@@ -20,8 +21,10 @@ public:
 
 private:
   Diagnostics &diagnostics_;
-  std::size_t limit_;
+  size_t limit_;
   Diagnostic notKept_; ///< takes the others
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_REPORTER_HPP

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_SHARING_HPP
+#define STRIDE_COMPILER_SEMANTICS_SHARING_HPP
 // Which tasks reach which variables: found by following the calls from the tasks' programs. It
 // decides what generated code reads and writes atomically and what the runtime copies for a task.
 
@@ -26,20 +27,20 @@ struct TaskEntry {
 
 /// Bytes of the process image that a task uses.
 struct ImageUse {
-  std::uint32_t task = 0;
-  std::uint8_t area = 0; ///< Area
-  bool writes = false;   ///< else it reads them
-  std::uint32_t first = 0;
-  std::uint32_t count = 0;
+  uint32_t task = 0;
+  uint8_t area = 0;    ///< Area
+  bool writes = false; ///< else it reads them
+  uint32_t first = 0;
+  uint32_t count = 0;
 };
 
-inline constexpr std::uint32_t kNoTask = 0xFFFFFFFF;
+inline constexpr uint32_t kNoTask = 0xFFFFFFFF;
 
 /// A variable with {attribute 'consistent'} that other tasks than the one that writes it read.
 struct ConsistentVariable {
   const VarSymbol *variable = nullptr;
-  std::uint32_t writer = 0;
-  std::vector<std::uint32_t> readers;
+  uint32_t writer = 0;
+  std::vector<uint32_t> readers;
 };
 
 /// What a program's tasks have in common. Empty for a program with one task, but for imageUses and
@@ -59,20 +60,20 @@ struct Sharing {
   /// Where these are named and read: each task reads its own copy.
   std::unordered_set<const ast::Expr *> copies;
   /// The one task that writes (or calls) a global variable or program; absent: none, or several.
-  std::unordered_map<const Symbol *, std::uint32_t> writers;
+  std::unordered_map<const Symbol *, uint32_t> writers;
 
   [[nodiscard]] bool empty() const {
     return variables.empty() && contents.empty() && imageBytes[0].empty() &&
            imageBytes[1].empty() && imageBytes[2].empty();
   }
   /// Some of the bytes of the process image are shared.
-  [[nodiscard]] bool shares(const Location &at, std::uint64_t bytes) const;
+  [[nodiscard]] bool shares(const Location &at, uint64_t bytes) const;
   /// The place that the expression names is read and written atomically.
   [[nodiscard]] bool holds(const ast::Expr *place) const;
 };
 
 /// The index of the task that serves a drive; kNoTask for what is none.
-using DriveTask = std::function<std::uint32_t(const VarSymbol *drive)>;
+using DriveTask = std::function<uint32_t(const VarSymbol *drive)>;
 
 /// Follows the calls of the tasks through a program without errors, notes the result in
 /// program.sharing, and reports what several tasks must not share.
@@ -80,3 +81,5 @@ void findSharing(Program &program, const std::vector<TaskEntry> &tasks,
                  const DriveTask &taskOfDrive);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_SHARING_HPP

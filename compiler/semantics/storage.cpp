@@ -10,21 +10,21 @@ namespace stc {
 namespace {
 
 /// Sizes end here: no sum of them overflows, and what is so large has been reported.
-constexpr std::uint64_t kMaxStorage = std::uint64_t{1} << 48U;
+constexpr uint64_t kMaxStorage = uint64_t{1} << 48U;
 
 } // namespace
 
-std::uint64_t Storage::Layout::add(StorageExtent member) {
+uint64_t Storage::Layout::add(StorageExtent member) {
   if (pack != 0)
     member.align = std::min(member.align, pack);
-  const std::uint64_t at = (extent.size + member.align - 1) / member.align * member.align;
+  const uint64_t at = (extent.size + member.align - 1) / member.align * member.align;
   extent.size = std::min(at + member.size, kMaxStorage);
   extent.align = std::max(extent.align, member.align);
   bits = 0;
   return at;
 }
 
-std::uint64_t Storage::Layout::addBit() {
+uint64_t Storage::Layout::addBit() {
   constexpr unsigned kBitsOfByte = 8;
   if (bits == 0 || bits == kBitsOfByte)
     add({1, 1});
@@ -49,11 +49,11 @@ StorageExtent Storage::of(const Type *type) {
 }
 
 StorageExtent Storage::field(const VarSymbol *v) {
-  if (v->type->kind == TypeKind::openArray) // its address and the bounds
-    return {8 + std::uint64_t{16} * typeAs<OpenArrayType>(v->type)->dimensions, 8};
+  if (v->type->kind == TypeKind::OpenArray) // its address and the bounds
+    return {8 + uint64_t{16} * typeAs<OpenArrayType>(v->type)->dimensions, 8};
   if (isSlot(v))
     return {4, 4};
-  if (v->section == ast::Section::inOut)
+  if (v->section == ast::Section::InOut)
     return {8, 8};
   return of(v->type);
 }
@@ -61,7 +61,7 @@ StorageExtent Storage::field(const VarSymbol *v) {
 Storage::Layout Storage::members(const Type *owner, const VarSymbol *until, BitPlace &place) {
   Layout layout;
   layout.pack = packOf(owner);
-  const bool isUnion = owner->kind == TypeKind::structure && typeAs<StructType>(owner)->isUnion;
+  const bool isUnion = owner->kind == TypeKind::Structure && typeAs<StructType>(owner)->isUnion;
   const auto add = [&](const VarSymbol *v) {
     if (isUnion) {
       const StorageExtent member = field(v);
@@ -69,11 +69,11 @@ Storage::Layout Storage::members(const Type *owner, const VarSymbol *until, BitP
       layout.extent.align = std::max(layout.extent.align, member.align);
       return;
     }
-    const std::uint64_t at = v->isBit ? layout.addBit() : layout.add(field(v));
+    const uint64_t at = v->isBit ? layout.addBit() : layout.add(field(v));
     if (v == until)
       place = {at, v->isBit ? layout.bits - 1 : 0};
   };
-  if (owner->kind == TypeKind::structure) {
+  if (owner->kind == TypeKind::Structure) {
     const auto *s = typeAs<StructType>(owner);
     if (s->base != nullptr)
       layout.add(of(s->base));
@@ -93,7 +93,7 @@ Storage::Layout Storage::members(const Type *owner, const VarSymbol *until, BitP
   return layout;
 }
 
-std::uint64_t Storage::offset(const Type *owner, const VarSymbol *field) {
+uint64_t Storage::offset(const Type *owner, const VarSymbol *field) {
   return bit(owner, field).byte;
 }
 
@@ -105,30 +105,30 @@ Storage::BitPlace Storage::bit(const Type *owner, const VarSymbol *field) {
 
 StorageExtent Storage::compute(const Type *type) {
   switch (type->kind) {
-  case TypeKind::error:
-  case TypeKind::none:
-  case TypeKind::boolean:
+  case TypeKind::Error:
+  case TypeKind::None:
+  case TypeKind::Boolean:
     return {1, 1};
-  case TypeKind::string:
-    return {typeAs<StringType>(type)->length + std::uint64_t{1}, 1};
-  case TypeKind::wstring:
-    return {2 * (typeAs<StringType>(type)->length + std::uint64_t{1}), 2};
-  case TypeKind::array: {
+  case TypeKind::String:
+    return {typeAs<StringType>(type)->length + uint64_t{1}, 1};
+  case TypeKind::Wstring:
+    return {2 * (typeAs<StringType>(type)->length + uint64_t{1}), 2};
+  case TypeKind::Array: {
     const auto *array = typeAs<ArrayType>(type);
     const StorageExtent element = of(array->element);
-    std::uint64_t size = 0;
+    uint64_t size = 0;
     if (__builtin_mul_overflow(element.size, array->count(), &size))
       size = kMaxStorage;
     return {std::min(size, kMaxStorage), element.align};
   }
-  case TypeKind::structure:
-  case TypeKind::functionBlock:
-  case TypeKind::program: {
+  case TypeKind::Structure:
+  case TypeKind::FunctionBlock:
+  case TypeKind::Program: {
     BitPlace ignored{};
     return members(type, nullptr, ignored).finish();
   }
   default: {
-    const std::uint64_t bytes = bitWidth(type) / 8;
+    const uint64_t bytes = bitWidth(type) / 8;
     return {bytes, bytes};
   }
   }

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_STORAGE_HPP
+#define STRIDE_COMPILER_SEMANTICS_STORAGE_HPP
 // How large the types are in memory. The generated structures say the same to C++: app.cpp asserts
 // it for every type whose size the program has asked for.
 
@@ -12,8 +13,8 @@ namespace stc {
 
 /// A variable of each instance (VAR_TEMP and VAR_STAT are not).
 [[nodiscard]] inline bool isOwn(const VarSymbol *v) {
-  return v->section != ast::Section::temp && v->section != ast::Section::stat &&
-         v->section != ast::Section::external;
+  return v->section != ast::Section::Temp && v->section != ast::Section::Stat &&
+         v->section != ast::Section::External;
 }
 /// It lies in the process image, at the same place for all instances.
 [[nodiscard]] inline bool isPlaced(const VarSymbol *v) {
@@ -27,12 +28,12 @@ namespace stc {
 [[nodiscard]] inline bool isField(const VarSymbol *v) { return isOwn(v) && !isPlaced(v); }
 
 /// So many bytes a variable has at most.
-inline constexpr std::uint64_t kMaxTypeBytes = std::uint64_t{1} << 31U;
+inline constexpr uint64_t kMaxTypeBytes = uint64_t{1} << 31U;
 
 /// Size and alignment in bytes.
 struct StorageExtent {
-  std::uint64_t size = 1;
-  std::uint64_t align = 1;
+  uint64_t size = 1;
+  uint64_t align = 1;
   bool operator==(const StorageExtent &) const = default;
 };
 
@@ -42,10 +43,10 @@ class Storage {
 public:
   [[nodiscard]] StorageExtent of(const Type *type);
   /// Where a field lies in its structure, block or program (its own fields, not those of a base).
-  [[nodiscard]] std::uint64_t offset(const Type *owner, const VarSymbol *field);
+  [[nodiscard]] uint64_t offset(const Type *owner, const VarSymbol *field);
   /// The same of a BIT, and its number in the byte.
   struct BitPlace {
-    std::uint64_t byte;
+    uint64_t byte;
     unsigned bit;
   };
   [[nodiscard]] BitPlace bit(const Type *owner, const VarSymbol *field);
@@ -54,11 +55,11 @@ private:
   /// Puts members behind each other.
   struct Layout {
     StorageExtent extent{0, 1};
-    std::uint64_t pack = 0; ///< largest alignment of members; 0: natural
-    unsigned bits = 0;      ///< of the last byte that are taken by BIT; 0: it is none of theirs
-    std::uint64_t add(StorageExtent member);
+    uint64_t pack = 0; ///< largest alignment of members; 0: natural
+    unsigned bits = 0; ///< of the last byte that are taken by BIT; 0: it is none of theirs
+    uint64_t add(StorageExtent member);
     /// A BIT: in the byte of the one before it, when that has a bit left.
-    std::uint64_t addBit();
+    uint64_t addBit();
     [[nodiscard]] StorageExtent finish() const;
   };
   StorageExtent compute(const Type *type);
@@ -69,3 +70,5 @@ private:
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_STORAGE_HPP

@@ -11,8 +11,8 @@ std::vector<VarSymbol *> PouSymbol::parameters() const {
   if (base != nullptr)
     list = base->parameters();
   for (VarSymbol *v : variables) {
-    if (v->section == Section::input || v->section == Section::output ||
-        v->section == Section::inOut)
+    if (v->section == Section::Input || v->section == Section::Output ||
+        v->section == Section::InOut)
       list.push_back(v);
   }
   return list;
@@ -20,9 +20,9 @@ std::vector<VarSymbol *> PouSymbol::parameters() const {
 
 const Type *elementBeforeReference(const IndexExpr *expr) {
   const Type *type = expr->base->type;
-  for (std::size_t i = 0; i < expr->indices.size() && type != nullptr; ++i)
+  for (size_t i = 0; i < expr->indices.size() && type != nullptr; ++i)
     type = indexStep(type);
-  return type != nullptr ? type : elementaryType(TypeKind::error);
+  return type != nullptr ? type : elementaryType(TypeKind::Error);
 }
 
 } // namespace stc

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_SYMBOLS_HPP
+#define STRIDE_COMPILER_SEMANTICS_SYMBOLS_HPP
 // What names stand for.
 
 #include "compiler/semantics/constant.hpp"
@@ -14,17 +15,17 @@
 
 namespace stc {
 
-enum class SymbolKind : std::uint8_t {
-  variable,
-  pou,
-  type,
-  enumerator,
-  builtin,
-  library,
-  globals,
-  property,
-  self, ///< THIS, SUPER
-  space,
+enum class SymbolKind : uint8_t {
+  Variable,
+  Pou,
+  Type,
+  Enumerator,
+  Builtin,
+  Library,
+  Globals,
+  Property,
+  Self, ///< THIS, SUPER
+  Space,
 };
 
 /// A library, or the user's project (whose name is empty).
@@ -39,30 +40,30 @@ struct Symbol {
 };
 
 /// The areas of the process image.
-enum class Area : std::uint8_t { input, output, memory };
+enum class Area : uint8_t { Input, Output, Memory };
 
 /// Where a located variable or a direct address lies in the process image.
 struct Location {
-  Area area = Area::memory;
-  std::uint32_t byte = 0; ///< within the area
-  std::int8_t bit = -1;   ///< of that byte; -1: the variable begins with the byte
+  Area area = Area::Memory;
+  uint32_t byte = 0;   ///< within the area
+  int8_t bit = -1;     ///< of that byte; -1: the variable begins with the byte
   bool isSlot = false; ///< `%I*`: each instance has a slot that holds its place (VAR_CONFIG); then
                        ///< bit >= 0 says that it is a single bit
 };
 
 /// Bits of VarSymbol::uses.
-enum Use : std::uint8_t {
-  useRead = 1,
-  useWritten = 2,
-  useAddress = 4, ///< ADR, REF=, passed to a VAR_IN_OUT: anything may happen to it
-  useCalled = 8,  ///< an instance is called
+enum Use : uint8_t {
+  kUseRead = 1,
+  kUseWritten = 2,
+  kUseAddress = 4, ///< ADR, REF=, passed to a VAR_IN_OUT: anything may happen to it
+  kUseCalled = 8,  ///< an instance is called
 };
 
 /// A variable, parameter or structure field.
 struct VarSymbol : Symbol {
   ast::VarDecl *decl = nullptr; ///< null only for a function's result
   const Type *type = nullptr;
-  ast::Section section = ast::Section::local;
+  ast::Section section = ast::Section::Local;
   PouSymbol *owner = nullptr;      ///< the POU it belongs to; null: global or structure field
   const ast::Decl *home = nullptr; ///< of a global or a field: the declaration around it
   struct GlobalsSymbol *globals = nullptr; ///< the list a global belongs to
@@ -78,11 +79,11 @@ struct VarSymbol : Symbol {
   bool initChecked = false; ///< the initial value has been checked (or is being checked)
   bool initRunning = false; ///< is being checked: meeting it again is a circle
   // Of the lints (lint/lint.hpp).
-  std::uint8_t uses = 0;                ///< bits of Use
+  uint8_t uses = 0;                     ///< bits of Use
   const ast::Expr *earlyRead = nullptr; ///< the first read, when nothing can have written before
-  std::uint32_t earlyLoop = 0;          ///< the outermost loop of that read; 0: none
-  std::uint32_t lastWrite = 0;          ///< the number of the last write
-  std::uint32_t lintBody = 0;           ///< the body that declares it
+  uint32_t earlyLoop = 0;               ///< the outermost loop of that read; 0: none
+  uint32_t lastWrite = 0;               ///< the number of the last write
+  uint32_t lintBody = 0;                ///< the body that declares it
 };
 
 struct PropertySymbol;
@@ -118,16 +119,16 @@ struct PouSymbol : Symbol {
   bool linking = false;           ///< its base is being looked up: meeting it is a circle
   bool linked = false;            ///< base, interfaces and members are known
 
-  [[nodiscard]] bool isFunction() const { return decl->kind == ast::DeclKind::function; }
+  [[nodiscard]] bool isFunction() const { return decl->kind == ast::DeclKind::Function; }
   /// METHOD, ACTION, accessor
   [[nodiscard]] bool isMethod() const { return owner != nullptr; }
-  [[nodiscard]] bool isInterface() const { return decl->kind == ast::DeclKind::interface; }
+  [[nodiscard]] bool isInterface() const { return decl->kind == ast::DeclKind::Interface; }
   /// FUNCTION_BLOCK, CLASS
   [[nodiscard]] bool isBlock() const {
-    return decl->kind == ast::DeclKind::functionBlock || decl->kind == ast::DeclKind::classD;
+    return decl->kind == ast::DeclKind::FunctionBlock || decl->kind == ast::DeclKind::Class;
   }
-  [[nodiscard]] bool isAbstract() const { return (decl->modifiers & ast::modAbstract) != 0; }
-  [[nodiscard]] bool isFinal() const { return (decl->modifiers & ast::modFinal) != 0; }
+  [[nodiscard]] bool isAbstract() const { return (decl->modifiers & ast::kModAbstract) != 0; }
+  [[nodiscard]] bool isFinal() const { return (decl->modifiers & ast::kModFinal) != 0; }
 };
 
 /// PROPERTY
@@ -157,7 +158,7 @@ struct TypeSymbol : Symbol {
 
 struct EnumeratorSymbol : Symbol {
   const EnumType *type = nullptr;
-  std::int64_t value = 0;
+  int64_t value = 0;
 };
 
 /// A function the compiler implements itself; see builtins.hpp.
@@ -185,3 +186,5 @@ struct NamespaceSymbol : Symbol {
 struct LibrarySymbol : Symbol {};
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_SYMBOLS_HPP

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_TYPE_TABLE_HPP
+#define STRIDE_COMPILER_SEMANTICS_TYPE_TABLE_HPP
 // Makes types unique, so that equality of types is equality of pointers.
 
 #include "compiler/semantics/types.hpp"
@@ -20,8 +21,8 @@ namespace stc {
 /// Smallest and largest value of an integer, bit-string or BOOL type, as the 64-bit pattern
 /// ConstValue uses. For ULINT and LWORD `high` is -1 (all ones).
 struct IntegerRange {
-  std::int64_t low;
-  std::int64_t high;
+  int64_t low;
+  int64_t high;
 };
 [[nodiscard]] IntegerRange integerRange(const Type *t);
 
@@ -30,21 +31,23 @@ class TypeTable {
 public:
   explicit TypeTable(Arena &arena) : arena_(arena) {}
 
-  const Type *string(bool wide, std::uint32_t length);
-  const Type *array(const Type *element, std::int64_t low, std::int64_t high);
-  const Type *openArray(const Type *element, std::uint32_t dimensions);
+  const Type *string(bool wide, uint32_t length);
+  const Type *array(const Type *element, int64_t low, int64_t high);
+  const Type *openArray(const Type *element, uint32_t dimensions);
   const Type *pointer(const Type *pointee);
   const Type *reference(const Type *pointee);
-  const Type *subrange(const Type *base, std::int64_t low, std::int64_t high);
+  const Type *subrange(const Type *base, int64_t low, int64_t high);
 
 private:
   Arena &arena_;
-  std::map<std::pair<bool, std::uint32_t>, const Type *> strings_;
-  std::map<std::tuple<const Type *, std::int64_t, std::int64_t>, const Type *> arrays_;
-  std::map<std::pair<const Type *, std::uint32_t>, const Type *> openArrays_;
+  std::map<std::pair<bool, uint32_t>, const Type *> strings_;
+  std::map<std::tuple<const Type *, int64_t, int64_t>, const Type *> arrays_;
+  std::map<std::pair<const Type *, uint32_t>, const Type *> openArrays_;
   std::map<const Type *, const Type *> pointers_;
   std::map<const Type *, const Type *> references_;
-  std::map<std::tuple<const Type *, std::int64_t, std::int64_t>, const Type *> subranges_;
+  std::map<std::tuple<const Type *, int64_t, int64_t>, const Type *> subranges_;
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_TYPE_TABLE_HPP

@@ -6,36 +6,34 @@
 namespace stc {
 
 bool isSignedInteger(const Type *t) {
-  return t->kind >= TypeKind::sint && t->kind <= TypeKind::lint;
+  return t->kind >= TypeKind::Sint && t->kind <= TypeKind::Lint;
 }
 bool isUnsignedInteger(const Type *t) {
-  return t->kind >= TypeKind::usint && t->kind <= TypeKind::ulint;
+  return t->kind >= TypeKind::Usint && t->kind <= TypeKind::Ulint;
 }
-bool isBitString(const Type *t) { return t->kind >= TypeKind::byte && t->kind <= TypeKind::lword; }
+bool isBitString(const Type *t) { return t->kind >= TypeKind::Byte && t->kind <= TypeKind::Lword; }
 bool isUnsigned64(const Type *t) {
   t = underlying(t);
-  return t->kind == TypeKind::ulint || t->kind == TypeKind::lword;
+  return t->kind == TypeKind::Ulint || t->kind == TypeKind::Lword;
 }
-bool isInteger(const Type *t) { return t->kind >= TypeKind::sint && t->kind <= TypeKind::lword; }
-bool isReal(const Type *t) { return t->kind == TypeKind::real || t->kind == TypeKind::lreal; }
-bool isTimeOrDate(const Type *t) { return t->kind >= TypeKind::time && t->kind <= TypeKind::ldt; }
-bool isString(const Type *t) { return t->kind == TypeKind::string || t->kind == TypeKind::wstring; }
-bool isCharacter(const Type *t) {
-  return t->kind == TypeKind::charT || t->kind == TypeKind::wcharT;
-}
+bool isInteger(const Type *t) { return t->kind >= TypeKind::Sint && t->kind <= TypeKind::Lword; }
+bool isReal(const Type *t) { return t->kind == TypeKind::Real || t->kind == TypeKind::Lreal; }
+bool isTimeOrDate(const Type *t) { return t->kind >= TypeKind::Time && t->kind <= TypeKind::Ldt; }
+bool isString(const Type *t) { return t->kind == TypeKind::String || t->kind == TypeKind::Wstring; }
+bool isCharacter(const Type *t) { return t->kind == TypeKind::Char || t->kind == TypeKind::Wchar; }
 bool isElementary(const Type *t) {
-  return (t->kind >= TypeKind::boolean && t->kind <= TypeKind::subrange) ||
-         t->kind == TypeKind::anyInteger || t->kind == TypeKind::anyReal;
+  return (t->kind >= TypeKind::Boolean && t->kind <= TypeKind::Subrange) ||
+         t->kind == TypeKind::AnyInteger || t->kind == TypeKind::AnyReal;
 }
 bool isInstance(const Type *t) {
-  return t->kind == TypeKind::functionBlock || t->kind == TypeKind::program;
+  return t->kind == TypeKind::FunctionBlock || t->kind == TypeKind::Program;
 }
 
 const Type *underlying(const Type *t) {
   while (true) {
-    if (t->kind == TypeKind::enumeration)
+    if (t->kind == TypeKind::Enumeration)
       t = typeAs<EnumType>(t)->base;
-    else if (t->kind == TypeKind::subrange)
+    else if (t->kind == TypeKind::Subrange)
       t = typeAs<SubrangeType>(t)->base;
     else
       return t;
@@ -44,26 +42,26 @@ const Type *underlying(const Type *t) {
 
 unsigned bitWidth(const Type *t) {
   switch (underlying(t)->kind) {
-  case TypeKind::boolean:
+  case TypeKind::Boolean:
     return 1;
-  case TypeKind::sint:
-  case TypeKind::usint:
-  case TypeKind::byte:
-  case TypeKind::charT:
+  case TypeKind::Sint:
+  case TypeKind::Usint:
+  case TypeKind::Byte:
+  case TypeKind::Char:
     return 8;
-  case TypeKind::intT:
-  case TypeKind::uint:
-  case TypeKind::word:
-  case TypeKind::wcharT:
+  case TypeKind::Int:
+  case TypeKind::Uint:
+  case TypeKind::Word:
+  case TypeKind::Wchar:
     return 16;
-  case TypeKind::dint:
-  case TypeKind::udint:
-  case TypeKind::dword:
-  case TypeKind::real:
-  case TypeKind::time:
-  case TypeKind::date:
-  case TypeKind::tod:
-  case TypeKind::dt:
+  case TypeKind::Dint:
+  case TypeKind::Udint:
+  case TypeKind::Dword:
+  case TypeKind::Real:
+  case TypeKind::Time:
+  case TypeKind::Date:
+  case TypeKind::Tod:
+  case TypeKind::Dt:
     return 32;
   default:
     return 64;
@@ -74,63 +72,63 @@ namespace {
 
 std::string_view elementaryName(TypeKind kind) {
   switch (kind) {
-  case TypeKind::error:
+  case TypeKind::Error:
     return "<error>";
-  case TypeKind::none:
+  case TypeKind::None:
     return "<no value>";
-  case TypeKind::boolean:
+  case TypeKind::Boolean:
     return "BOOL";
-  case TypeKind::sint:
+  case TypeKind::Sint:
     return "SINT";
-  case TypeKind::intT:
+  case TypeKind::Int:
     return "INT";
-  case TypeKind::dint:
+  case TypeKind::Dint:
     return "DINT";
-  case TypeKind::lint:
+  case TypeKind::Lint:
     return "LINT";
-  case TypeKind::usint:
+  case TypeKind::Usint:
     return "USINT";
-  case TypeKind::uint:
+  case TypeKind::Uint:
     return "UINT";
-  case TypeKind::udint:
+  case TypeKind::Udint:
     return "UDINT";
-  case TypeKind::ulint:
+  case TypeKind::Ulint:
     return "ULINT";
-  case TypeKind::byte:
+  case TypeKind::Byte:
     return "BYTE";
-  case TypeKind::word:
+  case TypeKind::Word:
     return "WORD";
-  case TypeKind::dword:
+  case TypeKind::Dword:
     return "DWORD";
-  case TypeKind::lword:
+  case TypeKind::Lword:
     return "LWORD";
-  case TypeKind::real:
+  case TypeKind::Real:
     return "REAL";
-  case TypeKind::lreal:
+  case TypeKind::Lreal:
     return "LREAL";
-  case TypeKind::time:
+  case TypeKind::Time:
     return "TIME";
-  case TypeKind::ltime:
+  case TypeKind::Ltime:
     return "LTIME";
-  case TypeKind::date:
+  case TypeKind::Date:
     return "DATE";
-  case TypeKind::ldate:
+  case TypeKind::Ldate:
     return "LDATE";
-  case TypeKind::tod:
+  case TypeKind::Tod:
     return "TIME_OF_DAY";
-  case TypeKind::ltod:
+  case TypeKind::Ltod:
     return "LTIME_OF_DAY";
-  case TypeKind::dt:
+  case TypeKind::Dt:
     return "DATE_AND_TIME";
-  case TypeKind::ldt:
+  case TypeKind::Ldt:
     return "LDATE_AND_TIME";
-  case TypeKind::charT:
+  case TypeKind::Char:
     return "CHAR";
-  case TypeKind::wcharT:
+  case TypeKind::Wchar:
     return "WCHAR";
-  case TypeKind::anyInteger:
+  case TypeKind::AnyInteger:
     return "integer constant";
-  case TypeKind::anyReal:
+  case TypeKind::AnyReal:
     return "real constant";
   default:
     return "";
@@ -151,28 +149,28 @@ std::string nameInSpace(const Symbol *symbol) {
 
 std::string typeName(const Type *t) {
   switch (t->kind) {
-  case TypeKind::string:
-  case TypeKind::wstring: {
+  case TypeKind::String:
+  case TypeKind::Wstring: {
     const auto length = typeAs<StringType>(t)->length;
-    std::string name = t->kind == TypeKind::string ? "STRING" : "WSTRING";
+    std::string name = t->kind == TypeKind::String ? "STRING" : "WSTRING";
     return length == 80 ? name : name + "(" + std::to_string(length) + ")";
   }
-  case TypeKind::enumeration:
+  case TypeKind::Enumeration:
     return nameInSpace(typeAs<EnumType>(t)->symbol);
-  case TypeKind::structure:
+  case TypeKind::Structure:
     return nameInSpace(typeAs<StructType>(t)->symbol);
-  case TypeKind::functionBlock:
-  case TypeKind::program:
-  case TypeKind::interface:
+  case TypeKind::FunctionBlock:
+  case TypeKind::Program:
+  case TypeKind::Interface:
     return nameInSpace(typeAs<PouType>(t)->symbol);
-  case TypeKind::subrange: {
+  case TypeKind::Subrange: {
     const auto *s = typeAs<SubrangeType>(t);
     return typeName(s->base) + " (" + std::to_string(s->low) + ".." + std::to_string(s->high) + ")";
   }
-  case TypeKind::array: {
+  case TypeKind::Array: {
     std::string bounds;
     const Type *element = t;
-    while (element->kind == TypeKind::array) {
+    while (element->kind == TypeKind::Array) {
       const auto *a = typeAs<ArrayType>(element);
       bounds +=
           (bounds.empty() ? "" : ", ") + std::to_string(a->low) + ".." + std::to_string(a->high);
@@ -180,18 +178,18 @@ std::string typeName(const Type *t) {
     }
     return "ARRAY [" + bounds + "] OF " + typeName(element);
   }
-  case TypeKind::openArray: {
+  case TypeKind::OpenArray: {
     const auto *a = typeAs<OpenArrayType>(t);
     std::string stars = "*";
-    for (std::uint32_t i = 1; i < a->dimensions; ++i)
+    for (uint32_t i = 1; i < a->dimensions; ++i)
       stars += ", *";
     return "ARRAY [" + stars + "] OF " + typeName(a->element);
   }
-  case TypeKind::pointer:
-    if (typeAs<PointerType>(t)->pointee->kind == TypeKind::none)
+  case TypeKind::Pointer:
+    if (typeAs<PointerType>(t)->pointee->kind == TypeKind::None)
       return "POINTER TO VOID";
     return "POINTER TO " + typeName(typeAs<PointerType>(t)->pointee);
-  case TypeKind::reference:
+  case TypeKind::Reference:
     return "REFERENCE TO " + typeName(typeAs<PointerType>(t)->pointee);
   default:
     return std::string(elementaryName(t->kind));
@@ -199,34 +197,34 @@ std::string typeName(const Type *t) {
 }
 
 bool isUntyped(const Type *t) {
-  return t->kind == TypeKind::anyInteger || t->kind == TypeKind::anyReal;
+  return t->kind == TypeKind::AnyInteger || t->kind == TypeKind::AnyReal;
 }
 bool isNumber(const Type *t) {
   const Type *u = underlying(t);
   return isInteger(u) || isReal(u) || isUntyped(u);
 }
-bool isDuration(const Type *t) { return t->kind == TypeKind::time || t->kind == TypeKind::ltime; }
+bool isDuration(const Type *t) { return t->kind == TypeKind::Time || t->kind == TypeKind::Ltime; }
 
 bool isByteView(const Type *pointee) {
-  return pointee->kind == TypeKind::none || pointee->kind == TypeKind::byte ||
-         pointee->kind == TypeKind::usint || pointee->kind == TypeKind::sint;
+  return pointee->kind == TypeKind::None || pointee->kind == TypeKind::Byte ||
+         pointee->kind == TypeKind::Usint || pointee->kind == TypeKind::Sint;
 }
 
 const Type *indexStep(const Type *type) {
-  if (type->kind == TypeKind::reference)
+  if (type->kind == TypeKind::Reference)
     type = typeAs<PointerType>(type)->pointee;
   switch (type->kind) {
-  case TypeKind::array:
+  case TypeKind::Array:
     return typeAs<ArrayType>(type)->element;
-  case TypeKind::openArray:
+  case TypeKind::OpenArray:
     return typeAs<OpenArrayType>(type)->rest;
-  case TypeKind::string:
-    return elementaryType(TypeKind::byte);
-  case TypeKind::wstring:
-    return elementaryType(TypeKind::word);
-  case TypeKind::pointer: {
+  case TypeKind::String:
+    return elementaryType(TypeKind::Byte);
+  case TypeKind::Wstring:
+    return elementaryType(TypeKind::Word);
+  case TypeKind::Pointer: {
     const Type *pointee = typeAs<PointerType>(type)->pointee;
-    if (pointee->kind == TypeKind::none)
+    if (pointee->kind == TypeKind::None)
       return nullptr;
     return isString(pointee) ? indexStep(pointee) : pointee;
   }

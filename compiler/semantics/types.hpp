@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_TYPES_HPP
+#define STRIDE_COMPILER_SEMANTICS_TYPES_HPP
 // The type system. Types are unique: equal types are the same pointer. Aliases resolve to what they
 // name.
 
@@ -16,48 +17,48 @@ struct PouSymbol;
 struct VarSymbol;
 struct EnumeratorSymbol;
 
-enum class TypeKind : std::uint8_t {
-  error, ///< something was wrong and has been reported; silences what follows from it
-  none,  ///< a FUNCTION without result
-  boolean,
-  sint,
-  intT,
-  dint,
-  lint,
-  usint,
-  uint,
-  udint,
-  ulint,
-  byte,
-  word,
-  dword,
-  lword,
-  real,
-  lreal,
-  time,
-  ltime,
-  date,
-  ldate,
-  tod,
-  ltod,
-  dt,
-  ldt,
-  string,
-  wstring,
-  charT, ///< CHAR: one character of a STRING
-  wcharT,
-  enumeration,
-  subrange,
-  array,
-  openArray, ///< ARRAY[*], only of a VAR_IN_OUT
-  structure,
-  functionBlock, ///< FUNCTION_BLOCK, CLASS
-  program,
-  interface, ///< INTERFACE: a variable of it stands for an instance, or for none
-  pointer,
-  reference,
-  anyInteger, ///< an integer constant whose type the context decides (literal 5, SIZEOF)
-  anyReal,    ///< a real constant whose type the context decides
+enum class TypeKind : uint8_t {
+  Error, ///< something was wrong and has been reported; silences what follows from it
+  None,  ///< a FUNCTION without result
+  Boolean,
+  Sint,
+  Int,
+  Dint,
+  Lint,
+  Usint,
+  Uint,
+  Udint,
+  Ulint,
+  Byte,
+  Word,
+  Dword,
+  Lword,
+  Real,
+  Lreal,
+  Time,
+  Ltime,
+  Date,
+  Ldate,
+  Tod,
+  Ltod,
+  Dt,
+  Ldt,
+  String,
+  Wstring,
+  Char, ///< CHAR: one character of a STRING
+  Wchar,
+  Enumeration,
+  Subrange,
+  Array,
+  OpenArray, ///< ARRAY[*], only of a VAR_IN_OUT
+  Structure,
+  FunctionBlock, ///< FUNCTION_BLOCK, CLASS
+  Program,
+  Interface, ///< INTERFACE: a variable of it stands for an instance, or for none
+  Pointer,
+  Reference,
+  AnyInteger, ///< an integer constant whose type the context decides (literal 5, SIZEOF)
+  AnyReal,    ///< a real constant whose type the context decides
 };
 
 struct Type {
@@ -66,7 +67,7 @@ struct Type {
 
 /// STRING(length) / WSTRING(length)
 struct StringType : Type {
-  std::uint32_t length;
+  uint32_t length;
 };
 
 struct EnumType : Type {
@@ -83,22 +84,22 @@ struct EnumType : Type {
 /// An integer type with bounds, checked when assigned.
 struct SubrangeType : Type {
   const Type *base;
-  std::int64_t low;
-  std::int64_t high;
+  int64_t low;
+  int64_t high;
 };
 
 /// One dimension; more dimensions are nested arrays.
 struct ArrayType : Type {
   const Type *element;
-  std::int64_t low;
-  std::int64_t high;
-  [[nodiscard]] std::uint64_t count() const { return static_cast<std::uint64_t>(high - low + 1); }
+  int64_t low;
+  int64_t high;
+  [[nodiscard]] uint64_t count() const { return static_cast<uint64_t>(high - low + 1); }
 };
 
 /// ARRAY[*, …]: the bounds are those of the caller's array.
 struct OpenArrayType : Type {
   const Type *element;
-  std::uint32_t dimensions;
+  uint32_t dimensions;
   const Type *rest; ///< what one index gives: the element, or an array of the other dimensions
 };
 
@@ -124,7 +125,7 @@ struct PointerType : Type {
   const Type *pointee;
 };
 
-[[nodiscard]] inline bool isError(const Type *t) { return t->kind == TypeKind::error; }
+[[nodiscard]] inline bool isError(const Type *t) { return t->kind == TypeKind::Error; }
 [[nodiscard]] bool isSignedInteger(const Type *t);   ///< SINT … LINT
 [[nodiscard]] bool isUnsignedInteger(const Type *t); ///< USINT … ULINT
 [[nodiscard]] bool isBitString(const Type *t);       ///< BYTE … LWORD (not BOOL)
@@ -159,3 +160,5 @@ bitWidth(const Type *t); ///< of numbers, bit strings, times, enumerations, subr
 template <class T> const T *typeAs(const Type *t) { return static_cast<const T *>(t); }
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_TYPES_HPP

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SOURCE_ARENA_HPP
+#define STRIDE_COMPILER_SOURCE_ARENA_HPP
 // Bump allocation for syntax trees and symbol tables.
 
 #include <cstddef>
@@ -40,29 +41,31 @@ public:
     return {data, text.size()};
   }
 
-  void *allocate(std::size_t size, std::size_t align) {
-    auto at = (reinterpret_cast<std::uintptr_t>(cursor_) + align - 1) & ~(align - 1);
-    if (cursor_ == nullptr || at + size > reinterpret_cast<std::uintptr_t>(end_)) {
-      const std::size_t block = size + align > kBlock ? size + align : kBlock;
+  void *allocate(size_t size, size_t align) {
+    auto at = (reinterpret_cast<uintptr_t>(cursor_) + align - 1) & ~(align - 1);
+    if (cursor_ == nullptr || at + size > reinterpret_cast<uintptr_t>(end_)) {
+      const size_t block = size + align > kBlock ? size + align : kBlock;
       blocks_.push_back(std::make_unique_for_overwrite<std::byte[]>(block));
       bytes_ += block;
       cursor_ = blocks_.back().get();
       end_ = cursor_ + block;
-      at = (reinterpret_cast<std::uintptr_t>(cursor_) + align - 1) & ~(align - 1);
+      at = (reinterpret_cast<uintptr_t>(cursor_) + align - 1) & ~(align - 1);
     }
     cursor_ = reinterpret_cast<std::byte *>(at + size);
     return reinterpret_cast<void *>(at);
   }
 
   /// Bytes reserved from the heap.
-  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+  [[nodiscard]] size_t bytes() const { return bytes_; }
 
 private:
-  static constexpr std::size_t kBlock = std::size_t{64} * 1024;
+  static constexpr size_t kBlock = size_t{64} * 1024;
   std::vector<std::unique_ptr<std::byte[]>> blocks_;
   std::byte *cursor_ = nullptr;
   std::byte *end_ = nullptr;
-  std::size_t bytes_ = 0;
+  size_t bytes_ = 0;
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SOURCE_ARENA_HPP

@@ -6,18 +6,18 @@ namespace stc {
 
 namespace {
 
-constexpr std::size_t kBytes = 32;
+constexpr size_t kBytes = 32;
 
 void update(blake2b_state &state, std::string_view bytes) {
-  ::blake2b_update(&state, reinterpret_cast<const std::uint8_t *>(bytes.data()), bytes.size());
+  ::blake2b_update(&state, reinterpret_cast<const uint8_t *>(bytes.data()), bytes.size());
 }
 
 std::string finish(blake2b_state state) {
-  std::array<std::uint8_t, kBytes> hash{};
+  std::array<uint8_t, kBytes> hash{};
   ::blake2b_final(&state, hash.data(), hash.size());
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string digits;
-  for (const std::uint8_t byte : hash) {
+  for (const uint8_t byte : hash) {
     digits += kDigits[byte >> 4U];
     digits += kDigits[byte & 15U];
   }
@@ -28,16 +28,16 @@ std::string finish(blake2b_state state) {
 
 ContentHash::ContentHash() { ::blake2b_init(&state_, kBytes); }
 
-ContentHash &ContentHash::add(std::uint64_t value) {
+ContentHash &ContentHash::add(uint64_t value) {
   std::array<char, sizeof(value)> bytes{};
-  for (std::size_t i = 0; i < bytes.size(); ++i)
+  for (size_t i = 0; i < bytes.size(); ++i)
     bytes[i] = static_cast<char>(value >> (8 * i));
   update(state_, {bytes.data(), bytes.size()});
   return *this;
 }
 
 ContentHash &ContentHash::add(std::string_view text) {
-  add(static_cast<std::uint64_t>(text.size()));
+  add(static_cast<uint64_t>(text.size()));
   update(state_, text);
   return *this;
 }

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SOURCE_CONTENT_HASH_HPP
+#define STRIDE_COMPILER_SOURCE_CONTENT_HASH_HPP
 // Fingerprints of contents: of what the build cache keeps.
 
 #include <blake2.h>
@@ -14,7 +15,7 @@ class ContentHash {
 public:
   ContentHash();
   ContentHash &add(std::string_view text);
-  ContentHash &add(std::uint64_t value);
+  ContentHash &add(uint64_t value);
   /// 64 hexadecimal digits of what was added so far.
   [[nodiscard]] std::string hex() const;
 
@@ -26,3 +27,5 @@ private:
 [[nodiscard]] std::string blake2b256(std::string_view bytes);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SOURCE_CONTENT_HASH_HPP

@@ -36,7 +36,7 @@ std::string codeName(Code code) {
 std::string kebabName(Code code) {
   std::string name;
   for (const char c : info(code).name) {
-    if (c >= 'A' && c <= 'Z')
+    if (c >= 'A' && c <= 'Z' && !name.empty())
       name += '-';
     name += lowerCase(c);
   }
@@ -80,7 +80,7 @@ bool isLint(Code code) {
 
 Severity Levels::of(Code code) const {
   const Severity byDefault = info(code).severity;
-  if (byDefault == Severity::error)
+  if (byDefault == Severity::Error)
     return byDefault;
   if (const auto it = single_.find(code); it != single_.end())
     return it->second;
@@ -89,10 +89,10 @@ Severity Levels::of(Code code) const {
     return it == groups_.end() ? std::nullopt : std::optional(it->second);
   };
   if (isLint(code))
-    if (const auto severity = group(Group::lints))
+    if (const auto severity = group(Group::Lints))
       return *severity;
-  if (byDefault == Severity::warning)
-    if (const auto severity = group(Group::allWarnings))
+  if (byDefault == Severity::Warning)
+    if (const auto severity = group(Group::AllWarnings))
       return *severity;
   return byDefault;
 }
@@ -106,16 +106,16 @@ void Levels::add(const Levels &other) {
 
 std::optional<Levels::Group> findGroup(std::string_view name) {
   if (sameWord(name, "all-warnings"))
-    return Levels::Group::allWarnings;
+    return Levels::Group::AllWarnings;
   if (sameWord(name, "lints"))
-    return Levels::Group::lints;
+    return Levels::Group::Lints;
   return std::nullopt;
 }
 
 std::vector<std::string> settingNames() {
   std::vector<std::string> names{"all-warnings", "lints"};
   for (const CodeInfo &entry : allCodes()) {
-    if (entry.severity == Severity::error)
+    if (entry.severity == Severity::Error)
       continue;
     names.push_back(kebabName(entry.code));
     names.push_back(codeName(entry.code));
@@ -123,7 +123,7 @@ std::vector<std::string> settingNames() {
   return names;
 }
 
-void Diagnostics::setSilent(FileId file, std::uint32_t offset, Code code, bool silent) {
+void Diagnostics::setSilent(FileId file, uint32_t offset, Code code, bool silent) {
   silences_.push_back({file, offset, code, silent});
 }
 
@@ -138,8 +138,8 @@ bool Diagnostics::isSilent(Code code, Span where) const {
 
 Diagnostic &Diagnostics::report(Code code, Span where, std::string message, std::string labelText) {
   const Severity severity = levels_.of(code);
-  if (severity == Severity::off ||
-      (info(code).severity != Severity::error && !silences_.empty() && isSilent(code, where))) {
+  if (severity == Severity::Off ||
+      (info(code).severity != Severity::Error && !silences_.empty() && isSilent(code, where))) {
     dropped_ = {};
     return dropped_;
   }
@@ -149,9 +149,9 @@ Diagnostic &Diagnostics::report(Code code, Span where, std::string message, std:
   added.message = std::move(message);
   if (where.valid())
     added.labels.push_back({where, std::move(labelText)});
-  if (added.severity == Severity::error)
+  if (added.severity == Severity::Error)
     ++errors_;
-  else if (added.severity == Severity::warning)
+  else if (added.severity == Severity::Warning)
     ++warnings_;
   return added;
 }
@@ -169,8 +169,8 @@ void Diagnostics::sort() {
   list_.erase(std::unique(list_.begin(), list_.end(), same), list_.end());
   errors_ = warnings_ = 0;
   for (const Diagnostic &d : list_) {
-    errors_ += d.severity == Severity::error;
-    warnings_ += d.severity == Severity::warning;
+    errors_ += d.severity == Severity::Error;
+    warnings_ += d.severity == Severity::Warning;
   }
 }
 

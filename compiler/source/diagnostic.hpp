@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SOURCE_DIAGNOSTIC_HPP
+#define STRIDE_COMPILER_SOURCE_DIAGNOSTIC_HPP
 // Diagnostics as data. Nothing here knows how they are shown (render.hpp does).
 
 #include "compiler/source/span.hpp"
@@ -12,15 +13,15 @@
 
 namespace stc {
 
-enum class Severity : std::uint8_t {
-  off, ///< not reported
-  note,
-  warning,
-  error
+enum class Severity : uint8_t {
+  Off, ///< not reported
+  Note,
+  Warning,
+  Error
 };
 
 /// Stable diagnostic codes; the table with default severity and title is diagnostic_codes.def.
-enum class Code : std::uint16_t {
+enum class Code : uint16_t {
 #define STC_DIAGNOSTIC(number, name, severity, title) name = number,
 #include "compiler/source/diagnostic_codes.def"
 #undef STC_DIAGNOSTIC
@@ -71,7 +72,7 @@ struct Suggestion {
 /// One error or warning: what, where, and the way out.
 struct Diagnostic {
   Code code{};
-  Severity severity = Severity::error;
+  Severity severity = Severity::Error;
   std::string message;
   std::vector<Label>
       labels; ///< labels[0] is the primary place (may be absent for errors without a place)
@@ -105,9 +106,9 @@ struct Diagnostic {
 /// The severities that the user chose. Errors stay errors.
 class Levels {
 public:
-  enum class Group : std::uint8_t {
-    allWarnings, ///< what is a warning by default
-    lints,       ///< isLint(): also those that are off by default
+  enum class Group : uint8_t {
+    AllWarnings, ///< what is a warning by default
+    Lints,       ///< isLint(): also those that are off by default
   };
   void set(Code code, Severity severity) { single_[code] = severity; }
   void set(Group group, Severity severity) { groups_[group] = severity; }
@@ -133,17 +134,17 @@ public:
   void setLevels(Levels levels) { levels_ = std::move(levels); }
   [[nodiscard]] const Levels &levels() const { return levels_; }
   /// From `offset` of the file on, the code is silent (`{warning disable SE0390}`) or as before.
-  void setSilent(FileId file, std::uint32_t offset, Code code, bool silent);
+  void setSilent(FileId file, uint32_t offset, Code code, bool silent);
   /// Whether an occurrence of the code would be reported anywhere: lets passes that cost time be
   /// left out.
-  [[nodiscard]] bool wants(Code code) const { return levels_.of(code) != Severity::off; }
+  [[nodiscard]] bool wants(Code code) const { return levels_.of(code) != Severity::Off; }
 
   /// Adds a diagnostic with the code's severity. What is off, or silent at its place, is built but
   /// not added.
   Diagnostic &report(Code code, Span where, std::string message, std::string labelText = {});
   [[nodiscard]] bool hasErrors() const { return errors_ != 0; }
-  [[nodiscard]] std::size_t errorCount() const { return errors_; }
-  [[nodiscard]] std::size_t warningCount() const { return warnings_; }
+  [[nodiscard]] size_t errorCount() const { return errors_; }
+  [[nodiscard]] size_t warningCount() const { return warnings_; }
   [[nodiscard]] const std::vector<Diagnostic> &all() const { return list_; }
   /// Sorts by file and place, stable; drops exact repetitions.
   void sort();
@@ -153,7 +154,7 @@ private:
 
   struct Silence {
     FileId file;
-    std::uint32_t offset;
+    uint32_t offset;
     Code code;
     bool silent;
   };
@@ -162,8 +163,10 @@ private:
   Diagnostic dropped_;
   Levels levels_;
   std::vector<Silence> silences_; ///< in the order of each file's text
-  std::size_t errors_ = 0;
-  std::size_t warnings_ = 0;
+  size_t errors_ = 0;
+  size_t warnings_ = 0;
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SOURCE_DIAGNOSTIC_HPP

@@ -15,11 +15,11 @@ bool sameIdent(std::string_view lower, std::string_view spelling) {
 
 } // namespace
 
-Ident Interner::intern(std::string_view spelling, std::uint32_t hash) {
-  if (slots_.size() < 2 * (std::size_t{size_} + 1))
+Ident Interner::intern(std::string_view spelling, uint32_t hash) {
+  if (slots_.size() < 2 * (size_t{size_} + 1))
     grow();
-  const std::size_t mask = slots_.size() - 1;
-  std::size_t slot = (hash ^ (hash >> 15)) & mask;
+  const size_t mask = slots_.size() - 1;
+  size_t slot = (hash ^ (hash >> 15)) & mask;
   for (; slots_[slot] != nullptr; slot = (slot + 1) & mask)
     if (slots_[slot]->hash == hash && sameIdent(slots_[slot]->lower, spelling))
       return slots_[slot];
@@ -29,13 +29,13 @@ Ident Interner::intern(std::string_view spelling, std::uint32_t hash) {
 }
 
 void Interner::grow() {
-  std::vector<const IdentData *> old(std::max<std::size_t>(1024, slots_.size() * 2), nullptr);
+  std::vector<const IdentData *> old(std::max<size_t>(1024, slots_.size() * 2), nullptr);
   old.swap(slots_);
-  const std::size_t mask = slots_.size() - 1;
+  const size_t mask = slots_.size() - 1;
   for (const IdentData *entry : old) {
     if (entry == nullptr)
       continue;
-    std::size_t slot = (entry->hash ^ (entry->hash >> 15)) & mask;
+    size_t slot = (entry->hash ^ (entry->hash >> 15)) & mask;
     while (slots_[slot] != nullptr)
       slot = (slot + 1) & mask;
     slots_[slot] = entry;

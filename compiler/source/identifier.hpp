@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SOURCE_IDENTIFIER_HPP
+#define STRIDE_COMPILER_SOURCE_IDENTIFIER_HPP
 // Interned, case-insensitive identifiers.
 
 #include "compiler/source/arena.hpp"
@@ -15,8 +16,8 @@ namespace stc {
 /// An identifier; two spellings that differ only in case are the same pointer.
 struct IdentData {
   std::string_view lower; ///< lower-case spelling
-  std::uint32_t index;    ///< dense, 0-based
-  std::uint32_t hash;     ///< hashIdent() of the spelling
+  uint32_t index;         ///< dense, 0-based
+  uint32_t hash;          ///< hashIdent() of the spelling
 };
 using Ident = const IdentData *;
 
@@ -26,12 +27,12 @@ using stride::common::lowerCase;
 class IdentHash {
 public:
   constexpr void add(char c) { hash_.add(static_cast<unsigned char>(lowerCase(c))); }
-  [[nodiscard]] constexpr std::uint32_t value() const { return hash_.value(); }
+  [[nodiscard]] constexpr uint32_t value() const { return hash_.value(); }
 
 private:
-  stride::common::Fnv1a<std::uint32_t> hash_;
+  stride::common::Fnv1a<uint32_t> hash_;
 };
-constexpr std::uint32_t hashIdent(std::string_view spelling) {
+constexpr uint32_t hashIdent(std::string_view spelling) {
   IdentHash hash;
   for (const char c : spelling)
     hash.add(c);
@@ -43,18 +44,20 @@ class Interner {
 public:
   Ident intern(std::string_view spelling) { return intern(spelling, hashIdent(spelling)); }
   /// For callers that know the spelling's hashIdent() already.
-  Ident intern(std::string_view spelling, std::uint32_t hash);
-  [[nodiscard]] std::size_t size() const { return size_; }
+  Ident intern(std::string_view spelling, uint32_t hash);
+  [[nodiscard]] size_t size() const { return size_; }
 
 private:
   void grow();
 
   Arena arena_;
   std::vector<const IdentData *> slots_; ///< open addressing, a power of two
-  std::uint32_t size_ = 0;
+  uint32_t size_ = 0;
 };
 
 /// Whether two texts are the same but for the case of ASCII letters.
 [[nodiscard]] bool equalIgnoringCase(std::string_view a, std::string_view b);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SOURCE_IDENTIFIER_HPP

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SOURCE_OVERLAY_HPP
+#define STRIDE_COMPILER_SOURCE_OVERLAY_HPP
 // Texts that an editor has not saved yet.
 
 #include <filesystem>
@@ -29,3 +30,5 @@ private:
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SOURCE_OVERLAY_HPP

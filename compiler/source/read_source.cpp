@@ -25,8 +25,8 @@ int readAll(int fd, std::string &text) {
   if (status.st_size > static_cast<off_t>(kMaxSourceBytes))
     return EFBIG;
   // One byte more than the file has, so that its end is seen without growing.
-  text.resize(static_cast<std::size_t>(status.st_size) + 1);
-  std::size_t filled = 0;
+  text.resize(static_cast<size_t>(status.st_size) + 1);
+  size_t filled = 0;
   for (;;) {
     if (filled == text.size())
       text.resize(text.size() + 4096); // it grows, or says that it is empty (/proc)
@@ -37,7 +37,7 @@ int readAll(int fd, std::string &text) {
       return errno;
     if (count == 0)
       break;
-    filled += static_cast<std::size_t>(count);
+    filled += static_cast<size_t>(count);
     if (filled > kMaxSourceBytes)
       return EFBIG;
   }

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SOURCE_READ_SOURCE_HPP
+#define STRIDE_COMPILER_SOURCE_READ_SOURCE_HPP
 // Reading files that people write: sources, configurations, cams.
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 namespace stc {
 
 /// So many bytes a source file, a configuration or a cam file has at most.
-inline constexpr std::size_t kMaxSourceBytes = std::size_t{16} << 20U;
+inline constexpr size_t kMaxSourceBytes = size_t{16} << 20U;
 
 /// The bytes of a regular file of the disk; compilations ask Sources. Nothing when it cannot be
 /// read, is longer than kMaxSourceBytes, or is something else than a file: a pipe without a writer,
@@ -20,3 +21,5 @@ inline constexpr std::size_t kMaxSourceBytes = std::size_t{16} << 20U;
 [[nodiscard]] std::string readSourceError();
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SOURCE_READ_SOURCE_HPP

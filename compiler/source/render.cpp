@@ -13,9 +13,9 @@ namespace stc {
 
 namespace {
 
-constexpr std::size_t kMaxExcerpt = 160; ///< longest shown part of a line, in columns
-constexpr std::size_t kContext = 40;     ///< columns shown in front of a span in a line that is cut
-constexpr std::size_t kTab = 4;
+constexpr size_t kMaxExcerpt = 160; ///< longest shown part of a line, in columns
+constexpr size_t kContext = 40;     ///< columns shown in front of a span in a line that is cut
+constexpr size_t kTab = 4;
 
 struct Style {
   const char *error = "";
@@ -31,13 +31,13 @@ constexpr Style kColors{"\033[1;31m", "\033[1;33m", "\033[1;36m",
 
 const char *severityName(Severity severity) {
   switch (severity) {
-  case Severity::error:
+  case Severity::Error:
     return "error";
-  case Severity::warning:
+  case Severity::Warning:
     return "warning";
-  case Severity::note:
+  case Severity::Note:
     return "note";
-  case Severity::off:
+  case Severity::Off:
     return "off";
   }
   return "error";
@@ -46,8 +46,8 @@ const char *severityName(Severity severity) {
 bool startsCharacter(char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }
 
 /// Columns as they are on the screen: tabs are widened, other characters count one.
-std::size_t widthOf(std::string_view text) {
-  std::size_t columns = 0;
+size_t widthOf(std::string_view text) {
+  size_t columns = 0;
   for (const char c : text)
     columns += c == '\t' ? kTab : startsCharacter(c) ? 1 : 0;
   return columns;
@@ -67,8 +67,8 @@ std::string excerptOf(std::string_view line) {
 
 /// One marked range on one line, in bytes of that line.
 struct Mark {
-  std::size_t begin;
-  std::size_t end;
+  size_t begin;
+  size_t end;
   bool primary;
   std::string_view text;
 };
@@ -76,13 +76,13 @@ struct Mark {
 /// The marks of one file by line number, and which lines are bridged by `...`.
 struct FileMarks {
   FileId file;
-  std::map<std::uint32_t, std::vector<Mark>> lines;
+  std::map<uint32_t, std::vector<Mark>> lines;
 };
 
 /// A mark in columns of the shown excerpt.
 struct Drawn {
-  std::size_t column;
-  std::size_t width;
+  size_t column;
+  size_t width;
   const Mark *mark;
 };
 
@@ -94,7 +94,7 @@ public:
   std::string run() {
     collect();
     head();
-    for (std::size_t i = 0; i < files_.size(); ++i)
+    for (size_t i = 0; i < files_.size(); ++i)
       file(files_[i], i == 0);
     trailer();
     out_ += '\n';
@@ -104,20 +104,20 @@ public:
 private:
   [[nodiscard]] const char *severityStyle() const {
     switch (diagnostic_.severity) {
-    case Severity::error:
+    case Severity::Error:
       return style_.error;
-    case Severity::warning:
+    case Severity::Warning:
       return style_.warning;
-    case Severity::note:
-    case Severity::off:
+    case Severity::Note:
+    case Severity::Off:
       break;
     }
     return style_.note;
   }
 
   void collect() {
-    std::uint32_t largest = 0;
-    for (std::size_t i = 0; i < diagnostic_.labels.size(); ++i) {
+    uint32_t largest = 0;
+    for (size_t i = 0; i < diagnostic_.labels.size(); ++i) {
       const Label &label = diagnostic_.labels[i];
       if (!label.span.valid())
         continue;
@@ -127,24 +127,23 @@ private:
       });
       if (known == files_.end())
         known = files_.insert(files_.end(), FileMarks{label.span.file, {}});
-      const auto size = static_cast<std::uint32_t>(source.text().size());
-      const std::uint32_t begin = std::min(label.span.begin, size);
-      const std::uint32_t end = std::clamp(label.span.end, begin, size);
-      const std::uint32_t first = source.lineNumber(begin);
+      const auto size = static_cast<uint32_t>(source.text().size());
+      const uint32_t begin = std::min(label.span.begin, size);
+      const uint32_t end = std::clamp(label.span.end, begin, size);
+      const uint32_t first = source.lineNumber(begin);
       // A span that ends at a line's start ends on the line before.
-      const std::uint32_t last = end > begin ? source.lineNumber(end - 1) : first;
-      const auto mark = [&](std::uint32_t line, std::size_t from, std::size_t to,
-                            std::string_view text) {
+      const uint32_t last = end > begin ? source.lineNumber(end - 1) : first;
+      const auto mark = [&](uint32_t line, size_t from, size_t to, std::string_view text) {
         known->lines[line].push_back({from, to, i == 0, text});
         largest = std::max(largest, line);
       };
-      const std::size_t from = begin - source.lineStart(first);
+      const size_t from = begin - source.lineStart(first);
       if (first == last) {
         mark(first, from, end - source.lineStart(first), label.text);
       } else { // its first and its last line
         const std::string_view lastLine = source.line(last);
-        const std::size_t indent = std::min(lastLine.find_first_not_of(" \t"), lastLine.size());
-        const std::size_t to = end - source.lineStart(last);
+        const size_t indent = std::min(lastLine.find_first_not_of(" \t"), lastLine.size());
+        const size_t to = end - source.lineStart(last);
         mark(first, from, std::max(source.line(first).size(), from + 1), {});
         mark(last, std::min(indent, to), to, label.text);
       }
@@ -179,7 +178,7 @@ private:
     } else {
       const auto &line = *marks.lines.begin();
       place = source.position(
-          static_cast<std::uint32_t>(source.lineStart(line.first) + line.second.front().begin));
+          static_cast<uint32_t>(source.lineStart(line.first) + line.second.front().begin));
     }
     out_.append(gutter_, ' ');
     out_ += style_.frame;
@@ -189,7 +188,7 @@ private:
             std::to_string(place.column) + "\n";
     bar();
     out_ += '\n';
-    std::uint32_t previous = 0;
+    uint32_t previous = 0;
     for (const auto &[number, list] : marks.lines) {
       if (previous != 0 && number > previous + 1) {
         if (number == previous + 2) { // one line between is shorter than dots
@@ -207,12 +206,12 @@ private:
   }
 
   /// The line's text, cut around the marks when it is long, and the marks below it.
-  void codeLine(const SourceFile &source, std::uint32_t number, std::vector<Mark> marks) {
+  void codeLine(const SourceFile &source, uint32_t number, std::vector<Mark> marks) {
     const std::string_view line = source.line(number);
-    std::size_t from = 0;
-    std::size_t to = line.size();
+    size_t from = 0;
+    size_t to = line.size();
     if (to > kMaxExcerpt) {
-      std::size_t anchor = marks.empty() ? 0 : marks.front().begin;
+      size_t anchor = marks.empty() ? 0 : marks.front().begin;
       for (const Mark &mark : marks)
         if (mark.primary)
           anchor = mark.begin;
@@ -235,19 +234,19 @@ private:
     out_ += '\n';
     if (marks.empty())
       return;
-    const std::size_t lead = from > 0 ? 1 : 0;
+    const size_t lead = from > 0 ? 1 : 0;
     std::vector<Drawn> drawn;
     for (const Mark &mark : marks) {
-      const std::size_t begin = std::clamp(mark.begin, from, to);
-      const std::size_t end = std::clamp(mark.end, begin, to);
+      const size_t begin = std::clamp(mark.begin, from, to);
+      const size_t end = std::clamp(mark.end, begin, to);
       drawn.push_back({lead + widthOf(line.substr(from, begin - from)),
-                       std::max<std::size_t>(1, widthOf(line.substr(begin, end - begin))), &mark});
+                       std::max<size_t>(1, widthOf(line.substr(begin, end - begin))), &mark});
     }
     std::stable_sort(drawn.begin(), drawn.end(),
                      [](const Drawn &a, const Drawn &b) { return a.column < b.column; });
     underline(drawn);
     // The rightmost label stands behind its marks; the others hang below, from right to left.
-    std::size_t last = drawn.size() - 1;
+    size_t last = drawn.size() - 1;
     const bool overlapped = last > 0 && drawn[last - 1].column + drawn[last - 1].width >
                                             drawn[last].column + drawn[last].width;
     if (!overlapped && !drawn[last].mark->text.empty()) {
@@ -258,29 +257,29 @@ private:
     }
     out_ += '\n';
     std::vector<Drawn> hanging;
-    for (std::size_t i = 0; i < last; ++i)
+    for (size_t i = 0; i < last; ++i)
       if (!drawn[i].mark->text.empty())
         hanging.push_back(drawn[i]);
-    for (std::size_t i = hanging.size(); i-- > 0;) {
+    for (size_t i = hanging.size(); i-- > 0;) {
       connectors(hanging, i + 1, nullptr);
       connectors(hanging, i, &hanging[i]);
     }
   }
 
   void underline(const std::vector<Drawn> &drawn) {
-    std::size_t end = 0;
+    size_t end = 0;
     for (const Drawn &one : drawn)
       end = std::max(end, one.column + one.width);
     std::vector<const Mark *> cells(end, nullptr);
     for (const bool primary : {false, true})
       for (const Drawn &one : drawn)
         if (one.mark->primary == primary)
-          std::fill(cells.begin() + static_cast<std::ptrdiff_t>(one.column),
-                    cells.begin() + static_cast<std::ptrdiff_t>(one.column + one.width), one.mark);
+          std::fill(cells.begin() + static_cast<ptrdiff_t>(one.column),
+                    cells.begin() + static_cast<ptrdiff_t>(one.column + one.width), one.mark);
     bar();
     out_ += ' ';
-    for (std::size_t i = 0; i < end;) {
-      std::size_t next = i;
+    for (size_t i = 0; i < end;) {
+      size_t next = i;
       while (next < end && cells[next] == cells[i])
         ++next;
       if (cells[i] == nullptr)
@@ -292,11 +291,11 @@ private:
   }
 
   /// A row of `|` below the first `count` labels, and the text of one more.
-  void connectors(const std::vector<Drawn> &list, std::size_t count, const Drawn *text) {
+  void connectors(const std::vector<Drawn> &list, size_t count, const Drawn *text) {
     bar();
     out_ += ' ';
-    std::size_t column = 0;
-    for (std::size_t i = 0; i < count; ++i) {
+    size_t column = 0;
+    for (size_t i = 0; i < count; ++i) {
       if (list[i].column < column)
         continue;
       out_.append(list[i].column - column, ' ');
@@ -333,8 +332,8 @@ private:
       out_ += style_.reset;
       out_ += ": ";
       // Further lines are aligned under the first.
-      std::size_t at = 0;
-      for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', at)) {
+      size_t at = 0;
+      for (size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', at)) {
         out_ += visible(std::string_view(text).substr(at, end - at)) + "\n" +
                 std::string(gutter_ + 5 + kind.size(), ' ');
         at = end + 1;
@@ -351,7 +350,7 @@ private:
   const Sources &sources_;
   const Style &style_;
   std::vector<FileMarks> files_;
-  std::size_t gutter_ = 1;
+  size_t gutter_ = 1;
   std::string out_;
 };
 

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SOURCE_RENDER_HPP
+#define STRIDE_COMPILER_SOURCE_RENDER_HPP
 // How diagnostics are shown: text in the manner of rustc, or JSON for tools.
 
 #include "compiler/source/diagnostic.hpp"
@@ -37,3 +38,5 @@ struct RenderOptions {
 [[nodiscard]] std::string renderJson(const Diagnostic &diagnostic, const Sources &sources);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SOURCE_RENDER_HPP

@@ -11,18 +11,18 @@ namespace stc {
 namespace {
 
 /// Length of the valid UTF-8 sequence at the start, 0 when there is none.
-std::size_t sequenceLength(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+size_t sequenceLength(std::string_view text) {
+  const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
   if (lead < 0x80)
     return 1;
-  const std::size_t length = lead >= 0xC2 && lead < 0xE0   ? 2
-                             : lead >= 0xE0 && lead < 0xF0 ? 3
-                             : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                           : 0;
+  const size_t length = lead >= 0xC2 && lead < 0xE0   ? 2
+                        : lead >= 0xE0 && lead < 0xF0 ? 3
+                        : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                      : 0;
   if (length == 0 || text.size() < length)
     return 0;
-  for (std::size_t i = 1; i < length; ++i)
+  for (size_t i = 1; i < length; ++i)
     if ((byte(i) & 0xC0) != 0x80)
       return 0;
   if ((lead == 0xE0 && byte(1) < 0xA0) || (lead == 0xED && byte(1) > 0x9F) ||
@@ -33,7 +33,7 @@ std::size_t sequenceLength(std::string_view text) {
 
 bool isUtf8(std::string_view text) {
   while (!text.empty()) {
-    const std::size_t length = sequenceLength(text);
+    const size_t length = sequenceLength(text);
     if (length == 0)
       return false;
     text.remove_prefix(length);
@@ -64,10 +64,10 @@ SourceFile::SourceFile(FileId id, std::string name, std::string text)
   const char *begin = text_.data();
   const char *end = begin + text_.size();
   for (const char *at = begin; at != end;) {
-    at = static_cast<const char *>(std::memchr(at, '\n', static_cast<std::size_t>(end - at)));
+    at = static_cast<const char *>(std::memchr(at, '\n', static_cast<size_t>(end - at)));
     if (at == nullptr)
       break;
-    lineStarts_.push_back(static_cast<std::uint32_t>(++at - begin));
+    lineStarts_.push_back(static_cast<uint32_t>(++at - begin));
   }
   unsigned char all = 0;
   for (const char c : text_)
@@ -75,27 +75,27 @@ SourceFile::SourceFile(FileId id, std::string name, std::string text)
   ascii_ = all < 0x80;
 }
 
-std::uint32_t SourceFile::lineNumber(std::uint32_t offset) const {
-  return static_cast<std::uint32_t>(
-      std::upper_bound(lineStarts_.begin(), lineStarts_.end(), offset) - lineStarts_.begin());
+uint32_t SourceFile::lineNumber(uint32_t offset) const {
+  return static_cast<uint32_t>(std::upper_bound(lineStarts_.begin(), lineStarts_.end(), offset) -
+                               lineStarts_.begin());
 }
 
-LineColumn SourceFile::position(std::uint32_t offset) const {
-  offset = std::min(offset, static_cast<std::uint32_t>(text_.size()));
-  const std::uint32_t number = lineNumber(offset);
+LineColumn SourceFile::position(uint32_t offset) const {
+  offset = std::min(offset, static_cast<uint32_t>(text_.size()));
+  const uint32_t number = lineNumber(offset);
   if (ascii_)
     return {number, offset - lineStart(number) + 1};
   const auto characters =
       std::count_if(text_.begin() + lineStart(number), text_.begin() + offset,
                     [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; });
-  return {number, static_cast<std::uint32_t>(characters) + 1};
+  return {number, static_cast<uint32_t>(characters) + 1};
 }
 
-std::string_view SourceFile::line(std::uint32_t number) const {
+std::string_view SourceFile::line(uint32_t number) const {
   if (number == 0 || number > lineStarts_.size())
     return {};
-  const std::size_t begin = lineStarts_[number - 1];
-  std::size_t end = number < lineStarts_.size() ? lineStarts_[number] - 1 : text_.size();
+  const size_t begin = lineStarts_[number - 1];
+  size_t end = number < lineStarts_.size() ? lineStarts_[number] - 1 : text_.size();
   if (end > begin && text_[end - 1] == '\r')
     --end;
   return std::string_view(text_).substr(begin, end - begin);
@@ -151,7 +151,7 @@ Span Sources::origin(Span span) const {
   const std::vector<SyntheticSource::Part> &parts = file(span.file).parts_;
   const auto part = std::upper_bound(
       parts.begin(), parts.end(), span.begin,
-      [](std::uint32_t place, const SyntheticSource::Part &one) { return place < one.end; });
+      [](uint32_t place, const SyntheticSource::Part &one) { return place < one.end; });
   return part != parts.end() && part->begin <= span.begin ? part->origin : Span{};
 }
 

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SOURCE_SOURCES_HPP
+#define STRIDE_COMPILER_SOURCE_SOURCES_HPP
 // The texts of one compilation: files of the disk, what an editor has not saved, what Stride
 // writes.
 
@@ -34,18 +35,14 @@ public:
   [[nodiscard]] std::string_view text() const { return text_; }
   /// Stride has written it; see Sources::origin().
   [[nodiscard]] bool isSynthetic() const { return synthetic_; }
-  [[nodiscard]] LineColumn position(std::uint32_t offset) const;
+  [[nodiscard]] LineColumn position(uint32_t offset) const;
   /// 1-based number of the line in which the byte lies.
-  [[nodiscard]] std::uint32_t lineNumber(std::uint32_t offset) const;
+  [[nodiscard]] uint32_t lineNumber(uint32_t offset) const;
   /// Offset of the first byte of the 1-based line.
-  [[nodiscard]] std::uint32_t lineStart(std::uint32_t number) const {
-    return lineStarts_[number - 1];
-  }
+  [[nodiscard]] uint32_t lineStart(uint32_t number) const { return lineStarts_[number - 1]; }
   /// Text of the 1-based line, without its line end.
-  [[nodiscard]] std::string_view line(std::uint32_t number) const;
-  [[nodiscard]] std::uint32_t lineCount() const {
-    return static_cast<std::uint32_t>(lineStarts_.size());
-  }
+  [[nodiscard]] std::string_view line(uint32_t number) const;
+  [[nodiscard]] uint32_t lineCount() const { return static_cast<uint32_t>(lineStarts_.size()); }
 
 private:
   friend class Sources;
@@ -53,7 +50,7 @@ private:
   std::string name_;
   std::string codeName_; ///< empty: name_
   std::string text_;
-  std::vector<std::uint32_t> lineStarts_;
+  std::vector<uint32_t> lineStarts_;
   std::vector<SyntheticSource::Part> parts_; ///< of a synthetic text
   bool synthetic_ = false;
   bool ascii_ = true; ///< every character is one byte
@@ -86,7 +83,7 @@ public:
   /// The place for which a place in a synthetic text stands, perhaps none; others stand for
   /// themselves.
   [[nodiscard]] Span origin(Span span) const;
-  [[nodiscard]] std::size_t size() const { return files_.size(); }
+  [[nodiscard]] size_t size() const { return files_.size(); }
 
   /// Whether the overlay has the file.
   [[nodiscard]] bool isUnsaved(const std::filesystem::path &path) const {
@@ -105,3 +102,5 @@ private:
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SOURCE_SOURCES_HPP

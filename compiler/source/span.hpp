@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SOURCE_SPAN_HPP
+#define STRIDE_COMPILER_SOURCE_SPAN_HPP
 // Places in source text.
 
 #include <cstdint>
@@ -6,13 +7,13 @@
 namespace stc {
 
 /// Index of a file in the Sources; 0 is "no file".
-using FileId = std::uint32_t;
+using FileId = uint32_t;
 
 /// A half-open byte range [begin, end) of one source file.
 struct Span {
   FileId file = 0;
-  std::uint32_t begin = 0;
-  std::uint32_t end = 0;
+  uint32_t begin = 0;
+  uint32_t end = 0;
 
   [[nodiscard]] bool valid() const { return file != 0; }
   /// The smallest span that holds both (both in the same file; an invalid one is ignored).
@@ -28,8 +29,10 @@ struct Span {
 
 /// 1-based line and column (columns count code points, a tab is one).
 struct LineColumn {
-  std::uint32_t line = 0;
-  std::uint32_t column = 0;
+  uint32_t line = 0;
+  uint32_t column = 0;
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SOURCE_SPAN_HPP

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SOURCE_SUGGEST_HPP
+#define STRIDE_COMPILER_SOURCE_SUGGEST_HPP
 // "Did you mean …"
 
 #include <string_view>
@@ -13,3 +14,5 @@ namespace stc {
                                        const std::vector<std::string_view> &candidates);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SOURCE_SUGGEST_HPP

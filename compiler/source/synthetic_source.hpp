@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SOURCE_SYNTHETIC_SOURCE_HPP
+#define STRIDE_COMPILER_SOURCE_SYNTHETIC_SOURCE_HPP
 // Structured Text that Stride writes for the checker: PLC configuration, cams, tests, events.
 
 #include "compiler/source/span.hpp"
@@ -17,8 +18,8 @@ class SyntheticSource {
 public:
   /// A part and the place in what the user has written.
   struct Part {
-    std::uint32_t begin = 0;
-    std::uint32_t end = 0;
+    uint32_t begin = 0;
+    uint32_t end = 0;
     Span origin;
   };
 
@@ -30,9 +31,9 @@ public:
   void add(std::string_view text) { text_ += text; }
   /// Appends text that stands for what is at `origin`.
   void add(std::string_view text, Span origin) {
-    const auto begin = static_cast<std::uint32_t>(text_.size());
+    const auto begin = static_cast<uint32_t>(text_.size());
     text_ += text;
-    parts_.push_back({begin, static_cast<std::uint32_t>(text_.size()), origin});
+    parts_.push_back({begin, static_cast<uint32_t>(text_.size()), origin});
   }
 
   [[nodiscard]] bool empty() const { return text_.empty(); }
@@ -48,3 +49,5 @@ private:
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SOURCE_SYNTHETIC_SOURCE_HPP

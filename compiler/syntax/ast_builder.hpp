@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_AST_BUILDER_HPP
+#define STRIDE_COMPILER_SYNTAX_AST_BUILDER_HPP
 // From ANTLR's parse tree to our own. Internal to compiler/syntax: includes ANTLR.
 
 #include "compiler/source/arena.hpp"
@@ -44,14 +45,14 @@ private:
   using Context = antlr4::ParserRuleContext;
 
   // contexts and tokens
-  static Context *child(const Context *context, std::size_t i) {
+  static Context *child(const Context *context, size_t i) {
     return static_cast<Context *>(context->children[i]);
   }
-  static std::size_t first(const Context *context) { return context->start->getTokenIndex(); }
+  static size_t first(const Context *context) { return context->start->getTokenIndex(); }
   /// Index of the last token; first() - 1 when the context is empty.
-  static std::size_t last(const Context *context);
+  static size_t last(const Context *context);
   static bool failed(const Context *context) { return context->exception != nullptr; }
-  [[nodiscard]] const Token &token(std::size_t index) const { return stream_.token(index); }
+  [[nodiscard]] const Token &token(size_t index) const { return stream_.token(index); }
   [[nodiscard]] std::string_view text(const Token &token) const { return scanner_.text(token); }
   [[nodiscard]] Span span(const Context *context) const;
   [[nodiscard]] std::span<ast::Name> path(const Context *context);
@@ -60,11 +61,11 @@ private:
 
   // declarations
   void modifiers(const Context *context, ast::Decl &out);
-  void configVariable(Context *context, std::uint8_t qualifiers, std::vector<ast::VarDecl *> &out);
+  void configVariable(Context *context, uint8_t qualifiers, std::vector<ast::VarDecl *> &out);
   void accessVariable(Context *context, std::vector<ast::VarDecl *> &out);
-  void declarations(Context *context, std::size_t from, ast::Section section,
-                    std::uint8_t qualifiers, std::vector<ast::VarDecl *> &out);
-  void declaration(Context *context, ast::Section section, std::uint8_t qualifiers,
+  void declarations(Context *context, size_t from, ast::Section section, uint8_t qualifiers,
+                    std::vector<ast::VarDecl *> &out);
+  void declaration(Context *context, ast::Section section, uint8_t qualifiers,
                    std::vector<ast::VarDecl *> &out);
   ast::Decl *typeDeclaration(Context *context);
 
@@ -73,8 +74,7 @@ private:
   ast::TypeExpr *type(Context *context, bool declared = false);
   ast::TypeExpr *namedType(Context *context, bool declared);
   ast::DirectAddress *address(const Token &token);
-  ast::EnumTypeExpr *enumeration(Context *context, std::size_t firstArgument,
-                                 std::size_t arguments);
+  ast::EnumTypeExpr *enumeration(Context *context, size_t firstArgument, size_t arguments);
   void blockArguments(Context *argumentList, ast::NamedTypeExpr &out);
 
   // statements
@@ -90,23 +90,23 @@ private:
   // expressions
   ast::Expr *expression(Context *context);
   /// The operands [begin, end) among the children, with the operators between them.
-  ast::Expr *flat(Context *context, std::size_t begin, std::size_t end);
+  ast::Expr *flat(Context *context, size_t begin, size_t end);
   ast::Expr *operand(Context *context);
-  ast::Expr *primary(Context *context, std::size_t &at, std::size_t &nextChild);
-  ast::Expr *postfix(Context *context, ast::Expr *base, std::size_t &at, std::size_t &nextChild);
+  ast::Expr *primary(Context *context, size_t &at, size_t &nextChild);
+  ast::Expr *postfix(Context *context, ast::Expr *base, size_t &at, size_t &nextChild);
   ast::Expr *memberOf(ast::Expr *base, const Token &member);
-  ast::Expr *bracketed(ast::Expr *base, Context *inside, std::size_t &at, std::size_t end);
+  ast::Expr *bracketed(ast::Expr *base, Context *inside, size_t &at, size_t end);
   ast::Expr *indexOf(ast::Expr *base, Context *inside, Span brackets, Span whole);
   [[nodiscard]] static bool hasNames(const Context *arguments);
   ast::Expr *partOf(ast::Expr *base, const Token &member);
   ast::Expr *parentheses(Context *arguments, Span span);
-  ast::Expr *prefixed(Context *context, std::size_t operators, ast::Expr *operand);
+  ast::Expr *prefixed(Context *context, size_t operators, ast::Expr *operand);
   ast::Expr *literal(const Token &token);
   ast::Expr *typedLiteral(const Token &token);
   ast::Expr *enumLiteral(const Token &token);
   ast::Expr *binary(const Token &op, ast::Expr *left, ast::Expr *right);
   /// `context` holds arguments or typeArguments from child `begin` on.
-  std::span<ast::Argument> arguments(Context *context, std::size_t begin = 0);
+  std::span<ast::Argument> arguments(Context *context, size_t begin = 0);
   ast::Expr *error(Span span);
 
   // initial values
@@ -129,3 +129,5 @@ private:
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SYNTAX_AST_BUILDER_HPP

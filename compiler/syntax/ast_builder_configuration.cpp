@@ -18,7 +18,7 @@ void AstBuilder::usings(Grammar::UsingDirectiveContext *context, std::vector<Nam
 }
 
 void AstBuilder::resourceHead(Grammar::ResourceHeadContext *context, ResourceDecl &out) {
-  for (std::size_t i = first(context); i <= last(context); ++i) {
+  for (size_t i = first(context); i <= last(context); ++i) {
     if (token(i).type != Tok::IDENT)
       continue;
     (token(i - 1).type == Tok::ON ? out.processor : out.name) = name(token(i));
@@ -26,7 +26,7 @@ void AstBuilder::resourceHead(Grammar::ResourceHeadContext *context, ResourceDec
 }
 
 void AstBuilder::task(Grammar::TaskDeclarationContext *context, std::vector<TaskDecl> &out) {
-  const std::size_t at = first(context) + 1;
+  const size_t at = first(context) + 1;
   if (failed(context) || at > last(context) || token(at).type != Tok::IDENT)
     return;
   TaskDecl node;
@@ -43,12 +43,12 @@ void AstBuilder::programInstance(Grammar::ProgramInstanceContext *context,
     return;
   ProgramInstanceDecl node;
   node.span = span(context);
-  for (std::size_t i = first(context) + 1; i <= last(context); ++i) {
+  for (size_t i = first(context) + 1; i <= last(context); ++i) {
     const Token &one = token(i);
     if (one.type == Tok::RETAIN)
-      node.qualifiers |= qualRetain;
+      node.qualifiers |= kQualRetain;
     else if (one.type == Tok::NON_RETAIN)
-      node.qualifiers |= qualNonRetain;
+      node.qualifiers |= kQualNonRetain;
     else if (one.type == Tok::IDENT && token(i - 1).type == Tok::WITH)
       node.task = name(one);
     else if (one.type == Tok::IDENT && !node.name)
@@ -56,7 +56,7 @@ void AstBuilder::programInstance(Grammar::ProgramInstanceContext *context,
     else if (one.type == Tok::COLON || one.type == Tok::LPAREN)
       break;
   }
-  for (std::size_t i = 0; i < context->children.size(); ++i) {
+  for (size_t i = 0; i < context->children.size(); ++i) {
     Context *part = child(context, i);
     if (part->getRuleIndex() == Grammar::RulePath)
       node.type = path(part);

@@ -9,16 +9,16 @@ using namespace ast;
 
 namespace {
 
-Access accessOf(std::uint16_t type) {
+Access accessOf(uint16_t type) {
   switch (type) {
   case Tok::PUBLIC:
-    return Access::publicA;
+    return Access::Public;
   case Tok::PRIVATE:
-    return Access::privateA;
+    return Access::Private;
   case Tok::PROTECTED:
-    return Access::protectedA;
+    return Access::Protected;
   default:
-    return Access::internalA;
+    return Access::Internal;
   }
 }
 
@@ -32,7 +32,7 @@ AstBuilder::AstBuilder(const Scanner &scanner, FileId file, UnitStream &stream, 
 // --------------------------------------------------------------------------------------------
 // contexts and tokens
 
-std::size_t AstBuilder::last(const Context *context) {
+size_t AstBuilder::last(const Context *context) {
   return context->stop == nullptr ? first(context) - 1 : context->stop->getTokenIndex();
 }
 
@@ -51,7 +51,7 @@ Name AstBuilder::name(const Token &token) {
 
 std::span<Name> AstBuilder::path(const Context *context) {
   std::vector<Name> names;
-  for (std::size_t i = first(context); context->stop != nullptr && i <= last(context); i += 2)
+  for (size_t i = first(context); context->stop != nullptr && i <= last(context); i += 2)
     if (token(i).type == Tok::IDENT)
       names.push_back(name(token(i)));
   return arena_.copy(names);
@@ -59,7 +59,7 @@ std::span<Name> AstBuilder::path(const Context *context) {
 
 std::span<NamePath> AstBuilder::paths(const Context *context) {
   std::vector<NamePath> list;
-  for (std::size_t i = 0; i < context->children.size(); ++i)
+  for (size_t i = 0; i < context->children.size(); ++i)
     if (const NamePath names = path(child(context, i)); !names.empty())
       list.push_back(names);
   return arena_.copy(list);
@@ -67,9 +67,9 @@ std::span<NamePath> AstBuilder::paths(const Context *context) {
 
 Attributes AstBuilder::attributes(const Token &token) {
   std::vector<Attribute> list;
-  for (std::size_t i = 0; i < token.triviaCount; ++i)
+  for (size_t i = 0; i < token.triviaCount; ++i)
     if (const Trivia &trivia = scanner_.trivia()[token.triviaBegin + i];
-        trivia.kind == Trivia::Kind::attribute)
+        trivia.kind == Trivia::Kind::Attribute)
       list.push_back({trivia.name, trivia.value, {file_, trivia.begin, trivia.end}});
   if (list.empty())
     return {};
@@ -82,9 +82,9 @@ Attributes AstBuilder::attributes(const Token &token) {
 std::string_view AstBuilder::doc(const Token &token) {
   std::string_view only;
   std::string joined;
-  for (std::size_t i = 0; i < token.triviaCount; ++i) {
+  for (size_t i = 0; i < token.triviaCount; ++i) {
     const Trivia &trivia = scanner_.trivia()[token.triviaBegin + i];
-    if (trivia.kind != Trivia::Kind::doc)
+    if (trivia.kind != Trivia::Kind::Doc)
       continue;
     if (only.data() == nullptr) {
       only = trivia.name;
@@ -102,26 +102,26 @@ std::string_view AstBuilder::doc(const Token &token) {
 // declarations
 
 void AstBuilder::modifiers(const Context *context, Decl &out) {
-  const std::size_t end = last(context);
+  const size_t end = last(context);
   const Token *access = nullptr;
-  for (std::size_t i = first(context); i <= end && context->stop != nullptr; ++i) {
+  for (size_t i = first(context); i <= end && context->stop != nullptr; ++i) {
     const Token &one = token(i);
     switch (one.type) {
     case Tok::ABSTRACT:
-      out.modifiers |= modAbstract;
+      out.modifiers |= kModAbstract;
       continue;
     case Tok::FINAL:
-      out.modifiers |= modFinal;
+      out.modifiers |= kModFinal;
       continue;
     case Tok::OVERRIDE:
-      out.modifiers |= modOverride;
+      out.modifiers |= kModOverride;
       continue;
     default:
       break;
     }
     if (access != nullptr) {
       diagnostics_
-          .report(Code::unexpectedToken, span(one), "there is a second access specifier here",
+          .report(Code::UnexpectedToken, span(one), "there is a second access specifier here",
                   "only one is possible")
           .label(span(*access), "the first one");
       continue;
@@ -136,33 +136,33 @@ PouDecl *AstBuilder::head(Grammar::PouHeadContext *context, NamePath &owner) {
   auto *node = arena_.make<PouDecl>();
   switch (keyword.type) {
   case Tok::PROGRAM:
-    node->kind = DeclKind::program;
+    node->kind = DeclKind::Program;
     break;
   case Tok::FUNCTION:
-    node->kind = DeclKind::function;
+    node->kind = DeclKind::Function;
     break;
   case Tok::CLASS:
-    node->kind = DeclKind::classD;
+    node->kind = DeclKind::Class;
     break;
   case Tok::INTERFACE:
-    node->kind = DeclKind::interface;
+    node->kind = DeclKind::Interface;
     break;
   case Tok::METHOD:
   case Tok::PROPERTY:
-    node->kind = DeclKind::method;
+    node->kind = DeclKind::Method;
     break;
   case Tok::ACTION:
-    node->kind = DeclKind::action;
+    node->kind = DeclKind::Action;
     break;
   default:
-    node->kind = DeclKind::functionBlock;
+    node->kind = DeclKind::FunctionBlock;
     break;
   }
   node->span = span(context);
   node->attributes = attributes(keyword);
   node->doc = doc(keyword);
   const std::string what(tokenSpelling(keyword.type));
-  for (std::size_t i = 0; i < context->children.size(); ++i) {
+  for (size_t i = 0; i < context->children.size(); ++i) {
     Context *part = child(context, i);
     switch (part->getRuleIndex()) {
     case Grammar::RuleModifiers:
@@ -178,28 +178,28 @@ PouDecl *AstBuilder::head(Grammar::PouHeadContext *context, NamePath &owner) {
       node->returnType = failed(part) ? errorType(span(part)) : type(part);
       break;
     case Grammar::RuleExtendsClause:
-      if (node->kind == DeclKind::interface) {
+      if (node->kind == DeclKind::Interface) {
         node->interfaces = paths(part);
-      } else if (node->kind != DeclKind::functionBlock && node->kind != DeclKind::classD) {
+      } else if (node->kind != DeclKind::FunctionBlock && node->kind != DeclKind::Class) {
         diagnostics_.report(
-            Code::unexpectedToken, span(part),
+            Code::UnexpectedToken, span(part),
             "only blocks, classes, interfaces and structures can extend another one",
             "not possible for a " + what);
       } else {
         node->base = path(child(part, 0));
         if (part->children.size() > 1)
           diagnostics_
-              .report(Code::unexpectedToken, span(child(part, 1)),
+              .report(Code::UnexpectedToken, span(child(part, 1)),
                       "a " + what + " extends one other only", "a second base")
               .help("several INTERFACEs can be implemented: `IMPLEMENTS A, B`");
       }
       break;
     default: // implementsClause
-      if (node->kind != DeclKind::functionBlock && node->kind != DeclKind::classD) {
+      if (node->kind != DeclKind::FunctionBlock && node->kind != DeclKind::Class) {
         Diagnostic &d = diagnostics_.report(
-            Code::unexpectedToken, span(part), "only blocks and classes can implement an interface",
+            Code::UnexpectedToken, span(part), "only blocks and classes can implement an interface",
             "not possible for " + std::string(what == "INTERFACE" ? "an " : "a ") + what);
-        if (node->kind == DeclKind::interface)
+        if (node->kind == DeclKind::Interface)
           d.help("an INTERFACE takes in others with EXTENDS");
         break;
       }
@@ -211,83 +211,83 @@ PouDecl *AstBuilder::head(Grammar::PouHeadContext *context, NamePath &owner) {
 }
 
 void AstBuilder::section(Grammar::VarSectionContext *context, std::vector<VarDecl *> &out) {
-  Section section = Section::local;
+  Section section = Section::Local;
   switch (token(first(context)).type) {
   case Tok::VAR_INPUT:
-    section = Section::input;
+    section = Section::Input;
     break;
   case Tok::VAR_OUTPUT:
-    section = Section::output;
+    section = Section::Output;
     break;
   case Tok::VAR_IN_OUT:
-    section = Section::inOut;
+    section = Section::InOut;
     break;
   case Tok::VAR_TEMP:
-    section = Section::temp;
+    section = Section::Temp;
     break;
   case Tok::VAR_STAT:
-    section = Section::stat;
+    section = Section::Stat;
     break;
   case Tok::VAR_EXTERNAL:
-    section = Section::external;
+    section = Section::External;
     break;
   case Tok::VAR_GLOBAL:
-    section = Section::global;
+    section = Section::Global;
     break;
   case Tok::VAR_INST:
-    section = Section::instance;
+    section = Section::Instance;
     break;
   case Tok::VAR_CONFIG:
-    section = Section::config;
+    section = Section::Config;
     break;
   case Tok::VAR_ACCESS:
-    section = Section::access;
+    section = Section::Access;
     break;
   default:
     break;
   }
-  std::uint8_t qualifiers = 0;
-  Access access = Access::none;
-  for (std::size_t i = first(context) + 1;; ++i) {
-    const std::uint16_t type = token(i).type;
+  uint8_t qualifiers = 0;
+  Access access = Access::None;
+  for (size_t i = first(context) + 1;; ++i) {
+    const uint16_t type = token(i).type;
     if (type == Tok::CONSTANT)
-      qualifiers |= qualConstant;
+      qualifiers |= kQualConstant;
     else if (type == Tok::RETAIN)
-      qualifiers |= qualRetain;
+      qualifiers |= kQualRetain;
     else if (type == Tok::PERSISTENT)
-      qualifiers |= qualPersistent;
+      qualifiers |= kQualPersistent;
     else if (type == Tok::NON_RETAIN)
-      qualifiers |= qualNonRetain;
+      qualifiers |= kQualNonRetain;
     else if (type >= Tok::PUBLIC && type <= Tok::INTERNAL)
       access = accessOf(type);
     else if (type == Tok::ABSTRACT || type == Tok::FINAL || type == Tok::OVERRIDE)
-      diagnostics_.report(Code::unexpectedToken, span(token(i)),
+      diagnostics_.report(Code::UnexpectedToken, span(token(i)),
                           "variables cannot be " + std::string(text(token(i))),
                           "only methods and blocks can");
     else
       break;
   }
-  const std::size_t before = out.size();
-  for (std::size_t i = 1; i < context->children.size(); ++i) {
+  const size_t before = out.size();
+  for (size_t i = 1; i < context->children.size(); ++i) {
     Context *part = child(context, i);
-    if (section == Section::config)
+    if (section == Section::Config)
       configVariable(part, qualifiers, out);
-    else if (section == Section::access)
+    else if (section == Section::Access)
       accessVariable(part, out);
     else
       declaration(part, section, qualifiers, out);
   }
-  for (std::size_t i = before; i < out.size(); ++i)
+  for (size_t i = before; i < out.size(); ++i)
     out[i]->access = access;
 }
 
-void AstBuilder::declarations(Context *context, std::size_t from, Section section,
-                              std::uint8_t qualifiers, std::vector<VarDecl *> &out) {
-  for (std::size_t i = from; i < context->children.size(); ++i)
+void AstBuilder::declarations(Context *context, size_t from, Section section, uint8_t qualifiers,
+                              std::vector<VarDecl *> &out) {
+  for (size_t i = from; i < context->children.size(); ++i)
     declaration(child(context, i), section, qualifiers, out);
 }
 
-void AstBuilder::declaration(Context *context, Section section, std::uint8_t qualifiers,
+void AstBuilder::declaration(Context *context, Section section, uint8_t qualifiers,
                              std::vector<VarDecl *> &out) {
   Context *names = child(context, 0);
   TypeExpr *type = nullptr;
@@ -299,16 +299,16 @@ void AstBuilder::declaration(Context *context, Section section, std::uint8_t qua
     if (context->children.size() > 2) {
       init = initializer(child(context, 2));
       if (const Token &sign = token(first(child(context, 2)) - 1);
-          sign.type == Tok::REF_ASSIGN && type->kind != TypeExprKind::reference)
+          sign.type == Tok::REF_ASSIGN && type->kind != TypeExprKind::Reference)
         diagnostics_
-            .report(Code::notAReference, span(sign), "only a REFERENCE is bound with REF=",
+            .report(Code::NotAReference, span(sign), "only a REFERENCE is bound with REF=",
                     "this variable is declared with another type")
             .help("write `:=` for an initial value, or declare it as `REFERENCE TO` the type");
     }
   }
   const Token &start = token(first(names));
-  const std::size_t end = last(names);
-  for (std::size_t i = first(names); i <= end && token(i).type == Tok::IDENT;) {
+  const size_t end = last(names);
+  for (size_t i = first(names); i <= end && token(i).type == Tok::IDENT;) {
     auto *node = arena_.make<VarDecl>();
     const Token &own = token(i);
     node->name = name(own);
@@ -329,14 +329,13 @@ void AstBuilder::declaration(Context *context, Section section, std::uint8_t qua
 }
 
 /// `Main.fb.x AT %IX0.0 : BOOL := TRUE;` of VAR_CONFIG
-void AstBuilder::configVariable(Context *context, std::uint8_t qualifiers,
-                                std::vector<VarDecl *> &out) {
+void AstBuilder::configVariable(Context *context, uint8_t qualifiers, std::vector<VarDecl *> &out) {
   Context *front = child(context, 0);
   if (failed(context) || context->children.size() < 2)
     return;
   auto *node = arena_.make<VarDecl>();
   const Token &start = token(first(front));
-  node->section = Section::config;
+  node->section = Section::Config;
   node->qualifiers = qualifiers;
   node->attributes = attributes(start);
   node->doc = doc(start);
@@ -347,7 +346,7 @@ void AstBuilder::configVariable(Context *context, std::uint8_t qualifiers,
   node->type = type(child(context, 1));
   if (context->children.size() > 2)
     node->init = initializer(child(context, 2));
-  if (const std::size_t at = last(front) + 1; token(at).type == Tok::AT)
+  if (const size_t at = last(front) + 1; token(at).type == Tok::AT)
     node->address = address(token(at + 1));
   out.push_back(node);
 }
@@ -358,21 +357,21 @@ void AstBuilder::accessVariable(Context *context, std::vector<VarDecl *> &out) {
   if (failed(context) || context->children.size() < 2 || start.type != Tok::IDENT)
     return;
   auto *node = arena_.make<VarDecl>();
-  node->section = Section::access;
+  node->section = Section::Access;
   node->attributes = attributes(start);
   node->doc = doc(start);
   node->name = name(start);
   node->path = operand(child(context, 0));
   Context *type = child(context, 1);
   node->type = this->type(type);
-  const std::uint16_t direction = token(last(type) + 1).type;
+  const uint16_t direction = token(last(type) + 1).type;
   node->readOnly = direction == Tok::READ_ONLY;
   node->readWrite = direction == Tok::READ_WRITE;
   out.push_back(node);
 }
 
 void AstBuilder::types(Grammar::TypeBlockContext *context, std::vector<Decl *> &out) {
-  for (std::size_t i = 0; i < context->children.size(); ++i) {
+  for (size_t i = 0; i < context->children.size(); ++i) {
     if (Decl *node = typeDeclaration(child(context, i)); node != nullptr) {
       // What stands in front of TYPE belongs to its first type.
       if (i == 0) {
@@ -389,14 +388,14 @@ void AstBuilder::types(Grammar::TypeBlockContext *context, std::vector<Decl *> &
 
 Decl *AstBuilder::typeDeclaration(Context *context) {
   Context *modifierList = child(context, 0);
-  const std::size_t at = modifierList->stop == nullptr || last(modifierList) < first(modifierList)
-                             ? first(modifierList)
-                             : last(modifierList) + 1;
+  const size_t at = modifierList->stop == nullptr || last(modifierList) < first(modifierList)
+                        ? first(modifierList)
+                        : last(modifierList) + 1;
   if (token(at).type != Tok::IDENT || at > last(context))
     return nullptr;
   const Token &start = token(first(context));
   const Name name = this->name(token(at));
-  std::size_t i = 1;
+  size_t i = 1;
   NamePath base;
   Span baseSpan;
   const auto extends = [&](const Context *clause) {
@@ -405,7 +404,7 @@ Decl *AstBuilder::typeDeclaration(Context *context) {
     base = path(child(clause, 0));
     baseSpan = span(clause);
     if (clause->children.size() > 1)
-      diagnostics_.report(Code::unexpectedToken, span(child(clause, 1)),
+      diagnostics_.report(Code::UnexpectedToken, span(child(clause, 1)),
                           "a structure extends one other only", "a second base");
   };
   if (i < context->children.size() &&
@@ -430,7 +429,7 @@ Decl *AstBuilder::typeDeclaration(Context *context) {
   if (body->getRuleIndex() == Grammar::RuleStructBody) {
     auto *node = arena_.make<StructDecl>();
     node->isUnion = token(first(body)).type == Tok::UNION;
-    std::size_t firstField = 0;
+    size_t firstField = 0;
     if (!body->children.empty() &&
         child(body, 0)->getRuleIndex() == Grammar::RuleExtendsClause) { // STRUCT EXTENDS b
       extends(child(body, 0));
@@ -438,20 +437,20 @@ Decl *AstBuilder::typeDeclaration(Context *context) {
     }
     node->base = base;
     if (node->isUnion && !base.empty()) {
-      diagnostics_.report(Code::unexpectedToken, baseSpan, "a UNION cannot extend another type",
+      diagnostics_.report(Code::UnexpectedToken, baseSpan, "a UNION cannot extend another type",
                           "only a STRUCT can");
       node->base = {};
     }
     std::vector<VarDecl *> fields;
-    declarations(body, firstField, Section::local, 0, fields);
+    declarations(body, firstField, Section::Local, 0, fields);
     node->fields = arena_.copy(fields);
     return common(node);
   }
   if (!base.empty())
-    diagnostics_.report(Code::unexpectedToken, baseSpan, "only a STRUCT can extend another type");
+    diagnostics_.report(Code::UnexpectedToken, baseSpan, "only a STRUCT can extend another type");
   TypeExpr *type = this->type(body, true);
   Expr *init = i + 1 < context->children.size() ? initializer(child(context, i + 1)) : nullptr;
-  if (type->kind == TypeExprKind::enumeration) {
+  if (type->kind == TypeExprKind::Enumeration) {
     auto *node = arena_.make<EnumDecl>();
     node->type = as<EnumTypeExpr>(type);
     node->init = init;

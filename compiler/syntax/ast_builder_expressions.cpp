@@ -11,51 +11,51 @@ using namespace ast;
 
 namespace {
 
-constexpr std::size_t kMaxOperands = 16384;
-constexpr std::size_t kMaxPostfix = 1024;
+constexpr size_t kMaxOperands = 16384;
+constexpr size_t kMaxPostfix = 1024;
 
 struct Operator {
   BinaryOp op;
   int precedence;
 };
 
-Operator operatorOf(std::uint16_t type) {
+Operator operatorOf(uint16_t type) {
   switch (type) {
   case Tok::POWER:
-    return {BinaryOp::power, 7};
+    return {BinaryOp::Power, 7};
   case Tok::STAR:
-    return {BinaryOp::multiply, 6};
+    return {BinaryOp::Multiply, 6};
   case Tok::SLASH:
-    return {BinaryOp::divide, 6};
+    return {BinaryOp::Divide, 6};
   case Tok::MOD:
-    return {BinaryOp::modulo, 6};
+    return {BinaryOp::Modulo, 6};
   case Tok::PLUS:
-    return {BinaryOp::add, 5};
+    return {BinaryOp::Add, 5};
   case Tok::MINUS:
-    return {BinaryOp::subtract, 5};
+    return {BinaryOp::Subtract, 5};
   case Tok::LESS:
-    return {BinaryOp::less, 4};
+    return {BinaryOp::Less, 4};
   case Tok::LESS_EQUAL:
-    return {BinaryOp::lessEqual, 4};
+    return {BinaryOp::LessEqual, 4};
   case Tok::GREATER:
-    return {BinaryOp::greater, 4};
+    return {BinaryOp::Greater, 4};
   case Tok::GREATER_EQUAL:
-    return {BinaryOp::greaterEqual, 4};
+    return {BinaryOp::GreaterEqual, 4};
   case Tok::EQUAL:
-    return {BinaryOp::equal, 3};
+    return {BinaryOp::Equal, 3};
   case Tok::NOT_EQUAL:
-    return {BinaryOp::notEqual, 3};
+    return {BinaryOp::NotEqual, 3};
   case Tok::AMPERSAND:
   case Tok::AND:
-    return {BinaryOp::logicalAnd, 2};
+    return {BinaryOp::LogicalAnd, 2};
   case Tok::AND_THEN:
-    return {BinaryOp::andThen, 2};
+    return {BinaryOp::AndThen, 2};
   case Tok::XOR:
-    return {BinaryOp::logicalXor, 1};
+    return {BinaryOp::LogicalXor, 1};
   case Tok::OR_ELSE:
-    return {BinaryOp::orElse, 0};
+    return {BinaryOp::OrElse, 0};
   default:
-    return {BinaryOp::logicalOr, 0};
+    return {BinaryOp::LogicalOr, 0};
   }
 }
 
@@ -68,7 +68,7 @@ Expr *AstBuilder::error(Span span) {
 }
 
 const Token *AstBuilder::plainName(const Context *expression) const {
-  const std::size_t at = first(expression);
+  const size_t at = first(expression);
   return last(expression) == at && token(at).type == Tok::IDENT ? &token(at) : nullptr;
 }
 
@@ -91,11 +91,11 @@ Expr *AstBuilder::expression(Context *context) {
   return flat(context, 0, context->children.size());
 }
 
-Expr *AstBuilder::flat(Context *context, std::size_t begin, std::size_t end) {
+Expr *AstBuilder::flat(Context *context, size_t begin, size_t end) {
   if (end - begin == 1)
     return operand(child(context, begin));
   if (end - begin > kMaxOperands) {
-    diagnostics_.report(Code::expressionTooLong, span(context),
+    diagnostics_.report(Code::ExpressionTooLong, span(context),
                         "this expression has " + std::to_string(end - begin) + " operands",
                         "at most " + std::to_string(kMaxOperands) + " are possible");
     return error(span(context));
@@ -108,7 +108,7 @@ Expr *AstBuilder::flat(Context *context, std::size_t begin, std::size_t end) {
   };
   std::vector<Waiting> stack;
   Expr *right = operand(child(context, begin));
-  for (std::size_t i = begin + 1; i < end; ++i) {
+  for (size_t i = begin + 1; i < end; ++i) {
     const Token &op = token(last(child(context, i - 1)) + 1);
     const int precedence = operatorOf(op.type).precedence;
     while (!stack.empty() && stack.back().precedence >= precedence) {
@@ -125,30 +125,30 @@ Expr *AstBuilder::flat(Context *context, std::size_t begin, std::size_t end) {
   return right;
 }
 
-Expr *AstBuilder::prefixed(Context *context, std::size_t operators, Expr *operand) {
+Expr *AstBuilder::prefixed(Context *context, size_t operators, Expr *operand) {
   // Three equal operators in a row are one: NOT NOT NOT x = NOT x, with the same type rules.
-  const std::size_t begin = first(context);
+  const size_t begin = first(context);
   std::vector<const Token *> chain;
-  for (std::size_t i = 0; i < operators; ++i) {
+  for (size_t i = 0; i < operators; ++i) {
     const Token &op = token(begin + i);
-    const std::size_t n = chain.size();
+    const size_t n = chain.size();
     if (n >= 2 && chain[n - 1]->type == op.type && chain[n - 2]->type == op.type)
       chain.pop_back();
     else
       chain.push_back(&op);
   }
   if (chain.size() > kMaxNesting) {
-    diagnostics_.report(Code::tooDeep, span(*chain.front()),
+    diagnostics_.report(Code::TooDeep, span(*chain.front()),
                         "too many operators in front of one operand",
                         "more than " + std::to_string(kMaxNesting));
     return error(span(context));
   }
-  for (std::size_t i = chain.size(); i-- > 0;) {
+  for (size_t i = chain.size(); i-- > 0;) {
     auto *node = arena_.make<UnaryExpr>();
     node->span = span(*chain[i]).to(operand->span);
-    node->op = chain[i]->type == Tok::NOT     ? UnaryOp::logicalNot
-               : chain[i]->type == Tok::MINUS ? UnaryOp::negate
-                                              : UnaryOp::plus;
+    node->op = chain[i]->type == Tok::NOT     ? UnaryOp::LogicalNot
+               : chain[i]->type == Tok::MINUS ? UnaryOp::Negate
+                                              : UnaryOp::Plus;
     node->operand = operand;
     operand = node;
   }
@@ -156,19 +156,19 @@ Expr *AstBuilder::prefixed(Context *context, std::size_t operators, Expr *operan
 }
 
 Expr *AstBuilder::operand(Context *context) {
-  std::size_t at = first(context);
-  const std::size_t begin = at;
+  size_t at = first(context);
+  const size_t begin = at;
   while (token(at).type == Tok::NOT || token(at).type == Tok::MINUS || token(at).type == Tok::PLUS)
     ++at;
-  const std::size_t operators = at - begin;
-  std::size_t nextChild = 0;
+  const size_t operators = at - begin;
+  size_t nextChild = 0;
   Expr *node = primary(context, at, nextChild);
   if (at <= last(context))
     node = postfix(context, node, at, nextChild);
   return operators == 0 ? node : prefixed(context, operators, node);
 }
 
-Expr *AstBuilder::primary(Context *context, std::size_t &at, std::size_t &nextChild) {
+Expr *AstBuilder::primary(Context *context, size_t &at, size_t &nextChild) {
   const Token &start = token(at);
   switch (start.type) {
   case Tok::IDENT: {
@@ -185,16 +185,16 @@ Expr *AstBuilder::primary(Context *context, std::size_t &at, std::size_t &nextCh
     Context *inside = child(context, nextChild++);
     at = inside->children.empty() ? at + 1 : last(inside) + 1;
     Span whole = span(start).to(span(inside));
-    const std::uint16_t closer = start.type == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET;
+    const uint16_t closer = start.type == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET;
     if (token(at).type == closer)
       whole = whole.to(span(token(at++)));
     if (start.type == Tok::LPAREN)
       return parentheses(inside, whole);
     std::vector<AggregateItem> items;
-    for (std::size_t i = 0; i < inside->children.size(); ++i) {
+    for (size_t i = 0; i < inside->children.size(); ++i) {
       Context *argument = child(inside, i);
       if (argument->children.size() != 1 || last(argument) != last(child(argument, 0))) {
-        diagnostics_.report(Code::unexpectedToken, span(argument), "an array element has no name")
+        diagnostics_.report(Code::UnexpectedToken, span(argument), "an array element has no name")
             .help("initial values of a structure stand in parentheses: `(x := 1, y := 2)`");
         return error(whole);
       }
@@ -233,9 +233,9 @@ Expr *AstBuilder::primary(Context *context, std::size_t &at, std::size_t &nextCh
 }
 
 Expr *AstBuilder::parentheses(Context *inside, Span whole) {
-  const std::size_t count = inside->children.size();
+  const size_t count = inside->children.size();
   if (count == 0) {
-    diagnostics_.report(Code::unexpectedToken, whole,
+    diagnostics_.report(Code::UnexpectedToken, whole,
                         "expected an expression between the parentheses");
     return error(whole);
   }
@@ -265,7 +265,7 @@ Expr *AstBuilder::memberOf(Expr *base, const Token &member) {
   node->base = base;
   node->span = base->span.to(span(member));
   if (member.type == Tok::INTEGER) {
-    std::int32_t bit = 0;
+    int32_t bit = 0;
     for (const char c : text(member))
       bit = c >= '0' && c <= '9' && bit < 100000 ? bit * 10 + (c - '0') : 100000;
     node->bit = bit;
@@ -281,15 +281,15 @@ Expr *AstBuilder::indexOf(Expr *base, Context *inside, Span brackets, Span whole
   node->base = base;
   node->span = whole;
   std::vector<Expr *> indices;
-  for (std::size_t i = 0; i < inside->children.size(); ++i) {
+  for (size_t i = 0; i < inside->children.size(); ++i) {
     Context *argument = child(inside, i);
     indices.push_back(expression(child(argument, 0)));
     if (last(argument) != last(child(argument, 0)))
-      diagnostics_.report(Code::unexpectedToken, span(token(last(child(argument, 0)) + 1)),
+      diagnostics_.report(Code::UnexpectedToken, span(token(last(child(argument, 0)) + 1)),
                           "an index has no name", "expected `,` or `]`");
   }
   if (indices.empty()) {
-    diagnostics_.report(Code::unexpectedToken, brackets, "expected an index between the brackets");
+    diagnostics_.report(Code::UnexpectedToken, brackets, "expected an index between the brackets");
     indices.push_back(error(brackets));
   }
   node->indices = arena_.copy(indices);
@@ -297,11 +297,11 @@ Expr *AstBuilder::indexOf(Expr *base, Context *inside, Span brackets, Span whole
 }
 
 /// A call or an index; `at` is at its bracket, and is behind the closing one afterwards.
-Expr *AstBuilder::bracketed(Expr *base, Context *inside, std::size_t &at, std::size_t end) {
+Expr *AstBuilder::bracketed(Expr *base, Context *inside, size_t &at, size_t end) {
   const Token &start = token(at);
   at = inside->children.empty() ? at + 1 : last(inside) + 1;
   Span whole = base->span.to(span(start)).to(span(inside));
-  const std::uint16_t closer = start.type == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET;
+  const uint16_t closer = start.type == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET;
   if (at <= end && token(at).type == closer)
     whole = whole.to(span(token(at++)));
   if (start.type == Tok::LPAREN) {
@@ -316,13 +316,13 @@ Expr *AstBuilder::bracketed(Expr *base, Context *inside, std::size_t &at, std::s
   return indexOf(base, inside, {file_, start.begin, whole.end}, whole);
 }
 
-Expr *AstBuilder::postfix(Context *context, Expr *base, std::size_t &at, std::size_t &nextChild) {
-  const std::size_t end = last(context);
-  std::size_t count = 0;
+Expr *AstBuilder::postfix(Context *context, Expr *base, size_t &at, size_t &nextChild) {
+  const size_t end = last(context);
+  size_t count = 0;
   while (at <= end) {
     const Token &start = token(at);
     if (++count > kMaxPostfix) {
-      diagnostics_.report(Code::tooDeep, span(start), "too many accesses behind one another",
+      diagnostics_.report(Code::TooDeep, span(start), "too many accesses behind one another",
                           "more than " + std::to_string(kMaxPostfix));
       return error(span(context));
     }
@@ -361,16 +361,16 @@ Expr *AstBuilder::partOf(Expr *base, const Token &member) {
   node->base = base;
   node->span = whole;
   node->name.span = span(member);
-  node->width = letter == 'x'   ? std::uint8_t{1}
-                : letter == 'b' ? std::uint8_t{8}
-                : letter == 'w' ? std::uint8_t{16}
-                : letter == 'd' ? std::uint8_t{32}
-                                : std::uint8_t{64};
+  node->width = letter == 'x'   ? uint8_t{1}
+                : letter == 'b' ? uint8_t{8}
+                : letter == 'w' ? uint8_t{16}
+                : letter == 'd' ? uint8_t{32}
+                                : uint8_t{64};
   node->bit = 0;
   for (const char c : spelling) {
     if (c < '0' || c > '9') {
       diagnostics_
-          .report(Code::invalidAddress, span(member), "malformed partial access",
+          .report(Code::InvalidAddress, span(member), "malformed partial access",
                   "expected one number")
           .note("a part of a variable is written `.%X3`, `.%B1`, `.%W0`, `.%D1` or `.%L0`");
       return error(whole);
@@ -380,25 +380,25 @@ Expr *AstBuilder::partOf(Expr *base, const Token &member) {
   return node;
 }
 
-std::span<Argument> AstBuilder::arguments(Context *context, std::size_t begin) {
-  const std::size_t count = context->children.size() - begin;
+std::span<Argument> AstBuilder::arguments(Context *context, size_t begin) {
+  const size_t count = context->children.size() - begin;
   if (count == 0)
     return {};
   auto *list =
       static_cast<Argument *>(arena_.allocate(sizeof(Argument) * count, alignof(Argument)));
-  for (std::size_t i = 0; i < count; ++i) {
+  for (size_t i = 0; i < count; ++i) {
     Context *argument = child(context, begin + i);
     Argument &out = *::new (&list[i]) Argument{};
     out.span = span(argument);
     Context *front = child(argument, 0);
-    const std::size_t sign = last(front) + 1;
+    const size_t sign = last(front) + 1;
     if (sign > last(argument)) {
       out.value = expression(front);
       continue;
     }
     out.output = token(sign).type == Tok::ARROW;
     if (token(sign).type == Tok::DOTDOT) {
-      diagnostics_.report(Code::unexpectedToken, out.span, "a range cannot be an argument",
+      diagnostics_.report(Code::UnexpectedToken, out.span, "a range cannot be an argument",
                           "expected one value");
       out.value = error(out.span);
       continue;
@@ -408,7 +408,7 @@ std::span<Argument> AstBuilder::arguments(Context *context, std::size_t begin) {
     } else {
       const std::string written(tokenSpelling(token(sign).type));
       Diagnostic &d = diagnostics_.report(
-          Code::argumentName, span(front),
+          Code::ArgumentName, span(front),
           "expected the name of a parameter in front of `" + written + "`", "not a plain name");
       if (out.output)
         d.help("a comparison is written `>=`");

@@ -13,7 +13,7 @@ bool AstBuilder::isRepetition(Context *expression) const {
   if (expression->children.size() != 1)
     return false;
   const Context *only = child(expression, 0);
-  const std::size_t at = first(only);
+  const size_t at = first(only);
   return token(at).type == Tok::INTEGER && token(at + 1).type == Tok::LPAREN &&
          only->children.size() == 1 &&
          last(only) == (child(only, 0)->children.empty() ? at + 2 : last(child(only, 0)) + 1);
@@ -30,7 +30,7 @@ AggregateItem AstBuilder::item(Context *expression) {
   out.repeat = literal(token(first(only)));
   Context *inside = child(only, 0);
   std::vector<AggregateItem> values;
-  for (std::size_t i = 0; i < inside->children.size(); ++i) {
+  for (size_t i = 0; i < inside->children.size(); ++i) {
     Context *argument = child(inside, i);
     if (argument->children.size() != 1) {
       // `3(a := 1)` repeats a structure written without its own parentheses.
@@ -65,13 +65,13 @@ Expr *AstBuilder::structAggregate(Context *inside, Span whole) {
     }
     elements.clear();
   };
-  for (std::size_t i = 0; i < inside->children.size(); ++i) {
+  for (size_t i = 0; i < inside->children.size(); ++i) {
     Context *argument = child(inside, i);
     Context *front = child(argument, 0);
     if (last(front) == last(argument)) { // no name
       if (fields.empty()) {
         diagnostics_
-            .report(Code::unexpectedToken, span(argument), "this value has no name",
+            .report(Code::UnexpectedToken, span(argument), "this value has no name",
                     "expected `name := value`")
             .help("the elements of an array stand in brackets: `[1, 2, 3]`");
         return error(whole);
@@ -83,7 +83,7 @@ Expr *AstBuilder::structAggregate(Context *inside, Span whole) {
     const Token *plain = plainName(front);
     if (plain == nullptr || token(last(front) + 1).type != Tok::ASSIGN ||
         argument->children.size() < 2) {
-      diagnostics_.report(Code::argumentName, span(argument),
+      diagnostics_.report(Code::ArgumentName, span(argument),
                           "expected `name := value` in the list of fields");
       return error(whole);
     }
@@ -110,7 +110,7 @@ Expr *AstBuilder::initializer(Context *context) {
   if (context->children.size() == 1)
     return initialValue(child(context, 0));
   std::vector<AggregateItem> items;
-  for (std::size_t i = 0; i < context->children.size(); ++i)
+  for (size_t i = 0; i < context->children.size(); ++i)
     items.push_back(item(child(context, i)));
   return aggregate(std::move(items), false, span(context));
 }

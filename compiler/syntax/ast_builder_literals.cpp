@@ -26,12 +26,12 @@ Expr *AstBuilder::literal(const Token &start) {
     break;
   case Tok::TRUE:
   case Tok::FALSE:
-    node->literal = LiteralKind::boolean;
+    node->literal = LiteralKind::Boolean;
     node->integer = start.type == Tok::TRUE;
     node->text = spelling;
     break;
   case Tok::TIME_LITERAL: {
-    const std::size_t hash = spelling.find('#');
+    const size_t hash = spelling.find('#');
     const std::string prefix = lowerCase(spelling.substr(0, hash));
     std::string_view value = spelling.substr(hash + 1);
     const bool negative = value[0] == '-';
@@ -42,7 +42,7 @@ Expr *AstBuilder::literal(const Token &start) {
     if (good && negative) {
       auto *negated = arena_.make<UnaryExpr>();
       negated->span = node->span;
-      negated->op = UnaryOp::negate;
+      negated->op = UnaryOp::Negate;
       negated->operand = node;
       return negated;
     }
@@ -60,7 +60,7 @@ Expr *AstBuilder::typedLiteral(const Token &start) {
   if (start.reported)
     return error(whole);
   const std::string_view spelling = text(start);
-  const auto hash = static_cast<std::uint32_t>(spelling.find('#'));
+  const auto hash = static_cast<uint32_t>(spelling.find('#'));
   auto *node = arena_.make<Literal>();
   node->span = whole;
   const std::string_view typeName = spelling.substr(0, hash);
@@ -77,7 +77,7 @@ Expr *AstBuilder::typedLiteral(const Token &start) {
   if (value[0] == '\'' || value[0] == '"') {
     good = literals_.string(value, at, *node);
   } else if (isWord(value, "true") || isWord(value, "false")) {
-    node->literal = LiteralKind::boolean;
+    node->literal = LiteralKind::Boolean;
     node->integer = isWord(value, "true");
     node->text = value;
   } else if (!based && value.find_first_of(".eE") != std::string_view::npos) {
@@ -94,7 +94,7 @@ Expr *AstBuilder::typedLiteral(const Token &start) {
 Expr *AstBuilder::enumLiteral(const Token &start) {
   const Span whole = span(start);
   const std::string_view spelling = text(start);
-  const auto hash = static_cast<std::uint32_t>(spelling.find('#'));
+  const auto hash = static_cast<uint32_t>(spelling.find('#'));
   const std::string_view typeName = spelling.substr(0, hash);
   const std::string_view enumerator = spelling.substr(hash + 1);
   auto *node = arena_.make<EnumLiteralExpr>();

@@ -12,12 +12,12 @@ namespace {
 
 bool isCompound(const Stmt *statement) {
   switch (statement->kind) {
-  case StmtKind::ifS:
-  case StmtKind::caseS:
-  case StmtKind::forS:
-  case StmtKind::whileS:
-  case StmtKind::repeatS:
-  case StmtKind::tryS:
+  case StmtKind::If:
+  case StmtKind::Case:
+  case StmtKind::For:
+  case StmtKind::While:
+  case StmtKind::RepeatS:
+  case StmtKind::Try:
     return true;
   default:
     return false;
@@ -28,26 +28,26 @@ bool isCompound(const Stmt *statement) {
 
 void AstBuilder::declarationInBody(const Name &variable) {
   diagnostics_
-      .report(Code::declarationInBody, variable.span,
+      .report(Code::DeclarationInBody, variable.span,
               "`" + std::string(variable.text) + "` is declared among the statements",
               "variables are declared in front of the first statement")
       .help("move it into VAR … END_VAR");
 }
 
 void AstBuilder::statements(Grammar::StatementsContext *context, std::vector<Stmt *> &out) {
-  for (std::size_t i = 0; i < context->children.size(); ++i) {
+  for (size_t i = 0; i < context->children.size(); ++i) {
     Stmt *node = statement(child(context, i));
     if (node == nullptr)
       continue;
     // `t : TON;` is no label with a statement that does nothing.
-    if (node->kind == StmtKind::call && as<CallStmt>(node)->expr->kind == ExprKind::name &&
-        !out.empty() && out.back()->kind == StmtKind::label) {
+    if (node->kind == StmtKind::Call && as<CallStmt>(node)->expr->kind == ExprKind::Name &&
+        !out.empty() && out.back()->kind == StmtKind::Label) {
       declarationInBody(as<LabelStmt>(out.back())->label);
       out.pop_back();
       continue;
     }
     // The `;` behind END_IF and the like belongs to it.
-    if (node->kind == StmtKind::empty && !out.empty() && isCompound(out.back()) &&
+    if (node->kind == StmtKind::Empty && !out.empty() && isCompound(out.back()) &&
         first(child(context, i)) != 0 &&
         token(first(child(context, i)) - 1).end == out.back()->span.end)
       continue;
@@ -86,16 +86,16 @@ Stmt *AstBuilder::statement(Context *context) {
     node->span = span(context);
     switch (token(first(context)).type) {
     case Tok::EXIT:
-      node->kind = StmtKind::exit;
+      node->kind = StmtKind::Exit;
       break;
     case Tok::RETURN:
-      node->kind = StmtKind::returnS;
+      node->kind = StmtKind::Return;
       break;
     case Tok::CONTINUE:
-      node->kind = StmtKind::continueS;
+      node->kind = StmtKind::Continue;
       break;
     default:
-      node->kind = StmtKind::empty;
+      node->kind = StmtKind::Empty;
       break;
     }
     return node;
@@ -130,8 +130,8 @@ Stmt *AstBuilder::statement(Context *context) {
 }
 
 Stmt *AstBuilder::simpleStatement(Context *context) {
-  const std::size_t count = context->children.size();
-  std::size_t operands = 1;
+  const size_t count = context->children.size();
+  size_t operands = 1;
   while (operands < count && child(context, operands)->getRuleIndex() == Grammar::RuleOperand)
     ++operands;
   const Token &sign = token(last(child(context, operands - 1)) + 1);
@@ -151,10 +151,10 @@ Stmt *AstBuilder::simpleStatement(Context *context) {
         count > 1 && first.type == Tok::EQUAL) {
       if (!first.reported)
         diagnostics_
-            .report(Code::equalForAssign, span(first), "`=` compares, it does not assign",
+            .report(Code::EqualForAssign, span(first), "`=` compares, it does not assign",
                     "expected `:=`")
             .help("write `:=` to assign a value");
-      return assignment(AssignOp::assign, first, {operand(child(context, 0))},
+      return assignment(AssignOp::Assign, first, {operand(child(context, 0))},
                         flat(context, 1, count));
     }
     auto *node = arena_.make<CallStmt>();
@@ -164,16 +164,16 @@ Stmt *AstBuilder::simpleStatement(Context *context) {
   }
   std::vector<Expr *> targets{flat(context, 0, operands)};
   std::vector<const Token *> signs{&sign};
-  for (std::size_t i = operands; i + 1 < count; ++i) {
+  for (size_t i = operands; i + 1 < count; ++i) {
     targets.push_back(expression(child(context, i)));
     signs.push_back(&token(last(child(context, i)) + 1));
   }
   Expr *value = expression(child(context, count - 1));
   const auto opOf = [](const Token &token) {
-    return token.type == Tok::SET_ASSIGN     ? AssignOp::set
-           : token.type == Tok::RESET_ASSIGN ? AssignOp::reset
-           : token.type == Tok::REF_ASSIGN   ? AssignOp::reference
-                                             : AssignOp::assign;
+    return token.type == Tok::SET_ASSIGN     ? AssignOp::Set
+           : token.type == Tok::RESET_ASSIGN ? AssignOp::Reset
+           : token.type == Tok::REF_ASSIGN   ? AssignOp::Reference
+                                             : AssignOp::Assign;
   };
   const bool alike =
       std::all_of(signs.begin(), signs.end(), [&](const Token *s) { return s->type == sign.type; });
@@ -181,10 +181,10 @@ Stmt *AstBuilder::simpleStatement(Context *context) {
     return assignment(opOf(sign), sign, targets, value);
   // `a S= b R= x` is IF x THEN a S= TRUE; b R= TRUE; END_IF
   std::vector<Stmt *> body;
-  for (std::size_t i = 0; i < targets.size(); ++i) {
+  for (size_t i = 0; i < targets.size(); ++i) {
     auto *yes = arena_.make<Literal>();
     yes->span = value->span;
-    yes->literal = LiteralKind::boolean;
+    yes->literal = LiteralKind::Boolean;
     yes->integer = 1;
     yes->text = "TRUE";
     body.push_back(assignment(opOf(*signs[i]), *signs[i], {targets[i]}, yes));
@@ -206,7 +206,7 @@ Expr *AstBuilder::condition(Context *context) {
     return node;
   const Token &sign = token(last(child(context, 0)) + 1);
   diagnostics_
-      .report(Code::assignInCondition, span(sign), "`:=` assigns, it does not compare",
+      .report(Code::AssignInCondition, span(sign), "`:=` assigns, it does not compare",
               "expected `=`")
       .help("write `=` to compare");
   return error(span(context));
@@ -215,10 +215,10 @@ Expr *AstBuilder::condition(Context *context) {
 Stmt *AstBuilder::ifStatement(Context *context) {
   auto *node = arena_.make<IfStmt>();
   node->span = span(context);
-  const std::size_t count = context->children.size();
+  const size_t count = context->children.size();
   std::vector<IfBranch> branches;
   branches.reserve(count / 2);
-  std::size_t i = 0;
+  size_t i = 0;
   for (; i + 1 < count; i += 2) {
     IfBranch branch;
     branch.condition = condition(child(context, i));
@@ -238,7 +238,7 @@ Stmt *AstBuilder::caseStatement(Context *context) {
   node->span = span(context);
   node->selector = condition(child(context, 0));
   std::vector<CaseBranch> branches;
-  for (std::size_t i = 1; i < context->children.size(); ++i) {
+  for (size_t i = 1; i < context->children.size(); ++i) {
     Context *part = child(context, i);
     if (part->getRuleIndex() != Grammar::RuleCaseBranch) {
       node->hasElse = true;
@@ -248,7 +248,7 @@ Stmt *AstBuilder::caseStatement(Context *context) {
     CaseBranch branch;
     std::vector<CaseLabel> labels;
     Context *list = child(part, 0);
-    for (std::size_t k = 0; !failed(list) && k < list->children.size(); ++k) {
+    for (size_t k = 0; !failed(list) && k < list->children.size(); ++k) {
       Context *one = child(list, k);
       CaseLabel label;
       label.span = span(one);
@@ -292,7 +292,7 @@ Stmt *AstBuilder::tryStatement(Context *context) {
   auto *node = arena_.make<TryStmt>();
   node->span = span(context);
   node->body = block(child(context, 0));
-  for (std::size_t i = 1; i < context->children.size(); ++i) {
+  for (size_t i = 1; i < context->children.size(); ++i) {
     Context *part = child(context, i);
     if (part->getRuleIndex() == Grammar::RuleOperand) {
       node->exception = operand(part);

@@ -35,7 +35,7 @@ TypeExpr *AstBuilder::type(Context *context, bool declared) {
     auto *node = arena_.make<ArrayTypeExpr>();
     node->span = whole;
     std::vector<ArrayRange> ranges;
-    for (std::size_t i = 0; i + 1 < context->children.size(); ++i) {
+    for (size_t i = 0; i + 1 < context->children.size(); ++i) {
       Context *part = child(context, i);
       ArrayRange range;
       range.span = span(part);
@@ -53,7 +53,7 @@ TypeExpr *AstBuilder::type(Context *context, bool declared) {
   case Tok::REF_TO:
   case Tok::REFERENCE: {
     auto *node = arena_.make<PointerTypeExpr>();
-    node->kind = start.type == Tok::REFERENCE ? TypeExprKind::reference : TypeExprKind::pointer;
+    node->kind = start.type == Tok::REFERENCE ? TypeExprKind::Reference : TypeExprKind::Pointer;
     node->refTo = start.type == Tok::REF_TO;
     node->span = whole;
     node->pointee = type(child(context, 0));
@@ -69,7 +69,7 @@ TypeExpr *AstBuilder::type(Context *context, bool declared) {
     return node;
   }
   case Tok::LPAREN: {
-    std::size_t arguments = context->children.size();
+    size_t arguments = context->children.size();
     TypeExpr *base = nullptr;
     if (Context *end = child(context, arguments - 1); end->getRuleIndex() == Grammar::RulePath) {
       --arguments;
@@ -105,8 +105,8 @@ TypeExpr *AstBuilder::namedType(Context *context, bool declared) {
     blockArguments(argument, *named);
     return named;
   }
-  const std::uint16_t sign =
-      argument->children.size() > 1 ? token(last(child(argument, 0)) + 1).type : std::uint16_t{0};
+  const uint16_t sign =
+      argument->children.size() > 1 ? token(last(child(argument, 0)) + 1).type : uint16_t{0};
   if (sign == Tok::DOTDOT) {
     auto *node = arena_.make<SubrangeTypeExpr>();
     node->span = span(context);
@@ -114,7 +114,7 @@ TypeExpr *AstBuilder::namedType(Context *context, bool declared) {
     node->low = expression(child(argument, 0));
     node->high = expression(child(argument, 1));
     if (context->children.size() > 2)
-      diagnostics_.report(Code::unexpectedToken, span(child(context, 2)),
+      diagnostics_.report(Code::UnexpectedToken, span(child(context, 2)),
                           "a subrange has one range");
     return node;
   }
@@ -135,14 +135,14 @@ TypeExpr *AstBuilder::namedType(Context *context, bool declared) {
 /// `Block[(a := 1), (a := 2)]`, the type of an array's elements.
 void AstBuilder::blockArguments(Context *list, NamedTypeExpr &out) {
   std::vector<std::span<Argument>> elements;
-  for (std::size_t i = 0; i < list->children.size(); ++i) {
+  for (size_t i = 0; i < list->children.size(); ++i) {
     Context *argument = child(list, i);
     Context *only = argument->children.size() == 1 ? child(argument, 0) : nullptr;
     Context *operand = only != nullptr && only->children.size() == 1 ? child(only, 0) : nullptr;
     if (operand == nullptr || token(first(operand)).type != Tok::LPAREN ||
         operand->children.size() != 1 || last(operand) != last(argument)) {
       diagnostics_
-          .report(Code::unexpectedToken, span(argument),
+          .report(Code::UnexpectedToken, span(argument),
                   "expected the arguments of one element, in parentheses", "not `(…)`")
           .help("write `Block[(a := 1), (a := 2)]`");
       return;
@@ -171,19 +171,18 @@ DirectAddress *AstBuilder::address(const Token &token) {
     node->incomplete = true;
     return node;
   }
-  std::vector<std::uint32_t> numbers{0};
+  std::vector<uint32_t> numbers{0};
   for (const char c : rest) {
     if (c == '.') {
       numbers.push_back(0);
     } else {
-      const std::uint64_t value =
-          std::uint64_t{numbers.back()} * 10 + static_cast<unsigned>(c - '0');
+      const uint64_t value = uint64_t{numbers.back()} * 10 + static_cast<unsigned>(c - '0');
       if (value > 0xFFFF'FFFF) {
-        diagnostics_.report(Code::invalidAddress, node->span,
+        diagnostics_.report(Code::InvalidAddress, node->span,
                             "the number in this address is too large", "at most 4294967295");
         return nullptr;
       }
-      numbers.back() = static_cast<std::uint32_t>(value);
+      numbers.back() = static_cast<uint32_t>(value);
     }
   }
   node->numbers = arena_.copy(numbers);
@@ -193,18 +192,17 @@ DirectAddress *AstBuilder::address(const Token &token) {
 // --------------------------------------------------------------------------------------------
 // namespaces and configurations
 
-EnumTypeExpr *AstBuilder::enumeration(Context *context, std::size_t firstArgument,
-                                      std::size_t arguments) {
+EnumTypeExpr *AstBuilder::enumeration(Context *context, size_t firstArgument, size_t arguments) {
   auto *node = arena_.make<EnumTypeExpr>();
   node->span = span(context);
   std::vector<EnumeratorDecl> list;
-  for (std::size_t i = firstArgument; i < arguments; ++i) {
+  for (size_t i = firstArgument; i < arguments; ++i) {
     Context *argument = child(context, i);
     Context *front = child(argument, 0);
     const Token *plain = plainName(front);
     if (plain == nullptr ||
         (argument->children.size() > 1 && token(last(front) + 1).type != Tok::ASSIGN)) {
-      diagnostics_.report(Code::unexpectedToken, span(argument),
+      diagnostics_.report(Code::UnexpectedToken, span(argument),
                           "expected the name of an enumerator", "not `name` or `name := value`");
       return nullptr;
     }

@@ -1,28 +1,29 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_AST_DECLARATIONS_HPP
+#define STRIDE_COMPILER_SYNTAX_AST_DECLARATIONS_HPP
 // Types as they are written, and declarations.
 
 #include "compiler/syntax/ast_statements.hpp"
 
 namespace stc::ast {
 
-enum class TypeExprKind : std::uint8_t {
-  named,
-  array,
-  string,
-  pointer,
-  reference,
-  subrange,
-  enumeration,
-  error
+enum class TypeExprKind : uint8_t {
+  Named,
+  Array,
+  String,
+  Pointer,
+  Reference,
+  Subrange,
+  Enumeration,
+  Error
 };
 
 struct TypeExpr {
-  TypeExprKind kind = TypeExprKind::error;
+  TypeExprKind kind = TypeExprKind::Error;
   Span span;
 };
 
 /// `INT`, `Lib.Type`, `Block(a := 1)` with arguments for FB_Init
-struct NamedTypeExpr : Node<TypeExpr, TypeExprKind::named> {
+struct NamedTypeExpr : Node<TypeExpr, TypeExprKind::Named> {
   std::span<Name> path;
   bool hasArguments = false;     ///< `Block(…)`, also with nothing between the parentheses
   std::span<Argument> arguments; ///< of `Block(…)`
@@ -37,26 +38,26 @@ struct ArrayRange {
   Span span;
 };
 
-struct ArrayTypeExpr : Node<TypeExpr, TypeExprKind::array> {
+struct ArrayTypeExpr : Node<TypeExpr, TypeExprKind::Array> {
   std::span<ArrayRange> ranges;
   TypeExpr *element = nullptr;
 };
 
 /// STRING, STRING(n), STRING[n], WSTRING…
-struct StringTypeExpr : Node<TypeExpr, TypeExprKind::string> {
+struct StringTypeExpr : Node<TypeExpr, TypeExprKind::String> {
   bool wide = false;
   Expr *length = nullptr; ///< null: 80
 };
 
 /// POINTER TO / REFERENCE TO / REF_TO
-struct PointerTypeExpr : Node<TypeExpr, TypeExprKind::pointer, TypeExprKind::reference> {
+struct PointerTypeExpr : Node<TypeExpr, TypeExprKind::Pointer, TypeExprKind::Reference> {
   TypeExpr *pointee = nullptr;
   bool refTo =
       false; ///< edition 3's REF_TO: a pointer that is only assigned, compared and followed
 };
 
 /// `INT(0..10)`
-struct SubrangeTypeExpr : Node<TypeExpr, TypeExprKind::subrange> {
+struct SubrangeTypeExpr : Node<TypeExpr, TypeExprKind::Subrange> {
   TypeExpr *base = nullptr;
   Expr *low = nullptr;
   Expr *high = nullptr;
@@ -69,39 +70,39 @@ struct EnumeratorDecl {
 };
 
 /// `(a, b := 5, c) BYTE := a`, in a TYPE or in line in a variable declaration.
-struct EnumTypeExpr : Node<TypeExpr, TypeExprKind::enumeration> {
+struct EnumTypeExpr : Node<TypeExpr, TypeExprKind::Enumeration> {
   std::span<EnumeratorDecl> enumerators;
   TypeExpr *base = nullptr; ///< null: INT
 };
 
-enum class Section : std::uint8_t {
-  local,    ///< VAR
-  input,    ///< VAR_INPUT
-  output,   ///< VAR_OUTPUT
-  inOut,    ///< VAR_IN_OUT
-  temp,     ///< VAR_TEMP
-  stat,     ///< VAR_STAT
-  external, ///< VAR_EXTERNAL
-  global,   ///< VAR_GLOBAL
-  config,   ///< VAR_CONFIG
-  access,   ///< VAR_ACCESS
-  instance, ///< VAR_INST: of a METHOD, kept in the block's instance
+enum class Section : uint8_t {
+  Local,    ///< VAR
+  Input,    ///< VAR_INPUT
+  Output,   ///< VAR_OUTPUT
+  InOut,    ///< VAR_IN_OUT
+  Temp,     ///< VAR_TEMP
+  Stat,     ///< VAR_STAT
+  External, ///< VAR_EXTERNAL
+  Global,   ///< VAR_GLOBAL
+  Config,   ///< VAR_CONFIG
+  Access,   ///< VAR_ACCESS
+  Instance, ///< VAR_INST: of a METHOD, kept in the block's instance
 };
 
-enum Qualifier : std::uint8_t {
-  qualConstant = 1,
-  qualRetain = 2,
-  qualPersistent = 4,
-  qualNonRetain = 8,
+enum Qualifier : uint8_t {
+  kQualConstant = 1,
+  kQualRetain = 2,
+  kQualPersistent = 4,
+  kQualNonRetain = 8,
 };
 
-enum class Access : std::uint8_t { none, publicA, privateA, protectedA, internalA };
+enum class Access : uint8_t { None, Public, Private, Protected, Internal };
 
 /// One declared variable (`a, b : INT` gives two, sharing type and init).
 struct VarDecl {
   Name name;
-  Section section = Section::local;
-  std::uint8_t qualifiers = 0; ///< Qualifier bits
+  Section section = Section::Local;
+  uint8_t qualifiers = 0; ///< Qualifier bits
   TypeExpr *type = nullptr;
   Expr *init = nullptr;
   DirectAddress *address = nullptr; ///< of an AT clause; null: none
@@ -109,41 +110,41 @@ struct VarDecl {
       nullptr; ///< VAR_CONFIG, VAR_ACCESS: the variable that is meant (`Main.fb.x`, `%IX0.0`)
   bool readOnly = false;        ///< VAR_ACCESS: READ_ONLY
   bool readWrite = false;       ///< VAR_ACCESS: READ_WRITE
-  Access access = Access::none; ///< `VAR PUBLIC`
+  Access access = Access::None; ///< `VAR PUBLIC`
   Attributes attributes;
   std::string_view doc;        ///< text of the `///` lines above
   VarSymbol *symbol = nullptr; ///< [sema]
 };
 
-enum class DeclKind : std::uint8_t {
-  program,
-  function,
-  functionBlock,
-  classD,    ///< CLASS: a function block without body
-  interface, ///< INTERFACE: methods and properties without bodies
-  method,    ///< only inside of a block, class, interface or program
-  action,    ///< only inside of a block or program
-  property,  ///< only inside of a block, class or interface
-  structure, ///< STRUCT, UNION
-  enumeration,
-  alias,
-  globals,
-  config,        ///< VAR_CONFIG outside of everything
-  access,        ///< VAR_ACCESS outside of everything
-  configuration, ///< CONFIGURATION … END_CONFIGURATION
+enum class DeclKind : uint8_t {
+  Program,
+  Function,
+  FunctionBlock,
+  Class,     ///< CLASS: a function block without body
+  Interface, ///< INTERFACE: methods and properties without bodies
+  Method,    ///< only inside of a block, class, interface or program
+  Action,    ///< only inside of a block or program
+  Property,  ///< only inside of a block, class or interface
+  Structure, ///< STRUCT, UNION
+  Enumeration,
+  Alias,
+  Globals,
+  Config,        ///< VAR_CONFIG outside of everything
+  Access,        ///< VAR_ACCESS outside of everything
+  Configuration, ///< CONFIGURATION … END_CONFIGURATION
 };
 
 /// Bits of Decl::modifiers.
-enum Modifier : std::uint8_t { modAbstract = 1, modFinal = 2, modOverride = 4 };
+enum Modifier : uint8_t { kModAbstract = 1, kModFinal = 2, kModOverride = 4 };
 
 struct Decl {
-  DeclKind kind = DeclKind::program;
+  DeclKind kind = DeclKind::Program;
   Name name; ///< globals: empty unless the file names the list
   Span span;
   Attributes attributes;
   std::string_view doc;
-  Access access = Access::none;
-  std::uint8_t modifiers = 0; ///< Modifier bits
+  Access access = Access::None;
+  uint8_t modifiers = 0;      ///< Modifier bits
   NamePath space;             ///< the NAMESPACE around it; empty: none
   std::span<NamePath> usings; ///< USING directives that hold here
 };
@@ -152,8 +153,8 @@ struct PropertyDecl;
 
 /// PROGRAM, FUNCTION, FUNCTION_BLOCK, CLASS, INTERFACE, METHOD, ACTION, and the GET and SET of a
 /// property (a method without parameters, with a result; with the one input named as the property).
-struct PouDecl : Node<Decl, DeclKind::program, DeclKind::function, DeclKind::functionBlock,
-                      DeclKind::classD, DeclKind::interface, DeclKind::method, DeclKind::action> {
+struct PouDecl : Node<Decl, DeclKind::Program, DeclKind::Function, DeclKind::FunctionBlock,
+                      DeclKind::Class, DeclKind::Interface, DeclKind::Method, DeclKind::Action> {
   std::span<VarDecl *> variables; ///< of all sections in the order of the text
   TypeExpr *returnType = nullptr; ///< FUNCTION, METHOD; null: none
   Block body;
@@ -167,34 +168,34 @@ struct PouDecl : Node<Decl, DeclKind::program, DeclKind::function, DeclKind::fun
 };
 
 /// PROPERTY n : T … GET … END_GET SET … END_SET END_PROPERTY
-struct PropertyDecl : Node<Decl, DeclKind::property> {
+struct PropertyDecl : Node<Decl, DeclKind::Property> {
   TypeExpr *type = nullptr;
   PouDecl *get = nullptr; ///< kind method; null: write-only
   PouDecl *set = nullptr; ///< kind method; null: read-only
 };
 
 /// TYPE n : STRUCT … END_STRUCT END_TYPE, UNION … END_UNION
-struct StructDecl : Node<Decl, DeclKind::structure> {
+struct StructDecl : Node<Decl, DeclKind::Structure> {
   NamePath base; ///< EXTENDS; empty: none
   bool isUnion = false;
   std::span<VarDecl *> fields;
 };
 
 /// TYPE n : (a, b, c) BYTE := a; END_TYPE
-struct EnumDecl : Node<Decl, DeclKind::enumeration> {
+struct EnumDecl : Node<Decl, DeclKind::Enumeration> {
   EnumTypeExpr *type = nullptr;
   Expr *init = nullptr;
 };
 
 /// TYPE n : INT := 5; END_TYPE, also arrays, strings, subranges, pointers
-struct AliasDecl : Node<Decl, DeclKind::alias> {
+struct AliasDecl : Node<Decl, DeclKind::Alias> {
   TypeExpr *type = nullptr;
   Expr *init = nullptr;
 };
 
 /// One VAR_GLOBAL, VAR_CONFIG or VAR_ACCESS block.
 struct PouDecl;
-struct GlobalsDecl : Node<Decl, DeclKind::globals, DeclKind::config, DeclKind::access> {
+struct GlobalsDecl : Node<Decl, DeclKind::Globals, DeclKind::Config, DeclKind::Access> {
   std::span<VarDecl *> variables;
   const PouDecl *program = nullptr; ///< VAR_ACCESS: the PROGRAM that it stands in; null: none
 };
@@ -209,9 +210,9 @@ struct TaskDecl {
 /// `PROGRAM name WITH task : Type (in := x, out => y);`
 struct ProgramInstanceDecl {
   Name name;
-  std::uint8_t qualifiers = 0; ///< RETAIN, NON_RETAIN
-  Name task;                   ///< empty: none
-  NamePath type;               ///< empty: the program called `name`
+  uint8_t qualifiers = 0; ///< RETAIN, NON_RETAIN
+  Name task;              ///< empty: none
+  NamePath type;          ///< empty: the program called `name`
   std::span<Argument> arguments;
   Span span;
 };
@@ -227,7 +228,7 @@ struct ResourceDecl {
 
 /// CONFIGURATION. Its VAR_GLOBAL, VAR_CONFIG and VAR_ACCESS blocks (its resources' too) follow as
 /// declarations of their own.
-struct ConfigurationDecl : Node<Decl, DeclKind::configuration> {
+struct ConfigurationDecl : Node<Decl, DeclKind::Configuration> {
   std::span<ResourceDecl> resources;
 };
 
@@ -235,7 +236,7 @@ struct ConfigurationDecl : Node<Decl, DeclKind::configuration> {
 struct StrayMember {
   Name owner;
   Decl *member = nullptr;
-  std::uint16_t kind = 0; ///< token type of its keyword
+  uint16_t kind = 0; ///< token type of its keyword
 };
 
 /// One parsed file.
@@ -246,3 +247,5 @@ struct File {
 };
 
 } // namespace stc::ast
+
+#endif // STRIDE_COMPILER_SYNTAX_AST_DECLARATIONS_HPP

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_AST_NODE_HPP
+#define STRIDE_COMPILER_SYNTAX_AST_NODE_HPP
 // What all nodes of the syntax tree have in common.
 
 #include "compiler/source/identifier.hpp"
@@ -33,11 +34,11 @@ using NamePath = std::span<Name>;
 
 /// `%IX0.0`, `%QW2`, `%MD4`, `%I*`: where a located variable lies.
 struct DirectAddress {
-  char area = 'M';                  ///< I, Q or M
-  char size = 'X';                  ///< X (bit), B, W, D or L; a missing letter means X
-  bool incomplete = false;          ///< `%I*`: VAR_CONFIG gives the place
-  std::span<std::uint32_t> numbers; ///< `%IX3.7` gives 3, 7
-  std::string_view text;            ///< as written
+  char area = 'M';             ///< I, Q or M
+  char size = 'X';             ///< X (bit), B, W, D or L; a missing letter means X
+  bool incomplete = false;     ///< `%I*`: VAR_CONFIG gives the place
+  std::span<uint32_t> numbers; ///< `%IX3.7` gives 3, 7
+  std::string_view text;       ///< as written
   Span span;
 };
 
@@ -72,3 +73,5 @@ template <class T, class Base> const T *as(const Base *node) {
 
 } // namespace ast
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SYNTAX_AST_NODE_HPP

@@ -1,45 +1,46 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_AST_STATEMENTS_HPP
+#define STRIDE_COMPILER_SYNTAX_AST_STATEMENTS_HPP
 // Statements.
 
 #include "compiler/syntax/ast_expressions.hpp"
 
 namespace stc::ast {
 
-enum class StmtKind : std::uint8_t {
-  empty,
-  assign,
-  call,
-  ifS,
-  caseS,
-  forS,
-  whileS,
-  repeatS,
-  exit,
-  continueS,
-  returnS,
-  jump,
-  label,
-  tryS,
+enum class StmtKind : uint8_t {
+  Empty,
+  Assign,
+  Call,
+  If,
+  Case,
+  For,
+  While,
+  RepeatS,
+  Exit,
+  Continue,
+  Return,
+  Jump,
+  Label,
+  Try,
 };
 
 struct Stmt {
-  StmtKind kind = StmtKind::empty;
+  StmtKind kind = StmtKind::Empty;
   Span span;
 };
 using Block = std::span<Stmt *>;
 
-enum class AssignOp : std::uint8_t { assign, set, reset, reference };
+enum class AssignOp : uint8_t { Assign, Set, Reset, Reference };
 
 /// `a := b`, `a := b := c`, `a S= b`, `a R= b`, `a REF= b`
-struct AssignStmt : Node<Stmt, StmtKind::assign> {
-  AssignOp op = AssignOp::assign;
+struct AssignStmt : Node<Stmt, StmtKind::Assign> {
+  AssignOp op = AssignOp::Assign;
   Span opSpan;
   std::span<Expr *> targets; ///< from left to right; the value goes to the last first
   Expr *value = nullptr;
 };
 
 /// A call as a statement. `expr` is a CallExpr (sema reports anything else).
-struct CallStmt : Node<Stmt, StmtKind::call> {
+struct CallStmt : Node<Stmt, StmtKind::Call> {
   Expr *expr = nullptr;
 };
 
@@ -48,7 +49,7 @@ struct IfBranch {
   Block body;
 };
 
-struct IfStmt : Node<Stmt, StmtKind::ifS> {
+struct IfStmt : Node<Stmt, StmtKind::If> {
   std::span<IfBranch> branches; ///< IF, then each ELSIF
   bool hasElse = false;
   Block elseBody;
@@ -66,14 +67,14 @@ struct CaseBranch {
   Block body;
 };
 
-struct CaseStmt : Node<Stmt, StmtKind::caseS> {
+struct CaseStmt : Node<Stmt, StmtKind::Case> {
   Expr *selector = nullptr;
   std::span<CaseBranch> branches;
   bool hasElse = false;
   Block elseBody;
 };
 
-struct ForStmt : Node<Stmt, StmtKind::forS> {
+struct ForStmt : Node<Stmt, StmtKind::For> {
   Expr *variable = nullptr;
   Expr *from = nullptr;
   Expr *to = nullptr;
@@ -81,30 +82,30 @@ struct ForStmt : Node<Stmt, StmtKind::forS> {
   Block body;
 };
 
-struct WhileStmt : Node<Stmt, StmtKind::whileS> {
+struct WhileStmt : Node<Stmt, StmtKind::While> {
   Expr *condition = nullptr;
   Block body;
 };
 
-struct RepeatStmt : Node<Stmt, StmtKind::repeatS> {
+struct RepeatStmt : Node<Stmt, StmtKind::RepeatS> {
   Block body;
   Expr *until = nullptr;
 };
 
 /// `JMP name;`
-struct JumpStmt : Node<Stmt, StmtKind::jump> {
+struct JumpStmt : Node<Stmt, StmtKind::Jump> {
   Name label;
   struct LabelStmt *target = nullptr; ///< [sema]
 };
 
 /// `name:` in front of a statement.
-struct LabelStmt : Node<Stmt, StmtKind::label> {
+struct LabelStmt : Node<Stmt, StmtKind::Label> {
   Name label;
   bool used = false; ///< [sema] some JMP leads here
 };
 
 /// `__TRY … __CATCH (exc) … __FINALLY … __ENDTRY`
-struct TryStmt : Node<Stmt, StmtKind::tryS> {
+struct TryStmt : Node<Stmt, StmtKind::Try> {
   Block body;
   bool hasCatch = false;
   Expr *exception = nullptr; ///< the variable in parentheses; null: none
@@ -114,3 +115,5 @@ struct TryStmt : Node<Stmt, StmtKind::tryS> {
 };
 
 } // namespace stc::ast
+
+#endif // STRIDE_COMPILER_SYNTAX_AST_STATEMENTS_HPP

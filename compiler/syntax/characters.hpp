@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_CHARACTERS_HPP
+#define STRIDE_COMPILER_SYNTAX_CHARACTERS_HPP
 // Kinds of characters, for the scanner.
 
 #include <array>
@@ -6,24 +7,24 @@
 
 namespace stc {
 
-enum CharClass : std::uint8_t { other, blank, letter, digit };
+enum CharClass : uint8_t { kOther, kBlank, kLetter, kDigit };
 
-inline constexpr std::array<std::uint8_t, 256> kClasses = [] {
-  std::array<std::uint8_t, 256> classes{};
+inline constexpr std::array<uint8_t, 256> kClasses = [] {
+  std::array<uint8_t, 256> classes{};
   for (int c = 'a'; c <= 'z'; ++c)
-    classes[static_cast<std::size_t>(c)] = classes[static_cast<std::size_t>(c - 32)] = letter;
+    classes[static_cast<size_t>(c)] = classes[static_cast<size_t>(c - 32)] = kLetter;
   for (int c = '0'; c <= '9'; ++c)
-    classes[static_cast<std::size_t>(c)] = digit;
-  classes['_'] = letter;
+    classes[static_cast<size_t>(c)] = kDigit;
+  classes['_'] = kLetter;
   for (const char c : {' ', '\t', '\r', '\n', '\f', '\v', '\x1A'})
-    classes[static_cast<unsigned char>(c)] = blank;
+    classes[static_cast<unsigned char>(c)] = kBlank;
   return classes;
 }();
 
-constexpr std::uint8_t classOf(char c) { return kClasses[static_cast<unsigned char>(c)]; }
-constexpr bool isDigit(char c) { return classOf(c) == digit; }
-constexpr bool isLetter(char c) { return classOf(c) == letter; }
-constexpr bool isWordChar(char c) { return classOf(c) >= letter; }
+constexpr uint8_t classOf(char c) { return kClasses[static_cast<unsigned char>(c)]; }
+constexpr bool isDigit(char c) { return classOf(c) == kDigit; }
+constexpr bool isLetter(char c) { return classOf(c) == kLetter; }
+constexpr bool isWordChar(char c) { return classOf(c) >= kLetter; }
 constexpr bool isForeign(char c) { return static_cast<unsigned char>(c) >= 0x80; }
 
 /// A letter of another alphabet in UTF-8 begins so, rather than a sign (`§`, `×`, `≤`, `„`).
@@ -38,3 +39,5 @@ constexpr bool isForeignLetter(char first, char second) {
 }
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SYNTAX_CHARACTERS_HPP

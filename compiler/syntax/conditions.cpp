@@ -17,7 +17,7 @@ constexpr std::string_view kAlways[] = {"stride", "islittleendian", "isfpusuppor
 } // namespace
 
 std::optional<Define> readDefine(std::string_view text) {
-  const std::size_t equal = std::min(text.find('='), text.size());
+  const size_t equal = std::min(text.find('='), text.size());
   const std::string_view name = text.substr(0, equal);
   if (name.empty() || !isLetter(name[0]) || !std::all_of(name.begin(), name.end(), isWordChar))
     return std::nullopt;
@@ -59,16 +59,16 @@ private:
   using Kind = DeclaredNames::Kind;
 
   void skip() {
-    while (at_ < text_.size() && classOf(text_[at_]) == blank)
+    while (at_ < text_.size() && classOf(text_[at_]) == kBlank)
       ++at_;
   }
-  bool fail(std::size_t from, std::size_t to, std::string expected) {
+  bool fail(size_t from, size_t to, std::string expected) {
     if (failed_)
       return false;
     failed_ = true;
-    const auto begin = static_cast<std::uint32_t>(place_.begin + from);
-    const auto end = static_cast<std::uint32_t>(place_.begin + std::max(to, from));
-    Diagnostic &d = diagnostics_.report(Code::malformedPragma, {place_.file, begin, end},
+    const auto begin = static_cast<uint32_t>(place_.begin + from);
+    const auto end = static_cast<uint32_t>(place_.begin + std::max(to, from));
+    Diagnostic &d = diagnostics_.report(Code::MalformedPragma, {place_.file, begin, end},
                                         "this condition cannot be understood", std::move(expected));
     const std::string_view found = text_.substr(from, to - from);
     if (!found.empty() && isLetter(found[0]) && d.labels[0].text.starts_with("expected a question"))
@@ -80,14 +80,14 @@ private:
   }
   std::string_view word() {
     skip();
-    const std::size_t begin = at_;
+    const size_t begin = at_;
     if (at_ < text_.size() && isLetter(text_[at_]))
       while (at_ < text_.size() && isWordChar(text_[at_]))
         ++at_;
     return text_.substr(begin, at_ - begin);
   }
   bool takeWord(std::string_view wanted) {
-    const std::size_t before = at_;
+    const size_t before = at_;
     if (lowerCase(word()) == wanted)
       return true;
     at_ = before;
@@ -138,7 +138,7 @@ private:
       return value;
     }
     skip();
-    const std::size_t begin = at_;
+    const size_t begin = at_;
     const std::string name = lowerCase(word());
     if (name == "true" || name == "false")
       return name == "true";
@@ -172,7 +172,7 @@ private:
   std::string value() {
     skip();
     if (at_ < text_.size() && (text_[at_] == '\'' || text_[at_] == '"')) {
-      const std::size_t close = text_.find(text_[at_], at_ + 1);
+      const size_t close = text_.find(text_[at_], at_ + 1);
       if (close == std::string_view::npos) {
         fail(at_, text_.size(), "this text has no end");
         return {};
@@ -189,7 +189,7 @@ private:
         break;
       depth += c == '(' || c == '[';
       depth -= depth > 0 && (c == ')' || c == ']');
-      if (classOf(c) != blank)
+      if (classOf(c) != kBlank)
         out += lowerCase(c);
     }
     if (out.empty())
@@ -203,7 +203,7 @@ private:
   /// `variable: name`, `pou: name`, `type: name`.
   const DeclaredNames::Entry *object(bool &known) {
     skip();
-    const std::size_t begin = at_;
+    const size_t begin = at_;
     const std::string kind = lowerCase(word());
     known = true;
     demand(':');
@@ -211,11 +211,11 @@ private:
       return nullptr;
     const std::string name = path();
     if (kind == "variable")
-      return find(Kind::variable, name);
+      return find(Kind::Variable, name);
     if (kind == "type")
-      return find(Kind::type, name);
+      return find(Kind::Type, name);
     if (kind == "pou")
-      return find(Kind::pou, name);
+      return find(Kind::Pou, name);
     known = kind == "task" || kind == "resource" || kind == "project_defined";
     if (!known)
       fail(begin, begin + kind.size(), "expected variable, type or pou");
@@ -223,7 +223,7 @@ private:
   }
 
   bool isDefined() {
-    const std::size_t before = at_;
+    const size_t before = at_;
     const std::string name = lowerCase(word());
     if (take(':')) {
       at_ = before;
@@ -258,11 +258,11 @@ private:
   /// hasconstantvalue (variable: c, 5, >)
   bool hasConstantValue() {
     bool known = false;
-    const std::size_t before = at_;
+    const size_t before = at_;
     (void)word();
     const bool named = take(':');
     at_ = before;
-    const DeclaredNames::Entry *entry = named ? object(known) : find(Kind::variable, path());
+    const DeclaredNames::Entry *entry = named ? object(known) : find(Kind::Variable, path());
     demand(',');
     const std::string wanted = value();
     const std::string op = take(',') ? value() : "=";
@@ -287,7 +287,7 @@ private:
   std::string_view text_;
   Span place_;
   Diagnostics &diagnostics_;
-  std::size_t at_ = 0;
+  size_t at_ = 0;
   unsigned depth_ = 0;
   bool failed_ = false;
 };

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_CONDITIONS_HPP
+#define STRIDE_COMPILER_SYNTAX_CONDITIONS_HPP
 // Conditional compilation: what `{IF …}` may ask, and its answers.
 
 #include "compiler/source/diagnostic.hpp"
@@ -25,7 +26,7 @@ struct Define {
 /// before anything is parsed. What stands in either branch of an `{IF …}` counts as declared.
 class DeclaredNames {
 public:
-  enum class Kind : std::uint8_t { variable, type, pou };
+  enum class Kind : uint8_t { Variable, Type, Pou };
   struct Entry {
     std::vector<std::string> attributes; ///< in lower case
     std::string type;                    ///< of a variable, in lower case without blanks
@@ -79,3 +80,5 @@ private:
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SYNTAX_CONDITIONS_HPP

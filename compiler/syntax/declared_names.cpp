@@ -11,7 +11,7 @@ namespace stc {
 
 namespace {
 
-bool opensPou(std::uint16_t type) {
+bool opensPou(uint16_t type) {
   switch (type) {
   case Tok::PROGRAM:
   case Tok::FUNCTION:
@@ -35,7 +35,7 @@ const DeclaredNames::Entry *DeclaredNames::find(Kind kind, std::string_view name
     for (const FileId file : files_)
       read(sources_.file(file));
   }
-  const auto [begin, end] = names_[static_cast<std::size_t>(kind)].equal_range(lowerCase(name));
+  const auto [begin, end] = names_[static_cast<size_t>(kind)].equal_range(lowerCase(name));
   for (auto it = begin; it != end; ++it)
     if (it->second.local == 0 || it->second.local == from)
       return &it->second;
@@ -61,24 +61,24 @@ public:
 private:
   void next() { token_ = scanner_.next(); }
   [[nodiscard]] std::string text() const { return lowerCase(scanner_.text(token_)); }
-  [[nodiscard]] bool isNow(std::initializer_list<std::uint16_t> types) const {
+  [[nodiscard]] bool isNow(std::initializer_list<uint16_t> types) const {
     return std::find(types.begin(), types.end(), token_.type) != types.end();
   }
 
   void collectAttributes() {
-    for (std::size_t i = 0; i < token_.triviaCount; ++i)
+    for (size_t i = 0; i < token_.triviaCount; ++i)
       if (const Trivia &one = scanner_.trivia()[token_.triviaBegin + i];
-          one.kind == Trivia::Kind::attribute)
+          one.kind == Trivia::Kind::Attribute)
         attributes_.push_back(lowerCase(one.name));
   }
 
   void add(Kind kind, const std::string &name, Entry entry) {
-    into_.names_[static_cast<std::size_t>(kind)].emplace(name, std::move(entry));
+    into_.names_[static_cast<size_t>(kind)].emplace(name, std::move(entry));
   }
 
   /// Looks at one word; false: the next one is there already.
   bool word() {
-    const std::uint16_t type = token_.type;
+    const uint16_t type = token_.type;
     if (section_ == 0 && opensPou(type)) {
       pou(type);
     } else if (section_ == 0 &&
@@ -105,7 +105,7 @@ private:
     return true;
   }
 
-  void pou(std::uint16_t type) {
+  void pou(uint16_t type) {
     do
       next();
     while (token_.type >= Tok::ABSTRACT && token_.type <= Tok::OVERRIDE);
@@ -115,9 +115,9 @@ private:
         name.insert(0, pou_ + ".");
       else
         pou_ = name;
-      add(Kind::pou, name, {std::move(attributes_), {}, {}, 0});
+      add(Kind::Pou, name, {std::move(attributes_), {}, {}, 0});
       if (type == Tok::FUNCTION_BLOCK || type == Tok::CLASS || type == Tok::INTERFACE)
-        add(Kind::type, name, {});
+        add(Kind::Type, name, {});
     }
     attributes_.clear();
   }
@@ -138,14 +138,14 @@ private:
       next();
     }
     if (section_ == Tok::TYPE) {
-      add(Kind::type, names_.front(), std::move(entry));
+      add(Kind::Type, names_.front(), std::move(entry));
     } else {
       const bool isGlobal = section_ == Tok::VAR_GLOBAL;
       for (const std::string &name : names_) {
         Entry local = entry;
         local.local = isGlobal ? 0 : file_;
-        add(Kind::variable, name, std::move(local));
-        add(Kind::variable, (isGlobal ? list_ : pou_) + "." + name, entry);
+        add(Kind::Variable, name, std::move(local));
+        add(Kind::Variable, (isGlobal ? list_ : pou_) + "." + name, entry);
       }
     }
     names_.clear();
@@ -158,7 +158,7 @@ private:
   Scanner scanner_;
   std::string list_; ///< the name of the file's list of global variables
   std::string pou_;
-  std::uint16_t section_ = 0;           ///< TYPE or VAR…; 0: outside of them
+  uint16_t section_ = 0;                ///< TYPE or VAR…; 0: outside of them
   unsigned depth_ = 0;                  ///< of STRUCT within TYPE
   std::vector<std::string> attributes_; ///< of what is being declared
   std::vector<std::string> names_;      ///< before the colon

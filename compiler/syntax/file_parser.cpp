@@ -10,18 +10,18 @@ namespace stc {
 namespace {
 
 /// After that many errors the rest of a file is not looked at.
-constexpr std::size_t kMaxErrors = 100;
+constexpr size_t kMaxErrors = 100;
 
 /// A token and what becomes of it takes about 360 bytes while a unit is parsed.
-constexpr std::size_t kMaxTokens = 4'000'000;
+constexpr size_t kMaxTokens = 4'000'000;
 
 /// Where the first token is that is too much; the file's size when there is none.
-std::size_t limitOf(const SourceFile &file) {
+size_t limitOf(const SourceFile &file) {
   if (file.text().size() <= kMaxTokens)
     return file.text().size(); // not even when each character is one
   Diagnostics ignored;
   Scanner scanner(file, ignored);
-  for (std::size_t count = 0; count < kMaxTokens; ++count)
+  for (size_t count = 0; count < kMaxTokens; ++count)
     if (scanner.next().type == Token::kEnd)
       return file.text().size();
   return scanner.next().begin;
@@ -42,15 +42,15 @@ FileParser::FileParser(const SourceFile &file, Interner &interner, Arena &arena,
 
 bool FileParser::refuses() {
   if (looksBinary(file_.text())) {
-    diagnostics_.report(Code::binaryFile, {}, "`" + file_.name() + "` is not a text file");
+    diagnostics_.report(Code::BinaryFile, {}, "`" + file_.name() + "` is not a text file");
     return true;
   }
-  const std::size_t limit = limitOf(file_);
+  const size_t limit = limitOf(file_);
   if (limit >= file_.text().size())
     return false;
-  const auto place = static_cast<std::uint32_t>(limit);
+  const auto place = static_cast<uint32_t>(limit);
   diagnostics_
-      .report(Code::fileTooLong, {file_.id(), place, place + 1},
+      .report(Code::FileTooLong, {file_.id(), place, place + 1},
               "the file has more than 4,000,000 words and signs")
       .help("make several files of it, or let the program read its table from a file");
   return true;
@@ -119,17 +119,17 @@ ast::File *FileParser::run() {
     return out;
   now_ = scanner_.next();
   ahead_ = scanner_.next();
-  const std::size_t before = diagnostics_.errorCount();
+  const size_t before = diagnostics_.errorCount();
   while (now_.type != Token::kEnd) {
     if (diagnostics_.errorCount() - before >= kMaxErrors) {
-      diagnostics_.report(Code::unexpectedToken, span(now_),
+      diagnostics_.report(Code::UnexpectedToken, span(now_),
                           "too many errors; the rest of the file is not checked");
       break;
     }
     declaration();
   }
   for (const OpenNamespace &open : namespaces_)
-    diagnostics_.report(Code::missingEnd, open.head, "missing `END_NAMESPACE`",
+    diagnostics_.report(Code::MissingEnd, open.head, "missing `END_NAMESPACE`",
                         "this is not closed");
   for (OpenPou &open : pous_)
     giveMembers(open);
@@ -142,9 +142,9 @@ ast::File *FileParser::run() {
 // tokens
 
 void FileParser::advance() {
-  for (std::size_t i = 0; i < now_.triviaCount; ++i) {
+  for (size_t i = 0; i < now_.triviaCount; ++i) {
     const Trivia &trivia = scanner_.trivia()[now_.triviaBegin + i];
-    if (trivia.kind == Trivia::Kind::external) {
+    if (trivia.kind == Trivia::Kind::External) {
       sawExternal_ = true;
       externalSpan_ = {file_.id(), trivia.begin, trivia.end};
     }
@@ -180,8 +180,8 @@ void FileParser::finishUnit() {
   end.begin = now_.begin;
   end.end = now_.end;
   unit_.push_back(end);
-  for (std::size_t i = 0; i < unit_.size(); ++i)
-    unit_[i].index = static_cast<std::uint32_t>(i);
+  for (size_t i = 0; i < unit_.size(); ++i)
+    unit_[i].index = static_cast<uint32_t>(i);
   stream_.reset(unit_);
 }
 
@@ -192,18 +192,18 @@ void FileParser::outside() {
   if (openerOf(start.type) != 0 || endsUnit() || start.type == Tok::END_TYPE ||
       start.type == Tok::END_VAR || start.type == Tok::END_STRUCT || start.type == Tok::END_UNION ||
       start.type == Tok::END_STEP || start.type == Tok::END_TRANSITION) {
-    diagnostics_.report(Code::mismatchedEnd, span(start), "`" + found + "` closes nothing");
+    diagnostics_.report(Code::MismatchedEnd, span(start), "`" + found + "` closes nothing");
     advance();
     return;
   }
   if (startsSection())
     diagnostics_
-        .report(Code::outsideDeclaration, span(start),
+        .report(Code::OutsideDeclaration, span(start),
                 "`" + found + "` outside a program, function or function block")
         .help("global variables are declared in VAR_GLOBAL … END_VAR");
   else
     diagnostics_
-        .report(Code::outsideDeclaration, span(start),
+        .report(Code::OutsideDeclaration, span(start),
                 "expected a declaration, found `" + found + "`", "outside every declaration")
         .help("statements stand inside PROGRAM, FUNCTION or FUNCTION_BLOCK");
   while (now_.type != Token::kEnd) {

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_FILE_PARSER_HPP
+#define STRIDE_COMPILER_SYNTAX_FILE_PARSER_HPP
 // Cuts a file into units, parses one after the other and puts the results together. Internal to
 // compiler/syntax.
 
@@ -46,13 +47,13 @@ private:
   };
   /// An END_… that may be missing if the end of the file closes everything.
   struct MissingEnd {
-    std::uint16_t wanted;
+    uint16_t wanted;
     Span head;
     Span found;
   };
   struct OpenNamespace {
-    std::size_t names;  ///< how many names it adds
-    std::size_t usings; ///< how many USING directives held before it
+    size_t names;  ///< how many names it adds
+    size_t usings; ///< how many USING directives held before it
     Span head;
   };
 
@@ -75,9 +76,9 @@ private:
 
   // Program units and their members.
   /// The END_… of a keyword; 0: it has none.
-  static std::uint16_t endOf(std::uint16_t keyword);
+  static uint16_t endOf(uint16_t keyword);
   /// "a METHOD", "an ACTION"
-  static std::string article(std::uint16_t keyword);
+  static std::string article(uint16_t keyword);
   void pou();
   Head head();
   void readHead(std::vector<Token> &usings);
@@ -85,7 +86,7 @@ private:
   void content(Content &out, OpenPou *members);
   /// Takes the END_… of `head`; says so when it is another one or missing. True: the end of the
   /// file closes it.
-  bool close(std::uint16_t wanted, const Head &head, Span &endSpan);
+  bool close(uint16_t wanted, const Head &head, Span &endSpan);
   void reportMissingEnds();
   void member(OpenPou *owner);
   void method(OpenPou *owner);
@@ -102,18 +103,18 @@ private:
   struct Nesting {
     unsigned brackets = 0;
     unsigned types = 0;
-    void count(std::uint16_t type);
+    void count(uint16_t type);
     [[nodiscard]] bool isTooDeep() const;
   };
   /// Reports that the declaration which begins at `start` of the unit is nested too deeply, and
   /// leaves it out; `end` closes what it stands in.
-  void leaveOut(std::size_t start, std::uint16_t end);
+  void leaveOut(size_t start, uint16_t end);
   /// Closes what the unit has of a long block, as if `end` stood here.
-  void closeUnit(std::uint16_t end);
+  void closeUnit(uint16_t end);
 
   // Other parts of a file.
   void sections(std::vector<ast::VarDecl *> &out);
-  [[nodiscard]] bool endsSection(std::size_t start) const;
+  [[nodiscard]] bool endsSection(size_t start) const;
   void markAccess();
   void types();
   void body(std::vector<ast::Stmt *> &out);
@@ -163,8 +164,8 @@ private:
   std::vector<ast::Decl *> declarations_;
   std::deque<OpenPou> pous_;
   std::vector<ast::StrayMember> strays_;
-  unsigned units_ = 0;                 ///< POUs and members outside of them so far
-  std::vector<std::uint16_t> closers_; ///< END_… of what is open, from outside to inside
+  unsigned units_ = 0;            ///< POUs and members outside of them so far
+  std::vector<uint16_t> closers_; ///< END_… of what is open, from outside to inside
   std::vector<MissingEnd> missing_;
   bool inProperty_ = false; ///< GET and SET open an accessor
   std::vector<ast::Name> space_;
@@ -175,10 +176,10 @@ private:
   std::optional<std::set<std::string>> jumpTargets_; ///< names behind JMP in this file
 
   // While reading a unit.
-  std::vector<std::uint16_t> blocks_; ///< open IF, CASE, …
+  std::vector<uint16_t> blocks_; ///< open IF, CASE, …
   unsigned brackets_ = 0;
-  std::size_t boundary_ = 0;   ///< index in unit_ of the token after the last `;`, THEN, `:` …
-  std::size_t statement_ = 0;  ///< index in unit_ where the current outermost statement begins
+  size_t boundary_ = 0;        ///< index in unit_ of the token after the last `;`, THEN, `:` …
+  size_t statement_ = 0;       ///< index in unit_ where the current outermost statement begins
   bool reportedDepth_ = false; ///< in this POU
 };
 
@@ -203,3 +204,5 @@ template <class Context> Context *FileParser::parseUnit(Context *(Grammar::*rule
 }
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SYNTAX_FILE_PARSER_HPP

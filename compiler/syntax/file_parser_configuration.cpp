@@ -8,7 +8,7 @@ namespace stc {
 namespace {
 
 /// Deepest nesting of namespaces.
-constexpr std::size_t kMaxSpaces = 32;
+constexpr size_t kMaxSpaces = 32;
 
 } // namespace
 
@@ -16,7 +16,7 @@ constexpr std::size_t kMaxSpaces = 32;
 // namespaces
 
 void FileParser::namespaceHead() {
-  const std::uint32_t begin = now_.begin;
+  const uint32_t begin = now_.begin;
   unit_.clear();
   take();
   while (isModifier(now_.type))
@@ -34,7 +34,7 @@ void FileParser::namespaceHead() {
          builder_.namespaceNames(static_cast<Grammar::NamespaceHeadContext *>(unit->children[0])))
       space_.push_back(name);
   if (space_.size() > kMaxSpaces) { // each declaration has the whole path
-    diagnostics_.report(Code::tooDeep, open.head, "namespaces are nested too deeply",
+    diagnostics_.report(Code::TooDeep, open.head, "namespaces are nested too deeply",
                         "deeper than " + std::to_string(kMaxSpaces));
     space_.resize(kMaxSpaces);
   }
@@ -97,7 +97,7 @@ bool FileParser::resourcePart(std::vector<ast::TaskDecl> &tasks,
     return false;
   readToSemicolon();
   // Words that have a meaning only here.
-  for (std::size_t i = 1; i < unit_.size(); ++i) {
+  for (size_t i = 1; i < unit_.size(); ++i) {
     if (unit_[i].type != Tok::IDENT || unit_[i - 1].type == Tok::COLON)
       continue;
     const std::string_view word = scanner_.text(unit_[i]);
@@ -110,7 +110,7 @@ bool FileParser::resourcePart(std::vector<ast::TaskDecl> &tasks,
       if (!nameNext) {
         const Span with{file_.id(), unit_[i].begin, unit_[i].end};
         diagnostics_
-            .report(Code::expectedToken, with, "the name of a task is missing behind `WITH`",
+            .report(Code::ExpectedToken, with, "the name of a task is missing behind `WITH`",
                     "which task calls the program?")
             .help(
                 "write `PROGRAM p WITH Task : Type;` with a TASK of this RESOURCE; without a task "
@@ -131,7 +131,7 @@ bool FileParser::resourcePart(std::vector<ast::TaskDecl> &tasks,
 bool FileParser::strayPart(const char *end) {
   if (endsUnit() || startsDeclaration() || isMember(now_.type) || isNow("resource"))
     return false;
-  diagnostics_.report(Code::unexpectedToken, span(now_),
+  diagnostics_.report(Code::UnexpectedToken, span(now_),
                       "expected RESOURCE, TASK, PROGRAM, VAR_… or `" + std::string(end) +
                           "`, found `" + std::string(scanner_.text(now_).substr(0, 40)) + "`",
                       "not a part of a CONFIGURATION");

@@ -50,7 +50,7 @@ FileParser::OpenPou *FileParser::ownerOf(const Head &head, OpenPou *enclosing, a
   }
   if (owner == nullptr) {
     diagnostics_
-        .report(Code::memberWithoutOwner, head.span,
+        .report(Code::MemberWithoutOwner, head.span,
                 "this " + std::string(tokenSpelling(head.keyword.type)) + " belongs to no block",
                 "outside of every block")
         .help("put it into the block or behind it, or write `" +
@@ -62,13 +62,13 @@ FileParser::OpenPou *FileParser::ownerOf(const Head &head, OpenPou *enclosing, a
     return nullptr;
   const ast::DeclKind kind = owner->node->kind;
   const bool isAction = head.keyword.type == Tok::ACTION;
-  if (kind == ast::DeclKind::function ||
-      (isAction && (kind == ast::DeclKind::interface || kind == ast::DeclKind::classD))) {
-    const std::string what = kind == ast::DeclKind::function    ? "a FUNCTION"
-                             : kind == ast::DeclKind::interface ? "an INTERFACE"
+  if (kind == ast::DeclKind::Function ||
+      (isAction && (kind == ast::DeclKind::Interface || kind == ast::DeclKind::Class))) {
+    const std::string what = kind == ast::DeclKind::Function    ? "a FUNCTION"
+                             : kind == ast::DeclKind::Interface ? "an INTERFACE"
                                                                 : "a CLASS";
     diagnostics_
-        .report(Code::memberWithoutOwner, head.span,
+        .report(Code::MemberWithoutOwner, head.span,
                 what + " cannot have " + article(head.keyword.type),
                 isAction ? "actions belong to programs and function blocks"
                          : "methods and properties belong to blocks, classes and programs")
@@ -82,7 +82,7 @@ FileParser::OpenPou *FileParser::ownerOf(const Head &head, OpenPou *enclosing, a
 void FileParser::method(OpenPou *enclosing) {
   reportedDepth_ = false;
   const Head head = this->head();
-  const std::uint16_t wanted = endOf(head.keyword.type);
+  const uint16_t wanted = endOf(head.keyword.type);
   Content content;
   closers_.push_back(wanted);
   const bool inProperty = std::exchange(inProperty_, false);
@@ -98,9 +98,9 @@ void FileParser::method(OpenPou *enclosing) {
   OpenPou *owner = ownerOf(head, enclosing, head.node);
   if (owner == nullptr)
     return;
-  if (owner->node->kind == ast::DeclKind::interface && !head.node->body.empty()) {
+  if (owner->node->kind == ast::DeclKind::Interface && !head.node->body.empty()) {
     diagnostics_
-        .report(Code::bodyNotAllowed, head.node->body.front()->span,
+        .report(Code::BodyNotAllowed, head.node->body.front()->span,
                 "a method of an INTERFACE has no statements", "this would never run")
         .help("put them into the method of a block that implements the interface");
     head.node->body = {};
@@ -114,10 +114,10 @@ void FileParser::accessorAccess(ast::Access &access) {
     const char *text;
     ast::Access access;
   };
-  static constexpr Word kWords[] = {{"public", ast::Access::publicA},
-                                    {"private", ast::Access::privateA},
-                                    {"protected", ast::Access::protectedA},
-                                    {"internal", ast::Access::internalA}};
+  static constexpr Word kWords[] = {{"public", ast::Access::Public},
+                                    {"private", ast::Access::Private},
+                                    {"protected", ast::Access::Protected},
+                                    {"internal", ast::Access::Internal}};
   switch (ahead_.type) { // a variable of this name
   case Tok::ASSIGN:
   case Tok::DOT:
@@ -144,7 +144,7 @@ ast::PouDecl *FileParser::accessor(ast::PropertyDecl *property, bool isSet) {
   head.keyword.type = Tok::METHOD;
   head.span = span(now_);
   auto *node = arena_.make<ast::PouDecl>();
-  node->kind = ast::DeclKind::method;
+  node->kind = ast::DeclKind::Method;
   node->name = property->name;
   node->span = head.span;
   node->attributes = builder_.attributes(now_);
@@ -159,13 +159,13 @@ ast::PouDecl *FileParser::accessor(ast::PropertyDecl *property, bool isSet) {
   if (isSet) {
     auto *value = arena_.make<ast::VarDecl>();
     value->name = property->name;
-    value->section = ast::Section::input;
+    value->section = ast::Section::Input;
     value->type = property->type;
     content.variables.push_back(value);
   } else {
     node->returnType = property->type;
   }
-  const std::uint16_t wanted = isSet ? Tok::END_SET : Tok::END_GET;
+  const uint16_t wanted = isSet ? Tok::END_SET : Tok::END_GET;
   closers_.push_back(wanted);
   this->content(content, nullptr);
   closers_.pop_back();
@@ -175,7 +175,7 @@ ast::PouDecl *FileParser::accessor(ast::PropertyDecl *property, bool isSet) {
   } else if (!content.statements.empty() || content.variables.size() > (isSet ? 1U : 0U)) {
     // Without statements the next accessor or END_PROPERTY closes it: `GET SET END_PROPERTY`.
     const std::string text(tokenSpelling(wanted));
-    diagnostics_.report(Code::missingEnd, head.span, "missing `" + text + "`", "this is not closed")
+    diagnostics_.report(Code::MissingEnd, head.span, "missing `" + text + "`", "this is not closed")
         .label(span(now_), "expected `" + text + "` before this");
   }
   finishBody(node, content);
@@ -190,7 +190,7 @@ void FileParser::property(OpenPou *enclosing) {
     static_cast<ast::Decl &>(*node) = *head.node;
     node->type = head.node->returnType;
     if (node->type == nullptr) {
-      diagnostics_.report(Code::expectedToken, {file_.id(), head.span.end, head.span.end},
+      diagnostics_.report(Code::ExpectedToken, {file_.id(), head.span.end, head.span.end},
                           "expected `:` and the type of the property", "add `: TYPE` here");
       node->type = builder_.errorType(head.span);
     }
@@ -205,7 +205,7 @@ void FileParser::property(OpenPou *enclosing) {
       ast::PouDecl *one = accessor(node, isSet);
       if (slot != nullptr)
         diagnostics_
-            .report(Code::propertyAccessor, where,
+            .report(Code::PropertyAccessor, where,
                     std::string("the property has a second ") + (isSet ? "SET" : "GET"),
                     "only one is possible")
             .label(slot->span, "the first one");
@@ -221,7 +221,7 @@ void FileParser::property(OpenPou *enclosing) {
       content(stray, nullptr);
       if (!strayReported)
         diagnostics_
-            .report(Code::propertyAccessor, where,
+            .report(Code::PropertyAccessor, where,
                     "statements and variables of a property stand in GET or SET",
                     "expected GET, SET or END_PROPERTY")
             .help("write `GET … END_GET` around what reads the property");
@@ -236,22 +236,22 @@ void FileParser::property(OpenPou *enclosing) {
   sawExternal_ = false;
   if (head.node == nullptr)
     return;
-  node->kind = ast::DeclKind::property; // not the head's
+  node->kind = ast::DeclKind::Property; // not the head's
   if (node->get == nullptr && node->set == nullptr && !strayReported)
     diagnostics_
-        .report(Code::propertyAccessor, node->name.span,
+        .report(Code::PropertyAccessor, node->name.span,
                 "the property `" + std::string(node->name.text) + "` has neither GET nor SET",
                 "cannot be read or written")
         .help("write `GET … END_GET` or `SET … END_SET` in front of END_PROPERTY");
   OpenPou *owner = ownerOf(head, enclosing, node);
   if (owner == nullptr)
     return;
-  if (owner->node->kind == ast::DeclKind::interface) {
+  if (owner->node->kind == ast::DeclKind::Interface) {
     for (ast::PouDecl *one : {node->get, node->set}) {
       if (one == nullptr || one->body.empty())
         continue;
       diagnostics_
-          .report(Code::bodyNotAllowed, one->body.front()->span,
+          .report(Code::BodyNotAllowed, one->body.front()->span,
                   "a property of an INTERFACE has no statements", "this would never run")
           .help("put them into the property of a block that implements the interface");
       one->body = {};

@@ -10,7 +10,7 @@
 
 namespace stc {
 
-std::uint16_t FileParser::endOf(std::uint16_t keyword) {
+uint16_t FileParser::endOf(uint16_t keyword) {
   switch (keyword) {
   case Tok::PROGRAM:
     return Tok::END_PROGRAM;
@@ -33,7 +33,7 @@ std::uint16_t FileParser::endOf(std::uint16_t keyword) {
   }
 }
 
-std::string FileParser::article(std::uint16_t keyword) {
+std::string FileParser::article(uint16_t keyword) {
   const std::string word(tokenSpelling(keyword));
   return (keyword == Tok::ACTION || keyword == Tok::INTERFACE ? "an " : "a ") + word;
 }
@@ -43,7 +43,7 @@ std::string FileParser::article(std::uint16_t keyword) {
 
 void FileParser::readHead(std::vector<Token> &usings) {
   unit_.clear();
-  const std::uint16_t keyword = now_.type;
+  const uint16_t keyword = now_.type;
   take();
   while (isModifier(now_.type))
     take();
@@ -90,7 +90,7 @@ void FileParser::readHead(std::vector<Token> &usings) {
 
 void FileParser::readHeadType() {
   take(); // the colon
-  for (std::size_t guard = 0; guard <= kMaxNesting; ++guard) {
+  for (size_t guard = 0; guard <= kMaxNesting; ++guard) {
     if (now_.type == Tok::ARRAY) {
       while (now_.type != Tok::OF && now_.type != Tok::SEMICOLON && !startsSection() && !endsUnit())
         take();
@@ -110,7 +110,7 @@ void FileParser::readHeadType() {
   if (now_.type == Tok::STRING || now_.type == Tok::WSTRING) {
     take();
     if (now_.type == Tok::LPAREN || now_.type == Tok::LBRACKET) {
-      const std::uint16_t closer = now_.type == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET;
+      const uint16_t closer = now_.type == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET;
       while (now_.type != closer && now_.type != Tok::SEMICOLON && !startsSection() && !endsUnit())
         take();
       if (now_.type == closer)
@@ -165,10 +165,10 @@ void FileParser::pou() {
   OpenPou &open = head.node == nullptr ? unnamed : pous_.emplace_back();
   open.node = head.node;
   if (head.node != nullptr && !head.owner.empty())
-    diagnostics_.report(Code::unexpectedToken, head.owner.front().span.to(head.owner.back().span),
+    diagnostics_.report(Code::UnexpectedToken, head.owner.front().span.to(head.owner.back().span),
                         "the name of " + article(head.keyword.type) + " has no point",
                         "expected one name");
-  const std::uint16_t wanted = endOf(head.keyword.type);
+  const uint16_t wanted = endOf(head.keyword.type);
   closers_.push_back(wanted);
   Content content;
   this->content(content, &open);
@@ -189,10 +189,10 @@ void FileParser::finishBody(ast::PouDecl *node, Content &content) {
   sawExternal_ = false;
   if (!content.statements.empty()) {
     const Span first = content.statements.front()->span;
-    if (node->kind == ast::DeclKind::interface || node->kind == ast::DeclKind::classD) {
-      const bool isClass = node->kind == ast::DeclKind::classD;
+    if (node->kind == ast::DeclKind::Interface || node->kind == ast::DeclKind::Class) {
+      const bool isClass = node->kind == ast::DeclKind::Class;
       diagnostics_
-          .report(Code::bodyNotAllowed, first,
+          .report(Code::BodyNotAllowed, first,
                   std::string(isClass ? "a CLASS" : "an INTERFACE") + " has no statements",
                   "this would never run")
           .help(isClass ? "put them into a METHOD, or write FUNCTION_BLOCK"
@@ -200,7 +200,7 @@ void FileParser::finishBody(ast::PouDecl *node, Content &content) {
       content.statements.clear();
     } else if (node->external) {
       diagnostics_
-          .report(Code::externalBody, first, "an external block has no statements",
+          .report(Code::ExternalBody, first, "an external block has no statements",
                   "this would never run")
           .label(externalSpan_, "the body is written in C++");
       content.statements.clear();
@@ -218,7 +218,7 @@ void FileParser::content(Content &out, OpenPou *members) {
   const auto misplacedGlobals = [&] { return !inBody && now_.type == Tok::VAR_GLOBAL; };
   const auto ownAccess = [&] {
     return !inBody && now_.type == Tok::VAR_ACCESS && members != nullptr &&
-           members->node != nullptr && members->node->kind == ast::DeclKind::program;
+           members->node != nullptr && members->node->kind == ast::DeclKind::Program;
   };
   while (!endsUnit() && (!startsDeclaration() || misplacedGlobals() || ownAccess())) {
     if (now_.type == Tok::SEMICOLON && !inBody) {
@@ -227,7 +227,7 @@ void FileParser::content(Content &out, OpenPou *members) {
       globals(members->node);
     } else if (startsSection()) {
       if (inBody && !late) {
-        diagnostics_.report(Code::lateDeclaration, span(now_),
+        diagnostics_.report(Code::LateDeclaration, span(now_),
                             "declarations must stand before the first statement");
         late = true;
       }
@@ -247,7 +247,7 @@ void FileParser::content(Content &out, OpenPou *members) {
   }
 }
 
-bool FileParser::close(std::uint16_t wanted, const Head &head, Span &endSpan) {
+bool FileParser::close(uint16_t wanted, const Head &head, Span &endSpan) {
   const Token end = now_;
   if (end.type == wanted) {
     endSpan = span(end);
@@ -265,7 +265,7 @@ bool FileParser::close(std::uint16_t wanted, const Head &head, Span &endSpan) {
   }
   const std::string wantedText(tokenSpelling(wanted));
   diagnostics_
-      .report(Code::mismatchedEnd, span(end),
+      .report(Code::MismatchedEnd, span(end),
               "`" + std::string(tokenSpelling(end.type)) + "` does not close " +
                   article(head.keyword.type),
               "expected `" + wantedText + "`")
@@ -278,7 +278,7 @@ bool FileParser::close(std::uint16_t wanted, const Head &head, Span &endSpan) {
 void FileParser::reportMissingEnds() {
   for (const MissingEnd &one : missing_) {
     const std::string text(tokenSpelling(one.wanted));
-    diagnostics_.report(Code::missingEnd, one.head, "missing `" + text + "`", "this is not closed")
+    diagnostics_.report(Code::MissingEnd, one.head, "missing `" + text + "`", "this is not closed")
         .label(one.found, "expected `" + text + "` before this");
   }
   missing_.clear();
@@ -296,7 +296,7 @@ bool FileParser::instructionList() {
                    [&](std::string_view name) { return isNow(name); }))
     return false;
   diagnostics_
-      .report(Code::notSupported, span(now_),
+      .report(Code::NotSupported, span(now_),
               "instruction list (IL) is not supported by this version")
       .help("write the body in Structured Text");
   while (!endsUnit() && !startsDeclaration() && !isMember(now_.type))
@@ -307,13 +307,13 @@ bool FileParser::instructionList() {
 /// Reports a sequential function chart and skips it, with the actions that belong to it.
 void FileParser::chart() {
   if (now_.type == Tok::END_STEP || now_.type == Tok::END_TRANSITION) {
-    diagnostics_.report(Code::mismatchedEnd, span(now_),
+    diagnostics_.report(Code::MismatchedEnd, span(now_),
                         "`" + std::string(tokenSpelling(now_.type)) + "` closes nothing");
     advance();
     return;
   }
   diagnostics_
-      .report(Code::notSupported, span(now_),
+      .report(Code::NotSupported, span(now_),
               "a sequential function chart (SFC) is not supported by this version")
       .help("write the steps as a CASE over a state variable");
   while (!startsDeclaration()) {

@@ -13,14 +13,14 @@ namespace stc {
 namespace {
 
 /// A unit of statements or declarations ends at the next boundary behind that many tokens.
-constexpr std::size_t kUnitTokens = 2048;
+constexpr size_t kUnitTokens = 2048;
 
 } // namespace
 
 // -------------------------------------------------------------------------------------------------
 // declarations
 
-void FileParser::Nesting::count(std::uint16_t type) {
+void FileParser::Nesting::count(uint16_t type) {
   switch (type) {
   case Tok::LPAREN:
   case Tok::LBRACKET:
@@ -43,8 +43,8 @@ void FileParser::Nesting::count(std::uint16_t type) {
 
 bool FileParser::Nesting::isTooDeep() const { return brackets + types > kMaxNesting; }
 
-void FileParser::leaveOut(std::size_t start, std::uint16_t end) {
-  diagnostics_.report(Code::tooDeep, span(now_), "this declaration is nested too deeply",
+void FileParser::leaveOut(size_t start, uint16_t end) {
+  diagnostics_.report(Code::TooDeep, span(now_), "this declaration is nested too deeply",
                       "deeper than " + std::to_string(kMaxNesting));
   unit_.resize(start);
   while (now_.type != Tok::SEMICOLON && now_.type != end && !endsUnit() && !startsDeclaration())
@@ -53,7 +53,7 @@ void FileParser::leaveOut(std::size_t start, std::uint16_t end) {
     advance();
 }
 
-void FileParser::closeUnit(std::uint16_t end) {
+void FileParser::closeUnit(uint16_t end) {
   Token token = now_;
   token.type = end;
   token.end = token.begin;
@@ -62,7 +62,7 @@ void FileParser::closeUnit(std::uint16_t end) {
 }
 
 /// `start`: where the unit's last declaration begins.
-bool FileParser::endsSection(std::size_t start) const {
+bool FileParser::endsSection(size_t start) const {
   return endsUnit() || startsDeclaration() || startsSection() ||
          (isMember(now_.type) && ahead_.type == Tok::IDENT) ||
          (startsBlock(now_.type) && ahead_.type != Tok::COLON && ahead_.type != Tok::COMMA) ||
@@ -95,13 +95,13 @@ void FileParser::sections(std::vector<ast::VarDecl *> &out) {
       builder_.section(static_cast<Grammar::VarSectionContext *>(unit->children[0]), out);
   };
   Nesting nesting;
-  std::size_t start = unit_.size();
+  size_t start = unit_.size();
   while (!endsSection(start)) {
     nesting.count(now_.type);
     if (isAccess)
       markAccess();
     markTypeArgument();
-    const std::uint16_t type = now_.type;
+    const uint16_t type = now_.type;
     if (nesting.isTooDeep()) {
       leaveOut(start, Tok::END_VAR);
       nesting = {};
@@ -127,12 +127,12 @@ void FileParser::sections(std::vector<ast::VarDecl *> &out) {
 void FileParser::globals(const ast::PouDecl *program) {
   auto *node = arena_.make<ast::GlobalsDecl>();
   node->program = program;
-  node->kind = now_.type == Tok::VAR_CONFIG   ? ast::DeclKind::config
-               : now_.type == Tok::VAR_ACCESS ? ast::DeclKind::access
-                                              : ast::DeclKind::globals;
+  node->kind = now_.type == Tok::VAR_CONFIG   ? ast::DeclKind::Config
+               : now_.type == Tok::VAR_ACCESS ? ast::DeclKind::Access
+                                              : ast::DeclKind::Globals;
   node->attributes = builder_.attributes(now_);
   node->doc = builder_.doc(now_);
-  const std::uint32_t begin = now_.begin;
+  const uint32_t begin = now_.begin;
   std::vector<ast::VarDecl *> variables;
   sections(variables);
   node->span = {file_.id(), begin, unit_[unit_.size() >= 2 ? unit_.size() - 2 : 0].end};
@@ -155,7 +155,7 @@ void FileParser::types() {
   };
   Nesting nesting;
   bool inStruct = false;
-  std::size_t start = unit_.size();
+  size_t start = unit_.size();
   for (bool first = true;
        (first || !(startsDeclaration() || isMember(now_.type))) && !endsUnit() && !startsSection();
        first = false) {
@@ -165,7 +165,7 @@ void FileParser::types() {
     else if (now_.type == Tok::END_STRUCT || now_.type == Tok::END_UNION)
       inStruct = false;
     markTypeArgument();
-    const std::uint16_t type = now_.type;
+    const uint16_t type = now_.type;
     if (nesting.isTooDeep()) {
       leaveOut(start, Tok::END_TYPE);
       nesting = {};
@@ -202,7 +202,7 @@ void FileParser::body(std::vector<ast::Stmt *> &out) {
 void FileParser::markTypeArgument() {
   if (!startsWrittenType(now_.type))
     return;
-  const std::size_t size = unit_.size();
+  const size_t size = unit_.size();
   if (size < 2 || unit_[size - 1].type != Tok::LPAREN || unit_[size - 2].type != Tok::IDENT)
     return;
   static constexpr std::string_view kTakers[] = {"sizeof", "xsizeof", "__new"};
@@ -259,16 +259,16 @@ bool FileParser::isElementaryType(const Token &token) const {
 /// so that only the words are looked at.
 bool FileParser::sectionIsClosed() const {
   const std::string_view text = scanner_.text();
-  for (std::size_t at = now_.begin; at < text.size();) {
+  for (size_t at = now_.begin; at < text.size();) {
     if (!isLetter(text[at])) {
       ++at;
       continue;
     }
-    const std::size_t begin = at;
+    const size_t begin = at;
     while (at < text.size() && isWordChar(text[at]))
       ++at;
     const std::string_view word = text.substr(begin, at - begin);
-    const std::uint16_t type = findKeyword(word, hashIdent(word)).type;
+    const uint16_t type = findKeyword(word, hashIdent(word)).type;
     if (type == Tok::END_VAR)
       return true;
     if ((type >= Tok::VAR && type <= Tok::VAR_INST) || (type != 0 && closesUnit(type)))
@@ -299,14 +299,14 @@ bool FileParser::markLabel() {
   if (ahead_.type == Tok::EQUAL || boundary_ >= unit_.size())
     return false;
   const bool inCase =
-      std::find(blocks_.begin(), blocks_.end(), std::uint16_t{Tok::CASE}) != blocks_.end();
+      std::find(blocks_.begin(), blocks_.end(), uint16_t{Tok::CASE}) != blocks_.end();
   const bool plain = boundary_ + 1 == unit_.size() && unit_.back().type == Tok::IDENT;
-  const auto insert = [&](std::size_t at, std::uint16_t type) {
+  const auto insert = [&](size_t at, uint16_t type) {
     Token label = unit_[at];
     label.type = type;
     label.end = label.begin;
     label.triviaCount = 0;
-    unit_.insert(unit_.begin() + static_cast<std::ptrdiff_t>(at), label);
+    unit_.insert(unit_.begin() + static_cast<ptrdiff_t>(at), label);
     return true;
   };
   if (plain && (!inCase || isJumpTarget(unit_.back())))
@@ -314,9 +314,9 @@ bool FileParser::markLabel() {
   if (!inCase)
     return false;
   // With a `;` missing in front of the label, it begins where two operands meet.
-  std::size_t begin = boundary_;
+  size_t begin = boundary_;
   bool assignment = false;
-  for (std::size_t i = boundary_; i < unit_.size(); ++i) {
+  for (size_t i = boundary_; i < unit_.size(); ++i) {
     if (i > boundary_ && isOperandEnd(unit_[i - 1].type) && isOperandStart(unit_[i].type)) {
       begin = i;
       assignment = false;
@@ -333,14 +333,14 @@ void FileParser::readStatements() {
   boundary_ = statement_ = 0;
   bool dropping = false;
   for (;;) {
-    const std::uint16_t type = now_.type;
+    const uint16_t type = now_.type;
     if (endsUnit() || startsDeclaration() || startsSection() || isMember(type) || isChart(type))
       break;
     if (unit_.size() == boundary_ && startsAccessor())
       break;
     if (unit_.size() >= kUnitTokens && unit_.size() == statement_)
       break;
-    const std::uint16_t opener = openerOf(type);
+    const uint16_t opener = openerOf(type);
     bool isLabel = false;
     if (opener != 0) {
       const auto open = std::find(blocks_.rbegin(), blocks_.rend(), opener);
@@ -377,7 +377,7 @@ void FileParser::readStatements() {
       take();
     if (type == Tok::CATCH && now_.type != Tok::LPAREN && !dropping) {
       // `__CATCH` without a variable.
-      for (const std::uint16_t bracket : {Tok::LPAREN, Tok::RPAREN}) {
+      for (const uint16_t bracket : {Tok::LPAREN, Tok::RPAREN}) {
         Token token = now_;
         token.type = bracket;
         token.end = token.begin;
@@ -387,7 +387,7 @@ void FileParser::readStatements() {
     }
     if (blocks_.size() + brackets_ > kMaxNesting && !dropping) {
       if (!reportedDepth_)
-        diagnostics_.report(Code::tooDeep, span(unit_.back()),
+        diagnostics_.report(Code::TooDeep, span(unit_.back()),
                             "this statement is nested too deeply",
                             "deeper than " + std::to_string(kMaxNesting));
       reportedDepth_ = true;

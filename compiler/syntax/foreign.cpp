@@ -13,7 +13,7 @@ namespace {
 
 struct Misspelled {
   std::string_view lower;
-  std::uint16_t meant;
+  uint16_t meant;
 };
 
 constexpr Misspelled kJoined[] = {
@@ -30,8 +30,7 @@ constexpr Misspelled kSecondWords[] = {
     {"program", Tok::END_PROGRAM}, {"function", Tok::END_FUNCTION}, {"type", Tok::END_TYPE},
     {"struct", Tok::END_STRUCT}};
 
-template <std::size_t n>
-std::uint16_t findWord(const Misspelled (&list)[n], std::string_view word) {
+template <size_t n> uint16_t findWord(const Misspelled (&list)[n], std::string_view word) {
   for (const Misspelled &entry : list)
     if (isWord(word, entry.lower))
       return entry.meant;
@@ -39,7 +38,7 @@ std::uint16_t findWord(const Misspelled (&list)[n], std::string_view word) {
 }
 
 /// Where a statement or the end of a block may begin.
-bool beforeStatement(std::uint16_t previous) {
+bool beforeStatement(uint16_t previous) {
   switch (previous) {
   case Tok::SEMICOLON:
   case Tok::THEN:
@@ -64,13 +63,12 @@ bool beforeStatement(std::uint16_t previous) {
 } // namespace
 
 /// `ENDIF`, `END IF`, `ELSEIF`: the keyword that is meant, or 0.
-std::uint16_t Scanner::misspelledKeyword(std::size_t begin, std::string_view spelling,
-                                         Token &token) {
+uint16_t Scanner::misspelledKeyword(size_t begin, std::string_view spelling, Token &token) {
   if (spelling.size() < 3 || spelling.size() > 11 || !beforeStatement(previous_))
     return 0;
-  const std::size_t next = significant(place_);
-  std::size_t end = place_;
-  std::uint16_t meant = 0;
+  const size_t next = significant(place_);
+  size_t end = place_;
+  uint16_t meant = 0;
   if (isWord(spelling, "end")) {
     const std::string_view second = wordAt(next);
     meant = findWord(kSecondWords, second);
@@ -88,7 +86,7 @@ std::uint16_t Scanner::misspelledKeyword(std::size_t begin, std::string_view spe
   token.reported = true;
   const std::string right(tokenSpelling(meant));
   diagnostics_
-      .report(Code::misspelledKeyword, span(begin, end),
+      .report(Code::MisspelledKeyword, span(begin, end),
               "`" + std::string(text_.substr(begin, end - begin)) + "` is written `" + right + "`",
               "not a keyword")
       .suggest("write `" + right + "`", span(begin, end), right);
@@ -96,8 +94,8 @@ std::uint16_t Scanner::misspelledKeyword(std::size_t begin, std::string_view spe
 }
 
 /// The target of `x += 1`: what stands in front of it on its line, or `…`.
-std::string Scanner::targetBefore(std::size_t place) const {
-  std::size_t begin = place;
+std::string Scanner::targetBefore(size_t place) const {
+  size_t begin = place;
   while (begin > 0 &&
          (isWordChar(text_[begin - 1]) || text_[begin - 1] == '.' || text_[begin - 1] == '[' ||
           text_[begin - 1] == ']' || text_[begin - 1] == ' ')) {
@@ -112,12 +110,12 @@ std::string Scanner::targetBefore(std::size_t place) const {
   return target.empty() || target.size() > 40 || !one ? "…" : std::string(target);
 }
 
-std::uint16_t Scanner::foreignSign(std::size_t begin, std::size_t length, std::uint16_t meant,
-                                   Token &token, std::string help) {
+uint16_t Scanner::foreignSign(size_t begin, size_t length, uint16_t meant, Token &token,
+                              std::string help) {
   place_ = begin + length;
   token.reported = true;
   diagnostics_
-      .report(Code::foreignOperator, span(begin, place_),
+      .report(Code::ForeignOperator, span(begin, place_),
               "`" + std::string(text_.substr(begin, length)) +
                   "` is not an operator of Structured Text",
               "not known here")
@@ -126,7 +124,7 @@ std::uint16_t Scanner::foreignSign(std::size_t begin, std::size_t length, std::u
 }
 
 /// Signs of two characters that Structured Text does not have; 0 when it is none of them.
-std::uint16_t Scanner::foreignPair(std::size_t begin, Token &token) {
+uint16_t Scanner::foreignPair(size_t begin, Token &token) {
   const char first = text_[begin];
   const char next = at(begin + 1);
   const std::string target = targetBefore(begin);
@@ -154,12 +152,12 @@ std::uint16_t Scanner::foreignPair(std::size_t begin, Token &token) {
 }
 
 /// `{ a := 1; }`: braces hold pragmas, so the statements would silently be left out.
-void Scanner::bracesAsBlock(std::size_t begin, std::size_t end) {
+void Scanner::bracesAsBlock(size_t begin, size_t end) {
   const std::string_view content = text_.substr(begin, end - begin);
   if (content.find(";") == std::string_view::npos || content.find('\'') != std::string_view::npos ||
       (content.find(":=") == std::string_view::npos && content.find('(') == std::string_view::npos))
     return;
-  auto &d = diagnostics_.report(Code::bracesAsBlock, span(begin, begin + 1),
+  auto &d = diagnostics_.report(Code::BracesAsBlock, span(begin, begin + 1),
                                 "`{` begins a pragma, not a block of statements",
                                 "what follows would be left out");
   d.label(span(end - 1, end), "up to here");
@@ -169,7 +167,7 @@ void Scanner::bracesAsBlock(std::size_t begin, std::size_t end) {
 /// What else to say about text that the grammar does not take.
 std::string ReportStrategy::foreignHelp(const Token &found, const Token *previous,
                                         const Token *next) const {
-  const auto is = [&](const Token *token, std::uint16_t type) {
+  const auto is = [&](const Token *token, uint16_t type) {
     return token != nullptr && token->type == type;
   };
   const auto quoted = [&](const Token &token) { return std::string(spelling(token)); };

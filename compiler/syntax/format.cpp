@@ -21,7 +21,7 @@ bool mayChangeCase(const FormatItem &item) {
          item.type == Tok::RESET_ASSIGN || item.type == Tok::REF_ASSIGN ||
          (item.type == Tok::IDENT &&
           (isElementaryName(item.text) ||
-           findKeyword(item.text, hashIdent(item.text)).kind != Keyword::Kind::none));
+           findKeyword(item.text, hashIdent(item.text)).kind != Keyword::Kind::None));
 }
 
 /// Comments without the blanks at the beginning of their lines.
@@ -41,13 +41,13 @@ std::string contentOf(std::string_view comment) {
 bool sameContent(const std::vector<FormatItem> &before, const std::vector<FormatItem> &after) {
   if (before.size() != after.size())
     return false;
-  for (std::size_t i = 0; i < before.size(); ++i) {
+  for (size_t i = 0; i < before.size(); ++i) {
     const FormatItem &a = before[i];
     const FormatItem &b = after[i];
     if (a.type != b.type || a.comments.size() != b.comments.size() ||
         !(a.text == b.text || (mayChangeCase(a) && sameText(a.text, b.text))))
       return false;
-    for (std::size_t k = 0; k < a.comments.size(); ++k)
+    for (size_t k = 0; k < a.comments.size(); ++k)
       if (contentOf(a.comments[k].text) != contentOf(b.comments[k].text))
         return false;
   }

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_FORMAT_HPP
+#define STRIDE_COMPILER_SYNTAX_FORMAT_HPP
 // The formatter of Structured Text: lays a file out anew without changing what it says.
 
 #include "compiler/source/sources.hpp"
@@ -9,14 +10,14 @@
 
 namespace stc {
 
-enum class KeywordCase : std::uint8_t { upper, lower, keep };
+enum class KeywordCase : uint8_t { Upper, Lower, Keep };
 
 /// How formatted text looks.
 struct FormatStyle {
   unsigned width = 100; ///< longest line, in characters, where the text can be broken
   unsigned indent = 2;  ///< blanks per level; with tabs: what a tab counts
   bool tabs = false;    ///< indent with tabs, align with blanks
-  KeywordCase keywords = KeywordCase::upper;
+  KeywordCase keywords = KeywordCase::Upper;
   bool align = true; ///< colons and comments of declarations that follow each other
 };
 
@@ -27,3 +28,5 @@ struct FormatStyle {
 [[nodiscard]] std::optional<std::string> format(const SourceFile &file, const FormatStyle &style);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SYNTAX_FORMAT_HPP

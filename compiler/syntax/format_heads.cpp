@@ -10,28 +10,28 @@ namespace stc {
 // -------------------------------------------------------------------------------------------------
 // questions
 
-bool FormatLayout::startsDeclaration(std::size_t i) const {
+bool FormatLayout::startsDeclaration(size_t i) const {
   return stc::startsDeclaration(type(i), type(i + 1));
 }
 
-bool FormatLayout::startsSection(std::size_t i) const {
+bool FormatLayout::startsSection(size_t i) const {
   return stc::startsSection(type(i), type(i + 1));
 }
 
-bool FormatLayout::startsAccessor(std::size_t i) const {
+bool FormatLayout::startsAccessor(size_t i) const {
   return (isWordAt(i, "get") || isWordAt(i, "set")) && !continuesName(type(i + 1));
 }
 
 /// No statement or declaration goes on here.
-bool FormatLayout::stopsStatement(std::size_t i) const {
-  const std::uint16_t t = type(i);
+bool FormatLayout::stopsStatement(size_t i) const {
+  const uint16_t t = type(i);
   return isStatementBoundary(t) || closesUnit(t) || startsSection(i) || startsDeclaration(i) ||
          isMember(t) || t == Tok::END_VAR || t == Tok::END_STRUCT || t == Tok::END_UNION ||
          t == Tok::END_TYPE;
 }
 
 /// Behind the `;` that ends what begins at `i`, or where something else begins.
-std::size_t FormatLayout::statementEnd(std::size_t i) const {
+size_t FormatLayout::statementEnd(size_t i) const {
   do {
     if (type(i) == Tok::SEMICOLON)
       return i + 1;
@@ -41,7 +41,7 @@ std::size_t FormatLayout::statementEnd(std::size_t i) const {
 }
 
 /// Behind the next token of type `last`, or where a statement ends.
-std::size_t FormatLayout::through(std::size_t i, std::uint16_t last) const {
+size_t FormatLayout::through(size_t i, uint16_t last) const {
   do {
     if (type(i) == last)
       return i + 1;
@@ -51,19 +51,19 @@ std::size_t FormatLayout::through(std::size_t i, std::uint16_t last) const {
 }
 
 /// Semicolons directly behind a closing keyword stay on its line.
-std::size_t FormatLayout::withSemicolons(std::size_t i) const {
+size_t FormatLayout::withSemicolons(size_t i) const {
   while (type(i) == Tok::SEMICOLON && items_[i].comments.empty())
     ++i;
   return i;
 }
 
 /// Behind the colon of the CASE labels that begin at `i`; 0 when there are none.
-std::size_t FormatLayout::labelEnd(std::size_t i) const {
+size_t FormatLayout::labelEnd(size_t i) const {
   const Kind now = blocks_.back().kind;
-  if (now != Kind::choice && now != Kind::branch)
+  if (now != Kind::Choice && now != Kind::Branch)
     return 0;
   unsigned depth = 0;
-  for (std::size_t k = i; k == i || !stopsStatement(k); ++k) {
+  for (size_t k = i; k == i || !stopsStatement(k); ++k) {
     switch (type(k)) {
     case Tok::LPAREN:
     case Tok::LBRACKET:
@@ -97,8 +97,8 @@ std::size_t FormatLayout::labelEnd(std::size_t i) const {
 // -------------------------------------------------------------------------------------------------
 // heads
 
-std::size_t FormatLayout::headEnd(std::size_t i) const {
-  const std::uint16_t keyword = type(i++);
+size_t FormatLayout::headEnd(size_t i) const {
+  const uint16_t keyword = type(i++);
   while (isModifier(type(i)))
     ++i;
   if (type(i) == Tok::IDENT)
@@ -108,7 +108,7 @@ std::size_t FormatLayout::headEnd(std::size_t i) const {
   return headRest(i, keyword);
 }
 
-std::size_t FormatLayout::headRest(std::size_t i, std::uint16_t keyword) const {
+size_t FormatLayout::headRest(size_t i, uint16_t keyword) const {
   while (type(i) == Tok::EXTENDS || type(i) == Tok::IMPLEMENTS) {
     ++i;
     while (type(i) == Tok::IDENT || type(i) == Tok::DOT || type(i) == Tok::COMMA) {
@@ -125,7 +125,7 @@ std::size_t FormatLayout::headRest(std::size_t i, std::uint16_t keyword) const {
   return withSemicolons(i);
 }
 
-std::size_t FormatLayout::headType(std::size_t i) const {
+size_t FormatLayout::headType(size_t i) const {
   for (;;) {
     if (type(i) == Tok::ARRAY) {
       while (type(i) != Tok::OF && type(i) != Tok::SEMICOLON && !stopsStatement(i))

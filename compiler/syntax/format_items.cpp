@@ -39,7 +39,7 @@ public:
   }
 
 private:
-  void push(std::uint16_t type, std::size_t begin, std::size_t end) {
+  void push(uint16_t type, size_t begin, size_t end) {
     item_.type = type;
     item_.text = text_.substr(begin, end - begin);
     item_.newlines = newlines_;
@@ -49,17 +49,17 @@ private:
     place_ = end;
   }
 
-  void pushComment(std::size_t end) {
+  void pushComment(size_t end) {
     FormatComment comment;
     comment.text = text_.substr(place_, end - place_);
     comment.toLineEnd = comment.text.starts_with("//");
     comment.newlines = newlines_;
-    std::size_t begin = place_;
+    size_t begin = place_;
     while (begin > 0 && (text_[begin - 1] == ' ' || text_[begin - 1] == '\t'))
       --begin;
     comment.startsLine = begin == 0 || text_[begin - 1] == '\n';
     comment.margin = place_ - begin;
-    while (comment.toLineEnd && classOf(comment.text.back()) == blank)
+    while (comment.toLineEnd && classOf(comment.text.back()) == kBlank)
       comment.text.remove_suffix(1);
     item_.comments.push_back(comment);
     newlines_ = 0;
@@ -67,22 +67,22 @@ private:
   }
 
   /// Behind the blank at `place`; `place` when there is none.
-  [[nodiscard]] std::size_t behindBlank(std::size_t place) const {
-    if (classOf(text_[place]) == blank)
+  [[nodiscard]] size_t behindBlank(size_t place) const {
+    if (classOf(text_[place]) == kBlank)
       return place + 1;
     return text_.compare(place, 2, "\xC2\xA0") == 0 ? place + 2 : place;
   }
 
   /// Comments, and text that is no token, up to `end`.
-  void gap(std::size_t end) {
+  void gap(size_t end) {
     while (place_ < end) {
-      if (const std::size_t next = behindBlank(place_); next != place_) {
+      if (const size_t next = behindBlank(place_); next != place_) {
         newlines_ += text_[place_] == '\n';
         place_ = next;
-      } else if (const std::size_t behind = commentEnd(); behind != place_) {
+      } else if (const size_t behind = commentEnd(); behind != place_) {
         pushComment(std::min(behind, end));
       } else {
-        std::size_t stop = place_ + 1;
+        size_t stop = place_ + 1;
         while (stop < end && behindBlank(stop) == stop)
           ++stop;
         push(kUnknownText, place_, stop);
@@ -90,10 +90,10 @@ private:
     }
   }
 
-  [[nodiscard]] std::size_t commentEnd() const {
+  [[nodiscard]] size_t commentEnd() const {
     if (text_[place_] != '{')
       return places_.comment(place_);
-    const std::size_t end = places_.pragmaEnd(place_);
+    const size_t end = places_.pragmaEnd(place_);
     return end == std::string_view::npos ? place_ : end;
   }
 
@@ -103,7 +103,7 @@ private:
   Scanner places_;
   std::vector<FormatItem> items_;
   FormatItem item_;
-  std::size_t place_ = 0;
+  size_t place_ = 0;
   unsigned newlines_ = 0;
 };
 
@@ -113,7 +113,7 @@ std::vector<FormatItem> readItems(const SourceFile &file) { return ItemReader(fi
 
 std::set<std::string> jumpTargets(const std::vector<FormatItem> &items) {
   std::set<std::string> out;
-  for (std::size_t i = 1; i < items.size(); ++i)
+  for (size_t i = 1; i < items.size(); ++i)
     if (items[i - 1].type == Tok::JMP && items[i].type == Tok::IDENT)
       out.insert(lowerCase(items[i].text));
   return out;
@@ -122,10 +122,10 @@ std::set<std::string> jumpTargets(const std::vector<FormatItem> &items) {
 std::string pragmaWord(std::string_view comment) {
   if (!comment.starts_with('{'))
     return {};
-  std::size_t begin = 1;
-  while (begin < comment.size() && classOf(comment[begin]) == blank)
+  size_t begin = 1;
+  while (begin < comment.size() && classOf(comment[begin]) == kBlank)
     ++begin;
-  std::size_t end = begin;
+  size_t end = begin;
   while (end < comment.size() && isWordChar(comment[end]))
     ++end;
   return lowerCase(comment.substr(begin, end - begin));

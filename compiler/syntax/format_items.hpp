@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_FORMAT_ITEMS_HPP
+#define STRIDE_COMPILER_SYNTAX_FORMAT_ITEMS_HPP
 // What a text to be formatted consists of. Internal to compiler/syntax: includes ANTLR.
 
 #include "compiler/source/sources.hpp"
@@ -18,20 +19,20 @@ struct FormatComment {
   std::string_view text;
   unsigned newlines = 0;  ///< line ends between it and what stands before it
   bool toLineEnd = false; ///< `// …`
-  std::size_t margin = 0; ///< blanks in front of it on its line
+  size_t margin = 0;      ///< blanks in front of it on its line
   bool startsLine = false;
 };
 
 /// A token with what stands in front of it.
 struct FormatItem {
-  std::uint16_t type = Token::kEnd; ///< kEnd: the end of the text
+  uint16_t type = Token::kEnd; ///< kEnd: the end of the text
   std::string_view text;
   unsigned newlines = 0; ///< line ends directly in front of it
   std::vector<FormatComment> comments;
 };
 
 /// Tokens of this type are text that means nothing, in a branch that is not compiled.
-inline constexpr std::uint16_t kUnknownText = Token::kEnd - 1;
+inline constexpr uint16_t kUnknownText = Token::kEnd - 1;
 
 /// The tokens of all branches; the last one is the end of the text.
 [[nodiscard]] std::vector<FormatItem> readItems(const SourceFile &file);
@@ -48,3 +49,5 @@ inline constexpr std::uint16_t kUnknownText = Token::kEnd - 1;
 [[nodiscard]] bool isIntegerName(std::string_view text);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SYNTAX_FORMAT_ITEMS_HPP

@@ -9,23 +9,23 @@ namespace stc {
 namespace {
 
 /// Names wider than this do not move the colons of other declarations.
-constexpr std::size_t kWidestAligned = 40;
+constexpr size_t kWidestAligned = 40;
 
 /// A comment that begins a line, whose further lines move as its first one does.
-std::string moved(const FormatComment &comment, std::size_t margin, bool tabs) {
+std::string moved(const FormatComment &comment, size_t margin, bool tabs) {
   const std::string text = commentText(comment.text);
   if (!comment.startsLine || margin == comment.margin || text.find('\n') == std::string::npos)
     return text;
   std::string out;
-  std::size_t begin = 0;
-  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
+  size_t begin = 0;
+  for (size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
     out.append(text, begin, end - begin + 1);
     begin = end + 1;
     if (margin > comment.margin) {
       if (begin < text.size() && text[begin] != '\n')
         out.append(margin - comment.margin, tabs ? '\t' : ' ');
     } else {
-      for (std::size_t k = comment.margin - margin;
+      for (size_t k = comment.margin - margin;
            k > 0 && begin < text.size() && (text[begin] == ' ' || text[begin] == '\t'); --k)
         ++begin;
     }
@@ -51,13 +51,13 @@ std::string FormatLayout::run() {
   return join();
 }
 
-bool FormatLayout::isWordAt(std::size_t i, std::string_view lower) const {
+bool FormatLayout::isWordAt(size_t i, std::string_view lower) const {
   return type(i) == Tok::IDENT && isWord(items_[i].text, lower);
 }
 
-bool FormatLayout::hasComments(std::size_t from, std::size_t to) const {
-  return std::any_of(items_.begin() + static_cast<std::ptrdiff_t>(from),
-                     items_.begin() + static_cast<std::ptrdiff_t>(to),
+bool FormatLayout::hasComments(size_t from, size_t to) const {
+  return std::any_of(items_.begin() + static_cast<ptrdiff_t>(from),
+                     items_.begin() + static_cast<ptrdiff_t>(to),
                      [](const FormatItem &item) { return !item.comments.empty(); });
 }
 
@@ -67,11 +67,11 @@ bool FormatLayout::hasComments(std::size_t from, std::size_t to) const {
 /// Comments directly in front of a label or ELSE belong to what it begins.
 unsigned FormatLayout::commentLevel() const {
   const Block &now = blocks_.back();
-  if (now.kind == Kind::branch && (type(at_) == Tok::ELSE || labelEnd(at_) != 0))
+  if (now.kind == Kind::Branch && (type(at_) == Tok::ELSE || labelEnd(at_) != 0))
     return now.level;
   if (isMember(type(at_)) || startsDeclaration(at_)) {
     for (auto block = blocks_.rbegin(); block != blocks_.rend(); ++block)
-      if (block->kind <= Kind::actions)
+      if (block->kind <= Kind::Actions)
         return block->content;
   }
   return now.content;
@@ -95,17 +95,17 @@ void FormatLayout::comments() {
   const FormatItem &item = items_[at_];
   const std::vector<FormatComment> &list = item.comments;
   const bool atEnd = item.type == Token::kEnd;
-  const auto newlinesAt = [&](std::size_t k) {
+  const auto newlinesAt = [&](size_t k) {
     return k < list.size() ? list[k].newlines : atEnd ? 1U : item.newlines;
   };
   prefix_.clear();
   blank_ = false;
-  std::size_t k = 0;
+  size_t k = 0;
   // Those on the last token's line.
   while (k < list.size() && newlinesAt(k) == 0)
     ++k;
   const bool trailing = k > 0 && newlinesAt(k) > 0 && !lines_.empty();
-  for (std::size_t i = 0; trailing && i < k; ++i) {
+  for (size_t i = 0; trailing && i < k; ++i) {
     std::string &text = lines_.back().comment;
     text += (text.empty() ? "" : " ") + commentText(list[i].text);
     conditional(list[i].text);
@@ -113,7 +113,7 @@ void FormatLayout::comments() {
   if (!trailing)
     k = 0;
   while (k < list.size()) {
-    const std::size_t begin = k;
+    const size_t begin = k;
     blank_ = newlinesAt(k) > 1;
     do
       ++k;
@@ -122,7 +122,7 @@ void FormatLayout::comments() {
       commentLine(begin, k);
       continue;
     }
-    for (std::size_t i = begin; i < k; ++i) {
+    for (size_t i = begin; i < k; ++i) {
       conditional(list[i].text);
       prefix_.push_back(&list[i]);
     }
@@ -141,11 +141,11 @@ std::string FormatLayout::prefixAt(unsigned level) const {
   return out;
 }
 
-void FormatLayout::commentLine(std::size_t from, std::size_t to) {
+void FormatLayout::commentLine(size_t from, size_t to) {
   const std::vector<FormatComment> &list = items_[at_].comments;
   std::string text;
   unsigned level = 0;
-  for (std::size_t i = from; i < to; ++i) {
+  for (size_t i = from; i < to; ++i) {
     conditional(list[i].text);
     if (i == from)
       level = commentLevel();
@@ -167,7 +167,7 @@ void FormatLayout::emitText(unsigned level, std::string text, bool blank) {
   afterOpener_ = separate_ = false;
 }
 
-void FormatLayout::emit(std::size_t to, unsigned level, LineKind kind) {
+void FormatLayout::emit(size_t to, unsigned level, LineKind kind) {
   to = std::min(to, items_.size() - 1); // a wrong text may end anywhere
   if (to <= at_)
     return;
@@ -177,12 +177,12 @@ void FormatLayout::emit(std::size_t to, unsigned level, LineKind kind) {
   request.level = level;
   request.kind = kind;
   request.prefix = prefixAt(level);
-  if (kind == LineKind::declaration && style_.align)
+  if (kind == LineKind::Declaration && style_.align)
     request.colon = colonOf(at_, to, level);
   if (closing_)
     separate_ = false;
   emitText(level, layLine(items_, request, style_), blank_ && !closing_);
-  lines_.back().declaration = kind == LineKind::declaration;
+  lines_.back().declaration = kind == LineKind::Declaration;
   closing_ = false;
   prefix_.clear();
   blank_ = false;
@@ -191,12 +191,12 @@ void FormatLayout::emit(std::size_t to, unsigned level, LineKind kind) {
 
 /// The column, behind the indentation, in which the declaration [from, to) has its colon: that of
 /// the widest name among the declarations that follow each other.
-std::size_t FormatLayout::colonOf(std::size_t from, std::size_t to, unsigned level) {
+size_t FormatLayout::colonOf(size_t from, size_t to, unsigned level) {
   if (from < runEnd_)
     return runColon_;
-  const auto nameWidth = [&](std::size_t begin, std::size_t end) -> std::size_t {
+  const auto nameWidth = [&](size_t begin, size_t end) -> size_t {
     unsigned depth = 0;
-    for (std::size_t i = begin; i < end; ++i) {
+    for (size_t i = begin; i < end; ++i) {
       depth += type(i) == Tok::LPAREN || type(i) == Tok::LBRACKET;
       depth -= (type(i) == Tok::RPAREN || type(i) == Tok::RBRACKET) && depth > 0;
       if (type(i) == Tok::COLON && depth == 0 && !hasComments(begin + 1, i + 1)) {
@@ -204,18 +204,18 @@ std::size_t FormatLayout::colonOf(std::size_t from, std::size_t to, unsigned lev
         names.from = begin;
         names.to = i;
         names.level = level;
-        names.kind = LineKind::declaration;
+        names.kind = LineKind::Declaration;
         const std::string text = layLine(items_, names, style_);
         return text.find('\n') == std::string::npos ? widthOf(text) : 0;
       }
     }
     return 0;
   };
-  std::size_t widest = 0;
-  std::size_t begin = from;
-  std::size_t end = to;
+  size_t widest = 0;
+  size_t begin = from;
+  size_t end = to;
   for (;;) {
-    const std::size_t width = nameWidth(begin, end);
+    const size_t width = nameWidth(begin, end);
     if (width <= kWidestAligned)
       widest = std::max(widest, width);
     begin = end;
@@ -237,13 +237,13 @@ std::size_t FormatLayout::colonOf(std::size_t from, std::size_t to, unsigned lev
 /// Comments behind declarations that follow each other begin in one column.
 void FormatLayout::alignComments() {
   const auto lastWidth = [](const Line &line) {
-    const std::size_t newline = line.text.rfind('\n');
+    const size_t newline = line.text.rfind('\n');
     return newline == std::string::npos
                ? widthOf(line.text)
                : 0; // further lines have a width that does not count from the indentation
   };
-  for (std::size_t begin = 0; begin < lines_.size();) {
-    std::size_t end = begin + 1;
+  for (size_t begin = 0; begin < lines_.size();) {
+    size_t end = begin + 1;
     if (!lines_[begin].declaration) {
       begin = end;
       continue;
@@ -251,11 +251,11 @@ void FormatLayout::alignComments() {
     while (end < lines_.size() && lines_[end].declaration && !lines_[end].blank &&
            lines_[end].level == lines_[begin].level)
       ++end;
-    std::size_t widest = 0;
-    for (std::size_t i = begin; i < end; ++i)
+    size_t widest = 0;
+    for (size_t i = begin; i < end; ++i)
       if (!lines_[i].comment.empty())
         widest = std::max(widest, lastWidth(lines_[i]));
-    for (std::size_t i = begin; i < end; ++i)
+    for (size_t i = begin; i < end; ++i)
       if (!lines_[i].comment.empty() && lines_[i].text.find('\n') == std::string::npos)
         lines_[i].text.append(widest - lastWidth(lines_[i]), ' ');
     begin = end;

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_FORMAT_LAYOUT_HPP
+#define STRIDE_COMPILER_SYNTAX_FORMAT_LAYOUT_HPP
 // The structure of a text to be formatted: which tokens make a line, and how deep it is indented.
 // Internal to compiler/syntax.
 
@@ -20,30 +21,30 @@ public:
   std::string run();
 
 private:
-  enum class Kind : std::uint8_t {
-    file,
-    space,         ///< NAMESPACE
-    configuration, ///< also RESOURCE
-    pou,           ///< also a member
-    property,
-    accessor, ///< GET, SET
-    actions,
-    section, ///< VAR
-    types,
-    structure,
-    enumeration,
-    condition, ///< IF
-    choice,    ///< CASE
-    branch,    ///< behind the labels of a CASE
-    loop,
-    attempt, ///< __TRY
+  enum class Kind : uint8_t {
+    File,
+    Space,         ///< NAMESPACE
+    Configuration, ///< also RESOURCE
+    Pou,           ///< also a member
+    Property,
+    Accessor, ///< GET, SET
+    Actions,
+    Section, ///< VAR
+    Types,
+    Structure,
+    Enumeration,
+    Condition, ///< IF
+    Choice,    ///< CASE
+    Branch,    ///< behind the labels of a CASE
+    Loop,
+    Attempt, ///< __TRY
   };
   /// Something that is open.
   struct Block {
-    Kind kind = Kind::file;
-    std::uint16_t type = 0; ///< of the keyword that opened it
-    unsigned level = 0;     ///< of that keyword
-    unsigned content = 0;   ///< of what stands inside
+    Kind kind = Kind::File;
+    uint16_t type = 0;    ///< of the keyword that opened it
+    unsigned level = 0;   ///< of that keyword
+    unsigned content = 0; ///< of what stands inside
   };
   struct Line {
     unsigned level = 0;
@@ -53,11 +54,11 @@ private:
     bool declaration = false;
   };
 
-  [[nodiscard]] std::uint16_t type(std::size_t i) const {
+  [[nodiscard]] uint16_t type(size_t i) const {
     return i < items_.size() ? items_[i].type : Token::kEnd;
   }
-  [[nodiscard]] bool isWordAt(std::size_t i, std::string_view lower) const;
-  [[nodiscard]] bool hasComments(std::size_t from, std::size_t to) const;
+  [[nodiscard]] bool isWordAt(size_t i, std::string_view lower) const;
+  [[nodiscard]] bool hasComments(size_t from, size_t to) const;
 
   // format_layout.cpp: lines and comments
   /// The comments in front of the current token: behind the last line, on lines of their own, or in
@@ -65,13 +66,13 @@ private:
   void comments();
   /// The comments of `prefix_` in front of a line of that level.
   [[nodiscard]] std::string prefixAt(unsigned level) const;
-  void commentLine(std::size_t from, std::size_t to);
+  void commentLine(size_t from, size_t to);
   void conditional(std::string_view comment);
   /// Items [at_, to) become a line; `at_` moves on.
-  void emit(std::size_t to, unsigned level, LineKind kind);
+  void emit(size_t to, unsigned level, LineKind kind);
   void emitText(unsigned level, std::string text, bool blank);
   [[nodiscard]] unsigned commentLevel() const;
-  [[nodiscard]] std::size_t colonOf(std::size_t from, std::size_t to, unsigned level);
+  [[nodiscard]] size_t colonOf(size_t from, size_t to, unsigned level);
   [[nodiscard]] std::string join() const;
   void alignComments();
 
@@ -85,24 +86,24 @@ private:
   void enumerationLine();
   void statement();
   void branchLabel();
-  void open(Kind kind, std::size_t to, LineKind line, bool indents);
+  void open(Kind kind, size_t to, LineKind line, bool indents);
   /// Closes the nearest block of that kind and what is open in it; the level of its keyword.
   unsigned closeBlock(Kind kind);
-  unsigned closeBlock(std::uint16_t opener);
+  unsigned closeBlock(uint16_t opener);
   void closeStatements();
   /// Where the closing line that begins at `i` ends.
-  [[nodiscard]] std::size_t withSemicolons(std::size_t i) const;
-  [[nodiscard]] std::size_t through(std::size_t i, std::uint16_t last) const;
-  [[nodiscard]] std::size_t statementEnd(std::size_t i) const;
-  [[nodiscard]] std::size_t headEnd(std::size_t i) const;
-  [[nodiscard]] std::size_t headRest(std::size_t i, std::uint16_t keyword) const;
-  [[nodiscard]] std::size_t headType(std::size_t i) const;
-  [[nodiscard]] bool stopsStatement(std::size_t i) const;
-  [[nodiscard]] bool startsDeclaration(std::size_t i) const;
-  [[nodiscard]] bool startsSection(std::size_t i) const;
-  [[nodiscard]] bool startsAccessor(std::size_t i) const;
-  [[nodiscard]] std::size_t labelEnd(std::size_t i) const;
-  [[nodiscard]] bool isOnlyType(std::size_t i) const;
+  [[nodiscard]] size_t withSemicolons(size_t i) const;
+  [[nodiscard]] size_t through(size_t i, uint16_t last) const;
+  [[nodiscard]] size_t statementEnd(size_t i) const;
+  [[nodiscard]] size_t headEnd(size_t i) const;
+  [[nodiscard]] size_t headRest(size_t i, uint16_t keyword) const;
+  [[nodiscard]] size_t headType(size_t i) const;
+  [[nodiscard]] bool stopsStatement(size_t i) const;
+  [[nodiscard]] bool startsDeclaration(size_t i) const;
+  [[nodiscard]] bool startsSection(size_t i) const;
+  [[nodiscard]] bool startsAccessor(size_t i) const;
+  [[nodiscard]] size_t labelEnd(size_t i) const;
+  [[nodiscard]] bool isOnlyType(size_t i) const;
 
   std::vector<FormatItem> items_;
   const FormatStyle &style_;
@@ -111,13 +112,15 @@ private:
   std::vector<std::vector<Block>> conditionals_; ///< what was open at each open `{IF …}`
   std::vector<Line> lines_;
   std::vector<const FormatComment *> prefix_; ///< on the line of the token behind them
-  std::size_t at_ = 0;
-  bool blank_ = false;       ///< an empty line is wanted in front of the next line
-  bool afterOpener_ = true;  ///< none is
-  bool separate_ = false;    ///< one must be there, behind a POU
-  bool closing_ = false;     ///< the next line closes a block
-  std::size_t runEnd_ = 0;   ///< declarations up to this item have their colons in one column
-  std::size_t runColon_ = 0; ///< that column
+  size_t at_ = 0;
+  bool blank_ = false;      ///< an empty line is wanted in front of the next line
+  bool afterOpener_ = true; ///< none is
+  bool separate_ = false;   ///< one must be there, behind a POU
+  bool closing_ = false;    ///< the next line closes a block
+  size_t runEnd_ = 0;       ///< declarations up to this item have their colons in one column
+  size_t runColon_ = 0;     ///< that column
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SYNTAX_FORMAT_LAYOUT_HPP

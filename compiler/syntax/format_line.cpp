@@ -15,7 +15,7 @@ constexpr unsigned kLevelsPerBracket = 16;
 constexpr unsigned kComma = 0;
 
 /// How tightly a binary operator binds; 0: it is none.
-unsigned bindingOf(std::uint16_t type) {
+unsigned bindingOf(uint16_t type) {
   switch (type) {
   case Tok::OR:
   case Tok::OR_ELSE:
@@ -47,7 +47,7 @@ unsigned bindingOf(std::uint16_t type) {
   }
 }
 
-bool endsOperand(std::uint16_t type) {
+bool endsOperand(uint16_t type) {
   switch (type) {
   case Tok::DIRECT:
   case Tok::WSTRING_LITERAL:
@@ -57,9 +57,9 @@ bool endsOperand(std::uint16_t type) {
   }
 }
 
-bool opens(std::uint16_t type) { return type == Tok::LPAREN || type == Tok::LBRACKET; }
-bool closes(std::uint16_t type) { return type == Tok::RPAREN || type == Tok::RBRACKET; }
-bool assigns(std::uint16_t type) {
+bool opens(uint16_t type) { return type == Tok::LPAREN || type == Tok::LBRACKET; }
+bool closes(uint16_t type) { return type == Tok::RPAREN || type == Tok::RBRACKET; }
+bool assigns(uint16_t type) {
   return type == Tok::ASSIGN || type == Tok::ARROW || type == Tok::SET_ASSIGN ||
          type == Tok::RESET_ASSIGN || type == Tok::REF_ASSIGN;
 }
@@ -67,8 +67,8 @@ bool assigns(std::uint16_t type) {
 /// A token or a comment of the line.
 struct Piece {
   std::string text;
-  std::size_t width = 0;
-  std::uint16_t type = 0;
+  size_t width = 0;
+  uint16_t type = 0;
   unsigned breakLevel = kNoBreak; ///< a line may end in front of it; the smaller, the sooner
   bool comment = false;
   bool blank = false;  ///< one in front of it
@@ -82,14 +82,14 @@ public:
   LineLayout(const std::vector<FormatItem> &items, const LineRequest &request,
              const FormatStyle &style)
       : items_(items), request_(request), style_(style),
-        start_(std::size_t{request.level} * style.indent) {}
+        start_(size_t{request.level} * style.indent) {}
 
   std::string run() {
     makePieces();
     setBreaks();
     column_ = start_;
-    const std::size_t inner = start_ + std::size_t{2} * style_.indent;
-    const bool list = request_.kind == LineKind::label || request_.kind == LineKind::declaration;
+    const size_t inner = start_ + size_t{2} * style_.indent;
+    const bool list = request_.kind == LineKind::Label || request_.kind == LineKind::Declaration;
     brackets_.push_back({list ? start_ : inner, inner});
     if (!request_.prefix.empty())
       write(request_.prefix + " ");
@@ -100,18 +100,18 @@ public:
 
 private:
   struct Bracket {
-    std::size_t content; ///< where its elements begin
-    std::size_t operand; ///< where the expression begins
+    size_t content; ///< where its elements begin
+    size_t operand; ///< where the expression begins
   };
 
   void makePieces() {
     unsigned depth = 0;
     bool forced = false; // behind a comment that ends its line
     bool operand = false;
-    for (std::size_t i = request_.from; i < request_.to; ++i) {
+    for (size_t i = request_.from; i < request_.to; ++i) {
       const FormatItem &item = items_[i];
       if (i != request_.from) { // those of the first token stand in front of the line
-        for (std::size_t k = 0; k < item.comments.size(); ++k) {
+        for (size_t k = 0; k < item.comments.size(); ++k) {
           const FormatComment &comment = item.comments[k];
           Piece piece;
           piece.text = commentText(comment.text);
@@ -145,7 +145,7 @@ private:
     pieces_.push_back(std::move(piece));
   }
 
-  [[nodiscard]] std::string spelling(std::size_t i) const {
+  [[nodiscard]] std::string spelling(size_t i) const {
     const FormatItem &item = items_[i];
     std::string out(item.text);
     const bool assignment = item.type == Tok::SET_ASSIGN || item.type == Tok::RESET_ASSIGN ||
@@ -154,9 +154,9 @@ private:
                       isElementaryName(item.text) && isTypePlace(items_[i - 1].type);
     if (!type && !assignment && !isKeywordType(item.type))
       return out;
-    if (style_.keywords == KeywordCase::lower)
+    if (style_.keywords == KeywordCase::Lower)
       out = lowerCase(out);
-    else if (style_.keywords == KeywordCase::upper)
+    else if (style_.keywords == KeywordCase::Upper)
       std::transform(out.begin(), out.end(), out.begin(), [](char c) {
         return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
       });
@@ -164,15 +164,15 @@ private:
   }
 
   [[nodiscard]] bool declares() const {
-    return request_.kind == LineKind::declaration || request_.kind == LineKind::head;
+    return request_.kind == LineKind::Declaration || request_.kind == LineKind::Head;
   }
 
-  static bool isTypePlace(std::uint16_t before) {
+  static bool isTypePlace(uint16_t before) {
     return before == Tok::COLON || before == Tok::OF || before == Tok::TO || before == Tok::REF_TO;
   }
 
   /// Between the last piece and item `i`, which becomes `piece`, inside of `depth` brackets.
-  [[nodiscard]] bool needsBlank(std::size_t i, const Piece &piece, unsigned depth) const {
+  [[nodiscard]] bool needsBlank(size_t i, const Piece &piece, unsigned depth) const {
     const Piece &before = pieces_.back();
     switch (piece.type) {
     case Tok::SEMICOLON:
@@ -185,7 +185,7 @@ private:
     case Tok::CARET:
       return false;
     case Tok::COLON:
-      return before.comment || (request_.kind != LineKind::label && request_.from < i &&
+      return before.comment || (request_.kind != LineKind::Label && request_.from < i &&
                                 items_[request_.from].type != Tok::ACTION);
     default:
       break;
@@ -207,7 +207,7 @@ private:
       break;
     }
     if (piece.type == Tok::LPAREN) {
-      if (request_.kind == LineKind::configuration && depth == 0)
+      if (request_.kind == LineKind::Configuration && depth == 0)
         return true;
       switch (before.type) {
       case Tok::IDENT:
@@ -254,9 +254,9 @@ private:
 
   /// Width of the pieces from `i` up to the next place of level `level` or below; no more than a
   /// little over the width of a line.
-  [[nodiscard]] std::size_t chunk(std::size_t i, unsigned level) const {
-    std::size_t width = pieces_[i].toLineEnd ? 0 : pieces_[i].width;
-    for (std::size_t k = i + 1; k < pieces_.size() && width <= style_.width; ++k) {
+  [[nodiscard]] size_t chunk(size_t i, unsigned level) const {
+    size_t width = pieces_[i].toLineEnd ? 0 : pieces_[i].width;
+    for (size_t k = i + 1; k < pieces_.size() && width <= style_.width; ++k) {
       if (pieces_[k].breakLevel != kNoBreak && pieces_[k].breakLevel <= level)
         break;
       if (!pieces_[k].toLineEnd)
@@ -266,11 +266,11 @@ private:
   }
 
   /// The widest element of the bracket whose content begins with piece `i`.
-  [[nodiscard]] std::size_t widestElement(std::size_t i) const {
-    std::size_t widest = 0;
-    std::size_t width = 0;
+  [[nodiscard]] size_t widestElement(size_t i) const {
+    size_t widest = 0;
+    size_t width = 0;
     unsigned depth = 0;
-    for (std::size_t k = i; k < pieces_.size() && widest <= style_.width; ++k) {
+    for (size_t k = i; k < pieces_.size() && widest <= style_.width; ++k) {
       const Piece &piece = pieces_[k];
       if (closes(piece.type) && depth-- == 0)
         return std::max(widest, width + 1);
@@ -290,13 +290,13 @@ private:
     const bool behindOpener = at_ > 0 && opens(pieces_[at_ - 1].type);
     Bracket &now = brackets_.back();
     const bool element = previous_ == Tok::COMMA;
-    const std::size_t target = element || closes(piece.type) ? now.content : now.operand;
+    const size_t target = element || closes(piece.type) ? now.content : now.operand;
     if (piece.forced && at_ > 0) {
       newLine(target);
     } else if (behindOpener && !closes(piece.type) && !piece.comment) {
       // Elements that are too wide where the bracket stands begin on the next line.
-      const std::size_t inner = lineStart_ + std::size_t{2} * style_.indent;
-      const std::size_t widest = widestElement(at_);
+      const size_t inner = lineStart_ + size_t{2} * style_.indent;
+      const size_t widest = widestElement(at_);
       if (inner < column_ && column_ + widest > style_.width && inner + widest <= style_.width) {
         newLine(inner);
         now = {inner, inner};
@@ -307,7 +307,7 @@ private:
     }
     if (piece.type == Tok::COLON && brackets_.size() == 1 && request_.colon != 0 && !sawColon_) {
       sawColon_ = true;
-      const std::size_t wanted = start_ + request_.colon;
+      const size_t wanted = start_ + request_.colon;
       if (column_ + 1 < wanted)
         write(std::string(wanted - column_ - 1, ' '));
     }
@@ -340,9 +340,9 @@ private:
     }
   }
 
-  void newLine(std::size_t column) {
+  void newLine(size_t column) {
     out_ += '\n';
-    const std::size_t level = std::min(column, start_);
+    const size_t level = std::min(column, start_);
     out_ += style_.tabs ? std::string(level / style_.indent, '\t') : std::string(level, ' ');
     out_.append(column - level, ' ');
     column_ = lineStart_ = column;
@@ -353,7 +353,7 @@ private:
     if (column_ == start_ && out_.empty())
       lineStart_ = start_;
     out_ += text;
-    const std::size_t newline = text.rfind('\n');
+    const size_t newline = text.rfind('\n');
     column_ = newline == std::string::npos ? column_ + widthOf(text)
                                            : widthOf(std::string_view(text).substr(newline + 1));
   }
@@ -361,13 +361,13 @@ private:
   const std::vector<FormatItem> &items_;
   const LineRequest &request_;
   const FormatStyle &style_;
-  std::size_t start_; ///< column of the indentation
+  size_t start_; ///< column of the indentation
   std::vector<Piece> pieces_;
   std::vector<Bracket> brackets_; ///< the first one stands for the line
-  std::size_t at_ = 0;
-  std::size_t column_ = 0;
-  std::size_t lineStart_ = 0;
-  std::uint16_t previous_ = 0; ///< type of the last token
+  size_t at_ = 0;
+  size_t column_ = 0;
+  size_t lineStart_ = 0;
+  uint16_t previous_ = 0; ///< type of the last token
   bool sawColon_ = false;
   bool freshLine_ = false;
   std::string out_;
@@ -376,12 +376,11 @@ private:
 } // namespace
 
 std::string indentation(const FormatStyle &style, unsigned level) {
-  return style.tabs ? std::string(level, '\t')
-                    : std::string(std::size_t{level} * style.indent, ' ');
+  return style.tabs ? std::string(level, '\t') : std::string(size_t{level} * style.indent, ' ');
 }
 
-std::size_t widthOf(std::string_view text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+size_t widthOf(std::string_view text) {
+  return static_cast<size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
   }));
 }
@@ -389,7 +388,7 @@ std::size_t widthOf(std::string_view text) {
 std::string commentText(std::string_view text) {
   std::string out;
   out.reserve(text.size());
-  for (std::size_t i = 0; i < text.size(); ++i)
+  for (size_t i = 0; i < text.size(); ++i)
     if (text[i] != '\r' || i + 1 == text.size() || text[i + 1] != '\n')
       out += text[i];
   return out;

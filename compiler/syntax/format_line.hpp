@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_FORMAT_LINE_HPP
+#define STRIDE_COMPILER_SYNTAX_FORMAT_LINE_HPP
 // One statement or declaration: blanks between its tokens, and line breaks where it is too wide.
 // Internal to compiler/syntax.
 
@@ -11,15 +12,15 @@
 namespace stc {
 
 /// What a line is, which decides about some of its blanks.
-enum class LineKind : std::uint8_t { statement, label, declaration, head, configuration };
+enum class LineKind : uint8_t { Statement, Label, Declaration, Head, Configuration };
 
 struct LineRequest {
-  std::size_t from = 0; ///< items [from, to)
-  std::size_t to = 0;
+  size_t from = 0; ///< items [from, to)
+  size_t to = 0;
   unsigned level = 0;
-  LineKind kind = LineKind::statement;
+  LineKind kind = LineKind::Statement;
   /// declaration: the column, behind the indentation, of its first colon outside of brackets
-  std::size_t colon = 0;
+  size_t colon = 0;
   std::string prefix; ///< comments in front of the first token, on its line
 };
 
@@ -27,7 +28,7 @@ struct LineRequest {
 [[nodiscard]] std::string indentation(const FormatStyle &style, unsigned level);
 
 /// Characters of UTF-8 text.
-[[nodiscard]] std::size_t widthOf(std::string_view text);
+[[nodiscard]] size_t widthOf(std::string_view text);
 
 /// The text of a comment, with its line ends as they are written.
 [[nodiscard]] std::string commentText(std::string_view text);
@@ -37,3 +38,5 @@ struct LineRequest {
                                   const FormatStyle &style);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SYNTAX_FORMAT_LINE_HPP

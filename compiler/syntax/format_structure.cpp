@@ -11,16 +11,16 @@ namespace stc {
 // -------------------------------------------------------------------------------------------------
 // blocks
 
-void FormatLayout::open(Kind kind, std::size_t to, LineKind line, bool indents) {
+void FormatLayout::open(Kind kind, size_t to, LineKind line, bool indents) {
   const unsigned level = blocks_.back().content;
-  const std::uint16_t keyword = type(at_);
+  const uint16_t keyword = type(at_);
   emit(to, level, line);
   blocks_.push_back({kind, keyword, level, level + (indents ? 1 : 0)});
   afterOpener_ = true;
 }
 
 unsigned FormatLayout::closeBlock(Kind kind) {
-  for (std::size_t i = blocks_.size(); i-- > 1;) {
+  for (size_t i = blocks_.size(); i-- > 1;) {
     if (blocks_[i].kind != kind)
       continue;
     const unsigned level = blocks_[i].level;
@@ -30,8 +30,8 @@ unsigned FormatLayout::closeBlock(Kind kind) {
   return blocks_.back().content;
 }
 
-unsigned FormatLayout::closeBlock(std::uint16_t opener) {
-  for (std::size_t i = blocks_.size(); i-- > 1;) {
+unsigned FormatLayout::closeBlock(uint16_t opener) {
+  for (size_t i = blocks_.size(); i-- > 1;) {
     if (blocks_[i].type != opener)
       continue;
     const unsigned level = blocks_[i].level;
@@ -43,29 +43,29 @@ unsigned FormatLayout::closeBlock(std::uint16_t opener) {
 
 /// In front of a declaration: statements that are open belong to a wrong text.
 void FormatLayout::closeStatements() {
-  while (blocks_.size() > 1 && blocks_.back().kind > Kind::actions)
+  while (blocks_.size() > 1 && blocks_.back().kind > Kind::Actions)
     blocks_.pop_back();
 }
 
 /// END_IF, END_VAR, END_PROGRAM …
 bool FormatLayout::closer() {
-  const std::uint16_t t = type(at_);
-  const auto close = [&](std::uint16_t opener, bool separates) {
+  const uint16_t t = type(at_);
+  const auto close = [&](uint16_t opener, bool separates) {
     closing_ = true;
     const unsigned level = closeBlock(opener);
-    emit(withSemicolons(at_ + 1), level, LineKind::statement);
+    emit(withSemicolons(at_ + 1), level, LineKind::Statement);
     separate_ = separates;
     return true;
   };
-  if (const std::uint16_t opener = openerOf(t); opener != 0)
+  if (const uint16_t opener = openerOf(t); opener != 0)
     return close(opener, false);
-  const Kind outer = blocks_.size() > 1 ? blocks_[blocks_.size() - 2].kind : Kind::file;
-  const bool isGlobal = outer == Kind::file || outer == Kind::space;
+  const Kind outer = blocks_.size() > 1 ? blocks_[blocks_.size() - 2].kind : Kind::File;
+  const bool isGlobal = outer == Kind::File || outer == Kind::Space;
   switch (t) {
   case Tok::END_VAR: {
     closing_ = true;
-    const unsigned level = closeBlock(Kind::section);
-    emit(at_ + 1, level, LineKind::statement);
+    const unsigned level = closeBlock(Kind::Section);
+    emit(at_ + 1, level, LineKind::Statement);
     separate_ = isGlobal;
     return true;
   }
@@ -112,18 +112,18 @@ bool FormatLayout::closer() {
 // lines
 
 void FormatLayout::line() {
-  const std::uint16_t t = type(at_);
+  const uint16_t t = type(at_);
   if (t == Tok::SEMICOLON && items_[at_].comments.empty() && at_ > 0 && !lines_.empty() &&
       lines_.back().comment.empty()) {
-    const std::uint16_t before = type(at_ - 1);
+    const uint16_t before = type(at_ - 1);
     if (before == Tok::SEMICOLON || closesUnit(before) || openerOf(before) != 0) {
       lines_.back().text += ';';
       ++at_;
       return;
     }
   }
-  if (blocks_.back().kind == Kind::section || blocks_.back().kind == Kind::structure ||
-      blocks_.back().kind == Kind::types || blocks_.back().kind == Kind::enumeration) {
+  if (blocks_.back().kind == Kind::Section || blocks_.back().kind == Kind::Structure ||
+      blocks_.back().kind == Kind::Types || blocks_.back().kind == Kind::Enumeration) {
     if (insideSection())
       return;
   }
@@ -134,36 +134,36 @@ void FormatLayout::line() {
 
 /// VAR, TYPE, STRUCT and enumerations; false when it is none of their lines, and closed.
 bool FormatLayout::insideSection() {
-  if (blocks_.back().kind == Kind::enumeration) {
+  if (blocks_.back().kind == Kind::Enumeration) {
     enumerationLine();
     return true;
   }
-  const std::uint16_t t = type(at_);
+  const uint16_t t = type(at_);
   if (t == Tok::END_VAR || t == Tok::END_STRUCT || t == Tok::END_UNION || t == Tok::END_TYPE)
     return closer();
   if (closesUnit(t) || startsSection(at_) || startsDeclaration(at_)) {
-    while (blocks_.back().kind >= Kind::section && blocks_.back().kind <= Kind::enumeration)
+    while (blocks_.back().kind >= Kind::Section && blocks_.back().kind <= Kind::Enumeration)
       blocks_.pop_back();
     return false;
   }
-  if (blocks_.back().kind == Kind::types) {
+  if (blocks_.back().kind == Kind::Types) {
     typeDeclaration();
     return true;
   }
   if (blocks_.back().type == Tok::VAR_ACCESS) {
-    const std::size_t end = statementEnd(at_);
-    const std::size_t last = end - 2;
+    const size_t end = statementEnd(at_);
+    const size_t last = end - 2;
     if (end >= 2 && last > at_ && isWordAt(last, "read_only"))
       items_[last].type = Tok::READ_ONLY;
     else if (end >= 2 && last > at_ && isWordAt(last, "read_write"))
       items_[last].type = Tok::READ_WRITE;
   }
-  emit(statementEnd(at_), blocks_.back().content, LineKind::declaration);
+  emit(statementEnd(at_), blocks_.back().content, LineKind::Declaration);
   return true;
 }
 
 /// A single type without a comment in front of its name stands on the line of TYPE.
-bool FormatLayout::isOnlyType(std::size_t i) const {
+bool FormatLayout::isOnlyType(size_t i) const {
   if (type(i) != Tok::IDENT && !isModifier(type(i)))
     return false;
   if (!items_[i].comments.empty())
@@ -184,14 +184,14 @@ bool FormatLayout::isOnlyType(std::size_t i) const {
 
 /// At the name, or at TYPE when the name stands on its line.
 void FormatLayout::typeDeclaration() {
-  const std::size_t end = statementEnd(at_);
+  const size_t end = statementEnd(at_);
   const unsigned level = blocks_.back().content;
-  std::size_t colon = at_;
+  size_t colon = at_;
   while (colon < end && type(colon) != Tok::COLON)
     ++colon;
-  const std::uint16_t first = type(colon + 1);
+  const uint16_t first = type(colon + 1);
   if (colon >= end || (first != Tok::STRUCT && first != Tok::UNION && first != Tok::LPAREN)) {
-    emit(end, level, LineKind::head);
+    emit(end, level, LineKind::Head);
     return;
   }
   if (first == Tok::LPAREN) {
@@ -199,26 +199,26 @@ void FormatLayout::typeDeclaration() {
     whole.from = at_;
     whole.to = end;
     whole.level = level;
-    whole.kind = LineKind::head;
+    whole.kind = LineKind::Head;
     const std::string flat = layLine(items_, whole, style_);
-    const std::size_t used = std::size_t{level} * style_.indent + widthOf(flat);
+    const size_t used = size_t{level} * style_.indent + widthOf(flat);
     if (!hasComments(at_ + 1, end) && used <= style_.width &&
         flat.find('\n') == std::string::npos) {
-      emit(end, level, LineKind::head);
+      emit(end, level, LineKind::Head);
       return;
     }
   }
-  emit(colon + 1, level, LineKind::head);
+  emit(colon + 1, level, LineKind::Head);
   comments();
   if (first == Tok::LPAREN) {
-    emit(at_ + 1, level, LineKind::statement);
-    blocks_.push_back({Kind::enumeration, Tok::LPAREN, level, level + 1});
+    emit(at_ + 1, level, LineKind::Statement);
+    blocks_.push_back({Kind::Enumeration, Tok::LPAREN, level, level + 1});
   } else {
-    std::size_t head = at_ + 1;
+    size_t head = at_ + 1;
     if (type(head) == Tok::EXTENDS)
       head = headRest(head, Tok::STRUCT);
-    emit(withSemicolons(head), level, LineKind::head);
-    blocks_.push_back({Kind::structure, first, level, level + 1});
+    emit(withSemicolons(head), level, LineKind::Head);
+    blocks_.push_back({Kind::Structure, first, level, level + 1});
   }
   afterOpener_ = true;
 }
@@ -231,11 +231,11 @@ void FormatLayout::enumerationLine() {
     if (type(at_) != Tok::RPAREN && type(at_) != Tok::SEMICOLON)
       return line();
     closing_ = true;
-    emit(statementEnd(at_), level, LineKind::head);
+    emit(statementEnd(at_), level, LineKind::Head);
     return;
   }
   unsigned depth = 0;
-  std::size_t end = at_;
+  size_t end = at_;
   for (;; ++end) {
     if (end > at_ && stopsStatement(end))
       break;
@@ -250,33 +250,33 @@ void FormatLayout::enumerationLine() {
       break;
     }
   }
-  emit(end, level + 1, LineKind::declaration);
+  emit(end, level + 1, LineKind::Declaration);
 }
 
 bool FormatLayout::configurationPart() {
-  if (blocks_.back().kind != Kind::configuration)
+  if (blocks_.back().kind != Kind::Configuration)
     return false;
   if (isWordAt(at_, "resource") && type(at_ + 1) == Tok::IDENT) {
     items_[at_].type = Tok::RESOURCE;
-    std::size_t end = at_ + 2;
+    size_t end = at_ + 2;
     if (isWordAt(end, "on")) {
       items_[end].type = Tok::ON;
       end += type(end + 1) == Tok::IDENT ? 2 : 1;
     }
-    open(Kind::configuration, withSemicolons(end), LineKind::configuration, true);
+    open(Kind::Configuration, withSemicolons(end), LineKind::Configuration, true);
     return true;
   }
   const bool task = isWordAt(at_, "task") && type(at_ + 1) == Tok::IDENT;
   if (!task && type(at_) != Tok::PROGRAM)
     return false;
-  std::size_t end = at_ + 1;
+  size_t end = at_ + 1;
   while (type(end) != Tok::SEMICOLON && !closesUnit(type(end)) && !startsSection(end) &&
          !isMember(type(end)) && !(startsDeclaration(end) && type(end + 1) != Tok::COLON))
     ++end;
   end += type(end) == Tok::SEMICOLON;
   if (task)
     items_[at_].type = Tok::TASK;
-  for (std::size_t i = at_ + 1; !task && i + 1 < end; ++i) {
+  for (size_t i = at_ + 1; !task && i + 1 < end; ++i) {
     if (type(i + 1) != Tok::IDENT || type(i - 1) == Tok::COLON)
       continue;
     if (i == at_ + 1 && isWordAt(i, "retain"))
@@ -286,66 +286,66 @@ bool FormatLayout::configurationPart() {
     else if (type(i - 1) == Tok::IDENT && isWordAt(i, "with"))
       items_[i].type = Tok::WITH;
   }
-  emit(end, blocks_.back().content, LineKind::configuration);
+  emit(end, blocks_.back().content, LineKind::Configuration);
   return true;
 }
 
 bool FormatLayout::declaration() {
-  const std::uint16_t t = type(at_);
+  const uint16_t t = type(at_);
   const bool member = isMember(t);
   const bool outer = startsDeclaration(at_);
   if (startsSection(at_)) {
     const bool globals = t == Tok::VAR_GLOBAL || t == Tok::VAR_CONFIG || t == Tok::VAR_ACCESS;
     if (!globals)
       closeStatements();
-    std::size_t end = at_ + 1;
+    size_t end = at_ + 1;
     while ((type(end) >= Tok::CONSTANT && type(end) <= Tok::NON_RETAIN) || isModifier(type(end)))
       ++end;
-    open(Kind::section, end, LineKind::statement, true);
+    open(Kind::Section, end, LineKind::Statement, true);
     return true;
   }
   if (t == Tok::TYPE && outer) {
     closeStatements();
     const unsigned level = blocks_.back().content;
     if (isOnlyType(at_ + 1)) {
-      blocks_.push_back({Kind::types, Tok::TYPE, level, level});
+      blocks_.push_back({Kind::Types, Tok::TYPE, level, level});
       typeDeclaration();
     } else {
-      open(Kind::types, at_ + 1, LineKind::statement, true);
+      open(Kind::Types, at_ + 1, LineKind::Statement, true);
     }
     return true;
   }
   if (t == Tok::USING) {
-    emit(statementEnd(at_), blocks_.back().content, LineKind::statement);
+    emit(statementEnd(at_), blocks_.back().content, LineKind::Statement);
     return true;
   }
   if (t == Tok::NAMESPACE || t == Tok::CONFIGURATION) {
     closeStatements();
-    open(t == Tok::NAMESPACE ? Kind::space : Kind::configuration, headEnd(at_), LineKind::head,
+    open(t == Tok::NAMESPACE ? Kind::Space : Kind::Configuration, headEnd(at_), LineKind::Head,
          true);
     return true;
   }
   if (t == Tok::ACTIONS) {
     closeStatements();
-    open(Kind::actions, type(at_ + 1) == Tok::IDENT ? at_ + 2 : at_ + 1, LineKind::head, false);
+    open(Kind::Actions, type(at_ + 1) == Tok::IDENT ? at_ + 2 : at_ + 1, LineKind::Head, false);
     return true;
   }
   if (t == Tok::EXTENDS || t == Tok::IMPLEMENTS ||
-      (t == Tok::COLON && blocks_.back().kind == Kind::pou)) {
-    emit(headRest(at_, Tok::FUNCTION), blocks_.back().content, LineKind::head);
+      (t == Tok::COLON && blocks_.back().kind == Kind::Pou)) {
+    emit(headRest(at_, Tok::FUNCTION), blocks_.back().content, LineKind::Head);
     return true;
   }
   if (member || outer) {
     closeStatements();
-    open(t == Tok::PROPERTY ? Kind::property : Kind::pou, headEnd(at_), LineKind::head, false);
+    open(t == Tok::PROPERTY ? Kind::Property : Kind::Pou, headEnd(at_), LineKind::Head, false);
     return true;
   }
   const Kind now = blocks_.back().kind;
-  if ((now == Kind::property || now == Kind::accessor) && startsAccessor(at_)) {
-    if (now == Kind::accessor)
+  if ((now == Kind::Property || now == Kind::Accessor) && startsAccessor(at_)) {
+    if (now == Kind::Accessor)
       blocks_.pop_back();
     items_[at_].type = isWordAt(at_, "get") ? Tok::GET : Tok::SET;
-    std::size_t end = at_ + 1;
+    size_t end = at_ + 1;
     static constexpr std::string_view kAccess[] = {"public", "private", "protected", "internal"};
     if (std::any_of(std::begin(kAccess), std::end(kAccess),
                     [&](std::string_view word) { return isWordAt(end, word); }) &&
@@ -353,22 +353,22 @@ bool FormatLayout::declaration() {
         type(end + 1) != Tok::LBRACKET && type(end + 1) != Tok::CARET &&
         type(end + 1) != Tok::COLON)
       ++end;
-    open(Kind::accessor, end, LineKind::head, false);
+    open(Kind::Accessor, end, LineKind::Head, false);
     return true;
   }
   return false;
 }
 
 void FormatLayout::branchLabel() {
-  if (blocks_.back().kind == Kind::branch)
+  if (blocks_.back().kind == Kind::Branch)
     blocks_.pop_back();
   const Block choice = blocks_.back();
-  const std::size_t behind = labelEnd(at_);
-  std::size_t end = behind;
+  const size_t behind = labelEnd(at_);
+  size_t end = behind;
   // A single statement stands on the line of its label.
   if (!stopsStatement(behind)) {
-    const std::size_t stop = statementEnd(behind);
-    blocks_.push_back({Kind::branch, Tok::LABEL, choice.content, choice.content + 1});
+    const size_t stop = statementEnd(behind);
+    blocks_.push_back({Kind::Branch, Tok::LABEL, choice.content, choice.content + 1});
     const bool isLast =
         type(stop) == Tok::ELSE || type(stop) == Tok::END_CASE || labelEnd(stop) != 0;
     const bool isLabel = labelEnd(behind) != 0;
@@ -378,9 +378,9 @@ void FormatLayout::branchLabel() {
       whole.from = at_;
       whole.to = stop;
       whole.level = choice.content;
-      whole.kind = LineKind::label;
+      whole.kind = LineKind::Label;
       const std::string text = layLine(items_, whole, style_);
-      if (text.find('\n') == std::string::npos && std::size_t{choice.content} * style_.indent +
+      if (text.find('\n') == std::string::npos && size_t{choice.content} * style_.indent +
                                                           widthOf(text) +
                                                           widthOf(prefixAt(choice.content)) <
                                                       style_.width)
@@ -390,64 +390,64 @@ void FormatLayout::branchLabel() {
   if (end == behind)
     while (type(end) == Tok::SEMICOLON && items_[end].comments.empty())
       ++end;
-  emit(end, choice.content, LineKind::label);
-  blocks_.push_back({Kind::branch, Tok::LABEL, choice.content, choice.content + 1});
+  emit(end, choice.content, LineKind::Label);
+  blocks_.push_back({Kind::Branch, Tok::LABEL, choice.content, choice.content + 1});
   afterOpener_ = end == behind;
 }
 
 void FormatLayout::statement() {
-  const std::uint16_t t = type(at_);
-  const auto middle = [&](Kind kind, std::size_t end) {
+  const uint16_t t = type(at_);
+  const auto middle = [&](Kind kind, size_t end) {
     closing_ = true;
-    std::size_t i = blocks_.size();
+    size_t i = blocks_.size();
     while (i > 1 && blocks_[i - 1].kind != kind)
       --i;
     if (i > 1)
       blocks_.resize(i);
     const unsigned level = i > 1 ? blocks_.back().level : blocks_.back().content;
-    emit(end, level, LineKind::statement);
+    emit(end, level, LineKind::Statement);
     afterOpener_ = true;
   };
   switch (t) {
   case Tok::IF:
-    return open(Kind::condition, through(at_ + 1, Tok::THEN), LineKind::statement, true);
+    return open(Kind::Condition, through(at_ + 1, Tok::THEN), LineKind::Statement, true);
   case Tok::CASE:
-    return open(Kind::choice, through(at_ + 1, Tok::OF), LineKind::statement, true);
+    return open(Kind::Choice, through(at_ + 1, Tok::OF), LineKind::Statement, true);
   case Tok::FOR:
   case Tok::WHILE:
-    return open(Kind::loop, through(at_ + 1, Tok::DO), LineKind::statement, true);
+    return open(Kind::Loop, through(at_ + 1, Tok::DO), LineKind::Statement, true);
   case Tok::REPEAT:
-    return open(Kind::loop, at_ + 1, LineKind::statement, true);
+    return open(Kind::Loop, at_ + 1, LineKind::Statement, true);
   case Tok::TRY:
-    return open(Kind::attempt, at_ + 1, LineKind::statement, true);
+    return open(Kind::Attempt, at_ + 1, LineKind::Statement, true);
   case Tok::ELSIF:
-    return middle(Kind::condition, through(at_ + 1, Tok::THEN));
+    return middle(Kind::Condition, through(at_ + 1, Tok::THEN));
   case Tok::ELSE: {
     // Of the innermost IF or CASE.
-    std::size_t i = blocks_.size();
-    while (i > 1 && blocks_[i - 1].kind != Kind::condition && blocks_[i - 1].kind != Kind::choice)
+    size_t i = blocks_.size();
+    while (i > 1 && blocks_[i - 1].kind != Kind::Condition && blocks_[i - 1].kind != Kind::Choice)
       --i;
-    return middle(i > 1 ? blocks_[i - 1].kind : Kind::condition, at_ + 1);
+    return middle(i > 1 ? blocks_[i - 1].kind : Kind::Condition, at_ + 1);
   }
   case Tok::UNTIL: {
-    std::size_t end = at_ + 1;
+    size_t end = at_ + 1;
     while (type(end) != Tok::SEMICOLON && !stopsStatement(end))
       ++end;
-    return middle(Kind::loop, withSemicolons(end));
+    return middle(Kind::Loop, withSemicolons(end));
   }
   case Tok::CATCH:
-    return middle(Kind::attempt,
+    return middle(Kind::Attempt,
                   type(at_ + 1) == Tok::LPAREN ? through(at_ + 1, Tok::RPAREN) : at_ + 1);
   case Tok::FINALLY:
-    return middle(Kind::attempt, at_ + 1);
+    return middle(Kind::Attempt, at_ + 1);
   default:
     break;
   }
   if (labelEnd(at_) != 0)
     return branchLabel();
   if (t == Tok::IDENT && type(at_ + 1) == Tok::COLON) // where a JMP leads
-    return emit(at_ + 2, blocks_.back().content, LineKind::label);
-  emit(statementEnd(at_), blocks_.back().content, LineKind::statement);
+    return emit(at_ + 2, blocks_.back().content, LineKind::Label);
+  emit(statementEnd(at_), blocks_.back().content, LineKind::Statement);
 }
 
 } // namespace stc

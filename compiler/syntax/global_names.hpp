@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_GLOBAL_NAMES_HPP
+#define STRIDE_COMPILER_SYNTAX_GLOBAL_NAMES_HPP
 // Names that a program gives to things of the whole project.
 
 #include "compiler/syntax/ast.hpp"
@@ -15,3 +16,5 @@ namespace stc {
 globalNames(const std::vector<ast::File *> &files);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SYNTAX_GLOBAL_NAMES_HPP

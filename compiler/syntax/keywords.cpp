@@ -12,13 +12,13 @@ using Kind = Keyword::Kind;
 
 struct Word {
   std::string_view upper;
-  std::uint16_t type;
+  uint16_t type;
   Kind kind;
 };
 
 constexpr Word kWords[] = {
 #define HARD(word)                                                                                 \
-  { #word, Tok::word, Kind::hard }
+  { #word, Tok::word, Kind::Hard }
     HARD(NOT),
     HARD(TRUE),
     HARD(FALSE),
@@ -82,77 +82,77 @@ constexpr Word kWords[] = {
     HARD(END_STEP),
     HARD(END_TRANSITION),
 #undef HARD
-    {"AND", Tok::AND, Kind::operation},
-    {"OR", Tok::OR, Kind::operation},
-    {"XOR", Tok::XOR, Kind::operation},
-    {"MOD", Tok::MOD, Kind::operation},
-    {"__TRY", Tok::TRY, Kind::hard},
-    {"__CATCH", Tok::CATCH, Kind::hard},
-    {"__FINALLY", Tok::FINALLY, Kind::hard},
-    {"__ENDTRY", Tok::END_TRY, Kind::hard},
-    {"CONSTANT", Tok::CONSTANT, Kind::qualifier},
-    {"RETAIN", Tok::RETAIN, Kind::qualifier},
-    {"PERSISTENT", Tok::PERSISTENT, Kind::qualifier},
-    {"NON_RETAIN", Tok::NON_RETAIN, Kind::qualifier},
-    {"AT", Tok::AT, Kind::at},
-    {"POINTER", Tok::POINTER, Kind::pointer},
-    {"REFERENCE", Tok::REFERENCE, Kind::pointer},
-    {"REF_TO", Tok::REF_TO, Kind::pointer},
-    {"AND_THEN", Tok::AND_THEN, Kind::infix},
-    {"OR_ELSE", Tok::OR_ELSE, Kind::infix},
-    {"CONTINUE", Tok::CONTINUE, Kind::statement},
-    {"EXTENDS", Tok::EXTENDS, Kind::clause},
-    {"IMPLEMENTS", Tok::IMPLEMENTS, Kind::clause},
-    {"ABSTRACT", Tok::ABSTRACT, Kind::modifier},
-    {"FINAL", Tok::FINAL, Kind::modifier},
-    {"PUBLIC", Tok::PUBLIC, Kind::modifier},
-    {"PRIVATE", Tok::PRIVATE, Kind::modifier},
-    {"PROTECTED", Tok::PROTECTED, Kind::modifier},
-    {"INTERNAL", Tok::INTERNAL, Kind::modifier},
-    {"OVERRIDE", Tok::OVERRIDE, Kind::modifier},
-    {"METHOD", Tok::METHOD, Kind::construct},
-    {"PROPERTY", Tok::PROPERTY, Kind::construct},
-    {"INTERFACE", Tok::INTERFACE, Kind::construct},
-    {"CLASS", Tok::CLASS, Kind::construct},
-    {"ACTION", Tok::ACTION, Kind::construct},
-    {"ACTIONS", Tok::ACTIONS, Kind::construct},
-    {"NAMESPACE", Tok::NAMESPACE, Kind::construct},
-    {"USING", Tok::USING, Kind::construct},
-    {"CONFIGURATION", Tok::CONFIGURATION, Kind::construct},
-    {"UNION", Tok::UNION, Kind::construct},
-    {"JMP", Tok::JMP, Kind::construct},
-    {"STEP", Tok::STEP, Kind::construct},
-    {"INITIAL_STEP", Tok::INITIAL_STEP, Kind::construct},
-    {"TRANSITION", Tok::TRANSITION, Kind::construct},
-    {"GET", Tok::GET, Kind::local},
-    {"SET", Tok::SET, Kind::local},
-    {"RESOURCE", Tok::RESOURCE, Kind::local},
-    {"ON", Tok::ON, Kind::local},
-    {"TASK", Tok::TASK, Kind::local},
-    {"WITH", Tok::WITH, Kind::local},
-    {"READ_ONLY", Tok::READ_ONLY, Kind::local},
-    {"READ_WRITE", Tok::READ_WRITE, Kind::local},
-    {"S", Tok::SET_ASSIGN, Kind::assignment},
-    {"R", Tok::RESET_ASSIGN, Kind::assignment},
-    {"REF", Tok::REF_ASSIGN, Kind::assignment},
+    {"AND", Tok::AND, Kind::Operation},
+    {"OR", Tok::OR, Kind::Operation},
+    {"XOR", Tok::XOR, Kind::Operation},
+    {"MOD", Tok::MOD, Kind::Operation},
+    {"__TRY", Tok::TRY, Kind::Hard},
+    {"__CATCH", Tok::CATCH, Kind::Hard},
+    {"__FINALLY", Tok::FINALLY, Kind::Hard},
+    {"__ENDTRY", Tok::END_TRY, Kind::Hard},
+    {"CONSTANT", Tok::CONSTANT, Kind::Qualifier},
+    {"RETAIN", Tok::RETAIN, Kind::Qualifier},
+    {"PERSISTENT", Tok::PERSISTENT, Kind::Qualifier},
+    {"NON_RETAIN", Tok::NON_RETAIN, Kind::Qualifier},
+    {"AT", Tok::AT, Kind::At},
+    {"POINTER", Tok::POINTER, Kind::Pointer},
+    {"REFERENCE", Tok::REFERENCE, Kind::Pointer},
+    {"REF_TO", Tok::REF_TO, Kind::Pointer},
+    {"AND_THEN", Tok::AND_THEN, Kind::Infix},
+    {"OR_ELSE", Tok::OR_ELSE, Kind::Infix},
+    {"CONTINUE", Tok::CONTINUE, Kind::Statement},
+    {"EXTENDS", Tok::EXTENDS, Kind::Clause},
+    {"IMPLEMENTS", Tok::IMPLEMENTS, Kind::Clause},
+    {"ABSTRACT", Tok::ABSTRACT, Kind::Modifier},
+    {"FINAL", Tok::FINAL, Kind::Modifier},
+    {"PUBLIC", Tok::PUBLIC, Kind::Modifier},
+    {"PRIVATE", Tok::PRIVATE, Kind::Modifier},
+    {"PROTECTED", Tok::PROTECTED, Kind::Modifier},
+    {"INTERNAL", Tok::INTERNAL, Kind::Modifier},
+    {"OVERRIDE", Tok::OVERRIDE, Kind::Modifier},
+    {"METHOD", Tok::METHOD, Kind::Construct},
+    {"PROPERTY", Tok::PROPERTY, Kind::Construct},
+    {"INTERFACE", Tok::INTERFACE, Kind::Construct},
+    {"CLASS", Tok::CLASS, Kind::Construct},
+    {"ACTION", Tok::ACTION, Kind::Construct},
+    {"ACTIONS", Tok::ACTIONS, Kind::Construct},
+    {"NAMESPACE", Tok::NAMESPACE, Kind::Construct},
+    {"USING", Tok::USING, Kind::Construct},
+    {"CONFIGURATION", Tok::CONFIGURATION, Kind::Construct},
+    {"UNION", Tok::UNION, Kind::Construct},
+    {"JMP", Tok::JMP, Kind::Construct},
+    {"STEP", Tok::STEP, Kind::Construct},
+    {"INITIAL_STEP", Tok::INITIAL_STEP, Kind::Construct},
+    {"TRANSITION", Tok::TRANSITION, Kind::Construct},
+    {"GET", Tok::GET, Kind::Local},
+    {"SET", Tok::SET, Kind::Local},
+    {"RESOURCE", Tok::RESOURCE, Kind::Local},
+    {"ON", Tok::ON, Kind::Local},
+    {"TASK", Tok::TASK, Kind::Local},
+    {"WITH", Tok::WITH, Kind::Local},
+    {"READ_ONLY", Tok::READ_ONLY, Kind::Local},
+    {"READ_WRITE", Tok::READ_WRITE, Kind::Local},
+    {"S", Tok::SET_ASSIGN, Kind::Assignment},
+    {"R", Tok::RESET_ASSIGN, Kind::Assignment},
+    {"REF", Tok::REF_ASSIGN, Kind::Assignment},
 };
 
-constexpr std::size_t kSlots = 512;
+constexpr size_t kSlots = 512;
 
 struct Table {
   struct Slot {
-    std::uint32_t hash = 0;
-    std::int16_t word = -1;
+    uint32_t hash = 0;
+    int16_t word = -1;
   };
   std::array<Slot, kSlots> slots{};
 
   constexpr Table() {
-    for (std::size_t i = 0; i < std::size(kWords); ++i) {
-      const std::uint32_t hash = hashIdent(kWords[i].upper);
-      std::size_t at = (hash ^ (hash >> 15)) % kSlots;
+    for (size_t i = 0; i < std::size(kWords); ++i) {
+      const uint32_t hash = hashIdent(kWords[i].upper);
+      size_t at = (hash ^ (hash >> 15)) % kSlots;
       while (slots[at].word >= 0)
         at = (at + 1) % kSlots;
-      slots[at] = {hash, static_cast<std::int16_t>(i)};
+      slots[at] = {hash, static_cast<int16_t>(i)};
     }
   }
 };
@@ -167,8 +167,8 @@ bool isWord(std::string_view text, std::string_view lower) {
                     [](char a, char b) { return lowerCase(a) == b; });
 }
 
-Keyword findKeyword(std::string_view word, std::uint32_t hash) {
-  for (std::size_t at = (hash ^ (hash >> 15)) % kSlots; kTable.slots[at].word >= 0;
+Keyword findKeyword(std::string_view word, uint32_t hash) {
+  for (size_t at = (hash ^ (hash >> 15)) % kSlots; kTable.slots[at].word >= 0;
        at = (at + 1) % kSlots) {
     if (kTable.slots[at].hash != hash)
       continue;
@@ -181,7 +181,7 @@ Keyword findKeyword(std::string_view word, std::uint32_t hash) {
   return {};
 }
 
-std::string_view tokenSpelling(std::uint16_t type) {
+std::string_view tokenSpelling(uint16_t type) {
   switch (type) {
   case Tok::PLUS:
     return "+";
@@ -246,9 +246,9 @@ std::string_view tokenSpelling(std::uint16_t type) {
   return {};
 }
 
-bool isKeywordType(std::uint16_t type) {
+bool isKeywordType(uint16_t type) {
   return std::any_of(std::begin(kWords), std::end(kWords), [type](const Word &word) {
-    return word.type == type && word.kind != Kind::assignment;
+    return word.type == type && word.kind != Kind::Assignment;
   });
 }
 

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_LITERALS_HPP
+#define STRIDE_COMPILER_SYNTAX_LITERALS_HPP
 // Values of literals. Internal to compiler/syntax.
 
 #include "compiler/source/arena.hpp"
@@ -36,3 +37,5 @@ private:
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SYNTAX_LITERALS_HPP

@@ -8,13 +8,13 @@ namespace stc {
 
 namespace {
 
-bool mayHaveMembers(const ast::Decl *decl, std::uint16_t member) {
+bool mayHaveMembers(const ast::Decl *decl, uint16_t member) {
   switch (decl->kind) {
-  case ast::DeclKind::program:
-  case ast::DeclKind::functionBlock:
+  case ast::DeclKind::Program:
+  case ast::DeclKind::FunctionBlock:
     return true;
-  case ast::DeclKind::classD:
-  case ast::DeclKind::interface:
+  case ast::DeclKind::Class:
+  case ast::DeclKind::Interface:
     return member != Tok::ACTION;
   default:
     return false;
@@ -43,7 +43,7 @@ void attachMembers(std::span<ast::File *const> files, Arena &arena, Diagnostics 
             owner = ast::as<ast::PouDecl>(decl);
       if (owner == nullptr) {
         diagnostics
-            .report(Code::memberWithoutOwner, stray.owner.span,
+            .report(Code::MemberWithoutOwner, stray.owner.span,
                     "there is no block `" + std::string(stray.owner.text) + "`",
                     "whose " + std::string(tokenSpelling(stray.kind)) + " should this be?")
             .help("put it behind its block or inside of it");

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_PARSER_HPP
+#define STRIDE_COMPILER_SYNTAX_PARSER_HPP
 // From text to syntax tree.
 
 #include "compiler/source/arena.hpp"
@@ -14,7 +15,7 @@ namespace stc {
 inline constexpr unsigned kMaxNesting = 256;
 
 /// Longest name, in characters.
-inline constexpr std::size_t kMaxName = 255;
+inline constexpr size_t kMaxName = 255;
 
 /// Parses one file. Always returns a tree (what could be read); reports every syntax error to
 /// `diagnostics`. The tree lives in `arena` and refers to the file's text, which must outlive it.
@@ -27,3 +28,5 @@ ast::File *parse(const SourceFile &file, Interner &interner, Arena &arena, Diagn
 void attachMembers(std::span<ast::File *const> files, Arena &arena, Diagnostics &diagnostics);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SYNTAX_PARSER_HPP

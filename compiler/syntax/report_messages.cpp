@@ -7,7 +7,7 @@ namespace stc {
 
 namespace {
 
-constexpr std::size_t kMaxErrors = 100;
+constexpr size_t kMaxErrors = 100;
 
 } // namespace
 
@@ -16,8 +16,8 @@ constexpr std::size_t kMaxErrors = 100;
 
 const Token *ReportStrategy::before() {
   UnitStream &stream = parser_.stream();
-  for (std::size_t i = stream.index(); i-- > 0;)
-    if (const std::uint16_t type = stream.token(i).type;
+  for (size_t i = stream.index(); i-- > 0;)
+    if (const uint16_t type = stream.token(i).type;
         type != Tok::LABEL && type != Tok::JUMP_LABEL && type != Tok::TYPE_ARGUMENT)
       return &stream.token(i);
   return nullptr;
@@ -25,7 +25,7 @@ const Token *ReportStrategy::before() {
 
 Span ReportStrategy::insertion() {
   const Token *previous = before();
-  const std::uint32_t at = previous == nullptr ? current().begin : previous->end;
+  const uint32_t at = previous == nullptr ? current().begin : previous->end;
   return {file_, at, at};
 }
 
@@ -55,7 +55,7 @@ bool ReportStrategy::onNewLine(const Token &token) {
 }
 
 bool ReportStrategy::mayReport() {
-  const auto index = static_cast<std::int64_t>(current().index);
+  const auto index = static_cast<int64_t>(current().index);
   if (recovering_ || index == lastError_ || current().reported)
     return false;
   lastError_ = index;
@@ -70,7 +70,7 @@ bool ReportStrategy::mayReport() {
   return true;
 }
 
-bool ReportStrategy::closerIsWanted(std::uint16_t type) const {
+bool ReportStrategy::closerIsWanted(uint16_t type) const {
   for (const antlr4::tree::ParseTree *at = parser_.context(); at != nullptr; at = at->parent) {
     switch (static_cast<const antlr4::RuleContext *>(at)->getRuleIndex()) {
     case Grammar::RuleIfStatement:
@@ -137,7 +137,7 @@ void ReportStrategy::reportKeywordAsName(const Token &token) {
   if (!mayReport() || !keywordsAsNames_.insert(token.type).second)
     return; // the declaration has said it
   diagnostics_
-      .report(Code::keywordAsName, span(token),
+      .report(Code::KeywordAsName, span(token),
               ticked(spelling(token)) + " is a keyword, it cannot be a name",
               "keyword of the language")
       .help("choose another name, for example " + ticked(std::string(spelling(token)) + "_"));
@@ -156,7 +156,7 @@ void ReportStrategy::reportUnexpected(const std::string &expected) {
                           ? &parser_.stream().token(token.index + 1)
                           : nullptr;
   const Span where = token.begin == token.end ? insertion() : span(token);
-  Diagnostic &d = diagnostics_.report(Code::unexpectedToken, where,
+  Diagnostic &d = diagnostics_.report(Code::UnexpectedToken, where,
                                       "expected " + expected + ", found " + describe(token),
                                       "expected " + expected);
   if (token.type == Tok::COLON && next != nullptr && next->type == Tok::EQUAL)
@@ -174,7 +174,7 @@ void ReportStrategy::reportUnexpected(const std::string &expected) {
     d.help(std::move(help));
 }
 
-void ReportStrategy::reportMissing(std::uint16_t wanted) {
+void ReportStrategy::reportMissing(uint16_t wanted) {
   if (!mayReport())
     return;
   const std::string sign = ticked(tokenSpelling(wanted));
@@ -220,16 +220,16 @@ void ReportStrategy::reportMissing(std::uint16_t wanted) {
   default:
     break;
   }
-  Diagnostic &d = diagnostics_.report(Code::expectedToken, insertion(), "expected " + sign + after,
+  Diagnostic &d = diagnostics_.report(Code::ExpectedToken, insertion(), "expected " + sign + after,
                                       "add " + sign + " here");
   d.suggestions.push_back({"add " + sign,
                            {Edit{insertion(), (isKeywordType(wanted) ? " " : "") +
                                                   std::string(tokenSpelling(wanted))}}});
   if (wanted == Tok::RPAREN || wanted == Tok::RBRACKET) {
     // The opener is the token in front of the arguments.
-    const std::uint16_t opener = wanted == Tok::RPAREN ? Tok::LPAREN : Tok::LBRACKET;
+    const uint16_t opener = wanted == Tok::RPAREN ? Tok::LPAREN : Tok::LBRACKET;
     int depth = 0;
-    for (std::size_t i = current().index; i-- > 0;) {
+    for (size_t i = current().index; i-- > 0;) {
       const Token &token = parser_.stream().token(i);
       depth += token.type == wanted;
       if (token.type == opener && depth-- == 0) {
@@ -240,7 +240,7 @@ void ReportStrategy::reportMissing(std::uint16_t wanted) {
   }
 }
 
-void ReportStrategy::reportMissingEnd(std::uint16_t wanted) {
+void ReportStrategy::reportMissingEnd(uint16_t wanted) {
   const Context *context = parser_.context();
   if (!mayReport())
     return;
@@ -257,7 +257,7 @@ void ReportStrategy::reportMissingEnd(std::uint16_t wanted) {
       if (word.type == Tok::ELSE &&
           text_.substr(word.end, start.begin - word.end).find('\n') == std::string_view::npos) {
         diagnostics_
-            .report(Code::elseIf, {file_, word.begin, start.end},
+            .report(Code::ElseIf, {file_, word.begin, start.end},
                     "`ELSE IF` opens a second IF, whose END_IF is missing",
                     "a second IF begins here")
             .label(span(opener), "this IF has no END_IF")
@@ -267,7 +267,7 @@ void ReportStrategy::reportMissingEnd(std::uint16_t wanted) {
     }
   }
   Diagnostic &d =
-      diagnostics_.report(Code::missingEnd, span(opener), "missing " + sign,
+      diagnostics_.report(Code::MissingEnd, span(opener), "missing " + sign,
                           "this " + std::string(tokenSpelling(opener.type)) + " is not closed");
   const Token &found = current();
   if (found.begin != found.end && found.type != Tok::LABEL)

@@ -17,7 +17,7 @@ void ReportStrategy::reset(antlr4::Parser *) {
 // ------------------------------------------------------------------------------------------------
 // going on
 
-antlr4::Token *ReportStrategy::conjure(std::uint16_t type) {
+antlr4::Token *ReportStrategy::conjure(uint16_t type) {
   Token &token = conjured_.emplace_back();
   token.type = type;
   token.begin = token.end = insertion().begin;
@@ -25,7 +25,7 @@ antlr4::Token *ReportStrategy::conjure(std::uint16_t type) {
   return &token;
 }
 
-void ReportStrategy::skipTo(bool (*stop)(std::uint16_t)) {
+void ReportStrategy::skipTo(bool (*stop)(uint16_t)) {
   while (!isEnd(current().type) && !stop(current().type))
     parser_.stream().advance();
 }
@@ -41,7 +41,7 @@ void ReportStrategy::skipStatement() {
     stream.advance();
     // A line that looks like a new assignment or call begins a new statement.
     if (current().type == Tok::IDENT && onNewLine(current())) {
-      const std::uint16_t next = stream.token(current().index + 1).type;
+      const uint16_t next = stream.token(current().index + 1).type;
       const Token *previous = before();
       if ((next == Tok::ASSIGN || next == Tok::LPAREN || next == Tok::DOT) && previous != nullptr &&
           (startsOperand(previous->type) || previous->type == Tok::RPAREN ||
@@ -54,7 +54,7 @@ void ReportStrategy::skipStatement() {
 
 namespace {
 
-bool endsDeclaration(std::uint16_t type) {
+bool endsDeclaration(uint16_t type) {
   return type == Tok::SEMICOLON || type == Tok::END_VAR || type == Tok::END_STRUCT ||
          type == Tok::END_TYPE || type == Tok::END_UNION || isEnd(type);
 }
@@ -65,8 +65,8 @@ bool endsDeclaration(std::uint16_t type) {
 void ReportStrategy::stepBackToAssignment() {
   UnitStream &stream = parser_.stream();
   unsigned depth = 0;
-  for (std::size_t i = current().index; i-- > 0;) {
-    const std::uint16_t type = stream.token(i).type;
+  for (size_t i = current().index; i-- > 0;) {
+    const uint16_t type = stream.token(i).type;
     if (type == Tok::RPAREN || type == Tok::RBRACKET)
       ++depth;
     else if (type == Tok::LPAREN || type == Tok::LBRACKET) {
@@ -75,7 +75,7 @@ void ReportStrategy::stepBackToAssignment() {
       --depth;
     } else if (type == Tok::ASSIGN && depth == 0) {
       if (mayReport())
-        diagnostics_.report(Code::expectedToken,
+        diagnostics_.report(Code::ExpectedToken,
                             {file_, stream.token(i - 1).end, stream.token(i - 1).end},
                             "expected `]`", "add `]` here");
       return;
@@ -84,9 +84,9 @@ void ReportStrategy::stepBackToAssignment() {
 }
 
 /// True when `wanted` comes later in the same statement head.
-bool ReportStrategy::thenFollows(std::uint16_t wanted) {
+bool ReportStrategy::thenFollows(uint16_t wanted) {
   UnitStream &stream = parser_.stream();
-  for (std::size_t i = current().index; i < stream.size(); ++i) {
+  for (size_t i = current().index; i < stream.size(); ++i) {
     const Token &token = stream.token(i);
     if (token.type == wanted)
       return true;
@@ -99,10 +99,10 @@ bool ReportStrategy::thenFollows(std::uint16_t wanted) {
 
 antlr4::Token *ReportStrategy::recoverInline(antlr4::Parser *) {
   UnitStream &stream = parser_.stream();
-  const std::uint16_t wanted = parser_.expected();
+  const uint16_t wanted = parser_.expected();
   parser_.clearExpected();
-  const std::size_t rule = parser_.context()->getRuleIndex();
-  const std::uint16_t found = current().type;
+  const size_t rule = parser_.context()->getRuleIndex();
+  const uint16_t found = current().type;
   const auto fail = [&]() -> antlr4::Token * {
     recovering_ = true;
     throw antlr4::InputMismatchException(&parser_);
@@ -176,11 +176,11 @@ antlr4::Token *ReportStrategy::recoverInline(antlr4::Parser *) {
     if ((found == Tok::ELSE || found == Tok::ELSIF) && rule == Grammar::RuleIfStatement) {
       if (mayReport())
         diagnostics_
-            .report(Code::unexpectedToken, span(current()),
+            .report(Code::UnexpectedToken, span(current()),
                     ticked(spelling(current())) + " behind the ELSE of the same IF",
                     "expected `END_IF`")
             .label(span(static_cast<const Token &>(*parser_.context()->start)), "of this IF");
-      std::size_t depth = 0;
+      size_t depth = 0;
       while (!isEnd(current().type) && (depth != 0 || current().type != Tok::END_IF)) {
         depth += current().type == Tok::IF;
         depth -= current().type == Tok::END_IF;
@@ -230,7 +230,7 @@ antlr4::Token *ReportStrategy::recoverInline(antlr4::Parser *) {
     if (found == Tok::EQUAL) { // FOR i = 1 TO …
       if (mayReport())
         diagnostics_
-            .report(Code::equalForAssign, span(current()), "`=` compares, it does not assign",
+            .report(Code::EqualForAssign, span(current()), "`=` compares, it does not assign",
                     "expected `:=`")
             .help("write `:=` to assign a value");
       return takeIt();
@@ -281,7 +281,7 @@ bool ReportStrategy::startsDeclaration(const Token &token) {
   UnitStream &stream = parser_.stream();
   if (token.type != Tok::IDENT || !onNewLine(token) || token.index + 1 >= stream.size())
     return false;
-  const std::uint16_t next = stream.token(token.index + 1).type;
+  const uint16_t next = stream.token(token.index + 1).type;
   return next == Tok::COLON || next == Tok::COMMA || next == Tok::AT;
 }
 
@@ -293,13 +293,13 @@ void ReportStrategy::recover(antlr4::Parser *, std::exception_ptr error) {
     return;
   case Grammar::RuleCondition:
   case Grammar::RuleForControl:
-    skipTo([](std::uint16_t type) {
+    skipTo([](uint16_t type) {
       return type == Tok::THEN || type == Tok::DO || type == Tok::OF || type == Tok::SEMICOLON ||
              isStatementBoundary(type);
     });
     return;
   case Grammar::RuleCaseLabels:
-    skipTo([](std::uint16_t type) {
+    skipTo([](uint16_t type) {
       return type == Tok::COLON || type == Tok::SEMICOLON || isStatementBoundary(type);
     });
     if (current().type == Tok::COLON)
@@ -340,12 +340,12 @@ void ReportStrategy::sync(antlr4::Parser *) {
   case Grammar::RuleVarSection:
     if (&current() == parser_.context()->start) // the keyword decides what follows
       break;
-    syncDeclarations([](std::uint16_t type) { return type == Tok::IDENT || type == Tok::END_VAR; },
+    syncDeclarations([](uint16_t type) { return type == Tok::IDENT || type == Tok::END_VAR; },
                      "the name of a variable or `END_VAR`");
     break;
   case Grammar::RuleStructBody:
     syncDeclarations(
-        [](std::uint16_t type) {
+        [](uint16_t type) {
           return type == Tok::IDENT || type == Tok::SEMICOLON || type == Tok::END_STRUCT ||
                  type == Tok::END_UNION || type == Tok::END_TYPE;
         },
@@ -353,7 +353,7 @@ void ReportStrategy::sync(antlr4::Parser *) {
     break;
   case Grammar::RuleTypeBlock:
     syncDeclarations(
-        [](std::uint16_t type) {
+        [](uint16_t type) {
           return type == Tok::IDENT || type == Tok::END_TYPE || isModifier(type);
         },
         "the name of a type or `END_TYPE`");
@@ -366,7 +366,7 @@ void ReportStrategy::sync(antlr4::Parser *) {
   }
 }
 
-void ReportStrategy::syncDeclarations(bool (*good)(std::uint16_t), const std::string &expected) {
+void ReportStrategy::syncDeclarations(bool (*good)(uint16_t), const std::string &expected) {
   UnitStream &stream = parser_.stream();
   while (!good(current().type) && !isEnd(current().type)) {
     if (keywordAsName(current())) {
@@ -407,11 +407,11 @@ void ReportStrategy::syncStatements() {
                        token.type != Tok::CATCH && token.type != Tok::FINALLY;
       if (end && block != nullptr) {
         // Takes it for the one that is missing.
-        const std::uint16_t wanted = closerOf(block->getRuleIndex());
+        const uint16_t wanted = closerOf(block->getRuleIndex());
         const auto &opener = static_cast<const Token &>(*block->start);
         if (mayReport())
           diagnostics_
-              .report(Code::mismatchedEnd, span(token),
+              .report(Code::MismatchedEnd, span(token),
                       found + " does not close " + ticked(spelling(opener)),
                       "expected `" + std::string(tokenSpelling(wanted)) + "`")
               .label(span(opener), "this is open");
@@ -419,13 +419,13 @@ void ReportStrategy::syncStatements() {
         return;
       }
       if (mayReport())
-        diagnostics_.report(end ? Code::mismatchedEnd : Code::unexpectedToken, span(token),
+        diagnostics_.report(end ? Code::MismatchedEnd : Code::UnexpectedToken, span(token),
                             end ? found + " closes nothing"
                                 : found + " without a block that it belongs to");
-      const std::uint16_t type = token.type;
+      const uint16_t type = token.type;
       stream.advance();
       if (type == Tok::ELSIF || type == Tok::UNTIL) {
-        skipTo([](std::uint16_t t) {
+        skipTo([](uint16_t t) {
           return t == Tok::THEN || t == Tok::SEMICOLON || isStatementBoundary(t);
         });
         if (current().type == Tok::THEN)
@@ -457,14 +457,14 @@ void ReportStrategy::syncStatements() {
 void ReportStrategy::syncCase() {
   UnitStream &stream = parser_.stream();
   const auto good = [&] {
-    const std::uint16_t type = current().type;
+    const uint16_t type = current().type;
     return isEnd(type) || type == Tok::LABEL || type == Tok::ELSE || type == Tok::END_CASE ||
            (isCloser(type) && closerIsWanted(type));
   };
   if (good())
     return;
   reportUnexpected("a CASE label");
-  std::size_t depth = 0;
+  size_t depth = 0;
   while (depth != 0 || !good()) {
     if (isEnd(current().type))
       break;

@@ -32,9 +32,9 @@ bool isKnownDoubleUnderscore(std::string_view word) {
 bool looksBinary(std::string_view text) {
   if (std::memchr(text.data(), '\0', text.size()) != nullptr)
     return true;
-  std::size_t control = 0;
+  size_t control = 0;
   for (const char c : text.substr(0, 65536))
-    control += static_cast<unsigned char>(c) < 0x20 && classOf(c) != blank;
+    control += static_cast<unsigned char>(c) < 0x20 && classOf(c) != kBlank;
   return control > 10;
 }
 
@@ -63,24 +63,24 @@ bool Scanner::afterOperand() const {
   }
 }
 
-std::string_view Scanner::wordAt(std::size_t place) const {
-  std::size_t end = place;
+std::string_view Scanner::wordAt(size_t place) const {
+  size_t end = place;
   if (place < text_.size() && isLetter(text_[place]))
     while (end < text_.size() && isWordChar(text_[end]))
       ++end;
   return text_.substr(std::min(place, text_.size()), end - place);
 }
 
-bool Scanner::nameFollows(std::size_t place) const {
+bool Scanner::nameFollows(size_t place) const {
   const std::string_view next = wordAt(significant(place));
   if (next.empty())
     return false;
   switch (findKeyword(next, hashIdent(next)).kind) {
-  case Keyword::Kind::hard:
-  case Keyword::Kind::operation:
-  case Keyword::Kind::at:
-  case Keyword::Kind::infix:
-  case Keyword::Kind::clause:
+  case Keyword::Kind::Hard:
+  case Keyword::Kind::Operation:
+  case Keyword::Kind::At:
+  case Keyword::Kind::Infix:
+  case Keyword::Kind::Clause:
     return false;
   default:
     return true;
@@ -88,26 +88,26 @@ bool Scanner::nameFollows(std::size_t place) const {
 }
 
 /// True when the word that ends here is a declared name: `:`, `,` or AT follows.
-bool Scanner::declaresName(std::size_t wordEnd) const {
-  const std::size_t next = significant(wordEnd);
+bool Scanner::declaresName(size_t wordEnd) const {
+  const size_t next = significant(wordEnd);
   return at(next) == ':' || at(next) == ',' || isWord(wordAt(next), "at");
 }
 
-bool Scanner::isKeywordHere(Keyword keyword, std::size_t wordEnd) const {
+bool Scanner::isKeywordHere(Keyword keyword, size_t wordEnd) const {
   switch (keyword.kind) {
-  case Keyword::Kind::none:
-  case Keyword::Kind::assignment:
-  case Keyword::Kind::local:
+  case Keyword::Kind::None:
+  case Keyword::Kind::Assignment:
+  case Keyword::Kind::Local:
     return false;
-  case Keyword::Kind::hard:
+  case Keyword::Kind::Hard:
     return true;
-  case Keyword::Kind::operation:
+  case Keyword::Kind::Operation:
     return afterOperand() || at(significant(wordEnd)) != '(';
-  case Keyword::Kind::qualifier:
+  case Keyword::Kind::Qualifier:
     return sectionHead_ && !declaresName(wordEnd);
-  case Keyword::Kind::at:
+  case Keyword::Kind::At:
     return at(significant(wordEnd)) == '%';
-  case Keyword::Kind::pointer:
+  case Keyword::Kind::Pointer:
     switch (previous_) {
     case Tok::COLON:
     case Tok::OF:
@@ -124,10 +124,10 @@ bool Scanner::isKeywordHere(Keyword keyword, std::size_t wordEnd) const {
              isWord(next, "wstring");
     }
     return isWord(wordAt(significant(wordEnd)), "to");
-  case Keyword::Kind::infix:
+  case Keyword::Kind::Infix:
     return afterOperand();
-  case Keyword::Kind::statement: {
-    const std::size_t next = significant(wordEnd);
+  case Keyword::Kind::Statement: {
+    const size_t next = significant(wordEnd);
     if (afterOperand() && previous_ != Tok::IDENT)
       return false;
     if (at(next) == ';')
@@ -137,11 +137,11 @@ bool Scanner::isKeywordHere(Keyword keyword, std::size_t wordEnd) const {
     const std::string_view word = wordAt(next);
     return word.size() > 4 && isWord(word.substr(0, 4), "end_");
   }
-  case Keyword::Kind::clause:
+  case Keyword::Kind::Clause:
     return (previous_ == Tok::IDENT || previous_ == Tok::SEMICOLON || // behind USING
             (previous_ == Tok::STRUCT && keyword.type == Tok::EXTENDS)) &&
            nameFollows(wordEnd);
-  case Keyword::Kind::modifier:
+  case Keyword::Kind::Modifier:
     switch (previous_) {
     case Tok::PROGRAM:
     case Tok::FUNCTION:
@@ -160,7 +160,7 @@ bool Scanner::isKeywordHere(Keyword keyword, std::size_t wordEnd) const {
         !declaresName(wordEnd))
       return true;
     return sectionHead_ && !declaresName(wordEnd);
-  case Keyword::Kind::construct:
+  case Keyword::Kind::Construct:
     if (keyword.type == Tok::UNION)
       return previous_ == Tok::COLON && nameFollows(wordEnd);
     switch (previous_) {
@@ -205,8 +205,8 @@ Token Scanner::next() {
   while (token.type == 0) {
     skipBlanks();
     token.reported |= afterBad;
-    const std::size_t begin = place_;
-    token.begin = static_cast<std::uint32_t>(begin);
+    const size_t begin = place_;
+    token.begin = static_cast<uint32_t>(begin);
     if (pending_ != 0) {
       token.type = pending_;
       pending_ = 0;
@@ -218,10 +218,10 @@ Token Scanner::next() {
       break;
     }
     switch (classOf(text_[begin])) {
-    case letter:
+    case kLetter:
       token.type = word(begin, token);
       break;
-    case digit:
+    case kDigit:
       token.type = number(begin, token);
       break;
     default:
@@ -230,12 +230,12 @@ Token Scanner::next() {
     }
     afterBad = token.type == 0;
   }
-  token.end = static_cast<std::uint32_t>(place_);
+  token.end = static_cast<uint32_t>(place_);
   if (const auto count = trivia_.size() - pendingTrivia_; count != 0) {
-    const std::size_t kept = std::min<std::size_t>(count, 255); // the nearest
-    token.triviaCount = static_cast<std::uint8_t>(kept);
-    token.triviaBegin = static_cast<std::uint32_t>(trivia_.size() - kept);
-    pendingTrivia_ = static_cast<std::uint32_t>(trivia_.size());
+    const size_t kept = std::min<size_t>(count, 255); // the nearest
+    token.triviaCount = static_cast<uint8_t>(kept);
+    token.triviaBegin = static_cast<uint32_t>(trivia_.size() - kept);
+    pendingTrivia_ = static_cast<uint32_t>(trivia_.size());
   }
   beforePrevious_ = previous_;
   previous_ = token.type;
@@ -245,7 +245,7 @@ Token Scanner::next() {
   return token;
 }
 
-bool Scanner::firstOf(std::uint32_t hash) {
+bool Scanner::firstOf(uint32_t hash) {
   if (std::find(badNames_.begin(), badNames_.end(), hash) != badNames_.end())
     return false;
   if (badNames_.size() < 1000)
@@ -253,11 +253,11 @@ bool Scanner::firstOf(std::uint32_t hash) {
   return true;
 }
 
-std::uint16_t Scanner::word(std::size_t begin, Token &token) {
+uint16_t Scanner::word(size_t begin, Token &token) {
   const char *const data = text_.data();
-  const std::size_t size = text_.size();
+  const size_t size = text_.size();
   IdentHash running;
-  std::size_t end = begin;
+  size_t end = begin;
   bool foreignLetters = false;
   bool doubled = false;
   for (; end < size; ++end) {
@@ -271,20 +271,20 @@ std::uint16_t Scanner::word(std::size_t begin, Token &token) {
     running.add(c);
   }
   place_ = end;
-  const std::uint32_t hash = running.value();
+  const uint32_t hash = running.value();
   token.hash = hash;
   const std::string_view spelling = text_.substr(begin, end - begin);
   if (foreignLetters) {
     token.reported = true;
     if (firstOf(hash) && ++badCharacters_ <= kMaxBadCharacters) {
-      std::size_t from = begin;
+      size_t from = begin;
       while (!isForeign(data[from]))
         ++from;
-      std::size_t to = from;
+      size_t to = from;
       while (to < end && isForeign(data[to]))
         ++to;
       diagnostics_
-          .report(Code::invalidCharacter, span(from, to), "a name may not contain this character",
+          .report(Code::InvalidCharacter, span(from, to), "a name may not contain this character",
                   "not a letter of a name")
           .note("names consist of the letters A to Z, digits and single underscores");
     }
@@ -295,24 +295,24 @@ std::uint16_t Scanner::word(std::size_t begin, Token &token) {
   if (previous_ == Tok::DOT) // keywords cannot stand behind a dot
     return Tok::IDENT;
   const Keyword keyword = findKeyword(spelling, hash);
-  if (keyword.kind == Keyword::Kind::assignment) {
+  if (keyword.kind == Keyword::Kind::Assignment) {
     const bool variable =
         afterOperand() && (previous_ != Tok::INTEGER || beforePrevious_ == Tok::DOT);
     if (variable && at(end) == '=' && at(end + 1) != '>') {
       ++place_;
       return keyword.type;
     }
-  } else if (keyword.kind != Keyword::Kind::none && isKeywordHere(keyword, end)) {
+  } else if (keyword.kind != Keyword::Kind::None && isKeywordHere(keyword, end)) {
     return keyword.type;
   } else if (lowerCase(data[begin]) == 'e') {
-    if (const std::uint16_t meant = misspelledKeyword(begin, spelling, token); meant != 0)
+    if (const uint16_t meant = misspelledKeyword(begin, spelling, token); meant != 0)
       return meant;
   }
   if (spelling.size() > kMaxName) {
     token.reported = true;
     if (firstOf(hash))
       diagnostics_
-          .report(Code::nameTooLong, span(begin, end),
+          .report(Code::NameTooLong, span(begin, end),
                   "this name has " + std::to_string(spelling.size()) + " characters")
           .note("a name has at most " + std::to_string(kMaxName) + " characters");
   }
@@ -321,7 +321,7 @@ std::uint16_t Scanner::word(std::size_t begin, Token &token) {
     token.reported = true;
     if (firstOf(hash))
       diagnostics_
-          .report(Code::doubleUnderscore, span(begin, end),
+          .report(Code::DoubleUnderscore, span(begin, end),
                   "the name `" + std::string(spelling.substr(0, 80)) +
                       "` has two underscores in a row")
           .note(
@@ -332,30 +332,29 @@ std::uint16_t Scanner::word(std::size_t begin, Token &token) {
   return Tok::IDENT;
 }
 
-std::uint16_t Scanner::foreign(std::size_t begin, std::size_t length, std::uint16_t meant,
-                               Token &token) {
+uint16_t Scanner::foreign(size_t begin, size_t length, uint16_t meant, Token &token) {
   place_ = begin + length;
   token.reported = true;
   const std::string found(text_.substr(begin, length));
   const std::string right(tokenSpelling(meant));
   diagnostics_
-      .report(Code::foreignOperator, span(begin, place_),
+      .report(Code::ForeignOperator, span(begin, place_),
               "`" + found + "` is not an operator of Structured Text", "not known here")
       .suggest("write `" + right + "`", span(begin, place_), right);
   return meant;
 }
 
-void Scanner::badCharacters(std::size_t begin) {
-  std::size_t end = begin;
+void Scanner::badCharacters(size_t begin) {
+  size_t end = begin;
   static constexpr std::string_view kKnown = "+-*/=<>&:;,.()[]^'\"{}%!|";
-  while (end < text_.size() && classOf(text_[end]) == other &&
+  while (end < text_.size() && classOf(text_[end]) == kOther &&
          kKnown.find(text_[end]) == std::string_view::npos &&
          !(text_[end] == '\xC2' && at(end + 1) == '\xA0'))
     ++end;
   place_ = std::max(end, begin + 1);
   if (++badCharacters_ > kMaxBadCharacters)
     return;
-  Diagnostic &d = diagnostics_.report(Code::invalidCharacter, span(begin, place_),
+  Diagnostic &d = diagnostics_.report(Code::InvalidCharacter, span(begin, place_),
                                       place_ - begin > 1 && !isForeign(text_[begin])
                                           ? "these characters have no meaning here"
                                           : "this character has no meaning here");
@@ -365,13 +364,13 @@ void Scanner::badCharacters(std::size_t begin) {
     d.note("further characters of this kind in the file are not reported");
 }
 
-std::uint16_t Scanner::sign(std::size_t begin, Token &token) {
+uint16_t Scanner::sign(size_t begin, Token &token) {
   const char next = at(begin + 1);
-  const auto one = [&](std::uint16_t type) {
+  const auto one = [&](uint16_t type) {
     place_ = begin + 1;
     return type;
   };
-  const auto two = [&](std::uint16_t type) {
+  const auto two = [&](uint16_t type) {
     place_ = begin + 2;
     return type;
   };
@@ -380,7 +379,7 @@ std::uint16_t Scanner::sign(std::size_t begin, Token &token) {
   if ((next == '=' && (calculates || first == '*')) ||
       (next == first && (calculates || first == '<' || first == '>')) ||
       (first == '-' && next == '>') || (first == '=' && next == '<')) {
-    if (const std::uint16_t meant = foreignPair(begin, token); meant != 0)
+    if (const uint16_t meant = foreignPair(begin, token); meant != 0)
       return meant;
   }
   switch (text_[begin]) {

@@ -7,13 +7,13 @@
 
 namespace stc {
 
-bool Scanner::atLineStart(std::size_t place) const {
+bool Scanner::atLineStart(size_t place) const {
   while (place > 0 && (text_[place - 1] == ' ' || text_[place - 1] == '\t'))
     --place;
   return place == 0 || text_[place - 1] == '\n';
 }
 
-std::size_t Scanner::comment(std::size_t place) const {
+size_t Scanner::comment(size_t place) const {
   const std::string_view rest = text_.substr(std::min(place, text_.size()));
   if (rest.starts_with("//"))
     return std::min(text_.find('\n', place), text_.size());
@@ -38,14 +38,14 @@ std::size_t Scanner::comment(std::size_t place) const {
   return place;
 }
 
-std::size_t Scanner::significant(std::size_t place) const {
+size_t Scanner::significant(size_t place) const {
   for (;;) {
-    while (place < text_.size() && classOf(text_[place]) == blank)
+    while (place < text_.size() && classOf(text_[place]) == kBlank)
       ++place;
-    if (const std::size_t next = comment(place); next != place) {
+    if (const size_t next = comment(place); next != place) {
       place = next;
     } else if (at(place) == '{') {
-      const std::size_t end = pragmaEnd(place);
+      const size_t end = pragmaEnd(place);
       if (end == std::string_view::npos)
         return place;
       place = end;
@@ -55,11 +55,11 @@ std::size_t Scanner::significant(std::size_t place) const {
   }
 }
 
-void Scanner::nestedComment(std::size_t begin) {
+void Scanner::nestedComment(size_t begin) {
   const char *const data = text_.data();
-  const std::size_t size = text_.size();
+  const size_t size = text_.size();
   unsigned depth = 1;
-  std::size_t place = begin + 2;
+  size_t place = begin + 2;
   while (place + 1 < size) {
     const char c = data[place];
     if (c == '*' && data[place + 1] == ')') {
@@ -76,7 +76,7 @@ void Scanner::nestedComment(std::size_t begin) {
     }
   }
   place_ = size;
-  Diagnostic &d = diagnostics_.report(Code::unterminatedComment, span(begin, begin + 2),
+  Diagnostic &d = diagnostics_.report(Code::UnterminatedComment, span(begin, begin + 2),
                                       "this comment has no end", "the comment begins here");
   d.help("close it with `*)`");
   if (depth > 1)
@@ -84,43 +84,42 @@ void Scanner::nestedComment(std::size_t begin) {
            " `(*` are still open at the end of the file");
 }
 
-void Scanner::blockComment(std::size_t begin) {
+void Scanner::blockComment(size_t begin) {
   const auto end = text_.find("*/", begin + 2);
   place_ = end == std::string_view::npos ? text_.size() : end + 2;
   if (end == std::string_view::npos)
     diagnostics_
-        .report(Code::unterminatedComment, span(begin, begin + 2), "this comment has no end",
+        .report(Code::UnterminatedComment, span(begin, begin + 2), "this comment has no end",
                 "the comment begins here")
         .help("close it with `*/`");
 }
 
-void Scanner::lineComment(std::size_t begin) {
+void Scanner::lineComment(size_t begin) {
   const void *newline = std::memchr(text_.data() + begin, '\n', text_.size() - begin);
-  std::size_t end =
-      newline == nullptr
-          ? text_.size()
-          : static_cast<std::size_t>(static_cast<const char *>(newline) - text_.data());
+  size_t end = newline == nullptr
+                   ? text_.size()
+                   : static_cast<size_t>(static_cast<const char *>(newline) - text_.data());
   place_ = end;
   if (at(begin + 2) != '/' || at(begin + 3) == '/' || !atLineStart(begin))
     return;
-  std::size_t from = begin + 3;
+  size_t from = begin + 3;
   if (from < end && text_[from] == ' ')
     ++from;
-  while (end > from && classOf(text_[end - 1]) == blank)
+  while (end > from && classOf(text_[end - 1]) == kBlank)
     --end;
-  trivia_.push_back({Trivia::Kind::doc,
-                     static_cast<std::uint32_t>(begin),
-                     static_cast<std::uint32_t>(end),
+  trivia_.push_back({Trivia::Kind::Doc,
+                     static_cast<uint32_t>(begin),
+                     static_cast<uint32_t>(end),
                      text_.substr(from, end - from),
                      {}});
 }
 
 void Scanner::skipBlanks() {
   const char *const data = text_.data();
-  const std::size_t size = text_.size();
+  const size_t size = text_.size();
   while (place_ < size) {
     const char c = data[place_];
-    if (classOf(c) == blank)
+    if (classOf(c) == kBlank)
       ++place_;
     else if (c == '/' && at(place_ + 1) == '/')
       lineComment(place_);

@@ -10,7 +10,7 @@ namespace stc {
 
 namespace {
 
-enum class Prefix : std::uint8_t { none, duration, date };
+enum class Prefix : uint8_t { None, Duration, Date };
 
 Prefix literalPrefix(std::string_view word) {
   static constexpr std::string_view kDurations[] = {"t", "time", "lt", "ltime"};
@@ -20,8 +20,8 @@ Prefix literalPrefix(std::string_view word) {
   };
   const auto is = [&](std::string_view name) { return isWord(word, name); };
   if (std::any_of(std::begin(kDurations), std::end(kDurations), is))
-    return Prefix::duration;
-  return std::any_of(std::begin(kDates), std::end(kDates), is) ? Prefix::date : Prefix::none;
+    return Prefix::Duration;
+  return std::any_of(std::begin(kDates), std::end(kDates), is) ? Prefix::Date : Prefix::None;
 }
 
 } // namespace
@@ -33,7 +33,7 @@ void Scanner::numberBody() {
     while (isWordChar(at(place_)) || at(place_) == '#')
       ++place_;
   };
-  const std::size_t begin = place_;
+  const size_t begin = place_;
   while (isDigit(at(place_)) || (at(place_) == '_' && isDigit(at(place_ + 1))))
     ++place_;
   const auto exponent = [&] {
@@ -61,7 +61,7 @@ void Scanner::numberBody() {
     digits(); // malformed
 }
 
-std::uint16_t Scanner::number(std::size_t begin, Token &token) {
+uint16_t Scanner::number(size_t begin, Token &token) {
   numberBody();
   const std::string_view spelling = text_.substr(begin, place_ - begin);
   if (spelling.find('#') != std::string_view::npos)
@@ -74,27 +74,27 @@ std::uint16_t Scanner::number(std::size_t begin, Token &token) {
     token.reported = true;
     ++place_;
     diagnostics_
-        .report(Code::invalidNumber, span(begin, place_), "a decimal point needs a digit behind it")
+        .report(Code::InvalidNumber, span(begin, place_), "a decimal point needs a digit behind it")
         .help("write `" + std::string(spelling.substr(0, 80)) + ".0`");
     return Tok::REAL;
   }
   return real ? Tok::REAL : Tok::INTEGER;
 }
 
-std::uint16_t Scanner::prefixedLiteral(std::size_t begin, Token &token) {
+uint16_t Scanner::prefixedLiteral(size_t begin, Token &token) {
   const std::string_view prefix = text_.substr(begin, place_ - begin);
   ++place_; // #
   const char first = at(place_);
   const bool sign = first == '+' || first == '-';
   switch (literalPrefix(prefix)) {
-  case Prefix::duration:
+  case Prefix::Duration:
     if (!isDigit(at(place_ + (sign ? 1 : 0))))
       break;
     ++place_;
     while (isWordChar(at(place_)) || (at(place_) == '.' && isDigit(at(place_ + 1))))
       ++place_;
     return Tok::TIME_LITERAL;
-  case Prefix::date:
+  case Prefix::Date:
     if (!isDigit(first))
       break;
     while (
@@ -102,7 +102,7 @@ std::uint16_t Scanner::prefixedLiteral(std::size_t begin, Token &token) {
         ((at(place_) == ':' || at(place_) == '.' || at(place_) == '-') && isDigit(at(place_ + 1))))
       ++place_;
     return Tok::TIME_LITERAL;
-  case Prefix::none:
+  case Prefix::None:
     break;
   }
   if (isDigit(first) || (sign && isDigit(at(place_ + 1)))) {
@@ -121,17 +121,17 @@ std::uint16_t Scanner::prefixedLiteral(std::size_t begin, Token &token) {
   if (!name.empty())
     return Tok::ENUM_LITERAL;
   token.reported = true;
-  diagnostics_.report(Code::invalidTypedLiteral, span(begin, place_),
+  diagnostics_.report(Code::InvalidTypedLiteral, span(begin, place_),
                       "there is no value behind `" + std::string(prefix.substr(0, 80)) + "#`",
                       "expected a literal or the name of an enumerator here");
   return Tok::TYPED_LITERAL;
 }
 
-std::uint16_t Scanner::quoted(std::size_t begin, char quote, Token &token) {
+uint16_t Scanner::quoted(size_t begin, char quote, Token &token) {
   const char *const data = text_.data();
-  const std::size_t size = text_.size();
-  const std::uint16_t type = quote == '\'' ? Tok::STRING_LITERAL : Tok::WSTRING_LITERAL;
-  for (std::size_t place = begin + 1; place < size; ++place) {
+  const size_t size = text_.size();
+  const uint16_t type = quote == '\'' ? Tok::STRING_LITERAL : Tok::WSTRING_LITERAL;
+  for (size_t place = begin + 1; place < size; ++place) {
     const char c = data[place];
     if (c == quote) {
       place_ = place + 1;
@@ -150,7 +150,7 @@ std::uint16_t Scanner::quoted(std::size_t begin, char quote, Token &token) {
   place_ = std::min(place_, size);
   token.reported = true;
   diagnostics_
-      .report(Code::unterminatedString, span(begin, begin + 1), "this string has no end",
+      .report(Code::UnterminatedString, span(begin, begin + 1), "this string has no end",
               "the string begins here")
       .note("a string ends on the line on which it begins")
       .help(quote == '\'' ? "close it with `'`; a quote inside is written `$'`"
@@ -158,16 +158,16 @@ std::uint16_t Scanner::quoted(std::size_t begin, char quote, Token &token) {
   return type;
 }
 
-std::uint16_t Scanner::address(std::size_t begin, Token &token) {
+uint16_t Scanner::address(size_t begin, Token &token) {
   const bool partial = previous_ == Tok::DOT;
   if (!isLetter(at(begin + 1)) || (!partial && afterOperand() && !atLineStart(begin)))
     return foreign(begin, 1, Tok::MOD, token);
   ++place_;
-  const std::size_t letters = place_;
+  const size_t letters = place_;
   while (isLetter(at(place_)))
     ++place_;
   const std::string_view area = text_.substr(letters, place_ - letters);
-  const std::size_t numbers = place_;
+  const size_t numbers = place_;
   if (at(place_) == '*') {
     ++place_;
   } else {
@@ -185,7 +185,7 @@ std::uint16_t Scanner::address(std::size_t begin, Token &token) {
   if (!good) {
     token.reported = true;
     diagnostics_
-        .report(Code::invalidAddress, span(begin, place_), "malformed direct address",
+        .report(Code::InvalidAddress, span(begin, place_), "malformed direct address",
                 "not an address")
         .note("an address is written `%IX0.0`, `%QW2`, `%MD4` or `%I*`");
   }

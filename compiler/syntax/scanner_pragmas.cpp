@@ -6,8 +6,8 @@
 
 namespace stc {
 
-std::size_t Scanner::pragmaEnd(std::size_t begin) const {
-  std::size_t end = begin + 1;
+size_t Scanner::pragmaEnd(size_t begin) const {
+  size_t end = begin + 1;
   while (end < text_.size() && text_[end] != '}') {
     const char c = text_[end];
     if (c == '\'' ||
@@ -21,11 +21,11 @@ std::size_t Scanner::pragmaEnd(std::size_t begin) const {
   return end < text_.size() ? end + 1 : std::string_view::npos;
 }
 
-void Scanner::pragma(std::size_t begin) {
-  const std::size_t behind = pragmaEnd(begin);
+void Scanner::pragma(size_t begin) {
+  const size_t behind = pragmaEnd(begin);
   if (behind == std::string_view::npos) {
     diagnostics_
-        .report(Code::unterminatedPragma, span(begin, begin + 1), "this pragma has no end",
+        .report(Code::UnterminatedPragma, span(begin, begin + 1), "this pragma has no end",
                 "the pragma begins here")
         .help("close it with `}`");
     const auto line = text_.find('\n', begin);
@@ -33,12 +33,12 @@ void Scanner::pragma(std::size_t begin) {
     return;
   }
   place_ = behind;
-  const std::size_t end = behind - 1;
-  const auto from = static_cast<std::uint32_t>(begin);
-  const auto to = static_cast<std::uint32_t>(place_);
-  std::size_t p = begin + 1;
+  const size_t end = behind - 1;
+  const auto from = static_cast<uint32_t>(begin);
+  const auto to = static_cast<uint32_t>(place_);
+  size_t p = begin + 1;
   const auto skip = [&] {
-    while (p < end && classOf(text_[p]) == blank)
+    while (p < end && classOf(text_[p]) == kBlank)
       ++p;
   };
   const auto quotedText = [&]() -> std::string_view {
@@ -57,7 +57,7 @@ void Scanner::pragma(std::size_t begin) {
   const std::string_view keyword = wordAt(p);
   p += keyword.size();
   if (isWord(keyword, "external")) {
-    trivia_.push_back({Trivia::Kind::external, from, to, {}, {}});
+    trivia_.push_back({Trivia::Kind::External, from, to, {}, {}});
   } else if (isWord(keyword, "attribute")) {
     const std::string_view name = quotedText();
     skip();
@@ -67,15 +67,14 @@ void Scanner::pragma(std::size_t begin) {
       value = quotedText();
     }
     if (!name.empty())
-      trivia_.push_back({Trivia::Kind::attribute, from, to, name, value});
+      trivia_.push_back({Trivia::Kind::Attribute, from, to, name, value});
   } else if (conditions_ != nullptr) {
     directive(keyword, begin, p, end);
   }
 }
 
 /// The pragmas that a scanner without conditions passes over.
-void Scanner::directive(std::string_view keyword, std::size_t begin, std::size_t p,
-                        std::size_t end) {
+void Scanner::directive(std::string_view keyword, size_t begin, size_t p, size_t end) {
   const Span whole = span(begin, end + 1);
   if (isWord(keyword, "if")) {
     branches_.push_back({whole, false, false});
@@ -83,7 +82,7 @@ void Scanner::directive(std::string_view keyword, std::size_t begin, std::size_t
   } else if (isWord(keyword, "elsif") || isWord(keyword, "else") || isWord(keyword, "end_if")) {
     if (branches_.empty()) {
       diagnostics_
-          .report(Code::unbalancedConditional, whole,
+          .report(Code::UnbalancedConditional, whole,
                   "`{" + std::string(keyword) + "}` without an `{IF …}`", "no `{IF …}` is open")
           .help(isWord(keyword, "end_if") ? "remove it" : "write `{IF …}` for the first condition");
     } else if (isWord(keyword, "end_if")) {
@@ -94,22 +93,22 @@ void Scanner::directive(std::string_view keyword, std::size_t begin, std::size_t
       skipInactive(); // what stood in front of it was compiled
     }
   } else if (isWord(keyword, "define") || isWord(keyword, "undefine")) {
-    std::size_t at = p;
-    while (at < end && classOf(text_[at]) == blank)
+    size_t at = p;
+    while (at < end && classOf(text_[at]) == kBlank)
       ++at;
     const std::string_view name = wordAt(at);
     if (name.empty() || at + name.size() > end) {
       diagnostics_
-          .report(Code::malformedPragma, whole, "`{" + std::string(keyword) + "}` needs a name",
+          .report(Code::MalformedPragma, whole, "`{" + std::string(keyword) + "}` needs a name",
                   "expected a name here")
           .help("write `{" + std::string(keyword) + " NAME}`");
       return;
     }
     at += name.size();
-    while (at < end && classOf(text_[at]) == blank)
+    while (at < end && classOf(text_[at]) == kBlank)
       ++at;
     std::string_view value = text_.substr(at, end - at);
-    while (!value.empty() && classOf(value.back()) == blank)
+    while (!value.empty() && classOf(value.back()) == kBlank)
       value.remove_suffix(1);
     if (value.size() >= 2 && (value[0] == '\'' || value[0] == '"') && value.back() == value[0])
       value = value.substr(1, value.size() - 2);
@@ -122,32 +121,32 @@ void Scanner::directive(std::string_view keyword, std::size_t begin, std::size_t
   }
 }
 
-void Scanner::message(std::string_view keyword, Span whole, std::size_t p, std::size_t end) {
+void Scanner::message(std::string_view keyword, Span whole, size_t p, size_t end) {
   const bool isError = isWord(keyword, "error");
   const bool isWarning = isWord(keyword, "warning");
   if (!isError && !isWarning && !isWord(keyword, "info") && !isWord(keyword, "text"))
     return bracesAsBlock(whole.begin, whole.end); // region, analysis, unknown ones
-  while (p < end && classOf(text_[p]) == blank)
+  while (p < end && classOf(text_[p]) == kBlank)
     ++p;
   if (p >= end || (text_[p] != '\'' && text_[p] != '"'))
     return isWarning ? warningPragma(p, end) : void();
-  const std::size_t close = text_.find(text_[p], p + 1);
+  const size_t close = text_.find(text_[p], p + 1);
   if (close >= end)
     return;
-  diagnostics_.report(isError     ? Code::errorPragma
-                      : isWarning ? Code::warningPragma
-                                  : Code::messagePragma,
+  diagnostics_.report(isError     ? Code::ErrorPragma
+                      : isWarning ? Code::WarningPragma
+                                  : Code::MessagePragma,
                       whole, std::string(text_.substr(p + 1, close - p - 1)), "written here");
 }
 
 /// `{warning disable SE0390}`, `{warning restore unused-variable}`; codes of other compilers are
 /// passed over.
-void Scanner::warningPragma(std::size_t place, std::size_t end) {
+void Scanner::warningPragma(size_t place, size_t end) {
   const auto nextWord = [&] {
-    while (place < end && (classOf(text_[place]) == blank || text_[place] == ','))
+    while (place < end && (classOf(text_[place]) == kBlank || text_[place] == ','))
       ++place;
-    const std::size_t begin = place;
-    while (place < end && classOf(text_[place]) != blank && text_[place] != ',')
+    const size_t begin = place;
+    while (place < end && classOf(text_[place]) != kBlank && text_[place] != ',')
       ++place;
     return text_.substr(begin, place - begin);
   };
@@ -157,14 +156,14 @@ void Scanner::warningPragma(std::size_t place, std::size_t end) {
     return;
   for (std::string_view word = nextWord(); !word.empty(); word = nextWord()) {
     if (const CodeInfo *code = findCode(word)) {
-      diagnostics_.setSilent(file_, static_cast<std::uint32_t>(place), code->code, disable);
+      diagnostics_.setSilent(file_, static_cast<uint32_t>(place), code->code, disable);
       continue;
     }
     const bool foreign = (word[0] == 'C' || word[0] == 'c') && word.size() > 1 &&
                          word.find_first_not_of("0123456789", 1) == std::string_view::npos;
     if (!foreign)
       diagnostics_
-          .report(Code::unknownDiagnostic, span(place - word.size(), place),
+          .report(Code::UnknownDiagnostic, span(place - word.size(), place),
                   "there is no diagnostic `" + std::string(word) + "`", "unknown")
           .help("`stride explain --list` shows all codes and names");
   }
@@ -174,14 +173,14 @@ void Scanner::checkElse(std::string_view keyword, Span whole) {
   if (!branches_.back().sawElse)
     return;
   diagnostics_
-      .report(Code::unbalancedConditional, whole,
+      .report(Code::UnbalancedConditional, whole,
               "`{" + std::string(keyword) + "}` behind the `{ELSE}` of the same `{IF …}`",
               "`{ELSE}` is the last one")
       .label(branches_.back().place, "of this `{IF …}`");
 }
 
 /// Goes on behind the condition in [p, end) when it holds, else at the next branch.
-void Scanner::branch(std::size_t p, std::size_t end) {
+void Scanner::branch(size_t p, size_t end) {
   const std::optional<bool> value =
       conditions_->evaluate(text_.substr(p, end - p), span(p, end), diagnostics_);
   if (!value)
@@ -194,16 +193,16 @@ void Scanner::branch(std::size_t p, std::size_t end) {
 
 /// Passes over text that is not compiled, up to the branch that is or behind `{END_IF}`.
 void Scanner::skipInactive() {
-  std::size_t depth = 0;
+  size_t depth = 0;
   while (place_ < text_.size()) {
     const char c = text_[place_];
     if (c == '\'' || c == '"') {
-      const std::size_t stop = text_.find_first_of(c == '\'' ? "'\n" : "\"\n", place_ + 1);
+      const size_t stop = text_.find_first_of(c == '\'' ? "'\n" : "\"\n", place_ + 1);
       place_ = stop == std::string_view::npos ? text_.size() : stop + 1;
       continue;
     }
     if (c == '/' || c == '(') {
-      const std::size_t next = comment(place_);
+      const size_t next = comment(place_);
       place_ = next == place_ ? place_ + 1 : next;
       continue;
     }
@@ -211,15 +210,15 @@ void Scanner::skipInactive() {
       ++place_;
       continue;
     }
-    const std::size_t begin = place_;
-    const std::size_t behind = pragmaEnd(begin);
+    const size_t begin = place_;
+    const size_t behind = pragmaEnd(begin);
     if (behind == std::string_view::npos) {
       ++place_;
       continue;
     }
     place_ = behind;
-    std::size_t p = begin + 1;
-    while (p < behind && classOf(text_[p]) == blank)
+    size_t p = begin + 1;
+    while (p < behind && classOf(text_[p]) == kBlank)
       ++p;
     const std::string_view keyword = wordAt(p);
     p += keyword.size();
@@ -251,7 +250,7 @@ void Scanner::skipInactive() {
 void Scanner::reportOpenBranches() {
   for (const Branch &open : branches_)
     diagnostics_
-        .report(Code::unbalancedConditional, open.place, "this `{IF …}` has no `{END_IF}`",
+        .report(Code::UnbalancedConditional, open.place, "this `{IF …}` has no `{END_IF}`",
                 "the file ends before it is closed")
         .help("write `{END_IF}` behind the last branch");
   branches_.clear();

@@ -53,7 +53,7 @@ bool isIdentifier(std::string_view text) {
 std::string realLiteral(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".") == std::string::npos) {
-    const std::size_t exponent = text.find('e');
+    const size_t exponent = text.find('e');
     text.insert(exponent == std::string::npos ? text.size() : exponent, ".0");
   }
   return text;

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_ST_TEXT_HPP
+#define STRIDE_COMPILER_SYNTAX_ST_TEXT_HPP
 // Structured Text that is written, not read: names and literals.
 
 #include "compiler/source/identifier.hpp"
@@ -19,3 +20,5 @@ namespace stc {
 [[nodiscard]] std::string stringLiteral(std::string_view text);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SYNTAX_ST_TEXT_HPP

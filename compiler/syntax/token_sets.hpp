@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_TOKEN_SETS_HPP
+#define STRIDE_COMPILER_SYNTAX_TOKEN_SETS_HPP
 // Sets of tokens, and other small questions about units. Internal to compiler/syntax: includes
 // ANTLR.
 
@@ -9,10 +10,10 @@
 
 namespace stc {
 
-inline bool isEnd(std::uint16_t type) { return type == Token::kEnd; }
+inline bool isEnd(uint16_t type) { return type == Token::kEnd; }
 
 /// Closes or continues a block of statements.
-inline bool isCloser(std::uint16_t type) {
+inline bool isCloser(uint16_t type) {
   switch (type) {
   case Tok::LABEL:
   case Tok::ELSIF:
@@ -32,7 +33,7 @@ inline bool isCloser(std::uint16_t type) {
   }
 }
 
-inline bool startsBlock(std::uint16_t type) {
+inline bool startsBlock(uint16_t type) {
   switch (type) {
   case Tok::IF:
   case Tok::CASE:
@@ -46,12 +47,12 @@ inline bool startsBlock(std::uint16_t type) {
   }
 }
 
-inline bool isStatementKeyword(std::uint16_t type) {
+inline bool isStatementKeyword(uint16_t type) {
   return startsBlock(type) || type == Tok::EXIT || type == Tok::RETURN || type == Tok::CONTINUE ||
          type == Tok::JMP || type == Tok::JUMP_LABEL;
 }
 
-inline bool startsOperand(std::uint16_t type) {
+inline bool startsOperand(uint16_t type) {
   switch (type) {
   case Tok::IDENT:
   case Tok::INTEGER:
@@ -76,12 +77,12 @@ inline bool startsOperand(std::uint16_t type) {
   }
 }
 
-inline bool startsStatement(std::uint16_t type) {
+inline bool startsStatement(uint16_t type) {
   return startsOperand(type) || isStatementKeyword(type) || type == Tok::SEMICOLON;
 }
 
 /// A type that is more than a name, and is no list of members.
-inline bool startsWrittenType(std::uint16_t type) {
+inline bool startsWrittenType(uint16_t type) {
   switch (type) {
   case Tok::ARRAY:
   case Tok::STRING:
@@ -95,12 +96,12 @@ inline bool startsWrittenType(std::uint16_t type) {
   }
 }
 
-inline bool startsType(std::uint16_t type) {
+inline bool startsType(uint16_t type) {
   return type == Tok::IDENT || type == Tok::STRUCT || startsWrittenType(type);
 }
 
 /// Keywords that can only be meant as names where an expression should stand.
-inline bool canOnlyBeMeantAsName(std::uint16_t type) {
+inline bool canOnlyBeMeantAsName(uint16_t type) {
   switch (type) {
   case Tok::PROGRAM:
   case Tok::FUNCTION:
@@ -117,11 +118,11 @@ inline bool canOnlyBeMeantAsName(std::uint16_t type) {
 }
 
 /// Where a statement that could not be read certainly is over.
-inline bool isStatementBoundary(std::uint16_t type) {
+inline bool isStatementBoundary(uint16_t type) {
   return isEnd(type) || isCloser(type) || isStatementKeyword(type);
 }
 
-inline std::uint16_t closerOf(std::size_t rule) {
+inline uint16_t closerOf(size_t rule) {
   switch (rule) {
   case Grammar::RuleIfStatement:
     return Tok::END_IF;
@@ -149,12 +150,10 @@ inline bool hasValue(const antlr4::ParserRuleContext *statement) {
 
 inline std::string ticked(std::string_view text) { return "`" + std::string(text) + "`"; }
 
-inline bool isModifier(std::uint16_t type) {
-  return type >= Tok::ABSTRACT && type <= Tok::OVERRIDE;
-}
+inline bool isModifier(uint16_t type) { return type >= Tok::ABSTRACT && type <= Tok::OVERRIDE; }
 
 /// The keyword that opens what `type` closes; 0 when it closes no block.
-inline std::uint16_t openerOf(std::uint16_t type) {
+inline uint16_t openerOf(uint16_t type) {
   switch (type) {
   case Tok::END_IF:
     return Tok::IF;
@@ -174,16 +173,16 @@ inline std::uint16_t openerOf(std::uint16_t type) {
 }
 
 /// Opens something that belongs to a POU and may stand inside of it or behind it.
-inline bool isMember(std::uint16_t type) {
+inline bool isMember(uint16_t type) {
   return type == Tok::METHOD || type == Tok::PROPERTY || type == Tok::ACTION ||
          type == Tok::ACTIONS;
 }
 
 /// A sequential function chart.
-inline bool isChart(std::uint16_t type) { return type >= Tok::STEP && type <= Tok::END_TRANSITION; }
+inline bool isChart(uint16_t type) { return type >= Tok::STEP && type <= Tok::END_TRANSITION; }
 
 /// Closes a declaration, other than TYPE and VAR.
-inline bool closesUnit(std::uint16_t type) {
+inline bool closesUnit(uint16_t type) {
   switch (type) {
   case Token::kEnd:
   case Tok::END_PROGRAM:
@@ -207,19 +206,19 @@ inline bool closesUnit(std::uint16_t type) {
 }
 
 /// Literals and names only.
-inline bool isOperandStart(std::uint16_t type) {
+inline bool isOperandStart(uint16_t type) {
   return type == Tok::IDENT || type == Tok::INTEGER || type == Tok::ENUM_LITERAL ||
          type == Tok::TYPED_LITERAL || type == Tok::STRING_LITERAL || type == Tok::TRUE ||
          type == Tok::FALSE;
 }
 
-inline bool isOperandEnd(std::uint16_t type) {
+inline bool isOperandEnd(uint16_t type) {
   return isOperandStart(type) || type == Tok::RPAREN || type == Tok::RBRACKET ||
          type == Tok::CARET || type == Tok::REAL || type == Tok::TIME_LITERAL;
 }
 
 /// Whether `now` begins a declaration; `ahead` is the token behind it.
-inline bool startsDeclaration(std::uint16_t now, std::uint16_t ahead) {
+inline bool startsDeclaration(uint16_t now, uint16_t ahead) {
   switch (now) {
   case Tok::CLASS:
   case Tok::INTERFACE:
@@ -242,12 +241,12 @@ inline bool startsDeclaration(std::uint16_t now, std::uint16_t ahead) {
 }
 
 /// Whether `now` begins a section of variables.
-inline bool startsSection(std::uint16_t now, std::uint16_t ahead) {
+inline bool startsSection(uint16_t now, uint16_t ahead) {
   return now >= Tok::VAR && now <= Tok::VAR_INST && ahead != Tok::COLON;
 }
 
 /// Behind the word GET or SET: it is a name, not an accessor of a property.
-inline bool continuesName(std::uint16_t ahead) {
+inline bool continuesName(uint16_t ahead) {
   switch (ahead) {
   case Tok::ASSIGN:
   case Tok::DOT:
@@ -262,3 +261,5 @@ inline bool continuesName(std::uint16_t ahead) {
 }
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SYNTAX_TOKEN_SETS_HPP

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_UNIT_PARSER_HPP
+#define STRIDE_COMPILER_SYNTAX_UNIT_PARSER_HPP
 // The generated parser on one unit of tokens. Internal to compiler/syntax: includes ANTLR.
 
 #include "compiler/source/diagnostic.hpp"
@@ -25,29 +26,29 @@ public:
   }
   void rewind() { place_ = 0; }
   [[nodiscard]] Token &current() { return (*tokens_)[place_]; }
-  [[nodiscard]] Token &token(std::size_t index) { return (*tokens_)[index]; }
+  [[nodiscard]] Token &token(size_t index) { return (*tokens_)[index]; }
   void advance() {
     if (place_ + 1 < tokens_->size())
       ++place_;
   }
 
   void consume() override { advance(); }
-  std::size_t LA(ssize_t i) override { return LT(i)->getType(); }
+  size_t LA(ssize_t i) override { return LT(i)->getType(); }
   Token *LT(ssize_t k) override {
     if (k == 1)
       return tokens_->data() + place_;
     const auto at = static_cast<ssize_t>(place_) + (k > 0 ? k - 1 : k);
     if (at < 0)
       return nullptr;
-    return tokens_->data() + std::min(static_cast<std::size_t>(at), tokens_->size() - 1);
+    return tokens_->data() + std::min(static_cast<size_t>(at), tokens_->size() - 1);
   }
   ssize_t mark() override { return 0; }
   void release(ssize_t) override {}
-  std::size_t index() override { return place_; }
-  void seek(std::size_t index) override { place_ = index; }
-  std::size_t size() override { return tokens_->size(); }
+  size_t index() override { return place_; }
+  void seek(size_t index) override { place_ = index; }
+  size_t size() override { return tokens_->size(); }
   std::string getSourceName() const override { return {}; }
-  antlr4::Token *get(std::size_t index) const override { return tokens_->data() + index; }
+  antlr4::Token *get(size_t index) const override { return tokens_->data() + index; }
   antlr4::TokenSource *getTokenSource() const override { return nullptr; }
   std::string getText(const antlr4::misc::Interval &) override { return {}; }
   std::string getText() override { return {}; }
@@ -56,7 +57,7 @@ public:
 
 private:
   std::vector<Token> *tokens_ = nullptr;
-  std::size_t place_ = 0;
+  size_t place_ = 0;
 };
 
 /// The generated parser without what we do not need: its tree holds rule contexts only, the tokens
@@ -67,7 +68,7 @@ public:
 
   explicit UnitParser(UnitStream *stream) : Grammar(stream), stream_(*stream) {}
 
-  antlr4::Token *match(std::size_t type) override {
+  antlr4::Token *match(size_t type) override {
     Token &token = stream_.current();
     if (token.getType() == type) {
       if (reporting_)
@@ -75,7 +76,7 @@ public:
       stream_.advance();
       return &token;
     }
-    expected_ = type == Token::EOF ? Token::kEnd : static_cast<std::uint16_t>(type);
+    expected_ = type == Token::EOF ? Token::kEnd : static_cast<uint16_t>(type);
     return _errHandler->recoverInline(this);
   }
   antlr4::Token *consume() override {
@@ -84,7 +85,7 @@ public:
     expected_ = 0;
     return &token;
   }
-  void enterRule(antlr4::ParserRuleContext *context, std::size_t state, std::size_t) override {
+  void enterRule(antlr4::ParserRuleContext *context, size_t state, size_t) override {
     setState(state);
     _ctx = context;
     context->start = &stream_.current();
@@ -93,16 +94,16 @@ public:
   }
 
   /// The token type that the failed match() wanted; 0 when it was one of a set.
-  [[nodiscard]] std::uint16_t expected() const { return expected_; }
+  [[nodiscard]] uint16_t expected() const { return expected_; }
   void clearExpected() { expected_ = 0; }
-  void enterOuterAlt(antlr4::ParserRuleContext *, std::size_t) override {}
+  void enterOuterAlt(antlr4::ParserRuleContext *, size_t) override {}
   void setReporting(bool on) { reporting_ = on; }
   [[nodiscard]] Context *context() const { return _ctx; }
   [[nodiscard]] UnitStream &stream() { return stream_; }
 
 private:
   UnitStream &stream_;
-  std::uint16_t expected_ = 0;
+  uint16_t expected_ = 0;
   bool reporting_ = false;
 };
 
@@ -150,22 +151,22 @@ private:
                                         const Token *next) const;
   [[nodiscard]] bool onNewLine(const Token &token);
   [[nodiscard]] bool mayReport();
-  [[nodiscard]] bool closerIsWanted(std::uint16_t type) const;
+  [[nodiscard]] bool closerIsWanted(uint16_t type) const;
   [[nodiscard]] const Context *innermostBlock() const;
   [[nodiscard]] bool keywordAsName(const Token &token);
   void reportKeywordAsName(const Token &token);
   static void useAsName(Token &token);
   void reportUnexpected(const std::string &expected);
-  void reportMissing(std::uint16_t wanted);
-  void reportMissingEnd(std::uint16_t wanted);
-  antlr4::Token *conjure(std::uint16_t type);
+  void reportMissing(uint16_t wanted);
+  void reportMissingEnd(uint16_t wanted);
+  antlr4::Token *conjure(uint16_t type);
   void stepBackToAssignment();
   void skipStatement();
-  void skipTo(bool (*stop)(std::uint16_t));
+  void skipTo(bool (*stop)(uint16_t));
   bool startsDeclaration(const Token &token);
-  bool thenFollows(std::uint16_t wanted);
+  bool thenFollows(uint16_t wanted);
   void syncStatements();
-  void syncDeclarations(bool (*good)(std::uint16_t), const std::string &expected);
+  void syncDeclarations(bool (*good)(uint16_t), const std::string &expected);
   void syncCase();
 
   UnitParser &parser_;
@@ -173,10 +174,12 @@ private:
   FileId file_;
   Diagnostics &diagnostics_;
   bool recovering_ = false;
-  std::int64_t lastError_ = -1;             ///< token index of the last report
-  std::size_t reports_ = 0;                 ///< in this file
-  std::set<std::uint16_t> keywordsAsNames_; ///< token types reported as such in this file
+  int64_t lastError_ = -1;             ///< token index of the last report
+  size_t reports_ = 0;                 ///< in this file
+  std::set<uint16_t> keywordsAsNames_; ///< token types reported as such in this file
   std::deque<Token> conjured_;
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SYNTAX_UNIT_PARSER_HPP

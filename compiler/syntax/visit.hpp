@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SYNTAX_VISIT_HPP
+#define STRIDE_COMPILER_SYNTAX_VISIT_HPP
 // The children of a node, and walks over all that is below one. Who needs to know what kind of node
 // a child hangs at asks for the kind; who needs only to see everything walks.
 
@@ -55,33 +56,33 @@ template <class Visit, class Node> bool goesOn(Visit &visit, Node *node) {
 /// that is written as an argument contains is not among them.
 template <class Visit> void forEachChild(const Expr *expr, Visit &&visit) {
   switch (expr->kind) {
-  case ExprKind::literal:
-  case ExprKind::name:
-  case ExprKind::enumLiteral:
-  case ExprKind::direct:
-  case ExprKind::typeName:
-  case ExprKind::error:
+  case ExprKind::Literal:
+  case ExprKind::Name:
+  case ExprKind::EnumLiteral:
+  case ExprKind::Direct:
+  case ExprKind::TypeName:
+  case ExprKind::Error:
     return;
-  case ExprKind::member:
+  case ExprKind::Member:
     return detail::visitOne(as<MemberExpr>(expr)->base, visit);
-  case ExprKind::index:
+  case ExprKind::Index:
     detail::visitOne(as<IndexExpr>(expr)->base, visit);
     for (Expr *index : as<IndexExpr>(expr)->indices)
       detail::visitOne(index, visit);
     return;
-  case ExprKind::deref:
+  case ExprKind::Deref:
     return detail::visitOne(as<DerefExpr>(expr)->base, visit);
-  case ExprKind::call:
+  case ExprKind::Call:
     detail::visitOne(as<CallExpr>(expr)->callee, visit);
     for (const Argument &argument : as<CallExpr>(expr)->arguments)
       detail::visitOne(argument.value, visit);
     return;
-  case ExprKind::unary:
+  case ExprKind::Unary:
     return detail::visitOne(as<UnaryExpr>(expr)->operand, visit);
-  case ExprKind::binary:
+  case ExprKind::Binary:
     detail::visitOne(as<BinaryExpr>(expr)->left, visit);
     return detail::visitOne(as<BinaryExpr>(expr)->right, visit);
-  case ExprKind::aggregate:
+  case ExprKind::Aggregate:
     return detail::visitItems(as<AggregateExpr>(expr)->items, visit);
   }
 }
@@ -91,40 +92,40 @@ template <class Visit> void forEachChild(const Expr *expr, Visit &&visit) {
 template <class OnExpr, class OnBlock>
 void forEachChild(const Stmt *stmt, OnExpr &&onExpr, OnBlock &&onBlock) {
   switch (stmt->kind) {
-  case StmtKind::empty:
-  case StmtKind::exit:
-  case StmtKind::continueS:
-  case StmtKind::returnS:
-  case StmtKind::jump:
-  case StmtKind::label:
+  case StmtKind::Empty:
+  case StmtKind::Exit:
+  case StmtKind::Continue:
+  case StmtKind::Return:
+  case StmtKind::Jump:
+  case StmtKind::Label:
     return;
-  case StmtKind::assign:
+  case StmtKind::Assign:
     for (Expr *target : as<AssignStmt>(stmt)->targets)
       detail::visitOne(target, onExpr);
     return detail::visitOne(as<AssignStmt>(stmt)->value, onExpr);
-  case StmtKind::call:
+  case StmtKind::Call:
     return detail::visitOne(as<CallStmt>(stmt)->expr, onExpr);
-  case StmtKind::ifS:
+  case StmtKind::If:
     for (const IfBranch &branch : as<IfStmt>(stmt)->branches) {
       detail::visitOne(branch.condition, onExpr);
       onBlock(branch.body);
     }
     return onBlock(as<IfStmt>(stmt)->elseBody);
-  case StmtKind::caseS:
+  case StmtKind::Case:
     return detail::visitCase(as<CaseStmt>(stmt), onExpr, onBlock);
-  case StmtKind::forS: {
+  case StmtKind::For: {
     const auto *loop = as<ForStmt>(stmt);
     for (Expr *expr : {loop->variable, loop->from, loop->to, loop->by})
       detail::visitOne(expr, onExpr);
     return onBlock(loop->body);
   }
-  case StmtKind::whileS:
+  case StmtKind::While:
     detail::visitOne(as<WhileStmt>(stmt)->condition, onExpr);
     return onBlock(as<WhileStmt>(stmt)->body);
-  case StmtKind::repeatS:
+  case StmtKind::RepeatS:
     onBlock(as<RepeatStmt>(stmt)->body);
     return detail::visitOne(as<RepeatStmt>(stmt)->until, onExpr);
-  case StmtKind::tryS: {
+  case StmtKind::Try: {
     const auto *attempt = as<TryStmt>(stmt);
     onBlock(attempt->body);
     detail::visitOne(attempt->exception, onExpr);
@@ -140,7 +141,7 @@ template <class Visit> void walk(Expr *expr, Visit &&visit) {
   // Sums of thousands of terms lean to the left: they are not descended into.
   std::vector<BinaryExpr *> spine;
   bool below = detail::goesOn(visit, expr);
-  while (below && expr->kind == ExprKind::binary) {
+  while (below && expr->kind == ExprKind::Binary) {
     spine.push_back(as<BinaryExpr>(expr));
     expr = spine.back()->left;
     below = expr != nullptr && detail::goesOn(visit, expr);
@@ -171,3 +172,5 @@ template <class Visit> void walkExpressions(Block block, Visit &&visit) {
 }
 
 } // namespace stc::ast
+
+#endif // STRIDE_COMPILER_SYNTAX_VISIT_HPP

@@ -13,7 +13,7 @@ __extension__ using Wide = __int128;
 
 struct Unit {
   std::string_view name;
-  std::int64_t nanoseconds;
+  int64_t nanoseconds;
 };
 constexpr std::array<Unit, 7> kUnits = {{{"d", 86'400'000'000'000},
                                          {"h", 3'600'000'000'000},
@@ -33,7 +33,7 @@ std::string lowered(std::string_view text) {
 
 } // namespace
 
-std::optional<std::int64_t> parseInterval(std::string_view text) {
+std::optional<int64_t> parseInterval(std::string_view text) {
   const std::string lower = lowered(text);
   std::string_view rest = lower;
   bool prefixed = false;
@@ -45,9 +45,9 @@ std::optional<std::int64_t> parseInterval(std::string_view text) {
   if (!prefixed || rest.empty())
     return std::nullopt;
   Wide total = 0;
-  std::size_t next = 0; // units must come in descending order
+  size_t next = 0; // units must come in descending order
   while (!rest.empty()) {
-    std::size_t digits = 0;
+    size_t digits = 0;
     Wide value = 0;
     while (digits < rest.size() && std::isdigit(static_cast<unsigned char>(rest[digits])) &&
            digits < 19)
@@ -69,10 +69,10 @@ std::optional<std::int64_t> parseInterval(std::string_view text) {
         return std::nullopt;
       rest.remove_prefix(digits);
     }
-    std::size_t letters = 0;
+    size_t letters = 0;
     while (letters < rest.size() && std::isalpha(static_cast<unsigned char>(rest[letters])))
       ++letters;
-    std::size_t unit = next;
+    size_t unit = next;
     while (unit < kUnits.size() && kUnits[unit].name != rest.substr(0, letters))
       ++unit;
     if (unit == kUnits.size())
@@ -85,16 +85,16 @@ std::optional<std::int64_t> parseInterval(std::string_view text) {
       return std::nullopt;
     next = unit + 1;
   }
-  return static_cast<std::int64_t>(total);
+  return static_cast<int64_t>(total);
 }
 
-std::string formatInterval(std::int64_t nanoseconds) {
+std::string formatInterval(int64_t nanoseconds) {
   if (nanoseconds <= 0)
     return "T#0ms";
   const bool fine = nanoseconds % 1'000'000 != 0;
   std::string result = fine ? "LT#" : "T#";
   for (const Unit &unit : kUnits)
-    if (const std::int64_t count = nanoseconds / unit.nanoseconds; count != 0) {
+    if (const int64_t count = nanoseconds / unit.nanoseconds; count != 0) {
       result += std::to_string(count) + std::string(unit.name);
       nanoseconds %= unit.nanoseconds;
     }

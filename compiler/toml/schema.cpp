@@ -61,20 +61,20 @@ bool hasType(ParameterType type, const TomlNode &value) {
   case ParameterType::Identifier:
   case ParameterType::DriveName:
   case ParameterType::Interval:
-    return value.kind == TomlKind::string;
+    return value.kind == TomlKind::String;
   case ParameterType::Choice:
-    return value.kind == TomlKind::string || value.kind == TomlKind::integer;
+    return value.kind == TomlKind::String || value.kind == TomlKind::Integer;
   case ParameterType::Boolean:
-    return value.kind == TomlKind::boolean;
+    return value.kind == TomlKind::Boolean;
   case ParameterType::Integer:
-    return value.kind == TomlKind::integer;
+    return value.kind == TomlKind::Integer;
   case ParameterType::Real:
-    return value.kind == TomlKind::integer || value.kind == TomlKind::floating;
+    return value.kind == TomlKind::Integer || value.kind == TomlKind::Floating;
   case ParameterType::NameList:
-    if (value.kind != TomlKind::array)
+    if (value.kind != TomlKind::Array)
       return false;
     for (const TomlNode &element : value.children)
-      if (element.kind != TomlKind::string)
+      if (element.kind != TomlKind::String)
         return false;
     return true;
   }
@@ -114,23 +114,23 @@ public:
 private:
   bool reportType() {
     Diagnostic &d = diagnostics_.report(
-        Code::configWrongType, value_.span,
+        Code::ConfigWrongType, value_.span,
         fmt::format("`{}` must be {}", parameter_.name, expectation(parameter_.type)),
         fmt::format("this is {}", describe(value_)));
-    if (parameter_.type == ParameterType::Boolean && value_.kind == TomlKind::string)
+    if (parameter_.type == ParameterType::Boolean && value_.kind == TomlKind::String)
       d.help("write it without quotes");
-    else if (parameter_.type == ParameterType::Boolean && value_.kind == TomlKind::integer)
+    else if (parameter_.type == ParameterType::Boolean && value_.kind == TomlKind::Integer)
       d.help(value_.integer != 0 ? "write `true`" : "write `false`");
-    else if (value_.kind == TomlKind::string &&
+    else if (value_.kind == TomlKind::String &&
              (parameter_.type == ParameterType::Integer || parameter_.type == ParameterType::Real))
       d.help("numbers stand without quotes");
-    else if (parameter_.type == ParameterType::NameList && value_.kind == TomlKind::string)
+    else if (parameter_.type == ParameterType::NameList && value_.kind == TomlKind::String)
       d.help(fmt::format("write [\"{}\"]", value_.text));
     return false;
   }
 
   bool reportEmpty() {
-    diagnostics_.report(Code::configOutOfRange, value_.span,
+    diagnostics_.report(Code::ConfigOutOfRange, value_.span,
                         fmt::format("`{}` must not be empty", parameter_.name), "nothing in it");
     return false;
   }
@@ -138,13 +138,13 @@ private:
   bool reportIdentifier() {
     if (value_.text.size() > kMaxName) {
       diagnostics_
-          .report(Code::nameTooLong, value_.span,
+          .report(Code::NameTooLong, value_.span,
                   fmt::format("this name has {} characters", value_.text.size()))
           .note(fmt::format("a name has at most {} characters", kMaxName));
       return false;
     }
     diagnostics_
-        .report(Code::configBadName, value_.span,
+        .report(Code::ConfigBadName, value_.span,
                 fmt::format("`{}` cannot be a name in Structured Text", value_.text),
                 isReservedWord(value_.text) ? "a word of the language" : "not an identifier")
         .help(
@@ -173,25 +173,25 @@ private:
                             formatNumber(parameter_.low), formatNumber(parameter_.high), unit);
       label = value < parameter_.low ? "too small" : "too large";
     }
-    diagnostics_.report(Code::configOutOfRange, value_.span, std::move(message), std::move(label));
+    diagnostics_.report(Code::ConfigOutOfRange, value_.span, std::move(message), std::move(label));
     return false;
   }
 
   bool reportChoice() {
-    if (value_.kind == TomlKind::integer) {
+    if (value_.kind == TomlKind::Integer) {
       std::string values;
       for (const Choice &choice : parameter_.choices)
         values +=
             fmt::format("{}{} = \"{}\"", values.empty() ? "" : ", ", choice.value, choice.name);
       diagnostics_
-          .report(Code::configUnknownChoice, value_.span,
+          .report(Code::ConfigUnknownChoice, value_.span,
                   fmt::format("`{}` has no choice {}", parameter_.name, value_.integer),
                   "unknown value")
           .note("possible: " + values);
       return false;
     }
     Diagnostic &d = diagnostics_.report(
-        Code::configUnknownChoice, value_.span,
+        Code::ConfigUnknownChoice, value_.span,
         fmt::format("`{}` has no choice \"{}\"", parameter_.name, value_.text), "unknown choice");
     if (parameter_.choices.size() == 1)
       d.help(fmt::format("`{}` is an error, and errors cannot be lowered", parameter_.name));
@@ -205,20 +205,20 @@ private:
   }
 
   bool checkInterval() {
-    const std::optional<std::int64_t> interval = parseInterval(value_.text);
+    const std::optional<int64_t> interval = parseInterval(value_.text);
     if (!interval) {
       diagnostics_
-          .report(Code::configBadInterval, value_.span,
+          .report(Code::ConfigBadInterval, value_.span,
                   fmt::format("\"{}\" is not a duration", value_.text), "cannot be read")
           .help("write it as a TIME literal: \"T#3ms\", \"T#1s500ms\", \"LT#250us\"");
       return false;
     }
     if (const auto value = static_cast<double>(*interval);
         value < parameter_.low || value > parameter_.high) {
-      diagnostics_.report(Code::configOutOfRange, value_.span,
+      diagnostics_.report(Code::ConfigOutOfRange, value_.span,
                           fmt::format("`{}` must be in {} … {}", parameter_.name,
-                                      formatInterval(static_cast<std::int64_t>(parameter_.low)),
-                                      formatInterval(static_cast<std::int64_t>(parameter_.high))),
+                                      formatInterval(static_cast<int64_t>(parameter_.low)),
+                                      formatInterval(static_cast<int64_t>(parameter_.high))),
                           value < parameter_.low ? "too short" : "too long");
       return false;
     }
@@ -261,7 +261,7 @@ void reportUnknown(const TomlNode &member, const SectionSchema &schema, const Se
     names.push_back(section->name);
   const bool top = schema.name.empty() && schema.parameters.empty();
   Diagnostic &d =
-      diagnostics.report(Code::configUnknownKey, member.keySpan,
+      diagnostics.report(Code::ConfigUnknownKey, member.keySpan,
                          top ? fmt::format("{} has no section `{}`", schema.what, member.key)
                          : schema.name == "diagnostics"
                              ? fmt::format("there is no diagnostic `{}`", member.key)
@@ -287,11 +287,11 @@ void reportUnknown(const TomlNode &member, const SectionSchema &schema, const Se
 
 bool checkSectionKind(const TomlNode &member, const SectionSchema &section,
                       Diagnostics &diagnostics) {
-  const bool good = section.list ? member.arrayOfTables : member.kind == TomlKind::table;
+  const bool good = section.list ? member.arrayOfTables : member.kind == TomlKind::Table;
   if (good)
     return true;
   diagnostics
-      .report(Code::configWrongType, member.keySpan,
+      .report(Code::ConfigWrongType, member.keySpan,
               section.list ? fmt::format("`{}` must be a list of tables", section.name)
                            : fmt::format("`{}` must be a table", section.name),
               fmt::format("this is {}", describe(member)))
@@ -308,13 +308,13 @@ const Parameter *findParameter(const SectionSchema &schema, std::string_view nam
   return nullptr;
 }
 
-std::optional<std::int64_t> findChoice(const Parameter &parameter, const TomlNode &value) {
+std::optional<int64_t> findChoice(const Parameter &parameter, const TomlNode &value) {
   for (const Choice &choice : parameter.choices)
-    if (value.kind == TomlKind::integer ? choice.value == value.integer
+    if (value.kind == TomlKind::Integer ? choice.value == value.integer
                                         : canonical(choice.name) == canonical(value.text))
       return choice.value;
   // Cyclic data may be any parameter number of AXIS_REF.
-  if (value.kind == TomlKind::integer && parameter.name.starts_with("wCyclicData") &&
+  if (value.kind == TomlKind::Integer && parameter.name.starts_with("wCyclicData") &&
       value.integer >= 0 && value.integer <= 65535)
     return value.integer;
   return std::nullopt;
@@ -337,7 +337,7 @@ CheckedSection::CheckedSection(const TomlNode &table, const SectionSchema &schem
   for (const Parameter &parameter : schema.parameters)
     if (parameter.required && !has(parameter.name))
       diagnostics
-          .report(Code::configMissingKey, table.span,
+          .report(Code::ConfigMissingKey, table.span,
                   fmt::format("{} needs `{}`", schema.what, parameter.name),
                   fmt::format("`{}` is missing", parameter.name))
           .help(fmt::format("add `{} = …`: {}", parameter.name, expectation(parameter.type)));
@@ -345,7 +345,7 @@ CheckedSection::CheckedSection(const TomlNode &table, const SectionSchema &schem
     const TomlNode *value = get(foreign.name);
     if (value == nullptr)
       continue;
-    diagnostics.report(Code::configWithoutEffect, value->keySpan,
+    diagnostics.report(Code::ConfigWithoutEffect, value->keySpan,
                        fmt::format("`{}` has no effect here", foreign.name), foreign.reason);
     std::erase(values_, value);
   }
@@ -358,7 +358,7 @@ const TomlNode *CheckedSection::get(std::string_view name) const {
   return nullptr;
 }
 
-std::int64_t CheckedSection::integer(std::string_view name, std::int64_t otherwise) const {
+int64_t CheckedSection::integer(std::string_view name, int64_t otherwise) const {
   const TomlNode *value = get(name);
   return value != nullptr ? value->integer : otherwise;
 }
@@ -378,14 +378,14 @@ std::string CheckedSection::text(std::string_view name, std::string_view otherwi
   return value != nullptr ? value->text : std::string(otherwise);
 }
 
-std::int64_t CheckedSection::choice(std::string_view name, std::int64_t otherwise) const {
+int64_t CheckedSection::choice(std::string_view name, int64_t otherwise) const {
   const TomlNode *value = get(name);
   return value != nullptr ? findChoice(*findParameter(*schema_, name), *value).value_or(otherwise)
                           : otherwise;
 }
 
-std::int64_t CheckedSection::integer(std::string_view name) const {
-  return integer(name, static_cast<std::int64_t>(findParameter(*schema_, name)->otherwise.number));
+int64_t CheckedSection::integer(std::string_view name) const {
+  return integer(name, static_cast<int64_t>(findParameter(*schema_, name)->otherwise.number));
 }
 
 double CheckedSection::real(std::string_view name) const {
@@ -396,8 +396,8 @@ bool CheckedSection::boolean(std::string_view name) const {
   return boolean(name, findParameter(*schema_, name)->otherwise.number != 0);
 }
 
-std::int64_t CheckedSection::choice(std::string_view name) const {
-  return choice(name, static_cast<std::int64_t>(findParameter(*schema_, name)->otherwise.number));
+int64_t CheckedSection::choice(std::string_view name) const {
+  return choice(name, static_cast<int64_t>(findParameter(*schema_, name)->otherwise.number));
 }
 
 std::span<const TomlNode> CheckedSection::tables(std::string_view name) const {
@@ -437,7 +437,7 @@ bool Unique::add(const std::string &key, Span where, const std::string &message)
 
 void withoutEffect(Diagnostics &diagnostics, const CheckedSection &section, std::string_view name,
                    std::string_view reason) {
-  diagnostics.report(Code::configWithoutEffect, section.get(name)->keySpan,
+  diagnostics.report(Code::ConfigWithoutEffect, section.get(name)->keySpan,
                      fmt::format("`{}` has no effect here", name),
                      fmt::format("counts {}", reason));
 }

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_TOML_SCHEMA_HPP
+#define STRIDE_COMPILER_TOML_SCHEMA_HPP
 // What may stand in stride.toml and in cam files: sections, parameters, their types and ranges.
 
 #include "compiler/source/diagnostic.hpp"
@@ -51,17 +52,17 @@ public:
   [[nodiscard]] const TomlNode *get(std::string_view name) const;
   /// Whether the text has the parameter, right or wrong.
   [[nodiscard]] bool has(std::string_view name) const { return table_->find(name) != nullptr; }
-  [[nodiscard]] std::int64_t integer(std::string_view name, std::int64_t otherwise) const;
+  [[nodiscard]] int64_t integer(std::string_view name, int64_t otherwise) const;
   [[nodiscard]] double real(std::string_view name, double otherwise) const;
   [[nodiscard]] bool boolean(std::string_view name, bool otherwise) const;
   [[nodiscard]] std::string text(std::string_view name, std::string_view otherwise = {}) const;
   /// Value of a parameter of type choice.
-  [[nodiscard]] std::int64_t choice(std::string_view name, std::int64_t otherwise) const;
+  [[nodiscard]] int64_t choice(std::string_view name, int64_t otherwise) const;
   // The same with the schema's default, which is a number.
-  [[nodiscard]] std::int64_t integer(std::string_view name) const;
+  [[nodiscard]] int64_t integer(std::string_view name) const;
   [[nodiscard]] double real(std::string_view name) const;
   [[nodiscard]] bool boolean(std::string_view name) const;
-  [[nodiscard]] std::int64_t choice(std::string_view name) const;
+  [[nodiscard]] int64_t choice(std::string_view name) const;
   /// The tables of a nested list of tables, not yet compared with a schema.
   [[nodiscard]] std::span<const TomlNode> tables(std::string_view name) const;
   /// The tables of a nested section.
@@ -79,8 +80,7 @@ private:
 [[nodiscard]] const Parameter *findParameter(const SectionSchema &schema, std::string_view name);
 
 /// Value of a choice written as text or number; nothing when it is none of them.
-[[nodiscard]] std::optional<std::int64_t> findChoice(const Parameter &parameter,
-                                                     const TomlNode &value);
+[[nodiscard]] std::optional<int64_t> findChoice(const Parameter &parameter, const TomlNode &value);
 
 /// A name and where the file says it; the span is invalid for defaults.
 struct ConfigName {
@@ -110,3 +110,5 @@ void withoutEffect(Diagnostics &diagnostics, const CheckedSection &section, std:
                    std::string_view reason);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_TOML_SCHEMA_HPP

@@ -27,22 +27,22 @@ class Reader {
 public:
   explicit Reader(const SourceFile &file) : file_(file), text_(file.text()) {
     lineStarts_.push_back(0);
-    for (std::size_t i = 0; i < text_.size(); ++i)
+    for (size_t i = 0; i < text_.size(); ++i)
       if (text_[i] == '\n')
-        lineStarts_.push_back(static_cast<std::uint32_t>(i + 1));
+        lineStarts_.push_back(static_cast<uint32_t>(i + 1));
   }
 
-  std::uint32_t offset(toml::source_position position) const {
-    const std::size_t line = position.line > 0 ? position.line - 1 : 0;
+  uint32_t offset(toml::source_position position) const {
+    const size_t line = position.line > 0 ? position.line - 1 : 0;
     if (line >= lineStarts_.size())
-      return static_cast<std::uint32_t>(text_.size());
-    std::size_t at = lineStarts_[line];
-    for (std::uint32_t column = 1; column < position.column && at < text_.size(); ++column) {
+      return static_cast<uint32_t>(text_.size());
+    size_t at = lineStarts_[line];
+    for (uint32_t column = 1; column < position.column && at < text_.size(); ++column) {
       ++at;
       while (at < text_.size() && (static_cast<unsigned char>(text_[at]) & 0xC0) == 0x80)
         ++at;
     }
-    return static_cast<std::uint32_t>(std::min(at, text_.size()));
+    return static_cast<uint32_t>(std::min(at, text_.size()));
   }
 
   Span span(const toml::source_region &region) const {
@@ -62,13 +62,13 @@ public:
     TomlNode to;
     to.span = scalarSpan(from.source());
     if (const toml::table *table = from.as_table()) {
-      to.kind = TomlKind::table;
+      to.kind = TomlKind::Table;
       to.span = span(from.source());
       for (const auto &[key, value] : *table) {
         TomlNode child = node(value);
         child.key = key.str();
         child.keySpan = span(key.source());
-        if (child.kind == TomlKind::table && !value.as_table()->is_inline())
+        if (child.kind == TomlKind::Table && !value.as_table()->is_inline())
           child.span = child.keySpan;
         to.children.push_back(std::move(child));
       }
@@ -77,7 +77,7 @@ public:
           to.children.begin(), to.children.end(),
           [](const TomlNode &a, const TomlNode &b) { return a.keySpan.begin < b.keySpan.begin; });
     } else if (const toml::array *array = from.as_array()) {
-      to.kind = TomlKind::array;
+      to.kind = TomlKind::Array;
       to.span = span(from.source());
       to.arrayOfTables = !array->empty();
       for (const toml::node &value : *array) {
@@ -92,17 +92,17 @@ public:
         to.children.push_back(std::move(child));
       }
     } else if (const auto *string = from.as_string()) {
-      to.kind = TomlKind::string;
+      to.kind = TomlKind::String;
       to.text = string->get();
     } else if (const auto *integer = from.as_integer()) {
-      to.kind = TomlKind::integer;
+      to.kind = TomlKind::Integer;
       to.integer = integer->get();
       to.floating = static_cast<double>(integer->get());
     } else if (const auto *floating = from.as_floating_point()) {
-      to.kind = TomlKind::floating;
+      to.kind = TomlKind::Floating;
       to.floating = floating->get();
     } else if (const auto *boolean = from.as_boolean()) {
-      to.kind = TomlKind::boolean;
+      to.kind = TomlKind::Boolean;
       to.boolean = boolean->get();
     }
     return to;
@@ -111,12 +111,12 @@ public:
 private:
   // The last key of the header `[[a.b.c]]` that the span begins at: `c`.
   Span headerKey(Span header) const {
-    std::uint32_t begin = header.begin;
+    uint32_t begin = header.begin;
     while (begin < text_.size() &&
            (text_[begin] == '[' || text_[begin] == ' ' || text_[begin] == '\t'))
       ++begin;
-    std::uint32_t end = begin;
-    std::uint32_t key = begin;
+    uint32_t end = begin;
+    uint32_t key = begin;
     while (end < text_.size() && text_[end] != ']' && text_[end] != '\n') {
       if (text_[end] == '.')
         key = end + 1;
@@ -131,7 +131,7 @@ private:
 
   const SourceFile &file_;
   std::string_view text_;
-  std::vector<std::uint32_t> lineStarts_;
+  std::vector<uint32_t> lineStarts_;
 };
 
 bool isAlnum(char c) {
@@ -141,11 +141,11 @@ bool isAlnum(char c) {
 /// `16#1000` is 16 and a comment in TOML: says so at the first such number. False: there is one.
 bool noBases(const TomlNode &node, const SourceFile &file, Diagnostics &diagnostics) {
   const std::string_view text = file.text();
-  std::uint32_t end = node.span.end;
-  if (node.kind == TomlKind::integer && end + 1 < text.size() && text[end] == '#' &&
+  uint32_t end = node.span.end;
+  if (node.kind == TomlKind::Integer && end + 1 < text.size() && text[end] == '#' &&
       isAlnum(text[end + 1])) {
     const std::string_view base = text.substr(node.span.begin, end - node.span.begin);
-    const std::uint32_t digits = end + 1;
+    const uint32_t digits = end + 1;
     for (end = digits; end < text.size() && (isAlnum(text[end]) || text[end] == '_');)
       ++end;
     const std::string_view prefix = base == "16"  ? "0x"
@@ -153,7 +153,7 @@ bool noBases(const TomlNode &node, const SourceFile &file, Diagnostics &diagnost
                                     : base == "2" ? "0b"
                                                   : "";
     Diagnostic &d =
-        diagnostics.report(Code::tomlSyntax, {file.id(), node.span.begin, end},
+        diagnostics.report(Code::TomlSyntax, {file.id(), node.span.begin, end},
                            "`" + file.name() + "` is not written as TOML has it",
                            "TOML reads " + std::string(base) + " and a comment behind it");
     if (!prefix.empty())
@@ -167,7 +167,7 @@ bool noBases(const TomlNode &node, const SourceFile &file, Diagnostics &diagnost
 
 bool isWordStart(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
-std::uint32_t wordEnd(std::string_view text, std::uint32_t at) {
+uint32_t wordEnd(std::string_view text, uint32_t at) {
   while (at < text.size() &&
          std::string_view(" \t\r\n,]}").find(text[at]) == std::string_view::npos)
     ++at;
@@ -175,7 +175,7 @@ std::uint32_t wordEnd(std::string_view text, std::uint32_t at) {
 }
 
 // Whether the place follows a `=`.
-bool standsAsValue(std::string_view text, std::uint32_t at) {
+bool standsAsValue(std::string_view text, uint32_t at) {
   while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '\t'))
     --at;
   return at > 0 && text[at - 1] == '=';
@@ -186,7 +186,7 @@ std::string plainMessage(std::string_view description) {
   constexpr std::string_view kPrefix = "Error while parsing ";
   if (description.starts_with(kPrefix))
     description.remove_prefix(kPrefix.size());
-  if (const std::size_t colon = description.find(": "); colon < 24)
+  if (const size_t colon = description.find(": "); colon < 24)
     description.remove_prefix(colon + 2);
   std::string message(description);
   for (char &c : message)
@@ -197,7 +197,7 @@ std::string plainMessage(std::string_view description) {
 
 // `T#`, `TIME#`, `LT#`, `LTIME#` without the quotes.
 bool isDuration(std::string_view text) {
-  const std::size_t hash = text.substr(0, 6).find('#');
+  const size_t hash = text.substr(0, 6).find('#');
   const std::string word = lowerCase(text.substr(0, hash == std::string_view::npos ? 0 : hash));
   return word == "t" || word == "time" || word == "lt" || word == "ltime";
 }
@@ -227,7 +227,7 @@ std::unique_ptr<TomlNode> parseToml(const SourceFile &file, Diagnostics &diagnos
     const bool unquoted =
         word && !reason.starts_with("cannot redefine") && standsAsValue(text, where.begin);
     Diagnostic &d =
-        diagnostics.report(Code::tomlSyntax, where, "`" + file.name() + "` is not valid TOML",
+        diagnostics.report(Code::TomlSyntax, where, "`" + file.name() + "` is not valid TOML",
                            unquoted ? "not a value" : reason);
     if (unquoted)
       d.help(isDuration(text.substr(where.begin)) ? "durations are text: put it in quotes"
@@ -240,19 +240,19 @@ std::unique_ptr<TomlNode> parseToml(const SourceFile &file, Diagnostics &diagnos
 
 std::string_view describe(const TomlNode &node) {
   switch (node.kind) {
-  case TomlKind::table:
+  case TomlKind::Table:
     return "a table";
-  case TomlKind::array:
+  case TomlKind::Array:
     return node.arrayOfTables ? "a list of tables" : "a list";
-  case TomlKind::string:
+  case TomlKind::String:
     return "text";
-  case TomlKind::integer:
+  case TomlKind::Integer:
     return "an integer";
-  case TomlKind::floating:
+  case TomlKind::Floating:
     return "a number with decimals";
-  case TomlKind::boolean:
+  case TomlKind::Boolean:
     return "a truth value";
-  case TomlKind::other:
+  case TomlKind::Other:
     break;
   }
   return "a date or time";

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_TOML_TOML_TREE_HPP
+#define STRIDE_COMPILER_TOML_TOML_TREE_HPP
 // stride.toml as a tree that knows where everything stands. The only file that sees toml++ is
 // toml_tree.cpp.
 
@@ -13,16 +14,16 @@
 
 namespace stc {
 
-enum class TomlKind : std::uint8_t { table, array, string, integer, floating, boolean, other };
+enum class TomlKind : uint8_t { Table, Array, String, Integer, Floating, Boolean, Other };
 
 /// A value of a TOML document. Members of a table are in the order of the text.
 struct TomlNode {
-  TomlKind kind = TomlKind::other;
+  TomlKind kind = TomlKind::Other;
   std::string key;  ///< as a member of a table
   Span keySpan;     ///< of the key; of an element of `[[x]]` its header's key
   Span span;        ///< of the value; of a table or an element of `[[x]]` its header's key
   std::string text; ///< string
-  std::int64_t integer = 0;
+  int64_t integer = 0;
   double floating = 0; ///< also the value of an integer
   bool boolean = false;
   bool arrayOfTables = false; ///< array whose elements are all tables (and there is one)
@@ -40,3 +41,5 @@ struct TomlNode {
 [[nodiscard]] std::string_view describe(const TomlNode &node);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_TOML_TOML_TREE_HPP

@@ -68,7 +68,7 @@ struct DriveParameters {
 };
 
 /// Longest userText. [bytes]
-inline constexpr std::size_t kUserText = 32;
+inline constexpr size_t kUserText = 32;
 
 /// Reads them.
 DriveParameters driveParameters(const bus::SetupParameters &parameters);

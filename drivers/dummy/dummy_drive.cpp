@@ -66,7 +66,7 @@ DummyDriver::Encoder DummyDriver::makeEncoder(const bus::EncoderSetup &encoder,
   result.modulo = modulo == 0 ? int64_t{1} << 32 : modulo;
   result.way = given.number("physics.own_velocity") * result.perUnit * setup.cycleSeconds;
   const std::string follows = given.text("physics.follows");
-  for (std::size_t i = 0; !follows.empty() && i < setup.drives.size(); ++i) {
+  for (size_t i = 0; !follows.empty() && i < setup.drives.size(); ++i) {
     const std::string &name = setup.drives[i].name;
     if (::strcasecmp(name.c_str(), follows.c_str()) == 0) {
       result.drive = i;
@@ -76,7 +76,7 @@ DummyDriver::Encoder DummyDriver::makeEncoder(const bus::EncoderSetup &encoder,
   return result;
 }
 
-uint32_t DummyDriver::encoder(std::size_t encoder) const { return encoders_[encoder].count; }
+uint32_t DummyDriver::encoder(size_t encoder) const { return encoders_[encoder].count; }
 
 void DummyDriver::show(Encoder &encoder) {
   int64_t increments = encoder.whole;
@@ -89,7 +89,7 @@ void DummyDriver::show(Encoder &encoder) {
   encoder.count = static_cast<uint32_t>(count < 0 ? count + encoder.modulo : count);
 }
 
-bus::StartUp DummyDriver::init(std::size_t drive, uint16_t &progress, bus::Message &message) {
+bus::StartUp DummyDriver::init(size_t drive, uint16_t &progress, bus::Message &message) {
   Drive &d = drives_[drive];
   if (d.sim != nullptr && d.sim->bFailStartUp != 0) {
     message.set(std::string_view("the simulation lets it fail (bFailStartUp)"));
@@ -104,7 +104,7 @@ bus::StartUp DummyDriver::init(std::size_t drive, uint16_t &progress, bus::Messa
   return bus::StartUp::Started;
 }
 
-void DummyDriver::reset(std::size_t drive) {
+void DummyDriver::reset(size_t drive) {
   Drive &d = drives_[drive];
   d.started = 0;
   d.regulatorDelay = 0;
@@ -122,28 +122,26 @@ void DummyDriver::reset(std::size_t drive) {
   d.mechanics.hold();
 }
 
-bus::DriveStatus DummyDriver::status(std::size_t drive) const { return drives_[drive].status; }
+bus::DriveStatus DummyDriver::status(size_t drive) const { return drives_[drive].status; }
 
-void DummyDriver::command(std::size_t drive, const bus::DriveCommand &command) {
+void DummyDriver::command(size_t drive, const bus::DriveCommand &command) {
   drives_[drive].command = command;
 }
 
-uint8_t DummyDriver::controllerModes(std::size_t drive) const {
-  return drives_[drive].parameters.modes;
-}
+uint8_t DummyDriver::controllerModes(size_t drive) const { return drives_[drive].parameters.modes; }
 
-void DummyDriver::bindData(std::size_t drive, void *data) {
+void DummyDriver::bindData(size_t drive, void *data) {
   drives_[drive].sim = static_cast<DriveSim *>(data);
 }
 
-bool DummyDriver::startParameter(std::size_t drive, const bus::ParameterRequest &request) {
+bool DummyDriver::startParameter(size_t drive, const bus::ParameterRequest &request) {
   Drive &d = drives_[drive];
   d.asked = request;
   d.askedCycles = d.parameters.parameterCycles;
   return true;
 }
 
-bool DummyDriver::pollParameter(std::size_t drive, bus::ParameterAnswer &answer) {
+bool DummyDriver::pollParameter(size_t drive, bus::ParameterAnswer &answer) {
   Drive &d = drives_[drive];
   if (d.askedCycles > 0)
     return false;
@@ -152,7 +150,7 @@ bool DummyDriver::pollParameter(std::size_t drive, bus::ParameterAnswer &answer)
   return true;
 }
 
-void DummyDriver::cancelParameter(std::size_t drive) { drives_[drive].askedCycles = 0; }
+void DummyDriver::cancelParameter(size_t drive) { drives_[drive].askedCycles = 0; }
 
 bus::SyncWake DummyDriver::waitSync(int64_t afterNs, int64_t deadlineNs, bus::BusClock &clock) {
   return sync_.wait(afterNs, deadlineNs, clock);
@@ -246,7 +244,7 @@ void DummyDriver::disturb(Drive &d) {
     d.index = true;
     d.indexMark = exactPosition(d.mechanics);
   }
-  for (std::size_t i = 0; i < bus::DriveStatus::kCaptureInputs; ++i)
+  for (size_t i = 0; i < bus::DriveStatus::kCaptureInputs; ++i)
     if (rising(sim.abProbe.v[i], sim.abOldProbe.v[i]))
       latch(d, i, exactPosition(d.mechanics));
 }
@@ -283,7 +281,7 @@ void DummyDriver::publish(Drive &d) {
   d.index = false;
 }
 
-void DummyDriver::latch(Drive &d, std::size_t input, double increments) {
+void DummyDriver::latch(Drive &d, size_t input, double increments) {
   const auto bit = static_cast<uint8_t>(1U << input);
   if ((d.command.capture & d.parameters.probeInputs & bit) == 0 || (d.status.captured & bit) != 0)
     return;
@@ -393,18 +391,18 @@ void DummyDriver::move(Drive &d) {
     latch(d, 0, mark);
 }
 
-void DummyDriver::raiseError(std::size_t drive, uint16_t errorId) {
+void DummyDriver::raiseError(size_t drive, uint16_t errorId) {
   drives_[drive].status.error = true;
   drives_[drive].status.errorId = errorId;
 }
 
-void DummyDriver::setCommunication(std::size_t drive, bool answers) {
+void DummyDriver::setCommunication(size_t drive, bool answers) {
   Drive &d = drives_[drive];
   d.lost = !answers;
   d.status.communication = answers && d.started >= d.parameters.startUpCycles;
 }
 
-void DummyDriver::setPosition(std::size_t drive, uint32_t position) {
+void DummyDriver::setPosition(size_t drive, uint32_t position) {
   Drive &d = drives_[drive];
   d.mechanics.place(d.mechanics.position() +
                     static_cast<int32_t>(position - counter(d.mechanics.position())));
@@ -417,9 +415,9 @@ std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup) {
 
 uint64_t driveDataLayout() { return ::st::DummyDrive::DUMMY_DRIVE_SIM__layout__; }
 
-bus::GroupSetup plainSetup(std::size_t drives, double cycleSeconds) {
+bus::GroupSetup plainSetup(size_t drives, double cycleSeconds) {
   bus::GroupSetup setup(kSchema, cycleSeconds);
-  for (std::size_t i = 0; i < drives; ++i)
+  for (size_t i = 0; i < drives; ++i)
     setup.addDrive({}, static_cast<uint32_t>(i));
   return setup;
 }

@@ -27,19 +27,19 @@ public:
 
   void executeStart() override;
   void executeEnd() override;
-  bus::StartUp init(std::size_t drive, uint16_t &progress, bus::Message &message) override;
-  void reset(std::size_t drive) override;
-  [[nodiscard]] bus::DriveStatus status(std::size_t drive) const override;
-  void command(std::size_t drive, const bus::DriveCommand &command) override;
-  [[nodiscard]] uint8_t controllerModes(std::size_t drive) const override;
-  [[nodiscard]] uint8_t captureInputs(std::size_t drive) const override {
+  bus::StartUp init(size_t drive, uint16_t &progress, bus::Message &message) override;
+  void reset(size_t drive) override;
+  [[nodiscard]] bus::DriveStatus status(size_t drive) const override;
+  void command(size_t drive, const bus::DriveCommand &command) override;
+  [[nodiscard]] uint8_t controllerModes(size_t drive) const override;
+  [[nodiscard]] uint8_t captureInputs(size_t drive) const override {
     return drives_[drive].parameters.probeInputs;
   }
-  [[nodiscard]] uint32_t encoder(std::size_t encoder) const override;
-  void bindData(std::size_t drive, void *data) override;
-  bool startParameter(std::size_t drive, const bus::ParameterRequest &request) override;
-  bool pollParameter(std::size_t drive, bus::ParameterAnswer &answer) override;
-  void cancelParameter(std::size_t drive) override;
+  [[nodiscard]] uint32_t encoder(size_t encoder) const override;
+  void bindData(size_t drive, void *data) override;
+  bool startParameter(size_t drive, const bus::ParameterRequest &request) override;
+  bool pollParameter(size_t drive, bus::ParameterAnswer &answer) override;
+  void cancelParameter(size_t drive) override;
   void attach(bus::DriverHost &host) override { host_ = &host; }
   bus::SyncWake waitSync(int64_t afterNs, int64_t deadlineNs, bus::BusClock &clock) override;
   void applicationStopped() override;
@@ -47,13 +47,13 @@ public:
   void problem(bus::Message &text) const override;
 
   /// Simulates an error of the drive: it goes out of regulation until the error is acknowledged.
-  void raiseError(std::size_t drive, uint16_t errorId);
+  void raiseError(size_t drive, uint16_t errorId);
 
   /// Simulates that the drive no longer answers, or answers again.
-  void setCommunication(std::size_t drive, bool answers);
+  void setCommunication(size_t drive, bool answers);
 
   /// Simulates that an unpowered axis is turned by hand.
-  void setPosition(std::size_t drive, uint32_t position);
+  void setPosition(size_t drive, uint32_t position);
 
 private:
   struct Drive {
@@ -65,7 +65,7 @@ private:
     bus::DriveStatus status;
     bus::DriveCommand command;
     std::vector<Demand> delayed; ///< Set values under way: a ring.
-    std::size_t oldest = 0;
+    size_t oldest = 0;
     int64_t demanded = 0;        ///< Last set position, over any number of turns. [inc]
     double velocityDemanded = 0; ///< Last set velocity. [inc/s]
     int64_t reached = 0;         ///< Last set position that has reached the drive. [inc]
@@ -83,10 +83,10 @@ private:
   };
 
   struct Encoder {
-    std::size_t drive = 0; ///< It follows this one …
-    bool follows = false;  ///< … or turns by itself.
-    double perUnit = 1;    ///< [inc/u]
-    double way = 0;        ///< That it turns by itself in a cycle. [inc]
+    size_t drive = 0;     ///< It follows this one …
+    bool follows = false; ///< … or turns by itself.
+    double perUnit = 1;   ///< [inc/u]
+    double way = 0;       ///< That it turns by itself in a cycle. [inc]
     int64_t modulo = 0;
     int64_t whole = 0; ///< How far it has turned by itself …
     double rest = 0;   ///< … and what is left below one increment. [inc]
@@ -100,7 +100,7 @@ private:
   void updateSwitches(Drive &drive);
   void switchPower(Drive &drive);
   void move(Drive &drive);
-  static void latch(Drive &drive, std::size_t input, double increments);
+  static void latch(Drive &drive, size_t input, double increments);
   static Demand nextDemand(Drive &drive);
   static Demand home(Drive &drive, const Demand &demand);
   static Demand quickStop(Drive &drive);
@@ -121,7 +121,7 @@ std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup);
 uint64_t driveDataLayout();
 
 /// What a group of drives without any configuration is told.
-bus::GroupSetup plainSetup(std::size_t drives, double cycleSeconds = 0.01);
+bus::GroupSetup plainSetup(size_t drives, double cycleSeconds = 0.01);
 
 } // namespace stride::dummy
 

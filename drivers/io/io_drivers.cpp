@@ -32,7 +32,7 @@ const IoDriverEntry *findIoDriver(std::string_view name) {
 
 std::string knownIoDrivers() {
   std::string text = "it has ";
-  for (std::size_t i = 0; i < kIoDrivers.size(); ++i) {
+  for (size_t i = 0; i < kIoDrivers.size(); ++i) {
     text += i == 0 ? "'" : i + 1 < kIoDrivers.size() ? ", '" : " and '";
     text.append(kIoDrivers[i].schema->name).append("'");
   }

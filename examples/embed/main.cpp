@@ -59,11 +59,11 @@ int run(const std::string &file) {
 
   const std::chrono::nanoseconds interval = tanks[0]->tasks()[0].interval;
   for (std::chrono::nanoseconds time = 0ns; time < 10s; time += interval)
-    for (std::size_t i = 0; i < tanks.size(); ++i)
+    for (size_t i = 0; i < tanks.size(); ++i)
       if (failed(control(*tanks[i], plants[i], time)))
         return 1;
 
-  for (std::size_t i = 0; i < tanks.size(); ++i) {
+  for (size_t i = 0; i < tanks.size(); ++i) {
     const auto fillings = tanks[i]->find<int16_t>("Tank.fillings");
     const Result<std::string> high = tanks[i]->read("Tank.high");
     if (failed(fillings) || failed(high))

@@ -52,7 +52,7 @@ const FieldPair *AddressMap::rootAt(uint64_t oldOffset) const noexcept {
                        [&](uint64_t place, uint32_t r) { return place < roots[r].oldOffset; });
   if (after == roots_.begin())
     return nullptr;
-  const auto i = static_cast<std::size_t>(after - roots_.begin()) - 1;
+  const auto i = static_cast<size_t>(after - roots_.begin()) - 1;
   if (i > 0 && rootReach_[i - 1] > oldOffset)
     return nullptr;
   return &roots[roots_[i]];
@@ -103,7 +103,7 @@ bool AddressMap::translate(const Target &target, Found &found) const noexcept {
   const auto after =
       std::upper_bound(roots_.begin(), roots_.end(), target.start,
                        [&](uint64_t place, uint32_t r) { return place < roots[r].oldOffset; });
-  for (auto i = static_cast<std::size_t>(after - roots_.begin());
+  for (auto i = static_cast<size_t>(after - roots_.begin());
        i > 0 && rootReach_[i - 1] > target.start; --i) {
     if (findField(roots[roots_[i - 1]], target.start, 0, target.type, found))
       return true;

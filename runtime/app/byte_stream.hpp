@@ -32,7 +32,7 @@ public:
     bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
   }
   std::vector<std::byte> take() { return std::move(bytes_); }
-  std::size_t size() const { return bytes_.size(); }
+  size_t size() const { return bytes_.size(); }
 
 private:
   std::vector<std::byte> bytes_;
@@ -50,7 +50,7 @@ public:
   }
   /// A number of entries, each of at least `least` bytes: what cannot be there is no reason to
   /// reserve memory.
-  uint32_t count(std::size_t least) {
+  uint32_t count(size_t least) {
     const auto value = number<uint32_t>();
     if (value > left() / least)
       throw Error("it ends too early");
@@ -60,18 +60,18 @@ public:
     const std::span<const std::byte> own = raw(number<uint32_t>());
     return {reinterpret_cast<const char *>(own.data()), own.size()};
   }
-  std::span<const std::byte> raw(std::size_t size) {
+  std::span<const std::byte> raw(size_t size) {
     if (size > left())
       throw Error("it ends too early");
     const std::span<const std::byte> own = bytes_.subspan(at_, size);
     at_ += size;
     return own;
   }
-  std::size_t left() const { return bytes_.size() - at_; }
+  size_t left() const { return bytes_.size() - at_; }
 
 private:
   std::span<const std::byte> bytes_;
-  std::size_t at_ = 0;
+  size_t at_ = 0;
 };
 
 } // namespace stride::app

@@ -22,7 +22,7 @@ unsigned bitOf(uint32_t flags) {
 }
 
 /// Longer programs are called, shorter ones are written out in place.
-constexpr std::size_t kInlineSteps = 16;
+constexpr size_t kInlineSteps = 16;
 
 uint64_t addressOf(const std::byte *place) { return std::bit_cast<uint64_t>(place); }
 
@@ -48,7 +48,7 @@ CarryOver::CarryOver(const StrideAppV1 &oldApp, const StrideAppV1 &newApp, Match
                      std::vector<SharedMemory> shared)
     : match_(oldApp, newApp, options), pool_(match_), oldIndex_(oldApp), newIndex_(newApp),
       addresses_(match_, oldIndex_, newIndex_), shared_(std::move(shared)), report_(match_) {
-  const std::size_t pairs = match_.pairs().size();
+  const size_t pairs = match_.pairs().size();
   numbers_.resize(pairs);
   targets_.resize(pairs);
   for (uint32_t i = 0; i < pairs; ++i) {
@@ -178,7 +178,7 @@ const CarryOver::Steps &CarryOver::copyProgram(uint32_t pair) {
 }
 
 const CarryOver::Steps &CarryOver::slotProgram(uint32_t pair, bool maybe) {
-  const std::size_t key = std::size_t{pair} * 2 + (maybe ? 1 : 0);
+  const size_t key = size_t{pair} * 2 + (maybe ? 1 : 0);
   if (!slotKnown_[key]) {
     Steps steps;
     slotSteps(pair, {0, 0}, maybe, steps);

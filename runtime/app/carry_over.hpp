@@ -35,7 +35,7 @@ struct CarryEvent {
 /// What happened in one carry-over. Made before, so that applying allocates nothing.
 class CarryResult {
 public:
-  explicit CarryResult(std::size_t capacity = 256) { events_.resize(capacity); }
+  explicit CarryResult(size_t capacity = 256) { events_.resize(capacity); }
 
   void clear() { *this = CarryResult(std::move(events_)); }
   void add(const CarryEvent &event) noexcept;
@@ -52,7 +52,7 @@ public:
 private:
   explicit CarryResult(std::vector<CarryEvent> &&events) : events_(std::move(events)) {}
   std::vector<CarryEvent> events_;
-  std::size_t used_ = 0;
+  size_t used_ = 0;
   uint64_t nulled_ = 0;
   uint64_t textsCut_ = 0;
   uint64_t enumeratorsGone_ = 0;
@@ -100,7 +100,7 @@ public:
 
   const TypeMatch &match() const { return match_; }
   /// Steps at the outermost level, for statistics.
-  std::size_t stepCount() const { return steps_.size(); }
+  size_t stepCount() const { return steps_.size(); }
 
 private:
   using NumberFunction = void (*)(const std::byte *from, std::byte *to, uint64_t count,

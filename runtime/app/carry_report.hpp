@@ -89,7 +89,7 @@ private:
   std::vector<std::string> refusals_;
   std::vector<std::string> atNextStart_;
   std::vector<Finding> findings_;
-  std::map<Key, std::size_t> known_;
+  std::map<Key, size_t> known_;
   std::vector<int8_t> interesting_; ///< By pair: -1 not known yet.
   std::vector<int64_t> leaves_;     ///< By new type: -1 not known yet.
   std::vector<int64_t> keptIn_;     ///< By pair: -1 not known yet.

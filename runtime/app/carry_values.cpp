@@ -99,12 +99,12 @@ bool carryText(const std::byte *from, uint32_t fromLength, std::byte *to, uint32
   constexpr std::byte kZero[2] = {};
   const uint32_t most = std::min(fromLength, toLength);
   uint32_t length = 0;
-  while (length < most && std::memcmp(from + std::size_t{length} * unit, kZero, unit) != 0)
+  while (length < most && std::memcmp(from + size_t{length} * unit, kZero, unit) != 0)
     ++length;
   const bool all =
-      length == fromLength || std::memcmp(from + std::size_t{length} * unit, kZero, unit) == 0;
-  std::memcpy(to, from, std::size_t{length} * unit);
-  std::memset(to + std::size_t{length} * unit, 0, std::size_t{toLength + 1 - length} * unit);
+      length == fromLength || std::memcmp(from + size_t{length} * unit, kZero, unit) == 0;
+  std::memcpy(to, from, size_t{length} * unit);
+  std::memset(to + size_t{length} * unit, 0, size_t{toLength + 1 - length} * unit);
   return all;
 }
 

@@ -50,7 +50,7 @@ private:
 class Condition {
 public:
   /// Deepest nesting.
-  static constexpr std::size_t kMaxDepth = 60;
+  static constexpr size_t kMaxDepth = 60;
 
   /// In postfix order. False: nested too deeply.
   bool add(Comparison comparison);
@@ -64,7 +64,7 @@ public:
 private:
   struct Step {
     enum Kind : uint8_t { Compare, Not, And, Or } kind;
-    std::size_t comparison;
+    size_t comparison;
   };
   void join(Step::Kind kind) {
     steps_.push_back({kind, 0});
@@ -73,7 +73,7 @@ private:
 
   std::vector<Comparison> comparisons_;
   std::vector<Step> steps_;
-  std::size_t depth_ = 0;
+  size_t depth_ = 0;
 };
 
 } // namespace stride::app

@@ -26,7 +26,7 @@ bool isElsewhere(uint32_t flags) { return (flags & (kSymLocated | kSymSlot)) != 
 } // namespace
 
 LayoutIndex::LayoutIndex(const StrideAppV1 &app) : app_(&app) {
-  first_.resize(app.typeCount + std::size_t{1});
+  first_.resize(app.typeCount + size_t{1});
   overlapping_.resize(app.typeCount);
   for (uint32_t t = 0; t < app.typeCount; ++t) {
     const TypeDesc &type = app.types[t];
@@ -123,7 +123,7 @@ bool LayoutIndex::descendRoots(uint64_t offset, bool end, Visit visit) const {
   const auto after =
       std::upper_bound(roots_.begin(), roots_.end(), offset - probe,
                        [&](uint64_t place, uint32_t r) { return place < app_->roots[r].offset; });
-  for (auto i = static_cast<std::size_t>(after - roots_.begin());
+  for (auto i = static_cast<size_t>(after - roots_.begin());
        i > 0 && rootReach_[i - 1] > offset - probe; --i) {
     const RootDesc &root = app_->roots[roots_[i - 1]];
     if (root.offset + app_->types[root.type].size > offset - probe &&
@@ -191,7 +191,7 @@ bool LayoutIndex::appendPath(uint32_t type, uint64_t rel, uint32_t wanted, std::
   if (rel == 0 && type == wanted)
     return true;
   const TypeDesc &desc = app_->types[type];
-  const std::size_t length = path.size();
+  const size_t length = path.size();
   if (desc.kind == Kind::Array) {
     const uint64_t size = app_->types[desc.element].size;
     if (size == 0 || rel >= desc.size)

@@ -14,11 +14,11 @@ namespace stride::app {
 
 namespace {
 
-constexpr std::size_t kPage = 4096;
+constexpr size_t kPage = 4096;
 constexpr int kFlags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
 
 /// Address space without access; null: it is taken.
-std::byte *reserveAt(uint64_t address, std::size_t size) {
+std::byte *reserveAt(uint64_t address, size_t size) {
   void *wanted = std::bit_cast<void *>(address);
   void *got = ::mmap(wanted, size, PROT_NONE, kFlags | MAP_FIXED_NOREPLACE, -1, 0);
   if (got == MAP_FAILED)
@@ -32,9 +32,9 @@ std::byte *reserveAt(uint64_t address, std::size_t size) {
 
 } // namespace
 
-LowMemory::LowMemory(std::size_t size, std::span<const uint64_t> addresses, const char *what)
+LowMemory::LowMemory(size_t size, std::span<const uint64_t> addresses, const char *what)
     : size_(size), mapped_(std::max(kPage, (size + kPage - 1) / kPage * kPage)) {
-  const std::size_t whole = mapped_ + 2 * kGuard;
+  const size_t whole = mapped_ + 2 * kGuard;
   std::byte *begin = nullptr;
   for (const uint64_t address : addresses) {
     if (begin == nullptr && mapped_ < kFourGiB && address + mapped_ + kGuard <= kFourGiB)

@@ -14,13 +14,13 @@ namespace stride::app {
 class LowMemory {
 public:
   /// Bytes without access on each side.
-  static constexpr std::size_t kGuard = std::size_t{1} << 20;
+  static constexpr size_t kGuard = size_t{1} << 20;
 
   LowMemory() = default;
   /// Takes the first of these addresses that is free; where none is, the system chooses the place
   /// (perhaps above 4 GiB). Addresses must be multiples of 4096, the first ones at least kGuard
   /// apart from what lies below. Throws Error when there is no memory; it calls it `what`.
-  LowMemory(std::size_t size, std::span<const uint64_t> addresses, const char *what);
+  LowMemory(size_t size, std::span<const uint64_t> addresses, const char *what);
   LowMemory(LowMemory &&other) noexcept;
   LowMemory &operator=(LowMemory &&other) noexcept;
   LowMemory(const LowMemory &) = delete;
@@ -28,12 +28,12 @@ public:
   ~LowMemory();
 
   std::byte *data() const { return data_; }
-  std::size_t size() const { return size_; }
+  size_t size() const { return size_; }
 
 private:
   std::byte *data_ = nullptr;
-  std::size_t size_ = 0;   ///< As asked for.
-  std::size_t mapped_ = 0; ///< Whole pages, without the guards.
+  size_t size_ = 0;   ///< As asked for.
+  size_t mapped_ = 0; ///< Whole pages, without the guards.
 };
 
 inline constexpr uint64_t kFourGiB = uint64_t{1} << 32;

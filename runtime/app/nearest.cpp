@@ -9,11 +9,11 @@ namespace stride::app {
 
 std::string didYouMean(std::string_view name, const std::vector<std::string> &candidates) {
   const std::string wanted = common::lowerCase(name);
-  const std::size_t limit = std::max<std::size_t>(1, wanted.size() / 3);
-  std::vector<std::pair<std::size_t, std::string>> near;
+  const size_t limit = std::max<size_t>(1, wanted.size() / 3);
+  std::vector<std::pair<size_t, std::string>> near;
   for (const std::string &candidate : candidates) {
     const std::string other = common::lowerCase(candidate);
-    std::size_t d = common::editDistance(wanted, other, limit);
+    size_t d = common::editDistance(wanted, other, limit);
     if (d > limit && wanted.size() >= 3 && other.find(wanted) != std::string::npos)
       d = limit; // part of a longer name
     if (d <= limit)
@@ -24,7 +24,7 @@ std::string didYouMean(std::string_view name, const std::vector<std::string> &ca
   if (near.size() > 3)
     near.resize(3);
   std::string text;
-  for (std::size_t i = 0; i < near.size(); ++i) {
+  for (size_t i = 0; i < near.size(); ++i) {
     text += i == 0 ? "; did you mean " : (i + 1 == near.size() ? " or " : ", ");
     text += "'" + near[i].second + "'";
   }

@@ -57,7 +57,7 @@ const PoolType *PoolCarry::typeOf(uint64_t hash) const noexcept {
       std::lower_bound(types.begin(), types.end(), hash,
                        [](const PoolType &type, uint64_t wanted) { return type.hash < wanted; });
   if (found == types.end() || found->hash != hash ||
-      !known_[static_cast<std::size_t>(found - types.begin())])
+      !known_[static_cast<size_t>(found - types.begin())])
     return nullptr;
   return &*found;
 }
@@ -84,7 +84,7 @@ uint64_t PoolCarry::copy(const std::byte *oldState, std::byte *newState) const n
     }
     std::memcpy(to + at, from + at, block.size);
     pool::enter(to, newSize_, at);
-    const auto index = static_cast<std::size_t>(type - match_->poolTypes().data());
+    const auto index = static_cast<size_t>(type - match_->poolTypes().data());
     for (uint64_t i = 0; i < block.count; ++i) {
       for (const TypeId &id : ids_[index])
         std::memcpy(to + at + sizeof block + i * block.elementSize + id.offset, &id.id,

@@ -22,9 +22,9 @@ namespace {
 constexpr std::string_view kMagic = "STRDRTN\n";
 constexpr uint32_t kVersion = 2;
 /// Of magic, version, size and checksum, which lie in front of everything else.
-constexpr std::size_t kFrame = 8 + 4 + 8 + 8;
+constexpr size_t kFrame = 8 + 4 + 8 + 8;
 /// The checksum is about everything but itself.
-constexpr std::size_t kSummed = kFrame - 8;
+constexpr size_t kSummed = kFrame - 8;
 
 /// Values at their natural alignment in one piece.
 template <class T> void copyUnits(const std::byte *&from, std::byte *&to, uint64_t &left) noexcept {
@@ -178,7 +178,7 @@ bool isInside(std::string_view path, std::string_view of) {
 /// `a[1..3,0..5].x` -> `a[1,0].x`
 std::string firstElement(const std::string &path) {
   std::string out;
-  for (std::size_t i = 0; i < path.size(); ++i) {
+  for (size_t i = 0; i < path.size(); ++i) {
     if (path[i] == '.' && i + 1 < path.size() && path[i + 1] == '.')
       while (i < path.size() && path[i] != ']' && path[i] != ',')
         ++i;

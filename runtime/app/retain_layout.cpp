@@ -20,7 +20,7 @@ constexpr uint64_t kMostState = uint64_t{1} << 30;
 /// Types inside of each other.
 constexpr uint32_t kMostDepth = 256;
 /// More ranges than any program needs.
-constexpr std::size_t kMostRanges = std::size_t{1} << 24;
+constexpr size_t kMostRanges = size_t{1} << 24;
 
 /// The name of the structure with what lies in the process image.
 constexpr const char *kLocated = "%";

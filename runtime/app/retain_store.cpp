@@ -37,7 +37,7 @@ public:
         continue;
       if (done <= 0)
         return done < 0 ? errno : ENOSPC;
-      bytes = bytes.subspan(static_cast<std::size_t>(done));
+      bytes = bytes.subspan(static_cast<size_t>(done));
     }
     return 0;
   }
@@ -73,8 +73,8 @@ private:
       return S_ISDIR(info.st_mode) ? EISDIR : EINVAL;
     if (info.st_size > kMostBytes)
       return EFBIG;
-    bytes.resize(static_cast<std::size_t>(info.st_size));
-    std::size_t at = 0;
+    bytes.resize(static_cast<size_t>(info.st_size));
+    size_t at = 0;
     while (at < bytes.size()) {
       const ssize_t done = ::read(handle, bytes.data() + at, bytes.size() - at);
       if (done < 0 && errno == EINTR)
@@ -83,7 +83,7 @@ private:
         return errno;
       if (done == 0)
         break;
-      at += static_cast<std::size_t>(done);
+      at += static_cast<size_t>(done);
     }
     bytes.resize(at);
     return 0;
@@ -117,7 +117,7 @@ void RetainStore::fail(const char *what, const std::string &path, int error) con
 
 std::optional<RetainImage> RetainStore::load(std::vector<std::string> &problems) {
   std::array<std::optional<RetainImage>, 2> found;
-  for (std::size_t i = 0; i < found.size(); ++i) {
+  for (size_t i = 0; i < found.size(); ++i) {
     const std::string path = file_ + (i == 0 ? ".a" : ".b");
     std::vector<std::byte> bytes;
     if (const int error = files_->read(path, bytes); error == ENOENT)
@@ -188,7 +188,7 @@ void RetainStore::clear() {
   refuseOthers();
   // What cannot be read counts as older than all else.
   std::array<std::pair<uint64_t, std::string>, 2> images;
-  for (std::size_t i = 0; i < images.size(); ++i) {
+  for (size_t i = 0; i < images.size(); ++i) {
     images[i] = {0, file_ + (i == 0 ? ".a" : ".b")};
     std::vector<std::byte> bytes;
     if (files_->read(images[i].second, bytes) != 0)

@@ -13,9 +13,9 @@ namespace {
 /// the places behind.
 struct Capture {
   uintptr_t *calls;
-  std::size_t inner;
-  std::size_t outer;
-  std::size_t count; ///< of all calls
+  size_t inner;
+  size_t outer;
+  size_t count; ///< of all calls
 };
 
 _Unwind_Reason_Code captureOne(struct _Unwind_Context *context, void *argument) {
@@ -26,10 +26,9 @@ _Unwind_Reason_Code captureOne(struct _Unwind_Context *context, void *argument) 
     return _URC_END_OF_STACK;
   if (beforeInstruction == 0)
     --address; // of a return address: within the call
-  const std::size_t place =
-      capture->count < capture->inner
-          ? capture->count
-          : capture->inner + (capture->count - capture->inner) % capture->outer;
+  const size_t place = capture->count < capture->inner
+                           ? capture->count
+                           : capture->inner + (capture->count - capture->inner) % capture->outer;
   capture->calls[place] = address;
   ++capture->count;
   return _URC_NO_REASON;
@@ -37,9 +36,9 @@ _Unwind_Reason_Code captureOne(struct _Unwind_Context *context, void *argument) 
 
 } // namespace
 
-std::size_t captureCalls(uintptr_t *calls, std::size_t size) noexcept {
-  const std::size_t inner = size / 2;
-  const std::size_t outer = size - inner - 1;
+size_t captureCalls(uintptr_t *calls, size_t size) noexcept {
+  const size_t inner = size / 2;
+  const size_t outer = size - inner - 1;
   Capture capture{calls, inner, outer, 0};
   _Unwind_Backtrace(captureOne, &capture);
   if (capture.count <= inner + outer)
@@ -59,7 +58,7 @@ StException::StException(ExceptionCode code, const char *file, uint32_t line, ui
     std::strncpy(detail_, detail, sizeof detail_ - 1);
 }
 
-void StException::setCalls(const uintptr_t *calls, std::size_t count) noexcept {
+void StException::setCalls(const uintptr_t *calls, size_t count) noexcept {
   callCount_ = std::min(count, kMaxCalls);
   std::copy_n(calls, callCount_, calls_);
 }

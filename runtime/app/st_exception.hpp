@@ -13,7 +13,7 @@ namespace stride {
 
 /// Fills `calls` with the calling thread's call path, see StException::calls. Usable in a signal
 /// handler, where the interrupted code is part of the path. Returns how many.
-std::size_t captureCalls(uintptr_t *calls, std::size_t size) noexcept;
+size_t captureCalls(uintptr_t *calls, size_t size) noexcept;
 
 /// Thrown by raise() through the host API; caught at the task's root. Holds no memory of its own,
 /// so throwing it needs no more than the language's reserve.
@@ -34,12 +34,12 @@ public:
 
   /// Notes the calling thread's call path, innermost first, from here outwards.
   void captureCalls() noexcept { callCount_ = stride::captureCalls(calls_, kMaxCalls); }
-  void setCalls(const uintptr_t *calls, std::size_t count) noexcept;
+  void setCalls(const uintptr_t *calls, size_t count) noexcept;
   /// Addresses within the machine instructions that were being executed, innermost first; a 0 where
   /// calls in the middle were left out. Empty when nothing was noted.
   std::span<const uintptr_t> calls() const noexcept { return {calls_, callCount_}; }
 
-  static constexpr std::size_t kMaxCalls = 48;
+  static constexpr size_t kMaxCalls = 48;
 
 private:
   ExceptionCode code_;
@@ -48,7 +48,7 @@ private:
   const char *file_;
   char detail_[160];
   uintptr_t calls_[kMaxCalls];
-  std::size_t callCount_ = 0;
+  size_t callCount_ = 0;
 };
 
 /// What an exception code means, in lower case without a full stop.

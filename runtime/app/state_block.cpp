@@ -9,14 +9,14 @@ namespace {
 
 constexpr auto kBases = [] {
   std::array<uint64_t, kFourGiB / kPartOfLowMemory - 1> bases{};
-  for (std::size_t i = 0; i < bases.size(); ++i)
+  for (size_t i = 0; i < bases.size(); ++i)
     bases[i] = (i + 1) * kPartOfLowMemory;
   return bases;
 }();
 
 } // namespace
 
-StateBlock::StateBlock(std::size_t size) : memory_(size, kBases, "the application's state") {}
+StateBlock::StateBlock(size_t size) : memory_(size, kBases, "the application's state") {}
 
 bool StateBlock::belowFourGiB() const {
   return std::bit_cast<uint64_t>(data()) + size() <= kFourGiB;

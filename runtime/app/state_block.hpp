@@ -15,10 +15,10 @@ class StateBlock {
 public:
   StateBlock() = default;
   /// Throws Error when there is no memory.
-  explicit StateBlock(std::size_t size);
+  explicit StateBlock(size_t size);
 
   std::byte *data() const { return memory_.data(); }
-  std::size_t size() const { return memory_.size(); }
+  size_t size() const { return memory_.size(); }
   bool belowFourGiB() const;
 
 private:

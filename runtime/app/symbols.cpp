@@ -72,7 +72,7 @@ bool isElementary(Kind kind) {
 std::byte *Symbol::find(std::byte *state, int &bit) const {
   bit = bit_;
   std::byte *at = state + steps_[0].offset;
-  for (std::size_t i = 1; i < steps_.size(); ++i) {
+  for (size_t i = 1; i < steps_.size(); ++i) {
     const Step &step = steps_[i];
     if (step.followsSlot) {
       uint32_t number = 0;
@@ -125,7 +125,7 @@ template <class T> bool storeAs(std::byte *place, const void *value) {
 }
 
 /// What fits a register is seen whole by tasks that are in their cycles.
-void storeWhole(std::byte *place, const void *value, std::size_t size) {
+void storeWhole(std::byte *place, const void *value, size_t size) {
   const bool stored = (size == 8 && storeAs<uint64_t>(place, value)) ||
                       (size == 4 && storeAs<uint32_t>(place, value)) ||
                       (size == 2 && storeAs<uint16_t>(place, value));
@@ -135,7 +135,7 @@ void storeWhole(std::byte *place, const void *value, std::size_t size) {
 
 } // namespace
 
-bool Symbol::write(std::byte *state, const void *value, std::size_t size) const {
+bool Symbol::write(std::byte *state, const void *value, size_t size) const {
   int number = -1;
   std::byte *place = find(state, number);
   if (place == nullptr)
@@ -216,7 +216,7 @@ private:
   }
 
   std::string name() {
-    const std::size_t start = at_;
+    const size_t start = at_;
     while (at_ < path_.size() && isNameCharacter(path_[at_]))
       ++at_;
     if (at_ == start)
@@ -245,7 +245,7 @@ private:
     const std::string first = name();
     // LIST.name before name.member: a list's name is never a variable's.
     if (at_ < path_.size() && path_[at_] == '.') {
-      const std::size_t back = at_;
+      const size_t back = at_;
       ++at_;
       const std::string second = name();
       const auto found =
@@ -288,10 +288,10 @@ private:
     static constexpr std::string_view kSizes = "xbwdl";
     ++at_;
     const std::string start = common::lowerCase(std::string(path_.substr(at_, 2)));
-    const std::size_t area = start.empty() ? std::string_view::npos : kAreas.find(start[0]);
+    const size_t area = start.empty() ? std::string_view::npos : kAreas.find(start[0]);
     if (area == std::string_view::npos)
       fail("an address begins with %I, %Q or %M");
-    std::size_t size = start.size() < 2 ? std::string_view::npos : kSizes.find(start[1]);
+    size_t size = start.size() < 2 ? std::string_view::npos : kSizes.find(start[1]);
     at_ += size == std::string_view::npos ? 1 : 2;
     size = size == std::string_view::npos ? 0 : size;
     const ImageAddressing addressing = app().imageAddressing;
@@ -348,7 +348,7 @@ private:
     }
     if (hint.empty() && !names.empty()) {
       hint = "; there are";
-      for (std::size_t i = 0; i < names.size() && i < 8; ++i)
+      for (size_t i = 0; i < names.size() && i < 8; ++i)
         hint += (i == 0 ? " '" : ", '") + names[i] + "'";
       if (names.size() > 8)
         hint += " and others";
@@ -413,7 +413,7 @@ private:
 
   const SymbolTable &table_;
   std::string_view path_;
-  std::size_t at_ = 0;
+  size_t at_ = 0;
   Symbol symbol_;
 };
 

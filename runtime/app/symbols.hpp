@@ -23,7 +23,7 @@ public:
   /// Where the value can be read: address(), or `bit` filled with the value of a single bit.
   const void *read(std::byte *state, std::byte &bit) const;
   /// Stores a value of the type; false where a pointer on the way is null.
-  bool write(std::byte *state, const void *value, std::size_t size) const;
+  bool write(std::byte *state, const void *value, size_t size) const;
 
   /// Its offset from the start of the state; nothing where that can change (behind a pointer) and
   /// for a single bit.

@@ -18,7 +18,7 @@ std::string headerField(const std::string &name) {
 }
 
 /// memcpy whose usual sizes are single instructions.
-void copyValue(std::byte *to, const std::byte *from, std::size_t size) noexcept {
+void copyValue(std::byte *to, const std::byte *from, size_t size) noexcept {
   switch (size) {
   case 1:
     *to = *from;
@@ -54,7 +54,7 @@ void appendSeconds(int64_t timeNs, std::string &out) {
   }
   char *end = std::to_chars(buffer, buffer + sizeof buffer, fraction).ptr;
   out.push_back('.');
-  out.append(static_cast<std::size_t>(digits) - static_cast<std::size_t>(end - buffer), '0');
+  out.append(static_cast<size_t>(digits) - static_cast<size_t>(end - buffer), '0');
   out.append(buffer, end);
 }
 
@@ -69,7 +69,7 @@ TraceColumns::TraceColumns(const SymbolTable &symbols, const std::vector<std::st
     for (Symbol &leaf : leaves) {
       const TypeDesc &type = symbols.type(leaf);
       lineWidth_ += csvWidth(type) + 1;
-      const std::size_t offset = (rowSize_ + type.align) / type.align * type.align;
+      const size_t offset = (rowSize_ + type.align) / type.align * type.align;
       const uint64_t place = leaf.fixedOffset().value_or(kMoves);
       columns_.push_back({std::move(leaf), offset, type.size, place});
       rowSize_ = offset + type.size;
@@ -83,7 +83,7 @@ TraceColumns TraceColumns::in(const SymbolTable &symbols) const {
   for (const Column &column : columns_)
     paths.push_back(column.symbol.path());
   TraceColumns other(symbols, paths);
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
+  for (size_t i = 0; i < columns_.size(); ++i) {
     const TypeDesc &was = app_->types[columns_[i].symbol.type()];
     const bool same = other.columns_.size() == columns_.size() &&
                       symbols.type(other.columns_[i].symbol).layoutHash == was.layoutHash;

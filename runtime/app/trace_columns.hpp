@@ -23,11 +23,11 @@ public:
   /// for it.
   TraceColumns in(const SymbolTable &symbols) const;
 
-  std::size_t count() const { return columns_.size(); }
+  size_t count() const { return columns_.size(); }
   /// Bytes of a row, a multiple of 8.
-  std::size_t rowSize() const { return rowSize_; }
+  size_t rowSize() const { return rowSize_; }
   /// Longest line of text for a row. [bytes]
-  std::size_t lineWidth() const { return lineWidth_; }
+  size_t lineWidth() const { return lineWidth_; }
 
   /// Copies the values as they are now. In the cyclic path: neither allocates nor locks.
   void sample(int64_t timeNs, std::byte *state, std::byte *row) const noexcept;
@@ -42,14 +42,14 @@ private:
   static constexpr uint64_t kMoves = ~uint64_t{0};
   struct Column {
     Symbol symbol;
-    std::size_t offset; ///< Of the value in a row; the byte before says whether there is one.
-    std::size_t size;
+    size_t offset; ///< Of the value in a row; the byte before says whether there is one.
+    size_t size;
     uint64_t place; ///< In the state; kMoves: to be found anew each time.
   };
   const StrideAppV1 *app_;
   std::vector<Column> columns_;
-  std::size_t rowSize_ = 0;
-  std::size_t lineWidth_ = 0;
+  size_t rowSize_ = 0;
+  size_t lineWidth_ = 0;
 };
 
 /// Appends a time in seconds without trailing zeros, exact: 0, 0.003, 1.5.

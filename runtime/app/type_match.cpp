@@ -119,7 +119,7 @@ void flatten(const StrideAppV1 &app, uint32_t type, uint64_t offset, std::vector
     std::string renamed =
         member.renamedFrom != nullptr ? common::lowerCase(member.renamedFrom) : "";
     // VAR_INST of a method: METHOD__NAME
-    if (const std::size_t end = key.rfind("__"); end != std::string::npos && !renamed.empty())
+    if (const size_t end = key.rfind("__"); end != std::string::npos && !renamed.empty())
       renamed.insert(0, key, 0, end + 2);
     out.push_back(
         {std::move(key), std::move(renamed), offset + member.offset, member.type, member.flags, m});
@@ -338,27 +338,27 @@ void TypeMatch::matchFields(const std::vector<Field> &oldFields,
                             const std::vector<Field> &newFields, bool whole,
                             std::vector<FieldPair> &fields, std::vector<LoneField> &added,
                             std::vector<LoneField> &dropped) {
-  constexpr std::size_t kNone = ~std::size_t{0};
-  std::unordered_map<std::string_view, std::size_t> byKey;
-  for (std::size_t i = 0; i < oldFields.size(); ++i)
+  constexpr size_t kNone = ~size_t{0};
+  std::unordered_map<std::string_view, size_t> byKey;
+  for (size_t i = 0; i < oldFields.size(); ++i)
     byKey.emplace(oldFields[i].key, i);
   const auto find = [&](const std::string &key) {
     const auto found = byKey.find(key);
     return found == byKey.end() ? kNone : found->second;
   };
-  std::vector<std::size_t> source(newFields.size(), kNone);
+  std::vector<size_t> source(newFields.size(), kNone);
   std::vector<bool> renamed(newFields.size());
   std::vector<bool> taken(oldFields.size());
-  const auto take = [&](std::size_t to, std::size_t from) {
+  const auto take = [&](size_t to, size_t from) {
     source[to] = from;
     taken[from] = true;
   };
-  for (std::size_t i = 0; i < newFields.size(); ++i) {
+  for (size_t i = 0; i < newFields.size(); ++i) {
     const Field &field = newFields[i];
     if (field.renamedKey.empty() || field.renamedKey == field.key)
       continue;
-    const std::size_t from = find(field.renamedKey);
-    const std::size_t own = find(field.key);
+    const size_t from = find(field.renamedKey);
+    const size_t own = find(field.key);
     // The attribute stays in the source; it counts when the old build did not have it yet.
     const bool done = own != kNone && oldFields[own].renamedKey == field.renamedKey;
     if (from != kNone && !taken[from] && !done) {
@@ -366,12 +366,12 @@ void TypeMatch::matchFields(const std::vector<Field> &oldFields,
       renamed[i] = true;
     }
   }
-  for (std::size_t i = 0; i < newFields.size(); ++i) {
-    const std::size_t own = find(newFields[i].key);
+  for (size_t i = 0; i < newFields.size(); ++i) {
+    const size_t own = find(newFields[i].key);
     if (source[i] == kNone && own != kNone && !taken[own])
       take(i, own);
   }
-  for (std::size_t i = 0; i < newFields.size(); ++i) {
+  for (size_t i = 0; i < newFields.size(); ++i) {
     const Field &to = newFields[i];
     if (source[i] == kNone) {
       added.push_back({to.offset, to.member});
@@ -383,7 +383,7 @@ void TypeMatch::matchFields(const std::vector<Field> &oldFields,
     fields.push_back({from.offset, to.offset, pair, from.member, to.member,
                       holdOf(from.flags | to.flags, all, pair), renamed[i]});
   }
-  for (std::size_t i = 0; i < oldFields.size(); ++i) {
+  for (size_t i = 0; i < oldFields.size(); ++i) {
     if (!taken[i])
       dropped.push_back({oldFields[i].offset, oldFields[i].member});
   }
@@ -406,7 +406,7 @@ void TypeMatch::fillStructure(TypePair &pair) {
   });
   const std::vector<Base> oldBases = basesOf(*old_, pair.oldType);
   const std::vector<Base> newBases = basesOf(*new_, pair.newType);
-  std::size_t inPlace = 0;
+  size_t inPlace = 0;
   for (const Base &from : oldBases) {
     for (const Base &to : newBases) {
       if (!sameTypeName(from.type, to.type))

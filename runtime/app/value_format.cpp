@@ -174,7 +174,7 @@ void appendCsv(const StrideAppV1 &app, const TypeDesc &type, const void *value, 
   }
 }
 
-std::size_t csvWidth(const TypeDesc &type) {
+size_t csvWidth(const TypeDesc &type) {
   const bool quoted = isText(type.kind);
   return quoted ? size_t{type.stringLength} * 3 + 2 : 32;
 }

@@ -141,20 +141,20 @@ void storeTime(const TypeDesc &type, std::string_view text, const text::Scanned 
     store(value, static_cast<uint32_t>(units));
 }
 
-uint32_t takeUtf8(std::string_view text, std::size_t &at) {
-  const auto byte = [&](std::size_t i) {
+uint32_t takeUtf8(std::string_view text, size_t &at) {
+  const auto byte = [&](size_t i) {
     return i < text.size() ? static_cast<unsigned char>(text[i]) : 0U;
   };
   const uint32_t first = byte(at);
-  const auto follows = [&](std::size_t n) {
-    for (std::size_t i = 1; i <= n; ++i) {
+  const auto follows = [&](size_t n) {
+    for (size_t i = 1; i <= n; ++i) {
       if ((byte(at + i) & 0xC0U) != 0x80U)
         return false;
     }
     return true;
   };
   uint32_t c = first; // not UTF-8: taken as Latin-1
-  std::size_t used = 1;
+  size_t used = 1;
   if (first >= 0xC2 && first < 0xE0 && follows(1)) {
     c = ((first & 0x1FU) << 6) | (byte(at + 1) & 0x3FU);
     used = 2;
@@ -171,7 +171,7 @@ uint32_t takeUtf8(std::string_view text, std::size_t &at) {
 }
 
 /// What stands behind a $; false when it is no escape.
-bool takeEscape(std::string_view body, std::size_t &at, std::size_t hexDigits, uint32_t &c) {
+bool takeEscape(std::string_view body, size_t &at, size_t hexDigits, uint32_t &c) {
   if (at >= body.size())
     return false;
   const char kind = body[at];
@@ -210,7 +210,7 @@ bool takeEscape(std::string_view body, std::size_t &at, std::size_t hexDigits, u
   if (at + hexDigits > body.size())
     return false;
   c = 0;
-  for (std::size_t i = 0; i < hexDigits; ++i) {
+  for (size_t i = 0; i < hexDigits; ++i) {
     const char d = body[at + i];
     uint32_t digit = 0;
     if (d >= '0' && d <= '9')
@@ -235,7 +235,7 @@ void storeString(const TypeDesc &type, std::string_view text, void *value) {
     notA(text, type.name, example);
   const std::string_view body = text.substr(1, text.size() - 2);
   std::vector<uint32_t> units;
-  for (std::size_t at = 0; at < body.size();) {
+  for (size_t at = 0; at < body.size();) {
     uint32_t c = 0;
     if (body[at] == '$') {
       ++at;
@@ -261,7 +261,7 @@ void storeString(const TypeDesc &type, std::string_view text, void *value) {
                             type.stringLength));
   auto *bytes = static_cast<unsigned char *>(value);
   std::memset(bytes, 0, type.size);
-  for (std::size_t i = 0; i < units.size(); ++i) {
+  for (size_t i = 0; i < units.size(); ++i) {
     if (wide)
       store(bytes + i * 2, static_cast<uint16_t>(units[i]));
     else
@@ -271,7 +271,7 @@ void storeString(const TypeDesc &type, std::string_view text, void *value) {
 
 void storeEnum(const StrideAppV1 &app, const TypeDesc &type, std::string_view text, void *value) {
   std::string_view name = withoutPrefix(text, type.name);
-  const std::size_t dot = name.find('.');
+  const size_t dot = name.find('.');
   if (dot != std::string_view::npos &&
       common::lowerCase(name.substr(0, dot)) == common::lowerCase(type.name))
     name = name.substr(dot + 1);

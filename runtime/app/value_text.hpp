@@ -23,7 +23,7 @@ std::string formatLiteral(const StrideAppV1 &app, const TypeDesc &type, const vo
 void appendCsv(const StrideAppV1 &app, const TypeDesc &type, const void *value, std::string &out);
 
 /// Longest CSV field of a type, in bytes.
-std::size_t csvWidth(const TypeDesc &type);
+size_t csvWidth(const TypeDesc &type);
 
 /// Writes the value of an ST literal: 50, -3, 16#FF, INT#5, TRUE, 1.5e3, T#3s, 'abc', an
 /// enumerator's name with or without its type. Throws Error when the text is no literal of the

@@ -19,7 +19,7 @@ std::string_view ByteString::text() const {
 }
 
 void Message::append(std::string_view text) {
-  const std::size_t count = std::min(text.size(), text_.size() - length_);
+  const size_t count = std::min(text.size(), text_.size() - length_);
   std::copy_n(text.data(), count, text_.data() + length_);
   length_ += count;
 }
@@ -27,7 +27,7 @@ void Message::append(std::string_view text) {
 void Message::append(uint32_t number) {
   std::array<char, 10> digits{};
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
-  append(std::string_view(digits.data(), static_cast<std::size_t>(end - digits.data())));
+  append(std::string_view(digits.data(), static_cast<size_t>(end - digits.data())));
 }
 
 } // namespace stride::bus

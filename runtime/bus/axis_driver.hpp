@@ -41,7 +41,7 @@ struct DriveStatus {
   uint32_t homePosition = 0; ///< Found: the position counter at the reference. [inc]
 
   /// Capture inputs that a drive can have at most.
-  static constexpr std::size_t kCaptureInputs = 4;
+  static constexpr size_t kCaptureInputs = 4;
 
   /// Bit n: since bit n of `capture` was set there has been an edge at input n …
   uint8_t captured = 0;
@@ -69,7 +69,7 @@ struct DriveCommand {
 /// elsewhere.
 class ByteString {
 public:
-  static constexpr std::size_t kMost = 128;
+  static constexpr size_t kMost = 128;
 
   ByteString() = default;
   /// Takes as many as there is room for.
@@ -78,7 +78,7 @@ public:
 
   void assign(std::span<const uint8_t> bytes);
   [[nodiscard]] std::span<const uint8_t> bytes() const { return {bytes_.data(), size_}; }
-  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] size_t size() const { return size_; }
   /// The bytes as they are, as text.
   [[nodiscard]] std::string_view text() const;
   friend bool operator==(const ByteString &a, const ByteString &b) { return a.text() == b.text(); }
@@ -155,7 +155,7 @@ public:
 
 private:
   std::array<char, 255> text_{};
-  std::size_t length_ = 0;
+  size_t length_ = 0;
 };
 
 /// What happens on a bus and starts tasks of the program.
@@ -218,46 +218,46 @@ public:
 
   /// One step of a drive's start-up, called in every cycle until it is Started or Failed.
   /// `progress` (0..99) becomes AXIS_REF.wCommunicationState. Failed: `message` says why.
-  virtual StartUp init(std::size_t drive, uint16_t &progress, Message &message) = 0;
+  virtual StartUp init(size_t drive, uint16_t &progress, Message &message) = 0;
 
   /// The drive is switched off and left alone; the next init begins its start-up anew.
-  virtual void reset(std::size_t drive) = 0;
+  virtual void reset(size_t drive) = 0;
 
   /// The state taken over by the last executeStart.
-  [[nodiscard]] virtual DriveStatus status(std::size_t drive) const = 0;
+  [[nodiscard]] virtual DriveStatus status(size_t drive) const = 0;
 
   /// Stores what the next executeEnd sends.
-  virtual void command(std::size_t drive, const DriveCommand &command) = 0;
+  virtual void command(size_t drive, const DriveCommand &command) = 0;
 
   /// Controller modes that the drive can be switched to: bit n stands for mode n. Known once the
   /// drive has started.
-  [[nodiscard]] virtual uint8_t controllerModes(std::size_t drive) const = 0;
+  [[nodiscard]] virtual uint8_t controllerModes(size_t drive) const = 0;
 
   /// The inputs at which the drive latches its position: bit n stands for input n, which is less
   /// than DriveStatus::kCaptureInputs. Known once the drive has started.
-  [[nodiscard]] virtual uint8_t captureInputs(std::size_t /*drive*/) const { return 0; }
+  [[nodiscard]] virtual uint8_t captureInputs(size_t /*drive*/) const { return 0; }
 
   /// Asks the drive for one of its own parameters, without waiting; one question at a time for each
   /// drive. False: not now, it is asked again in the next cycle.
-  virtual bool startParameter(std::size_t /*drive*/, const ParameterRequest & /*request*/) {
+  virtual bool startParameter(size_t /*drive*/, const ParameterRequest & /*request*/) {
     return true;
   }
 
   /// Whether the answer has come. Without an answer for 1000 cycles the question is given up.
-  virtual bool pollParameter(std::size_t /*drive*/, ParameterAnswer &answer) {
+  virtual bool pollParameter(size_t /*drive*/, ParameterAnswer &answer) {
     answer.result = ParameterAnswer::Result::Unknown;
     return true;
   }
 
   /// The question is given up.
-  virtual void cancelParameter(std::size_t /*drive*/) {}
+  virtual void cancelParameter(size_t /*drive*/) {}
 
   /// The count of an encoder, taken over by the last executeStart.
-  [[nodiscard]] virtual uint32_t encoder(std::size_t /*encoder*/) const { return 0; }
+  [[nodiscard]] virtual uint32_t encoder(size_t /*encoder*/) const { return 0; }
 
   /// Where the structure that driver and program share about a drive (AXIS_REF.pMS) is now; null:
   /// there is none. Called before the first cycle and whenever the application has moved.
-  virtual void bindData(std::size_t /*drive*/, void * /*data*/) {}
+  virtual void bindData(size_t /*drive*/, void * /*data*/) {}
 
   /// Whom it may talk to, before the first cycle; he lives as long as the driver is called.
   virtual void attach(DriverHost & /*host*/) {}

@@ -6,16 +6,16 @@
 namespace stride::bus {
 namespace {
 
-constexpr std::size_t kInputs = DriveStatus::kCaptureInputs;
+constexpr size_t kInputs = DriveStatus::kCaptureInputs;
 static_assert(kInputs == decltype(axis::AxisRef::aCapture)::kSize);
 
-uint8_t bit(std::size_t input) { return static_cast<uint8_t>(1U << input); }
+uint8_t bit(size_t input) { return static_cast<uint8_t>(1U << input); }
 
 bool programWaits(const axis::AxisRef &axis) {
   return axis.bStartCapturing != 0 && axis.bCaptureOccurred == 0;
 }
 
-bool programWaitsAt(const axis::AxisRef &axis, std::size_t input) {
+bool programWaitsAt(const axis::AxisRef &axis, size_t input) {
   return programWaits(axis) && axis.tiTriggerInput.bFastLatching != 0 &&
          axis::captureInput(axis.tiTriggerInput.iTriggerNumber) == static_cast<int>(input);
 }
@@ -31,7 +31,7 @@ void captureForProgram(axis::AxisRef &axis, double position) {
 /// The inputs at which somebody waits.
 uint8_t wantedInputs(const axis::AxisRef &axis) {
   uint8_t wanted = 0;
-  for (std::size_t i = 0; i < kInputs; ++i) {
+  for (size_t i = 0; i < kInputs; ++i) {
     const auto &capture = axis.aCapture.v[i];
     if ((capture.bOccupied != 0 && capture.bOccurred == 0) || programWaitsAt(axis, i))
       wanted = static_cast<uint8_t>(wanted | bit(i));
@@ -44,7 +44,7 @@ uint8_t wantedInputs(const axis::AxisRef &axis) {
 void readCaptures(axis::AxisRef &axis, const DriveStatus &status) noexcept {
   const uint8_t latched = axis.byCaptureArmed & status.captured;
   axis.byCaptureArmed = axis.byCaptureArmed & static_cast<uint8_t>(~latched);
-  for (std::size_t i = 0; i < kInputs; ++i) {
+  for (size_t i = 0; i < kInputs; ++i) {
     if ((latched & bit(i)) == 0)
       continue;
     const double position = axis::positionOf(axis, status.capturedPosition[i]);
@@ -61,7 +61,7 @@ void readCaptures(axis::AxisRef &axis, const DriveStatus &status) noexcept {
   }
 }
 
-void writeCaptures(axis::AxisRef &axis, const AxisDriver &driver, std::size_t drive,
+void writeCaptures(axis::AxisRef &axis, const AxisDriver &driver, size_t drive,
                    DriveCommand &command) noexcept {
   const auto &trigger = axis.tiTriggerInput;
   if (programWaits(axis) && trigger.bFastLatching == 0 && trigger.bInput != 0)

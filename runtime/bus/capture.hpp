@@ -14,7 +14,7 @@ void readCaptures(axis::AxisRef &axis, const DriveStatus &status) noexcept;
 
 /// At the cycle's end: says in `command` at which inputs the `driver`'s `drive` shall latch, and
 /// looks at the input that the PLC latches for the program (bStartCapturing without bFastLatching).
-void writeCaptures(axis::AxisRef &axis, const AxisDriver &driver, std::size_t drive,
+void writeCaptures(axis::AxisRef &axis, const AxisDriver &driver, size_t drive,
                    DriveCommand &command) noexcept;
 
 /// Nobody waits any more: the drive is being given up.

@@ -107,7 +107,7 @@ DriveGroup::DriveGroup(std::unique_ptr<AxisDriver> driver, AxisGroupRef &group,
   group_->wState = 0;
   group_->wDriveCount = static_cast<uint16_t>(axes_.size());
   group_->pFirstDrive = axes_.empty() ? nullptr : axes_.front();
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
+  for (size_t i = 0; i < axes_.size(); ++i) {
     axis::AxisRef &axis = *axes_[i];
     axis.bRealDrive = 1;
     axis.fTaskCycle = cycleSeconds;
@@ -133,19 +133,19 @@ void DriveGroup::executeStart() {
     stepReset();
   if (group_->wState < axis::kNormalOperation)
     startUp();
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
+  for (size_t i = 0; i < axes_.size(); ++i) {
     readDrive(i);
     serveParameters(i);
   }
   if (group_->wState == axis::kNormalOperation)
-    for (std::size_t i = 0; i < encoders_.size(); ++i)
+    for (size_t i = 0; i < encoders_.size(); ++i)
       if (encoders_[i]->bFed == 0)
         axis::updateEncoder(*encoders_[i], driver_->encoder(i));
 }
 
 void DriveGroup::startUp() {
   uint16_t least = axis::kNormalOperation;
-  for (std::size_t i = 0; i < axes_.size(); ++i) {
+  for (size_t i = 0; i < axes_.size(); ++i) {
     axis::AxisRef &axis = *axes_[i];
     if (axis.bDisableDriveInAxisGroup != 0 || axis.wCommunicationState == axis::kNormalOperation)
       continue;
@@ -174,12 +174,12 @@ void DriveGroup::startUp() {
   }
   group_->wState = least;
   if (least == axis::kNormalOperation)
-    for (std::size_t i = 0; i < encoders_.size(); ++i)
+    for (size_t i = 0; i < encoders_.size(); ++i)
       if (encoders_[i]->bFed == 0)
         axis::synchronizeEncoder(*encoders_[i], driver_->encoder(i));
 }
 
-void DriveGroup::startFailed(std::size_t index, uint16_t state, std::string_view message) {
+void DriveGroup::startFailed(size_t index, uint16_t state, std::string_view message) {
   axis::AxisRef &axis = *axes_[index];
   axis.bErrorDuringStartup = 1;
   group_->pErrorDrive = &axis;
@@ -210,7 +210,7 @@ void DriveGroup::stepReset() {
       group_->wState = kResetDrives;
     break;
   default:
-    for (std::size_t i = 0; i < axes_.size(); ++i)
+    for (size_t i = 0; i < axes_.size(); ++i)
       restart(i);
     for (axis::EncoderRef *encoder : encoders_)
       if (encoder->bFed == 0)
@@ -223,7 +223,7 @@ void DriveGroup::stepReset() {
 }
 
 /// Back to where the axis was before its first start-up.
-void DriveGroup::restart(std::size_t index) {
+void DriveGroup::restart(size_t index) {
   axis::AxisRef &axis = *axes_[index];
   dropParameters(index);
   driver_->reset(index);
@@ -260,7 +260,7 @@ bool DriveGroup::anyPower() const {
   });
 }
 
-void DriveGroup::readDrive(std::size_t index) {
+void DriveGroup::readDrive(size_t index) {
   axis::AxisRef &axis = *axes_[index];
   if (axis.wCommunicationState != axis::kNormalOperation) {
     axis.bMovedInThisCycle = 0;
@@ -403,7 +403,7 @@ void DriveGroup::supervise(axis::AxisRef &axis) {
   axis.fSetCurrent = 0.0;
 }
 
-void DriveGroup::writeDrive(std::size_t index) {
+void DriveGroup::writeDrive(size_t index) {
   axis::AxisRef &axis = *axes_[index];
   if (axis.wCommunicationState != axis::kNormalOperation)
     return;
@@ -436,7 +436,7 @@ void DriveGroup::writeDrive(std::size_t index) {
 }
 
 void DriveGroup::executeEnd() {
-  for (std::size_t i = 0; i < axes_.size(); ++i)
+  for (size_t i = 0; i < axes_.size(); ++i)
     writeDrive(i);
   driver_->executeEnd();
 }

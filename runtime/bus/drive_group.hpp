@@ -32,13 +32,11 @@ public:
 
   /// The application object has moved: the group, the axis of a drive, or an encoder is there now.
   void rebind(AxisGroupRef &group) noexcept { group_ = &group; }
-  void rebind(std::size_t drive, axis::AxisRef &axis) noexcept {
+  void rebind(size_t drive, axis::AxisRef &axis) noexcept {
     axes_[drive] = &axis;
     driver_->bindData(drive, axis.pMS);
   }
-  void rebind(std::size_t index, axis::EncoderRef &encoder) noexcept {
-    encoders_[index] = &encoder;
-  }
+  void rebind(size_t index, axis::EncoderRef &encoder) noexcept { encoders_[index] = &encoder; }
 
   /// At the task's start: reads the drives, starts them up, follows power and errors into the axis
   /// states, and notes the set values with which the cycle begins (fSave*).
@@ -71,19 +69,19 @@ private:
   };
 
   void startUp();
-  void startFailed(std::size_t index, uint16_t state, std::string_view message);
+  void startFailed(size_t index, uint16_t state, std::string_view message);
   void beginReset();
   void stepReset();
-  void restart(std::size_t index);
+  void restart(size_t index);
   bool anyPower() const;
   bool axesAtRest() const;
-  void readDrive(std::size_t index);
+  void readDrive(size_t index);
   bool followsDrive(const axis::AxisRef &axis) const;
   void readHoming(axis::AxisRef &axis, const DriveStatus &status);
-  void serveParameters(std::size_t index);
-  void dropParameters(std::size_t index);
+  void serveParameters(size_t index);
+  void dropParameters(size_t index);
   void supervise(axis::AxisRef &axis);
-  void writeDrive(std::size_t index);
+  void writeDrive(size_t index);
 
   std::unique_ptr<AxisDriver> driver_;
   AxisGroupRef *group_;

@@ -14,7 +14,7 @@ constexpr ParameterForms kChannelForms =
     formBit(ParameterForm::Number) | formBit(ParameterForm::Bool);
 
 template <class Text> void copyText(Text &to, std::string_view from) {
-  const std::size_t count = std::min<std::size_t>(from.size(), Text::kLength);
+  const size_t count = std::min<size_t>(from.size(), Text::kLength);
   std::copy_n(from.data(), count, to.s);
   to.s[count] = 0;
 }
@@ -43,7 +43,7 @@ void finish(axis::ParameterChannel &channel, const ParameterAnswer &answer) {
 } // namespace
 
 /// One step of the question under way.
-void DriveGroup::serveParameters(std::size_t index) {
+void DriveGroup::serveParameters(size_t index) {
   axis::AxisRef &axis = *axes_[index];
   axis::ParameterChannel &channel = axis.stChannel;
   axis::ChannelStep step = axis::channelStep(channel);
@@ -83,7 +83,7 @@ void DriveGroup::serveParameters(std::size_t index) {
 }
 
 /// The drive starts up anew: what was asked stays without an answer.
-void DriveGroup::dropParameters(std::size_t index) {
+void DriveGroup::dropParameters(size_t index) {
   axis::ParameterChannel &channel = axes_[index]->stChannel;
   if (axis::channelStep(channel) != axis::ChannelStep::Driver)
     return;

@@ -8,21 +8,21 @@
 
 namespace stride::common {
 
-std::size_t editDistance(std::string_view a, std::string_view b, std::size_t limit) {
-  constexpr std::size_t kLongest = 255;
-  const std::size_t n = a.size();
-  const std::size_t m = b.size();
+size_t editDistance(std::string_view a, std::string_view b, size_t limit) {
+  constexpr size_t kLongest = 255;
+  const size_t n = a.size();
+  const size_t m = b.size();
   if ((n > m ? n - m : m - n) > limit || std::max(n, m) > kLongest)
     return limit + 1;
-  std::array<std::array<std::size_t, kLongest + 1>, 3> rows;
-  std::size_t *before = rows[0].data();
-  std::size_t *previous = rows[1].data();
-  std::size_t *current = rows[2].data();
-  for (std::size_t j = 0; j <= m; ++j)
+  std::array<std::array<size_t, kLongest + 1>, 3> rows;
+  size_t *before = rows[0].data();
+  size_t *previous = rows[1].data();
+  size_t *current = rows[2].data();
+  for (size_t j = 0; j <= m; ++j)
     previous[j] = j;
-  for (std::size_t i = 1; i <= n; ++i) {
+  for (size_t i = 1; i <= n; ++i) {
     current[0] = i;
-    for (std::size_t j = 1; j <= m; ++j) {
+    for (size_t j = 1; j <= m; ++j) {
       const bool same = lowerCase(a[i - 1]) == lowerCase(b[j - 1]);
       current[j] =
           std::min({previous[j] + 1, current[j - 1] + 1, previous[j - 1] + (same ? 0 : 1)});

@@ -10,7 +10,7 @@ namespace stride::common {
 /// Edits (insert, delete, replace, swap of neighbours) that lead from `a` to `b`, the case of
 /// letters ignored, or `limit + 1` when there are more, or a name has more than 255 bytes.
 /// Source: optimal string alignment distance.
-[[nodiscard]] std::size_t editDistance(std::string_view a, std::string_view b, std::size_t limit);
+[[nodiscard]] size_t editDistance(std::string_view a, std::string_view b, size_t limit);
 
 } // namespace stride::common
 

@@ -14,7 +14,7 @@ const Parameter *findIn(std::span<const Parameter> rows, std::string_view name) 
 } // namespace
 
 const Parameter *SectionRows::find(std::string_view name) const {
-  if (const std::size_t dot = name.find('.'); dot != std::string_view::npos) {
+  if (const size_t dot = name.find('.'); dot != std::string_view::npos) {
     for (const ParameterTable &table : tables)
       if (table.name == name.substr(0, dot))
         return findIn(table.parameters, name.substr(dot + 1));

@@ -18,7 +18,7 @@ inline void openStandardHandles() noexcept {
   for (int handle = 0; handle < 3; ++handle) {
     // The lowest free number is taken: the one that was looked for.
     if (::fcntl(handle, F_GETFD) < 0)
-      static_cast<void>(::open("/dev/null", kModes[static_cast<std::size_t>(handle)]));
+      static_cast<void>(::open("/dev/null", kModes[static_cast<size_t>(handle)]));
   }
 }
 

@@ -10,8 +10,8 @@ std::string lowerCase(std::string_view text) {
 }
 
 /// U+0080 to U+009F are two bytes, the first of which alone is none of them.
-void hideControls(std::string &text, std::string_view kept, std::size_t from) noexcept {
-  for (std::size_t i = from; i < text.size(); ++i) {
+void hideControls(std::string &text, std::string_view kept, size_t from) noexcept {
+  for (size_t i = from; i < text.size(); ++i) {
     const auto byte = static_cast<unsigned char>(text[i]);
     const unsigned before = i == 0 ? 0U : static_cast<unsigned char>(text[i - 1]);
     if ((byte < 0x20 || byte == 0x7F) && kept.find(text[i]) == std::string_view::npos)

@@ -17,7 +17,7 @@ constexpr char lowerCase(char c) {
 /// Shows control characters (U+0000 to U+001F, U+007F to U+009F) but those in `kept` as `?`, from
 /// `from` on: names of files and values of variables must not command a terminal. In place, and
 /// nothing gets longer.
-void hideControls(std::string &text, std::string_view kept = {}, std::size_t from = 0) noexcept;
+void hideControls(std::string &text, std::string_view kept = {}, size_t from = 0) noexcept;
 
 /// The text as the content or a quoted attribute of HTML, SVG or XML. Control characters but line
 /// ends and tabs, which XML does not know, become `?`.

@@ -34,7 +34,7 @@ template <class F> Status attempt(F f) {
 struct Place::Impl {
   app::Symbol symbol;
   std::byte *state = nullptr;
-  std::size_t size = 0;
+  size_t size = 0;
 };
 
 bool Place::load(void *value) const noexcept {
@@ -122,7 +122,7 @@ Status Application::initialise() {
   });
 }
 
-Status Application::cycle(std::size_t task, std::chrono::nanoseconds time) {
+Status Application::cycle(size_t task, std::chrono::nanoseconds time) {
   if (!impl_->initialised)
     return Failure{"the application has not been initialised"};
   if (task >= impl_->tasks.size())
@@ -181,8 +181,7 @@ Status Application::release(std::string_view name) {
   return attempt([&] { impl_->served.release({std::string(name)}); });
 }
 
-Result<Place> Application::findPlace(std::string_view name, std::size_t size,
-                                     ValueClass kind) const {
+Result<Place> Application::findPlace(std::string_view name, size_t size, ValueClass kind) const {
   try {
     const app::SymbolTable &symbols = impl_->instance.symbols();
     auto place = std::make_shared<Place::Impl>();

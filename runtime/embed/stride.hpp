@@ -112,7 +112,7 @@ public:
 
   /// One cycle of a task at that time of the program. Not earlier than the cycle before. Drives are
   /// served by the cycles of their task. Fails when an exception has stopped the application.
-  Status cycle(std::size_t task, std::chrono::nanoseconds time);
+  Status cycle(size_t task, std::chrono::nanoseconds time);
   /// All cycles of all tasks that are due before that time, in their order, also those that events
   /// start. Either this or cycle(), not both.
   Status advance(std::chrono::nanoseconds time);
@@ -156,7 +156,7 @@ private:
     else
       return static_cast<T>(-1) < T{0} ? ValueClass::Signed : ValueClass::Unsigned;
   }
-  Result<Place> findPlace(std::string_view name, std::size_t size, ValueClass kind) const;
+  Result<Place> findPlace(std::string_view name, size_t size, ValueClass kind) const;
 
   struct Impl;
   explicit Application(std::unique_ptr<Impl> impl);

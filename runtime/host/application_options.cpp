@@ -24,19 +24,19 @@ bool has(const app::Application &application, const std::string &path) {
   }
 }
 
-std::optional<std::size_t> find(const Applications &applications, const std::string &name) {
-  for (std::size_t i = 0; i < applications.size(); ++i)
+std::optional<size_t> find(const Applications &applications, const std::string &name) {
+  for (size_t i = 0; i < applications.size(); ++i)
     if (applications[i]->name() == name)
       return i;
   return std::nullopt;
 }
 
 /// The application that a path belongs to; takes its name off the path.
-std::size_t ownerOf(const Applications &applications, std::string &path) {
-  if (const std::size_t colon = path.find(':'); colon != std::string::npos) {
+size_t ownerOf(const Applications &applications, std::string &path) {
+  if (const size_t colon = path.find(':'); colon != std::string::npos) {
     const std::string name = path.substr(0, colon);
     path.erase(0, colon + 1);
-    if (const std::optional<std::size_t> found = find(applications, name))
+    if (const std::optional<size_t> found = find(applications, name))
       return *found;
     std::vector<std::string> names;
     for (const std::unique_ptr<app::Application> &application : applications)
@@ -44,7 +44,7 @@ std::size_t ownerOf(const Applications &applications, std::string &path) {
     throw app::Error(fmt::format("'{}:{}': there is no application '{}'{}; there are {}", name,
                                  path, name, app::didYouMean(name, names), fmt::join(names, ", ")));
   }
-  for (std::size_t i = 0; i < applications.size(); ++i)
+  for (size_t i = 0; i < applications.size(); ++i)
     if (has(*applications[i], path))
       return i;
   return 0; // which says what is wrong with it
@@ -56,12 +56,12 @@ std::vector<ApplicationOptions> optionsByApplication(const Applications &applica
                                                      const RunOptions &options) {
   std::vector<ApplicationOptions> result(applications.size());
   for (std::string path : options.print) {
-    const std::size_t owner = ownerOf(applications, path);
+    const size_t owner = ownerOf(applications, path);
     result[owner].print.push_back(std::move(path));
   }
-  std::size_t traced = 0;
+  size_t traced = 0;
   for (std::string path : options.trace) {
-    const std::size_t owner = ownerOf(applications, path);
+    const size_t owner = ownerOf(applications, path);
     traced += result[owner].trace.empty() ? 1U : 0U;
     result[owner].trace.push_back(std::move(path));
   }
@@ -69,7 +69,7 @@ std::vector<ApplicationOptions> optionsByApplication(const Applications &applica
   if (traced > 1 && (options.out.empty() || options.out == "-"))
     throw app::Error("--trace names variables of several applications, which have rows of their "
                      "own: give a file with --out, of which each gets its own");
-  for (std::size_t i = 0; i < applications.size(); ++i)
+  for (size_t i = 0; i < applications.size(); ++i)
     result[i].out =
         traced < 2
             ? options.out
@@ -77,8 +77,8 @@ std::vector<ApplicationOptions> optionsByApplication(const Applications &applica
                                                applications[i]->name(), out.extension().string()))
                   .string();
   for (const std::string &text : options.scripts) {
-    const std::size_t equals = text.find('=');
-    const std::optional<std::size_t> named =
+    const size_t equals = text.find('=');
+    const std::optional<size_t> named =
         equals == std::string::npos ? std::nullopt : find(applications, text.substr(0, equals));
     std::string &script = result[named.value_or(0)].script;
     if (!script.empty())

@@ -34,9 +34,9 @@ public:
     Message &own = messages_[group];
     own.size = std::min(message.size(), own.text.size());
     std::copy_n(message.data(), own.size, own.text.data());
-    std::size_t end = 0;
+    size_t end = 0;
     const auto append = [&](std::string_view part) {
-      const std::size_t count = std::min<std::size_t>(part.size(), length - end);
+      const size_t count = std::min<size_t>(part.size(), length - end);
       std::copy_n(part.data(), count, text + end);
       end += count;
     };
@@ -55,7 +55,7 @@ public:
 private:
   struct Message {
     std::array<char, 255> text{};
-    std::size_t size = 0;
+    size_t size = 0;
   };
   std::vector<Message> messages_;
   std::atomic_flag taken_;
@@ -123,15 +123,15 @@ public:
       times_.end(*ref_, measuredNow(ctx));
   }
   void applicationStopped() override {
-    for (std::size_t i = 0; i < axes_.size(); ++i)
+    for (size_t i = 0; i < axes_.size(); ++i)
       stopped_[i] = axes_[i]->nAxisState != axis::state::kErrorStop;
     group_.stopAll();
-    for (std::size_t i = 0; i < axes_.size(); ++i)
+    for (size_t i = 0; i < axes_.size(); ++i)
       stopped_[i] = stopped_[i] && axes_[i]->nAxisState == axis::state::kErrorStop;
   }
   /// One line about each drive that is in error stop.
   void describeErrorStops(std::vector<std::string> &lines) const {
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
+    for (size_t i = 0; i < axes_.size(); ++i) {
       const axis::AxisRef &axis = *axes_[i];
       if (axis.nAxisState != axis::state::kErrorStop)
         continue;
@@ -228,9 +228,9 @@ private:
   }
 
   /// What the group says, with the drive's name before its number.
-  template <std::size_t N> std::string_view bootupError(char (&text)[N]) const {
+  template <size_t N> std::string_view bootupError(char (&text)[N]) const {
     const std::string_view message = group_.bootupError();
-    for (std::size_t i = 0; i < axes_.size(); ++i) {
+    for (size_t i = 0; i < axes_.size(); ++i) {
       char number[32];
       const auto end = fmt::format_to_n(number, sizeof number, "drive {}: ", ids_[i]);
       if (const std::string_view begin(number, end.size); message.starts_with(begin)) {

@@ -35,10 +35,10 @@ void put(std::FILE *to, fmt::format_string<Values...> format, Values &&...values
 
 /// `NAME=VALUE` or `NAME:=VALUE` as an entry of `values`.
 json namedLiteral(const std::string &text) {
-  const std::size_t equals = text.find('=');
+  const size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos)
     throw app::Error(fmt::format("'{}' has not the form NAME=VALUE", text));
-  const std::size_t end = text[equals - 1] == ':' ? equals - 1 : equals;
+  const size_t end = text[equals - 1] == ':' ? equals - 1 : equals;
   return {{"name", text.substr(0, end)}, {"literal", text.substr(equals + 1)}};
 }
 

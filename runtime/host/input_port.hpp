@@ -19,7 +19,7 @@ public:
   virtual ~InputPort() = default;
 
   /// `value` is plain memory of `size` bytes. Neither allocates, locks nor throws.
-  virtual void pass(void *value, std::size_t size) noexcept = 0;
+  virtual void pass(void *value, size_t size) noexcept = 0;
   template <class T> void pass(T &value) noexcept {
     static_assert(std::is_trivially_copyable_v<T>);
     pass(&value, sizeof value);
@@ -33,7 +33,7 @@ public:
 class LiveInputs final : public InputPort {
 public:
   using InputPort::pass;
-  void pass(void *, std::size_t) noexcept override {}
+  void pass(void *, size_t) noexcept override {}
 };
 
 } // namespace stride::host

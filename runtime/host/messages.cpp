@@ -8,7 +8,7 @@ namespace stride::host {
 
 namespace {
 
-constexpr std::size_t kCapacity = std::size_t{256} << 10;
+constexpr size_t kCapacity = size_t{256} << 10;
 
 uint64_t linesOf(std::string_view text) {
   return static_cast<uint64_t>(std::count(text.begin(), text.end(), '\n'));
@@ -27,7 +27,7 @@ Messages::Messages(Output::Wait wait, int handle) : output_(handle, kCapacity, w
 void Messages::say(std::initializer_list<std::string_view> parts) noexcept {
   const std::lock_guard lock(mutex_);
   tellLosses();
-  std::size_t size = 1;
+  size_t size = 1;
   uint64_t lines = 0;
   bool ended = false;
   for (const std::string_view part : parts) {
@@ -66,7 +66,7 @@ void Messages::tellLosses() noexcept {
   const auto end = std::to_chars(digits, digits + sizeof digits, lost_).ptr;
   for (const std::string_view part :
        {std::string_view(cutOff_ ? "\n" : ""), std::string_view("warning: "),
-        std::string_view(digits, static_cast<std::size_t>(end - digits)),
+        std::string_view(digits, static_cast<size_t>(end - digits)),
         std::string_view(lost_ == 1 ? " line" : " lines"),
         std::string_view(" of messages could not be written: "),
         std::string_view(reasonOf(reason_)), std::string_view("\n")})
@@ -83,7 +83,7 @@ void Messages::tellLosses() noexcept {
 }
 
 void Messages::push() noexcept {
-  const std::size_t before = output_.rest().size();
+  const size_t before = output_.rest().size();
   output_.advance();
   if (output_.error() == 0)
     return;

@@ -19,8 +19,8 @@ namespace stride::host {
 /// has taken the others yet, it is counted only.
 class NewsRing {
 public:
-  static constexpr std::size_t kTexts = 16;
-  static constexpr std::size_t kLongest = 255; ///< Longer ones are cut. [bytes]
+  static constexpr size_t kTexts = 16;
+  static constexpr size_t kLongest = 255; ///< Longer ones are cut. [bytes]
 
   void put(std::string_view text) noexcept {
     const uint32_t at = put_.load(std::memory_order_relaxed);
@@ -51,7 +51,7 @@ public:
 private:
   struct Text {
     std::array<char, kLongest> bytes;
-    std::size_t size;
+    size_t size;
   };
   std::array<Text, kTexts> ring_;
   std::atomic<uint32_t> put_{0};

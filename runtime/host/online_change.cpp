@@ -55,7 +55,7 @@ OnlineChange::OnlineChange(Instance &instance, const std::string &path) : instan
     fresh_ = std::make_unique<app::Application>(app::Application::load(spelled, runtimeLayouts()));
   } catch (const app::Error &error) { // in the words of the user
     std::string text = error.what();
-    for (std::size_t at = 0; (at = text.find(spelled, at)) != std::string::npos;)
+    for (size_t at = 0; (at = text.find(spelled, at)) != std::string::npos;)
       text.replace(at, spelled.size(), path);
     throw app::Error(text);
   }

@@ -33,9 +33,9 @@ int64_t parseDuration(std::string_view text, bool zeroAllowed) {
 
 std::vector<std::string> splitPaths(std::string_view text) {
   std::vector<std::string> paths;
-  std::size_t start = 0;
+  size_t start = 0;
   int depth = 0;
-  for (std::size_t i = 0; i <= text.size(); ++i) {
+  for (size_t i = 0; i <= text.size(); ++i) {
     if (i < text.size() && text[i] == '[')
       ++depth;
     else if (i < text.size() && text[i] == ']')
@@ -53,18 +53,18 @@ std::vector<std::string> splitPaths(std::string_view text) {
 
 SetOption parseSet(const std::string &text) {
   // Without a time (`x=5`, `a[1,2]=5`) it is set before the first cycle.
-  std::size_t comma = text.find(',');
+  size_t comma = text.find(',');
   const bool timed = comma != std::string::npos && (text.rfind('#', comma) != std::string::npos ||
                                                     (text.front() >= '0' && text.front() <= '9'));
   if (!timed)
     comma = std::string::npos;
-  const std::size_t equals = text.find('=', timed ? comma : 0);
+  const size_t equals = text.find('=', timed ? comma : 0);
   if (equals == 0 || equals == std::string::npos)
     throw app::Error(fmt::format(
         "--set '{}' has not the form NAME=VALUE or TIME,NAME=VALUE; write for example --set "
         "T#3s,PLC_PRG.x=50",
         text));
-  std::size_t pathEnd = equals;
+  size_t pathEnd = equals;
   if (text[pathEnd - 1] == ':') // NAME:=VALUE as in ST
     --pathEnd;
   SetOption option;
@@ -83,7 +83,7 @@ SetOption parseSet(const std::string &text) {
 }
 
 ChangeOption parseChange(const std::string &text) {
-  const std::size_t comma = text.find(',');
+  const size_t comma = text.find(',');
   if (comma == std::string::npos || comma + 1 == text.size())
     throw app::Error(fmt::format("--change '{}' has not the form TIME,FILE; write for example "
                                  "--change T#3s,build/app.so",

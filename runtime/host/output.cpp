@@ -30,7 +30,7 @@ std::string shownOn(std::FILE *file, std::string text) {
   return text;
 }
 
-Output::Output(const std::string &path, std::size_t capacity, Wait wait)
+Output::Output(const std::string &path, size_t capacity, Wait wait)
     : wait_(wait), capacity_(capacity) {
   text_.reserve(capacity);
   handle_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
@@ -44,7 +44,7 @@ Output::Output(const std::string &path, std::size_t capacity, Wait wait)
 
 /// Whether a write waits is a flag of the open file, which the shell and others have, too. So a
 /// pipe or a terminal is opened once more; what cannot be is asked before each write.
-Output::Output(int handle, std::size_t capacity, Wait wait)
+Output::Output(int handle, size_t capacity, Wait wait)
     : handle_(handle), wait_(wait), capacity_(capacity) {
   text_.reserve(capacity);
   isTerminal_ = ::isatty(handle) != 0;
@@ -69,7 +69,7 @@ Output::~Output() {
     ::close(handle_);
 }
 
-bool Output::room(std::size_t size) noexcept {
+bool Output::room(size_t size) noexcept {
   if (capacity_ - text_.size() >= size)
     return true;
   text_.erase(0, written_);
@@ -78,7 +78,7 @@ bool Output::room(std::size_t size) noexcept {
   return capacity_ - text_.size() >= size;
 }
 
-bool Output::ready(std::size_t size) noexcept {
+bool Output::ready(size_t size) noexcept {
   if (room(size))
     return true;
   advance();
@@ -89,7 +89,7 @@ bool Output::append(std::string_view text) noexcept {
   if (!ready(text.size()))
     return false;
   while (wait_ == Wait::Always && error_ == 0 && !room(text.size())) {
-    const std::size_t piece = std::min(text.size(), capacity_ - text_.size());
+    const size_t piece = std::min(text.size(), capacity_ - text_.size());
     text_.append(text.substr(0, piece));
     text.remove_prefix(piece);
     advance();
@@ -124,7 +124,7 @@ long Output::writeSome(std::string_view text) const noexcept {
     errno = EAGAIN;
     return -1;
   }
-  return ::write(handle_, text.data(), std::min<std::size_t>(text.size(), PIPE_BUF));
+  return ::write(handle_, text.data(), std::min<size_t>(text.size(), PIPE_BUF));
 }
 
 bool Output::waitForReader(int limitMs) const noexcept {
@@ -138,7 +138,7 @@ bool Output::advance() noexcept {
   while (error_ == 0 && !empty()) {
     const long done = writeSome(rest());
     if (done > 0) {
-      written_ += static_cast<std::size_t>(done);
+      written_ += static_cast<size_t>(done);
       continue;
     }
     const int reason = done < 0 ? errno : ENOSPC;

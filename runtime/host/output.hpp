@@ -28,17 +28,17 @@ public:
   static constexpr std::chrono::milliseconds kPatience{2000};
 
   /// Creates the file, or empties it. Throws app::Error. `capacity`: of the memory. [bytes]
-  Output(const std::string &path, std::size_t capacity, Wait wait);
+  Output(const std::string &path, size_t capacity, Wait wait);
   /// Standard output or standard error, which stay open and as they are for others who have them.
-  Output(int handle, std::size_t capacity, Wait wait);
+  Output(int handle, size_t capacity, Wait wait);
   Output(const Output &) = delete;
   Output &operator=(const Output &) = delete;
   ~Output();
 
   /// Whether so many bytes can be appended to text().
-  bool room(std::size_t size) noexcept;
+  bool room(size_t size) noexcept;
   /// The same, after what waits has been tried once more; with Wait::Always append() always can.
-  bool ready(std::size_t size) noexcept;
+  bool ready(size_t size) noexcept;
   /// What is not written yet; to append to, as far as there is room.
   std::string &text() noexcept { return text_; }
   /// Appends all of it, in pieces if need be. With Wait::Never false, and nothing of it is there,
@@ -74,11 +74,11 @@ private:
   bool isSocket_ = false; ///< Not waited for by a flag of its own.
   bool byPoll_ = false;   ///< Others have it, too: not waited for by looking before.
   Wait wait_;
-  std::size_t capacity_;
+  size_t capacity_;
   std::string text_;
-  std::size_t written_ = 0;
+  size_t written_ = 0;
   bool isTerminal_ = false;
-  std::size_t screened_ = 0; ///< So much of the text is fit for a terminal.
+  size_t screened_ = 0; ///< So much of the text is fit for a terminal.
   int error_ = 0;
 };
 

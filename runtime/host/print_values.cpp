@@ -13,7 +13,7 @@ namespace stride::host {
 
 namespace {
 
-constexpr std::size_t kPrintPiece = std::size_t{64} << 10;
+constexpr size_t kPrintPiece = size_t{64} << 10;
 
 } // namespace
 

@@ -59,7 +59,7 @@ public:
     // Away from the first one, on which most of the machine's interrupts arrive.
     realOptions_.core = options.core ? *options.core : cores.empty() ? 0 : cores.back();
     own_ = optionsByApplication(applications, options);
-    for (std::size_t i = 0; i < applications.size(); ++i) {
+    for (size_t i = 0; i < applications.size(); ++i) {
       std::unique_ptr<TraceWriter> trace;
       if (!own_[i].trace.empty())
         trace = std::make_unique<TraceWriter>(app::SymbolTable(applications[i]->description()),
@@ -172,7 +172,7 @@ private:
   }
 
   std::unique_ptr<Session> newSession(std::unique_ptr<app::Application> application,
-                                      std::size_t number) {
+                                      size_t number) {
     return std::make_unique<Session>(std::move(application), number, options_, own_[number],
                                      realOptions_, messages_);
   }
@@ -245,8 +245,7 @@ private:
       std::unique_ptr<app::Application> application = slot.session->release();
       messages_.say({"note: '", application->name(), "' is started again"});
       slot.session.reset(); // gives its retained data up
-      slot.session =
-          newSession(std::move(application), static_cast<std::size_t>(&slot - slots_.data()));
+      slot.session = newSession(std::move(application), static_cast<size_t>(&slot - slots_.data()));
       slot.stopped = !startSession(slot);
     } catch (const std::exception &error) {
       messages_.say({"error: it cannot be started again: ", error.what()});

@@ -17,8 +17,8 @@ namespace stride::host {
 
 namespace {
 
-constexpr std::size_t kRing = std::size_t{8} << 20;
-constexpr std::size_t kBlockPiece = std::size_t{64} << 10;
+constexpr size_t kRing = size_t{8} << 20;
+constexpr size_t kBlockPiece = size_t{64} << 10;
 constexpr uint64_t kMagic = 0x32434552'44525453; // "STRDREC2"
 
 app::Error cutOffTooEarly(const std::string &path) {
@@ -137,7 +137,7 @@ void Recording::writeBlock(std::initializer_list<std::span<const std::byte>> par
   head.checksum = checksum_;
   const auto write = [&](std::span<const std::byte> part) {
     while (!part.empty()) {
-      const std::size_t size = std::min(part.size(), kBlockPiece);
+      const size_t size = std::min(part.size(), kBlockPiece);
       if (!output_.ready(size) && !output_.settle())
         incomplete_ = true;
       if (incomplete_)
@@ -160,11 +160,11 @@ void Recording::addHooks(task::TaskSet &tasks) {
   }
 }
 
-void Recording::pass(void *value, std::size_t size) noexcept {
+void Recording::pass(void *value, size_t size) noexcept {
   put(static_cast<InputMark>(size), {static_cast<const std::byte *>(value), size});
 }
 
-void Recording::wrote(const std::byte *place, std::size_t size, bool behindPous) noexcept {
+void Recording::wrote(const std::byte *place, size_t size, bool behindPous) noexcept {
   const WriteMark mark{std::bit_cast<uint64_t>(place) - std::bit_cast<uint64_t>(state_), size};
   if (mark.offset >= stateSize_ || stateSize_ - mark.offset < size)
     beyond_.store(true, std::memory_order_relaxed);
@@ -175,7 +175,7 @@ void Recording::wrote(const std::byte *place, std::size_t size, bool behindPous)
 /// All of it or nothing, so that the recording ends behind a whole record.
 void Recording::put(uint32_t mark, std::span<const std::byte> first,
                     std::span<const std::byte> second) noexcept {
-  const std::size_t size = first.size() + second.size();
+  const size_t size = first.size() + second.size();
   const uint64_t at = put_.load(std::memory_order_relaxed);
   if (full_.load(std::memory_order_relaxed) ||
       at + sizeof mark + size - taken_.load(std::memory_order_acquire) > ring_.size()) {
@@ -188,9 +188,9 @@ void Recording::put(uint32_t mark, std::span<const std::byte> first,
   put_.store(at + sizeof mark + size, std::memory_order_release);
 }
 
-void Recording::copyIn(uint64_t at, const void *data, std::size_t size) noexcept {
-  const std::size_t place = at % ring_.size();
-  const std::size_t first = std::min(size, ring_.size() - place);
+void Recording::copyIn(uint64_t at, const void *data, size_t size) noexcept {
+  const size_t place = at % ring_.size();
+  const size_t first = std::min(size, ring_.size() - place);
   if (size == 0)
     return;
   std::memcpy(ring_.data() + place, data, first);
@@ -203,8 +203,8 @@ void Recording::drain() noexcept {
   const uint64_t at = taken_.load(std::memory_order_relaxed);
   if (at == end || (!output_.advance() && output_.error() == 0))
     return;
-  const std::size_t place = at % ring_.size();
-  const std::size_t first = std::min<std::size_t>(end - at, ring_.size() - place);
+  const size_t place = at % ring_.size();
+  const size_t first = std::min<size_t>(end - at, ring_.size() - place);
   const std::span<const std::byte> ring(ring_);
   writeBlock({ring.subspan(place, first), ring.first(end - at - first)});
   taken_.store(end, std::memory_order_release);
@@ -267,7 +267,7 @@ Replay::Replay(const std::string &path, const app::Application &application,
   if (header.stateAddress != std::bit_cast<uint64_t>(application.state()))
     throw app::Error(
         fmt::format("'{}' cannot be replayed: the state lies at another address", path));
-  const std::size_t left = data_.size() - at_;
+  const size_t left = data_.size() - at_;
   if (left < header.scriptNameSize || left - header.scriptNameSize < app.stateSize)
     throw cutOffTooEarly(path);
   std::string name(header.scriptNameSize, '\0');
@@ -299,7 +299,7 @@ void Replay::readBlocks() {
   const std::span<const std::byte> all = std::as_bytes(std::span(text));
   data_.reserve(all.size());
   uint64_t checksum = 0;
-  for (std::size_t at = 0; all.size() - at >= sizeof(BlockHead);) {
+  for (size_t at = 0; all.size() - at >= sizeof(BlockHead);) {
     BlockHead head;
     std::memcpy(&head, all.data() + at, sizeof head);
     at += sizeof head;
@@ -325,7 +325,7 @@ void Replay::readBlocks() {
 /// The last records: the end, and the exception, if one stopped the run; an endless loop must be
 /// known before its cycle begins.
 void Replay::findEnd() {
-  const std::size_t begin = at_;
+  const size_t begin = at_;
   InputMark mark = 0;
   const auto skip = [&](uint64_t size) {
     if (data_.size() - at_ < size)
@@ -394,7 +394,7 @@ void Replay::addHooks(task::TaskSet &tasks) {
 
 void Replay::applyWrites(uint32_t wanted, std::byte *state) noexcept {
   for (;;) {
-    const std::size_t before = at_;
+    const size_t before = at_;
     InputMark mark = 0;
     WriteMark write;
     if (!problem_.empty() || !take(&mark, sizeof mark) || mark != wanted ||
@@ -419,7 +419,7 @@ void Replay::restoreState(const app::Application &application) const {
   std::memcpy(application.state(), data_.data() + state_, application.description().stateSize);
 }
 
-bool Replay::take(void *value, std::size_t size) noexcept {
+bool Replay::take(void *value, size_t size) noexcept {
   if (data_.size() - at_ < size)
     return false;
   std::memcpy(value, data_.data() + at_, size);
@@ -436,7 +436,7 @@ std::optional<RecordedCycle> Replay::nextCycle() {
     problem_ = fmt::format("'{}' is cut off: the run went on behind the end of the replay", path_);
   if (at_ == data_.size())
     return std::nullopt;
-  const std::size_t before = at_;
+  const size_t before = at_;
   if (take(&mark, sizeof mark) && mark == kEnd)
     return std::nullopt;
   at_ = before;
@@ -449,10 +449,10 @@ std::optional<RecordedCycle> Replay::nextCycle() {
   return RecordedCycle{cycle.task, cycle.stopped != 0, cycle.startNs};
 }
 
-void Replay::pass(void *value, std::size_t size) noexcept {
+void Replay::pass(void *value, size_t size) noexcept {
   if (!problem_.empty())
     return;
-  const std::size_t before = at_;
+  const size_t before = at_;
   InputMark mark = 0;
   if (!take(&mark, sizeof mark) || mark != size || !take(value, size))
     problem_ = fmt::format("'{}' does not fit from byte {} on: the program has read other inputs "

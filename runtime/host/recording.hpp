@@ -35,9 +35,9 @@ public:
   void begin(const app::Application &application, const script::Script *script);
 
   using InputPort::pass;
-  void pass(void *value, std::size_t size) noexcept override;
+  void pass(void *value, size_t size) noexcept override;
   /// What others have written into the program's variables is an input, too.
-  void wrote(const std::byte *place, std::size_t size, bool behindPous) noexcept override;
+  void wrote(const std::byte *place, size_t size, bool behindPous) noexcept override;
 
   /// Writes what has come so far. From one thread, not a task's.
   void drain() noexcept;
@@ -51,7 +51,7 @@ private:
   void put(uint32_t mark, std::span<const std::byte> first,
            std::span<const std::byte> second = {}) noexcept;
   void writeBlock(std::initializer_list<std::span<const std::byte>> parts) noexcept;
-  void copyIn(uint64_t at, const void *data, std::size_t size) noexcept;
+  void copyIn(uint64_t at, const void *data, size_t size) noexcept;
 
   std::string path_;
   Output output_;
@@ -95,7 +95,7 @@ public:
   std::optional<RecordedCycle> nextCycle();
 
   using InputPort::pass;
-  void pass(void *value, std::size_t size) noexcept override;
+  void pass(void *value, size_t size) noexcept override;
   bool replays() const noexcept override { return true; }
 
   /// Behind the last cycle: a state other than that at the end of the run is a problem.
@@ -105,21 +105,21 @@ public:
 
 private:
   class Writes;
-  bool take(void *value, std::size_t size) noexcept;
+  bool take(void *value, size_t size) noexcept;
   void applyWrites(uint32_t mark, std::byte *state) noexcept;
   void readBlocks();
   void findEnd();
 
   std::string path_;
   std::vector<std::byte> data_;
-  std::size_t state_ = 0; ///< Where it is in data_.
+  size_t state_ = 0; ///< Where it is in data_.
   uint64_t stateSize_ = 0;
   std::string faultFile_;
   std::optional<task::Fault> fault_;
   bool ended_ = false; ///< The file has its end.
   std::optional<uint64_t> endChecksum_;
   std::vector<std::unique_ptr<Writes>> writes_;
-  std::size_t at_ = 0;
+  size_t at_ = 0;
   std::string problem_;
 };
 

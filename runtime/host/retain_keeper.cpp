@@ -17,7 +17,7 @@ namespace stride::host {
 namespace {
 
 /// How many variables that are not restored are named one by one.
-constexpr std::size_t kMostLines = 20;
+constexpr size_t kMostLines = 20;
 /// How often the thread looks whether the tasks have handed over their values.
 constexpr auto kLook = std::chrono::milliseconds(2);
 /// It waits so long for them, or a period, if that is longer.
@@ -95,7 +95,7 @@ public:
   }
   void collect(std::vector<std::byte> &values) const {
     const std::byte *from = buffers_[reading_].data();
-    for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    for (size_t i = 0; i < ranges_.size(); ++i) {
       std::memcpy(values.data() + places_[i], from, ranges_[i].size);
       from += ranges_[i].size;
     }
@@ -199,7 +199,7 @@ void RetainKeeper::restore() {
   if (!restore_)
     return;
   const app::RetainReport report = restore_->apply(binding_->state);
-  for (std::size_t i = 0; i < report.lost.size() && i < kMostLines; ++i)
+  for (size_t i = 0; i < report.lost.size() && i < kMostLines; ++i)
     say_("warning: retained data: " + report.lost[i]);
   if (report.lost.size() > kMostLines)
     say_(fmt::format("warning: retained data: {} more are not restored",
@@ -223,7 +223,7 @@ void RetainKeeper::publish(const Binding &binding) noexcept {
   for (const std::unique_ptr<Part> &part : binding.parts)
     if (part != nullptr)
       part->begin();
-  for (std::size_t i = 0; i < hooks_.size() && i < binding.parts.size(); ++i)
+  for (size_t i = 0; i < hooks_.size() && i < binding.parts.size(); ++i)
     hooks_[i]->set(binding.parts[i].get());
 }
 

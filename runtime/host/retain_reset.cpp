@@ -11,7 +11,7 @@ namespace stride::host {
 
 namespace fs = std::filesystem;
 
-static std::string keptText(std::size_t count, const char *kind) {
+static std::string keptText(size_t count, const char *kind) {
   return count == 1 ? fmt::format("1 {} variable keeps its value", kind)
                     : fmt::format("{} {} variables keep their values", count, kind);
 }

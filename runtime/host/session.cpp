@@ -17,7 +17,7 @@ namespace stride::host {
 
 namespace {
 
-constexpr std::size_t kTraceBytes = std::size_t{16} << 20;
+constexpr size_t kTraceBytes = size_t{16} << 20;
 
 /// Code of the application runs on such a stack and with signals as its tasks.
 void onLowStack(const std::function<void()> &function) {
@@ -29,7 +29,7 @@ void onLowStack(const std::function<void()> &function) {
 
 } // namespace
 
-Session::Session(std::unique_ptr<app::Application> application, std::size_t number,
+Session::Session(std::unique_ptr<app::Application> application, size_t number,
                  const RunOptions &options, const ApplicationOptions &own,
                  const task::RealOptions &realOptions, Messages &messages)
     : messages_(&messages), options_(&options), own_(&own), number_(number),
@@ -187,7 +187,7 @@ void Session::takeOver(OnlineChange &change, ChangeResult &result, const Tell &t
       tell("warning: online change: " + line);
   for (const std::string &event : change.events())
     tell("warning: online change: " + event);
-  for (std::size_t i = 0; result.done && served && i < served->lostForces().size(); ++i)
+  for (size_t i = 0; result.done && served && i < served->lostForces().size(); ++i)
     tell(fmt::format("warning: online change: '{}' is no longer forced: the new build has no "
                      "such variable",
                      served->lostForces()[i]));

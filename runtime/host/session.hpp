@@ -40,9 +40,8 @@ struct Ending {
 class Session {
 public:
   /// `number`: of the application among those of the run. Throws app::Error for bad input.
-  Session(std::unique_ptr<app::Application> application, std::size_t number,
-          const RunOptions &options, const ApplicationOptions &own,
-          const task::RealOptions &realOptions, Messages &messages);
+  Session(std::unique_ptr<app::Application> application, size_t number, const RunOptions &options,
+          const ApplicationOptions &own, const task::RealOptions &realOptions, Messages &messages);
 
   /// `trace` and `service` may be null. False: an initialiser has failed, which has been said.
   bool start(TraceWriter *trace, monitor::Service *service);
@@ -72,7 +71,7 @@ private:
   Messages *messages_;
   const RunOptions *options_;
   const ApplicationOptions *own_;
-  std::size_t number_;
+  size_t number_;
   std::string name_;
   Aside files_;
   Aside news_;

@@ -33,7 +33,7 @@ SetList::SetList(const app::SymbolTable &symbols, const std::vector<SetOption> &
 }
 
 void SetList::resolveIn(const app::SymbolTable &symbols) {
-  for (std::size_t i = next_; i < entries_.size(); ++i)
+  for (size_t i = next_; i < entries_.size(); ++i)
     entries_[i] = resolve(symbols, entries_[i].option);
 }
 
@@ -53,7 +53,7 @@ int64_t SetList::nextNs() const {
 
 std::vector<std::string> SetList::left() const {
   std::vector<std::string> texts;
-  for (std::size_t i = next_; i < entries_.size(); ++i)
+  for (size_t i = next_; i < entries_.size(); ++i)
     texts.push_back(entries_[i].option.text);
   return texts;
 }

@@ -39,7 +39,7 @@ private:
   static Entry resolve(const app::SymbolTable &symbols, const SetOption &option);
 
   std::vector<Entry> entries_;
-  std::size_t next_ = 0;
+  size_t next_ = 0;
 };
 
 } // namespace stride::host

@@ -105,7 +105,7 @@ public:
   /// The builds whose time has not come.
   std::vector<std::string> changesLeft() const {
     std::vector<std::string> paths;
-    for (std::size_t i = next_; i < changes_->size(); ++i)
+    for (size_t i = next_; i < changes_->size(); ++i)
       paths.push_back((*changes_)[i].path);
     return paths;
   }
@@ -147,7 +147,7 @@ private:
 
   Instance *instance_;
   const std::vector<ChangeOption> *changes_;
-  std::size_t next_ = 0;
+  size_t next_ = 0;
   SetList *sets_;
   script::Script *script_;
   TraceWriter *trace_;

@@ -14,7 +14,7 @@ namespace {
 /// A place is used again when all places are free.
 class SpareMemory {
 public:
-  void *take(std::size_t size) noexcept {
+  void *take(size_t size) noexcept {
     if (size > kLargest)
       return nullptr;
     size = (size + kAlignment - 1) / kAlignment * kAlignment;
@@ -38,9 +38,9 @@ public:
   }
 
 private:
-  static constexpr std::size_t kSize = std::size_t{1} << 20;
-  static constexpr std::size_t kLargest = std::size_t{64} << 10;
-  static constexpr std::size_t kAlignment = alignof(std::max_align_t);
+  static constexpr size_t kSize = size_t{1} << 20;
+  static constexpr size_t kLargest = size_t{64} << 10;
+  static constexpr size_t kAlignment = alignof(std::max_align_t);
 
   struct Lock {
     explicit Lock(std::atomic_flag &flag) noexcept : busy(flag) {
@@ -55,15 +55,15 @@ private:
 
   alignas(kAlignment) std::byte memory_[kSize]{};
   std::atomic_flag busy_;
-  std::size_t used_ = 0;
-  std::size_t live_ = 0;
+  size_t used_ = 0;
+  size_t live_ = 0;
 };
 
 constinit SpareMemory spare;
 
 } // namespace
 
-void *operator new(std::size_t size) {
+void *operator new(size_t size) {
   void *place = std::malloc(size == 0 ? 1 : size);
   if (place == nullptr)
     place = spare.take(size == 0 ? 1 : size);
@@ -75,6 +75,6 @@ void operator delete(void *place) noexcept {
   if (!spare.giveBack(place))
     std::free(place);
 }
-void operator delete(void *place, std::size_t) noexcept { operator delete(place); }
+void operator delete(void *place, size_t) noexcept { operator delete(place); }
 
 #endif

@@ -15,7 +15,7 @@ namespace stride::host {
 namespace {
 
 /// Messages stay readable when a recursion has filled the stack.
-constexpr std::size_t kShownCalls = 12;
+constexpr size_t kShownCalls = 12;
 
 bool endsWith(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
@@ -68,7 +68,7 @@ public:
       return;
     Dwarf_Line *line = ::dwarf_getsrc_die(unit, address - bias);
     bool isRest = split;
-    const std::size_t before = calls.size();
+    const size_t before = calls.size();
     const char *symbol = ::dwfl_module_addrname(module, address);
     split = symbol != nullptr && std::string_view(symbol).find(".part.") != std::string_view::npos;
     int number = 0;
@@ -125,7 +125,7 @@ private:
     if (::dwarf_formudata(::dwarf_attr(&scope, DW_AT_call_line, &attribute), &number) == 0)
       line = static_cast<int>(number);
     Dwarf_Files *files = nullptr;
-    std::size_t count = 0;
+    size_t count = 0;
     if (::dwarf_formudata(::dwarf_attr(&scope, DW_AT_call_file, &attribute), &number) == 0 &&
         ::dwarf_getsrcfiles(&unit, &files, &count) == 0)
       file = ::dwarf_filesrc(files, number, nullptr, nullptr);
@@ -166,7 +166,7 @@ std::string pouName(const std::string &demangled) {
     name.erase(name.size() - 5);
   if (endsWith(name, "__"))
     return {}; // generated around the ST: init__, exit__
-  for (std::size_t at = name.find("::"); at != std::string::npos; at = name.find("::"))
+  for (size_t at = name.find("::"); at != std::string::npos; at = name.find("::"))
     name.replace(at, 2, ".");
   return name + accessor;
 }
@@ -189,7 +189,7 @@ std::vector<StCall> resolveCalls(std::span<const uintptr_t> calls) {
 }
 
 /// Left out there is what is on both sides: a recursion.
-static bool isGapWithin(const std::vector<StCall> &calls, std::size_t at) {
+static bool isGapWithin(const std::vector<StCall> &calls, size_t at) {
   return calls[at].pou.empty() && at != 0 && at + 1 < calls.size() &&
          calls[at - 1] == calls[at + 1];
 }
@@ -200,8 +200,8 @@ std::string describeWithCalls(const task::Fault &fault) {
   std::string text = task::describe(fault, calls.empty() ? std::string() : place(calls.front()));
   if (calls.size() < 2)
     return text;
-  std::size_t shown = 0;
-  for (std::size_t i = 0; i < calls.size();) {
+  size_t shown = 0;
+  for (size_t i = 0; i < calls.size();) {
     if (shown++ == kShownCalls || calls[i].pou.empty()) {
       text += "\n  …";
       if (shown > kShownCalls)
@@ -209,7 +209,7 @@ std::string describeWithCalls(const task::Fault &fault) {
       ++i;
       continue;
     }
-    std::size_t times = 1;
+    size_t times = 1;
     while (i + times < calls.size() &&
            (calls[i + times] == calls[i] || isGapWithin(calls, i + times)))
       ++times;

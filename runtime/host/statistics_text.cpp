@@ -16,7 +16,7 @@ std::string micros(int64_t ns, bool known) {
 
 void appendRow(std::string &out, const std::array<std::string, 13> &cells) {
   constexpr std::array<int, 13> kWidths = {16, 10, 8, 8, 9, 9, 9, 9, 9, 9, 9, 11, 11};
-  for (std::size_t i = 0; i < cells.size(); ++i)
+  for (size_t i = 0; i < cells.size(); ++i)
     out += i == 0 ? fmt::format("{:<{}}", cells[i], kWidths[i])
                   : fmt::format("{:>{}}", cells[i], kWidths[i]);
   out += '\n';
@@ -26,21 +26,21 @@ void appendRow(std::string &out, const std::array<std::string, 13> &cells) {
 void appendHistogram(std::string &out, const char *title, const task::Histogram &histogram) {
   std::array<uint64_t, task::Histogram::kTopBit> counts{};
   uint64_t most = 0;
-  for (std::size_t b = 0; b < task::Histogram::kBuckets; ++b) {
-    std::size_t power = 0;
+  for (size_t b = 0; b < task::Histogram::kBuckets; ++b) {
+    size_t power = 0;
     while (power + 1 < counts.size() && (int64_t{1000} << power) <= task::Histogram::lowerEnd(b))
       ++power;
     counts[power] += histogram.count(b);
     most = std::max(most, counts[power]);
   }
   out += fmt::format("  {}\n", title);
-  for (std::size_t power = 0; power < counts.size(); ++power) {
+  for (size_t power = 0; power < counts.size(); ++power) {
     if (counts[power] == 0)
       continue;
-    const auto stars = static_cast<std::size_t>(40.0 * static_cast<double>(counts[power]) /
-                                                static_cast<double>(most));
+    const auto stars =
+        static_cast<size_t>(40.0 * static_cast<double>(counts[power]) / static_cast<double>(most));
     out += fmt::format("    < {:>9} us {:>10}  {}\n", int64_t{1} << power, counts[power],
-                       std::string(std::max<std::size_t>(stars, 1), '*'));
+                       std::string(std::max<size_t>(stars, 1), '*'));
   }
 }
 

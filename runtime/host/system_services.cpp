@@ -26,7 +26,7 @@ int64_t systemClockNs() noexcept {
 class SystemServices::Pass final : public system::Inputs {
 public:
   explicit Pass(InputPort &port) : port_(&port) {}
-  void pass(void *value, std::size_t size) noexcept override { port_->pass(value, size); }
+  void pass(void *value, size_t size) noexcept override { port_->pass(value, size); }
   bool replays() const noexcept override { return port_->replays(); }
 
 private:

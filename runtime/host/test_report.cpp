@@ -45,7 +45,7 @@ std::string headline(const TestFailure &failure) {
 /// For an attribute, in which a line's end would become a blank.
 std::string escaped(std::string_view text) {
   std::string out = common::escapedMarkup(text);
-  for (std::size_t i = 0; (i = out.find('\n', i)) != std::string::npos;)
+  for (size_t i = 0; (i = out.find('\n', i)) != std::string::npos;)
     out.replace(i, 1, "&#10;");
   return out;
 }
@@ -81,8 +81,8 @@ std::string describeOmitted(uint64_t count) {
 
 std::string junitXml(const std::string &suite, const std::vector<TestResult> &results) {
   double seconds = 0;
-  std::size_t failures = 0;
-  std::size_t errors = 0;
+  size_t failures = 0;
+  size_t errors = 0;
   std::string cases;
   for (const TestResult &result : results) {
     seconds += result.seconds;

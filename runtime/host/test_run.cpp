@@ -29,7 +29,7 @@ namespace stride::host {
 namespace {
 
 /// More failures of one test are counted only by the first ones.
-constexpr std::size_t kMostFailures = 50;
+constexpr size_t kMostFailures = 50;
 
 /// A test as `stride test` names it: INDEX;CYCLE;TIMEOUT;LINE;NAME;FILE, times in ns.
 struct Plan {
@@ -241,7 +241,7 @@ int TestCommand::run(Messages &messages) {
     plans.push_back(parsePlan(text));
   tell(fmt::format("running {} test{}\n", plans.size(), plans.size() == 1 ? "" : "s"));
   std::vector<TestResult> results;
-  std::size_t failed = 0;
+  size_t failed = 0;
   task::runOnTaskThread([&] {
     const task::MemoryGuard guard;
     for (const Plan &plan : plans) {

@@ -4,8 +4,8 @@
 
 namespace stride::host {
 
-TraceRing::TraceRing(const app::TraceColumns &columns, std::size_t rows)
-    : columns_(&columns), rows_(std::max<std::size_t>(rows, 1)), rowSize_(columns.rowSize()),
+TraceRing::TraceRing(const app::TraceColumns &columns, size_t rows)
+    : columns_(&columns), rows_(std::max<size_t>(rows, 1)), rowSize_(columns.rowSize()),
       memory_(rows_ * rowSize_) {}
 
 void TraceRing::afterPous(Ctx &ctx) {

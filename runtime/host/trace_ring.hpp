@@ -16,7 +16,7 @@ namespace stride::host {
 class TraceRing final : public task::CycleHook {
 public:
   /// `columns` lives longer. `rows`: how many may wait.
-  TraceRing(const app::TraceColumns &columns, std::size_t rows);
+  TraceRing(const app::TraceColumns &columns, size_t rows);
 
   void beforePous(Ctx &) override {}
   void afterPous(Ctx &ctx) override;
@@ -31,8 +31,8 @@ private:
   std::byte *place(uint64_t number) { return memory_.data() + number % rows_ * rowSize_; }
 
   const app::TraceColumns *columns_;
-  std::size_t rows_;
-  std::size_t rowSize_;
+  size_t rows_;
+  size_t rowSize_;
   std::vector<std::byte> memory_;
   std::atomic<uint64_t> taken_{0};   // rows put in so far
   std::atomic<uint64_t> written_{0}; // rows taken out so far

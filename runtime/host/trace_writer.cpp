@@ -11,12 +11,12 @@ namespace stride::host {
 
 namespace {
 
-constexpr std::size_t kBufferSize = std::size_t{1} << 18;
+constexpr size_t kBufferSize = size_t{1} << 18;
 
 bool isStandard(const std::string &out) { return out.empty() || out == "-"; }
 
 Output outputOf(const app::TraceColumns &columns, const std::string &out, Output::Wait wait) {
-  const std::size_t capacity =
+  const size_t capacity =
       std::max(columns.header().size() + 1, kBufferSize) + columns.lineWidth() + 1;
   return isStandard(out) ? Output(STDOUT_FILENO, capacity, wait) : Output(out, capacity, wait);
 }

@@ -42,8 +42,8 @@ Recorder::Recorder(const app::SymbolTable &symbols, const RecorderSettings &sett
   if (!(settings.before >= 0.0 && settings.before <= 1.0))
     throw app::Error("the share before the trigger is a number from 0 to 1");
   if (signal_) {
-    const auto before = static_cast<std::size_t>(settings.before * static_cast<double>(depth_));
-    behind_ = std::max<std::size_t>(depth_ - before, 1); // the trigger's own row
+    const auto before = static_cast<size_t>(settings.before * static_cast<double>(depth_));
+    behind_ = std::max<size_t>(depth_ - before, 1); // the trigger's own row
     edge_ = settings.trigger->edge;
   }
   memory_.resize(depth_ * columns_.rowSize());
@@ -95,17 +95,17 @@ uint64_t Recorder::firstRow() const noexcept {
   return all > depth_ ? all - depth_ : 0;
 }
 
-std::size_t Recorder::rows() const noexcept {
-  return state() == State::Done ? static_cast<std::size_t>(taken() - firstRow()) : 0;
+size_t Recorder::rows() const noexcept {
+  return state() == State::Done ? static_cast<size_t>(taken() - firstRow()) : 0;
 }
 
-std::optional<std::size_t> Recorder::triggerRow() const noexcept {
+std::optional<size_t> Recorder::triggerRow() const noexcept {
   if (state() != State::Done || !signal_ || !triggered_)
     return std::nullopt;
-  return static_cast<std::size_t>(triggerAt_ - firstRow());
+  return static_cast<size_t>(triggerAt_ - firstRow());
 }
 
-void Recorder::appendLine(std::size_t row, std::string &out) const {
+void Recorder::appendLine(size_t row, std::string &out) const {
   const uint64_t number = firstRow() + row;
   columns_.appendLine(memory_.data() + number % depth_ * columns_.rowSize(), out);
 }

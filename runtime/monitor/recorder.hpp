@@ -32,7 +32,7 @@ struct TriggerSettings {
 /// What is recorded.
 struct RecorderSettings {
   std::vector<std::string> names;         ///< A structure or an array stands for its parts.
-  std::size_t rows = 1000;                ///< Rows of a complete recording.
+  size_t rows = 1000;                     ///< Rows of a complete recording.
   double before = 0.0;                    ///< Share of the rows before the trigger, 0 … 1.
   std::optional<TriggerSettings> trigger; ///< Without one it begins at once.
 };
@@ -41,7 +41,7 @@ struct RecorderSettings {
 /// rows behind it are there. Read by another thread when it is done.
 class Recorder {
 public:
-  static constexpr std::size_t kMostBytes = std::size_t{256} << 20;
+  static constexpr size_t kMostBytes = size_t{256} << 20;
 
   enum class State : uint8_t { Armed, Triggered, Done };
 
@@ -60,21 +60,21 @@ public:
   uint64_t taken() const noexcept { return taken_.load(std::memory_order_relaxed); }
 
   /// Rows that can be read; 0 until it is done.
-  std::size_t rows() const noexcept;
+  size_t rows() const noexcept;
   /// The row that the trigger came with; nothing without a trigger, or if it did not come.
-  std::optional<std::size_t> triggerRow() const noexcept;
+  std::optional<size_t> triggerRow() const noexcept;
   /// `t` and the names, as in every trace.
   std::string header() const { return columns_.header(); }
   /// Appends the CSV line of a row, the oldest is 0.
-  void appendLine(std::size_t row, std::string &out) const;
+  void appendLine(size_t row, std::string &out) const;
 
 private:
   bool triggers(std::byte *state) noexcept;
   uint64_t firstRow() const noexcept;
 
   app::TraceColumns columns_;
-  std::size_t depth_;
-  std::size_t behind_; ///< Rows from the trigger on.
+  size_t depth_;
+  size_t behind_; ///< Rows from the trigger on.
   std::optional<app::Comparison> signal_;
   TriggerEdge edge_ = TriggerEdge::Rising;
   bool hasLevel_ = false;

@@ -61,13 +61,13 @@ void Service::refuseLate(const Ticket &ticket, const ServiceError &error) {
   }
 }
 
-void Service::attach(std::size_t number, ServedApplication application) {
+void Service::attach(size_t number, ServedApplication application) {
   const std::lock_guard lock(mutex_);
   applications_.resize(std::max(applications_.size(), number + 1));
   applications_[number] = std::move(application);
 }
 
-void Service::detach(std::size_t number) noexcept {
+void Service::detach(size_t number) noexcept {
   const std::lock_guard lock(mutex_);
   if (number >= applications_.size())
     return;
@@ -186,12 +186,12 @@ void Service::refuse(ClientId client, const json &id, const ServiceError &error)
         lineOf({{"id", id}, {"error", {{"code", error.code}, {"message", error.message}}}}));
 }
 
-std::size_t Service::applicationOf(const json &request) const {
+size_t Service::applicationOf(const json &request) const {
   if (!request.contains("app"))
     return 0;
   const std::string name = textField(request, "app");
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < applications_.size(); ++i) {
+  for (size_t i = 0; i < applications_.size(); ++i) {
     if (applications_[i].name == name)
       return i;
     names.push_back(applications_[i].name);
@@ -200,7 +200,7 @@ std::size_t Service::applicationOf(const json &request) const {
                                                 app::didYouMean(name, names))};
 }
 
-const ServedApplication &Service::running(std::size_t number) const {
+const ServedApplication &Service::running(size_t number) const {
   if (number >= applications_.size() || applications_[number].symbols == nullptr)
     throw ServiceError{"gone", "the application does not run at the moment"};
   return applications_[number];
@@ -212,7 +212,7 @@ void Service::checkPending(ClientId client) const {
   const auto mine = std::count_if(pending_.begin(), pending_.end(),
                                   [&](const Pending &p) { return p.client == client; });
   const auto late = late_.find(client);
-  if (static_cast<std::size_t>(mine) + (late != late_.end() ? late->second : 0) >= kMostPending)
+  if (static_cast<size_t>(mine) + (late != late_.end() ? late->second : 0) >= kMostPending)
     throw ServiceError{"too_many", fmt::format("{} requests of this client are not answered yet; "
                                                "wait for answers",
                                                kMostPending)};

@@ -37,8 +37,8 @@ struct ServiceError {
 class Service {
 public:
   static constexpr int kVersion = 1;
-  static constexpr std::size_t kMostSubscriptions = 16; ///< Per client.
-  static constexpr std::size_t kMostPending = 32;       ///< Per client, unanswered.
+  static constexpr size_t kMostSubscriptions = 16; ///< Per client.
+  static constexpr size_t kMostPending = 32;       ///< Per client, unanswered.
   static constexpr int64_t kShortestPeriodNs = 10'000'000;
   static constexpr int64_t kTimeoutNs = 5'000'000'000;
 
@@ -70,9 +70,9 @@ public:
   void answerLate(const Ticket &ticket, nlohmann::json result);
   void refuseLate(const Ticket &ticket, const ServiceError &error);
   /// Sets the application with that number, the next one or one that is there.
-  void attach(std::size_t number, ServedApplication application);
+  void attach(size_t number, ServedApplication application);
   /// It does not run any more: what waits for it is answered with an error.
-  void detach(std::size_t number) noexcept;
+  void detach(size_t number) noexcept;
 
   /// While it is held no request is served: for a change of what is attached, or of the build.
   std::unique_lock<std::mutex> hold() const { return std::unique_lock(mutex_); }
@@ -94,7 +94,7 @@ private:
   struct Pending {
     ClientId client;
     Json id;
-    std::size_t application;
+    size_t application;
     std::shared_ptr<SymbolRequest> request; ///< null: waits for forces
     bool writes = false;
     bool literals = false;
@@ -103,7 +103,7 @@ private:
   struct Subscription {
     ClientId client;
     uint64_t number;
-    std::size_t application;
+    size_t application;
     std::shared_ptr<SymbolRequest> request;
     int64_t periodNs;
     int64_t nextNs = 0;
@@ -118,8 +118,8 @@ private:
   void dispatch(ClientId client, const Json &id, const Json &request);
   void answer(ClientId client, const Json &id, Json result);
   void refuse(ClientId client, const Json &id, const ServiceError &error);
-  std::size_t applicationOf(const Json &request) const;
-  const ServedApplication &running(std::size_t number) const;
+  size_t applicationOf(const Json &request) const;
+  const ServedApplication &running(size_t number) const;
   void wait(Pending pending);
   void checkPending(ClientId client) const;
 
@@ -151,7 +151,7 @@ private:
   GiveUp giveUp_;
   std::map<std::string, Operation> operations_;
   std::map<std::string, LateOperation> lateOperations_;
-  std::map<ClientId, std::size_t> late_; ///< How many late answers a client waits for.
+  std::map<ClientId, size_t> late_; ///< How many late answers a client waits for.
   std::vector<ServedApplication> applications_;
   std::vector<Json> last_; ///< What op "state" says of applications that do not run any more.
   std::vector<Pending> pending_;

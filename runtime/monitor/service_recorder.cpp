@@ -13,7 +13,7 @@ using nlohmann::json;
 
 /// Lines in one answer.
 constexpr uint64_t kMostLines = 10'000;
-constexpr std::size_t kMostText = std::size_t{1} << 20;
+constexpr size_t kMostText = size_t{1} << 20;
 
 TriggerEdge edgeNamed(const std::string &name) {
   static constexpr std::pair<const char *, TriggerEdge> kEdges[] = {
@@ -57,7 +57,7 @@ json describeRecorder(const Recorder &recorder) {
   json result = {{"state", stateName(recorder.state())},
                  {"taken", recorder.taken()},
                  {"rows", recorder.rows()}};
-  if (const std::optional<std::size_t> row = recorder.triggerRow())
+  if (const std::optional<size_t> row = recorder.triggerRow())
     result["trigger_row"] = *row;
   return result;
 }
@@ -94,11 +94,11 @@ json Service::recordRead(const json &request) const {
   const uint64_t from = countField(request, "from", 0, UINT64_MAX);
   const uint64_t count = countField(request, "count", 1000, kMostLines);
   json lines = json::array();
-  std::size_t size = 0;
+  size_t size = 0;
   for (uint64_t row = from; row < recorder->rows() && lines.size() < count && size < kMostText;
        ++row) {
     std::string line;
-    recorder->appendLine(static_cast<std::size_t>(row), line);
+    recorder->appendLine(static_cast<size_t>(row), line);
     size += line.size();
     lines.push_back(std::move(line));
   }

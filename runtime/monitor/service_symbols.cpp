@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kMostListed = 1000;
+constexpr size_t kMostListed = 1000;
 
 json flagNames(uint32_t flags) {
   static constexpr std::pair<uint32_t, const char *> kNames[] = {
@@ -87,28 +87,28 @@ std::vector<NamedValue> Service::namedValues(const ServedApplication &applicatio
 }
 
 void Service::read(ClientId client, const json &id, const json &request) {
-  const std::size_t number = applicationOf(request);
+  const size_t number = applicationOf(request);
   const bool literals = flagField(request, "literals");
   wait(
       {client, id, number, running(number).symbols->read(namesField(request)), false, literals, 0});
 }
 
 void Service::write(ClientId client, const json &id, const json &request) {
-  const std::size_t number = applicationOf(request);
+  const size_t number = applicationOf(request);
   const ServedApplication &application = running(number);
   wait({client, id, number, application.symbols->write(namedValues(application, request)), true,
         false, 0});
 }
 
 void Service::force(ClientId client, const json &id, const json &request) {
-  const std::size_t number = applicationOf(request);
+  const size_t number = applicationOf(request);
   const ServedApplication &application = running(number);
   application.symbols->force(namedValues(application, request));
   wait({client, id, number, nullptr, false, false, 0});
 }
 
 void Service::unforce(ClientId client, const json &id, const json &request) {
-  const std::size_t number = applicationOf(request);
+  const size_t number = applicationOf(request);
   if (flagField(request, "all"))
     running(number).symbols->releaseAll();
   else
@@ -139,11 +139,11 @@ json Service::list(const json &request) const {
 }
 
 void Service::subscribe(ClientId client, const json &id, const json &request) {
-  const std::size_t number = applicationOf(request);
+  const size_t number = applicationOf(request);
   const ServedApplication &application = running(number);
   const auto mine = std::count_if(subscriptions_.begin(), subscriptions_.end(),
                                   [&](const Subscription &s) { return s.client == client; });
-  if (static_cast<std::size_t>(mine) >= kMostSubscriptions)
+  if (static_cast<size_t>(mine) >= kMostSubscriptions)
     throw ServiceError{"too_many", fmt::format("a client has at most {} subscriptions; name more "
                                                "variables in one of them",
                                                kMostSubscriptions)};
@@ -202,7 +202,7 @@ json Service::tasks(const json &request, bool figures) const {
 }
 
 json Service::state(const json &request) const {
-  const std::size_t number = applicationOf(request);
+  const size_t number = applicationOf(request);
   if (number < last_.size() && applications_[number].symbols == nullptr && !last_[number].is_null())
     return last_[number];
   return stateOf(running(number));

@@ -66,7 +66,7 @@ json SocketClient::ask(json request) {
 }
 
 json SocketClient::receive() {
-  std::size_t end = 0;
+  size_t end = 0;
   while ((end = input_.find('\n')) == std::string::npos) {
     char buffer[65536];
     const ::ssize_t size = ::recv(socket_.number(), buffer, sizeof buffer, 0);
@@ -78,7 +78,7 @@ json SocketClient::receive() {
                                    address_, kDoorSeconds));
     if (size <= 0)
       throw app::Error(fmt::format("the connection to {} has ended", address_));
-    input_.append(buffer, static_cast<std::size_t>(size));
+    input_.append(buffer, static_cast<size_t>(size));
   }
   json line = json::parse(input_.substr(0, end), nullptr, false);
   input_.erase(0, end + 1);
@@ -89,14 +89,14 @@ json SocketClient::receive() {
 
 void SocketClient::send(const std::string &line) {
   const std::string text = line + '\n';
-  for (std::size_t sent = 0; sent < text.size();) {
+  for (size_t sent = 0; sent < text.size();) {
     const ::ssize_t size =
         ::send(socket_.number(), text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
     if (size < 0 && errno == EINTR)
       continue;
     if (size <= 0)
       throw app::Error(fmt::format("the connection to {} has ended", address_));
-    sent += static_cast<std::size_t>(size);
+    sent += static_cast<size_t>(size);
   }
 }
 

@@ -37,7 +37,7 @@ namespace {
 /// Behind the name of a socket's file until the socket listens.
 constexpr char kUnfinished[] = "~";
 /// Bytes in the longest path of a socket.
-constexpr std::size_t kMostInPath = sizeof(::sockaddr_un::sun_path) - sizeof kUnfinished;
+constexpr size_t kMostInPath = sizeof(::sockaddr_un::sun_path) - sizeof kUnfinished;
 
 /// After a failure to take somebody in. [ns]
 constexpr int64_t kPauseNs = 1'000'000'000;
@@ -175,7 +175,7 @@ struct SocketServer::Impl {
                               static_cast<long>(idle % 1'000'000'000)};
     if (::ppoll(files.data(), files.size(), &limit, nullptr) <= 0)
       return;
-    for (std::size_t i = 0; i < ids.size(); ++i)
+    for (size_t i = 0; i < ids.size(); ++i)
       if ((files[i + 2].revents & (POLLIN | POLLHUP | POLLERR)) != 0)
         receive(ids[i], clients.at(ids[i]));
     if ((files[0].revents & POLLIN) != 0)
@@ -281,9 +281,9 @@ struct SocketServer::Impl {
     }
     if (size < 0)
       return;
-    client.input.append(buffer, static_cast<std::size_t>(size));
-    std::size_t begin = 0;
-    for (std::size_t end = 0; (end = client.input.find('\n', begin)) != std::string::npos;
+    client.input.append(buffer, static_cast<size_t>(size));
+    size_t begin = 0;
+    for (size_t end = 0; (end = client.input.find('\n', begin)) != std::string::npos;
          begin = end + 1) {
       std::string_view line(client.input.data() + begin, end - begin);
       if (line.ends_with('\r'))
@@ -312,7 +312,7 @@ struct SocketServer::Impl {
         client.dropped = errno != EAGAIN && errno != EINTR;
         return;
       }
-      client.output.erase(0, static_cast<std::size_t>(sent));
+      client.output.erase(0, static_cast<size_t>(sent));
       client.tookNs = task::monotonicNs();
     }
   }

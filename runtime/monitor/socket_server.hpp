@@ -18,12 +18,12 @@ std::string socketPath(const std::string &address);
 /// what is no line, is dropped.
 class SocketServer {
 public:
-  static constexpr std::size_t kMostClients = 16;
-  static constexpr std::size_t kLongestLine = std::size_t{256} << 10;
+  static constexpr size_t kMostClients = 16;
+  static constexpr size_t kLongestLine = size_t{256} << 10;
   /// One that has sent no complete request for so long, and waits for nothing, or takes nothing of
   /// what it is sent, loses its place when another one needs it.
   static constexpr int64_t kSilentNs = 5'000'000'000;
-  static constexpr std::size_t kMostUnsent = std::size_t{8} << 20; ///< Bytes for one client.
+  static constexpr size_t kMostUnsent = size_t{8} << 20; ///< Bytes for one client.
 
   /// Replaces a socket file that nobody listens at. Throws app::Error when somebody does, when the
   /// file is no socket, and when the system refuses. start() begins.

@@ -7,9 +7,9 @@ namespace stride::monitor {
 /// The parts at the front of the queue that are due at this end of the cycle, as many as fit.
 void SymbolChannel::serve(bool writes, const Ctx &ctx) noexcept {
   auto *state = static_cast<std::byte *>(ctx.state);
-  std::size_t values = 0;
-  std::size_t bytes = 0;
-  std::size_t tail = tail_.load(std::memory_order_relaxed);
+  size_t values = 0;
+  size_t bytes = 0;
+  size_t tail = tail_.load(std::memory_order_relaxed);
   while (tail != head_.load(std::memory_order_acquire)) {
     const SymbolRequest::Part &part = *queue_[tail % queue_.size()];
     SymbolRequest &request = *part.request;
@@ -19,7 +19,7 @@ void SymbolChannel::serve(bool writes, const Ctx &ctx) noexcept {
     bytes += part.bytes;
     if (values > SymbolServer::kValuesPerCycle || bytes > SymbolServer::kBytesPerCycle)
       return; // in the next cycle; a single request always fits
-    for (std::size_t i = part.first; i != part.last; ++i) {
+    for (size_t i = part.first; i != part.last; ++i) {
       SymbolRequest::Value &value = request.values_[request.order_[i]];
       std::byte *memory = request.memory_.data() + value.offset;
       if (writes) {
@@ -41,7 +41,7 @@ void SymbolChannel::serve(bool writes, const Ctx &ctx) noexcept {
 
 /// What does not change anything is not told: forces hold in every cycle.
 bool SymbolChannel::store(const app::Symbol &symbol, std::byte *state, const std::byte *value,
-                          std::size_t size, bool behindPous) noexcept {
+                          size_t size, bool behindPous) noexcept {
   if (log == nullptr)
     return symbol.write(state, value, size);
   const auto *const place = static_cast<const std::byte *>(symbol.address(state));

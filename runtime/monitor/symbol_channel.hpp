@@ -37,13 +37,13 @@ public:
   }
   /// Server, with hasRoom().
   void push(SymbolRequest::Part &part) noexcept {
-    const std::size_t head = head_.load(std::memory_order_relaxed);
+    const size_t head = head_.load(std::memory_order_relaxed);
     queue_[head % queue_.size()] = &part;
     head_.store(head + 1, std::memory_order_release);
   }
   /// Server, while the task is in no cycle: takes the next part out of the queue, or null.
   SymbolRequest::Part *pop() noexcept {
-    const std::size_t tail = tail_.load(std::memory_order_acquire);
+    const size_t tail = tail_.load(std::memory_order_acquire);
     if (head_.load(std::memory_order_relaxed) == tail)
       return nullptr;
     SymbolRequest::Part *part = queue_[tail % queue_.size()];
@@ -79,12 +79,12 @@ private:
 
   void serve(bool writes, const Ctx &ctx) noexcept;
   void applyForces(const ForceList *list, const Ctx &ctx, bool behindPous) noexcept;
-  bool store(const app::Symbol &symbol, std::byte *state, const std::byte *value, std::size_t size,
+  bool store(const app::Symbol &symbol, std::byte *state, const std::byte *value, size_t size,
              bool behindPous) noexcept;
 
   std::array<SymbolRequest::Part *, SymbolServer::kMostWaiting> queue_{};
-  std::atomic<std::size_t> head_{0}; // parts put in so far
-  std::atomic<std::size_t> tail_{0}; // parts taken out so far
+  std::atomic<size_t> head_{0}; // parts put in so far
+  std::atomic<size_t> tail_{0}; // parts taken out so far
   Outer outer_;
   Inner inner_;
 };

@@ -9,7 +9,7 @@ namespace {
 /// Collects the entries of one page.
 class Lister {
 public:
-  Lister(const StrideAppV1 &app, uint64_t first, std::size_t most)
+  Lister(const StrideAppV1 &app, uint64_t first, size_t most)
       : app_(&app), first_(first), most_(most) {}
 
   void roots() {
@@ -74,14 +74,14 @@ private:
 
   const StrideAppV1 *app_;
   uint64_t first_;
-  std::size_t most_;
+  size_t most_;
   SymbolPage page_;
 };
 
 } // namespace
 
 SymbolPage listSymbols(const app::SymbolTable &symbols, std::string_view path, uint64_t first,
-                       std::size_t most) {
+                       size_t most) {
   Lister lister(symbols.app(), first, most);
   if (path.empty())
     lister.roots();

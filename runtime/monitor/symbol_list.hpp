@@ -32,7 +32,7 @@ struct SymbolPage {
 /// of declaration, from number `first` on, at most `most`. Hidden ones are left out. Throws
 /// app::Error for unknown names.
 SymbolPage listSymbols(const app::SymbolTable &symbols, std::string_view path, uint64_t first,
-                       std::size_t most);
+                       size_t most);
 
 } // namespace stride::monitor
 

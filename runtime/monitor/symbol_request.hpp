@@ -23,8 +23,8 @@ public:
   /// One variable. Of a write the value is what is to be written.
   struct Value {
     app::Symbol symbol;
-    std::size_t offset = 0; ///< Of its bytes in the request's memory.
-    std::size_t size = 0;
+    size_t offset = 0; ///< Of its bytes in the request's memory.
+    size_t size = 0;
     bool reached = false; ///< False: a pointer on the way to it was null.
   };
 
@@ -45,18 +45,18 @@ private:
   struct Part {
     SymbolRequest *request = nullptr;
     uint32_t task = 0;
-    std::size_t first = 0;
-    std::size_t last = 0;
-    std::size_t bytes = 0;
+    size_t first = 0;
+    size_t last = 0;
+    size_t bytes = 0;
   };
 
   bool writes_ = false;
   uint64_t build_ = 0; ///< Of the server when this was made.
   std::vector<Value> values_;
-  std::vector<std::size_t> order_; ///< Numbers of values_, those of a task together.
+  std::vector<size_t> order_; ///< Numbers of values_, those of a task together.
   std::vector<std::byte> memory_;
   std::vector<Part> parts_;
-  std::atomic<std::size_t> open_{0}; ///< Parts that are not done.
+  std::atomic<size_t> open_{0}; ///< Parts that are not done.
   std::atomic<bool> dropped_{false};
   std::atomic<int64_t> timeNs_{0};
 };

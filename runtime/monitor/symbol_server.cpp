@@ -56,9 +56,9 @@ std::shared_ptr<SymbolRequest> SymbolServer::newRequest(std::vector<app::Symbol>
                                  kValuesPerRequest));
   auto request = std::make_shared<SymbolRequest>();
   request->build_ = build_;
-  std::size_t size = 0;
+  size_t size = 0;
   for (app::Symbol &symbol : symbols) {
-    const std::size_t bytes = symbols_->type(symbol).size;
+    const size_t bytes = symbols_->type(symbol).size;
     request->values_.push_back({std::move(symbol), size, bytes, false});
     size += bytes;
   }
@@ -72,9 +72,9 @@ std::shared_ptr<SymbolRequest> SymbolServer::newRequest(std::vector<app::Symbol>
     tasks.push_back(taskOf(value.symbol));
   }
   std::stable_sort(request->order_.begin(), request->order_.end(),
-                   [&](std::size_t a, std::size_t b) { return tasks[a] < tasks[b]; });
-  for (std::size_t i = 0; i < request->order_.size(); ++i) {
-    const std::size_t number = request->order_[i];
+                   [&](size_t a, size_t b) { return tasks[a] < tasks[b]; });
+  for (size_t i = 0; i < request->order_.size(); ++i) {
+    const size_t number = request->order_[i];
     const uint32_t task = tasks[number];
     if (request->parts_.empty() || request->parts_.back().task != task)
       request->parts_.push_back({request.get(), task, i, i, 0});
@@ -292,7 +292,7 @@ SymbolServer::Change SymbolServer::prepareChange(std::unique_ptr<app::SymbolTabl
     change.lostForces_.push_back(forced.symbol.path());
   }
   parts.symbols = std::move(symbols);
-  for (std::size_t i = 0; i < channels_.size(); ++i)
+  for (size_t i = 0; i < channels_.size(); ++i)
     parts.lists.push_back(
         std::make_unique<SymbolChannel::ForceList>(SymbolChannel::ForceList{parts.forced}));
   parts.noRecorder = std::make_unique<SymbolChannel::RecorderSlot>();
@@ -312,7 +312,7 @@ void SymbolServer::changeApplication(Change &change) {
   symbols_.swap(parts.symbols);
   forced_.swap(parts.forced);
   ++build_;
-  for (std::size_t i = 0; i < channels_.size(); ++i)
+  for (size_t i = 0; i < channels_.size(); ++i)
     channels_[i]->forces.publish(std::move(parts.lists[i]));
   // A task that has not taken the list before must not apply the old one, whose symbols lead into
   // the old state; no task is in a cycle, so this thread takes it for them.

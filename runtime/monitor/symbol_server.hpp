@@ -27,7 +27,7 @@ public:
   virtual ~WriteLog() = default;
   /// These bytes have just been changed, before the POUs or behind them. Neither allocates, locks
   /// nor throws.
-  virtual void wrote(const std::byte *place, std::size_t size, bool behindPous) noexcept = 0;
+  virtual void wrote(const std::byte *place, size_t size, bool behindPous) noexcept = 0;
 };
 
 /// Serves one application. Requests are prepared outside of the cycles (names resolved, memory
@@ -43,12 +43,12 @@ public:
 /// task. All functions may be called from any thread that is not a task's.
 class SymbolServer {
 public:
-  static constexpr std::size_t kValuesPerRequest = 2000;
-  static constexpr std::size_t kBytesPerRequest = std::size_t{64} << 10;
-  static constexpr std::size_t kValuesPerCycle = kValuesPerRequest;
-  static constexpr std::size_t kBytesPerCycle = kBytesPerRequest;
-  static constexpr std::size_t kMostForces = 256;
-  static constexpr std::size_t kMostWaiting = 256; ///< Requests per task.
+  static constexpr size_t kValuesPerRequest = 2000;
+  static constexpr size_t kBytesPerRequest = size_t{64} << 10;
+  static constexpr size_t kValuesPerCycle = kValuesPerRequest;
+  static constexpr size_t kBytesPerCycle = kBytesPerRequest;
+  static constexpr size_t kMostForces = 256;
+  static constexpr size_t kMostWaiting = 256; ///< Requests per task.
 
   /// The tasks live longer, and their threads have ended before this does.
   explicit SymbolServer(task::TaskSet &tasks);

@@ -37,7 +37,7 @@ json textOf(const StrideAppV1 &app, const TypeDesc &type, const void *value) {
   std::string field;
   app::appendCsv(app, type, value, field);
   std::string text;
-  for (std::size_t i = 1; i + 1 < field.size(); ++i) {
+  for (size_t i = 1; i + 1 < field.size(); ++i) {
     text += field[i];
     if (field[i] == '"')
       ++i; // doubled

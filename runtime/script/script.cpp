@@ -9,8 +9,8 @@
 
 namespace stride::script {
 
-std::size_t FixedForces::add(const app::Symbol &symbol) {
-  for (std::size_t i = 0; i < forced_.size(); ++i)
+size_t FixedForces::add(const app::Symbol &symbol) {
+  for (size_t i = 0; i < forced_.size(); ++i)
     if (forced_[i]->symbol.path() == symbol.path())
       return i;
   forced_.push_back(std::make_unique<Forced>());
@@ -18,12 +18,12 @@ std::size_t FixedForces::add(const app::Symbol &symbol) {
   return forced_.size() - 1;
 }
 
-void FixedForces::set(std::size_t number, const std::vector<std::byte> &value) noexcept {
+void FixedForces::set(size_t number, const std::vector<std::byte> &value) noexcept {
   forced_[number]->size = value.size();
   forced_[number]->value.store(value.data(), std::memory_order_release);
 }
 
-void FixedForces::release(std::size_t number) noexcept {
+void FixedForces::release(size_t number) noexcept {
   forced_[number]->value.store(nullptr, std::memory_order_release);
 }
 
@@ -37,10 +37,10 @@ Script Script::in(const app::SymbolTable &symbols) const { return Script(symbols
 
 void Script::takeOver(Script &fresh) noexcept {
   // Both are of one text, so that everything has the same number in both.
-  for (std::size_t i = 0; i < threads_.size(); ++i) {
+  for (size_t i = 0; i < threads_.size(); ++i) {
     fresh.threads_[i].next = threads_[i].next;
     fresh.threads_[i].sinceNs = threads_[i].sinceNs;
-    for (std::size_t j = 0; j < threads_[i].steps.size(); ++j) {
+    for (size_t j = 0; j < threads_[i].steps.size(); ++j) {
       const Step &step = threads_[i].steps[j];
       Step &same = fresh.threads_[i].steps[j];
       same.failedNs = step.failedNs;

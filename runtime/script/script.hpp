@@ -21,16 +21,16 @@ namespace stride::script {
 class FixedForces final : public task::CycleHook {
 public:
   /// Before the run. Returns the variable's number; the same for the same path.
-  std::size_t add(const app::Symbol &symbol);
+  size_t add(const app::Symbol &symbol);
 
   /// `value` lives as long as this.
-  void set(std::size_t number, const std::vector<std::byte> &value) noexcept;
-  void release(std::size_t number) noexcept;
+  void set(size_t number, const std::vector<std::byte> &value) noexcept;
+  void release(size_t number) noexcept;
 
   /// Goes on with the variables of `fresh`. The values are those in force there.
   void takeOver(FixedForces &fresh) noexcept { forced_.swap(fresh.forced_); }
   /// The value in force, or null.
-  const std::byte *value(std::size_t number) const noexcept {
+  const std::byte *value(size_t number) const noexcept {
     return forced_[number]->value.load(std::memory_order_acquire);
   }
 
@@ -40,7 +40,7 @@ public:
 private:
   struct Forced {
     app::Symbol symbol;
-    std::size_t size = 0;
+    size_t size = 0;
     std::atomic<const std::byte *> value{nullptr}; ///< null: not forced
   };
   void apply(std::byte *state) const noexcept;
@@ -89,7 +89,7 @@ private:
     Does does = Does::Write;
     Position at;
     app::Symbol symbol;           ///< Write
-    std::size_t forced = 0;       ///< Force, Release: its number in forces_
+    size_t forced = 0;            ///< Force, Release: its number in forces_
     std::vector<std::byte> value; ///< Write, Force
     int64_t timeNs = 0;           ///< WaitAt, WaitFor
     app::Condition condition;     ///< WaitUntil, WaitUntilNot
@@ -99,7 +99,7 @@ private:
   struct Thread {
     std::vector<Step> steps;
     bool repeats = false;
-    std::size_t next = 0;
+    size_t next = 0;
     int64_t sinceNs = -1; ///< WaitFor: when it began
   };
 

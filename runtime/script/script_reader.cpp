@@ -19,7 +19,7 @@ namespace stride::script {
 
 namespace {
 
-constexpr std::size_t kMostMistakes = 20;
+constexpr size_t kMostMistakes = 20;
 constexpr const char *kForms =
     "a line is 'at TIME: …', 'when CONDITION: …', 'whenever CONDITION: …', 'wait TIME', 'wait "
     "until CONDITION', 'NAME := VALUE', 'force NAME := VALUE', 'release NAME', 'sequence NAME' or "
@@ -32,7 +32,7 @@ bool isWordCharacter(char c) {
 
 /// A mistake at a byte of the line.
 struct Mistake {
-  std::size_t at;
+  size_t at;
   std::string text;
 };
 
@@ -41,7 +41,7 @@ class Line {
 public:
   explicit Line(std::string_view text) : text_(text) { skipBlanks(); }
 
-  std::size_t at() const { return at_; }
+  size_t at() const { return at_; }
   bool atEnd() const { return at_ >= text_.size() || text_.substr(at_, 2) == "//"; }
   /// What stands from here to the end, for messages.
   std::string_view rest() const { return text_.substr(at_); }
@@ -59,12 +59,12 @@ public:
   }
   /// A keyword, in any case, that is not the beginning of a path or of an assignment.
   bool takeKeyword(std::string_view keyword) {
-    std::size_t end = at_;
+    size_t end = at_;
     while (end < text_.size() && isWordCharacter(text_[end]))
       ++end;
     if (common::lowerCase(text_.substr(at_, end - at_)) != keyword)
       return false;
-    std::size_t next = end;
+    size_t next = end;
     while (next < text_.size() && isBlank(text_[next]))
       ++next;
     const std::string_view behind = text_.substr(next, 2);
@@ -74,7 +74,7 @@ public:
     return true;
   }
   std::string_view path() {
-    const std::size_t start = at_;
+    const size_t start = at_;
     int depth = 0;
     while (at_ < text_.size()) {
       const char c = text_[at_];
@@ -91,7 +91,7 @@ public:
   }
   /// A literal or a time. A colon ends it except between digits (TOD#12:30).
   std::string_view literal(const char *what) {
-    const std::size_t start = at_;
+    const size_t start = at_;
     char quote = 0;
     while (at_ < text_.size()) {
       const char c = text_[at_];
@@ -114,10 +114,8 @@ public:
   }
 
 private:
-  bool digitAt(std::size_t i) const {
-    return i < text_.size() && text_[i] >= '0' && text_[i] <= '9';
-  }
-  std::string_view taken(std::size_t start) {
+  bool digitAt(size_t i) const { return i < text_.size() && text_[i] >= '0' && text_[i] <= '9'; }
+  std::string_view taken(size_t start) {
     const std::string_view token = text_.substr(start, at_ - start);
     skipBlanks();
     return token;
@@ -128,7 +126,7 @@ private:
   }
 
   std::string_view text_;
-  std::size_t at_ = 0;
+  size_t at_ = 0;
 };
 
 } // namespace
@@ -143,7 +141,7 @@ public:
     if (text.starts_with("\xEF\xBB\xBF"))
       text.remove_prefix(3);
     while (!text.empty()) {
-      const std::size_t end = std::min(text.find('\n'), text.size());
+      const size_t end = std::min(text.find('\n'), text.size());
       ++number_;
       line_ = text.substr(0, end);
       text.remove_prefix(std::min(end + 1, text.size()));
@@ -167,7 +165,7 @@ private:
   using Step = Script::Step;
   using Thread = Script::Thread;
 
-  Script::Position positionOf(std::size_t byte) const {
+  Script::Position positionOf(size_t byte) const {
     uint32_t column = 1;
     for (const char c : line_.substr(0, byte))
       column += (static_cast<unsigned char>(c) & 0xC0U) == 0x80U ? 0 : 1;
@@ -180,7 +178,7 @@ private:
   void readLine(Line &line) {
     if (line.atEnd())
       return;
-    const std::size_t start = line.at();
+    const size_t start = line.at();
     if (line.takeKeyword("sequence"))
       beginSequence(line, start);
     else if (line.takeKeyword("end_sequence"))
@@ -197,7 +195,7 @@ private:
       throw Mistake{line.at(), fmt::format("'{}' was not expected there", line.rest())};
   }
 
-  void beginSequence(Line &line, std::size_t start) {
+  void beginSequence(Line &line, size_t start) {
     if (inSequence_)
       throw Mistake{start, fmt::format("the sequence of line {} has not ended; 'end_sequence' is "
                                        "missing before this line",
@@ -209,7 +207,7 @@ private:
     script_->threads_.emplace_back();
     here_ = script_->threads_.size() - 1;
   }
-  void endSequence(Line &, std::size_t start) {
+  void endSequence(Line &, size_t start) {
     if (!inSequence_)
       throw Mistake{start, "no sequence begins before this line"};
     inSequence_ = false;
@@ -225,7 +223,7 @@ private:
     return script_->threads_[here_];
   }
 
-  void rule(Line &line, std::size_t start, Does does, bool repeats) {
+  void rule(Line &line, size_t start, Does does, bool repeats) {
     if (inSequence_)
       throw Mistake{start,
                     fmt::format("a rule stands outside of sequences; in the sequence of "
@@ -259,7 +257,7 @@ private:
 
   void steps(Line &line, Thread &thread) {
     do {
-      const std::size_t start = line.at();
+      const size_t start = line.at();
       if (!line.takeKeyword("wait")) {
         action(line, thread);
         continue;
@@ -279,16 +277,16 @@ private:
 
   void action(Line &line, Thread &thread) {
     Step step;
-    const std::size_t start = line.at();
+    const size_t start = line.at();
     step.at = positionOf(start);
     if (line.takeKeyword("force"))
       step.does = Does::Force;
     else if (line.takeKeyword("release"))
       step.does = Does::Release;
-    const std::size_t nameAt = line.at();
+    const size_t nameAt = line.at();
     const std::string_view path = line.path();
     if (step.does == Does::Write && !line.take(":=")) {
-      const std::size_t signAt = line.at();
+      const size_t signAt = line.at();
       throw line.take("=")
           ? Mistake{signAt, "a value is assigned with ':='"}
           : Mistake{start, fmt::format("'{}' is not understood; {}", path, kForms)};
@@ -304,13 +302,13 @@ private:
   }
 
   std::vector<std::byte> value(Line &line, const app::Symbol &symbol) {
-    const std::size_t at = line.at();
+    const size_t at = line.at();
     const std::string_view literal = line.literal("a value");
     return checked(at, [&] { return app::literalBytes(*symbols_, symbol, literal); });
   }
 
   int64_t time(Line &line) {
-    const std::size_t at = line.at();
+    const size_t at = line.at();
     const std::string_view text = line.literal("a time");
     const text::Scanned scanned =
         text::scanDuration(text.data(), static_cast<uint32_t>(text.size()));
@@ -341,7 +339,7 @@ private:
     }
   }
   void operand(Line &line, app::Condition &result) {
-    const std::size_t start = line.at();
+    const size_t start = line.at();
     if (++depth_ > app::Condition::kMaxDepth)
       throw Mistake{start, "the condition is nested too deeply"};
     if (line.takeKeyword("not")) {
@@ -356,7 +354,7 @@ private:
     --depth_;
   }
   app::Comparison comparison(Line &line) {
-    const std::size_t nameAt = line.at();
+    const size_t nameAt = line.at();
     const std::string_view path = line.path();
     app::Symbol symbol = checked(nameAt, [&] { return app::resolveElementary(*symbols_, path); });
     const std::optional<app::Relation> relation = takeRelation(line);
@@ -380,7 +378,7 @@ private:
     return std::nullopt;
   }
 
-  template <class F> static std::invoke_result_t<F> checked(std::size_t at, F f) {
+  template <class F> static std::invoke_result_t<F> checked(size_t at, F f) {
     try {
       return f();
     } catch (const app::Error &error) {
@@ -388,15 +386,15 @@ private:
     }
   }
 
-  static constexpr std::size_t kNone = ~std::size_t{0};
+  static constexpr size_t kNone = ~size_t{0};
   Script *script_;
   const app::SymbolTable *symbols_;
   std::string_view line_;
   uint32_t number_ = 0;
-  std::size_t here_ = kNone;    // the thread that steps go to
-  std::size_t outside_ = kNone; // that of the steps outside of sequences
+  size_t here_ = kNone;    // the thread that steps go to
+  size_t outside_ = kNone; // that of the steps outside of sequences
   bool inSequence_ = false;
-  std::size_t depth_ = 0;
+  size_t depth_ = 0;
   Script::Position sequenceAt_;
   std::vector<std::string> mistakes_;
 };
@@ -407,13 +405,13 @@ Script::Script(const app::SymbolTable &symbols, std::string_view text, std::stri
 }
 
 Script Script::fromFile(const app::SymbolTable &symbols, const std::string &file) {
-  constexpr std::size_t kMostBytes = std::size_t{16} << 20U;
+  constexpr size_t kMostBytes = size_t{16} << 20U;
   std::ifstream in(file, std::ios::binary);
   std::string text;
   char block[1 << 14];
   while (in && text.size() <= kMostBytes) {
     in.read(block, sizeof block);
-    text.append(block, static_cast<std::size_t>(in.gcount()));
+    text.append(block, static_cast<size_t>(in.gcount()));
   }
   if (text.size() > kMostBytes) // a device has no end
     throw app::Error(fmt::format("cannot read '{}': it is longer than 16 MiB", file));

@@ -125,8 +125,8 @@ std::string Disk::resolve(std::string_view name, FileError &error) const {
   if (!anywhere_) {
     if (absolute || (path.size() > 1 && path[1] == ':'))
       return {};
-    for (std::size_t at = 0; at <= path.size();) {
-      const std::size_t end = std::min(path.find('/', at), path.size());
+    for (size_t at = 0; at <= path.size();) {
+      const size_t end = std::min(path.find('/', at), path.size());
       if (std::string_view(path).substr(at, end - at) == "..")
         return {};
       at = end + 1;
@@ -205,7 +205,7 @@ Outcome Disk::open(std::string_view name, uint32_t mode) {
   place->descriptor = static_cast<int>(opened.value);
   place->generation = Handle::next(place->generation);
   place->mode = mode;
-  const Handle handle(static_cast<std::size_t>(place - files_.begin()), place->generation);
+  const Handle handle(static_cast<size_t>(place - files_.begin()), place->generation);
   return {FileError::None, handle.number()};
 }
 
@@ -361,10 +361,10 @@ Outcome Disk::load(std::string_view name, std::vector<std::byte> &content, uint6
   else if (static_cast<uint64_t>(about.st_size) > limit)
     result.error = FileError::TooLarge;
   else
-    content.resize(static_cast<std::size_t>(about.st_size));
+    content.resize(static_cast<size_t>(about.st_size));
   if (result.error == FileError::None)
     result = readAll(file, content.data(), content.size());
-  content.resize(static_cast<std::size_t>(result.value));
+  content.resize(static_cast<size_t>(result.value));
   ::close(file);
   return result;
 }

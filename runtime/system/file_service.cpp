@@ -24,7 +24,7 @@ bool sameText(const char *own, const char *given) {
 }
 
 void copyText(char (&to)[kFileName], const char *from) {
-  const std::size_t length = from == nullptr ? 0 : ::strnlen(from, kFileName - 1);
+  const size_t length = from == nullptr ? 0 : ::strnlen(from, kFileName - 1);
   std::memcpy(to, from == nullptr ? "" : from, length);
   to[length] = 0;
 }
@@ -80,7 +80,7 @@ std::vector<std::string> FileService::takeNews() {
 FileService::Job *FileService::claim(const Ctx &ctx) noexcept {
   if (ending_.load(std::memory_order_acquire))
     return nullptr;
-  for (std::size_t i = 0; i < kJobs; ++i) {
+  for (size_t i = 0; i < kJobs; ++i) {
     uint32_t expected = Job::Free;
     if (jobs_[i].state.compare_exchange_strong(expected, Job::Filling, std::memory_order_acquire,
                                                std::memory_order_relaxed))
@@ -93,7 +93,7 @@ FileService::Job *FileService::claim(const Ctx &ctx) noexcept {
 /// Gives up the oldest answer that this task has not taken; a file that was opened is closed.
 void FileService::recycle(const Ctx &ctx) noexcept {
   Job *oldest = nullptr;
-  for (std::size_t i = 0; i < kJobs; ++i) {
+  for (size_t i = 0; i < kJobs; ++i) {
     Job &job = jobs_[i];
     if (job.state.load(std::memory_order_acquire) == Job::Done && job.task == ctx.taskIndex &&
         ctx.cycle - job.cycle > kForgotten && (oldest == nullptr || job.ticket < oldest->ticket))
@@ -156,7 +156,7 @@ FileService::Job *FileService::findJob(uint32_t number) noexcept {
 }
 
 FileService::Job *FileService::findAsked(const Ctx &ctx, const FileRequest &request) noexcept {
-  for (std::size_t i = 0; i < kJobs; ++i) {
+  for (size_t i = 0; i < kJobs; ++i) {
     Job &job = jobs_[i];
     const uint32_t state = job.state.load(std::memory_order_acquire);
     if ((state == Job::Queued || state == Job::Done) && job.task == ctx.taskIndex &&
@@ -191,7 +191,7 @@ uint32_t FileService::start(const Ctx &ctx, const FileRequest &request) noexcept
     if (Job *const job = claim(ctx)) {
       job->taker = Job::Taker::Number;
       submit(ctx, *job, request);
-      number = Handle(static_cast<std::size_t>(job - jobs_.get()),
+      number = Handle(static_cast<size_t>(job - jobs_.get()),
                       job->generation.load(std::memory_order_relaxed))
                    .number();
     }

@@ -26,7 +26,7 @@ public:
   Inputs(const Inputs &) = delete;
   Inputs &operator=(const Inputs &) = delete;
   virtual ~Inputs() = default;
-  virtual void pass(void *value, std::size_t size) noexcept = 0;
+  virtual void pass(void *value, size_t size) noexcept = 0;
   /// The values are those of a recording: nothing happens on the disk.
   virtual bool replays() const noexcept = 0;
 };
@@ -73,8 +73,8 @@ public:
 private:
   struct Job;
   struct Stream;
-  static constexpr std::size_t kJobs = 32;
-  static constexpr std::size_t kStreams = 16;
+  static constexpr size_t kJobs = 32;
+  static constexpr size_t kStreams = 16;
 
   // In the cycle.
   Job *claim(const Ctx &ctx) noexcept;

@@ -73,7 +73,7 @@ void FileService::workOnce() {
 
 FileService::Job *FileService::next() {
   Job *oldest = nullptr;
-  for (std::size_t i = 0; i < kJobs; ++i)
+  for (size_t i = 0; i < kJobs; ++i)
     if (jobs_[i].state.load(std::memory_order_acquire) == Job::Queued &&
         (oldest == nullptr || jobs_[i].ticket < oldest->ticket))
       oldest = &jobs_[i];
@@ -137,7 +137,7 @@ Outcome FileService::openStream(const Job &job) {
   if (job.mode == 0)
     return {FileError::BadMode, 0};
   Stream *stream = nullptr;
-  for (std::size_t i = 0; i < kStreams && stream == nullptr; ++i)
+  for (size_t i = 0; i < kStreams && stream == nullptr; ++i)
     if (streams_[i].state.load(std::memory_order_acquire) == Stream::Free)
       stream = &streams_[i];
   if (stream == nullptr)
@@ -171,7 +171,7 @@ Outcome FileService::openStream(const Job &job) {
   const uint32_t generation = Handle::next(stream->generation.load(std::memory_order_relaxed));
   stream->generation.store(generation, std::memory_order_relaxed);
   stream->state.store(reads ? Stream::Reading : Stream::Writing, std::memory_order_release);
-  const Handle handle(static_cast<std::size_t>(stream - streams_.get()), generation);
+  const Handle handle(static_cast<size_t>(stream - streams_.get()), generation);
   return {FileError::None, handle.number()};
 }
 
@@ -184,7 +184,7 @@ Outcome FileService::closeStream(uint32_t file) {
 }
 
 void FileService::finishStreams() {
-  for (std::size_t i = 0; i < kStreams; ++i)
+  for (size_t i = 0; i < kStreams; ++i)
     if (streams_[i].state.load(std::memory_order_acquire) != Stream::Free)
       (void)finishStream(streams_[i]);
 }
@@ -256,7 +256,7 @@ void FileService::drain(Stream &stream) {
 }
 
 void FileService::drainAll() {
-  for (std::size_t i = 0; i < kStreams; ++i)
+  for (size_t i = 0; i < kStreams; ++i)
     if (streams_[i].file >= 0 && streams_[i].state.load(std::memory_order_acquire) != Stream::Free)
       drain(streams_[i]);
 }

@@ -13,7 +13,7 @@ class Handle {
 public:
   static constexpr uint32_t kGenerations = 1U << 24;
 
-  Handle(std::size_t index, uint32_t generation)
+  Handle(size_t index, uint32_t generation)
       : number_((static_cast<uint32_t>(index) + 1) | generation << kIndexBits) {}
   /// What a program says; its index may be beyond every table.
   explicit Handle(uint32_t number) : number_(number) {}

@@ -41,7 +41,7 @@ void CycleGate::hold() {
     return;
   }
   held_.store(1);
-  for (std::size_t i = 0; i < ranks_.size(); ++i)
+  for (size_t i = 0; i < ranks_.size(); ++i)
     inside_[i].wait(1);
 }
 
@@ -53,7 +53,7 @@ void CycleGate::release() {
   }
   const std::lock_guard lock(mutex_);
   busy_ = false;
-  for (std::size_t rank = 0; rank < waiting_.size(); ++rank) {
+  for (size_t rank = 0; rank < waiting_.size(); ++rank) {
     if (!waiting_[rank])
       continue;
     waiting_[rank] = false; // it is its turn now

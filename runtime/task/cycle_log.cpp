@@ -15,7 +15,7 @@ void CycleLog::put(const char *text) noexcept {
                                             std::memory_order_relaxed))
       continue;
     line.number = next_.fetch_add(1, std::memory_order_relaxed);
-    const std::size_t length = ::strnlen(text, kLineSize - 1);
+    const size_t length = ::strnlen(text, kLineSize - 1);
     std::memcpy(line.text, text, length);
     line.text[length] = 0;
     line.state.store(Full, std::memory_order_release);

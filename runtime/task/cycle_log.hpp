@@ -15,8 +15,8 @@ namespace stride::task {
 /// nobody has taken the others yet, it is counted only.
 class CycleLog {
 public:
-  static constexpr std::size_t kLines = 64;
-  static constexpr std::size_t kLineSize = 1024; ///< Longer ones are cut. [bytes]
+  static constexpr size_t kLines = 64;
+  static constexpr size_t kLineSize = 1024; ///< Longer ones are cut. [bytes]
 
   void put(const char *text) noexcept;
   /// The lines since the last call in their order, and how many are missing. From one thread, not a

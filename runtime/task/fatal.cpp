@@ -43,7 +43,7 @@ public:
 
 private:
   char text_[512];
-  std::size_t length_ = 0;
+  size_t length_ = 0;
 };
 
 void report(int number, const void *address) noexcept {

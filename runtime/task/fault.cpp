@@ -31,7 +31,7 @@ struct Landing {
   const Ctx *ctx;
   Landing *outer;        ///< Of a call around this one.
   unsigned arrivals = 0; ///< Signals: one that comes while the calls are captured adds none.
-  std::size_t callCount = 0;
+  size_t callCount = 0;
   uintptr_t calls[StException::kMaxCalls];
 };
 thread_local Landing *landing = nullptr;
@@ -46,7 +46,7 @@ constexpr unsigned kMostArrivals = 3;
 /// Lower end and size of this thread's stack, known while a MemoryGuard lives; so is its data
 /// stack.
 thread_local uintptr_t stackLow = 0;
-thread_local std::size_t stackSize = 0;
+thread_local size_t stackSize = 0;
 thread_local char *dataLow = nullptr;
 thread_local char *dataHigh = nullptr;
 
@@ -56,7 +56,7 @@ constexpr auto kDataPlaces = [] {
   constexpr uint64_t kStep = kPart / 32;
   static_assert(kDataStack + 2 * app::LowMemory::kGuard <= kStep);
   std::array<uint64_t, 16 * (app::kFourGiB / kPart - 1)> places{};
-  for (std::size_t i = 0; i < places.size(); ++i)
+  for (size_t i = 0; i < places.size(); ++i)
     places[i] = (i / 16 + 1) * kPart + kPart / 2 + i % 16 * kStep + app::LowMemory::kGuard;
   return places;
 }();
@@ -119,20 +119,20 @@ public:
     action.sa_sigaction = strideOnSignal;
     action.sa_flags = SA_SIGINFO | SA_ONSTACK | SA_NODEFER;
     ::sigemptyset(&action.sa_mask);
-    for (std::size_t i = 0; i < std::size(kSignals); ++i)
+    for (size_t i = 0; i < std::size(kSignals); ++i)
       ::sigaction(kSignals[i], &action, &old_[i]);
   }
   void release() {
     const std::lock_guard lock(mutex_);
     if (--users_ != 0)
       return;
-    for (std::size_t i = 0; i < std::size(kSignals); ++i)
+    for (size_t i = 0; i < std::size(kSignals); ++i)
       ::sigaction(kSignals[i], &old_[i], nullptr);
   }
 
 private:
   std::mutex mutex_;
-  std::size_t users_ = 0;
+  size_t users_ = 0;
   struct sigaction old_[std::size(kSignals)]{};
 };
 
@@ -179,12 +179,12 @@ DataStackRange dataStack() noexcept {
   return {reinterpret_cast<uintptr_t>(dataLow), reinterpret_cast<uintptr_t>(dataHigh)};
 }
 
-void touchDataStack(std::size_t bytes) noexcept {
-  constexpr std::size_t kPage = 4096;
+void touchDataStack(size_t bytes) noexcept {
+  constexpr size_t kPage = 4096;
   if (dataLow == nullptr)
     return;
   volatile char *const low = dataLow;
-  for (std::size_t at = 0; at < std::min(bytes, kDataStack); at += kPage)
+  for (size_t at = 0; at < std::min(bytes, kDataStack); at += kPage)
     low[at] = 0;
 }
 

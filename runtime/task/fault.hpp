@@ -45,7 +45,7 @@ private:
 
 /// Bytes of a data stack (runtime/iec/data_stack.h). It lies below 4 GiB, at the first free of a
 /// fixed series of addresses, so that addresses repeat from run to run.
-inline constexpr std::size_t kDataStack = std::size_t{8} << 20;
+inline constexpr size_t kDataStack = size_t{8} << 20;
 
 /// The data stack of a thread with a MemoryGuard; empty for others.
 struct DataStackRange {
@@ -55,7 +55,7 @@ struct DataStackRange {
 DataStackRange dataStack() noexcept;
 
 /// Touches the first so many bytes, before real time begins.
-void touchDataStack(std::size_t bytes) noexcept;
+void touchDataStack(size_t bytes) noexcept;
 
 /// Calls run(&ctx) with the thread's data stack. Returns what stopped it, if something did. Never
 /// allocates. Within such a call there may be another one.

@@ -6,7 +6,7 @@ namespace stride::task {
 
 uint64_t Histogram::total() const noexcept {
   uint64_t sum = 0;
-  for (std::size_t i = 0; i < kBuckets; ++i)
+  for (size_t i = 0; i < kBuckets; ++i)
     sum += count(i);
   return sum;
 }
@@ -17,7 +17,7 @@ int64_t Histogram::quantile(double share) const noexcept {
     return 0;
   const auto wanted = static_cast<uint64_t>(std::ceil(share * static_cast<double>(all)));
   uint64_t seen = 0;
-  for (std::size_t i = 0; i < kBuckets; ++i) {
+  for (size_t i = 0; i < kBuckets; ++i) {
     seen += count(i);
     if (seen >= wanted && seen != 0)
       return lowerEnd(i + 1) - 1;

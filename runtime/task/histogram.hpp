@@ -17,7 +17,7 @@ class Histogram {
 public:
   static constexpr unsigned kSubBits = 6; ///< 64 buckets per power of two.
   static constexpr unsigned kTopBit = 40;
-  static constexpr std::size_t kBuckets = (kTopBit - kSubBits + 1) << kSubBits;
+  static constexpr size_t kBuckets = (kTopBit - kSubBits + 1) << kSubBits;
 
   /// Negative durations count as 0. [ns]
   void record(int64_t ns) noexcept {
@@ -25,7 +25,7 @@ public:
     count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
 
-  uint64_t count(std::size_t bucket) const noexcept {
+  uint64_t count(size_t bucket) const noexcept {
     return counts_[bucket].load(std::memory_order_relaxed);
   }
   uint64_t total() const noexcept;
@@ -39,24 +39,24 @@ public:
       count.store(0, std::memory_order_relaxed);
   }
 
-  static std::size_t bucketOf(int64_t ns) noexcept {
+  static size_t bucketOf(int64_t ns) noexcept {
     if (ns <= 0)
       return 0;
     const auto value = static_cast<uint64_t>(ns);
     if (value < (1U << kSubBits))
-      return static_cast<std::size_t>(value);
+      return static_cast<size_t>(value);
     const auto top = static_cast<unsigned>(std::bit_width(value)) - 1;
     if (top >= kTopBit)
       return kBuckets - 1;
     const unsigned shift = top - kSubBits;
-    return (std::size_t{shift} << kSubBits) + static_cast<std::size_t>(value >> shift);
+    return (size_t{shift} << kSubBits) + static_cast<size_t>(value >> shift);
   }
   /// The smallest duration in the bucket. [ns]
-  static int64_t lowerEnd(std::size_t bucket) noexcept {
-    const std::size_t group = bucket >> kSubBits;
+  static int64_t lowerEnd(size_t bucket) noexcept {
+    const size_t group = bucket >> kSubBits;
     if (group == 0)
       return static_cast<int64_t>(bucket);
-    const std::size_t sub = (bucket & ((1U << kSubBits) - 1)) + (1U << kSubBits);
+    const size_t sub = (bucket & ((1U << kSubBits) - 1)) + (1U << kSubBits);
     return static_cast<int64_t>(sub << (group - 1));
   }
 

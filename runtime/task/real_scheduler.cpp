@@ -19,7 +19,7 @@ namespace {
 constexpr int64_t kNever = std::numeric_limits<int64_t>::max();
 /// A sleeping thread looks so often whether the end has come. [ns]
 constexpr int64_t kLongestSleepNs = 100'000'000;
-constexpr std::size_t kTouchedStack = std::size_t{512} << 10;
+constexpr size_t kTouchedStack = size_t{512} << 10;
 
 ::timespec toTimespec(int64_t ns) {
   ::timespec time{};

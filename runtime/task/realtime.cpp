@@ -91,10 +91,10 @@ bool pinTo(uint32_t core) noexcept {
   return ::pthread_setaffinity_np(::pthread_self(), sizeof set, &set) == 0;
 }
 
-__attribute__((noinline)) void touchStack(std::size_t bytes) noexcept {
-  constexpr std::size_t kPage = 4096;
+__attribute__((noinline)) void touchStack(size_t bytes) noexcept {
+  constexpr size_t kPage = 4096;
   auto *memory = static_cast<volatile char *>(alloca(bytes));
-  for (std::size_t i = 0; i < bytes; i += kPage)
+  for (size_t i = 0; i < bytes; i += kPage)
     memory[bytes - 1 - i] = 0;
 }
 

@@ -42,7 +42,7 @@ bool pinTo(uint32_t core) noexcept;
 
 /// Touches `bytes` of the calling thread's stack below the current frame, so that later calls find
 /// the pages there.
-void touchStack(std::size_t bytes) noexcept;
+void touchStack(size_t bytes) noexcept;
 
 /// For threads without SCHED_FIFO: timers as exact as the kernel can.
 void useExactTimers() noexcept;

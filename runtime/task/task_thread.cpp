@@ -30,7 +30,7 @@ struct TaskThread::Impl {
     void *begin() const { return static_cast<std::byte *>(memory_) + kBelowTaskStack; }
 
   private:
-    static constexpr std::size_t kMapped = kBelowTaskStack + kTaskStack;
+    static constexpr size_t kMapped = kBelowTaskStack + kTaskStack;
     void *memory_;
   };
 

@@ -9,9 +9,9 @@
 
 namespace stride::task {
 
-inline constexpr std::size_t kTaskStack = std::size_t{8} << 20;
+inline constexpr size_t kTaskStack = size_t{8} << 20;
 /// A frame that begins on the stack and is not larger than this cannot reach past its end.
-inline constexpr std::size_t kBelowTaskStack = std::size_t{64} << 20;
+inline constexpr size_t kBelowTaskStack = size_t{64} << 20;
 
 /// A thread with a stack of kTaskStack bytes, whatever the system's limits say. It holds what C++
 /// puts there, return addresses among it; what ST can have an address of is elsewhere (DataStack).

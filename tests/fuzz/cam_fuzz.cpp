@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   stc::Sources sources;
   stc::Diagnostics diagnostics;
   const stc::FileId id =
@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     (void)stc::camDeclarations({*cam}, {}, ranges, diagnostics);
     if (const std::optional<stc::CamData> compiled = stc::compileCam(*cam, diagnostics);
         compiled && compiled->header.elements != 0) {
-      std::uint32_t index = 0;
+      uint32_t index = 0;
       for (const double x : {cam->start, (cam->start + cam->end) / 2, cam->end})
         if (!std::isfinite(
                 stride::cam::evaluateCurve(compiled->curve(), x, cam->periodic, index).y))

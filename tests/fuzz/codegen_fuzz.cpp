@@ -32,7 +32,7 @@ std::vector<stc::GeneratedFile> generate(const std::string &bytes) {
   task.name = "Task";
   task.intervalNs = 10'000'000;
   for (stc::PouSymbol *p : program.user->pous) {
-    if (p->decl->kind == stc::ast::DeclKind::program)
+    if (p->decl->kind == stc::ast::DeclKind::Program)
       task.programs.push_back(p);
   }
   config.tasks.push_back(task);
@@ -53,7 +53,7 @@ void compile(const std::vector<stc::GeneratedFile> &files, const std::string &co
 
 } // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   const std::string bytes(reinterpret_cast<const char *>(data), size);
   const std::vector<stc::GeneratedFile> files = generate(bytes);
   if (files.empty())
@@ -61,7 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
   const std::vector<stc::GeneratedFile> again = generate(bytes);
   if (files.size() != again.size())
     std::abort();
-  for (std::size_t i = 0; i < files.size(); ++i) {
+  for (size_t i = 0; i < files.size(); ++i) {
     if (files[i].path != again[i].path || files[i].text != again[i].text)
       std::abort();
   }

@@ -31,7 +31,7 @@ struct InputFile {
 };
 
 /// Only names that stay in the folder and that the commands look at.
-std::string fileName(std::string_view given, std::size_t number) {
+std::string fileName(std::string_view given, size_t number) {
   if (given == "stride.toml" || given.ends_with(".cam.toml") || given.ends_with(".st"))
     if (given.find('/') == std::string_view::npos && given.size() < 100 && given[0] != '.' &&
         given.find('\0') == std::string_view::npos)
@@ -43,7 +43,7 @@ std::vector<InputFile> splitFiles(std::string_view text) {
   std::vector<InputFile> files{{"input.st", {}}};
   const char *begin = text.data();
   while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
+    const size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
     std::string_view line = text.substr(0, end);
     text.remove_prefix(end);
     if (line.starts_with(kFileMark) && files.size() < 8) {
@@ -51,7 +51,7 @@ std::vector<InputFile> splitFiles(std::string_view text) {
       files.push_back({fileName(line.substr(0, line.find_first_of("\r\n")), files.size()), {}});
       begin = text.data();
     } else {
-      files.back().text = {begin, static_cast<std::size_t>(line.data() + line.size() - begin)};
+      files.back().text = {begin, static_cast<size_t>(line.data() + line.size() - begin)};
     }
   }
   if (files.size() > 1 && files[0].text.empty())
@@ -74,7 +74,7 @@ void checkAndGenerate(const fs::path &path, stc::Purpose purpose) {
   const stc::EmbeddedLibraryIndex index(stc::standardLibrary());
   const stc::Project project(path, purpose, {}, index);
   drawAll(project.diagnostics(), project.sources());
-  if (project.hasErrors() || purpose == stc::Purpose::check)
+  if (project.hasErrors() || purpose == stc::Purpose::Check)
     return;
   demand(!stc::generateApplication(project.program(), project.appConfig()).empty(),
          "a program without errors gives no C++");
@@ -93,7 +93,7 @@ void format(const fs::path &path) {
   stc::formatFiles(twice, stc::readFormatSettings(path, sources, diagnostics), sources,
                    diagnostics);
   demand(!diagnostics.hasErrors(), "a formatted file has errors");
-  for (std::size_t i = 0; i < once.size(); ++i)
+  for (size_t i = 0; i < once.size(); ++i)
     demand(once[i].after == twice[i].after, "formatting a formatted file changes it");
 }
 
@@ -107,10 +107,10 @@ void runCommands(std::string_view text, const fs::path &folder) {
     std::ofstream(folder / file.name, std::ios::binary) << file.text;
   const bool single = files.size() == 1 && files[0].name == "input.st";
   const fs::path path = single ? folder / "input.st" : folder;
-  checkAndGenerate(path, stc::Purpose::check);
-  checkAndGenerate(path, stc::Purpose::build);
+  checkAndGenerate(path, stc::Purpose::Check);
+  checkAndGenerate(path, stc::Purpose::Build);
   if (text.find("TEST") != std::string_view::npos || text.find("test") != std::string_view::npos)
-    checkAndGenerate(path, stc::Purpose::test);
+    checkAndGenerate(path, stc::Purpose::Test);
   format(path);
 }
 

@@ -1,5 +1,6 @@
 // What a user does with sources: `stride check`, `fmt`, `build --emit cpp`, within this process.
-#pragma once
+#ifndef STRIDE_TESTS_FUZZ_COMMANDS_HPP
+#define STRIDE_TESTS_FUZZ_COMMANDS_HPP
 
 #include <filesystem>
 #include <string_view>
@@ -16,3 +17,5 @@ inline constexpr std::string_view kFileMark = "//// ";
 void runCommands(std::string_view text, const std::filesystem::path &folder);
 
 } // namespace stride::fuzz
+
+#endif // STRIDE_TESTS_FUZZ_COMMANDS_HPP

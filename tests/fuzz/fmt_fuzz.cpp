@@ -25,7 +25,7 @@ bool isWellFormed(const stc::SourceFile &file) {
 
 } // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   stc::Sources sources;
   const stc::FileId id =
       sources.addBytes("fuzz.st", std::string(reinterpret_cast<const char *>(data), size));

@@ -6,13 +6,13 @@
 #include <cstdint>
 #include <string>
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   stc::Sources sources;
   stc::Diagnostics diagnostics;
   const stc::FileId id =
       sources.addBytes("stride.toml", std::string(reinterpret_cast<const char *>(data), size));
   stc::ProjectConfig config = stc::readConfig(sources.file(id), diagnostics);
-  stc::resolveTasks(config, {}, stc::ProgramCheck::existing, diagnostics);
+  stc::resolveTasks(config, {}, stc::ProgramCheck::Existing, diagnostics);
   std::vector<stc::DeclaredRange> ranges;
   (void)stc::plcDeclarations(config, {}, ranges, diagnostics);
   for (const stc::Diagnostic &diagnostic : diagnostics.all())

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t *data, std::size_t size, std::size_t most);
+extern "C" size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t most);
 
 namespace {
 
@@ -24,29 +24,27 @@ bool onlyBytes() {
   return set;
 }
 
-std::string_view textOf(const std::uint8_t *data, std::size_t size) {
+std::string_view textOf(const uint8_t *data, size_t size) {
   return {reinterpret_cast<const char *>(data), size};
 }
 
-std::size_t store(const std::string &text, std::uint8_t *out, std::size_t most) {
-  const std::size_t size = std::min(text.size(), most);
+size_t store(const std::string &text, uint8_t *out, size_t most) {
+  const size_t size = std::min(text.size(), most);
   std::memcpy(out, text.data(), size);
   return size;
 }
 
 } // namespace
 
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t *data, std::size_t size,
-                                               std::size_t most, unsigned seed) {
+extern "C" size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed) {
   if (onlyBytes() || seed % 8 == 0)
     return LLVMFuzzerMutate(data, size, most);
   return store(mutator().mutate(textOf(data, size), seed, most), data, most);
 }
 
-extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t *first, std::size_t firstSize,
-                                                 const std::uint8_t *second, std::size_t secondSize,
-                                                 std::uint8_t *out, std::size_t most,
-                                                 unsigned seed) {
+extern "C" size_t LLVMFuzzerCustomCrossOver(const uint8_t *first, size_t firstSize,
+                                            const uint8_t *second, size_t secondSize, uint8_t *out,
+                                            size_t most, unsigned seed) {
   return store(mutator().cross(textOf(first, firstSize), textOf(second, secondSize), seed, most),
                out, most);
 }

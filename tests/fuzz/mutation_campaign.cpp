@@ -19,14 +19,14 @@ namespace stride::fuzz {
 
 namespace {
 
-constexpr std::size_t kMostBytes = 16'384;
-constexpr std::size_t kMostFailures = 20;
+constexpr size_t kMostBytes = 16'384;
+constexpr size_t kMostFailures = 20;
 constexpr time_t kTooLong = 60; // seconds of processor time: what would never end takes longer
 
 // What the child writes and its parent reads when it is gone.
 struct Progress {
-  std::uint64_t number = 0;
-  std::uint64_t slowest = 0;
+  uint64_t number = 0;
+  uint64_t slowest = 0;
   double slowestSeconds = 0;
 };
 
@@ -54,7 +54,7 @@ double processorSeconds() {
   return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
 }
 
-[[noreturn]] void work(const TokenMutator &mutator, Progress &progress, std::uint64_t last,
+[[noreturn]] void work(const TokenMutator &mutator, Progress &progress, uint64_t last,
                        const std::filesystem::path &folder) {
   try {
     for (; progress.number <= last; ++progress.number) {
@@ -79,7 +79,7 @@ double processorSeconds() {
 
 } // namespace
 
-std::string mutatedSource(const TokenMutator &mutator, std::uint64_t number) {
+std::string mutatedSource(const TokenMutator &mutator, uint64_t number) {
   std::mt19937_64 random(number);
   const std::vector<std::string> &corpus = mutator.corpus();
   const auto some = [&] {
@@ -93,12 +93,12 @@ std::string mutatedSource(const TokenMutator &mutator, std::uint64_t number) {
   return source;
 }
 
-Campaign runCampaign(const TokenMutator &mutator, std::uint64_t first, std::uint64_t count,
+Campaign runCampaign(const TokenMutator &mutator, uint64_t first, uint64_t count,
                      const std::filesystem::path &folder) {
   Campaign campaign;
   const SharedProgress progress;
   (*progress).number = first;
-  const std::uint64_t last = first + count - 1;
+  const uint64_t last = first + count - 1;
   while ((*progress).number <= last && campaign.failures.size() < kMostFailures) {
     const pid_t child = ::fork();
     if (child < 0)
@@ -110,7 +110,7 @@ Campaign runCampaign(const TokenMutator &mutator, std::uint64_t first, std::uint
     }
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
       break;
-    const std::uint64_t number = (*progress).number++;
+    const uint64_t number = (*progress).number++;
     ::fprintf(stderr, "source %llu: %s\n", static_cast<unsigned long long>(number),
               WIFSIGNALED(status) ? ::strsignal(WTERMSIG(status)) : "ended by itself");
     campaign.failures.push_back(

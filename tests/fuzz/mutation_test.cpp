@@ -15,8 +15,8 @@ namespace stride::fuzz {
 namespace {
 
 struct Range {
-  std::uint64_t first = 0;
-  std::uint64_t count = 2000;
+  uint64_t first = 0;
+  uint64_t count = 2000;
 };
 
 Range rangeToRun() {

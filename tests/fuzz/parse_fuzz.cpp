@@ -17,7 +17,7 @@ void demand(bool condition) {
 
 } // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   stc::Sources sources;
   stc::Interner interner;
   stc::Arena arena;

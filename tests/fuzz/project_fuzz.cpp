@@ -7,7 +7,7 @@
 #include <string>
 #include <unistd.h>
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   static const std::filesystem::path folder = std::filesystem::temp_directory_path() /
                                               ("stride-project-fuzz-" + std::to_string(::getpid()));
   stride::fuzz::runCommands({reinterpret_cast<const char *>(data), size}, folder);

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string_view>
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   using namespace stride;
   app::Application application = app::Application::fromDescription(*stride_app_v1());
   application.initialise(task::hostApi());

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   stc::Program program;
   const stc::FileId id =
       program.sources.addBytes("fuzz.st", std::string(reinterpret_cast<const char *>(data), size));

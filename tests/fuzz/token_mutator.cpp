@@ -84,8 +84,8 @@ constexpr std::string_view kStrange[] = {
     "ADR(",
 };
 
-std::size_t below(Random &random, std::size_t count) {
-  return count == 0 ? 0 : static_cast<std::size_t>(random() % count);
+size_t below(Random &random, size_t count) {
+  return count == 0 ? 0 : static_cast<size_t>(random() % count);
 }
 
 bool isWordByte(char c) {
@@ -95,51 +95,51 @@ bool isWordByte(char c) {
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 template <class Condition>
-std::size_t runLength(std::string_view text, std::size_t from, Condition condition) {
+size_t runLength(std::string_view text, size_t from, Condition condition) {
   while (from < text.size() && condition(text[from]))
     ++from;
   return from;
 }
 
-std::size_t behind(std::string_view text, std::string_view end, std::size_t from) {
-  const std::size_t found = text.find(end, from);
+size_t behind(std::string_view text, std::string_view end, size_t from) {
+  const size_t found = text.find(end, from);
   return found == std::string_view::npos ? text.size() : found + end.size();
 }
 
-std::size_t quotedLength(std::string_view text) {
-  std::size_t i = 1;
+size_t quotedLength(std::string_view text) {
+  size_t i = 1;
   while (i < text.size() && text[i] != text[0] && text[i] != '\n')
     i += text[i] == '$' ? 2U : 1U;
   return std::min(i + 1, text.size());
 }
 
 Piece firstPiece(std::string_view text) {
-  const auto piece = [&](PieceKind kind, std::size_t length) {
+  const auto piece = [&](PieceKind kind, size_t length) {
     return Piece{kind, text.substr(0, length)};
   };
   const char c = text[0];
   if (isBlank(c))
-    return piece(PieceKind::blank, runLength(text, 0, isBlank));
+    return piece(PieceKind::Blank, runLength(text, 0, isBlank));
   if (text.starts_with("//"))
-    return piece(PieceKind::comment, behind(text, "\n", 2));
+    return piece(PieceKind::Comment, behind(text, "\n", 2));
   if (text.starts_with("(*"))
-    return piece(PieceKind::comment, behind(text, "*)", 2));
+    return piece(PieceKind::Comment, behind(text, "*)", 2));
   if (c == '{')
-    return piece(PieceKind::comment, behind(text, "}", 1));
+    return piece(PieceKind::Comment, behind(text, "}", 1));
   if (c == '\'' || c == '"')
-    return piece(PieceKind::text, quotedLength(text));
+    return piece(PieceKind::Text, quotedLength(text));
   if (c >= '0' && c <= '9')
-    return piece(PieceKind::number,
+    return piece(PieceKind::Number,
                  runLength(text, 1, [](char d) { return isWordByte(d) || d == '#'; }));
   if (isWordByte(c))
-    return piece(PieceKind::word, runLength(text, 1, isWordByte));
+    return piece(PieceKind::Word, runLength(text, 1, isWordByte));
   for (const std::string_view sign : {":=", "=>", "<=", ">=", "<>", "**", ".."})
     if (text.starts_with(sign))
-      return piece(PieceKind::sign, sign.size());
-  return piece(PieceKind::sign, 1);
+      return piece(PieceKind::Sign, sign.size());
+  return piece(PieceKind::Sign, 1);
 }
 
-std::string joined(const Pieces &pieces, std::size_t mostBytes) {
+std::string joined(const Pieces &pieces, size_t mostBytes) {
   std::string out;
   for (const Piece &piece : pieces)
     out += piece.text;
@@ -149,22 +149,22 @@ std::string joined(const Pieces &pieces, std::size_t mostBytes) {
 }
 
 /// A range of pieces, mostly a short one.
-std::pair<std::ptrdiff_t, std::ptrdiff_t> someRange(const Pieces &pieces, Random &random) {
-  const std::size_t begin = below(random, pieces.size());
-  const std::size_t longest = below(random, 4) == 0 ? pieces.size() : 12;
-  const std::size_t end = std::min(pieces.size(), begin + 1 + below(random, longest));
-  return {static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end)};
+std::pair<ptrdiff_t, ptrdiff_t> someRange(const Pieces &pieces, Random &random) {
+  const size_t begin = below(random, pieces.size());
+  const size_t longest = below(random, 4) == 0 ? pieces.size() : 12;
+  const size_t end = std::min(pieces.size(), begin + 1 + below(random, longest));
+  return {static_cast<ptrdiff_t>(begin), static_cast<ptrdiff_t>(end)};
 }
 
-void insert(Pieces &pieces, std::size_t place, const Pieces &what) {
-  pieces.insert(pieces.begin() + static_cast<std::ptrdiff_t>(place), what.begin(), what.end());
+void insert(Pieces &pieces, size_t place, const Pieces &what) {
+  pieces.insert(pieces.begin() + static_cast<ptrdiff_t>(place), what.begin(), what.end());
 }
 
 void swapTwo(Pieces &pieces, Random &random) {
-  const std::size_t at = below(random, pieces.size());
-  const std::size_t other = below(random, 2) == 0
-                                ? below(random, pieces.size())
-                                : std::min(pieces.size() - 1, at + 1 + below(random, 4));
+  const size_t at = below(random, pieces.size());
+  const size_t other = below(random, 2) == 0
+                           ? below(random, pieces.size())
+                           : std::min(pieces.size() - 1, at + 1 + below(random, 4));
   std::swap(pieces[at], pieces[other]);
 }
 
@@ -176,30 +176,30 @@ void erase(Pieces &pieces, Random &random) {
 void repeat(Pieces &pieces, Random &random) {
   const auto [begin, end] = someRange(pieces, random);
   const Pieces range(pieces.begin() + begin, pieces.begin() + end);
-  const std::size_t times = below(random, 8) == 0 ? 1 + below(random, 300) : 1;
+  const size_t times = below(random, 8) == 0 ? 1 + below(random, 300) : 1;
   Pieces all;
-  for (std::size_t i = 0; i < times && all.size() < 4096; ++i)
+  for (size_t i = 0; i < times && all.size() < 4096; ++i)
     all.insert(all.end(), range.begin(), range.end());
-  const std::size_t place =
-      below(random, 2) == 0 ? static_cast<std::size_t>(end) : below(random, pieces.size());
+  const size_t place =
+      below(random, 2) == 0 ? static_cast<size_t>(end) : below(random, pieces.size());
   insert(pieces, place, all);
 }
 
 void cut(Pieces &pieces, Random &random) {
-  const std::size_t place = below(random, pieces.size());
+  const size_t place = below(random, pieces.size());
   if (below(random, 4) == 0)
-    pieces.erase(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(place));
+    pieces.erase(pieces.begin(), pieces.begin() + static_cast<ptrdiff_t>(place));
   else
     pieces.resize(place);
 }
 
 void strange(Pieces &pieces, Random &random) {
-  const Piece piece{PieceKind::sign, kStrange[below(random, std::size(kStrange))]};
-  const std::size_t place = below(random, pieces.size());
+  const Piece piece{PieceKind::Sign, kStrange[below(random, std::size(kStrange))]};
+  const size_t place = below(random, pieces.size());
   if (below(random, 2) == 0)
     pieces[place] = piece;
   else
-    insert(pieces, place, {{PieceKind::blank, " "}, piece, {PieceKind::blank, " "}});
+    insert(pieces, place, {{PieceKind::Blank, " "}, piece, {PieceKind::Blank, " "}});
 }
 
 } // namespace
@@ -231,7 +231,7 @@ std::vector<std::filesystem::path> sortedEntries(const std::filesystem::path &fo
 } // namespace
 
 std::vector<std::string> readProjects(const std::vector<std::filesystem::path> &folders,
-                                      std::string_view mark, std::size_t mostBytes) {
+                                      std::string_view mark, size_t mostBytes) {
   std::vector<std::string> projects;
   for (const std::filesystem::path &folder : folders)
     for (const std::filesystem::path &project : sortedEntries(folder)) {
@@ -250,7 +250,7 @@ std::vector<std::string> readProjects(const std::vector<std::filesystem::path> &
 }
 
 std::vector<std::string> readSources(const std::vector<std::filesystem::path> &folders,
-                                     std::size_t mostBytes) {
+                                     size_t mostBytes) {
   std::vector<std::filesystem::path> paths;
   for (const std::filesystem::path &folder : folders)
     for (const auto &entry : std::filesystem::recursive_directory_iterator(folder))
@@ -268,19 +268,18 @@ TokenMutator::TokenMutator(std::vector<std::string> corpus) : corpus_(std::move(
   for (const std::string &source : corpus_)
     for (const Piece &piece : cutIntoPieces(source)) {
       pieces_.push_back(piece);
-      byKind_[static_cast<std::size_t>(piece.kind)].push_back(piece.text);
+      byKind_[static_cast<size_t>(piece.kind)].push_back(piece.text);
     }
 }
 
-std::string TokenMutator::mutate(std::string_view source, std::uint64_t seed,
-                                 std::size_t mostBytes) const {
+std::string TokenMutator::mutate(std::string_view source, uint64_t seed, size_t mostBytes) const {
   Random random(seed);
   Pieces pieces = cutIntoPieces(source);
-  const std::size_t changes = 1 + below(random, 8);
-  for (std::size_t i = 0; i < changes; ++i) {
+  const size_t changes = 1 + below(random, 8);
+  for (size_t i = 0; i < changes; ++i) {
     if (pieces.empty())
-      pieces.push_back({PieceKind::blank, " "});
-    const std::size_t place = below(random, pieces.size());
+      pieces.push_back({PieceKind::Blank, " "});
+    const size_t place = below(random, pieces.size());
     switch (below(random, 10)) {
     case 0:
       swapTwo(pieces, random);
@@ -300,7 +299,7 @@ std::string TokenMutator::mutate(std::string_view source, std::uint64_t seed,
       break;
     case 5:
     case 6: { // a piece of the same kind, from here or from elsewhere
-      const auto &others = byKind_[static_cast<std::size_t>(pieces[place].kind)];
+      const auto &others = byKind_[static_cast<size_t>(pieces[place].kind)];
       if (const Piece &own = pieces[below(random, pieces.size())]; own.kind == pieces[place].kind)
         pieces[place] = own;
       else if (!others.empty())
@@ -311,32 +310,32 @@ std::string TokenMutator::mutate(std::string_view source, std::uint64_t seed,
       pieces[place] = pieces[below(random, pieces.size())];
       break;
     case 8: // a word of elsewhere
-      if (const auto &words = byKind_[static_cast<std::size_t>(PieceKind::word)]; !words.empty())
+      if (const auto &words = byKind_[static_cast<size_t>(PieceKind::Word)]; !words.empty())
         insert(pieces, place,
-               {{PieceKind::blank, " "},
-                {PieceKind::word, words[below(random, words.size())]},
-                {PieceKind::blank, " "}});
+               {{PieceKind::Blank, " "},
+                {PieceKind::Word, words[below(random, words.size())]},
+                {PieceKind::Blank, " "}});
       break;
     default: // pieces of elsewhere
       if (!pieces_.empty()) {
         const auto [begin, end] = someRange(pieces_, random);
         insert(pieces, place,
                Pieces(pieces_.begin() + begin,
-                      pieces_.begin() + std::min<std::ptrdiff_t>(end, begin + 200)));
+                      pieces_.begin() + std::min<ptrdiff_t>(end, begin + 200)));
       }
     }
   }
   return joined(pieces, mostBytes);
 }
 
-std::string TokenMutator::cross(std::string_view first, std::string_view second, std::uint64_t seed,
-                                std::size_t mostBytes) const {
+std::string TokenMutator::cross(std::string_view first, std::string_view second, uint64_t seed,
+                                size_t mostBytes) const {
   Random random(seed);
   Pieces begin = cutIntoPieces(first);
   const Pieces end = cutIntoPieces(second);
   begin.resize(below(random, begin.size() + 1));
-  begin.insert(begin.end(),
-               end.begin() + static_cast<std::ptrdiff_t>(below(random, end.size() + 1)), end.end());
+  begin.insert(begin.end(), end.begin() + static_cast<ptrdiff_t>(below(random, end.size() + 1)),
+               end.end());
   return joined(begin, mostBytes);
 }
 

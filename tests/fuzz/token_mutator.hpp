@@ -1,7 +1,8 @@
 // Sources that are nearly Structured Text: real ones with tokens swapped, deleted, doubled, nested,
 // exchanged with those of other sources. Most of them get past the parser's first error, which
 // mutated bytes seldom do.
-#pragma once
+#ifndef STRIDE_TESTS_FUZZ_TOKEN_MUTATOR_HPP
+#define STRIDE_TESTS_FUZZ_TOKEN_MUTATOR_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -14,10 +15,10 @@
 namespace stride::fuzz {
 
 /// What a piece of a source looks like; blanks and comments are pieces, too.
-enum class PieceKind : std::uint8_t { blank, comment, word, number, text, sign };
+enum class PieceKind : uint8_t { Blank, Comment, Word, Number, Text, Sign };
 
 struct Piece {
-  PieceKind kind = PieceKind::blank;
+  PieceKind kind = PieceKind::Blank;
   std::string_view text;
 };
 
@@ -27,13 +28,13 @@ struct Piece {
 
 /// The `.st` files below the folders, sorted by path, those up to `mostBytes` long.
 [[nodiscard]] std::vector<std::string>
-readSources(const std::vector<std::filesystem::path> &folders, std::size_t mostBytes);
+readSources(const std::vector<std::filesystem::path> &folders, size_t mostBytes);
 
 /// The projects directly in the folders, each as one text: a line of `mark` and the name in front
 /// of each of its files (stride.toml, sources, cam files).
 [[nodiscard]] std::vector<std::string>
 readProjects(const std::vector<std::filesystem::path> &folders, std::string_view mark,
-             std::size_t mostBytes);
+             size_t mostBytes);
 
 /// Changes sources. The same seed and source give the same result.
 class TokenMutator {
@@ -43,11 +44,10 @@ public:
 
   [[nodiscard]] const std::vector<std::string> &corpus() const { return corpus_; }
   /// `source` with one to eight changes, cut off after `mostBytes`.
-  [[nodiscard]] std::string mutate(std::string_view source, std::uint64_t seed,
-                                   std::size_t mostBytes) const;
+  [[nodiscard]] std::string mutate(std::string_view source, uint64_t seed, size_t mostBytes) const;
   /// The beginning of one source and the end of another, each cut between two pieces.
-  [[nodiscard]] std::string cross(std::string_view first, std::string_view second,
-                                  std::uint64_t seed, std::size_t mostBytes) const;
+  [[nodiscard]] std::string cross(std::string_view first, std::string_view second, uint64_t seed,
+                                  size_t mostBytes) const;
 
 private:
   std::vector<std::string> corpus_;
@@ -56,3 +56,5 @@ private:
 };
 
 } // namespace stride::fuzz
+
+#endif // STRIDE_TESTS_FUZZ_TOKEN_MUTATOR_HPP

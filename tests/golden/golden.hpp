@@ -1,6 +1,7 @@
 // Golden tests drive the built `stride` as a user does and compare what it prints and writes with
 // what stands in the repository.
-#pragma once
+#ifndef STRIDE_TESTS_GOLDEN_GOLDEN_HPP
+#define STRIDE_TESTS_GOLDEN_GOLDEN_HPP
 
 #include "tests/support/process.hpp"
 
@@ -12,9 +13,9 @@ namespace stride::golden {
 
 /// The command a single file is given to.
 enum class FileKind {
-  kProgram, ///< `stride sim FILE --for T#10ms --print PLC_PRG`, unless a RUN line says otherwise
-  kDiagnostics, ///< `stride check FILE --color never`
-  kFormat       ///< `stride fmt FILE --color never`; compared is also what then stands in the file
+  Program,     ///< `stride sim FILE --for T#10ms --print PLC_PRG`, unless a RUN line says otherwise
+  Diagnostics, ///< `stride check FILE --color never`
+  Format       ///< `stride fmt FILE --color never`; compared is also what then stands in the file
 };
 
 /// Runs one .st file whose expected output stands in its trailing `//!` block. The result is what
@@ -45,3 +46,5 @@ bool mustFail(const std::filesystem::path &name);
 std::string checkExit(int exitCode, bool failure);
 
 } // namespace stride::golden
+
+#endif // STRIDE_TESTS_GOLDEN_GOLDEN_HPP

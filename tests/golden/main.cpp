@@ -40,11 +40,11 @@ static std::string runCase(std::string_view kind, const fs::path &path) {
   const char *variable = std::getenv("STRIDE_BLESS");
   const bool bless = variable != nullptr && std::string_view(variable) == "1";
   if (kind == "programs")
-    return runFile(FileKind::kProgram, path, bless);
+    return runFile(FileKind::Program, path, bless);
   if (kind == "diagnostics")
-    return runFile(FileKind::kDiagnostics, path, bless);
+    return runFile(FileKind::Diagnostics, path, bless);
   if (kind == "format")
-    return runFile(FileKind::kFormat, path, bless);
+    return runFile(FileKind::Format, path, bless);
   if (kind == "projects")
     return runProject(path, bless);
   if (kind == "coverage")

@@ -19,7 +19,7 @@ constexpr const char *kManifest = "golden.toml";
 struct ExpectedFile {
   std::string actual;
   std::string expected;
-  std::size_t every = 1; // of a trace: keep every n-th row only
+  size_t every = 1; // of a trace: keep every n-th row only
   test::CsvTolerance tolerance;
 
   bool isTrace() const { return actual.ends_with(".csv"); }
@@ -57,7 +57,7 @@ ExpectedFile readExpectedFile(const toml::table &table) {
   ExpectedFile file;
   file.actual = required<std::string>(table, "actual");
   file.expected = required<std::string>(table, "expected");
-  file.every = table["every"].value_or<std::size_t>(1);
+  file.every = table["every"].value_or<size_t>(1);
   if (const std::optional<double> all = table["tolerance"].value<double>())
     file.tolerance.otherwise = *all;
   if (const toml::table *columns = table["tolerance"].as_table())

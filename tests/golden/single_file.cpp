@@ -10,11 +10,11 @@ namespace fs = std::filesystem;
 
 static std::vector<std::string> commandLine(FileKind kind, const std::string &file,
                                             const std::string &source) {
-  const bool program = kind == FileKind::kProgram;
+  const bool program = kind == FileKind::Program;
   std::string options = test::directive(source, "RUN");
   if (options.empty())
     options = program ? "--for T#10ms --print PLC_PRG" : "--color never";
-  const char *command = program ? "sim" : kind == FileKind::kFormat ? "fmt" : "check";
+  const char *command = program ? "sim" : kind == FileKind::Format ? "fmt" : "check";
   std::vector<std::string> arguments{command, file};
   for (std::string &word : test::splitWords(options))
     arguments.push_back(std::move(word));
@@ -57,7 +57,7 @@ static Printed runOnce(FileKind kind, const fs::path &file, const std::string &s
   const test::ProcessResult result = runStride(arguments, scratch.path());
   Printed run;
   run.output = outputOf(result, scratch.path());
-  if (kind == FileKind::kFormat)
+  if (kind == FileKind::Format)
     run.output += test::readFile(scratch.path() / name);
   run.wrongExit = checkExit(result.exitCode, mustFail(file));
   run.command = "$ stride";

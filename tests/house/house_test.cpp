@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <regex>
@@ -168,7 +169,7 @@ std::vector<std::string> includesOf(const fs::path &source) {
 }
 
 TEST(House, ArrowsPointDown) {
-  std::size_t looked = 0;
+  size_t looked = 0;
   for (const char *top : {"compiler", "runtime", "drivers"})
     for (const fs::path &source : sourcesBelow(top)) {
       const std::string room = roomOf(source.string());
@@ -188,7 +189,7 @@ TEST(House, ArrowsPointDown) {
 /// Of drivers and their interfaces the compiler sees data only.
 TEST(House, TheCompilerKnowsDriversBySchemasOnly) {
   static const std::regex kSchema(".*schema\\.hpp|drivers/(io/)?registry\\.hpp");
-  std::size_t looked = 0;
+  size_t looked = 0;
   for (const fs::path &source : sourcesBelow("compiler"))
     for (const std::string &name : includesOf(source)) {
       if (!name.starts_with("drivers/") && !name.starts_with("runtime/bus/") &&
@@ -210,7 +211,7 @@ TEST(House, ThereAreNoCircles) {
             !from.empty() && !to.empty() && from != to)
           used[from].insert(to);
   std::set<std::string> done;
-  for (std::size_t before = 1; before != 0;) { // what only leads to what is done is done
+  for (size_t before = 1; before != 0;) { // what only leads to what is done is done
     before = 0;
     for (const auto &[room, others] : used)
       if (!done.contains(room) &&
@@ -241,7 +242,7 @@ TEST(House, NumericsThatApplicationsLinkUseNoHeapAndNoSystem) {
 TEST(House, AFolderIsALibrary) {
   static const std::regex kOther(
       R"((\$\{PROJECT_SOURCE_DIR\}/(?:compiler|runtime|drivers)/\S+\.cpp|\.\./\S+\.cpp))");
-  std::size_t lists = 0;
+  size_t lists = 0;
   for (const char *top : {"compiler", "runtime", "drivers", "stdlib", "tests", "examples"})
     for (const fs::directory_entry &entry : fs::recursive_directory_iterator(kRoot / top)) {
       if (entry.path().filename() != "CMakeLists.txt")
@@ -271,7 +272,7 @@ TEST(House, AFolderIsALibrary) {
 
 /// What `{external}` blocks and functions of a library are implemented is next to each other.
 TEST(House, NativeBodiesLieInTheFolderOfTheirLibrary) {
-  std::size_t bodies = 0;
+  size_t bodies = 0;
   for (const fs::directory_entry &library : fs::directory_iterator(kRoot / "stdlib")) {
     if (!library.is_directory())
       continue;
@@ -307,7 +308,7 @@ std::string withHeaders(const fs::path &source) {
 TEST(House, TestsThatStartProgramsSayThatTheyDo) {
   const std::regex test(R"re((?:stride_(?:thread_|property_)?test)\(([^)]*)\))re");
   const std::regex file(R"re(([\w/]+\.cpp))re");
-  std::size_t starting = 0;
+  size_t starting = 0;
   for (const fs::directory_entry &entry : fs::recursive_directory_iterator(kRoot / "tests")) {
     if (entry.path().filename() != "CMakeLists.txt")
       continue;
@@ -325,6 +326,36 @@ TEST(House, TestsThatStartProgramsSayThatTheyDo) {
     }
   }
   EXPECT_GT(starting, 15U);
+}
+
+/// One dialect: the guard of a header is its path, and integers are written without `std::`.
+TEST(House, HeadersHaveTheGuardOfTheirPath) {
+  static const std::regex kSpelling("(std"
+                                    "::(?:u?int[0-9]+_t|size_t|ptrdiff_t))");
+  size_t headers = 0;
+  for (const char *top : {"compiler", "runtime", "drivers", "tests", "cmake"})
+    for (const fs::directory_entry &entry : fs::recursive_directory_iterator(kRoot / top)) {
+      const std::string extension = entry.path().extension().string();
+      if (extension != ".hpp" && extension != ".h" && extension != ".cpp")
+        continue;
+      const std::string path = entry.path().lexically_relative(kRoot).string();
+      const std::string text = readFile(entry.path());
+      EXPECT_THAT(matches(text, kSpelling), ::testing::IsEmpty()) << path;
+      if (extension == ".cpp" ||
+          path.starts_with("cmake/pch/")) // the compiler's own list of headers
+        continue;
+      ++headers;
+      std::string guard = "STRIDE_" + path;
+      for (char &c : guard)
+        c = std::isalnum(static_cast<unsigned char>(c)) != 0
+                ? static_cast<char>(std::toupper(static_cast<unsigned char>(c)))
+                : '_';
+      EXPECT_NE(text.find("#ifndef " + guard + "\n#define " + guard + "\n"), std::string::npos)
+          << path;
+      EXPECT_TRUE(text.ends_with("#endif // " + guard + "\n") || text.ends_with("#endif\n"))
+          << path;
+    }
+  EXPECT_GT(headers, 350U);
 }
 
 /// A test that no CMakeLists.txt names is compiled by nobody.

@@ -1,8 +1,8 @@
 // Pasted at the top of every mutated copy: which mutant is active. STRIDE_MUTANT is its number;
 // STRIDE_MUTATION_REACHED names a file with a byte for each mutant, which becomes 1 when control
 // reaches the function that it is in.
-#ifndef STRIDE_TESTS_MUTATION_H
-#define STRIDE_TESTS_MUTATION_H
+#ifndef STRIDE_TESTS_MUTATION_MUTATION_H
+#define STRIDE_TESTS_MUTATION_MUTATION_H
 
 namespace stride_mutation {
 

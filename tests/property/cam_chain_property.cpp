@@ -66,7 +66,7 @@ TEST(CamChain, AnotherCamGoesOnExactlyWhereTheLastOneHasEnded) {
     scene.placeSlave(random.uniform(-100, 100));
     scene.master.place(random.uniform(-100, 100));
     scene.prepare();
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (size_t k = 0; k < 3; ++k) {
       auto select = fresh<pl::MC_CamTableSelect>();
       select.Master = &scene.master.ref;
       select.Slave = &scene.rig.axis;
@@ -81,8 +81,8 @@ TEST(CamChain, AnotherCamGoesOnExactlyWhereTheLastOneHasEnded) {
     const double top = shortest / 3 / ms / kCamCycle;
     double velocity = 0;
     double wanted = 0;
-    std::size_t now = 0;
-    std::size_t next = 0;
+    size_t now = 0;
+    size_t next = 0;
     long double zero = 0;  // the master's place where the running cam's 0 is
     long double began = 0; // ... and was when it took over: to come back there is no end
     long double base = scene.rig.axis.fSetPosition;
@@ -94,7 +94,7 @@ TEST(CamChain, AnotherCamGoesOnExactlyWhereTheLastOneHasEnded) {
         wanted = top * random.uniform(-0.3, 1);
       velocity += std::clamp(wanted - velocity, -top / 5, top / 5);
       if (random.chance(0.1))
-        next = static_cast<std::size_t>(random.below(3));
+        next = static_cast<size_t>(random.below(3));
       scene.rig.cycle([&] {
         scene.master.step(velocity);
         if (random.chance(0.03))
@@ -160,8 +160,8 @@ long double through(const std::vector<std::pair<long double, long double>> &poin
   std::vector<long double> y;
   for (const auto &point : points)
     y.push_back(point.second);
-  for (std::size_t d = 1; d < points.size(); ++d)
-    for (std::size_t i = 0; i + d < points.size(); ++i)
+  for (size_t d = 1; d < points.size(); ++d)
+    for (size_t i = 0; i + d < points.size(); ++i)
       y[i] = ((x - points[i + d].first) * y[i] + (points[i].first - x) * y[i + 1]) /
              (points[i].first - points[i + d].first);
   return y[0];
@@ -268,7 +268,7 @@ TEST(CamRampInDist, LeadsByOnePolynomialOverTheMasterOntoTheCam) {
     if (samples.size() >= 12) {
       // Six places fix it.
       std::vector<std::pair<long double, long double>> fixed;
-      for (std::size_t k = 0; k < 6; ++k)
+      for (size_t k = 0; k < 6; ++k)
         fixed.push_back(samples[k * (samples.size() - 1) / 5]);
       for (const auto &sample : samples)
         ASSERT_LE(std::fabs(sample.second - through(fixed, sample.first)),

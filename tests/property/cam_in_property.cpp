@@ -237,7 +237,7 @@ TEST(CamInProperty, AReversingMasterRetracesTheSlavesCourseToTheBit) {
       });
     for (int k = there - 1; k >= 0 && !HasFailure(); --k)
       scene.rig.cycle([&] {
-        const Stop &stop = stops[static_cast<std::size_t>(k)];
+        const Stop &stop = stops[static_cast<size_t>(k)];
         master.jumpTo(stop.position, stop.turns, -stop.velocity);
         scene.rig.call(scene.camIn, true);
         ASSERT_EQ(scene.rig.axis.fSetPosition, stop.slave) << k;

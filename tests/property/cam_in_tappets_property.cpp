@@ -71,7 +71,7 @@ public:
         x = (next - start_) % length_;
         x = start_ + (x < 0 ? x + length_ : x);
       }
-      for (std::size_t i = 0; i < tappets.size(); ++i) {
+      for (size_t i = 0; i < tappets.size(); ++i) {
         const bool negative = step < 0;
         if (place_[i] != x || tappets[i].ctt == (negative ? 0 : 2))
           continue;
@@ -202,7 +202,7 @@ TEST(CamInTappets, ArePassedInOrderThreePerCycleAndNoneIsLost) {
         ++counts.passes;
       });
       const auto &data = scene.data();
-      ASSERT_EQ(data.iCount, static_cast<int>(std::min<std::size_t>(3, pending.size())));
+      ASSERT_EQ(data.iCount, static_cast<int>(std::min<size_t>(3, pending.size())));
       counts.waited += pending.size() > 3;
       for (int k = 0; k < data.iCount; ++k) {
         const auto &event = data.aEvents.v[k];
@@ -210,14 +210,14 @@ TEST(CamInTappets, ArePassedInOrderThreePerCycleAndNoneIsLost) {
         ASSERT_EQ(event.iGroupID, pass.group);
         ASSERT_EQ(event.cta, pass.action);
         ASSERT_EQ(event.bNegative != 0, pass.negative);
-        const auto bit = static_cast<std::size_t>(pass.group - 1);
+        const auto bit = static_cast<size_t>(pass.group - 1);
         const bool old = bits[bit];
         bits[bit] = pass.action == 0 || (pass.action == 2 && !old);
         counts.changes += old != bits[bit];
         pending.pop_front();
       }
       for (const auto &[group, value] : scene.values)
-        ASSERT_EQ(value.bTappet != 0, bits[static_cast<std::size_t>(group - 1)]) << group;
+        ASSERT_EQ(value.bTappet != 0, bits[static_cast<size_t>(group - 1)]) << group;
     }
   }
   std::cout << counts.passes << " passes, " << counts.waited << " cycles with more than three, "

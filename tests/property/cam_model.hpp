@@ -71,7 +71,7 @@ struct ModelCam {
 
   /// Within [start, end].
   [[nodiscard]] ModelPoint at(long double x) const {
-    std::size_t i = 1;
+    size_t i = 1;
     while (i + 1 < nodes.size() && x >= nodes[i].dX)
       ++i;
     const CamNode &l = nodes[i - 1];
@@ -131,7 +131,7 @@ inline ModelCam randomCam(Random &random, bool smooth) {
   }
   if (cam.type == 1) // evenly, to the bit
     for (int i = 1; i < count - 1; ++i)
-      cam.nodes[static_cast<std::size_t>(i)].dX =
+      cam.nodes[static_cast<size_t>(i)].dX =
           cam.start() + (cam.end() - cam.start()) * i / (count - 1);
   if (random.chance(0.4))
     cam.nodes.front().dY = 0;

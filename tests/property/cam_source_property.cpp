@@ -48,13 +48,13 @@ CamSource randomCam(Random &random, bool mayTouch) {
     if (kind != 0 || (i > 0 && cam.elements.back().right.x == x)) {
       x += step * random.uniform(0.1, 2);
       element.right = randomNode(random, x, size);
-      element.kind = kind == 1 ? CamElement::Kind::line : CamElement::Kind::law;
+      element.kind = kind == 1 ? CamElement::Kind::Line : CamElement::Kind::Law;
     }
-    if (element.kind == CamElement::Kind::line) {
+    if (element.kind == CamElement::Kind::Line) {
       element.left.v = element.right.v =
           (element.right.y - element.left.y) / (element.right.x - element.left.x);
       element.left.a = element.right.a = 0;
-    } else if (element.kind == CamElement::Kind::law) {
+    } else if (element.kind == CamElement::Kind::Law) {
       element.shape.law = static_cast<Law>(random.below(5));
       if (element.shape.law == Law::ModifiedSine)
         element.shape.parameter = random.uniform(0, 0.99);
@@ -67,7 +67,7 @@ CamSource randomCam(Random &random, bool mayTouch) {
       }
     }
     cam.elements.push_back(element);
-    if (!mayTouch || random.chance(0.7) || element.kind == CamElement::Kind::point)
+    if (!mayTouch || random.chance(0.7) || element.kind == CamElement::Kind::Point)
       x += step * random.uniform(0.1, 2);
   }
   cam.end = cam.elements.back().right.x;
@@ -113,12 +113,12 @@ TEST(CamSource, WrittenAndReadAgain) {
     const auto same = [](const Node &a, const Node &b) {
       return a.x == b.x && a.y == b.y && a.v == b.v && a.a == b.a;
     };
-    for (std::size_t e = 0; e < cam.elements.size(); ++e) {
+    for (size_t e = 0; e < cam.elements.size(); ++e) {
       ASSERT_TRUE(same(again->elements[e].left, cam.elements[e].left)) << text;
       ASSERT_TRUE(same(again->elements[e].right, cam.elements[e].right)) << text;
     }
     ASSERT_EQ(again->tappets.size(), cam.tappets.size());
-    for (std::size_t t = 0; t < cam.tappets.size(); ++t)
+    for (size_t t = 0; t < cam.tappets.size(); ++t)
       ASSERT_EQ(again->tappets[t].x, cam.tappets[t].x);
   }
 }
@@ -130,7 +130,7 @@ TEST(CamSource, GapsAreFilledContinuously) {
     const std::vector<Segment> segments = stc::segmentsOf(cam);
     ASSERT_EQ(segments.front().start, cam.start);
     ASSERT_EQ(segments.back().end, cam.end);
-    for (std::size_t s = 1; s < segments.size(); ++s)
+    for (size_t s = 1; s < segments.size(); ++s)
       ASSERT_EQ(segments[s].start, segments[s - 1].end);
     const auto jumps = stc::jumpsOf(segments, false, 0);
     ASSERT_TRUE(jumps.empty()) << stc::camFileText(cam, "jumps") << jumps[0].what << " at "
@@ -159,7 +159,7 @@ TEST(CamSource, DataFollowTheCurve) {
     const auto data = stc::compileCam(cam, diagnostics);
     if (!data) {
       // Master numbers of 16 bits may coincide, no more.
-      ASSERT_TRUE(cam.compile.mode == CamMode::elementOptimised && sizeOf(cam.compile.type) < 4)
+      ASSERT_TRUE(cam.compile.mode == CamMode::ElementOptimised && sizeOf(cam.compile.type) < 4)
           << diagnostics.all().front().message;
       continue;
     }
@@ -255,7 +255,7 @@ TEST(CamSource, SmoothPointsCannotBeSmoother) {
     }
     const std::vector<CamElement> before = cam.elements;
     ASSERT_TRUE(stc::smoothen(cam));
-    for (std::size_t k = 0; k < before.size(); ++k) {
+    for (size_t k = 0; k < before.size(); ++k) {
       const CamElement &now = cam.elements[k];
       ASSERT_EQ(now.left.y, before[k].left.y);
       if (!now.smooth || now.given == 1) {

@@ -61,7 +61,7 @@ void collect(const ModelType *type, const std::string &id, uint64_t offset, bool
       out.push_back({id + "^" + owner->base->name, owner->base, offset, held, false});
       self(owner->base, self);
     }
-    for (std::size_t i = 0; i < owner->fields.size(); ++i) {
+    for (size_t i = 0; i < owner->fields.size(); ++i) {
       const ModelField &f = owner->fields[i];
       collect(f.type, id + "." + std::to_string(f.id), offset + owner->offsets[i],
               held || (f.flags & (kSymConstant | kSymInitOnChange)) != 0, out);
@@ -405,9 +405,9 @@ void fillOld(World &world, const std::vector<Object> &objects, std::byte *state,
       const int16_t value =
           world.chance(10) || names.empty()
               ? static_cast<int16_t>(world.pick(-5, 20))
-              : static_cast<int16_t>(names[static_cast<std::size_t>(
-                                               world.pick(0, static_cast<int>(names.size()) - 1))]
-                                         .second);
+              : static_cast<int16_t>(
+                    names[static_cast<size_t>(world.pick(0, static_cast<int>(names.size()) - 1))]
+                        .second);
       std::memcpy(at, &value, 2);
     } else if (isText(o.type) && world.chance(70)) {
       const uint64_t unit = o.type->kind == Kind::WSTRING ? 2 : 1;
@@ -426,7 +426,7 @@ void fillOld(World &world, const std::vector<Object> &objects, std::byte *state,
         address = std::bit_cast<uint64_t>(state) + size + 100; // outside
       } else if (!targets.empty() && world.chance(90)) {
         const Object &t =
-            *targets[static_cast<std::size_t>(world.pick(0, static_cast<int>(targets.size()) - 1))];
+            *targets[static_cast<size_t>(world.pick(0, static_cast<int>(targets.size()) - 1))];
         address = std::bit_cast<uint64_t>(state) + t.offset;
         if (to->kind != Kind::BYTE && world.chance(25))
           address += t.type->size; // one past the end

@@ -1,5 +1,6 @@
 // What files hold and what operations on them answer, by strings in memory.
-#pragma once
+#ifndef STRIDE_TESTS_PROPERTY_FILE_MODEL_HPP
+#define STRIDE_TESTS_PROPERTY_FILE_MODEL_HPP
 
 #include "runtime/system/system_api.h"
 
@@ -15,8 +16,7 @@ namespace stride::test {
 
 class FileModel {
 public:
-  FileModel(std::size_t mostOpen, std::size_t mostStreams)
-      : mostOpen_(mostOpen), mostStreams_(mostStreams) {}
+  FileModel(size_t mostOpen, size_t mostStreams) : mostOpen_(mostOpen), mostStreams_(mostStreams) {}
 
   struct Answer {
     FileError error = FileError::None;
@@ -32,7 +32,7 @@ public:
 
   /// `handle`: which of the files that were ever opened so; one beyond: none of them. A handle is
   /// not in the answer.
-  Answer run(const FileRequest &request, std::size_t handle) {
+  Answer run(const FileRequest &request, size_t handle) {
     const std::string name = request.name;
     const std::string second = request.second;
     switch (request.op) {
@@ -61,7 +61,7 @@ public:
     return {FileError::NotPossible, 0, {}};
   }
 
-  Answer useStream(StreamOp op, std::size_t handle, const std::string &data, uint64_t number) {
+  Answer useStream(StreamOp op, size_t handle, const std::string &data, uint64_t number) {
     if (handle >= streams_.size() || !streams_[handle].isOpen)
       return {FileError::BadHandle, 0, {}};
     File &file = streams_[handle];
@@ -113,9 +113,9 @@ private:
     bytes.replace(position, data.size(), data);
   }
 
-  Answer open(const std::string &name, uint32_t mode, std::vector<File> &files, std::size_t most) {
-    if (static_cast<std::size_t>(std::count_if(
-            files.begin(), files.end(), [](const File &file) { return file.isOpen; })) >= most)
+  Answer open(const std::string &name, uint32_t mode, std::vector<File> &files, size_t most) {
+    if (static_cast<size_t>(std::count_if(files.begin(), files.end(),
+                                          [](const File &file) { return file.isOpen; })) >= most)
       return {FileError::TooMany, 0, {}};
     if (content(name) == nullptr) {
       if ((mode & kFileCreate) == 0)
@@ -135,7 +135,7 @@ private:
     return {};
   }
 
-  Answer close(std::vector<File> &files, std::size_t handle) {
+  Answer close(std::vector<File> &files, size_t handle) {
     if (handle >= files.size() || !files[handle].isOpen)
       return {FileError::BadHandle, 0, {}};
     files[handle].isOpen = false;
@@ -163,7 +163,7 @@ private:
     return {FileError::None, disk_[to]->size(), {}};
   }
 
-  Answer useBlock(const FileRequest &request, std::size_t handle) {
+  Answer useBlock(const FileRequest &request, size_t handle) {
     if (request.op == FileOp::Close)
       return close(blocks_, handle);
     if (handle >= blocks_.size() || !blocks_[handle].isOpen)
@@ -199,11 +199,13 @@ private:
     }
   }
 
-  std::size_t mostOpen_;
-  std::size_t mostStreams_;
+  size_t mostOpen_;
+  size_t mostStreams_;
   std::map<std::string, std::shared_ptr<std::string>> disk_;
   std::vector<File> blocks_;
   std::vector<File> streams_;
 };
 
 } // namespace stride::test
+
+#endif // STRIDE_TESTS_PROPERTY_FILE_MODEL_HPP

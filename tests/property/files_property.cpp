@@ -33,10 +33,10 @@ constexpr std::array<uint32_t, 6> kModes = {kFileRead,
 struct Step {
   /// Up to FileOp::CloseStream, then the ones of a stream.
   int what = 1;
-  std::size_t name = 0;
-  std::size_t second = 0;
-  std::size_t mode = 0;
-  std::size_t handle = 0; ///< How many ago it was given; none, if there were not so many.
+  size_t name = 0;
+  size_t second = 0;
+  size_t mode = 0;
+  size_t handle = 0; ///< How many ago it was given; none, if there were not so many.
   uint64_t number = 0;
 };
 
@@ -65,10 +65,10 @@ std::vector<Step> sequence() {
                        {2, number(StreamOp::SetPosition)}, {2, number(StreamOp::GetPosition)},
                        {2, number(StreamOp::AtEnd)},
                    })),
-      rc::gen::set(&Step::name, rc::gen::inRange<std::size_t>(0, kNames.size())),
-      rc::gen::set(&Step::second, rc::gen::inRange<std::size_t>(0, kNames.size())),
-      rc::gen::set(&Step::mode, rc::gen::inRange<std::size_t>(0, kModes.size())),
-      rc::gen::set(&Step::handle, rc::gen::inRange<std::size_t>(0, 4)),
+      rc::gen::set(&Step::name, rc::gen::inRange<size_t>(0, kNames.size())),
+      rc::gen::set(&Step::second, rc::gen::inRange<size_t>(0, kNames.size())),
+      rc::gen::set(&Step::mode, rc::gen::inRange<size_t>(0, kModes.size())),
+      rc::gen::set(&Step::handle, rc::gen::inRange<size_t>(0, 4)),
       rc::gen::set(&Step::number, rc::gen::inRange<uint64_t>(0, 70)));
   return *rc::gen::resize(200, rc::gen::container<std::vector<Step>>(step));
 }
@@ -117,7 +117,7 @@ private:
     if (request.op == FileOp::OpenStream && step.mode >= 3)
       request.mode = kModes[step.mode - 3]; // without '+'
     const std::vector<uint32_t> &handles = stream ? streams_ : blocks_;
-    const std::size_t which = whichOf(handles, step);
+    const size_t which = whichOf(handles, step);
     request.file = which < handles.size() ? handles[which] : 0xABCD;
     const std::string text = textOf(step.number);
     request.data = text.data();
@@ -136,7 +136,7 @@ private:
   }
 
   void useStream(const Step &step, StreamOp op) {
-    const std::size_t which = whichOf(streams_, step);
+    const size_t which = whichOf(streams_, step);
     const uint32_t file = which < streams_.size() ? streams_[which] : 0xABCD;
     if (op == StreamOp::Write && which != lastWriter_) { // only each one's writes keep their order
       waitForDisk();
@@ -159,7 +159,7 @@ private:
       RC_ASSERT(data.substr(0, answer.value) == expected.data);
   }
 
-  static std::size_t whichOf(const std::vector<uint32_t> &handles, const Step &step) {
+  static size_t whichOf(const std::vector<uint32_t> &handles, const Step &step) {
     return step.handle < handles.size() ? handles.size() - 1 - step.handle : handles.size();
   }
 
@@ -211,7 +211,7 @@ private:
   FileModel model_{32, 16};
   std::vector<uint32_t> blocks_; ///< Handles in the order in which they were given.
   std::vector<uint32_t> streams_;
-  std::size_t lastWriter_ = 0;
+  size_t lastWriter_ = 0;
   int letter_ = 0;
 };
 

@@ -94,7 +94,7 @@ private:
       switch (below(6)) {
       case 0:
       case 1: {
-        auto &block = absolute_[static_cast<std::size_t>(below(3))];
+        auto &block = absolute_[static_cast<size_t>(below(3))];
         block.Position = uniform(-400, 400);
         block.Velocity = uniform(50, 400);
         block.Direction = static_cast<int16_t>(below(5) - 1);
@@ -103,7 +103,7 @@ private:
       }
       case 2:
       case 3: {
-        auto &block = relative_[static_cast<std::size_t>(below(2))];
+        auto &block = relative_[static_cast<size_t>(below(2))];
         block.Distance = uniform(-100, 100);
         block.Velocity = uniform(50, 400);
         start(block);
@@ -173,15 +173,15 @@ private:
       Forecast forecast(rig_.axis);
       double jerk = 0;
       for (int k = 0; k <= kAhead; ++k)
-        known[static_cast<std::size_t>(k)] =
-            forecast.at(k * rig_.cycleSeconds, expected[static_cast<std::size_t>(k)], jerk);
+        known[static_cast<size_t>(k)] =
+            forecast.at(k * rig_.cycleSeconds, expected[static_cast<size_t>(k)], jerk);
       lookForPlace(expected, known);
     });
     ASSERT_TRUE(known[0]);
     for (int k = 1; k <= kAhead; ++k) {
       if (k > 1)
         step();
-      const auto i = static_cast<std::size_t>(k);
+      const auto i = static_cast<size_t>(k);
       if (!known[i]) { // it depends on the order of calls: see Forecast
         ++unknown_;
         break;
@@ -203,7 +203,7 @@ private:
     ASSERT_EQ(travel_.Error, 0);
     int first = -1; // the cycle before whose end the place is passed
     for (int k = 1; k <= kAhead && first < 0; ++k) {
-      const auto i = static_cast<std::size_t>(k);
+      const auto i = static_cast<size_t>(k);
       if (!known[i])
         break;
       const double a = expected[i - 1].position - travel_.Position;
@@ -228,7 +228,7 @@ private:
       // Earlier only where it turns back between two ends of cycles.
       const double early = (first - 1 - 1e-6) * rig_.cycleSeconds;
       if (travel_.TravelTime < early) {
-        const auto i = static_cast<std::size_t>(travel_.TravelTime / rig_.cycleSeconds);
+        const auto i = static_cast<size_t>(travel_.TravelTime / rig_.cycleSeconds);
         ASSERT_LE(expected[i].velocity * expected[i + 1].velocity, 1e-9) << travel_.TravelTime;
       }
     }

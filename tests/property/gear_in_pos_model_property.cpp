@@ -27,8 +27,8 @@ long double valueThrough(const Places &places, long double x) {
   std::vector<long double> y;
   for (const auto &place : places)
     y.push_back(place.second);
-  for (std::size_t d = 1; d < places.size(); ++d)
-    for (std::size_t i = 0; i + d < places.size(); ++i)
+  for (size_t d = 1; d < places.size(); ++d)
+    for (size_t i = 0; i + d < places.size(); ++i)
       y[i] = ((x - places[i + d].first) * y[i] + (places[i].first - x) * y[i + 1]) /
              (places[i].first - places[i + d].first);
   return y[0];
@@ -203,7 +203,7 @@ TEST(GearInPosModel, LeadsByOnePolynomialOverTheMasterIntoGear) {
     if (samples.size() >= 12) {
       // Four of its places, its end and its end's slope make it.
       Places fixed;
-      for (std::size_t k = 0; k < 6; ++k)
+      for (size_t k = 0; k < 6; ++k)
         fixed.push_back(samples[k * (samples.size() - 1) / 5]);
       for (const auto &sample : samples)
         ASSERT_LE(std::fabs(sample.second - valueThrough(fixed, sample.first)),

@@ -208,7 +208,7 @@ private:
       log("superimpose " + std::to_string(superimposed_.Distance));
       return;
     }
-    const auto index = static_cast<std::size_t>(random_.below(static_cast<int>(blocks_.size())));
+    const auto index = static_cast<size_t>(random_.below(static_cast<int>(blocks_.size())));
     auto &block = blocks_[index];
     if (block.execute || block.busy()) {
       block.execute = false;

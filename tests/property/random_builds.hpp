@@ -80,7 +80,7 @@ public:
   std::vector<Field> rootsAfter;
 
 private:
-  Kind kind() { return kElementary[static_cast<std::size_t>(pick(0, std::size(kElementary) - 1))]; }
+  Kind kind() { return kElementary[static_cast<size_t>(pick(0, std::size(kElementary) - 1))]; }
 
   /// Types below `limit` may be contained.
   Shape shape(int limit, int depth) {
@@ -198,12 +198,12 @@ private:
       n.before.push_back(field(number));
     n.after = edited(n.before, number);
     for (int i = 0; i < number && n.base < 0; ++i) {
-      if (named[static_cast<std::size_t>(i)].kind == n.kind && chance(30))
+      if (named[static_cast<size_t>(i)].kind == n.kind && chance(30))
         n.base = i;
     }
     // A field moves between the base and its heir. Other heirs of the base get it as well.
     if (n.base >= 0 && chance(20)) {
-      Named &base = named[static_cast<std::size_t>(n.base)];
+      Named &base = named[static_cast<size_t>(n.base)];
       std::vector<Field> &from = chance(50) ? n.after : base.after;
       std::vector<Field> &to = &from == &n.after ? base.after : n.after;
       const auto fits = [&](const Field &f) { // the base may contain only what stands before it
@@ -236,7 +236,7 @@ private:
       e.after.emplace_back("e" + std::to_string(++ids_), pick(0, 6));
     if (chance(30)) { // numbered anew
       std::shuffle(e.after.begin(), e.after.end(), engine_);
-      for (std::size_t i = 0; i < e.after.size(); ++i)
+      for (size_t i = 0; i < e.after.size(); ++i)
         e.after[i].second = static_cast<int64_t>(i);
     }
     // each number once
@@ -247,11 +247,11 @@ private:
 
   void build(AppModel &model, bool isAfter) {
     std::vector<const ModelType *> enums;
-    for (std::size_t i = 0; i < enumerations.size(); ++i)
+    for (size_t i = 0; i < enumerations.size(); ++i)
       enums.push_back(model.enumeration("E" + std::to_string(i),
                                         isAfter ? enumerations[i].after : enumerations[i].before));
     std::vector<ModelType *> types;
-    for (std::size_t i = 0; i < named.size(); ++i)
+    for (size_t i = 0; i < named.size(); ++i)
       types.push_back(model.structure("T" + std::to_string(i), {}, nullptr, named[i].kind));
     const std::function<const ModelType *(const Shape &)> make = [&](const Shape &s) {
       switch (s.what) {
@@ -262,18 +262,18 @@ private:
       case Shape::What::Array:
         return model.array(make(s.element[0]), s.low, s.high);
       case Shape::What::Named:
-        return static_cast<const ModelType *>(types[static_cast<std::size_t>(s.number)]);
+        return static_cast<const ModelType *>(types[static_cast<size_t>(s.number)]);
       case Shape::What::Enumeration:
-        return enums[static_cast<std::size_t>(s.number)];
+        return enums[static_cast<size_t>(s.number)];
       case Shape::What::Pointer:
         break;
       }
-      return model.pointer(s.number >= 0 ? types[static_cast<std::size_t>(s.number) % types.size()]
+      return model.pointer(s.number >= 0 ? types[static_cast<size_t>(s.number) % types.size()]
                                          : model.elementary(s.kind));
     };
-    for (std::size_t i = 0; i < named.size(); ++i) {
+    for (size_t i = 0; i < named.size(); ++i) {
       if (named[i].base >= 0)
-        types[i]->base = types[static_cast<std::size_t>(named[i].base)];
+        types[i]->base = types[static_cast<size_t>(named[i].base)];
       std::vector<ModelField> fields;
       for (const Field &f : isAfter ? named[i].after : named[i].before)
         fields.push_back({f.name, make(f.shape), f.flags, f.renamedFrom, f.id});

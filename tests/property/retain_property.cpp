@@ -50,7 +50,7 @@ void collect(const ModelType *type, const std::string &id, uint64_t offset, uint
     return;
   }
   for (const ModelType *owner = type; owner != nullptr; owner = owner->base)
-    for (std::size_t i = 0; i < owner->fields.size(); ++i) {
+    for (size_t i = 0; i < owner->fields.size(); ++i) {
       const ModelField &f = owner->fields[i];
       collect(f.type, id + "." + std::to_string(f.id), offset + owner->offsets[i], flags | f.flags,
               renamed || !f.renamedFrom.empty(), out);

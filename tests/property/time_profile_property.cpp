@@ -98,25 +98,25 @@ void expectContinuous(const TimeProfile &profile, const State &start) {
 
 /// Solves a x = b with pivoting.
 std::vector<double> solve(std::vector<std::vector<double>> a, std::vector<double> b) {
-  const std::size_t n = b.size();
-  for (std::size_t k = 0; k < n; ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k + 1; i < n; ++i)
+  const size_t n = b.size();
+  for (size_t k = 0; k < n; ++k) {
+    size_t pivot = k;
+    for (size_t i = k + 1; i < n; ++i)
       if (std::fabs(a[i][k]) > std::fabs(a[pivot][k]))
         pivot = i;
     std::swap(a[k], a[pivot]);
     std::swap(b[k], b[pivot]);
-    for (std::size_t i = k + 1; i < n; ++i) {
+    for (size_t i = k + 1; i < n; ++i) {
       const double f = a[i][k] / a[k][k];
       if (f == 0.0)
         continue;
-      for (std::size_t j = k; j < n; ++j)
+      for (size_t j = k; j < n; ++j)
         a[i][j] -= f * a[k][j];
       b[i] -= f * b[k];
     }
   }
-  for (std::size_t k = n; k-- > 0;) {
-    for (std::size_t j = k + 1; j < n; ++j)
+  for (size_t k = n; k-- > 0;) {
+    for (size_t j = k + 1; j < n; ++j)
       b[k] -= a[k][j] * b[j];
     b[k] /= a[k][k];
   }
@@ -129,10 +129,10 @@ class DenseCourse {
 public:
   explicit DenseCourse(const Problem &p) {
     lengths_ = {0.5 * p.points[0].step, 0.5 * p.points[0].step};
-    for (std::size_t i = 1; i < p.points.size(); ++i)
+    for (size_t i = 1; i < p.points.size(); ++i)
       lengths_.push_back(p.points[i].step);
-    const std::size_t pieces = lengths_.size();
-    const std::size_t n = 4 * pieces;
+    const size_t pieces = lengths_.size();
+    const size_t n = 4 * pieces;
     std::vector<std::vector<double>> a;
     std::vector<double> b;
     const auto row = [&](double right) -> std::vector<double> & {
@@ -141,13 +141,13 @@ public:
       return a.back();
     };
     // value, first and second derivative of piece k at x = 0 or 1, times `factor`
-    const auto add = [&](std::vector<double> &to, std::size_t k, int order, bool end, double f) {
+    const auto add = [&](std::vector<double> &to, size_t k, int order, bool end, double f) {
       const double h = lengths_[k];
-      const std::size_t c = 4 * k;
+      const size_t c = 4 * k;
       if (order == 0) {
         to[c] += f;
         for (int i = 1; end && i < 4; ++i)
-          to[c + static_cast<std::size_t>(i)] += f;
+          to[c + static_cast<size_t>(i)] += f;
       } else if (order == 1) {
         to[c + 1] += f / h;
         if (end) {
@@ -164,7 +164,7 @@ public:
     add(row(p.start.velocity * lengths_[0]), 0, 1, false, lengths_[0]);
     add(row(p.start.acceleration * lengths_[0] * lengths_[0]), 0, 2, false,
         lengths_[0] * lengths_[0]);
-    for (std::size_t k = 0; k + 1 < pieces; ++k) {
+    for (size_t k = 0; k + 1 < pieces; ++k) {
       const double h = lengths_[k];
       for (int order = 0; order < 3; ++order) {
         const double f = std::pow(h, order);
@@ -173,14 +173,14 @@ public:
         add(r, k + 1, order, false, -f);
       }
     }
-    for (std::size_t i = 0; i < p.points.size(); ++i)
+    for (size_t i = 0; i < p.points.size(); ++i)
       add(row(p.points[i].value), i + 1, 0, true, 1);
     row(0)[n - 1] = 1; // no jerk in the last piece
     coefficients_ = solve(std::move(a), std::move(b));
   }
 
   double position(double t) const {
-    std::size_t k = 0;
+    size_t k = 0;
     while (k + 1 < lengths_.size() && t > lengths_[k])
       t -= lengths_[k++];
     const double x = t / lengths_[k];
@@ -193,9 +193,9 @@ private:
   std::vector<double> coefficients_;
 };
 
-double timeOf(const Problem &p, std::size_t point) {
+double timeOf(const Problem &p, size_t point) {
   double t = 0;
-  for (std::size_t i = 0; i <= point; ++i)
+  for (size_t i = 0; i <= point; ++i)
     t += p.points[i].step;
   return t;
 }
@@ -225,7 +225,7 @@ TEST(TimeProfileProperty, PositionsAreReachedWithoutJumps) {
               PlanError::None);
     expectContinuous(profile, p.start);
     const double scale = sizesOf(profile).position;
-    for (std::size_t i = 0; i < p.points.size(); ++i)
+    for (size_t i = 0; i < p.points.size(); ++i)
       ASSERT_NEAR(profile.at(timeOf(p, i)).position, p.points[i].value, 1e-9 * scale) << round;
     ASSERT_EQ(profile.end.position, p.points.back().value);
     ASSERT_EQ(profile.pieces[profile.count - 1].jerk, 0.0) << round;
@@ -285,7 +285,7 @@ TEST(TimeProfileProperty, VelocitiesStayBetweenTheirPoints) {
               PlanError::None);
     const double slack = 1e-9 * sizesOf(profile).velocity;
     double t = p.points[0].step;
-    for (std::size_t i = 1; i < p.points.size(); ++i) {
+    for (size_t i = 1; i < p.points.size(); ++i) {
       const auto [low, high] = std::minmax(p.points[i - 1].value, p.points[i].value);
       for (int k = 0; k < 4; ++k) {
         const double v = profile.at(t + random.uniform(0, 1) * p.points[i].step).velocity;
@@ -321,7 +321,7 @@ TEST(TimeProfileProperty, VelocitiesAreReachedAndIntegrated) {
               PlanError::None);
     expectContinuous(profile, p.start);
     const Sizes sizes = sizesOf(profile);
-    for (std::size_t i = 0; i + 1 < p.points.size(); ++i)
+    for (size_t i = 0; i + 1 < p.points.size(); ++i)
       ASSERT_NEAR(profile.at(timeOf(p, i)).velocity, p.points[i].value, 1e-9 * sizes.velocity);
     ASSERT_NEAR(profile.end.velocity, p.points.back().value, 1e-11 * sizes.velocity);
     ASSERT_NEAR(profile.end.position - p.start.position,

@@ -15,7 +15,7 @@ constexpr int kMostDifferences = 20;
 std::vector<std::string_view> cells(std::string_view line) {
   std::vector<std::string_view> result;
   for (;;) {
-    const std::size_t comma = line.find(',');
+    const size_t comma = line.find(',');
     result.push_back(line.substr(0, comma));
     if (comma == std::string_view::npos)
       return result;
@@ -41,9 +41,9 @@ bool equalCells(std::string_view expected, std::string_view actual, double toler
 
 } // namespace
 
-std::string sampleRows(std::string_view csv, std::size_t every) {
+std::string sampleRows(std::string_view csv, size_t every) {
   std::string result;
-  std::size_t row = 0;
+  size_t row = 0;
   for (const std::string &line : splitLines(csv)) {
     if (row == 0 || (row - 1) % every == 0)
       result += line + '\n';
@@ -67,7 +67,7 @@ std::string compareCsv(std::string_view expected, std::string_view actual,
               std::to_string(b.size() - 1) + '\n';
   const std::vector<std::string_view> header = cells(a[0]);
   int differences = 0;
-  for (std::size_t row = 1; row < a.size() && row < b.size(); ++row) {
+  for (size_t row = 1; row < a.size() && row < b.size(); ++row) {
     const std::vector<std::string_view> x = cells(a[row]);
     const std::vector<std::string_view> y = cells(b[row]);
     const std::string where = "line " + std::to_string(row + 1) + " (" + std::string(x[0]) + ")";
@@ -75,7 +75,7 @@ std::string compareCsv(std::string_view expected, std::string_view actual,
       report += where + ": not as many cells as the header has\n";
       return report;
     }
-    for (std::size_t column = 0; column < x.size(); ++column) {
+    for (size_t column = 0; column < x.size(); ++column) {
       const auto named = tolerance.absolute.find(std::string(header[column]));
       const double allowed =
           named == tolerance.absolute.end() ? tolerance.otherwise : named->second;

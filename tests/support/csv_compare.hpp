@@ -1,5 +1,6 @@
 // Comparing traces: CSV with one header row, numbers within a tolerance per column.
-#pragma once
+#ifndef STRIDE_TESTS_SUPPORT_CSV_COMPARE_HPP
+#define STRIDE_TESTS_SUPPORT_CSV_COMPARE_HPP
 
 #include <cstddef>
 #include <map>
@@ -15,10 +16,12 @@ struct CsvTolerance {
 };
 
 /// The header and every `every`-th row after it (the first row included).
-std::string sampleRows(std::string_view csv, std::size_t every);
+std::string sampleRows(std::string_view csv, size_t every);
 
 /// What differs, a line for each of the first differences; empty when nothing does.
 std::string compareCsv(std::string_view expected, std::string_view actual,
                        const CsvTolerance &tolerance);
 
 } // namespace stride::test
+
+#endif // STRIDE_TESTS_SUPPORT_CSV_COMPARE_HPP

@@ -1,6 +1,7 @@
 // Memory for variables of calls whose address ST takes, where a test calls tasks without the
 // runtime, which would give it.
-#pragma once
+#ifndef STRIDE_TESTS_SUPPORT_DATA_STACK_HPP
+#define STRIDE_TESTS_SUPPORT_DATA_STACK_HPP
 
 #include "runtime/iec/ctx.h"
 
@@ -20,3 +21,5 @@ private:
 };
 
 } // namespace stride::test
+
+#endif // STRIDE_TESTS_SUPPORT_DATA_STACK_HPP

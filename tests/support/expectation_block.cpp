@@ -8,15 +8,15 @@ namespace {
 constexpr std::string_view kMarker = "//!";
 
 // Where the line that ends just before `end` starts.
-std::size_t lineStart(std::string_view text, std::size_t end) {
+size_t lineStart(std::string_view text, size_t end) {
   if (end == 0)
     return 0;
-  const std::size_t newline = text.rfind('\n', end - 1);
+  const size_t newline = text.rfind('\n', end - 1);
   return newline == std::string_view::npos ? 0 : newline + 1;
 }
 
 // The end of the line before position `at`, without its '\n' ("at" is a line's start).
-std::size_t previousLineEnd(std::size_t at) { return at == 0 ? 0 : at - 1; }
+size_t previousLineEnd(size_t at) { return at == 0 ? 0 : at - 1; }
 
 } // namespace
 
@@ -24,10 +24,10 @@ GoldenText splitExpectation(std::string_view file) {
   std::string_view text = file;
   while (!text.empty() && text.back() == '\n')
     text.remove_suffix(1);
-  std::size_t block = file.size(); // start of the block found so far
-  std::size_t end = text.size();
+  size_t block = file.size(); // start of the block found so far
+  size_t end = text.size();
   while (end > 0) {
-    const std::size_t start = lineStart(text, end);
+    const size_t start = lineStart(text, end);
     if (!text.substr(start, end - start).starts_with(kMarker))
       break;
     block = start;
@@ -76,8 +76,8 @@ std::string directive(std::string_view source, std::string_view name) {
       break;
     if (!line.starts_with(prefix))
       continue;
-    const std::size_t first = line.find_first_not_of(" \t", prefix.size());
-    const std::size_t last = line.find_last_not_of(" \t\r");
+    const size_t first = line.find_first_not_of(" \t", prefix.size());
+    const size_t last = line.find_last_not_of(" \t\r");
     return first == std::string::npos ? "" : line.substr(first, last + 1 - first);
   }
   return {};

@@ -1,5 +1,6 @@
 // Golden files carry what is expected of them: the lines starting with `//!` at their end.
-#pragma once
+#ifndef STRIDE_TESTS_SUPPORT_EXPECTATION_BLOCK_HPP
+#define STRIDE_TESTS_SUPPORT_EXPECTATION_BLOCK_HPP
 
 #include <string>
 #include <string_view>
@@ -24,3 +25,5 @@ std::string joinExpectation(std::string_view source, std::string_view expected);
 std::string directive(std::string_view source, std::string_view name);
 
 } // namespace stride::test
+
+#endif // STRIDE_TESTS_SUPPORT_EXPECTATION_BLOCK_HPP

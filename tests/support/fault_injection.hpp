@@ -1,5 +1,6 @@
 // Commands whose calls of the system fail: the third write, every rename from the second on.
-#pragma once
+#ifndef STRIDE_TESTS_SUPPORT_FAULT_INJECTION_HPP
+#define STRIDE_TESTS_SUPPORT_FAULT_INJECTION_HPP
 
 #include "tests/support/process.hpp"
 
@@ -50,3 +51,5 @@ FaultedRun runWithFault(const std::vector<std::string> &arguments,
 bool canInjectFaults();
 
 } // namespace stride::test
+
+#endif // STRIDE_TESTS_SUPPORT_FAULT_INJECTION_HPP

@@ -1,5 +1,6 @@
 // A compiler without libraries.
-#pragma once
+#ifndef STRIDE_TESTS_SUPPORT_NO_LIBRARY_HPP
+#define STRIDE_TESTS_SUPPORT_NO_LIBRARY_HPP
 
 #include "compiler/semantics/program.hpp"
 
@@ -19,3 +20,5 @@ public:
 };
 
 } // namespace stc::test
+
+#endif // STRIDE_TESTS_SUPPORT_NO_LIBRARY_HPP

@@ -83,7 +83,7 @@ ProcessResult runOnTerminal(const std::vector<std::string> &arguments,
   std::string shown;
   char buffer[4096];
   for (ssize_t count = 0; (count = read(terminal, buffer, sizeof buffer)) > 0;) // EIO at its end
-    shown.append(buffer, static_cast<std::size_t>(count));
+    shown.append(buffer, static_cast<size_t>(count));
   const int code = waitFor(child, arguments.front() + " in " + directory.string());
   close(terminal);
   return {code, shown, {}};

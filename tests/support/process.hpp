@@ -1,5 +1,6 @@
 // Running a command and catching what it prints.
-#pragma once
+#ifndef STRIDE_TESTS_SUPPORT_PROCESS_HPP
+#define STRIDE_TESTS_SUPPORT_PROCESS_HPP
 
 #include <filesystem>
 #include <string>
@@ -29,3 +30,5 @@ runOnTerminal(const std::vector<std::string> &arguments, const std::filesystem::
               const std::vector<std::pair<std::string, std::string>> &environment = {});
 
 } // namespace stride::test
+
+#endif // STRIDE_TESTS_SUPPORT_PROCESS_HPP

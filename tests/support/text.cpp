@@ -29,7 +29,7 @@ void writeFile(const fs::path &path, std::string_view content) {
 std::vector<std::string> splitLines(std::string_view text) {
   std::vector<std::string> lines;
   while (!text.empty()) {
-    const std::size_t end = text.find('\n');
+    const size_t end = text.find('\n');
     lines.emplace_back(text.substr(0, end));
     if (end == std::string_view::npos)
       break;
@@ -67,8 +67,7 @@ std::vector<std::string> splitWords(std::string_view text) {
 }
 
 std::string replaceAll(std::string text, std::string_view from, std::string_view to) {
-  for (std::size_t at = text.find(from); at != std::string::npos;
-       at = text.find(from, at + to.size()))
+  for (size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
     text.replace(at, from.size(), to);
   return text;
 }
@@ -100,20 +99,18 @@ using Lines = std::vector<std::string>;
 
 // The lines between the common start and end, by longest common subsequence; large texts are simply
 // shown as removed and added.
-void diffMiddle(const Lines &a, const Lines &b, std::size_t begin, std::size_t endA,
-                std::size_t endB, std::vector<DiffLine> &out) {
-  const std::size_t n = endA - begin;
-  const std::size_t m = endB - begin;
-  constexpr std::size_t kLargest = 4'000'000;
-  std::size_t i = 0;
-  std::size_t j = 0;
+void diffMiddle(const Lines &a, const Lines &b, size_t begin, size_t endA, size_t endB,
+                std::vector<DiffLine> &out) {
+  const size_t n = endA - begin;
+  const size_t m = endB - begin;
+  constexpr size_t kLargest = 4'000'000;
+  size_t i = 0;
+  size_t j = 0;
   if (n * m <= kLargest) {
     std::vector<unsigned> length((n + 1) * (m + 1), 0);
-    const auto at = [&](std::size_t x, std::size_t y) -> unsigned & {
-      return length[x * (m + 1) + y];
-    };
-    for (std::size_t x = n; x-- > 0;)
-      for (std::size_t y = m; y-- > 0;)
+    const auto at = [&](size_t x, size_t y) -> unsigned & { return length[x * (m + 1) + y]; };
+    for (size_t x = n; x-- > 0;)
+      for (size_t y = m; y-- > 0;)
         at(x, y) = a[begin + x] == b[begin + y] ? at(x + 1, y + 1) + 1
                                                 : std::max(at(x + 1, y), at(x, y + 1));
     while (i < n && j < m) {
@@ -141,29 +138,29 @@ std::string diff(std::string_view expected, std::string_view actual) {
   const Lines b = canonicalLines(actual);
   if (a == b)
     return {};
-  std::size_t begin = 0;
+  size_t begin = 0;
   while (begin < a.size() && begin < b.size() && a[begin] == b[begin])
     ++begin;
-  std::size_t tail = 0;
+  size_t tail = 0;
   while (tail < a.size() - begin && tail < b.size() - begin &&
          a[a.size() - 1 - tail] == b[b.size() - 1 - tail])
     ++tail;
 
   std::vector<DiffLine> lines;
-  for (std::size_t i = 0; i < begin; ++i)
+  for (size_t i = 0; i < begin; ++i)
     lines.push_back({' ', a[i]});
   diffMiddle(a, b, begin, a.size() - tail, b.size() - tail, lines);
-  for (std::size_t i = a.size() - tail; i < a.size(); ++i)
+  for (size_t i = a.size() - tail; i < a.size(); ++i)
     lines.push_back({' ', a[i]});
 
-  constexpr std::size_t kContext = 3;
+  constexpr size_t kContext = 3;
   std::string result;
   bool gap = false;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const std::size_t from = i >= kContext ? i - kContext : 0;
-    const std::size_t to = std::min(lines.size(), i + kContext + 1);
+  for (size_t i = 0; i < lines.size(); ++i) {
+    const size_t from = i >= kContext ? i - kContext : 0;
+    const size_t to = std::min(lines.size(), i + kContext + 1);
     bool near = false;
-    for (std::size_t k = from; k < to; ++k)
+    for (size_t k = from; k < to; ++k)
       near = near || lines[k].mark != ' ';
     if (near) {
       result += lines[i].mark;

@@ -1,5 +1,6 @@
 // Files, lines and readable differences.
-#pragma once
+#ifndef STRIDE_TESTS_SUPPORT_TEXT_HPP
+#define STRIDE_TESTS_SUPPORT_TEXT_HPP
 
 #include <filesystem>
 #include <string>
@@ -46,3 +47,5 @@ private:
 };
 
 } // namespace stride::test
+
+#endif // STRIDE_TESTS_SUPPORT_TEXT_HPP

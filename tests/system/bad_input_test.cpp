@@ -17,13 +17,13 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr std::size_t kTenMegabytes = 10'000'000;
-constexpr std::size_t kMostOutput = 100'000;
+constexpr size_t kTenMegabytes = 10'000'000;
+constexpr size_t kMostOutput = 100'000;
 
-std::string repeat(std::string_view text, std::size_t times) {
+std::string repeat(std::string_view text, size_t times) {
   std::string result;
   result.reserve(text.size() * times);
-  for (std::size_t i = 0; i < times; ++i)
+  for (size_t i = 0; i < times; ++i)
     result += text;
   return result;
 }
@@ -140,7 +140,7 @@ TEST_F(Input, ChainOfTenThousandNots) {
 
 // Types, blocks, functions, methods, variables with names of so many characters; some differ in the
 // last one only.
-std::string longNames(std::size_t length) {
+std::string longNames(size_t length) {
   const auto name = [&](char last) { return std::string(length - 1, 'n') + last; };
   return "TYPE " + name('t') + " : STRUCT " + name('v') + " : DINT := 3; e : (" + name('x') + ", " +
          name('y') + "); END_STRUCT END_TYPE\n" + //
@@ -220,7 +220,7 @@ TEST_F(Place, DevicesAsSources) {
 
 TEST_F(Place, FilesWithoutMeasure) {
   writeFile(scratch_.path() / "input.st", "");
-  std::filesystem::resize_file(scratch_.path() / "input.st", std::uintmax_t{1} << 40);
+  std::filesystem::resize_file(scratch_.path() / "input.st", uintmax_t{1} << 40);
   expectUnreadable({"check", "input.st"}, "it is longer than 16 MiB");
   expectUnreadable({"fmt", "input.st"}, "it is longer than 16 MiB");
   std::filesystem::resize_file(scratch_.path() / "input.st", (16U << 20U) + 1);
@@ -357,7 +357,7 @@ TEST_F(Deep, DiamondsAreLinear) {
   const std::string body = program("x := x + 1; others := blocks; INI(blocks, TRUE);");
   const ProcessResult result = stride({"build", "input.st", "--emit", "cpp"}, source + body);
   EXPECT_EQ(result.exitCode, 0) << result.err;
-  std::uintmax_t bytes = 0;
+  uintmax_t bytes = 0;
   for (const auto &file :
        std::filesystem::recursive_directory_iterator(scratch_.path() / "input-cpp"))
     bytes += file.is_regular_file() ? file.file_size() : 0;

@@ -44,8 +44,8 @@ protected:
   std::string read(const std::string &name) { return readFile(scratch_.path() / name); }
   bool exists(const std::string &name) { return fs::exists(scratch_.path() / name); }
 
-  std::size_t countFiles(const std::string &folder, const std::string &suffix) {
-    std::size_t count = 0;
+  size_t countFiles(const std::string &folder, const std::string &suffix) {
+    size_t count = 0;
     for (const fs::directory_entry &entry :
          fs::recursive_directory_iterator(scratch_.path() / folder))
       count += entry.path().extension() == suffix ? 1 : 0;
@@ -212,7 +212,7 @@ TEST_F(Cli, OnlyWhatChangedIsCompiled) {
   write("p/a.st", kCounter);
   write("p/b.st", "FUNCTION F : INT\nF := 1;\nEND_FUNCTION\n");
   succeed({"build", "p"});
-  const std::size_t units = countFiles("cache", ".o");
+  const size_t units = countFiles("cache", ".o");
   succeed({"build", "p"});
   EXPECT_EQ(countFiles("cache", ".o"), units);
   write("p/b.st", "FUNCTION F : INT\nF := 2;\nEND_FUNCTION\n");

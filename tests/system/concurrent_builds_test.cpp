@@ -93,7 +93,7 @@ TEST_F(ConcurrentBuilds, EachComputesWithItsOwnTextAndOptions) {
       value = next;
       edit(value);
     }
-    for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (size_t i = 0; i < runs.size(); ++i) {
       const ProcessResult result = runs[i].get();
       ASSERT_THAT(result.out, AnyOf(values(before, defined[i]), values(value, defined[i])))
           << "round " << round << ", run " << i << "\n"
@@ -113,7 +113,7 @@ TEST_F(ConcurrentBuilds, EachWritesWhatACleanBuildWrites) {
   const std::vector<std::vector<std::string>> variants = {
       {}, {"-D", "X"}, {"--unchecked"}, {"--debug", "-D", "X"}};
   std::vector<std::string> clean;
-  for (std::size_t i = 0; i < variants.size(); ++i) {
+  for (size_t i = 0; i < variants.size(); ++i) {
     std::vector<std::string> command = {"build", "p", "-o", "clean.so"};
     command.insert(command.end(), variants[i].begin(), variants[i].end());
     ASSERT_EQ(stride(command, "clean" + std::to_string(i)).exitCode, 0);
@@ -123,12 +123,12 @@ TEST_F(ConcurrentBuilds, EachWritesWhatACleanBuildWrites) {
   for (int round = 0; round < count; ++round) {
     fs::remove_all(at("cache"));
     std::vector<std::future<ProcessResult>> builds;
-    for (std::size_t i = 0; i < 2 * variants.size(); ++i) {
+    for (size_t i = 0; i < 2 * variants.size(); ++i) {
       std::vector<std::string> command = {"build", "p", "-o", std::to_string(i) + ".so"};
       command.insert(command.end(), variants[i / 2].begin(), variants[i / 2].end());
       builds.push_back(std::async(std::launch::async, [this, command] { return stride(command); }));
     }
-    for (std::size_t i = 0; i < builds.size(); ++i) {
+    for (size_t i = 0; i < builds.size(); ++i) {
       ASSERT_EQ(builds[i].get().exitCode, 0);
       ASSERT_EQ(readFile(at(std::to_string(i) + ".so")), clean[i / 2]) << round << " " << i;
     }

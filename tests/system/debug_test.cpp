@@ -126,7 +126,7 @@ TEST_F(Debugging, ValuesAreStLiterals) {
 
 /// Expects the texts one after the other.
 void expectInOrder(const ProcessResult &gdb, const std::vector<std::string> &texts) {
-  std::size_t at = 0;
+  size_t at = 0;
   for (const std::string &text : texts) {
     at = gdb.out.find(text, at);
     ASSERT_NE(at, std::string::npos) << text << "\nin\n" << gdb.out << gdb.err;

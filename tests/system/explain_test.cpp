@@ -33,7 +33,7 @@ bool startsWord(const std::string &line, std::string_view word) {
 }
 
 std::string trimmed(std::string line) {
-  const std::size_t first = line.find_first_not_of(' ');
+  const size_t first = line.find_first_not_of(' ');
   return first == std::string::npos ? std::string() : line.substr(first);
 }
 
@@ -75,12 +75,12 @@ bool isSection(const std::string &line) {
 
 /// `a, b : INT := 5;`: names, a colon that is not that of `:=`, a `;` at the end.
 bool isDeclaration(const std::string &line) {
-  const std::size_t end =
+  const size_t end =
       line.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_, ");
   if (end == std::string::npos || line.find(';') == std::string::npos)
     return false;
-  const std::size_t at = line.find(" AT %");
-  const std::size_t colon = at != std::string::npos ? line.find(':', at) : end;
+  const size_t at = line.find(" AT %");
+  const size_t colon = at != std::string::npos ? line.find(':', at) : end;
   return colon != std::string::npos && line[colon] == ':' && colon + 1 < line.size() &&
          line[colon + 1] != '=' && colon != 0 &&
          std::isdigit(static_cast<unsigned char>(line[0])) == 0;
@@ -112,8 +112,8 @@ std::string wrapped(const std::string &text) {
     }
     *to += raw + "\n";
     if (!closer.empty()) {
-      const std::size_t found = raw.rfind(closer);
-      const std::size_t behind = found == std::string::npos ? 0 : found + closer.size();
+      const size_t found = raw.rfind(closer);
+      const size_t behind = found == std::string::npos ? 0 : found + closer.size();
       if (found != std::string::npos &&
           (behind == raw.size() ||
            (std::isalnum(static_cast<unsigned char>(raw[behind])) == 0 && raw[behind] != '_')))

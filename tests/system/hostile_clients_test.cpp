@@ -61,14 +61,14 @@ public:
       const ::ssize_t sent = ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
       if (sent < 0)
         return false;
-      text.remove_prefix(static_cast<std::size_t>(sent));
+      text.remove_prefix(static_cast<size_t>(sent));
     }
     return true;
   }
   /// The next line; empty when the other side has hung up.
   std::string line() {
     for (;;) {
-      if (const std::size_t end = got_.find('\n'); end != std::string::npos) {
+      if (const size_t end = got_.find('\n'); end != std::string::npos) {
         std::string text = got_.substr(0, end);
         got_.erase(0, end + 1);
         return text;
@@ -82,7 +82,7 @@ public:
       const ::ssize_t size = ::recv(socket_, buffer, sizeof buffer, 0);
       if (size <= 0)
         return {};
-      got_.append(buffer, static_cast<std::size_t>(size));
+      got_.append(buffer, static_cast<size_t>(size));
     }
   }
   /// Reads until the other side hangs up.
@@ -147,7 +147,7 @@ END_CONFIGURATION
     const auto count = [&] {
       good.send("{\"id\":1,\"op\":\"read\",\"names\":[\"Main.n\"]}\n");
       const std::string answer = good.line();
-      const std::size_t at = answer.find("\"value\":");
+      const size_t at = answer.find("\"value\":");
       EXPECT_NE(at, std::string::npos) << answer;
       return at == std::string::npos ? 0 : std::stol(answer.substr(at + 8));
     };
@@ -165,9 +165,9 @@ END_CONFIGURATION
         return std::stol(line.substr(6));
     return 0;
   }
-  std::size_t openFiles() const {
+  size_t openFiles() const {
     const fs::directory_iterator files("/proc/" + std::to_string(pid_) + "/fd");
-    return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+    return static_cast<size_t>(std::distance(begin(files), end(files)));
   }
   /// Does it again and again; once the allocator has what it keeps, the host must not become
   /// larger.
@@ -193,7 +193,7 @@ END_CONFIGURATION
   std::thread host_;
   ProcessResult result_;
   int pid_ = 0;
-  std::size_t files_ = 0;
+  size_t files_ = 0;
   long last_ = 0;
 };
 

@@ -221,7 +221,7 @@ TEST_F(HostileProject, WhatLiesWhereResultsAreWrittenIsNotRead) {
   fs::create_directories(at("p/build/cpp"));
   for (const char *name : {"p/build/.gitignore", "p/build/cpp/.stride-sources"}) {
     write(name, "x\n");
-    fs::resize_file(at(name), std::uintmax_t{64} << 30); // no such memory
+    fs::resize_file(at(name), uintmax_t{64} << 30); // no such memory
   }
   succeed({"build", "p"});
   succeed({"build", "p", "--emit", "cpp"});
@@ -253,7 +253,7 @@ TEST_F(HostileProject, NothingOfAProjectCommandsTheTerminal) {
     std::string shown = runOnTerminal(command, scratch_.path(), cache).out;
     // Stride's own: a line that changes.
     for (const char *own : {"\r\x1b[K", "\r\n"})
-      for (std::size_t i = 0; (i = shown.find(own, i)) != std::string::npos;)
+      for (size_t i = 0; (i = shown.find(own, i)) != std::string::npos;)
         shown.erase(i, std::string_view(own).size());
     EXPECT_FALSE(shown.empty()) << arguments[0];
     EXPECT_EQ(shown.find_first_of("\x1b\x07\r\x7f"), std::string::npos)
@@ -273,7 +273,7 @@ TEST_F(HostileProject, TheProjectsNameIsNoPath) {
     write("p/stride.toml", "[project]\nname = \"" + std::string(name) + "\"\n");
     refuse({"check", "p"}, "SE0817");
   }
-  for (const std::size_t length : {199U, 200U, 201U}) {
+  for (const size_t length : {199U, 200U, 201U}) {
     write("p/stride.toml", "[project]\nname = \"" + std::string(length, 'n') + "\"\n");
     EXPECT_EQ(stride({"check", "p"}).exitCode, length <= 200 ? 0 : 1) << length;
   }

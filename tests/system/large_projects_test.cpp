@@ -74,7 +74,7 @@ TEST_F(LargeProject, ManyVariablesHaveTheirValues) {
         stride({"sim", "a.st", "--for", "T#10ms", "--quiet", "-W", "off=lints", "--print", "V"});
     ASSERT_EQ(result.exitCode, 0) << result.err;
     std::string inBlock = expected;
-    for (std::size_t i = 0; (i = inBlock.find("V.v", i)) != std::string::npos; i += 3)
+    for (size_t i = 0; (i = inBlock.find("V.v", i)) != std::string::npos; i += 3)
       inBlock.replace(i, 3, "V.b.v");
     EXPECT_EQ(result.out, inBlock + expected) << count;
   }
@@ -92,9 +92,9 @@ TEST_F(LargeProject, AnExceptionInALaterPartHasItsPlace) {
 }
 
 TEST_F(LargeProject, AFileHasALimitedNumberOfWords) {
-  const std::size_t limit = 4'000'000;
+  const size_t limit = 4'000'000;
   const std::string program = "PROGRAM P\n;\nEND_PROGRAM\n"; // four of them
-  for (const std::size_t count : {limit - 1, limit, limit + 1}) {
+  for (const size_t count : {limit - 1, limit, limit + 1}) {
     write(program + std::string(count - 4, ';') + "  ");
     const ProcessResult result = stride({"check", "a.st"});
     EXPECT_EQ(result.exitCode, count <= limit ? 0 : 1) << count;

@@ -27,7 +27,7 @@ public:
   void moved(app::Application &application) {
     group_.rebind(ref(application));
     const std::vector<axis::AxisRef *> moved = axes(application);
-    for (std::size_t i = 0; i < moved.size(); ++i)
+    for (size_t i = 0; i < moved.size(); ++i)
       group_.rebind(i, *moved[i]);
     application_ = &application;
   }
@@ -97,7 +97,7 @@ TEST(OnlineMotion, AMoveGoesOnBitForBit) {
     group.moved(live.application());
     live.run(900 - cycle);
     ASSERT_EQ(group.trace.size(), reference.trace.size());
-    for (std::size_t i = 0; i < group.trace.size(); ++i)
+    for (size_t i = 0; i < group.trace.size(); ++i)
       ASSERT_EQ(group.trace[i], reference.trace[i])
           << "change in cycle " << cycle << ", cycle " << i;
     EXPECT_EQ(live["Ipo.MoveAbsolute.Done"], without["Ipo.MoveAbsolute.Done"]);

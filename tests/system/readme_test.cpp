@@ -22,7 +22,7 @@ struct Block {
   std::string language;
   std::string file; // from the comment before the block
   std::vector<std::string> lines;
-  std::size_t line = 0; // of the opening fence, from 1
+  size_t line = 0; // of the opening fence, from 1
 
   std::string text() const {
     std::string all;
@@ -35,7 +35,7 @@ struct Block {
 struct Command {
   std::string text;
   std::string output; // empty: not compared
-  std::size_t line = 0;
+  size_t line = 0;
 };
 
 std::vector<Block> fencedBlocks(const std::string &markdown) {
@@ -44,7 +44,7 @@ std::vector<Block> fencedBlocks(const std::string &markdown) {
   std::vector<Block> blocks;
   std::string file;
   bool inside = false;
-  std::size_t number = 0;
+  size_t number = 0;
   for (const std::string &line : splitLines(markdown)) {
     ++number;
     if (inside && line == fence) {
@@ -66,7 +66,7 @@ std::vector<Block> fencedBlocks(const std::string &markdown) {
 
 std::vector<Command> commandsOf(const Block &block) {
   std::vector<Command> commands;
-  std::size_t number = block.line;
+  size_t number = block.line;
   for (const std::string &line : block.lines) {
     ++number;
     if (block.language == "console" && line.starts_with("$ "))
@@ -80,11 +80,11 @@ std::vector<Command> commandsOf(const Block &block) {
 }
 
 // Whether the lines from `i` and `k` on match; a pattern line `...` matches any number of lines.
-bool matches(const std::vector<std::string> &pattern, std::size_t i,
-             const std::vector<std::string> &lines, std::size_t k) {
+bool matches(const std::vector<std::string> &pattern, size_t i,
+             const std::vector<std::string> &lines, size_t k) {
   for (; i < pattern.size(); ++i, ++k) {
     if (pattern[i] == "...") {
-      for (std::size_t rest = k; rest <= lines.size(); ++rest)
+      for (size_t rest = k; rest <= lines.size(); ++rest)
         if (matches(pattern, i + 1, lines, rest))
           return true;
       return false;

@@ -107,7 +107,7 @@ TEST_F(Run, SignalsShowAndStop) {
                                      "sleep 0.3; kill -USR1 $p; sleep 0.1; kill -TERM $p; wait $p");
   EXPECT_EQ(result.exitCode, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("PLC_PRG.n = "));
-  std::size_t tables = 0;
+  size_t tables = 0;
   for (auto at = result.err.find("late p50"); at != std::string::npos;
        at = result.err.find("late p50", at + 1))
     ++tables;

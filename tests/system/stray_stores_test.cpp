@@ -109,9 +109,9 @@ END_IF
 END_PROGRAM
 )";
 
-std::size_t lineOf(std::string_view text, std::string_view what) {
+size_t lineOf(std::string_view text, std::string_view what) {
   const std::string_view before = text.substr(0, text.find(what));
-  return static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
+  return static_cast<size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
 }
 
 class StrayStores : public ::testing::Test {

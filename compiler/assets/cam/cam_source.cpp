@@ -17,8 +17,8 @@ using stride::cam::FileTappet;
 using stride::cam::LawShape;
 using stride::cam::Node;
 
-constexpr std::int16_t kTimed = 3; // TAPPETACTION_time
-constexpr double kSame = 1e-9;     // of a position
+constexpr int16_t kTimed = 3;  // TAPPETACTION_time
+constexpr double kSame = 1e-9; // of a position
 
 bool same(double a, double b) {
   return std::fabs(a - b) <= kSame * std::max({1.0, std::fabs(a), std::fabs(b)});
@@ -26,11 +26,11 @@ bool same(double a, double b) {
 
 std::string_view nameOfKind(CamElement::Kind kind) {
   switch (kind) {
-  case CamElement::Kind::point:
+  case CamElement::Kind::Point:
     return "point";
-  case CamElement::Kind::line:
+  case CamElement::Kind::Line:
     return "line";
-  case CamElement::Kind::law:
+  case CamElement::Kind::Law:
     break;
   }
   return "law";
@@ -69,7 +69,7 @@ public:
     if (!failed() && cam_.periodic)
       closeCircle();
     if (!failed() && !smoothen(cam_))
-      diagnostics_.report(Code::camTable, masterSpan_,
+      diagnostics_.report(Code::CamTable, masterSpan_,
                           "the smooth points of this cam cannot be computed",
                           "the numbers are too large or too close together");
     if (failed())
@@ -94,7 +94,7 @@ private:
     cam_.name = {text, beginning()};
     if (!top.has("name") && !isIdentifier(text))
       diagnostics_
-          .report(Code::configBadName, beginning(),
+          .report(Code::ConfigBadName, beginning(),
                   fmt::format("`{}` cannot be a name in Structured Text", text),
                   "a cam is named after its file")
           .help("rename the file, or give the cam a name: `name = \"Cam1\"`");
@@ -103,7 +103,7 @@ private:
   bool readMaster(const CheckedSection &top) {
     if (!top.has("master")) {
       diagnostics_
-          .report(Code::configMissingKey, beginning(), "a cam needs [master]",
+          .report(Code::ConfigMissingKey, beginning(), "a cam needs [master]",
                   "`master` is missing")
           .help("add the range of the master:\n[master]\nstart = 0\nend = 360");
       return false;
@@ -123,7 +123,7 @@ private:
     if (cam_.start < cam_.end)
       return true;
     diagnostics_
-        .report(Code::camElements, end->span, "a cam must end behind its start",
+        .report(Code::CamElements, end->span, "a cam must end behind its start",
                 fmt::format("not greater than {}", cam_.start))
         .label(start->span, "the start");
     return false;
@@ -146,7 +146,7 @@ private:
     if (section.has(low) != section.has(high)) {
       const std::string_view absent = section.has(low) ? high : low;
       diagnostics_
-          .report(Code::configMissingKey, (minimum != nullptr ? minimum : maximum)->span,
+          .report(Code::ConfigMissingKey, (minimum != nullptr ? minimum : maximum)->span,
                   fmt::format("a scale needs `{}` and `{}`", low, high),
                   fmt::format("`{}` is missing", absent))
           .help(fmt::format("add `{} = …`", absent));
@@ -157,7 +157,7 @@ private:
     if (minimum->floating < maximum->floating)
       return std::pair(minimum->floating, maximum->floating);
     diagnostics_
-        .report(Code::configOutOfRange, maximum->span,
+        .report(Code::ConfigOutOfRange, maximum->span,
                 fmt::format("`{}` must be greater than `{}`", high, low), "not greater than …")
         .label(minimum->span, "… this");
     return std::nullopt;
@@ -165,7 +165,7 @@ private:
 
   void readPoint(const CheckedSection &section) {
     CamElement element;
-    element.kind = CamElement::Kind::point;
+    element.kind = CamElement::Kind::Point;
     element.left = {section.real("x", 0), section.real("y", 0), section.real("v", 0),
                     section.real("a", 0)};
     element.right = element.left;
@@ -190,7 +190,7 @@ private:
     if (start == nullptr || end == nullptr || start->floating < end->floating)
       return true;
     diagnostics_
-        .report(Code::camElements, end->span, fmt::format("a {} must end behind its start", what),
+        .report(Code::CamElements, end->span, fmt::format("a {} must end behind its start", what),
                 "`x_end` is not greater than …")
         .label(start->span, "… `x`");
     return false;
@@ -198,7 +198,7 @@ private:
 
   void readLine(const CheckedSection &section) {
     CamElement element;
-    element.kind = CamElement::Kind::line;
+    element.kind = CamElement::Kind::Line;
     element.span = section.table().span;
     element.left = {section.real("x", 0), section.real("y", 0), 0, 0};
     element.right = {section.real("x_end", 0), section.real("y_end", 0), 0, 0};
@@ -211,7 +211,7 @@ private:
 
   void readLaw(const CheckedSection &section) {
     CamElement element;
-    element.kind = CamElement::Kind::law;
+    element.kind = CamElement::Kind::Law;
     element.span = section.table().span;
     element.left = {section.real("x", 0), section.real("y", 0), section.real("v", 0),
                     section.real("a", 0)};
@@ -243,18 +243,18 @@ private:
   void readTappet(const CheckedSection &section) {
     FileTappet tappet{};
     tappet.x = section.real("x", 0);
-    tappet.group = static_cast<std::int16_t>(section.integer("group", 0));
-    tappet.pass = static_cast<std::int16_t>(section.choice("pass", 0));
-    tappet.action = static_cast<std::int16_t>(section.choice("action", 0));
-    tappet.delay = static_cast<std::uint32_t>(section.integer("delay", 0));
-    tappet.duration = static_cast<std::uint32_t>(section.integer("duration", 0));
+    tappet.group = static_cast<int16_t>(section.integer("group", 0));
+    tappet.pass = static_cast<int16_t>(section.choice("pass", 0));
+    tappet.action = static_cast<int16_t>(section.choice("action", 0));
+    tappet.delay = static_cast<uint32_t>(section.integer("delay", 0));
+    tappet.duration = static_cast<uint32_t>(section.integer("duration", 0));
     if (const TomlNode *x = section.get("x");
         x != nullptr && (tappet.x < cam_.start || tappet.x > cam_.end))
       outside(x->span, "a tappet");
     if (tappet.action == kTimed) {
       if (!section.has("duration"))
         diagnostics_
-            .report(Code::configMissingKey, section.get("action")->span,
+            .report(Code::ConfigMissingKey, section.get("action")->span,
                     "a tappet with action = \"timed\" needs `duration`", "switches for how long?")
             .help("add `duration = …`: µs for which the tappet bit stays TRUE");
     } else if (!section.has("action") || section.get("action") != nullptr) {
@@ -269,7 +269,7 @@ private:
     CamCompile &compile = cam_.compile;
     compile.mode = static_cast<CamMode>(section.choice("mode", 0));
     compile.type = static_cast<stride::cam::Element>(section.choice("type", 6));
-    compile.places = static_cast<std::int32_t>(section.integer("places", 0));
+    compile.places = static_cast<int32_t>(section.integer("places", 0));
     compile.cubic = section.choice("interpolation", 1) == 3;
     compile.masterNumbers = scale(section, "master_minimum", "master_maximum");
     compile.slaveNumbers = scale(section, "slave_minimum", "slave_maximum");
@@ -279,7 +279,7 @@ private:
     const TomlNode *places = section.get("places");
     compile.span = places != nullptr ? places->span : mode->span;
     const bool table =
-        compile.mode == CamMode::equidistant || compile.mode == CamMode::elementOptimised;
+        compile.mode == CamMode::Equidistant || compile.mode == CamMode::ElementOptimised;
     if (!table) {
       for (const std::string_view name : {"type", "places", "interpolation", "master_minimum",
                                           "master_maximum", "slave_minimum", "slave_maximum"})
@@ -290,10 +290,10 @@ private:
     }
     if (!section.has("places"))
       diagnostics_
-          .report(Code::configMissingKey, mode->span, "a table needs `places`",
+          .report(Code::ConfigMissingKey, mode->span, "a table needs `places`",
                   "how many places has the table?")
           .help("add `places = …`, 2 to 32767");
-    if (compile.mode == CamMode::equidistant)
+    if (compile.mode == CamMode::Equidistant)
       for (const std::string_view name : {"master_minimum", "master_maximum"})
         if (section.get(name) != nullptr)
           withoutEffect(diagnostics_, section, name, "only with mode = \"element_optimised\"");
@@ -301,7 +301,7 @@ private:
 
   void outside(Span where, std::string_view what) {
     diagnostics_
-        .report(Code::camElements, where,
+        .report(Code::CamElements, where,
                 fmt::format("{} must lie on the cam, from {} to {}", what, cam_.start, cam_.end),
                 "outside of the master's range")
         .label(masterSpan_, "the range");
@@ -315,7 +315,7 @@ private:
         if (top.get(name) != nullptr)
           withoutEffect(diagnostics_, top, name, "only with points, lines or laws");
       for (const CheckedSection &compile : top.sections("compile", diagnostics_))
-        if (cam_.compile.mode != CamMode::none)
+        if (cam_.compile.mode != CamMode::None)
           withoutEffect(diagnostics_, compile, "mode", "only with points, lines or laws");
       cam_.periodic = false;
       cam_.interval = 0;
@@ -323,7 +323,7 @@ private:
     }
     if (elements.empty()) {
       diagnostics_
-          .report(Code::camElements, masterSpan_, "a cam needs elements",
+          .report(Code::CamElements, masterSpan_, "a cam needs elements",
                   "there are no points, lines or laws")
           .help(fmt::format("begin with the two ends:\n[[point]]\nx = {}\ny = 0\n\n[[point]]\nx = "
                             "{}\ny = 0",
@@ -337,7 +337,7 @@ private:
     for (const CamElement &element : elements)
       if (element.left.x < cam_.start || element.right.x > cam_.end)
         outside(element.span, fmt::format("a {}", nameOfKind(element.kind)));
-    for (std::size_t i = 1; i < elements.size(); ++i)
+    for (size_t i = 1; i < elements.size(); ++i)
       follow(elements[i - 1], elements[i]);
     if (failed())
       return;
@@ -361,7 +361,7 @@ private:
 
   void missingEnd(Span nearest, std::string_view which, double x) {
     diagnostics_
-        .report(Code::camElements, nearest,
+        .report(Code::CamElements, nearest,
                 fmt::format("no element is at the {} of the cam, {}", which, x),
                 which == "start" ? "the first element" : "the last element")
         .label(masterSpan_, "the range of the cam")
@@ -369,11 +369,11 @@ private:
   }
 
   void follow(const CamElement &before, const CamElement &behind) {
-    const bool twoPoints = before.kind == CamElement::Kind::point &&
-                           behind.kind == CamElement::Kind::point && before.left.x == behind.left.x;
+    const bool twoPoints = before.kind == CamElement::Kind::Point &&
+                           behind.kind == CamElement::Kind::Point && before.left.x == behind.left.x;
     if (twoPoints || behind.left.x < before.right.x) {
       diagnostics_
-          .report(Code::camElements, behind.span,
+          .report(Code::CamElements, behind.span,
                   twoPoints ? fmt::format("two points lie at master position {}", behind.left.x)
                             : fmt::format("a {} and a {} overlap", nameOfKind(before.kind),
                                           nameOfKind(behind.kind)),
@@ -385,7 +385,7 @@ private:
     }
     if (behind.left.x == before.right.x && !same(behind.left.y, before.right.y))
       diagnostics_
-          .report(Code::camElements, behind.span,
+          .report(Code::CamElements, behind.span,
                   fmt::format("the slave would jump at master position {}", behind.left.x),
                   fmt::format("begins at {}", behind.left.y))
           .label(before.span, fmt::format("ends at {}", before.right.y));
@@ -400,7 +400,7 @@ private:
     const double end = start.y + periods * cam_.interval;
     if (!same(last.right.y, end)) {
       Diagnostic &d = diagnostics_.report(
-          Code::camPeriodic, last.span,
+          Code::CamPeriodic, last.span,
           fmt::format("a periodic cam must end where it began: at {}{}", start.y,
                       cam_.interval == 0
                           ? std::string()
@@ -414,12 +414,12 @@ private:
         d.help(fmt::format("the nearest place is {}", end));
       return;
     }
-    if (last.kind != CamElement::Kind::point)
+    if (last.kind != CamElement::Kind::Point)
       return;
     for (const auto &[name, value] : endGiven_)
       if (!same(value->floating, name == "v" ? start.v : start.a))
         diagnostics_
-            .report(Code::configWithoutEffect, value->keySpan,
+            .report(Code::ConfigWithoutEffect, value->keySpan,
                     fmt::format("`{}` has no effect here", name),
                     "a periodic cam ends as it begins")
             .label(cam_.elements.front().span, "the start");
@@ -436,7 +436,7 @@ private:
         if (element.left.x == jump.x || element.right.x == jump.x)
           where = element.span;
       diagnostics_
-          .report(Code::camJump, where,
+          .report(Code::CamJump, where,
                   fmt::format("the {} jumps from {:.6g} to {:.6g} at master position {}", jump.what,
                               jump.before, jump.behind, jump.x),
                   "at this element")
@@ -447,7 +447,7 @@ private:
 
   const SourceFile &file_;
   Diagnostics &diagnostics_;
-  std::size_t errors_;
+  size_t errors_;
   CamSource cam_;
   Span masterSpan_;
   /// `v` and `a` of the point at the end of a periodic cam.

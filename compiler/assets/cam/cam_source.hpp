@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_ASSETS_CAM_CAM_SOURCE_HPP
+#define STRIDE_COMPILER_ASSETS_CAM_CAM_SOURCE_HPP
 // Cam files, *.cam.toml: what the cam editor of SoftMotion shows (V2.3 manual, chapter 4).
 
 #include "compiler/source/diagnostic.hpp"
@@ -21,8 +22,8 @@ inline constexpr std::string_view kCamSuffix = ".cam.toml";
 
 /// A point, a line or a law of a cam, between two places; those of a point are the same.
 struct CamElement {
-  enum class Kind : std::uint8_t { point, line, law };
-  Kind kind = Kind::point;
+  enum class Kind : uint8_t { Point, Line, Law };
+  Kind kind = Kind::Point;
   stride::cam::Node left{};
   stride::cam::Node right{};
   stride::cam::LawShape shape;
@@ -36,12 +37,12 @@ struct CamElement {
 [[nodiscard]] const SectionSchema &camSchema();
 
 /// How a cam becomes data: manual, section 4.4.3.
-enum class CamMode : std::uint8_t { polynomial, equidistant, elementOptimised, none };
+enum class CamMode : uint8_t { Polynomial, Equidistant, ElementOptimised, None };
 
 struct CamCompile {
-  CamMode mode = CamMode::polynomial;
+  CamMode mode = CamMode::Polynomial;
   stride::cam::Element type = stride::cam::Element::Lreal; ///< of tables
-  std::int32_t places = 0;                                 ///< of tables
+  int32_t places = 0;                                      ///< of tables
   bool cubic = false;                                      ///< tables: cubic between the places
   /// Numbers in the table for the two ends of the master's and the slave's scale.
   std::optional<std::pair<double, double>> masterNumbers;
@@ -100,7 +101,7 @@ struct CamData {
   }
 };
 
-/// The data of a cam as its file wants them; CamMode::none counts as polynomial. What a table
+/// The data of a cam as its file wants them; CamMode::None counts as polynomial. What a table
 /// cannot hold is reported, and nothing is returned.
 [[nodiscard]] std::optional<CamData> compileCam(const CamSource &cam, Diagnostics &diagnostics);
 
@@ -115,3 +116,5 @@ struct CamData {
 [[nodiscard]] std::string camFileText(const CamSource &cam, std::string_view comment);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_ASSETS_CAM_CAM_SOURCE_HPP

@@ -100,22 +100,22 @@ public:
   float editorMin, editorMax, tableMin, tableMax;
 };
 
-template <class T> void put(std::vector<double> &storage, std::int64_t index, double number) {
+template <class T> void put(std::vector<double> &storage, int64_t index, double number) {
   const T value = static_cast<T>(number);
-  std::memcpy(reinterpret_cast<char *>(storage.data()) + index * std::int64_t{sizeof value}, &value,
+  std::memcpy(reinterpret_cast<char *>(storage.data()) + index * int64_t{sizeof value}, &value,
               sizeof value);
 }
 
-void putNumber(Element element, std::vector<double> &storage, std::int64_t index, double number) {
+void putNumber(Element element, std::vector<double> &storage, int64_t index, double number) {
   switch (element) {
   case Element::Int:
-    return put<std::int16_t>(storage, index, number);
+    return put<int16_t>(storage, index, number);
   case Element::Uint:
-    return put<std::uint16_t>(storage, index, number);
+    return put<uint16_t>(storage, index, number);
   case Element::Dint:
-    return put<std::int32_t>(storage, index, number);
+    return put<int32_t>(storage, index, number);
   case Element::Udint:
-    return put<std::uint32_t>(storage, index, number);
+    return put<uint32_t>(storage, index, number);
   case Element::Real:
     return put<float>(storage, index, number);
   case Element::Lreal:
@@ -126,7 +126,7 @@ void putNumber(Element element, std::vector<double> &storage, std::int64_t index
 std::string_view nameOf(Element element) {
   static constexpr std::string_view kNames[] = {"",      "INT",  "UINT", "DINT",
                                                 "UDINT", "REAL", "LREAL"};
-  return kNames[static_cast<std::size_t>(element)];
+  return kNames[static_cast<size_t>(element)];
 }
 
 class Compiler {
@@ -136,14 +136,14 @@ public:
     curve_.start = cam.start;
     curve_.end = cam.end;
     curve_.form = Form::Segments;
-    curve_.count = static_cast<std::int32_t>(segments_.size());
+    curve_.count = static_cast<int32_t>(segments_.size());
     curve_.data = segments_.data();
   }
 
   std::optional<CamData> compile() {
     data_.header.start = cam_.start;
     data_.header.end = cam_.end;
-    data_.header.tappets = static_cast<std::uint32_t>(cam_.tappets.size());
+    data_.header.tappets = static_cast<uint32_t>(cam_.tappets.size());
     cam_.name.text.copy(data_.header.name, sizeof data_.header.name - 1);
     data_.tappets = cam_.tappets;
     if (cam_.tappets.size() > kCamFileMaxCount)
@@ -155,12 +155,12 @@ public:
       return fail("the numbers of this cam are too large or too close together",
                   "its curve cannot be computed");
     switch (cam_.compile.mode) {
-    case CamMode::equidistant:
+    case CamMode::Equidistant:
       return even();
-    case CamMode::elementOptimised:
+    case CamMode::ElementOptimised:
       return optimised();
-    case CamMode::polynomial:
-    case CamMode::none:
+    case CamMode::Polynomial:
+    case CamMode::None:
       break;
     }
     return polynomial();
@@ -168,7 +168,7 @@ public:
 
 private:
   std::optional<CamData> fail(std::string message, std::string label) {
-    diagnostics_.report(Code::camTable,
+    diagnostics_.report(Code::CamTable,
                         cam_.compile.span.valid() ? cam_.compile.span : cam_.name.span,
                         std::move(message), std::move(label));
     return std::nullopt;
@@ -198,7 +198,7 @@ private:
     CamFileHeader &header = data_.header;
     header.form = laws || !smooth ? Form::Segments : Form::Nodes;
     header.elements =
-        static_cast<std::uint32_t>(segments_.size() + (header.form == Form::Nodes ? 1 : 0));
+        static_cast<uint32_t>(segments_.size() + (header.form == Form::Nodes ? 1 : 0));
     if (header.elements > kCamFileMaxCount)
       return fail(fmt::format("a cam has at most {} places", kCamFileMaxCount),
                   fmt::format("there are {}", header.elements));
@@ -269,11 +269,11 @@ private:
     header.form = form;
     header.element = type;
     header.cubic = cam_.compile.cubic;
-    header.elements = static_cast<std::uint32_t>(table.size());
-    const auto size = static_cast<std::size_t>(
-        elementBlockSize(form, type, static_cast<std::int64_t>(table.size())));
+    header.elements = static_cast<uint32_t>(table.size());
+    const auto size =
+        static_cast<size_t>(elementBlockSize(form, type, static_cast<int64_t>(table.size())));
     data_.storage.assign((size + sizeof(double) - 1) / sizeof(double), 0.0);
-    std::int64_t at = 0;
+    int64_t at = 0;
     double before = -std::numeric_limits<double>::infinity();
     for (const XY &place : table) {
       double x = place.x;
@@ -300,7 +300,7 @@ private:
     const TableScaling scaling{master.editorMin, master.editorMax, slave.editorMin, slave.editorMax,
                                master.tableMin,  master.tableMax,  slave.tableMin,  slave.tableMax};
     std::memcpy(reinterpret_cast<char *>(data_.storage.data()) +
-                    scalingOffset(form, sizeOf(type), static_cast<std::int64_t>(table.size())),
+                    scalingOffset(form, sizeOf(type), static_cast<int64_t>(table.size())),
                 &scaling, sizeof scaling);
     if (checkCurve(data_.curve()) != CurveError::None)
       return fail("the table of this cam has no usable scale",
@@ -312,7 +312,7 @@ private:
   Diagnostics &diagnostics_;
   std::vector<Segment> segments_;
   Curve curve_;
-  std::uint32_t index_ = 0;
+  uint32_t index_ = 0;
   CamData data_;
 };
 
@@ -320,13 +320,13 @@ private:
 
 std::vector<Segment> segmentsOf(const CamSource &cam) {
   std::vector<Segment> result;
-  for (std::size_t i = 0; i < cam.elements.size(); ++i) {
+  for (size_t i = 0; i < cam.elements.size(); ++i) {
     const CamElement &element = cam.elements[i];
     if (i > 0 && element.left.x > cam.elements[i - 1].right.x)
       result.push_back(makeSegment({}, cam.elements[i - 1].right, element.left));
-    if (element.kind == CamElement::Kind::line)
+    if (element.kind == CamElement::Kind::Line)
       result.push_back(lineBetween(element.left, element.right));
-    else if (element.kind == CamElement::Kind::law)
+    else if (element.kind == CamElement::Kind::Law)
       result.push_back(makeSegment(element.shape, element.left, element.right));
   }
   return result;
@@ -361,7 +361,7 @@ std::vector<CamJump> jumpsOf(const std::vector<Segment> &segments, bool periodic
     look("velocity", before.v, behind.v, 1);
     look("acceleration", before.a, behind.a, 2);
   };
-  for (std::size_t i = 1; i < segments.size(); ++i)
+  for (size_t i = 1; i < segments.size(); ++i)
     joint(segments[i - 1], segments[i], false);
   if (periodic && !segments.empty())
     joint(segments.back(), segments.front(), true);

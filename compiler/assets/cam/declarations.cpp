@@ -27,25 +27,24 @@ constexpr std::array<std::string_view, 5> kLawNames = {"polynomial", "harmonic",
 constexpr std::array<std::string_view, 3> kPassWords = {"positive", "each", "negative"};
 constexpr std::array<std::string_view, 4> kActionWords = {"on", "off", "invert", "timed"};
 
-template <class T> T get(const CamData &data, std::int64_t index) {
+template <class T> T get(const CamData &data, int64_t index) {
   T value;
   std::memcpy(&value,
-              reinterpret_cast<const char *>(data.storage.data()) +
-                  index * std::int64_t{sizeof value},
+              reinterpret_cast<const char *>(data.storage.data()) + index * int64_t{sizeof value},
               sizeof value);
   return value;
 }
 
-std::string number(const CamData &data, std::int64_t index) {
+std::string number(const CamData &data, int64_t index) {
   switch (data.header.element) {
   case Element::Int:
-    return std::to_string(get<std::int16_t>(data, index));
+    return std::to_string(get<int16_t>(data, index));
   case Element::Uint:
-    return std::to_string(get<std::uint16_t>(data, index));
+    return std::to_string(get<uint16_t>(data, index));
   case Element::Dint:
-    return std::to_string(get<std::int32_t>(data, index));
+    return std::to_string(get<int32_t>(data, index));
   case Element::Udint:
-    return std::to_string(get<std::uint32_t>(data, index));
+    return std::to_string(get<uint32_t>(data, index));
   case Element::Real:
     return realLiteral(static_cast<double>(get<float>(data, index)));
   case Element::Lreal:
@@ -61,14 +60,14 @@ struct Declared {
 };
 
 Declared tableOf(const CamData &data) {
-  const std::int64_t count = data.header.elements;
+  const int64_t count = data.header.elements;
   const bool pairs = data.header.form == Form::PairTable;
   Declared result;
-  result.type = fmt::format("SM_DriveBasic.SMC_CAMTable_{}_{}_{}",
-                            kElementNames[static_cast<std::size_t>(data.header.element)], count,
-                            pairs ? 2 : 1);
+  result.type =
+      fmt::format("SM_DriveBasic.SMC_CAMTable_{}_{}_{}",
+                  kElementNames[static_cast<size_t>(data.header.element)], count, pairs ? 2 : 1);
   result.value = "(Table := [";
-  for (std::int64_t i = 0; i < count; ++i) {
+  for (int64_t i = 0; i < count; ++i) {
     if (i > 0)
       result.value += ", ";
     result.value += pairs ? fmt::format("[{}, {}]", number(data, 2 * i), number(data, 2 * i + 1))
@@ -93,7 +92,7 @@ Declared tableOf(const CamData &data) {
 Declared nodesOf(const CamData &data) {
   Declared result{
       fmt::format("ARRAY[0..{}] OF SM_DriveBasic.SMC_CAMXYVA", data.header.elements - 1), "["};
-  for (std::int64_t i = 0; i < data.header.elements; ++i) {
+  for (int64_t i = 0; i < data.header.elements; ++i) {
     const auto node = get<Node>(data, i);
     result.value += fmt::format("{}(dX := {}, dY := {}, dV := {}, dA := {})", i > 0 ? ", " : "",
                                 realLiteral(node.x), realLiteral(node.y), realLiteral(node.v),
@@ -106,7 +105,7 @@ Declared nodesOf(const CamData &data) {
 Declared segmentsOfData(const CamData &data) {
   Declared result{
       fmt::format("ARRAY[0..{}] OF SM_DriveBasic.SMC_CAM_SEGMENT", data.header.elements - 1), "["};
-  for (std::int64_t i = 0; i < data.header.elements; ++i) {
+  for (int64_t i = 0; i < data.header.elements; ++i) {
     const auto segment = get<Segment>(data, i);
     std::string coefficients;
     for (const double c : segment.coefficients)
@@ -117,7 +116,7 @@ Declared segmentsOfData(const CamData &data) {
         i > 0 ? ", " : "", realLiteral(segment.start), realLiteral(segment.end), coefficients,
         realLiteral(segment.stroke), realLiteral(segment.lawBegin), realLiteral(segment.lawEnd),
         realLiteral(segment.parameter), realLiteral(segment.inflexion),
-        kLawNames[static_cast<std::size_t>(segment.law)]);
+        kLawNames[static_cast<size_t>(segment.law)]);
   }
   result.value += "]";
   return result;
@@ -144,8 +143,8 @@ Declared tappetsOf(const std::vector<FileTappet> &tappets) {
         "{}(x := {}, iGroupID := {}, ctt := SM_DriveBasic.SMC_CAMTAPPETTYPE.{}, cta := "
         "SM_DriveBasic.SMC_CAMTAPPETACTION.{}, dwDelay := {}, dwDuration := {})",
         &tappet != tappets.data() ? ", " : "", realLiteral(tappet.x), tappet.group,
-        kPassNames[static_cast<std::size_t>(tappet.pass)],
-        kActionNames[static_cast<std::size_t>(tappet.action)], tappet.delay, tappet.duration);
+        kPassNames[static_cast<size_t>(tappet.pass)],
+        kActionNames[static_cast<size_t>(tappet.action)], tappet.delay, tappet.duration);
   result.value += "]";
   return result;
 }
@@ -180,7 +179,7 @@ private:
     if (!isNew) {
       diagnostics_
           .report(
-              Code::configNameClash, cam.name.span,
+              Code::ConfigNameClash, cam.name.span,
               fmt::format("the cam `{}` has the name of something in the program", cam.name.text),
               "becomes a global variable of this name")
           .label(taken->second, "already declared here")
@@ -188,7 +187,7 @@ private:
       return;
     }
     const std::optional<CamData> data = compileCam(cam, diagnostics_);
-    if (!data || cam.compile.mode == CamMode::none)
+    if (!data || cam.compile.mode == CamMode::None)
       return;
     const CamFileHeader &header = data->header;
     const bool table = header.form == Form::EvenTable || header.form == Form::PairTable;
@@ -236,7 +235,7 @@ private:
   // The list of the cams has this file's name, as in CoDeSys (manual, section 4.7).
   SyntheticSource out_{"<cams>/CAM_Data.st"};
   std::string list_;
-  std::size_t count_ = 0;
+  size_t count_ = 0;
 };
 
 /// TOML's numbers are ST's, with a fraction.
@@ -261,8 +260,8 @@ std::string camFileText(const CamSource &cam, std::string_view comment) {
   text +=
       fmt::format("\n[master]\nstart = {}\nend = {}\n", tomlNumber(cam.start), tomlNumber(cam.end));
   for (const CamElement &element : cam.elements) {
-    const bool point = element.kind == CamElement::Kind::point;
-    const bool line = element.kind == CamElement::Kind::line;
+    const bool point = element.kind == CamElement::Kind::Point;
+    const bool line = element.kind == CamElement::Kind::Line;
     const auto node = [&](const Node &at, std::string_view suffix) {
       text += fmt::format("x{0} = {1}\ny{0} = {2}\n", suffix, tomlNumber(at.x), tomlNumber(at.y));
       // What a periodic cam has at its end is what it has at its start.
@@ -274,7 +273,7 @@ std::string camFileText(const CamSource &cam, std::string_view comment) {
     if (!point)
       node(element.right, "_end");
     if (!point && !line) {
-      text += fmt::format("law = \"{}\"\n", kLawNames[static_cast<std::size_t>(element.shape.law)]);
+      text += fmt::format("law = \"{}\"\n", kLawNames[static_cast<size_t>(element.shape.law)]);
       if (element.shape.law == Law::ModifiedSine)
         text += fmt::format("parameter = {}\n", tomlNumber(element.shape.parameter));
       if (element.shape.law != Law::Polynomial)
@@ -284,8 +283,8 @@ std::string camFileText(const CamSource &cam, std::string_view comment) {
   for (const FileTappet &tappet : cam.tappets) {
     text += fmt::format("\n[[tappet]]\nx = {}\ngroup = {}\npass = \"{}\"\naction = \"{}\"\n",
                         tomlNumber(tappet.x), tappet.group,
-                        kPassWords[static_cast<std::size_t>(tappet.pass)],
-                        kActionWords[static_cast<std::size_t>(tappet.action)]);
+                        kPassWords[static_cast<size_t>(tappet.pass)],
+                        kActionWords[static_cast<size_t>(tappet.action)]);
     if (tappet.action == 3)
       text += fmt::format("delay = {}\nduration = {}\n", tappet.delay, tappet.duration);
   }

@@ -19,21 +19,21 @@ constexpr Parameter coordinate(std::string_view name, bool required = false) {
 }
 
 constexpr std::array<Choice, 5> kLaws = {
-    {{"polynomial", static_cast<std::int64_t>(stride::cam::Law::Polynomial)},
-     {"harmonic", static_cast<std::int64_t>(stride::cam::Law::Harmonic)},
-     {"cycloidal", static_cast<std::int64_t>(stride::cam::Law::Cycloidal)},
-     {"modified_sine", static_cast<std::int64_t>(stride::cam::Law::ModifiedSine)},
-     {"modified_trapezoid", static_cast<std::int64_t>(stride::cam::Law::ModifiedTrapezoid)}}};
+    {{"polynomial", static_cast<int64_t>(stride::cam::Law::Polynomial)},
+     {"harmonic", static_cast<int64_t>(stride::cam::Law::Harmonic)},
+     {"cycloidal", static_cast<int64_t>(stride::cam::Law::Cycloidal)},
+     {"modified_sine", static_cast<int64_t>(stride::cam::Law::ModifiedSine)},
+     {"modified_trapezoid", static_cast<int64_t>(stride::cam::Law::ModifiedTrapezoid)}}};
 
 // SMC_CAMTAPPETTYPE and SMC_CAMTAPPETACTION.
 constexpr std::array<Choice, 3> kPasses = {{{"positive", 0}, {"each", 1}, {"negative", 2}}};
 constexpr std::array<Choice, 4> kActions = {{{"on", 0}, {"off", 1}, {"invert", 2}, {"timed", 3}}};
 
 constexpr std::array<Choice, 4> kModes = {
-    {{"polynomial", static_cast<std::int64_t>(CamMode::polynomial)},
-     {"equidistant", static_cast<std::int64_t>(CamMode::equidistant)},
-     {"element_optimised", static_cast<std::int64_t>(CamMode::elementOptimised)},
-     {"none", static_cast<std::int64_t>(CamMode::none)}}};
+    {{"polynomial", static_cast<int64_t>(CamMode::Polynomial)},
+     {"equidistant", static_cast<int64_t>(CamMode::Equidistant)},
+     {"element_optimised", static_cast<int64_t>(CamMode::ElementOptimised)},
+     {"none", static_cast<int64_t>(CamMode::None)}}};
 constexpr std::array<Choice, 6> kTypes = {
     {{"INT", 1}, {"UINT", 2}, {"DINT", 3}, {"UDINT", 4}, {"REAL", 5}, {"LREAL", 6}}};
 constexpr std::array<Choice, 2> kInterpolations = {{{"linear", 1}, {"cubic", 3}}};

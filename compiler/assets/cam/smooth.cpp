@@ -13,9 +13,9 @@ namespace {
 
 using namespace stride::cam;
 
-constexpr std::int16_t kPlace = 2;        // Boundary::given: x, y
-constexpr std::int16_t kVelocity = 3;     // … and v
-constexpr std::int16_t kAcceleration = 4; // … and a
+constexpr int16_t kPlace = 2;        // Boundary::given: x, y
+constexpr int16_t kVelocity = 3;     // … and v
+constexpr int16_t kAcceleration = 4; // … and a
 
 /// The pieces between and of the elements, for the builder.
 class Smoother {
@@ -29,26 +29,26 @@ public:
 
   bool solve() {
     std::vector<CamElement> &elements = cam_.elements;
-    for (std::size_t i = 0; i < elements.size(); ++i) {
+    for (size_t i = 0; i < elements.size(); ++i) {
       if (i > 0 && elements[i].left.x > elements[i - 1].right.x)
         add(boundary(elements[i - 1], elements[i - 1].right),
             boundary(elements[i], elements[i].left));
-      if (elements[i].kind != CamElement::Kind::point)
+      if (elements[i].kind != CamElement::Kind::Point)
         add(boundary(elements[i], elements[i].left), boundary(elements[i], elements[i].right));
     }
     if (pieces_.empty())
       return true;
     if (closed_)
       pieces_.front().left.given = 0; // what the end is
-    const auto count = static_cast<std::int32_t>(pieces_.size());
+    const auto count = static_cast<int32_t>(pieces_.size());
     std::vector<JointWork> work(pieces_.size() + 1);
     stride::cam::Builder builder(pieces_.data(), count, closed_, work.data());
     if (builder.solve() != BuildError::None)
       return false;
     std::vector<Segment> segments;
-    for (std::int32_t i = 0; i < count; ++i) {
+    for (int32_t i = 0; i < count; ++i) {
       Segment made[2];
-      std::int32_t number = 0;
+      int32_t number = 0;
       if (builder.segments(i, made, number) != BuildError::None)
         return false;
       segments.insert(segments.end(), made, made + number);
@@ -68,7 +68,7 @@ public:
 private:
   [[nodiscard]] Boundary boundary(const CamElement &element, const Node &at) const {
     const double x = at.x - cam_.start;
-    std::int16_t given = kAcceleration;
+    int16_t given = kAcceleration;
     if (element.smooth)
       given = element.given == 0 ? kPlace : kVelocity;
     return {x, at.y - slope_ * x, at.v - slope_, at.a, 0.0, given};

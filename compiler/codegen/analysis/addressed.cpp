@@ -11,10 +11,10 @@ namespace stc::codegen {
 using namespace ast;
 
 bool Addressed::holdsBlock(const Type *type) {
-  while (type->kind == TypeKind::array)
+  while (type->kind == TypeKind::Array)
     type = typeAs<ArrayType>(type)->element;
-  if (type->kind != TypeKind::structure)
-    return type->kind == TypeKind::functionBlock;
+  if (type->kind != TypeKind::Structure)
+    return type->kind == TypeKind::FunctionBlock;
   for (const auto *s = typeAs<StructType>(type); s != nullptr; s = s->base) {
     if (std::any_of(s->fields.begin(), s->fields.end(),
                     [](const VarSymbol *field) { return holdsBlock(field->type); }))
@@ -26,7 +26,7 @@ bool Addressed::holdsBlock(const Type *type) {
 bool Addressed::onDataStack(const VarSymbol *variable) {
   if (holdsBlock(variable->type))
     return true;
-  const bool isPassed = variable->section == Section::input || variable->section == Section::inOut;
+  const bool isPassed = variable->section == Section::Input || variable->section == Section::InOut;
   if (!isPassed && storage_.of(variable->type).size > kLarge)
     return true;
   if (!known_)
@@ -69,7 +69,7 @@ void Addressed::parameters(const PouSymbol *pou) {
   if (!isOpen && (isAsked || (pou->checked && !pou->decl->external)))
     return;
   for (const VarSymbol *p : pou->variables) {
-    if (p->section == Section::inOut || p->section == Section::output)
+    if (p->section == Section::InOut || p->section == Section::Output)
       expose(p);
   }
 }
@@ -93,7 +93,7 @@ void Addressed::replacements(const PouSymbol *block) {
 void Addressed::link(const PouSymbol *method, const PouSymbol *replacement) {
   const std::vector<VarSymbol *> from = method->parameters();
   const std::vector<VarSymbol *> to = replacement->parameters();
-  for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i)
+  for (size_t i = 0; i < std::min(from.size(), to.size()); ++i)
     bound_[to[i]].push_back(from[i]);
 }
 
@@ -103,9 +103,9 @@ void Addressed::declaration(const VarSymbol *variable) {
   if (variable->decl->init != nullptr)
     initial(variable, variable->decl->init);
   const TypeExpr *type = variable->decl->type;
-  while (type != nullptr && type->kind == TypeExprKind::array)
+  while (type != nullptr && type->kind == TypeExprKind::Array)
     type = as<ArrayTypeExpr>(type)->element;
-  if (type == nullptr || type->kind != TypeExprKind::named)
+  if (type == nullptr || type->kind != TypeExprKind::Named)
     return;
   constructing(as<NamedTypeExpr>(type)->arguments);
   for (const std::span<Argument> &element : as<NamedTypeExpr>(type)->elements)
@@ -113,8 +113,8 @@ void Addressed::declaration(const VarSymbol *variable) {
 }
 
 void Addressed::initial(const VarSymbol *variable, Expr *init) {
-  if (init->kind != ExprKind::aggregate) {
-    if (variable->type->kind == TypeKind::reference)
+  if (init->kind != ExprKind::Aggregate) {
+    if (variable->type->kind == TypeKind::Reference)
       expose(init);
     expression(init);
     return;
@@ -132,7 +132,7 @@ void Addressed::initial(const VarSymbol *variable, Expr *init) {
 
 void Addressed::block(Block block) {
   walkStatements(block, [this](const Stmt *s) {
-    if (s->kind == StmtKind::assign && as<AssignStmt>(s)->op == AssignOp::reference)
+    if (s->kind == StmtKind::Assign && as<AssignStmt>(s)->op == AssignOp::Reference)
       expose(as<AssignStmt>(s)->value);
     forEachChild(
         s, [this](Expr *e) { expression(e); }, [](Block) {});
@@ -143,23 +143,23 @@ void Addressed::expression(Expr *expr) {
   walk(expr, [this](const Expr *e) {
     // An instance where an interface or a reference is wanted gives its address.
     if (e->target != nullptr && e->target != e->type &&
-        (e->target->kind == TypeKind::interface || e->target->kind == TypeKind::reference))
+        (e->target->kind == TypeKind::Interface || e->target->kind == TypeKind::Reference))
       expose(e);
-    if (e->kind == ExprKind::call)
+    if (e->kind == ExprKind::Call)
       call(as<CallExpr>(e));
-    if (e->kind == ExprKind::aggregate) {
+    if (e->kind == ExprKind::Aggregate) {
       for (const AggregateItem &item : as<AggregateExpr>(e)->items)
         if (item.symbol != nullptr && item.value != nullptr &&
-            item.symbol->type->kind == TypeKind::reference)
+            item.symbol->type->kind == TypeKind::Reference)
           expose(item.value);
     }
   });
 }
 
 void Addressed::call(const CallExpr *e) {
-  if (e->resolved == Callee::builtin &&
-      (e->builtin == Builtin::adr || e->builtin == Builtin::queryInterface ||
-       e->builtin == Builtin::queryPointer) &&
+  if (e->resolved == Callee::Builtin &&
+      (e->builtin == Builtin::Adr || e->builtin == Builtin::QueryInterface ||
+       e->builtin == Builtin::QueryPointer) &&
       !e->arguments.empty() && e->arguments[0].value != nullptr)
     expose(e->arguments[0].value);
   arguments(e->arguments);
@@ -170,9 +170,9 @@ void Addressed::arguments(std::span<const Argument> arguments) {
   for (const Argument &a : arguments) {
     if (a.value == nullptr || a.output || a.parameter == nullptr || a.parameter->type == nullptr)
       continue;
-    if (a.parameter->section == Section::inOut)
+    if (a.parameter->section == Section::InOut)
       bind(a.value, a.parameter);
-    else if (a.parameter->type->kind == TypeKind::reference)
+    else if (a.parameter->type->kind == TypeKind::Reference)
       expose(a.value);
   }
 }
@@ -199,13 +199,13 @@ const VarSymbol *Addressed::holder(const Expr *place) {
   while (place != nullptr) {
     const Symbol *symbol = nullptr;
     switch (place->kind) {
-    case ExprKind::name:
+    case ExprKind::Name:
       symbol = as<NameExpr>(place)->symbol;
       break;
-    case ExprKind::member:
+    case ExprKind::Member:
       symbol = as<MemberExpr>(place)->symbol;
       break;
-    case ExprKind::index:
+    case ExprKind::Index:
       if (followsAddress(as<IndexExpr>(place)))
         return nullptr;
       place = as<IndexExpr>(place)->base;
@@ -213,13 +213,13 @@ const VarSymbol *Addressed::holder(const Expr *place) {
     default:
       return nullptr;
     }
-    const auto *variable = symbol != nullptr && symbol->kind == SymbolKind::variable
+    const auto *variable = symbol != nullptr && symbol->kind == SymbolKind::Variable
                                ? static_cast<const VarSymbol *>(symbol)
                                : nullptr;
-    if (variable != nullptr && variable->type->kind == TypeKind::reference)
+    if (variable != nullptr && variable->type->kind == TypeKind::Reference)
       return nullptr; // where it leads was exposed when it was set
-    if (place->kind == ExprKind::name || isNamespace(as<MemberExpr>(place)->base) ||
-        (variable != nullptr && variable->section == Section::inOut))
+    if (place->kind == ExprKind::Name || isNamespace(as<MemberExpr>(place)->base) ||
+        (variable != nullptr && variable->section == Section::InOut))
       return variable;
     place = as<MemberExpr>(place)->base;
   }

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_ANALYSIS_ADDRESSED_HPP
+#define STRIDE_COMPILER_CODEGEN_ANALYSIS_ADDRESSED_HPP
 // Which variables of a call lie on the task's data stack: those whose address ST may get hold of,
 // and large ones. The others are C++ locals.
 
@@ -48,7 +49,7 @@ private:
 
   /// Larger variables are on the data stack, whose end is looked at: one frame on the stack of C++
   /// must not reach past the pages without access below that.
-  static constexpr std::uint64_t kLarge = 16384;
+  static constexpr uint64_t kLarge = 16384;
 
   const Program &program_;
   const Library *own_;
@@ -61,3 +62,5 @@ private:
 };
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_ANALYSIS_ADDRESSED_HPP

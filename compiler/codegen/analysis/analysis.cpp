@@ -18,11 +18,11 @@ namespace {
 /// A variable of the type calls methods when it comes into being or goes away (FB_Init, FB_Exit).
 bool runsMethods(const Type *type) {
   return anyHeld(type, [](const Type *t, const VarSymbol *v) {
-    if ((v != nullptr && v->section == Section::inOut) || t->kind == TypeKind::program)
-      return Held::over;
-    return t->kind == TypeKind::functionBlock && !typeAs<PouType>(t)->symbol->methods.empty()
-               ? Held::found
-               : Held::inside;
+    if ((v != nullptr && v->section == Section::InOut) || t->kind == TypeKind::Program)
+      return Held::Over;
+    return t->kind == TypeKind::FunctionBlock && !typeAs<PouType>(t)->symbol->methods.empty()
+               ? Held::Found
+               : Held::Inside;
   });
 }
 
@@ -30,16 +30,16 @@ bool runsMethods(const Type *type) {
 bool isLocal(const Expr *target, const PouSymbol *function) {
   while (true) {
     switch (target->kind) {
-    case ExprKind::name: {
+    case ExprKind::Name: {
       const VarSymbol *v = namedVariable(target);
       return v != nullptr && v->owner == function;
     }
-    case ExprKind::member:
+    case ExprKind::Member:
       if (isNamespace(as<MemberExpr>(target)->base))
         return false;
       target = as<MemberExpr>(target)->base;
       continue;
-    case ExprKind::index:
+    case ExprKind::Index:
       if (followsAddress(as<IndexExpr>(target)))
         return false;
       target = as<IndexExpr>(target)->base;
@@ -61,9 +61,9 @@ bool Analysis::pure(const PouSymbol *function) {
   ++calls_;
   bool result = function->isFunction();
   for (const VarSymbol *v : function->variables) {
-    if (v->section == Section::inOut || v->section == Section::output ||
-        v->section == Section::stat || v->type->kind == TypeKind::pointer ||
-        v->type->kind == TypeKind::reference || v->type->kind == TypeKind::interface ||
+    if (v->section == Section::InOut || v->section == Section::Output ||
+        v->section == Section::Stat || v->type->kind == TypeKind::Pointer ||
+        v->type->kind == TypeKind::Reference || v->type->kind == TypeKind::Interface ||
         runsMethods(v->type))
       result = false;
   }
@@ -82,17 +82,17 @@ namespace {
 bool mayChange(const Expr *target, const Symbol *variable) {
   while (true) {
     switch (target->kind) {
-    case ExprKind::name:
+    case ExprKind::Name:
       // An in-out or a reference may stand for any variable.
       if (const VarSymbol *v = namedVariable(target))
-        return v == variable || v->section == Section::inOut ||
-               v->type->kind == TypeKind::reference;
+        return v == variable || v->section == Section::InOut ||
+               v->type->kind == TypeKind::Reference;
       return false;
-    case ExprKind::member: {
+    case ExprKind::Member: {
       const auto *m = as<MemberExpr>(target);
-      if (m->symbol != nullptr && m->symbol->kind == SymbolKind::variable) {
+      if (m->symbol != nullptr && m->symbol->kind == SymbolKind::Variable) {
         const auto *v = static_cast<const VarSymbol *>(m->symbol);
-        if (v == variable || v->section == Section::inOut || v->type->kind == TypeKind::reference)
+        if (v == variable || v->section == Section::InOut || v->type->kind == TypeKind::Reference)
           return true;
       }
       if (isNamespace(m->base))
@@ -100,7 +100,7 @@ bool mayChange(const Expr *target, const Symbol *variable) {
       target = m->base;
       continue;
     }
-    case ExprKind::index:
+    case ExprKind::Index:
       if (followsAddress(as<IndexExpr>(target)))
         return true;
       target = as<IndexExpr>(target)->base;
@@ -120,18 +120,18 @@ bool Analysis::computes(Block block, MayWrite mayWrite) {
 
 bool Analysis::computes(const Stmt *s, MayWrite mayWrite) {
   switch (s->kind) {
-  case StmtKind::call:
-  case StmtKind::jump:
-  case StmtKind::label:
-  case StmtKind::tryS:
+  case StmtKind::Call:
+  case StmtKind::Jump:
+  case StmtKind::Label:
+  case StmtKind::Try:
     return false;
-  case StmtKind::assign: {
+  case StmtKind::Assign: {
     const auto &targets = as<AssignStmt>(s)->targets;
     if (!std::all_of(targets.begin(), targets.end(), mayWrite))
       return false;
     break;
   }
-  case StmtKind::forS:
+  case StmtKind::For:
     if (!mayWrite(as<ForStmt>(s)->variable))
       return false;
     break;
@@ -140,7 +140,7 @@ bool Analysis::computes(const Stmt *s, MayWrite mayWrite) {
   }
   bool plain = true;
   forEachChild(
-      s, [&](const Expr *e) { plain = plain && (effects(e) & effectCalls) == 0; },
+      s, [&](const Expr *e) { plain = plain && (effects(e) & kEffectCalls) == 0; },
       [&](Block inner) { plain = plain && computes(inner, mayWrite); });
   return plain;
 }
@@ -149,15 +149,15 @@ namespace {
 
 /// The constant bounds of a FOR loop whose variable is named directly, or nothing.
 struct Bounds {
-  std::int64_t from;
-  std::int64_t to;
-  std::int64_t step;
+  int64_t from;
+  int64_t to;
+  int64_t step;
 };
 
 std::optional<Bounds> constantBounds(const ForStmt *loop) {
   const VarSymbol *variable = namedVariable(loop->variable);
-  if (variable == nullptr || variable->section == Section::inOut ||
-      variable->type->kind == TypeKind::reference || variable->location != nullptr)
+  if (variable == nullptr || variable->section == Section::InOut ||
+      variable->type->kind == TypeKind::Reference || variable->location != nullptr)
     return std::nullopt;
   if (loop->from->constant == nullptr || loop->to->constant == nullptr ||
       (loop->by != nullptr && loop->by->constant == nullptr))
@@ -167,7 +167,7 @@ std::optional<Bounds> constantBounds(const ForStmt *loop) {
   const Type *type = underlying(variable->type);
   const bool fits = wrapTo(type, b.from) == b.from && wrapTo(type, b.to) == b.to;
   // Beyond these a difference could wrap, or the 64 bits mean an unsigned number.
-  constexpr std::int64_t kFar = std::int64_t{1} << 62;
+  constexpr int64_t kFar = int64_t{1} << 62;
   const bool isNegative = b.from < 0 || b.to < 0;
   if (b.step == 0 || !fits || b.from < -kFar || b.from > kFar || b.to < -kFar || b.to > kFar ||
       b.step < -kFar || b.step > kFar || (isNegative && !isSignedInteger(type)))
@@ -176,37 +176,36 @@ std::optional<Bounds> constantBounds(const ForStmt *loop) {
 }
 
 /// `a * b`, or a number that is too large for every limit.
-std::int64_t times(std::int64_t a, std::int64_t b) {
-  constexpr std::int64_t kHuge = std::int64_t{1} << 62;
-  std::int64_t product = 0;
+int64_t times(int64_t a, int64_t b) {
+  constexpr int64_t kHuge = int64_t{1} << 62;
+  int64_t product = 0;
   return __builtin_mul_overflow(a, b, &product) || product > kHuge ? kHuge : product;
 }
 
 } // namespace
 
 /// How often the most repeated statement of the block runs; huge when that is not known.
-std::int64_t Analysis::rounds(Block block) {
-  std::int64_t most = 1;
-  const auto nested = [&](Block inner, std::int64_t factor) {
+int64_t Analysis::rounds(Block block) {
+  int64_t most = 1;
+  const auto nested = [&](Block inner, int64_t factor) {
     most = std::max(most, times(rounds(inner), factor));
   };
   for (const Stmt *s : block) {
     switch (s->kind) {
-    case StmtKind::whileS:
-    case StmtKind::repeatS:
-    case StmtKind::call:
-    case StmtKind::jump:
-    case StmtKind::label:
-    case StmtKind::tryS:
+    case StmtKind::While:
+    case StmtKind::RepeatS:
+    case StmtKind::Call:
+    case StmtKind::Jump:
+    case StmtKind::Label:
+    case StmtKind::Try:
       return kHuge;
-    case StmtKind::forS: {
+    case StmtKind::For: {
       const auto *inner = as<ForStmt>(s);
       const auto bounds = constantBounds(inner);
       if (!bounds || sharedVariable(inner) ||
           !unchanged(inner->body, namedVariable(inner->variable)))
         return kHuge;
-      nested(inner->body,
-             std::max<std::int64_t>((bounds->to - bounds->from) / bounds->step + 1, 1));
+      nested(inner->body, std::max<int64_t>((bounds->to - bounds->from) / bounds->step + 1, 1));
       break;
     }
     default:
@@ -218,19 +217,19 @@ std::int64_t Analysis::rounds(Block block) {
   return most;
 }
 
-std::int64_t Analysis::ownRounds(const ForStmt *loop) const {
+int64_t Analysis::ownRounds(const ForStmt *loop) const {
   const auto bounds = constantBounds(loop);
   if (!bounds || sharedVariable(loop))
     return kHuge;
-  return std::max<std::int64_t>((bounds->to - bounds->from) / bounds->step + 1, 0);
+  return std::max<int64_t>((bounds->to - bounds->from) / bounds->step + 1, 0);
 }
 
 bool Analysis::shortLoop(const ForStmt *loop) {
   const auto bounds = constantBounds(loop);
   if (!bounds || sharedVariable(loop))
     return false;
-  const std::int64_t own = (bounds->to - bounds->from) / bounds->step + 1;
-  if (times(rounds(loop->body), std::max<std::int64_t>(own, 1)) > kShortLoop)
+  const int64_t own = (bounds->to - bounds->from) / bounds->step + 1;
+  if (times(rounds(loop->body), std::max<int64_t>(own, 1)) > kShortLoop)
     return false;
   return unchanged(loop->body, namedVariable(loop->variable));
 }
@@ -240,7 +239,7 @@ bool Analysis::endsInside(const ForStmt *loop) const {
   if (!bounds)
     return false;
   const Type *type = underlying(loop->variable->type);
-  const std::int64_t after = bounds->to + bounds->step;
+  const int64_t after = bounds->to + bounds->step;
   return wrapTo(type, after) == after && (after >= 0 || isSignedInteger(type));
 }
 
@@ -253,14 +252,14 @@ void Analysis::enterLoop(const ForStmt *loop, bool countsAlone) {
   Range range{nullptr, 0, 0};
   const VarSymbol *variable = namedVariable(loop->variable);
   const bool own = variable != nullptr && variable->owner != nullptr && !sharedVariable(loop) &&
-                   variable->section != Section::inOut && variable->section != Section::stat &&
-                   variable->location == nullptr && variable->type->kind != TypeKind::reference;
+                   variable->section != Section::InOut && variable->section != Section::Stat &&
+                   variable->location == nullptr && variable->type->kind != TypeKind::Reference;
   if (own && loop->from->constant != nullptr && loop->to->constant != nullptr &&
       (loop->by == nullptr ||
        (loop->by->constant != nullptr && loop->by->constant->integer != 0)) &&
       (countsAlone || unchanged(loop->body, variable))) {
-    const std::int64_t from = loop->from->constant->integer;
-    const std::int64_t to = loop->to->constant->integer;
+    const int64_t from = loop->from->constant->integer;
+    const int64_t to = loop->to->constant->integer;
     const bool up = loop->by == nullptr || loop->by->constant->integer > 0;
     if (up ? from <= to : to <= from)
       range = {variable, up ? from : to, up ? to : from};
@@ -275,27 +274,27 @@ bool Analysis::provenIndex(const Expr *index, const ArrayType *array) const {
     return inBounds(index, array);
   if (ranges_.empty())
     return false;
-  std::int64_t offset = 0;
+  int64_t offset = 0;
   bool isSigned = true;
-  if (index->kind == ExprKind::binary) {
+  if (index->kind == ExprKind::Binary) {
     const auto *sum = as<BinaryExpr>(index);
     const ConstValue *c = sum->right->constant;
-    constexpr std::int64_t kFar = 1 << 30; // far from where the sum could wrap
-    if ((sum->op != BinaryOp::add && sum->op != BinaryOp::subtract) || c == nullptr ||
-        c->kind != ConstKind::integer || c->integer < -kFar || c->integer > kFar)
+    constexpr int64_t kFar = 1 << 30; // far from where the sum could wrap
+    if ((sum->op != BinaryOp::Add && sum->op != BinaryOp::Subtract) || c == nullptr ||
+        c->kind != ConstKind::Integer || c->integer < -kFar || c->integer > kFar)
       return false;
-    offset = sum->op == BinaryOp::add ? c->integer : -c->integer;
+    offset = sum->op == BinaryOp::Add ? c->integer : -c->integer;
     isSigned = isSignedInteger(underlying(sum->operandType));
     index = sum->left;
   }
   const VarSymbol *variable = namedVariable(index);
   if (variable == nullptr)
     return false;
-  for (std::size_t i = ranges_.size(); i-- > 0;) {
+  for (size_t i = ranges_.size(); i-- > 0;) {
     const Range &r = ranges_[i];
     if (r.variable != variable)
       continue;
-    constexpr std::int64_t kLimit = 1 << 30;
+    constexpr int64_t kLimit = 1 << 30;
     return r.low >= -kLimit && r.high <= kLimit && (isSigned || r.low + offset >= 0) &&
            r.low + offset >= array->low && r.high + offset <= array->high;
   }

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_ANALYSIS_ANALYSIS_HPP
+#define STRIDE_COMPILER_CODEGEN_ANALYSIS_ANALYSIS_HPP
 // What evaluating an expression can do besides giving a value. It decides where C++ must be told
 // the order.
 
@@ -13,11 +14,11 @@ namespace stc::codegen {
 
 /// Bits of an effect.
 enum Effect : unsigned {
-  effectNone = 0,
-  effectReads = 1,  ///< its value depends on variables
-  effectRaises = 2, ///< a check in it may end the cycle
-  effectCalls = 4,  ///< calls code that may change variables
-  effectStrays = 8, ///< follows an address or index that may lead nowhere, checked or not
+  kEffectNone = 0,
+  kEffectReads = 1,  ///< its value depends on variables
+  kEffectRaises = 2, ///< a check in it may end the cycle
+  kEffectCalls = 4,  ///< calls code that may change variables
+  kEffectStrays = 8, ///< follows an address or index that may lead nowhere, checked or not
 };
 
 class Analysis {
@@ -29,7 +30,7 @@ public:
   /// Effect bits of evaluating the expression with its conversion.
   [[nodiscard]] unsigned effects(const ast::Expr *expr);
   /// Effect bits of finding where the place is, in the code of `body`: none for a variable,
-  /// `effectReads` for `a[i]`.
+  /// `kEffectReads` for `a[i]`.
   [[nodiscard]] unsigned placeEffects(const ast::Expr *place, const PouSymbol *body);
   /// The same of the target of an assignment: of a property that is set, of finding its object.
   [[nodiscard]] unsigned targetEffects(const ast::Expr *target, const PouSymbol *body);
@@ -39,12 +40,12 @@ public:
   [[nodiscard]] bool pure(const PouSymbol *function);
   /// Evaluating `first` before `second` or after it makes a difference for their values.
   [[nodiscard]] static bool orderMatters(unsigned first, unsigned second) {
-    return ((first & effectCalls) != 0 && second != effectNone) ||
-           ((second & effectCalls) != 0 && first != effectNone);
+    return ((first & kEffectCalls) != 0 && second != kEffectNone) ||
+           ((second & kEffectCalls) != 0 && first != kEffectNone);
   }
   /// It makes one for their values, or for which of two exceptions comes.
   [[nodiscard]] static bool orderShows(unsigned first, unsigned second) {
-    return orderMatters(first, second) || (first & second & effectRaises) != 0;
+    return orderMatters(first, second) || (first & second & kEffectRaises) != 0;
   }
   /// The FOR loop and those in it end after at most kShortLoop rounds altogether, whatever happens;
   /// nothing but the loop changes its variable.
@@ -61,13 +62,13 @@ public:
   [[nodiscard]] bool endsInside(const ast::ForStmt *loop) const;
 
   /// How often a FOR loop with constant bounds runs at most; huge for others.
-  [[nodiscard]] std::int64_t ownRounds(const ast::ForStmt *loop) const;
+  [[nodiscard]] int64_t ownRounds(const ast::ForStmt *loop) const;
   /// At most kShortLoop rounds of its own.
   [[nodiscard]] bool fewRounds(const ast::ForStmt *loop) const {
     return ownRounds(loop) <= kShortLoop;
   }
 
-  static constexpr std::int64_t kShortLoop = 1'000'000;
+  static constexpr int64_t kShortLoop = 1'000'000;
 
   /// Within the body of a FOR loop with constant bounds its variable has a known range, if nothing
   /// else can change it; `countsAlone` says that this is known.
@@ -87,15 +88,15 @@ private:
   /// Nothing is called but what only computes, and only what `mayWrite` allows is written.
   bool computes(ast::Block block, MayWrite mayWrite);
   bool computes(const ast::Stmt *s, MayWrite mayWrite);
-  std::int64_t rounds(ast::Block block);
+  int64_t rounds(ast::Block block);
   bool unchanged(ast::Block body, const VarSymbol *variable);
 
-  static constexpr std::int64_t kHuge = std::int64_t{1} << 62;
+  static constexpr int64_t kHuge = int64_t{1} << 62;
 
   struct Range {
     const VarSymbol *variable; ///< null: nothing is known
-    std::int64_t low;
-    std::int64_t high;
+    int64_t low;
+    int64_t high;
   };
 
   bool checks_;
@@ -110,13 +111,13 @@ private:
 
 /// The bounds within which a constant index needs no check.
 [[nodiscard]] inline bool inBounds(const ast::Expr *index, const ArrayType *array) {
-  return index->constant != nullptr && index->constant->kind == ConstKind::integer &&
+  return index->constant != nullptr && index->constant->kind == ConstKind::Integer &&
          index->constant->integer >= array->low && index->constant->integer <= array->high;
 }
 
 /// Integer division by this expression needs no check.
 [[nodiscard]] inline bool safeDivisor(const ast::Expr *divisor) {
-  return divisor->constant != nullptr && divisor->constant->kind == ConstKind::integer &&
+  return divisor->constant != nullptr && divisor->constant->kind == ConstKind::Integer &&
          divisor->constant->integer != 0 && divisor->constant->integer != -1;
 }
 
@@ -135,3 +136,5 @@ private:
 [[nodiscard]] bool isNamespace(const ast::Expr *expr);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_ANALYSIS_ANALYSIS_HPP

@@ -12,56 +12,56 @@ using namespace ast;
 
 bool isNamespace(const Expr *expr) {
   const Symbol *symbol = nullptr;
-  if (expr->kind == ExprKind::name)
+  if (expr->kind == ExprKind::Name)
     symbol = as<NameExpr>(expr)->symbol;
-  else if (expr->kind == ExprKind::member)
+  else if (expr->kind == ExprKind::Member)
     symbol = as<MemberExpr>(expr)->symbol;
   if (symbol == nullptr)
     return false;
-  return symbol->kind == SymbolKind::library || symbol->kind == SymbolKind::globals ||
-         symbol->kind == SymbolKind::type || symbol->kind == SymbolKind::space;
+  return symbol->kind == SymbolKind::Library || symbol->kind == SymbolKind::Globals ||
+         symbol->kind == SymbolKind::Type || symbol->kind == SymbolKind::Space;
 }
 
 const VarSymbol *namedVariable(const Expr *expr) {
   const Symbol *symbol = nullptr;
-  if (expr->kind == ExprKind::name)
+  if (expr->kind == ExprKind::Name)
     symbol = as<NameExpr>(expr)->symbol;
-  else if (expr->kind == ExprKind::member && isNamespace(as<MemberExpr>(expr)->base))
+  else if (expr->kind == ExprKind::Member && isNamespace(as<MemberExpr>(expr)->base))
     symbol = as<MemberExpr>(expr)->symbol;
-  return symbol != nullptr && symbol->kind == SymbolKind::variable
+  return symbol != nullptr && symbol->kind == SymbolKind::Variable
              ? static_cast<const VarSymbol *>(symbol)
              : nullptr;
 }
 
 bool followsAddress(const IndexExpr *e) {
   const Type *t = e->base->type;
-  for (std::size_t i = 0; i < e->indices.size() && t != nullptr; ++i) {
-    if (t->kind == TypeKind::pointer || t->kind == TypeKind::reference)
+  for (size_t i = 0; i < e->indices.size() && t != nullptr; ++i) {
+    if (t->kind == TypeKind::Pointer || t->kind == TypeKind::Reference)
       return true;
     t = indexStep(t);
   }
-  return t == nullptr || t->kind == TypeKind::reference;
+  return t == nullptr || t->kind == TypeKind::Reference;
 }
 
 const Symbol *symbolAt(const Expr *place) {
-  return place->kind == ExprKind::name     ? as<NameExpr>(place)->symbol
-         : place->kind == ExprKind::member ? as<MemberExpr>(place)->symbol
+  return place->kind == ExprKind::Name     ? as<NameExpr>(place)->symbol
+         : place->kind == ExprKind::Member ? as<MemberExpr>(place)->symbol
                                            : nullptr;
 }
 
 const PropertySymbol *writtenProperty(const Expr *target) {
   const Symbol *symbol = symbolAt(target);
-  if (symbol == nullptr || symbol->kind != SymbolKind::property)
+  if (symbol == nullptr || symbol->kind != SymbolKind::Property)
     return nullptr;
   const auto *property = static_cast<const PropertySymbol *>(symbol);
-  return property->type->kind == TypeKind::reference ? nullptr : property;
+  return property->type->kind == TypeKind::Reference ? nullptr : property;
 }
 
 const Expr *containerOf(const Expr *place) {
-  while (place->kind == ExprKind::member && !isNamespace(as<MemberExpr>(place)->base)) {
+  while (place->kind == ExprKind::Member && !isNamespace(as<MemberExpr>(place)->base)) {
     const Symbol *symbol = as<MemberExpr>(place)->symbol;
     const bool isField = symbol == nullptr || // a bit or part
-                         (symbol->kind == SymbolKind::variable &&
+                         (symbol->kind == SymbolKind::Variable &&
                           !isIndirect(static_cast<const VarSymbol *>(symbol)));
     if (!isField && as<MemberExpr>(place)->bit < 0)
       break;
@@ -75,131 +75,132 @@ namespace {
 /// `^` of THIS or SUPER: always the same place, never null.
 bool isSelf(const Expr *pointer) {
   const Symbol *symbol = symbolAt(pointer);
-  return symbol != nullptr && symbol->kind == SymbolKind::self;
+  return symbol != nullptr && symbol->kind == SymbolKind::Self;
 }
 
 /// Reading the variable goes through a slot that holds an address.
 bool followsSlot(const Symbol *symbol) {
-  return symbol != nullptr && symbol->kind == SymbolKind::variable &&
+  return symbol != nullptr && symbol->kind == SymbolKind::Variable &&
          isIndirect(static_cast<const VarSymbol *>(symbol));
 }
 
 /// The in-out of the function, method or body whose code it is: the same place as long as the call
 /// lasts.
 bool isFixed(const VarSymbol *variable, const PouSymbol *body) {
-  return variable->section == Section::inOut && variable->owner == body;
+  return variable->section == Section::InOut && variable->owner == body;
 }
 
 } // namespace
 
 unsigned Analysis::checkedBy(ImplicitCheck first, ImplicitCheck last) {
   if (!checks_)
-    return effectNone;
-  for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
+    return kEffectNone;
+  for (auto i = static_cast<size_t>(first); i <= static_cast<size_t>(last); ++i) {
     if (ownChecks_[i] != nullptr && !pure(ownChecks_[i]))
-      return effectReads | effectRaises | effectCalls;
+      return kEffectReads | kEffectRaises | kEffectCalls;
   }
-  return effectNone;
+  return kEffectNone;
 }
 
 /// A pointer or reference is followed.
 unsigned Analysis::following() {
-  return effectReads | effectStrays | (checks_ ? effectRaises : effectNone) |
-         checkedBy(ImplicitCheck::pointer, ImplicitCheck::pointer);
+  return kEffectReads | kEffectStrays | (checks_ ? kEffectRaises : kEffectNone) |
+         checkedBy(ImplicitCheck::Pointer, ImplicitCheck::Pointer);
 }
 
 unsigned Analysis::indexing(const IndexExpr *e) {
-  unsigned result = effectNone;
+  unsigned result = kEffectNone;
   const Type *array = e->base->type;
   for (const Expr *i : e->indices) {
-    if (array->kind == TypeKind::pointer || array->kind == TypeKind::reference)
+    if (array->kind == TypeKind::Pointer || array->kind == TypeKind::Reference)
       result |= following();
-    if (array->kind != TypeKind::array || !provenIndex(i, typeAs<ArrayType>(array)))
-      result |= effectStrays | (checks_ ? effectRaises : effectNone) | effects(i) |
-                checkedBy(ImplicitCheck::bounds, ImplicitCheck::bounds);
+    if (array->kind != TypeKind::Array || !provenIndex(i, typeAs<ArrayType>(array)))
+      result |= kEffectStrays | (checks_ ? kEffectRaises : kEffectNone) | effects(i) |
+                checkedBy(ImplicitCheck::Bounds, ImplicitCheck::Bounds);
     array = indexStep(array);
   }
-  return array != nullptr && array->kind == TypeKind::reference ? result | following() : result;
+  return array != nullptr && array->kind == TypeKind::Reference ? result | following() : result;
 }
 
 unsigned Analysis::dividing(const BinaryExpr *e) {
-  if ((e->op != BinaryOp::divide && e->op != BinaryOp::modulo) || e->right->constant != nullptr)
-    return effectNone;
+  if ((e->op != BinaryOp::Divide && e->op != BinaryOp::Modulo) || e->right->constant != nullptr)
+    return kEffectNone;
   if (e->operandType == nullptr) // a duration by a number
-    return isReal(underlying(e->right->type)) ? effectNone : effectRaises;
-  const unsigned own = checkedBy(ImplicitCheck::divByte, ImplicitCheck::divLreal);
-  return isReal(e->operandType) ? own : own | effectRaises;
+    return isReal(underlying(e->right->type)) ? kEffectNone : kEffectRaises;
+  const unsigned own = checkedBy(ImplicitCheck::DivByte, ImplicitCheck::DivLreal);
+  return isReal(e->operandType) ? own : own | kEffectRaises;
 }
 
 unsigned Analysis::calling(const CallExpr *e) {
-  unsigned result = effectNone;
+  unsigned result = kEffectNone;
   for (const Argument &a : e->arguments) {
     if (a.value != nullptr)
       result |= effects(a.value);
   }
-  if (e->resolved == Callee::builtin) {
-    if (e->builtin == Builtin::mux)
-      result |= effectRaises;
-    if (e->builtin == Builtin::queryInterface || e->builtin == Builtin::queryPointer)
-      result |= effectReads | effectCalls; // they assign to their second argument
-    if (e->builtin == Builtin::newT || e->builtin == Builtin::deleteT ||
-        e->builtin == Builtin::ini || isAssertion(e->builtin))
-      return result | effectReads | effectRaises | effectCalls;
-    return result |
-           (e->builtin == Builtin::time || e->builtin == Builtin::ltime ? effectReads : effectNone);
+  if (e->resolved == Callee::Builtin) {
+    if (e->builtin == Builtin::Mux)
+      result |= kEffectRaises;
+    if (e->builtin == Builtin::QueryInterface || e->builtin == Builtin::QueryPointer)
+      result |= kEffectReads | kEffectCalls; // they assign to their second argument
+    if (e->builtin == Builtin::NewObject || e->builtin == Builtin::DeleteObject ||
+        e->builtin == Builtin::Ini || isAssertion(e->builtin))
+      return result | kEffectReads | kEffectRaises | kEffectCalls;
+    return result | (e->builtin == Builtin::Time || e->builtin == Builtin::Ltime ? kEffectReads
+                                                                                 : kEffectNone);
   }
-  result |= effectReads | effectRaises;
-  if (e->resolved != Callee::function || !pure(e->pou))
-    result |= effectCalls;
+  result |= kEffectReads | kEffectRaises;
+  if (e->resolved != Callee::Function || !pure(e->pou))
+    result |= kEffectCalls;
   return result;
 }
 
 unsigned Analysis::effects(const Expr *expr) {
   if (expr->constant != nullptr)
-    return effectNone;
-  unsigned result = effectNone;
-  if (checks_ && expr->target != nullptr && expr->target->kind == TypeKind::subrange &&
+    return kEffectNone;
+  unsigned result = kEffectNone;
+  if (checks_ && expr->target != nullptr && expr->target->kind == TypeKind::Subrange &&
       expr->type != expr->target)
-    result = effectRaises | checkedBy(ImplicitCheck::rangeSigned, ImplicitCheck::rangeLongUnsigned);
+    result =
+        kEffectRaises | checkedBy(ImplicitCheck::RangeSigned, ImplicitCheck::RangeLongUnsigned);
   switch (expr->kind) {
-  case ExprKind::literal:
-  case ExprKind::enumLiteral:
-  case ExprKind::typeName:
-  case ExprKind::error:
-  case ExprKind::aggregate: // an initial value only
+  case ExprKind::Literal:
+  case ExprKind::EnumLiteral:
+  case ExprKind::TypeName:
+  case ExprKind::Error:
+  case ExprKind::Aggregate: // an initial value only
     return result;
-  case ExprKind::direct:
-    return result | effectReads;
-  case ExprKind::name:
-  case ExprKind::member: {
+  case ExprKind::Direct:
+    return result | kEffectReads;
+  case ExprKind::Name:
+  case ExprKind::Member: {
     const Symbol *symbol = symbolAt(expr);
-    result |= effectReads;
-    if (symbol != nullptr && symbol->kind == SymbolKind::property)
-      result |= effectRaises | effectCalls;
+    result |= kEffectReads;
+    if (symbol != nullptr && symbol->kind == SymbolKind::Property)
+      result |= kEffectRaises | kEffectCalls;
     if (followsSlot(symbol))
-      result |= effectStrays | (checks_ ? effectRaises : effectNone);
-    const bool ends = expr->kind == ExprKind::name || isNamespace(as<MemberExpr>(expr)->base);
+      result |= kEffectStrays | (checks_ ? kEffectRaises : kEffectNone);
+    const bool ends = expr->kind == ExprKind::Name || isNamespace(as<MemberExpr>(expr)->base);
     return ends ? result : result | effects(as<MemberExpr>(expr)->base);
   }
-  case ExprKind::index:
-    return result | effectReads | indexing(as<IndexExpr>(expr)) |
+  case ExprKind::Index:
+    return result | kEffectReads | indexing(as<IndexExpr>(expr)) |
            effects(as<IndexExpr>(expr)->base);
-  case ExprKind::deref:
+  case ExprKind::Deref:
     return result | following() | effects(as<DerefExpr>(expr)->base);
-  case ExprKind::unary:
+  case ExprKind::Unary:
     return result | effects(as<UnaryExpr>(expr)->operand);
-  case ExprKind::binary: {
+  case ExprKind::Binary: {
     // Sums of thousands of terms lean to the left: they are walked, not descended into.
     const Expr *left = expr;
-    while (left->kind == ExprKind::binary && left->constant == nullptr &&
-           (left == expr || left->target == nullptr || left->target->kind != TypeKind::subrange)) {
+    while (left->kind == ExprKind::Binary && left->constant == nullptr &&
+           (left == expr || left->target == nullptr || left->target->kind != TypeKind::Subrange)) {
       const auto *binary = as<BinaryExpr>(left);
       result |= dividing(binary) | effects(binary->right);
       left = binary->left;
     }
     return result | effects(left);
   }
-  case ExprKind::call:
+  case ExprKind::Call:
     return result | calling(as<CallExpr>(expr));
   }
   return result;
@@ -207,28 +208,28 @@ unsigned Analysis::effects(const Expr *expr) {
 
 unsigned Analysis::placeEffects(const Expr *place, const PouSymbol *body) {
   switch (place->kind) {
-  case ExprKind::direct:
-    return effectNone;
-  case ExprKind::name:
-  case ExprKind::member: {
-    const bool ends = place->kind == ExprKind::name || isNamespace(as<MemberExpr>(place)->base);
+  case ExprKind::Direct:
+    return kEffectNone;
+  case ExprKind::Name:
+  case ExprKind::Member: {
+    const bool ends = place->kind == ExprKind::Name || isNamespace(as<MemberExpr>(place)->base);
     const Expr *base = ends ? nullptr : as<MemberExpr>(place)->base;
     const Symbol *symbol = symbolAt(place);
-    if (symbol != nullptr && symbol->kind == SymbolKind::property)
+    if (symbol != nullptr && symbol->kind == SymbolKind::Property)
       return effects(place);
-    unsigned result = base == nullptr ? effectNone : placeEffects(base, body);
+    unsigned result = base == nullptr ? kEffectNone : placeEffects(base, body);
     if (followsSlot(symbol) && !isFixed(static_cast<const VarSymbol *>(symbol), body))
-      result |= effectReads | effectStrays | (checks_ ? effectRaises : effectNone);
+      result |= kEffectReads | kEffectStrays | (checks_ ? kEffectRaises : kEffectNone);
     return result;
   }
-  case ExprKind::index: {
+  case ExprKind::Index: {
     const auto *index = as<IndexExpr>(place);
-    const bool points = index->base->type->kind == TypeKind::pointer;
+    const bool points = index->base->type->kind == TypeKind::Pointer;
     return indexing(index) | (points ? effects(index->base) : placeEffects(index->base, body));
   }
-  case ExprKind::deref: {
+  case ExprKind::Deref: {
     const Expr *pointer = as<DerefExpr>(place)->base;
-    return isSelf(pointer) ? unsigned{effectNone} : following() | effects(pointer);
+    return isSelf(pointer) ? unsigned{kEffectNone} : following() | effects(pointer);
   }
   default:
     return effects(place);
@@ -238,13 +239,13 @@ unsigned Analysis::placeEffects(const Expr *place, const PouSymbol *body) {
 unsigned Analysis::targetEffects(const Expr *target, const PouSymbol *body) {
   if (writtenProperty(target) == nullptr)
     return placeEffects(target, body);
-  const bool isOwn = target->kind == ExprKind::name || isNamespace(as<MemberExpr>(target)->base);
-  return isOwn ? unsigned{effectNone} : objectEffects(as<MemberExpr>(target)->base, body);
+  const bool isOwn = target->kind == ExprKind::Name || isNamespace(as<MemberExpr>(target)->base);
+  return isOwn ? unsigned{kEffectNone} : objectEffects(as<MemberExpr>(target)->base, body);
 }
 
 unsigned Analysis::objectEffects(const Expr *object, const PouSymbol *body) {
-  if (object->type != nullptr && object->type->kind == TypeKind::interface)
-    return effects(object) | effectStrays | (checks_ ? effectRaises : effectNone);
+  if (object->type != nullptr && object->type->kind == TypeKind::Interface)
+    return effects(object) | kEffectStrays | (checks_ ? kEffectRaises : kEffectNone);
   return placeEffects(object, body);
 }
 

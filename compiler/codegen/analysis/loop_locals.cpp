@@ -15,39 +15,39 @@ namespace {
 /// Values that fit a register. Texts and aggregates stay where they are.
 bool isScalar(const Type *type) {
   const Type *t = underlying(type);
-  return t->kind == TypeKind::boolean || isInteger(t) || isReal(t) || isTimeOrDate(t);
+  return t->kind == TypeKind::Boolean || isInteger(t) || isReal(t) || isTimeOrDate(t);
 }
 
 /// Copying it copies variables of blocks.
 bool holdsInstance(const Type *type) {
   return anyHeld(type, [](const Type *t, const VarSymbol *) {
-    return t->kind == TypeKind::structure ? Held::inside
-           : isElementary(t)              ? Held::over
-                                          : Held::found;
+    return t->kind == TypeKind::Structure ? Held::Inside
+           : isElementary(t)              ? Held::Over
+                                          : Held::Found;
   });
 }
 
 /// Builtins that look at the values of their arguments only.
 bool onlyComputes(Builtin id) {
-  return id <= Builtin::find || id == Builtin::convert || id == Builtin::time ||
-         id == Builtin::ltime || id == Builtin::sizeofT || id == Builtin::lowerBound ||
-         id == Builtin::upperBound;
+  return id <= Builtin::Find || id == Builtin::Convert || id == Builtin::Time ||
+         id == Builtin::Ltime || id == Builtin::Sizeof || id == Builtin::LowerBound ||
+         id == Builtin::UpperBound;
 }
 
 /// Calls save the locals: with more of them that costs more than it gains.
-constexpr std::size_t kLocalsOverCalls = 4;
+constexpr size_t kLocalsOverCalls = 4;
 
 /// An instance that is found without following an address, so that its block is known.
 bool isOwnPlace(const Expr *place) {
   while (true) {
     switch (place->kind) {
-    case ExprKind::name: {
+    case ExprKind::Name: {
       const VarSymbol *v = namedVariable(place);
       return v != nullptr && !isIndirect(v);
     }
-    case ExprKind::member: {
+    case ExprKind::Member: {
       const auto *m = as<MemberExpr>(place);
-      if (m->symbol == nullptr || m->symbol->kind != SymbolKind::variable ||
+      if (m->symbol == nullptr || m->symbol->kind != SymbolKind::Variable ||
           isIndirect(static_cast<const VarSymbol *>(m->symbol)))
         return false;
       if (isNamespace(m->base))
@@ -55,7 +55,7 @@ bool isOwnPlace(const Expr *place) {
       place = m->base;
       continue;
     }
-    case ExprKind::index:
+    case ExprKind::Index:
       if (followsAddress(as<IndexExpr>(place)))
         return false;
       place = as<IndexExpr>(place)->base;
@@ -79,7 +79,7 @@ template <class T> bool contains(const std::vector<T> &all, T one) {
 
 std::vector<const VarSymbol *> LoopLocals::of(const Stmt *loop, const PouSymbol *pou) {
   if (pou == nullptr ||
-      (pou->decl->kind != DeclKind::program && pou->decl->kind != DeclKind::functionBlock))
+      (pou->decl->kind != DeclKind::Program && pou->decl->kind != DeclKind::FunctionBlock))
     return {}; // a function's variables are C++ locals anyway
   Facts facts;
   statement(loop, facts);
@@ -88,8 +88,8 @@ std::vector<const VarSymbol *> LoopLocals::of(const Stmt *loop, const PouSymbol 
     return {};
   std::vector<const VarSymbol *> result;
   for (const VarSymbol *v : facts.written) {
-    const bool member = v->section == Section::local || v->section == Section::input ||
-                        v->section == Section::output;
+    const bool member = v->section == Section::Local || v->section == Section::Input ||
+                        v->section == Section::Output;
     if (v->owner != pou || !member || v->isConstant || v->decl == nullptr ||
         v->decl->address != nullptr || v->isBit || analysis_.isShared(v) || !isScalar(v->type) ||
         contains(result, v) || contains<const Symbol *>(facts.foreign, v) ||
@@ -105,7 +105,7 @@ std::vector<const VarSymbol *> LoopLocals::of(const Stmt *loop, const PouSymbol 
 bool LoopLocals::countsAlone(const ForStmt *loop, const PouSymbol *pou) {
   const VarSymbol *v = namedVariable(loop->variable);
   if (v == nullptr || pou == nullptr || v->owner != pou || isIndirect(v) ||
-      v->location != nullptr || v->section == Section::stat || v->section == Section::instance ||
+      v->location != nullptr || v->section == Section::Stat || v->section == Section::Instance ||
       analysis_.isShared(v))
     return false;
   Facts facts;
@@ -130,25 +130,25 @@ void LoopLocals::statement(const Stmt *s, Facts &facts) {
   const auto value = [&](const Expr *e) { expression(e, facts); };
   const auto inner = [&](Block b) { block(b, facts); };
   switch (s->kind) {
-  case StmtKind::assign: {
+  case StmtKind::Assign: {
     const auto *a = as<AssignStmt>(s);
-    facts.opaque = facts.opaque || a->op == AssignOp::reference;
+    facts.opaque = facts.opaque || a->op == AssignOp::Reference;
     for (const Expr *t : a->targets)
       target(t, facts);
     return value(a->value);
   }
-  case StmtKind::forS:
+  case StmtKind::For:
     target(as<ForStmt>(s)->variable, facts);
     return forEachChild(s, value, inner);
-  case StmtKind::call:
-    if (as<CallStmt>(s)->expr->kind == ExprKind::call)
+  case StmtKind::Call:
+    if (as<CallStmt>(s)->expr->kind == ExprKind::Call)
       call(as<CallExpr>(as<CallStmt>(s)->expr), facts);
     else
       facts.opaque = true;
     return;
-  case StmtKind::jump:
-  case StmtKind::label:
-  case StmtKind::tryS:
+  case StmtKind::Jump:
+  case StmtKind::Label:
+  case StmtKind::Try:
     facts.opaque = true;
     return;
   default:
@@ -162,9 +162,9 @@ void LoopLocals::target(const Expr *expr, Facts &facts) {
     return;
   }
   const Expr *whole = expr;
-  if (whole->kind == ExprKind::member && as<MemberExpr>(whole)->bit >= 0)
+  if (whole->kind == ExprKind::Member && as<MemberExpr>(whole)->bit >= 0)
     whole = as<MemberExpr>(whole)->base;
-  if (whole->kind == ExprKind::name) {
+  if (whole->kind == ExprKind::Name) {
     if (const VarSymbol *v = namedVariable(whole); v != nullptr && !isIndirect(v))
       facts.written.push_back(v);
   }
@@ -176,16 +176,16 @@ void LoopLocals::name(const Symbol *symbol, Facts &facts) {
     facts.opaque = true;
     return;
   }
-  if (symbol->kind != SymbolKind::variable) {
-    facts.opaque = facts.opaque || symbol->kind != SymbolKind::enumerator;
+  if (symbol->kind != SymbolKind::Variable) {
+    facts.opaque = facts.opaque || symbol->kind != SymbolKind::Enumerator;
     return;
   }
   const auto *v = static_cast<const VarSymbol *>(symbol);
-  if (v->section == Section::access) // another name of some variable
+  if (v->section == Section::Access) // another name of some variable
     facts.opaque = true;
   if (isIndirect(v)) {
     const Type *pointee =
-        v->type->kind == TypeKind::reference ? typeAs<PointerType>(v->type)->pointee : v->type;
+        v->type->kind == TypeKind::Reference ? typeAs<PointerType>(v->type)->pointee : v->type;
     facts.indirect.push_back(underlying(pointee));
   }
 }
@@ -194,19 +194,19 @@ void LoopLocals::expression(const Expr *e, Facts &facts) {
   while (!facts.opaque) {
     if (e->constant != nullptr)
       return;
-    if (holdsInstance(e->type) && e->kind != ExprKind::name && e->kind != ExprKind::member &&
-        e->kind != ExprKind::index) {
+    if (holdsInstance(e->type) && e->kind != ExprKind::Name && e->kind != ExprKind::Member &&
+        e->kind != ExprKind::Index) {
       facts.opaque = true;
       return;
     }
     switch (e->kind) {
-    case ExprKind::literal:
-    case ExprKind::enumLiteral:
+    case ExprKind::Literal:
+    case ExprKind::EnumLiteral:
       return;
-    case ExprKind::name:
+    case ExprKind::Name:
       name(as<NameExpr>(e)->symbol, facts);
       return;
-    case ExprKind::member: {
+    case ExprKind::Member: {
       const auto *m = as<MemberExpr>(e);
       if (m->symbol == nullptr) {
         facts.opaque = facts.opaque || m->bit < 0;
@@ -217,15 +217,15 @@ void LoopLocals::expression(const Expr *e, Facts &facts) {
       if (isNamespace(m->base))
         return;
       // A program before the dot is a place, too.
-      if (m->base->kind == ExprKind::name) {
+      if (m->base->kind == ExprKind::Name) {
         const Symbol *base = as<NameExpr>(m->base)->symbol;
-        if (base != nullptr && base->kind == SymbolKind::pou)
+        if (base != nullptr && base->kind == SymbolKind::Pou)
           return;
       }
       e = m->base;
       continue;
     }
-    case ExprKind::index: {
+    case ExprKind::Index: {
       const auto *i = as<IndexExpr>(e);
       facts.opaque = facts.opaque || followsAddress(i);
       for (const Expr *x : i->indices)
@@ -233,14 +233,14 @@ void LoopLocals::expression(const Expr *e, Facts &facts) {
       e = i->base;
       continue;
     }
-    case ExprKind::unary:
+    case ExprKind::Unary:
       e = as<UnaryExpr>(e)->operand;
       continue;
-    case ExprKind::binary:
+    case ExprKind::Binary:
       expression(as<BinaryExpr>(e)->right, facts);
       e = as<BinaryExpr>(e)->left;
       continue;
-    case ExprKind::call:
+    case ExprKind::Call:
       call(as<CallExpr>(e), facts);
       return;
     default: // pointers, direct addresses
@@ -251,16 +251,16 @@ void LoopLocals::expression(const Expr *e, Facts &facts) {
 }
 
 void LoopLocals::call(const CallExpr *e, Facts &facts) {
-  if (e->resolved == Callee::functionBlock || e->resolved == Callee::method) {
+  if (e->resolved == Callee::FunctionBlock || e->resolved == Callee::Method) {
     instanceCall(e, facts);
     return;
   }
-  const bool isFunction = e->resolved == Callee::function && analysis_.pure(e->pou);
-  if (!isFunction && (e->resolved != Callee::builtin || !onlyComputes(e->builtin))) {
+  const bool isFunction = e->resolved == Callee::Function && analysis_.pure(e->pou);
+  if (!isFunction && (e->resolved != Callee::Builtin || !onlyComputes(e->builtin))) {
     facts.opaque = true;
     return;
   }
-  if (!isFunction && e->builtin == Builtin::sizeofT)
+  if (!isFunction && e->builtin == Builtin::Sizeof)
     return;
   arguments(e, facts);
   if (!isFunction)
@@ -292,10 +292,10 @@ void LoopLocals::arguments(const CallExpr *e, Facts &facts) {
 /// A block or one of its methods: it reaches its own variables, those it names with a dot, and what
 /// its in-outs and references may stand for.
 void LoopLocals::instanceCall(const CallExpr *e, Facts &facts) {
-  const bool isMethod = e->resolved == Callee::method;
+  const bool isMethod = e->resolved == Callee::Method;
   const PouSymbol *block = isMethod ? e->pou->owner : e->pou;
   const bool isPlain =
-      !isMethod || (e->callee->kind == ExprKind::member && e->pou->decl->kind == DeclKind::method);
+      !isMethod || (e->callee->kind == ExprKind::Member && e->pou->decl->kind == DeclKind::Method);
   const Expr *object = isMethod && isPlain ? as<MemberExpr>(e->callee)->base : e->callee;
   if (!isPlain || !block->isBlock() || !standsAlone(block) || !isOwnPlace(object)) {
     facts.opaque = true;

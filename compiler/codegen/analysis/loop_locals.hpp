@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_ANALYSIS_LOOP_LOCALS_HPP
+#define STRIDE_COMPILER_CODEGEN_ANALYSIS_LOOP_LOCALS_HPP
 // Which variables of a block or program a loop may keep in C++ locals: those that nothing but the
 // loop's own statements can reach while it runs. Registers are the difference between generated and
 // hand-written loops.
@@ -50,3 +51,5 @@ private:
 };
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_ANALYSIS_LOOP_LOCALS_HPP

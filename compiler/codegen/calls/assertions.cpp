@@ -13,11 +13,11 @@ using namespace ast;
 namespace {
 
 std::string_view demandOf(Builtin id) {
-  return id == Builtin::assertNe   ? "NotEqual"
-         : id == Builtin::assertGt ? "Greater"
-         : id == Builtin::assertGe ? "GreaterEqual"
-         : id == Builtin::assertLt ? "Less"
-         : id == Builtin::assertLe ? "LessEqual"
+  return id == Builtin::AssertNe   ? "NotEqual"
+         : id == Builtin::AssertGt ? "Greater"
+         : id == Builtin::AssertGe ? "GreaterEqual"
+         : id == Builtin::AssertLt ? "Less"
+         : id == Builtin::AssertLe ? "LessEqual"
                                    : "Equal";
 }
 
@@ -36,7 +36,7 @@ std::string nameOf(Builtin id) {
 /// A function that spells the values of an enumeration.
 std::string spellings(const EnumType *enumeration) {
   std::string out = "[](::stride::LINT value__) -> const char * { switch (value__) { ";
-  std::vector<std::int64_t> seen;
+  std::vector<int64_t> seen;
   for (const EnumeratorSymbol *one : enumeration->enumerators) {
     if (std::find(seen.begin(), seen.end(), one->value) != seen.end())
       continue;
@@ -53,20 +53,20 @@ std::string spellings(const EnumType *enumeration) {
 } // namespace
 
 const Type *assertedType(const CallExpr *call) {
-  const std::size_t values = assertedValues(call->builtin);
+  const size_t values = assertedValues(call->builtin);
   if (values == 0)
     return nullptr;
   if (values != 2)
-    return elementaryType(values == 1 ? TypeKind::boolean : TypeKind::lreal);
+    return elementaryType(values == 1 ? TypeKind::Boolean : TypeKind::Lreal);
   const Expr *first = call->arguments[0].value;
   const Type *own = first->target != nullptr ? first->target : first->type;
-  return own->kind == TypeKind::enumeration ? own : underlying(own);
+  return own->kind == TypeKind::Enumeration ? own : underlying(own);
 }
 
 std::string assertionText(const CallExpr *call, const std::string &context,
                           const std::vector<std::string> &arguments, const std::string &position) {
   const Builtin id = call->builtin;
-  const std::size_t values = assertedValues(id);
+  const size_t values = assertedValues(id);
   const std::string place =
       "{\"" + nameOf(id) + "\", " +
       (arguments.size() > values ? "(" + arguments[values] + ").s" : std::string("nullptr")) +
@@ -77,12 +77,12 @@ std::string assertionText(const CallExpr *call, const std::string &context,
     return "::stride::assertNear(" + context + ", " + arguments[0] + ", " + arguments[1] + ", " +
            arguments[2] + ", " + place;
   const Type *type = assertedType(call);
-  const auto *enumeration = type->kind == TypeKind::enumeration ? typeAs<EnumType>(type) : nullptr;
-  const TypeKind shown = enumeration != nullptr ? TypeKind::lint : type->kind;
+  const auto *enumeration = type->kind == TypeKind::Enumeration ? typeAs<EnumType>(type) : nullptr;
+  const TypeKind shown = enumeration != nullptr ? TypeKind::Lint : type->kind;
   std::string out = std::string("::stride::") + (isString(type) ? "assertTexts" : "assertValues") +
                     "<::stride::Kind::" + std::string(Names::elementary(shown)) + ">(" + context +
                     ", ::stride::Demand::" + std::string(demandOf(id)) + ", " + arguments[0] + ", ";
-  out += values == 2 ? arguments[1] : id == Builtin::assertTrue ? "true" : "false";
+  out += values == 2 ? arguments[1] : id == Builtin::AssertTrue ? "true" : "false";
   if (!isString(type))
     out += ", " + (enumeration != nullptr ? spellings(enumeration) : std::string("nullptr"));
   return out + ", " + place;

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CALLS_ASSERTIONS_HPP
+#define STRIDE_COMPILER_CODEGEN_CALLS_ASSERTIONS_HPP
 // ASSERT_TRUE, ASSERT_EQ and the others of unit tests: runtime/iec/assert.h. Internal to
 // compiler/codegen.
 
@@ -22,3 +23,5 @@ namespace stc::codegen {
                                         const std::string &position);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CALLS_ASSERTIONS_HPP

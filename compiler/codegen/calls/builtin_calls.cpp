@@ -12,19 +12,19 @@ namespace {
 /// SEL and MUX compute only the value that is selected, as CODESYS does: `SEL(n = 0, a / n, 0)`.
 /// Where that shows, they are no functions.
 bool selectsOnly(EmitContext &cx, const CallExpr *e) {
-  if (e->builtin != Builtin::sel && e->builtin != Builtin::mux)
+  if (e->builtin != Builtin::Sel && e->builtin != Builtin::Mux)
     return false;
-  unsigned result = effectNone;
-  for (std::size_t i = 1; i < e->arguments.size(); ++i)
+  unsigned result = kEffectNone;
+  for (size_t i = 1; i < e->arguments.size(); ++i)
     result |= cx.effects(e->arguments[i].value);
-  return (result & (effectCalls | effectRaises | effectStrays)) != 0;
+  return (result & (kEffectCalls | kEffectRaises | kEffectStrays)) != 0;
 }
 
 void emitSelected(EmitContext &cx, const CallExpr *e) {
-  const std::size_t last = e->arguments.size() - 1;
+  const size_t last = e->arguments.size() - 1;
   const bool number = isInteger(underlying(e->type)) || isReal(underlying(e->type));
   cx.out << "[&]() -> " << cx.type(e->type) << " { switch (";
-  if (e->builtin == Builtin::mux) {
+  if (e->builtin == Builtin::Mux) {
     cx.out << "::stride::index<0, " << last - 1 << ">(" << cx.ctx() << ", ";
     emitValue(cx, e->arguments[0].value);
     cx.out << ", ";
@@ -34,7 +34,7 @@ void emitSelected(EmitContext &cx, const CallExpr *e) {
     emitValue(cx, e->arguments[0].value);
   }
   cx.out << ")) {";
-  for (std::size_t i = 1; i <= last; ++i) {
+  for (size_t i = 1; i <= last; ++i) {
     if (i < last)
       cx.out << " case " << i - 1;
     else
@@ -53,7 +53,7 @@ void emitSelected(EmitContext &cx, const CallExpr *e) {
 bool orderShows(EmitContext &cx, const CallExpr *e) {
   if (!builtinRow(e->builtin)->ordersArguments)
     return false;
-  unsigned before = effectNone;
+  unsigned before = kEffectNone;
   for (const Argument &a : e->arguments) {
     if (a.value == nullptr)
       continue;
@@ -68,14 +68,14 @@ bool orderShows(EmitContext &cx, const CallExpr *e) {
 /// The arguments as constants `in__…`, from left to right; gives their names. What nothing changes
 /// until the call is not copied.
 std::vector<std::string> takeValues(EmitContext &cx, const CallExpr *e) {
-  unsigned all = effectNone;
+  unsigned all = kEffectNone;
   for (const Argument &a : e->arguments)
     all |= cx.effects(a.value);
   std::vector<std::string> names;
   for (const Argument &a : e->arguments) {
     names.push_back(cx.temporary("in"));
     const Type *t = a.value->target != nullptr ? a.value->target : a.value->type;
-    cx.out << cx.type(t) << ((all & effectCalls) != 0 ? " const " : " const &") << names.back()
+    cx.out << cx.type(t) << ((all & kEffectCalls) != 0 ? " const " : " const &") << names.back()
            << " = ";
     emitValue(cx, a.value);
     cx.out << "; ";
@@ -85,10 +85,10 @@ std::vector<std::string> takeValues(EmitContext &cx, const CallExpr *e) {
 
 /// A call of a function that gives a text; null: the value is none.
 const CallExpr *textCall(const Expr *value) {
-  if (value->kind != ExprKind::call || value->constant != nullptr || !isString(value->type))
+  if (value->kind != ExprKind::Call || value->constant != nullptr || !isString(value->type))
     return nullptr;
   const auto *call = as<CallExpr>(value);
-  return call->resolved == Callee::builtin && builtinRow(call->builtin) != nullptr &&
+  return call->resolved == Callee::Builtin && builtinRow(call->builtin) != nullptr &&
                  builtinRow(call->builtin)->emit == emitTextFunction
              ? call
              : nullptr;
@@ -124,7 +124,7 @@ bool emitStringInto(EmitContext &cx, std::string_view target, const Expr *value)
     names = takeValues(cx, call);
   cx.out << "::stride::" << builtinRow(call->builtin)->name << '<'
          << typeAs<StringType>(value->type)->length << ">(" << target;
-  for (std::size_t i = 0; i < call->arguments.size(); ++i) {
+  for (size_t i = 0; i < call->arguments.size(); ++i) {
     cx.out << ", ";
     emitTextArgument(cx, {call, names}, i);
   }

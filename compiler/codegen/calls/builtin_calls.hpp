@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CALLS_BUILTIN_CALLS_HPP
+#define STRIDE_COMPILER_CODEGEN_CALLS_BUILTIN_CALLS_HPP
 // Functions that the compiler implements itself.
 
 #include "compiler/codegen/context/context.hpp"
@@ -10,3 +11,5 @@ void emitBuiltin(EmitContext &cx, const ast::CallExpr *e);
 [[nodiscard]] bool emitStringInto(EmitContext &cx, std::string_view target, const ast::Expr *value);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CALLS_BUILTIN_CALLS_HPP

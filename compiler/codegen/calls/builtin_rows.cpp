@@ -20,7 +20,7 @@ namespace {
 
 /// `a, b)` of the arguments from the first on.
 void closeWithArguments(EmitContext &cx, const BuiltinCall &call) {
-  for (std::size_t i = 0; i < call.count(); ++i) {
+  for (size_t i = 0; i < call.count(); ++i) {
     cx.out << (i > 0 ? ", " : "");
     emitBuiltinArgument(cx, call, i);
   }
@@ -37,7 +37,7 @@ void emitOfResult(EmitContext &cx, const BuiltinCall &call, std::string_view nam
 void emitMath(EmitContext &cx, const BuiltinCall &call, std::string_view name) {
   const std::string_view type = cx.type(underlying(call.expr->type));
   cx.out << "::stride::" << name;
-  for (std::size_t i = 0; i < call.count(); ++i) {
+  for (size_t i = 0; i < call.count(); ++i) {
     cx.out << (i == 0 ? "(" : ", ") << "static_cast<" << type << ">(";
     emitBuiltinArgument(cx, call, i);
     cx.out << ')';
@@ -48,7 +48,7 @@ void emitMath(EmitContext &cx, const BuiltinCall &call, std::string_view name) {
 /// The smallest or the largest, as a chain: `max(max(a, b), c)`.
 void emitExtreme(EmitContext &cx, const BuiltinCall &call, std::string_view name) {
   const Type *result = underlying(call.expr->type);
-  for (std::size_t i = 1; i < call.count(); ++i) {
+  for (size_t i = 1; i < call.count(); ++i) {
     cx.out << "::stride::" << name;
     if (isString(result))
       cx.out << "Text(";
@@ -56,7 +56,7 @@ void emitExtreme(EmitContext &cx, const BuiltinCall &call, std::string_view name
       cx.out << '<' << cx.type(result) << ">(";
   }
   emitBuiltinArgument(cx, call, 0);
-  for (std::size_t i = 1; i < call.count(); ++i) {
+  for (size_t i = 1; i < call.count(); ++i) {
     cx.out << ", ";
     emitBuiltinArgument(cx, call, i);
     cx.out << ')';
@@ -80,12 +80,12 @@ void emitLimit(EmitContext &cx, const BuiltinCall &call, std::string_view name) 
 /// All values are computed, from left to right, as braces evaluate them.
 void emitMux(EmitContext &cx, const BuiltinCall &call, std::string_view) {
   const Type *result = underlying(call.expr->type);
-  const bool number = isInteger(result) || result->kind == TypeKind::boolean || isReal(result);
+  const bool number = isInteger(result) || result->kind == TypeKind::Boolean || isReal(result);
   const std::string values = cx.temporary("values");
   cx.out << "[&] { const auto selector__ = ";
   emitBuiltinArgument(cx, call, 0);
   cx.out << "; const " << cx.type(call.expr->type) << ' ' << values << "[] = {";
-  for (std::size_t i = 1; i < call.count(); ++i) {
+  for (size_t i = 1; i < call.count(); ++i) {
     cx.out << (i > 1 ? ", " : "");
     if (number)
       cx.out << "static_cast<" << cx.type(result) << ">(";
@@ -108,7 +108,7 @@ void emitInOrder(EmitContext &cx, const BuiltinCall &call, std::string_view orde
   else
     cx.out << "a__ " << order << " b__";
   cx.out << "; }";
-  for (std::size_t i = 0; i < call.count(); ++i) {
+  for (size_t i = 0; i < call.count(); ++i) {
     cx.out << ", ";
     if (!strings)
       cx.out << "static_cast<" << cx.type(operands) << ">(";
@@ -160,7 +160,7 @@ void emitBound(EmitContext &cx, const BuiltinCall &call, std::string_view name) 
 void emitIsValidRef(EmitContext &cx, const BuiltinCall &call, std::string_view) {
   const Expr *reference = call.value(0);
   const VarSymbol *v = indirectVariable(reference);
-  if (v == nullptr || v->section != Section::inOut || reference->kind != ExprKind::name) {
+  if (v == nullptr || v->section != Section::InOut || reference->kind != ExprKind::Name) {
     cx.out << '(';
     emitSlot(cx, reference);
     cx.out << " != nullptr)";
@@ -177,7 +177,7 @@ void emitAssertion(EmitContext &cx, const BuiltinCall &call, std::string_view) {
   const Type *asserted = assertedType(e);
   const bool texts = asserted != nullptr && isString(asserted);
   std::vector<std::string> arguments;
-  for (std::size_t i = 0; i < call.count(); ++i)
+  for (size_t i = 0; i < call.count(); ++i)
     arguments.push_back(cx.text([&] {
       if (texts || i >= assertedValues(e->builtin)) // a message is a text, too
         emitTextArgument(cx, call, i);
@@ -195,92 +195,92 @@ void emitCall(EmitContext &cx, const BuiltinCall &call, std::string_view) {
 }
 
 constexpr BuiltinRow kRows[] = {
-    {Builtin::abs, emitOfResult, "abs"},
-    {Builtin::sqrt, emitMath, "sqrt"},
-    {Builtin::ln, emitMath, "ln"},
-    {Builtin::log, emitMath, "log10"},
-    {Builtin::exp, emitMath, "exp"},
-    {Builtin::sin, emitMath, "sin"},
-    {Builtin::cos, emitMath, "cos"},
-    {Builtin::tan, emitMath, "tan"},
-    {Builtin::asin, emitMath, "asin"},
-    {Builtin::acos, emitMath, "acos"},
-    {Builtin::atan, emitMath, "atan"},
-    {Builtin::atan2, emitMath, "atan2"},
-    {Builtin::expt, emitMath, "pow"},
-    {Builtin::trunc, emitOfResult, "truncate"},
-    {Builtin::min, emitExtreme, "min"},
-    {Builtin::max, emitExtreme, "max"},
-    {Builtin::limit, emitLimit, "limit"},
-    {Builtin::sel, emitOfResult, "sel"},
-    {Builtin::mux, emitMux},
-    {Builtin::move, emitItself},
-    {Builtin::greater, emitInOrder, ">"},
-    {Builtin::greaterEqual, emitInOrder, ">="},
-    {Builtin::equal, emitInOrder, "=="},
-    {Builtin::lessEqual, emitInOrder, "<="},
-    {Builtin::less, emitInOrder, "<"},
-    {Builtin::shl, emitOfResult, "shl"},
-    {Builtin::shr, emitOfResult, "shr"},
-    {Builtin::rol, emitOfResult, "rol"},
-    {Builtin::ror, emitOfResult, "ror"},
-    {Builtin::fromBcd, emitOfResult, "fromBcd"},
-    {Builtin::toBcd, emitOfResult, "toBcd"},
-    {Builtin::isValidBcd, emitOfResult, "isValidBcd"},
-    {Builtin::isValid, emitOfResult, "isValid"},
-    {Builtin::bigEndian, emitOfResult, "swapBytes"},
-    {Builtin::littleEndian, emitItself},
-    {Builtin::len, emitTextFunction, "len"},
-    {Builtin::left, emitTextFunction, "left"},
-    {Builtin::right, emitTextFunction, "right"},
-    {Builtin::mid, emitTextFunction, "mid"},
-    {Builtin::concat, emitTextFunction, "concat"},
-    {Builtin::insert, emitTextFunction, "insert"},
-    {Builtin::deleteS, emitTextFunction, "remove"},
-    {Builtin::replace, emitTextFunction, "replace"},
-    {Builtin::find, emitTextFunction, "find"},
-    {Builtin::convert, emitConversion},
-    {Builtin::ltime, emitLongTime},
-    {Builtin::time, emitTime},
-    {Builtin::adr, emitAdr, {}, false},
-    {Builtin::queryInterface, emitCall<emitQuery>, {}, false},
-    {Builtin::queryPointer, emitCall<emitQuery>, {}, false},
-    {Builtin::newT, emitCall<emitNew>, {}, false},
-    {Builtin::ini, emitCall<emitReinitialise>, {}, false},
-    {Builtin::isValidRef, emitIsValidRef, {}, false},
-    {Builtin::lowerBound, emitBound, "lo", false},
-    {Builtin::upperBound, emitBound, "hi", false},
-    {Builtin::assertTrue, emitAssertion},
-    {Builtin::assertFalse, emitAssertion},
-    {Builtin::assertEq, emitAssertion},
-    {Builtin::assertNe, emitAssertion},
-    {Builtin::assertGt, emitAssertion},
-    {Builtin::assertGe, emitAssertion},
-    {Builtin::assertLt, emitAssertion},
-    {Builtin::assertLe, emitAssertion},
-    {Builtin::assertNear, emitAssertion},
-    {Builtin::failTest, emitAssertion},
+    {Builtin::Abs, emitOfResult, "abs"},
+    {Builtin::Sqrt, emitMath, "sqrt"},
+    {Builtin::Ln, emitMath, "ln"},
+    {Builtin::Log, emitMath, "log10"},
+    {Builtin::Exp, emitMath, "exp"},
+    {Builtin::Sin, emitMath, "sin"},
+    {Builtin::Cos, emitMath, "cos"},
+    {Builtin::Tan, emitMath, "tan"},
+    {Builtin::Asin, emitMath, "asin"},
+    {Builtin::Acos, emitMath, "acos"},
+    {Builtin::Atan, emitMath, "atan"},
+    {Builtin::Atan2, emitMath, "atan2"},
+    {Builtin::Expt, emitMath, "pow"},
+    {Builtin::Trunc, emitOfResult, "truncate"},
+    {Builtin::Min, emitExtreme, "min"},
+    {Builtin::Max, emitExtreme, "max"},
+    {Builtin::Limit, emitLimit, "limit"},
+    {Builtin::Sel, emitOfResult, "sel"},
+    {Builtin::Mux, emitMux},
+    {Builtin::Move, emitItself},
+    {Builtin::Greater, emitInOrder, ">"},
+    {Builtin::GreaterEqual, emitInOrder, ">="},
+    {Builtin::Equal, emitInOrder, "=="},
+    {Builtin::LessEqual, emitInOrder, "<="},
+    {Builtin::Less, emitInOrder, "<"},
+    {Builtin::Shl, emitOfResult, "shl"},
+    {Builtin::Shr, emitOfResult, "shr"},
+    {Builtin::Rol, emitOfResult, "rol"},
+    {Builtin::Ror, emitOfResult, "ror"},
+    {Builtin::FromBcd, emitOfResult, "fromBcd"},
+    {Builtin::ToBcd, emitOfResult, "toBcd"},
+    {Builtin::IsValidBcd, emitOfResult, "isValidBcd"},
+    {Builtin::IsValid, emitOfResult, "isValid"},
+    {Builtin::BigEndian, emitOfResult, "swapBytes"},
+    {Builtin::LittleEndian, emitItself},
+    {Builtin::Len, emitTextFunction, "len"},
+    {Builtin::Left, emitTextFunction, "left"},
+    {Builtin::Right, emitTextFunction, "right"},
+    {Builtin::Mid, emitTextFunction, "mid"},
+    {Builtin::Concat, emitTextFunction, "concat"},
+    {Builtin::Insert, emitTextFunction, "insert"},
+    {Builtin::Delete, emitTextFunction, "remove"},
+    {Builtin::Replace, emitTextFunction, "replace"},
+    {Builtin::Find, emitTextFunction, "find"},
+    {Builtin::Convert, emitConversion},
+    {Builtin::Ltime, emitLongTime},
+    {Builtin::Time, emitTime},
+    {Builtin::Adr, emitAdr, {}, false},
+    {Builtin::QueryInterface, emitCall<emitQuery>, {}, false},
+    {Builtin::QueryPointer, emitCall<emitQuery>, {}, false},
+    {Builtin::NewObject, emitCall<emitNew>, {}, false},
+    {Builtin::Ini, emitCall<emitReinitialise>, {}, false},
+    {Builtin::IsValidRef, emitIsValidRef, {}, false},
+    {Builtin::LowerBound, emitBound, "lo", false},
+    {Builtin::UpperBound, emitBound, "hi", false},
+    {Builtin::AssertTrue, emitAssertion},
+    {Builtin::AssertFalse, emitAssertion},
+    {Builtin::AssertEq, emitAssertion},
+    {Builtin::AssertNe, emitAssertion},
+    {Builtin::AssertGt, emitAssertion},
+    {Builtin::AssertGe, emitAssertion},
+    {Builtin::AssertLt, emitAssertion},
+    {Builtin::AssertLe, emitAssertion},
+    {Builtin::AssertNear, emitAssertion},
+    {Builtin::FailTest, emitAssertion},
 };
 
 constexpr auto kById = [] {
-  std::array<const BuiltinRow *, static_cast<std::size_t>(Builtin::failTest) + 1> rows{};
+  std::array<const BuiltinRow *, static_cast<size_t>(Builtin::FailTest) + 1> rows{};
   for (const BuiltinRow &row : kRows)
-    rows[static_cast<std::size_t>(row.id)] = &row;
+    rows[static_cast<size_t>(row.id)] = &row;
   return rows;
 }();
 
 } // namespace
 
-const BuiltinRow *builtinRow(Builtin id) { return kById[static_cast<std::size_t>(id)]; }
+const BuiltinRow *builtinRow(Builtin id) { return kById[static_cast<size_t>(id)]; }
 
-void emitBuiltinArgument(EmitContext &cx, const BuiltinCall &call, std::size_t i) {
+void emitBuiltinArgument(EmitContext &cx, const BuiltinCall &call, size_t i) {
   if (call.names.empty())
     emitValue(cx, call.value(i));
   else
     cx.out << call.names[i];
 }
 
-void emitTextArgument(EmitContext &cx, const BuiltinCall &call, std::size_t i) {
+void emitTextArgument(EmitContext &cx, const BuiltinCall &call, size_t i) {
   if (call.names.empty() && isString(call.value(i)->type))
     emitText(cx, call.value(i));
   else
@@ -292,7 +292,7 @@ void emitTextFunction(EmitContext &cx, const BuiltinCall &call, std::string_view
   cx.out << "::stride::" << name;
   if (isString(result))
     cx.out << '<' << typeAs<StringType>(result)->length << '>';
-  for (std::size_t i = 0; i < call.count(); ++i) {
+  for (size_t i = 0; i < call.count(); ++i) {
     cx.out << (i == 0 ? "(" : ", ");
     emitTextArgument(cx, call, i);
   }

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CALLS_BUILTIN_ROWS_HPP
+#define STRIDE_COMPILER_CODEGEN_CALLS_BUILTIN_ROWS_HPP
 // How each built-in function is written: one row for each.
 
 #include "compiler/codegen/context/context.hpp"
@@ -10,10 +11,10 @@ struct BuiltinCall {
   const ast::CallExpr *expr;
   std::span<const std::string> names; ///< what stands for the arguments; empty: nothing does
 
-  [[nodiscard]] std::size_t count() const { return expr->arguments.size(); }
-  [[nodiscard]] const ast::Expr *value(std::size_t i) const { return expr->arguments[i].value; }
+  [[nodiscard]] size_t count() const { return expr->arguments.size(); }
+  [[nodiscard]] const ast::Expr *value(size_t i) const { return expr->arguments[i].value; }
   /// Its type after the conversion to what the function wants.
-  [[nodiscard]] const Type *type(std::size_t i) const {
+  [[nodiscard]] const Type *type(size_t i) const {
     return value(i)->target != nullptr ? value(i)->target : value(i)->type;
   }
 };
@@ -30,10 +31,12 @@ struct BuiltinRow {
 [[nodiscard]] const BuiltinRow *builtinRow(ast::Builtin id);
 
 /// An argument's value, or what stands for it.
-void emitBuiltinArgument(EmitContext &cx, const BuiltinCall &call, std::size_t i);
+void emitBuiltinArgument(EmitContext &cx, const BuiltinCall &call, size_t i);
 /// The same where the runtime takes texts of any length.
-void emitTextArgument(EmitContext &cx, const BuiltinCall &call, std::size_t i);
+void emitTextArgument(EmitContext &cx, const BuiltinCall &call, size_t i);
 /// The functions on texts: `name<length>(a, b …)`
 void emitTextFunction(EmitContext &cx, const BuiltinCall &call, std::string_view name);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CALLS_BUILTIN_ROWS_HPP

@@ -30,25 +30,25 @@ const Argument *argumentFor(const CallExpr *e, const VarSymbol *parameter) {
 bool isPlace(const Expr *e) {
   const Symbol *symbol = nullptr;
   switch (e->kind) {
-  case ExprKind::index:
-  case ExprKind::deref:
+  case ExprKind::Index:
+  case ExprKind::Deref:
     return true;
-  case ExprKind::name:
+  case ExprKind::Name:
     symbol = as<NameExpr>(e)->symbol;
     break;
-  case ExprKind::member:
+  case ExprKind::Member:
     symbol = as<MemberExpr>(e)->symbol;
     break;
   default:
     return false;
   }
-  return symbol == nullptr || symbol->kind != SymbolKind::enumerator;
+  return symbol == nullptr || symbol->kind != SymbolKind::Enumerator;
 }
 
 /// A VAR_IN_OUT CONSTANT may be bound to a string of another length or to a value: then it gets a
 /// copy.
 bool needsCopy(const Argument &a) {
-  if (a.parameter->section != Section::inOut)
+  if (a.parameter->section != Section::InOut)
     return false;
   return (isString(a.parameter->type) && a.value->type != a.parameter->type) ||
          (a.parameter->isConstant && !isPlace(a.value));
@@ -68,8 +68,8 @@ struct CallNames {
   explicit CallNames(const PouSymbol *pou)
       : parameters(pou->parameters()), names(parameters.size()) {}
   std::string &operator[](const VarSymbol *parameter) {
-    return names[static_cast<std::size_t>(
-        std::find(parameters.begin(), parameters.end(), parameter) - parameters.begin())];
+    return names[static_cast<size_t>(std::find(parameters.begin(), parameters.end(), parameter) -
+                                     parameters.begin())];
   }
 
   std::vector<VarSymbol *> parameters;
@@ -79,11 +79,11 @@ struct CallNames {
 /// What is passed to a function or method.
 void emitArgument(EmitContext &cx, const Argument &a) {
   const VarSymbol *p = a.parameter;
-  if (p->type->kind == TypeKind::openArray)
+  if (p->type->kind == TypeKind::OpenArray)
     emitOpenArray(cx, a.value, typeAs<OpenArrayType>(p->type));
-  else if (p->section == Section::inOut)
+  else if (p->section == Section::InOut)
     emitPlaceAs(cx, a.value, p->type);
-  else if (p->type->kind == TypeKind::reference)
+  else if (p->type->kind == TypeKind::Reference)
     emitAddressAs(cx, a.value, typeAs<PointerType>(p->type)->pointee);
   else
     emitValueAs(cx, a.value, p->type);
@@ -93,13 +93,13 @@ void emitArgument(EmitContext &cx, const Argument &a) {
 /// that has been taken before.
 void emitFunctionArguments(EmitContext &cx, const CallExpr *e,
                            const std::vector<std::string> &names) {
-  if (e->resolved == Callee::method) {
+  if (e->resolved == Callee::Method) {
     openMethodCall(cx, objectOf(e), e->pou, e->callee->span);
   } else {
     cx.includes.called(e->pou);
     cx.out << cx.run.names.qualified(e->pou) << '(' << cx.ctx();
   }
-  std::size_t k = 0;
+  size_t k = 0;
   for (const VarSymbol *p : e->pou->parameters()) {
     cx.out << ", ";
     const Argument *a = argumentFor(e, p);
@@ -134,11 +134,11 @@ CallOrder callOrder(EmitContext &cx, const CallExpr *e) {
     order.arguments = order.arguments || Analysis::orderShows(order.effects, own);
     order.effects |= own;
   }
-  const Expr *object = e->resolved == Callee::method ? objectOf(e) : nullptr;
+  const Expr *object = e->resolved == Callee::Method ? objectOf(e) : nullptr;
   order.object = object != nullptr &&
                  Analysis::orderShows(cx.run.analysis.objectEffects(object, cx.pou), order.effects);
   for (const VarSymbol *p : e->pou->parameters())
-    order.statements = order.statements || p->section == Section::output;
+    order.statements = order.statements || p->section == Section::Output;
   order.statements = order.statements || order.arguments || order.object;
   return order;
 }
@@ -155,14 +155,14 @@ std::string takeArgument(EmitContext &cx, Found &found, const Argument &a, const
     declareTemporary(cx, p->type, name, cx.run.addressed.onDataStack(p));
     emitStoreTo(cx, name, p->type, a.value);
     cx.out << ' ';
-  } else if (order.arguments && argumentEffects(cx, a) != effectNone) {
+  } else if (order.arguments && argumentEffects(cx, a) != kEffectNone) {
     name = cx.temporary("in");
-    if (p->type->kind == TypeKind::openArray)
+    if (p->type->kind == TypeKind::OpenArray)
       cx.out << "const auto " << name;
-    else if (p->section == Section::inOut)
+    else if (p->section == Section::InOut)
       cx.out << cx.type(p->type) << " &" << name;
     else // nothing changes it before the call? Then it is copied only there
-      cx.out << cx.type(p->type) << ((order.effects & effectCalls) != 0 ? " const " : " const &")
+      cx.out << cx.type(p->type) << ((order.effects & kEffectCalls) != 0 ? " const " : " const &")
              << name;
     cx.out << " = ";
     emitArgument(cx, a);
@@ -182,7 +182,7 @@ void takeArguments(EmitContext &cx, Found &found, const CallExpr *e, const CallO
       names[a.parameter] = takeArgument(cx, found, a, order);
   }
   for (const VarSymbol *p : names.parameters) {
-    if (p->section != Section::output)
+    if (p->section != Section::Output)
       continue;
     names[p] = cx.temporary("out");
     declareTemporary(cx, p->type, names[p], cx.run.addressed.onDataStack(p));
@@ -214,11 +214,11 @@ void passToInstance(EmitContext &cx, const Argument &a, const std::string &field
     return;
   }
   cx.out << field << " = ";
-  if (p->type->kind == TypeKind::openArray)
+  if (p->type->kind == TypeKind::OpenArray)
     emitOpenArray(cx, a.value, typeAs<OpenArrayType>(p->type));
   else
     emitAddressAs(cx, a.value,
-                  p->section == Section::inOut ? p->type : typeAs<PointerType>(p->type)->pointee);
+                  p->section == Section::InOut ? p->type : typeAs<PointerType>(p->type)->pointee);
   cx.out << ';';
 }
 
@@ -226,7 +226,7 @@ void passToInstance(EmitContext &cx, const Argument &a, const std::string &field
 class InstanceCall {
 public:
   InstanceCall(EmitContext &cx, const CallExpr *e)
-      : cx_(cx), e_(e), found_(cx), isProgram_(e->resolved == Callee::program) {}
+      : cx_(cx), e_(e), found_(cx), isProgram_(e->resolved == Callee::Program) {}
 
   /// The instance is found, then each argument is evaluated and passed in the order of the call.
   void emit(Span span) {
@@ -252,10 +252,10 @@ private:
     const auto takes = [&](const Argument &a) {
       if (a.value == nullptr || a.parameter == nullptr)
         return false;
-      return a.output ? analysis.targetEffects(a.value, cx_.pou) != effectNone : needsCopy(a);
+      return a.output ? analysis.targetEffects(a.value, cx_.pou) != kEffectNone : needsCopy(a);
     };
-    return (!isProgram_ && (containerOf(e_->callee)->kind == ExprKind::index ||
-                            analysis.placeEffects(e_->callee, cx_.pou) != effectNone)) ||
+    return (!isProgram_ && (containerOf(e_->callee)->kind == ExprKind::Index ||
+                            analysis.placeEffects(e_->callee, cx_.pou) != kEffectNone)) ||
            std::any_of(e_->arguments.begin(), e_->arguments.end(), takes);
   }
 
@@ -312,8 +312,8 @@ private:
 /// The value of an input that the call leaves out.
 void emitDefaultArgument(EmitContext &cx, const VarSymbol *parameter) {
   const Expr *init = cx.run.layouts.initOf(parameter);
-  if (init != nullptr && init->kind != ExprKind::aggregate && init->type != nullptr) {
-    if (parameter->type->kind == TypeKind::reference)
+  if (init != nullptr && init->kind != ExprKind::Aggregate && init->type != nullptr) {
+    if (parameter->type->kind == TypeKind::Reference)
       emitAddress(cx, init);
     else
       emitValueAs(cx, init, parameter->type);
@@ -359,7 +359,7 @@ void emitFunctionCall(EmitContext &cx, const CallExpr *e, bool asStatement) {
 /// `target = source;` from an output of type `sourceType` to the variable after `=>`.
 void emitOutputTo(EmitContext &cx, const Expr *target, std::string_view source,
                   const Type *sourceType, Span span) {
-  const bool reference = sourceType->kind == TypeKind::reference;
+  const bool reference = sourceType->kind == TypeKind::Reference;
   std::string pointee;
   if (reference) { // the value it refers to
     sourceType = typeAs<PointerType>(sourceType)->pointee;

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CALLS_CALLS_HPP
+#define STRIDE_COMPILER_CODEGEN_CALLS_CALLS_HPP
 // Calls of functions, function blocks and programs.
 
 #include "compiler/codegen/context/context.hpp"
@@ -16,3 +17,5 @@ void emitOutputTo(EmitContext &cx, const ast::Expr *target, std::string_view sou
                   const Type *sourceType, Span span);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CALLS_CALLS_HPP

@@ -17,28 +17,28 @@ using namespace ast;
 namespace {
 
 /// Kept whatever INI is asked for: what an in-out is bound to, a place of VAR_CONFIG.
-bool isBinding(const VarSymbol *v) { return v->section == Section::inOut || isSlot(v); }
+bool isBinding(const VarSymbol *v) { return v->section == Section::InOut || isSlot(v); }
 
 bool isRetained(const VarSymbol *v) {
-  return v->decl != nullptr && (v->decl->qualifiers & (qualRetain | qualPersistent)) != 0;
+  return v->decl != nullptr && (v->decl->qualifiers & (kQualRetain | kQualPersistent)) != 0;
 }
 
 /// A value of the type holds a field of which `matches` is true, not counting what unions share.
 template <class Matches> bool holdsField(const Type *type, Matches &&matches) {
   return anyHeld(type, [&](const Type *t, const VarSymbol *v) {
     if (v != nullptr && !isField(v))
-      return Held::over;
+      return Held::Over;
     if (v != nullptr && matches(v))
-      return Held::found;
-    return t->kind == TypeKind::structure && typeAs<StructType>(t)->isUnion ? Held::over
-                                                                            : Held::inside;
+      return Held::Found;
+    return t->kind == TypeKind::Structure && typeAs<StructType>(t)->isUnion ? Held::Over
+                                                                            : Held::Inside;
   });
 }
 
 /// The fields of a structure or block, those of its bases included.
 std::vector<const VarSymbol *> allFields(const Type *type) {
   std::vector<const VarSymbol *> list;
-  if (type->kind == TypeKind::structure) {
+  if (type->kind == TypeKind::Structure) {
     for (const auto *s = typeAs<StructType>(type); s != nullptr && !s->isUnion; s = s->base)
       list.insert(list.end(), s->fields.begin(), s->fields.end());
   } else if (isInstance(type)) {
@@ -65,7 +65,7 @@ void collectHeld(const Type *type, Wanted &&wanted, std::vector<const Type *> &l
 bool isPlain(const Expr *value) {
   if (value == nullptr || value->constant != nullptr)
     return true;
-  if (value->kind != ExprKind::aggregate)
+  if (value->kind != ExprKind::Aggregate)
     return false;
   const auto &items = as<AggregateExpr>(value)->items;
   return std::all_of(items.begin(), items.end(), [](const AggregateItem &item) {
@@ -81,9 +81,9 @@ bool isPlainlyDeclared(const VarSymbol *variable) {
   if (!isPlain(variable->decl->init))
     return false;
   const TypeExpr *type = variable->decl->type;
-  while (type->kind == TypeExprKind::array)
+  while (type->kind == TypeExprKind::Array)
     type = as<ArrayTypeExpr>(type)->element;
-  if (type->kind != TypeExprKind::named)
+  if (type->kind != TypeExprKind::Named)
     return true;
   const auto *named = as<NamedTypeExpr>(type);
   const auto plain = [](const Argument &a) { return isPlain(a.value); };
@@ -105,7 +105,7 @@ std::string fieldPath(const Type *type, const VarSymbol *field) {
 template <class Statement>
 void forEachElement(EmitContext &cx, const std::string &target, const Type *type,
                     Statement &&statement) {
-  if (type->kind != TypeKind::array) {
+  if (type->kind != TypeKind::Array) {
     statement(target);
     return;
   }
@@ -125,10 +125,10 @@ void emitUnbind(EmitContext &cx, const std::string &target, const Type *type) {
     cx.out << "const auto " << function << " = [&](auto &it) { ";
     for (const VarSymbol *v : allFields(t)) {
       const auto inner = functions.find(innermost(v->type));
-      if (v->section != Section::inOut && inner == functions.end())
+      if (v->section != Section::InOut && inner == functions.end())
         continue;
       const std::string field = "it." + fieldPath(t, v);
-      if (v->section == Section::inOut)
+      if (v->section == Section::InOut)
         cx.out << field << " = {}; ";
       else
         forEachElement(cx, field, v->type, [&](const std::string &each) {
@@ -175,7 +175,7 @@ void initLine(EmitContext &cx, const std::string &text) {
 /// Calls the function of `functions` for `it` and `was`, or in loops for their elements.
 void callForBoth(EmitContext &cx, const HeldFunctions &functions, const std::string &it,
                  const std::string &was, const Type *type) {
-  if (type->kind != TypeKind::array) {
+  if (type->kind != TypeKind::Array) {
     initLine(cx, functions.at(type) + '(' + it + ", " + was + ");");
     return;
   }
@@ -242,7 +242,7 @@ void emitReinitialised(EmitContext &cx, const Reinitialised &one, const std::str
 
 /// The blocks that an instance of the type may really be, besides its own.
 std::vector<const PouSymbol *> possibleBlocks(const EmitContext &cx, const Type *type) {
-  if (type->kind != TypeKind::functionBlock || !hasTypeId(typeAs<PouType>(type)->symbol))
+  if (type->kind != TypeKind::FunctionBlock || !hasTypeId(typeAs<PouType>(type)->symbol))
     return {};
   return derivedBlocks(cx.run.program, typeAs<PouType>(type)->symbol);
 }
@@ -250,7 +250,7 @@ std::vector<const PouSymbol *> possibleBlocks(const EmitContext &cx, const Type 
 /// The variable that the expression names, if it is that and nothing that extends it.
 const VarSymbol *exactVariable(const Expr *instance) {
   const Symbol *symbol = symbolAt(instance);
-  return isExact(instance) && symbol != nullptr && symbol->kind == SymbolKind::variable
+  return isExact(instance) && symbol != nullptr && symbol->kind == SymbolKind::Variable
              ? static_cast<const VarSymbol *>(symbol)
              : nullptr;
 }
@@ -289,7 +289,7 @@ std::vector<const PouSymbol *> derivedBlocks(const Program &program, const PouSy
 // copies
 
 bool holdsInOut(const Type *type) {
-  return holdsField(type, [](const VarSymbol *v) { return v->section == Section::inOut; });
+  return holdsField(type, [](const VarSymbol *v) { return v->section == Section::InOut; });
 }
 
 /// A structure, block or array as a value. A copy has the type id of what it is, not of what it was

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CALLS_INSTANCES_HPP
+#define STRIDE_COMPILER_CODEGEN_CALLS_INSTANCES_HPP
 // Instances as a whole: copies of them, and INI, which gives them their initial values once more.
 
 #include "compiler/codegen/context/context.hpp"
@@ -17,3 +18,5 @@ void emitCopy(EmitContext &cx, const ast::Expr *e, const Type *type);
 void emitReinitialise(EmitContext &cx, const ast::CallExpr *e);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CALLS_INSTANCES_HPP

@@ -11,10 +11,10 @@ using namespace ast;
 namespace {
 
 const SelfSymbol *selfOf(const Expr *e) {
-  if (e->kind != ExprKind::name)
+  if (e->kind != ExprKind::Name)
     return nullptr;
   const Symbol *symbol = as<NameExpr>(e)->symbol;
-  return symbol != nullptr && symbol->kind == SymbolKind::self
+  return symbol != nullptr && symbol->kind == SymbolKind::Self
              ? static_cast<const SelfSymbol *>(symbol)
              : nullptr;
 }
@@ -22,7 +22,7 @@ const SelfSymbol *selfOf(const Expr *e) {
 } // namespace
 
 bool isSuper(const Expr *place) {
-  if (place->kind != ExprKind::deref)
+  if (place->kind != ExprKind::Deref)
     return false;
   const SelfSymbol *self = selfOf(as<DerefExpr>(place)->base);
   return self != nullptr && self->isSuper;
@@ -40,18 +40,18 @@ void emitSelf(EmitContext &cx, const SelfSymbol *symbol) {
 bool isExact(const Expr *place) {
   const Symbol *symbol = nullptr;
   switch (place->kind) {
-  case ExprKind::name:
+  case ExprKind::Name:
     symbol = as<NameExpr>(place)->symbol;
     break;
-  case ExprKind::member:
+  case ExprKind::Member:
     symbol = as<MemberExpr>(place)->symbol;
     break;
-  case ExprKind::index:
+  case ExprKind::Index:
     return true;
   default:
     return false;
   }
-  if (symbol == nullptr || symbol->kind != SymbolKind::variable)
+  if (symbol == nullptr || symbol->kind != SymbolKind::Variable)
     return true; // a program; a property's GET gives a copy
   return !isIndirect(static_cast<const VarSymbol *>(symbol));
 }
@@ -134,7 +134,7 @@ void openMethodCall(EmitContext &cx, const Expr *object, const PouSymbol *method
 }
 
 const Expr *objectOf(const CallExpr *e) {
-  return e->callee->kind == ExprKind::member ? as<MemberExpr>(e->callee)->base : nullptr;
+  return e->callee->kind == ExprKind::Member ? as<MemberExpr>(e->callee)->base : nullptr;
 }
 
 /// Reading a property: `instance` is null inside of the block.
@@ -145,9 +145,9 @@ void emitPropertyGet(EmitContext &cx, const Expr *instance, const PropertySymbol
     openMethodCall(cx, instance, get, span);
     cx.out << ')';
   };
-  if (property->type->kind == TypeKind::reference) {
+  if (property->type->kind == TypeKind::Reference) {
     cx.includes.complete(typeAs<PointerType>(property->type)->pointee);
-    emitFollowed(cx, Slot::reference, span, call);
+    emitFollowed(cx, Slot::Reference, span, call);
   } else if (returnsBlock(get, property->type)) {
     emitBlockResult(cx, property->type, call);
   } else {
@@ -159,7 +159,7 @@ void emitPropertyGet(EmitContext &cx, const Expr *instance, const PropertySymbol
 const PouSymbol *accessorOf(const PropertySymbol *property, bool get) {
   for (const PouSymbol *p = property->owner; p != nullptr; p = p->base) {
     const auto it = p->members.find(property->name.id);
-    if (it == p->members.end() || it->second->kind != SymbolKind::property)
+    if (it == p->members.end() || it->second->kind != SymbolKind::Property)
       continue;
     const auto *own = static_cast<const PropertySymbol *>(it->second);
     if (const PouSymbol *found = get ? own->get : own->set)
@@ -171,7 +171,7 @@ const PouSymbol *accessorOf(const PropertySymbol *property, bool get) {
 /// `instance.Speed__set(ctx__, value);` with the value as `value` writes it.
 void emitPropertySet(EmitContext &cx, const Expr *target, Part value) {
   const PropertySymbol *property = writtenProperty(target);
-  const Expr *instance = target->kind == ExprKind::member ? as<MemberExpr>(target)->base : nullptr;
+  const Expr *instance = target->kind == ExprKind::Member ? as<MemberExpr>(target)->base : nullptr;
   openMethodCall(cx, instance, accessorOf(property, false), target->span);
   cx.out << ", ";
   value();
@@ -186,7 +186,7 @@ void emitQuery(EmitContext &cx, const CallExpr *e) {
   const Expr *target = e->arguments[1].value;
   const std::string from = cx.temporary("from");
   const std::string has = cx.temporary("has");
-  const bool toPointer = e->builtin == Builtin::queryPointer;
+  const bool toPointer = e->builtin == Builtin::QueryPointer;
   const Type *wanted = toPointer ? typeAs<PointerType>(target->type)->pointee : target->type;
   const PouSymbol *pou = typeAs<PouType>(wanted)->symbol;
   cx.includes.symbol(pou);

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CALLS_METHODS_HPP
+#define STRIDE_COMPILER_CODEGEN_CALLS_METHODS_HPP
 // Methods, properties, THIS and SUPER; instances as values and behind interfaces.
 
 #include "compiler/codegen/context/context.hpp"
@@ -35,3 +36,5 @@ void emitPropertySet(EmitContext &cx, const ast::Expr *target, Part value);
 void emitQuery(EmitContext &cx, const ast::CallExpr *e);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CALLS_METHODS_HPP

@@ -43,7 +43,7 @@ void emitExits(EmitContext &cx, const std::string &pointer, const Type *real,
 /// What was created may be a block that extends the one pointed to: those with an FB_Exit.
 std::vector<const PouSymbol *> derivedWithExit(EmitContext &cx, const Type *pointee) {
   std::vector<const PouSymbol *> derived;
-  if (pointee->kind != TypeKind::functionBlock || !hasTypeId(typeAs<PouType>(pointee)->symbol))
+  if (pointee->kind != TypeKind::FunctionBlock || !hasTypeId(typeAs<PouType>(pointee)->symbol))
     return derived;
   for (const PouSymbol *p : derivedBlocks(cx.run.program, typeAs<PouType>(pointee)->symbol)) {
     if (cx.run.layouts.hasLifecycle(p->type, "fb_exit"))

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CALLS_POOL_OBJECTS_HPP
+#define STRIDE_COMPILER_CODEGEN_CALLS_POOL_OBJECTS_HPP
 // Objects in the pool: __NEW and __DELETE.
 
 #include "compiler/codegen/context/context.hpp"
@@ -11,3 +12,5 @@ void emitNew(EmitContext &cx, const ast::CallExpr *e);
 void emitDelete(EmitContext &cx, const ast::CallExpr *e);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CALLS_POOL_OBJECTS_HPP

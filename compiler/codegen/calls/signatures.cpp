@@ -17,12 +17,12 @@ std::string openSignature(Context &context, const PouSymbol *pou, std::string_vi
 
 /// `, [[maybe_unused]] T &name`
 std::string parameter(Context &context, const VarSymbol *p, const Uses *definition) {
-  const bool byReference = p->section != Section::input && p->type->kind != TypeKind::openArray;
+  const bool byReference = p->section != Section::Input && p->type->kind != TypeKind::OpenArray;
   std::string type(context.names.type(p->type));
   if (byReference)
     type = declared(type, "&");
   return (definition != nullptr && !definition->has(p) ? ", [[maybe_unused]] " : ", ") +
-         declared(type, definition != nullptr && p->section == Section::input
+         declared(type, definition != nullptr && p->section == Section::Input
                             ? inputName(context, p)
                             : mangle(p->name.text));
 }
@@ -35,7 +35,7 @@ std::string functionSignature(Context &context, Includes &includes, const PouSym
     includes.complete(function->result->type);
   std::string out = openSignature(context, function, context.names.local(function), definition);
   for (const VarSymbol *p : function->parameters()) {
-    if (p->section != Section::input && p->type->kind != TypeKind::openArray)
+    if (p->section != Section::Input && p->type->kind != TypeKind::OpenArray)
       includes.pointed(p->type);
     else
       includes.complete(p->type);

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CALLS_SIGNATURES_HPP
+#define STRIDE_COMPILER_CODEGEN_CALLS_SIGNATURES_HPP
 // How functions and methods are declared.
 
 #include "compiler/codegen/context/context.hpp"
@@ -18,3 +19,5 @@ namespace stc::codegen {
 [[nodiscard]] std::string inputName(Context &context, const VarSymbol *input);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CALLS_SIGNATURES_HPP

@@ -21,7 +21,7 @@ void EmitContext::begin(Span span) {
 }
 
 void EmitContext::next(Span span) {
-  const std::uint32_t line = span.valid() ? out.place(span).line : line_;
+  const uint32_t line = span.valid() ? out.place(span).line : line_;
   if (line == line_) {
     out << ' ';
     return;
@@ -32,7 +32,7 @@ void EmitContext::next(Span span) {
 
 std::string Uses::fileName(FileId file) {
   const auto at = std::find(files.begin(), files.end(), file);
-  const auto index = static_cast<std::size_t>(at - files.begin());
+  const auto index = static_cast<size_t>(at - files.begin());
   if (at == files.end())
     files.push_back(file);
   return fileConstant(index);
@@ -64,7 +64,7 @@ std::string_view EmitContext::root(const Root &root) {
 
 std::string_view EmitContext::area(Area area) {
   static constexpr std::string_view kNames[] = {"image__i", "image__q", "image__m"};
-  const auto index = static_cast<std::size_t>(area);
+  const auto index = static_cast<size_t>(area);
   uses.areas |= 1U << index;
   uses.context = true;
   return kNames[index];

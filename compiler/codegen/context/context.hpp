@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CONTEXT_CONTEXT_HPP
+#define STRIDE_COMPILER_CODEGEN_CONTEXT_CONTEXT_HPP
 // What emission holds while it writes the C++ of one file, and the few operations that all of it
 // needs. What writes statements, expressions, initial values … are functions by topic.
 
@@ -59,7 +60,7 @@ struct Uses {
   }
   /// `file__`, the constant with the name of a source file.
   std::string fileName(FileId file);
-  static std::string fileConstant(std::size_t index) {
+  static std::string fileConstant(size_t index) {
     return index == 0 ? "file__" : "file__" + std::to_string(index + 1);
   }
 
@@ -90,7 +91,7 @@ struct Loops {
 struct Try {
   unsigned id;
   const ast::TryStmt *stmt;
-  std::size_t loops;                     ///< how many loops are around it
+  size_t loops;                          ///< how many loops are around it
   std::vector<const ast::Stmt *> leaves; ///< RETURN, EXIT, JMP … that lead out of it
 };
 
@@ -181,7 +182,7 @@ struct EmitContext {
   template <class Write> void inlined(Write &&write) {
     const Scoped<Modes> plain(modes, {});
     const Scoped<unsigned> names(counter_, counter_ + kInlinedNames);
-    const Scoped<std::uint32_t> here(line_, line_);
+    const Scoped<uint32_t> here(line_, line_);
     const Writer::Gathered oneLine(out);
     write();
   }
@@ -193,7 +194,9 @@ private:
   bool noCheck_ = false; ///< {attribute 'no_check'}
   bool isCheck_ = false;
   unsigned counter_ = 0;
-  std::uint32_t line_ = 0; ///< of the ST, for next()
+  uint32_t line_ = 0; ///< of the ST, for next()
 };
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CONTEXT_CONTEXT_HPP

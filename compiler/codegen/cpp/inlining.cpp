@@ -27,15 +27,15 @@ private:
   void statement(const Stmt *s) {
     --left_;
     switch (s->kind) {
-    case StmtKind::empty:
-    case StmtKind::returnS:
-    case StmtKind::assign:
-    case StmtKind::call:
-    case StmtKind::ifS:
+    case StmtKind::Empty:
+    case StmtKind::Return:
+    case StmtKind::Assign:
+    case StmtKind::Call:
+    case StmtKind::If:
       forEachChild(
           s, [this](Expr *e) { expression(e); }, [this](Block inner) { block(inner); });
       return;
-    case StmtKind::caseS: // a label counts once, whatever its value looks like
+    case StmtKind::Case: // a label counts once, whatever its value looks like
       expression(as<CaseStmt>(s)->selector);
       for (const CaseBranch &b : as<CaseStmt>(s)->branches) {
         left_ -= static_cast<int>(b.labels.size());
@@ -52,7 +52,7 @@ private:
   void expression(Expr *expr) {
     walk(expr, [this](const Expr *e) {
       if (fits())
-        left_ -= e->kind == ExprKind::call ? 6 : 1;
+        left_ -= e->kind == ExprKind::Call ? 6 : 1;
       return fits();
     });
   }
@@ -64,7 +64,7 @@ private:
 
 bool isInlinable(const PouSymbol *pou) {
   const DeclKind kind = pou->decl->kind;
-  if ((kind != DeclKind::function && kind != DeclKind::functionBlock) || pou->decl->external)
+  if ((kind != DeclKind::Function && kind != DeclKind::FunctionBlock) || pou->decl->external)
     return false;
   Size size;
   size.block(pou->decl->body);

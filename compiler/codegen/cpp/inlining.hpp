@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CPP_INLINING_HPP
+#define STRIDE_COMPILER_CODEGEN_CPP_INLINING_HPP
 // Small functions and blocks are given to their callers as a second header, so that the C++
 // compiler can inline them across translation units.
 
@@ -11,3 +12,5 @@ namespace stc::codegen {
 [[nodiscard]] bool isInlinable(const PouSymbol *pou);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CPP_INLINING_HPP

@@ -15,7 +15,7 @@ Hash &Hash::add(std::string_view text) {
   return *this;
 }
 
-Hash &Hash::add(std::uint64_t value) {
+Hash &Hash::add(uint64_t value) {
   for (int i = 0; i < 8; ++i) {
     hash_.add(static_cast<unsigned char>(value & 0xFFU));
     value >>= 8U;
@@ -33,7 +33,7 @@ std::vector<const VarSymbol *> initialisedFields(const StructType *type) {
   return {type->fields.front()};
 }
 
-std::int64_t subrangeDefault(const SubrangeType *type) {
+int64_t subrangeDefault(const SubrangeType *type) {
   return type->low > 0 ? type->low : type->high < 0 ? type->high : 0;
 }
 
@@ -42,11 +42,11 @@ bool isZero(const Expr *init) {
   if (c == nullptr)
     return false;
   switch (c->kind) {
-  case ConstKind::integer:
+  case ConstKind::Integer:
     return c->integer == 0;
-  case ConstKind::real:
+  case ConstKind::Real:
     return c->real == 0 && !std::signbit(c->real);
-  case ConstKind::string:
+  case ConstKind::String:
     return c->text.empty();
   }
   return false;
@@ -55,7 +55,7 @@ bool isZero(const Expr *init) {
 Layouts::Layouts(const Program &program, const Library *own) : own_(own) {
   for (const auto &library : program.libraries) {
     for (const TypeSymbol *t : library->types) {
-      if (t->decl == nullptr || t->decl->kind != DeclKind::alias)
+      if (t->decl == nullptr || t->decl->kind != DeclKind::Alias)
         continue;
       aliases_[t->name.id].push_back(t);
       anyDefault_ = anyDefault_ || (t->init != nullptr && t->init->type != nullptr);
@@ -68,7 +68,7 @@ Written Layouts::written(const VarSymbol *variable) {
 }
 
 const TypeSymbol *Layouts::alias(const Written &written, const Type *type) const {
-  if (!anyDefault_ || written.expr == nullptr || written.expr->kind != TypeExprKind::named)
+  if (!anyDefault_ || written.expr == nullptr || written.expr->kind != TypeExprKind::Named)
     return nullptr;
   const auto found = aliases_.find(as<NamedTypeExpr>(written.expr)->path.back().id);
   if (found == aliases_.end())
@@ -96,7 +96,7 @@ Written Layouts::elementOf(const Written &written, const Type *type) const {
   Written at = written;
   while (const TypeSymbol *symbol = alias(at, type))
     at = {as<AliasDecl>(symbol->decl)->type, 0, symbol->library};
-  if (at.expr == nullptr || at.expr->kind != TypeExprKind::array)
+  if (at.expr == nullptr || at.expr->kind != TypeExprKind::Array)
     return {};
   const auto *array = as<ArrayTypeExpr>(at.expr);
   if (at.dimension + 1 < array->ranges.size())
@@ -106,7 +106,7 @@ Written Layouts::elementOf(const Written &written, const Type *type) const {
 
 bool Layouts::elementsHaveDefaults(const Written &written, const Type *type) const {
   Written at = written;
-  while (anyDefault_ && type->kind == TypeKind::array) {
+  while (anyDefault_ && type->kind == TypeKind::Array) {
     at = elementOf(at, type);
     type = typeAs<ArrayType>(type)->element;
     if (aliasDefault(at, type) != nullptr)
@@ -120,12 +120,12 @@ const Expr *Layouts::initOf(const VarSymbol *variable) {
     return nullptr;
   if (variable->decl->init != nullptr)
     return variable->decl->init;
-  return variable->section == Section::inOut ? nullptr
+  return variable->section == Section::InOut ? nullptr
                                              : aliasDefault(written(variable), variable->type);
 }
 
 bool Layouts::needsInit(const VarSymbol *variable) {
-  if (variable->section == Section::inOut)
+  if (variable->section == Section::InOut)
     return false;
   const Expr *init = initOf(variable);
   if (variable->location != nullptr && init != nullptr)
@@ -146,15 +146,15 @@ bool Layouts::needsInit(const Type *type) {
 
 bool Layouts::computeNeedsInit(const Type *type) {
   switch (type->kind) {
-  case TypeKind::enumeration: {
+  case TypeKind::Enumeration: {
     const EnumeratorSymbol *initial = typeAs<EnumType>(type)->initial;
     return initial != nullptr && initial->value != 0;
   }
-  case TypeKind::subrange:
+  case TypeKind::Subrange:
     return subrangeDefault(typeAs<SubrangeType>(type)) != 0;
-  case TypeKind::array:
+  case TypeKind::Array:
     return needsInit(typeAs<ArrayType>(type)->element);
-  case TypeKind::structure: {
+  case TypeKind::Structure: {
     const auto *s = typeAs<StructType>(type);
     if (s->symbol->library != own_)
       return true;
@@ -166,8 +166,8 @@ bool Layouts::computeNeedsInit(const Type *type) {
     }
     return false;
   }
-  case TypeKind::functionBlock:
-  case TypeKind::program: {
+  case TypeKind::FunctionBlock:
+  case TypeKind::Program: {
     const PouSymbol *pou = typeAs<PouType>(type)->symbol;
     return computeNeedsInit(pou);
   }
@@ -191,23 +191,23 @@ bool Layouts::computeNeedsInit(const PouSymbol *pou) {
 
 bool Layouts::hasLifecycle(const Type *type, std::string_view lowerName) {
   return anyHeld(type, [&](const Type *t, const VarSymbol *v) {
-    if (v != nullptr && (v->section == Section::inOut || !isField(v)))
-      return Held::over;
+    if (v != nullptr && (v->section == Section::InOut || !isField(v)))
+      return Held::Over;
     if (!isInstance(t) || !typeAs<PouType>(t)->symbol->isBlock())
-      return Held::inside;
+      return Held::Inside;
     const auto &methods = typeAs<PouType>(t)->symbol->methods;
     const bool has = std::any_of(methods.begin(), methods.end(), [&](const PouSymbol *m) {
       return m->property == nullptr && m->name.id->lower == lowerName;
     });
-    return has ? Held::found : Held::inside;
+    return has ? Held::Found : Held::Inside;
   });
 }
 
-std::uint64_t Layouts::hash(const Type *type) {
+uint64_t Layouts::hash(const Type *type) {
   const auto found = hashes_.find(type);
   if (found != hashes_.end())
     return found->second;
-  const std::uint64_t result = computeHash(type);
+  const uint64_t result = computeHash(type);
   hashes_.emplace(type, result);
   return result;
 }
@@ -221,7 +221,7 @@ void Layouts::addMember(Hash &hash, const VarSymbol *v) {
   }
   if (v->isBit)
     hash.add("bit");
-  if (v->section == Section::inOut) {
+  if (v->section == Section::InOut) {
     hash.add("in-out").add(typeName(v->type));
     return;
   }
@@ -231,7 +231,7 @@ void Layouts::addMember(Hash &hash, const VarSymbol *v) {
 void Layouts::addStructure(Hash &hash, const StructType *type) {
   hash.add(typeName(type));
   if (type->pack != 0)
-    hash.add("pack").add(std::uint64_t{type->pack});
+    hash.add("pack").add(uint64_t{type->pack});
   if (type->isUnion)
     hash.add("union");
   if (type->base != nullptr)
@@ -248,45 +248,43 @@ void Layouts::addInstance(Hash &hash, const PouType *type) {
   if (carriesTypeId(pou))
     hash.add("type id");
   if (type->pack != 0)
-    hash.add("pack").add(std::uint64_t{type->pack});
+    hash.add("pack").add(uint64_t{type->pack});
   for (const VarSymbol *v : pou->variables) {
     if (isField(v))
       addMember(hash, v);
   }
 }
 
-std::uint64_t Layouts::computeHash(const Type *type) {
+uint64_t Layouts::computeHash(const Type *type) {
   Hash h;
-  h.add(static_cast<std::uint64_t>(type->kind));
+  h.add(static_cast<uint64_t>(type->kind));
   switch (type->kind) {
-  case TypeKind::string:
-  case TypeKind::wstring:
-    h.add(std::uint64_t{typeAs<StringType>(type)->length});
+  case TypeKind::String:
+  case TypeKind::Wstring:
+    h.add(uint64_t{typeAs<StringType>(type)->length});
     break;
-  case TypeKind::enumeration:
+  case TypeKind::Enumeration:
     h.add(typeName(type)).add(hash(typeAs<EnumType>(type)->base));
     break;
-  case TypeKind::subrange:
+  case TypeKind::Subrange:
     return hash(typeAs<SubrangeType>(type)->base);
-  case TypeKind::array: {
+  case TypeKind::Array: {
     const auto *a = typeAs<ArrayType>(type);
-    h.add(static_cast<std::uint64_t>(a->low))
-        .add(static_cast<std::uint64_t>(a->high))
-        .add(hash(a->element));
+    h.add(static_cast<uint64_t>(a->low)).add(static_cast<uint64_t>(a->high)).add(hash(a->element));
     break;
   }
-  case TypeKind::interface:
+  case TypeKind::Interface:
     h.add(typeName(type));
     break;
-  case TypeKind::pointer:
-  case TypeKind::reference: // by name only: types may point to themselves
+  case TypeKind::Pointer:
+  case TypeKind::Reference: // by name only: types may point to themselves
     h.add(typeName(typeAs<PointerType>(type)->pointee));
     break;
-  case TypeKind::structure:
+  case TypeKind::Structure:
     addStructure(h, typeAs<StructType>(type));
     break;
-  case TypeKind::functionBlock:
-  case TypeKind::program:
+  case TypeKind::FunctionBlock:
+  case TypeKind::Program:
     addInstance(h, typeAs<PouType>(type));
     break;
   default:
@@ -296,15 +294,15 @@ std::uint64_t Layouts::computeHash(const Type *type) {
 }
 
 bool Layouts::hasBindings(const Type *type) {
-  while (type->kind == TypeKind::array)
+  while (type->kind == TypeKind::Array)
     type = typeAs<ArrayType>(type)->element;
-  if (type->kind != TypeKind::structure && !isInstance(type))
+  if (type->kind != TypeKind::Structure && !isInstance(type))
     return false;
   const auto [it, fresh] = hasBindings_.try_emplace(type, false);
   if (!fresh)
     return it->second;
   bool result = false;
-  if (type->kind == TypeKind::structure) {
+  if (type->kind == TypeKind::Structure) {
     const auto *s = typeAs<StructType>(type);
     result = s->base != nullptr && hasBindings(s->base);
     for (const VarSymbol *v : s->fields)
@@ -314,7 +312,7 @@ bool Layouts::hasBindings(const Type *type) {
     result = hasTypeId(pou) || (pou->base != nullptr && hasBindings(pou->base->type));
     for (const VarSymbol *v : pou->variables)
       result = result ||
-               (isField(v) && (v->section == Section::inOut || isSlot(v) || hasBindings(v->type)));
+               (isField(v) && (v->section == Section::InOut || isSlot(v) || hasBindings(v->type)));
   }
   hasBindings_[type] = result;
   return result;
@@ -322,15 +320,15 @@ bool Layouts::hasBindings(const Type *type) {
 
 bool Layouts::hasAddress(const Type *type) {
   switch (type->kind) {
-  case TypeKind::pointer:
-  case TypeKind::reference:
-  case TypeKind::interface:
+  case TypeKind::Pointer:
+  case TypeKind::Reference:
+  case TypeKind::Interface:
     return true;
-  case TypeKind::array:
+  case TypeKind::Array:
     return hasAddress(typeAs<ArrayType>(type)->element);
-  case TypeKind::structure:
-  case TypeKind::functionBlock:
-  case TypeKind::program:
+  case TypeKind::Structure:
+  case TypeKind::FunctionBlock:
+  case TypeKind::Program:
     break;
   default:
     return false;
@@ -339,7 +337,7 @@ bool Layouts::hasAddress(const Type *type) {
   if (found != hasAddress_.end())
     return found->second;
   bool result = false;
-  if (type->kind == TypeKind::structure) {
+  if (type->kind == TypeKind::Structure) {
     const auto *s = typeAs<StructType>(type);
     result = s->base != nullptr && hasAddress(s->base);
     for (const VarSymbol *v : s->fields)
@@ -348,7 +346,7 @@ bool Layouts::hasAddress(const Type *type) {
     const PouSymbol *pou = typeAs<PouType>(type)->symbol;
     result = pou->base != nullptr && hasAddress(pou->base->type);
     for (const VarSymbol *v : pou->variables)
-      result = result || (isField(v) && (v->section == Section::inOut || hasAddress(v->type)));
+      result = result || (isField(v) && (v->section == Section::InOut || hasAddress(v->type)));
   }
   hasAddress_.emplace(type, result);
   return result;

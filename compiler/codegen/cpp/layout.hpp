@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CPP_LAYOUT_HPP
+#define STRIDE_COMPILER_CODEGEN_CPP_LAYOUT_HPP
 // What the types of a program look like in memory: their fields, defaults, address slots and
 // hashes.
 
@@ -16,21 +17,21 @@ namespace stc::codegen {
 class Hash {
 public:
   Hash &add(std::string_view text);
-  Hash &add(std::uint64_t value);
-  [[nodiscard]] std::uint64_t value() const { return hash_.value(); }
+  Hash &add(uint64_t value);
+  [[nodiscard]] uint64_t value() const { return hash_.value(); }
 
 private:
-  stride::common::Fnv1a<std::uint64_t> hash_;
+  stride::common::Fnv1a<uint64_t> hash_;
 };
 
 /// Held as a pointer: VAR_IN_OUT of an instance, REFERENCE TO.
 [[nodiscard]] inline bool isIndirect(const VarSymbol *v) {
-  return v->section == ast::Section::inOut || v->type->kind == TypeKind::reference;
+  return v->section == ast::Section::InOut || v->type->kind == TypeKind::Reference;
 }
 
 /// The type of the elements of an array (of arrays …); every other type itself.
 [[nodiscard]] inline const Type *innermost(const Type *type) {
-  while (type->kind == TypeKind::array)
+  while (type->kind == TypeKind::Array)
     type = typeAs<ArrayType>(type)->element;
   return type;
 }
@@ -38,7 +39,7 @@ private:
 /// A type as a declaration spells it, followed into arrays: where aliases with defaults are seen.
 struct Written {
   const ast::TypeExpr *expr = nullptr;
-  std::size_t dimension = 0; ///< of an array type with several ranges
+  size_t dimension = 0; ///< of an array type with several ranges
   const Library *library = nullptr;
 };
 
@@ -64,7 +65,7 @@ public:
   [[nodiscard]] Written elementOf(const Written &written, const Type *type) const;
 
   /// Equal for equal layouts in all builds.
-  [[nodiscard]] std::uint64_t hash(const Type *type);
+  [[nodiscard]] uint64_t hash(const Type *type);
   /// It or something inside it is an address slot.
   [[nodiscard]] bool hasAddress(const Type *type);
   /// An instance of the type, or one inside of it, has a method that is called at the end of its
@@ -76,7 +77,7 @@ public:
 
 private:
   bool computeNeedsInit(const Type *type);
-  std::uint64_t computeHash(const Type *type);
+  uint64_t computeHash(const Type *type);
   void addMember(Hash &hash, const VarSymbol *v);
   void addStructure(Hash &hash, const StructType *type);
   void addInstance(Hash &hash, const PouType *type);
@@ -87,7 +88,7 @@ private:
   std::unordered_map<Ident, std::vector<const TypeSymbol *>> aliases_;
   bool anyDefault_ = false;
   std::unordered_map<const Type *, bool> needsInit_;
-  std::unordered_map<const Type *, std::uint64_t> hashes_;
+  std::unordered_map<const Type *, uint64_t> hashes_;
   std::unordered_map<const Type *, bool> hasAddress_;
   std::unordered_map<const Type *, bool> hasBindings_;
 };
@@ -95,8 +96,10 @@ private:
 /// The fields that get initial values: of a UNION the one that declares a value, else the first.
 [[nodiscard]] std::vector<const VarSymbol *> initialisedFields(const StructType *type);
 /// The value nearest to 0 that a subrange holds.
-[[nodiscard]] std::int64_t subrangeDefault(const SubrangeType *type);
+[[nodiscard]] int64_t subrangeDefault(const SubrangeType *type);
 /// A literal or folded constant whose memory is all zero.
 [[nodiscard]] bool isZero(const ast::Expr *init);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CPP_LAYOUT_HPP

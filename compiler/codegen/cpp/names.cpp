@@ -37,10 +37,10 @@ constexpr std::string_view kReserved =
 
 /// The reserved words, found by first character and length before anything is compared.
 struct ReservedWords {
-  std::array<std::uint32_t, 128> lengths{};
+  std::array<uint32_t, 128> lengths{};
   std::unordered_set<std::string_view> words;
   ReservedWords() {
-    for (std::size_t at = 0; at < kReserved.size();) {
+    for (size_t at = 0; at < kReserved.size();) {
       const std::string_view word = kReserved.substr(at, kReserved.find(' ', at) - at);
       words.insert(word);
       lengths[static_cast<unsigned char>(word.front())] |= 1U << word.size();
@@ -70,15 +70,15 @@ std::string identifier(std::string_view text) {
 
 /// A file's name of at most so many bytes, what the build appends to it (`.inline.h`, a number,
 /// `.tmp`) left out: file systems know names of up to 255 bytes.
-constexpr std::size_t kMaxFileName = 160;
+constexpr size_t kMaxFileName = 160;
 
 /// A name for a file: the beginning of one that is too long, and the hash of the whole.
 std::string shortened(const std::string &name) {
   if (name.size() <= kMaxFileName)
     return name;
-  std::uint64_t hash = stride::common::Fnv1a<std::uint64_t>().add(name).value();
+  uint64_t hash = stride::common::Fnv1a<uint64_t>().add(name).value();
   std::string digits(16, '0');
-  for (std::size_t i = digits.size(); i-- > 0; hash >>= 4U)
+  for (size_t i = digits.size(); i-- > 0; hash >>= 4U)
     digits[i] = "0123456789abcdef"[hash & 15U];
   return name.substr(0, kMaxFileName - digits.size() - 2) + "__" + digits;
 }
@@ -154,9 +154,9 @@ std::string pathToTypeId(const PouSymbol *block) {
   return pathToBase(block, at) + "type__";
 }
 
-std::uint32_t Names::typeId(const PouSymbol *block) {
+uint32_t Names::typeId(const PouSymbol *block) {
   if (typeIds_.empty()) {
-    std::unordered_set<std::uint32_t> taken{0};
+    std::unordered_set<uint32_t> taken{0};
     for (const bool user : {false, true}) { // what a library is called does not depend on its user
       for (const auto &library : program_.libraries) {
         if (library->isUser != user)
@@ -164,12 +164,12 @@ std::uint32_t Names::typeId(const PouSymbol *block) {
         for (const PouSymbol *p : library->pous) {
           if (!p->isBlock())
             continue;
-          std::uint32_t id = stride::common::Fnv1a<std::uint32_t>()
-                                 .add(library->name)
-                                 .add(0xFF)
-                                 .add(p->name.id->lower)
-                                 .add(0xFF)
-                                 .value();
+          uint32_t id = stride::common::Fnv1a<uint32_t>()
+                            .add(library->name)
+                            .add(0xFF)
+                            .add(p->name.id->lower)
+                            .add(0xFF)
+                            .value();
           while (!taken.insert(id).second)
             ++id;
           typeIds_.emplace(p, id);
@@ -200,7 +200,7 @@ const Names::Entry &Names::entry(const Symbol *symbol) {
   Entry &entry = it->second;
   if (!fresh)
     return entry;
-  if (symbol->kind == SymbolKind::pou && static_cast<const PouSymbol *>(symbol)->isMethod()) {
+  if (symbol->kind == SymbolKind::Pou && static_cast<const PouSymbol *>(symbol)->isMethod()) {
     const auto *method = static_cast<const PouSymbol *>(symbol);
     const Entry &owner = this->entry(method->owner);
     entry.local = owner.local + "__" + methodName(method);
@@ -210,12 +210,12 @@ const Names::Entry &Names::entry(const Symbol *symbol) {
     return entry;
   }
   std::string file(symbol->name.text);
-  if (symbol->kind == SymbolKind::globals)
+  if (symbol->kind == SymbolKind::Globals)
     file = identifier(file);
   const bool synthesized =
-      symbol->kind == SymbolKind::type && static_cast<const TypeSymbol *>(symbol)->decl == nullptr;
+      symbol->kind == SymbolKind::Type && static_cast<const TypeSymbol *>(symbol)->decl == nullptr;
   entry.local = synthesized ? file : mangle(file);
-  if (symbol->space != nullptr && symbol->kind != SymbolKind::globals) {
+  if (symbol->space != nullptr && symbol->kind != SymbolKind::Globals) {
     std::string prefix; // A__B__
     for (const char c : symbol->space->path)
       prefix += c == '.' ? std::string("__") : std::string(1, c);
@@ -223,7 +223,7 @@ const Names::Entry &Names::entry(const Symbol *symbol) {
     file.insert(0, prefix);
     entry.local.insert(0, prefix);
   }
-  if (symbol->kind == SymbolKind::globals) {
+  if (symbol->kind == SymbolKind::Globals) {
     // A list is named after its file, and files may have any name.
     for (char &c : file)
       if (!((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9')))
@@ -253,12 +253,12 @@ std::string_view Names::header(const Symbol *symbol) { return entry(symbol).head
 
 const Symbol *Names::symbolOf(const Type *type) {
   switch (type->kind) {
-  case TypeKind::enumeration:
+  case TypeKind::Enumeration:
     return typeAs<EnumType>(type)->symbol;
-  case TypeKind::structure:
+  case TypeKind::Structure:
     return typeAs<StructType>(type)->symbol;
-  case TypeKind::functionBlock:
-  case TypeKind::program:
+  case TypeKind::FunctionBlock:
+  case TypeKind::Program:
     return typeAs<PouType>(type)->symbol;
   default:
     return nullptr;
@@ -271,13 +271,12 @@ std::string_view Names::elementary(TypeKind kind) {
       "ULINT", "BYTE", "WORD", "DWORD", "LWORD", "REAL",   "LREAL",   "TIME",  "LTIME", "DATE",
       "LDATE", "TOD",  "LTOD", "DT",    "LDT",   "STRING", "WSTRING", "CHAR",  "WCHAR",
   };
-  static_assert(std::size(kNames) == static_cast<std::size_t>(TypeKind::wcharT) + 1);
-  if (kind == TypeKind::anyInteger)
+  static_assert(std::size(kNames) == static_cast<size_t>(TypeKind::Wchar) + 1);
+  if (kind == TypeKind::AnyInteger)
     return "DINT";
-  if (kind == TypeKind::anyReal)
+  if (kind == TypeKind::AnyReal)
     return "LREAL";
-  return kind <= TypeKind::wcharT ? kNames[static_cast<std::size_t>(kind)]
-                                  : std::string_view("None");
+  return kind <= TypeKind::Wchar ? kNames[static_cast<size_t>(kind)] : std::string_view("None");
 }
 
 std::string Names::source(const Symbol *symbol) { return entry(symbol).file + ".cpp"; }
@@ -292,34 +291,34 @@ std::string_view Names::type(const Type *type) {
     return found->second;
   std::string text;
   switch (type->kind) {
-  case TypeKind::none:
+  case TypeKind::None:
     text = "void";
     break;
-  case TypeKind::interface:
+  case TypeKind::Interface:
     text = "::stride::Interface";
     break;
-  case TypeKind::string:
-  case TypeKind::wstring:
-    text = type->kind == TypeKind::string ? "::stride::STRING<" : "::stride::WSTRING<";
+  case TypeKind::String:
+  case TypeKind::Wstring:
+    text = type->kind == TypeKind::String ? "::stride::STRING<" : "::stride::WSTRING<";
     text += std::to_string(typeAs<StringType>(type)->length) + ">";
     break;
-  case TypeKind::subrange:
+  case TypeKind::Subrange:
     text = this->type(typeAs<SubrangeType>(type)->base);
     break;
-  case TypeKind::array: {
+  case TypeKind::Array: {
     const auto *array = typeAs<ArrayType>(type);
     text = "::stride::Array<" + std::string(this->type(array->element)) + ", " +
            std::to_string(array->low) + ", " + std::to_string(array->high) + ">";
     break;
   }
-  case TypeKind::openArray: {
+  case TypeKind::OpenArray: {
     const auto *array = typeAs<OpenArrayType>(type);
     text = "::stride::OpenArray<" + std::string(this->type(array->element)) + ", " +
            std::to_string(array->dimensions) + ">";
     break;
   }
-  case TypeKind::pointer:
-  case TypeKind::reference:
+  case TypeKind::Pointer:
+  case TypeKind::Reference:
     text = std::string(this->type(typeAs<PointerType>(type)->pointee));
     text += text.back() == '*' ? "*" : " *";
     break;
@@ -334,34 +333,34 @@ std::string_view Names::type(const Type *type) {
 }
 
 void Includes::complete(const Type *type) {
-  while (type->kind == TypeKind::array || type->kind == TypeKind::subrange)
-    type = type->kind == TypeKind::array ? typeAs<ArrayType>(type)->element
+  while (type->kind == TypeKind::Array || type->kind == TypeKind::Subrange)
+    type = type->kind == TypeKind::Array ? typeAs<ArrayType>(type)->element
                                          : typeAs<SubrangeType>(type)->base;
-  if (type->kind == TypeKind::openArray) {
+  if (type->kind == TypeKind::OpenArray) {
     needsOpenArray_ = true;
     pointed(typeAs<OpenArrayType>(type)->element);
     return;
   }
-  if (type->kind == TypeKind::pointer || type->kind == TypeKind::reference)
+  if (type->kind == TypeKind::Pointer || type->kind == TypeKind::Reference)
     pointed(typeAs<PointerType>(type)->pointee);
   else if (const Symbol *s = Names::symbolOf(type))
     symbol(s);
 }
 
 void Includes::pointed(const Type *type) {
-  if (type->kind == TypeKind::openArray) {
+  if (type->kind == TypeKind::OpenArray) {
     complete(type);
     return;
   }
-  while (type->kind == TypeKind::array || type->kind == TypeKind::pointer ||
-         type->kind == TypeKind::reference)
-    type = type->kind == TypeKind::array ? typeAs<ArrayType>(type)->element
+  while (type->kind == TypeKind::Array || type->kind == TypeKind::Pointer ||
+         type->kind == TypeKind::Reference)
+    type = type->kind == TypeKind::Array ? typeAs<ArrayType>(type)->element
                                          : typeAs<PointerType>(type)->pointee;
   const Symbol *s = Names::symbolOf(type);
   if (s == nullptr)
     return;
   if (type->kind ==
-      TypeKind::enumeration) // an alias of a number: there is no way to declare it in advance
+      TypeKind::Enumeration) // an alias of a number: there is no way to declare it in advance
     symbol(s);
   else if (declaredSet_.insert(s).second)
     declared_.push_back(s);
@@ -388,10 +387,10 @@ void Includes::merge(const Includes &other) {
 namespace {
 
 bool isUnionSymbol(const Symbol *symbol) {
-  if (symbol->kind != SymbolKind::type)
+  if (symbol->kind != SymbolKind::Type)
     return false;
   const Type *type = static_cast<const TypeSymbol *>(symbol)->type;
-  return type->kind == TypeKind::structure && typeAs<StructType>(type)->isUnion;
+  return type->kind == TypeKind::Structure && typeAs<StructType>(type)->isUnion;
 }
 
 } // namespace

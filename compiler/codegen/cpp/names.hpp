@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CPP_NAMES_HPP
+#define STRIDE_COMPILER_CODEGEN_CPP_NAMES_HPP
 // How ST names, types and their headers are called in C++.
 
 #include "compiler/semantics/program.hpp"
@@ -56,7 +57,7 @@ public:
   /// `st/user/Foo.inline.h`
   [[nodiscard]] std::string inlineHeader(const Symbol *symbol);
   /// What the type__ of its instances holds: never 0, different for all blocks of a program.
-  [[nodiscard]] std::uint32_t typeId(const PouSymbol *block);
+  [[nodiscard]] uint32_t typeId(const PouSymbol *block);
 
   /// `::stride::INT`, `::stride::Array<::st::user::Foo, 1, 3>`, `::st::user::Foo *`
   [[nodiscard]] std::string_view type(const Type *type);
@@ -77,7 +78,7 @@ private:
   const Entry &entry(const Symbol *symbol);
 
   const Program &program_;
-  std::unordered_map<const PouSymbol *, std::uint32_t> typeIds_;
+  std::unordered_map<const PouSymbol *, uint32_t> typeIds_;
   std::unordered_map<const Library *, std::string> spaces_;
   std::unordered_map<const Symbol *, Entry> entries_;
   std::unordered_map<const Type *, std::string> types_;
@@ -127,3 +128,5 @@ private:
 };
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CPP_NAMES_HPP

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CPP_PART_HPP
+#define STRIDE_COMPILER_CODEGEN_CPP_PART_HPP
 // A callable that writes a part of the code.
 
 #include <memory>
@@ -24,3 +25,5 @@ private:
 };
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CPP_PART_HPP

@@ -40,24 +40,24 @@ std::string rootName(Names &names, const Root &root, const Library *own) {
   std::string name;
   if (root.symbol->library != own)
     name = std::string(names.space(root.symbol->library)) + "__";
-  if (root.symbol->kind == SymbolKind::globals)
+  if (root.symbol->kind == SymbolKind::Globals)
     return name.append(names.listName(static_cast<const GlobalsSymbol *>(root.symbol)));
   return name.append(names.local(root.symbol)) + (root.isStatic ? "__static" : "__program");
 }
 
 bool hasStatics(const PouSymbol *pou) {
   return std::any_of(pou->variables.begin(), pou->variables.end(),
-                     [](const VarSymbol *v) { return v->section == Section::stat; });
+                     [](const VarSymbol *v) { return v->section == Section::Stat; });
 }
 
 Root rootOf(const StatePath &path) {
-  if (path.root->kind == SymbolKind::pou)
+  if (path.root->kind == SymbolKind::Pou)
     return {path.root, false};
   return {static_cast<const VarSymbol *>(path.root)->globals, false};
 }
 
 const Type *typeAt(const StatePath &path) {
-  const Type *type = path.root->kind == SymbolKind::pou
+  const Type *type = path.root->kind == SymbolKind::Pou
                          ? static_cast<const PouSymbol *>(path.root)->type
                          : static_cast<const VarSymbol *>(path.root)->type;
   for (const PathStep &step : path.steps)
@@ -68,7 +68,7 @@ const Type *typeAt(const StatePath &path) {
 std::string pathInRoot(const StatePath &path) {
   std::string text;
   const Type *type = nullptr;
-  if (path.root->kind == SymbolKind::variable) {
+  if (path.root->kind == SymbolKind::Variable) {
     text += "." + mangle(path.root->name.text);
     type = static_cast<const VarSymbol *>(path.root)->type;
   } else {
@@ -81,7 +81,7 @@ std::string pathInRoot(const StatePath &path) {
       continue;
     }
     text += ".";
-    if (type->kind == TypeKind::structure) {
+    if (type->kind == TypeKind::Structure) {
       for (const auto *s = typeAs<StructType>(type); s->base != nullptr; s = s->base) {
         if (std::find(s->fields.begin(), s->fields.end(), step.member) != s->fields.end())
           break;

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CPP_ROOTS_HPP
+#define STRIDE_COMPILER_CODEGEN_CPP_ROOTS_HPP
 // Objects of their own in the application's state, and the ways into them.
 
 #include "compiler/codegen/cpp/names.hpp"
@@ -45,3 +46,5 @@ std::string copiesLocalPlace(Names &names, const VarSymbol *variable);
 std::string copiesPlace(Names &names, const VarSymbol *variable);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CPP_ROOTS_HPP

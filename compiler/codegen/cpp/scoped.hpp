@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CPP_SCOPED_HPP
+#define STRIDE_COMPILER_CODEGEN_CPP_SCOPED_HPP
 // Modes that end with a scope.
 
 #include <utility>
@@ -21,3 +22,5 @@ private:
 };
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CPP_SCOPED_HPP

@@ -9,21 +9,21 @@ Place Writer::place(Span span) {
   const std::string_view text = file.text();
   if (span.file != cachedFile_ || span.begin < cachedBegin_ || span.begin >= cachedEnd_) {
     const LineColumn at = file.position(span.begin);
-    std::size_t begin = span.begin < text.size() ? span.begin : text.size();
+    size_t begin = span.begin < text.size() ? span.begin : text.size();
     while (begin > 0 && text[begin - 1] != '\n')
       --begin;
-    std::size_t end = text.find('\n', begin);
+    size_t end = text.find('\n', begin);
     if (end == std::string_view::npos)
       end = text.size();
     cachedFile_ = span.file;
-    cachedBegin_ = static_cast<std::uint32_t>(begin);
-    cachedEnd_ = static_cast<std::uint32_t>(end + 1);
+    cachedBegin_ = static_cast<uint32_t>(begin);
+    cachedEnd_ = static_cast<uint32_t>(end + 1);
     cachedOffset_ = span.begin;
     cached_ = {at.line, at.column};
     return cached_;
   }
   // Count on (or back) from there: lines may be megabytes long.
-  const auto starts = [&](std::uint32_t i) { // not in the middle of a UTF-8 sequence
+  const auto starts = [&](uint32_t i) { // not in the middle of a UTF-8 sequence
     return (static_cast<unsigned char>(text[i]) & 0xC0U) != 0x80U ? 1U : 0U;
   };
   for (; cachedOffset_ < span.begin; ++cachedOffset_)
@@ -34,9 +34,9 @@ Place Writer::place(Span span) {
 }
 
 void Writer::from(Span span) {
-  if (!span.valid() || form_ != Form::mapped)
+  if (!span.valid() || form_ != Form::Mapped)
     return;
-  const std::uint32_t line = place(span).line;
+  const uint32_t line = place(span).line;
   if (mapped_ == span.file && believed_ == line)
     return;
   *this << "#line " << line;
@@ -48,9 +48,9 @@ void Writer::from(Span span) {
 }
 
 void Writer::sameLine() {
-  if (mapped_ == 0 || form_ != Form::mapped)
+  if (mapped_ == 0 || form_ != Form::Mapped)
     return;
-  const std::uint32_t line = believed_ - 1;
+  const uint32_t line = believed_ - 1;
   *this << "#line " << line;
   endLine();
   believed_ = line;

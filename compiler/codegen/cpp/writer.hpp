@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_CPP_WRITER_HPP
+#define STRIDE_COMPILER_CODEGEN_CPP_WRITER_HPP
 // Text of one generated file, and where each of its lines comes from.
 
 #include "compiler/codegen/cpp/scoped.hpp"
@@ -15,14 +16,14 @@ namespace stc::codegen {
 
 /// A place in an ST file.
 struct Place {
-  std::uint32_t line = 0;
-  std::uint32_t column = 0;
+  uint32_t line = 0;
+  uint32_t column = 0;
 };
 
 /// Appends to a text, with indentation and `#line` directives. A directive is written only where
 /// the compiler's own count of lines would be wrong.
 class Writer {
-  enum class Form : std::uint8_t { mapped, unmapped, gathered };
+  enum class Form : uint8_t { Mapped, Unmapped, Gathered };
 
 public:
   explicit Writer(const Sources &sources) : sources_(&sources) { text_.reserve(4096); }
@@ -47,12 +48,12 @@ public:
 
   /// Begins a line of its own; end it with endLine().
   Writer &line() {
-    if (form_ != Form::gathered)
+    if (form_ != Form::Gathered)
       text_.append(2 * indent_, ' ');
     return *this;
   }
   void endLine() {
-    if (form_ == Form::gathered) {
+    if (form_ == Form::Gathered) {
       text_.push_back(' ');
       return;
     }
@@ -91,28 +92,28 @@ public:
   /// Until the scope ends lines follow each other with a blank in between, on the current line.
   class Gathered {
   public:
-    explicit Gathered(Writer &writer) : form_(writer.form_, Form::gathered) {}
+    explicit Gathered(Writer &writer) : form_(writer.form_, Form::Gathered) {}
 
   private:
     Scoped<Form> form_;
   };
   /// No directives are written from now on: the lines are a header's own.
-  void withoutDirectives() { form_ = Form::unmapped; }
+  void withoutDirectives() { form_ = Form::Unmapped; }
 
 private:
   const Sources *sources_;
   std::string text_;
   std::string spare_; ///< empty, with room for what is written aside
-  std::size_t indent_ = 0;
-  std::uint32_t count_ = 1;    ///< number of the line being written
-  std::uint32_t believed_ = 1; ///< what the C++ compiler takes it for
-  Form form_ = Form::mapped;
+  size_t indent_ = 0;
+  uint32_t count_ = 1;    ///< number of the line being written
+  uint32_t believed_ = 1; ///< what the C++ compiler takes it for
+  Form form_ = Form::Mapped;
   FileId mapped_ = 0; ///< the file it takes it to be in; 0: the generated one
   // The place that was asked for last; the next one is usually near.
   FileId cachedFile_ = 0;
-  std::uint32_t cachedBegin_ = 1; ///< of its line in the text
-  std::uint32_t cachedEnd_ = 0;
-  std::uint32_t cachedOffset_ = 0;
+  uint32_t cachedBegin_ = 1; ///< of its line in the text
+  uint32_t cachedEnd_ = 0;
+  uint32_t cachedOffset_ = 0;
   Place cached_;
 };
 
@@ -120,3 +121,5 @@ private:
 std::string escaped(std::string_view text);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_CPP_WRITER_HPP

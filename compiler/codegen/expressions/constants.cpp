@@ -22,11 +22,11 @@ void emitAddressConstant(EmitContext &cx, const Constant &constant) {
     cx.out << "nullptr";
   else
     cx.out << "reinterpret_cast<" << cx.type(constant.type) << ">("
-           << static_cast<std::uint64_t>(constant.number) << "ULL)";
+           << static_cast<uint64_t>(constant.number) << "ULL)";
 }
 
 void emitReal(EmitContext &cx, double value, const Type *type) {
-  const bool single = underlying(type)->kind == TypeKind::real;
+  const bool single = underlying(type)->kind == TypeKind::Real;
   if (std::isnan(value)) {
     cx.out << (single ? "__builtin_nanf(\"\")" : "__builtin_nan(\"\")");
     return;
@@ -39,7 +39,7 @@ void emitReal(EmitContext &cx, double value, const Type *type) {
   const auto end =
       single ? std::to_chars(digits, digits + sizeof digits, static_cast<float>(value)).ptr
              : std::to_chars(digits, digits + sizeof digits, value).ptr;
-  const std::string_view text(digits, static_cast<std::size_t>(end - digits));
+  const std::string_view text(digits, static_cast<size_t>(end - digits));
   cx.out << text;
   if (text.find_first_of(".e") == std::string_view::npos)
     cx.out << ".0";
@@ -48,35 +48,35 @@ void emitReal(EmitContext &cx, double value, const Type *type) {
 }
 
 /// The next code point of UTF-8 text; wrong bytes stand for themselves.
-std::uint32_t nextCodePoint(std::string_view text, std::size_t &at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const std::uint32_t first = byte(at++);
+uint32_t nextCodePoint(std::string_view text, size_t &at) {
+  const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
+  const uint32_t first = byte(at++);
   const unsigned extra = first >= 0xF0 ? 3 : first >= 0xE0 ? 2 : first >= 0xC0 ? 1 : 0;
   if (extra == 0 || at + extra > text.size())
     return first;
-  std::uint32_t point = first & (0x3FU >> extra);
+  uint32_t point = first & (0x3FU >> extra);
   for (unsigned i = 0; i < extra; ++i)
     point = point << 6U | (byte(at++) & 0x3FU);
   return point;
 }
 
 /// Number of places the constant takes in a string of its kind.
-std::uint32_t stringLength(std::string_view text, bool wide) {
-  std::uint32_t length = 0;
-  for (std::size_t at = 0; at < text.size();)
+uint32_t stringLength(std::string_view text, bool wide) {
+  uint32_t length = 0;
+  for (size_t at = 0; at < text.size();)
     length += nextCodePoint(text, at) > 0xFFFF && wide ? 2 : 1;
   return length;
 }
 
 /// The last `count` hexadecimal digits of it.
-std::string hexDigits(std::uint32_t value, std::size_t count) {
+std::string hexDigits(uint32_t value, size_t count) {
   std::string digits(count, '0');
-  for (std::size_t i = count; i-- > 0; value >>= 4U)
+  for (size_t i = count; i-- > 0; value >>= 4U)
     digits[i] = "0123456789abcdef"[value & 15U];
   return digits;
 }
 
-void emitCharacter(EmitContext &cx, std::uint32_t c, bool wide) {
+void emitCharacter(EmitContext &cx, uint32_t c, bool wide) {
   if (c == '"' || c == '\\') {
     cx.out << '\\' << static_cast<char>(c);
   } else if (c >= 0x20 && c < 0x7F) {
@@ -96,7 +96,7 @@ void emitCharacter(EmitContext &cx, std::uint32_t c, bool wide) {
 
 void emitExactString(EmitContext &cx, const ConstValue &constant, const Type *type) {
   const auto *string = typeAs<StringType>(type);
-  const bool wide = type->kind == TypeKind::wstring;
+  const bool wide = type->kind == TypeKind::Wstring;
   const bool same = stringLength(constant.text, wide) == string->length;
   if (!same)
     cx.out << "::stride::resize<" << string->length << ">(";
@@ -108,11 +108,11 @@ void emitExactString(EmitContext &cx, const ConstValue &constant, const Type *ty
 /// What a constant may be named by: an enumerator is written by its name.
 const Symbol *constantSymbol(const Expr *e) {
   switch (e->kind) {
-  case ExprKind::name:
+  case ExprKind::Name:
     return as<NameExpr>(e)->symbol;
-  case ExprKind::member:
+  case ExprKind::Member:
     return as<MemberExpr>(e)->symbol;
-  case ExprKind::enumLiteral:
+  case ExprKind::EnumLiteral:
     return as<EnumLiteralExpr>(e)->symbol;
   default:
     return nullptr;
@@ -121,35 +121,35 @@ const Symbol *constantSymbol(const Expr *e) {
 
 double realValue(const ConstValue &constant, const Type *from, const Type *to) {
   double value = constant.real;
-  if (constant.kind == ConstKind::integer)
+  if (constant.kind == ConstKind::Integer)
     value = isUnsigned64(underlying(from))
-                ? static_cast<double>(static_cast<std::uint64_t>(constant.integer))
+                ? static_cast<double>(static_cast<uint64_t>(constant.integer))
                 : static_cast<double>(constant.integer);
   const float single = static_cast<float>(value);
-  return to->kind == TypeKind::real && std::isfinite(single) ? double{single} : value;
+  return to->kind == TypeKind::Real && std::isfinite(single) ? double{single} : value;
 }
 
 Constant converted(const ConstValue &constant, const Type *from, const Type *to,
                    const Symbol *symbol) {
   using enum Constant::Kind;
-  if (constant.kind == ConstKind::string) // a character
-    return {number, underlying(to), firstUnit(constant.text, from->kind == TypeKind::wstring)};
+  if (constant.kind == ConstKind::String) // a character
+    return {Number, underlying(to), firstUnit(constant.text, from->kind == TypeKind::Wstring)};
   const Type *t = underlying(to);
-  if (t->kind == TypeKind::pointer || t->kind == TypeKind::interface)
-    return {address, t, constant.integer};
-  if (isReal(t) || t->kind == TypeKind::anyReal)
-    return {real, t, 0, std::bit_cast<std::uint64_t>(realValue(constant, from, t))};
-  if (symbol != nullptr && symbol->kind == SymbolKind::enumerator && (isInteger(t) || from == to)) {
+  if (t->kind == TypeKind::Pointer || t->kind == TypeKind::Interface)
+    return {Address, t, constant.integer};
+  if (isReal(t) || t->kind == TypeKind::AnyReal)
+    return {Real, t, 0, std::bit_cast<uint64_t>(realValue(constant, from, t))};
+  if (symbol != nullptr && symbol->kind == SymbolKind::Enumerator && (isInteger(t) || from == to)) {
     const auto *e = static_cast<const EnumeratorSymbol *>(symbol);
     if (e->type == from)
-      return {enumerator, t, 0, 0, e};
+      return {Enumerator, t, 0, 0, e};
   }
-  std::int64_t value = constant.integer;
+  int64_t value = constant.integer;
   if (from != to) {
     if (const auto v = convertConstant(constant, from, to))
       value = v->integer;
   }
-  return {number, t, value};
+  return {Number, t, value};
 }
 
 } // namespace
@@ -160,16 +160,16 @@ Constant constantOf(const Expr *e, const Type *to) {
 
 void emitConstant(EmitContext &cx, const Constant &constant) {
   switch (constant.kind) {
-  case Constant::Kind::number:
+  case Constant::Kind::Number:
     emitNumber(cx, constant.number, constant.type);
     return;
-  case Constant::Kind::real:
+  case Constant::Kind::Real:
     emitReal(cx, std::bit_cast<double>(constant.real), constant.type);
     return;
-  case Constant::Kind::address:
+  case Constant::Kind::Address:
     emitAddressConstant(cx, constant);
     return;
-  case Constant::Kind::enumerator: {
+  case Constant::Kind::Enumerator: {
     const EnumType *type = constant.enumerator->type;
     cx.includes.complete(type);
     cx.out << cx.run.names.qualified(type->symbol) << "__" << constant.enumerator->name.text;
@@ -180,9 +180,9 @@ void emitConstant(EmitContext &cx, const Constant &constant) {
 
 void emitLiteral(EmitContext &cx, const ConstValue &constant, const Type *from, const Type *to,
                  const Symbol *symbol) {
-  if (isString(to) && constant.kind == ConstKind::integer) // a CHAR constant
+  if (isString(to) && constant.kind == ConstKind::Integer) // a CHAR constant
     emitConverted(cx, from, to, {}, [&] { emitNumber(cx, constant.integer, from); });
-  else if (constant.kind == ConstKind::string && !isCharacter(to))
+  else if (constant.kind == ConstKind::String && !isCharacter(to))
     emitExactString(cx, constant, isString(to) ? to : from);
   else
     emitConstant(cx, converted(constant, from, to, symbol));
@@ -192,34 +192,34 @@ void emitLiteral(EmitContext &cx, const Expr *e, const Type *to) {
   emitLiteral(cx, *e->constant, e->type, to, constantSymbol(e));
 }
 
-void emitNumber(EmitContext &cx, std::int64_t value, const Type *type) {
+void emitNumber(EmitContext &cx, int64_t value, const Type *type) {
   const Type *t = underlying(type);
   switch (t->kind) {
-  case TypeKind::boolean:
+  case TypeKind::Boolean:
     cx.out << (value != 0 ? "true" : "false");
     return;
-  case TypeKind::ulint:
-  case TypeKind::lword:
-    cx.out << static_cast<std::uint64_t>(value) << "ULL";
+  case TypeKind::Ulint:
+  case TypeKind::Lword:
+    cx.out << static_cast<uint64_t>(value) << "ULL";
     return;
-  case TypeKind::udint:
-  case TypeKind::dword:
-  case TypeKind::time:
-  case TypeKind::date:
-  case TypeKind::tod:
-  case TypeKind::dt:
-    cx.out << static_cast<std::uint32_t>(value) << 'U';
+  case TypeKind::Udint:
+  case TypeKind::Dword:
+  case TypeKind::Time:
+  case TypeKind::Date:
+  case TypeKind::Tod:
+  case TypeKind::Dt:
+    cx.out << static_cast<uint32_t>(value) << 'U';
     return;
   default:
     break;
   }
-  const bool wide = bitWidth(t) == 64 && t->kind != TypeKind::anyInteger;
-  const bool large = value > std::numeric_limits<std::int32_t>::max() ||
-                     value < std::numeric_limits<std::int32_t>::min();
+  const bool wide = bitWidth(t) == 64 && t->kind != TypeKind::AnyInteger;
+  const bool large =
+      value > std::numeric_limits<int32_t>::max() || value < std::numeric_limits<int32_t>::min();
   const std::string_view suffix = wide || large ? "LL" : "";
   // The smallest value has no literal of its own: its digits alone are too large for the type.
-  if (value == std::numeric_limits<std::int64_t>::min() ||
-      (value == std::numeric_limits<std::int32_t>::min() && !wide))
+  if (value == std::numeric_limits<int64_t>::min() ||
+      (value == std::numeric_limits<int32_t>::min() && !wide))
     cx.out << '(' << value + 1 << suffix << " - 1)";
   else
     cx.out << value << suffix;
@@ -227,7 +227,7 @@ void emitNumber(EmitContext &cx, std::int64_t value, const Type *type) {
 
 void emitQuoted(EmitContext &cx, const ConstValue &constant, bool wide) {
   cx.out << (wide ? "u\"" : "\"");
-  for (std::size_t at = 0; at < constant.text.size();)
+  for (size_t at = 0; at < constant.text.size();)
     emitCharacter(cx, nextCodePoint(constant.text, at), wide);
   cx.out << '"';
 }

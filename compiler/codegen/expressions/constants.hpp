@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_EXPRESSIONS_CONSTANTS_HPP
+#define STRIDE_COMPILER_CODEGEN_EXPRESSIONS_CONSTANTS_HPP
 // Constants as C++.
 
 #include "compiler/codegen/context/context.hpp"
@@ -7,11 +8,11 @@ namespace stc::codegen {
 
 /// A constant as it is written, texts excepted: equal ones look the same.
 struct Constant {
-  enum class Kind : std::uint8_t { number, real, address, enumerator };
-  Kind kind = Kind::number;
+  enum class Kind : uint8_t { Number, Real, Address, Enumerator };
+  Kind kind = Kind::Number;
   const Type *type = nullptr; ///< of which it is written: no alias, no enumeration
-  std::int64_t number = 0;
-  std::uint64_t real = 0; ///< the bits of a double
+  int64_t number = 0;
+  uint64_t real = 0; ///< the bits of a double
   const EnumeratorSymbol *enumerator = nullptr;
   bool operator==(const Constant &) const = default;
 };
@@ -25,8 +26,10 @@ void emitLiteral(EmitContext &cx, const ConstValue &constant, const Type *from, 
                  const Symbol *symbol = nullptr);
 /// The same of a constant expression.
 void emitLiteral(EmitContext &cx, const ast::Expr *e, const Type *to);
-void emitNumber(EmitContext &cx, std::int64_t value, const Type *type);
+void emitNumber(EmitContext &cx, int64_t value, const Type *type);
 /// The characters of a string constant in quotes.
 void emitQuoted(EmitContext &cx, const ConstValue &constant, bool wide);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_EXPRESSIONS_CONSTANTS_HPP

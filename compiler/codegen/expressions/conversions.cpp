@@ -27,10 +27,10 @@ void emitTemplate(EmitContext &cx, std::string_view function, std::string_view a
 
 /// Values of `from` may lie outside of the subrange `to`.
 bool checksRange(const EmitContext &cx, const Type *from, const Type *to) {
-  if (to->kind != TypeKind::subrange || !cx.checks())
+  if (to->kind != TypeKind::Subrange || !cx.checks())
     return false;
   const auto *range = typeAs<SubrangeType>(to);
-  const auto *own = from->kind == TypeKind::subrange ? typeAs<SubrangeType>(from) : nullptr;
+  const auto *own = from->kind == TypeKind::Subrange ? typeAs<SubrangeType>(from) : nullptr;
   return own == nullptr || own->low < range->low || own->high > range->high;
 }
 
@@ -51,8 +51,8 @@ void emitInRange(EmitContext &cx, const Type *from, const SubrangeType *to, Span
 
 /// Pointers, and the numbers that hold their addresses.
 void emitPointerConversion(EmitContext &cx, const Type *f, const Type *t, Part value) {
-  const bool from = f->kind == TypeKind::pointer;
-  const bool to = t->kind == TypeKind::pointer;
+  const bool from = f->kind == TypeKind::Pointer;
+  const bool to = t->kind == TypeKind::Pointer;
   cx.out << (to ? "reinterpret_cast<" : "static_cast<") << cx.type(t);
   if (!to)
     emitBetween(cx, ">(reinterpret_cast<::stride::UXINT>(", value, "))");
@@ -70,15 +70,15 @@ std::string kindName(const Type *t) {
 
 /// A character to a text.
 void emitCharacterText(EmitContext &cx, const Type *f, const StringType *t, Part value) {
-  const bool wide = t->kind == TypeKind::wstring;
-  const bool cut = f->kind == TypeKind::wcharT && !wide;
+  const bool wide = t->kind == TypeKind::Wstring;
+  const bool cut = f->kind == TypeKind::Wchar && !wide;
   cx.out << "::stride::" << (wide ? "wideCharacterText<" : "characterText<") << t->length << ">(";
   emitBetween(cx, cut ? "::stride::narrowCharacter(" : "", value, cut ? "))" : ")");
 }
 
 /// The first character of a text.
 void emitFirstCharacter(EmitContext &cx, const Type *f, const Type *t, Part value) {
-  const bool cut = f->kind == TypeKind::wstring && t->kind == TypeKind::charT;
+  const bool cut = f->kind == TypeKind::Wstring && t->kind == TypeKind::Char;
   cx.out << (cut ? "::stride::narrowCharacter(" : "");
   emitBetween(cx, "::stride::firstCharacter(", value, cut ? "))" : ")");
 }
@@ -96,7 +96,7 @@ void emitEnumeratorText(EmitContext &cx, const EnumType *from, const StringType 
 
 /// Anything else to a text.
 void emitTextOf(EmitContext &cx, const Type *f, const StringType *t, Part value) {
-  const bool wide = t->kind == TypeKind::wstring;
+  const bool wide = t->kind == TypeKind::Wstring;
   const std::string length = std::to_string(t->length);
   if (!isString(f))
     emitTemplate(cx, wide ? "::stride::toWstring" : "::stride::toString",
@@ -114,7 +114,7 @@ void emitTextConversion(EmitContext &cx, const Type *from, const Type *f, const 
     emitCharacterText(cx, f, typeAs<StringType>(t), value);
   else if (isString(f) && isCharacter(t))
     emitFirstCharacter(cx, f, t, value);
-  else if (t->kind == TypeKind::string && from->kind == TypeKind::enumeration &&
+  else if (t->kind == TypeKind::String && from->kind == TypeKind::Enumeration &&
            typeAs<EnumType>(from)->named)
     emitEnumeratorText(cx, typeAs<EnumType>(from), typeAs<StringType>(t), value);
   else if (isString(t))
@@ -125,7 +125,7 @@ void emitTextConversion(EmitContext &cx, const Type *from, const Type *f, const 
 
 bool isPlainNumber(const Type *t) { return isInteger(t) || isReal(t); }
 
-bool isInterface(const Type *t) { return t->kind == TypeKind::interface; }
+bool isInterface(const Type *t) { return t->kind == TypeKind::Interface; }
 
 } // namespace
 
@@ -136,11 +136,11 @@ void emitConverted(EmitContext &cx, const Type *from, const Type *to, Span span,
     emitInRange(cx, from, typeAs<SubrangeType>(to), span, value);
   else if (f == t || (isInterface(f) && isInterface(t)))
     value();
-  else if (t->kind == TypeKind::array) // the same elements between other bounds
+  else if (t->kind == TypeKind::Array) // the same elements between other bounds
     emitTemplate(cx, "::stride::reshape", cx.type(t), value);
-  else if (f->kind == TypeKind::pointer || t->kind == TypeKind::pointer)
+  else if (f->kind == TypeKind::Pointer || t->kind == TypeKind::Pointer)
     emitPointerConversion(cx, f, t, value);
-  else if (f->kind == TypeKind::wcharT && t->kind == TypeKind::charT)
+  else if (f->kind == TypeKind::Wchar && t->kind == TypeKind::Char)
     emitBetween(cx, "::stride::narrowCharacter(", value, ")");
   else if (isString(f) || isString(t))
     emitTextConversion(cx, from, f, t, value);
@@ -154,15 +154,15 @@ void emitConverted(EmitContext &cx, const Type *from, const Type *to, Span span,
 bool isImplicitStore(const EmitContext &cx, const Type *from, const Type *to) {
   if (from == to)
     return true;
-  if (to->kind == TypeKind::subrange && cx.checks())
+  if (to->kind == TypeKind::Subrange && cx.checks())
     return false;
   const Type *f = underlying(from);
   const Type *t = underlying(to);
   if (f == t || (isInterface(f) && isInterface(t)))
     return true;
   if (isInteger(f) && (isInteger(t) || isReal(t)))
-    return classify(f, t) == Conversion::free;
-  return f->kind == TypeKind::real && t->kind == TypeKind::lreal;
+    return classify(f, t) == Conversion::Free;
+  return f->kind == TypeKind::Real && t->kind == TypeKind::Lreal;
 }
 
 void emitConvertedText(EmitContext &cx, std::string_view code, const Type *from, const Type *to,

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_EXPRESSIONS_CONVERSIONS_HPP
+#define STRIDE_COMPILER_CODEGEN_EXPRESSIONS_CONVERSIONS_HPP
 // Conversions around code that something else writes.
 
 #include "compiler/codegen/context/context.hpp"
@@ -17,3 +18,5 @@ void emitConvertedText(EmitContext &cx, std::string_view code, const Type *from,
 [[nodiscard]] bool isImplicitStore(const EmitContext &cx, const Type *from, const Type *to);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_EXPRESSIONS_CONVERSIONS_HPP

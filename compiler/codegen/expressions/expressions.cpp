@@ -19,22 +19,22 @@ using namespace ast;
 namespace {
 
 void emitCall(EmitContext &cx, const CallExpr *e) {
-  if (e->resolved == Callee::builtin) {
+  if (e->resolved == Callee::Builtin) {
     emitBuiltin(cx, e);
     return;
   }
   const VarSymbol *result = e->pou->result;
-  if (result == nullptr || result->type->kind != TypeKind::reference) {
+  if (result == nullptr || result->type->kind != TypeKind::Reference) {
     emitFunctionCall(cx, e, false);
     return;
   }
   cx.includes.complete(e->type);
-  emitFollowed(cx, Slot::reference, e->span, [&] { emitFunctionCall(cx, e, false); });
+  emitFollowed(cx, Slot::Reference, e->span, [&] { emitFunctionCall(cx, e, false); });
 }
 
 /// A place's value.
 void emitRead(EmitContext &cx, const Expr *e) {
-  const bool byOthers = e->type->kind == TypeKind::boolean && locationOf(e) != nullptr;
+  const bool byOthers = e->type->kind == TypeKind::Boolean && locationOf(e) != nullptr;
   const bool shared = cx.isShared(e);
   cx.out << (byOthers ? "::stride::truth(" : "") << (shared ? "::stride::load(" : "");
   emitPlace(cx, e);
@@ -50,11 +50,11 @@ void emitValue(EmitContext &cx, const Expr *e) {
 void emitValueAs(EmitContext &cx, const Expr *e, const Type *type) {
   if (e->constant != nullptr) {
     emitLiteral(cx, e, type);
-  } else if (isInstance(e->type) && type->kind == TypeKind::interface) {
+  } else if (isInstance(e->type) && type->kind == TypeKind::Interface) {
     cx.out << '&';
     emitTypeIdOf(cx, e);
   } else if ((isInstance(e->type) && isInstance(type)) ||
-             (e->type == type && holdsInOut(type) && type->kind != TypeKind::openArray)) {
+             (e->type == type && holdsInOut(type) && type->kind != TypeKind::OpenArray)) {
     emitCopy(cx, e, type);
   } else if (isString(type) ? e->type == type : isImplicitStore(cx, e->type, type)) {
     emitRaw(cx, e);
@@ -69,11 +69,11 @@ void emitRaw(EmitContext &cx, const Expr *e) {
     emitLiteral(cx, e, e->type);
   else if (isBitPlace(e) && !isBitField(e))
     emitBitValue(cx, e);
-  else if (e->kind == ExprKind::unary)
+  else if (e->kind == ExprKind::Unary)
     emitUnary(cx, as<UnaryExpr>(e));
-  else if (e->kind == ExprKind::binary)
+  else if (e->kind == ExprKind::Binary)
     emitBinary(cx, as<BinaryExpr>(e));
-  else if (e->kind == ExprKind::call)
+  else if (e->kind == ExprKind::Call)
     emitCall(cx, as<CallExpr>(e));
   else
     emitRead(cx, e);
@@ -81,7 +81,7 @@ void emitRaw(EmitContext &cx, const Expr *e) {
 
 void emitOperand(EmitContext &cx, const Expr *e, const Type *type, const Expr *other,
                  bool comparison) {
-  if (type->kind == TypeKind::interface)
+  if (type->kind == TypeKind::Interface)
     emitValueAs(cx, e, type);
   else if (e->constant != nullptr)
     emitLiteral(cx, e, type);
@@ -97,7 +97,7 @@ void emitText(EmitContext &cx, const Expr *e) {
     return;
   }
   cx.out << "::stride::lit(";
-  emitQuoted(cx, *e->constant, e->type->kind == TypeKind::wstring);
+  emitQuoted(cx, *e->constant, e->type->kind == TypeKind::Wstring);
   cx.out << ')';
 }
 

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_EXPRESSIONS_EXPRESSIONS_HPP
+#define STRIDE_COMPILER_CODEGEN_EXPRESSIONS_EXPRESSIONS_HPP
 // Values: expressions in their own type, converted, and as operands.
 
 #include "compiler/codegen/context/context.hpp"
@@ -17,3 +18,5 @@ void emitOperand(EmitContext &cx, const ast::Expr *e, const Type *type, const as
 void emitText(EmitContext &cx, const ast::Expr *e);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_EXPRESSIONS_EXPRESSIONS_HPP

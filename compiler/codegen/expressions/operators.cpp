@@ -33,21 +33,21 @@ struct Infix {
 };
 
 /// g++ takes time that grows with the square of a sum's length; longer ones are computed in parts.
-constexpr std::size_t kMaxTerms = 64;
+constexpr size_t kMaxTerms = 64;
 
-bool isComparison(BinaryOp op) { return op >= BinaryOp::equal && op <= BinaryOp::greaterEqual; }
+bool isComparison(BinaryOp op) { return op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual; }
 
 std::string_view comparison(BinaryOp op) {
   switch (op) {
-  case BinaryOp::equal:
+  case BinaryOp::Equal:
     return "==";
-  case BinaryOp::notEqual:
+  case BinaryOp::NotEqual:
     return "!=";
-  case BinaryOp::less:
+  case BinaryOp::Less:
     return "<";
-  case BinaryOp::lessEqual:
+  case BinaryOp::LessEqual:
     return "<=";
-  case BinaryOp::greater:
+  case BinaryOp::Greater:
     return ">";
   default:
     return ">=";
@@ -65,47 +65,47 @@ Infix infixOf(const EmitContext &cx, const BinaryExpr *e) {
   if (type == nullptr)
     return {}; // durations and points in time
   switch (e->op) {
-  case BinaryOp::add:
+  case BinaryOp::Add:
     return {"+", kAdd};
-  case BinaryOp::subtract:
+  case BinaryOp::Subtract:
     return {"-", kAdd};
-  case BinaryOp::multiply:
+  case BinaryOp::Multiply:
     return {"*", kMultiply};
-  case BinaryOp::divide:
+  case BinaryOp::Divide:
     if (isReal(type) || safeDivisor(e->right))
       return {"/", kMultiply};
     return {};
-  case BinaryOp::modulo:
+  case BinaryOp::Modulo:
     if (safeDivisor(e->right))
       return {"%", kMultiply};
     return {};
-  case BinaryOp::power:
+  case BinaryOp::Power:
     return {};
-  case BinaryOp::equal:
-  case BinaryOp::notEqual:
+  case BinaryOp::Equal:
+  case BinaryOp::NotEqual:
     return {comparison(e->op), kEquality};
-  case BinaryOp::less:
-  case BinaryOp::lessEqual:
-  case BinaryOp::greater:
-  case BinaryOp::greaterEqual:
+  case BinaryOp::Less:
+  case BinaryOp::LessEqual:
+  case BinaryOp::Greater:
+  case BinaryOp::GreaterEqual:
     return {comparison(e->op), kRelation};
-  case BinaryOp::logicalAnd:
-    if (type->kind == TypeKind::boolean &&
-        (cx.run.analysis.effects(e->right) & (effectRaises | effectCalls)) == 0)
+  case BinaryOp::LogicalAnd:
+    if (type->kind == TypeKind::Boolean &&
+        (cx.run.analysis.effects(e->right) & (kEffectRaises | kEffectCalls)) == 0)
       return {"&&", kAnd};
     return {"&", kBitAnd};
-  case BinaryOp::logicalOr:
-    if (type->kind == TypeKind::boolean &&
-        (cx.run.analysis.effects(e->right) & (effectRaises | effectCalls)) == 0)
+  case BinaryOp::LogicalOr:
+    if (type->kind == TypeKind::Boolean &&
+        (cx.run.analysis.effects(e->right) & (kEffectRaises | kEffectCalls)) == 0)
       return {"||", kOr};
     return {"|", kBitOr};
-  case BinaryOp::logicalXor:
-    if (type->kind == TypeKind::boolean)
+  case BinaryOp::LogicalXor:
+    if (type->kind == TypeKind::Boolean)
       return {"!=", kEquality};
     return {"^", kBitXor};
-  case BinaryOp::andThen:
+  case BinaryOp::AndThen:
     return {"&&", kAnd};
-  case BinaryOp::orElse:
+  case BinaryOp::OrElse:
     return {"||", kOr};
   }
   return {};
@@ -137,14 +137,14 @@ int levelOf(const EmitContext &cx, const Expr *e) {
   e = shown(e);
   if (e->constant != nullptr) {
     const ConstValue &c = *e->constant;
-    const bool negative = c.kind == ConstKind::integer
+    const bool negative = c.kind == ConstKind::Integer
                               ? c.integer < 0
-                              : c.kind == ConstKind::real && std::signbit(c.real);
+                              : c.kind == ConstKind::Real && std::signbit(c.real);
     return negative ? kUnary : kPostfix;
   }
-  if (e->kind == ExprKind::unary)
+  if (e->kind == ExprKind::Unary)
     return kUnary;
-  if (e->kind == ExprKind::binary) {
+  if (e->kind == ExprKind::Binary) {
     const Infix op = infixOf(cx, as<BinaryExpr>(e));
     return op.op.empty() ? kPostfix : op.level;
   }
@@ -159,14 +159,14 @@ void emitInfixOperand(EmitContext &cx, const BinaryExpr *e, const Infix &op, con
   if (side->constant == nullptr && isImplicitOperand(side, e->operandType, other, compared)) {
     const Expr *child = shown(side);
     std::string_view childOp;
-    if (child->kind == ExprKind::binary)
+    if (child->kind == ExprKind::Binary)
       childOp = infixOf(cx, as<BinaryExpr>(child)).op;
     parentheses = needsParentheses(levelOf(cx, side), op, right, childOp);
     // `a == !b` is fine, `!a == b` is not (-Wlogical-not-parentheses).
     const bool comparing = op.level == kRelation || op.level == kEquality;
-    parentheses = parentheses || (comparing && child->kind == ExprKind::unary && !right);
+    parentheses = parentheses || (comparing && child->kind == ExprKind::Unary && !right);
   }
-  const bool own = right && e->op == BinaryOp::divide && openDivisorCheck(cx, e);
+  const bool own = right && e->op == BinaryOp::Divide && openDivisorCheck(cx, e);
   if (parentheses && !own)
     cx.out << '(';
   emitOperand(cx, side, e->operandType, other, compared);
@@ -195,7 +195,7 @@ std::vector<Link> spineOf(const EmitContext &cx, const BinaryExpr *e) {
   while (isInfix(e, infix)) {
     spine.push_back({e, infix});
     const Expr *left = e->left;
-    if (left->kind != ExprKind::binary || left->constant != nullptr ||
+    if (left->kind != ExprKind::Binary || left->constant != nullptr ||
         !isImplicitOperand(left, e->operandType, e->right, isComparison(e->op)))
       break;
     const auto *inner = as<BinaryExpr>(left);
@@ -233,7 +233,7 @@ void emitLeftmost(EmitContext &cx, const std::vector<Link> &spine) {
 
 /// More operators than g++ should get at once: constants `part__…`, each of kMaxTerms operators.
 void emitInParts(EmitContext &cx, const std::vector<Link> &spine) {
-  const auto open = [&](std::size_t i) { // a part ends with the operator i
+  const auto open = [&](size_t i) { // a part ends with the operator i
     const std::string part = cx.temporary("part");
     cx.out << "const " << cx.type(underlying(spine[i].expr->type)) << ' ' << part << " = ";
     return part;
@@ -241,7 +241,7 @@ void emitInParts(EmitContext &cx, const std::vector<Link> &spine) {
   cx.out << "[&] { ";
   std::string part = open(spine.size() - kMaxTerms);
   emitLeftmost(cx, spine);
-  for (std::size_t i = spine.size(), terms = 0; i-- > 0; ++terms) {
+  for (size_t i = spine.size(), terms = 0; i-- > 0; ++terms) {
     if (terms == kMaxTerms) {
       cx.out << "; ";
       const std::string before = std::exchange(part, {});
@@ -276,7 +276,7 @@ void emitArgumentOf(EmitContext &cx, const BinaryExpr *e, const Expr *side) {
 
 /// Takes an operand's value as `name`. It is copied where a call may change what it comes from.
 void keepOperand(EmitContext &cx, const BinaryExpr *e, const Expr *side, const std::string &name) {
-  const bool calls = ((cx.effects(e->left) | cx.effects(e->right)) & effectCalls) != 0;
+  const bool calls = ((cx.effects(e->left) | cx.effects(e->right)) & kEffectCalls) != 0;
   const Type *t = side->target != nullptr ? side->target : side->type;
   if (e->operandType != nullptr && !isString(e->operandType))
     t = underlying(e->operandType);
@@ -312,12 +312,12 @@ void emitOrdered(EmitContext &cx, const BinaryExpr *e) {
 
 const Expr *shown(const Expr *e) {
   const auto plain = [](const Expr *x) {
-    return x->kind == ExprKind::unary && x->constant == nullptr &&
+    return x->kind == ExprKind::Unary && x->constant == nullptr &&
            as<UnaryExpr>(x)->operand->target == nullptr;
   };
   while (plain(e)) {
     const auto *outer = as<UnaryExpr>(e);
-    if (outer->op == UnaryOp::plus) {
+    if (outer->op == UnaryOp::Plus) {
       e = outer->operand;
       continue;
     }
@@ -335,7 +335,7 @@ bool isImplicitOperand(const Expr *e, const Type *type, const Expr *other, bool 
   if (from == to)
     return true;
   const bool integers = isInteger(from) && isInteger(to);
-  if (integers && to->kind == TypeKind::dint && bitWidth(from) < 32)
+  if (integers && to->kind == TypeKind::Dint && bitWidth(from) < 32)
     return true; // C++ promotes it
   if (other == nullptr)
     return false;
@@ -351,15 +351,15 @@ bool isImplicitOperand(const Expr *e, const Type *type, const Expr *other, bool 
 
 void emitUnary(EmitContext &cx, const UnaryExpr *e) {
   const Type *type = underlying(e->type);
-  if (e->op == UnaryOp::plus) {
+  if (e->op == UnaryOp::Plus) {
     emitOperand(cx, e->operand, type, nullptr, false);
     return;
   }
-  const bool isBool = type->kind == TypeKind::boolean;
+  const bool isBool = type->kind == TypeKind::Boolean;
   const bool cut = !isBool && isInteger(type) && bitWidth(type) < 32;
   if (cut)
     cx.out << "static_cast<" << cx.type(type) << ">(";
-  cx.out << (e->op == UnaryOp::negate ? '-' : isBool ? '!' : '~');
+  cx.out << (e->op == UnaryOp::Negate ? '-' : isBool ? '!' : '~');
   const bool parentheses = e->operand->constant == nullptr
                                ? isImplicitOperand(e->operand, type, nullptr, false) &&
                                      levelOf(cx, e->operand) > kPostfix

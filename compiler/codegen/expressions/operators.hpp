@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_EXPRESSIONS_OPERATORS_HPP
+#define STRIDE_COMPILER_CODEGEN_EXPRESSIONS_OPERATORS_HPP
 // Operators, their parentheses and the order in which their operands are evaluated.
 
 #include "compiler/codegen/context/context.hpp"
@@ -14,3 +15,5 @@ void emitBinary(EmitContext &cx, const ast::BinaryExpr *e);
                                      bool compared);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_EXPRESSIONS_OPERATORS_HPP

@@ -17,10 +17,10 @@ const Type *convertedType(const Expr *e) {
 
 /// Pointers with numbers of bytes, distances between pointers.
 void emitPointerArithmetic(EmitContext &cx, const BinaryExpr *e, Part left, Part right) {
-  const bool leftPoints = underlying(e->left->type)->kind == TypeKind::pointer;
-  const bool both = leftPoints && underlying(e->right->type)->kind == TypeKind::pointer;
+  const bool leftPoints = underlying(e->left->type)->kind == TypeKind::Pointer;
+  const bool both = leftPoints && underlying(e->right->type)->kind == TypeKind::Pointer;
   cx.out << (both                     ? "::stride::distance("
-             : e->op == BinaryOp::add ? "::stride::advance("
+             : e->op == BinaryOp::Add ? "::stride::advance("
                                       : "::stride::retreat(");
   (leftPoints ? left : right)();
   cx.out << ", ";
@@ -37,7 +37,7 @@ void emitWide(EmitContext &cx, Part value) {
 /// A duration times a number, or divided by it.
 void emitScaledDuration(EmitContext &cx, const BinaryExpr *e, Part left, Part right) {
   const Type *result = underlying(e->type);
-  const bool multiplies = e->op == BinaryOp::multiply;
+  const bool multiplies = e->op == BinaryOp::Multiply;
   if (isReal(convertedType(e->left)) || isReal(convertedType(e->right))) {
     cx.out << "::stride::convert<" << cx.type(result) << ">(static_cast<::stride::LREAL>(";
     left();
@@ -65,13 +65,13 @@ void emitScaledDuration(EmitContext &cx, const BinaryExpr *e, Part left, Part ri
 }
 
 /// What the type counts, in nanoseconds.
-std::int64_t unitOf(const Type *t) {
+int64_t unitOf(const Type *t) {
   switch (t->kind) {
-  case TypeKind::time:
-  case TypeKind::tod:
+  case TypeKind::Time:
+  case TypeKind::Tod:
     return 1000000;
-  case TypeKind::date:
-  case TypeKind::dt:
+  case TypeKind::Date:
+  case TypeKind::Dt:
     return 1000000000;
   default:
     return 1;
@@ -80,11 +80,11 @@ std::int64_t unitOf(const Type *t) {
 
 /// Points in time and durations: both are brought to the finer unit, the result to its own.
 void emitTimeSum(EmitContext &cx, const BinaryExpr *e, Part left, Part right) {
-  const std::int64_t leftUnit = unitOf(convertedType(e->left));
-  const std::int64_t rightUnit = unitOf(convertedType(e->right));
+  const int64_t leftUnit = unitOf(convertedType(e->left));
+  const int64_t rightUnit = unitOf(convertedType(e->right));
   const Type *result = underlying(e->type);
-  const std::int64_t fine = std::min(leftUnit, rightUnit);
-  const auto scaled = [&](std::int64_t unit, Part value) {
+  const int64_t fine = std::min(leftUnit, rightUnit);
+  const auto scaled = [&](int64_t unit, Part value) {
     emitWide(cx, value);
     if (unit != fine)
       cx.out << " * " << unit / fine;
@@ -93,7 +93,7 @@ void emitTimeSum(EmitContext &cx, const BinaryExpr *e, Part left, Part right) {
   const bool coarse = unitOf(result) > fine;
   cx.out << "static_cast<" << cx.type(result) << (coarse ? ">(::stride::floorDivide(" : ">((");
   scaled(leftUnit, left);
-  cx.out << (e->op == BinaryOp::add ? " + " : " - ");
+  cx.out << (e->op == BinaryOp::Add ? " + " : " - ");
   scaled(rightUnit, right);
   if (coarse)
     cx.out << ", " << unitOf(result) / fine;
@@ -114,7 +114,7 @@ void emitCall(EmitContext &cx, std::string_view function, Part left, Part right)
 
 /// Integers that are divided by what may be zero.
 void emitCheckedDivision(EmitContext &cx, const BinaryExpr *e, Part left, Part right) {
-  cx.out << (e->op == BinaryOp::divide ? "::stride::divide<" : "::stride::modulo<")
+  cx.out << (e->op == BinaryOp::Divide ? "::stride::divide<" : "::stride::modulo<")
          << cx.type(underlying(e->operandType)) << ">(" << cx.ctx() << ", ";
   left();
   cx.out << ", ";
@@ -128,11 +128,11 @@ void emitCheckedDivision(EmitContext &cx, const BinaryExpr *e, Part left, Part r
 } // namespace
 
 void emitSpecial(EmitContext &cx, const BinaryExpr *e, Part left, Part right) {
-  const auto points = [](const Expr *x) { return underlying(x->type)->kind == TypeKind::pointer; };
+  const auto points = [](const Expr *x) { return underlying(x->type)->kind == TypeKind::Pointer; };
   if (e->operandType != nullptr) {
     if (isString(e->operandType))
       emitCall(cx, "::stride::compare", left, right);
-    else if (e->op == BinaryOp::power)
+    else if (e->op == BinaryOp::Power)
       emitCall(cx, "::stride::pow", left, right);
     else
       emitCheckedDivision(cx, e, left, right);

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_EXPRESSIONS_SPECIAL_OPERATORS_HPP
+#define STRIDE_COMPILER_CODEGEN_EXPRESSIONS_SPECIAL_OPERATORS_HPP
 // Operators that are not C++ operators.
 
 #include "compiler/codegen/context/context.hpp"
@@ -11,3 +12,5 @@ namespace stc::codegen {
 void emitSpecial(EmitContext &cx, const ast::BinaryExpr *e, Part left, Part right);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_EXPRESSIONS_SPECIAL_OPERATORS_HPP

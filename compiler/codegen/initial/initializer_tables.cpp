@@ -13,14 +13,14 @@ using namespace ast;
 
 namespace {
 
-constexpr std::size_t kMinTable = 8;
-constexpr std::size_t kMostColumns = 32;
+constexpr size_t kMinTable = 8;
+constexpr size_t kMostColumns = 32;
 
 /// A step into a structure or an array.
 struct Step {
   const VarSymbol *field = nullptr; ///< null: an element
   const Type *type = nullptr;       ///< what it is a step into
-  std::size_t element = 0;
+  size_t element = 0;
   bool operator==(const Step &) const = default;
 };
 using Way = std::vector<Step>;
@@ -51,13 +51,13 @@ bool sameWays(const std::vector<Leaf> &a, const std::vector<Leaf> &b) {
 bool constantLeaves(const Type *type, const Expr *init, const Way &way, std::vector<Leaf> &leaves) {
   if (leaves.size() > kMostColumns)
     return false;
-  if (init->kind != ExprKind::aggregate) {
+  if (init->kind != ExprKind::Aggregate) {
     leaves.push_back({way, type, init});
     return init->constant != nullptr && !isString(type) &&
-           (isElementary(type) || type->kind == TypeKind::enumeration);
+           (isElementary(type) || type->kind == TypeKind::Enumeration);
   }
-  const bool isArray = type->kind == TypeKind::array;
-  std::size_t place = 0;
+  const bool isArray = type->kind == TypeKind::Array;
+  size_t place = 0;
   for (const AggregateItem &item : as<AggregateExpr>(init)->items) {
     if (item.repeat != nullptr || item.value == nullptr || !item.values.empty() ||
         (!isArray && (item.symbol == nullptr || item.symbol->isBit)))
@@ -76,12 +76,11 @@ bool constantLeaves(const Type *type, const Expr *init, const Way &way, std::vec
 
 /// `static constexpr T table__1[] = {…};` with what `element(i)` writes; gives its name.
 template <class Element>
-std::string declareTable(EmitContext &cx, std::string_view type, std::size_t size,
-                         Element &&element) {
+std::string declareTable(EmitContext &cx, std::string_view type, size_t size, Element &&element) {
   std::string table = cx.temporary("table");
   cx.begin(cx.modes.init.span);
   cx.out << "static constexpr " << type << ' ' << table << "[] = {";
-  for (std::size_t i = 0; i < size; ++i) {
+  for (size_t i = 0; i < size; ++i) {
     cx.out << (i == 0 ? "" : ", ");
     element(i);
   }
@@ -90,7 +89,7 @@ std::string declareTable(EmitContext &cx, std::string_view type, std::size_t siz
   return table;
 }
 
-std::string forEach(std::size_t count) {
+std::string forEach(size_t count) {
   return "for (::stride::ULINT i__ = 0; i__ < " + std::to_string(count) + "; ++i__) ";
 }
 
@@ -106,7 +105,7 @@ bool initFromConstants(EmitContext &cx, std::string_view target, const ArrayType
         return item.repeat == nullptr && item.value != nullptr && item.value->constant != nullptr;
       }))
     return false;
-  const std::string table = declareTable(cx, cx.type(element), items.size(), [&](std::size_t i) {
+  const std::string table = declareTable(cx, cx.type(element), items.size(), [&](size_t i) {
     emitValueAs(cx, items[i].value, element);
   });
   initLine(cx, forEach(items.size()), target, ".v[i__] = ", table, "[i__];");
@@ -119,7 +118,7 @@ std::vector<std::vector<Leaf>> similarItems(const ArrayType *type, const Aggrega
   for (const AggregateItem &item : init->items) {
     std::vector<Leaf> row;
     if (item.repeat != nullptr || item.value == nullptr || !item.values.empty() ||
-        item.value->kind != ExprKind::aggregate ||
+        item.value->kind != ExprKind::Aggregate ||
         !constantLeaves(type->element, item.value, {}, row) || row.empty() ||
         (!rows.empty() && !sameWays(row, rows[0])))
       return {};
@@ -137,11 +136,11 @@ bool initFromColumns(EmitContext &cx, std::string_view target, const ArrayType *
   const std::vector<std::vector<Leaf>> rows = similarItems(type, init);
   if (rows.empty())
     return false;
-  for (std::size_t column = 0; column < rows[0].size(); ++column) {
+  for (size_t column = 0; column < rows[0].size(); ++column) {
     const Type *columnType = rows[0][column].type;
-    const std::string table =
-        declareTable(cx, cx.type(columnType), rows.size(),
-                     [&](std::size_t i) { emitValueAs(cx, rows[i][column].value, columnType); });
+    const std::string table = declareTable(cx, cx.type(columnType), rows.size(), [&](size_t i) {
+      emitValueAs(cx, rows[i][column].value, columnType);
+    });
     initLine(cx, forEach(rows.size()), target, ".v[i__]", pathOf(rows[0][column].way), " = ", table,
              "[i__];");
   }
@@ -154,11 +153,11 @@ bool isPlainField(const VarSymbol *v) {
 
 /// The global variable whose address the value is, or null.
 const VarSymbol *pointedGlobal(const Expr *value, const Type *pointer) {
-  if (value == nullptr || value->kind != ExprKind::call || value->constant != nullptr)
+  if (value == nullptr || value->kind != ExprKind::Call || value->constant != nullptr)
     return nullptr;
   const auto *call = as<CallExpr>(value);
-  if (call->resolved != Callee::builtin || call->builtin != Builtin::adr ||
-      call->arguments.size() != 1 || pointer->kind != TypeKind::pointer)
+  if (call->resolved != Callee::Builtin || call->builtin != Builtin::Adr ||
+      call->arguments.size() != 1 || pointer->kind != TypeKind::Pointer)
     return nullptr;
   const VarSymbol *v = namedVariable(call->arguments[0].value);
   const bool plain = v != nullptr && v->globals != nullptr && isPlainField(v) && !isIndirect(v) &&
@@ -181,10 +180,9 @@ bool initFromAddresses(EmitContext &cx, std::string_view target, const ArrayType
   }
   const Root list{variables[0]->globals, false};
   const std::string owner = rootType(cx.run.names, list);
-  const std::string table =
-      declareTable(cx, "::stride::ULINT", variables.size(), [&](std::size_t i) {
-        cx.out << "offsetof(" << owner << ", " << fieldName(variables[i]) << ')';
-      });
+  const std::string table = declareTable(cx, "::stride::ULINT", variables.size(), [&](size_t i) {
+    cx.out << "offsetof(" << owner << ", " << fieldName(variables[i]) << ')';
+  });
   initLine(cx, forEach(variables.size()), target, ".v[i__] = reinterpret_cast<",
            cx.type(type->element), ">(reinterpret_cast<char *>(&", cx.root(list), ") + ", table,
            "[i__]);");
@@ -199,7 +197,7 @@ std::vector<std::vector<Leaf>> similarValues(EmitContext &cx,
                                              std::span<const VarSymbol *const> variables) {
   std::vector<std::vector<Leaf>> rows;
   const Type *type = variables.front()->type;
-  if (type->kind != TypeKind::structure || Addressed::holdsBlock(type) ||
+  if (type->kind != TypeKind::Structure || Addressed::holdsBlock(type) ||
       typeAs<StructType>(type)->isUnion)
     return rows;
   for (const VarSymbol *v : variables) {
@@ -207,7 +205,7 @@ std::vector<std::vector<Leaf>> similarValues(EmitContext &cx,
       break;
     const Expr *init = cx.run.layouts.initOf(v);
     std::vector<Leaf> row;
-    if (init == nullptr || init->kind != ExprKind::aggregate ||
+    if (init == nullptr || init->kind != ExprKind::Aggregate ||
         !constantLeaves(type, init, {}, row) || (!rows.empty() && !sameWays(row, rows[0])))
       break;
     rows.push_back(std::move(row));
@@ -217,8 +215,7 @@ std::vector<std::vector<Leaf>> similarValues(EmitContext &cx,
 
 /// One place's values in all rows: what they have in common, or the element of a table that is
 /// written here.
-std::string columnOf(EmitContext &cx, const std::vector<std::vector<Leaf>> &rows,
-                     std::size_t column) {
+std::string columnOf(EmitContext &cx, const std::vector<std::vector<Leaf>> &rows, size_t column) {
   const Type *type = rows[0][column].type;
   const Constant first = constantOf(rows[0][column].value, type);
   if (std::all_of(rows.begin(), rows.end(), [&](const std::vector<Leaf> &row) {
@@ -226,7 +223,7 @@ std::string columnOf(EmitContext &cx, const std::vector<std::vector<Leaf>> &rows
       }))
     return cx.text([&] { emitConstant(cx, first); });
   return declareTable(cx, cx.type(type), rows.size(),
-                      [&](std::size_t i) { emitValueAs(cx, rows[i][column].value, type); }) +
+                      [&](size_t i) { emitValueAs(cx, rows[i][column].value, type); }) +
          "[i__]";
 }
 
@@ -238,8 +235,8 @@ bool initFromTable(EmitContext &cx, std::string_view target, const ArrayType *ty
          initFromAddresses(cx, target, type, init);
 }
 
-std::size_t initRun(EmitContext &cx, std::span<const VarSymbol *const> variables,
-                    std::string_view owner) {
+size_t initRun(EmitContext &cx, std::span<const VarSymbol *const> variables,
+               std::string_view owner) {
   const std::vector<std::vector<Leaf>> rows = similarValues(cx, variables);
   if (rows.size() < kMinTable)
     return 0;
@@ -251,7 +248,7 @@ std::size_t initRun(EmitContext &cx, std::span<const VarSymbol *const> variables
            ") == offsetof(", owner, ", ", name, ") + ", rows.size() - 1, " * sizeof(", type,
            "), \"one after the other\");");
   std::vector<std::string> sources; // of each place's value
-  for (std::size_t column = 0; column < rows[0].size(); ++column)
+  for (size_t column = 0; column < rows[0].size(); ++column)
     sources.push_back(columnOf(cx, rows, column));
   const std::string loop = forEach(rows.size());
   initLoop(
@@ -261,7 +258,7 @@ std::size_t initRun(EmitContext &cx, std::span<const VarSymbol *const> variables
         initLine(cx, "auto &", element, " = *::stride::advance(&this->", name, ", i__ * sizeof(",
                  type, "));");
         initDefault(cx, element, first->type);
-        for (std::size_t column = 0; column < sources.size(); ++column)
+        for (size_t column = 0; column < sources.size(); ++column)
           initLine(cx, element, pathOf(rows[0][column].way), " = ", sources[column], ';');
       });
   return rows.size();

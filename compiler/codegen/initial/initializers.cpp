@@ -15,7 +15,7 @@ using namespace ast;
 
 namespace {
 
-constexpr std::uint64_t kMaxUnrolled = 16;
+constexpr uint64_t kMaxUnrolled = 16;
 
 /// `target = its address;`
 void initReference(EmitContext &cx, std::string_view target, const Expr *value) {
@@ -29,19 +29,19 @@ void initReference(EmitContext &cx, std::string_view target, const Expr *value) 
 /// The type's default as one statement.
 void emitDefault(EmitContext &cx, std::string_view target, const Type *type) {
   switch (type->kind) {
-  case TypeKind::enumeration: {
+  case TypeKind::Enumeration: {
     const EnumeratorSymbol *initial = typeAs<EnumType>(type)->initial;
     cx.out << target << " = ";
     emitLiteral(cx, integerValue(initial->value), type, type, initial);
     cx.out << ';';
     return;
   }
-  case TypeKind::subrange:
+  case TypeKind::Subrange:
     cx.out << target << " = ";
     emitNumber(cx, subrangeDefault(typeAs<SubrangeType>(type)), type);
     cx.out << ';';
     return;
-  case TypeKind::array: {
+  case TypeKind::Array: {
     const std::string element = cx.temporary("element");
     cx.out << "for (auto &" << element << " : " << target << ".v) ";
     emitDefault(cx, element, typeAs<ArrayType>(type)->element);
@@ -64,7 +64,7 @@ void initFields(EmitContext &cx, std::string_view target, const Type *type,
       continue;
     const std::string field =
         std::string(target) + '.' + basePath(type, item.symbol) + fieldName(item.symbol);
-    if (item.symbol->type->kind == TypeKind::reference) {
+    if (item.symbol->type->kind == TypeKind::Reference) {
       initReference(cx, field, item.value);
       continue;
     }
@@ -80,29 +80,29 @@ struct Elements {
   const ArrayType *type;
 };
 
-std::uint64_t initItems(EmitContext &cx, const Elements &array, std::span<AggregateItem> items,
-                        const std::string &base, std::uint64_t at);
+uint64_t initItems(EmitContext &cx, const Elements &array, std::span<AggregateItem> items,
+                   const std::string &base, uint64_t at);
 
-std::uint64_t repetition(const AggregateItem &item) {
-  return item.repeat == nullptr ? 1 : static_cast<std::uint64_t>(item.repeat->constant->integer);
+uint64_t repetition(const AggregateItem &item) {
+  return item.repeat == nullptr ? 1 : static_cast<uint64_t>(item.repeat->constant->integer);
 }
 
 /// How many elements the items stand for.
-std::uint64_t widthOf(std::span<AggregateItem> items) {
-  std::uint64_t total = 0;
+uint64_t widthOf(std::span<AggregateItem> items) {
+  uint64_t total = 0;
   for (const AggregateItem &item : items)
     total += repetition(item) * (item.values.empty() ? 1 : widthOf(item.values));
   return total;
 }
 
 /// `for (::stride::ULINT i = 0; i < count; ++i) `
-void openCount(EmitContext &cx, const std::string &i, std::uint64_t count) {
+void openCount(EmitContext &cx, const std::string &i, uint64_t count) {
   cx.out << "for (::stride::ULINT " << i << " = 0; " << i << " < " << count << "; ++" << i << ") ";
 }
 
 /// One value, `count` times from element `base` + `at` on.
-void initRepeated(EmitContext &cx, const Elements &array, const Expr *value, std::uint64_t count,
-                  const std::string &base, std::uint64_t at) {
+void initRepeated(EmitContext &cx, const Elements &array, const Expr *value, uint64_t count,
+                  const std::string &base, uint64_t at) {
   const std::string place = std::string(array.target) + ".v[" + base;
   if (count == 1) {
     initValue(cx, place + std::to_string(at) + "]", array.type->element, value);
@@ -110,7 +110,7 @@ void initRepeated(EmitContext &cx, const Elements &array, const Expr *value, std
   }
   const std::string i = cx.temporary("i");
   const std::string each = place + i + " + " + std::to_string(at) + "]";
-  if (value->kind == ExprKind::aggregate) {
+  if (value->kind == ExprKind::Aggregate) {
     initLoop(
         cx,
         [&] {
@@ -127,15 +127,14 @@ void initRepeated(EmitContext &cx, const Elements &array, const Expr *value, std
 }
 
 /// Several values, `count` times; gives the next element.
-std::uint64_t initRepeatedList(EmitContext &cx, const Elements &array,
-                               std::span<AggregateItem> values, std::uint64_t count,
-                               const std::string &base, std::uint64_t at) {
+uint64_t initRepeatedList(EmitContext &cx, const Elements &array, std::span<AggregateItem> values,
+                          uint64_t count, const std::string &base, uint64_t at) {
   if (count <= kMaxUnrolled) {
-    for (std::uint64_t i = 0; i < count; ++i)
+    for (uint64_t i = 0; i < count; ++i)
       at = initItems(cx, array, values, base, at);
     return at;
   }
-  const std::uint64_t width = widthOf(values);
+  const uint64_t width = widthOf(values);
   const std::string i = cx.temporary("i");
   initLoop(
       cx,
@@ -148,10 +147,10 @@ std::uint64_t initRepeatedList(EmitContext &cx, const Elements &array,
 }
 
 /// Places are `base` and a number, from `at` on; gives the number after the last one.
-std::uint64_t initItems(EmitContext &cx, const Elements &array, std::span<AggregateItem> items,
-                        const std::string &base, std::uint64_t at) {
+uint64_t initItems(EmitContext &cx, const Elements &array, std::span<AggregateItem> items,
+                   const std::string &base, uint64_t at) {
   for (const AggregateItem &item : items) {
-    const std::uint64_t count = repetition(item);
+    const uint64_t count = repetition(item);
     if (!item.values.empty()) {
       at = initRepeatedList(cx, array, item.values, count, base, at);
       continue;
@@ -170,7 +169,7 @@ std::uint64_t initItems(EmitContext &cx, const Elements &array, std::span<Aggreg
 // variables
 
 void initVariable(EmitContext &cx, std::string_view target, const VarSymbol *variable) {
-  if (variable->section == Section::inOut)
+  if (variable->section == Section::InOut)
     return;
   Layouts &layouts = cx.run.layouts;
   const Scoped<Initialised> mode(cx.modes.init, {variable->name.span});
@@ -179,13 +178,13 @@ void initVariable(EmitContext &cx, std::string_view target, const VarSymbol *var
     return;
   }
   const Expr *init = layouts.initOf(variable);
-  if (init != nullptr && variable->type->kind == TypeKind::reference) {
+  if (init != nullptr && variable->type->kind == TypeKind::Reference) {
     if (init->constant == nullptr)
       initReference(cx, target, init);
     return;
   }
   const bool whole =
-      init != nullptr && init->kind != ExprKind::aggregate; // replaces the type's default
+      init != nullptr && init->kind != ExprKind::Aggregate; // replaces the type's default
   const Written written = Layouts::written(variable);
   if (!whole)
     initWritten(cx, target, variable->type, written);
@@ -227,7 +226,7 @@ void initDefault(EmitContext &cx, std::string_view target, const Type *type) {
 }
 
 void initValue(EmitContext &cx, std::string_view target, const Type *type, const Expr *init) {
-  if (init->kind != ExprKind::aggregate) {
+  if (init->kind != ExprKind::Aggregate) {
     if (cx.modes.init.zeroed && isZero(init))
       return;
     cx.begin(cx.modes.init.span);
@@ -236,7 +235,7 @@ void initValue(EmitContext &cx, std::string_view target, const Type *type, const
     return;
   }
   const auto *list = as<AggregateExpr>(init);
-  if (type->kind != TypeKind::array) {
+  if (type->kind != TypeKind::Array) {
     initFields(cx, target, type, list);
     return;
   }

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_INITIAL_INITIALIZERS_HPP
+#define STRIDE_COMPILER_CODEGEN_INITIAL_INITIALIZERS_HPP
 // Initial values. Memory is zero before, so that only what differs from zero is written.
 
 #include "compiler/codegen/context/context.hpp"
@@ -44,3 +45,5 @@ void declareInput(EmitContext &cx, const VarSymbol *input, Span start);
 void declareTemporary(EmitContext &cx, const Type *type, std::string_view name, bool onDataStack);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_INITIAL_INITIALIZERS_HPP

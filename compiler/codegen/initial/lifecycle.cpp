@@ -27,15 +27,15 @@ const NamedTypeExpr *constructOf(const VarSymbol *variable) {
   if (variable->decl == nullptr || variable->decl->type == nullptr)
     return nullptr;
   const TypeExpr *type = variable->decl->type;
-  while (type->kind == TypeExprKind::array)
+  while (type->kind == TypeExprKind::Array)
     type = as<ArrayTypeExpr>(type)->element;
-  return type->kind == TypeExprKind::named ? as<NamedTypeExpr>(type) : nullptr;
+  return type->kind == TypeExprKind::Named ? as<NamedTypeExpr>(type) : nullptr;
 }
 
 /// Something for each instance in (the arrays of) `target`; `each` gets its place.
 template <class Each>
 void forEachInstance(EmitContext &cx, std::string_view target, const Type *type, Each &&each) {
-  if (type->kind != TypeKind::array) {
+  if (type->kind != TypeKind::Array) {
     each(target);
     return;
   }
@@ -53,9 +53,9 @@ void emitConstructInput(EmitContext &cx, const VarSymbol *input,
   });
   if (given == arguments.rend() || given->value == nullptr)
     emitDefaultArgument(cx, input);
-  else if (given->value->kind == ExprKind::aggregate)
+  else if (given->value->kind == ExprKind::Aggregate)
     emitAggregateValue(cx, input->type, given->value);
-  else if (input->type->kind == TypeKind::reference)
+  else if (input->type->kind == TypeKind::Reference)
     emitAddressAs(cx, given->value, typeAs<PointerType>(input->type)->pointee);
   else
     emitValueAs(cx, given->value, input->type);
@@ -85,15 +85,15 @@ void callInits(EmitContext &cx, std::string_view target, const PouSymbol *block,
 
 /// The elements of an array with a list of inputs each: they are written one after the other, from
 /// element `at` of all; gives the number of the next one.
-std::size_t constructEach(EmitContext &cx, const std::string &target, const Type *type,
-                          const NamedTypeExpr *written, std::size_t at) {
-  if (type->kind != TypeKind::array) {
+size_t constructEach(EmitContext &cx, const std::string &target, const Type *type,
+                     const NamedTypeExpr *written, size_t at) {
+  if (type->kind != TypeKind::Array) {
     callInits(cx, target, typeAs<PouType>(type)->symbol,
               at < written->elements.size() ? written->elements[at] : std::span<Argument>());
     return at + 1;
   }
   const auto *array = typeAs<ArrayType>(type);
-  for (std::uint64_t i = 0; i < array->count(); ++i)
+  for (uint64_t i = 0; i < array->count(); ++i)
     at = constructEach(cx, target + ".v[" + std::to_string(i) + "]", array->element, written, at);
   return at;
 }
@@ -105,13 +105,13 @@ void callMethod(EmitContext &cx, std::string_view target, const PouSymbol *block
   cx.begin(cx.modes.init.span);
   const std::vector<VarSymbol *> parameters = method->parameters();
   const bool outputs = std::any_of(parameters.begin(), parameters.end(), [](const VarSymbol *p) {
-    return p->section == Section::output;
+    return p->section == Section::Output;
   });
   if (outputs)
     cx.out << "{ ";
   std::string arguments;
   for (const VarSymbol *p : parameters) {
-    if (p->section == Section::output) {
+    if (p->section == Section::Output) {
       const std::string out = cx.temporary("out");
       cx.out << cx.type(p->type) << ' ' << out << "{}; ";
       arguments += ", " + out;
@@ -141,7 +141,7 @@ void emitLifecycleOf(EmitContext &cx, std::string_view target, const Type *type,
 void emitMembers(EmitContext &cx, const std::vector<const VarSymbol *> &variables,
                  const std::string &path, std::string_view what) {
   for (const VarSymbol *v : variables) {
-    if (v->section == Section::inOut)
+    if (v->section == Section::InOut)
       continue;
     const Scoped<Initialised> mode(cx.modes.init, {v->name.span});
     emitLifecycleOf(cx, path + fieldName(v), v->type, what);
@@ -173,7 +173,7 @@ void emitBlockMembers(EmitContext &cx, const PouSymbol *block, std::string_view 
 
 void construct(EmitContext &cx, std::string_view target, const VarSymbol *variable) {
   const Type *type = innermost(variable->type);
-  if (type->kind != TypeKind::functionBlock)
+  if (type->kind != TypeKind::FunctionBlock)
     return;
   const PouSymbol *block = typeAs<PouType>(type)->symbol;
   if (findInit(block) == nullptr)
@@ -191,7 +191,7 @@ void construct(EmitContext &cx, std::string_view target, const VarSymbol *variab
 
 void constructPlain(EmitContext &cx, std::string_view target, const Type *type) {
   const Type *element = innermost(type);
-  if (element->kind != TypeKind::functionBlock ||
+  if (element->kind != TypeKind::FunctionBlock ||
       findInit(typeAs<PouType>(element)->symbol) == nullptr)
     return;
   forEachInstance(cx, target, type, [&](std::string_view each) {
@@ -201,7 +201,7 @@ void constructPlain(EmitContext &cx, std::string_view target, const Type *type) 
 
 void callAfterInit(EmitContext &cx, std::string_view target, const Type *type) {
   const Type *element = innermost(type);
-  if (element->kind != TypeKind::functionBlock)
+  if (element->kind != TypeKind::FunctionBlock)
     return;
   const PouSymbol *block = typeAs<PouType>(element)->symbol;
   const std::vector<PouSymbol *> methods = afterInitMethods(block);

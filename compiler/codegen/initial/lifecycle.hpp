@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_INITIAL_LIFECYCLE_HPP
+#define STRIDE_COMPILER_CODEGEN_INITIAL_LIFECYCLE_HPP
 // FB_Init, FB_Exit and FB_Reinit of instances.
 
 #include "compiler/codegen/context/context.hpp"
@@ -19,3 +20,5 @@ void emitLifecycle(EmitContext &cx, const std::vector<const VarSymbol *> &variab
                    std::string_view what, const Type *base, const PouSymbol *block);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_INITIAL_LIFECYCLE_HPP

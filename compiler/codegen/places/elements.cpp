@@ -26,7 +26,7 @@ void emitOpenElement(EmitContext &cx, std::string base, const OpenArrayType *arr
                      bool takesBase) {
   cx.includes.complete(array);
   cx.includes.complete(array->element);
-  const PouSymbol *own = ownCheck(cx, ImplicitCheck::bounds);
+  const PouSymbol *own = ownCheck(cx, ImplicitCheck::Bounds);
   const bool opens = takesBase || own != nullptr; // the bounds are those of the array passed
   if (opens)
     base = openBase(cx, base, array);
@@ -50,7 +50,7 @@ void emitOpenElement(EmitContext &cx, std::string base, const OpenArrayType *arr
 /// `element(ctx__, p, i)`, `character(ctx__, s, i)`.
 void emitPointedElement(EmitContext &cx, std::string base, const Type *type, const Expr *i,
                         bool takesBase) {
-  const bool points = type->kind == TypeKind::pointer;
+  const bool points = type->kind == TypeKind::Pointer;
   if (points)
     cx.includes.complete(typeAs<PointerType>(type)->pointee);
   const bool text = isString(points ? typeAs<PointerType>(type)->pointee : type);
@@ -98,22 +98,22 @@ struct Indexed {
 void follow(EmitContext &cx, Indexed &at, Span span) {
   at.type = typeAs<PointerType>(at.type)->pointee;
   cx.includes.complete(at.type);
-  at.code = cx.text([&] { emitFollowed(cx, Slot::reference, span, [&] { cx.out << at.code; }); });
+  at.code = cx.text([&] { emitFollowed(cx, Slot::Reference, span, [&] { cx.out << at.code; }); });
 }
 
 /// What the expression begins with: the place of the array, or the value of the pointer.
 void emitBase(EmitContext &cx, const Expr *base) {
   cx.includes.complete(base->type); // C++ must know the size of the elements
-  if (base->type->kind == TypeKind::pointer)
+  if (base->type->kind == TypeKind::Pointer)
     emitCheckedPointer(cx, base);
   else
     emitPlace(cx, base);
 }
 
 void step(EmitContext &cx, Indexed &at, const Expr *i, bool takesBase) {
-  if (at.type->kind == TypeKind::array)
+  if (at.type->kind == TypeKind::Array)
     at.code += cx.text([&] { emitArrayElement(cx, typeAs<ArrayType>(at.type), i); });
-  else if (at.type->kind == TypeKind::openArray)
+  else if (at.type->kind == TypeKind::OpenArray)
     at.code = cx.text(
         [&] { emitOpenElement(cx, at.code, typeAs<OpenArrayType>(at.type), i, takesBase); });
   else
@@ -124,12 +124,12 @@ void step(EmitContext &cx, Indexed &at, const Expr *i, bool takesBase) {
 /// Each index is written after what it is an index into: nothing goes around it.
 bool isPlain(const IndexExpr *e) {
   const Type *t = e->base->type;
-  for (std::size_t i = 0; i < e->indices.size(); ++i) {
-    if (t->kind != TypeKind::array)
+  for (size_t i = 0; i < e->indices.size(); ++i) {
+    if (t->kind != TypeKind::Array)
       return false;
     t = typeAs<ArrayType>(t)->element;
   }
-  return t->kind != TypeKind::reference;
+  return t->kind != TypeKind::Reference;
 }
 
 } // namespace
@@ -145,16 +145,16 @@ void emitIndex(EmitContext &cx, const IndexExpr *e, bool slotOnly) {
     return;
   }
   Indexed at{cx.text([&] { emitBase(cx, e->base); }), type};
-  unsigned before = type->kind == TypeKind::pointer ? cx.effects(e->base)
+  unsigned before = type->kind == TypeKind::Pointer ? cx.effects(e->base)
                                                     : cx.run.analysis.placeEffects(e->base, cx.pou);
   for (const Expr *i : e->indices) {
-    if (at.type->kind == TypeKind::reference)
+    if (at.type->kind == TypeKind::Reference)
       follow(cx, at, e->span);
     const unsigned own = cx.effects(i);
     step(cx, at, i, Analysis::orderShows(before, own));
     before |= own;
   }
-  if (at.type->kind == TypeKind::reference && !slotOnly)
+  if (at.type->kind == TypeKind::Reference && !slotOnly)
     follow(cx, at, e->span);
   cx.out << at.code;
 }

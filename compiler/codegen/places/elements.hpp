@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_PLACES_ELEMENTS_HPP
+#define STRIDE_COMPILER_CODEGEN_PLACES_ELEMENTS_HPP
 // Elements of arrays, characters of strings, what lies beside the target of a pointer.
 
 #include "compiler/codegen/context/context.hpp"
@@ -9,3 +10,5 @@ namespace stc::codegen {
 void emitIndex(EmitContext &cx, const ast::IndexExpr *e, bool slotOnly);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_PLACES_ELEMENTS_HPP

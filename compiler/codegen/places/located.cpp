@@ -16,7 +16,7 @@ namespace {
 
 /// The variable that a bit or part belongs to.
 const Expr *bitOwner(const Expr *e) {
-  while (e->kind == ExprKind::member && as<MemberExpr>(e)->bit >= 0)
+  while (e->kind == ExprKind::Member && as<MemberExpr>(e)->bit >= 0)
     e = as<MemberExpr>(e)->base;
   return e;
 }
@@ -32,7 +32,7 @@ void openImageBit(EmitContext &cx, const Expr *e, const Location &at, bool write
     return;
   }
   cx.out << (shared ? "SharedBitAt(" : "BitAt(") << base << ", ";
-  if (e->kind == ExprKind::member && !isNamespace(as<MemberExpr>(e)->base))
+  if (e->kind == ExprKind::Member && !isNamespace(as<MemberExpr>(e)->base))
     emitMemberSlot(cx, as<MemberExpr>(e));
   else
     emitField(cx, locatedVariable(e));
@@ -44,9 +44,9 @@ void openBit(EmitContext &cx, const Expr *e, bool writes) {
   const bool shared = cx.isShared(owner);
   const bool loads = shared && !writes;
   // `lw.%W1.%B0` is one part of lw.
-  std::uint64_t first = 0;
+  uint64_t first = 0;
   for (const Expr *part = e; part != owner; part = as<MemberExpr>(part)->base)
-    first += static_cast<std::uint64_t>(as<MemberExpr>(part)->bit) * as<MemberExpr>(part)->width;
+    first += static_cast<uint64_t>(as<MemberExpr>(part)->bit) * as<MemberExpr>(part)->width;
   const unsigned width = as<MemberExpr>(e)->width;
   cx.out << (shared && writes ? "Shared" : "");
   if (width == 1)
@@ -138,7 +138,7 @@ void initLocated(EmitContext &cx, std::string_view target, const VarSymbol *vari
     return;
   }
   const std::string place = locatedText(cx, at, variable->type, [&] { cx.out << target; });
-  if (init == nullptr || init->kind == ExprKind::aggregate) {
+  if (init == nullptr || init->kind == ExprKind::Aggregate) {
     initWritten(cx, place, variable->type, Layouts::written(variable));
     if (init != nullptr) {
       const Scoped<bool> zeroed(cx.modes.init.zeroed, isZeroed(cx, variable->type));
@@ -169,7 +169,7 @@ void initConfigured(EmitContext &cx, const SlotPlace &entry) {
     place = std::string(cx.root(rootOf(entry.path))) + pathInRoot(entry.path);
   }
   cx.modes.init.zeroed = isZeroed(cx, type);
-  if (init->kind == ExprKind::aggregate)
+  if (init->kind == ExprKind::Aggregate)
     initValue(cx, place, type, init);
   else
     initPlace(cx, place, type, init);

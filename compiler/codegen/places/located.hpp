@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_PLACES_LOCATED_HPP
+#define STRIDE_COMPILER_CODEGEN_PLACES_LOCATED_HPP
 // Places that are no plain C++ variables: the process image, bits and parts.
 
 #include "compiler/codegen/context/context.hpp"
@@ -18,3 +19,5 @@ void initLocated(EmitContext &cx, std::string_view target, const VarSymbol *vari
 void initConfigured(EmitContext &cx, const SlotPlace &entry);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_PLACES_LOCATED_HPP

@@ -9,7 +9,7 @@ namespace stc::codegen {
 using namespace ast;
 
 const PouSymbol *ownCheck(EmitContext &cx, ImplicitCheck check) {
-  const PouSymbol *pou = cx.run.program.implicitChecks[static_cast<std::size_t>(check)];
+  const PouSymbol *pou = cx.run.program.implicitChecks[static_cast<size_t>(check)];
   if (pou == nullptr || cx.isCheck() || !cx.checks())
     return nullptr;
   cx.includes.symbol(pou);
@@ -17,12 +17,11 @@ const PouSymbol *ownCheck(EmitContext &cx, ImplicitCheck check) {
 }
 
 void emitCheckedIndex(EmitContext &cx, const Expr *index, const ArrayType *array) {
-  const auto fits = [](std::int64_t v) {
-    return v >= std::numeric_limits<std::int32_t>::min() &&
-           v <= std::numeric_limits<std::int32_t>::max();
+  const auto fits = [](int64_t v) {
+    return v >= std::numeric_limits<int32_t>::min() && v <= std::numeric_limits<int32_t>::max();
   };
   const PouSymbol *own =
-      fits(array->low) && fits(array->high) ? ownCheck(cx, ImplicitCheck::bounds) : nullptr;
+      fits(array->low) && fits(array->high) ? ownCheck(cx, ImplicitCheck::Bounds) : nullptr;
   if (own == nullptr) {
     emitValue(cx, index);
     return;
@@ -37,8 +36,8 @@ bool openRangeCheck(EmitContext &cx, const SubrangeType *range) {
   const bool wide = bitWidth(base) == 64;
   const PouSymbol *own =
       ownCheck(cx, isSignedInteger(base)
-                       ? (wide ? ImplicitCheck::rangeLongSigned : ImplicitCheck::rangeSigned)
-                       : (wide ? ImplicitCheck::rangeLongUnsigned : ImplicitCheck::rangeUnsigned));
+                       ? (wide ? ImplicitCheck::RangeLongSigned : ImplicitCheck::RangeSigned)
+                       : (wide ? ImplicitCheck::RangeLongUnsigned : ImplicitCheck::RangeUnsigned));
   if (own == nullptr)
     return false;
   cx.out << cx.run.names.qualified(own) << '(' << cx.ctx() << ", ";
@@ -51,10 +50,10 @@ namespace {
 /// widening; the check of a wider type serves as well.
 std::vector<ImplicitCheck> divisorChecks(const Type *type, const Type *narrow) {
   using enum ImplicitCheck;
-  if (type->kind == TypeKind::real)
-    return {divReal, divLreal};
-  if (type->kind == TypeKind::lreal)
-    return {divLreal};
+  if (type->kind == TypeKind::Real)
+    return {DivReal, DivLreal};
+  if (type->kind == TypeKind::Lreal)
+    return {DivLreal};
   std::vector<ImplicitCheck> checks;
   const unsigned width = bitWidth(narrow);
   const auto addIf = [&](bool serves, ImplicitCheck check) {
@@ -62,13 +61,13 @@ std::vector<ImplicitCheck> divisorChecks(const Type *type, const Type *narrow) {
       checks.push_back(check);
   };
   const bool isUnsigned = isBitString(narrow) || isUnsignedInteger(narrow);
-  addIf(isUnsigned && width <= 8, divByte);
-  addIf(isUnsigned && width <= 16, divWord);
-  addIf(isUnsigned && width <= 32, divDword);
+  addIf(isUnsigned && width <= 8, DivByte);
+  addIf(isUnsigned && width <= 16, DivWord);
+  addIf(isUnsigned && width <= 32, DivDword);
   const bool isSigned = isSignedInteger(narrow);
-  addIf(width < 16 || (width == 16 && isSigned), divInt);
-  addIf(width < 32 || (width == 32 && isSigned), divDint);
-  addIf(true, divLint);
+  addIf(width < 16 || (width == 16 && isSigned), DivInt);
+  addIf(width < 32 || (width == 32 && isSigned), DivDint);
+  addIf(true, DivLint);
   return checks;
 }
 
@@ -91,7 +90,7 @@ bool openDivisorCheck(EmitContext &cx, const BinaryExpr *e) {
 }
 
 void emitCheckedPointer(EmitContext &cx, const Expr *pointer) {
-  const PouSymbol *own = ownCheck(cx, ImplicitCheck::pointer);
+  const PouSymbol *own = ownCheck(cx, ImplicitCheck::Pointer);
   if (own == nullptr) {
     emitValue(cx, pointer);
     return;

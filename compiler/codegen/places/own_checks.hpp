@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_PLACES_OWN_CHECKS_HPP
+#define STRIDE_COMPILER_CODEGEN_PLACES_OWN_CHECKS_HPP
 // Checks that the project replaces by functions of its own: CheckBounds, CheckDivInt …
 
 #include "compiler/codegen/context/context.hpp"
@@ -16,3 +17,5 @@ void emitCheckedIndex(EmitContext &cx, const ast::Expr *index, const ArrayType *
 void emitCheckedPointer(EmitContext &cx, const ast::Expr *pointer);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_PLACES_OWN_CHECKS_HPP

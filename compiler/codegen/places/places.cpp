@@ -21,13 +21,13 @@ namespace {
 void emitHolder(EmitContext &cx, const VarSymbol *v) {
   if (v->globals != nullptr)
     cx.out << cx.root({v->globals, false}) << '.';
-  else if (v->section == Section::stat)
+  else if (v->section == Section::Stat)
     cx.out << cx.root({v->owner, true}) << '.';
 }
 
 /// A field of the block whose code is written, maybe one of its bases'.
 void emitOwnField(EmitContext &cx, const VarSymbol *v) {
-  if (v->section != Section::stat && v->owner != nullptr && cx.pou != nullptr &&
+  if (v->section != Section::Stat && v->owner != nullptr && cx.pou != nullptr &&
       v->owner->type != nullptr && v->owner != blockOf(cx.pou) && v->owner->isBlock())
     cx.out << pathToBase(blockOf(cx.pou), v->owner);
   cx.out << fieldName(v);
@@ -44,32 +44,32 @@ void emitVariable(EmitContext &cx, const VarSymbol *v, Span span) {
     return;
   }
   // A VAR_IN_OUT of the block is a C++ reference in its body only, not in methods and derived ones.
-  const bool slot = v->section == Section::inOut && v->owner != nullptr &&
+  const bool slot = v->section == Section::InOut && v->owner != nullptr &&
                     v->owner->type != nullptr && v->owner != cx.pou;
-  if (v->type->kind != TypeKind::reference && !slot) {
+  if (v->type->kind != TypeKind::Reference && !slot) {
     emitField(cx, v);
     return;
   }
   cx.includes.complete(slot ? v->type : typeAs<PointerType>(v->type)->pointee);
-  emitFollowed(cx, slot ? Slot::inOut : Slot::reference, span, [&] { emitField(cx, v); });
+  emitFollowed(cx, slot ? Slot::InOut : Slot::Reference, span, [&] { emitField(cx, v); });
 }
 
 void emitName(EmitContext &cx, const NameExpr *e) {
   const Symbol *symbol = e->symbol;
   switch (symbol->kind) {
-  case SymbolKind::pou:
+  case SymbolKind::Pou:
     cx.includes.symbol(symbol);
     cx.out << cx.root({symbol, false});
     return;
-  case SymbolKind::property:
+  case SymbolKind::Property:
     emitPropertyGet(cx, nullptr, static_cast<const PropertySymbol *>(symbol), e->span);
     return;
-  case SymbolKind::self:
+  case SymbolKind::Self:
     emitSelf(cx, static_cast<const SelfSymbol *>(symbol));
     return;
   default:
     // An in-out is declared with the name of its type only.
-    if (e->type->kind == TypeKind::array || e->type->kind == TypeKind::structure)
+    if (e->type->kind == TypeKind::Array || e->type->kind == TypeKind::Structure)
       cx.includes.complete(e->type);
     emitVariable(cx, static_cast<const VarSymbol *>(symbol), e->span);
   }
@@ -78,19 +78,19 @@ void emitName(EmitContext &cx, const NameExpr *e) {
 void emitDeref(EmitContext &cx, const DerefExpr *e) {
   const Expr *pointer = e->base;
   cx.includes.complete(e->type);
-  if (pointer->kind == ExprKind::name &&
-      as<NameExpr>(pointer)->symbol->kind == SymbolKind::self) { // never null
+  if (pointer->kind == ExprKind::Name &&
+      as<NameExpr>(pointer)->symbol->kind == SymbolKind::Self) { // never null
     const auto *self = static_cast<const SelfSymbol *>(as<NameExpr>(pointer)->symbol);
     cx.out << (self->isSuper ? "this->base__" : "(*this)");
     return;
   }
-  emitFollowed(cx, Slot::reference, e->span, [&] { emitCheckedPointer(cx, pointer); });
+  emitFollowed(cx, Slot::Reference, e->span, [&] { emitCheckedPointer(cx, pointer); });
 }
 
 /// The slot of a member, or a static one.
 void emitMemberField(EmitContext &cx, const MemberExpr *e) {
   const auto *field = static_cast<const VarSymbol *>(e->symbol);
-  if (field->section == Section::stat && field->owner != nullptr)
+  if (field->section == Section::Stat && field->owner != nullptr)
     cx.out << cx.root({field->owner, true}) << '.' << fieldName(field);
   else
     emitMemberSlot(cx, e);
@@ -98,7 +98,7 @@ void emitMemberField(EmitContext &cx, const MemberExpr *e) {
 
 /// A variable of a library, a list or (as a program) the application.
 void emitNamespaceMember(EmitContext &cx, const MemberExpr *e) {
-  if (e->symbol->kind != SymbolKind::pou) {
+  if (e->symbol->kind != SymbolKind::Pou) {
     emitVariable(cx, static_cast<const VarSymbol *>(e->symbol), e->span);
     return;
   }
@@ -107,7 +107,7 @@ void emitNamespaceMember(EmitContext &cx, const MemberExpr *e) {
 }
 
 void emitMember(EmitContext &cx, const MemberExpr *e, bool slotOnly) {
-  if (e->symbol->kind == SymbolKind::property) {
+  if (e->symbol->kind == SymbolKind::Property) {
     emitPropertyGet(cx, e->base, static_cast<const PropertySymbol *>(e->symbol), e->span);
     return;
   }
@@ -124,15 +124,15 @@ void emitMember(EmitContext &cx, const MemberExpr *e, bool slotOnly) {
     emitMemberField(cx, e);
     return;
   }
-  const bool isInOut = field->section == Section::inOut;
+  const bool isInOut = field->section == Section::InOut;
   cx.includes.complete(isInOut ? field->type : typeAs<PointerType>(field->type)->pointee);
-  if (!cx.checks() && field->type->kind == TypeKind::openArray) { // the slot holds it itself
+  if (!cx.checks() && field->type->kind == TypeKind::OpenArray) { // the slot holds it itself
     cx.out << '(';
     emitMemberField(cx, e);
     cx.out << ')';
     return;
   }
-  emitFollowed(cx, isInOut ? Slot::inOut : Slot::reference, e->span,
+  emitFollowed(cx, isInOut ? Slot::InOut : Slot::Reference, e->span,
                [&] { emitMemberField(cx, e); });
 }
 
@@ -146,7 +146,7 @@ void emitCopyOfTask(EmitContext &cx, const Expr *e) {
 
 /// A value that is looked into: `f().x`
 void emitValuePlace(EmitContext &cx, const Expr *e) {
-  if (e->kind == ExprKind::call && returnsBlock(as<CallExpr>(e)->pou, e->type))
+  if (e->kind == ExprKind::Call && returnsBlock(as<CallExpr>(e)->pou, e->type))
     emitBlockResult(cx, e->type, [&] { emitRaw(cx, e); });
   else
     emitRaw(cx, e);
@@ -154,27 +154,27 @@ void emitValuePlace(EmitContext &cx, const Expr *e) {
 
 /// What an in-out of the POU itself is: a C++ reference.
 bool isBoundHere(const EmitContext &cx, const Expr *e, const VarSymbol *v) {
-  return v->section == Section::inOut && v->owner == cx.pou && e->kind == ExprKind::name;
+  return v->section == Section::InOut && v->owner == cx.pou && e->kind == ExprKind::Name;
 }
 
 /// The expression is held as an address: writing its slot writes that.
 bool holdsAddress(const EmitContext &cx, const Expr *e) {
   if (const VarSymbol *v = indirectVariable(e))
     return !isBoundHere(cx, e, v);
-  return e->kind == ExprKind::index &&
-         elementBeforeReference(as<IndexExpr>(e))->kind == TypeKind::reference;
+  return e->kind == ExprKind::Index &&
+         elementBeforeReference(as<IndexExpr>(e))->kind == TypeKind::Reference;
 }
 
 bool returnsReference(const Expr *e) {
-  return e->kind == ExprKind::call && as<CallExpr>(e)->resolved == Callee::function &&
-         as<CallExpr>(e)->pou->result->type->kind == TypeKind::reference;
+  return e->kind == ExprKind::Call && as<CallExpr>(e)->resolved == Callee::Function &&
+         as<CallExpr>(e)->pou->result->type->kind == TypeKind::Reference;
 }
 
 } // namespace
 
 const VarSymbol *indirectVariable(const Expr *e) {
   const Symbol *symbol = isBitPlace(e) ? nullptr : symbolAt(e);
-  if (symbol == nullptr || symbol->kind != SymbolKind::variable)
+  if (symbol == nullptr || symbol->kind != SymbolKind::Variable)
     return nullptr;
   const auto *v = static_cast<const VarSymbol *>(symbol);
   return isIndirect(v) ? v : nullptr;
@@ -184,7 +184,7 @@ std::string basePath(const Type *base, const VarSymbol *field) {
   std::string path;
   if (isInstance(base) && field->owner != nullptr)
     return pathToBase(typeAs<PouType>(base)->symbol, blockOf(field->owner));
-  if (base->kind != TypeKind::structure)
+  if (base->kind != TypeKind::Structure)
     return path;
   for (const auto *s = typeAs<StructType>(base); s->base != nullptr; s = s->base) {
     if (std::find(s->fields.begin(), s->fields.end(), field) != s->fields.end())
@@ -196,7 +196,7 @@ std::string basePath(const Type *base, const VarSymbol *field) {
 
 bool returnsBlock(const PouSymbol *from, const Type *type) {
   return from != nullptr && from->result != nullptr &&
-         from->result->type->kind != TypeKind::reference && Addressed::holdsBlock(type);
+         from->result->type->kind != TypeKind::Reference && Addressed::holdsBlock(type);
 }
 
 void emitBlockResult(EmitContext &cx, const Type *type, Part value) {
@@ -212,7 +212,7 @@ void emitFollowed(EmitContext &cx, Slot slot, Span span, Part address) {
     cx.out << ')';
     return;
   }
-  cx.out << (slot == Slot::inOut ? "::stride::bound(" : "::stride::deref(") << cx.ctx() << ", ";
+  cx.out << (slot == Slot::InOut ? "::stride::bound(" : "::stride::deref(") << cx.ctx() << ", ";
   address();
   cx.out << ", ";
   cx.position(span);
@@ -241,15 +241,15 @@ void emitPlace(EmitContext &cx, const Expr *e) {
     return;
   }
   switch (e->kind) {
-  case ExprKind::name:
+  case ExprKind::Name:
     return emitName(cx, as<NameExpr>(e));
-  case ExprKind::member:
+  case ExprKind::Member:
     return emitMember(cx, as<MemberExpr>(e), false);
-  case ExprKind::index:
+  case ExprKind::Index:
     return emitIndex(cx, as<IndexExpr>(e), false);
-  case ExprKind::direct:
+  case ExprKind::Direct:
     return emitLocated(cx, *as<DirectExpr>(e)->location, e->type, [] {});
-  case ExprKind::deref:
+  case ExprKind::Deref:
     return emitDeref(cx, as<DerefExpr>(e));
   default:
     return emitValuePlace(cx, e);
@@ -257,11 +257,11 @@ void emitPlace(EmitContext &cx, const Expr *e) {
 }
 
 void emitSlot(EmitContext &cx, const Expr *e) {
-  if (e->kind == ExprKind::index) {
+  if (e->kind == ExprKind::Index) {
     emitIndex(cx, as<IndexExpr>(e), true);
     return;
   }
-  if (e->kind == ExprKind::member && !isNamespace(as<MemberExpr>(e)->base)) {
+  if (e->kind == ExprKind::Member && !isNamespace(as<MemberExpr>(e)->base)) {
     emitMember(cx, as<MemberExpr>(e), true);
     return;
   }
@@ -271,14 +271,14 @@ void emitSlot(EmitContext &cx, const Expr *e) {
     cx.out << mangle(v->name.text);
     return;
   }
-  if (v->section != Section::stat)
+  if (v->section != Section::Stat)
     cx.uses.add(v);
   emitOwnField(cx, v);
 }
 
 void emitField(EmitContext &cx, const VarSymbol *v) {
   emitHolder(cx, v);
-  if (v->globals != nullptr || v->section == Section::stat) {
+  if (v->globals != nullptr || v->section == Section::Stat) {
     cx.out << mangle(v->name.text);
     return;
   }
@@ -287,12 +287,12 @@ void emitField(EmitContext &cx, const VarSymbol *v) {
 }
 
 void emitAddress(EmitContext &cx, const Expr *e) {
-  if (e->type->kind == TypeKind::openArray) { // its first element
+  if (e->type->kind == TypeKind::OpenArray) { // its first element
     emitPlace(cx, e);
     cx.out << ".data";
   } else if (holdsAddress(cx, e)) {
     emitSlot(cx, e);
-  } else if (e->kind == ExprKind::deref) {
+  } else if (e->kind == ExprKind::Deref) {
     emitValue(cx, as<DerefExpr>(e)->base);
   } else if (e->constant != nullptr && e->target != nullptr) { // 0: nothing
     emitValue(cx, e);
@@ -312,7 +312,7 @@ void emitMemberSlot(EmitContext &cx, const MemberExpr *e) {
 }
 
 void emitOpenArray(EmitContext &cx, const Expr *e, const OpenArrayType *wanted) {
-  if (e->type->kind == TypeKind::openArray) {
+  if (e->type->kind == TypeKind::OpenArray) {
     emitPlace(cx, e);
     return;
   }

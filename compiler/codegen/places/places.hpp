@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_PLACES_PLACES_HPP
+#define STRIDE_COMPILER_CODEGEN_PLACES_PLACES_HPP
 // Places: variables, members, elements and what addresses lead to.
 
 #include "compiler/codegen/context/context.hpp"
@@ -7,7 +8,7 @@
 namespace stc::codegen {
 
 /// What holds an address: a reference or pointer, or an in-out of an instance.
-enum class Slot { reference, inOut };
+enum class Slot { Reference, InOut };
 
 /// A variable (or element, field, bit base …) that can be assigned to.
 void emitPlace(EmitContext &cx, const ast::Expr *e);
@@ -40,3 +41,5 @@ void emitBlockResult(EmitContext &cx, const Type *type, Part value);
 [[nodiscard]] std::string basePath(const Type *base, const VarSymbol *field);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_PLACES_PLACES_HPP

@@ -22,20 +22,20 @@ namespace {
 /// A whole array or structure in a UNION or behind a pointer may share some of its bytes with the
 /// value.
 bool mayOverlap(const Expr *target) {
-  if (target->type->kind != TypeKind::array && target->type->kind != TypeKind::structure)
+  if (target->type->kind != TypeKind::Array && target->type->kind != TypeKind::Structure)
     return false;
   while (true) {
     switch (target->kind) {
-    case ExprKind::deref:
+    case ExprKind::Deref:
       return true;
-    case ExprKind::index:
+    case ExprKind::Index:
       target = as<IndexExpr>(target)->base;
-      if (target->type != nullptr && target->type->kind == TypeKind::pointer)
+      if (target->type != nullptr && target->type->kind == TypeKind::Pointer)
         return true;
       continue;
-    case ExprKind::member: {
+    case ExprKind::Member: {
       const Type *base = as<MemberExpr>(target)->base->type;
-      if (base != nullptr && base->kind == TypeKind::structure && typeAs<StructType>(base)->isUnion)
+      if (base != nullptr && base->kind == TypeKind::Structure && typeAs<StructType>(base)->isUnion)
         return true;
       target = as<MemberExpr>(target)->base;
       continue;
@@ -54,7 +54,7 @@ bool isBlockValue(const Expr *e) {
   const PropertySymbol *property = writtenProperty(e);
   if (property != nullptr)
     return returnsBlock(accessorOf(property, true), e->type);
-  return e->kind == ExprKind::call && returnsBlock(as<CallExpr>(e)->pou, e->type);
+  return e->kind == ExprKind::Call && returnsBlock(as<CallExpr>(e)->pou, e->type);
 }
 
 /// The place as checks of pointers see it that is about to be written.
@@ -87,7 +87,7 @@ void emitStore(EmitContext &cx, const Expr *target, const Expr *value) {
 }
 
 unsigned targetEffects(EmitContext &cx, const AssignStmt *s) {
-  unsigned places = effectNone;
+  unsigned places = kEffectNone;
   for (const Expr *target : s->targets)
     places |= cx.run.analysis.targetEffects(target, cx.pou);
   return places;
@@ -96,7 +96,7 @@ unsigned targetEffects(EmitContext &cx, const AssignStmt *s) {
 /// `a := b := value`: the places from left to right, then the value, which goes from right to left.
 void emitValueAssignment(EmitContext &cx, const AssignStmt *s) {
   const unsigned places = targetEffects(cx, s);
-  const bool finds = s->targets.size() > 1 ? places != effectNone
+  const bool finds = s->targets.size() > 1 ? places != kEffectNone
                                            : Analysis::orderShows(places, cx.effects(s->value));
   Found found(cx);
   if (finds) {
@@ -105,7 +105,7 @@ void emitValueAssignment(EmitContext &cx, const AssignStmt *s) {
       findTarget(cx, found, target);
   }
   emitStore(cx, s->targets.back(), s->value);
-  for (std::size_t i = s->targets.size() - 1; i-- > 0;) {
+  for (size_t i = s->targets.size() - 1; i-- > 0;) {
     cx.out << ' ';
     const Expr *from = s->targets[i + 1];
     const std::string source = cx.text([&] { emitRaw(cx, from); });
@@ -118,11 +118,11 @@ void emitValueAssignment(EmitContext &cx, const AssignStmt *s) {
 void emitReferenceAssignment(EmitContext &cx, const AssignStmt *s) {
   const Expr *target = s->targets.back();
   const bool isMember =
-      target->kind == ExprKind::member && !isNamespace(as<MemberExpr>(target)->base);
+      target->kind == ExprKind::Member && !isNamespace(as<MemberExpr>(target)->base);
   const unsigned where =
       isMember ? cx.run.analysis.placeEffects(as<MemberExpr>(target)->base, cx.pou)
-      : target->kind == ExprKind::index ? cx.run.analysis.placeEffects(target, cx.pou)
-                                        : unsigned{effectNone};
+      : target->kind == ExprKind::Index ? cx.run.analysis.placeEffects(target, cx.pou)
+                                        : unsigned{kEffectNone};
   const bool finds = Analysis::orderShows(where, cx.run.analysis.placeEffects(s->value, cx.pou));
   Found found(cx);
   cx.out << (finds ? "{ " : "");
@@ -143,9 +143,9 @@ void emitReferenceAssignment(EmitContext &cx, const AssignStmt *s) {
 
 /// `S=`, `R=`: the places are found even where the condition is not met.
 void emitSetOrReset(EmitContext &cx, const AssignStmt *s) {
-  const std::string_view set = s->op == AssignOp::set ? "true" : "false";
+  const std::string_view set = s->op == AssignOp::Set ? "true" : "false";
   const unsigned places = targetEffects(cx, s);
-  const bool finds = (places & (effectRaises | effectCalls)) != 0 ||
+  const bool finds = (places & (kEffectRaises | kEffectCalls)) != 0 ||
                      Analysis::orderMatters(places, cx.effects(s->value));
   Found found(cx);
   if (finds) {
@@ -171,7 +171,7 @@ void emitSetOrReset(EmitContext &cx, const AssignStmt *s) {
 } // namespace
 
 void emitStoreTo(EmitContext &cx, std::string_view target, const Type *type, const Expr *value) {
-  if (type->kind == TypeKind::reference) {
+  if (type->kind == TypeKind::Reference) {
     cx.out << target << " = ";
     emitAddress(cx, value);
     cx.out << ';';
@@ -183,7 +183,7 @@ void emitStoreTo(EmitContext &cx, std::string_view target, const Type *type, con
       (value->constant != nullptr || value->type != type)) {
     cx.out << "::stride::assign(" << target << ", ";
     if (value->constant != nullptr)
-      emitQuoted(cx, *value->constant, type->kind == TypeKind::wstring);
+      emitQuoted(cx, *value->constant, type->kind == TypeKind::Wstring);
     else
       emitRaw(cx, value);
     cx.out << ");";
@@ -192,7 +192,7 @@ void emitStoreTo(EmitContext &cx, std::string_view target, const Type *type, con
   // Copying a block copies no binding of its in-outs: the target keeps its own.
   const bool bindings = cx.run.layouts.hasBindings(type);
   cx.out << (bindings ? "::stride::assignBound(" : "") << target << (bindings ? ", " : " = ");
-  if (type->kind == TypeKind::functionBlock && isInstance(value->type) && value->type != type) {
+  if (type->kind == TypeKind::FunctionBlock && isInstance(value->type) && value->type != type) {
     emitRaw(cx, value); // the part of a block that it extends
     cx.out << baseSuffix(typeAs<PouType>(value->type)->symbol, typeAs<PouType>(type)->symbol);
   } else if (bindings && value->type == type) {
@@ -205,8 +205,8 @@ void emitStoreTo(EmitContext &cx, std::string_view target, const Type *type, con
 
 void findPlace(EmitContext &cx, Found &found, const Expr *place, bool always) {
   const Expr *at = containerOf(place); // also because nothing can be bound to a packed field
-  if (cx.run.analysis.placeEffects(at, cx.pou) == effectNone &&
-      !(always && at->kind == ExprKind::index))
+  if (cx.run.analysis.placeEffects(at, cx.pou) == kEffectNone &&
+      !(always && at->kind == ExprKind::Index))
     return;
   const std::string name = cx.temporary("to");
   if (isBlockValue(at)) { // in a place of its own for as long as something is done with it
@@ -224,7 +224,7 @@ void findPlace(EmitContext &cx, Found &found, const Expr *place, bool always) {
     cx.out << "auto &" << name << " = reinterpret_cast<::stride::Unaligned<" << cx.type(at->type)
            << "> &>(" << text << "); ";
   } else {
-    const bool mayBeValue = at->kind == ExprKind::call || writtenProperty(at) != nullptr;
+    const bool mayBeValue = at->kind == ExprKind::Call || writtenProperty(at) != nullptr;
     cx.out << (mayBeValue ? "auto &&" : "auto &") << name << " = " << text << "; ";
   }
   found.set(at, packed ? name + ".v" : name);
@@ -233,12 +233,12 @@ void findPlace(EmitContext &cx, Found &found, const Expr *place, bool always) {
 void findTarget(EmitContext &cx, Found &found, const Expr *target) {
   if (writtenProperty(target) == nullptr)
     findPlace(cx, found, target);
-  else if (target->kind == ExprKind::member && !isNamespace(as<MemberExpr>(target)->base))
+  else if (target->kind == ExprKind::Member && !isNamespace(as<MemberExpr>(target)->base))
     findObject(cx, found, as<MemberExpr>(target)->base);
 }
 
 void findObject(EmitContext &cx, Found &found, const Expr *object) {
-  if (object->type->kind != TypeKind::interface) {
+  if (object->type->kind != TypeKind::Interface) {
     findPlace(cx, found, object);
     return;
   }
@@ -252,14 +252,14 @@ void findObject(EmitContext &cx, Found &found, const Expr *object) {
 void emitAssignment(EmitContext &cx, const AssignStmt *s) {
   cx.begin(s->span);
   switch (s->op) {
-  case AssignOp::reference:
+  case AssignOp::Reference:
     emitReferenceAssignment(cx, s);
     break;
-  case AssignOp::set:
-  case AssignOp::reset:
+  case AssignOp::Set:
+  case AssignOp::Reset:
     emitSetOrReset(cx, s);
     break;
-  case AssignOp::assign:
+  case AssignOp::Assign:
     emitValueAssignment(cx, s);
     break;
   }

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_STATEMENTS_ASSIGNMENTS_HPP
+#define STRIDE_COMPILER_CODEGEN_STATEMENTS_ASSIGNMENTS_HPP
 // Assignments: the place is found before the value is computed, whatever the value's calls do to
 // what leads to the place.
 
@@ -41,3 +42,5 @@ void emitStoreTo(EmitContext &cx, std::string_view target, const Type *type,
                  const ast::Expr *value);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_STATEMENTS_ASSIGNMENTS_HPP

@@ -11,15 +11,15 @@ using namespace ast;
 namespace {
 
 /// Ranges of CASE up to this size are written as single labels.
-constexpr std::int64_t kMaxRange = 32;
-constexpr std::int64_t kMaxLabels = 1024;
+constexpr int64_t kMaxRange = 32;
+constexpr int64_t kMaxLabels = 1024;
 /// g++ nests `else if`; longer chains of ELSIF are flattened.
-constexpr std::size_t kMaxElseIf = 64;
+constexpr size_t kMaxElseIf = 64;
 
 /// `if … else if …`, or many of `if (…) { …; goto behind; }`.
 class Chain {
 public:
-  Chain(EmitContext &cx, std::size_t branches, std::string_view stem)
+  Chain(EmitContext &cx, size_t branches, std::string_view stem)
       : cx_(cx), isFlat_(branches > kMaxElseIf),
         behind_(isFlat_ ? cx.temporary(stem) : std::string()) {}
 
@@ -77,9 +77,9 @@ void emitSwitchBlock(EmitContext &cx, Block body) {
 
 /// `case 1:` … of one label; the last one opens the block.
 void emitSwitchLabel(EmitContext &cx, const CaseLabel &label, const Type *type, bool isLast) {
-  const std::int64_t low = label.low->constant->integer;
-  const std::int64_t high = label.high == nullptr ? low : label.high->constant->integer;
-  for (std::int64_t v = low;; ++v) {
+  const int64_t low = label.low->constant->integer;
+  const int64_t high = label.high == nullptr ? low : label.high->constant->integer;
+  for (int64_t v = low;; ++v) {
     cx.begin(label.span);
     cx.out << "case ";
     if (v == low)
@@ -160,10 +160,10 @@ void emitCaseChain(EmitContext &cx, const CaseStmt *s) {
 
 /// The labels are few enough for a `switch`.
 bool fitsSwitch(const CaseStmt *s) {
-  std::int64_t labels = 0;
+  int64_t labels = 0;
   for (const CaseBranch &branch : s->branches) {
     for (const CaseLabel &label : branch.labels) {
-      std::int64_t width = 0;
+      int64_t width = 0;
       if (label.high != nullptr && __builtin_sub_overflow(label.high->constant->integer,
                                                           label.low->constant->integer, &width))
         return false;
@@ -172,7 +172,7 @@ bool fitsSwitch(const CaseStmt *s) {
       labels += width + 1;
     }
   }
-  return labels <= kMaxLabels || labels <= 4 * static_cast<std::int64_t>(s->branches.size());
+  return labels <= kMaxLabels || labels <= 4 * static_cast<int64_t>(s->branches.size());
 }
 
 } // namespace

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_STATEMENTS_BRANCHES_HPP
+#define STRIDE_COMPILER_CODEGEN_STATEMENTS_BRANCHES_HPP
 // IF and CASE.
 
 #include "compiler/codegen/context/context.hpp"
@@ -9,3 +10,5 @@ void emitIf(EmitContext &cx, const ast::IfStmt *s);
 void emitCase(EmitContext &cx, const ast::CaseStmt *s);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_STATEMENTS_BRANCHES_HPP

@@ -9,7 +9,7 @@ using namespace ast;
 
 namespace {
 
-constexpr std::size_t kFirstLeave = 2;
+constexpr size_t kFirstLeave = 2;
 
 std::string labelName(const LabelStmt *label) {
   return "label__" + std::string(label->label.id->lower);
@@ -18,7 +18,7 @@ std::string labelName(const LabelStmt *label) {
 /// Both lead to the same place.
 bool sameLeave(const Stmt *a, const Stmt *b) {
   return a->kind == b->kind &&
-         (a->kind != StmtKind::jump || as<JumpStmt>(a)->target == as<JumpStmt>(b)->target);
+         (a->kind != StmtKind::Jump || as<JumpStmt>(a)->target == as<JumpStmt>(b)->target);
 }
 
 } // namespace
@@ -50,12 +50,12 @@ bool leaveTry(EmitContext &cx, const Stmt *s) {
     return false;
   Try &frame = cx.modes.tries.back();
   switch (s->kind) {
-  case StmtKind::exit:
-  case StmtKind::continueS:
+  case StmtKind::Exit:
+  case StmtKind::Continue:
     if (cx.modes.loops.around.size() > frame.loops)
       return false;
     break;
-  case StmtKind::jump:
+  case StmtKind::Jump:
     if (const Span target = as<JumpStmt>(s)->target->span;
         target.begin >= frame.stmt->span.begin && target.end <= frame.stmt->span.end)
       return false;
@@ -63,7 +63,7 @@ bool leaveTry(EmitContext &cx, const Stmt *s) {
   default:
     break;
   }
-  std::size_t which = 0;
+  size_t which = 0;
   while (which < frame.leaves.size() && !sameLeave(frame.leaves[which], s))
     ++which;
   if (which == frame.leaves.size())
@@ -167,7 +167,7 @@ private:
 
   /// What the statements were left with happens now.
   void leave() {
-    for (std::size_t i = 0; i < leaves_.size(); ++i) {
+    for (size_t i = 0; i < leaves_.size(); ++i) {
       cx_.out.line() << "if (leave__" << number_ << " == " << i + kFirstLeave << ") {";
       cx_.end();
       cx_.open();

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_STATEMENTS_JUMPS_HPP
+#define STRIDE_COMPILER_CODEGEN_STATEMENTS_JUMPS_HPP
 // JMP, labels, __TRY.
 //
 // __TRY is a C++ try, but what __CATCH and __FINALLY hold is written after it: there may be jumps
@@ -18,3 +19,5 @@ void emitTry(EmitContext &cx, const ast::TryStmt *s);
 [[nodiscard]] bool leaveTry(EmitContext &cx, const ast::Stmt *s);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_STATEMENTS_JUMPS_HPP

@@ -18,10 +18,10 @@ bool mayLeave(Block block, bool exits) {
   bool leaves = false;
   for (const Stmt *s : block) {
     const bool isLoop =
-        s->kind == StmtKind::forS || s->kind == StmtKind::whileS || s->kind == StmtKind::repeatS;
-    if (s->kind == StmtKind::returnS || (exits && s->kind == StmtKind::exit))
+        s->kind == StmtKind::For || s->kind == StmtKind::While || s->kind == StmtKind::RepeatS;
+    if (s->kind == StmtKind::Return || (exits && s->kind == StmtKind::Exit))
       return true;
-    if (s->kind != StmtKind::tryS)
+    if (s->kind != StmtKind::Try)
       forEachChild(
           s, [](const Expr *) {},
           [&](Block inner) { leaves = leaves || mayLeave(inner, exits && !isLoop); });
@@ -83,7 +83,7 @@ struct Counter {
   std::string number;   ///< of the names that belong to the loop
   std::string variable; ///< the C++ of it
   bool hasStep = false; ///< the step is a constant:
-  std::int64_t step = 0;
+  int64_t step = 0;
   bool isShort = false;     ///< it ends soon, whatever happens
   bool countsAlone = false; ///< nothing else changes the variable
 };
@@ -107,7 +107,7 @@ private:
 std::string findCounter(EmitContext &cx, const Expr *variable, const std::string &number) {
   std::string text = writableText(cx, variable);
   const bool shared = cx.isShared(variable);
-  if (cx.run.analysis.placeEffects(variable, cx.pou) == effectNone && !shared &&
+  if (cx.run.analysis.placeEffects(variable, cx.pou) == kEffectNone && !shared &&
       locationOf(variable) == nullptr)
     return text;
   cx.out << (shared ? "const auto counter__" : "auto &counter__") << number << " = " << text
@@ -128,7 +128,7 @@ Counter counterOf(EmitContext &cx, const ForStmt *s) {
 
 /// `i = static_cast<…>(i + 2)`
 void emitStep(EmitContext &cx, const Counter &counter) {
-  const std::int64_t step = counter.step;
+  const int64_t step = counter.step;
   if (step == 1 || step == -1)
     cx.out << (step > 0 ? "++" : "--") << counter.variable;
   else if (bitWidth(counter.type) < 32)
@@ -184,8 +184,8 @@ std::string firstRound(EmitContext &cx, const Counter &counter, const std::strin
 /// `run = forUp<T>(i, last)`: to the next round, if there is one.
 std::string nextRound(EmitContext &cx, const Counter &counter, const std::string &run,
                       const std::string &last) {
-  const std::int64_t step = counter.step;
-  const auto size = static_cast<std::uint64_t>(step);
+  const int64_t step = counter.step;
+  const auto size = static_cast<uint64_t>(step);
   std::string out = run + " = ::stride::" +
                     (!counter.hasStep ? "forNext<"
                      : step >= 0      ? "forUp<"
@@ -238,9 +238,9 @@ void emitFor(EmitContext &cx, const ForStmt *s) {
 }
 
 void emitPlainLoop(EmitContext &cx, const Stmt *s) {
-  if (s->kind == StmtKind::forS)
+  if (s->kind == StmtKind::For)
     emitFor(cx, as<ForStmt>(s));
-  else if (s->kind == StmtKind::whileS)
+  else if (s->kind == StmtKind::While)
     emitWhile(cx, as<WhileStmt>(s));
   else
     emitRepeat(cx, as<RepeatStmt>(s));

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_CODEGEN_STATEMENTS_LOOPS_HPP
+#define STRIDE_COMPILER_CODEGEN_STATEMENTS_LOOPS_HPP
 // Loops.
 
 #include "compiler/codegen/context/context.hpp"
@@ -10,3 +11,5 @@ namespace stc::codegen {
 void emitLoop(EmitContext &cx, const ast::Stmt *s);
 
 } // namespace stc::codegen
+
+#endif // STRIDE_COMPILER_CODEGEN_STATEMENTS_LOOPS_HPP

@@ -24,9 +24,9 @@ void emitReturn(EmitContext &cx);
 /// EXIT, CONTINUE and RETURN that leave no __TRY with __FINALLY.
 void emitLeave(EmitContext &cx, const Stmt *s) {
   cx.begin(s->span);
-  if (s->kind == StmtKind::exit)
+  if (s->kind == StmtKind::Exit)
     emitExit(cx);
-  else if (s->kind == StmtKind::continueS)
+  else if (s->kind == StmtKind::Continue)
     cx.out << "continue;";
   else
     emitReturn(cx);
@@ -57,21 +57,21 @@ void emitReturn(EmitContext &cx) {
 }
 
 void emitCallStatement(EmitContext &cx, const CallStmt *s) {
-  if (s->expr->kind != ExprKind::call)
+  if (s->expr->kind != ExprKind::Call)
     return;
   const auto *call = as<CallExpr>(s->expr);
   cx.begin(s->span);
   switch (call->resolved) {
-  case Callee::function:
-  case Callee::method:
+  case Callee::Function:
+  case Callee::Method:
     emitFunctionCall(cx, call, true);
     break;
-  case Callee::functionBlock:
-  case Callee::program:
+  case Callee::FunctionBlock:
+  case Callee::Program:
     emitInstanceCall(cx, call, s->span);
     break;
-  case Callee::builtin:
-    if (call->builtin == Builtin::deleteT) {
+  case Callee::Builtin:
+    if (call->builtin == Builtin::DeleteObject) {
       emitDelete(cx, call);
       break;
     }
@@ -79,7 +79,7 @@ void emitCallStatement(EmitContext &cx, const CallStmt *s) {
     emitBuiltin(cx, call);
     cx.out << ");";
     break;
-  case Callee::unresolved:
+  case Callee::Unresolved:
     break;
   }
   cx.end();
@@ -90,10 +90,10 @@ void emitCallStatement(EmitContext &cx, const CallStmt *s) {
 void emitBlock(EmitContext &cx, Block block) {
   // A `goto` must not cross the temporaries of the statements between it and its label.
   const bool labelled = std::any_of(block.begin(), block.end(), [](const Stmt *s) {
-    return s->kind == StmtKind::label && as<LabelStmt>(s)->used;
+    return s->kind == StmtKind::Label && as<LabelStmt>(s)->used;
   });
   for (const Stmt *s : block) {
-    const bool alone = labelled && s->kind != StmtKind::label && s->kind != StmtKind::empty;
+    const bool alone = labelled && s->kind != StmtKind::Label && s->kind != StmtKind::Empty;
     if (alone) {
       cx.line("{");
       cx.open();
@@ -108,29 +108,29 @@ void emitBlock(EmitContext &cx, Block block) {
 
 void emitStatement(EmitContext &cx, const Stmt *s) {
   switch (s->kind) {
-  case StmtKind::empty:
+  case StmtKind::Empty:
     return;
-  case StmtKind::jump:
+  case StmtKind::Jump:
     return emitJump(cx, as<JumpStmt>(s));
-  case StmtKind::label:
+  case StmtKind::Label:
     return emitLabel(cx, as<LabelStmt>(s));
-  case StmtKind::tryS:
+  case StmtKind::Try:
     return emitTry(cx, as<TryStmt>(s));
-  case StmtKind::assign:
+  case StmtKind::Assign:
     return emitAssignment(cx, as<AssignStmt>(s));
-  case StmtKind::call:
+  case StmtKind::Call:
     return emitCallStatement(cx, as<CallStmt>(s));
-  case StmtKind::ifS:
+  case StmtKind::If:
     return emitIf(cx, as<IfStmt>(s));
-  case StmtKind::caseS:
+  case StmtKind::Case:
     return emitCase(cx, as<CaseStmt>(s));
-  case StmtKind::forS:
-  case StmtKind::whileS:
-  case StmtKind::repeatS:
+  case StmtKind::For:
+  case StmtKind::While:
+  case StmtKind::RepeatS:
     return emitLoop(cx, s);
-  case StmtKind::exit:
-  case StmtKind::continueS:
-  case StmtKind::returnS:
+  case StmtKind::Exit:
+  case StmtKind::Continue:
+  case StmtKind::Return:
     if (!leaveTry(cx, s))
       emitLeave(cx, s);
     return;

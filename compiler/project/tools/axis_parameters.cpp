@@ -25,17 +25,17 @@ std::optional<int> number(std::string_view text) {
 
 std::string_view kindName(const Type *type) {
   switch (underlying(type)->kind) {
-  case TypeKind::boolean:
+  case TypeKind::Boolean:
     return "Bool";
-  case TypeKind::byte:
+  case TypeKind::Byte:
     return "Byte";
-  case TypeKind::word:
+  case TypeKind::Word:
     return "Word";
-  case TypeKind::dword:
+  case TypeKind::Dword:
     return "DWord";
-  case TypeKind::intT:
+  case TypeKind::Int:
     return "Int";
-  case TypeKind::lreal:
+  case TypeKind::Lreal:
     return "LReal";
   default:
     return {};
@@ -43,7 +43,7 @@ std::string_view kindName(const Type *type) {
 }
 
 const VarSymbol *memberOf(const Type *type, std::string_view name) {
-  if (type->kind == TypeKind::structure)
+  if (type->kind == TypeKind::Structure)
     for (const VarSymbol *field : static_cast<const StructType *>(type)->fields)
       if (field->name.text == name)
         return field;

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_PROJECT_TOOLS_AXIS_PARAMETERS_HPP
+#define STRIDE_COMPILER_PROJECT_TOOLS_AXIS_PARAMETERS_HPP
 // The table behind MC_ReadParameter and MC_WriteParameter, from the attributes of AXIS_REF.
 
 #include "compiler/semantics/program.hpp"
@@ -16,3 +17,5 @@ namespace stc {
 [[nodiscard]] std::string axisParameterTable(const TypeSymbol &axisRef, std::string &error);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_PROJECT_TOOLS_AXIS_PARAMETERS_HPP

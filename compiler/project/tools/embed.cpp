@@ -18,8 +18,8 @@ namespace {
 
 struct Name {
   std::string lower;
-  std::uint8_t rank;
-  std::size_t file;
+  uint8_t rank;
+  size_t file;
   auto operator<=>(const Name &) const = default;
 };
 
@@ -27,9 +27,9 @@ struct Name {
 constexpr std::string_view kOrder[] = {"Standard", "Util", "SM_Error", "SM_DriveBasic",
                                        "SM_PLCopen"};
 
-std::size_t orderOf(const std::string &library) {
+size_t orderOf(const std::string &library) {
   const auto *const at = std::find(std::begin(kOrder), std::end(kOrder), library);
-  return static_cast<std::size_t>(at - std::begin(kOrder));
+  return static_cast<size_t>(at - std::begin(kOrder));
 }
 
 class Embedder {
@@ -37,7 +37,7 @@ public:
   explicit Embedder(fs::path folder) : folder_(std::move(folder)) {}
 
   bool read() {
-    std::vector<std::tuple<std::size_t, std::string, fs::path>> found;
+    std::vector<std::tuple<size_t, std::string, fs::path>> found;
     for (const fs::directory_entry &entry : fs::recursive_directory_iterator(folder_)) {
       const fs::path relative = entry.path().lexically_relative(folder_);
       if (entry.path().extension() != ".st" || !relative.has_parent_path())
@@ -81,12 +81,12 @@ private:
     const std::string name = "<stdlib>/" + path.lexically_relative(folder_).generic_string();
     const auto id = sources_.load(path, name);
     if (!id) {
-      diagnostics_.report(stc::Code::unreadableFile, {}, path.string());
+      diagnostics_.report(stc::Code::UnreadableFile, {}, path.string());
       return;
     }
     const stc::SourceFile &source = sources_.file(*id);
     const stc::ast::File *tree = stc::parse(source, interner_, arena_, diagnostics_);
-    const std::size_t index = files_.size();
+    const size_t index = files_.size();
     files_.push_back({library, name, std::string(source.text())});
     for (const stc::ast::Decl *decl : tree->declarations)
       addNames(*decl, index);
@@ -98,13 +98,13 @@ private:
         [&](const stc::ast::Attribute &one) { return stc::lowerCase(one.name) == attribute; });
   }
 
-  void add(const stc::ast::Name &name, std::uint8_t rank, std::size_t file) {
+  void add(const stc::ast::Name &name, uint8_t rank, size_t file) {
     if (name)
       names_.push_back({stc::lowerCase(name.text), rank, file});
   }
 
-  void addNames(const stc::ast::Decl &decl, std::size_t file) {
-    if (decl.kind == stc::ast::DeclKind::globals) {
+  void addNames(const stc::ast::Decl &decl, size_t file) {
+    if (decl.kind == stc::ast::DeclKind::Globals) {
       // The list has the name of its file.
       names_.push_back({stc::lowerCase(fs::path(files_[file].name).stem().string()), 1, file});
       const auto *list = stc::ast::as<stc::ast::GlobalsDecl>(&decl);
@@ -117,7 +117,7 @@ private:
     }
     add(decl.name, 0, file);
     // The enumerators of private types take no name away from anybody.
-    if (decl.kind == stc::ast::DeclKind::enumeration &&
+    if (decl.kind == stc::ast::DeclKind::Enumeration &&
         !(has(decl, "hide") && has(decl, "qualified_only")))
       for (const stc::ast::EnumeratorDecl &enumerator :
            stc::ast::as<stc::ast::EnumDecl>(&decl)->type->enumerators)
@@ -126,7 +126,7 @@ private:
 
   // A text as one or more raw string literals (a single one has a length limit in some compilers).
   static std::string literal(std::string_view text) {
-    constexpr std::size_t kPiece = 8000;
+    constexpr size_t kPiece = 8000;
     std::string result;
     do {
       result += fmt::format("{}R\"~~("

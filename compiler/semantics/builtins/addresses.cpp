@@ -14,21 +14,21 @@ using namespace ast;
 const Type *checkAdr(Context &c, CallExpr *expr) {
   const Expr *place = valueOf(expr, 0);
   if (rejectProperty(c, place, "take the address of"))
-    return elementaryType(TypeKind::error);
-  const bool isPlace = place->kind == ExprKind::name || place->kind == ExprKind::member ||
-                       place->kind == ExprKind::index || place->kind == ExprKind::deref ||
-                       place->kind == ExprKind::direct;
+    return elementaryType(TypeKind::Error);
+  const bool isPlace = place->kind == ExprKind::Name || place->kind == ExprKind::Member ||
+                       place->kind == ExprKind::Index || place->kind == ExprKind::Deref ||
+                       place->kind == ExprKind::Direct;
   if (isPlace && isBitPlace(place)) {
-    c.report(Code::wrongArgumentType, place->span, "a single bit has no address", "this is a bit")
+    c.report(Code::WrongArgumentType, place->span, "a single bit has no address", "this is a bit")
         .help("take the address of the variable that holds it");
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   }
   if (!isPlace || (place->constant != nullptr && isElementary(place->type)))
     return argumentError(c, expr, 0, "a variable");
-  if (place->type->kind == TypeKind::openArray)
+  if (place->type->kind == TypeKind::OpenArray)
     return c.types.pointer(typeAs<OpenArrayType>(place->type)->element);
   // What is misaligned can be copied byte by byte only.
-  return c.types.pointer(isMisaligned(place) ? elementaryType(TypeKind::byte) : place->type);
+  return c.types.pointer(isMisaligned(place) ? elementaryType(TypeKind::Byte) : place->type);
 }
 
 } // namespace stc::sema

@@ -16,17 +16,17 @@ namespace stc::sema {
 
 using namespace ast;
 
-static const Type *commonBeforeWidening(const CallExpr *expr, std::size_t first);
+static const Type *commonBeforeWidening(const CallExpr *expr, size_t first);
 
-bool requireCount(Context &c, CallExpr *expr, std::size_t least, std::size_t most) {
-  const std::size_t count = expr->arguments.size();
+bool requireCount(Context &c, CallExpr *expr, size_t least, size_t most) {
+  const size_t count = expr->arguments.size();
   if (count >= least && count <= most)
     return true;
   const std::string wanted = least == most ? std::to_string(least)
                              : most == SIZE_MAX
                                  ? "at least " + std::to_string(least)
                                  : std::to_string(least) + " to " + std::to_string(most);
-  c.report(Code::wrongArgumentCount, expr->span,
+  c.report(Code::WrongArgumentCount, expr->span,
            "`" + calleeName(expr) + "` takes " + wanted +
                (least == 1 && most == 1 ? " argument" : " arguments") + ", not " +
                std::to_string(count),
@@ -34,19 +34,19 @@ bool requireCount(Context &c, CallExpr *expr, std::size_t least, std::size_t mos
   return false;
 }
 
-const Type *argumentError(Context &c, CallExpr *expr, std::size_t index, std::string_view wanted) {
+const Type *argumentError(Context &c, CallExpr *expr, size_t index, std::string_view wanted) {
   Expr *value = expr->arguments[index].value;
-  c.report(Code::wrongArgumentType, value->span,
+  c.report(Code::WrongArgumentType, value->span,
            "`" + calleeName(expr) + "` needs " + std::string(wanted) + " here, not " +
                typeName(value->type),
            "expected " + std::string(wanted));
-  return elementaryType(TypeKind::error);
+  return elementaryType(TypeKind::Error);
 }
 
-const Type *commonOfArguments(Context &c, CallExpr *expr, std::size_t first) {
+const Type *commonOfArguments(Context &c, CallExpr *expr, size_t first) {
   // All one type, else the common number type; untyped constants follow the others.
   Expr *lead = nullptr;
-  for (std::size_t i = first; i < expr->arguments.size(); ++i) {
+  for (size_t i = first; i < expr->arguments.size(); ++i) {
     Expr *value = expr->arguments[i].value;
     if (isError(value->type))
       return value->type;
@@ -57,25 +57,25 @@ const Type *commonOfArguments(Context &c, CallExpr *expr, std::size_t first) {
   }
   const Type *common = lead->type;
   if (isUntyped(common)) {
-    const bool real = std::any_of(
-        expr->arguments.begin() + static_cast<std::ptrdiff_t>(first), expr->arguments.end(),
-        [](const Argument &a) { return a.value->type->kind == TypeKind::anyReal; });
-    common = elementaryType(real ? TypeKind::lreal : TypeKind::dint);
+    const bool real =
+        std::any_of(expr->arguments.begin() + static_cast<ptrdiff_t>(first), expr->arguments.end(),
+                    [](const Argument &a) { return a.value->type->kind == TypeKind::AnyReal; });
+    common = elementaryType(real ? TypeKind::Lreal : TypeKind::Dint);
     if (!real) {
-      for (std::size_t i = first; i < expr->arguments.size(); ++i) {
+      for (size_t i = first; i < expr->arguments.size(); ++i) {
         if (const Type *both =
                 commonNumber(common, smallestInteger(expr->arguments[i].value->constant->integer)))
           common = both;
       }
     }
     // `i := SEL(b, 1, 2)`: the result is as narrow as its constants.
-    expr->common = real ? elementaryType(TypeKind::real) : nullptr;
-    for (std::size_t i = first; i < expr->arguments.size() && !real; ++i) {
+    expr->common = real ? elementaryType(TypeKind::Real) : nullptr;
+    for (size_t i = first; i < expr->arguments.size() && !real; ++i) {
       const Type *own = smallestInteger(expr->arguments[i].value->constant->integer);
       expr->common = expr->common == nullptr ? own : commonNumber(expr->common, own);
     }
   }
-  for (std::size_t i = first; i < expr->arguments.size(); ++i) {
+  for (size_t i = first; i < expr->arguments.size(); ++i) {
     Expr *value = expr->arguments[i].value;
     const Type *t = value->type;
     if (t == common)
@@ -84,7 +84,7 @@ const Type *commonOfArguments(Context &c, CallExpr *expr, std::size_t first) {
       const Type *own = t;
       if (isUntyped(t))
         own = value->constant != nullptr && constantFits(*value->constant, t, common) ? common
-              : t->kind == TypeKind::anyReal ? elementaryType(TypeKind::lreal)
+              : t->kind == TypeKind::AnyReal ? elementaryType(TypeKind::Lreal)
                                              : smallestInteger(value->constant->integer);
       const Type *both = commonNumber(common, own);
       if (both == nullptr)
@@ -94,21 +94,21 @@ const Type *commonOfArguments(Context &c, CallExpr *expr, std::size_t first) {
       if (typeAs<StringType>(t)->length > typeAs<StringType>(common)->length)
         common = t;
     } else if (isTimeOrDate(t) && isTimeOrDate(common) &&
-               (classify(t, common) == Conversion::free ||
-                classify(common, t) == Conversion::free)) {
-      if (classify(common, t) == Conversion::free)
+               (classify(t, common) == Conversion::Free ||
+                classify(common, t) == Conversion::Free)) {
+      if (classify(common, t) == Conversion::Free)
         common = t; // TIME with LTIME
     } else if (isCharacter(common) && value->constant != nullptr &&
                constantFits(*value->constant, t, common)) {
       continue;
-    } else if (common->kind == TypeKind::boolean && value->constant != nullptr &&
+    } else if (common->kind == TypeKind::Boolean && value->constant != nullptr &&
                constantFits(*value->constant, t, common)) {
       continue;
     } else {
       return argumentError(c, expr, i, typeName(common));
     }
   }
-  for (std::size_t i = first; i < expr->arguments.size(); ++i)
+  for (size_t i = first; i < expr->arguments.size(); ++i)
     setTarget(expr->arguments[i].value, common);
   if (isInteger(common) && !isUntyped(lead->type))
     expr->common = commonBeforeWidening(expr, first);
@@ -116,19 +116,19 @@ const Type *commonOfArguments(Context &c, CallExpr *expr, std::size_t first) {
 }
 
 /// `i := MIN(i + 1, j)`: the result may go back to the operands' type, as that of `i + 1` may.
-static const Type *commonBeforeWidening(const CallExpr *expr, std::size_t first) {
+static const Type *commonBeforeWidening(const CallExpr *expr, size_t first) {
   const Type *common = nullptr;
   const auto add = [&](const Type *type) {
     common = common == nullptr || type == nullptr ? type : commonNumber(common, type);
     return common != nullptr;
   };
-  for (std::size_t i = first; i < expr->arguments.size(); ++i) {
+  for (size_t i = first; i < expr->arguments.size(); ++i) {
     const Expr *value = expr->arguments[i].value;
     if (!isUntyped(value->type) &&
         !add(value->common != nullptr ? value->common : underlying(value->type)))
       return nullptr;
   }
-  for (std::size_t i = first; i < expr->arguments.size(); ++i) {
+  for (size_t i = first; i < expr->arguments.size(); ++i) {
     const Expr *value = expr->arguments[i].value;
     if (isUntyped(value->type) && !constantFits(*value->constant, value->type, common) &&
         !add(smallestInteger(value->constant->integer)))
@@ -159,18 +159,18 @@ const Type *textOf(const Argument &a) {
 }
 
 bool placeArguments(Context &c, CallExpr *expr) {
-  const std::size_t count = expr->arguments.size();
+  const size_t count = expr->arguments.size();
   std::vector<Argument> placed(count);
   std::vector<bool> taken(count, false);
   bool named = false;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (size_t i = 0; i < count; ++i) {
     const Argument &a = expr->arguments[i];
-    std::size_t position = i;
+    size_t position = i;
     if (a.name) {
       named = true;
       const auto formal = formalPosition(expr->builtin, a.name.id->lower);
       if (!formal || a.output || a.value == nullptr) {
-        c.report(Code::unknownParameter, a.span,
+        c.report(Code::UnknownParameter, a.span,
                  "`" + calleeName(expr) + "` has no " + (a.output ? "output" : "input") + " `" +
                      std::string(a.name.text) + "`",
                  "unknown parameter")
@@ -179,19 +179,19 @@ bool placeArguments(Context &c, CallExpr *expr) {
       }
       position = *formal;
     } else if (named) {
-      c.report(Code::mixedArguments, a.span, "a positional argument cannot follow a named one",
+      c.report(Code::MixedArguments, a.span, "a positional argument cannot follow a named one",
                "name this argument");
       return false;
     }
     if (position >= count) {
-      c.report(Code::wrongArgumentCount, expr->span,
+      c.report(Code::WrongArgumentCount, expr->span,
                "`" + calleeName(expr) + "` lacks arguments: `" + std::string(a.name.text) +
                    "` is number " + std::to_string(position + 1),
                "in this call");
       return false;
     }
     if (taken[position]) {
-      c.report(Code::duplicateArgument, a.span, "this argument is given twice", "given again here");
+      c.report(Code::DuplicateArgument, a.span, "this argument is given twice", "given again here");
       return false;
     }
     taken[position] = true;

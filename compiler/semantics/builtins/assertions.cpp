@@ -20,24 +20,24 @@ static bool compareAsserted(Context &c, CallExpr *expr) {
 }
 
 const Type *checkAssertion(Context &c, CallExpr *expr) {
-  const Type *boolean = elementaryType(TypeKind::boolean);
-  const Type *bad = elementaryType(TypeKind::error);
-  const std::size_t values = assertedValues(expr->builtin);
+  const Type *boolean = elementaryType(TypeKind::Boolean);
+  const Type *bad = elementaryType(TypeKind::Error);
+  const size_t values = assertedValues(expr->builtin);
   if (!requireCount(c, expr, values == 0 ? 1 : values, values + 1))
     return bad;
-  if (expr->arguments.size() > values && kindOf(expr, values)->kind != TypeKind::string)
+  if (expr->arguments.size() > values && kindOf(expr, values)->kind != TypeKind::String)
     return argumentError(c, expr, values, "a STRING");
   if (values == 1) {
     coerce(c, valueOf(expr, 0), boolean, "the condition of an assertion");
     return boolean;
   }
-  for (std::size_t i = 0; i < values; ++i) {
+  for (size_t i = 0; i < values; ++i) {
     const Type *kind = kindOf(expr, i);
     if (values == 3) {
       if (!isNumber(kind))
         return argumentError(c, expr, i, "a number");
-      setTarget(valueOf(expr, i), elementaryType(TypeKind::lreal));
-    } else if (!isNumber(kind) && !isElementary(kind) && kind->kind != TypeKind::enumeration) {
+      setTarget(valueOf(expr, i), elementaryType(TypeKind::Lreal));
+    } else if (!isNumber(kind) && !isElementary(kind) && kind->kind != TypeKind::Enumeration) {
       return argumentError(c, expr, i, "a value of an elementary type or an enumeration");
     }
   }

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_BUILTINS_BUILTIN_CALLS_HPP
+#define STRIDE_COMPILER_SEMANTICS_BUILTINS_BUILTIN_CALLS_HPP
 // Calls of functions that the compiler implements itself.
 
 #include "compiler/semantics/builtins.hpp"
@@ -11,11 +12,12 @@ const Type *checkBuiltin(Context &c, ast::CallExpr *expr, const Type *expected);
 /// The same of X_TO_Y and its like.
 const Type *checkConversionCall(Context &c, ast::CallExpr *expr, const ConversionName &conversion);
 /// Reports another number of arguments than that; SIZE_MAX: no limit.
-bool requireCount(Context &c, ast::CallExpr *expr, std::size_t least, std::size_t most);
+bool requireCount(Context &c, ast::CallExpr *expr, size_t least, size_t most);
 /// Reports an argument that is not what is wanted; gives the error type.
-const Type *argumentError(Context &c, ast::CallExpr *expr, std::size_t index,
-                          std::string_view wanted);
+const Type *argumentError(Context &c, ast::CallExpr *expr, size_t index, std::string_view wanted);
 /// Gives a call whose arguments are all constants its value.
 void foldCall(Context &c, ast::CallExpr *expr, const Type *result);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_BUILTINS_BUILTIN_CALLS_HPP

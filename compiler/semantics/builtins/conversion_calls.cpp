@@ -14,14 +14,14 @@ namespace stc::sema {
 using namespace ast;
 
 std::string calleeName(const CallExpr *expr) {
-  return std::string(expr->callee->kind == ExprKind::name ? as<NameExpr>(expr->callee)->name.text
+  return std::string(expr->callee->kind == ExprKind::Name ? as<NameExpr>(expr->callee)->name.text
                                                           : "this function");
 }
 
 const Type *checkConversionCall(Context &c, CallExpr *expr, const ConversionName &conversion) {
-  expr->resolved = Callee::builtin;
+  expr->resolved = Callee::Builtin;
   expr->builtin = conversion.function;
-  const Type *bad = elementaryType(TypeKind::error);
+  const Type *bad = elementaryType(TypeKind::Error);
   for (Argument &a : expr->arguments) {
     if (a.value != nullptr)
       check(c, a.value, conversion.from);
@@ -33,12 +33,12 @@ const Type *checkConversionCall(Context &c, CallExpr *expr, const ConversionName
   const Type *type = value->type;
   if (isError(type))
     return bad;
-  if (conversion.from == nullptr && conversion.function != Builtin::convert &&
+  if (conversion.from == nullptr && conversion.function != Builtin::Convert &&
       !checkSpecialArgument(c, expr))
     return bad;
-  if (type->kind == TypeKind::pointer && conversion.from == nullptr) // the address as a number
-    setTarget(value, elementaryType(TypeKind::ulint));
-  else if (!isElementary(type) && type->kind != TypeKind::pointer)
+  if (type->kind == TypeKind::Pointer && conversion.from == nullptr) // the address as a number
+    setTarget(value, elementaryType(TypeKind::Ulint));
+  else if (!isElementary(type) && type->kind != TypeKind::Pointer)
     return argumentError(
         c, expr, 0, conversion.from != nullptr ? typeName(conversion.from) : "an elementary type");
   if (conversion.from != nullptr) {
@@ -46,7 +46,7 @@ const Type *checkConversionCall(Context &c, CallExpr *expr, const ConversionName
     if (isString(conversion.from) && isString(type)) {
       if (conversion.from->kind != type->kind)
         return argumentError(c, expr, 0, typeName(conversion.from));
-    } else if (type->kind == TypeKind::enumeration && isInteger(conversion.from)) {
+    } else if (type->kind == TypeKind::Enumeration && isInteger(conversion.from)) {
       setTarget(value, conversion.from);
     } else {
       coerce(c, value, conversion.from, "argument of `" + calleeName(expr) + "`");
@@ -56,7 +56,7 @@ const Type *checkConversionCall(Context &c, CallExpr *expr, const ConversionName
   } else if (isUntyped(type) && value->target == nullptr) {
     settle(value);
   }
-  if (conversion.function != Builtin::convert) {
+  if (conversion.function != Builtin::Convert) {
     foldCall(c, expr, conversion.to);
     return conversion.to;
   }

@@ -18,7 +18,7 @@ namespace {
 
 /// The first block without the attribute that an object of the type holds or is.
 const PouSymbol *withoutAttribute(const Type *type) {
-  while (type->kind == TypeKind::array)
+  while (type->kind == TypeKind::Array)
     type = typeAs<ArrayType>(type)->element;
   if (!isInstance(type))
     return nullptr;
@@ -32,14 +32,14 @@ const PouSymbol *withoutAttribute(const Type *type) {
 } // namespace
 
 const Type *checkNew(Context &c, CallExpr *expr) {
-  const Type *bad = elementaryType(TypeKind::error);
+  const Type *bad = elementaryType(TypeKind::Error);
   if (!requireCount(c, expr, 1, 2) || expr->arguments[0].value == nullptr)
     return bad;
   Expr *named = expr->arguments[0].value;
   const Type *type = namedType(c, named);
   if (type == nullptr) {
     if (!isError(check(c, named)))
-      c.report(Code::newNeedsType, named->span, "`__NEW` creates an object of a type",
+      c.report(Code::NewNeedsType, named->span, "`__NEW` creates an object of a type",
                "this is a value, not the name of a type")
           .help("write the type: `p := __NEW(INT);` or `p := __NEW(BYTE, 100);`");
     return bad;
@@ -47,10 +47,10 @@ const Type *checkNew(Context &c, CallExpr *expr) {
   named->type = type;
   if (isError(type))
     return bad;
-  if (type->kind == TypeKind::program)
+  if (type->kind == TypeKind::Program)
     return argumentError(c, expr, 0, "a type or a function block");
   if (const PouSymbol *pou = withoutAttribute(type)) {
-    auto &d = c.report(Code::newNotEnabled, named->span,
+    auto &d = c.report(Code::NewNotEnabled, named->span,
                        "`" + std::string(pou->name.text) + "` cannot be created with `__NEW`",
                        "its declaration does not allow it");
     noteDeclaration(d, pou);
@@ -62,9 +62,9 @@ const Type *checkNew(Context &c, CallExpr *expr) {
     const Type *countType = check(c, count);
     if (isError(countType))
       return bad;
-    if (!isInteger(underlying(countType)) && countType->kind != TypeKind::anyInteger)
+    if (!isInteger(underlying(countType)) && countType->kind != TypeKind::AnyInteger)
       return argumentError(c, expr, 1, "the number of elements");
-    setTarget(count, elementaryType(TypeKind::lint));
+    setTarget(count, elementaryType(TypeKind::Lint));
   }
   c.program.usesPool = true;
   if (isInstance(type))
@@ -76,34 +76,34 @@ const Type *checkNew(Context &c, CallExpr *expr) {
 }
 
 const Type *checkDelete(Context &c, CallExpr *expr) {
-  const Type *bad = elementaryType(TypeKind::error);
+  const Type *bad = elementaryType(TypeKind::Error);
   if (!requireCount(c, expr, 1, 1))
     return bad;
   Expr *pointer = expr->arguments[0].value;
-  if (pointer->type->kind != TypeKind::pointer)
+  if (pointer->type->kind != TypeKind::Pointer)
     return argumentError(c, expr, 0, "a pointer variable");
   if (!requireVariable(c, pointer, "delete"))
     return bad;
   c.program.usesPool = true;
-  return elementaryType(TypeKind::none);
+  return elementaryType(TypeKind::None);
 }
 
 const Type *checkIni(Context &c, CallExpr *expr) {
-  const Type *bad = elementaryType(TypeKind::error);
+  const Type *bad = elementaryType(TypeKind::Error);
   if (!requireCount(c, expr, 2, 2))
     return bad;
   Expr *instance = expr->arguments[0].value;
   const Type *type = instance->type;
-  while (type->kind == TypeKind::array)
+  while (type->kind == TypeKind::Array)
     type = typeAs<ArrayType>(type)->element;
-  if (type->kind != TypeKind::functionBlock && type->kind != TypeKind::structure) {
-    auto &d = c.report(Code::wrongArgumentType, instance->span,
+  if (type->kind != TypeKind::FunctionBlock && type->kind != TypeKind::Structure) {
+    auto &d = c.report(Code::WrongArgumentType, instance->span,
                        "`INI` needs the instance of a function block here, not " +
                            typeName(instance->type),
                        "expected an instance");
-    if (type->kind == TypeKind::pointer)
+    if (type->kind == TypeKind::Pointer)
       d.help("write `^` behind the pointer: what it points to is initialised");
-    else if (type->kind == TypeKind::program)
+    else if (type->kind == TypeKind::Program)
       d.help("a PROGRAM is initialised when the application starts; name one of its instances");
     else
       d.help("assign the initial value: `x := 0;`");
@@ -111,11 +111,11 @@ const Type *checkIni(Context &c, CallExpr *expr) {
   }
   if (!requireVariable(c, instance, "initialise"))
     return bad;
-  if (type->kind == TypeKind::functionBlock)
+  if (type->kind == TypeKind::FunctionBlock)
     declare(c, typeAs<PouType>(type)->symbol);
-  coerce(c, expr->arguments[1].value, elementaryType(TypeKind::boolean),
+  coerce(c, expr->arguments[1].value, elementaryType(TypeKind::Boolean),
          "the second argument of INI");
-  return elementaryType(TypeKind::boolean);
+  return elementaryType(TypeKind::Boolean);
 }
 
 } // namespace stc::sema

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_BUILTINS_INTERNAL_HPP
+#define STRIDE_COMPILER_SEMANTICS_BUILTINS_INTERNAL_HPP
 // What the sources of this folder have in common.
 
 #include "compiler/semantics/builtins.hpp"
@@ -7,15 +8,15 @@
 namespace stc::sema {
 
 /// The value of an argument. All of them are there and by position, see placeArguments().
-[[nodiscard]] inline ast::Expr *valueOf(const ast::CallExpr *expr, std::size_t index) {
+[[nodiscard]] inline ast::Expr *valueOf(const ast::CallExpr *expr, size_t index) {
   return expr->arguments[index].value;
 }
 /// Its type, without a range or the name of an enumeration.
-[[nodiscard]] inline const Type *kindOf(const ast::CallExpr *expr, std::size_t index) {
+[[nodiscard]] inline const Type *kindOf(const ast::CallExpr *expr, size_t index) {
   return underlying(valueOf(expr, index)->type);
 }
 /// The same; a constant gets a type of its own.
-const Type *settledKindOf(const ast::CallExpr *expr, std::size_t index);
+const Type *settledKindOf(const ast::CallExpr *expr, size_t index);
 
 /// The function as it is called.
 [[nodiscard]] std::string calleeName(const ast::CallExpr *expr);
@@ -33,7 +34,7 @@ const Type *checkPatternCall(Context &c, ast::CallExpr *expr);
 /// The argument of TRUNC_Y, BCD_TO_Y, TO_BCD_Y; false when it has been reported.
 bool checkSpecialArgument(Context &c, ast::CallExpr *expr);
 /// Converts the arguments from that one on to their common type and gives it.
-const Type *commonOfArguments(Context &c, ast::CallExpr *expr, std::size_t first);
+const Type *commonOfArguments(Context &c, ast::CallExpr *expr, size_t first);
 /// ABS, SQRT … ATAN, ATAN2 and EXPT, TRUNC.
 const Type *checkAbs(Context &c, ast::CallExpr *expr);
 const Type *checkRealFunction(Context &c, ast::CallExpr *expr);
@@ -66,3 +67,5 @@ const Type *checkQuery(Context &c, ast::CallExpr *expr);
 const Type *checkIsValidRef(Context &c, ast::CallExpr *expr);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_BUILTINS_INTERNAL_HPP

@@ -20,31 +20,31 @@ using namespace ast;
 
 const Type *namedType(Context &c, Expr *expr) {
   Symbol *symbol = nullptr;
-  if (expr->kind == ExprKind::typeName)
+  if (expr->kind == ExprKind::TypeName)
     return resolveType(c, as<TypeNameExpr>(expr)->name, "type");
-  if (expr->kind == ExprKind::name) {
+  if (expr->kind == ExprKind::Name) {
     const Name &name = as<NameExpr>(expr)->name;
     symbol = lookup(c, name);
     if (symbol == nullptr)
       return findElementaryType(name.id->lower);
     // A variable hides a type of its name only where a value is meant (`TON : TON`).
-    if (symbol->kind == SymbolKind::variable)
+    if (symbol->kind == SymbolKind::Variable)
       return nullptr;
-  } else if (expr->kind == ExprKind::member && as<MemberExpr>(expr)->bit < 0) {
+  } else if (expr->kind == ExprKind::Member && as<MemberExpr>(expr)->bit < 0) {
     auto *member = as<MemberExpr>(expr);
     if (Symbol *space = resolveNamespace(c, member->base);
-        space != nullptr && space->kind == SymbolKind::library)
+        space != nullptr && space->kind == SymbolKind::Library)
       symbol = c.names.inLibrary(space->name.id, member->name.id);
   }
   if (symbol == nullptr)
     return nullptr;
-  if (symbol->kind == SymbolKind::type) {
+  if (symbol->kind == SymbolKind::Type) {
     auto *type = static_cast<TypeSymbol *>(symbol);
     resolve(c, type);
     return type->type;
   }
-  if (symbol->kind == SymbolKind::pou &&
-      static_cast<PouSymbol *>(symbol)->decl->kind == DeclKind::functionBlock)
+  if (symbol->kind == SymbolKind::Pou &&
+      static_cast<PouSymbol *>(symbol)->decl->kind == DeclKind::FunctionBlock)
     return static_cast<PouSymbol *>(symbol)->type;
   return nullptr;
 }
@@ -54,7 +54,7 @@ namespace {
 /// Blocks held by value have their variables declared before their size is asked for.
 template <class Declare>
 void declareContained(const Type *type, Declare &&declare, std::unordered_set<const Type *> &seen) {
-  while (type->kind == TypeKind::array)
+  while (type->kind == TypeKind::Array)
     type = typeAs<ArrayType>(type)->element;
   if (!seen.insert(type).second)
     return; // a type inside of itself is reported elsewhere
@@ -63,10 +63,10 @@ void declareContained(const Type *type, Declare &&declare, std::unordered_set<co
     if (!pou->declared)
       declare(pou);
     for (const VarSymbol *v : pou->variables) {
-      if (isField(v) && v->section != Section::inOut && v->type != nullptr)
+      if (isField(v) && v->section != Section::InOut && v->type != nullptr)
         declareContained(v->type, declare, seen);
     }
-  } else if (type->kind == TypeKind::structure) {
+  } else if (type->kind == TypeKind::Structure) {
     const auto *s = typeAs<StructType>(type);
     if (s->base != nullptr)
       declareContained(s->base, declare, seen);
@@ -80,7 +80,7 @@ void declareContained(const Type *type, Declare &&declare, std::unordered_set<co
 } // namespace
 
 const Type *checkSizeof(Context &c, CallExpr *expr) {
-  const Type *bad = elementaryType(TypeKind::error);
+  const Type *bad = elementaryType(TypeKind::Error);
   if (!requireCount(c, expr, 1, 1) || expr->arguments[0].value == nullptr)
     return bad;
   Expr *value = expr->arguments[0].value;
@@ -91,78 +91,78 @@ const Type *checkSizeof(Context &c, CallExpr *expr) {
     value->type = type;
   if (isError(type))
     return bad;
-  if (type->kind == TypeKind::none || type->kind == TypeKind::anyInteger ||
-      type->kind == TypeKind::anyReal)
+  if (type->kind == TypeKind::None || type->kind == TypeKind::AnyInteger ||
+      type->kind == TypeKind::AnyReal)
     return argumentError(c, expr, 0, "a variable or a type");
   if (refuseOpenArray(c, value, "measure"))
     return bad;
   std::unordered_set<const Type *> seen;
   declareContained(
       type, [&c](PouSymbol *pou) { declare(c, pou); }, seen);
-  const std::uint64_t size = c.storage.of(type).size;
+  const uint64_t size = c.storage.of(type).size;
   const auto same = [type](const auto &entry) { return entry.first == type; };
   if (std::none_of(c.program.measured.begin(), c.program.measured.end(), same))
     c.program.measured.emplace_back(type, size);
-  expr->constant = c.makeConstant(integerValue(static_cast<std::int64_t>(size)));
-  return elementaryType(TypeKind::anyInteger);
+  expr->constant = c.makeConstant(integerValue(static_cast<int64_t>(size)));
+  return elementaryType(TypeKind::AnyInteger);
 }
 
 const Type *checkIndexOf(Context &c, CallExpr *expr) {
-  const Type *bad = elementaryType(TypeKind::error);
+  const Type *bad = elementaryType(TypeKind::Error);
   if (!requireCount(c, expr, 1, 1) || expr->arguments[0].value == nullptr)
     return bad;
   Expr *value = expr->arguments[0].value;
-  Symbol *symbol = value->kind == ExprKind::name ? lookup(c, as<NameExpr>(value)->name) : nullptr;
-  if (symbol == nullptr || symbol->kind != SymbolKind::pou) {
+  Symbol *symbol = value->kind == ExprKind::Name ? lookup(c, as<NameExpr>(value)->name) : nullptr;
+  if (symbol == nullptr || symbol->kind != SymbolKind::Pou) {
     if (!isError(check(c, value)))
       return argumentError(c, expr, 0, "the name of a POU");
     return bad;
   }
-  value->type = elementaryType(TypeKind::none);
+  value->type = elementaryType(TypeKind::None);
   const auto &pous = symbol->library->pous;
   const auto at = std::find(pous.begin(), pous.end(), symbol) - pous.begin();
-  expr->constant = c.makeConstant(integerValue(static_cast<std::int64_t>(at) + 1));
-  return elementaryType(TypeKind::anyInteger);
+  expr->constant = c.makeConstant(integerValue(static_cast<int64_t>(at) + 1));
+  return elementaryType(TypeKind::AnyInteger);
 }
 
 const Type *checkBound(Context &c, CallExpr *expr) {
-  const Type *bad = elementaryType(TypeKind::error);
+  const Type *bad = elementaryType(TypeKind::Error);
   if (!requireCount(c, expr, 2, 2))
     return bad;
   Expr *array = expr->arguments[0].value;
   Expr *dimension = expr->arguments[1].value;
-  const bool open = array->type->kind == TypeKind::openArray;
-  if (array->type->kind != TypeKind::array && !open)
+  const bool open = array->type->kind == TypeKind::OpenArray;
+  if (array->type->kind != TypeKind::Array && !open)
     return argumentError(c, expr, 0, "an array");
-  if (!isInteger(underlying(dimension->type)) && dimension->type->kind != TypeKind::anyInteger)
+  if (!isInteger(underlying(dimension->type)) && dimension->type->kind != TypeKind::AnyInteger)
     return argumentError(c, expr, 1, "the number of a dimension");
-  const std::int64_t dynamic = open ? typeAs<OpenArrayType>(array->type)->dimensions : 0;
+  const int64_t dynamic = open ? typeAs<OpenArrayType>(array->type)->dimensions : 0;
   const Type *fixed = open ? typeAs<OpenArrayType>(array->type)->element : array->type;
-  std::int64_t count = dynamic;
-  for (const Type *t = fixed; t->kind == TypeKind::array; t = typeAs<ArrayType>(t)->element)
+  int64_t count = dynamic;
+  for (const Type *t = fixed; t->kind == TypeKind::Array; t = typeAs<ArrayType>(t)->element)
     ++count;
   if (dimension->constant == nullptr) {
-    c.report(Code::notConstant, dimension->span, "the dimension must be an integer constant",
+    c.report(Code::NotConstant, dimension->span, "the dimension must be an integer constant",
              "its value is only known at run time")
         .help("write 1 for the first dimension, 2 for the second");
     return bad;
   }
-  const std::int64_t wanted = dimension->constant->integer;
+  const int64_t wanted = dimension->constant->integer;
   if (wanted < 1 || wanted > count) {
-    c.report(Code::wrongDimension, dimension->span,
+    c.report(Code::WrongDimension, dimension->span,
              "the array has no dimension " + std::to_string(wanted),
              count == 1 ? "it has one dimension, number 1"
                         : "its dimensions are 1 to " + std::to_string(count));
     return bad;
   }
   if (wanted <= dynamic)
-    return elementaryType(TypeKind::dint);
+    return elementaryType(TypeKind::Dint);
   const auto *at = typeAs<ArrayType>(fixed);
-  for (std::int64_t i = dynamic + 1; i < wanted; ++i)
+  for (int64_t i = dynamic + 1; i < wanted; ++i)
     at = typeAs<ArrayType>(at->element);
   expr->constant =
-      c.makeConstant(integerValue(expr->builtin == Builtin::lowerBound ? at->low : at->high));
-  return elementaryType(TypeKind::dint);
+      c.makeConstant(integerValue(expr->builtin == Builtin::LowerBound ? at->low : at->high));
+  return elementaryType(TypeKind::Dint);
 }
 
 } // namespace stc::sema

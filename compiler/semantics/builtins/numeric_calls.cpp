@@ -9,18 +9,18 @@ namespace stc::sema {
 
 using namespace ast;
 
-const Type *settledKindOf(const CallExpr *expr, std::size_t index) {
+const Type *settledKindOf(const CallExpr *expr, size_t index) {
   Expr *value = valueOf(expr, index);
   return isUntyped(value->type) ? settle(value) : underlying(value->type);
 }
 
 static bool isIntegerOrUntyped(const Type *type) {
-  return isInteger(type) || type->kind == TypeKind::anyInteger;
+  return isInteger(type) || type->kind == TypeKind::AnyInteger;
 }
 
 const Type *checkAbs(Context &c, CallExpr *expr) {
   const Type *kind = kindOf(expr, 0);
-  if (!isNumber(kind) && kind->kind != TypeKind::ltime)
+  if (!isNumber(kind) && kind->kind != TypeKind::Ltime)
     return argumentError(c, expr, 0, "a number");
   const Type *type = settledKindOf(expr, 0);
   setTarget(valueOf(expr, 0), type);
@@ -31,25 +31,25 @@ const Type *checkRealFunction(Context &c, CallExpr *expr) {
   const Type *kind = kindOf(expr, 0);
   if (!isNumber(kind))
     return argumentError(c, expr, 0, "a number");
-  const Type *result = kind->kind == TypeKind::real ? kind : elementaryType(TypeKind::lreal);
+  const Type *result = kind->kind == TypeKind::Real ? kind : elementaryType(TypeKind::Lreal);
   if (isUntyped(kind)) // `r := SQRT(2.0)` is silent, as `r := 2.0` is
-    expr->common = elementaryType(TypeKind::real);
+    expr->common = elementaryType(TypeKind::Real);
   setTarget(valueOf(expr, 0), result);
   return result;
 }
 
 const Type *checkPowerFunction(Context &c, CallExpr *expr) {
-  for (std::size_t i = 0; i < 2; ++i) {
+  for (size_t i = 0; i < 2; ++i) {
     if (!isNumber(kindOf(expr, i)))
       return argumentError(c, expr, i, "a number");
   }
   const Type *first = kindOf(expr, 0);
   const Type *second = kindOf(expr, 1);
   const bool real =
-      first->kind == TypeKind::real && (second->kind == TypeKind::real || isUntyped(second));
-  const Type *result = elementaryType(real ? TypeKind::real : TypeKind::lreal);
+      first->kind == TypeKind::Real && (second->kind == TypeKind::Real || isUntyped(second));
+  const Type *result = elementaryType(real ? TypeKind::Real : TypeKind::Lreal);
   if (isUntyped(first) && isUntyped(second))
-    expr->common = elementaryType(TypeKind::real);
+    expr->common = elementaryType(TypeKind::Real);
   setTarget(valueOf(expr, 0), result);
   setTarget(valueOf(expr, 1), result);
   return result;
@@ -57,14 +57,14 @@ const Type *checkPowerFunction(Context &c, CallExpr *expr) {
 
 const Type *checkTrunc(Context &c, CallExpr *expr) {
   const Type *kind = kindOf(expr, 0);
-  if (!isReal(kind) && kind->kind != TypeKind::anyReal)
+  if (!isReal(kind) && kind->kind != TypeKind::AnyReal)
     return argumentError(c, expr, 0, "REAL or LREAL");
   settledKindOf(expr, 0);
-  return elementaryType(TypeKind::dint);
+  return elementaryType(TypeKind::Dint);
 }
 
 const Type *checkExtreme(Context &c, CallExpr *expr) {
-  for (std::size_t i = 0; i < expr->arguments.size(); ++i) {
+  for (size_t i = 0; i < expr->arguments.size(); ++i) {
     if (!isElementary(kindOf(expr, i)))
       return argumentError(c, expr, i, "a value that can be compared");
   }
@@ -72,7 +72,7 @@ const Type *checkExtreme(Context &c, CallExpr *expr) {
 }
 
 const Type *checkSel(Context &c, CallExpr *expr) {
-  coerce(c, valueOf(expr, 0), elementaryType(TypeKind::boolean), "the selector of SEL");
+  coerce(c, valueOf(expr, 0), elementaryType(TypeKind::Boolean), "the selector of SEL");
   return commonOfArguments(c, expr, 1);
 }
 
@@ -95,11 +95,11 @@ const Type *checkShift(Context &c, CallExpr *expr) {
     return argumentError(c, expr, 1, "an integer");
   Expr *pattern = valueOf(expr, 0);
   const Type *type = settledKindOf(expr, 0);
-  if (pattern->type->kind == TypeKind::anyInteger) // a pattern, not a number
+  if (pattern->type->kind == TypeKind::AnyInteger) // a pattern, not a number
     type =
         elementaryType(pattern->constant->integer < 0 || pattern->constant->integer > 0xFFFFFFFFLL
-                           ? TypeKind::lword
-                           : TypeKind::dword);
+                           ? TypeKind::Lword
+                           : TypeKind::Dword);
   pattern->target = nullptr;
   setTarget(pattern, type);
   settledKindOf(expr, 1);
@@ -107,7 +107,7 @@ const Type *checkShift(Context &c, CallExpr *expr) {
 }
 
 const Type *checkClock(Context &, CallExpr *expr) {
-  return elementaryType(expr->builtin == Builtin::time ? TypeKind::time : TypeKind::ltime);
+  return elementaryType(expr->builtin == Builtin::Time ? TypeKind::Time : TypeKind::Ltime);
 }
 
 } // namespace stc::sema

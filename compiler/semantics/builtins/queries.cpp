@@ -14,23 +14,23 @@ namespace stc::sema {
 using namespace ast;
 
 const Type *checkQuery(Context &c, CallExpr *expr) {
-  const Type *boolean = elementaryType(TypeKind::boolean);
-  const bool toPointer = expr->builtin == Builtin::queryPointer;
+  const Type *boolean = elementaryType(TypeKind::Boolean);
+  const bool toPointer = expr->builtin == Builtin::QueryPointer;
   if (!requireCount(c, expr, 2, 2))
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   Expr *source = expr->arguments[0].value;
   Expr *target = expr->arguments[1].value;
   const Type *from = source->type;
   const Type *to = target->type;
   if (isError(from) || isError(to))
     return boolean;
-  if (from->kind != TypeKind::interface && !isInstance(from))
+  if (from->kind != TypeKind::Interface && !isInstance(from))
     return argumentError(c, expr, 0, "an interface variable or an instance");
   if (isInstance(from) && !hasTypeId(typeAs<PouType>(from)->symbol))
     return argumentError(c, expr, 0, "an instance of a block with interfaces or bases");
-  if (toPointer ? to->kind != TypeKind::pointer ||
-                      typeAs<PointerType>(to)->pointee->kind != TypeKind::functionBlock
-                : to->kind != TypeKind::interface)
+  if (toPointer ? to->kind != TypeKind::Pointer ||
+                      typeAs<PointerType>(to)->pointee->kind != TypeKind::FunctionBlock
+                : to->kind != TypeKind::Interface)
     return argumentError(c, expr, 1,
                          toPointer ? "a POINTER TO a function block" : "an interface variable");
   if (toPointer) {
@@ -45,20 +45,20 @@ const Type *checkQuery(Context &c, CallExpr *expr) {
 
 const Type *checkIsValidRef(Context &c, CallExpr *expr) {
   if (!requireCount(c, expr, 1, 1))
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   Expr *value = expr->arguments[0].value;
   if (isError(value->type) || isReference(value))
-    return elementaryType(TypeKind::boolean);
-  const Symbol *symbol = value->kind == ExprKind::name     ? as<NameExpr>(value)->symbol
-                         : value->kind == ExprKind::member ? as<MemberExpr>(value)->symbol
+    return elementaryType(TypeKind::Boolean);
+  const Symbol *symbol = value->kind == ExprKind::Name     ? as<NameExpr>(value)->symbol
+                         : value->kind == ExprKind::Member ? as<MemberExpr>(value)->symbol
                                                            : nullptr;
-  const auto *variable = symbol != nullptr && symbol->kind == SymbolKind::variable
+  const auto *variable = symbol != nullptr && symbol->kind == SymbolKind::Variable
                              ? static_cast<const VarSymbol *>(symbol)
                              : nullptr;
-  if (variable == nullptr || variable->section != Section::inOut ||
-      variable->type->kind == TypeKind::openArray)
+  if (variable == nullptr || variable->section != Section::InOut ||
+      variable->type->kind == TypeKind::OpenArray)
     return argumentError(c, expr, 0, "a REFERENCE TO variable");
-  return elementaryType(TypeKind::boolean);
+  return elementaryType(TypeKind::Boolean);
 }
 
 } // namespace stc::sema

@@ -19,69 +19,69 @@ namespace {
 struct OperatorFunction {
   BinaryOp op;
   bool repeats = false;               ///< more than two arguments
-  TypeKind duration = TypeKind::none; ///< of the first argument, where only that is allowed
+  TypeKind duration = TypeKind::None; ///< of the first argument, where only that is allowed
 };
 
 OperatorFunction operatorOf(Builtin function) {
   switch (function) {
-  case Builtin::add:
-    return {BinaryOp::add, true};
-  case Builtin::subtract:
-    return {BinaryOp::subtract};
-  case Builtin::multiply:
-    return {BinaryOp::multiply, true};
-  case Builtin::divide:
-    return {BinaryOp::divide};
-  case Builtin::greater:
-    return {BinaryOp::greater, true};
-  case Builtin::greaterEqual:
-    return {BinaryOp::greaterEqual, true};
-  case Builtin::equal:
-    return {BinaryOp::equal, true};
-  case Builtin::lessEqual:
-    return {BinaryOp::lessEqual, true};
-  case Builtin::less:
-    return {BinaryOp::less, true};
-  case Builtin::multiplyTime:
-    return {BinaryOp::multiply, false, TypeKind::time};
-  case Builtin::multiplyLtime:
-    return {BinaryOp::multiply, false, TypeKind::ltime};
-  case Builtin::divideTime:
-    return {BinaryOp::divide, false, TypeKind::time};
-  case Builtin::divideLtime:
-    return {BinaryOp::divide, false, TypeKind::ltime};
-  case Builtin::logicalAnd:
-    return {BinaryOp::logicalAnd, true};
-  case Builtin::logicalOr:
-    return {BinaryOp::logicalOr, true};
-  case Builtin::logicalXor:
-    return {BinaryOp::logicalXor, true};
-  case Builtin::modulo:
-    return {BinaryOp::modulo};
+  case Builtin::Add:
+    return {BinaryOp::Add, true};
+  case Builtin::Subtract:
+    return {BinaryOp::Subtract};
+  case Builtin::Multiply:
+    return {BinaryOp::Multiply, true};
+  case Builtin::Divide:
+    return {BinaryOp::Divide};
+  case Builtin::Greater:
+    return {BinaryOp::Greater, true};
+  case Builtin::GreaterEqual:
+    return {BinaryOp::GreaterEqual, true};
+  case Builtin::Equal:
+    return {BinaryOp::Equal, true};
+  case Builtin::LessEqual:
+    return {BinaryOp::LessEqual, true};
+  case Builtin::Less:
+    return {BinaryOp::Less, true};
+  case Builtin::MultiplyTime:
+    return {BinaryOp::Multiply, false, TypeKind::Time};
+  case Builtin::MultiplyLtime:
+    return {BinaryOp::Multiply, false, TypeKind::Ltime};
+  case Builtin::DivideTime:
+    return {BinaryOp::Divide, false, TypeKind::Time};
+  case Builtin::DivideLtime:
+    return {BinaryOp::Divide, false, TypeKind::Ltime};
+  case Builtin::LogicalAnd:
+    return {BinaryOp::LogicalAnd, true};
+  case Builtin::LogicalOr:
+    return {BinaryOp::LogicalOr, true};
+  case Builtin::LogicalXor:
+    return {BinaryOp::LogicalXor, true};
+  case Builtin::Modulo:
+    return {BinaryOp::Modulo};
   default:
-    return {BinaryOp::notEqual};
+    return {BinaryOp::NotEqual};
   }
 }
 
 /// What checkOperatorCall has made of a call.
 bool isOperation(const CallExpr *expr) {
-  return expr->arguments.size() == 1 && expr->arguments[0].value->kind == ExprKind::binary &&
+  return expr->arguments.size() == 1 && expr->arguments[0].value->kind == ExprKind::Binary &&
          as<BinaryExpr>(expr->arguments[0].value)->opSpan.begin == expr->callee->span.begin;
 }
 
 } // namespace
 
 const Type *checkOperatorCall(Context &c, CallExpr *expr) {
-  const Type *bad = elementaryType(TypeKind::error);
+  const Type *bad = elementaryType(TypeKind::Error);
   const OperatorFunction function = operatorOf(expr->builtin);
   if (isOperation(expr)) { // checked once more, for another expected type
     Expr *operation = expr->arguments[0].value;
-    expr->builtin = Builtin::move;
+    expr->builtin = Builtin::Move;
     return check(c, operation, nullptr);
   }
-  if (expr->builtin >= Builtin::logicalAnd && expr->arguments.size() < 2) {
+  if (expr->builtin >= Builtin::LogicalAnd && expr->arguments.size() < 2) {
     const std::string name(as<NameExpr>(expr->callee)->name.text);
-    c.report(Code::wrongArgumentCount, expr->span,
+    c.report(Code::WrongArgumentCount, expr->span,
              "`" + name + "` takes " + (function.repeats ? "at least " : "") + "2 arguments, not " +
                  std::to_string(expr->arguments.size()),
              "in this call")
@@ -90,13 +90,13 @@ const Type *checkOperatorCall(Context &c, CallExpr *expr) {
   }
   if (!requireCount(c, expr, 2, function.repeats ? SIZE_MAX : 2))
     return bad;
-  const bool order = expr->builtin >= Builtin::greater && expr->builtin <= Builtin::notEqual;
+  const bool order = expr->builtin >= Builtin::Greater && expr->builtin <= Builtin::NotEqual;
   if (order && expr->arguments.size() > 2)
     return checkOrderCall(c, expr);
   // The call becomes the operator, so that all that is true of it holds here as well: it keeps one
   // argument, which is the operation.
   Expr *left = expr->arguments[0].value;
-  for (std::size_t i = 1; i < expr->arguments.size(); ++i) {
+  for (size_t i = 1; i < expr->arguments.size(); ++i) {
     auto *operation = c.arena.make<BinaryExpr>();
     operation->span = expr->span;
     operation->parenthesized = true;
@@ -109,7 +109,7 @@ const Type *checkOperatorCall(Context &c, CallExpr *expr) {
   const Type *type = check(c, left, nullptr);
   if (isError(type))
     return bad;
-  if (function.duration != TypeKind::none) {
+  if (function.duration != TypeKind::None) {
     const Type *first = underlying(expr->arguments[0].value->type);
     const Type *second = underlying(expr->arguments[1].value->type);
     if (first->kind != function.duration)
@@ -121,7 +121,7 @@ const Type *checkOperatorCall(Context &c, CallExpr *expr) {
   operation.value = left;
   operation.span = expr->span;
   expr->arguments = c.arena.copy(std::vector<Argument>{operation});
-  expr->builtin = Builtin::move;
+  expr->builtin = Builtin::Move;
   expr->common = left->common;
   expr->constant = left->constant;
   return type;
@@ -129,13 +129,13 @@ const Type *checkOperatorCall(Context &c, CallExpr *expr) {
 
 /// GT(a, b, c …): each in order with the next.
 static const Type *checkOrderCall(Context &c, CallExpr *expr) {
-  const Type *bad = elementaryType(TypeKind::error);
+  const Type *bad = elementaryType(TypeKind::Error);
   bool failed = false;
   for (Argument &a : expr->arguments)
     failed = isError(check(c, a.value)) || failed;
   if (failed)
     return bad;
-  for (std::size_t i = 0; i < expr->arguments.size(); ++i) {
+  for (size_t i = 0; i < expr->arguments.size(); ++i) {
     Expr *value = expr->arguments[i].value;
     if (refuseOpenArray(c, value, "use") || refuseStrict(c, value))
       return bad;
@@ -146,26 +146,26 @@ static const Type *checkOrderCall(Context &c, CallExpr *expr) {
   if (isError(commonOfArguments(c, expr, 0)))
     return bad;
   expr->common = nullptr;
-  return elementaryType(TypeKind::boolean);
+  return elementaryType(TypeKind::Boolean);
 }
 
 const Type *checkPatternCall(Context &c, CallExpr *expr) {
-  const Type *bad = elementaryType(TypeKind::error);
+  const Type *bad = elementaryType(TypeKind::Error);
   if (!requireCount(c, expr, 1, 1))
     return bad;
   Expr *value = expr->arguments[0].value;
   const Type *type = underlying(value->type);
-  const Type *boolean = elementaryType(TypeKind::boolean);
-  if (expr->builtin == Builtin::isValid) {
-    if (!isReal(type) && type->kind != TypeKind::anyReal)
+  const Type *boolean = elementaryType(TypeKind::Boolean);
+  if (expr->builtin == Builtin::IsValid) {
+    if (!isReal(type) && type->kind != TypeKind::AnyReal)
       return argumentError(c, expr, 0, "REAL or LREAL");
     if (isUntyped(type))
       settle(value);
     return boolean;
   }
-  if (expr->builtin == Builtin::isValidBcd) {
-    if (type->kind == TypeKind::anyInteger)
-      coerce(c, value, elementaryType(TypeKind::lword), "the argument of IS_VALID_BCD");
+  if (expr->builtin == Builtin::IsValidBcd) {
+    if (type->kind == TypeKind::AnyInteger)
+      coerce(c, value, elementaryType(TypeKind::Lword), "the argument of IS_VALID_BCD");
     else if (!isBitString(type))
       return argumentError(c, expr, 0, "a bit string");
     return boolean;
@@ -179,20 +179,20 @@ const Type *checkPatternCall(Context &c, CallExpr *expr) {
 bool checkSpecialArgument(Context &c, CallExpr *expr) {
   Expr *value = expr->arguments[0].value;
   const Type *type = underlying(value->type);
-  const bool cut = expr->builtin == Builtin::trunc;
-  if (cut                               ? isReal(type) || type->kind == TypeKind::anyReal
-      : expr->builtin == Builtin::toBcd ? isUnsignedInteger(type)
+  const bool cut = expr->builtin == Builtin::Trunc;
+  if (cut                               ? isReal(type) || type->kind == TypeKind::AnyReal
+      : expr->builtin == Builtin::ToBcd ? isUnsignedInteger(type)
                                         : isBitString(type))
     return true;
-  if (!cut && type->kind == TypeKind::anyInteger) {
+  if (!cut && type->kind == TypeKind::AnyInteger) {
     coerce(c, value,
-           elementaryType(expr->builtin == Builtin::toBcd ? TypeKind::ulint : TypeKind::lword),
+           elementaryType(expr->builtin == Builtin::ToBcd ? TypeKind::Ulint : TypeKind::Lword),
            "the argument");
     return value->target != nullptr;
   }
   argumentError(c, expr, 0,
                 cut                               ? "REAL or LREAL"
-                : expr->builtin == Builtin::toBcd ? "an unsigned integer"
+                : expr->builtin == Builtin::ToBcd ? "an unsigned integer"
                                                   : "a bit string");
   return false;
 }

@@ -28,11 +28,11 @@ namespace {
 
 std::string sectionName(Section section) {
   switch (section) {
-  case Section::input:
+  case Section::Input:
     return "VAR_INPUT";
-  case Section::output:
+  case Section::Output:
     return "VAR_OUTPUT";
-  case Section::inOut:
+  case Section::InOut:
     return "VAR_IN_OUT";
   default:
     return "VAR";
@@ -41,15 +41,15 @@ std::string sectionName(Section section) {
 
 /// `FUNCTION Sum (a : INT; b : INT) : INT`, shown when arguments do not fit.
 std::string signature(const PouSymbol *pou) {
-  constexpr std::size_t kMost = 12;
+  constexpr size_t kMost = 12;
   std::string text;
-  std::size_t count = 0;
+  size_t count = 0;
   for (const VarSymbol *p : pou->parameters()) {
     if (p->hidden || ++count > kMost)
       continue;
     text += text.empty() ? "" : "; ";
-    text += p->section == Section::inOut ? "VAR_IN_OUT " : "";
-    text += std::string(p->name.text) + (p->section == Section::output ? " => " : " : ") +
+    text += p->section == Section::InOut ? "VAR_IN_OUT " : "";
+    text += std::string(p->name.text) + (p->section == Section::Output ? " => " : " : ") +
             typeName(p->type);
   }
   if (count > kMost)
@@ -57,14 +57,14 @@ std::string signature(const PouSymbol *pou) {
   if (pou->property != nullptr)
     return "PROPERTY " + std::string(pou->name.text) + " : " + typeName(pou->property->type);
   const DeclKind kind = pou->decl->kind;
-  if (kind == DeclKind::action || kind == DeclKind::interface || kind == DeclKind::classD)
-    return (kind == DeclKind::action      ? "ACTION "
-            : kind == DeclKind::interface ? "INTERFACE "
+  if (kind == DeclKind::Action || kind == DeclKind::Interface || kind == DeclKind::Class)
+    return (kind == DeclKind::Action      ? "ACTION "
+            : kind == DeclKind::Interface ? "INTERFACE "
                                           : "CLASS ") +
            std::string(pou->name.text);
-  const std::string_view word = kind == DeclKind::function  ? "FUNCTION "
-                                : kind == DeclKind::program ? "PROGRAM "
-                                : kind == DeclKind::method  ? "METHOD "
+  const std::string_view word = kind == DeclKind::Function  ? "FUNCTION "
+                                : kind == DeclKind::Program ? "PROGRAM "
+                                : kind == DeclKind::Method  ? "METHOD "
                                                             : "FUNCTION_BLOCK ";
   return std::string(word) + std::string(pou->name.text) + " (" + text + ")" +
          (pou->result != nullptr && pou->result->type != nullptr
@@ -84,10 +84,10 @@ static void noteSignature(Diagnostic &d, const PouSymbol *pou) {
 namespace {
 
 bool namedEnumerator(const Expr *e) {
-  const Symbol *symbol = e->kind == ExprKind::name     ? as<NameExpr>(e)->symbol
-                         : e->kind == ExprKind::member ? as<MemberExpr>(e)->symbol
+  const Symbol *symbol = e->kind == ExprKind::Name     ? as<NameExpr>(e)->symbol
+                         : e->kind == ExprKind::Member ? as<MemberExpr>(e)->symbol
                                                        : nullptr;
-  return symbol != nullptr && symbol->kind == SymbolKind::enumerator;
+  return symbol != nullptr && symbol->kind == SymbolKind::Enumerator;
 }
 
 } // namespace
@@ -100,7 +100,7 @@ struct Binding {
   PouSymbol *pou;
   std::vector<VarSymbol *> positional; ///< inputs and in-outs, then outputs, as they are declared
   std::unordered_set<VarSymbol *> given;
-  std::size_t next = 0; ///< of `positional`
+  size_t next = 0;      ///< of `positional`
   bool isNamed = false; ///< an argument had a name
   bool hasFailed = false;
 };
@@ -110,7 +110,7 @@ Binding bindingOf(CallExpr *expr, PouSymbol *pou) {
   const std::vector<VarSymbol *> all = pou->parameters();
   for (const bool outputs : {false, true}) {
     for (VarSymbol *p : all) {
-      if ((p->section == Section::output) == outputs && !p->hidden)
+      if ((p->section == Section::Output) == outputs && !p->hidden)
         binding.positional.push_back(p);
     }
   }
@@ -118,15 +118,15 @@ Binding bindingOf(CallExpr *expr, PouSymbol *pou) {
 }
 
 bool isParameter(const VarSymbol *v) {
-  return !v->isResult && v->section != Section::temp && v->section != Section::local &&
-         v->section != Section::stat && v->section != Section::instance;
+  return !v->isResult && v->section != Section::Temp && v->section != Section::Local &&
+         v->section != Section::Stat && v->section != Section::Instance;
 }
 
 } // namespace
 
 static void reportUnknownParameter(Context &c, const Binding &binding, const Argument &a,
                                    bool isPrivate) {
-  auto &d = c.report(Code::unknownParameter, a.name.span,
+  auto &d = c.report(Code::UnknownParameter, a.name.span,
                      "`" + std::string(binding.pou->name.text) + "` has no parameter `" +
                          std::string(a.name.text) + "`",
                      isPrivate ? "this is private" : "unknown parameter");
@@ -140,8 +140,8 @@ static void reportUnknownParameter(Context &c, const Binding &binding, const Arg
 }
 
 static void reportWrongDirection(Context &c, const Argument &a, const VarSymbol *parameter) {
-  const bool isOutput = parameter->section == Section::output;
-  auto &d = c.report(Code::wrongDirection, a.span,
+  const bool isOutput = parameter->section == Section::Output;
+  auto &d = c.report(Code::WrongDirection, a.span,
                      "`" + std::string(a.name.text) + "` is a " + sectionName(parameter->section) +
                          (isOutput ? " and gives a value" : " and takes a value"),
                      isOutput ? "write `=>` here" : "write `:=` here");
@@ -160,7 +160,7 @@ static VarSymbol *namedParameter(Context &c, Binding &binding, const Argument &a
   if (found != nullptr && (found->owner == nullptr || !derivesFrom(binding.pou, found->owner)))
     found = nullptr;
   const bool fits = found != nullptr && isParameter(found);
-  if (fits && a.output == (found->section == Section::output))
+  if (fits && a.output == (found->section == Section::Output))
     return found;
   binding.hasFailed = true;
   if (fits)
@@ -176,20 +176,20 @@ static VarSymbol *namedParameter(Context &c, Binding &binding, const Argument &a
 static VarSymbol *positionalParameter(Context &c, Binding &binding, Argument &a) {
   if (binding.isNamed) {
     binding.hasFailed = true;
-    auto &d = c.report(Code::mixedArguments, a.span,
+    auto &d = c.report(Code::MixedArguments, a.span,
                        "a positional argument cannot follow a named one", "name this argument");
     noteSignature(d, binding.pou);
     check(c, a.value);
     return nullptr;
   }
   VarSymbol *parameter = binding.positional[binding.next++];
-  a.output = parameter->section == Section::output;
+  a.output = parameter->section == Section::Output;
   return parameter;
 }
 
 static void reportTooMany(Context &c, const Binding &binding, const Argument &a) {
-  const std::size_t count = binding.positional.size();
-  auto &d = c.report(Code::tooManyArguments, a.span,
+  const size_t count = binding.positional.size();
+  auto &d = c.report(Code::TooManyArguments, a.span,
                      "`" + std::string(binding.pou->name.text) + "` takes " +
                          std::to_string(count) + (count == 1 ? " argument" : " arguments"),
                      "one too many");
@@ -212,7 +212,7 @@ void bindArguments(Context &c, CallExpr *expr, PouSymbol *pou) {
     if (parameter == nullptr)
       continue;
     if (!binding.given.insert(parameter).second) {
-      c.report(Code::duplicateArgument, a.span,
+      c.report(Code::DuplicateArgument, a.span,
                "`" + std::string(parameter->name.text) + "` is given twice", "given again here");
       if (a.value != nullptr)
         check(c, a.value);
@@ -228,11 +228,11 @@ static void checkArgument(Context &c, Argument &argument, VarSymbol *parameter) 
   argument.parameter = parameter;
   if (argument.value == nullptr)
     return; // `Q =>`: not wanted; `IN :=`: keeps its value
-  if (parameter->section == Section::inOut)
+  if (parameter->section == Section::InOut)
     checkInOut(c, argument, parameter);
-  else if (parameter->section == Section::output)
+  else if (parameter->section == Section::Output)
     checkOutput(c, argument, parameter);
-  else if (parameter->type->kind == TypeKind::reference)
+  else if (parameter->type->kind == TypeKind::Reference)
     checkReference(c, argument.value, typeAs<PointerType>(parameter->type)->pointee);
   else
     checkAs(c, argument.value, parameter->type,
@@ -251,7 +251,7 @@ void checkReference(Context &c, Expr *value, const Type *wanted) {
     return;
   const bool isBit = isBitPlace(value);
   if (isBit || !refersTo(type, wanted))
-    c.report(Code::typeMismatch, value->span,
+    c.report(Code::TypeMismatch, value->span,
              "expected a variable of type " + typeName(wanted) + ", found " +
                  (isBit ? "a single bit" : typeName(type)),
              "a reference needs a variable of exactly its type");
@@ -267,8 +267,8 @@ static void checkInOut(Context &c, Argument &argument, VarSymbol *parameter) {
   if (rejectProperty(c, argument.value, "pass"))
     return;
   if (isBitPlace(argument.value)) {
-    const bool part = type->kind != TypeKind::boolean;
-    c.report(Code::inOutNotVariable, argument.value->span,
+    const bool part = type->kind != TypeKind::Boolean;
+    c.report(Code::InOutNotVariable, argument.value->span,
              part ? "a part of a variable cannot be passed to a VAR_IN_OUT"
                   : "a single bit cannot be passed to a VAR_IN_OUT",
              part ? "it has no variable of its own" : "bits have no address")
@@ -277,20 +277,20 @@ static void checkInOut(Context &c, Argument &argument, VarSymbol *parameter) {
     return;
   }
   const bool isPlace =
-      argument.value->kind == ExprKind::name || argument.value->kind == ExprKind::member ||
-      argument.value->kind == ExprKind::index || argument.value->kind == ExprKind::deref ||
-      argument.value->kind == ExprKind::direct;
+      argument.value->kind == ExprKind::Name || argument.value->kind == ExprKind::Member ||
+      argument.value->kind == ExprKind::Index || argument.value->kind == ExprKind::Deref ||
+      argument.value->kind == ExprKind::Direct;
   const bool enumerator =
       isPlace && argument.value->constant != nullptr && namedEnumerator(argument.value);
-  if (constantAllowed && (!isPlace || enumerator) && type->kind != TypeKind::none &&
-      parameter->type->kind != TypeKind::openArray) {
+  if (constantAllowed && (!isPlace || enumerator) && type->kind != TypeKind::None &&
+      parameter->type->kind != TypeKind::OpenArray) {
     coerce(c, argument.value, parameter->type,
            "argument `" + std::string(parameter->name.text) + "`"); // it gets a copy
     return;
   }
   if (!isPlace) {
     auto &d =
-        c.report(Code::inOutNotVariable, argument.value->span,
+        c.report(Code::InOutNotVariable, argument.value->span,
                  "the VAR_IN_OUT `" + std::string(parameter->name.text) + "` needs a variable",
                  "this is a value");
     noteDeclaration(d, parameter);
@@ -300,10 +300,10 @@ static void checkInOut(Context &c, Argument &argument, VarSymbol *parameter) {
   if (!constantAllowed && !requireVariable(c, argument.value, "pass"))
     return;
   const Type *wanted = parameter->type;
-  if (wanted->kind == TypeKind::openArray) {
+  if (wanted->kind == TypeKind::OpenArray) {
     if (fitsOpenArray(type, typeAs<OpenArrayType>(wanted)))
       return;
-    auto &d = c.report(Code::inOutType, argument.value->span,
+    auto &d = c.report(Code::InOutType, argument.value->span,
                        "the VAR_IN_OUT `" + std::string(parameter->name.text) + "` is " +
                            typeName(wanted) + ", this is " + typeName(type),
                        "elements and number of dimensions must be the same");
@@ -312,7 +312,7 @@ static void checkInOut(Context &c, Argument &argument, VarSymbol *parameter) {
   }
   const bool anyString = constantAllowed && isString(type) && type->kind == wanted->kind;
   if (!refersTo(type, wanted) && !anyString) {
-    auto &d = c.report(Code::inOutType, argument.value->span,
+    auto &d = c.report(Code::InOutType, argument.value->span,
                        "the VAR_IN_OUT `" + std::string(parameter->name.text) + "` is " +
                            typeName(wanted) + ", this is " + typeName(type),
                        "the types must be the same");
@@ -332,16 +332,16 @@ static void checkOutput(Context &c, Argument &argument, VarSymbol *parameter) {
   if (!requireVariable(c, target, "assign to"))
     return;
   const Conversion conversion = classify(parameter->type, type);
-  if (conversion == Conversion::narrowing || conversion == Conversion::forbidden) {
-    auto &d = c.report(conversion == Conversion::narrowing ? Code::narrowingConversion
-                                                           : Code::typeMismatch,
+  if (conversion == Conversion::Narrowing || conversion == Conversion::Forbidden) {
+    auto &d = c.report(conversion == Conversion::Narrowing ? Code::NarrowingConversion
+                                                           : Code::TypeMismatch,
                        target->span,
                        "the output `" + std::string(parameter->name.text) + "` is " +
                            typeName(parameter->type) + ", this variable is " + typeName(type),
                        "expected " + typeName(parameter->type));
     noteDeclaration(d, parameter);
-  } else if (conversion == Conversion::lossy) {
-    c.report(Code::lossyConversion, target->span,
+  } else if (conversion == Conversion::Lossy) {
+    c.report(Code::LossyConversion, target->span,
              "implicit conversion from " + typeName(parameter->type) + " to " + typeName(type) +
                  " may change the value",
              "the output `" + std::string(parameter->name.text) + "` is " +
@@ -353,28 +353,28 @@ static void reportMissing(Context &c, CallExpr *expr, PouSymbol *pou,
                           const std::unordered_set<VarSymbol *> &given) {
   // SUPER^() runs the base's body on the same instance, whose in-outs are bound already.
   const Expr *callee = expr->callee;
-  if (callee->kind == ExprKind::deref)
+  if (callee->kind == ExprKind::Deref)
     callee = as<DerefExpr>(callee)->base;
   const bool ofBase =
-      callee->kind == ExprKind::name && as<NameExpr>(callee)->name.id->lower == "super";
+      callee->kind == ExprKind::Name && as<NameExpr>(callee)->name.id->lower == "super";
   std::string missing;
   bool inOut = false;
-  std::size_t count = 0;
+  size_t count = 0;
   for (VarSymbol *p : pou->parameters()) {
-    if (given.contains(p) || p->hidden || (ofBase && p->section == Section::inOut))
+    if (given.contains(p) || p->hidden || (ofBase && p->section == Section::InOut))
       continue;
     const bool needed =
-        p->section == Section::inOut || ((pou->isFunction() || pou->isMethod()) &&
-                                         p->section == Section::input && p->decl->init == nullptr);
+        p->section == Section::InOut || ((pou->isFunction() || pou->isMethod()) &&
+                                         p->section == Section::Input && p->decl->init == nullptr);
     if (!needed)
       continue;
-    inOut = inOut || p->section == Section::inOut;
+    inOut = inOut || p->section == Section::InOut;
     missing += (missing.empty() ? "`" : ", `") + std::string(p->name.text) + "`";
     ++count;
   }
   if (count == 0)
     return;
-  auto &d = c.report(inOut ? Code::missingInOut : Code::missingArgument, expr->span,
+  auto &d = c.report(inOut ? Code::MissingInOut : Code::MissingArgument, expr->span,
                      "the call of `" + std::string(pou->name.text) + "` lacks " + missing,
                      inOut ? "every VAR_IN_OUT needs a variable at each call"
                            : "every input without default needs a value");

@@ -22,12 +22,12 @@ static const Type *checkArguments(Context &c, CallExpr *expr) {
     if (a.value != nullptr)
       check(c, a.value);
   }
-  return elementaryType(TypeKind::error);
+  return elementaryType(TypeKind::Error);
 }
 
 static const Type *notCallable(Context &c, CallExpr *expr, std::string message) {
-  auto &d = c.report(Code::notCallable, expr->callee->span, std::move(message), "cannot be called");
-  if (expr->callee->kind == ExprKind::name) {
+  auto &d = c.report(Code::NotCallable, expr->callee->span, std::move(message), "cannot be called");
+  if (expr->callee->kind == ExprKind::Name) {
     const auto *name = as<NameExpr>(expr->callee);
     if (name->symbol != nullptr)
       noteDeclaration(d, name->symbol);
@@ -42,7 +42,7 @@ static const Type *notCallable(Context &c, CallExpr *expr, std::string message) 
 static PouSymbol *calledByName(Context &c, CallExpr *expr, const Type *&result) {
   auto *name = as<NameExpr>(expr->callee);
   Symbol *symbol = lookup(c, name->name);
-  if (symbol != nullptr && symbol->kind == SymbolKind::variable &&
+  if (symbol != nullptr && symbol->kind == SymbolKind::Variable &&
       static_cast<VarSymbol *>(symbol)->isResult)
     symbol = static_cast<VarSymbol *>(symbol)->owner; // recursion
   if (symbol == nullptr) {
@@ -50,15 +50,15 @@ static PouSymbol *calledByName(Context &c, CallExpr *expr, const Type *&result) 
       result = checkConversionCall(c, expr, *conversion);
     return nullptr;
   }
-  if (symbol->kind == SymbolKind::builtin) {
+  if (symbol->kind == SymbolKind::Builtin) {
     name->symbol = symbol;
-    expr->resolved = Callee::builtin;
+    expr->resolved = Callee::Builtin;
     expr->builtin = static_cast<BuiltinSymbol *>(symbol)->id;
     result = checkBuiltin(c, expr, nullptr);
     foldCall(c, expr, result);
     return nullptr;
   }
-  if (symbol->kind != SymbolKind::pou)
+  if (symbol->kind != SymbolKind::Pou)
     return nullptr;
   name->symbol = symbol;
   return static_cast<PouSymbol *>(symbol);
@@ -68,25 +68,25 @@ static PouSymbol *calledByName(Context &c, CallExpr *expr, const Type *&result) 
 static PouSymbol *calledInNamespace(Context &c, MemberExpr *member) {
   Symbol *space = resolveNamespace(c, member->base);
   Symbol *symbol = space == nullptr ? nullptr : nameInSpace(c, space, member->name);
-  if (symbol == nullptr || symbol->kind != SymbolKind::pou)
+  if (symbol == nullptr || symbol->kind != SymbolKind::Pou)
     return nullptr;
   member->symbol = symbol;
   return static_cast<PouSymbol *>(symbol);
 }
 
 static const Type *reportTypeCalled(Context &c, CallExpr *expr, const PouSymbol *pou) {
-  auto &d = c.report(Code::notCallable, expr->callee->span,
+  auto &d = c.report(Code::NotCallable, expr->callee->span,
                      "`" + std::string(pou->name.text) + "` is " + describe(pou) +
                          ", not an instance of one",
                      pou->isBlock() ? "a block is called through a variable"
                                     : "only methods of an interface can be called");
-  if (pou->decl->kind == DeclKind::functionBlock)
+  if (pou->decl->kind == DeclKind::FunctionBlock)
     d.help("declare an instance, `x : " + std::string(pou->name.text) + ";`, and call `x(…)`");
   for (Argument &a : expr->arguments) {
     if (a.value != nullptr && !a.output)
       check(c, a.value);
   }
-  return elementaryType(TypeKind::error);
+  return elementaryType(TypeKind::Error);
 }
 
 /// The block of the instance that is called; null: a method or something wrong, and the call has
@@ -108,16 +108,16 @@ static PouSymbol *calledInstance(Context &c, CallExpr *expr, const Type *&result
   }
   if (!isInstance(type)) {
     const bool isPointer =
-        type->kind == TypeKind::pointer && isInstance(typeAs<PointerType>(type)->pointee);
+        type->kind == TypeKind::Pointer && isInstance(typeAs<PointerType>(type)->pointee);
     result = notCallable(c, expr,
                          isPointer ? "a pointer must be followed before the call: `…^(…)`"
                                    : typeName(type) + " cannot be called");
     return nullptr;
   }
   PouSymbol *pou = typeAs<PouType>(type)->symbol;
-  if (pou->decl->kind != DeclKind::classD)
+  if (pou->decl->kind != DeclKind::Class)
     return pou;
-  c.report(Code::classCalled, callee->span,
+  c.report(Code::ClassCalled, callee->span,
            "`" + std::string(pou->name.text) + "` is a CLASS: its instances cannot be called",
            "a class has no body")
       .help("call one of its methods, or make it a FUNCTION_BLOCK");
@@ -129,17 +129,17 @@ static PouSymbol *calledInstance(Context &c, CallExpr *expr, const Type *&result
 static void resolveCall(Context &c, CallExpr *expr, const PouSymbol *pou, bool named) {
   Expr *callee = expr->callee;
   switch (pou->decl->kind) {
-  case DeclKind::function:
-    expr->resolved = Callee::function;
+  case DeclKind::Function:
+    expr->resolved = Callee::Function;
     break;
-  case DeclKind::program:
-    expr->resolved = named ? Callee::program : Callee::functionBlock; // or an instance of it
+  case DeclKind::Program:
+    expr->resolved = named ? Callee::Program : Callee::FunctionBlock; // or an instance of it
     if (named)
       callee->type = pou->type;
     break;
   default:
-    expr->resolved = Callee::functionBlock;
-    if (callee->kind != ExprKind::deref)
+    expr->resolved = Callee::FunctionBlock;
+    if (callee->kind != ExprKind::Deref)
       requireVariable(c, callee, "call");
     requireAligned(c, callee, "call");
     break;
@@ -148,19 +148,19 @@ static void resolveCall(Context &c, CallExpr *expr, const PouSymbol *pou, bool n
 
 static const Type *resultOf(Context &c, const CallExpr *expr, bool asStatement) {
   const PouSymbol *pou = expr->pou;
-  if (expr->resolved != Callee::function) {
+  if (expr->resolved != Callee::Function) {
     if (asStatement)
-      return elementaryType(TypeKind::none);
-    auto &d = c.report(Code::blockCallAsValue, expr->span,
+      return elementaryType(TypeKind::None);
+    auto &d = c.report(Code::BlockCallAsValue, expr->span,
                        "the call of `" + std::string(pou->name.text) + "` has no value",
                        "used as a value here");
     d.help("call it in a statement of its own, then read one of its outputs");
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   }
   if (pou->result == nullptr)
-    return elementaryType(TypeKind::none);
+    return elementaryType(TypeKind::None);
   const Type *result = pou->result->type;
-  return result->kind == TypeKind::reference ? typeAs<PointerType>(result)->pointee : result;
+  return result->kind == TypeKind::Reference ? typeAs<PointerType>(result)->pointee : result;
 }
 
 const Type *checkCall(Context &c, CallExpr *expr, bool asStatement) {
@@ -168,9 +168,9 @@ const Type *checkCall(Context &c, CallExpr *expr, bool asStatement) {
   Expr *callee = expr->callee;
   const Type *result = nullptr;
   PouSymbol *pou = nullptr;
-  if (callee->kind == ExprKind::name)
+  if (callee->kind == ExprKind::Name)
     pou = calledByName(c, expr, result);
-  else if (callee->kind == ExprKind::member && as<MemberExpr>(callee)->bit < 0)
+  else if (callee->kind == ExprKind::Member && as<MemberExpr>(callee)->bit < 0)
     pou = calledInNamespace(c, as<MemberExpr>(callee));
   if (pou != nullptr && (pou->isBlock() || pou->isInterface()))
     return reportTypeCalled(c, expr, pou);
@@ -184,10 +184,10 @@ const Type *checkCall(Context &c, CallExpr *expr, bool asStatement) {
     return result;
   declare(c, pou);
   expr->pou = pou;
-  const bool named = callee->kind == ExprKind::name && as<NameExpr>(callee)->symbol == pou;
+  const bool named = callee->kind == ExprKind::Name && as<NameExpr>(callee)->symbol == pou;
   if (named && pou->isTemplate) {
     reportTemplate(c, as<NameExpr>(callee)->name, pou);
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   }
   resolveCall(c, expr, pou, named);
   bindArguments(c, expr, pou);

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_CALLS_CALLS_HPP
+#define STRIDE_COMPILER_SEMANTICS_CALLS_CALLS_HPP
 // Calls.
 
 #include "compiler/semantics/context/context.hpp"
@@ -13,3 +14,5 @@ void checkReference(Context &c, ast::Expr *value, const Type *wanted);
 bool refersTo(const Type *type, const Type *wanted);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_CALLS_CALLS_HPP

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_CALLS_INTERNAL_HPP
+#define STRIDE_COMPILER_SEMANTICS_CALLS_INTERNAL_HPP
 // What the sources of this folder have in common.
 
 #include "compiler/semantics/context/context.hpp"
@@ -14,3 +15,5 @@ PouSymbol *methodOf(Context &c, ast::Expr *callee, const Type *&base);
 const Type *checkMethodCall(Context &c, ast::CallExpr *expr, PouSymbol *method);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_CALLS_INTERNAL_HPP

@@ -22,11 +22,11 @@ namespace {
 
 std::string_view accessName(Access access) {
   switch (access) {
-  case Access::privateA:
+  case Access::Private:
     return "PRIVATE";
-  case Access::protectedA:
+  case Access::Protected:
     return "PROTECTED";
-  case Access::internalA:
+  case Access::Internal:
     return "INTERNAL";
   default:
     return "PUBLIC";
@@ -36,11 +36,11 @@ std::string_view accessName(Access access) {
 /// How far a member can be seen: less is less.
 int reach(Access access) {
   switch (access) {
-  case Access::privateA:
+  case Access::Private:
     return 0;
-  case Access::protectedA:
+  case Access::Protected:
     return 1;
-  case Access::internalA:
+  case Access::Internal:
     return 2;
   default:
     return 3;
@@ -51,16 +51,16 @@ int reach(Access access) {
 
 void checkClass(Context &c, PouSymbol *pou) {
   if (pou->base == nullptr && pou->interfaces.empty() && pou->methods.empty() &&
-      (pou->decl->modifiers & (modAbstract | modFinal)) == 0)
+      (pou->decl->modifiers & (kModAbstract | kModFinal)) == 0)
     return;
   const ScopeGuard guard(c, {&c.names.moduleOf(pou), pou});
   if (pou->isAbstract() && pou->isFinal())
-    c.report(Code::modifierNotAllowed, pou->name.span,
+    c.report(Code::ModifierNotAllowed, pou->name.span,
              "`" + std::string(pou->name.text) + "` cannot be ABSTRACT and FINAL",
              "nobody could ever make an instance of it");
   if (pou->base != nullptr && pou->base->isFinal()) {
     auto &d =
-        c.report(Code::finalBase, pou->decl->base.back().span,
+        c.report(Code::FinalBase, pou->decl->base.back().span,
                  "`" + std::string(pou->base->name.text) + "` is FINAL", "it cannot be extended");
     noteDeclaration(d, pou->base);
   }
@@ -80,7 +80,7 @@ static void checkNameClashes(Context &c, PouSymbol *pou) {
     return;
   const auto clash = [&](const Symbol *own, const Symbol *inherited, const PouSymbol *where) {
     auto &d =
-        c.report(Code::inheritedName, own->name.span,
+        c.report(Code::InheritedName, own->name.span,
                  "`" + std::string(where->name.text) + "`, which `" + std::string(pou->name.text) +
                      "` extends, has `" + std::string(own->name.text) + "` already",
                  "this name is taken");
@@ -88,9 +88,9 @@ static void checkNameClashes(Context &c, PouSymbol *pou) {
     d.help("give it another name");
   };
   const auto where = [](const Symbol *s) -> const PouSymbol * {
-    if (s->kind == SymbolKind::variable)
+    if (s->kind == SymbolKind::Variable)
       return static_cast<const VarSymbol *>(s)->owner;
-    if (s->kind == SymbolKind::property)
+    if (s->kind == SymbolKind::Property)
       return static_cast<const PropertySymbol *>(s)->owner;
     return static_cast<const PouSymbol *>(s)->owner;
   };
@@ -125,12 +125,12 @@ static void checkAbstract(Context &c, const PouSymbol *method) {
   if (!method->isAbstract())
     return;
   if (!method->decl->body.empty())
-    c.report(Code::modifierNotAllowed, at, "the ABSTRACT method `" + name + "` has a body",
+    c.report(Code::ModifierNotAllowed, at, "the ABSTRACT method `" + name + "` has a body",
              "an abstract method has none")
         .help("remove the statements, or the word ABSTRACT");
   if (!owner->isAbstract() && owner->isBlock()) {
     auto &d =
-        c.report(Code::abstractInConcrete, at,
+        c.report(Code::AbstractInConcrete, at,
                  "`" + name + "` is ABSTRACT, but `" + std::string(owner->name.text) + "` is not",
                  "instances would have nothing to run here");
     noteDeclaration(d, owner);
@@ -138,18 +138,18 @@ static void checkAbstract(Context &c, const PouSymbol *method) {
            "`");
   }
   if (method->isFinal())
-    c.report(Code::modifierNotAllowed, at, "`" + name + "` cannot be ABSTRACT and FINAL",
+    c.report(Code::ModifierNotAllowed, at, "`" + name + "` cannot be ABSTRACT and FINAL",
              "nobody could ever implement it");
 }
 
 /// OVERRIDE where no base has such a method.
 static void checkNothingOverridden(Context &c, const PouSymbol *method) {
-  if ((method->decl->modifiers & modOverride) == 0 || isLifecycle(method))
+  if ((method->decl->modifiers & kModOverride) == 0 || isLifecycle(method))
     return;
   const PouSymbol *owner = method->owner;
   const std::string block(owner->name.text);
   auto &d =
-      c.report(Code::nothingOverridden, method->name.span,
+      c.report(Code::NothingOverridden, method->name.span,
                "`" + std::string(method->name.text) +
                    "` is declared OVERRIDE, but there is nothing to override",
                owner->base == nullptr ? "`" + block + "` extends no block"
@@ -165,15 +165,15 @@ static void checkNothingOverridden(Context &c, const PouSymbol *method) {
 static void checkOverride(Context &c, const PouSymbol *method, const PouSymbol *base) {
   const Span at = method->name.span;
   if (base->isFinal()) {
-    auto &d = c.report(Code::finalMethod, at, "`" + memberName(base) + "` is FINAL",
+    auto &d = c.report(Code::FinalMethod, at, "`" + memberName(base) + "` is FINAL",
                        "it cannot be replaced");
     d.label(base->name.span, "declared FINAL here");
     return;
   }
   const Access own = memberAccess(method);
   const Access inherited = memberAccess(base);
-  if (inherited == Access::privateA) {
-    auto &d = c.report(Code::inheritedName, at,
+  if (inherited == Access::Private) {
+    auto &d = c.report(Code::InheritedName, at,
                        "`" + memberName(base) + "` is PRIVATE and cannot be replaced",
                        "this name is taken");
     d.label(base->name.span, "declared PRIVATE here");
@@ -181,7 +181,7 @@ static void checkOverride(Context &c, const PouSymbol *method, const PouSymbol *
     return;
   }
   if (reach(own) < reach(inherited)) {
-    auto &d = c.report(Code::accessNarrowed, at,
+    auto &d = c.report(Code::AccessNarrowed, at,
                        "`" + memberName(method) + "` is " + std::string(accessName(own)) + ", `" +
                            memberName(base) + "` is " + std::string(accessName(inherited)),
                        "less visible than what it replaces");
@@ -189,7 +189,7 @@ static void checkOverride(Context &c, const PouSymbol *method, const PouSymbol *
     d.help("declare it " + std::string(accessName(inherited)));
   }
   if (!sameSignature(method, base)) {
-    auto &d = c.report(Code::overrideMismatch, at,
+    auto &d = c.report(Code::OverrideMismatch, at,
                        "`" + memberName(method) + "` does not fit `" + memberName(base) +
                            "`, which it replaces",
                        "`" + signatureText(method) + "`");

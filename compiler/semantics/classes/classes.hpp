@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_CLASSES_CLASSES_HPP
+#define STRIDE_COMPILER_SEMANTICS_CLASSES_CLASSES_HPP
 // Blocks as classes.
 
 #include "compiler/semantics/context/context.hpp"
@@ -19,3 +20,5 @@ void checkConstruct(Context &c, VarSymbol *variable);
 void checkAfterInit(Context &c, PouSymbol *method);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_CLASSES_CLASSES_HPP

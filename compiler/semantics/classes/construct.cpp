@@ -23,7 +23,7 @@ namespace {
 
 /// The innermost type as written, `FB` of `ARRAY [1..3] OF FB`.
 TypeExpr *innermost(TypeExpr *type) {
-  while (type->kind == TypeExprKind::array)
+  while (type->kind == TypeExprKind::Array)
     type = as<ArrayTypeExpr>(type)->element;
   return type;
 }
@@ -31,19 +31,19 @@ TypeExpr *innermost(TypeExpr *type) {
 } // namespace
 
 void checkConstruct(Context &c, VarSymbol *variable) {
-  if (variable->section == Section::inOut || variable->decl == nullptr)
+  if (variable->section == Section::InOut || variable->decl == nullptr)
     return;
   const Type *type = variable->type;
-  std::uint64_t count = 1;
-  while (type->kind == TypeKind::array) {
+  uint64_t count = 1;
+  while (type->kind == TypeKind::Array) {
     count *= typeAs<ArrayType>(type)->count();
     type = typeAs<ArrayType>(type)->element;
   }
   TypeExpr *written = innermost(variable->decl->type);
-  auto *named = written->kind == TypeExprKind::named ? as<NamedTypeExpr>(written) : nullptr;
-  if (type->kind != TypeKind::functionBlock) {
+  auto *named = written->kind == TypeExprKind::Named ? as<NamedTypeExpr>(written) : nullptr;
+  if (type->kind != TypeKind::FunctionBlock) {
     if (named != nullptr && (named->hasArguments || !named->elements.empty()) && !isError(type))
-      c.report(Code::wrongConstruct, written->span, typeName(type) + " takes no inputs here",
+      c.report(Code::WrongConstruct, written->span, typeName(type) + " takes no inputs here",
                "only instances of function blocks do")
           .help("write the initial value behind the type: `:= …`");
     return;
@@ -51,7 +51,7 @@ void checkConstruct(Context &c, VarSymbol *variable) {
   PouSymbol *pou = typeAs<PouType>(type)->symbol;
   declare(c, pou);
   if (pou->isAbstract()) {
-    auto &d = c.report(Code::abstractInstance, variable->name.span,
+    auto &d = c.report(Code::AbstractInstance, variable->name.span,
                        "`" + std::string(pou->name.text) + "` is ABSTRACT: there are no instances",
                        "declared with an abstract block");
     noteDeclaration(d, pou);
@@ -69,7 +69,7 @@ void checkConstruct(Context &c, VarSymbol *variable) {
     return;
   }
   if (named->elements.size() != count)
-    c.report(Code::wrongConstruct, written->span,
+    c.report(Code::WrongConstruct, written->span,
              std::to_string(named->elements.size()) + " lists of inputs for " +
                  std::to_string(count) + (count == 1 ? " instance" : " instances"),
              "one `(…)` for each element");
@@ -82,7 +82,7 @@ static void bindConstruct(Context &c, std::span<Argument> arguments, PouSymbol *
   const std::string name(pou->name.text);
   std::unordered_set<const VarSymbol *> given;
   bool failed = false;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
+  for (size_t i = 0; i < arguments.size(); ++i) {
     Argument &a = arguments[i];
     VarSymbol *input = !a.name && i < inputs.size() ? inputs[i] : nullptr;
     for (VarSymbol *v : inputs) {
@@ -92,7 +92,7 @@ static void bindConstruct(Context &c, std::span<Argument> arguments, PouSymbol *
     if (input == nullptr || a.output) {
       failed = true;
       auto &d = c.report(
-          Code::wrongConstruct, a.name ? a.name.span : a.span,
+          Code::WrongConstruct, a.name ? a.name.span : a.span,
           inputs.empty() ? "the FB_Init of `" + name + "` takes nothing"
           : a.name ? "the FB_Init of `" + name + "` has no input `" + std::string(a.name.text) + "`"
                    : "the FB_Init of `" + name + "` has " + std::to_string(inputs.size()) +
@@ -105,15 +105,15 @@ static void bindConstruct(Context &c, std::span<Argument> arguments, PouSymbol *
       if (!similar.empty())
         d.help("a similar one exists: `" + std::string(similar) + "`");
       else if (VarSymbol *field = a.name ? findVariable(pou, a.name.id) : nullptr;
-               field != nullptr && field->section == Section::input)
+               field != nullptr && field->section == Section::Input)
         d.help("inputs of the block itself are initialised behind the type: `: " + name + " := (" +
                std::string(a.name.text) + " := …)`");
-      if (a.value != nullptr && a.value->kind != ExprKind::aggregate)
+      if (a.value != nullptr && a.value->kind != ExprKind::Aggregate)
         check(c, a.value);
       continue;
     }
     if (!given.insert(input).second)
-      c.report(Code::duplicateArgument, a.span,
+      c.report(Code::DuplicateArgument, a.span,
                "`" + std::string(input->name.text) + "` is given twice", "given again here");
     a.parameter = input;
     if (a.value != nullptr)
@@ -126,7 +126,7 @@ static void bindConstruct(Context &c, std::span<Argument> arguments, PouSymbol *
   }
   if (missing.empty() || failed)
     return;
-  auto &d = c.report(Code::wrongConstruct, span, "an instance of `" + name + "` needs " + missing,
+  auto &d = c.report(Code::WrongConstruct, span, "an instance of `" + name + "` needs " + missing,
                      "its FB_Init has inputs");
   d.label(inputs.front()->name.span, "declared here");
   std::string example;
@@ -141,15 +141,15 @@ void checkLifecycle(Context &c, PouSymbol *method) {
   const PouSymbol *owner = method->owner;
   std::vector<VarSymbol *> inputs;
   for (VarSymbol *v : method->parameters()) {
-    if (v->section != Section::input) {
-      c.report(Code::wrongLifecycle, v->name.span,
+    if (v->section != Section::Input) {
+      c.report(Code::WrongLifecycle, v->name.span,
                name + " is called by itself: it has only inputs", "not possible here");
       return;
     }
     inputs.push_back(v);
   }
-  const Type *boolean = elementaryType(TypeKind::boolean);
-  const auto matches = [&](std::size_t i, std::string_view wanted) {
+  const Type *boolean = elementaryType(TypeKind::Boolean);
+  const auto matches = [&](size_t i, std::string_view wanted) {
     return i < inputs.size() && inputs[i]->name.id->lower == wanted && inputs[i]->type == boolean;
   };
   std::string_view expected;
@@ -160,7 +160,7 @@ void checkLifecycle(Context &c, PouSymbol *method) {
   else if (lower == "fb_reinit" && !inputs.empty())
     expected = "nothing";
   if (!expected.empty()) {
-    c.report(Code::wrongLifecycle, method->name.span,
+    c.report(Code::WrongLifecycle, method->name.span,
              expected == "nothing"
                  ? name + " has no inputs"
                  : name + " begins with the inputs `" + std::string(expected) + "`",
@@ -174,10 +174,10 @@ void checkLifecycle(Context &c, PouSymbol *method) {
   // The base's FB_Init is called with the inputs of the same names.
   for (const VarSymbol *b : constructInputs(owner->base)) {
     const auto it = method->scope.find(b->name.id);
-    if (it != method->scope.end() && it->second->section == Section::input &&
+    if (it != method->scope.end() && it->second->section == Section::Input &&
         it->second->type == b->type)
       continue;
-    auto &d = c.report(Code::wrongLifecycle, method->name.span,
+    auto &d = c.report(Code::WrongLifecycle, method->name.span,
                        "this FB_Init lacks the input `" + std::string(b->name.text) + " : " +
                            typeName(b->type) + "` that the FB_Init of `" +
                            std::string(owner->base->name.text) + "` needs",
@@ -198,9 +198,9 @@ void checkAfterInit(Context &c, PouSymbol *method) {
   if (!attribute(method->decl->attributes) || method->property != nullptr)
     return;
   for (const VarSymbol *v : method->parameters()) {
-    if (v->section == Section::output || v->decl->init != nullptr)
+    if (v->section == Section::Output || v->decl->init != nullptr)
       continue;
-    auto &d = c.report(Code::wrongLifecycle, v->name.span,
+    auto &d = c.report(Code::WrongLifecycle, v->name.span,
                        "`" + std::string(method->name.text) +
                            "` is called by itself after the initialisation",
                        "nobody gives it this input");

@@ -16,8 +16,8 @@ using namespace ast;
 void checkInterfaceBases(Context &c, PouSymbol *pou) {
   // Two bases may demand the same method, but then the same one.
   const std::vector<PouSymbol *> all = demandedMethods(pou);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
+  for (size_t i = 0; i < all.size(); ++i) {
+    for (size_t k = 0; k < i; ++k) {
       const bool same = all[i]->name.id == all[k]->name.id &&
                         (all[i]->property == nullptr) == (all[k]->property == nullptr);
       if (!same || (all[i]->property != nullptr &&
@@ -25,7 +25,7 @@ void checkInterfaceBases(Context &c, PouSymbol *pou) {
         continue;
       if (sameSignature(all[i], all[k]))
         continue;
-      auto &d = c.report(Code::overrideMismatch, pou->name.span,
+      auto &d = c.report(Code::OverrideMismatch, pou->name.span,
                          "`" + memberName(all[k]) + "` and `" + memberName(all[i]) + "` differ",
                          "`" + std::string(pou->name.text) + "` has both");
       d.label(all[k]->name.span, "`" + signatureText(all[k]) + "`");
@@ -52,7 +52,7 @@ void checkInterfaces(Context &c, PouSymbol *pou) {
           if (demanded->property == lastProperty)
             continue;
           const Symbol *half = memberNamed(pou, demanded->name.id);
-          if (half != nullptr && half->kind == SymbolKind::property)
+          if (half != nullptr && half->kind == SymbolKind::Property)
             what += demanded->property->get == demanded ? " (GET)" : " (SET)";
           lastProperty = demanded->property;
         }
@@ -64,7 +64,7 @@ void checkInterfaces(Context &c, PouSymbol *pou) {
       if (sameSignature(own, demanded))
         continue;
       auto &d =
-          c.report(Code::overrideMismatch, own->owner == pou ? own->name.span : pou->name.span,
+          c.report(Code::OverrideMismatch, own->owner == pou ? own->name.span : pou->name.span,
                    "`" + memberName(own) + "` does not fit the interface `" +
                        std::string(demanded->owner->name.text) + "`",
                    own->owner == pou ? "`" + signatureText(own) + "`"
@@ -74,7 +74,7 @@ void checkInterfaces(Context &c, PouSymbol *pou) {
     }
     if (missing.empty())
       continue;
-    auto &d = c.report(Code::missingImplementation, pou->name.span,
+    auto &d = c.report(Code::MissingImplementation, pou->name.span,
                        "`" + std::string(pou->name.text) + "` implements `" +
                            std::string(interface->name.text) + "` but lacks " + missing,
                        "not all of the interface is there");
@@ -89,7 +89,7 @@ void checkAbstractMethods(Context &c, PouSymbol *pou) {
   const std::string missing = missingMethods(pou);
   if (missing.empty())
     return;
-  auto &d = c.report(Code::missingImplementation, pou->name.span,
+  auto &d = c.report(Code::MissingImplementation, pou->name.span,
                      "`" + std::string(pou->name.text) + "` does not implement " + missing,
                      "inherited as ABSTRACT");
   noteDeclaration(d, pou->base);

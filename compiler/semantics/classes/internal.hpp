@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_CLASSES_INTERNAL_HPP
+#define STRIDE_COMPILER_SEMANTICS_CLASSES_INTERNAL_HPP
 // What the sources of this folder have in common.
 
 #include "compiler/semantics/context/context.hpp"
@@ -26,3 +27,5 @@ std::string missingMethods(const PouSymbol *pou);
 void checkLifecycle(Context &c, PouSymbol *method);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_CLASSES_INTERNAL_HPP

@@ -20,7 +20,7 @@ using namespace ast;
 static PouSymbol *makeMethod(Context &c, PouSymbol *owner, PouDecl *decl,
                              PropertySymbol *property) {
   PouSymbol &method = c.program.pouStorage.emplace_back();
-  method.kind = SymbolKind::pou;
+  method.kind = SymbolKind::Pou;
   method.name = property != nullptr ? property->name : decl->name;
   method.library = owner->library;
   method.decl = decl;
@@ -36,7 +36,7 @@ static void makeMembers(Context &c, PouSymbol *pou) {
     const auto [it, fresh] = pou->members.emplace(symbol->name.id, symbol);
     if (fresh)
       return;
-    auto &d = c.report(Code::duplicateName, symbol->name.span,
+    auto &d = c.report(Code::DuplicateName, symbol->name.span,
                        "`" + std::string(pou->name.text) + "` has two members `" +
                            std::string(symbol->name.text) + "`",
                        "declared again here");
@@ -48,7 +48,7 @@ static void makeMembers(Context &c, PouSymbol *pou) {
     add(makeMethod(c, pou, a, nullptr));
   for (PropertyDecl *p : pou->decl->properties) {
     auto *property = c.arena.make<PropertySymbol>();
-    property->kind = SymbolKind::property;
+    property->kind = SymbolKind::Property;
     property->name = p->name;
     property->library = pou->library;
     property->decl = p;
@@ -67,7 +67,7 @@ static PouSymbol *lookupBase(Context &c, NamePath path, bool interface, const Po
   Symbol *symbol = nullptr;
   if (path.size() == 1) {
     symbol = lookupDeclared(c, name);
-    if (symbol == nullptr || symbol->kind == SymbolKind::variable) {
+    if (symbol == nullptr || symbol->kind == SymbolKind::Variable) {
       Symbol *inLibrary = c.names.inLibraries(c.scope, name.id);
       symbol = inLibrary != nullptr ? inLibrary : symbol;
     }
@@ -80,10 +80,10 @@ static PouSymbol *lookupBase(Context &c, NamePath path, bool interface, const Po
     reportUnknown(c, name, true);
     return nullptr;
   }
-  auto *pou = symbol->kind == SymbolKind::pou ? static_cast<PouSymbol *>(symbol) : nullptr;
+  auto *pou = symbol->kind == SymbolKind::Pou ? static_cast<PouSymbol *>(symbol) : nullptr;
   if (pou != nullptr && (interface ? pou->isInterface() : pou->isBlock()))
     return pou;
-  auto &d = c.report(interface ? Code::notAnInterface : Code::wrongBase, name.span,
+  auto &d = c.report(interface ? Code::NotAnInterface : Code::WrongBase, name.span,
                      "`" + std::string(name.text) + "` is not " +
                          (interface ? "an interface" : "a function block or class"),
                      "this is " + describe(symbol));
@@ -107,7 +107,7 @@ void link(Context &c, PouSymbol *pou) {
   const auto circle = [&](PouSymbol *other, const Name &name) {
     if (!other->linking)
       return false;
-    auto &d = c.report(Code::circularInheritance, name.span,
+    auto &d = c.report(Code::CircularInheritance, name.span,
                        "`" + std::string(pou->name.text) + "` extends itself",
                        other == pou ? "this is the block itself"
                                     : "`" + std::string(other->name.text) + "` extends `" +
@@ -120,7 +120,7 @@ void link(Context &c, PouSymbol *pou) {
       pou->bases = std::max(pou->bases, other->bases + 1);
       return false;
     }
-    c.report(Code::tooDeep, name.span,
+    c.report(Code::TooDeep, name.span,
              "`" + std::string(name.text) + "` extends too many others, one after the other",
              "more than " + std::to_string(kMaxNesting));
     return true;
@@ -143,7 +143,7 @@ void link(Context &c, PouSymbol *pou) {
       continue;
     if (std::find(pou->interfaces.begin(), pou->interfaces.end(), interface) !=
         pou->interfaces.end())
-      c.report(Code::duplicateName, path.back().span,
+      c.report(Code::DuplicateName, path.back().span,
                "the interface `" + std::string(path.back().text) + "` is named twice",
                "named again here");
     else
@@ -168,7 +168,7 @@ void declareMembers(Context &c, PouSymbol *pou, std::vector<VarSymbol *> &variab
   for (PouSymbol *m : pou->methods) {
     declare(c, m);
     for (const auto &[id, v] : m->scope) {
-      if (v->section == Section::instance && v->owner == m && v->storage.empty())
+      if (v->section == Section::Instance && v->owner == m && v->storage.empty())
         v->storage = c.arena.copy(std::string_view(std::string(m->name.text) +
                                                    (m->property == nullptr  ? "__"
                                                     : m->property->get == m ? "__get__"
@@ -176,7 +176,7 @@ void declareMembers(Context &c, PouSymbol *pou, std::vector<VarSymbol *> &variab
                                                    std::string(v->name.text)));
     }
     for (VarSymbol *v : m->variables) {
-      if (v->section == Section::instance)
+      if (v->section == Section::Instance)
         variables.push_back(v);
     }
   }
@@ -184,7 +184,7 @@ void declareMembers(Context &c, PouSymbol *pou, std::vector<VarSymbol *> &variab
   for (const auto &[id, member] : pou->members) {
     const auto own = pou->scope.find(id);
     if (own != pou->scope.end() && own->second->owner == pou) {
-      auto &d = c.report(Code::duplicateName, member->name.span,
+      auto &d = c.report(Code::DuplicateName, member->name.span,
                          "`" + std::string(pou->name.text) + "` has a variable and a member `" +
                              std::string(member->name.text) + "`",
                          "declared again here");

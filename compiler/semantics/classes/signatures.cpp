@@ -25,8 +25,8 @@ bool isLifecycle(const PouSymbol *method) {
 namespace {
 
 std::string sectionWord(const VarSymbol *v) {
-  std::string word = v->section == Section::input    ? "VAR_INPUT"
-                     : v->section == Section::output ? "VAR_OUTPUT"
+  std::string word = v->section == Section::Input    ? "VAR_INPUT"
+                     : v->section == Section::Output ? "VAR_OUTPUT"
                                                      : "VAR_IN_OUT";
   if (v->isConstant)
     word += " CONSTANT";
@@ -40,7 +40,7 @@ std::string signatureText(const PouSymbol *method) {
     return "PROPERTY " + std::string(method->property->name.text) + " : " +
            (method->property->type == nullptr ? "?" : typeName(method->property->type)) +
            (method->property->get == method ? " (GET)" : " (SET)");
-  if (method->decl->kind == DeclKind::action)
+  if (method->decl->kind == DeclKind::Action)
     return "ACTION " + std::string(method->name.text);
   std::string text = "METHOD " + std::string(method->name.text);
   if (method->result != nullptr)
@@ -62,7 +62,7 @@ bool sameSignature(const PouSymbol *a, const PouSymbol *b) {
   const auto pb = b->parameters();
   if (pa.size() != pb.size())
     return false;
-  for (std::size_t i = 0; i < pa.size(); ++i) {
+  for (size_t i = 0; i < pa.size(); ++i) {
     if (isError(pa[i]->type) || isError(pb[i]->type))
       continue;
     if (pa[i]->section != pb[i]->section || pa[i]->type != pb[i]->type ||
@@ -80,7 +80,7 @@ std::string memberName(const PouSymbol *method) {
 
 Access memberAccess(const PouSymbol *method) {
   const Access own = method->decl->access;
-  if (own != Access::none || method->property == nullptr)
+  if (own != Access::None || method->property == nullptr)
     return own;
   return method->property->decl->access;
 }

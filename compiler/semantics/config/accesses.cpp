@@ -16,7 +16,7 @@ using namespace ast;
 /// A part of a variable that lies in the process image, where only the whole has a place.
 static bool isInsideOfImage(const AccessPath &access, const VarSymbol *end) {
   const auto inImage = [&](const Symbol *s) {
-    return s != nullptr && s != end && s->kind == SymbolKind::variable &&
+    return s != nullptr && s != end && s->kind == SymbolKind::Variable &&
            static_cast<const VarSymbol *>(s)->location != nullptr;
   };
   return inImage(access.path.root) ||
@@ -30,21 +30,21 @@ static bool isAccessible(Context &c, const VarDecl *decl, const AccessPath &acce
                          const VarSymbol *end) {
   const Span at = decl->path->span;
   if (isInsideOfImage(access, end)) {
-    c.report(Code::configMismatch, at,
+    c.report(Code::ConfigMismatch, at,
              "an access path cannot lead into a variable of the process image",
              "a part of such a variable")
         .help("give the address of the part: `%MB4`");
     return false;
   }
   if (end != nullptr && end->isBit) {
-    c.report(Code::configMismatch, at, "an access path cannot lead to a BIT",
+    c.report(Code::ConfigMismatch, at, "an access path cannot lead to a BIT",
              "a bit has no address")
         .help("declare `" + std::string(end->name.text) + "` as BOOL");
     return false;
   }
-  if (access.type->kind != TypeKind::reference && access.type->kind != TypeKind::pointer)
+  if (access.type->kind != TypeKind::Reference && access.type->kind != TypeKind::Pointer)
     return true;
-  c.report(Code::configMismatch, at, "an access path cannot lead to an address",
+  c.report(Code::ConfigMismatch, at, "an access path cannot lead to an address",
            "this is " + typeName(access.type));
   return false;
 }
@@ -53,7 +53,7 @@ static void checkAccess(Context &c, VarDecl *decl, Module &module, const PouDecl
   const Type *type = resolveType(c, decl->type, "access");
   AccessPath access;
   access.decl = decl;
-  if (decl->path->kind == ExprKind::direct) {
+  if (decl->path->kind == ExprKind::Direct) {
     auto *direct = as<DirectExpr>(decl->path);
     access.type = check(c, direct);
     access.location = direct->location;
@@ -71,7 +71,7 @@ static void checkAccess(Context &c, VarDecl *decl, Module &module, const PouDecl
     c.program.accessPaths.push_back(std::move(access));
     return;
   }
-  c.report(Code::configMismatch, decl->type->span,
+  c.report(Code::ConfigMismatch, decl->type->span,
            "`" + std::string(c.program.sources.text(decl->path->span)) + "` is " +
                typeName(access.type) + ", not " + typeName(type),
            "this type differs from the variable's");
@@ -84,7 +84,7 @@ void checkAccesses(Context &c, Module &module) {
       const auto [first, fresh] = names.emplace(decl->name.id, decl);
       if (!fresh) {
         auto &d =
-            c.report(Code::duplicateName, decl->name.span,
+            c.report(Code::DuplicateName, decl->name.span,
                      "the access path `" + std::string(decl->name.text) + "` is declared twice",
                      "declared again here");
         d.label(first->second->name.span, "first declared here");

@@ -16,19 +16,19 @@ namespace stc::sema {
 
 using namespace ast;
 
-static bool locateType(Context &c, VarSymbol *variable, std::uint64_t bytes, bool isBool);
+static bool locateType(Context &c, VarSymbol *variable, uint64_t bytes, bool isBool);
 
 namespace {
 
 /// Bytes of one area; an address behind is a slip of the pen.
-constexpr std::uint64_t kMaxArea = std::uint64_t{1} << 24;
+constexpr uint64_t kMaxArea = uint64_t{1} << 24;
 
 /// Pointers, references and instances cannot lie in memory that others write byte by byte.
 bool holdsAddress(const Type *type) {
   return anyHeld(type, [](const Type *t, const VarSymbol *) {
-    return t->kind == TypeKind::structure  ? Held::inside
-           : isElementary(t) || isError(t) ? Held::over
-                                           : Held::found;
+    return t->kind == TypeKind::Structure  ? Held::Inside
+           : isElementary(t) || isError(t) ? Held::Over
+                                           : Held::Found;
   });
 }
 
@@ -36,16 +36,15 @@ bool holdsAddress(const Type *type) {
 
 std::optional<Location> locate(Context &c, const DirectAddress &address) {
   Location at;
-  at.area = address.area == 'I' ? Area::input : address.area == 'Q' ? Area::output : Area::memory;
+  at.area = address.area == 'I' ? Area::Input : address.area == 'Q' ? Area::Output : Area::Memory;
   const std::string text(address.text);
-  std::span<const std::uint32_t> numbers = address.numbers;
+  std::span<const uint32_t> numbers = address.numbers;
   if (numbers.empty())
     return std::nullopt; // reported by the scanner
   const Addressing addressing = c.program.settings.addressing;
-  const auto bit = [&](std::uint64_t base, std::uint32_t number,
-                       unsigned width) -> std::optional<Location> {
+  const auto bit = [&](uint64_t base, uint32_t number, unsigned width) -> std::optional<Location> {
     if (number >= width) {
-      auto &d = c.report(Code::addressBeyond, address.span,
+      auto &d = c.report(Code::AddressBeyond, address.span,
                          "`" + text + "` has no bit " + std::to_string(number),
                          "the bits are 0 to " + std::to_string(width - 1));
       if (address.size == 'X')
@@ -55,18 +54,18 @@ std::optional<Location> locate(Context &c, const DirectAddress &address) {
                std::to_string(number % width) + "`");
       return std::nullopt;
     }
-    const std::uint64_t byte = base + number / 8;
+    const uint64_t byte = base + number / 8;
     if (byte >= kMaxArea) {
       reserve(c, address, byte, 1);
       return std::nullopt;
     }
-    at.byte = static_cast<std::uint32_t>(byte);
-    at.bit = static_cast<std::int8_t>(number % 8);
+    at.byte = static_cast<uint32_t>(byte);
+    at.bit = static_cast<int8_t>(number % 8);
     return at;
   };
   const unsigned unit = unitBytes(address.size);
-  const auto byteOf = [&](std::uint32_t number) {
-    return addressing == Addressing::bytes ? std::uint64_t{number} : std::uint64_t{number} * unit;
+  const auto byteOf = [&](uint32_t number) {
+    return addressing == Addressing::Bytes ? uint64_t{number} : uint64_t{number} * unit;
   };
   if (address.size == 'X') {
     if (numbers.size() == 3 && numbers.front() == 0)
@@ -74,23 +73,23 @@ std::optional<Location> locate(Context &c, const DirectAddress &address) {
     if (numbers.size() == 1)
       return bit(numbers[0] / 8, numbers[0] % 8, 8);
     if (numbers.size() == 2)
-      return addressing == Addressing::words ? bit(std::uint64_t{numbers[0]} * 2, numbers[1], 16)
+      return addressing == Addressing::Words ? bit(uint64_t{numbers[0]} * 2, numbers[1], 16)
                                              : bit(numbers[0], numbers[1], 8);
   } else {
     if (numbers.size() == 2)
       return bit(byteOf(numbers[0]), numbers[1], unit * 8);
     if (numbers.size() == 1) {
-      const std::uint64_t byte = byteOf(numbers[0]);
+      const uint64_t byte = byteOf(numbers[0]);
       if (byte >= kMaxArea) {
         reserve(c, address, byte, 1);
         return std::nullopt;
       }
-      at.byte = static_cast<std::uint32_t>(byte);
+      at.byte = static_cast<uint32_t>(byte);
       return at;
     }
   }
   auto &d =
-      c.report(Code::addressBeyond, address.span,
+      c.report(Code::AddressBeyond, address.span,
                "`" + text + "` does not name a place in the process image", "too many numbers");
   d.note("addresses that follow the tree of a PLC configuration depend on its devices; here the "
          "process image is one row of bytes");
@@ -99,13 +98,13 @@ std::optional<Location> locate(Context &c, const DirectAddress &address) {
   return std::nullopt;
 }
 
-bool reserve(Context &c, const DirectAddress &address, std::uint64_t byte, std::uint64_t size) {
-  const std::size_t area = address.area == 'I' ? 0 : address.area == 'Q' ? 1 : 2;
-  const std::uint32_t configured = c.program.settings.imageBytes[area];
-  const std::uint64_t limit = configured != 0 ? configured : kMaxArea;
+bool reserve(Context &c, const DirectAddress &address, uint64_t byte, uint64_t size) {
+  const size_t area = address.area == 'I' ? 0 : address.area == 'Q' ? 1 : 2;
+  const uint32_t configured = c.program.settings.imageBytes[area];
+  const uint64_t limit = configured != 0 ? configured : kMaxArea;
   if (size > limit || byte > limit - size) {
     const char *const kKeys[] = {"inputs", "outputs", "memory"};
-    auto &d = c.report(Code::addressBeyond, address.span,
+    auto &d = c.report(Code::AddressBeyond, address.span,
                        "`" + std::string(address.text) + "` lies behind the end of the " +
                            std::string(areaName(static_cast<Area>(area))) + " area",
                        size <= 1 ? "this is byte " + std::to_string(byte)
@@ -118,16 +117,16 @@ bool reserve(Context &c, const DirectAddress &address, std::uint64_t byte, std::
       d.note("an area holds 16,777,216 bytes at most");
     return false;
   }
-  std::uint32_t &bytes = c.program.image.bytes[area];
-  bytes = std::max(bytes, static_cast<std::uint32_t>(byte + size));
+  uint32_t &bytes = c.program.image.bytes[area];
+  bytes = std::max(bytes, static_cast<uint32_t>(byte + size));
   return true;
 }
 
 const Type *checkDirect(Context &c, DirectExpr *expr) {
-  const Type *error = elementaryType(TypeKind::error);
+  const Type *error = elementaryType(TypeKind::Error);
   const DirectAddress &address = *expr->address;
   if (address.incomplete) {
-    c.report(Code::addressNotAllowed, expr->span,
+    c.report(Code::AddressNotAllowed, expr->span,
              "`" + std::string(address.text) + "` does not say where: it cannot be used as a value",
              "this address has no number")
         .help("give the number, `%" + std::string(1, address.area) +
@@ -141,18 +140,18 @@ const Type *checkDirect(Context &c, DirectExpr *expr) {
   if (!reserve(c, address, at->byte, bytes))
     return error;
   if (!c.scope.module->library->isUser) {
-    c.report(Code::addressNotAllowed, expr->span, "a library cannot use a direct address",
+    c.report(Code::AddressNotAllowed, expr->span, "a library cannot use a direct address",
              "belongs to the project")
         .help("pass the value as a parameter");
     return error;
   }
   expr->location = c.arena.make<Location>(*at);
   if (at->bit >= 0)
-    return elementaryType(TypeKind::boolean);
-  return elementaryType(bytes == 1   ? TypeKind::byte
-                        : bytes == 2 ? TypeKind::word
-                        : bytes == 4 ? TypeKind::dword
-                                     : TypeKind::lword);
+    return elementaryType(TypeKind::Boolean);
+  return elementaryType(bytes == 1   ? TypeKind::Byte
+                        : bytes == 2 ? TypeKind::Word
+                        : bytes == 4 ? TypeKind::Dword
+                                     : TypeKind::Lword);
 }
 
 /// Whether a variable declared there may have an address; reports why not.
@@ -161,20 +160,20 @@ static bool mayBePlaced(Context &c, const VarSymbol *variable) {
   const DirectAddress &address = *decl->address;
   const std::string name(variable->name.text);
   const auto refuse = [&](std::string message, std::string label) -> Diagnostic & {
-    return c.report(Code::addressNotAllowed, address.span, std::move(message), std::move(label));
+    return c.report(Code::AddressNotAllowed, address.span, std::move(message), std::move(label));
   };
   const DeclKind owner =
-      variable->owner == nullptr ? DeclKind::globals : variable->owner->decl->kind;
+      variable->owner == nullptr ? DeclKind::Globals : variable->owner->decl->kind;
   if (variable->owner == nullptr && variable->globals == nullptr)
     refuse("the field `" + name + "` of a structure cannot have an address", "belongs to no place")
         .help("give the address to the variable of the structure's type");
-  else if (owner != DeclKind::globals && owner != DeclKind::program &&
-           owner != DeclKind::functionBlock && owner != DeclKind::classD)
+  else if (owner != DeclKind::Globals && owner != DeclKind::Program &&
+           owner != DeclKind::FunctionBlock && owner != DeclKind::Class)
     refuse("a variable of " + describe(variable->owner) + " cannot have an address",
            "it exists only during the call")
         .help("declare it in VAR_GLOBAL, or in the VAR of a program or function block");
-  else if (owner != DeclKind::globals && decl->section != Section::local &&
-           (decl->section != Section::stat || address.incomplete))
+  else if (owner != DeclKind::Globals && decl->section != Section::Local &&
+           (decl->section != Section::Stat || address.incomplete))
     refuse("only variables of VAR and VAR_GLOBAL can have an address",
            "`" + name + "` is declared in another section");
   else if (variable->isConstant)
@@ -190,7 +189,7 @@ static bool mayBePlaced(Context &c, const VarSymbol *variable) {
 /// The place in each instance that VAR_CONFIG gives.
 static Location slotAt(const DirectAddress &address, bool isBool) {
   Location at;
-  at.area = address.area == 'I' ? Area::input : address.area == 'Q' ? Area::output : Area::memory;
+  at.area = address.area == 'I' ? Area::Input : address.area == 'Q' ? Area::Output : Area::Memory;
   at.isSlot = true;
   at.bit = isBool ? 0 : -1;
   return at;
@@ -202,15 +201,15 @@ void placeVariable(Context &c, VarSymbol *variable) {
   if (!mayBePlaced(c, variable) || isError(type))
     return;
   if (holdsAddress(type)) {
-    c.report(Code::addressType, address.span,
+    c.report(Code::AddressType, address.span,
              "a variable of type " + typeName(type) + " cannot lie in the process image",
              "holds addresses of other variables")
         .note("the process image is memory that the devices and other variables write byte by "
               "byte");
     return;
   }
-  const bool isBool = type->kind == TypeKind::boolean;
-  const std::uint64_t bytes = c.storage.of(type).size;
+  const bool isBool = type->kind == TypeKind::Boolean;
+  const uint64_t bytes = c.storage.of(type).size;
   // A letter after `%I` is optional before `*`.
   const bool letter = !address.incomplete || (address.text.size() > 2 && address.text[2] != '*');
   if (letter && !locateType(c, variable, bytes, isBool))
@@ -223,7 +222,7 @@ void placeVariable(Context &c, VarSymbol *variable) {
   if (!found)
     return;
   if (found->bit >= 0 && !isBool) { // `%MW3.2`
-    c.report(Code::addressType, address.span,
+    c.report(Code::AddressType, address.span,
              "`" + std::string(address.text) + "` is a single bit, `" +
                  std::string(variable->name.text) + "` is " + typeName(type),
              "only a BOOL fits into a bit");
@@ -235,11 +234,11 @@ void placeVariable(Context &c, VarSymbol *variable) {
 }
 
 /// Whether the letter of the address suits the type.
-static bool locateType(Context &c, VarSymbol *variable, std::uint64_t bytes, bool isBool) {
+static bool locateType(Context &c, VarSymbol *variable, uint64_t bytes, bool isBool) {
   const DirectAddress &address = *variable->decl->address;
   const Type *type = variable->type;
   if (address.size == 'X' && !isBool) {
-    auto &d = c.report(Code::addressType, address.span,
+    auto &d = c.report(Code::AddressType, address.span,
                        "`" + std::string(address.text) + "` is a single bit, `" +
                            std::string(variable->name.text) + "` is " + typeName(type),
                        "only a BOOL fits into a bit");
@@ -249,7 +248,7 @@ static bool locateType(Context &c, VarSymbol *variable, std::uint64_t bytes, boo
   }
   if (isBool || !isElementary(type) || isString(type) || address.size == sizeLetter(bytes))
     return true;
-  c.report(Code::addressSize, address.span,
+  c.report(Code::AddressSize, address.span,
            "`" + std::string(address.text) + "` is " + std::to_string(unitBytes(address.size) * 8) +
                " bits wide, " + typeName(type) + " is " + std::to_string(bytes * 8),
            "`" + std::string(variable->name.text) + "` begins there and is " +
@@ -260,15 +259,15 @@ static bool locateType(Context &c, VarSymbol *variable, std::uint64_t bytes, boo
 }
 
 void reportInputWritten(Context &c, const Expr *expr, const Location &at) {
-  if (at.area != Area::input)
+  if (at.area != Area::Input)
     return;
-  c.report(Code::inputWritten, expr->span, "this writes to an input",
+  c.report(Code::InputWritten, expr->span, "this writes to an input",
            "the device overwrites it at the start of the next cycle")
       .help("write to an output (%Q) or to memory (%M)");
 }
 
 const Type *checkBitAddress(Context &c, CallExpr *expr) {
-  const Type *error = elementaryType(TypeKind::error);
+  const Type *error = elementaryType(TypeKind::Error);
   if (!requireCount(c, expr, 1, 1))
     return error;
   const Expr *value = expr->arguments[0].value;
@@ -276,25 +275,25 @@ const Type *checkBitAddress(Context &c, CallExpr *expr) {
   if (at == nullptr || at->isSlot)
     return argumentError(c, expr, 0, "a variable with an address (`AT %IX2.3`)");
   // The highest four bits name the area.
-  constexpr std::int64_t kAreas[] = {0x80000000LL, 0xC0000000LL, 0x40000000LL};
-  const std::int64_t bit = std::int64_t{at->byte} * 8 + std::max<std::int64_t>(at->bit, 0);
-  expr->constant = c.makeConstant(integerValue(kAreas[static_cast<std::size_t>(at->area)] + bit));
-  return elementaryType(TypeKind::dword);
+  constexpr int64_t kAreas[] = {0x80000000LL, 0xC0000000LL, 0x40000000LL};
+  const int64_t bit = int64_t{at->byte} * 8 + std::max<int64_t>(at->bit, 0);
+  expr->constant = c.makeConstant(integerValue(kAreas[static_cast<size_t>(at->area)] + bit));
+  return elementaryType(TypeKind::Dword);
 }
 
 void checkRetain(Context &c, const VarSymbol *variable) {
   if (variable->decl == nullptr ||
-      (variable->decl->qualifiers & (qualRetain | qualPersistent)) == 0)
+      (variable->decl->qualifiers & (kQualRetain | kQualPersistent)) == 0)
     return;
   const bool perCall =
-      variable->section == Section::temp || variable->section == Section::inOut ||
+      variable->section == Section::Temp || variable->section == Section::InOut ||
       (variable->owner != nullptr && variable->owner->type == nullptr &&
-       variable->section != Section::stat && variable->section != Section::instance);
+       variable->section != Section::Stat && variable->section != Section::Instance);
   const Location *const at = variable->location;
-  const bool input = at != nullptr && at->area == Area::input;
+  const bool input = at != nullptr && at->area == Area::Input;
   if (!perCall && !variable->isConstant && !input) {
     if (at != nullptr && at->isSlot)
-      c.report(Code::retainWithoutEffect, variable->name.span,
+      c.report(Code::RetainWithoutEffect, variable->name.span,
                "`" + std::string(variable->name.text) + "` is not retained",
                "VAR_CONFIG says where it lies, and such places are not saved")
           .help(
@@ -302,7 +301,7 @@ void checkRetain(Context &c, const VarSymbol *variable) {
               "remove RETAIN or PERSISTENT");
     return;
   }
-  c.report(Code::retainWithoutEffect, variable->name.span,
+  c.report(Code::RetainWithoutEffect, variable->name.span,
            "`" + std::string(variable->name.text) + "` has no value to retain",
            perCall                ? "it lives only during a call"
            : variable->isConstant ? "a constant never changes"
@@ -312,11 +311,11 @@ void checkRetain(Context &c, const VarSymbol *variable) {
 
 void finishImage(Context &c) {
   Image &image = c.program.image;
-  for (std::size_t area = 0; area < image.bytes.size(); ++area) {
-    std::uint32_t &bytes = image.bytes[area];
+  for (size_t area = 0; area < image.bytes.size(); ++area) {
+    uint32_t &bytes = image.bytes[area];
     bytes = (std::max(bytes, c.program.settings.imageBytes[area]) + 7) / 8 * 8;
     if (bytes != 0)
-      image.types[area] = c.types.array(elementaryType(TypeKind::byte), 0, std::int64_t{bytes} - 1);
+      image.types[area] = c.types.array(elementaryType(TypeKind::Byte), 0, int64_t{bytes} - 1);
   }
 }
 

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_CONFIG_CONFIG_HPP
+#define STRIDE_COMPILER_SEMANTICS_CONFIG_CONFIG_HPP
 // Addresses, and what CONFIGURATION, VAR_CONFIG and VAR_ACCESS say.
 
 #include "compiler/semantics/context/context.hpp"
@@ -29,3 +30,5 @@ void reportTemplate(Context &c, const ast::Name &name, const PouSymbol *program)
 void resolveInstances(Context &c, Module &module);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_CONFIG_CONFIG_HPP

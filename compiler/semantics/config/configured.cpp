@@ -18,13 +18,13 @@ using namespace ast;
 
 namespace {
 
-constexpr std::size_t kMaxShown = 8;
+constexpr size_t kMaxShown = 8;
 
 } // namespace
 
 static void reportMismatch(Context &c, const PathTarget &target, Span where, std::string message,
                            std::string label) {
-  auto &d = c.report(Code::configMismatch, where, std::move(message), std::move(label));
+  auto &d = c.report(Code::ConfigMismatch, where, std::move(message), std::move(label));
   if (target.variable != nullptr)
     noteDeclaration(d, target.variable);
 }
@@ -38,7 +38,7 @@ static SlotPlace *takeSlot(Context &c, VarDecl *decl, const std::string &path,
   });
   isTaken = slot != slots.end() && slot->decl != nullptr;
   if (isTaken) {
-    auto &d = c.report(Code::configMismatch, decl->path->span, "`" + path + "` gets a place twice",
+    auto &d = c.report(Code::ConfigMismatch, decl->path->span, "`" + path + "` gets a place twice",
                        "placed again here");
     d.label(slot->decl->path->span, "placed first here");
   }
@@ -70,14 +70,14 @@ static bool fitsSlot(Context &c, const PathTarget &target, const std::string &pa
 /// Gives the slot the place of the address, if that is one for values of the type.
 static void placeSlot(Context &c, SlotPlace &slot, const Type *type, const std::string &path,
                       const DirectAddress &address) {
-  const bool isBool = type->kind == TypeKind::boolean;
+  const bool isBool = type->kind == TypeKind::Boolean;
   const auto at = locate(c, address);
   if (!at)
     return;
   const StorageExtent extent = c.storage.of(type);
   if ((at->bit >= 0) != isBool) {
     auto &d =
-        c.report(Code::addressType, address.span,
+        c.report(Code::AddressType, address.span,
                  isBool ? "`" + std::string(address.text) + "` is no single bit"
                         : "`" + std::string(address.text) + "` is a single bit, `" + path +
                               "` is " + typeName(type),
@@ -87,7 +87,7 @@ static void placeSlot(Context &c, SlotPlace &slot, const Type *type, const std::
     return;
   }
   if (!isBool && at->byte % extent.align != 0) {
-    c.report(Code::misaligned, address.span,
+    c.report(Code::Misaligned, address.span,
              "`" + path + "` must lie at a multiple of " + std::to_string(extent.align) + " bytes",
              "this is byte " + std::to_string(at->byte))
         .note("the code of a function block is the same for all instances");
@@ -142,32 +142,32 @@ static void reportMissingPlaces(Context &c, const std::vector<SlotPlace> &slots)
       order.push_back(slot.variable);
     list.push_back(&slot);
   }
-  std::array<std::uint64_t, 3> next{}; // proposals lie behind everything that is used
-  for (std::size_t area = 0; area < next.size(); ++area)
+  std::array<uint64_t, 3> next{}; // proposals lie behind everything that is used
+  for (size_t area = 0; area < next.size(); ++area)
     next[area] = c.program.image.bytes[area];
   if (slots.size() > kMaxSlots) {
     const VarSymbol *v = slots.back().variable;
-    c.report(Code::placeMissing, v->decl->address->span,
+    c.report(Code::PlaceMissing, v->decl->address->span,
              "more than " + std::to_string(kMaxSlots) + " variables need a place of VAR_CONFIG",
              "`" + std::string(v->name.text) + "` is one of them, in each instance");
     return;
   }
   for (const VarSymbol *v : order) {
     const auto &list = missing[v];
-    auto &d = c.report(Code::placeMissing, v->decl->address->span,
+    auto &d = c.report(Code::PlaceMissing, v->decl->address->span,
                        list.size() == 1 ? "`" + pathText(list.front()->path) + "` has no place"
                                         : "`" + std::string(v->name.text) + "` has no place in " +
                                               std::to_string(list.size()) + " instances",
                        "VAR_CONFIG must say where it lies");
     std::string text = "add\nVAR_CONFIG\n";
-    std::uint64_t &free = next[static_cast<std::size_t>(v->location->area)];
-    for (std::size_t i = 0; i < list.size() && i < kMaxShown; ++i) {
+    uint64_t &free = next[static_cast<size_t>(v->location->area)];
+    for (size_t i = 0; i < list.size() && i < kMaxShown; ++i) {
       Location at = *v->location;
       at.isSlot = false;
       const StorageExtent extent = c.storage.of(v->type);
       free = (free + extent.align - 1) / extent.align * extent.align;
-      at.byte = static_cast<std::uint32_t>(free);
-      free += std::max<std::uint64_t>(extent.size, 1);
+      at.byte = static_cast<uint32_t>(free);
+      free += std::max<uint64_t>(extent.size, 1);
       text += "  " + pathText(list[i]->path) + " AT " +
               addressText(at, extent.align, c.program.settings.addressing) + " : " +
               typeName(v->type) + ";\n";
@@ -182,15 +182,15 @@ void checkConfigured(Context &c, Module &module) {
   const ScopeGuard guard(c, {&module, nullptr});
   std::vector<SlotPlace> slots;
   for (PouSymbol *pou : module.library->pous) {
-    if (pou->decl->kind == DeclKind::program && !pou->isTemplate) {
+    if (pou->decl->kind == DeclKind::Program && !pou->isTemplate) {
       StatePath path{pou, {}};
       collectSlots(c, pou->type, path, slots);
     }
     for (const VarSymbol *v : pou->variables) {
-      const bool perCall = pou->isFunction() || v->section == Section::temp;
-      if ((perCall || v->section == Section::stat) && v->section != Section::inOut &&
+      const bool perCall = pou->isFunction() || v->section == Section::Temp;
+      if ((perCall || v->section == Section::Stat) && v->section != Section::InOut &&
           v->type != nullptr && hasSlots(c, v->type))
-        c.report(Code::placeMissing, v->name.span,
+        c.report(Code::PlaceMissing, v->name.span,
                  "no VAR_CONFIG can place the variables of `" + std::string(v->name.text) + "`",
                  "`" + typeName(v->type) + "` has variables declared with `*`")
             .help("declare the instance in the VAR of a program or function block, or in "

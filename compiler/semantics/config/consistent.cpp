@@ -37,7 +37,7 @@ std::string obstacle(const VarSymbol *v) {
 
 static void reportConsistent(Context &c, const Attributes &attributes, const std::string &why) {
   if (const Attribute *a = consistentOf(attributes))
-    c.report(Code::consistentTarget, a->span, "{attribute 'consistent'} does nothing here", why)
+    c.report(Code::ConsistentTarget, a->span, "{attribute 'consistent'} does nothing here", why)
         .help("write it in front of a structure, array or text in VAR_GLOBAL that one task writes "
               "and others read");
 }
@@ -51,7 +51,7 @@ static void checkConsistent(Context &c, std::span<VarDecl *const> variables) {
       reportConsistent(c, decl->attributes, "this declares no variable of its own");
       continue;
     }
-    if (v->type == nullptr || v->type->kind == TypeKind::error)
+    if (v->type == nullptr || v->type->kind == TypeKind::Error)
       continue;
     if (const std::string why = obstacle(v); !why.empty())
       reportConsistent(c, decl->attributes, why);
@@ -61,20 +61,20 @@ static void checkConsistent(Context &c, std::span<VarDecl *const> variables) {
 }
 
 void checkConsistent(Context &c, const Decl *decl) {
-  if (decl->kind == DeclKind::globals || decl->kind == DeclKind::config ||
-      decl->kind == DeclKind::access) {
+  if (decl->kind == DeclKind::Globals || decl->kind == DeclKind::Config ||
+      decl->kind == DeclKind::Access) {
     reportConsistent(c, decl->attributes, "it is for a variable, not for a list");
     checkConsistent(c, as<GlobalsDecl>(decl)->variables);
     return;
   }
   reportConsistent(c, decl->attributes, "it is for a variable");
   switch (decl->kind) {
-  case DeclKind::structure:
+  case DeclKind::Structure:
     checkConsistent(c, as<StructDecl>(decl)->fields);
     return;
-  case DeclKind::enumeration:
-  case DeclKind::alias:
-  case DeclKind::configuration:
+  case DeclKind::Enumeration:
+  case DeclKind::Alias:
+  case DeclKind::Configuration:
     return;
   default: {
     const auto *pou = as<PouDecl>(decl);

@@ -24,7 +24,7 @@ void reportTemplate(Context &c, const Name &name, const PouSymbol *program) {
         names.push_back(v->name.text);
     }
   }
-  auto &d = c.report(Code::configurationProgram, name.span,
+  auto &d = c.report(Code::ConfigurationProgram, name.span,
                      "which `" + std::string(name.text) + "`? Its instances have other names",
                      "the CONFIGURATION makes instances of it");
   std::string list;
@@ -39,7 +39,7 @@ void resolveInstances(Context &c, Module &module) {
       if (!isProgramInstance(v))
         continue;
       const Type *type = typeOf(c, v);
-      if (type->kind == TypeKind::program && v->decl->attributes.front().value != "also")
+      if (type->kind == TypeKind::Program && v->decl->attributes.front().value != "also")
         typeAs<PouType>(type)->symbol->isTemplate = true;
     }
   }

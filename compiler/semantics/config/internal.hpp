@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_CONFIG_INTERNAL_HPP
+#define STRIDE_COMPILER_SEMANTICS_CONFIG_INTERNAL_HPP
 // What the sources of this folder have in common.
 
 #include "compiler/semantics/context/context.hpp"
@@ -13,11 +14,11 @@ struct PathTarget {
 };
 
 /// Variables that VAR_CONFIG can place.
-inline constexpr std::size_t kMaxSlots = 65536;
+inline constexpr size_t kMaxSlots = 65536;
 /// The place a complete address names; reports what names none.
 std::optional<Location> locate(Context &c, const ast::DirectAddress &address);
 /// Makes the area hold the bytes; false (and reported) when it cannot.
-bool reserve(Context &c, const ast::DirectAddress &address, std::uint64_t byte, std::uint64_t size);
+bool reserve(Context &c, const ast::DirectAddress &address, uint64_t byte, uint64_t size);
 /// A value of the type holds variables declared `AT %I*`.
 bool hasSlots(Context &c, const Type *type);
 /// Adds the variables `AT %I*` in a value of the type; `path` leads to it.
@@ -29,3 +30,5 @@ std::optional<PathTarget> resolvePath(Context &c, ast::Expr *expr, Module &modul
 void checkAccesses(Context &c, Module &module);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_CONFIG_INTERNAL_HPP

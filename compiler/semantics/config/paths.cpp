@@ -26,19 +26,19 @@ static Symbol *pathRoot(Context &c, const Name &name, Module &module) {
     }
   }
   const bool good =
-      symbol != nullptr && (symbol->kind == SymbolKind::variable ||
-                            (symbol->kind == SymbolKind::pou &&
-                             static_cast<PouSymbol *>(symbol)->decl->kind == DeclKind::program));
+      symbol != nullptr && (symbol->kind == SymbolKind::Variable ||
+                            (symbol->kind == SymbolKind::Pou &&
+                             static_cast<PouSymbol *>(symbol)->decl->kind == DeclKind::Program));
   if (good)
     return symbol;
-  auto &d = c.report(Code::configPath, name.span,
+  auto &d = c.report(Code::ConfigPath, name.span,
                      "there is no program or global variable `" + std::string(name.text) + "`",
                      symbol == nullptr ? "not found" : "this is " + describe(symbol));
   std::vector<std::string_view> names;
   for (const auto &[id, other] : module.names) {
-    if (other->kind == SymbolKind::variable ||
-        (other->kind == SymbolKind::pou &&
-         static_cast<PouSymbol *>(other)->decl->kind == DeclKind::program))
+    if (other->kind == SymbolKind::Variable ||
+        (other->kind == SymbolKind::Pou &&
+         static_cast<PouSymbol *>(other)->decl->kind == DeclKind::Program))
       names.push_back(other->name.text);
   }
   std::sort(names.begin(), names.end());
@@ -51,13 +51,13 @@ static Symbol *pathRoot(Context &c, const Name &name, Module &module) {
 static std::optional<PathTarget> ownVariable(Context &c, const PouDecl &program, const Name &name,
                                              Module &module) {
   const auto found = module.names.find(program.name.id);
-  if (found == module.names.end() || found->second->kind != SymbolKind::pou)
+  if (found == module.names.end() || found->second->kind != SymbolKind::Pou)
     return std::nullopt;
   auto *pou = static_cast<PouSymbol *>(found->second);
   declare(c, pou);
   VarSymbol *variable = pou->isTemplate ? nullptr : findMember(c, pou->type, name.id);
-  if (variable == nullptr || variable->section == Section::temp ||
-      variable->section == Section::stat || variable->section == Section::external)
+  if (variable == nullptr || variable->section == Section::Temp ||
+      variable->section == Section::Stat || variable->section == Section::External)
     return std::nullopt;
   PathTarget target;
   target.path = {pou, {{variable, 0}}};
@@ -76,7 +76,7 @@ static std::optional<PathTarget> startOfPath(Context &c, const Name &name, Modul
     return std::nullopt;
   PathTarget target;
   target.path.root = root;
-  if (root->kind == SymbolKind::variable) {
+  if (root->kind == SymbolKind::Variable) {
     target.variable = static_cast<VarSymbol *>(root);
     target.type = typeOf(c, target.variable);
   } else {
@@ -90,15 +90,15 @@ static std::optional<PathTarget> startOfPath(Context &c, const Name &name, Modul
 /// configuration's and a resource's.
 static bool isPrefix(Context &c, const Expr *base, const Module &module) {
   const std::unordered_set<Ident> &resources = c.names.configuration().resourceNames;
-  if (base->kind == ExprKind::name) {
+  if (base->kind == ExprKind::Name) {
     const Name &first = as<NameExpr>(base)->name;
     return module.find(first.id) == nullptr &&
            (resources.contains(first.id) || module.lists.contains(first.id));
   }
-  if (base->kind != ExprKind::member)
+  if (base->kind != ExprKind::Member)
     return false;
   const auto *second = as<MemberExpr>(base);
-  return second->base->kind == ExprKind::name && second->name &&
+  return second->base->kind == ExprKind::Name && second->name &&
          resources.contains(as<NameExpr>(second->base)->name.id) &&
          resources.contains(second->name.id);
 }
@@ -109,10 +109,10 @@ static std::optional<PathTarget> memberOfPath(Context &c, const MemberExpr *memb
   if (!base || isError(base->type))
     return std::nullopt;
   VarSymbol *found = findMember(c, base->type, member->name.id);
-  if (found == nullptr || found->section == Section::inOut || found->section == Section::temp ||
-      found->section == Section::stat || found->section == Section::external || found->isResult) {
+  if (found == nullptr || found->section == Section::InOut || found->section == Section::Temp ||
+      found->section == Section::Stat || found->section == Section::External || found->isResult) {
     auto &d =
-        c.report(Code::configPath, member->name.span,
+        c.report(Code::ConfigPath, member->name.span,
                  "`" + typeName(base->type) + "` has no variable `" +
                      std::string(member->name.text) + "`" + (found != nullptr ? " of its own" : ""),
                  "not found");
@@ -133,19 +133,19 @@ static std::optional<PathTarget> elementOfPath(Context &c, const IndexExpr *inde
     const auto value = constantInteger(c, i, "an index in a path");
     if (!value || !base || isError(base->type))
       return std::nullopt;
-    if (base->type->kind != TypeKind::array) {
-      c.report(Code::configPath, index->base->span, typeName(base->type) + " is not an array",
+    if (base->type->kind != TypeKind::Array) {
+      c.report(Code::ConfigPath, index->base->span, typeName(base->type) + " is not an array",
                "cannot be indexed");
       return std::nullopt;
     }
     const auto *array = typeAs<ArrayType>(base->type);
     if (*value < array->low || *value > array->high) {
-      c.report(Code::configPath, i->span,
+      c.report(Code::ConfigPath, i->span,
                "index " + std::to_string(*value) + " is outside of the array",
                "the bounds are " + std::to_string(array->low) + ".." + std::to_string(array->high));
       return std::nullopt;
     }
-    base->path.steps.push_back({nullptr, static_cast<std::uint64_t>(*value - array->low)});
+    base->path.steps.push_back({nullptr, static_cast<uint64_t>(*value - array->low)});
     base->type = array->element;
   }
   return base;
@@ -154,23 +154,23 @@ static std::optional<PathTarget> elementOfPath(Context &c, const IndexExpr *inde
 std::optional<PathTarget> resolvePath(Context &c, Expr *expr, Module &module,
                                       const PouDecl *inside) {
   switch (expr->kind) {
-  case ExprKind::name:
+  case ExprKind::Name:
     return startOfPath(c, as<NameExpr>(expr)->name, module, inside);
-  case ExprKind::member: {
+  case ExprKind::Member: {
     const auto *member = as<MemberExpr>(expr);
     if (!member->name)
       break;
     return isPrefix(c, member->base, module) ? startOfPath(c, member->name, module, inside)
                                              : memberOfPath(c, member, module, inside);
   }
-  case ExprKind::index:
+  case ExprKind::Index:
     return elementOfPath(c, as<IndexExpr>(expr), module, inside);
-  case ExprKind::error:
+  case ExprKind::Error:
     return std::nullopt;
   default:
     break;
   }
-  c.report(Code::configPath, expr->span, "this is not the path of a variable",
+  c.report(Code::ConfigPath, expr->span, "this is not the path of a variable",
            "write `Program.instance.variable`");
   return std::nullopt;
 }

@@ -11,7 +11,7 @@ using namespace ast;
 
 /// Calls `visit(member)` for what an instance of the type holds by value.
 template <class Visit> void visitHeld(Context &c, const Type *type, Visit &&visit) {
-  if (type->kind == TypeKind::structure) {
+  if (type->kind == TypeKind::Structure) {
     const auto *s = typeAs<StructType>(type);
     if (s->base != nullptr)
       visitHeld(c, s->base, visit);
@@ -23,17 +23,17 @@ template <class Visit> void visitHeld(Context &c, const Type *type, Visit &&visi
     if (pou->base != nullptr)
       visitHeld(c, pou->base->type, visit);
     for (VarSymbol *v : pou->variables) {
-      if (v->section != Section::inOut && v->section != Section::temp &&
-          v->section != Section::stat)
+      if (v->section != Section::InOut && v->section != Section::Temp &&
+          v->section != Section::Stat)
         visit(v);
     }
   }
 }
 
 bool hasSlots(Context &c, const Type *type) {
-  while (type->kind == TypeKind::array)
+  while (type->kind == TypeKind::Array)
     type = typeAs<ArrayType>(type)->element;
-  if (type->kind != TypeKind::structure && !isInstance(type))
+  if (type->kind != TypeKind::Structure && !isInstance(type))
     return false;
   const auto [it, fresh] = c.hasSlots.try_emplace(type, false);
   if (!fresh)
@@ -48,9 +48,9 @@ bool hasSlots(Context &c, const Type *type) {
 }
 
 void collectSlots(Context &c, const Type *type, StatePath &path, std::vector<SlotPlace> &out) {
-  if (type->kind == TypeKind::array) {
+  if (type->kind == TypeKind::Array) {
     const auto *array = typeAs<ArrayType>(type);
-    for (std::uint64_t i = 0;
+    for (uint64_t i = 0;
          hasSlots(c, array->element) && i < array->count() && out.size() <= kMaxSlots; ++i) {
       path.steps.push_back({nullptr, i});
       collectSlots(c, array->element, path, out);

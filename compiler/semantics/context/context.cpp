@@ -11,7 +11,7 @@ Context::Context(Program &checked, Lookup &lookup)
 bool isTooDeep(Context &c, const ast::Name &name) {
   if (!stackIsShort(c.stackEnd))
     return false;
-  c.report(Code::tooDeep, name.span,
+  c.report(Code::TooDeep, name.span,
            "`" + std::string(name.text) + "` depends on too many other declarations",
            "one leads to the next");
   return true;

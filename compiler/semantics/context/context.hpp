@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_CONTEXT_CONTEXT_HPP
+#define STRIDE_COMPILER_SEMANTICS_CONTEXT_CONTEXT_HPP
 // What one check of a program knows while it runs, and the few operations that all parts of the
 // checker need. The checks themselves are free functions, by topic in the folders beside.
 
@@ -15,9 +16,9 @@ namespace stc::sema {
 
 /// What has been reported about names, so that one mistake is reported once.
 struct Reported {
-  std::set<std::uint64_t> names; ///< places of USING and INTERNAL names
+  std::set<uint64_t> names; ///< places of USING and INTERNAL names
   std::set<std::pair<const PouSymbol *, Ident>> unknown;
-  std::size_t namesLookedAt = 0; ///< for names that are similar to unknown ones
+  size_t namesLookedAt = 0; ///< for names that are similar to unknown ones
 };
 
 /// The state of one check.
@@ -76,3 +77,5 @@ public:
 bool isTooDeep(Context &c, const ast::Name &name);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_CONTEXT_CONTEXT_HPP

@@ -8,42 +8,42 @@ using namespace ast;
 
 std::string describe(const Symbol *symbol) {
   switch (symbol->kind) {
-  case SymbolKind::variable:
+  case SymbolKind::Variable:
     return "a variable";
-  case SymbolKind::pou: {
+  case SymbolKind::Pou: {
     switch (static_cast<const PouSymbol *>(symbol)->decl->kind) {
-    case DeclKind::program:
+    case DeclKind::Program:
       return "a program";
-    case DeclKind::function:
+    case DeclKind::Function:
       return "a function";
-    case DeclKind::classD:
+    case DeclKind::Class:
       return "a class";
-    case DeclKind::interface:
+    case DeclKind::Interface:
       return "an interface";
-    case DeclKind::method:
+    case DeclKind::Method:
       return "a method";
-    case DeclKind::action:
+    case DeclKind::Action:
       return "an action";
     default:
       return "a function block";
     }
   }
-  case SymbolKind::type:
+  case SymbolKind::Type:
     return "a type";
-  case SymbolKind::enumerator:
+  case SymbolKind::Enumerator:
     return "an enumerator";
-  case SymbolKind::builtin:
+  case SymbolKind::Builtin:
     return "a standard function";
-  case SymbolKind::library:
+  case SymbolKind::Library:
     return "a library";
-  case SymbolKind::globals:
+  case SymbolKind::Globals:
     return "a list of global variables";
-  case SymbolKind::property:
+  case SymbolKind::Property:
     return "a property";
-  case SymbolKind::self:
+  case SymbolKind::Self:
     return static_cast<const SelfSymbol *>(symbol)->isSuper ? "the base of this block"
                                                             : "this block's own instance";
-  case SymbolKind::space:
+  case SymbolKind::Space:
     return "a namespace";
   }
   return {};

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_CONTEXT_DESCRIBE_HPP
+#define STRIDE_COMPILER_SEMANTICS_CONTEXT_DESCRIBE_HPP
 // Symbols in diagnostics.
 
 #include "compiler/semantics/symbols.hpp"
@@ -14,3 +15,5 @@ namespace stc::sema {
 void noteDeclaration(Diagnostic &diagnostic, const Symbol *symbol);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_CONTEXT_DESCRIBE_HPP

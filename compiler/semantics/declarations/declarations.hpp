@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_DECLARATIONS_DECLARATIONS_HPP
+#define STRIDE_COMPILER_SEMANTICS_DECLARATIONS_DECLARATIONS_HPP
 // Variables and POUs as they are declared, initial values.
 
 #include "compiler/semantics/context/context.hpp"
@@ -20,3 +21,5 @@ ast::Expr *checkInit(Context &c, ast::Expr *init, const Type *type);
 VarSymbol *findMember(Context &c, const Type *type, Ident id);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_DECLARATIONS_DECLARATIONS_HPP

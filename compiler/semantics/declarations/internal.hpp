@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_DECLARATIONS_INTERNAL_HPP
+#define STRIDE_COMPILER_SEMANTICS_DECLARATIONS_INTERNAL_HPP
 // What the sources of this folder have in common.
 
 #include "compiler/semantics/context/context.hpp"
@@ -9,3 +10,5 @@ namespace stc::sema {
 void bindExternal(Context &c, PouSymbol *pou, ast::VarDecl *decl);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_DECLARATIONS_INTERNAL_HPP

@@ -19,25 +19,25 @@ void declare(Context &c, GlobalsSymbol *globals) {
 
 /// Reports a VAR section that the POU cannot have.
 static bool mayStandIn(Context &c, const PouSymbol *pou, const VarDecl *v) {
-  if (v->section == Section::global || v->section == Section::config ||
-      v->section == Section::access) {
-    c.report(Code::sectionNotAllowed, v->name.span,
-             std::string(v->section == Section::global ? "VAR_GLOBAL" : "this VAR section") +
+  if (v->section == Section::Global || v->section == Section::Config ||
+      v->section == Section::Access) {
+    c.report(Code::SectionNotAllowed, v->name.span,
+             std::string(v->section == Section::Global ? "VAR_GLOBAL" : "this VAR section") +
                  " cannot stand inside of " + describe(pou),
              "declared here")
         .help("move it out of the POU");
     return false;
   }
-  if (v->section == Section::instance && !pou->isMethod()) {
-    c.report(Code::sectionNotAllowed, v->name.span, "VAR_INST is only possible in a METHOD",
+  if (v->section == Section::Instance && !pou->isMethod()) {
+    c.report(Code::SectionNotAllowed, v->name.span, "VAR_INST is only possible in a METHOD",
              "declared here")
         .help("use VAR: the variables of " + describe(pou) +
               (pou->isFunction() ? " live as long as its call" : " are kept anyway"));
     return false;
   }
-  if (pou->isInterface() || (pou->decl->kind == DeclKind::classD && v->section != Section::local &&
-                             v->section != Section::stat)) {
-    c.report(Code::sectionNotAllowed, v->name.span, describe(pou) + " has no such variables",
+  if (pou->isInterface() || (pou->decl->kind == DeclKind::Class && v->section != Section::Local &&
+                             v->section != Section::Stat)) {
+    c.report(Code::SectionNotAllowed, v->name.span, describe(pou) + " has no such variables",
              "declared here")
         .help(pou->isInterface() ? "declare a PROPERTY" : "use VAR, a METHOD or a PROPERTY");
     return false;
@@ -49,7 +49,7 @@ static bool mayStandIn(Context &c, const PouSymbol *pou, const VarDecl *v) {
 static std::vector<VarSymbol *> declareVariables(Context &c, PouSymbol *pou, Module &home) {
   std::vector<VarSymbol *> variables;
   for (VarDecl *v : pou->decl->variables) {
-    if (v->section == Section::external) {
+    if (v->section == Section::External) {
       bindExternal(c, pou, v);
       continue;
     }
@@ -58,7 +58,7 @@ static std::vector<VarSymbol *> declareVariables(Context &c, PouSymbol *pou, Mod
     VarSymbol *symbol = makeVariable(c.arena, v, home, pou);
     const auto [it, fresh] = pou->scope.emplace(v->name.id, symbol);
     if (!fresh) {
-      auto &d = c.report(Code::duplicateName, v->name.span,
+      auto &d = c.report(Code::DuplicateName, v->name.span,
                          "the name `" + std::string(v->name.text) + "` is declared twice",
                          "declared again here");
       d.label(it->second->name.span, "first declared here");
@@ -77,14 +77,14 @@ static void declareResult(Context &c, PouSymbol *pou) {
   if ((!pou->isFunction() && !pou->isMethod()) || returnType == nullptr)
     return;
   auto *result = c.arena.make<VarSymbol>();
-  result->kind = SymbolKind::variable;
+  result->kind = SymbolKind::Variable;
   result->name = pou->name;
   result->library = pou->library;
   result->owner = pou;
   result->isResult = true;
   const auto [it, fresh] = pou->scope.emplace(pou->name.id, result);
   if (!fresh) {
-    auto &d = c.report(Code::duplicateName, it->second->name.span,
+    auto &d = c.report(Code::DuplicateName, it->second->name.span,
                        "a variable of `" + std::string(pou->name.text) + "` has " +
                            (pou->isMethod() ? "its" : "the function's") + " own name",
                        "this name stands for the result");
@@ -97,9 +97,9 @@ static void declareResult(Context &c, PouSymbol *pou) {
 }
 
 static void rejectInitOfInOut(Context &c, const VarSymbol *v) {
-  if (v->section != Section::inOut || v->decl->init == nullptr)
+  if (v->section != Section::InOut || v->decl->init == nullptr)
     return;
-  c.report(Code::inOutWithInit, v->decl->init->span,
+  c.report(Code::InOutWithInit, v->decl->init->span,
            "a VAR_IN_OUT variable cannot have an initial value",
            "it always stands for the caller's variable")
       .help("remove the value, or make the variable a VAR_INPUT");

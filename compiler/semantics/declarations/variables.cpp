@@ -18,24 +18,24 @@ const Type *typeOf(Context &c, VarSymbol *variable) {
   if (variable->type != nullptr)
     return variable->type;
   if (variable->typeRunning) {
-    c.report(Code::circularConstant, variable->name.span,
+    c.report(Code::CircularConstant, variable->name.span,
              "the type of `" + std::string(variable->name.text) + "` depends on its own value",
              "declared here");
-    variable->type = elementaryType(TypeKind::error);
+    variable->type = elementaryType(TypeKind::Error);
     return variable->type;
   }
   variable->typeRunning = true;
   const ModeGuard programs(c.programTypes, isProgramInstance(variable));
   const ScopeGuard guard(c, {&c.names.moduleOf(variable), variable->owner, variable->home});
-  const TypeExpr *inOutType = variable->section == Section::inOut ? variable->decl->type : nullptr;
+  const TypeExpr *inOutType = variable->section == Section::InOut ? variable->decl->type : nullptr;
   const ModeGuard openArrays(c.openArrayAllowed, inOutType);
   const Symbol *home =
       variable->owner != nullptr ? static_cast<const Symbol *>(variable->owner) : variable->globals;
   const std::string hint = std::string(home->name.text) + "__" + std::string(variable->name.text);
   const bool ofBlock =
       variable->owner != nullptr && variable->owner->isBlock() &&
-      (variable->section == Section::local || variable->section == Section::input ||
-       variable->section == Section::output);
+      (variable->section == Section::Local || variable->section == Section::Input ||
+       variable->section == Section::Output);
   const Type *type =
       ofBlock ? resolveMember(c, variable, hint) : resolveType(c, variable->decl->type, hint);
   if (variable->type == nullptr)
@@ -51,8 +51,8 @@ void bindExternal(Context &c, PouSymbol *pou, VarDecl *decl) {
   Symbol *global = c.scope.module->find(decl->name.id);
   if (global == nullptr)
     global = c.names.inLibraries(c.scope, decl->name.id);
-  if (global == nullptr || global->kind != SymbolKind::variable) {
-    c.report(Code::externalMismatch, decl->name.span,
+  if (global == nullptr || global->kind != SymbolKind::Variable) {
+    c.report(Code::ExternalMismatch, decl->name.span,
              "there is no global variable `" + std::string(decl->name.text) + "`",
              "declared as external here")
         .help("declare it in a VAR_GLOBAL list");
@@ -62,7 +62,7 @@ void bindExternal(Context &c, PouSymbol *pou, VarDecl *decl) {
   typeOf(c, variable);
   const Type *type = resolveType(c, decl->type, {});
   if (type != variable->type && !isError(type) && !isError(variable->type)) {
-    auto &d = c.report(Code::externalMismatch, decl->type->span,
+    auto &d = c.report(Code::ExternalMismatch, decl->type->span,
                        "`" + std::string(decl->name.text) + "` is " + typeName(variable->type) +
                            ", not " + typeName(type),
                        "this type differs from the global variable's");
@@ -72,7 +72,7 @@ void bindExternal(Context &c, PouSymbol *pou, VarDecl *decl) {
 }
 
 VarSymbol *findMember(Context &c, const Type *type, Ident id) {
-  if (type->kind == TypeKind::structure) {
+  if (type->kind == TypeKind::Structure) {
     const auto &fields = typeAs<StructType>(type)->symbol->fields;
     const auto it = fields.find(id);
     return it == fields.end() ? nullptr : it->second;

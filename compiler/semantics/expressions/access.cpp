@@ -21,19 +21,19 @@ bool requireAccess(Context &c, Span span, const Symbol *member, const PouSymbol 
   std::string_view word;
   std::string who;
   switch (access) {
-  case Access::privateA:
+  case Access::Private:
     if (c.scope.pou != nullptr && blockOf(c.scope.pou) == owner)
       return true;
     word = "PRIVATE";
     who = "only `" + std::string(owner->name.text) + "` itself can use it";
     break;
-  case Access::protectedA:
+  case Access::Protected:
     if (insideOf(c, owner))
       return true;
     word = "PROTECTED";
     who = "only `" + std::string(owner->name.text) + "` and blocks that extend it can use it";
     break;
-  case Access::internalA:
+  case Access::Internal:
     if (c.names.seesInternals(c.scope, member->library, owner->space))
       return true;
     word = "INTERNAL";
@@ -43,7 +43,7 @@ bool requireAccess(Context &c, Span span, const Symbol *member, const PouSymbol 
   default:
     return true;
   }
-  auto &d = c.report(Code::memberNotVisible, span,
+  auto &d = c.report(Code::MemberNotVisible, span,
                      "`" + std::string(owner->name.text) + "." + std::string(member->name.text) +
                          "` is " + std::string(word),
                      who);

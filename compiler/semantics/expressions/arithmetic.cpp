@@ -20,13 +20,13 @@ const Type *unwidened(const Expr *e) {
 /// Gives untyped constants the type of the other side where they fit.
 const Type *commonOf(Expr *a, Expr *b) {
   const auto typeOfOperand = [](Expr *e, const Expr *other) -> const Type * {
-    if (e->type->kind == TypeKind::anyReal)
+    if (e->type->kind == TypeKind::AnyReal)
       return isReal(underlying(other->type)) ? underlying(other->type)
-                                             : elementaryType(TypeKind::lreal);
-    if (e->type->kind == TypeKind::anyInteger) {
+                                             : elementaryType(TypeKind::Lreal);
+    if (e->type->kind == TypeKind::AnyInteger) {
       const Type *o = unwidened(other);
-      if (other->type->kind == TypeKind::anyReal)
-        return elementaryType(TypeKind::lreal);
+      if (other->type->kind == TypeKind::AnyReal)
+        return elementaryType(TypeKind::Lreal);
       if ((isInteger(o) || isReal(o)) && constantFits(*e->constant, e->type, o))
         return o;
       return smallestInteger(e->constant->integer);
@@ -40,35 +40,35 @@ const Type *checkArithmetic(Context &c, BinaryExpr *expr) {
   const Type *l = underlying(expr->left->type);
   const Type *r = underlying(expr->right->type);
   if (refuseStrict(c, expr->left) || refuseStrict(c, expr->right))
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   if (isTimeOrDate(l) || isTimeOrDate(r))
     return checkTimeArithmetic(c, expr);
-  if (l->kind == TypeKind::pointer || r->kind == TypeKind::pointer)
+  if (l->kind == TypeKind::Pointer || r->kind == TypeKind::Pointer)
     return checkPointerArithmetic(c, expr);
   if (!isNumber(l) || !isNumber(r))
     return operatorError(c, expr);
-  if (l->kind == TypeKind::anyInteger && r->kind == TypeKind::anyInteger) {
+  if (l->kind == TypeKind::AnyInteger && r->kind == TypeKind::AnyInteger) {
     expr->operandType = l;
   } else if (isUntyped(l) && isUntyped(r)) {
-    expr->operandType = elementaryType(TypeKind::anyReal);
+    expr->operandType = elementaryType(TypeKind::AnyReal);
   } else {
     const Type *common = commonOf(expr->left, expr->right);
     if (common == nullptr) {
-      auto &d = c.report(Code::signedWithUlint, expr->opSpan,
+      auto &d = c.report(Code::SignedWithUlint, expr->opSpan,
                          "no integer type holds both " + typeName(expr->left->type) + " and " +
                              typeName(expr->right->type),
                          "signed and 64-bit unsigned values cannot be mixed");
       d.label(expr->left->span, typeName(expr->left->type));
       d.label(expr->right->span, typeName(expr->right->type));
       d.help("convert one of them: `" + typeName(l) + "_TO_" + typeName(r) + "(…)`");
-      return elementaryType(TypeKind::error);
+      return elementaryType(TypeKind::Error);
     }
     const auto narrow = [](const Expr *e) {
-      return isUntyped(e->type) || (e->common != nullptr && e->common->kind == TypeKind::real);
+      return isUntyped(e->type) || (e->common != nullptr && e->common->kind == TypeKind::Real);
     };
     const bool constants =
-        common->kind == TypeKind::lreal && narrow(expr->left) && narrow(expr->right);
-    expr->common = constants ? elementaryType(TypeKind::real) : common;
+        common->kind == TypeKind::Lreal && narrow(expr->left) && narrow(expr->right);
+    expr->common = constants ? elementaryType(TypeKind::Real) : common;
     const Type *operation = widened(common);
     // An operand that had been widened already keeps its width (a*b + c).
     for (const Expr *e : {expr->left, expr->right}) {
@@ -79,19 +79,19 @@ const Type *checkArithmetic(Context &c, BinaryExpr *expr) {
     }
     expr->operandType = operation;
   }
-  if (expr->op == BinaryOp::modulo &&
-      (isReal(expr->operandType) || expr->operandType->kind == TypeKind::anyReal)) {
-    auto &d = c.report(Code::operatorNotDefined, expr->opSpan,
+  if (expr->op == BinaryOp::Modulo &&
+      (isReal(expr->operandType) || expr->operandType->kind == TypeKind::AnyReal)) {
+    auto &d = c.report(Code::OperatorNotDefined, expr->opSpan,
                        "`MOD` is not defined for REAL and LREAL", "integers only");
     d.help("for a real remainder use SMC_fmod(x, m) of SM_DriveBasic");
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   }
-  if ((expr->op == BinaryOp::divide || expr->op == BinaryOp::modulo) &&
-      expr->right->constant != nullptr && expr->right->constant->kind == ConstKind::integer &&
+  if ((expr->op == BinaryOp::Divide || expr->op == BinaryOp::Modulo) &&
+      expr->right->constant != nullptr && expr->right->constant->kind == ConstKind::Integer &&
       expr->right->constant->integer == 0 && !isReal(expr->operandType) &&
-      expr->operandType->kind != TypeKind::anyReal) {
-    c.report(Code::divisionByZero, expr->right->span, "division by zero", "this is always 0");
-    return elementaryType(TypeKind::error);
+      expr->operandType->kind != TypeKind::AnyReal) {
+    c.report(Code::DivisionByZero, expr->right->span, "division by zero", "this is always 0");
+    return elementaryType(TypeKind::Error);
   }
   if (!isUntyped(expr->operandType)) {
     setTarget(expr->left, expr->operandType);
@@ -103,39 +103,39 @@ const Type *checkArithmetic(Context &c, BinaryExpr *expr) {
 static const Type *checkTimeArithmetic(Context &c, BinaryExpr *expr) {
   const Type *l = underlying(expr->left->type);
   const Type *r = underlying(expr->right->type);
-  const bool sum = expr->op == BinaryOp::add;
-  const bool difference = expr->op == BinaryOp::subtract;
+  const bool sum = expr->op == BinaryOp::Add;
+  const bool difference = expr->op == BinaryOp::Subtract;
   using enum TypeKind;
   // Durations with durations.
   if (isDuration(l) && isDuration(r)) {
-    if (!sum && !difference && expr->op != BinaryOp::modulo)
+    if (!sum && !difference && expr->op != BinaryOp::Modulo)
       return operatorError(c, expr);
-    expr->operandType = elementaryType(l->kind == ltime || r->kind == ltime ? ltime : time);
+    expr->operandType = elementaryType(l->kind == Ltime || r->kind == Ltime ? Ltime : Time);
     setTarget(expr->left, expr->operandType);
     setTarget(expr->right, expr->operandType);
     return expr->operandType;
   }
   // A duration times or divided by a number.
   if ((isDuration(l) && isNumber(r) &&
-       (expr->op == BinaryOp::multiply || expr->op == BinaryOp::divide)) ||
-      (isNumber(l) && isDuration(r) && expr->op == BinaryOp::multiply)) {
+       (expr->op == BinaryOp::Multiply || expr->op == BinaryOp::Divide)) ||
+      (isNumber(l) && isDuration(r) && expr->op == BinaryOp::Multiply)) {
     Expr *number = isDuration(l) ? expr->right : expr->left;
     if (isUntyped(number->type))
       settle(number);
-    if (number->constant != nullptr && expr->op == BinaryOp::divide &&
-        number->constant->kind == ConstKind::integer && number->constant->integer == 0) {
-      c.report(Code::divisionByZero, number->span, "division by zero", "this is always 0");
-      return elementaryType(error);
+    if (number->constant != nullptr && expr->op == BinaryOp::Divide &&
+        number->constant->kind == ConstKind::Integer && number->constant->integer == 0) {
+      c.report(Code::DivisionByZero, number->span, "division by zero", "this is always 0");
+      return elementaryType(Error);
     }
     return isDuration(l) ? l : r; // operandType stays null: the operands have different types
   }
   // Points in time plus or minus a duration; differences of points in time.
   const bool pointLeft = isTimeOrDate(l) && !isDuration(l);
   const bool pointRight = isTimeOrDate(r) && !isDuration(r);
-  if (pointLeft && isDuration(r) && l->kind != date && l->kind != ldate && (sum || difference))
+  if (pointLeft && isDuration(r) && l->kind != Date && l->kind != Ldate && (sum || difference))
     return l;
   if (pointLeft && pointRight && l == r && difference)
-    return elementaryType(l->kind == date || l->kind == tod || l->kind == dt ? time : ltime);
+    return elementaryType(l->kind == Date || l->kind == Tod || l->kind == Dt ? Time : Ltime);
   return operatorError(c, expr);
 }
 
@@ -145,10 +145,10 @@ const Type *checkPower(Context &c, BinaryExpr *expr) {
   if (!isNumber(l) || !isNumber(r))
     return operatorError(c, expr);
   expr->operandType = elementaryType(
-      l->kind == TypeKind::real && (r->kind == TypeKind::real || isUntyped(r)) ? TypeKind::real
-                                                                               : TypeKind::lreal);
+      l->kind == TypeKind::Real && (r->kind == TypeKind::Real || isUntyped(r)) ? TypeKind::Real
+                                                                               : TypeKind::Lreal);
   if (isUntyped(l) && isUntyped(r)) // `r := 2.0 ** 0.5` is silent, as `r := 2.0` is
-    expr->common = elementaryType(TypeKind::real);
+    expr->common = elementaryType(TypeKind::Real);
   setTarget(expr->left, expr->operandType);
   setTarget(expr->right, expr->operandType);
   return expr->operandType;

@@ -17,7 +17,7 @@ bool bitByName(Context &c, MemberExpr *expr) {
   if (!isInteger(base))
     return false;
   Symbol *symbol = lookup(c, expr->name);
-  if (symbol == nullptr || symbol->kind != SymbolKind::variable)
+  if (symbol == nullptr || symbol->kind != SymbolKind::Variable)
     return false;
   auto *variable = static_cast<VarSymbol *>(symbol);
   if (!variable->isConstant || !isInteger(underlying(typeOf(c, variable))))
@@ -25,17 +25,17 @@ bool bitByName(Context &c, MemberExpr *expr) {
   checkInitOf(c, variable);
   if (variable->constant == nullptr)
     return false;
-  const std::int64_t bit = variable->constant->integer;
+  const int64_t bit = variable->constant->integer;
   if (bit < 0 || bit >= bitWidth(base)) {
-    auto &d = c.report(Code::bitOutOfRange, expr->name.span,
+    auto &d = c.report(Code::BitOutOfRange, expr->name.span,
                        typeName(expr->base->type) + " has no bit " + std::to_string(bit),
                        "the bits are 0 to " + std::to_string(bitWidth(base) - 1));
     noteDeclaration(d, variable);
     expr->bit = 0;
     return true;
   }
-  expr->bit = static_cast<std::int32_t>(bit);
-  variable->uses |= useRead; // the bit's number is all that is left of the name
+  expr->bit = static_cast<int32_t>(bit);
+  variable->uses |= kUseRead; // the bit's number is all that is left of the name
   return true;
 }
 
@@ -46,15 +46,15 @@ const Type *checkBit(Context &c, MemberExpr *expr) {
   const Type *u = underlying(base);
   const bool part = expr->width > 1;
   const std::string what = part ? "part" : "bit";
-  if (!isInteger(u) || base->kind == TypeKind::enumeration) {
-    auto &d = c.report(Code::bitOutOfRange, expr->span,
+  if (!isInteger(u) || base->kind == TypeKind::Enumeration) {
+    auto &d = c.report(Code::BitOutOfRange, expr->span,
                        typeName(base) + " has no " + what + "s to select",
                        "only possible on integers and bit strings");
     if (isReal(u))
       d.help("look at the bytes of a REAL through a UNION or a pointer");
-    else if (base->kind == TypeKind::enumeration)
+    else if (base->kind == TypeKind::Enumeration)
       d.help("convert it first: `" + typeName(u) + "_TO_WORD(…)`");
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   }
   const unsigned count = bitWidth(u) / expr->width;
   if (static_cast<unsigned>(expr->bit) >= count) {
@@ -65,24 +65,24 @@ const Type *checkBit(Context &c, MemberExpr *expr) {
                                          : expr->width == 64 ? 4
                                                              : 0];
     const std::string noun = part ? std::string(name) : what;
-    c.report(Code::bitOutOfRange, expr->span,
+    c.report(Code::BitOutOfRange, expr->span,
              typeName(base) + " has no " + noun + " " + std::to_string(expr->bit),
              count == 0   ? "it is narrower than that"
              : count == 1 ? "there is only " + noun + " 0"
                           : "the " + noun + "s are 0 to " + std::to_string(count - 1));
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   }
   switch (expr->width) {
   case 8:
-    return elementaryType(TypeKind::byte);
+    return elementaryType(TypeKind::Byte);
   case 16:
-    return elementaryType(TypeKind::word);
+    return elementaryType(TypeKind::Word);
   case 32:
-    return elementaryType(TypeKind::dword);
+    return elementaryType(TypeKind::Dword);
   case 64:
-    return elementaryType(TypeKind::lword);
+    return elementaryType(TypeKind::Lword);
   default:
-    return elementaryType(TypeKind::boolean);
+    return elementaryType(TypeKind::Boolean);
   }
 }
 

@@ -29,8 +29,8 @@ std::string conversionFunction(const Type *from, const Type *to) {
   if (!isElementary(from) || !isElementary(to) || from == to)
     return {};
   const auto plain = [](const Type *t) {
-    return t->kind == TypeKind::string    ? std::string("STRING")
-           : t->kind == TypeKind::wstring ? std::string("WSTRING")
+    return t->kind == TypeKind::String    ? std::string("STRING")
+           : t->kind == TypeKind::Wstring ? std::string("WSTRING")
                                           : upper(typeName(t));
   };
   return plain(from) + "_TO_" + plain(to);
@@ -39,10 +39,10 @@ std::string conversionFunction(const Type *from, const Type *to) {
 /// V2.3 stored AXIS_REF's values as REAL, Stride as LREAL; reading one into a REAL is not worth a
 /// warning.
 bool isAxisField(const Expr *expr) {
-  if (expr->kind != ExprKind::member)
+  if (expr->kind != ExprKind::Member)
     return false;
   const Type *base = as<MemberExpr>(expr)->base->type;
-  return base != nullptr && base->kind == TypeKind::structure &&
+  return base != nullptr && base->kind == TypeKind::Structure &&
          typeAs<StructType>(base)->symbol->name.id->lower == "axis_ref";
 }
 
@@ -56,16 +56,16 @@ std::string excerpt(const Sources &sources, const Expr *expr) {
 
 /// `INT`, `an integer constant`
 std::string found(const Type *type) {
-  const std::string_view article = type->kind == TypeKind::anyInteger ? "an "
-                                   : type->kind == TypeKind::anyReal  ? "a "
+  const std::string_view article = type->kind == TypeKind::AnyInteger ? "an "
+                                   : type->kind == TypeKind::AnyReal  ? "a "
                                                                       : "";
   return std::string(article) + typeName(type);
 }
 
 /// Something that ADR can be asked of, or a pointer can be followed from, without parentheses.
 bool isPath(const Expr *expr) {
-  return expr->kind == ExprKind::name || expr->kind == ExprKind::member ||
-         expr->kind == ExprKind::index || expr->kind == ExprKind::deref;
+  return expr->kind == ExprKind::Name || expr->kind == ExprKind::Member ||
+         expr->kind == ExprKind::Index || expr->kind == ExprKind::Deref;
 }
 
 int rank(Conversion c) { return static_cast<int>(c); }
@@ -78,19 +78,19 @@ void setTarget(Expr *expr, const Type *type) {
 }
 
 const Type *settle(Expr *expr) {
-  if (expr->type->kind == TypeKind::anyReal) {
-    expr->target = elementaryType(TypeKind::lreal);
-  } else if (expr->type->kind == TypeKind::anyInteger) {
+  if (expr->type->kind == TypeKind::AnyReal) {
+    expr->target = elementaryType(TypeKind::Lreal);
+  } else if (expr->type->kind == TypeKind::AnyInteger) {
     const Type *smallest = smallestInteger(expr->constant->integer);
-    expr->target = bitWidth(smallest) > 32 ? smallest : elementaryType(TypeKind::dint);
-    if (smallest->kind == TypeKind::udint)
+    expr->target = bitWidth(smallest) > 32 ? smallest : elementaryType(TypeKind::Dint);
+    if (smallest->kind == TypeKind::Udint)
       expr->target = smallest;
   }
   return expr->target != nullptr ? expr->target : expr->type;
 }
 
 static bool isStrict(const Type *t) {
-  return t->kind == TypeKind::enumeration && typeAs<EnumType>(t)->strict;
+  return t->kind == TypeKind::Enumeration && typeAs<EnumType>(t)->strict;
 }
 
 static void reportStrict(Context &c, const Expr *expr, const Type *type, std::string_view what) {
@@ -98,7 +98,7 @@ static void reportStrict(Context &c, const Expr *expr, const Type *type, std::st
   const Type *named = isStrict(type) ? type : from;
   const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
   auto &d =
-      c.report(Code::strictEnumeration, expr->span,
+      c.report(Code::StrictEnumeration, expr->span,
                prefix + "`" + typeName(named) + "` is a strict enumeration: no conversion from " +
                    typeName(from) + " to " + typeName(type),
                "this is " + typeName(from));
@@ -111,13 +111,13 @@ static void reportStrict(Context &c, const Expr *expr, const Type *type, std::st
 
 /// Warns of a text that is longer than the STRING it becomes.
 static void checkTextLength(Context &c, const Expr *expr, const Type *type) {
-  if (expr->constant->kind != ConstKind::string || !isString(type))
+  if (expr->constant->kind != ConstKind::String || !isString(type))
     return;
   const auto length = typeAs<StringType>(type)->length;
-  const bool wide = type->kind == TypeKind::wstring;
-  const std::size_t wanted = textLength(expr->constant->text, wide);
+  const bool wide = type->kind == TypeKind::Wstring;
+  const size_t wanted = textLength(expr->constant->text, wide);
   if (wanted > length)
-    c.report(Code::stringCut, expr->span,
+    c.report(Code::StringCut, expr->span,
              "the text has " + std::to_string(wanted) + " characters but " + typeName(type) +
                  " holds " + std::to_string(length),
              "the end is cut off")
@@ -128,46 +128,46 @@ static void checkTextLength(Context &c, const Expr *expr, const Type *type) {
 /// A constant without type that is none of the type's values.
 static void reportUntyped(Context &c, Expr *expr, const Type *type, std::string_view what) {
   const Type *from = expr->type;
-  if (from->kind == TypeKind::anyInteger && isInteger(underlying(type)) &&
-      type->kind != TypeKind::enumeration) {
+  if (from->kind == TypeKind::AnyInteger && isInteger(underlying(type)) &&
+      type->kind != TypeKind::Enumeration) {
     const IntegerRange range = integerRange(type);
-    c.report(Code::constantOverflow, expr->span,
+    c.report(Code::ConstantOverflow, expr->span,
              "the constant " + std::to_string(expr->constant->integer) + " does not fit into " +
                  typeName(type),
              typeName(underlying(type)) + " holds " + std::to_string(range.low) + " to " +
                  (range.high == -1 ? "18446744073709551615" : std::to_string(range.high)));
     return;
   }
-  const Type *own = from->kind == TypeKind::anyReal ? elementaryType(TypeKind::lreal)
+  const Type *own = from->kind == TypeKind::AnyReal ? elementaryType(TypeKind::Lreal)
                                                     : smallestInteger(expr->constant->integer);
   const Conversion kind = classify(own, type);
-  reportConversion(c, expr, from, type, kind == Conversion::lossy ? Conversion::narrowing : kind,
+  reportConversion(c, expr, from, type, kind == Conversion::Lossy ? Conversion::Narrowing : kind,
                    what);
 }
 
 /// How the value becomes one of the type, by what is known about it.
 static Conversion conversionOf(const Expr *expr, const Type *type) {
   const Type *from = expr->type;
-  if (from->kind == TypeKind::lreal && type->kind == TypeKind::real && isAxisField(expr))
-    return Conversion::free;
+  if (from->kind == TypeKind::Lreal && type->kind == TypeKind::Real && isAxisField(expr))
+    return Conversion::Free;
   const Conversion conversion = classify(from, type);
   // `i := i + 1` computes in DINT, but stays silent because all operands are INT.
   if (expr->common == nullptr || expr->common == from)
     return conversion;
   const Conversion ofCommon =
-      expr->common == type ? Conversion::identity : classify(expr->common, type);
+      expr->common == type ? Conversion::Identity : classify(expr->common, type);
   if (rank(ofCommon) >= rank(conversion))
     return conversion;
-  return ofCommon == Conversion::identity ? Conversion::free : ofCommon;
+  return ofCommon == Conversion::Identity ? Conversion::Free : ofCommon;
 }
 
 /// A product is computed in its operands' type, however large the variable is that takes it.
 static void checkProduct(Context &c, const Expr *expr, const Type *type) {
   const Type *from = expr->type;
-  if (expr->kind != ExprKind::binary || as<BinaryExpr>(expr)->op != BinaryOp::multiply ||
+  if (expr->kind != ExprKind::Binary || as<BinaryExpr>(expr)->op != BinaryOp::Multiply ||
       !isInteger(from) || !isInteger(underlying(type)) || bitWidth(type) <= bitWidth(from))
     return;
-  auto &d = c.report(Code::computedNarrow, expr->span,
+  auto &d = c.report(Code::ComputedNarrow, expr->span,
                      "this product is computed in " + typeName(from) +
                          " and only then widened to " + typeName(type),
                      "wraps beyond " + std::to_string(bitWidth(from)) + " bits");
@@ -178,7 +178,7 @@ void coerce(Context &c, Expr *expr, const Type *type, std::string_view what) {
   const Type *from = expr->type;
   if (isError(from) || isError(type) || from == type)
     return;
-  if (type->kind == TypeKind::reference)
+  if (type->kind == TypeKind::Reference)
     type = typeAs<PointerType>(type)->pointee;
   if (from == type || coercePointer(c, expr, type, what) || coerceToInterface(c, expr, type))
     return;
@@ -197,10 +197,10 @@ void coerce(Context &c, Expr *expr, const Type *type, std::string_view what) {
   }
   const Conversion conversion = conversionOf(expr, type);
   checkProduct(c, expr, type);
-  if (conversion == Conversion::narrowing || conversion == Conversion::forbidden ||
-      conversion == Conversion::lossy)
+  if (conversion == Conversion::Narrowing || conversion == Conversion::Forbidden ||
+      conversion == Conversion::Lossy)
     reportConversion(c, expr, from, type, conversion, what);
-  if (conversion != Conversion::forbidden && conversion != Conversion::narrowing)
+  if (conversion != Conversion::Forbidden && conversion != Conversion::Narrowing)
     setTarget(expr, type);
 }
 
@@ -215,49 +215,49 @@ void reportConversion(Context &c, Expr *expr, const Type *from, const Type *to,
     return source;
   };
   const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
-  if (conversion == Conversion::lossy) {
-    auto &d = c.report(Code::lossyConversion, expr->span,
+  if (conversion == Conversion::Lossy) {
+    auto &d = c.report(Code::LossyConversion, expr->span,
                        prefix + "implicit conversion from " + typeName(from) + " to " +
                            typeName(to) + " may change the value",
                        "this is " + typeName(from));
-    if (to->kind == TypeKind::enumeration)
+    if (to->kind == TypeKind::Enumeration)
       d.help("assign one of the enumerators of " + typeName(to));
     else if (!function.empty())
       d.suggest("say that it is meant: `" + function + "(" + text + ")`", expr->span,
                 function + "(" + std::string(c.program.sources.text(expr->span)) + ")");
     return;
   }
-  if (conversion == Conversion::narrowing) {
-    auto &d = c.report(Code::narrowingConversion, expr->span,
+  if (conversion == Conversion::Narrowing) {
+    auto &d = c.report(Code::NarrowingConversion, expr->span,
                        prefix + "cannot convert from " + typeName(from) + " to " + typeName(to) +
                            " implicitly",
                        "this is " + found(from) + ", " + typeName(to) + " is expected");
-    if (from->kind == TypeKind::anyReal && isInteger(underlying(to)))
+    if (from->kind == TypeKind::AnyReal && isInteger(underlying(to)))
       d.help("write it without a fraction, or convert it: `LREAL_TO_" +
              upper(typeName(underlying(to))) + "(…)`");
-    else if (to->kind == TypeKind::boolean && expr->constant != nullptr)
+    else if (to->kind == TypeKind::Boolean && expr->constant != nullptr)
       d.help("write TRUE or FALSE");
-    else if (to->kind == TypeKind::boolean)
+    else if (to->kind == TypeKind::Boolean)
       d.help("compare it: `… <> 0`, or convert it" +
              (function.empty() ? "" : ": `" + function + "(…)`"));
-    else if (to->kind == TypeKind::time && from->kind == TypeKind::anyInteger)
+    else if (to->kind == TypeKind::Time && from->kind == TypeKind::AnyInteger)
       d.help("write a duration with its unit: `T#" + text + "ms`");
-    else if (expr->kind == ExprKind::literal && from->kind == TypeKind::wstring &&
-             to->kind == TypeKind::string && !function.empty())
+    else if (expr->kind == ExprKind::Literal && from->kind == TypeKind::Wstring &&
+             to->kind == TypeKind::String && !function.empty())
       d.suggest("a STRING stands in single quotes", expr->span, quoted(expr, '\''));
-    else if (expr->kind == ExprKind::literal && from->kind == TypeKind::string &&
-             to->kind == TypeKind::wstring)
+    else if (expr->kind == ExprKind::Literal && from->kind == TypeKind::String &&
+             to->kind == TypeKind::Wstring)
       d.suggest("a WSTRING stands in double quotes", expr->span, quoted(expr, '"'));
-    else if (!function.empty() && from->kind != TypeKind::anyInteger)
+    else if (!function.empty() && from->kind != TypeKind::AnyInteger)
       d.suggest("convert it: `" + function + "(" + text + ")`", expr->span,
                 function + "(" + std::string(c.program.sources.text(expr->span)) + ")");
     return;
   }
-  auto &d = c.report(Code::typeMismatch, expr->span,
+  auto &d = c.report(Code::TypeMismatch, expr->span,
                      prefix + "expected " + typeName(to) + ", found " + found(from),
                      "this is " + found(from));
   const auto pointee = [](const Type *type) {
-    return type->kind == TypeKind::pointer ? typeAs<PointerType>(type)->pointee : nullptr;
+    return type->kind == TypeKind::Pointer ? typeAs<PointerType>(type)->pointee : nullptr;
   };
   const std::string source(c.program.sources.text(expr->span));
   if (isInstance(from) && isElementary(to))
@@ -265,7 +265,7 @@ void reportConversion(Context &c, Expr *expr, const Type *from, const Type *to,
   else if (pointee(to) == from && isPath(expr))
     d.suggest("take its address: `ADR(" + text + ")`", expr->span, "ADR(" + source + ")");
   else if (pointee(from) != nullptr && isPath(expr) &&
-           (pointee(from) == to || classify(pointee(from), to) == Conversion::free))
+           (pointee(from) == to || classify(pointee(from), to) == Conversion::Free))
     d.suggest("follow the pointer: `" + text + "^`", expr->span, source + "^");
 }
 

@@ -17,22 +17,22 @@ static const Type *compareNumbers(Context &c, BinaryExpr *expr) {
   const Type *r = expr->right->type;
   const Type *ul = underlying(l);
   const Type *ur = underlying(r);
-  const Type *boolean = elementaryType(TypeKind::boolean);
+  const Type *boolean = elementaryType(TypeKind::Boolean);
   if (isUntyped(ul) && isUntyped(ur)) {
-    expr->operandType = ul->kind == TypeKind::anyInteger && ur->kind == TypeKind::anyInteger
+    expr->operandType = ul->kind == TypeKind::AnyInteger && ur->kind == TypeKind::AnyInteger
                             ? ul
-                            : elementaryType(TypeKind::anyReal);
+                            : elementaryType(TypeKind::AnyReal);
     return boolean;
   }
   const Type *operation = commonOf(expr->left, expr->right);
   if (operation == nullptr) {
-    auto &d = c.report(Code::signedWithUlint, expr->opSpan,
+    auto &d = c.report(Code::SignedWithUlint, expr->opSpan,
                        "no integer type holds both " + typeName(l) + " and " + typeName(r),
                        "signed and 64-bit unsigned values cannot be compared");
     d.label(expr->left->span, typeName(l));
     d.label(expr->right->span, typeName(r));
     d.help("convert one of them: `" + typeName(ul) + "_TO_" + typeName(ur) + "(…)`");
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   }
   operation = widened(operation);
   for (const Type *t : {ul, ur}) {
@@ -54,12 +54,12 @@ static const Type *comparedAs(const BinaryExpr *expr) {
   const auto fits = [](const Expr *constant, const Type *type) {
     return constant->constant != nullptr && constantFits(*constant->constant, constant->type, type);
   };
-  if (l->kind == TypeKind::boolean && r->kind == TypeKind::boolean)
+  if (l->kind == TypeKind::Boolean && r->kind == TypeKind::Boolean)
     return l;
-  if (l->kind == TypeKind::boolean || r->kind == TypeKind::boolean) {
+  if (l->kind == TypeKind::Boolean || r->kind == TypeKind::Boolean) {
     // `b = 1`: 0 and 1 are BOOL literals too.
-    const Type *boolean = elementaryType(TypeKind::boolean);
-    return fits(l->kind == TypeKind::boolean ? expr->right : expr->left, boolean) ? boolean
+    const Type *boolean = elementaryType(TypeKind::Boolean);
+    return fits(l->kind == TypeKind::Boolean ? expr->right : expr->left, boolean) ? boolean
                                                                                   : nullptr;
   }
   if (isCharacter(l) || isCharacter(r)) {
@@ -70,44 +70,44 @@ static const Type *comparedAs(const BinaryExpr *expr) {
     return nullptr;
   if (l == r)
     return l;
-  if (classify(l, r) == Conversion::free)
+  if (classify(l, r) == Conversion::Free)
     return r;
-  return classify(r, l) == Conversion::free ? l : nullptr;
+  return classify(r, l) == Conversion::Free ? l : nullptr;
 }
 
 /// Interfaces are equal when they stand for the same instance, whatever their types are.
 static const Type *compareInterfaces(Context &c, BinaryExpr *expr) {
   const Type *l = underlying(expr->left->type);
-  const bool isLeft = l->kind == TypeKind::interface;
+  const bool isLeft = l->kind == TypeKind::Interface;
   expr->operandType = isLeft ? l : underlying(expr->right->type);
   Expr *other = isLeft ? expr->right : expr->left;
-  if (other->type->kind != TypeKind::interface &&
+  if (other->type->kind != TypeKind::Interface &&
       (!coerceToInterface(c, other, expr->operandType) || other->target == nullptr))
-    return elementaryType(TypeKind::error);
-  return elementaryType(TypeKind::boolean);
+    return elementaryType(TypeKind::Error);
+  return elementaryType(TypeKind::Boolean);
 }
 
 const Type *checkComparison(Context &c, BinaryExpr *expr) {
   Expr *left = expr->left;
   Expr *right = expr->right;
-  const Type *boolean = elementaryType(TypeKind::boolean);
+  const Type *boolean = elementaryType(TypeKind::Boolean);
   // An enumerator found without its type may belong to the other side's type.
-  if (left->type->kind == TypeKind::enumeration && right->type->kind == TypeKind::enumeration &&
-      left->type != right->type && left->kind == ExprKind::name && left->constant != nullptr)
+  if (left->type->kind == TypeKind::Enumeration && right->type->kind == TypeKind::Enumeration &&
+      left->type != right->type && left->kind == ExprKind::Name && left->constant != nullptr)
     check(c, left, right->type);
   const Type *l = left->type;
   const Type *r = right->type;
-  if (l->kind == TypeKind::enumeration && r->kind == TypeKind::enumeration && l != r)
+  if (l->kind == TypeKind::Enumeration && r->kind == TypeKind::Enumeration && l != r)
     return operatorError(c, expr);
   if (l != r && (refuseStrict(c, left) || refuseStrict(c, right)))
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   const Type *ul = underlying(l);
   const Type *ur = underlying(r);
   if (isNumber(ul) && isNumber(ur))
     return compareNumbers(c, expr);
   if (isString(ul) && ul->kind == ur->kind) {
     const auto length = std::max(typeAs<StringType>(ul)->length, typeAs<StringType>(ur)->length);
-    expr->operandType = c.types.string(ul->kind == TypeKind::wstring, length);
+    expr->operandType = c.types.string(ul->kind == TypeKind::Wstring, length);
     return boolean; // the runtime compares strings of any two lengths: no conversion
   }
   if (const Type *type = comparedAs(expr)) {
@@ -116,12 +116,12 @@ const Type *checkComparison(Context &c, BinaryExpr *expr) {
     setTarget(right, type);
     return boolean;
   }
-  const bool equality = expr->op == BinaryOp::equal || expr->op == BinaryOp::notEqual;
-  if (equality && (ul->kind == TypeKind::interface || ur->kind == TypeKind::interface) &&
-      ul->kind != TypeKind::boolean && ur->kind != TypeKind::boolean && !isCharacter(ul) &&
+  const bool equality = expr->op == BinaryOp::Equal || expr->op == BinaryOp::NotEqual;
+  if (equality && (ul->kind == TypeKind::Interface || ur->kind == TypeKind::Interface) &&
+      ul->kind != TypeKind::Boolean && ur->kind != TypeKind::Boolean && !isCharacter(ul) &&
       !isCharacter(ur))
     return compareInterfaces(c, expr);
-  if ((ul->kind == TypeKind::pointer || ur->kind == TypeKind::pointer) && comparePointers(expr))
+  if ((ul->kind == TypeKind::Pointer || ur->kind == TypeKind::Pointer) && comparePointers(expr))
     return boolean;
   return operatorError(c, expr);
 }

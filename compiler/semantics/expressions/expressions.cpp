@@ -12,74 +12,74 @@ namespace stc::sema {
 
 using namespace ast;
 
-std::optional<std::int64_t> constantInteger(Context &c, Expr *expr, std::string_view what) {
+std::optional<int64_t> constantInteger(Context &c, Expr *expr, std::string_view what) {
   const Type *type = check(c, expr);
   if (isError(type))
     return std::nullopt;
-  if (expr->constant == nullptr || expr->constant->kind != ConstKind::integer ||
-      !(type->kind == TypeKind::anyInteger || isInteger(underlying(type)))) {
-    c.report(Code::notConstant, expr->span, std::string(what) + " must be an integer constant",
+  if (expr->constant == nullptr || expr->constant->kind != ConstKind::Integer ||
+      !(type->kind == TypeKind::AnyInteger || isInteger(underlying(type)))) {
+    c.report(Code::NotConstant, expr->span, std::string(what) + " must be an integer constant",
              expr->constant == nullptr ? "its value is only known at run time"
                                        : "this is " + typeName(type))
         .help("use a literal, or a variable declared in VAR CONSTANT or VAR_GLOBAL CONSTANT");
     return std::nullopt;
   }
-  if (type->kind == TypeKind::anyInteger)
+  if (type->kind == TypeKind::AnyInteger)
     settle(expr);
   return expr->constant->integer;
 }
 
 const Type *check(Context &c, Expr *expr, const Type *expected) {
-  if (expected != nullptr && expected->kind == TypeKind::subrange)
+  if (expected != nullptr && expected->kind == TypeKind::Subrange)
     expected = typeAs<SubrangeType>(expected)->base;
-  const Type *type = elementaryType(TypeKind::error);
+  const Type *type = elementaryType(TypeKind::Error);
   if (stackIsShort(c.stackEnd)) { // constants in the values of constants add up
-    c.report(Code::tooDeep, expr->span, "this depends on too many other declarations",
+    c.report(Code::TooDeep, expr->span, "this depends on too many other declarations",
              "one leads to the next");
     expr->type = type;
     return type;
   }
   switch (expr->kind) {
-  case ExprKind::literal:
+  case ExprKind::Literal:
     type = checkLiteral(c, as<Literal>(expr));
     break;
-  case ExprKind::name:
+  case ExprKind::Name:
     type = checkName(c, as<NameExpr>(expr), expected);
     break;
-  case ExprKind::member:
+  case ExprKind::Member:
     type = checkMember(c, as<MemberExpr>(expr));
     break;
-  case ExprKind::index:
+  case ExprKind::Index:
     type = checkIndex(c, as<IndexExpr>(expr));
     break;
-  case ExprKind::deref:
+  case ExprKind::Deref:
     type = checkDeref(c, as<DerefExpr>(expr));
     break;
-  case ExprKind::call: {
+  case ExprKind::Call: {
     type = checkCall(c, as<CallExpr>(expr), false);
     break;
   }
-  case ExprKind::unary:
+  case ExprKind::Unary:
     type = checkUnary(c, as<UnaryExpr>(expr), expected);
     break;
-  case ExprKind::binary:
+  case ExprKind::Binary:
     type = checkBinary(c, as<BinaryExpr>(expr), expected);
     break;
-  case ExprKind::enumLiteral:
+  case ExprKind::EnumLiteral:
     type = checkEnumLiteral(c, as<EnumLiteralExpr>(expr));
     break;
-  case ExprKind::aggregate:
-    c.report(Code::aggregateNotAllowed, expr->span, "a list of values can only be an initial value",
+  case ExprKind::Aggregate:
+    c.report(Code::AggregateNotAllowed, expr->span, "a list of values can only be an initial value",
              "not an expression")
         .help("assign the elements one by one");
     break;
-  case ExprKind::direct:
+  case ExprKind::Direct:
     type = checkDirect(c, as<DirectExpr>(expr));
     break;
-  case ExprKind::typeName:
-    c.report(Code::notAVariable, expr->span, "a type is not a value", "a type stands here");
+  case ExprKind::TypeName:
+    c.report(Code::NotAVariable, expr->span, "a type is not a value", "a type stands here");
     break;
-  case ExprKind::error:
+  case ExprKind::Error:
     break;
   }
   expr->type = type;
@@ -92,15 +92,15 @@ void checkAs(Context &c, Expr *expr, const Type *type, std::string_view what) {
 }
 
 void checkCondition(Context &c, Expr *expr, std::string_view what) {
-  const Type *boolean = elementaryType(TypeKind::boolean);
+  const Type *boolean = elementaryType(TypeKind::Boolean);
   const Type *type = check(c, expr, boolean);
   if (isError(type) || type == boolean)
     return;
   auto &d =
-      c.report(Code::conditionNotBool, expr->span,
+      c.report(Code::ConditionNotBool, expr->span,
                std::string(what) + " must be BOOL, this is " + typeName(type), "expected BOOL");
-  if (isInteger(underlying(type)) || isReal(type) || type->kind == TypeKind::anyInteger ||
-      type->kind == TypeKind::pointer) {
+  if (isInteger(underlying(type)) || isReal(type) || type->kind == TypeKind::AnyInteger ||
+      type->kind == TypeKind::Pointer) {
     const Span behind{expr->span.file, expr->span.end, expr->span.end};
     const std::string_view text = c.program.sources.text(expr->span);
     d.suggest("compare it with a value: `" + (text.size() <= 40 ? std::string(text) : "…") +

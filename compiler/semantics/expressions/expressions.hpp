@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_EXPRESSIONS_EXPRESSIONS_HPP
+#define STRIDE_COMPILER_SEMANTICS_EXPRESSIONS_EXPRESSIONS_HPP
 // Expressions.
 
 #include "compiler/semantics/context/context.hpp"
@@ -8,7 +9,7 @@ namespace stc::sema {
 
 /// The value of an integer constant; nothing (reported) when it is none. `what` it is, for the
 /// words.
-std::optional<std::int64_t> constantInteger(Context &c, ast::Expr *expr, std::string_view what);
+std::optional<int64_t> constantInteger(Context &c, ast::Expr *expr, std::string_view what);
 /// Checks an expression and gives its type, the error type when something has been reported.
 /// `expected`: the type that its place asks for, which decides about enumerators; null: any.
 const Type *check(Context &c, ast::Expr *expr, const Type *expected = nullptr);
@@ -51,3 +52,5 @@ bool rejectProperty(Context &c, const ast::Expr *expr, std::string_view action);
 const Type *checkTarget(Context &c, ast::Expr *expr);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_EXPRESSIONS_EXPRESSIONS_HPP

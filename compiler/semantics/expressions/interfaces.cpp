@@ -16,8 +16,8 @@ static void reportNoInterface(Context &c, Expr *expr, const Type *from, const Ty
   const std::string name = typeName(to);
   const PouSymbol *wanted = typeAs<PouType>(to)->symbol;
   const std::string text(c.program.sources.text(expr->span));
-  if (from->kind == TypeKind::interface) {
-    auto &d = c.report(Code::needsQuery, expr->span,
+  if (from->kind == TypeKind::Interface) {
+    auto &d = c.report(Code::NeedsQuery, expr->span,
                        "not every `" + typeName(from) + "` is also `" + name + "`",
                        "this is `" + typeName(from) + "`");
     noteDeclaration(d, wanted);
@@ -26,7 +26,7 @@ static void reportNoInterface(Context &c, Expr *expr, const Type *from, const Ty
            "target when the instance has it");
     return;
   }
-  auto &d = c.report(Code::noSuchInterface, expr->span,
+  auto &d = c.report(Code::NoSuchInterface, expr->span,
                      isInstance(from) ? "`" + typeName(from) + "` does not implement `" + name + "`"
                                       : "expected an instance that implements `" + name +
                                             "`, found " + typeName(from),
@@ -37,33 +37,33 @@ static void reportNoInterface(Context &c, Expr *expr, const Type *from, const Ty
     if (pou->isBlock() && pou->library->isUser)
       d.help("declare it: `FUNCTION_BLOCK " + std::string(pou->name.text) + " IMPLEMENTS " + name +
              "`");
-  } else if (from->kind == TypeKind::pointer && isInstance(typeAs<PointerType>(from)->pointee)) {
+  } else if (from->kind == TypeKind::Pointer && isInstance(typeAs<PointerType>(from)->pointee)) {
     d.help("follow the pointer: `" + text + "^`");
   }
 }
 
 bool coerceToInterface(Context &c, Expr *expr, const Type *type) {
   const Type *from = expr->type;
-  if (type->kind != TypeKind::interface)
+  if (type->kind != TypeKind::Interface)
     return false;
-  if (expr->constant != nullptr && from->kind == TypeKind::anyInteger &&
+  if (expr->constant != nullptr && from->kind == TypeKind::AnyInteger &&
       expr->constant->integer == 0) {
     setTarget(expr, type);
     return true;
   }
-  const bool convertible = (isInstance(from) || from->kind == TypeKind::interface) &&
+  const bool convertible = (isInstance(from) || from->kind == TypeKind::Interface) &&
                            convertsTo(typeAs<PouType>(from)->symbol, typeAs<PouType>(type)->symbol);
   if (!convertible) {
     reportNoInterface(c, expr, from, type);
     return true;
   }
-  const bool isReference = expr->kind == ExprKind::call &&
-                           as<CallExpr>(expr)->resolved == Callee::method &&
-                           as<CallExpr>(expr)->pou->result->type->kind == TypeKind::reference;
-  if (isInstance(from) && !isReference && expr->kind != ExprKind::name &&
-      expr->kind != ExprKind::member && expr->kind != ExprKind::index &&
-      expr->kind != ExprKind::deref) {
-    c.report(Code::notAssignable, expr->span, "an interface needs an instance that stays",
+  const bool isReference = expr->kind == ExprKind::Call &&
+                           as<CallExpr>(expr)->resolved == Callee::Method &&
+                           as<CallExpr>(expr)->pou->result->type->kind == TypeKind::Reference;
+  if (isInstance(from) && !isReference && expr->kind != ExprKind::Name &&
+      expr->kind != ExprKind::Member && expr->kind != ExprKind::Index &&
+      expr->kind != ExprKind::Deref) {
+    c.report(Code::NotAssignable, expr->span, "an interface needs an instance that stays",
              "this is a copy that goes away")
         .help("store it in a variable first");
     return true;

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_EXPRESSIONS_INTERNAL_HPP
+#define STRIDE_COMPILER_SEMANTICS_EXPRESSIONS_INTERNAL_HPP
 // What the sources of this folder have in common.
 
 #include "compiler/semantics/context/context.hpp"
@@ -46,3 +47,5 @@ const Type *useProperty(Context &c, ast::Expr *expr, PropertySymbol *property,
 bool coerceToInterface(Context &c, ast::Expr *expr, const Type *type);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_EXPRESSIONS_INTERNAL_HPP

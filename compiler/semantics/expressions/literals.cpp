@@ -19,49 +19,49 @@ using namespace ast;
 /// The type and the value of a literal without its prefix.
 static const Type *valueOfLiteral(Context &c, const Literal *expr, ConstValue &value) {
   const auto ofType = [&](TypeKind kind) {
-    value.integer = static_cast<std::int64_t>(expr->integer);
+    value.integer = static_cast<int64_t>(expr->integer);
     return elementaryType(kind);
   };
   switch (expr->literal) {
-  case LiteralKind::boolean:
-    return ofType(TypeKind::boolean);
-  case LiteralKind::integer: {
-    const std::uint64_t most = std::uint64_t{1} << 63U;
+  case LiteralKind::Boolean:
+    return ofType(TypeKind::Boolean);
+  case LiteralKind::Integer: {
+    const uint64_t most = uint64_t{1} << 63U;
     const bool untyped = expr->integer < most || (expr->negative && expr->integer == most);
     value.integer =
-        static_cast<std::int64_t>(expr->negative && untyped ? 0 - expr->integer : expr->integer);
-    return elementaryType(untyped ? TypeKind::anyInteger : TypeKind::ulint);
+        static_cast<int64_t>(expr->negative && untyped ? 0 - expr->integer : expr->integer);
+    return elementaryType(untyped ? TypeKind::AnyInteger : TypeKind::Ulint);
   }
-  case LiteralKind::real:
-    value.kind = ConstKind::real;
+  case LiteralKind::Real:
+    value.kind = ConstKind::Real;
     value.real = expr->negative ? -expr->real : expr->real;
-    return elementaryType(TypeKind::anyReal);
-  case LiteralKind::string:
-  case LiteralKind::wstring: {
-    const bool wide = expr->literal == LiteralKind::wstring;
-    value.kind = ConstKind::string;
+    return elementaryType(TypeKind::AnyReal);
+  case LiteralKind::String:
+  case LiteralKind::Wstring: {
+    const bool wide = expr->literal == LiteralKind::Wstring;
+    value.kind = ConstKind::String;
     value.text = expr->text;
-    return c.types.string(
-        wide, static_cast<std::uint32_t>(std::max<std::size_t>(textLength(expr->text, wide), 1)));
+    return c.types.string(wide,
+                          static_cast<uint32_t>(std::max<size_t>(textLength(expr->text, wide), 1)));
   }
-  case LiteralKind::time:
-    return ofType(TypeKind::time);
-  case LiteralKind::ltime:
-    return ofType(TypeKind::ltime);
-  case LiteralKind::date:
-    return ofType(TypeKind::date);
-  case LiteralKind::ldate:
-    return ofType(TypeKind::ldate);
-  case LiteralKind::tod:
-    return ofType(TypeKind::tod);
-  case LiteralKind::ltod:
-    return ofType(TypeKind::ltod);
-  case LiteralKind::dt:
-    return ofType(TypeKind::dt);
-  case LiteralKind::ldt:
-    return ofType(TypeKind::ldt);
+  case LiteralKind::Time:
+    return ofType(TypeKind::Time);
+  case LiteralKind::Ltime:
+    return ofType(TypeKind::Ltime);
+  case LiteralKind::Date:
+    return ofType(TypeKind::Date);
+  case LiteralKind::Ldate:
+    return ofType(TypeKind::Ldate);
+  case LiteralKind::Tod:
+    return ofType(TypeKind::Tod);
+  case LiteralKind::Ltod:
+    return ofType(TypeKind::Ltod);
+  case LiteralKind::Dt:
+    return ofType(TypeKind::Dt);
+  case LiteralKind::Ldt:
+    return ofType(TypeKind::Ldt);
   }
-  return elementaryType(TypeKind::error);
+  return elementaryType(TypeKind::Error);
 }
 
 const Type *checkLiteral(Context &c, Literal *expr) {
@@ -71,14 +71,14 @@ const Type *checkLiteral(Context &c, Literal *expr) {
     const Type *named = findElementaryType(expr->typeName.id->lower);
     if (named == nullptr) {
       reportUnknown(c, expr->typeName, true);
-      return elementaryType(TypeKind::error);
+      return elementaryType(TypeKind::Error);
     }
     if (!constantFits(value, type, named)) {
-      c.report(Code::constantOverflow, expr->span,
+      c.report(Code::ConstantOverflow, expr->span,
                "`" + std::string(c.program.sources.text(expr->span)) + "` is not a value of " +
                    typeName(named),
                "does not fit");
-      return elementaryType(TypeKind::error);
+      return elementaryType(TypeKind::Error);
     }
     value = convertConstant(value, type, named).value_or(value);
     if (!isString(named)) // `STRING#'…'` is as long as its text
@@ -90,31 +90,31 @@ const Type *checkLiteral(Context &c, Literal *expr) {
 
 const Type *checkEnumLiteral(Context &c, EnumLiteralExpr *expr) {
   Symbol *symbol = lookup(c, expr->typeName);
-  if (symbol == nullptr || symbol->kind != SymbolKind::type) {
+  if (symbol == nullptr || symbol->kind != SymbolKind::Type) {
     if (symbol == nullptr)
       reportUnknown(c, expr->typeName, true);
     else
-      c.report(Code::notAType, expr->typeName.span,
+      c.report(Code::NotAType, expr->typeName.span,
                "`" + std::string(expr->typeName.text) + "` is not a type",
                "this is " + describe(symbol));
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   }
   auto *type = static_cast<TypeSymbol *>(symbol);
   resolve(c, type);
-  if (type->type->kind == TypeKind::enumeration) {
+  if (type->type->kind == TypeKind::Enumeration) {
     if (EnumeratorSymbol *e = findEnumerator(typeAs<EnumType>(type->type), expr->enumerator.id)) {
       expr->symbol = e;
       return useSymbol(c, expr, e, expr->enumerator);
     }
   }
   if (!isError(type->type)) {
-    auto &d = c.report(Code::unknownEnumerator, expr->enumerator.span,
+    auto &d = c.report(Code::UnknownEnumerator, expr->enumerator.span,
                        "`" + std::string(type->name.text) + "` has no enumerator `" +
                            std::string(expr->enumerator.text) + "`",
                        "not one of its values");
     helpMembers(d, expr->enumerator, memberNames(type->type));
   }
-  return elementaryType(TypeKind::error);
+  return elementaryType(TypeKind::Error);
 }
 
 } // namespace stc::sema

@@ -16,13 +16,13 @@ using namespace ast;
 
 /// `THIS^` or `SUPER^`
 static bool isSelf(const Expr *expr) {
-  if (expr->kind != ExprKind::deref)
+  if (expr->kind != ExprKind::Deref)
     return false;
   const Expr *pointer = as<DerefExpr>(expr)->base;
-  if (pointer->kind != ExprKind::name)
+  if (pointer->kind != ExprKind::Name)
     return false;
   const Symbol *symbol = as<NameExpr>(pointer)->symbol;
-  return symbol != nullptr && symbol->kind == SymbolKind::self;
+  return symbol != nullptr && symbol->kind == SymbolKind::Self;
 }
 
 const Type *checkMember(Context &c, MemberExpr *expr) {
@@ -33,20 +33,20 @@ const Type *checkMember(Context &c, MemberExpr *expr) {
   if (Symbol *space = resolveNamespace(c, expr->base)) {
     Symbol *found = nullptr;
     std::vector<std::string_view> candidates;
-    if (space->kind == SymbolKind::type) {
+    if (space->kind == SymbolKind::Type) {
       auto *type = static_cast<TypeSymbol *>(space);
       resolve(c, type);
-      if (type->type->kind == TypeKind::enumeration)
+      if (type->type->kind == TypeKind::Enumeration)
         found = findEnumerator(typeAs<EnumType>(type->type), expr->name.id);
       candidates = memberNames(type->type);
-      if (type->type->kind != TypeKind::enumeration) {
-        auto &d = c.report(Code::notAVariable, expr->base->span,
+      if (type->type->kind != TypeKind::Enumeration) {
+        auto &d = c.report(Code::NotAVariable, expr->base->span,
                            "`" + std::string(space->name.text) + "` is a type, not a variable",
                            "only variables have members");
         d.help("declare a variable: `x : " + std::string(space->name.text) + ";`");
-        return elementaryType(TypeKind::error);
+        return elementaryType(TypeKind::Error);
       }
-    } else if (space->kind == SymbolKind::globals) {
+    } else if (space->kind == SymbolKind::Globals) {
       auto *list = static_cast<GlobalsSymbol *>(space);
       const auto it = list->scope.find(expr->name.id);
       found = it == list->scope.end() ? nullptr : it->second;
@@ -54,18 +54,18 @@ const Type *checkMember(Context &c, MemberExpr *expr) {
         candidates.push_back(v->name.text);
     } else {
       found = nameInSpace(c, space, expr->name);
-      if (space->kind == SymbolKind::space)
+      if (space->kind == SymbolKind::Space)
         for (const auto &[id, symbol] : static_cast<NamespaceSymbol *>(space)->names)
           candidates.push_back(symbol->name.text);
     }
     if (found == nullptr) {
       const Code code =
-          space->kind == SymbolKind::type ? Code::unknownEnumerator : Code::unknownMember;
+          space->kind == SymbolKind::Type ? Code::UnknownEnumerator : Code::UnknownMember;
       auto &d = c.report(code, expr->name.span,
                          "`" + std::string(space->name.text) + "` has no `" + name + "`",
                          "not found in " + describe(space));
       helpMembers(d, expr->name, candidates);
-      return elementaryType(TypeKind::error);
+      return elementaryType(TypeKind::Error);
     }
     expr->symbol = found;
     return useSymbol(c, expr, found, expr->name);
@@ -82,7 +82,7 @@ const Type *checkMemberOf(Context &c, MemberExpr *expr, const Type *base) {
     return base;
   if (bitByName(c, expr))
     return checkBit(c, expr);
-  if (isInstance(base) || base->kind == TypeKind::interface) {
+  if (isInstance(base) || base->kind == TypeKind::Interface) {
     PouSymbol *pou = typeAs<PouType>(base)->symbol;
     declare(c, pou);
     if (Symbol *member = memberNamed(pou, expr->name.id)) {
@@ -90,15 +90,15 @@ const Type *checkMemberOf(Context &c, MemberExpr *expr, const Type *base) {
       return useSymbol(c, expr, member, expr->name);
     }
   }
-  if (base->kind != TypeKind::structure && !isInstance(base) && base->kind != TypeKind::interface) {
-    auto &d = c.report(Code::unknownMember, expr->name.span, typeName(base) + " has no members",
+  if (base->kind != TypeKind::Structure && !isInstance(base) && base->kind != TypeKind::Interface) {
+    auto &d = c.report(Code::UnknownMember, expr->name.span, typeName(base) + " has no members",
                        "`." + name + "` is not possible here");
-    if (base->kind == TypeKind::pointer)
+    if (base->kind == TypeKind::Pointer)
       d.help("follow the pointer first: `" + std::string(c.program.sources.text(expr->base->span)) +
              "^." + name + "`");
     else if (isInteger(underlying(base)))
       d.help("a bit is selected by its number, `.3`, or by the name of an integer constant");
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   }
   VarSymbol *member = findMember(c, base, expr->name.id);
   if (member != nullptr &&
@@ -106,24 +106,24 @@ const Type *checkMemberOf(Context &c, MemberExpr *expr, const Type *base) {
     member = nullptr; // names that are only visible inside the POU
   if (member == nullptr) {
     // `w.cBit`: a bit by the name of a constant belongs to integers, which were handled above.
-    auto &d = c.report(Code::unknownMember, expr->name.span,
+    auto &d = c.report(Code::UnknownMember, expr->name.span,
                        "`" + typeName(base) + "` has no member `" + name + "`", "unknown member");
     helpMembers(d, expr->name, memberNames(base));
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   }
-  const Access access = member->decl == nullptr ? Access::none : member->decl->access;
-  if (access == Access::privateA && member->owner != nullptr &&
+  const Access access = member->decl == nullptr ? Access::None : member->decl->access;
+  if (access == Access::Private && member->owner != nullptr &&
       !requireAccess(c, expr->name.span, member, member->owner, access))
-    return elementaryType(TypeKind::error);
-  if (member->owner != nullptr && access != Access::publicA && !insideOf(c, member->owner) &&
-      (member->section == Section::temp ||
-       (member->section == Section::local && base->kind == TypeKind::functionBlock))) {
-    auto &d = c.report(Code::notAccessible, expr->name.span,
+    return elementaryType(TypeKind::Error);
+  if (member->owner != nullptr && access != Access::Public && !insideOf(c, member->owner) &&
+      (member->section == Section::Temp ||
+       (member->section == Section::Local && base->kind == TypeKind::FunctionBlock))) {
+    auto &d = c.report(Code::NotAccessible, expr->name.span,
                        "`" + name + "` is private to `" + typeName(base) + "`",
                        "only its own code can use it");
     noteDeclaration(d, member);
     d.help("make it a VAR_OUTPUT (or VAR_INPUT) of `" + typeName(base) + "`");
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   }
   expr->symbol = member;
   return useSymbol(c, expr, member, expr->name);

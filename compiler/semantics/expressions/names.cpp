@@ -16,48 +16,48 @@ using namespace ast;
 
 const Type *useSymbol(Context &c, Expr *expr, Symbol *symbol, const Name &name) {
   switch (symbol->kind) {
-  case SymbolKind::variable: {
+  case SymbolKind::Variable: {
     auto *variable = static_cast<VarSymbol *>(symbol);
     const Type *type = typeOf(c, variable);
     // A constant parameter has the caller's value.
     const bool parameter =
-        variable->section == Section::input || variable->section == Section::inOut;
+        variable->section == Section::Input || variable->section == Section::InOut;
     if (variable->isConstant && !parameter && isElementary(type)) {
       checkInitOf(c, variable);
       expr->constant = variable->constant;
     }
-    if (type->kind == TypeKind::reference)
+    if (type->kind == TypeKind::Reference)
       type = typeAs<PointerType>(type)->pointee;
     return type;
   }
-  case SymbolKind::enumerator: {
+  case SymbolKind::Enumerator: {
     const auto *e = static_cast<EnumeratorSymbol *>(symbol);
     expr->constant = c.makeConstant(integerValue(e->value));
     return e->type;
   }
-  case SymbolKind::pou: {
+  case SymbolKind::Pou: {
     auto *pou = static_cast<PouSymbol *>(symbol);
-    if (pou->decl->kind == DeclKind::program) {
+    if (pou->decl->kind == DeclKind::Program) {
       if (pou->isTemplate) {
         reportTemplate(c, name, pou);
-        return elementaryType(TypeKind::error);
+        return elementaryType(TypeKind::Error);
       }
       declare(c, pou);
       return pou->type;
     }
     if (pou->isMethod()) {
-      auto &d = c.report(Code::methodNotCalled, name.span,
+      auto &d = c.report(Code::MethodNotCalled, name.span,
                          "`" + std::string(name.text) + "` is " + describe(pou) + ", not a value",
                          "it has to be called");
       noteDeclaration(d, pou);
       d.help("call it: `" + std::string(name.text) + "()`");
-      return elementaryType(TypeKind::error);
+      return elementaryType(TypeKind::Error);
     }
     break;
   }
-  case SymbolKind::property:
+  case SymbolKind::Property:
     return useProperty(c, expr, static_cast<PropertySymbol *>(symbol), name);
-  case SymbolKind::self: {
+  case SymbolKind::Self: {
     auto *self = static_cast<SelfSymbol *>(symbol);
     declare(c, self->block);
     return c.types.pointer(self->block->type);
@@ -66,80 +66,80 @@ const Type *useSymbol(Context &c, Expr *expr, Symbol *symbol, const Name &name) 
     break;
   }
   auto &d =
-      c.report(Code::notAVariable, name.span, "`" + std::string(name.text) + "` is not a value",
+      c.report(Code::NotAVariable, name.span, "`" + std::string(name.text) + "` is not a value",
                "this is " + describe(symbol));
   noteDeclaration(d, symbol);
-  if (symbol->kind == SymbolKind::pou && static_cast<PouSymbol *>(symbol)->isFunction())
+  if (symbol->kind == SymbolKind::Pou && static_cast<PouSymbol *>(symbol)->isFunction())
     d.help("call it: `" + std::string(name.text) + "(…)`");
-  else if (symbol->kind == SymbolKind::pou && static_cast<PouSymbol *>(symbol)->isInterface())
+  else if (symbol->kind == SymbolKind::Pou && static_cast<PouSymbol *>(symbol)->isInterface())
     d.help("declare a variable of it: `x : " + std::string(name.text) + ";`");
-  else if (symbol->kind == SymbolKind::pou)
+  else if (symbol->kind == SymbolKind::Pou)
     d.help("declare an instance of it: `x : " + std::string(name.text) + ";`");
-  else if (symbol->kind == SymbolKind::builtin)
+  else if (symbol->kind == SymbolKind::Builtin)
     d.help("call it: `" + std::string(name.text) + "(…)`");
-  return elementaryType(TypeKind::error);
+  return elementaryType(TypeKind::Error);
 }
 
 const Type *checkName(Context &c, NameExpr *expr, const Type *expected) {
   Symbol *symbol = lookup(c, expr->name);
   const bool isValue = symbol != nullptr &&
-                       (symbol->kind == SymbolKind::variable || symbol->kind == SymbolKind::pou ||
-                        symbol->kind == SymbolKind::property || symbol->kind == SymbolKind::self);
+                       (symbol->kind == SymbolKind::Variable || symbol->kind == SymbolKind::Pou ||
+                        symbol->kind == SymbolKind::Property || symbol->kind == SymbolKind::Self);
   if (!isValue) {
     const FoundEnumerator found = c.names.enumerator(c.scope, expr->name.id, expected);
     if (EnumeratorSymbol *e = found.enumerator) {
       if (found.isAmbiguous) {
         auto &d =
-            c.report(Code::ambiguousName, expr->name.span,
+            c.report(Code::AmbiguousName, expr->name.span,
                      "`" + std::string(expr->name.text) + "` is an enumerator of several types",
                      "which one is meant?");
         for (EnumeratorSymbol *other : c.scope.module->enumerators[expr->name.id])
           d.label(other->name.span, "of `" + typeName(other->type) + "`");
         d.help("write the type too: `" + typeName(e->type) + "." + std::string(expr->name.text) +
                "`");
-        return elementaryType(TypeKind::error);
+        return elementaryType(TypeKind::Error);
       }
       symbol = e;
     }
   }
   if (symbol == nullptr && expr->name.id->lower == "null") { // edition 3: the pointer to nothing
     expr->constant = c.makeConstant({});
-    return c.types.pointer(elementaryType(TypeKind::none));
+    return c.types.pointer(elementaryType(TypeKind::None));
   }
   if (symbol == nullptr) {
     if (!reportUnqualified(c, expr->name, expected))
       reportUnknown(c, expr->name, false);
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   }
   expr->symbol = symbol;
   return useSymbol(c, expr, symbol, expr->name);
 }
 
 Symbol *resolveNamespace(Context &c, Expr *expr) {
-  if (expr->kind == ExprKind::name) {
+  if (expr->kind == ExprKind::Name) {
     auto *name = as<NameExpr>(expr);
     Symbol *symbol = lookup(c, name->name);
-    if (symbol != nullptr && symbol->kind == SymbolKind::variable &&
+    if (symbol != nullptr && symbol->kind == SymbolKind::Variable &&
         isElementary(typeOf(c, static_cast<VarSymbol *>(symbol)))) {
       // `color : Color := Color.red`: a variable without members does not hide a type, list or
       // library.
       Symbol *other = lookupDeclared(c, name->name);
       if (other == symbol || other == nullptr)
         other = c.names.inLibraries(c.scope, name->name.id);
-      if (other != nullptr && other->kind == SymbolKind::type)
+      if (other != nullptr && other->kind == SymbolKind::Type)
         symbol = other;
     }
     // `GVL.x`, although a variable or a POU may have the list's name, is not decided here: the
     // value wins.
     if (symbol != nullptr &&
-        (symbol->kind == SymbolKind::type || symbol->kind == SymbolKind::library ||
-         symbol->kind == SymbolKind::globals || symbol->kind == SymbolKind::space)) {
+        (symbol->kind == SymbolKind::Type || symbol->kind == SymbolKind::Library ||
+         symbol->kind == SymbolKind::Globals || symbol->kind == SymbolKind::Space)) {
       name->symbol = symbol;
       return symbol;
     }
     return nullptr;
   }
-  if (expr->kind == ExprKind::member) { // Library.Enum.value, Library.GVL.x
+  if (expr->kind == ExprKind::Member) { // Library.Enum.value, Library.GVL.x
     auto *member = as<MemberExpr>(expr);
     if (member->bit >= 0)
       return nullptr;
@@ -148,8 +148,8 @@ Symbol *resolveNamespace(Context &c, Expr *expr) {
       return nullptr;
     Symbol *symbol = nameInSpace(c, base, member->name);
     if (symbol != nullptr &&
-        (symbol->kind == SymbolKind::type || symbol->kind == SymbolKind::space ||
-         symbol->kind == SymbolKind::globals)) {
+        (symbol->kind == SymbolKind::Type || symbol->kind == SymbolKind::Space ||
+         symbol->kind == SymbolKind::Globals)) {
       member->symbol = symbol;
       return symbol;
     }
@@ -158,13 +158,13 @@ Symbol *resolveNamespace(Context &c, Expr *expr) {
 }
 
 void followSelf(Context &c, Expr *&expr) {
-  if (expr->kind != ExprKind::name)
+  if (expr->kind != ExprKind::Name)
     return;
   const Name &name = as<NameExpr>(expr)->name;
   if (name.id->lower != "this" && name.id->lower != "super")
     return;
   const Symbol *symbol = lookup(c, name);
-  if (symbol == nullptr || symbol->kind != SymbolKind::self)
+  if (symbol == nullptr || symbol->kind != SymbolKind::Self)
     return;
   auto *deref = c.arena.make<DerefExpr>();
   deref->span = expr->span;

@@ -20,53 +20,53 @@ namespace {
 
 std::string_view spelling(BinaryOp op) {
   switch (op) {
-  case BinaryOp::add:
+  case BinaryOp::Add:
     return "+";
-  case BinaryOp::subtract:
+  case BinaryOp::Subtract:
     return "-";
-  case BinaryOp::multiply:
+  case BinaryOp::Multiply:
     return "*";
-  case BinaryOp::divide:
+  case BinaryOp::Divide:
     return "/";
-  case BinaryOp::modulo:
+  case BinaryOp::Modulo:
     return "MOD";
-  case BinaryOp::power:
+  case BinaryOp::Power:
     return "**";
-  case BinaryOp::equal:
+  case BinaryOp::Equal:
     return "=";
-  case BinaryOp::notEqual:
+  case BinaryOp::NotEqual:
     return "<>";
-  case BinaryOp::less:
+  case BinaryOp::Less:
     return "<";
-  case BinaryOp::lessEqual:
+  case BinaryOp::LessEqual:
     return "<=";
-  case BinaryOp::greater:
+  case BinaryOp::Greater:
     return ">";
-  case BinaryOp::greaterEqual:
+  case BinaryOp::GreaterEqual:
     return ">=";
-  case BinaryOp::logicalAnd:
+  case BinaryOp::LogicalAnd:
     return "AND";
-  case BinaryOp::logicalOr:
+  case BinaryOp::LogicalOr:
     return "OR";
-  case BinaryOp::logicalXor:
+  case BinaryOp::LogicalXor:
     return "XOR";
-  case BinaryOp::andThen:
+  case BinaryOp::AndThen:
     return "AND_THEN";
-  case BinaryOp::orElse:
+  case BinaryOp::OrElse:
     return "OR_ELSE";
   }
   return {};
 }
 
-bool isComparison(BinaryOp op) { return op >= BinaryOp::equal && op <= BinaryOp::greaterEqual; }
+bool isComparison(BinaryOp op) { return op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual; }
 
-bool isLogical(BinaryOp op) { return op >= BinaryOp::logicalAnd; }
+bool isLogical(BinaryOp op) { return op >= BinaryOp::LogicalAnd; }
 
 } // namespace
 
 const Type *operatorError(Context &c, BinaryExpr *expr) {
   const std::string op(spelling(expr->op));
-  auto &d = c.report(Code::operatorNotDefined, expr->opSpan,
+  auto &d = c.report(Code::OperatorNotDefined, expr->opSpan,
                      "`" + op + "` is not defined for " + typeName(expr->left->type) + " and " +
                          typeName(expr->right->type),
                      "no such operation");
@@ -75,25 +75,25 @@ const Type *operatorError(Context &c, BinaryExpr *expr) {
   const Type *l = underlying(expr->left->type);
   const Type *r = underlying(expr->right->type);
   const auto aggregate = [](const Type *t) {
-    return t->kind == TypeKind::array || t->kind == TypeKind::structure || isInstance(t);
+    return t->kind == TypeKind::Array || t->kind == TypeKind::Structure || isInstance(t);
   };
   if (isComparison(expr->op) && aggregate(l) && aggregate(r))
-    d.help(l->kind == TypeKind::array ? "compare the elements one by one, in a loop"
+    d.help(l->kind == TypeKind::Array ? "compare the elements one by one, in a loop"
                                       : "compare the members one by one: `a.x = b.x AND …`");
-  else if (isString(l) && isString(r) && expr->op == BinaryOp::add)
+  else if (isString(l) && isString(r) && expr->op == BinaryOp::Add)
     d.help("join strings with CONCAT(…, …)");
-  else if (l->kind == TypeKind::boolean || r->kind == TypeKind::boolean) {
+  else if (l->kind == TypeKind::Boolean || r->kind == TypeKind::Boolean) {
     if (!isLogical(expr->op))
       d.help("convert the BOOL first: `BOOL_TO_INT(…)`");
-    else if (expr->left->kind == ExprKind::binary && isNumber(r) &&
-             as<BinaryExpr>(expr->left)->op == BinaryOp::equal)
+    else if (expr->left->kind == ExprKind::Binary && isNumber(r) &&
+             as<BinaryExpr>(expr->left)->op == BinaryOp::Equal)
       d.help("each side is a condition of its own: `… " + op + " " +
              std::string(c.program.sources.text(as<BinaryExpr>(expr->left)->left->span)) + " = " +
              std::string(c.program.sources.text(expr->right->span)) + "`");
     else if (isNumber(l) || isNumber(r))
       d.help("compare the number first: `… <> 0`");
   }
-  return elementaryType(TypeKind::error);
+  return elementaryType(TypeKind::Error);
 }
 
 static const Type *fold(Context &c, BinaryExpr *expr) {
@@ -105,7 +105,7 @@ static const Type *fold(Context &c, BinaryExpr *expr) {
     const Type *duration = underlying(expr->type);
     const Expr *number = isNumber(underlying(expr->left->type)) ? expr->left : expr->right;
     if (isDuration(duration) && isNumber(underlying(number->type)) &&
-        l->kind == ConstKind::integer && r->kind == ConstKind::integer &&
+        l->kind == ConstKind::Integer && r->kind == ConstKind::Integer &&
         number->constant->integer >= 0) {
       if (const auto value = foldBinary(expr->op, *l, *r, duration))
         expr->constant = c.makeConstant(*value);
@@ -118,12 +118,12 @@ static const Type *fold(Context &c, BinaryExpr *expr) {
     return expr->type;
   if (const auto value = foldBinary(expr->op, *left, *right, expr->operandType)) {
     expr->constant = c.makeConstant(*value);
-  } else if (expr->operandType->kind == TypeKind::anyInteger) {
-    if (expr->op != BinaryOp::power &&
-        !((expr->op == BinaryOp::divide || expr->op == BinaryOp::modulo) && right->integer == 0))
-      c.report(Code::constantOverflow, expr->span,
+  } else if (expr->operandType->kind == TypeKind::AnyInteger) {
+    if (expr->op != BinaryOp::Power &&
+        !((expr->op == BinaryOp::Divide || expr->op == BinaryOp::Modulo) && right->integer == 0))
+      c.report(Code::ConstantOverflow, expr->span,
                "this constant expression does not fit into 64 bits", "too large");
-    expr->type = elementaryType(TypeKind::error);
+    expr->type = elementaryType(TypeKind::Error);
   }
   return expr->type;
 }
@@ -131,15 +131,15 @@ static const Type *fold(Context &c, BinaryExpr *expr) {
 /// Reports an operand that the operator does not take.
 static bool takesOperand(Context &c, const UnaryExpr *u) {
   const Type *own = underlying(u->operand->type);
-  const bool isNot = u->op == UnaryOp::logicalNot;
-  if (isNot ? own->kind == TypeKind::boolean || isInteger(own) || own->kind == TypeKind::anyInteger
-            : isNumber(own) || own->kind == TypeKind::ltime)
+  const bool isNot = u->op == UnaryOp::LogicalNot;
+  if (isNot ? own->kind == TypeKind::Boolean || isInteger(own) || own->kind == TypeKind::AnyInteger
+            : isNumber(own) || own->kind == TypeKind::Ltime)
     return true;
-  const std::string op = isNot ? "NOT" : u->op == UnaryOp::negate ? "-" : "+";
-  auto &d = c.report(Code::operatorNotDefined, u->span,
+  const std::string op = isNot ? "NOT" : u->op == UnaryOp::Negate ? "-" : "+";
+  auto &d = c.report(Code::OperatorNotDefined, u->span,
                      "`" + op + "` is not defined for " + typeName(u->operand->type),
                      isNot ? "expected BOOL, an integer or a bit string" : "expected a number");
-  if (!isNot && own->kind == TypeKind::boolean)
+  if (!isNot && own->kind == TypeKind::Boolean)
     d.help("negate a BOOL with NOT");
   return false;
 }
@@ -148,9 +148,9 @@ static bool takesOperand(Context &c, const UnaryExpr *u) {
 static void setUnaryType(UnaryExpr *u, const Type *expected) {
   Expr *operand = u->operand;
   const Type *own = underlying(operand->type);
-  if (u->op == UnaryOp::logicalNot) {
+  if (u->op == UnaryOp::LogicalNot) {
     const Type *wanted = expected != nullptr ? underlying(expected) : nullptr;
-    if (own->kind != TypeKind::anyInteger)
+    if (own->kind != TypeKind::AnyInteger)
       u->type = own;
     else if (wanted != nullptr && isInteger(wanted) && operand->constant != nullptr &&
              constantFits(*operand->constant, own, wanted))
@@ -158,26 +158,26 @@ static void setUnaryType(UnaryExpr *u, const Type *expected) {
     else
       u->type = settle(operand);
     setTarget(operand, u->type);
-  } else if (isUntyped(own) || isReal(own) || own->kind == TypeKind::ltime) {
+  } else if (isUntyped(own) || isReal(own) || own->kind == TypeKind::Ltime) {
     u->type = own;
   } else {
     u->common = unwidened(operand);
     u->type = widened(own);
-    if (u->op == UnaryOp::negate && !isSignedInteger(u->type)) // -UDINT needs a sign
+    if (u->op == UnaryOp::Negate && !isSignedInteger(u->type)) // -UDINT needs a sign
       u->type =
-          elementaryType(isBitString(own) && bitWidth(own) < 32 ? TypeKind::dint : TypeKind::lint);
+          elementaryType(isBitString(own) && bitWidth(own) < 32 ? TypeKind::Dint : TypeKind::Lint);
     setTarget(operand, u->type);
   }
 }
 
 static void foldUnaryOf(Context &c, UnaryExpr *u) {
   const Expr *operand = u->operand;
-  if (u->op == UnaryOp::negate && operand->kind == ExprKind::literal &&
-      operand->type->kind == TypeKind::ulint && !as<Literal>(operand)->typeName &&
-      operand->constant->integer == std::numeric_limits<std::int64_t>::min()) {
+  if (u->op == UnaryOp::Negate && operand->kind == ExprKind::Literal &&
+      operand->type->kind == TypeKind::Ulint && !as<Literal>(operand)->typeName &&
+      operand->constant->integer == std::numeric_limits<int64_t>::min()) {
     // `-9223372036854775808` is LINT's smallest value, written with a magnitude that is none.
     u->common = nullptr;
-    u->type = elementaryType(TypeKind::anyInteger);
+    u->type = elementaryType(TypeKind::AnyInteger);
     u->constant = operand->constant;
     return;
   }
@@ -188,21 +188,21 @@ static void foldUnaryOf(Context &c, UnaryExpr *u) {
   if (folded) {
     u->constant = c.makeConstant(*folded);
   } else if (isUntyped(u->type)) {
-    c.report(Code::constantOverflow, u->span, "this constant expression does not fit into 64 bits",
+    c.report(Code::ConstantOverflow, u->span, "this constant expression does not fit into 64 bits",
              "too large");
-    u->type = elementaryType(TypeKind::error);
+    u->type = elementaryType(TypeKind::Error);
   }
 }
 
 const Type *checkUnary(Context &c, UnaryExpr *expr, const Type *expected) {
   // Long chains (NOT NOT …, - - …) must not eat the stack.
   std::vector<UnaryExpr *> chain{expr};
-  while (chain.back()->operand->kind == ExprKind::unary)
+  while (chain.back()->operand->kind == ExprKind::Unary)
     chain.push_back(as<UnaryExpr>(chain.back()->operand));
   check(c, chain.back()->operand, expected);
-  for (std::size_t i = chain.size(); i-- > 0;) {
+  for (size_t i = chain.size(); i-- > 0;) {
     UnaryExpr *u = chain[i];
-    u->type = elementaryType(TypeKind::error);
+    u->type = elementaryType(TypeKind::Error);
     if (isError(u->operand->type) || refuseStrict(c, u->operand) || !takesOperand(c, u))
       continue;
     setUnaryType(u, expected);
@@ -214,20 +214,20 @@ const Type *checkUnary(Context &c, UnaryExpr *expr, const Type *expected) {
 const Type *checkBinary(Context &c, BinaryExpr *expr, const Type *expected) {
   // Sums of ten thousand terms lean to the left; walk down instead of recursing.
   std::vector<BinaryExpr *> chain{expr};
-  while (chain.back()->left->kind == ExprKind::binary)
+  while (chain.back()->left->kind == ExprKind::Binary)
     chain.push_back(as<BinaryExpr>(chain.back()->left));
   const bool comparison = isComparison(chain.back()->op);
   check(c, chain.back()->left, comparison ? nullptr : expected);
-  for (std::size_t i = chain.size(); i-- > 0;) {
+  for (size_t i = chain.size(); i-- > 0;) {
     BinaryExpr *b = chain[i];
     const Type *hint = isComparison(b->op) ? b->left->type : expected;
     check(c, b->right, hint);
     // `positive = direction`: the enumerator on the left takes its type from the right side.
-    b->type = elementaryType(TypeKind::error);
+    b->type = elementaryType(TypeKind::Error);
     if (isError(b->left->type) || isError(b->right->type))
       continue;
-    if (b->left->type->kind == TypeKind::none || b->right->type->kind == TypeKind::none) {
-      c.report(Code::noValue, (b->left->type->kind == TypeKind::none ? b->left : b->right)->span,
+    if (b->left->type->kind == TypeKind::None || b->right->type->kind == TypeKind::None) {
+      c.report(Code::NoValue, (b->left->type->kind == TypeKind::None ? b->left : b->right)->span,
                "this call has no value", "the function has no result type");
       continue;
     }
@@ -235,7 +235,7 @@ const Type *checkBinary(Context &c, BinaryExpr *expr, const Type *expected) {
       b->type = checkComparison(c, b);
     else if (isLogical(b->op))
       b->type = checkLogical(c, b);
-    else if (b->op == BinaryOp::power)
+    else if (b->op == BinaryOp::Power)
       b->type = checkPower(c, b);
     else
       b->type = checkArithmetic(c, b);
@@ -246,10 +246,10 @@ const Type *checkBinary(Context &c, BinaryExpr *expr, const Type *expected) {
 }
 
 bool refuseStrict(Context &c, Expr *expr) {
-  if (expr->type->kind != TypeKind::enumeration || !typeAs<EnumType>(expr->type)->strict)
+  if (expr->type->kind != TypeKind::Enumeration || !typeAs<EnumType>(expr->type)->strict)
     return false;
   const std::string name = typeName(expr->type);
-  auto &d = c.report(Code::strictEnumeration, expr->span,
+  auto &d = c.report(Code::StrictEnumeration, expr->span,
                      "`" + name + "` is a strict enumeration, nothing is computed with it",
                      "this is " + name);
   noteDeclaration(d, typeAs<EnumType>(expr->type)->symbol);
@@ -259,30 +259,30 @@ bool refuseStrict(Context &c, Expr *expr) {
 
 static const Type *checkLogical(Context &c, BinaryExpr *expr) {
   if (refuseStrict(c, expr->left) || refuseStrict(c, expr->right))
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   const Type *l = underlying(expr->left->type);
   const Type *r = underlying(expr->right->type);
-  const Type *boolean = elementaryType(TypeKind::boolean);
+  const Type *boolean = elementaryType(TypeKind::Boolean);
   const auto isBool = [&](const Expr *e, const Type *t) {
-    return t->kind == TypeKind::boolean ||
+    return t->kind == TypeKind::Boolean ||
            (e->constant != nullptr && constantFits(*e->constant, e->type, boolean));
   };
-  const bool shortCircuit = expr->op == BinaryOp::andThen || expr->op == BinaryOp::orElse;
-  if ((l->kind == TypeKind::boolean || r->kind == TypeKind::boolean || shortCircuit) &&
+  const bool shortCircuit = expr->op == BinaryOp::AndThen || expr->op == BinaryOp::OrElse;
+  if ((l->kind == TypeKind::Boolean || r->kind == TypeKind::Boolean || shortCircuit) &&
       isBool(expr->left, l) && isBool(expr->right, r)) {
     expr->operandType = boolean;
-  } else if (!shortCircuit && l->kind == TypeKind::anyInteger && r->kind == TypeKind::anyInteger) {
+  } else if (!shortCircuit && l->kind == TypeKind::AnyInteger && r->kind == TypeKind::AnyInteger) {
     expr->operandType = l;
     return l;
   } else {
     // An address is a number here: `ADR(x) AND 16#3`.
     for (Expr *side : {expr->left, expr->right}) {
-      if (!shortCircuit && underlying(side->type)->kind == TypeKind::pointer) {
-        const Type *address = elementaryType(TypeKind::ulint);
+      if (!shortCircuit && underlying(side->type)->kind == TypeKind::Pointer) {
+        const Type *address = elementaryType(TypeKind::Ulint);
         setTarget(side, address);
         Expr *other = side == expr->left ? expr->right : expr->left;
         const Type *o = underlying(other->type);
-        if (!isInteger(o) && o->kind != TypeKind::anyInteger)
+        if (!isInteger(o) && o->kind != TypeKind::AnyInteger)
           return operatorError(c, expr);
         setTarget(other, address);
         expr->operandType = address;
@@ -290,17 +290,17 @@ static const Type *checkLogical(Context &c, BinaryExpr *expr) {
       }
     }
     const auto integral = [](const Type *t) {
-      return isInteger(t) || t->kind == TypeKind::anyInteger;
+      return isInteger(t) || t->kind == TypeKind::AnyInteger;
     };
     if (shortCircuit || !integral(l) || !integral(r))
       return operatorError(c, expr);
     expr->operandType = commonOf(expr->left, expr->right);
     if (expr->operandType == nullptr) { // bit patterns have no sign: take the unsigned one
-      expr->operandType = isSignedInteger(l) || l->kind == TypeKind::anyInteger ? r : l;
+      expr->operandType = isSignedInteger(l) || l->kind == TypeKind::AnyInteger ? r : l;
       for (Expr *side : {expr->left, expr->right}) {
-        if (side->type->kind == TypeKind::anyInteger) { // a negative constant
+        if (side->type->kind == TypeKind::AnyInteger) { // a negative constant
           coerce(c, side, expr->operandType, {});
-          return elementaryType(TypeKind::error);
+          return elementaryType(TypeKind::Error);
         }
       }
     }

@@ -16,21 +16,21 @@ using namespace ast;
 const Type *checkPointerArithmetic(Context &c, BinaryExpr *expr) {
   const Type *l = underlying(expr->left->type);
   const Type *r = underlying(expr->right->type);
-  const Type *address = elementaryType(TypeKind::ulint);
-  const auto number = [](const Type *t) { return isInteger(t) || t->kind == TypeKind::anyInteger; };
-  const bool sum = expr->op == BinaryOp::add;
-  const bool difference = expr->op == BinaryOp::subtract;
-  const bool both = l->kind == TypeKind::pointer && r->kind == TypeKind::pointer;
+  const Type *address = elementaryType(TypeKind::Ulint);
+  const auto number = [](const Type *t) { return isInteger(t) || t->kind == TypeKind::AnyInteger; };
+  const bool sum = expr->op == BinaryOp::Add;
+  const bool difference = expr->op == BinaryOp::Subtract;
+  const bool both = l->kind == TypeKind::Pointer && r->kind == TypeKind::Pointer;
   if (both && difference)
     return address; // operandType stays null: bytes between the two
-  if (!both && (sum || (difference && l->kind == TypeKind::pointer)) &&
-      number(l->kind == TypeKind::pointer ? r : l)) {
-    Expr *offset = l->kind == TypeKind::pointer ? expr->right : expr->left;
-    if (offset->type->kind == TypeKind::anyInteger)
-      setTarget(offset, elementaryType(TypeKind::lint));
-    return l->kind == TypeKind::pointer ? l : r;
+  if (!both && (sum || (difference && l->kind == TypeKind::Pointer)) &&
+      number(l->kind == TypeKind::Pointer ? r : l)) {
+    Expr *offset = l->kind == TypeKind::Pointer ? expr->right : expr->left;
+    if (offset->type->kind == TypeKind::AnyInteger)
+      setTarget(offset, elementaryType(TypeKind::Lint));
+    return l->kind == TypeKind::Pointer ? l : r;
   }
-  if (both || sum || difference || !number(l->kind == TypeKind::pointer ? r : l))
+  if (both || sum || difference || !number(l->kind == TypeKind::Pointer ? r : l))
     return operatorError(c, expr);
   // An address as a number: `ADR(x) MOD 4`.
   expr->operandType = address;
@@ -43,7 +43,7 @@ bool comparePointers(BinaryExpr *expr) {
   const Type *l = underlying(expr->left->type);
   const Type *r = underlying(expr->right->type);
   const auto comparable = [](const Type *t) {
-    return t->kind == TypeKind::pointer || isInteger(t) || t->kind == TypeKind::anyInteger;
+    return t->kind == TypeKind::Pointer || isInteger(t) || t->kind == TypeKind::AnyInteger;
   };
   if (!comparable(l) || !comparable(r))
     return false;
@@ -52,12 +52,12 @@ bool comparePointers(BinaryExpr *expr) {
     return true;
   }
   const bool zero = expr->right->constant != nullptr && expr->right->constant->integer == 0;
-  if (l->kind == TypeKind::pointer && zero) {
+  if (l->kind == TypeKind::Pointer && zero) {
     expr->operandType = l;
     setTarget(expr->right, l);
     return true;
   }
-  expr->operandType = elementaryType(TypeKind::ulint);
+  expr->operandType = elementaryType(TypeKind::Ulint);
   setTarget(expr->left, expr->operandType);
   setTarget(expr->right, expr->operandType);
   return true;
@@ -65,19 +65,19 @@ bool comparePointers(BinaryExpr *expr) {
 
 bool coercePointer(Context &c, Expr *expr, const Type *type, std::string_view what) {
   const Type *from = expr->type;
-  const bool toPointer = type->kind == TypeKind::pointer;
-  const bool fromPointer = from->kind == TypeKind::pointer;
+  const bool toPointer = type->kind == TypeKind::Pointer;
+  const bool fromPointer = from->kind == TypeKind::Pointer;
   const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
   if (toPointer && fromPointer) {
     // The address of an array is that of its first element, too.
     const Type *first = typeAs<PointerType>(from)->pointee;
-    while (first->kind == TypeKind::array && first != typeAs<PointerType>(type)->pointee)
+    while (first->kind == TypeKind::Array && first != typeAs<PointerType>(type)->pointee)
       first = typeAs<ArrayType>(first)->element;
-    if (classify(from, type) != Conversion::free &&
+    if (classify(from, type) != Conversion::Free &&
         !isByteView(typeAs<PointerType>(type)->pointee) &&
         !isByteView(typeAs<PointerType>(from)->pointee) &&
         first != typeAs<PointerType>(type)->pointee) {
-      auto &d = c.report(Code::pointerOfOtherType, expr->span,
+      auto &d = c.report(Code::PointerOfOtherType, expr->span,
                          prefix + "this is a " + typeName(from) + ", not a " + typeName(type),
                          "what it points to will be read as another type");
       d.help("declare the pointer as `" + typeName(from) +
@@ -89,14 +89,14 @@ bool coercePointer(Context &c, Expr *expr, const Type *type, std::string_view wh
   }
   const bool null = expr->constant != nullptr && expr->constant->integer == 0;
   if (toPointer && ((isInteger(underlying(from)) && (null || bitWidth(from) >= 32)) ||
-                    from->kind == TypeKind::anyInteger)) {
+                    from->kind == TypeKind::AnyInteger)) {
     if (!null) {
-      auto &d = c.report(Code::pointerFromInteger, expr->span,
+      auto &d = c.report(Code::PointerFromInteger, expr->span,
                          prefix + "a number becomes an address: " + typeName(from) + " to " +
                              typeName(type),
                          "nothing says that there is a variable at this address");
       const std::string source(c.program.sources.text(expr->span));
-      if (from == typeAs<PointerType>(type)->pointee && expr->kind == ExprKind::name)
+      if (from == typeAs<PointerType>(type)->pointee && expr->kind == ExprKind::Name)
         d.suggest("take the address of `" + source + "`: `ADR(" + source + ")`", expr->span,
                   "ADR(" + source + ")");
       else
@@ -107,7 +107,7 @@ bool coercePointer(Context &c, Expr *expr, const Type *type, std::string_view wh
   }
   if (fromPointer && isInteger(type) && bitWidth(type) >= 32) {
     if (bitWidth(type) == 32)
-      c.report(Code::pointerAsInteger, expr->span,
+      c.report(Code::PointerAsInteger, expr->span,
                prefix + "an address has 64 bits, " + typeName(type) + " has 32",
                "works while the application's memory lies below 4 GiB")
           .help("keep it in a `" + typeName(from) + "` or in a variable of type `__UXINT`");
@@ -115,10 +115,10 @@ bool coercePointer(Context &c, Expr *expr, const Type *type, std::string_view wh
     return true;
   }
   // `diff : DINT := p - q`: the distance of two places in one variable.
-  if (isInteger(type) && bitWidth(type) == 32 && expr->kind == ExprKind::binary &&
-      as<BinaryExpr>(expr)->op == BinaryOp::subtract &&
-      underlying(as<BinaryExpr>(expr)->left->type)->kind == TypeKind::pointer &&
-      from->kind == TypeKind::ulint) {
+  if (isInteger(type) && bitWidth(type) == 32 && expr->kind == ExprKind::Binary &&
+      as<BinaryExpr>(expr)->op == BinaryOp::Subtract &&
+      underlying(as<BinaryExpr>(expr)->left->type)->kind == TypeKind::Pointer &&
+      from->kind == TypeKind::Ulint) {
     setTarget(expr, type);
     return true;
   }
@@ -127,18 +127,18 @@ bool coercePointer(Context &c, Expr *expr, const Type *type, std::string_view wh
 
 /// The variable of REFERENCE type that the expression names, or null.
 static VarSymbol *referenceVariable(Expr *expr) {
-  Symbol *symbol = expr->kind == ExprKind::name     ? as<NameExpr>(expr)->symbol
-                   : expr->kind == ExprKind::member ? as<MemberExpr>(expr)->symbol
+  Symbol *symbol = expr->kind == ExprKind::Name     ? as<NameExpr>(expr)->symbol
+                   : expr->kind == ExprKind::Member ? as<MemberExpr>(expr)->symbol
                                                     : nullptr;
-  auto *variable = symbol != nullptr && symbol->kind == SymbolKind::variable
+  auto *variable = symbol != nullptr && symbol->kind == SymbolKind::Variable
                        ? static_cast<VarSymbol *>(symbol)
                        : nullptr;
-  return variable != nullptr && variable->type->kind == TypeKind::reference ? variable : nullptr;
+  return variable != nullptr && variable->type->kind == TypeKind::Reference ? variable : nullptr;
 }
 
 bool isReference(Expr *expr) {
-  if (expr->kind == ExprKind::index)
-    return elementBeforeReference(as<IndexExpr>(expr))->kind == TypeKind::reference;
+  if (expr->kind == ExprKind::Index)
+    return elementBeforeReference(as<IndexExpr>(expr))->kind == TypeKind::Reference;
   return referenceVariable(expr) != nullptr;
 }
 
@@ -146,7 +146,7 @@ void checkReferenceAssign(Context &c, AssignStmt *stmt) {
   Expr *last = stmt->targets.back();
   if (!isReference(last)) {
     if (!isError(last->type))
-      c.report(Code::notAReference, last->span,
+      c.report(Code::NotAReference, last->span,
                "only a REFERENCE can be set with REF=", "this is " + typeName(last->type));
     check(c, stmt->value);
     return;
@@ -155,23 +155,23 @@ void checkReferenceAssign(Context &c, AssignStmt *stmt) {
   if (isError(value))
     return;
   const bool null = stmt->value->constant != nullptr && stmt->value->constant->integer == 0 &&
-                    (value->kind == TypeKind::anyInteger || value->kind == TypeKind::pointer);
+                    (value->kind == TypeKind::AnyInteger || value->kind == TypeKind::Pointer);
   if (null) { // `r REF= 0` makes it refer to nothing
     setTarget(stmt->value, c.types.pointer(last->type));
     return;
   }
-  const bool fromCall = stmt->value->kind == ExprKind::call &&
-                        as<CallExpr>(stmt->value)->resolved == Callee::function &&
+  const bool fromCall = stmt->value->kind == ExprKind::Call &&
+                        as<CallExpr>(stmt->value)->resolved == Callee::Function &&
                         as<CallExpr>(stmt->value)->pou->result != nullptr &&
-                        as<CallExpr>(stmt->value)->pou->result->type->kind == TypeKind::reference;
+                        as<CallExpr>(stmt->value)->pou->result->type->kind == TypeKind::Reference;
   if (!fromCall && !requireVariable(c, stmt->value, "refer to"))
     return;
   const bool isBit = isBitPlace(stmt->value);
   if (isBit)
-    c.report(Code::typeMismatch, stmt->value->span, "a reference cannot stand for a single bit",
+    c.report(Code::TypeMismatch, stmt->value->span, "a reference cannot stand for a single bit",
              "bits have no address");
   else if (!refersTo(value, last->type))
-    c.report(Code::typeMismatch, stmt->value->span,
+    c.report(Code::TypeMismatch, stmt->value->span,
              "expected " + typeName(last->type) + ", found " + typeName(value),
              "a reference needs a variable of exactly its type");
   else if (!fromCall)

@@ -13,10 +13,10 @@ namespace stc::sema {
 using namespace ast;
 
 PropertySymbol *propertyOf(const Expr *expr) {
-  const Symbol *symbol = expr->kind == ExprKind::name     ? as<NameExpr>(expr)->symbol
-                         : expr->kind == ExprKind::member ? as<MemberExpr>(expr)->symbol
+  const Symbol *symbol = expr->kind == ExprKind::Name     ? as<NameExpr>(expr)->symbol
+                         : expr->kind == ExprKind::Member ? as<MemberExpr>(expr)->symbol
                                                           : nullptr;
-  if (symbol == nullptr || symbol->kind != SymbolKind::property)
+  if (symbol == nullptr || symbol->kind != SymbolKind::Property)
     return nullptr;
   return const_cast<PropertySymbol *>(static_cast<const PropertySymbol *>(symbol));
 }
@@ -25,7 +25,7 @@ const Type *useProperty(Context &c, Expr *expr, PropertySymbol *property, const 
   declare(c, property->owner);
   const bool writing = c.assignTarget == expr;
   const Type *type = property->type;
-  const bool isReference = type->kind == TypeKind::reference;
+  const bool isReference = type->kind == TypeKind::Reference;
   if (isReference)
     type = typeAs<PointerType>(type)->pointee;
   const PouSymbol *accessor = writing && !isReference ? property->set : property->get;
@@ -33,7 +33,7 @@ const Type *useProperty(Context &c, Expr *expr, PropertySymbol *property, const 
     for (const PouSymbol *b = property->owner->base; b != nullptr && accessor == nullptr;
          b = b->base) {
       const auto it = b->members.find(property->name.id);
-      if (it != b->members.end() && it->second->kind == SymbolKind::property) {
+      if (it != b->members.end() && it->second->kind == SymbolKind::Property) {
         const auto *other = static_cast<const PropertySymbol *>(it->second);
         accessor = writing && !isReference ? other->set : other->get;
       }
@@ -41,15 +41,15 @@ const Type *useProperty(Context &c, Expr *expr, PropertySymbol *property, const 
   }
   if (accessor == nullptr) {
     const std::string text(name.text);
-    auto &d = writing ? c.report(Code::propertyReadOnly, name.span,
+    auto &d = writing ? c.report(Code::PropertyReadOnly, name.span,
                                  "the property `" + text + "` cannot be written", "it has no SET")
-                      : c.report(Code::propertyWriteOnly, name.span,
+                      : c.report(Code::PropertyWriteOnly, name.span,
                                  "the property `" + text + "` cannot be read", "it has no GET");
     noteDeclaration(d, property);
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   }
   if (!requireAccess(c, name.span, property, accessor->owner, memberAccess(accessor)))
-    return elementaryType(TypeKind::error);
+    return elementaryType(TypeKind::Error);
   return type;
 }
 
@@ -57,10 +57,10 @@ bool rejectProperty(Context &c, const Expr *expr, std::string_view action) {
   const Expr *at = expr;
   while (true) {
     if (const PropertySymbol *property = propertyOf(at)) {
-      if (property->type == nullptr || property->type->kind == TypeKind::reference)
+      if (property->type == nullptr || property->type->kind == TypeKind::Reference)
         return false;
       const bool part = at != expr;
-      auto &d = c.report(Code::propertyNotVariable, expr->span,
+      auto &d = c.report(Code::PropertyNotVariable, expr->span,
                          "cannot " + std::string(action) + (part ? " a part of" : "") +
                              " the property `" + std::string(property->name.text) + "`",
                          part ? "its GET gives a copy" : "a property is no variable");
@@ -70,12 +70,12 @@ bool rejectProperty(Context &c, const Expr *expr, std::string_view action) {
       return true;
     }
     switch (at->kind) {
-    case ExprKind::member:
+    case ExprKind::Member:
       if (isError(at->type) || as<MemberExpr>(at)->base->type == nullptr)
         return false;
       at = as<MemberExpr>(at)->base;
       break;
-    case ExprKind::index:
+    case ExprKind::Index:
       at = as<IndexExpr>(at)->base;
       break;
     default:

@@ -19,7 +19,7 @@ static bool requireWritable(Context &c, const Expr *expr, const VarSymbol *varia
   const std::string action(what);
   if (variable->isConstant) {
     auto &d =
-        c.report(Code::assignToConstant, expr->span,
+        c.report(Code::AssignToConstant, expr->span,
                  "cannot " + action + " the constant `" + std::string(variable->name.text) + "`",
                  "declared CONSTANT");
     noteDeclaration(d, variable);
@@ -27,11 +27,11 @@ static bool requireWritable(Context &c, const Expr *expr, const VarSymbol *varia
   }
   if (variable->location != nullptr && what == "assign to")
     reportInputWritten(c, expr, *variable->location);
-  const bool isOutput = expr->kind == ExprKind::member && variable->section == Section::output &&
+  const bool isOutput = expr->kind == ExprKind::Member && variable->section == Section::Output &&
                         !insideOf(c, variable->owner);
   if (!isOutput || what == "pass") // outputs may be passed on as in-outs (TimeAxis.Axis)
     return true;
-  auto &d = c.report(Code::assignToOutput, expr->span,
+  auto &d = c.report(Code::AssignToOutput, expr->span,
                      "cannot " + action + " the output `" + std::string(variable->name.text) +
                          "` of `" + std::string(variable->owner->name.text) + "`",
                      "only the block itself writes its outputs");
@@ -42,8 +42,8 @@ static bool requireWritable(Context &c, const Expr *expr, const VarSymbol *varia
 static bool requireNamed(Context &c, Expr *expr, Symbol *symbol, std::string_view what) {
   if (symbol == nullptr || isError(expr->type))
     return true; // reported before
-  if (symbol->kind != SymbolKind::variable) {
-    auto &d = c.report(Code::notAssignable, expr->span,
+  if (symbol->kind != SymbolKind::Variable) {
+    auto &d = c.report(Code::NotAssignable, expr->span,
                        "cannot " + std::string(what) + " this: it is " + describe(symbol),
                        "a variable is needed here");
     noteDeclaration(d, symbol);
@@ -53,38 +53,38 @@ static bool requireNamed(Context &c, Expr *expr, Symbol *symbol, std::string_vie
   if (!requireWritable(c, expr, variable, what))
     return false;
   // A field of a constant structure is constant, a field of a POU's variable is not.
-  return expr->kind != ExprKind::member || variable->owner != nullptr ||
+  return expr->kind != ExprKind::Member || variable->owner != nullptr ||
          variable->globals != nullptr || requireVariable(c, as<MemberExpr>(expr)->base, what);
 }
 
 bool requireVariable(Context &c, Expr *expr, std::string_view what) {
   if (const PropertySymbol *property = propertyOf(expr);
       property != nullptr && (what == "assign to" || property->type == nullptr ||
-                              property->type->kind == TypeKind::reference))
+                              property->type->kind == TypeKind::Reference))
     return true; // the checker of names has seen to it that it has a SET
   if (rejectProperty(c, expr, what))
     return false;
   switch (expr->kind) {
-  case ExprKind::deref:
-  case ExprKind::error:
+  case ExprKind::Deref:
+  case ExprKind::Error:
     return true;
-  case ExprKind::direct:
+  case ExprKind::Direct:
     if (const Location *at = as<DirectExpr>(expr)->location; at != nullptr && what == "assign to")
       reportInputWritten(c, expr, *at);
     return true;
-  case ExprKind::index: { // what a pointer points to is a variable, even if the pointer is constant
+  case ExprKind::Index: { // what a pointer points to is a variable, even if the pointer is constant
     Expr *base = as<IndexExpr>(expr)->base;
-    const bool isPointer = base->type != nullptr && base->type->kind == TypeKind::pointer;
+    const bool isPointer = base->type != nullptr && base->type->kind == TypeKind::Pointer;
     return isPointer || requireVariable(c, base, what);
   }
-  case ExprKind::name:
+  case ExprKind::Name:
     return requireNamed(c, expr, as<NameExpr>(expr)->symbol, what);
-  case ExprKind::member:
+  case ExprKind::Member:
     return as<MemberExpr>(expr)->bit >= 0
                ? requireVariable(c, as<MemberExpr>(expr)->base, what)
                : requireNamed(c, expr, as<MemberExpr>(expr)->symbol, what);
   default:
-    c.report(Code::notAssignable, expr->span, "cannot " + std::string(what) + " an expression",
+    c.report(Code::NotAssignable, expr->span, "cannot " + std::string(what) + " an expression",
              "this is not a variable");
     return false;
   }
@@ -95,7 +95,7 @@ bool requireAligned(Context &c, const Expr *expr, std::string_view what) {
     return true;
   const unsigned align = alignmentOf(expr->type);
   auto &d =
-      c.report(Code::misaligned, expr->span,
+      c.report(Code::Misaligned, expr->span,
                "cannot " + std::string(what) + " this variable: it does not lie at a multiple of " +
                    std::to_string(align) + " bytes",
                "misaligned");

@@ -12,20 +12,20 @@ using namespace ast;
 
 bool isLiteral(const Expr *expr) {
   switch (expr->kind) {
-  case ExprKind::literal:
-  case ExprKind::enumLiteral:
+  case ExprKind::Literal:
+  case ExprKind::EnumLiteral:
     return true;
-  case ExprKind::name: {
+  case ExprKind::Name: {
     const Symbol *symbol = as<NameExpr>(expr)->symbol;
-    return symbol != nullptr && symbol->kind == SymbolKind::enumerator;
+    return symbol != nullptr && symbol->kind == SymbolKind::Enumerator;
   }
-  case ExprKind::member: {
+  case ExprKind::Member: {
     const Symbol *symbol = as<MemberExpr>(expr)->symbol;
-    return symbol != nullptr && symbol->kind == SymbolKind::enumerator;
+    return symbol != nullptr && symbol->kind == SymbolKind::Enumerator;
   }
-  case ExprKind::unary:
+  case ExprKind::Unary:
     return isLiteral(as<UnaryExpr>(expr)->operand);
-  case ExprKind::binary:
+  case ExprKind::Binary:
     return isLiteral(as<BinaryExpr>(expr)->right) && isLiteral(as<BinaryExpr>(expr)->left);
   default:
     return false;
@@ -34,28 +34,28 @@ bool isLiteral(const Expr *expr) {
 
 namespace {
 
-enum class Truth : std::uint8_t { unknown, always, never };
+enum class Truth : uint8_t { Unknown, Always, Never };
 
 /// What a condition made of literals only is. A constant's name may be a switch that is meant to be
 /// turned.
 Truth truthOf(const Expr *condition) {
   if (condition->constant == nullptr || !isLiteral(condition))
-    return Truth::unknown;
-  return condition->constant->integer != 0 ? Truth::always : Truth::never;
+    return Truth::Unknown;
+  return condition->constant->integer != 0 ? Truth::Always : Truth::Never;
 }
 
 std::string_view wordOf(const Stmt *stmt) {
   switch (stmt->kind) {
-  case StmtKind::returnS:
+  case StmtKind::Return:
     return "RETURN leaves the POU here";
-  case StmtKind::exit:
+  case StmtKind::Exit:
     return "EXIT leaves the loop here";
-  case StmtKind::continueS:
+  case StmtKind::Continue:
     return "CONTINUE begins the next round here";
-  case StmtKind::jump:
+  case StmtKind::Jump:
     return "JMP goes elsewhere here";
-  case StmtKind::ifS:
-  case StmtKind::caseS:
+  case StmtKind::If:
+  case StmtKind::Case:
     return "all branches of this leave";
   default:
     return "nothing comes behind this";
@@ -64,11 +64,11 @@ std::string_view wordOf(const Stmt *stmt) {
 
 bool isEmpty(Block block) {
   return std::all_of(block.begin(), block.end(),
-                     [](const Stmt *s) { return s->kind == StmtKind::empty; });
+                     [](const Stmt *s) { return s->kind == StmtKind::Empty; });
 }
 
 /// `IF` of an IF statement.
-Span wordSpan(const Stmt *stmt, std::uint32_t length) {
+Span wordSpan(const Stmt *stmt, uint32_t length) {
   return {stmt->span.file, stmt->span.begin, std::min(stmt->span.begin + length, stmt->span.end)};
 }
 
@@ -79,11 +79,11 @@ bool Linter::block(Block statements) {
   bool reported = false;
   const Stmt *leaves = nullptr;
   for (Stmt *stmt : statements) {
-    if (stmt->kind == StmtKind::label)
+    if (stmt->kind == StmtKind::Label)
       reachable = true;
-    else if (!reachable && !reported && stmt->kind != StmtKind::empty) {
+    else if (!reachable && !reported && stmt->kind != StmtKind::Empty) {
       reported = true;
-      report(Code::unreachableCode, stmt->span, "this statement is never reached", "never runs")
+      report(Code::UnreachableCode, stmt->span, "this statement is never reached", "never runs")
           .label(leaves->span, std::string(wordOf(leaves)));
     }
     const bool goesOn = statement(stmt);
@@ -103,49 +103,49 @@ void Linter::leave() {
 
 bool Linter::statement(Stmt *stmt) {
   switch (stmt->kind) {
-  case StmtKind::empty:
-  case StmtKind::label:
+  case StmtKind::Empty:
+  case StmtKind::Label:
     return true;
-  case StmtKind::assign:
+  case StmtKind::Assign:
     assignment(as<AssignStmt>(stmt));
     return true;
-  case StmtKind::call: {
+  case StmtKind::Call: {
     Expr *expr = as<CallStmt>(stmt)->expr;
     statementCall_ = expr;
     read(expr);
     statementCall_ = nullptr;
-    if (expr->kind == ExprKind::call) {
+    if (expr->kind == ExprKind::Call) {
       const auto *call = as<CallExpr>(expr);
       ignored_.push_back(call);
-      if (call->resolved == Callee::function && call->pou != nullptr)
+      if (call->resolved == Callee::Function && call->pou != nullptr)
         ++functionCalls_[call->pou->decl].asStatement;
     }
     return true;
   }
-  case StmtKind::ifS:
+  case StmtKind::If:
     return ifStatement(as<IfStmt>(stmt));
-  case StmtKind::caseS:
+  case StmtKind::Case:
     return caseStatement(as<CaseStmt>(stmt));
-  case StmtKind::forS:
+  case StmtKind::For:
     forLoop(as<ForStmt>(stmt));
     return true;
-  case StmtKind::whileS:
+  case StmtKind::While:
     return whileLoop(as<WhileStmt>(stmt));
-  case StmtKind::repeatS:
+  case StmtKind::RepeatS:
     return repeatLoop(as<RepeatStmt>(stmt));
-  case StmtKind::exit:
+  case StmtKind::Exit:
     if (!loops_.empty())
       loops_.back()->exits = true;
     return false;
-  case StmtKind::continueS:
+  case StmtKind::Continue:
     if (!loops_.empty())
       loops_.back()->continues = true;
     return false;
-  case StmtKind::returnS:
-  case StmtKind::jump:
+  case StmtKind::Return:
+  case StmtKind::Jump:
     leave();
     return false;
-  case StmtKind::tryS: {
+  case StmtKind::Try: {
     auto *s = as<TryStmt>(stmt);
     ++conditional_;
     bool goesOn = block(s->body);
@@ -167,16 +167,16 @@ bool Linter::ifStatement(IfStmt *stmt) {
     read(branch.condition);
     empty = empty && isEmpty(branch.body);
     switch (truthOf(branch.condition)) {
-    case Truth::never:
-      report(Code::constantCondition, branch.condition->span, "this condition is always FALSE",
+    case Truth::Never:
+      report(Code::ConstantCondition, branch.condition->span, "this condition is always FALSE",
              "its branch never runs");
       break;
-    case Truth::always:
-      report(Code::constantCondition, branch.condition->span, "this condition is always TRUE",
+    case Truth::Always:
+      report(Code::ConstantCondition, branch.condition->span, "this condition is always TRUE",
              stmt->hasElse || &branch != &stmt->branches.back() ? "the branches behind it never run"
                                                                 : "its branch always runs");
       break;
-    case Truth::unknown:
+    case Truth::Unknown:
       break;
     }
     if (first) // the first condition itself always runs
@@ -187,7 +187,7 @@ bool Linter::ifStatement(IfStmt *stmt) {
   goesOn = block(stmt->elseBody) || goesOn;
   --conditional_;
   if (empty)
-    report(Code::emptyBody, wordSpan(stmt, 2), "this IF does nothing",
+    report(Code::EmptyBody, wordSpan(stmt, 2), "this IF does nothing",
            "all of its branches are empty")
         .help("write the statements between THEN and END_IF; a `;` behind THEN is an empty "
               "statement");
@@ -219,26 +219,26 @@ bool Linter::loopBody(Block body, Loop &loop, Expr *before, Expr *after) {
 /// something else is in it.
 bool Linter::variablesOf(const Expr *expr, std::vector<const VarSymbol *> &out) const {
   switch (expr->kind) {
-  case ExprKind::literal:
-  case ExprKind::enumLiteral:
+  case ExprKind::Literal:
+  case ExprKind::EnumLiteral:
     return true;
-  case ExprKind::name: {
+  case ExprKind::Name: {
     const auto *name = as<NameExpr>(expr);
     if (expr->constant != nullptr)
       return true;
-    if (name->symbol == nullptr || name->symbol->kind != SymbolKind::variable)
+    if (name->symbol == nullptr || name->symbol->kind != SymbolKind::Variable)
       return false;
     const auto *v = static_cast<const VarSymbol *>(name->symbol);
-    if (!isOwnLocal(v) || v->section == Section::inOut || v->type == nullptr ||
-        !isElementary(v->type) || (v->uses & useAddress) != 0 ||
+    if (!isOwnLocal(v) || v->section == Section::InOut || v->type == nullptr ||
+        !isElementary(v->type) || (v->uses & kUseAddress) != 0 ||
         (v->decl != nullptr && v->decl->address != nullptr))
       return false;
     out.push_back(v);
     return true;
   }
-  case ExprKind::unary:
+  case ExprKind::Unary:
     return variablesOf(as<UnaryExpr>(expr)->operand, out);
-  case ExprKind::binary:
+  case ExprKind::Binary:
     return out.size() < 64 && variablesOf(as<BinaryExpr>(expr)->left, out) &&
            variablesOf(as<BinaryExpr>(expr)->right, out);
   default:
@@ -255,15 +255,15 @@ void Linter::unchangingCondition(const Expr *condition, const Loop &loop, Span w
   std::string names;
   for (const VarSymbol *v : variables) {
     const bool reachable =
-        loop.calls && v->section != Section::temp &&
-        bodies_[current_].decl->kind != DeclKind::function; // by a method or an action
+        loop.calls && v->section != Section::Temp &&
+        bodies_[current_].decl->kind != DeclKind::Function; // by a method or an action
     if (v->lastWrite > loop.writesBefore || reachable)
       return;
     const std::string name = "`" + std::string(v->name.text) + "`";
     if (names.find(name) == std::string::npos)
       names += (names.empty() ? "" : ", ") + name;
   }
-  report(Code::endlessLoop, condition->span, "once begun, this loop never ends",
+  report(Code::EndlessLoop, condition->span, "once begun, this loop never ends",
          "nothing in the loop changes " + names)
       .label(where, "this loop")
       .help("change " + names + " in the loop, or leave it with EXIT");
@@ -271,41 +271,41 @@ void Linter::unchangingCondition(const Expr *condition, const Loop &loop, Span w
 
 bool Linter::whileLoop(WhileStmt *stmt) {
   const Truth truth = truthOf(stmt->condition);
-  if (truth == Truth::never)
-    report(Code::loopNeverRuns, stmt->condition->span, "this loop never runs",
+  if (truth == Truth::Never)
+    report(Code::LoopNeverRuns, stmt->condition->span, "this loop never runs",
            "the condition is always FALSE");
   Loop loop;
   loopBody(stmt->body, loop, stmt->condition, nullptr);
-  if (truth == Truth::always && !loop.exits) {
-    report(Code::endlessLoop, stmt->condition->span, "this loop never ends",
+  if (truth == Truth::Always && !loop.exits) {
+    report(Code::EndlessLoop, stmt->condition->span, "this loop never ends",
            "always TRUE, and there is no EXIT")
         .help("leave the loop with EXIT; a task that does not end its cycle is stopped");
     return false;
   }
-  if (truth == Truth::unknown && isEmpty(stmt->body) && !loop.calls)
-    report(Code::emptyBody, wordSpan(stmt, 5), "this loop does nothing", "its body is empty")
+  if (truth == Truth::Unknown && isEmpty(stmt->body) && !loop.calls)
+    report(Code::EmptyBody, wordSpan(stmt, 5), "this loop does nothing", "its body is empty")
         .help("a `;` behind DO is an empty statement; nothing can change the condition while the "
               "loop waits");
-  else if (truth == Truth::unknown)
+  else if (truth == Truth::Unknown)
     unchangingCondition(stmt->condition, loop, wordSpan(stmt, 5));
-  return truth != Truth::always || loop.exits;
+  return truth != Truth::Always || loop.exits;
 }
 
 bool Linter::repeatLoop(RepeatStmt *stmt) {
   Loop loop;
   const bool falls = loopBody(stmt->body, loop, nullptr, stmt->until);
   const Truth truth = truthOf(stmt->until);
-  if (truth == Truth::never && !loop.exits) {
-    report(Code::endlessLoop, stmt->until->span, "this loop never ends",
+  if (truth == Truth::Never && !loop.exits) {
+    report(Code::EndlessLoop, stmt->until->span, "this loop never ends",
            "always FALSE, and there is no EXIT")
         .help("leave the loop with EXIT; a task that does not end its cycle is stopped");
     return false;
   }
-  if (truth == Truth::unknown && isEmpty(stmt->body) && !loop.calls)
-    report(Code::emptyBody, wordSpan(stmt, 6), "this loop does nothing", "its body is empty")
+  if (truth == Truth::Unknown && isEmpty(stmt->body) && !loop.calls)
+    report(Code::EmptyBody, wordSpan(stmt, 6), "this loop does nothing", "its body is empty")
         .help("a `;` behind REPEAT is an empty statement; nothing can change the condition while "
               "the loop waits");
-  else if (truth == Truth::unknown)
+  else if (truth == Truth::Unknown)
     unchangingCondition(stmt->until, loop, wordSpan(stmt, 6));
   return falls || loop.continues || loop.exits;
 }
@@ -317,17 +317,17 @@ void Linter::forLoop(ForStmt *stmt) {
     read(stmt->by);
   write(stmt->variable);
   if (VarSymbol *root = rootVariable(stmt->variable))
-    root->uses |= useRead; // counting is using
+    root->uses |= kUseRead; // counting is using
   const auto value = [](const Expr *e) {
     return e->constant != nullptr && isLiteral(e) ? std::optional(e->constant->integer)
                                                   : std::nullopt;
   };
   const auto from = value(stmt->from);
   const auto to = value(stmt->to);
-  const auto by = stmt->by == nullptr ? std::optional<std::int64_t>(1) : value(stmt->by);
+  const auto by = stmt->by == nullptr ? std::optional<int64_t>(1) : value(stmt->by);
   if (from && to && by && *by != 0 && (*by > 0 ? *from > *to : *from < *to)) {
     auto &d =
-        report(Code::loopNeverRuns, stmt->from->span.to(stmt->to->span), "this loop never runs",
+        report(Code::LoopNeverRuns, stmt->from->span.to(stmt->to->span), "this loop never runs",
                *by > 0 ? "the end is below the start" : "the end is above the start");
     const Span behind{stmt->to->span.file, stmt->to->span.end, stmt->to->span.end};
     if (stmt->by == nullptr)
@@ -336,7 +336,7 @@ void Linter::forLoop(ForStmt *stmt) {
                 behind, " BY -1");
   }
   if (isEmpty(stmt->body))
-    report(Code::emptyBody, wordSpan(stmt, 3), "this loop does nothing", "its body is empty")
+    report(Code::EmptyBody, wordSpan(stmt, 3), "this loop does nothing", "its body is empty")
         .help("a `;` behind DO is an empty statement");
   fors_.push_back(stmt);
   Loop loop;

@@ -13,13 +13,13 @@ namespace {
 
 /// Functions of the compiler that only compute a value of their arguments.
 bool onlyReads(Builtin builtin) {
-  return builtin <= Builtin::time || builtin == Builtin::sizeofT || isAssertion(builtin);
+  return builtin <= Builtin::Time || builtin == Builtin::Sizeof || isAssertion(builtin);
 }
 
 bool containsLabel(Block block) {
   bool found = false;
   walkStatements(block, [&](const Stmt *stmt) {
-    found = found || stmt->kind == StmtKind::label || stmt->kind == StmtKind::jump;
+    found = found || stmt->kind == StmtKind::Label || stmt->kind == StmtKind::Jump;
     return !found;
   });
   return found;
@@ -67,14 +67,14 @@ void Linter::run(Library &library) {
   }
   reportRecursion();
   reportIgnored();
-  if (program_.diagnostics.wants(Code::unusedPou))
+  if (program_.diagnostics.wants(Code::UnusedPou))
     reportUnusedPous(library);
 }
 
 /// VAR_CONFIG and VAR_ACCESS reach what nothing else may name.
 void Linter::usePath(const StatePath &path, const VarSymbol *end) {
   const auto mark = [this](const VarSymbol *v) { usedOutside_.insert(v); };
-  if (path.root != nullptr && path.root->kind == SymbolKind::variable)
+  if (path.root != nullptr && path.root->kind == SymbolKind::Variable)
     mark(static_cast<const VarSymbol *>(path.root));
   for (const PathStep &step : path.steps) {
     if (step.member != nullptr)
@@ -94,7 +94,7 @@ void Linter::walk(PouDecl *decl, PouDecl *owner, PouSymbol *pou) {
   body.owner = owner;
   body.pou = pou;
   body.hasLabels = containsLabel(decl->body);
-  body.sideEffects = decl->external || decl->kind != DeclKind::function;
+  body.sideEffects = decl->external || decl->kind != DeclKind::Function;
   loops_.clear();
   fors_.clear();
   loopStart_ = 0;
@@ -110,7 +110,7 @@ void Linter::declarations(std::span<VarDecl *const> variables) {
     initial(v->init);
     if (v->symbol == nullptr || v->symbol->type == nullptr)
       continue;
-    v->symbol->lintBody = static_cast<std::uint32_t>(current_ + 1);
+    v->symbol->lintBody = static_cast<uint32_t>(current_ + 1);
     markUsed(v->symbol->type);
   }
 }
@@ -120,7 +120,7 @@ void Linter::typeExpr(TypeExpr *type) {
   if (type == nullptr)
     return;
   switch (type->kind) {
-  case TypeExprKind::array: {
+  case TypeExprKind::Array: {
     auto *array = as<ArrayTypeExpr>(type);
     for (const ArrayRange &range : array->ranges) {
       if (range.low != nullptr)
@@ -131,19 +131,19 @@ void Linter::typeExpr(TypeExpr *type) {
     typeExpr(array->element);
     break;
   }
-  case TypeExprKind::string:
+  case TypeExprKind::String:
     if (Expr *length = as<StringTypeExpr>(type)->length)
       read(length);
     break;
-  case TypeExprKind::pointer:
-  case TypeExprKind::reference:
+  case TypeExprKind::Pointer:
+  case TypeExprKind::Reference:
     typeExpr(as<PointerTypeExpr>(type)->pointee);
     break;
-  case TypeExprKind::subrange:
+  case TypeExprKind::Subrange:
     read(as<SubrangeTypeExpr>(type)->low);
     read(as<SubrangeTypeExpr>(type)->high);
     break;
-  case TypeExprKind::named: {
+  case TypeExprKind::Named: {
     auto *named = as<NamedTypeExpr>(type);
     construct(named->arguments);
     for (const std::span<Argument> arguments : named->elements)
@@ -166,8 +166,8 @@ void Linter::construct(std::span<Argument> arguments) {
 void Linter::initial(Expr *init) {
   if (init == nullptr)
     return;
-  if (init->kind != ExprKind::aggregate) {
-    if (init->kind == ExprKind::name || init->kind == ExprKind::member)
+  if (init->kind != ExprKind::Aggregate) {
+    if (init->kind == ExprKind::Name || init->kind == ExprKind::Member)
       takeAddress(init); // may be a REFERENCE's
     else
       read(init);
@@ -188,16 +188,16 @@ bool Linter::isOwnLocal(const VarSymbol *variable) const {
   return variable->isResult || variable->lintBody == current_ + 1;
 }
 
-void Linter::use(VarSymbol *variable, std::uint8_t bits, const Expr *where) {
-  if ((bits & useRead) != 0 && (variable->uses & (useWritten | useAddress)) == 0 &&
-      (bits & (useWritten | useAddress)) == 0 && variable->earlyRead == nullptr) {
+void Linter::use(VarSymbol *variable, uint8_t bits, const Expr *where) {
+  if ((bits & kUseRead) != 0 && (variable->uses & (kUseWritten | kUseAddress)) == 0 &&
+      (bits & (kUseWritten | kUseAddress)) == 0 && variable->earlyRead == nullptr) {
     variable->earlyRead = where;
     variable->earlyLoop = loopStart_;
   }
-  if ((bits & (useWritten | useAddress)) != 0) {
+  if ((bits & (kUseWritten | kUseAddress)) != 0) {
     variable->lastWrite = ++writes_;
     // In the loop's next round the write comes before the read.
-    if ((variable->uses & (useWritten | useAddress)) == 0 && variable->earlyRead != nullptr &&
+    if ((variable->uses & (kUseWritten | kUseAddress)) == 0 && variable->earlyRead != nullptr &&
         variable->earlyLoop != 0 && variable->earlyLoop == loopStart_)
       variable->earlyRead = nullptr;
     if (variable->isResult && variable->owner != nullptr)
@@ -209,22 +209,22 @@ void Linter::use(VarSymbol *variable, std::uint8_t bits, const Expr *where) {
 VarSymbol *rootVariable(const Expr *expr) {
   for (;;) {
     switch (expr->kind) {
-    case ExprKind::name: {
+    case ExprKind::Name: {
       Symbol *symbol = as<NameExpr>(expr)->symbol;
-      return symbol != nullptr && symbol->kind == SymbolKind::variable
+      return symbol != nullptr && symbol->kind == SymbolKind::Variable
                  ? static_cast<VarSymbol *>(symbol)
                  : nullptr;
     }
-    case ExprKind::member: {
+    case ExprKind::Member: {
       const auto *member = as<MemberExpr>(expr);
       const Symbol *symbol = member->symbol;
-      if (symbol != nullptr && symbol->kind == SymbolKind::variable &&
+      if (symbol != nullptr && symbol->kind == SymbolKind::Variable &&
           static_cast<const VarSymbol *>(symbol)->globals != nullptr)
         return static_cast<VarSymbol *>(member->symbol); // `GVL.x`
       expr = member->base;
       break;
     }
-    case ExprKind::index:
+    case ExprKind::Index:
       expr = as<IndexExpr>(expr)->base;
       break;
     default:
@@ -234,32 +234,32 @@ VarSymbol *rootVariable(const Expr *expr) {
 }
 
 void Linter::read(Expr *expr) {
-  while (expr->kind == ExprKind::unary) {
+  while (expr->kind == ExprKind::Unary) {
     conversion(expr);
     expr = as<UnaryExpr>(expr)->operand;
   }
   conversion(expr);
   switch (expr->kind) {
-  case ExprKind::name:
+  case ExprKind::Name:
     if (Symbol *symbol = as<NameExpr>(expr)->symbol;
-        symbol != nullptr && symbol->kind == SymbolKind::variable)
-      use(static_cast<VarSymbol *>(symbol), useRead, expr);
+        symbol != nullptr && symbol->kind == SymbolKind::Variable)
+      use(static_cast<VarSymbol *>(symbol), kUseRead, expr);
     break;
-  case ExprKind::member: {
+  case ExprKind::Member: {
     auto *member = as<MemberExpr>(expr);
     if (Symbol *symbol = member->symbol;
-        symbol != nullptr && symbol->kind == SymbolKind::variable) {
+        symbol != nullptr && symbol->kind == SymbolKind::Variable) {
       auto *variable = static_cast<VarSymbol *>(symbol);
-      use(variable, useRead, expr);
-      if (variable->section == Section::inOut && variable->owner != nullptr &&
-          member->base->kind == ExprKind::name) {
+      use(variable, kUseRead, expr);
+      if (variable->section == Section::InOut && variable->owner != nullptr &&
+          member->base->kind == ExprKind::Name) {
         const VarSymbol *instance = rootVariable(member->base);
         const Body &body = bodies_[current_];
-        if (instance != nullptr && (instance->uses & (useCalled | useAddress)) == 0 &&
-            instance->section == Section::local && body.owner == body.decl &&
+        if (instance != nullptr && (instance->uses & (kUseCalled | kUseAddress)) == 0 &&
+            instance->section == Section::Local && body.owner == body.decl &&
             body.owner->methods.empty() && body.owner->actions.empty() && loopStart_ == 0 &&
             !body.hasLabels && isOwnLocal(instance))
-          report(Code::inOutBeforeCall, expr->span,
+          report(Code::InOutBeforeCall, expr->span,
                  "`" + std::string(member->name.text) + "` of `" +
                      std::string(instance->name.text) +
                      "` is used before the first call of the block",
@@ -272,23 +272,23 @@ void Linter::read(Expr *expr) {
     read(member->base);
     break;
   }
-  case ExprKind::index: {
+  case ExprKind::Index: {
     auto *index = as<IndexExpr>(expr);
     read(index->base);
     for (Expr *i : index->indices)
       read(i);
     break;
   }
-  case ExprKind::deref:
+  case ExprKind::Deref:
     read(as<DerefExpr>(expr)->base);
     break;
-  case ExprKind::call:
+  case ExprKind::Call:
     call(as<CallExpr>(expr));
     break;
-  case ExprKind::binary:
+  case ExprKind::Binary:
     readBinary(as<BinaryExpr>(expr));
     break;
-  case ExprKind::aggregate:
+  case ExprKind::Aggregate:
     initial(expr);
     break;
   default:
@@ -298,9 +298,9 @@ void Linter::read(Expr *expr) {
 
 void Linter::readBinary(BinaryExpr *expr) {
   // Sums of ten thousand terms lean to the left; walk down instead of recursing.
-  const std::size_t first = chain_.size();
+  const size_t first = chain_.size();
   chain_.push_back(expr);
-  while (chain_.back()->left->kind == ExprKind::binary)
+  while (chain_.back()->left->kind == ExprKind::Binary)
     chain_.push_back(as<BinaryExpr>(chain_.back()->left));
   read(chain_.back()->left);
   while (chain_.size() > first) {
@@ -308,11 +308,11 @@ void Linter::readBinary(BinaryExpr *expr) {
     chain_.pop_back();
     if (b != expr)
       conversion(b);
-    const bool shortCircuit = b->op == BinaryOp::andThen || b->op == BinaryOp::orElse;
+    const bool shortCircuit = b->op == BinaryOp::AndThen || b->op == BinaryOp::OrElse;
     conditional_ += shortCircuit ? 1 : 0;
     read(b->right);
     conditional_ -= shortCircuit ? 1 : 0;
-    if (b->op >= BinaryOp::equal && b->op <= BinaryOp::greaterEqual)
+    if (b->op >= BinaryOp::Equal && b->op <= BinaryOp::GreaterEqual)
       comparison(b);
     sameOperands(b);
   }
@@ -320,16 +320,16 @@ void Linter::readBinary(BinaryExpr *expr) {
 
 void Linter::write(Expr *target) {
   if (VarSymbol *root = rootVariable(target)) {
-    const bool whole = target->kind == ExprKind::name;
-    const bool indirect = root->section == Section::inOut ||
-                          (root->type != nullptr && (root->type->kind == TypeKind::reference ||
-                                                     root->type->kind == TypeKind::pointer));
-    use(root, indirect || !whole ? useRead | useWritten : useWritten, target);
-    if (indirect || (!isOwnLocal(root)) || root->section == Section::stat)
+    const bool whole = target->kind == ExprKind::Name;
+    const bool indirect = root->section == Section::InOut ||
+                          (root->type != nullptr && (root->type->kind == TypeKind::Reference ||
+                                                     root->type->kind == TypeKind::Pointer));
+    use(root, indirect || !whole ? kUseRead | kUseWritten : kUseWritten, target);
+    if (indirect || (!isOwnLocal(root)) || root->section == Section::Stat)
       bodies_[current_].sideEffects = true;
     for (const ForStmt *loop : fors_) {
-      if (whole && rootVariable(loop->variable) == root && loop->variable->kind == ExprKind::name)
-        report(Code::forVariableModified, target->span,
+      if (whole && rootVariable(loop->variable) == root && loop->variable->kind == ExprKind::Name)
+        report(Code::ForVariableModified, target->span,
                "`" + std::string(root->name.text) +
                    "` is changed inside of the loop that counts "
                    "with it",
@@ -341,30 +341,30 @@ void Linter::write(Expr *target) {
     bodies_[current_].sideEffects = true;
   }
   switch (target->kind) { // what is read to find the place
-  case ExprKind::member: {
+  case ExprKind::Member: {
     auto *member = as<MemberExpr>(target);
-    if (member->symbol != nullptr && member->symbol->kind == SymbolKind::variable)
-      use(static_cast<VarSymbol *>(member->symbol), useWritten, target);
-    if (member->base->kind == ExprKind::member || member->base->kind == ExprKind::index)
+    if (member->symbol != nullptr && member->symbol->kind == SymbolKind::Variable)
+      use(static_cast<VarSymbol *>(member->symbol), kUseWritten, target);
+    if (member->base->kind == ExprKind::Member || member->base->kind == ExprKind::Index)
       write(member->base);
     else
       read(member->base);
     break;
   }
-  case ExprKind::index: {
+  case ExprKind::Index: {
     auto *index = as<IndexExpr>(target);
     for (Expr *i : index->indices)
       read(i);
-    if (index->base->kind == ExprKind::member || index->base->kind == ExprKind::index)
+    if (index->base->kind == ExprKind::Member || index->base->kind == ExprKind::Index)
       write(index->base);
-    else if (index->base->kind != ExprKind::name)
+    else if (index->base->kind != ExprKind::Name)
       read(index->base);
     break;
   }
-  case ExprKind::deref:
+  case ExprKind::Deref:
     read(as<DerefExpr>(target)->base);
     break;
-  case ExprKind::name:
+  case ExprKind::Name:
     break;
   default:
     read(target);
@@ -373,14 +373,14 @@ void Linter::write(Expr *target) {
 
 void Linter::takeAddress(Expr *expr) {
   if (VarSymbol *root = rootVariable(expr)) {
-    use(root, useAddress | useRead | useWritten, expr);
+    use(root, kUseAddress | kUseRead | kUseWritten, expr);
     if (!isOwnLocal(root))
       bodies_[current_].sideEffects = true;
   }
-  if (expr->kind == ExprKind::member) {
+  if (expr->kind == ExprKind::Member) {
     auto *member = as<MemberExpr>(expr);
-    if (member->symbol != nullptr && member->symbol->kind == SymbolKind::variable)
-      use(static_cast<VarSymbol *>(member->symbol), useAddress | useRead | useWritten, expr);
+    if (member->symbol != nullptr && member->symbol->kind == SymbolKind::Variable)
+      use(static_cast<VarSymbol *>(member->symbol), kUseAddress | kUseRead | kUseWritten, expr);
   }
   read(expr);
 }
@@ -389,8 +389,8 @@ void Linter::call(CallExpr *expr) {
   if (expr->pou != nullptr)
     usedPous_.insert(expr->pou);
   Body &body = bodies_[current_];
-  const bool function = expr->resolved == Callee::function;
-  const bool builtin = expr->resolved == Callee::builtin;
+  const bool function = expr->resolved == Callee::Function;
+  const bool builtin = expr->resolved == Callee::Builtin;
   if (!builtin) {
     for (Loop *loop : loops_)
       loop->calls = true;
@@ -400,7 +400,7 @@ void Linter::call(CallExpr *expr) {
     ++functionCalls_[pou->decl].all;
     if (pou->decl == body.decl && conditional_ == 0 && !mayHaveLeft_ && !body.recursesAlways) {
       body.recursesAlways = true;
-      report(Code::unconditionalRecursion, expr->span,
+      report(Code::UnconditionalRecursion, expr->span,
              "`" + std::string(pou->name.text) + "` always calls itself", "this call never ends")
           .label(pou->name.span, "in this function")
           .help("make the call depend on a condition that becomes FALSE");
@@ -411,16 +411,16 @@ void Linter::call(CallExpr *expr) {
       body.calls.push_back(expr);
   } else if (!builtin) {
     body.sideEffects = true;
-    if (expr->resolved == Callee::method && expr->pou != nullptr && expr != statementCall_)
+    if (expr->resolved == Callee::Method && expr->pou != nullptr && expr != statementCall_)
       resultsTaken_.insert(expr->pou->name.id);
     if (VarSymbol *root = rootVariable(expr->callee))
-      use(root, useCalled | useRead, expr->callee);
+      use(root, kUseCalled | kUseRead, expr->callee);
     read(expr->callee);
   }
   const bool pureBuiltin = builtin && onlyReads(expr->builtin);
-  if (builtin && (expr->builtin == Builtin::shl || expr->builtin == Builtin::shr))
+  if (builtin && (expr->builtin == Builtin::Shl || expr->builtin == Builtin::Shr))
     shift(expr);
-  if (builtin && (expr->builtin == Builtin::convert || expr->builtin == Builtin::trunc))
+  if (builtin && (expr->builtin == Builtin::Convert || expr->builtin == Builtin::Trunc))
     saturation(expr);
   for (Argument &argument : expr->arguments) {
     if (argument.value == nullptr)
@@ -431,8 +431,8 @@ void Linter::call(CallExpr *expr) {
     } else if (pureBuiltin) {
       read(argument.value);
     } else if (builtin ||
-               (p != nullptr && (p->section == Section::inOut ||
-                                 (p->type != nullptr && p->type->kind == TypeKind::reference)))) {
+               (p != nullptr && (p->section == Section::InOut ||
+                                 (p->type != nullptr && p->type->kind == TypeKind::Reference)))) {
       takeAddress(argument.value);
     } else {
       read(argument.value);

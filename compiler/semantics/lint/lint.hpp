@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_LINT_LINT_HPP
+#define STRIDE_COMPILER_SEMANTICS_LINT_LINT_HPP
 // What is allowed but probably not meant: looked for in programs without errors, after checking.
 // Internal to compiler/semantics.
 
@@ -34,7 +35,7 @@ private:
   struct Loop {
     bool exits = false; ///< EXIT, RETURN or JMP inside of it
     bool continues = false;
-    std::uint32_t writesBefore = 0;
+    uint32_t writesBefore = 0;
     bool calls = false; ///< something that may change what is not local
   };
 
@@ -50,7 +51,7 @@ private:
   void write(ast::Expr *target);
   void takeAddress(ast::Expr *expr);
   void call(ast::CallExpr *expr);
-  void use(VarSymbol *variable, std::uint8_t bits, const ast::Expr *where);
+  void use(VarSymbol *variable, uint8_t bits, const ast::Expr *where);
   [[nodiscard]] bool isOwnLocal(const VarSymbol *variable) const;
 
   // unused.cpp: what is said about variables and POUs when all uses are known
@@ -101,14 +102,14 @@ private:
 
   Program &program_;
   std::vector<Body> bodies_;
-  std::size_t current_ = 0; ///< index in bodies_ of the body that is walked
+  size_t current_ = 0; ///< index in bodies_ of the body that is walked
   std::unordered_set<const ast::PouDecl *> walked_;
   std::unordered_set<const ast::PouDecl *> resultsWritten_;
   std::unordered_set<const PouSymbol *> usedPous_;
   std::unordered_set<const VarSymbol *> usedOutside_; ///< by VAR_CONFIG and VAR_ACCESS
   std::unordered_set<Ident> resultsTaken_; ///< names of methods whose result somebody takes
   std::unordered_set<const Type *> usedTypes_;
-  std::unordered_map<const ast::PouDecl *, std::size_t> bodyOf_;
+  std::unordered_map<const ast::PouDecl *, size_t> bodyOf_;
   std::vector<const ast::CallExpr *> ignored_; ///< calls of functions whose result nobody takes
   std::unordered_map<const ast::PouDecl *, bool> purity_;
   unsigned purityCalls_ = 0; ///< isPure() within isPure()
@@ -123,9 +124,9 @@ private:
   const ast::Expr *statementCall_ = nullptr; ///< the call that is a statement of its own
   std::vector<Loop *> loops_;
   std::vector<const ast::ForStmt *> fors_;
-  std::uint32_t writes_ = 0;    ///< counts writes, so that "since" can be asked
-  std::uint32_t loopStart_ = 0; ///< identifies the outermost loop; 0 outside of loops
-  std::uint32_t loopCount_ = 0;
+  uint32_t writes_ = 0;    ///< counts writes, so that "since" can be asked
+  uint32_t loopStart_ = 0; ///< identifies the outermost loop; 0 outside of loops
+  uint32_t loopCount_ = 0;
   unsigned conditional_ = 0; ///< depth of what need not run
   bool mayHaveLeft_ = false; ///< a RETURN stands before
 };
@@ -141,9 +142,11 @@ private:
 
 /// The values that an integer expression can have.
 struct ValueRange {
-  std::int64_t low;
-  std::int64_t high;
+  int64_t low;
+  int64_t high;
 };
 [[nodiscard]] std::optional<ValueRange> valueRange(const ast::Expr *expr);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_LINT_LINT_HPP

@@ -9,25 +9,25 @@ namespace stc {
 using namespace ast;
 
 void Linter::reportRecursion() {
-  if (!program_.diagnostics.wants(Code::recursion))
+  if (!program_.diagnostics.wants(Code::Recursion))
     return;
-  enum class State : std::uint8_t { fresh, running, done };
-  std::vector<State> state(bodies_.size(), State::fresh);
+  enum class State : uint8_t { Fresh, Running, Done };
+  std::vector<State> state(bodies_.size(), State::Fresh);
   struct Frame {
-    std::size_t body;
-    std::size_t next = 0;
+    size_t body;
+    size_t next = 0;
   };
   // An explicit stack: call chains of generated code may be long.
-  for (std::size_t start = 0; start < bodies_.size(); ++start) {
-    if (state[start] != State::fresh)
+  for (size_t start = 0; start < bodies_.size(); ++start) {
+    if (state[start] != State::Fresh)
       continue;
     std::vector<Frame> path{{start}};
-    state[start] = State::running;
+    state[start] = State::Running;
     while (!path.empty()) {
       Frame &top = path.back();
       const Body &body = bodies_[top.body];
       if (top.next == body.calls.size()) {
-        state[top.body] = State::done;
+        state[top.body] = State::Done;
         path.pop_back();
         continue;
       }
@@ -35,18 +35,18 @@ void Linter::reportRecursion() {
       const auto callee = bodyOf_.find(call->pou->decl);
       if (callee == bodyOf_.end())
         continue;
-      const std::size_t to = callee->second;
-      if (state[to] == State::fresh) {
-        state[to] = State::running;
+      const size_t to = callee->second;
+      if (state[to] == State::Fresh) {
+        state[to] = State::Running;
         path.push_back({to});
-      } else if (state[to] == State::running && !(to == top.body && body.recursesAlways)) {
+      } else if (state[to] == State::Running && !(to == top.body && body.recursesAlways)) {
         std::string circle;
         const auto first = std::find_if(path.begin(), path.end(),
                                         [&](const Frame &frame) { return frame.body == to; });
         for (auto it = first; it != path.end(); ++it)
           circle += "`" + std::string(bodies_[it->body].decl->name.text) + "` → ";
         const std::string name = "`" + std::string(bodies_[to].decl->name.text) + "`";
-        auto &d = report(Code::recursion, call->span,
+        auto &d = report(Code::Recursion, call->span,
                          to == top.body ? name + " calls itself"
                                         : name + " calls itself through other functions",
                          "this call closes the circle");
@@ -84,9 +84,9 @@ bool Linter::isPure(const PouSymbol *pou) {
 
 void Linter::reportIgnored() {
   for (const CallExpr *call : ignored_) {
-    const bool function = call->resolved == Callee::function && call->pou != nullptr &&
+    const bool function = call->resolved == Callee::Function && call->pou != nullptr &&
                           call->pou->decl->returnType != nullptr;
-    const bool builtin = call->resolved == Callee::builtin && call->builtin <= Builtin::time;
+    const bool builtin = call->resolved == Callee::Builtin && call->builtin <= Builtin::Time;
     if (!function && !builtin)
       continue;
     const bool gives = std::any_of(call->arguments.begin(), call->arguments.end(),
@@ -94,7 +94,7 @@ void Linter::reportIgnored() {
     if (function && (gives || !isPure(call->pou)))
       continue;
     const std::string name = text(call->callee->span);
-    report(Code::ignoredResult, call->span, "the result of `" + name + "` is not used",
+    report(Code::IgnoredResult, call->span, "the result of `" + name + "` is not used",
            "this call has no other effect")
         .help("assign it: `… := " + text(call->span) + ";`, or remove the call");
   }

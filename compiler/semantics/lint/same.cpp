@@ -23,38 +23,38 @@ bool same(const Expr *a, const Expr *b, unsigned depth) {
     return false;
   ++depth;
   switch (a->kind) {
-  case ExprKind::literal: {
+  case ExprKind::Literal: {
     const auto *x = as<Literal>(a);
     const auto *y = as<Literal>(b);
     return x->literal == y->literal && x->integer == y->integer && x->text == y->text &&
            !(x->real < y->real) && !(x->real > y->real);
   }
-  case ExprKind::name:
+  case ExprKind::Name:
     return as<NameExpr>(a)->symbol != nullptr && as<NameExpr>(a)->symbol == as<NameExpr>(b)->symbol;
-  case ExprKind::member: {
+  case ExprKind::Member: {
     const auto *x = as<MemberExpr>(a);
     const auto *y = as<MemberExpr>(b);
     return x->bit == y->bit && x->width == y->width && x->symbol == y->symbol &&
            x->name.id == y->name.id && same(x->base, y->base, depth);
   }
-  case ExprKind::index: {
+  case ExprKind::Index: {
     const auto *x = as<IndexExpr>(a);
     const auto *y = as<IndexExpr>(b);
     return std::equal(x->indices.begin(), x->indices.end(), y->indices.begin(), y->indices.end(),
                       [&](const Expr *i, const Expr *j) { return same(i, j, depth); }) &&
            same(x->base, y->base, depth);
   }
-  case ExprKind::deref:
+  case ExprKind::Deref:
     return same(as<DerefExpr>(a)->base, as<DerefExpr>(b)->base, depth);
-  case ExprKind::unary:
+  case ExprKind::Unary:
     return as<UnaryExpr>(a)->op == as<UnaryExpr>(b)->op &&
            same(as<UnaryExpr>(a)->operand, as<UnaryExpr>(b)->operand, depth);
-  case ExprKind::binary: {
+  case ExprKind::Binary: {
     const auto *x = as<BinaryExpr>(a);
     const auto *y = as<BinaryExpr>(b);
     return x->op == y->op && same(x->right, y->right, depth) && same(x->left, y->left, depth);
   }
-  case ExprKind::enumLiteral:
+  case ExprKind::EnumLiteral:
     return as<EnumLiteralExpr>(a)->symbol == as<EnumLiteralExpr>(b)->symbol;
   default:
     return false;
@@ -73,12 +73,12 @@ bool sameStmt(const Stmt *a, const Stmt *b, unsigned depth) {
     return false;
   ++depth;
   switch (a->kind) {
-  case StmtKind::empty:
-  case StmtKind::exit:
-  case StmtKind::continueS:
-  case StmtKind::returnS:
+  case StmtKind::Empty:
+  case StmtKind::Exit:
+  case StmtKind::Continue:
+  case StmtKind::Return:
     return true;
-  case StmtKind::assign: {
+  case StmtKind::Assign: {
     const auto *x = as<AssignStmt>(a);
     const auto *y = as<AssignStmt>(b);
     return x->op == y->op &&
@@ -86,10 +86,10 @@ bool sameStmt(const Stmt *a, const Stmt *b, unsigned depth) {
                       [](const Expr *i, const Expr *j) { return same(i, j, 0); }) &&
            same(x->value, y->value, 0);
   }
-  case StmtKind::call: {
+  case StmtKind::Call: {
     const Expr *x = as<CallStmt>(a)->expr;
     const Expr *y = as<CallStmt>(b)->expr;
-    if (x->kind != ExprKind::call || y->kind != ExprKind::call)
+    if (x->kind != ExprKind::Call || y->kind != ExprKind::Call)
       return false;
     const auto *f = as<CallExpr>(x);
     const auto *g = as<CallExpr>(y);
@@ -100,7 +100,7 @@ bool sameStmt(const Stmt *a, const Stmt *b, unsigned depth) {
                                sameOrNone(i.value, j.value, 0);
                       });
   }
-  case StmtKind::ifS: {
+  case StmtKind::If: {
     const auto *x = as<IfStmt>(a);
     const auto *y = as<IfStmt>(b);
     return x->hasElse == y->hasElse &&

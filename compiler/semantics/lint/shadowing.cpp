@@ -19,8 +19,7 @@ namespace {
 
 /// Whether the text of a library file declares that name behind `word`.
 bool declares(std::string_view text, std::string_view word, std::string_view lowerName) {
-  for (std::size_t at = text.find(word); at != std::string_view::npos;
-       at = text.find(word, at + 1)) {
+  for (size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
     const std::string_view name = text.substr(at + word.size(), lowerName.size() + 1);
     if ((at == 0 || text[at - 1] == '\n') && name.size() > lowerName.size() &&
         std::equal(lowerName.begin(), lowerName.end(), name.begin(),
@@ -46,7 +45,7 @@ bool declaresPouOrType(std::string_view text, std::string_view lowerName) {
 
 static Diagnostic &reportHidden(Context &c, const VarSymbol *v, const Symbol *hidden,
                                 const std::string &what) {
-  auto &d = c.report(Code::shadowedName, v->name.span,
+  auto &d = c.report(Code::ShadowedName, v->name.span,
                      "`" + std::string(v->name.text) + "` hides " + what, "declared again here");
   if (hidden != nullptr && hidden->name.span.valid())
     d.label(hidden->name.span, "this one cannot be reached by its plain name");
@@ -54,11 +53,11 @@ static Diagnostic &reportHidden(Context &c, const VarSymbol *v, const Symbol *hi
 }
 
 void checkShadowing(Context &c, Module &module) {
-  if (!c.program.diagnostics.wants(Code::shadowedName))
+  if (!c.program.diagnostics.wants(Code::ShadowedName))
     return;
   const auto look = [&](const PouSymbol *pou) {
     for (const VarSymbol *v : pou->variables) {
-      if (v->hidden || v->decl == nullptr || v->section == Section::external || !v->storage.empty())
+      if (v->hidden || v->decl == nullptr || v->section == Section::External || !v->storage.empty())
         continue;
       if (pou->isMethod())
         checkHiddenMember(c, pou, v);
@@ -76,7 +75,7 @@ void checkShadowing(Context &c, Module &module) {
 /// What a variable of a method hides of its block, the block's bases included.
 static void checkHiddenMember(Context &c, const PouSymbol *method, const VarSymbol *v) {
   const PouSymbol *owner = method->owner;
-  if (owner->isInterface() || (method->decl->modifiers & modAbstract) != 0 ||
+  if (owner->isInterface() || (method->decl->modifiers & kModAbstract) != 0 ||
       c.throughSelf.contains({method, v->name.id})) // `THIS^.speed := speed` knows both
     return;
   const std::string name(v->name.text);
@@ -84,11 +83,11 @@ static void checkHiddenMember(Context &c, const PouSymbol *method, const VarSymb
       "give one of them another name, or write `THIS^." + name + "` for the one of the block";
   for (const PouSymbol *block = owner; block != nullptr; block = block->base) {
     const auto it = block->scope.find(v->name.id);
-    if (it == block->scope.end() || it->second->isResult || it->second->section == Section::temp ||
+    if (it == block->scope.end() || it->second->isResult || it->second->section == Section::Temp ||
         it->second->hidden)
       continue;
     const VarSymbol *member = it->second;
-    if (block != owner && member->decl != nullptr && member->decl->access == Access::privateA)
+    if (block != owner && member->decl != nullptr && member->decl->access == Access::Private)
       continue;
     reportHidden(c, v, member,
                  block == owner
@@ -99,9 +98,9 @@ static void checkHiddenMember(Context &c, const PouSymbol *method, const VarSymb
   }
   // `METHOD MoveTo VAR_INPUT position …` beside PROPERTY Position is named for the caller.
   const bool parameter =
-      v->section == Section::input || v->section == Section::output || v->section == Section::inOut;
+      v->section == Section::Input || v->section == Section::Output || v->section == Section::InOut;
   if (const Symbol *member = memberNamed(owner, v->name.id);
-      member != nullptr && member->kind == SymbolKind::property && member != method->property &&
+      member != nullptr && member->kind == SymbolKind::Property && member != method->property &&
       !parameter)
     reportHidden(c, v, member, "the property of the same name").help(help);
 }
@@ -111,7 +110,7 @@ static void checkHidden(Context &c, Module &module, const PouSymbol *pou, const 
   const std::string name(v->name.text);
   if (const auto it = module.names.find(v->name.id); it != module.names.end()) {
     const Symbol *symbol = it->second;
-    if (symbol->kind == SymbolKind::variable) {
+    if (symbol->kind == SymbolKind::Variable) {
       const auto *global = static_cast<const VarSymbol *>(symbol);
       if (global->decl != nullptr &&
           c.program.sources.file(global->name.span.file).name().front() == '<')
@@ -121,9 +120,9 @@ static void checkHidden(Context &c, Module &module, const PouSymbol *pou, const 
                                            : "give one of them another name, or write `" +
                                                  std::string(global->globals->name.text) + "." +
                                                  name + "` for the global one");
-    } else if (symbol->kind == SymbolKind::pou && symbol != pou &&
+    } else if (symbol->kind == SymbolKind::Pou && symbol != pou &&
                (static_cast<const PouSymbol *>(symbol)->isFunction() ||
-                static_cast<const PouSymbol *>(symbol)->decl->kind == DeclKind::program)) {
+                static_cast<const PouSymbol *>(symbol)->decl->kind == DeclKind::Program)) {
       // Blocks, classes and interfaces are types.
       const bool function = static_cast<const PouSymbol *>(symbol)->isFunction();
       reportHidden(c, v, symbol,
@@ -150,14 +149,14 @@ static void checkHidden(Context &c, Module &module, const PouSymbol *pou, const 
 }
 
 void checkHiddenLibrary(Context &c, Module &module) {
-  if (!module.library->isUser || !c.program.diagnostics.wants(Code::hidesLibrary))
+  if (!module.library->isUser || !c.program.diagnostics.wants(Code::HidesLibrary))
     return;
   const auto look = [&](const Symbol *symbol, std::string_view what) {
     for (const LibraryIndex::Entry &entry : c.names.index().find(symbol->name.id->lower)) {
       if (entry.qualifiedOnly || !declaresPouOrType(entry.text, symbol->name.id->lower))
         continue;
       const std::string library(entry.library);
-      c.report(Code::hidesLibrary, symbol->name.span,
+      c.report(Code::HidesLibrary, symbol->name.span,
                "the " + std::string(what) + " `" + std::string(symbol->name.text) +
                    "` hides the one of the library `" + library + "`",
                "the library has this name too")
@@ -168,7 +167,7 @@ void checkHiddenLibrary(Context &c, Module &module) {
   };
   for (const PouSymbol *pou : module.library->pous)
     look(pou, pou->isFunction()                      ? "function"
-              : pou->decl->kind == DeclKind::program ? "program"
+              : pou->decl->kind == DeclKind::Program ? "program"
                                                      : "function block");
   for (const TypeSymbol *type : module.declaredTypes) {
     if (type->decl != nullptr)

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_LINT_SHADOWING_HPP
+#define STRIDE_COMPILER_SEMANTICS_LINT_SHADOWING_HPP
 // Names that hide other names.
 
 #include "compiler/semantics/context/context.hpp"
@@ -11,3 +12,5 @@ void checkShadowing(Context &c, Module &module);
 void checkHiddenLibrary(Context &c, Module &module);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_LINT_SHADOWING_HPP

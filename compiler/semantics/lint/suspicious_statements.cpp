@@ -10,16 +10,16 @@ using namespace ast;
 
 namespace {
 
-constexpr std::size_t kLongestChain = 64; ///< conditions that are compared with each other
-constexpr std::size_t kMostListed = 6;
-constexpr std::size_t kLongEnumeration = 32;
+constexpr size_t kLongestChain = 64; ///< conditions that are compared with each other
+constexpr size_t kMostListed = 6;
+constexpr size_t kLongEnumeration = 32;
 
 /// ADR(x): x.
 Expr *addressed(Expr *value) {
-  if (value->kind != ExprKind::call)
+  if (value->kind != ExprKind::Call)
     return nullptr;
   const auto *call = as<CallExpr>(value);
-  return call->resolved == Callee::builtin && call->builtin == Builtin::adr &&
+  return call->resolved == Callee::Builtin && call->builtin == Builtin::Adr &&
                  !call->arguments.empty()
              ? call->arguments[0].value
              : nullptr;
@@ -27,14 +27,14 @@ Expr *addressed(Expr *value) {
 
 /// Reading the same volatile place twice is a way to wait for hardware; a variable is not volatile.
 bool isPlainRead(const Expr *expr) {
-  return expr->kind == ExprKind::name || expr->kind == ExprKind::member ||
-         expr->kind == ExprKind::index || expr->kind == ExprKind::deref;
+  return expr->kind == ExprKind::Name || expr->kind == ExprKind::Member ||
+         expr->kind == ExprKind::Index || expr->kind == ExprKind::Deref;
 }
 
 } // namespace
 
 void Linter::assignment(AssignStmt *stmt) {
-  if (stmt->op == AssignOp::reference) {
+  if (stmt->op == AssignOp::Reference) {
     takeAddress(stmt->value);
     for (Expr *target : stmt->targets)
       write(target);
@@ -42,45 +42,45 @@ void Linter::assignment(AssignStmt *stmt) {
     return;
   }
   read(stmt->value);
-  for (std::size_t i = stmt->targets.size(); i-- > 0;) {
+  for (size_t i = stmt->targets.size(); i-- > 0;) {
     Expr *target = stmt->targets[i];
     write(target);
-    if (stmt->op == AssignOp::set || stmt->op == AssignOp::reset) { // keeps its value otherwise
+    if (stmt->op == AssignOp::Set || stmt->op == AssignOp::Reset) { // keeps its value otherwise
       if (VarSymbol *root = rootVariable(target))
-        root->uses |= useRead;
+        root->uses |= kUseRead;
     }
     const Expr *value = i + 1 == stmt->targets.size() ? stmt->value : stmt->targets[i + 1];
-    if (stmt->op == AssignOp::assign && isPlainRead(value) && sameExpr(target, value))
-      report(Code::selfAssignment, stmt->span, "`" + text(target->span) + "` is assigned to itself",
+    if (stmt->op == AssignOp::Assign && isPlainRead(value) && sameExpr(target, value))
+      report(Code::SelfAssignment, stmt->span, "`" + text(target->span) + "` is assigned to itself",
              "this changes nothing");
   }
   dangling(stmt);
 }
 
 void Linter::dangling(const AssignStmt *stmt) {
-  const Expr *place = stmt->op == AssignOp::reference ? stmt->value : addressed(stmt->value);
+  const Expr *place = stmt->op == AssignOp::Reference ? stmt->value : addressed(stmt->value);
   if (place == nullptr)
     return;
   const VarSymbol *local = rootVariable(place);
-  if (local == nullptr || !isOwnLocal(local) || local->isResult || local->section == Section::inOut)
+  if (local == nullptr || !isOwnLocal(local) || local->isResult || local->section == Section::InOut)
     return;
   const PouDecl *decl = bodies_[current_].decl;
   const auto dies = [decl](const VarSymbol *v) {
-    return v->section == Section::temp ||
-           ((decl->kind == DeclKind::function || decl->kind == DeclKind::method) &&
-            v->section != Section::stat && v->section != Section::instance && !v->isConstant);
+    return v->section == Section::Temp ||
+           ((decl->kind == DeclKind::Function || decl->kind == DeclKind::Method) &&
+            v->section != Section::Stat && v->section != Section::Instance && !v->isConstant);
   };
-  if (!dies(local) || local->type == nullptr || local->type->kind == TypeKind::reference)
+  if (!dies(local) || local->type == nullptr || local->type->kind == TypeKind::Reference)
     return;
   for (const Expr *target : stmt->targets) {
     const VarSymbol *root = rootVariable(target);
     if (root != nullptr && isOwnLocal(root) && !root->isResult &&
-        root->section != Section::output && root->section != Section::inOut && dies(root))
+        root->section != Section::Output && root->section != Section::InOut && dies(root))
       continue;
-    report(Code::danglingAddress, place->span,
+    report(Code::DanglingAddress, place->span,
            "`" + text(target->span) + "` keeps the address of `" + std::string(local->name.text) +
                "`, which is gone after the call",
-           local->section == Section::temp ? "a VAR_TEMP lives for one call only"
+           local->section == Section::Temp ? "a VAR_TEMP lives for one call only"
                                            : "a local variable of a function lives for one call "
                                              "only")
         .label(local->name.span, "declared here")
@@ -91,13 +91,13 @@ void Linter::dangling(const AssignStmt *stmt) {
 
 void Linter::ifChain(const IfStmt *stmt) {
   const auto &branches = stmt->branches;
-  const std::size_t count = std::min(branches.size(), kLongestChain);
-  for (std::size_t i = 1; i < count; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
+  const size_t count = std::min(branches.size(), kLongestChain);
+  for (size_t i = 1; i < count; ++i) {
+    for (size_t j = 0; j < i; ++j) {
       if (isLiteral(branches[i].condition) ||
           !sameExpr(branches[i].condition, branches[j].condition))
         continue;
-      report(Code::duplicateCondition, branches[i].condition->span,
+      report(Code::DuplicateCondition, branches[i].condition->span,
              "this condition was already asked", "this branch never runs")
           .label(branches[j].condition->span, "asked here first");
       break;
@@ -109,7 +109,7 @@ void Linter::ifChain(const IfStmt *stmt) {
     return sameBlock(branch.body, stmt->elseBody);
   });
   if (identical)
-    report(Code::identicalBranches, {stmt->span.file, stmt->span.begin, stmt->span.begin + 2},
+    report(Code::IdenticalBranches, {stmt->span.file, stmt->span.begin, stmt->span.begin + 2},
            "all branches of this IF do the same", "the condition makes no difference")
         .label(branches[0].body.front()->span, "this …")
         .label(stmt->elseBody.front()->span, "… and this are the same");
@@ -118,23 +118,22 @@ void Linter::ifChain(const IfStmt *stmt) {
 void Linter::missingCases(const CaseStmt *stmt) {
   const Type *type = stmt->selector->type;
   if (stmt->hasElse || stmt->selector->constant != nullptr || type == nullptr ||
-      type->kind != TypeKind::enumeration)
+      type->kind != TypeKind::Enumeration)
     return;
   const auto *enumeration = typeAs<EnumType>(type);
   std::vector<const EnumeratorSymbol *> missing;
   for (const EnumeratorSymbol *e : enumeration->enumerators) {
     const bool handled =
         std::any_of(stmt->branches.begin(), stmt->branches.end(), [&](const CaseBranch &branch) {
-          return std::any_of(branch.labels.begin(), branch.labels.end(),
-                             [&](const CaseLabel &label) {
-                               if (label.low->constant == nullptr ||
-                                   (label.high != nullptr && label.high->constant == nullptr))
-                                 return false;
-                               const std::int64_t low = label.low->constant->integer;
-                               const std::int64_t high =
-                                   label.high == nullptr ? low : label.high->constant->integer;
-                               return low <= e->value && e->value <= high;
-                             });
+          return std::any_of(
+              branch.labels.begin(), branch.labels.end(), [&](const CaseLabel &label) {
+                if (label.low->constant == nullptr ||
+                    (label.high != nullptr && label.high->constant == nullptr))
+                  return false;
+                const int64_t low = label.low->constant->integer;
+                const int64_t high = label.high == nullptr ? low : label.high->constant->integer;
+                return low <= e->value && e->value <= high;
+              });
         });
     // Two names of one value are one case.
     const bool known = std::any_of(missing.begin(), missing.end(),
@@ -149,7 +148,7 @@ void Linter::missingCases(const CaseStmt *stmt) {
     return;
   std::string list;
   std::string labels;
-  for (std::size_t i = 0; i < missing.size(); ++i) {
+  for (size_t i = 0; i < missing.size(); ++i) {
     const std::string name = typeName(type) + "." + std::string(missing[i]->name.text);
     labels += (i == 0 ? "" : ", ") + name;
     if (i < kMostListed)
@@ -162,7 +161,7 @@ void Linter::missingCases(const CaseStmt *stmt) {
     list += " and " + std::to_string(missing.size() - kMostListed) + " more";
   const std::string_view source = program_.sources.text(stmt->span);
   constexpr std::string_view kEnd = "END_CASE";
-  auto &d = report(Code::missingCase, stmt->selector->span,
+  auto &d = report(Code::MissingCase, stmt->selector->span,
                    "this CASE does not handle " + list + " of `" + typeName(type) + "`",
                    missing.size() == 1 ? "one value has no branch"
                                        : std::to_string(missing.size()) + " values have no branch");
@@ -171,7 +170,7 @@ void Linter::missingCases(const CaseStmt *stmt) {
   const std::string help = "add `" + (labels.size() > 60 ? std::string("ELSE ;") : labels + ": ;") +
                            "`, or an ELSE, to say that nothing is to be done";
   if (source.size() > kEnd.size()) {
-    const std::uint32_t at = stmt->span.end - static_cast<std::uint32_t>(kEnd.size());
+    const uint32_t at = stmt->span.end - static_cast<uint32_t>(kEnd.size());
     d.suggest(help, {stmt->span.file, at, at}, labels + ": ;\n");
   } else {
     d.help(help);
@@ -183,7 +182,7 @@ void Linter::unreachableCases(const CaseStmt *stmt) {
   const ConstValue *constant = stmt->selector->constant;
   // The name of a constant may be a switch that is meant to be turned.
   const bool fixed =
-      constant != nullptr && constant->kind == ConstKind::integer && isLiteral(stmt->selector);
+      constant != nullptr && constant->kind == ConstKind::Integer && isLiteral(stmt->selector);
   if (fixed)
     range = ValueRange{constant->integer, constant->integer};
   if (!range)
@@ -191,14 +190,14 @@ void Linter::unreachableCases(const CaseStmt *stmt) {
   for (const CaseBranch &branch : stmt->branches) {
     for (const CaseLabel &label : branch.labels) {
       if (label.low->constant == nullptr || label.low->type == nullptr ||
-          label.low->type->kind == TypeKind::ulint ||
+          label.low->type->kind == TypeKind::Ulint ||
           (label.high != nullptr && label.high->constant == nullptr))
         continue;
-      const std::int64_t low = label.low->constant->integer;
-      const std::int64_t high = label.high == nullptr ? low : label.high->constant->integer;
+      const int64_t low = label.low->constant->integer;
+      const int64_t high = label.high == nullptr ? low : label.high->constant->integer;
       if (low > high || (low <= range->high && high >= range->low))
         continue;
-      report(Code::unreachableCase, label.span, "this CASE value never occurs",
+      report(Code::UnreachableCase, label.span, "this CASE value never occurs",
              "the selector is never " + text(label.span))
           .label(stmt->selector->span, fixed ? "is always " + text(stmt->selector->span)
                                              : "gives " + std::to_string(range->low) + " to " +

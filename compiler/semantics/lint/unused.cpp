@@ -18,9 +18,9 @@ bool isLifecycle(const PouDecl *decl) {
 
 /// Instances whose FB_Init or FB_Exit does something need no other use.
 bool doesSomethingItself(const Type *type) {
-  while (type->kind == TypeKind::array)
+  while (type->kind == TypeKind::Array)
     type = typeAs<ArrayType>(type)->element;
-  if (type->kind != TypeKind::functionBlock)
+  if (type->kind != TypeKind::FunctionBlock)
     return false;
   for (const PouSymbol *pou = typeAs<PouType>(type)->symbol; pou != nullptr; pou = pou->base) {
     if (std::any_of(pou->methods.begin(), pou->methods.end(),
@@ -32,23 +32,23 @@ bool doesSomethingItself(const Type *type) {
 
 /// Local variables end with the call, so nobody can see them from outside.
 bool endsWithCall(const PouDecl *decl, const VarSymbol *v) {
-  return v->section == Section::temp ||
-         ((decl->kind == DeclKind::function || decl->kind == DeclKind::method) &&
-          v->section == Section::local);
+  return v->section == Section::Temp ||
+         ((decl->kind == DeclKind::Function || decl->kind == DeclKind::Method) &&
+          v->section == Section::Local);
 }
 
 bool hasBody(const PouDecl *decl) {
   return std::any_of(decl->body.begin(), decl->body.end(),
-                     [](const Stmt *s) { return s->kind != StmtKind::empty; });
+                     [](const Stmt *s) { return s->kind != StmtKind::Empty; });
 }
 
 /// Written as an elementary type, so that its default is 0 and was not chosen by anybody.
 bool hasPlainDefault(const VarSymbol *v) {
   if (v->decl == nullptr || v->decl->type == nullptr || v->decl->init != nullptr)
     return false;
-  return v->decl->type->kind == TypeExprKind::string ||
-         (v->decl->type->kind == TypeExprKind::named && isElementary(v->type) &&
-          v->type->kind != TypeKind::enumeration && v->type->kind != TypeKind::subrange &&
+  return v->decl->type->kind == TypeExprKind::String ||
+         (v->decl->type->kind == TypeExprKind::Named && isElementary(v->type) &&
+          v->type->kind != TypeKind::Enumeration && v->type->kind != TypeKind::Subrange &&
           as<NamedTypeExpr>(v->decl->type)->path.size() == 1 &&
           typeName(v->type).size() == as<NamedTypeExpr>(v->decl->type)->path[0].text.size());
 }
@@ -56,8 +56,8 @@ bool hasPlainDefault(const VarSymbol *v) {
 } // namespace
 
 void Linter::reportVariables(const Body &body) {
-  if (body.decl->external || (body.decl->modifiers & modAbstract) != 0 ||
-      body.decl->kind == DeclKind::interface)
+  if (body.decl->external || (body.decl->modifiers & kModAbstract) != 0 ||
+      body.decl->kind == DeclKind::Interface)
     return;
   for (const VarDecl *decl : body.decl->variables) {
     if (decl->symbol != nullptr && decl->symbol->type != nullptr && !isError(decl->symbol->type))
@@ -67,38 +67,38 @@ void Linter::reportVariables(const Body &body) {
 
 void Linter::reportVariable(const Body &body, VarSymbol *v) {
   if (usedOutside_.contains(v) || v->hidden || v->decl->address != nullptr ||
-      v->decl->access == Access::publicA || !v->decl->attributes.empty())
+      v->decl->access == Access::Public || !v->decl->attributes.empty())
     return;
   const PouDecl *decl = body.decl;
   const std::string name(v->name.text);
-  const bool written = (v->uses & (useWritten | useAddress)) != 0;
-  const bool filled = decl->kind == DeclKind::function || decl->kind == DeclKind::method;
+  const bool written = (v->uses & (kUseWritten | kUseAddress)) != 0;
+  const bool filled = decl->kind == DeclKind::Function || decl->kind == DeclKind::Method;
   switch (v->section) {
-  case Section::local:
-  case Section::temp:
-  case Section::stat:
-  case Section::instance:
+  case Section::Local:
+  case Section::Temp:
+  case Section::Stat:
+  case Section::Instance:
     if (v->uses == 0 && !doesSomethingItself(v->type))
-      report(Code::unusedVariable, v->name.span, "`" + name + "` is never used", "only declared")
+      report(Code::UnusedVariable, v->name.span, "`" + name + "` is never used", "only declared")
           .help("remove the declaration");
-    else if (endsWithCall(decl, v) && (v->uses & useRead) == 0 && isElementary(v->type))
-      report(Code::neverRead, v->name.span, "`" + name + "` is assigned but never read",
+    else if (endsWithCall(decl, v) && (v->uses & kUseRead) == 0 && isElementary(v->type))
+      report(Code::NeverRead, v->name.span, "`" + name + "` is assigned but never read",
              "its value is not used")
           .help("use the value, or remove the variable and its assignments");
     break;
-  case Section::input: {
+  case Section::Input: {
     const bool free =
         decl == body.owner || (body.owner->interfaces.empty() && !body.pou->extended &&
-                               body.owner->base.empty() && (decl->modifiers & modOverride) == 0);
+                               body.owner->base.empty() && (decl->modifiers & kModOverride) == 0);
     const auto &checks = program_.implicitChecks; // their inputs are prescribed
     const bool isCheck = std::find(checks.begin(), checks.end(), body.pou) != checks.end();
     if (filled && hasBody(decl) && free && !isLifecycle(decl) && !isCheck)
       reportUnused(body, v);
     break;
   }
-  case Section::output:
+  case Section::Output:
     if (!written && v->decl->init == nullptr && hasBody(decl) && body.owner == decl)
-      report(Code::outputNotAssigned, v->name.span, "the output `" + name + "` is never assigned",
+      report(Code::OutputNotAssigned, v->name.span, "the output `" + name + "` is never assigned",
              "always keeps its default value")
           .help("assign it in the body, or remove it");
     break;
@@ -106,8 +106,8 @@ void Linter::reportVariable(const Body &body, VarSymbol *v) {
     break;
   }
   if (v->earlyRead != nullptr && written && !body.hasLabels && hasPlainDefault(v) &&
-      (endsWithCall(decl, v) || (filled && v->section == Section::output)))
-    report(Code::readBeforeWritten, v->earlyRead->span,
+      (endsWithCall(decl, v) || (filled && v->section == Section::Output)))
+    report(Code::ReadBeforeWritten, v->earlyRead->span,
            "`" + name + "` is read before anything is assigned to it",
            isString(v->type) ? "always empty here" : "always has the default value here")
         .label(v->name.span, "declared without an initial value")
@@ -118,7 +118,7 @@ void Linter::reportVariable(const Body &body, VarSymbol *v) {
 void Linter::reportUnused(const Body &body, VarSymbol *v) {
   if (v->uses != 0)
     return;
-  report(Code::unusedParameter, v->name.span,
+  report(Code::UnusedParameter, v->name.span,
          "the input `" + std::string(v->name.text) + "` of `" + std::string(body.decl->name.text) +
              "` is never used",
          "its value has no effect")
@@ -128,19 +128,19 @@ void Linter::reportUnused(const Body &body, VarSymbol *v) {
 void Linter::reportResults(const Body &body) {
   const PouDecl *decl = body.decl;
   if (decl->returnType == nullptr || decl->external || !hasBody(decl) ||
-      (decl->modifiers & modAbstract) != 0 || isLifecycle(decl) || resultsWritten_.contains(decl))
+      (decl->modifiers & kModAbstract) != 0 || isLifecycle(decl) || resultsWritten_.contains(decl))
     return;
   // Methods get a result type from an interface, or because a tool puts one there.
   const bool accessor =
       std::any_of(body.owner->properties.begin(), body.owner->properties.end(),
                   [decl](const PropertyDecl *property) { return property->get == decl; });
-  if (decl->kind == DeclKind::method && !accessor && !resultsTaken_.contains(decl->name.id))
+  if (decl->kind == DeclKind::Method && !accessor && !resultsTaken_.contains(decl->name.id))
     return;
   // V2.3 demands a result type also where nobody wants a result.
   if (const auto calls = functionCalls_.find(decl);
       calls != functionCalls_.end() && calls->second.all == calls->second.asStatement)
     return;
-  report(Code::resultNotAssigned, decl->name.span,
+  report(Code::ResultNotAssigned, decl->name.span,
          "the result of `" + std::string(decl->name.text) + "` is never assigned",
          "always gives the default value")
       .help("assign it to the function's name: `" + std::string(decl->name.text) + " := …;`");
@@ -154,17 +154,17 @@ void Linter::markUsed(const Type *type) {
     if (type == nullptr || !usedTypes_.insert(type).second)
       continue;
     switch (type->kind) {
-    case TypeKind::array:
+    case TypeKind::Array:
       pending.push_back(typeAs<ArrayType>(type)->element);
       break;
-    case TypeKind::pointer:
-    case TypeKind::reference:
+    case TypeKind::Pointer:
+    case TypeKind::Reference:
       pending.push_back(typeAs<PointerType>(type)->pointee);
       break;
-    case TypeKind::functionBlock:
+    case TypeKind::FunctionBlock:
       usedPous_.insert(typeAs<PouType>(type)->symbol);
       break;
-    case TypeKind::structure:
+    case TypeKind::Structure:
       for (const VarSymbol *field : typeAs<StructType>(type)->fields)
         pending.push_back(field->type);
       pending.push_back(typeAs<StructType>(type)->base);
@@ -178,15 +178,15 @@ void Linter::markUsed(const Type *type) {
 void Linter::reportUnusedPous(const Library &library) {
   for (const PouSymbol *pou : library.pous) {
     const DeclKind kind = pou->decl->kind;
-    if ((kind != DeclKind::function && kind != DeclKind::functionBlock) || usedPous_.contains(pou))
+    if ((kind != DeclKind::Function && kind != DeclKind::FunctionBlock) || usedPous_.contains(pou))
       continue;
     const bool base =
         std::any_of(library.pous.begin(), library.pous.end(), [&](const PouSymbol *other) {
           return !other->decl->base.empty() && other->decl->base.back().id == pou->name.id;
         });
     if (!base)
-      report(Code::unusedPou, pou->name.span, "`" + std::string(pou->name.text) + "` is never used",
-             kind == DeclKind::function ? "nothing calls this function"
+      report(Code::UnusedPou, pou->name.span, "`" + std::string(pou->name.text) + "` is never used",
+             kind == DeclKind::Function ? "nothing calls this function"
                                         : "there is no instance of this block");
   }
 }

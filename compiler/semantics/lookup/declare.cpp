@@ -15,7 +15,7 @@ using namespace ast;
 
 namespace {
 
-constexpr std::uint32_t kVarGlobal = 10; // letters
+constexpr uint32_t kVarGlobal = 10; // letters
 
 /// The name of a list of globals: the file's without suffix, made an identifier.
 std::string listName(const std::string &fileName) {
@@ -37,13 +37,13 @@ std::string listName(const std::string &fileName) {
 
 VarSymbol *makeVariable(Arena &arena, VarDecl *decl, Module &module, PouSymbol *owner) {
   auto *symbol = arena.make<VarSymbol>();
-  symbol->kind = SymbolKind::variable;
+  symbol->kind = SymbolKind::Variable;
   symbol->name = decl->name;
   symbol->library = module.library;
   symbol->decl = decl;
   symbol->section = decl->section;
   symbol->owner = owner;
-  symbol->isConstant = (decl->qualifiers & qualConstant) != 0;
+  symbol->isConstant = (decl->qualifiers & kQualConstant) != 0;
   symbol->hidden = hasAttribute(decl->attributes, "hide");
   decl->symbol = symbol;
   return symbol;
@@ -108,7 +108,7 @@ void Lookup::addName(Module &module, Symbol *symbol) {
   const auto [it, inserted] = names.emplace(symbol->name.id, symbol);
   if (inserted)
     return;
-  auto &d = reporter_.report(Code::duplicateName, symbol->name.span,
+  auto &d = reporter_.report(Code::DuplicateName, symbol->name.span,
                              "the name `" + std::string(symbol->name.text) + "` is declared twice",
                              "declared again here");
   d.label(it->second->name.span, "first declared here");
@@ -117,7 +117,7 @@ void Lookup::addName(Module &module, Symbol *symbol) {
 
 NamespaceSymbol *Lookup::makeSpace(Module &module, NamespaceSymbol *around, const Name &name) {
   NamespaceSymbol &made = program_.spaceStorage.emplace_back();
-  made.kind = SymbolKind::space;
+  made.kind = SymbolKind::Space;
   made.name = name;
   made.library = module.library;
   made.space = around;
@@ -136,7 +136,7 @@ NamespaceSymbol *Lookup::declareSpace(Module &module, NamePath path) {
     } else if (const auto it = space->names.find(name.id); it != space->names.end()) {
       found = it->second;
     }
-    if (found != nullptr && found->kind == SymbolKind::space) {
+    if (found != nullptr && found->kind == SymbolKind::Space) {
       space = static_cast<NamespaceSymbol *>(found);
       continue;
     }
@@ -145,7 +145,7 @@ NamespaceSymbol *Lookup::declareSpace(Module &module, NamePath path) {
       module.spaces.emplace(name.id, made);
     else if (!space->names.emplace(name.id, made).second)
       reporter_
-          .report(Code::duplicateName, name.span,
+          .report(Code::DuplicateName, name.span,
                   "the name `" + std::string(name.text) + "` is declared twice",
                   "declared again here")
           .label(found->name.span, "first declared here");
@@ -156,15 +156,15 @@ NamespaceSymbol *Lookup::declareSpace(Module &module, NamePath path) {
 
 void Lookup::declarePou(Module &module, PouDecl *decl) {
   PouSymbol &pou = program_.pouStorage.emplace_back();
-  pou.kind = SymbolKind::pou;
+  pou.kind = SymbolKind::Pou;
   pou.name = decl->name;
   pou.library = module.library;
   pou.decl = decl;
   pou.space = declareSpace(module, decl->space);
-  if (decl->kind != DeclKind::function) {
-    const TypeKind kind = decl->kind == DeclKind::program     ? TypeKind::program
-                          : decl->kind == DeclKind::interface ? TypeKind::interface
-                                                              : TypeKind::functionBlock;
+  if (decl->kind != DeclKind::Function) {
+    const TypeKind kind = decl->kind == DeclKind::Program     ? TypeKind::Program
+                          : decl->kind == DeclKind::Interface ? TypeKind::Interface
+                                                              : TypeKind::FunctionBlock;
     pou.type = arena_.make<PouType>(Type{kind}, &pou, packMode(reporter_, decl->attributes, 0));
   }
   module.library->pous.push_back(&pou);
@@ -173,7 +173,7 @@ void Lookup::declarePou(Module &module, PouDecl *decl) {
 
 void Lookup::declareType(Module &module, Decl *decl) {
   TypeSymbol &type = program_.typeStorage.emplace_back();
-  type.kind = SymbolKind::type;
+  type.kind = SymbolKind::Type;
   type.name = decl->name;
   type.library = module.library;
   type.decl = decl;
@@ -185,42 +185,42 @@ void Lookup::declareType(Module &module, Decl *decl) {
 void Lookup::declare(Module &module, File *file) {
   for (Decl *decl : file->declarations) {
     switch (decl->kind) {
-    case DeclKind::program:
-    case DeclKind::function:
-    case DeclKind::functionBlock:
-    case DeclKind::classD:
-    case DeclKind::interface:
+    case DeclKind::Program:
+    case DeclKind::Function:
+    case DeclKind::FunctionBlock:
+    case DeclKind::Class:
+    case DeclKind::Interface:
       declarePou(module, as<PouDecl>(decl));
       break;
-    case DeclKind::structure:
-    case DeclKind::enumeration:
-    case DeclKind::alias:
+    case DeclKind::Structure:
+    case DeclKind::Enumeration:
+    case DeclKind::Alias:
       declareType(module, decl);
       break;
-    case DeclKind::globals:
+    case DeclKind::Globals:
       if (!decl->space.empty())
         reporter_
-            .report(Code::sectionNotAllowed,
+            .report(Code::SectionNotAllowed,
                     {decl->span.file, decl->span.begin, decl->span.begin + kVarGlobal},
                     "VAR_GLOBAL cannot stand in a NAMESPACE",
                     "global variables belong to no namespace")
             .help("move it out of the NAMESPACE");
       declareGlobals(module, as<GlobalsDecl>(decl));
       break;
-    case DeclKind::config:
+    case DeclKind::Config:
       configuration_.configs.push_back(as<GlobalsDecl>(decl));
       break;
-    case DeclKind::access:
+    case DeclKind::Access:
       configuration_.accesses.push_back(as<GlobalsDecl>(decl));
       break;
-    case DeclKind::configuration:
+    case DeclKind::Configuration:
       configuration_.resourceNames.insert(decl->name.id);
       for (const ResourceDecl &resource : as<ConfigurationDecl>(decl)->resources)
         configuration_.resourceNames.insert(resource.name.id);
       break;
-    case DeclKind::method: // they stand in their blocks
-    case DeclKind::action:
-    case DeclKind::property:
+    case DeclKind::Method: // they stand in their blocks
+    case DeclKind::Action:
+    case DeclKind::Property:
       break;
     }
   }
@@ -237,7 +237,7 @@ void Lookup::declareGlobals(Module &module, GlobalsDecl *decl) {
   GlobalsSymbol *&list = module.lists[name.id];
   if (list == nullptr) {
     list = &program_.globalsStorage.emplace_back();
-    list->kind = SymbolKind::globals;
+    list->kind = SymbolKind::Globals;
     list->name = name;
     list->library = module.library;
     module.library->globals.push_back(list);
@@ -248,7 +248,7 @@ void Lookup::declareGlobals(Module &module, GlobalsDecl *decl) {
     symbol->globals = list;
     symbol->home = decl;
     if (!list->scope.emplace(v->name.id, symbol).second) {
-      auto &d = reporter_.report(Code::duplicateName, v->name.span,
+      auto &d = reporter_.report(Code::DuplicateName, v->name.span,
                                  "the name `" + std::string(v->name.text) + "` is declared twice",
                                  "declared again here");
       d.label(list->scope.at(v->name.id)->name.span, "first declared here");

@@ -14,8 +14,7 @@ namespace {
 using Symbols = std::vector<const Symbol *>;
 
 /// The last of the declarations that begin before the place; null: none.
-template <class T>
-T *lastBefore(const std::vector<T *> &symbols, FileId file, std::uint32_t offset) {
+template <class T> T *lastBefore(const std::vector<T *> &symbols, FileId file, uint32_t offset) {
   T *last = nullptr;
   for (T *symbol : symbols) {
     const Span span = symbol->decl->span;
@@ -27,13 +26,13 @@ T *lastBefore(const std::vector<T *> &symbols, FileId file, std::uint32_t offset
 }
 
 /// What ends with the file has no END.
-bool isOver(const PouSymbol *pou, std::uint32_t offset) {
+bool isOver(const PouSymbol *pou, uint32_t offset) {
   return pou->decl->endSpan.valid() && pou->decl->endSpan.end < offset;
 }
 
 /// Adds what a table of names holds, in an order that does not depend on addresses.
 template <class Table> void addSorted(const Table &table, Symbols &out) {
-  const auto first = static_cast<std::ptrdiff_t>(out.size());
+  const auto first = static_cast<ptrdiff_t>(out.size());
   for (const auto &[id, symbol] : table)
     out.push_back(symbol);
   std::sort(out.begin() + first, out.end(),
@@ -50,7 +49,7 @@ void addEnumerators(const std::unordered_map<Ident, std::vector<EnumeratorSymbol
 }
 
 bool isMember(const VarSymbol *v) {
-  return !v->hidden && v->section != Section::temp && v->section != Section::instance;
+  return !v->hidden && v->section != Section::Temp && v->section != Section::Instance;
 }
 
 void addFields(const StructType *type, Symbols &out) {
@@ -78,7 +77,7 @@ void addInstance(const PouSymbol *pou, Symbols &out) {
   std::vector<const PouSymbol *> pous;
   for (const PouSymbol *p = pou; p != nullptr; p = p->base)
     pous.push_back(p);
-  for (std::size_t i = 0; i < pous.size(); ++i) {
+  for (size_t i = 0; i < pous.size(); ++i) {
     addPou(pous[i], out);
     for (const PouSymbol *base : pous[i]->interfaces) {
       if (pou->isInterface() && std::find(pous.begin(), pous.end(), base) == pous.end())
@@ -99,7 +98,7 @@ void addOwn(const PouSymbol *pou, Symbols &out) {
 
 } // namespace
 
-std::optional<Scope> Lookup::scopeAt(FileId file, std::uint32_t offset) const {
+std::optional<Scope> Lookup::scopeAt(FileId file, uint32_t offset) const {
   Module *project = findModule("");
   if (project == nullptr)
     return std::nullopt;
@@ -133,11 +132,11 @@ std::vector<const Symbol *> Lookup::visible(const Scope &scope) const {
 
 std::vector<const Symbol *> Lookup::members(const Type *type) {
   Symbols list;
-  if (type->kind == TypeKind::structure) {
+  if (type->kind == TypeKind::Structure) {
     addFields(typeAs<StructType>(type), list);
-  } else if (isInstance(type) || type->kind == TypeKind::interface) {
+  } else if (isInstance(type) || type->kind == TypeKind::Interface) {
     addInstance(typeAs<PouType>(type)->symbol, list);
-  } else if (type->kind == TypeKind::enumeration) {
+  } else if (type->kind == TypeKind::Enumeration) {
     const auto &enumerators = typeAs<EnumType>(type)->enumerators;
     list.assign(enumerators.begin(), enumerators.end());
   }
@@ -147,26 +146,26 @@ std::vector<const Symbol *> Lookup::members(const Type *type) {
 std::vector<const Symbol *> Lookup::members(const Symbol *symbol) const {
   Symbols list;
   switch (symbol->kind) {
-  case SymbolKind::variable:
-  case SymbolKind::property:
+  case SymbolKind::Variable:
+  case SymbolKind::Property:
     break;
-  case SymbolKind::type: {
+  case SymbolKind::Type: {
     const Type *type = static_cast<const TypeSymbol *>(symbol)->type;
     return type == nullptr ? list : members(type);
   }
-  case SymbolKind::pou:
+  case SymbolKind::Pou:
     addInstance(static_cast<const PouSymbol *>(symbol), list);
     return list;
-  case SymbolKind::globals: {
+  case SymbolKind::Globals: {
     const auto &variables = static_cast<const GlobalsSymbol *>(symbol)->variables;
     list.assign(variables.begin(), variables.end());
     return list;
   }
-  case SymbolKind::space:
+  case SymbolKind::Space:
     addSorted(static_cast<const NamespaceSymbol *>(symbol)->names, list);
     addEnumerators(static_cast<const NamespaceSymbol *>(symbol)->enumerators, list);
     return list;
-  case SymbolKind::library:
+  case SymbolKind::Library:
     for (const auto &[name, module] : modules_) {
       if (name.empty() || !index_.answersTo(name, symbol->name.id->lower))
         continue;
@@ -174,25 +173,25 @@ std::vector<const Symbol *> Lookup::members(const Symbol *symbol) const {
       addSorted(module->lists, list);
     }
     return list;
-  case SymbolKind::enumerator:
-  case SymbolKind::builtin:
-  case SymbolKind::self:
+  case SymbolKind::Enumerator:
+  case SymbolKind::Builtin:
+  case SymbolKind::Self:
     return list;
   }
-  const Type *type = symbol->kind == SymbolKind::variable
+  const Type *type = symbol->kind == SymbolKind::Variable
                          ? static_cast<const VarSymbol *>(symbol)->type
                          : static_cast<const PropertySymbol *>(symbol)->type;
-  if (type != nullptr && type->kind == TypeKind::reference)
+  if (type != nullptr && type->kind == TypeKind::Reference)
     type = typeAs<PointerType>(type)->pointee;
   return type == nullptr ? list : members(type);
 }
 
 std::optional<Span> Lookup::declaration(const Symbol *symbol) {
   switch (symbol->kind) {
-  case SymbolKind::builtin:
-  case SymbolKind::library:
+  case SymbolKind::Builtin:
+  case SymbolKind::Library:
     return std::nullopt;
-  case SymbolKind::self:
+  case SymbolKind::Self:
     return declaration(static_cast<const SelfSymbol *>(symbol)->block);
   default:
     return symbol->name.span.valid() ? std::optional(symbol->name.span) : std::nullopt;

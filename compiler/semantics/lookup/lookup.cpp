@@ -45,7 +45,7 @@ Lookup::Lookup(Program &program, const LibraryIndex &index)
   for (const auto &[name, function] : builtins()) {
     const Ident id = program.interner.intern(name);
     auto *symbol = arena_.make<BuiltinSymbol>();
-    symbol->kind = SymbolKind::builtin;
+    symbol->kind = SymbolKind::Builtin;
     symbol->name = {id, id->lower, {}};
     symbol->id = function;
     builtins_.emplace(id, symbol);
@@ -55,7 +55,7 @@ Lookup::Lookup(Program &program, const LibraryIndex &index)
 Symbol *Lookup::inPou(PouSymbol *pou, Ident id) {
   for (PouSymbol *p = pou; p != nullptr; p = p->owner) {
     VarSymbol *v = findVariable(p, id);
-    if (v != nullptr && (p == pou || v->section != Section::temp)) // VAR_TEMP is the body's own
+    if (v != nullptr && (p == pou || v->section != Section::Temp)) // VAR_TEMP is the body's own
       return v;
     if (p->owner == nullptr && !p->isFunction()) {
       if (Symbol *member = memberNamed(p, id))
@@ -74,7 +74,7 @@ Symbol *Lookup::self(const Scope &scope, const Name &name) {
       (isSuper && block->base == nullptr))
     return nullptr;
   auto *symbol = arena_.make<SelfSymbol>();
-  symbol->kind = SymbolKind::self;
+  symbol->kind = SymbolKind::Self;
   symbol->name = name;
   symbol->library = block->library;
   symbol->block = isSuper ? block->base : block;
@@ -86,7 +86,7 @@ Symbol *Lookup::library(const Name &name) {
   if (!index_.isLibrary(name.id->lower))
     return nullptr;
   auto *symbol = arena_.make<LibrarySymbol>();
-  symbol->kind = SymbolKind::library;
+  symbol->kind = SymbolKind::Library;
   symbol->name = name;
   return symbol;
 }
@@ -171,7 +171,7 @@ FoundEnumerator Lookup::usedEnumerator(const Scope &scope, Ident id) {
     return {};
   for (const NamePath &path : decl->usings) {
     Symbol *space = used(scope, path);
-    if (space == nullptr || space->kind != SymbolKind::space)
+    if (space == nullptr || space->kind != SymbolKind::Space)
       continue;
     const auto found = enumeratorOf(static_cast<NamespaceSymbol *>(space)->enumerators, id);
     if (found.enumerator != nullptr)
@@ -181,7 +181,7 @@ FoundEnumerator Lookup::usedEnumerator(const Scope &scope, Ident id) {
 }
 
 FoundEnumerator Lookup::enumerator(const Scope &scope, Ident id, const Type *expected) {
-  if (expected != nullptr && expected->kind == TypeKind::enumeration) {
+  if (expected != nullptr && expected->kind == TypeKind::Enumeration) {
     EnumeratorSymbol *e = findEnumerator(typeAs<EnumType>(expected), id);
     if (e != nullptr && !typeAs<EnumType>(expected)->qualifiedOnly)
       return {e};

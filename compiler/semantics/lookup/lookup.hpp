@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_LOOKUP_LOOKUP_HPP
+#define STRIDE_COMPILER_SEMANTICS_LOOKUP_LOOKUP_HPP
 // Names: what they stand for, what can be named somewhere, where it is declared. Who uses it:
 // references.hpp. The checker asks while it checks; who keeps the Lookup can go on asking.
 
@@ -52,7 +53,7 @@ public:
 
   /// The place of a source file of the project as a scope: a body, a type, or the project.
   /// Nothing before a file is declared.
-  [[nodiscard]] std::optional<Scope> scopeAt(FileId file, std::uint32_t offset) const;
+  [[nodiscard]] std::optional<Scope> scopeAt(FileId file, uint32_t offset) const;
   /// What can be named there without anything in front. What is nearer comes first; what it hides
   /// is among the others. Names that only libraries have: libraryNames().
   [[nodiscard]] std::vector<const Symbol *> visible(const Scope &scope) const;
@@ -146,3 +147,5 @@ private:
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_LOOKUP_LOOKUP_HPP

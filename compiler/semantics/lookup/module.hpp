@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_LOOKUP_MODULE_HPP
+#define STRIDE_COMPILER_SEMANTICS_LOOKUP_MODULE_HPP
 // Where names are declared, and from where they are looked up.
 
 #include "compiler/semantics/program.hpp"
@@ -38,3 +39,5 @@ struct Scope {
 [[nodiscard]] const ast::Decl *homeOf(const Scope &scope);
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_LOOKUP_MODULE_HPP

@@ -21,7 +21,7 @@ NamespaceSymbol *spaceOf(const Module &module, NamePath path) {
     } else if (const auto it = space->names.find(name.id); it != space->names.end()) {
       next = it->second;
     }
-    if (next == nullptr || next->kind != SymbolKind::space)
+    if (next == nullptr || next->kind != SymbolKind::Space)
       return space;
     space = static_cast<NamespaceSymbol *>(next);
   }
@@ -29,11 +29,11 @@ NamespaceSymbol *spaceOf(const Module &module, NamePath path) {
 }
 
 bool isInternal(const Symbol *symbol) {
-  const Decl *decl = symbol->kind == SymbolKind::pou ? static_cast<const PouSymbol *>(symbol)->decl
-                     : symbol->kind == SymbolKind::type
+  const Decl *decl = symbol->kind == SymbolKind::Pou ? static_cast<const PouSymbol *>(symbol)->decl
+                     : symbol->kind == SymbolKind::Type
                          ? static_cast<const TypeSymbol *>(symbol)->decl
                          : nullptr;
-  return decl != nullptr && decl->access == Access::internalA;
+  return decl != nullptr && decl->access == Access::Internal;
 }
 
 } // namespace
@@ -54,10 +54,10 @@ std::vector<NamespaceSymbol *> Lookup::spaces(const Scope &scope) const {
 }
 
 Symbol *Lookup::used(const Scope &scope, NamePath path) {
-  const auto follow = [&](Symbol *space, std::size_t from) -> Symbol * {
-    for (std::size_t i = from; space != nullptr && i < path.size(); ++i)
+  const auto follow = [&](Symbol *space, size_t from) -> Symbol * {
+    for (size_t i = from; space != nullptr && i < path.size(); ++i)
       space = memberOfSpace(space, path[i].id);
-    return space != nullptr && space->kind == SymbolKind::space ? space : nullptr;
+    return space != nullptr && space->kind == SymbolKind::Space ? space : nullptr;
   };
   for (NamespaceSymbol *space : spaces(scope))
     if (Symbol *found = follow(space, 0))
@@ -70,9 +70,9 @@ Symbol *Lookup::used(const Scope &scope, NamePath path) {
 }
 
 Symbol *Lookup::memberOfSpace(Symbol *space, Ident id) {
-  if (space->kind == SymbolKind::library)
+  if (space->kind == SymbolKind::Library)
     return inLibrary(space->name.id, id);
-  if (space->kind != SymbolKind::space)
+  if (space->kind != SymbolKind::Space)
     return nullptr;
   const auto *of = static_cast<NamespaceSymbol *>(space);
   const auto it = of->names.find(id);
@@ -112,7 +112,7 @@ Found Lookup::inUsings(const Scope &scope, Ident id) {
   for (const NamePath &path : decl->usings) {
     Symbol *space = used(scope, path);
     Symbol *here = space == nullptr ? nullptr : memberOfSpace(space, id);
-    if (here == nullptr || here == found.symbol || here->kind == SymbolKind::enumerator)
+    if (here == nullptr || here == found.symbol || here->kind == SymbolKind::Enumerator)
       continue;
     if (found) {
       found.other = here;

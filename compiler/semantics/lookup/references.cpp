@@ -55,30 +55,30 @@ void Collector::items(std::span<const AggregateItem> items) {
 
 void Collector::node(const Expr *expr) {
   switch (expr->kind) {
-  case ExprKind::name:
+  case ExprKind::Name:
     return name(as<NameExpr>(expr)->symbol, as<NameExpr>(expr)->name);
-  case ExprKind::member:
+  case ExprKind::Member:
     return name(as<MemberExpr>(expr)->symbol, as<MemberExpr>(expr)->name);
-  case ExprKind::call:
+  case ExprKind::Call:
     return arguments(as<CallExpr>(expr)->arguments);
-  case ExprKind::aggregate:
+  case ExprKind::Aggregate:
     return items(as<AggregateExpr>(expr)->items);
-  case ExprKind::enumLiteral: {
+  case ExprKind::EnumLiteral: {
     const auto *literal = as<EnumLiteralExpr>(expr);
     name(literal->symbol, literal->enumerator);
-    if (literal->symbol != nullptr && literal->symbol->kind == SymbolKind::enumerator)
+    if (literal->symbol != nullptr && literal->symbol->kind == SymbolKind::Enumerator)
       name(static_cast<const EnumeratorSymbol *>(literal->symbol)->type->symbol, literal->typeName);
     return;
   }
-  case ExprKind::typeName:
+  case ExprKind::TypeName:
     return type(as<TypeNameExpr>(expr)->name);
-  case ExprKind::literal:
-  case ExprKind::index:
-  case ExprKind::deref:
-  case ExprKind::unary:
-  case ExprKind::binary:
-  case ExprKind::direct:
-  case ExprKind::error:
+  case ExprKind::Literal:
+  case ExprKind::Index:
+  case ExprKind::Deref:
+  case ExprKind::Unary:
+  case ExprKind::Binary:
+  case ExprKind::Direct:
+  case ExprKind::Error:
     return;
   }
 }
@@ -86,7 +86,7 @@ void Collector::node(const Expr *expr) {
 void Collector::expression(Expr *expr) {
   if (expr == nullptr)
     return;
-  const std::size_t first = pending_.size(); // types inside of expressions hold expressions, too
+  const size_t first = pending_.size(); // types inside of expressions hold expressions, too
   pending_.push_back(expr);
   while (pending_.size() > first) {
     const Expr *next = pending_.back();
@@ -98,7 +98,7 @@ void Collector::expression(Expr *expr) {
 
 void Collector::type(const TypeExpr *type) {
   switch (type->kind) {
-  case TypeExprKind::named: {
+  case TypeExprKind::Named: {
     const auto *named = as<NamedTypeExpr>(type);
     name(named->symbol, named->path.back());
     const auto values = [this](std::span<const Argument> list) {
@@ -111,28 +111,28 @@ void Collector::type(const TypeExpr *type) {
       values(element);
     return;
   }
-  case TypeExprKind::array:
+  case TypeExprKind::Array:
     for (const ArrayRange &range : as<ArrayTypeExpr>(type)->ranges) {
       expression(range.low);
       expression(range.high);
     }
     return this->type(as<ArrayTypeExpr>(type)->element);
-  case TypeExprKind::string:
+  case TypeExprKind::String:
     return expression(as<StringTypeExpr>(type)->length);
-  case TypeExprKind::pointer:
-  case TypeExprKind::reference:
+  case TypeExprKind::Pointer:
+  case TypeExprKind::Reference:
     return this->type(as<PointerTypeExpr>(type)->pointee);
-  case TypeExprKind::subrange:
+  case TypeExprKind::Subrange:
     this->type(as<SubrangeTypeExpr>(type)->base);
     expression(as<SubrangeTypeExpr>(type)->low);
     return expression(as<SubrangeTypeExpr>(type)->high);
-  case TypeExprKind::enumeration:
+  case TypeExprKind::Enumeration:
     for (const EnumeratorDecl &enumerator : as<EnumTypeExpr>(type)->enumerators)
       expression(enumerator.value);
     if (as<EnumTypeExpr>(type)->base != nullptr)
       this->type(as<EnumTypeExpr>(type)->base);
     return;
-  case TypeExprKind::error:
+  case TypeExprKind::Error:
     return;
   }
 }
@@ -172,20 +172,20 @@ void Collector::typeDeclaration(const TypeSymbol *symbol) {
   if (symbol->decl == nullptr)
     return;
   switch (symbol->decl->kind) {
-  case DeclKind::structure: {
+  case DeclKind::Structure: {
     const auto *decl = as<StructDecl>(symbol->decl);
     const auto *type =
-        symbol->type->kind == TypeKind::structure ? typeAs<StructType>(symbol->type) : nullptr;
+        symbol->type->kind == TypeKind::Structure ? typeAs<StructType>(symbol->type) : nullptr;
     if (type != nullptr && type->base != nullptr)
       name(type->base->symbol, decl->base.back());
     for (const VarDecl *field : decl->fields)
       variable(field);
     return;
   }
-  case DeclKind::enumeration:
+  case DeclKind::Enumeration:
     type(as<EnumDecl>(symbol->decl)->type);
     return expression(as<EnumDecl>(symbol->decl)->init);
-  case DeclKind::alias:
+  case DeclKind::Alias:
     type(as<AliasDecl>(symbol->decl)->type);
     return expression(as<AliasDecl>(symbol->decl)->init);
   default:
@@ -204,9 +204,7 @@ void Collector::library(const Library &library) {
     pou(symbol);
 }
 
-std::tuple<FileId, std::uint32_t> placeOf(const Use &use) {
-  return {use.span.file, use.span.begin};
-}
+std::tuple<FileId, uint32_t> placeOf(const Use &use) { return {use.span.file, use.span.begin}; }
 
 bool isBefore(const Use &a, const Use &b) { return placeOf(a) < placeOf(b); }
 
@@ -237,7 +235,7 @@ std::span<const References::Use> References::of(const Symbol *symbol) const {
   return {first, last};
 }
 
-const Symbol *References::at(FileId file, std::uint32_t offset) const {
+const Symbol *References::at(FileId file, uint32_t offset) const {
   auto it = std::upper_bound(byPlace_.begin(), byPlace_.end(), Use{nullptr, {file, offset, offset}},
                              isBefore);
   if (it == byPlace_.begin())

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_LOOKUP_REFERENCES_HPP
+#define STRIDE_COMPILER_SEMANTICS_LOOKUP_REFERENCES_HPP
 // Who uses a symbol: an index over a checked program.
 
 #include "compiler/semantics/program.hpp"
@@ -26,8 +27,8 @@ public:
   /// All uses of the symbol, in the order of files and text.
   [[nodiscard]] std::span<const Use> of(const Symbol *symbol) const;
   /// What the name at that place stands for; null: there is no name.
-  [[nodiscard]] const Symbol *at(FileId file, std::uint32_t offset) const;
-  [[nodiscard]] std::size_t size() const { return bySymbol_.size(); }
+  [[nodiscard]] const Symbol *at(FileId file, uint32_t offset) const;
+  [[nodiscard]] size_t size() const { return bySymbol_.size(); }
 
 private:
   std::vector<Use> bySymbol_; ///< sorted by symbol, file, place
@@ -35,3 +36,5 @@ private:
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_LOOKUP_REFERENCES_HPP

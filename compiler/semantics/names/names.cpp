@@ -10,7 +10,7 @@ using namespace ast;
 
 namespace {
 
-std::uint64_t placeOf(Span span) { return std::uint64_t{span.file} << 32 | span.begin; }
+uint64_t placeOf(Span span) { return uint64_t{span.file} << 32 | span.begin; }
 
 std::string qualifiedName(const Symbol *symbol) {
   const std::string name(symbol->name.text);
@@ -25,12 +25,12 @@ std::string qualifiedName(const Symbol *symbol) {
 /// The symbol, after what is wrong with the name has been reported.
 static Symbol *use(Context &c, const Name &name, const Found &found) {
   if (found.isForeign && c.reported.names.insert(placeOf(name.span)).second)
-    noteDeclaration(c.report(Code::memberNotVisible, name.span,
+    noteDeclaration(c.report(Code::MemberNotVisible, name.span,
                              "`" + qualifiedName(found.symbol) + "` is INTERNAL",
                              "only the namespace `" + found.symbol->space->path + "` can use it"),
                     found.symbol);
   if (found.other != nullptr && c.reported.unknown.emplace(c.scope.pou, name.id).second)
-    c.report(Code::ambiguousNamespace, name.span,
+    c.report(Code::AmbiguousNamespace, name.span,
              "`" + std::string(name.text) + "` is in several namespaces", "which one is meant?")
         .label(found.symbol->name.span, "`" + qualifiedName(found.symbol) + "`")
         .label(found.other->name.span, "`" + qualifiedName(found.other) + "`")
@@ -52,13 +52,13 @@ Symbol *nameInSpace(Context &c, Symbol *space, const Name &name) {
 /// The namespace or library at the beginning of a path; null: none.
 static Symbol *spaceOfPath(Context &c, const Name &first, NamePath path) {
   Symbol *symbol = c.names.inSpaces(c.scope, first.id);
-  if (symbol != nullptr && symbol->kind == SymbolKind::space)
+  if (symbol != nullptr && symbol->kind == SymbolKind::Space)
     return symbol;
   symbol = c.names.used(c.scope, NamePath(path.data(), 1));
   if (symbol != nullptr)
     return symbol;
   Symbol *used = use(c, first, c.names.inUsings(c.scope, first.id));
-  return used != nullptr && used->kind == SymbolKind::space ? used : nullptr;
+  return used != nullptr && used->kind == SymbolKind::Space ? used : nullptr;
 }
 
 Symbol *lookupPath(Context &c, NamePath path, bool asType) {
@@ -84,7 +84,7 @@ void checkUsings(Context &c, const Decl *decl) {
   for (const NamePath &path : decl->usings) {
     const Span span = path.front().span.to(path.back().span);
     if (c.names.used(c.scope, path) == nullptr && c.reported.names.insert(placeOf(span)).second)
-      c.report(Code::unknownNamespace, span,
+      c.report(Code::UnknownNamespace, span,
                "cannot find the namespace `" + std::string(c.program.sources.text(span)) + "`",
                "neither a NAMESPACE nor a library")
           .help("USING names a NAMESPACE of the project, with those around it: `USING A.B;`");

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_NAMES_NAMES_HPP
+#define STRIDE_COMPILER_SEMANTICS_NAMES_NAMES_HPP
 // Names as the checker meets them: looked up from the scope it is in, with diagnostics for what is
 // ambiguous, out of reach or unknown.
 
@@ -33,3 +34,5 @@ void helpMembers(Diagnostic &d, const ast::Name &name,
                  const std::vector<std::string_view> &members);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_NAMES_NAMES_HPP

@@ -25,13 +25,13 @@ static bool reportSelf(Context &c, const Name &name) {
   const PouSymbol *block = c.scope.pou == nullptr ? nullptr : blockOf(c.scope.pou);
   if (isSuper && block != nullptr && block->isBlock()) {
     auto &d =
-        c.report(Code::noSelf, name.span,
+        c.report(Code::NoSelf, name.span,
                  "there is no SUPER: `" + std::string(block->name.text) + "` extends no block",
                  "no base block");
     noteDeclaration(d, block);
     d.help("write `FUNCTION_BLOCK " + std::string(block->name.text) + " EXTENDS …`");
   } else {
-    c.report(Code::noSelf, name.span,
+    c.report(Code::NoSelf, name.span,
              std::string(isSuper ? "SUPER" : "THIS") +
                  " is only possible inside of a function block",
              "there is no instance here");
@@ -118,13 +118,13 @@ std::string_view wordOfOtherLanguages(std::string_view lower) {
 } // namespace
 
 bool reportUnqualified(Context &c, const Name &name, const Type *expected) {
-  if (expected == nullptr || expected->kind != TypeKind::enumeration)
+  if (expected == nullptr || expected->kind != TypeKind::Enumeration)
     return false;
   const EnumeratorSymbol *e = findEnumerator(typeAs<EnumType>(expected), name.id);
   if (e == nullptr)
     return false;
   const std::string full = typeName(expected) + "." + std::string(name.text);
-  auto &d = c.report(Code::unknownName, name.span,
+  auto &d = c.report(Code::UnknownName, name.span,
                      "`" + std::string(name.text) + "` needs the name of its type in front",
                      "`" + typeName(expected) + "` is `qualified_only`");
   noteDeclaration(d, e);
@@ -144,13 +144,13 @@ static std::vector<std::string_view> visibleNames(Context &c, bool types) {
   std::vector<std::string_view> list;
   for (const Symbol *symbol : c.names.visible(c.scope)) {
     const bool isType =
-        symbol->kind == SymbolKind::type ||
-        (symbol->kind == SymbolKind::pou && !static_cast<const PouSymbol *>(symbol)->isFunction());
+        symbol->kind == SymbolKind::Type ||
+        (symbol->kind == SymbolKind::Pou && !static_cast<const PouSymbol *>(symbol)->isFunction());
     const bool isPrefix = // of longer names, which are not what was written
-        symbol->kind == SymbolKind::globals ||
-        ((symbol->kind == SymbolKind::space || symbol->kind == SymbolKind::enumerator) &&
-         (symbol->space == nullptr) == (symbol->kind == SymbolKind::space));
-    if (types ? isType : symbol->kind != SymbolKind::type && !isPrefix)
+        symbol->kind == SymbolKind::Globals ||
+        ((symbol->kind == SymbolKind::Space || symbol->kind == SymbolKind::Enumerator) &&
+         (symbol->space == nullptr) == (symbol->kind == SymbolKind::Space));
+    if (types ? isType : symbol->kind != SymbolKind::Type && !isPrefix)
       list.push_back(symbol->name.text);
   }
   if (types) {
@@ -168,7 +168,7 @@ static std::vector<std::string_view> visibleNames(Context &c, bool types) {
 /// Empty also when there have been so many mistakes in so large a program that looking for what was
 /// meant would take longer than the check.
 static std::string_view similarName(Context &c, const Name &name, bool asType) {
-  constexpr std::size_t kMostLooks = 2'000'000;
+  constexpr size_t kMostLooks = 2'000'000;
   if (c.reported.namesLookedAt >= kMostLooks)
     return {};
   const std::vector<std::string_view> names = visibleNames(c, asType);
@@ -187,9 +187,9 @@ void reportUnknown(Context &c, const Name &name, bool asType) {
   }
   auto &d =
       asType
-          ? c.report(Code::unknownType, name.span,
+          ? c.report(Code::UnknownType, name.span,
                      "cannot find type `" + std::string(name.text) + "`", "no type of this name")
-          : c.report(Code::unknownName, name.span, "cannot find `" + std::string(name.text) + "`",
+          : c.report(Code::UnknownName, name.span, "cannot find `" + std::string(name.text) + "`",
                      "not declared in this scope");
   if (looksLikeCamTable(name.id->lower)) {
     const CamTableName table = readCamTable(name.id->lower);
@@ -240,12 +240,12 @@ static void addMembers(Context &c, const Name &name, std::vector<std::string> &p
   for (const VarSymbol *v : c.scope.pou->variables) {
     if (v->type == nullptr || v->hidden)
       continue;
-    if (v->type->kind != TypeKind::structure && !isInstance(v->type))
+    if (v->type->kind != TypeKind::Structure && !isInstance(v->type))
       continue;
     const VarSymbol *member = findMember(c, v->type, name.id);
     const bool open = member != nullptr && !member->hidden && !member->isResult &&
-                      (member->owner == nullptr || member->section == Section::input ||
-                       member->section == Section::output);
+                      (member->owner == nullptr || member->section == Section::Input ||
+                       member->section == Section::Output);
     if (open)
       places.push_back(std::string(v->name.text) + "." + std::string(member->name.text));
   }
@@ -255,10 +255,10 @@ static void addMembers(Context &c, const Name &name, std::vector<std::string> &p
 static void addQualified(const Context &c, const Name &name, std::vector<std::string> &places) {
   const Library &library = *c.scope.module->library;
   for (const PouSymbol *pou : library.pous) {
-    if (pou == c.scope.pou || pou->decl->kind != DeclKind::program)
+    if (pou == c.scope.pou || pou->decl->kind != DeclKind::Program)
       continue;
     for (const VarDecl *v : pou->decl->variables) {
-      if (v->name.id == name.id && v->section != Section::temp)
+      if (v->name.id == name.id && v->section != Section::Temp)
         places.push_back(std::string(pou->name.text) + "." + std::string(v->name.text));
     }
   }
@@ -269,7 +269,7 @@ static void addQualified(const Context &c, const Name &name, std::vector<std::st
   }
   for (const TypeSymbol *symbol : library.types) {
     const Type *type = symbol->type;
-    if (type != nullptr && type->kind == TypeKind::enumeration &&
+    if (type != nullptr && type->kind == TypeKind::Enumeration &&
         typeAs<EnumType>(type)->qualifiedOnly && findEnumerator(typeAs<EnumType>(type), name.id))
       places.push_back(typeName(type) + "." + std::string(name.text));
   }
@@ -289,7 +289,7 @@ static bool helpElsewhere(Context &c, Diagnostic &d, const Name &name, bool asTy
     if (std::find(places.begin(), places.end(), place) == places.end())
       places.push_back(std::move(place));
   }
-  constexpr std::size_t kMost = 3;
+  constexpr size_t kMost = 3;
   if (places.empty() || places.size() > kMost)
     return false;
   if (places.size() == 1) {
@@ -304,7 +304,7 @@ static bool helpElsewhere(Context &c, Diagnostic &d, const Name &name, bool asTy
 }
 
 void helpMembers(Diagnostic &d, const Name &name, const std::vector<std::string_view> &members) {
-  constexpr std::size_t kFew = 8;
+  constexpr size_t kFew = 8;
   if (const std::string_view similar = nearest(name.text, members); !similar.empty()) {
     d.suggest("a similar one exists: `" + std::string(similar) + "`", name.span,
               std::string(similar));

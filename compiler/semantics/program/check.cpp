@@ -24,7 +24,7 @@ static void lintModule(Context &c, Module &module);
 static void declareUsed(Context &c);
 
 template <class List, class Action> static void byIndex(List &list, Action &&action) {
-  for (std::size_t i = 0; i < list.size(); ++i) // the list may grow meanwhile
+  for (size_t i = 0; i < list.size(); ++i) // the list may grow meanwhile
     action(list[i]);
 }
 
@@ -43,16 +43,16 @@ static void checkModule(Context &c, Module &module) {
   byIndex(library->pous, [&](PouSymbol *p) { checkClass(c, p); });
   checkContainment(c, module);
   for (const TypeSymbol *t : library->types) {
-    if (t->type->kind == TypeKind::structure && typeAs<StructType>(t->type)->isUnion &&
-        t->decl->kind == DeclKind::structure)
+    if (t->type->kind == TypeKind::Structure && typeAs<StructType>(t->type)->isUnion &&
+        t->decl->kind == DeclKind::Structure)
       checkUnion(c, typeAs<StructType>(t->type));
   }
   for (TypeSymbol *t : std::vector<TypeSymbol *>(library->types)) {
     const ScopeGuard guard(c, {&module, nullptr, t->decl});
-    if (t->type->kind == TypeKind::structure && t->decl->kind == DeclKind::structure) {
+    if (t->type->kind == TypeKind::Structure && t->decl->kind == DeclKind::Structure) {
       for (VarSymbol *field : typeAs<StructType>(t->type)->fields)
         checkInitOf(c, field);
-    } else if (t->init != nullptr && t->decl->kind == DeclKind::alias) {
+    } else if (t->init != nullptr && t->decl->kind == DeclKind::Alias) {
       t->init = checkInit(c, t->init, t->type);
     }
   }
@@ -101,7 +101,7 @@ static void checkDefaults(Context &c, TypeSymbol *t) {
     for (VarSymbol *field : typeAs<StructType>(t->type)->fields)
       checkInitOf(c, field);
   }
-  const bool alias = t->decl != nullptr && t->decl->kind == DeclKind::alias;
+  const bool alias = t->decl != nullptr && t->decl->kind == DeclKind::Alias;
   if (!alias || t->init == nullptr || t->init->type != nullptr)
     return;
   const ScopeGuard guard(c, {&c.names.moduleOf(t), nullptr});
@@ -132,14 +132,14 @@ static void declareUsed(Context &c, Library &library) {
 /// and defaults too. That pulls in what they use, so that the lists grow meanwhile.
 static void declareUsed(Context &c) {
   const auto count = [&c] {
-    std::size_t total = c.program.libraries.size();
+    size_t total = c.program.libraries.size();
     for (const auto &library : c.program.libraries)
       total += library->pous.size() + library->types.size() + library->globals.size();
     return total;
   };
-  for (std::size_t before = 0; before != count();) {
+  for (size_t before = 0; before != count();) {
     before = count();
-    for (std::size_t l = 0; l < c.program.libraries.size(); ++l)
+    for (size_t l = 0; l < c.program.libraries.size(); ++l)
       declareUsed(c, *c.program.libraries[l]);
   }
 }

@@ -10,37 +10,37 @@ namespace stc::sema {
 
 using namespace ast;
 
-static bool implicitCheckFits(Context &c, PouSymbol *pou, std::size_t check);
+static bool implicitCheckFits(Context &c, PouSymbol *pou, size_t check);
 
 void findImplicitChecks(Context &c, Module &module) {
   const auto names = implicitCheckNames();
   for (PouSymbol *pou : module.library->pous) {
     if (!pou->isFunction())
       continue;
-    for (std::size_t i = 0; i < names.size(); ++i) {
+    for (size_t i = 0; i < names.size(); ++i) {
       if (pou->name.id->lower == names[i].lowerName && implicitCheckFits(c, pou, i))
         c.program.implicitChecks[i] = pou;
     }
   }
 }
 
-static bool implicitCheckFits(Context &c, PouSymbol *pou, std::size_t check) {
+static bool implicitCheckFits(Context &c, PouSymbol *pou, size_t check) {
   const ImplicitCheckName &wanted = implicitCheckNames()[check];
   const std::vector<VarSymbol *> parameters = pou->parameters();
-  const bool isPointer = wanted.value == TypeKind::none;
-  const auto fits = [&](const Type *type, std::size_t at) { // 0: the result, then the inputs
+  const bool isPointer = wanted.value == TypeKind::None;
+  const auto fits = [&](const Type *type, size_t at) { // 0: the result, then the inputs
     if (!isPointer)
       return type->kind == wanted.value;
     if (at < 2)
-      return type->kind == TypeKind::pointer && isByteView(typeAs<PointerType>(type)->pointee);
-    return type->kind == (at == 4 ? TypeKind::boolean : TypeKind::dint);
+      return type->kind == TypeKind::Pointer && isByteView(typeAs<PointerType>(type)->pointee);
+    return type->kind == (at == 4 ? TypeKind::Boolean : TypeKind::Dint);
   };
   bool good =
       pou->result != nullptr && fits(pou->result->type, 0) && parameters.size() == wanted.inputs;
-  for (std::size_t i = 0; good && i < parameters.size(); ++i)
-    good = parameters[i]->section == Section::input && fits(parameters[i]->type, i + 1);
+  for (size_t i = 0; good && i < parameters.size(); ++i)
+    good = parameters[i]->section == Section::Input && fits(parameters[i]->type, i + 1);
   if (!good)
-    c.report(Code::implicitCheckSignature, pou->name.span,
+    c.report(Code::ImplicitCheckSignature, pou->name.span,
              "`" + std::string(pou->name.text) +
                  "` replaces a run-time check, but has another signature",
              "its inputs or its result do not fit")

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_PROGRAM_OWN_CHECKS_HPP
+#define STRIDE_COMPILER_SEMANTICS_PROGRAM_OWN_CHECKS_HPP
 // Functions of the project that replace run-time checks.
 
 #include "compiler/semantics/context/context.hpp"
@@ -9,3 +10,5 @@ namespace stc::sema {
 void findImplicitChecks(Context &c, Module &module);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_PROGRAM_OWN_CHECKS_HPP

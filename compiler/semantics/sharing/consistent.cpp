@@ -14,7 +14,7 @@ void SharingGraph::findEvents() {
   std::vector<const PouSymbol *> open;
   for (const TaskEntry &task : tasks_) {
     for (const PouSymbol *pou : task.pous) {
-      if (pou->decl->kind != DeclKind::program)
+      if (pou->decl->kind != DeclKind::Program)
         open.push_back(pou);
     }
   }
@@ -31,7 +31,7 @@ void SharingGraph::findEvents() {
 }
 
 /// True: the access is to the task's own copy, and concerns nobody else.
-bool SharingGraph::readsCopy(std::uint32_t task, const PouSymbol *pou, const PlaceAccess &access) {
+bool SharingGraph::readsCopy(uint32_t task, const PouSymbol *pou, const PlaceAccess &access) {
   if (access.named == nullptr)
     return false;
   const auto *v = static_cast<const VarSymbol *>(access.place.symbol);
@@ -47,11 +47,11 @@ bool SharingGraph::readsCopy(std::uint32_t task, const PouSymbol *pou, const Pla
 
 void SharingGraph::concludeConsistent() {
   for (const Symbol *symbol : rootOrder_) {
-    if (symbol->kind != SymbolKind::variable ||
+    if (symbol->kind != SymbolKind::Variable ||
         !static_cast<const VarSymbol *>(symbol)->isConsistent)
       continue;
     const auto *v = static_cast<const VarSymbol *>(symbol);
-    std::vector<std::pair<std::uint32_t, TaskUse>> writers;
+    std::vector<std::pair<uint32_t, TaskUse>> writers;
     for (const auto &[task, use] : roots_.at(symbol)->inside) {
       if (use.writes())
         writers.emplace_back(task, use);
@@ -62,7 +62,7 @@ void SharingGraph::concludeConsistent() {
     if (writers.size() != 1 || reads == copyReads_.end())
       continue;
     ConsistentVariable found{v, writers.front().first, {}};
-    for (const std::uint32_t task : reads->second.tasks) {
+    for (const uint32_t task : reads->second.tasks) {
       if (task != found.writer)
         found.readers.push_back(task);
     }
@@ -77,7 +77,7 @@ void SharingGraph::reportConsistentWriters(const VarSymbol *v, const Use &first,
                                            const Use &second) {
   const std::string name(v->name.text);
   Diagnostic &d = program_.diagnostics.report(
-      Code::consistentWriters,
+      Code::ConsistentWriters,
       isUserPlace(second.second.write) ? second.second.write : v->name.span,
       "`" + name + "` is declared 'consistent', but two tasks write it, `" + taskName(first.first) +
           "` and `" + taskName(second.first) + "`",
@@ -95,7 +95,7 @@ void SharingGraph::reportConsistentWriters(const VarSymbol *v, const Use &first,
 
 /// How {attribute 'consistent'} would help, or why it did not.
 void SharingGraph::helpConsistent(Diagnostic &d, const Path &path, Span read) const {
-  if (path.root->kind != SymbolKind::variable)
+  if (path.root->kind != SymbolKind::Variable)
     return;
   const auto *v = static_cast<const VarSymbol *>(path.root);
   if (v->isConsistent) {

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_SHARING_GRAPH_HPP
+#define STRIDE_COMPILER_SEMANTICS_SHARING_GRAPH_HPP
 // All places that tasks use, as trees below variables and programs, with who uses them how.
 
 #include "compiler/semantics/sharing/task_access.hpp"
@@ -21,26 +22,26 @@ struct TaskUse {
   void add(unsigned more, Span span);
   void merge(const TaskUse &other);
   [[nodiscard]] bool reads() const {
-    return (flags & (accessRead | accessWholeRead | accessUnknown)) != 0;
+    return (flags & (kAccessRead | kAccessWholeRead | kAccessUnknown)) != 0;
   }
   [[nodiscard]] bool writes() const {
-    return (flags & (accessWrite | accessWholeWrite | accessUnknown)) != 0;
+    return (flags & (kAccessWrite | kAccessWholeWrite | kAccessUnknown)) != 0;
   }
 };
-using TaskUses = std::map<std::uint32_t, TaskUse>;
+using TaskUses = std::map<uint32_t, TaskUse>;
 
 /// A variable, or something inside of it.
 struct PlaceNode {
   PlaceNode *parent = nullptr;
   const VarSymbol *member = nullptr; ///< null: an element, or a program
-  std::int64_t element = 0;
+  int64_t element = 0;
   const Type *type = nullptr;
   TaskUses uses;   ///< of the place itself
   TaskUses inside; ///< of it and all below
-  std::map<std::pair<const VarSymbol *, std::int64_t>, std::unique_ptr<PlaceNode>> children;
+  std::map<std::pair<const VarSymbol *, int64_t>, std::unique_ptr<PlaceNode>> children;
 
   PlaceNode &child(const AccessStep &step);
-  void use(std::uint32_t task, unsigned flags, Span span);
+  void use(uint32_t task, unsigned flags, Span span);
   /// The last variable on the way to it.
   [[nodiscard]] const VarSymbol *variable() const;
 };
@@ -48,7 +49,7 @@ struct PlaceNode {
 /// A node as the tasks in question use it.
 struct NodeView {
   const PlaceNode *node = nullptr;
-  const std::set<std::uint32_t> *tasks = nullptr; ///< null: all
+  const std::set<uint32_t> *tasks = nullptr; ///< null: all
 };
 
 class SharingGraph {
@@ -66,28 +67,27 @@ private:
   using Nodes = std::set<PlaceNode *>;
 
   const PouAccess &accessOf(const PouSymbol *pou);
-  void reach(std::uint32_t task);
+  void reach(uint32_t task);
   [[nodiscard]] std::vector<const PouSymbol *> implementations(const CallEdge &call) const;
-  bool flowOnce(std::uint32_t task, const PouAccess &access);
-  [[nodiscard]] std::pair<const VarSymbol *, std::uint32_t> key(const VarSymbol *v,
-                                                                std::uint32_t task) const;
-  Nodes nodesAt(const PlacePath &place, std::uint32_t task);
+  bool flowOnce(uint32_t task, const PouAccess &access);
+  [[nodiscard]] std::pair<const VarSymbol *, uint32_t> key(const VarSymbol *v, uint32_t task) const;
+  Nodes nodesAt(const PlacePath &place, uint32_t task);
   PlaceNode &rootNode(const Symbol *symbol);
-  void useImage(std::uint32_t task, const ImageAccess &access);
+  void useImage(uint32_t task, const ImageAccess &access);
   void concludeImage();
   void concludeWriters();
   void concludeAddresses();
 
   // consistent.cpp
   void findEvents();
-  bool readsCopy(std::uint32_t task, const PouSymbol *pou, const PlaceAccess &access);
+  bool readsCopy(uint32_t task, const PouSymbol *pou, const PlaceAccess &access);
   void concludeConsistent();
 
   struct Path {
     std::string text;
     const Symbol *root;
   };
-  using Use = std::pair<std::uint32_t, TaskUse>;
+  using Use = std::pair<uint32_t, TaskUse>;
   void visit(const std::vector<NodeView> &views, const Path &path, const TaskUses &inherited,
              bool quiet);
   void visitInside(const std::vector<NodeView> &views, const TaskUses &own, const Path &path,
@@ -96,14 +96,14 @@ private:
   bool checkWhole(const Type *type, const TaskUses &own, const TaskUses &inside, const Path &path);
   void reportAggregate(const Path &path, const Use &writer, const Use &reader);
   void reportInstance(const Path &path, const Use &first, const Use &second);
-  void reportBits(const Path &path, const std::pair<const std::uint32_t, Span> &first,
-                  const std::pair<const std::uint32_t, Span> &second);
+  void reportBits(const Path &path, const std::pair<const uint32_t, Span> &first,
+                  const std::pair<const uint32_t, Span> &second);
   void reportOutputs();
   void reportConsistentWriters(const VarSymbol *v, const Use &first, const Use &second);
   void helpConsistent(Diagnostic &d, const Path &path, Span read) const;
   void declaredAt(Diagnostic &d, const Path &path) const;
   [[nodiscard]] bool isUserPlace(Span span) const;
-  [[nodiscard]] const std::string &taskName(std::uint32_t task) const { return tasks_[task].name; }
+  [[nodiscard]] const std::string &taskName(uint32_t task) const { return tasks_[task].name; }
 
   Program &program_;
   const std::vector<TaskEntry> &tasks_;
@@ -117,21 +117,23 @@ private:
   std::vector<const Symbol *> rootOrder_;
   /// What the bodies of blocks and programs do to their own variables, for all instances.
   std::unordered_map<const Symbol *, std::unique_ptr<PlaceNode>> own_;
-  std::map<std::pair<const VarSymbol *, std::uint32_t>, Nodes> leads_;
+  std::map<std::pair<const VarSymbol *, uint32_t>, Nodes> leads_;
   std::unordered_set<const PouSymbol *> ofEvents_; ///< what asking an event calls
   struct CopyReads {
-    std::set<std::uint32_t> tasks;
+    std::set<uint32_t> tasks;
     std::vector<const ast::Expr *> places; ///< that name the variable
   };
   std::unordered_map<const VarSymbol *, CopyReads> copyReads_; ///< of 'consistent' variables
-  std::set<std::pair<FileId, std::uint32_t>> namedReads_;      ///< where others are named
+  std::set<std::pair<FileId, uint32_t>> namedReads_;           ///< where others are named
   struct Bytes {
     std::vector<bool> read;
     std::vector<bool> write;
-    std::map<std::uint32_t, Span> writeAt; ///< by first byte: where
+    std::map<uint32_t, Span> writeAt; ///< by first byte: where
   };
-  std::vector<std::array<Bytes, 3>> image_;               ///< by task, area
-  std::map<std::vector<std::uint64_t>, unsigned> visits_; ///< of visit(): what it was given
+  std::vector<std::array<Bytes, 3>> image_;          ///< by task, area
+  std::map<std::vector<uint64_t>, unsigned> visits_; ///< of visit(): what it was given
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_SHARING_GRAPH_HPP

@@ -13,7 +13,7 @@ using namespace ast;
 
 namespace {
 
-bool counts(const NodeView &view, std::uint32_t task) {
+bool counts(const NodeView &view, uint32_t task) {
   return view.tasks == nullptr || view.tasks->contains(task);
 }
 
@@ -39,17 +39,17 @@ void add(TaskUses &to, const TaskUses &from, unsigned mask) {
 }
 
 /// All that decides what a visit finds, but for the path that it names.
-std::vector<std::uint64_t> keyOf(const std::vector<NodeView> &views, const TaskUses &inherited,
-                                 bool quiet) {
-  std::vector<std::uint64_t> key{quiet ? 1U : 0U};
+std::vector<uint64_t> keyOf(const std::vector<NodeView> &views, const TaskUses &inherited,
+                            bool quiet) {
+  std::vector<uint64_t> key{quiet ? 1U : 0U};
   for (const NodeView &view : views) {
-    key.push_back(reinterpret_cast<std::uintptr_t>(view.node));
-    key.push_back(view.tasks == nullptr ? ~std::uint64_t{0} : view.tasks->size());
+    key.push_back(reinterpret_cast<uintptr_t>(view.node));
+    key.push_back(view.tasks == nullptr ? ~uint64_t{0} : view.tasks->size());
     if (view.tasks != nullptr)
       key.insert(key.end(), view.tasks->begin(), view.tasks->end());
   }
   for (const auto &[task, use] : inherited)
-    key.push_back(std::uint64_t{task} << 32U | use.flags);
+    key.push_back(uint64_t{task} << 32U | use.flags);
   return key;
 }
 
@@ -100,7 +100,7 @@ void SharingGraph::visit(const std::vector<NodeView> &views, const Path &path,
 
 void SharingGraph::visitInside(const std::vector<NodeView> &views, const TaskUses &own,
                                const Path &path, const TaskUses &inherited, bool quiet) {
-  std::map<std::pair<const VarSymbol *, std::int64_t>, std::vector<NodeView>> members;
+  std::map<std::pair<const VarSymbol *, int64_t>, std::vector<NodeView>> members;
   bool anyElement = false;
   for (const NodeView &view : views) {
     for (const auto &[step, child] : view.node->children)
@@ -113,9 +113,9 @@ void SharingGraph::visitInside(const std::vector<NodeView> &views, const TaskUse
     }
   }
   // What the body does to its own variables, for the tasks that call this instance.
-  std::set<std::uint32_t> callers;
+  std::set<uint32_t> callers;
   for (const auto &[task, use] : own) {
-    if ((use.flags & accessCall) != 0)
+    if ((use.flags & kAccessCall) != 0)
       callers.insert(task);
   }
   const Type *type = views.front().node->type;
@@ -128,7 +128,7 @@ void SharingGraph::visitInside(const std::vector<NodeView> &views, const TaskUse
       }
     }
   }
-  std::map<std::uint32_t, Span> bitWriters;
+  std::map<uint32_t, Span> bitWriters;
   for (const auto &[step, memberViews] : members) {
     Path to = path;
     if (step.first != nullptr)
@@ -173,16 +173,16 @@ bool SharingGraph::checkWhole(const Type *type, const TaskUses &own, const TaskU
         continue;
       const auto ownOther = own.find(other);
       const unsigned otherFlags = ownOther == own.end() ? 0 : ownOther->second.flags;
-      if ((use.flags & otherFlags & accessCall) != 0) {
+      if ((use.flags & otherFlags & kAccessCall) != 0) {
         reportInstance(path, {task, use}, {other, ownOther->second});
         return true;
       }
       if (isAxisType(type))
         continue;
-      const bool otherWrites = otherUse.writes() || (otherUse.flags & accessCall) != 0;
+      const bool otherWrites = otherUse.writes() || (otherUse.flags & kAccessCall) != 0;
       const bool writes =
-          (use.flags & accessWholeWrite) != 0 || ((use.flags & otherFlags & accessUnknown) != 0);
-      const bool reads = (use.flags & accessWholeRead) != 0;
+          (use.flags & kAccessWholeWrite) != 0 || ((use.flags & otherFlags & kAccessUnknown) != 0);
+      const bool reads = (use.flags & kAccessWholeRead) != 0;
       if (writes) {
         reportAggregate(path, {task, use}, {other, otherUse});
         return true;
@@ -207,7 +207,7 @@ void SharingGraph::reportAggregate(const Path &path, const Use &writer, const Us
   if (!primary && !isUserPlace(written))
     return;
   Diagnostic &d = program_.diagnostics.report(
-      Code::sharedAggregate, primary ? read : written,
+      Code::SharedAggregate, primary ? read : written,
       "`" + path.text + "` is written in task `" + w + "` and " + verb + " in task `" + r +
           "`, but not in one step",
       primary ? verb + " in task `" + r + "`" : "written in task `" + w + "`");
@@ -227,7 +227,7 @@ void SharingGraph::reportInstance(const Path &path, const Use &first, const Use 
   const Use &other = primary ? first : second;
   if (!isUserPlace(main.second.call))
     return; // tasks that call one PROGRAM: SE0822
-  Diagnostic &d = program_.diagnostics.report(Code::sharedInstance, main.second.call,
+  Diagnostic &d = program_.diagnostics.report(Code::SharedInstance, main.second.call,
                                               "`" + path.text + "` is called in two tasks, `" +
                                                   taskName(first.first) + "` and `" +
                                                   taskName(second.first) + "`",
@@ -241,11 +241,11 @@ void SharingGraph::reportInstance(const Path &path, const Use &first, const Use 
          "inputs and outputs");
 }
 
-void SharingGraph::reportBits(const Path &path, const std::pair<const std::uint32_t, Span> &first,
-                              const std::pair<const std::uint32_t, Span> &second) {
+void SharingGraph::reportBits(const Path &path, const std::pair<const uint32_t, Span> &first,
+                              const std::pair<const uint32_t, Span> &second) {
   if (!isUserPlace(second.second))
     return;
-  Diagnostic &d = program_.diagnostics.report(Code::sharedAggregate, second.second,
+  Diagnostic &d = program_.diagnostics.report(Code::SharedAggregate, second.second,
                                               "two tasks, `" + taskName(first.first) + "` and `" +
                                                   taskName(second.first) + "`, write BITs of `" +
                                                   path.text + "`",
@@ -264,24 +264,24 @@ void SharingGraph::declaredAt(Diagnostic &d, const Path &path) const {
 }
 
 void SharingGraph::reportOutputs() {
-  const auto count = static_cast<std::uint32_t>(tasks_.size());
-  constexpr auto kOutput = static_cast<std::size_t>(Area::output);
-  const auto where = [](const Bytes &bytes, std::uint32_t byte) {
+  const auto count = static_cast<uint32_t>(tasks_.size());
+  constexpr auto kOutput = static_cast<size_t>(Area::Output);
+  const auto where = [](const Bytes &bytes, uint32_t byte) {
     const auto behind = bytes.writeAt.upper_bound(byte);
     return behind == bytes.writeAt.begin() ? Span{} : std::prev(behind)->second;
   };
-  for (std::uint32_t second = 1; second < count; ++second) {
-    for (std::uint32_t first = 0; first < second; ++first) {
+  for (uint32_t second = 1; second < count; ++second) {
+    for (uint32_t first = 0; first < second; ++first) {
       const Bytes &a = image_[first][kOutput];
       const Bytes &b = image_[second][kOutput];
-      for (std::uint32_t i = 0; i < a.write.size(); ++i) {
+      for (uint32_t i = 0; i < a.write.size(); ++i) {
         if (!a.write[i] || !b.write[i])
           continue;
         Location at;
-        at.area = Area::output;
+        at.area = Area::Output;
         at.byte = i;
         Diagnostic &d = program_.diagnostics.report(
-            Code::outputWriters, where(b, i),
+            Code::OutputWriters, where(b, i),
             "output byte " + addressText(at, 1, program_.settings.addressing) +
                 " is written by two tasks, `" + taskName(first) + "` and `" + taskName(second) +
                 "`",
@@ -299,20 +299,20 @@ void SharingGraph::reportOutputs() {
 }
 
 void SharingGraph::reportAxes(const DriveTask &taskOf) {
-  const auto count = static_cast<std::uint32_t>(tasks_.size());
-  for (std::uint32_t task = 0; task < count; ++task) {
+  const auto count = static_cast<uint32_t>(tasks_.size());
+  for (uint32_t task = 0; task < count; ++task) {
     for (const PouSymbol *pou : reached_[task]) {
       for (const AxisCall &call : accessOf(pou).axes) {
         if (!isUserPlace(call.span))
           continue;
         for (const PlaceNode *node : nodesAt(call.axis, task)) {
           const VarSymbol *drive = node->parent == nullptr ? node->member : nullptr;
-          const std::uint32_t own = drive == nullptr ? kNoTask : taskOf(drive);
+          const uint32_t own = drive == nullptr ? kNoTask : taskOf(drive);
           if (own == kNoTask || own == task)
             continue;
           const std::string name(call.block->name.text);
           Diagnostic &d = program_.diagnostics.report(
-              Code::motionTask, call.span,
+              Code::MotionTask, call.span,
               "`" + name + "` moves `" + std::string(drive->name.text) + "` in task `" +
                   taskName(task) + "`, but task `" + taskName(own) + "` serves the drive",
               "called in task `" + taskName(task) + "`");

@@ -16,21 +16,21 @@ namespace {
 constexpr int kMaxDepth = 32;
 
 const Type *memberType(const Type *type) {
-  while (type != nullptr && type->kind == TypeKind::reference)
+  while (type != nullptr && type->kind == TypeKind::Reference)
     type = typeAs<PointerType>(type)->pointee;
   return type;
 }
 
 bool isSharedVariable(const Sharing &sharing, const VarSymbol *v) {
-  const bool alias = v->section == Section::inOut || v->type->kind == TypeKind::reference;
+  const bool alias = v->section == Section::InOut || v->type->kind == TypeKind::Reference;
   return alias ? sharing.contents.contains(v) : sharing.variables.contains(v);
 }
 
 const VarSymbol *variableOf(const Expr *e) {
-  const Symbol *symbol = e->kind == ExprKind::name     ? as<NameExpr>(e)->symbol
-                         : e->kind == ExprKind::member ? as<MemberExpr>(e)->symbol
+  const Symbol *symbol = e->kind == ExprKind::Name     ? as<NameExpr>(e)->symbol
+                         : e->kind == ExprKind::Member ? as<MemberExpr>(e)->symbol
                                                        : nullptr;
-  return symbol != nullptr && symbol->kind == SymbolKind::variable
+  return symbol != nullptr && symbol->kind == SymbolKind::Variable
              ? static_cast<const VarSymbol *>(symbol)
              : nullptr;
 }
@@ -40,9 +40,9 @@ const VarSymbol *variableOf(const Expr *e) {
 // ----------------------------------------------------------------------------------------------------
 // the result
 
-bool Sharing::shares(const Location &at, std::uint64_t bytes) const {
-  const std::vector<bool> &area = imageBytes[static_cast<std::size_t>(at.area)];
-  for (std::uint64_t i = at.byte; i < at.byte + bytes && i < area.size(); ++i) {
+bool Sharing::shares(const Location &at, uint64_t bytes) const {
+  const std::vector<bool> &area = imageBytes[static_cast<size_t>(at.area)];
+  for (uint64_t i = at.byte; i < at.byte + bytes && i < area.size(); ++i) {
     if (area[i])
       return true;
   }
@@ -57,17 +57,16 @@ bool Sharing::holds(const Expr *e) const {
   if (const Location *at = locationOf(e)) {
     if (at->isSlot)
       return variables.contains(locatedVariable(e));
-    const std::uint64_t bytes =
-        at->bit >= 0 ? 1 : std::max<std::uint64_t>(bitWidth(e->type) / 8, 1);
+    const uint64_t bytes = at->bit >= 0 ? 1 : std::max<uint64_t>(bitWidth(e->type) / 8, 1);
     return at->byte % bytes == 0 && shares(*at, bytes);
   }
   switch (e->kind) {
-  case ExprKind::name:
-  case ExprKind::member: {
+  case ExprKind::Name:
+  case ExprKind::Member: {
     const VarSymbol *v = variableOf(e);
     return v != nullptr && !v->isBit && isSharedVariable(*this, v) && !isMisaligned(e);
   }
-  case ExprKind::index: {
+  case ExprKind::Index: {
     const Expr *base = as<IndexExpr>(e)->base;
     const Type *type = memberType(base->type);
     if (type != nullptr && isString(type))
@@ -75,9 +74,9 @@ bool Sharing::holds(const Expr *e) const {
     const VarSymbol *v = variableOf(base);
     return v != nullptr && contents.contains(v) && !isMisaligned(e);
   }
-  case ExprKind::deref: {
+  case ExprKind::Deref: {
     const Expr *pointer = as<DerefExpr>(e)->base;
-    while (pointer->kind == ExprKind::index)
+    while (pointer->kind == ExprKind::Index)
       pointer = as<IndexExpr>(pointer)->base;
     const VarSymbol *v = variableOf(pointer);
     return v != nullptr && contents.contains(v);
@@ -89,13 +88,13 @@ bool Sharing::holds(const Expr *e) const {
 
 void TaskUse::add(unsigned more, Span span) {
   flags |= more;
-  if ((more & (accessRead | accessWholeRead)) != 0 && !read.valid())
+  if ((more & (kAccessRead | kAccessWholeRead)) != 0 && !read.valid())
     read = span;
-  if ((more & (accessWrite | accessWholeWrite | accessUnknown)) != 0 && !write.valid())
+  if ((more & (kAccessWrite | kAccessWholeWrite | kAccessUnknown)) != 0 && !write.valid())
     write = span;
-  if ((more & accessUnknown) != 0 && !read.valid())
+  if ((more & kAccessUnknown) != 0 && !read.valid())
     read = span;
-  if ((more & accessCall) != 0 && !call.valid())
+  if ((more & kAccessCall) != 0 && !call.valid())
     call = span;
 }
 
@@ -131,7 +130,7 @@ PlaceNode &PlaceNode::child(const AccessStep &step) {
   return *found;
 }
 
-void PlaceNode::use(std::uint32_t task, unsigned flags, Span span) {
+void PlaceNode::use(uint32_t task, unsigned flags, Span span) {
   uses[task].add(flags, span);
   for (PlaceNode *n = this; n != nullptr; n = n->parent)
     n->inside[task].add(flags, span);
@@ -168,7 +167,7 @@ SharingGraph::SharingGraph(Program &program, const std::vector<TaskEntry> &tasks
   if (tasks.size() > 1)
     initial_ = reader_.initial(variables);
   for (std::array<Bytes, 3> &areas : image_) {
-    for (std::size_t area = 0; area < 3; ++area) {
+    for (size_t area = 0; area < 3; ++area) {
       areas[area].read.resize(program.image.bytes[area]);
       areas[area].write.resize(program.image.bytes[area]);
     }
@@ -194,7 +193,7 @@ std::vector<const PouSymbol *> SharingGraph::implementations(const CallEdge &cal
     if (other == block || !convertsTo(other, block))
       continue;
     const PouSymbol *own = call.pou == block
-                               ? (other->decl->kind == DeclKind::functionBlock ? other : nullptr)
+                               ? (other->decl->kind == DeclKind::FunctionBlock ? other : nullptr)
                                : implementation(other, call.pou);
     if (own != nullptr && std::find(result.begin(), result.end(), own) == result.end())
       result.push_back(own);
@@ -202,7 +201,7 @@ std::vector<const PouSymbol *> SharingGraph::implementations(const CallEdge &cal
   return result;
 }
 
-void SharingGraph::reach(std::uint32_t task) {
+void SharingGraph::reach(uint32_t task) {
   std::vector<const PouSymbol *> &all = reached_[task];
   std::unordered_set<const PouSymbol *> known;
   const auto add = [&](const PouSymbol *pou) {
@@ -211,7 +210,7 @@ void SharingGraph::reach(std::uint32_t task) {
   };
   for (const PouSymbol *pou : tasks_[task].pous)
     add(pou);
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  for (size_t i = 0; i < all.size(); ++i) {
     for (const CallEdge &call : accessOf(all[i]).calls) {
       for (const PouSymbol *pou : implementations(call))
         add(pou);
@@ -224,10 +223,9 @@ void SharingGraph::reach(std::uint32_t task) {
 
 /// An address that is kept in a variable of the whole project leads for every task wherever one of
 /// them has let it lead; those of blocks and functions are told apart by task.
-std::pair<const VarSymbol *, std::uint32_t> SharingGraph::key(const VarSymbol *v,
-                                                              std::uint32_t task) const {
-  const bool ofAll = v->owner == nullptr || v->section == Section::stat ||
-                     v->owner->decl->kind == DeclKind::program;
+std::pair<const VarSymbol *, uint32_t> SharingGraph::key(const VarSymbol *v, uint32_t task) const {
+  const bool ofAll = v->owner == nullptr || v->section == Section::Stat ||
+                     v->owner->decl->kind == DeclKind::Program;
   return {v, ofAll ? kNoTask : task};
 }
 
@@ -236,7 +234,7 @@ PlaceNode &SharingGraph::rootNode(const Symbol *symbol) {
   if (node == nullptr) {
     node = std::make_unique<PlaceNode>();
     rootOrder_.push_back(symbol);
-    if (symbol->kind == SymbolKind::variable) {
+    if (symbol->kind == SymbolKind::Variable) {
       node->member = static_cast<const VarSymbol *>(symbol);
       node->type = memberType(node->member->type);
     } else {
@@ -246,15 +244,15 @@ PlaceNode &SharingGraph::rootNode(const Symbol *symbol) {
   return *node;
 }
 
-SharingGraph::Nodes SharingGraph::nodesAt(const PlacePath &place, std::uint32_t task) {
+SharingGraph::Nodes SharingGraph::nodesAt(const PlacePath &place, uint32_t task) {
   Nodes nodes;
   switch (place.base) {
-  case PlacePath::Base::none:
+  case PlacePath::Base::None:
     return nodes;
-  case PlacePath::Base::root:
+  case PlacePath::Base::Root:
     nodes.insert(&rootNode(place.symbol));
     break;
-  case PlacePath::Base::self: {
+  case PlacePath::Base::Self: {
     if (place.symbol == nullptr)
       return nodes;
     std::unique_ptr<PlaceNode> &node = own_[place.symbol];
@@ -266,7 +264,7 @@ SharingGraph::Nodes SharingGraph::nodesAt(const PlacePath &place, std::uint32_t 
     nodes.insert(node.get());
     break;
   }
-  case PlacePath::Base::address: {
+  case PlacePath::Base::Address: {
     const auto found = leads_.find(key(static_cast<const VarSymbol *>(place.symbol), task));
     if (found == leads_.end())
       return nodes;
@@ -283,7 +281,7 @@ SharingGraph::Nodes SharingGraph::nodesAt(const PlacePath &place, std::uint32_t 
   return nodes;
 }
 
-bool SharingGraph::flowOnce(std::uint32_t task, const PouAccess &access) {
+bool SharingGraph::flowOnce(uint32_t task, const PouAccess &access) {
   bool changed = false;
   for (const AddressFlow &flow : access.flows) {
     Nodes from;
@@ -303,15 +301,15 @@ bool SharingGraph::flowOnce(std::uint32_t task, const PouAccess &access) {
 }
 
 void SharingGraph::solve() {
-  const auto count = static_cast<std::uint32_t>(tasks_.size());
-  for (std::uint32_t task = 0; task < count; ++task)
+  const auto count = static_cast<uint32_t>(tasks_.size());
+  for (uint32_t task = 0; task < count; ++task)
     reach(task);
   if (count > 1) {
     constexpr int kRounds = 100; // chains of pointers are not longer
     bool changed = true;
     for (int round = 0; changed && round < kRounds; ++round) {
       changed = false;
-      for (std::uint32_t task = 0; task < count; ++task) {
+      for (uint32_t task = 0; task < count; ++task) {
         changed = flowOnce(task, initial_) || changed;
         for (const PouSymbol *pou : reached_[task])
           changed = flowOnce(task, accessOf(pou)) || changed;
@@ -319,10 +317,10 @@ void SharingGraph::solve() {
     }
   }
   findEvents();
-  for (std::uint32_t task = 0; task < count; ++task) {
+  for (uint32_t task = 0; task < count; ++task) {
     for (const PouSymbol *pou : tasks_[task].pous) {
-      if (pou->decl->kind == DeclKind::program)
-        rootNode(pou).use(task, accessCall, {});
+      if (pou->decl->kind == DeclKind::Program)
+        rootNode(pou).use(task, kAccessCall, {});
     }
     for (const PouSymbol *pou : reached_[task]) {
       const PouAccess &access = accessOf(pou);
@@ -341,14 +339,14 @@ void SharingGraph::solve() {
 // ----------------------------------------------------------------------------------------------------
 // the process image
 
-void SharingGraph::useImage(std::uint32_t task, const ImageAccess &access) {
-  const auto mark = [&](Area area, std::uint64_t first) {
-    Bytes &bytes = image_[task][static_cast<std::size_t>(area)];
+void SharingGraph::useImage(uint32_t task, const ImageAccess &access) {
+  const auto mark = [&](Area area, uint64_t first) {
+    Bytes &bytes = image_[task][static_cast<size_t>(area)];
     std::vector<bool> &used = access.writes ? bytes.write : bytes.read;
-    for (std::uint64_t i = first; i < first + access.bytes && i < used.size(); ++i)
+    for (uint64_t i = first; i < first + access.bytes && i < used.size(); ++i)
       used[i] = true;
     if (access.writes)
-      bytes.writeAt.try_emplace(static_cast<std::uint32_t>(first), access.span);
+      bytes.writeAt.try_emplace(static_cast<uint32_t>(first), access.span);
   };
   if (access.slot == nullptr) {
     mark(access.at->area, access.at->byte);
@@ -362,21 +360,20 @@ void SharingGraph::useImage(std::uint32_t task, const ImageAccess &access) {
 
 void SharingGraph::concludeImage() {
   Sharing &sharing = program_.sharing;
-  const auto count = static_cast<std::uint32_t>(tasks_.size());
-  for (std::uint32_t task = 0; task < count; ++task) {
-    for (std::size_t area = 0; area < 3; ++area) {
+  const auto count = static_cast<uint32_t>(tasks_.size());
+  for (uint32_t task = 0; task < count; ++task) {
+    for (size_t area = 0; area < 3; ++area) {
       for (const bool writes : {false, true}) {
         const Bytes &bytes = image_[task][area];
         const std::vector<bool> &used = writes ? bytes.write : bytes.read;
-        for (std::size_t i = 0; i < used.size(); ++i) {
+        for (size_t i = 0; i < used.size(); ++i) {
           if (!used[i])
             continue;
-          std::size_t end = i;
+          size_t end = i;
           while (end < used.size() && used[end])
             ++end;
-          sharing.imageUses.push_back({task, static_cast<std::uint8_t>(area), writes,
-                                       static_cast<std::uint32_t>(i),
-                                       static_cast<std::uint32_t>(end - i)});
+          sharing.imageUses.push_back({task, static_cast<uint8_t>(area), writes,
+                                       static_cast<uint32_t>(i), static_cast<uint32_t>(end - i)});
           i = end;
         }
       }
@@ -384,13 +381,13 @@ void SharingGraph::concludeImage() {
   }
   if (count < 2)
     return;
-  for (std::size_t area = 0; area < 3; ++area) {
-    const std::size_t size = program_.image.bytes[area];
+  for (size_t area = 0; area < 3; ++area) {
+    const size_t size = program_.image.bytes[area];
     std::vector<bool> shared(size);
-    for (std::size_t i = 0; i < size; ++i) {
+    for (size_t i = 0; i < size; ++i) {
       unsigned users = 0;
-      bool written = area == static_cast<std::size_t>(Area::input); // by the devices
-      for (std::uint32_t task = 0; task < count; ++task) {
+      bool written = area == static_cast<size_t>(Area::Input); // by the devices
+      for (uint32_t task = 0; task < count; ++task) {
         const Bytes &bytes = image_[task][area];
         written = written || bytes.write[i];
         users += bytes.write[i] || bytes.read[i] ? 1U : 0U;
@@ -412,10 +409,10 @@ void SharingGraph::concludeImage() {
 
 void SharingGraph::concludeWriters() {
   for (const auto &[symbol, node] : roots_) {
-    std::uint32_t writer = kNoTask;
+    uint32_t writer = kNoTask;
     unsigned writers = 0;
     for (const auto &[task, use] : node->inside) {
-      if ((use.flags & (accessWrite | accessWholeWrite | accessUnknown | accessCall)) == 0)
+      if ((use.flags & (kAccessWrite | kAccessWholeWrite | kAccessUnknown | kAccessCall)) == 0)
         continue;
       writer = task;
       ++writers;
@@ -434,7 +431,7 @@ void SharingGraph::concludeAddresses() {
       if (v == nullptr)
         continue;
       const bool element = node->member == nullptr;
-      const bool array = node->type != nullptr && node->type->kind == TypeKind::array;
+      const bool array = node->type != nullptr && node->type->kind == TypeKind::Array;
       if (element || array ? sharing.contents.contains(v) : sharing.variables.contains(v))
         sharing.contents.insert(key.first);
     }

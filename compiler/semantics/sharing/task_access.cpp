@@ -17,14 +17,14 @@ namespace {
 /// The expression that names the global variable in which a place lies: `GVL.list` of
 /// `GVL.list[3].x`. Null if an address leads there, or it is none.
 const Expr *namedGlobal(const Expr *e) {
-  while (e->kind == ExprKind::index ||
-         (e->kind == ExprKind::member && !isNamespaceName(as<MemberExpr>(e)->base))) {
-    e = e->kind == ExprKind::index ? as<IndexExpr>(e)->base : as<MemberExpr>(e)->base;
+  while (e->kind == ExprKind::Index ||
+         (e->kind == ExprKind::Member && !isNamespaceName(as<MemberExpr>(e)->base))) {
+    e = e->kind == ExprKind::Index ? as<IndexExpr>(e)->base : as<MemberExpr>(e)->base;
     if (e->type == nullptr || isAddress(e->type))
       return nullptr;
   }
   const Symbol *symbol = symbolOf(e);
-  return symbol != nullptr && symbol->kind == SymbolKind::variable &&
+  return symbol != nullptr && symbol->kind == SymbolKind::Variable &&
                  static_cast<const VarSymbol *>(symbol)->globals != nullptr
              ? e
              : nullptr;
@@ -51,7 +51,7 @@ PouAccess AccessReader::initial(const std::vector<const VarSymbol *> &variables)
 }
 
 void AccessReader::initialValue(const VarSymbol *variable, const Expr *init) {
-  if (init->kind == ExprKind::aggregate) {
+  if (init->kind == ExprKind::Aggregate) {
     for (const AggregateItem &item : as<AggregateExpr>(init)->items) {
       const VarSymbol *to = item.symbol != nullptr ? item.symbol : variable;
       if (to->type == nullptr)
@@ -65,7 +65,7 @@ void AccessReader::initialValue(const VarSymbol *variable, const Expr *init) {
     }
     return;
   }
-  if (variable->type->kind == TypeKind::reference)
+  if (variable->type->kind == TypeKind::Reference)
     flowPlace(variable, init);
   else
     flow(variable, init);
@@ -77,7 +77,7 @@ void AccessReader::block(Block block) {
 }
 
 void AccessReader::assignment(const AssignStmt *a) {
-  if (a->op == AssignOp::reference) {
+  if (a->op == AssignOp::Reference) {
     if (const VarSymbol *v = addressVariable(a->targets.back()))
       flowPlace(v, a->value);
     place(a->value, true);
@@ -95,16 +95,16 @@ void AccessReader::assignment(const AssignStmt *a) {
 
 void AccessReader::statement(const Stmt *s) {
   switch (s->kind) {
-  case StmtKind::assign:
+  case StmtKind::Assign:
     return assignment(as<AssignStmt>(s));
-  case StmtKind::forS: {
+  case StmtKind::For: {
     const auto *f = as<ForStmt>(s);
     for (const Expr *bound : {f->from, f->to, f->by})
       value(bound);
-    access(f->variable, accessRead | accessWrite, accessWholeRead | accessWholeWrite);
+    access(f->variable, kAccessRead | kAccessWrite, kAccessWholeRead | kAccessWholeWrite);
     return block(f->body);
   }
-  case StmtKind::tryS: // what it names takes the exception
+  case StmtKind::Try: // what it names takes the exception
     return forEachChild(
         s, [this](Expr *e) { target(e); }, [this](Block inner) { block(inner); });
   default: // expressions are read
@@ -116,60 +116,60 @@ void AccessReader::statement(const Stmt *s) {
 void AccessReader::value(const Expr *e) {
   while (e != nullptr && e->constant == nullptr) {
     switch (e->kind) {
-    case ExprKind::literal:
-    case ExprKind::enumLiteral:
-    case ExprKind::typeName:
-    case ExprKind::error:
+    case ExprKind::Literal:
+    case ExprKind::EnumLiteral:
+    case ExprKind::TypeName:
+    case ExprKind::Error:
       return;
-    case ExprKind::aggregate:
+    case ExprKind::Aggregate:
       for (const AggregateItem &item : as<AggregateExpr>(e)->items) {
         value(item.value);
         for (const AggregateItem &inner : item.values)
           value(inner.value);
       }
       return;
-    case ExprKind::unary:
+    case ExprKind::Unary:
       e = as<UnaryExpr>(e)->operand;
       continue;
-    case ExprKind::binary:
+    case ExprKind::Binary:
       value(as<BinaryExpr>(e)->left);
       e = as<BinaryExpr>(e)->right;
       continue;
-    case ExprKind::call:
+    case ExprKind::Call:
       call(as<CallExpr>(e));
       return;
     default:
       // An instance becomes an interface: its address is taken, nothing is read.
-      if (isInstance(e->type) && e->target != nullptr && e->target->kind == TypeKind::interface)
+      if (isInstance(e->type) && e->target != nullptr && e->target->kind == TypeKind::Interface)
         place(e, true);
       else
-        access(e, accessRead, accessWholeRead);
+        access(e, kAccessRead, kAccessWholeRead);
       return;
     }
   }
 }
 
-void AccessReader::target(const Expr *e) { access(e, accessWrite, accessWholeWrite); }
+void AccessReader::target(const Expr *e) { access(e, kAccessWrite, kAccessWholeWrite); }
 
 void AccessReader::access(const Expr *e, unsigned scalar, unsigned whole) {
-  const bool writes = (scalar & accessWrite) != 0;
-  if (e->kind == ExprKind::call) {
+  const bool writes = (scalar & kAccessWrite) != 0;
+  if (e->kind == ExprKind::Call) {
     call(as<CallExpr>(e));
     return;
   }
   if (const Symbol *symbol = symbolOf(e);
-      symbol != nullptr && symbol->kind == SymbolKind::property) {
-    const Expr *object = e->kind == ExprKind::member ? as<MemberExpr>(e)->base : nullptr;
+      symbol != nullptr && symbol->kind == SymbolKind::Property) {
+    const Expr *object = e->kind == ExprKind::Member ? as<MemberExpr>(e)->base : nullptr;
     if (object != nullptr)
       place(object, true);
     accessor(object, symbol, writes, e->span);
     return;
   }
   const Expr *owner = e;
-  while (owner->kind == ExprKind::member && as<MemberExpr>(owner)->bit >= 0) {
+  while (owner->kind == ExprKind::Member && as<MemberExpr>(owner)->bit >= 0) {
     owner = as<MemberExpr>(owner)->base;
     if (writes)
-      scalar |= accessRead; // the other bits stay
+      scalar |= kAccessRead; // the other bits stay
   }
   image(owner, writes);
   const bool scalarValue = isScalarValue(owner->type);
@@ -178,7 +178,7 @@ void AccessReader::access(const Expr *e, unsigned scalar, unsigned whole) {
 }
 
 void AccessReader::note(PlacePath place, unsigned flags, Span span, const Expr *named) {
-  if (place.base != PlacePath::Base::none)
+  if (place.base != PlacePath::Base::None)
     out_.accesses.push_back({std::move(place), flags, span, named});
 }
 
@@ -192,9 +192,9 @@ void AccessReader::image(const Expr *e, bool writes) {
       out_.image.push_back(access);
       return;
     }
-    if (e->kind == ExprKind::index)
+    if (e->kind == ExprKind::Index)
       e = as<IndexExpr>(e)->base;
-    else if (e->kind == ExprKind::member && !isNamespaceName(as<MemberExpr>(e)->base))
+    else if (e->kind == ExprKind::Member && !isNamespaceName(as<MemberExpr>(e)->base))
       e = as<MemberExpr>(e)->base;
     else
       return;
@@ -203,30 +203,30 @@ void AccessReader::image(const Expr *e, bool writes) {
 
 PlacePath AccessReader::placeOf(const VarSymbol *v) const {
   using Base = PlacePath::Base;
-  if (v->isConstant && v->section != Section::inOut)
+  if (v->isConstant && v->section != Section::InOut)
     return {};
   if (isAlias(v))
-    return {Base::address, v, {}};
+    return {Base::Address, v, {}};
   if (v->location != nullptr)
     return {};
-  if (v->globals != nullptr || v->section == Section::stat)
-    return {Base::root, v, {}};
-  if (v->section == Section::temp || v->owner == nullptr || v->isResult)
+  if (v->globals != nullptr || v->section == Section::Stat)
+    return {Base::Root, v, {}};
+  if (v->section == Section::Temp || v->owner == nullptr || v->isResult)
     return {};
   const bool onStack =
-      v->owner->isFunction() || (v->owner->isMethod() && v->section != Section::instance);
-  return onStack ? PlacePath{} : PlacePath{Base::self, v, {}};
+      v->owner->isFunction() || (v->owner->isMethod() && v->section != Section::Instance);
+  return onStack ? PlacePath{} : PlacePath{Base::Self, v, {}};
 }
 
 PlacePath AccessReader::namedPlace(const NameExpr *e, bool walk) {
   const Symbol *symbol = e->symbol;
   if (symbol == nullptr)
     return {};
-  if (symbol->kind == SymbolKind::pou)
-    return {PlacePath::Base::root, symbol, {}};
-  if (symbol->kind == SymbolKind::property && walk)
+  if (symbol->kind == SymbolKind::Pou)
+    return {PlacePath::Base::Root, symbol, {}};
+  if (symbol->kind == SymbolKind::Property && walk)
     accessor(nullptr, symbol, false, e->span);
-  if (symbol->kind != SymbolKind::variable)
+  if (symbol->kind != SymbolKind::Variable)
     return {};
   return placeOf(static_cast<const VarSymbol *>(symbol));
 }
@@ -235,26 +235,26 @@ PlacePath AccessReader::memberPlace(const MemberExpr *m, bool walk) {
   if (m->symbol == nullptr)
     return m->bit >= 0 ? place(m->base, walk) : PlacePath{};
   if (isNamespaceName(m->base)) {
-    if (m->symbol->kind == SymbolKind::pou)
-      return {PlacePath::Base::root, m->symbol, {}};
-    return m->symbol->kind == SymbolKind::variable
+    if (m->symbol->kind == SymbolKind::Pou)
+      return {PlacePath::Base::Root, m->symbol, {}};
+    return m->symbol->kind == SymbolKind::Variable
                ? placeOf(static_cast<const VarSymbol *>(m->symbol))
                : PlacePath{};
   }
   PlacePath base = place(m->base, walk);
-  if (m->symbol->kind == SymbolKind::property && walk)
+  if (m->symbol->kind == SymbolKind::Property && walk)
     accessor(m->base, m->symbol, false, m->span);
-  if (m->symbol->kind != SymbolKind::variable)
+  if (m->symbol->kind != SymbolKind::Variable)
     return {};
   const auto *v = static_cast<const VarSymbol *>(m->symbol);
   if (isAlias(v))
-    return {PlacePath::Base::address, v, {}};
-  if (v->section == Section::stat)
-    return {PlacePath::Base::root, v, {}};
-  if (v->location != nullptr || v->isConstant || base.base == PlacePath::Base::none)
+    return {PlacePath::Base::Address, v, {}};
+  if (v->section == Section::Stat)
+    return {PlacePath::Base::Root, v, {}};
+  if (v->location != nullptr || v->isConstant || base.base == PlacePath::Base::None)
     return {};
-  if (base.base == PlacePath::Base::self && base.symbol == nullptr) // THIS^.v
-    return {PlacePath::Base::self, v, {}};
+  if (base.base == PlacePath::Base::Self && base.symbol == nullptr) // THIS^.v
+    return {PlacePath::Base::Self, v, {}};
   if (!isUnionType(m->base->type)) // its members share their bytes
     base.steps.push_back({v, 0});
   return base;
@@ -266,55 +266,55 @@ PlacePath AccessReader::elementPlace(const IndexExpr *x, bool walk) {
   for (const Expr *i : x->indices) {
     if (walk)
       value(i);
-    if (t != nullptr && t->kind == TypeKind::reference) {
+    if (t != nullptr && t->kind == TypeKind::Reference) {
       at = behind(addressVariable(x->base));
       t = typeAs<PointerType>(t)->pointee;
     }
-    if (t != nullptr && t->kind == TypeKind::pointer) {
+    if (t != nullptr && t->kind == TypeKind::Pointer) {
       if (walk)
-        note(at, accessRead, x->span);
+        note(at, kAccessRead, x->span);
       at = behind(addressVariable(x->base));
-    } else if (at.base != PlacePath::Base::none) {
+    } else if (at.base != PlacePath::Base::None) {
       at.steps.push_back({nullptr, i->constant != nullptr ? i->constant->integer : kAnyElement});
     }
     t = t == nullptr ? nullptr : indexStep(t);
   }
   if (elementBeforeReference(x) != nullptr &&
-      elementBeforeReference(x)->kind == TypeKind::reference)
+      elementBeforeReference(x)->kind == TypeKind::Reference)
     return behind(addressVariable(x->base));
   return at;
 }
 
 PlacePath AccessReader::followedPlace(const Expr *pointer, bool walk) {
   if (const Symbol *symbol = symbolOf(pointer);
-      symbol != nullptr && symbol->kind == SymbolKind::self)
-    return {PlacePath::Base::self, nullptr, {}};
+      symbol != nullptr && symbol->kind == SymbolKind::Self)
+    return {PlacePath::Base::Self, nullptr, {}};
   if (walk)
     value(pointer);
-  if (pointer->kind != ExprKind::call)
+  if (pointer->kind != ExprKind::Call)
     return behind(addressVariable(pointer));
   const auto *c = as<CallExpr>(pointer);
-  if (c->resolved == Callee::builtin && c->builtin == Builtin::adr)
+  if (c->resolved == Callee::Builtin && c->builtin == Builtin::Adr)
     return place(c->arguments[0].value, false);
   return c->pou != nullptr ? behind(c->pou->result) : PlacePath{};
 }
 
 PlacePath AccessReader::place(const Expr *e, bool walk) {
   switch (e->kind) {
-  case ExprKind::name:
+  case ExprKind::Name:
     return namedPlace(as<NameExpr>(e), walk);
-  case ExprKind::member:
+  case ExprKind::Member:
     return memberPlace(as<MemberExpr>(e), walk);
-  case ExprKind::index:
+  case ExprKind::Index:
     return elementPlace(as<IndexExpr>(e), walk);
-  case ExprKind::deref:
+  case ExprKind::Deref:
     return followedPlace(as<DerefExpr>(e)->base, walk);
-  case ExprKind::call: {
+  case ExprKind::Call: {
     const auto *c = as<CallExpr>(e);
     if (walk)
       call(c);
     return c->pou != nullptr && c->pou->result != nullptr &&
-                   c->pou->result->type->kind == TypeKind::reference
+                   c->pou->result->type->kind == TypeKind::Reference
                ? behind(c->pou->result)
                : PlacePath{};
   }
@@ -328,7 +328,7 @@ PlacePath AccessReader::place(const Expr *e, bool walk) {
 
 void AccessReader::flowPlace(const VarSymbol *to, const Expr *e) {
   PlacePath at = place(e, false);
-  if (at.base != PlacePath::Base::none)
+  if (at.base != PlacePath::Base::None)
     out_.flows.push_back({to, std::move(at), nullptr});
 }
 
@@ -337,21 +337,21 @@ void AccessReader::flow(const VarSymbol *to, const Expr *e) {
   if (e == nullptr || e->constant != nullptr || to == nullptr)
     return;
   switch (e->kind) {
-  case ExprKind::unary:
+  case ExprKind::Unary:
     flow(to, as<UnaryExpr>(e)->operand);
     return;
-  case ExprKind::binary:
+  case ExprKind::Binary:
     flow(to, as<BinaryExpr>(e)->left);
     flow(to, as<BinaryExpr>(e)->right);
     return;
-  case ExprKind::call: {
+  case ExprKind::Call: {
     const auto *c = as<CallExpr>(e);
-    if (c->resolved != Callee::builtin) {
+    if (c->resolved != Callee::Builtin) {
       if (c->pou != nullptr && c->pou->result != nullptr)
         out_.flows.push_back({to, {}, c->pou->result});
       return;
     }
-    if (c->builtin == Builtin::adr) {
+    if (c->builtin == Builtin::Adr) {
       flowPlace(to, c->arguments[0].value);
       return;
     }
@@ -372,17 +372,17 @@ void AccessReader::flow(const VarSymbol *to, const Expr *e) {
 
 /// An address goes where nobody can follow it (native code, a DWORD): anything may happen there.
 void AccessReader::escape(const Expr *e) {
-  if (e->constant != nullptr || e->kind == ExprKind::name || e->kind == ExprKind::member)
+  if (e->constant != nullptr || e->kind == ExprKind::Name || e->kind == ExprKind::Member)
     return;
-  const std::size_t before = out_.flows.size();
+  const size_t before = out_.flows.size();
   static const VarSymbol nowhere{};
   flow(&nowhere, e);
   std::vector<AddressFlow> taken(
-      std::make_move_iterator(out_.flows.begin() + static_cast<std::ptrdiff_t>(before)),
+      std::make_move_iterator(out_.flows.begin() + static_cast<ptrdiff_t>(before)),
       std::make_move_iterator(out_.flows.end()));
   out_.flows.resize(before);
   for (AddressFlow &f : taken)
-    note(std::move(f.place), accessUnknown | accessRead | accessWrite, e->span);
+    note(std::move(f.place), kAccessUnknown | kAccessRead | kAccessWrite, e->span);
 }
 
 } // namespace stc

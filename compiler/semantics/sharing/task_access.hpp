@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_SHARING_TASK_ACCESS_HPP
+#define STRIDE_COMPILER_SEMANTICS_SHARING_TASK_ACCESS_HPP
 // What one POU does to variables: its accesses, which addresses it passes on, whom it calls. The
 // same whoever calls it; sharing.cpp puts it together for each task.
 
@@ -15,34 +16,34 @@ namespace stc {
 
 /// Bits of an access.
 enum AccessFlag : unsigned {
-  accessRead = 1,       ///< a value that fits a register
-  accessWrite = 2,      ///< the same
-  accessWholeRead = 4,  ///< a string, an array, a structure, an instance as a whole
-  accessWholeWrite = 8, ///< the same
-  accessCall = 16,      ///< the body or a method of the instance runs
-  accessUnknown = 32,   ///< native code or an address leads there: anything inside of it
+  kAccessRead = 1,       ///< a value that fits a register
+  kAccessWrite = 2,      ///< the same
+  kAccessWholeRead = 4,  ///< a string, an array, a structure, an instance as a whole
+  kAccessWholeWrite = 8, ///< the same
+  kAccessCall = 16,      ///< the body or a method of the instance runs
+  kAccessUnknown = 32,   ///< native code or an address leads there: anything inside of it
 };
 
 /// What anything inside of it may be when an access has one of these bits.
-inline constexpr unsigned kInheritedAccess = accessWholeRead | accessWholeWrite | accessUnknown;
+inline constexpr unsigned kInheritedAccess = kAccessWholeRead | kAccessWholeWrite | kAccessUnknown;
 
 /// One step from a variable to something inside of it.
 struct AccessStep {
   const VarSymbol *member = nullptr; ///< null: an element
-  std::int64_t element = 0;          ///< its index, or kAnyElement
+  int64_t element = 0;               ///< its index, or kAnyElement
   bool operator==(const AccessStep &) const = default;
 };
-inline constexpr std::int64_t kAnyElement = std::numeric_limits<std::int64_t>::min();
+inline constexpr int64_t kAnyElement = std::numeric_limits<int64_t>::min();
 
 /// A place as the code of a POU names it.
 struct PlacePath {
-  enum class Base : std::uint8_t {
-    none,    ///< a variable on the stack, or nothing that is known
-    root,    ///< a global variable, a VAR_STAT, a program
-    self,    ///< a variable of the instance that runs
-    address, ///< what `symbol` (a pointer, reference, in-out or interface) leads to
+  enum class Base : uint8_t {
+    None,    ///< a variable on the stack, or nothing that is known
+    Root,    ///< a global variable, a VAR_STAT, a program
+    Self,    ///< a variable of the instance that runs
+    Address, ///< what `symbol` (a pointer, reference, in-out or interface) leads to
   };
-  Base base = Base::none;
+  Base base = Base::None;
   const Symbol *symbol = nullptr;
   std::vector<AccessStep> steps;
 };
@@ -70,7 +71,7 @@ struct CallEdge {
 struct ImageAccess {
   const Location *at = nullptr;
   const VarSymbol *slot = nullptr; ///< `AT %I*`: VAR_CONFIG says where
-  std::uint64_t bytes = 1;
+  uint64_t bytes = 1;
   bool writes = false;
   Span span;
 };
@@ -131,3 +132,5 @@ private:
 };
 
 } // namespace stc
+
+#endif // STRIDE_COMPILER_SEMANTICS_SHARING_TASK_ACCESS_HPP

@@ -33,20 +33,20 @@ void AccessReader::accessor(const Expr *object, const Symbol *symbol, bool write
   PlacePath at = object->type != nullptr && isAddress(object->type)
                      ? behind(addressVariable(object))
                      : place(object, false);
-  note(std::move(at), accessCall, span);
+  note(std::move(at), kAccessCall, span);
 }
 
 /// The instance whose body or method runs.
 void AccessReader::instanceOf(const CallExpr *e) {
   const Expr *object = e->callee;
-  if (e->resolved == Callee::method) {
-    if (object->kind != ExprKind::member || isNamespaceName(as<MemberExpr>(object)->base))
+  if (e->resolved == Callee::Method) {
+    if (object->kind != ExprKind::Member || isNamespaceName(as<MemberExpr>(object)->base))
       return; // of the own instance
     object = as<MemberExpr>(object)->base;
   }
   PlacePath at = place(object, true);
   if (object->type != nullptr && isAddress(object->type)) {
-    note(at, accessRead, e->span);
+    note(at, kAccessRead, e->span);
     at = behind(addressVariable(object));
   }
   const PouSymbol *block = blockOf(e->pou);
@@ -54,7 +54,7 @@ void AccessReader::instanceOf(const CallExpr *e) {
       worksInAnyTask(e->pou))
     return;
   const bool native = block->decl->external;
-  note(std::move(at), accessCall | (native ? accessUnknown : 0U), e->span);
+  note(std::move(at), kAccessCall | (native ? kAccessUnknown : 0U), e->span);
 }
 
 void AccessReader::argument(const CallExpr *e, const Argument &a) {
@@ -74,17 +74,17 @@ void AccessReader::argument(const CallExpr *e, const Argument &a) {
     image(a.value, !p->isConstant);
     if (native) {
       const bool reads = p->isConstant;
-      const unsigned flags = isScalarValue(p->type) ? accessRead | (reads ? 0U : accessWrite)
-                             : reads                ? unsigned{accessWholeRead}
-                                                    : unsigned{accessUnknown};
+      const unsigned flags = isScalarValue(p->type) ? kAccessRead | (reads ? 0U : kAccessWrite)
+                             : reads                ? unsigned{kAccessWholeRead}
+                                                    : unsigned{kAccessUnknown};
       note(at, flags, a.span);
     }
     const PouSymbol *block = blockOf(e->pou);
     if (block->library != nullptr && !block->library->isUser &&
-        p->type->kind == TypeKind::structure &&
+        p->type->kind == TypeKind::Structure &&
         typeAs<StructType>(p->type)->symbol->name.id->lower == "axis_ref" && !worksInAnyTask(block))
       out_.axes.push_back({block, at, a.span});
-    if (at.base != PlacePath::Base::none)
+    if (at.base != PlacePath::Base::None)
       out_.flows.push_back({p, std::move(at), nullptr});
     return;
   }
@@ -99,38 +99,38 @@ void AccessReader::argument(const CallExpr *e, const Argument &a) {
 
 void AccessReader::call(const CallExpr *e) {
   switch (e->resolved) {
-  case Callee::unresolved:
+  case Callee::Unresolved:
     return;
-  case Callee::builtin:
+  case Callee::Builtin:
     builtin(e);
     return;
-  case Callee::function:
+  case Callee::Function:
     break;
-  case Callee::functionBlock:
-  case Callee::method:
+  case Callee::FunctionBlock:
+  case Callee::Method:
     instanceOf(e);
     break;
-  case Callee::program:
-    note({PlacePath::Base::root, e->pou, {}}, accessCall, e->span);
+  case Callee::Program:
+    note({PlacePath::Base::Root, e->pou, {}}, kAccessCall, e->span);
     break;
   }
   for (const Argument &a : e->arguments)
     argument(e, a);
   // Inputs and outputs of an instance are its members.
-  if (e->resolved == Callee::functionBlock || e->resolved == Callee::program) {
-    const PlacePath instance = e->resolved == Callee::program
-                                   ? PlacePath{PlacePath::Base::root, e->pou, {}}
+  if (e->resolved == Callee::FunctionBlock || e->resolved == Callee::Program) {
+    const PlacePath instance = e->resolved == Callee::Program
+                                   ? PlacePath{PlacePath::Base::Root, e->pou, {}}
                                    : place(e->callee, false);
     for (const Argument &a : e->arguments) {
       if (a.parameter == nullptr || a.value == nullptr || isAlias(a.parameter) ||
-          instance.base == PlacePath::Base::none)
+          instance.base == PlacePath::Base::None)
         continue;
       PlacePath member = instance;
       member.steps.push_back({a.parameter, 0});
       const bool scalar = isScalarValue(a.parameter->type);
       note(std::move(member),
-           a.output ? (scalar ? accessRead : accessWholeRead)
-                    : (scalar ? accessWrite : accessWholeWrite),
+           a.output ? (scalar ? kAccessRead : kAccessWholeRead)
+                    : (scalar ? kAccessWrite : kAccessWholeWrite),
            a.span);
     }
   }
@@ -140,43 +140,43 @@ void AccessReader::call(const CallExpr *e) {
 /// The instance is found by an address, or is the one that runs: its type may be a derived one.
 bool AccessReader::isOpen(const CallExpr *e) {
   const Expr *object = e->callee;
-  if (e->resolved == Callee::method) {
-    if (object->kind != ExprKind::member || isNamespaceName(as<MemberExpr>(object)->base))
+  if (e->resolved == Callee::Method) {
+    if (object->kind != ExprKind::Member || isNamespaceName(as<MemberExpr>(object)->base))
       return true;
     object = as<MemberExpr>(object)->base;
-  } else if (e->resolved != Callee::functionBlock) {
+  } else if (e->resolved != Callee::FunctionBlock) {
     return false;
   }
   if (object->type != nullptr && isAddress(object->type))
     return true;
   const PlacePath at = place(object, false);
-  return at.base == PlacePath::Base::none || at.base == PlacePath::Base::address ||
+  return at.base == PlacePath::Base::None || at.base == PlacePath::Base::Address ||
          at.symbol == nullptr;
 }
 
 void AccessReader::builtin(const CallExpr *e) {
   switch (e->builtin) {
-  case Builtin::sizeofT:
-  case Builtin::indexOf:
-  case Builtin::newT:
+  case Builtin::Sizeof:
+  case Builtin::IndexOf:
+  case Builtin::NewObject:
     return;
-  case Builtin::adr: // the access is where the address is followed
+  case Builtin::Adr: // the access is where the address is followed
     place(e->arguments[0].value, true);
     return;
-  case Builtin::isValidRef:
+  case Builtin::IsValidRef:
     return;
-  case Builtin::ini:
-    access(e->arguments[0].value, accessWrite, accessWholeWrite);
+  case Builtin::Ini:
+    access(e->arguments[0].value, kAccessWrite, kAccessWholeWrite);
     value(e->arguments[1].value);
     return;
-  case Builtin::queryInterface:
-  case Builtin::queryPointer:
+  case Builtin::QueryInterface:
+  case Builtin::QueryPointer:
     value(e->arguments[0].value);
     target(e->arguments[1].value);
     flow(addressVariable(e->arguments[1].value), e->arguments[0].value);
     return;
-  case Builtin::lowerBound:
-  case Builtin::upperBound:
+  case Builtin::LowerBound:
+  case Builtin::UpperBound:
     return;
   default:
     for (const Argument &a : e->arguments)

@@ -15,10 +15,10 @@ namespace {
 
 /// The values that have a branch: by lower bound, ranges that do not overlap.
 struct SeenRange {
-  std::int64_t high;
+  int64_t high;
   Span span;
 };
-using SeenRanges = std::map<std::int64_t, SeenRange>;
+using SeenRanges = std::map<int64_t, SeenRange>;
 
 } // namespace
 
@@ -27,14 +27,14 @@ static const Type *checkSelector(Context &c, Expr *selector) {
   const Type *type = check(c, selector);
   if (isError(type))
     return nullptr;
-  if (type->kind == TypeKind::anyInteger)
+  if (type->kind == TypeKind::AnyInteger)
     return settle(selector);
   if (isInteger(underlying(type)))
     return type;
-  auto &d = c.report(Code::caseSelector, selector->span,
+  auto &d = c.report(Code::CaseSelector, selector->span,
                      "CASE selects by an integer or an enumeration, not by " + typeName(type),
                      "cannot select by this");
-  if (type->kind == TypeKind::boolean)
+  if (type->kind == TypeKind::Boolean)
     d.help("use IF … ELSE for a BOOL");
   return nullptr;
 }
@@ -45,34 +45,33 @@ static bool checkLabelBound(Context &c, Expr *bound, const Type *type) {
   if (type == nullptr || isError(boundType))
     return false;
   if (bound->constant == nullptr) {
-    c.report(Code::caseLabelNotConstant, bound->span, "a CASE label must be a constant",
+    c.report(Code::CaseLabelNotConstant, bound->span, "a CASE label must be a constant",
              "its value is only known at run time")
         .help("use IF … ELSIF for values that change");
     return false;
   }
-  if (boundType->kind == TypeKind::enumeration && !typeAs<EnumType>(boundType)->strict &&
-      type->kind != TypeKind::enumeration && isInteger(type))
+  if (boundType->kind == TypeKind::Enumeration && !typeAs<EnumType>(boundType)->strict &&
+      type->kind != TypeKind::Enumeration && isInteger(type))
     setTarget(bound, type);
   else
     coerce(c, bound, type, "the CASE label");
-  return bound->constant->kind == ConstKind::integer;
+  return bound->constant->kind == ConstKind::Integer;
 }
 
 /// Reports a label whose range is empty, or that holds what another one holds.
 static void checkRange(Context &c, const CaseLabel &label, const Type *type, SeenRanges &seen) {
-  const std::int64_t low = label.low->constant->integer;
-  const std::int64_t high = label.high == nullptr ? low : label.high->constant->integer;
+  const int64_t low = label.low->constant->integer;
+  const int64_t high = label.high == nullptr ? low : label.high->constant->integer;
   const bool wide = bitWidth(type) == 64 && !isSignedInteger(underlying(type)); // compare as ULINT
-  const bool isEmpty =
-      wide ? static_cast<std::uint64_t>(high) < static_cast<std::uint64_t>(low) : high < low;
+  const bool isEmpty = wide ? static_cast<uint64_t>(high) < static_cast<uint64_t>(low) : high < low;
   if (isEmpty) {
-    c.report(Code::emptyRange, label.span, "this range holds no value",
+    c.report(Code::EmptyRange, label.span, "this range holds no value",
              "the upper bound is below the lower one");
     return;
   }
   auto other = seen.upper_bound(high); // the first range after this one
   if (other != seen.begin() && (--other)->second.high >= low) {
-    auto &d = c.report(Code::duplicateLabel, label.span, "this CASE value is already handled",
+    auto &d = c.report(Code::DuplicateLabel, label.span, "this CASE value is already handled",
                        "handled again here");
     d.label(other->second.span, "first handled here");
   } else {

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_STATEMENTS_INTERNAL_HPP
+#define STRIDE_COMPILER_SEMANTICS_STATEMENTS_INTERNAL_HPP
 // What the sources of this folder have in common.
 
 #include "compiler/semantics/context/context.hpp"
@@ -15,3 +16,5 @@ void checkJumps(Context &c, ast::Block body);
 void checkTry(Context &c, ast::TryStmt *stmt);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_STATEMENTS_INTERNAL_HPP

@@ -47,15 +47,15 @@ private:
   /// What a block of the statement is called.
   static std::string_view wordOf(StmtKind kind) {
     switch (kind) {
-    case StmtKind::ifS:
+    case StmtKind::If:
       return "IF";
-    case StmtKind::caseS:
+    case StmtKind::Case:
       return "CASE";
-    case StmtKind::forS:
+    case StmtKind::For:
       return "FOR";
-    case StmtKind::whileS:
+    case StmtKind::While:
       return "WHILE";
-    case StmtKind::repeatS:
+    case StmtKind::RepeatS:
       return "REPEAT";
     default:
       return {};
@@ -63,11 +63,11 @@ private:
   }
 
   void collect(Stmt *s) {
-    if (s->kind == StmtKind::label)
+    if (s->kind == StmtKind::Label)
       labels.push_back({as<LabelStmt>(s), path_});
-    if (s->kind == StmtKind::jump)
+    if (s->kind == StmtKind::Jump)
       jumps.push_back({as<JumpStmt>(s), path_});
-    if (s->kind == StmtKind::tryS) {
+    if (s->kind == StmtKind::Try) {
       const auto *t = as<TryStmt>(s);
       inside(t->body, "__TRY");
       inside(t->catchBody, "__CATCH");
@@ -91,7 +91,7 @@ void checkJumps(Context &c, Block body) {
   for (const Jumps::Label &label : found.labels) {
     const auto [it, fresh] = labels.emplace(label.stmt->label.id, &label);
     if (!fresh)
-      c.report(Code::repeatedLabel, label.stmt->label.span,
+      c.report(Code::RepeatedLabel, label.stmt->label.span,
                "the label `" + std::string(label.stmt->label.text) + "` is there twice",
                "again here")
           .label(it->second->stmt->label.span, "first here")
@@ -101,7 +101,7 @@ void checkJumps(Context &c, Block body) {
     const Name &name = jump.stmt->label;
     const auto it = labels.find(name.id);
     if (it == labels.end()) {
-      auto &d = c.report(Code::unknownLabel, name.span,
+      auto &d = c.report(Code::UnknownLabel, name.span,
                          "cannot find the label `" + std::string(name.text) + "`",
                          "no such label in this body");
       std::vector<std::string_view> candidates;
@@ -120,7 +120,7 @@ void checkJumps(Context &c, Block body) {
                                                  jump.blocks.begin(), jump.blocks.end());
     if (inLabel == label.blocks.end())
       continue;
-    c.report(Code::jumpIntoBlock, name.span,
+    c.report(Code::JumpIntoBlock, name.span,
              "JMP cannot lead into " + std::string(inLabel->second) + " from outside",
              "the label lies inside of another statement")
         .label(label.stmt->label.span, "this label")
@@ -129,7 +129,7 @@ void checkJumps(Context &c, Block body) {
   }
   for (const Jumps::Label &label : found.labels)
     if (!label.stmt->used && labels.at(label.stmt->label.id) == &label)
-      c.report(Code::unusedLabel, label.stmt->label.span,
+      c.report(Code::UnusedLabel, label.stmt->label.span,
                "no JMP leads to the label `" + std::string(label.stmt->label.text) + "`",
                "not used")
           .help("remove it; a variable is declared in VAR … END_VAR");
@@ -141,8 +141,8 @@ void checkTry(Context &c, TryStmt *stmt) {
     const Type *type = check(c, stmt->exception);
     if (!isError(type) && requireVariable(c, stmt->exception, "store an exception in")) {
       const Type *base = underlying(type);
-      if (base->kind != TypeKind::udint && base->kind != TypeKind::dword) {
-        auto &d = c.report(Code::exceptionVariable, stmt->exception->span,
+      if (base->kind != TypeKind::Udint && base->kind != TypeKind::Dword) {
+        auto &d = c.report(Code::ExceptionVariable, stmt->exception->span,
                            "the variable of __CATCH cannot be " + typeName(type),
                            "expected `__SYSTEM.ExceptionCode`");
         d.help("declare it: `exc : __SYSTEM.ExceptionCode;`");

@@ -56,16 +56,16 @@ static void checkLoopBody(Context &c, Block body) {
 /// `Visu;` and `fb.Rewind;` call a program and an action, as in V2.3; null: this is no such call.
 static CallExpr *bareCall(Context &c, Expr *expr) {
   const Symbol *symbol = nullptr;
-  if (expr->kind == ExprKind::name) {
+  if (expr->kind == ExprKind::Name) {
     symbol = lookup(c, as<NameExpr>(expr)->name);
-  } else if (expr->kind == ExprKind::member && as<MemberExpr>(expr)->bit < 0 &&
-             as<MemberExpr>(expr)->base->kind == ExprKind::name) {
+  } else if (expr->kind == ExprKind::Member && as<MemberExpr>(expr)->bit < 0 &&
+             as<MemberExpr>(expr)->base->kind == ExprKind::Name) {
     const auto *member = as<MemberExpr>(expr);
     Symbol *base = lookup(c, as<NameExpr>(member->base)->name);
     const Type *type = nullptr;
-    if (base != nullptr && base->kind == SymbolKind::variable)
+    if (base != nullptr && base->kind == SymbolKind::Variable)
       type = typeOf(c, static_cast<VarSymbol *>(base));
-    else if (base != nullptr && base->kind == SymbolKind::pou)
+    else if (base != nullptr && base->kind == SymbolKind::Pou)
       type = static_cast<PouSymbol *>(base)->type;
     if (type == nullptr || !isInstance(type))
       return nullptr;
@@ -73,10 +73,10 @@ static CallExpr *bareCall(Context &c, Expr *expr) {
     declare(c, owner);
     symbol = memberNamed(owner, member->name.id);
   }
-  if (symbol == nullptr || symbol->kind != SymbolKind::pou)
+  if (symbol == nullptr || symbol->kind != SymbolKind::Pou)
     return nullptr;
   const DeclKind kind = static_cast<const PouSymbol *>(symbol)->decl->kind;
-  if (kind != DeclKind::program && kind != DeclKind::action)
+  if (kind != DeclKind::Program && kind != DeclKind::Action)
     return nullptr;
   auto *call = c.arena.make<CallExpr>();
   call->span = expr->span;
@@ -86,7 +86,7 @@ static CallExpr *bareCall(Context &c, Expr *expr) {
 
 static void checkCallStatement(Context &c, CallStmt *stmt) {
   Expr *expr = stmt->expr;
-  if (expr->kind == ExprKind::call) {
+  if (expr->kind == ExprKind::Call) {
     expr->type = checkCall(c, as<CallExpr>(expr), true);
     return;
   }
@@ -95,13 +95,13 @@ static void checkCallStatement(Context &c, CallStmt *stmt) {
     call->type = checkCall(c, call, true);
     return;
   }
-  if (expr->kind == ExprKind::error || isError(check(c, expr)))
+  if (expr->kind == ExprKind::Error || isError(check(c, expr)))
     return;
   auto &d =
-      c.report(Code::noEffect, expr->span, "this statement has no effect", "its value is not used");
+      c.report(Code::NoEffect, expr->span, "this statement has no effect", "its value is not used");
   if (isInstance(expr->type))
     d.help("call it: `" + std::string(c.program.sources.text(expr->span)) + "();`");
-  else if (expr->kind == ExprKind::binary && as<BinaryExpr>(expr)->op == BinaryOp::equal)
+  else if (expr->kind == ExprKind::Binary && as<BinaryExpr>(expr)->op == BinaryOp::Equal)
     d.help("`=` compares; assign with `:=`");
 }
 
@@ -109,44 +109,44 @@ static void checkCallStatement(Context &c, CallStmt *stmt) {
 static void checkInLoop(Context &c, const Stmt *stmt) {
   if (c.loopDepth != 0)
     return;
-  const std::string word = stmt->kind == StmtKind::exit ? "EXIT" : "CONTINUE";
-  auto &d = c.report(Code::outsideLoop, stmt->span, word + " outside of a loop",
+  const std::string word = stmt->kind == StmtKind::Exit ? "EXIT" : "CONTINUE";
+  auto &d = c.report(Code::OutsideLoop, stmt->span, word + " outside of a loop",
                      "there is no FOR, WHILE or REPEAT around it");
-  if (stmt->kind == StmtKind::exit)
+  if (stmt->kind == StmtKind::Exit)
     d.help("leave the POU with RETURN");
 }
 
 static void checkStatement(Context &c, Stmt *stmt) {
   switch (stmt->kind) {
-  case StmtKind::empty:
-  case StmtKind::returnS:
-  case StmtKind::jump: // checkJumps() looks at the body as a whole
-  case StmtKind::label:
+  case StmtKind::Empty:
+  case StmtKind::Return:
+  case StmtKind::Jump: // checkJumps() looks at the body as a whole
+  case StmtKind::Label:
     return;
-  case StmtKind::assign:
+  case StmtKind::Assign:
     return checkAssign(c, as<AssignStmt>(stmt));
-  case StmtKind::call:
+  case StmtKind::Call:
     return checkCallStatement(c, as<CallStmt>(stmt));
-  case StmtKind::ifS:
+  case StmtKind::If:
     for (const IfBranch &branch : as<IfStmt>(stmt)->branches) {
       checkCondition(c, branch.condition, "the condition of IF");
       checkBlock(c, branch.body);
     }
     return checkBlock(c, as<IfStmt>(stmt)->elseBody);
-  case StmtKind::caseS:
+  case StmtKind::Case:
     return checkCase(c, as<CaseStmt>(stmt));
-  case StmtKind::forS:
+  case StmtKind::For:
     return checkFor(c, as<ForStmt>(stmt));
-  case StmtKind::whileS:
+  case StmtKind::While:
     checkCondition(c, as<WhileStmt>(stmt)->condition, "the condition of WHILE");
     return checkLoopBody(c, as<WhileStmt>(stmt)->body);
-  case StmtKind::repeatS:
+  case StmtKind::RepeatS:
     checkLoopBody(c, as<RepeatStmt>(stmt)->body);
     return checkCondition(c, as<RepeatStmt>(stmt)->until, "the condition of UNTIL");
-  case StmtKind::tryS:
+  case StmtKind::Try:
     return checkTry(c, as<TryStmt>(stmt));
-  case StmtKind::exit:
-  case StmtKind::continueS:
+  case StmtKind::Exit:
+  case StmtKind::Continue:
     return checkInLoop(c, stmt);
   }
 }
@@ -154,15 +154,15 @@ static void checkStatement(Context &c, Stmt *stmt) {
 static void checkAssign(Context &c, AssignStmt *stmt) {
   // The last target takes the value, the one before it what that one has taken, and so on.
   const Type *expected = nullptr;
-  for (std::size_t i = stmt->targets.size(); i-- > 0;) {
+  for (size_t i = stmt->targets.size(); i-- > 0;) {
     Expr *target = stmt->targets[i];
-    const Type *type = stmt->op == AssignOp::reference ? check(c, target) : checkTarget(c, target);
+    const Type *type = stmt->op == AssignOp::Reference ? check(c, target) : checkTarget(c, target);
     const bool assignable = requireVariable(c, target, "assign to");
     if (i + 1 == stmt->targets.size())
-      expected = assignable ? type : elementaryType(TypeKind::error);
+      expected = assignable ? type : elementaryType(TypeKind::Error);
   }
   Expr *last = stmt->targets.back();
-  if (stmt->op == AssignOp::reference) {
+  if (stmt->op == AssignOp::Reference) {
     checkReferenceAssign(c, stmt);
     return;
   }
@@ -170,9 +170,9 @@ static void checkAssign(Context &c, AssignStmt *stmt) {
     check(c, stmt->value);
     return;
   }
-  if (stmt->op == AssignOp::set || stmt->op == AssignOp::reset) {
-    if (expected->kind != TypeKind::boolean) {
-      c.report(Code::setResetNotBool, last->span,
+  if (stmt->op == AssignOp::Set || stmt->op == AssignOp::Reset) {
+    if (expected->kind != TypeKind::Boolean) {
+      c.report(Code::SetResetNotBool, last->span,
                "S= and R= work on BOOL, this is " + typeName(expected), "expected BOOL");
       check(c, stmt->value);
       return;
@@ -183,25 +183,25 @@ static void checkAssign(Context &c, AssignStmt *stmt) {
   const Type *value = check(c, stmt->value, expected);
   if (isError(value))
     return;
-  if (value->kind == TypeKind::none) {
-    c.report(Code::noValue, stmt->value->span, "this call has no value",
+  if (value->kind == TypeKind::None) {
+    c.report(Code::NoValue, stmt->value->span, "this call has no value",
              "the function has no result type")
         .help("give the function a result type: `FUNCTION f : INT`");
     return;
   }
-  if (isInstance(value) && value == expected && value->kind == TypeKind::program) {
-    c.report(Code::typeMismatch, stmt->span, "a program cannot be copied",
+  if (isInstance(value) && value == expected && value->kind == TypeKind::Program) {
+    c.report(Code::TypeMismatch, stmt->span, "a program cannot be copied",
              "there is only one of it");
     return;
   }
   if (refuseOpenArray(c, last, "assign") || refuseOpenArray(c, stmt->value, "copy"))
     return;
   coerce(c, stmt->value, expected, {});
-  for (std::size_t i = stmt->targets.size() - 1; i-- > 0;) {
+  for (size_t i = stmt->targets.size() - 1; i-- > 0;) {
     Expr *target = stmt->targets[i];
     const Conversion kind = classify(stmt->targets[i + 1]->type, target->type);
-    if (kind == Conversion::narrowing || kind == Conversion::forbidden ||
-        kind == Conversion::lossy) {
+    if (kind == Conversion::Narrowing || kind == Conversion::Forbidden ||
+        kind == Conversion::Lossy) {
       Expr from = *stmt->targets[i + 1];
       reportConversion(c, &from, from.type, target->type, kind, {});
     }
@@ -211,8 +211,8 @@ static void checkAssign(Context &c, AssignStmt *stmt) {
 static void checkFor(Context &c, ForStmt *stmt) {
   const Type *type = check(c, stmt->variable);
   bool ok = !isError(type) && requireVariable(c, stmt->variable, "count with");
-  if (ok && (!isInteger(underlying(type)) || type->kind == TypeKind::enumeration)) {
-    c.report(Code::forVariable, stmt->variable->span,
+  if (ok && (!isInteger(underlying(type)) || type->kind == TypeKind::Enumeration)) {
+    c.report(Code::ForVariable, stmt->variable->span,
              "FOR counts with an integer variable, this is " + typeName(type),
              "expected an integer");
     ok = false;
@@ -225,13 +225,13 @@ static void checkFor(Context &c, ForStmt *stmt) {
       coerce(c, e, type, "FOR");
   }
   if (stmt->by != nullptr && ok && !isError(stmt->by->type)) {
-    if (stmt->by->constant != nullptr && stmt->by->constant->kind == ConstKind::integer &&
+    if (stmt->by->constant != nullptr && stmt->by->constant->kind == ConstKind::Integer &&
         stmt->by->constant->integer == 0)
-      c.report(Code::forStepZero, stmt->by->span, "a FOR loop with step 0 never ends", "the step");
+      c.report(Code::ForStepZero, stmt->by->span, "a FOR loop with step 0 never ends", "the step");
     // The step has a sign even where the variable has none (`FOR u := 10 TO 0 BY -1`).
     const Type *step = underlying(type);
     if (!isSignedInteger(step))
-      step = elementaryType(bitWidth(step) < 32 ? TypeKind::dint : TypeKind::lint);
+      step = elementaryType(bitWidth(step) < 32 ? TypeKind::Dint : TypeKind::Lint);
     coerce(c, stmt->by, step, "the step of FOR");
   }
   checkLoopBody(c, stmt->body);

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_STATEMENTS_STATEMENTS_HPP
+#define STRIDE_COMPILER_SEMANTICS_STATEMENTS_STATEMENTS_HPP
 // Statements.
 
 #include "compiler/semantics/context/context.hpp"
@@ -9,3 +10,5 @@ namespace stc::sema {
 void checkBody(Context &c, PouSymbol *pou);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_STATEMENTS_STATEMENTS_HPP

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_TYPES_INTERNAL_HPP
+#define STRIDE_COMPILER_SEMANTICS_TYPES_INTERNAL_HPP
 // What the sources of this folder have in common.
 
 #include "compiler/semantics/context/context.hpp"
@@ -9,3 +10,5 @@ namespace stc::sema {
 const EnumType *makeEnum(Context &c, ast::EnumTypeExpr *expr, TypeSymbol *symbol);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_TYPES_INTERNAL_HPP

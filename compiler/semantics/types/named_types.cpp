@@ -26,24 +26,24 @@ void resolve(Context &c, TypeSymbol *symbol) {
   if (symbol->type != nullptr)
     return;
   if (symbol->resolving) {
-    auto &d = c.report(Code::recursiveType, symbol->name.span,
+    auto &d = c.report(Code::RecursiveType, symbol->name.span,
                        "type `" + std::string(symbol->name.text) + "` is defined by itself",
                        "this definition is a circle");
     d.help("break the circle, for instance with POINTER TO");
-    symbol->type = elementaryType(TypeKind::error);
+    symbol->type = elementaryType(TypeKind::Error);
     return;
   }
   if (isTooDeep(c, symbol->name)) {
-    symbol->type = elementaryType(TypeKind::error);
+    symbol->type = elementaryType(TypeKind::Error);
     return;
   }
   symbol->resolving = true;
   const ScopeGuard guard(c, {&c.names.moduleOf(symbol), nullptr, symbol->decl});
   switch (symbol->decl->kind) {
-  case DeclKind::structure:
+  case DeclKind::Structure:
     resolveStruct(c, symbol, as<StructDecl>(symbol->decl));
     break;
-  case DeclKind::enumeration: {
+  case DeclKind::Enumeration: {
     auto *decl = as<EnumDecl>(symbol->decl);
     symbol->init = decl->init;
     symbol->type = makeEnum(c, decl->type, symbol);
@@ -66,7 +66,7 @@ void resolve(Context &c, TypeSymbol *symbol) {
 static void extendStruct(Context &c, StructType *type, const Name &baseName,
                          const StructType *base) {
   if (base->bases >= kMaxNesting) {
-    c.report(Code::tooDeep, baseName.span,
+    c.report(Code::TooDeep, baseName.span,
              "`" + std::string(baseName.text) + "` extends too many other structures",
              "more than " + std::to_string(kMaxNesting));
     return;
@@ -78,7 +78,7 @@ static void extendStruct(Context &c, StructType *type, const Name &baseName,
 
 static void resolveStruct(Context &c, TypeSymbol *symbol, StructDecl *decl) {
   auto *type = c.arena.make<StructType>();
-  type->kind = TypeKind::structure;
+  type->kind = TypeKind::Structure;
   type->symbol = symbol;
   type->isUnion = decl->isUnion;
   symbol->type = type; // members may point back to it
@@ -89,20 +89,20 @@ static void resolveStruct(Context &c, TypeSymbol *symbol, StructDecl *decl) {
     Symbol *base = lookupPath(c, decl->base, true);
     if (base == nullptr) {
       type->base = nullptr; // reported
-    } else if (base->kind == SymbolKind::type) {
+    } else if (base->kind == SymbolKind::Type) {
       auto *baseSymbol = static_cast<TypeSymbol *>(base);
       const bool circle = baseSymbol->resolving;
       resolve(c, baseSymbol);
-      if (!circle && baseSymbol->type->kind == TypeKind::structure) {
+      if (!circle && baseSymbol->type->kind == TypeKind::Structure) {
         extendStruct(c, type, baseName, typeAs<StructType>(baseSymbol->type));
       } else if (!isError(baseSymbol->type)) {
-        c.report(circle ? Code::recursiveType : Code::wrongBase, baseName.span,
+        c.report(circle ? Code::RecursiveType : Code::WrongBase, baseName.span,
                  circle ? "`" + std::string(symbol->name.text) + "` extends itself"
                         : "`" + std::string(baseName.text) + "` is not a structure",
                  "a structure can only extend another structure");
       }
     } else {
-      auto &d = c.report(Code::wrongBase, baseName.span,
+      auto &d = c.report(Code::WrongBase, baseName.span,
                          "`" + std::string(baseName.text) + "` is not a structure",
                          "this is " + describe(base));
       noteDeclaration(d, base);
@@ -114,7 +114,7 @@ static void resolveStruct(Context &c, TypeSymbol *symbol, StructDecl *decl) {
     field->home = decl;
     const auto [it, fresh] = symbol->fields.emplace(f->name.id, field);
     if (!fresh) {
-      auto &d = c.report(Code::duplicateName, f->name.span,
+      auto &d = c.report(Code::DuplicateName, f->name.span,
                          "the field `" + std::string(f->name.text) + "` is declared twice",
                          "declared again here");
       d.label(it->second->name.span, "first declared here");
@@ -134,14 +134,14 @@ static void resolveStruct(Context &c, TypeSymbol *symbol, StructDecl *decl) {
 }
 
 static const Type *baseOfEnum(Context &c, const EnumTypeExpr *expr) {
-  const Type *otherwise = elementaryType(TypeKind::intT);
+  const Type *otherwise = elementaryType(TypeKind::Int);
   if (expr->base == nullptr)
     return otherwise;
   const Type *base = resolveType(c, expr->base, {});
   if (isInteger(base))
     return base;
   if (!isError(base))
-    c.report(Code::wrongBase, expr->base->span,
+    c.report(Code::WrongBase, expr->base->span,
              "an enumeration cannot be based on " + typeName(base),
              "an integer or bit-string type is expected here");
   return otherwise;
@@ -150,9 +150,9 @@ static const Type *baseOfEnum(Context &c, const EnumTypeExpr *expr) {
 /// `next` is the value that an enumerator has by its place.
 static EnumeratorSymbol *makeEnumerator(Context &c, const EnumeratorDecl &e,
                                         const TypeSymbol *symbol, const EnumType *type,
-                                        std::int64_t next) {
+                                        int64_t next) {
   auto *enumerator = c.arena.make<EnumeratorSymbol>();
-  enumerator->kind = SymbolKind::enumerator;
+  enumerator->kind = SymbolKind::Enumerator;
   enumerator->name = e.name;
   enumerator->library = symbol->library;
   enumerator->space = symbol->space;
@@ -160,9 +160,9 @@ static EnumeratorSymbol *makeEnumerator(Context &c, const EnumeratorDecl &e,
   enumerator->value = next;
   if (e.value != nullptr)
     enumerator->value = constantInteger(c, e.value, "the value of an enumerator").value_or(next);
-  if (!constantFits(integerValue(enumerator->value), elementaryType(TypeKind::anyInteger),
+  if (!constantFits(integerValue(enumerator->value), elementaryType(TypeKind::AnyInteger),
                     type->base))
-    c.report(Code::constantOverflow, e.name.span,
+    c.report(Code::ConstantOverflow, e.name.span,
              "the value " + std::to_string(enumerator->value) + " of `" + std::string(e.name.text) +
                  "` does not fit into " + typeName(type->base))
         .help("give the enumeration a larger base type: `(…) DINT`");
@@ -178,13 +178,13 @@ static std::vector<EnumeratorSymbol *> makeEnumerators(Context &c, const EnumTyp
       symbol->decl != nullptr && hasAttribute(symbol->decl->attributes, "qualified_only");
   std::vector<EnumeratorSymbol *> list;
   std::unordered_map<Ident, EnumeratorSymbol *> seen;
-  std::int64_t next = 0;
+  int64_t next = 0;
   for (const EnumeratorDecl &e : expr->enumerators) {
     EnumeratorSymbol *enumerator = makeEnumerator(c, e, symbol, type, next);
     next = enumerator->value + 1;
     const auto [it, fresh] = seen.emplace(e.name.id, enumerator);
     if (!fresh) {
-      auto &d = c.report(Code::duplicateName, e.name.span,
+      auto &d = c.report(Code::DuplicateName, e.name.span,
                          "the enumerator `" + std::string(e.name.text) + "` is declared twice",
                          "declared again here");
       d.label(it->second->name.span, "first declared here");
@@ -200,10 +200,10 @@ static std::vector<EnumeratorSymbol *> makeEnumerators(Context &c, const EnumTyp
 
 const EnumType *makeEnum(Context &c, EnumTypeExpr *expr, TypeSymbol *symbol) {
   auto *type = c.arena.make<EnumType>();
-  type->kind = TypeKind::enumeration;
+  type->kind = TypeKind::Enumeration;
   type->symbol = symbol;
   symbol->type = type;
-  type->base = elementaryType(TypeKind::intT);
+  type->base = elementaryType(TypeKind::Int);
   type->base = baseOfEnum(c, expr);
   const auto has = [&](std::string_view attribute) {
     return symbol->decl != nullptr && hasAttribute(symbol->decl->attributes, attribute);
@@ -228,8 +228,8 @@ const EnumType *makeEnum(Context &c, EnumTypeExpr *expr, TypeSymbol *symbol) {
 }
 
 void resolveEnumerations(Context &c, Module &module) {
-  for (std::size_t i = 0; i < module.declaredTypes.size(); ++i) { // the list may grow meanwhile
-    if (module.declaredTypes[i]->decl->kind == DeclKind::enumeration)
+  for (size_t i = 0; i < module.declaredTypes.size(); ++i) { // the list may grow meanwhile
+    if (module.declaredTypes[i]->decl->kind == DeclKind::Enumeration)
       resolve(c, module.declaredTypes[i]);
   }
 }

@@ -9,10 +9,10 @@ namespace stc::sema {
 using namespace ast;
 
 bool fitsOpenArray(const Type *actual, const OpenArrayType *wanted) {
-  if (actual->kind == TypeKind::openArray)
+  if (actual->kind == TypeKind::OpenArray)
     return actual == wanted;
-  for (std::uint32_t i = 0; i < wanted->dimensions; ++i) {
-    if (actual->kind != TypeKind::array)
+  for (uint32_t i = 0; i < wanted->dimensions; ++i) {
+    if (actual->kind != TypeKind::Array)
       return false;
     actual = typeAs<ArrayType>(actual)->element;
   }
@@ -20,9 +20,9 @@ bool fitsOpenArray(const Type *actual, const OpenArrayType *wanted) {
 }
 
 bool refuseOpenArray(Context &c, Expr *expr, std::string_view action) {
-  if (expr->type == nullptr || expr->type->kind != TypeKind::openArray)
+  if (expr->type == nullptr || expr->type->kind != TypeKind::OpenArray)
     return false;
-  c.report(Code::openArrayWhole, expr->span,
+  c.report(Code::OpenArrayWhole, expr->span,
            "cannot " + std::string(action) + " an array of variable length as a whole",
            "its size is only known to the caller")
       .help("work on its elements: `FOR i := LOWER_BOUND(a, 1) TO UPPER_BOUND(a, 1) DO …`");

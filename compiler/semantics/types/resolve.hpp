@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_COMPILER_SEMANTICS_TYPES_RESOLVE_HPP
+#define STRIDE_COMPILER_SEMANTICS_TYPES_RESOLVE_HPP
 // Types: as they are written and as they are declared.
 
 #include "compiler/semantics/context/context.hpp"
@@ -25,3 +26,5 @@ bool refuseOpenArray(Context &c, ast::Expr *expr, std::string_view action);
 void checkUnion(Context &c, const StructType *type);
 
 } // namespace stc::sema
+
+#endif // STRIDE_COMPILER_SEMANTICS_TYPES_RESOLVE_HPP

@@ -15,10 +15,10 @@ namespace {
 const Type *forbiddenInUnion(const Type *type) {
   const Type *result = nullptr;
   anyHeld(type, [&](const Type *t, const VarSymbol *) {
-    if (!isInstance(t) && t->kind != TypeKind::reference)
-      return Held::inside;
+    if (!isInstance(t) && t->kind != TypeKind::Reference)
+      return Held::Inside;
     result = t;
-    return Held::found;
+    return Held::Found;
   });
   return result;
 }
@@ -32,8 +32,8 @@ void checkUnion(Context &c, const StructType *type) {
       continue;
     if (const Type *inner = forbiddenInUnion(f->type)) {
       auto &d = c.report(
-          Code::unionMember, f->name.span,
-          std::string(inner->kind == TypeKind::reference ? "a reference" : "a block instance") +
+          Code::UnionMember, f->name.span,
+          std::string(inner->kind == TypeKind::Reference ? "a reference" : "a block instance") +
               " cannot share its memory with other members of a UNION",
           inner == f->type ? "this is " + typeName(f->type)
                            : "there is a " + typeName(inner) + " in it");
@@ -42,7 +42,7 @@ void checkUnion(Context &c, const StructType *type) {
     if (f->decl->init == nullptr)
       continue;
     if (initialised != nullptr) {
-      auto &d = c.report(Code::unionInit, f->decl->init->span,
+      auto &d = c.report(Code::UnionInit, f->decl->init->span,
                          "only one member of a UNION can have an initial value",
                          "this would overwrite the other one");
       d.label(initialised->decl->init->span, "the first initial value");

@@ -39,7 +39,7 @@ void parseProject(benchmark::State &state) {
     state.SkipWithError("the project cannot be generated");
     return;
   }
-  std::size_t bytes = 0;
+  size_t bytes = 0;
   for (auto _ : state) {
     stc::Interner interner;
     stc::Arena arena;
@@ -52,8 +52,8 @@ void parseProject(benchmark::State &state) {
     bytes = arena.bytes();
   }
   const auto lines = static_cast<double>(file.lineCount());
-  state.SetItemsProcessed(static_cast<std::int64_t>(lines) * state.iterations());
-  state.SetBytesProcessed(static_cast<std::int64_t>(file.text().size()) * state.iterations());
+  state.SetItemsProcessed(static_cast<int64_t>(lines) * state.iterations());
+  state.SetBytesProcessed(static_cast<int64_t>(file.text().size()) * state.iterations());
   state.counters["tree_bytes_per_line"] = static_cast<double>(bytes) / lines;
 }
 BENCHMARK(parseProject)->Unit(benchmark::kMillisecond);
@@ -101,7 +101,7 @@ void compileProject(benchmark::State &state) {
     parsing += parsed - start;
     lines = static_cast<double>(file.lineCount());
   }
-  state.SetItemsProcessed(static_cast<std::int64_t>(lines) * state.iterations());
+  state.SetItemsProcessed(static_cast<int64_t>(lines) * state.iterations());
   const auto total = (parsing + checking + generating).count();
   state.counters["parse_percent"] = 100 * parsing.count() / total;
   state.counters["check_percent"] = 100 * checking.count() / total;

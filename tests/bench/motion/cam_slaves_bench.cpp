@@ -32,7 +32,7 @@ void turn(AxisRef &master, double cycle) {
 /// One cycle of `slaves` axes on one rotary master, each with its MC_CamIn on a periodic cam of 20
 /// points: power, block, ownership, limits, conversion.
 void camSlaves(benchmark::State &state) {
-  const auto count = static_cast<std::size_t>(state.range(0));
+  const auto count = static_cast<size_t>(state.range(0));
   const bool rotary = state.range(1) != 0;
   constexpr double kCycle = 0.001;
   AxisRef master = fresh<AxisRef>();
@@ -59,7 +59,7 @@ void camSlaves(benchmark::State &state) {
   std::vector<st::SM_PLCopen::MC_CamIn> blocks(count, fresh<st::SM_PLCopen::MC_CamIn>());
   auto select = fresh<st::SM_PLCopen::MC_CamTableSelect>();
   std::vector<AxisRef *> pointers;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (size_t i = 0; i < count; ++i) {
     axes[i].dwRatioTechUnitsDenom = 10000;
     if (rotary) {
       axes[i].iMovementType = 0;
@@ -83,7 +83,7 @@ void camSlaves(benchmark::State &state) {
   const auto cycle = [&] {
     axisGroup.executeStart();
     turn(master, kCycle);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < count; ++i) {
       powers[i].body__(ctx);
       auto &block = blocks[i];
       block.CamTableID = select.CamTableID;

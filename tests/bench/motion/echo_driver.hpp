@@ -12,28 +12,28 @@ namespace stride::bench {
 /// Drives that cost nothing: what they are told has happened in the next cycle.
 class EchoDriver final : public stride::bus::AxisDriver {
 public:
-  explicit EchoDriver(std::size_t count) : statuses_(count) {
+  explicit EchoDriver(size_t count) : statuses_(count) {
     for (auto &status : statuses_)
       status.communication = true;
   }
   void executeStart() override {}
   void executeEnd() override {}
-  stride::bus::StartUp init(std::size_t /*drive*/, uint16_t & /*progress*/,
+  stride::bus::StartUp init(size_t /*drive*/, uint16_t & /*progress*/,
                             stride::bus::Message & /*message*/) override {
     return stride::bus::StartUp::Started;
   }
-  void reset(std::size_t /*drive*/) override {}
-  [[nodiscard]] stride::bus::DriveStatus status(std::size_t drive) const override {
+  void reset(size_t /*drive*/) override {}
+  [[nodiscard]] stride::bus::DriveStatus status(size_t drive) const override {
     return statuses_[drive];
   }
-  void command(std::size_t drive, const stride::bus::DriveCommand &command) override {
+  void command(size_t drive, const stride::bus::DriveCommand &command) override {
     auto &status = statuses_[drive];
     status.position = command.position;
     status.velocity = command.velocity;
     status.regulatorOn = command.regulatorOn;
     status.driveStarted = command.driveStart;
   }
-  [[nodiscard]] uint8_t controllerModes(std::size_t /*drive*/) const override { return 8; }
+  [[nodiscard]] uint8_t controllerModes(size_t /*drive*/) const override { return 8; }
 
 private:
   std::vector<stride::bus::DriveStatus> statuses_;

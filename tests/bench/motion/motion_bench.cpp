@@ -63,13 +63,13 @@ void planMove(benchmark::State &state) {
         stride::motion::planMove(profile, p.start, p.target, p.endVelocity, p.dynamics));
     benchmark::DoNotOptimize(profile.duration);
   };
-  std::size_t i = 0;
+  size_t i = 0;
   for (auto _ : state)
     plan(problems[i++ & 4095]);
   using Clock = std::chrono::steady_clock;
   std::vector<double> times(problems.size(), HUGE_VAL);
   for (int run = 0; run < 7; ++run)
-    for (std::size_t k = 0; k < problems.size(); ++k) {
+    for (size_t k = 0; k < problems.size(); ++k) {
       const auto start = Clock::now();
       plan(problems[k]);
       times[k] = std::min(times[k], std::chrono::duration<double>(Clock::now() - start).count());
@@ -82,7 +82,7 @@ BENCHMARK(planMove)->ArgName("ramp")->DenseRange(0, 3);
 /// One cycle of `axes` axes that move to and fro: power, block, ownership, limits, conversion; with
 /// drives that cost nothing, or with the simulated ones.
 void movingAxes(benchmark::State &state) {
-  const auto count = static_cast<std::size_t>(state.range(0));
+  const auto count = static_cast<size_t>(state.range(0));
   const bool rotary = state.range(1) != 0;
   const bool simulated = state.range(2) != 0;
   std::vector<stride::axis::AxisRef> axes(count, fresh<stride::axis::AxisRef>());
@@ -90,7 +90,7 @@ void movingAxes(benchmark::State &state) {
   std::vector<st::SM_PLCopen::MC_MoveAbsolute> moves(count,
                                                      fresh<st::SM_PLCopen::MC_MoveAbsolute>());
   std::vector<stride::axis::AxisRef *> pointers;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (size_t i = 0; i < count; ++i) {
     axes[i].dwRatioTechUnitsDenom = 10000;
     axes[i].bSWLimitEnable = 1;
     axes[i].fSWLimitNegative = -1e6;
@@ -115,7 +115,7 @@ void movingAxes(benchmark::State &state) {
   stride::Ctx ctx{};
   const auto cycle = [&] {
     axisGroup.executeStart();
-    for (std::size_t i = 0; i < count; ++i) {
+    for (size_t i = 0; i < count; ++i) {
       powers[i].body__(ctx);
       auto &move = moves[i];
       move.Execute = powers[i].Status != 0 && move.Done == 0 && move.Error == 0;

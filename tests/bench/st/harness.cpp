@@ -92,7 +92,7 @@ public:
       throw std::runtime_error(::dlerror());
     twin_ = static_cast<const Twin *>(twin);
     // Aligned as the state of an application is.
-    const std::size_t size = (twin_->size + kAlign - 1) / kAlign * kAlign;
+    const size_t size = (twin_->size + kAlign - 1) / kAlign * kAlign;
     state_.reset(static_cast<std::byte *>(std::aligned_alloc(kAlign, size)));
     std::memset(state_.get(), 0, size);
     twin_->init(state_.get());
@@ -108,7 +108,7 @@ public:
   [[nodiscard]] uint64_t checksum() const override { return twin_->checksum(state_.get()); }
 
 private:
-  static constexpr std::size_t kAlign = 4096;
+  static constexpr size_t kAlign = 4096;
   struct Free {
     void operator()(std::byte *memory) const { std::free(memory); }
   };
@@ -158,7 +158,7 @@ int measure(const Options &options) {
   HandWritten twin(options.files[2]);
   const std::array<Subject *, 3> all = {&checked, &unchecked, &twin};
   if (options.only >= 0) {
-    all.at(static_cast<std::size_t>(options.only))->run(options.cycles);
+    all.at(static_cast<size_t>(options.only))->run(options.cycles);
     return 0;
   }
   const auto compare = [&] {
@@ -190,7 +190,7 @@ int measure(const Options &options) {
   }
   std::array<double, 3> best = {1e300, 1e300, 1e300};
   for (int run = 0; run < options.runs; ++run) {
-    for (std::size_t i = 0; i < all.size(); ++i)
+    for (size_t i = 0; i < all.size(); ++i)
       best[i] = std::min(best[i], timed(*all[i], cycles) / static_cast<double>(cycles));
     compare();
   }

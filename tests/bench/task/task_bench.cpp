@@ -36,7 +36,7 @@ void emptyCycle(benchmark::State &state) {
   const StrideAppV1 app = appWith(list);
   alignas(16) std::byte memory[64]{};
   task::TaskSet tasks(app, memory, task::hostApi(), task::LoopLimit::Clock);
-  std::vector<EmptyHook> hooks(static_cast<std::size_t>(state.range(0)));
+  std::vector<EmptyHook> hooks(static_cast<size_t>(state.range(0)));
   for (EmptyHook &hook : hooks)
     tasks.addHook(0, hook);
   int64_t time = 0;

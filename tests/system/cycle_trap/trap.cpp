@@ -21,10 +21,10 @@ class TaskSet;
 }
 
 extern "C" {
-void *__libc_malloc(std::size_t size);
-void *__libc_calloc(std::size_t count, std::size_t size);
-void *__libc_realloc(void *memory, std::size_t size);
-void *__libc_memalign(std::size_t alignment, std::size_t size);
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *memory, size_t size);
+void *__libc_memalign(size_t alignment, size_t size);
 void __libc_free(void *memory);
 }
 
@@ -83,24 +83,24 @@ __attribute__((constructor)) void findOriginals() {
 
 extern "C" {
 
-void *malloc(std::size_t size) {
+void *malloc(size_t size) {
   forbid("malloc");
   return __libc_malloc(size);
 }
-void *calloc(std::size_t count, std::size_t size) {
+void *calloc(size_t count, size_t size) {
   forbid("calloc");
   return __libc_calloc(count, size);
 }
-void *realloc(void *memory, std::size_t size) {
+void *realloc(void *memory, size_t size) {
   forbid("realloc");
   return __libc_realloc(memory, size);
 }
-void *memalign(std::size_t alignment, std::size_t size) {
+void *memalign(size_t alignment, size_t size) {
   forbid("memalign");
   return __libc_memalign(alignment, size);
 }
-void *aligned_alloc(std::size_t alignment, std::size_t size) { return memalign(alignment, size); }
-int posix_memalign(void **memory, std::size_t alignment, std::size_t size) {
+void *aligned_alloc(size_t alignment, size_t size) { return memalign(alignment, size); }
+int posix_memalign(void **memory, size_t alignment, size_t size) {
   *memory = memalign(alignment, size);
   return *memory == nullptr ? ENOMEM : 0;
 }
@@ -128,7 +128,7 @@ int pthread_rwlock_wrlock(pthread_rwlock_t *lock) {
 }
 
 // A stream has a lock of its own, and who reads it may be slow.
-std::size_t fwrite(const void *data, std::size_t size, std::size_t count, FILE *file) {
+size_t fwrite(const void *data, size_t size, size_t count, FILE *file) {
   forbid("fwrite");
   return originals().write(data, size, count, file);
 }

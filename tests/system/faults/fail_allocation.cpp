@@ -14,10 +14,10 @@
 #include <unistd.h>
 
 extern "C" {
-void *__libc_malloc(std::size_t size);
-void *__libc_calloc(std::size_t count, std::size_t size);
-void *__libc_realloc(void *memory, std::size_t size);
-void *__libc_memalign(std::size_t alignment, std::size_t size);
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *memory, size_t size);
+void *__libc_memalign(size_t alignment, size_t size);
 }
 
 namespace {
@@ -50,7 +50,7 @@ __attribute__((destructor)) void end() {
     return;
   char text[32];
   const int size = std::snprintf(text, sizeof text, "%lu\n", calls.load());
-  (void)!::write(file, text, static_cast<std::size_t>(size));
+  (void)!::write(file, text, static_cast<size_t>(size));
   ::close(file);
 }
 
@@ -77,18 +77,16 @@ int __libc_start_main(Main *main, int argc, char **argv, void (*init)(), void (*
   return next(begin, argc, argv, init, fini, loaderFini, stackEnd);
 }
 
-void *malloc(std::size_t size) { return fails() ? nullptr : __libc_malloc(size); }
-void *calloc(std::size_t number, std::size_t size) {
-  return fails() ? nullptr : __libc_calloc(number, size);
-}
-void *realloc(void *memory, std::size_t size) {
+void *malloc(size_t size) { return fails() ? nullptr : __libc_malloc(size); }
+void *calloc(size_t number, size_t size) { return fails() ? nullptr : __libc_calloc(number, size); }
+void *realloc(void *memory, size_t size) {
   return fails() ? nullptr : __libc_realloc(memory, size);
 }
-void *memalign(std::size_t alignment, std::size_t size) {
+void *memalign(size_t alignment, size_t size) {
   return fails() ? nullptr : __libc_memalign(alignment, size);
 }
-void *aligned_alloc(std::size_t alignment, std::size_t size) { return memalign(alignment, size); }
-int posix_memalign(void **memory, std::size_t alignment, std::size_t size) {
+void *aligned_alloc(size_t alignment, size_t size) { return memalign(alignment, size); }
+int posix_memalign(void **memory, size_t alignment, size_t size) {
   *memory = memalign(alignment, size);
   return *memory == nullptr ? ENOMEM : 0;
 }

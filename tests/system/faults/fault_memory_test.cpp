@@ -85,7 +85,7 @@ TEST_F(NoMemory, EachAllocationFails) {
     for (unsigned long i = 0; i < 24; ++i)
       chosen.push_back(1 + (calls * i + random() % calls) / 24);
   }
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
+  for (size_t i = 0; i < chosen.size(); ++i) {
     static constexpr unsigned long kCounts[] = {1, 20, 1'000'000'000};
     const unsigned long count = kCounts[i % 3];
     SCOPED_TRACE("allocation " + std::to_string(chosen[i]) + " of " + std::to_string(calls) +

@@ -99,7 +99,7 @@ protected:
     const bool all = std::getenv("STRIDE_ALL_FAULTS") != nullptr;
     const unsigned step = all ? 1 : std::max(1U, calls / 8);
     for (unsigned n = 1; n <= calls; n += step)
-      for (std::size_t e = 0; e < (all ? errors.size() : 1); ++e)
+      for (size_t e = 0; e < (all ? errors.size() : 1); ++e)
         for (const bool onwards : {false, true}) {
           if (!all && onwards == (n / step % 2 == 0))
             continue;

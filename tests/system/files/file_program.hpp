@@ -1,5 +1,6 @@
 // A program that works with files all the time.
-#pragma once
+#ifndef STRIDE_TESTS_SYSTEM_FILES_FILE_PROGRAM_HPP
+#define STRIDE_TESTS_SYSTEM_FILES_FILE_PROGRAM_HPP
 
 namespace stride::test {
 
@@ -65,3 +66,5 @@ inline constexpr const char *kFileProject =
     "[[task]]\nname = \"Fast\"\ninterval = \"T#1ms\"\nprograms = [\"PLC_PRG\"]\n";
 
 } // namespace stride::test
+
+#endif // STRIDE_TESTS_SYSTEM_FILES_FILE_PROGRAM_HPP

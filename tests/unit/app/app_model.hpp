@@ -247,7 +247,7 @@ private:
       std::vector<MemberDesc> rows;
       if (type->base != nullptr)
         rows.push_back({type->base->name.c_str(), 0, index(type->base), kSymBase, nullptr});
-      for (std::size_t i = 0; i < type->fields.size(); ++i) {
+      for (size_t i = 0; i < type->fields.size(); ++i) {
         const ModelField &field = type->fields[i];
         rows.push_back({field.name.c_str(), type->offsets[i], index(field.type), field.flags,
                         text(field.renamedFrom)});

@@ -34,7 +34,7 @@ struct Build : AppModel {
     std::memcpy(&value, state() + offset, sizeof value);
     return value;
   }
-  uint64_t at(std::size_t root) const { return roots[root].offset; }
+  uint64_t at(size_t root) const { return roots[root].offset; }
 };
 
 class CarryOverTest : public ::testing::Test {

@@ -5,7 +5,7 @@
 #include <limits>
 
 namespace stride::test {
-std::size_t allocations();
+size_t allocations();
 }
 
 namespace {
@@ -76,7 +76,7 @@ TEST_F(CarryOverTest, NumbersOnlyWhereEveryValueSurvives) {
   a.set<uint32_t>(a.at(9), 86400U);
   a.set<uint32_t>(a.at(10), 1500U);
   a.set<uint32_t>(a.at(11), 0xDEADBEEFU);
-  for (std::size_t i = kept.size(); i < b.roots.size(); ++i)
+  for (size_t i = kept.size(); i < b.roots.size(); ++i)
     std::memset(b.state() + b.at(i), 0x5A, b.roots[i].type->size);
   apply();
   EXPECT_EQ(b.get<int64_t>(b.at(0)), -5);
@@ -91,7 +91,7 @@ TEST_F(CarryOverTest, NumbersOnlyWhereEveryValueSurvives) {
   EXPECT_EQ(b.get<int64_t>(b.at(9)), 86400'000000000);
   EXPECT_EQ(b.get<int64_t>(b.at(10)), 1500'000000);
   EXPECT_EQ(b.get<uint32_t>(b.at(11)), 0xDEADBEEFU);
-  for (std::size_t i = kept.size(); i < b.roots.size(); ++i)
+  for (size_t i = kept.size(); i < b.roots.size(); ++i)
     EXPECT_EQ(b.get<uint8_t>(b.at(i)), 0x5A) << i;
 }
 
@@ -356,7 +356,7 @@ TEST_F(CarryOverTest, OtherBlocksStartAnewButDerivedOnesKeepTheirBase) {
   build(b, true);
   a.ready();
   b.ready();
-  for (std::size_t r = 0; r < 4; ++r)
+  for (size_t r = 0; r < 4; ++r)
     a.set<int16_t>(a.at(r), 5);
   const std::string text = apply();
   EXPECT_EQ(b.get<int16_t>(b.at(0)), 5);
@@ -484,7 +484,7 @@ TEST_F(CarryOverTest, ApplyAllocatesNothing) {
   std::memset(a.state(), 'x', a.app().stateSize);
   const CarryOver plan(a.app(), b.app());
   CarryResult few(5);
-  const std::size_t before = stride::test::allocations();
+  const size_t before = stride::test::allocations();
   plan.apply(a.state(), b.state(), few);
   EXPECT_EQ(stride::test::allocations(), before);
   EXPECT_EQ(few.total(), 100U); // texts cut, pointers nulled

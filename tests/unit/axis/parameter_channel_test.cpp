@@ -23,32 +23,30 @@ class SlowDriver final : public bus::AxisDriver {
 public:
   void executeStart() override {}
   void executeEnd() override {}
-  bus::StartUp init(std::size_t, uint16_t &, bus::Message &) override {
-    return bus::StartUp::Started;
-  }
-  void reset(std::size_t) override {}
-  bus::DriveStatus status(std::size_t) const override {
+  bus::StartUp init(size_t, uint16_t &, bus::Message &) override { return bus::StartUp::Started; }
+  void reset(size_t) override {}
+  bus::DriveStatus status(size_t) const override {
     bus::DriveStatus status;
     status.communication = true;
     return status;
   }
-  void command(std::size_t, const bus::DriveCommand &) override {}
-  uint8_t controllerModes(std::size_t) const override { return 1U << 3; }
-  bool startParameter(std::size_t, const bus::ParameterRequest &request) override {
+  void command(size_t, const bus::DriveCommand &) override {}
+  uint8_t controllerModes(size_t) const override { return 1U << 3; }
+  bool startParameter(size_t, const bus::ParameterRequest &request) override {
     if (busy)
       return false;
     asked = request;
     ++started;
     return true;
   }
-  bool pollParameter(std::size_t, bus::ParameterAnswer &answer) override {
+  bool pollParameter(size_t, bus::ParameterAnswer &answer) override {
     if (!answers)
       return false;
     answer.value = asked.number * 1.5;
     answer.name = "a name that is much longer than the forty characters there is room for";
     return true;
   }
-  void cancelParameter(std::size_t) override { ++cancelled; }
+  void cancelParameter(size_t) override { ++cancelled; }
 
   bool busy = false;
   bool answers = false;
@@ -93,10 +91,10 @@ TEST_F(Channel, AsksForWhatItCanCarryOnly) {
 
 TEST(ByteString, KeepsAsManyBytesAsItHasRoomFor) {
   using bus::ByteString;
-  for (const std::size_t size : {std::size_t{0}, ByteString::kMost - 1, ByteString::kMost,
-                                 ByteString::kMost + 1, std::size_t{1000}}) {
+  for (const size_t size :
+       {size_t{0}, ByteString::kMost - 1, ByteString::kMost, ByteString::kMost + 1, size_t{1000}}) {
     std::string text;
-    for (std::size_t i = 0; i < size; ++i)
+    for (size_t i = 0; i < size; ++i)
       text += static_cast<char>(i % 251); // zeros, too
     const ByteString bytes{std::string_view(text)};
     EXPECT_EQ(bytes.size(), std::min(size, ByteString::kMost));

@@ -143,7 +143,7 @@ TEST(CamFile, WritesTheSameBytesInPieces) {
 TEST(CamFile, NoDamageGoesUnnoticed) {
   const std::vector<uint8_t> good = bytesOf(nodesHeader(), kNodes.data(), kTappets);
   for (size_t length = 0; length < good.size(); ++length)
-    EXPECT_EQ(errorOf({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(length)}),
+    EXPECT_EQ(errorOf({good.begin(), good.begin() + static_cast<ptrdiff_t>(length)}),
               cam::CamFileError::Truncated)
         << length;
   for (size_t at = 0; at < good.size(); ++at)
@@ -160,7 +160,7 @@ TEST(CamFile, NoDamageGoesUnnoticed) {
 /// With the right checksum, so that it is the value that is refused.
 cam::CamFileError errorWith(size_t at, std::vector<uint8_t> values) {
   std::vector<uint8_t> bytes = bytesOf(nodesHeader(), kNodes.data(), kTappets);
-  std::copy(values.begin(), values.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
+  std::copy(values.begin(), values.end(), bytes.begin() + static_cast<ptrdiff_t>(at));
   const uint32_t checksum =
       cam::camFileChecksum(0, bytes.data(), static_cast<int64_t>(bytes.size()) - 4);
   std::memcpy(&bytes[bytes.size() - 4], &checksum, sizeof checksum);

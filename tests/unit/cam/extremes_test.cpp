@@ -21,7 +21,7 @@ std::vector<double> rootsOf(const std::vector<double> &coefficients, double sine
                             double cosine = 0, double omega = 0) {
   cam::Smooth f;
   f.degree = static_cast<int>(coefficients.size()) - 1;
-  for (std::size_t i = 0; i < coefficients.size(); ++i)
+  for (size_t i = 0; i < coefficients.size(); ++i)
     f.c[i] = coefficients[i];
   f.sine = sine;
   f.cosine = cosine;

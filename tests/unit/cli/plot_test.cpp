@@ -22,9 +22,9 @@ TraceError fail(std::string_view csv) {
   return error;
 }
 
-std::size_t count(std::string_view text, std::string_view part) {
-  std::size_t result = 0;
-  for (std::size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + 1))
+size_t count(std::string_view text, std::string_view part) {
+  size_t result = 0;
+  for (size_t at = text.find(part); at != std::string_view::npos; at = text.find(part, at + 1))
     ++result;
   return result;
 }
@@ -97,7 +97,7 @@ TEST(Svg, HasAPanelPerQuantity) {
 double heightOf(std::string_view svg, std::string_view content) {
   const std::string element = ">" + std::string(content) + "<";
   EXPECT_EQ(count(svg, element), 1U) << content;
-  const std::size_t begin = svg.rfind("<text", svg.find(element));
+  const size_t begin = svg.rfind("<text", svg.find(element));
   return std::stod(std::string(svg.substr(svg.find(" y=\"", begin) + 4, 12)));
 }
 

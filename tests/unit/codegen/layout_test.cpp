@@ -109,7 +109,7 @@ TEST(CodegenLayout, AgreesWithTheCppCompiler) {
       EXPECT_EQ(storage.of(v->type).align, type->align) << place;
       EXPECT_EQ(app["Main.s" + place.substr(6)], std::to_string(type->size));
       const auto fields = [&]() -> std::vector<const VarSymbol *> {
-        if (v->type->kind == TypeKind::structure) {
+        if (v->type->kind == TypeKind::Structure) {
           const auto list = typeAs<StructType>(v->type)->fields;
           return {list.begin(), list.end()};
         }
@@ -117,7 +117,7 @@ TEST(CodegenLayout, AgreesWithTheCppCompiler) {
         return {list.begin(), list.end()};
       }();
       for (const VarSymbol *f : fields) {
-        for (std::uint32_t m = 0; m < type->memberCount; ++m) {
+        for (uint32_t m = 0; m < type->memberCount; ++m) {
           const stride::MemberDesc &member = app.description().members[type->firstMember + m];
           if (member.name == f->name.text) {
             EXPECT_EQ(storage.offset(v->type, f), member.offset) << place << '.' << member.name;

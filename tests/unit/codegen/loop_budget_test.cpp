@@ -65,7 +65,7 @@ constexpr const char *kWhere[] = {" of a function", " of a block",
                                   " of a block that calls a block"};
 
 std::string withBlock(std::string text) {
-  for (std::size_t at = 0; (at = text.find("Count()", at)) != std::string::npos;)
+  for (size_t at = 0; (at = text.find("Count()", at)) != std::string::npos;)
     text.replace(at, 7, "c()");
   return text;
 }
@@ -107,8 +107,8 @@ class LoopBudget : public ::testing::Test {
 protected:
   LoopBudget() : app_(program()) {}
 
-  void run(int loop, std::int64_t budget, std::int64_t more = 0, int times = 0) {
-    const auto mode = static_cast<std::int16_t>(loop);
+  void run(int loop, int64_t budget, int64_t more = 0, int times = 0) {
+    const auto mode = static_cast<int16_t>(loop);
     std::memcpy(app_.at("Main.mode"), &mode, sizeof mode);
     app_.setLoopBudget(budget, more, times);
     app_.run();

@@ -61,7 +61,7 @@ private:
 std::string messages(const Program &program) {
   std::string out;
   for (const Diagnostic &d : program.diagnostics.all()) {
-    if (d.severity != Severity::error)
+    if (d.severity != Severity::Error)
       continue;
     out += codeName(d.code) + ": " + d.message;
     if (!d.labels.empty() && d.labels[0].span.valid()) {
@@ -77,12 +77,12 @@ struct Thrown {
   std::string text;
 };
 
-void raise(stride::Ctx *, stride::ExceptionCode code, const char *file, std::uint32_t line,
-           std::uint32_t col, const char *) {
+void raise(stride::Ctx *, stride::ExceptionCode code, const char *file, uint32_t line, uint32_t col,
+           const char *) {
   static constexpr std::array kNames = {"None",        "DivisionByZero", "IndexOutOfRange",
                                         "NullPointer", "UnboundInOut",   "RangeViolation",
                                         "EndlessLoop"};
-  const auto index = static_cast<std::size_t>(code);
+  const auto index = static_cast<size_t>(code);
   throw Thrown{std::string(index < kNames.size() ? kNames[index] : "?") + " " + file + ":" +
                std::to_string(line) + ":" + std::to_string(col)};
 }
@@ -115,7 +115,7 @@ std::vector<GeneratedFile> generate(const std::vector<Source> &sources, const Op
   task.name = "Task";
   task.intervalNs = 10'000'000;
   for (PouSymbol *p : program.user->pous) {
-    if (p->decl->kind == ast::DeclKind::program)
+    if (p->decl->kind == ast::DeclKind::Program)
       task.programs.push_back(p);
   }
   config.tasks.push_back(task);
@@ -236,13 +236,13 @@ void App::run(int cycles) {
   }
 }
 
-void App::setLoopBudget(std::int64_t budget, std::int64_t more, int times) {
+void App::setLoopBudget(int64_t budget, int64_t more, int times) {
   budget_ = budget;
   more_ = more;
   times_ = times;
 }
 
-std::int64_t App::refill(stride::Ctx *ctx) {
+int64_t App::refill(stride::Ctx *ctx) {
   auto &app = *static_cast<App *>(ctx->host->self);
   return app.refills_++ < app.times_ ? app.more_ : 0;
 }
@@ -263,7 +263,7 @@ void *App::at(std::string_view path, const stride::TypeDesc **typeOut) const {
     return nullptr;
   std::string_view rest = path;
   const auto word = [&] {
-    std::size_t end = 0;
+    size_t end = 0;
     while (end < rest.size() && rest[end] != '.' && rest[end] != '[' && rest[end] != ']' &&
            rest[end] != ',' && rest[end] != '^')
       ++end;
@@ -275,7 +275,7 @@ void *App::at(std::string_view path, const stride::TypeDesc **typeOut) const {
   char *place = nullptr;
   const stride::TypeDesc *type = nullptr;
   const auto findRoot = [&](const std::string &list, const std::string &name) {
-    for (std::uint32_t i = 0; i < app_->rootCount; ++i) {
+    for (uint32_t i = 0; i < app_->rootCount; ++i) {
       const stride::RootDesc &r = app_->roots[i];
       const bool inList = list.empty() ? (r.flags & stride::kSymQualifiedOnly) == 0
                                        : r.list != nullptr && lower(r.list) == lower(list);
@@ -311,7 +311,7 @@ void *App::at(std::string_view path, const stride::TypeDesc **typeOut) const {
       bool found = false;
       while (!found) {
         const stride::TypeDesc *base = nullptr;
-        for (std::uint32_t i = 0; i < owner->memberCount && !found; ++i) {
+        for (uint32_t i = 0; i < owner->memberCount && !found; ++i) {
           const stride::MemberDesc &m = app_->members[owner->firstMember + i];
           if ((m.flags & stride::kSymBase) != 0) {
             base = &app_->types[m.type];
@@ -326,9 +326,8 @@ void *App::at(std::string_view path, const stride::TypeDesc **typeOut) const {
         owner = base;
       }
     } else if (c == '[' || c == ',') {
-      const std::int64_t index = std::stoll(word());
-      place +=
-          static_cast<std::uint64_t>(index - type->lowerBound) * app_->types[type->element].size;
+      const int64_t index = std::stoll(word());
+      place += static_cast<uint64_t>(index - type->lowerBound) * app_->types[type->element].size;
       type = &app_->types[type->element];
       if (rest.front() == ']')
         rest.remove_prefix(1);
@@ -363,7 +362,7 @@ std::string App::operator[](std::string_view path) const {
     return target == nullptr ? "null" : "set";
   }
   char buffer[stride::text::kBufferSize];
-  const std::uint32_t length = stride::text::formatValue(buffer, kind, place);
+  const uint32_t length = stride::text::formatValue(buffer, kind, place);
   return std::string(buffer, length);
 }
 

@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_TESTS_UNIT_CODEGEN_PROGRAM_HPP
+#define STRIDE_TESTS_UNIT_CODEGEN_PROGRAM_HPP
 // ST text, compiled by the compiler and by g++, loaded and run: what the code generator's tests
 // look at.
 
@@ -47,9 +48,9 @@ public:
   void run(int cycles = 1);
   /// How many loop iterations each cycle from now on may make. The host adds `more` so many `times`
   /// per cycle.
-  void setLoopBudget(std::int64_t budget, std::int64_t more = 0, int times = 0);
+  void setLoopBudget(int64_t budget, int64_t more = 0, int times = 0);
   /// What is left of the last cycle's loop budget.
-  [[nodiscard]] std::int64_t loopBudgetLeft() const { return ctx_.loopBudget; }
+  [[nodiscard]] int64_t loopBudgetLeft() const { return ctx_.loopBudget; }
   /// How often the host was asked for more in the last cycle.
   [[nodiscard]] int refills() const { return refills_; }
   /// FB_Exit and FB_Reinit of all instances.
@@ -65,15 +66,15 @@ public:
 
 private:
   void load(const std::vector<GeneratedFile> &files, const Options &options);
-  static std::int64_t refill(stride::Ctx *ctx);
+  static int64_t refill(stride::Ctx *ctx);
 
   void *handle_ = nullptr;
   const stride::StrideAppV1 *app_ = nullptr;
   std::vector<std::max_align_t> state_;
   stride::Ctx ctx_{};
   stride::HostApi host_{};
-  std::int64_t budget_ = 100'000;
-  std::int64_t more_ = 0;
+  int64_t budget_ = 100'000;
+  int64_t more_ = 0;
   int times_ = 0;
   int refills_ = 0;
   stride::test::DataStack dataStack_;
@@ -81,3 +82,5 @@ private:
 };
 
 } // namespace stc::test
+
+#endif // STRIDE_TESTS_UNIT_CODEGEN_PROGRAM_HPP

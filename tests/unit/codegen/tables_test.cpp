@@ -29,7 +29,7 @@ END_PROGRAM
 
 const stride::MemberDesc *member(const stride::StrideAppV1 &app, const stride::TypeDesc &type,
                                  const char *name) {
-  for (std::uint32_t i = 0; i < type.memberCount; ++i) {
+  for (uint32_t i = 0; i < type.memberCount; ++i) {
     if (std::strcmp(app.members[type.firstMember + i].name, name) == 0)
       return &app.members[type.firstMember + i];
   }
@@ -90,7 +90,7 @@ TEST(CodegenTables, DescribeTypes) {
 
   bool kept = false;
   bool constant = false;
-  for (std::uint32_t i = 0; i < d.rootCount; ++i) {
+  for (uint32_t i = 0; i < d.rootCount; ++i) {
     kept = kept ||
            (std::strcmp(d.roots[i].name, "kept") == 0 && d.roots[i].flags == stride::kSymRetain);
     constant = constant || (std::strcmp(d.roots[i].name, "kMax") == 0 &&
@@ -129,7 +129,7 @@ END_VAR
 )"}});
   const stride::StrideAppV1 &d = app.description();
   const auto root = [&](const char *name) -> const stride::RootDesc & {
-    std::uint32_t i = 0;
+    uint32_t i = 0;
     while (i + 1 < d.rootCount && std::strcmp(d.roots[i].name, name) != 0)
       ++i;
     return d.roots[i];
@@ -176,7 +176,7 @@ TEST(CodegenTables, AnEditTouchesOnlyWhatItMust) {
   const auto after = build("y := 2; y := 3;");
   ASSERT_EQ(before.size(), after.size());
   std::string changed;
-  for (std::size_t i = 0; i < before.size(); ++i) {
+  for (size_t i = 0; i < before.size(); ++i) {
     if (before[i].text != after[i].text)
       changed += before[i].path + " ";
   }

@@ -11,7 +11,7 @@ namespace {
 class WriterTest : public ::testing::Test {
 protected:
   /// The text from `begin` on, one character of it.
-  [[nodiscard]] Span at(std::uint32_t begin) const { return {file_, begin, begin + 1}; }
+  [[nodiscard]] Span at(uint32_t begin) const { return {file_, begin, begin + 1}; }
 
   Sources sources_;
   FileId file_ = sources_.add("Main.st", "a := 1;\nb := 2;\n\nc := 3;\n");

@@ -16,7 +16,7 @@ TEST(LowerCase, OnlyOfAsciiLetters) {
 }
 
 TEST(HideControls, AtTheirLimits) {
-  const auto hidden = [](std::string text, std::string_view kept = {}, std::size_t from = 0) {
+  const auto hidden = [](std::string text, std::string_view kept = {}, size_t from = 0) {
     hideControls(text, kept, from);
     return text;
   };
@@ -51,14 +51,14 @@ TEST(EditDistance, SaysMoreThanTheLimit) {
 
 // The vectors of RFC 9923.
 TEST(Fnv1a, KnownValues) {
-  EXPECT_EQ(Fnv1a<std::uint32_t>().value(), 0x811c9dc5U);
-  EXPECT_EQ(Fnv1a<std::uint32_t>().add("a").value(), 0xe40c292cU);
-  EXPECT_EQ(Fnv1a<std::uint32_t>().add("foobar").value(), 0xbf9cf968U);
-  EXPECT_EQ(Fnv1a<std::uint64_t>().value(), 0xcbf29ce484222325U);
-  EXPECT_EQ(Fnv1a<std::uint64_t>().add("a").value(), 0xaf63dc4c8601ec8cU);
-  EXPECT_EQ(Fnv1a<std::uint64_t>().add("foobar").value(), 0x85944171f73967e8U);
+  EXPECT_EQ(Fnv1a<uint32_t>().value(), 0x811c9dc5U);
+  EXPECT_EQ(Fnv1a<uint32_t>().add("a").value(), 0xe40c292cU);
+  EXPECT_EQ(Fnv1a<uint32_t>().add("foobar").value(), 0xbf9cf968U);
+  EXPECT_EQ(Fnv1a<uint64_t>().value(), 0xcbf29ce484222325U);
+  EXPECT_EQ(Fnv1a<uint64_t>().add("a").value(), 0xaf63dc4c8601ec8cU);
+  EXPECT_EQ(Fnv1a<uint64_t>().add("foobar").value(), 0x85944171f73967e8U);
   const std::array<std::byte, 2> bytes = {std::byte{'f'}, std::byte{'o'}};
-  EXPECT_EQ(Fnv1a<std::uint64_t>().add(bytes).value(), Fnv1a<std::uint64_t>().add("fo").value());
+  EXPECT_EQ(Fnv1a<uint64_t>().add(bytes).value(), Fnv1a<uint64_t>().add("fo").value());
 }
 
 } // namespace

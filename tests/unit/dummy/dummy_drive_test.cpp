@@ -225,7 +225,7 @@ TEST_F(DummyDrive, WhatArrivesIsWhatItsControlTypeSays) {
   constexpr uint8_t kAlways = bus::kTorque | bus::kCurrent; // they cost nothing on this bus
   constexpr std::array<uint8_t, 7> kOf = {
       0, 0, bus::kVelocity, bus::kPosition, bus::kPosition, bus::kPosition | bus::kVelocity, 0};
-  for (std::size_t type = 1; type < kOf.size(); ++type) {
+  for (size_t type = 1; type < kOf.size(); ++type) {
     make({{"wControlType", "", static_cast<double>(type)}});
     EXPECT_EQ(status().received, kOf[type] | kAlways) << type;
   }
@@ -327,7 +327,7 @@ TEST_F(Parameters, BytesHaveALength) {
   bus::ParameterRequest write = read(211, Form::Bytes);
   write.kind = Kind::Write;
   const std::string text = std::string("with a zero ") + '\0' + " in it";
-  for (const std::size_t size : {std::size_t{31}, std::size_t{32}}) {
+  for (const size_t size : {size_t{31}, size_t{32}}) {
     const std::string own = (text + std::string(40, '.')).substr(0, size);
     write.bytes = bus::ByteString{std::string_view(own)};
     EXPECT_EQ(ask(write).result, Result::Done);

@@ -4,21 +4,21 @@
 #include <new>
 
 namespace {
-std::size_t count = 0;
+size_t count = 0;
 }
 
 namespace stride::test {
-std::size_t allocations();
-std::size_t allocations() { return count; }
+size_t allocations();
+size_t allocations() { return count; }
 } // namespace stride::test
 
 #if !defined(__SANITIZE_ADDRESS__)
-void *operator new(std::size_t size) {
+void *operator new(size_t size) {
   ++count;
   if (void *memory = std::malloc(size != 0 ? size : 1))
     return memory;
   throw std::bad_alloc();
 }
 void operator delete(void *memory) noexcept { std::free(memory); }
-void operator delete(void *memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void *memory, size_t) noexcept { std::free(memory); }
 #endif

@@ -12,7 +12,7 @@
 #include <sstream>
 
 namespace stride::test {
-std::size_t allocations();
+size_t allocations();
 }
 
 namespace {
@@ -145,7 +145,7 @@ TEST_F(Host, NothingIsAllocatedInCyclesAndRows) {
   Rows rows(writer, sets, application.state());
   scheduler.setObserver(&rows);
   scheduler.runUntil(20 * kMs);
-  const std::size_t before = stride::test::allocations();
+  const size_t before = stride::test::allocations();
   scheduler.runUntil(100000 * kMs);
   EXPECT_EQ(stride::test::allocations(), before);
   EXPECT_EQ(rows.count, 10000);

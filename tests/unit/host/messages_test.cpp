@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 namespace stride::test {
-std::size_t allocations();
+size_t allocations();
 }
 
 namespace {
@@ -42,7 +42,7 @@ public:
     std::string text;
     char buffer[65536];
     for (ssize_t size = 0; (size = ::read(ends_[0], buffer, sizeof buffer)) > 0;)
-      text.append(buffer, static_cast<std::size_t>(size));
+      text.append(buffer, static_cast<size_t>(size));
     return text;
   }
   void hangUp() {
@@ -68,7 +68,7 @@ TEST(Messages, NobodyWaitsForAReaderWhoDoesNotRead) {
   const Pipe pipe;
   Messages messages(Output::Wait::Never, pipe.writer());
   const std::string line(1000, 'x');
-  const std::size_t before = stride::test::allocations();
+  const size_t before = stride::test::allocations();
   for (int i = 0; i < 1000; ++i)
     messages.say(line);
   EXPECT_EQ(stride::test::allocations(), before);
@@ -112,7 +112,7 @@ TEST(CycleLog, KeepsTheOrderAndCountsWhatIsTooMuch) {
   log.put("a");
   log.put("b");
   EXPECT_THAT(log.take(), ElementsAre("a", "b"));
-  for (std::size_t i = 0; i < stride::task::CycleLog::kLines + 3; ++i)
+  for (size_t i = 0; i < stride::task::CycleLog::kLines + 3; ++i)
     log.put("more");
   const std::vector<std::string> lines = log.take();
   EXPECT_EQ(lines.size(), stride::task::CycleLog::kLines + 1);

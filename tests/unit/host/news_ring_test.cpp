@@ -29,9 +29,9 @@ TEST(NewsRing, GivesTextsInTheirOrderOnce) {
 }
 
 TEST(NewsRing, CountsWhatItHasNoRoomFor) {
-  for (const std::size_t count : {NewsRing::kTexts - 1, NewsRing::kTexts, NewsRing::kTexts + 3}) {
+  for (const size_t count : {NewsRing::kTexts - 1, NewsRing::kTexts, NewsRing::kTexts + 3}) {
     NewsRing ring;
-    for (std::size_t i = 0; i < count; ++i)
+    for (size_t i = 0; i < count; ++i)
       ring.put(std::to_string(i));
     std::vector<std::string> texts = ring.take();
     if (count > NewsRing::kTexts) {

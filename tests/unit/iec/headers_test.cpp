@@ -15,7 +15,7 @@ std::string preprocessed(const std::string &header) {
   if (pipe == nullptr)
     return text;
   char buffer[4096];
-  for (std::size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
+  for (size_t n = 0; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
     text.append(buffer, n);
   return ::pclose(pipe) == 0 ? text : "";
 }
@@ -24,7 +24,7 @@ TEST(Headers, OfGeneratedCodeAreFreeOfTheStandardLibraryAndSmall) {
   for (const char *header : {"runtime/iec/ops.h", "runtime/app/abi.h", "runtime/app/ctx.h"}) {
     const std::string text = preprocessed(header);
     ASSERT_FALSE(text.empty()) << header;
-    std::size_t lines = 0;
+    size_t lines = 0;
     for (const char c : text)
       lines += c == '\n' ? 1 : 0;
     EXPECT_LT(lines, 3000U) << header;

@@ -95,7 +95,7 @@ TEST_F(PoolTest, RandomUseKeepsObjectsApartAndJoinsWhatIsFree) {
       const size_t i = random() % objects.size();
       ASSERT_TRUE(intact(objects[i]));
       ASSERT_TRUE(pool::release(memory_, kSize, objects[i].at));
-      objects.erase(objects.begin() + static_cast<std::ptrdiff_t>(i));
+      objects.erase(objects.begin() + static_cast<ptrdiff_t>(i));
     }
   }
   for (const Object &o : objects) {

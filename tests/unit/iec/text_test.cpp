@@ -110,7 +110,7 @@ TEST(Text, WideStrings) {
 
 /// Digits without end: those that fit count, and nothing is written beyond them.
 TEST(Text, RealsOfAnyLength) {
-  for (std::size_t zeros = 490; zeros < 530; ++zeros) {
+  for (size_t zeros = 490; zeros < 530; ++zeros) {
     const std::string small = "1e" + std::string(zeros, '0');
     EXPECT_EQ(text::scanReal(small.data(), static_cast<uint32_t>(small.size())).real, 1.0) << zeros;
     const std::string leading = std::string(zeros, '0') + ".5";

@@ -8,7 +8,7 @@ using ::testing::HasSubstr;
 
 class Recording : public stride::test::ServedApp {
 protected:
-  std::shared_ptr<Recorder> record(std::size_t rows, double before,
+  std::shared_ptr<Recorder> record(size_t rows, double before,
                                    std::optional<TriggerSettings> trigger) {
     RecorderSettings settings;
     settings.names = {"PLC_PRG.count"};
@@ -21,7 +21,7 @@ protected:
   }
   static std::string rowsOf(const Recorder &recorder) {
     std::string text;
-    for (std::size_t i = 0; i < recorder.rows(); ++i) {
+    for (size_t i = 0; i < recorder.rows(); ++i) {
       recorder.appendLine(i, text);
       text += ' ';
     }
@@ -113,7 +113,7 @@ TEST_F(Recording, Mistakes) {
   RecorderSettings bad = good;
   bad.rows = 0;
   EXPECT_THAT(mistake(bad), HasSubstr("0 rows is not possible"));
-  bad.rows = std::size_t{1} << 40;
+  bad.rows = size_t{1} << 40;
   EXPECT_THAT(mistake(bad), HasSubstr("leave room for 1 to"));
   bad = good;
   bad.before = 1.5;

@@ -8,7 +8,7 @@
 #include <limits>
 
 namespace stride::test {
-std::size_t allocations();
+size_t allocations();
 }
 
 namespace {
@@ -203,7 +203,7 @@ TEST_F(Scripts, StepsAllocateNothing) {
   stride::task::TaskSet tasks(application.description(), application.state(),
                               stride::task::hostApi(), stride::task::LoopLimit::Budget);
   tasks.addHook(0, s.forces());
-  const std::size_t before = stride::test::allocations();
+  const size_t before = stride::test::allocations();
   for (int64_t t = 0; t < 1000; t += 10) {
     step(s, t);
     tasks.runCycle(0, t * kMs, 0);

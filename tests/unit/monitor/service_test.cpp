@@ -125,7 +125,7 @@ TEST_F(Protocol, Subscriptions) {
     const json answer = last();
     return answer.contains("result") ? "accepted" : answer["error"]["code"].get<std::string>();
   };
-  for (std::size_t i = 0; i < Service::kMostSubscriptions; ++i)
+  for (size_t i = 0; i < Service::kMostSubscriptions; ++i)
     EXPECT_EQ(subscribe(), "accepted");
   EXPECT_EQ(subscribe(), "too_many");
   service.forget(1);
@@ -198,7 +198,7 @@ TEST_F(Protocol, ATaskThatDoesNotRun) {
   EXPECT_TRUE(last().is_null());
   service.poll(now + Service::kTimeoutNs + 1);
   EXPECT_EQ(last()["error"]["code"], "timeout");
-  for (std::size_t i = 0; i < Service::kMostPending; ++i)
+  for (size_t i = 0; i < Service::kMostPending; ++i)
     service.handle(2, R"({"op":"read","names":["total"]})");
   EXPECT_TRUE(lines[2].empty());
   service.handle(2, R"({"op":"read","names":["total"]})");

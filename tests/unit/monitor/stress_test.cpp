@@ -42,7 +42,7 @@ protected:
     server.addOuterHooks();
     server.addInnerHooks();
   }
-  std::string shown(const SymbolRequest &request, std::size_t i) const {
+  std::string shown(const SymbolRequest &request, size_t i) const {
     const SymbolRequest::Value &value = request.values()[i];
     return stride::app::formatLiteral(symbols.app(), symbols.type(value.symbol),
                                       request.bytes(value));
@@ -109,11 +109,11 @@ TEST_F(Stress, RecordersComeAndGo) {
       recorder->stop();
     while (recorder->state() != Recorder::State::Done)
       std::this_thread::yield();
-    for (std::size_t row = 0; row < recorder->rows(); ++row) {
+    for (size_t row = 0; row < recorder->rows(); ++row) {
       std::string line;
       recorder->appendLine(row, line);
-      const std::size_t first = line.find(',');
-      const std::size_t second = line.find(',', first + 1);
+      const size_t first = line.find(',');
+      const size_t second = line.find(',', first + 1);
       ASSERT_EQ(line.substr(first, second - first), line.substr(second));
     }
   }

@@ -5,7 +5,7 @@
 #include <cstring>
 
 namespace stride::test {
-std::size_t allocations();
+size_t allocations();
 }
 
 namespace {
@@ -134,7 +134,7 @@ TEST_F(SymbolServing, MistakesChangeNothing) {
 }
 
 TEST_F(SymbolServing, ATaskThatDoesNotRun) {
-  for (std::size_t i = 0; i < SymbolServer::kMostWaiting; ++i)
+  for (size_t i = 0; i < SymbolServer::kMostWaiting; ++i)
     (void)server.read({"total"});
   EXPECT_THAT(errorOf([&] { (void)server.read({"total"}); }), HasSubstr("wait for task 'Fast'"));
   const auto done = [&] {
@@ -146,7 +146,7 @@ TEST_F(SymbolServing, ATaskThatDoesNotRun) {
 }
 
 TEST_F(SymbolServing, AWriteToSeveralTasksIsDoneOrRefusedAsAWhole) {
-  for (std::size_t i = 0; i < SymbolServer::kMostWaiting; ++i)
+  for (size_t i = 0; i < SymbolServer::kMostWaiting; ++i)
     (void)server.read({"Slow.runs"});
   EXPECT_THAT(errorOf([&] {
                 (void)server.write({{"GVL.limit", "5"}, {"Slow.runs", "1"}});
@@ -187,13 +187,13 @@ TEST_F(SymbolServing, AnotherBuild) {
 
 TEST_F(SymbolServing, WhatIsWrittenFromOutsideIsLoggedWhenItChangesSomething) {
   struct Log final : stride::monitor::WriteLog {
-    void wrote(const std::byte *place, std::size_t size, bool) noexcept override {
+    void wrote(const std::byte *place, size_t size, bool) noexcept override {
       last = place;
       bytes += size;
       ++count;
     }
     const std::byte *last = nullptr;
-    std::size_t bytes = 0;
+    size_t bytes = 0;
     int count = 0;
   } log;
   server.setWriteLog(log);
@@ -223,7 +223,7 @@ TEST_F(SymbolServing, CyclesAllocateNothing) {
   server.setRecorder(std::make_shared<Recorder>(symbols, settings));
   server.force({{"PLC_PRG.count", "8"}});
   server.again(read);
-  const std::size_t before = stride::test::allocations();
+  const size_t before = stride::test::allocations();
   for (int i = 0; i < 10; ++i)
     run();
   EXPECT_EQ(stride::test::allocations(), before);

@@ -252,8 +252,7 @@ TEST(CamIn, NeverWritesWhatIsNoNumber) {
         if (random.chance(0.03))
           scene.master.ref.fPositionPeriod = any(random);
         if (cycle > 0 && random.chance(0.05))
-          scene.cam
-              .nodes[static_cast<std::size_t>(random.below(static_cast<int>(cam.nodes.size())))]
+          scene.cam.nodes[static_cast<size_t>(random.below(static_cast<int>(cam.nodes.size())))]
               .dY = any(random);
         if (cycle > 0 && random.chance(0.02))
           scene.cam.fill();

@@ -116,7 +116,7 @@ private:
   pl::MC_TA_REF accelerations = fresh<pl::MC_TA_REF>();
 };
 
-constexpr std::size_t kSubjects = 9;
+constexpr size_t kSubjects = 9;
 
 /// What brings an axis into a state, and what a block may do there.
 struct Row {
@@ -200,7 +200,7 @@ private:
 
 TEST(SetValueBlocks, StartInTheStatesThatAllowIt) {
   for (const Row &row : kRows) {
-    for (std::size_t i = 0; i < kSubjects; ++i) {
+    for (size_t i = 0; i < kSubjects; ++i) {
       SCOPED_TRACE("state " + std::to_string(row.axisState) + " block " + std::to_string(i));
       SetValueBlocks blocks;
       AxisRig &rig = blocks.rig;
@@ -233,7 +233,7 @@ TEST(SetValueBlocks, StartInTheStatesThatAllowIt) {
 }
 
 TEST(SetValueBlocks, LoseTheAxisToWhoeverTakesIt) {
-  for (std::size_t i = 0; i < kSubjects; ++i) {
+  for (size_t i = 0; i < kSubjects; ++i) {
     for (int taker = 0; taker < 3; ++taker) {
       SCOPED_TRACE("block " + std::to_string(i) + " taker " + std::to_string(taker));
       SetValueBlocks blocks;
@@ -279,7 +279,7 @@ TEST(SetValueBlocks, LoseTheAxisToWhoeverTakesIt) {
 }
 
 TEST(SetValueBlocks, LeaveAnAxisInErrorStopWhenNotCalled) {
-  for (std::size_t i = 0; i < kSubjects; ++i) {
+  for (size_t i = 0; i < kSubjects; ++i) {
     SCOPED_TRACE("block " + std::to_string(i));
     SetValueBlocks blocks;
     AxisRig &rig = blocks.rig;
@@ -297,7 +297,7 @@ TEST(SetValueBlocks, LeaveAnAxisInErrorStopWhenNotCalled) {
 }
 
 TEST(SetValueBlocks, EndWithThePower) {
-  for (std::size_t i = 0; i < kSubjects; ++i) {
+  for (size_t i = 0; i < kSubjects; ++i) {
     SCOPED_TRACE("block " + std::to_string(i));
     SetValueBlocks blocks;
     AxisRig &rig = blocks.rig;
@@ -315,7 +315,7 @@ TEST(SetValueBlocks, EndWithThePower) {
 }
 
 TEST(SetValueBlocks, BeginAnewAtAnotherEdge) {
-  for (std::size_t i = 0; i < kSubjects; ++i) {
+  for (size_t i = 0; i < kSubjects; ++i) {
     SCOPED_TRACE("block " + std::to_string(i));
     SetValueBlocks blocks;
     AxisRig &rig = blocks.rig;

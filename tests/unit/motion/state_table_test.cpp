@@ -52,7 +52,7 @@ std::vector<Pair> readTable(const std::string &name) {
     if (heads.empty())
       heads = cells;
     else if (!cells[0].starts_with("---"))
-      for (std::size_t i = 1; i + 1 < cells.size(); ++i)
+      for (size_t i = 1; i + 1 < cells.size(); ++i)
         pairs.push_back({cells[0], heads[i], cells[i]});
   }
   return pairs;

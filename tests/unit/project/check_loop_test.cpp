@@ -12,13 +12,13 @@ namespace {
 
 /// What `new` has given away and not got back.
 struct {
-  std::size_t objects = 0;
-  std::size_t bytes = 0;
+  size_t objects = 0;
+  size_t bytes = 0;
 } alive;
 
 } // namespace
 
-void *operator new(std::size_t size) {
+void *operator new(size_t size) {
   void *memory = std::malloc(size == 0 ? 1 : size);
   if (memory == nullptr)
     throw std::bad_alloc();
@@ -27,7 +27,7 @@ void *operator new(std::size_t size) {
   return memory;
 }
 
-void *operator new(std::size_t size, const std::nothrow_t & /*tag*/) noexcept {
+void *operator new(size_t size, const std::nothrow_t & /*tag*/) noexcept {
   try {
     return operator new(size);
   } catch (const std::bad_alloc &) {
@@ -43,7 +43,7 @@ void operator delete(void *memory) noexcept {
   std::free(memory);
 }
 
-void operator delete(void *memory, std::size_t /*size*/) noexcept { operator delete(memory); }
+void operator delete(void *memory, size_t /*size*/) noexcept { operator delete(memory); }
 
 namespace stc {
 namespace {
@@ -98,7 +98,7 @@ TEST(CheckLoop, AThousandChecksLeaveNothing) {
               "y = 20\n[[point]]\nx = 360\ny = 0\n");
   const auto once = [&](int number) {
     overlay.set(file, program(number));
-    const Project project(file.parent_path(), Purpose::check, {}, index, &overlay);
+    const Project project(file.parent_path(), Purpose::Check, {}, index, &overlay);
     ASSERT_EQ(project.diagnostics().empty(), number % 3 != 0) << number;
   };
   once(1000); // whatever is made once, is made now

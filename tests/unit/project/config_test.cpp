@@ -39,7 +39,7 @@ protected:
 
   // Reads and completes a configuration for a program text.
   ProjectConfig resolve(const std::string &toml, const std::string &program,
-                        ProgramCheck check = ProgramCheck::runnable) {
+                        ProgramCheck check = ProgramCheck::Runnable) {
     ProjectConfig config = read(toml);
     const FileId id = sources_.add("Main.st", program);
     files_ = {parse(sources_.file(id), interner_, arena_, diagnostics_)};
@@ -306,14 +306,14 @@ TEST_F(Config, SeveralProgramsNeedATask) {
 
 TEST_F(Config, ACheckNeedsNoProgram) {
   const std::string block = "FUNCTION_BLOCK B\nEND_FUNCTION_BLOCK\n";
-  resolve("", block, ProgramCheck::existing);
+  resolve("", block, ProgramCheck::Existing);
   EXPECT_THAT(found(), IsEmpty());
   resolve("", block);
   EXPECT_THAT(found(), ElementsAre(Pair("SE0815", "")));
 }
 
 TEST_F(Config, AfterSyntaxErrorsProgramsAreNotMissed) {
-  resolve(kGroup, "PROGRAM Other\nEND_PROGRAM\n", ProgramCheck::skip);
+  resolve(kGroup, "PROGRAM Other\nEND_PROGRAM\n", ProgramCheck::Skip);
   EXPECT_THAT(found(), IsEmpty());
 }
 
@@ -326,7 +326,7 @@ TEST_F(Config, DrivesBecomeGlobalVariables) {
               HasSubstr("AxisGroup : SM_DriveBasic.SMC_AXISGROUP_REF := (sTask := 'BusTask'"));
   const FileId id = sources_.add(declarations_);
   const auto originOf = [&](std::string_view what) {
-    const auto at = static_cast<std::uint32_t>(text.find(what));
+    const auto at = static_cast<uint32_t>(text.find(what));
     return sources_.text(sources_.origin({id, at, at + 1}));
   };
   EXPECT_EQ(originOf("SM_DriveBasic.AXIS_REF"), "\"Drive\"");

@@ -29,7 +29,7 @@ TEST(ContentHash, BoundariesCount) {
 TEST(ContentHash, SmallChangesGiveOtherHashes) {
   std::unordered_set<std::string> seen;
   std::string text(64, 'x');
-  for (std::size_t at = 0; at < text.size(); ++at)
+  for (size_t at = 0; at < text.size(); ++at)
     for (int bit = 0; bit < 8; ++bit) {
       text[at] = static_cast<char>(text[at] ^ (1 << bit));
       EXPECT_TRUE(seen.insert(ContentHash().add(text).hex()).second);

@@ -28,7 +28,7 @@ TEST(Interval, WritesTheShortestForm) {
 }
 
 TEST(Interval, RoundTrips) {
-  for (std::int64_t value = 1; value > 0 && value < INT64_MAX / 7; value = value * 7 + 3)
+  for (int64_t value = 1; value > 0 && value < INT64_MAX / 7; value = value * 7 + 3)
     EXPECT_EQ(parseInterval(formatInterval(value)), value);
 }
 

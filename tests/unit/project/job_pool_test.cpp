@@ -10,7 +10,7 @@ TEST(JobPool, RunsAllAndKeepsTheirOutputApart) {
   for (int i = 0; i < 9; ++i)
     jobs.push_back({{"sh", "-c", "echo out " + std::to_string(i) + "; echo err >&2"}, "job"});
   const std::vector<JobResult> results = runJobs(jobs);
-  for (std::size_t i = 0; i < results.size(); ++i) {
+  for (size_t i = 0; i < results.size(); ++i) {
     EXPECT_EQ(results[i].status, 0);
     EXPECT_EQ(results[i].output, "out " + std::to_string(i) + "\nerr\n");
   }
@@ -30,8 +30,8 @@ TEST(JobPool, TakesMoreOutputThanAPipeHolds) {
 
 TEST(JobPool, StartsNothingAfterAFailure) {
   std::vector<Job> jobs(50, Job{{"false"}, "job"});
-  std::size_t started = 0;
-  for (const JobResult &result : runJobs(jobs, [&](std::size_t) { ++started; }))
+  size_t started = 0;
+  for (const JobResult &result : runJobs(jobs, [&](size_t) { ++started; }))
     EXPECT_NE(result.status, 0);
   EXPECT_LT(started, jobs.size());
 }

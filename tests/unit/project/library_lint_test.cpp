@@ -13,9 +13,9 @@ TEST(LibraryLint, LibrariesHaveNoWarnings) {
   for (const std::string_view library : index.libraries()) {
     Program program;
     Levels levels;
-    levels.set(Levels::Group::lints, Severity::warning);
-    levels.set(Code::unusedPou, Severity::off); // a library's blocks are there for others
-    levels.set(Code::boolCompared, Severity::off);
+    levels.set(Levels::Group::Lints, Severity::Warning);
+    levels.set(Code::UnusedPou, Severity::Off); // a library's blocks are there for others
+    levels.set(Code::BoolCompared, Severity::Off);
     program.diagnostics.setLevels(levels);
     checkLibrary(program, library, index);
     for (const Diagnostic &diagnostic : program.diagnostics.all())

@@ -32,10 +32,10 @@ protected:
 
   /// What a check says: file, line and column of the first place, and the message.
   std::vector<std::string> check(const fs::path &path) {
-    const Project project(path, Purpose::check, {}, index_, &overlay_);
+    const Project project(path, Purpose::Check, {}, index_, &overlay_);
     std::vector<std::string> said;
     for (const Diagnostic &d : project.diagnostics()) {
-      if (d.severity != Severity::error)
+      if (d.severity != Severity::Error)
         continue;
       std::string place;
       if (!d.labels.empty() && d.labels[0].span.valid()) {
@@ -109,7 +109,7 @@ TEST_F(Unsaved, ASingleFileThatTheDiskDoesNotHave) {
 }
 
 TEST_F(Unsaved, NoLongerThanFilesMayBe) {
-  overlay_.set(folder() / "lib" / "F.st", std::string((std::size_t{16} << 20U) + 1, ' '));
+  overlay_.set(folder() / "lib" / "F.st", std::string((size_t{16} << 20U) + 1, ' '));
   EXPECT_THAT(check(), ElementsAre(HasSubstr("F.st` cannot be read: it is longer than 16 MiB"),
                                    "Main.st:3:6 cannot find `F`"));
 }

@@ -26,10 +26,10 @@ protected:
     ASSERT_TRUE(writeFile(folder_ / name, text));
   }
 
-  std::vector<std::string> open(const fs::path &path, Purpose purpose = Purpose::check) {
+  std::vector<std::string> open(const fs::path &path, Purpose purpose = Purpose::Check) {
     const Project project(path, purpose, {}, index_);
     names_.clear();
-    for (std::size_t i = 1; i <= project.sources().size(); ++i)
+    for (size_t i = 1; i <= project.sources().size(); ++i)
       if (const std::string &name = project.sources().file(static_cast<FileId>(i)).name();
           !name.starts_with('<'))
         names_.push_back(name);
@@ -96,8 +96,8 @@ TEST_F(ProjectTest, BrokenManifestIsTheOnlyError) {
 
 TEST_F(ProjectTest, BuildNeedsAProgram) {
   write("a.st", "FUNCTION_BLOCK B\nEND_FUNCTION_BLOCK\n");
-  EXPECT_THAT(open(folder_, Purpose::check), IsEmpty());
-  EXPECT_THAT(open(folder_, Purpose::build), ElementsAre("SE0815"));
+  EXPECT_THAT(open(folder_, Purpose::Check), IsEmpty());
+  EXPECT_THAT(open(folder_, Purpose::Build), ElementsAre("SE0815"));
 }
 
 } // namespace

@@ -128,7 +128,7 @@ TEST(Schema, ParametersOfDriversAreDocumentedAsTheirRowsSay) {
 }
 
 TEST(Schema, RulesOfDriversNameParametersOfTheSameSection) {
-  std::size_t rules = 0;
+  size_t rules = 0;
   const auto check = [&](std::span<const Parameter> rows) {
     for (const Parameter &row : rows)
       for (const std::string_view other : {row.only.parameter, row.without, row.with, row.lessThan})

@@ -24,7 +24,7 @@ protected:
     cache_ = UserCache::open();
   }
 
-  std::string key(int number) { return ContentHash().add(std::uint64_t(number)).hex(); }
+  std::string key(int number) { return ContentHash().add(uint64_t(number)).hex(); }
   fs::path file(const std::string &text) {
     const fs::path path = scratch_.path() / "file";
     writeFile(path, text);
@@ -54,12 +54,12 @@ TEST_F(Cache, GivesBackWhatWasPublished) {
 TEST_F(Cache, WhatIsNotWholeIsNotThere) {
   ASSERT_TRUE(cache_->publish(key(2), ".o", file("some object")));
   const std::string whole = readFile(cache_->place(key(2), ".o"));
-  for (std::size_t length = 0; length < whole.size(); ++length) {
+  for (size_t length = 0; length < whole.size(); ++length) {
     writeFile(cache_->place(key(2), ".o"), whole.substr(0, length));
     EXPECT_FALSE(cache_->has(key(2), ".o")) << length;
     EXPECT_FALSE(fs::exists(cache_->place(key(2), ".o")));
   }
-  for (std::size_t at = 0; at < whole.size(); ++at) {
+  for (size_t at = 0; at < whole.size(); ++at) {
     std::string changed = whole;
     changed[at] = static_cast<char>(changed[at] ^ 0x20);
     writeFile(cache_->place(key(2), ".o"), changed);

@@ -13,7 +13,7 @@ using namespace stride;
 using app::ByteReader;
 using app::ByteWriter;
 
-std::vector<std::byte> withCount(uint32_t count, std::size_t bytesBehind) {
+std::vector<std::byte> withCount(uint32_t count, size_t bytesBehind) {
   ByteWriter out;
   out.number(count);
   out.raw(std::vector<std::byte>(bytesBehind));
@@ -22,7 +22,7 @@ std::vector<std::byte> withCount(uint32_t count, std::size_t bytesBehind) {
 
 /// A count that cannot be true is refused before memory is reserved for it.
 TEST(ByteStream, ACountIsAtMostWhatCanBeThere) {
-  for (const std::size_t least : {std::size_t{1}, std::size_t{3}, std::size_t{8}}) {
+  for (const size_t least : {size_t{1}, size_t{3}, size_t{8}}) {
     for (const uint32_t count : {0U, 1U, 2U, 7U}) {
       const std::vector<std::byte> exact = withCount(count, count * least);
       EXPECT_EQ(ByteReader(exact).count(least), count) << least;

@@ -41,7 +41,7 @@ struct Build : test::AppModel {
     std::memcpy(&value, state() + offset, sizeof value);
     return value;
   }
-  uint64_t at(std::size_t root) const { return roots[root].offset; }
+  uint64_t at(size_t root) const { return roots[root].offset; }
 };
 
 /// Through the bytes of a file.
@@ -79,7 +79,7 @@ TEST(Checksum, IsCrc64Xz) {
 TEST(CopyRetained, CopiesAnyRange) {
   std::vector<uint64_t> memory(16);
   auto *const state = reinterpret_cast<std::byte *>(memory.data());
-  for (std::size_t i = 0; i < 128; ++i)
+  for (size_t i = 0; i < 128; ++i)
     state[i] = static_cast<std::byte>(i + 1);
   for (uint64_t offset = 0; offset < 20; ++offset) {
     for (uint64_t size = 0; size < 40; ++size) {
@@ -149,10 +149,10 @@ TEST_F(RetainImageTest, AnotherBuildTakesPersistentVariablesOnly) {
     build->root("GVL", "text", build->string(before ? 10 : 3), kSymPersistent);
     build->ready(before ? 1 : 2);
   }
-  for (std::size_t i = 0; i < 2; ++i)
+  for (size_t i = 0; i < 2; ++i)
     a.set<int32_t>(a.at(i), static_cast<int32_t>(10 + i));
   a.set<int16_t>(a.at(2), -3);
-  for (std::size_t i = 3; i < 8; ++i)
+  for (size_t i = 3; i < 8; ++i)
     a.set<int32_t>(a.at(i), static_cast<int32_t>(10 + i));
   std::memcpy(a.state() + a.at(8), "abcdef", 7);
   const RetainReport report = restore();
@@ -192,10 +192,10 @@ TEST_F(RetainImageTest, RenamedVariablesInTheProcessImage) {
     build->root("GVL", "same", dint, flags);
     build->ready(before ? 1 : 2);
   }
-  for (std::size_t i = 0; i < 3; ++i)
+  for (size_t i = 0; i < 3; ++i)
     a.set<int32_t>(a.at(i), static_cast<int32_t>(21 + i));
   EXPECT_THAT(restore().lost, IsEmpty());
-  for (std::size_t i = 0; i < 3; ++i)
+  for (size_t i = 0; i < 3; ++i)
     EXPECT_EQ(b.get<int32_t>(b.at(i)), static_cast<int32_t>(21 + i)) << i;
 }
 
@@ -208,7 +208,7 @@ TEST_F(RetainImageTest, AFieldThatIsGoneIsSaid) {
     build->root("GVL", "s", build->structure("S", fields), kSymPersistent);
     build->ready(build == &a ? 1 : 2);
   }
-  for (std::size_t i = 0; i < 3; ++i)
+  for (size_t i = 0; i < 3; ++i)
     a.set<int32_t>(4 * i, static_cast<int32_t>(31 + i));
   EXPECT_THAT(restore().lost,
               ElementsAre("GVL.s.y is not restored: the program does not have it any more"));
@@ -304,9 +304,9 @@ TEST_F(RetainImageTest, DamagedBytesAreNoImage) {
   std::vector<std::byte> values(layout.bytes());
   const std::vector<std::byte> good = app::encodeImage({"model", 5, 1}, layout.encode(), values);
   EXPECT_NO_THROW(static_cast<void>(app::decodeImage(good)));
-  for (std::size_t size = 0; size < good.size(); ++size)
+  for (size_t size = 0; size < good.size(); ++size)
     EXPECT_THROW(static_cast<void>(app::decodeImage(std::span(good).first(size))), app::Error);
-  for (std::size_t i = 0; i < good.size(); ++i) {
+  for (size_t i = 0; i < good.size(); ++i) {
     for (const unsigned bit : {0U, 7U}) {
       std::vector<std::byte> bad = good;
       bad[i] ^= std::byte{1} << bit;

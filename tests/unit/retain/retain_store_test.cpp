@@ -33,7 +33,7 @@ using app::RetainStore;
 /// What was done and is not known to be on the disk.
 struct Written {
   int file;
-  std::size_t offset;
+  size_t offset;
   std::vector<std::byte> bytes;
 };
 struct Named {
@@ -54,7 +54,7 @@ struct Disk {
       Bytes &bytes = files[written->file];
       bytes.resize(std::max(bytes.size(), written->offset + written->bytes.size()));
       std::copy(written->bytes.begin(), written->bytes.end(),
-                bytes.begin() + static_cast<std::ptrdiff_t>(written->offset));
+                bytes.begin() + static_cast<ptrdiff_t>(written->offset));
     } else if (const auto *named = std::get_if<Named>(&pending)) {
       if (named->file < 0)
         names.erase(named->name);
@@ -87,8 +87,8 @@ public:
   }
   int write(int handle, std::span<const std::byte> bytes) override {
     return call([&] {
-      const std::size_t piece = std::max<std::size_t>(1, bytes.size() / 3 + 1);
-      for (std::size_t at = 0; at < bytes.size(); at += piece) {
+      const size_t piece = std::max<size_t>(1, bytes.size() / 3 + 1);
+      for (size_t at = 0; at < bytes.size(); at += piece) {
         const auto part = bytes.subspan(at, std::min(piece, bytes.size() - at));
         change({Written{handle, seen_.files[handle].size(), {part.begin(), part.end()}}});
       }
@@ -145,8 +145,8 @@ public:
 
   const std::vector<Pending> &pending() const { return pending_; }
   /// After the failure, with these of the pending changes, in this order.
-  void restart(const std::vector<std::size_t> &order) {
-    for (const std::size_t i : order)
+  void restart(const std::vector<size_t> &order) {
+    for (const size_t i : order)
       disk_.apply(pending_[i]);
     pending_.clear();
     seen_ = disk_;
@@ -189,11 +189,11 @@ private:
 
 /// Every subset of `count` things in every order (orders only up to four things: the combinations
 /// grow with the factorial).
-std::vector<std::vector<std::size_t>> outcomes(std::size_t count) {
-  std::vector<std::vector<std::size_t>> out;
-  for (std::size_t set = 0; set < std::size_t{1} << count; ++set) {
-    std::vector<std::size_t> order;
-    for (std::size_t i = 0; i < count; ++i)
+std::vector<std::vector<size_t>> outcomes(size_t count) {
+  std::vector<std::vector<size_t>> out;
+  for (size_t set = 0; set < size_t{1} << count; ++set) {
+    std::vector<size_t> order;
+    for (size_t i = 0; i < count; ++i)
       if ((set >> i & 1U) != 0)
         order.push_back(i);
     out.push_back(order);
@@ -241,8 +241,8 @@ private:
 };
 
 struct Counted {
-  std::size_t cuts = 0;
-  std::size_t ends = 0;
+  size_t cuts = 0;
+  size_t ends = 0;
 };
 
 /// From a disk on: loads, saves up to `saves` times, and loses the power behind every call; then
@@ -270,7 +270,7 @@ void cutEverywhere(const Generations &generations, const FakeFiles &from, uint32
     } catch (const PowerCut &) {
       ++counted.cuts;
     }
-    for (const std::vector<std::size_t> &order : outcomes(files->pending().size())) {
+    for (const std::vector<size_t> &order : outcomes(files->pending().size())) {
       const std::unique_ptr<FakeFiles> after = files->copy();
       after->restart(order);
       ++counted.ends;
@@ -300,7 +300,7 @@ TEST(RetainStore, LosesNothingWhereverThePowerIsCut) {
 /// Kills of the process alone leave everything as the system sees it; a power failure may follow.
 TEST(RetainStore, LosesNothingWhenAProcessIsKilledAndThePowerFailsLater) {
   const Generations generations;
-  std::size_t ends = 0;
+  size_t ends = 0;
   for (int first = 0; first < 18; ++first) {
     for (int second = 0; second < 14; ++second) {
       FakeFiles files;
@@ -322,7 +322,7 @@ TEST(RetainStore, LosesNothingWhenAProcessIsKilledAndThePowerFailsLater) {
           files.processEnds();
         }
       }
-      for (const std::vector<std::size_t> &order : outcomes(files.pending().size())) {
+      for (const std::vector<size_t> &order : outcomes(files.pending().size())) {
         const std::unique_ptr<FakeFiles> after = files.copy();
         after->restart(order);
         ++ends;
@@ -353,7 +353,7 @@ TEST(RetainStore, FailedCallsAreReportedAndTriedAgain) {
         EXPECT_THAT(error.what(), ::testing::HasSubstr("No space left"));
         EXPECT_THAT(error.what(), ::testing::HasSubstr("make room"));
       }
-      for (const std::vector<std::size_t> &order : outcomes(files.pending().size())) {
+      for (const std::vector<size_t> &order : outcomes(files.pending().size())) {
         const std::unique_ptr<FakeFiles> after = files.copy();
         after->restart(order);
         RetainStore again("/folder/file", *after);
@@ -507,7 +507,7 @@ TEST(RetainStore, ClearingNeverLeavesOnlyAnOlderImage) {
       } catch (const PowerCut &) {
         through = false;
       }
-      for (const std::vector<std::size_t> &order : outcomes(files->pending().size())) {
+      for (const std::vector<size_t> &order : outcomes(files->pending().size())) {
         const std::unique_ptr<FakeFiles> after = files->copy();
         after->restart(order);
         RetainStore store("/folder/file", *after);

@@ -43,67 +43,67 @@ TEST(Conversion, IntegersAreFreeExactlyWhenEveryValueSurvives) {
       const bool survives = from.low >= to.low && from.high <= to.high;
       const std::string what = std::string(from.name) + " to " + to.name;
       if (std::string(from.name) == to.name)
-        EXPECT_EQ(c, Conversion::identity) << what;
+        EXPECT_EQ(c, Conversion::Identity) << what;
       else if (survives)
-        EXPECT_EQ(c, Conversion::free) << what;
+        EXPECT_EQ(c, Conversion::Free) << what;
       else if (from.width == to.width)
-        EXPECT_EQ(c, Conversion::lossy) << what;
+        EXPECT_EQ(c, Conversion::Lossy) << what;
       else
-        EXPECT_EQ(c, Conversion::narrowing) << what;
+        EXPECT_EQ(c, Conversion::Narrowing) << what;
     }
   }
 }
 
 TEST(Conversion, IntegersGoToRealsThatHoldAllTheirValues) {
   for (const Number &from : kIntegers) {
-    EXPECT_EQ(classify(named(from.name), named("real")) == Conversion::free, from.width <= 24)
+    EXPECT_EQ(classify(named(from.name), named("real")) == Conversion::Free, from.width <= 24)
         << from.name;
-    EXPECT_EQ(classify(named(from.name), named("lreal")) == Conversion::free, from.width <= 53)
+    EXPECT_EQ(classify(named(from.name), named("lreal")) == Conversion::Free, from.width <= 53)
         << from.name;
-    EXPECT_EQ(classify(named("real"), named(from.name)), Conversion::narrowing) << from.name;
-    EXPECT_EQ(classify(named("lreal"), named(from.name)), Conversion::narrowing) << from.name;
+    EXPECT_EQ(classify(named("real"), named(from.name)), Conversion::Narrowing) << from.name;
+    EXPECT_EQ(classify(named("lreal"), named(from.name)), Conversion::Narrowing) << from.name;
   }
-  EXPECT_EQ(classify(named("real"), named("lreal")), Conversion::free);
-  EXPECT_EQ(classify(named("lreal"), named("real")), Conversion::lossy);
+  EXPECT_EQ(classify(named("real"), named("lreal")), Conversion::Free);
+  EXPECT_EQ(classify(named("lreal"), named("real")), Conversion::Lossy);
 }
 
 TEST(Conversion, BoolIsNoNumber) {
   for (const Number &n : kIntegers) {
-    EXPECT_EQ(classify(named("bool"), named(n.name)), Conversion::narrowing) << n.name;
-    EXPECT_EQ(classify(named(n.name), named("bool")), Conversion::narrowing) << n.name;
+    EXPECT_EQ(classify(named("bool"), named(n.name)), Conversion::Narrowing) << n.name;
+    EXPECT_EQ(classify(named(n.name), named("bool")), Conversion::Narrowing) << n.name;
   }
 }
 
 TEST(Conversion, EnumerationsGiveTheirBaseButNotEachOther) {
   TypeSymbol symbol;
-  EnumType color{{TypeKind::enumeration}, named("int"), &symbol, {}};
-  EnumType state{{TypeKind::enumeration}, named("byte"), &symbol, {}};
-  EXPECT_EQ(classify(&color, named("int")), Conversion::free);
-  EXPECT_EQ(classify(&color, named("dint")), Conversion::free);
-  EXPECT_EQ(classify(&color, named("word")), Conversion::free); // SMC_ERROR to WORD
-  EXPECT_EQ(classify(&color, named("sint")), Conversion::narrowing);
-  EXPECT_EQ(classify(&color, &state), Conversion::forbidden);
-  EXPECT_EQ(classify(named("int"), &color), Conversion::lossy);
-  EXPECT_EQ(classify(named("bool"), &color), Conversion::forbidden);
+  EnumType color{{TypeKind::Enumeration}, named("int"), &symbol, {}};
+  EnumType state{{TypeKind::Enumeration}, named("byte"), &symbol, {}};
+  EXPECT_EQ(classify(&color, named("int")), Conversion::Free);
+  EXPECT_EQ(classify(&color, named("dint")), Conversion::Free);
+  EXPECT_EQ(classify(&color, named("word")), Conversion::Free); // SMC_ERROR to WORD
+  EXPECT_EQ(classify(&color, named("sint")), Conversion::Narrowing);
+  EXPECT_EQ(classify(&color, &state), Conversion::Forbidden);
+  EXPECT_EQ(classify(named("int"), &color), Conversion::Lossy);
+  EXPECT_EQ(classify(named("bool"), &color), Conversion::Forbidden);
 }
 
 TEST(Conversion, ConstantsConvertWhereTheirValueFits) {
-  const Type *any = elementaryType(TypeKind::anyInteger);
+  const Type *any = elementaryType(TypeKind::AnyInteger);
   for (const Number &to : kIntegers) {
-    for (const std::int64_t v :
+    for (const int64_t v :
          {-129LL, -128LL, -1LL, 0LL, 1LL, 127LL, 128LL, 255LL, 256LL, 32767LL, 32768LL, 65535LL,
           65536LL, 2147483647LL, 2147483648LL, 4294967295LL, 4294967296LL}) {
       const bool fits =
           static_cast<long double>(v) >= to.low && static_cast<long double>(v) <= to.high;
-      EXPECT_EQ(constantFits({ConstKind::integer, v, 0, {}}, any, named(to.name)), fits)
+      EXPECT_EQ(constantFits({ConstKind::Integer, v, 0, {}}, any, named(to.name)), fits)
           << v << " in " << to.name;
     }
   }
-  EXPECT_TRUE(constantFits({ConstKind::integer, 1, 0, {}}, any, named("bool")));
-  EXPECT_FALSE(constantFits({ConstKind::integer, 2, 0, {}}, any, named("bool")));
-  EXPECT_TRUE(constantFits({ConstKind::real, 0, 1e300, {}}, elementaryType(TypeKind::anyReal),
+  EXPECT_TRUE(constantFits({ConstKind::Integer, 1, 0, {}}, any, named("bool")));
+  EXPECT_FALSE(constantFits({ConstKind::Integer, 2, 0, {}}, any, named("bool")));
+  EXPECT_TRUE(constantFits({ConstKind::Real, 0, 1e300, {}}, elementaryType(TypeKind::AnyReal),
                            named("lreal")));
-  EXPECT_FALSE(constantFits({ConstKind::real, 0, 1e300, {}}, elementaryType(TypeKind::anyReal),
+  EXPECT_FALSE(constantFits({ConstKind::Real, 0, 1e300, {}}, elementaryType(TypeKind::AnyReal),
                             named("real")));
 }
 
@@ -122,8 +122,8 @@ TEST(Conversion, TheSmallestIntegerThatHoldsAValue) {
             if (expected == nullptr && std::string(one.name) == name && value >= one.low &&
                 value <= one.high)
               expected = name;
-        EXPECT_EQ(smallestInteger(static_cast<std::int64_t>(value)), named(expected))
-            << static_cast<std::int64_t>(value);
+        EXPECT_EQ(smallestInteger(static_cast<int64_t>(value)), named(expected))
+            << static_cast<int64_t>(value);
       }
 }
 

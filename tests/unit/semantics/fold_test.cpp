@@ -14,8 +14,8 @@ namespace {
 
 using ast::BinaryOp;
 
-ConstValue integer(std::int64_t v) { return {ConstKind::integer, v, 0, {}}; }
-ConstValue real(double v) { return {ConstKind::real, 0, v, {}}; }
+ConstValue integer(int64_t v) { return {ConstKind::Integer, v, 0, {}}; }
+ConstValue real(double v) { return {ConstKind::Real, 0, v, {}}; }
 
 /// Checks +, -, *, /, MOD and the comparisons on random and extreme operands of one C++ type.
 template <class T> void checkType(const char *name) {
@@ -40,59 +40,58 @@ template <class T> void checkType(const char *name) {
   for (int i = 0; i < 20000; ++i) {
     const T a = pick();
     const T b = pick();
-    const auto ca = integer(static_cast<std::int64_t>(a));
-    const auto cb = integer(static_cast<std::int64_t>(b));
+    const auto ca = integer(static_cast<int64_t>(a));
+    const auto cb = integer(static_cast<int64_t>(b));
     const auto expect = [&](BinaryOp op, Wide value) {
       const auto folded = foldBinary(op, ca, cb, type);
       ASSERT_TRUE(folded.has_value());
       EXPECT_EQ(static_cast<T>(folded->integer), static_cast<T>(value))
           << name << " " << +a << " " << +b;
       // Canonical: the 64-bit pattern is extended as the type says.
-      EXPECT_EQ(folded->integer, static_cast<std::int64_t>(static_cast<T>(folded->integer)));
+      EXPECT_EQ(folded->integer, static_cast<int64_t>(static_cast<T>(folded->integer)));
     };
-    expect(BinaryOp::add, Wide(a) + Wide(b));
-    expect(BinaryOp::subtract, Wide(a) - Wide(b));
-    expect(BinaryOp::multiply, static_cast<Wide>(static_cast<UnsignedWide>(Wide(a)) *
+    expect(BinaryOp::Add, Wide(a) + Wide(b));
+    expect(BinaryOp::Subtract, Wide(a) - Wide(b));
+    expect(BinaryOp::Multiply, static_cast<Wide>(static_cast<UnsignedWide>(Wide(a)) *
                                                  static_cast<UnsignedWide>(Wide(b))));
     if (b != 0) {
-      expect(BinaryOp::divide, Wide(a) / Wide(b));
-      expect(BinaryOp::modulo, Wide(a) % Wide(b));
+      expect(BinaryOp::Divide, Wide(a) / Wide(b));
+      expect(BinaryOp::Modulo, Wide(a) % Wide(b));
     } else {
-      EXPECT_FALSE(foldBinary(BinaryOp::divide, ca, cb, type).has_value());
+      EXPECT_FALSE(foldBinary(BinaryOp::Divide, ca, cb, type).has_value());
     }
-    EXPECT_EQ(foldBinary(BinaryOp::less, ca, cb, type)->integer, a < b);
-    EXPECT_EQ(foldBinary(BinaryOp::lessEqual, ca, cb, type)->integer, a <= b);
-    EXPECT_EQ(foldBinary(BinaryOp::greater, ca, cb, type)->integer, a > b);
-    EXPECT_EQ(foldBinary(BinaryOp::greaterEqual, ca, cb, type)->integer, a >= b);
-    EXPECT_EQ(foldBinary(BinaryOp::equal, ca, cb, type)->integer, a == b);
+    EXPECT_EQ(foldBinary(BinaryOp::Less, ca, cb, type)->integer, a < b);
+    EXPECT_EQ(foldBinary(BinaryOp::LessEqual, ca, cb, type)->integer, a <= b);
+    EXPECT_EQ(foldBinary(BinaryOp::Greater, ca, cb, type)->integer, a > b);
+    EXPECT_EQ(foldBinary(BinaryOp::GreaterEqual, ca, cb, type)->integer, a >= b);
+    EXPECT_EQ(foldBinary(BinaryOp::Equal, ca, cb, type)->integer, a == b);
   }
 }
 
 TEST(Fold, IntegersWrapAsTheGeneratedCodeDoes) {
-  checkType<std::int32_t>("dint");
-  checkType<std::uint32_t>("udint");
-  checkType<std::int64_t>("lint");
-  checkType<std::uint64_t>("ulint");
-  checkType<std::uint32_t>("dword");
+  checkType<int32_t>("dint");
+  checkType<uint32_t>("udint");
+  checkType<int64_t>("lint");
+  checkType<uint64_t>("ulint");
+  checkType<uint32_t>("dword");
 }
 
 TEST(Fold, UntypedConstantsDoNotWrap) {
-  const Type *any = elementaryType(TypeKind::anyInteger);
-  const auto max = integer(std::numeric_limits<std::int64_t>::max());
-  EXPECT_FALSE(foldBinary(BinaryOp::add, max, integer(1), any).has_value());
-  EXPECT_FALSE(foldBinary(BinaryOp::multiply, max, integer(2), any).has_value());
-  EXPECT_FALSE(
-      foldUnary(ast::UnaryOp::negate, integer(std::numeric_limits<std::int64_t>::min()), any)
-          .has_value());
-  EXPECT_EQ(foldBinary(BinaryOp::subtract, integer(5), integer(7), any)->integer, -2);
+  const Type *any = elementaryType(TypeKind::AnyInteger);
+  const auto max = integer(std::numeric_limits<int64_t>::max());
+  EXPECT_FALSE(foldBinary(BinaryOp::Add, max, integer(1), any).has_value());
+  EXPECT_FALSE(foldBinary(BinaryOp::Multiply, max, integer(2), any).has_value());
+  EXPECT_FALSE(foldUnary(ast::UnaryOp::Negate, integer(std::numeric_limits<int64_t>::min()), any)
+                   .has_value());
+  EXPECT_EQ(foldBinary(BinaryOp::Subtract, integer(5), integer(7), any)->integer, -2);
 }
 
 TEST(Fold, NotIsCutToTheTypesWidth) {
-  EXPECT_EQ(foldUnary(ast::UnaryOp::logicalNot, integer(1), findElementaryType("byte"))->integer,
+  EXPECT_EQ(foldUnary(ast::UnaryOp::LogicalNot, integer(1), findElementaryType("byte"))->integer,
             0xFE);
-  EXPECT_EQ(foldUnary(ast::UnaryOp::logicalNot, integer(1), findElementaryType("bool"))->integer,
+  EXPECT_EQ(foldUnary(ast::UnaryOp::LogicalNot, integer(1), findElementaryType("bool"))->integer,
             0);
-  EXPECT_EQ(foldUnary(ast::UnaryOp::logicalNot, integer(0), findElementaryType("sint"))->integer,
+  EXPECT_EQ(foldUnary(ast::UnaryOp::LogicalNot, integer(0), findElementaryType("sint"))->integer,
             -1);
 }
 
@@ -108,15 +107,15 @@ TEST(Fold, RealsRoundHalfAwayFromZeroAndSaturate) {
   EXPECT_EQ(toInt(65536.0, "uint"), 65535);
   EXPECT_EQ(toInt(-1.0, "uint"), 0);
   EXPECT_EQ(toInt(std::numeric_limits<double>::quiet_NaN(), "dint"), 0);
-  EXPECT_EQ(toInt(1e300, "lint"), std::numeric_limits<std::int64_t>::max());
-  EXPECT_EQ(toInt(-1e300, "lint"), std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(toInt(1e300, "lint"), std::numeric_limits<int64_t>::max());
+  EXPECT_EQ(toInt(-1e300, "lint"), std::numeric_limits<int64_t>::min());
 }
 
 TEST(Fold, RealArithmeticIsRoundedTo32Bits) {
-  const auto sum = foldBinary(BinaryOp::add, real(0.1F), real(0.2F), findElementaryType("real"));
+  const auto sum = foldBinary(BinaryOp::Add, real(0.1F), real(0.2F), findElementaryType("real"));
   EXPECT_EQ(sum->real, static_cast<double>(0.1F + 0.2F));
   EXPECT_EQ(
-      convertConstant(real(0.1), elementaryType(TypeKind::anyReal), findElementaryType("real"))
+      convertConstant(real(0.1), elementaryType(TypeKind::AnyReal), findElementaryType("real"))
           ->real,
       static_cast<double>(0.1F));
 }

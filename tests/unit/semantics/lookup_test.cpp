@@ -52,12 +52,12 @@ protected:
     ASSERT_FALSE(program_.diagnostics.hasErrors());
   }
   /// The offset of the n-th occurrence of the text, counted from 1.
-  std::uint32_t offset(std::string_view what, int n = 1) const {
-    std::size_t at = text_.find(what);
+  uint32_t offset(std::string_view what, int n = 1) const {
+    size_t at = text_.find(what);
     for (int i = 1; i < n; ++i)
       at = text_.find(what, at + 1);
     EXPECT_NE(at, std::string::npos) << what;
-    return static_cast<std::uint32_t>(at);
+    return static_cast<uint32_t>(at);
   }
   Scope scopeAt(std::string_view what) const {
     const auto scope = names_.scopeAt(file_, offset(what));
@@ -78,8 +78,8 @@ protected:
     return namesOf(names_.visible(scopeAt(what)));
   }
   /// The offsets at which the symbol is named.
-  static std::vector<std::uint32_t> offsetsOf(const References &references, const Symbol *symbol) {
-    std::vector<std::uint32_t> list;
+  static std::vector<uint32_t> offsetsOf(const References &references, const Symbol *symbol) {
+    std::vector<uint32_t> list;
     for (const References::Use &use : references.of(symbol))
       list.push_back(use.span.begin);
     return list;
@@ -155,7 +155,7 @@ TEST_F(LookupTest, PutsWhatIsNearerFirst) {
   const auto first = std::find_if(visible.begin(), visible.end(),
                                   [](const Symbol *s) { return s->name.text == "f"; });
   ASSERT_NE(first, visible.end());
-  EXPECT_EQ((*first)->kind, SymbolKind::variable);
+  EXPECT_EQ((*first)->kind, SymbolKind::Variable);
   EXPECT_EQ(find(scope, "F"), *first);
   EXPECT_EQ(Lookup::declaration(*first)->begin, offset("f : INT; END_VAR"));
 }
@@ -178,7 +178,7 @@ TEST_F(LookupTest, ReadsLibrariesWhereANameLeadsIntoThem) {
   const Scope scope = scopeAt("// in Main");
   const Symbol *library = find(scope, "Extra");
   ASSERT_NE(library, nullptr);
-  EXPECT_EQ(library->kind, SymbolKind::library);
+  EXPECT_EQ(library->kind, SymbolKind::Library);
   EXPECT_THAT(namesOf(names_.members(library)), ElementsAre("Limiter", "TLimits"));
   EXPECT_EQ(Lookup::declaration(library), std::nullopt);
   EXPECT_THAT(names_.libraryNames(), Contains("limiter"));
@@ -249,15 +249,15 @@ TEST_F(LookupTest, KnowsTheNameAtAPlace) {
   EXPECT_NE(references.at(file_, offset("Sum := Sum") + 4), sum);
   const Symbol *twice = references.at(file_, offset("Twice;"));
   ASSERT_NE(twice, nullptr);
-  EXPECT_EQ(twice->kind, SymbolKind::property);
+  EXPECT_EQ(twice->kind, SymbolKind::Property);
   EXPECT_EQ(references.at(file_, 0), nullptr);
   EXPECT_EQ(references.at(file_ + 100, 0), nullptr);
 }
 
 TEST_F(LookupTest, FollowsLongSumsWithoutAStack) {
   std::string sum = "n";
-  constexpr std::size_t kTerms = 5000;
-  for (std::size_t i = 1; i < kTerms; ++i)
+  constexpr size_t kTerms = 5000;
+  for (size_t i = 1; i < kTerms; ++i)
     sum += " + n";
   checkText("PROGRAM Main\nVAR n : DINT; END_VAR\nn := " + sum + "; // here\nEND_PROGRAM\n");
   const References references(program_);

@@ -18,14 +18,14 @@ TEST(Diagnostics, CodesAreSortedUniqueAndExplained) {
 }
 
 TEST(Diagnostics, NamesHaveFourDigits) {
-  EXPECT_EQ(codeName(Code::unreadableFile), "SE0101");
+  EXPECT_EQ(codeName(Code::UnreadableFile), "SE0101");
   EXPECT_EQ(codeName(static_cast<Code>(1234)), "SE1234");
 }
 
 TEST(Diagnostics, CountsBySeverity) {
   Diagnostics list;
   EXPECT_FALSE(list.hasErrors());
-  list.report(Code::unexpectedToken, {1, 3, 4}, "b");
+  list.report(Code::UnexpectedToken, {1, 3, 4}, "b");
   EXPECT_TRUE(list.hasErrors());
   EXPECT_EQ(list.errorCount(), 1U);
   EXPECT_EQ(list.warningCount(), 0U);
@@ -33,11 +33,11 @@ TEST(Diagnostics, CountsBySeverity) {
 
 TEST(Diagnostics, SortsByPlaceAndDropsRepetitions) {
   Diagnostics list;
-  list.report(Code::unexpectedToken, {2, 0, 1}, "other file");
-  list.report(Code::unexpectedToken, {1, 9, 10}, "late").note("kept");
-  list.report(Code::unexpectedToken, {1, 3, 4}, "early");
-  list.report(Code::unexpectedToken, {1, 9, 10}, "late");
-  list.report(Code::unreadableFile, {}, "no place");
+  list.report(Code::UnexpectedToken, {2, 0, 1}, "other file");
+  list.report(Code::UnexpectedToken, {1, 9, 10}, "late").note("kept");
+  list.report(Code::UnexpectedToken, {1, 3, 4}, "early");
+  list.report(Code::UnexpectedToken, {1, 9, 10}, "late");
+  list.report(Code::UnreadableFile, {}, "no place");
   list.sort();
   ASSERT_EQ(list.all().size(), 4U);
   EXPECT_EQ(list.all()[0].message, "no place");

@@ -20,9 +20,9 @@ TEST(Interner, KeepsIndicesAndAddressesWhileItGrows) {
   Interner interner;
   const Ident first = interner.intern("x0");
   for (int i = 1; i < 5000; ++i)
-    EXPECT_EQ(interner.intern("x" + std::to_string(i))->index, static_cast<std::uint32_t>(i));
+    EXPECT_EQ(interner.intern("x" + std::to_string(i))->index, static_cast<uint32_t>(i));
   for (int i = 0; i < 5000; ++i)
-    EXPECT_EQ(interner.intern("X" + std::to_string(i))->index, static_cast<std::uint32_t>(i));
+    EXPECT_EQ(interner.intern("X" + std::to_string(i))->index, static_cast<uint32_t>(i));
   EXPECT_EQ(interner.intern("X0"), first);
   EXPECT_EQ(interner.size(), 5000U);
 }

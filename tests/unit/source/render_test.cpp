@@ -16,13 +16,13 @@ protected:
   }
   /// The n-th occurrence of `what` in the file.
   Span find(FileId id, std::string_view what, int n = 1) {
-    std::size_t at = std::string_view::npos;
+    size_t at = std::string_view::npos;
     for (int i = 0; i < n; ++i)
       at = sources.file(id).text().find(what, at + 1);
-    return {id, static_cast<std::uint32_t>(at), static_cast<std::uint32_t>(at + what.size())};
+    return {id, static_cast<uint32_t>(at), static_cast<uint32_t>(at + what.size())};
   }
   static Diagnostic error(Span where, std::string message, std::string label = {}) {
-    Diagnostic d{Code::unexpectedToken, Severity::error, std::move(message), {}, {}, {}};
+    Diagnostic d{Code::UnexpectedToken, Severity::Error, std::move(message), {}, {}, {}};
     d.label(where, std::move(label));
     return d;
   }
@@ -45,7 +45,7 @@ TEST_F(Render, OneLabel) {
 
 TEST_F(Render, WithoutPlace) {
   Diagnostic d{
-      Code::unreadableFile, Severity::warning, "cannot read", {}, {"a note\nin two lines"}, {}};
+      Code::UnreadableFile, Severity::Warning, "cannot read", {}, {"a note\nin two lines"}, {}};
   EXPECT_EQ(renderText(d, sources), "warning[SE0101]: cannot read\n"
                                     "  = note: a note\n"
                                     "          in two lines\n"

@@ -23,7 +23,7 @@ TEST(Sources, FindsLinesAndColumns) {
   EXPECT_EQ(file.position(5).line, 2U);
   EXPECT_EQ(file.position(5).column, 1U);
   EXPECT_EQ(file.position(7).column, 3U);
-  const auto end = file.position(static_cast<std::uint32_t>(file.text().size()));
+  const auto end = file.position(static_cast<uint32_t>(file.text().size()));
   EXPECT_EQ(end.line, 4U);
   EXPECT_EQ(end.column, 6U); // a tab, four letters, of which one has two bytes
   EXPECT_EQ(sources.text({id, 5, 8}), "two");

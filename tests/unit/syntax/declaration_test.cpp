@@ -163,7 +163,7 @@ TEST(Declaration, LargeSectionsComeTogether) {
   const auto *globals = ast::as<ast::GlobalsDecl>(parsed.file->declarations[0]);
   ASSERT_EQ(globals->variables.size(), 3000U);
   EXPECT_EQ(globals->variables[2999]->name.text, "v2999");
-  EXPECT_EQ(globals->variables[2999]->qualifiers, ast::qualRetain);
+  EXPECT_EQ(globals->variables[2999]->qualifiers, ast::kQualRetain);
   EXPECT_EQ(ast::as<ast::PouDecl>(parsed.file->declarations[3001])->body.size(), 6000U);
 }
 

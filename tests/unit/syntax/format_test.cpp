@@ -18,11 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongFile = 60'000; // checked without variations
-#ifdef __SANITIZE_ADDRESS__               // 25 times as slow
-constexpr std::size_t kEvery = 8;         // of the sources
+constexpr size_t kLongFile = 60'000; // checked without variations
+#ifdef __SANITIZE_ADDRESS__          // 25 times as slow
+constexpr size_t kEvery = 8;         // of the sources
 #else
-constexpr std::size_t kEvery = 1;
+constexpr size_t kEvery = 1;
 #endif
 
 struct Source {
@@ -33,7 +33,7 @@ struct Source {
 bool isClean(const Parsed &parsed) {
   const auto &all = parsed.diagnostics.all();
   return std::none_of(all.begin(), all.end(), [](const Diagnostic &diagnostic) {
-    return diagnostic.severity == Severity::error;
+    return diagnostic.severity == Severity::Error;
   });
 }
 
@@ -51,7 +51,7 @@ const std::vector<Source> &sources() {
     }
     std::sort(files.begin(), files.end());
     std::vector<Source> out;
-    for (std::size_t i = 0; i < files.size(); i += kEvery) {
+    for (size_t i = 0; i < files.size(); i += kEvery) {
       std::ifstream in(files[i], std::ios::binary);
       const std::string bytes{std::istreambuf_iterator<char>(in), {}};
       Sources manager;
@@ -85,10 +85,10 @@ std::string stable(const std::string &text, const FormatStyle &style = {}) {
   return *once;
 }
 
-std::size_t longestLine(const std::string &text) {
-  std::size_t longest = 0;
-  std::size_t begin = 0;
-  for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
+size_t longestLine(const std::string &text) {
+  size_t longest = 0;
+  size_t begin = 0;
+  for (size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
     longest = std::max(longest, end - begin);
     begin = end + 1;
   }
@@ -115,10 +115,10 @@ TEST(Format, IsStableInEveryStyle) {
   FormatStyle tabs;
   tabs.tabs = true;
   tabs.indent = 4;
-  tabs.keywords = KeywordCase::keep;
+  tabs.keywords = KeywordCase::Keep;
   FormatStyle lower;
   lower.indent = 3;
-  lower.keywords = KeywordCase::lower;
+  lower.keywords = KeywordCase::Lower;
   lower.align = false;
   lower.width = 72;
   for (const Source &source : sources()) {
@@ -145,7 +145,7 @@ TEST(Format, DoesNotDependOnBlanks) {
   std::mt19937 random(20261121);
   FormatStyle narrow;
   narrow.width = 40;
-  std::size_t tried = 0;
+  size_t tried = 0;
   for (const Source &source : sources()) {
     if (source.text.find("{IF") != std::string::npos ||
         source.text.find("{if") != std::string::npos || source.text.size() > kLongFile)

@@ -12,26 +12,26 @@ const char *symbol(BinaryOp op) {
   static constexpr const char *kSymbols[] = {
       "+",  "-", "*",  "/",   "MOD", "**",  "=",        "<>",     "<",
       "<=", ">", ">=", "AND", "OR",  "XOR", "AND_THEN", "OR_ELSE"};
-  return kSymbols[static_cast<std::size_t>(op)];
+  return kSymbols[static_cast<size_t>(op)];
 }
 
 const char *suffix(LiteralKind kind) {
   switch (kind) {
-  case LiteralKind::time:
+  case LiteralKind::Time:
     return "ms";
-  case LiteralKind::ltime:
+  case LiteralKind::Ltime:
     return "ns";
-  case LiteralKind::date:
+  case LiteralKind::Date:
     return "s(date)";
-  case LiteralKind::ldate:
+  case LiteralKind::Ldate:
     return "ns(ldate)";
-  case LiteralKind::tod:
+  case LiteralKind::Tod:
     return "ms(tod)";
-  case LiteralKind::ltod:
+  case LiteralKind::Ltod:
     return "ns(ltod)";
-  case LiteralKind::dt:
+  case LiteralKind::Dt:
     return "s(dt)";
-  case LiteralKind::ldt:
+  case LiteralKind::Ldt:
     return "ns(ldt)";
   default:
     return "";
@@ -46,16 +46,16 @@ public:
     if (node->typeName)
       out_ << node->typeName.text << '#' << (node->negative ? "-" : "");
     switch (node->literal) {
-    case LiteralKind::boolean:
+    case LiteralKind::Boolean:
       out_ << (node->integer != 0 ? "TRUE" : "FALSE");
       break;
-    case LiteralKind::real:
+    case LiteralKind::Real:
       out_ << node->real;
       break;
-    case LiteralKind::string:
+    case LiteralKind::String:
       out_ << '\'' << node->text << '\'';
       break;
-    case LiteralKind::wstring:
+    case LiteralKind::Wstring:
       out_ << '"' << node->text << '"';
       break;
     default:
@@ -95,7 +95,7 @@ public:
   void address(const DirectAddress *node) {
     out_ << '%' << node->area << node->size;
     const char *separator = "";
-    for (const std::uint32_t number : node->numbers) {
+    for (const uint32_t number : node->numbers) {
       out_ << separator << number;
       separator = ".";
     }
@@ -118,13 +118,13 @@ public:
     if (node->parenthesized)
       out_ << "p";
     switch (node->kind) {
-    case ExprKind::literal:
+    case ExprKind::Literal:
       literal(as<Literal>(node));
       break;
-    case ExprKind::name:
+    case ExprKind::Name:
       out_ << as<NameExpr>(node)->name.text;
       break;
-    case ExprKind::member: {
+    case ExprKind::Member: {
       const auto *m = as<MemberExpr>(node);
       out_ << "(. ";
       expression(m->base);
@@ -136,7 +136,7 @@ public:
         out_ << ' ' << m->name.text << ')';
       break;
     }
-    case ExprKind::index: {
+    case ExprKind::Index: {
       const auto *i = as<IndexExpr>(node);
       out_ << "([] ";
       expression(i->base);
@@ -147,12 +147,12 @@ public:
       out_ << ')';
       break;
     }
-    case ExprKind::deref:
+    case ExprKind::Deref:
       out_ << "(^ ";
       expression(as<DerefExpr>(node)->base);
       out_ << ')';
       break;
-    case ExprKind::call: {
+    case ExprKind::Call: {
       const auto *c = as<CallExpr>(node);
       out_ << "(call ";
       expression(c->callee);
@@ -160,14 +160,14 @@ public:
       out_ << ')';
       break;
     }
-    case ExprKind::unary: {
+    case ExprKind::Unary: {
       const auto *u = as<UnaryExpr>(node);
-      out_ << '(' << (u->op == UnaryOp::negate ? "-" : u->op == UnaryOp::plus ? "+" : "NOT") << ' ';
+      out_ << '(' << (u->op == UnaryOp::Negate ? "-" : u->op == UnaryOp::Plus ? "+" : "NOT") << ' ';
       expression(u->operand);
       out_ << ')';
       break;
     }
-    case ExprKind::binary: {
+    case ExprKind::Binary: {
       const auto *b = as<BinaryExpr>(node);
       out_ << '(' << symbol(b->op) << ' ';
       expression(b->left);
@@ -176,26 +176,26 @@ public:
       out_ << ')';
       break;
     }
-    case ExprKind::direct:
+    case ExprKind::Direct:
       address(as<DirectExpr>(node)->address);
       break;
-    case ExprKind::typeName:
+    case ExprKind::TypeName:
       out_ << "(type ";
       type(as<TypeNameExpr>(node)->name);
       out_ << ')';
       break;
-    case ExprKind::aggregate: {
+    case ExprKind::Aggregate: {
       const auto *a = as<AggregateExpr>(node);
       out_ << (a->isStruct ? "(struct" : "(list");
       items(a->items);
       out_ << ')';
       break;
     }
-    case ExprKind::enumLiteral:
+    case ExprKind::EnumLiteral:
       out_ << as<EnumLiteralExpr>(node)->typeName.text << '#'
            << as<EnumLiteralExpr>(node)->enumerator.text;
       break;
-    case ExprKind::error:
+    case ExprKind::Error:
       out_ << "error";
       break;
     }
@@ -203,7 +203,7 @@ public:
 
   void type(const TypeExpr *node) {
     switch (node->kind) {
-    case TypeExprKind::named: {
+    case TypeExprKind::Named: {
       const auto *named = as<NamedTypeExpr>(node);
       path(named->path);
       if (named->hasArguments && named->elements.empty()) {
@@ -218,7 +218,7 @@ public:
       }
       break;
     }
-    case TypeExprKind::array: {
+    case TypeExprKind::Array: {
       const auto *a = as<ArrayTypeExpr>(node);
       out_ << "(array";
       for (const ArrayRange &range : a->ranges) {
@@ -236,7 +236,7 @@ public:
       out_ << ')';
       break;
     }
-    case TypeExprKind::string: {
+    case TypeExprKind::String: {
       const auto *s = as<StringTypeExpr>(node);
       out_ << (s->wide ? "WSTRING" : "STRING");
       if (s->length != nullptr) {
@@ -246,15 +246,15 @@ public:
       }
       break;
     }
-    case TypeExprKind::pointer:
-    case TypeExprKind::reference:
+    case TypeExprKind::Pointer:
+    case TypeExprKind::Reference:
       out_ << (as<PointerTypeExpr>(node)->refTo      ? "(ref-to "
-               : node->kind == TypeExprKind::pointer ? "(pointer "
+               : node->kind == TypeExprKind::Pointer ? "(pointer "
                                                      : "(reference ");
       type(as<PointerTypeExpr>(node)->pointee);
       out_ << ')';
       break;
-    case TypeExprKind::subrange: {
+    case TypeExprKind::Subrange: {
       const auto *s = as<SubrangeTypeExpr>(node);
       out_ << "(range ";
       type(s->base);
@@ -265,7 +265,7 @@ public:
       out_ << ')';
       break;
     }
-    case TypeExprKind::enumeration: {
+    case TypeExprKind::Enumeration: {
       const auto *e = as<EnumTypeExpr>(node);
       out_ << "(enum";
       if (e->base != nullptr) {
@@ -284,7 +284,7 @@ public:
       out_ << ')';
       break;
     }
-    case TypeExprKind::error:
+    case TypeExprKind::Error:
       out_ << "error";
       break;
     }
@@ -301,25 +301,25 @@ public:
 
   void statement(const Stmt *node) {
     switch (node->kind) {
-    case StmtKind::empty:
+    case StmtKind::Empty:
       out_ << "(;)";
       break;
-    case StmtKind::exit:
+    case StmtKind::Exit:
       out_ << "(exit)";
       break;
-    case StmtKind::continueS:
+    case StmtKind::Continue:
       out_ << "(continue)";
       break;
-    case StmtKind::returnS:
+    case StmtKind::Return:
       out_ << "(return)";
       break;
-    case StmtKind::jump:
+    case StmtKind::Jump:
       out_ << "(jmp " << as<JumpStmt>(node)->label.text << ')';
       break;
-    case StmtKind::label:
+    case StmtKind::Label:
       out_ << "(label " << as<LabelStmt>(node)->label.text << ')';
       break;
-    case StmtKind::tryS: {
+    case StmtKind::Try: {
       const auto *s = as<TryStmt>(node);
       out_ << "(try ";
       block(s->body);
@@ -336,10 +336,10 @@ public:
       out_ << ')';
       break;
     }
-    case StmtKind::assign: {
+    case StmtKind::Assign: {
       static constexpr const char *kOps[] = {":=", "S=", "R=", "REF="};
       const auto *a = as<AssignStmt>(node);
-      out_ << '(' << kOps[static_cast<std::size_t>(a->op)];
+      out_ << '(' << kOps[static_cast<size_t>(a->op)];
       for (const Expr *target : a->targets) {
         out_ << ' ';
         expression(target);
@@ -349,10 +349,10 @@ public:
       out_ << ')';
       break;
     }
-    case StmtKind::call:
+    case StmtKind::Call:
       expression(as<CallStmt>(node)->expr);
       break;
-    case StmtKind::ifS: {
+    case StmtKind::If: {
       const auto *s = as<IfStmt>(node);
       out_ << "(if";
       for (const IfBranch &branch : s->branches) {
@@ -368,7 +368,7 @@ public:
       out_ << ')';
       break;
     }
-    case StmtKind::caseS: {
+    case StmtKind::Case: {
       const auto *s = as<CaseStmt>(node);
       out_ << "(case ";
       expression(s->selector);
@@ -391,7 +391,7 @@ public:
       out_ << ')';
       break;
     }
-    case StmtKind::forS: {
+    case StmtKind::For: {
       const auto *s = as<ForStmt>(node);
       out_ << "(for ";
       expression(s->variable);
@@ -404,14 +404,14 @@ public:
       out_ << ')';
       break;
     }
-    case StmtKind::whileS:
+    case StmtKind::While:
       out_ << "(while ";
       expression(as<WhileStmt>(node)->condition);
       out_ << ' ';
       block(as<WhileStmt>(node)->body);
       out_ << ')';
       break;
-    case StmtKind::repeatS:
+    case StmtKind::RepeatS:
       out_ << "(repeat ";
       block(as<RepeatStmt>(node)->body);
       out_ << ' ';
@@ -426,15 +426,15 @@ public:
         "VAR",          "VAR_INPUT",  "VAR_OUTPUT", "VAR_IN_OUT", "VAR_TEMP", "VAR_STAT",
         "VAR_EXTERNAL", "VAR_GLOBAL", "VAR_CONFIG", "VAR_ACCESS", "VAR_INST"};
     for (const VarDecl *one : list) {
-      out_ << "\n  (" << kSections[static_cast<std::size_t>(one->section)];
-      out_ << ((one->qualifiers & qualConstant) != 0 ? " CONSTANT" : "");
-      out_ << ((one->qualifiers & qualRetain) != 0 ? " RETAIN" : "");
-      out_ << ((one->qualifiers & qualPersistent) != 0 ? " PERSISTENT" : "");
-      out_ << ((one->qualifiers & qualNonRetain) != 0 ? " NON_RETAIN" : "");
+      out_ << "\n  (" << kSections[static_cast<size_t>(one->section)];
+      out_ << ((one->qualifiers & kQualConstant) != 0 ? " CONSTANT" : "");
+      out_ << ((one->qualifiers & kQualRetain) != 0 ? " RETAIN" : "");
+      out_ << ((one->qualifiers & kQualPersistent) != 0 ? " PERSISTENT" : "");
+      out_ << ((one->qualifiers & kQualNonRetain) != 0 ? " NON_RETAIN" : "");
       out_ << (one->readOnly ? " READ_ONLY" : "") << (one->readWrite ? " READ_WRITE" : "");
       access(one->access);
       out_ << ' ';
-      if (one->path == nullptr || one->section == Section::access)
+      if (one->path == nullptr || one->section == Section::Access)
         out_ << one->name.text;
       if (one->path != nullptr) {
         out_ << '@';
@@ -457,14 +457,14 @@ public:
 
   void access(Access which) {
     static constexpr const char *kNames[] = {"", " PUBLIC", " PRIVATE", " PROTECTED", " INTERNAL"};
-    out_ << kNames[static_cast<std::size_t>(which)];
+    out_ << kNames[static_cast<size_t>(which)];
   }
 
   void head(const Decl *node) {
     access(node->access);
-    out_ << ((node->modifiers & modAbstract) != 0 ? " ABSTRACT" : "");
-    out_ << ((node->modifiers & modFinal) != 0 ? " FINAL" : "");
-    out_ << ((node->modifiers & modOverride) != 0 ? " OVERRIDE" : "");
+    out_ << ((node->modifiers & kModAbstract) != 0 ? " ABSTRACT" : "");
+    out_ << ((node->modifiers & kModFinal) != 0 ? " FINAL" : "");
+    out_ << ((node->modifiers & kModOverride) != 0 ? " OVERRIDE" : "");
     if (node->name) {
       out_ << ' ';
       path(node->space);
@@ -530,8 +530,8 @@ public:
       }
       for (const ProgramInstanceDecl &one : resource.programs) {
         out_ << "\n    (PROGRAM " << one.name.text;
-        out_ << ((one.qualifiers & qualRetain) != 0 ? " RETAIN" : "");
-        out_ << ((one.qualifiers & qualNonRetain) != 0 ? " NON_RETAIN" : "");
+        out_ << ((one.qualifiers & kQualRetain) != 0 ? " RETAIN" : "");
+        out_ << ((one.qualifiers & kQualNonRetain) != 0 ? " NON_RETAIN" : "");
         if (one.task)
           out_ << " WITH " << one.task.text;
         out_ << " : ";
@@ -559,19 +559,19 @@ public:
         "PROGRAM", "FUNCTION",   "FUNCTION_BLOCK", "CLASS",      "INTERFACE",
         "METHOD",  "ACTION",     "PROPERTY",       "STRUCT",     "ENUM",
         "ALIAS",   "VAR_GLOBAL", "VAR_CONFIG",     "VAR_ACCESS", "CONFIGURATION"};
-    out_ << '(' << kKinds[static_cast<std::size_t>(node->kind)];
+    out_ << '(' << kKinds[static_cast<size_t>(node->kind)];
     head(node);
     switch (node->kind) {
-    case DeclKind::program:
-    case DeclKind::function:
-    case DeclKind::functionBlock:
-    case DeclKind::classD:
-    case DeclKind::interface:
-    case DeclKind::method:
-    case DeclKind::action:
+    case DeclKind::Program:
+    case DeclKind::Function:
+    case DeclKind::FunctionBlock:
+    case DeclKind::Class:
+    case DeclKind::Interface:
+    case DeclKind::Method:
+    case DeclKind::Action:
       pou(as<PouDecl>(node));
       break;
-    case DeclKind::structure:
+    case DeclKind::Structure:
       out_ << (as<StructDecl>(node)->isUnion ? " UNION" : "");
       if (!as<StructDecl>(node)->base.empty()) {
         out_ << " EXTENDS ";
@@ -579,7 +579,7 @@ public:
       }
       variables(as<StructDecl>(node)->fields);
       break;
-    case DeclKind::enumeration:
+    case DeclKind::Enumeration:
       out_ << ' ';
       type(as<EnumDecl>(node)->type);
       if (as<EnumDecl>(node)->init != nullptr) {
@@ -587,7 +587,7 @@ public:
         expression(as<EnumDecl>(node)->init);
       }
       break;
-    case DeclKind::alias:
+    case DeclKind::Alias:
       out_ << ' ';
       type(as<AliasDecl>(node)->type);
       if (as<AliasDecl>(node)->init != nullptr) {
@@ -595,15 +595,15 @@ public:
         expression(as<AliasDecl>(node)->init);
       }
       break;
-    case DeclKind::configuration:
+    case DeclKind::Configuration:
       configuration(as<ConfigurationDecl>(node));
       break;
-    case DeclKind::globals:
-    case DeclKind::config:
-    case DeclKind::access:
+    case DeclKind::Globals:
+    case DeclKind::Config:
+    case DeclKind::Access:
       variables(as<GlobalsDecl>(node)->variables);
       break;
-    case DeclKind::property:
+    case DeclKind::Property:
       break; // printed by its block
     }
     out_ << end;

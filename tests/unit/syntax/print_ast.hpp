@@ -1,4 +1,5 @@
-#pragma once
+#ifndef STRIDE_TESTS_UNIT_SYNTAX_PRINT_AST_HPP
+#define STRIDE_TESTS_UNIT_SYNTAX_PRINT_AST_HPP
 // Syntax trees as short S-expressions, and helpers to get them from text.
 
 #include "compiler/source/render.hpp"
@@ -41,3 +42,5 @@ std::string printExpression(const std::string &expression);
 std::string bodyErrors(const std::string &statements);
 
 } // namespace stc::test
+
+#endif // STRIDE_TESTS_UNIT_SYNTAX_PRINT_AST_HPP

@@ -7,10 +7,10 @@
 namespace stc::test {
 namespace {
 
-std::string repeat(std::string_view text, std::size_t count) {
+std::string repeat(std::string_view text, size_t count) {
   std::string out;
   out.reserve(text.size() * count);
-  for (std::size_t i = 0; i < count; ++i)
+  for (size_t i = 0; i < count; ++i)
     out += text;
   return out;
 }
@@ -27,7 +27,7 @@ TEST(Robustness, EmptyAndBlankFiles) {
 TEST(Robustness, BinaryFileIsOneError) {
   EXPECT_EQ(errors(std::string("PROGRAM P\0END", 13)), "SE0102 `T.st` is not a text file\n");
   std::string bytes;
-  std::uint32_t random = 1;
+  uint32_t random = 1;
   for (int i = 0; i < 100'000; ++i) {
     random = random * 1664525 + 1013904223;
     bytes += static_cast<char>((random >> 24) | 1);
@@ -43,7 +43,7 @@ TEST(Robustness, StrangeCharactersAreFewErrors) {
 }
 
 TEST(Robustness, NestingLimit) {
-  const auto parentheses = [](std::size_t n) {
+  const auto parentheses = [](size_t n) {
     return "x := " + repeat("(", n) + "1" + repeat(")", n) + ";";
   };
   EXPECT_EQ(bodyErrors(parentheses(256)), "");
@@ -115,7 +115,7 @@ TEST(Robustness, NestingLimitOfEachKind) {
     std::string middle;
     std::string close;
     std::string end;
-    std::size_t most; ///< so many are accepted
+    size_t most; ///< so many are accepted
   };
   const std::string body = "PROGRAM P\n";
   const Kind kinds[] = {
@@ -135,7 +135,7 @@ TEST(Robustness, NestingLimitOfEachKind) {
       {"fields", "VAR_GLOBAL x : T := ", "(a := ", "1", ")", "; END_VAR", 256},
   };
   for (const Kind &kind : kinds) {
-    for (const std::size_t count : {kind.most, kind.most + 1, std::size_t{50'000}}) {
+    for (const size_t count : {kind.most, kind.most + 1, size_t{50'000}}) {
       const std::string text = kind.begin + repeat(kind.open, count) + kind.middle +
                                repeat(kind.close, count) + kind.end;
       const std::string found = errors(text);
@@ -151,7 +151,7 @@ TEST(Robustness, NestingLimitOfEachKind) {
 
 /// What has no limit needs no stack.
 TEST(Robustness, DeepThingsWithoutLimit) {
-  const std::size_t count = 50'000;
+  const size_t count = 50'000;
   EXPECT_EQ(errors(repeat("(* ", count) + repeat("*) ", count)), "");
   EXPECT_EQ(errors(repeat("{IF defined (x)}\n", count) + repeat("{END_IF}\n", count)), "");
   EXPECT_EQ(errors("{IF " + repeat("NOT ", count) + "defined (x)}\n{END_IF}\n"), "");
@@ -191,7 +191,7 @@ TEST(Robustness, CutTexts) {
       "WHILE a "
       "DO REPEAT x := T#5s; UNTIL TRUE END_REPEAT END_WHILE END_FOR END_FUNCTION\n";
   ASSERT_EQ(errors(text), "");
-  for (std::size_t i = 0; i < text.size(); ++i) {
+  for (size_t i = 0; i < text.size(); ++i) {
     const Parsed prefix(text.substr(0, i));
     const Parsed without(text.substr(0, i) + text.substr(i + 1));
     const Parsed suffix(text.substr(i));

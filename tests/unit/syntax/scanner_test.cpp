@@ -18,9 +18,9 @@ namespace stc {
 namespace {
 
 struct Piece {
-  std::size_t type;
-  std::size_t begin;
-  std::size_t end;
+  size_t type;
+  size_t begin;
+  size_t end;
 };
 
 std::vector<Piece> scan(const SourceFile &file) {
@@ -37,8 +37,8 @@ std::vector<Piece> reference(const SourceFile &file) {
   antlr4::ANTLRInputStream input{std::string(file.text())};
   grammar::StLexer lexer(&input);
   // ANTLR counts code points.
-  std::vector<std::size_t> offsets;
-  for (std::size_t i = 0; i < file.text().size(); ++i)
+  std::vector<size_t> offsets;
+  for (size_t i = 0; i < file.text().size(); ++i)
     if ((static_cast<unsigned char>(file.text()[i]) & 0xC0) != 0x80)
       offsets.push_back(i);
   offsets.push_back(file.text().size());
@@ -51,7 +51,7 @@ std::vector<Piece> reference(const SourceFile &file) {
   return out;
 }
 
-bool isAssignment(std::size_t type) {
+bool isAssignment(size_t type) {
   return type == Tok::SET_ASSIGN || type == Tok::RESET_ASSIGN || type == Tok::REF_ASSIGN;
 }
 
@@ -59,11 +59,11 @@ bool isAssignment(std::size_t type) {
 void compare(const SourceFile &file) {
   const std::vector<Piece> ours = scan(file);
   const std::vector<Piece> theirs = reference(file);
-  std::size_t i = 0;
-  std::size_t k = 0;
-  std::size_t before = 0;
+  size_t i = 0;
+  size_t k = 0;
+  size_t before = 0;
   const auto where = [&](const Piece &piece) {
-    const LineColumn at = file.position(static_cast<std::uint32_t>(piece.begin));
+    const LineColumn at = file.position(static_cast<uint32_t>(piece.begin));
     return file.name() + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + " `" +
            std::string(file.text().substr(piece.begin, piece.end - piece.begin)) + "`";
   };
@@ -79,18 +79,18 @@ void compare(const SourceFile &file) {
       ++k;
       if (ours[i].type == Tok::ARROW) {
         ASSERT_LT(k, theirs.size());
-        ASSERT_EQ(theirs[k].type, static_cast<std::size_t>(Tok::GREATER));
+        ASSERT_EQ(theirs[k].type, static_cast<size_t>(Tok::GREATER));
         ++k;
       } else {
-        ASSERT_EQ(ours[i].type, static_cast<std::size_t>(Tok::EQUAL)) << where(ours[i]);
+        ASSERT_EQ(ours[i].type, static_cast<size_t>(Tok::EQUAL)) << where(ours[i]);
       }
     } else {
       ASSERT_EQ(a.end, b.end) << where(a) << " against " << where(b);
       if (a.type != b.type) {
         const Keyword keyword = findKeyword(word, hashIdent(word));
-        EXPECT_EQ(a.type, static_cast<std::size_t>(Tok::IDENT)) << where(a);
+        EXPECT_EQ(a.type, static_cast<size_t>(Tok::IDENT)) << where(a);
         EXPECT_TRUE(before == Tok::DOT ||
-                    (keyword.kind != Keyword::Kind::hard && keyword.kind != Keyword::Kind::none &&
+                    (keyword.kind != Keyword::Kind::Hard && keyword.kind != Keyword::Kind::None &&
                      keyword.type == b.type))
             << where(a);
       }
@@ -135,16 +135,16 @@ TEST(Scanner, AgreesWithTheReferenceOnEveryKeyword) {
   grammar::StLexer lexer(nullptr);
   const auto &vocabulary = lexer.getVocabulary();
   std::string hard;
-  std::size_t words = 0;
-  for (std::size_t type = Tok::TRUE; type < Tok::TIME_LITERAL; ++type) {
+  size_t words = 0;
+  for (size_t type = Tok::TRUE; type < Tok::TIME_LITERAL; ++type) {
     const std::string name = vocabulary.getSymbolicName(type);
-    const std::string word(tokenSpelling(static_cast<std::uint16_t>(type)));
+    const std::string word(tokenSpelling(static_cast<uint16_t>(type)));
     const Keyword keyword = findKeyword(word, hashIdent(word));
     EXPECT_EQ(keyword.type, type) << name;
     const bool isOperator = word.starts_with("__");
     EXPECT_TRUE(isOperator || word == name) << word;
     ++words;
-    if (!isOperator && keyword.kind == Keyword::Kind::hard)
+    if (!isOperator && keyword.kind == Keyword::Kind::Hard)
       hard += name + ' ' + std::string(1, static_cast<char>(name[0] + 32)) + name.substr(1) + '\n';
   }
   EXPECT_GT(words, 80U);
@@ -153,7 +153,7 @@ TEST(Scanner, AgreesWithTheReferenceOnEveryKeyword) {
 
 TEST(Scanner, AgreesWithTheReferenceOnTheSourcesOfTheRepository) {
   namespace fs = std::filesystem;
-  std::size_t files = 0;
+  size_t files = 0;
   for (const char *folder : {"stdlib", "examples", "tests/golden/programs"}) {
     const fs::path root = fs::path(STRIDE_SOURCE_DIR) / folder;
     if (!fs::exists(root))

@@ -15,7 +15,7 @@ std::string namesIn(const std::string &statements) {
   EXPECT_FALSE(parsed.diagnostics.hasErrors()) << parsed.rendered();
   std::string out;
   walkExpressions(as<PouDecl>(parsed.file->declarations[0])->body, [&](const Expr *e) {
-    if (e->kind == ExprKind::name)
+    if (e->kind == ExprKind::Name)
       out.append(as<NameExpr>(e)->name.text).append(" ");
   });
   return out;
@@ -46,7 +46,7 @@ TEST(Visit, InitialValues) {
                       "END_VAR END_PROGRAM");
   std::string out;
   walk(as<PouDecl>(parsed.file->declarations[0])->variables[0]->init, [&](const Expr *e) {
-    if (e->kind == ExprKind::name)
+    if (e->kind == ExprKind::Name)
       out.append(as<NameExpr>(e)->name.text).append(" ");
   });
   EXPECT_EQ(out, "a b n c d e f g h ");
@@ -59,28 +59,28 @@ TEST(Visit, LooksBelowOnlyWhereItIsTold) {
   std::string kinds;
   walkStatements(body, [&](const Stmt *s) {
     kinds.append(std::to_string(static_cast<int>(s->kind))).append(" ");
-    return s->kind != StmtKind::whileS;
+    return s->kind != StmtKind::While;
   });
   const auto kind = [](StmtKind k) { return std::to_string(static_cast<int>(k)) + " "; };
-  EXPECT_EQ(kinds, kind(StmtKind::ifS) + kind(StmtKind::whileS) + kind(StmtKind::call) +
-                       kind(StmtKind::call));
-  std::size_t calls = 0;
+  EXPECT_EQ(kinds, kind(StmtKind::If) + kind(StmtKind::While) + kind(StmtKind::Call) +
+                       kind(StmtKind::Call));
+  size_t calls = 0;
   walkExpressions(body, [&](const Expr *e) {
-    calls += e->kind == ExprKind::call ? 1 : 0;
-    return e->kind != ExprKind::call;
+    calls += e->kind == ExprKind::Call ? 1 : 0;
+    return e->kind != ExprKind::Call;
   });
   EXPECT_EQ(calls, 3U); // e(f) stands in d(…)
 }
 
 TEST(Visit, KindsComeFromTheType) {
   const CallExpr call{};
-  EXPECT_EQ(call.kind, ExprKind::call);
-  EXPECT_TRUE(PouDecl::holds(DeclKind::action));
-  EXPECT_FALSE(PouDecl::holds(DeclKind::property));
+  EXPECT_EQ(call.kind, ExprKind::Call);
+  EXPECT_TRUE(PouDecl::holds(DeclKind::Action));
+  EXPECT_FALSE(PouDecl::holds(DeclKind::Property));
   const PointerTypeExpr pointer{};
-  EXPECT_EQ(pointer.kind, TypeExprKind::pointer);
-  EXPECT_TRUE(PointerTypeExpr::holds(TypeExprKind::reference));
-  EXPECT_EQ(Expr{}.kind, ExprKind::error);
+  EXPECT_EQ(pointer.kind, TypeExprKind::Pointer);
+  EXPECT_TRUE(PointerTypeExpr::holds(TypeExprKind::Reference));
+  EXPECT_EQ(Expr{}.kind, ExprKind::Error);
 }
 
 } // namespace

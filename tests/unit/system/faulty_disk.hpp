@@ -1,5 +1,6 @@
 // A disk that is slow or reports errors: pwrite, write and fsync of this program.
-#pragma once
+#ifndef STRIDE_TESTS_UNIT_SYSTEM_FAULTY_DISK_HPP
+#define STRIDE_TESTS_UNIT_SYSTEM_FAULTY_DISK_HPP
 
 #include <atomic>
 
@@ -12,3 +13,5 @@ struct FaultyDisk {
 FaultyDisk &faultyDisk();
 
 } // namespace stride::test
+
+#endif // STRIDE_TESTS_UNIT_SYSTEM_FAULTY_DISK_HPP

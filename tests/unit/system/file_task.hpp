@@ -1,5 +1,6 @@
 // A task that uses the file service, without an application.
-#pragma once
+#ifndef STRIDE_TESTS_UNIT_SYSTEM_FILE_TASK_HPP
+#define STRIDE_TESTS_UNIT_SYSTEM_FILE_TASK_HPP
 
 #include "runtime/system/file_service.hpp"
 
@@ -11,7 +12,7 @@ namespace stride::test {
 
 class PlainInputs final : public system::Inputs {
 public:
-  void pass(void *, std::size_t) noexcept override {}
+  void pass(void *, size_t) noexcept override {}
   bool replays() const noexcept override { return false; }
 };
 
@@ -54,7 +55,7 @@ public:
     files_->stream(ctx_, StreamOp::Write, file, copy.data(), copy.size(), answer);
     return answer;
   }
-  std::string read(uint32_t file, std::size_t size) {
+  std::string read(uint32_t file, size_t size) {
     FileAnswer answer{};
     std::string text(size, '\0');
     files_->stream(ctx_, StreamOp::Read, file, text.data(), size, answer);
@@ -77,3 +78,5 @@ inline constexpr uint32_t kAnew = kFileWrite | kFileCreate | kFileTruncate;
 inline constexpr uint32_t kAtEnd = kFileWrite | kFileCreate | kFileAppend;
 
 } // namespace stride::test
+
+#endif // STRIDE_TESTS_UNIT_SYSTEM_FILE_TASK_HPP

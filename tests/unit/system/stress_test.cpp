@@ -29,7 +29,7 @@ void work(system::FileService &files, uint32_t index, int rounds, int &good) {
     const std::string text = name + " in round " + std::to_string(round);
     const auto out =
         static_cast<uint32_t>(until([&] { return task.open(name.c_str(), kAnew); }).value);
-    for (std::size_t at = 0; at < text.size();)
+    for (size_t at = 0; at < text.size();)
       at += task.write(out, std::string_view(text).substr(at, 3)).value;
     if (until([&] { return task.close(out); }).error != FileError::None)
       return;
@@ -99,7 +99,7 @@ TEST(FileStress, TasksDoNotMeet) {
   {
     system::FileService files(settings, 3, inputs);
     std::vector<std::thread> tasks;
-    std::atomic<std::size_t> finished{0};
+    std::atomic<size_t> finished{0};
     for (uint32_t i = 0; i < good.size(); ++i)
       tasks.emplace_back([&, i] {
         work(files, i, kRounds, good[i]);

@@ -164,7 +164,7 @@ public:
   void beforePous(Ctx &ctx) override {
     const int at = count.load();
     if (at < static_cast<int>(starts.size()))
-      starts[static_cast<std::size_t>(at)] = ctx.cycleStartNs;
+      starts[static_cast<size_t>(at)] = ctx.cycleStartNs;
     count.store(at + 1);
   }
   void afterPous(Ctx &) override {}
@@ -190,10 +190,10 @@ TEST(RealSchedulerTest, ThePacerSaysWhenATaskRuns) {
   EXPECT_FALSE(sync.late);
   constexpr int kWith = 20; // 0.5 ms to 19.5 ms
   for (int i = 0; i < kWith; ++i)
-    EXPECT_EQ(hook.starts[static_cast<std::size_t>(i)], i * kMs + kMs / 2) << i;
+    EXPECT_EQ(hook.starts[static_cast<size_t>(i)], i * kMs + kMs / 2) << i;
   // Without SYNC the task runs 1.5 ms after its last cycle; a slow machine leaves some out.
   const int64_t lastSync = 19 * kMs + kMs / 2;
-  for (std::size_t i = kWith; i < 40; ++i) {
+  for (size_t i = kWith; i < 40; ++i) {
     EXPECT_EQ((hook.starts[i] - lastSync) % (kMs * 3 / 2), 0) << i;
     EXPECT_GT(hook.starts[i], hook.starts[i - 1]) << i;
   }
@@ -286,7 +286,7 @@ TEST(RealSchedulerTest, ACycleNeverStartsForAPlaceOnTheGridThatHasPassed) {
   waitUntil([&] { return tasks.stopped(); });
   scheduler.finish();
   ASSERT_EQ(state.starts.size(), 8U);
-  for (std::size_t i = 0; i < state.starts.size(); ++i) {
+  for (size_t i = 0; i < state.starts.size(); ++i) {
     SCOPED_TRACE(i);
     // A slow machine skips more of them, but counts each.
     EXPECT_EQ(state.starts[i], kInterval * static_cast<int64_t>(i + state.overruns[i]));

@@ -15,9 +15,9 @@ using stride::task::TaskStatistics;
 
 TEST(HistogramTest, EveryDurationIsInItsBucket) {
   std::mt19937_64 random(7);
-  std::size_t last = 0;
+  size_t last = 0;
   for (int64_t ns = 0; ns < 100000; ++ns) {
-    const std::size_t bucket = Histogram::bucketOf(ns);
+    const size_t bucket = Histogram::bucketOf(ns);
     ASSERT_LE(Histogram::lowerEnd(bucket), ns);
     ASSERT_GT(Histogram::lowerEnd(bucket + 1), ns);
     ASSERT_GE(bucket, last);
@@ -25,7 +25,7 @@ TEST(HistogramTest, EveryDurationIsInItsBucket) {
   }
   for (int i = 0; i < 100000; ++i) {
     const auto ns = static_cast<int64_t>(random() >> (24 + random() % 40));
-    const std::size_t bucket = Histogram::bucketOf(ns);
+    const size_t bucket = Histogram::bucketOf(ns);
     ASSERT_LT(bucket, Histogram::kBuckets);
     ASSERT_LE(Histogram::lowerEnd(bucket), ns);
     ASSERT_GT(Histogram::lowerEnd(bucket + 1), ns);
@@ -48,7 +48,7 @@ TEST(HistogramTest, QuantilesAreThoseOfTheSortedValues) {
   }
   std::sort(values.begin(), values.end());
   for (const double share : {0.001, 0.5, 0.9, 0.99, 0.999, 1.0}) {
-    const auto index = static_cast<std::size_t>(share * 20000.0) - 1;
+    const auto index = static_cast<size_t>(share * 20000.0) - 1;
     const auto exact = static_cast<double>(values[index]);
     EXPECT_GE(static_cast<double>(histogram.quantile(share)), exact);
     EXPECT_LE(static_cast<double>(histogram.quantile(share)), exact * 65.0 / 64.0 + 1);

@@ -2,7 +2,7 @@
 
 namespace {
 
-enum Phase : int16_t { idle, positioning, filling, draining, closing, leaving, fault };
+enum Phase : int16_t { Idle, Positioning, Filling, Draining, Closing, Leaving, Fault };
 
 struct Station {
   bool start;
