@@ -176,7 +176,7 @@ std::optional<std::vector<CamPlace>> readPlaces(const SourceFile &file, Diagnost
     if (!places.empty() && place.x <= places.back().x) {
       diagnostics.report(
           Code::CamUnreadable, where, fmt::format("`{}` is no table of a cam", file.name()),
-          fmt::format("the master does not ascend: {} comes behind {}", place.x, places.back().x));
+          fmt::format("the master does not ascend: {} comes after {}", place.x, places.back().x));
       return std::nullopt;
     }
     places.push_back(place);

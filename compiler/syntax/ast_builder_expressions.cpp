@@ -139,7 +139,7 @@ Expr *AstBuilder::prefixed(Context *context, size_t operators, Expr *operand) {
   }
   if (chain.size() > kMaxNesting) {
     diagnostics_.report(Code::TooDeep, span(*chain.front()),
-                        "too many operators in front of one operand",
+                        "too many operators before one operand",
                         "more than " + std::to_string(kMaxNesting));
     return error(span(context));
   }
@@ -322,7 +322,7 @@ Expr *AstBuilder::postfix(Context *context, Expr *base, size_t &at, size_t &next
   while (at <= end) {
     const Token &start = token(at);
     if (++count > kMaxPostfix) {
-      diagnostics_.report(Code::TooDeep, span(start), "too many accesses behind one another",
+      diagnostics_.report(Code::TooDeep, span(start), "too many accesses after one another",
                           "more than " + std::to_string(kMaxPostfix));
       return error(span(context));
     }
@@ -409,7 +409,7 @@ std::span<Argument> AstBuilder::arguments(Context *context, size_t begin) {
       const std::string written(tokenSpelling(token(sign).type));
       Diagnostic &d = diagnostics_.report(
           Code::ArgumentName, span(front),
-          "expected the name of a parameter in front of `" + written + "`", "not a plain name");
+          "expected the name of a parameter before `" + written + "`", "not a plain name");
       if (out.output)
         d.help("a comparison is written `>=`");
       out.value = error(out.span);

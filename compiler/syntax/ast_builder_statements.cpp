@@ -30,7 +30,7 @@ void AstBuilder::declarationInBody(const Name &variable) {
   diagnostics_
       .report(Code::DeclarationInBody, variable.span,
               "`" + std::string(variable.text) + "` is declared among the statements",
-              "variables are declared in front of the first statement")
+              "variables are declared before the first statement")
       .help("move it into VAR … END_VAR");
 }
 

@@ -110,7 +110,7 @@ bool FileParser::resourcePart(std::vector<ast::TaskDecl> &tasks,
       if (!nameNext) {
         const Span with{file_.id(), unit_[i].begin, unit_[i].end};
         diagnostics_
-            .report(Code::ExpectedToken, with, "the name of a task is missing behind `WITH`",
+            .report(Code::ExpectedToken, with, "the name of a task is missing after `WITH`",
                     "which task calls the program?")
             .help(
                 "write `PROGRAM p WITH Task : Type;` with a TASK of this RESOURCE; without a task "

@@ -53,7 +53,7 @@ FileParser::OpenPou *FileParser::ownerOf(const Head &head, OpenPou *enclosing, a
         .report(Code::MemberWithoutOwner, head.span,
                 "this " + std::string(tokenSpelling(head.keyword.type)) + " belongs to no block",
                 "outside of every block")
-        .help("put it into the block or behind it, or write `" +
+        .help("put it into the block or after it, or write `" +
               std::string(tokenSpelling(head.keyword.type)) + " Block." +
               std::string(head.node->name.text) + "`");
     return nullptr;
@@ -242,7 +242,7 @@ void FileParser::property(OpenPou *enclosing) {
         .report(Code::PropertyAccessor, node->name.span,
                 "the property `" + std::string(node->name.text) + "` has neither GET nor SET",
                 "cannot be read or written")
-        .help("write `GET … END_GET` or `SET … END_SET` in front of END_PROPERTY");
+        .help("write `GET … END_GET` or `SET … END_SET` before END_PROPERTY");
   OpenPou *owner = ownerOf(head, enclosing, node);
   if (owner == nullptr)
     return;

@@ -179,7 +179,7 @@ std::string ReportStrategy::foreignHelp(const Token &found, const Token *previou
   case Tok::AMPERSAND:
     return "the address of a variable is `ADR(…)`; `&` stands for AND";
   case Tok::STAR:
-    return "a pointer is followed with `^` behind it";
+    return "a pointer is followed with `^` after it";
   case Tok::MOD:
     return "MOD stands between its operands: `a MOD b`";
   case Tok::EQUAL:
@@ -196,7 +196,7 @@ std::string ReportStrategy::foreignHelp(const Token &found, const Token *previou
     if (is(previous, Tok::INTEGER) && is(next, Tok::INTEGER))
       return "the decimal point is a `.`: `" + quoted(*previous) + "." + quoted(*next) + "`";
     if (is(previous, Tok::IDENT) && is(next, Tok::IDENT))
-      return "a declaration ends with `;`; names of one type stand in front of the colon: `a, b : "
+      return "a declaration ends with `;`; names of one type stand before the colon: `a, b : "
              "INT;`";
     break;
   case Tok::IDENT:

@@ -46,7 +46,7 @@ void attachMembers(std::span<ast::File *const> files, Arena &arena, Diagnostics 
             .report(Code::MemberWithoutOwner, stray.owner.span,
                     "there is no block `" + std::string(stray.owner.text) + "`",
                     "whose " + std::string(tokenSpelling(stray.kind)) + " should this be?")
-            .help("put it behind its block or inside of it");
+            .help("put it after its block or inside of it");
       } else if (stray.kind == Tok::PROPERTY) {
         append(owner->properties, static_cast<ast::PropertyDecl *>(stray.member));
       } else {

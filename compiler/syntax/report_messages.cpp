@@ -162,7 +162,7 @@ void ReportStrategy::reportUnexpected(const std::string &expected) {
   if (token.type == Tok::COLON && next != nullptr && next->type == Tok::EQUAL)
     d.help("the sign for an assignment is written without a space: `:=`");
   else if (token.type == Tok::ARROW)
-    d.help("a comparison is written `>=`; `=>` stands in calls, in front of the variable that "
+    d.help("a comparison is written `>=`; `=>` stands in calls, before the variable that "
            "takes an output");
   else if (token.type == Tok::STRUCT || token.type == Tok::UNION)
     d.help("a variable is declared with the name of a type: write `TYPE Name : " +
@@ -190,14 +190,14 @@ void ReportStrategy::reportMissing(uint16_t wanted) {
     break;
   case Tok::OF:
     after = context->getRuleIndex() == Grammar::RuleCaseStatement ? " after the selector"
-                                                                  : " in front of the element type";
+                                                                  : " before the element type";
     break;
   case Tok::COLON:
     after = context->getRuleIndex() == Grammar::RuleCaseLabels ? " after the CASE label"
                                                                : " between name and type";
     break;
   case Tok::UNTIL:
-    after = " in front of the condition";
+    after = " before the condition";
     break;
   case Tok::SEMICOLON:
     switch (context->getRuleIndex()) {

@@ -177,7 +177,7 @@ antlr4::Token *ReportStrategy::recoverInline(antlr4::Parser *) {
       if (mayReport())
         diagnostics_
             .report(Code::UnexpectedToken, span(current()),
-                    ticked(spelling(current())) + " behind the ELSE of the same IF",
+                    ticked(spelling(current())) + " after the ELSE of the same IF",
                     "expected `END_IF`")
             .label(span(static_cast<const Token &>(*parser_.context()->start)), "of this IF");
       size_t depth = 0;
@@ -245,7 +245,7 @@ antlr4::Token *ReportStrategy::recoverInline(antlr4::Parser *) {
       reportMissingEnd(Tok::END_STRUCT);
       return conjure(Tok::END_STRUCT);
     }
-    reportUnexpected("the name of a member behind the point");
+    reportUnexpected("the name of a member after the point");
     return fail();
   default:
     break;

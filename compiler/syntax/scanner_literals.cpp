@@ -74,7 +74,7 @@ uint16_t Scanner::number(size_t begin, Token &token) {
     token.reported = true;
     ++place_;
     diagnostics_
-        .report(Code::InvalidNumber, span(begin, place_), "a decimal point needs a digit behind it")
+        .report(Code::InvalidNumber, span(begin, place_), "a decimal point needs a digit after it")
         .help("write `" + std::string(spelling.substr(0, 80)) + ".0`");
     return Tok::REAL;
   }
@@ -122,7 +122,7 @@ uint16_t Scanner::prefixedLiteral(size_t begin, Token &token) {
     return Tok::ENUM_LITERAL;
   token.reported = true;
   diagnostics_.report(Code::InvalidTypedLiteral, span(begin, place_),
-                      "there is no value behind `" + std::string(prefix.substr(0, 80)) + "#`",
+                      "there is no value after `" + std::string(prefix.substr(0, 80)) + "#`",
                       "expected a literal or the name of an enumerator here");
   return Tok::TYPED_LITERAL;
 }

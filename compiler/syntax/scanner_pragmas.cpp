@@ -174,7 +174,7 @@ void Scanner::checkElse(std::string_view keyword, Span whole) {
     return;
   diagnostics_
       .report(Code::UnbalancedConditional, whole,
-              "`{" + std::string(keyword) + "}` behind the `{ELSE}` of the same `{IF …}`",
+              "`{" + std::string(keyword) + "}` after the `{ELSE}` of the same `{IF …}`",
               "`{ELSE}` is the last one")
       .label(branches_.back().place, "of this `{IF …}`");
 }
@@ -252,7 +252,7 @@ void Scanner::reportOpenBranches() {
     diagnostics_
         .report(Code::UnbalancedConditional, open.place, "this `{IF …}` has no `{END_IF}`",
                 "the file ends before it is closed")
-        .help("write `{END_IF}` behind the last branch");
+        .help("write `{END_IF}` after the last branch");
   branches_.clear();
 }
 

@@ -155,7 +155,7 @@ bool noBases(const TomlNode &node, const SourceFile &file, Diagnostics &diagnost
     Diagnostic &d =
         diagnostics.report(Code::TomlSyntax, {file.id(), node.span.begin, end},
                            "`" + file.name() + "` is not written as TOML has it",
-                           "TOML reads " + std::string(base) + " and a comment behind it");
+                           "TOML reads " + std::string(base) + " and a comment after it");
     if (!prefix.empty())
       d.help("write `" + std::string(prefix) + std::string(text.substr(digits, end - digits)) +
              "`");

@@ -433,7 +433,7 @@ std::optional<RecordedCycle> Replay::nextCycle() {
   if (!problem_.empty())
     return std::nullopt;
   if (at_ == data_.size() && !ended_)
-    problem_ = fmt::format("'{}' is cut off: the run went on behind the end of the replay", path_);
+    problem_ = fmt::format("'{}' is cut off: the run went on after the end of the replay", path_);
   if (at_ == data_.size())
     return std::nullopt;
   const size_t before = at_;

@@ -239,11 +239,11 @@ private:
       wait.timeNs = time(line);
     else
       wait.condition = condition(line);
-    line.expect(":", does == Does::WaitAt ? "behind the time" : "behind the condition");
+    line.expect(":", does == Does::WaitAt ? "after the time" : "after the condition");
     Step again = wait;
     thread.steps.push_back(std::move(wait));
     if (line.atEnd())
-      throw Mistake{line.at(), "what is to be done is missing behind ':'; write for example "
+      throw Mistake{line.at(), "what is to be done is missing after ':'; write for example "
                                "'NAME := VALUE' in the same line"};
     do {
       action(line, thread);
@@ -292,7 +292,7 @@ private:
           : Mistake{start, fmt::format("'{}' is not understood; {}", path, kForms)};
     }
     if (step.does == Does::Force)
-      line.expect(":=", "behind the name");
+      line.expect(":=", "after the name");
     step.symbol = checked(nameAt, [&] { return app::resolveWritable(*symbols_, path); });
     if (step.does != Does::Release)
       step.value = value(line, step.symbol);

@@ -123,7 +123,7 @@ private:
     if (cam_.start < cam_.end)
       return true;
     diagnostics_
-        .report(Code::CamElements, end->span, "a cam must end behind its start",
+        .report(Code::CamElements, end->span, "a cam must end after its start",
                 fmt::format("not greater than {}", cam_.start))
         .label(start->span, "the start");
     return false;
@@ -190,7 +190,7 @@ private:
     if (start == nullptr || end == nullptr || start->floating < end->floating)
       return true;
     diagnostics_
-        .report(Code::CamElements, end->span, fmt::format("a {} must end behind its start", what),
+        .report(Code::CamElements, end->span, fmt::format("a {} must end after its start", what),
                 "`x_end` is not greater than …")
         .label(start->span, "… `x`");
     return false;

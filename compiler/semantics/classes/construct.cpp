@@ -45,7 +45,7 @@ void checkConstruct(Context &c, VarSymbol *variable) {
     if (named != nullptr && (named->hasArguments || !named->elements.empty()) && !isError(type))
       c.report(Code::WrongConstruct, written->span, typeName(type) + " takes no inputs here",
                "only instances of function blocks do")
-          .help("write the initial value behind the type: `:= …`");
+          .help("write the initial value after the type: `:= …`");
     return;
   }
   PouSymbol *pou = typeAs<PouType>(type)->symbol;
@@ -106,7 +106,7 @@ static void bindConstruct(Context &c, std::span<Argument> arguments, PouSymbol *
         d.help("a similar one exists: `" + std::string(similar) + "`");
       else if (VarSymbol *field = a.name ? findVariable(pou, a.name.id) : nullptr;
                field != nullptr && field->section == Section::Input)
-        d.help("inputs of the block itself are initialised behind the type: `: " + name + " := (" +
+        d.help("inputs of the block itself are initialised after the type: `: " + name + " := (" +
                std::string(a.name.text) + " := …)`");
       if (a.value != nullptr && a.value->kind != ExprKind::Aggregate)
         check(c, a.value);

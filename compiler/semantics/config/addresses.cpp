@@ -105,7 +105,7 @@ bool reserve(Context &c, const DirectAddress &address, uint64_t byte, uint64_t s
   if (size > limit || byte > limit - size) {
     const char *const kKeys[] = {"inputs", "outputs", "memory"};
     auto &d = c.report(Code::AddressBeyond, address.span,
-                       "`" + std::string(address.text) + "` lies behind the end of the " +
+                       "`" + std::string(address.text) + "` lies beyond the end of the " +
                            std::string(areaName(static_cast<Area>(area))) + " area",
                        size <= 1 ? "this is byte " + std::to_string(byte)
                                  : "bytes " + std::to_string(byte) + " to " +

@@ -38,7 +38,7 @@ std::string obstacle(const VarSymbol *v) {
 static void reportConsistent(Context &c, const Attributes &attributes, const std::string &why) {
   if (const Attribute *a = consistentOf(attributes))
     c.report(Code::ConsistentTarget, a->span, "{attribute 'consistent'} does nothing here", why)
-        .help("write it in front of a structure, array or text in VAR_GLOBAL that one task writes "
+        .help("write it before a structure, array or text in VAR_GLOBAL that one task writes "
               "and others read");
 }
 

@@ -58,7 +58,7 @@ std::string_view wordOf(const Stmt *stmt) {
   case StmtKind::Case:
     return "all branches of this leave";
   default:
-    return "nothing comes behind this";
+    return "nothing comes after this";
   }
 }
 
@@ -173,7 +173,7 @@ bool Linter::ifStatement(IfStmt *stmt) {
       break;
     case Truth::Always:
       report(Code::ConstantCondition, branch.condition->span, "this condition is always TRUE",
-             stmt->hasElse || &branch != &stmt->branches.back() ? "the branches behind it never run"
+             stmt->hasElse || &branch != &stmt->branches.back() ? "the branches after it never run"
                                                                 : "its branch always runs");
       break;
     case Truth::Unknown:
@@ -189,7 +189,7 @@ bool Linter::ifStatement(IfStmt *stmt) {
   if (empty)
     report(Code::EmptyBody, wordSpan(stmt, 2), "this IF does nothing",
            "all of its branches are empty")
-        .help("write the statements between THEN and END_IF; a `;` behind THEN is an empty "
+        .help("write the statements between THEN and END_IF; a `;` after THEN is an empty "
               "statement");
   else
     ifChain(stmt);
@@ -284,7 +284,7 @@ bool Linter::whileLoop(WhileStmt *stmt) {
   }
   if (truth == Truth::Unknown && isEmpty(stmt->body) && !loop.calls)
     report(Code::EmptyBody, wordSpan(stmt, 5), "this loop does nothing", "its body is empty")
-        .help("a `;` behind DO is an empty statement; nothing can change the condition while the "
+        .help("a `;` after DO is an empty statement; nothing can change the condition while the "
               "loop waits");
   else if (truth == Truth::Unknown)
     unchangingCondition(stmt->condition, loop, wordSpan(stmt, 5));
@@ -303,7 +303,7 @@ bool Linter::repeatLoop(RepeatStmt *stmt) {
   }
   if (truth == Truth::Unknown && isEmpty(stmt->body) && !loop.calls)
     report(Code::EmptyBody, wordSpan(stmt, 6), "this loop does nothing", "its body is empty")
-        .help("a `;` behind REPEAT is an empty statement; nothing can change the condition while "
+        .help("a `;` after REPEAT is an empty statement; nothing can change the condition while "
               "the loop waits");
   else if (truth == Truth::Unknown)
     unchangingCondition(stmt->until, loop, wordSpan(stmt, 6));
@@ -337,7 +337,7 @@ void Linter::forLoop(ForStmt *stmt) {
   }
   if (isEmpty(stmt->body))
     report(Code::EmptyBody, wordSpan(stmt, 3), "this loop does nothing", "its body is empty")
-        .help("a `;` behind DO is an empty statement");
+        .help("a `;` after DO is an empty statement");
   fors_.push_back(stmt);
   Loop loop;
   loopBody(stmt->body, loop, nullptr, nullptr);

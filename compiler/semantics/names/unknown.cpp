@@ -81,7 +81,7 @@ std::string_view typeOfOtherLanguages(std::string_view lower) {
       {"timer", "TON"},
       {"counter", "CTU"},
       {"datetime", "DT"},
-      {"void", "a FUNCTION without a result has no type behind its name"}};
+      {"void", "a FUNCTION without a result has no type after its name"}};
   const auto at = std::find_if(std::begin(kTypes), std::end(kTypes),
                                [&](const Word &word) { return word.theirs == lower; });
   return at == std::end(kTypes) ? std::string_view() : at->ours;

@@ -107,7 +107,7 @@ void SharingGraph::helpConsistent(Diagnostic &d, const Path &path, Span read) co
   if (v->globals == nullptr || !user || v->location != nullptr || !isPlainData(v->type) ||
       !program_.sharing.writers.contains(v) || !namedReads_.contains({read.file, read.begin}))
     return;
-  d.help("or write `{attribute 'consistent'}` in front of `" + std::string(v->name.text) +
+  d.help("or write `{attribute 'consistent'}` before `" + std::string(v->name.text) +
          "`: other tasks then read the value that it had at the end of a cycle");
 }
 

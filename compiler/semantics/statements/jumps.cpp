@@ -110,7 +110,7 @@ void checkJumps(Context &c, Block body) {
       if (const auto similar = nearest(name.text, candidates); !similar.empty())
         d.help("a similar one exists: `" + std::string(similar) + "`");
       else
-        d.help("write `" + std::string(name.text) + ":` in front of the statement to go on with");
+        d.help("write `" + std::string(name.text) + ":` before the statement to go on with");
       continue;
     }
     const Jumps::Label &label = *it->second;
@@ -124,7 +124,7 @@ void checkJumps(Context &c, Block body) {
              "JMP cannot lead into " + std::string(inLabel->second) + " from outside",
              "the label lies inside of another statement")
         .label(label.stmt->label.span, "this label")
-        .help("move the label in front of the " + std::string(inLabel->second) +
+        .help("move the label before the " + std::string(inLabel->second) +
               ", or the jump into it");
   }
   for (const Jumps::Label &label : found.labels)

@@ -178,7 +178,7 @@ TEST_F(Scripts, MoreMistakes) {
   EXPECT_THAT(mistakes("when : total := 1"), HasSubstr("1:6: the name of a variable is missing"));
   EXPECT_THAT(mistakes("total := 1 2"), HasSubstr("1:12: '2' was not expected there"));
   EXPECT_THAT(mistakes("total :="), HasSubstr("1:9: a value is missing"));
-  EXPECT_THAT(mistakes("force total"), HasSubstr("':=' is missing behind the name"));
+  EXPECT_THAT(mistakes("force total"), HasSubstr("':=' is missing after the name"));
   EXPECT_THAT(mistakes("PLC_PRG.pt := 1"), HasSubstr("name one of its parts"));
   EXPECT_THAT(mistakes("sequence a\ntotal := 1"), HasSubstr("1:1: this sequence has no"));
   EXPECT_THAT(mistakes("end_sequence"), HasSubstr("no sequence begins"));

@@ -30,7 +30,7 @@ TEST(Literal, Reals) {
   EXPECT_EQ(printExpression("REAL#-1.5 + LREAL#2"), "(+ REAL#-1.5 LREAL#2)");
   EXPECT_EQ(printExpression("1e-400"), "0");
   EXPECT_EQ(error("1e400"), "SE0109 1:16 the number `1e400` does not fit into an LREAL\n");
-  EXPECT_EQ(error("5."), "SE0108 1:16 a decimal point needs a digit behind it\n");
+  EXPECT_EQ(error("5."), "SE0108 1:16 a decimal point needs a digit after it\n");
 }
 
 TEST(Literal, Strings) {
@@ -93,7 +93,7 @@ TEST(Literal, DatesAndTimes) {
 
 TEST(Literal, PrefixesAreOnlyPrefixesInFrontOfTheSign) {
   EXPECT_EQ(printExpression("t + d + TIME() + dt.x"), "(+ (+ (+ t d) (call TIME)) (. dt x))");
-  EXPECT_EQ(error("INT#"), "SE0116 1:16 there is no value behind `INT#`\n");
+  EXPECT_EQ(error("INT#"), "SE0116 1:16 there is no value after `INT#`\n");
 }
 
 TEST(Literal, RangesAreNotReals) {

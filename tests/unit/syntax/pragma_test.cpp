@@ -129,8 +129,8 @@ TEST(Pragma, Errors) {
             "SE0224 2:1 `{END_IF}` without an `{IF …}`\n"
             "SE0224 3:1 `{ELSE}` without an `{IF …}`\n"
             "SE0224 4:1 `{ELSIF}` without an `{IF …}`\n"
-            "SE0224 5:25 `{ELSE}` behind the `{ELSE}` of the same `{IF …}`\n"
-            "SE0224 5:32 `{ELSIF}` behind the `{ELSE}` of the same `{IF …}`\n"
+            "SE0224 5:25 `{ELSE}` after the `{ELSE}` of the same `{IF …}`\n"
+            "SE0224 5:32 `{ELSIF}` after the `{ELSE}` of the same `{IF …}`\n"
             "SE0224 7:1 this `{IF …}` has no `{END_IF}`\n");
   EXPECT_EQ(errors("PROGRAM P\n{IF defined (a)}\nx := ;\nEND_PROGRAM\n"),
             "SE0224 2:1 this `{IF …}` has no `{END_IF}`\n");

@@ -61,14 +61,14 @@ TEST(Robustness, NestingLimit) {
   EXPECT_EQ(errors("TYPE a : " + repeat("POINTER TO ", 10'000) + "INT; b : INT; END_TYPE"),
             "SE0114 1:2826 this declaration is nested too deeply\n");
   EXPECT_EQ(bodyErrors("\na" + repeat("^", 10'000) + " := 1;"),
-            "SE0114 2:1026 too many accesses behind one another\n");
+            "SE0114 2:1026 too many accesses after one another\n");
 }
 
 TEST(Robustness, LongExpressions) {
   EXPECT_EQ(bodyErrors("x := " + repeat("a + ", 10'000) + "1;"), "");
   EXPECT_EQ(printExpression(repeat("NOT ", 10'001) + "a"), "(NOT a)");
   EXPECT_EQ(bodyErrors("x := " + repeat("- NOT ", 10'000) + "a;"),
-            "SE0114 1:16 too many operators in front of one operand\n");
+            "SE0114 1:16 too many operators before one operand\n");
   EXPECT_EQ(bodyErrors("\nx := " + repeat("a + ", 100'000) + "1;"),
             "SE0117 2:6 this expression has 100001 operands\n");
 }
@@ -172,7 +172,7 @@ TEST(Robustness, KeywordsInPlaceOfNames) {
   EXPECT_EQ(errors("PROGRAM END_VAR:=i.()"),
             "SE0201 1:9 expected a name, found `END_VAR`\n"
             "SE0207 1:9 `END_VAR` is a keyword, it cannot be a name\n"
-            "SE0201 1:20 expected the name of a member behind the point, found `(`\n");
+            "SE0201 1:20 expected the name of a member after the point, found `(`\n");
   EXPECT_NE(errors("PROGRAM END_VAR:=n.+;"), "");
   EXPECT_NE(errors("PROGRAM END_FOR [].\xC2\xAC+10"), "");
   EXPECT_NE(errors("FUNCTION_BLOCK B IMPLEMENTS IA,\nEND_FUNCTION_BLOCK"), "");

@@ -35,10 +35,10 @@ TEST(SyntaxError, MissingWord) {
   EXPECT_EQ(bodyErrors("\nCASE a\n1: b := 1; END_CASE"),
             "SE0202 2:7 expected `OF` after the selector\n");
   EXPECT_EQ(bodyErrors("\nREPEAT a := 1; END_REPEAT"),
-            "SE0202 2:15 expected `UNTIL` in front of the condition\n");
+            "SE0202 2:15 expected `UNTIL` before the condition\n");
   EXPECT_EQ(bodyErrors("\nIF a DO b := 1; END_IF"), "SE0201 2:6 expected `THEN`, found `DO`\n");
   EXPECT_EQ(errors("VAR_GLOBAL a INT; b : ARRAY[1..2] INT; END_VAR"),
-            "SE0202 1:13 expected `:` between name and type\nSE0202 1:34 expected `OF` in front of "
+            "SE0202 1:13 expected `:` between name and type\nSE0202 1:34 expected `OF` before "
             "the element type\n");
 }
 
@@ -73,7 +73,7 @@ TEST(SyntaxError, WrongEnd) {
             "SE0201 2:1 `ELSE` without a block that it belongs to\nSE0201 2:14 `ELSIF` without a "
             "block that it belongs to\n");
   EXPECT_EQ(bodyErrors("\nIF a THEN b := 1; ELSE c := 1; ELSIF d THEN e := 1; END_IF f := 1;"),
-            "SE0201 2:32 `ELSIF` behind the ELSE of the same IF\n");
+            "SE0201 2:32 `ELSIF` after the ELSE of the same IF\n");
 }
 
 TEST(SyntaxError, ElseIf) {
@@ -124,14 +124,14 @@ TEST(SyntaxError, Expressions) {
             "SE0201 2:7 expected an operator or `;`, found `)`\n");
   EXPECT_EQ(bodyErrors("\nf(a b, c); g(a := ); h(a.b := 1);"),
             "SE0201 2:5 expected an operator, `,` or `)`, found `b`\n"
-            "SE0213 2:24 expected the name of a parameter in front of `:=`\n");
+            "SE0213 2:24 expected the name of a parameter before `:=`\n");
   EXPECT_EQ(bodyErrors("\nIF THEN a := 1; END_IF WHILE DO b := END_WHILE"),
             "SE0201 2:4 expected an expression, found `THEN`\nSE0201 2:30 expected an expression, "
             "found `DO`\n"
             "SE0201 2:38 expected an expression, found `END_WHILE`\n");
   EXPECT_EQ(bodyErrors("\na := b. ; c := d.(e);"),
-            "SE0201 2:9 expected the name of a member behind the point, found `;`\n"
-            "SE0201 2:18 expected the name of a member behind the point, found `(`\n");
+            "SE0201 2:9 expected the name of a member after the point, found `;`\n"
+            "SE0201 2:18 expected the name of a member after the point, found `(`\n");
 }
 
 TEST(SyntaxError, KeywordsAsNames) {
