@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""clang-tidy over the sources that a build compiles, by .clang-tidy.
+
+usage: tidy.py BUILD [--jobs N] [--changed COMMIT]
+
+Takes the commands of BUILD (several sources at once, where the build does so), without the precompiled headers of
+another compiler. With --changed only what is compiled from sources that differ from COMMIT, and for each such header one
+unit that includes it. Each finding is shown once.
+"""
+import argparse
+import concurrent.futures
+import json
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+OURS = tuple(str(ROOT / folder) + "/" for folder in ("compiler", "runtime", "drivers", "tests", "examples"))
+
+
+def without_precompiled(command):
+    """The words of a compiler's command that clang-tidy understands."""
+    words, kept = shlex.split(command), []
+    while words and not words[0].endswith("g++") and "c++" not in words[0]:
+        words.pop(0)  # the compiler's launcher
+    i = 0
+    while i < len(words):
+        if words[i] == "-include" and "cmake_pch" in words[i + 1]:
+            i += 2
+            continue
+        if words[i] != "-Winvalid-pch":
+            kept.append(words[i])
+        i += 1
+    return kept
+
+
+def sources_of(unit):
+    """The sources that a unit consists of: itself, or what a unity source includes."""
+    path = pathlib.Path(unit["file"])
+    if "Unity" not in path.parts:
+        return [str(path)]
+    return re.findall(r'#include "([^"]+)"', path.read_text(encoding="utf-8"))
+
+
+def choose(units, commit):
+    """The units that sources are compiled in that differ from the commit, and one for each such header."""
+    names = subprocess.run(["git", "-C", ROOT, "diff", "--name-only", commit], capture_output=True, text=True,
+                           check=True).stdout.split()
+    changed = {str(ROOT / name) for name in names}
+    chosen = {unit["file"] for unit in units if changed.intersection(sources_of(unit))}
+    for header in (name for name in names if name.endswith((".hpp", ".h", ".def"))):
+        line = f'#include "{header}"'
+        including = [unit["file"] for unit in units if any(
+            line in pathlib.Path(source).read_text(encoding="utf-8") for source in sources_of(unit))]
+        if including and not chosen.intersection(including):
+            chosen.add(including[0])
+    return [unit for unit in units if unit["file"] in chosen]
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("build", type=pathlib.Path)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--changed")
+    options = parser.parse_args()
+    units = json.loads((options.build / "compile_commands.json").read_text(encoding="utf-8"))
+    units = [dict(unit, arguments=without_precompiled(unit["command"])) for unit in units
+             if all(source.startswith(OURS) for source in sources_of(unit))]
+    for unit in units:
+        del unit["command"]
+    chosen = choose(units, options.changed) if options.changed else units
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "compile_commands.json").write_text(json.dumps(units), encoding="utf-8")
+
+        def tidy(unit):
+            return subprocess.run(["clang-tidy", "-p", folder, "--quiet", unit["file"]], capture_output=True, text=True,
+                                  check=False, cwd=unit["directory"]).stdout
+
+        with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+            findings = "".join(pool.map(tidy, chosen))
+    # A header's findings come once with each unit that includes it.
+    blocks = list(dict.fromkeys(re.split(r"^(?=/\S+:\d+:\d+: (?:warning|error): )", findings, flags=re.M)))
+    print("".join(block for block in blocks if block.startswith("/")), end="")
+    count = sum(block.startswith("/") for block in blocks)
+    print(f"{len(chosen)} of {len(units)} units, {count} findings")
+    return 1 if count else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
