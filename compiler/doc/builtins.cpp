@@ -12,16 +12,25 @@ namespace stc::doc {
 namespace {
 
 struct BuiltinText {
-  const char *name;
-  const char *parameters; ///< with the result
-  const char *text;
+  std::string_view name; ///< empty: conversions
+  std::string_view signature;
+  std::string_view text;
 };
 
+constexpr bool isWhole(const BuiltinText &row) {
+  return row.name.empty() == row.text.empty() && row.name.empty() == row.signature.empty();
+}
+
 constexpr BuiltinText kTexts[] = {
-#define STC_BUILTIN_TEXT(name, parameters, text) {name, parameters, text},
-#include "compiler/doc/builtin_texts.def"
-#undef STC_BUILTIN_TEXT
+#define STC_BUILTIN(enumerator, name, signature, takes, check, fold, does, emit, text)             \
+  {name, signature, text},
+#define STC_BUILTIN_ALIAS(enumerator, name, signature, text) {name, signature, text},
+#define STC_BUILTIN_FAMILY(name, signature, text) {name, signature, text},
+#include "compiler/semantics/builtins.def"
 };
+
+static_assert(std::all_of(std::begin(kTexts), std::end(kTexts), isWhole),
+              "what has a name in builtins.def needs a signature and a text");
 
 /// INT_TO_REAL, TO_STRING, TRUNC_INT, BYTE_BCD_TO_USINT …
 std::vector<std::string> conversionNames() {
@@ -56,7 +65,14 @@ Module builtinFunctions() {
       "every type. The result has the type of the arguments marked so.",
       {}};
   for (const BuiltinText &row : kTexts)
-    module.entries.push_back({"Function", row.name, row.parameters, row.text, {}, {}, {}});
+    if (!row.name.empty())
+      module.entries.push_back({"Function",
+                                std::string(row.name),
+                                std::string(row.signature),
+                                std::string(row.text),
+                                {},
+                                {},
+                                {}});
   std::stable_sort(module.entries.begin(), module.entries.end(),
                    [](const Entry &a, const Entry &b) { return a.name < b.name; });
   const auto conversions = std::find_if(module.entries.begin(), module.entries.end(),

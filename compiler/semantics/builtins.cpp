@@ -1,190 +1,71 @@
 #include "compiler/semantics/builtins.hpp"
 
 #include "compiler/semantics/type_table.hpp"
+#include "compiler/syntax/ast.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 
 namespace stc {
 
-const std::vector<std::pair<std::string_view, ast::Builtin>> &builtins() {
-  using enum ast::Builtin;
-  static const std::vector<std::pair<std::string_view, ast::Builtin>> kTable = {
-      {"abs", Abs},
-      {"sqrt", Sqrt},
-      {"ln", Ln},
-      {"log", Log},
-      {"exp", Exp},
-      {"sin", Sin},
-      {"cos", Cos},
-      {"tan", Tan},
-      {"asin", Asin},
-      {"acos", Acos},
-      {"atan", Atan},
-      {"atan2", Atan2},
-      {"expt", Expt},
-      {"trunc", Trunc},
-      {"min", Min},
-      {"max", Max},
-      {"limit", Limit},
-      {"sel", Sel},
-      {"mux", Mux},
-      {"move", Move},
-      {"add", Add},
-      {"sub", Subtract},
-      {"mul", Multiply},
-      {"div", Divide},
-      {"gt", Greater},
-      {"ge", GreaterEqual},
-      {"eq", Equal},
-      {"le", LessEqual},
-      {"lt", Less},
-      {"ne", NotEqual},
-      {"mul_time", MultiplyTime},
-      {"multime", MultiplyTime},
-      {"mul_ltime", MultiplyLtime},
-      {"div_time", DivideTime},
-      {"divtime", DivideTime},
-      {"div_ltime", DivideLtime},
-      {"and", LogicalAnd},
-      {"or", LogicalOr},
-      {"xor", LogicalXor},
-      {"mod", Modulo},
-      {"shl", Shl},
-      {"shr", Shr},
-      {"rol", Rol},
-      {"ror", Ror},
-      {"is_valid", IsValid},
-      {"is_valid_bcd", IsValidBcd},
-      {"to_big_endian", BigEndian},
-      {"from_big_endian", BigEndian},
-      {"to_little_endian", LittleEndian},
-      {"from_little_endian", LittleEndian},
-      {"len", Len},
-      {"left", Left},
-      {"right", Right},
-      {"mid", Mid},
-      {"concat", Concat},
-      {"insert", Insert},
-      {"delete", Delete},
-      {"replace", Replace},
-      {"find", Find},
-      {"wlen", Len},
-      {"wleft", Left},
-      {"wright", Right},
-      {"wmid", Mid},
-      {"wconcat", Concat},
-      {"winsert", Insert},
-      {"wdelete", Delete},
-      {"wreplace", Replace},
-      {"wfind", Find},
-      {"time", Time},
-      {"ltime", Ltime},
-      {"adr", Adr},
-      {"bitadr", Bitadr},
-      {"sizeof", Sizeof},
-      {"__queryinterface", QueryInterface},
-      {"__querypointer", QueryPointer},
-      {"xsizeof", Sizeof},
-      {"ref", Adr},
-      {"__new", NewObject},
-      {"indexof", IndexOf},
-      {"__delete", DeleteObject},
-      {"ini", Ini},
-      {"__isvalidref", IsValidRef},
-      {"lower_bound", LowerBound},
-      {"upper_bound", UpperBound},
-      {"assert_true", AssertTrue},
-      {"assert_false", AssertFalse},
-      {"assert_eq", AssertEq},
-      {"assert_ne", AssertNe},
-      {"assert_gt", AssertGt},
-      {"assert_ge", AssertGe},
-      {"assert_lt", AssertLt},
-      {"assert_le", AssertLe},
-      {"assert_near", AssertNear},
-      {"fail", FailTest},
-  };
-  return kTable;
-}
+using ast::Builtin;
 
 namespace {
 
-/// The formal names of each position, alternatives separated by `|`, positions by blanks; a `#`
-/// stands for a number that counts on, from the one given.
-std::string_view formalNames(ast::Builtin function) {
-  if (isAssertion(function)) {
-    static constexpr std::string_view kNames[] = {"message", "condition message",
-                                                  "actual expected message",
-                                                  "actual expected tolerance message"};
-    return kNames[assertedValues(function)];
-  }
-  using enum ast::Builtin;
-  switch (function) {
-  case Limit:
-    return "mn in mx";
-  case Sel:
-    return "g in0 in1";
-  case Mux:
-    return "k in#0";
-  case Min:
-  case Max:
-  case Add:
-  case Multiply:
-  case Greater:
-  case GreaterEqual:
-  case Equal:
-  case LessEqual:
-  case Less:
-  case LogicalAnd:
-  case LogicalOr:
-  case LogicalXor:
-    return "in#1";
-  case Subtract:
-  case Divide:
-  case NotEqual:
-  case MultiplyTime:
-  case MultiplyLtime:
-  case DivideTime:
-  case DivideLtime:
-  case Modulo:
-  case Expt:
-    return "in1 in2";
-  case Atan2:
-    return "y x";
-  case Shl:
-  case Shr:
-  case Rol:
-  case Ror:
-    return "in n";
-  case Len:
-    return "in|str";
-  case Left:
-  case Right:
-    return "in|str l|size";
-  case Mid:
-  case Delete:
-    return "in|str l|len p|pos";
-  case Concat:
-    return "in#1|str#1";
-  case Find:
-    return "in1|str1 in2|str2";
-  case Insert:
-    return "in1|str1 in2|str2 p|pos";
-  case Replace:
-    return "in1|str1 in2|str2 l p";
-  case LowerBound:
-  case UpperBound:
-    return "arr dim";
-  default:
-    return "in";
-  }
+constexpr size_t kAny = SIZE_MAX;
+
+constexpr auto kRows = [] {
+  using enum BuiltinTakes;
+  using enum BuiltinRow::Effect;
+  return std::to_array<BuiltinRow>({
+#define STC_BUILTIN(enumerator, name, signature, takes, check, fold, does, emit, text)             \
+  {name, takes, does},
+#include "compiler/semantics/builtins.def"
+  });
+}();
+
+constexpr BuiltinName kAllNames[] = {
+#define STC_BUILTIN(enumerator, name, ...) {name, Builtin::enumerator},
+#define STC_BUILTIN_ALIAS(enumerator, name, ...) {name, Builtin::enumerator},
+#include "compiler/semantics/builtins.def"
+};
+
+constexpr size_t kNameCount = static_cast<size_t>(std::count_if(
+    std::begin(kAllNames), std::end(kAllNames), [](const auto &n) { return !n.name.empty(); }));
+
+constexpr auto kNames = [] {
+  std::array<BuiltinName, kNameCount> names{};
+  std::copy_if(std::begin(kAllNames), std::end(kAllNames), names.begin(),
+               [](const BuiltinName &n) { return !n.name.empty(); });
+  return names;
+}();
+
+constexpr bool isEachNameOnce() {
+  for (size_t i = 0; i < kNames.size(); ++i)
+    for (size_t j = 0; j < i; ++j)
+      if (kNames[i].name == kNames[j].name)
+        return false;
+  return true;
 }
+static_assert(isEachNameOnce(), "two rows of builtins.def have the same name");
+
+constexpr bool isCounted(const BuiltinRow &row) {
+  const BuiltinRow::Arguments &takes = row.takes;
+  return takes.least <= takes.most && (takes.most == 0) == takes.formals.empty();
+}
+static_assert(
+    std::all_of(kRows.begin(), kRows.end(), isCounted),
+    "a row of builtins.def needs more arguments than it takes, or takes some without names");
 
 } // namespace
 
+const BuiltinRow &builtinRow(Builtin function) { return kRows[static_cast<size_t>(function)]; }
+
+std::span<const BuiltinName> builtinNames() { return kNames; }
+
 std::optional<size_t> formalPosition(ast::Builtin function, std::string_view lowerName) {
-  std::string_view rest = formalNames(function);
+  std::string_view rest = builtinRow(function).takes.formals;
   for (size_t position = 0; !rest.empty(); ++position) {
     std::string_view names = rest.substr(0, rest.find(' '));
     rest.remove_prefix(std::min(rest.size(), names.size() + 1));
@@ -210,6 +91,16 @@ std::optional<size_t> formalPosition(ast::Builtin function, std::string_view low
     }
   }
   return std::nullopt;
+}
+
+ast::Expr *addressed(const ast::Expr *value) {
+  if (value == nullptr || value->kind != ast::ExprKind::Call)
+    return nullptr;
+  const auto *call = ast::as<ast::CallExpr>(value);
+  return call->resolved == ast::Callee::Builtin && call->builtin == Builtin::Adr &&
+                 !call->arguments.empty()
+             ? call->arguments[0].value
+             : nullptr;
 }
 
 namespace {

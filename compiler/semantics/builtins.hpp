@@ -1,136 +1,98 @@
 #ifndef STRIDE_COMPILER_SEMANTICS_BUILTINS_HPP
 #define STRIDE_COMPILER_SEMANTICS_BUILTINS_HPP
 // Functions that the compiler implements itself (overloaded or operator-like, so that no ST
-// declaration can say them).
+// declaration can say them). All that is known of one is its row in builtins.def.
 
 #include "compiler/semantics/types.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 namespace stc {
 namespace ast {
 
+struct Expr;
+
 /// What codegen must emit. In a CallExpr to a builtin all arguments are positional, complete, and
 /// carry their conversion in Expr::target; the result has Expr::type.
 enum class Builtin : uint16_t {
-  // numeric, one argument: ABS on any number, the others on LREAL or REAL
-  Abs,
-  Sqrt,
-  Ln,
-  Log,
-  Exp,
-  Sin,
-  Cos,
-  Tan,
-  Asin,
-  Acos,
-  Atan,
-  Atan2, ///< (y, x)
-  Expt,  ///< (base, exponent): LREAL result unless REAL
-  Trunc, ///< real → DINT or, as TRUNC_Y, another integer; cut
-  // selection; all value arguments are converted to the result type
-  Min,
-  Max,   ///< two or more arguments of one type
-  Limit, ///< (lower, x, upper)
-  Sel,   ///< (BOOL, if FALSE, if TRUE): both are evaluated
-  Mux,   ///< (index, value0, value1 …)
-  Move,
-  // operators as functions: two arguments or, where `+` and the like can be repeated, more; all but
-  // comparisons of more than two become `move` of the operator on the arguments
-  Add,
-  Subtract,
-  Multiply,
-  Divide,
-  Greater,
-  GreaterEqual,
-  Equal,
-  LessEqual,
-  Less,
-  NotEqual,
-  MultiplyTime, ///< (TIME, number)
-  MultiplyLtime,
-  DivideTime,
-  DivideLtime,
-  LogicalAnd, ///< AND(a, b …), in front of a parenthesis where an operand is expected
-  LogicalOr,
-  LogicalXor,
-  Modulo,
-  // bit strings: (value, count); the result has the value's type
-  Shl,
-  Shr,
-  Rol,
-  Ror,
-  FromBcd,      ///< bit string of decimal digits → the call's type
-  ToBcd,        ///< unsigned integer → the call's type, a bit string of decimal digits
-  IsValidBcd,   ///< bit string → BOOL
-  IsValid,      ///< real → BOOL: neither NaN nor infinite
-  BigEndian,    ///< the bytes in the opposite order
-  LittleEndian, ///< the argument: that is the order that all targets have
-  // strings: on STRING(n) of any n; result type carries the length
-  Len,
-  Left,
-  Right,
-  Mid,
-  Concat,
-  Insert,
-  Delete,
-  Replace,
-  Find,
-  Convert, ///< X_TO_Y, TO_Y: from Expr::type of the argument (target is null) to the call's type
-  Ltime,   ///< LTIME(): the cycle's start as LTIME
-  Time,    ///< TIME(): the cycle's start as TIME
-  Adr,     ///< ADR(x): pointer to the argument's type
-  Bitadr,  ///< BITADR(x): the place of a located variable, always constant
-  Sizeof,  ///< SIZEOF(x), XSIZEOF(x): always a constant
-  QueryInterface, ///< __QUERYINTERFACE(instance or interface, interface variable)
-  QueryPointer,   ///< __QUERYPOINTER(instance or interface, pointer variable)
-  NewObject,      ///< __NEW(type), __NEW(type, count): Expr::type of the first argument is the type
-  DeleteObject,   ///< __DELETE(pointer): the pointer is 0 afterwards
-  Ini,            ///< INI(instance, BOOL): initial values once more; FALSE keeps retained variables
-  IndexOf,        ///< INDEXOF(pou): the POU's number, a constant
-  IsValidRef,     ///< __ISVALIDREF(r): the argument is a REFERENCE
-  LowerBound,
-  UpperBound, ///< (array, dimension): a constant unless the array is ARRAY[*]
-  // unit tests: all give BOOL, whether the demand is met; a message may follow
-  AssertTrue,  ///< (condition)
-  AssertFalse, ///< (condition)
-  AssertEq,    ///< (actual, expected)
-  AssertNe,
-  AssertGt,
-  AssertGe,
-  AssertLt,
-  AssertLe,
-  AssertNear, ///< (actual, expected, tolerance): LREAL
-  FailTest,   ///< () with a message that must be there
+#define STC_BUILTIN(enumerator, ...) enumerator,
+#include "compiler/semantics/builtins.def"
 };
-
-/// ASSERT_TRUE … FAIL
-constexpr bool isAssertion(Builtin function) { return function >= Builtin::AssertTrue; }
-
-/// How many values stand in front of an assertion's message.
-constexpr size_t assertedValues(Builtin function) {
-  using enum Builtin;
-  return function == FailTest                                ? 0
-         : function == AssertTrue || function == AssertFalse ? 1
-         : function == AssertNear                            ? 3
-                                                             : 2;
-}
 
 } // namespace ast
 
-/// All builtins with their lower-case names. Conversions (`INT_TO_REAL`, `TO_INT`) are not in this
-/// table.
-[[nodiscard]] const std::vector<std::pair<std::string_view, ast::Builtin>> &builtins();
+/// What the arguments of a built-in function are, and what becomes of them.
+enum class BuiltinTakes : uint8_t {
+  Values,    ///< they are read
+  Operands,  ///< the same; they are checked as operands of an operator
+  TypeOf,    ///< a type or what has one: it is not evaluated
+  Name,      ///< of a type or POU: it is not evaluated
+  Bounds,    ///< those of an array, which may be an ARRAY[*], and the number of a dimension
+  Reference, ///< the reference itself, not what it refers to
+  Location,  ///< the place of a variable with an address
+  Address,   ///< the address of the first, which may be an ARRAY[*]
+  Instance,  ///< the first is given its initial values
+  Query,     ///< the second refers to the first afterwards
+  Pointer,   ///< to an object that is deleted; it is 0 afterwards
+};
+
+/// What checker, lints and code generation ask of a built-in function.
+struct BuiltinRow {
+  /// What a call does besides giving a value of its arguments.
+  enum Effect : unsigned {
+    kReads = 1,   ///< depends on more than its arguments
+    kRaises = 2,  ///< may raise an exception, whatever its arguments are
+    kCalls = 4,   ///< may change variables
+    kSelects = 8, ///< evaluates one of its arguments after the first only, which that one selects
+    kShiftsOut = 16, ///< loses bits: a count of the width or more leaves none
+    kSaturates = 32, ///< what its type does not hold becomes the nearest that it holds
+  };
+  struct Arguments {
+    BuiltinTakes what;
+    size_t least; ///< how many; SIZE_MAX: without limit
+    size_t most;
+    std::string_view formals; ///< see builtins.def
+  };
+
+  std::string_view name; ///< in capitals; empty: conversions, whose names follow a pattern
+  Arguments takes;
+  unsigned does; ///< of Effect
+
+  /// The arguments are evaluated, and nothing else becomes of them.
+  [[nodiscard]] constexpr bool readsValues() const {
+    return takes.what == BuiltinTakes::Values || takes.what == BuiltinTakes::Operands;
+  }
+  /// A call does nothing but give a value of the values that its arguments have.
+  [[nodiscard]] constexpr bool onlyComputes() const {
+    return readsValues() && (does & kCalls) == 0;
+  }
+};
+[[nodiscard]] const BuiltinRow &builtinRow(ast::Builtin function);
+
+/// How many values stand before the message of ASSERT_TRUE … FAIL.
+[[nodiscard]] inline size_t assertedValues(ast::Builtin assertion) {
+  return builtinRow(assertion).takes.most - 1;
+}
+
+struct BuiltinName {
+  std::string_view name; ///< in capitals
+  ast::Builtin function;
+};
+/// All names of built-in functions, each once. Conversions (`INT_TO_REAL`, `TO_INT`) are not among
+/// them.
+[[nodiscard]] std::span<const BuiltinName> builtinNames();
 
 /// The position of a formal parameter (`MN` of LIMIT is 0), or nothing. Both the standard's names
 /// and those of V2.3's string functions (STR, SIZE, POS …) are known; `lowerName` is in lower case.
 [[nodiscard]] std::optional<size_t> formalPosition(ast::Builtin function,
                                                    std::string_view lowerName);
+
+/// `x` of `ADR(x)`; null: the value is no such call.
+[[nodiscard]] ast::Expr *addressed(const ast::Expr *value);
 
 /// The parts of a conversion's name.
 struct ConversionName {

@@ -19,6 +19,7 @@ struct ConstValue {
   std::string_view text; ///< string, UTF-8
 };
 constexpr ConstValue integerValue(int64_t v) { return {ConstKind::Integer, v, 0, {}}; }
+constexpr ConstValue realValue(double v) { return {ConstKind::Real, 0, v, {}}; }
 
 } // namespace stc
 

@@ -12,7 +12,7 @@ namespace {
 
 using ast::BinaryOp;
 
-ConstValue realValue(double v, const Type *type) {
+ConstValue realOf(double v, const Type *type) {
   return {ConstKind::Real,
           0,
           type->kind == TypeKind::Real ? static_cast<double>(static_cast<float>(v)) : v,
@@ -54,13 +54,13 @@ int64_t roundToInteger(double v, const Type *to) {
 std::optional<ConstValue> foldReal(BinaryOp op, double a, double b, const Type *type) {
   switch (op) {
   case BinaryOp::Add:
-    return realValue(a + b, type);
+    return realOf(a + b, type);
   case BinaryOp::Subtract:
-    return realValue(a - b, type);
+    return realOf(a - b, type);
   case BinaryOp::Multiply:
-    return realValue(a * b, type);
+    return realOf(a * b, type);
   case BinaryOp::Divide:
-    return realValue(a / b, type);
+    return realOf(a / b, type);
   case BinaryOp::Equal:
     return integerValue(a == b);
   case BinaryOp::NotEqual:
@@ -75,9 +75,9 @@ std::optional<ConstValue> foldReal(BinaryOp op, double a, double b, const Type *
     return integerValue(a >= b);
   case BinaryOp::Power: // the run time's own, so that both give the same bits
     if (type->kind == TypeKind::Real)
-      return realValue(
-          static_cast<double>(stride::pow(static_cast<float>(a), static_cast<float>(b))), type);
-    return realValue(stride::pow(a, b), type);
+      return realOf(static_cast<double>(stride::pow(static_cast<float>(a), static_cast<float>(b))),
+                    type);
+    return realOf(stride::pow(a, b), type);
   default:
     return std::nullopt;
   }
@@ -170,10 +170,10 @@ std::optional<ConstValue> convertConstant(const ConstValue &value, const Type *f
     if (isTimeOrDate(f))
       return std::nullopt;
     if (t->kind == TypeKind::Real && value.kind == ConstKind::Integer) // rounded once, not twice
-      return realValue(static_cast<double>(isUnsigned64(f) ? static_cast<float>(bits(value.integer))
-                                                           : static_cast<float>(value.integer)),
-                       t);
-    return realValue(toDouble(value, f), t);
+      return realOf(static_cast<double>(isUnsigned64(f) ? static_cast<float>(bits(value.integer))
+                                                        : static_cast<float>(value.integer)),
+                    t);
+    return realOf(toDouble(value, f), t);
   }
   if (t->kind == TypeKind::Boolean)
     return integerValue(value.kind == ConstKind::Real ? value.real != 0 : value.integer != 0);
@@ -254,7 +254,7 @@ std::optional<ConstValue> foldUnary(ast::UnaryOp op, const ConstValue &value, co
                                                         : wrapTo(type, ~value.integer));
   }
   if (value.kind == ConstKind::Real)
-    return realValue(-value.real, type);
+    return realOf(-value.real, type);
   if (type->kind == TypeKind::AnyInteger && value.integer == std::numeric_limits<int64_t>::min())
     return std::nullopt;
   return integerValue(wrapTo(type, static_cast<int64_t>(0 - bits(value.integer))));

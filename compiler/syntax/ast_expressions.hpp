@@ -151,6 +151,9 @@ enum class BinaryOp : uint8_t {
   AndThen,
   OrElse,
 };
+constexpr bool isComparison(BinaryOp op) {
+  return op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual;
+}
 
 /// After sema both operands are converted (Expr::target) to `operandType`, on which the operator
 /// works.

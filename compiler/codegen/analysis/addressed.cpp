@@ -156,10 +156,13 @@ void Addressed::expression(Expr *expr) {
   });
 }
 
+/// The result of a built-in function may be the address of its first argument.
+static bool keepsAddress(BuiltinTakes takes) {
+  return takes == BuiltinTakes::Address || takes == BuiltinTakes::Query;
+}
+
 void Addressed::call(const CallExpr *e) {
-  if (e->resolved == Callee::Builtin &&
-      (e->builtin == Builtin::Adr || e->builtin == Builtin::QueryInterface ||
-       e->builtin == Builtin::QueryPointer) &&
+  if (e->resolved == Callee::Builtin && keepsAddress(builtinRow(e->builtin).takes.what) &&
       !e->arguments.empty() && e->arguments[0].value != nullptr)
     expose(e->arguments[0].value);
   arguments(e->arguments);

@@ -131,23 +131,21 @@ unsigned Analysis::dividing(const BinaryExpr *e) {
   return isReal(e->operandType) ? own : own | kEffectRaises;
 }
 
+/// Besides those of the arguments.
+static unsigned effectsOf(const BuiltinRow &row) {
+  return ((row.does & BuiltinRow::kReads) != 0 ? kEffectReads : kEffectNone) |
+         ((row.does & BuiltinRow::kRaises) != 0 ? kEffectRaises : kEffectNone) |
+         ((row.does & BuiltinRow::kCalls) != 0 ? kEffectCalls : kEffectNone);
+}
+
 unsigned Analysis::calling(const CallExpr *e) {
   unsigned result = kEffectNone;
   for (const Argument &a : e->arguments) {
     if (a.value != nullptr)
       result |= effects(a.value);
   }
-  if (e->resolved == Callee::Builtin) {
-    if (e->builtin == Builtin::Mux)
-      result |= kEffectRaises;
-    if (e->builtin == Builtin::QueryInterface || e->builtin == Builtin::QueryPointer)
-      result |= kEffectReads | kEffectCalls; // they assign to their second argument
-    if (e->builtin == Builtin::NewObject || e->builtin == Builtin::DeleteObject ||
-        e->builtin == Builtin::Ini || isAssertion(e->builtin))
-      return result | kEffectReads | kEffectRaises | kEffectCalls;
-    return result | (e->builtin == Builtin::Time || e->builtin == Builtin::Ltime ? kEffectReads
-                                                                                 : kEffectNone);
-  }
+  if (e->resolved == Callee::Builtin)
+    return result | effectsOf(builtinRow(e->builtin));
   result |= kEffectReads | kEffectRaises;
   if (e->resolved != Callee::Function || !pure(e->pou))
     result |= kEffectCalls;

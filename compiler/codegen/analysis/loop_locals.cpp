@@ -27,11 +27,10 @@ bool holdsInstance(const Type *type) {
   });
 }
 
-/// Builtins that look at the values of their arguments only.
-bool onlyComputes(Builtin id) {
-  return id <= Builtin::Find || id == Builtin::Convert || id == Builtin::Time ||
-         id == Builtin::Ltime || id == Builtin::Sizeof || id == Builtin::LowerBound ||
-         id == Builtin::UpperBound;
+/// A built-in function that looks at the values of its arguments at most.
+bool onlyLooks(const BuiltinRow &row) {
+  return row.onlyComputes() || row.takes.what == BuiltinTakes::TypeOf ||
+         row.takes.what == BuiltinTakes::Bounds;
 }
 
 /// Calls save the locals: with more of them that costs more than it gains.
@@ -256,11 +255,12 @@ void LoopLocals::call(const CallExpr *e, Facts &facts) {
     return;
   }
   const bool isFunction = e->resolved == Callee::Function && analysis_.pure(e->pou);
-  if (!isFunction && (e->resolved != Callee::Builtin || !onlyComputes(e->builtin))) {
+  const BuiltinRow *builtin = e->resolved == Callee::Builtin ? &builtinRow(e->builtin) : nullptr;
+  if (!isFunction && (builtin == nullptr || !onlyLooks(*builtin))) {
     facts.opaque = true;
     return;
   }
-  if (!isFunction && e->builtin == Builtin::Sizeof)
+  if (builtin != nullptr && builtin->takes.what == BuiltinTakes::TypeOf)
     return;
   arguments(e, facts);
   if (!isFunction)

@@ -12,27 +12,6 @@ using namespace ast;
 
 namespace {
 
-std::string_view demandOf(Builtin id) {
-  return id == Builtin::AssertNe   ? "NotEqual"
-         : id == Builtin::AssertGt ? "Greater"
-         : id == Builtin::AssertGe ? "GreaterEqual"
-         : id == Builtin::AssertLt ? "Less"
-         : id == Builtin::AssertLe ? "LessEqual"
-                                   : "Equal";
-}
-
-/// ASSERT_EQ
-std::string nameOf(Builtin id) {
-  std::string out;
-  for (const auto &[name, builtin] : builtins())
-    if (builtin == id)
-      out = name;
-  std::transform(out.begin(), out.end(), out.begin(), [](char c) {
-    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  });
-  return out;
-}
-
 /// A function that spells the values of an enumeration.
 std::string spellings(const EnumType *enumeration) {
   std::string out = "[](::stride::LINT value__) -> const char * { switch (value__) { ";
@@ -63,12 +42,11 @@ const Type *assertedType(const CallExpr *call) {
   return own->kind == TypeKind::Enumeration ? own : underlying(own);
 }
 
-std::string assertionText(const CallExpr *call, const std::string &context,
+std::string assertionText(const CallExpr *call, std::string_view demand, const std::string &context,
                           const std::vector<std::string> &arguments, const std::string &position) {
-  const Builtin id = call->builtin;
-  const size_t values = assertedValues(id);
+  const size_t values = assertedValues(call->builtin);
   const std::string place =
-      "{\"" + nameOf(id) + "\", " +
+      "{\"" + std::string(builtinRow(call->builtin).name) + "\", " +
       (arguments.size() > values ? "(" + arguments[values] + ").s" : std::string("nullptr")) +
       ", " + position + "})";
   if (values == 0)
@@ -81,8 +59,9 @@ std::string assertionText(const CallExpr *call, const std::string &context,
   const TypeKind shown = enumeration != nullptr ? TypeKind::Lint : type->kind;
   std::string out = std::string("::stride::") + (isString(type) ? "assertTexts" : "assertValues") +
                     "<::stride::Kind::" + std::string(Names::elementary(shown)) + ">(" + context +
-                    ", ::stride::Demand::" + std::string(demandOf(id)) + ", " + arguments[0] + ", ";
-  out += values == 2 ? arguments[1] : id == Builtin::AssertTrue ? "true" : "false";
+                    ", ::stride::Demand::" + std::string(values == 2 ? demand : "Equal") + ", " +
+                    arguments[0] + ", ";
+  out += values == 2 ? arguments[1] : std::string(demand);
   if (!isString(type))
     out += ", " + (enumeration != nullptr ? spellings(enumeration) : std::string("nullptr"));
   return out + ", " + place;

@@ -17,8 +17,10 @@ namespace stc::codegen {
 [[nodiscard]] const Type *assertedType(const ast::CallExpr *call);
 
 /// The C++ of the call, from the C++ of its context, its arguments (texts of any length, all others
-/// converted) and its place (file, line, column).
-[[nodiscard]] std::string assertionText(const ast::CallExpr *call, const std::string &context,
+/// converted) and its place (file, line, column). `demand` is how two values must relate, or what
+/// one must be: `true`, `false`.
+[[nodiscard]] std::string assertionText(const ast::CallExpr *call, std::string_view demand,
+                                        const std::string &context,
                                         const std::vector<std::string> &arguments,
                                         const std::string &position);
 

@@ -12,7 +12,7 @@ namespace {
 /// SEL and MUX compute only the value that is selected, as CODESYS does: `SEL(n = 0, a / n, 0)`.
 /// Where that shows, they are no functions.
 bool selectsOnly(EmitContext &cx, const CallExpr *e) {
-  if (e->builtin != Builtin::Sel && e->builtin != Builtin::Mux)
+  if ((builtinRow(e->builtin).does & BuiltinRow::kSelects) == 0)
     return false;
   unsigned result = kEffectNone;
   for (size_t i = 1; i < e->arguments.size(); ++i)
@@ -24,7 +24,7 @@ void emitSelected(EmitContext &cx, const CallExpr *e) {
   const size_t last = e->arguments.size() - 1;
   const bool number = isInteger(underlying(e->type)) || isReal(underlying(e->type));
   cx.out << "[&]() -> " << cx.type(e->type) << " { switch (";
-  if (e->builtin == Builtin::Mux) {
+  if ((builtinRow(e->builtin).does & BuiltinRow::kRaises) != 0) { // there may be no such argument
     cx.out << "::stride::index<0, " << last - 1 << ">(" << cx.ctx() << ", ";
     emitValue(cx, e->arguments[0].value);
     cx.out << ", ";
@@ -49,9 +49,9 @@ void emitSelected(EmitContext &cx, const CallExpr *e) {
 }
 
 /// The order of the arguments shows if one of them calls what may change the others, or if two of
-/// them may raise an exception.
+/// them may raise an exception. Functions that take other than values order them by themselves.
 bool orderShows(EmitContext &cx, const CallExpr *e) {
-  if (!builtinRow(e->builtin)->ordersArguments)
+  if (!builtinRow(e->builtin).readsValues())
     return false;
   unsigned before = kEffectNone;
   for (const Argument &a : e->arguments) {
@@ -88,8 +88,8 @@ const CallExpr *textCall(const Expr *value) {
   if (value->kind != ExprKind::Call || value->constant != nullptr || !isString(value->type))
     return nullptr;
   const auto *call = as<CallExpr>(value);
-  return call->resolved == Callee::Builtin && builtinRow(call->builtin) != nullptr &&
-                 builtinRow(call->builtin)->emit == emitTextFunction
+  return call->resolved == Callee::Builtin &&
+                 builtinEmission(call->builtin).emit == emitTextFunction
              ? call
              : nullptr;
 }
@@ -101,15 +101,15 @@ void emitBuiltin(EmitContext &cx, const CallExpr *e) {
     emitSelected(cx, e);
     return;
   }
-  const BuiltinRow &row = *builtinRow(e->builtin);
+  const auto &[emit, argument] = builtinEmission(e->builtin);
   if (!orderShows(cx, e)) {
-    row.emit(cx, {e, {}}, row.name);
+    emit(cx, {e, {}}, argument);
     return;
   }
   cx.out << "[&] { ";
   const std::vector<std::string> names = takeValues(cx, e);
   cx.out << "return ";
-  row.emit(cx, {e, names}, row.name);
+  emit(cx, {e, names}, argument);
   cx.out << "; }()";
 }
 
@@ -122,7 +122,7 @@ bool emitStringInto(EmitContext &cx, std::string_view target, const Expr *value)
   cx.out << (ordered ? "{ " : "");
   if (ordered)
     names = takeValues(cx, call);
-  cx.out << "::stride::" << builtinRow(call->builtin)->name << '<'
+  cx.out << "::stride::" << builtinEmission(call->builtin).argument << '<'
          << typeAs<StringType>(value->type)->length << ">(" << target;
   for (size_t i = 0; i < call->arguments.size(); ++i) {
     cx.out << ", ";

@@ -10,8 +10,6 @@
 #include "compiler/semantics/alignment.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 
-#include <array>
-
 namespace stc::codegen {
 
 using namespace ast;
@@ -171,7 +169,7 @@ void emitIsValidRef(EmitContext &cx, const BuiltinCall &call, std::string_view) 
   }
 }
 
-void emitAssertion(EmitContext &cx, const BuiltinCall &call, std::string_view) {
+void emitAssertion(EmitContext &cx, const BuiltinCall &call, std::string_view demand) {
   const CallExpr *e = call.expr;
   cx.includes.assertion();
   const Type *asserted = assertedType(e);
@@ -184,7 +182,7 @@ void emitAssertion(EmitContext &cx, const BuiltinCall &call, std::string_view) {
       else
         emitBuiltinArgument(cx, call, i);
     }));
-  cx.out << assertionText(e, std::string(cx.ctx()), arguments,
+  cx.out << assertionText(e, demand, std::string(cx.ctx()), arguments,
                           cx.text([&] { cx.position(e->span); }));
 }
 
@@ -194,84 +192,17 @@ void emitCall(EmitContext &cx, const BuiltinCall &call, std::string_view) {
   emit(cx, call.expr);
 }
 
-constexpr BuiltinRow kRows[] = {
-    {Builtin::Abs, emitOfResult, "abs"},
-    {Builtin::Sqrt, emitMath, "sqrt"},
-    {Builtin::Ln, emitMath, "ln"},
-    {Builtin::Log, emitMath, "log10"},
-    {Builtin::Exp, emitMath, "exp"},
-    {Builtin::Sin, emitMath, "sin"},
-    {Builtin::Cos, emitMath, "cos"},
-    {Builtin::Tan, emitMath, "tan"},
-    {Builtin::Asin, emitMath, "asin"},
-    {Builtin::Acos, emitMath, "acos"},
-    {Builtin::Atan, emitMath, "atan"},
-    {Builtin::Atan2, emitMath, "atan2"},
-    {Builtin::Expt, emitMath, "pow"},
-    {Builtin::Trunc, emitOfResult, "truncate"},
-    {Builtin::Min, emitExtreme, "min"},
-    {Builtin::Max, emitExtreme, "max"},
-    {Builtin::Limit, emitLimit, "limit"},
-    {Builtin::Sel, emitOfResult, "sel"},
-    {Builtin::Mux, emitMux},
-    {Builtin::Move, emitItself},
-    {Builtin::Greater, emitInOrder, ">"},
-    {Builtin::GreaterEqual, emitInOrder, ">="},
-    {Builtin::Equal, emitInOrder, "=="},
-    {Builtin::LessEqual, emitInOrder, "<="},
-    {Builtin::Less, emitInOrder, "<"},
-    {Builtin::Shl, emitOfResult, "shl"},
-    {Builtin::Shr, emitOfResult, "shr"},
-    {Builtin::Rol, emitOfResult, "rol"},
-    {Builtin::Ror, emitOfResult, "ror"},
-    {Builtin::FromBcd, emitOfResult, "fromBcd"},
-    {Builtin::ToBcd, emitOfResult, "toBcd"},
-    {Builtin::IsValidBcd, emitOfResult, "isValidBcd"},
-    {Builtin::IsValid, emitOfResult, "isValid"},
-    {Builtin::BigEndian, emitOfResult, "swapBytes"},
-    {Builtin::LittleEndian, emitItself},
-    {Builtin::Len, emitTextFunction, "len"},
-    {Builtin::Left, emitTextFunction, "left"},
-    {Builtin::Right, emitTextFunction, "right"},
-    {Builtin::Mid, emitTextFunction, "mid"},
-    {Builtin::Concat, emitTextFunction, "concat"},
-    {Builtin::Insert, emitTextFunction, "insert"},
-    {Builtin::Delete, emitTextFunction, "remove"},
-    {Builtin::Replace, emitTextFunction, "replace"},
-    {Builtin::Find, emitTextFunction, "find"},
-    {Builtin::Convert, emitConversion},
-    {Builtin::Ltime, emitLongTime},
-    {Builtin::Time, emitTime},
-    {Builtin::Adr, emitAdr, {}, false},
-    {Builtin::QueryInterface, emitCall<emitQuery>, {}, false},
-    {Builtin::QueryPointer, emitCall<emitQuery>, {}, false},
-    {Builtin::NewObject, emitCall<emitNew>, {}, false},
-    {Builtin::Ini, emitCall<emitReinitialise>, {}, false},
-    {Builtin::IsValidRef, emitIsValidRef, {}, false},
-    {Builtin::LowerBound, emitBound, "lo", false},
-    {Builtin::UpperBound, emitBound, "hi", false},
-    {Builtin::AssertTrue, emitAssertion},
-    {Builtin::AssertFalse, emitAssertion},
-    {Builtin::AssertEq, emitAssertion},
-    {Builtin::AssertNe, emitAssertion},
-    {Builtin::AssertGt, emitAssertion},
-    {Builtin::AssertGe, emitAssertion},
-    {Builtin::AssertLt, emitAssertion},
-    {Builtin::AssertLe, emitAssertion},
-    {Builtin::AssertNear, emitAssertion},
-    {Builtin::FailTest, emitAssertion},
+/// By the number of the function.
+constexpr BuiltinEmission kEmissions[] = {
+#define STC_BUILTIN(enumerator, name, signature, takes, check, fold, does, emit, text) emit,
+#include "compiler/semantics/builtins.def"
 };
-
-constexpr auto kById = [] {
-  std::array<const BuiltinRow *, static_cast<size_t>(Builtin::FailTest) + 1> rows{};
-  for (const BuiltinRow &row : kRows)
-    rows[static_cast<size_t>(row.id)] = &row;
-  return rows;
-}();
 
 } // namespace
 
-const BuiltinRow *builtinRow(Builtin id) { return kById[static_cast<size_t>(id)]; }
+const BuiltinEmission &builtinEmission(Builtin function) {
+  return kEmissions[static_cast<size_t>(function)];
+}
 
 void emitBuiltinArgument(EmitContext &cx, const BuiltinCall &call, size_t i) {
   if (call.names.empty())

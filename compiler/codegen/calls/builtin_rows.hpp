@@ -1,6 +1,6 @@
 #ifndef STRIDE_COMPILER_CODEGEN_CALLS_BUILTIN_ROWS_HPP
 #define STRIDE_COMPILER_CODEGEN_CALLS_BUILTIN_ROWS_HPP
-// How each built-in function is written: one row for each.
+// How each built-in function is written: the column EMIT of builtins.def.
 
 #include "compiler/codegen/context/context.hpp"
 
@@ -19,16 +19,12 @@ struct BuiltinCall {
   }
 };
 
-struct BuiltinRow {
-  ast::Builtin id;
-  void (*emit)(EmitContext &cx, const BuiltinCall &call, std::string_view name);
-  std::string_view name = {}; ///< the runtime's
-  /// It is written with what its arguments are, or takes them in their order by itself.
-  bool ordersArguments = true;
+struct BuiltinEmission {
+  /// Null: the checker replaces the function by others, or by a constant.
+  void (*emit)(EmitContext &cx, const BuiltinCall &call, std::string_view argument) = nullptr;
+  std::string_view argument = {}; ///< mostly the name of the runtime's function
 };
-
-/// Null: a function that the checker replaces by others, or by a constant.
-[[nodiscard]] const BuiltinRow *builtinRow(ast::Builtin id);
+[[nodiscard]] const BuiltinEmission &builtinEmission(ast::Builtin function);
 
 /// An argument's value, or what stands for it.
 void emitBuiltinArgument(EmitContext &cx, const BuiltinCall &call, size_t i);

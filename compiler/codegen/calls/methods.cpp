@@ -186,7 +186,7 @@ void emitQuery(EmitContext &cx, const CallExpr *e) {
   const Expr *target = e->arguments[1].value;
   const std::string from = cx.temporary("from");
   const std::string has = cx.temporary("has");
-  const bool toPointer = e->builtin == Builtin::QueryPointer;
+  const bool toPointer = target->type->kind == TypeKind::Pointer;
   const Type *wanted = toPointer ? typeAs<PointerType>(target->type)->pointee : target->type;
   const PouSymbol *pou = typeAs<PouType>(wanted)->symbol;
   cx.includes.symbol(pou);

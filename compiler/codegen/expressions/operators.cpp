@@ -35,8 +35,6 @@ struct Infix {
 /// g++ takes time that grows with the square of a sum's length; longer ones are computed in parts.
 constexpr size_t kMaxTerms = 64;
 
-bool isComparison(BinaryOp op) { return op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual; }
-
 std::string_view comparison(BinaryOp op) {
   switch (op) {
   case BinaryOp::Equal:

@@ -153,13 +153,10 @@ bool isPlainField(const VarSymbol *v) {
 
 /// The global variable whose address the value is, or null.
 const VarSymbol *pointedGlobal(const Expr *value, const Type *pointer) {
-  if (value == nullptr || value->kind != ExprKind::Call || value->constant != nullptr)
+  const Expr *place = addressed(value);
+  if (place == nullptr || value->constant != nullptr || pointer->kind != TypeKind::Pointer)
     return nullptr;
-  const auto *call = as<CallExpr>(value);
-  if (call->resolved != Callee::Builtin || call->builtin != Builtin::Adr ||
-      call->arguments.size() != 1 || pointer->kind != TypeKind::Pointer)
-    return nullptr;
-  const VarSymbol *v = namedVariable(call->arguments[0].value);
+  const VarSymbol *v = namedVariable(place);
   const bool plain = v != nullptr && v->globals != nullptr && isPlainField(v) && !isIndirect(v) &&
                      !v->isBit && !v->isConsistent;
   return plain && v->type == typeAs<PointerType>(pointer)->pointee ? v : nullptr;

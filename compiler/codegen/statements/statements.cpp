@@ -70,15 +70,13 @@ void emitCallStatement(EmitContext &cx, const CallStmt *s) {
   case Callee::Program:
     emitInstanceCall(cx, call, s->span);
     break;
-  case Callee::Builtin:
-    if (call->builtin == Builtin::DeleteObject) {
-      emitDelete(cx, call);
-      break;
-    }
-    cx.out << "static_cast<void>(";
+  case Callee::Builtin: {
+    const bool gives = call->type->kind != TypeKind::None;
+    cx.out << (gives ? "static_cast<void>(" : "");
     emitBuiltin(cx, call);
-    cx.out << ");";
+    cx.out << (gives ? ");" : "");
     break;
+  }
   case Callee::Unresolved:
     break;
   }

@@ -18,7 +18,8 @@ using namespace ast;
 
 static const Type *commonBeforeWidening(const CallExpr *expr, size_t first);
 
-bool requireCount(Context &c, CallExpr *expr, size_t least, size_t most) {
+bool requireCount(Context &c, CallExpr *expr) {
+  const auto [what, least, most, formals] = builtinRow(expr->builtin).takes;
   const size_t count = expr->arguments.size();
   if (count >= least && count <= most)
     return true;
@@ -43,74 +44,86 @@ const Type *argumentError(Context &c, CallExpr *expr, size_t index, std::string_
   return elementaryType(TypeKind::Error);
 }
 
-const Type *commonOfArguments(Context &c, CallExpr *expr, size_t first) {
-  // All one type, else the common number type; untyped constants follow the others.
+/// The argument that the others follow: not an untyped constant, if there is another.
+static Expr *leadOf(const CallExpr *expr, size_t first) {
   Expr *lead = nullptr;
   for (size_t i = first; i < expr->arguments.size(); ++i) {
-    Expr *value = expr->arguments[i].value;
+    Expr *value = valueOf(expr, i);
     if (isError(value->type))
-      return value->type;
+      return value;
     const bool character = lead != nullptr && isCharacter(value->type) &&
                            lead->constant != nullptr && isString(lead->type);
     if (lead == nullptr || character || (isUntyped(lead->type) && !isUntyped(value->type)))
       lead = value;
   }
-  const Type *common = lead->type;
-  if (isUntyped(common)) {
-    const bool real =
-        std::any_of(expr->arguments.begin() + static_cast<ptrdiff_t>(first), expr->arguments.end(),
-                    [](const Argument &a) { return a.value->type->kind == TypeKind::AnyReal; });
-    common = elementaryType(real ? TypeKind::Lreal : TypeKind::Dint);
-    if (!real) {
-      for (size_t i = first; i < expr->arguments.size(); ++i) {
-        if (const Type *both =
-                commonNumber(common, smallestInteger(expr->arguments[i].value->constant->integer)))
-          common = both;
-      }
-    }
-    // `i := SEL(b, 1, 2)`: the result is as narrow as its constants.
-    expr->common = real ? elementaryType(TypeKind::Real) : nullptr;
-    for (size_t i = first; i < expr->arguments.size() && !real; ++i) {
-      const Type *own = smallestInteger(expr->arguments[i].value->constant->integer);
-      expr->common = expr->common == nullptr ? own : commonNumber(expr->common, own);
+  return lead;
+}
+
+/// The type of a call whose arguments are untyped constants. `i := SEL(b, 1, 2)`: the result is as
+/// narrow as they are.
+static const Type *typeOfUntyped(CallExpr *expr, size_t first) {
+  for (size_t i = first; i < expr->arguments.size(); ++i) {
+    if (valueOf(expr, i)->type->kind == TypeKind::AnyReal) {
+      expr->common = elementaryType(TypeKind::Real);
+      return elementaryType(TypeKind::Lreal);
     }
   }
+  const Type *common = elementaryType(TypeKind::Dint);
+  expr->common = nullptr;
   for (size_t i = first; i < expr->arguments.size(); ++i) {
-    Expr *value = expr->arguments[i].value;
-    const Type *t = value->type;
-    if (t == common)
-      continue;
-    if (isNumber(t) && isNumber(common)) {
-      const Type *own = t;
-      if (isUntyped(t))
-        own = value->constant != nullptr && constantFits(*value->constant, t, common) ? common
-              : t->kind == TypeKind::AnyReal ? elementaryType(TypeKind::Lreal)
-                                             : smallestInteger(value->constant->integer);
-      const Type *both = commonNumber(common, own);
-      if (both == nullptr)
-        return argumentError(c, expr, i, typeName(common));
+    const Type *own = smallestInteger(valueOf(expr, i)->constant->integer);
+    if (const Type *both = commonNumber(common, own))
       common = both;
-    } else if (isString(t) && isString(common) && t->kind == common->kind) {
-      if (typeAs<StringType>(t)->length > typeAs<StringType>(common)->length)
-        common = t;
-    } else if (isTimeOrDate(t) && isTimeOrDate(common) &&
-               (classify(t, common) == Conversion::Free ||
-                classify(common, t) == Conversion::Free)) {
-      if (classify(common, t) == Conversion::Free)
-        common = t; // TIME with LTIME
-    } else if (isCharacter(common) && value->constant != nullptr &&
-               constantFits(*value->constant, t, common)) {
-      continue;
-    } else if (common->kind == TypeKind::Boolean && value->constant != nullptr &&
-               constantFits(*value->constant, t, common)) {
-      continue;
-    } else {
+    expr->common = expr->common == nullptr ? own : commonNumber(expr->common, own);
+  }
+  return common;
+}
+
+/// The type of both, numbers; null: there is none.
+static const Type *commonWithNumber(const Type *common, const Expr *value) {
+  const Type *own = value->type;
+  if (isUntyped(own))
+    own = value->constant != nullptr && constantFits(*value->constant, own, common) ? common
+          : own->kind == TypeKind::AnyReal ? elementaryType(TypeKind::Lreal)
+                                           : smallestInteger(value->constant->integer);
+  return commonNumber(common, own);
+}
+
+/// The type that `common` becomes with one more argument; null: they have none in common.
+static const Type *commonWith(const Type *common, const Expr *value) {
+  const Type *t = value->type;
+  if (t == common)
+    return common;
+  if (isNumber(t) && isNumber(common))
+    return commonWithNumber(common, value);
+  if (isString(t) && isString(common) && t->kind == common->kind)
+    return typeAs<StringType>(t)->length > typeAs<StringType>(common)->length ? t : common;
+  if (isTimeOrDate(t) && isTimeOrDate(common)) {
+    if (classify(common, t) == Conversion::Free)
+      return t; // TIME with LTIME
+    if (classify(t, common) == Conversion::Free)
+      return common;
+  }
+  const bool takesConstants = isCharacter(common) || common->kind == TypeKind::Boolean;
+  return takesConstants && value->constant != nullptr && constantFits(*value->constant, t, common)
+             ? common
+             : nullptr;
+}
+
+const Type *commonOfArguments(Context &c, CallExpr *expr, size_t first) {
+  const Type *lead = leadOf(expr, first)->type;
+  if (isError(lead))
+    return lead;
+  const Type *common = isUntyped(lead) ? typeOfUntyped(expr, first) : lead;
+  for (size_t i = first; i < expr->arguments.size(); ++i) {
+    const Type *both = commonWith(common, valueOf(expr, i));
+    if (both == nullptr)
       return argumentError(c, expr, i, typeName(common));
-    }
+    common = both;
   }
   for (size_t i = first; i < expr->arguments.size(); ++i)
-    setTarget(expr->arguments[i].value, common);
-  if (isInteger(common) && !isUntyped(lead->type))
+    setTarget(valueOf(expr, i), common);
+  if (isInteger(common) && !isUntyped(lead))
     expr->common = commonBeforeWidening(expr, first);
   return common;
 }

@@ -23,8 +23,6 @@ const Type *checkAssertion(Context &c, CallExpr *expr) {
   const Type *boolean = elementaryType(TypeKind::Boolean);
   const Type *bad = elementaryType(TypeKind::Error);
   const size_t values = assertedValues(expr->builtin);
-  if (!requireCount(c, expr, values == 0 ? 1 : values, values + 1))
-    return bad;
   if (expr->arguments.size() > values && kindOf(expr, values)->kind != TypeKind::String)
     return argumentError(c, expr, values, "a STRING");
   if (values == 1) {

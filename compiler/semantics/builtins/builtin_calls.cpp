@@ -1,4 +1,5 @@
-// Calls of functions that the compiler implements itself: a row says who checks one.
+// Calls of functions that the compiler implements itself: the rows of builtins.def say who checks
+// one.
 
 #include "compiler/semantics/builtins/builtin_calls.hpp"
 
@@ -8,7 +9,7 @@
 #include "compiler/semantics/types/resolve.hpp"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 
 namespace stc::sema {
 
@@ -16,142 +17,54 @@ using namespace ast;
 
 namespace {
 
-/// What the arguments of a built-in function may be, before its own check.
-enum class BuiltinTakes : uint8_t {
-  Values,
-  OpenArrays, ///< also an ARRAY[*] as a whole
-  Unchecked,  ///< its check looks at them itself: they may be types
+using Check = const Type *(*)(Context &c, CallExpr *expr);
+
+/// By the number of the function; null: it is not called by a name of its own.
+constexpr Check kChecks[] = {
+#define STC_BUILTIN(enumerator, name, signature, takes, check, ...) check,
+#include "compiler/semantics/builtins.def"
 };
 
-constexpr size_t kAny = SIZE_MAX;
-constexpr size_t kOwn = SIZE_MAX; ///< as the least number: its check counts
-
-struct BuiltinRow {
-  Builtin function;
-  const Type *(*check)(Context &c, CallExpr *expr); ///< null: not called by a name of its own
-  size_t least = kOwn;                              ///< number of arguments
-  size_t most = kOwn;
-  BuiltinTakes takes = BuiltinTakes::Values;
+constexpr bool kHasName[] = {
+#define STC_BUILTIN(enumerator, name, ...) !std::string_view(name).empty(),
+#include "compiler/semantics/builtins.def"
 };
+static_assert(std::equal(std::begin(kChecks), std::end(kChecks), std::begin(kHasName),
+                         [](Check check, bool hasName) { return (check != nullptr) == hasName; }),
+              "what has a name in builtins.def needs a CHECK, and nothing else does");
 
-constexpr auto kRows = [] {
-  using enum Builtin;
-  return std::to_array<BuiltinRow>({
-      {Abs, checkAbs, 1, 1},
-      {Sqrt, checkRealFunction, 1, 1},
-      {Ln, checkRealFunction, 1, 1},
-      {Log, checkRealFunction, 1, 1},
-      {Exp, checkRealFunction, 1, 1},
-      {Sin, checkRealFunction, 1, 1},
-      {Cos, checkRealFunction, 1, 1},
-      {Tan, checkRealFunction, 1, 1},
-      {Asin, checkRealFunction, 1, 1},
-      {Acos, checkRealFunction, 1, 1},
-      {Atan, checkRealFunction, 1, 1},
-      {Atan2, checkPowerFunction, 2, 2},
-      {Expt, checkPowerFunction, 2, 2},
-      {Trunc, checkTrunc, 1, 1},
-      {Min, checkExtreme, 2, kAny},
-      {Max, checkExtreme, 2, kAny},
-      {Limit, checkExtreme, 3, 3},
-      {Sel, checkSel, 3, 3},
-      {Mux, checkMux, 2, kAny},
-      {Move, checkMove, 1, 1},
-      {Add, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {Subtract, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {Multiply, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {Divide, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {Greater, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {GreaterEqual, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {Equal, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {LessEqual, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {Less, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {NotEqual, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {MultiplyTime, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {MultiplyLtime, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {DivideTime, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {DivideLtime, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {LogicalAnd, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {LogicalOr, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {LogicalXor, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {Modulo, checkOperatorCall, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {Shl, checkShift, 2, 2},
-      {Shr, checkShift, 2, 2},
-      {Rol, checkShift, 2, 2},
-      {Ror, checkShift, 2, 2},
-      {FromBcd, nullptr},
-      {ToBcd, nullptr},
-      {IsValidBcd, checkPatternCall},
-      {IsValid, checkPatternCall},
-      {BigEndian, checkPatternCall},
-      {LittleEndian, checkPatternCall},
-      {Len, checkStringBuiltin},
-      {Left, checkStringBuiltin},
-      {Right, checkStringBuiltin},
-      {Mid, checkStringBuiltin},
-      {Concat, checkStringBuiltin},
-      {Insert, checkStringBuiltin},
-      {Delete, checkStringBuiltin},
-      {Replace, checkStringBuiltin},
-      {Find, checkStringBuiltin},
-      {Convert, nullptr},
-      {Ltime, checkClock, 0, 0},
-      {Time, checkClock, 0, 0},
-      {Adr, checkAdr, 1, 1, BuiltinTakes::OpenArrays},
-      {Bitadr, checkBitAddress},
-      {Sizeof, checkSizeof, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {QueryInterface, checkQuery},
-      {QueryPointer, checkQuery},
-      {NewObject, checkNew, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {DeleteObject, checkDelete},
-      {Ini, checkIni},
-      {IndexOf, checkIndexOf, kOwn, kOwn, BuiltinTakes::Unchecked},
-      {IsValidRef, checkIsValidRef},
-      {LowerBound, checkBound, kOwn, kOwn, BuiltinTakes::OpenArrays},
-      {UpperBound, checkBound, kOwn, kOwn, BuiltinTakes::OpenArrays},
-      {AssertTrue, checkAssertion},
-      {AssertFalse, checkAssertion},
-      {AssertEq, checkAssertion},
-      {AssertNe, checkAssertion},
-      {AssertGt, checkAssertion},
-      {AssertGe, checkAssertion},
-      {AssertLt, checkAssertion},
-      {AssertLe, checkAssertion},
-      {AssertNear, checkAssertion},
-      {FailTest, checkAssertion},
-  });
-}();
-
-/// Each function has its row, in the order of the enumeration.
-constexpr bool isComplete() {
-  for (size_t i = 0; i < kRows.size(); ++i)
-    if (static_cast<size_t>(kRows[i].function) != i)
-      return false;
-  return kRows.size() == static_cast<size_t>(Builtin::FailTest) + 1;
+/// The arguments may be types, or are checked otherwise than others: by the function's own check.
+bool areOwnMatter(BuiltinTakes takes) {
+  return takes == BuiltinTakes::Operands || takes == BuiltinTakes::TypeOf ||
+         takes == BuiltinTakes::Name;
 }
-static_assert(isComplete());
+
+/// ARRAY[*] as a whole is something that the function takes.
+bool takesOpenArrays(BuiltinTakes takes) {
+  return takes == BuiltinTakes::Bounds || takes == BuiltinTakes::Address;
+}
 
 } // namespace
 
 const Type *checkBuiltin(Context &c, CallExpr *expr, const Type *expected) {
   const Type *bad = elementaryType(TypeKind::Error);
-  const BuiltinRow &row = kRows[static_cast<size_t>(expr->builtin)];
-  bool failed = !placeArguments(c, expr);
-  if (row.takes != BuiltinTakes::Unchecked) {
-    for (const Argument &a : expr->arguments) {
-      if (a.value != nullptr && isError(check(c, a.value, expected)))
-        failed = true;
-    }
+  const BuiltinTakes takes = builtinRow(expr->builtin).takes.what;
+  const Check checkCall = kChecks[static_cast<size_t>(expr->builtin)];
+  const bool placed = placeArguments(c, expr);
+  if (areOwnMatter(takes))
+    return placed ? checkCall(c, expr) : bad;
+  bool failed = !placed;
+  for (const Argument &a : expr->arguments) {
+    if (a.value != nullptr && isError(check(c, a.value, expected)))
+      failed = true;
   }
-  if (failed || row.check == nullptr)
+  if (failed)
     return bad;
-  if (row.takes == BuiltinTakes::Values &&
+  if (!takesOpenArrays(takes) &&
       std::any_of(expr->arguments.begin(), expr->arguments.end(),
                   [&](const Argument &a) { return refuseOpenArray(c, a.value, "use"); }))
     return bad;
-  if (row.least != kOwn && !requireCount(c, expr, row.least, row.most))
-    return bad;
-  return row.check(c, expr);
+  return requireCount(c, expr) ? checkCall(c, expr) : bad;
 }
 
 } // namespace stc::sema

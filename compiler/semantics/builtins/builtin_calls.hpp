@@ -11,8 +11,8 @@ namespace stc::sema {
 const Type *checkBuiltin(Context &c, ast::CallExpr *expr, const Type *expected);
 /// The same of X_TO_Y and its like.
 const Type *checkConversionCall(Context &c, ast::CallExpr *expr, const ConversionName &conversion);
-/// Reports another number of arguments than that; SIZE_MAX: no limit.
-bool requireCount(Context &c, ast::CallExpr *expr, size_t least, size_t most);
+/// Reports another number of arguments than the function takes; false then.
+bool requireCount(Context &c, ast::CallExpr *expr);
 /// Reports an argument that is not what is wanted; gives the error type.
 const Type *argumentError(Context &c, ast::CallExpr *expr, size_t index, std::string_view wanted);
 /// Gives a call whose arguments are all constants its value.

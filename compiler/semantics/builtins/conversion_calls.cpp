@@ -26,8 +26,7 @@ const Type *checkConversionCall(Context &c, CallExpr *expr, const ConversionName
     if (a.value != nullptr)
       check(c, a.value, conversion.from);
   }
-  if (!placeArguments(c, expr) || !requireCount(c, expr, 1, 1) ||
-      expr->arguments[0].value == nullptr)
+  if (!placeArguments(c, expr) || !requireCount(c, expr) || expr->arguments[0].value == nullptr)
     return bad;
   Expr *value = expr->arguments[0].value;
   const Type *type = value->type;

@@ -33,7 +33,7 @@ const PouSymbol *withoutAttribute(const Type *type) {
 
 const Type *checkNew(Context &c, CallExpr *expr) {
   const Type *bad = elementaryType(TypeKind::Error);
-  if (!requireCount(c, expr, 1, 2) || expr->arguments[0].value == nullptr)
+  if (!requireCount(c, expr) || expr->arguments[0].value == nullptr)
     return bad;
   Expr *named = expr->arguments[0].value;
   const Type *type = namedType(c, named);
@@ -77,8 +77,6 @@ const Type *checkNew(Context &c, CallExpr *expr) {
 
 const Type *checkDelete(Context &c, CallExpr *expr) {
   const Type *bad = elementaryType(TypeKind::Error);
-  if (!requireCount(c, expr, 1, 1))
-    return bad;
   Expr *pointer = expr->arguments[0].value;
   if (pointer->type->kind != TypeKind::Pointer)
     return argumentError(c, expr, 0, "a pointer variable");
@@ -90,8 +88,6 @@ const Type *checkDelete(Context &c, CallExpr *expr) {
 
 const Type *checkIni(Context &c, CallExpr *expr) {
   const Type *bad = elementaryType(TypeKind::Error);
-  if (!requireCount(c, expr, 2, 2))
-    return bad;
   Expr *instance = expr->arguments[0].value;
   const Type *type = instance->type;
   while (type->kind == TypeKind::Array)

@@ -81,7 +81,7 @@ void declareContained(const Type *type, Declare &&declare, std::unordered_set<co
 
 const Type *checkSizeof(Context &c, CallExpr *expr) {
   const Type *bad = elementaryType(TypeKind::Error);
-  if (!requireCount(c, expr, 1, 1) || expr->arguments[0].value == nullptr)
+  if (!requireCount(c, expr) || expr->arguments[0].value == nullptr)
     return bad;
   Expr *value = expr->arguments[0].value;
   const Type *type = namedType(c, value);
@@ -109,7 +109,7 @@ const Type *checkSizeof(Context &c, CallExpr *expr) {
 
 const Type *checkIndexOf(Context &c, CallExpr *expr) {
   const Type *bad = elementaryType(TypeKind::Error);
-  if (!requireCount(c, expr, 1, 1) || expr->arguments[0].value == nullptr)
+  if (!requireCount(c, expr) || expr->arguments[0].value == nullptr)
     return bad;
   Expr *value = expr->arguments[0].value;
   Symbol *symbol = value->kind == ExprKind::Name ? lookup(c, as<NameExpr>(value)->name) : nullptr;
@@ -125,10 +125,8 @@ const Type *checkIndexOf(Context &c, CallExpr *expr) {
   return elementaryType(TypeKind::AnyInteger);
 }
 
-const Type *checkBound(Context &c, CallExpr *expr) {
+const Type *checkBoundOf(Context &c, CallExpr *expr, int64_t ArrayType::*bound) {
   const Type *bad = elementaryType(TypeKind::Error);
-  if (!requireCount(c, expr, 2, 2))
-    return bad;
   Expr *array = expr->arguments[0].value;
   Expr *dimension = expr->arguments[1].value;
   const bool open = array->type->kind == TypeKind::OpenArray;
@@ -160,8 +158,7 @@ const Type *checkBound(Context &c, CallExpr *expr) {
   const auto *at = typeAs<ArrayType>(fixed);
   for (int64_t i = dynamic + 1; i < wanted; ++i)
     at = typeAs<ArrayType>(at->element);
-  expr->constant =
-      c.makeConstant(integerValue(expr->builtin == Builtin::LowerBound ? at->low : at->high));
+  expr->constant = c.makeConstant(integerValue(at->*bound));
   return elementaryType(TypeKind::Dint);
 }
 

@@ -106,8 +106,4 @@ const Type *checkShift(Context &c, CallExpr *expr) {
   return type;
 }
 
-const Type *checkClock(Context &, CallExpr *expr) {
-  return elementaryType(expr->builtin == Builtin::Time ? TypeKind::Time : TypeKind::Ltime);
-}
-
 } // namespace stc::sema

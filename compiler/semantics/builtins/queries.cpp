@@ -13,11 +13,9 @@ namespace stc::sema {
 
 using namespace ast;
 
-const Type *checkQuery(Context &c, CallExpr *expr) {
+const Type *checkQueryFor(Context &c, CallExpr *expr, TypeKind wanted) {
   const Type *boolean = elementaryType(TypeKind::Boolean);
-  const bool toPointer = expr->builtin == Builtin::QueryPointer;
-  if (!requireCount(c, expr, 2, 2))
-    return elementaryType(TypeKind::Error);
+  const bool toPointer = wanted == TypeKind::Pointer;
   Expr *source = expr->arguments[0].value;
   Expr *target = expr->arguments[1].value;
   const Type *from = source->type;
@@ -44,8 +42,6 @@ const Type *checkQuery(Context &c, CallExpr *expr) {
 }
 
 const Type *checkIsValidRef(Context &c, CallExpr *expr) {
-  if (!requireCount(c, expr, 1, 1))
-    return elementaryType(TypeKind::Error);
   Expr *value = expr->arguments[0].value;
   if (isError(value->type) || isReference(value))
     return elementaryType(TypeKind::Boolean);

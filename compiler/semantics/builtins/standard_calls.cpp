@@ -16,54 +16,7 @@ static const Type *checkOrderCall(Context &c, CallExpr *expr);
 
 namespace {
 
-struct OperatorFunction {
-  BinaryOp op;
-  bool repeats = false;               ///< more than two arguments
-  TypeKind duration = TypeKind::None; ///< of the first argument, where only that is allowed
-};
-
-OperatorFunction operatorOf(Builtin function) {
-  switch (function) {
-  case Builtin::Add:
-    return {BinaryOp::Add, true};
-  case Builtin::Subtract:
-    return {BinaryOp::Subtract};
-  case Builtin::Multiply:
-    return {BinaryOp::Multiply, true};
-  case Builtin::Divide:
-    return {BinaryOp::Divide};
-  case Builtin::Greater:
-    return {BinaryOp::Greater, true};
-  case Builtin::GreaterEqual:
-    return {BinaryOp::GreaterEqual, true};
-  case Builtin::Equal:
-    return {BinaryOp::Equal, true};
-  case Builtin::LessEqual:
-    return {BinaryOp::LessEqual, true};
-  case Builtin::Less:
-    return {BinaryOp::Less, true};
-  case Builtin::MultiplyTime:
-    return {BinaryOp::Multiply, false, TypeKind::Time};
-  case Builtin::MultiplyLtime:
-    return {BinaryOp::Multiply, false, TypeKind::Ltime};
-  case Builtin::DivideTime:
-    return {BinaryOp::Divide, false, TypeKind::Time};
-  case Builtin::DivideLtime:
-    return {BinaryOp::Divide, false, TypeKind::Ltime};
-  case Builtin::LogicalAnd:
-    return {BinaryOp::LogicalAnd, true};
-  case Builtin::LogicalOr:
-    return {BinaryOp::LogicalOr, true};
-  case Builtin::LogicalXor:
-    return {BinaryOp::LogicalXor, true};
-  case Builtin::Modulo:
-    return {BinaryOp::Modulo};
-  default:
-    return {BinaryOp::NotEqual};
-  }
-}
-
-/// What checkOperatorCall has made of a call.
+/// What checkOperatorFunction has made of a call.
 bool isOperation(const CallExpr *expr) {
   return expr->arguments.size() == 1 && expr->arguments[0].value->kind == ExprKind::Binary &&
          as<BinaryExpr>(expr->arguments[0].value)->opSpan.begin == expr->callee->span.begin;
@@ -71,42 +24,52 @@ bool isOperation(const CallExpr *expr) {
 
 } // namespace
 
-const Type *checkOperatorCall(Context &c, CallExpr *expr) {
-  const Type *bad = elementaryType(TypeKind::Error);
-  const OperatorFunction function = operatorOf(expr->builtin);
-  if (isOperation(expr)) { // checked once more, for another expected type
-    Expr *operation = expr->arguments[0].value;
-    expr->builtin = Builtin::Move;
-    return check(c, operation, nullptr);
-  }
-  if (expr->builtin >= Builtin::LogicalAnd && expr->arguments.size() < 2) {
-    const std::string name(as<NameExpr>(expr->callee)->name.text);
-    c.report(Code::WrongArgumentCount, expr->span,
-             "`" + name + "` takes " + (function.repeats ? "at least " : "") + "2 arguments, not " +
-                 std::to_string(expr->arguments.size()),
-             "in this call")
-        .help("as an operator it stands between its operands: `a " + name + " b`");
-    return bad;
-  }
-  if (!requireCount(c, expr, 2, function.repeats ? SIZE_MAX : 2))
-    return bad;
-  const bool order = expr->builtin >= Builtin::Greater && expr->builtin <= Builtin::NotEqual;
-  if (order && expr->arguments.size() > 2)
-    return checkOrderCall(c, expr);
-  // The call becomes the operator, so that all that is true of it holds here as well: it keeps one
-  // argument, which is the operation.
+/// Reports too few or too many arguments.
+static bool requireOperands(Context &c, CallExpr *expr, const OperatorFunction &function) {
+  if (!function.isWord || expr->arguments.size() >= 2)
+    return requireCount(c, expr);
+  const std::string name(as<NameExpr>(expr->callee)->name.text);
+  const bool repeats = builtinRow(expr->builtin).takes.most > 2;
+  c.report(Code::WrongArgumentCount, expr->span,
+           "`" + name + "` takes " + (repeats ? "at least " : "") + "2 arguments, not " +
+               std::to_string(expr->arguments.size()),
+           "in this call")
+      .help("as an operator it stands between its operands: `a " + name + " b`");
+  return false;
+}
+
+/// `a + b + …` of the arguments
+static BinaryExpr *operationOf(Context &c, CallExpr *expr, BinaryOp op) {
   Expr *left = expr->arguments[0].value;
+  BinaryExpr *operation = nullptr;
   for (size_t i = 1; i < expr->arguments.size(); ++i) {
-    auto *operation = c.arena.make<BinaryExpr>();
+    operation = c.arena.make<BinaryExpr>();
     operation->span = expr->span;
     operation->parenthesized = true;
-    operation->op = function.op;
+    operation->op = op;
     operation->opSpan = expr->callee->span;
     operation->left = left;
     operation->right = expr->arguments[i].value;
     left = operation;
   }
-  const Type *type = check(c, left, nullptr);
+  return operation;
+}
+
+const Type *checkOperatorFunction(Context &c, CallExpr *expr, const OperatorFunction &function) {
+  const Type *bad = elementaryType(TypeKind::Error);
+  if (isOperation(expr)) { // checked once more, for another expected type
+    Expr *operation = expr->arguments[0].value;
+    expr->builtin = Builtin::Move;
+    return check(c, operation, nullptr);
+  }
+  if (!requireOperands(c, expr, function))
+    return bad;
+  if (isComparison(function.op) && expr->arguments.size() > 2)
+    return checkOrderCall(c, expr);
+  // The call becomes the operator, so that all that is true of it holds here as well: it keeps one
+  // argument, which is the operation.
+  Expr *whole = operationOf(c, expr, function.op);
+  const Type *type = check(c, whole, nullptr);
   if (isError(type))
     return bad;
   if (function.duration != TypeKind::None) {
@@ -118,12 +81,12 @@ const Type *checkOperatorCall(Context &c, CallExpr *expr) {
       return argumentError(c, expr, 1, "a number");
   }
   Argument operation;
-  operation.value = left;
+  operation.value = whole;
   operation.span = expr->span;
   expr->arguments = c.arena.copy(std::vector<Argument>{operation});
   expr->builtin = Builtin::Move;
-  expr->common = left->common;
-  expr->constant = left->constant;
+  expr->common = whole->common;
+  expr->constant = whole->constant;
   return type;
 }
 
@@ -149,31 +112,29 @@ static const Type *checkOrderCall(Context &c, CallExpr *expr) {
   return elementaryType(TypeKind::Boolean);
 }
 
-const Type *checkPatternCall(Context &c, CallExpr *expr) {
-  const Type *bad = elementaryType(TypeKind::Error);
-  if (!requireCount(c, expr, 1, 1))
-    return bad;
-  Expr *value = expr->arguments[0].value;
-  const Type *type = underlying(value->type);
-  const Type *boolean = elementaryType(TypeKind::Boolean);
-  if (expr->builtin == Builtin::IsValid) {
-    if (!isReal(type) && type->kind != TypeKind::AnyReal)
-      return argumentError(c, expr, 0, "REAL or LREAL");
-    if (isUntyped(type))
-      settle(value);
-    return boolean;
-  }
-  if (expr->builtin == Builtin::IsValidBcd) {
-    if (type->kind == TypeKind::AnyInteger)
-      coerce(c, value, elementaryType(TypeKind::Lword), "the argument of IS_VALID_BCD");
-    else if (!isBitString(type))
-      return argumentError(c, expr, 0, "a bit string");
-    return boolean;
-  }
-  if (!isElementary(type) || isString(type) || isUntyped(type))
+const Type *checkIsValid(Context &c, CallExpr *expr) {
+  const Type *kind = kindOf(expr, 0);
+  if (!isReal(kind) && kind->kind != TypeKind::AnyReal)
+    return argumentError(c, expr, 0, "REAL or LREAL");
+  settledKindOf(expr, 0);
+  return elementaryType(TypeKind::Boolean);
+}
+
+const Type *checkIsValidBcd(Context &c, CallExpr *expr) {
+  const Type *kind = kindOf(expr, 0);
+  if (kind->kind == TypeKind::AnyInteger)
+    coerce(c, valueOf(expr, 0), elementaryType(TypeKind::Lword), "the argument of IS_VALID_BCD");
+  else if (!isBitString(kind))
+    return argumentError(c, expr, 0, "a bit string");
+  return elementaryType(TypeKind::Boolean);
+}
+
+const Type *checkByteOrder(Context &c, CallExpr *expr) {
+  const Type *kind = kindOf(expr, 0);
+  if (!isElementary(kind) || isString(kind) || isUntyped(kind))
     return argumentError(c, expr, 0, "a number, a bit string or a time with a type of its own");
-  setTarget(value, type);
-  return type;
+  setTarget(valueOf(expr, 0), kind);
+  return kind;
 }
 
 bool checkSpecialArgument(Context &c, CallExpr *expr) {

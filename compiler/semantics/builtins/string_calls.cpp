@@ -41,73 +41,66 @@ static void concatInPairs(Context &c, CallExpr *expr) {
   expr->arguments = c.arena.copy(std::vector<Argument>{joined, all.back()});
 }
 
-const Type *checkStringBuiltin(Context &c, CallExpr *expr) {
-  const Type *bad = elementaryType(TypeKind::Error);
-  const auto textType = [&](size_t i) { return textOf(expr->arguments[i]); };
-  const auto length = [&](size_t i) { return lengthOf(expr->arguments[i]); };
-  const auto integer = [&](size_t i) {
-    Expr *value = expr->arguments[i].value;
-    if (!isInteger(underlying(value->type)) && value->type->kind != TypeKind::AnyInteger)
-      return false;
-    setTarget(value, elementaryType(TypeKind::Dint));
-    return true;
-  };
-  size_t strings = 1;
-  size_t count = 1;
-  switch (expr->builtin) {
-  case Builtin::Len:
-    break;
-  case Builtin::Left:
-  case Builtin::Right:
-    count = 2;
-    break;
-  case Builtin::Mid:
-  case Builtin::Delete:
-    count = 3;
-    break;
-  case Builtin::Concat:
-    count = strings = std::max<size_t>(2, expr->arguments.size());
-    break;
-  case Builtin::Find:
-    count = strings = 2;
-    break;
-  case Builtin::Insert:
-    count = 3;
-    strings = 2;
-    break;
-  default: // replace
-    count = 4;
-    strings = 2;
-    break;
-  }
-  if (!requireCount(c, expr, count, expr->builtin == Builtin::Concat ? SIZE_MAX : count))
-    return bad;
+/// Whether the arguments are texts and numbers of characters; what is not has been reported.
+static bool areTexts(Context &c, CallExpr *expr, size_t texts, bool characterFirst) {
   // CODESYS has WLEN, WLEFT … for WSTRING only.
   const std::string name = calleeName(expr);
   const bool wideOnly = name.front() == 'W' || name.front() == 'w';
-  for (size_t i = 0; i < count; ++i) {
-    if (isError(expr->arguments[i].value->type))
-      return bad;
-    Expr *value = expr->arguments[i].value;
-    if (isCharacter(underlying(value->type)) && i < strings &&
-        (i > 0 || expr->builtin == Builtin::Concat))
-      setTarget(value, c.types.string(underlying(value->type)->kind == TypeKind::Wchar, 1));
-    if (wideOnly && i < strings && textType(i)->kind != TypeKind::Wstring)
-      return argumentError(c, expr, i, "a WSTRING");
-    if (i < strings ? !isString(textType(i)) : !integer(i))
-      return argumentError(c, expr, i, i < strings ? "a string" : "an integer");
-    if (i > 0 && i < strings && textType(0)->kind != textType(i)->kind)
-      return argumentError(c, expr, i, typeName(textType(0)));
+  const auto refuse = [&](size_t i, std::string_view wanted) {
+    argumentError(c, expr, i, wanted);
+    return false;
+  };
+  for (size_t i = 0; i < expr->arguments.size(); ++i) {
+    Expr *value = valueOf(expr, i);
+    const Type *kind = kindOf(expr, i);
+    if (isError(value->type))
+      return false;
+    if (i >= texts) {
+      if (!isInteger(kind) && value->type->kind != TypeKind::AnyInteger)
+        return refuse(i, "an integer");
+      setTarget(value, elementaryType(TypeKind::Dint));
+      continue;
+    }
+    if (isCharacter(kind) && (i > 0 || characterFirst))
+      setTarget(value, c.types.string(kind->kind == TypeKind::Wchar, 1));
+    const Type *text = textOf(expr->arguments[i]);
+    if (wideOnly && text->kind != TypeKind::Wstring)
+      return refuse(i, "a WSTRING");
+    if (!isString(text))
+      return refuse(i, "a string");
+    const Type *first = textOf(expr->arguments[0]);
+    if (first->kind != text->kind)
+      return refuse(i, typeName(first));
   }
-  if (expr->builtin == Builtin::Len || expr->builtin == Builtin::Find)
-    return elementaryType(length(0) > 32767 ? TypeKind::Dint : TypeKind::Int);
-  if (expr->builtin == Builtin::Concat && count > 2)
+  return true;
+}
+
+/// With room for the first `texts` arguments.
+static const Type *joinedType(Context &c, const CallExpr *expr, size_t texts) {
+  uint32_t length = 0;
+  for (size_t i = 0; i < texts; ++i)
+    length += lengthOf(expr->arguments[i]);
+  const bool isWide = textOf(expr->arguments[0])->kind == TypeKind::Wstring;
+  return c.types.string(isWide, std::clamp<uint32_t>(length, 1, 65535));
+}
+
+const Type *checkTexts(Context &c, CallExpr *expr, size_t texts) {
+  return areTexts(c, expr, texts, false) ? joinedType(c, expr, texts)
+                                         : elementaryType(TypeKind::Error);
+}
+
+const Type *checkTextsForNumber(Context &c, CallExpr *expr, size_t texts) {
+  if (!areTexts(c, expr, texts, false))
+    return elementaryType(TypeKind::Error);
+  return elementaryType(lengthOf(expr->arguments[0]) > 32767 ? TypeKind::Dint : TypeKind::Int);
+}
+
+const Type *checkConcat(Context &c, CallExpr *expr) {
+  if (!areTexts(c, expr, expr->arguments.size(), true))
+    return elementaryType(TypeKind::Error);
+  if (expr->arguments.size() > 2)
     concatInPairs(c, expr);
-  uint32_t result = length(0);
-  if (expr->builtin == Builtin::Concat || expr->builtin == Builtin::Insert ||
-      expr->builtin == Builtin::Replace)
-    result = std::min<uint32_t>(65535, length(0) + length(1));
-  return c.types.string(textType(0)->kind == TypeKind::Wstring, std::max(result, 1U));
+  return joinedType(c, expr, 2);
 }
 
 } // namespace stc::sema

@@ -267,9 +267,6 @@ void reportInputWritten(Context &c, const Expr *expr, const Location &at) {
 }
 
 const Type *checkBitAddress(Context &c, CallExpr *expr) {
-  const Type *error = elementaryType(TypeKind::Error);
-  if (!requireCount(c, expr, 1, 1))
-    return error;
   const Expr *value = expr->arguments[0].value;
   const Location *at = locationOf(value);
   if (at == nullptr || at->isSlot)

@@ -58,8 +58,6 @@ std::string_view spelling(BinaryOp op) {
   return {};
 }
 
-bool isComparison(BinaryOp op) { return op >= BinaryOp::Equal && op <= BinaryOp::GreaterEqual; }
-
 bool isLogical(BinaryOp op) { return op >= BinaryOp::LogicalAnd; }
 
 } // namespace

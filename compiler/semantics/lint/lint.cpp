@@ -11,9 +11,17 @@ using namespace ast;
 
 namespace {
 
-/// Functions of the compiler that only compute a value of their arguments.
-bool onlyReads(Builtin builtin) {
-  return builtin <= Builtin::Time || builtin == Builtin::Sizeof || isAssertion(builtin);
+/// The call is one of a function that the compiler implements itself, with that effect.
+bool does(const CallExpr *call, BuiltinRow::Effect effect) {
+  return call->resolved == Callee::Builtin && (builtinRow(call->builtin).does & effect) != 0;
+}
+
+/// The call does nothing with its arguments but read them, or ask for their size.
+bool onlyReads(const CallExpr *call) {
+  if (call->resolved != Callee::Builtin)
+    return false;
+  const BuiltinRow &row = builtinRow(call->builtin);
+  return row.readsValues() || row.takes.what == BuiltinTakes::TypeOf;
 }
 
 bool containsLabel(Block block) {
@@ -417,10 +425,10 @@ void Linter::call(CallExpr *expr) {
       use(root, kUseCalled | kUseRead, expr->callee);
     read(expr->callee);
   }
-  const bool pureBuiltin = builtin && onlyReads(expr->builtin);
-  if (builtin && (expr->builtin == Builtin::Shl || expr->builtin == Builtin::Shr))
+  const bool pureBuiltin = onlyReads(expr);
+  if (does(expr, BuiltinRow::kShiftsOut))
     shift(expr);
-  if (builtin && (expr->builtin == Builtin::Convert || expr->builtin == Builtin::Trunc))
+  if (does(expr, BuiltinRow::kSaturates))
     saturation(expr);
   for (Argument &argument : expr->arguments) {
     if (argument.value == nullptr)

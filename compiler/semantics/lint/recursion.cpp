@@ -86,7 +86,8 @@ void Linter::reportIgnored() {
   for (const CallExpr *call : ignored_) {
     const bool function = call->resolved == Callee::Function && call->pou != nullptr &&
                           call->pou->decl->returnType != nullptr;
-    const bool builtin = call->resolved == Callee::Builtin && call->builtin <= Builtin::Time;
+    const bool builtin =
+        call->resolved == Callee::Builtin && builtinRow(call->builtin).onlyComputes();
     if (!function && !builtin)
       continue;
     const bool gives = std::any_of(call->arguments.begin(), call->arguments.end(),

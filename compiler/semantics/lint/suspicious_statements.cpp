@@ -14,17 +14,6 @@ constexpr size_t kLongestChain = 64; ///< conditions that are compared with each
 constexpr size_t kMostListed = 6;
 constexpr size_t kLongEnumeration = 32;
 
-/// ADR(x): x.
-Expr *addressed(Expr *value) {
-  if (value->kind != ExprKind::Call)
-    return nullptr;
-  const auto *call = as<CallExpr>(value);
-  return call->resolved == Callee::Builtin && call->builtin == Builtin::Adr &&
-                 !call->arguments.empty()
-             ? call->arguments[0].value
-             : nullptr;
-}
-
 /// Reading the same volatile place twice is a way to wait for hardware; a variable is not volatile.
 bool isPlainRead(const Expr *expr) {
   return expr->kind == ExprKind::Name || expr->kind == ExprKind::Member ||

@@ -42,7 +42,7 @@ EnumeratorSymbol *findEnumerator(const EnumType *type, Ident id) {
 
 Lookup::Lookup(Program &program, const LibraryIndex &index)
     : program_(program), arena_(program.arena), index_(index), reporter_(program.diagnostics) {
-  for (const auto &[name, function] : builtins()) {
+  for (const auto &[name, function] : builtinNames()) {
     const Ident id = program.interner.intern(name);
     auto *symbol = arena_.make<BuiltinSymbol>();
     symbol->kind = SymbolKind::Builtin;

@@ -293,9 +293,9 @@ PlacePath AccessReader::followedPlace(const Expr *pointer, bool walk) {
     value(pointer);
   if (pointer->kind != ExprKind::Call)
     return behind(addressVariable(pointer));
+  if (const Expr *at = addressed(pointer))
+    return place(at, false);
   const auto *c = as<CallExpr>(pointer);
-  if (c->resolved == Callee::Builtin && c->builtin == Builtin::Adr)
-    return place(c->arguments[0].value, false);
   return c->pou != nullptr ? behind(c->pou->result) : PlacePath{};
 }
 
@@ -351,8 +351,8 @@ void AccessReader::flow(const VarSymbol *to, const Expr *e) {
         out_.flows.push_back({to, {}, c->pou->result});
       return;
     }
-    if (c->builtin == Builtin::Adr) {
-      flowPlace(to, c->arguments[0].value);
+    if (const Expr *at = addressed(c)) {
+      flowPlace(to, at);
       return;
     }
     for (const Argument &a : c->arguments)

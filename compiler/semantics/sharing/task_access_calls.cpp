@@ -155,30 +155,28 @@ bool AccessReader::isOpen(const CallExpr *e) {
 }
 
 void AccessReader::builtin(const CallExpr *e) {
-  switch (e->builtin) {
-  case Builtin::Sizeof:
-  case Builtin::IndexOf:
-  case Builtin::NewObject:
+  switch (builtinRow(e->builtin).takes.what) {
+  case BuiltinTakes::TypeOf:
+  case BuiltinTakes::Name:
+  case BuiltinTakes::Bounds:
+  case BuiltinTakes::Reference:
     return;
-  case Builtin::Adr: // the access is where the address is followed
+  case BuiltinTakes::Address: // the access is where the address is followed
     place(e->arguments[0].value, true);
     return;
-  case Builtin::IsValidRef:
-    return;
-  case Builtin::Ini:
+  case BuiltinTakes::Instance:
     access(e->arguments[0].value, kAccessWrite, kAccessWholeWrite);
     value(e->arguments[1].value);
     return;
-  case Builtin::QueryInterface:
-  case Builtin::QueryPointer:
+  case BuiltinTakes::Query:
     value(e->arguments[0].value);
     target(e->arguments[1].value);
     flow(addressVariable(e->arguments[1].value), e->arguments[0].value);
     return;
-  case Builtin::LowerBound:
-  case Builtin::UpperBound:
-    return;
-  default:
+  case BuiltinTakes::Values:
+  case BuiltinTakes::Operands:
+  case BuiltinTakes::Location:
+  case BuiltinTakes::Pointer:
     for (const Argument &a : e->arguments)
       value(a.value);
     return;
