@@ -166,6 +166,32 @@ TEST(CodegenTables, LayoutHashesAreStable) {
   EXPECT_EQ(hashOf("p : POINTER TO S;"), hashOf("p : POINTER TO S;"));
 }
 
+TEST(CodegenTables, LayoutHashesOfBlocksFollowTheirVariables) {
+  const auto hashOf = [](const std::string &block, const std::string &base = "k : INT;") {
+    const auto files = generate(
+        {{"Main.st", "FUNCTION_BLOCK T VAR " + base + " END_VAR END_FUNCTION_BLOCK\n" + block +
+                         " END_FUNCTION_BLOCK\nPROGRAM Main\nVAR_TEMP n : "
+                         "INT; END_VAR END_PROGRAM\n"}});
+    const std::string header = fileText(files, "st/user/S.h");
+    const auto at = header.find("S__layout__ = ");
+    return at == std::string::npos ? header : header.substr(at, header.find(';', at) - at);
+  };
+  const std::string plain = hashOf("FUNCTION_BLOCK S VAR a : INT; b : LREAL; END_VAR");
+  // What no instance holds does not count.
+  EXPECT_EQ(plain, hashOf("FUNCTION_BLOCK S VAR A : INT := 5; b : LREAL; END_VAR VAR_TEMP c : INT; "
+                          "END_VAR"));
+  EXPECT_NE(plain, hashOf("FUNCTION_BLOCK S VAR b : LREAL; a : INT; END_VAR"));
+  EXPECT_NE(plain, hashOf("FUNCTION_BLOCK S VAR a : UINT; b : LREAL; END_VAR"));
+  EXPECT_NE(plain, hashOf("FUNCTION_BLOCK S VAR a : INT; c : LREAL; END_VAR"));
+  EXPECT_NE(plain, hashOf("FUNCTION_BLOCK S VAR a : INT; b : LREAL; c : INT; END_VAR"));
+  EXPECT_NE(plain, hashOf("FUNCTION_BLOCK S VAR a : INT; END_VAR VAR_IN_OUT b : LREAL; END_VAR"));
+  EXPECT_NE(plain, hashOf("FUNCTION_BLOCK S EXTENDS T VAR a : INT; b : LREAL; END_VAR"));
+  EXPECT_NE(hashOf("FUNCTION_BLOCK S EXTENDS T VAR a : INT; END_VAR"),
+            hashOf("FUNCTION_BLOCK S EXTENDS T VAR a : INT; END_VAR", "k : DINT;"));
+  EXPECT_NE(hashOf("FUNCTION_BLOCK S VAR a : T; END_VAR"),
+            hashOf("FUNCTION_BLOCK S VAR a : T; END_VAR", "k : INT; l : INT;"));
+}
+
 TEST(CodegenTables, AnEditTouchesOnlyWhatItMust) {
   const auto build = [](const std::string &body) {
     return generate(

@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <string>
+#include <string_view>
 
 namespace {
 
@@ -113,10 +115,52 @@ TEST(Text, RealsOfAnyLength) {
   for (size_t zeros = 490; zeros < 530; ++zeros) {
     const std::string small = "1e" + std::string(zeros, '0');
     EXPECT_EQ(text::scanReal(small.data(), static_cast<uint32_t>(small.size())).real, 1.0) << zeros;
+    const std::string last = small + '5'; // the 512th character is the last one that counts
+    EXPECT_EQ(text::scanReal(last.data(), static_cast<uint32_t>(last.size())).real,
+              zeros < 510 ? 1e5 : 1.0)
+        << zeros;
     const std::string leading = std::string(zeros, '0') + ".5";
     const double read = text::scanReal(leading.data(), static_cast<uint32_t>(leading.size())).real;
     EXPECT_TRUE(read == 0.5 || (zeros > 500 && read == 0.0)) << zeros << ' ' << read;
   }
+}
+
+/// A value ends where the next character cannot belong to it.
+TEST(Text, ScansStopAfterTheValue) {
+  const auto used = [](text::Scanned (*scan)(const char *, uint32_t), std::string_view text) {
+    return scan(text.data(), static_cast<uint32_t>(text.size())).used;
+  };
+  EXPECT_EQ(used(text::scanReal, "-7"), 2U);
+  EXPECT_EQ(used(text::scanReal, "1.5.5"), 3U);
+  EXPECT_EQ(used(text::scanReal, "1."), 1U);
+  EXPECT_EQ(used(text::scanReal, "1;5"), 1U);
+  EXPECT_EQ(used(text::scanReal, "1x5"), 1U);
+  EXPECT_EQ(used(text::scanReal, ".5"), 0U);
+  EXPECT_EQ(used(text::scanReal, "1_000.5_"), 7U);
+  EXPECT_EQ(used(text::scanReal, "2e-3-"), 4U);
+  EXPECT_EQ(used(text::scanReal, "2e"), 1U);
+  EXPECT_EQ(used(text::scanReal, "2e+"), 1U);
+  EXPECT_EQ(used(text::scanDate, "2000-02-29-"), 10U);
+  EXPECT_EQ(used(text::scanDate, "D#2000-02-29"), 12U);
+  EXPECT_EQ(used(text::scanTimeOfDay, "01:02:03;"), 8U);
+  EXPECT_EQ(used(text::scanTimeOfDay, "LTOD#01:02:03.5"), 15U);
+  EXPECT_EQ(used(text::scanDateAndTime, "DATE_AND_TIME#2000-02-29-01:02:03 "), 33U);
+  EXPECT_EQ(used(text::scanDateAndTime, "2000-02-29-01:02"), 16U);
+}
+
+/// A UNION can leave a text without its end: it has its capacity at most.
+TEST(Text, CapacityEndsAText) {
+  STRING<3> full{};
+  std::copy_n("abcd", 4, full.s);
+  EXPECT_EQ(detail::textCompare(full.s, 3, "abc", 3), 0);
+  EXPECT_EQ(detail::textCompare("abc", 3, full.s, 3), 0);
+  EXPECT_LT(detail::textCompare(full.s, 3, "abcd", 4), 0);
+  EXPECT_EQ(detail::textLength(full.s, 3), 3U);
+  WSTRING<2> wide{};
+  std::copy_n(u"xyz", 3, wide.s);
+  EXPECT_EQ(detail::textCompare(wide.s, 2, u"xy", 2), 0);
+  EXPECT_EQ(detail::textCompare(u"xy", 2, wide.s, 2), 0);
+  EXPECT_GT(detail::textCompare(u"xyz", 3, wide.s, 2), 0);
 }
 
 } // namespace

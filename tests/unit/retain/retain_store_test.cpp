@@ -394,6 +394,24 @@ TEST(RetainStore, SaysWhatHelps) {
   }
 }
 
+/// A service may have been started without it: files get number 0 then, as any other.
+TEST(RetainStore, WorksWhereStandardInputIsClosed) {
+  const Generations generations;
+  const test::ScratchDirectory scratch;
+  const int input = ::dup(STDIN_FILENO);
+  ::close(STDIN_FILENO);
+  RetainStore store((scratch.path() / "retain").string());
+  EXPECT_NO_THROW(generations.save(store, 1));
+  EXPECT_NO_THROW(generations.save(store, 2));
+  std::vector<std::string> problems;
+  EXPECT_EQ(Generations::load(store, problems), 2U);
+  EXPECT_THAT(problems, ::testing::IsEmpty());
+  if (input >= 0) {
+    ::dup2(input, STDIN_FILENO);
+    ::close(input);
+  }
+}
+
 TEST(RetainStore, FallsBackToTheOtherFileAndSaysWhy) {
   const Generations generations;
   const test::ScratchDirectory scratch;

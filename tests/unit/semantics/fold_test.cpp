@@ -120,6 +120,26 @@ TEST(Fold, RealArithmeticIsRoundedTo32Bits) {
       static_cast<double>(0.1F));
 }
 
+TEST(Fold, TextsCompareByTheirUnits) {
+  const std::vector<std::string_view> rising = {"", "A", "AB", "B", "a", "\u00E4"};
+  for (const char *name : {"string", "wstring"}) {
+    const Type *type = findElementaryType(name);
+    for (size_t i = 0; i < rising.size(); ++i) {
+      for (size_t k = 0; k < rising.size(); ++k) {
+        const ConstValue a{ConstKind::String, 0, 0, rising[i]};
+        const ConstValue b{ConstKind::String, 0, 0, rising[k]};
+        const auto folded = [&](BinaryOp op) { return foldBinary(op, a, b, type)->integer; };
+        EXPECT_EQ(folded(BinaryOp::Equal), i == k) << i << ' ' << k;
+        EXPECT_EQ(folded(BinaryOp::NotEqual), i != k) << i << ' ' << k;
+        EXPECT_EQ(folded(BinaryOp::Less), i < k) << i << ' ' << k;
+        EXPECT_EQ(folded(BinaryOp::LessEqual), i <= k) << i << ' ' << k;
+        EXPECT_EQ(folded(BinaryOp::Greater), i > k) << i << ' ' << k;
+        EXPECT_EQ(folded(BinaryOp::GreaterEqual), i >= k) << i << ' ' << k;
+      }
+    }
+  }
+}
+
 TEST(Suggest, FindsTheNearestNameWithinAThird) {
   const std::vector<std::string_view> names = {"velocity", "position", "Accel", "x"};
   EXPECT_EQ(nearest("velocty", names), "velocity");

@@ -7,11 +7,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
 #include <stdexcept>
+#include <sys/mman.h>
+#include <vector>
 
 namespace {
 
@@ -52,6 +55,29 @@ TEST(TaskThreadTest, DataStacksLieBelowFourGiBAtTheSamePlaceEachTime) {
   EXPECT_EQ(first.end - first.top, stride::task::kDataStack);
   EXPECT_LT(first.end, kFourGiB);
   EXPECT_EQ(first.top, second.top);
+}
+
+/// How many pages from the lower end of the thread's data stack on are in memory.
+size_t pagesInMemory() {
+  const stride::task::DataStackRange range = stride::task::dataStack();
+  std::vector<unsigned char> pages((range.high - range.low) / 4096);
+  EXPECT_EQ(::mincore(reinterpret_cast<void *>(range.low), range.high - range.low, pages.data()),
+            0);
+  const auto in = [](unsigned char page) { return (page & 1U) != 0; };
+  return static_cast<size_t>(std::find_if_not(pages.begin(), pages.end(), in) - pages.begin());
+}
+
+TEST(TaskThreadTest, AsMuchOfTheDataStackIsTouchedAsIsAskedForAndThere) {
+  runOnTaskThread([&] {
+    stride::task::touchDataStack(4096); // there is none
+    const stride::task::MemoryGuard guard;
+    EXPECT_EQ(pagesInMemory(), 0U);
+    stride::task::touchDataStack(3 * 4096 + 1);
+    EXPECT_GE(pagesInMemory(), 4U);
+    stride::task::touchDataStack(stride::task::kDataStack); // and not what lies above it
+    EXPECT_EQ(pagesInMemory(), stride::task::kDataStack / 4096);
+    stride::task::touchDataStack(SIZE_MAX);
+  });
 }
 
 TEST(TaskThreadTest, DataStacksAndStatesOfTwoApplicationsAreApart) {
