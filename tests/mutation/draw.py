@@ -25,8 +25,8 @@ class Area:
     tests: str  # names of those that say something about these files
 
 
-RUNTIME_TESTS = r"(?!codegen_|random_|oracle|golden\.diagnostics)"
-COMPILER_TESTS = r"golden\.(programs|diagnostics)|codegen_test|random_|oracle|unit_(iec|semantics|syntax|project|app|tests_test)|headers"
+RUNTIME_TESTS = r"(?!codegen_|random_|oracle|golden\.diagnostics|golden\.programs\.(?!cam|cycles|config|fail_endless|retain|digital))"
+COMPILER_TESTS = r"golden\.(programs|diagnostics|projects)|codegen_test|random_|oracle|unit_(iec|semantics|syntax|project|app|tests_test)|headers"
 AREAS = (
     Area("numerics", 70, ("runtime/numeric/**/*.[ch]pp",), RUNTIME_TESTS),
     Area("scheduler", 35, ("runtime/task/*.[ch]pp",), RUNTIME_TESTS),
