@@ -88,6 +88,19 @@ TEST(CodegenOutput, ProvenIndicesAreNotChecked) {
   EXPECT_THAT(body("FOR u := 0 TO 4 DO b[u - 1] := 1; END_FOR"), HasSubstr("index<1, 5>"));
 }
 
+TEST(CodegenOutput, AliasesHaveTheirNamesInCpp) {
+  const auto files = generate({{"Main.st", R"(
+TYPE Row : ARRAY[1..3] OF INT; END_TYPE
+TYPE Rows : ARRAY[0..1] OF Row := [[1], [2]]; END_TYPE
+PROGRAM Main VAR r : Rows; END_VAR r[1][2] := 3; END_PROGRAM
+)"}});
+  EXPECT_THAT(fileText(files, "st/user/Row.h"),
+              HasSubstr("using Row = ::stride::Array<::stride::INT, 1, 3>;"));
+  EXPECT_THAT(
+      fileText(files, "st/user/Rows.h"),
+      HasSubstr("using Rows = ::stride::Array<::stride::Array<::stride::INT, 1, 3>, 0, 1>;"));
+}
+
 TEST(CodegenOutput, PointedToTypesAreDeclaredOnly) {
   const auto files = generate({{"Main.st", R"(
 TYPE Node : STRUCT next : POINTER TO Node; other : POINTER TO Leaf; END_STRUCT END_TYPE

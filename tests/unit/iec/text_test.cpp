@@ -60,6 +60,8 @@ TEST(Text, Dates) {
   EXPECT_EQ(textOf<Kind::DATE>(951782400), "D#2000-02-29");
   EXPECT_EQ(textOf<Kind::DT>(951782400 + 3661), "DT#2000-02-29-01:01:01");
   EXPECT_EQ(textOf<Kind::TOD>(47100250), "TOD#13:05:00.250");
+  EXPECT_EQ(textOf<Kind::TOD>(86400000 + 3601000), "TOD#01:00:01"); // what is added may go on
+  EXPECT_EQ(textOf<Kind::LTOD>(86400000000000 * 2 + 5), "LTOD#00:00:00.000000005");
   EXPECT_EQ(textOf<Kind::LTOD>(1), "LTOD#00:00:00.000000001");
   EXPECT_EQ(textOf<Kind::LDT>(-1), "LDT#1969-12-31-23:59:59.999999999");
   for (DATE day = 0; day < 49000; day += 13)
