@@ -35,14 +35,15 @@ constexpr uintmax_t kMaxListBytes = 16U << 20U; // of whatever a project ships u
 
 std::vector<std::string> compileFlags(const Installation &installation, bool debug) {
   std::vector<std::string> flags(std::begin(kFixedFlags), std::end(kFixedFlags));
-  flags.insert(flags.end(), installation.compileFlags.begin(), installation.compileFlags.end());
   if (debug)
     flags.insert(flags.end(), {"-O0", "-g"});
   else
-    // Aligned, so that the speed of a loop does not depend on what lies in front of it; with line
+    // Aligned, so that the speed of a loop does not depend on what lies before it; with line
     // tables and all frames, so that an exception can say where it came from.
     flags.insert(flags.end(), {"-O2", "-g1", "-fno-optimize-sibling-calls", "-falign-functions=64",
                                "-falign-loops=32"});
+  // The installation has the last word: one with sanitizers does not optimise.
+  flags.insert(flags.end(), installation.compileFlags.begin(), installation.compileFlags.end());
   return flags;
 }
 

@@ -6,7 +6,7 @@ usage: random_programs.py STRIDE [--seeds FIRST..LAST] [--modes MODE,…] [--kee
 A seed is a project: types, variables (also at overlapping addresses), interfaces, functions, function blocks and 100
 programs (sections of five blocks, each with variables of its own). `stride sim` runs it in each MODE (O2, O0,
 O2-unchecked, O0-unchecked; without --modes in all of them); every variable must have the value that the model in this
-folder gives it. Every fifth seed is a smaller project that ends with a run-time error, whose message and place are
+folder gives it; `--modes two` gives each seed two of them that differ in everything. Every fifth seed is a smaller project that ends with a run-time error, whose message and place are
 known: it runs in the checked modes. With --small a seed has twelve programs and one function and block, besides those of
 movers.py, for many seeds in little time. A project that disagrees is left in FOLDER (default: the temporary folder) and named.
 """
@@ -39,6 +39,8 @@ def check(options, seed):
     source.write_text("\n".join(text), encoding="utf-8")
     names = ["PLC_PRG", *(path for path, _, _ in expected if not path.startswith("PLC_PRG"))]
     modes = options.modes or list(MODES)
+    if modes == ["two"]:
+        modes = ["O2", "O0-unchecked"] if seed % 2 else ["O0", "O2-unchecked"]
     if error:
         modes = [mode for mode in modes if "unchecked" not in mode] or ["O2"]
     good = [run(options.stride, source, names, expected, mode, error) for mode in modes]
