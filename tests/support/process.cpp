@@ -2,8 +2,8 @@
 #include "tests/support/text.hpp"
 
 #include <csignal>
-#include <cstdlib>
 #include <fcntl.h>
+#include <map>
 #include <pty.h>
 #include <stdexcept>
 #include <sys/prctl.h>
@@ -23,20 +23,40 @@ void redirect(const char *path, int flags, int descriptor) {
   close(file);
 }
 
-/// Becomes the command; in a child.
-[[noreturn]] void become(const std::vector<std::string> &arguments,
-                         const std::filesystem::path &directory,
-                         const std::vector<std::pair<std::string, std::string>> &environment) {
+/// A command with its surroundings, made before the fork: where there are threads, a child must not
+/// allocate.
+struct Command {
+  std::vector<std::string> environment; ///< NAME=VALUE
   std::vector<char *> argv;
-  for (const std::string &argument : arguments)
-    argv.push_back(const_cast<char *>(argument.c_str())); // execvp does not write to them
-  argv.push_back(nullptr);
+  std::vector<char *> envp;
+  const char *directory;
+
+  Command(const std::vector<std::string> &arguments, const std::filesystem::path &folder,
+          const std::vector<std::pair<std::string, std::string>> &added)
+      : directory(folder.c_str()) {
+    std::map<std::string, std::string> variables;
+    for (char **one = environ; *one != nullptr; ++one)
+      if (const std::string text = *one; text.find('=') != std::string::npos)
+        variables.emplace(text.substr(0, text.find('=')), text.substr(text.find('=') + 1));
+    variables["NO_COLOR"] = "1";
+    for (const auto &[name, value] : added)
+      variables[name] = value;
+    for (const auto &[name, value] : variables)
+      environment.push_back(name + "=" + value);
+    for (std::string &variable : environment)
+      envp.push_back(variable.data());
+    envp.push_back(nullptr);
+    for (const std::string &argument : arguments)
+      argv.push_back(const_cast<char *>(argument.c_str())); // execvpe does not write to them
+    argv.push_back(nullptr);
+  }
+};
+
+/// Becomes the command; in a child.
+[[noreturn]] void become(const Command &command) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  setenv("NO_COLOR", "1", 1);
-  for (const auto &[name, value] : environment)
-    setenv(name.c_str(), value.c_str(), 1);
-  if (chdir(directory.c_str()) == 0)
-    execvp(argv[0], argv.data());
+  if (chdir(command.directory) == 0)
+    execvpe(command.argv[0], command.argv.data(), command.envp.data());
   _exit(kCannotStart);
 }
 
@@ -58,6 +78,7 @@ ProcessResult runProcess(const std::vector<std::string> &arguments,
   const ScratchDirectory scratch;
   const std::string out = scratch.path() / "out";
   const std::string err = scratch.path() / "err";
+  const Command command(arguments, directory, environment);
   const pid_t child = fork();
   if (child < 0)
     throw std::runtime_error("cannot fork");
@@ -65,7 +86,7 @@ ProcessResult runProcess(const std::vector<std::string> &arguments,
     redirect("/dev/null", O_RDONLY, STDIN_FILENO);
     redirect(out.c_str(), O_WRONLY | O_CREAT, STDOUT_FILENO);
     redirect(err.c_str(), O_WRONLY | O_CREAT, STDERR_FILENO);
-    become(arguments, directory, environment);
+    become(command);
   }
   const int code = waitFor(child, arguments.front() + " in " + directory.string());
   return {code, readFile(out), readFile(err)};
@@ -74,12 +95,13 @@ ProcessResult runProcess(const std::vector<std::string> &arguments,
 ProcessResult runOnTerminal(const std::vector<std::string> &arguments,
                             const std::filesystem::path &directory,
                             const std::vector<std::pair<std::string, std::string>> &environment) {
+  const Command command(arguments, directory, environment);
   int terminal = -1;
   const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
   if (child < 0)
     throw std::runtime_error("cannot make a terminal");
   if (child == 0)
-    become(arguments, directory, environment);
+    become(command);
   std::string shown;
   char buffer[4096];
   for (ssize_t count = 0; (count = read(terminal, buffer, sizeof buffer)) > 0;) // EIO at its end
