@@ -6,8 +6,8 @@
 #include "compiler/codegen/plc_tables.hpp"
 #include "compiler/codegen/type_table.hpp"
 #include "compiler/codegen/units.hpp"
-#include "compiler/semantics/attributes.hpp"
 #include "compiler/semantics/hierarchy.hpp"
+#include "compiler/syntax/attributes.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -104,7 +104,7 @@ private:
       for (const Decl *decl : file->declarations) {
         if (decl->kind != DeclKind::Globals)
           continue;
-        const bool qualified = hasAttribute(decl->attributes, "qualified_only");
+        const bool qualified = hasAttribute(decl->attributes, AttributeId::QualifiedOnly);
         const std::string_view renamed = renamedFrom(decl->attributes);
         for (const VarDecl *v : as<GlobalsDecl>(decl)->variables) {
           if (qualified)

@@ -1,9 +1,9 @@
 #include "compiler/codegen/type_table.hpp"
 
 #include "compiler/codegen/units.hpp"
-#include "compiler/semantics/attributes.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/type_table.hpp"
+#include "compiler/syntax/attributes.hpp"
 
 #include <algorithm>
 
@@ -12,11 +12,7 @@ namespace stc::codegen {
 using namespace ast;
 
 std::string_view renamedFrom(const Attributes &attributes) {
-  for (const Attribute &a : attributes) {
-    if (a.name == "renamed_from")
-      return a.value;
-  }
-  return {};
+  return attributeValue(attributes, AttributeId::RenamedFrom);
 }
 
 namespace {
@@ -56,7 +52,7 @@ Flags symbolFlags(const VarSymbol *v, bool qualifiedOnly = false) {
       .add((qualifiers & kQualNonRetain) != 0, "NonRetain")
       .add(v->isConstant, "Constant")
       .add(v->hidden, "Hidden")
-      .add(v->decl != nullptr && hasAttribute(v->decl->attributes, "init_on_onlchange"),
+      .add(v->decl != nullptr && hasAttribute(v->decl->attributes, AttributeId::InitOnOnlineChange),
            "InitOnChange")
       .add(qualifiedOnly, "QualifiedOnly");
   return flags;
@@ -327,9 +323,7 @@ void TypeTable::addPool(uint64_t size) {
 void TypeTable::addProgram(const PouSymbol *program, const std::string &place,
                            std::optional<uint32_t> task) {
   const uint32_t type = index(program->type);
-  const bool hidden =
-      std::any_of(program->decl->attributes.begin(), program->decl->attributes.end(),
-                  [](const Attribute &a) { return a.name == "hide"; });
+  const bool hidden = hasAttribute(program->decl->attributes, AttributeId::Hide);
   rootRows_.push_back("{nullptr, " + quote(program->name.text) + ", offsetof(App__, " + place +
                       "), " + std::to_string(type) + (hidden ? ", ::stride::kSymHidden" : ", 0") +
                       lastColumns(renamedFrom(program->decl->attributes), task) + "}");

@@ -1,5 +1,7 @@
 #include "compiler/doc/reference.hpp"
 
+#include "compiler/syntax/attributes.hpp"
+
 #include "compiler/syntax/st_text.hpp"
 
 #include <algorithm>
@@ -9,8 +11,7 @@ namespace stc::doc {
 namespace {
 
 bool isHidden(const ast::Attributes &attributes) {
-  return std::any_of(attributes.begin(), attributes.end(),
-                     [](const ast::Attribute &a) { return equalIgnoringCase(a.name, "hide"); });
+  return hasAttribute(attributes, ast::AttributeId::Hide);
 }
 
 bool isPrivate(ast::Access access) { return access == ast::Access::Private; }

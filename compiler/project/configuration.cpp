@@ -4,6 +4,7 @@
 
 #include "compiler/project/config.hpp"
 #include "compiler/source/suggest.hpp"
+#include "compiler/syntax/attributes.hpp"
 #include "compiler/syntax/st_text.hpp"
 #include "compiler/toml/interval.hpp"
 
@@ -76,7 +77,7 @@ public:
       for (VarDecl *variable : variables_) {
         // A program that is called under its own name as well has its own variables.
         if (plain_.contains(as<NamedTypeExpr>(variable->type)->path.back().id))
-          variable->attributes = attribute(kProgramInstance, "also");
+          variable->attributes = attribute(AttributeId::ProgramInstance, "also");
       }
       list->variables = program_.arena.copy(variables_);
       declarations_.insert(declarations_.begin(), list);
@@ -155,8 +156,8 @@ private:
         [](const ResourceDecl &r) { return !r.tasks.empty() || !r.programs.empty(); });
   }
 
-  Attributes attribute(std::string_view name, std::string_view value) {
-    return program_.arena.copy(std::vector<Attribute>{{name, value, {}}});
+  Attributes attribute(AttributeId id, std::string_view value) {
+    return program_.arena.copy(std::vector<Attribute>{{id, attributeRow(id).name, value, {}}});
   }
 
   void readResource(const ResourceDecl &resource) {
@@ -309,7 +310,7 @@ private:
       variable->section = ast::Section::Global;
       variable->qualifiers = decl.qualifiers;
       variable->type = path;
-      variable->attributes = attribute(kProgramInstance, {});
+      variable->attributes = attribute(AttributeId::ProgramInstance, {});
       variables_.push_back(variable);
     } else {
       plain_.emplace(type.id, true);
@@ -371,7 +372,7 @@ private:
     pou->span = span;
     const std::string name = what + "__call";
     pou->name = {program_.interner.intern(name), arena.copy(std::string_view(name)), callee->span};
-    pou->attributes = attribute("hide", {});
+    pou->attributes = attribute(AttributeId::Hide, {});
     pou->body = arena.copy(std::vector<Stmt *>{statement});
     declarations_.push_back(pou);
     return name;

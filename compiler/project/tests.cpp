@@ -1,5 +1,7 @@
 #include "compiler/project/tests.hpp"
 
+#include "compiler/syntax/attributes.hpp"
+
 #include "compiler/syntax/st_text.hpp"
 #include "compiler/toml/interval.hpp"
 
@@ -14,24 +16,18 @@ constexpr int64_t kDefaultCycleNs = 10'000'000;
 constexpr int64_t kDefaultTimeoutNs = 10'000'000'000;
 constexpr int64_t kShortestCycleNs = 1'000;
 
-const ast::Attribute *attributeOf(const ast::Decl &decl, std::string_view name) {
-  for (const ast::Attribute &attribute : decl.attributes)
-    if (equalIgnoringCase(attribute.name, name))
-      return &attribute;
-  return nullptr;
-}
-
 bool isTest(const ast::Decl &decl) {
   return decl.kind == ast::DeclKind::FunctionBlock && decl.name &&
-         attributeOf(decl, "test") != nullptr;
+         hasAttribute(decl.attributes, ast::AttributeId::Test);
 }
 
 /// A duration, or `otherwise`.
-int64_t durationOf(const ast::Decl &decl, std::string_view name, int64_t otherwise,
+int64_t durationOf(const ast::Decl &decl, ast::AttributeId id, int64_t otherwise,
                    Diagnostics &diagnostics) {
-  const ast::Attribute *attribute = attributeOf(decl, name);
+  const ast::Attribute *attribute = attributeOf(decl.attributes, id);
   if (attribute == nullptr)
     return otherwise;
+  const std::string_view name = attributeRow(id).name;
   const std::optional<int64_t> value = parseInterval(attribute->value);
   if (value && *value >= kShortestCycleNs)
     return *value;
@@ -55,8 +51,9 @@ std::vector<TestBlock> findTests(const std::vector<ast::File *> &files, Diagnost
         test.name += std::string(space.text) + ".";
       test.name += decl->name.text;
       test.place = decl->name.span;
-      test.cycleNs = durationOf(*decl, "test_cycle", 0, diagnostics);
-      test.timeoutNs = durationOf(*decl, "test_timeout", kDefaultTimeoutNs, diagnostics);
+      test.cycleNs = durationOf(*decl, ast::AttributeId::TestCycle, 0, diagnostics);
+      test.timeoutNs =
+          durationOf(*decl, ast::AttributeId::TestTimeout, kDefaultTimeoutNs, diagnostics);
       tests.push_back(std::move(test));
     }
   }

@@ -1,19 +1,12 @@
 #include "compiler/semantics/attributes.hpp"
 
-#include <algorithm>
-
 namespace stc {
 
 using namespace ast;
 
-bool hasAttribute(const Attributes &attributes, std::string_view name) {
-  return std::any_of(attributes.begin(), attributes.end(),
-                     [&](const Attribute &a) { return a.name == name; });
-}
-
 unsigned packMode(Reporter &reporter, const Attributes &attributes, unsigned otherwise) {
   for (const Attribute &a : attributes) {
-    if (a.name != "pack_mode")
+    if (a.id != AttributeId::PackMode)
       continue;
     if (a.value == "0" || a.value == "1")
       return 1;

@@ -1,15 +1,11 @@
 #ifndef STRIDE_COMPILER_SEMANTICS_ATTRIBUTES_HPP
 #define STRIDE_COMPILER_SEMANTICS_ATTRIBUTES_HPP
-// `{attribute 'name' := 'value'}` where one is looked for.
+// Attributes whose value is checked where it is looked for.
 
 #include "compiler/semantics/reporter.hpp"
-#include "compiler/syntax/ast.hpp"
-
-#include <string_view>
+#include "compiler/syntax/attributes.hpp"
 
 namespace stc {
-
-[[nodiscard]] bool hasAttribute(const ast::Attributes &attributes, std::string_view name);
 
 /// The alignment in bytes that {attribute 'pack_mode'} gives; `otherwise` where there is none or a
 /// wrong one, which is reported.

@@ -1,6 +1,7 @@
 #include "compiler/semantics/hierarchy.hpp"
 
 #include "compiler/semantics/program.hpp"
+#include "compiler/syntax/attributes.hpp"
 
 #include <algorithm>
 #include <unordered_set>
@@ -157,10 +158,8 @@ std::vector<PouSymbol *> afterInitMethods(const PouSymbol *pou) {
   for (PouSymbol *&inherited : list)
     inherited = implementation(pou, inherited);
   for (PouSymbol *m : pou->methods) {
-    const auto &attributes = m->decl->attributes;
     if (m->property == nullptr && pou->isBlock() &&
-        std::any_of(attributes.begin(), attributes.end(),
-                    [](const ast::Attribute &a) { return a.name == "call_after_init"; }) &&
+        hasAttribute(m->decl->attributes, ast::AttributeId::CallAfterInit) &&
         std::find(list.begin(), list.end(), m) == list.end())
       list.push_back(m);
   }

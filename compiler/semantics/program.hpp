@@ -95,10 +95,6 @@ struct AccessPath {
   const Location *location = nullptr; ///< of a variable in the process image
 };
 
-/// The attribute of a variable that is an instance of a PROGRAM (CONFIGURATION). With the value
-/// `also` the program exists under its own name, too.
-inline constexpr std::string_view kProgramInstance = "program instance";
-
 struct Settings {
   uint64_t poolSize = 65536; ///< bytes for the objects of __NEW, a multiple of 16
   bool checks = true;        ///< run-time checks (index, division, null, subrange)

@@ -1,5 +1,7 @@
 #include "compiler/syntax/ast_builder.hpp"
 
+#include "compiler/syntax/attributes.hpp"
+
 #include <algorithm>
 #include <string>
 
@@ -70,7 +72,10 @@ Attributes AstBuilder::attributes(const Token &token) {
   for (size_t i = 0; i < token.triviaCount; ++i)
     if (const Trivia &trivia = scanner_.trivia()[token.triviaBegin + i];
         trivia.kind == Trivia::Kind::Attribute)
-      list.push_back({trivia.name, trivia.value, {file_, trivia.begin, trivia.end}});
+      list.push_back({findAttribute(trivia.name),
+                      trivia.name,
+                      trivia.value,
+                      {file_, trivia.begin, trivia.end}});
   if (list.empty())
     return {};
   auto *data = static_cast<Attribute *>(

@@ -45,8 +45,16 @@ struct DirectAddress {
 // ----------------------------------------------------------------------------------------------------
 // attributes
 
+/// Which attribute it is.
+enum class AttributeId : uint8_t {
+  Unknown, ///< one that means nothing
+#define STC_ATTRIBUTE(enumerator, ...) enumerator,
+#include "compiler/syntax/attributes.def"
+};
+
 /// `{attribute 'name' := 'value'}`
 struct Attribute {
+  AttributeId id = AttributeId::Unknown;
   std::string_view name;
   std::string_view value;
   Span span;

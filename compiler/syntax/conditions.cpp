@@ -128,6 +128,11 @@ private:
     return question() != negative;
   }
 
+  /// What can be asked of names: `defined (…)`
+  struct Question {
+    std::string_view name;
+    bool (ConditionParser::*ask)();
+  };
   bool question() {
     if (take('(')) {
       if (++depth_ > kMaxNesting)
@@ -142,17 +147,20 @@ private:
     const std::string name = lowerCase(word());
     if (name == "true" || name == "false")
       return name == "true";
-    const bool known = name == "defined" || name == "hasattribute" || name == "hastype" ||
-                       name == "hasvalue" || name == "hasconstantvalue";
-    if (!known)
+    static constexpr Question kQuestions[] = {
+        {"defined", &ConditionParser::isDefined},
+        {"hasattribute", &ConditionParser::hasAttribute},
+        {"hastype", &ConditionParser::hasType},
+        {"hasvalue", &ConditionParser::hasValue},
+        {"hasconstantvalue", &ConditionParser::hasConstantValue},
+    };
+    const auto *found = std::find_if(std::begin(kQuestions), std::end(kQuestions),
+                                     [&](const Question &one) { return one.name == name; });
+    if (found == std::end(kQuestions))
       return fail(begin, std::max(at_, std::min(begin + 1, text_.size())),
                   "expected a question such as `defined (NAME)`");
     demand('(');
-    const bool value = name == "defined"        ? isDefined()
-                       : name == "hasattribute" ? hasAttribute()
-                       : name == "hastype"      ? hasType()
-                       : name == "hasvalue"     ? hasValue()
-                                                : hasConstantValue();
+    const bool value = (this->*found->ask)();
     demand(')');
     return value;
   }

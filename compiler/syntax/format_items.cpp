@@ -119,16 +119,16 @@ std::set<std::string> jumpTargets(const std::vector<FormatItem> &items) {
   return out;
 }
 
-std::string pragmaWord(std::string_view comment) {
+PragmaWord pragmaOf(std::string_view comment) {
   if (!comment.starts_with('{'))
-    return {};
+    return PragmaWord::None;
   size_t begin = 1;
   while (begin < comment.size() && classOf(comment[begin]) == kBlank)
     ++begin;
   size_t end = begin;
   while (end < comment.size() && isWordChar(comment[end]))
     ++end;
-  return lowerCase(comment.substr(begin, end - begin));
+  return findPragma(comment.substr(begin, end - begin));
 }
 
 bool isIntegerName(std::string_view text) { return isOneOf(text, kIntegers); }

@@ -3,6 +3,7 @@
 // What a text to be formatted consists of. Internal to compiler/syntax: includes ANTLR.
 
 #include "compiler/source/sources.hpp"
+#include "compiler/syntax/pragmas.hpp"
 #include "compiler/syntax/token.hpp"
 
 #include <cstddef>
@@ -40,8 +41,8 @@ inline constexpr uint16_t kUnknownText = Token::kEnd - 1;
 /// Names behind JMP, in lower case.
 [[nodiscard]] std::set<std::string> jumpTargets(const std::vector<FormatItem> &items);
 
-/// The word behind the brace of a pragma, in lower case; empty for comments.
-[[nodiscard]] std::string pragmaWord(std::string_view comment);
+/// Which pragma a comment is.
+[[nodiscard]] PragmaWord pragmaOf(std::string_view comment);
 
 /// INT, TIME_OF_DAY, …: names of types that are written like keywords.
 [[nodiscard]] bool isElementaryName(std::string_view text);

@@ -79,14 +79,14 @@ unsigned FormatLayout::commentLevel() const {
 
 /// Each branch of a conditional pragma begins with what was open in front of the first one.
 void FormatLayout::conditional(std::string_view comment) {
-  const std::string word = pragmaWord(comment);
-  if (word == "if") {
+  const PragmaWord word = pragmaOf(comment);
+  if (word == PragmaWord::If) {
     conditionals_.push_back(blocks_);
   } else if (conditionals_.empty()) {
     return;
-  } else if (word == "elsif" || word == "else") {
+  } else if (word == PragmaWord::Elsif || word == PragmaWord::Else) {
     blocks_ = conditionals_.back();
-  } else if (word == "end_if") {
+  } else if (word == PragmaWord::EndIf) {
     conditionals_.pop_back();
   }
 }

@@ -5,6 +5,7 @@
 #include "compiler/source/diagnostic.hpp"
 #include "compiler/source/sources.hpp"
 #include "compiler/syntax/conditions.hpp"
+#include "compiler/syntax/pragmas.hpp"
 #include "compiler/syntax/token.hpp"
 
 #include <string>
@@ -57,13 +58,27 @@ private:
     bool taken;   ///< one of its branches is compiled
     bool sawElse; ///< `{ELSE}` was there
   };
+  /// A pragma, as far as it has been read.
+  struct Pragma {
+    PragmaWord word;
+    std::string_view spelling; ///< of the word
+    Span whole;
+    size_t place; ///< what comes next
+    size_t end;   ///< the place of its `}`
+  };
   void pragma(size_t begin);
+  [[nodiscard]] Pragma pragmaAt(size_t begin, size_t end) const;
+  [[nodiscard]] size_t afterBlanks(size_t place, size_t end) const;
+  void attributePragma(const Pragma &pragma);
+  void directive(const Pragma &pragma);
+  void otherBranch(const Pragma &pragma);
+  void definition(const Pragma &pragma);
+  void message(const Pragma &pragma, Code code);
   void warningPragma(size_t place, size_t end);
-  void directive(std::string_view keyword, size_t begin, size_t p, size_t end);
-  void message(std::string_view keyword, Span whole, size_t p, size_t end);
-  void checkElse(std::string_view keyword, Span whole);
+  void checkElse(const Pragma &pragma);
   void branch(size_t p, size_t end);
   void skipInactive();
+  [[nodiscard]] bool endsInactive(const Pragma &pragma, size_t &depth);
   void reportOpenBranches();
 
   uint16_t word(size_t begin, Token &token);

@@ -33,110 +33,132 @@ void Scanner::pragma(size_t begin) {
     return;
   }
   place_ = behind;
-  const size_t end = behind - 1;
-  const auto from = static_cast<uint32_t>(begin);
-  const auto to = static_cast<uint32_t>(place_);
-  size_t p = begin + 1;
-  const auto skip = [&] {
-    while (p < end && classOf(text_[p]) == kBlank)
-      ++p;
-  };
+  const Pragma read = pragmaAt(begin, place_ - 1);
+  if (read.word == PragmaWord::External)
+    trivia_.push_back({Trivia::Kind::External, read.whole.begin, read.whole.end, {}, {}});
+  else if (read.word == PragmaWord::Attribute)
+    attributePragma(read);
+  else if (conditions_ != nullptr)
+    directive(read);
+}
+
+size_t Scanner::afterBlanks(size_t place, size_t end) const {
+  while (place < end && classOf(text_[place]) == kBlank)
+    ++place;
+  return place;
+}
+
+/// The one between the braces at those places.
+Scanner::Pragma Scanner::pragmaAt(size_t begin, size_t end) const {
+  const size_t place = afterBlanks(begin + 1, end);
+  const std::string_view spelling = wordAt(place);
+  return {findPragma(spelling), spelling, span(begin, end + 1), place + spelling.size(), end};
+}
+
+void Scanner::attributePragma(const Pragma &pragma) {
+  size_t place = pragma.place;
   const auto quotedText = [&]() -> std::string_view {
-    skip();
-    const char quote = p < end ? text_[p] : '\0';
+    place = afterBlanks(place, pragma.end);
+    const char quote = place < pragma.end ? text_[place] : '\0';
     if (quote != '\'' && quote != '"')
       return {};
-    const auto close = text_.find(quote, p + 1);
-    if (close >= end)
+    const auto close = text_.find(quote, place + 1);
+    if (close >= pragma.end)
       return {};
-    const std::string_view content = text_.substr(p + 1, close - p - 1);
-    p = close + 1;
+    const std::string_view content = text_.substr(place + 1, close - place - 1);
+    place = close + 1;
     return content;
   };
-  skip();
-  const std::string_view keyword = wordAt(p);
-  p += keyword.size();
-  if (isWord(keyword, "external")) {
-    trivia_.push_back({Trivia::Kind::External, from, to, {}, {}});
-  } else if (isWord(keyword, "attribute")) {
-    const std::string_view name = quotedText();
-    skip();
-    std::string_view value;
-    if (p + 1 < end && text_.compare(p, 2, ":=") == 0) {
-      p += 2;
-      value = quotedText();
-    }
-    if (!name.empty())
-      trivia_.push_back({Trivia::Kind::Attribute, from, to, name, value});
-  } else if (conditions_ != nullptr) {
-    directive(keyword, begin, p, end);
+  const std::string_view name = quotedText();
+  place = afterBlanks(place, pragma.end);
+  std::string_view value;
+  if (place + 1 < pragma.end && text_.compare(place, 2, ":=") == 0) {
+    place += 2;
+    value = quotedText();
   }
+  if (!name.empty())
+    trivia_.push_back({Trivia::Kind::Attribute, pragma.whole.begin, pragma.whole.end, name, value});
 }
 
 /// The pragmas that a scanner without conditions passes over.
-void Scanner::directive(std::string_view keyword, size_t begin, size_t p, size_t end) {
-  const Span whole = span(begin, end + 1);
-  if (isWord(keyword, "if")) {
-    branches_.push_back({whole, false, false});
-    branch(p, end);
-  } else if (isWord(keyword, "elsif") || isWord(keyword, "else") || isWord(keyword, "end_if")) {
-    if (branches_.empty()) {
-      diagnostics_
-          .report(Code::UnbalancedConditional, whole,
-                  "`{" + std::string(keyword) + "}` without an `{IF …}`", "no `{IF …}` is open")
-          .help(isWord(keyword, "end_if") ? "remove it" : "write `{IF …}` for the first condition");
-    } else if (isWord(keyword, "end_if")) {
-      branches_.pop_back();
-    } else {
-      checkElse(keyword, whole);
-      branches_.back().sawElse |= isWord(keyword, "else");
-      skipInactive(); // what stood in front of it was compiled
-    }
-  } else if (isWord(keyword, "define") || isWord(keyword, "undefine")) {
-    size_t at = p;
-    while (at < end && classOf(text_[at]) == kBlank)
-      ++at;
-    const std::string_view name = wordAt(at);
-    if (name.empty() || at + name.size() > end) {
-      diagnostics_
-          .report(Code::MalformedPragma, whole, "`{" + std::string(keyword) + "}` needs a name",
-                  "expected a name here")
-          .help("write `{" + std::string(keyword) + " NAME}`");
-      return;
-    }
-    at += name.size();
-    while (at < end && classOf(text_[at]) == kBlank)
-      ++at;
-    std::string_view value = text_.substr(at, end - at);
-    while (!value.empty() && classOf(value.back()) == kBlank)
-      value.remove_suffix(1);
-    if (value.size() >= 2 && (value[0] == '\'' || value[0] == '"') && value.back() == value[0])
-      value = value.substr(1, value.size() - 2);
-    if (isWord(keyword, "define"))
-      conditions_->define(name, value);
-    else
-      conditions_->undefine(name);
-  } else {
-    message(keyword, whole, p, end);
+void Scanner::directive(const Pragma &pragma) {
+  switch (pragma.word) {
+  case PragmaWord::If:
+    branches_.push_back({pragma.whole, false, false});
+    return branch(pragma.place, pragma.end);
+  case PragmaWord::Elsif:
+  case PragmaWord::Else:
+  case PragmaWord::EndIf:
+    return otherBranch(pragma);
+  case PragmaWord::Define:
+  case PragmaWord::Undefine:
+    return definition(pragma);
+  case PragmaWord::Error:
+    return message(pragma, Code::ErrorPragma);
+  case PragmaWord::Warning:
+    return message(pragma, Code::WarningPragma);
+  case PragmaWord::Info:
+  case PragmaWord::Text:
+    return message(pragma, Code::MessagePragma);
+  case PragmaWord::None: // region, analysis, unknown ones
+  case PragmaWord::Attribute:
+  case PragmaWord::External:
+    return bracesAsBlock(pragma.whole.begin, pragma.whole.end);
   }
 }
 
-void Scanner::message(std::string_view keyword, Span whole, size_t p, size_t end) {
-  const bool isError = isWord(keyword, "error");
-  const bool isWarning = isWord(keyword, "warning");
-  if (!isError && !isWarning && !isWord(keyword, "info") && !isWord(keyword, "text"))
-    return bracesAsBlock(whole.begin, whole.end); // region, analysis, unknown ones
-  while (p < end && classOf(text_[p]) == kBlank)
-    ++p;
-  if (p >= end || (text_[p] != '\'' && text_[p] != '"'))
-    return isWarning ? warningPragma(p, end) : void();
-  const size_t close = text_.find(text_[p], p + 1);
-  if (close >= end)
+void Scanner::otherBranch(const Pragma &pragma) {
+  const bool ends = pragma.word == PragmaWord::EndIf;
+  if (branches_.empty()) {
+    diagnostics_
+        .report(Code::UnbalancedConditional, pragma.whole,
+                "`{" + std::string(pragma.spelling) + "}` without an `{IF …}`",
+                "no `{IF …}` is open")
+        .help(ends ? "remove it" : "write `{IF …}` for the first condition");
+  } else if (ends) {
+    branches_.pop_back();
+  } else {
+    checkElse(pragma);
+    branches_.back().sawElse |= pragma.word == PragmaWord::Else;
+    skipInactive(); // what stood before it was compiled
+  }
+}
+
+/// `{define NAME value}`, `{undefine NAME}`
+void Scanner::definition(const Pragma &pragma) {
+  size_t at = afterBlanks(pragma.place, pragma.end);
+  const std::string_view name = wordAt(at);
+  if (name.empty() || at + name.size() > pragma.end) {
+    const std::string spelling(pragma.spelling);
+    diagnostics_
+        .report(Code::MalformedPragma, pragma.whole, "`{" + spelling + "}` needs a name",
+                "expected a name here")
+        .help("write `{" + spelling + " NAME}`");
     return;
-  diagnostics_.report(isError     ? Code::ErrorPragma
-                      : isWarning ? Code::WarningPragma
-                                  : Code::MessagePragma,
-                      whole, std::string(text_.substr(p + 1, close - p - 1)), "written here");
+  }
+  if (pragma.word == PragmaWord::Undefine)
+    return conditions_->undefine(name);
+  at = afterBlanks(at + name.size(), pragma.end);
+  std::string_view value = text_.substr(at, pragma.end - at);
+  while (!value.empty() && classOf(value.back()) == kBlank)
+    value.remove_suffix(1);
+  if (value.size() >= 2 && (value[0] == '\'' || value[0] == '"') && value.back() == value[0])
+    value = value.substr(1, value.size() - 2);
+  conditions_->define(name, value);
+}
+
+/// `{error 'text'}` and the like; `{warning …}` may be about diagnostics instead.
+void Scanner::message(const Pragma &pragma, Code code) {
+  const size_t place = afterBlanks(pragma.place, pragma.end);
+  if (place >= pragma.end || (text_[place] != '\'' && text_[place] != '"')) {
+    if (pragma.word == PragmaWord::Warning)
+      warningPragma(place, pragma.end);
+    return;
+  }
+  const size_t close = text_.find(text_[place], place + 1);
+  if (close < pragma.end)
+    diagnostics_.report(code, pragma.whole, std::string(text_.substr(place + 1, close - place - 1)),
+                        "written here");
 }
 
 /// `{warning disable SE0390}`, `{warning restore unused-variable}`; codes of other compilers are
@@ -169,12 +191,12 @@ void Scanner::warningPragma(size_t place, size_t end) {
   }
 }
 
-void Scanner::checkElse(std::string_view keyword, Span whole) {
+void Scanner::checkElse(const Pragma &pragma) {
   if (!branches_.back().sawElse)
     return;
   diagnostics_
-      .report(Code::UnbalancedConditional, whole,
-              "`{" + std::string(keyword) + "}` after the `{ELSE}` of the same `{IF …}`",
+      .report(Code::UnbalancedConditional, pragma.whole,
+              "`{" + std::string(pragma.spelling) + "}` after the `{ELSE}` of the same `{IF …}`",
               "`{ELSE}` is the last one")
       .label(branches_.back().place, "of this `{IF …}`");
 }
@@ -217,34 +239,37 @@ void Scanner::skipInactive() {
       continue;
     }
     place_ = behind;
-    size_t p = begin + 1;
-    while (p < behind && classOf(text_[p]) == kBlank)
-      ++p;
-    const std::string_view keyword = wordAt(p);
-    p += keyword.size();
-    if (isWord(keyword, "if")) {
-      ++depth;
-    } else if (isWord(keyword, "end_if")) {
-      if (depth == 0) {
-        branches_.pop_back();
-        return;
-      }
-      --depth;
-    } else if (depth == 0 && (isWord(keyword, "elsif") || isWord(keyword, "else"))) {
-      const bool isElse = isWord(keyword, "else");
-      checkElse(keyword, span(begin, behind));
-      branches_.back().sawElse |= isElse;
-      if (branches_.back().taken)
-        continue;
-      const std::optional<bool> value =
-          isElse ? std::optional(true)
-                 : conditions_->evaluate(text_.substr(p, behind - 1 - p), span(p, behind - 1),
-                                         diagnostics_);
-      branches_.back().taken = value.value_or(true);
-      if (value.value_or(false))
-        return;
-    }
+    if (endsInactive(pragmaAt(begin, place_ - 1), depth))
+      return;
   }
+}
+
+/// A pragma in text that is not compiled, inside of `depth` other conditions: true when compiled
+/// text follows.
+bool Scanner::endsInactive(const Pragma &pragma, size_t &depth) {
+  const bool isElse = pragma.word == PragmaWord::Else;
+  if (pragma.word == PragmaWord::If) {
+    ++depth;
+  } else if (pragma.word == PragmaWord::EndIf) {
+    if (depth == 0) {
+      branches_.pop_back();
+      return true;
+    }
+    --depth;
+  } else if (depth == 0 && (isElse || pragma.word == PragmaWord::Elsif)) {
+    checkElse(pragma);
+    branches_.back().sawElse |= isElse;
+    if (branches_.back().taken)
+      return false;
+    const Span condition = span(pragma.place, pragma.end);
+    const std::optional<bool> value =
+        isElse ? std::optional(true)
+               : conditions_->evaluate(text_.substr(pragma.place, pragma.end - pragma.place),
+                                       condition, diagnostics_);
+    branches_.back().taken = value.value_or(true);
+    return value.value_or(false);
+  }
+  return false;
 }
 
 void Scanner::reportOpenBranches() {

@@ -1,5 +1,7 @@
 #include "compiler/codegen/context/context.hpp"
 
+#include "compiler/syntax/attributes.hpp"
+
 #include <algorithm>
 
 namespace stc::codegen {
@@ -8,8 +10,7 @@ EmitContext::EmitContext(Context &context, const PouSymbol *body)
     : run(context), pou(body), out(context.program.sources), includes(context.names) {
   if (body == nullptr)
     return;
-  for (const ast::Attribute &a : body->decl->attributes)
-    noCheck_ = noCheck_ || a.name == "no_check";
+  noCheck_ = hasAttribute(body->decl->attributes, ast::AttributeId::NoCheck);
   for (const PouSymbol *check : context.program.implicitChecks)
     isCheck_ = isCheck_ || check == body;
 }

@@ -1,5 +1,7 @@
 #include "compiler/project/tools/axis_parameters.hpp"
 
+#include "compiler/syntax/attributes.hpp"
+
 #include <charconv>
 #include <fmt/format.h>
 #include <optional>
@@ -8,11 +10,8 @@
 namespace stc {
 namespace {
 
-std::string_view attribute(const VarSymbol &member, std::string_view name) {
-  for (const ast::Attribute &candidate : member.decl->attributes)
-    if (candidate.name == name)
-      return candidate.value;
-  return {};
+std::string_view attribute(const VarSymbol &member, ast::AttributeId id) {
+  return attributeValue(member.decl->attributes, id);
 }
 
 std::optional<int> number(std::string_view text) {
@@ -69,7 +68,7 @@ std::string axisParameterTable(const TypeSymbol &axisRef, std::string &error) {
       "inline constexpr AxisParameter kAxisParameters[] = {\n";
   std::set<int> seen;
   for (const VarSymbol *member : static_cast<const StructType *>(axisRef.type)->fields) {
-    const std::string_view given = attribute(*member, "parameter");
+    const std::string_view given = attribute(*member, ast::AttributeId::Parameter);
     if (given.empty())
       continue;
     const auto fail = [&](std::string_view why) {
@@ -77,7 +76,7 @@ std::string axisParameterTable(const TypeSymbol &axisRef, std::string &error) {
       return std::string();
     };
     const std::optional<int> own = number(given);
-    const std::string_view other = attribute(*member, "plcopen");
+    const std::string_view other = attribute(*member, ast::AttributeId::PlcOpen);
     const std::optional<int> plcopen = other.empty() ? 0 : number(other);
     if (!own || !plcopen)
       return fail("the number is none");
@@ -85,7 +84,8 @@ std::string axisParameterTable(const TypeSymbol &axisRef, std::string &error) {
       return fail("the number is taken");
     std::string path(member->name.text);
     const Type *type = member->type;
-    if (const std::string_view inner = attribute(*member, "parameter_member"); !inner.empty()) {
+    if (const std::string_view inner = attribute(*member, ast::AttributeId::ParameterMember);
+        !inner.empty()) {
       const VarSymbol *field = memberOf(type, inner);
       if (field == nullptr)
         return fail("no such member");
@@ -95,7 +95,7 @@ std::string axisParameterTable(const TypeSymbol &axisRef, std::string &error) {
     const std::string_view kind = kindName(type);
     if (kind.empty())
       return fail("no parameter has this type");
-    const std::string_view access = attribute(*member, "parameter_access");
+    const std::string_view access = attribute(*member, ast::AttributeId::ParameterAccess);
     if (!access.empty() && access != "read")
       return fail("the access is unknown");
     text += fmt::format("    {{{}, {}, ParameterKind::{}, {},\n"

@@ -4,6 +4,7 @@
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/library_index.hpp"
 #include "compiler/source/render.hpp"
+#include "compiler/syntax/attributes.hpp"
 #include "compiler/syntax/parser.hpp"
 #include "compiler/syntax/st_text.hpp"
 
@@ -92,12 +93,6 @@ private:
       addNames(*decl, index);
   }
 
-  static bool has(const stc::ast::Decl &decl, std::string_view attribute) {
-    return std::any_of(
-        decl.attributes.begin(), decl.attributes.end(),
-        [&](const stc::ast::Attribute &one) { return stc::lowerCase(one.name) == attribute; });
-  }
-
   void add(const stc::ast::Name &name, uint8_t rank, size_t file) {
     if (name)
       names_.push_back({stc::lowerCase(name.text), rank, file});
@@ -108,8 +103,7 @@ private:
       // The list has the name of its file.
       names_.push_back({stc::lowerCase(fs::path(files_[file].name).stem().string()), 1, file});
       const auto *list = stc::ast::as<stc::ast::GlobalsDecl>(&decl);
-      if (std::any_of(list->attributes.begin(), list->attributes.end(),
-                      [](const auto &one) { return one.name == "qualified_only"; }))
+      if (stc::hasAttribute(list->attributes, stc::ast::AttributeId::QualifiedOnly))
         return;
       for (const stc::ast::VarDecl *variable : list->variables)
         add(variable->name, 1, file);
@@ -118,7 +112,8 @@ private:
     add(decl.name, 0, file);
     // The enumerators of private types take no name away from anybody.
     if (decl.kind == stc::ast::DeclKind::Enumeration &&
-        !(has(decl, "hide") && has(decl, "qualified_only")))
+        !(stc::hasAttribute(decl.attributes, stc::ast::AttributeId::Hide) &&
+          stc::hasAttribute(decl.attributes, stc::ast::AttributeId::QualifiedOnly)))
       for (const stc::ast::EnumeratorDecl &enumerator :
            stc::ast::as<stc::ast::EnumDecl>(&decl)->type->enumerators)
         add(enumerator.name, 2, file);

@@ -7,6 +7,7 @@
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/declarations/declarations.hpp"
 #include "compiler/semantics/expressions/expressions.hpp"
+#include "compiler/syntax/attributes.hpp"
 
 #include <algorithm>
 
@@ -23,10 +24,7 @@ const PouSymbol *withoutAttribute(const Type *type) {
   if (!isInstance(type))
     return nullptr;
   const PouSymbol *pou = typeAs<PouType>(type)->symbol;
-  const bool enabled =
-      std::any_of(pou->decl->attributes.begin(), pou->decl->attributes.end(),
-                  [](const Attribute &a) { return a.name == "enable_dynamic_creation"; });
-  return enabled ? nullptr : pou;
+  return hasAttribute(pou->decl->attributes, AttributeId::EnableDynamicCreation) ? nullptr : pou;
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include "compiler/semantics/expressions/expressions.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/source/suggest.hpp"
+#include "compiler/syntax/attributes.hpp"
 
 #include <unordered_set>
 
@@ -188,14 +189,8 @@ void checkLifecycle(Context &c, PouSymbol *method) {
 }
 
 void checkAfterInit(Context &c, PouSymbol *method) {
-  const auto attribute = [](const Attributes &list) {
-    for (const Attribute &a : list) {
-      if (a.name == "call_after_init")
-        return true;
-    }
-    return false;
-  };
-  if (!attribute(method->decl->attributes) || method->property != nullptr)
+  if (!hasAttribute(method->decl->attributes, AttributeId::CallAfterInit) ||
+      method->property != nullptr)
     return;
   for (const VarSymbol *v : method->parameters()) {
     if (v->section == Section::Output || v->decl->init != nullptr)

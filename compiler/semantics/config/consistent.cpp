@@ -5,6 +5,7 @@
 
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/plain_data.hpp"
+#include "compiler/syntax/attributes.hpp"
 
 #include <algorithm>
 
@@ -15,9 +16,7 @@ using namespace ast;
 namespace {
 
 const Attribute *consistentOf(const Attributes &attributes) {
-  const auto found = std::find_if(attributes.begin(), attributes.end(),
-                                  [](const Attribute &a) { return a.name == "consistent"; });
-  return found == attributes.end() ? nullptr : &*found;
+  return attributeOf(attributes, AttributeId::Consistent);
 }
 
 /// Why the attribute does nothing for the variable; empty: it does.

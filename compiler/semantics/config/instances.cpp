@@ -4,6 +4,7 @@
 
 #include "compiler/semantics/context/context.hpp"
 #include "compiler/semantics/declarations/declarations.hpp"
+#include "compiler/syntax/attributes.hpp"
 
 #include <algorithm>
 
@@ -12,8 +13,7 @@ namespace stc::sema {
 using namespace ast;
 
 bool isProgramInstance(const VarSymbol *variable) {
-  return std::any_of(variable->decl->attributes.begin(), variable->decl->attributes.end(),
-                     [](const Attribute &a) { return a.name == kProgramInstance; });
+  return hasAttribute(variable->decl->attributes, AttributeId::ProgramInstance);
 }
 
 void reportTemplate(Context &c, const Name &name, const PouSymbol *program) {
@@ -39,7 +39,8 @@ void resolveInstances(Context &c, Module &module) {
       if (!isProgramInstance(v))
         continue;
       const Type *type = typeOf(c, v);
-      if (type->kind == TypeKind::Program && v->decl->attributes.front().value != "also")
+      if (type->kind == TypeKind::Program &&
+          attributeValue(v->decl->attributes, AttributeId::ProgramInstance) != "also")
         typeAs<PouType>(type)->symbol->isTemplate = true;
     }
   }

@@ -44,7 +44,7 @@ VarSymbol *makeVariable(Arena &arena, VarDecl *decl, Module &module, PouSymbol *
   symbol->section = decl->section;
   symbol->owner = owner;
   symbol->isConstant = (decl->qualifiers & kQualConstant) != 0;
-  symbol->hidden = hasAttribute(decl->attributes, "hide");
+  symbol->hidden = hasAttribute(decl->attributes, AttributeId::Hide);
   decl->symbol = symbol;
   return symbol;
 }
@@ -242,7 +242,7 @@ void Lookup::declareGlobals(Module &module, GlobalsDecl *decl) {
     list->library = module.library;
     module.library->globals.push_back(list);
   }
-  const bool qualifiedOnly = hasAttribute(decl->attributes, "qualified_only");
+  const bool qualifiedOnly = hasAttribute(decl->attributes, AttributeId::QualifiedOnly);
   for (VarDecl *v : decl->variables) {
     VarSymbol *symbol = makeVariable(arena_, v, module, nullptr);
     symbol->globals = list;

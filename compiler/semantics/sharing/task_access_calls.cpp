@@ -2,6 +2,7 @@
 
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/sharing/task_access_names.hpp"
+#include "compiler/syntax/attributes.hpp"
 
 #include <algorithm>
 
@@ -15,9 +16,7 @@ namespace {
 /// Blocks of the library that look at an axis, or ask its drive, without moving it; actions of the
 /// library that are made for another task than the rest of their block.
 bool worksInAnyTask(const PouSymbol *block) {
-  const Attributes attributes = block->decl->attributes;
-  return std::any_of(attributes.begin(), attributes.end(),
-                     [](const Attribute &a) { return a.name == "any_task"; });
+  return hasAttribute(block->decl->attributes, AttributeId::AnyTask);
 }
 
 } // namespace

@@ -126,7 +126,7 @@ static void resolveStruct(Context &c, TypeSymbol *symbol, StructDecl *decl) {
       placeVariable(c, field);
     fields.push_back(field);
     for (const Attribute &a : f->attributes) { // a second name of the same field
-      if (a.name == "alias")
+      if (a.id == AttributeId::Alias)
         symbol->fields.emplace(c.program.interner.intern(a.value), field);
     }
   }
@@ -175,7 +175,7 @@ static std::vector<EnumeratorSymbol *> makeEnumerators(Context &c, const EnumTyp
                                                        const EnumType *type) {
   Module &module = c.names.moduleOf(symbol);
   const bool isQualified =
-      symbol->decl != nullptr && hasAttribute(symbol->decl->attributes, "qualified_only");
+      symbol->decl != nullptr && hasAttribute(symbol->decl->attributes, AttributeId::QualifiedOnly);
   std::vector<EnumeratorSymbol *> list;
   std::unordered_map<Ident, EnumeratorSymbol *> seen;
   int64_t next = 0;
@@ -205,11 +205,11 @@ const EnumType *makeEnum(Context &c, EnumTypeExpr *expr, TypeSymbol *symbol) {
   symbol->type = type;
   type->base = elementaryType(TypeKind::Int);
   type->base = baseOfEnum(c, expr);
-  const auto has = [&](std::string_view attribute) {
+  const auto has = [&](AttributeId attribute) {
     return symbol->decl != nullptr && hasAttribute(symbol->decl->attributes, attribute);
   };
-  type->strict = has("strict");
-  type->named = has("to_string");
+  type->strict = has(AttributeId::Strict);
+  type->named = has(AttributeId::ToString);
   const std::vector<EnumeratorSymbol *> list = makeEnumerators(c, expr, symbol, type);
   type->enumerators = c.arena.copy(list);
   type->initial = list.empty() ? nullptr : list.front();
@@ -223,7 +223,8 @@ const EnumType *makeEnum(Context &c, EnumTypeExpr *expr, TypeSymbol *symbol) {
       }
     }
   }
-  type->qualifiedOnly = has("qualified_only"); // its own declaration may use the plain names
+  type->qualifiedOnly =
+      has(AttributeId::QualifiedOnly); // its own declaration may use the plain names
   return type;
 }
 
