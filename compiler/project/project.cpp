@@ -165,18 +165,46 @@ bool Project::declaresNothing(const std::vector<ast::File *> &files) const {
   });
 }
 
-void Project::analyse(Purpose purpose, const LibraryIndex &index) {
-  if (tomlFile_ != 0) {
-    ProjectConfig read = readConfig(program_.sources.file(tomlFile_), program_.diagnostics);
-    program_.settings.poolSize = read.poolSize;
-    ownName_ = !read.name.empty();
-    if (!ownName_)
-      read.name = config_.name;
-    config_ = std::move(read);
-    program_.settings.addressing = config_.addressing;
-    program_.settings.imageBytes = config_.imageBytes;
-    program_.settings.pack = config_.pack;
+void Project::readOwnConfig() {
+  if (tomlFile_ == 0)
+    return;
+  ProjectConfig read = readConfig(program_.sources.file(tomlFile_), program_.diagnostics);
+  program_.settings.poolSize = read.poolSize;
+  ownName_ = !read.name.empty();
+  if (!ownName_)
+    read.name = config_.name;
+  config_ = std::move(read);
+  program_.settings.addressing = config_.addressing;
+  program_.settings.imageBytes = config_.imageBytes;
+  program_.settings.pack = config_.pack;
+}
+
+/// What the configuration declares goes to the files; false: something of it is missing, which the
+/// program would miss everywhere.
+bool Project::addDeclarations(Purpose purpose, ProgramCheck programCheck,
+                              std::vector<ast::File *> &files, const ParseOptions &options) {
+  if (ast::File *instances = readConfigurations(config_, files, program_))
+    files.push_back(instances);
+  if (purpose == Purpose::Test) {
+    files.push_back(parseSynthetic(testProgram(tests_), options));
+    configureTests(config_);
   }
+  resolveTasks(config_, files, programCheck, program_.diagnostics);
+  const SyntheticSource plc = plcDeclarations(config_, files, program_.diagnostics);
+  if (!plc.empty()) {
+    files.insert(files.begin(), parseSynthetic(plc, options));
+    plcFile_ = files.front()->id;
+  }
+  if (!declareCams(files, options))
+    return false;
+  for (const TaskConfig &task : config_.tasks)
+    if (!task.event.text.empty())
+      files.insert(files.begin(), eventFile(task, options));
+  return true;
+}
+
+void Project::analyse(Purpose purpose, const LibraryIndex &index) {
+  readOwnConfig();
   const size_t configErrors = program_.diagnostics.errorCount();
   std::vector<ast::File *> files;
   DeclaredNames names(program_.sources, sourceFiles_);
@@ -201,26 +229,11 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
   }
   if (config_.incomplete)
     return; // what is missing of the configuration would be missed everywhere in the program
-  if (ast::File *instances = readConfigurations(config_, files, program_))
-    files.push_back(instances);
-  if (purpose == Purpose::Test) {
-    files.push_back(parseSynthetic(testProgram(tests_), options));
-    configureTests(config_);
-  }
   const ProgramCheck programCheck = syntaxErrors                ? ProgramCheck::Skip
                                     : purpose == Purpose::Build ? ProgramCheck::Runnable
                                                                 : ProgramCheck::Existing;
-  resolveTasks(config_, files, programCheck, program_.diagnostics);
-  const SyntheticSource plc = plcDeclarations(config_, files, program_.diagnostics);
-  if (!plc.empty()) {
-    files.insert(files.begin(), parseSynthetic(plc, options));
-    plcFile_ = files.front()->id;
-  }
-  if (!declareCams(files, options))
-    return; // the program would miss them everywhere
-  for (const TaskConfig &task : config_.tasks)
-    if (!task.event.text.empty())
-      files.insert(files.begin(), eventFile(task, options));
+  if (!addDeclarations(purpose, programCheck, files, options))
+    return;
   program_.files = files;
   check(program_, files, index);
   if (!hasErrors())

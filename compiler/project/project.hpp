@@ -69,6 +69,9 @@ private:
   void loadFolder();
   void loadFile(const std::filesystem::path &path, const std::string &name);
   void analyse(Purpose purpose, const LibraryIndex &index);
+  void readOwnConfig();
+  bool addDeclarations(Purpose purpose, ProgramCheck programCheck, std::vector<ast::File *> &files,
+                       const ParseOptions &options);
   void shareVariables();
   ast::File *parseSynthetic(const SyntheticSource &source, ParseOptions options);
   bool declareCams(std::vector<ast::File *> &files, const ParseOptions &options);

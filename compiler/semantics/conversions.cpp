@@ -48,6 +48,51 @@ bool sameShape(const Type *a, const Type *b) {
   return a == b;
 }
 
+namespace {
+
+/// Of an integer into what is neither an enumeration nor a subrange.
+Conversion fromInteger(const Type *from, const Type *to) {
+  if (isInteger(to))
+    return classifyInteger(from, to);
+  if (to->kind == TypeKind::Real)
+    return bitWidth(from) <= 16 ? Conversion::Free : Conversion::Narrowing;
+  if (to->kind == TypeKind::Lreal)
+    return bitWidth(from) <= 32 ? Conversion::Free : Conversion::Narrowing;
+  return isElementary(to) ? Conversion::Narrowing : Conversion::Forbidden;
+}
+
+Conversion fromReal(const Type *to) {
+  if (isReal(to))
+    return to->kind == TypeKind::Lreal ? Conversion::Free : Conversion::Lossy;
+  return isElementary(to) ? Conversion::Narrowing : Conversion::Forbidden;
+}
+
+Conversion fromEnumeration(const Type *from, const Type *to) {
+  if (to->kind == TypeKind::Enumeration)
+    return Conversion::Forbidden;
+  const Type *base = typeAs<EnumType>(from)->base;
+  if (isInteger(to) && bitWidth(to) == bitWidth(base))
+    return Conversion::Free;
+  return classify(base, to);
+}
+
+Conversion classifyPointers(const Type *from, const Type *to) {
+  const Type *f = typeAs<PointerType>(from)->pointee;
+  const Type *t = typeAs<PointerType>(to)->pointee;
+  if (isInstance(f) && isInstance(t) &&
+      derivesFrom(typeAs<PouType>(f)->symbol, typeAs<PouType>(t)->symbol))
+    return Conversion::Free; // a derived instance begins with its base
+  return isByteView(t) || isByteView(f) ? Conversion::Free : Conversion::Lossy;
+}
+
+/// Into a STRING or WSTRING, of a text or (edition 3) of a character, a text of one.
+Conversion classifyText(const Type *from, const Type *to) {
+  const bool wide = from->kind == TypeKind::Wstring || from->kind == TypeKind::Wchar;
+  return wide == (to->kind == TypeKind::Wstring) ? Conversion::Free : Conversion::Narrowing;
+}
+
+} // namespace
+
 Conversion classify(const Type *from, const Type *to) {
   if (from == to || isError(from) || isError(to))
     return Conversion::Identity;
@@ -62,49 +107,20 @@ Conversion classify(const Type *from, const Type *to) {
   }
   if (from->kind == TypeKind::Subrange)
     return classify(typeAs<SubrangeType>(from)->base, to);
-  if (from->kind == TypeKind::Enumeration) {
-    if (to->kind == TypeKind::Enumeration)
-      return Conversion::Forbidden;
-    const Type *base = typeAs<EnumType>(from)->base;
-    if (isInteger(to) && bitWidth(to) == bitWidth(base))
-      return Conversion::Free;
-    return classify(base, to);
-  }
+  if (from->kind == TypeKind::Enumeration)
+    return fromEnumeration(from, to);
   if (to->kind == TypeKind::Enumeration)
     return isInteger(from) ? Conversion::Lossy : Conversion::Forbidden;
-  if (isInteger(from)) {
-    if (isInteger(to))
-      return classifyInteger(from, to);
-    if (to->kind == TypeKind::Real)
-      return bitWidth(from) <= 16 ? Conversion::Free : Conversion::Narrowing;
-    if (to->kind == TypeKind::Lreal)
-      return bitWidth(from) <= 32 ? Conversion::Free : Conversion::Narrowing;
-    return isElementary(to) ? Conversion::Narrowing : Conversion::Forbidden;
-  }
-  if (isReal(from)) {
-    if (isReal(to))
-      return to->kind == TypeKind::Lreal ? Conversion::Free : Conversion::Lossy;
-    return isElementary(to) ? Conversion::Narrowing : Conversion::Forbidden;
-  }
-  if (isString(from) && isString(to))
-    return from->kind == to->kind ? Conversion::Free : Conversion::Narrowing;
-  if (isCharacter(from) && isString(to)) // edition 3: a text of one character
-    return (from->kind == TypeKind::Char) == (to->kind == TypeKind::String) ? Conversion::Free
-                                                                            : Conversion::Narrowing;
+  if (isInteger(from))
+    return fromInteger(from, to);
+  if (isReal(from))
+    return fromReal(to);
+  if ((isString(from) || isCharacter(from)) && isString(to))
+    return classifyText(from, to);
   if (isTimeOrDate(from) && isTimeOrDate(to))
     return classifyTime(from->kind, to->kind);
-  if (from->kind == TypeKind::Pointer && to->kind == TypeKind::Pointer) {
-    const Type *f = typeAs<PointerType>(from)->pointee;
-    const Type *t = typeAs<PointerType>(to)->pointee;
-    if (isInstance(f) && isInstance(t) &&
-        derivesFrom(typeAs<PouType>(f)->symbol, typeAs<PouType>(t)->symbol))
-      return Conversion::Free; // a derived instance begins with its base
-  }
   if (from->kind == TypeKind::Pointer && to->kind == TypeKind::Pointer)
-    return isByteView(typeAs<PointerType>(to)->pointee) ||
-                   isByteView(typeAs<PointerType>(from)->pointee)
-               ? Conversion::Free
-               : Conversion::Lossy;
+    return classifyPointers(from, to);
   if (from->kind == TypeKind::Pointer && isInteger(to) && bitWidth(to) >= 32)
     return bitWidth(to) == 64 ? Conversion::Free : Conversion::Lossy;
   if (isElementary(from) && isElementary(to))

@@ -70,69 +70,48 @@ unsigned bitWidth(const Type *t) {
 
 namespace {
 
+struct KindName {
+  TypeKind kind;
+  std::string_view name;
+};
+
+constexpr KindName kKindNames[] = {
+    {TypeKind::Error, "<error>"},
+    {TypeKind::None, "<no value>"},
+    {TypeKind::Boolean, "BOOL"},
+    {TypeKind::Sint, "SINT"},
+    {TypeKind::Int, "INT"},
+    {TypeKind::Dint, "DINT"},
+    {TypeKind::Lint, "LINT"},
+    {TypeKind::Usint, "USINT"},
+    {TypeKind::Uint, "UINT"},
+    {TypeKind::Udint, "UDINT"},
+    {TypeKind::Ulint, "ULINT"},
+    {TypeKind::Byte, "BYTE"},
+    {TypeKind::Word, "WORD"},
+    {TypeKind::Dword, "DWORD"},
+    {TypeKind::Lword, "LWORD"},
+    {TypeKind::Real, "REAL"},
+    {TypeKind::Lreal, "LREAL"},
+    {TypeKind::Time, "TIME"},
+    {TypeKind::Ltime, "LTIME"},
+    {TypeKind::Date, "DATE"},
+    {TypeKind::Ldate, "LDATE"},
+    {TypeKind::Tod, "TIME_OF_DAY"},
+    {TypeKind::Ltod, "LTIME_OF_DAY"},
+    {TypeKind::Dt, "DATE_AND_TIME"},
+    {TypeKind::Ldt, "LDATE_AND_TIME"},
+    {TypeKind::Char, "CHAR"},
+    {TypeKind::Wchar, "WCHAR"},
+    {TypeKind::AnyInteger, "integer constant"},
+    {TypeKind::AnyReal, "real constant"},
+};
+
 std::string_view elementaryName(TypeKind kind) {
-  switch (kind) {
-  case TypeKind::Error:
-    return "<error>";
-  case TypeKind::None:
-    return "<no value>";
-  case TypeKind::Boolean:
-    return "BOOL";
-  case TypeKind::Sint:
-    return "SINT";
-  case TypeKind::Int:
-    return "INT";
-  case TypeKind::Dint:
-    return "DINT";
-  case TypeKind::Lint:
-    return "LINT";
-  case TypeKind::Usint:
-    return "USINT";
-  case TypeKind::Uint:
-    return "UINT";
-  case TypeKind::Udint:
-    return "UDINT";
-  case TypeKind::Ulint:
-    return "ULINT";
-  case TypeKind::Byte:
-    return "BYTE";
-  case TypeKind::Word:
-    return "WORD";
-  case TypeKind::Dword:
-    return "DWORD";
-  case TypeKind::Lword:
-    return "LWORD";
-  case TypeKind::Real:
-    return "REAL";
-  case TypeKind::Lreal:
-    return "LREAL";
-  case TypeKind::Time:
-    return "TIME";
-  case TypeKind::Ltime:
-    return "LTIME";
-  case TypeKind::Date:
-    return "DATE";
-  case TypeKind::Ldate:
-    return "LDATE";
-  case TypeKind::Tod:
-    return "TIME_OF_DAY";
-  case TypeKind::Ltod:
-    return "LTIME_OF_DAY";
-  case TypeKind::Dt:
-    return "DATE_AND_TIME";
-  case TypeKind::Ldt:
-    return "LDATE_AND_TIME";
-  case TypeKind::Char:
-    return "CHAR";
-  case TypeKind::Wchar:
-    return "WCHAR";
-  case TypeKind::AnyInteger:
-    return "integer constant";
-  case TypeKind::AnyReal:
-    return "real constant";
-  default:
-    return "";
-  }
+  for (const KindName &row : kKindNames)
+    if (row.kind == kind)
+      return row.name;
+  return "";
 }
 
 } // namespace

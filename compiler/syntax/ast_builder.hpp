@@ -61,6 +61,8 @@ private:
 
   // declarations
   void modifiers(const Context *context, ast::Decl &out);
+  void extendsClause(const Context *clause, const std::string &what, ast::PouDecl &out);
+  void implementsClause(const Context *clause, const std::string &what, ast::PouDecl &out);
   void configVariable(Context *context, uint8_t qualifiers, std::vector<ast::VarDecl *> &out);
   void accessVariable(Context *context, std::vector<ast::VarDecl *> &out);
   void declarations(Context *context, size_t from, ast::Section section, uint8_t qualifiers,
@@ -68,10 +70,20 @@ private:
   void declaration(Context *context, ast::Section section, uint8_t qualifiers,
                    std::vector<ast::VarDecl *> &out);
   ast::Decl *typeDeclaration(Context *context);
+  /// What a structure extends, and where that is written.
+  struct StructBase {
+    ast::NamePath path;
+    Span span;
+  };
+  void structBase(const Context *clause, StructBase &out);
+  ast::StructDecl *structure(Context *body, StructBase base);
+  ast::Decl *plainType(const Context *context, size_t i);
 
   // types
   /// `declared`: of a TYPE, where `INT (a, b)` is an enumeration whatever INT is.
   ast::TypeExpr *type(Context *context, bool declared = false);
+  ast::TypeExpr *arrayType(const Context *context);
+  ast::TypeExpr *listedType(Context *context);
   ast::TypeExpr *namedType(Context *context, bool declared);
   ast::DirectAddress *address(const Token &token);
   ast::EnumTypeExpr *enumeration(Context *context, size_t firstArgument, size_t arguments);
@@ -80,7 +92,14 @@ private:
   // statements
   ast::Block block(Context *context);
   ast::Stmt *statement(Context *context);
+  ast::Stmt *wordStatement(const Context *context);
+  ast::Stmt *jump(const Context *context);
   ast::Stmt *simpleStatement(Context *context);
+  ast::Stmt *assignment(ast::AssignOp op, const Token &sign,
+                        const std::vector<ast::Expr *> &targets, ast::Expr *value);
+  ast::Stmt *withoutSign(Context *context);
+  ast::Stmt *mixedAssignment(const std::vector<ast::Expr *> &targets,
+                             const std::vector<const Token *> &signs, ast::Expr *value);
   ast::Stmt *ifStatement(Context *context);
   ast::Stmt *caseStatement(Context *context);
   ast::Stmt *forStatement(Context *context);
@@ -93,6 +112,10 @@ private:
   ast::Expr *flat(Context *context, size_t begin, size_t end);
   ast::Expr *operand(Context *context);
   ast::Expr *primary(Context *context, size_t &at, size_t &nextChild);
+  ast::Expr *nameOperand(const Token &name);
+  ast::Expr *directOperand(const Token &direct);
+  ast::Expr *bracketOperand(Context *inside, size_t &at);
+  ast::Expr *arrayAggregate(const Context *inside, Span whole);
   ast::Expr *postfix(Context *context, ast::Expr *base, size_t &at, size_t &nextChild);
   ast::Expr *memberOf(ast::Expr *base, const Token &member);
   ast::Expr *bracketed(ast::Expr *base, Context *inside, size_t &at, size_t end);

@@ -136,33 +136,66 @@ void AstBuilder::modifiers(const Context *context, Decl &out) {
   }
 }
 
+namespace {
+
+DeclKind pouKindOf(uint16_t keyword) {
+  switch (keyword) {
+  case Tok::PROGRAM:
+    return DeclKind::Program;
+  case Tok::FUNCTION:
+    return DeclKind::Function;
+  case Tok::CLASS:
+    return DeclKind::Class;
+  case Tok::INTERFACE:
+    return DeclKind::Interface;
+  case Tok::METHOD:
+  case Tok::PROPERTY:
+    return DeclKind::Method;
+  case Tok::ACTION:
+    return DeclKind::Action;
+  default:
+    return DeclKind::FunctionBlock;
+  }
+}
+
+} // namespace
+
+/// `what`: the keyword of the head.
+void AstBuilder::extendsClause(const Context *clause, const std::string &what, PouDecl &out) {
+  if (out.kind == DeclKind::Interface) {
+    out.interfaces = paths(clause);
+    return;
+  }
+  if (out.kind != DeclKind::FunctionBlock && out.kind != DeclKind::Class) {
+    diagnostics_.report(Code::UnexpectedToken, span(clause),
+                        "only blocks, classes, interfaces and structures can extend another one",
+                        "not possible for a " + what);
+    return;
+  }
+  out.base = path(child(clause, 0));
+  if (clause->children.size() > 1)
+    diagnostics_
+        .report(Code::UnexpectedToken, span(child(clause, 1)),
+                "a " + what + " extends one other only", "a second base")
+        .help("several INTERFACEs can be implemented: `IMPLEMENTS A, B`");
+}
+
+void AstBuilder::implementsClause(const Context *clause, const std::string &what, PouDecl &out) {
+  if (out.kind == DeclKind::FunctionBlock || out.kind == DeclKind::Class) {
+    out.interfaces = paths(clause);
+    return;
+  }
+  Diagnostic &d = diagnostics_.report(
+      Code::UnexpectedToken, span(clause), "only blocks and classes can implement an interface",
+      "not possible for " + std::string(what == "INTERFACE" ? "an " : "a ") + what);
+  if (out.kind == DeclKind::Interface)
+    d.help("an INTERFACE takes in others with EXTENDS");
+}
+
 PouDecl *AstBuilder::head(Grammar::PouHeadContext *context, NamePath &owner) {
   const Token &keyword = token(first(context));
   auto *node = arena_.make<PouDecl>();
-  switch (keyword.type) {
-  case Tok::PROGRAM:
-    node->kind = DeclKind::Program;
-    break;
-  case Tok::FUNCTION:
-    node->kind = DeclKind::Function;
-    break;
-  case Tok::CLASS:
-    node->kind = DeclKind::Class;
-    break;
-  case Tok::INTERFACE:
-    node->kind = DeclKind::Interface;
-    break;
-  case Tok::METHOD:
-  case Tok::PROPERTY:
-    node->kind = DeclKind::Method;
-    break;
-  case Tok::ACTION:
-    node->kind = DeclKind::Action;
-    break;
-  default:
-    node->kind = DeclKind::FunctionBlock;
-    break;
-  }
+  node->kind = pouKindOf(keyword.type);
   node->span = span(context);
   node->attributes = attributes(keyword);
   node->doc = doc(keyword);
@@ -183,86 +216,71 @@ PouDecl *AstBuilder::head(Grammar::PouHeadContext *context, NamePath &owner) {
       node->returnType = failed(part) ? errorType(span(part)) : type(part);
       break;
     case Grammar::RuleExtendsClause:
-      if (node->kind == DeclKind::Interface) {
-        node->interfaces = paths(part);
-      } else if (node->kind != DeclKind::FunctionBlock && node->kind != DeclKind::Class) {
-        diagnostics_.report(
-            Code::UnexpectedToken, span(part),
-            "only blocks, classes, interfaces and structures can extend another one",
-            "not possible for a " + what);
-      } else {
-        node->base = path(child(part, 0));
-        if (part->children.size() > 1)
-          diagnostics_
-              .report(Code::UnexpectedToken, span(child(part, 1)),
-                      "a " + what + " extends one other only", "a second base")
-              .help("several INTERFACEs can be implemented: `IMPLEMENTS A, B`");
-      }
+      extendsClause(part, what, *node);
       break;
-    default: // implementsClause
-      if (node->kind != DeclKind::FunctionBlock && node->kind != DeclKind::Class) {
-        Diagnostic &d = diagnostics_.report(
-            Code::UnexpectedToken, span(part), "only blocks and classes can implement an interface",
-            "not possible for " + std::string(what == "INTERFACE" ? "an " : "a ") + what);
-        if (node->kind == DeclKind::Interface)
-          d.help("an INTERFACE takes in others with EXTENDS");
-        break;
-      }
-      node->interfaces = paths(part);
+    default:
+      implementsClause(part, what, *node);
       break;
     }
   }
   return node->name ? node : nullptr;
 }
 
-void AstBuilder::section(Grammar::VarSectionContext *context, std::vector<VarDecl *> &out) {
-  Section section = Section::Local;
-  switch (token(first(context)).type) {
+namespace {
+
+Section sectionOf(uint16_t keyword) {
+  switch (keyword) {
   case Tok::VAR_INPUT:
-    section = Section::Input;
-    break;
+    return Section::Input;
   case Tok::VAR_OUTPUT:
-    section = Section::Output;
-    break;
+    return Section::Output;
   case Tok::VAR_IN_OUT:
-    section = Section::InOut;
-    break;
+    return Section::InOut;
   case Tok::VAR_TEMP:
-    section = Section::Temp;
-    break;
+    return Section::Temp;
   case Tok::VAR_STAT:
-    section = Section::Stat;
-    break;
+    return Section::Stat;
   case Tok::VAR_EXTERNAL:
-    section = Section::External;
-    break;
+    return Section::External;
   case Tok::VAR_GLOBAL:
-    section = Section::Global;
-    break;
+    return Section::Global;
   case Tok::VAR_INST:
-    section = Section::Instance;
-    break;
+    return Section::Instance;
   case Tok::VAR_CONFIG:
-    section = Section::Config;
-    break;
+    return Section::Config;
   case Tok::VAR_ACCESS:
-    section = Section::Access;
-    break;
+    return Section::Access;
   default:
-    break;
+    return Section::Local;
   }
+}
+
+/// A qualifier's bit; 0: the word is none.
+uint8_t qualifierOf(uint16_t keyword) {
+  switch (keyword) {
+  case Tok::CONSTANT:
+    return kQualConstant;
+  case Tok::RETAIN:
+    return kQualRetain;
+  case Tok::PERSISTENT:
+    return kQualPersistent;
+  case Tok::NON_RETAIN:
+    return kQualNonRetain;
+  default:
+    return 0;
+  }
+}
+
+} // namespace
+
+void AstBuilder::section(Grammar::VarSectionContext *context, std::vector<VarDecl *> &out) {
+  const Section section = sectionOf(token(first(context)).type);
   uint8_t qualifiers = 0;
   Access access = Access::None;
   for (size_t i = first(context) + 1;; ++i) {
     const uint16_t type = token(i).type;
-    if (type == Tok::CONSTANT)
-      qualifiers |= kQualConstant;
-    else if (type == Tok::RETAIN)
-      qualifiers |= kQualRetain;
-    else if (type == Tok::PERSISTENT)
-      qualifiers |= kQualPersistent;
-    else if (type == Tok::NON_RETAIN)
-      qualifiers |= kQualNonRetain;
+    if (const uint8_t qualifier = qualifierOf(type); qualifier != 0)
+      qualifiers |= qualifier;
     else if (type >= Tok::PUBLIC && type <= Tok::INTERNAL)
       access = accessOf(type);
     else if (type == Tok::ABSTRACT || type == Tok::FINAL || type == Tok::OVERRIDE)
@@ -391,6 +409,55 @@ void AstBuilder::types(Grammar::TypeBlockContext *context, std::vector<Decl *> &
   }
 }
 
+/// `EXTENDS b` of a structure, after its name or after STRUCT.
+void AstBuilder::structBase(const Context *clause, StructBase &out) {
+  if (failed(clause) || clause->children.empty())
+    return;
+  out.path = path(child(clause, 0));
+  out.span = span(clause);
+  if (clause->children.size() > 1)
+    diagnostics_.report(Code::UnexpectedToken, span(child(clause, 1)),
+                        "a structure extends one other only", "a second base");
+}
+
+StructDecl *AstBuilder::structure(Context *body, StructBase base) {
+  auto *node = arena_.make<StructDecl>();
+  node->isUnion = token(first(body)).type == Tok::UNION;
+  size_t firstField = 0;
+  if (!body->children.empty() &&
+      child(body, 0)->getRuleIndex() == Grammar::RuleExtendsClause) { // STRUCT EXTENDS b
+    structBase(child(body, 0), base);
+    firstField = 1;
+  }
+  node->base = base.path;
+  if (node->isUnion && !base.path.empty()) {
+    diagnostics_.report(Code::UnexpectedToken, base.span, "a UNION cannot extend another type",
+                        "only a STRUCT can");
+    node->base = {};
+  }
+  std::vector<VarDecl *> fields;
+  declarations(body, firstField, Section::Local, 0, fields);
+  node->fields = arena_.copy(fields);
+  return node;
+}
+
+/// An enumeration or another name for a type; the children of `context` from `i` on are the type
+/// and the initial value.
+Decl *AstBuilder::plainType(const Context *context, size_t i) {
+  TypeExpr *type = this->type(child(context, i), true);
+  Expr *init = i + 1 < context->children.size() ? initializer(child(context, i + 1)) : nullptr;
+  if (type->kind == TypeExprKind::Enumeration) {
+    auto *node = arena_.make<EnumDecl>();
+    node->type = as<EnumTypeExpr>(type);
+    node->init = init;
+    return node;
+  }
+  auto *node = arena_.make<AliasDecl>();
+  node->type = type;
+  node->init = init;
+  return node;
+}
+
 Decl *AstBuilder::typeDeclaration(Context *context) {
   Context *modifierList = child(context, 0);
   const size_t at = modifierList->stop == nullptr || last(modifierList) < first(modifierList)
@@ -401,70 +468,29 @@ Decl *AstBuilder::typeDeclaration(Context *context) {
   const Token &start = token(first(context));
   const Name name = this->name(token(at));
   size_t i = 1;
-  NamePath base;
-  Span baseSpan;
-  const auto extends = [&](const Context *clause) {
-    if (failed(clause) || clause->children.empty())
-      return;
-    base = path(child(clause, 0));
-    baseSpan = span(clause);
-    if (clause->children.size() > 1)
-      diagnostics_.report(Code::UnexpectedToken, span(child(clause, 1)),
-                          "a structure extends one other only", "a second base");
-  };
+  StructBase base;
   if (i < context->children.size() &&
       child(context, i)->getRuleIndex() == Grammar::RuleExtendsClause)
-    extends(child(context, i++));
-  const auto common = [&](Decl *node) {
-    node->name = name;
-    node->span = span(context);
-    node->attributes = attributes(start);
-    node->doc = doc(start);
-    modifiers(modifierList, *node);
-    return node;
-  };
-  const auto failedType = [&] {
-    auto *node = arena_.make<AliasDecl>();
-    node->type = errorType(name.span);
-    return common(node);
-  };
-  if (failed(context) || i >= context->children.size())
-    return failedType();
-  Context *body = child(context, i);
-  if (body->getRuleIndex() == Grammar::RuleStructBody) {
-    auto *node = arena_.make<StructDecl>();
-    node->isUnion = token(first(body)).type == Tok::UNION;
-    size_t firstField = 0;
-    if (!body->children.empty() &&
-        child(body, 0)->getRuleIndex() == Grammar::RuleExtendsClause) { // STRUCT EXTENDS b
-      extends(child(body, 0));
-      firstField = 1;
-    }
-    node->base = base;
-    if (node->isUnion && !base.empty()) {
-      diagnostics_.report(Code::UnexpectedToken, baseSpan, "a UNION cannot extend another type",
-                          "only a STRUCT can");
-      node->base = {};
-    }
-    std::vector<VarDecl *> fields;
-    declarations(body, firstField, Section::Local, 0, fields);
-    node->fields = arena_.copy(fields);
-    return common(node);
+    structBase(child(context, i++), base);
+  Decl *node = nullptr;
+  if (failed(context) || i >= context->children.size()) {
+    auto *alias = arena_.make<AliasDecl>();
+    alias->type = errorType(name.span);
+    node = alias;
+  } else if (Context *body = child(context, i); body->getRuleIndex() == Grammar::RuleStructBody) {
+    node = structure(body, base);
+  } else {
+    if (!base.path.empty())
+      diagnostics_.report(Code::UnexpectedToken, base.span,
+                          "only a STRUCT can extend another type");
+    node = plainType(context, i);
   }
-  if (!base.empty())
-    diagnostics_.report(Code::UnexpectedToken, baseSpan, "only a STRUCT can extend another type");
-  TypeExpr *type = this->type(body, true);
-  Expr *init = i + 1 < context->children.size() ? initializer(child(context, i + 1)) : nullptr;
-  if (type->kind == TypeExprKind::Enumeration) {
-    auto *node = arena_.make<EnumDecl>();
-    node->type = as<EnumTypeExpr>(type);
-    node->init = init;
-    return common(node);
-  }
-  auto *node = arena_.make<AliasDecl>();
-  node->type = type;
-  node->init = init;
-  return common(node);
+  node->name = name;
+  node->span = span(context);
+  node->attributes = attributes(start);
+  node->doc = doc(start);
+  modifiers(modifierList, *node);
+  return node;
 }
 
 } // namespace stc

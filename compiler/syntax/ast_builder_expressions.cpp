@@ -168,50 +168,57 @@ Expr *AstBuilder::operand(Context *context) {
   return operators == 0 ? node : prefixed(context, operators, node);
 }
 
+Expr *AstBuilder::nameOperand(const Token &name) {
+  if (name.reported) // not a name of anything
+    return error(span(name));
+  auto *node = arena_.make<NameExpr>();
+  node->name = this->name(name);
+  node->span = node->name.span;
+  return node;
+}
+
+Expr *AstBuilder::directOperand(const Token &direct) {
+  DirectAddress *place = address(direct);
+  if (place == nullptr)
+    return error(span(direct));
+  auto *node = arena_.make<DirectExpr>();
+  node->span = span(direct);
+  node->address = place;
+  return node;
+}
+
+/// `[1, 2(3)]`
+Expr *AstBuilder::arrayAggregate(const Context *inside, Span whole) {
+  std::vector<AggregateItem> items;
+  for (size_t i = 0; i < inside->children.size(); ++i) {
+    Context *argument = child(inside, i);
+    if (argument->children.size() != 1 || last(argument) != last(child(argument, 0))) {
+      diagnostics_.report(Code::UnexpectedToken, span(argument), "an array element has no name")
+          .help("initial values of a structure stand in parentheses: `(x := 1, y := 2)`");
+      return error(whole);
+    }
+    items.push_back(item(child(argument, 0)));
+  }
+  return aggregate(std::move(items), false, whole);
+}
+
+/// What begins with a bracket at `at`; `at` moves past it.
+Expr *AstBuilder::bracketOperand(Context *inside, size_t &at) {
+  const Token &start = token(at);
+  at = inside->children.empty() ? at + 1 : last(inside) + 1;
+  Span whole = span(start).to(span(inside));
+  const uint16_t closer = start.type == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET;
+  if (token(at).type == closer)
+    whole = whole.to(span(token(at++)));
+  return start.type == Tok::LPAREN ? parentheses(inside, whole) : arrayAggregate(inside, whole);
+}
+
 Expr *AstBuilder::primary(Context *context, size_t &at, size_t &nextChild) {
   const Token &start = token(at);
   switch (start.type) {
-  case Tok::IDENT: {
-    ++at;
-    if (start.reported) // not a name of anything
-      return error(span(start));
-    auto *node = arena_.make<NameExpr>();
-    node->name = name(start);
-    node->span = node->name.span;
-    return node;
-  }
   case Tok::LPAREN:
-  case Tok::LBRACKET: {
-    Context *inside = child(context, nextChild++);
-    at = inside->children.empty() ? at + 1 : last(inside) + 1;
-    Span whole = span(start).to(span(inside));
-    const uint16_t closer = start.type == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET;
-    if (token(at).type == closer)
-      whole = whole.to(span(token(at++)));
-    if (start.type == Tok::LPAREN)
-      return parentheses(inside, whole);
-    std::vector<AggregateItem> items;
-    for (size_t i = 0; i < inside->children.size(); ++i) {
-      Context *argument = child(inside, i);
-      if (argument->children.size() != 1 || last(argument) != last(child(argument, 0))) {
-        diagnostics_.report(Code::UnexpectedToken, span(argument), "an array element has no name")
-            .help("initial values of a structure stand in parentheses: `(x := 1, y := 2)`");
-        return error(whole);
-      }
-      items.push_back(item(child(argument, 0)));
-    }
-    return aggregate(std::move(items), false, whole);
-  }
-  case Tok::DIRECT: {
-    ++at;
-    DirectAddress *direct = address(start);
-    if (direct == nullptr)
-      return error(span(start));
-    auto *node = arena_.make<DirectExpr>();
-    node->span = span(start);
-    node->address = direct;
-    return node;
-  }
+  case Tok::LBRACKET:
+    return bracketOperand(child(context, nextChild++), at);
   case Tok::TYPE_ARGUMENT: {
     Context *type = child(context, nextChild++);
     at = last(type) + 1;
@@ -220,14 +227,20 @@ Expr *AstBuilder::primary(Context *context, size_t &at, size_t &nextChild) {
     node->name = this->type(type);
     return node;
   }
+  default:
+    break;
+  }
+  ++at; // the others are one token
+  switch (start.type) {
+  case Tok::IDENT:
+    return nameOperand(start);
+  case Tok::DIRECT:
+    return directOperand(start);
   case Tok::ENUM_LITERAL:
-    ++at;
     return enumLiteral(start);
   case Tok::TYPED_LITERAL:
-    ++at;
     return typedLiteral(start);
   default:
-    ++at;
     return literal(start);
   }
 }

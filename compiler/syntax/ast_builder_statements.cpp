@@ -62,44 +62,53 @@ Block AstBuilder::block(Context *context) {
   return arena_.copy(list);
 }
 
+/// `JMP name;` and `name:`; null: the name is missing.
+Stmt *AstBuilder::jump(const Context *context) {
+  const Token &start = token(first(context));
+  const Token &target = token(first(context) + 1);
+  if (target.type != Tok::IDENT || first(context) + 1 > last(context))
+    return nullptr;
+  if (start.type == Tok::JMP) {
+    auto *node = arena_.make<JumpStmt>();
+    node->label = name(target);
+    node->span = span(start).to(node->label.span);
+    return node;
+  }
+  auto *node = arena_.make<LabelStmt>();
+  node->label = name(target);
+  node->span = node->label.span;
+  return node;
+}
+
+/// A statement that consists of tokens only.
+Stmt *AstBuilder::wordStatement(const Context *context) {
+  const uint16_t keyword = token(first(context)).type;
+  if (keyword == Tok::JMP || keyword == Tok::JUMP_LABEL)
+    return jump(context);
+  auto *node = arena_.make<Stmt>();
+  node->span = span(context);
+  switch (keyword) {
+  case Tok::EXIT:
+    node->kind = StmtKind::Exit;
+    break;
+  case Tok::RETURN:
+    node->kind = StmtKind::Return;
+    break;
+  case Tok::CONTINUE:
+    node->kind = StmtKind::Continue;
+    break;
+  default:
+    node->kind = StmtKind::Empty;
+    break;
+  }
+  return node;
+}
+
 Stmt *AstBuilder::statement(Context *context) {
   if (failed(context))
     return nullptr;
-  if (context->children.empty()) {
-    const Token &start = token(first(context));
-    if (start.type == Tok::JMP || start.type == Tok::JUMP_LABEL) {
-      const Token &target = token(first(context) + 1);
-      if (target.type != Tok::IDENT || first(context) + 1 > last(context))
-        return nullptr;
-      if (start.type == Tok::JMP) {
-        auto *node = arena_.make<JumpStmt>();
-        node->label = name(target);
-        node->span = span(start).to(node->label.span);
-        return node;
-      }
-      auto *node = arena_.make<LabelStmt>();
-      node->label = name(target);
-      node->span = node->label.span;
-      return node;
-    }
-    auto *node = arena_.make<Stmt>();
-    node->span = span(context);
-    switch (token(first(context)).type) {
-    case Tok::EXIT:
-      node->kind = StmtKind::Exit;
-      break;
-    case Tok::RETURN:
-      node->kind = StmtKind::Return;
-      break;
-    case Tok::CONTINUE:
-      node->kind = StmtKind::Continue;
-      break;
-    default:
-      node->kind = StmtKind::Empty;
-      break;
-    }
-    return node;
-  }
+  if (context->children.empty())
+    return wordStatement(context);
   Context *inner = child(context, 0);
   switch (inner->getRuleIndex()) {
   case Grammar::RuleSimpleStatement:
@@ -129,57 +138,51 @@ Stmt *AstBuilder::statement(Context *context) {
   }
 }
 
-Stmt *AstBuilder::simpleStatement(Context *context) {
+Stmt *AstBuilder::assignment(AssignOp op, const Token &sign, const std::vector<Expr *> &targets,
+                             Expr *value) {
+  auto *node = arena_.make<AssignStmt>();
+  node->op = op;
+  node->opSpan = span(sign);
+  node->value = value;
+  node->targets = arena_.copy(targets);
+  node->span = targets.front()->span.to(value->span);
+  return node;
+}
+
+/// A call, or what looks like one.
+Stmt *AstBuilder::withoutSign(Context *context) {
   const size_t count = context->children.size();
-  size_t operands = 1;
-  while (operands < count && child(context, operands)->getRuleIndex() == Grammar::RuleOperand)
-    ++operands;
-  const Token &sign = token(last(child(context, operands - 1)) + 1);
-  const auto assignment = [&](AssignOp op, const Token &opToken, const std::vector<Expr *> &targets,
-                              Expr *value) {
-    auto *node = arena_.make<AssignStmt>();
-    node->op = op;
-    node->opSpan = span(opToken);
-    node->value = value;
-    node->targets = arena_.copy(targets);
-    node->span = targets.front()->span.to(value->span);
-    return node;
-  };
-  if (operands == count) {
-    // `a = b` as a statement is meant as an assignment.
-    if (const Token &first = token(last(child(context, 0)) + 1);
-        count > 1 && first.type == Tok::EQUAL) {
-      if (!first.reported)
-        diagnostics_
-            .report(Code::EqualForAssign, span(first), "`=` compares, it does not assign",
-                    "expected `:=`")
-            .help("write `:=` to assign a value");
-      return assignment(AssignOp::Assign, first, {operand(child(context, 0))},
-                        flat(context, 1, count));
-    }
-    auto *node = arena_.make<CallStmt>();
-    node->expr = flat(context, 0, count);
-    node->span = node->expr->span;
-    return node;
+  // `a = b` as a statement is meant as an assignment.
+  if (const Token &first = token(last(child(context, 0)) + 1);
+      count > 1 && first.type == Tok::EQUAL) {
+    if (!first.reported)
+      diagnostics_
+          .report(Code::EqualForAssign, span(first), "`=` compares, it does not assign",
+                  "expected `:=`")
+          .help("write `:=` to assign a value");
+    return assignment(AssignOp::Assign, first, {operand(child(context, 0))},
+                      flat(context, 1, count));
   }
-  std::vector<Expr *> targets{flat(context, 0, operands)};
-  std::vector<const Token *> signs{&sign};
-  for (size_t i = operands; i + 1 < count; ++i) {
-    targets.push_back(expression(child(context, i)));
-    signs.push_back(&token(last(child(context, i)) + 1));
-  }
-  Expr *value = expression(child(context, count - 1));
-  const auto opOf = [](const Token &token) {
-    return token.type == Tok::SET_ASSIGN     ? AssignOp::Set
-           : token.type == Tok::RESET_ASSIGN ? AssignOp::Reset
-           : token.type == Tok::REF_ASSIGN   ? AssignOp::Reference
-                                             : AssignOp::Assign;
-  };
-  const bool alike =
-      std::all_of(signs.begin(), signs.end(), [&](const Token *s) { return s->type == sign.type; });
-  if (alike)
-    return assignment(opOf(sign), sign, targets, value);
-  // `a S= b R= x` is IF x THEN a S= TRUE; b R= TRUE; END_IF
+  auto *node = arena_.make<CallStmt>();
+  node->expr = flat(context, 0, count);
+  node->span = node->expr->span;
+  return node;
+}
+
+namespace {
+
+AssignOp assignOpOf(uint16_t sign) {
+  return sign == Tok::SET_ASSIGN     ? AssignOp::Set
+         : sign == Tok::RESET_ASSIGN ? AssignOp::Reset
+         : sign == Tok::REF_ASSIGN   ? AssignOp::Reference
+                                     : AssignOp::Assign;
+}
+
+} // namespace
+
+/// `a S= b R= x` is IF x THEN a S= TRUE; b R= TRUE; END_IF
+Stmt *AstBuilder::mixedAssignment(const std::vector<Expr *> &targets,
+                                  const std::vector<const Token *> &signs, Expr *value) {
   std::vector<Stmt *> body;
   for (size_t i = 0; i < targets.size(); ++i) {
     auto *yes = arena_.make<Literal>();
@@ -187,7 +190,7 @@ Stmt *AstBuilder::simpleStatement(Context *context) {
     yes->literal = LiteralKind::Boolean;
     yes->integer = 1;
     yes->text = "TRUE";
-    body.push_back(assignment(opOf(*signs[i]), *signs[i], {targets[i]}, yes));
+    body.push_back(assignment(assignOpOf(signs[i]->type), *signs[i], {targets[i]}, yes));
   }
   auto *node = arena_.make<IfStmt>();
   node->span = targets.front()->span.to(value->span);
@@ -196,6 +199,27 @@ Stmt *AstBuilder::simpleStatement(Context *context) {
   branch.body = arena_.copy(body);
   node->branches = arena_.copy(std::vector<IfBranch>{branch});
   return node;
+}
+
+Stmt *AstBuilder::simpleStatement(Context *context) {
+  const size_t count = context->children.size();
+  size_t operands = 1;
+  while (operands < count && child(context, operands)->getRuleIndex() == Grammar::RuleOperand)
+    ++operands;
+  if (operands == count)
+    return withoutSign(context);
+  const Token &sign = token(last(child(context, operands - 1)) + 1);
+  std::vector<Expr *> targets{flat(context, 0, operands)};
+  std::vector<const Token *> signs{&sign};
+  for (size_t i = operands; i + 1 < count; ++i) {
+    targets.push_back(expression(child(context, i)));
+    signs.push_back(&token(last(child(context, i)) + 1));
+  }
+  Expr *value = expression(child(context, count - 1));
+  const bool alike =
+      std::all_of(signs.begin(), signs.end(), [&](const Token *s) { return s->type == sign.type; });
+  return alike ? assignment(assignOpOf(sign.type), sign, targets, value)
+               : mixedAssignment(targets, signs, value);
 }
 
 Expr *AstBuilder::condition(Context *context) {

@@ -27,63 +27,69 @@ TypeExpr *AstBuilder::errorType(Span span) {
   return node;
 }
 
+TypeExpr *AstBuilder::arrayType(const Context *context) {
+  auto *node = arena_.make<ArrayTypeExpr>();
+  node->span = span(context);
+  std::vector<ArrayRange> ranges;
+  for (size_t i = 0; i + 1 < context->children.size(); ++i) {
+    Context *part = child(context, i);
+    ArrayRange range;
+    range.span = span(part);
+    if (part->children.size() > 1) {
+      range.low = expression(child(part, 0));
+      range.high = expression(child(part, 1));
+    }
+    ranges.push_back(range);
+  }
+  node->ranges = arena_.copy(ranges);
+  node->element = type(child(context, context->children.size() - 1));
+  return node;
+}
+
+/// `(a, b)` and `(a, b) INT`
+TypeExpr *AstBuilder::listedType(Context *context) {
+  size_t arguments = context->children.size();
+  TypeExpr *base = nullptr;
+  if (Context *end = child(context, arguments - 1); end->getRuleIndex() == Grammar::RulePath) {
+    --arguments;
+    auto *named = arena_.make<NamedTypeExpr>();
+    named->span = span(end);
+    named->path = path(end);
+    base = named;
+  }
+  EnumTypeExpr *node = enumeration(context, 0, arguments);
+  if (node == nullptr)
+    return errorType(span(context));
+  node->base = base;
+  return node;
+}
+
 TypeExpr *AstBuilder::type(Context *context, bool declared) {
   const Token &start = token(first(context));
-  const Span whole = span(context);
   switch (start.type) {
-  case Tok::ARRAY: {
-    auto *node = arena_.make<ArrayTypeExpr>();
-    node->span = whole;
-    std::vector<ArrayRange> ranges;
-    for (size_t i = 0; i + 1 < context->children.size(); ++i) {
-      Context *part = child(context, i);
-      ArrayRange range;
-      range.span = span(part);
-      if (part->children.size() > 1) {
-        range.low = expression(child(part, 0));
-        range.high = expression(child(part, 1));
-      }
-      ranges.push_back(range);
-    }
-    node->ranges = arena_.copy(ranges);
-    node->element = type(child(context, context->children.size() - 1));
-    return node;
-  }
+  case Tok::ARRAY:
+    return arrayType(context);
   case Tok::POINTER:
   case Tok::REF_TO:
   case Tok::REFERENCE: {
     auto *node = arena_.make<PointerTypeExpr>();
     node->kind = start.type == Tok::REFERENCE ? TypeExprKind::Reference : TypeExprKind::Pointer;
     node->refTo = start.type == Tok::REF_TO;
-    node->span = whole;
+    node->span = span(context);
     node->pointee = type(child(context, 0));
     return node;
   }
   case Tok::STRING:
   case Tok::WSTRING: {
     auto *node = arena_.make<StringTypeExpr>();
-    node->span = whole;
+    node->span = span(context);
     node->wide = start.type == Tok::WSTRING;
     if (!context->children.empty())
       node->length = expression(child(context, 0));
     return node;
   }
-  case Tok::LPAREN: {
-    size_t arguments = context->children.size();
-    TypeExpr *base = nullptr;
-    if (Context *end = child(context, arguments - 1); end->getRuleIndex() == Grammar::RulePath) {
-      --arguments;
-      auto *named = arena_.make<NamedTypeExpr>();
-      named->span = span(end);
-      named->path = path(end);
-      base = named;
-    }
-    EnumTypeExpr *node = enumeration(context, 0, arguments);
-    if (node == nullptr)
-      return errorType(whole);
-    node->base = base;
-    return node;
-  }
+  case Tok::LPAREN:
+    return listedType(context);
   default:
     return namedType(context, declared);
   }

@@ -91,6 +91,10 @@ private:
   void member(OpenPou *owner);
   void method(OpenPou *owner);
   void property(OpenPou *owner);
+  ast::PropertyDecl *propertyNode(const Head &head);
+  void addAccessor(ast::PropertyDecl *node);
+  void strayInProperty(bool report);
+  void emptyAccessors(ast::PropertyDecl *node);
   void accessorAccess(ast::Access &access);
   ast::PouDecl *accessor(ast::PropertyDecl *property, bool isSet);
   void lateMember();
@@ -119,6 +123,11 @@ private:
   void types();
   void body(std::vector<ast::Stmt *> &out);
   void readStatements();
+  [[nodiscard]] bool endsStatements() const;
+  void nest();
+  void leaveOutDeclaration();
+  void addBrackets();
+  void dropStatement();
   bool markLabel();
   [[nodiscard]] bool isElementaryType(const Token &token) const;
   [[nodiscard]] bool sectionIsClosed() const;

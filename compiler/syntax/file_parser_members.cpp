@@ -182,51 +182,79 @@ ast::PouDecl *FileParser::accessor(ast::PropertyDecl *property, bool isSet) {
   return node;
 }
 
+ast::PropertyDecl *FileParser::propertyNode(const Head &head) {
+  auto *node = arena_.make<ast::PropertyDecl>();
+  if (head.node == nullptr)
+    return node;
+  static_cast<ast::Decl &>(*node) = *head.node;
+  node->type = head.node->returnType;
+  if (node->type == nullptr) {
+    diagnostics_.report(Code::ExpectedToken, {file_.id(), head.span.end, head.span.end},
+                        "expected `:` and the type of the property", "add `: TYPE` here");
+    node->type = builder_.errorType(head.span);
+  }
+  return node;
+}
+
+/// GET or SET, with its body.
+void FileParser::addAccessor(ast::PropertyDecl *node) {
+  const bool isSet = isNow("set");
+  const Span where = span(now_);
+  ast::PouDecl *&slot = isSet ? node->set : node->get;
+  ast::PouDecl *one = accessor(node, isSet);
+  if (slot != nullptr)
+    diagnostics_
+        .report(Code::PropertyAccessor, where,
+                std::string("the property has a second ") + (isSet ? "SET" : "GET"),
+                "only one is possible")
+        .label(slot->span, "the first one");
+  else
+    slot = one;
+}
+
+/// Leaves out what stands in a property, but in none of its accessors.
+void FileParser::strayInProperty(bool report) {
+  const Span where = span(now_);
+  Content stray;
+  content(stray, nullptr);
+  if (report)
+    diagnostics_
+        .report(Code::PropertyAccessor, where,
+                "statements and variables of a property stand in GET or SET",
+                "expected GET, SET or END_PROPERTY")
+        .help("write `GET … END_GET` around what reads the property");
+  sawExternal_ = false;
+}
+
+/// A property of an interface has no statements.
+void FileParser::emptyAccessors(ast::PropertyDecl *node) {
+  for (ast::PouDecl *one : {node->get, node->set}) {
+    if (one == nullptr || one->body.empty())
+      continue;
+    diagnostics_
+        .report(Code::BodyNotAllowed, one->body.front()->span,
+                "a property of an INTERFACE has no statements", "this would never run")
+        .help("put them into the property of a block that implements the interface");
+    one->body = {};
+  }
+}
+
 void FileParser::property(OpenPou *enclosing) {
   const bool outer = std::exchange(inProperty_, true);
   const Head head = this->head();
-  auto *node = arena_.make<ast::PropertyDecl>();
-  if (head.node != nullptr) {
-    static_cast<ast::Decl &>(*node) = *head.node;
-    node->type = head.node->returnType;
-    if (node->type == nullptr) {
-      diagnostics_.report(Code::ExpectedToken, {file_.id(), head.span.end, head.span.end},
-                          "expected `:` and the type of the property", "add `: TYPE` here");
-      node->type = builder_.errorType(head.span);
-    }
-  }
+  ast::PropertyDecl *node = propertyNode(head);
   closers_.push_back(Tok::END_PROPERTY);
   bool strayReported = false;
   for (;;) {
     if (startsAccessor()) {
-      const bool isSet = isNow("set");
-      const Span where = span(now_);
-      ast::PouDecl *&slot = isSet ? node->set : node->get;
-      ast::PouDecl *one = accessor(node, isSet);
-      if (slot != nullptr)
-        diagnostics_
-            .report(Code::PropertyAccessor, where,
-                    std::string("the property has a second ") + (isSet ? "SET" : "GET"),
-                    "only one is possible")
-            .label(slot->span, "the first one");
-      else
-        slot = one;
+      addAccessor(node);
     } else if (now_.type == Tok::SEMICOLON) {
       advance();
     } else if (endsUnit() || isMember(now_.type) || startsDeclaration()) {
       break;
     } else {
-      const Span where = span(now_);
-      Content stray;
-      content(stray, nullptr);
-      if (!strayReported)
-        diagnostics_
-            .report(Code::PropertyAccessor, where,
-                    "statements and variables of a property stand in GET or SET",
-                    "expected GET, SET or END_PROPERTY")
-            .help("write `GET … END_GET` around what reads the property");
+      strayInProperty(!strayReported);
       strayReported = true;
-      sawExternal_ = false;
     }
   }
   closers_.pop_back();
@@ -246,17 +274,8 @@ void FileParser::property(OpenPou *enclosing) {
   OpenPou *owner = ownerOf(head, enclosing, node);
   if (owner == nullptr)
     return;
-  if (owner->node->kind == ast::DeclKind::Interface) {
-    for (ast::PouDecl *one : {node->get, node->set}) {
-      if (one == nullptr || one->body.empty())
-        continue;
-      diagnostics_
-          .report(Code::BodyNotAllowed, one->body.front()->span,
-                  "a property of an INTERFACE has no statements", "this would never run")
-          .help("put them into the property of a block that implements the interface");
-      one->body = {};
-    }
-  }
+  if (owner->node->kind == ast::DeclKind::Interface)
+    emptyAccessors(node);
   owner->properties.push_back(node);
 }
 

@@ -326,75 +326,93 @@ bool FileParser::markLabel() {
   return !assignment && insert(begin, Tok::LABEL);
 }
 
+/// Whether statements end before the current token, or so many were read that a unit is full.
+bool FileParser::endsStatements() const {
+  const uint16_t type = now_.type;
+  if (endsUnit() || startsDeclaration() || startsSection() || isMember(type) || isChart(type))
+    return true;
+  if (unit_.size() == boundary_ && startsAccessor())
+    return true;
+  return unit_.size() >= kUnitTokens && unit_.size() == statement_;
+}
+
+/// Counts what the current token opens or closes.
+void FileParser::nest() {
+  const uint16_t type = now_.type;
+  if (const uint16_t opener = openerOf(type); opener != 0) {
+    const auto open = std::find(blocks_.rbegin(), blocks_.rend(), opener);
+    if (open != blocks_.rend())
+      blocks_.erase(std::prev(open.base()), blocks_.end());
+    brackets_ = 0;
+  } else if (startsBlock(type)) {
+    blocks_.push_back(type);
+    brackets_ = 0;
+  } else if (type == Tok::SEMICOLON) {
+    brackets_ = 0;
+  } else if (type == Tok::LPAREN || type == Tok::LBRACKET) {
+    ++brackets_;
+  } else if (type == Tok::RPAREN || type == Tok::RBRACKET) {
+    brackets_ -= brackets_ > 0;
+  }
+}
+
+/// `x : INT;` among statements, of which the name was taken for a jump's label.
+void FileParser::leaveOutDeclaration() {
+  builder_.declarationInBody(builder_.name(unit_.back()));
+  unit_.resize(boundary_);
+  while (now_.type != Tok::SEMICOLON && !endsUnit() && !startsDeclaration() && !startsSection())
+    advance();
+  if (now_.type == Tok::SEMICOLON)
+    advance();
+}
+
+/// `__CATCH` without a variable gets the brackets that the grammar wants.
+void FileParser::addBrackets() {
+  for (const uint16_t bracket : {Tok::LPAREN, Tok::RPAREN}) {
+    Token token = now_;
+    token.type = bracket;
+    token.end = token.begin;
+    token.triviaCount = 0;
+    unit_.push_back(token);
+  }
+}
+
+/// Reports that the current statement is nested too deeply, and takes it out of the unit.
+void FileParser::dropStatement() {
+  if (!reportedDepth_)
+    diagnostics_.report(Code::TooDeep, span(unit_.back()), "this statement is nested too deeply",
+                        "deeper than " + std::to_string(kMaxNesting));
+  reportedDepth_ = true;
+  unit_.resize(statement_);
+}
+
 void FileParser::readStatements() {
   unit_.clear();
   blocks_.clear();
   brackets_ = 0;
   boundary_ = statement_ = 0;
-  bool dropping = false;
-  for (;;) {
+  bool dropping = false; // to the end of a statement that is left out
+  while (!endsStatements()) {
     const uint16_t type = now_.type;
-    if (endsUnit() || startsDeclaration() || startsSection() || isMember(type) || isChart(type))
-      break;
-    if (unit_.size() == boundary_ && startsAccessor())
-      break;
-    if (unit_.size() >= kUnitTokens && unit_.size() == statement_)
-      break;
-    const uint16_t opener = openerOf(type);
-    bool isLabel = false;
-    if (opener != 0) {
-      const auto open = std::find(blocks_.rbegin(), blocks_.rend(), opener);
-      if (open != blocks_.rend())
-        blocks_.erase(std::prev(open.base()), blocks_.end());
-      brackets_ = 0;
-    } else if (startsBlock(type)) {
-      blocks_.push_back(type);
-      brackets_ = 0;
-    } else if (type == Tok::SEMICOLON) {
-      brackets_ = 0;
-    } else if (type == Tok::LPAREN || type == Tok::LBRACKET) {
-      ++brackets_;
-    } else if (type == Tok::RPAREN || type == Tok::RBRACKET) {
-      brackets_ -= brackets_ > 0;
-    } else if (type == Tok::COLON && brackets_ == 0 && !dropping) {
-      isLabel = markLabel();
-      if (isLabel && unit_[boundary_].type == Tok::JUMP_LABEL && isElementaryType(ahead_)) {
-        builder_.declarationInBody(builder_.name(unit_.back()));
-        unit_.resize(boundary_);
-        while (now_.type != Tok::SEMICOLON && !endsUnit() && !startsDeclaration() &&
-               !startsSection())
-          advance();
-        if (now_.type == Tok::SEMICOLON)
-          advance();
-        continue;
-      }
-    } else {
-      markTypeArgument();
+    const bool colon = type == Tok::COLON && brackets_ == 0 && !dropping;
+    const bool isLabel = colon && markLabel();
+    if (isLabel && unit_[boundary_].type == Tok::JUMP_LABEL && isElementaryType(ahead_)) {
+      leaveOutDeclaration();
+      continue;
     }
+    nest();
+    markTypeArgument();
     if (dropping)
       advance();
     else
       take();
-    if (type == Tok::CATCH && now_.type != Tok::LPAREN && !dropping) {
-      // `__CATCH` without a variable.
-      for (const uint16_t bracket : {Tok::LPAREN, Tok::RPAREN}) {
-        Token token = now_;
-        token.type = bracket;
-        token.end = token.begin;
-        token.triviaCount = 0;
-        unit_.push_back(token);
-      }
-    }
+    if (type == Tok::CATCH && now_.type != Tok::LPAREN && !dropping)
+      addBrackets();
     if (blocks_.size() + brackets_ > kMaxNesting && !dropping) {
-      if (!reportedDepth_)
-        diagnostics_.report(Code::TooDeep, span(unit_.back()),
-                            "this statement is nested too deeply",
-                            "deeper than " + std::to_string(kMaxNesting));
-      reportedDepth_ = true;
-      unit_.resize(statement_);
+      dropStatement();
       dropping = true;
     }
-    const bool ends = type == Tok::SEMICOLON || opener != 0 || (isLabel && blocks_.empty());
+    const bool ends = type == Tok::SEMICOLON || openerOf(type) != 0 || (isLabel && blocks_.empty());
     if (ends || type == Tok::THEN || type == Tok::DO || type == Tok::OF || type == Tok::ELSE ||
         type == Tok::REPEAT || type == Tok::COLON || type == Tok::TRY || type == Tok::FINALLY)
       boundary_ = unit_.size();

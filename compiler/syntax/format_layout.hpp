@@ -80,6 +80,9 @@ private:
   void line();
   bool closer();
   bool declaration();
+  void section();
+  void typeBlock();
+  void accessor();
   bool configurationPart();
   bool insideSection();
   void typeDeclaration();

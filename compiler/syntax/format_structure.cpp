@@ -290,29 +290,51 @@ bool FormatLayout::configurationPart() {
   return true;
 }
 
+void FormatLayout::section() {
+  const uint16_t t = type(at_);
+  const bool globals = t == Tok::VAR_GLOBAL || t == Tok::VAR_CONFIG || t == Tok::VAR_ACCESS;
+  if (!globals)
+    closeStatements();
+  size_t end = at_ + 1;
+  while ((type(end) >= Tok::CONSTANT && type(end) <= Tok::NON_RETAIN) || isModifier(type(end)))
+    ++end;
+  open(Kind::Section, end, LineKind::Statement, true);
+}
+
+void FormatLayout::typeBlock() {
+  closeStatements();
+  const unsigned level = blocks_.back().content;
+  if (isOnlyType(at_ + 1)) {
+    blocks_.push_back({Kind::Types, Tok::TYPE, level, level});
+    typeDeclaration();
+  } else {
+    open(Kind::Types, at_ + 1, LineKind::Statement, true);
+  }
+}
+
+/// GET or SET of a property.
+void FormatLayout::accessor() {
+  if (blocks_.back().kind == Kind::Accessor)
+    blocks_.pop_back();
+  items_[at_].type = isWordAt(at_, "get") ? Tok::GET : Tok::SET;
+  size_t end = at_ + 1;
+  static constexpr std::string_view kAccess[] = {"public", "private", "protected", "internal"};
+  const bool hasAccess = std::any_of(std::begin(kAccess), std::end(kAccess),
+                                     [&](std::string_view word) { return isWordAt(end, word); });
+  if (hasAccess && !continuesName(type(end + 1)))
+    ++end;
+  open(Kind::Accessor, end, LineKind::Head, false);
+}
+
 bool FormatLayout::declaration() {
   const uint16_t t = type(at_);
-  const bool member = isMember(t);
-  const bool outer = startsDeclaration(at_);
   if (startsSection(at_)) {
-    const bool globals = t == Tok::VAR_GLOBAL || t == Tok::VAR_CONFIG || t == Tok::VAR_ACCESS;
-    if (!globals)
-      closeStatements();
-    size_t end = at_ + 1;
-    while ((type(end) >= Tok::CONSTANT && type(end) <= Tok::NON_RETAIN) || isModifier(type(end)))
-      ++end;
-    open(Kind::Section, end, LineKind::Statement, true);
+    section();
     return true;
   }
+  const bool outer = startsDeclaration(at_);
   if (t == Tok::TYPE && outer) {
-    closeStatements();
-    const unsigned level = blocks_.back().content;
-    if (isOnlyType(at_ + 1)) {
-      blocks_.push_back({Kind::Types, Tok::TYPE, level, level});
-      typeDeclaration();
-    } else {
-      open(Kind::Types, at_ + 1, LineKind::Statement, true);
-    }
+    typeBlock();
     return true;
   }
   if (t == Tok::USING) {
@@ -335,25 +357,14 @@ bool FormatLayout::declaration() {
     emit(headRest(at_, Tok::FUNCTION), blocks_.back().content, LineKind::Head);
     return true;
   }
-  if (member || outer) {
+  if (isMember(t) || outer) {
     closeStatements();
     open(t == Tok::PROPERTY ? Kind::Property : Kind::Pou, headEnd(at_), LineKind::Head, false);
     return true;
   }
   const Kind now = blocks_.back().kind;
   if ((now == Kind::Property || now == Kind::Accessor) && startsAccessor(at_)) {
-    if (now == Kind::Accessor)
-      blocks_.pop_back();
-    items_[at_].type = isWordAt(at_, "get") ? Tok::GET : Tok::SET;
-    size_t end = at_ + 1;
-    static constexpr std::string_view kAccess[] = {"public", "private", "protected", "internal"};
-    if (std::any_of(std::begin(kAccess), std::end(kAccess),
-                    [&](std::string_view word) { return isWordAt(end, word); }) &&
-        type(end + 1) != Tok::ASSIGN && type(end + 1) != Tok::DOT && type(end + 1) != Tok::LPAREN &&
-        type(end + 1) != Tok::LBRACKET && type(end + 1) != Tok::CARET &&
-        type(end + 1) != Tok::COLON)
-      ++end;
-    open(Kind::Accessor, end, LineKind::Head, false);
+    accessor();
     return true;
   }
   return false;

@@ -159,6 +159,24 @@ struct Table {
 
 constexpr Table kTable;
 
+/// Tokens that are no words, and those that look like words and signs.
+struct Sign {
+  uint16_t type;
+  std::string_view text;
+};
+
+constexpr Sign kSigns[] = {
+    {Tok::PLUS, "+"},          {Tok::MINUS, "-"},          {Tok::STAR, "*"},
+    {Tok::SLASH, "/"},         {Tok::POWER, "**"},         {Tok::EQUAL, "="},
+    {Tok::NOT_EQUAL, "<>"},    {Tok::LESS, "<"},           {Tok::LESS_EQUAL, "<="},
+    {Tok::GREATER, ">"},       {Tok::GREATER_EQUAL, ">="}, {Tok::AMPERSAND, "&"},
+    {Tok::ASSIGN, ":="},       {Tok::ARROW, "=>"},         {Tok::SET_ASSIGN, "S="},
+    {Tok::RESET_ASSIGN, "R="}, {Tok::REF_ASSIGN, "REF="},  {Tok::SEMICOLON, ";"},
+    {Tok::COLON, ":"},         {Tok::COMMA, ","},          {Tok::DOT, "."},
+    {Tok::DOTDOT, ".."},       {Tok::LPAREN, "("},         {Tok::RPAREN, ")"},
+    {Tok::LBRACKET, "["},      {Tok::RBRACKET, "]"},       {Tok::CARET, "^"},
+};
+
 } // namespace
 
 bool isWord(std::string_view text, std::string_view lower) {
@@ -182,64 +200,9 @@ Keyword findKeyword(std::string_view word, uint32_t hash) {
 }
 
 std::string_view tokenSpelling(uint16_t type) {
-  switch (type) {
-  case Tok::PLUS:
-    return "+";
-  case Tok::MINUS:
-    return "-";
-  case Tok::STAR:
-    return "*";
-  case Tok::SLASH:
-    return "/";
-  case Tok::POWER:
-    return "**";
-  case Tok::EQUAL:
-    return "=";
-  case Tok::NOT_EQUAL:
-    return "<>";
-  case Tok::LESS:
-    return "<";
-  case Tok::LESS_EQUAL:
-    return "<=";
-  case Tok::GREATER:
-    return ">";
-  case Tok::GREATER_EQUAL:
-    return ">=";
-  case Tok::AMPERSAND:
-    return "&";
-  case Tok::ASSIGN:
-    return ":=";
-  case Tok::ARROW:
-    return "=>";
-  case Tok::SET_ASSIGN:
-    return "S=";
-  case Tok::RESET_ASSIGN:
-    return "R=";
-  case Tok::REF_ASSIGN:
-    return "REF=";
-  case Tok::SEMICOLON:
-    return ";";
-  case Tok::COLON:
-    return ":";
-  case Tok::COMMA:
-    return ",";
-  case Tok::DOT:
-    return ".";
-  case Tok::DOTDOT:
-    return "..";
-  case Tok::LPAREN:
-    return "(";
-  case Tok::RPAREN:
-    return ")";
-  case Tok::LBRACKET:
-    return "[";
-  case Tok::RBRACKET:
-    return "]";
-  case Tok::CARET:
-    return "^";
-  default:
-    break;
-  }
+  for (const Sign &sign : kSigns)
+    if (sign.type == type)
+      return sign.text;
   for (const Word &word : kWords)
     if (word.type == type)
       return word.upper;

@@ -30,6 +30,8 @@ public:
 
 private:
   bool duration(std::string_view value, bool isLong, Span span, ast::Literal &out);
+  struct Duration;
+  bool durationPart(std::string_view &rest, Duration &duration);
   bool fail(Code code, Span span, std::string message, std::string label = {});
 
   Arena &arena_;

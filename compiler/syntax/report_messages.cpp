@@ -174,70 +174,67 @@ void ReportStrategy::reportUnexpected(const std::string &expected) {
     d.help(std::move(help));
 }
 
+/// " after the condition": where the wanted token should have stood.
+std::string_view ReportStrategy::placeOfMissing(uint16_t wanted) {
+  const Context *context = parser_.context();
+  const size_t rule = context->getRuleIndex();
+  switch (wanted) {
+  case Tok::THEN:
+    return " after the condition";
+  case Tok::DO:
+    return rule == Grammar::RuleForStatement ? " after the range" : " after the condition";
+  case Tok::OF:
+    return rule == Grammar::RuleCaseStatement ? " after the selector" : " before the element type";
+  case Tok::COLON:
+    return rule == Grammar::RuleCaseLabels ? " after the CASE label" : " between name and type";
+  case Tok::UNTIL:
+    return " before the condition";
+  case Tok::SEMICOLON:
+    break;
+  default:
+    return {};
+  }
+  switch (rule) {
+  case Grammar::RuleSimpleStatement:
+    return hasValue(context)                                      ? " after the assignment"
+           : before() != nullptr && before()->type == Tok::RPAREN ? " after the call"
+                                                                  : " after the statement";
+  case Grammar::RuleVarDeclaration:
+  case Grammar::RuleConfigVariable:
+  case Grammar::RuleAccessVariable:
+  case Grammar::RuleTypeDeclaration:
+    return " after the declaration";
+  default:
+    return " after the statement";
+  }
+}
+
+/// The bracket before the current token that `closer` would close; null: none.
+const Token *ReportStrategy::openBracketOf(uint16_t closer) {
+  const uint16_t opener = closer == Tok::RPAREN ? Tok::LPAREN : Tok::LBRACKET;
+  int depth = 0;
+  for (size_t i = current().index; i-- > 0;) {
+    const Token &token = parser_.stream().token(i);
+    depth += token.type == closer;
+    if (token.type == opener && depth-- == 0)
+      return &token;
+  }
+  return nullptr;
+}
+
 void ReportStrategy::reportMissing(uint16_t wanted) {
   if (!mayReport())
     return;
   const std::string sign = ticked(tokenSpelling(wanted));
-  const Context *context = parser_.context();
-  std::string after;
-  switch (wanted) {
-  case Tok::THEN:
-    after = " after the condition";
-    break;
-  case Tok::DO:
-    after = context->getRuleIndex() == Grammar::RuleForStatement ? " after the range"
-                                                                 : " after the condition";
-    break;
-  case Tok::OF:
-    after = context->getRuleIndex() == Grammar::RuleCaseStatement ? " after the selector"
-                                                                  : " before the element type";
-    break;
-  case Tok::COLON:
-    after = context->getRuleIndex() == Grammar::RuleCaseLabels ? " after the CASE label"
-                                                               : " between name and type";
-    break;
-  case Tok::UNTIL:
-    after = " before the condition";
-    break;
-  case Tok::SEMICOLON:
-    switch (context->getRuleIndex()) {
-    case Grammar::RuleSimpleStatement:
-      after = hasValue(context)                                      ? " after the assignment"
-              : before() != nullptr && before()->type == Tok::RPAREN ? " after the call"
-                                                                     : " after the statement";
-      break;
-    case Grammar::RuleVarDeclaration:
-    case Grammar::RuleConfigVariable:
-    case Grammar::RuleAccessVariable:
-    case Grammar::RuleTypeDeclaration:
-      after = " after the declaration";
-      break;
-    default:
-      after = " after the statement";
-      break;
-    }
-    break;
-  default:
-    break;
-  }
-  Diagnostic &d = diagnostics_.report(Code::ExpectedToken, insertion(), "expected " + sign + after,
+  Diagnostic &d = diagnostics_.report(Code::ExpectedToken, insertion(),
+                                      "expected " + sign + std::string(placeOfMissing(wanted)),
                                       "add " + sign + " here");
   d.suggestions.push_back({"add " + sign,
                            {Edit{insertion(), (isKeywordType(wanted) ? " " : "") +
                                                   std::string(tokenSpelling(wanted))}}});
-  if (wanted == Tok::RPAREN || wanted == Tok::RBRACKET) {
-    // The opener is the token in front of the arguments.
-    const uint16_t opener = wanted == Tok::RPAREN ? Tok::LPAREN : Tok::LBRACKET;
-    int depth = 0;
-    for (size_t i = current().index; i-- > 0;) {
-      const Token &token = parser_.stream().token(i);
-      depth += token.type == wanted;
-      if (token.type == opener && depth-- == 0) {
-        d.label(span(token), "to close this one");
-        break;
-      }
-    }
-  }
+  if (wanted == Tok::RPAREN || wanted == Tok::RBRACKET)
+    if (const Token *opener = openBracketOf(wanted); opener != nullptr)
+      d.label(span(*opener), "to close this one");
 }
 
 void ReportStrategy::reportMissingEnd(uint16_t wanted) {

@@ -61,199 +61,6 @@ bool endsDeclaration(uint16_t type) {
 
 } // namespace
 
-/// `a[1 := 5;` has its mistake in front of the `:=`, which was taken for that of an argument.
-void ReportStrategy::stepBackToAssignment() {
-  UnitStream &stream = parser_.stream();
-  unsigned depth = 0;
-  for (size_t i = current().index; i-- > 0;) {
-    const uint16_t type = stream.token(i).type;
-    if (type == Tok::RPAREN || type == Tok::RBRACKET)
-      ++depth;
-    else if (type == Tok::LPAREN || type == Tok::LBRACKET) {
-      if (depth == 0)
-        return;
-      --depth;
-    } else if (type == Tok::ASSIGN && depth == 0) {
-      if (mayReport())
-        diagnostics_.report(Code::ExpectedToken,
-                            {file_, stream.token(i - 1).end, stream.token(i - 1).end},
-                            "expected `]`", "add `]` here");
-      return;
-    }
-  }
-}
-
-/// True when `wanted` comes later in the same statement head.
-bool ReportStrategy::thenFollows(uint16_t wanted) {
-  UnitStream &stream = parser_.stream();
-  for (size_t i = current().index; i < stream.size(); ++i) {
-    const Token &token = stream.token(i);
-    if (token.type == wanted)
-      return true;
-    if (isStatementBoundary(token.type) || token.type == Tok::SEMICOLON ||
-        token.type == Tok::ASSIGN)
-      return false;
-  }
-  return false;
-}
-
-antlr4::Token *ReportStrategy::recoverInline(antlr4::Parser *) {
-  UnitStream &stream = parser_.stream();
-  const uint16_t wanted = parser_.expected();
-  parser_.clearExpected();
-  const size_t rule = parser_.context()->getRuleIndex();
-  const uint16_t found = current().type;
-  const auto fail = [&]() -> antlr4::Token * {
-    recovering_ = true;
-    throw antlr4::InputMismatchException(&parser_);
-  };
-  const auto takeIt = [&] {
-    Token &token = current();
-    stream.advance();
-    recovering_ = false;
-    return static_cast<antlr4::Token *>(&token);
-  };
-  switch (wanted) {
-  case Tok::SEMICOLON: {
-    const bool declaration =
-        rule == Grammar::RuleVarDeclaration || rule == Grammar::RuleTypeDeclaration ||
-        rule == Grammar::RuleConfigVariable || rule == Grammar::RuleAccessVariable;
-    const bool over = isStatementBoundary(found) || onNewLine(current()) ||
-                      (declaration && (found == Tok::END_VAR || found == Tok::END_STRUCT ||
-                                       found == Tok::END_TYPE));
-    if (over && (startsStatement(found) || isStatementBoundary(found) || declaration)) {
-      reportMissing(wanted);
-      return conjure(wanted);
-    }
-    if (found == Tok::COMMA && rule == Grammar::RuleSimpleStatement && !hasValue(parser_.context()))
-      reportUnexpected("`:=`");
-    else
-      reportUnexpected(declaration || rule == Grammar::RuleTaskDeclaration ||
-                               rule == Grammar::RuleProgramInstance ||
-                               rule == Grammar::RuleUsingDirective
-                           ? "`;`"
-                       : rule == Grammar::RuleSimpleStatement && !hasValue(parser_.context())
-                           ? "`:=` or `;`"
-                           : "an operator or `;`");
-    return fail();
-  }
-  case Tok::THEN:
-  case Tok::DO:
-  case Tok::OF:
-    if (wanted == Tok::OF && rule == Grammar::RuleTypeSpec) {
-      if (startsType(found)) {
-        reportMissing(wanted);
-        return conjure(wanted);
-      }
-      break;
-    }
-    if (thenFollows(wanted)) {
-      reportUnexpected("an operator or " + ticked(tokenSpelling(wanted)));
-      // What stands in front is only a part of the condition.
-      if (!parser_.context()->children.empty()) {
-        static_cast<Context *>(parser_.context()->children.back())->exception =
-            std::make_exception_ptr(antlr4::ParseCancellationException());
-      }
-      while (current().type != wanted)
-        stream.advance();
-      return takeIt();
-    }
-    // The words of the three heads are often mixed up.
-    if (found == Tok::THEN || found == Tok::DO || found == Tok::OF) {
-      reportUnexpected(ticked(tokenSpelling(wanted)));
-      return takeIt();
-    }
-    reportMissing(wanted);
-    return conjure(wanted);
-  case Tok::UNTIL:
-    if (found == Tok::END_REPEAT) {
-      reportMissing(wanted);
-      return conjure(wanted);
-    }
-    reportMissingEnd(wanted);
-    return conjure(wanted);
-  case Tok::END_IF:
-    if ((found == Tok::ELSE || found == Tok::ELSIF) && rule == Grammar::RuleIfStatement) {
-      if (mayReport())
-        diagnostics_
-            .report(Code::UnexpectedToken, span(current()),
-                    ticked(spelling(current())) + " after the ELSE of the same IF",
-                    "expected `END_IF`")
-            .label(span(static_cast<const Token &>(*parser_.context()->start)), "of this IF");
-      size_t depth = 0;
-      while (!isEnd(current().type) && (depth != 0 || current().type != Tok::END_IF)) {
-        depth += current().type == Tok::IF;
-        depth -= current().type == Tok::END_IF;
-        stream.advance();
-      }
-      return isEnd(current().type) ? conjure(wanted) : takeIt();
-    }
-    reportMissingEnd(wanted);
-    return conjure(wanted);
-  case Tok::END_CASE:
-  case Tok::END_FOR:
-  case Tok::END_WHILE:
-  case Tok::END_REPEAT:
-  case Tok::END_TRY:
-  case Tok::END_VAR:
-  case Tok::END_TYPE:
-    reportMissingEnd(wanted);
-    return conjure(wanted);
-  case Tok::RPAREN:
-  case Tok::RBRACKET:
-    if (isStatementBoundary(found) || found == Tok::SEMICOLON || found == Tok::THEN ||
-        found == Tok::DO || found == Tok::OF || (onNewLine(current()) && startsOperand(found))) {
-      if (wanted == Tok::RBRACKET)
-        stepBackToAssignment();
-      reportMissing(wanted);
-      return conjure(wanted);
-    }
-    reportUnexpected("an operator, `,` or " + ticked(tokenSpelling(wanted)));
-    return fail();
-  case Tok::COLON:
-    if (rule == Grammar::RuleCaseLabels ? startsStatement(found) : startsType(found)) {
-      reportMissing(wanted);
-      return conjure(wanted);
-    }
-    reportUnexpected(rule == Grammar::RuleVarDeclaration && found == Tok::ASSIGN ? "`:` and a type"
-                                                                                 : "`:`");
-    return fail();
-  case Tok::IDENT:
-    if (isKeywordType(found) && !isCloser(found)) {
-      reportKeywordAsName(current());
-      useAsName(current());
-      return takeIt();
-    }
-    reportUnexpected("a name");
-    return fail();
-  case Tok::ASSIGN:
-    if (found == Tok::EQUAL) { // FOR i = 1 TO …
-      if (mayReport())
-        diagnostics_
-            .report(Code::EqualForAssign, span(current()), "`=` compares, it does not assign",
-                    "expected `:=`")
-            .help("write `:=` to assign a value");
-      return takeIt();
-    }
-    break;
-  case Token::kEnd:
-    reportUnexpected("nothing more here");
-    skipTo(isEnd);
-    return takeIt();
-  case 0:
-    if (rule == Grammar::RuleStructBody) {
-      reportMissingEnd(Tok::END_STRUCT);
-      return conjure(Tok::END_STRUCT);
-    }
-    reportUnexpected("the name of a member after the point");
-    return fail();
-  default:
-    break;
-  }
-  reportUnexpected(ticked(tokenSpelling(wanted)));
-  return fail();
-}
-
 void ReportStrategy::reportError(antlr4::Parser *, const antlr4::RecognitionException &) {
   if (recovering_)
     return;
@@ -391,8 +198,60 @@ void ReportStrategy::syncDeclarations(bool (*good)(uint16_t), const std::string 
   }
 }
 
-void ReportStrategy::syncStatements() {
+namespace {
+
+/// Closes no block, but begins another part of one.
+bool continuesBlock(uint16_t type) {
+  return type == Tok::LABEL || type == Tok::ELSE || type == Tok::ELSIF || type == Tok::UNTIL ||
+         type == Tok::CATCH || type == Tok::FINALLY;
+}
+
+} // namespace
+
+/// An END_… where another one is wanted is taken for that one.
+void ReportStrategy::takeForCloserOf(const Context *block) {
+  Token &token = current();
+  const uint16_t wanted = closerOf(block->getRuleIndex());
+  const auto &opener = static_cast<const Token &>(*block->start);
+  if (mayReport())
+    diagnostics_
+        .report(Code::MismatchedEnd, span(token),
+                ticked(spelling(token)) + " does not close " + ticked(spelling(opener)),
+                "expected `" + std::string(tokenSpelling(wanted)) + "`")
+        .label(span(opener), "this is open");
+  token.type = wanted;
+}
+
+/// Leaves out what belongs to no block, with the head that it has (`ELSIF a THEN`).
+void ReportStrategy::skipStrayCloser() {
   UnitStream &stream = parser_.stream();
+  const uint16_t type = current().type;
+  const std::string found = ticked(spelling(current()));
+  if (mayReport()) {
+    if (continuesBlock(type))
+      diagnostics_.report(Code::UnexpectedToken, span(current()),
+                          found + " without a block that it belongs to");
+    else
+      diagnostics_.report(Code::MismatchedEnd, span(current()), found + " closes nothing");
+  }
+  stream.advance();
+  if (type == Tok::ELSIF || type == Tok::UNTIL) {
+    skipTo(
+        [](uint16_t t) { return t == Tok::THEN || t == Tok::SEMICOLON || isStatementBoundary(t); });
+    if (current().type == Tok::THEN)
+      stream.advance();
+  }
+  if (type == Tok::CATCH)
+    while (!isEnd(current().type)) {
+      stream.advance();
+      if (stream.token(stream.index() - 1).type == Tok::RPAREN)
+        break;
+    }
+  if (current().type == Tok::SEMICOLON)
+    stream.advance();
+}
+
+void ReportStrategy::syncStatements() {
   for (;;) {
     Token &token = current();
     if (isEnd(token.type) || startsStatement(token.type))
@@ -400,57 +259,23 @@ void ReportStrategy::syncStatements() {
     if (isCloser(token.type)) {
       if (closerIsWanted(token.type))
         return;
-      const std::string found = ticked(spelling(token));
       const Context *block = innermostBlock();
-      const bool end = token.type != Tok::LABEL && token.type != Tok::ELSE &&
-                       token.type != Tok::ELSIF && token.type != Tok::UNTIL &&
-                       token.type != Tok::CATCH && token.type != Tok::FINALLY;
-      if (end && block != nullptr) {
-        // Takes it for the one that is missing.
-        const uint16_t wanted = closerOf(block->getRuleIndex());
-        const auto &opener = static_cast<const Token &>(*block->start);
-        if (mayReport())
-          diagnostics_
-              .report(Code::MismatchedEnd, span(token),
-                      found + " does not close " + ticked(spelling(opener)),
-                      "expected `" + std::string(tokenSpelling(wanted)) + "`")
-              .label(span(opener), "this is open");
-        token.type = wanted;
+      if (block != nullptr && !continuesBlock(token.type)) {
+        takeForCloserOf(block);
         return;
       }
-      if (mayReport())
-        diagnostics_.report(end ? Code::MismatchedEnd : Code::UnexpectedToken, span(token),
-                            end ? found + " closes nothing"
-                                : found + " without a block that it belongs to");
-      const uint16_t type = token.type;
-      stream.advance();
-      if (type == Tok::ELSIF || type == Tok::UNTIL) {
-        skipTo([](uint16_t t) {
-          return t == Tok::THEN || t == Tok::SEMICOLON || isStatementBoundary(t);
-        });
-        if (current().type == Tok::THEN)
-          stream.advance();
-      }
-      if (type == Tok::CATCH)
-        while (!isEnd(current().type)) {
-          stream.advance();
-          if (stream.token(stream.index() - 1).type == Tok::RPAREN)
-            break;
-        }
-      if (current().type == Tok::SEMICOLON)
-        stream.advance();
-      continue;
-    }
-    if (keywordAsName(token)) {
+      skipStrayCloser();
+    } else if (keywordAsName(token)) {
       reportKeywordAsName(token);
       useAsName(token);
       return;
+    } else {
+      reportUnexpected("a statement");
+      recovering_ = true;
+      parser_.stream().advance();
+      skipStatement();
+      recovering_ = false;
     }
-    reportUnexpected("a statement");
-    recovering_ = true;
-    stream.advance();
-    skipStatement();
-    recovering_ = false;
   }
 }
 

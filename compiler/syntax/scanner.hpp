@@ -46,6 +46,10 @@ private:
   [[nodiscard]] std::string_view wordAt(size_t place) const;
   [[nodiscard]] bool nameFollows(size_t place) const;
   [[nodiscard]] bool declaresName(size_t wordEnd) const;
+  [[nodiscard]] bool pointerBegins(Keyword keyword, size_t wordEnd) const;
+  [[nodiscard]] bool statementBegins(size_t wordEnd) const;
+  [[nodiscard]] bool modifies(size_t wordEnd) const;
+  [[nodiscard]] bool constructBegins(Keyword keyword, size_t wordEnd) const;
   [[nodiscard]] bool isKeywordHere(Keyword keyword, size_t wordEnd) const;
 
   void skipBlanks();
@@ -81,11 +85,22 @@ private:
   [[nodiscard]] bool endsInactive(const Pragma &pragma, size_t &depth);
   void reportOpenBranches();
 
+  struct Word {
+    std::string_view text;
+    uint32_t hash = 0;
+    bool foreignLetters = false;
+    bool doubled = false; ///< two underscores in a row
+  };
+  [[nodiscard]] Word wordFrom(size_t begin) const;
+  void reportForeignLetters(size_t begin, const Word &word);
+  uint16_t keywordOf(size_t begin, const Word &word, Token &token);
+  void checkName(size_t begin, const Word &word, Token &token);
   uint16_t word(size_t begin, Token &token);
   uint16_t prefixedLiteral(size_t begin, Token &token);
   uint16_t number(size_t begin, Token &token);
   uint16_t quoted(size_t begin, char quote, Token &token);
   uint16_t address(size_t begin, Token &token);
+  uint16_t signOfOthers(size_t begin, Token &token);
   uint16_t sign(size_t begin, Token &token);
   uint16_t foreign(size_t begin, size_t length, uint16_t meant, Token &token);
   // foreign.cpp
@@ -98,6 +113,8 @@ private:
   void badCharacters(size_t begin);
   /// True for the first of several equal names, so that one mistake is reported once.
   [[nodiscard]] bool firstOf(uint32_t hash);
+
+  static constexpr unsigned kMaxBadCharacters = 20;
 
   std::string_view text_;
   FileId file_;

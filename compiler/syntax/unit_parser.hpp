@@ -157,15 +157,36 @@ private:
   void reportKeywordAsName(const Token &token);
   static void useAsName(Token &token);
   void reportUnexpected(const std::string &expected);
+  [[nodiscard]] std::string_view placeOfMissing(uint16_t wanted);
+  [[nodiscard]] const Token *openBracketOf(uint16_t closer);
   void reportMissing(uint16_t wanted);
   void reportMissingEnd(uint16_t wanted);
   antlr4::Token *conjure(uint16_t type);
+
+  // report_inline.cpp: what to do with the current token where another one is wanted. They give the
+  // token to go on with, or throw as giveUpAt().
+  antlr4::Token *take();
+  antlr4::Token *insert(uint16_t wanted);
+  antlr4::Token *insertEnd(uint16_t wanted);
+  /// Reports the current token; the rule cannot go on.
+  [[noreturn]] void giveUpAt(const std::string &expected);
+  antlr4::Token *insteadOfSemicolon();
+  antlr4::Token *insteadOfHeadsEnd(uint16_t wanted);
+  antlr4::Token *insteadOfEndIf();
+  antlr4::Token *insteadOfBracket(uint16_t wanted);
+  antlr4::Token *insteadOfColon();
+  antlr4::Token *insteadOfName();
+  antlr4::Token *takeEqualForAssign();
   void stepBackToAssignment();
+  bool thenFollows(uint16_t wanted);
+
+  // report_strategy.cpp: going on at the next statement or declaration
   void skipStatement();
   void skipTo(bool (*stop)(uint16_t));
   bool startsDeclaration(const Token &token);
-  bool thenFollows(uint16_t wanted);
   void syncStatements();
+  void takeForCloserOf(const Context *block);
+  void skipStrayCloser();
   void syncDeclarations(bool (*good)(uint16_t), const std::string &expected);
   void syncCase();
 

@@ -95,65 +95,92 @@ bool SwitchRange::actuated(double place, double period) const {
   return inTurn(place - from) <= inTurn(to - from);
 }
 
+namespace {
+
+/// The rows of the table `physics`; lengths come in increments.
+struct Physics {
+  const bus::SetupParameters &given;
+  double perUnit; ///< increments
+
+  [[nodiscard]] bool has(const char *name) const {
+    return given.given(std::string("physics.") + name);
+  }
+  [[nodiscard]] double number(const char *name) const {
+    return given.number(std::string("physics.") + name);
+  }
+  [[nodiscard]] double length(const char *name) const { return number(name) * perUnit; }
+  [[nodiscard]] uint32_t whole(const char *name) const {
+    return static_cast<uint32_t>(number(name));
+  }
+};
+
+MechanicsParameters mechanicsOf(const Physics &physics, double unitsPerIncrement) {
+  MechanicsParameters m;
+  m.model = static_cast<Model>(physics.whole("model"));
+  m.cycle = physics.given.cycleSeconds();
+  m.timeConstant = physics.number("time_constant");
+  m.inertia = physics.number("inertia") * unitsPerIncrement;
+  m.viscousFriction = physics.number("viscous_friction") * unitsPerIncrement;
+  m.coulombFriction = physics.number("coulomb_friction");
+  m.torqueLimit = physics.number("torque_limit");
+  m.positionGain = physics.number("position_gain");
+  m.velocityGain = physics.number("velocity_gain") * unitsPerIncrement;
+  m.integralTime = physics.number("velocity_integral_time");
+  m.velocityFeedforward = physics.number("velocity_feedforward");
+  m.substeps = physics.whole("substeps");
+  return m;
+}
+
+/// The controller modes that can be chosen with what the bus sends.
+uint8_t modesOf(const CyclicMasks &masks, Model model) {
+  uint8_t modes = 0;
+  if ((masks.sent & bus::kPosition) != 0)
+    modes |= 1U << kPositionMode;
+  if ((masks.sent & bus::kVelocity) != 0)
+    modes |= 1U << kVelocityMode;
+  if ((masks.sent & bus::kTorque) != 0 && model == Model::SecondOrder)
+    modes |= 1U << kTorqueMode;
+  return modes;
+}
+
+} // namespace
+
 DriveParameters driveParameters(const bus::SetupParameters &given) {
   DriveParameters result;
   const double increments = given.number("dwRatioTechUnitsDenom");
   const double units = given.number("iRatioTechUnitsNum");
-  const double perUnit = increments / units;
+  const Physics physics{given, increments / units};
   result.unitsPerIncrement = units / increments;
   const bool rotary = given.number("iMovementType") == bus::plc::kRotary;
   if (rotary)
-    result.period = given.number("fPositionPeriod") * perUnit;
+    result.period = given.number("fPositionPeriod") * physics.perUnit;
+  result.mechanics = mechanicsOf(physics, result.unitsPerIncrement);
 
-  const auto number = [&](const char *name) {
-    return given.number(std::string("physics.") + name);
-  };
-  const auto length = [&](const char *name) { return number(name) * perUnit; };
-  const auto whole = [&](const char *name) { return static_cast<uint32_t>(number(name)); };
-  const auto has = [&](const char *name) { return given.given(std::string("physics.") + name); };
+  result.startPosition = wholeIncrements(physics.length("start_position"));
+  result.startUpCycles = physics.whole("start_up_cycles");
+  result.switchCycles = physics.whole("switch_cycles");
+  result.deadTime = physics.whole("dead_time");
+  result.parameterCycles = physics.whole("parameter_cycles");
 
-  MechanicsParameters &m = result.mechanics;
-  m.model = static_cast<Model>(whole("model"));
-  m.cycle = given.cycleSeconds();
-  m.timeConstant = number("time_constant");
-  m.inertia = number("inertia") * result.unitsPerIncrement;
-  m.viscousFriction = number("viscous_friction") * result.unitsPerIncrement;
-  m.coulombFriction = number("coulomb_friction");
-  m.torqueLimit = number("torque_limit");
-  m.positionGain = number("position_gain");
-  m.velocityGain = number("velocity_gain") * result.unitsPerIncrement;
-  m.integralTime = number("velocity_integral_time");
-  m.velocityFeedforward = number("velocity_feedforward");
-  m.substeps = whole("substeps");
+  result.homing = {physics.number("homing_direction") > 0, physics.length("homing_velocity"),
+                   physics.length("homing_velocity_slow"), physics.length("homing_acceleration")};
 
-  result.startPosition = wholeIncrements(length("start_position"));
-  result.startUpCycles = whole("start_up_cycles");
-  result.switchCycles = whole("switch_cycles");
-  result.deadTime = whole("dead_time");
-  result.parameterCycles = whole("parameter_cycles");
+  result.hasLimitPositive = !rotary && physics.has("limit_positive");
+  result.hasLimitNegative = !rotary && physics.has("limit_negative");
+  result.limitPositive = physics.length("limit_positive");
+  result.limitNegative = physics.length("limit_negative");
+  result.home = {physics.has("home_switch_from"), physics.length("home_switch_from"),
+                 physics.length("home_switch_to")};
+  result.index = {physics.has("index_position"), physics.length("index_position"),
+                  physics.length("index_distance")};
+  result.probe = {physics.has("probe_position"), physics.length("probe_position"),
+                  physics.length("probe_distance")};
 
-  result.homing = {number("homing_direction") > 0, length("homing_velocity"),
-                   length("homing_velocity_slow"), length("homing_acceleration")};
-
-  result.hasLimitPositive = !rotary && has("limit_positive");
-  result.hasLimitNegative = !rotary && has("limit_negative");
-  result.limitPositive = length("limit_positive");
-  result.limitNegative = length("limit_negative");
-  result.home = {has("home_switch_from"), length("home_switch_from"), length("home_switch_to")};
-  result.index = {has("index_position"), length("index_position"), length("index_distance")};
-  result.probe = {has("probe_position"), length("probe_position"), length("probe_distance")};
-
-  result.probeInputs = static_cast<uint8_t>(whole("probe_inputs"));
-  result.quickStop = length("quick_stop");
+  result.probeInputs = static_cast<uint8_t>(physics.whole("probe_inputs"));
+  result.quickStop = physics.length("quick_stop");
 
   const CyclicMasks masks = cyclicMasks(given);
-  result.modes = 0;
-  if ((masks.sent & bus::kPosition) != 0)
-    result.modes |= 1U << kPositionMode;
-  if ((masks.sent & bus::kVelocity) != 0)
-    result.modes |= 1U << kVelocityMode;
-  if ((masks.sent & bus::kTorque) != 0 && m.model == Model::SecondOrder)
-    result.modes |= 1U << kTorqueMode;
+  result.modes = modesOf(masks, result.mechanics.model);
   // Torque and current cost nothing on this bus, so they always come.
   result.received = static_cast<uint8_t>(masks.received | bus::kTorque | bus::kCurrent);
   return result;

@@ -228,8 +228,11 @@ void CarryOver::copySteps(uint32_t index, Place at, Steps &out) {
     return repeat(copyProgram(pair.element), at, pair, out);
   }
   case Carry::Fields:
-    break;
+    return fieldSteps(pair, at, out);
   }
+}
+
+void CarryOver::fieldSteps(const TypePair &pair, Place at, Steps &out) {
   std::vector<uint64_t> added;
   for (const LoneField &field : pair.added)
     added.push_back(field.offset);

@@ -132,6 +132,7 @@ private:
   struct Run;
 
   void copySteps(uint32_t pair, Place at, Steps &out);
+  void fieldSteps(const TypePair &pair, Place at, Steps &out);
   void slotSteps(uint32_t pair, Place at, bool maybe, Steps &out);
   void append(const Steps &program, Place at, Steps &out);
   void appendCopy(Place at, uint64_t bytes, uint64_t align, Steps &out) const;

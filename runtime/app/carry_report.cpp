@@ -15,23 +15,6 @@ namespace {
 /// The owner in the keys of roots.
 constexpr uint32_t kRoots = kNoIndex;
 
-std::string bytesText(uint32_t first, uint32_t count) {
-  return count == 0 ? "none" : fmt::format("byte {} to {}", first, first + count - 1);
-}
-
-constexpr const char *kNotGiven = "nothing";
-
-/// A parameter of an I/O device, as stride.toml says it.
-std::string parameterText(const StrideAppV1 &app, const IoDeviceDesc &device,
-                          std::string_view name) {
-  for (uint32_t i = 0; i < device.parameterCount; ++i) {
-    const ParameterDesc &parameter = app.parameters[device.firstParameter + i];
-    if (name == parameter.name)
-      return parameter.text != nullptr ? parameter.text : fmt::format("{}", parameter.number);
-  }
-  return kNotGiven;
-}
-
 const char *word(Finding::Kind kind) {
   switch (kind) {
   case Finding::Kind::Renamed:
@@ -88,166 +71,6 @@ CarryReport::CarryReport(const TypeMatch &match)
   if (!refusals_.empty())
     verdict_ = Verdict::Refused;
   known_.clear();
-}
-
-void CarryReport::refuse() {
-  const StrideAppV1 &a = match_->oldApp();
-  const StrideAppV1 &b = match_->newApp();
-  if (a.abiVersion != b.abiVersion)
-    refusals_.push_back("the builds were made by different versions of Stride");
-  const auto differ = [](uint64_t x, uint64_t y) { return x != 0 && y != 0 && x != y; };
-  if (differ(a.axisRefLayout, b.axisRefLayout))
-    refusals_.push_back("AXIS_REF has other fields in the new build");
-  if (differ(a.axisGroupRefLayout, b.axisGroupRefLayout))
-    refusals_.push_back("SMC_AXISGROUP_REF has other fields in the new build");
-  // A native body relies on all of its fields at once.
-  for (const TypePair &pair : match_->pairs()) {
-    const TypeDesc &from = a.types[pair.oldType];
-    const TypeDesc &to = b.types[pair.newType];
-    if (((from.flags | to.flags) & kTypeExternal) != 0 && from.layoutHash != to.layoutHash)
-      refusals_.push_back(
-          fmt::format("{} has a native body and other fields in the new build", to.name));
-  }
-  compareAxisGroups();
-  compareIoDevices();
-}
-
-/// So do the drivers of I/O devices; which bytes the tasks use may change.
-void CarryReport::compareIoDevices() {
-  const StrideAppV1 &a = match_->oldApp();
-  const StrideAppV1 &b = match_->newApp();
-  const auto text = [](const char *x) { return std::string_view(x != nullptr ? x : ""); };
-  for (uint32_t i = 0; i < std::max(a.ioDeviceCount, b.ioDeviceCount); ++i) {
-    if (i >= a.ioDeviceCount || i >= b.ioDeviceCount) {
-      const bool gone = i >= b.ioDeviceCount;
-      refusals_.push_back(fmt::format("I/O device {} is {} the new build",
-                                      (gone ? a : b).ioDevices[i].name,
-                                      gone ? "not in" : "only in"));
-      continue;
-    }
-    const IoDeviceDesc &x = a.ioDevices[i];
-    const IoDeviceDesc &y = b.ioDevices[i];
-    if (!sameName(x.name, y.name)) {
-      refusals_.push_back(
-          fmt::format("I/O device {} is called '{}' instead of '{}'", i + 1, y.name, x.name));
-      continue;
-    }
-    const auto compare = [&](const char *what, const auto &was, const auto &is) {
-      if (was != is)
-        refusals_.push_back(
-            fmt::format("I/O device {} has another {}: {} instead of {}", x.name, what, is, was));
-    };
-    compare("driver", text(x.driverName), text(y.driverName));
-    compare("place of its inputs", bytesText(x.inputFirst, x.inputCount),
-            bytesText(y.inputFirst, y.inputCount));
-    compare("place of its outputs", bytesText(x.outputFirst, x.outputCount),
-            bytesText(y.outputFirst, y.outputCount));
-    for (uint32_t p = 0; p < x.parameterCount; ++p) {
-      const char *name = a.parameters[x.firstParameter + p].name;
-      compare(fmt::format("`{}`", name).c_str(), parameterText(a, x, name),
-              parameterText(b, y, name));
-    }
-    for (uint32_t p = 0; p < y.parameterCount; ++p)
-      if (const char *name = b.parameters[y.firstParameter + p].name;
-          parameterText(a, x, name) == kNotGiven)
-        compare(fmt::format("`{}`", name).c_str(), std::string(kNotGiven),
-                parameterText(b, y, name));
-  }
-}
-
-/// The drivers go on running: the configuration they were started with must be the same.
-void CarryReport::compareAxisGroups() {
-  const StrideAppV1 &a = match_->oldApp();
-  const StrideAppV1 &b = match_->newApp();
-  for (uint32_t i = 0; i < std::max(a.axisGroupCount, b.axisGroupCount); ++i) {
-    if (i >= a.axisGroupCount || i >= b.axisGroupCount) {
-      const bool gone = i >= b.axisGroupCount;
-      refusals_.push_back(fmt::format("axis group {} is {} the new build",
-                                      (gone ? a : b).axisGroups[i].name,
-                                      gone ? "not in" : "only in"));
-      continue;
-    }
-    const AxisGroupDesc &x = a.axisGroups[i];
-    const AxisGroupDesc &y = b.axisGroups[i];
-    const auto refused = [&](const char *what) {
-      refusals_.push_back(fmt::format("axis group {} has {} in the new build", x.name, what));
-    };
-    if (!sameName(x.name, y.name) || !sameName(x.busName, y.busName)) {
-      refused("another name");
-      continue;
-    }
-    if (!sameName(x.driverName, y.driverName))
-      refused("another driver");
-    if (x.cycleUs != y.cycleUs)
-      refused("another dwCycle");
-    const bool known = x.task < a.taskCount && y.task < b.taskCount;
-    if (!known || !sameName(a.tasks[x.task].name, b.tasks[y.task].name) ||
-        a.tasks[x.task].intervalNs != b.tasks[y.task].intervalNs)
-      refused("another task");
-    bool sameDrives = x.driveCount == y.driveCount;
-    for (uint32_t d = 0; sameDrives && d < x.driveCount; ++d) {
-      const DriveDesc &u = a.drives[x.firstDrive + d];
-      const DriveDesc &v = b.drives[y.firstDrive + d];
-      sameDrives = sameName(u.name, v.name) && u.driveId == v.driveId;
-    }
-    if (!sameDrives)
-      refused("other drives");
-    bool sameEncoders = x.encoderCount == y.encoderCount;
-    for (uint32_t e = 0; sameEncoders && e < x.encoderCount; ++e) {
-      const EncoderDesc &u = a.encoders[x.firstEncoder + e];
-      const EncoderDesc &v = b.encoders[y.firstEncoder + e];
-      sameEncoders = sameName(u.name, v.name) && u.encoderId == v.encoderId;
-    }
-    if (!sameEncoders)
-      refused("other encoders");
-    compareParameters(fmt::format("axis group {}", x.name), {x.firstParameter, x.parameterCount},
-                      {y.firstParameter, y.parameterCount});
-    for (uint32_t d = 0; sameDrives && d < x.driveCount; ++d) {
-      const DriveDesc &u = a.drives[x.firstDrive + d];
-      const DriveDesc &v = b.drives[y.firstDrive + d];
-      compareParameters(fmt::format("drive {}", u.name), {u.firstParameter, u.parameterCount},
-                        {v.firstParameter, v.parameterCount});
-    }
-    for (uint32_t e = 0; sameEncoders && e < x.encoderCount; ++e) {
-      const EncoderDesc &u = a.encoders[x.firstEncoder + e];
-      const EncoderDesc &v = b.encoders[y.firstEncoder + e];
-      compareParameters(fmt::format("encoder {}", u.name), {u.firstParameter, u.parameterCount},
-                        {v.firstParameter, v.parameterCount});
-    }
-  }
-  for (uint32_t i = 0; i < std::min(a.busCount, b.busCount); ++i)
-    compareParameters(fmt::format("bus {}", a.buses[i].name),
-                      {a.buses[i].firstParameter, a.buses[i].parameterCount},
-                      {b.buses[i].firstParameter, b.buses[i].parameterCount});
-}
-
-void CarryReport::compareParameters(const std::string &owner, Section was, Section is) {
-  const auto valuesOf = [](const StrideAppV1 &app, Section section) {
-    std::map<std::string, std::string> values;
-    for (uint32_t i = 0; i < section.count; ++i) {
-      const ParameterDesc &parameter = app.parameters[section.first + i];
-      values.emplace(parameter.name, parameter.text != nullptr
-                                         ? fmt::format("\"{}\"", parameter.text)
-                                         : fmt::format("{}", parameter.number));
-    }
-    return values;
-  };
-  const std::map<std::string, std::string> before = valuesOf(match_->oldApp(), was);
-  const std::map<std::string, std::string> after = valuesOf(match_->newApp(), is);
-  const auto say = [&](const std::string &name, const std::string &change) {
-    atNextStart_.push_back(
-        fmt::format("{}: {} {}; that takes effect at the next start", owner, name, change));
-  };
-  for (const auto &[name, value] : before) {
-    const auto now = after.find(name);
-    if (now == after.end())
-      say(name, fmt::format("= {} is not given any more", value));
-    else if (now->second != value)
-      say(name, fmt::format("is {} instead of {}", now->second, value));
-  }
-  for (const auto &[name, value] : after)
-    if (!before.contains(name))
-      say(name, fmt::format("= {} is new", value));
 }
 
 void CarryReport::add(Key key, Finding finding) {
@@ -345,6 +168,33 @@ void CarryReport::visitFields(uint32_t owner, const std::string &path,
   }
 }
 
+namespace {
+
+/// What becomes of the values of an enumeration, for the report.
+struct EnumeratorChanges {
+  std::string gone;  ///< "without b = 2, c = 3"
+  std::string moved; ///< "d = 4 is now 5"
+};
+
+EnumeratorChanges enumeratorChanges(const TypePair &pair, const TypeDesc &from,
+                                    const EnumeratorDesc *names) {
+  EnumeratorChanges out;
+  for (const EnumeratorMove &move : pair.moves) {
+    const auto *const own =
+        std::find_if(names, names + from.memberCount,
+                     [&](const EnumeratorDesc &e) { return e.value == move.from; });
+    if (move.gone)
+      out.gone +=
+          fmt::format("{}{} = {}", out.gone.empty() ? "without " : ", ", own->name, move.from);
+    else if (move.from != move.to)
+      out.moved += fmt::format("{}{} = {} is now {}", out.moved.empty() ? "" : ", ", own->name,
+                               move.from, move.to);
+  }
+  return out;
+}
+
+} // namespace
+
 void CarryReport::visit(uint32_t index, const std::string &path, uint64_t places, Key key,
                         bool indexOpen) {
   const TypePair &pair = match_->pair(index);
@@ -366,22 +216,11 @@ void CarryReport::visit(uint32_t index, const std::string &path, uint64_t places
   case Carry::Initial:
     return say(Finding::Kind::Lost);
   case Carry::Names: {
-    std::string gone;
-    std::string moved;
-    const EnumeratorDesc *const names = match_->oldApp().enumerators + from.firstMember;
-    for (const EnumeratorMove &move : pair.moves) {
-      const auto *const own =
-          std::find_if(names, names + from.memberCount,
-                       [&](const EnumeratorDesc &e) { return e.value == move.from; });
-      if (move.gone)
-        gone += fmt::format("{}{} = {}", gone.empty() ? "without " : ", ", own->name, move.from);
-      else if (move.from != move.to)
-        moved += fmt::format("{}{} = {} is now {}", moved.empty() ? "" : ", ", own->name, move.from,
-                             move.to);
-    }
-    if (!gone.empty())
-      return say(Finding::Kind::EnumeratorsGone, gone);
-    return say(Finding::Kind::Converted, moved);
+    const EnumeratorChanges changes =
+        enumeratorChanges(pair, from, match_->oldApp().enumerators + from.firstMember);
+    if (!changes.gone.empty())
+      return say(Finding::Kind::EnumeratorsGone, changes.gone);
+    return say(Finding::Kind::Converted, changes.moved);
   }
   case Carry::Elements: {
     if (pair.count != from.elementCount)

@@ -67,6 +67,7 @@ private:
   using Key = std::tuple<uint32_t, uint32_t, uint32_t, Finding::Kind>;
   void refuse();
   void compareAxisGroups();
+  void compareAxisGroup(const AxisGroupDesc &was, const AxisGroupDesc &is);
   void compareIoDevices();
   /// A section of the PLC configuration: where its parameters begin, and their number.
   struct Section {

@@ -227,44 +227,21 @@ RetainReport RetainRestore::apply(std::byte *state) const {
   return report;
 }
 
-void RetainRestore::explain(RetainReport &report) const {
-  const std::vector<std::string> variables = image_->layout.variables();
-  const std::set<std::string> places = located(image_->layout.description());
-  const SymbolTable symbols(*app_);
-  const SymbolTable before(image_->layout.description());
-  const std::vector<std::string> retained = RetainLayout(*app_, kRetained).variables();
-  const auto lose = [&](const std::string &path, const std::string &why) {
-    report.lost.push_back(fmt::format("{} is not restored: {}", path, why));
-  };
-  const auto dropped = [&](const std::string &path) {
-    if (!exists(symbols, path))
-      return lose(path, "the program does not have it any more");
-    if (std::any_of(retained.begin(), retained.end(), [&](const std::string &own) {
-          return isInside(common::lowerCase(path), common::lowerCase(own));
-        }))
-      return lose(path, "this is another build of the program, and only PERSISTENT variables "
-                        "survive that, not RETAIN");
-    lose(path, "it is neither RETAIN nor PERSISTENT any more");
-  };
-  for (const Finding &finding : plan_->report().findings()) {
+/// Why variables of the file are not restored.
+class RetainRestore::Losses {
+public:
+  Losses(const RetainRestore &restore, RetainReport &report)
+      : report_(&report), symbols_(*restore.app_), before_(restore.image_->layout.description()),
+        variables_(restore.image_->layout.variables()),
+        located_(located(restore.image_->layout.description())),
+        retained_(RetainLayout(*restore.app_, kRetained).variables()) {}
+
+  void explain(const Finding &finding) const {
     const std::string path = shown(finding.path);
     switch (finding.kind) {
-    case Finding::Kind::Dropped: {
-      bool named = false;
-      for (const std::string &variable : variables) {
-        // What lies in the process image is a variable of its own, wherever it is declared.
-        const bool located = places.contains(variable);
-        if (finding.path == "%" ? !located
-            : located           ? variable != path || finding.path == path
-                                : !isInside(variable, path))
-          continue;
-        dropped(variable);
-        named = true;
-      }
-      if (!named)
-        dropped(path);
+    case Finding::Kind::Dropped:
+      dropped(finding.path, path);
       break;
-    }
     case Finding::Kind::Lost:
       lose(path, fmt::format("it was {} and is {}", finding.oldType, finding.newType));
       break;
@@ -275,20 +252,66 @@ void RetainRestore::explain(RetainReport &report) const {
       lose(path, "only the bytes of the fields that did not change are");
       break;
     case Finding::Kind::Renamed:
-      report.notes.push_back(fmt::format("{} {}", path, finding.detail));
+      report_->notes.push_back(fmt::format("{} {}", path, finding.detail));
       break;
     case Finding::Kind::Converted:
-      report.notes.push_back(
+      report_->notes.push_back(
           fmt::format("{} was {} and is {}: converted", path, finding.oldType, finding.newType));
       break;
     case Finding::Kind::Added:
-      if (exists(before, finding.path)) // it was there, but is not compared: see changedNative
+      if (exists(before_, finding.path)) // it was there, but is not compared: see changedNative
         lose(path, fmt::format("{} has a native body and other fields now", finding.newType));
       break;
     default: // texts and enumerators are reported when they were really cut or lost
       break;
     }
   }
+
+private:
+  void lose(const std::string &path, const std::string &why) const {
+    report_->lost.push_back(fmt::format("{} is not restored: {}", path, why));
+  }
+
+  void loseVariable(const std::string &path) const {
+    if (!exists(symbols_, path))
+      return lose(path, "the program does not have it any more");
+    if (std::any_of(retained_.begin(), retained_.end(), [&](const std::string &own) {
+          return isInside(common::lowerCase(path), common::lowerCase(own));
+        }))
+      return lose(path, "this is another build of the program, and only PERSISTENT variables "
+                        "survive that, not RETAIN");
+    lose(path, "it is neither RETAIN nor PERSISTENT any more");
+  }
+
+  /// All variables of the file that lie where the finding says; `path` is how it is shown.
+  void dropped(const std::string &found, const std::string &path) const {
+    bool named = false;
+    for (const std::string &variable : variables_) {
+      // What lies in the process image is a variable of its own, wherever it is declared.
+      const bool inImage = located_.contains(variable);
+      if (found == "%" ? !inImage
+          : inImage    ? variable != path || found == path
+                       : !isInside(variable, path))
+        continue;
+      loseVariable(variable);
+      named = true;
+    }
+    if (!named)
+      loseVariable(path);
+  }
+
+  RetainReport *report_;
+  SymbolTable symbols_; ///< of the program
+  SymbolTable before_;  ///< of the program that has written the file
+  std::vector<std::string> variables_;
+  std::set<std::string> located_;
+  std::vector<std::string> retained_;
+};
+
+void RetainRestore::explain(RetainReport &report) const {
+  const Losses losses(*this, report);
+  for (const Finding &finding : plan_->report().findings())
+    losses.explain(finding);
 }
 
 } // namespace stride::app

@@ -79,6 +79,7 @@ public:
   RetainReport apply(std::byte *state) const;
 
 private:
+  class Losses;
   void explain(RetainReport &report) const;
 
   const StrideAppV1 *app_;

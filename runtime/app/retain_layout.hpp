@@ -17,6 +17,13 @@ namespace stride::app {
 /// Everything that is stored: RETAIN and PERSISTENT, which implies it.
 inline constexpr uint32_t kRetained = kSymRetain | kSymPersistent;
 
+/// The name of the structure that stands for what lies in the process image.
+inline constexpr const char *kLocated = "%";
+
+/// The SymbolFlags that a layout keeps.
+inline constexpr uint32_t kKept =
+    kRetained | kSymBase | kSymHidden | kSymBit | (7U << kSymBitShift) | kSymNonRetain;
+
 /// Bytes of the state that are stored.
 struct RetainRange {
   uint64_t offset; ///< From the start of the state.

@@ -80,7 +80,9 @@ void checkLayout(const char *type, uint64_t ours, uint64_t theirs) {
 
 } // namespace
 
-void validate(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
+namespace {
+
+void checkHead(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
   // The first two members stay where they are in every version.
   if (app.magic != kAbiMagic)
     throw Error("it is not a Stride application (its description starts with other data)");
@@ -97,73 +99,90 @@ void validate(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
     damaged("no initialisation");
   if (app.stateAlign > 4096)
     damaged("alignment");
+}
+
+bool isSound(const StrideAppV1 &app, const RootDesc &root) {
+  if (root.name == nullptr || root.type >= app.typeCount)
+    return false;
+  const uint64_t size = (root.flags & kSymSlot) != 0 ? sizeof(uint32_t) : app.types[root.type].size;
+  return fits(root.offset, size, app.stateSize) &&
+         (root.task == kNoIndex || root.task < app.taskCount);
+}
+
+bool isSound(const StrideAppV1 &app, const ImageUseDesc &use) {
+  return use.task < app.taskCount && use.area <= kImageMemory &&
+         fits(use.first, use.count, app.image[use.area].size);
+}
+
+bool isSound(const StrideAppV1 &app, const IoDeviceDesc &device) {
+  return device.name != nullptr && device.driverName != nullptr &&
+         fits(device.stateOffset, 8, app.stateSize) &&
+         fits(device.firstParameter, device.parameterCount, app.parameterCount);
+}
+
+bool isSound(const StrideAppV1 &app, const TaskDesc &task) {
+  return task.name != nullptr && task.run != nullptr && task.kind <= TaskKind::Status &&
+         (task.sync == kNoIndex || task.sync < app.axisGroupCount);
+}
+
+bool isSound(const StrideAppV1 &app, const AxisGroupDesc &group) {
+  return group.name != nullptr && group.driverName != nullptr && group.task < app.taskCount &&
+         group.groupOffset < app.stateSize &&
+         fits(group.firstDrive, group.driveCount, app.driveCount) &&
+         fits(group.firstEncoder, group.encoderCount, app.encoderCount) &&
+         fits(group.firstParameter, group.parameterCount, app.parameterCount) &&
+         (group.bus == kNoIndex || group.bus < app.busCount);
+}
+
+bool isSound(const StrideAppV1 &app, const DriveDesc &drive) {
+  return drive.name != nullptr && drive.axisOffset < app.stateSize &&
+         drive.dataOffset < app.stateSize &&
+         fits(drive.firstParameter, drive.parameterCount, app.parameterCount);
+}
+
+bool isSound(const StrideAppV1 &app, const BusDesc &bus) {
+  return bus.name != nullptr && bus.interfaceType != nullptr && bus.driverName != nullptr &&
+         fits(bus.firstParameter, bus.parameterCount, app.parameterCount);
+}
+
+bool isSound(const StrideAppV1 &app, const EncoderDesc &encoder) {
+  return encoder.name != nullptr && encoder.encoderOffset < app.stateSize &&
+         fits(encoder.firstParameter, encoder.parameterCount, app.parameterCount);
+}
+
+bool isSound(const StrideAppV1 & /*app*/, const ParameterDesc &parameter) {
+  return parameter.name != nullptr;
+}
+
+template <class Desc>
+void checkAll(const StrideAppV1 &app, const Desc *list, uint32_t count, const char *what) {
+  for (uint32_t i = 0; i < count; ++i)
+    if (!isSound(app, list[i]))
+      damaged(fmt::format("{} {}", what, i));
+}
+
+} // namespace
+
+void validate(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
+  checkHead(app, layouts);
   for (uint32_t i = 0; i < app.typeCount; ++i)
     checkType(app, i);
-  for (uint32_t i = 0; i < app.rootCount; ++i) {
-    const RootDesc &root = app.roots[i];
-    if (root.name == nullptr || root.type >= app.typeCount ||
-        !fits(root.offset,
-              (root.flags & kSymSlot) != 0 ? sizeof(uint32_t) : app.types[root.type].size,
-              app.stateSize) ||
-        (root.task != kNoIndex && root.task >= app.taskCount))
-      damaged(fmt::format("variable {}", i));
-  }
+  checkAll(app, app.roots, app.rootCount, "variable");
   for (const ImageAreaDesc &area : app.image) {
     if (!fits(area.offset, area.size, app.stateSize))
       damaged("process image");
   }
   for (uint32_t i = 0; i < app.imageUseCount; ++i) {
-    const ImageUseDesc &use = app.imageUses[i];
-    if (use.task >= app.taskCount || use.area > kImageMemory ||
-        !fits(use.first, use.count, app.image[use.area].size))
+    if (!isSound(app, app.imageUses[i]))
       damaged(fmt::format("use {} of the process image", i));
   }
-  for (uint32_t i = 0; i < app.ioDeviceCount; ++i) {
-    const IoDeviceDesc &device = app.ioDevices[i];
-    if (device.name == nullptr || device.driverName == nullptr ||
-        !fits(device.stateOffset, 8, app.stateSize) ||
-        !fits(device.firstParameter, device.parameterCount, app.parameterCount))
-      damaged(fmt::format("I/O device {}", i));
-  }
-  for (uint32_t i = 0; i < app.taskCount; ++i) {
-    const TaskDesc &task = app.tasks[i];
-    if (task.name == nullptr || task.run == nullptr || task.kind > TaskKind::Status ||
-        (task.sync != kNoIndex && task.sync >= app.axisGroupCount))
-      damaged(fmt::format("task {}", i));
-  }
-  for (uint32_t i = 0; i < app.axisGroupCount; ++i) {
-    const AxisGroupDesc &group = app.axisGroups[i];
-    if (group.name == nullptr || group.driverName == nullptr || group.task >= app.taskCount ||
-        group.groupOffset >= app.stateSize ||
-        !fits(group.firstDrive, group.driveCount, app.driveCount) ||
-        !fits(group.firstEncoder, group.encoderCount, app.encoderCount) ||
-        !fits(group.firstParameter, group.parameterCount, app.parameterCount) ||
-        (group.bus != kNoIndex && group.bus >= app.busCount))
-      damaged(fmt::format("axis group {}", i));
-  }
-  for (uint32_t i = 0; i < app.driveCount; ++i) {
-    const DriveDesc &drive = app.drives[i];
-    if (drive.name == nullptr || drive.axisOffset >= app.stateSize ||
-        drive.dataOffset >= app.stateSize ||
-        !fits(drive.firstParameter, drive.parameterCount, app.parameterCount))
-      damaged(fmt::format("drive {}", i));
-  }
-  for (uint32_t i = 0; i < app.busCount; ++i) {
-    const BusDesc &bus = app.buses[i];
-    if (bus.name == nullptr || bus.interfaceType == nullptr || bus.driverName == nullptr ||
-        !fits(bus.firstParameter, bus.parameterCount, app.parameterCount))
-      damaged(fmt::format("bus {}", i));
-  }
-  for (uint32_t i = 0; i < app.encoderCount; ++i) {
-    const EncoderDesc &encoder = app.encoders[i];
-    if (encoder.name == nullptr || encoder.encoderOffset >= app.stateSize ||
-        !fits(encoder.firstParameter, encoder.parameterCount, app.parameterCount))
-      damaged(fmt::format("encoder {}", i));
-  }
-  for (uint32_t i = 0; i < app.parameterCount; ++i) {
-    if (app.parameters[i].name == nullptr)
-      damaged(fmt::format("parameter {}", i));
-  }
+  checkAll(app, app.ioDevices, app.ioDeviceCount, "I/O device");
+  checkAll(app, app.tasks, app.taskCount, "task");
+  checkAll(app, app.axisGroups, app.axisGroupCount, "axis group");
+  checkAll(app, app.drives, app.driveCount, "drive");
+  checkAll(app, app.buses, app.busCount, "bus");
+  checkAll(app, app.encoders, app.encoderCount, "encoder");
+  checkAll(app, app.parameters, app.parameterCount, "parameter");
   if (!fits(app.bootupErrorOffset, uint64_t{app.bootupErrorLength} + 1, app.stateSize) &&
       app.bootupErrorLength != 0)
     damaged("g_strBootupError");

@@ -260,13 +260,10 @@ bool DriveGroup::anyPower() const {
   });
 }
 
-void DriveGroup::readDrive(size_t index) {
-  axis::AxisRef &axis = *axes_[index];
-  if (axis.wCommunicationState != axis::kNormalOperation) {
-    axis.bMovedInThisCycle = 0;
-    return;
-  }
-  const DriveStatus status = driver_->status(index);
+namespace {
+
+/// What the drive says of itself.
+void readState(axis::AxisRef &axis, const DriveStatus &status) {
   axis.bCommunication = status.communication;
   axis.bRegulatorRealState = status.communication && status.regulatorOn;
   axis.bDriveStartRealState = status.communication && status.driveStarted;
@@ -276,9 +273,11 @@ void DriveGroup::readDrive(size_t index) {
   axis.bLimitSwitchPositive = status.limitPositive;
   axis.bLimitSwitchNegative = status.limitNegative;
   axis.bHomeSwitch = status.homeSwitch;
+}
 
-  // Without a position from the drive the set position stands for it, without a velocity its
-  // change.
+/// Actual values. Without a position from the drive the set position stands for it, without a
+/// velocity its change.
+void readActual(axis::AxisRef &axis, const DriveStatus &status) {
   const int64_t before = axis.liActIncrements;
   const bool hasPosition = (status.received & kPosition) != 0;
   axis::updateActual(axis,
@@ -298,9 +297,10 @@ void DriveGroup::readDrive(size_t index) {
     axis.fActTorque = status.torque * axis.fFactorTor;
   if ((status.received & kCurrent) != 0)
     axis.fActCurrent = status.current;
-  readCaptures(axis, status);
+}
 
-  // Errors of the drive and of the bus.
+/// Errors of the drive and of the bus, and the way out of them.
+void followErrors(axis::AxisRef &axis, const DriveStatus &status) {
   if (axis.nAxisState != axis::state::kErrorStop) {
     if (!status.communication)
       enterErrorStop(axis, axis::error::kCommunication);
@@ -313,15 +313,10 @@ void DriveGroup::readDrive(size_t index) {
     axis.stPlanner.wStopReason = 0;
     axis.nAxisState = axis::state::kPowerOff;
   }
+}
 
-  if (!axis::isPowered(axis))
-    leaveUnpowered(axis);
-  else if (axis.nAxisState == axis::state::kPowerOff)
-    axis.nAxisState = axis::state::kStandstill;
-  readHoming(axis, status);
-  if (followsDrive(axis))
-    axis::followActual(axis);
-
+/// The set values with which the cycle begins; nobody has moved the axis in it.
+void beginCycle(axis::AxisRef &axis) {
   axis.fSavePosition = axis.fSetPosition;
   axis.fSaveVelocity = axis.fSetVelocity;
   axis.fSaveAcceleration = axis.fSetAcceleration;
@@ -330,6 +325,29 @@ void DriveGroup::readDrive(size_t index) {
   axis.bTravelGiven = 0;
   axis.stSuperimposed.bMovedInThisCycle = 0;
   axis.bHWLimitIgnored = 0;
+}
+
+} // namespace
+
+void DriveGroup::readDrive(size_t index) {
+  axis::AxisRef &axis = *axes_[index];
+  if (axis.wCommunicationState != axis::kNormalOperation) {
+    axis.bMovedInThisCycle = 0;
+    return;
+  }
+  const DriveStatus status = driver_->status(index);
+  readState(axis, status);
+  readActual(axis, status);
+  readCaptures(axis, status);
+  followErrors(axis, status);
+  if (!axis::isPowered(axis))
+    leaveUnpowered(axis);
+  else if (axis.nAxisState == axis::state::kPowerOff)
+    axis.nAxisState = axis::state::kStandstill;
+  readHoming(axis, status);
+  if (followsDrive(axis))
+    axis::followActual(axis);
+  beginCycle(axis);
 }
 
 /// Whether the drive moves the axis by itself, so that the set position follows the actual one: a

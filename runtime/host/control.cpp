@@ -168,6 +168,11 @@ struct Control::Impl {
   }
   void watch(SocketClient &client) const;
   void recordRows(SocketClient &client) const;
+
+  // In the order of the help.
+  void declareValues(CLI::App &command);
+  void declareRecordings(CLI::App &command);
+  void declareRun(CLI::App &command);
 };
 
 void Control::Impl::watch(SocketClient &client) const {
@@ -235,73 +240,83 @@ void Control::Impl::recordRows(SocketClient &client) const {
 Control::Control() : impl_(std::make_unique<Impl>()) {}
 Control::~Control() = default;
 
-void Control::declare(CLI::App &command) {
-  Impl &impl = *impl_;
-  command.add_option("ADDRESS", impl.address, "What the run was given as --listen: unix:PATH")
-      ->required()
-      ->type_name("unix:PATH");
-  command.add_option("--app", impl.application, "Which application (default: the first one)")
-      ->type_name("NAME");
-  command.require_subcommand(1);
-  impl.names(impl.add(command, "read", "Show values",
-                      [&impl](SocketClient &client) { impl.read(client); }),
-             "NAME...");
-  impl.names(impl.add(command, "write", "Write values once",
-                      [&impl](SocketClient &client) { client.ask(impl.withValues("write")); }),
-             "NAME=VALUE...");
-  impl.names(impl.add(command, "force", "Keep values, whatever the program writes",
-                      [&impl](SocketClient &client) { client.ask(impl.withValues("force")); }),
-             "NAME=VALUE...");
-  CLI::App *unforce = impl.add(command, "unforce", "Release forced variables",
-                               [&impl](SocketClient &client) { impl.unforce(client); });
-  unforce->add_option("NAMES", impl.texts, "Variables")->type_name("NAME...");
-  unforce->add_flag("--all", impl.all, "All of them");
-  impl.add(command, "forces", "Show what is forced", [&impl](SocketClient &client) {
-    const json forced = client.ask(impl.request("forces"));
+/// Values of variables, once.
+void Control::Impl::declareValues(CLI::App &command) {
+  names(add(command, "read", "Show values", [this](SocketClient &client) { read(client); }),
+        "NAME...");
+  names(add(command, "write", "Write values once",
+            [this](SocketClient &client) { client.ask(withValues("write")); }),
+        "NAME=VALUE...");
+  names(add(command, "force", "Keep values, whatever the program writes",
+            [this](SocketClient &client) { client.ask(withValues("force")); }),
+        "NAME=VALUE...");
+  CLI::App *release = add(command, "unforce", "Release forced variables",
+                          [this](SocketClient &client) { unforce(client); });
+  release->add_option("NAMES", texts, "Variables")->type_name("NAME...");
+  release->add_flag("--all", all, "All of them");
+  add(command, "forces", "Show what is forced", [this](SocketClient &client) {
+    const json forced = client.ask(request("forces"));
     for (const json &value : forced.at("values"))
       put(stdout, "{} = {}\n", value.at("name").get<std::string>(), literalOf(value.at("literal")));
   });
-  impl.add(command, "list", "Show the names below a name",
-           [&impl](SocketClient &client) {
-             json question = impl.request("list");
-             question["path"] = impl.text;
-             showList(client, question);
-           })
-      ->add_option("NAME", impl.text, "Without it: programs and global variables")
+  add(command, "list", "Show the names below a name",
+      [this](SocketClient &client) {
+        json question = request("list");
+        question["path"] = text;
+        showList(client, question);
+      })
+      ->add_option("NAME", text, "Without it: programs and global variables")
       ->type_name("NAME");
-  CLI::App *watch = impl.add(command, "watch", "Show values again and again",
-                             [&impl](SocketClient &client) { impl.watch(client); });
-  impl.names(watch, "NAME...");
-  watch->add_option("--period", impl.period, "Seconds between two lines")->capture_default_str();
-  watch->add_option("--count", impl.count, "Lines; until Ctrl-C without it");
-  CLI::App *record = impl.add(command, "record", "Record values in every cycle, as CSV",
-                              [&impl](SocketClient &client) { impl.recordRows(client); });
-  impl.names(record, "NAME...");
-  record->add_option("--rows", impl.rows, "Rows of the recording")->capture_default_str();
-  record->add_option("--before", impl.before, "Share of the rows before the trigger, 0 to 1")
+}
+
+/// Values over time.
+void Control::Impl::declareRecordings(CLI::App &command) {
+  CLI::App *lines = add(command, "watch", "Show values again and again",
+                        [this](SocketClient &client) { watch(client); });
+  names(lines, "NAME...");
+  lines->add_option("--period", period, "Seconds between two lines")->capture_default_str();
+  lines->add_option("--count", count, "Lines; until Ctrl-C without it");
+  CLI::App *record = add(command, "record", "Record values in every cycle, as CSV",
+                         [this](SocketClient &client) { recordRows(client); });
+  names(record, "NAME...");
+  record->add_option("--rows", rows, "Rows of the recording")->capture_default_str();
+  record->add_option("--before", before, "Share of the rows before the trigger, 0 to 1")
       ->capture_default_str();
-  record->add_option("--trigger", impl.trigger, "Variable that the recording waits for")
+  record->add_option("--trigger", trigger, "Variable that the recording waits for")
       ->type_name("NAME");
-  record->add_option("--edge", impl.edge, "rising, falling, high, low")->capture_default_str();
-  record->add_option("--threshold", impl.threshold, "Where the trigger's edge is, if not a BOOL")
+  record->add_option("--edge", edge, "rising, falling, high, low")->capture_default_str();
+  record->add_option("--threshold", threshold, "Where the trigger's edge is, if not a BOOL")
       ->type_name("VALUE");
-  record->add_option("--out", impl.out, "File (CSV); standard output without it")
-      ->type_name("FILE");
-  impl.add(command, "stats", "Show the figures of the tasks", [&impl](SocketClient &client) {
-    showStatistics(client.ask(impl.request("statistics")));
-  });
-  impl.add(command, "state", "Show what the application is doing", [&impl](SocketClient &client) {
-    const json state = client.ask(impl.request("state"));
+  record->add_option("--out", out, "File (CSV); standard output without it")->type_name("FILE");
+}
+
+/// What concerns the application as a whole.
+void Control::Impl::declareRun(CLI::App &command) {
+  add(command, "stats", "Show the figures of the tasks",
+      [this](SocketClient &client) { showStatistics(client.ask(request("statistics"))); });
+  add(command, "state", "Show what the application is doing", [this](SocketClient &client) {
+    const json state = client.ask(request("state"));
     put(stdout, "{}: {} at {:.3f} s\n", state.at("name").get<std::string>(),
         state.at("state").get<std::string>(), state.at("time").get<double>());
     if (state.contains("fault"))
       put(stdout, "{}\n", state.at("fault").get<std::string>());
   });
-  impl.add(
-      command, "change", "Take new builds of the applications over (online change)",
-      [&impl](SocketClient &client) { showChange(client.ask(impl.request("online_change"))); });
-  impl.add(command, "stop", "End the run",
-           [&impl](SocketClient &client) { client.ask(impl.request("stop")); });
+  add(command, "change", "Take new builds of the applications over (online change)",
+      [this](SocketClient &client) { showChange(client.ask(request("online_change"))); });
+  add(command, "stop", "End the run",
+      [this](SocketClient &client) { client.ask(request("stop")); });
+}
+
+void Control::declare(CLI::App &command) {
+  command.add_option("ADDRESS", impl_->address, "What the run was given as --listen: unix:PATH")
+      ->required()
+      ->type_name("unix:PATH");
+  command.add_option("--app", impl_->application, "Which application (default: the first one)")
+      ->type_name("NAME");
+  command.require_subcommand(1);
+  impl_->declareValues(command);
+  impl_->declareRecordings(command);
+  impl_->declareRun(command);
 }
 
 int Control::run() {

@@ -126,20 +126,21 @@ struct RunTexts {
   int core = -1;
 };
 
-void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
-  if (!builtIn)
-    run.add_option("APP", texts.options.applications,
-                   "The applications that 'stride build' made; several run side by side")
-        ->required();
-  if (!builtIn) {
-    run.add_option("--name", texts.options.name,
-                   "Name of the application whose project has none in its stride.toml")
-        ->type_name("NAME");
-    run.add_option(
-           "--latest", texts.options.latest,
-           "Where an online change finds the new build; where the application is without it")
-        ->type_name("FILE");
-  }
+/// Which applications, where they are not built into the program.
+void declareApplications(CLI::App &run, RunOptions &options) {
+  run.add_option("APP", options.applications,
+                 "The applications that 'stride build' made; several run side by side")
+      ->required();
+  run.add_option("--name", options.name,
+                 "Name of the application whose project has none in its stride.toml")
+      ->type_name("NAME");
+  run.add_option("--latest", options.latest,
+                 "Where an online change finds the new build; where the application is without it")
+      ->type_name("FILE");
+}
+
+/// How long, and what is written of it.
+void declareOutput(CLI::App &run, RunTexts &texts) {
   run.add_option("--for", texts.duration, "How long to run: 5s, T#1h; until Ctrl-C without it")
       ->type_name("TIME");
   run.add_option("--trace", texts.trace,
@@ -154,25 +155,33 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
       ->type_name("NAMES")
       ->expected(1)
       ->take_all();
-  run.add_option("--script", texts.options.scripts,
+}
+
+/// Files and sockets that the run reads or keeps.
+void declareFiles(CLI::App &run, RunOptions &options) {
+  run.add_option("--script", options.scripts,
                  "Script of what is written and forced, and when; NAME=FILE for the application "
                  "NAME, may be repeated")
       ->type_name("FILE")
       ->expected(1)
       ->take_all();
-  run.add_option("--listen", texts.options.listen,
+  run.add_option("--listen", options.listen,
                  "Socket through which 'ctl' and others read, write and force: unix:PATH")
       ->type_name("ADDRESS");
-  run.add_option("--record", texts.options.record,
+  run.add_option("--record", options.record,
                  "Record all inputs for 'sim --replay'; the tasks take turns then")
       ->type_name("FILE");
-  run.add_option("--retain", texts.options.retain,
+  run.add_option("--retain", options.retain,
                  "File for RETAIN and PERSISTENT variables; the application's own, or NAME.retain, "
                  "without it")
       ->type_name("FILE");
-  run.add_option("--files", texts.options.files,
+  run.add_option("--files", options.files,
                  "Folder for the program's files; the application's own without it")
       ->type_name("FOLDER");
+}
+
+/// What happens at faults and changes, processors, and what is told of real time.
+void declareBehaviour(CLI::App &run, RunTexts &texts) {
   run.add_option("--on-fault", texts.onFault,
                  "What happens when an exception stops an application: stop, restart")
       ->check(CLI::IsMember({"stop", "restart"}))
@@ -192,6 +201,15 @@ void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
   run.add_flag("--histogram", texts.options.histogram,
                "Show the distribution of run times and delays with the statistics");
   run.add_flag("--quiet", texts.options.quiet, "No statistics, no warnings about real time");
+}
+
+/// In the order of the help.
+void declare(CLI::App &run, RunTexts &texts, bool builtIn) {
+  if (!builtIn)
+    declareApplications(run, texts.options);
+  declareOutput(run, texts);
+  declareFiles(run, texts.options);
+  declareBehaviour(run, texts);
   run.footer(
       std::string(
           "SIGUSR1 shows the statistics, SIGHUP takes new builds of the applications over (online\n"

@@ -234,109 +234,168 @@ static task::RunResult repeat(Replay &replay, Instance &instance, Observer &obse
   return result;
 }
 
-static ExitCode simulateHere(std::unique_ptr<app::Application> application,
-                             const SimOptions &options, Messages &messages) {
-  Instance instance(std::move(application), task::LoopLimit::Budget);
+namespace {
 
-  // Everything that can be wrong with the input is found before the first cycle.
+/// An application in simulated time, from its input to what is said at the end.
+class Simulation {
+public:
+  /// Everything that can be wrong with the input is found here, before the first cycle.
+  Simulation(std::unique_ptr<app::Application> application, const SimOptions &options,
+             Messages &messages);
+
+  /// False: an exception has ended it, which was said.
+  bool initialise();
+  ExitCode run();
+
+private:
+  static SetList readSets(Instance &instance, const SimOptions &options);
+  void addHooks();
+  bool writeResults();
+  void sayLeft(const Observer &observer) const;
+  void sayOutcome(const task::RunResult &result, const Observer &observer) const;
+  bool replayFailed() const { return replay_ && !replay_->problem().empty(); }
+
+  const SimOptions &options_;
+  Messages &messages_;
+  Instance instance_;
+  SetList sets_;
+  std::optional<TraceWriter> trace_;
+  std::optional<script::Script> script_;
+  std::optional<Replay> replay_;
+  std::optional<ScriptHook> scriptHook_;
+};
+
+/// Also sees that what is to be printed is there.
+SetList Simulation::readSets(Instance &instance, const SimOptions &options) {
   if (options.changes.empty()) // else a later build may have what this one lacks
     for (const std::string &path : options.print)
       (void)instance.symbols().resolve(path);
-  SetList sets(instance.symbols(), options.sets);
+  return SetList(instance.symbols(), options.sets);
+}
+
+Simulation::Simulation(std::unique_ptr<app::Application> application, const SimOptions &options,
+                       Messages &messages)
+    : options_(options), messages_(messages),
+      instance_(std::move(application), task::LoopLimit::Budget),
+      sets_(readSets(instance_, options)) {
   if (!options.files.empty())
-    instance.setFiles(options.files);
+    instance_.setFiles(options.files);
   if (!options.retain.empty())
-    instance.retain({options.retain}, [&messages](std::string_view line) { messages.say(line); });
+    instance_.retain({options.retain}, [&messages](std::string_view line) { messages.say(line); });
   if (options.loopBudget > 0)
-    instance.tasks().setLoopBudget(options.loopBudget);
-  std::optional<TraceWriter> trace;
+    instance_.tasks().setLoopBudget(options.loopBudget);
   if (!options.trace.empty())
-    trace.emplace(instance.symbols(), options.trace, options.out);
-
-  std::optional<script::Script> script;
+    trace_.emplace(instance_.symbols(), options.trace, options.out);
   if (!options.script.empty())
-    script.emplace(script::Script::fromFile(instance.symbols(), options.script));
-
-  std::optional<Replay> replay;
+    script_.emplace(script::Script::fromFile(instance_.symbols(), options.script));
   if (!options.replay.empty()) {
-    replay.emplace(options.replay, instance.application(), script ? &*script : nullptr);
-    instance.setInputs(*replay);
+    replay_.emplace(options.replay, instance_.application(), script_ ? &*script_ : nullptr);
+    instance_.setInputs(*replay_);
   }
+}
 
-  const task::MemoryGuard guard;
-  const StopSignals signals;
+bool Simulation::initialise() {
   try {
-    instance.initialise();
+    instance_.initialise();
   } catch (const StException &exception) {
-    for (const std::string &line : instance.takeNews())
-      messages.say(line);
+    for (const std::string &line : instance_.takeNews())
+      messages_.say(line);
     const task::Fault fault{exception, "initialisation", 0, 0};
-    messages.say({"error: ", describeWithCalls(fault)});
-    return kExitException;
+    messages_.say({"error: ", describeWithCalls(fault)});
+    return false;
   }
+  addHooks();
+  return true;
+}
 
-  // A replay goes through the cycles of a run, in which the script was a hook.
-  std::optional<ScriptHook> scriptHook;
-  if (script) {
-    if (replay)
-      instance.tasks().addHook(instance.tasks().fastest(), scriptHook.emplace(*script));
-    instance.addToAllTasks(script->forces());
+/// A replay goes through the cycles of a run, in which the script was a hook.
+void Simulation::addHooks() {
+  if (script_) {
+    if (replay_)
+      instance_.tasks().addHook(instance_.tasks().fastest(), scriptHook_.emplace(*script_));
+    instance_.addToAllTasks(script_->forces());
   }
-  if (replay) {
-    replay->addHooks(instance.tasks());
-    replay->restoreState(instance.application());
+  if (replay_) {
+    replay_->addHooks(instance_.tasks());
+    replay_->restoreState(instance_.application());
   }
+}
 
+/// Finishes the trace and prints; false: something could not be written, which was said.
+bool Simulation::writeResults() {
+  bool complete = !trace_ || trace_->finish();
+  if (!complete)
+    messages_.say({"error: ", trace_->problem()});
+  std::string printed = printedValues(instance_.symbols(), options_.print, instance_.state());
+  if (options_.stateHash)
+    printed += fmt::format("state {:016x}\n", hashOf(instance_.state(), instance_.app().stateSize));
+  if (const int error = print(printed, Output::Wait::Always); error != 0) {
+    complete = false;
+    messages_.say({"error: standard output cannot be written: ", ::strerrordesc_np(error)});
+  }
+  return complete;
+}
+
+/// What was to be done later than the end.
+void Simulation::sayLeft(const Observer &observer) const {
+  for (const std::string &left : sets_.left())
+    messages_.say({"warning: --set '", left, "' was not used: the run ends before"});
+  for (const std::string &left : observer.changesLeft())
+    messages_.say({"warning: --change '", left, "' was not done: the run ends before"});
+  if (script_)
+    for (const std::string &line : script_->remarks())
+      messages_.say(line);
+}
+
+void Simulation::sayOutcome(const task::RunResult &result, const Observer &observer) const {
+  for (const std::string &line : instance_.remarks())
+    messages_.say(line);
+  if (replayFailed())
+    messages_.say({"error: ", replay_->problem()});
+  if (result.fault)
+    messages_.say({"error: ", describeWithCalls(*result.fault)});
+  else if (!result.interrupted)
+    sayLeft(observer);
+}
+
+ExitCode Simulation::run() {
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
-  Progress progress(messages, options.durationNs, terminal && !options.quiet && !replay);
-  Observer observer(instance, options.changes, sets, script ? &*script : nullptr,
-                    trace ? &*trace : nullptr, progress, messages);
-  const task::RunResult result = replay ? repeat(*replay, instance, observer)
-                                        : advance(instance, observer, options.durationNs);
+  Progress progress(messages_, options_.durationNs, terminal && !options_.quiet && !replay_);
+  Observer observer(instance_, options_.changes, sets_, script_ ? &*script_ : nullptr,
+                    trace_ ? &*trace_ : nullptr, progress, messages_);
+  const task::RunResult result = replay_ ? repeat(*replay_, instance_, observer)
+                                         : advance(instance_, observer, options_.durationNs);
   const double wall = progress.wall();
   progress.clear();
 
-  bool complete = !trace || trace->finish();
-  if (!complete)
-    messages.say({"error: ", trace->problem()});
-  std::string printed = printedValues(instance.symbols(), options.print, instance.state());
-  if (options.stateHash)
-    printed += fmt::format("state {:016x}\n", hashOf(instance.state(), instance.app().stateSize));
-  if (const int error = print(printed, Output::Wait::Always); error != 0) {
-    complete = false;
-    messages.say({"error: standard output cannot be written: ", ::strerrordesc_np(error)});
-  }
-  for (const std::string &line : instance.remarks())
-    messages.say(line);
-  if (replay && !replay->problem().empty())
-    messages.say({"error: ", replay->problem()});
-  if (result.fault)
-    messages.say({"error: ", describeWithCalls(*result.fault)});
-  else if (!result.interrupted) {
-    for (const std::string &left : sets.left())
-      messages.say({"warning: --set '", left, "' was not used: the run ends before"});
-    for (const std::string &left : observer.changesLeft())
-      messages.say({"warning: --change '", left, "' was not done: the run ends before"});
-    if (script)
-      for (const std::string &line : script->remarks())
-        messages.say(line);
-  }
-  const std::optional<task::Fault> atEnd = instance.exit(result.timeNs);
-  for (const std::string &line : instance.takeNews())
-    messages.say(line);
+  bool complete = writeResults();
+  sayOutcome(result, observer);
+  const std::optional<task::Fault> atEnd = instance_.exit(result.timeNs);
+  for (const std::string &line : instance_.takeNews())
+    messages_.say(line);
   if (atEnd)
-    messages.say({"error: ", describeWithCalls(*atEnd)});
-  if (RetainKeeper *const retain = instance.retainKeeper())
+    messages_.say({"error: ", describeWithCalls(*atEnd)});
+  if (RetainKeeper *const retain = instance_.retainKeeper())
     complete = retain->finish() && complete;
-  if ((terminal || options.summary) && !options.quiet)
-    messages.say(summaryOf(instance.tasks(), result, wall));
-  if (replay && !replay->problem().empty())
+  if ((terminal || options_.summary) && !options_.quiet)
+    messages_.say(summaryOf(instance_.tasks(), result, wall));
+  if (replayFailed())
     return kExitBadInput;
   if (result.fault || atEnd)
     return kExitException;
   if (result.interrupted)
     return kExitInterrupted;
   return complete ? kExitOk : kExitIncomplete;
+}
+
+} // namespace
+
+static ExitCode simulateHere(std::unique_ptr<app::Application> application,
+                             const SimOptions &options, Messages &messages) {
+  Simulation simulation(std::move(application), options, messages);
+  const task::MemoryGuard guard;
+  const StopSignals signals;
+  return simulation.initialise() ? simulation.run() : kExitException;
 }
 
 ExitCode simulate(std::unique_ptr<app::Application> application, const SimOptions &options,

@@ -192,7 +192,65 @@ Scanned scanInteger(const char *s, uint32_t length) {
 
 namespace {
 
+/// The digits of a number as std::from_chars reads them; a literal's length bounds them.
+struct Digits {
+  char text[512];
+  uint32_t count = 0;
+
+  [[nodiscard]] const char *end() const { return text + count; }
+};
+
+/// Takes digits with at most one point, without the underscores between them; false: there is none.
+bool takeMantissa(Reader &in, Digits &digits) {
+  bool any = false;
+  bool point = false;
+  for (; digits.count < sizeof digits.text - 8; in.skip()) {
+    const char c = in.peek();
+    if (isDigit(c)) {
+      any = true;
+    } else if (c == '.' && !point && any && isDigit(in.peek(1))) {
+      point = true;
+    } else if (c == '_' && any && isDigit(in.peek(1))) {
+      continue;
+    } else {
+      break;
+    }
+    digits.text[digits.count++] = c;
+  }
+  return any;
+}
+
+void takeExponent(Reader &in, Digits &digits) {
+  const uint32_t sign = in.peek(1) == '-' || in.peek(1) == '+' ? 1 : 0;
+  if (upper(in.peek()) != 'E' || !isDigit(in.peek(1 + sign)))
+    return;
+  digits.text[digits.count++] = 'e';
+  if (in.peek(1) == '-')
+    digits.text[digits.count++] = '-';
+  in.skip(1 + sign);
+  for (; isDigit(in.peek()) && digits.count < sizeof digits.text; in.skip())
+    digits.text[digits.count++] = in.peek();
+}
+
 /// T is the type that the digits are rounded to: by way of double a REAL would be rounded twice.
+template <class T> void roundTo(const Digits &digits, Scanned &r) {
+  T rounded = 0;
+  std::from_chars_result result = std::from_chars(digits.text, digits.end(), rounded);
+  r.real = static_cast<LREAL>(rounded);
+  if (sizeof(T) < sizeof(LREAL) && result.ec == std::errc::result_out_of_range) {
+    result = std::from_chars(digits.text, digits.end(), r.real);
+    r.real = r.real > 1 ? std::numeric_limits<double>::infinity() : 0.0;
+  }
+  if (result.ec == std::errc::result_out_of_range) {
+    // Above the range or below it: the exponent's sign tells.
+    const char *e = static_cast<const char *>(std::memchr(digits.text, 'e', digits.count));
+    const bool tiny = (e != nullptr && e[1] == '-') || digits.text[0] == '0';
+    r.real = tiny ? 0.0 : std::numeric_limits<double>::infinity();
+    r.overflow = !tiny;
+  }
+}
+
+/// Rounds to T.
 template <class T> Scanned scanFloating(const char *s, uint32_t length) {
   Scanned r = nothing();
   Reader in(s, length);
@@ -205,49 +263,11 @@ template <class T> Scanned scanFloating(const char *s, uint32_t length) {
   } else if (in.takeWord("NAN")) {
     r.real = std::numeric_limits<double>::quiet_NaN();
   } else {
-    // Copied without underscores; a literal's length bounds the buffer.
-    char digits[512];
-    uint32_t n = 0;
-    bool any = false;
-    bool point = false;
-    for (; n < sizeof digits - 8; in.skip()) {
-      const char c = in.peek();
-      if (isDigit(c)) {
-        any = true;
-      } else if (c == '.' && !point && any && isDigit(in.peek(1))) {
-        point = true;
-      } else if (c == '_' && any && isDigit(in.peek(1))) {
-        continue;
-      } else {
-        break;
-      }
-      digits[n++] = c;
-    }
-    if (!any)
+    Digits digits;
+    if (!takeMantissa(in, digits))
       return nothing();
-    const uint32_t sign = in.peek(1) == '-' || in.peek(1) == '+' ? 1 : 0;
-    if (upper(in.peek()) == 'E' && isDigit(in.peek(1 + sign))) {
-      digits[n++] = 'e';
-      if (in.peek(1) == '-')
-        digits[n++] = '-';
-      in.skip(1 + sign);
-      for (; isDigit(in.peek()) && n < sizeof digits; in.skip())
-        digits[n++] = in.peek();
-    }
-    T rounded = 0;
-    std::from_chars_result result = std::from_chars(digits, digits + n, rounded);
-    r.real = static_cast<LREAL>(rounded);
-    if (sizeof(T) < sizeof(LREAL) && result.ec == std::errc::result_out_of_range) {
-      result = std::from_chars(digits, digits + n, r.real);
-      r.real = r.real > 1 ? std::numeric_limits<double>::infinity() : 0.0;
-    }
-    if (result.ec == std::errc::result_out_of_range) {
-      // Above the range or below it: the exponent's sign tells.
-      const char *e = static_cast<const char *>(std::memchr(digits, 'e', n));
-      const bool tiny = (e != nullptr && e[1] == '-') || digits[0] == '0';
-      r.real = tiny ? 0.0 : std::numeric_limits<double>::infinity();
-      r.overflow = !tiny;
-    }
+    takeExponent(in, digits);
+    roundTo<T>(digits, r);
   }
   if (r.negative)
     r.real = -r.real;
@@ -259,60 +279,81 @@ template <class T> Scanned scanFloating(const char *s, uint32_t length) {
 
 Scanned scanReal(const char *s, uint32_t length) { return scanFloating<LREAL>(s, length); }
 
+namespace {
+
+struct TimeUnit {
+  const char *name;
+  uint64_t ns;
+};
+
+// Two-letter units first, so that "ms" is not read as "m".
+constexpr TimeUnit kTimeUnits[] = {
+    {"MS", 1000000},         {"US", 1000},          {"NS", 1},       {"D", 86400 * kSecondNs},
+    {"H", 3600 * kSecondNs}, {"M", 60 * kSecondNs}, {"S", kSecondNs}};
+
+/// A number and its unit.
+struct TimePart {
+  uint64_t whole = 0;
+  bool overflow = false;
+  bool hasFraction = false;
+  uint32_t fractionAt = 0; ///< where the digits after the point begin
+  const TimeUnit *unit = nullptr;
+};
+
+/// Takes a number with its unit, which is null when there is none.
+TimePart takeTimePart(Reader &in) {
+  TimePart part;
+  if (!in.takeDecimal(part.whole, part.overflow))
+    return part;
+  part.fractionAt = in.at() + 1;
+  if (in.peek() == '.' && isDigit(in.peek(1))) {
+    part.hasFraction = true;
+    in.skip();
+    while (isDigit(in.peek()))
+      in.skip();
+  }
+  for (const TimeUnit &candidate : kTimeUnits) {
+    if (in.takeWord(candidate.name)) {
+      part.unit = &candidate;
+      break;
+    }
+  }
+  return part;
+}
+
+} // namespace
+
 Scanned scanDuration(const char *s, uint32_t length) {
   static constexpr const char *kPrefixes[] = {"LTIME#", "TIME#", "LT#", "T#"};
-  struct Unit {
-    const char *name;
-    uint64_t ns;
-  };
-  // Two-letter units first, so that "ms" is not read as "m".
-  static constexpr Unit kUnits[] = {
-      {"MS", 1000000},         {"US", 1000},          {"NS", 1},       {"D", 86400 * kSecondNs},
-      {"H", 3600 * kSecondNs}, {"M", 60 * kSecondNs}, {"S", kSecondNs}};
+  constexpr uint64_t kNoUnit = std::numeric_limits<uint64_t>::max();
   Scanned r = nothing();
   Reader in(s, length);
   in.takePrefix(kPrefixes);
   r.negative = in.take('-');
   uint64_t total = 0;
-  uint64_t lastUnit = std::numeric_limits<uint64_t>::max();
+  uint64_t lastUnit = kNoUnit;
   for (;;) {
     const uint32_t start = in.at();
-    if (lastUnit != std::numeric_limits<uint64_t>::max())
+    if (lastUnit != kNoUnit)
       in.take('_');
-    uint64_t whole = 0;
-    bool overflow = false;
-    const bool read = in.takeDecimal(whole, overflow);
-    const uint32_t fractionAt = in.at() + 1;
-    bool fraction = false;
-    if (read && in.peek() == '.' && isDigit(in.peek(1))) {
-      fraction = true;
-      in.skip();
-      while (isDigit(in.peek()))
-        in.skip();
-    }
-    const Unit *unit = nullptr;
-    for (const Unit &candidate : kUnits) {
-      if (read && in.takeWord(candidate.name)) {
-        unit = &candidate;
-        break;
-      }
-    }
-    if (unit == nullptr || unit->ns >= lastUnit) {
+    const TimePart part = takeTimePart(in);
+    if (part.unit == nullptr || part.unit->ns >= lastUnit) {
       in.seek(start);
       break;
     }
-    lastUnit = unit->ns;
-    r.overflow = overflow || __builtin_mul_overflow(whole, unit->ns, &whole) ||
-                 __builtin_add_overflow(total, whole, &total) || r.overflow;
-    if (fraction) {
+    lastUnit = part.unit->ns;
+    uint64_t ns = 0;
+    r.overflow = part.overflow || __builtin_mul_overflow(part.whole, lastUnit, &ns) ||
+                 __builtin_add_overflow(total, ns, &total) || r.overflow;
+    if (part.hasFraction) {
       Reader digits(s, length);
-      digits.seek(fractionAt);
+      digits.seek(part.fractionAt);
       r.overflow =
-          __builtin_add_overflow(total, takeFraction(digits, unit->ns), &total) || r.overflow;
+          __builtin_add_overflow(total, takeFraction(digits, lastUnit), &total) || r.overflow;
       break;
     }
   }
-  if (lastUnit == std::numeric_limits<uint64_t>::max())
+  if (lastUnit == kNoUnit)
     return nothing();
   r.overflow = r.overflow || total > static_cast<uint64_t>(INT64_MAX);
   r.magnitude = total;

@@ -95,51 +95,50 @@ static PouSymbol *lookupBase(Context &c, NamePath path, bool interface, const Po
   return nullptr;
 }
 
-void link(Context &c, PouSymbol *pou) {
-  if (pou->linked)
-    return;
-  pou->linked = true;
-  if (isTooDeep(c, pou->name))
-    return;
-  pou->linking = true;
-  const ScopeGuard guard(c, {&c.names.moduleOf(pou), nullptr, pou->decl});
-  makeMembers(c, pou);
-  const auto circle = [&](PouSymbol *other, const Name &name) {
-    if (!other->linking)
-      return false;
-    auto &d = c.report(Code::CircularInheritance, name.span,
-                       "`" + std::string(pou->name.text) + "` extends itself",
-                       other == pou ? "this is the block itself"
-                                    : "`" + std::string(other->name.text) + "` extends `" +
-                                          std::string(pou->name.text) + "`");
-    d.label(other->name.span, "`" + std::string(other->name.text) + "` is declared here");
-    return true;
-  };
-  const auto isChainTooLong = [&](const PouSymbol *other, const Name &name) {
-    if (other->bases < kMaxNesting) {
-      pou->bases = std::max(pou->bases, other->bases + 1);
-      return false;
-    }
-    c.report(Code::TooDeep, name.span,
-             "`" + std::string(name.text) + "` extends too many others, one after the other",
-             "more than " + std::to_string(kMaxNesting));
-    return true;
-  };
-  if (!pou->decl->base.empty()) {
-    PouSymbol *base = lookupBase(c, pou->decl->base, false, pou);
-    if (base != nullptr && !circle(base, pou->decl->base.back()))
-      link(c, base);
-    if (base != nullptr && !base->linking && !isChainTooLong(base, pou->decl->base.back())) {
-      pou->base = base;
-      base->extended = true;
-    }
+/// `other`, which `pou` extends, is just being linked: reports that both extend each other.
+static bool isCircle(Context &c, const PouSymbol *pou, const PouSymbol *other, const Name &name) {
+  if (!other->linking)
+    return false;
+  auto &d = c.report(Code::CircularInheritance, name.span,
+                     "`" + std::string(pou->name.text) + "` extends itself",
+                     other == pou ? "this is the block itself"
+                                  : "`" + std::string(other->name.text) + "` extends `" +
+                                        std::string(pou->name.text) + "`");
+  d.label(other->name.span, "`" + std::string(other->name.text) + "` is declared here");
+  return true;
+}
+
+static bool isChainTooLong(Context &c, PouSymbol *pou, const PouSymbol *other, const Name &name) {
+  if (other->bases < kMaxNesting) {
+    pou->bases = std::max(pou->bases, other->bases + 1);
+    return false;
   }
+  c.report(Code::TooDeep, name.span,
+           "`" + std::string(name.text) + "` extends too many others, one after the other",
+           "more than " + std::to_string(kMaxNesting));
+  return true;
+}
+
+static void linkBase(Context &c, PouSymbol *pou) {
+  const Name &name = pou->decl->base.back();
+  PouSymbol *base = lookupBase(c, pou->decl->base, false, pou);
+  if (base == nullptr)
+    return;
+  if (!isCircle(c, pou, base, name))
+    link(c, base);
+  if (!base->linking && !isChainTooLong(c, pou, base, name)) {
+    pou->base = base;
+    base->extended = true;
+  }
+}
+
+static void linkInterfaces(Context &c, PouSymbol *pou) {
   for (NamePath path : pou->decl->interfaces) {
     PouSymbol *interface = lookupBase(c, path, true, pou);
-    if (interface == nullptr || circle(interface, path.back()))
+    if (interface == nullptr || isCircle(c, pou, interface, path.back()))
       continue;
     link(c, interface);
-    if (isChainTooLong(interface, path.back()))
+    if (isChainTooLong(c, pou, interface, path.back()))
       continue;
     if (std::find(pou->interfaces.begin(), pou->interfaces.end(), interface) !=
         pou->interfaces.end())
@@ -149,6 +148,20 @@ void link(Context &c, PouSymbol *pou) {
     else
       pou->interfaces.push_back(interface);
   }
+}
+
+void link(Context &c, PouSymbol *pou) {
+  if (pou->linked)
+    return;
+  pou->linked = true;
+  if (isTooDeep(c, pou->name))
+    return;
+  pou->linking = true;
+  const ScopeGuard guard(c, {&c.names.moduleOf(pou), nullptr, pou->decl});
+  makeMembers(c, pou);
+  if (!pou->decl->base.empty())
+    linkBase(c, pou);
+  linkInterfaces(c, pou);
   if (pou->base != nullptr) {
     for (PouSymbol *m : pou->methods) {
       m->overrides = isLifecycle(m) ? nullptr : implementation(pou->base, m);

@@ -34,63 +34,77 @@ bool holdsAddress(const Type *type) {
 
 } // namespace
 
-std::optional<Location> locate(Context &c, const DirectAddress &address) {
+namespace {
+
+Location placeAt(const DirectAddress &address, uint64_t byte) {
   Location at;
   at.area = address.area == 'I' ? Area::Input : address.area == 'Q' ? Area::Output : Area::Memory;
-  const std::string text(address.text);
-  std::span<const uint32_t> numbers = address.numbers;
+  at.byte = static_cast<uint32_t>(byte);
+  return at;
+}
+
+std::optional<Location> byteAt(Context &c, const DirectAddress &address, uint64_t byte) {
+  if (byte >= kMaxArea) {
+    reserve(c, address, byte, 1);
+    return std::nullopt;
+  }
+  return placeAt(address, byte);
+}
+
+/// V2.3 numbers the segments of memory: there is one.
+std::span<const uint32_t> withoutSegment(const DirectAddress &address) {
+  const std::span<const uint32_t> numbers = address.numbers;
+  const bool segment = address.size == 'X' && numbers.size() == 3 && numbers.front() == 0;
+  return segment ? numbers.subspan(1) : numbers;
+}
+
+/// Bit `number` of the unit of `width` bits that begins at byte `base`.
+std::optional<Location> bitAt(Context &c, const DirectAddress &address, uint64_t base,
+                              uint32_t number, unsigned width) {
+  if (number >= width) {
+    auto &d = c.report(Code::AddressBeyond, address.span,
+                       "`" + std::string(address.text) + "` has no bit " + std::to_string(number),
+                       "the bits are 0 to " + std::to_string(width - 1));
+    if (address.size == 'X') {
+      d.help("the number before the dot counts " +
+             std::string(width == 8 ? "bytes: this bit is `%" : "words: this bit is `%") +
+             address.area + 'X' + std::to_string(withoutSegment(address).front() + number / width) +
+             "." + std::to_string(number % width) + "`");
+    }
+    return std::nullopt;
+  }
+  std::optional<Location> at = byteAt(c, address, base + number / 8);
+  if (at)
+    at->bit = static_cast<int8_t>(number % 8);
+  return at;
+}
+
+} // namespace
+
+std::optional<Location> locate(Context &c, const DirectAddress &address) {
+  const std::span<const uint32_t> numbers = withoutSegment(address);
   if (numbers.empty())
     return std::nullopt; // reported by the scanner
   const Addressing addressing = c.program.settings.addressing;
-  const auto bit = [&](uint64_t base, uint32_t number, unsigned width) -> std::optional<Location> {
-    if (number >= width) {
-      auto &d = c.report(Code::AddressBeyond, address.span,
-                         "`" + text + "` has no bit " + std::to_string(number),
-                         "the bits are 0 to " + std::to_string(width - 1));
-      if (address.size == 'X')
-        d.help("the number before the dot counts " +
-               std::string(width == 8 ? "bytes: this bit is `%" : "words: this bit is `%") +
-               address.area + 'X' + std::to_string(numbers.front() + number / width) + "." +
-               std::to_string(number % width) + "`");
-      return std::nullopt;
-    }
-    const uint64_t byte = base + number / 8;
-    if (byte >= kMaxArea) {
-      reserve(c, address, byte, 1);
-      return std::nullopt;
-    }
-    at.byte = static_cast<uint32_t>(byte);
-    at.bit = static_cast<int8_t>(number % 8);
-    return at;
-  };
-  const unsigned unit = unitBytes(address.size);
-  const auto byteOf = [&](uint32_t number) {
-    return addressing == Addressing::Bytes ? uint64_t{number} : uint64_t{number} * unit;
-  };
   if (address.size == 'X') {
-    if (numbers.size() == 3 && numbers.front() == 0)
-      numbers = numbers.subspan(1); // V2.3's number of the memory segment: there is one
     if (numbers.size() == 1)
-      return bit(numbers[0] / 8, numbers[0] % 8, 8);
+      return bitAt(c, address, numbers[0] / 8, numbers[0] % 8, 8);
     if (numbers.size() == 2)
-      return addressing == Addressing::Words ? bit(uint64_t{numbers[0]} * 2, numbers[1], 16)
-                                             : bit(numbers[0], numbers[1], 8);
+      return addressing == Addressing::Words
+                 ? bitAt(c, address, uint64_t{numbers[0]} * 2, numbers[1], 16)
+                 : bitAt(c, address, numbers[0], numbers[1], 8);
   } else {
+    const unsigned unit = unitBytes(address.size);
+    const uint64_t byte = uint64_t{numbers[0]} * (addressing == Addressing::Bytes ? 1 : unit);
     if (numbers.size() == 2)
-      return bit(byteOf(numbers[0]), numbers[1], unit * 8);
-    if (numbers.size() == 1) {
-      const uint64_t byte = byteOf(numbers[0]);
-      if (byte >= kMaxArea) {
-        reserve(c, address, byte, 1);
-        return std::nullopt;
-      }
-      at.byte = static_cast<uint32_t>(byte);
-      return at;
-    }
+      return bitAt(c, address, byte, numbers[1], unit * 8);
+    if (numbers.size() == 1)
+      return byteAt(c, address, byte);
   }
   auto &d =
       c.report(Code::AddressBeyond, address.span,
-               "`" + text + "` does not name a place in the process image", "too many numbers");
+               "`" + std::string(address.text) + "` does not name a place in the process image",
+               "too many numbers");
   d.note("addresses that follow the tree of a PLC configuration depend on its devices; here the "
          "process image is one row of bytes");
   d.help("write the byte and the bit: `%" + std::string(1, address.area) +

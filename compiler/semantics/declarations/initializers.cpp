@@ -226,6 +226,46 @@ void expand(const AggregateItem &item, std::vector<AggregateItem> &out) {
 
 } // namespace
 
+static Expr *checkArrayInit(Context &c, AggregateExpr *init, const ArrayType *type);
+
+/// A flat list for an array of more dimensions: gives each row its part.
+static void checkFlatInit(Context &c, AggregateExpr *init, const ArrayType *type) {
+  const Type *scalar = type->element;
+  uint64_t perRow = 1;
+  while (scalar->kind == TypeKind::Array) {
+    perRow *= typeAs<ArrayType>(scalar)->count();
+    scalar = typeAs<ArrayType>(scalar)->element;
+  }
+  uint64_t total = 0;
+  for (AggregateItem &item : init->items) {
+    checkItem(c, item, scalar);
+    total += elements(item);
+  }
+  if (total > perRow * type->count() || total > kMaxExpanded) {
+    c.report(Code::TooManyValues, init->span,
+             "the array has " + std::to_string(perRow * type->count()) + " elements, the list " +
+                 std::to_string(total) + " values",
+             total > kMaxExpanded ? "nest long lists: one `[…]` for each row" : "too many values");
+    return;
+  }
+  std::vector<AggregateItem> flat;
+  for (const AggregateItem &item : init->items)
+    expand(item, flat);
+  std::vector<AggregateItem> rows;
+  for (size_t at = 0; at < flat.size(); at += perRow) {
+    auto *row = c.arena.make<AggregateExpr>();
+    row->span = flat[at].span;
+    row->items = c.arena.copy(std::vector<AggregateItem>(
+        flat.begin() + static_cast<ptrdiff_t>(at),
+        flat.begin() + static_cast<ptrdiff_t>(std::min<uint64_t>(at + perRow, flat.size()))));
+    AggregateItem item;
+    item.value = checkArrayInit(c, row, typeAs<ArrayType>(type->element));
+    item.span = row->span;
+    rows.push_back(item);
+  }
+  init->items = c.arena.copy(rows);
+}
+
 static Expr *checkArrayInit(Context &c, AggregateExpr *init, const ArrayType *type) {
   init->type = type;
   for (AggregateItem &item : init->items) {
@@ -235,49 +275,13 @@ static Expr *checkArrayInit(Context &c, AggregateExpr *init, const ArrayType *ty
       return init;
     }
   }
-  const Type *element = type->element;
-  if (element->kind == TypeKind::Array && scalarsOnly(init->items)) {
-    // A flat list for an array of more dimensions: give each row its part.
-    const Type *scalar = element;
-    uint64_t perRow = 1;
-    while (scalar->kind == TypeKind::Array) {
-      perRow *= typeAs<ArrayType>(scalar)->count();
-      scalar = typeAs<ArrayType>(scalar)->element;
-    }
-    uint64_t total = 0;
-    for (AggregateItem &item : init->items) {
-      checkItem(c, item, scalar);
-      total += elements(item);
-    }
-    if (total > perRow * type->count() || total > kMaxExpanded) {
-      c.report(Code::TooManyValues, init->span,
-               "the array has " + std::to_string(perRow * type->count()) + " elements, the list " +
-                   std::to_string(total) + " values",
-               total > kMaxExpanded ? "nest long lists: one `[…]` for each row"
-                                    : "too many values");
-      return init;
-    }
-    std::vector<AggregateItem> flat;
-    for (const AggregateItem &item : init->items)
-      expand(item, flat);
-    std::vector<AggregateItem> rows;
-    for (size_t at = 0; at < flat.size(); at += perRow) {
-      auto *row = c.arena.make<AggregateExpr>();
-      row->span = flat[at].span;
-      row->items = c.arena.copy(std::vector<AggregateItem>(
-          flat.begin() + static_cast<ptrdiff_t>(at),
-          flat.begin() + static_cast<ptrdiff_t>(std::min<uint64_t>(at + perRow, flat.size()))));
-      AggregateItem item;
-      item.value = checkArrayInit(c, row, typeAs<ArrayType>(element));
-      item.span = row->span;
-      rows.push_back(item);
-    }
-    init->items = c.arena.copy(rows);
+  if (type->element->kind == TypeKind::Array && scalarsOnly(init->items)) {
+    checkFlatInit(c, init, type);
     return init;
   }
   uint64_t total = 0;
   for (AggregateItem &item : init->items) {
-    checkItem(c, item, element);
+    checkItem(c, item, type->element);
     const uint64_t before = total;
     total += elements(item);
     if (total > type->count() && before <= type->count()) {

@@ -36,6 +36,57 @@ const Type *commonOf(Expr *a, Expr *b) {
   return commonNumber(typeOfOperand(a, b), typeOfOperand(b, a));
 }
 
+/// In which type the operands are calculated with, where at least one of them has a type of its
+/// own; null: there is none, which is reported.
+static const Type *typeOfOperation(Context &c, BinaryExpr *expr) {
+  const Type *l = underlying(expr->left->type);
+  const Type *r = underlying(expr->right->type);
+  const Type *common = commonOf(expr->left, expr->right);
+  if (common == nullptr) {
+    auto &d = c.report(Code::SignedWithUlint, expr->opSpan,
+                       "no integer type holds both " + typeName(expr->left->type) + " and " +
+                           typeName(expr->right->type),
+                       "signed and 64-bit unsigned values cannot be mixed");
+    d.label(expr->left->span, typeName(expr->left->type));
+    d.label(expr->right->span, typeName(expr->right->type));
+    d.help("convert one of them: `" + typeName(l) + "_TO_" + typeName(r) + "(…)`");
+    return nullptr;
+  }
+  const auto narrow = [](const Expr *e) {
+    return isUntyped(e->type) || (e->common != nullptr && e->common->kind == TypeKind::Real);
+  };
+  const bool constants =
+      common->kind == TypeKind::Lreal && narrow(expr->left) && narrow(expr->right);
+  expr->common = constants ? elementaryType(TypeKind::Real) : common;
+  const Type *operation = widened(common);
+  // An operand that had been widened already keeps its width (a*b + c).
+  for (const Expr *e : {expr->left, expr->right}) {
+    if (isInteger(operation) && isInteger(underlying(e->type)) && !isUntyped(e->type)) {
+      if (const Type *both = commonNumber(operation, underlying(e->type)))
+        operation = both;
+    }
+  }
+  return operation;
+}
+
+/// Whether the operator is defined for the operands; reports when it is not.
+static bool canDivide(Context &c, const BinaryExpr *expr) {
+  const bool real = isReal(expr->operandType) || expr->operandType->kind == TypeKind::AnyReal;
+  if (expr->op == BinaryOp::Modulo && real) {
+    auto &d = c.report(Code::OperatorNotDefined, expr->opSpan,
+                       "`MOD` is not defined for REAL and LREAL", "integers only");
+    d.help("for a real remainder use SMC_fmod(x, m) of SM_DriveBasic");
+    return false;
+  }
+  const ConstValue *divisor = expr->right->constant;
+  if ((expr->op == BinaryOp::Divide || expr->op == BinaryOp::Modulo) && divisor != nullptr &&
+      divisor->kind == ConstKind::Integer && divisor->integer == 0 && !real) {
+    c.report(Code::DivisionByZero, expr->right->span, "division by zero", "this is always 0");
+    return false;
+  }
+  return true;
+}
+
 const Type *checkArithmetic(Context &c, BinaryExpr *expr) {
   const Type *l = underlying(expr->left->type);
   const Type *r = underlying(expr->right->type);
@@ -52,47 +103,13 @@ const Type *checkArithmetic(Context &c, BinaryExpr *expr) {
   } else if (isUntyped(l) && isUntyped(r)) {
     expr->operandType = elementaryType(TypeKind::AnyReal);
   } else {
-    const Type *common = commonOf(expr->left, expr->right);
-    if (common == nullptr) {
-      auto &d = c.report(Code::SignedWithUlint, expr->opSpan,
-                         "no integer type holds both " + typeName(expr->left->type) + " and " +
-                             typeName(expr->right->type),
-                         "signed and 64-bit unsigned values cannot be mixed");
-      d.label(expr->left->span, typeName(expr->left->type));
-      d.label(expr->right->span, typeName(expr->right->type));
-      d.help("convert one of them: `" + typeName(l) + "_TO_" + typeName(r) + "(…)`");
+    const Type *operation = typeOfOperation(c, expr);
+    if (operation == nullptr)
       return elementaryType(TypeKind::Error);
-    }
-    const auto narrow = [](const Expr *e) {
-      return isUntyped(e->type) || (e->common != nullptr && e->common->kind == TypeKind::Real);
-    };
-    const bool constants =
-        common->kind == TypeKind::Lreal && narrow(expr->left) && narrow(expr->right);
-    expr->common = constants ? elementaryType(TypeKind::Real) : common;
-    const Type *operation = widened(common);
-    // An operand that had been widened already keeps its width (a*b + c).
-    for (const Expr *e : {expr->left, expr->right}) {
-      if (isInteger(operation) && isInteger(underlying(e->type)) && !isUntyped(e->type)) {
-        if (const Type *both = commonNumber(operation, underlying(e->type)))
-          operation = both;
-      }
-    }
     expr->operandType = operation;
   }
-  if (expr->op == BinaryOp::Modulo &&
-      (isReal(expr->operandType) || expr->operandType->kind == TypeKind::AnyReal)) {
-    auto &d = c.report(Code::OperatorNotDefined, expr->opSpan,
-                       "`MOD` is not defined for REAL and LREAL", "integers only");
-    d.help("for a real remainder use SMC_fmod(x, m) of SM_DriveBasic");
+  if (!canDivide(c, expr))
     return elementaryType(TypeKind::Error);
-  }
-  if ((expr->op == BinaryOp::Divide || expr->op == BinaryOp::Modulo) &&
-      expr->right->constant != nullptr && expr->right->constant->kind == ConstKind::Integer &&
-      expr->right->constant->integer == 0 && !isReal(expr->operandType) &&
-      expr->operandType->kind != TypeKind::AnyReal) {
-    c.report(Code::DivisionByZero, expr->right->span, "division by zero", "this is always 0");
-    return elementaryType(TypeKind::Error);
-  }
   if (!isUntyped(expr->operandType)) {
     setTarget(expr->left, expr->operandType);
     setTarget(expr->right, expr->operandType);

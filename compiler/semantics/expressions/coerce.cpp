@@ -204,61 +204,72 @@ void coerce(Context &c, Expr *expr, const Type *type, std::string_view what) {
     setTarget(expr, type);
 }
 
-void reportConversion(Context &c, Expr *expr, const Type *from, const Type *to,
-                      Conversion conversion, std::string_view what) {
+namespace {
+
+/// The text of a literal in other quotes.
+std::string requoted(const Context &c, const Expr *literal, char quote) {
+  std::string source(c.program.sources.text(literal->span));
+  if (source.size() >= 2)
+    source.front() = source.back() = quote;
+  return source;
+}
+
+/// Suggests the call of the function that converts.
+void suggestCall(const Context &c, Diagnostic &d, const Expr *expr, const std::string &function,
+                 const std::string &why) {
+  d.suggest(why + ": `" + function + "(" + excerpt(c.program.sources, expr) + ")`", expr->span,
+            function + "(" + std::string(c.program.sources.text(expr->span)) + ")");
+}
+
+void reportLossy(Context &c, const Expr *expr, const Type *from, const Type *to,
+                 const std::string &prefix) {
   const std::string function = conversionFunction(from, to);
-  const std::string text = excerpt(c.program.sources, expr);
-  const auto quoted = [&c](const Expr *literal, char quote) {
-    std::string source(c.program.sources.text(literal->span));
-    if (source.size() >= 2)
-      source.front() = source.back() = quote;
-    return source;
-  };
-  const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
-  if (conversion == Conversion::Lossy) {
-    auto &d = c.report(Code::LossyConversion, expr->span,
-                       prefix + "implicit conversion from " + typeName(from) + " to " +
-                           typeName(to) + " may change the value",
-                       "this is " + typeName(from));
-    if (to->kind == TypeKind::Enumeration)
-      d.help("assign one of the enumerators of " + typeName(to));
-    else if (!function.empty())
-      d.suggest("say that it is meant: `" + function + "(" + text + ")`", expr->span,
-                function + "(" + std::string(c.program.sources.text(expr->span)) + ")");
-    return;
-  }
-  if (conversion == Conversion::Narrowing) {
-    auto &d = c.report(Code::NarrowingConversion, expr->span,
-                       prefix + "cannot convert from " + typeName(from) + " to " + typeName(to) +
-                           " implicitly",
-                       "this is " + found(from) + ", " + typeName(to) + " is expected");
-    if (from->kind == TypeKind::AnyReal && isInteger(underlying(to)))
-      d.help("write it without a fraction, or convert it: `LREAL_TO_" +
-             upper(typeName(underlying(to))) + "(…)`");
-    else if (to->kind == TypeKind::Boolean && expr->constant != nullptr)
-      d.help("write TRUE or FALSE");
-    else if (to->kind == TypeKind::Boolean)
-      d.help("compare it: `… <> 0`, or convert it" +
-             (function.empty() ? "" : ": `" + function + "(…)`"));
-    else if (to->kind == TypeKind::Time && from->kind == TypeKind::AnyInteger)
-      d.help("write a duration with its unit: `T#" + text + "ms`");
-    else if (expr->kind == ExprKind::Literal && from->kind == TypeKind::Wstring &&
-             to->kind == TypeKind::String && !function.empty())
-      d.suggest("a STRING stands in single quotes", expr->span, quoted(expr, '\''));
-    else if (expr->kind == ExprKind::Literal && from->kind == TypeKind::String &&
-             to->kind == TypeKind::Wstring)
-      d.suggest("a WSTRING stands in double quotes", expr->span, quoted(expr, '"'));
-    else if (!function.empty() && from->kind != TypeKind::AnyInteger)
-      d.suggest("convert it: `" + function + "(" + text + ")`", expr->span,
-                function + "(" + std::string(c.program.sources.text(expr->span)) + ")");
-    return;
-  }
+  auto &d = c.report(Code::LossyConversion, expr->span,
+                     prefix + "implicit conversion from " + typeName(from) + " to " + typeName(to) +
+                         " may change the value",
+                     "this is " + typeName(from));
+  if (to->kind == TypeKind::Enumeration)
+    d.help("assign one of the enumerators of " + typeName(to));
+  else if (!function.empty())
+    suggestCall(c, d, expr, function, "say that it is meant");
+}
+
+void reportNarrowing(Context &c, const Expr *expr, const Type *from, const Type *to,
+                     const std::string &prefix) {
+  const std::string function = conversionFunction(from, to);
+  auto &d = c.report(Code::NarrowingConversion, expr->span,
+                     prefix + "cannot convert from " + typeName(from) + " to " + typeName(to) +
+                         " implicitly",
+                     "this is " + found(from) + ", " + typeName(to) + " is expected");
+  if (from->kind == TypeKind::AnyReal && isInteger(underlying(to)))
+    d.help("write it without a fraction, or convert it: `LREAL_TO_" +
+           upper(typeName(underlying(to))) + "(…)`");
+  else if (to->kind == TypeKind::Boolean && expr->constant != nullptr)
+    d.help("write TRUE or FALSE");
+  else if (to->kind == TypeKind::Boolean)
+    d.help("compare it: `… <> 0`, or convert it" +
+           (function.empty() ? "" : ": `" + function + "(…)`"));
+  else if (to->kind == TypeKind::Time && from->kind == TypeKind::AnyInteger)
+    d.help("write a duration with its unit: `T#" + excerpt(c.program.sources, expr) + "ms`");
+  else if (expr->kind == ExprKind::Literal && from->kind == TypeKind::Wstring &&
+           to->kind == TypeKind::String && !function.empty())
+    d.suggest("a STRING stands in single quotes", expr->span, requoted(c, expr, '\''));
+  else if (expr->kind == ExprKind::Literal && from->kind == TypeKind::String &&
+           to->kind == TypeKind::Wstring)
+    d.suggest("a WSTRING stands in double quotes", expr->span, requoted(c, expr, '"'));
+  else if (!function.empty() && from->kind != TypeKind::AnyInteger)
+    suggestCall(c, d, expr, function, "convert it");
+}
+
+void reportOtherType(Context &c, const Expr *expr, const Type *from, const Type *to,
+                     const std::string &prefix) {
   auto &d = c.report(Code::TypeMismatch, expr->span,
                      prefix + "expected " + typeName(to) + ", found " + found(from),
                      "this is " + found(from));
   const auto pointee = [](const Type *type) {
     return type->kind == TypeKind::Pointer ? typeAs<PointerType>(type)->pointee : nullptr;
   };
+  const std::string text = excerpt(c.program.sources, expr);
   const std::string source(c.program.sources.text(expr->span));
   if (isInstance(from) && isElementary(to))
     d.help("name one of its outputs: `….Q`");
@@ -267,6 +278,19 @@ void reportConversion(Context &c, Expr *expr, const Type *from, const Type *to,
   else if (pointee(from) != nullptr && isPath(expr) &&
            (pointee(from) == to || classify(pointee(from), to) == Conversion::Free))
     d.suggest("follow the pointer: `" + text + "^`", expr->span, source + "^");
+}
+
+} // namespace
+
+void reportConversion(Context &c, Expr *expr, const Type *from, const Type *to,
+                      Conversion conversion, std::string_view what) {
+  const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
+  if (conversion == Conversion::Lossy)
+    reportLossy(c, expr, from, to, prefix);
+  else if (conversion == Conversion::Narrowing)
+    reportNarrowing(c, expr, from, to, prefix);
+  else
+    reportOtherType(c, expr, from, to, prefix);
 }
 
 } // namespace stc::sema

@@ -14,47 +14,64 @@ namespace stc::sema {
 
 using namespace ast;
 
+static const Type *useVariable(Context &c, Expr *expr, VarSymbol *variable) {
+  const Type *type = typeOf(c, variable);
+  // A constant parameter has the caller's value.
+  const bool parameter = variable->section == Section::Input || variable->section == Section::InOut;
+  if (variable->isConstant && !parameter && isElementary(type)) {
+    checkInitOf(c, variable);
+    expr->constant = variable->constant;
+  }
+  return type->kind == TypeKind::Reference ? typeAs<PointerType>(type)->pointee : type;
+}
+
+static const Type *notAValue(Context &c, const Symbol *symbol, const Name &name) {
+  auto &d =
+      c.report(Code::NotAVariable, name.span, "`" + std::string(name.text) + "` is not a value",
+               "this is " + describe(symbol));
+  noteDeclaration(d, symbol);
+  const auto *pou =
+      symbol->kind == SymbolKind::Pou ? static_cast<const PouSymbol *>(symbol) : nullptr;
+  if (symbol->kind == SymbolKind::Builtin || (pou != nullptr && pou->isFunction()))
+    d.help("call it: `" + std::string(name.text) + "(…)`");
+  else if (pou != nullptr)
+    d.help((pou->isInterface() ? "declare a variable of it: `x : "
+                               : "declare an instance of it: `x : ") +
+           std::string(name.text) + ";`");
+  return elementaryType(TypeKind::Error);
+}
+
+/// A program is a variable of its own; other POUs are no values.
+static const Type *usePou(Context &c, PouSymbol *pou, const Name &name) {
+  if (pou->isMethod()) {
+    auto &d = c.report(Code::MethodNotCalled, name.span,
+                       "`" + std::string(name.text) + "` is " + describe(pou) + ", not a value",
+                       "it has to be called");
+    noteDeclaration(d, pou);
+    d.help("call it: `" + std::string(name.text) + "()`");
+    return elementaryType(TypeKind::Error);
+  }
+  if (pou->decl->kind != DeclKind::Program)
+    return notAValue(c, pou, name);
+  if (pou->isTemplate) {
+    reportTemplate(c, name, pou);
+    return elementaryType(TypeKind::Error);
+  }
+  declare(c, pou);
+  return pou->type;
+}
+
 const Type *useSymbol(Context &c, Expr *expr, Symbol *symbol, const Name &name) {
   switch (symbol->kind) {
-  case SymbolKind::Variable: {
-    auto *variable = static_cast<VarSymbol *>(symbol);
-    const Type *type = typeOf(c, variable);
-    // A constant parameter has the caller's value.
-    const bool parameter =
-        variable->section == Section::Input || variable->section == Section::InOut;
-    if (variable->isConstant && !parameter && isElementary(type)) {
-      checkInitOf(c, variable);
-      expr->constant = variable->constant;
-    }
-    if (type->kind == TypeKind::Reference)
-      type = typeAs<PointerType>(type)->pointee;
-    return type;
-  }
+  case SymbolKind::Variable:
+    return useVariable(c, expr, static_cast<VarSymbol *>(symbol));
   case SymbolKind::Enumerator: {
     const auto *e = static_cast<EnumeratorSymbol *>(symbol);
     expr->constant = c.makeConstant(integerValue(e->value));
     return e->type;
   }
-  case SymbolKind::Pou: {
-    auto *pou = static_cast<PouSymbol *>(symbol);
-    if (pou->decl->kind == DeclKind::Program) {
-      if (pou->isTemplate) {
-        reportTemplate(c, name, pou);
-        return elementaryType(TypeKind::Error);
-      }
-      declare(c, pou);
-      return pou->type;
-    }
-    if (pou->isMethod()) {
-      auto &d = c.report(Code::MethodNotCalled, name.span,
-                         "`" + std::string(name.text) + "` is " + describe(pou) + ", not a value",
-                         "it has to be called");
-      noteDeclaration(d, pou);
-      d.help("call it: `" + std::string(name.text) + "()`");
-      return elementaryType(TypeKind::Error);
-    }
-    break;
-  }
+  case SymbolKind::Pou:
+    return usePou(c, static_cast<PouSymbol *>(symbol), name);
   case SymbolKind::Property:
     return useProperty(c, expr, static_cast<PropertySymbol *>(symbol), name);
   case SymbolKind::Self: {
@@ -63,21 +80,8 @@ const Type *useSymbol(Context &c, Expr *expr, Symbol *symbol, const Name &name) 
     return c.types.pointer(self->block->type);
   }
   default:
-    break;
+    return notAValue(c, symbol, name);
   }
-  auto &d =
-      c.report(Code::NotAVariable, name.span, "`" + std::string(name.text) + "` is not a value",
-               "this is " + describe(symbol));
-  noteDeclaration(d, symbol);
-  if (symbol->kind == SymbolKind::Pou && static_cast<PouSymbol *>(symbol)->isFunction())
-    d.help("call it: `" + std::string(name.text) + "(…)`");
-  else if (symbol->kind == SymbolKind::Pou && static_cast<PouSymbol *>(symbol)->isInterface())
-    d.help("declare a variable of it: `x : " + std::string(name.text) + ";`");
-  else if (symbol->kind == SymbolKind::Pou)
-    d.help("declare an instance of it: `x : " + std::string(name.text) + ";`");
-  else if (symbol->kind == SymbolKind::Builtin)
-    d.help("call it: `" + std::string(name.text) + "(…)`");
-  return elementaryType(TypeKind::Error);
 }
 
 const Type *checkName(Context &c, NameExpr *expr, const Type *expected) {

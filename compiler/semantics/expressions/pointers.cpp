@@ -63,66 +63,71 @@ bool comparePointers(BinaryExpr *expr) {
   return true;
 }
 
+/// Warns where what a pointer points to would be read as another type.
+static void checkPointee(Context &c, const Expr *expr, const Type *type,
+                         const std::string &prefix) {
+  const Type *from = expr->type;
+  const Type *wanted = typeAs<PointerType>(type)->pointee;
+  // The address of an array is that of its first element, too.
+  const Type *first = typeAs<PointerType>(from)->pointee;
+  while (first->kind == TypeKind::Array && first != wanted)
+    first = typeAs<ArrayType>(first)->element;
+  if (classify(from, type) == Conversion::Free || isByteView(wanted) ||
+      isByteView(typeAs<PointerType>(from)->pointee) || first == wanted)
+    return;
+  auto &d = c.report(Code::PointerOfOtherType, expr->span,
+                     prefix + "this is a " + typeName(from) + ", not a " + typeName(type),
+                     "what it points to will be read as another type");
+  d.help("declare the pointer as `" + typeName(from) +
+         "`, or take the address as bytes with "
+         "`POINTER TO BYTE`");
+}
+
+static void reportIntegerAsPointer(Context &c, const Expr *expr, const Type *type,
+                                   const std::string &prefix) {
+  auto &d = c.report(Code::PointerFromInteger, expr->span,
+                     prefix + "a number becomes an address: " + typeName(expr->type) + " to " +
+                         typeName(type),
+                     "nothing says that there is a variable at this address");
+  const std::string source(c.program.sources.text(expr->span));
+  if (expr->type == typeAs<PointerType>(type)->pointee && expr->kind == ExprKind::Name)
+    d.suggest("take the address of `" + source + "`: `ADR(" + source + ")`", expr->span,
+              "ADR(" + source + ")");
+  else
+    d.help("keep the address in a variable of type `" + typeName(type) + "`");
+}
+
+/// `diff : DINT := p - q`: the distance of two places in one variable.
+static bool isDistance(const Expr *expr) {
+  return expr->kind == ExprKind::Binary && as<BinaryExpr>(expr)->op == BinaryOp::Subtract &&
+         underlying(as<BinaryExpr>(expr)->left->type)->kind == TypeKind::Pointer &&
+         expr->type->kind == TypeKind::Ulint;
+}
+
 bool coercePointer(Context &c, Expr *expr, const Type *type, std::string_view what) {
   const Type *from = expr->type;
   const bool toPointer = type->kind == TypeKind::Pointer;
   const bool fromPointer = from->kind == TypeKind::Pointer;
   const std::string prefix = what.empty() ? std::string() : std::string(what) + ": ";
-  if (toPointer && fromPointer) {
-    // The address of an array is that of its first element, too.
-    const Type *first = typeAs<PointerType>(from)->pointee;
-    while (first->kind == TypeKind::Array && first != typeAs<PointerType>(type)->pointee)
-      first = typeAs<ArrayType>(first)->element;
-    if (classify(from, type) != Conversion::Free &&
-        !isByteView(typeAs<PointerType>(type)->pointee) &&
-        !isByteView(typeAs<PointerType>(from)->pointee) &&
-        first != typeAs<PointerType>(type)->pointee) {
-      auto &d = c.report(Code::PointerOfOtherType, expr->span,
-                         prefix + "this is a " + typeName(from) + ", not a " + typeName(type),
-                         "what it points to will be read as another type");
-      d.help("declare the pointer as `" + typeName(from) +
-             "`, or take the address as bytes with "
-             "`POINTER TO BYTE`");
-    }
-    setTarget(expr, type);
-    return true;
-  }
   const bool null = expr->constant != nullptr && expr->constant->integer == 0;
-  if (toPointer && ((isInteger(underlying(from)) && (null || bitWidth(from) >= 32)) ||
-                    from->kind == TypeKind::AnyInteger)) {
-    if (!null) {
-      auto &d = c.report(Code::PointerFromInteger, expr->span,
-                         prefix + "a number becomes an address: " + typeName(from) + " to " +
-                             typeName(type),
-                         "nothing says that there is a variable at this address");
-      const std::string source(c.program.sources.text(expr->span));
-      if (from == typeAs<PointerType>(type)->pointee && expr->kind == ExprKind::Name)
-        d.suggest("take the address of `" + source + "`: `ADR(" + source + ")`", expr->span,
-                  "ADR(" + source + ")");
-      else
-        d.help("keep the address in a variable of type `" + typeName(type) + "`");
-    }
-    setTarget(expr, type);
-    return true;
-  }
-  if (fromPointer && isInteger(type) && bitWidth(type) >= 32) {
+  const bool isAddress = (isInteger(underlying(from)) && (null || bitWidth(from) >= 32)) ||
+                         from->kind == TypeKind::AnyInteger;
+  if (toPointer && fromPointer) {
+    checkPointee(c, expr, type, prefix);
+  } else if (toPointer && isAddress) {
+    if (!null)
+      reportIntegerAsPointer(c, expr, type, prefix);
+  } else if (fromPointer && isInteger(type) && bitWidth(type) >= 32) {
     if (bitWidth(type) == 32)
       c.report(Code::PointerAsInteger, expr->span,
                prefix + "an address has 64 bits, " + typeName(type) + " has 32",
                "works while the application's memory lies below 4 GiB")
           .help("keep it in a `" + typeName(from) + "` or in a variable of type `__UXINT`");
-    setTarget(expr, type);
-    return true;
+  } else if (!(isInteger(type) && bitWidth(type) == 32 && isDistance(expr))) {
+    return false;
   }
-  // `diff : DINT := p - q`: the distance of two places in one variable.
-  if (isInteger(type) && bitWidth(type) == 32 && expr->kind == ExprKind::Binary &&
-      as<BinaryExpr>(expr)->op == BinaryOp::Subtract &&
-      underlying(as<BinaryExpr>(expr)->left->type)->kind == TypeKind::Pointer &&
-      from->kind == TypeKind::Ulint) {
-    setTarget(expr, type);
-    return true;
-  }
-  return false;
+  setTarget(expr, type);
+  return true;
 }
 
 /// The variable of REFERENCE type that the expression names, or null.
