@@ -4,6 +4,7 @@
 #include "compiler/codegen/initial/initializers.hpp"
 #include "compiler/codegen/units.hpp"
 #include "compiler/semantics/hierarchy.hpp"
+#include "compiler/syntax/st_text.hpp"
 
 namespace stc::codegen {
 
@@ -16,21 +17,6 @@ std::string hex(uint64_t value) {
   for (size_t i = 17; i > 1; --i, value >>= 4U)
     out[i] = "0123456789abcdef"[value & 15U];
   return out;
-}
-
-std::string_view sectionName(Section section) {
-  switch (section) {
-  case Section::Input:
-    return "VAR_INPUT";
-  case Section::Output:
-    return "VAR_OUTPUT";
-  case Section::InOut:
-    return "VAR_IN_OUT";
-  case Section::Stat:
-    return "VAR_STAT";
-  default:
-    return "VAR";
-  }
 }
 
 class HeaderBuilder {

@@ -69,4 +69,19 @@ std::string stringLiteral(std::string_view text) {
   return result + "'";
 }
 
+std::string_view sectionName(ast::Section section) {
+  switch (section) {
+  case ast::Section::Input:
+    return "VAR_INPUT";
+  case ast::Section::Output:
+    return "VAR_OUTPUT";
+  case ast::Section::InOut:
+    return "VAR_IN_OUT";
+  case ast::Section::Stat:
+    return "VAR_STAT";
+  default:
+    return "VAR";
+  }
+}
+
 } // namespace stc

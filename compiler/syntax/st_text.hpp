@@ -3,6 +3,7 @@
 // Structured Text that is written, not read: names and literals.
 
 #include "compiler/source/identifier.hpp"
+#include "compiler/syntax/ast_declarations.hpp"
 
 #include <string>
 #include <string_view>
@@ -13,6 +14,9 @@ namespace stc {
 [[nodiscard]] bool isReservedWord(std::string_view text);
 /// Letters, digits and single underscores, beginning with a letter or underscore, no reserved word.
 [[nodiscard]] bool isIdentifier(std::string_view text);
+
+/// The keyword of a section of a POU's variables: `VAR_INPUT`; `VAR` for all that are its own.
+[[nodiscard]] std::string_view sectionName(ast::Section section);
 
 /// A number as a literal: `0.5`, `1.0`, `1.0e300`. It reads back as the same number.
 [[nodiscard]] std::string realLiteral(double value);

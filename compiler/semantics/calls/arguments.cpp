@@ -11,6 +11,7 @@
 #include "compiler/semantics/locations.hpp"
 #include "compiler/semantics/types/resolve.hpp"
 #include "compiler/source/suggest.hpp"
+#include "compiler/syntax/st_text.hpp"
 
 #include <unordered_set>
 
@@ -25,19 +26,6 @@ static void reportMissing(Context &c, CallExpr *expr, PouSymbol *pou,
                           const std::unordered_set<VarSymbol *> &given);
 
 namespace {
-
-std::string sectionName(Section section) {
-  switch (section) {
-  case Section::Input:
-    return "VAR_INPUT";
-  case Section::Output:
-    return "VAR_OUTPUT";
-  case Section::InOut:
-    return "VAR_IN_OUT";
-  default:
-    return "VAR";
-  }
-}
 
 /// `FUNCTION Sum (a : INT; b : INT) : INT`, shown when arguments do not fit.
 std::string signature(const PouSymbol *pou) {
@@ -142,7 +130,8 @@ static void reportUnknownParameter(Context &c, const Binding &binding, const Arg
 static void reportWrongDirection(Context &c, const Argument &a, const VarSymbol *parameter) {
   const bool isOutput = parameter->section == Section::Output;
   auto &d = c.report(Code::WrongDirection, a.span,
-                     "`" + std::string(a.name.text) + "` is a " + sectionName(parameter->section) +
+                     "`" + std::string(a.name.text) + "` is a " +
+                         std::string(sectionName(parameter->section)) +
                          (isOutput ? " and gives a value" : " and takes a value"),
                      isOutput ? "write `=>` here" : "write `:=` here");
   noteDeclaration(d, parameter);
@@ -259,69 +248,75 @@ void checkReference(Context &c, Expr *value, const Type *wanted) {
     requireAligned(c, value, "refer to");
 }
 
+static bool namesPlace(const Expr *expr) {
+  return expr->kind == ExprKind::Name || expr->kind == ExprKind::Member ||
+         expr->kind == ExprKind::Index || expr->kind == ExprKind::Deref ||
+         expr->kind == ExprKind::Direct;
+}
+
+static void reportBitInOut(Context &c, const Expr *value, const Type *type) {
+  const bool part = type->kind != TypeKind::Boolean;
+  c.report(Code::InOutNotVariable, value->span,
+           part ? "a part of a variable cannot be passed to a VAR_IN_OUT"
+                : "a single bit cannot be passed to a VAR_IN_OUT",
+           part ? "it has no variable of its own" : "bits have no address")
+      .help("copy it into a " + typeName(type) +
+            " variable first, and back after the call if it may have changed");
+}
+
+static void reportValueInOut(Context &c, const Expr *value, const VarSymbol *parameter) {
+  auto &d = c.report(Code::InOutNotVariable, value->span,
+                     "the VAR_IN_OUT `" + std::string(parameter->name.text) + "` needs a variable",
+                     "this is a value");
+  noteDeclaration(d, parameter);
+  d.help("store it in a variable first");
+}
+
+/// Whether a variable of that type can stand for the parameter; reports when it cannot.
+static bool fitsInOut(Context &c, const Expr *value, const Type *type, const VarSymbol *parameter) {
+  const Type *wanted = parameter->type;
+  const bool open = wanted->kind == TypeKind::OpenArray;
+  const bool anyString = parameter->isConstant && isString(type) && type->kind == wanted->kind;
+  if (open ? fitsOpenArray(type, typeAs<OpenArrayType>(wanted))
+           : refersTo(type, wanted) || anyString)
+    return true;
+  auto &d = c.report(Code::InOutType, value->span,
+                     "the VAR_IN_OUT `" + std::string(parameter->name.text) + "` is " +
+                         typeName(wanted) + ", this is " + typeName(type),
+                     open ? "elements and number of dimensions must be the same"
+                          : "the types must be the same");
+  noteDeclaration(d, parameter);
+  if (isElementary(type) && isElementary(wanted))
+    d.help("copy it into a variable of type " + typeName(wanted) + " first, and back afterwards");
+  return false;
+}
+
 static void checkInOut(Context &c, Argument &argument, VarSymbol *parameter) {
   const Type *type = check(c, argument.value, parameter->type);
-  if (isError(type) || isError(parameter->type))
-    return;
-  const bool constantAllowed = parameter->isConstant;
-  if (rejectProperty(c, argument.value, "pass"))
+  if (isError(type) || isError(parameter->type) || rejectProperty(c, argument.value, "pass"))
     return;
   if (isBitPlace(argument.value)) {
-    const bool part = type->kind != TypeKind::Boolean;
-    c.report(Code::InOutNotVariable, argument.value->span,
-             part ? "a part of a variable cannot be passed to a VAR_IN_OUT"
-                  : "a single bit cannot be passed to a VAR_IN_OUT",
-             part ? "it has no variable of its own" : "bits have no address")
-        .help("copy it into a " + typeName(type) +
-              " variable first, and back after the call if it may have changed");
+    reportBitInOut(c, argument.value, type);
     return;
   }
-  const bool isPlace =
-      argument.value->kind == ExprKind::Name || argument.value->kind == ExprKind::Member ||
-      argument.value->kind == ExprKind::Index || argument.value->kind == ExprKind::Deref ||
-      argument.value->kind == ExprKind::Direct;
+  const bool openArray = parameter->type->kind == TypeKind::OpenArray;
+  const bool place = namesPlace(argument.value);
   const bool enumerator =
-      isPlace && argument.value->constant != nullptr && namedEnumerator(argument.value);
-  if (constantAllowed && (!isPlace || enumerator) && type->kind != TypeKind::None &&
-      parameter->type->kind != TypeKind::OpenArray) {
+      place && argument.value->constant != nullptr && namedEnumerator(argument.value);
+  if (parameter->isConstant && (!place || enumerator) && type->kind != TypeKind::None &&
+      !openArray) {
     coerce(c, argument.value, parameter->type,
            "argument `" + std::string(parameter->name.text) + "`"); // it gets a copy
     return;
   }
-  if (!isPlace) {
-    auto &d =
-        c.report(Code::InOutNotVariable, argument.value->span,
-                 "the VAR_IN_OUT `" + std::string(parameter->name.text) + "` needs a variable",
-                 "this is a value");
-    noteDeclaration(d, parameter);
-    d.help("store it in a variable first");
+  if (!place) {
+    reportValueInOut(c, argument.value, parameter);
     return;
   }
-  if (!constantAllowed && !requireVariable(c, argument.value, "pass"))
+  if (!parameter->isConstant && !requireVariable(c, argument.value, "pass"))
     return;
-  const Type *wanted = parameter->type;
-  if (wanted->kind == TypeKind::OpenArray) {
-    if (fitsOpenArray(type, typeAs<OpenArrayType>(wanted)))
-      return;
-    auto &d = c.report(Code::InOutType, argument.value->span,
-                       "the VAR_IN_OUT `" + std::string(parameter->name.text) + "` is " +
-                           typeName(wanted) + ", this is " + typeName(type),
-                       "elements and number of dimensions must be the same");
-    noteDeclaration(d, parameter);
-    return;
-  }
-  const bool anyString = constantAllowed && isString(type) && type->kind == wanted->kind;
-  if (!refersTo(type, wanted) && !anyString) {
-    auto &d = c.report(Code::InOutType, argument.value->span,
-                       "the VAR_IN_OUT `" + std::string(parameter->name.text) + "` is " +
-                           typeName(wanted) + ", this is " + typeName(type),
-                       "the types must be the same");
-    noteDeclaration(d, parameter);
-    if (isElementary(type) && isElementary(wanted))
-      d.help("copy it into a variable of type " + typeName(wanted) + " first, and back afterwards");
-    return;
-  }
-  requireAligned(c, argument.value, "pass");
+  if (fitsInOut(c, argument.value, type, parameter) && !openArray)
+    requireAligned(c, argument.value, "pass");
 }
 
 static void checkOutput(Context &c, Argument &argument, VarSymbol *parameter) {
