@@ -23,7 +23,8 @@ bool reserve(Context &c, const ast::DirectAddress &address, uint64_t byte, uint6
 bool hasSlots(Context &c, const Type *type);
 /// Adds the variables `AT %I*` in a value of the type; `path` leads to it.
 void collectSlots(Context &c, const Type *type, StatePath &path, std::vector<SlotPlace> &out);
-/// A variable by its path; `inside`: a program whose own variables can be named without it.
+/// A variable by its path, whose names learn what they stand for; `inside`: a program whose own
+/// variables can be named without it.
 std::optional<PathTarget> resolvePath(Context &c, ast::Expr *expr, Module &module,
                                       const ast::PouDecl *inside = nullptr);
 /// The entries of VAR_ACCESS.

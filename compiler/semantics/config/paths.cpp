@@ -66,12 +66,16 @@ static std::optional<PathTarget> ownVariable(Context &c, const PouDecl &program,
   return target;
 }
 
-/// The path of a program or a global variable, or of a variable of `inside`.
+/// The path of a program or a global variable, or of a variable of `inside`. `symbol` becomes what
+/// the name stands for.
 static std::optional<PathTarget> startOfPath(Context &c, const Name &name, Module &module,
-                                             const PouDecl *inside) {
-  if (auto own = inside == nullptr ? std::nullopt : ownVariable(c, *inside, name, module))
+                                             const PouDecl *inside, Symbol *&symbol) {
+  if (auto own = inside == nullptr ? std::nullopt : ownVariable(c, *inside, name, module)) {
+    symbol = own->variable;
     return own;
+  }
   Symbol *root = pathRoot(c, name, module);
+  symbol = root;
   if (root == nullptr)
     return std::nullopt;
   PathTarget target;
@@ -88,12 +92,16 @@ static std::optional<PathTarget> startOfPath(Context &c, const Name &name, Modul
 
 /// In front may stand the configuration's, a resource's or a variable list's name, or the
 /// configuration's and a resource's.
-static bool isPrefix(Context &c, const Expr *base, const Module &module) {
+static bool isPrefix(Context &c, Expr *base, const Module &module) {
   const std::unordered_set<Ident> &resources = c.names.configuration().resourceNames;
   if (base->kind == ExprKind::Name) {
-    const Name &first = as<NameExpr>(base)->name;
-    return module.find(first.id) == nullptr &&
-           (resources.contains(first.id) || module.lists.contains(first.id));
+    auto *first = as<NameExpr>(base);
+    if (module.find(first->name.id) != nullptr)
+      return false;
+    const auto list = module.lists.find(first->name.id);
+    if (list != module.lists.end())
+      first->symbol = list->second;
+    return list != module.lists.end() || resources.contains(first->name.id);
   }
   if (base->kind != ExprKind::Member)
     return false;
@@ -103,7 +111,7 @@ static bool isPrefix(Context &c, const Expr *base, const Module &module) {
          resources.contains(second->name.id);
 }
 
-static std::optional<PathTarget> memberOfPath(Context &c, const MemberExpr *member, Module &module,
+static std::optional<PathTarget> memberOfPath(Context &c, MemberExpr *member, Module &module,
                                               const PouDecl *inside) {
   auto base = resolvePath(c, member->base, module, inside);
   if (!base || isError(base->type))
@@ -120,6 +128,7 @@ static std::optional<PathTarget> memberOfPath(Context &c, const MemberExpr *memb
       helpMembers(d, member->name, memberNames(base->type));
     return std::nullopt;
   }
+  member->symbol = found;
   base->type = typeOf(c, found);
   base->variable = found;
   base->path.steps.push_back({found, 0});
@@ -154,14 +163,17 @@ static std::optional<PathTarget> elementOfPath(Context &c, const IndexExpr *inde
 std::optional<PathTarget> resolvePath(Context &c, Expr *expr, Module &module,
                                       const PouDecl *inside) {
   switch (expr->kind) {
-  case ExprKind::Name:
-    return startOfPath(c, as<NameExpr>(expr)->name, module, inside);
+  case ExprKind::Name: {
+    auto *name = as<NameExpr>(expr);
+    return startOfPath(c, name->name, module, inside, name->symbol);
+  }
   case ExprKind::Member: {
-    const auto *member = as<MemberExpr>(expr);
+    auto *member = as<MemberExpr>(expr);
     if (!member->name)
       break;
-    return isPrefix(c, member->base, module) ? startOfPath(c, member->name, module, inside)
-                                             : memberOfPath(c, member, module, inside);
+    return isPrefix(c, member->base, module)
+               ? startOfPath(c, member->name, module, inside, member->symbol)
+               : memberOfPath(c, member, module, inside);
   }
   case ExprKind::Index:
     return elementOfPath(c, as<IndexExpr>(expr), module, inside);

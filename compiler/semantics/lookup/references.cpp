@@ -21,6 +21,8 @@ public:
   explicit Collector(std::vector<Use> &out) : out_(out) {}
 
   void library(const Library &library);
+  /// An entry of VAR_CONFIG or VAR_ACCESS.
+  void entry(const VarDecl *decl);
 
 private:
   void name(const Symbol *symbol, const Name &at) {
@@ -204,6 +206,11 @@ void Collector::library(const Library &library) {
     pou(symbol);
 }
 
+void Collector::entry(const VarDecl *decl) {
+  expression(decl->path);
+  variable(decl);
+}
+
 std::tuple<FileId, uint32_t> placeOf(const Use &use) { return {use.span.file, use.span.begin}; }
 
 bool isBefore(const Use &a, const Use &b) { return placeOf(a) < placeOf(b); }
@@ -221,6 +228,10 @@ References::References(const Program &program) {
   Collector collector(bySymbol_);
   for (const auto &library : program.libraries)
     collector.library(*library);
+  for (const SlotPlace &slot : program.slotPlaces)
+    collector.entry(slot.decl);
+  for (const AccessPath &access : program.accessPaths)
+    collector.entry(access.decl);
   // `a, b : INT` is one type for two variables.
   std::sort(bySymbol_.begin(), bySymbol_.end(), isSymbolBefore);
   bySymbol_.erase(std::unique(bySymbol_.begin(), bySymbol_.end(), isSame), bySymbol_.end());

@@ -11,8 +11,9 @@
 namespace stc {
 
 /// Where the names of variables, POUs, members, types, enumerators and lists stand, in declarations
-/// and bodies of the project and of what it uses of libraries. The declaration itself is no use.
-/// Made by one walk over the program; paths of VAR_CONFIG and VAR_ACCESS are not in it.
+/// and bodies of the project and of what it uses of libraries, and in the paths of VAR_CONFIG and
+/// VAR_ACCESS (entries with errors apart). The declaration itself is no use. Made by one walk over
+/// the program.
 class References {
 public:
   /// The program must have been checked; names that are unknown have no symbol. It must outlive

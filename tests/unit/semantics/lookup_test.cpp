@@ -240,6 +240,78 @@ TEST_F(LookupTest, KnowsWhoUsesWhat) {
   EXPECT_THAT(references.of(nullptr), IsEmpty());
 }
 
+TEST_F(LookupTest, KnowsTheNamesInPathsOfTheConfiguration) {
+  checkText(R"st(
+TYPE Range : STRUCT Low, High : INT; END_STRUCT END_TYPE
+VAR_GLOBAL CONSTANT Second : INT := 1; END_VAR
+VAR_GLOBAL Limits : Range; END_VAR
+FUNCTION_BLOCK Sensor
+VAR Raw AT %I* : INT; Scale : INT; END_VAR
+Scale := Raw; // in Sensor
+END_FUNCTION_BLOCK
+PROGRAM Plant
+VAR Sensors : ARRAY [0 .. 1] OF Sensor; Own : Range; END_VAR
+Sensors[0](); // in Plant
+END_PROGRAM
+VAR_CONFIG
+  Plant.Sensors[0].Raw AT %IW0 : INT;
+  Plant.Sensors[Second].Raw AT %IW1 : INT;
+  Plant.Sensors[1].Scale : INT := Second + 4;
+END_VAR
+VAR_ACCESS
+  outer : Plant.Own.High : INT READ_ONLY;
+  whole : Plant.Own : Range READ_WRITE;
+  list : Main.Limits.Low : INT READ_WRITE;
+END_VAR
+)st");
+  const References references(program_);
+  const Scope plant = scopeAt("// in Plant");
+  const Scope sensor = scopeAt("// in Sensor");
+  EXPECT_THAT(offsetsOf(references, find(plant, "Plant")),
+              ElementsAre(offset("Plant.Sensors[0]"), offset("Plant.Sensors[Second]"),
+                          offset("Plant.Sensors[1]"), offset("Plant.Own.High"),
+                          offset("Plant.Own : Range")));
+  EXPECT_THAT(offsetsOf(references, find(plant, "Sensors")),
+              ElementsAre(offset("Sensors[0](); //"), offset("Sensors[0].Raw"),
+                          offset("Sensors[Second]"), offset("Sensors[1].Scale")));
+  EXPECT_THAT(offsetsOf(references, find(sensor, "Raw")),
+              ElementsAre(offset("Raw; // in"), offset("Raw AT %IW0"), offset("Raw AT %IW1")));
+  EXPECT_THAT(offsetsOf(references, find(sensor, "Scale")),
+              ElementsAre(offset("Scale := Raw"), offset("Scale : INT := Second")));
+  // In an index and in an initial value, too; types of entries are uses as others are.
+  EXPECT_THAT(offsetsOf(references, find(plant, "Second")),
+              ElementsAre(offset("Second].Raw"), offset("Second + 4")));
+  EXPECT_THAT(offsetsOf(references, find(plant, "Own")),
+              ElementsAre(offset("Own.High"), offset("Own : Range READ")));
+  EXPECT_THAT(offsetsOf(references, find(plant, "Range")),
+              ElementsAre(offset("Range; END_VAR\nFUNCTION"), offset("Range; END_VAR\nSensors"),
+                          offset("Range READ_WRITE")));
+  // The list has the name of its file.
+  EXPECT_THAT(offsetsOf(references, find(plant, "Limits")), ElementsAre(offset("Limits.Low")));
+  EXPECT_THAT(offsetsOf(references, find(plant, "Main")), ElementsAre(offset("Main.Limits")));
+  const Symbol *high = references.at(file_, offset("High : INT READ_ONLY"));
+  ASSERT_NE(high, nullptr);
+  EXPECT_EQ(high->kind, SymbolKind::Variable);
+  EXPECT_THAT(offsetsOf(references, high), ElementsAre(offset("High : INT READ_ONLY")));
+  const Symbol *low = references.at(file_, offset("Low : INT READ_WRITE"));
+  ASSERT_NE(low, nullptr);
+  EXPECT_NE(low, high);
+}
+
+TEST_F(LookupTest, KnowsAProgramsOwnVariablesInItsVarAccess) {
+  checkText(R"st(
+PROGRAM Plant
+VAR Count : INT; END_VAR
+VAR_ACCESS shown : Count : INT READ_ONLY; END_VAR
+Count := Count + 1; // in Plant
+END_PROGRAM
+)st");
+  const References references(program_);
+  EXPECT_THAT(
+      offsetsOf(references, find(scopeAt("// in Plant"), "Count")),
+      ElementsAre(offset("Count : INT READ"), offset("Count := Count"), offset("Count + 1")));
+}
+
 TEST_F(LookupTest, KnowsTheNameAtAPlace) {
   checkText(kBlocks);
   const References references(program_);
