@@ -1,14 +1,21 @@
 // Which statements can run, which loops end.
 
-#include "compiler/semantics/lint/lint.hpp"
+#include "compiler/semantics/lint/internal.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <string>
 
-namespace stc {
+namespace stc::lint {
 
 using namespace ast;
+
+static bool statement(Context &c, Stmt *stmt);
+static bool ifStatement(Context &c, IfStmt *stmt);
+static bool whileLoop(Context &c, WhileStmt *stmt);
+static bool repeatLoop(Context &c, RepeatStmt *stmt);
+static void forLoop(Context &c, ForStmt *stmt);
+static bool caseStatement(Context &c, CaseStmt *stmt);
 
 bool isLiteral(const Expr *expr) {
   switch (expr->kind) {
@@ -74,7 +81,7 @@ Span wordSpan(const Stmt *stmt, uint32_t length) {
 
 } // namespace
 
-bool Linter::block(Block statements) {
+bool block(Context &c, Block statements) {
   bool reachable = true;
   bool reported = false;
   const Stmt *leaves = nullptr;
@@ -83,10 +90,10 @@ bool Linter::block(Block statements) {
       reachable = true;
     else if (!reachable && !reported && stmt->kind != StmtKind::Empty) {
       reported = true;
-      report(Code::UnreachableCode, stmt->span, "this statement is never reached", "never runs")
+      report(c, Code::UnreachableCode, stmt->span, "this statement is never reached", "never runs")
           .label(leaves->span, std::string(wordOf(leaves)));
     }
-    const bool goesOn = statement(stmt);
+    const bool goesOn = statement(c, stmt);
     if (reachable && !goesOn) {
       reachable = false;
       leaves = stmt;
@@ -95,84 +102,84 @@ bool Linter::block(Block statements) {
   return reachable;
 }
 
-void Linter::leave() {
-  mayHaveLeft_ = true;
-  for (Loop *loop : loops_)
+static void leave(Context &c) {
+  c.mayHaveLeft = true;
+  for (Loop *loop : c.loops)
     loop->exits = true;
 }
 
-bool Linter::statement(Stmt *stmt) {
+static bool statement(Context &c, Stmt *stmt) {
   switch (stmt->kind) {
   case StmtKind::Empty:
   case StmtKind::Label:
     return true;
   case StmtKind::Assign:
-    assignment(as<AssignStmt>(stmt));
+    assignment(c, as<AssignStmt>(stmt));
     return true;
   case StmtKind::Call: {
     Expr *expr = as<CallStmt>(stmt)->expr;
-    statementCall_ = expr;
-    read(expr);
-    statementCall_ = nullptr;
+    c.statementCall = expr;
+    read(c, expr);
+    c.statementCall = nullptr;
     if (expr->kind == ExprKind::Call) {
       const auto *call = as<CallExpr>(expr);
-      ignored_.push_back(call);
+      c.ignored.push_back(call);
       if (call->resolved == Callee::Function && call->pou != nullptr)
-        ++functionCalls_[call->pou->decl].asStatement;
+        ++c.functionCalls[call->pou->decl].asStatement;
     }
     return true;
   }
   case StmtKind::If:
-    return ifStatement(as<IfStmt>(stmt));
+    return ifStatement(c, as<IfStmt>(stmt));
   case StmtKind::Case:
-    return caseStatement(as<CaseStmt>(stmt));
+    return caseStatement(c, as<CaseStmt>(stmt));
   case StmtKind::For:
-    forLoop(as<ForStmt>(stmt));
+    forLoop(c, as<ForStmt>(stmt));
     return true;
   case StmtKind::While:
-    return whileLoop(as<WhileStmt>(stmt));
+    return whileLoop(c, as<WhileStmt>(stmt));
   case StmtKind::RepeatS:
-    return repeatLoop(as<RepeatStmt>(stmt));
+    return repeatLoop(c, as<RepeatStmt>(stmt));
   case StmtKind::Exit:
-    if (!loops_.empty())
-      loops_.back()->exits = true;
+    if (!c.loops.empty())
+      c.loops.back()->exits = true;
     return false;
   case StmtKind::Continue:
-    if (!loops_.empty())
-      loops_.back()->continues = true;
+    if (!c.loops.empty())
+      c.loops.back()->continues = true;
     return false;
   case StmtKind::Return:
   case StmtKind::Jump:
-    leave();
+    leave(c);
     return false;
   case StmtKind::Try: {
     auto *s = as<TryStmt>(stmt);
-    ++conditional_;
-    bool goesOn = block(s->body);
+    ++c.conditional;
+    bool goesOn = block(c, s->body);
     if (s->exception != nullptr)
-      write(s->exception);
-    goesOn = block(s->catchBody) || goesOn || !s->hasCatch;
-    --conditional_;
-    return block(s->finallyBody) && goesOn;
+      write(c, s->exception);
+    goesOn = block(c, s->catchBody) || goesOn || !s->hasCatch;
+    --c.conditional;
+    return block(c, s->finallyBody) && goesOn;
   }
   }
   return true;
 }
 
-bool Linter::ifStatement(IfStmt *stmt) {
+static bool ifStatement(Context &c, IfStmt *stmt) {
   bool goesOn = !stmt->hasElse;
   bool empty = isEmpty(stmt->elseBody);
   bool first = true;
   for (IfBranch &branch : stmt->branches) {
-    read(branch.condition);
+    read(c, branch.condition);
     empty = empty && isEmpty(branch.body);
     switch (truthOf(branch.condition)) {
     case Truth::Never:
-      report(Code::ConstantCondition, branch.condition->span, "this condition is always FALSE",
+      report(c, Code::ConstantCondition, branch.condition->span, "this condition is always FALSE",
              "its branch never runs");
       break;
     case Truth::Always:
-      report(Code::ConstantCondition, branch.condition->span, "this condition is always TRUE",
+      report(c, Code::ConstantCondition, branch.condition->span, "this condition is always TRUE",
              stmt->hasElse || &branch != &stmt->branches.back() ? "the branches after it never run"
                                                                 : "its branch always runs");
       break;
@@ -180,44 +187,44 @@ bool Linter::ifStatement(IfStmt *stmt) {
       break;
     }
     if (first) // the first condition itself always runs
-      ++conditional_;
+      ++c.conditional;
     first = false;
-    goesOn = block(branch.body) || goesOn;
+    goesOn = block(c, branch.body) || goesOn;
   }
-  goesOn = block(stmt->elseBody) || goesOn;
-  --conditional_;
+  goesOn = block(c, stmt->elseBody) || goesOn;
+  --c.conditional;
   if (empty)
-    report(Code::EmptyBody, wordSpan(stmt, 2), "this IF does nothing",
+    report(c, Code::EmptyBody, wordSpan(stmt, 2), "this IF does nothing",
            "all of its branches are empty")
         .help("write the statements between THEN and END_IF; a `;` after THEN is an empty "
               "statement");
   else
-    ifChain(stmt);
+    ifChain(c, stmt);
   return goesOn;
 }
 
-bool Linter::loopBody(Block body, Loop &loop, Expr *before, Expr *after) {
-  loop.writesBefore = writes_;
-  const bool outermost = loopStart_ == 0;
+static bool loopBody(Context &c, Block body, Loop &loop, Expr *before, Expr *after) {
+  loop.writesBefore = c.writes;
+  const bool outermost = c.loopStart == 0;
   if (outermost)
-    loopStart_ = ++loopCount_;
-  loops_.push_back(&loop);
+    c.loopStart = ++c.loopCount;
+  c.loops.push_back(&loop);
   if (before != nullptr)
-    read(before);
-  ++conditional_;
-  const bool goesOn = block(body);
-  --conditional_;
+    read(c, before);
+  ++c.conditional;
+  const bool goesOn = block(c, body);
+  --c.conditional;
   if (after != nullptr)
-    read(after);
-  loops_.pop_back();
+    read(c, after);
+  c.loops.pop_back();
   if (outermost)
-    loopStart_ = 0;
+    c.loopStart = 0;
   return goesOn;
 }
 
 /// The variables of a condition that nothing but an assignment in this body can change; false when
 /// something else is in it.
-bool Linter::variablesOf(const Expr *expr, std::vector<const VarSymbol *> &out) const {
+static bool variablesOf(const Context &c, const Expr *expr, std::vector<const VarSymbol *> &out) {
   switch (expr->kind) {
   case ExprKind::Literal:
   case ExprKind::EnumLiteral:
@@ -229,7 +236,7 @@ bool Linter::variablesOf(const Expr *expr, std::vector<const VarSymbol *> &out) 
     if (name->symbol == nullptr || name->symbol->kind != SymbolKind::Variable)
       return false;
     const auto *v = static_cast<const VarSymbol *>(name->symbol);
-    if (!isOwnLocal(v) || v->section == Section::InOut || v->type == nullptr ||
+    if (!isOwnLocal(c, v) || v->section == Section::InOut || v->type == nullptr ||
         !isElementary(v->type) || (v->uses & kUseAddress) != 0 ||
         (v->decl != nullptr && v->decl->address != nullptr))
       return false;
@@ -237,85 +244,85 @@ bool Linter::variablesOf(const Expr *expr, std::vector<const VarSymbol *> &out) 
     return true;
   }
   case ExprKind::Unary:
-    return variablesOf(as<UnaryExpr>(expr)->operand, out);
+    return variablesOf(c, as<UnaryExpr>(expr)->operand, out);
   case ExprKind::Binary:
-    return out.size() < 64 && variablesOf(as<BinaryExpr>(expr)->left, out) &&
-           variablesOf(as<BinaryExpr>(expr)->right, out);
+    return out.size() < 64 && variablesOf(c, as<BinaryExpr>(expr)->left, out) &&
+           variablesOf(c, as<BinaryExpr>(expr)->right, out);
   default:
     return false;
   }
 }
 
-void Linter::unchangingCondition(const Expr *condition, const Loop &loop, Span where) {
-  if (loop.exits || bodies_[current_].hasLabels)
+static void unchangingCondition(Context &c, const Expr *condition, const Loop &loop, Span where) {
+  if (loop.exits || c.bodies[c.current].hasLabels)
     return;
   std::vector<const VarSymbol *> variables;
-  if (!variablesOf(condition, variables) || variables.empty())
+  if (!variablesOf(c, condition, variables) || variables.empty())
     return;
   std::string names;
   for (const VarSymbol *v : variables) {
     const bool reachable =
         loop.calls && v->section != Section::Temp &&
-        bodies_[current_].decl->kind != DeclKind::Function; // by a method or an action
+        c.bodies[c.current].decl->kind != DeclKind::Function; // by a method or an action
     if (v->lastWrite > loop.writesBefore || reachable)
       return;
     const std::string name = "`" + std::string(v->name.text) + "`";
     if (names.find(name) == std::string::npos)
       names += (names.empty() ? "" : ", ") + name;
   }
-  report(Code::EndlessLoop, condition->span, "once begun, this loop never ends",
+  report(c, Code::EndlessLoop, condition->span, "once begun, this loop never ends",
          "nothing in the loop changes " + names)
       .label(where, "this loop")
       .help("change " + names + " in the loop, or leave it with EXIT");
 }
 
-bool Linter::whileLoop(WhileStmt *stmt) {
+static bool whileLoop(Context &c, WhileStmt *stmt) {
   const Truth truth = truthOf(stmt->condition);
   if (truth == Truth::Never)
-    report(Code::LoopNeverRuns, stmt->condition->span, "this loop never runs",
+    report(c, Code::LoopNeverRuns, stmt->condition->span, "this loop never runs",
            "the condition is always FALSE");
   Loop loop;
-  loopBody(stmt->body, loop, stmt->condition, nullptr);
+  loopBody(c, stmt->body, loop, stmt->condition, nullptr);
   if (truth == Truth::Always && !loop.exits) {
-    report(Code::EndlessLoop, stmt->condition->span, "this loop never ends",
+    report(c, Code::EndlessLoop, stmt->condition->span, "this loop never ends",
            "always TRUE, and there is no EXIT")
         .help("leave the loop with EXIT; a task that does not end its cycle is stopped");
     return false;
   }
   if (truth == Truth::Unknown && isEmpty(stmt->body) && !loop.calls)
-    report(Code::EmptyBody, wordSpan(stmt, 5), "this loop does nothing", "its body is empty")
+    report(c, Code::EmptyBody, wordSpan(stmt, 5), "this loop does nothing", "its body is empty")
         .help("a `;` after DO is an empty statement; nothing can change the condition while the "
               "loop waits");
   else if (truth == Truth::Unknown)
-    unchangingCondition(stmt->condition, loop, wordSpan(stmt, 5));
+    unchangingCondition(c, stmt->condition, loop, wordSpan(stmt, 5));
   return truth != Truth::Always || loop.exits;
 }
 
-bool Linter::repeatLoop(RepeatStmt *stmt) {
+static bool repeatLoop(Context &c, RepeatStmt *stmt) {
   Loop loop;
-  const bool falls = loopBody(stmt->body, loop, nullptr, stmt->until);
+  const bool falls = loopBody(c, stmt->body, loop, nullptr, stmt->until);
   const Truth truth = truthOf(stmt->until);
   if (truth == Truth::Never && !loop.exits) {
-    report(Code::EndlessLoop, stmt->until->span, "this loop never ends",
+    report(c, Code::EndlessLoop, stmt->until->span, "this loop never ends",
            "always FALSE, and there is no EXIT")
         .help("leave the loop with EXIT; a task that does not end its cycle is stopped");
     return false;
   }
   if (truth == Truth::Unknown && isEmpty(stmt->body) && !loop.calls)
-    report(Code::EmptyBody, wordSpan(stmt, 6), "this loop does nothing", "its body is empty")
+    report(c, Code::EmptyBody, wordSpan(stmt, 6), "this loop does nothing", "its body is empty")
         .help("a `;` after REPEAT is an empty statement; nothing can change the condition while "
               "the loop waits");
   else if (truth == Truth::Unknown)
-    unchangingCondition(stmt->until, loop, wordSpan(stmt, 6));
+    unchangingCondition(c, stmt->until, loop, wordSpan(stmt, 6));
   return falls || loop.continues || loop.exits;
 }
 
-void Linter::forLoop(ForStmt *stmt) {
-  read(stmt->from);
-  read(stmt->to);
+static void forLoop(Context &c, ForStmt *stmt) {
+  read(c, stmt->from);
+  read(c, stmt->to);
   if (stmt->by != nullptr)
-    read(stmt->by);
-  write(stmt->variable);
+    read(c, stmt->by);
+  write(c, stmt->variable);
   if (VarSymbol *root = rootVariable(stmt->variable))
     root->uses |= kUseRead; // counting is using
   const auto value = [](const Expr *e) {
@@ -327,40 +334,40 @@ void Linter::forLoop(ForStmt *stmt) {
   const auto by = stmt->by == nullptr ? std::optional<int64_t>(1) : value(stmt->by);
   if (from && to && by && *by != 0 && (*by > 0 ? *from > *to : *from < *to)) {
     auto &d =
-        report(Code::LoopNeverRuns, stmt->from->span.to(stmt->to->span), "this loop never runs",
+        report(c, Code::LoopNeverRuns, stmt->from->span.to(stmt->to->span), "this loop never runs",
                *by > 0 ? "the end is below the start" : "the end is above the start");
     const Span behind{stmt->to->span.file, stmt->to->span.end, stmt->to->span.end};
     if (stmt->by == nullptr)
-      d.suggest("count down: `" + text(stmt->from->span) + " TO " + text(stmt->to->span) +
+      d.suggest("count down: `" + text(c, stmt->from->span) + " TO " + text(c, stmt->to->span) +
                     " BY -1`",
                 behind, " BY -1");
   }
   if (isEmpty(stmt->body))
-    report(Code::EmptyBody, wordSpan(stmt, 3), "this loop does nothing", "its body is empty")
+    report(c, Code::EmptyBody, wordSpan(stmt, 3), "this loop does nothing", "its body is empty")
         .help("a `;` after DO is an empty statement");
-  fors_.push_back(stmt);
+  c.fors.push_back(stmt);
   Loop loop;
-  loopBody(stmt->body, loop, nullptr, nullptr);
-  fors_.pop_back();
+  loopBody(c, stmt->body, loop, nullptr, nullptr);
+  c.fors.pop_back();
 }
 
-bool Linter::caseStatement(CaseStmt *stmt) {
-  read(stmt->selector);
+static bool caseStatement(Context &c, CaseStmt *stmt) {
+  read(c, stmt->selector);
   bool goesOn = !stmt->hasElse;
-  ++conditional_;
+  ++c.conditional;
   for (CaseBranch &branch : stmt->branches) {
     for (CaseLabel &label : branch.labels) {
-      read(label.low);
+      read(c, label.low);
       if (label.high != nullptr)
-        read(label.high);
+        read(c, label.high);
     }
-    goesOn = block(branch.body) || goesOn;
+    goesOn = block(c, branch.body) || goesOn;
   }
-  goesOn = block(stmt->elseBody) || goesOn;
-  --conditional_;
-  missingCases(stmt);
-  unreachableCases(stmt);
+  goesOn = block(c, stmt->elseBody) || goesOn;
+  --c.conditional;
+  missingCases(c, stmt);
+  unreachableCases(c, stmt);
   return goesOn;
 }
 
-} // namespace stc
+} // namespace stc::lint

@@ -1,13 +1,22 @@
 // Walks all bodies once and notes how variables are used.
 
-#include "compiler/semantics/lint/lint.hpp"
+#include "compiler/semantics/lint/internal.hpp"
 #include "compiler/syntax/visit.hpp"
 
 #include <algorithm>
 
-namespace stc {
+namespace stc::lint {
 
 using namespace ast;
+
+static void walk(Context &c, PouDecl *decl, PouDecl *owner, PouSymbol *pou);
+static void declarations(Context &c, std::span<VarDecl *const> variables);
+static void typeExpr(Context &c, TypeExpr *type);
+static void construct(Context &c, std::span<Argument> arguments);
+static void initial(Context &c, Expr *init);
+static void usePath(Context &c, const StatePath &path, const VarSymbol *end);
+static void readBinary(Context &c, BinaryExpr *expr);
+static void call(Context &c, CallExpr *expr);
 
 namespace {
 
@@ -35,53 +44,54 @@ bool containsLabel(Block block) {
 
 } // namespace
 
-std::string Linter::text(Span span) const {
-  std::string_view all = program_.sources.text(span);
+std::string text(const Context &c, Span span) {
+  std::string_view all = c.program.sources.text(span);
   const bool usable = all.size() <= 40 && all.find('\n') == std::string_view::npos;
   return usable ? std::string(all) : "…";
 }
 
-void Linter::run(Library &library) {
+void run(Program &program, Library &library) {
+  Context c(program);
   for (PouSymbol *pou : library.pous) {
     PouDecl *decl = pou->decl;
-    walk(decl, decl, pou);
+    walk(c, decl, decl, pou);
     for (PouDecl *method : decl->methods)
-      walk(method, decl, pou);
+      walk(c, method, decl, pou);
     for (PouDecl *action : decl->actions)
-      walk(action, decl, pou);
+      walk(c, action, decl, pou);
     for (PropertyDecl *property : decl->properties) {
       if (property->get != nullptr)
-        walk(property->get, decl, pou);
+        walk(c, property->get, decl, pou);
       if (property->set != nullptr)
-        walk(property->set, decl, pou);
+        walk(c, property->set, decl, pou);
     }
   }
   for (GlobalsSymbol *globals : library.globals) {
     for (VarSymbol *v : globals->variables) {
       if (v->decl != nullptr) {
-        typeExpr(v->decl->type);
-        initial(v->decl->init);
+        typeExpr(c, v->decl->type);
+        initial(c, v->decl->init);
       }
-      markUsed(v->type);
+      markUsed(c, v->type);
     }
   }
-  for (const SlotPlace &slot : program_.slotPlaces)
-    usePath(slot.path, slot.variable);
-  for (const AccessPath &access : program_.accessPaths)
-    usePath(access.path, nullptr);
-  for (const Body &body : bodies_) {
-    reportVariables(body);
-    reportResults(body);
+  for (const SlotPlace &slot : c.program.slotPlaces)
+    usePath(c, slot.path, slot.variable);
+  for (const AccessPath &access : c.program.accessPaths)
+    usePath(c, access.path, nullptr);
+  for (const Body &body : c.bodies) {
+    reportVariables(c, body);
+    reportResults(c, body);
   }
-  reportRecursion();
-  reportIgnored();
-  if (program_.diagnostics.wants(Code::UnusedPou))
-    reportUnusedPous(library);
+  reportRecursion(c);
+  reportIgnored(c);
+  if (c.program.diagnostics.wants(Code::UnusedPou))
+    reportUnusedPous(c, library);
 }
 
 /// VAR_CONFIG and VAR_ACCESS reach what nothing else may name.
-void Linter::usePath(const StatePath &path, const VarSymbol *end) {
-  const auto mark = [this](const VarSymbol *v) { usedOutside_.insert(v); };
+static void usePath(Context &c, const StatePath &path, const VarSymbol *end) {
+  const auto mark = [&c](const VarSymbol *v) { c.usedOutside.insert(v); };
   if (path.root != nullptr && path.root->kind == SymbolKind::Variable)
     mark(static_cast<const VarSymbol *>(path.root));
   for (const PathStep &step : path.steps) {
@@ -92,39 +102,39 @@ void Linter::usePath(const StatePath &path, const VarSymbol *end) {
     mark(end);
 }
 
-void Linter::walk(PouDecl *decl, PouDecl *owner, PouSymbol *pou) {
-  if (!walked_.insert(decl).second)
+static void walk(Context &c, PouDecl *decl, PouDecl *owner, PouSymbol *pou) {
+  if (!c.walked.insert(decl).second)
     return;
-  current_ = bodies_.size();
-  bodyOf_.emplace(decl, current_);
-  Body &body = bodies_.emplace_back();
+  c.current = c.bodies.size();
+  c.bodyOf.emplace(decl, c.current);
+  Body &body = c.bodies.emplace_back();
   body.decl = decl;
   body.owner = owner;
   body.pou = pou;
   body.hasLabels = containsLabel(decl->body);
   body.sideEffects = decl->external || decl->kind != DeclKind::Function;
-  loops_.clear();
-  fors_.clear();
-  loopStart_ = 0;
-  conditional_ = 0;
-  mayHaveLeft_ = body.hasLabels;
-  declarations(decl->variables);
-  block(decl->body);
+  c.loops.clear();
+  c.fors.clear();
+  c.loopStart = 0;
+  c.conditional = 0;
+  c.mayHaveLeft = body.hasLabels;
+  declarations(c, decl->variables);
+  block(c, decl->body);
 }
 
-void Linter::declarations(std::span<VarDecl *const> variables) {
+static void declarations(Context &c, std::span<VarDecl *const> variables) {
   for (const VarDecl *v : variables) {
-    typeExpr(v->type);
-    initial(v->init);
+    typeExpr(c, v->type);
+    initial(c, v->init);
     if (v->symbol == nullptr || v->symbol->type == nullptr)
       continue;
-    v->symbol->lintBody = static_cast<uint32_t>(current_ + 1);
-    markUsed(v->symbol->type);
+    v->symbol->lintBody = static_cast<uint32_t>(c.current + 1);
+    markUsed(c, v->symbol->type);
   }
 }
 
 /// Constants are used by bounds and lengths, too.
-void Linter::typeExpr(TypeExpr *type) {
+static void typeExpr(Context &c, TypeExpr *type) {
   if (type == nullptr)
     return;
   switch (type->kind) {
@@ -132,30 +142,30 @@ void Linter::typeExpr(TypeExpr *type) {
     auto *array = as<ArrayTypeExpr>(type);
     for (const ArrayRange &range : array->ranges) {
       if (range.low != nullptr)
-        read(range.low);
+        read(c, range.low);
       if (range.high != nullptr)
-        read(range.high);
+        read(c, range.high);
     }
-    typeExpr(array->element);
+    typeExpr(c, array->element);
     break;
   }
   case TypeExprKind::String:
     if (Expr *length = as<StringTypeExpr>(type)->length)
-      read(length);
+      read(c, length);
     break;
   case TypeExprKind::Pointer:
   case TypeExprKind::Reference:
-    typeExpr(as<PointerTypeExpr>(type)->pointee);
+    typeExpr(c, as<PointerTypeExpr>(type)->pointee);
     break;
   case TypeExprKind::Subrange:
-    read(as<SubrangeTypeExpr>(type)->low);
-    read(as<SubrangeTypeExpr>(type)->high);
+    read(c, as<SubrangeTypeExpr>(type)->low);
+    read(c, as<SubrangeTypeExpr>(type)->high);
     break;
   case TypeExprKind::Named: {
     auto *named = as<NamedTypeExpr>(type);
-    construct(named->arguments);
+    construct(c, named->arguments);
     for (const std::span<Argument> arguments : named->elements)
-      construct(arguments);
+      construct(c, arguments);
     break;
   }
   default:
@@ -164,52 +174,52 @@ void Linter::typeExpr(TypeExpr *type) {
 }
 
 /// The inputs of FB_Init.
-void Linter::construct(std::span<Argument> arguments) {
+static void construct(Context &c, std::span<Argument> arguments) {
   for (const Argument &argument : arguments) {
     if (argument.value != nullptr)
-      initial(argument.value); // interfaces and references keep the variable
+      initial(c, argument.value); // interfaces and references keep the variable
   }
 }
 
-void Linter::initial(Expr *init) {
+static void initial(Context &c, Expr *init) {
   if (init == nullptr)
     return;
   if (init->kind != ExprKind::Aggregate) {
     if (init->kind == ExprKind::Name || init->kind == ExprKind::Member)
-      takeAddress(init); // may be a REFERENCE's
+      takeAddress(c, init); // may be a REFERENCE's
     else
-      read(init);
+      read(c, init);
     return;
   }
-  const auto items = [this](auto &&self, std::span<AggregateItem> list) -> void {
+  const auto items = [&c](auto &&self, std::span<AggregateItem> list) -> void {
     for (const AggregateItem &item : list) {
       if (item.repeat != nullptr)
-        read(item.repeat);
-      initial(item.value);
+        read(c, item.repeat);
+      initial(c, item.value);
       self(self, item.values);
     }
   };
   items(items, as<AggregateExpr>(init)->items);
 }
 
-bool Linter::isOwnLocal(const VarSymbol *variable) const {
-  return variable->isResult || variable->lintBody == current_ + 1;
+bool isOwnLocal(const Context &c, const VarSymbol *variable) {
+  return variable->isResult || variable->lintBody == c.current + 1;
 }
 
-void Linter::use(VarSymbol *variable, uint8_t bits, const Expr *where) {
+static void use(Context &c, VarSymbol *variable, uint8_t bits, const Expr *where) {
   if ((bits & kUseRead) != 0 && (variable->uses & (kUseWritten | kUseAddress)) == 0 &&
       (bits & (kUseWritten | kUseAddress)) == 0 && variable->earlyRead == nullptr) {
     variable->earlyRead = where;
-    variable->earlyLoop = loopStart_;
+    variable->earlyLoop = c.loopStart;
   }
   if ((bits & (kUseWritten | kUseAddress)) != 0) {
-    variable->lastWrite = ++writes_;
+    variable->lastWrite = ++c.writes;
     // In the loop's next round the write comes before the read.
     if ((variable->uses & (kUseWritten | kUseAddress)) == 0 && variable->earlyRead != nullptr &&
-        variable->earlyLoop != 0 && variable->earlyLoop == loopStart_)
+        variable->earlyLoop != 0 && variable->earlyLoop == c.loopStart)
       variable->earlyRead = nullptr;
     if (variable->isResult && variable->owner != nullptr)
-      resultsWritten_.insert(variable->owner->decl);
+      c.resultsWritten.insert(variable->owner->decl);
   }
   variable->uses |= bits;
 }
@@ -241,103 +251,108 @@ VarSymbol *rootVariable(const Expr *expr) {
   }
 }
 
-void Linter::read(Expr *expr) {
+/// A VAR_IN_OUT of an instance that was not called yet.
+static void inOutBeforeCall(Context &c, const MemberExpr *member, const VarSymbol *variable) {
+  if (variable->section != Section::InOut || variable->owner == nullptr ||
+      member->base->kind != ExprKind::Name)
+    return;
+  const VarSymbol *instance = rootVariable(member->base);
+  const Body &body = c.bodies[c.current];
+  if (instance == nullptr || (instance->uses & (kUseCalled | kUseAddress)) != 0 ||
+      instance->section != Section::Local || body.owner != body.decl ||
+      !body.owner->methods.empty() || !body.owner->actions.empty() || c.loopStart != 0 ||
+      body.hasLabels || !isOwnLocal(c, instance))
+    return;
+  report(c, Code::InOutBeforeCall, member->span,
+         "`" + std::string(member->name.text) + "` of `" + std::string(instance->name.text) +
+             "` is used before the first call of the block",
+         "refers to nothing yet")
+      .label(variable->name.span, "a VAR_IN_OUT gets its variable at the call")
+      .help("call `" + std::string(instance->name.text) +
+            "(…)` first, or use the variable that is passed to it");
+}
+
+void read(Context &c, Expr *expr) {
   while (expr->kind == ExprKind::Unary) {
-    conversion(expr);
+    conversion(c, expr);
     expr = as<UnaryExpr>(expr)->operand;
   }
-  conversion(expr);
+  conversion(c, expr);
   switch (expr->kind) {
   case ExprKind::Name:
     if (Symbol *symbol = as<NameExpr>(expr)->symbol;
         symbol != nullptr && symbol->kind == SymbolKind::Variable)
-      use(static_cast<VarSymbol *>(symbol), kUseRead, expr);
+      use(c, static_cast<VarSymbol *>(symbol), kUseRead, expr);
     break;
   case ExprKind::Member: {
     auto *member = as<MemberExpr>(expr);
     if (Symbol *symbol = member->symbol;
         symbol != nullptr && symbol->kind == SymbolKind::Variable) {
       auto *variable = static_cast<VarSymbol *>(symbol);
-      use(variable, kUseRead, expr);
-      if (variable->section == Section::InOut && variable->owner != nullptr &&
-          member->base->kind == ExprKind::Name) {
-        const VarSymbol *instance = rootVariable(member->base);
-        const Body &body = bodies_[current_];
-        if (instance != nullptr && (instance->uses & (kUseCalled | kUseAddress)) == 0 &&
-            instance->section == Section::Local && body.owner == body.decl &&
-            body.owner->methods.empty() && body.owner->actions.empty() && loopStart_ == 0 &&
-            !body.hasLabels && isOwnLocal(instance))
-          report(Code::InOutBeforeCall, expr->span,
-                 "`" + std::string(member->name.text) + "` of `" +
-                     std::string(instance->name.text) +
-                     "` is used before the first call of the block",
-                 "refers to nothing yet")
-              .label(variable->name.span, "a VAR_IN_OUT gets its variable at the call")
-              .help("call `" + std::string(instance->name.text) +
-                    "(…)` first, or use the variable that is passed to it");
-      }
+      use(c, variable, kUseRead, expr);
+      inOutBeforeCall(c, member, variable);
     }
-    read(member->base);
+    read(c, member->base);
     break;
   }
   case ExprKind::Index: {
     auto *index = as<IndexExpr>(expr);
-    read(index->base);
+    read(c, index->base);
     for (Expr *i : index->indices)
-      read(i);
+      read(c, i);
     break;
   }
   case ExprKind::Deref:
-    read(as<DerefExpr>(expr)->base);
+    read(c, as<DerefExpr>(expr)->base);
     break;
   case ExprKind::Call:
-    call(as<CallExpr>(expr));
+    call(c, as<CallExpr>(expr));
     break;
   case ExprKind::Binary:
-    readBinary(as<BinaryExpr>(expr));
+    readBinary(c, as<BinaryExpr>(expr));
     break;
   case ExprKind::Aggregate:
-    initial(expr);
+    initial(c, expr);
     break;
   default:
     break;
   }
 }
 
-void Linter::readBinary(BinaryExpr *expr) {
+static void readBinary(Context &c, BinaryExpr *expr) {
   // Sums of ten thousand terms lean to the left; walk down instead of recursing.
-  const size_t first = chain_.size();
-  chain_.push_back(expr);
-  while (chain_.back()->left->kind == ExprKind::Binary)
-    chain_.push_back(as<BinaryExpr>(chain_.back()->left));
-  read(chain_.back()->left);
-  while (chain_.size() > first) {
-    BinaryExpr *b = chain_.back();
-    chain_.pop_back();
+  const size_t first = c.chain.size();
+  c.chain.push_back(expr);
+  while (c.chain.back()->left->kind == ExprKind::Binary)
+    c.chain.push_back(as<BinaryExpr>(c.chain.back()->left));
+  read(c, c.chain.back()->left);
+  while (c.chain.size() > first) {
+    BinaryExpr *b = c.chain.back();
+    c.chain.pop_back();
     if (b != expr)
-      conversion(b);
+      conversion(c, b);
     const bool shortCircuit = b->op == BinaryOp::AndThen || b->op == BinaryOp::OrElse;
-    conditional_ += shortCircuit ? 1 : 0;
-    read(b->right);
-    conditional_ -= shortCircuit ? 1 : 0;
+    c.conditional += shortCircuit ? 1 : 0;
+    read(c, b->right);
+    c.conditional -= shortCircuit ? 1 : 0;
     if (b->op >= BinaryOp::Equal && b->op <= BinaryOp::GreaterEqual)
-      comparison(b);
-    sameOperands(b);
+      comparison(c, b);
+    sameOperands(c, b);
   }
 }
 
-void Linter::write(Expr *target) {
+void write(Context &c, Expr *target) {
   if (VarSymbol *root = rootVariable(target)) {
     const bool whole = target->kind == ExprKind::Name;
     const bool indirect = root->section == Section::InOut ||
                           (root->type != nullptr && (root->type->kind == TypeKind::Reference ||
                                                      root->type->kind == TypeKind::Pointer));
-    use(root, indirect || !whole ? kUseRead | kUseWritten : kUseWritten, target);
-    if (indirect || (!isOwnLocal(root)) || root->section == Section::Stat)
-      bodies_[current_].sideEffects = true;
-    for (const ForStmt *loop : fors_) {
+    use(c, root, indirect || !whole ? kUseRead | kUseWritten : kUseWritten, target);
+    if (indirect || (!isOwnLocal(c, root)) || root->section == Section::Stat)
+      c.bodies[c.current].sideEffects = true;
+    for (const ForStmt *loop : c.fors) {
       if (whole && rootVariable(loop->variable) == root && loop->variable->kind == ExprKind::Name)
-        report(Code::ForVariableModified, target->span,
+        report(c, Code::ForVariableModified, target->span,
                "`" + std::string(root->name.text) +
                    "` is changed inside of the loop that counts "
                    "with it",
@@ -346,69 +361,69 @@ void Linter::write(Expr *target) {
             .help("leave the loop with EXIT, skip a round with CONTINUE, or use WHILE");
     }
   } else {
-    bodies_[current_].sideEffects = true;
+    c.bodies[c.current].sideEffects = true;
   }
   switch (target->kind) { // what is read to find the place
   case ExprKind::Member: {
     auto *member = as<MemberExpr>(target);
     if (member->symbol != nullptr && member->symbol->kind == SymbolKind::Variable)
-      use(static_cast<VarSymbol *>(member->symbol), kUseWritten, target);
+      use(c, static_cast<VarSymbol *>(member->symbol), kUseWritten, target);
     if (member->base->kind == ExprKind::Member || member->base->kind == ExprKind::Index)
-      write(member->base);
+      write(c, member->base);
     else
-      read(member->base);
+      read(c, member->base);
     break;
   }
   case ExprKind::Index: {
     auto *index = as<IndexExpr>(target);
     for (Expr *i : index->indices)
-      read(i);
+      read(c, i);
     if (index->base->kind == ExprKind::Member || index->base->kind == ExprKind::Index)
-      write(index->base);
+      write(c, index->base);
     else if (index->base->kind != ExprKind::Name)
-      read(index->base);
+      read(c, index->base);
     break;
   }
   case ExprKind::Deref:
-    read(as<DerefExpr>(target)->base);
+    read(c, as<DerefExpr>(target)->base);
     break;
   case ExprKind::Name:
     break;
   default:
-    read(target);
+    read(c, target);
   }
 }
 
-void Linter::takeAddress(Expr *expr) {
+void takeAddress(Context &c, Expr *expr) {
   if (VarSymbol *root = rootVariable(expr)) {
-    use(root, kUseAddress | kUseRead | kUseWritten, expr);
-    if (!isOwnLocal(root))
-      bodies_[current_].sideEffects = true;
+    use(c, root, kUseAddress | kUseRead | kUseWritten, expr);
+    if (!isOwnLocal(c, root))
+      c.bodies[c.current].sideEffects = true;
   }
   if (expr->kind == ExprKind::Member) {
     auto *member = as<MemberExpr>(expr);
     if (member->symbol != nullptr && member->symbol->kind == SymbolKind::Variable)
-      use(static_cast<VarSymbol *>(member->symbol), kUseAddress | kUseRead | kUseWritten, expr);
+      use(c, static_cast<VarSymbol *>(member->symbol), kUseAddress | kUseRead | kUseWritten, expr);
   }
-  read(expr);
+  read(c, expr);
 }
 
-void Linter::call(CallExpr *expr) {
+static void call(Context &c, CallExpr *expr) {
   if (expr->pou != nullptr)
-    usedPous_.insert(expr->pou);
-  Body &body = bodies_[current_];
+    c.usedPous.insert(expr->pou);
+  Body &body = c.bodies[c.current];
   const bool function = expr->resolved == Callee::Function;
   const bool builtin = expr->resolved == Callee::Builtin;
   if (!builtin) {
-    for (Loop *loop : loops_)
+    for (Loop *loop : c.loops)
       loop->calls = true;
   }
   if (function && expr->pou != nullptr) {
     const PouSymbol *pou = expr->pou;
-    ++functionCalls_[pou->decl].all;
-    if (pou->decl == body.decl && conditional_ == 0 && !mayHaveLeft_ && !body.recursesAlways) {
+    ++c.functionCalls[pou->decl].all;
+    if (pou->decl == body.decl && c.conditional == 0 && !c.mayHaveLeft && !body.recursesAlways) {
       body.recursesAlways = true;
-      report(Code::UnconditionalRecursion, expr->span,
+      report(c, Code::UnconditionalRecursion, expr->span,
              "`" + std::string(pou->name.text) + "` always calls itself", "this call never ends")
           .label(pou->name.span, "in this function")
           .help("make the call depend on a condition that becomes FALSE");
@@ -419,33 +434,31 @@ void Linter::call(CallExpr *expr) {
       body.calls.push_back(expr);
   } else if (!builtin) {
     body.sideEffects = true;
-    if (expr->resolved == Callee::Method && expr->pou != nullptr && expr != statementCall_)
-      resultsTaken_.insert(expr->pou->name.id);
+    if (expr->resolved == Callee::Method && expr->pou != nullptr && expr != c.statementCall)
+      c.resultsTaken.insert(expr->pou->name.id);
     if (VarSymbol *root = rootVariable(expr->callee))
-      use(root, kUseCalled | kUseRead, expr->callee);
-    read(expr->callee);
+      use(c, root, kUseCalled | kUseRead, expr->callee);
+    read(c, expr->callee);
   }
   const bool pureBuiltin = onlyReads(expr);
   if (does(expr, BuiltinRow::kShiftsOut))
-    shift(expr);
+    shift(c, expr);
   if (does(expr, BuiltinRow::kSaturates))
-    saturation(expr);
+    saturation(c, expr);
   for (Argument &argument : expr->arguments) {
     if (argument.value == nullptr)
       continue;
     const VarSymbol *p = argument.parameter;
-    if (argument.output) {
-      write(argument.value);
-    } else if (pureBuiltin) {
-      read(argument.value);
-    } else if (builtin ||
-               (p != nullptr && (p->section == Section::InOut ||
-                                 (p->type != nullptr && p->type->kind == TypeKind::Reference)))) {
-      takeAddress(argument.value);
-    } else {
-      read(argument.value);
-    }
+    const bool alias =
+        p != nullptr && (p->section == Section::InOut ||
+                         (p->type != nullptr && p->type->kind == TypeKind::Reference));
+    if (argument.output)
+      write(c, argument.value);
+    else if (!pureBuiltin && (builtin || alias))
+      takeAddress(c, argument.value);
+    else
+      read(c, argument.value);
   }
 }
 
-} // namespace stc
+} // namespace stc::lint

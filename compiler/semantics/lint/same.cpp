@@ -1,10 +1,10 @@
 // Whether two pieces of a program are the same.
 
-#include "compiler/semantics/lint/lint.hpp"
+#include "compiler/semantics/lint/internal.hpp"
 
 #include <algorithm>
 
-namespace stc {
+namespace stc::lint {
 
 using namespace ast;
 
@@ -121,4 +121,4 @@ bool sameStmt(const Stmt *a, const Stmt *b, unsigned depth) {
 bool sameExpr(const Expr *a, const Expr *b) { return same(a, b, 0); }
 bool sameBlock(Block a, Block b) { return sameList(a, b, 0); }
 
-} // namespace stc
+} // namespace stc::lint

@@ -1,11 +1,11 @@
 // Comparisons, shifts and conversions whose outcome is known or surprising.
 
 #include "compiler/semantics/conversions.hpp"
-#include "compiler/semantics/lint/lint.hpp"
+#include "compiler/semantics/lint/internal.hpp"
 
 #include <cmath>
 
-namespace stc {
+namespace stc::lint {
 
 using namespace ast;
 
@@ -135,7 +135,7 @@ std::optional<ValueRange> valueRange(const Expr *expr) {
   return typeRange(type);
 }
 
-void Linter::comparison(const BinaryExpr *expr) {
+void comparison(Context &c, const BinaryExpr *expr) {
   const bool equality = expr->op == BinaryOp::Equal || expr->op == BinaryOp::NotEqual;
   if (expr->operandType != nullptr && isReal(expr->operandType)) {
     const auto isZero = [](const Expr *e) {
@@ -145,11 +145,11 @@ void Linter::comparison(const BinaryExpr *expr) {
     };
     if (equality && expr->constant == nullptr && !isZero(expr->left) && !isZero(expr->right) &&
         !sameExpr(expr->left, expr->right))
-      report(Code::RealEquality, expr->opSpan,
+      report(c, Code::RealEquality, expr->opSpan,
              typeName(expr->operandType) + " values are compared for equality",
              "rounding makes equal results differ")
-          .help("ask whether they are close enough: `ABS(" + text(expr->left->span) + " - " +
-                text(expr->right->span) + ") < 0.001`");
+          .help("ask whether they are close enough: `ABS(" + text(c, expr->left->span) + " - " +
+                text(c, expr->right->span) + ") < 0.001`");
     return;
   }
   const bool constantLeft = expr->left->constant != nullptr;
@@ -165,14 +165,14 @@ void Linter::comparison(const BinaryExpr *expr) {
     if (!equality || !isLiteral(constant))
       return;
     const bool negated = (expr->op == BinaryOp::Equal) == isFalse;
-    const std::string name = text(other->span);
+    const std::string name = text(c, other->span);
     const bool simple = other->kind != ExprKind::Binary || other->parenthesized;
-    report(Code::BoolCompared, expr->span,
-           "a BOOL need not be compared with " + text(constant->span),
+    report(c, Code::BoolCompared, expr->span,
+           "a BOOL need not be compared with " + text(c, constant->span),
            "says the same as `" + std::string(negated ? "NOT " : "") + name + "`")
         .suggest("write `" + std::string(negated ? "NOT " : "") + name + "`", expr->span,
                  (negated ? simple ? "NOT " : "NOT (" : "") +
-                     std::string(program_.sources.text(other->span)) +
+                     std::string(c.program.sources.text(other->span)) +
                      (negated && !simple ? ")" : ""));
     return;
   }
@@ -188,26 +188,26 @@ void Linter::comparison(const BinaryExpr *expr) {
   if (!outcome)
     return;
   const bool whole64 = range->high == INT64_MAX;
-  report(Code::ComparisonAlways, expr->span,
+  report(c, Code::ComparisonAlways, expr->span,
          "this comparison is always " + std::string(*outcome ? "TRUE" : "FALSE"),
-         whole64 ? "`" + text(other->span) + "` is never below 0"
-                 : "`" + text(other->span) + "` is " + std::to_string(range->low) + " to " +
+         whole64 ? "`" + text(c, other->span) + "` is never below 0"
+                 : "`" + text(c, other->span) + "` is " + std::to_string(range->low) + " to " +
                        std::to_string(range->high))
-      .note("`" + text(other->span) + "` is of type " + typeName(other->type));
+      .note("`" + text(c, other->span) + "` is of type " + typeName(other->type));
 }
 
-void Linter::sameOperands(const BinaryExpr *expr) {
+void sameOperands(Context &c, const BinaryExpr *expr) {
   if (expr->constant != nullptr || expr->op == BinaryOp::Add || expr->op == BinaryOp::Multiply ||
       expr->op == BinaryOp::Power || expr->operandType == nullptr ||
       isReal(expr->operandType) || // x <> x asks for NaN
       !sameExpr(expr->left, expr->right))
     return;
-  report(Code::SameOperands, expr->span, "both sides of this operator are the same",
-         "`" + text(expr->left->span) + "` on both sides")
+  report(c, Code::SameOperands, expr->span, "both sides of this operator are the same",
+         "`" + text(c, expr->left->span) + "` on both sides")
       .help("did you mean another variable on one side?");
 }
 
-void Linter::shift(const CallExpr *expr) {
+void shift(Context &c, const CallExpr *expr) {
   if (expr->arguments.size() != 2 || expr->type == nullptr)
     return;
   const Expr *count = expr->arguments[1].value;
@@ -220,7 +220,7 @@ void Linter::shift(const CallExpr *expr) {
   const auto bits = static_cast<int64_t>(bitWidth(expr->type));
   if (n >= 0 && n < bits)
     return;
-  report(Code::ShiftCount, count->span,
+  report(c, Code::ShiftCount, count->span,
          n < 0 ? std::string("a shift by a negative count")
                : typeName(expr->type) + " has only " + std::to_string(bits) + " bits",
          n < 0 ? "counts are 0 to " + std::to_string(bits - 1) : "shifts out all of them")
@@ -228,7 +228,7 @@ void Linter::shift(const CallExpr *expr) {
                   : "convert the value to a wider type first");
 }
 
-void Linter::saturation(const CallExpr *expr) {
+void saturation(Context &c, const CallExpr *expr) {
   if (expr->type == nullptr || !isInteger(expr->type) || expr->arguments.size() != 1)
     return;
   const Expr *value = expr->arguments[0].value;
@@ -246,22 +246,22 @@ void Linter::saturation(const CallExpr *expr) {
     return;
   const std::string low = range ? std::to_string(range->low) : "0";
   const std::string high = range ? std::to_string(range->high) : std::to_string(UINT64_MAX);
-  report(Code::ConstantSaturates, value->span,
-         "`" + text(value->span) + "` is outside of " + typeName(expr->type),
+  report(c, Code::ConstantSaturates, value->span,
+         "`" + text(c, value->span) + "` is outside of " + typeName(expr->type),
          "becomes " + (below ? low : high))
       .note(typeName(expr->type) + " holds " + low + " to " + high)
       .help("convert to a wider type, or use a value that fits");
 }
 
-void Linter::conversion(const Expr *expr) {
+void conversion(Context &c, const Expr *expr) {
   const Type *target = expr->target;
   if (target == nullptr || !isReal(target) || expr->type == nullptr || !isWhole(expr->type))
     return;
   if (const BinaryExpr *division = integerDivision(expr)) {
     const Expr *operand = division->left;
     const bool literal = isLiteral(operand);
-    const std::string name = text(operand->span);
-    auto &d = report(Code::IntegerDivision, division->span,
+    const std::string name = text(c, operand->span);
+    auto &d = report(c, Code::IntegerDivision, division->span,
                      "this division of integers drops the fraction, although a " +
                          typeName(target) + " takes the result",
                      "computed in " + (division->type->kind == TypeKind::AnyInteger
@@ -275,7 +275,7 @@ void Linter::conversion(const Expr *expr) {
                     typeName(target) + "(" + name + ") / …`",
                 operand->span,
                 upperName(operand->type) + "_TO_" + typeName(target) + "(" +
-                    std::string(program_.sources.text(operand->span)) + ")");
+                    std::string(c.program.sources.text(operand->span)) + ")");
     return;
   }
   if (expr->constant == nullptr || expr->constant->kind != ConstKind::Integer ||
@@ -288,11 +288,11 @@ void Linter::conversion(const Expr *expr) {
                                      : static_cast<long double>(static_cast<double>(value));
   if (!(rounded < exact) && !(rounded > exact))
     return;
-  report(Code::PrecisionLoss, expr->span,
+  report(c, Code::PrecisionLoss, expr->span,
          typeName(target) + " cannot hold " + std::to_string(value) + " exactly",
          "becomes " + std::to_string(static_cast<int64_t>(rounded)))
       .help(narrow ? "use LREAL, which holds whole numbers up to 9007199254740992"
                    : "compute with LINT, or use a rounder number");
 }
 
-} // namespace stc
+} // namespace stc::lint

@@ -1,12 +1,15 @@
 // What is said about variables, results and POUs when all uses are known.
 
-#include "compiler/semantics/lint/lint.hpp"
+#include "compiler/semantics/lint/internal.hpp"
 
 #include <algorithm>
 
-namespace stc {
+namespace stc::lint {
 
 using namespace ast;
+
+static void reportVariable(Context &c, const Body &body, VarSymbol *variable);
+static void reportUnused(Context &c, const Body &body, VarSymbol *variable);
 
 namespace {
 
@@ -55,18 +58,18 @@ bool hasPlainDefault(const VarSymbol *v) {
 
 } // namespace
 
-void Linter::reportVariables(const Body &body) {
+void reportVariables(Context &c, const Body &body) {
   if (body.decl->external || (body.decl->modifiers & kModAbstract) != 0 ||
       body.decl->kind == DeclKind::Interface)
     return;
   for (const VarDecl *decl : body.decl->variables) {
     if (decl->symbol != nullptr && decl->symbol->type != nullptr && !isError(decl->symbol->type))
-      reportVariable(body, decl->symbol);
+      reportVariable(c, body, decl->symbol);
   }
 }
 
-void Linter::reportVariable(const Body &body, VarSymbol *v) {
-  if (usedOutside_.contains(v) || v->hidden || v->decl->address != nullptr ||
+static void reportVariable(Context &c, const Body &body, VarSymbol *v) {
+  if (c.usedOutside.contains(v) || v->hidden || v->decl->address != nullptr ||
       v->decl->access == Access::Public || !v->decl->attributes.empty())
     return;
   const PouDecl *decl = body.decl;
@@ -79,10 +82,10 @@ void Linter::reportVariable(const Body &body, VarSymbol *v) {
   case Section::Stat:
   case Section::Instance:
     if (v->uses == 0 && !doesSomethingItself(v->type))
-      report(Code::UnusedVariable, v->name.span, "`" + name + "` is never used", "only declared")
+      report(c, Code::UnusedVariable, v->name.span, "`" + name + "` is never used", "only declared")
           .help("remove the declaration");
     else if (endsWithCall(decl, v) && (v->uses & kUseRead) == 0 && isElementary(v->type))
-      report(Code::NeverRead, v->name.span, "`" + name + "` is assigned but never read",
+      report(c, Code::NeverRead, v->name.span, "`" + name + "` is assigned but never read",
              "its value is not used")
           .help("use the value, or remove the variable and its assignments");
     break;
@@ -90,16 +93,16 @@ void Linter::reportVariable(const Body &body, VarSymbol *v) {
     const bool free =
         decl == body.owner || (body.owner->interfaces.empty() && !body.pou->extended &&
                                body.owner->base.empty() && (decl->modifiers & kModOverride) == 0);
-    const auto &checks = program_.implicitChecks; // their inputs are prescribed
+    const auto &checks = c.program.implicitChecks; // their inputs are prescribed
     const bool isCheck = std::find(checks.begin(), checks.end(), body.pou) != checks.end();
     if (filled && hasBody(decl) && free && !isLifecycle(decl) && !isCheck)
-      reportUnused(body, v);
+      reportUnused(c, body, v);
     break;
   }
   case Section::Output:
     if (!written && v->decl->init == nullptr && hasBody(decl) && body.owner == decl)
-      report(Code::OutputNotAssigned, v->name.span, "the output `" + name + "` is never assigned",
-             "always keeps its default value")
+      report(c, Code::OutputNotAssigned, v->name.span,
+             "the output `" + name + "` is never assigned", "always keeps its default value")
           .help("assign it in the body, or remove it");
     break;
   default:
@@ -107,7 +110,7 @@ void Linter::reportVariable(const Body &body, VarSymbol *v) {
   }
   if (v->earlyRead != nullptr && written && !body.hasLabels && hasPlainDefault(v) &&
       (endsWithCall(decl, v) || (filled && v->section == Section::Output)))
-    report(Code::ReadBeforeWritten, v->earlyRead->span,
+    report(c, Code::ReadBeforeWritten, v->earlyRead->span,
            "`" + name + "` is read before anything is assigned to it",
            isString(v->type) ? "always empty here" : "always has the default value here")
         .label(v->name.span, "declared without an initial value")
@@ -115,43 +118,43 @@ void Linter::reportVariable(const Body &body, VarSymbol *v) {
               " := …;`");
 }
 
-void Linter::reportUnused(const Body &body, VarSymbol *v) {
+static void reportUnused(Context &c, const Body &body, VarSymbol *v) {
   if (v->uses != 0)
     return;
-  report(Code::UnusedParameter, v->name.span,
+  report(c, Code::UnusedParameter, v->name.span,
          "the input `" + std::string(v->name.text) + "` of `" + std::string(body.decl->name.text) +
              "` is never used",
          "its value has no effect")
       .help("use it, or remove it here and at the calls");
 }
 
-void Linter::reportResults(const Body &body) {
+void reportResults(Context &c, const Body &body) {
   const PouDecl *decl = body.decl;
   if (decl->returnType == nullptr || decl->external || !hasBody(decl) ||
-      (decl->modifiers & kModAbstract) != 0 || isLifecycle(decl) || resultsWritten_.contains(decl))
+      (decl->modifiers & kModAbstract) != 0 || isLifecycle(decl) || c.resultsWritten.contains(decl))
     return;
   // Methods get a result type from an interface, or because a tool puts one there.
   const bool accessor =
       std::any_of(body.owner->properties.begin(), body.owner->properties.end(),
                   [decl](const PropertyDecl *property) { return property->get == decl; });
-  if (decl->kind == DeclKind::Method && !accessor && !resultsTaken_.contains(decl->name.id))
+  if (decl->kind == DeclKind::Method && !accessor && !c.resultsTaken.contains(decl->name.id))
     return;
   // V2.3 demands a result type also where nobody wants a result.
-  if (const auto calls = functionCalls_.find(decl);
-      calls != functionCalls_.end() && calls->second.all == calls->second.asStatement)
+  if (const auto calls = c.functionCalls.find(decl);
+      calls != c.functionCalls.end() && calls->second.all == calls->second.asStatement)
     return;
-  report(Code::ResultNotAssigned, decl->name.span,
+  report(c, Code::ResultNotAssigned, decl->name.span,
          "the result of `" + std::string(decl->name.text) + "` is never assigned",
          "always gives the default value")
       .help("assign it to the function's name: `" + std::string(decl->name.text) + " := …;`");
 }
 
-void Linter::markUsed(const Type *type) {
+void markUsed(Context &c, const Type *type) {
   // A list of those to come: chains of pointers may be long.
   for (std::vector<const Type *> pending{type}; !pending.empty();) {
     type = pending.back();
     pending.pop_back();
-    if (type == nullptr || !usedTypes_.insert(type).second)
+    if (type == nullptr || !c.usedTypes.insert(type).second)
       continue;
     switch (type->kind) {
     case TypeKind::Array:
@@ -162,7 +165,7 @@ void Linter::markUsed(const Type *type) {
       pending.push_back(typeAs<PointerType>(type)->pointee);
       break;
     case TypeKind::FunctionBlock:
-      usedPous_.insert(typeAs<PouType>(type)->symbol);
+      c.usedPous.insert(typeAs<PouType>(type)->symbol);
       break;
     case TypeKind::Structure:
       for (const VarSymbol *field : typeAs<StructType>(type)->fields)
@@ -175,20 +178,21 @@ void Linter::markUsed(const Type *type) {
   }
 }
 
-void Linter::reportUnusedPous(const Library &library) {
+void reportUnusedPous(Context &c, const Library &library) {
   for (const PouSymbol *pou : library.pous) {
     const DeclKind kind = pou->decl->kind;
-    if ((kind != DeclKind::Function && kind != DeclKind::FunctionBlock) || usedPous_.contains(pou))
+    if ((kind != DeclKind::Function && kind != DeclKind::FunctionBlock) || c.usedPous.contains(pou))
       continue;
     const bool base =
         std::any_of(library.pous.begin(), library.pous.end(), [&](const PouSymbol *other) {
           return !other->decl->base.empty() && other->decl->base.back().id == pou->name.id;
         });
     if (!base)
-      report(Code::UnusedPou, pou->name.span, "`" + std::string(pou->name.text) + "` is never used",
+      report(c, Code::UnusedPou, pou->name.span,
+             "`" + std::string(pou->name.text) + "` is never used",
              kind == DeclKind::Function ? "nothing calls this function"
                                         : "there is no instance of this block");
   }
 }
 
-} // namespace stc
+} // namespace stc::lint

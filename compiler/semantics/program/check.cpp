@@ -91,7 +91,7 @@ static void lintModule(Context &c, Module &module) {
     return;
   checkShadowing(c, module);
   checkHiddenLibrary(c, module);
-  Linter(c.program).run(*module.library);
+  lint::run(c.program, *module.library);
 }
 
 /// Initial values of what a library's types are made with.

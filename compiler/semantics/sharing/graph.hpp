@@ -108,7 +108,6 @@ private:
   Program &program_;
   const std::vector<TaskEntry> &tasks_;
   Storage storage_;
-  AccessReader reader_;
   std::unordered_map<const PouSymbol *, PouAccess> read_;
   PouAccess initial_;
   std::vector<std::vector<const PouSymbol *>> reached_; ///< by task

@@ -147,8 +147,7 @@ const VarSymbol *PlaceNode::variable() const {
 // who calls whom
 
 SharingGraph::SharingGraph(Program &program, const std::vector<TaskEntry> &tasks)
-    : program_(program), tasks_(tasks), reader_(storage_), reached_(tasks.size()),
-      image_(tasks.size()) {
+    : program_(program), tasks_(tasks), reached_(tasks.size()), image_(tasks.size()) {
   std::vector<const VarSymbol *> variables;
   const auto addVariables = [&](const PouSymbol *pou) {
     variables.insert(variables.end(), pou->variables.begin(), pou->variables.end());
@@ -165,7 +164,7 @@ SharingGraph::SharingGraph(Program &program, const std::vector<TaskEntry> &tasks
       variables.insert(variables.end(), list->variables.begin(), list->variables.end());
   }
   if (tasks.size() > 1)
-    initial_ = reader_.initial(variables);
+    initial_ = readInitial(storage_, variables);
   for (std::array<Bytes, 3> &areas : image_) {
     for (size_t area = 0; area < 3; ++area) {
       areas[area].read.resize(program.image.bytes[area]);
@@ -180,7 +179,7 @@ const PouAccess &SharingGraph::accessOf(const PouSymbol *pou) {
     return found->second;
   PouAccess access;
   if (pou->checked && !pou->decl->external)
-    access = reader_.read(pou);
+    access = readAccess(storage_, pou);
   return read_.emplace(pou, std::move(access)).first->second;
 }
 

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <utility>
 
-namespace stc {
+namespace stc::access {
 
 using namespace ast;
-using namespace access;
+
+static void statement(Reader &r, const Stmt *s);
+static void flowPlace(Reader &r, const VarSymbol *target, const Expr *place);
 
 namespace {
 
@@ -32,88 +34,70 @@ const Expr *namedGlobal(const Expr *e) {
 
 } // namespace
 
-PouAccess AccessReader::read(const PouSymbol *pou) {
-  out_ = {};
-  block(pou->decl->body);
-  return std::exchange(out_, {});
-}
-
-PouAccess AccessReader::initial(const std::vector<const VarSymbol *> &variables) {
-  out_ = {};
-  for (const VarSymbol *v : variables) {
-    if (v->decl != nullptr && v->decl->init != nullptr && v->type != nullptr)
-      initialValue(v, v->decl->init);
-  }
-  out_.accesses.clear(); // only addresses count
-  out_.calls.clear();
-  out_.image.clear();
-  return std::exchange(out_, {});
-}
-
-void AccessReader::initialValue(const VarSymbol *variable, const Expr *init) {
+static void initialValue(Reader &r, const VarSymbol *variable, const Expr *init) {
   if (init->kind == ExprKind::Aggregate) {
     for (const AggregateItem &item : as<AggregateExpr>(init)->items) {
       const VarSymbol *to = item.symbol != nullptr ? item.symbol : variable;
       if (to->type == nullptr)
         continue;
       if (item.value != nullptr)
-        initialValue(to, item.value);
+        initialValue(r, to, item.value);
       for (const AggregateItem &inner : item.values) {
         if (inner.value != nullptr)
-          initialValue(to, inner.value);
+          initialValue(r, to, inner.value);
       }
     }
     return;
   }
   if (variable->type->kind == TypeKind::Reference)
-    flowPlace(variable, init);
+    flowPlace(r, variable, init);
   else
-    flow(variable, init);
+    flow(r, variable, init);
 }
 
-void AccessReader::block(Block block) {
+static void block(Reader &r, Block block) {
   for (const Stmt *s : block)
-    statement(s);
+    statement(r, s);
 }
 
-void AccessReader::assignment(const AssignStmt *a) {
+static void assignment(Reader &r, const AssignStmt *a) {
   if (a->op == AssignOp::Reference) {
     if (const VarSymbol *v = addressVariable(a->targets.back()))
-      flowPlace(v, a->value);
-    place(a->value, true);
+      flowPlace(r, v, a->value);
+    place(r, a->value, true);
     return;
   }
-  value(a->value);
+  value(r, a->value);
   for (const Expr *t : a->targets) {
-    target(t);
+    target(r, t);
     if (!isAddress(t->type))
-      escape(a->value);
+      escape(r, a->value);
     else if (const VarSymbol *v = addressVariable(t))
-      flow(v, a->value);
+      flow(r, v, a->value);
   }
 }
 
-void AccessReader::statement(const Stmt *s) {
+static void statement(Reader &r, const Stmt *s) {
   switch (s->kind) {
   case StmtKind::Assign:
-    return assignment(as<AssignStmt>(s));
+    return assignment(r, as<AssignStmt>(s));
   case StmtKind::For: {
     const auto *f = as<ForStmt>(s);
     for (const Expr *bound : {f->from, f->to, f->by})
-      value(bound);
-    access(f->variable, kAccessRead | kAccessWrite, kAccessWholeRead | kAccessWholeWrite);
-    return block(f->body);
+      value(r, bound);
+    access(r, f->variable, kAccessRead | kAccessWrite, kAccessWholeRead | kAccessWholeWrite);
+    return block(r, f->body);
   }
   case StmtKind::Try: // what it names takes the exception
     return forEachChild(
-        s, [this](Expr *e) { target(e); }, [this](Block inner) { block(inner); });
+        s, [&r](Expr *e) { target(r, e); }, [&r](Block inner) { block(r, inner); });
   default: // expressions are read
     return forEachChild(
-        s, [this](Expr *e) { value(e); }, [this](Block inner) { block(inner); });
+        s, [&r](Expr *e) { value(r, e); }, [&r](Block inner) { block(r, inner); });
   }
 }
 
-void AccessReader::value(const Expr *e) {
+void value(Reader &r, const Expr *e) {
   while (e != nullptr && e->constant == nullptr) {
     switch (e->kind) {
     case ExprKind::Literal:
@@ -123,46 +107,46 @@ void AccessReader::value(const Expr *e) {
       return;
     case ExprKind::Aggregate:
       for (const AggregateItem &item : as<AggregateExpr>(e)->items) {
-        value(item.value);
+        value(r, item.value);
         for (const AggregateItem &inner : item.values)
-          value(inner.value);
+          value(r, inner.value);
       }
       return;
     case ExprKind::Unary:
       e = as<UnaryExpr>(e)->operand;
       continue;
     case ExprKind::Binary:
-      value(as<BinaryExpr>(e)->left);
+      value(r, as<BinaryExpr>(e)->left);
       e = as<BinaryExpr>(e)->right;
       continue;
     case ExprKind::Call:
-      call(as<CallExpr>(e));
+      call(r, as<CallExpr>(e));
       return;
     default:
       // An instance becomes an interface: its address is taken, nothing is read.
       if (isInstance(e->type) && e->target != nullptr && e->target->kind == TypeKind::Interface)
-        place(e, true);
+        place(r, e, true);
       else
-        access(e, kAccessRead, kAccessWholeRead);
+        access(r, e, kAccessRead, kAccessWholeRead);
       return;
     }
   }
 }
 
-void AccessReader::target(const Expr *e) { access(e, kAccessWrite, kAccessWholeWrite); }
+void target(Reader &r, const Expr *e) { access(r, e, kAccessWrite, kAccessWholeWrite); }
 
-void AccessReader::access(const Expr *e, unsigned scalar, unsigned whole) {
+void access(Reader &r, const Expr *e, unsigned scalar, unsigned whole) {
   const bool writes = (scalar & kAccessWrite) != 0;
   if (e->kind == ExprKind::Call) {
-    call(as<CallExpr>(e));
+    call(r, as<CallExpr>(e));
     return;
   }
   if (const Symbol *symbol = symbolOf(e);
       symbol != nullptr && symbol->kind == SymbolKind::Property) {
     const Expr *object = e->kind == ExprKind::Member ? as<MemberExpr>(e)->base : nullptr;
     if (object != nullptr)
-      place(object, true);
-    accessor(object, symbol, writes, e->span);
+      place(r, object, true);
+    accessor(r, object, symbol, writes, e->span);
     return;
   }
   const Expr *owner = e;
@@ -171,25 +155,25 @@ void AccessReader::access(const Expr *e, unsigned scalar, unsigned whole) {
     if (writes)
       scalar |= kAccessRead; // the other bits stay
   }
-  image(owner, writes);
+  image(r, owner, writes);
   const bool scalarValue = isScalarValue(owner->type);
-  note(place(owner, true), scalarValue ? scalar : whole, e->span,
+  note(r, place(r, owner, true), scalarValue ? scalar : whole, e->span,
        writes ? nullptr : namedGlobal(owner));
 }
 
-void AccessReader::note(PlacePath place, unsigned flags, Span span, const Expr *named) {
+void note(Reader &r, PlacePath place, unsigned flags, Span span, const Expr *named) {
   if (place.base != PlacePath::Base::None)
-    out_.accesses.push_back({std::move(place), flags, span, named});
+    r.out.accesses.push_back({std::move(place), flags, span, named});
 }
 
 /// A place in the process image, also an element or member of a located variable.
-void AccessReader::image(const Expr *e, bool writes) {
+void image(Reader &r, const Expr *e, bool writes) {
   while (true) {
     if (const Location *at = locationOf(e)) {
       ImageAccess access{at, at->isSlot ? locatedVariable(e) : nullptr, 1, writes, e->span};
       if (at->bit < 0)
-        access.bytes = storage_.of(e->type).size;
-      out_.image.push_back(access);
+        access.bytes = r.storage.of(e->type).size;
+      r.out.image.push_back(access);
       return;
     }
     if (e->kind == ExprKind::Index)
@@ -201,7 +185,7 @@ void AccessReader::image(const Expr *e, bool writes) {
   }
 }
 
-PlacePath AccessReader::placeOf(const VarSymbol *v) const {
+static PlacePath placeOf(const VarSymbol *v) {
   using Base = PlacePath::Base;
   if (v->isConstant && v->section != Section::InOut)
     return {};
@@ -218,22 +202,22 @@ PlacePath AccessReader::placeOf(const VarSymbol *v) const {
   return onStack ? PlacePath{} : PlacePath{Base::Self, v, {}};
 }
 
-PlacePath AccessReader::namedPlace(const NameExpr *e, bool walk) {
+static PlacePath namedPlace(Reader &r, const NameExpr *e, bool walk) {
   const Symbol *symbol = e->symbol;
   if (symbol == nullptr)
     return {};
   if (symbol->kind == SymbolKind::Pou)
     return {PlacePath::Base::Root, symbol, {}};
   if (symbol->kind == SymbolKind::Property && walk)
-    accessor(nullptr, symbol, false, e->span);
+    accessor(r, nullptr, symbol, false, e->span);
   if (symbol->kind != SymbolKind::Variable)
     return {};
   return placeOf(static_cast<const VarSymbol *>(symbol));
 }
 
-PlacePath AccessReader::memberPlace(const MemberExpr *m, bool walk) {
+static PlacePath memberPlace(Reader &r, const MemberExpr *m, bool walk) {
   if (m->symbol == nullptr)
-    return m->bit >= 0 ? place(m->base, walk) : PlacePath{};
+    return m->bit >= 0 ? place(r, m->base, walk) : PlacePath{};
   if (isNamespaceName(m->base)) {
     if (m->symbol->kind == SymbolKind::Pou)
       return {PlacePath::Base::Root, m->symbol, {}};
@@ -241,9 +225,9 @@ PlacePath AccessReader::memberPlace(const MemberExpr *m, bool walk) {
                ? placeOf(static_cast<const VarSymbol *>(m->symbol))
                : PlacePath{};
   }
-  PlacePath base = place(m->base, walk);
+  PlacePath base = place(r, m->base, walk);
   if (m->symbol->kind == SymbolKind::Property && walk)
-    accessor(m->base, m->symbol, false, m->span);
+    accessor(r, m->base, m->symbol, false, m->span);
   if (m->symbol->kind != SymbolKind::Variable)
     return {};
   const auto *v = static_cast<const VarSymbol *>(m->symbol);
@@ -260,19 +244,19 @@ PlacePath AccessReader::memberPlace(const MemberExpr *m, bool walk) {
   return base;
 }
 
-PlacePath AccessReader::elementPlace(const IndexExpr *x, bool walk) {
-  PlacePath at = place(x->base, walk);
+static PlacePath elementPlace(Reader &r, const IndexExpr *x, bool walk) {
+  PlacePath at = place(r, x->base, walk);
   const Type *t = x->base->type;
   for (const Expr *i : x->indices) {
     if (walk)
-      value(i);
+      value(r, i);
     if (t != nullptr && t->kind == TypeKind::Reference) {
       at = behind(addressVariable(x->base));
       t = typeAs<PointerType>(t)->pointee;
     }
     if (t != nullptr && t->kind == TypeKind::Pointer) {
       if (walk)
-        note(at, kAccessRead, x->span);
+        note(r, at, kAccessRead, x->span);
       at = behind(addressVariable(x->base));
     } else if (at.base != PlacePath::Base::None) {
       at.steps.push_back({nullptr, i->constant != nullptr ? i->constant->integer : kAnyElement});
@@ -285,34 +269,34 @@ PlacePath AccessReader::elementPlace(const IndexExpr *x, bool walk) {
   return at;
 }
 
-PlacePath AccessReader::followedPlace(const Expr *pointer, bool walk) {
+static PlacePath followedPlace(Reader &r, const Expr *pointer, bool walk) {
   if (const Symbol *symbol = symbolOf(pointer);
       symbol != nullptr && symbol->kind == SymbolKind::Self)
     return {PlacePath::Base::Self, nullptr, {}};
   if (walk)
-    value(pointer);
+    value(r, pointer);
   if (pointer->kind != ExprKind::Call)
     return behind(addressVariable(pointer));
   if (const Expr *at = addressed(pointer))
-    return place(at, false);
+    return place(r, at, false);
   const auto *c = as<CallExpr>(pointer);
   return c->pou != nullptr ? behind(c->pou->result) : PlacePath{};
 }
 
-PlacePath AccessReader::place(const Expr *e, bool walk) {
+PlacePath place(Reader &r, const Expr *e, bool walk) {
   switch (e->kind) {
   case ExprKind::Name:
-    return namedPlace(as<NameExpr>(e), walk);
+    return namedPlace(r, as<NameExpr>(e), walk);
   case ExprKind::Member:
-    return memberPlace(as<MemberExpr>(e), walk);
+    return memberPlace(r, as<MemberExpr>(e), walk);
   case ExprKind::Index:
-    return elementPlace(as<IndexExpr>(e), walk);
+    return elementPlace(r, as<IndexExpr>(e), walk);
   case ExprKind::Deref:
-    return followedPlace(as<DerefExpr>(e)->base, walk);
+    return followedPlace(r, as<DerefExpr>(e)->base, walk);
   case ExprKind::Call: {
     const auto *c = as<CallExpr>(e);
     if (walk)
-      call(c);
+      call(r, c);
     return c->pou != nullptr && c->pou->result != nullptr &&
                    c->pou->result->type->kind == TypeKind::Reference
                ? behind(c->pou->result)
@@ -326,63 +310,83 @@ PlacePath AccessReader::place(const Expr *e, bool walk) {
 // ----------------------------------------------------------------------------------------------------
 // addresses
 
-void AccessReader::flowPlace(const VarSymbol *to, const Expr *e) {
-  PlacePath at = place(e, false);
+static void flowPlace(Reader &r, const VarSymbol *to, const Expr *e) {
+  PlacePath at = place(r, e, false);
   if (at.base != PlacePath::Base::None)
-    out_.flows.push_back({to, std::move(at), nullptr});
+    r.out.flows.push_back({to, std::move(at), nullptr});
 }
 
 /// Every address inside of the value may be the one that `to` gets.
-void AccessReader::flow(const VarSymbol *to, const Expr *e) {
+void flow(Reader &r, const VarSymbol *to, const Expr *e) {
   if (e == nullptr || e->constant != nullptr || to == nullptr)
     return;
   switch (e->kind) {
   case ExprKind::Unary:
-    flow(to, as<UnaryExpr>(e)->operand);
+    flow(r, to, as<UnaryExpr>(e)->operand);
     return;
   case ExprKind::Binary:
-    flow(to, as<BinaryExpr>(e)->left);
-    flow(to, as<BinaryExpr>(e)->right);
+    flow(r, to, as<BinaryExpr>(e)->left);
+    flow(r, to, as<BinaryExpr>(e)->right);
     return;
   case ExprKind::Call: {
     const auto *c = as<CallExpr>(e);
     if (c->resolved != Callee::Builtin) {
       if (c->pou != nullptr && c->pou->result != nullptr)
-        out_.flows.push_back({to, {}, c->pou->result});
+        r.out.flows.push_back({to, {}, c->pou->result});
       return;
     }
     if (const Expr *at = addressed(c)) {
-      flowPlace(to, at);
+      flowPlace(r, to, at);
       return;
     }
     for (const Argument &a : c->arguments)
-      flow(to, a.value);
+      flow(r, to, a.value);
     return;
   }
   default:
     if (e->type == nullptr)
       return;
     if (isInstance(e->type))
-      flowPlace(to, e);
+      flowPlace(r, to, e);
     else if (const VarSymbol *v = addressVariable(e); v != nullptr && isAddress(e->type))
-      out_.flows.push_back({to, {}, v});
+      r.out.flows.push_back({to, {}, v});
     return;
   }
 }
 
 /// An address goes where nobody can follow it (native code, a DWORD): anything may happen there.
-void AccessReader::escape(const Expr *e) {
+void escape(Reader &r, const Expr *e) {
   if (e->constant != nullptr || e->kind == ExprKind::Name || e->kind == ExprKind::Member)
     return;
-  const size_t before = out_.flows.size();
+  const size_t before = r.out.flows.size();
   static const VarSymbol nowhere{};
-  flow(&nowhere, e);
+  flow(r, &nowhere, e);
   std::vector<AddressFlow> taken(
-      std::make_move_iterator(out_.flows.begin() + static_cast<ptrdiff_t>(before)),
-      std::make_move_iterator(out_.flows.end()));
-  out_.flows.resize(before);
+      std::make_move_iterator(r.out.flows.begin() + static_cast<ptrdiff_t>(before)),
+      std::make_move_iterator(r.out.flows.end()));
+  r.out.flows.resize(before);
   for (AddressFlow &f : taken)
-    note(std::move(f.place), kAccessUnknown | kAccessRead | kAccessWrite, e->span);
+    note(r, std::move(f.place), kAccessUnknown | kAccessRead | kAccessWrite, e->span);
+}
+
+} // namespace stc::access
+
+namespace stc {
+
+PouAccess readAccess(Storage &storage, const PouSymbol *pou) {
+  access::Reader reader{storage, {}};
+  access::block(reader, pou->decl->body);
+  return std::move(reader.out);
+}
+
+PouAccess readInitial(Storage &storage, const std::vector<const VarSymbol *> &variables) {
+  access::Reader reader{storage, {}};
+  for (const VarSymbol *v : variables) {
+    if (v->decl != nullptr && v->decl->init != nullptr && v->type != nullptr)
+      access::initialValue(reader, v, v->decl->init);
+  }
+  return {
+      {}, std::move(reader.out.flows), {}, {}, std::move(reader.out.axes)}; // only addresses count
 }
 
 } // namespace stc

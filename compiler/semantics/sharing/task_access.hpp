@@ -91,45 +91,11 @@ struct PouAccess {
   std::vector<AxisCall> axes;
 };
 
-/// Reads the bodies of POUs.
-class AccessReader {
-public:
-  explicit AccessReader(Storage &storage) : storage_(storage) {}
-
-  [[nodiscard]] PouAccess read(const PouSymbol *pou);
-  /// What initial values bind: they hold before any task runs.
-  [[nodiscard]] PouAccess initial(const std::vector<const VarSymbol *> &variables);
-
-private:
-  void block(ast::Block block);
-  void statement(const ast::Stmt *s);
-  void assignment(const ast::AssignStmt *a);
-  void value(const ast::Expr *e);
-  void target(const ast::Expr *e);
-  void access(const ast::Expr *e, unsigned scalar, unsigned whole);
-  void note(PlacePath place, unsigned flags, Span span, const ast::Expr *named = nullptr);
-  void image(const ast::Expr *e, bool writes);
-  void call(const ast::CallExpr *e);
-  void builtin(const ast::CallExpr *e);
-  void argument(const ast::CallExpr *call, const ast::Argument &a);
-  void instanceOf(const ast::CallExpr *e);
-  bool isOpen(const ast::CallExpr *e);
-  void accessor(const ast::Expr *object, const Symbol *property, bool writes, Span span);
-  void escape(const ast::Expr *e);
-  void flow(const VarSymbol *target, const ast::Expr *value);
-  void flowPlace(const VarSymbol *target, const ast::Expr *place);
-  void initialValue(const VarSymbol *variable, const ast::Expr *init);
-  /// The place, after its indices and the pointers on the way to it have been read.
-  PlacePath place(const ast::Expr *e, bool walk);
-  PlacePath namedPlace(const ast::NameExpr *e, bool walk);
-  PlacePath memberPlace(const ast::MemberExpr *m, bool walk);
-  PlacePath elementPlace(const ast::IndexExpr *x, bool walk);
-  PlacePath followedPlace(const ast::Expr *pointer, bool walk);
-  PlacePath placeOf(const VarSymbol *v) const;
-
-  Storage &storage_;
-  PouAccess out_;
-};
+/// What the body of a POU does.
+[[nodiscard]] PouAccess readAccess(Storage &storage, const PouSymbol *pou);
+/// What initial values bind: they hold before any task runs.
+[[nodiscard]] PouAccess readInitial(Storage &storage,
+                                    const std::vector<const VarSymbol *> &variables);
 
 } // namespace stc
 

@@ -6,10 +6,12 @@
 
 #include <algorithm>
 
-namespace stc {
+namespace stc::access {
 
 using namespace ast;
-using namespace access;
+
+static void builtin(Reader &r, const CallExpr *e);
+static bool isOpen(Reader &r, const CallExpr *e);
 
 namespace {
 
@@ -21,31 +23,31 @@ bool worksInAnyTask(const PouSymbol *block) {
 
 } // namespace
 
-void AccessReader::accessor(const Expr *object, const Symbol *symbol, bool writes, Span span) {
+void accessor(Reader &r, const Expr *object, const Symbol *symbol, bool writes, Span span) {
   const auto *property = static_cast<const PropertySymbol *>(symbol);
   const PouSymbol *pou = writes ? property->set : property->get;
   if (pou == nullptr)
     return;
-  out_.calls.push_back({pou, true});
+  r.out.calls.push_back({pou, true});
   if (object == nullptr)
     return;
   PlacePath at = object->type != nullptr && isAddress(object->type)
                      ? behind(addressVariable(object))
-                     : place(object, false);
-  note(std::move(at), kAccessCall, span);
+                     : place(r, object, false);
+  note(r, std::move(at), kAccessCall, span);
 }
 
 /// The instance whose body or method runs.
-void AccessReader::instanceOf(const CallExpr *e) {
+static void instanceOf(Reader &r, const CallExpr *e) {
   const Expr *object = e->callee;
   if (e->resolved == Callee::Method) {
     if (object->kind != ExprKind::Member || isNamespaceName(as<MemberExpr>(object)->base))
       return; // of the own instance
     object = as<MemberExpr>(object)->base;
   }
-  PlacePath at = place(object, true);
+  PlacePath at = place(r, object, true);
   if (object->type != nullptr && isAddress(object->type)) {
-    note(at, kAccessRead, e->span);
+    note(r, at, kAccessRead, e->span);
     at = behind(addressVariable(object));
   }
   const PouSymbol *block = blockOf(e->pou);
@@ -53,73 +55,73 @@ void AccessReader::instanceOf(const CallExpr *e) {
       worksInAnyTask(e->pou))
     return;
   const bool native = block->decl->external;
-  note(std::move(at), kAccessCall | (native ? kAccessUnknown : 0U), e->span);
+  note(r, std::move(at), kAccessCall | (native ? kAccessUnknown : 0U), e->span);
 }
 
-void AccessReader::argument(const CallExpr *e, const Argument &a) {
+static void argument(Reader &r, const CallExpr *e, const Argument &a) {
   if (a.value == nullptr)
     return;
   const VarSymbol *p = a.parameter;
   if (a.output) {
     if (p != nullptr && isAddress(a.value->type))
       if (const VarSymbol *to = addressVariable(a.value))
-        out_.flows.push_back({to, {}, p});
-    target(a.value);
+        r.out.flows.push_back({to, {}, p});
+    target(r, a.value);
     return;
   }
   const bool native = e->pou->decl->external;
   if (p != nullptr && isAlias(p)) {
-    PlacePath at = place(a.value, true);
-    image(a.value, !p->isConstant);
+    PlacePath at = place(r, a.value, true);
+    image(r, a.value, !p->isConstant);
     if (native) {
       const bool reads = p->isConstant;
       const unsigned flags = isScalarValue(p->type) ? kAccessRead | (reads ? 0U : kAccessWrite)
                              : reads                ? unsigned{kAccessWholeRead}
                                                     : unsigned{kAccessUnknown};
-      note(at, flags, a.span);
+      note(r, at, flags, a.span);
     }
     const PouSymbol *block = blockOf(e->pou);
     if (block->library != nullptr && !block->library->isUser &&
         p->type->kind == TypeKind::Structure &&
         typeAs<StructType>(p->type)->symbol->name.id->lower == "axis_ref" && !worksInAnyTask(block))
-      out_.axes.push_back({block, at, a.span});
+      r.out.axes.push_back({block, at, a.span});
     if (at.base != PlacePath::Base::None)
-      out_.flows.push_back({p, std::move(at), nullptr});
+      r.out.flows.push_back({p, std::move(at), nullptr});
     return;
   }
-  value(a.value);
+  value(r, a.value);
   if (p == nullptr)
     return;
   if (native || !isAddress(p->type))
-    escape(a.value);
+    escape(r, a.value);
   else
-    flow(p, a.value);
+    flow(r, p, a.value);
 }
 
-void AccessReader::call(const CallExpr *e) {
+void call(Reader &r, const CallExpr *e) {
   switch (e->resolved) {
   case Callee::Unresolved:
     return;
   case Callee::Builtin:
-    builtin(e);
+    builtin(r, e);
     return;
   case Callee::Function:
     break;
   case Callee::FunctionBlock:
   case Callee::Method:
-    instanceOf(e);
+    instanceOf(r, e);
     break;
   case Callee::Program:
-    note({PlacePath::Base::Root, e->pou, {}}, kAccessCall, e->span);
+    note(r, {PlacePath::Base::Root, e->pou, {}}, kAccessCall, e->span);
     break;
   }
   for (const Argument &a : e->arguments)
-    argument(e, a);
+    argument(r, e, a);
   // Inputs and outputs of an instance are its members.
   if (e->resolved == Callee::FunctionBlock || e->resolved == Callee::Program) {
     const PlacePath instance = e->resolved == Callee::Program
                                    ? PlacePath{PlacePath::Base::Root, e->pou, {}}
-                                   : place(e->callee, false);
+                                   : place(r, e->callee, false);
     for (const Argument &a : e->arguments) {
       if (a.parameter == nullptr || a.value == nullptr || isAlias(a.parameter) ||
           instance.base == PlacePath::Base::None)
@@ -127,17 +129,17 @@ void AccessReader::call(const CallExpr *e) {
       PlacePath member = instance;
       member.steps.push_back({a.parameter, 0});
       const bool scalar = isScalarValue(a.parameter->type);
-      note(std::move(member),
+      note(r, std::move(member),
            a.output ? (scalar ? kAccessRead : kAccessWholeRead)
                     : (scalar ? kAccessWrite : kAccessWholeWrite),
            a.span);
     }
   }
-  out_.calls.push_back({e->pou, isOpen(e)});
+  r.out.calls.push_back({e->pou, isOpen(r, e)});
 }
 
 /// The instance is found by an address, or is the one that runs: its type may be a derived one.
-bool AccessReader::isOpen(const CallExpr *e) {
+static bool isOpen(Reader &r, const CallExpr *e) {
   const Expr *object = e->callee;
   if (e->resolved == Callee::Method) {
     if (object->kind != ExprKind::Member || isNamespaceName(as<MemberExpr>(object)->base))
@@ -148,12 +150,12 @@ bool AccessReader::isOpen(const CallExpr *e) {
   }
   if (object->type != nullptr && isAddress(object->type))
     return true;
-  const PlacePath at = place(object, false);
+  const PlacePath at = place(r, object, false);
   return at.base == PlacePath::Base::None || at.base == PlacePath::Base::Address ||
          at.symbol == nullptr;
 }
 
-void AccessReader::builtin(const CallExpr *e) {
+static void builtin(Reader &r, const CallExpr *e) {
   switch (builtinRow(e->builtin).takes.what) {
   case BuiltinTakes::TypeOf:
   case BuiltinTakes::Name:
@@ -161,25 +163,25 @@ void AccessReader::builtin(const CallExpr *e) {
   case BuiltinTakes::Reference:
     return;
   case BuiltinTakes::Address: // the access is where the address is followed
-    place(e->arguments[0].value, true);
+    place(r, e->arguments[0].value, true);
     return;
   case BuiltinTakes::Instance:
-    access(e->arguments[0].value, kAccessWrite, kAccessWholeWrite);
-    value(e->arguments[1].value);
+    access(r, e->arguments[0].value, kAccessWrite, kAccessWholeWrite);
+    value(r, e->arguments[1].value);
     return;
   case BuiltinTakes::Query:
-    value(e->arguments[0].value);
-    target(e->arguments[1].value);
-    flow(addressVariable(e->arguments[1].value), e->arguments[0].value);
+    value(r, e->arguments[0].value);
+    target(r, e->arguments[1].value);
+    flow(r, addressVariable(e->arguments[1].value), e->arguments[0].value);
     return;
   case BuiltinTakes::Values:
   case BuiltinTakes::Operands:
   case BuiltinTakes::Location:
   case BuiltinTakes::Pointer:
     for (const Argument &a : e->arguments)
-      value(a.value);
+      value(r, a.value);
     return;
   }
 }
 
-} // namespace stc
+} // namespace stc::access

@@ -1,10 +1,29 @@
 #ifndef STRIDE_COMPILER_SEMANTICS_SHARING_TASK_ACCESS_NAMES_HPP
 #define STRIDE_COMPILER_SEMANTICS_SHARING_TASK_ACCESS_NAMES_HPP
-// What the expressions of a POU name, for task_access*.cpp.
+// What the sources task_access*.cpp have in common: what the expressions of a POU name, and what is
+// known of their places so far.
 
 #include "compiler/semantics/sharing/task_access.hpp"
 
 namespace stc::access {
+
+/// Reads one POU, or initial values.
+struct Reader {
+  Storage &storage;
+  PouAccess out;
+};
+
+void value(Reader &r, const ast::Expr *e);
+void target(Reader &r, const ast::Expr *e);
+void access(Reader &r, const ast::Expr *e, unsigned scalar, unsigned whole);
+void note(Reader &r, PlacePath place, unsigned flags, Span span, const ast::Expr *named = nullptr);
+void image(Reader &r, const ast::Expr *e, bool writes);
+void call(Reader &r, const ast::CallExpr *e);
+void accessor(Reader &r, const ast::Expr *object, const Symbol *property, bool writes, Span span);
+void escape(Reader &r, const ast::Expr *e);
+void flow(Reader &r, const VarSymbol *target, const ast::Expr *value);
+/// The place, after its indices and the pointers on the way to it have been read.
+PlacePath place(Reader &r, const ast::Expr *e, bool walk);
 
 /// It stands for another variable.
 inline bool isAlias(const VarSymbol *v) {
