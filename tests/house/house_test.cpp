@@ -359,6 +359,20 @@ TEST(House, HeadersHaveTheGuardOfTheirPath) {
   EXPECT_GT(headers, 350U);
 }
 
+/// Who reads a source sees what it is about. Tables of texts (`.def`) are as long as they must be;
+/// functions have 60 lines at most, which `.clang-tidy` sees to.
+TEST(House, FilesHaveFiveHundredLinesAtMost) {
+  size_t looked = 0;
+  for (const char *top : {"compiler", "runtime", "drivers", "tests"})
+    for (const fs::path &source : sourcesBelow(top)) {
+      const std::string text = readFile(kRoot / source);
+      ++looked;
+      EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 500)
+          << source << " is too long: part it by topic";
+    }
+  EXPECT_GT(looked, 900U);
+}
+
 /// A test that no CMakeLists.txt names is compiled by nobody.
 TEST(House, EveryTestIsBuilt) {
   std::string lists;
