@@ -10,12 +10,12 @@
 lexer grammar StLexer;
 
 tokens {
-  // Inserted by the scanner in front of each list of CASE labels, so that one token of lookahead tells a label from a
+  // Inserted by the scanner before each list of CASE labels, so that one token of lookahead tells a label from a
   // statement.
   LABEL,
-  // In front of `name:` where a JMP may lead.
+  // Before `name:` where a JMP may lead.
   JUMP_LABEL,
-  // In front of a type that is the argument of SIZEOF, __NEW and the like, when it begins with a keyword.
+  // Before a type that is the argument of SIZEOF, __NEW and the like, when it begins with a keyword.
   TYPE_ARGUMENT,
   // Stands between the declarations of a POU and its statements (only where a whole POU is parsed at once).
   BODY
@@ -119,14 +119,14 @@ CONSTANT   : C O N S T A N T ;         // soft: after VAR…
 RETAIN     : R E T A I N ;             // soft: after VAR…
 PERSISTENT : P E R S I S T E N T ;     // soft: after VAR…
 NON_RETAIN : N O N '_' R E T A I N ;   // soft: after VAR…
-AT         : A T ;                     // soft: in front of an address
+AT         : A T ;                     // soft: before an address
 
 ARRAY     : A R R A Y ;
 STRING    : S T R I N G ;
 WSTRING   : W S T R I N G ;
-POINTER   : P O I N T E R ;     // soft: in front of TO
-REFERENCE : R E F E R E N C E ; // soft: in front of TO
-REF_TO    : R E F '_' T O ;     // soft: in a type, in front of another one
+POINTER   : P O I N T E R ;     // soft: before TO
+REFERENCE : R E F E R E N C E ; // soft: before TO
+REF_TO    : R E F '_' T O ;     // soft: in a type, before another one
 
 EXTENDS    : E X T E N D S ;       // soft: between two names
 IMPLEMENTS : I M P L E M E N T S ; // soft: between two names
@@ -206,7 +206,7 @@ REAL    : DIGITS '.' DIGITS EXPONENT? | DIGITS EXPONENT ;
 STRING_LITERAL  : '\'' ( '$' ~[\r\n] | ~[$'\r\n] )* '\'' ;
 WSTRING_LITERAL : '"' ( '$' ~[\r\n] | ~[$"\r\n] )* '"' ;
 
-// %IX0.0, %QW2, %MD4, %I*, and partial access behind a dot: %X3
+// %IX0.0, %QW2, %MD4, %I*, and partial access after a dot: %X3
 DIRECT : '%' [a-zA-Z]+ ( '*' | [0-9]+ ( '.' [0-9]+ )* ) ;
 
 // Two underscores in a row are an error (except in operators such as __NEW), which the scanner reports.

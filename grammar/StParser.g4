@@ -2,7 +2,7 @@
 //
 // Written so that one token of lookahead decides every alternative: the generated parser never runs ANTLR's adaptive
 // prediction. What makes that possible lies in the scanner: soft keywords and `S=` are told from identifiers there, and
-// a LABEL token stands in front of CASE labels.
+// a LABEL token stands before CASE labels.
 //
 // The grammar is deliberately wider than the language where one rule serves several purposes (arguments, aggregates,
 // parentheses and indices are all `arguments`; an expression may stand as a statement); the AST builder narrows it again
@@ -34,7 +34,7 @@ instanceUnit  : programInstance EOF ;
 
 // ---- program organisation units
 
-// Methods, properties and actions stand inside of a POU or behind it.
+// Methods, properties and actions stand inside of a POU or after it.
 pou
   : pouHead usingDirective* ( varSection | pou | accessor )* ( BODY statements pou* )?
     ( END_PROGRAM | END_FUNCTION | END_FUNCTION_BLOCK | END_CLASS | END_INTERFACE | END_METHOD | END_PROPERTY
@@ -146,7 +146,7 @@ simpleStatement
     SEMICOLON
   ;
 
-// The `;` behind END_IF and the like is an empty statement.
+// The `;` after END_IF and the like is an empty statement.
 ifStatement
   : IF condition THEN statements ( ELSIF condition THEN statements )* ( ELSE statements )? END_IF
   ;

@@ -36,7 +36,7 @@ struct CamPlace {
 [[nodiscard]] std::optional<LoadedCam> loadCam(const std::string &path, Sources &sources,
                                                Diagnostics &diagnostics);
 
-/// Reads `master;slave` or `master:slave`, a place a line, ascending by the master; decimals behind
+/// Reads `master;slave` or `master:slave`, a place a line, ascending by the master; decimals after
 /// a dot or a comma. What is wrong is reported.
 [[nodiscard]] std::optional<std::vector<CamPlace>> readPlaces(const SourceFile &file,
                                                               Diagnostics &diagnostics);
@@ -49,7 +49,7 @@ struct CamPlace {
 void pointsThrough(const std::vector<CamPlace> &places, CamSource &cam);
 
 /// Makes the ends of a periodic cam of points fit: both get the parabola through the place before
-/// the end, the joint and the place behind the start.
+/// the end, the joint and the place after the start.
 void joinEnds(CamSource &cam);
 
 /// Gives `cam` the elements of a curve: points of nodes, else lines and laws. False: the curve has

@@ -35,7 +35,7 @@ struct BuildKind {
 /// `out`: where the shared object goes, the executable, or the sources.
 int buildCommand(const ProjectOptions &options, const std::string &out, const BuildKind &kind);
 
-/// Builds, then becomes stride-host with `command` (sim, run) and these arguments behind the
+/// Builds, then becomes stride-host with `command` (sim, run) and these arguments after the
 /// application's path.
 int hostCommand(const ProjectOptions &options, const std::string &command,
                 const std::vector<std::string> &hostArguments);

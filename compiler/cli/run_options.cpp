@@ -134,7 +134,7 @@ void declareReset(CLI::App &app, Invocation &call) {
 
 void declareCtl(CLI::App &app, Invocation &call) {
   CLI::App *ctl = app.add_subcommand("ctl", "Read, write, force in a running application");
-  ctl->prefix_command(); // stride-call.host knows what comes behind it
+  ctl->prefix_command(); // stride-call.host knows what comes after it
   ctl->set_help_flag();
   ctl->callback([ctl, &call] { call.exitCode = hostOnlyCommand("ctl", ctl->remaining()); });
 }

@@ -29,7 +29,7 @@ struct Output {
 void print(const std::string &text);
 
 /// Writes diagnostics, text with a summary line to standard error, JSON (an object a line) to
-/// standard output. As text nothing is shown behind `maxErrors` errors. Returns the exit code: 0
+/// standard output. As text nothing is shown after `maxErrors` errors. Returns the exit code: 0
 /// exactly when none is an error.
 int show(const std::vector<Diagnostic> &diagnostics, const Sources &sources, const Output &output);
 

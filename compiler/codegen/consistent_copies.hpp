@@ -19,7 +19,7 @@ public:
   [[nodiscard]] std::string begin();
   /// The function settle__.
   [[nodiscard]] std::string settle();
-  /// Statements in front of what a task calls, and behind it.
+  /// Statements before what a task calls, and after it.
   [[nodiscard]] std::string take(size_t task);
   [[nodiscard]] std::string give(size_t task);
 

@@ -310,7 +310,7 @@ void TypeTable::addPool(uint64_t size) {
   Row row;
   row.kind = "Array";
   row.name = "ARRAY [0.." + std::to_string(size - 1) + "] OF BYTE";
-  row.cppType = "::stride::BYTE[" + std::to_string(size) + "]"; // the maps lie behind
+  row.cppType = "::stride::BYTE[" + std::to_string(size) + "]"; // the maps lie after
   row.hash = Hash().add("pool").add(size).value();
   row.element = index(elementaryType(TypeKind::Byte));
   row.elementCount = size;

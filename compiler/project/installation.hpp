@@ -19,7 +19,7 @@ struct Installation {
   std::filesystem::path debugScript; ///< what gdb knows of ST
   /// With `main` and all of stride-host, for static executables: linked before `libraries`.
   std::vector<std::filesystem::path> hostLibraries;
-  std::vector<std::string> staticFlags; ///< linked behind everything else
+  std::vector<std::string> staticFlags; ///< linked after everything else
 };
 
 /// Finds them from the running program: in a build tree `<dir>/share/stride` and `<dir>/lib`,

@@ -279,7 +279,7 @@ void Project::shareVariables() {
   for (const AppConfig::Task &task : app.tasks) {
     tasks.push_back({task.name, {task.programs.begin(), task.programs.end()}});
     for (const AppConfig::Task &other :
-         app.tasks) { // every task looks at the events behind its own cycle
+         app.tasks) { // every task looks at the events after its own cycle
       if (other.event != nullptr)
         tasks.back().pous.push_back(other.event);
     }

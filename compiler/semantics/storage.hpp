@@ -52,7 +52,7 @@ public:
   [[nodiscard]] BitPlace bit(const Type *owner, const VarSymbol *field);
 
 private:
-  /// Puts members behind each other.
+  /// Puts members after each other.
   struct Layout {
     StorageExtent extent{0, 1};
     uint64_t pack = 0; ///< largest alignment of members; 0: natural

@@ -14,7 +14,7 @@ namespace stc {
 namespace {
 
 constexpr size_t kMaxExcerpt = 160; ///< longest shown part of a line, in columns
-constexpr size_t kContext = 40;     ///< columns shown in front of a span in a line that is cut
+constexpr size_t kContext = 40;     ///< columns shown before a span in a line that is cut
 constexpr size_t kTab = 4;
 
 struct Style {
@@ -245,7 +245,7 @@ private:
     std::stable_sort(drawn.begin(), drawn.end(),
                      [](const Drawn &a, const Drawn &b) { return a.column < b.column; });
     underline(drawn);
-    // The rightmost label stands behind its marks; the others hang below, from right to left.
+    // The rightmost label stands after its marks; the others hang below, from right to left.
     size_t last = drawn.size() - 1;
     const bool overlapped = last > 0 && drawn[last - 1].column + drawn[last - 1].width >
                                             drawn[last].column + drawn[last].width;

@@ -12,7 +12,7 @@ inline constexpr size_t kStackReserve = size_t{1} << 20U;
 /// Where the stack of the calling thread ends; null when that is not known.
 [[nodiscard]] const char *endOfStack();
 
-/// Less than kStackReserve bytes are left in front of `end`.
+/// Less than kStackReserve bytes are left before `end`.
 [[nodiscard]] inline bool stackIsShort(const char *end) {
   const auto *here = static_cast<const char *>(__builtin_frame_address(0));
   return end != nullptr && static_cast<size_t>(here - end) < kStackReserve;

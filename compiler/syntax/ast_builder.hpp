@@ -22,7 +22,7 @@ public:
   AstBuilder(const Scanner &scanner, FileId file, UnitStream &stream, Interner &interner,
              Arena &arena, Diagnostics &diagnostics);
 
-  /// Null when the head has no name. `owner` gets the names in front of the last one.
+  /// Null when the head has no name. `owner` gets the names before the last one.
   ast::PouDecl *head(Grammar::PouHeadContext *context, ast::NamePath &owner);
   void section(Grammar::VarSectionContext *context, std::vector<ast::VarDecl *> &out);
   void types(Grammar::TypeBlockContext *context, std::vector<ast::Decl *> &out);

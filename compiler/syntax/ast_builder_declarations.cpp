@@ -396,7 +396,7 @@ void AstBuilder::accessVariable(Context *context, std::vector<VarDecl *> &out) {
 void AstBuilder::types(Grammar::TypeBlockContext *context, std::vector<Decl *> &out) {
   for (size_t i = 0; i < context->children.size(); ++i) {
     if (Decl *node = typeDeclaration(child(context, i)); node != nullptr) {
-      // What stands in front of TYPE belongs to its first type.
+      // What stands before TYPE belongs to its first type.
       if (i == 0) {
         const Token &keyword = token(first(context));
         if (node->doc.empty())

@@ -309,7 +309,7 @@ Expr *AstBuilder::indexOf(Expr *base, Context *inside, Span brackets, Span whole
   return node;
 }
 
-/// A call or an index; `at` is at its bracket, and is behind the closing one afterwards.
+/// A call or an index; `at` is at its bracket, and is after the closing one afterwards.
 Expr *AstBuilder::bracketed(Expr *base, Context *inside, size_t &at, size_t end) {
   const Token &start = token(at);
   at = inside->children.empty() ? at + 1 : last(inside) + 1;
@@ -325,7 +325,7 @@ Expr *AstBuilder::bracketed(Expr *base, Context *inside, size_t &at, size_t end)
     return node;
   }
   if (token(at - 1).type != Tok::RBRACKET && hasNames(inside))
-    return error(whole); // the missing bracket was reported in front of the `:=`
+    return error(whole); // the missing bracket was reported before the `:=`
   return indexOf(base, inside, {file_, start.begin, whole.end}, whole);
 }
 

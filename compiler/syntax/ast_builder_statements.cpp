@@ -46,7 +46,7 @@ void AstBuilder::statements(Grammar::StatementsContext *context, std::vector<Stm
       out.pop_back();
       continue;
     }
-    // The `;` behind END_IF and the like belongs to it.
+    // The `;` after END_IF and the like belongs to it.
     if (node->kind == StmtKind::Empty && !out.empty() && isCompound(out.back()) &&
         first(child(context, i)) != 0 &&
         token(first(child(context, i)) - 1).end == out.back()->span.end)

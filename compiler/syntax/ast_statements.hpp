@@ -98,7 +98,7 @@ struct JumpStmt : Node<Stmt, StmtKind::Jump> {
   struct LabelStmt *target = nullptr; ///< [sema]
 };
 
-/// `name:` in front of a statement.
+/// `name:` before a statement.
 struct LabelStmt : Node<Stmt, StmtKind::Label> {
   Name label;
   bool used = false; ///< [sema] some JMP leads here

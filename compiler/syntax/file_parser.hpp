@@ -26,7 +26,7 @@ public:
   ast::File *run();
 
 private:
-  /// A POU that may still get members from behind its end.
+  /// A POU that may still get members from after its end.
   struct OpenPou {
     ast::PouDecl *node = nullptr;
     std::vector<ast::PouDecl *> methods;
@@ -57,7 +57,7 @@ private:
     Span head;
   };
 
-  // Reading tokens. `now_` is the next token to take, `ahead_` the one behind it.
+  // Reading tokens. `now_` is the next token to take, `ahead_` the one after it.
   void advance();
   void take();
   [[nodiscard]] Span span(const Token &token) const { return builder_.span(token); }
@@ -182,7 +182,7 @@ private:
   std::vector<ast::NamePath> usings_;
   ast::NamePath spaceNow_;                           ///< space_ in the arena
   std::span<ast::NamePath> usingsNow_;               ///< usings_ in the arena
-  std::optional<std::set<std::string>> jumpTargets_; ///< names behind JMP in this file
+  std::optional<std::set<std::string>> jumpTargets_; ///< names after JMP in this file
 
   // While reading a unit.
   std::vector<uint16_t> blocks_; ///< open IF, CASE, …

@@ -184,7 +184,7 @@ void FileParser::configuration() {
   node->name = builder_.name(now_);
   node->span = span(start).to(node->name.span);
   advance();
-  add(node); // in front of its variables
+  add(node); // before its variables
   std::vector<ast::ResourceDecl> resources;
   ast::ResourceDecl direct; // tasks and programs without a resource
   direct.span = node->span;

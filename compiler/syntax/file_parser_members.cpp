@@ -279,7 +279,7 @@ void FileParser::property(OpenPou *enclosing) {
   owner->properties.push_back(node);
 }
 
-/// A member behind its POU, or in a file of its own.
+/// A member after its POU, or in a file of its own.
 void FileParser::lateMember() {
   const bool first = units_ == 0;
   units_ += first;

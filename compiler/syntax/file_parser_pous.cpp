@@ -257,7 +257,7 @@ bool FileParser::close(uint16_t wanted, const Head &head, Span &endSpan) {
   const bool closesOuter = std::find(closers_.begin(), closers_.end(), end.type) != closers_.end();
   if (end.type == Token::kEnd || !endsUnit() || closesOuter) {
     missing_.push_back({wanted, head.span, span(end)});
-    // An `{external}` in front of the end of the file.
+    // An `{external}` before the end of the file.
     if (end.type == Token::kEnd && end.triviaCount != 0)
       advance();
     // The end of the file may close its only POU: so CODESYS stores them.

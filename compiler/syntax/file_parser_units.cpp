@@ -12,7 +12,7 @@ namespace stc {
 
 namespace {
 
-/// A unit of statements or declarations ends at the next boundary behind that many tokens.
+/// A unit of statements or declarations ends at the next boundary after that many tokens.
 constexpr size_t kUnitTokens = 2048;
 
 } // namespace
@@ -198,7 +198,7 @@ void FileParser::body(std::vector<ast::Stmt *> &out) {
     builder_.statements(static_cast<Grammar::StatementsContext *>(unit->children[0]), out);
 }
 
-/// A type that begins with a keyword behind `SIZEOF(` and the like gets a TYPE_ARGUMENT in front.
+/// A type that begins with a keyword after `SIZEOF(` and the like gets a TYPE_ARGUMENT in front.
 void FileParser::markTypeArgument() {
   if (!startsWrittenType(now_.type))
     return;
@@ -293,7 +293,7 @@ bool FileParser::startsStatementInSection() const {
   }
 }
 
-/// Puts a LABEL in front of the CASE labels that end at the colon just ahead, or a JUMP_LABEL in
+/// Puts a LABEL before the CASE labels that end at the colon just ahead, or a JUMP_LABEL in
 /// front of the name. True: it did.
 bool FileParser::markLabel() {
   if (ahead_.type == Tok::EQUAL || boundary_ >= unit_.size())
@@ -313,7 +313,7 @@ bool FileParser::markLabel() {
     return insert(boundary_, Tok::JUMP_LABEL);
   if (!inCase)
     return false;
-  // With a `;` missing in front of the label, it begins where two operands meet.
+  // With a `;` missing before the label, it begins where two operands meet.
   size_t begin = boundary_;
   bool assignment = false;
   for (size_t i = boundary_; i < unit_.size(); ++i) {

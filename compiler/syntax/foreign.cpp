@@ -93,7 +93,7 @@ uint16_t Scanner::misspelledKeyword(size_t begin, std::string_view spelling, Tok
   return meant;
 }
 
-/// The target of `x += 1`: what stands in front of it on its line, or `…`.
+/// The target of `x += 1`: what stands before it on its line, or `…`.
 std::string Scanner::targetBefore(size_t place) const {
   size_t begin = place;
   while (begin > 0 &&

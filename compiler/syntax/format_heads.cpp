@@ -30,7 +30,7 @@ bool FormatLayout::stopsStatement(size_t i) const {
          t == Tok::END_TYPE;
 }
 
-/// Behind the `;` that ends what begins at `i`, or where something else begins.
+/// After the `;` that ends what begins at `i`, or where something else begins.
 size_t FormatLayout::statementEnd(size_t i) const {
   do {
     if (type(i) == Tok::SEMICOLON)
@@ -40,7 +40,7 @@ size_t FormatLayout::statementEnd(size_t i) const {
   return i;
 }
 
-/// Behind the next token of type `last`, or where a statement ends.
+/// After the next token of type `last`, or where a statement ends.
 size_t FormatLayout::through(size_t i, uint16_t last) const {
   do {
     if (type(i) == last)
@@ -50,14 +50,14 @@ size_t FormatLayout::through(size_t i, uint16_t last) const {
   return type(i) == last ? i + 1 : i;
 }
 
-/// Semicolons directly behind a closing keyword stay on its line.
+/// Semicolons directly after a closing keyword stay on its line.
 size_t FormatLayout::withSemicolons(size_t i) const {
   while (type(i) == Tok::SEMICOLON && items_[i].comments.empty())
     ++i;
   return i;
 }
 
-/// Behind the colon of the CASE labels that begin at `i`; 0 when there are none.
+/// After the colon of the CASE labels that begin at `i`; 0 when there are none.
 size_t FormatLayout::labelEnd(size_t i) const {
   const Kind now = blocks_.back().kind;
   if (now != Kind::Choice && now != Kind::Branch)

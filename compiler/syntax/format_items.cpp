@@ -66,7 +66,7 @@ private:
     place_ = end;
   }
 
-  /// Behind the blank at `place`; `place` when there is none.
+  /// After the blank at `place`; `place` when there is none.
   [[nodiscard]] size_t behindBlank(size_t place) const {
     if (classOf(text_[place]) == kBlank)
       return place + 1;

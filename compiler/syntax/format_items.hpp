@@ -15,20 +15,20 @@
 
 namespace stc {
 
-/// A comment or a pragma in front of a token.
+/// A comment or a pragma before a token.
 struct FormatComment {
   std::string_view text;
   unsigned newlines = 0;  ///< line ends between it and what stands before it
   bool toLineEnd = false; ///< `// …`
-  size_t margin = 0;      ///< blanks in front of it on its line
+  size_t margin = 0;      ///< blanks before it on its line
   bool startsLine = false;
 };
 
-/// A token with what stands in front of it.
+/// A token with what stands before it.
 struct FormatItem {
   uint16_t type = Token::kEnd; ///< kEnd: the end of the text
   std::string_view text;
-  unsigned newlines = 0; ///< line ends directly in front of it
+  unsigned newlines = 0; ///< line ends directly before it
   std::vector<FormatComment> comments;
 };
 
@@ -38,7 +38,7 @@ inline constexpr uint16_t kUnknownText = Token::kEnd - 1;
 /// The tokens of all branches; the last one is the end of the text.
 [[nodiscard]] std::vector<FormatItem> readItems(const SourceFile &file);
 
-/// Names behind JMP, in lower case.
+/// Names after JMP, in lower case.
 [[nodiscard]] std::set<std::string> jumpTargets(const std::vector<FormatItem> &items);
 
 /// Which pragma a comment is.

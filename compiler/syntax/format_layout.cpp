@@ -64,7 +64,7 @@ bool FormatLayout::hasComments(size_t from, size_t to) const {
 // -------------------------------------------------------------------------------------------------
 // comments
 
-/// Comments directly in front of a label or ELSE belong to what it begins.
+/// Comments directly before a label or ELSE belong to what it begins.
 unsigned FormatLayout::commentLevel() const {
   const Block &now = blocks_.back();
   if (now.kind == Kind::Branch && (type(at_) == Tok::ELSE || labelEnd(at_) != 0))
@@ -77,7 +77,7 @@ unsigned FormatLayout::commentLevel() const {
   return now.content;
 }
 
-/// Each branch of a conditional pragma begins with what was open in front of the first one.
+/// Each branch of a conditional pragma begins with what was open before the first one.
 void FormatLayout::conditional(std::string_view comment) {
   const PragmaWord word = pragmaOf(comment);
   if (word == PragmaWord::If) {
@@ -131,7 +131,7 @@ void FormatLayout::comments() {
   blank_ = item.newlines > 1;
 }
 
-/// Only the line itself knows how deep it is: `END_VAR` behind a comment is less so than the
+/// Only the line itself knows how deep it is: `END_VAR` after a comment is less so than the
 /// comment would be alone.
 std::string FormatLayout::prefixAt(unsigned level) const {
   std::string out;
@@ -189,7 +189,7 @@ void FormatLayout::emit(size_t to, unsigned level, LineKind kind) {
   at_ = to;
 }
 
-/// The column, behind the indentation, in which the declaration [from, to) has its colon: that of
+/// The column, after the indentation, in which the declaration [from, to) has its colon: that of
 /// the widest name among the declarations that follow each other.
 size_t FormatLayout::colonOf(size_t from, size_t to, unsigned level) {
   if (from < runEnd_)
@@ -220,7 +220,7 @@ size_t FormatLayout::colonOf(size_t from, size_t to, unsigned level) {
       widest = std::max(widest, width);
     begin = end;
     const FormatItem &next = items_[begin];
-    // Comments behind the declaration before, on its line, do not end the run.
+    // Comments after the declaration before, on its line, do not end the run.
     const bool ownLine =
         std::any_of(next.comments.begin(), next.comments.end(),
                     [](const FormatComment &comment) { return comment.newlines > 0; });
@@ -234,7 +234,7 @@ size_t FormatLayout::colonOf(size_t from, size_t to, unsigned level) {
   return runColon_;
 }
 
-/// Comments behind declarations that follow each other begin in one column.
+/// Comments after declarations that follow each other begin in one column.
 void FormatLayout::alignComments() {
   const auto lastWidth = [](const Line &line) {
     const size_t newline = line.text.rfind('\n');

@@ -35,7 +35,7 @@ private:
     Enumeration,
     Condition, ///< IF
     Choice,    ///< CASE
-    Branch,    ///< behind the labels of a CASE
+    Branch,    ///< after the labels of a CASE
     Loop,
     Attempt, ///< __TRY
   };
@@ -49,8 +49,8 @@ private:
   struct Line {
     unsigned level = 0;
     std::string text;    ///< without indentation; may hold further lines
-    std::string comment; ///< behind it
-    bool blank = false;  ///< an empty line in front of it
+    std::string comment; ///< after it
+    bool blank = false;  ///< an empty line before it
     bool declaration = false;
   };
 
@@ -61,10 +61,10 @@ private:
   [[nodiscard]] bool hasComments(size_t from, size_t to) const;
 
   // format_layout.cpp: lines and comments
-  /// The comments in front of the current token: behind the last line, on lines of their own, or in
+  /// The comments before the current token: after the last line, on lines of their own, or in
   /// `prefix_`.
   void comments();
-  /// The comments of `prefix_` in front of a line of that level.
+  /// The comments of `prefix_` before a line of that level.
   [[nodiscard]] std::string prefixAt(unsigned level) const;
   void commentLine(size_t from, size_t to);
   void conditional(std::string_view comment);
@@ -114,11 +114,11 @@ private:
   std::vector<Block> blocks_{Block{}};
   std::vector<std::vector<Block>> conditionals_; ///< what was open at each open `{IF …}`
   std::vector<Line> lines_;
-  std::vector<const FormatComment *> prefix_; ///< on the line of the token behind them
+  std::vector<const FormatComment *> prefix_; ///< on the line of the token after them
   size_t at_ = 0;
-  bool blank_ = false;      ///< an empty line is wanted in front of the next line
+  bool blank_ = false;      ///< an empty line is wanted before the next line
   bool afterOpener_ = true; ///< none is
-  bool separate_ = false;   ///< one must be there, behind a POU
+  bool separate_ = false;   ///< one must be there, after a POU
   bool closing_ = false;    ///< the next line closes a block
   size_t runEnd_ = 0;       ///< declarations up to this item have their colons in one column
   size_t runColon_ = 0;     ///< that column

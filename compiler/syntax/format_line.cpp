@@ -69,10 +69,10 @@ struct Piece {
   std::string text;
   size_t width = 0;
   uint16_t type = 0;
-  unsigned breakLevel = kNoBreak; ///< a line may end in front of it; the smaller, the sooner
+  unsigned breakLevel = kNoBreak; ///< a line may end before it; the smaller, the sooner
   bool comment = false;
-  bool blank = false;  ///< one in front of it
-  bool forced = false; ///< a line must end in front of it
+  bool blank = false;  ///< one before it
+  bool forced = false; ///< a line must end before it
   bool toLineEnd = false;
   bool isUnary = false;
 };
@@ -106,11 +106,11 @@ private:
 
   void makePieces() {
     unsigned depth = 0;
-    bool forced = false; // behind a comment that ends its line
+    bool forced = false; // after a comment that ends its line
     bool operand = false;
     for (size_t i = request_.from; i < request_.to; ++i) {
       const FormatItem &item = items_[i];
-      if (i != request_.from) { // those of the first token stand in front of the line
+      if (i != request_.from) { // those of the first token stand before the line
         for (size_t k = 0; k < item.comments.size(); ++k) {
           const FormatComment &comment = item.comments[k];
           Piece piece;
@@ -232,7 +232,7 @@ private:
     return true;
   }
 
-  /// Where the line may be broken: behind commas and operators.
+  /// Where the line may be broken: after commas and operators.
   void setBreaks() {
     unsigned depth = 0;
     unsigned level = kNoBreak;
@@ -323,7 +323,7 @@ private:
     follow(piece);
   }
 
-  /// What the piece changes for those behind it.
+  /// What the piece changes for those after it.
   void follow(const Piece &piece) {
     Bracket &now = brackets_.back();
     if (opens(piece.type)) {

@@ -19,12 +19,12 @@ struct LineRequest {
   size_t to = 0;
   unsigned level = 0;
   LineKind kind = LineKind::Statement;
-  /// declaration: the column, behind the indentation, of its first colon outside of brackets
+  /// declaration: the column, after the indentation, of its first colon outside of brackets
   size_t colon = 0;
-  std::string prefix; ///< comments in front of the first token, on its line
+  std::string prefix; ///< comments before the first token, on its line
 };
 
-/// The blanks in front of a line of this level.
+/// The blanks before a line of this level.
 [[nodiscard]] std::string indentation(const FormatStyle &style, unsigned level);
 
 /// Characters of UTF-8 text.
@@ -33,7 +33,7 @@ struct LineRequest {
 /// The text of a comment, with its line ends as they are written.
 [[nodiscard]] std::string commentText(std::string_view text);
 
-/// The lines without the indentation of the first; without a line end behind the last.
+/// The lines without the indentation of the first; without a line end after the last.
 [[nodiscard]] std::string layLine(const std::vector<FormatItem> &items, const LineRequest &request,
                                   const FormatStyle &style);
 

@@ -41,7 +41,7 @@ unsigned FormatLayout::closeBlock(uint16_t opener) {
   return blocks_.back().content;
 }
 
-/// In front of a declaration: statements that are open belong to a wrong text.
+/// Before a declaration: statements that are open belong to a wrong text.
 void FormatLayout::closeStatements() {
   while (blocks_.size() > 1 && blocks_.back().kind > Kind::Actions)
     blocks_.pop_back();
@@ -162,7 +162,7 @@ bool FormatLayout::insideSection() {
   return true;
 }
 
-/// A single type without a comment in front of its name stands on the line of TYPE.
+/// A single type without a comment before its name stands on the line of TYPE.
 bool FormatLayout::isOnlyType(size_t i) const {
   if (type(i) != Tok::IDENT && !isModifier(type(i)))
     return false;

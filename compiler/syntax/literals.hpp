@@ -24,7 +24,7 @@ public:
   bool real(std::string_view text, Span span, ast::Literal &out);
   /// `'…'` or `"…"`
   bool string(std::string_view text, Span span, ast::Literal &out);
-  /// What stands behind the prefix and `#`, which is in lower case: `t`, `ltime`, `d`, `tod`,
+  /// What stands after the prefix and `#`, which is in lower case: `t`, `ltime`, `d`, `tod`,
   /// `ldt`, …
   bool timeOrDate(std::string_view prefix, std::string_view value, Span span, ast::Literal &out);
 

@@ -82,7 +82,7 @@ void ReportStrategy::reportError(antlr4::Parser *, const antlr4::RecognitionExce
   recovering_ = true;
 }
 
-/// A name at the start of a line, in front of `:`, `,` or AT: the declaration before it was not
+/// A name at the start of a line, before `:`, `,` or AT: the declaration before it was not
 /// finished.
 bool ReportStrategy::startsDeclaration(const Token &token) {
   UnitStream &stream = parser_.stream();
@@ -187,7 +187,7 @@ void ReportStrategy::syncDeclarations(bool (*good)(uint16_t), const std::string 
     }
     reportUnexpected(expected);
     recovering_ = true;
-    // Up to the next declaration: behind a `;`, or a name in front of a colon.
+    // Up to the next declaration: after a `;`, or a name before a colon.
     do {
       stream.advance();
     } while (!isEnd(current().type) && current().type != Tok::SEMICOLON &&

@@ -29,9 +29,9 @@ public:
   [[nodiscard]] std::string_view text(const Token &token) const {
     return text_.substr(token.begin, token.end - token.begin);
   }
-  /// Behind the comment that begins at `place`; `place` when there is none.
+  /// After the comment that begins at `place`; `place` when there is none.
   [[nodiscard]] size_t comment(size_t place) const;
-  /// Behind the `}` of the pragma that begins at `begin`; npos when it has none.
+  /// After the `}` of the pragma that begins at `begin`; npos when it has none.
   [[nodiscard]] size_t pragmaEnd(size_t begin) const;
 
 private:
@@ -122,7 +122,7 @@ private:
   size_t place_ = 0;
   uint16_t previous_ = 0;       ///< type of the last token
   uint16_t beforePrevious_ = 0; ///< and of the one before it
-  bool sectionHead_ = false;    ///< behind VAR… and its qualifiers
+  bool sectionHead_ = false;    ///< after VAR… and its qualifiers
   uint16_t pending_ = 0;        ///< a token that was read together with the last one
   uint32_t pendingTrivia_ = 0;
   unsigned badCharacters_ = 0;

@@ -177,7 +177,7 @@ uint16_t Scanner::address(size_t begin, Token &token) {
   const auto in = [](char c, std::string_view set) {
     return set.find(lowerCase(c)) != std::string_view::npos;
   };
-  // Behind a point it is a part of the variable, or (in VAR_ACCESS) an address of that resource.
+  // After a point it is a part of the variable, or (in VAR_ACCESS) an address of that resource.
   const bool good =
       place_ > numbers &&
       ((partial && area.size() == 1 && in(area[0], "xbwdl")) ||

@@ -201,7 +201,7 @@ void Scanner::checkElse(const Pragma &pragma) {
       .label(branches_.back().place, "of this `{IF …}`");
 }
 
-/// Goes on behind the condition in [p, end) when it holds, else at the next branch.
+/// Goes on after the condition in [p, end) when it holds, else at the next branch.
 void Scanner::branch(size_t p, size_t end) {
   const std::optional<bool> value =
       conditions_->evaluate(text_.substr(p, end - p), span(p, end), diagnostics_);
@@ -213,7 +213,7 @@ void Scanner::branch(size_t p, size_t end) {
     skipInactive();
 }
 
-/// Passes over text that is not compiled, up to the branch that is or behind `{END_IF}`.
+/// Passes over text that is not compiled, up to the branch that is or after `{END_IF}`.
 void Scanner::skipInactive() {
   size_t depth = 0;
   while (place_ < text_.size()) {

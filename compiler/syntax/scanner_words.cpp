@@ -45,7 +45,7 @@ bool startsHead(uint16_t type) {
 
 bool isModifierType(uint16_t type) { return type >= Tok::ABSTRACT && type <= Tok::OVERRIDE; }
 
-/// Behind these stands a name.
+/// After these stands a name.
 bool wantsName(uint16_t type) {
   switch (type) {
   case Tok::COMMA:

@@ -21,7 +21,7 @@ public:
   uint16_t type = kEnd;
   /// An error in it was reported already: do not report another one that follows from it.
   bool reported = false;
-  /// Pragmas and doc comments in front of it: that many, from Scanner::trivia()[triviaBegin] on.
+  /// Pragmas and doc comments before it: that many, from Scanner::trivia()[triviaBegin] on.
   uint8_t triviaCount = 0;
   uint32_t begin = 0;
   uint32_t end = 0;
@@ -43,14 +43,14 @@ public:
   [[nodiscard]] std::string toString() const override { return {}; }
 };
 
-/// What may stand in front of a token and belongs to the declaration that begins there.
+/// What may stand before a token and belongs to the declaration that begins there.
 struct Trivia {
   enum class Kind : uint8_t { Attribute, Doc, External };
   Kind kind = Kind::Doc;
   uint32_t begin = 0;
   uint32_t end = 0;
   std::string_view name;  ///< attribute: its name; doc: the line's text
-  std::string_view value; ///< attribute: what stands behind `:=`
+  std::string_view value; ///< attribute: what stands after `:=`
 };
 
 /// What a word means where it is a keyword.
@@ -61,15 +61,15 @@ struct Keyword {
     Hard,       ///< everywhere
     Operation,  ///< everywhere but as a function's name, `AND(a, b)`
     Qualifier,  ///< after VAR…: CONSTANT, RETAIN, …
-    At,         ///< in front of an address
-    Pointer,    ///< in a type, in front of TO
+    At,         ///< before an address
+    Pointer,    ///< in a type, before TO
     Infix,      ///< after an operand: AND_THEN, OR_ELSE
     Statement,  ///< as a whole statement: CONTINUE
     Clause,     ///< between two names: EXTENDS, IMPLEMENTS
     Modifier,   ///< after the keyword that opens a declaration
-    Construct,  ///< opens a declaration, in front of a name
+    Construct,  ///< opens a declaration, before a name
     Local,      ///< in PROPERTY, CONFIGURATION, VAR_ACCESS: FileParser decides
-    Assignment, ///< S, R, REF directly in front of `=`
+    Assignment, ///< S, R, REF directly before `=`
   };
   Kind kind = Kind::None;
   uint16_t type = 0;

@@ -172,7 +172,7 @@ inline uint16_t openerOf(uint16_t type) {
   }
 }
 
-/// Opens something that belongs to a POU and may stand inside of it or behind it.
+/// Opens something that belongs to a POU and may stand inside of it or after it.
 inline bool isMember(uint16_t type) {
   return type == Tok::METHOD || type == Tok::PROPERTY || type == Tok::ACTION ||
          type == Tok::ACTIONS;
@@ -217,7 +217,7 @@ inline bool isOperandEnd(uint16_t type) {
          type == Tok::CARET || type == Tok::REAL || type == Tok::TIME_LITERAL;
 }
 
-/// Whether `now` begins a declaration; `ahead` is the token behind it.
+/// Whether `now` begins a declaration; `ahead` is the token after it.
 inline bool startsDeclaration(uint16_t now, uint16_t ahead) {
   switch (now) {
   case Tok::CLASS:
@@ -245,7 +245,7 @@ inline bool startsSection(uint16_t now, uint16_t ahead) {
   return now >= Tok::VAR && now <= Tok::VAR_INST && ahead != Tok::COLON;
 }
 
-/// Behind the word GET or SET: it is a name, not an accessor of a property.
+/// After the word GET or SET: it is a name, not an accessor of a property.
 inline bool continuesName(uint16_t ahead) {
   switch (ahead) {
   case Tok::ASSIGN:

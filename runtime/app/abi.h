@@ -97,7 +97,7 @@ struct TypeDesc {
 
 /// A place in the state where paths begin: a program instance or a global variable.
 struct RootDesc {
-  const char *list; ///< Name of the global variable list in front of the name, or null.
+  const char *list; ///< Name of the global variable list before the name, or null.
   const char *name; ///< "Ipo", "Drive", "g_x": ST spelling.
   uint64_t offset;  ///< From the start of the state.
   uint32_t type;    ///< Index into the type table.

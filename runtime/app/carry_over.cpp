@@ -220,7 +220,7 @@ void CarryOver::copySteps(uint32_t index, Place at, Steps &out) {
   case Carry::Elements: {
     const TypePair &element = match_.pair(pair.element);
     if (element.bitwise && oldSize(pair.element) == newSize(pair.element)) {
-      out.barrier = true; // elements that are not common lie before and behind
+      out.barrier = true; // elements that are not common lie before and after
       appendCopy(elementPlace(pair, at), pair.count * newSize(pair.element), to.align, out);
       out.barrier = true;
       return;

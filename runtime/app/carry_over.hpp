@@ -124,7 +124,7 @@ private:
     uint64_t oldOffset;
     uint64_t newOffset;
   };
-  /// Steps being collected. `barrier`: something that must not be touched lies behind the last.
+  /// Steps being collected. `barrier`: something that must not be touched lies after the last.
   struct Steps {
     std::vector<Step> list;
     bool barrier = false;

@@ -26,7 +26,7 @@ inline constexpr std::array<uint64_t, 256> kCrcTable = makeCrcTable();
 
 } // namespace detail
 
-/// The checksum of several pieces, one behind the other: the result of one is `before` of the next.
+/// The checksum of several pieces, one after the other: the result of one is `before` of the next.
 constexpr uint64_t crc64(std::span<const std::byte> bytes, uint64_t before = 0) {
   uint64_t value = ~before;
   for (const std::byte byte : bytes)

@@ -23,7 +23,7 @@ struct Target {
     None,   ///< Nothing known lies there.
     Start,  ///< The object starts there.
     End,    ///< The object ends there: one past its end.
-    Inside, ///< `delta` bytes behind the start of an elementary variable.
+    Inside, ///< `delta` bytes after the start of an elementary variable.
   };
   Relation relation = Relation::None;
   uint32_t type = kNoIndex; ///< Of the object.

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::string_view kMagic = "STRDRTN\n";
 constexpr uint32_t kVersion = 2;
-/// Of magic, version, size and checksum, which lie in front of everything else.
+/// Of magic, version, size and checksum, which lie before everything else.
 constexpr size_t kFrame = 8 + 4 + 8 + 8;
 /// The checksum is about everything but itself.
 constexpr size_t kSummed = kFrame - 8;

@@ -15,7 +15,7 @@
 
 namespace stride::app {
 
-/// Copies ranges of a state one behind the other. For the cyclic path: allocates nothing, takes as
+/// Copies ranges of a state one after the other. For the cyclic path: allocates nothing, takes as
 /// long as the bytes take. Values of up to 8 bytes at natural alignment are never torn, whoever
 /// writes them.
 void copyRetained(const std::byte *state, std::span<const RetainRange> ranges,
@@ -50,7 +50,7 @@ public:
 bool mayBeImage(std::span<const std::byte> bytes);
 
 /// Throws Error when the bytes are not a complete image, RetainVersionError when a newer Stride
-/// wrote them. `checked` false: without comparing the checksum, for tests of what lies behind it.
+/// wrote them. `checked` false: without comparing the checksum, for tests of what lies after it.
 RetainImage decodeImage(std::span<const std::byte> bytes, bool checked = true);
 
 /// The image without RETAIN variables that are not PERSISTENT (cold), or without all (origin).

@@ -84,7 +84,7 @@ private:
   void setRanges(std::vector<RetainRange> ranges);
 
   std::deque<std::string> texts_;
-  std::vector<TypeDesc> types_; ///< A type comes behind those it consists of.
+  std::vector<TypeDesc> types_; ///< A type comes after those it consists of.
   std::vector<MemberDesc> members_;
   std::vector<EnumeratorDesc> enumerators_;
   std::vector<RootDesc> roots_;

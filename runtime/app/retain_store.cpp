@@ -139,7 +139,7 @@ std::optional<RetainImage> RetainStore::load(std::vector<std::string> &problems)
   nextIsB_ = found[0].has_value() && !b;
   if (newest) {
     sequence_ = newest->head.sequence;
-    // Its name may not be on the disk yet, if the last process ended behind the renaming.
+    // Its name may not be on the disk yet, if the last process ended after the renaming.
     static_cast<void>(files_->syncFolder(folder_));
   }
   return std::move(newest);

@@ -10,7 +10,7 @@ namespace stride {
 namespace {
 
 /// The innermost calls in the first part of the array; of the others the outermost ones, in turn in
-/// the places behind.
+/// the places after.
 struct Capture {
   uintptr_t *calls;
   size_t inner;
@@ -43,7 +43,7 @@ size_t captureCalls(uintptr_t *calls, size_t size) noexcept {
   _Unwind_Backtrace(captureOne, &capture);
   if (capture.count <= inner + outer)
     return capture.count;
-  // The oldest of the outer ones comes first, behind the gap.
+  // The oldest of the outer ones comes first, after the gap.
   std::rotate(calls + inner, calls + inner + (capture.count - inner) % outer,
               calls + inner + outer);
   std::move_backward(calls + inner, calls + inner + outer, calls + size);

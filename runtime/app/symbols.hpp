@@ -40,7 +40,7 @@ public:
 
 private:
   friend class SymbolTable;
-  /// Behind the first step what has been reached so far is followed.
+  /// After the first step what has been reached so far is followed.
   struct Step {
     uint64_t offset = 0;      ///< Added to the state's start, or to what is followed.
     uint64_t area = 0;        ///< Of a slot: where its area begins in the state.
@@ -62,7 +62,7 @@ private:
 
 /// Resolves paths of an application: `Ipo.MoveAbsolute.Position`, `a[1,2].b`, `PLC_PRG.fb.x`,
 /// `GVL.x`, `p^.x`, and direct addresses `%MW3`, `%IX0.0`. Names are case-insensitive. Pointers,
-/// references and in-outs are followed where a member or an index comes behind them; references and
+/// references and in-outs are followed where a member or an index comes after them; references and
 /// in-outs also at the end.
 class SymbolTable {
 public:

@@ -170,7 +170,7 @@ uint32_t takeUtf8(std::string_view text, size_t &at) {
   return c;
 }
 
-/// What stands behind a $; false when it is no escape.
+/// What stands after a $; false when it is no escape.
 bool takeEscape(std::string_view body, size_t &at, size_t hexDigits, uint32_t &c) {
   if (at >= body.size())
     return false;

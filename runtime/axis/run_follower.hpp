@@ -64,7 +64,7 @@ Turn callFollower(BlockState &block, MasterState &master, FollowState &follow, b
 }
 
 /// After the set values of a cycle have been written: the block has what was asked of it, and a
-/// command that waits behind it takes the slave. `shown`: the block has shown so before, so that it
+/// command that waits after it takes the slave. `shown`: the block has shown so before, so that it
 /// is aborted, else it has finished. True if the block is over.
 bool passOn(BlockState &block, AxisRef &slave, bool shown) noexcept;
 

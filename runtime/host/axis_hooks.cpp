@@ -21,7 +21,7 @@ template <class T> T &at(std::byte *state, uint64_t offset) {
   return *reinterpret_cast<T *>(state + offset);
 }
 
-/// What g_strBootupError says: all groups that did not start, one behind the other. Groups are
+/// What g_strBootupError says: all groups that did not start, one after the other. Groups are
 /// served by different tasks; who finds the board taken tries again in the next cycle.
 class BootupErrors {
 public:

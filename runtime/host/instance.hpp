@@ -44,7 +44,7 @@ public:
   /// not have.
   void initialise();
 
-  /// A hook of every task, behind the hooks of the PLC configuration: next to the POUs. After
+  /// A hook of every task, after the hooks of the PLC configuration: next to the POUs. After
   /// initialise(). It must live as long as this.
   void addToAllTasks(task::CycleHook &hook);
 
@@ -61,7 +61,7 @@ public:
   /// Between two cycles: another build, with the values of this one, takes its place. Afterwards
   /// `other` is the old one, to which symbols() belong until renewSymbols().
   void swap(std::unique_ptr<app::Application> &other) noexcept;
-  /// Behind swap(): symbols() are those of the build that has taken over.
+  /// After swap(): symbols() are those of the build that has taken over.
   void renewSymbols() noexcept;
   /// Gives the application up, after the last cycle.
   std::unique_ptr<app::Application> release() { return std::move(application_); }

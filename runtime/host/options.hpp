@@ -67,7 +67,7 @@ struct RunOptions {
   std::string files;  ///< Folder for the program's files; empty: the application's own.
   std::optional<uint32_t> core; ///< For tasks that choose none; empty: the last one allowed.
   bool turns = false;           ///< One cycle at a time.
-  bool histogram = false;       ///< Distributions behind the table of statistics.
+  bool histogram = false;       ///< Distributions after the table of statistics.
   std::string statistics;       ///< File for the statistics as JSON; or empty.
   bool quiet = false;           ///< Neither warnings about real time nor statistics.
 };

@@ -53,9 +53,9 @@ struct CycleMark {
 using InputMark = uint32_t;
 constexpr InputMark kCycle = 0xFFFFFFFF;
 constexpr InputMark kWrite = 0xFFFFFFFE;       ///< A WriteMark and the bytes: before the POUs.
-constexpr InputMark kWriteBehind = 0xFFFFFFFD; ///< The same behind them.
+constexpr InputMark kWriteBehind = 0xFFFFFFFD; ///< The same after them.
 constexpr InputMark kFault = 0xFFFFFFFC;       ///< Last of all: a FaultMark and its texts.
-constexpr InputMark kEnd = 0xFFFFFFFB;         ///< Behind the last cycle: an EndMark.
+constexpr InputMark kEnd = 0xFFFFFFFB;         ///< After the last cycle: an EndMark.
 
 /// From outside into the state.
 struct WriteMark {
@@ -78,7 +78,7 @@ struct FaultMark {
 
 struct EndMark {
   uint64_t complete = 0;      ///< 0: cycles and inputs are missing.
-  uint64_t stateChecksum = 0; ///< Of the state behind the last cycle.
+  uint64_t stateChecksum = 0; ///< Of the state after the last cycle.
 };
 
 std::span<const std::byte> bytesOf(std::string_view text) {
@@ -172,7 +172,7 @@ void Recording::wrote(const std::byte *place, size_t size, bool behindPous) noex
     put(behindPous ? kWriteBehind : kWrite, bytesOf(mark), {place, size});
 }
 
-/// All of it or nothing, so that the recording ends behind a whole record.
+/// All of it or nothing, so that the recording ends after a whole record.
 void Recording::put(uint32_t mark, std::span<const std::byte> first,
                     std::span<const std::byte> second) noexcept {
   const size_t size = first.size() + second.size();

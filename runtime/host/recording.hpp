@@ -85,7 +85,7 @@ public:
 
   /// The exception that stopped the run.
   const std::optional<task::Fault> &fault() const { return fault_; }
-  /// Behind all other hooks: puts what was written from outside into the variables.
+  /// After all other hooks: puts what was written from outside into the variables.
   void addHooks(task::TaskSet &tasks);
 
   /// The state with which the run began.
@@ -98,7 +98,7 @@ public:
   void pass(void *value, size_t size) noexcept override;
   bool replays() const noexcept override { return true; }
 
-  /// Behind the last cycle: a state other than that at the end of the run is a problem.
+  /// After the last cycle: a state other than that at the end of the run is a problem.
   void compareEnd(const app::Application &application);
   /// The program has asked for other inputs than it did in the run: what went wrong, or empty.
   const std::string &problem() const { return problem_; }

@@ -65,7 +65,7 @@ public:
     places_.push_back(at);
     bytes_ += range.size;
   }
-  /// Behind all add().
+  /// After all add().
   void allocate() {
     for (std::vector<std::byte> &buffer : buffers_)
       buffer.resize(bytes_);

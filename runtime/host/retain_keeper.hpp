@@ -49,7 +49,7 @@ public:
 
   /// For Application::initialise.
   bool keepsRetains() const { return restore_ && restore_->keepsRetains(); }
-  /// Behind the initialisation: puts the values back, and says which were not.
+  /// After the initialisation: puts the values back, and says which were not.
   void restore();
   /// Before the first cycle, before the hooks of devices: what they do in a cycle is saved with it.
   void addHooks(task::TaskSet &tasks);
@@ -64,7 +64,7 @@ public:
   /// variables of that build. What a task does not hand over soon, one that waits for an event, is
   /// saved as it is now.
   void change() noexcept;
-  /// Behind change(), while the tasks run: from now on the new build is saved.
+  /// After change(), while the tasks run: from now on the new build is saved.
   void adopt() noexcept;
 
 private:

@@ -62,7 +62,7 @@ bool Session::start(TraceWriter *trace, monitor::Service *service) {
       served_ = std::make_unique<monitor::SymbolServer>(instance_.tasks());
       served_->addOuterHooks();
     }
-    // First of all hooks, so that it sees the end of the cycle behind the others.
+    // First of all hooks, so that it sees the end of the cycle after the others.
     if (trace != nullptr) {
       const app::TraceColumns &columns = trace->columns();
       trace_ = trace;

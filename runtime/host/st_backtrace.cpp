@@ -92,7 +92,7 @@ private:
   /// The innermost scope at an address of the unit, and those around it in the machine code.
   static std::vector<Dwarf_Die> scopesAt(Dwarf_Die &unit, Dwarf_Addr address) {
     Dwarf_Die *list = nullptr;
-    // Behind an inlined function this gives what is around its definition ...
+    // After an inlined function this gives what is around its definition ...
     const bool found = ::dwarf_getscopes(&unit, address, &list) > 0;
     const std::unique_ptr<Dwarf_Die, decltype(&std::free)> lexical(list, &std::free);
     if (!found)
@@ -142,7 +142,7 @@ private:
   Dwfl *session_;
 };
 
-/// As it was given to the compiler: libdw puts the folder in front of the names in the line table,
+/// As it was given to the compiler: libdw puts the folder before the names in the line table,
 /// which is `.` in all applications.
 std::string shortFile(const std::string &file) {
   return file.compare(0, 2, "./") == 0 ? file.substr(2) : file;

@@ -85,7 +85,7 @@ struct Ctx {
 
 /// In a handler: what was caught (see HostApi::caught).
 __attribute__((cold)) void caught(Ctx &ctx, Caught &out);
-/// Goes on with an exception that was caught, behind __FINALLY.
+/// Goes on with an exception that was caught, after __FINALLY.
 [[noreturn]] __attribute__((cold)) void raiseAgain(Ctx &ctx, const Caught &exception);
 /// The number of __SYSTEM.ExceptionCode.
 uint32_t exceptionNumber(ExceptionCode code);
@@ -129,7 +129,7 @@ struct LoopBudget {
   int64_t start;
 
   explicit LoopBudget(const Ctx &ctx) : left(ctx.loopBudget), start(left) {}
-  /// Behind the inner loop; `more` says that it ended for lack of budget.
+  /// After the inner loop; `more` says that it ended for lack of budget.
   template <class C> void refill(bool more, C &ctx, const char *file, uint32_t line, uint32_t col) {
     if (more && left <= 0) [[unlikely]] {
       Ctx &own = ctx;

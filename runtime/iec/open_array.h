@@ -40,7 +40,7 @@ template <class T, uint32_t N, class A> inline OpenArray<T, N> open(A &array) {
 
 namespace detail {
 
-/// Elements of all dimensions behind the first one.
+/// Elements of all dimensions after the first one.
 template <class T, uint32_t N> inline uint64_t rowSize(const OpenArray<T, N> &a) {
   uint64_t size = 1;
   for (uint32_t d = 1; d < N; ++d)
@@ -70,7 +70,7 @@ inline uint64_t checkedPlace(X &ctx, I i, int64_t lo, int64_t hi, const char *fi
 
 } // namespace detail
 
-/// a[i]: an element, or the array of the dimensions behind; raises IndexOutOfRange at the position.
+/// a[i]: an element, or the array of the dimensions after; raises IndexOutOfRange at the position.
 template <class X, class T, class I>
 inline T &at(X &ctx, const OpenArray<T, 1> &a, I i, const char *file, uint32_t line, uint32_t col) {
   return a.data[detail::checkedPlace(ctx, i, a.lo[0], a.hi[0], file, line, col)];

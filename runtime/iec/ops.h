@@ -306,7 +306,7 @@ template <int64_t Lo, class I> constexpr uint64_t place(I i) {
 }
 
 /// The object behind a POINTER TO or REFERENCE TO; raises NullPointer (or AccessViolation, for the
-/// addresses behind 0 that are nobody's) at the position.
+/// addresses after 0 that are nobody's) at the position.
 template <class C, class T>
 inline T &deref(C &ctx, T *p, const char *file, uint32_t line, uint32_t col) {
   if (detail::addressOf(p) < detail::kFirstAddress) [[unlikely]]

@@ -9,7 +9,7 @@
 
 namespace stride {
 
-/// In front of every object of the pool.
+/// Before every object of the pool.
 struct PoolBlock {
   uint64_t size;     ///< Of the block with this header, a multiple of 16. [bytes]
   uint64_t typeHash; ///< TypeDesc::layoutHash of the elements.
@@ -63,7 +63,7 @@ void *allocate(BYTE *memory, uint64_t size, uint64_t elementSize, int64_t count,
 bool release(BYTE *memory, uint64_t size, const void *object);
 /// The header of an object, or null.
 PoolBlock *find(BYTE *memory, uint64_t size, const void *object);
-/// The place of the first block at or behind a place; `size` if there is none.
+/// The place of the first block at or after a place; `size` if there is none.
 uint64_t next(const BYTE *memory, uint64_t size, uint64_t at);
 /// Enters a block whose bytes have been put in place by hand. No task may use the pool meanwhile.
 void enter(BYTE *memory, uint64_t size, uint64_t at);

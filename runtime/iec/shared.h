@@ -1,6 +1,6 @@
 // Variables that several tasks use: each access is one atomic step, and no more. Nothing is said
 // about the order of accesses to different variables (relaxed), with one exception: whoever reads
-// an address sees what had been written behind it when it was stored (acquire, release). Free of
+// an address sees what had been written after it when it was stored (acquire, release). Free of
 // the C++ standard library; see types.h.
 #ifndef STRIDE_RUNTIME_IEC_SHARED_H
 #define STRIDE_RUNTIME_IEC_SHARED_H

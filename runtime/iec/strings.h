@@ -117,7 +117,7 @@ inline void replace(S<K> &to, const S<N> &a, const S<M> &b, int64_t n, int64_t p
   detail::textSplice(to.s, R < K ? R : K, a.s, N, detail::clampCount(p - (p > 0 ? 1 : 0)),
                      detail::clampCount(n), b.s, M);
 }
-/// INSERT(a, b, p): b inserted behind character p of a.
+/// INSERT(a, b, p): b inserted after character p of a.
 template <uint32_t R, template <uint32_t> class S, uint32_t K, uint32_t N, uint32_t M>
 inline void insert(S<K> &to, const S<N> &a, const S<M> &b, int64_t p) {
   detail::textSplice(to.s, R < K ? R : K, a.s, N, detail::clampCount(p), 0, b.s, M);

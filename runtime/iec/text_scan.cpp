@@ -87,7 +87,7 @@ private:
 
 Scanned nothing() { return Scanned{0, false, false, 0, 0, 0.0}; }
 
-/// Digits behind a decimal point as nanoseconds of a unit.
+/// Digits after a decimal point as nanoseconds of a unit.
 uint64_t takeFraction(Reader &in, uint64_t unitNs) {
   uint64_t value = 0;
   uint64_t step = unitNs;

@@ -50,8 +50,8 @@ public:
 void copyWhole(BYTE *to, const BYTE *from, size_t count) noexcept;
 
 /// In the cycles of one task: copies the input bytes it uses from the devices before its POUs, and
-/// the output bytes it writes to them behind. In this order lies the place for forces: they apply
-/// to the image behind the copy of the inputs and before that of the outputs, in a hook that is
+/// the output bytes it writes to them after. In this order lies the place for forces: they apply
+/// to the image after the copy of the inputs and before that of the outputs, in a hook that is
 /// added after this one.
 class ImageHook final : public task::CycleHook {
 public:

@@ -38,7 +38,7 @@ struct RecorderSettings {
 };
 
 /// A ring of rows, filled by one task at the end of its cycles until the trigger has come and the
-/// rows behind it are there. Read by another thread when it is done.
+/// rows after it are there. Read by another thread when it is done.
 class Recorder {
 public:
   static constexpr size_t kMostBytes = size_t{256} << 20;

@@ -34,7 +34,7 @@ namespace {
       fmt::format("--listen unix:{}: cannot {}: {}", path, what, std::strerror(errno)));
 }
 
-/// Behind the name of a socket's file until the socket listens.
+/// After the name of a socket's file until the socket listens.
 constexpr char kUnfinished[] = "~";
 /// Bytes in the longest path of a socket.
 constexpr size_t kMostInPath = sizeof(::sockaddr_un::sun_path) - sizeof kUnfinished;

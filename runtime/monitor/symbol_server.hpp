@@ -25,18 +25,18 @@ public:
   WriteLog(const WriteLog &) = delete;
   WriteLog &operator=(const WriteLog &) = delete;
   virtual ~WriteLog() = default;
-  /// These bytes have just been changed, before the POUs or behind them. Neither allocates, locks
+  /// These bytes have just been changed, before the POUs or after them. Neither allocates, locks
   /// nor throws.
   virtual void wrote(const std::byte *place, size_t size, bool behindPous) noexcept = 0;
 };
 
 /// Serves one application. Requests are prepared outside of the cycles (names resolved, memory
-/// allocated) and done by the tasks themselves: writes at the start of a cycle, behind the copy of
+/// allocated) and done by the tasks themselves: writes at the start of a cycle, after the copy of
 /// the inputs, reads at its end. So what is read together was there at one moment, the end of a
 /// cycle, and the cycle neither allocates nor locks nor waits; its work per cycle is bounded by
 /// kValuesPerCycle and kBytesPerCycle.
 ///
-/// Forced variables get their value before the POUs of every task, behind the copy of the inputs,
+/// Forced variables get their value before the POUs of every task, after the copy of the inputs,
 /// and after them, before the copy of the outputs.
 ///
 /// A variable is served by the task that owns it if that one runs periodically, else by the fastest
@@ -58,7 +58,7 @@ public:
 
   /// The hooks that see the end of the cycle: before all other hooks are added.
   void addOuterHooks();
-  /// The hooks next to the POUs: behind all other hooks.
+  /// The hooks next to the POUs: after all other hooks.
   void addInnerHooks();
 
   /// Until the application is changed.

@@ -16,7 +16,7 @@
 namespace stride::script {
 
 /// Values that variables keep whatever the program writes, of a set of variables known before the
-/// run. A hook to be added to every task, behind the hooks that copy inputs and outputs. One
+/// run. A hook to be added to every task, after the hooks that copy inputs and outputs. One
 /// thread sets and releases; the tasks' threads apply.
 class FixedForces final : public task::CycleHook {
 public:

@@ -33,7 +33,7 @@ public:
   /// thread, not a task's.
   virtual void prepareRebind(const StrideAppV1 &app) { (void)app; }
   /// Between two cycles: another build has taken over, with its state there (an online change). The
-  /// tasks, axis groups and drives are the same in number and order. Behind prepareRebind() for
+  /// tasks, axis groups and drives are the same in number and order. After prepareRebind() for
   /// this build. Neither allocates nor throws.
   virtual void rebind(const StrideAppV1 &app, std::byte *state) noexcept {
     (void)app;

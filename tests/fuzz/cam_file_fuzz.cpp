@@ -30,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
       static_cast<void>(cam::evaluateCurve(curve, curve.start + (curve.end - curve.start) * i / 4.0,
                                            i % 2 == 0, index));
   }
-  // What is written again has the same meaning; only names may have been cleared behind their end.
+  // What is written again has the same meaning; only names may have been cleared after their end.
   std::vector<uint8_t> again(static_cast<size_t>(cam::camFileSize(file.header)));
   cam::writeCamFile(file.header, file.elements, file.tappets, again.data());
   if (again.size() != size)

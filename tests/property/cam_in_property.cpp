@@ -94,7 +94,7 @@ private:
     }
   }
 
-  /// SMC_GetCamSlaveSetPosition with the same inputs, in front of MC_CamIn.
+  /// SMC_GetCamSlaveSetPosition with the same inputs, before MC_CamIn.
   void foretell() {
     told_.CamTableID = &scene_.select.CamTableID;
     told_.Master = &scene_.master.ref;

@@ -131,7 +131,7 @@ private:
     }
   }
 
-  /// One cycle; `watch` is called before and behind the blocks.
+  /// One cycle; `watch` is called before and after the blocks.
   template <class Look> void step(Look watch) {
     rig_.cycle([&] {
       watch(false);

@@ -86,7 +86,7 @@ bool isDeclaration(const std::string &line) {
          std::isdigit(static_cast<unsigned char>(line[0])) == 0;
 }
 
-/// Units stay; VAR sections, declarations and statements become a PROGRAM behind them.
+/// Units stay; VAR sections, declarations and statements become a PROGRAM after them.
 std::string wrapped(const std::string &text) {
   std::string units;
   std::string sections;
@@ -127,7 +127,7 @@ std::string wrapped(const std::string &text) {
   return units + "PROGRAM Example\n" + sections + declarations + statements + "END_PROGRAM\n";
 }
 
-/// The code blocks behind "Wrong" or "Right", up to the next of these words.
+/// The code blocks after "Wrong" or "Right", up to the next of these words.
 Example exampleOf(const std::string &text, std::string_view which) {
   Example example;
   bool inside = false;

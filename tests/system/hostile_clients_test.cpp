@@ -135,7 +135,7 @@ END_CONFIGURATION
                        {"STRIDE", STRIDE_BINARY_DIR "/stride"}});
   }
   fs::path socket() const { return scratch_.path() / "plc.sock"; }
-  /// Behind the greeting.
+  /// After the greeting.
   RawClient client() const {
     RawClient fresh(socket());
     EXPECT_THAT(fresh.line(), HasSubstr("\"hello\":\"stride\""));

@@ -48,7 +48,7 @@ END_CONFIGURATION
     const ProcessResult built = shell("$STRIDE build app.st -W off=lints");
     ASSERT_EQ(built.exitCode, 0) << built.err;
   }
-  /// What commands print while the application runs; each is what stands behind `ctl ADDRESS`.
+  /// What commands print while the application runs; each is what stands after `ctl ADDRESS`.
   ProcessResult served(const std::vector<std::string> &commands, const std::string &options = {}) {
     std::string script = "$HOST run app.so --for 60s --quiet --listen unix:plc.sock " + options +
                          " & run=$!\n"

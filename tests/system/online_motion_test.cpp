@@ -61,7 +61,7 @@ private:
   app::Application *application_;
 };
 
-/// The example with an unrelated change in front of everything.
+/// The example with an unrelated change before everything.
 std::string changedExample(const ScratchDirectory &scratch) {
   const fs::path folder = scratch.path() / "changed";
   fs::copy(STRIDE_SOURCE_DIR "/examples/PLCopenSingle", folder);

@@ -25,7 +25,7 @@ protected:
     fs::remove_all(scratch_.path() / "p/build");
     ASSERT_EQ(stride({"build", "p", "-o", "old.so"}).exitCode, 0);
   }
-  /// Another build: `insert` behind the first VAR of the program.
+  /// Another build: `insert` after the first VAR of the program.
   void buildNew(const std::string &insert) {
     std::string text = readFile(scratch_.path() / "p/Ipo.st");
     text.insert(text.find("VAR\n") + 4, insert);

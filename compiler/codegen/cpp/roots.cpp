@@ -13,7 +13,7 @@ namespace {
 /// What a type's name ends with if it is the root's.
 std::string_view typeEnd(const Root &root) { return root.isStatic ? "__static__" : ""; }
 
-/// Behind a root's type, the end of the constant that holds its place.
+/// After a root's type, the end of the constant that holds its place.
 std::string placeOf(std::string type) {
   if (!type.ends_with("__"))
     type += "__";

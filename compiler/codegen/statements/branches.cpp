@@ -16,7 +16,7 @@ constexpr int64_t kMaxLabels = 1024;
 /// g++ nests `else if`; longer chains of ELSIF are flattened.
 constexpr size_t kMaxElseIf = 64;
 
-/// `if … else if …`, or many of `if (…) { …; goto behind; }`.
+/// `if … else if …`, or many of `if (…) { …; goto after; }`.
 class Chain {
 public:
   Chain(EmitContext &cx, size_t branches, std::string_view stem)

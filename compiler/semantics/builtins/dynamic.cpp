@@ -52,7 +52,7 @@ const Type *checkNew(Context &c, CallExpr *expr) {
                        "`" + std::string(pou->name.text) + "` cannot be created with `__NEW`",
                        "its declaration does not allow it");
     noteDeclaration(d, pou);
-    d.help("write `{attribute 'enable_dynamic_creation'}` in front of its FUNCTION_BLOCK");
+    d.help("write `{attribute 'enable_dynamic_creation'}` before its FUNCTION_BLOCK");
     return bad;
   }
   if (expr->arguments.size() == 2) {
@@ -96,7 +96,7 @@ const Type *checkIni(Context &c, CallExpr *expr) {
                            typeName(instance->type),
                        "expected an instance");
     if (type->kind == TypeKind::Pointer)
-      d.help("write `^` behind the pointer: what it points to is initialised");
+      d.help("write `^` after the pointer: what it points to is initialised");
     else if (type->kind == TypeKind::Program)
       d.help("a PROGRAM is initialised when the application starts; name one of its instances");
     else

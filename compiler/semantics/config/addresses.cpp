@@ -20,7 +20,7 @@ static bool locateType(Context &c, VarSymbol *variable, uint64_t bytes, bool isB
 
 namespace {
 
-/// Bytes of one area; an address behind is a slip of the pen.
+/// Bytes of one area; an address after is a slip of the pen.
 constexpr uint64_t kMaxArea = uint64_t{1} << 24;
 
 /// Pointers, references and instances cannot lie in memory that others write byte by byte.

@@ -142,7 +142,7 @@ static void reportMissingPlaces(Context &c, const std::vector<SlotPlace> &slots)
       order.push_back(slot.variable);
     list.push_back(&slot);
   }
-  std::array<uint64_t, 3> next{}; // proposals lie behind everything that is used
+  std::array<uint64_t, 3> next{}; // proposals lie after everything that is used
   for (size_t area = 0; area < next.size(); ++area)
     next[area] = c.program.image.bytes[area];
   if (slots.size() > kMaxSlots) {

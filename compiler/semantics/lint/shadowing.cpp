@@ -17,7 +17,7 @@ static void checkHidden(Context &c, Module &module, const PouSymbol *pou, const 
 
 namespace {
 
-/// Whether the text of a library file declares that name behind `word`.
+/// Whether the text of a library file declares that name after `word`.
 bool declares(std::string_view text, std::string_view word, std::string_view lowerName) {
   for (size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
     const std::string_view name = text.substr(at + word.size(), lowerName.size() + 1);

@@ -66,7 +66,7 @@ constexpr Energy energyOf(const Shape &shape) noexcept {
 constexpr Energy kQuinticEnergy = energyOf(kQuintic);
 constexpr Energy kSepticEnergy = energyOf(kSeptic);
 
-/// The given polynomial `way` behind its left end.
+/// The given polynomial `way` after its left end.
 Point given(const Piece &piece, double way) noexcept {
   const double *c = piece.coefficients;
   Point at = {c[7], 0.0, 0.0, 0.0};

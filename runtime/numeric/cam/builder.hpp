@@ -18,7 +18,7 @@ enum class PieceKind : int16_t {
   InclinedSine, ///< From rest to rest.
   ModifiedSine, ///< Between two velocities; `inflexion`: 0 to 1, where the acceleration changes its
                 ///< sign.
-  ModifiedSineLimited, ///< The same; `parameter` is the peak of the acceleration behind the
+  ModifiedSineLimited, ///< The same; `parameter` is the peak of the acceleration after the
                        ///< inflexion.
   Law,                 ///< `law` as makeSegment has it, between velocities and accelerations.
 };

@@ -90,7 +90,7 @@ double velocityAtInflexion(double d, double v0, double v1, double inflexion) noe
   return (d - (1.0 - mean) * (inflexion * v0 + (1.0 - inflexion) * v1)) / mean;
 }
 
-/// Where the inflexion must be for the acceleration behind it to have the peak `limit`; else not
+/// Where the inflexion must be for the acceleration after it to have the peak `limit`; else not
 /// within 0 to 1. Lengths are measured in the segment's.
 double inflexionFor(double d, double v0, double v1, double limit) noexcept {
   // The quarter sines of the second half have the mean 2 / pi: (top - v1) * pi / 2 = peak * (1 -

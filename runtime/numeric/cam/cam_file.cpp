@@ -54,7 +54,7 @@ void clearGaps(int64_t from, int64_t to, int64_t size, int64_t offset, uint8_t *
   }
 }
 
-/// Copies what `data` has of the bytes `offset` to `offset + count`; 0 behind `size`.
+/// Copies what `data` has of the bytes `offset` to `offset + count`; 0 after `size`.
 void copyPart(const void *data, int64_t size, int64_t offset, uint8_t *bytes,
               int64_t count) noexcept {
   const int64_t there = size - offset < count ? size - offset : count;

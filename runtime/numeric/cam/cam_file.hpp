@@ -22,7 +22,7 @@ enum class CamFileError : uint8_t {
   Version,   ///< No cam file, or of another version.
   Form,      ///< Unknown form or type of numbers.
   Truncated, ///< It ends too early.
-  Damaged,   ///< Wrong checksum, bytes behind the end, or no usable cam.
+  Damaged,   ///< Wrong checksum, bytes after the end, or no usable cam.
 };
 
 /// The header of a file: the members of MC_CAM_REF.

@@ -94,7 +94,7 @@ Segment pieceOf(const Curve &curve, uint32_t piece, bool periodic) noexcept;
 /// The slave position at the end of a piece, as it is written there. [slave u]
 double endOfPiece(const Curve &curve, uint32_t piece) noexcept;
 
-/// The curve at `x` and its derivatives with respect to the master. Before the start and behind the
+/// The curve at `x` and its derivatives with respect to the master. Before the start and after the
 /// end the first and the last piece go on. `periodic`: a cubic table looks around the corner at its
 /// ends. `index` is where the last look was; any number is right, a good one saves the search.
 /// Depends on nothing but the curve and `x`, so that the way back is the same. O(1) for a master

@@ -46,7 +46,7 @@ Point harmonic(double u) noexcept {
 }
 
 Point cycloidal(double u) noexcept {
-  // Behind a quarter from the middle, where it is short again.
+  // After a quarter from the middle, where it is short again.
   const bool late = u > 0.25;
   const Turn turn = turnOf(late ? kPi * (0.5 - u) : kPi * u);
   const double half = late ? turn.cosine : turn.sine;

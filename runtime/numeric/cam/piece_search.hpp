@@ -29,7 +29,7 @@ uint32_t pieceAt(double x, uint32_t pieces, uint32_t hint, double length,
   }
   const double guess = hint + (x - atHint) / length;
   uint32_t low = guess > 0.0 ? (guess < pieces ? static_cast<uint32_t>(guess) : pieces - 1) : 0;
-  uint32_t high; // begins behind x, or is the end
+  uint32_t high; // begins after x, or is the end
   if (isAt(low)) {
     uint32_t step = 1;
     while (pieces - low > step && isAt(low + step)) {

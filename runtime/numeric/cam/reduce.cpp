@@ -116,7 +116,7 @@ private:
   std::vector<Segment> pieces_;
 };
 
-/// Adds the places behind `left`, up to `right`, that one piece needs; false if they would be too
+/// Adds the places after `left`, up to `right`, that one piece needs; false if they would be too
 /// many.
 bool divide(const Source &source, size_t piece, const Node &left, const Node &right,
             double tolerance, int depth, size_t most, std::vector<Node> &out) {

@@ -41,7 +41,7 @@ PlanError planPositions(TimeProfile &profile, const State &start, const TimePoin
                         int32_t count) noexcept;
 
 /// Through velocities, the velocity continuously differentiable: two parabolas from point to point.
-/// Behind the first point the velocity never leaves the range between two points. It starts with
+/// After the first point the velocity never leaves the range between two points. It starts with
 /// the acceleration of `start`; the position is the integral.
 PlanError planVelocities(TimeProfile &profile, const State &start, const TimePoint *points,
                          int32_t count) noexcept;

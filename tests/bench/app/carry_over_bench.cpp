@@ -21,7 +21,7 @@ using stride::test::ModelType;
 /// variables, and recipes to fill 10 MB.
 class Machine : public AppModel {
 public:
-  /// `changed`: some variables in front of everything and in the types.
+  /// `changed`: some variables before everything and in the types.
   explicit Machine(bool changed) {
     const ModelType *real = elementary(Kind::LREAL);
     const ModelType *integer = elementary(Kind::INT);

@@ -68,7 +68,7 @@ bool fails() {
 
 extern "C" {
 
-/// The program begins behind the constructors of all libraries.
+/// The program begins after the constructors of all libraries.
 int __libc_start_main(Main *main, int argc, char **argv, void (*init)(), void (*fini)(),
                       void (*loaderFini)(), void *stackEnd) {
   program = main;

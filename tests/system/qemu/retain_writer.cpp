@@ -34,7 +34,7 @@ int go(const std::string &file, bool readOnly) {
     if (std::any_of(values.begin(), values.end(), [&](uint32_t v) { return v != generation; }))
       std::printf("torn\n");
   }
-  std::printf("\nfound %u end\n", generation); // behind whatever the kernel has written
+  std::printf("\nfound %u end\n", generation); // after whatever the kernel has written
   std::fflush(stdout);
   while (!readOnly) {
     ++generation;

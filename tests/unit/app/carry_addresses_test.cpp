@@ -224,7 +224,7 @@ protected:
     m.root("", "head", m.pointer(node));
     m.root("", "tail", m.pointer(real));
     m.root("", "lost", m.pointer(other));
-    // As the compiler describes it; its maps lie behind.
+    // As the compiler describes it; its maps lie after.
     m.root("", "__pool", m.array(m.elementary(Kind::LWORD), 0, kPool / 8 - 1), kSymHidden);
     m.root("", "maps", m.array(m.elementary(Kind::LWORD), 0, 2 * pool::mapWords(kPool) - 1));
   }

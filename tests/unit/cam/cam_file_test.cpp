@@ -121,7 +121,7 @@ TEST(CamFile, HoldsEveryFormAndEveryTypeOfNumbers) {
   header.form = cam::Form::Segments;
   const std::vector<uint8_t> withSegments = bytesOf(header, segments.data(), kTappets);
   EXPECT_EQ(errorOf(withSegments), cam::CamFileError::None);
-  for (size_t i = 122; i < 128; ++i) // behind the law
+  for (size_t i = 122; i < 128; ++i) // after the law
     EXPECT_EQ(withSegments[136 + i], 0);
 }
 

@@ -1,4 +1,4 @@
-// The recorder: rows before and behind a trigger.
+// The recorder: rows before and after a trigger.
 #include "tests/unit/monitor/served_app.hpp"
 
 namespace {

@@ -138,7 +138,7 @@ TEST_F(Scripts, ForcesHoldAgainstTheProgram) {
     tasks.runCycle(0, t * kMs, 0);
     seen += read("PLC_PRG.count") + "," + read("PLC_PRG.a[2,-1]") + " ";
   }
-  // The program counts up and copies its count; behind it the force holds again.
+  // The program counts up and copies its count; after it the force holds again.
   EXPECT_EQ(seen, "50,51 50,51 60,61 60,61 61,61 62,62 ");
 }
 

@@ -99,7 +99,7 @@ TEST(MoveAbsolute, ManyTurnsOnARotaryAxisDoNotDrift) {
   rig.powerUp();
   const int turns = 300;
   for (int k = 0; k < turns; ++k) {
-    for (const double target : {60.0, 20.0}) { // 60 on, then 60 on: one turn and 20 behind
+    for (const double target : {60.0, 20.0}) { // 60 on, then 60 on: one turn and 20 after
       auto move = rig.move(target, 5000, 50000, 50000);
       move.Direction = kPositive;
       ASSERT_GT(runOut(rig, move), 0);

@@ -187,7 +187,7 @@ TEST(MoveAbsolute, RetriggerWhileBusyReadsTheInputsAgain) {
   auto move = rig.move(1000);
   for (int i = 0; i < 1500; ++i)
     rig.cycle([&] { rig.call(move, true); });
-  move.Position = 20; // behind the axis: it has to come back
+  move.Position = 20; // after the axis: it has to come back
   rig.cycle([&] { rig.call(move, true); });
   EXPECT_EQ(rig.axis.fAimPosition, 1000.0) << "inputs count at the edge only";
   rig.cycle([&] { rig.call(move, false); });

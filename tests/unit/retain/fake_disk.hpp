@@ -62,11 +62,11 @@ struct Disk {
 /// The power is gone.
 struct PowerCut {};
 
-/// A disk with a cache in front of it. Write, sync and rename come as the calls of the interface
+/// A disk with a cache before it. Write, sync and rename come as the calls of the interface
 /// do; every write is split, so that it can be torn.
 class FakeFiles final : public app::RetainFiles {
 public:
-  int callsLeft = 1 << 30; ///< The power is gone behind so many calls.
+  int callsLeft = 1 << 30; ///< The power is gone after so many calls.
   int failing = -1;        ///< This call, counted from 0, fails with `error`.
   int error = ENOSPC;
   int calls = 0;

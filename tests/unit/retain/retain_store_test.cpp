@@ -31,7 +31,7 @@ struct Counted {
   size_t ends = 0;
 };
 
-/// From a disk on: loads, saves up to `saves` times, and loses the power behind every call; then
+/// From a disk on: loads, saves up to `saves` times, and loses the power after every call; then
 /// the same again from every disk that this can leave.
 void cutEverywhere(const Generations &generations, const FakeFiles &from, uint32_t acknowledged,
                    int saves, int depth, Counted &counted) {

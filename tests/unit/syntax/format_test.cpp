@@ -192,7 +192,7 @@ TEST(Format, KeepsCommentsAnywhere) {
         return " {attribute 'a" + n + "'}\n";
       case 7:
         return "(* a *)(* b *) // c\n   (* d *)\n\n\n";
-      case 8: // of several lines, on the line of what is in front of it, or behind it, or both
+      case 8: // of several lines, on the line of what is before it, or after it, or both
         return "(* " + n + "\n  two *) ";
       case 9:
         return " (* " + n + "\n\n      three *)\n";
@@ -216,7 +216,7 @@ TEST(Format, BreaksWhatIsTooWide) {
     if (source.name.find("stdlib/") != 0)
       continue;
     SCOPED_TRACE(source.name);
-    EXPECT_LE(longestLine(stable(source.text)), 130U); // with comments behind a statement
+    EXPECT_LE(longestLine(stable(source.text)), 130U); // with comments after a statement
   }
 }
 
