@@ -2,7 +2,7 @@
 
 namespace {
 
-enum Phase : int16_t { Idle, Positioning, Filling, Draining, Closing, Leaving, Fault };
+enum Phase : int16_t { kIdle, kPositioning, kFilling, kDraining, kClosing, kLeaving, kFault };
 
 struct Station {
   bool start;
@@ -15,47 +15,47 @@ struct Station {
 
   void update() {
     switch (state) {
-    case idle:
+    case kIdle:
       valve = false;
       clamp = false;
       if (start) {
-        state = positioning;
+        state = kPositioning;
         wait = 3;
       }
       break;
-    case positioning:
+    case kPositioning:
       --wait;
       if (wait <= 0) {
         clamp = true;
-        state = filling;
+        state = kFilling;
       }
       break;
-    case filling:
+    case kFilling:
       valve = true;
       if (level > 95) {
-        state = draining;
+        state = kDraining;
         wait = 2;
       } else if (level < 0) {
-        state = fault;
+        state = kFault;
       }
       break;
-    case draining:
+    case kDraining:
       valve = false;
       --wait;
       if (wait <= 0)
-        state = closing;
+        state = kClosing;
       break;
-    case closing:
+    case kClosing:
       clamp = false;
-      state = leaving;
+      state = kLeaving;
       break;
-    case leaving:
+    case kLeaving:
       ++done;
-      state = idle;
+      state = kIdle;
       break;
     default:
       valve = false;
-      state = idle;
+      state = kIdle;
       break;
     }
   }
