@@ -123,8 +123,8 @@ private:
   void types();
   void body(std::vector<ast::Stmt *> &out);
   void readStatements();
-  [[nodiscard]] bool endsStatements() const;
-  void nest();
+  [[nodiscard]] inline bool endsStatements() const;
+  inline void nest();
   void leaveOutDeclaration();
   void addBrackets();
   void dropStatement();

@@ -327,7 +327,7 @@ bool FileParser::markLabel() {
 }
 
 /// Whether statements end before the current token, or so many were read that a unit is full.
-bool FileParser::endsStatements() const {
+inline bool FileParser::endsStatements() const {
   const uint16_t type = now_.type;
   if (endsUnit() || startsDeclaration() || startsSection() || isMember(type) || isChart(type))
     return true;
@@ -337,7 +337,7 @@ bool FileParser::endsStatements() const {
 }
 
 /// Counts what the current token opens or closes.
-void FileParser::nest() {
+inline void FileParser::nest() {
   const uint16_t type = now_.type;
   if (const uint16_t opener = openerOf(type); opener != 0) {
     const auto open = std::find(blocks_.rbegin(), blocks_.rend(), opener);

@@ -170,7 +170,7 @@ void Scanner::badCharacters(size_t begin) {
 }
 
 /// Signs of other languages; 0: it is none.
-uint16_t Scanner::signOfOthers(size_t begin, Token &token) {
+inline uint16_t Scanner::signOfOthers(size_t begin, Token &token) {
   const char first = text_[begin];
   const char next = at(begin + 1);
   const bool calculates = first == '+' || first == '-';

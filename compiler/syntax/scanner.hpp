@@ -91,16 +91,16 @@ private:
     bool foreignLetters = false;
     bool doubled = false; ///< two underscores in a row
   };
-  [[nodiscard]] Word wordFrom(size_t begin) const;
+  [[nodiscard]] inline Word wordFrom(size_t begin) const;
   void reportForeignLetters(size_t begin, const Word &word);
-  uint16_t keywordOf(size_t begin, const Word &word, Token &token);
-  void checkName(size_t begin, const Word &word, Token &token);
+  inline uint16_t keywordOf(size_t begin, const Word &word, Token &token);
+  inline void checkName(size_t begin, const Word &word, Token &token);
   uint16_t word(size_t begin, Token &token);
   uint16_t prefixedLiteral(size_t begin, Token &token);
   uint16_t number(size_t begin, Token &token);
   uint16_t quoted(size_t begin, char quote, Token &token);
   uint16_t address(size_t begin, Token &token);
-  uint16_t signOfOthers(size_t begin, Token &token);
+  inline uint16_t signOfOthers(size_t begin, Token &token);
   uint16_t sign(size_t begin, Token &token);
   uint16_t foreign(size_t begin, size_t length, uint16_t meant, Token &token);
   // foreign.cpp

@@ -206,7 +206,7 @@ bool Scanner::firstOf(uint32_t hash) {
   return true;
 }
 
-Scanner::Word Scanner::wordFrom(size_t begin) const {
+inline Scanner::Word Scanner::wordFrom(size_t begin) const {
   const char *const data = text_.data();
   const size_t size = text_.size();
   Word word;
@@ -243,7 +243,7 @@ void Scanner::reportForeignLetters(size_t begin, const Word &word) {
 }
 
 /// The keyword that a word is where it stands; 0: it is none.
-uint16_t Scanner::keywordOf(size_t begin, const Word &word, Token &token) {
+inline uint16_t Scanner::keywordOf(size_t begin, const Word &word, Token &token) {
   if (previous_ == Tok::DOT) // keywords cannot stand after a dot
     return 0;
   const size_t end = begin + word.text.size();
@@ -262,7 +262,7 @@ uint16_t Scanner::keywordOf(size_t begin, const Word &word, Token &token) {
 }
 
 /// Reports names that are too long or kept for others.
-void Scanner::checkName(size_t begin, const Word &word, Token &token) {
+inline void Scanner::checkName(size_t begin, const Word &word, Token &token) {
   const Span where = span(begin, begin + word.text.size());
   if (word.text.size() > kMaxName) {
     token.reported = true;
