@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """clang-tidy over the sources that a build compiles, by .clang-tidy.
 
-usage: tidy.py BUILD [--jobs N] [--changed COMMIT]
+usage: tidy.py BUILD [--jobs N] [--changed COMMIT [--most N]]
 
 Takes the commands of BUILD (several sources at once, where the build does so), without the precompiled headers of
 another compiler. With --changed only what is compiled from sources that differ from COMMIT, and for each such header one
-unit that includes it. Each finding is shown once.
+unit that includes it, the last changed first; with --most no more than N units. Each finding is shown once.
 """
 import argparse
 import concurrent.futures
@@ -45,19 +45,30 @@ def sources_of(unit):
     return re.findall(r'#include "([^"]+)"', path.read_text(encoding="utf-8"))
 
 
+def names_since(commit):
+    """The files that differ from the commit, the last changed first."""
+    def git(*words):
+        return subprocess.run(["git", "-C", ROOT, *words], capture_output=True, text=True, check=True).stdout.split()
+    differ = set(git("diff", "--name-only", commit))
+    return [name for name in dict.fromkeys(git("diff", "--name-only", "HEAD")
+                                           + git("log", "--format=", "--name-only", f"{commit}..HEAD"))
+            if name in differ]
+
+
 def choose(units, commit):
     """The units that sources are compiled in that differ from the commit, and one for each such header."""
-    names = subprocess.run(["git", "-C", ROOT, "diff", "--name-only", commit], capture_output=True, text=True,
-                           check=True).stdout.split()
-    changed = {str(ROOT / name) for name in names}
-    chosen = {unit["file"] for unit in units if changed.intersection(sources_of(unit))}
-    for header in (name for name in names if name.endswith((".hpp", ".h", ".def"))):
-        line = f'#include "{header}"'
-        including = [unit["file"] for unit in units if any(
-            line in pathlib.Path(source).read_text(encoding="utf-8") for source in sources_of(unit))]
-        if including and not chosen.intersection(including):
-            chosen.add(including[0])
-    return [unit for unit in units if unit["file"] in chosen]
+    includes = {unit["file"]: "".join(pathlib.Path(source).read_text(encoding="utf-8") for source in sources_of(unit))
+                for unit in units}
+    chosen = {}
+    for name in names_since(commit):
+        for unit in units:
+            if str(ROOT / name) in sources_of(unit):
+                chosen[unit["file"]] = unit
+        if name.endswith((".hpp", ".h", ".def")):
+            including = [unit for unit in units if f'#include "{name}"' in includes[unit["file"]]]
+            if including and not any(unit["file"] in chosen for unit in including):
+                chosen[including[0]["file"]] = including[0]
+    return list(chosen.values())
 
 
 def main():
@@ -65,13 +76,14 @@ def main():
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--changed")
+    parser.add_argument("--most", type=int)
     options = parser.parse_args()
     units = json.loads((options.build / "compile_commands.json").read_text(encoding="utf-8"))
     units = [dict(unit, arguments=without_precompiled(unit["command"])) for unit in units
              if all(source.startswith(OURS) for source in sources_of(unit))]
     for unit in units:
         del unit["command"]
-    chosen = choose(units, options.changed) if options.changed else units
+    chosen = choose(units, options.changed)[:options.most] if options.changed else units
     with tempfile.TemporaryDirectory() as folder:
         (pathlib.Path(folder) / "compile_commands.json").write_text(json.dumps(units), encoding="utf-8")
 
@@ -81,12 +93,12 @@ def main():
 
         with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
             findings = "".join(pool.map(tidy, chosen))
-    # A header's findings come once with each unit that includes it.
-    blocks = list(dict.fromkeys(re.split(r"^(?=/\S+:\d+:\d+: (?:warning|error): )", findings, flags=re.M)))
-    print("".join(block for block in blocks if block.startswith("/")), end="")
-    count = sum(block.startswith("/") for block in blocks)
-    print(f"{len(chosen)} of {len(units)} units, {count} findings")
-    return 1 if count else 0
+    # A header's findings come once with each unit that includes it; those of other people's headers are not ours.
+    blocks = dict.fromkeys(re.split(r"^(?=/\S+:\d+:\d+: (?:warning|error): )", findings, flags=re.M))
+    ours = [block for block in blocks if block.startswith(OURS)]
+    print("".join(ours), end="")
+    print(f"{len(chosen)} of {len(units)} units, {len(ours)} findings")
+    return 1 if ours else 0
 
 
 if __name__ == "__main__":

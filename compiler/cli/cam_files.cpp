@@ -278,7 +278,7 @@ bool elementsOf(const LoadedCam &from, CamSource &cam) {
   if (from.data.header.form == Form::Nodes && from.kind == LoadedCam::Kind::Binary) {
     for (uint32_t i = 0; i < from.data.header.elements; ++i) {
       CamElement element;
-      std::memcpy(&element.left, from.data.storage.data() + 4 * i, sizeof element.left);
+      std::memcpy(&element.left, from.data.storage.data() + size_t{4} * i, sizeof element.left);
       element.right = element.left;
       cam.elements.push_back(element);
     }

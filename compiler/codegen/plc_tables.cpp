@@ -131,7 +131,7 @@ void PlcTables::addIoDevices() {
     const auto table = [&](const char *name, const std::vector<uint8_t> &values) {
       if (values.empty())
         return std::string("nullptr");
-      const std::string constant = name + number;
+      std::string constant = name + number;
       ioBytes_ += "constexpr uint8_t " + constant + "[] = {";
       for (size_t i = 0; i < values.size(); ++i)
         ioBytes_ += (i == 0 ? "" : ", ") + std::to_string(values[i]);

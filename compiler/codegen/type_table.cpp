@@ -249,7 +249,7 @@ void TypeTable::members(Row &row, const Type *type, const Type *base, const std:
 
 /// renamedFrom and task of a root.
 static std::string lastColumns(std::string_view renamed, std::optional<uint32_t> task) {
-  const std::string column = renamedColumn(renamed);
+  std::string column = renamedColumn(renamed);
   if (!task)
     return column;
   return (column.empty() ? ", nullptr" : column) + ", " + std::to_string(*task);

@@ -370,7 +370,7 @@ private:
     auto *pou = arena.make<PouDecl>();
     pou->kind = DeclKind::Program;
     pou->span = span;
-    const std::string name = what + "__call";
+    std::string name = what + "__call";
     pou->name = {program_.interner.intern(name), arena.copy(std::string_view(name)), callee->span};
     pou->attributes = attribute(AttributeId::Hide, {});
     pou->body = arena.copy(std::vector<Stmt *>{statement});

@@ -65,7 +65,7 @@ void PlcReader::readBus(const CheckedSection &section) {
 }
 
 std::string PlcReader::readDriver(const TomlNode &type) {
-  const std::string word(driverOf(type.text));
+  std::string word(driverOf(type.text));
   if (stride::drivers::findSchema(word) != nullptr)
     return word;
   Diagnostic &d =

@@ -99,7 +99,8 @@ void configureTests(ProjectConfig &config) {
   }
   for (AxisGroupConfig &group : config.axisGroups) // one task serves all
     group.cycleUs = 0;
-  config.tasks.assign(1, std::move(task));
+  config.tasks.clear();
+  config.tasks.push_back(std::move(task));
 }
 
 } // namespace stc

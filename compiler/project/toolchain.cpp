@@ -121,7 +121,7 @@ fs::path findProgram(const std::string &name) {
   std::string_view rest = path != nullptr ? path : "/usr/bin:/bin";
   while (true) {
     const size_t end = rest.find(':');
-    const fs::path candidate = fs::absolute(fs::path(rest.substr(0, end)) / name, error);
+    fs::path candidate = fs::absolute(fs::path(rest.substr(0, end)) / name, error);
     if (::access(candidate.c_str(), X_OK) == 0 && fs::is_regular_file(candidate, error))
       return candidate;
     if (end == std::string_view::npos)

@@ -28,8 +28,10 @@ public:
     static_assert(std::is_trivially_copyable_v<T>);
     if (from.empty())
       return {};
-    auto *data = static_cast<T *>(allocate(sizeof(T) * from.size(), alignof(T)));
-    std::memcpy(static_cast<void *>(data), from.data(), sizeof(T) * from.size());
+    const size_t bytes =
+        from.size() * sizeof(T); // NOLINT(bugprone-sizeof-expression): T may be a pointer
+    auto *data = static_cast<T *>(allocate(bytes, alignof(T)));
+    std::memcpy(static_cast<void *>(data), from.data(), bytes);
     return {data, from.size()};
   }
 

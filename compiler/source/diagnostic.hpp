@@ -22,7 +22,7 @@ enum class Severity : uint8_t {
 
 /// Stable diagnostic codes; the table with default severity and title is diagnostic_codes.def.
 enum class Code : uint16_t {
-#define STC_DIAGNOSTIC(number, name, severity, title) name = number,
+#define STC_DIAGNOSTIC(number, name, severity, title) name = (number),
 #include "compiler/source/diagnostic_codes.def"
 #undef STC_DIAGNOSTIC
 };

@@ -136,7 +136,7 @@ private:
   ast::Expr *initializer(Context *context);
   ast::Expr *initialValue(Context *expression);
   ast::AggregateItem item(Context *expression);
-  ast::Expr *aggregate(std::vector<ast::AggregateItem> items, bool isStruct, Span span);
+  ast::Expr *aggregate(const std::vector<ast::AggregateItem> &items, bool isStruct, Span span);
   ast::Expr *structAggregate(Context *arguments, Span span);
   bool isRepetition(Context *expression) const;
   /// The single identifier that the expression consists of; null otherwise.

@@ -199,7 +199,7 @@ Expr *AstBuilder::arrayAggregate(const Context *inside, Span whole) {
     }
     items.push_back(item(child(argument, 0)));
   }
-  return aggregate(std::move(items), false, whole);
+  return aggregate(items, false, whole);
 }
 
 /// What begins with a bracket at `at`; `at` moves past it.

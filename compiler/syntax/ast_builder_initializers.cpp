@@ -46,7 +46,7 @@ AggregateItem AstBuilder::item(Context *expression) {
   return out;
 }
 
-Expr *AstBuilder::aggregate(std::vector<AggregateItem> items, bool isStruct, Span whole) {
+Expr *AstBuilder::aggregate(const std::vector<AggregateItem> &items, bool isStruct, Span whole) {
   auto *node = arena_.make<AggregateExpr>();
   node->span = whole;
   node->items = arena_.copy(items);
@@ -97,7 +97,7 @@ Expr *AstBuilder::structAggregate(Context *inside, Span whole) {
     fields.push_back(field);
   }
   closeField();
-  return aggregate(std::move(fields), true, whole);
+  return aggregate(fields, true, whole);
 }
 
 Expr *AstBuilder::initialValue(Context *context) {
@@ -112,7 +112,7 @@ Expr *AstBuilder::initializer(Context *context) {
   std::vector<AggregateItem> items;
   for (size_t i = 0; i < context->children.size(); ++i)
     items.push_back(item(child(context, i)));
-  return aggregate(std::move(items), false, span(context));
+  return aggregate(items, false, span(context));
 }
 
 } // namespace stc

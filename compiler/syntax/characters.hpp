@@ -3,6 +3,7 @@
 // Kinds of characters, for the scanner.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace stc {

@@ -154,7 +154,7 @@ uint16_t Scanner::foreignPair(size_t begin, Token &token) {
 /// `{ a := 1; }`: braces hold pragmas, so the statements would silently be left out.
 void Scanner::bracesAsBlock(size_t begin, size_t end) {
   const std::string_view content = text_.substr(begin, end - begin);
-  if (content.find(";") == std::string_view::npos || content.find('\'') != std::string_view::npos ||
+  if (content.find(';') == std::string_view::npos || content.find('\'') != std::string_view::npos ||
       (content.find(":=") == std::string_view::npos && content.find('(') == std::string_view::npos))
     return;
   auto &d = diagnostics_.report(Code::BracesAsBlock, span(begin, begin + 1),

@@ -13,7 +13,7 @@ constexpr size_t kWidestAligned = 40;
 
 /// A comment that begins a line, whose further lines move as its first one does.
 std::string moved(const FormatComment &comment, size_t margin, bool tabs) {
-  const std::string text = commentText(comment.text);
+  std::string text = commentText(comment.text);
   if (!comment.startsLine || margin == comment.margin || text.find('\n') == std::string::npos)
     return text;
   std::string out;

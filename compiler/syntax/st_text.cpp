@@ -52,7 +52,7 @@ bool isIdentifier(std::string_view text) {
 
 std::string realLiteral(double value) {
   std::string text = fmt::format("{}", value);
-  if (text.find_first_of(".") == std::string::npos) {
+  if (text.find('.') == std::string::npos) {
     const size_t exponent = text.find('e');
     text.insert(exponent == std::string::npos ? text.size() : exponent, ".0");
   }

@@ -140,7 +140,7 @@ bool Comparison::holds(std::byte *state) const noexcept {
 }
 
 bool Condition::add(Comparison comparison) {
-  steps_.push_back({Step::Compare, comparisons_.size()});
+  steps_.push_back({Step::kCompare, comparisons_.size()});
   comparisons_.push_back(std::move(comparison));
   return ++depth_ <= kMaxDepth;
 }
@@ -149,16 +149,16 @@ bool Condition::holds(std::byte *state) const noexcept {
   uint64_t stack = 0; // the newest value is bit 0
   for (const Step &step : steps_) {
     switch (step.kind) {
-    case Step::Compare:
+    case Step::kCompare:
       stack = stack << 1 | (comparisons_[step.comparison].holds(state) ? 1U : 0U);
       break;
-    case Step::Not:
+    case Step::kNot:
       stack ^= 1U;
       break;
-    case Step::And:
+    case Step::kAnd:
       stack = (stack >> 1) & (stack | ~uint64_t{1});
       break;
-    case Step::Or:
+    case Step::kOr:
       stack = (stack >> 1) | (stack & 1U);
       break;
     }

@@ -54,16 +54,16 @@ public:
 
   /// In postfix order. False: nested too deeply.
   bool add(Comparison comparison);
-  void addNot() { steps_.push_back({Step::Not, 0}); }
-  void addAnd() { join(Step::And); }
-  void addOr() { join(Step::Or); }
+  void addNot() { steps_.push_back({Step::kNot, 0}); }
+  void addAnd() { join(Step::kAnd); }
+  void addOr() { join(Step::kOr); }
 
   /// In the cyclic path: neither allocates nor locks.
   bool holds(std::byte *state) const noexcept;
 
 private:
   struct Step {
-    enum Kind : uint8_t { Compare, Not, And, Or } kind;
+    enum Kind : uint8_t { kCompare, kNot, kAnd, kOr } kind;
     size_t comparison;
   };
   void join(Step::Kind kind) {

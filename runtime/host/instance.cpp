@@ -73,7 +73,7 @@ void Instance::renewSymbols() noexcept {
 }
 
 std::optional<task::Fault> Instance::exit(int64_t timeNs) {
-  const std::optional<task::Fault> fault = callExit(timeNs);
+  std::optional<task::Fault> fault = callExit(timeNs);
   system_.finish();
   return fault;
 }

@@ -9,8 +9,8 @@ namespace stride::system {
 struct FileService::Job {
   /// A task takes a free one and fills it, the thread makes a queued one done, the task takes the
   /// answer and gives it free.
-  enum State : uint32_t { Free, Filling, Queued, Done };
-  std::atomic<uint32_t> state{Free};
+  enum State : uint32_t { kFree, kFilling, kQueued, kDone };
+  std::atomic<uint32_t> state{kFree};
   std::atomic<uint32_t> generation{0};
   uint64_t ticket = 0; ///< The order of the requests.
   std::atomic<uint32_t> task{0};

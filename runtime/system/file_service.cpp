@@ -81,8 +81,8 @@ FileService::Job *FileService::claim(const Ctx &ctx) noexcept {
   if (ending_.load(std::memory_order_acquire))
     return nullptr;
   for (size_t i = 0; i < kJobs; ++i) {
-    uint32_t expected = Job::Free;
-    if (jobs_[i].state.compare_exchange_strong(expected, Job::Filling, std::memory_order_acquire,
+    uint32_t expected = Job::kFree;
+    if (jobs_[i].state.compare_exchange_strong(expected, Job::kFilling, std::memory_order_acquire,
                                                std::memory_order_relaxed))
       return &jobs_[i];
   }
@@ -95,7 +95,7 @@ void FileService::recycle(const Ctx &ctx) noexcept {
   Job *oldest = nullptr;
   for (size_t i = 0; i < kJobs; ++i) {
     Job &job = jobs_[i];
-    if (job.state.load(std::memory_order_acquire) == Job::Done && job.task == ctx.taskIndex &&
+    if (job.state.load(std::memory_order_acquire) == Job::kDone && job.task == ctx.taskIndex &&
         ctx.cycle - job.cycle > kForgotten && (oldest == nullptr || job.ticket < oldest->ticket))
       oldest = &job;
   }
@@ -104,7 +104,7 @@ void FileService::recycle(const Ctx &ctx) noexcept {
   const bool opened = oldest->answer.error == FileError::None &&
                       (oldest->op == FileOp::Open || oldest->op == FileOp::OpenStream);
   if (!opened) {
-    oldest->state.store(Job::Free, std::memory_order_release);
+    oldest->state.store(Job::kFree, std::memory_order_release);
     return;
   }
   FileRequest close{};
@@ -131,7 +131,7 @@ void FileService::submit(const Ctx &ctx, Job &job, const FileRequest &request) n
     std::memcpy(job.data.get(), request.data, job.size);
   job.answer = {};
   job.ticket = tickets_.fetch_add(1, std::memory_order_relaxed);
-  job.state.store(Job::Queued, std::memory_order_release);
+  job.state.store(Job::kQueued, std::memory_order_release);
   wake();
 }
 
@@ -150,7 +150,7 @@ FileService::Job *FileService::findJob(uint32_t number) noexcept {
     return nullptr;
   Job &job = jobs_[handle.index()];
   const uint32_t state = job.state.load(std::memory_order_acquire);
-  return (state == Job::Queued || state == Job::Done) && job.generation == handle.generation()
+  return (state == Job::kQueued || state == Job::kDone) && job.generation == handle.generation()
              ? &job
              : nullptr;
 }
@@ -159,7 +159,7 @@ FileService::Job *FileService::findAsked(const Ctx &ctx, const FileRequest &requ
   for (size_t i = 0; i < kJobs; ++i) {
     Job &job = jobs_[i];
     const uint32_t state = job.state.load(std::memory_order_acquire);
-    if ((state == Job::Queued || state == Job::Done) && job.task == ctx.taskIndex &&
+    if ((state == Job::kQueued || state == Job::kDone) && job.task == ctx.taskIndex &&
         job.taker == Job::Taker::Asker && job.op == request.op && job.mode == request.mode &&
         job.file == request.file && sameText(job.name, request.name) &&
         sameText(job.second, request.second))
@@ -169,7 +169,7 @@ FileService::Job *FileService::findAsked(const Ctx &ctx, const FileRequest &requ
 }
 
 bool FileService::ready(const Ctx &ctx, const Job &job) const noexcept {
-  return job.state.load(std::memory_order_acquire) == Job::Done &&
+  return job.state.load(std::memory_order_acquire) == Job::kDone &&
          (!settings_.virtualTime || job.task != ctx.taskIndex ||
           ctx.cycle - job.cycle >= settings_.delayCycles);
 }
@@ -182,7 +182,7 @@ void FileService::take(Job &job, void *data, uint64_t room, FileAnswer &answer) 
     if (data != nullptr)
       std::memcpy(data, job.data.get(), answer.value);
   }
-  job.state.store(Job::Free, std::memory_order_release);
+  job.state.store(Job::kFree, std::memory_order_release);
 }
 
 uint32_t FileService::start(const Ctx &ctx, const FileRequest &request) noexcept {
@@ -239,7 +239,7 @@ void FileService::askNow(const Ctx &ctx, const FileRequest &request, FileAnswer 
       job = claim(ctx);
       if (job == nullptr)
         return;
-      stream->state.store(Stream::Closing);
+      stream->state.store(Stream::kClosing);
     } else {
       job = claim(ctx);
       if (job == nullptr)
@@ -284,7 +284,7 @@ FileService::Stream *FileService::findStream(uint32_t file) noexcept {
     return nullptr;
   Stream &stream = streams_[handle.index()];
   const uint32_t state = stream.state.load();
-  return (state == Stream::Reading || state == Stream::Writing) &&
+  return (state == Stream::kReading || state == Stream::kWriting) &&
                  stream.generation == handle.generation()
              ? &stream
              : nullptr;
@@ -292,7 +292,7 @@ FileService::Stream *FileService::findStream(uint32_t file) noexcept {
 
 void FileService::use(Stream &stream, StreamOp op, void *data, uint64_t size,
                       FileAnswer &answer) noexcept {
-  const bool reading = stream.state.load(std::memory_order_relaxed) == Stream::Reading;
+  const bool reading = stream.state.load(std::memory_order_relaxed) == Stream::kReading;
   switch (op) {
   case StreamOp::Read:
     if (!reading) {

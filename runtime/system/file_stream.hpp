@@ -10,9 +10,9 @@ namespace stride::system {
 struct FileService::Stream {
   static constexpr uint64_t kRing = 65536;
 
-  enum State : uint32_t { Free, Reading, Writing, Closing };
+  enum State : uint32_t { kFree, kReading, kWriting, kClosing };
   /// The thread takes a free one and gives it free; the task that closes it sets Closing.
-  std::atomic<uint32_t> state{Free};
+  std::atomic<uint32_t> state{kFree};
   std::atomic<uint32_t> generation{0};
   std::atomic<uint32_t> user{0}; ///< A task is at it just now.
 

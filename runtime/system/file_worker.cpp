@@ -66,7 +66,7 @@ void FileService::workOnce() {
       job->answer.error = FileError::Device;
       job->answer.value = 0;
     }
-    job->state.store(job->taker == Job::Taker::Nobody ? Job::Free : Job::Done,
+    job->state.store(job->taker == Job::Taker::Nobody ? Job::kFree : Job::kDone,
                      std::memory_order_release);
   }
 }
@@ -74,7 +74,7 @@ void FileService::workOnce() {
 FileService::Job *FileService::next() {
   Job *oldest = nullptr;
   for (size_t i = 0; i < kJobs; ++i)
-    if (jobs_[i].state.load(std::memory_order_acquire) == Job::Queued &&
+    if (jobs_[i].state.load(std::memory_order_acquire) == Job::kQueued &&
         (oldest == nullptr || jobs_[i].ticket < oldest->ticket))
       oldest = &jobs_[i];
   return oldest;
@@ -138,7 +138,7 @@ Outcome FileService::openStream(const Job &job) {
     return {FileError::BadMode, 0};
   Stream *stream = nullptr;
   for (size_t i = 0; i < kStreams && stream == nullptr; ++i)
-    if (streams_[i].state.load(std::memory_order_acquire) == Stream::Free)
+    if (streams_[i].state.load(std::memory_order_acquire) == Stream::kFree)
       stream = &streams_[i];
   if (stream == nullptr)
     return {FileError::TooMany, 0};
@@ -170,7 +170,7 @@ Outcome FileService::openStream(const Job &job) {
   stream->lost = 0;
   const uint32_t generation = Handle::next(stream->generation.load(std::memory_order_relaxed));
   stream->generation.store(generation, std::memory_order_relaxed);
-  stream->state.store(reads ? Stream::Reading : Stream::Writing, std::memory_order_release);
+  stream->state.store(reads ? Stream::kReading : Stream::kWriting, std::memory_order_release);
   const Handle handle(static_cast<size_t>(stream - streams_.get()), generation);
   return {FileError::None, handle.number()};
 }
@@ -178,14 +178,14 @@ Outcome FileService::openStream(const Job &job) {
 Outcome FileService::closeStream(uint32_t file) {
   const Handle handle(file);
   if (handle.index() >= kStreams || streams_[handle.index()].generation != handle.generation() ||
-      streams_[handle.index()].state.load(std::memory_order_acquire) == Stream::Free)
+      streams_[handle.index()].state.load(std::memory_order_acquire) == Stream::kFree)
     return {FileError::BadHandle, 0};
   return finishStream(streams_[handle.index()]);
 }
 
 void FileService::finishStreams() {
   for (size_t i = 0; i < kStreams; ++i)
-    if (streams_[i].state.load(std::memory_order_acquire) != Stream::Free)
+    if (streams_[i].state.load(std::memory_order_acquire) != Stream::kFree)
       (void)finishStream(streams_[i]);
 }
 
@@ -205,7 +205,7 @@ Outcome FileService::finishStream(Stream &stream) {
       result.error = end.error;
   }
   stream.image = {};
-  stream.state.store(Stream::Free, std::memory_order_release);
+  stream.state.store(Stream::kFree, std::memory_order_release);
   return result;
 }
 
@@ -257,7 +257,7 @@ void FileService::drain(Stream &stream) {
 
 void FileService::drainAll() {
   for (size_t i = 0; i < kStreams; ++i)
-    if (streams_[i].file >= 0 && streams_[i].state.load(std::memory_order_acquire) != Stream::Free)
+    if (streams_[i].file >= 0 && streams_[i].state.load(std::memory_order_acquire) != Stream::kFree)
       drain(streams_[i]);
 }
 

@@ -24,9 +24,9 @@ public:
   std::vector<std::string> take();
 
 private:
-  enum State : uint32_t { Free, Filling, Full };
+  enum State : uint32_t { kFree, kFilling, kFull };
   struct Line {
-    std::atomic<uint32_t> state{Free};
+    std::atomic<uint32_t> state{kFree};
     uint64_t number = 0;
     char text[kLineSize];
   };

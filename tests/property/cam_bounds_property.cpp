@@ -45,7 +45,7 @@ double greatest(const std::function<double(double)> &f, double low, double high)
 }
 
 struct Found {
-  double maxPosition = -INFINITY, minPosition = INFINITY, maxSlope = 0, maxAcceleration = 0,
+  double maxPosition = -HUGE_VAL, minPosition = HUGE_VAL, maxSlope = 0, maxAcceleration = 0,
          minAcceleration = 0;
 };
 
@@ -64,7 +64,7 @@ Found sampled(const cam::Curve &curve, const cam::MasterLimits &limits) {
       const auto at = [&](double x) { return cam::evaluateSegment(segment, x); };
       const auto most = [&](const std::function<double(double)> &f) {
         // In portions: parts of laws have their extremes, too.
-        double value = -INFINITY;
+        double value = -HUGE_VAL;
         for (int i = 0; i < 4; ++i) {
           const double h = (segment.end - segment.start) / 4;
           value = std::fmax(value, greatest(f, segment.start + i * h, segment.start + (i + 1) * h));

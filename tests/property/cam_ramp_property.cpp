@@ -15,7 +15,7 @@ namespace {
 using namespace stride::test;
 namespace pl = ::st::SM_PLCopen;
 
-enum StartMode : int16_t { RampIn = 2, RampInPos = 3, RampInNeg = 4 };
+enum StartMode : int16_t { kRampIn = 2, kRampInPos = 3, kRampInNeg = 4 };
 
 struct Counts {
   int ramps = 0, moving = 0, resting = 0, turned = 0;
@@ -47,7 +47,7 @@ public:
     s = randomSettings(random_, cam_);
     s.periodic = true;
     s.slaveOffset = random_.chance(0.5) ? unit * random_.uniform(-2, 2) : 0;
-    const int mode = RampIn + random_.below(3);
+    const int mode = kRampIn + random_.below(3);
     scene_.camIn.StartMode = static_cast<int16_t>(mode);
     scene_.select.SlaveAbsolute = !s.relative;
     scene_.camIn.VelocityDiff = velocityDiff_;
@@ -152,9 +152,9 @@ public:
     counts_.turned += std::fabs(way) > period_ && period_ > 0;
     if (rests_ && period_ > 0) {
       const long double slack = 1e-9L * period_ + tolerance_;
-      if (mode == RampIn) {
+      if (mode == kRampIn) {
         ASSERT_LE(std::fabs(way), period_ / 2 + slack);
-      } else if (mode == RampInPos) {
+      } else if (mode == kRampInPos) {
         ASSERT_GE(way, -slack);
         ASSERT_LT(way, period_ + slack);
       } else {
@@ -239,8 +239,8 @@ private:
     }
     // A direction once taken is kept. (An acceleration that has to be taken away first may turn
     // it.)
-    if (period_ > 0 && (ramp_ == 0 || rests_) && mode != RampIn && cycle > 0) {
-      const long double sign = mode == RampInPos ? 1 : -1;
+    if (period_ > 0 && (ramp_ == 0 || rests_) && mode != kRampIn && cycle > 0) {
+      const long double sign = mode == kRampInPos ? 1 : -1;
       if (rv_ * sign > slackV) {
         ASSERT_GT(rv * sign, -slackV) << "turns round";
       }

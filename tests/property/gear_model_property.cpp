@@ -67,7 +67,7 @@ public:
     gear.RatioNumerator = random_.below(2001) - 1000;
     gear.RatioDenominator = static_cast<uint32_t>(1 + random_.below(1000));
     if (random_.chance(0.2))
-      gear.RatioNumerator = gear.RatioDenominator = 1;
+      gear.RatioNumerator = 1, gear.RatioDenominator = 1;
     ratio_ = static_cast<long double>(gear.RatioNumerator) / gear.RatioDenominator;
     gear.Acceleration = acceleration_;
     gear.Deceleration = deceleration_;

@@ -338,10 +338,10 @@ inline std::string wrongIn(const motion::Profile &profile, const MotionProblem &
     return "end";
   if (profile.at(profile.duration).position != p.target)
     return "position at the end";
-  if (const std::string jump = jumpIn(profile, p, blur); !jump.empty())
+  if (std::string jump = jumpIn(profile, p, blur); !jump.empty())
     return jump;
   for (const auto check : {notIntegrated, tooFast, tooHard})
-    if (const std::string wrong = check(profile, p); !wrong.empty())
+    if (std::string wrong = check(profile, p); !wrong.empty())
       return wrong;
   return "";
 }

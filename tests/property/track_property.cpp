@@ -40,8 +40,9 @@ bool within(double position, const cam::CamSwitch &camSwitch, double period) {
 cam::CamSwitch randomSwitch(MotionRandom &random, int places) {
   cam::CamSwitch camSwitch{};
   camSwitch.TrackNumber = 1;
-  camSwitch.FirstOnPosition = (random.below(2 * places) - places / 2) * kGrid;
-  camSwitch.LastOnPosition = (random.below(2 * places) - places / 2) * kGrid;
+  const int before = places / 2;
+  camSwitch.FirstOnPosition = (random.below(2 * places) - before) * kGrid;
+  camSwitch.LastOnPosition = (random.below(2 * places) - before) * kGrid;
   camSwitch.AxisDirection = static_cast<int16_t>(random.below(3));
   return camSwitch;
 }

@@ -32,7 +32,7 @@ bool startsWord(const std::string &line, std::string_view word) {
            line[word.size()] != '_'));
 }
 
-std::string trimmed(std::string line) {
+std::string trimmed(const std::string &line) {
   const size_t first = line.find_first_not_of(' ');
   return first == std::string::npos ? std::string() : line.substr(first);
 }

@@ -17,7 +17,7 @@ using ::testing::Not;
 class SharedCache : public HostileProject {
 protected:
   /// The program counts as it should, and says or does not say that the cache is not used.
-  void expectRun(bool trusted, Environment environment) {
+  void expectRun(bool trusted, const Environment &environment) {
     std::vector<std::string> command = {"/usr/bin/env", "-i", "PATH=/usr/bin:/bin"};
     for (const auto &[name, value] : environment)
       command.push_back(name + "=" + value);

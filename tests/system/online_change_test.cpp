@@ -11,7 +11,6 @@ using app::Verdict;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using ::testing::Not;
 
 TEST(OnlineChange, AddedRemovedAndReordered) {
   Live live(R"(

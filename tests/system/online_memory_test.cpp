@@ -6,9 +6,7 @@
 namespace stride::test {
 namespace {
 
-using app::Verdict;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 TEST(OnlineMemory, Unions) {

@@ -8,7 +8,6 @@ namespace {
 
 using app::Verdict;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 constexpr const char *kShape = R"(

@@ -17,7 +17,6 @@
 namespace {
 
 using stride::test::ProcessResult;
-using stride::test::readFile;
 using stride::test::replaceAll;
 using stride::test::runProcess;
 using stride::test::ScratchDirectory;

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 /// A folder, and commands that work in it.
 class Run : public ::testing::Test {
 protected:
-  ProcessResult command(std::vector<std::string> arguments) {
+  ProcessResult command(const std::vector<std::string> &arguments) {
     return runProcess(arguments, scratch_.path(),
                       {{"XDG_CACHE_HOME", (scratch_.path() / "cache").string()},
                        {"HOST", STRIDE_BINARY_DIR "/stride-host"},

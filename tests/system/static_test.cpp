@@ -28,7 +28,7 @@ const std::vector<std::string> kSim = {"--for",   "T#3s",
 
 /// The project apart, so that its folder stays as it is.
 std::filesystem::path copyOfProject(const ScratchDirectory &scratch) {
-  const std::filesystem::path copy = scratch.path() / "PLCopenSingle";
+  std::filesystem::path copy = scratch.path() / "PLCopenSingle";
   std::filesystem::copy(kProject, copy, std::filesystem::copy_options::recursive);
   return copy;
 }

@@ -216,7 +216,7 @@ private:
   /// Declares data that the cam points at. It is named after what it holds, so that an online
   /// change gives a changed cam its new data, while what the program has changed in others stays.
   std::string dataOf(const CamSource &cam, const Declared &declared) {
-    const std::string name =
+    std::string name =
         fmt::format("{}__{}", cam.name.text,
                     ContentHash().add(declared.type).add(declared.value).hex().substr(0, 8));
     add(cam, fmt::format("  {{attribute 'hide'}}\n  {} : {} := {};\n", name, declared.type,

@@ -232,7 +232,7 @@ void emitLeftmost(EmitContext &cx, const std::vector<Link> &spine) {
 /// More operators than g++ should get at once: constants `part__…`, each of kMaxTerms operators.
 void emitInParts(EmitContext &cx, const std::vector<Link> &spine) {
   const auto open = [&](size_t i) { // a part ends with the operator i
-    const std::string part = cx.temporary("part");
+    std::string part = cx.temporary("part");
     cx.out << "const " << cx.type(underlying(spine[i].expr->type)) << ' ' << part << " = ";
     return part;
   };

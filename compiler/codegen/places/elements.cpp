@@ -15,7 +15,7 @@ namespace {
 /// An argument list takes what is indexed, and C++ would be free to read it after the index. Begins
 /// a lambda that takes it first; gives what stands for it there.
 std::string openBase(EmitContext &cx, const std::string &base, const Type *type) {
-  const std::string name = cx.temporary("base");
+  std::string name = cx.temporary("base");
   cx.out << "[&]() -> decltype(auto) { " << (isString(type) ? "auto &&" : "const auto ") << name
          << " = " << base << "; return ";
   return name;

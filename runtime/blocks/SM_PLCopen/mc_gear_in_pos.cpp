@@ -90,7 +90,8 @@ bool chooseTurns(const Block &block, const AxisRef &slave, cam::Approach &approa
     return false;
   const double nearer = wanted < best ? -1.0 : 1.0;
   for (int i = 0; i < 6; ++i) { // best, then the ones beside it by turns
-    const double step = (i % 2 != 0 ? nearer : -nearer) * ((i + 1) / 2);
+    const int away = (i + 1) / 2;
+    const double step = (i % 2 != 0 ? nearer : -nearer) * away;
     turns = static_cast<int64_t>(best + step);
     approach.end.y = direct + (best + step) * period;
     if (block.stSync.bAvoidReversal == 0 || !cam::reverses(approach))

@@ -295,16 +295,19 @@ void Builder::factorise() noexcept {
     for (int row = 0; row < kDerivatives && direct; ++row) {
       rowOverDiagonal(joint, next.before, row, x);
       for (int column = 0; column <= row; ++column)
-        lower(next.diagonal, row, column) -= dot(x, &next.before[3 * column]);
+        lower(next.diagonal, row, column) -=
+            dot(x, &next.before[size_t{3} * static_cast<size_t>(column)]);
       next.value[row] -= dot(x, joint.value);
     }
     for (int row = 0; row < kDerivatives && closed_; ++row) {
       rowOverDiagonal(joint, joint.around, row, x);
       for (int column = 0; column <= row; ++column)
-        lower(last.diagonal, row, column) -= dot(x, &joint.around[3 * column]);
+        lower(last.diagonal, row, column) -=
+            dot(x, &joint.around[size_t{3} * static_cast<size_t>(column)]);
       last.value[row] -= dot(x, joint.value);
       for (int column = 0; column < kDerivatives && direct; ++column)
-        entry(next.around, row, column) -= dot(x, &next.before[3 * column]);
+        entry(next.around, row, column) -=
+            dot(x, &next.before[size_t{3} * static_cast<size_t>(column)]);
     }
   }
   for (int32_t k = count_; k >= first; --k) {

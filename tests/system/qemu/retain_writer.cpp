@@ -36,14 +36,15 @@ int go(const std::string &file, bool readOnly) {
   }
   std::printf("\nfound %u end\n", generation); // after whatever the kernel has written
   std::fflush(stdout);
-  while (!readOnly) {
+  if (readOnly)
+    return 0;
+  for (;;) {
     ++generation;
     const std::vector<uint32_t> values(kWords, generation);
     store.save("model", 1, encoded, std::as_bytes(std::span(values)));
     std::printf("safe %u end\n", generation);
     std::fflush(stdout);
   }
-  return 0;
 }
 
 } // namespace

@@ -70,6 +70,7 @@ TEST(CamFile, ComesBackAsItWas) {
   EXPECT_EQ(file.header.elements, 2U);
   EXPECT_EQ(file.header.end, 360.0);
   EXPECT_STREQ(file.header.name, "Press");
+  // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): to the byte
   EXPECT_EQ(std::memcmp(file.elements, kNodes.data(), 64), 0);
   ASSERT_EQ(file.header.tappets, 1U);
   EXPECT_EQ(file.tappets[0].x, 90.0);

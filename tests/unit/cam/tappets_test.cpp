@@ -16,7 +16,7 @@ namespace cam = stride::cam;
 /// A cam from 0 to 10 whose tappets have the groups 0, 1, 2 ... and count both ways.
 class Scene {
 public:
-  explicit Scene(std::vector<double> places, bool periodic = true) : periodic_(periodic) {
+  explicit Scene(const std::vector<double> &places, bool periodic = true) : periodic_(periodic) {
     for (const double x : places) {
       cam::Tappet tappet{};
       tappet.x = x;

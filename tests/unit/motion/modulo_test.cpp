@@ -10,7 +10,6 @@
 namespace {
 
 using stride::motion::Direction;
-using stride::motion::Dynamics;
 using stride::motion::ModuloRequest;
 using stride::motion::RampType;
 using stride::motion::resolveModulo;

@@ -49,25 +49,25 @@ public:
     rig.axis.fSWMaxVelocity = 1000;
     rig.axis.fSWMaxAcceleration = 1e6;
     rig.axis.fSWMaxDeceleration = 1e6;
-    positions.Number_of_pairs = velocities.Number_of_pairs = accelerations.Number_of_pairs = 2;
+    positions_.Number_of_pairs = velocities_.Number_of_pairs = accelerations_.Number_of_pairs = 2;
     for (int i = 0; i < 2; ++i) {
-      positions.MC_TP_Array.v[i] = {500, 10.0 * (i + 1)};
-      velocities.MC_TV_Array.v[i] = {500, 10.0};
-      accelerations.MC_TA_Array.v[i] = {500, 10.0};
+      positions_.MC_TP_Array.v[i] = {500, 10.0 * (i + 1)};
+      velocities_.MC_TV_Array.v[i] = {500, 10.0};
+      accelerations_.MC_TA_Array.v[i] = {500, 10.0};
     }
-    positions.IsAbsolute = 0;
-    add(position, state::kSynchronized);
-    add(positionVelocity, state::kSynchronized);
-    add(velocity, state::kSynchronized);
-    add(byPos, state::kSynchronized);
-    add(byPosVel, state::kSynchronized);
-    add(byVel, state::kSynchronized);
-    positionProfile.TimePosition = &positions;
-    velocityProfile.TimeVelocity = &velocities;
-    accelerationProfile.TimeAcceleration = &accelerations;
-    add(positionProfile, state::kDiscrete);
-    add(velocityProfile, state::kContinuous);
-    add(accelerationProfile, state::kContinuous);
+    positions_.IsAbsolute = 0;
+    add(position_, state::kSynchronized);
+    add(positionVelocity_, state::kSynchronized);
+    add(velocity_, state::kSynchronized);
+    add(byPos_, state::kSynchronized);
+    add(byPosVel_, state::kSynchronized);
+    add(byVel_, state::kSynchronized);
+    positionProfile_.TimePosition = &positions_;
+    velocityProfile_.TimeVelocity = &velocities_;
+    accelerationProfile_.TimeAcceleration = &accelerations_;
+    add(positionProfile_, state::kDiscrete);
+    add(velocityProfile_, state::kContinuous);
+    add(accelerationProfile_, state::kContinuous);
   }
 
   std::vector<Subject> subjects;
@@ -102,18 +102,18 @@ private:
     subjects.push_back(s);
   }
 
-  drive::SMC_FollowPosition position = fresh<drive::SMC_FollowPosition>();
-  drive::SMC_FollowPositionVelocity positionVelocity = fresh<drive::SMC_FollowPositionVelocity>();
-  drive::SMC_FollowVelocity velocity = fresh<drive::SMC_FollowVelocity>();
-  drive::SMC_ControlAxisByPos byPos = fresh<drive::SMC_ControlAxisByPos>();
-  drive::SMC_ControlAxisByPosVel byPosVel = fresh<drive::SMC_ControlAxisByPosVel>();
-  drive::SMC_ControlAxisByVel byVel = fresh<drive::SMC_ControlAxisByVel>();
-  pl::MC_PositionProfile positionProfile = fresh<pl::MC_PositionProfile>();
-  pl::MC_VelocityProfile velocityProfile = fresh<pl::MC_VelocityProfile>();
-  pl::MC_AccelerationProfile accelerationProfile = fresh<pl::MC_AccelerationProfile>();
-  pl::MC_TP_REF positions = fresh<pl::MC_TP_REF>();
-  pl::MC_TV_REF velocities = fresh<pl::MC_TV_REF>();
-  pl::MC_TA_REF accelerations = fresh<pl::MC_TA_REF>();
+  drive::SMC_FollowPosition position_ = fresh<drive::SMC_FollowPosition>();
+  drive::SMC_FollowPositionVelocity positionVelocity_ = fresh<drive::SMC_FollowPositionVelocity>();
+  drive::SMC_FollowVelocity velocity_ = fresh<drive::SMC_FollowVelocity>();
+  drive::SMC_ControlAxisByPos byPos_ = fresh<drive::SMC_ControlAxisByPos>();
+  drive::SMC_ControlAxisByPosVel byPosVel_ = fresh<drive::SMC_ControlAxisByPosVel>();
+  drive::SMC_ControlAxisByVel byVel_ = fresh<drive::SMC_ControlAxisByVel>();
+  pl::MC_PositionProfile positionProfile_ = fresh<pl::MC_PositionProfile>();
+  pl::MC_VelocityProfile velocityProfile_ = fresh<pl::MC_VelocityProfile>();
+  pl::MC_AccelerationProfile accelerationProfile_ = fresh<pl::MC_AccelerationProfile>();
+  pl::MC_TP_REF positions_ = fresh<pl::MC_TP_REF>();
+  pl::MC_TV_REF velocities_ = fresh<pl::MC_TV_REF>();
+  pl::MC_TA_REF accelerations_ = fresh<pl::MC_TA_REF>();
 };
 
 constexpr size_t kSubjects = 9;

@@ -26,7 +26,7 @@ protected:
 
   std::string key(int number) { return ContentHash().add(uint64_t(number)).hex(); }
   fs::path file(const std::string &text) {
-    const fs::path path = scratch_.path() / "file";
+    fs::path path = scratch_.path() / "file";
     writeFile(path, text);
     return path;
   }

@@ -105,7 +105,8 @@ TEST(RealSchedulerTest, AllKindsOfTasksInTurns) {
                                       task("Status", TaskKind::Status, 3, 2, status, openSet),
                                       task("Free", TaskKind::Freewheeling, 31, 10, slow)};
   Started started(list);
-  auto &[app, state, tasks] = started;
+  Shared &state = started.state;
+  TaskSet &tasks = started.tasks;
   {
     RealScheduler scheduler(tasks, kInTurns);
     scheduler.start();
@@ -131,7 +132,8 @@ TEST(RealSchedulerTest, AllKindsOfTasksInTurns) {
 TEST(RealSchedulerTest, CyclesThatTakeTooLongSkipOnesOnTheGrid) {
   const std::vector<TaskDesc> list = {task("Late", TaskKind::Cyclic, 1, 1, slow)};
   Started started(list);
-  auto &[app, state, tasks] = started;
+  Shared &state = started.state;
+  TaskSet &tasks = started.tasks;
   RealScheduler scheduler(tasks, kInTurns);
   scheduler.start();
   waitUntil([&] { return state.slow > 10; });
@@ -178,7 +180,7 @@ stride::BOOL noEvent(Ctx *) { return 0; }
 TEST(RealSchedulerTest, ThePacerSaysWhenATaskRuns) {
   const std::vector<TaskDesc> list = {task("Sync", TaskKind::Event, 1, 1, event, noEvent)};
   Started started(list);
-  auto &[app, state, tasks] = started;
+  TaskSet &tasks = started.tasks;
   constexpr int64_t kSilent = 20 * kMs;
   HalfSync sync(kSilent);
   StartsHook hook;
@@ -203,7 +205,8 @@ TEST(RealSchedulerTest, ThePacerSaysWhenATaskRuns) {
 TEST(RealSchedulerTest, AStopDoesNotWaitForALongPace) {
   const std::vector<TaskDesc> list = {task("Sync", TaskKind::Event, 1, 3'600'000, event, noEvent)};
   Started started(list);
-  auto &[app, state, tasks] = started;
+  Shared &state = started.state;
+  TaskSet &tasks = started.tasks;
   HalfSync sync(0);
   tasks.setPacer(0, sync);
   StartsHook hook;
@@ -235,7 +238,8 @@ TEST(RealSchedulerTest, RaisedTasksRunAndWhatIsTooMuchIsCounted) {
   const std::vector<TaskDesc> list = {task("Fast", TaskKind::Cyclic, 1, 1, fast),
                                       task("Raised", TaskKind::Event, 9, 0, slow, noEvent)};
   Started started(list);
-  auto &[app, state, tasks] = started;
+  Shared &state = started.state;
+  TaskSet &tasks = started.tasks;
   RaisingHook hook(tasks, 1);
   tasks.addHook(0, hook);
   {
@@ -302,7 +306,8 @@ TEST(RealSchedulerTest, BetweenCyclesNoTaskIsInside) {
   const std::vector<TaskDesc> list = {task("Fast", TaskKind::Cyclic, 1, 1, fast),
                                       task("Slow", TaskKind::Cyclic, 9, 3, slow)};
   Started started(list);
-  auto &[app, state, tasks] = started;
+  Shared &state = started.state;
+  TaskSet &tasks = started.tasks;
   RealScheduler scheduler(tasks, {.fifo = false, .turns = false, .core = {}});
   scheduler.start();
   for (int i = 0; i < 50; ++i) {
@@ -340,7 +345,8 @@ TEST(RealSchedulerTest, AFaultStopsThePousAndTheHooksGoOnUntilRest) {
                                       task("Fast", TaskKind::Cyclic, 2, 1, fast),
                                       task("Event", TaskKind::Event, 2, 0, event, openSet)};
   Started started(list);
-  auto &[app, state, tasks] = started;
+  Shared &state = started.state;
+  TaskSet &tasks = started.tasks;
   BrakingHook mine;
   BrakingHook others;
   BrakingHook ofTheEvent;
@@ -372,7 +378,8 @@ TEST(RealSchedulerTest, AnEventMayContainLoopsAndAStopDoesNotWaitForALongInterva
                                       task("Event", TaskKind::Event, 0, 0, event, loopingEvent),
                                       task("Hourly", TaskKind::Cyclic, 9, 3600000, slow)};
   Started started(list);
-  auto &[app, state, tasks] = started;
+  Shared &state = started.state;
+  TaskSet &tasks = started.tasks;
   BrakingHook hourly;
   hourly.cycles = 2;
   tasks.addHook(2, hourly);
@@ -396,7 +403,7 @@ TEST(RealSchedulerTest, TheWatchdogEndsAnEndlessLoop) {
   std::vector<TaskDesc> list = {task("Main", TaskKind::Cyclic, 1, 10, endless)};
   list[0].watchdogNs = 20 * kMs;
   Started started(list);
-  auto &[app, state, tasks] = started;
+  TaskSet &tasks = started.tasks;
   RealScheduler scheduler(tasks, kInTurns);
   scheduler.start();
   waitUntil([&] { return tasks.fault().has_value(); });
@@ -409,7 +416,8 @@ TEST(RealSchedulerTest, TheWatchdogCountsViolationsInARow) {
   list[0].watchdogNs = kMs * 3 / 2; // the cycle sleeps 2 ms
   list[0].watchdogSensitivity = 4;
   Started started(list);
-  auto &[app, state, tasks] = started;
+  Shared &state = started.state;
+  TaskSet &tasks = started.tasks;
   RealScheduler scheduler(tasks, kInTurns);
   scheduler.start();
   waitUntil([&] { return tasks.fault().has_value(); });

@@ -23,7 +23,6 @@ using stride::task::RunResult;
 using stride::task::TaskSet;
 using stride::task::VirtualScheduler;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 TEST(VirtualSchedulerTest, OrderIsTimePriorityDeclaration) {
   const std::vector<TaskDesc> tasks = {cyclic("A", 5, 20, note<'a'>), cyclic("B", 1, 10, note<'b'>),
