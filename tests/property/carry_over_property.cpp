@@ -195,7 +195,7 @@ bool isText(const ModelType *t) { return t->kind == Kind::STRING || t->kind == K
 class Oracle {
 public:
   Oracle(World &world, const std::byte *oldState, const std::byte *newState)
-      : world_(world), oldState_(oldState), newState_(newState), olds_(objectsOf(world.before)),
+      : oldState_(oldState), newState_(newState), olds_(objectsOf(world.before)),
         news_(objectsOf(world.after)) {
     for (const Object &o : olds_)
       oldById_[o.id] = &o;
@@ -383,7 +383,6 @@ private:
     return std::nullopt;
   }
 
-  World &world_;
   const std::byte *oldState_;
   const std::byte *newState_;
   std::vector<Object> olds_;

@@ -3,6 +3,8 @@
 
 #include "runtime/numeric/cam/builder_shapes.hpp"
 
+#include <cstddef>
+
 namespace stride::cam {
 namespace {
 

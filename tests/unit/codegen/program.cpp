@@ -298,7 +298,7 @@ void *App::at(std::string_view path, const stride::TypeDesc **typeOut) const {
     const char c = rest.front();
     rest.remove_prefix(1);
     if (type->kind == stride::Kind::InOut || type->kind == stride::Kind::Reference || c == '^') {
-      std::memcpy(&place, place, sizeof place);
+      std::memcpy(&place, place, sizeof(void *));
       type = &app_->types[type->element];
       if (place == nullptr)
         return nullptr;
