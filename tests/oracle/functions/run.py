@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 """Compares the standard functions with the tables of this folder.
 
-usage: run.py STRIDE TABLE.csv… [--every-row-fails] [--every=N]
+usage: run.py STRIDE TABLE.csv… [--every-row-fails]
 
 Each table becomes one program. Arguments stand in arrays that a loop calls the function with; a second array is
 initialised with the same calls on literals, so that the compiler computes them. Results are compared bit by bit. For
 mathematical functions, whose table has the exact value, the error is measured in units of the last place of the result's
-type and printed; it must stay below the function's bound. With --every-row-fails each row must be reported. With
---every=N only each Nth row of the same call and types is compared.
+type and printed; it must stay below the function's bound. With --every-row-fails each row must be reported.
 """
 import csv
 import itertools
@@ -90,12 +89,12 @@ class Group:
         return {"variables": f"r{k}.bits"} | ({"literals": f"f{k}.bits"} if self.folds else {})
 
 
-def read(table, every):
+def read(table):
     with open(table, encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     groups = []
     for key, members in itertools.groupby(rows, key=lambda r: (r["call"], r["types"], r["result"])):
-        members = [(m["expected"], m["arguments"].split(" | ")) for m in itertools.islice(members, 0, None, every)]
+        members = [(m["expected"], m["arguments"].split(" | ")) for m in members]
         types = re.findall(r"ARRAY\[.*?\] OF \S+|\S+", key[1])
         groups.append(Group(len(groups), key[0], types, key[2], members))
     return groups
@@ -170,12 +169,11 @@ class Reals:
 
 def main():
     every_row_fails = "--every-row-fails" in sys.argv
-    every = next((int(a.removeprefix("--every=")) for a in sys.argv if a.startswith("--every=")), 1)
     stride, *tables = [str(pathlib.Path(a).resolve()) for a in sys.argv[1:] if not a.startswith("--")]
     reals = Reals()
     rows = failed = checked = 0
     for table in tables:
-        groups = read(table, every)
+        groups = read(table)
         values = run(stride, groups)
         for group in groups:
             for i, (expected, arguments) in enumerate(group.rows):
