@@ -1,6 +1,7 @@
 // g_DRIVESTRUCT: the whole PLC configuration, for programs (SoftMotion V2.3 manual, section 11.2).
 
 #include "compiler/project/config_reader.hpp"
+#include "compiler/syntax/st_text.hpp"
 
 #include <fmt/format.h>
 

@@ -20,7 +20,7 @@ constexpr auto kRows = [] {
   using enum BuiltinRow::Effect;
   return std::to_array<BuiltinRow>({
 #define STC_BUILTIN(enumerator, name, signature, takes, check, fold, does, emit, text)             \
-  {name, takes, does},
+  {name, takes, unsigned does},
 #include "compiler/semantics/builtins.def"
   });
 }();

@@ -8,6 +8,8 @@
 
 namespace stc {
 
+using ast::BinaryOp;
+
 namespace {
 
 // -------------------------------------------------------------------------------------------------
@@ -235,7 +237,7 @@ using Fold = std::optional<ConstValue> (*)(const FoldCall &call);
 
 /// By the number of the function.
 constexpr Fold kFolds[] = {
-#define STC_BUILTIN(enumerator, name, signature, takes, check, fold, ...) fold,
+#define STC_BUILTIN(enumerator, name, signature, takes, check, fold, ...) Fold fold,
 #include "compiler/semantics/builtins.def"
 };
 

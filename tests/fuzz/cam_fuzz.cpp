@@ -14,8 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   const stc::FileId id =
       sources.addBytes("Cam1.cam.toml", std::string(reinterpret_cast<const char *>(data), size));
   if (const std::optional<stc::CamSource> cam = stc::readCam(sources.file(id), diagnostics)) {
-    std::vector<stc::DeclaredRange> ranges;
-    (void)stc::camDeclarations({*cam}, {}, ranges, diagnostics);
+    (void)stc::camDeclarations({*cam}, {}, diagnostics);
     if (const std::optional<stc::CamData> compiled = stc::compileCam(*cam, diagnostics);
         compiled && compiled->header.elements != 0) {
       uint32_t index = 0;

@@ -13,8 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
       sources.addBytes("stride.toml", std::string(reinterpret_cast<const char *>(data), size));
   stc::ProjectConfig config = stc::readConfig(sources.file(id), diagnostics);
   stc::resolveTasks(config, {}, stc::ProgramCheck::Existing, diagnostics);
-  std::vector<stc::DeclaredRange> ranges;
-  (void)stc::plcDeclarations(config, {}, ranges, diagnostics);
+  (void)stc::plcDeclarations(config, {}, diagnostics);
   for (const stc::Diagnostic &diagnostic : diagnostics.all())
     (void)stc::renderText(diagnostic, sources);
   return 0;

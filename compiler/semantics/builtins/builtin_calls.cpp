@@ -21,7 +21,7 @@ using Check = const Type *(*)(Context &c, CallExpr *expr);
 
 /// By the number of the function; null: it is not called by a name of its own.
 constexpr Check kChecks[] = {
-#define STC_BUILTIN(enumerator, name, signature, takes, check, ...) check,
+#define STC_BUILTIN(enumerator, name, signature, takes, check, ...) Check check,
 #include "compiler/semantics/builtins.def"
 };
 
