@@ -198,6 +198,8 @@ private:
         depth = std::max(depth, depths_[member.type] + 1);
         sum += (member.flags & kSymBit) != 0 ? 0 : to_.types_[member.type].size;
         check(std::string_view(to_.types_[member.type].name) != kLocated);
+        // Others have no members, whatever they say.
+        check((member.flags & kSymBase) == 0 || hasMembers(to_.types_[member.type].kind));
       }
       // Only unions overlap, so that there are not more values than bytes.
       check(t.kind == Kind::Union || std::string_view(t.name) == kLocated || sum <= t.size);

@@ -296,6 +296,20 @@ TEST_F(RetainImageTest, NonRetainAndChangedNativeBlocks) {
   EXPECT_EQ(b.get<int32_t>(8), 0);
 }
 
+TEST_F(RetainImageTest, OnlyWhatHasMembersIsABase) {
+  a.root("G", "r", a.structure("S", {{"a", a.elementary(Kind::DINT)}}), kSymRetain);
+  a.ready(5);
+  const RetainLayout layout(a.app(), app::kRetained);
+  const std::vector<std::byte> values(layout.bytes());
+  std::vector<std::byte> bytes = app::encodeImage({"model", 5, 1}, layout.encode(), values);
+  const std::string_view text(reinterpret_cast<const char *>(bytes.data()), bytes.size());
+  const size_t member = text.find(std::string_view("\1\0\0\0a", 5));
+  ASSERT_NE(member, std::string_view::npos);
+  EXPECT_NO_THROW(static_cast<void>(app::decodeImage(bytes, false)));
+  bytes[member + 5 + 8 + 4] |= std::byte{kSymBase}; // after its name, offset and type
+  EXPECT_THROW(static_cast<void>(app::decodeImage(bytes, false)), app::Error);
+}
+
 TEST_F(RetainImageTest, DamagedBytesAreNoImage) {
   const ModelType *dint = a.elementary(Kind::DINT);
   a.root("G", "r", a.array(a.structure("S", {{"a", dint}, {"t", a.string(5)}}), 0, 3), kSymRetain);
