@@ -170,7 +170,7 @@ END_STEP          : E N D '_' S T E P ;
 TRANSITION        : T R A N S I T I O N ;
 END_TRANSITION    : E N D '_' T R A N S I T I O N ;
 
-// ---- words that are keywords only inside of PROPERTY, CONFIGURATION and VAR_ACCESS
+// ---- words that are keywords only inside of PROPERTY, CONFIGURATION and VAR_ACCESS, and after the type of an input
 
 GET        : G E T ;
 SET        : S E T ;
@@ -178,6 +178,8 @@ RESOURCE   : R E S O U R C E ;
 ON         : O N ;
 TASK       : T A S K ;
 WITH       : W I T H ;
+R_EDGE     : R '_' E D G E ;
+F_EDGE     : F '_' E D G E ;
 READ_ONLY  : R E A D '_' O N L Y ;
 READ_WRITE : R E A D '_' W R I T E ;
 
@@ -203,8 +205,9 @@ ENUM_LITERAL : IDENT '#' IDENT ;
 INTEGER : DIGITS | BASED ;
 REAL    : DIGITS '.' DIGITS EXPONENT? | DIGITS EXPONENT ;
 
-STRING_LITERAL  : '\'' ( '$' ~[\r\n] | ~[$'\r\n] )* '\'' ;
-WSTRING_LITERAL : '"' ( '$' ~[\r\n] | ~[$"\r\n] )* '"' ;
+// The scanner takes one for unclosed whose quote does not come before the end of the statement.
+STRING_LITERAL  : '\'' ( '$' . | ~[$'] )* '\'' ;
+WSTRING_LITERAL : '"' ( '$' . | ~[$"] )* '"' ;
 
 // %IX0.0, %QW2, %MD4, %I*, and partial access after a dot: %X3
 DIRECT : '%' [a-zA-Z]+ ( '*' | [0-9]+ ( '.' [0-9]+ )* ) ;

@@ -81,10 +81,10 @@ qualifiers
   : ( CONSTANT | RETAIN | PERSISTENT | NON_RETAIN | PUBLIC | PRIVATE | PROTECTED | INTERNAL | FINAL | ABSTRACT
     | OVERRIDE )*
   ;
-varDeclaration : varNames COLON typeSpec ( ( ASSIGN | REF_ASSIGN ) initializer )? SEMICOLON+ ;
+varDeclaration : varNames COLON typeSpec ( R_EDGE | F_EDGE )? ( ( ASSIGN | REF_ASSIGN ) initializer )? SEMICOLON+ ;
 configVariable : operand ( AT DIRECT )? COLON typeSpec ( ASSIGN initializer )? SEMICOLON+ ;
 accessVariable : IDENT COLON operand COLON typeSpec ( READ_ONLY | READ_WRITE )? SEMICOLON+ ;
-varNames       : IDENT ( AT DIRECT )? ( COMMA IDENT ( AT DIRECT )? )* ;
+varNames       : IDENT ( AT DIRECT )? ( COMMA IDENT ( AT DIRECT )? )* | AT DIRECT ;
 
 // V2.3 writes the elements of an array without brackets.
 initializer : expression ( COMMA expression )* ;
@@ -189,6 +189,6 @@ operand
     )
   ;
 
-// Call arguments, indices, the inside of parentheses and the elements of an aggregate.
-arguments : ( argument ( COMMA argument )* )? ;
+// Call arguments, indices, the inside of parentheses and the elements of an aggregate. A call may end with a comma.
+arguments : ( argument ( COMMA argument? )* )? ;
 argument  : expression ( ( ASSIGN | ARROW ) expression? )? ;

@@ -252,9 +252,31 @@ private:
       const std::string line = "  app__(ctx__)." + m.name + "." + std::string(name) + "(*ctx__);\n";
       body = backwards ? line + body : body + line;
     }
+    if (method == "fb_exit")
+      body += exitsOfObjects();
     if (!body.empty())
       out += "\nvoid " + std::string(name) + "(::stride::Ctx *ctx__) {\n" + body + "}\n";
     return !body.empty();
+  }
+
+  /// FB_Exit of what __NEW has created and nobody has deleted; empty: nothing has one.
+  std::string exitsOfObjects() {
+    std::string cases;
+    for (const Type *type : c_.program.created) {
+      if (!c_.layouts.hasLifecycle(type, "fb_exit"))
+        continue;
+      types_.includes().complete(type);
+      cases += "    case " + std::to_string(c_.layouts.hash(type)) +
+               "ULL:\n      for (::stride::ULINT i = 0; i < block->count; ++i)\n"
+               "        static_cast<" +
+               std::string(c_.names.type(type)) + " *>(object)[i].exit__(*ctx__);\n      break;\n";
+    }
+    if (cases.empty())
+      return cases;
+    return "  ::stride::ULINT at = 0;\n  const ::stride::PoolBlock *block = nullptr;\n"
+           "  while (void *const object = ::stride::poolNext(*ctx__, at, block)) {\n"
+           "    switch (block->typeHash) {\n" +
+           cases + "    default:\n      break;\n    }\n  }\n";
   }
 
   void tasks(std::string &out) {

@@ -243,6 +243,22 @@ Writer GeneratedSource::inOutReferences(const PouSymbol *pou) {
   return bound;
 }
 
+/// Inputs that are edges in the body.
+Writer GeneratedSource::edgeInputs(const PouSymbol *pou) {
+  Writer out(cx_.run.program.sources);
+  out.indent();
+  for (const VarSymbol *v : pou->variables) {
+    if (v->decl == nullptr || v->decl->lastCall == nullptr)
+      continue;
+    out.from(startOf(pou));
+    out.line() << "const ::stride::EdgeInput " << mangle(v->name.text) << "__edge__(this->"
+               << fieldName(v) << ", this->" << fieldName(v->decl->lastCall->symbol)
+               << (v->decl->edge == Edge::Rising ? ", true);" : ", false);");
+    out.endLine();
+  }
+  return out;
+}
+
 void GeneratedSource::blockBody(const PouSymbol *pou, std::string_view name) {
   cx_.uses = {};
   const Span start = startOf(pou);
@@ -260,6 +276,7 @@ void GeneratedSource::blockBody(const PouSymbol *pou, std::string_view name) {
   Writer text = open(head);
   prologue(text, head);
   text.append(bound);
+  text.append(edgeInputs(pou));
   openBudget(text, cx_.uses, head.start);
   text.append(locals);
   text.append(body);

@@ -70,6 +70,7 @@ private:
   void generatedLine(std::string_view text);
   void inOutReference(Writer &out, const VarSymbol *v);
   Writer inOutReferences(const PouSymbol *pou);
+  Writer edgeInputs(const PouSymbol *pou);
   Writer functionLocals(const PouSymbol *pou);
   std::string signatureOf(const PouSymbol *pou);
 

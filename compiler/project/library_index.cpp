@@ -50,12 +50,15 @@ bool EmbeddedLibraryIndex::answersTo(std::string_view library, std::string_view 
          });
 }
 
-std::vector<std::string_view> EmbeddedLibraryIndex::names() const {
-  std::vector<std::string_view> result;
-  for (const EmbeddedName &name : tables_.names)
-    if (!isQualifiedOnly(tables_.files[name.file]) &&
-        (result.empty() || result.back() != name.lower))
-      result.push_back(name.lower);
+std::vector<LibraryIndex::Name> EmbeddedLibraryIndex::names() const {
+  std::vector<Name> result;
+  std::string_view last;
+  for (const EmbeddedName &name : tables_.names) {
+    if (isQualifiedOnly(tables_.files[name.file]) || last == name.lower)
+      continue;
+    result.push_back({name.text, name.kind});
+    last = name.lower;
+  }
   return result;
 }
 

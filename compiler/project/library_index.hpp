@@ -23,11 +23,12 @@ struct EmbeddedFile {
 /// A name that a file declares.
 struct EmbeddedName {
   std::string_view lower; ///< lower-case spelling
+  std::string_view text;  ///< as it is declared
   uint16_t file;          ///< index into the files
-  uint8_t rank;           ///< 0: POU or type, 1: global variable, 2: enumerator
+  LibraryIndex::Kind kind;
 };
 
-/// The tables as the generator writes them: files grouped by library, names sorted by (lower, rank,
+/// The tables as the generator writes them: files grouped by library, names sorted by (lower, kind,
 /// file).
 struct EmbeddedTables {
   std::span<const EmbeddedFile> files;
@@ -42,7 +43,7 @@ public:
   [[nodiscard]] std::vector<Entry> find(std::string_view lowerName) const override;
   [[nodiscard]] bool isLibrary(std::string_view lowerName) const override;
   [[nodiscard]] bool answersTo(std::string_view library, std::string_view lowerName) const override;
-  [[nodiscard]] std::vector<std::string_view> names() const override;
+  [[nodiscard]] std::vector<Name> names() const override;
   [[nodiscard]] std::vector<Entry> files(std::string_view library) const override;
   /// Names of all libraries, in the order of the tables.
   [[nodiscard]] std::vector<std::string_view> libraries() const;

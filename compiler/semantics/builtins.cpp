@@ -132,8 +132,10 @@ std::optional<ConversionName> findConversion(Ident name) {
     return bcd;
   if (const auto bcd = findSpecial(text, "to_bcd_", ToBcd, isUnsignedInteger, isBitString))
     return bcd;
-  if (text.starts_with("to_")) {
-    if (const Type *to = findElementaryType(text.substr(3)))
+  for (const std::string_view ofAny : {"to_", "any_to_"}) {
+    if (!text.starts_with(ofAny))
+      continue;
+    if (const Type *to = findElementaryType(text.substr(ofAny.size())))
       return ConversionName{nullptr, to, Convert};
     return std::nullopt;
   }

@@ -27,7 +27,7 @@ bool survives(const Type *from, const Type *to) {
 Conversion classifyInteger(const Type *from, const Type *to) {
   if (survives(from, to))
     return Conversion::Free;
-  return bitWidth(from) == bitWidth(to) ? Conversion::Lossy : Conversion::Narrowing;
+  return bitWidth(to) >= bitWidth(from) ? Conversion::Lossy : Conversion::Narrowing;
 }
 
 Conversion classifyTime(TypeKind from, TypeKind to) {
@@ -55,9 +55,9 @@ Conversion fromInteger(const Type *from, const Type *to) {
   if (isInteger(to))
     return classifyInteger(from, to);
   if (to->kind == TypeKind::Real)
-    return bitWidth(from) <= 16 ? Conversion::Free : Conversion::Narrowing;
+    return bitWidth(from) <= 16 ? Conversion::Free : Conversion::Lossy;
   if (to->kind == TypeKind::Lreal)
-    return bitWidth(from) <= 32 ? Conversion::Free : Conversion::Narrowing;
+    return bitWidth(from) <= 32 ? Conversion::Free : Conversion::Lossy;
   return isElementary(to) ? Conversion::Narrowing : Conversion::Forbidden;
 }
 

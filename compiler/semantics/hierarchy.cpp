@@ -52,6 +52,20 @@ bool convertsTo(const PouSymbol *from, const PouSymbol *to) {
   return to->isInterface() && !from->isInterface() && implements(from, to);
 }
 
+bool isInside(const PouSymbol *code, const PouSymbol *block) {
+  return code != nullptr && block != nullptr && derivesFrom(blockOf(code), blockOf(block));
+}
+
+const VarSymbol *foreignLocal(const Symbol *member, const PouSymbol *code) {
+  if (member == nullptr || member->kind != SymbolKind::Variable)
+    return nullptr;
+  const auto *variable = static_cast<const VarSymbol *>(member);
+  const bool isPublic = variable->decl != nullptr && variable->decl->access == ast::Access::Public;
+  const bool isOwn = variable->section == ast::Section::Local && variable->owner != nullptr &&
+                     variable->owner->decl->kind == ast::DeclKind::FunctionBlock;
+  return isOwn && !isPublic && !isInside(code, variable->owner) ? variable : nullptr;
+}
+
 VarSymbol *findVariable(const PouSymbol *pou, Ident id) {
   for (const PouSymbol *p = pou; p != nullptr; p = p->base) {
     const auto it = p->scope.find(id);

@@ -24,6 +24,12 @@ namespace stc {
 /// or derived interface for an interface.
 [[nodiscard]] bool convertsTo(const PouSymbol *from, const PouSymbol *to);
 
+/// The code belongs to the block, or to one that extends it.
+[[nodiscard]] bool isInside(const PouSymbol *code, const PouSymbol *block);
+/// The member that is named, when it is a function block's own variable, which the code may at most
+/// read; null: something else, or declared PUBLIC.
+[[nodiscard]] const VarSymbol *foreignLocal(const Symbol *member, const PouSymbol *code);
+
 /// The variable of this name, of the POU itself or inherited.
 [[nodiscard]] VarSymbol *findVariable(const PouSymbol *pou, Ident id);
 /// The method, action or property of this name, of the POU itself or inherited.

@@ -51,8 +51,13 @@ public:
   /// holds. Several libraries may go by one name.
   [[nodiscard]] virtual bool answersTo(std::string_view library,
                                        std::string_view lowerName) const = 0;
-  /// Every name it declares that is seen without a library's name, for "did you mean" (lower case).
-  [[nodiscard]] virtual std::vector<std::string_view> names() const = 0;
+  enum class Kind : uint8_t { Function, Type, Variable, Enumerator }; ///< Type: blocks, too
+  struct Name {
+    std::string_view text; ///< as it is declared
+    Kind kind = Kind::Type;
+  };
+  /// Every name it declares that is seen without a library's name, for "did you mean".
+  [[nodiscard]] virtual std::vector<Name> names() const = 0;
   /// All files of one library, for generating its headers and for documentation.
   [[nodiscard]] virtual std::vector<Entry> files(std::string_view library) const = 0;
 };

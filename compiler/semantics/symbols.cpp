@@ -18,6 +18,14 @@ std::vector<VarSymbol *> PouSymbol::parameters() const {
   return list;
 }
 
+bool givesReference(const Expr *expr) {
+  if (expr->kind != ExprKind::Call)
+    return false;
+  const auto *call = as<CallExpr>(expr);
+  return (call->resolved == Callee::Function || call->resolved == Callee::Method) &&
+         call->pou->result != nullptr && call->pou->result->type->kind == TypeKind::Reference;
+}
+
 const Type *elementBeforeReference(const IndexExpr *expr) {
   const Type *type = expr->base->type;
   for (size_t i = 0; i < expr->indices.size() && type != nullptr; ++i)

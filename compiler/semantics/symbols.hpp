@@ -2,6 +2,7 @@
 #define STRIDE_COMPILER_SEMANTICS_SYMBOLS_HPP
 // What names stand for.
 
+#include "compiler/semantics/any_inputs.hpp"
 #include "compiler/semantics/constant.hpp"
 #include "compiler/semantics/types.hpp"
 #include "compiler/syntax/ast.hpp"
@@ -72,6 +73,7 @@ struct VarSymbol : Symbol {
   bool isConsistent = false; ///< {attribute 'consistent'}, and it can have it
   bool isBit = false;        ///< declared as BIT: a BOOL that shares its byte with its neighbours
   bool isResult = false;     ///< the variable of a FUNCTION that holds its result
+  AnyGroup any = AnyGroup::None; ///< an input declared ANY: what it takes; its type is AnyType
   const ConstValue *constant = nullptr; ///< value of a CONSTANT of elementary type
   const Location *location = nullptr;   ///< of an AT clause; null: an ordinary variable
   std::string_view storage;             ///< VAR_INST: the field's name in the instance; else empty
@@ -181,6 +183,8 @@ struct NamespaceSymbol : Symbol {
 };
 /// The type that the last index of `a[i, j]` reaches before a REFERENCE there is followed.
 [[nodiscard]] const Type *elementBeforeReference(const ast::IndexExpr *expr);
+/// A call of a function or method whose result is a REFERENCE.
+[[nodiscard]] bool givesReference(const ast::Expr *expr);
 
 /// `Standard.TON` on the left of the dot.
 struct LibrarySymbol : Symbol {};

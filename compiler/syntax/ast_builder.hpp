@@ -121,6 +121,7 @@ private:
   ast::Expr *bracketed(ast::Expr *base, Context *inside, size_t &at, size_t end);
   ast::Expr *indexOf(ast::Expr *base, Context *inside, Span brackets, Span whole);
   [[nodiscard]] static bool hasNames(const Context *arguments);
+  void requireArguments(const Context *inside, bool mayEndWithComma);
   ast::Expr *partOf(ast::Expr *base, const Token &member);
   ast::Expr *parentheses(Context *arguments, Span span);
   ast::Expr *prefixed(Context *context, size_t operators, ast::Expr *operand);
@@ -136,6 +137,9 @@ private:
   ast::Expr *initializer(Context *context);
   ast::Expr *initialValue(Context *expression);
   ast::AggregateItem item(Context *expression);
+  [[nodiscard]] static ast::Access accessOf(uint16_t type); ///< PUBLIC, PRIVATE …
+  ast::VarDecl *lastCallOf(const ast::VarDecl *input);
+  ast::VarDecl *unnamed(const Token &start, const Token &direct);
   ast::Expr *aggregate(const std::vector<ast::AggregateItem> &items, bool isStruct, Span span);
   ast::Expr *structAggregate(Context *arguments, Span span);
   bool isRepetition(Context *expression) const;

@@ -187,8 +187,24 @@ Expr *AstBuilder::directOperand(const Token &direct) {
   return node;
 }
 
+/// Reports commas with nothing between them and the next one or the closing bracket.
+void AstBuilder::requireArguments(const Context *inside, bool mayEndWithComma) {
+  const size_t count = inside->children.size();
+  for (size_t i = 0; i < count; ++i) {
+    const bool isLast = i + 1 == count;
+    const size_t next = isLast ? last(inside) + 1 : first(child(inside, i + 1));
+    const size_t comma = last(child(inside, i)) + 1 + (isLast && !mayEndWithComma ? 0 : 1);
+    if (comma < next && token(comma).type == Tok::COMMA) {
+      diagnostics_.report(Code::UnexpectedToken, span(token(comma)),
+                          "expected an expression beside this `,`", "there is none");
+      return;
+    }
+  }
+}
+
 /// `[1, 2(3)]`
 Expr *AstBuilder::arrayAggregate(const Context *inside, Span whole) {
+  requireArguments(inside, false);
   std::vector<AggregateItem> items;
   for (size_t i = 0; i < inside->children.size(); ++i) {
     Context *argument = child(inside, i);
@@ -246,12 +262,10 @@ Expr *AstBuilder::primary(Context *context, size_t &at, size_t &nextChild) {
 }
 
 Expr *AstBuilder::parentheses(Context *inside, Span whole) {
+  requireArguments(inside, false);
   const size_t count = inside->children.size();
-  if (count == 0) {
-    diagnostics_.report(Code::UnexpectedToken, whole,
-                        "expected an expression between the parentheses");
-    return error(whole);
-  }
+  if (count == 0)
+    return aggregate({}, true, whole); // `x : Block := ();`
   Context *only = child(inside, 0);
   if (count == 1 && only->children.size() == 1 && last(only) == last(child(only, 0))) {
     Expr *node = initialValue(child(only, 0));
@@ -290,6 +304,7 @@ Expr *AstBuilder::memberOf(Expr *base, const Token &member) {
 }
 
 Expr *AstBuilder::indexOf(Expr *base, Context *inside, Span brackets, Span whole) {
+  requireArguments(inside, false);
   auto *node = arena_.make<IndexExpr>();
   node->base = base;
   node->span = whole;
@@ -394,6 +409,8 @@ Expr *AstBuilder::partOf(Expr *base, const Token &member) {
 }
 
 std::span<Argument> AstBuilder::arguments(Context *context, size_t begin) {
+  if (context->getRuleIndex() == Grammar::RuleArguments)
+    requireArguments(context, true);
   const size_t count = context->children.size() - begin;
   if (count == 0)
     return {};

@@ -38,8 +38,9 @@ Expr *AstBuilder::literal(const Token &start) {
     if (negative || value[0] == '+')
       value.remove_prefix(1);
     node->text = spelling;
+    node->negative = negative && prefix[0] == 'l'; // LTIME has a sign
     good = literals_.timeOrDate(prefix, value, node->span, *node);
-    if (good && negative) {
+    if (good && negative && !node->negative) {
       auto *negated = arena_.make<UnaryExpr>();
       negated->span = node->span;
       negated->op = UnaryOp::Negate;

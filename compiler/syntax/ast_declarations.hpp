@@ -98,6 +98,9 @@ enum Qualifier : uint8_t {
 
 enum class Access : uint8_t { None, Public, Private, Protected, Internal };
 
+/// What an input is TRUE for in the block's body: that it has become TRUE, or FALSE.
+enum class Edge : uint8_t { None, Rising, Falling };
+
 /// One declared variable (`a, b : INT` gives two, sharing type and init).
 struct VarDecl {
   Name name;
@@ -111,6 +114,8 @@ struct VarDecl {
   bool readOnly = false;        ///< VAR_ACCESS: READ_ONLY
   bool readWrite = false;       ///< VAR_ACCESS: READ_WRITE
   Access access = Access::None; ///< `VAR PUBLIC`
+  Edge edge = Edge::None;       ///< `x : BOOL R_EDGE`
+  VarDecl *lastCall = nullptr;  ///< of an edge: the variable with the value of the last call
   Attributes attributes;
   std::string_view doc;        ///< text of the `///` lines above
   VarSymbol *symbol = nullptr; ///< [sema]

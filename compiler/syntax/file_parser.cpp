@@ -40,9 +40,22 @@ FileParser::FileParser(const SourceFile &file, Interner &interner, Arena &arena,
   stream_.reset(unit_);
 }
 
+/// A project or an export of another tool.
+static bool looksLikeXml(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF"))
+    text.remove_prefix(3);
+  const size_t begin = text.find_first_not_of(" \t\r\n");
+  return begin != std::string_view::npos && text.substr(begin).starts_with("<?xml");
+}
+
 bool FileParser::refuses() {
   if (looksBinary(file_.text())) {
     diagnostics_.report(Code::BinaryFile, {}, "`" + file_.name() + "` is not a text file");
+    return true;
+  }
+  if (looksLikeXml(file_.text())) {
+    diagnostics_.report(Code::BinaryFile, {}, "`" + file_.name() + "` is XML")
+        .help("export the program as text: only Structured Text is compiled");
     return true;
   }
   const size_t limit = limitOf(file_);

@@ -81,6 +81,7 @@ private:
   static std::string article(uint16_t keyword);
   void pou();
   Head head();
+  bool memberAfterComma();
   void readHead(std::vector<Token> &usings);
   void readHeadType();
   void content(Content &out, OpenPou *members);
@@ -120,6 +121,7 @@ private:
   void sections(std::vector<ast::VarDecl *> &out);
   [[nodiscard]] bool endsSection(size_t start) const;
   void markAccess();
+  void markEdge();
   void types();
   void body(std::vector<ast::Stmt *> &out);
   void readStatements();

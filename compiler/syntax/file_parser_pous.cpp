@@ -41,6 +41,22 @@ std::string FileParser::article(uint16_t keyword) {
 // -----------------------------------------------------------------------------------------------
 // heads
 
+/// `EXTENDS A,` before a member: the scanner took METHOD for a name. Reports the comma and leaves
+/// it out.
+bool FileParser::memberAfterComma() {
+  if (unit_.back().type != Tok::COMMA || now_.type != Tok::IDENT || ahead_.type != Tok::IDENT)
+    return false;
+  const Keyword keyword =
+      findKeyword(file_.text().substr(now_.begin, now_.end - now_.begin), now_.hash);
+  if (!isMember(keyword.type))
+    return false;
+  diagnostics_.report(Code::UnexpectedToken, span(unit_.back()), "expected a name after this `,`",
+                      "nothing follows");
+  unit_.pop_back();
+  now_.type = keyword.type;
+  return true;
+}
+
 void FileParser::readHead(std::vector<Token> &usings) {
   unit_.clear();
   const uint16_t keyword = now_.type;
@@ -69,6 +85,8 @@ void FileParser::readHead(std::vector<Token> &usings) {
   readUsings();
   const auto path = [&] {
     while (now_.type == Tok::IDENT || now_.type == Tok::DOT || now_.type == Tok::COMMA) {
+      if (memberAfterComma())
+        break;
       const bool name = now_.type == Tok::IDENT;
       take();
       if (name && now_.type == Tok::IDENT)
@@ -107,15 +125,16 @@ void FileParser::readHeadType() {
       break;
     }
   }
+  const auto bracketed = [this](uint16_t closer) {
+    while (now_.type != closer && now_.type != Tok::SEMICOLON && !startsSection() && !endsUnit())
+      take();
+    if (now_.type == closer)
+      take();
+  };
   if (now_.type == Tok::STRING || now_.type == Tok::WSTRING) {
     take();
-    if (now_.type == Tok::LPAREN || now_.type == Tok::LBRACKET) {
-      const uint16_t closer = now_.type == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET;
-      while (now_.type != closer && now_.type != Tok::SEMICOLON && !startsSection() && !endsUnit())
-        take();
-      if (now_.type == closer)
-        take();
-    }
+    if (now_.type == Tok::LPAREN || now_.type == Tok::LBRACKET)
+      bracketed(now_.type == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET);
   } else if (now_.type == Tok::IDENT && !startsAccessor()) {
     take();
     while (now_.type == Tok::DOT) {
@@ -123,6 +142,8 @@ void FileParser::readHeadType() {
       if (now_.type == Tok::IDENT)
         take();
     }
+    if (now_.type == Tok::LPAREN) // INT(0..10)
+      bracketed(Tok::RPAREN);
   }
 }
 

@@ -80,6 +80,16 @@ void FileParser::markAccess() {
     now_.type = Tok::READ_WRITE;
 }
 
+/// R_EDGE and F_EDGE are words after a type only.
+void FileParser::markEdge() {
+  if (now_.type != Tok::IDENT || unit_.back().type != Tok::IDENT)
+    return;
+  if (isNow("r_edge"))
+    now_.type = Tok::R_EDGE;
+  else if (isNow("f_edge"))
+    now_.type = Tok::F_EDGE;
+}
+
 void FileParser::sections(std::vector<ast::VarDecl *> &out) {
   unit_.clear();
   take();
@@ -101,6 +111,7 @@ void FileParser::sections(std::vector<ast::VarDecl *> &out) {
     if (isAccess)
       markAccess();
     markTypeArgument();
+    markEdge();
     const uint16_t type = now_.type;
     if (nesting.isTooDeep()) {
       leaveOut(start, Tok::END_VAR);

@@ -109,7 +109,33 @@ private:
 
 } // namespace
 
-std::vector<FormatItem> readItems(const SourceFile &file) { return ItemReader(file).read(); }
+/// The comma after the last argument of a call goes; its comments stand before the bracket then.
+static std::vector<FormatItem> withoutLastCommas(std::vector<FormatItem> items) {
+  std::vector<FormatItem> out;
+  std::vector<bool> calls; // of the open brackets
+  for (size_t i = 0; i < items.size(); ++i) {
+    const uint16_t type = items[i].type;
+    const uint16_t before = out.empty() ? Token::kEnd : out.back().type;
+    if (type == Tok::LPAREN)
+      calls.push_back(before == Tok::IDENT || before == Tok::RBRACKET || before == Tok::CARET);
+    else if (type == Tok::RPAREN && !calls.empty())
+      calls.pop_back();
+    if (type == Tok::COMMA && before != Tok::COMMA && before != Tok::LPAREN && !calls.empty() &&
+        calls.back() && i + 1 < items.size() && items[i + 1].type == Tok::RPAREN) {
+      FormatItem &closer = items[i + 1];
+      closer.newlines = std::max(closer.newlines, items[i].newlines);
+      closer.comments.insert(closer.comments.begin(), items[i].comments.begin(),
+                             items[i].comments.end());
+      continue;
+    }
+    out.push_back(std::move(items[i]));
+  }
+  return out;
+}
+
+std::vector<FormatItem> readItems(const SourceFile &file) {
+  return withoutLastCommas(ItemReader(file).read());
+}
 
 std::set<std::string> jumpTargets(const std::vector<FormatItem> &items) {
   std::set<std::string> out;

@@ -130,6 +130,8 @@ constexpr Word kWords[] = {
     {"ON", Tok::ON, Kind::Local},
     {"TASK", Tok::TASK, Kind::Local},
     {"WITH", Tok::WITH, Kind::Local},
+    {"R_EDGE", Tok::R_EDGE, Kind::Local},
+    {"F_EDGE", Tok::F_EDGE, Kind::Local},
     {"READ_ONLY", Tok::READ_ONLY, Kind::Local},
     {"READ_WRITE", Tok::READ_WRITE, Kind::Local},
     {"S", Tok::SET_ASSIGN, Kind::Assignment},

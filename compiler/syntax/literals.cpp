@@ -179,7 +179,7 @@ bool LiteralReader::string(std::string_view text, Span span, ast::Literal &out) 
   const bool wide = text[0] == '"';
   out.literal = wide ? LiteralKind::Wstring : LiteralKind::String;
   const std::string_view content = text.substr(1, text.size() - 2);
-  if (content.find('$') == std::string_view::npos) {
+  if (content.find_first_of("$\r") == std::string_view::npos) {
     out.text = content;
     return true;
   }
@@ -187,6 +187,8 @@ bool LiteralReader::string(std::string_view text, Span span, ast::Literal &out) 
   std::string value;
   size_t behindHigh = std::string::npos; // where the other half of a surrogate pair may follow
   for (size_t i = 0; i < content.size(); ++i) {
+    if (content[i] == '\r' && i + 1 < content.size() && content[i + 1] == '\n')
+      continue; // the end of a line is one character, whatever the file has
     if (content[i] != '$') {
       value += content[i];
       continue;

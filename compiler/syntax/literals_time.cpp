@@ -177,11 +177,6 @@ bool LiteralReader::durationPart(std::string_view &rest, Duration &duration) {
     return fail(Code::InvalidTimeLiteral, span, "malformed duration",
                 name.empty() ? "a number has no unit"
                              : "unknown unit `" + name + "`; units are d, h, m, s, ms, us, ns");
-  if (!duration.isLong && unit > 4) {
-    diagnostics_.report(Code::InvalidTimeLiteral, span, "a TIME literal counts whole milliseconds")
-        .help("write `LTIME#" + std::string(duration.text.substr(0, 60)) + "`");
-    return false;
-  }
   if (unit < duration.nextUnit)
     return fail(Code::InvalidTimeLiteral, span, "malformed duration",
                 "units stand from the largest to the smallest, each one once");
@@ -204,15 +199,21 @@ bool LiteralReader::duration(std::string_view value, bool isLong, Span span, ast
   if (duration.nextUnit == 0)
     return fail(Code::InvalidTimeLiteral, span, "malformed duration");
   const uint64_t nanos = duration.nanos;
-  if (duration.overflow ||
-      (isLong && nanos > static_cast<uint64_t>(std::numeric_limits<int64_t>::max())))
+  const uint64_t most =
+      static_cast<uint64_t>(std::numeric_limits<int64_t>::max()) + (out.negative ? 1 : 0);
+  if (duration.overflow || (isLong && nanos > most))
     return fail(Code::LiteralOutOfRange, span,
                 "the duration does not fit into 64 bits of nanoseconds");
   if (isLong) {
-    out.integer = nanos;
+    out.integer = out.negative ? 0 - nanos : nanos;
     return true;
   }
   out.integer = nanos / 1'000'000;
+  if (nanos % 1'000'000 != 0)
+    diagnostics_
+        .report(Code::PrecisionLoss, span, "a TIME counts whole milliseconds",
+                "counts as T#" + std::to_string(out.integer) + "ms")
+        .help("write `LTIME#" + std::string(value.substr(0, 60)) + "` where the rest matters");
   if (out.integer > std::numeric_limits<uint32_t>::max()) {
     diagnostics_
         .report(Code::LiteralOutOfRange, span, "the duration does not fit into a TIME",

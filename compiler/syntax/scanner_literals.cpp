@@ -127,10 +127,25 @@ uint16_t Scanner::prefixedLiteral(size_t begin, Token &token) {
   return Tok::TYPED_LITERAL;
 }
 
+/// Whether a string goes on over the end of its line: its other quote comes before anything that
+/// looks like the end of a statement, which tells it from a string whose quote was forgotten.
+static bool closesLater(std::string_view text, char quote) {
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == quote)
+      return true;
+    if (c == ';' || (c == ':' && i + 1 < text.size() && text[i + 1] == '='))
+      return false;
+    i += c == '$' ? 1 : 0;
+  }
+  return false;
+}
+
 uint16_t Scanner::quoted(size_t begin, char quote, Token &token) {
   const char *const data = text_.data();
   const size_t size = text_.size();
   const uint16_t type = quote == '\'' ? Tok::STRING_LITERAL : Tok::WSTRING_LITERAL;
+  bool goesOn = false; // over the end of a line
   for (size_t place = begin + 1; place < size; ++place) {
     const char c = data[place];
     if (c == quote) {
@@ -138,6 +153,8 @@ uint16_t Scanner::quoted(size_t begin, char quote, Token &token) {
       return type;
     }
     if (c == '\n' || (c == '\r' && at(place + 1) == '\n')) {
+      if (goesOn || (goesOn = closesLater(text_.substr(place), quote)))
+        continue;
       place_ = place;
       break;
     }
@@ -152,7 +169,7 @@ uint16_t Scanner::quoted(size_t begin, char quote, Token &token) {
   diagnostics_
       .report(Code::UnterminatedString, span(begin, begin + 1), "this string has no end",
               "the string begins here")
-      .note("a string ends on the line on which it begins")
+      .note("what follows up to the next `;` or `:=` has no such quote")
       .help(quote == '\'' ? "close it with `'`; a quote inside is written `$'`"
                           : "close it with `\"`; a quote inside is written `$\"`");
   return type;

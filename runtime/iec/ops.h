@@ -8,6 +8,7 @@
 #include "runtime/iec/convert.h"
 #include "runtime/iec/ctx.h"
 #include "runtime/iec/data_stack.h"
+#include "runtime/iec/edge.h"
 #include "runtime/iec/image.h"
 #include "runtime/iec/math.h"
 #include "runtime/iec/memory.h"

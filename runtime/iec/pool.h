@@ -50,6 +50,10 @@ void poolDelete(Ctx &ctx, void *object, const char *file, uint32_t line, uint32_
 /// Number of elements behind a pointer that __NEW has given; 0 for all others.
 uint64_t poolCount(Ctx &ctx, const void *object);
 
+/// The first object whose block begins at or after `at`, which moves beyond it; null when there is
+/// none any more. `block` is its header.
+void *poolNext(Ctx &ctx, uint64_t &at, const PoolBlock *&block);
+
 /// __NEW: the memory as a pointer.
 template <class T> inline T *newObjects(Ctx &ctx, int64_t count, uint64_t typeHash) {
   return static_cast<T *>(poolNew(ctx, sizeof(T), count, typeHash));

@@ -25,4 +25,14 @@ uint64_t poolCount(Ctx &ctx, const void *object) {
   return block == nullptr ? 0 : block->count;
 }
 
+void *poolNext(Ctx &ctx, uint64_t &at, const PoolBlock *&block) {
+  BYTE *const memory = memoryOf(ctx);
+  const uint64_t place = pool::next(memory, poolSize, at);
+  if (place >= poolSize)
+    return nullptr;
+  block = reinterpret_cast<const PoolBlock *>(memory + place);
+  at = place + block->size;
+  return memory + place + sizeof(PoolBlock);
+}
+
 } // namespace stride

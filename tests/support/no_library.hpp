@@ -15,7 +15,7 @@ public:
   std::vector<Entry> find(std::string_view) const override { return {}; }
   bool isLibrary(std::string_view) const override { return false; }
   bool answersTo(std::string_view, std::string_view) const override { return false; }
-  std::vector<std::string_view> names() const override { return {}; }
+  std::vector<Name> names() const override { return {}; }
   std::vector<Entry> files(std::string_view) const override { return {}; }
 };
 

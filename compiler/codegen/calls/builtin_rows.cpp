@@ -155,6 +155,17 @@ void emitBound(EmitContext &cx, const BuiltinCall &call, std::string_view name) 
   cx.out << '.' << name << '[' << call.value(1)->constant->integer - 1 << "])";
 }
 
+/// What an input declared ANY gets: `value(0)` is the variable's address.
+void emitDescribe(EmitContext &cx, const BuiltinCall &call, std::string_view) {
+  const Type *variable = typeAs<PointerType>(call.value(0)->type)->pointee;
+  cx.includes.complete(call.expr->type);
+  cx.includes.complete(variable);
+  cx.out << cx.type(call.expr->type) << '{' << std::to_string(typeClassOf(variable))
+         << "U, reinterpret_cast<::stride::BYTE *>(";
+  emitBuiltinArgument(cx, call, 0);
+  cx.out << "), static_cast<::stride::DINT>(sizeof(" << cx.type(variable) << "))}";
+}
+
 void emitIsValidRef(EmitContext &cx, const BuiltinCall &call, std::string_view) {
   const Expr *reference = call.value(0);
   const VarSymbol *v = indirectVariable(reference);

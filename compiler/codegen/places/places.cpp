@@ -165,11 +165,6 @@ bool holdsAddress(const EmitContext &cx, const Expr *e) {
          elementBeforeReference(as<IndexExpr>(e))->kind == TypeKind::Reference;
 }
 
-bool returnsReference(const Expr *e) {
-  return e->kind == ExprKind::Call && as<CallExpr>(e)->resolved == Callee::Function &&
-         as<CallExpr>(e)->pou->result->type->kind == TypeKind::Reference;
-}
-
 } // namespace
 
 const VarSymbol *indirectVariable(const Expr *e) {
@@ -296,7 +291,7 @@ void emitAddress(EmitContext &cx, const Expr *e) {
     emitValue(cx, as<DerefExpr>(e)->base);
   } else if (e->constant != nullptr && e->target != nullptr) { // 0: nothing
     emitValue(cx, e);
-  } else if (returnsReference(e)) {
+  } else if (givesReference(e)) {
     emitFunctionCall(cx, as<CallExpr>(e), false);
   } else {
     cx.out << '&';

@@ -17,16 +17,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
+using Kind = stc::LibraryIndex::Kind;
+
 struct Name {
   std::string lower;
-  uint8_t rank;
+  Kind kind;
   size_t file;
+  std::string text;
   auto operator<=>(const Name &) const = default;
 };
 
 // When a name is in several libraries, the one that stands first here is found first.
 constexpr std::string_view kOrder[] = {"Standard", "Util", "SM_Error", "SM_DriveBasic",
                                        "SM_PLCopen"};
+
+constexpr std::string_view kKinds[] = {"Function", "Type", "Variable", "Enumerator"};
 
 size_t orderOf(const std::string &library) {
   const auto *const at = std::find(std::begin(kOrder), std::end(kOrder), library);
@@ -65,7 +70,8 @@ public:
       text += fmt::format("{{\"{}\", \"{}\", {}}},\n", file.library, file.name, literal(file.text));
     text += "};\n\nstatic constexpr EmbeddedName kNames[] = {\n";
     for (const Name &name : names_)
-      text += fmt::format("{{\"{}\", {}, {}}},\n", name.lower, name.file, name.rank);
+      text += fmt::format("{{\"{}\", \"{}\", {}, LibraryIndex::Kind::{}}},\n", name.lower,
+                          name.text, name.file, kKinds[static_cast<size_t>(name.kind)]);
     text += "};\n\nEmbeddedTables standardLibrary() { return {kFiles, kNames}; }\n\n} // namespace "
             "stc\n";
     return text;
@@ -93,30 +99,31 @@ private:
       addNames(*decl, index);
   }
 
-  void add(const stc::ast::Name &name, uint8_t rank, size_t file) {
+  void add(const stc::ast::Name &name, Kind kind, size_t file) {
     if (name)
-      names_.push_back({stc::lowerCase(name.text), rank, file});
+      names_.push_back({stc::lowerCase(name.text), kind, file, std::string(name.text)});
   }
 
   void addNames(const stc::ast::Decl &decl, size_t file) {
     if (decl.kind == stc::ast::DeclKind::Globals) {
       // The list has the name of its file.
-      names_.push_back({stc::lowerCase(fs::path(files_[file].name).stem().string()), 1, file});
+      const std::string own = fs::path(files_[file].name).stem().string();
+      names_.push_back({stc::lowerCase(own), Kind::Variable, file, own});
       const auto *list = stc::ast::as<stc::ast::GlobalsDecl>(&decl);
       if (stc::hasAttribute(list->attributes, stc::ast::AttributeId::QualifiedOnly))
         return;
       for (const stc::ast::VarDecl *variable : list->variables)
-        add(variable->name, 1, file);
+        add(variable->name, Kind::Variable, file);
       return;
     }
-    add(decl.name, 0, file);
+    add(decl.name, decl.kind == stc::ast::DeclKind::Function ? Kind::Function : Kind::Type, file);
     // The enumerators of private types take no name away from anybody.
     if (decl.kind == stc::ast::DeclKind::Enumeration &&
         !(stc::hasAttribute(decl.attributes, stc::ast::AttributeId::Hide) &&
           stc::hasAttribute(decl.attributes, stc::ast::AttributeId::QualifiedOnly)))
       for (const stc::ast::EnumeratorDecl &enumerator :
            stc::ast::as<stc::ast::EnumDecl>(&decl)->type->enumerators)
-        add(enumerator.name, 2, file);
+        add(enumerator.name, Kind::Enumerator, file);
   }
 
   // A text as one or more raw string literals (a single one has a length limit in some compilers).

@@ -23,7 +23,11 @@ const Type *checkAdr(Context &c, CallExpr *expr) {
         .help("take the address of the variable that holds it");
     return elementaryType(TypeKind::Error);
   }
-  if (!isPlace || (place->constant != nullptr && isElementary(place->type)))
+  const Symbol *symbol = place->kind == ExprKind::Name     ? as<NameExpr>(place)->symbol
+                         : place->kind == ExprKind::Member ? as<MemberExpr>(place)->symbol
+                                                           : nullptr;
+  const bool isEnumerator = symbol != nullptr && symbol->kind == SymbolKind::Enumerator;
+  if (!isPlace || isEnumerator)
     return argumentError(c, expr, 0, "a variable");
   if (place->type->kind == TypeKind::OpenArray)
     return c.types.pointer(typeAs<OpenArrayType>(place->type)->element);

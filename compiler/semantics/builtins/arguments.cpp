@@ -176,6 +176,7 @@ bool placeArguments(Context &c, CallExpr *expr) {
   std::vector<Argument> placed(count);
   std::vector<bool> taken(count, false);
   bool named = false;
+  bool shuffled = false; // `MAX(IN1 := 1, 2)` is in order
   for (size_t i = 0; i < count; ++i) {
     const Argument &a = expr->arguments[i];
     size_t position = i;
@@ -191,7 +192,8 @@ bool placeArguments(Context &c, CallExpr *expr) {
         return false;
       }
       position = *formal;
-    } else if (named) {
+      shuffled = shuffled || position != i;
+    } else if (shuffled) {
       c.report(Code::MixedArguments, a.span, "a positional argument cannot follow a named one",
                "name this argument");
       return false;

@@ -100,6 +100,9 @@ const Type *checkAdr(Context &c, ast::CallExpr *expr);
 /// SIZEOF, INDEXOF
 const Type *checkSizeof(Context &c, ast::CallExpr *expr);
 const Type *checkIndexOf(Context &c, ast::CallExpr *expr);
+/// __POUNAME, __POSITION
+const Type *checkPouName(Context &c, ast::CallExpr *expr);
+const Type *checkPosition(Context &c, ast::CallExpr *expr);
 /// LOWER_BOUND and UPPER_BOUND
 const Type *checkBoundOf(Context &c, ast::CallExpr *expr, int64_t ArrayType::*bound);
 template <int64_t ArrayType::*bound> const Type *checkBound(Context &c, ast::CallExpr *expr) {

@@ -30,6 +30,8 @@ const Type *namedType(Context &c, Expr *expr) {
     // A variable hides a type of its name only where a value is meant (`TON : TON`).
     if (symbol->kind == SymbolKind::Variable)
       return nullptr;
+    if (symbol->kind == SymbolKind::Builtin) // TIME and LTIME are both
+      return findElementaryType(name.id->lower);
   } else if (expr->kind == ExprKind::Member && as<MemberExpr>(expr)->bit < 0) {
     auto *member = as<MemberExpr>(expr);
     if (Symbol *space = resolveNamespace(c, member->base);

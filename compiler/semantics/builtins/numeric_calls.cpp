@@ -24,6 +24,7 @@ const Type *checkAbs(Context &c, CallExpr *expr) {
     return argumentError(c, expr, 0, "a number");
   const Type *type = settledKindOf(expr, 0);
   setTarget(valueOf(expr, 0), type);
+  expr->common = valueOf(expr, 0)->common;
   return type;
 }
 
@@ -57,9 +58,15 @@ const Type *checkPowerFunction(Context &c, CallExpr *expr) {
 
 const Type *checkTrunc(Context &c, CallExpr *expr) {
   const Type *kind = kindOf(expr, 0);
-  if (!isReal(kind) && kind->kind != TypeKind::AnyReal)
-    return argumentError(c, expr, 0, "REAL or LREAL");
-  settledKindOf(expr, 0);
+  if (!isNumber(kind))
+    return argumentError(c, expr, 0, "a number");
+  if (isIntegerOrUntyped(kind)) { // stays what it is
+    if (bitWidth(kind) < 32)
+      expr->common = kind;
+    setTarget(valueOf(expr, 0), elementaryType(TypeKind::Lreal));
+  } else {
+    settledKindOf(expr, 0);
+  }
   return elementaryType(TypeKind::Dint);
 }
 
@@ -85,6 +92,7 @@ const Type *checkMux(Context &c, CallExpr *expr) {
 
 const Type *checkMove(Context &, CallExpr *expr) {
   Expr *value = valueOf(expr, 0);
+  expr->common = value->common;
   return isUntyped(value->type) ? settle(value) : value->type;
 }
 
@@ -95,6 +103,7 @@ const Type *checkShift(Context &c, CallExpr *expr) {
     return argumentError(c, expr, 1, "an integer");
   Expr *pattern = valueOf(expr, 0);
   const Type *type = settledKindOf(expr, 0);
+  expr->common = pattern->common;
   if (pattern->type->kind == TypeKind::AnyInteger) // a pattern, not a number
     type =
         elementaryType(pattern->constant->integer < 0 || pattern->constant->integer > 0xFFFFFFFFLL

@@ -89,7 +89,7 @@ struct Binding {
   std::vector<VarSymbol *> positional; ///< inputs and in-outs, then outputs, as they are declared
   std::unordered_set<VarSymbol *> given;
   size_t next = 0;      ///< of `positional`
-  bool isNamed = false; ///< an argument had a name
+  bool isNamed = false; ///< an argument had a name, out of the order of `positional`
   bool hasFailed = false;
 };
 
@@ -144,11 +144,15 @@ static void reportWrongDirection(Context &c, const Argument &a, const VarSymbol 
 
 /// The parameter of a named argument; null: there is none (reported).
 static VarSymbol *namedParameter(Context &c, Binding &binding, const Argument &a) {
-  binding.isNamed = true;
   VarSymbol *found = findVariable(binding.pou, a.name.id);
   if (found != nullptr && (found->owner == nullptr || !derivesFrom(binding.pou, found->owner)))
     found = nullptr;
   const bool fits = found != nullptr && isParameter(found);
+  // `F(a := 1, 2)`: what follows is unambiguous as long as the order is that of the declaration.
+  const bool isNext =
+      binding.next < binding.positional.size() && binding.positional[binding.next] == found;
+  binding.next += isNext ? 1 : 0;
+  binding.isNamed = binding.isNamed || !isNext;
   if (fits && a.output == (found->section == Section::Output))
     return found;
   binding.hasFailed = true;
@@ -213,11 +217,61 @@ void bindArguments(Context &c, CallExpr *expr, PouSymbol *pou) {
     reportMissing(c, expr, pou, binding.given);
 }
 
+static bool namesPlace(const Expr *expr) {
+  return expr->kind == ExprKind::Name || expr->kind == ExprKind::Member ||
+         expr->kind == ExprKind::Index || expr->kind == ExprKind::Deref ||
+         expr->kind == ExprKind::Direct;
+}
+
+/// The variable for an input declared ANY becomes what describes it.
+static void checkAny(Context &c, Argument &argument, const VarSymbol *parameter) {
+  Expr *value = argument.value;
+  const Type *type = check(c, value);
+  if (isError(type) || type == parameter->type || rejectProperty(c, value, "pass"))
+    return; // (an ANY input may be passed on as it is)
+  const std::string group(c.program.sources.text(parameter->decl->type->span));
+  if (!namesPlace(value) || namedEnumerator(value) || isBitPlace(value) ||
+      type->kind == TypeKind::OpenArray) {
+    auto &d = c.report(Code::InOutNotVariable, value->span,
+                       "the input `" + std::string(parameter->name.text) + "` is " + group +
+                           ": it needs a variable",
+                       "this has no address");
+    noteDeclaration(d, parameter);
+    d.help("store it in a variable first");
+    return;
+  }
+  if (!isInGroup(parameter->any, type)) {
+    auto &d = c.report(Code::InOutType, value->span,
+                       "the input `" + std::string(parameter->name.text) + "` is " + group +
+                           ", this is " + typeName(type),
+                       "not one of these types");
+    noteDeclaration(d, parameter);
+    return;
+  }
+  const auto call = [&](Builtin function, Expr *of, const Type *result) {
+    auto *made = c.arena.make<CallExpr>();
+    made->span = value->span;
+    made->callee = value;
+    Argument only;
+    only.value = of;
+    only.span = of->span;
+    made->arguments = c.arena.copy(std::vector<Argument>{only});
+    made->resolved = Callee::Builtin;
+    made->builtin = function;
+    made->type = result;
+    return made;
+  };
+  argument.value =
+      call(Builtin::Describe, call(Builtin::Adr, value, c.types.pointer(type)), parameter->type);
+}
+
 static void checkArgument(Context &c, Argument &argument, VarSymbol *parameter) {
   argument.parameter = parameter;
   if (argument.value == nullptr)
     return; // `Q =>`: not wanted; `IN :=`: keeps its value
-  if (parameter->section == Section::InOut)
+  if (parameter->any != AnyGroup::None)
+    checkAny(c, argument, parameter);
+  else if (parameter->section == Section::InOut)
     checkInOut(c, argument, parameter);
   else if (parameter->section == Section::Output)
     checkOutput(c, argument, parameter);
@@ -236,7 +290,8 @@ bool refersTo(const Type *type, const Type *wanted) {
 
 void checkReference(Context &c, Expr *value, const Type *wanted) {
   const Type *type = check(c, value, wanted);
-  if (isError(type) || isError(wanted) || !requireVariable(c, value, "refer to"))
+  const bool fromCall = givesReference(value);
+  if (isError(type) || isError(wanted) || (!fromCall && !requireVariable(c, value, "refer to")))
     return;
   const bool isBit = isBitPlace(value);
   if (isBit || !refersTo(type, wanted))
@@ -244,14 +299,8 @@ void checkReference(Context &c, Expr *value, const Type *wanted) {
              "expected a variable of type " + typeName(wanted) + ", found " +
                  (isBit ? "a single bit" : typeName(type)),
              "a reference needs a variable of exactly its type");
-  else
+  else if (!fromCall)
     requireAligned(c, value, "refer to");
-}
-
-static bool namesPlace(const Expr *expr) {
-  return expr->kind == ExprKind::Name || expr->kind == ExprKind::Member ||
-         expr->kind == ExprKind::Index || expr->kind == ExprKind::Deref ||
-         expr->kind == ExprKind::Direct;
 }
 
 static void reportBitInOut(Context &c, const Expr *value, const Type *type) {
@@ -277,8 +326,10 @@ static bool fitsInOut(Context &c, const Expr *value, const Type *type, const Var
   const Type *wanted = parameter->type;
   const bool open = wanted->kind == TypeKind::OpenArray;
   const bool anyString = parameter->isConstant && isString(type) && type->kind == wanted->kind;
+  const bool enumeration = type->kind == TypeKind::Enumeration && !typeAs<EnumType>(type)->strict &&
+                           underlying(type) == wanted; // the block may leave any number in it
   if (open ? fitsOpenArray(type, typeAs<OpenArrayType>(wanted))
-           : refersTo(type, wanted) || anyString)
+           : refersTo(type, wanted) || anyString || enumeration)
     return true;
   auto &d = c.report(Code::InOutType, value->span,
                      "the VAR_IN_OUT `" + std::string(parameter->name.text) + "` is " +

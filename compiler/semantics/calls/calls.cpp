@@ -46,8 +46,13 @@ static PouSymbol *calledByName(Context &c, CallExpr *expr, const Type *&result) 
       static_cast<VarSymbol *>(symbol)->isResult)
     symbol = static_cast<VarSymbol *>(symbol)->owner; // recursion
   if (symbol == nullptr) {
-    if (const auto conversion = findConversion(name->name.id))
+    if (const auto conversion = findConversion(name->name.id)) {
       result = checkConversionCall(c, expr, *conversion);
+    } else if (c.names.enumerator(c.scope, name->name.id, nullptr).enumerator == nullptr) {
+      reportUnknown(c, name->name, Sought::Callee);
+      checkArguments(c, expr);
+      result = name->type = elementaryType(TypeKind::Error);
+    }
     return nullptr;
   }
   if (symbol->kind == SymbolKind::Builtin) {
@@ -125,6 +130,15 @@ static PouSymbol *calledInstance(Context &c, CallExpr *expr, const Type *&result
   return nullptr;
 }
 
+/// A VAR_IN_OUT CONSTANT of the code itself.
+static bool isConstantInOut(const Expr *expr) {
+  const Symbol *symbol = expr->kind == ExprKind::Name ? as<NameExpr>(expr)->symbol : nullptr;
+  if (symbol == nullptr || symbol->kind != SymbolKind::Variable)
+    return false;
+  const auto *variable = static_cast<const VarSymbol *>(symbol);
+  return variable->section == Section::InOut && variable->isConstant;
+}
+
 /// Notes what kind of call it is. `named`: the callee is the POU's own name.
 static void resolveCall(Context &c, CallExpr *expr, const PouSymbol *pou, bool named) {
   Expr *callee = expr->callee;
@@ -139,6 +153,8 @@ static void resolveCall(Context &c, CallExpr *expr, const PouSymbol *pou, bool n
     break;
   default:
     expr->resolved = Callee::FunctionBlock;
+    if (isConstantInOut(callee))
+      break; // CODESYS lets blocks be called that may not be replaced
     if (callee->kind != ExprKind::Deref)
       requireVariable(c, callee, "call");
     requireAligned(c, callee, "call");

@@ -43,6 +43,8 @@ const Type *checkMethodCall(Context &c, CallExpr *expr, PouSymbol *method) {
   expr->pou = method;
   expr->resolved = Callee::Method;
   requireAccess(c, name.span, method, method->owner, memberAccess(method));
+  if (callee->kind == ExprKind::Member)
+    requireOwn(c, as<MemberExpr>(callee)->base);
   if (method->isAbstract() && callee->kind == ExprKind::Member) {
     const Expr *object = as<MemberExpr>(callee)->base;
     if (object->kind == ExprKind::Deref && as<DerefExpr>(object)->base->kind == ExprKind::Name) {

@@ -77,7 +77,7 @@ static PouSymbol *lookupBase(Context &c, NamePath path, bool interface, const Po
       return nullptr;
   }
   if (symbol == nullptr) {
-    reportUnknown(c, name, true);
+    reportUnknown(c, name, Sought::Type);
     return nullptr;
   }
   auto *pou = symbol->kind == SymbolKind::Pou ? static_cast<PouSymbol *>(symbol) : nullptr;

@@ -131,20 +131,21 @@ static void checkConfigEntry(Context &c, VarDecl *decl, Module &module,
     placeSlot(c, *slot, type, path, *decl->address);
 }
 
-static void reportMissingPlaces(Context &c, const std::vector<SlotPlace> &slots) {
-  std::map<const VarSymbol *, std::vector<const SlotPlace *>> missing;
-  std::vector<const VarSymbol *> order;
-  for (const SlotPlace &slot : slots) {
-    if (slot.decl != nullptr)
-      continue;
-    auto &list = missing[slot.variable];
-    if (list.empty())
-      order.push_back(slot.variable);
-    list.push_back(&slot);
-  }
-  std::array<uint64_t, 3> next{}; // proposals lie after everything that is used
-  for (size_t area = 0; area < next.size(); ++area)
-    next[area] = c.program.image.bytes[area];
+/// A place after everything that is used in the slot's area; false (reported): there is none.
+static bool takeFreePlace(Context &c, SlotPlace &slot) {
+  const VarSymbol *v = slot.variable;
+  const StorageExtent extent = c.storage.of(v->type);
+  const uint64_t used = c.program.image.bytes[static_cast<size_t>(v->location->area)];
+  const uint64_t byte = (used + extent.align - 1) / extent.align * extent.align;
+  slot.at = *v->location;
+  slot.at.isSlot = false;
+  slot.at.byte = static_cast<uint32_t>(byte);
+  slot.placed = reserve(c, *v->decl->address, byte, std::max<uint64_t>(extent.size, 1));
+  return slot.placed;
+}
+
+/// What VAR_CONFIG does not mention gets places of its own.
+static void chooseMissingPlaces(Context &c, std::vector<SlotPlace> &slots) {
   if (slots.size() > kMaxSlots) {
     const VarSymbol *v = slots.back().variable;
     c.report(Code::PlaceMissing, v->decl->address->span,
@@ -152,26 +153,32 @@ static void reportMissingPlaces(Context &c, const std::vector<SlotPlace> &slots)
              "`" + std::string(v->name.text) + "` is one of them, in each instance");
     return;
   }
+  std::map<const VarSymbol *, std::vector<const SlotPlace *>> missing;
+  std::vector<const VarSymbol *> order;
+  for (SlotPlace &slot : slots) {
+    if (slot.decl != nullptr)
+      continue;
+    if (!takeFreePlace(c, slot))
+      return;
+    auto &list = missing[slot.variable];
+    if (list.empty())
+      order.push_back(slot.variable);
+    list.push_back(&slot);
+  }
   for (const VarSymbol *v : order) {
     const auto &list = missing[v];
-    auto &d = c.report(Code::PlaceMissing, v->decl->address->span,
-                       list.size() == 1 ? "`" + pathText(list.front()->path) + "` has no place"
-                                        : "`" + std::string(v->name.text) + "` has no place in " +
-                                              std::to_string(list.size()) + " instances",
-                       "VAR_CONFIG must say where it lies");
-    std::string text = "add\nVAR_CONFIG\n";
-    uint64_t &free = next[static_cast<size_t>(v->location->area)];
-    for (size_t i = 0; i < list.size() && i < kMaxShown; ++i) {
-      Location at = *v->location;
-      at.isSlot = false;
-      const StorageExtent extent = c.storage.of(v->type);
-      free = (free + extent.align - 1) / extent.align * extent.align;
-      at.byte = static_cast<uint32_t>(free);
-      free += std::max<uint64_t>(extent.size, 1);
+    auto &d = c.report(Code::PlaceChosen, v->decl->address->span,
+                       list.size() == 1 ? "VAR_CONFIG gives `" + pathText(list.front()->path) +
+                                              "` no place: it lies after all others"
+                                        : "VAR_CONFIG gives `" + std::string(v->name.text) +
+                                              "` no place in " + std::to_string(list.size()) +
+                                              " instances: they lie after all others",
+                       "no device is known for it");
+    std::string text = "say where, for example\nVAR_CONFIG\n";
+    for (size_t i = 0; i < list.size() && i < kMaxShown; ++i)
       text += "  " + pathText(list[i]->path) + " AT " +
-              addressText(at, extent.align, c.program.settings.addressing) + " : " +
-              typeName(v->type) + ";\n";
-    }
+              addressText(list[i]->at, c.storage.of(v->type).align, c.program.settings.addressing) +
+              " : " + typeName(v->type) + ";\n";
     if (list.size() > kMaxShown)
       text += "  // and " + std::to_string(list.size() - kMaxShown) + " more\n";
     d.help(text + "END_VAR");
@@ -214,7 +221,7 @@ void checkConfigured(Context &c, Module &module) {
         checkConfigEntry(c, decl, module, slots);
     }
   }
-  reportMissingPlaces(c, slots);
+  chooseMissingPlaces(c, slots);
   for (SlotPlace &slot : slots) {
     if (slot.placed)
       c.program.slotPlaces.push_back(std::move(slot));

@@ -42,6 +42,14 @@ static bool mayStandIn(Context &c, const PouSymbol *pou, const VarDecl *v) {
         .help(pou->isInterface() ? "declare a PROPERTY" : "use VAR, a METHOD or a PROPERTY");
     return false;
   }
+  const bool hasBody =
+      pou->decl->kind == DeclKind::FunctionBlock || pou->decl->kind == DeclKind::Program;
+  if (v->edge != Edge::None && !hasBody) {
+    c.report(Code::SectionNotAllowed, v->name.span,
+             "only inputs of a function block or program can be edges", "declared here")
+        .help("use R_TRIG or F_TRIG");
+    return false;
+  }
   return true;
 }
 

@@ -8,11 +8,31 @@
 #include "compiler/semantics/context/describe.hpp"
 #include "compiler/semantics/declarations/internal.hpp"
 #include "compiler/semantics/hierarchy.hpp"
+#include "compiler/semantics/names/names.hpp"
 #include "compiler/semantics/types/resolve.hpp"
 
 namespace stc::sema {
 
 using namespace ast;
+
+/// The type of `VAR_INPUT x : ANY_NUM`, which is noted; null: it is declared otherwise.
+static const Type *anyInput(Context &c, VarSymbol *variable) {
+  const TypeExpr *expr = variable->decl->type;
+  if (variable->section != Section::Input || expr->kind != TypeExprKind::Named ||
+      as<NamedTypeExpr>(expr)->path.size() != 1)
+    return nullptr;
+  const Name &name = as<NamedTypeExpr>(expr)->path.front();
+  const AnyGroup group = findAnyGroup(name.id->lower);
+  if (group == AnyGroup::None || lookupDeclared(c, name) != nullptr)
+    return nullptr;
+  Symbol *symbol = c.names.inLibrary(c.program.interner.intern("__SYSTEM"),
+                                     c.program.interner.intern("AnyType"));
+  if (symbol == nullptr || symbol->kind != SymbolKind::Type)
+    return nullptr;
+  resolve(c, static_cast<TypeSymbol *>(symbol));
+  variable->any = group;
+  return static_cast<TypeSymbol *>(symbol)->type;
+}
 
 const Type *typeOf(Context &c, VarSymbol *variable) {
   if (variable->type != nullptr)
@@ -36,11 +56,16 @@ const Type *typeOf(Context &c, VarSymbol *variable) {
       variable->owner != nullptr && variable->owner->isBlock() &&
       (variable->section == Section::Local || variable->section == Section::Input ||
        variable->section == Section::Output);
-  const Type *type =
-      ofBlock ? resolveMember(c, variable, hint) : resolveType(c, variable->decl->type, hint);
+  const Type *const any = anyInput(c, variable);
+  const Type *type = any != nullptr ? any
+                     : ofBlock      ? resolveMember(c, variable, hint)
+                                    : resolveType(c, variable->decl->type, hint);
   if (variable->type == nullptr)
     variable->type = type;
   variable->typeRunning = false;
+  if (variable->decl->edge != Edge::None && !isError(type) && type->kind != TypeKind::Boolean)
+    c.report(Code::TypeMismatch, variable->decl->type->span,
+             "only a BOOL has edges, not " + typeName(type), "expected BOOL");
   if (variable->decl->address != nullptr)
     placeVariable(c, variable);
   checkRetain(c, variable);

@@ -11,10 +11,7 @@ namespace stc::sema {
 
 using namespace ast;
 
-bool insideOf(Context &c, const PouSymbol *owner) {
-  return c.scope.pou != nullptr && owner != nullptr &&
-         derivesFrom(blockOf(c.scope.pou), blockOf(owner));
-}
+bool insideOf(Context &c, const PouSymbol *owner) { return isInside(c.scope.pou, owner); }
 
 bool requireAccess(Context &c, Span span, const Symbol *member, const PouSymbol *owner,
                    Access access) {
@@ -49,6 +46,36 @@ bool requireAccess(Context &c, Span span, const Symbol *member, const PouSymbol 
                      who);
   noteDeclaration(d, member);
   return false;
+}
+
+void reportPrivate(Context &c, const MemberExpr *expr, const VarSymbol *member) {
+  const std::string owner(member->owner->name.text);
+  auto &d = c.report(Code::NotAccessible, expr->name.span,
+                     "`" + std::string(member->name.text) + "` is private to `" + owner + "`",
+                     "only its own code can use it");
+  noteDeclaration(d, member);
+  d.help("make it a VAR_OUTPUT (or VAR_INPUT) of `" + owner + "`");
+}
+
+bool requireOwn(Context &c, const Expr *place) {
+  for (;;) {
+    switch (place->kind) {
+    case ExprKind::Member: {
+      const auto *expr = as<MemberExpr>(place);
+      if (const VarSymbol *local = foreignLocal(expr->symbol, c.scope.pou); local != nullptr) {
+        reportPrivate(c, expr, local);
+        return false;
+      }
+      place = expr->base;
+      break;
+    }
+    case ExprKind::Index:
+      place = as<IndexExpr>(place)->base;
+      break;
+    default:
+      return true;
+    }
+  }
 }
 
 } // namespace stc::sema

@@ -145,12 +145,40 @@ static void reportUntyped(Context &c, Expr *expr, const Type *type, std::string_
                    what);
 }
 
+/// SEL and MUX of constants, all of which are values of the type: `b := SEL(d, 0, 255)`.
+static bool choosesConstant(const Expr *expr, const Type *type) {
+  const auto *call = expr->kind == ExprKind::Call ? as<CallExpr>(expr) : nullptr;
+  if (call == nullptr || call->resolved != Callee::Builtin ||
+      (call->builtin != Builtin::Sel && call->builtin != Builtin::Mux))
+    return false;
+  const auto choices = call->arguments.subspan(1);
+  return std::all_of(choices.begin(), choices.end(), [type](const Argument &a) {
+    return a.value->constant != nullptr && isUntyped(a.value->type) &&
+           constantFits(*a.value->constant, a.value->type, type);
+  });
+}
+
+/// A shift of a constant whose bits the narrower type has: `w := SHL(16#8001, 1)`.
+static bool shiftsConstant(const Expr *expr, const Type *type) {
+  const auto *call = expr->kind == ExprKind::Call ? as<CallExpr>(expr) : nullptr;
+  const bool shifts = call != nullptr && call->resolved == Callee::Builtin &&
+                      (call->builtin == Builtin::Shl || call->builtin == Builtin::Shr ||
+                       call->builtin == Builtin::Rol || call->builtin == Builtin::Ror);
+  if (!shifts || call->arguments[0].value->type->kind != TypeKind::AnyInteger ||
+      !isInteger(underlying(type)) || bitWidth(type) >= bitWidth(expr->type))
+    return false;
+  const int64_t pattern = call->arguments[0].value->constant->integer;
+  return pattern >= 0 && pattern >> bitWidth(type) == 0;
+}
+
 /// How the value becomes one of the type, by what is known about it.
 static Conversion conversionOf(const Expr *expr, const Type *type) {
   const Type *from = expr->type;
   if (from->kind == TypeKind::Lreal && type->kind == TypeKind::Real && isAxisField(expr))
     return Conversion::Free;
   const Conversion conversion = classify(from, type);
+  if (conversion != Conversion::Free && (choosesConstant(expr, type) || shiftsConstant(expr, type)))
+    return Conversion::Free;
   // `i := i + 1` computes in DINT, but stays silent because all operands are INT.
   if (expr->common == nullptr || expr->common == from)
     return conversion;
@@ -182,7 +210,7 @@ void coerce(Context &c, Expr *expr, const Type *type, std::string_view what) {
     type = typeAs<PointerType>(type)->pointee;
   if (from == type || coercePointer(c, expr, type, what) || coerceToInterface(c, expr, type))
     return;
-  if (isStrict(from) || isStrict(type)) {
+  if (isStrict(type) || (isStrict(from) && classify(from, type) != Conversion::Free)) {
     reportStrict(c, expr, type, what);
     return;
   }

@@ -87,6 +87,10 @@ static const Type *compareInterfaces(Context &c, BinaryExpr *expr) {
   return elementaryType(TypeKind::Boolean);
 }
 
+static bool isIntegerOrConstant(const Type *type) {
+  return isInteger(type) || type->kind == TypeKind::AnyInteger;
+}
+
 const Type *checkComparison(Context &c, BinaryExpr *expr) {
   Expr *left = expr->left;
   Expr *right = expr->right;
@@ -99,10 +103,11 @@ const Type *checkComparison(Context &c, BinaryExpr *expr) {
   const Type *r = right->type;
   if (l->kind == TypeKind::Enumeration && r->kind == TypeKind::Enumeration && l != r)
     return operatorError(c, expr);
-  if (l != r && (refuseStrict(c, left) || refuseStrict(c, right)))
-    return elementaryType(TypeKind::Error);
   const Type *ul = underlying(l);
   const Type *ur = underlying(r);
+  const bool areIntegers = isIntegerOrConstant(ul) && isIntegerOrConstant(ur);
+  if (l != r && !areIntegers && (refuseStrict(c, left) || refuseStrict(c, right)))
+    return elementaryType(TypeKind::Error);
   if (isNumber(ul) && isNumber(ur))
     return compareNumbers(c, expr);
   if (isString(ul) && ul->kind == ur->kind) {

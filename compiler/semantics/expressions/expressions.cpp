@@ -69,9 +69,12 @@ const Type *check(Context &c, Expr *expr, const Type *expected) {
     type = checkEnumLiteral(c, as<EnumLiteralExpr>(expr));
     break;
   case ExprKind::Aggregate:
-    c.report(Code::AggregateNotAllowed, expr->span, "a list of values can only be an initial value",
-             "not an expression")
-        .help("assign the elements one by one");
+    if (as<AggregateExpr>(expr)->items.empty())
+      c.report(Code::UnexpectedToken, expr->span, "expected an expression between the parentheses");
+    else
+      c.report(Code::AggregateNotAllowed, expr->span,
+               "a list of values can only be an initial value", "not an expression")
+          .help("assign the elements one by one");
     break;
   case ExprKind::Direct:
     type = checkDirect(c, as<DirectExpr>(expr));

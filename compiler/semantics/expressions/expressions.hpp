@@ -43,6 +43,8 @@ bool isReference(ast::Expr *expr);
 void checkReferenceAssign(Context &c, ast::AssignStmt *stmt);
 /// Edition 3 writes `THIS.x` and `SUPER()` for what CODESYS writes as `THIS^.x` and `SUPER^()`.
 void followSelf(Context &c, ast::Expr *&expr);
+/// Reports a place in a block's own variables, which only its own code may change.
+bool requireOwn(Context &c, const ast::Expr *place);
 /// Reports a member that may not be used here.
 bool requireAccess(Context &c, Span span, const Symbol *member, const PouSymbol *owner,
                    ast::Access access);

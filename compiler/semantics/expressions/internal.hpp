@@ -40,6 +40,7 @@ bool coercePointer(Context &c, ast::Expr *expr, const Type *type, std::string_vi
 PropertySymbol *propertyOf(const ast::Expr *expr);
 /// The code belongs to the block, or to one that extends it.
 [[nodiscard]] bool insideOf(Context &c, const PouSymbol *owner);
+void reportPrivate(Context &c, const ast::MemberExpr *expr, const VarSymbol *member);
 /// The type of a property that is read, or written when it is the target of an assignment.
 const Type *useProperty(Context &c, ast::Expr *expr, PropertySymbol *property,
                         const ast::Name &name);

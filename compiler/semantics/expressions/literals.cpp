@@ -64,16 +64,41 @@ static const Type *valueOfLiteral(Context &c, const Literal *expr, ConstValue &v
   return elementaryType(TypeKind::Error);
 }
 
+/// `x#3`, where `x` is no type whose values are written so.
+static void reportPrefix(Context &c, const Name &name, const Symbol *symbol) {
+  if (symbol == nullptr)
+    reportUnknown(c, name, Sought::Type);
+  else if (symbol->kind != SymbolKind::Type)
+    c.report(Code::NotAType, name.span, "`" + std::string(name.text) + "` is not a type",
+             "this is " + describe(symbol));
+  else
+    c.report(Code::NotAType, name.span,
+             "no value of `" + std::string(name.text) + "` is written like this",
+             "only elementary types stand before a `#` with a number")
+        .help("write the number alone");
+}
+
+/// `INT#b`
+static void reportNoLiteral(Context &c, const EnumLiteralExpr *expr) {
+  const std::string type = typeName(findElementaryType(expr->typeName.id->lower));
+  const std::string name(expr->enumerator.text);
+  auto &d = c.report(Code::UnknownName, expr->enumerator.span,
+                     "`" + name + "` is not a literal of " + type,
+                     "a number, a text or a time stands after `" + type + "#`");
+  d.suggest("convert a variable: `TO_" + type + "(" + name + ")`", expr->span,
+            "TO_" + type + "(" + name + ")");
+}
+
 const Type *checkLiteral(Context &c, Literal *expr) {
   ConstValue value;
   const Type *type = valueOfLiteral(c, expr, value);
   if (expr->typeName) {
     const Type *named = findElementaryType(expr->typeName.id->lower);
     if (named == nullptr) {
-      reportUnknown(c, expr->typeName, true);
+      reportPrefix(c, expr->typeName, lookup(c, expr->typeName));
       return elementaryType(TypeKind::Error);
     }
-    if (!constantFits(value, type, named)) {
+    if (type != named && !constantFits(value, type, named)) {
       c.report(Code::ConstantOverflow, expr->span,
                "`" + std::string(c.program.sources.text(expr->span)) + "` is not a value of " +
                    typeName(named),
@@ -91,12 +116,10 @@ const Type *checkLiteral(Context &c, Literal *expr) {
 const Type *checkEnumLiteral(Context &c, EnumLiteralExpr *expr) {
   Symbol *symbol = lookup(c, expr->typeName);
   if (symbol == nullptr || symbol->kind != SymbolKind::Type) {
-    if (symbol == nullptr)
-      reportUnknown(c, expr->typeName, true);
+    if (symbol == nullptr && findElementaryType(expr->typeName.id->lower) != nullptr)
+      reportNoLiteral(c, expr);
     else
-      c.report(Code::NotAType, expr->typeName.span,
-               "`" + std::string(expr->typeName.text) + "` is not a type",
-               "this is " + describe(symbol));
+      reportPrefix(c, expr->typeName, symbol);
     return elementaryType(TypeKind::Error);
   }
   auto *type = static_cast<TypeSymbol *>(symbol);

@@ -115,14 +115,9 @@ const Type *checkMemberOf(Context &c, MemberExpr *expr, const Type *base) {
   if (access == Access::Private && member->owner != nullptr &&
       !requireAccess(c, expr->name.span, member, member->owner, access))
     return elementaryType(TypeKind::Error);
-  if (member->owner != nullptr && access != Access::Public && !insideOf(c, member->owner) &&
-      (member->section == Section::Temp ||
-       (member->section == Section::Local && base->kind == TypeKind::FunctionBlock))) {
-    auto &d = c.report(Code::NotAccessible, expr->name.span,
-                       "`" + name + "` is private to `" + typeName(base) + "`",
-                       "only its own code can use it");
-    noteDeclaration(d, member);
-    d.help("make it a VAR_OUTPUT (or VAR_INPUT) of `" + typeName(base) + "`");
+  if (member->owner != nullptr && access != Access::Public && member->section == Section::Temp &&
+      !insideOf(c, member->owner)) {
+    reportPrivate(c, expr, member);
     return elementaryType(TypeKind::Error);
   }
   expr->symbol = member;

@@ -112,7 +112,7 @@ const Type *checkName(Context &c, NameExpr *expr, const Type *expected) {
   }
   if (symbol == nullptr) {
     if (!reportUnqualified(c, expr->name, expected))
-      reportUnknown(c, expr->name, false);
+      reportUnknown(c, expr->name, Sought::Value);
     return elementaryType(TypeKind::Error);
   }
   expr->symbol = symbol;

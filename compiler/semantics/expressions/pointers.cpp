@@ -165,10 +165,7 @@ void checkReferenceAssign(Context &c, AssignStmt *stmt) {
     setTarget(stmt->value, c.types.pointer(last->type));
     return;
   }
-  const bool fromCall = stmt->value->kind == ExprKind::Call &&
-                        as<CallExpr>(stmt->value)->resolved == Callee::Function &&
-                        as<CallExpr>(stmt->value)->pou->result != nullptr &&
-                        as<CallExpr>(stmt->value)->pou->result->type->kind == TypeKind::Reference;
+  const bool fromCall = givesReference(stmt->value);
   if (!fromCall && !requireVariable(c, stmt->value, "refer to"))
     return;
   const bool isBit = isBitPlace(stmt->value);

@@ -39,6 +39,8 @@ static bool requireWritable(Context &c, const Expr *expr, const VarSymbol *varia
   return false;
 }
 
+static bool requirePlace(Context &c, Expr *expr, std::string_view what);
+
 static bool requireNamed(Context &c, Expr *expr, Symbol *symbol, std::string_view what) {
   if (symbol == nullptr || isError(expr->type))
     return true; // reported before
@@ -54,10 +56,10 @@ static bool requireNamed(Context &c, Expr *expr, Symbol *symbol, std::string_vie
     return false;
   // A field of a constant structure is constant, a field of a POU's variable is not.
   return expr->kind != ExprKind::Member || variable->owner != nullptr ||
-         variable->globals != nullptr || requireVariable(c, as<MemberExpr>(expr)->base, what);
+         variable->globals != nullptr || requirePlace(c, as<MemberExpr>(expr)->base, what);
 }
 
-bool requireVariable(Context &c, Expr *expr, std::string_view what) {
+static bool requirePlace(Context &c, Expr *expr, std::string_view what) {
   if (const PropertySymbol *property = propertyOf(expr);
       property != nullptr && (what == "assign to" || property->type == nullptr ||
                               property->type->kind == TypeKind::Reference))
@@ -75,19 +77,23 @@ bool requireVariable(Context &c, Expr *expr, std::string_view what) {
   case ExprKind::Index: { // what a pointer points to is a variable, even if the pointer is constant
     Expr *base = as<IndexExpr>(expr)->base;
     const bool isPointer = base->type != nullptr && base->type->kind == TypeKind::Pointer;
-    return isPointer || requireVariable(c, base, what);
+    return isPointer || requirePlace(c, base, what);
   }
   case ExprKind::Name:
     return requireNamed(c, expr, as<NameExpr>(expr)->symbol, what);
   case ExprKind::Member:
     return as<MemberExpr>(expr)->bit >= 0
-               ? requireVariable(c, as<MemberExpr>(expr)->base, what)
+               ? requirePlace(c, as<MemberExpr>(expr)->base, what)
                : requireNamed(c, expr, as<MemberExpr>(expr)->symbol, what);
   default:
     c.report(Code::NotAssignable, expr->span, "cannot " + std::string(what) + " an expression",
              "this is not a variable");
     return false;
   }
+}
+
+bool requireVariable(Context &c, Expr *expr, std::string_view what) {
+  return requireOwn(c, expr) && requirePlace(c, expr, what);
 }
 
 bool requireAligned(Context &c, const Expr *expr, std::string_view what) {

@@ -1,5 +1,6 @@
 // Walks all bodies once and notes how variables are used.
 
+#include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/lint/internal.hpp"
 #include "compiler/syntax/visit.hpp"
 
@@ -272,6 +273,19 @@ static void inOutBeforeCall(Context &c, const MemberExpr *member, const VarSymbo
             "(…)` first, or use the variable that is passed to it");
 }
 
+/// CODESYS lets other code look at a block's own variables.
+static void foreignRead(Context &c, const MemberExpr *member) {
+  const VarSymbol *variable = foreignLocal(member->symbol, c.bodies[c.current].pou);
+  if (variable == nullptr)
+    return;
+  const std::string owner(variable->owner->name.text);
+  report(c, Code::ForeignLocal, member->name.span,
+         "`" + std::string(member->name.text) + "` is a variable of `" + owner + "` itself",
+         "read from outside")
+      .label(variable->name.span, "a VAR may change its meaning with the next version of the block")
+      .help("make it a VAR_OUTPUT of `" + owner + "`");
+}
+
 void read(Context &c, Expr *expr) {
   while (expr->kind == ExprKind::Unary) {
     conversion(c, expr);
@@ -291,6 +305,7 @@ void read(Context &c, Expr *expr) {
       auto *variable = static_cast<VarSymbol *>(symbol);
       use(c, variable, kUseRead, expr);
       inOutBeforeCall(c, member, variable);
+      foreignRead(c, member);
     }
     read(c, member->base);
     break;

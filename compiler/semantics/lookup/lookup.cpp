@@ -46,7 +46,7 @@ Lookup::Lookup(Program &program, const LibraryIndex &index)
     const Ident id = program.interner.intern(name);
     auto *symbol = arena_.make<BuiltinSymbol>();
     symbol->kind = SymbolKind::Builtin;
-    symbol->name = {id, id->lower, {}};
+    symbol->name = {id, name, {}};
     symbol->id = function;
     builtins_.emplace(id, symbol);
   }
@@ -103,7 +103,23 @@ Symbol *Lookup::listOfLibraries(const Scope &scope, Ident id) const {
   return nullptr;
 }
 
+/// What the list that the scope is has of this name: inside of it a `qualified_only` list needs no
+/// name.
+static Symbol *inOwnList(const Scope &scope, Ident id) {
+  if (scope.home == nullptr || scope.home->kind != DeclKind::Globals ||
+      !hasAttribute(scope.home->attributes, AttributeId::QualifiedOnly))
+    return nullptr;
+  for (const auto &[name, list] : scope.module->lists) {
+    const auto found = list->scope.find(id);
+    if (found != list->scope.end() && found->second->home == scope.home)
+      return found->second;
+  }
+  return nullptr;
+}
+
 Found Lookup::find(const Scope &scope, const Name &name) {
+  if (Symbol *symbol = inOwnList(scope, name.id))
+    return {symbol};
   if (scope.pou != nullptr) {
     if (Symbol *symbol = inPou(scope.pou, name.id))
       return {symbol};

@@ -58,7 +58,7 @@ public:
   /// is among the others. Names that only libraries have: libraryNames().
   [[nodiscard]] std::vector<const Symbol *> visible(const Scope &scope) const;
   /// Names of libraries that can be used everywhere, in lower case.
-  [[nodiscard]] std::vector<std::string_view> libraryNames() const { return index_.names(); }
+  [[nodiscard]] std::vector<LibraryIndex::Name> libraryNames() const { return index_.names(); }
   /// What can stand after the dot of a value: fields, variables, methods, properties, enumerators;
   /// inherited ones after one's own. Hidden and temporary ones are left out.
   [[nodiscard]] static std::vector<const Symbol *> members(const Type *type);

@@ -65,13 +65,13 @@ Symbol *lookupPath(Context &c, NamePath path, bool asType) {
   const Name first = path.front();
   Symbol *symbol = path.size() == 1 ? lookup(c, first) : spaceOfPath(c, first, path);
   if (symbol == nullptr) {
-    reportUnknown(c, first, asType);
+    reportUnknown(c, first, asType ? Sought::Type : Sought::Value);
     return nullptr;
   }
   for (const Name &name : path.subspan(1)) {
     Symbol *next = nameInSpace(c, symbol, name);
     if (next == nullptr) {
-      reportUnknown(c, name, asType);
+      reportUnknown(c, name, asType ? Sought::Type : Sought::Value);
       return nullptr;
     }
     symbol = next;

@@ -25,8 +25,10 @@ void checkUsings(Context &c, const ast::Decl *decl);
 /// Reports an enumerator of the expected type that must not be called by its plain name; false:
 /// there is none.
 bool reportUnqualified(Context &c, const ast::Name &name, const Type *expected);
+/// What a name is meant for.
+enum class Sought : uint8_t { Value, Callee, Type };
 /// Reports a name that nothing has, with what may be meant; once for each name of a POU.
-void reportUnknown(Context &c, const ast::Name &name, bool asType);
+void reportUnknown(Context &c, const ast::Name &name, Sought sought);
 /// The names of what can stand after the dot of a value of the type.
 [[nodiscard]] std::vector<std::string_view> memberNames(const Type *type);
 /// Adds the nearest of the members, or all of them when they are few.

@@ -139,44 +139,68 @@ std::vector<std::string_view> memberNames(const Type *type) {
   return list;
 }
 
-/// The names that can be meant by a wrong one: of types, or of all but types.
-static std::vector<std::string_view> visibleNames(Context &c, bool types) {
+/// Whether a symbol can be what a wrong name meant.
+static bool canBeMeant(const Symbol *symbol, Sought sought) {
+  const auto *pou =
+      symbol->kind == SymbolKind::Pou ? static_cast<const PouSymbol *>(symbol) : nullptr;
+  const bool isFunction = symbol->kind == SymbolKind::Builtin ||
+                          (pou != nullptr && (pou->isFunction() || pou->isMethod()));
+  if (sought == Sought::Type)
+    return symbol->kind == SymbolKind::Type || (pou != nullptr && !isFunction);
+  const bool isPrefix = // of longer names, which are not what was written
+      symbol->kind == SymbolKind::Globals ||
+      ((symbol->kind == SymbolKind::Space || symbol->kind == SymbolKind::Enumerator) &&
+       (symbol->space == nullptr) == (symbol->kind == SymbolKind::Space));
+  return symbol->kind != SymbolKind::Type && !isPrefix && (sought == Sought::Callee || !isFunction);
+}
+
+static bool canBeMeant(const LibraryIndex::Name &name, Sought sought) {
+  using Kind = LibraryIndex::Kind;
+  switch (name.kind) {
+  case Kind::Function:
+    return sought == Sought::Callee;
+  case Kind::Type:
+    return sought == Sought::Type;
+  default:
+    return sought == Sought::Value;
+  }
+}
+
+/// The names that can be meant by a wrong one.
+static std::vector<std::string_view> visibleNames(Context &c, Sought sought) {
   std::vector<std::string_view> list;
   for (const Symbol *symbol : c.names.visible(c.scope)) {
-    const bool isType =
-        symbol->kind == SymbolKind::Type ||
-        (symbol->kind == SymbolKind::Pou && !static_cast<const PouSymbol *>(symbol)->isFunction());
-    const bool isPrefix = // of longer names, which are not what was written
-        symbol->kind == SymbolKind::Globals ||
-        ((symbol->kind == SymbolKind::Space || symbol->kind == SymbolKind::Enumerator) &&
-         (symbol->space == nullptr) == (symbol->kind == SymbolKind::Space));
-    if (types ? isType : symbol->kind != SymbolKind::Type && !isPrefix)
+    if (canBeMeant(symbol, sought))
       list.push_back(symbol->name.text);
   }
-  if (types) {
+  if (sought == Sought::Type) {
     for (const char *name : {"BOOL",  "SINT",  "INT",   "DINT", "LINT",   "USINT",  "UINT",
                              "UDINT", "ULINT", "BYTE",  "WORD", "DWORD",  "LWORD",  "REAL",
                              "LREAL", "TIME",  "LTIME", "DATE", "STRING", "WSTRING"})
       list.emplace_back(name);
   }
   std::sort(list.begin(), list.end());
-  for (const std::string_view name : c.names.libraryNames())
-    list.push_back(name);
+  for (const LibraryIndex::Name &name : c.names.libraryNames()) {
+    if (canBeMeant(name, sought))
+      list.push_back(name.text);
+  }
   return list;
 }
 
 /// Empty also when there have been so many mistakes in so large a program that looking for what was
 /// meant would take longer than the check.
-static std::string_view similarName(Context &c, const Name &name, bool asType) {
+static std::string_view similarName(Context &c, const Name &name, Sought sought) {
   constexpr size_t kMostLooks = 2'000'000;
   if (c.reported.namesLookedAt >= kMostLooks)
     return {};
-  const std::vector<std::string_view> names = visibleNames(c, asType);
+  std::vector<std::string_view> names = visibleNames(c, sought);
   c.reported.namesLookedAt += names.size();
+  std::erase_if(names, [&](std::string_view other) { return equalIgnoringCase(other, name.text); });
   return nearest(name.text, names);
 }
 
-void reportUnknown(Context &c, const Name &name, bool asType) {
+void reportUnknown(Context &c, const Name &name, Sought sought) {
+  const bool asType = sought == Sought::Type;
   if (!asType) {
     if (!c.reported.unknown.emplace(c.scope.pou, name.id).second)
       return; // one missing declaration is one mistake
@@ -209,9 +233,13 @@ void reportUnknown(Context &c, const Name &name, bool asType) {
            std::string(name.text) + "`");
     return;
   }
+  if (asType && findAnyGroup(name.id->lower) != AnyGroup::None) {
+    d.help("ANY and the like are types of inputs (VAR_INPUT) only");
+    return;
+  }
   if (helpElsewhere(c, d, name, asType))
     return;
-  const std::string_view similar = similarName(c, name, asType);
+  const std::string_view similar = similarName(c, name, sought);
   if (!similar.empty())
     d.suggest("a similar name exists: `" + std::string(similar) + "`", name.span,
               std::string(similar));

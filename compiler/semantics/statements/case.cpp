@@ -3,6 +3,7 @@
 #include "compiler/semantics/statements/internal.hpp"
 
 #include "compiler/semantics/context/context.hpp"
+#include "compiler/semantics/conversions.hpp"
 #include "compiler/semantics/expressions/expressions.hpp"
 
 #include <map>
@@ -50,9 +51,12 @@ static bool checkLabelBound(Context &c, Expr *bound, const Type *type) {
         .help("use IF … ELSIF for values that change");
     return false;
   }
-  if (boundType->kind == TypeKind::Enumeration && !typeAs<EnumType>(boundType)->strict &&
-      type->kind != TypeKind::Enumeration && isInteger(type))
+  const bool isEnumerator = boundType->kind == TypeKind::Enumeration;
+  const bool ofEnumeration = type->kind == TypeKind::Enumeration;
+  if (isEnumerator && !ofEnumeration && isInteger(type))
     setTarget(bound, type);
+  else if (!isEnumerator && ofEnumeration && constantFits(*bound->constant, boundType, type))
+    setTarget(bound, type); // even where the enumeration is strict
   else
     coerce(c, bound, type, "the CASE label");
   return bound->constant->kind == ConstKind::Integer;

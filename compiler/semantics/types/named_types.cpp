@@ -76,6 +76,55 @@ static void extendStruct(Context &c, StructType *type, const Name &baseName,
   type->symbol->fields = base->symbol->fields;
 }
 
+/// A UNION that extends another one has its members, too: all of them share their memory.
+static void extendUnion(Context &c, StructType *type, const StructType *base,
+                        std::vector<VarSymbol *> &fields) {
+  for (const VarSymbol *f : base->fields) {
+    auto *own = c.arena.make<VarSymbol>(*f);
+    fields.push_back(own);
+    for (const auto &[name, field] : base->symbol->fields) { // it may have an alias
+      if (field == f)
+        type->symbol->fields.emplace(name, own);
+    }
+  }
+}
+
+/// What the type extends; a UNION's members are added to `fields`.
+static void resolveBase(Context &c, StructType *type, const StructDecl *decl,
+                        std::vector<VarSymbol *> &fields) {
+  const Name &name = decl->base.back();
+  const std::string base(name.text);
+  Symbol *symbol = lookupPath(c, decl->base, true);
+  if (symbol == nullptr)
+    return; // reported
+  if (symbol->kind != SymbolKind::Type) {
+    auto &d = c.report(Code::WrongBase, name.span, "`" + base + "` is not a structure",
+                       "this is " + describe(symbol));
+    noteDeclaration(d, symbol);
+    return;
+  }
+  auto *baseSymbol = static_cast<TypeSymbol *>(symbol);
+  const bool circle = baseSymbol->resolving;
+  resolve(c, baseSymbol);
+  if (isError(baseSymbol->type))
+    return;
+  const auto *structure = !circle && baseSymbol->type->kind == TypeKind::Structure
+                              ? typeAs<StructType>(baseSymbol->type)
+                              : nullptr;
+  if (structure != nullptr && structure->isUnion == type->isUnion) {
+    if (type->isUnion)
+      extendUnion(c, type, structure, fields);
+    else
+      extendStruct(c, type, name, structure);
+    return;
+  }
+  const std::string wanted = type->isUnion ? "UNION" : "structure";
+  c.report(circle ? Code::RecursiveType : Code::WrongBase, name.span,
+           circle ? "`" + std::string(type->symbol->name.text) + "` extends itself"
+                  : "`" + base + "` is not a " + wanted,
+           "a " + wanted + " can only extend another " + wanted);
+}
+
 static void resolveStruct(Context &c, TypeSymbol *symbol, StructDecl *decl) {
   auto *type = c.arena.make<StructType>();
   type->kind = TypeKind::Structure;
@@ -84,31 +133,9 @@ static void resolveStruct(Context &c, TypeSymbol *symbol, StructDecl *decl) {
   symbol->type = type; // members may point back to it
   type->pack =
       packMode(c.reporter, decl->attributes, symbol->library->isUser ? c.program.settings.pack : 0);
-  if (!decl->base.empty()) {
-    const Name &baseName = decl->base.back();
-    Symbol *base = lookupPath(c, decl->base, true);
-    if (base == nullptr) {
-      type->base = nullptr; // reported
-    } else if (base->kind == SymbolKind::Type) {
-      auto *baseSymbol = static_cast<TypeSymbol *>(base);
-      const bool circle = baseSymbol->resolving;
-      resolve(c, baseSymbol);
-      if (!circle && baseSymbol->type->kind == TypeKind::Structure) {
-        extendStruct(c, type, baseName, typeAs<StructType>(baseSymbol->type));
-      } else if (!isError(baseSymbol->type)) {
-        c.report(circle ? Code::RecursiveType : Code::WrongBase, baseName.span,
-                 circle ? "`" + std::string(symbol->name.text) + "` extends itself"
-                        : "`" + std::string(baseName.text) + "` is not a structure",
-                 "a structure can only extend another structure");
-      }
-    } else {
-      auto &d = c.report(Code::WrongBase, baseName.span,
-                         "`" + std::string(baseName.text) + "` is not a structure",
-                         "this is " + describe(base));
-      noteDeclaration(d, base);
-    }
-  }
   std::vector<VarSymbol *> fields;
+  if (!decl->base.empty())
+    resolveBase(c, type, decl, fields);
   for (VarDecl *f : decl->fields) {
     VarSymbol *field = makeVariable(c.arena, f, c.names.moduleOf(symbol), nullptr);
     field->home = decl;
@@ -121,7 +148,7 @@ static void resolveStruct(Context &c, TypeSymbol *symbol, StructDecl *decl) {
       continue;
     }
     const std::string hint = std::string(symbol->name.text) + "__" + std::string(f->name.text);
-    field->type = decl->isUnion ? resolveType(c, f->type, hint) : resolveMember(c, field, hint);
+    field->type = resolveMember(c, field, hint);
     if (f->address != nullptr)
       placeVariable(c, field);
     fields.push_back(field);

@@ -137,18 +137,19 @@ static Symbol *lookupType(Context &c, const Name &name) {
 
 static void reportNoType(Context &c, const NamedTypeExpr *expr, const Name &name) {
   if (!namesBit(c, expr)) {
-    reportUnknown(c, name, true);
+    reportUnknown(c, name, Sought::Type);
     return;
   }
   c.report(Code::BitNotPossible, name.span, "there is no BIT here",
-           "only fields of a STRUCT and variables of a FUNCTION_BLOCK can be BIT")
+           "only fields of a STRUCT or UNION and variables of a FUNCTION_BLOCK can be BIT")
       .note("a BIT shares its byte with others and has no address, so that there are no arrays of "
             "BIT and no pointers to it")
       .help("write `BOOL`");
 }
 
 /// The type that a symbol is, as the name at `expr` may use it; null (reported): it is no type.
-static const Type *typeOfSymbol(Context &c, Symbol *symbol, const Name &name) {
+static const Type *typeOfSymbol(Context &c, const NamedTypeExpr *expr, const Name &name) {
+  Symbol *symbol = expr->symbol;
   if (symbol->kind == SymbolKind::Type) {
     auto *type = static_cast<TypeSymbol *>(symbol);
     resolve(c, type);
@@ -164,6 +165,12 @@ static const Type *typeOfSymbol(Context &c, Symbol *symbol, const Name &name) {
     }
     if (c.programTypes && pou->decl->kind == DeclKind::Program)
       return pou->type;
+  }
+  const auto *variable =
+      symbol->kind == SymbolKind::Variable ? static_cast<const VarSymbol *>(symbol) : nullptr;
+  if (variable != nullptr && variable->decl != nullptr && variable->decl->type == expr) {
+    reportUnknown(c, name, Sought::Type); // `Axis : Axis`
+    return elementaryType(TypeKind::Error);
   }
   auto &d = c.report(Code::NotAType, name.span, "`" + std::string(name.text) + "` is not a type",
                      "this is " + describe(symbol));
@@ -182,8 +189,7 @@ static const Type *resolveNamed(Context &c, NamedTypeExpr *expr) {
   } else {
     expr->symbol = lookupPath(c, expr->path, true);
   }
-  return expr->symbol == nullptr ? elementaryType(TypeKind::Error)
-                                 : typeOfSymbol(c, expr->symbol, name);
+  return expr->symbol == nullptr ? elementaryType(TypeKind::Error) : typeOfSymbol(c, expr, name);
 }
 
 static const Type *resolveArray(Context &c, ArrayTypeExpr *expr, std::string_view hint) {

@@ -45,7 +45,7 @@ public:
   bool answersTo(std::string_view, std::string_view lowerName) const override {
     return isLibrary(lowerName);
   }
-  std::vector<std::string_view> names() const override { return {}; }
+  std::vector<Name> names() const override { return {}; }
   std::vector<Entry> files(std::string_view) const override {
     std::vector<Entry> all;
     for (const Source &f : files_)

@@ -12,10 +12,17 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
+using Kind = LibraryIndex::Kind;
+
+MATCHER_P(Named, text, "") { return arg.text == text; }
+
 constexpr EmbeddedFile kFiles[] = {{"A", "<stdlib>/A/x.st", "x"},
                                    {"A", "<stdlib>/A/y.st", "y"},
                                    {"B", "<stdlib>/B/x.st", "x of B"}};
-constexpr EmbeddedName kNames[] = {{"x", 0, 0}, {"x", 2, 0}, {"x", 0, 2}, {"y", 0, 1}};
+constexpr EmbeddedName kNames[] = {{"x", "X", 0, Kind::Type},
+                                   {"x", "x", 2, Kind::Type},
+                                   {"x", "x", 0, Kind::Enumerator},
+                                   {"y", "y", 0, Kind::Variable}};
 
 TEST(LibraryIndexTables, FindOneFilePerLibraryInOrder) {
   const EmbeddedLibraryIndex index({kFiles, kNames});
@@ -26,7 +33,7 @@ TEST(LibraryIndexTables, FindOneFilePerLibraryInOrder) {
   EXPECT_THAT(index.find("z"), IsEmpty());
   EXPECT_TRUE(index.isLibrary("b"));
   EXPECT_FALSE(index.isLibrary("c"));
-  EXPECT_THAT(index.names(), ::testing::ElementsAre("x", "y"));
+  EXPECT_THAT(index.names(), ::testing::ElementsAre(Named("X"), Named("y")));
   EXPECT_THAT(index.files("A"), SizeIs(2));
   EXPECT_THAT(index.libraries(), ::testing::ElementsAre("A", "B"));
 }
@@ -40,7 +47,7 @@ TEST(StandardLibrary, KnowsItsDeclarations) {
   EXPECT_THAT(index.find("g_strbootuperror"), SizeIs(1)); // a global variable
   EXPECT_THAT(index.find("smc_no_error"), SizeIs(1));     // an enumerator
   EXPECT_THAT(index.find("fsetposition"), IsEmpty());     // a member is not global
-  EXPECT_THAT(index.names(), Contains("ton"));
+  EXPECT_THAT(index.names(), Contains(Named("TON")));
   EXPECT_TRUE(index.isLibrary("standard"));
 }
 

@@ -36,7 +36,7 @@ public:
   bool answersTo(std::string_view library, std::string_view lowerName) const override {
     return library == "Extra" && lowerName == "extra";
   }
-  std::vector<std::string_view> names() const override { return {"limiter", "tlimits"}; }
+  std::vector<Name> names() const override { return {{"Limiter"}, {"TLimits"}}; }
   std::vector<Entry> files(std::string_view) const override { return find("limiter"); }
 };
 
@@ -138,7 +138,7 @@ TEST_F(LookupTest, KnowsWhatIsVisibleInABody) {
   checkText(kBlocks);
   EXPECT_THAT(visibleAt("// in Main"),
               AllOf(Contains("Block"), Contains("Sum"), Contains("Main"), Contains("Derived"),
-                    Contains("Point"), Contains("Green"), Contains("limit"), Not(Contains("Count")),
+                    Contains("Point"), Contains("Green"), Contains("LIMIT"), Not(Contains("Count")),
                     Not(Contains("Amount")), Not(Contains("Scratch"))));
   EXPECT_THAT(visibleAt("// in Derived"),
               AllOf(Contains("Scratch"), Contains("Dots"), Contains("Count"), Contains("Step"),
@@ -181,7 +181,8 @@ TEST_F(LookupTest, ReadsLibrariesWhereANameLeadsIntoThem) {
   EXPECT_EQ(library->kind, SymbolKind::Library);
   EXPECT_THAT(namesOf(names_.members(library)), ElementsAre("Limiter", "TLimits"));
   EXPECT_EQ(Lookup::declaration(library), std::nullopt);
-  EXPECT_THAT(names_.libraryNames(), Contains("limiter"));
+  EXPECT_THAT(names_.libraryNames(),
+              Contains(::testing::Field(&LibraryIndex::Name::text, "Limiter")));
   EXPECT_EQ(names_.inLibrary(library->name.id, program_.interner.intern("limiter")),
             find(scope, "Limiter"));
 }

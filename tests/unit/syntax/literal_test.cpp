@@ -52,13 +52,19 @@ TEST(Literal, Durations) {
   EXPECT_EQ(printExpression("T#0s"), "0ms");
   EXPECT_EQ(printExpression("T#49d17h2m47s295ms"), "4294967295ms");
   EXPECT_EQ(printExpression("LTIME#1d1us1.5ns"), "86400000001001ns");
-  EXPECT_EQ(printExpression("LT#-5ms"), "(- 5000000ns)");
+  EXPECT_EQ(printExpression("LT#-5ms"), "-5000000ns");
   EXPECT_EQ(error("T#5s2m"), "SE0110 1:16 malformed duration\n");
   EXPECT_EQ(error("T#5s5s"), "SE0110 1:16 malformed duration\n");
   EXPECT_EQ(error("T#5"), "SE0110 1:16 malformed duration\n");
   EXPECT_EQ(error("T#5x"), "SE0110 1:16 malformed duration\n");
   EXPECT_EQ(error("T#1.5h30m"), "SE0110 1:16 malformed duration\n");
-  EXPECT_EQ(error("T#5us"), "SE0110 1:16 a TIME literal counts whole milliseconds\n");
+  EXPECT_EQ(error("T#5us"), "SE0720 1:16 a TIME counts whole milliseconds\n");
+  EXPECT_EQ(printExpression("T#2000us"), "2ms");
+  EXPECT_EQ(printExpression("LTIME#-106751d23h47m16s854ms775us808ns"), "-9223372036854775808ns");
+  EXPECT_EQ(error("LTIME#106751d23h47m16s854ms775us808ns"),
+            "SE0109 1:16 the duration does not fit into 64 bits of nanoseconds\n");
+  EXPECT_EQ(error("LTIME#-106751d23h47m16s854ms775us809ns"),
+            "SE0109 1:16 the duration does not fit into 64 bits of nanoseconds\n");
   EXPECT_EQ(error("T#50d"), "SE0109 1:16 the duration does not fit into a TIME\n");
   EXPECT_EQ(error("LTIME#200000d"),
             "SE0109 1:16 the duration does not fit into 64 bits of nanoseconds\n");

@@ -64,6 +64,9 @@ public:
     case LiteralKind::Wstring:
       out_ << '"' << node->text << '"';
       break;
+    case LiteralKind::Ltime:
+      out_ << static_cast<int64_t>(node->integer) << suffix(node->literal);
+      break;
     default:
       out_ << node->integer << suffix(node->literal);
     }

@@ -117,9 +117,8 @@ TEST(SyntaxError, Expressions) {
             "SE0201 2:29 expected an operator or `;`, found `e`\n");
   EXPECT_EQ(bodyErrors("\na := (1 + 2; f(1, (2); b := 1;"),
             "SE0202 2:12 expected `)`\nSE0202 2:22 expected `)`\n");
-  EXPECT_EQ(bodyErrors("\na := b[1; c := d[]; e := ();"),
-            "SE0202 2:9 expected `]`\nSE0201 2:17 expected an index between the brackets\n"
-            "SE0201 2:26 expected an expression between the parentheses\n");
+  EXPECT_EQ(bodyErrors("\na := b[1; c := d[];"),
+            "SE0202 2:9 expected `]`\nSE0201 2:17 expected an index between the brackets\n");
   EXPECT_EQ(bodyErrors("\na := 1); b := 2;"),
             "SE0201 2:7 expected an operator or `;`, found `)`\n");
   EXPECT_EQ(bodyErrors("\nf(a b, c); g(a := ); h(a.b := 1);"),
