@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <initializer_list>
 
 namespace stc {
 
@@ -15,12 +16,17 @@ namespace {
 
 constexpr size_t kAny = SIZE_MAX;
 
+/// DOES(…) of a row, which may be empty.
+constexpr unsigned effectsOf(std::initializer_list<unsigned> does) {
+  return does.size() == 0 ? 0 : *does.begin();
+}
+
 constexpr auto kRows = [] {
   using enum BuiltinTakes;
   using enum BuiltinRow::Effect;
   return std::to_array<BuiltinRow>({
 #define STC_BUILTIN(enumerator, name, signature, takes, check, fold, does, emit, text)             \
-  {name, takes, unsigned does},
+  {name, takes, effectsOf(does)},
 #include "compiler/semantics/builtins.def"
   });
 }();

@@ -138,6 +138,7 @@ private:
   ast::Expr *initialValue(Context *expression);
   ast::AggregateItem item(Context *expression);
   [[nodiscard]] static ast::Access accessOf(uint16_t type); ///< PUBLIC, PRIVATE …
+  [[nodiscard]] ast::Edge edgeOf(const Context *type, ast::Section section);
   ast::VarDecl *lastCallOf(const ast::VarDecl *input);
   ast::VarDecl *unnamed(const Token &start, const Token &direct);
   ast::Expr *aggregate(const std::vector<ast::AggregateItem> &items, bool isStruct, Span span);

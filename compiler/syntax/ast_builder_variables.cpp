@@ -119,6 +119,20 @@ VarDecl *AstBuilder::lastCallOf(const VarDecl *input) {
   return node;
 }
 
+/// R_EDGE or F_EDGE after the type.
+Edge AstBuilder::edgeOf(const Context *type, Section section) {
+  const Token &word = token(last(type) + 1);
+  if (word.type != Tok::R_EDGE && word.type != Tok::F_EDGE)
+    return Edge::None;
+  if (section == Section::Input)
+    return word.type == Tok::R_EDGE ? Edge::Rising : Edge::Falling;
+  diagnostics_
+      .report(Code::SectionNotAllowed, span(word),
+              "only inputs of a function block or program can be edges", "not a VAR_INPUT")
+      .help("use R_TRIG or F_TRIG");
+  return Edge::None;
+}
+
 void AstBuilder::declaration(Context *context, Section section, uint8_t qualifiers,
                              std::vector<VarDecl *> &out) {
   Context *names = child(context, 0);
@@ -129,15 +143,7 @@ void AstBuilder::declaration(Context *context, Section section, uint8_t qualifie
     type = errorType(span(context));
   } else {
     type = this->type(child(context, 1));
-    const uint16_t next = token(last(child(context, 1)) + 1).type;
-    edge = next == Tok::R_EDGE ? Edge::Rising : next == Tok::F_EDGE ? Edge::Falling : Edge::None;
-    if (edge != Edge::None && section != Section::Input) {
-      diagnostics_
-          .report(Code::SectionNotAllowed, span(token(last(child(context, 1)) + 1)),
-                  "only inputs of a function block or program can be edges", "not a VAR_INPUT")
-          .help("use R_TRIG or F_TRIG");
-      edge = Edge::None;
-    }
+    edge = edgeOf(child(context, 1), section);
     if (context->children.size() > 2) {
       init = initializer(child(context, 2));
       if (const Token &sign = token(first(child(context, 2)) - 1);
