@@ -1,7 +1,7 @@
 """gdb for ST: values as ST literals, frames as POUs, `st print`, `st set`, `st break`, `st roots`, `st catch`.
 
 Loaded by `stride debug`, or by hand: (gdb) source <prefix>/share/stride/gdb/stride.py
-Knows the form of generated code (docs/generated-code.md) and nothing of a particular program: types
+Knows the form of generated code (docs/developers/generated-code.md) and nothing of a particular program: types
 come from the debug information, the names of enumerators from the application's type table.
 """
 

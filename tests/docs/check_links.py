@@ -4,7 +4,7 @@
 usage: check_links.py REPOSITORY [FOLDER_OF_HTML]
 
 Of the repository: the Markdown files at the top, in docs/, examples/, stdlib/ and tests/. Every relative link must lead
-to a file, and its #anchor to a heading. Of the HTML folder: every link and its anchor; every id only once. Links to
+to a file, and its #anchor to a heading; docs/README.md must link to every other page of docs/. Of the HTML folder: every link and its anchor; every id only once. Links to
 other sites are not followed.
 """
 import html.parser
@@ -51,7 +51,15 @@ def check_markdown(root):
                 errors.append(f"{path.relative_to(root)}:{number}: {link}: there is no such file")
             elif anchor and goal in parts and anchor not in parts[goal][0]:
                 errors.append(f"{path.relative_to(root)}:{number}: {link}: there is no such heading")
-    return errors, count
+    return errors + missing_in_index(root / "docs", parts), count
+
+
+def missing_in_index(docs, parts):
+    """An error for each page of the folder that its index does not link to."""
+    index = docs / "README.md"
+    listed = {(docs / link.partition("#")[0]).resolve() for _, link in parts[index.resolve()][1]}
+    pages = sorted(p for p in parts if p.is_relative_to(docs) and p not in listed and p != index.resolve())
+    return [f"docs/README.md: there is no link to {p.relative_to(docs)}" for p in pages]
 
 
 class Page(html.parser.HTMLParser):

@@ -1,4 +1,4 @@
-// The rooms of the house, by what the sources say (docs/contributing.md): who may include whom,
+// The rooms of the house, by what the sources say (docs/developers/contributing.md): who may include whom,
 // what a folder's library consists of, where native bodies are.
 #include "tests/support/text.hpp"
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plants faults that a fixed seed has drawn, and sees whether the tests find them: see docs/contributing.md, "Mutants"."""
+"""Plants faults that a fixed seed has drawn, and sees whether the tests find them: see docs/developers/contributing.md, "Mutants"."""
 
 import argparse
 

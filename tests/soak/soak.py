@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The soak test: random rounds of all scenarios against invariants, for hours. See docs/soak.md.
+"""The soak test: random rounds of all scenarios against invariants, for hours. See docs/developers/soak.md.
 
 usage: soak.py --product FOLDER [--hours H | --rounds N] [--seed S] [--scenario NAME,…] [--round N] [--out FOLDER] [--quick]
 """
@@ -28,7 +28,7 @@ CLONE_NEWNS = 0x00020000
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description="The soak test: random rounds of all scenarios against invariants; see docs/soak.md.")
+    parser = argparse.ArgumentParser(description="The soak test: random rounds of all scenarios against invariants; see docs/developers/soak.md.")
     parser.add_argument("--product", type=pathlib.Path, required=True, help="where Stride is installed or was built")
     parser.add_argument("--hours", type=float, default=1.0, help="how long; a round that has begun is finished")
     parser.add_argument("--rounds", type=int, help="so many rounds of each scenario instead")

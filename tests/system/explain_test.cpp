@@ -1,6 +1,6 @@
 // The examples of `stride explain` are programs: every wrong one must be reported with its code,
 // every right one must be accepted. How a fragment becomes a program is said in
-// docs/contributing.md.
+// docs/developers/contributing.md.
 #include "tests/support/process.hpp"
 #include "tests/support/text.hpp"
 
