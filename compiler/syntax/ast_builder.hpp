@@ -120,7 +120,6 @@ private:
   ast::Expr *memberOf(ast::Expr *base, const Token &member);
   ast::Expr *bracketed(ast::Expr *base, Context *inside, size_t &at, size_t end);
   ast::Expr *indexOf(ast::Expr *base, Context *inside, Span brackets, Span whole);
-  [[nodiscard]] static bool hasNames(const Context *arguments);
   void requireArguments(const Context *inside, bool mayEndWithComma);
   ast::Expr *partOf(ast::Expr *base, const Token &member);
   ast::Expr *parentheses(Context *arguments, Span span);

@@ -276,13 +276,6 @@ Expr *AstBuilder::parentheses(Context *inside, Span whole) {
   return structAggregate(inside, whole);
 }
 
-bool AstBuilder::hasNames(const Context *arguments) {
-  return std::any_of(arguments->children.begin(), arguments->children.end(), [](const auto *one) {
-    const auto *argument = static_cast<const Context *>(one);
-    return !argument->children.empty() && last(argument) != last(child(argument, 0));
-  });
-}
-
 Expr *AstBuilder::memberOf(Expr *base, const Token &member) {
   if (member.type == Tok::DIRECT && !member.reported)
     return partOf(base, member);
@@ -330,8 +323,9 @@ Expr *AstBuilder::bracketed(Expr *base, Context *inside, size_t &at, size_t end)
   at = inside->children.empty() ? at + 1 : last(inside) + 1;
   Span whole = base->span.to(span(start)).to(span(inside));
   const uint16_t closer = start.type == Tok::LPAREN ? Tok::RPAREN : Tok::RBRACKET;
-  if (at <= end && token(at).type == closer)
-    whole = whole.to(span(token(at++)));
+  if (at > end || token(at).type != closer)
+    return error(whole); // reported; what it holds may have been meant to stand outside
+  whole = whole.to(span(token(at++)));
   if (start.type == Tok::LPAREN) {
     auto *node = arena_.make<CallExpr>();
     node->callee = base;
@@ -339,8 +333,6 @@ Expr *AstBuilder::bracketed(Expr *base, Context *inside, size_t &at, size_t end)
     node->span = whole;
     return node;
   }
-  if (token(at - 1).type != Tok::RBRACKET && hasNames(inside))
-    return error(whole); // the missing bracket was reported before the `:=`
   return indexOf(base, inside, {file_, start.begin, whole.end}, whole);
 }
 

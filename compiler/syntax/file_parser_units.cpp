@@ -358,7 +358,7 @@ inline void FileParser::nest() {
   } else if (startsBlock(type)) {
     blocks_.push_back(type);
     brackets_ = 0;
-  } else if (type == Tok::SEMICOLON) {
+  } else if (type == Tok::SEMICOLON || type == Tok::OF) { // labels come after `CASE (n OF`, too
     brackets_ = 0;
   } else if (type == Tok::LPAREN || type == Tok::LBRACKET) {
     ++brackets_;

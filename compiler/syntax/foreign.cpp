@@ -187,7 +187,7 @@ std::string ReportStrategy::foreignHelp(const Token &found, const Token *previou
   case Tok::LBRACKET:
     return "an array is declared `ARRAY [0..9] OF …`";
   case Tok::RBRACKET:
-    if (is(previous, Tok::INTEGER))
+    if (is(previous, Tok::INTEGER) && parser_.context()->getRuleIndex() == Grammar::RuleArrayRange)
       return "give both bounds: `[0.." + quoted(*previous) + "]`";
     break;
   case Tok::RPAREN:

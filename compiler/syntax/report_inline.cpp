@@ -125,8 +125,12 @@ antlr4::Token *ReportStrategy::insteadOfEndIf() {
 
 antlr4::Token *ReportStrategy::insteadOfBracket(uint16_t wanted) {
   const uint16_t found = current().type;
-  if (isStatementBoundary(found) || found == Tok::SEMICOLON || found == Tok::THEN ||
-      found == Tok::DO || found == Tok::OF || (onNewLine(current()) && startsOperand(found))) {
+  const bool endsHead = found == Tok::THEN || found == Tok::DO || found == Tok::OF ||
+                        found == Tok::TO || found == Tok::BY;
+  const bool closesOuter = // `a[(n + 1]`
+      (found == Tok::RPAREN || found == Tok::RBRACKET) && openBracketOf(found) != nullptr;
+  if (isStatementBoundary(found) || found == Tok::SEMICOLON || endsHead || closesOuter ||
+      (onNewLine(current()) && startsOperand(found))) {
     if (wanted == Tok::RBRACKET)
       stepBackToAssignment();
     return insert(wanted);
