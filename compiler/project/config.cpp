@@ -35,6 +35,7 @@ public:
       checkProjectName(project.get("name"));
       config_.poolSize = (static_cast<uint64_t>(project.integer("new_pool", 65536)) + 15) / 16 * 16;
       config_.generation = static_cast<unsigned>(project.choice("softmotion", 2));
+      config_.truncIsInt = project.get("softmotion") != nullptr && config_.generation == 2;
       config_.pack = static_cast<unsigned>(project.choice("layout", 0));
       if (const TomlNode *defines = project.get("defines"))
         for (const TomlNode &one : defines->children)

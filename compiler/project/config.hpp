@@ -101,6 +101,7 @@ struct ProjectConfig {
   std::string name;
   uint64_t poolSize = 65536; ///< new_pool: bytes for the objects of __NEW, a multiple of 16
   unsigned generation = 2;   ///< softmotion: 2 = "2.3", 3 = "3"
+  bool truncIsInt = false;   ///< softmotion = "2.3" is written: TRUNC gives an INT
   unsigned pack = 0;         ///< layout: 4 = "v2.3"
   Addressing addressing = Addressing::Units;
   std::array<uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs

@@ -177,6 +177,7 @@ void Project::readOwnConfig() {
   program_.settings.addressing = config_.addressing;
   program_.settings.imageBytes = config_.imageBytes;
   program_.settings.pack = config_.pack;
+  program_.settings.truncIsInt = config_.truncIsInt;
 }
 
 /// What the configuration declares goes to the files; false: something of it is missing, which the

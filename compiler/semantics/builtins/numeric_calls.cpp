@@ -57,17 +57,19 @@ const Type *checkPowerFunction(Context &c, CallExpr *expr) {
 }
 
 const Type *checkTrunc(Context &c, CallExpr *expr) {
+  const Type *result =
+      elementaryType(c.program.settings.truncIsInt ? TypeKind::Int : TypeKind::Dint);
   const Type *kind = kindOf(expr, 0);
   if (!isNumber(kind))
     return argumentError(c, expr, 0, "a number");
   if (isIntegerOrUntyped(kind)) { // stays what it is
-    if (bitWidth(kind) < 32)
+    if (bitWidth(kind) < bitWidth(result))
       expr->common = kind;
     setTarget(valueOf(expr, 0), elementaryType(TypeKind::Lreal));
   } else {
     settledKindOf(expr, 0);
   }
-  return elementaryType(TypeKind::Dint);
+  return result;
 }
 
 const Type *checkExtreme(Context &c, CallExpr *expr) {
