@@ -140,7 +140,12 @@ uint8_t modesOf(const CyclicMasks &masks, Model model) {
     modes |= 1U << kVelocityMode;
   if ((masks.sent & bus::kTorque) != 0 && model == Model::SecondOrder)
     modes |= 1U << kTorqueMode;
-  return modes;
+  if (modes != 0)
+    return modes;
+  // A drive that is sent nothing else regulates that, although nothing moves the other models.
+  if ((masks.sent & bus::kTorque) != 0)
+    return 1U << kTorqueMode;
+  return (masks.sent & bus::kCurrent) != 0 ? 1U << kCurrentMode : 0;
 }
 
 } // namespace

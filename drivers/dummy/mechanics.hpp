@@ -12,6 +12,7 @@ namespace stride::dummy {
 inline constexpr uint8_t kTorqueMode = 1;
 inline constexpr uint8_t kVelocityMode = 2;
 inline constexpr uint8_t kPositionMode = 3;
+inline constexpr uint8_t kCurrentMode = 4;
 
 /// Parameters of the models. Lengths in increments; torques in Nm (or forces in N).
 struct MechanicsParameters {

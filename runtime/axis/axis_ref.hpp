@@ -6,6 +6,7 @@
 #include "st/SM_DriveBasic/AXIS_REF.h"
 #include "st/SM_DriveBasic/MC_Direction.h"
 #include "st/SM_DriveBasic/SMC_AXIS_STATE.h"
+#include "st/SM_DriveBasic/SMC_CONTROLLER_MODE.h"
 #include "st/SM_Error/SMC_ERROR.h"
 
 #include <stdint.h>
@@ -39,6 +40,7 @@ inline constexpr int16_t kSwLimits = ::st::SM_Error::SMC_ERROR__SMC_DI_SWLIMITS_
 inline constexpr int16_t kHwLimits = ::st::SM_Error::SMC_ERROR__SMC_DI_HWLIMITS_EXCEEDED;
 inline constexpr int16_t kOutOfRange = ::st::SM_Error::SMC_ERROR__SMC_DI_LINEAR_AXIS_OUTOFRANGE;
 inline constexpr int16_t kNotPowered = ::st::SM_Error::SMC_ERROR__SMC_REGULATOR_OR_START_NOT_SET;
+inline constexpr int16_t kWrongMode = ::st::SM_Error::SMC_ERROR__SMC_WRONG_CONTROLLER_MODE;
 inline constexpr int16_t kNotCalled = ::st::SM_Error::SMC_ERROR__SMC_FB_WASNT_CALLED_DURING_MOTION;
 inline constexpr int16_t kNoAxis = ::st::SM_Error::SMC_ERROR__SMC_AXIS_IS_NO_AXIS_REF;
 inline constexpr int16_t kAxisChanged =
@@ -104,6 +106,30 @@ inline int16_t readiness(const AxisRef &axis) noexcept {
   if (!(axis.fTaskCycle > 0.0))
     return error::kTaskCycleEmpty;
   return error::kNone;
+}
+
+/// What the set values of an axis can bring about.
+enum class Regulated : uint8_t {
+  Position, ///< Positions, and velocities.
+  Velocity, ///< Velocities only; the axis has been switched to that (SMC_SetControllerMode).
+  Force,    ///< Torque or current: the axis goes where that takes it.
+};
+
+/// What the drive regulates now. A drive that has no position control counts as one that has: it is
+/// positioned by the course of the set velocity.
+inline Regulated regulated(const AxisRef &axis) noexcept {
+  namespace mode = ::st::SM_DriveBasic;
+  switch (axis.byRealControllerMode) {
+  case mode::SMC_CONTROLLER_MODE__SMC_torque:
+  case mode::SMC_CONTROLLER_MODE__SMC_current:
+    return Regulated::Force;
+  case mode::SMC_CONTROLLER_MODE__SMC_velocity:
+    return ((axis.byControllerModes >> mode::SMC_CONTROLLER_MODE__SMC_position) & 1) != 0
+               ? Regulated::Velocity
+               : Regulated::Position;
+  default:
+    return Regulated::Position;
+  }
 }
 
 /// Whether positions are taken modulo the period.

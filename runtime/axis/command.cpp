@@ -343,14 +343,15 @@ void blendAnew(AxisRef &ref) noexcept {
     planAnew(ref);
 }
 
-/// What a superimposed motion has added by the time `later` [s] in this cycle. The motion below
-/// comes first: when that is over, the superimposed one has not moved in this cycle, and will not.
+/// What a superimposed motion has added by the time `later` [s] in this cycle. Its block may have
+/// been called in this cycle already, or not yet.
 State addedState(const AxisRef &ref, double later) noexcept {
   const auto &added = ref.stSuperimposed;
   const State state{added.fPosition, added.fVelocity, added.fAcceleration};
-  if (added.ulOwner == 0 || added.bMovedInThisCycle != 0)
+  if (added.ulOwner == 0)
     return state;
-  return numeric::evaluateCubic(state, 0.0, later);
+  return numeric::evaluateCubic(state, 0.0,
+                                added.bMovedInThisCycle != 0 ? later - ref.fTaskCycle : later);
 }
 
 /// Where the motion in progress ends, or has ended, `late` seconds before this cycle's set values;

@@ -80,9 +80,12 @@ inline Call beginCall(BlockState &block, bool execute, AxisRef *ref) noexcept {
   return block.bRunning != 0 ? Call::Go : Call::Idle;
 }
 
+/// What a command needs: that the axis gets to a place, or that it moves with a velocity.
+enum class Needs : uint8_t { Position, Velocity };
+
 /// Why the axis takes no motion command now, or kNone: no power, no task cycle, error stop, held by
-/// MC_Stop, homing.
-inline int16_t refusal(const AxisRef &ref) noexcept {
+/// MC_Stop, homing, a drive that regulates something else.
+inline int16_t refusal(const AxisRef &ref, Needs needs = Needs::Position) noexcept {
   if (ref.nAxisState == axis::state::kErrorStop)
     return axis::error::kNotReady;
   if (const int16_t error = axis::readiness(ref); error != axis::error::kNone)
@@ -91,6 +94,10 @@ inline int16_t refusal(const AxisRef &ref) noexcept {
     return axis::error::kStopBlocks;
   if (ref.nAxisState == axis::state::kHoming)
     return axis::error::kNotReady;
+  const axis::Regulated regulated = axis::regulated(ref);
+  if (regulated == axis::Regulated::Force ||
+      (regulated == axis::Regulated::Velocity && needs == Needs::Position))
+    return axis::error::kWrongMode;
   return axis::error::kNone;
 }
 

@@ -21,6 +21,11 @@ void showProgress(BlockState &block, AxisRef &ref) noexcept {
   block.bReached = 1;
 }
 
+Needs needsOf(const Command &command) noexcept {
+  return command.eKind == kind::kVelocity || command.eKind == kind::kHalt ? Needs::Velocity
+                                                                          : Needs::Position;
+}
+
 void move(BlockState &block, AxisRef &ref) noexcept {
   const bool endless = ref.stPlanner.bReached != 0;
   if (!advance(ref))
@@ -58,7 +63,7 @@ void startCommand(BlockState &block, AxisRef &ref, const Command &inputs) noexce
     withdrawCommand(ref, block.ulOwner);
   block.bWaiting = 0;
   block.bReached = 0;
-  int16_t problem = refusal(ref);
+  int16_t problem = refusal(ref, needsOf(inputs));
   if (problem != axis::error::kNone) {
     fail(block, &ref, problem);
     return;

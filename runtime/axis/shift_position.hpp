@@ -10,6 +10,17 @@
 
 namespace stride::axis {
 
+/// The plan in progress leads `shift` [u] further on; what is left of it is the same.
+inline void shiftPlan(AxisRef &axis, double shift) noexcept {
+  auto &plan = axis.stPlanner;
+  plan.fTarget = isRotary(axis) ? numeric::wrapPosition(plan.fTarget + shift, axis.fPositionPeriod)
+                                : plan.fTarget + shift;
+  plan.fGoal += shift;
+  plan.fEnd += shift;
+  for (uint16_t i = 0; i < plan.uiSegmentCount; ++i)
+    plan.aSegment.v[i].fPosition += shift;
+}
+
 /// All positions of the axis become greater by `shift` [u], without any motion: the drive's
 /// increments stay as they are, and so does what has been commanded so far, the commands that wait
 /// included: their positions are shifted, too.
@@ -25,19 +36,14 @@ inline void shiftPosition(AxisRef &axis, double shift) noexcept {
   axis.fSavePosition = moved(axis.fSavePosition);
   axis.fAimPosition = moved(axis.fAimPosition);
   axis.fMarkPosition = moved(axis.fMarkPosition);
-  auto &plan = axis.stPlanner;
-  plan.fTarget = moved(plan.fTarget);
-  plan.fGoal += shift;
-  plan.fEnd += shift;
+  shiftPlan(axis, shift);
   axis.stSuperimposed.fBase += shift;
-  for (uint16_t i = 0; i < plan.uiSegmentCount; ++i)
-    plan.aSegment.v[i].fPosition += shift;
   const auto shiftTarget = [shift](auto &command) {
     if (command.eKind == ::st::SM_DriveBasic::SMC_MOTION_KIND__absolute_move ||
         command.eKind == ::st::SM_DriveBasic::SMC_MOTION_KIND__continuous_absolute)
       command.fPosition += shift;
   };
-  shiftTarget(plan.stCommand);
+  shiftTarget(axis.stPlanner.stCommand);
   for (uint16_t i = 0; i < axis.stQueue.uiCount; ++i)
     shiftTarget(axis.stQueue.aCommand.v[i]);
 }

@@ -1,11 +1,10 @@
 #include "runtime/bus/drive_group.hpp"
 
+#include "runtime/axis/axis_cycle.hpp"
 #include "runtime/axis/increments.hpp"
 #include "runtime/axis/set_point.hpp"
 #include "runtime/axis/shift_position.hpp"
 #include "runtime/bus/capture.hpp"
-
-#include "st/SM_DriveBasic/SMC_CONTROLLER_MODE.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,37 +22,10 @@ constexpr uint16_t kResetLast = 210;
 constexpr uint16_t kDriveFailed = 1000;   ///< The driver says why.
 constexpr uint16_t kScalingFailed = 1001; ///< Ratio or period cannot be used.
 
-// AXIS_REF.byRealControllerMode
-constexpr uint8_t kTorqueControl = ::st::SM_DriveBasic::SMC_CONTROLLER_MODE__SMC_torque;
-constexpr uint8_t kCurrentControl = ::st::SM_DriveBasic::SMC_CONTROLLER_MODE__SMC_current;
-
 constexpr uint32_t kPowerOffCycles =
     1000; ///< A drive that does not switch off does not block a reset.
 
 constexpr uint8_t kCaptureInputs = (1U << DriveStatus::kCaptureInputs) - 1;
-
-bool isMotion(int16_t axisState) {
-  return axisState == axis::state::kDiscrete || axisState == axis::state::kContinuous ||
-         axisState == axis::state::kSynchronized || axisState == axis::state::kHoming;
-}
-
-void haltAt(axis::AxisRef &axis) {
-  axis::writeMotion(axis, 0.0, 0.0);
-  axis.stPlanner.bActive = 0;
-}
-
-/// Power is gone, or not yet there: nobody owns the axis and its set position follows the drive.
-void leaveUnpowered(axis::AxisRef &axis) {
-  if (axis.iOwner != 0)
-    axis.stPlanner.wStopReason = static_cast<uint16_t>(axis::error::kNotPowered);
-  axis::releaseAxis(axis);
-  axis.stQueue.uiCount = 0;
-  axis::endSuperimposed(axis);
-  haltAt(axis);
-  axis::followActual(axis);
-  if (axis.nAxisState != axis::state::kErrorStop)
-    axis.nAxisState = axis::state::kPowerOff;
-}
 
 std::string_view describe(axis::ScalingError problem) {
   switch (problem) {
@@ -70,34 +42,6 @@ std::string_view describe(axis::ScalingError problem) {
 }
 
 } // namespace
-
-void enterErrorStop(axis::AxisRef &axis, int16_t reason) noexcept {
-  auto &plan = axis.stPlanner;
-  const double commanded = plan.fDeceleration;
-  axis.iOwner = 0;
-  axis.stQueue.uiCount = 0;
-  axis::endSuperimposed(axis);
-  axis.nAxisState = axis::state::kErrorStop;
-  axis.wFBErrorID = static_cast<uint16_t>(reason);
-  axis::listError(axis, reason);
-  plan.wStopReason = static_cast<uint16_t>(reason);
-  plan.bActive = 0;
-  const double deceleration =
-      std::max(exact::isPositive(axis.fSWMaxDeceleration) ? axis.fSWMaxDeceleration : 0.0,
-               exact::isPositive(commanded) ? commanded : 0.0);
-  const double velocity = axis.fSetVelocity;
-  if (!(deceleration > 0.0) || velocity == 0.0 || !std::isfinite(velocity)) {
-    axis::writeMotion(axis, 0.0, 0.0);
-    return;
-  }
-  const double duration = std::fabs(velocity) / deceleration;
-  const double target = axis.fSetPosition + 0.5 * velocity * duration;
-  axis::beginPlan(plan, axis.fTaskCycle, duration, target, 0.0);
-  plan.fTarget = axis::shownPosition(axis, target);
-  plan.fDeceleration = deceleration;
-  axis::appendSegment(plan, 0.0, duration,
-                      {target, 0.0, velocity > 0.0 ? -deceleration : deceleration}, 0.0, 0.0);
-}
 
 DriveGroup::DriveGroup(std::unique_ptr<AxisDriver> driver, AxisGroupRef &group,
                        std::vector<axis::AxisRef *> axes, double cycleSeconds,
@@ -196,7 +140,7 @@ void DriveGroup::beginReset() {
   for (axis::AxisRef *axis : axes_)
     if (axis->wCommunicationState == axis::kNormalOperation &&
         axis->nAxisState != axis::state::kErrorStop && axis->nAxisState != axis::state::kPowerOff)
-      enterErrorStop(*axis, axis::error::kNone);
+      axis::enterErrorStop(*axis, axis::error::kNone);
 }
 
 void DriveGroup::stepReset() {
@@ -235,7 +179,7 @@ void DriveGroup::restart(size_t index) {
     axis.fPositionPeriod = scaling.period;
   }
   axis.iOwner = 0;
-  haltAt(axis);
+  axis::haltAt(axis);
   axis.stPlanner.wStopReason = 0;
   axis.nAxisState = axis::state::kPowerOff;
   axis.wCommunicationState = 0;
@@ -303,9 +247,9 @@ void readActual(axis::AxisRef &axis, const DriveStatus &status) {
 void followErrors(axis::AxisRef &axis, const DriveStatus &status) {
   if (axis.nAxisState != axis::state::kErrorStop) {
     if (!status.communication)
-      enterErrorStop(axis, axis::error::kCommunication);
+      axis::enterErrorStop(axis, axis::error::kCommunication);
     else if (status.error)
-      enterErrorStop(axis, axis::error::kDrive);
+      axis::enterErrorStop(axis, axis::error::kDrive);
   } else if (axis.bErrorAckn != 0 && status.communication && !status.error &&
              axis.fSetVelocity == 0.0) {
     axis.bErrorAckn = 0;
@@ -313,18 +257,6 @@ void followErrors(axis::AxisRef &axis, const DriveStatus &status) {
     axis.stPlanner.wStopReason = 0;
     axis.nAxisState = axis::state::kPowerOff;
   }
-}
-
-/// The set values with which the cycle begins; nobody has moved the axis in it.
-void beginCycle(axis::AxisRef &axis) {
-  axis.fSavePosition = axis.fSetPosition;
-  axis.fSaveVelocity = axis.fSetVelocity;
-  axis.fSaveAcceleration = axis.fSetAcceleration;
-  axis.fSaveDeceleration = axis.fSetDeceleration;
-  axis.bMovedInThisCycle = 0;
-  axis.bTravelGiven = 0;
-  axis.stSuperimposed.bMovedInThisCycle = 0;
-  axis.bHWLimitIgnored = 0;
 }
 
 } // namespace
@@ -336,25 +268,26 @@ void DriveGroup::readDrive(size_t index) {
     return;
   }
   const DriveStatus status = driver_->status(index);
+  const axis::Regulated before = axis::regulated(axis);
   readState(axis, status);
   readActual(axis, status);
   readCaptures(axis, status);
   followErrors(axis, status);
   if (!axis::isPowered(axis))
-    leaveUnpowered(axis);
+    axis::leaveUnpowered(axis);
   else if (axis.nAxisState == axis::state::kPowerOff)
     axis.nAxisState = axis::state::kStandstill;
+  axis::changeRegulated(axis, before);
   readHoming(axis, status);
   if (followsDrive(axis))
     axis::followActual(axis);
-  beginCycle(axis);
+  axis::beginCycle(axis);
 }
 
-/// Whether the drive moves the axis by itself, so that the set position follows the actual one: a
-/// regulated torque or current goes where it takes the axis, a reference run where the switch is.
+/// Whether the set position follows the actual one: where no position is regulated, and during a
+/// reference run of the drive.
 bool DriveGroup::followsDrive(const axis::AxisRef &axis) const {
-  return axis.byRealControllerMode == kTorqueControl ||
-         axis.byRealControllerMode == kCurrentControl || axis::isDriveHoming(axis);
+  return axis::regulated(axis) != axis::Regulated::Position || axis::isDriveHoming(axis);
 }
 
 /// The drive's reference run, started by MC_Home: the position at the reference becomes fReference.
@@ -382,64 +315,49 @@ void DriveGroup::readHoming(axis::AxisRef &axis, const DriveStatus &status) {
   axis::writeMotion(axis, axis.fActVelocity, 0.0);
 }
 
-void DriveGroup::supervise(axis::AxisRef &axis) {
-  if (!axis::isPowered(axis)) {
-    leaveUnpowered(axis);
-    return;
+/// Where a torque takes the axis in this cycle: what the drive is told must lie there when it
+/// regulates positions or velocities again. Returns that velocity. [u/s]
+double DriveGroup::leadOn(size_t index) {
+  axis::AxisRef &axis = *axes_[index];
+  // Set values that stand for actual ones say nothing.
+  if ((driver_->status(index).received & (kPosition | kVelocity)) == 0 || !axis::isPowered(axis))
+    return 0.0;
+  const double way = axis.fActVelocity * axis.fTaskCycle;
+  axis.fSetPosition = axis::shownPosition(axis, axis.fSetPosition + way);
+  (void)axis::updateSet(axis, way);
+  return axis.fActVelocity;
+}
+
+/// The set position as increments. Returns the velocity that the drive is told. [u/s]
+double DriveGroup::placeSet(size_t index) {
+  axis::AxisRef &axis = *axes_[index];
+  if (axis::isDriveHoming(axis))
+    return axis.fSetVelocity;
+  const axis::Regulated regulated = axis::regulated(axis);
+  if (regulated == axis::Regulated::Force)
+    return leadOn(index);
+  if (axis.bMovedInThisCycle == 0)
+    return axis.fSetVelocity;
+  const double travel =
+      regulated == axis::Regulated::Velocity ? axis::settleOnActual(axis) : axis::wayOfCycle(axis);
+  if (!axis::updateSet(axis, travel)) {
+    // Unlike the other error stops this one is abrupt: there is no range left to brake in.
+    axis.fSetPosition = axis.fSavePosition;
+    axis.fSetVelocity = 0.0;
+    axis::enterErrorStop(axis, axis::error::kOutOfRange);
   }
-  // Whoever moves an axis does it in every cycle.
-  if (axis.stSuperimposed.ulOwner != 0 && axis.stSuperimposed.bMovedInThisCycle == 0) {
-    enterErrorStop(axis, axis::error::kNotCalled);
-  } else if (axis.bMovedInThisCycle == 0) {
-    // An owner that has failed said why.
-    const auto reason = static_cast<int16_t>(axis.stPlanner.wStopReason);
-    if (axis.iOwner != 0 && isMotion(axis.nAxisState))
-      enterErrorStop(axis, reason != axis::error::kNone ? reason : axis::error::kNotCalled);
-    else if (axis.nAxisState == axis::state::kStopping && axis.stPlanner.bActive != 0)
-      enterErrorStop(axis, axis::error::kStopBlocks);
-  }
-  if (axis.iMovementType != 0) {
-    const bool above = axis.fSetPosition > axis.fSWLimitPositive;
-    const bool below = axis.fSetPosition < axis.fSWLimitNegative;
-    axis.bSWEndSwitchActive = axis.bSWLimitEnable != 0 && (above || below);
-    const bool outward = (above && axis.fSetPosition > axis.fSavePosition) ||
-                         (below && axis.fSetPosition < axis.fSavePosition);
-    if (axis.bHWLimitEnable != 0 && axis.bHWLimitIgnored == 0 &&
-        axis.nAxisState != axis::state::kErrorStop &&
-        (axis.bLimitSwitchPositive != 0 || axis.bLimitSwitchNegative != 0))
-      enterErrorStop(axis, axis::error::kHwLimits);
-    // Before homing is over the software limits mean nothing.
-    if (axis.bSWEndSwitchActive != 0 && outward && axis.nAxisState != axis::state::kErrorStop &&
-        axis.nAxisState != axis::state::kHoming)
-      enterErrorStop(axis, axis::error::kSwLimits);
-  }
-  if (axis.nAxisState != axis::state::kErrorStop)
-    return;
-  if (axis.stPlanner.bActive != 0 && axis.bMovedInThisCycle == 0)
-    (void)axis::stepPlan(axis);
-  axis.fSetTorque = 0.0; // no set position brakes a drive that regulates a torque
-  axis.fSetCurrent = 0.0;
+  return axis.fSetVelocity;
 }
 
 void DriveGroup::writeDrive(size_t index) {
   axis::AxisRef &axis = *axes_[index];
   if (axis.wCommunicationState != axis::kNormalOperation)
     return;
-  supervise(axis);
-  if (axis.bMovedInThisCycle != 0 && !axis::isDriveHoming(axis)) {
-    const double travel = axis.bTravelGiven != 0
-                              ? axis.fTravel
-                              : 0.5 * (axis.fSaveVelocity + axis.fSetVelocity) * axis.fTaskCycle;
-    if (!axis::updateSet(axis, travel)) {
-      // Unlike the other error stops this one is abrupt: there is no range left to brake in.
-      axis.fSetPosition = axis.fSavePosition;
-      axis.fSetVelocity = 0.0;
-      enterErrorStop(axis, axis::error::kOutOfRange);
-    }
-  }
+  axis::supervise(axis);
+  const double velocity = placeSet(index);
   DriveCommand command;
   command.position = static_cast<uint32_t>(axis.liSetIncrements);
-  command.velocity = axis.fSetVelocity / axis.fFactorVel;
+  command.velocity = velocity / axis.fFactorVel;
   command.acceleration = axis.fSetAcceleration / axis.fFactorAcc;
   command.torque = axis.fSetTorque / axis.fFactorTor;
   command.current = axis.fSetCurrent;
@@ -463,7 +381,7 @@ void DriveGroup::stopAll() {
   for (axis::AxisRef *axis : axes_) {
     if (axis->wCommunicationState == axis::kNormalOperation &&
         axis->nAxisState != axis::state::kErrorStop && axis->fSetVelocity != 0.0)
-      enterErrorStop(*axis, axis::error::kNotCalled);
+      axis::enterErrorStop(*axis, axis::error::kNotCalled);
   }
   driver_->applicationStopped();
 }

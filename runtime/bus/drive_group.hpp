@@ -80,7 +80,8 @@ private:
   void readHoming(axis::AxisRef &axis, const DriveStatus &status);
   void serveParameters(size_t index);
   void dropParameters(size_t index);
-  void supervise(axis::AxisRef &axis);
+  double leadOn(size_t index);
+  double placeSet(size_t index);
   void writeDrive(size_t index);
 
   std::unique_ptr<AxisDriver> driver_;
@@ -91,10 +92,6 @@ private:
   Message bootupError_;
   uint32_t resetCycles_ = 0;
 };
-
-/// Takes the axis from its owner and brakes it to rest in state errorstop, with the larger of the
-/// command's deceleration and fSWMaxDeceleration. `reason` is an SMC_ERROR.
-void enterErrorStop(axis::AxisRef &axis, int16_t reason) noexcept;
 
 } // namespace stride::bus
 

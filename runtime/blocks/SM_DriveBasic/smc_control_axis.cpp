@@ -202,7 +202,8 @@ int16_t control(ControlState &state, AxisRef &ref, const Demand &demand) noexcep
 }
 
 int16_t start(ControlState &state, AxisRef &ref, const Demand &demand) noexcept {
-  if (const int16_t problem = motion::refusal(ref); problem != axis::error::kNone)
+  const auto needs = demand.byPosition ? motion::Needs::Position : motion::Needs::Velocity;
+  if (const int16_t problem = motion::refusal(ref, needs); problem != axis::error::kNone)
     return problem;
   if (demand.avoidGaps && !canBridge(ref, demand))
     return demand.badGap;

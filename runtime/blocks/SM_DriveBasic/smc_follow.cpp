@@ -13,14 +13,15 @@ namespace exact = ::stride::exact;
 namespace motion = ::stride::motion;
 using motion::AxisRef;
 
-/// One call of any of the blocks. `usable`: the inputs are numbers. `write` writes this cycle's
-/// set values.
-template <class Block, class Write> void run(Block &block, bool usable, Write write) noexcept {
+/// One call of any of the blocks, which needs `needs` of the drive. `usable`: the inputs are
+/// numbers. `write` writes this cycle's set values.
+template <class Block, class Write>
+void run(Block &block, motion::Needs needs, bool usable, Write write) noexcept {
   auto &state = block.stBlock;
   AxisRef *ref = block.Axis;
   switch (motion::beginCall(state, block.bExecute != 0, ref)) {
   case motion::Call::Start: {
-    const int16_t problem = motion::refusal(*ref);
+    const int16_t problem = motion::refusal(*ref, needs);
     if (problem != axis::error::kNone)
       motion::fail(state, ref, problem);
     else if (!usable)
@@ -57,7 +58,7 @@ template <class Block> double demanded(const Block &block, const AxisRef &ref) n
 } // namespace
 
 void st::SM_DriveBasic::SMC_FollowPosition::body__(::stride::Ctx & /*ctx__*/) {
-  run(*this, exact::isfinite(fSetPosition), [this](AxisRef &ref) {
+  run(*this, motion::Needs::Position, exact::isfinite(fSetPosition), [this](AxisRef &ref) {
     const double position = demanded(*this, ref);
     const double way = motion::wayTo(stFollow, ref, position);
     motion::followStep(stFollow, ref, position, way, way / ref.fTaskCycle);
@@ -65,15 +66,16 @@ void st::SM_DriveBasic::SMC_FollowPosition::body__(::stride::Ctx & /*ctx__*/) {
 }
 
 void st::SM_DriveBasic::SMC_FollowPositionVelocity::body__(::stride::Ctx & /*ctx__*/) {
-  run(*this, exact::isfinite(fSetPosition) && exact::isfinite(fSetVelocity), [this](AxisRef &ref) {
-    const double position = demanded(*this, ref);
-    motion::followStep(stFollow, ref, position, motion::wayTo(stFollow, ref, position),
-                       fSetVelocity);
-  });
+  run(*this, motion::Needs::Position,
+      exact::isfinite(fSetPosition) && exact::isfinite(fSetVelocity), [this](AxisRef &ref) {
+        const double position = demanded(*this, ref);
+        motion::followStep(stFollow, ref, position, motion::wayTo(stFollow, ref, position),
+                           fSetVelocity);
+      });
 }
 
 void st::SM_DriveBasic::SMC_FollowVelocity::body__(::stride::Ctx & /*ctx__*/) {
-  run(*this, exact::isfinite(fSetVelocity), [this](AxisRef &ref) {
+  run(*this, motion::Needs::Velocity, exact::isfinite(fSetVelocity), [this](AxisRef &ref) {
     const double way = 0.5 * (stFollow.fVelocity + fSetVelocity) * ref.fTaskCycle;
     motion::followStep(stFollow, ref, stFollow.fPosition + way, way, fSetVelocity);
   });

@@ -92,6 +92,8 @@ void start(Block &block, AxisRef &ref) noexcept {
   auto &state = block.stBlock;
   auto &added = ref.stSuperimposed;
   int16_t problem = motion::refusal(ref);
+  if (problem == axis::error::kNone && ref.iOwner == 0 && ref.stPlanner.bActive != 0)
+    problem = axis::error::kNotReady; // it is still braked by itself
   auto &command = block.stCommand;
   // The way of a superimposed motion that has ended stays; one that runs is taken over with its
   // velocity.

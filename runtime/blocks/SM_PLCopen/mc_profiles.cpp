@@ -31,17 +31,18 @@ struct Kind {
   int16_t axisState;
   int16_t badSize;
   int16_t badStep;
+  motion::Needs needs;
 };
 
 constexpr Kind kPositions{&motion::planPositions, axis::state::kDiscrete,
                           ::st::SM_Error::SMC_ERROR__SMC_PP_ARRAYSIZE,
-                          ::st::SM_Error::SMC_ERROR__SMC_PP_STEP0MS};
+                          ::st::SM_Error::SMC_ERROR__SMC_PP_STEP0MS, motion::Needs::Position};
 constexpr Kind kVelocities{&motion::planVelocities, axis::state::kContinuous,
                            ::st::SM_Error::SMC_ERROR__SMC_VP_ARRAYSIZE,
-                           ::st::SM_Error::SMC_ERROR__SMC_VP_STEP0MS};
+                           ::st::SM_Error::SMC_ERROR__SMC_VP_STEP0MS, motion::Needs::Velocity};
 constexpr Kind kAccelerations{&motion::planAccelerations, axis::state::kContinuous,
                               ::st::SM_Error::SMC_ERROR__SMC_AP_ARRAYSIZE,
-                              ::st::SM_Error::SMC_ERROR__SMC_AP_STEP0MS};
+                              ::st::SM_Error::SMC_ERROR__SMC_AP_STEP0MS, motion::Needs::Velocity};
 
 /// The points of the three reference types, alike.
 auto &pointsOf(const ::st::SM_PLCopen::MC_TP_REF &ref) noexcept { return ref.MC_TP_Array; }
@@ -166,7 +167,7 @@ template <class Block, class Reference>
 void start(Block &block, const Kind &kind, const Reference *reference, double scale,
            AxisRef &ref) noexcept {
   auto &state = block.stBlock;
-  int16_t problem = motion::refusal(ref);
+  int16_t problem = motion::refusal(ref, kind.needs);
   if (problem == axis::error::kNone)
     problem = plan(block, kind, reference, scale, ref);
   if (problem != axis::error::kNone) {

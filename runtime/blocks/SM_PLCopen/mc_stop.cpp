@@ -38,6 +38,8 @@ void start(Block &block, AxisRef &ref) noexcept {
                                                               : axis::readiness(ref);
   if (problem == axis::error::kNone && ref.nAxisState == axis::state::kStopping && !own)
     problem = axis::error::kStopBlocks;
+  if (problem == axis::error::kNone && axis::regulated(ref) == axis::Regulated::Force)
+    problem = axis::error::kWrongMode; // no set value brakes it
   motion::Command command = {};
   command.eKind = motion::kind::kStop;
   command.fDeceleration = block.Deceleration;

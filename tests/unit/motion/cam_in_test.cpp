@@ -1,5 +1,6 @@
 // MC_CamIn through its life: what it refuses, who takes the slave from it, how it starts anew, what
 // happens to its axes meanwhile. Expectations are those of the manual, sections 4.6 and 5.4.
+#include "runtime/axis/axis_cycle.hpp"
 #include "tests/unit/motion/cam_in_scene.hpp"
 
 #include "st/SM_PLCopen/MC_MoveVelocity.h"
@@ -87,7 +88,7 @@ const Refusal kRefusals[] = {
     {"no slave", error::kNoAxis, [](CamScene &s) { s.camIn.Slave = nullptr; }},
     {"no master", error::kNoAxis, [](CamScene &s) { s.camIn.Master = nullptr; }},
     {"error stop", error::kNotReady,
-     [](CamScene &s) { stride::bus::enterErrorStop(s.rig.axis, error::kDrive); }},
+     [](CamScene &s) { stride::axis::enterErrorStop(s.rig.axis, error::kDrive); }},
 };
 
 class CamRefusals : public testing::TestWithParam<Refusal> {};
@@ -352,7 +353,7 @@ TEST_P(RealMaster, IsFollowedUntilItStands) {
   ASSERT_DOUBLE_EQ(masterRig.axis.fSetVelocity, 400);
   if (GetParam() == End::ErrorStop)
     masterRig.cycle([&] {
-      stride::bus::enterErrorStop(masterRig.axis, error::kDrive);
+      stride::axis::enterErrorStop(masterRig.axis, error::kDrive);
       follow();
     });
   if (GetParam() == End::PowerOff)

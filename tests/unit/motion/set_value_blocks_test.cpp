@@ -1,5 +1,6 @@
 // Blocks that are given set values or a course, against every state of PLCopen's diagram: whether
 // they may start, which state follows, who loses the axis, and who may take it from them.
+#include "runtime/axis/axis_cycle.hpp"
 #include "tests/unit/axis/axis_rig.hpp"
 
 #include "st/SM_DriveBasic/SMC_ControlAxisByPos.h"
@@ -178,7 +179,7 @@ public:
     if (axisState_ == state::kStopping)
       rig_.cycle([this] { call(); });
     if (axisState_ == state::kErrorStop)
-      rig_.cycle([this] { stride::bus::enterErrorStop(rig_.axis, error::kDrive); });
+      rig_.cycle([this] { stride::axis::enterErrorStop(rig_.axis, error::kDrive); });
     if (axisState_ == state::kHoming)
       rig_.axis.nAxisState = state::kHoming;
   }

@@ -93,4 +93,23 @@ StateScene::StateScene(const std::string &state, const std::string &way) {
   }
 }
 
+ModeScene::ModeScene(uint8_t mode) {
+  bus::GroupSetup setup(dummy::kSchema, rig.cycleSeconds);
+  auto &drive = setup.addDrive("X", 1).parameters;
+  drive.add({"wControlType", "", 0});
+  drive.add({"wCyclicDataS1", "", 1100});
+  drive.add({"wCyclicDataS2", "", 1110});
+  drive.add({"wCyclicDataS3", "", 1160});
+  drive.add({"wCyclicDataR1", "", 1101});
+  drive.add({"physics.model", "second_order", 2});
+  drive.add({"physics.inertia", "", 0.5});
+  drive.add({"physics.torque_limit", "", 1000});
+  drive.add({"dwRatioTechUnitsDenom", "", 10000});
+  rig.start(setup);
+  rig.drive->bindData(0, &sim_);
+  rig.axis.byControllerMode = mode;
+  rig.powerUp();
+  rig.idle(5);
+}
+
 } // namespace stride::test

@@ -42,6 +42,16 @@ private:
   dummy::DriveSim sim_ = fresh<dummy::DriveSim>();
 };
 
+/// An axis that stands, with power, and whose drive regulates `mode` (AXIS_REF.byControllerMode).
+class ModeScene {
+public:
+  explicit ModeScene(uint8_t mode);
+  AxisRig rig;
+
+private:
+  dummy::DriveSim sim_ = fresh<dummy::DriveSim>();
+};
+
 /// The states of the table, as it spells them.
 const std::vector<std::string> &axisStates();
 

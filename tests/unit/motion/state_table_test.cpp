@@ -364,4 +364,38 @@ TEST_P(AdministrativeBlocks, AnswerAsTheTableSays) {
 INSTANTIATE_TEST_SUITE_P(Table, AdministrativeBlocks, testing::ValuesIn(blocksOf("administration")),
                          testName);
 
+class ControllerModes : public testing::TestWithParam<std::string> {};
+
+TEST_P(ControllerModes, AnswerAsTheTableSays) {
+  for (const Pair &pair : readTable("modes")) {
+    if (pair.block != GetParam())
+      continue;
+    SCOPED_TRACE(pair.block + " while a " + pair.state + " is regulated");
+    stride::test::ModeScene scene(pair.state == "torque" ? 1 : 2);
+    auto &axis = scene.rig.axis;
+    ASSERT_EQ(axis.byRealControllerMode, pair.state == "torque" ? 1 : 2);
+    ASSERT_EQ(axis.nAxisState, axisState("standstill"));
+    Actor block = makeActor(scene.rig, pair.block);
+    for (int i = 0; i < 50; ++i) {
+      scene.rig.cycle([&] { block.call(true); });
+      const Shown shown = block.show();
+      if (!isNumber(pair.answer)) {
+        ASSERT_FALSE(shown.error) << shown.errorId;
+        ASSERT_TRUE(shown.done || shown.busy);
+        continue;
+      }
+      ASSERT_TRUE(shown.error) << "cycle " << i;
+      ASSERT_EQ(shown.errorId, std::stoi(pair.answer));
+      ASSERT_FALSE(shown.done || shown.busy || shown.active || shown.aborted);
+      ASSERT_EQ(axis.nAxisState, axisState("standstill"));
+      ASSERT_EQ(axis.iOwner, 0);
+      ASSERT_EQ(axis.fSetVelocity, 0);
+    }
+  }
+}
+
+TEST(StateTable, HasTheSameBlocksForTheModes) { EXPECT_EQ(blocksOf("modes"), blocksOf("motion")); }
+
+INSTANTIATE_TEST_SUITE_P(Table, ControllerModes, testing::ValuesIn(blocksOf("modes")), testName);
+
 } // namespace

@@ -1,0 +1,201 @@
+#include "runtime/axis/axis_cycle.hpp"
+
+#include "runtime/axis/increments.hpp"
+#include "runtime/axis/set_point.hpp"
+#include "runtime/axis/shift_position.hpp"
+
+namespace stride::axis {
+namespace {
+
+bool isMotion(int16_t axisState) noexcept {
+  return axisState == state::kDiscrete || axisState == state::kContinuous ||
+         axisState == state::kSynchronized || axisState == state::kHoming;
+}
+
+/// Plans the way to rest from the present set values. Without a deceleration, or without a
+/// velocity, the axis stands at once.
+void planBraking(AxisRef &axis, double deceleration) noexcept {
+  auto &plan = axis.stPlanner;
+  plan.bActive = 0;
+  const double velocity = axis.fSetVelocity;
+  if (!(deceleration > 0.0) || velocity == 0.0 || !exact::isfinite(velocity)) {
+    writeMotion(axis, 0.0, 0.0);
+    return;
+  }
+  const double duration = exact::fabs(velocity) / deceleration;
+  const double target = axis.fSetPosition + 0.5 * velocity * duration;
+  beginPlan(plan, axis.fTaskCycle, duration, target, 0.0);
+  plan.fTarget = shownPosition(axis, target);
+  plan.fDeceleration = deceleration;
+  appendSegment(plan, 0.0, duration, {target, 0.0, velocity > 0.0 ? -deceleration : deceleration},
+                0.0, 0.0);
+}
+
+/// The larger one of the axis's own deceleration and that of the command in progress; 0 for none.
+double brakingDeceleration(const AxisRef &axis) noexcept {
+  const double own = exact::isPositive(axis.fSWMaxDeceleration) ? axis.fSWMaxDeceleration : 0.0;
+  const double commanded = axis.stPlanner.fDeceleration;
+  return exact::isPositive(commanded) ? exact::larger(own, commanded) : own;
+}
+
+/// Whether what moves the axis is a velocity and nothing else, so that it goes on while only
+/// velocities are regulated.
+bool movesByVelocity(const AxisRef &axis) noexcept {
+  const bool byPlan = axis.nAxisState == state::kContinuous ||
+                      axis.nAxisState == state::kDiscrete || axis.nAxisState == state::kStopping ||
+                      axis.nAxisState == state::kErrorStop;
+  return byPlan && axis.stPlanner.bActive != 0 && axis.stPlanner.bToGoal == 0 &&
+         axis.stSuperimposed.ulOwner == 0;
+}
+
+/// Nobody moves the axis any more; the state is left to the caller.
+void takeAway(AxisRef &axis, int16_t reason) noexcept {
+  if (axis.iOwner != 0)
+    axis.stPlanner.wStopReason = static_cast<uint16_t>(reason);
+  releaseAxis(axis);
+  axis.stQueue.uiCount = 0;
+  endSuperimposed(axis);
+}
+
+void superviseOwner(AxisRef &axis) noexcept {
+  // Whoever moves an axis does it in every cycle.
+  if (axis.stSuperimposed.ulOwner != 0 && axis.stSuperimposed.bMovedInThisCycle == 0) {
+    enterErrorStop(axis, error::kNotCalled);
+  } else if (axis.bMovedInThisCycle == 0) {
+    // An owner that has failed said why.
+    const auto reason = static_cast<int16_t>(axis.stPlanner.wStopReason);
+    if (axis.iOwner != 0 && isMotion(axis.nAxisState))
+      enterErrorStop(axis, reason != error::kNone ? reason : error::kNotCalled);
+    else if (axis.nAxisState == state::kStopping && axis.stPlanner.bActive != 0)
+      enterErrorStop(axis, error::kStopBlocks);
+  }
+}
+
+void superviseLimits(AxisRef &axis) noexcept {
+  const bool above = axis.fSetPosition > axis.fSWLimitPositive;
+  const bool below = axis.fSetPosition < axis.fSWLimitNegative;
+  axis.bSWEndSwitchActive = axis.bSWLimitEnable != 0 && (above || below);
+  // A torque takes the axis where its actual velocity says.
+  const double heading = regulated(axis) == Regulated::Force
+                             ? axis.fActVelocity
+                             : axis.fSetPosition - axis.fSavePosition;
+  const bool outward = (above && heading > 0.0) || (below && heading < 0.0);
+  if (axis.bHWLimitEnable != 0 && axis.bHWLimitIgnored == 0 &&
+      axis.nAxisState != state::kErrorStop &&
+      (axis.bLimitSwitchPositive != 0 || axis.bLimitSwitchNegative != 0))
+    enterErrorStop(axis, error::kHwLimits);
+  // Before homing is over the software limits mean nothing.
+  if (axis.bSWEndSwitchActive != 0 && outward && axis.nAxisState != state::kErrorStop &&
+      axis.nAxisState != state::kHoming)
+    enterErrorStop(axis, error::kSwLimits);
+}
+
+/// What nobody owns and moves is on its way to rest.
+void brakeOn(AxisRef &axis) noexcept {
+  const bool stops = axis.nAxisState == state::kErrorStop;
+  const bool brakes = axis.nAxisState == state::kDiscrete && axis.iOwner == 0;
+  if (!stops && !brakes)
+    return;
+  if (axis.stPlanner.bActive != 0 && axis.bMovedInThisCycle == 0)
+    (void)stepPlan(axis);
+  if (brakes && axis.stPlanner.bActive == 0)
+    axis.nAxisState = state::kStandstill;
+}
+
+} // namespace
+
+void haltAt(AxisRef &axis) noexcept {
+  writeMotion(axis, 0.0, 0.0);
+  axis.stPlanner.bActive = 0;
+}
+
+void leaveUnpowered(AxisRef &axis) noexcept {
+  takeAway(axis, error::kNotPowered);
+  haltAt(axis);
+  followActual(axis);
+  if (axis.nAxisState != state::kErrorStop)
+    axis.nAxisState = state::kPowerOff;
+}
+
+void enterErrorStop(AxisRef &axis, int16_t reason) noexcept {
+  axis.iOwner = 0;
+  axis.stQueue.uiCount = 0;
+  endSuperimposed(axis);
+  axis.nAxisState = state::kErrorStop;
+  axis.wFBErrorID = static_cast<uint16_t>(reason);
+  listError(axis, reason);
+  axis.stPlanner.wStopReason = static_cast<uint16_t>(reason);
+  planBraking(axis, brakingDeceleration(axis));
+}
+
+void beginCycle(AxisRef &axis) noexcept {
+  axis.fSavePosition = axis.fSetPosition;
+  axis.fSaveVelocity = axis.fSetVelocity;
+  axis.fSaveAcceleration = axis.fSetAcceleration;
+  axis.fSaveDeceleration = axis.fSetDeceleration;
+  axis.bMovedInThisCycle = 0;
+  axis.bTravelGiven = 0;
+  axis.stSuperimposed.bMovedInThisCycle = 0;
+  axis.bHWLimitIgnored = 0;
+}
+
+void changeRegulated(AxisRef &axis, Regulated before) noexcept {
+  const Regulated now = regulated(axis);
+  if (now == before || axis.nAxisState == state::kPowerOff)
+    return;
+  const bool byForce = now == Regulated::Force || before == Regulated::Force;
+  if (!byForce && movesByVelocity(axis)) {
+    if (now == Regulated::Velocity)
+      axis.stQueue.uiCount = 0; // what waits leads to a place
+    return;
+  }
+  const bool holds = axis.nAxisState == state::kStopping && axis.stPlanner.bActive == 0;
+  if (axis.nAxisState != state::kErrorStop && !holds) {
+    takeAway(axis, error::kWrongMode);
+    axis.nAxisState = state::kStandstill;
+  }
+  if (now == Regulated::Force) {
+    haltAt(axis);
+    return;
+  }
+  if (before == Regulated::Force)
+    writeMotion(axis, axis.fActVelocity, 0.0);
+  const double deceleration = brakingDeceleration(axis);
+  if (exact::fabs(axis.fSetVelocity) <= deceleration * axis.fTaskCycle)
+    haltAt(axis);
+  else
+    planBraking(axis, deceleration);
+  if (axis.stPlanner.bActive != 0 && axis.nAxisState == state::kStandstill)
+    axis.nAxisState = state::kDiscrete;
+}
+
+void supervise(AxisRef &axis) noexcept {
+  if (!isPowered(axis)) {
+    leaveUnpowered(axis);
+    return;
+  }
+  superviseOwner(axis);
+  if (axis.iMovementType != 0)
+    superviseLimits(axis);
+  brakeOn(axis);
+  if (axis.nAxisState != state::kErrorStop)
+    return;
+  axis.fSetTorque = 0.0; // no set position brakes a drive that regulates a torque
+  axis.fSetCurrent = 0.0;
+}
+
+double wayOfCycle(const AxisRef &axis) noexcept {
+  return axis.bTravelGiven != 0 ? axis.fTravel
+                                : 0.5 * (axis.fSaveVelocity + axis.fSetVelocity) * axis.fTaskCycle;
+}
+
+double settleOnActual(AxisRef &axis) noexcept {
+  const double way = wayOfCycle(axis);
+  const double position = shownPosition(axis, axis.fSavePosition + way);
+  if (axis.stPlanner.bActive != 0)
+    shiftPlan(axis, position - axis.fSetPosition);
+  axis.fSetPosition = position;
+  return way;
+}
+
+} // namespace stride::axis
