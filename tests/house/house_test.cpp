@@ -1,5 +1,5 @@
-// The rooms of the house, by what the sources say (docs/developers/contributing.md): who may include whom,
-// what a folder's library consists of, where native bodies are.
+// The rooms of the house, by what the sources say (docs/developers/contributing.md): who may
+// include whom, what a folder's library consists of, where native bodies are.
 #include "tests/support/text.hpp"
 
 #include <gmock/gmock.h>

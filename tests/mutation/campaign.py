@@ -25,7 +25,7 @@ BUILD = TREE / "build/mutation"  # as deep below the sources as other builds, so
 # Slow, about something else, or about the sources themselves.
 NOT_RUN = re.compile(r"^(qemu\.|faults_test|soak_|hostile_|install_test|docs\.|bench_|large_projects|concurrent_builds|mutation_test|house|"
                      r"conformance|codegen_random|slow_disk|explain_test|bad_input|cycle_trap|debug_test|fmt_test|golden\.format|format_test|syntax_test|"
-                     r"readme_test|shared_tasks|diagnostics\.coverage|unit_headers)")
+                     r"documents_test|shared_tasks|diagnostics\.coverage|unit_headers)")
 MOST_MUTANTS = 4095
 LIMITED = ["prlimit", f"--as={8 << 30}"]  # a mutant may ask for memory without end
 QUICK = 1.0  # seconds: tests that run before g++ does

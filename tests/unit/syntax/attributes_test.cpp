@@ -45,7 +45,8 @@ TEST(Attributes, TheFirstOfAKindCounts) {
 }
 
 TEST(Attributes, AreDocumented) {
-  const std::string pages[] = {page("language.md"), page("testing.md"), page("developers/contributing.md")};
+  const std::string pages[] = {page("language.md"), page("testing.md"),
+                               page("developers/contributing.md")};
   for (const AttributeRow &row : attributeRows()) {
     std::string line = "| `{attribute '" + std::string(row.name) + "'";
     if (!row.example.empty())
