@@ -173,7 +173,7 @@ protected:
   ProcessResult shell(const std::string &command) {
     const char *path = std::getenv("PATH");
     const fs::path where = scratch_.path() / "where";
-    const ProcessResult result = runProcess(
+    ProcessResult result = runProcess(
         {"timeout", "60", "sh", "-c", "trap 'pwd > \"$PAGE_FOLDER\"' EXIT\n" + command}, folder_,
         {{"PATH", std::string(STRIDE_BINARY_DIR ":") + (path ? path : "")},
          {"PAGE_FOLDER", where.string()}});
