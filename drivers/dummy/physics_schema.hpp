@@ -64,13 +64,15 @@ constexpr Parameter ofSecondOrder(const Parameter &parameter) {
 
 inline constexpr std::array kDrive = {
     choice("model", kModels).defaultsTo(0).says("how the axis follows its set values"),
-    duration("time_constant").neededWith("model", kLag, "\"T#5ms\"").says("of the first-order lag"),
+    duration("time_constant")
+        .neededWith("model", kLag, "\"T#5ms\"")
+        .says("time constant of the first-order lag"),
     positive("inertia", "Nm/(u/s²)")
         .neededWith("model", kSecondOrder, "0.01")
         .says("torque that accelerates the axis by 1 u/s²"),
     positive("torque_limit", "Nm")
         .neededWith("model", kSecondOrder, "10.0")
-        .says("most that the motor gives"),
+        .says("the largest torque of the motor"),
     ofSecondOrder(common::notNegative("viscous_friction", "Nm/(u/s)"))
         .defaultsTo(0)
         .says("friction that grows with the velocity"),
@@ -95,7 +97,7 @@ inline constexpr std::array kDrive = {
         .says("steps of the controllers per cycle"),
     whole("dead_time", 0, 64, "cycles")
         .defaultsTo(0)
-        .says("set values take so much longer to the drive"),
+        .says("set values reach the drive this much later"),
     whole("start_up_cycles", 1, 100000, "cycles")
         .defaultsTo(3)
         .says("until the drive has started up"),

@@ -13,9 +13,9 @@ namespace stride::dummy {
 inline constexpr std::array kGroupSimulation = {
     common::duration("sync_offset")
         .defaultsTo(0)
-        .says("SYNC comes so much after the beginning of a cycle of dwCycle"),
+        .says("how long after the beginning of a cycle (`dwCycle`) SYNC comes"),
     common::whole("sync_lost", 2, 1000000, "SYNCs")
-        .says("each last one of so many does not come; without it all do"),
+        .says("of this many the last one does not come; default: all come"),
 };
 inline constexpr std::array kAxisGroupTables = {
     common::ParameterTable{"simulation", "the simulation of a bus", kGroupSimulation}};

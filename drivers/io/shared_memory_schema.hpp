@@ -13,9 +13,8 @@ inline constexpr std::array kParameters = {
         .defaultsTo("/{project}-{name}")
         .says("name of the segment; `{project}` and `{name}` are those of the project and the "
               "device"),
-    common::duration("timeout").says(
-        "the device is lost when the other side writes nothing for so long; without it, it never "
-        "is"),
+    common::duration("timeout").says("the device counts as lost when the other side has written "
+                                     "nothing for this long; default: never"),
 };
 
 inline constexpr IoSchema kSchema = {

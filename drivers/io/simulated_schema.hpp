@@ -13,7 +13,7 @@ inline constexpr std::array kParameters = {
     common::whole("delay", 0, 1000, "cycles")
         .defaultsTo(0)
         .onlyWith("loop_back", 1)
-        .says("with `loop_back`: so many cycles of the writing task later"),
+        .says("with `loop_back`: the inputs follow this many cycles of the writing task later"),
 };
 
 inline constexpr IoSchema kSchema = {
