@@ -20,21 +20,6 @@ using namespace stride::test;
 namespace pl = ::st::SM_PLCopen;
 namespace state = stride::axis::state;
 
-/// A cam from 0 on, from 0 on.
-ModelCam cornerCam(Random &random) {
-  ModelCam cam;
-  do
-    cam = randomCam(random, true);
-  while (cam.type != 3);
-  const double x0 = cam.nodes.front().dX;
-  const double y0 = cam.nodes.front().dY;
-  for (auto &node : cam.nodes) {
-    node.dX -= x0;
-    node.dY -= y0;
-  }
-  return cam;
-}
-
 TEST(CamChain, AnotherCamGoesOnExactlyWhereTheLastOneHasEnded) {
   int changes = 0;
   for (int i = 0; i < casesOf(3000) && !HasFailure(); ++i) {

@@ -265,10 +265,9 @@ public:
     shownFirst_ = master.position();
     base_ = s_.relative ? slavePosition : 0;
     const long double x = inCam(master.total());
-    if (!s_.periodic)
-      return x >= cam_.start() && x <= cam_.end();
-    firstPeriod_ = period_ = periodOf(x);
-    return true;
+    firstPeriod_ = 0;
+    period_ = s_.periodic ? periodOf(x) : 0;
+    return x >= cam_.start() && x <= cam_.end();
   }
 
   struct Out {

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <string>
 
 namespace {
@@ -100,7 +101,7 @@ public:
     const double p0 = rig.axis.fSetPosition;
     const ModelPoint before{master.total(), master.velocity(), master.acceleration()};
 
-    ModelCoupling model(scene_.cam, s);
+    std::optional<ModelCoupling> model;
     const long double scale =
         cam_.scale().y * std::fabs(static_cast<long double>(s.slaveScaling)) + unit;
     tolerance_ = 1e-9L * scale;
@@ -124,9 +125,12 @@ public:
         if (cycle == 0) {
           // A relative cam begins where the slave would be now.
           const double onward = slaveMoves && callOrder == 0 ? 0 : v0 * kCamCycle;
-          ASSERT_TRUE(model.begin(master, rig.axis.fSetPosition + onward));
+          if (s.periodic)
+            scene_.putCamUnderMaster(random_.uniform(0.01, 0.99));
+          model.emplace(scene_.cam, s);
+          ASSERT_TRUE(model->begin(master, rig.axis.fSetPosition + onward));
           const bool movedAlready = slaveMoves && callOrder == 0;
-          const auto out = movedAlready ? model.at(master) : model.at(before, 0);
+          const auto out = movedAlready ? model->at(master) : model->at(before, 0);
           start((movedAlready ? rig.axis.fSetPosition : p0) - out.slave.y,
                 (movedAlready ? rig.axis.fSetVelocity : v0) - out.slave.v);
         }
@@ -135,7 +139,7 @@ public:
           rig.call(move, true);
         ASSERT_EQ(scene_.camIn.ErrorID, 0);
         ASSERT_TRUE(scene_.camIn.Busy);
-        step(model.at(master), cycle, slaveMoves && callOrder == 0, mode);
+        step(model->at(master), cycle, slaveMoves && callOrder == 0, mode);
       });
       after += inSync_ ? 1 : 0;
     }

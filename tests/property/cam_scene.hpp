@@ -60,6 +60,15 @@ struct CamScene {
     camIn.SlaveScaling = settings.slaveScaling;
   }
 
+  /// Shifts the cam so that the master is in it, `part` of the way through: elsewhere MC_CamIn
+  /// does not start.
+  void putCamUnderMaster(double part) {
+    const double x = cam.start() + part * static_cast<double>(cam.length());
+    settings.masterOffset =
+        settings.masterAbsolute ? x - master.position() * settings.masterScaling : x;
+    camIn.MasterOffset = settings.masterOffset;
+  }
+
   [[nodiscard]] bool rotarySlave() const { return rig.axis.iMovementType == 0; }
 
   /// The slave's position minus `position`, on a rotary axis the shorter way.
@@ -93,6 +102,21 @@ private:
   double top_;
   double wanted_ = 0, rate_ = 0, velocity_ = 0;
 };
+
+/// A cam from 0 on, from 0 on.
+inline ModelCam cornerCam(Random &random) {
+  ModelCam cam;
+  do
+    cam = randomCam(random, true);
+  while (cam.type != 3);
+  const double x0 = cam.nodes.front().dX;
+  const double y0 = cam.nodes.front().dY;
+  for (auto &node : cam.nodes) {
+    node.dX -= x0;
+    node.dY -= y0;
+  }
+  return cam;
+}
 
 /// Any settings.
 inline CamSettings randomSettings(Random &random, const ModelCam &cam) {

@@ -163,10 +163,12 @@ TEST(TappetsProperty, ThreeInACycleAndTheRestInOrderLater) {
     Walker walker(made, position);
     cam::TappetState state{};
     cam::TappetData data{};
-    cam::beginTappetData(data, state, made.place(position), 0);
+    cam::beginTappets(state, made.place(position), 0);
     std::vector<Pass> seen;
     const auto report = [&](int cycle) {
-      cam::reportTappets(data, state, list, made.place(position), 0.0, cycle);
+      cam::followTappets(state, list, made.place(position), 0.0, cycle);
+      cam::beginReport(data);
+      cam::reportTappets(data, state, list);
       ASSERT_LE(data.iCount, 3);
       for (int event = 0; event < data.iCount; ++event)
         seen.push_back({data.aEvents.v[event].iGroupID, data.aEvents.v[event].bNegative != 0});

@@ -26,6 +26,12 @@ cam::Place placeOf(const CamState &state, const cam::Curve &curve, cam::Total ma
   return {0, cam::toDouble(master)};
 }
 
+/// Whether the place is in the cam, but for the rounding of a joint that has been computed.
+bool holds(const cam::Curve &curve, double x) noexcept {
+  const double haze = 1e-12 * (exact::fabs(curve.start) + exact::fabs(curve.end));
+  return x >= curve.start - haze && x <= curve.end + haze;
+}
+
 /// Whether the cam is as long as a turn of the master and begins where that does, as most are: then
 /// its periods are the turns, and there is nothing to compute.
 bool isInStep(const CamState &state, const cam::Curve &curve) noexcept {
@@ -71,11 +77,12 @@ int16_t enterCam(CamState &state, const cam::Curve &curve, const CamStart &start
                  const MasterMotion &master) noexcept {
   state.fMasterStart = state.stCommand.stCam.MasterAbsolute != 0 ? 0.0 : start.masterZero;
   state.fSlaveShift = state.stCommand.fSlaveOffset + (start.relative ? start.slaveBase : 0.0);
-  const cam::Place place = placeInCam(state, curve, master);
-  if (!(place.position >= curve.start && place.position <= curve.end))
+  MasterMotion atStart = master;
+  atStart.position = {start.masterZero, 0.0};
+  if (!holds(curve, cam::toDouble(scaledMaster(state, atStart))))
     return number::SMC_ERROR__SMC_CI_MASTER_OUT_OF_SCALE;
-  state.liFirstPeriod = place.period;
-  state.liPeriod = place.period;
+  state.liFirstPeriod = 0;
+  state.liPeriod = placeInCam(state, curve, master).period;
   return number::SMC_ERROR__SMC_NO_ERROR;
 }
 

@@ -29,7 +29,7 @@ struct CamTarget {
 
 /// From what a cam begins.
 struct CamStart {
-  double masterZero; ///< Where the cam's place 0 is if it is not MasterAbsolute. [u]
+  double masterZero; ///< Where the master was; there is place 0 if it is not MasterAbsolute. [u]
   double slaveBase;  ///< What a relative cam is shifted by. [u]
   bool relative;     ///< The slave's positions are relative.
 };
@@ -41,8 +41,8 @@ int16_t checkCamInputs(const CamCommand &command) noexcept;
 /// not look at all of its data, which MC_CamTableSelect has done.
 int16_t openCam(const CamId &id, cam::Curve &curve) noexcept;
 
-/// Sets up the cam that state.stCommand names, from where the master is. SMC_ERROR 626 if that is
-/// outside of a cam that is not periodic.
+/// Sets up the cam that state.stCommand names, with the master where it is now. SMC_ERROR 626 if
+/// it was outside of the cam at the start.
 int16_t enterCam(CamState &state, const cam::Curve &curve, const CamStart &start,
                  const MasterMotion &master) noexcept;
 

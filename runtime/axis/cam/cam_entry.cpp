@@ -171,7 +171,7 @@ numeric::MotionState onwards(const axis::AxisRef &slave) noexcept {
 }
 
 int16_t startCam(CamState &state, cam::Curve &curve, const axis::AxisRef &slave,
-                 axis::AxisRef &master, CamTarget &target) noexcept {
+                 axis::AxisRef &master, CamTarget &target, const CamJoint *joint) noexcept {
   const CamCommand &command = state.stCommand;
   if (const int16_t error = openCam(command.stCam, curve); error != axis::error::kNone)
     return error;
@@ -181,7 +181,10 @@ int16_t startCam(CamState &state, cam::Curve &curve, const axis::AxisRef &slave,
   state.stFollow.fFirstOffset = slave.fOffsetPosition;
   const bool relative =
       command.eStartMode == mode::MC_StartMode__relative || command.stCam.SlaveAbsolute == 0;
-  const CamStart start{cam::toDouble(motion.position), onwards(slave).position, relative};
+  const double position = cam::toDouble(motion.position);
+  const CamStart start = joint != nullptr
+                             ? CamStart{position - joint->beyond, joint->slave, relative}
+                             : CamStart{position, onwards(slave).position, relative};
   if (const int16_t error = enterCam(state, curve, start, motion); error != axis::error::kNone)
     return error;
   return evaluateCam(state, curve, motion, slave, target) ? axis::error::kNone

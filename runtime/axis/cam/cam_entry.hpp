@@ -21,10 +21,17 @@ inline CamPhase phaseOf(const CamState &state) noexcept {
 /// The slave's set values at the end of this cycle if it went on as it does.
 numeric::MotionState onwards(const axis::AxisRef &slave) noexcept;
 
-/// Opens and sets up the cam of state.stCommand, from where master and slave are, and says where it
-/// has the slave. An SMC_ERROR.
+/// Where another cam has ended, which this one goes on from.
+struct CamJoint {
+  double beyond; ///< How far the master is beyond it now. [master u]
+  double slave;  ///< The slave's position there. [u]
+};
+
+/// Opens and sets up the cam of state.stCommand, from where master and slave are, or from `joint`,
+/// and says where it has the slave. An SMC_ERROR.
 int16_t startCam(CamState &state, cam::Curve &curve, const axis::AxisRef &slave,
-                 axis::AxisRef &master, CamTarget &target) noexcept;
+                 axis::AxisRef &master, CamTarget &target,
+                 const CamJoint *joint = nullptr) noexcept;
 
 /// What is wrong with the start mode and its inputs, or with the hysteresis (627, 311), or kNone.
 int16_t checkEntry(const axis::AxisRef &slave, const CamCommand &command) noexcept;

@@ -192,18 +192,12 @@ void skipPeriods(TappetState &state) noexcept {
   state.liDonePeriod += periods < 0 ? -skipped : skipped;
 }
 
-void beginTappetData(TappetData &data, TappetState &state, Place place, int64_t now) noexcept {
-  beginTappets(state, place, now);
-  data.iCount = 0;
-  ++data.udiRestarts;
+void beginReport(TappetData &data) noexcept {
   ++data.ulReports;
+  data.iCount = 0;
 }
 
-void reportTappets(TappetData &data, TappetState &state, const TappetList &list, Place place,
-                   double hysteresis, int64_t now) noexcept {
-  followTappets(state, list, place, hysteresis, now);
-  ++data.ulReports;
-  data.iCount = 0;
+void reportTappets(TappetData &data, TappetState &state, const TappetList &list) noexcept {
   while (data.iCount < kMaxEvents && nextTappet(state, list, data.aEvents.v[data.iCount]))
     ++data.iCount;
 }

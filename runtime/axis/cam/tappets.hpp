@@ -50,13 +50,12 @@ bool nextTappet(TappetState &state, const TappetList &list, TappetEvent &event) 
 /// the others: what remains is at most four periods. For who takes all passes of a cycle.
 void skipPeriods(TappetState &state) noexcept;
 
-/// beginTappets for MC_CamIn: tells SMC_GetTappetValue, too.
-void beginTappetData(TappetData &data, TappetState &state, Place place, int64_t now) noexcept;
+/// A cycle of MC_CamIn has nothing to report yet.
+void beginReport(TappetData &data) noexcept;
 
-/// Once in every cycle of MC_CamIn after the start: followTappets, and up to three passes into
-/// `data`; the rest comes in the next cycles.
-void reportTappets(TappetData &data, TappetState &state, const TappetList &list, Place place,
-                   double hysteresis, int64_t now) noexcept;
+/// As many passes into `data` as there is room for, three in a cycle; the rest comes in the next
+/// cycles.
+void reportTappets(TappetData &data, TappetState &state, const TappetList &list) noexcept;
 
 } // namespace stride::cam
 

@@ -43,19 +43,40 @@ double earlierTravel(const AxisRef &slave) noexcept {
              : 0.5 * (slave.fSaveVelocity + slave.fSetVelocity) * slave.fTaskCycle;
 }
 
+cam::TappetList tappetsOf(const motion::CamId &id) noexcept {
+  return cam::tappetsOf(*id.pCam, id.Periodic != 0);
+}
+
 /// Which tappets the master passes on its way to `place` in the running cam.
-void follow(Block &block, const cam::Place &place, int64_t now) noexcept {
+void follow(motion::CamState &state, const cam::Place &place, int64_t now) noexcept {
+  cam::followTappets(state.stTappets, tappetsOf(state.stTappetCam), place,
+                     state.stCommand.fHysteresis, now);
+}
+
+/// Tells SMC_GetTappetValue what has been passed, in the cam that has ended first.
+void report(Block &block) noexcept {
   auto &state = block.stCam;
-  const motion::CamId &id = state.stCommand.stCam;
-  cam::reportTappets(block.Tappets, state.stTappets, cam::tappetsOf(*id.pCam, id.Periodic != 0),
-                     place, block.stCam.stCommand.fHysteresis, now);
+  cam::beginReport(block.Tappets);
+  if (state.stEndedTappets.bPending != 0)
+    cam::reportTappets(block.Tappets, state.stEndedTappets, tappetsOf(state.stEndedCam));
+  if (state.stTappets.bPending != 0)
+    cam::reportTappets(block.Tappets, state.stTappets, tappetsOf(state.stTappetCam));
+}
+
+/// When the master was `beyond` [master u] before where it is now, on its way of `travel` in a
+/// cycle of `cycle` [s]. [ns]
+int64_t timeOfJoint(double cycle, double beyond, double travel, int64_t now) noexcept {
+  if (!(beyond * travel > 0.0))
+    return now;
+  const double cycles = beyond / travel;
+  return now - static_cast<int64_t>((cycles < 2.0 ? cycles : 2.0) * cycle * 1e9 + 0.5);
 }
 
 /// The command's cam begins, and the way onto it. Does not need the slave to belong to the block.
 /// An SMC_ERROR.
 int16_t enter(motion::CamState &state, cam::Curve &curve, AxisRef &slave, AxisRef &master,
-              motion::CamTarget &target) noexcept {
-  const int16_t problem = motion::startCam(state, curve, slave, master, target);
+              motion::CamTarget &target, const motion::CamJoint *joint = nullptr) noexcept {
+  const int16_t problem = motion::startCam(state, curve, slave, master, target, joint);
   return problem != axis::error::kNone ? problem : motion::beginEntry(state, curve, slave, target);
 }
 
@@ -94,6 +115,36 @@ bool write(Block &block, AxisRef &slave, const motion::CamTarget &target,
   return true;
 }
 
+/// Where the cam has ended that this command has waited for; `travel` becomes the master's way in
+/// this cycle. [master u] False: it has waited for none, or for one of another master.
+bool takeJoint(const Block &block, AxisRef &slave, motion::CamJoint &joint,
+               double &travel) noexcept {
+  auto &left = slave.stCamJoint;
+  if (left.ulOwner == 0 || left.ulOwner != block.stBlock.ulOwner ||
+      left.stMaster.pAxis != block.Master)
+    return false;
+  left.ulOwner = 0;
+  const motion::MasterMotion since = motion::readMaster(left.stMaster, *block.Master);
+  joint = {left.fBeyond + since.travel, left.fSlave};
+  travel = since.velocity * slave.fTaskCycle;
+  return true;
+}
+
+/// The tappets of the command's cam count from where the master was at the start, at `time`.
+void beginTappets(Block &block, const cam::Curve &curve, double beyond, int64_t time,
+                  const cam::Place &now, int64_t cycleStart) noexcept {
+  auto &state = block.stCam;
+  state.stTappetCam = state.stCommand.stCam;
+  if (beyond == 0.0) {
+    cam::beginTappets(state.stTappets, now, cycleStart);
+    return;
+  }
+  motion::MasterMotion start{};
+  start.position = {state.stMaster.fPosition - beyond, 0.0};
+  cam::beginTappets(state.stTappets, motion::placeInCam(state, curve, start), time);
+  follow(state, now, cycleStart);
+}
+
 /// The slave is the block's: its first set values, also if another block has moved it already in
 /// this cycle.
 int16_t begin(Block &block, AxisRef &slave, int64_t cycleStart) noexcept {
@@ -101,7 +152,10 @@ int16_t begin(Block &block, AxisRef &slave, int64_t cycleStart) noexcept {
   motion::CamTarget target;
   stride::numeric::MotionState set;
   cam::Curve curve;
-  int16_t problem = enter(state, curve, slave, *block.Master, target);
+  motion::CamJoint joint{};
+  double travel = 0.0;
+  const bool goesOn = takeJoint(block, slave, joint, travel);
+  int16_t problem = enter(state, curve, slave, *block.Master, target, goesOn ? &joint : nullptr);
   if (problem == axis::error::kNone)
     problem = motion::stepEntry(state, curve, slave, target, set);
   if (problem != axis::error::kNone)
@@ -109,7 +163,11 @@ int16_t begin(Block &block, AxisRef &slave, int64_t cycleStart) noexcept {
   const double way = motion::wayTo(state.stFollow, slave, set.position) + earlierTravel(slave);
   if (!write(block, slave, target, set, way))
     return axis::error::kOutOfRange;
-  cam::beginTappetData(block.Tappets, state.stTappets, target.place, cycleStart);
+  state.stEndedTappets.bPending = 0;
+  ++block.Tappets.udiRestarts;
+  const int64_t time = timeOfJoint(slave.fTaskCycle, joint.beyond, travel, cycleStart);
+  beginTappets(block, curve, joint.beyond, time, target.place, cycleStart);
+  report(block);
   block.EndOfProfile = 0;
   return axis::error::kNone;
 }
@@ -146,22 +204,46 @@ bool isReplaced(const Block &block, const motion::CamTarget &target) noexcept {
          block.CamTableID.pCam != nullptr && !isSame(block.CamTableID, id);
 }
 
+/// The end of the running cam, and what came after it.
+struct End {
+  bool now;               ///< The master has come to it in this cycle ...
+  int64_t time;           ///< ... then. [ns]
+  cam::Place place;       ///< In the cam that has ended.
+  motion::CamJoint joint; ///< For the cam that goes on.
+};
+
+/// The running cam has come to its end in this cycle, on the master's way of `travel`. [master u]
+End endOf(const motion::CamState &state, const cam::Curve &curve, const motion::CamTarget &target,
+          double travel, int64_t cycleStart) noexcept {
+  const motion::CamCommand &command = state.stCommand;
+  const bool periodic = command.stCam.Periodic != 0;
+  const bool forwards = travel * command.fMasterScaling >= 0.0;
+  // A periodic cam has begun again: its end is the start of the period it is in.
+  const double place = forwards != periodic ? curve.end : curve.start;
+  motion::CamJoint joint{};
+  joint.beyond = (target.place.position - place) / command.fMasterScaling;
+  joint.slave = target.state.position;
+  if (periodic) {
+    uint32_t index = 0;
+    const double there = cam::evaluateCurve(curve, place, true, index).y;
+    joint.slave -= target.local - command.fSlaveScaling * there;
+  }
+  const int64_t time =
+      timeOfJoint(state.stMaster.pAxis->fTaskCycle, joint.beyond, travel, cycleStart);
+  return {true, time, {target.place.period, place}, joint};
+}
+
 /// The other cam begins where the running one has ended, earlier in this cycle. `target` becomes
 /// the other one's.
-int16_t replace(Block &block, AxisRef &slave, const cam::Curve &ended, motion::CamTarget &target,
+int16_t replace(Block &block, AxisRef &slave, const End &end, motion::CamTarget &target,
                 int64_t cycleStart) noexcept {
   auto &state = block.stCam;
   auto &command = state.stCommand;
-  const bool periodic = command.stCam.Periodic != 0;
-  const double overshoot = target.place.position - (periodic ? ended.start : ended.end);
-  uint32_t first = 0;
-  const double joint =
-      periodic ? target.state.position -
-                     (target.local -
-                      command.fSlaveScaling * cam::evaluateCurve(ended, ended.start, true, first).y)
-               : target.state.position;
-  // What is passed after the joint belongs to the other cam; it is reported in the next cycle.
-  follow(block, {target.place.period, periodic ? ended.start : ended.end}, cycleStart);
+  follow(state, end.place, end.time);
+  if (state.stEndedTappets.bPending == 0) {
+    state.stEndedTappets = state.stTappets;
+    state.stEndedCam = state.stTappetCam;
+  }
   cam::Curve curve;
   if (const int16_t error = motion::openCam(block.CamTableID, curve); error != axis::error::kNone)
     return error;
@@ -170,21 +252,20 @@ int16_t replace(Block &block, AxisRef &slave, const cam::Curve &ended, motion::C
   // Counted anew from here, so that no digits are lost.
   const motion::MasterMotion master = motion::beginMaster(state.stMaster, *block.Master);
   state.stFollow.fFirstOffset = slave.fOffsetPosition;
-  const motion::CamStart start{cam::toDouble(master.position) - overshoot / command.fMasterScaling,
-                               joint, command.stCam.SlaveAbsolute == 0};
+  const motion::CamStart start{cam::toDouble(master.position) - end.joint.beyond, end.joint.slave,
+                               command.stCam.SlaveAbsolute == 0};
   if (const int16_t error = motion::enterCam(state, curve, start, master);
       error != axis::error::kNone)
     return error;
   if (!motion::evaluateCam(state, curve, master, slave, target))
     return axis::error::kOutOfRange;
-  motion::MasterMotion atJoint = master;
-  atJoint.position = {start.masterZero, 0.0};
-  cam::beginTappets(state.stTappets, motion::placeInCam(state, curve, atJoint), cycleStart);
+  beginTappets(block, curve, end.joint.beyond, end.time, target.place, cycleStart);
   return axis::error::kNone;
 }
 
-/// One cycle of the running block. An SMC_ERROR.
-int16_t go(Block &block, AxisRef &slave, int64_t cycleStart) noexcept {
+/// One cycle of the running block; `end` becomes where its cam has ended if no other one goes on.
+/// An SMC_ERROR.
+int16_t go(Block &block, AxisRef &slave, End &end, int64_t cycleStart) noexcept {
   auto &state = block.stCam;
   motion::alignFollowing(state.stFollow, slave);
   const motion::MasterMotion master = motion::readMaster(state.stMaster, *block.Master);
@@ -195,12 +276,18 @@ int16_t go(Block &block, AxisRef &slave, int64_t cycleStart) noexcept {
   motion::CamTarget target;
   if (!motion::evaluateCam(state, curve, master, slave, target))
     return axis::error::kOutOfRange;
+  const bool over = block.EndOfProfile != 0 && state.stCommand.stCam.Periodic == 0;
   showEnd(block, target, master.travel * state.stCommand.fMasterScaling);
+  if (block.EndOfProfile != 0) // who has come to the end before goes on from where the master is
+    end = over ? End{false, cycleStart, target.place, {0.0, target.state.position}}
+               : endOf(state, curve, target, master.travel, cycleStart);
   const bool replaced = isReplaced(block, target);
-  if (replaced)
-    if (const int16_t error = replace(block, slave, curve, target, cycleStart);
+  if (replaced) {
+    if (const int16_t error = replace(block, slave, end, target, cycleStart);
         error != axis::error::kNone)
       return error;
+    end.now = false;
+  }
   const motion::CamPhase phase = motion::phaseOf(state);
   const double ramp = state.fRamp;
   stride::numeric::MotionState set;
@@ -217,8 +304,12 @@ int16_t go(Block &block, AxisRef &slave, int64_t cycleStart) noexcept {
     way = motion::wayTo(state.stFollow, slave, set.position);
   if (!write(block, slave, target, set, way))
     return axis::error::kOutOfRange;
-  if (!replaced)
-    follow(block, target.place, cycleStart);
+  // What comes after the end is passed by the cam that goes on.
+  if (end.now && slave.stQueue.uiCount > 0)
+    follow(state, end.place, end.time);
+  else if (!replaced)
+    follow(state, target.place, cycleStart);
+  report(block);
   return axis::error::kNone;
 }
 
@@ -229,17 +320,22 @@ void st::SM_PLCopen::MC_CamIn::body__(::stride::Ctx &ctx__) {
       motion::callFollower(stBlock, stCam.stMaster, stCam.stFollow, Execute != 0, Master, Slave,
                            BufferMode, [this] { return check(*this); });
   int16_t problem = axis::error::kNone;
+  End end{};
   if (turn == motion::Turn::Begin)
     problem = begin(*this, *Slave, ctx__.cycleStartNs);
   else if (turn == motion::Turn::Move && Slave->bMovedInThisCycle == 0)
-    problem = go(*this, *Slave, ctx__.cycleStartNs);
+    problem = go(*this, *Slave, end, ctx__.cycleStartNs);
+  else if (stBlock.bRunning == 0 &&
+           (stCam.stTappets.bPending != 0 || stCam.stEndedTappets.bPending != 0))
+    report(*this); // what the finished command has not reported yet
   if (problem != axis::error::kNone) {
     motion::fail(stBlock, Slave, problem);
   } else if (turn != motion::Turn::None) {
     const bool shown = stBlock.bReached != 0;
     motion::noteReached(stBlock, motion::phaseOf(stCam) == motion::CamPhase::OnCam);
-    if (EndOfProfile != 0 && turn == motion::Turn::Move)
-      (void)motion::passOn(stBlock, *Slave, shown);
+    if (EndOfProfile != 0 && turn == motion::Turn::Move && motion::passOn(stBlock, *Slave, shown) &&
+        end.now)
+      Slave->stCamJoint = {Slave->ulOwnerCount, stCam.stMaster, end.joint.beyond, end.joint.slave};
   }
   if (stBlock.bRunning == 0)
     EndOfProfile = 0;

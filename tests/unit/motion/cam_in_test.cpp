@@ -269,13 +269,32 @@ TEST(CamIn, AnotherEdgeForgetsWhatHasGoneBefore) {
   // 4.6.2: Offset1 and Offset2 are deleted; the original equation holds.
   auto scene = ready(line(100, 30), 360, 0, 50);
   scene->settings.periodic = true;
-  for (int i = 0; i < 50; ++i) // 500 on: five passages
-    go(*scene, i < 49 ? 5000 : 0);
-  const double master = scene->master.ref.fSetPosition;
+  for (int i = 0; i < 40; ++i) // 390 on: four passages
+    go(*scene, i < 39 ? 5000 : 0);
+  const double master = scene->master.ref.fSetPosition; // a turn and 80
+  ASSERT_LT(master, 100);
   EXPECT_GT(scene->rig.axis.fSetPosition, 120);
   go(*scene, 0, false);
   go(*scene, 0);
-  EXPECT_NEAR(scene->rig.axis.fSetPosition, 0.3 * std::fmod(master, 100), 1e-9);
+  EXPECT_NEAR(scene->rig.axis.fSetPosition, 0.3 * master, 1e-9);
+}
+
+TEST(CamIn, APeriodicCamThatDoesNotHoldTheMastersPlaceDoesNotStart) {
+  // 4.6.1, whether its place 0 is the axis's (MasterAbsolute) or where the master is.
+  for (const bool absolute : {true, false}) {
+    for (const double place : {-1e-6, 0.0, 60.0, 100.0, 100.0 + 1e-6}) {
+      SCOPED_TRACE((absolute ? "absolute " : "relative ") + std::to_string(place));
+      auto scene = ready(line(100, 30), 0, 0, absolute ? place : 777);
+      scene->camIn.CamTableID.Periodic = 1;
+      scene->camIn.CamTableID.MasterAbsolute = absolute;
+      scene->camIn.MasterOffset = absolute ? 0 : place;
+      go(*scene, 0);
+      const bool inside = place >= 0 && place <= 100;
+      EXPECT_EQ(scene->camIn.ErrorID, inside ? 0 : 626);
+      EXPECT_NEAR(scene->rig.axis.fSetPosition, inside ? 0.3 * place : 0, 1e-12);
+      EXPECT_EQ(scene->camIn.InSync != 0, inside);
+    }
+  }
 }
 
 TEST(CamIn, AHaltingMasterHoldsTheSlaveOnTheCam) {
