@@ -313,6 +313,9 @@ std::optional<int64_t> findChoice(const Parameter &parameter, const TomlNode &va
     if (value.kind == TomlKind::Integer ? choice.value == value.integer
                                         : canonical(choice.name) == canonical(value.text))
       return choice.value;
+  // In the dialogs of V2.3 CONFIGURABLE is the seventh choice, in AXIS_REF it is 0.
+  if (value.kind == TomlKind::Integer && parameter.name == "wControlType" && value.integer == 7)
+    return 0;
   // Cyclic data may be any parameter number of AXIS_REF.
   if (value.kind == TomlKind::Integer && parameter.name.starts_with("wCyclicData") &&
       value.integer >= 0 && value.integer <= 65535)

@@ -123,9 +123,20 @@ void enterErrorStop(AxisRef &axis, int16_t reason) noexcept {
   endSuperimposed(axis);
   axis.nAxisState = state::kErrorStop;
   axis.wFBErrorID = static_cast<uint16_t>(reason);
-  listError(axis, reason);
+  if (axis.stPlanner.wStopReason != static_cast<uint16_t>(reason)) // else its owner has noted it
+    listError(axis, reason);
   axis.stPlanner.wStopReason = static_cast<uint16_t>(reason);
   planBraking(axis, brakingDeceleration(axis));
+}
+
+void acknowledge(AxisRef &axis) noexcept {
+  if (axis.nAxisState != state::kErrorStop || axis.bErrorAckn == 0 || axis.bCommunication == 0 ||
+      axis.bError != 0 || axis.fSetVelocity != 0.0)
+    return;
+  axis.bErrorAckn = 0;
+  axis.wFBErrorID = 0;
+  axis.stPlanner.wStopReason = 0;
+  axis.nAxisState = state::kPowerOff;
 }
 
 void beginCycle(AxisRef &axis) noexcept {

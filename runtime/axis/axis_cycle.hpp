@@ -19,6 +19,10 @@ void leaveUnpowered(AxisRef &axis) noexcept;
 /// The axis stands still where its set position is; its plan is over.
 void haltAt(AxisRef &axis) noexcept;
 
+/// Leads out of error stop, to power_off, when the error has been acknowledged (bErrorAckn), is
+/// gone and the axis is at rest.
+void acknowledge(AxisRef &axis) noexcept;
+
 /// Notes the set values with which a cycle begins; nobody has moved the axis in it.
 void beginCycle(AxisRef &axis) noexcept;
 

@@ -145,25 +145,29 @@ inline bool isDriveHoming(const AxisRef &axis) noexcept {
   return axis.nAxisState == state::kHoming && axis.bStartReference != 0;
 }
 
-/// Enters an error into the axis's list, which SMC_ReadFBError reads. One that repeats the newest
-/// entry is not entered again: a block that is called in every cycle must not drive out the others.
+/// Enters an error into the axis's list, which SMC_ReadFBError reads; kNone is none.
 inline void listError(AxisRef &axis, int16_t errorId) noexcept {
   auto &list = axis.stFBErrors;
   constexpr uint16_t kPlaces = sizeof list.aError.v / sizeof list.aError.v[0];
-  const auto place = [&list](unsigned index) {
-    return &list.aError.v[(list.uiFirst + index) % kPlaces];
-  };
-  if (errorId == error::kNone || (list.uiCount > 0 && *place(list.uiCount - 1U) == errorId))
+  if (errorId == error::kNone)
     return;
-  *place(list.uiCount) = errorId;
+  list.aError.v[(list.uiFirst + list.uiCount) % kPlaces] = errorId;
   if (list.uiCount < kPlaces)
     ++list.uiCount;
   else
     list.uiFirst = static_cast<uint16_t>((list.uiFirst + 1) % kPlaces);
 }
 
-/// Notes that a block met an error on the axis (chapter 9 of the manual: FB errors). What brought
-/// the axis into error stop stays the last error until it has been acknowledged.
+/// Whether the newest error of the axis's list is this one.
+inline bool isNewestError(const AxisRef &axis, int16_t errorId) noexcept {
+  const auto &list = axis.stFBErrors;
+  constexpr uint16_t kPlaces = sizeof list.aError.v / sizeof list.aError.v[0];
+  return list.uiCount > 0 && list.aError.v[(list.uiFirst + list.uiCount - 1U) % kPlaces] == errorId;
+}
+
+/// Notes that a block met an error on the axis (chapter 9 of the manual: FB errors), once for each
+/// time that it does. What brought the axis into error stop stays the last error until it has been
+/// acknowledged.
 inline void noteError(AxisRef &axis, int16_t errorId) noexcept {
   listError(axis, errorId);
   if (axis.nAxisState != state::kErrorStop || axis.wFBErrorID == 0)

@@ -40,6 +40,12 @@ inline void fail(BlockState &block, AxisRef *ref, int16_t errorId) noexcept {
     axis::noteError(*ref, errorId);
 }
 
+/// The command is over because the runtime took the axis, for `reason`. An error stop has entered
+/// that into the axis's list already.
+inline void lose(BlockState &block, AxisRef &ref, int16_t reason) noexcept {
+  fail(block, ref.nAxisState == axis::state::kErrorStop ? nullptr : &ref, reason);
+}
+
 /// The command is over because another one took the axis.
 inline void abort(BlockState &block) noexcept {
   block.bRunning = 0;
@@ -124,7 +130,7 @@ inline void take(BlockState &block, AxisRef &ref, int16_t axisState) noexcept {
 inline bool keep(BlockState &block, AxisRef &ref) noexcept {
   if (!axis::ownsAxis(ref, block.ulOwner)) {
     if (const int16_t reason = axis::lossReason(ref, block.ulOwner); reason != axis::error::kNone)
-      fail(block, &ref, reason);
+      lose(block, ref, reason);
     else
       abort(block);
     return false;

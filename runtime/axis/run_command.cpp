@@ -45,7 +45,7 @@ bool awaitTurn(BlockState &block, AxisRef &ref) noexcept {
   }
   if (!isQueued(ref, block.ulOwner)) {
     if (ref.nAxisState == axis::state::kErrorStop)
-      fail(block, &ref, static_cast<int16_t>(ref.stPlanner.wStopReason));
+      lose(block, ref, static_cast<int16_t>(ref.stPlanner.wStopReason));
     else if (!axis::isPowered(ref))
       fail(block, &ref, axis::error::kNotPowered);
     else

@@ -250,12 +250,8 @@ void followErrors(axis::AxisRef &axis, const DriveStatus &status) {
       axis::enterErrorStop(axis, axis::error::kCommunication);
     else if (status.error)
       axis::enterErrorStop(axis, axis::error::kDrive);
-  } else if (axis.bErrorAckn != 0 && status.communication && !status.error &&
-             axis.fSetVelocity == 0.0) {
-    axis.bErrorAckn = 0;
-    axis.wFBErrorID = 0;
-    axis.stPlanner.wStopReason = 0;
-    axis.nAxisState = axis::state::kPowerOff;
+  } else {
+    axis::acknowledge(axis);
   }
 }
 

@@ -43,6 +43,7 @@ void configure(AxisRef &ref, const EncoderRef &encoder, double cycle) noexcept {
   ref.fSWLimitPositive = encoder.fSWLimitPositive;
   ref.fTaskCycle = cycle;
   ref.liTurnDenominator = 1; // its increments count
+  ref.bOwnService = 1;
 }
 
 /// Whoever wants to move the axis does not succeed.

@@ -24,7 +24,8 @@ double horizonOf(const AxisRef &ref) noexcept {
 template <class Block> void fail(Block &block, int16_t errorId) noexcept {
   block.Error = 1;
   block.ErrorID = errorId;
-  if (block.Axis != nullptr)
+  // These blocks say the same in every call.
+  if (block.Axis != nullptr && !axis::isNewestError(*block.Axis, errorId))
     axis::noteError(*block.Axis, errorId);
 }
 

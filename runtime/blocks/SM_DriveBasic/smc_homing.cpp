@@ -46,9 +46,14 @@ int16_t checkInputs(const Block &block) noexcept {
       !exact::isfinite(in.fHomePosition) || !(in.fSignalDelay >= 0.0) ||
       !exact::isfinite(in.fSignalDelay) || (in.nDirection != 1 && in.nDirection != -1))
     return axis::error::kHomingValues;
-  if (acrossTheSwitch(in.nHomingMode) && in.bIgnoreHWLimit != 0)
-    return axis::error::kHomingNeedsLimits;
   return axis::error::kNone;
+}
+
+/// What the inputs that are looked at in every call do not allow; an SMC_ERROR.
+int16_t checkCall(const Block &block) noexcept {
+  return acrossTheSwitch(block.stInputs.nHomingMode) && block.bIgnoreHWLimit != 0
+             ? axis::error::kHomingNeedsLimits
+             : axis::error::kNone;
 }
 
 /// Gives the axis the next command of the run; the instance stays its owner. An SMC_ERROR.
@@ -131,12 +136,14 @@ int16_t start(Block &block, AxisRef &ref) noexcept {
   auto &in = block.stInputs;
   in = {block.fHomePosition, block.fVelocitySlow, block.fVelocityFast, block.fAcceleration,
         block.fDeceleration, block.fJerk,         block.fSignalDelay,  block.nDirection,
-        block.nHomingMode,   block.bReturnToZero, block.bIgnoreHWLimit};
+        block.nHomingMode,   block.bReturnToZero};
   const bool own = block.stBlock.bRunning != 0 && axis::ownsAxis(ref, block.stBlock.ulOwner);
   block.stBlock.bRunning = 0;
   if (const int16_t problem = motion::homingRefusal(ref); problem != axis::error::kNone && !own)
     return problem;
   if (const int16_t problem = checkInputs(block); problem != axis::error::kNone)
+    return problem;
+  if (const int16_t problem = checkCall(block); problem != axis::error::kNone)
     return problem;
   block.udiPast = 0;
   block.byPhase = kToSwitch;
@@ -195,7 +202,9 @@ int16_t rest(Block &block, AxisRef &ref) noexcept {
 }
 
 int16_t proceed(Block &block, AxisRef &ref) noexcept {
-  ref.bHWLimitIgnored = block.stInputs.bIgnoreHWLimit;
+  if (const int16_t problem = checkCall(block); problem != axis::error::kNone)
+    return problem;
+  ref.bHWLimitIgnored = block.bIgnoreHWLimit;
   notePosition(block, ref);
   if (const int16_t problem = react(block, ref); problem != axis::error::kNone)
     return problem;

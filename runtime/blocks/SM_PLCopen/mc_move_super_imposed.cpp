@@ -125,7 +125,7 @@ void proceed(Block &block, AxisRef &ref) noexcept {
   const auto &added = ref.stSuperimposed;
   if (added.ulOwner != state.ulOwner) {
     if (ref.nAxisState == axis::state::kErrorStop)
-      motion::fail(state, &ref, static_cast<int16_t>(ref.stPlanner.wStopReason));
+      motion::lose(state, ref, static_cast<int16_t>(ref.stPlanner.wStopReason));
     else if (!axis::isPowered(ref))
       motion::fail(state, &ref, axis::error::kNotPowered);
     else

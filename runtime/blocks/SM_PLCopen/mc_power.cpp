@@ -1,11 +1,13 @@
 // MC_Power: regulator and brake.
-#include "runtime/axis/axis_ref.hpp"
+#include "runtime/app/ctx.h"
+#include "runtime/axis/virtual_axis.hpp"
 
 #include "st/SM_PLCopen/MC_Power.h"
 
 namespace axis = ::stride::axis;
 
-void st::SM_PLCopen::MC_Power::body__(::stride::Ctx & /*ctx__*/) {
+void st::SM_PLCopen::MC_Power::body__(::stride::Ctx &ctx__) {
+  const bool failed = Error != 0;
   Status = 0;
   Error = 0;
   ErrorID = axis::error::kNone;
@@ -17,6 +19,13 @@ void st::SM_PLCopen::MC_Power::body__(::stride::Ctx & /*ctx__*/) {
     ErrorID = Enable != 0 ? axis::error::kNoAxis : axis::error::kNone;
     return;
   }
+  const bool acts = Enable != 0 && Axis->fTaskCycle > 0.0;
+  if (acts) {
+    Axis->bRegulatorOn = bRegulatorOn;
+    Axis->bDriveStart = bDriveStart;
+  }
+  if (axis::isVirtual(*Axis))
+    axis::serveVirtual(*Axis, ctx__.cycle);
   bRegulatorRealState = Axis->bRegulatorRealState;
   bDriveStartRealState = Axis->bDriveStartRealState;
   if (Enable == 0)
@@ -24,11 +33,10 @@ void st::SM_PLCopen::MC_Power::body__(::stride::Ctx & /*ctx__*/) {
   if (!(Axis->fTaskCycle > 0.0)) {
     Error = 1;
     ErrorID = axis::error::kTaskCycleEmpty;
-    axis::noteError(*Axis, ErrorID);
+    if (!failed)
+      axis::noteError(*Axis, ErrorID);
     return;
   }
-  Axis->bRegulatorOn = bRegulatorOn;
-  Axis->bDriveStart = bDriveStart;
-  Status = bRegulatorRealState != 0 && bDriveStartRealState != 0;
+  Status = bRegulatorRealState;
   Busy = bRegulatorRealState != bRegulatorOn || bDriveStartRealState != bDriveStart;
 }

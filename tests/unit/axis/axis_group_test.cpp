@@ -78,11 +78,18 @@ TEST(AxisGroup, PowersUpToStandstillAndDown) {
 TEST(AxisGroup, BothRegulatorAndBrakeAreNeeded) {
   AxisRig rig;
   rig.power.bDriveStart = 0;
-  EXPECT_EQ(rig.powerUp(), -1);
-  EXPECT_EQ(rig.axis.bRegulatorRealState, 1);
+  EXPECT_GT(rig.powerUp(), 0) << "in regulation";
+  rig.idle(20);
+  EXPECT_EQ(rig.power.Status, 1);
+  EXPECT_EQ(rig.power.bDriveStartRealState, 0);
   EXPECT_EQ(rig.axis.nAxisState, state::kPowerOff);
+  auto move = rig.move(1);
+  rig.cycle([&] { rig.call(move, true); });
+  EXPECT_EQ(move.ErrorID, 20);
   rig.power.bDriveStart = 1;
-  EXPECT_GT(rig.powerUp(), 0);
+  rig.idle(5);
+  EXPECT_EQ(rig.power.bDriveStartRealState, 1);
+  EXPECT_EQ(rig.axis.nAxisState, state::kStandstill);
 }
 
 TEST(AxisGroup, PowerNeedsACycleTime) {

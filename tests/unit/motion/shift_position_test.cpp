@@ -94,12 +94,37 @@ TEST(ErrorList, KeepsTheLastTenInOrder) {
   auto ref = fresh<axis::AxisRef>();
   for (int16_t i = 1; i <= 25; ++i) {
     axis::listError(ref, i);
-    axis::listError(ref, i); // a repetition
     axis::listError(ref, 0); // no error
   }
   ASSERT_EQ(ref.stFBErrors.uiCount, 10);
   for (int i = 0; i < 10; ++i)
     EXPECT_EQ(ref.stFBErrors.aError.v[(ref.stFBErrors.uiFirst + i) % 10], 16 + i);
+  axis::listError(ref, 25); // it has happened again
+  ASSERT_EQ(ref.stFBErrors.uiCount, 10);
+  for (int i = 0; i < 9; ++i)
+    EXPECT_EQ(ref.stFBErrors.aError.v[(ref.stFBErrors.uiFirst + i) % 10], 17 + i);
+  EXPECT_EQ(ref.stFBErrors.aError.v[(ref.stFBErrors.uiFirst + 9) % 10], 25);
+}
+
+TEST(ErrorList, HasWhatABlockMetOnceForEachTime) {
+  namespace axis = stride::axis;
+  AxisRig rig;
+  ASSERT_GT(rig.powerUp(), 0);
+  auto bad = rig.move(5, -1);
+  for (int i = 0; i < 6; ++i)
+    rig.cycle([&] { rig.call(bad, i % 2 == 0); }); // three edges
+  ASSERT_EQ(rig.axis.stFBErrors.uiCount, 3);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(rig.axis.stFBErrors.aError.v[i], axis::error::kMoveAbsoluteValues);
+  auto move = rig.move(500);
+  for (int i = 0; i < 20; ++i)
+    rig.cycle([&] { rig.call(move, true); });
+  rig.idle(2); // it is not called: an error stop, which the block hears of as well
+  for (int i = 0; i < 3; ++i)
+    rig.cycle([&] { rig.call(move, true); });
+  EXPECT_EQ(move.ErrorID, 30);
+  ASSERT_EQ(rig.axis.stFBErrors.uiCount, 4);
+  EXPECT_EQ(rig.axis.stFBErrors.aError.v[3], axis::error::kNotCalled);
 }
 
 } // namespace
