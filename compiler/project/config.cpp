@@ -61,6 +61,8 @@ public:
       readTask(task);
     for (const TomlNode &bus : top.tables("bus"))
       plc_.readBus({bus, busSection(bus), diagnostics_, &projectSchema()});
+    for (const CheckedSection &axis : top.sections("axis", diagnostics_))
+      plc_.readAxis(axis);
     for (const TomlNode &io : top.tables("io"))
       readIoDevice({io, ioSection(io), diagnostics_, &projectSchema()}, config_, diagnostics_);
     return std::move(config_);

@@ -55,6 +55,16 @@ struct DriveConfig {
                                  : std::string();
 }
 
+/// [[axis]]: an axis without a drive.
+struct AxisConfig {
+  ConfigName name;
+  ConfigName task; ///< sTask; empty: the only task
+  Span section;
+  uint32_t cycleUs = 0; ///< dwCycle; 0: not given
+  Span cycleSpan;
+  ConfigFields fields;
+};
+
 struct EncoderConfig {
   ConfigName name;
   uint32_t id = 0; ///< wEncoderId
@@ -114,6 +124,7 @@ struct ProjectConfig {
   std::vector<TaskConfig> tasks;
   std::vector<BusConfig> buses;
   std::vector<AxisGroupConfig> axisGroups;
+  std::vector<AxisConfig> axes;
   std::vector<IoConfig> ioDevices;
   bool incomplete = false; ///< a drive, axis group or everything had to be left out
 };
@@ -131,7 +142,7 @@ enum class ProgramCheck : uint8_t {
 
 /// Completes the tasks with the sources' help: without [[task]] one cyclic task (`Task`, 10 ms or
 /// the axis groups' dwCycle) calls PLC_PRG or the only PROGRAM. Then gives every axis group its
-/// task.
+/// task, and every axis without a drive the cycle time of its own.
 void resolveTasks(ProjectConfig &config, const std::vector<ast::File *> &files,
                   ProgramCheck programCheck, Diagnostics &diagnostics);
 
@@ -149,9 +160,9 @@ readConfigurations(ProjectConfig &config, const std::vector<ast::File *> &files,
 [[nodiscard]] SyntheticSource eventDeclaration(const TaskConfig &task, const std::string &file,
                                                LineColumn at);
 
-/// The configuration as ST: one VAR_GLOBAL with an AXIS_REF per drive, an SMC_ENCODER_REF per
-/// encoder and an SMC_AXISGROUP_REF per axis group, and g_DRIVESTRUCT, which leads to all of them.
-/// May be empty. Drives and groups named like something in `files` are reported and left out.
+/// The configuration as ST: one VAR_GLOBAL with an AXIS_REF per drive and axis, an SMC_ENCODER_REF
+/// per encoder and an SMC_AXISGROUP_REF per axis group, and g_DRIVESTRUCT, which leads to all of
+/// them. May be empty. Drives and groups named like something in `files` are reported and left out.
 [[nodiscard]] SyntheticSource plcDeclarations(const ProjectConfig &config,
                                               const std::vector<ast::File *> &files,
                                               Diagnostics &diagnostics);

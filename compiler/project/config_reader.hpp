@@ -20,13 +20,14 @@ namespace stc {
 /// elsewhere.
 [[nodiscard]] std::string driveStruct(const ProjectConfig &config);
 
-/// Reads `[[bus]]` with everything below it into the configuration.
+/// Reads `[[bus]]` with everything below it, and `[[axis]]`, into the configuration.
 class PlcReader {
 public:
   PlcReader(ProjectConfig &config, Diagnostics &diagnostics)
       : config_(config), diagnostics_(diagnostics) {}
 
   void readBus(const CheckedSection &section);
+  void readAxis(const CheckedSection &section);
 
 private:
   /// The kind of bus, which decides about the parameters of an axis group.
@@ -40,6 +41,7 @@ private:
   void readDrive(const CheckedSection &section, AxisGroupConfig &group, Unique &ids);
   void readCyclicData(const CheckedSection &section, ConfigFields &fields);
   bool checkCyclicData(const CheckedSection &section, std::string_view direction);
+  void readMovement(const CheckedSection &section, ConfigFields &fields, std::string_view what);
   void readEncoder(const CheckedSection &section, AxisGroupConfig &group, Unique &ids);
   void readScaling(const CheckedSection &section, ConfigFields &fields, std::string_view what);
   void checkPeriod(const CheckedSection &section, const TomlNode &period, std::string_view what);

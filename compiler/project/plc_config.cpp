@@ -38,6 +38,10 @@ void flagField(const CheckedSection &section, std::string_view name, ConfigField
     fields.emplace_back(name, value->boolean ? "TRUE" : "FALSE");
 }
 
+std::string plural(std::string_view what) {
+  return what == "axis" ? "axes" : std::string(what) + "s";
+}
+
 } // namespace
 
 void PlcReader::readBus(const CheckedSection &section) {
@@ -296,13 +300,41 @@ void PlcReader::readEncoder(const CheckedSection &section, AxisGroupConfig &grou
     group.encoders.push_back(std::move(encoder));
 }
 
+void PlcReader::readAxis(const CheckedSection &section) {
+  AxisConfig axis;
+  axis.name = nameOf(section);
+  axis.section = section.table().span;
+  if (const TomlNode *task = section.get("sTask"))
+    axis.task = {task->text, task->span};
+  if (const TomlNode *cycle = section.get("dwCycle")) {
+    axis.cycleUs = static_cast<uint32_t>(cycle->integer);
+    axis.cycleSpan = cycle->span;
+  }
+  axis.fields.emplace_back("bRealDrive", "FALSE");
+  readMovement(section, axis.fields, "axis");
+  readLimits(section, axis.fields, section.choice("iMovementType") == kRotary, "axis");
+  for (const std::string_view name : {"fSWMaxVelocity", "fSWMaxAcceleration", "fSWMaxDeceleration"})
+    realField(section, name, axis.fields);
+  readRamp(section, axis.fields);
+  if (addVariable(axis.name))
+    config_.axes.push_back(std::move(axis));
+}
+
 void PlcReader::readScaling(const CheckedSection &section, ConfigFields &fields,
                             std::string_view what) {
   for (const std::string_view name : {"dwRatioTechUnitsDenom", "iRatioTechUnitsNum"})
     integerField(section, name, fields);
+  readMovement(section, fields, what);
+  const bool rotary = section.choice("iMovementType") == kRotary;
+  if (const TomlNode *period = section.get("fPositionPeriod"); period != nullptr && rotary)
+    checkPeriod(section, *period, what);
+  readLimits(section, fields, rotary, what);
+}
+
+void PlcReader::readMovement(const CheckedSection &section, ConfigFields &fields,
+                             std::string_view what) {
   const auto type = section.choice("iMovementType");
   fields.emplace_back("iMovementType", std::to_string(type));
-  const TomlNode *period = section.get("fPositionPeriod");
   if (type == kRotary && !section.has("fPositionPeriod"))
     diagnostics_
         .report(Code::ConfigMissingKey, section.get("iMovementType")->span,
@@ -310,15 +342,12 @@ void PlcReader::readScaling(const CheckedSection &section, ConfigFields &fields,
                 fmt::format("makes the {} rotary", what))
         .help("add the length of one turn in technical units, for example `fPositionPeriod = "
               "360.0`");
-  if (period != nullptr) {
-    realField(section, "fPositionPeriod", fields);
-    if (type == kRotary)
-      checkPeriod(section, *period, what);
-    else if (section.get("iMovementType") != nullptr || !section.has("iMovementType"))
-      withoutEffect(diagnostics_, section, "fPositionPeriod",
-                    fmt::format("only for rotary {}s", what));
-  }
-  readLimits(section, fields, type == kRotary, what);
+  if (section.get("fPositionPeriod") == nullptr)
+    return;
+  realField(section, "fPositionPeriod", fields);
+  if (type != kRotary && (section.get("iMovementType") != nullptr || !section.has("iMovementType")))
+    withoutEffect(diagnostics_, section, "fPositionPeriod",
+                  fmt::format("only for rotary {}", plural(what)));
 }
 
 // The period in increments must be at least one and fit a 32-bit position (manual, section 2.1.3).
@@ -360,7 +389,7 @@ void PlcReader::readLimits(const CheckedSection &section, ConfigFields &fields, 
     return;
   if (rotary) {
     withoutEffect(diagnostics_, section, "bSWLimitEnable",
-                  fmt::format("only for linear {}s", what));
+                  fmt::format("only for linear {}", plural(what)));
     return;
   }
   const TomlNode *low = section.get("fSWLimitNegative");

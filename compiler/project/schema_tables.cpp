@@ -3,6 +3,7 @@
 #include "compiler/project/config_reader.hpp"
 #include "compiler/project/driver_sections.hpp"
 #include "compiler/syntax/format.hpp"
+#include "runtime/bus/plc_schema.hpp"
 
 #include <array>
 #include <limits>
@@ -13,11 +14,14 @@ namespace stc {
 
 namespace {
 
+namespace plc = stride::bus::plc;
+using stride::common::anyReal;
 using stride::common::choice;
 using stride::common::duration;
 using stride::common::flag;
 using stride::common::identifier;
 using stride::common::kHourNs;
+using stride::common::positive;
 using stride::common::text;
 using stride::common::whole;
 
@@ -72,6 +76,24 @@ constexpr std::array kTaskParameters = {
     Parameter{"programs", ParameterType::NameList},
 };
 
+constexpr std::array<Choice, 1> kAxisKinds = {{{"virtual", 0}}};
+constexpr std::array kAxisParameters = {
+    identifier("name").needed(),
+    choice("kind", kAxisKinds).needed(),
+    text("sTask"),
+    whole("dwCycle", 1, stride::common::kLargestDword, "µs"),
+    plc::kMovementType,
+    positive("fPositionPeriod", "u"),
+    positive("fSWMaxVelocity", "u/s"),
+    positive("fSWMaxAcceleration", "u/s²"),
+    positive("fSWMaxDeceleration", "u/s²"),
+    flag("bSWLimitEnable"),
+    anyReal("fSWLimitNegative", "u"),
+    anyReal("fSWLimitPositive", "u"),
+    choice("eRampType", plc::kRampTypes).defaultsTo(0),
+    positive("fJerk", "u/s³"),
+};
+
 constexpr std::array<Choice, 3> kKeywordCases = {
     {{"upper", static_cast<int64_t>(KeywordCase::Upper)},
      {"lower", static_cast<int64_t>(KeywordCase::Lower)},
@@ -94,6 +116,7 @@ constexpr SectionSchema kRetain = {"retain", "the retained data", "retain",
 constexpr SectionSchema kFiles = {"files", "the access to files", "files",
                                   false,   kFilesParameters,      {}};
 constexpr SectionSchema kTask = {"task", "a task", "task", true, kTaskParameters, {}};
+constexpr SectionSchema kAxis = {"axis", "an axis", "axis", true, kAxisParameters, {}};
 constexpr std::array<Choice, 4> kSeverities = {
     {{"error", static_cast<int64_t>(Severity::Error)},
      {"warning", static_cast<int64_t>(Severity::Warning)},
@@ -125,9 +148,9 @@ struct DiagnosticSection {
 /// The whole of stride.toml.
 struct TopSection {
   DiagnosticSection diagnostics;
-  std::array<const SectionSchema *, 9> sections = {
-      &kProject, &diagnostics.section, &kImage,        &kRetain, &kFiles, &kFormat,
-      &kTask,    &anyBusSection(),     &anyIoSection()};
+  std::array<const SectionSchema *, 10> sections = {
+      &kProject, &diagnostics.section, &kImage,         &kRetain, &kFiles, &kFormat,
+      &kTask,    &anyBusSection(),     &anyIoSection(), &kAxis};
   SectionSchema top = {"", "stride.toml", "", false, {}, sections};
 };
 

@@ -86,6 +86,8 @@ public:
       checkPrograms();
     for (AxisGroupConfig &group : config_.axisGroups)
       resolveGroup(group);
+    for (AxisConfig &axis : config_.axes)
+      resolveAxis(axis);
     addServiceTask();
   }
 
@@ -201,60 +203,80 @@ private:
     return true;
   }
 
-  void resolveGroup(AxisGroupConfig &group) {
-    TaskConfig *task = nullptr;
-    if (group.task.text.empty()) {
-      if (config_.tasks.size() != 1) {
-        diagnostics_
-            .report(Code::ConfigUnknownTask, group.groupSpan,
-                    fmt::format("axis group `{}` needs `sTask`: there are several tasks",
-                                group.name.text),
-                    "which task serves the drives?")
-            .note("tasks: " + taskList());
-        return;
-      }
-      task = &config_.tasks.front();
-    } else {
+  /// The task of that name; without a name the only one. Null: it has been reported. `what` needs
+  /// it for its `work`.
+  TaskConfig *taskOf(const ConfigName &name, Span section, const std::string &what,
+                     std::string_view work) {
+    if (!name.text.empty()) {
       for (TaskConfig &candidate : config_.tasks)
-        if (equalIgnoringCase(candidate.name.text, group.task.text))
-          task = &candidate;
-      if (task == nullptr) {
-        reportUnknownTask(group.task);
-        return;
-      }
+        if (equalIgnoringCase(candidate.name.text, name.text))
+          return &candidate;
+      reportUnknownTask(name);
+      return nullptr;
     }
+    if (config_.tasks.size() == 1)
+      return &config_.tasks.front();
+    diagnostics_
+        .report(Code::ConfigUnknownTask, section,
+                fmt::format("{} needs `sTask`: there are several tasks", what),
+                fmt::format("which task {}?", work))
+        .note("tasks: " + taskList());
+    return nullptr;
+  }
+
+  /// What `dwCycle` of a task that an event starts must say, and what it must not contradict. The
+  /// task's cycle in seconds; nothing: it has been reported.
+  std::optional<double> cycleOf(const TaskConfig &task, uint32_t cycleUs, Span cycleSpan,
+                                Span section, const std::string &what) {
+    if (task.start == TaskStart::Event || task.start == TaskStart::Status) {
+      if (cycleUs == 0)
+        diagnostics_
+            .report(
+                Code::ConfigMissingKey, section,
+                fmt::format("{} needs `dwCycle`: an event starts task `{}`", what, task.name.text),
+                "how long is a cycle?")
+            .help("add the time between two events in µs, for example `dwCycle = 2000`");
+      return cycleUs * 1e-6;
+    }
+    if (task.intervalNs == 0 || cycleUs == 0 || int64_t{cycleUs} * 1000 == task.intervalNs)
+      return static_cast<double>(task.intervalNs) * 1e-9;
+    diagnostics_
+        .report(Code::ConfigCycleMismatch, cycleSpan,
+                fmt::format("dwCycle is {} µs, but task `{}` runs every {}", cycleUs,
+                            task.name.text, formatInterval(task.intervalNs)),
+                "does not fit the task")
+        .help(task.intervalNs % 1000 == 0
+                  ? fmt::format("write `dwCycle = {}`, or leave it out", task.intervalNs / 1000)
+                  : "leave it out");
+    return std::nullopt;
+  }
+
+  void resolveAxis(AxisConfig &axis) {
+    const std::string what = fmt::format("axis `{}`", axis.name.text);
+    const TaskConfig *task = taskOf(axis.task, axis.section, what, "calls its blocks");
+    if (task == nullptr)
+      return;
+    if (const auto seconds = cycleOf(*task, axis.cycleUs, axis.cycleSpan, axis.section, what))
+      axis.fields.emplace_back("fTaskCycle", fmt::format("{:.9f}", *seconds));
+  }
+
+  void resolveGroup(AxisGroupConfig &group) {
+    const std::string what = fmt::format("axis group `{}`", group.name.text);
+    TaskConfig *task = taskOf(group.task, group.groupSpan, what, "serves the drives");
+    if (task == nullptr)
+      return;
     group.task.text = task->name.text;
     checkSync(group, *task);
-    const bool onEvent = task->start == TaskStart::Event || task->start == TaskStart::Status;
-    if (onEvent) {
-      if (group.cycleUs == 0)
-        diagnostics_
-            .report(Code::ConfigMissingKey, group.groupSpan,
-                    fmt::format("axis group `{}` needs `dwCycle`: an event starts task `{}`",
-                                group.name.text, task->name.text),
-                    "how long is a cycle?")
-            .help("add the time between two events in µs, for example `dwCycle = 2000`");
-      if (isSyncOf(*task, group)) { // from SYNC to SYNC
-        task->intervalNs = int64_t{group.cycleUs} * 1000;
-        onBus_.insert(task);
-      }
-      setTaskCycle(group, group.cycleUs * 1e-6);
+    const auto seconds = cycleOf(*task, group.cycleUs, group.cycleSpan, group.groupSpan, what);
+    if (!seconds)
       return;
+    if (isSyncOf(*task, group)) { // from SYNC to SYNC
+      task->intervalNs = int64_t{group.cycleUs} * 1000;
+      onBus_.insert(task);
     }
-    if (task->intervalNs != 0 && group.cycleUs != 0 &&
-        int64_t{group.cycleUs} * 1000 != task->intervalNs) {
-      diagnostics_
-          .report(Code::ConfigCycleMismatch, group.cycleSpan,
-                  fmt::format("dwCycle is {} µs, but task `{}` runs every {}", group.cycleUs,
-                              task->name.text, formatInterval(task->intervalNs)),
-                  "does not fit the task")
-          .help(task->intervalNs % 1000 == 0
-                    ? fmt::format("write `dwCycle = {}`, or leave it out", task->intervalNs / 1000)
-                    : "leave it out");
-      return;
-    }
-    group.cycleUs = static_cast<uint32_t>(task->intervalNs / 1000);
-    setTaskCycle(group, static_cast<double>(task->intervalNs) * 1e-9);
+    if (task->start != TaskStart::Event && task->start != TaskStart::Status)
+      group.cycleUs = static_cast<uint32_t>(task->intervalNs / 1000);
+    setTaskCycle(group, *seconds);
   }
 
   /// Whoever sends SYNC sets the pace: the task does, or waits for it.
@@ -330,6 +352,8 @@ public:
 
   SyntheticSource write(const ProjectConfig &config) {
     axisGroups(config);
+    for (const AxisConfig &axis : config.axes)
+      variable("axis", axis.name, "SM_DriveBasic.AXIS_REF", axis.fields);
     for (const IoConfig &io : config.ioDevices)
       variable("I/O device", io.name, "IO_DEVICE", {});
     if (!out_.empty()) {

@@ -99,6 +99,10 @@ void configureTests(ProjectConfig &config) {
   }
   for (AxisGroupConfig &group : config.axisGroups) // one task serves all
     group.cycleUs = 0;
+  for (AxisConfig &axis : config.axes) {
+    axis.task = {task.name.text, {}};
+    axis.cycleUs = 0;
+  }
   config.tasks.clear();
   config.tasks.push_back(std::move(task));
 }

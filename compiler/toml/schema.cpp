@@ -193,7 +193,7 @@ private:
     Diagnostic &d = diagnostics_.report(
         Code::ConfigUnknownChoice, value_.span,
         fmt::format("`{}` has no choice \"{}\"", parameter_.name, value_.text), "unknown choice");
-    if (parameter_.choices.size() == 1)
+    if (parameter_.choices.size() == 1 && parameter_.choices[0].name == "error")
       d.help(fmt::format("`{}` is an error, and errors cannot be lowered", parameter_.name));
     std::vector<std::string_view> names;
     for (const Choice &choice : parameter_.choices)

@@ -97,6 +97,9 @@ void reportIgnored(Context &c);
 // flow.cpp: statements; the result says whether what follows can run
 bool block(Context &c, ast::Block statements);
 
+// axes.cpp
+void reportAxes(Context &c, const Library &library);
+
 // suspicious_statements.cpp
 void assignment(Context &c, ast::AssignStmt *stmt);
 void missingCases(Context &c, const ast::CaseStmt *stmt);

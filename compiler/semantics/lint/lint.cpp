@@ -86,6 +86,8 @@ void run(Program &program, Library &library) {
   }
   reportRecursion(c);
   reportIgnored(c);
+  if (library.isUser && c.program.diagnostics.wants(Code::UnservedAxis))
+    reportAxes(c, library);
   if (c.program.diagnostics.wants(Code::UnusedPou))
     reportUnusedPous(c, library);
 }

@@ -156,6 +156,10 @@ TEST_F(Config, ChoicesByNameOrNumber) {
       read(std::string(kGroup) + "wControlType = \"pos,vel->pos,vel\"\niMovementType = 1\n");
   EXPECT_THAT(found(), IsEmpty()) << rendered();
   EXPECT_THAT(config.axisGroups[0].drives[0].fields, Contains(Pair("wControlType", "5")));
+  const ProjectConfig seventh =
+      read(std::string(kGroup) + "wControlType = 7\nwCyclicDataS1 = 1160\n");
+  EXPECT_THAT(seventh.axisGroups[0].drives[0].fields, Contains(Pair("wControlType", "0")));
+  EXPECT_THAT(seventh.axisGroups[0].drives[0].fields, Contains(Pair("byControllerMode", "1")));
 }
 
 TEST_F(Config, MissingParameters) {
