@@ -6,6 +6,7 @@
 #include "compiler/semantics/program.hpp"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stc::cli {
@@ -52,6 +53,13 @@ int debugCommand(const ProjectOptions &options, const std::vector<std::string> &
 
 /// `kind`: warm, cold, origin. Becomes stride-host with the project's file for retained data.
 int resetCommand(const ProjectOptions &options, const std::string &kind);
+
+/// Value of --listen that stands for the socket of the project itself.
+inline constexpr std::string_view kOwnSocket = "project";
+
+/// Becomes stride-host with `ctl` and these arguments. When the first one names no socket, that of
+/// the project of the current folder is meant, or of the project that the first one names.
+int controlCommand(std::vector<std::string> arguments);
 
 /// Becomes stride-host with `command` and these arguments; nothing is built.
 int hostOnlyCommand(const std::string &command, const std::vector<std::string> &hostArguments);

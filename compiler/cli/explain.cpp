@@ -76,6 +76,29 @@ std::optional<MotionError> findMotionError(std::string_view what) {
   return std::nullopt;
 }
 
+/// What stops a running program: SR0001 …
+struct ExceptionText {
+  int number;
+  std::string_view title;
+  std::string_view text;
+};
+constexpr ExceptionText kExceptions[] = {
+#define STRIDE_EXCEPTION(number, name, what, text) {number, what, text},
+#include "runtime/common/exception_codes.def"
+#undef STRIDE_EXCEPTION
+};
+
+std::string exceptionCode(const ExceptionText &exception) {
+  return fmt::format("SR{:04}", exception.number);
+}
+
+const ExceptionText *findException(std::string_view what) {
+  for (const ExceptionText &exception : kExceptions)
+    if (equalIgnoringCase(exceptionCode(exception), what))
+      return &exception;
+  return nullptr;
+}
+
 std::string_view severityText(Severity severity) {
   switch (severity) {
   case Severity::Off:
@@ -105,14 +128,22 @@ int explainCommand(const std::string &what) {
     print(fmt::format("SMC_ERROR {}: {}\n\n{}\n", error->number, error->name, error->text));
     return 0;
   }
-  return showError(Code::UnknownCode,
-                   fmt::format("there is no diagnostic and no SoftMotion error `{}`", what));
+  if (const ExceptionText *exception = findException(what)) {
+    print(fmt::format("{}: {}\nwhen: the program runs\n\n{}\n", exceptionCode(*exception),
+                      exception->title, trim(exception->text)));
+    return 0;
+  }
+  return showError(
+      Code::UnknownCode,
+      fmt::format("there is no diagnostic, no exception and no SoftMotion error `{}`", what));
 }
 
 int explainList() {
   std::string text;
   for (const CodeInfo &info : allCodes())
     text += fmt::format("{} {:<24} {}\n", codeName(info.code), kebabName(info.code), info.title);
+  for (const ExceptionText &exception : kExceptions)
+    text += fmt::format("{} {:<24} {}\n", exceptionCode(exception), "(run time)", exception.title);
   print(text);
   return 0;
 }

@@ -1,7 +1,9 @@
 // The command `stride`.
 
 #include "compiler/cli/command_line.hpp"
+#include "compiler/source/suggest.hpp"
 #include "runtime/common/standard_handles.hpp"
+#include "runtime/common/usage.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -109,14 +111,29 @@ void declarePlot(CLI::App &app, Invocation &call) {
 }
 
 void declareExplain(CLI::App &app, Invocation &call) {
-  CLI::App *explain = app.add_subcommand("explain", "Explain a diagnostic or a SoftMotion error");
-  explain->add_option("CODE", call.code, "SE0203, or a number or name of SMC_ERROR")->type_name("");
+  CLI::App *explain =
+      app.add_subcommand("explain", "Explain a diagnostic, an exception or a SoftMotion error");
+  explain->add_option("CODE", call.code, "SE0203, SR0001, or a number or name of SMC_ERROR")
+      ->type_name("");
   explain->add_flag("--list", call.listCodes, "List all codes");
   explain->callback([&call] {
     if (!call.listCodes && call.code.empty())
       throw CLI::RequiredError("CODE or --list");
     call.exitCode = call.listCodes ? explainList() : explainCommand(call.code);
   });
+}
+
+/// "; did you mean `check`?", or an empty text.
+std::string meantBy(std::string_view word, const std::vector<std::string> &known) {
+  const std::string_view near = nearest(word, {known.begin(), known.end()});
+  return near.empty() ? std::string() : "; did you mean `" + std::string(near) + "`?";
+}
+
+std::vector<std::string> commandNames(const CLI::App &app) {
+  std::vector<std::string> names;
+  for (const CLI::App *command : app.get_subcommands({}))
+    names.push_back(command->get_name());
+  return names;
 }
 
 void declareHelp(CLI::App &app, Invocation &call) {
@@ -134,11 +151,41 @@ void declareHelp(CLI::App &app, Invocation &call) {
     if (call.topic.empty())
       std::fputs(call.overview.c_str(), stdout);
     else if (shown == nullptr)
-      throw CLI::ValidationError("COMMAND", "there is no command `" + call.topic + "`");
+      throw CLI::ValidationError("there is no command `" + call.topic + "`" +
+                                 meantBy(call.topic, commandNames(app)));
     else
       std::fputs(shown->help("stride").c_str(), stdout);
   });
   call.overview = app.help(); // asked while a command is parsed, it would be that command's
+}
+
+std::string whatIsWrong(const CLI::App &app, const CLI::ParseError &error) {
+  using stride::common::UnknownWord;
+  const UnknownWord unknown = stride::common::unknownWord(app, error);
+  const std::string meant = meantBy(unknown.word, unknown.known);
+  switch (unknown.kind) {
+  case UnknownWord::Kind::Command:
+    return "there is no command `" + unknown.word + "`" + meant;
+  case UnknownWord::Kind::Option:
+    return "there is no option `" + unknown.word + "`" + meant;
+  case UnknownWord::Kind::Argument:
+    return "`" + unknown.word + "` was not expected";
+  case UnknownWord::Kind::None:
+    break;
+  }
+  const std::string missing = stride::common::missingCommand(app, error);
+  return missing.empty() ? error.what() : missing;
+}
+
+/// `--listen` alone means the project's own socket: CLI11 would take the project for its value.
+std::vector<std::string> argumentsOf(int argc, char **argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  for (size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i)
+    if (arguments[i] == "--listen" &&
+        (i + 1 == arguments.size() || arguments[i + 1].find(':') == std::string::npos))
+      arguments[i] += '=' + std::string(kOwnSocket);
+  std::reverse(arguments.begin(), arguments.end()); // as CLI11 wants them
+  return arguments;
 }
 
 int run(int argc, char **argv) {
@@ -153,14 +200,12 @@ int run(int argc, char **argv) {
         declarePlot, declareCams, declareExplain, declareHelp})
     declare(app, call);
   try {
-    app.parse(argc, argv);
+    app.parse(argumentsOf(argc, argv));
   } catch (const CLI::Success &success) { // --help, --version
     return app.exit(success);
   } catch (const CLI::ParseError &error) {
-    std::fprintf(stderr, "stride: %s\nTry: stride%s --help\n", error.what(),
-                 app.get_subcommands().empty()
-                     ? ""
-                     : (" " + app.get_subcommands().front()->get_name()).c_str());
+    std::fprintf(stderr, "stride: %s\nTry: %s --help\n", whatIsWrong(app, error).c_str(),
+                 stride::common::commandPath(app, "stride").c_str());
     return kUsageError;
   }
   if (app.get_subcommands().empty())

@@ -6,6 +6,7 @@
 #include "compiler/project/installation.hpp"
 #include "compiler/project/library_index.hpp"
 #include "compiler/project/project.hpp"
+#include "compiler/project/run_socket.hpp"
 #include "compiler/source/render.hpp"
 
 #include <algorithm>
@@ -88,10 +89,10 @@ bool addPath(std::vector<std::string> &arguments, const std::string &option,
   return true;
 }
 
-// Replaces this program by another one; returns only when that fails. `remedy`: what to do then.
+// Replaces this program by another one; returns only when that fails. The first of the arguments is
+// the name by which it knows itself. `remedy`: what to do then.
 int become(const std::string &program, std::vector<std::string> arguments, const Output &output,
            std::string_view remedy = {}) {
-  arguments.insert(arguments.begin(), program);
   std::vector<char *> pointers;
   for (std::string &argument : arguments)
     pointers.push_back(argument.data());
@@ -115,7 +116,30 @@ void holdSignalsOfRuns() {
 int becomeHost(std::vector<std::string> arguments, const Output &output) {
   std::string missing;
   const std::optional<Installation> installation = findInstallation(missing);
-  return become(installation ? installation->host.string() : missing, std::move(arguments), output);
+  const std::string program = installation ? installation->host.string() : missing;
+  arguments.insert(arguments.begin(), "stride"); // whose part it is, for its messages
+  return become(program, std::move(arguments), output);
+}
+
+// Puts the project's own socket where it is meant. False: there can be none, which is shown.
+bool fillInSocket(std::vector<std::string> &arguments, const ProjectOptions &options) {
+  for (size_t i = 0; i + 1 < arguments.size(); ++i) {
+    if (arguments[i] != "--listen" || arguments[i + 1] != kOwnSocket)
+      continue;
+    std::string problem;
+    const std::optional<std::filesystem::path> socket =
+        makeRunSocket(projectPlace(options.path), problem);
+    if (!socket) {
+      showError(Code::CannotWrite,
+                fmt::format("there is no folder for the project's socket: {}; name a place: "
+                            "--listen unix:PATH",
+                            problem),
+                options.output);
+      return false;
+    }
+    arguments[i + 1] = "unix:" + socket->string();
+  }
+  return true;
 }
 
 } // namespace
@@ -158,6 +182,35 @@ int hostOnlyCommand(const std::string &command, const std::vector<std::string> &
   return becomeHost(std::move(arguments), {});
 }
 
+int controlCommand(std::vector<std::string> arguments) {
+  const auto isHelp = [](const std::string &word) { return word == "--help" || word == "-h"; };
+  if (arguments.empty() || std::any_of(arguments.begin(), arguments.end(), isHelp) ||
+      arguments.front().find(':') != std::string::npos)
+    return hostOnlyCommand("ctl",
+                           arguments.empty() ? std::vector<std::string>{"--help"} : arguments);
+  std::filesystem::path project;
+  if (const std::string &first = arguments.front(); first == "." || first == ".." ||
+                                                    first.find('/') != std::string::npos ||
+                                                    first.ends_with(".st")) {
+    project = first;
+    arguments.erase(arguments.begin());
+  }
+  const std::filesystem::path place = projectPlace(project);
+  if (place.empty())
+    return showError(Code::PathNotFound,
+                     fmt::format("there is no file or folder `{}`", project.string()));
+  const std::optional<std::filesystem::path> socket = findRunSocket(place);
+  if (!socket) {
+    std::fprintf(stderr,
+                 "stride: no run of `%s` listens: start it with `stride run --listen`, or name its "
+                 "socket: stride ctl unix:PATH\n",
+                 visible(place.string()).c_str());
+    return 1;
+  }
+  arguments.insert(arguments.begin(), "unix:" + socket->string());
+  return hostOnlyCommand("ctl", arguments);
+}
+
 int hostCommand(const ProjectOptions &options, const std::string &command,
                 const std::vector<std::string> &hostArguments) {
   int exitCode = 0;
@@ -172,6 +225,8 @@ int hostCommand(const ProjectOptions &options, const std::string &command,
   if (isRun && !result->latest.empty())
     arguments.insert(arguments.end(), {"--latest", result->latest.string()});
   arguments.insert(arguments.end(), hostArguments.begin(), hostArguments.end());
+  if (!fillInSocket(arguments, options))
+    return 1;
   if ((isRun &&
        !addPath(arguments, "--retain", result->retainFile, result->folder, options.output)) ||
       ((isRun || command == "sim") &&
@@ -198,6 +253,7 @@ int debugCommand(const ProjectOptions &options, const std::vector<std::string> &
   if (!installation)
     return showError(Code::ToolchainMissing, missing, options.output);
   std::vector<std::string> arguments = {
+      "gdb",
       "-q",
       "-iex",
       "set auto-load local-gdbinit off", // of the folder, which may be the project's
@@ -210,7 +266,7 @@ int debugCommand(const ProjectOptions &options, const std::vector<std::string> &
       "-ex",
       "st start"};
   if (session.batch)
-    arguments.insert(arguments.begin(), "-batch");
+    arguments.insert(arguments.begin() + 1, "-batch");
   for (const std::string &script : session.scripts)
     arguments.insert(arguments.end(), {"-x", script});
   arguments.insert(arguments.end(),

@@ -72,7 +72,9 @@ void addRunOptions(const HostOptions &host) {
   host.pass("--retain",
             "File for RETAIN and PERSISTENT variables (default: see [retain] of stride.toml)",
             "FILE");
-  host.pass("--listen", "Socket for `stride ctl` and others: unix:PATH", "ADDRESS");
+  host.pass("--listen",
+            "Socket for `stride ctl` and others: unix:PATH, or alone: the project's own",
+            "[ADDRESS]");
   host.pass("--on-fault", "What happens after an exception: stop (default), restart", "WHAT");
   host.passFlag("--accept-losses", "An online change (SIGHUP) may lose values of variables");
   host.pass("--core", "Processor of the tasks that choose none (default: the last one)", "N");
@@ -134,9 +136,9 @@ void declareReset(CLI::App &app, Invocation &call) {
 
 void declareCtl(CLI::App &app, Invocation &call) {
   CLI::App *ctl = app.add_subcommand("ctl", "Read, write, force in a running application");
-  ctl->prefix_command(); // stride-call.host knows what comes after it
+  ctl->prefix_command(); // stride-host knows what comes after it
   ctl->set_help_flag();
-  ctl->callback([ctl, &call] { call.exitCode = hostOnlyCommand("ctl", ctl->remaining()); });
+  ctl->callback([ctl, &call] { call.exitCode = controlCommand(ctl->remaining()); });
 }
 
 } // namespace

@@ -319,8 +319,8 @@ private:
   bool compile(const std::vector<Unit> &units) {
     std::vector<Job> jobs;
     for (const Unit &unit : units)
-      jobs.push_back(
-          {compileCommand(unit), fs::path(unit.file->path).stem().string(), sources_.string()});
+      jobs.push_back({compileCommand(unit), fs::path(unit.file->path).stem().string(),
+                      sources_.string(), work_->path().string()});
     const std::vector<JobResult> results = runJobs(
         jobs, [&](size_t job) { progress("compiling " + jobs[job].title, job, jobs.size() + 1); });
     bool good = true;
@@ -337,6 +337,7 @@ private:
     const Installation &installation = toolchain_.installation;
     Job job;
     job.folder = work_->path().string();
+    job.temporary = job.folder;
     job.command = {toolchain_.compiler.string(),
                    options_.isStatic ? "-static" : "-shared",
                    "-o",
@@ -379,14 +380,13 @@ private:
           .help("build again");
       return true;
     }
-    for (const int reason : {ENOSPC, EDQUOT, EFBIG, EROFS})
+    for (const int reason : {ENOSPC, EDQUOT, EFBIG, EROFS, EACCES, EPERM})
       if (const char *text = ::strerrordesc_np(reason);
           result.output.find(text) != std::string::npos) {
         diagnostics_
             .report(Code::CannotWrite, {},
                     fmt::format("the C++ compiler cannot write its results: {}", text))
-            .help(fmt::format("it writes to `{}` and to the folder for temporary files, TMPDIR",
-                              work_->path().parent_path().string()));
+            .help(fmt::format("it writes to `{}`", work_->path().parent_path().string()));
         return true;
       }
     return false;

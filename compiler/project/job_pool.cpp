@@ -25,20 +25,25 @@ struct Running {
   int output; // read end of its pipe
 };
 
-/// The environment, but for the language: messages are looked at, and shown in reports of defects.
+/// The environment, but for the language: messages are looked at, and shown in reports of defects;
+/// and, if a folder is given, but for where temporary files go.
 class JobEnvironment {
 public:
-  JobEnvironment() {
+  explicit JobEnvironment(const std::string &temporary) : temporary_("TMPDIR=" + temporary) {
     for (char **variable = environ; *variable != nullptr; ++variable)
-      if (!std::string_view(*variable).starts_with("LC_ALL="))
+      if (!std::string_view(*variable).starts_with("LC_ALL=") &&
+          (temporary.empty() || !std::string_view(*variable).starts_with("TMPDIR=")))
         variables_.push_back(*variable);
     variables_.push_back(language_.data());
+    if (!temporary.empty())
+      variables_.push_back(temporary_.data());
     variables_.push_back(nullptr);
   }
   [[nodiscard]] char *const *get() const { return variables_.data(); }
 
 private:
   std::string language_ = "LC_ALL=C";
+  std::string temporary_;
   std::vector<char *> variables_;
 };
 
@@ -60,7 +65,7 @@ bool start(const Job &job, Running &running, JobResult &result) {
   for (const std::string &argument : job.command)
     arguments.push_back(const_cast<char *>(argument.c_str())); // NOLINT: the C interface
   arguments.push_back(nullptr);
-  const JobEnvironment environment;
+  const JobEnvironment environment(job.temporary);
   const int error = ::posix_spawnp(&running.pid, arguments[0], &actions, nullptr, arguments.data(),
                                    environment.get());
   posix_spawn_file_actions_destroy(&actions);

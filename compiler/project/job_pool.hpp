@@ -13,6 +13,7 @@ struct Job {
   std::vector<std::string> command; ///< program (looked up in PATH) and arguments
   std::string title;                ///< for progress
   std::string folder = {};          ///< where it runs; empty: in ours
+  std::string temporary = {};       ///< for its temporary files; empty: as we have it
 };
 
 /// How a command ended.

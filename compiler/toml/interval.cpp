@@ -36,13 +36,12 @@ std::string lowered(std::string_view text) {
 std::optional<int64_t> parseInterval(std::string_view text) {
   const std::string lower = lowered(text);
   std::string_view rest = lower;
-  bool prefixed = false;
   for (const std::string_view prefix : {"ltime#", "time#", "lt#", "t#"})
-    if (!prefixed && rest.starts_with(prefix)) {
+    if (rest.starts_with(prefix)) {
       rest.remove_prefix(prefix.size());
-      prefixed = true;
+      break;
     }
-  if (!prefixed || rest.empty())
+  if (rest.empty())
     return std::nullopt;
   Wide total = 0;
   size_t next = 0; // units must come in descending order

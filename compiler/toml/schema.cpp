@@ -48,7 +48,7 @@ std::string_view expectation(ParameterType type) {
   case ParameterType::Real:
     return "a number";
   case ParameterType::Interval:
-    return "a duration in quotes, such as \"T#3ms\"";
+    return "a duration in quotes, such as \"3ms\" or \"T#3ms\"";
   case ParameterType::NameList:
     return "a list of names, such as [\"PLC_PRG\"]";
   }
@@ -210,7 +210,7 @@ private:
       diagnostics_
           .report(Code::ConfigBadInterval, value_.span,
                   fmt::format("\"{}\" is not a duration", value_.text), "cannot be read")
-          .help("write it as a TIME literal: \"T#3ms\", \"T#1s500ms\", \"LT#250us\"");
+          .help("write it as \"3ms\", \"1s500ms\", \"250us\", or as a TIME literal: \"T#3ms\"");
       return false;
     }
     if (const auto value = static_cast<double>(*interval);

@@ -69,32 +69,12 @@ const char *describe(ExceptionCode code) noexcept {
   switch (code) {
   case ExceptionCode::None:
     return "no exception";
-  case ExceptionCode::DivisionByZero:
-    return "division by zero";
-  case ExceptionCode::IndexOutOfRange:
-    return "array index out of range";
-  case ExceptionCode::NullPointer:
-    return "use of a null pointer or reference";
-  case ExceptionCode::UnboundInOut:
-    return "use of a VAR_IN_OUT that no call has bound";
-  case ExceptionCode::RangeViolation:
-    return "value outside its subrange type";
-  case ExceptionCode::EndlessLoop:
-    return "endless loop";
-  case ExceptionCode::StackOverflow:
-    return "stack overflow (calls nested too deeply)";
-  case ExceptionCode::AccessViolation:
-    return "access through an invalid pointer";
-  case ExceptionCode::OutOfMemory:
-    return "out of memory";
-  case ExceptionCode::AbstractCall:
-    return "call of a method without an implementation";
-  case ExceptionCode::User:
-    return "exception raised by the program";
-  case ExceptionCode::Internal:
-    return "internal error";
-  case ExceptionCode::Watchdog:
-    return "cycle longer than the watchdog allows";
+#define STRIDE_EXCEPTION(number, name, what, text)                                                 \
+  case ExceptionCode::name:                                                                        \
+    static_assert(static_cast<uint32_t>(ExceptionCode::name) == (number));                         \
+    return what;
+#include "runtime/common/exception_codes.def"
+#undef STRIDE_EXCEPTION
   }
   return "unknown exception";
 }

@@ -141,6 +141,8 @@ public:
                       : motionErrorText(axis.wFBErrorID)));
       if (axis.wErrorID != 0)
         lines.back() += fmt::format(", error {} of the drive", axis.wErrorID);
+      if (!stopped_[i] && axis.wFBErrorID != 0)
+        lines.back() += fmt::format("; stride explain {}", axis.wFBErrorID);
     }
   }
   bool atRest() const override { return group_.atRest(); }

@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -47,6 +48,15 @@ json namedLiterals(const std::vector<std::string> &texts) {
   for (const std::string &text : texts)
     values.push_back(namedLiteral(text));
   return values;
+}
+
+/// A number of seconds, or a duration.
+double secondsOf(const std::string &text) {
+  double seconds = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seconds);
+  if (error == std::errc() && end == text.data() + text.size())
+    return seconds;
+  return static_cast<double>(parseDuration(text, false)) * 1e-9;
 }
 
 std::string literalOf(const json &value) {
@@ -116,9 +126,10 @@ struct Control::Impl {
   std::string application;
   std::vector<std::string> texts;
   std::string text;
-  double period = 0.5;
+  std::string period = "0.5";
   uint64_t count = 0;
   bool all = false;
+  bool acceptLosses = false;
   std::string trigger;
   std::string edge = "rising";
   std::string threshold;
@@ -177,7 +188,7 @@ struct Control::Impl {
 
 void Control::Impl::watch(SocketClient &client) const {
   json question = withNames("subscribe");
-  question["period"] = period;
+  question["period"] = secondsOf(period);
   question["literals"] = true;
   const json subscription = client.ask(question);
   std::string header = "t";
@@ -209,8 +220,12 @@ void Control::Impl::recordRows(SocketClient &client) const {
       question["trigger"]["threshold"] = threshold;
   }
   client.ask(question);
-  while (client.ask(request("record_state")).at("state") != "done")
+  json state = client.ask(request("record_state"));
+  for (; state.at("state") != "done"; state = client.ask(request("record_state")))
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  if (state.contains("ended_by"))
+    put(stderr, "warning: the recording ended at an online change: {}\n",
+        state.at("ended_by").get<std::string>());
   std::ofstream file;
   if (!out.empty() && out != "-") {
     file.open(out, std::ios::binary);
@@ -274,7 +289,9 @@ void Control::Impl::declareRecordings(CLI::App &command) {
   CLI::App *lines = add(command, "watch", "Show values again and again",
                         [this](SocketClient &client) { watch(client); });
   names(lines, "NAME...");
-  lines->add_option("--period", period, "Seconds between two lines")->capture_default_str();
+  lines->add_option("--period", period, "Between two lines: 200ms, T#1s, or seconds as a number")
+      ->capture_default_str()
+      ->type_name("TIME");
   lines->add_option("--count", count, "Lines; until Ctrl-C without it");
   CLI::App *record = add(command, "record", "Record values in every cycle, as CSV",
                          [this](SocketClient &client) { recordRows(client); });
@@ -302,14 +319,22 @@ void Control::Impl::declareRun(CLI::App &command) {
       put(stdout, "{}\n", state.at("fault").get<std::string>());
   });
   add(command, "change", "Take new builds of the applications over (online change)",
-      [this](SocketClient &client) { showChange(client.ask(request("online_change"))); });
+      [this](SocketClient &client) {
+        json question = request("online_change");
+        if (acceptLosses)
+          question["accept_losses"] = true;
+        showChange(client.ask(question));
+      })
+      ->add_flag("--accept-losses", acceptLosses, "Also when values of variables get lost");
   add(command, "stop", "End the run",
       [this](SocketClient &client) { client.ask(request("stop")); });
 }
 
 void Control::declare(CLI::App &command) {
-  command.add_option("ADDRESS", impl_->address, "What the run was given as --listen: unix:PATH")
-      ->required()
+  command
+      .add_option("ADDRESS", impl_->address,
+                  "What the run was given as --listen: unix:PATH. `stride ctl` also takes a "
+                  "project's folder; without both the project of the current folder is meant")
       ->type_name("unix:PATH");
   command.add_option("--app", impl_->application, "Which application (default: the first one)")
       ->type_name("NAME");
@@ -320,6 +345,8 @@ void Control::declare(CLI::App &command) {
 }
 
 int Control::run() {
+  if (impl_->address.empty())
+    throw app::Error("name the socket that the run listens at: unix:PATH");
   SocketClient client(impl_->address);
   impl_->action(client);
   return kExitOk;

@@ -1,7 +1,9 @@
 #include "runtime/host/host_main.hpp"
 
 #include "runtime/app/error.hpp"
+#include "runtime/app/nearest.hpp"
 #include "runtime/common/standard_handles.hpp"
+#include "runtime/common/usage.hpp"
 #include "runtime/host/axis_hooks.hpp"
 #include "runtime/host/control.hpp"
 #include "runtime/host/exit_code.hpp"
@@ -356,10 +358,32 @@ int conclude(Output::Wait wait, const std::function<int(Messages &)> &work) {
   return !messages.finish() && code == kExitOk ? kExitIncomplete : code;
 }
 
+std::string whatIsWrong(const CLI::App &app, const CLI::ParseError &error) {
+  using common::UnknownWord;
+  const UnknownWord unknown = common::unknownWord(app, error);
+  const std::string meant = app::didYouMean(unknown.word, unknown.known);
+  switch (unknown.kind) {
+  case UnknownWord::Kind::Command:
+    return fmt::format("there is no command '{}'{}", unknown.word, meant);
+  case UnknownWord::Kind::Option:
+    return fmt::format("there is no option '{}'{}", unknown.word, meant);
+  case UnknownWord::Kind::Argument:
+    return fmt::format("'{}' was not expected", unknown.word);
+  case UnknownWord::Kind::None:
+    break;
+  }
+  const std::string missing = common::missingCommand(app, error);
+  return missing.empty() ? error.what() : missing;
+}
+
 int command(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
   CLI::App cli("Runs applications that 'stride build' has made.");
   cli.require_subcommand(1);
   cli.footer(kExitCodes);
+  // `stride`, when that has become this program.
+  const std::string program =
+      argc > 0 ? std::filesystem::path(argv[0]).filename().string() : "stride-host";
+  cli.name(program);
   SimTexts texts;
   CLI::App *sim =
       cli.add_subcommand("sim", "Run in virtual time: deterministic, as fast as possible");
@@ -383,16 +407,8 @@ int command(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
   } catch (const CLI::CallForHelp &help) {
     return cli.exit(help);
   } catch (const CLI::ParseError &error) {
-    const std::string program = builtIn != nullptr && argc > 0
-                                    ? std::filesystem::path(argv[0]).filename().string()
-                                    : "stride-host";
     Messages(Output::Wait::Always)
-        .say({"error: ", error.what(), "\n  '", program, " ",
-              ctl->parsed()     ? "ctl"
-              : run->parsed()   ? "run"
-              : test->parsed()  ? "test"
-              : reset->parsed() ? "reset"
-                                : "sim",
+        .say({"error: ", whatIsWrong(cli, error), "\n  '", common::commandPath(cli, program),
               " --help' lists the options"});
     return kExitBadInput;
   }

@@ -9,6 +9,7 @@ namespace stride::host {
 namespace {
 
 constexpr size_t kCapacity = size_t{256} << 10;
+constexpr std::string_view kClearLine = "\r\033[K";
 
 uint64_t linesOf(std::string_view text) {
   return static_cast<uint64_t>(std::count(text.begin(), text.end(), '\n'));
@@ -26,6 +27,7 @@ Messages::Messages(Output::Wait wait, int handle) : output_(handle, kCapacity, w
 
 void Messages::say(std::initializer_list<std::string_view> parts) noexcept {
   const std::lock_guard lock(mutex_);
+  hideStatus();
   tellLosses();
   size_t size = 1;
   uint64_t lines = 0;
@@ -43,6 +45,21 @@ void Messages::say(std::initializer_list<std::string_view> parts) noexcept {
     output_.append(part);
   if (!ended)
     output_.append("\n");
+  push();
+}
+
+/// Whatever is said next begins where it has stood.
+void Messages::hideStatus() noexcept {
+  if (status_)
+    output_.appendControls(kClearLine);
+  status_ = false;
+}
+
+void Messages::showStatus(std::string_view text) noexcept {
+  const std::lock_guard lock(mutex_);
+  hideStatus();
+  if (lost_ == 0 && !text.empty())
+    status_ = output_.append(text);
   push();
 }
 

@@ -24,6 +24,9 @@ public:
   void say(std::string_view text) noexcept { say({text}); }
   /// As it is, for a line that is shown again and again; it counts as no message.
   void show(std::string_view text) noexcept;
+  /// A line that stays below the messages until the next one takes its place; empty: none any more.
+  /// For terminals only.
+  void showStatus(std::string_view text) noexcept;
   /// Every now and then: tries again what waits for its reader.
   void lookAfter() noexcept;
   /// At the end, when nothing moves any more: waits for a reader who reads. False: there are lines
@@ -31,6 +34,7 @@ public:
   bool finish() noexcept;
 
 private:
+  void hideStatus() noexcept;
   void tellLosses() noexcept;
   void push() noexcept;
 
@@ -39,6 +43,7 @@ private:
   uint64_t lost_ = 0; ///< Lines, since that was said.
   int reason_ = 0;    ///< errno; 0: nobody has read them.
   bool cutOff_ = false;
+  bool status_ = false; ///< There is a status line.
 };
 
 } // namespace stride::host

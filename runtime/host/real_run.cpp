@@ -4,6 +4,7 @@
 #include "runtime/host/application_options.hpp"
 #include "runtime/host/session.hpp"
 #include "runtime/host/statistics_text.hpp"
+#include "runtime/host/status_line.hpp"
 #include "runtime/monitor/socket_server.hpp"
 #include "runtime/task/realtime.hpp"
 
@@ -21,6 +22,8 @@
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include <unistd.h>
 
 namespace stride::host {
 
@@ -40,12 +43,19 @@ struct Slot {
   bool good = true;     ///< How the last session has ended.
 };
 
+/// Who waits for an online change.
+struct AskedChange {
+  monitor::Service::Ticket who;
+  bool acceptLosses = false; ///< Also when values are lost.
+};
+
 class Run {
 public:
   Run(std::vector<std::unique_ptr<app::Application>> applications, const RunOptions &options,
       Messages &messages)
       : options_(options), messages_(messages), change_(messages, "the online change"),
-        monitor_(messages, "the monitor"), ending_(messages, "the end of the run", ""),
+        monitor_(messages, "the monitor"), showing_(messages, "the status line"),
+        ending_(messages, "the end of the run", ""), status_(messages, wantsStatus(options)),
         report_(task::prepareRealtime()) {
     realOptions_.fifo = report_.fifo;
     realOptions_.turns = options.turns || !options.record.empty() || !report_.fifo;
@@ -98,7 +108,10 @@ public:
         break;
       serve(number);
       lookAfter();
+      if (const int64_t now = task::monotonicNs(); status_.due(now))
+        showing_([&] { status_.show(now, namedTasks()); });
     }
+    status_.clear();
     return end();
   }
 
@@ -109,10 +122,15 @@ private:
       stopAsked_.store(true);
       return nlohmann::json::object();
     });
-    listener_->service().addLateOperation("online_change", [this](monitor::Service::Ticket who) {
-      const std::lock_guard lock(askedMutex_);
-      asked_.push_back(std::move(who));
-    });
+    listener_->service().addLateOperation(
+        "online_change", [this](monitor::Service::Ticket who, const nlohmann::json &request) {
+          const auto accept = request.find("accept_losses");
+          const bool isGiven = accept != request.end();
+          if (isGiven && !accept->is_boolean())
+            throw monitor::ServiceError{"bad_request", "'accept_losses' is true or false"};
+          const std::lock_guard lock(askedMutex_);
+          asked_.push_back({std::move(who), isGiven && accept->get<bool>()});
+        });
   }
   /// What others have asked for, by a signal or through the monitor.
   void serve(int signal) noexcept {
@@ -121,11 +139,12 @@ private:
         if (slot.session)
           slot.session->showStatistics();
     if (signal == SIGHUP)
-      change_([this] { static_cast<void>(changeAll()); });
-    for (const monitor::Service::Ticket &who : takeAsked())
-      if (!change_([&] { listener_->service().answerLate(who, changeAll()); }))
+      change_([this] { static_cast<void>(changeAll(false)); });
+    for (const AskedChange &asked : takeAsked())
+      if (!change_(
+              [&] { listener_->service().answerLate(asked.who, changeAll(asked.acceptLosses)); }))
         monitor_([&] {
-          listener_->service().refuseLate(who, {"refused", "the online change has failed"});
+          listener_->service().refuseLate(asked.who, {"refused", "the online change has failed"});
         });
   }
   /// Also while so many other signals come that they are never all taken.
@@ -138,8 +157,8 @@ private:
 
   ExitCode end() noexcept {
     monitor_([this] {
-      for (const monitor::Service::Ticket &who : takeAsked())
-        listener_->service().refuseLate(who, {"gone", "the run is ending"});
+      for (const AskedChange &asked : takeAsked())
+        listener_->service().refuseLate(asked.who, {"gone", "the run is ending"});
     });
     bool good = true;
     for (Slot &slot : slots_) {
@@ -181,7 +200,7 @@ private:
   }
 
   /// By application: whether it was done, what there is to say, the pause.
-  nlohmann::json changeAll() {
+  nlohmann::json changeAll(bool acceptLosses) {
     nlohmann::json results = nlohmann::json::array();
     for (Slot &slot : slots_) {
       if (!slot.session)
@@ -192,7 +211,7 @@ private:
       else if (slot.path.empty())
         result.report = {"error: no online change: the application is linked into the program"};
       else
-        result = slot.session->change(slot.path);
+        result = slot.session->change(slot.path, acceptLosses);
       results.push_back({{"name", slot.session->name()},
                          {"result", result.done ? "done" : "refused"},
                          {"report", result.report},
@@ -200,17 +219,27 @@ private:
     }
     return {{"applications", std::move(results)}};
   }
-  std::vector<monitor::Service::Ticket> takeAsked() noexcept {
+  std::vector<AskedChange> takeAsked() noexcept {
     const std::lock_guard lock(askedMutex_);
     return std::exchange(asked_, {});
   }
 
-  void writeStatistics() {
+  std::vector<NamedTasks> namedTasks() const {
     std::vector<NamedTasks> all;
     for (const Slot &slot : slots_)
       if (slot.session)
         all.push_back({slot.session->name(), &slot.session->tasks()});
-    const std::string text = statisticsJson(all);
+    return all;
+  }
+  /// Unless rows of a trace come to the same terminal.
+  static bool wantsStatus(const RunOptions &options) {
+    const bool rowsShown = !options.trace.empty() && (options.out.empty() || options.out == "-") &&
+                           ::isatty(STDOUT_FILENO) != 0;
+    return !options.quiet && !rowsShown;
+  }
+
+  void writeStatistics() {
+    const std::string text = statisticsJson(namedTasks());
     Output output(options_.statistics, text.size(), Output::Wait::Never);
     output.append(text);
     if (!output.finish())
@@ -256,7 +285,9 @@ private:
   Messages &messages_;
   Aside change_;
   Aside monitor_;
+  Aside showing_;
   Aside ending_;
+  StatusLine status_;
   bool complete_ = true; ///< All output that was asked for is there.
   task::RealtimeReport report_;
   task::NoDeepSleep awake_;
@@ -265,7 +296,7 @@ private:
   std::vector<Slot> slots_;
   std::atomic<bool> stopAsked_{false};
   std::mutex askedMutex_;
-  std::vector<monitor::Service::Ticket> asked_;     ///< Who waits for an online change.
+  std::vector<AskedChange> asked_;
   std::unique_ptr<monitor::SocketServer> listener_; // ends before what it serves
 };
 

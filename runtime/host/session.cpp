@@ -122,7 +122,7 @@ void Session::lookAfter() noexcept {
   });
 }
 
-ChangeResult Session::change(const std::string &path) {
+ChangeResult Session::change(const std::string &path, bool acceptLosses) {
   ChangeResult result;
   const Tell tell = [&](const std::string &line) {
     say(line);
@@ -139,7 +139,7 @@ ChangeResult Session::change(const std::string &path) {
   try {
     std::optional<OnlineChange> change;
     onLowStack([&] { change.emplace(instance_, path); });
-    if (isWelcome(*change, tell))
+    if (isWelcome(*change, acceptLosses || options_->acceptLosses, tell))
       takeOver(*change, result, tell);
   } catch (const std::bad_alloc &) {
     failed("there is not enough memory");
@@ -180,6 +180,8 @@ void Session::takeOver(OnlineChange &change, ChangeResult &result, const Tell &t
     });
   });
   lookAfter();
+  if (result.done && served)
+    served_->finishChange(*served);
   if (result.done)
     instance_.renewSymbols();
   for (const std::string &line : change.atNextStart())
@@ -196,13 +198,13 @@ void Session::takeOver(OnlineChange &change, ChangeResult &result, const Tell &t
                    : "error: online change given up; the old build goes on");
 }
 
-bool Session::isWelcome(const OnlineChange &change, const Tell &tell) const {
+bool Session::isWelcome(const OnlineChange &change, bool acceptLosses, const Tell &tell) {
   switch (change.verdict()) {
   case app::Verdict::Silent:
     return true;
   case app::Verdict::Losses:
     tell("note: online change with losses\n" + change.report(false));
-    if (options_->acceptLosses)
+    if (acceptLosses)
       return true;
     tell("error: online change refused: values would be lost; --accept-losses allows that");
     return false;

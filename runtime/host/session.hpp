@@ -48,8 +48,9 @@ public:
   /// Every now and then: what the cycles leave to others.
   void lookAfter() noexcept;
   bool failed() noexcept { return instance_.tasks().failed(); }
-  /// The application in this file takes over, or it is said why not.
-  ChangeResult change(const std::string &path);
+  /// The application in this file takes over, or it is said why not. `acceptLosses`: also when
+  /// values are lost, as the run's own option allows.
+  ChangeResult change(const std::string &path, bool acceptLosses);
   /// Stops and says what there is to say.
   Ending finish() noexcept;
   std::unique_ptr<app::Application> release() { return instance_.release(); }
@@ -63,7 +64,7 @@ private:
 
   void say(std::string_view line) noexcept;
   void sayFault(const task::Fault &fault) noexcept;
-  bool isWelcome(const OnlineChange &change, const Tell &tell) const;
+  static bool isWelcome(const OnlineChange &change, bool acceptLosses, const Tell &tell);
   void takeOver(OnlineChange &change, ChangeResult &result, const Tell &tell);
   void finishOutputs(Ending &ending, const std::optional<task::Fault> &fault) noexcept;
   std::optional<task::Fault> exitInstances();

@@ -31,14 +31,14 @@ std::optional<app::Comparison> signalOf(const app::SymbolTable &symbols,
 } // namespace
 
 Recorder::Recorder(const app::SymbolTable &symbols, const RecorderSettings &settings)
-    : columns_(symbols, settings.names), depth_(settings.rows), behind_(settings.rows),
-      signal_(signalOf(symbols, settings.trigger)) {
-  if (columns_.count() == 0)
+    : columns_(std::in_place, symbols, settings.names), trigger_(settings.trigger),
+      depth_(settings.rows), behind_(settings.rows), signal_(signalOf(symbols, settings.trigger)) {
+  if (columns_->count() == 0)
     throw app::Error("a recording needs at least one variable");
-  if (depth_ == 0 || depth_ > kMostBytes / columns_.rowSize())
+  if (depth_ == 0 || depth_ > kMostBytes / columns_->rowSize())
     throw app::Error(fmt::format("a recording of {} rows is not possible; {} variables leave room "
                                  "for 1 to {}",
-                                 depth_, columns_.count(), kMostBytes / columns_.rowSize()));
+                                 depth_, columns_->count(), kMostBytes / columns_->rowSize()));
   if (!(settings.before >= 0.0 && settings.before <= 1.0))
     throw app::Error("the share before the trigger is a number from 0 to 1");
   if (signal_) {
@@ -46,7 +46,7 @@ Recorder::Recorder(const app::SymbolTable &symbols, const RecorderSettings &sett
     behind_ = std::max<size_t>(depth_ - before, 1); // the trigger's own row
     edge_ = settings.trigger->edge;
   }
-  memory_.resize(depth_ * columns_.rowSize());
+  memory_.resize(depth_ * columns_->rowSize());
 }
 
 bool Recorder::triggers(std::byte *state) noexcept {
@@ -78,7 +78,7 @@ void Recorder::sample(int64_t timeNs, std::byte *state) noexcept {
     return;
   }
   const uint64_t number = taken_.load(std::memory_order_relaxed);
-  columns_.sample(timeNs, state, memory_.data() + number % depth_ * columns_.rowSize());
+  columns_->sample(timeNs, state, memory_.data() + number % depth_ * columns_->rowSize());
   taken_.store(number + 1, std::memory_order_relaxed);
   if (before == State::Armed && triggers(state)) {
     triggered_ = true;
@@ -105,9 +105,41 @@ std::optional<size_t> Recorder::triggerRow() const noexcept {
   return static_cast<size_t>(triggerAt_ - firstRow());
 }
 
+Recorder::Carry Recorder::in(const app::SymbolTable &symbols) const {
+  return {columns_->in(symbols), signalOf(symbols, trigger_)};
+}
+
+void Recorder::carryOver(Carry &carry) noexcept {
+  std::swap(*columns_, carry.columns_);
+  signal_.swap(carry.signal_);
+}
+
+void Recorder::detach(std::string reason) {
+  if (detached_)
+    return;
+  if (state() != State::Done)
+    endedBy_ = std::move(reason);
+  finish();
+  header_ = columns_->header();
+  lines_.resize(rows());
+  for (size_t row = 0; row < lines_.size(); ++row)
+    appendRow(row, lines_[row]);
+  detached_ = true;
+  columns_.reset();
+  signal_.reset();
+  memory_ = {};
+}
+
 void Recorder::appendLine(size_t row, std::string &out) const {
+  if (detached_)
+    out += lines_[row];
+  else
+    appendRow(row, out);
+}
+
+void Recorder::appendRow(size_t row, std::string &out) const {
   const uint64_t number = firstRow() + row;
-  columns_.appendLine(memory_.data() + number % depth_ * columns_.rowSize(), out);
+  columns_->appendLine(memory_.data() + number % depth_ * columns_->rowSize(), out);
 }
 
 } // namespace stride::monitor

@@ -56,6 +56,28 @@ public:
   void stop() noexcept { stop_.store(true, std::memory_order_release); }
   /// Done at once: nobody calls sample() at this moment.
   void finish() noexcept { state_.store(State::Done, std::memory_order_release); }
+
+  /// What it records, in another build of the application.
+  class Carry {
+  private:
+    friend class Recorder;
+    Carry(app::TraceColumns columns, std::optional<app::Comparison> signal)
+        : columns_(std::move(columns)), signal_(std::move(signal)) {}
+    app::TraceColumns columns_;
+    std::optional<app::Comparison> signal_;
+  };
+  /// For an online change, unless it is detached. Throws app::Error where the other build lacks a
+  /// variable or has another type for it.
+  Carry in(const app::SymbolTable &symbols) const;
+  /// Goes on in the other build: nobody calls sample() at this moment. Afterwards `carry` holds
+  /// what leads into the old one.
+  void carryOver(Carry &carry) noexcept;
+  /// Done, with its rows as text: the build that they come from may go. Nobody calls sample() any
+  /// more. `reason`: why it has ended early.
+  void detach(std::string reason);
+  bool detached() const noexcept { return detached_; }
+  /// Why it has ended before its time; empty: it has not.
+  const std::string &endedBy() const noexcept { return endedBy_; }
   /// Rows taken so far, also those that the ring has lost since.
   uint64_t taken() const noexcept { return taken_.load(std::memory_order_relaxed); }
 
@@ -64,15 +86,17 @@ public:
   /// The row that the trigger came with; nothing without a trigger, or if it did not come.
   std::optional<size_t> triggerRow() const noexcept;
   /// `t` and the names, as in every trace.
-  std::string header() const { return columns_.header(); }
+  std::string header() const { return detached_ ? header_ : columns_->header(); }
   /// Appends the CSV line of a row, the oldest is 0.
   void appendLine(size_t row, std::string &out) const;
 
 private:
+  void appendRow(size_t row, std::string &out) const;
   bool triggers(std::byte *state) noexcept;
   uint64_t firstRow() const noexcept;
 
-  app::TraceColumns columns_;
+  std::optional<app::TraceColumns> columns_; ///< Until it is detached.
+  std::optional<TriggerSettings> trigger_;
   size_t depth_;
   size_t behind_; ///< Rows from the trigger on.
   std::optional<app::Comparison> signal_;
@@ -85,6 +109,10 @@ private:
   std::atomic<uint64_t> taken_{0};
   std::atomic<State> state_{State::Armed};
   std::atomic<bool> stop_{false};
+  bool detached_ = false;
+  std::string header_;             ///< When it is detached.
+  std::vector<std::string> lines_; ///< When it is detached.
+  std::string endedBy_;
 };
 
 } // namespace stride::monitor

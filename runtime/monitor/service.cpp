@@ -136,8 +136,8 @@ void Service::dispatch(ClientId client, const json &id, const json &request) {
   if (added != operations_.end())
     answer(client, id, added->second(request));
   else if (late != lateOperations_.end()) {
+    late->second({client, id}, request);
     ++late_[client];
-    late->second({client, id});
   } else if (op == "read")
     read(client, id, request);
   else if (op == "write")

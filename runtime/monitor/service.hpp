@@ -55,7 +55,7 @@ public:
     nlohmann::json id;
   };
   /// An operation that is answered with answerLate() or refuseLate(), from another thread.
-  using LateOperation = std::function<void(Ticket)>;
+  using LateOperation = std::function<void(Ticket, const nlohmann::json &request)>;
 
   /// A client that cannot be given its answer, for want of memory, is better hung up on.
   using GiveUp = std::function<void(ClientId)>;

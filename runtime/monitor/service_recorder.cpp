@@ -59,6 +59,8 @@ json describeRecorder(const Recorder &recorder) {
                  {"rows", recorder.rows()}};
   if (const std::optional<size_t> row = recorder.triggerRow())
     result["trigger_row"] = *row;
+  if (!recorder.endedBy().empty())
+    result["ended_by"] = recorder.endedBy();
   return result;
 }
 

@@ -268,6 +268,9 @@ struct SymbolServer::Change::Parts {
   std::unique_ptr<app::SymbolTable> symbols;
   std::vector<Forced> forced;
   std::vector<std::unique_ptr<SymbolChannel::ForceList>> lists; // by task
+  std::shared_ptr<Recorder> recorder;
+  std::optional<Recorder::Carry> carry; ///< Nothing: it ends.
+  std::string whyItEnds;
   std::unique_ptr<SymbolChannel::RecorderSlot> noRecorder;
 };
 
@@ -296,6 +299,13 @@ SymbolServer::Change SymbolServer::prepareChange(std::unique_ptr<app::SymbolTabl
     parts.lists.push_back(
         std::make_unique<SymbolChannel::ForceList>(SymbolChannel::ForceList{parts.forced}));
   parts.noRecorder = std::make_unique<SymbolChannel::RecorderSlot>();
+  parts.recorder = recorder_;
+  try {
+    if (recorder_ && !recorder_->detached())
+      parts.carry.emplace(recorder_->in(*parts.symbols));
+  } catch (const app::Error &error) {
+    parts.whyItEnds = error.what();
+  }
   return change;
 }
 
@@ -303,12 +313,13 @@ void SymbolServer::changeApplication(Change &change) {
   const std::lock_guard lock(mutex_);
   Change::Parts &parts = *change.parts_;
   dropAll();
-  if (recorder_) {
-    recorder_->stop();
-    recorder_->finish();
-    recorder_.reset(); // its columns describe the old build
-  }
-  channels_[tasks_->fastest()]->recorder.publish(std::move(parts.noRecorder));
+  const bool goesOn = recorder_ && recorder_ == parts.recorder && parts.carry;
+  if (goesOn)
+    recorder_->carryOver(*parts.carry);
+  else
+    channels_[tasks_->fastest()]->recorder.publish(std::move(parts.noRecorder));
+  if (recorder_ && !goesOn && !recorder_->detached())
+    parts.recorder = std::move(recorder_); // its columns describe the old build
   symbols_.swap(parts.symbols);
   forced_.swap(parts.forced);
   ++build_;
@@ -320,6 +331,15 @@ void SymbolServer::changeApplication(Change &change) {
     channel->forces.take();
     channel->recorder.take();
   }
+}
+
+void SymbolServer::finishChange(Change &change) {
+  const std::lock_guard lock(mutex_);
+  Change::Parts &parts = *change.parts_;
+  if (!parts.recorder || recorder_)
+    return;
+  parts.recorder->detach(parts.whyItEnds);
+  recorder_ = std::move(parts.recorder);
 }
 
 } // namespace stride::monitor

@@ -117,8 +117,11 @@ public:
   /// released until changeApplication().
   Change prepareChange(std::unique_ptr<app::SymbolTable> symbols) const;
   /// It has taken the application's place, as TaskSet::rebind says: while no task is in a cycle.
-  /// Waiting requests are dropped, the recorder ends, forces are carried over.
+  /// Waiting requests are dropped, forces and the recorder are carried over.
   void changeApplication(Change &change);
+  /// Afterwards, as long as the old build is still there: a recorder that the new one has no
+  /// variables for keeps the rows that it has. Without this call it is gone.
+  void finishChange(Change &change);
 
 private:
   struct Forced {

@@ -260,7 +260,10 @@ std::string describe(const Fault &fault, std::string_view place) {
   char time[stride::text::kBufferSize];
   stride::text::formatLtime(time, fault.timeNs);
   const char *digits = std::strchr(time, '#');
-  return text + fmt::format(" (task {}, cycle {}, at T{})", fault.task, fault.cycle, digits);
+  text += fmt::format(" (task {}, cycle {}, at T{})", fault.task, fault.cycle, digits);
+  return e.code() == ExceptionCode::None
+             ? text
+             : text + fmt::format("; stride explain SR{:04}", static_cast<uint32_t>(e.code()));
 }
 
 } // namespace stride::task

@@ -21,9 +21,9 @@ struct Fault {
   uint64_t looks = 0; ///< How often loops of the cycle had looked at the clock and gone on.
 };
 
-/// One line: what, where in the ST, in which task and cycle:
-/// "division by zero at src/a.st:38:21 (task Fast, cycle 12, T#120ms)". `place` stands for the
-/// position of an exception that does not know its own.
+/// One line: what, where in the ST, in which task and cycle, and what explains it:
+/// "division by zero at src/a.st:38:21 (task Fast, cycle 12, at T#120ms); stride explain SR0001".
+/// `place` stands for the position of an exception that does not know its own.
 std::string describe(const Fault &fault, std::string_view place = {});
 
 /// While it lives, invalid memory accesses and stack overflows of this thread inside guardedCall

@@ -1,5 +1,6 @@
 #include "runtime/task/histogram.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace stride::task {
@@ -20,7 +21,7 @@ int64_t Histogram::quantile(double share) const noexcept {
   for (size_t i = 0; i < kBuckets; ++i) {
     seen += count(i);
     if (seen >= wanted && seen != 0)
-      return lowerEnd(i + 1) - 1;
+      return std::min(lowerEnd(i + 1) - 1, greatest_.load(std::memory_order_relaxed));
   }
   return lowerEnd(kBuckets) - 1;
 }

@@ -21,6 +21,8 @@ public:
 
   /// Negative durations count as 0. [ns]
   void record(int64_t ns) noexcept {
+    if (ns > greatest_.load(std::memory_order_relaxed))
+      greatest_.store(ns, std::memory_order_relaxed);
     std::atomic<uint64_t> &count = counts_[bucketOf(ns)];
     count.store(count.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
   }
@@ -31,12 +33,13 @@ public:
   uint64_t total() const noexcept;
 
   /// The duration that `share` (0 … 1) of all records do not exceed: the upper end of the bucket in
-  /// which it lies; 0 without records. [ns]
+  /// which it lies, but never more than the greatest record; 0 without records. [ns]
   int64_t quantile(double share) const noexcept;
 
   void clear() noexcept {
     for (std::atomic<uint64_t> &count : counts_)
       count.store(0, std::memory_order_relaxed);
+    greatest_.store(0, std::memory_order_relaxed);
   }
 
   static size_t bucketOf(int64_t ns) noexcept {
@@ -62,6 +65,7 @@ public:
 
 private:
   std::array<std::atomic<uint64_t>, kBuckets> counts_{};
+  std::atomic<int64_t> greatest_{0};
 };
 
 } // namespace stride::task

@@ -14,9 +14,15 @@ TEST(Interval, ReadsIecDurations) {
   EXPECT_EQ(parseInterval("T#1d_2h_3m_4s"), 93'784'000'000'000);
 }
 
+TEST(Interval, ReadsDurationsWithoutAPrefix) {
+  EXPECT_EQ(parseInterval("2ms"), 2'000'000);
+  EXPECT_EQ(parseInterval("1s500MS"), 1'500'000'000);
+  EXPECT_EQ(parseInterval("0.25us"), 250);
+}
+
 TEST(Interval, RefusesOtherTexts) {
-  for (const char *text : {"", "T#", "3ms", "T#3", "T#3 ms", "T#ms", "T#5ms1s", "T#1s2s",
-                           "T#1.5s3ms", "T#1.s", "T#-3ms", "T#999999999999d"})
+  for (const char *text : {"", "T#", "3", "ms", "T#t#3ms", "T#3", "T#3 ms", "T#ms", "T#5ms1s",
+                           "T#1s2s", "T#1.5s3ms", "T#1.s", "T#-3ms", "T#999999999999d"})
     EXPECT_EQ(parseInterval(text), std::nullopt) << text;
 }
 

@@ -256,7 +256,7 @@ TEST(VirtualSchedulerTest, AnExceptionStopsThePousAndTheHooksGoOnUntilRest) {
   const RunResult result = run.scheduler.runUntil(1000 * kMs);
   ASSERT_TRUE(result.fault);
   EXPECT_EQ(stride::task::describe(*result.fault),
-            "division by zero at a.st:3:7 (task Main, cycle 2, at T#20ms)");
+            "division by zero at a.st:3:7 (task Main, cycle 2, at T#20ms); stride explain SR0001");
   EXPECT_EQ(result.timeNs, 40 * kMs);
   EXPECT_THAT(log.lines, ElementsAre("<x", "f0!", "x>", "o0!", "<x", "f10", "x>", "o10", "<x",
                                      "f20", "x>", "<x", "x>"));

@@ -37,6 +37,18 @@ TEST(HistogramTest, EveryDurationIsInItsBucket) {
   EXPECT_EQ(Histogram::bucketOf(INT64_MAX), Histogram::kBuckets - 1);
 }
 
+TEST(HistogramTest, NoQuantileIsMoreThanTheGreatestRecord) {
+  Histogram histogram;
+  for (const int64_t ns : {1'000'003, 7, 1'000'001})
+    histogram.record(ns);
+  ASSERT_GT(Histogram::lowerEnd(Histogram::bucketOf(1'000'003) + 1), 1'000'004);
+  EXPECT_EQ(histogram.quantile(0.99), 1'000'003);
+  EXPECT_EQ(histogram.quantile(0.3), 7);
+  histogram.clear();
+  histogram.record(5);
+  EXPECT_EQ(histogram.quantile(1.0), 5);
+}
+
 TEST(HistogramTest, QuantilesAreThoseOfTheSortedValues) {
   std::mt19937_64 random(11);
   Histogram histogram;
