@@ -100,6 +100,8 @@ struct Argument {
   bool output = false;   ///< `=>`
   Span span;
   VarSymbol *parameter = nullptr; ///< [sema] the parameter or field it goes to
+  /// [sema] The VAR_IN_OUT gets a copy of its own type; what the call changes in it goes back.
+  bool copied = false;
 };
 
 enum class Callee : uint8_t {

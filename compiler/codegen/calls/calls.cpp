@@ -45,13 +45,43 @@ bool isPlace(const Expr *e) {
   return symbol == nullptr || symbol->kind != SymbolKind::Enumerator;
 }
 
-/// A VAR_IN_OUT CONSTANT may be bound to a string of another length or to a value: then it gets a
-/// copy.
+/// A VAR_IN_OUT CONSTANT may be bound to a string of another length or to a value, some to a number
+/// of another type: then it gets a copy.
 bool needsCopy(const Argument &a) {
   if (a.parameter->section != Section::InOut)
     return false;
-  return (isString(a.parameter->type) && a.value->type != a.parameter->type) ||
+  return a.copied || (isString(a.parameter->type) && a.value->type != a.parameter->type) ||
          (a.parameter->isConstant && !isPlace(a.value));
+}
+
+/// What the call has left in the copy goes back to where it was taken from.
+bool isGivenBack(const Argument &a) {
+  return a.copied && a.parameter != nullptr && !a.parameter->isConstant;
+}
+
+std::string formerValue(const std::string &copy) { return copy + "__was"; }
+
+/// The place that a copy is taken from is found once.
+void findCopied(EmitContext &cx, Found &found, const Argument &a) {
+  if (isGivenBack(a))
+    findTarget(cx, found, a.value);
+}
+
+/// `T copy; copy = value; `
+void takeCopy(EmitContext &cx, const Argument &a, const std::string &copy) {
+  const VarSymbol *p = a.parameter;
+  declareTemporary(cx, p->type, copy, cx.run.addressed.onDataStack(p));
+  emitStoreTo(cx, copy, p->type, a.value);
+  cx.out << ' ';
+  if (isGivenBack(a))
+    cx.out << "const auto " << formerValue(copy) << " = " << copy << "; ";
+}
+
+/// A value that has not been changed keeps the digits that the copy has not.
+void giveBack(EmitContext &cx, const Argument &a, const std::string &copy) {
+  cx.out << " if (" << copy << " != " << formerValue(copy) << ") { ";
+  emitOutputTo(cx, a.value, copy, a.parameter->type, a.span);
+  cx.out << " }";
 }
 
 /// What is written so that arguments are evaluated in their order.
@@ -118,6 +148,8 @@ void emitFunctionArguments(EmitContext &cx, const CallExpr *e,
 unsigned argumentEffects(EmitContext &cx, const Argument &a) {
   if (a.output)
     return cx.run.analysis.targetEffects(a.value, cx.pou);
+  if (isGivenBack(a))
+    return cx.run.analysis.targetEffects(a.value, cx.pou) | cx.effects(a.value);
   const VarSymbol *p = a.parameter;
   const bool isAddress = p != nullptr && !needsCopy(a) && isIndirect(p);
   return isAddress ? cx.run.analysis.placeEffects(a.value, cx.pou) : cx.effects(a.value);
@@ -152,9 +184,8 @@ std::string takeArgument(EmitContext &cx, Found &found, const Argument &a, const
     findTarget(cx, found, a.value);
   } else if (needsCopy(a)) {
     name = cx.temporary("copy");
-    declareTemporary(cx, p->type, name, cx.run.addressed.onDataStack(p));
-    emitStoreTo(cx, name, p->type, a.value);
-    cx.out << ' ';
+    findCopied(cx, found, a);
+    takeCopy(cx, a, name);
   } else if (order.arguments && argumentEffects(cx, a) != kEffectNone) {
     name = cx.temporary("in");
     if (p->type->kind == TypeKind::OpenArray)
@@ -189,9 +220,11 @@ void takeArguments(EmitContext &cx, Found &found, const CallExpr *e, const CallO
   }
 }
 
-/// Those outputs that are asked for are copied after the call.
+/// Those outputs that are asked for are copied after the call, and what it has changed of copies.
 void giveOutputs(EmitContext &cx, const CallExpr *e, CallNames &names) {
   for (const Argument &a : e->arguments) {
+    if (isGivenBack(a))
+      giveBack(cx, a, names[a.parameter]);
     if (a.value == nullptr || !a.output || a.parameter == nullptr)
       continue;
     cx.out << ' ';
@@ -199,19 +232,18 @@ void giveOutputs(EmitContext &cx, const CallExpr *e, CallNames &names) {
   }
 }
 
-/// One input or in-out of an instance's call.
-void passToInstance(EmitContext &cx, const Argument &a, const std::string &field) {
+/// One input or in-out of an instance's call. Gives the name of the copy, if it gets one.
+std::string passToInstance(EmitContext &cx, const Argument &a, const std::string &field) {
   const VarSymbol *p = a.parameter;
   if (needsCopy(a)) {
-    const std::string copy = cx.temporary("copy");
-    declareTemporary(cx, p->type, copy, cx.run.addressed.onDataStack(p));
-    emitStoreTo(cx, copy, p->type, a.value);
-    cx.out << ' ' << field << " = &" << copy << ';';
-    return;
+    std::string copy = cx.temporary("copy");
+    takeCopy(cx, a, copy);
+    cx.out << field << " = &" << copy << ';';
+    return copy;
   }
   if (!isIndirect(p)) {
     emitStoreTo(cx, cx.isShared(p) ? "::stride::shared(" + field + ")" : field, p->type, a.value);
-    return;
+    return {};
   }
   cx.out << field << " = ";
   if (p->type->kind == TypeKind::OpenArray)
@@ -220,6 +252,7 @@ void passToInstance(EmitContext &cx, const Argument &a, const std::string &field
     emitAddressAs(cx, a.value,
                   p->section == Section::InOut ? p->type : typeAs<PointerType>(p->type)->pointee);
   cx.out << ';';
+  return {};
 }
 
 /// An instance's call, in parts: each on its line of the ST.
@@ -278,12 +311,17 @@ private:
         continue;
       }
       part(a.span);
-      passToInstance(cx_, a, field(a.parameter));
+      findCopied(cx_, found_, a);
+      const std::string copy = passToInstance(cx_, a, field(a.parameter));
+      if (isGivenBack(a))
+        givenBack_.emplace_back(&a, copy);
     }
   }
 
-  /// The outputs, and the end of copies that in-outs are bound to.
+  /// The outputs, what has been changed in copies, and the end of copies that in-outs are bound to.
   void give() {
+    for (const auto &[argument, copy] : givenBack_)
+      giveBack(cx_, *argument, copy);
     for (const Argument &a : e_->arguments) {
       if (a.value == nullptr || !a.output || a.parameter == nullptr)
         continue;
@@ -303,8 +341,9 @@ private:
   const CallExpr *e_;
   Found found_;
   bool isProgram_;
-  std::string instance_; ///< the C++ of it
-  bool first_ = true;    ///< no part has been written
+  std::string instance_;                                            ///< the C++ of it
+  bool first_ = true;                                               ///< no part has been written
+  std::vector<std::pair<const Argument *, std::string>> givenBack_; ///< With their copies.
 };
 
 } // namespace

@@ -342,6 +342,24 @@ static bool fitsInOut(Context &c, const Expr *value, const Type *type, const Var
   return false;
 }
 
+/// A member of AXIS_REF, which was a REAL in V2.3, for a VAR_IN_OUT : REAL. True: it gets a copy.
+static bool copiesAxisField(Context &c, Argument &argument, const Type *type,
+                            const VarSymbol *parameter) {
+  if (parameter->type->kind != TypeKind::Real || type->kind != TypeKind::Lreal ||
+      !isAxisField(argument.value))
+    return false;
+  argument.copied = true;
+  const std::string name(parameter->name.text);
+  auto &d = c.report(Code::InOutCopied, argument.value->span,
+                     "the VAR_IN_OUT `" + name + "` is REAL, this member of AXIS_REF is LREAL",
+                     parameter->isConstant ? "the call gets a copy"
+                                           : "the call gets a copy; what it changes goes back");
+  noteDeclaration(d, parameter);
+  d.help("declare `" + name + "` as LREAL")
+      .note("the values of AXIS_REF are LREAL here; in CoDeSys V2.3 they were REAL");
+  return true;
+}
+
 static void checkInOut(Context &c, Argument &argument, VarSymbol *parameter) {
   const Type *type = check(c, argument.value, parameter->type);
   if (isError(type) || isError(parameter->type) || rejectProperty(c, argument.value, "pass"))
@@ -365,6 +383,8 @@ static void checkInOut(Context &c, Argument &argument, VarSymbol *parameter) {
     return;
   }
   if (!parameter->isConstant && !requireVariable(c, argument.value, "pass"))
+    return;
+  if (copiesAxisField(c, argument, type, parameter))
     return;
   if (fitsInOut(c, argument.value, type, parameter) && !openArray)
     requireAligned(c, argument.value, "pass");

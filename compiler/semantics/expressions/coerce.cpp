@@ -36,16 +36,6 @@ std::string conversionFunction(const Type *from, const Type *to) {
   return plain(from) + "_TO_" + plain(to);
 }
 
-/// V2.3 stored AXIS_REF's values as REAL, Stride as LREAL; reading one into a REAL is not worth a
-/// warning.
-bool isAxisField(const Expr *expr) {
-  if (expr->kind != ExprKind::Member)
-    return false;
-  const Type *base = as<MemberExpr>(expr)->base->type;
-  return base != nullptr && base->kind == TypeKind::Structure &&
-         typeAs<StructType>(base)->symbol->name.id->lower == "axis_ref";
-}
-
 /// The expression's text where it is short enough to be shown inside of a proposal, else `…`.
 std::string excerpt(const Sources &sources, const Expr *expr) {
   const std::string_view text = sources.text(expr->span);
@@ -71,6 +61,16 @@ bool isPath(const Expr *expr) {
 int rank(Conversion c) { return static_cast<int>(c); }
 
 } // namespace
+
+bool isAxisField(const Expr *expr) {
+  if (expr->kind != ExprKind::Member)
+    return false;
+  const Type *base = as<MemberExpr>(expr)->base->type;
+  if (base != nullptr && base->kind == TypeKind::Reference)
+    base = typeAs<PointerType>(base)->pointee;
+  return base != nullptr && base->kind == TypeKind::Structure &&
+         typeAs<StructType>(base)->symbol->name.id->lower == "axis_ref";
+}
 
 void setTarget(Expr *expr, const Type *type) {
   if (type != expr->type)
@@ -174,6 +174,7 @@ static bool shiftsConstant(const Expr *expr, const Type *type) {
 /// How the value becomes one of the type, by what is known about it.
 static Conversion conversionOf(const Expr *expr, const Type *type) {
   const Type *from = expr->type;
+  // Reading one into a REAL is not worth a warning.
   if (from->kind == TypeKind::Lreal && type->kind == TypeKind::Real && isAxisField(expr))
     return Conversion::Free;
   const Conversion conversion = classify(from, type);

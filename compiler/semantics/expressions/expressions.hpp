@@ -37,6 +37,8 @@ void reportConversion(Context &c, ast::Expr *expr, const Type *from, const Type 
 const Type *settle(ast::Expr *expr);
 /// Notes the implicit conversion of a checked expression.
 void setTarget(ast::Expr *expr, const Type *type);
+/// Whether the expression names a member of an AXIS_REF. V2.3 had REAL there, Stride has LREAL.
+bool isAxisField(const ast::Expr *expr);
 /// The expression names a REFERENCE (that is followed where its value is meant).
 bool isReference(ast::Expr *expr);
 /// `a REF= b`, whose targets have been checked.
