@@ -228,7 +228,9 @@ private:
                                   : slot.at.byte;
       if (number != 0)
         body += "  app__(ctx__)." + statePath(c_.names, slot.path, c_.program.user) + " = " +
-                std::to_string(number) + "; // " + std::string(slot.decl->address->text) + "\n";
+                std::to_string(number) + "; // " +
+                (slot.decl != nullptr ? std::string(slot.decl->address->text) : "a free place") +
+                "\n";
     }
     for (const Member &m : members_) {
       if (rootNeedsInit(c_, m.root))

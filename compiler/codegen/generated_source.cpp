@@ -171,10 +171,11 @@ void GeneratedSource::generatedLine(std::string_view text) {
 void GeneratedSource::assignment(std::string_view name,
                                  const std::vector<const VarSymbol *> &variables,
                                  const Type *base) {
+  cx_.uses = {};
   const Writer body = cx_.lines([&] {
     const auto copy = [&](const std::string &field, const Type *type) {
       const bool bindings = cx_.run.layouts.hasBindings(type);
-      cx_.out.line() << (bindings ? "::stride::assignBound(" : "") << "this->" << field
+      cx_.out.line() << (bindings ? "::stride::assignBound(ctx__, " : "") << "this->" << field
                      << (bindings ? ", " : " = ") << "from." << field << (bindings ? ");" : ";");
       cx_.end();
     };
@@ -182,13 +183,18 @@ void GeneratedSource::assignment(std::string_view name,
       copy("base__", base);
     for (const VarSymbol *v : variables) {
       cx_.includes.complete(v->type);
-      // An instance keeps its places in the process image, too.
-      if (v->section != Section::InOut && isField(v) && !isSlot(v))
+      // A block keeps its places in the process image and what lies there, a structure has values.
+      if (isSlot(v) && v->owner == nullptr)
+        copyPlaced(cx_, v);
+      else if (v->section != Section::InOut && isField(v) && !isSlot(v))
         copy(fieldName(v), v->type);
     }
   });
-  Writer text = open({"void " + std::string(name) + "::assign__([[maybe_unused]] const " +
-                      std::string(name) + " &from)"});
+  const Head head{"void " + std::string(name) +
+                  "::assign__([[maybe_unused]] ::stride::Ctx &ctx__, [[maybe_unused]] const " +
+                  std::string(name) + " &from)"};
+  Writer text = open(head);
+  prologue(text, head);
   text.append(body);
   close(std::move(text), false);
 }
@@ -196,7 +202,7 @@ void GeneratedSource::assignment(std::string_view name,
 void GeneratedSource::configured() {
   plainFunction("configure__", [&] {
     for (const SlotPlace &entry : cx_.run.program.slotPlaces) {
-      if (entry.decl->init != nullptr)
+      if (entry.decl != nullptr && entry.decl->init != nullptr)
         initConfigured(cx_, entry);
     }
   });

@@ -206,7 +206,7 @@ private:
   /// Assignment that leaves the bindings of in-outs as they are.
   void assignment(const Type *type) {
     if (c_.layouts.hasBindings(type))
-      body_ += "  void assign__(const " + name_ + " &from);\n";
+      body_ += "  void assign__(::stride::Ctx &ctx__, const " + name_ + " &from);\n";
   }
 
   void lifecycle(const Type *type) {

@@ -141,8 +141,9 @@ void pou(Context &context, const PouSymbol *p, std::vector<GeneratedFile> &files
 } // namespace
 
 bool hasConfiguredValues(const Program &program) {
-  return std::any_of(program.slotPlaces.begin(), program.slotPlaces.end(),
-                     [](const SlotPlace &entry) { return entry.decl->init != nullptr; });
+  return std::any_of(
+      program.slotPlaces.begin(), program.slotPlaces.end(),
+      [](const SlotPlace &entry) { return entry.decl != nullptr && entry.decl->init != nullptr; });
 }
 
 void generateSources(Context &context, std::vector<GeneratedFile> &files) {

@@ -88,7 +88,7 @@ struct SlotPlace {
   StatePath path;
   const VarSymbol *variable = nullptr; ///< declared `AT %I*`; null: only an initial value is given
   Location at;
-  const ast::VarDecl *decl = nullptr; ///< the entry
+  const ast::VarDecl *decl = nullptr; ///< the entry; null: the place has been chosen
   bool placed = false;
 };
 

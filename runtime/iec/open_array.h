@@ -98,15 +98,17 @@ inline OpenArray<T, N> &bound(X &ctx, OpenArray<T, N> &a, const char *file, uint
   return a;
 }
 
-/// A C++ structure is assigned member by member where it holds in-outs: assign__ leaves those of
-/// the target as they are. Arrays element by element.
+/// A C++ structure is assigned member by member where it holds in-outs or places in the process
+/// image: assign__ leaves those of the target as they are. Arrays element by element.
 template <class T, int64_t Lo, int64_t Hi>
-inline void assignBound(Array<T, Lo, Hi> &to, const Array<T, Lo, Hi> &from);
-template <class T> inline void assignBound(T &to, const T &from) { to.assign__(from); }
+inline void assignBound(Ctx &ctx, Array<T, Lo, Hi> &to, const Array<T, Lo, Hi> &from);
+template <class T> inline void assignBound(Ctx &ctx, T &to, const T &from) {
+  to.assign__(ctx, from);
+}
 template <class T, int64_t Lo, int64_t Hi>
-inline void assignBound(Array<T, Lo, Hi> &to, const Array<T, Lo, Hi> &from) {
+inline void assignBound(Ctx &ctx, Array<T, Lo, Hi> &to, const Array<T, Lo, Hi> &from) {
   for (uint64_t i = 0; i < Array<T, Lo, Hi>::kSize; ++i)
-    assignBound(to.v[i], from.v[i]);
+    assignBound(ctx, to.v[i], from.v[i]);
 }
 
 /// An array as one with other bounds and the same elements.

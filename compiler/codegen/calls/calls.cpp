@@ -421,8 +421,9 @@ void emitOutputTo(EmitContext &cx, const Expr *target, std::string_view source,
     return;
   }
   const bool bindings = cx.run.layouts.hasBindings(type);
-  cx.out << (bindings ? "::stride::assignBound(" : "") << writableText(cx, target)
-         << (bindings ? ", " : " = ");
+  if (bindings)
+    cx.out << "::stride::assignBound(" << cx.ctx() << ", ";
+  cx.out << writableText(cx, target) << (bindings ? ", " : " = ");
   emitConvertedText(cx, source, sourceType, type, span);
   cx.out << (bindings ? ");" : ";");
 }

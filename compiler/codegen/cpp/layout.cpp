@@ -306,7 +306,7 @@ bool Layouts::hasBindings(const Type *type) {
     const auto *s = typeAs<StructType>(type);
     result = s->base != nullptr && hasBindings(s->base);
     for (const VarSymbol *v : s->fields)
-      result = result || hasBindings(v->type);
+      result = result || isSlot(v) || hasBindings(v->type);
   } else {
     const PouSymbol *pou = typeAs<PouType>(type)->symbol;
     result = hasTypeId(pou) || (pou->base != nullptr && hasBindings(pou->base->type));

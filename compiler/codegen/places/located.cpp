@@ -7,6 +7,7 @@
 #include "compiler/semantics/alignment.hpp"
 #include "compiler/semantics/hierarchy.hpp"
 #include "compiler/semantics/locations.hpp"
+#include "compiler/semantics/plain_data.hpp"
 
 namespace stc::codegen {
 
@@ -147,6 +148,27 @@ void initLocated(EmitContext &cx, std::string_view target, const VarSymbol *vari
     return;
   }
   initPlace(cx, place, variable->type, init);
+}
+
+void copyPlaced(EmitContext &cx, const VarSymbol *v) {
+  const Location &at = *v->location;
+  const auto place = [&](std::string_view object) {
+    emitLocated(cx, at, v->type, [&] { cx.out << object << fieldName(v); });
+  };
+  cx.out.line();
+  if (at.bit >= 0) {
+    const std::string_view area = cx.area(at.area);
+    cx.out << "::stride::setSharedBitAt(" << area << ", this->" << fieldName(v)
+           << ", ::stride::getSharedBitAt(" << area << ", from." << fieldName(v) << "));";
+  } else {
+    const bool isScalar = isScalarValue(v->type);
+    cx.out << (isScalar ? "::stride::shared(" : "");
+    place("this->");
+    cx.out << (isScalar ? ") = ::stride::load(" : " = ");
+    place("from.");
+    cx.out << (isScalar ? ");" : ";");
+  }
+  cx.end();
 }
 
 void initConfigured(EmitContext &cx, const SlotPlace &entry) {

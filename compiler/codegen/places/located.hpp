@@ -18,6 +18,10 @@ void initLocated(EmitContext &cx, std::string_view target, const VarSymbol *vari
 /// Gives what VAR_CONFIG says of a variable: its initial value.
 void initConfigured(EmitContext &cx, const SlotPlace &entry);
 
+/// In an assignment of a whole structure: the value at the place of `from`'s field `v` goes to the
+/// place of `this`'s. Atomic, as nobody looks who else uses the places.
+void copyPlaced(EmitContext &cx, const VarSymbol *v);
+
 } // namespace stc::codegen
 
 #endif // STRIDE_COMPILER_CODEGEN_PLACES_LOCATED_HPP

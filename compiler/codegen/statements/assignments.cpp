@@ -191,7 +191,9 @@ void emitStoreTo(EmitContext &cx, std::string_view target, const Type *type, con
   }
   // Copying a block copies no binding of its in-outs: the target keeps its own.
   const bool bindings = cx.run.layouts.hasBindings(type);
-  cx.out << (bindings ? "::stride::assignBound(" : "") << target << (bindings ? ", " : " = ");
+  if (bindings)
+    cx.out << "::stride::assignBound(" << cx.ctx() << ", ";
+  cx.out << target << (bindings ? ", " : " = ");
   if (type->kind == TypeKind::FunctionBlock && isInstance(value->type) && value->type != type) {
     emitRaw(cx, value); // the part of a block that it extends
     cx.out << baseSuffix(typeAs<PouType>(value->type)->symbol, typeAs<PouType>(type)->symbol);

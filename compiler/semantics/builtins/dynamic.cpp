@@ -67,6 +67,13 @@ const Type *checkNew(Context &c, CallExpr *expr) {
   c.program.usesPool = true;
   if (isInstance(type))
     declare(c, typeAs<PouType>(type)->symbol);
+  if (hasSlots(c, type)) {
+    c.report(Code::PlaceMissing, named->span,
+             "no VAR_CONFIG can place the variables of an object of `__NEW`",
+             "`" + typeName(type) + "` has variables declared with `*`")
+        .help("declare the object in the VAR of a program or function block, or in VAR_GLOBAL");
+    return bad;
+  }
   if (std::find(c.program.created.begin(), c.program.created.end(), type) ==
       c.program.created.end())
     c.program.created.push_back(type);

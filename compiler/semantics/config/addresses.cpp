@@ -178,9 +178,16 @@ static bool mayBePlaced(Context &c, const VarSymbol *variable) {
   };
   const DeclKind owner =
       variable->owner == nullptr ? DeclKind::Globals : variable->owner->decl->kind;
-  if (variable->owner == nullptr && variable->globals == nullptr)
-    refuse("the field `" + name + "` of a structure cannot have an address", "belongs to no place")
-        .help("give the address to the variable of the structure's type");
+  const bool isField = variable->owner == nullptr && variable->globals == nullptr;
+  if (isField && !address.incomplete)
+    refuse("the field `" + name + "` of a structure cannot have an address of its own",
+           "all variables of the type would lie there")
+        .help(std::string("write `AT %") + address.area +
+              "*`: VAR_CONFIG says where it lies, for each variable of the type");
+  else if (isField && static_cast<const ast::StructDecl *>(variable->home)->isUnion)
+    refuse("the member `" + name + "` of a UNION cannot have an address",
+           "all members of a UNION lie at one place")
+        .help("give the address to a variable of the UNION's type");
   else if (owner != DeclKind::Globals && owner != DeclKind::Program &&
            owner != DeclKind::FunctionBlock && owner != DeclKind::Class)
     refuse("a variable of " + describe(variable->owner) + " cannot have an address",

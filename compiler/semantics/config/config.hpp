@@ -20,6 +20,9 @@ void checkRetain(Context &c, const VarSymbol *variable);
 void finishImage(Context &c);
 /// Notes the variables with {attribute 'consistent'}, and reports it where it does nothing.
 void checkConsistent(Context &c, const ast::Decl *decl);
+/// A value of the type holds variables declared `AT %I*`: VAR_CONFIG says where they lie, so that
+/// it must live as long as the program.
+bool hasSlots(Context &c, const Type *type);
 /// VAR_CONFIG and VAR_ACCESS, and variables `AT %I*` that have no place.
 void checkConfigured(Context &c, Module &module);
 /// A CONFIGURATION has made the variable for an instance of a program.

@@ -185,6 +185,28 @@ static void chooseMissingPlaces(Context &c, std::vector<SlotPlace> &slots) {
   }
 }
 
+/// Reports variables that no path leads to, although they hold some declared `AT %I*`.
+static void requirePlaces(Context &c, const PouSymbol &pou) {
+  const auto require = [&](const VarSymbol *v) {
+    if (v->section == Section::InOut || v->type == nullptr || !hasSlots(c, v->type))
+      return;
+    c.report(Code::PlaceMissing, v->name.span,
+             "no VAR_CONFIG can place the variables of `" + std::string(v->name.text) + "`",
+             "`" + typeName(v->type) + "` has variables declared with `*`")
+        .help("declare the instance in the VAR of a program or function block, or in "
+              "VAR_GLOBAL; a function takes it by VAR_IN_OUT");
+  };
+  for (const VarSymbol *v : pou.variables) {
+    const bool perCall = pou.isFunction() || (pou.isMethod() && v->section != Section::Instance) ||
+                         v->section == Section::Temp || v->section == Section::Stat;
+    if (perCall)
+      require(v);
+  }
+  if (pou.result != nullptr &&
+      std::find(pou.variables.begin(), pou.variables.end(), pou.result) == pou.variables.end())
+    require(pou.result);
+}
+
 void checkConfigured(Context &c, Module &module) {
   const ScopeGuard guard(c, {&module, nullptr});
   std::vector<SlotPlace> slots;
@@ -193,16 +215,9 @@ void checkConfigured(Context &c, Module &module) {
       StatePath path{pou, {}};
       collectSlots(c, pou->type, path, slots);
     }
-    for (const VarSymbol *v : pou->variables) {
-      const bool perCall = pou->isFunction() || v->section == Section::Temp;
-      if ((perCall || v->section == Section::Stat) && v->section != Section::InOut &&
-          v->type != nullptr && hasSlots(c, v->type))
-        c.report(Code::PlaceMissing, v->name.span,
-                 "no VAR_CONFIG can place the variables of `" + std::string(v->name.text) + "`",
-                 "`" + typeName(v->type) + "` has variables declared with `*`")
-            .help("declare the instance in the VAR of a program or function block, or in "
-                  "VAR_GLOBAL");
-    }
+    requirePlaces(c, *pou);
+    for (const PouSymbol *method : pou->methods)
+      requirePlaces(c, *method);
   }
   for (GlobalsSymbol *list : module.library->globals) {
     for (VarSymbol *v : list->variables) {

@@ -19,8 +19,6 @@ inline constexpr size_t kMaxSlots = 65536;
 std::optional<Location> locate(Context &c, const ast::DirectAddress &address);
 /// Makes the area hold the bytes; false (and reported) when it cannot.
 bool reserve(Context &c, const ast::DirectAddress &address, uint64_t byte, uint64_t size);
-/// A value of the type holds variables declared `AT %I*`.
-bool hasSlots(Context &c, const Type *type);
 /// Adds the variables `AT %I*` in a value of the type; `path` leads to it.
 void collectSlots(Context &c, const Type *type, StatePath &path, std::vector<SlotPlace> &out);
 /// A variable by its path, whose names learn what they stand for; `inside`: a program whose own

@@ -228,8 +228,10 @@ References::References(const Program &program) {
   Collector collector(bySymbol_);
   for (const auto &library : program.libraries)
     collector.library(*library);
-  for (const SlotPlace &slot : program.slotPlaces)
-    collector.entry(slot.decl);
+  for (const SlotPlace &slot : program.slotPlaces) {
+    if (slot.decl != nullptr)
+      collector.entry(slot.decl);
+  }
   for (const AccessPath &access : program.accessPaths)
     collector.entry(access.decl);
   // `a, b : INT` is one type for two variables.
