@@ -1,7 +1,7 @@
 #include "runtime/axis/axis_cycle.hpp"
 
 #include "runtime/axis/increments.hpp"
-#include "runtime/axis/set_point.hpp"
+#include "runtime/axis/plan_axis.hpp"
 #include "runtime/axis/shift_position.hpp"
 
 namespace stride::axis {
@@ -12,9 +12,42 @@ bool isMotion(int16_t axisState) noexcept {
          axisState == state::kSynchronized || axisState == state::kHoming;
 }
 
+/// How an axis brakes that nobody moves any more.
+enum class Braking : uint8_t {
+  Gentle, ///< As its ramp type says: with limited jerk.
+  Hard,   ///< With the whole deceleration at once, in the shortest way.
+};
+
+/// The jerk of the command in progress, or the axis's own. [u/s^3]
+double brakingJerk(const AxisRef &axis) noexcept {
+  const auto &plan = axis.stPlanner;
+  const bool commanded = plan.fDeceleration > 0.0 && exact::isPositive(plan.stCommand.fJerk);
+  return commanded ? plan.stCommand.fJerk : axis.fJerk;
+}
+
+/// Plans the way to rest under the axis's ramp type. False: there is no jerk that it could keep.
+bool planGently(AxisRef &axis, double deceleration) noexcept {
+  const auto ramp = static_cast<motion::RampType>(axis.eRampType);
+  if (ramp == motion::RampType::Trapezoid)
+    return false;
+  numeric::MotionState start = setState(axis);
+  // What was faster than any limit, as after a jump of set values, is not taken away slowly.
+  if (!(exact::fabs(start.acceleration) <= deceleration * (1.0 + 1e-9)))
+    start.acceleration = 0.0;
+  motion::Profile profile;
+  if (motion::planStop(profile, start,
+                       {ramp, deceleration, deceleration, deceleration, brakingJerk(axis)}) !=
+      motion::PlanError::None)
+    return false;
+  auto &plan = axis.stPlanner;
+  motion::loadPlan(plan, profile, axis.fTaskCycle);
+  plan.fTarget = shownPosition(axis, plan.fEnd);
+  return true;
+}
+
 /// Plans the way to rest from the present set values. Without a deceleration, or without a
 /// velocity, the axis stands at once.
-void planBraking(AxisRef &axis, double deceleration) noexcept {
+void planBraking(AxisRef &axis, double deceleration, Braking braking) noexcept {
   auto &plan = axis.stPlanner;
   plan.bActive = 0;
   const double velocity = axis.fSetVelocity;
@@ -22,13 +55,15 @@ void planBraking(AxisRef &axis, double deceleration) noexcept {
     writeMotion(axis, 0.0, 0.0);
     return;
   }
-  const double duration = exact::fabs(velocity) / deceleration;
-  const double target = axis.fSetPosition + 0.5 * velocity * duration;
-  beginPlan(plan, axis.fTaskCycle, duration, target, 0.0);
-  plan.fTarget = shownPosition(axis, target);
+  if (braking == Braking::Hard || !planGently(axis, deceleration)) {
+    const double duration = exact::fabs(velocity) / deceleration;
+    const double target = axis.fSetPosition + 0.5 * velocity * duration;
+    beginPlan(plan, axis.fTaskCycle, duration, target, 0.0);
+    plan.fTarget = shownPosition(axis, target);
+    appendSegment(plan, 0.0, duration, {target, 0.0, velocity > 0.0 ? -deceleration : deceleration},
+                  0.0, 0.0);
+  }
   plan.fDeceleration = deceleration;
-  appendSegment(plan, 0.0, duration, {target, 0.0, velocity > 0.0 ? -deceleration : deceleration},
-                0.0, 0.0);
 }
 
 /// The larger one of the axis's own deceleration and that of the command in progress; 0 for none.
@@ -71,22 +106,40 @@ void superviseOwner(AxisRef &axis) noexcept {
   }
 }
 
+/// An error stop that reaches a limit has no way left for its ramp.
+void brakeHard(AxisRef &axis) noexcept {
+  const auto &plan = axis.stPlanner;
+  if (plan.bActive != 0 && exact::fabs(axis.fSetAcceleration) < plan.fDeceleration * (1.0 - 1e-9))
+    planBraking(axis, plan.fDeceleration, Braking::Hard);
+}
+
+/// Which way the axis goes in this cycle; 0 for none.
+double headingOf(const AxisRef &axis) noexcept {
+  if (regulated(axis) == Regulated::Force)
+    return axis.fActVelocity; // a torque takes it there
+  if (axis.bMovedInThisCycle != 0)
+    return axis.fSetPosition - axis.fSavePosition;
+  return axis.fSetVelocity; // what nobody owns is moved on later
+}
+
 void superviseLimits(AxisRef &axis) noexcept {
   const bool above = axis.fSetPosition > axis.fSWLimitPositive;
   const bool below = axis.fSetPosition < axis.fSWLimitNegative;
   axis.bSWEndSwitchActive = axis.bSWLimitEnable != 0 && (above || below);
-  // A torque takes the axis where its actual velocity says.
-  const double heading = regulated(axis) == Regulated::Force
-                             ? axis.fActVelocity
-                             : axis.fSetPosition - axis.fSavePosition;
-  const bool outward = (above && heading > 0.0) || (below && heading < 0.0);
-  if (axis.bHWLimitEnable != 0 && axis.bHWLimitIgnored == 0 &&
-      axis.nAxisState != state::kErrorStop &&
-      (axis.bLimitSwitchPositive != 0 || axis.bLimitSwitchNegative != 0))
+  const double heading = headingOf(axis);
+  const bool outward =
+      axis.bSWEndSwitchActive != 0 && ((above && heading > 0.0) || (below && heading < 0.0));
+  const bool watched = axis.bHWLimitEnable != 0 && axis.bHWLimitIgnored == 0;
+  if (axis.nAxisState == state::kErrorStop) {
+    if (outward || (watched && ((axis.bLimitSwitchPositive != 0 && heading > 0.0) ||
+                                (axis.bLimitSwitchNegative != 0 && heading < 0.0))))
+      brakeHard(axis);
+    return;
+  }
+  if (watched && (axis.bLimitSwitchPositive != 0 || axis.bLimitSwitchNegative != 0))
     enterErrorStop(axis, error::kHwLimits);
   // Before homing is over the software limits mean nothing.
-  if (axis.bSWEndSwitchActive != 0 && outward && axis.nAxisState != state::kErrorStop &&
-      axis.nAxisState != state::kHoming)
+  else if (outward && axis.nAxisState != state::kHoming)
     enterErrorStop(axis, error::kSwLimits);
 }
 
@@ -126,7 +179,8 @@ void enterErrorStop(AxisRef &axis, int16_t reason) noexcept {
   if (axis.stPlanner.wStopReason != static_cast<uint16_t>(reason)) // else its owner has noted it
     listError(axis, reason);
   axis.stPlanner.wStopReason = static_cast<uint16_t>(reason);
-  planBraking(axis, brakingDeceleration(axis));
+  const bool atLimit = reason == error::kHwLimits || reason == error::kSwLimits;
+  planBraking(axis, brakingDeceleration(axis), atLimit ? Braking::Hard : Braking::Gentle);
 }
 
 void acknowledge(AxisRef &axis) noexcept {
@@ -175,7 +229,7 @@ void changeRegulated(AxisRef &axis, Regulated before) noexcept {
   if (exact::fabs(axis.fSetVelocity) <= deceleration * axis.fTaskCycle)
     haltAt(axis);
   else
-    planBraking(axis, deceleration);
+    planBraking(axis, deceleration, Braking::Gentle);
   if (axis.stPlanner.bActive != 0 && axis.nAxisState == state::kStandstill)
     axis.nAxisState = state::kDiscrete;
 }

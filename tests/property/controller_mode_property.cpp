@@ -339,9 +339,9 @@ class ControllerMode : public ::testing::TestWithParam<int> {};
 
 TEST_P(ControllerMode, NothingIsDoneUnreachedAndNothingLeaps) {
 #if defined(__SANITIZE_ADDRESS__)
-  constexpr int kRuns = 15;
+  constexpr int kRuns = 8;
 #else
-  constexpr int kRuns = 40;
+  constexpr int kRuns = 20;
 #endif
   int arrived = 0;
   int refused = 0;

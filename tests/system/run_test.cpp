@@ -96,10 +96,12 @@ TEST_F(Run, AFaultStopsOneApplicationAndTheOthersGoOn) {
   EXPECT_EQ(result.exitCode, 2) << result.err;
   EXPECT_THAT(
       result.err,
-      AllOf(ContainsRegex("bad: error: division by zero at bad.st:4:13 [(]task Fast, cycle 49, at "
-                          "T#[0-9]+ms[)]; stride explain SR0001\n  in Half at bad.st:4\n  called by PLC_PRG at "
-                          "bad.st:9"),
-            Not(HasSubstr("good: error"))));
+      AllOf(
+          ContainsRegex(
+              "bad: error: division by zero at bad.st:4:13 [(]task Fast, cycle 49, at "
+              "T#[0-9]+ms[)]; stride explain SR0001\n  in Half at bad.st:4\n  called by PLC_PRG at "
+              "bad.st:9"),
+          Not(HasSubstr("good: error"))));
   EXPECT_THAT(readFile(scratch_.path() / "bad.csv"), ContainsRegex("\n0[.][0-9]+,49\n"));
 }
 
