@@ -73,6 +73,18 @@ double brakingDeceleration(const AxisRef &axis) noexcept {
   return exact::isPositive(commanded) ? exact::larger(own, commanded) : own;
 }
 
+double positiveOr0(double value) noexcept { return exact::isPositive(value) ? value : 0.0; }
+
+/// What an error stop brakes with: at least what SMC_SetSoftwareLimits has set. [u/s^2]
+double errorDeceleration(const AxisRef &axis) noexcept {
+  const double least =
+      exact::larger(brakingDeceleration(axis), positiveOr0(axis.fSWLimitDeceleration));
+  if (!exact::isPositive(axis.fSWLimitDistance))
+    return least;
+  const double velocity = axis.fSetVelocity;
+  return exact::larger(least, positiveOr0(0.5 * velocity * (velocity / axis.fSWLimitDistance)));
+}
+
 /// Whether what moves the axis is a velocity and nothing else, so that it goes on while only
 /// velocities are regulated.
 bool movesByVelocity(const AxisRef &axis) noexcept {
@@ -179,8 +191,10 @@ void enterErrorStop(AxisRef &axis, int16_t reason) noexcept {
   if (axis.stPlanner.wStopReason != static_cast<uint16_t>(reason)) // else its owner has noted it
     listError(axis, reason);
   axis.stPlanner.wStopReason = static_cast<uint16_t>(reason);
-  const bool atLimit = reason == error::kHwLimits || reason == error::kSwLimits;
-  planBraking(axis, brakingDeceleration(axis), atLimit ? Braking::Hard : Braking::Gentle);
+  // Within a given way there is no room for a jerk.
+  const bool hard = reason == error::kHwLimits || reason == error::kSwLimits ||
+                    exact::isPositive(axis.fSWLimitDistance);
+  planBraking(axis, errorDeceleration(axis), hard ? Braking::Hard : Braking::Gentle);
 }
 
 void acknowledge(AxisRef &axis) noexcept {

@@ -8,8 +8,9 @@
 
 namespace stride::axis {
 
-/// Takes the axis from its owner and brakes it to rest in state errorstop, with the larger of the
-/// command's deceleration and fSWMaxDeceleration. Ramp types that limit the jerk do so here, too,
+/// Takes the axis from its owner and brakes it to rest in state errorstop, with the largest of the
+/// command's deceleration, fSWMaxDeceleration, fSWLimitDeceleration and what keeps to
+/// fSWLimitDistance. Ramp types that limit the jerk do so here, too,
 /// except at the end of the way (limit switches, software limits). `reason` is an SMC_ERROR.
 void enterErrorStop(AxisRef &axis, int16_t reason) noexcept;
 

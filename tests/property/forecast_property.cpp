@@ -214,7 +214,7 @@ private:
     }
     if (first > 0) {
       ASSERT_EQ(travel_.Valid, 1) << travel_.Position;
-      ASSERT_LE(travel_.TravelTime, (first + 1e-6) * rig_.cycleSeconds);
+      ASSERT_LE(travel_.Duration, (first + 1e-6) * rig_.cycleSeconds);
     }
     if (travel_.Valid == 0)
       return;
@@ -222,14 +222,14 @@ private:
     Forecast forecast(rig_.axis);
     State there{};
     double jerk = 0;
-    ASSERT_TRUE(forecast.at(travel_.TravelTime, there, jerk));
-    ASSERT_LE(apart(there.position, travel_.Position), 1e-6) << travel_.TravelTime;
+    ASSERT_TRUE(forecast.at(travel_.Duration, there, jerk));
+    ASSERT_LE(apart(there.position, travel_.Position), 1e-6) << travel_.Duration;
     if (first > 0) {
       // Earlier only where it turns back between two ends of cycles.
       const double early = (first - 1 - 1e-6) * rig_.cycleSeconds;
-      if (travel_.TravelTime < early) {
-        const auto i = static_cast<size_t>(travel_.TravelTime / rig_.cycleSeconds);
-        ASSERT_LE(expected[i].velocity * expected[i + 1].velocity, 1e-9) << travel_.TravelTime;
+      if (travel_.Duration < early) {
+        const auto i = static_cast<size_t>(travel_.Duration / rig_.cycleSeconds);
+        ASSERT_LE(expected[i].velocity * expected[i + 1].velocity, 1e-9) << travel_.Duration;
       }
     }
   }

@@ -73,6 +73,10 @@ static std::vector<VarSymbol *> declareVariables(Context &c, PouSymbol *pou, Mod
       continue;
     }
     variables.push_back(symbol);
+    for (const Attribute &a : v->attributes) { // a second name of the same variable
+      if (a.id == AttributeId::Alias)
+        pou->scope.emplace(c.program.interner.intern(a.value), symbol);
+    }
   }
   return variables;
 }

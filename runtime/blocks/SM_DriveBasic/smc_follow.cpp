@@ -1,9 +1,11 @@
-// SMC_FollowPosition, SMC_FollowVelocity, SMC_FollowPositionVelocity: set values of the program.
+// SMC_FollowPosition, SMC_FollowVelocity, SMC_FollowPositionVelocity, SMC_FollowSetValues: set
+// values of the program.
 #include "runtime/axis/follow.hpp"
 #include "runtime/numeric/exact_math.hpp"
 
 #include "st/SM_DriveBasic/SMC_FollowPosition.h"
 #include "st/SM_DriveBasic/SMC_FollowPositionVelocity.h"
+#include "st/SM_DriveBasic/SMC_FollowSetValues.h"
 #include "st/SM_DriveBasic/SMC_FollowVelocity.h"
 
 namespace {
@@ -55,6 +57,72 @@ template <class Block> double demanded(const Block &block, const AxisRef &ref) n
   return block.fSetPosition + shift;
 }
 
+/// The bits of SMC_FollowSetValues.dwValueMask.
+enum ValueBit : uint32_t {
+  kPosition = 1,
+  kVelocity = 2,
+  kAcceleration = 4,
+  kJerk = 8,
+  kTorque = 16,
+  kCurrent = 32,
+};
+
+using FollowSetValues = ::st::SM_DriveBasic::SMC_FollowSetValues;
+
+/// Whether every value that is to be written is a number.
+bool areNumbers(const FollowSetValues &block) noexcept {
+  const double values[] = {block.fSetPosition, block.fSetVelocity, block.fSetAcceleration,
+                           block.fSetJerk,     block.fSetTorque,   block.fSetCurrent};
+  uint32_t bit = kPosition;
+  for (const double value : values) {
+    if ((block.dwValueMask & bit) != 0 && !exact::isfinite(value))
+      return false;
+    bit <<= 1;
+  }
+  return true;
+}
+
+void writeValues(FollowSetValues &block, AxisRef &ref) noexcept {
+  const uint32_t mask = block.dwValueMask;
+  auto &follow = block.stFollow;
+  const double before = follow.fVelocity;
+  const double position = (mask & kPosition) != 0 ? demanded(block, ref) : follow.fPosition;
+  const double way = (mask & kPosition) != 0 ? motion::wayTo(follow, ref, position) : 0.0;
+  const double velocity = (mask & kVelocity) != 0 ? block.fSetVelocity : way / ref.fTaskCycle;
+  const double acceleration =
+      (mask & kAcceleration) != 0 ? block.fSetAcceleration : (velocity - before) / ref.fTaskCycle;
+  motion::followState(follow, ref, {position, velocity, acceleration}, way);
+  if ((mask & kJerk) != 0)
+    ref.fSetJerk = block.fSetJerk;
+  if ((mask & kTorque) != 0)
+    ref.fSetTorque = block.fSetTorque;
+  if ((mask & kCurrent) != 0)
+    ref.fSetCurrent = block.fSetCurrent;
+  block.dwForces |= mask & (kTorque | kCurrent);
+}
+
+/// The execution is over: its torque and current do not stay.
+void takeForces(FollowSetValues &block, AxisRef &ref) noexcept {
+  if ((block.dwForces & kTorque) != 0)
+    ref.fSetTorque = 0.0;
+  if ((block.dwForces & kCurrent) != 0)
+    ref.fSetCurrent = 0.0;
+  block.dwForces = 0;
+}
+
+/// Ends the execution by bAbort. An axis in motion keeps its owner, which will not be called: the
+/// runtime brakes it into error stop, unless another block takes it before.
+void endFollowing(FollowSetValues &block) noexcept {
+  auto &state = block.stBlock;
+  auto *ref = static_cast<AxisRef *>(state.pAxis);
+  if (state.bRunning != 0 && axis::ownsAxis(*ref, state.ulOwner)) {
+    takeForces(block, *ref);
+    if (ref->fSetVelocity == 0.0)
+      motion::release(*ref);
+  }
+  state.bRunning = 0;
+}
+
 } // namespace
 
 void st::SM_DriveBasic::SMC_FollowPosition::body__(::stride::Ctx & /*ctx__*/) {
@@ -79,4 +147,19 @@ void st::SM_DriveBasic::SMC_FollowVelocity::body__(::stride::Ctx & /*ctx__*/) {
     const double way = 0.5 * (stFollow.fVelocity + fSetVelocity) * ref.fTaskCycle;
     motion::followStep(stFollow, ref, stFollow.fPosition + way, way, fSetVelocity);
   });
+}
+
+void st::SM_DriveBasic::SMC_FollowSetValues::body__(::stride::Ctx & /*ctx__*/) {
+  if (bAbort != 0) {
+    endFollowing(*this);
+    stBlock.bExecuteOld = bExecute; // an edge meanwhile does not count
+    motion::clearOutcome(stBlock);
+    bBusy = bCommandAborted = bError = 0;
+    iErrorID = axis::error::kNone;
+    return;
+  }
+  const bool ran = stBlock.bRunning != 0;
+  run(*this, areNumbers(*this), [this](AxisRef &ref) { writeValues(*this, ref); });
+  if (ran && stBlock.bRunning == 0 && Axis != nullptr)
+    takeForces(*this, *Axis);
 }

@@ -177,6 +177,6 @@ void st::SM_DriveBasic::SMC_GetTravelTime::body__(::stride::Ctx & /*ctx__*/) {
   double time = 0.0;
   if (!findTravelTime(*Axis, Place(*Axis, Position), horizonOf(*Axis), time))
     return;
-  TravelTime = time;
+  Duration = time;
   Valid = 1;
 }

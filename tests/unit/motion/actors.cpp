@@ -2,16 +2,22 @@
 
 #include "st/SM_DriveBasic/MC_CAM_REF.h"
 #include "st/SM_DriveBasic/SMC_CAMXYVA.h"
+#include "st/SM_DriveBasic/SMC_ChangeDynamicLimits.h"
+#include "st/SM_DriveBasic/SMC_CheckAxisCommunication.h"
 #include "st/SM_DriveBasic/SMC_CheckLimits.h"
 #include "st/SM_DriveBasic/SMC_ControlAxisByPos.h"
 #include "st/SM_DriveBasic/SMC_ControlAxisByPosVel.h"
 #include "st/SM_DriveBasic/SMC_ControlAxisByVel.h"
 #include "st/SM_DriveBasic/SMC_FollowPosition.h"
 #include "st/SM_DriveBasic/SMC_FollowPositionVelocity.h"
+#include "st/SM_DriveBasic/SMC_FollowSetValues.h"
 #include "st/SM_DriveBasic/SMC_FollowVelocity.h"
 #include "st/SM_DriveBasic/SMC_Homing.h"
+#include "st/SM_DriveBasic/SMC_InPosition.h"
 #include "st/SM_DriveBasic/SMC_MeasureDistance.h"
 #include "st/SM_DriveBasic/SMC_SetControllerMode.h"
+#include "st/SM_DriveBasic/SMC_SetMovementType.h"
+#include "st/SM_DriveBasic/SMC_SetSoftwareLimits.h"
 #include "st/SM_DriveBasic/TRIGGER_REF.h"
 #include "st/SM_PLCopen/MC_AbortTrigger.h"
 #include "st/SM_PLCopen/MC_AccelerationProfile.h"
@@ -21,7 +27,9 @@
 #include "st/SM_PLCopen/MC_GearInPos.h"
 #include "st/SM_PLCopen/MC_GearOut.h"
 #include "st/SM_PLCopen/MC_Halt.h"
+#include "st/SM_PLCopen/MC_HaltSuperImposed.h"
 #include "st/SM_PLCopen/MC_Home.h"
+#include "st/SM_PLCopen/MC_Jog.h"
 #include "st/SM_PLCopen/MC_MoveAdditive.h"
 #include "st/SM_PLCopen/MC_MoveRelative.h"
 #include "st/SM_PLCopen/MC_MoveSuperImposed.h"
@@ -46,6 +54,7 @@
 #include "st/SM_PLCopen/MC_VelocityProfile.h"
 #include "st/SM_PLCopen/MC_WriteBoolParameter.h"
 #include "st/SM_PLCopen/MC_WriteParameter.h"
+#include "st/SM_PLCopen/SMC_Inch.h"
 #include "st/SM_PLCopen/SMC_MoveContinuousAbsolute.h"
 #include "st/SM_PLCopen/SMC_MoveContinuousRelative.h"
 #include "st/SM_PLCopen/SMC_ReadSetPosition.h"
@@ -69,6 +78,10 @@ template <class Block> void setExecute(Block &b, bool execute) {
     b.bExecute = value;
   else if constexpr (requires { b.Enable; })
     b.Enable = value;
+  else if constexpr (requires { b.JogForward; })
+    b.JogForward = value;
+  else if constexpr (requires { b.InchForward; })
+    b.InchForward = value;
   else
     b.bEnable = value;
 }
@@ -91,6 +104,10 @@ template <class Block> void showOutcome(const Block &b, Shown &s) {
     s.errorId = static_cast<int>(b.iErrorID);
   else if constexpr (requires { b.nErrorID; })
     s.errorId = static_cast<int>(b.nErrorID);
+  else if constexpr (requires { b.eErrorID; })
+    s.errorId = static_cast<int>(b.eErrorID);
+  else if constexpr (requires { b.ErrorId; })
+    s.errorId = static_cast<int>(b.ErrorId);
 }
 
 template <class Block> Shown showBlock(const Block &b) {
@@ -187,6 +204,8 @@ template <class Block> Factory following() {
   return [](AxisRig &rig) {
     auto h = std::make_shared<Held<Block, Nothing>>();
     Actor a = actorOf(rig, h);
+    if constexpr (requires { h->block.dwValueMask; })
+      h->block.dwValueMask = 3; // position and velocity
     a.call = [h, &rig, started = false](bool execute) mutable {
       if constexpr (requires { h->block.fSetPosition; }) {
         if (!started)
@@ -284,6 +303,27 @@ template <class Block> Factory relative(double distance) {
   });
 }
 
+/// A block with keys, which has no Done: it has what it wants at its velocity or after its step.
+template <class Block> Factory keyed() {
+  return [](AxisRig &rig) {
+    auto h = std::make_shared<Held<Block, Nothing>>();
+    setDynamics(h->block);
+    if constexpr (requires { h->block.Distance; })
+      h->block.Distance = 60;
+    Actor a = actorOf(rig, h);
+    a.show = [h, &rig] {
+      const Block &b = h->block;
+      Shown s = showBlock(b);
+      if constexpr (requires { b.Distance; })
+        s.done = b.InchForward != 0 && !s.busy && !s.error && !s.aborted;
+      else
+        s.done = s.busy && rig.axis.fSetVelocity == b.Velocity;
+      return s;
+    };
+    return a;
+  };
+}
+
 const std::map<std::string, Factory> &positioning() {
   static const std::map<std::string, Factory> table{
       {"MC_MoveAbsolute", plain<pl::MC_MoveAbsolute>([](auto &b, AxisRig &) {
@@ -309,6 +349,8 @@ const std::map<std::string, Factory> &positioning() {
          b.EndVelocity = 10;
          b.EndVelocityDirection = basic::MC_Direction__positive;
        })},
+      {"MC_Jog", keyed<pl::MC_Jog>()},
+      {"SMC_Inch", keyed<pl::SMC_Inch>()},
       {"MC_Halt", moving<pl::MC_Halt>()},
       {"MC_Stop", moving<pl::MC_Stop>()},
       {"MC_Home", plain<pl::MC_Home>([](auto &b, AxisRig &) {
@@ -361,6 +403,7 @@ const std::map<std::string, Factory> &courses() {
       {"SMC_FollowPosition", following<basic::SMC_FollowPosition>()},
       {"SMC_FollowPositionVelocity", following<basic::SMC_FollowPositionVelocity>()},
       {"SMC_FollowVelocity", following<basic::SMC_FollowVelocity>()},
+      {"SMC_FollowSetValues", following<basic::SMC_FollowSetValues>()},
       {"SMC_ControlAxisByPos", following<basic::SMC_ControlAxisByPos>()},
       {"SMC_ControlAxisByPosVel", following<basic::SMC_ControlAxisByPosVel>()},
       {"SMC_ControlAxisByVel", following<basic::SMC_ControlAxisByVel>()},
@@ -430,6 +473,14 @@ const std::map<std::string, Factory> &administrative() {
       {"SMC_ReadSetPosition", plain<pl::SMC_ReadSetPosition>()},
       {"SMC_CheckLimits", plain<basic::SMC_CheckLimits>()},
       {"SMC_MeasureDistance", plain<basic::SMC_MeasureDistance>()},
+      {"MC_HaltSuperImposed", moving<pl::MC_HaltSuperImposed>()},
+      {"SMC_SetSoftwareLimits", plain<basic::SMC_SetSoftwareLimits>()},
+      {"SMC_ChangeDynamicLimits", plain<basic::SMC_ChangeDynamicLimits>([](auto &b, AxisRig &) {
+         b.fMaxVelocity = b.fMaxAcceleration = b.fMaxDeceleration = b.fMaxJerk = 100;
+       })},
+      {"SMC_SetMovementType", plain<basic::SMC_SetMovementType>()},
+      {"SMC_InPosition", plain<basic::SMC_InPosition>()},
+      {"SMC_CheckAxisCommunication", plain<basic::SMC_CheckAxisCommunication>()},
   };
   return table;
 }

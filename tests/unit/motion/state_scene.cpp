@@ -35,14 +35,15 @@ std::vector<std::string> waysInto(const std::string &state) {
       {"stopping", {"braking", "braking, Execute = FALSE", "at rest"}},
       {"standstill", {"switched on", "after a move"}},
       {"discrete_motion",
-       {"MC_MoveAbsolute", "MC_MoveRelative", "MC_MoveAdditive", "MC_Halt", "MC_PositionProfile"}},
+       {"MC_MoveAbsolute", "MC_MoveRelative", "MC_MoveAdditive", "MC_Halt", "MC_PositionProfile",
+        "SMC_Inch"}},
       {"continuous_motion",
        {"MC_MoveVelocity", "MC_MoveVelocity in velocity", "SMC_MoveContinuousAbsolute",
-        "SMC_MoveContinuousRelative", "MC_VelocityProfile", "MC_AccelerationProfile"}},
+        "SMC_MoveContinuousRelative", "MC_VelocityProfile", "MC_AccelerationProfile", "MC_Jog"}},
       {"synchronized_motion",
        {"SMC_FollowPosition", "SMC_FollowPositionVelocity", "SMC_FollowVelocity",
-        "SMC_ControlAxisByPos", "SMC_ControlAxisByPosVel", "SMC_ControlAxisByVel", "MC_GearIn",
-        "MC_GearInPos", "MC_Phasing", "MC_CamIn"}},
+        "SMC_FollowSetValues", "SMC_ControlAxisByPos", "SMC_ControlAxisByPosVel",
+        "SMC_ControlAxisByVel", "MC_GearIn", "MC_GearInPos", "MC_Phasing", "MC_CamIn"}},
       {"homing", {"SMC_Homing", "MC_Home"}}};
   return ways.at(state);
 }
