@@ -86,8 +86,17 @@ inline Call beginCall(BlockState &block, bool execute, AxisRef *ref) noexcept {
   return block.bRunning != 0 ? Call::Go : Call::Idle;
 }
 
-/// What a command needs: that the axis gets to a place, or that it moves with a velocity.
-enum class Needs : uint8_t { Position, Velocity };
+/// What a command needs: that the axis gets to a place, that it moves with a velocity, or neither
+/// (set torques).
+enum class Needs : uint8_t { Position, Velocity, Force };
+
+/// kWrongMode if the drive regulates what does not bring that about, or kNone.
+inline int16_t modeRefusal(const AxisRef &ref, Needs needs) noexcept {
+  const axis::Regulated regulated = axis::regulated(ref);
+  const bool fits = regulated == axis::Regulated::Position || needs == Needs::Force ||
+                    (regulated == axis::Regulated::Velocity && needs == Needs::Velocity);
+  return fits ? axis::error::kNone : axis::error::kWrongMode;
+}
 
 /// Why the axis takes no motion command now, or kNone: no power, no task cycle, error stop, held by
 /// MC_Stop, homing, a drive that regulates something else.
@@ -100,11 +109,7 @@ inline int16_t refusal(const AxisRef &ref, Needs needs = Needs::Position) noexce
     return axis::error::kStopBlocks;
   if (ref.nAxisState == axis::state::kHoming)
     return axis::error::kNotReady;
-  const axis::Regulated regulated = axis::regulated(ref);
-  if (regulated == axis::Regulated::Force ||
-      (regulated == axis::Regulated::Velocity && needs == Needs::Position))
-    return axis::error::kWrongMode;
-  return axis::error::kNone;
+  return modeRefusal(ref, needs);
 }
 
 /// Why the axis takes no homing command now, or kNone: homing begins in standstill.

@@ -34,7 +34,11 @@ void run(Block &block, motion::Needs needs, bool usable, Write write) noexcept {
   }
   case motion::Call::Go:
     // Without set values the axis is not moved on: it brakes into error stop.
-    if (motion::keep(state, *ref) && !usable)
+    if (!motion::keep(state, *ref))
+      break;
+    if (const int16_t problem = motion::modeRefusal(*ref, needs); problem != axis::error::kNone)
+      motion::fail(state, ref, problem);
+    else if (!usable)
       motion::fail(state, ref, axis::error::kOutOfRange);
     break;
   case motion::Call::Idle:
@@ -82,7 +86,13 @@ bool areNumbers(const FollowSetValues &block) noexcept {
   return true;
 }
 
-void writeValues(FollowSetValues &block, AxisRef &ref) noexcept {
+motion::Needs needsOf(uint32_t mask) noexcept {
+  if ((mask & kPosition) != 0)
+    return motion::Needs::Position;
+  return (mask & (kVelocity | kAcceleration)) != 0 ? motion::Needs::Velocity : motion::Needs::Force;
+}
+
+void writeMotion(FollowSetValues &block, AxisRef &ref) noexcept {
   const uint32_t mask = block.dwValueMask;
   auto &follow = block.stFollow;
   const double before = follow.fVelocity;
@@ -92,6 +102,16 @@ void writeValues(FollowSetValues &block, AxisRef &ref) noexcept {
   const double acceleration =
       (mask & kAcceleration) != 0 ? block.fSetAcceleration : (velocity - before) / ref.fTaskCycle;
   motion::followState(follow, ref, {position, velocity, acceleration}, way);
+}
+
+void writeValues(FollowSetValues &block, AxisRef &ref) noexcept {
+  const uint32_t mask = block.dwValueMask;
+  if (axis::regulated(ref) == axis::Regulated::Force) {
+    motion::startFollowing(block.stFollow, ref); // the set position follows the actual one
+    ref.bMovedInThisCycle = 1;
+  } else {
+    writeMotion(block, ref);
+  }
   if ((mask & kJerk) != 0)
     ref.fSetJerk = block.fSetJerk;
   if ((mask & kTorque) != 0)
@@ -159,7 +179,8 @@ void st::SM_DriveBasic::SMC_FollowSetValues::body__(::stride::Ctx & /*ctx__*/) {
     return;
   }
   const bool ran = stBlock.bRunning != 0;
-  run(*this, areNumbers(*this), [this](AxisRef &ref) { writeValues(*this, ref); });
+  const motion::Needs needs = needsOf(dwValueMask);
+  run(*this, needs, areNumbers(*this), [this](AxisRef &ref) { writeValues(*this, ref); });
   if (ran && stBlock.bRunning == 0 && Axis != nullptr)
     takeForces(*this, *Axis);
 }

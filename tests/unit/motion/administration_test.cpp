@@ -3,6 +3,7 @@
 // SMC_FollowSetValues beside motion.
 #include "tests/unit/axis/axis_rig.hpp"
 
+#include "st/SM_DriveBasic/SMC_CONTROLLER_MODE.h"
 #include "st/SM_DriveBasic/SMC_ChangeDynamicLimits.h"
 #include "st/SM_DriveBasic/SMC_CheckAxisCommunication.h"
 #include "st/SM_DriveBasic/SMC_CommunicationState.h"
@@ -410,6 +411,29 @@ TEST_F(FollowSetValues, AbortInMotionWithoutOneIsAnErrorStop) {
   follow.bAbort = 1;
   cycle(2);
   EXPECT_EQ(rig.axis.nAxisState, state::kErrorStop);
+}
+
+TEST_F(FollowSetValues, AForceAloneNeedsNoPositionControl) {
+  rig.axis.byRealControllerMode = basic::SMC_CONTROLLER_MODE__SMC_torque;
+  follow.dwValueMask = 17;
+  follow.body__(rig.ctx);
+  EXPECT_EQ(follow.iErrorID, axis::error::kWrongMode);
+  follow.bExecute = 0;
+  follow.body__(rig.ctx);
+  follow.dwValueMask = 16;
+  follow.fSetTorque = 3;
+  follow.bExecute = 1;
+  follow.body__(rig.ctx);
+  EXPECT_EQ(follow.bError, 0);
+  EXPECT_EQ(rig.axis.fSetTorque, 3);
+  EXPECT_EQ(rig.axis.bMovedInThisCycle, 1);
+  rig.axis.bMovedInThisCycle = 0;
+  rig.axis.fSetPosition = 4; // the runtime: the actual one
+  follow.body__(rig.ctx);
+  EXPECT_EQ(rig.axis.fSetPosition, 4);
+  follow.dwValueMask = 2;
+  follow.body__(rig.ctx);
+  EXPECT_EQ(follow.iErrorID, axis::error::kWrongMode);
 }
 
 TEST_F(FollowSetValues, AnotherCommandTakesTheAxisAndTheTorque) {
