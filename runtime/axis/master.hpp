@@ -38,6 +38,20 @@ MasterMotion beginMaster(MasterState &master, axis::AxisRef &ref,
 MasterMotion readMaster(MasterState &master, axis::AxisRef &ref,
                         MasterView view = MasterView::Auto) noexcept;
 
+/// A signal that a program gives instead of a master.
+struct Signal {
+  double position;     ///< Within the period, if there is one. [u]
+  double velocity;     ///< [u/s]
+  double acceleration; ///< [u/s^2]
+  double period;       ///< 0 for none. [u]
+};
+
+/// The first look at a signal.
+MasterMotion beginSignal(MasterState &state, const Signal &signal) noexcept;
+
+/// The next look, `cycle` [s] later; turns are counted as those of a master.
+MasterMotion readSignal(MasterState &state, const Signal &signal, double cycle) noexcept;
+
 } // namespace stride::motion
 
 #endif

@@ -54,11 +54,14 @@
 #include "st/SM_PLCopen/MC_VelocityProfile.h"
 #include "st/SM_PLCopen/MC_WriteBoolParameter.h"
 #include "st/SM_PLCopen/MC_WriteParameter.h"
+#include "st/SM_PLCopen/SMC_BacklashCompensation.h"
 #include "st/SM_PLCopen/SMC_Inch.h"
 #include "st/SM_PLCopen/SMC_MoveContinuousAbsolute.h"
 #include "st/SM_PLCopen/SMC_MoveContinuousRelative.h"
 #include "st/SM_PLCopen/SMC_ReadSetPosition.h"
 #include "st/SM_PLCopen/SMC_SetTorque.h"
+#include "st/SM_PLCopen/SMC_TrackAxis.h"
+#include "st/SM_PLCopen/SMC_TrackSetValues.h"
 
 #include <map>
 #include <stdexcept>
@@ -124,6 +127,10 @@ template <class Block> Shown showBlock(const Block &b) {
     s.done = b.InGear != 0;
   else if constexpr (requires { b.InSync; })
     s.done = b.InSync != 0;
+  else if constexpr (requires { b.bInSync; })
+    s.done = b.bInSync != 0;
+  else if constexpr (requires { b.bCompensating; })
+    s.done = b.bBusy != 0 && b.bCompensating == 0;
   else if constexpr (requires { b.Enabled; })
     s.done = b.Enabled != 0;
   if constexpr (requires { b.Busy; }) {
@@ -206,6 +213,8 @@ template <class Block> Factory following() {
     Actor a = actorOf(rig, h);
     if constexpr (requires { h->block.dwValueMask; })
       h->block.dwValueMask = 3; // position and velocity
+    if constexpr (requires { h->block.Deceleration; })
+      setDynamics(h->block);
     a.call = [h, &rig, started = false](bool execute) mutable {
       if constexpr (requires { h->block.fSetPosition; }) {
         if (!started)
@@ -404,6 +413,7 @@ const std::map<std::string, Factory> &courses() {
       {"SMC_FollowPositionVelocity", following<basic::SMC_FollowPositionVelocity>()},
       {"SMC_FollowVelocity", following<basic::SMC_FollowVelocity>()},
       {"SMC_FollowSetValues", following<basic::SMC_FollowSetValues>()},
+      {"SMC_TrackSetValues", following<pl::SMC_TrackSetValues>()},
       {"SMC_ControlAxisByPos", following<basic::SMC_ControlAxisByPos>()},
       {"SMC_ControlAxisByPosVel", following<basic::SMC_ControlAxisByPosVel>()},
       {"SMC_ControlAxisByVel", following<basic::SMC_ControlAxisByVel>()},
@@ -432,6 +442,14 @@ const std::map<std::string, Factory> &couplings() {
          b.CamTableID.MasterAbsolute = 0;
          b.CamTableID.SlaveAbsolute = 0;
          b.StartMode = pl::MC_StartMode__ramp_in;
+       })},
+      {"SMC_TrackAxis", coupled<pl::SMC_TrackAxis>([](auto &b, auto & /*leader*/,
+                                                      auto & /*slave*/) { setDynamics(b); })},
+      {"SMC_BacklashCompensation",
+       coupled<pl::SMC_BacklashCompensation>([](auto &b, auto & /*leader*/, auto & /*slave*/) {
+         b.fBacklash = 0.5;
+         b.fCompensationVel = 20;
+         b.fCompensationAcc = b.fCompensationDec = 50;
        })},
       {"MC_GearOut", uncoupling<pl::MC_GearOut>()},
       {"MC_CamOut", uncoupling<pl::MC_CamOut>()},
