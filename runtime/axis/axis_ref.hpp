@@ -73,8 +73,7 @@ inline constexpr int16_t kMoveAdditiveValues =
 inline constexpr int16_t kMoveAdditiveDirection =
     ::st::SM_Error::SMC_ERROR__SMC_MAD_INVALID_DIRECTION;
 inline constexpr int16_t kOverride = ::st::SM_Error::SMC_ERROR__SMC_SO_INVALID_FACTOR;
-inline constexpr int16_t kInvalidParameter =
-    ::st::SM_Error::SMC_ERROR__SMC_INVALID_PARAMETER;
+inline constexpr int16_t kInvalidParameter = ::st::SM_Error::SMC_ERROR__SMC_INVALID_PARAMETER;
 inline constexpr int16_t kHomingValues = ::st::SM_Error::SMC_ERROR__SMC_3SH_INVALID_VELACC_VALUES;
 inline constexpr int16_t kHomingNeedsLimits = ::st::SM_Error::SMC_ERROR__SMC_3SH_MODE_NEEDS_HWLIMIT;
 inline constexpr int16_t kSuperimposedValues =

@@ -6,9 +6,9 @@
 namespace stride::motion {
 
 int16_t checkPursuit(const AxisRef &ref, const BlockLimits &limits) noexcept {
-  const bool good = exact::isPositive(limits.velocity) &&
-                    checkLimits(ref, limits.acceleration, limits.deceleration, limits.jerk) ==
-                        LimitError::None;
+  const bool good =
+      exact::isPositive(limits.velocity) &&
+      checkLimits(ref, limits.acceleration, limits.deceleration, limits.jerk) == LimitError::None;
   return good ? axis::error::kNone : axis::error::kInvalidParameter;
 }
 

@@ -73,8 +73,7 @@ Dynamics drawLimits(Random &random, RampType ramp) {
 /// The step from one state of the axis to the next keeps to the limits.
 void expectStep(const State &from, const State &to, const Dynamics &most, double T) {
   const double largest = std::max(most.acceleration, most.deceleration);
-  ASSERT_LE(std::fabs(to.velocity),
-            std::max(most.velocity, std::fabs(from.velocity)) * (1 + 1e-6));
+  ASSERT_LE(std::fabs(to.velocity), std::max(most.velocity, std::fabs(from.velocity)) * (1 + 1e-6));
   const double change = to.velocity - from.velocity;
   double limit = from.velocity * change >= 0 ? most.acceleration : most.deceleration;
   if (from.velocity * to.velocity < 0)
@@ -82,7 +81,8 @@ void expectStep(const State &from, const State &to, const Dynamics &most, double
   if (most.ramp == RampType::Trapezoid) {
     ASSERT_LE(std::fabs(change), limit * T * (1 + 1e-6) + 1e-9);
   } else {
-    ASSERT_LE(std::fabs(to.acceleration), std::max(largest, std::fabs(from.acceleration)) * (1 + 1e-6));
+    ASSERT_LE(std::fabs(to.acceleration),
+              std::max(largest, std::fabs(from.acceleration)) * (1 + 1e-6));
     ASSERT_LE(std::fabs(to.acceleration - from.acceleration), most.jerk * T * (1 + 1e-5) + 1e-6);
     ASSERT_LE(std::fabs(change), largest * T * (1 + 1e-6) + 1e-9);
   }

@@ -47,8 +47,8 @@ int16_t readInputs(Block &block) noexcept {
 double sideOf(const Backlash &state) noexcept {
   if (state.nDirection == 0 || state.eMode == pl::SMC_BACKLASH_MODE__SMC_BL_OFF)
     return 0.0;
-  const bool counts = state.eMode == pl::SMC_BACKLASH_MODE__SMC_BL_AUTO ||
-                      state.eMode == state.nDirection;
+  const bool counts =
+      state.eMode == pl::SMC_BACKLASH_MODE__SMC_BL_AUTO || state.eMode == state.nDirection;
   return ((counts ? state.nDirection : 0) - state.eStart) * state.fBacklash;
 }
 
@@ -129,8 +129,7 @@ void run(Block &block) noexcept {
   AxisRef *slave = block.Slave;
   const motion::Turn turn = motion::callFollower(
       block.stBlock, block.stBacklash.stMaster, block.stFollow, block.bExecute != 0, block.Master,
-      slave, ::st::SM_DriveBasic::MC_BUFFER_MODE__Aborting,
-      [&block] { return readInputs(block); });
+      slave, ::st::SM_DriveBasic::MC_BUFFER_MODE__Aborting, [&block] { return readInputs(block); });
   bool good = true;
   if (turn == motion::Turn::Begin)
     good = begin(block, *slave);

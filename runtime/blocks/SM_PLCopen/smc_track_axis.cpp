@@ -14,10 +14,10 @@ void run(Block &block) noexcept {
   auto &pursuit = block.stPursuit;
   const motion::BlockLimits limits{block.Velocity, block.Acceleration, block.Deceleration,
                                    block.Jerk};
-  const motion::Turn turn = motion::callFollower(
-      block.stBlock, pursuit.stSignal, block.stFollow, block.bExecute != 0, block.Master,
-      block.Slave, ::st::SM_DriveBasic::MC_BUFFER_MODE__Aborting,
-      [&] { return motion::checkPursuit(*block.Slave, limits); });
+  const motion::Turn turn =
+      motion::callFollower(block.stBlock, pursuit.stSignal, block.stFollow, block.bExecute != 0,
+                           block.Master, block.Slave, ::st::SM_DriveBasic::MC_BUFFER_MODE__Aborting,
+                           [&] { return motion::checkPursuit(*block.Slave, limits); });
   if (turn == motion::Turn::None)
     return;
   motion::AxisRef &slave = *block.Slave;

@@ -33,7 +33,8 @@ bool isAllowed(const Pursuit &task, const State &next) noexcept {
   if (from.velocity * next.velocity < 0.0) // it turns round on the way
     limit = exact::smaller(most.acceleration, most.deceleration);
   if (!limitsJerk(most))
-    return exact::fabs(change) <= limit * task.cycle * (1.0 + kNothing) + kNothing * kNothing * fastest;
+    return exact::fabs(change) <=
+           limit * task.cycle * (1.0 + kNothing) + kNothing * kNothing * fastest;
   const double largest = exact::larger(limit, exact::fabs(from.acceleration));
   const double turn = exact::fabs(next.acceleration - from.acceleration);
   return exact::fabs(next.acceleration) <= largest * (1.0 + kNothing) &&
@@ -79,8 +80,8 @@ bool relativeLimits(Dynamics &limits, const Pursuit &task, const State &start, c
   const double velocity = task.now.velocity;
   const bool still = velocity == 0.0 && start.velocity == 0.0;
   if (!still) {
-    const double side = apart.position != 0.0 ? -exact::signOf(apart.position)
-                                              : -exact::signOf(apart.velocity);
+    const double side =
+        apart.position != 0.0 ? -exact::signOf(apart.position) : -exact::signOf(apart.velocity);
     if (!(side * velocity > 0.0 && task.axis.velocity * velocity >= 0.0))
       limits.acceleration = limits.deceleration =
           exact::smaller(limits.acceleration, limits.deceleration);

@@ -24,8 +24,9 @@ struct Pursued {
 /// The axis's next state. It gets to a signal of constant velocity in the shortest time that its
 /// limits allow (where acceleration and deceleration differ and the axis has to slow down for a
 /// signal that is behind it, both count as the smaller one), and stays on a signal that keeps to
-/// the limits itself. A signal that leaps is pursued anew; one that is too fast gets away. Velocity,
-/// acceleration and jerk of the axis never exceed the limits, or go back to them steadily.
+/// the limits itself. A signal that leaps is pursued anew; one that is too fast gets away.
+/// Velocity, acceleration and jerk of the axis never exceed the limits, or go back to them
+/// steadily.
 Pursued pursue(const Pursuit &task) noexcept;
 
 } // namespace stride::motion

@@ -443,8 +443,8 @@ const std::map<std::string, Factory> &couplings() {
          b.CamTableID.SlaveAbsolute = 0;
          b.StartMode = pl::MC_StartMode__ramp_in;
        })},
-      {"SMC_TrackAxis", coupled<pl::SMC_TrackAxis>([](auto &b, auto & /*leader*/,
-                                                      auto & /*slave*/) { setDynamics(b); })},
+      {"SMC_TrackAxis", coupled<pl::SMC_TrackAxis>(
+                            [](auto &b, auto & /*leader*/, auto & /*slave*/) { setDynamics(b); })},
       {"SMC_BacklashCompensation",
        coupled<pl::SMC_BacklashCompensation>([](auto &b, auto & /*leader*/, auto & /*slave*/) {
          b.fBacklash = 0.5;

@@ -43,7 +43,8 @@ std::vector<std::string> waysInto(const std::string &state) {
       {"synchronized_motion",
        {"SMC_FollowPosition", "SMC_FollowPositionVelocity", "SMC_FollowVelocity",
         "SMC_FollowSetValues", "SMC_ControlAxisByPos", "SMC_ControlAxisByPosVel",
-        "SMC_ControlAxisByVel", "MC_GearIn", "MC_GearInPos", "MC_Phasing", "MC_CamIn", "SMC_TrackAxis", "SMC_BacklashCompensation"}},
+        "SMC_ControlAxisByVel", "MC_GearIn", "MC_GearInPos", "MC_Phasing", "MC_CamIn",
+        "SMC_TrackAxis", "SMC_BacklashCompensation"}},
       {"homing", {"SMC_Homing", "MC_Home"}}};
   return ways.at(state);
 }
