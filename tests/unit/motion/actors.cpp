@@ -1,10 +1,9 @@
 #include "tests/unit/motion/actors.hpp"
 
+#include "tests/unit/motion/actor_factories.hpp"
+
 #include "st/SM_DriveBasic/MC_CAM_REF.h"
 #include "st/SM_DriveBasic/SMC_CAMXYVA.h"
-#include "st/SM_DriveBasic/SMC_ChangeDynamicLimits.h"
-#include "st/SM_DriveBasic/SMC_CheckAxisCommunication.h"
-#include "st/SM_DriveBasic/SMC_CheckLimits.h"
 #include "st/SM_DriveBasic/SMC_ControlAxisByPos.h"
 #include "st/SM_DriveBasic/SMC_ControlAxisByPosVel.h"
 #include "st/SM_DriveBasic/SMC_ControlAxisByVel.h"
@@ -13,13 +12,6 @@
 #include "st/SM_DriveBasic/SMC_FollowSetValues.h"
 #include "st/SM_DriveBasic/SMC_FollowVelocity.h"
 #include "st/SM_DriveBasic/SMC_Homing.h"
-#include "st/SM_DriveBasic/SMC_InPosition.h"
-#include "st/SM_DriveBasic/SMC_MeasureDistance.h"
-#include "st/SM_DriveBasic/SMC_SetControllerMode.h"
-#include "st/SM_DriveBasic/SMC_SetMovementType.h"
-#include "st/SM_DriveBasic/SMC_SetSoftwareLimits.h"
-#include "st/SM_DriveBasic/TRIGGER_REF.h"
-#include "st/SM_PLCopen/MC_AbortTrigger.h"
 #include "st/SM_PLCopen/MC_AccelerationProfile.h"
 #include "st/SM_PLCopen/MC_CamIn.h"
 #include "st/SM_PLCopen/MC_CamOut.h"
@@ -27,7 +19,6 @@
 #include "st/SM_PLCopen/MC_GearInPos.h"
 #include "st/SM_PLCopen/MC_GearOut.h"
 #include "st/SM_PLCopen/MC_Halt.h"
-#include "st/SM_PLCopen/MC_HaltSuperImposed.h"
 #include "st/SM_PLCopen/MC_Home.h"
 #include "st/SM_PLCopen/MC_Jog.h"
 #include "st/SM_PLCopen/MC_MoveAdditive.h"
@@ -36,172 +27,26 @@
 #include "st/SM_PLCopen/MC_MoveVelocity.h"
 #include "st/SM_PLCopen/MC_Phasing.h"
 #include "st/SM_PLCopen/MC_PositionProfile.h"
-#include "st/SM_PLCopen/MC_ReadActualPosition.h"
-#include "st/SM_PLCopen/MC_ReadActualTorque.h"
-#include "st/SM_PLCopen/MC_ReadActualVelocity.h"
-#include "st/SM_PLCopen/MC_ReadAxisError.h"
-#include "st/SM_PLCopen/MC_ReadBoolParameter.h"
-#include "st/SM_PLCopen/MC_ReadParameter.h"
-#include "st/SM_PLCopen/MC_ReadStatus.h"
-#include "st/SM_PLCopen/MC_Reset.h"
-#include "st/SM_PLCopen/MC_SetOverride.h"
-#include "st/SM_PLCopen/MC_SetPosition.h"
 #include "st/SM_PLCopen/MC_StartMode.h"
 #include "st/SM_PLCopen/MC_TA_REF.h"
 #include "st/SM_PLCopen/MC_TP_REF.h"
 #include "st/SM_PLCopen/MC_TV_REF.h"
-#include "st/SM_PLCopen/MC_TouchProbe.h"
 #include "st/SM_PLCopen/MC_VelocityProfile.h"
-#include "st/SM_PLCopen/MC_WriteBoolParameter.h"
-#include "st/SM_PLCopen/MC_WriteParameter.h"
 #include "st/SM_PLCopen/SMC_BacklashCompensation.h"
 #include "st/SM_PLCopen/SMC_Inch.h"
 #include "st/SM_PLCopen/SMC_MoveContinuousAbsolute.h"
 #include "st/SM_PLCopen/SMC_MoveContinuousRelative.h"
-#include "st/SM_PLCopen/SMC_ReadSetPosition.h"
-#include "st/SM_PLCopen/SMC_SetTorque.h"
 #include "st/SM_PLCopen/SMC_TrackAxis.h"
 #include "st/SM_PLCopen/SMC_TrackSetValues.h"
 
 #include <map>
 #include <stdexcept>
-#include <type_traits>
 
 namespace stride::test {
 namespace {
 
 namespace basic = ::st::SM_DriveBasic;
 namespace pl = ::st::SM_PLCopen;
-
-template <class Block> void setExecute(Block &b, bool execute) {
-  const uint8_t value = execute ? 1 : 0;
-  if constexpr (requires { b.Execute; })
-    b.Execute = value;
-  else if constexpr (requires { b.bExecute; })
-    b.bExecute = value;
-  else if constexpr (requires { b.Enable; })
-    b.Enable = value;
-  else if constexpr (requires { b.JogForward; })
-    b.JogForward = value;
-  else if constexpr (requires { b.InchForward; })
-    b.InchForward = value;
-  else
-    b.bEnable = value;
-}
-
-template <class Block> void showOutcome(const Block &b, Shown &s) {
-  if constexpr (requires { b.CommandAborted; }) {
-    s.aborted = b.CommandAborted != 0;
-    s.hasAborted = true;
-  } else if constexpr (requires { b.bCommandAborted; }) {
-    s.aborted = b.bCommandAborted != 0;
-    s.hasAborted = true;
-  }
-  if constexpr (requires { b.Error; })
-    s.error = b.Error != 0;
-  else if constexpr (requires { b.bError; })
-    s.error = b.bError != 0;
-  if constexpr (requires { b.ErrorID; })
-    s.errorId = static_cast<int>(b.ErrorID);
-  else if constexpr (requires { b.iErrorID; })
-    s.errorId = static_cast<int>(b.iErrorID);
-  else if constexpr (requires { b.nErrorID; })
-    s.errorId = static_cast<int>(b.nErrorID);
-  else if constexpr (requires { b.eErrorID; })
-    s.errorId = static_cast<int>(b.eErrorID);
-  else if constexpr (requires { b.ErrorId; })
-    s.errorId = static_cast<int>(b.ErrorId);
-}
-
-template <class Block> Shown showBlock(const Block &b) {
-  Shown s;
-  if constexpr (requires { b.Done; })
-    s.done = b.Done != 0;
-  else if constexpr (requires { b.bDone; })
-    s.done = b.bDone != 0;
-  else if constexpr (requires { b.InVelocity; })
-    s.done = b.InVelocity != 0;
-  else if constexpr (requires { b.InEndVelocity; })
-    s.done = b.InEndVelocity != 0;
-  else if constexpr (requires { b.InGear; })
-    s.done = b.InGear != 0;
-  else if constexpr (requires { b.InSync; })
-    s.done = b.InSync != 0;
-  else if constexpr (requires { b.bInSync; })
-    s.done = b.bInSync != 0;
-  else if constexpr (requires { b.bCompensating; })
-    s.done = b.bBusy != 0 && b.bCompensating == 0;
-  else if constexpr (requires { b.Enabled; })
-    s.done = b.Enabled != 0;
-  if constexpr (requires { b.Busy; }) {
-    s.busy = b.Busy != 0;
-    s.hasBusy = true;
-  } else if constexpr (requires { b.bBusy; }) {
-    s.busy = b.bBusy != 0;
-    s.hasBusy = true;
-  }
-  if constexpr (requires { b.Active; })
-    s.active = b.Active != 0;
-  showOutcome(b, s);
-  return s;
-}
-
-/// A block and what its in-out pins are bound to.
-template <class Block, class Extra> struct Held {
-  Block block = fresh<Block>();
-  Extra extra = fresh<Extra>();
-};
-
-struct Nothing {
-  void init__(Ctx & /*ctx*/) {}
-};
-
-template <class Block, class Extra>
-Actor actorOf(AxisRig &rig, std::shared_ptr<Held<Block, Extra>> h) {
-  h->block.Axis = &rig.axis;
-  Actor a;
-  a.call = [h, &rig](bool execute) {
-    setExecute(h->block, execute);
-    h->block.body__(rig.ctx);
-  };
-  a.show = [h] { return showBlock(h->block); };
-  a.bind = [h](axis::AxisRef &axis) { h->block.Axis = &axis; };
-  return a;
-}
-
-using Factory = std::function<Actor(AxisRig &)>;
-
-/// A block with inputs that `prepare(block, rig)` sets.
-template <class Block, class Prepare> Factory plain(Prepare prepare) {
-  return [prepare](AxisRig &rig) {
-    auto h = std::make_shared<Held<Block, Nothing>>();
-    prepare(h->block, rig);
-    return actorOf(rig, h);
-  };
-}
-
-template <class Block> Factory plain() {
-  return plain<Block>([](Block &, AxisRig &) {});
-}
-
-/// A block with a second in-out pin: `prepare(block, extra)` binds it.
-template <class Block, class Extra, class Prepare> Factory with(Prepare prepare) {
-  return [prepare](AxisRig &rig) {
-    auto h = std::make_shared<Held<Block, Extra>>();
-    prepare(h->block, h->extra);
-    return actorOf(rig, h);
-  };
-}
-
-template <class Block> void setDynamics(Block &b) {
-  if constexpr (requires { b.Velocity; })
-    b.Velocity = 20;
-  if constexpr (requires { b.VelocityDiff; })
-    b.VelocityDiff = 20;
-  if constexpr (requires { b.Acceleration; })
-    b.Acceleration = 50;
-  b.Deceleration = 50;
-}
 
 /// Steps of one second.
 template <class Pair> void setStep(Pair &pair) { pair.delta_time = 1000; }
@@ -289,20 +134,6 @@ template <class Block> Factory uncoupling() {
     a.bind = [h](axis::AxisRef &axis) { h->block.Slave = &axis; };
     return a;
   };
-}
-
-Actor powerOff(AxisRig &rig) {
-  Actor a;
-  a.call = [&rig](bool execute) {
-    rig.power.bRegulatorOn = execute ? 0 : 1;
-    rig.power.body__(rig.ctx);
-  };
-  a.show = [&rig] { return showBlock(rig.power); };
-  return a;
-}
-
-template <class Block> Factory moving() {
-  return plain<Block>([](Block &b, AxisRig &) { setDynamics(b); });
 }
 
 template <class Block> Factory relative(double distance) {
@@ -457,56 +288,10 @@ const std::map<std::string, Factory> &couplings() {
   return table;
 }
 
-const std::map<std::string, Factory> &administrative() {
-  const auto velocity = [](auto &b, AxisRig &) { b.ParameterNumber = 1113; };
-  const auto limits = [](auto &b, AxisRig &) { b.ParameterNumber = 1205; };
-  const auto trigger = [](auto &b, basic::TRIGGER_REF &input) {
-    input.iTriggerNumber = 0;
-    b.TriggerInput = &input;
-  };
-  static const std::map<std::string, Factory> table{
-      {"MC_Power off", powerOff},
-      {"MC_Reset", plain<pl::MC_Reset>()},
-      {"MC_SetPosition", plain<pl::MC_SetPosition>([](auto &b, AxisRig &) {
-         b.Mode = 1;
-         b.Position = 3;
-       })},
-      {"MC_SetOverride", plain<pl::MC_SetOverride>()},
-      {"SMC_SetControllerMode", plain<basic::SMC_SetControllerMode>()},
-      {"SMC_SetTorque", plain<pl::SMC_SetTorque>()},
-      {"MC_TouchProbe", with<pl::MC_TouchProbe, basic::TRIGGER_REF>(trigger)},
-      {"MC_AbortTrigger", with<pl::MC_AbortTrigger, basic::TRIGGER_REF>(trigger)},
-      {"MC_ReadStatus", plain<pl::MC_ReadStatus>()},
-      {"MC_ReadAxisError", plain<pl::MC_ReadAxisError>()},
-      {"MC_ReadParameter", plain<pl::MC_ReadParameter>(velocity)},
-      {"MC_ReadBoolParameter", plain<pl::MC_ReadBoolParameter>(limits)},
-      {"MC_WriteParameter", plain<pl::MC_WriteParameter>([](auto &b, AxisRig &) {
-         b.ParameterNumber = 1113;
-         b.Value = 100;
-       })},
-      {"MC_WriteBoolParameter", plain<pl::MC_WriteBoolParameter>(limits)},
-      {"MC_ReadActualPosition", plain<pl::MC_ReadActualPosition>()},
-      {"MC_ReadActualVelocity", plain<pl::MC_ReadActualVelocity>()},
-      {"MC_ReadActualTorque", plain<pl::MC_ReadActualTorque>()},
-      {"SMC_ReadSetPosition", plain<pl::SMC_ReadSetPosition>()},
-      {"SMC_CheckLimits", plain<basic::SMC_CheckLimits>()},
-      {"SMC_MeasureDistance", plain<basic::SMC_MeasureDistance>()},
-      {"MC_HaltSuperImposed", moving<pl::MC_HaltSuperImposed>()},
-      {"SMC_SetSoftwareLimits", plain<basic::SMC_SetSoftwareLimits>()},
-      {"SMC_ChangeDynamicLimits", plain<basic::SMC_ChangeDynamicLimits>([](auto &b, AxisRig &) {
-         b.fMaxVelocity = b.fMaxAcceleration = b.fMaxDeceleration = b.fMaxJerk = 100;
-       })},
-      {"SMC_SetMovementType", plain<basic::SMC_SetMovementType>()},
-      {"SMC_InPosition", plain<basic::SMC_InPosition>()},
-      {"SMC_CheckAxisCommunication", plain<basic::SMC_CheckAxisCommunication>()},
-  };
-  return table;
-}
-
 } // namespace
 
 Actor makeActor(AxisRig &rig, const std::string &block) {
-  for (const auto *table : {&positioning(), &courses(), &couplings(), &administrative()})
+  for (const auto *table : {&positioning(), &courses(), &couplings(), &administrativeActors()})
     if (const auto found = table->find(block); found != table->end())
       return found->second(rig);
   throw std::invalid_argument("no block " + block);
