@@ -10,8 +10,9 @@ namespace axis = ::stride::axis;
 namespace st::SM_DriveBasic {
 
 ::stride::UDINT SMC_AskDrive(::stride::Ctx & /*ctx__*/, AXIS_REF &Axis, ::stride::BYTE byKind,
-                             ::stride::DINT diNumber, ::stride::BOOL bBool) {
-  return axis::askDrive(Axis, static_cast<axis::ChannelKind>(byKind), diNumber, bBool != 0, 0.0);
+                             ::stride::DINT diNumber, ::stride::BOOL bBool,
+                             ::stride::LREAL fValue) {
+  return axis::askDrive(Axis, static_cast<axis::ChannelKind>(byKind), diNumber, bBool != 0, fValue);
 }
 
 ::stride::INT SMC_DriveAnswer(::stride::Ctx & /*ctx__*/, AXIS_REF &Axis, ::stride::UDINT udiClaim) {
