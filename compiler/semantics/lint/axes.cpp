@@ -160,6 +160,8 @@ private:
     const PouSymbol *block = blockOf(e->pou);
     if (block->library == nullptr || block->library->isUser)
       use->passedTo.push_back(argument.parameter);
+    else if (!block->library->name.starts_with("SM_")) // one of somebody else: what is in it?
+      use->unknown = true;
     else if (block->name.id->lower == "mc_power")
       use->powered = true;
     else if (use->moved == nullptr && !hasAttribute(block->decl->attributes, AttributeId::AnyTask))
