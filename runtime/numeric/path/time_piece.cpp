@@ -1,0 +1,163 @@
+#include "runtime/numeric/path/time_piece.hpp"
+
+#include "runtime/numeric/exact_math.hpp"
+
+namespace stride::path {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// cosh q, sinh q / q and (cosh q - 1) / q^2 with q^2 = y; for negative y those of cos and sin.
+struct Hyperbolic {
+  double c, s, d;
+};
+
+/// By power series near 0, and from there by doubling q.
+Hyperbolic hyperbolic(double y) noexcept {
+  double z = y;
+  int doublings = 0;
+  for (; exact::fabs(z) > 0.25; ++doublings)
+    z *= 0.25;
+  double s = 1.0;
+  double d = 1.0;
+  for (int k = 7; k > 0; --k) {
+    const double n = 2.0 * k;
+    s = 1.0 + s * z / (n * (n + 1.0));
+    d = 1.0 + d * z / ((n + 1.0) * (n + 2.0));
+  }
+  d *= 0.5;
+  double c = 1.0 + z * d;
+  for (; doublings > 0; --doublings) {
+    s *= c;
+    d *= 0.5 * (c + 1.0);
+    z *= 4.0;
+    c = 1.0 + z * d;
+  }
+  return {c, s, d};
+}
+
+/// atanh(q) / q with q^2 = z < 1; for negative z that of atan.
+double arcOverArgument(double z) noexcept {
+  double factor = 1.0;
+  while (exact::fabs(z) > 0.02) { // half of the angle
+    const double root = 1.0 + exact::sqrt(1.0 - z);
+    factor *= 2.0 / root;
+    z /= root * root;
+  }
+  double sum = 1.0 / 19.0;
+  for (int k = 8; k >= 0; --k)
+    sum = sum * z + 1.0 / (2.0 * k + 1.0);
+  return factor * sum;
+}
+
+/// Of x >= 0.
+double cubeRoot(double x) noexcept {
+  if (!(x > 0.0))
+    return 0.0;
+  int exponent = 0;
+  const double mantissa = exact::frexp(x, &exponent); // 0.5 to 1
+  int third = exponent / 3;
+  int rest = exponent % 3;
+  if (rest < 0) {
+    rest += 3;
+    --third;
+  }
+  const double scaled = exact::ldexp(mantissa, rest); // 0.5 to 4
+  double root = 0.6 + 0.3 * scaled;
+  for (int i = 0; i < 6; ++i) // doubles its digits
+    root -= (root - scaled / (root * root)) * (1.0 / 3.0);
+  return exact::ldexp(root, third);
+}
+
+/// From v0 to v1 over the way x of a piece that is linear in the way.
+double crossing(double v0, double v1, double gradient, double x) noexcept {
+  const double sum = v0 + v1;
+  if (!(sum > 0.0)) // from rest to rest: half a swing
+    return x > 0.0 ? kPi / exact::sqrt(-gradient) : 0.0;
+  const double q = x / sum;
+  return 2.0 * q * arcOverArgument(gradient * q * q);
+}
+
+/// The square of the velocity at x after the start of a piece that is linear in the way.
+double squareAt(const TimePiece &piece, double x) noexcept {
+  const double square =
+      piece.velocity * piece.velocity + (2.0 * piece.acceleration + piece.gradient * x) * x;
+  return square > 0.0 ? square : 0.0;
+}
+
+WayState linearAt(const TimePiece &piece, double t) noexcept {
+  const double v0 = piece.velocity;
+  const double a0 = piece.acceleration;
+  const double g = piece.gradient;
+  const Hyperbolic h = hyperbolic(g * t * t);
+  WayState state;
+  state.way = piece.start + (v0 * h.s + a0 * t * h.d) * t;
+  state.velocity = v0 * h.c + a0 * t * h.s;
+  state.acceleration = a0 * h.c + g * v0 * t * h.s;
+  state.jerk = g * state.velocity;
+  return state;
+}
+
+/// How far from rest a motion with constant jerk is after t.
+double wayFromRest(double jerk, double t) noexcept { return jerk * t * t * t * (1.0 / 6.0); }
+
+double durationFromRest(double jerk, double x) noexcept { return cubeRoot(6.0 * x / jerk); }
+
+} // namespace
+
+TimePiece linearPiece(double start, double length, double velocity, double acceleration,
+                      double gradient) noexcept {
+  TimePiece piece{start, length, velocity, acceleration, gradient, 0.0, PieceLaw::LinearInWay};
+  piece.duration = crossing(velocity, exact::sqrt(squareAt(piece, length)), gradient, length);
+  return piece;
+}
+
+TimePiece pieceFromRest(double start, double length, double jerk) noexcept {
+  return {start, length, 0.0, 0.0, jerk, durationFromRest(jerk, length), PieceLaw::FromRest};
+}
+
+TimePiece pieceToRest(double start, double length, double jerk) noexcept {
+  const double duration = durationFromRest(jerk, length);
+  return {start,    length,          0.5 * jerk * duration * duration, -jerk * duration, jerk,
+          duration, PieceLaw::ToRest};
+}
+
+WayState stateAt(const TimePiece &piece, double t) noexcept {
+  switch (piece.law) {
+  case PieceLaw::LinearInWay:
+    break;
+  case PieceLaw::FromRest:
+    return {piece.start + wayFromRest(piece.gradient, t), 0.5 * piece.gradient * t * t,
+            piece.gradient * t, piece.gradient};
+  case PieceLaw::ToRest: {
+    const double left = piece.duration - t;
+    return {piece.start + (piece.length - wayFromRest(piece.gradient, left)),
+            0.5 * piece.gradient * left * left, -piece.gradient * left, piece.gradient};
+  }
+  }
+  return linearAt(piece, t);
+}
+
+double velocityAt(const TimePiece &piece, double way) noexcept {
+  const double x = way - piece.start;
+  if (piece.law == PieceLaw::LinearInWay)
+    return exact::sqrt(squareAt(piece, x));
+  const double fromRest = piece.law == PieceLaw::FromRest ? x : piece.length - x;
+  const double t = durationFromRest(piece.gradient, fromRest);
+  return 0.5 * piece.gradient * t * t;
+}
+
+double timeAt(const TimePiece &piece, double way) noexcept {
+  const double x = way - piece.start;
+  switch (piece.law) {
+  case PieceLaw::LinearInWay:
+    break;
+  case PieceLaw::FromRest:
+    return durationFromRest(piece.gradient, x);
+  case PieceLaw::ToRest:
+    return piece.duration - durationFromRest(piece.gradient, piece.length - x);
+  }
+  return crossing(piece.velocity, exact::sqrt(squareAt(piece, x)), piece.gradient, x);
+}
+
+} // namespace stride::path
