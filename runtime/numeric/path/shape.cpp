@@ -1,0 +1,226 @@
+#include "runtime/numeric/path/shape.hpp"
+
+#include "runtime/iec/math.h"
+
+namespace stride::path {
+namespace {
+
+using numeric::cross;
+using numeric::dot;
+using numeric::norm;
+
+constexpr int kParts = 8;        ///< In which a curve is integrated at first.
+constexpr int kMaxHalvings = 24; ///< Of a part.
+constexpr int kMaxSteps = 64;    ///< Of the search for a parameter.
+
+bool hasConstantSpeed(const Shape &shape) noexcept {
+  return shape.kind == ShapeKind::Line || shape.kind == ShapeKind::Arc;
+}
+
+Derivatives lineOver(const Shape &shape, double u) noexcept {
+  return {shape.v[0] + shape.v[1] * u, shape.v[1], numeric::kZero, numeric::kZero};
+}
+
+Derivatives ellipseOver(const Shape &shape, double u) noexcept {
+  const double phi = shape.angle + shape.sweep * u;
+  const double c = ::stride::cos(phi);
+  const double s = ::stride::sin(phi);
+  const double w = shape.sweep;
+  const Vector3 outwards = shape.v[1] * c + shape.v[2] * s;
+  const Vector3 onwards = shape.v[2] * c - shape.v[1] * s;
+  return {shape.v[0] + outwards + shape.v[3] * u, onwards * w + shape.v[3], outwards * (-w * w),
+          onwards * (-w * w * w)};
+}
+
+Derivatives polynomialOver(const Shape &shape, double u) noexcept {
+  Derivatives d{shape.v[5], numeric::kZero, numeric::kZero, numeric::kZero};
+  for (int k = 4; k >= 0; --k) {
+    d.d3 = d.d3 * u + d.d2;
+    d.d2 = d.d2 * u + d.d1;
+    d.d1 = d.d1 * u + d.p;
+    d.p = d.p * u + shape.v[k];
+  }
+  d.d2 = d.d2 * 2.0;
+  d.d3 = d.d3 * 6.0;
+  return d;
+}
+
+double speed(const Shape &shape, double u) noexcept { return norm(overParameter(shape, u).d1); }
+
+/// The integral of the speed by Gauss and Legendre's rule with five points.
+double gauss(const Shape &shape, double from, double to) noexcept {
+  constexpr double kAt[] = {0.0, 0.53846931010568309104, 0.90617984593866399280};
+  constexpr double kWeight[] = {0.56888888888888888889, 0.47862867049936646804,
+                                0.23692688505618908751};
+  const double middle = 0.5 * (from + to);
+  const double half = 0.5 * (to - from);
+  double sum = kWeight[0] * speed(shape, middle);
+  for (int i = 1; i < 3; ++i)
+    sum +=
+        kWeight[i] * (speed(shape, middle - half * kAt[i]) + speed(shape, middle + half * kAt[i]));
+  return sum * half;
+}
+
+/// The integral over one part, halved until both halves together say the same.
+double integrate(const Shape &shape, double from, double to, double tolerance) noexcept {
+  // The parts that are left lie one after the other: those ahead of the present one are the right
+  // halves of the levels that are marked.
+  double sum = 0.0;
+  double begin = from;
+  double width = to - from;
+  int level = 0;
+  uint32_t left = 0; // levels at which the present part is a left half
+  double whole = gauss(shape, begin, begin + width);
+  for (;;) {
+    const double half = 0.5 * width;
+    const double first = gauss(shape, begin, begin + half);
+    const double second = gauss(shape, begin + half, begin + width);
+    if (level < kMaxHalvings &&
+        exact::fabs(first + second - whole) > tolerance * exact::fabs(width / (to - from))) {
+      width = half;
+      whole = first;
+      ++level;
+      left |= 1U << static_cast<unsigned>(level);
+      continue;
+    }
+    sum += first + second;
+    begin += width;
+    while (level > 0 && (left >> static_cast<unsigned>(level) & 1U) == 0) {
+      width *= 2.0;
+      --level;
+    }
+    if (level == 0)
+      return sum;
+    left &= ~(1U << static_cast<unsigned>(level));
+    whole = gauss(shape, begin, begin + width);
+  }
+}
+
+Shape withLength(Shape shape) noexcept {
+  shape.length = lengthBetween(shape, 0.0, 1.0);
+  return shape;
+}
+
+} // namespace
+
+Shape lineShape(const Vector3 &start, const Vector3 &end) noexcept {
+  Shape shape{};
+  shape.kind = ShapeKind::Line;
+  shape.v[0] = start;
+  shape.v[1] = end - start;
+  shape.length = norm(shape.v[1]);
+  return shape;
+}
+
+Shape arcShape(const Vector3 &centre, const Vector3 &radial, const Vector3 &lateral, double angle,
+               double sweep, const Vector3 &climb) noexcept {
+  Shape shape{};
+  shape.kind = ShapeKind::Arc;
+  shape.v[0] = centre;
+  shape.v[1] = radial;
+  shape.v[2] = lateral;
+  shape.v[3] = climb;
+  shape.angle = angle;
+  shape.sweep = sweep;
+  shape.length = norm({norm(radial) * sweep, norm(climb), 0.0});
+  return shape;
+}
+
+Shape ellipseShape(const Vector3 &centre, const Vector3 &first, const Vector3 &second, double angle,
+                   double sweep, const Vector3 &climb) noexcept {
+  Shape shape{};
+  shape.kind = ShapeKind::Ellipse;
+  shape.v[0] = centre;
+  shape.v[1] = first;
+  shape.v[2] = second;
+  shape.v[3] = climb;
+  shape.angle = angle;
+  shape.sweep = sweep;
+  return withLength(shape);
+}
+
+Shape polynomialShape(const Vector3 (&coefficients)[6]) noexcept {
+  Shape shape{};
+  shape.kind = ShapeKind::Polynomial;
+  for (int k = 0; k < 6; ++k)
+    shape.v[k] = coefficients[k];
+  return withLength(shape);
+}
+
+Shape quinticShape(const Derivatives &begin, const Derivatives &end) noexcept {
+  // What is left of the end after the first three terms.
+  const Vector3 p = end.p - begin.p - begin.d1 - begin.d2 * 0.5;
+  const Vector3 d1 = end.d1 - begin.d1 - begin.d2;
+  const Vector3 d2 = end.d2 - begin.d2;
+  return polynomialShape({begin.p, begin.d1, begin.d2 * 0.5, p * 10.0 - d1 * 4.0 + d2 * 0.5,
+                          d1 * 7.0 - p * 15.0 - d2, p * 6.0 - d1 * 3.0 + d2 * 0.5});
+}
+
+Derivatives overParameter(const Shape &shape, double u) noexcept {
+  switch (shape.kind) {
+  case ShapeKind::Line:
+    return lineOver(shape, u);
+  case ShapeKind::Arc:
+  case ShapeKind::Ellipse:
+    return ellipseOver(shape, u);
+  case ShapeKind::Polynomial:
+    break;
+  }
+  return polynomialOver(shape, u);
+}
+
+Derivatives overLength(const Derivatives &c) noexcept {
+  // With r = 1 / |d1|: t = d1 r, and r' = -(d1 d2) r^4 over the length.
+  const double r = 1.0 / norm(c.d1);
+  const Vector3 t = c.d1 * r;
+  const Vector3 n2 = c.d2 * (r * r);
+  const Vector3 n3 = c.d3 * (r * r * r);
+  const double along = dot(t, n2);
+  const Vector3 curvature = n2 - t * along;
+  const double alongNext = dot(curvature, n2) + dot(t, n3) - 2.0 * along * along;
+  return {c.p, t, curvature, n3 - n2 * (2.0 * along) - curvature * along - t * alongNext};
+}
+
+double lengthBetween(const Shape &shape, double from, double to) noexcept {
+  if (hasConstantSpeed(shape))
+    return shape.length * (to - from);
+  double most = 0.0;
+  for (int i = 0; i <= kParts; ++i)
+    most = exact::larger(most, speed(shape, from + (to - from) * i / kParts));
+  const double tolerance = 1e-15 * most * exact::fabs(to - from);
+  double sum = 0.0;
+  for (int i = 0; i < kParts; ++i)
+    sum += integrate(shape, from + (to - from) * i / kParts, from + (to - from) * (i + 1) / kParts,
+                     tolerance);
+  return sum;
+}
+
+double parameterAt(const Shape &shape, double way) noexcept {
+  if (!(way > 0.0))
+    return 0.0;
+  if (way >= shape.length)
+    return 1.0;
+  double u = way / shape.length;
+  if (hasConstantSpeed(shape))
+    return u;
+  // Newton's steps, kept between what is known to be too little and too much.
+  double low = 0.0;
+  double high = 1.0;
+  double at = lengthBetween(shape, 0.0, u);
+  for (int i = 0; i < kMaxSteps; ++i) {
+    const double off = way - at;
+    if (exact::fabs(off) <= 1e-15 * shape.length)
+      break;
+    (off > 0.0 ? low : high) = u;
+    double next = u + off / speed(shape, u);
+    if (!(next > low && next < high))
+      next = 0.5 * (low + high);
+    if (next == u)
+      break;
+    at += next > u ? lengthBetween(shape, u, next) : -lengthBetween(shape, next, u);
+    u = next;
+  }
+  return u;
+}
+
+} // namespace stride::path
