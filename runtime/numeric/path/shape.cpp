@@ -5,7 +5,6 @@
 namespace stride::path {
 namespace {
 
-using numeric::cross;
 using numeric::dot;
 using numeric::norm;
 
