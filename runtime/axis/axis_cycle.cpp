@@ -268,8 +268,12 @@ double wayOfCycle(const AxisRef &axis) noexcept {
                                 : 0.5 * (axis.fSaveVelocity + axis.fSetVelocity) * axis.fTaskCycle;
 }
 
+double wayOfLag(const AxisRef &axis, double velocity) noexcept {
+  return positiveOr0(axis.fSetActTimeLagCycles) * axis.fTaskCycle * velocity;
+}
+
 double settleOnActual(AxisRef &axis) noexcept {
-  const double way = wayOfCycle(axis);
+  const double way = wayOfCycle(axis) + wayOfLag(axis, axis.fSetVelocity);
   const double position = shownPosition(axis, axis.fSavePosition + way);
   if (axis.stPlanner.bActive != 0)
     shiftPlan(axis, position - axis.fSetPosition);

@@ -40,9 +40,13 @@ void supervise(AxisRef &axis) noexcept;
 /// The way of this cycle by the set velocities, or as the block that moved the axis gave it. [u]
 double wayOfCycle(const AxisRef &axis) noexcept;
 
+/// The way that the axis makes with the velocity while values are on their way to the drive and
+/// back (fSetActTimeLagCycles). [u]
+double wayOfLag(const AxisRef &axis, double velocity) noexcept;
+
 /// A drive that regulates its velocity is where it is, not where the set values would have brought
-/// it: the set position becomes the actual one at the start of the cycle and the way since then.
-/// Returns that way. [u]
+/// it: the set position becomes the actual one at the start of the cycle and the way since then and
+/// while values are on their way. Returns that way. [u]
 double settleOnActual(AxisRef &axis) noexcept;
 
 } // namespace stride::axis

@@ -318,7 +318,7 @@ double DriveGroup::leadOn(size_t index) {
   // Set values that stand for actual ones say nothing.
   if ((driver_->status(index).received & (kPosition | kVelocity)) == 0 || !axis::isPowered(axis))
     return 0.0;
-  const double way = axis.fActVelocity * axis.fTaskCycle;
+  const double way = axis.fActVelocity * axis.fTaskCycle + axis::wayOfLag(axis, axis.fActVelocity);
   axis.fSetPosition = axis::shownPosition(axis, axis.fSetPosition + way);
   (void)axis::updateSet(axis, way);
   return axis.fActVelocity;
