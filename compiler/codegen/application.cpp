@@ -220,6 +220,8 @@ private:
     out += "\n// Libraries first, then files by path, then in the order of declaration.\nvoid "
            "init__(::stride::Ctx *";
     std::string body = copies_.begin();
+    if (c_.program.settings.softMotion3)
+      body += "  ctx__->softMotion3 = 1;\n";
     for (const SlotPlace &slot : c_.program.slotPlaces) {
       if (!slot.placed || slot.variable == nullptr)
         continue;

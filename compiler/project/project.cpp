@@ -178,6 +178,7 @@ void Project::readOwnConfig() {
   program_.settings.imageBytes = config_.imageBytes;
   program_.settings.pack = config_.pack;
   program_.settings.truncIsInt = config_.truncIsInt;
+  program_.settings.softMotion3 = config_.generation == 3;
 }
 
 /// What the configuration declares goes to the files; false: something of it is missing, which the

@@ -106,8 +106,9 @@ struct Settings {
   Levels levels;             ///< severities given on the command line; they go before stride.toml's
   Addressing addressing = Addressing::Units;
   std::array<uint32_t, 3> imageBytes{}; ///< by Area; 0: as large as the program needs
-  unsigned pack = 0;       ///< of the project's structures without pack_mode; 0: natural alignment
-  bool truncIsInt = false; ///< TRUNC gives an INT, as in CoDeSys V2.3, instead of a DINT
+  unsigned pack = 0;        ///< of the project's structures without pack_mode; 0: natural alignment
+  bool softMotion3 = false; ///< defaults that differ by generation are SoftMotion 3's
+  bool truncIsInt = false;  ///< TRUNC gives an INT, as in CoDeSys V2.3, instead of a DINT
   std::vector<Define>
       defines; ///< names that `{IF defined (…)}` knows, besides those of stride.toml
 };

@@ -70,6 +70,8 @@ struct Ctx {
   BOOL firstCycle;        ///< 1 in the task's first cycle.
   BOOL keepRetains; ///< During init: retained values will be put back (bInitRetains is FALSE).
   BOOL inCopyCode;  ///< During init, exit and reinit: it is an online change (bInCopyCode).
+  BOOL softMotion3; ///< During init: softmotion = "3" decides about defaults. The application says
+                    ///< so.
   char *dataTop;    ///< Where the thread's data stack is free (data_stack.h), a multiple of 16.
   char *dataEnd;    ///< Its end. Both null: there is none. Set while the host calls.
 };

@@ -124,9 +124,17 @@ const Expr *Layouts::initOf(const VarSymbol *variable) {
                                              : aliasDefault(written(variable), variable->type);
 }
 
+const ast::Attribute *softMotion3Default(const VarSymbol *variable) {
+  return variable->decl == nullptr
+             ? nullptr
+             : attributeOf(variable->decl->attributes, AttributeId::SoftMotion3);
+}
+
 bool Layouts::needsInit(const VarSymbol *variable) {
   if (variable->section == Section::InOut)
     return false;
+  if (softMotion3Default(variable) != nullptr)
+    return true;
   const Expr *init = initOf(variable);
   if (variable->location != nullptr && init != nullptr)
     return true; // a zero may stand against the value of another variable there

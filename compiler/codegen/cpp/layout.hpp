@@ -13,6 +13,9 @@
 
 namespace stc::codegen {
 
+/// The attribute of a library's pin that has another default with `softmotion = "3"`, or null.
+const ast::Attribute *softMotion3Default(const VarSymbol *variable);
+
 /// Of layouts: FNV-1a of 64 bits, texts with an end mark each.
 class Hash {
 public:

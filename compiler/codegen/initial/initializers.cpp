@@ -17,6 +17,13 @@ namespace {
 
 constexpr uint64_t kMaxUnrolled = 16;
 
+/// The value of an attribute `softmotion3` in C++.
+std::string_view literalOf(const ast::Attribute &attribute) {
+  if (attribute.value == "TRUE")
+    return "1";
+  return attribute.value == "FALSE" ? "0" : attribute.value;
+}
+
 /// `target = its address;`
 void initReference(EmitContext &cx, std::string_view target, const Expr *value) {
   cx.begin(cx.modes.init.span);
@@ -193,6 +200,8 @@ void initVariable(EmitContext &cx, std::string_view target, const VarSymbol *var
                                    !layouts.elementsHaveDefaults(written, variable->type));
   if (init != nullptr)
     initValue(cx, target, variable->type, init);
+  if (const ast::Attribute *other = softMotion3Default(variable))
+    initLine(cx, "if (", cx.ctx(), ".softMotion3 != 0) ", target, " = ", literalOf(*other), ';');
   callAfterInit(cx, target, variable->type);
 }
 
