@@ -241,6 +241,8 @@ PlanError planTowards(Course &course, const AxisRef &ref, const Command &command
     endVelocity = endVelocityOf(ref, command);
   else if (next != nullptr)
     endVelocity = blendVelocity(ref, command, start, course.goal, *next);
+  if (command.bAdaptEndVelocity != 0)
+    endVelocity = reachableEndVelocity(start, course.goal, endVelocity, dynamics);
   return planMove(course.profile, start, course.goal, endVelocity, dynamics);
 }
 

@@ -15,6 +15,7 @@ void st::SM_PLCopen::SMC_MoveContinuousRelative::body__(::stride::Ctx & /*ctx__*
     command.fDeceleration = Deceleration;
     command.fJerk = Jerk;
     command.eBufferMode = BufferMode;
+    command.bAdaptEndVelocity = AdaptEndVelToAvoidOvershoot;
   });
   InEndVelocity = stBlock.bDone;
   motion::showOutcome(*this);
