@@ -67,6 +67,8 @@ template <class Block> Shown showBlock(const Block &b) {
     s.done = b.InVelocity != 0;
   else if constexpr (requires { b.InEndVelocity; })
     s.done = b.InEndVelocity != 0;
+  else if constexpr (requires { b.InTorque; })
+    s.done = b.InTorque != 0;
   else if constexpr (requires { b.InGear; })
     s.done = b.InGear != 0;
   else if constexpr (requires { b.InSync; })

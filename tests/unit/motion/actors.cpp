@@ -31,6 +31,7 @@
 #include "st/SM_PLCopen/MC_TA_REF.h"
 #include "st/SM_PLCopen/MC_TP_REF.h"
 #include "st/SM_PLCopen/MC_TV_REF.h"
+#include "st/SM_PLCopen/MC_TorqueControl.h"
 #include "st/SM_PLCopen/MC_VelocityProfile.h"
 #include "st/SM_PLCopen/SMC_BacklashCompensation.h"
 #include "st/SM_PLCopen/SMC_Inch.h"
@@ -191,6 +192,7 @@ const std::map<std::string, Factory> &positioning() {
        })},
       {"MC_Jog", keyed<pl::MC_Jog>()},
       {"SMC_Inch", keyed<pl::SMC_Inch>()},
+      {"MC_TorqueControl", plain<pl::MC_TorqueControl>([](auto &b, AxisRig &) { b.Torque = 2; })},
       {"MC_Halt", moving<pl::MC_Halt>()},
       {"MC_Stop", moving<pl::MC_Stop>()},
       {"MC_Home", plain<pl::MC_Home>([](auto &b, AxisRig &) {
