@@ -491,8 +491,7 @@ bool advance(AxisRef &axis) noexcept {
   }
   if (axis.stQueue.uiCount == 0)
     return false;
-  const double since = axis::planTime(plan) - plan.fDuration;
-  const double late = since > 0.0 ? since : 0.0;
+  const double late = exact::larger(axis::planTime(plan) - plan.fDuration, 0.0);
   return handOver(axis, endOf(axis, late), late);
 }
 

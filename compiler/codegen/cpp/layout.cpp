@@ -2,6 +2,7 @@
 
 #include "compiler/semantics/held.hpp"
 #include "compiler/semantics/hierarchy.hpp"
+#include "compiler/syntax/attributes.hpp"
 
 #include <algorithm>
 #include <cmath>
