@@ -8,6 +8,8 @@
 #include "st/SM_PLCopen/SMC3_PersistPosition.h"
 #include "st/SM_PLCopen/SMC3_PersistPositionDiag.h"
 #include "st/SM_PLCopen/SMC3_PersistPositionSingleturn.h"
+#include "st/SM_PLCopen/SMC3_PersistPositionSingleturn_Data.h"
+#include "st/SM_PLCopen/SMC3_PersistPosition_Data.h"
 
 #include <gtest/gtest.h>
 
