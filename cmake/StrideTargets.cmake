@@ -220,6 +220,8 @@ set(STRIDE_HOST_ARCHIVES stride_static_main stride_host_main stride_runtime_host
 function(stride_stdlib_archive)
   add_library(stride_stdlib STATIC ${ARGN})
   target_compile_features(stride_stdlib PRIVATE cxx_std_20)
+  # An object for each library: an application may bring the code of one that it has set parameters of.
+  set_target_properties(stride_stdlib PROPERTIES UNITY_BUILD OFF)
   target_link_libraries(stride_stdlib
     PRIVATE stride_generated_headers PUBLIC stride_native stride_runtime_iec)
   target_compile_options(stride_stdlib PRIVATE

@@ -25,6 +25,7 @@ struct Invocation {
   DebugSession session;
   std::string resetKind;
   bool library = false;
+  bool replace = false;
   std::string figures;
   TestOptions tests;
   FormatOptions formatting;
@@ -43,6 +44,8 @@ void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build);
 
 /// sim, run, debug, reset, ctl: what becomes stride-host.
 void declareRuns(CLI::App &app, Invocation &call);
+/// The commands below `stride library`.
+void declareLibraries(CLI::App &app, Invocation &call);
 /// The commands below `stride cam`.
 void declareCams(CLI::App &app, Invocation &call);
 

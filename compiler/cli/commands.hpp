@@ -92,6 +92,10 @@ int documentCommand(const ProjectOptions &options, bool library, const std::stri
 
 int plotCommand(const std::string &trace, const std::string &out);
 
+/// Copies the library into the user's folder of libraries; `replace`: also over one of its version.
+int installLibraryCommand(const ProjectOptions &options, bool replace);
+int listLibrariesCommand();
+
 /// What `stride cam` does.
 enum class CamAction { Check, Bounds, Plot, ExportTable, ImportTable, Reduce, Write, Read };
 

@@ -57,6 +57,22 @@ std::vector<doc::Module> standardLibraryModules() {
   return modules;
 }
 
+/// The project, then the libraries of one's own that it uses.
+std::vector<doc::Module> modulesOf(const Project &project) {
+  std::vector<doc::Module> modules;
+  const auto add = [&](const std::string &name, const std::vector<ast::File *> &parsed,
+                       const std::string &text) {
+    const std::vector<const ast::File *> files(parsed.begin(), parsed.end());
+    modules.push_back(doc::describe(name, files, project.sources()));
+    modules.back().text = text;
+  };
+  add(project.name(), project.program().files,
+      project.library() ? about(*project.library()) : std::string());
+  for (const LibrarySource &library : project.program().librarySources)
+    add(library.name, library.files, library.about);
+  return modules;
+}
+
 /// The pages with the pictures that the folder has of entries of the modules.
 std::vector<doc::Page> pagesOf(const std::string &title, std::vector<doc::Module> modules,
                                const std::string &figures) {
@@ -93,11 +109,7 @@ int documentCommand(const ProjectOptions &options, bool library, const std::stri
   const int exitCode = show(project.diagnostics(), project.sources(), options.output);
   if (exitCode != 0)
     return exitCode;
-  const std::vector<ast::File *> &parsed = project.program().files;
-  const std::vector<const ast::File *> files(parsed.begin(), parsed.end());
-  return write(
-      pagesOf(project.name(), {doc::describe(project.name(), files, project.sources())}, figures),
-      out, options.output);
+  return write(pagesOf(project.name(), modulesOf(project), figures), out, options.output);
 }
 
 } // namespace stc::cli

@@ -197,7 +197,7 @@ int run(int argc, char **argv) {
   // In the order in which the overview shows them.
   for (const auto declare :
        {declareNew, declareCheck, declareBuild, declareRuns, declareDoc, declareTest, declareFmt,
-        declarePlot, declareCams, declareExplain, declareHelp})
+        declarePlot, declareCams, declareLibraries, declareExplain, declareHelp})
     declare(app, call);
   try {
     app.parse(argumentsOf(argc, argv));

@@ -245,9 +245,6 @@ int debugCommand(const ProjectOptions &options, const std::vector<std::string> &
     return exitCode;
   // The names of the sources count from there.
   std::error_code error;
-  std::filesystem::path folder = options.path;
-  if (!std::filesystem::is_directory(folder, error))
-    folder = folder.parent_path();
   std::string missing;
   const std::optional<Installation> installation = findInstallation(missing);
   if (!installation)
@@ -260,7 +257,7 @@ int debugCommand(const ProjectOptions &options, const std::vector<std::string> &
       "-x",
       installation->debugScript.string(),
       "-ex",
-      "directory " + (std::filesystem::current_path(error) / folder).string(),
+      "directory " + (std::filesystem::current_path(error) / result->folder).string(),
       "-ex",
       fmt::format("set substitute-path {} {}", kHeadersInLineTables, result->headers.string()),
       "-ex",

@@ -155,14 +155,17 @@ private:
       types_.addProgram(program, m.name, writerOf(program));
       return;
     }
+    const bool own = m.root.symbol->library->isOwn;
     std::string list(m.root.symbol->name.text);
     if (m.root.isStatic && static_cast<const PouSymbol *>(m.root.symbol)->isMethod())
       list.insert(0, std::string(static_cast<const PouSymbol *>(m.root.symbol)->owner->name.text) +
                          "__");
+    if (own) // several libraries may have a list, and a variable, of one name
+      list.insert(0, m.root.symbol->library->name + ".");
     for (const VarSymbol *v : rootVariables(m.root))
       types_.addRoot(list, v, m.name + "." + fieldName(v),
-                     m.root.isStatic || qualified_.contains(v->decl), listRenamedFrom(m.root, v),
-                     writerOf(v));
+                     own || m.root.isStatic || qualified_.contains(v->decl),
+                     listRenamedFrom(m.root, v), writerOf(v));
   }
 
   /// The one task that writes the variable or calls the program.
@@ -431,11 +434,18 @@ std::vector<GeneratedFile> generateLibrary(const Program &program, const Library
 }
 
 std::vector<GeneratedFile> generateApplication(const Program &program, const AppConfig &config) {
-  codegen::Context context(program, program.user);
   std::vector<GeneratedFile> files;
+  for (const auto &library : program.libraries) {
+    if (!library->isBuilt)
+      continue;
+    codegen::Context own(program, library.get());
+    codegen::generateHeaders(own, files);
+    codegen::generateSources(own, files);
+  }
+  codegen::Context context(program, program.user);
   codegen::generateHeaders(context, files);
   codegen::generateSources(context, files);
-  codegen::generateDispatch(context, files);
+  codegen::generateDispatch(context, files); // of all libraries
   codegen::Application application(context, config);
   files.push_back(application.app());
   files.push_back(application.build());

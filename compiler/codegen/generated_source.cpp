@@ -367,8 +367,9 @@ GeneratedFile GeneratedSource::finish(const Symbol *own, std::string_view what) 
   std::string head = banner(what);
   if (own != nullptr)
     head += "#include \"" + std::string(run.names.header(own)) + "\"\n";
-  // The sources of a library become one translation unit.
-  head += cx_.includes.text(own, true, run.own->isUser ? nullptr : run.own);
+  // The sources of a library of Stride become one translation unit.
+  const bool single = run.own->isUser || run.own->isBuilt;
+  head += cx_.includes.text(own, true, single ? nullptr : run.own);
   head += sourcePrelude();
   lines(file, head + openSpace(run));
   for (const Piece &piece : pieces_) {

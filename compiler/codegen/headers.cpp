@@ -314,7 +314,7 @@ void generateHeaders(Context &context, std::vector<GeneratedFile> &files) {
   const Library &library = *context.own;
   for (const auto &other : context.program.libraries)
     for (const TypeSymbol *t : other->types)
-      if (other.get() != &library && t->onDemand)
+      if (other.get() != &library && t->onDemand && !library.isBuilt) // the project has them
         files.push_back(HeaderBuilder(context).structure(t));
   for (const TypeSymbol *t : library.types) {
     if (t->type->kind == TypeKind::Structure && t->decl != nullptr &&

@@ -27,7 +27,11 @@ public:
       config_.incomplete = true;
       return std::move(config_);
     }
-    const CheckedSection top(*document, projectSchema(), diagnostics_);
+    const TomlNode *library = document->find("library");
+    const bool isLibrary = library != nullptr && library->kind == TomlKind::Table;
+    const SectionSchema &schema = isLibrary ? librarySchema() : projectSchema();
+    const CheckedSection top(*document, schema, diagnostics_);
+    readLibraries(top, isLibrary);
     for (const CheckedSection &levels : top.sections("diagnostics", diagnostics_))
       readLevels(levels);
     for (const CheckedSection &project : top.sections("project", diagnostics_)) {
@@ -40,6 +44,9 @@ public:
       if (const TomlNode *defines = project.get("defines"))
         for (const TomlNode &one : defines->children)
           readDefine(one);
+      if (const TomlNode *sources = project.get("sources"))
+        for (const TomlNode &one : sources->children)
+          config_.sources.push_back({one.text, one.span});
     }
     for (const CheckedSection &image : top.sections("image", diagnostics_)) {
       config_.addressing = static_cast<Addressing>(image.choice("addressing", 0));
@@ -69,6 +76,18 @@ public:
   }
 
 private:
+  void readLibraries(const CheckedSection &top, bool isLibrary) {
+    for (const CheckedSection &library : top.sections("library", diagnostics_)) {
+      if (!isLibrary) {
+        config_.libraries.push_back(readLibraryUse(library, diagnostics_));
+        continue;
+      }
+      config_.library = readLibraryInfo(library, diagnostics_);
+      for (const CheckedSection &use : library.sections("uses", diagnostics_))
+        config_.libraries.push_back(readLibraryUse(use, diagnostics_));
+    }
+  }
+
   // What the command line says about a code stays.
   void readLevels(const CheckedSection &section) {
     Levels levels;

@@ -3,6 +3,7 @@
 // What stride.toml says: tasks and PLC configuration (SoftMotion V2.3 manual, section 2.1).
 
 #include "compiler/codegen/codegen.hpp"
+#include "compiler/project/library_config.hpp"
 #include "compiler/semantics/program.hpp"
 #include "compiler/source/diagnostic.hpp"
 #include "compiler/source/sources.hpp"
@@ -121,6 +122,9 @@ struct ProjectConfig {
   bool filesAnywhere = false;           ///< [files] anywhere
   uint32_t filesDelay = 1;              ///< [files] delay
   std::vector<Define> defines;          ///< for `{IF defined (…)}`
+  std::vector<ConfigName> sources;      ///< folders and files; empty: the project's folder
+  std::optional<LibraryInfo> library;   ///< [library]: the project is one
+  std::vector<LibraryUse> libraries;    ///< [[library]], or [[library.uses]]
   std::vector<TaskConfig> tasks;
   std::vector<BusConfig> buses;
   std::vector<AxisGroupConfig> axisGroups;

@@ -13,6 +13,8 @@ namespace stc {
 
 /// The whole of stride.toml, as the section without a name.
 [[nodiscard]] const SectionSchema &projectSchema();
+/// The same of a library, in which `library` is a table.
+[[nodiscard]] const SectionSchema &librarySchema();
 /// [fmt]: how sources are formatted.
 [[nodiscard]] const SectionSchema &formatSchema();
 

@@ -2,7 +2,7 @@
 
 #include "compiler/project/config_reader.hpp"
 #include "compiler/project/file_system.hpp"
-#include "compiler/project/project.hpp"
+#include "compiler/project/source_files.hpp"
 #include "compiler/source/read_source.hpp"
 #include "compiler/syntax/parser.hpp"
 
@@ -70,7 +70,10 @@ FormatSettings readFormatSettings(const fs::path &place, Sources &sources,
   if (document == nullptr)
     return settings;
   Diagnostics ignored; // what else is wrong with the project does not matter here
-  settings.defines = readConfig(sources.file(*id), ignored).defines;
+  const ProjectConfig config = readConfig(sources.file(*id), ignored);
+  settings.defines = config.defines;
+  settings.folder = folder;
+  settings.sources = config.sources;
   const TomlNode *table = document->find("fmt");
   if (table == nullptr || table->kind != TomlKind::Table)
     return settings;
@@ -111,6 +114,26 @@ void formatFiles(std::vector<FormattedFile> &files, const FormatSettings &settin
   }
 }
 
+/// The sources of a project, or all that lie in a folder.
+static std::vector<fs::path> sourcesBelow(const fs::path &folder, const FormatSettings &settings,
+                                          const Sources &sources, Diagnostics &diagnostics) {
+  std::error_code error;
+  std::vector<fs::path> roots{folder};
+  if (!settings.sources.empty() && fs::equivalent(folder, settings.folder, error)) {
+    roots.clear();
+    findRoots(folder, settings.sources, sources, diagnostics, roots);
+    std::erase_if(roots, [&](const fs::path &root) { // they belong to others, too
+      const fs::path relative = root.lexically_relative(folder.lexically_normal());
+      return relative.empty() || *relative.begin() == "..";
+    });
+  }
+  const FoundFiles found = findSources(sources, roots);
+  if (reportUnfound(found, folder, diagnostics) && found.files.empty())
+    diagnostics.report(Code::NoSources, {},
+                       fmt::format("there are no `.st` files in `{}`", folder.string()));
+  return found.files;
+}
+
 std::vector<FormattedFile> formatPath(const fs::path &path, Sources &sources,
                                       Diagnostics &diagnostics) {
   std::vector<FormattedFile> files;
@@ -121,17 +144,10 @@ std::vector<FormattedFile> formatPath(const fs::path &path, Sources &sources,
                        fmt::format("there is no file or folder `{}`", path.string()));
     return files;
   }
-  std::vector<fs::path> paths{path};
-  if (fs::is_directory(status)) {
-    paths = findSources(sources, path, error);
-    if (error)
-      diagnostics.report(Code::UnreadableFile, {},
-                         fmt::format("`{}` cannot be read: {}", path.string(), error.message()));
-    else if (paths.empty())
-      diagnostics.report(Code::NoSources, {},
-                         fmt::format("there are no `.st` files in `{}`", path.string()));
-  }
   const FormatSettings settings = readFormatSettings(path, sources, diagnostics);
+  std::vector<fs::path> paths{path};
+  if (fs::is_directory(status))
+    paths = sourcesBelow(path, settings, sources, diagnostics);
   if (diagnostics.hasErrors())
     return files;
   for (const fs::path &one : paths) {

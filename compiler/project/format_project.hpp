@@ -6,6 +6,7 @@
 #include "compiler/source/sources.hpp"
 #include "compiler/syntax/conditions.hpp"
 #include "compiler/syntax/format.hpp"
+#include "compiler/toml/schema.hpp"
 
 #include <filesystem>
 #include <string>
@@ -24,6 +25,8 @@ struct FormattedFile {
 
 /// What stride.toml says for formatting: the nearest one in `place` or a folder around it.
 struct FormatSettings {
+  std::filesystem::path folder;    ///< of the stride.toml; empty: there is none
+  std::vector<ConfigName> sources; ///< as ProjectConfig::sources
   FormatStyle style;
   std::vector<Define> defines;
 };

@@ -46,7 +46,7 @@ public:
   [[nodiscard]] std::vector<Name> names() const override;
   [[nodiscard]] std::vector<Entry> files(std::string_view library) const override;
   /// Names of all libraries, in the order of the tables.
-  [[nodiscard]] std::vector<std::string_view> libraries() const;
+  [[nodiscard]] std::vector<std::string_view> libraries() const override;
 
 private:
   EmbeddedTables tables_;

@@ -1,6 +1,8 @@
 #include "compiler/project/project.hpp"
 
 #include "compiler/assets/cam/cam_source.hpp"
+#include "compiler/project/library_sources.hpp"
+#include "compiler/project/source_files.hpp"
 #include "compiler/source/read_source.hpp"
 #include "compiler/syntax/parser.hpp"
 #include "compiler/syntax/st_text.hpp"
@@ -13,75 +15,12 @@ namespace stc {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-constexpr std::string_view kManifest = "stride.toml";
-
-bool isHiddenFolder(const std::string &name) { return name.starts_with('.') || name == "build"; }
-
-/// The folder is a project of its own.
-bool isProject(const Sources &sources, const fs::path &folder) {
-  std::error_code ignored;
-  return sources.isUnsaved(folder / kManifest) || fs::exists(folder / kManifest, ignored);
-}
-
-bool hasSuffix(const std::string &name, std::string_view suffix) {
-  return !name.starts_with('.') && lowerCase(name).ends_with(suffix);
-}
-
-/// Whether all folders between `top` and the file are looked into.
-bool isReached(const Sources &sources, const fs::path &top, const fs::path &file) {
-  fs::path folder = top;
-  for (const fs::path &part : file.parent_path().lexically_relative(top)) {
-    folder /= part;
-    if (part != "." && (isHiddenFolder(part.string()) || isProject(sources, folder)))
-      return false;
-  }
-  return true;
-}
-
-/// All files below a project's folder whose names end like that, sorted.
-std::vector<fs::path> findFiles(const Sources &sources, const fs::path &folder,
-                                std::string_view suffix, std::error_code &error) {
-  std::vector<fs::path> found;
-  fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
-  for (; !error && at != fs::recursive_directory_iterator(); at.increment(error)) {
-    const std::string name = at->path().filename().string();
-    std::error_code ignored;
-    if (at->is_directory(ignored)) {
-      if (isHiddenFolder(name) || isProject(sources, at->path()))
-        at.disable_recursion_pending();
-      continue;
-    }
-    if (hasSuffix(name, suffix))
-      found.push_back(at->path());
-  }
-  for (const fs::path &unsaved : sources.unsavedBelow(folder))
-    if (hasSuffix(unsaved.filename().string(), suffix) && isReached(sources, folder, unsaved))
-      found.push_back(unsaved);
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
-}
-
-} // namespace
-
-std::vector<fs::path> findSources(const Sources &sources, const fs::path &folder,
-                                  std::error_code &error) {
-  return findFiles(sources, folder, ".st", error);
-}
-
-std::vector<fs::path> findCams(const Sources &sources, const fs::path &folder,
-                               std::error_code &error) {
-  return findFiles(sources, folder, kCamSuffix, error);
-}
-
 Project::Project(const fs::path &path, Purpose purpose, const Settings &settings,
                  const LibraryIndex &index, const Overlay *overlay) {
   program_.sources = Sources(overlay);
   program_.settings = settings;
   program_.diagnostics.setLevels(settings.levels);
-  load(path.empty() ? fs::path(".") : path);
+  load(path.empty() ? findProjectFolder(".") : path);
   if (loaded_)
     analyse(purpose, index);
 }
@@ -127,19 +66,26 @@ void Project::loadFolder() {
           Code::UnreadableFile, {},
           fmt::format("`{}` cannot be read: {}", manifest.string(), readSourceError()));
   }
-  const std::vector<fs::path> sources = findSources(program_.sources, path_, error);
-  if (error)
-    program_.diagnostics.report(
-        Code::UnreadableFile, {},
-        fmt::format("`{}` cannot be read: {}", path_.string(), error.message()));
-  else if (sources.empty())
+  readOwnConfig();
+  std::vector<fs::path> roots;
+  if (!findRoots(path_, config_.sources, program_.sources, program_.diagnostics, roots))
+    return;
+  const FoundFiles sources = findSources(program_.sources, roots);
+  if (reportUnfound(sources, path_, program_.diagnostics) && sources.files.empty())
     program_.diagnostics
         .report(Code::NoSources, {},
                 fmt::format("there are no `.st` files in `{}`", path_.string()))
         .help("`stride new NAME` makes a project to start from");
-  for (const fs::path &source : sources)
+  if (tomlFile_ == 0 && sources.files.size() > 1)
+    program_.diagnostics
+        .report(
+            Code::NoManifest, {},
+            fmt::format("`{}` has no stride.toml: its {} source files are taken for one project",
+                        path_.string(), sources.files.size()))
+        .help("if they are one, make an empty stride.toml there; if not, name one file");
+  for (const fs::path &source : sources.files)
     loadFile(source, source.lexically_relative(path_).string());
-  for (const fs::path &cam : findCams(program_.sources, path_, error)) {
+  for (const fs::path &cam : findCams(program_.sources, roots).files) {
     const std::string name = cam.lexically_relative(path_).string();
     if (const std::optional<FileId> id = program_.sources.load(cam, name))
       camFiles_.push_back(*id);
@@ -147,7 +93,7 @@ void Project::loadFolder() {
       program_.diagnostics.report(Code::UnreadableFile, {},
                                   fmt::format("`{}` cannot be read: {}", name, readSourceError()));
   }
-  loaded_ = !sources.empty();
+  loaded_ = !sources.files.empty();
 }
 
 void Project::loadFile(const fs::path &path, const std::string &name) {
@@ -170,6 +116,8 @@ void Project::readOwnConfig() {
     return;
   ProjectConfig read = readConfig(program_.sources.file(tomlFile_), program_.diagnostics);
   program_.settings.poolSize = read.poolSize;
+  if (read.name.empty() && read.library)
+    read.name = read.library->name.text;
   ownName_ = !read.name.empty();
   if (!ownName_)
     read.name = config_.name;
@@ -206,7 +154,7 @@ bool Project::addDeclarations(Purpose purpose, ProgramCheck programCheck,
 }
 
 void Project::analyse(Purpose purpose, const LibraryIndex &index) {
-  readOwnConfig();
+  const bool librariesFound = readLibraries(program_, config_, path_, index);
   const size_t configErrors = program_.diagnostics.errorCount();
   std::vector<ast::File *> files;
   DeclaredNames names(program_.sources, sourceFiles_);
@@ -218,6 +166,8 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
                           program_.diagnostics, &options));
   attachMembers(files, program_.arena, program_.diagnostics);
   const bool syntaxErrors = program_.diagnostics.errorCount() != configErrors;
+  if (config_.library)
+    checkLibraryContent(files, program_.diagnostics);
   tests_ = findTests(files, program_.diagnostics);
   if (purpose == Purpose::Build)
     removeTests(files, program_.arena);
@@ -229,7 +179,7 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
             : std::string("the source files declare nothing"));
     return;
   }
-  if (config_.incomplete)
+  if (config_.incomplete || !librariesFound)
     return; // what is missing of the configuration would be missed everywhere in the program
   const ProgramCheck programCheck = syntaxErrors                ? ProgramCheck::Skip
                                     : purpose == Purpose::Build ? ProgramCheck::Runnable
@@ -310,6 +260,14 @@ std::vector<Diagnostic> Project::diagnostics() const {
     for (Label &label : diagnostic.labels)
       label.span = program_.sources.origin(label.span);
   return result;
+}
+
+std::vector<std::string> Project::files() const {
+  std::vector<std::string> names;
+  for (const std::vector<FileId> *ids : {&sourceFiles_, &camFiles_})
+    for (const FileId id : *ids)
+      names.push_back(program_.sources.file(id).name());
+  return names;
 }
 
 AppConfig Project::appConfig() const {

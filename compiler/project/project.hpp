@@ -22,20 +22,12 @@ enum class Purpose {
   Test,  ///< the unit tests run instead of the tasks
 };
 
-/// All source files below a project's folder, sorted by path, also those that are not saved yet.
-/// Hidden and `build` folders are left out, and other projects.
-[[nodiscard]] std::vector<std::filesystem::path>
-findSources(const Sources &sources, const std::filesystem::path &folder, std::error_code &error);
-
-/// The same of the cam files, *.cam.toml.
-[[nodiscard]] std::vector<std::filesystem::path>
-findCams(const Sources &sources, const std::filesystem::path &folder, std::error_code &error);
-
 /// The sources and the configuration of a project folder, or a single source file. Everything wrong
 /// is in diagnostics(); the program is fit for code generation when there is no error among them.
 class Project {
 public:
-  /// `path`: a folder, a stride.toml or a source file; empty: the current folder. `overlay`: what
+  /// `path`: a folder, a stride.toml or a source file; empty: the project that the current folder
+  /// belongs to. `overlay`: what
   /// an editor has not saved, or null; it must outlive the project.
   Project(const std::filesystem::path &path, Purpose purpose, const Settings &settings,
           const LibraryIndex &index, const Overlay *overlay = nullptr);
@@ -59,6 +51,10 @@ public:
   /// The unit tests, for Purpose::Test; the task `Test` calls the one that which__ of kTestProgram
   /// names.
   [[nodiscard]] const std::vector<TestBlock> &tests() const { return tests_; }
+  /// Its source and cam files, relative to its folder.
+  [[nodiscard]] std::vector<std::string> files() const;
+  /// [library] of stride.toml: the project is one.
+  [[nodiscard]] const std::optional<LibraryInfo> &library() const { return config_.library; }
   /// [files] root of stride.toml; empty: not given.
   [[nodiscard]] const std::string &filesRoot() const { return config_.filesRoot; }
   /// Tasks and axis groups for code generation; only without errors.

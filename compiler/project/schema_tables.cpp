@@ -43,7 +43,26 @@ constexpr std::array kProjectParameters = {
     choice("softmotion", kGenerations),
     choice("layout", kLayouts),
     Parameter{"defines", ParameterType::NameList},
+    Parameter{"sources", ParameterType::NameList},
     whole("new_pool", 1024, 268435456, "bytes"),
+};
+
+constexpr std::array kLibraryParameters = {
+    identifier("name").needed(),
+    text("version").needed(),
+    identifier("namespace"),
+    text("title"),
+    text("description"),
+    text("company"),
+    text("license"),
+    flag("qualified_only"),
+};
+
+constexpr std::array kUseParameters = {
+    identifier("name").needed(),
+    text("path"),
+    text("version"),
+    identifier("namespace"),
 };
 
 constexpr std::array<Choice, 4> kTaskKinds = {
@@ -108,6 +127,17 @@ constexpr std::array kFormatParameters = {
 
 constexpr SectionSchema kProject = {"project", "the project",      "project",
                                     false,     kProjectParameters, {}};
+/// Its keys are whatever the library's parameters are called.
+constexpr SectionSchema kLibraryValues = {
+    "parameters", "the parameters", "library.parameters", false, {}, {}, {}, true};
+constexpr std::array<const SectionSchema *, 1> kUseSections = {&kLibraryValues};
+constexpr SectionSchema kUse = {"library", "a library",    "library",
+                                true,      kUseParameters, kUseSections};
+constexpr SectionSchema kUseOfLibrary = {"uses", "a library",    "library.uses",
+                                         true,   kUseParameters, kUseSections};
+constexpr std::array<const SectionSchema *, 1> kLibrarySections = {&kUseOfLibrary};
+constexpr SectionSchema kLibrary = {"library", "the library",      "library",
+                                    false,     kLibraryParameters, kLibrarySections};
 constexpr SectionSchema kImage = {"image", "the process image", "image",
                                   false,   kImageParameters,    {}};
 constexpr SectionSchema kFormat = {"fmt", "the format", "fmt", false, kFormatParameters, {}};
@@ -148,10 +178,12 @@ struct DiagnosticSection {
 /// The whole of stride.toml.
 struct TopSection {
   DiagnosticSection diagnostics;
-  std::array<const SectionSchema *, 10> sections = {
-      &kProject, &diagnostics.section, &kImage,         &kRetain, &kFiles, &kFormat,
-      &kTask,    &anyBusSection(),     &anyIoSection(), &kAxis};
-  SectionSchema top = {"", "stride.toml", "", false, {}, sections};
+  explicit TopSection(const SectionSchema &library)
+      : sections{&kProject, &library, &diagnostics.section, &kImage,         &kRetain, &kFiles,
+                 &kFormat,  &kTask,   &anyBusSection(),     &anyIoSection(), &kAxis},
+        top{"", "stride.toml", "", false, {}, sections} {}
+  std::array<const SectionSchema *, 11> sections;
+  SectionSchema top;
 };
 
 } // namespace
@@ -159,7 +191,12 @@ struct TopSection {
 const SectionSchema &formatSchema() { return kFormat; }
 
 const SectionSchema &projectSchema() {
-  static const TopSection schema;
+  static const TopSection schema(kUse);
+  return schema.top;
+}
+
+const SectionSchema &librarySchema() {
+  static const TopSection schema(kLibrary);
   return schema.top;
 }
 

@@ -19,15 +19,58 @@
 
 namespace stc {
 
+struct Library;
+
+/// A library of the user's own under the name by which another one, or the project, calls it.
+struct UsedLibrary {
+  std::string name;
+  const Library *library = nullptr;
+};
+
 /// A library or the user's project, with what of it has been used (a library) or declared (the
 /// project).
 struct Library {
-  std::string name; ///< `SM_PLCopen`; the project: empty
+  std::string name; ///< `SM_PLCopen`; of a library of one's own its namespace; the project: empty
   bool isUser = false;
+  bool isOwn = false; ///< the project brings it ([[library]] of stride.toml)
+  /// All of it is declared, and its code is made with the application: a library of one's own, or
+  /// one of Stride's that has not been compiled with the parameters that the project sets.
+  bool isBuilt = false;
+  bool qualifiedOnly = false;    ///< of an own one: its names need the namespace before them
+  unsigned pack = 0;             ///< of its structures without pack_mode; 0: natural alignment
+  bool truncIsInt = false;       ///< as Settings::truncIsInt, for its own code
+  std::vector<UsedLibrary> uses; ///< own libraries that it names itself
   std::vector<PouSymbol *> pous; ///< with resolved declarations and checked bodies
   std::vector<TypeSymbol *>
       types; ///< structures, enumerations, aliases; a type follows those it contains
   std::vector<GlobalsSymbol *> globals; ///< VAR_GLOBAL lists
+};
+
+/// A library of the user's own: parsed, not yet declared.
+struct LibrarySource {
+  /// How it is called by somebody who uses it, and its LibrarySource::name.
+  struct Use {
+    std::string name;
+    std::string library;
+  };
+  std::string name; ///< unlike that of all others
+  std::vector<ast::File *> files;
+  std::vector<Use> uses; ///< own libraries that it names itself
+  bool qualifiedOnly = false;
+  unsigned pack = 0;
+  bool truncIsInt = false;
+  std::string about; ///< what its documentation begins with
+};
+
+/// What the project sets a constant of a library's parameter list to.
+struct ParameterValue {
+  std::string library;         ///< as Library::name
+  std::string list;            ///< lower case; empty: the list does not matter
+  std::string name;            ///< as the project spells it
+  Span place;                  ///< of the name
+  ast::Expr *value = nullptr;  ///< null: it is none
+  ast::Expr *quoted = nullptr; ///< the same as a text, for a STRING; null: it stands without quotes
+  bool isSet = false;          ///< the constant has been found
 };
 
 /// Gives the checker the text of library declarations on demand, so that only what is used is
@@ -58,6 +101,8 @@ public:
   };
   /// Every name it declares that is seen without a library's name, for "did you mean".
   [[nodiscard]] virtual std::vector<Name> names() const = 0;
+  /// Names of all libraries.
+  [[nodiscard]] virtual std::vector<std::string_view> libraries() const { return {}; }
   /// All files of one library, for generating its headers and for documentation.
   [[nodiscard]] virtual std::vector<Entry> files(std::string_view library) const = 0;
 };
@@ -132,6 +177,11 @@ struct Program {
   std::vector<std::unique_ptr<Library>> libraries; ///< used libraries in order of first use
   Library *user = nullptr;        ///< the project; null while a library itself is compiled
   std::vector<ast::File *> files; ///< parsed user files
+  /// Libraries of the user's own; each follows those that it uses.
+  std::vector<LibrarySource> librarySources;
+  std::vector<LibrarySource::Use> uses; ///< those that the project itself names
+  std::string ownNamespace;             ///< of a project that is a library; else empty
+  std::vector<ParameterValue> parameters;
   /// Types whose size the program asks for (SIZEOF), with what the checker has computed.
   std::vector<std::pair<const Type *, uint64_t>> measured;
   /// Types that the program creates objects of (__NEW), in the order of first use.

@@ -128,6 +128,8 @@ void Diagnostics::setSilent(FileId file, uint32_t offset, Code code, bool silent
 }
 
 bool Diagnostics::isSilent(Code code, Span where) const {
+  if (foreign_.contains(where.file))
+    return true;
   bool silent = false;
   for (const Silence &s : silences_) {
     if (s.code == code && s.file == where.file && s.offset <= where.begin)
@@ -139,7 +141,7 @@ bool Diagnostics::isSilent(Code code, Span where) const {
 Diagnostic &Diagnostics::report(Code code, Span where, std::string message, std::string labelText) {
   const Severity severity = levels_.of(code);
   if (severity == Severity::Off ||
-      (info(code).severity != Severity::Error && !silences_.empty() && isSilent(code, where))) {
+      (info(code).severity != Severity::Error && isSilent(code, where))) {
     dropped_ = {};
     return dropped_;
   }

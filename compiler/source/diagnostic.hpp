@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -135,6 +136,8 @@ public:
   [[nodiscard]] const Levels &levels() const { return levels_; }
   /// From `offset` of the file on, the code is silent (`{warning disable SE0390}`) or as before.
   void setSilent(FileId file, uint32_t offset, Code code, bool silent);
+  /// The file is not the user's business: only errors are reported in it.
+  void setForeign(FileId file) { foreign_.insert(file); }
   /// Whether an occurrence of the code would be reported anywhere: lets passes that cost time be
   /// left out.
   [[nodiscard]] bool wants(Code code) const { return levels_.of(code) != Severity::Off; }
@@ -163,6 +166,7 @@ private:
   Diagnostic dropped_;
   Levels levels_;
   std::vector<Silence> silences_; ///< in the order of each file's text
+  std::set<FileId> foreign_;
   size_t errors_ = 0;
   size_t warnings_ = 0;
 };

@@ -333,6 +333,8 @@ CheckedSection::CheckedSection(const TomlNode &table, const SectionSchema &schem
     } else if (const SectionSchema *section = findSection(schema, member.key)) {
       if (checkSectionKind(member, *section, diagnostics))
         values_.push_back(&member);
+    } else if (schema.open) {
+      values_.push_back(&member);
     } else {
       reportUnknown(member, schema, *file_, diagnostics);
     }

@@ -36,6 +36,7 @@ struct SectionSchema {
   std::span<const SectionSchema *const> sections = {};
   /// Of `parameters` and `sections`: without effect here, which is a warning.
   std::span<const Foreign> foreign = {};
+  bool open = false; ///< Any key may stand there; whoever reads it looks at them.
 };
 
 /// A table of such a file that has been compared with its schema. Everything wrong with it has been

@@ -246,12 +246,8 @@ private:
     // LIST.name before name.member: a list's name is never a variable's.
     if (at_ < path_.size() && path_[at_] == '.') {
       const size_t back = at_;
-      ++at_;
-      const std::string second = name();
-      const auto found =
-          table_.roots_.find(common::lowerCase(first) + "." + common::lowerCase(second));
-      if (found != table_.roots_.end())
-        return take(found->second.front());
+      if (const std::optional<uint32_t> found = inList(first))
+        return take(*found);
       at_ = back;
     }
     const auto found = table_.roots_.find(common::lowerCase(first));
@@ -265,6 +261,21 @@ private:
                        b.name));
     }
     take(found->second.front());
+  }
+
+  /// After the first name: the variable of a list, `LIST.name` or, of a library,
+  /// `Library.LIST.name`.
+  std::optional<uint32_t> inList(const std::string &first) {
+    std::string path = common::lowerCase(first);
+    for (int names = 2; names <= 3 && at_ + 1 < path_.size() && path_[at_] == '.' &&
+                        isNameCharacter(path_[at_ + 1]);
+         ++names) {
+      ++at_;
+      path += "." + common::lowerCase(name());
+      if (const auto found = table_.roots_.find(path); found != table_.roots_.end())
+        return found->second.front();
+    }
+    return std::nullopt;
   }
 
   void take(uint32_t index) {

@@ -111,7 +111,8 @@ void copyProject(const fs::path &from, const fs::path &to) {
   for (const fs::directory_entry &entry : fs::directory_iterator(from)) {
     const std::string name = entry.path().filename();
     if (!name.starts_with('.') && name != "build")
-      fs::copy(entry.path(), to / name, fs::copy_options::recursive);
+      fs::copy(entry.path(), to / name,
+               fs::copy_options::recursive | fs::copy_options::copy_symlinks);
   }
 }
 

@@ -78,6 +78,13 @@ TEST_F(HostileProject, TheFormatterWritesThroughNoLinkThatLeadsOut) {
   link("real/c.st", "p/c_link.st");
   refuse({"fmt", "p"}, "SE0838");
   EXPECT_EQ(read("other/b.st"), ugly);
+  fs::remove(at("p/b.st")); // the same of a folder, whose files are sources of the project
+  link("../other", "p/linked");
+  refuse({"fmt", "p"}, "SE0838");
+  EXPECT_EQ(read("other/b.st"), ugly);
+  EXPECT_THAT(stride({"check", "p"}).err, HasSubstr("its 3 source files"));
+  fs::remove(at("p/linked"));
+  link("../other/b.st", "p/b.st");
   EXPECT_THAT(read("p/real/c.st"), HasSubstr("FUNCTION G : INT"));
   EXPECT_TRUE(fs::is_symlink(at("p/c_link.st")));
   succeed({"fmt", "p/b.st"}); // the user's own word

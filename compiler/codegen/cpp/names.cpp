@@ -182,7 +182,9 @@ uint32_t Names::typeId(const PouSymbol *block) {
 
 Names::Names(const Program &program) : program_(program) {
   const auto add = [&](const Library *library) {
-    spaces_.emplace(library, library->isUser ? "user" : mangle(library->name));
+    spaces_.emplace(library, library->isUser           ? "user"
+                             : library->name == "user" ? "user_" // a library of one's own
+                                                       : mangle(library->name));
   };
   for (const auto &library : program.libraries)
     add(library.get());

@@ -10,7 +10,8 @@ using namespace ast;
 
 const PouSymbol *ownCheck(EmitContext &cx, ImplicitCheck check) {
   const PouSymbol *pou = cx.run.program.implicitChecks[static_cast<size_t>(check)];
-  if (pou == nullptr || cx.isCheck() || !cx.checks())
+  // The project's checks are for its own code: that of its libraries is the same everywhere.
+  if (pou == nullptr || cx.isCheck() || !cx.checks() || !cx.run.own->isUser)
     return nullptr;
   cx.includes.symbol(pou);
   return pou;

@@ -57,8 +57,9 @@ const Type *checkPowerFunction(Context &c, CallExpr *expr) {
 }
 
 const Type *checkTrunc(Context &c, CallExpr *expr) {
-  const Type *result =
-      elementaryType(c.program.settings.truncIsInt ? TypeKind::Int : TypeKind::Dint);
+  const Library *here = c.scope.module->library;
+  const bool truncIsInt = here->isUser ? c.program.settings.truncIsInt : here->truncIsInt;
+  const Type *result = elementaryType(truncIsInt ? TypeKind::Int : TypeKind::Dint);
   const Type *kind = kindOf(expr, 0);
   if (!isNumber(kind))
     return argumentError(c, expr, 0, "a number");

@@ -68,7 +68,7 @@ static PouSymbol *lookupBase(Context &c, NamePath path, bool interface, const Po
   if (path.size() == 1) {
     symbol = lookupDeclared(c, name);
     if (symbol == nullptr || symbol->kind == SymbolKind::Variable) {
-      Symbol *inLibrary = c.names.inLibraries(c.scope, name.id);
+      Symbol *inLibrary = lookupInLibraries(c, name);
       symbol = inLibrary != nullptr ? inLibrary : symbol;
     }
   } else {

@@ -75,7 +75,7 @@ const Type *typeOf(Context &c, VarSymbol *variable) {
 void bindExternal(Context &c, PouSymbol *pou, VarDecl *decl) {
   Symbol *global = c.scope.module->find(decl->name.id);
   if (global == nullptr)
-    global = c.names.inLibraries(c.scope, decl->name.id);
+    global = lookupInLibraries(c, decl->name);
   if (global == nullptr || global->kind != SymbolKind::Variable) {
     c.report(Code::ExternalMismatch, decl->name.span,
              "there is no global variable `" + std::string(decl->name.text) + "`",

@@ -41,8 +41,8 @@ bool requireAccess(Context &c, Span span, const Symbol *member, const PouSymbol 
     return true;
   }
   auto &d = c.report(Code::MemberNotVisible, span,
-                     "`" + std::string(owner->name.text) + "." + std::string(member->name.text) +
-                         "` is " + std::string(word),
+                     "`" + (member == owner ? "" : std::string(owner->name.text) + ".") +
+                         std::string(member->name.text) + "` is " + std::string(word),
                      who);
   noteDeclaration(d, member);
   return false;

@@ -97,7 +97,13 @@ const Type *checkName(Context &c, NameExpr *expr, const Type *expected) {
             c.report(Code::AmbiguousName, expr->name.span,
                      "`" + std::string(expr->name.text) + "` is an enumerator of several types",
                      "which one is meant?");
-        for (EnumeratorSymbol *other : c.scope.module->enumerators[expr->name.id])
+        std::vector<EnumeratorSymbol *> candidates;
+        if (found.other != nullptr)
+          candidates = {e, found.other};
+        else if (const auto own = c.scope.module->enumerators.find(expr->name.id);
+                 own != c.scope.module->enumerators.end())
+          candidates = own->second;
+        for (EnumeratorSymbol *other : candidates)
           d.label(other->name.span, "of `" + typeName(other->type) + "`");
         d.help("write the type too: `" + typeName(e->type) + "." + std::string(expr->name.text) +
                "`");
@@ -129,7 +135,7 @@ Symbol *resolveNamespace(Context &c, Expr *expr) {
       // library.
       Symbol *other = lookupDeclared(c, name->name);
       if (other == symbol || other == nullptr)
-        other = c.names.inLibraries(c.scope, name->name.id);
+        other = lookupInLibraries(c, name->name);
       if (other != nullptr && other->kind == SymbolKind::Type)
         symbol = other;
     }

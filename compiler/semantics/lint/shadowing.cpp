@@ -148,20 +148,29 @@ static void checkHidden(Context &c, Module &module, const PouSymbol *pou, const 
   }
 }
 
+static void reportHiddenLibrary(Context &c, const Symbol *symbol, std::string_view what,
+                                const std::string &library) {
+  c.report(Code::HidesLibrary, symbol->name.span,
+           "the " + std::string(what) + " `" + std::string(symbol->name.text) +
+               "` hides the one of the library `" + library + "`",
+           "the library has this name too")
+      .help("give it another name; the library's is `" + library + "." +
+            std::string(symbol->name.text) + "`");
+}
+
 void checkHiddenLibrary(Context &c, Module &module) {
   if (!module.library->isUser || !c.program.diagnostics.wants(Code::HidesLibrary))
     return;
   const auto look = [&](const Symbol *symbol, std::string_view what) {
+    if (const Found own = c.names.inOwnLibraries({&module}, symbol->name.id);
+        own && (own.symbol->kind == SymbolKind::Pou || own.symbol->kind == SymbolKind::Type)) {
+      reportHiddenLibrary(c, symbol, what, own.symbol->library->name);
+      return;
+    }
     for (const LibraryIndex::Entry &entry : c.names.index().find(symbol->name.id->lower)) {
       if (entry.qualifiedOnly || !declaresPouOrType(entry.text, symbol->name.id->lower))
         continue;
-      const std::string library(entry.library);
-      c.report(Code::HidesLibrary, symbol->name.span,
-               "the " + std::string(what) + " `" + std::string(symbol->name.text) +
-                   "` hides the one of the library `" + library + "`",
-               "the library has this name too")
-          .help("give it another name; the library's is `" + library + "." +
-                std::string(symbol->name.text) + "`");
+      reportHiddenLibrary(c, symbol, what, std::string(entry.library));
       return;
     }
   };

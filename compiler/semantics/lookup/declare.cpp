@@ -242,6 +242,7 @@ void Lookup::declareGlobals(Module &module, GlobalsDecl *decl) {
     list->library = module.library;
     module.library->globals.push_back(list);
   }
+  setParameters(module, list->name, decl);
   const bool qualifiedOnly = hasAttribute(decl->attributes, AttributeId::QualifiedOnly);
   for (VarDecl *v : decl->variables) {
     VarSymbol *symbol = makeVariable(arena_, v, module, nullptr);

@@ -82,16 +82,25 @@ Symbol *Lookup::self(const Scope &scope, const Name &name) {
   return symbol;
 }
 
-Symbol *Lookup::library(const Name &name) {
-  if (!index_.isLibrary(name.id->lower))
+Symbol *Lookup::library(const Scope &scope, const Name &name) {
+  const std::string own = ownLibrary(scope, name.id->lower);
+  if (own.empty() && !index_.isLibrary(name.id->lower))
     return nullptr;
   auto *symbol = arena_.make<LibrarySymbol>();
   symbol->kind = SymbolKind::Library;
   symbol->name = name;
+  if (!own.empty())
+    symbol->name.id = program_.interner.intern(own);
   return symbol;
 }
 
 Symbol *Lookup::listOfLibraries(const Scope &scope, Ident id) const {
+  for (const UsedLibrary &own : scope.module->library->uses) {
+    const Module &library = *modules_.at(own.library->name);
+    const auto found = library.lists.find(id);
+    if (!own.library->qualifiedOnly && found != library.lists.end())
+      return found->second;
+  }
   for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
     const Module *library =
         isSeenUnqualified(scope, entry) ? findModule(entry.library) : nullptr; // loaded by now
@@ -131,8 +140,8 @@ Found Lookup::find(const Scope &scope, const Name &name) {
   const auto builtin = builtins_.find(name.id);
   if (builtin != builtins_.end())
     return {builtin->second};
-  if (Symbol *symbol = inLibraries(scope, name.id))
-    return {symbol};
+  if (const Found found = inLibraries(scope, name.id))
+    return found;
   const auto list = scope.module->lists.find(name.id);
   if (list != scope.module->lists.end())
     return {list->second};
@@ -141,10 +150,19 @@ Found Lookup::find(const Scope &scope, const Name &name) {
     return {space->second};
   if (Symbol *symbol = listOfLibraries(scope, name.id))
     return {symbol};
-  return {library(name)};
+  return {library(scope, name)};
 }
 
-Symbol *Lookup::inLibraries(const Scope &scope, Ident id) {
+Found Lookup::inLibraries(const Scope &scope, Ident id) {
+  Found found = inOwnLibraries(scope, id);
+  if (!found)
+    return {inStandardLibraries(scope, id)};
+  if (found.other == nullptr)
+    found.other = inStandardLibraries(scope, id);
+  return found;
+}
+
+Symbol *Lookup::inStandardLibraries(const Scope &scope, Ident id) {
   for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
     if (!entry.qualifiedOnly || !isSeenUnqualified(scope, entry))
       continue;
@@ -168,6 +186,15 @@ Symbol *Lookup::inLibraries(const Scope &scope, Ident id) {
 }
 
 Symbol *Lookup::inLibrary(Ident library, Ident id) {
+  if (const Module *own = ownModule(library->lower)) {
+    if (Symbol *symbol = own->find(id))
+      return symbol;
+    const auto list = own->lists.find(id);
+    const auto space = own->spaces.find(id);
+    return list != own->lists.end()     ? static_cast<Symbol *>(list->second)
+           : space != own->spaces.end() ? static_cast<Symbol *>(space->second)
+                                        : nullptr;
+  }
   for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
     if (!index_.answersTo(entry.library, library->lower))
       continue;
@@ -210,6 +237,25 @@ FoundEnumerator Lookup::enumerator(const Scope &scope, Ident id, const Type *exp
     return found;
   if (const auto found = usedEnumerator(scope, id); found.enumerator != nullptr)
     return found;
+  return enumeratorOfLibraries(scope, id);
+}
+
+FoundEnumerator Lookup::enumeratorOfLibraries(const Scope &scope, Ident id) {
+  FoundEnumerator own;
+  for (const UsedLibrary &used : scope.module->library->uses) {
+    if (used.library->qualifiedOnly)
+      continue;
+    const auto found = enumeratorOf(modules_.at(used.library->name)->enumerators, id);
+    if (found.enumerator == nullptr)
+      continue;
+    if (own.enumerator != nullptr)
+      return {own.enumerator, true, found.enumerator};
+    if (found.isAmbiguous)
+      return found;
+    own = found;
+  }
+  if (own.enumerator != nullptr)
+    return own;
   for (const LibraryIndex::Entry &entry : index_.find(id->lower)) {
     if (!isSeenUnqualified(scope, entry))
       continue;

@@ -26,7 +26,8 @@ struct Found {
 
 struct FoundEnumerator {
   EnumeratorSymbol *enumerator = nullptr;
-  bool isAmbiguous = false; ///< several enumerations of the place have one of this name
+  bool isAmbiguous = false;          ///< several enumerations of the place have one of this name
+  EnumeratorSymbol *other = nullptr; ///< that of another library, if that makes it ambiguous
 };
 
 /// What CONFIGURATIONs and the like declare: it is no name, but found where files are declared.
@@ -74,6 +75,8 @@ public:
                                    const NamespaceSymbol *space) const;
   [[nodiscard]] bool isBuiltin(Ident id) const { return builtins_.contains(id); }
   [[nodiscard]] const ConfigurationParts &configuration() const { return configuration_; }
+  /// The names of the own library of that name in lower case; null: there is none.
+  [[nodiscard]] const Module *ownModule(std::string_view lowerName) const;
   /// Null: nothing of the library has been used.
   [[nodiscard]] Module *findModule(std::string_view library) const;
   [[nodiscard]] Module &moduleOf(const Symbol *symbol) const;
@@ -89,8 +92,14 @@ public:
   Found inUsings(const Scope &scope, Ident id);
   /// In the namespaces around.
   [[nodiscard]] Symbol *inSpaces(const Scope &scope, Ident id) const;
-  /// A name that needs no library's name in front.
-  Symbol *inLibraries(const Scope &scope, Ident id);
+  /// A name that needs no library's name in front. Several libraries that the place uses may have
+  /// it: the first one counts, and `other` is set.
+  Found inLibraries(const Scope &scope, Ident id);
+  /// The same in libraries of the user's own.
+  [[nodiscard]] Found inOwnLibraries(const Scope &scope, Ident id) const;
+  /// What the own library is called that a name, in lower case, stands for at the place; empty:
+  /// none.
+  [[nodiscard]] std::string ownLibrary(const Scope &scope, std::string_view lowerName) const;
   /// `Library.Name`
   Symbol *inLibrary(Ident library, Ident id);
   /// What `space.name` is, of a namespace or a library.
@@ -107,6 +116,10 @@ public:
 
   /// The names of a library (of the project: ""), made when they are new.
   Module &module(std::string_view library);
+  /// Declares the libraries of the user's own (Program::librarySources) and what the project uses.
+  void declareOwnLibraries();
+  /// Reports values of parameters (Program::parameters) that no library has. These are declared.
+  void reportUnknownParameters();
   /// Makes symbols of what the file declares, reports names that are declared twice.
   void declare(Module &module, ast::File *file);
   /// Reads a file of a library, unless that has been done.
@@ -122,17 +135,22 @@ public:
 
 private:
   void addName(Module &module, Symbol *symbol);
+  /// It is INTERNAL, and the scope is in another namespace or library.
+  [[nodiscard]] bool isForeign(const Scope &scope, const Symbol *symbol) const;
   void declarePou(Module &module, ast::PouDecl *decl);
   void declareType(Module &module, ast::Decl *decl);
   void declareGlobals(Module &module, ast::GlobalsDecl *decl);
+  void setParameters(const Module &module, const ast::Name &list, ast::GlobalsDecl *decl);
   NamespaceSymbol *declareSpace(Module &module, ast::NamePath path);
   NamespaceSymbol *makeSpace(Module &module, NamespaceSymbol *around, const ast::Name &name);
   Symbol *declareCamTable(Ident id);
 
   Symbol *memberOfSpace(Symbol *space, Ident id);
   Symbol *self(const Scope &scope, const ast::Name &name);
-  Symbol *library(const ast::Name &name);
+  Symbol *library(const Scope &scope, const ast::Name &name);
+  Symbol *inStandardLibraries(const Scope &scope, Ident id);
   Symbol *listOfLibraries(const Scope &scope, Ident id) const;
+  FoundEnumerator enumeratorOfLibraries(const Scope &scope, Ident id);
   FoundEnumerator usedEnumerator(const Scope &scope, Ident id);
 
   Program &program_;
@@ -142,7 +160,9 @@ private:
   std::function<void(Module &)> loaded_;
   std::unordered_map<std::string, std::unique_ptr<Module>> modules_; ///< by library
   std::unordered_map<Ident, BuiltinSymbol *> builtins_;
-  std::unordered_map<Ident, Symbol *> inLibraries_; ///< what has been found there, also nothing
+  std::unordered_map<Ident, Symbol *>
+      inLibraries_; ///< of Stride: what has been found, also nothing
+  std::unordered_map<std::string, const Module *> own_; ///< own libraries, by name in lower case
   ConfigurationParts configuration_;
 };
 

@@ -66,7 +66,7 @@ Symbol *Lookup::used(const Scope &scope, NamePath path) {
   if (root != scope.module->spaces.end())
     if (Symbol *found = follow(root->second, 1))
       return found;
-  return path.size() == 1 ? library(path.front()) : nullptr;
+  return path.size() == 1 ? library(scope, path.front()) : nullptr;
 }
 
 Symbol *Lookup::memberOfSpace(Symbol *space, Ident id) {
@@ -82,6 +82,10 @@ Symbol *Lookup::memberOfSpace(Symbol *space, Ident id) {
   return enumerator == of->enumerators.end() ? nullptr : enumerator->second.front();
 }
 
+bool Lookup::isForeign(const Scope &scope, const Symbol *symbol) const {
+  return isInternal(symbol) && !seesInternals(scope, symbol->library, symbol->space);
+}
+
 bool Lookup::seesInternals(const Scope &scope, const Library *library,
                            const NamespaceSymbol *space) const {
   if (scope.module->library != library)
@@ -92,8 +96,11 @@ bool Lookup::seesInternals(const Scope &scope, const Library *library,
 
 Found Lookup::inSpace(const Scope &scope, Symbol *space, Ident id) {
   Found found{memberOfSpace(space, id)};
-  found.isForeign = found && found.symbol->space != nullptr && isInternal(found.symbol) &&
-                    !seesInternals(scope, found.symbol->library, found.symbol->space);
+  // What a block of a library is used for is looked at where its type is used.
+  const bool isBlock = found && found.symbol->space == nullptr &&
+                       found.symbol->kind == SymbolKind::Pou &&
+                       static_cast<const PouSymbol *>(found.symbol)->isBlock();
+  found.isForeign = found && !isBlock && isForeign(scope, found.symbol);
   return found;
 }
 

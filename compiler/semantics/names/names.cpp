@@ -14,8 +14,10 @@ uint64_t placeOf(Span span) { return uint64_t{span.file} << 32 | span.begin; }
 
 std::string qualifiedName(const Symbol *symbol) {
   const std::string name(symbol->name.text);
-  if (symbol->space != nullptr)
+  if (symbol->space != nullptr && !symbol->library->isOwn)
     return symbol->space->path + "." + name;
+  if (symbol->space != nullptr)
+    return symbol->library->name + "." + symbol->space->path + "." + name;
   return symbol->library != nullptr && !symbol->library->isUser ? symbol->library->name + "." + name
                                                                 : name;
 }
@@ -25,13 +27,19 @@ std::string qualifiedName(const Symbol *symbol) {
 /// The symbol, after what is wrong with the name has been reported.
 static Symbol *use(Context &c, const Name &name, const Found &found) {
   if (found.isForeign && c.reported.names.insert(placeOf(name.span)).second)
-    noteDeclaration(c.report(Code::MemberNotVisible, name.span,
-                             "`" + qualifiedName(found.symbol) + "` is INTERNAL",
-                             "only the namespace `" + found.symbol->space->path + "` can use it"),
-                    found.symbol);
+    noteDeclaration(
+        c.report(Code::MemberNotVisible, name.span,
+                 "`" + qualifiedName(found.symbol) + "` is INTERNAL",
+                 "only the " +
+                     (found.symbol->space != nullptr ? "namespace `" + found.symbol->space->path
+                                                     : "library `" + found.symbol->library->name) +
+                     "` can use it"),
+        found.symbol);
   if (found.other != nullptr && c.reported.unknown.emplace(c.scope.pou, name.id).second)
     c.report(Code::AmbiguousNamespace, name.span,
-             "`" + std::string(name.text) + "` is in several namespaces", "which one is meant?")
+             "`" + std::string(name.text) + "` is in several " +
+                 (found.symbol->space == nullptr ? "libraries" : "namespaces"),
+             "which one is meant?")
         .label(found.symbol->name.span, "`" + qualifiedName(found.symbol) + "`")
         .label(found.other->name.span, "`" + qualifiedName(found.other) + "`")
         .help("write `" + qualifiedName(found.symbol) + "` or `" + qualifiedName(found.other) +
@@ -43,6 +51,10 @@ Symbol *lookup(Context &c, const Name &name) { return use(c, name, c.names.find(
 
 Symbol *lookupDeclared(Context &c, const Name &name) {
   return use(c, name, c.names.declared(c.scope, name.id));
+}
+
+Symbol *lookupInLibraries(Context &c, const Name &name) {
+  return use(c, name, c.names.inLibraries(c.scope, name.id));
 }
 
 Symbol *nameInSpace(Context &c, Symbol *space, const Name &name) {

@@ -14,6 +14,8 @@ namespace stc::sema {
 Symbol *lookup(Context &c, const ast::Name &name);
 /// A name of the project (or library): in the namespaces around, outside of all, by USING.
 Symbol *lookupDeclared(Context &c, const ast::Name &name);
+/// A name that needs no library's name before it.
+Symbol *lookupInLibraries(Context &c, const ast::Name &name);
 /// `A.B.Name`, also `Library.Name`; reports what it does not find. `asType`: a type is meant.
 Symbol *lookupPath(Context &c, ast::NamePath path, bool asType);
 /// What `space.name` is, of a namespace or a library; null: nothing. Reports what is INTERNAL

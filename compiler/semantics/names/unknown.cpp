@@ -179,6 +179,13 @@ static std::vector<std::string_view> visibleNames(Context &c, Sought sought) {
                              "LREAL", "TIME",  "LTIME", "DATE", "STRING", "WSTRING"})
       list.emplace_back(name);
   }
+  for (const UsedLibrary &used : c.scope.module->library->uses) {
+    if (used.library->qualifiedOnly)
+      continue;
+    for (const auto &[id, symbol] : c.names.findModule(used.library->name)->names)
+      if (canBeMeant(symbol, sought))
+        list.push_back(symbol->name.text);
+  }
   std::sort(list.begin(), list.end());
   for (const LibraryIndex::Name &name : c.names.libraryNames()) {
     if (canBeMeant(name, sought))
@@ -197,6 +204,18 @@ static std::string_view similarName(Context &c, const Name &name, Sought sought)
   c.reported.namesLookedAt += names.size();
   std::erase_if(names, [&](std::string_view other) { return equalIgnoringCase(other, name.text); });
   return nearest(name.text, names);
+}
+
+/// The library that has the name, which needs the library's before it; empty: none.
+static std::string qualifiedOnlyLibrary(Context &c, const Name &name) {
+  for (const UsedLibrary &own : c.scope.module->library->uses)
+    if (own.library->qualifiedOnly &&
+        c.names.findModule(own.library->name)->find(name.id) != nullptr)
+      return own.name;
+  for (const LibraryIndex::Entry &entry : c.names.index().find(name.id->lower))
+    if (entry.qualifiedOnly)
+      return std::string(entry.library);
+  return {};
 }
 
 void reportUnknown(Context &c, const Name &name, Sought sought) {
@@ -225,10 +244,7 @@ void reportUnknown(Context &c, const Name &name, Sought sought) {
       d.help(table.help);
     return;
   }
-  for (const LibraryIndex::Entry &entry : c.names.index().find(name.id->lower)) {
-    if (!entry.qualifiedOnly)
-      continue;
-    const std::string library(entry.library);
+  if (const std::string library = qualifiedOnlyLibrary(c, name); !library.empty()) {
     d.help("the library `" + library + "` has one: write `" + library + "." +
            std::string(name.text) + "`");
     return;

@@ -15,6 +15,7 @@
 #include "compiler/semantics/types/resolve.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace stc::sema {
 
@@ -63,16 +64,38 @@ static void checkModule(Context &c, Module &module) {
   byIndex(library->pous, [&](PouSymbol *p) { checkBody(c, p); });
 }
 
+static void checkUsingsOf(Context &c, Module &module, const std::vector<File *> &files) {
+  const ScopeGuard guard(c, {&module, nullptr});
+  for (const File *file : files)
+    for (const Decl *decl : file->declarations)
+      checkUsings(c, decl);
+}
+
+/// What is compiled with the application: libraries of the user's own, and those of Stride whose
+/// parameters the project sets.
+static void checkBuiltLibraries(Context &c) {
+  c.names.declareOwnLibraries();
+  for (const ParameterValue &parameter : c.program.parameters) {
+    Library *library = c.names.module(parameter.library).library;
+    if (std::exchange(library->isBuilt, true))
+      continue;
+    c.names.loadAll(library->name);
+    checkModule(c, c.names.module(library->name));
+  }
+  c.names.reportUnknownParameters();
+  for (const LibrarySource &source : c.program.librarySources) {
+    Module &module = c.names.module(source.name);
+    checkUsingsOf(c, module, source.files);
+    checkModule(c, module);
+  }
+}
+
 static void checkUser(Context &c, const std::vector<File *> &files) {
+  checkBuiltLibraries(c);
   Module &user = c.names.module("");
   for (File *file : files)
     c.names.declare(user, file);
-  {
-    const ScopeGuard guard(c, {&user, nullptr});
-    for (const File *file : files)
-      for (const Decl *decl : file->declarations)
-        checkUsings(c, decl);
-  }
+  checkUsingsOf(c, user, files);
   checkModule(c, user);
   findImplicitChecks(c, user);
   declareUsed(c);

@@ -21,6 +21,11 @@ bool worksInAnyTask(const PouSymbol *block) {
   return hasAttribute(block->decl->attributes, AttributeId::AnyTask);
 }
 
+/// A library of Stride, which says itself what its blocks do.
+bool isGiven(const Library *library) {
+  return library != nullptr && !library->isUser && !library->isOwn;
+}
+
 } // namespace
 
 void accessor(Reader &r, const Expr *object, const Symbol *symbol, bool writes, Span span) {
@@ -51,8 +56,7 @@ static void instanceOf(Reader &r, const CallExpr *e) {
     at = behind(addressVariable(object));
   }
   const PouSymbol *block = blockOf(e->pou);
-  if (block->library != nullptr && !block->library->isUser && e->pou != block &&
-      worksInAnyTask(e->pou))
+  if (isGiven(block->library) && e->pou != block && worksInAnyTask(e->pou))
     return;
   const bool native = block->decl->external;
   note(r, std::move(at), kAccessCall | (native ? kAccessUnknown : 0U), e->span);
@@ -81,8 +85,7 @@ static void argument(Reader &r, const CallExpr *e, const Argument &a) {
       note(r, at, flags, a.span);
     }
     const PouSymbol *block = blockOf(e->pou);
-    if (block->library != nullptr && !block->library->isUser &&
-        p->type->kind == TypeKind::Structure &&
+    if (isGiven(block->library) && p->type->kind == TypeKind::Structure &&
         typeAs<StructType>(p->type)->symbol->name.id->lower == "axis_ref" && !worksInAnyTask(block))
       r.out.axes.push_back({block, at, a.span});
     if (at.base != PlacePath::Base::None)

@@ -131,8 +131,8 @@ static void resolveStruct(Context &c, TypeSymbol *symbol, StructDecl *decl) {
   type->symbol = symbol;
   type->isUnion = decl->isUnion;
   symbol->type = type; // members may point back to it
-  type->pack =
-      packMode(c.reporter, decl->attributes, symbol->library->isUser ? c.program.settings.pack : 0);
+  type->pack = packMode(c.reporter, decl->attributes,
+                        symbol->library->isUser ? c.program.settings.pack : symbol->library->pack);
   std::vector<VarSymbol *> fields;
   if (!decl->base.empty())
     resolveBase(c, type, decl, fields);

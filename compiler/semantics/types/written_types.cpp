@@ -127,7 +127,7 @@ static Symbol *lookupType(Context &c, const Name &name) {
   // Types are not hidden by variables of the same name (`TON : TON`).
   Symbol *symbol = lookupDeclared(c, name);
   if (symbol == nullptr || symbol->kind == SymbolKind::Variable) {
-    Symbol *inLibrary = c.names.inLibraries(c.scope, name.id);
+    Symbol *inLibrary = lookupInLibraries(c, name);
     symbol = inLibrary != nullptr ? inLibrary : symbol;
   }
   if (symbol == nullptr && c.scope.pou != nullptr && c.scope.pou->scope.contains(name.id))

@@ -44,9 +44,15 @@ const cam::Piece *piecesOf(const Block &block) noexcept {
   return reinterpret_cast<const cam::Piece *>(&block.aSegments);
 }
 
+/// aWork of the block, which follows its segments.
+cam::JointWork *workOf(Block &block) noexcept {
+  char *segments = reinterpret_cast<char *>(&block.aSegments);
+  return reinterpret_cast<cam::JointWork *>(segments +
+                                            int64_t{block.nMost} * int64_t{sizeof(cam::Piece)});
+}
+
 cam::Builder builderOf(Block &block, bool closed) noexcept {
-  return {piecesOf(block), block.nSegments, closed,
-          reinterpret_cast<cam::JointWork *>(&block.aWork)};
+  return {piecesOf(block), block.nSegments, closed, workOf(block)};
 }
 
 /// Calls `take(number, segment)` for each segment of the cam.
@@ -116,7 +122,7 @@ Jump jumpBetween(const cam::Segment &left, const cam::Segment &right, int first,
 ::stride::BOOL Block::Append(::stride::Ctx & /*ctx__*/, ::st::SM3_CamBuilder::CAM_SEGMENT segment) {
   if (eError != ::st::SM_Error::SMC_ERROR__SMC_NO_ERROR)
     return 0;
-  if (nSegments < 0 || nSegments >= ::stride::motion::kMostSegments) {
+  if (nSegments < 0 || nSegments >= ::stride::motion::mostSegments(nMost)) {
     eError = ::st::SM_Error::SMC_ERROR__SMC_CB_TOO_MANY_SEGMENTS;
     return 0;
   }
@@ -156,7 +162,7 @@ Block::WriteMulticoreSafe(::stride::Ctx & /*ctx__*/,
   const int16_t problem = solve(*this, builder, head);
   if (problem != ::st::SM_Error::SMC_ERROR__SMC_NO_ERROR)
     return problem;
-  if (head.count > ::stride::motion::kMostSegments)
+  if (head.count > ::stride::motion::mostSegments(safeCamRef.nMost))
     return ::st::SM_Error::SMC_ERROR__SMC_CB_TOO_MANY_SEGMENTS;
   cam::SharedWriter writer(::stride::motion::sharedCam(safeCamRef));
   if (!writer.isOpen())

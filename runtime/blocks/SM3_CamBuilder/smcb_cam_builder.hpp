@@ -9,15 +9,17 @@
 
 namespace stride::motion {
 
-/// How many segments a builder and a shared cam can hold.
-inline constexpr int32_t kMostSegments =
-    static_cast<int32_t>(sizeof(decltype(::st::SM3_CamBuilder::CAM_REF_MULTICORE_SAFE::aSegments)) /
-                         sizeof(cam::Segment) / 2);
+/// How many segments a block has room for, by its nMost: a project may have more or fewer of them
+/// than the headers that this is compiled with.
+inline int32_t mostSegments(int32_t most) noexcept {
+  constexpr int32_t kMost = 32767; // nElements of MC_CAM_REF is an INT
+  return most < kMost ? most : kMost;
+}
 
 /// Where the block keeps its cam.
 inline cam::SharedCam sharedCam(::st::SM3_CamBuilder::CAM_REF_MULTICORE_SAFE &block) noexcept {
   auto *segments = reinterpret_cast<cam::Segment *>(&block.aSegments);
-  return {{segments, segments + kMostSegments},
+  return {{segments, segments + block.nMost},
           reinterpret_cast<cam::SharedHead *>(&block.aHeads),
           &block.nWritten,
           &block.nBegun,

@@ -17,7 +17,7 @@ using SafeCam = ::st::SM3_CamBuilder::CAM_REF_MULTICORE_SAFE;
   const cam::Curve curve = cam::curveOf(camRef);
   if (curve.form != cam::Form::Segments || cam::checkCurve(curve) != cam::CurveError::None)
     return ::st::SM_Error::SMC_ERROR__SMC_NO_CAM_REF_TYPE;
-  if (curve.count > ::stride::motion::kMostSegments)
+  if (curve.count > ::stride::motion::mostSegments(nMost))
     return ::st::SM_Error::SMC_ERROR__SMC_CB_TOO_MANY_SEGMENTS;
   cam::SharedWriter writer(::stride::motion::sharedCam(*this));
   if (!writer.isOpen())

@@ -47,6 +47,7 @@ protected:
 constexpr const char *kProgram = "PROGRAM PLC_PRG\nEND_PROGRAM\n";
 
 TEST_F(ProjectTest, ReadsAFolderSortedAndSkipsWhatIsNotItsOwn) {
+  write("stride.toml", "");
   write("b.st", kProgram);
   write("a/z.ST", "FUNCTION_BLOCK Z\nEND_FUNCTION_BLOCK\n");
   write("build/x.st", "nonsense");
@@ -55,7 +56,15 @@ TEST_F(ProjectTest, ReadsAFolderSortedAndSkipsWhatIsNotItsOwn) {
   write("other/stride.toml", "[project]\n");
   write("other/x.st", "nonsense");
   EXPECT_THAT(open(folder_), IsEmpty());
-  EXPECT_THAT(names_, ElementsAre("a/z.ST", "b.st"));
+  EXPECT_THAT(names_, ElementsAre("stride.toml", "a/z.ST", "b.st"));
+}
+
+TEST_F(ProjectTest, SeveralFilesWithoutAManifestAreAWarning) {
+  write("b.st", kProgram);
+  EXPECT_THAT(open(folder_), IsEmpty());
+  write("c.st", "FUNCTION C : INT\nEND_FUNCTION\n");
+  EXPECT_THAT(open(folder_), ElementsAre("SE0856"));
+  EXPECT_THAT(open(folder_ / "b.st"), IsEmpty());
 }
 
 TEST_F(ProjectTest, TakesASingleFile) {

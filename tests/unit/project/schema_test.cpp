@@ -28,9 +28,11 @@ template <class Visit> void forEachSection(const SectionSchema &section, const V
 }
 
 TEST(Schema, IsDocumented) {
-  const std::optional<std::string> text = readFile(STRIDE_SOURCE_DIR "/docs/projects.md");
-  ASSERT_TRUE(text);
-  forEachSection(projectSchema(), [&](const SectionSchema &section) {
+  std::optional<std::string> text = readFile(STRIDE_SOURCE_DIR "/docs/projects.md");
+  const std::optional<std::string> libraries = readFile(STRIDE_SOURCE_DIR "/docs/libraries.md");
+  ASSERT_TRUE(text && libraries);
+  *text += *libraries;
+  const auto check = [&](const SectionSchema &section) {
     EXPECT_THAT(*text, HasSubstr(std::string(section.path)));
     if (section.path == "diagnostics")
       return; // its keys are the codes and names that `stride explain --list` shows
@@ -41,7 +43,9 @@ TEST(Schema, IsDocumented) {
       for (const Choice &choice : parameter.choices)
         EXPECT_THAT(*text, HasSubstr("\"" + std::string(choice.name) + "\""));
     }
-  });
+  };
+  forEachSection(projectSchema(), check);
+  forEachSection(librarySchema(), check);
 }
 
 /// What the documentation says of a parameter's values.
