@@ -44,6 +44,8 @@ void addProjectOptions(CLI::App &command, ProjectOptions &options, bool build);
 
 /// sim, run, debug, reset, ctl: what becomes stride-host.
 void declareRuns(CLI::App &app, Invocation &call);
+/// stride completion
+void declareCompletion(CLI::App &app, Invocation &call);
 /// The commands below `stride library`.
 void declareLibraries(CLI::App &app, Invocation &call);
 /// The commands below `stride cam`.

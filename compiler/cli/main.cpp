@@ -1,6 +1,7 @@
 // The command `stride`.
 
 #include "compiler/cli/command_line.hpp"
+#include "compiler/cli/version.hpp"
 #include "compiler/source/suggest.hpp"
 #include "runtime/common/standard_handles.hpp"
 #include "runtime/common/usage.hpp"
@@ -16,7 +17,6 @@ namespace stc::cli {
 
 namespace {
 
-constexpr const char *kVersion = "stride " STRIDE_VERSION;
 constexpr int kUsageError = 1;
 
 void declareNew(CLI::App &app, Invocation &call) {
@@ -190,14 +190,14 @@ std::vector<std::string> argumentsOf(int argc, char **argv) {
 
 int run(int argc, char **argv) {
   CLI::App app("Structured Text and SoftMotion programs: check, build, simulate");
-  app.set_version_flag("--version", kVersion);
+  app.set_version_flag("--version", versionText());
   app.require_subcommand(0, 1);
   app.name("stride");
   Invocation call;
   // In the order in which the overview shows them.
   for (const auto declare :
        {declareNew, declareCheck, declareBuild, declareRuns, declareDoc, declareTest, declareFmt,
-        declarePlot, declareCams, declareLibraries, declareExplain, declareHelp})
+        declarePlot, declareCams, declareLibraries, declareExplain, declareCompletion, declareHelp})
     declare(app, call);
   try {
     app.parse(argumentsOf(argc, argv));
