@@ -153,12 +153,13 @@ template <class Block> Factory keyed() {
       h->block.Distance = 60;
     Actor a = actorOf(rig, h);
     a.show = [h, &rig] {
+      [[maybe_unused]] const double velocity = rig.axis.fSetVelocity;
       const Block &b = h->block;
       Shown s = showBlock(b);
       if constexpr (requires { b.Distance; })
         s.done = b.InchForward != 0 && !s.busy && !s.error && !s.aborted;
       else
-        s.done = s.busy && rig.axis.fSetVelocity == b.Velocity;
+        s.done = s.busy && velocity == b.Velocity;
       return s;
     };
     return a;
