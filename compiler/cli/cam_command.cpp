@@ -216,6 +216,10 @@ int camBounds(const CamOptions &options) {
 int camPlot(const CamOptions &options) {
   Session session(options);
   const std::string &path = options.files.front();
+  if (!options.out.empty() &&
+      lowerCase(std::filesystem::path(options.out).extension().string()) != ".svg")
+    return showError(Code::CannotWrite, fmt::format("`{}`: a cam is drawn as .svg", options.out),
+                     options.output);
   if (const std::optional<LoadedCam> cam = session.loadCurve(path))
     session.write(options.out.empty() ? withEnding(path, ".svg") : options.out, drawCam(*cam));
   return session.finish();

@@ -16,6 +16,7 @@ namespace stc::cli {
 struct Invocation {
   int exitCode = 0;
   ProjectOptions project;
+  bool watch = false;            ///< again whenever a file is saved
   std::vector<std::string> host; ///< for stride-host
   std::string name;              ///< of a new project
   std::string projectTemplate = "axis";
@@ -29,7 +30,7 @@ struct Invocation {
   std::string figures;
   TestOptions tests;
   FormatOptions formatting;
-  std::string trace;
+  PlotOptions plot;
   CamOptions cams;
   std::string code;
   bool listCodes = false;

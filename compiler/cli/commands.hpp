@@ -5,6 +5,7 @@
 #include "compiler/cli/terminal.hpp"
 #include "compiler/semantics/program.hpp"
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +26,8 @@ struct ProjectOptions {
 [[nodiscard]] Settings settingsOf(const ProjectOptions &options);
 
 int checkCommand(const ProjectOptions &options);
+/// The same again whenever a file of the project is saved. Returns only when that fails.
+int watchCheckCommand(const ProjectOptions &options);
 
 /// What `stride build` makes.
 struct BuildKind {
@@ -40,6 +43,10 @@ int buildCommand(const ProjectOptions &options, const std::string &out, const Bu
 /// application's path.
 int hostCommand(const ProjectOptions &options, const std::string &command,
                 const std::vector<std::string> &hostArguments);
+
+/// As hostCommand with run; whenever a file of the project is saved, it is built, and the new build
+/// takes over from the running one (online change). Errors are shown, and the old one goes on.
+int watchRunCommand(const ProjectOptions &options, const std::vector<std::string> &hostArguments);
 
 /// What gdb does after the application is loaded.
 struct DebugSession {
@@ -90,7 +97,17 @@ int formatCommand(const FormatOptions &options);
 int documentCommand(const ProjectOptions &options, bool library, const std::string &figures,
                     const std::string &out);
 
-int plotCommand(const std::string &trace, const std::string &out);
+/// What `stride plot` draws.
+struct PlotOptions {
+  std::string trace;               ///< CSV file
+  std::string out;                 ///< .svg or .html; empty: the trace's name with .svg
+  std::string title;               ///< above the picture
+  std::optional<double> from;      ///< the first row [s]
+  std::optional<double> to;        ///< the last row [s]
+  std::vector<std::string> panels; ///< `TITLE=NAMES` or `NAMES` each; none: by quantity
+  std::string project; ///< where the trace comes from; empty: where it lies, or the current folder
+};
+int plotCommand(const PlotOptions &options);
 
 /// Copies the library into the user's folder of libraries; `replace`: also over one of its version.
 int installLibraryCommand(const ProjectOptions &options, bool replace);

@@ -3,6 +3,7 @@
 #include "compiler/cli/command_line.hpp"
 #include "compiler/cli/version.hpp"
 #include "compiler/source/suggest.hpp"
+#include "compiler/toml/interval.hpp"
 #include "runtime/common/standard_handles.hpp"
 #include "runtime/common/usage.hpp"
 
@@ -20,11 +21,13 @@ namespace {
 constexpr int kUsageError = 1;
 
 void declareNew(CLI::App &app, Invocation &call) {
-  CLI::App *create = app.add_subcommand("new", "Make a project that builds and moves an axis");
+  CLI::App *create = app.add_subcommand("new", "Make a project that builds and runs");
   create->add_option("NAME", call.name, "Folder to create")->required()->type_name("");
   create
       ->add_option("--template", call.projectTemplate,
-                   "axis (default): one drive; plain: no drives")
+                   "axis (default): one drive; two-axes: one follows the other by a gear; cam: it "
+                   "follows by a cam; io: inputs and outputs; tests: a block with unit tests; "
+                   "plain: a program alone")
       ->check(CLI::IsMember(templateNames()).description(""))
       ->type_name("TEMPLATE");
   create->callback([&call] { call.exitCode = newCommand(call.name, call.projectTemplate); });
@@ -33,7 +36,10 @@ void declareNew(CLI::App &app, Invocation &call) {
 void declareCheck(CLI::App &app, Invocation &call) {
   CLI::App *check = app.add_subcommand("check", "Parse, resolve and type-check");
   addProjectOptions(*check, call.project, false);
-  check->callback([&call] { call.exitCode = checkCommand(call.project); });
+  check->add_flag("--watch", call.watch, "Again whenever a file of the project is saved");
+  check->callback([&call] {
+    call.exitCode = call.watch ? watchCheckCommand(call.project) : checkCommand(call.project);
+  });
 }
 
 void declareBuild(CLI::App &app, Invocation &call) {
@@ -102,12 +108,39 @@ void declareFmt(CLI::App &app, Invocation &call) {
 
 void declarePlot(CLI::App &app, Invocation &call) {
   CLI::App *plot = app.add_subcommand("plot", "Draw a trace");
-  plot->add_option("TRACE", call.trace, "CSV file that `stride sim --out` wrote")
+  plot->add_option("TRACE", call.plot.trace, "CSV file that `stride sim --out` wrote")
       ->required()
       ->type_name("");
-  plot->add_option("-o,--out", call.out, "SVG file to write (default: TRACE with .svg)")
+  plot->add_option("-o,--out", call.plot.out,
+                   "File to write: .svg, or .html with a cursor and a zoom (default: TRACE with "
+                   ".svg)")
       ->type_name("FILE");
-  plot->callback([&call] { call.exitCode = plotCommand(call.trace, call.out); });
+  const auto time = [plot](const char *option, std::optional<double> &to, const char *help) {
+    plot->add_option_function<std::string>(
+            option,
+            [option, &to](const std::string &text) {
+              const std::optional<int64_t> ns = parseInterval(text);
+              if (!ns)
+                throw CLI::ValidationError(option,
+                                           "`" + text + "` is no duration; write 2s or 1s500ms");
+              to = static_cast<double>(*ns) * 1e-9;
+            },
+            help)
+        ->type_name("TIME");
+  };
+  time("--from", call.plot.from, "Where the picture begins: 2s, T#1s500ms");
+  time("--to", call.plot.to, "Where it ends");
+  plot->add_option("--title", call.plot.title, "Text above the picture")->type_name("TEXT");
+  plot->add_option("--panel", call.plot.panels,
+                   "Columns of a panel, with * and ?: Drive.f*Position,Main.n; with a title: "
+                   "Paths=Drive.f*Position (may be repeated; without it a panel per quantity)")
+      ->allow_extra_args(false)
+      ->type_name("[TITLE=]NAMES");
+  plot->add_option("--project", call.plot.project,
+                   "Where the trace comes from: for types and units (default: the project that it "
+                   "lies in, or of the current folder)")
+      ->type_name("PATH");
+  plot->callback([&call] { call.exitCode = plotCommand(call.plot); });
 }
 
 void declareExplain(CLI::App &app, Invocation &call) {

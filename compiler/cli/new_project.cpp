@@ -1,12 +1,10 @@
 #include "compiler/cli/commands.hpp"
 #include "compiler/project/file_system.hpp"
-#include "compiler/syntax/st_text.hpp"
 
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
-#include <span>
 
 namespace stc::cli {
 
@@ -14,90 +12,31 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// A file of a template. In its text {name} stands for the project's name.
 struct TemplateFile {
+  std::string_view of; ///< the template's name
   std::string_view path;
-  std::string_view text; ///< {name} stands for the project's name
+  std::string_view text;
+};
+
+// compiler/cli/templates; those of no template belong to all.
+constexpr TemplateFile kFiles[] = {
+#include "compiler/cli/templates.inc"
 };
 
 struct Template {
   std::string_view name;
-  std::span<const TemplateFile> files;
   std::string_view hint; ///< a command to try in the new folder
 };
 
-constexpr std::array<TemplateFile, 2> kAxisFiles = {{
-    {"stride.toml", R"toml([project]
-name = "{name}"
-
-[[task]]
-name = "MotionTask"
-interval = "T#2ms"
-programs = ["Main"]
-
-[[bus]]
-name = "Bus"
-InterfaceType = "Dummy (simulated drives)"
-
-  [[bus.axis_group]]
-  name = "AxisGroup"
-  sTask = "MotionTask"
-
-    [[bus.axis_group.drive]]
-    name = "Drive"                  # the variable of type AXIS_REF
-    wDriveId = 1
-    iMovementType = "linear"
-    dwRatioTechUnitsDenom = 10000   # 10000 increments are ...
-    iRatioTechUnitsNum = 1          # ... 1 mm
-)toml"},
-    {"Main.st", R"st(/// Moves the drive to and fro between 0 and 100 mm.
-PROGRAM Main
-VAR
-  Power : MC_Power;
-  Move : MC_MoveAbsolute;
-  /// Where the drive moves to. [mm]
-  Target : LREAL := 100;
-END_VAR
-
-Power(Enable := TRUE, bRegulatorOn := TRUE, bDriveStart := TRUE, Axis := Drive);
-Move(Execute := Power.Status, Position := Target, Velocity := 80, Acceleration := 200,
-     Deceleration := 200, Axis := Drive);
-
-IF Move.Done THEN
-  Move(Execute := FALSE, Axis := Drive); // the next move needs a rising edge
-  Target := 100 - Target;
-END_IF
-END_PROGRAM
-)st"},
-}};
-
-constexpr std::array<TemplateFile, 2> kPlainFiles = {{
-    {"stride.toml", R"toml([project]
-name = "{name}"
-
-[[task]]
-name = "Task"
-interval = "T#10ms"
-programs = ["Main"]
-)toml"},
-    {"Main.st", R"st(/// Called in every cycle.
-PROGRAM Main
-VAR
-  Blink : TON;
-  Lamp : BOOL;
-END_VAR
-
-Blink(IN := NOT Blink.Q, PT := T#500ms);
-IF Blink.Q THEN
-  Lamp := NOT Lamp;
-END_IF
-END_PROGRAM
-)st"},
-}};
-
-constexpr std::array<Template, 2> kTemplates = {{
-    {"axis", kAxisFiles,
-     "stride sim --for T#5s --trace Drive.fSetPosition,Drive.fSetVelocity --out trace.csv"},
-    {"plain", kPlainFiles, "stride sim --for T#2s --print Main"},
+constexpr std::array<Template, 6> kTemplates = {{
+    {"axis", "stride sim --for 5s --trace Drive.fSetPosition,Drive.fSetVelocity --out trace.csv"},
+    {"two-axes",
+     "stride sim --for 5s --trace Roller.fSetVelocity,Slide.fSetVelocity --out trace.csv"},
+    {"cam", "stride sim --for 8s --trace Master.fSetPosition,Slave.fSetPosition --out trace.csv"},
+    {"io", "stride sim --for 2s --set \"500ms,%IX0.0=TRUE\" --print Main.Lamp"},
+    {"tests", "stride test"},
+    {"plain", "stride sim --for 2s --print Main"},
 }};
 
 std::string withName(std::string_view text, const std::string &name) {
@@ -107,6 +46,11 @@ std::string withName(std::string_view text, const std::string &name) {
        at = result.find(kPlace, at + name.size()))
     result.replace(at, kPlace.size(), name);
   return result;
+}
+
+/// Where a file of a template goes; a `.gitignore` among the templates would hide them from git.
+std::string_view placeOf(const TemplateFile &file) {
+  return file.of.empty() && file.path == "gitignore" ? ".gitignore" : file.path;
 }
 
 } // namespace
@@ -132,20 +76,19 @@ int newCommand(const std::string &name, const std::string &projectTemplate) {
   std::error_code error;
   if (fs::exists(fs::symlink_status(folder, error)))
     return showError(Code::TargetExists, fmt::format("`{}` already exists", name));
-  for (const Template &each : kTemplates) {
-    if (each.name != projectTemplate)
-      continue;
-    for (const TemplateFile &file : each.files)
-      if (const fs::path path = folder / file.path; !writeFile(path, withName(file.text, last)))
-        return showError(Code::CannotWrite,
-                         fmt::format("`{}` cannot be written: {}", path.string(), lastError()));
-    std::fputs(fmt::format("Created {}. Try:\n\n    cd {}\n    {}\n", folder.string(),
-                           folder.string(), each.hint)
-                   .c_str(),
-               stdout);
-    return 0;
-  }
-  return 1;
+  for (const TemplateFile &file : kFiles)
+    if (const fs::path path = folder / placeOf(file);
+        (file.of.empty() || file.of == projectTemplate) &&
+        !writeFile(path, withName(file.text, last)))
+      return showError(Code::CannotWrite,
+                       fmt::format("`{}` cannot be written: {}", path.string(), lastError()));
+  for (const Template &each : kTemplates)
+    if (each.name == projectTemplate)
+      std::fputs(fmt::format("Created {}. Try:\n\n    cd {}\n    {}\n", folder.string(),
+                             folder.string(), each.hint)
+                     .c_str(),
+                 stdout);
+  return 0;
 }
 
 } // namespace stc::cli

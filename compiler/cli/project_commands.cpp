@@ -1,7 +1,6 @@
 // check, build, sim, run, reset
 
-#include "compiler/cli/commands.hpp"
-#include "compiler/project/build.hpp"
+#include "compiler/cli/run_project.hpp"
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/installation.hpp"
 #include "compiler/project/library_index.hpp"
@@ -47,15 +46,6 @@ std::optional<BuildResult> buildProject(const ProjectOptions &options, BuildOpti
   progress.clear();
   exitCode = show(project.diagnostics(), project.sources(), options.output);
   return result;
-}
-
-// As buildProject, with nothing left on the terminal; nothing when there is nothing to run.
-std::optional<BuildResult> buildToRun(const ProjectOptions &options, BuildUse use, int &exitCode) {
-  ProgressLine progress;
-  BuildOptions build;
-  build.use = use;
-  std::optional<BuildResult> result = buildProject(options, build, progress, exitCode);
-  return exitCode == 0 ? std::move(result) : std::nullopt;
 }
 
 bool has(const std::vector<std::string> &arguments, std::string_view option) {
@@ -104,23 +94,6 @@ int become(const std::string &program, std::vector<std::string> arguments, const
       fmt::format("`{}` cannot be started: {}{}", program, std::strerror(errno), remedy), output);
 }
 
-// Signals that the host of a run takes wait until it does: the first of them would end it.
-void holdSignalsOfRuns() {
-  ::sigset_t signals;
-  ::sigemptyset(&signals);
-  ::sigaddset(&signals, SIGUSR1);
-  ::sigaddset(&signals, SIGHUP);
-  ::sigprocmask(SIG_BLOCK, &signals, nullptr);
-}
-
-int becomeHost(std::vector<std::string> arguments, const Output &output) {
-  std::string missing;
-  const std::optional<Installation> installation = findInstallation(missing);
-  const std::string program = installation ? installation->host.string() : missing;
-  arguments.insert(arguments.begin(), "stride"); // whose part it is, for its messages
-  return become(program, std::move(arguments), output);
-}
-
 // Puts the project's own socket where it is meant. False: there can be none, which is shown.
 bool fillInSocket(std::vector<std::string> &arguments, const ProjectOptions &options) {
   for (size_t i = 0; i + 1 < arguments.size(); ++i) {
@@ -143,6 +116,30 @@ bool fillInSocket(std::vector<std::string> &arguments, const ProjectOptions &opt
 }
 
 } // namespace
+
+std::optional<BuildResult> buildToRun(const ProjectOptions &options, BuildUse use, int &exitCode) {
+  ProgressLine progress;
+  BuildOptions build;
+  build.use = use;
+  std::optional<BuildResult> result = buildProject(options, build, progress, exitCode);
+  return exitCode == 0 ? std::move(result) : std::nullopt;
+}
+
+void holdSignalsOfRuns() {
+  ::sigset_t signals;
+  ::sigemptyset(&signals);
+  ::sigaddset(&signals, SIGUSR1);
+  ::sigaddset(&signals, SIGHUP);
+  ::sigprocmask(SIG_BLOCK, &signals, nullptr);
+}
+
+int becomeHost(std::vector<std::string> arguments, const Output &output) {
+  std::string missing;
+  const std::optional<Installation> installation = findInstallation(missing);
+  const std::string program = installation ? installation->host.string() : missing;
+  arguments.insert(arguments.begin(), "stride"); // whose part it is, for its messages
+  return become(program, std::move(arguments), output);
+}
 
 int checkCommand(const ProjectOptions &options) {
   const EmbeddedLibraryIndex index(standardLibrary());
@@ -211,6 +208,27 @@ int controlCommand(std::vector<std::string> arguments) {
   return hostOnlyCommand("ctl", arguments);
 }
 
+std::optional<std::vector<std::string>> hostArgumentsOf(const ProjectOptions &options,
+                                                        const std::string &command,
+                                                        const BuildResult &result,
+                                                        const std::vector<std::string> &own) {
+  const bool isRun = command == "run";
+  std::vector<std::string> arguments = {command, result.runnable.string()};
+  if (isRun)
+    arguments.insert(arguments.end(), {"--name", result.name});
+  if (isRun && !result.latest.empty())
+    arguments.insert(arguments.end(), {"--latest", result.latest.string()});
+  arguments.insert(arguments.end(), own.begin(), own.end());
+  if (!fillInSocket(arguments, options))
+    return std::nullopt;
+  if ((isRun &&
+       !addPath(arguments, "--retain", result.retainFile, result.folder, options.output)) ||
+      ((isRun || command == "sim") &&
+       !addPath(arguments, "--files", result.filesRoot, result.folder, options.output)))
+    return std::nullopt;
+  return arguments;
+}
+
 int hostCommand(const ProjectOptions &options, const std::string &command,
                 const std::vector<std::string> &hostArguments) {
   int exitCode = 0;
@@ -219,22 +237,13 @@ int hostCommand(const ProjectOptions &options, const std::string &command,
       buildToRun(options, isRun ? BuildUse::Run : BuildUse::RunOnce, exitCode);
   if (!result)
     return exitCode;
-  std::vector<std::string> arguments = {command, result->runnable.string()};
-  if (isRun)
-    arguments.insert(arguments.end(), {"--name", result->name});
-  if (isRun && !result->latest.empty())
-    arguments.insert(arguments.end(), {"--latest", result->latest.string()});
-  arguments.insert(arguments.end(), hostArguments.begin(), hostArguments.end());
-  if (!fillInSocket(arguments, options))
-    return 1;
-  if ((isRun &&
-       !addPath(arguments, "--retain", result->retainFile, result->folder, options.output)) ||
-      ((isRun || command == "sim") &&
-       !addPath(arguments, "--files", result->filesRoot, result->folder, options.output)))
+  std::optional<std::vector<std::string>> arguments =
+      hostArgumentsOf(options, command, *result, hostArguments);
+  if (!arguments)
     return 1;
   if (isRun)
     holdSignalsOfRuns();
-  return becomeHost(std::move(arguments), options.output);
+  return becomeHost(std::move(*arguments), options.output);
 }
 
 int debugCommand(const ProjectOptions &options, const std::vector<std::string> &hostArguments,

@@ -99,7 +99,13 @@ void declareRun(CLI::App &app, Invocation &call) {
   CLI::App *runApp = app.add_subcommand("run", "Build, then run by the real clock");
   addProjectOptions(*runApp, call.project, true);
   addRunOptions(HostOptions(*runApp, call.host));
-  runApp->callback([&call] { call.exitCode = hostCommand(call.project, "run", call.host); });
+  runApp->add_flag("--watch", call.watch,
+                   "Build whenever a file of the project is saved, and change the running program "
+                   "online");
+  runApp->callback([&call] {
+    call.exitCode = call.watch ? watchRunCommand(call.project, call.host)
+                               : hostCommand(call.project, "run", call.host);
+  });
 }
 
 void declareDebug(CLI::App &app, Invocation &call) {

@@ -2,6 +2,9 @@
 #define STRIDE_COMPILER_PLOT_PLOT_HPP
 // Drawing a trace as SVG.
 
+#include <cstdint>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,6 +25,23 @@ struct Series {
   std::vector<double> values;
   bool isBool = false;
   std::optional<Quantity> quantity = {}; ///< nothing: guessed from the name
+  /// A state: the names of its values. It is drawn as a lane, like a BOOL.
+  std::map<int64_t, std::string> states = {};
+
+  [[nodiscard]] bool isLane() const { return isBool || !states.empty(); }
+};
+
+/// What is known of a variable whose values are a column.
+struct ColumnType {
+  enum class Kind { Bool, Number, State };
+  Kind kind = Kind::Number;
+  std::map<int64_t, std::string> states; ///< of a State
+};
+
+/// What draws together, where the user says so.
+struct PanelChoice {
+  std::string title;                ///< empty: of the quantity
+  std::vector<std::string> columns; ///< names, with `*` and `?`
 };
 
 /// A place on the horizontal axis that a dashed line and a text mark.
@@ -36,6 +56,9 @@ struct Trace {
   std::vector<Series> series;
   std::vector<Mark> marks;
   std::string axis = "Time [s]"; ///< what the horizontal axis is
+  std::string title;             ///< above the picture; may be empty
+  /// The panels and what is in them, from top to bottom; none: a panel per quantity.
+  std::vector<PanelChoice> panels;
 };
 
 /// Why a CSV text is no trace.
@@ -51,6 +74,30 @@ struct TraceError {
 /// What a variable is a value of, guessed from its name: `Drive.fSetVelocity` is a velocity in u/s.
 [[nodiscard]] Quantity quantityOf(std::string_view variable);
 
+/// `Velocity [u/s]`
+[[nodiscard]] std::string labelOf(const Quantity &quantity);
+/// The name of a state's value; the number where it has none.
+[[nodiscard]] std::string stateName(const Series &series, double value);
+
+/// Takes over what is known of the columns: whether they are BOOLs or states, and what one
+/// technical unit is. Each function may know nothing of a name.
+void describeColumns(Trace &trace,
+                     const std::function<std::optional<ColumnType>(const std::string &)> &typeOf,
+                     const std::function<std::string(const std::string &)> &technicalUnitOf);
+
+/// Leaves only the rows from `from` to `to`. False: there are none.
+[[nodiscard]] bool cut(Trace &trace, double from, double to);
+
+/// A panel of the picture.
+struct Panel {
+  Quantity quantity;
+  std::vector<const Series *> series;
+  bool lanes = false; ///< BOOLs and states
+};
+/// The panels in the order in which the trace names the first column of each, or as it chooses
+/// them. The trace must outlive them.
+[[nodiscard]] std::vector<Panel> arrange(const Trace &trace);
+
 /// Round numbers that divide a range into about `count` parts.
 struct Ticks {
   std::vector<double> values;
@@ -62,6 +109,10 @@ struct Ticks {
 /// of all its columns; one with a thin lane per BOOL, as timing diagrams have them. Dashed lines
 /// lead from the changes of BOOLs through all panels, unless they are many.
 [[nodiscard]] std::string drawSvg(const Trace &trace);
+
+/// The trace as an HTML page that needs nothing else: the same panels, with a cursor that shows the
+/// values, and a zoom.
+[[nodiscard]] std::string drawPage(const Trace &trace);
 
 } // namespace stc::plot
 

@@ -19,6 +19,7 @@ constexpr double kLeft = 84;      // before the plot area, at least
 constexpr double kLeftMost = 300; // … and at most
 constexpr double kRight = 24;
 constexpr double kTop = 14;
+constexpr double kTitle = 30;     // for the title
 constexpr double kHead = 26;      // legend above each panel
 constexpr double kLegendRow = 17; // each further row of it
 constexpr double kPanel = 170;    // plot area of a panel
@@ -33,14 +34,9 @@ constexpr size_t kMostGuides = 40; // more than that hide the curves
 constexpr std::array<std::string_view, 7> kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                      "#b8860b", "#56b4e9", "#555555"};
 
-struct Panel {
-  Quantity quantity;
-  std::vector<const Series *> series;
-  bool lanes = false;
-  [[nodiscard]] double height() const {
-    return lanes ? kLane * static_cast<double>(series.size()) : kPanel;
-  }
-};
+double heightOf(const Panel &panel) {
+  return panel.lanes ? kLane * static_cast<double>(panel.series.size()) : kPanel;
+}
 
 struct Range {
   double low = 0;
@@ -83,24 +79,6 @@ Range rangeOf(const std::vector<const Series *> &series) {
   return {range.low - margin, range.high + margin};
 }
 
-// Panels stand in the order in which the trace names the first column of each.
-std::vector<Panel> arrange(const Trace &trace) {
-  std::vector<Panel> panels;
-  for (const Series &series : trace.series) {
-    const Quantity quantity = series.isBool     ? Quantity{}
-                              : series.quantity ? *series.quantity
-                                                : quantityOf(series.name);
-    const auto same = std::find_if(panels.begin(), panels.end(), [&](const Panel &panel) {
-      return panel.lanes == series.isBool && panel.quantity == quantity;
-    });
-    if (same != panels.end())
-      same->series.push_back(&series);
-    else
-      panels.push_back({quantity, {&series}, series.isBool});
-  }
-  return panels;
-}
-
 // The names of the lanes; without the program's where all are of one program and some lie within
 // its blocks: `First.Execute`, `Go`.
 std::vector<std::string> laneNames(const std::vector<const Series *> &lanes) {
@@ -138,24 +116,26 @@ public:
   }
 
   std::string draw() {
-    double height = kTop + kFoot + marksHeight();
+    double height = top() + kFoot + marksHeight();
     for (const Panel &panel : panels_)
-      height += headOf(panel) + panel.height() + kGap;
+      height += headOf(panel) + heightOf(panel) + kGap;
     svg_ = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
         "{1}\" font-family=\"Helvetica, Arial, 'Liberation Sans', sans-serif\" "
         "font-size=\"12\" fill=\"#374151\">\n"
         "<rect width=\"{0}\" height=\"{1}\" fill=\"#ffffff\"/>\n",
         px(kWidth), px(height));
+    if (!trace_.title.empty())
+      text(kWidth / 2, kTop + 14, "middle", trace_.title, " font-size=\"16\" font-weight=\"600\"");
     drawGuides(height - kFoot - kGap - marksHeight());
-    double top = kTop;
+    double top = this->top();
     for (const Panel &panel : panels_) {
       if (panel.lanes) {
         drawLanes(panel, top);
-        top += panel.height() + kGap;
+        top += heightOf(panel) + kGap;
       } else {
         drawPanel(panel, top + headOf(panel));
-        top += headOf(panel) + panel.height() + kGap;
+        top += headOf(panel) + heightOf(panel) + kGap;
       }
     }
     drawMarks(top - kGap);
@@ -165,6 +145,8 @@ public:
   }
 
 private:
+  /// Where the panels begin.
+  double top() const { return kTop + (trace_.title.empty() ? 0 : kTitle); }
   double x(double time) const {
     return left_ + (time - times_.low) / (times_.high - times_.low) * (kWidth - left_ - kRight);
   }
@@ -175,7 +157,7 @@ private:
     for (const Panel &panel : panels_)
       if (panel.lanes)
         for (const Series *series : panel.series)
-          for (size_t i = 1; i < series->values.size(); ++i)
+          for (size_t i = 1; series->isBool && i < series->values.size(); ++i)
             if (series->values[i] != series->values[i - 1])
               changes.insert(std::round(x(trace_.time[i])));
     if (panels_.size() < 2 || changes.size() > kMostGuides)
@@ -183,7 +165,7 @@ private:
     for (const double at : changes)
       svg_ += fmt::format("<path d=\"M{0} {1}V{2}\" stroke=\"#9ca3af\" stroke-width=\"0.8\" "
                           "stroke-dasharray=\"3 3\"/>\n",
-                          px(at), px(kTop), px(bottom));
+                          px(at), px(top()), px(bottom));
   }
 
   // Texts that would overlap stand in rows below each other.
@@ -218,7 +200,7 @@ private:
       const double row = bottom + 13 + kMarkRow * places[i].second;
       svg_ += fmt::format("<path d=\"M{0} {1}V{2}\" stroke=\"#d55e00\" stroke-width=\"0.9\" "
                           "stroke-dasharray=\"4 3\"/>\n",
-                          px(x(trace_.marks[i].at)), px(kTop + kHead), px(row - 10));
+                          px(x(trace_.marks[i].at)), px(top() + kHead), px(row - 10));
       text(places[i].first, row, "middle", trace_.marks[i].text,
            " font-size=\"11\" fill=\"#d55e00\"");
     }
@@ -277,10 +259,7 @@ private:
       text(left_ - 8, y(tick) + 4, "end", tickLabel(tick, ticks));
     }
     drawFrame(top, kPanel);
-    const std::string label =
-        panel.quantity.unit.empty()
-            ? panel.quantity.title
-            : fmt::format("{} [{}]", panel.quantity.title, panel.quantity.unit);
+    const std::string label = labelOf(panel.quantity);
     const double middle = top + kPanel / 2;
     text(left_ - 64, middle, "middle", label,
          fmt::format(" transform=\"rotate(-90 {} {})\" font-weight=\"600\"", px(left_ - 64),
@@ -354,13 +333,18 @@ private:
 
   void drawLanes(const Panel &panel, double top) {
     const std::vector<std::string> names = laneNames(panel.series);
-    drawFrame(top, panel.height());
+    drawFrame(top, heightOf(panel));
     for (size_t k = 0; k < panel.series.size(); ++k, top += kLane) {
       const Series &series = *panel.series[k];
       const double low = top + kLane - 4;
       const double high = top + 5;
       if (k > 0)
         line(left_, top, kWidth - kRight, top, "#e5e7eb");
+      if (!series.states.empty()) {
+        text(left_ - 8, low - 2, "end", names[k], " font-size=\"11\"");
+        drawStates(series, high, low, kColors[k % kColors.size()]);
+        continue;
+      }
       bool up = series.values.front() != 0;
       std::string path;
       for (size_t i = 1; i < series.values.size(); ++i)
@@ -378,6 +362,24 @@ private:
                           "stroke-width=\"1.6\"/>\n",
                           begin, px(low), first, path, color);
       text(left_ - 8, low - 2, "end", names[k], " font-size=\"11\"");
+    }
+  }
+
+  // A band that is as long as the state lasts, with its name where there is room.
+  void drawStates(const Series &series, double high, double low, std::string_view color) {
+    for (size_t i = 0; i < series.values.size();) {
+      size_t end = i + 1;
+      while (end < series.values.size() && series.values[end] == series.values[i])
+        ++end;
+      const double from = x(trace_.time[i]);
+      const double to = x(trace_.time[std::min(end, trace_.time.size() - 1)]);
+      const std::string name = stateName(series, series.values[i]);
+      svg_ += fmt::format("<path d=\"M{0} {1}H{2}V{3}H{0}Z\" fill=\"{4}\" fill-opacity=\"0.12\" "
+                          "stroke=\"{4}\" stroke-width=\"0.9\"/>\n",
+                          px(from), px(high), px(to), px(low), color);
+      if (to - from > kLetter * static_cast<double>(name.size()) + 4)
+        text((from + to) / 2, low - 4, "middle", name, " font-size=\"10\"");
+      i = end;
     }
   }
 

@@ -419,7 +419,8 @@ private:
     result.filesRoot = filesRootOf(project_);
     if (options_.use == BuildUse::Keep && !keep(result))
       return std::nullopt;
-    if (project_.isSingleFile() || options_.isStatic || !options_.target.empty())
+    if ((project_.isSingleFile() && options_.use != BuildUse::Run) || options_.isStatic ||
+        !options_.target.empty())
       return result;
     std::error_code error;
     const std::string project = fs::canonical(project_.path(), error).string();

@@ -43,7 +43,8 @@ using ConfigFields = std::vector<std::pair<std::string, std::string>>;
 
 struct DriveConfig {
   ConfigName name;
-  uint32_t id = 0; ///< wDriveId
+  uint32_t id = 0;  ///< wDriveId
+  std::string unit; ///< what one technical unit is: "mm"; empty: not given
   ConfigFields fields;
   std::vector<ConfigParameter> parameters;
   /// The variable that driver and program share about it; null: there is none.

@@ -41,6 +41,7 @@ private:
   void readSercos(const CheckedSection &section, AxisGroupConfig &group, BusKind kind);
   void readBaudRate(const CheckedSection &section, BusKind kind);
   void readDrive(const CheckedSection &section, AxisGroupConfig &group, Unique &ids);
+  std::string unitOf(const CheckedSection &section);
   void readCyclicData(const CheckedSection &section, ConfigFields &fields);
   bool checkCyclicData(const CheckedSection &section, std::string_view direction);
   void readMovement(const CheckedSection &section, ConfigFields &fields, std::string_view what);

@@ -198,6 +198,7 @@ void PlcReader::readDrive(const CheckedSection &section, AxisGroupConfig &group,
             fmt::format("two drives of axis group `{}` have the wDriveId {}", group.name.text,
                         id->integer));
   drive.id = static_cast<uint32_t>(section.integer("wDriveId", 0));
+  drive.unit = unitOf(section);
   drive.fields.emplace_back("wDriveId", std::to_string(drive.id));
   drive.fields.emplace_back("bRealDrive", "TRUE");
   readCyclicData(section, drive.fields);
@@ -218,6 +219,26 @@ void PlcReader::readDrive(const CheckedSection &section, AxisGroupConfig &group,
   if (drive.shared != nullptr && !addVariable({sharedVariable(drive), drive.name.span}))
     return;
   group.drives.push_back(std::move(drive));
+}
+
+// What people write behind a number: a word without blanks.
+std::string PlcReader::unitOf(const CheckedSection &section) {
+  constexpr size_t kLongest = 16;
+  const TomlNode *unit = section.get("unit");
+  if (unit == nullptr)
+    return {};
+  const bool good = !unit->text.empty() && unit->text.size() <= kLongest &&
+                    std::none_of(unit->text.begin(), unit->text.end(), [](char c) {
+                      return static_cast<unsigned char>(c) <= ' ' || c == '"' || c == '\\' ||
+                             c == ']' || c == 0x7F;
+                    });
+  if (good)
+    return unit->text;
+  diagnostics_
+      .report(Code::ConfigOutOfRange, unit->span,
+              fmt::format("`unit` must be a word of at most {} bytes", kLongest), "is none")
+      .help("write for example `unit = \"mm\"`");
+  return {};
 }
 
 void PlcReader::readCyclicData(const CheckedSection &section, ConfigFields &fields) {

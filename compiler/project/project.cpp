@@ -270,6 +270,15 @@ std::vector<std::string> Project::files() const {
   return names;
 }
 
+std::vector<std::pair<std::string, std::string>> Project::units() const {
+  std::vector<std::pair<std::string, std::string>> units;
+  for (const AxisGroupConfig &group : config_.axisGroups)
+    for (const DriveConfig &drive : group.drives)
+      if (!drive.unit.empty())
+        units.emplace_back(drive.name.text, drive.unit);
+  return units;
+}
+
 AppConfig Project::appConfig() const {
   AppConfig app;
   if (ownName_)

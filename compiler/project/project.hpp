@@ -57,6 +57,8 @@ public:
   [[nodiscard]] const std::optional<LibraryInfo> &library() const { return config_.library; }
   /// [files] root of stride.toml; empty: not given.
   [[nodiscard]] const std::string &filesRoot() const { return config_.filesRoot; }
+  /// The drives with a `unit` in stride.toml: their names, and what one technical unit is.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> units() const;
   /// Tasks and axis groups for code generation; only without errors.
   [[nodiscard]] AppConfig appConfig() const;
 

@@ -381,7 +381,7 @@ private:
       for (const DriveConfig &drive : group.drives) {
         fields = drive.fields;
         fields.emplace_back("wAxisGroupId", std::to_string(index));
-        variable("drive", drive.name, "SM_DriveBasic.AXIS_REF", fields);
+        variable("drive", drive.name, "SM_DriveBasic.AXIS_REF", fields, drive.unit);
         if (drive.shared != nullptr)
           variable(drive.shared->what, {sharedVariable(drive), drive.name.span}, drive.shared->type,
                    {});
@@ -392,8 +392,9 @@ private:
     }
   }
 
+  /// `unit`: what one technical unit is, for the reference; or empty.
   void variable(std::string_view what, const ConfigName &name, std::string_view type,
-                const ConfigFields &fields) {
+                const ConfigFields &fields, std::string_view unit = {}) {
     if (const auto clash = names_.find(lowerCase(name.text)); clash != names_.end()) {
       diagnostics_
           .report(
@@ -407,6 +408,8 @@ private:
     }
     if (out_.empty())
       out_.add("VAR_GLOBAL\n");
+    if (!unit.empty())
+      out_.add(fmt::format("  /// One technical unit is one {0}. [{0}]\n", unit));
     std::string text = fmt::format("  {} : {}", name.text, type);
     std::string_view separator = " := (";
     for (const auto &[field, value] : fields) {

@@ -107,6 +107,7 @@ inline constexpr auto kMovementType = choice("iMovementType", kMovementTypes).de
 inline constexpr std::array kDrive = {
     identifier("name").needed(),
     word("wDriveId").needed(),
+    text("unit"),
     choice("wControlType", kControlTypes).defaultsTo(kPosVelToPosVel),
     choice("wCyclicDataS1", kSendData),
     choice("wCyclicDataS2", kSendData),

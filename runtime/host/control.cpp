@@ -59,13 +59,20 @@ double secondsOf(const std::string &text) {
   return static_cast<double>(parseDuration(text, false)) * 1e-9;
 }
 
+/// " [mm]", or an empty text.
+std::string unitOf(const json &about) {
+  const auto unit = about.find("unit");
+  return unit == about.end() ? std::string() : fmt::format(" [{}]", unit->get<std::string>());
+}
+
 std::string literalOf(const json &value) {
   return value.is_string() ? value.get<std::string>() : std::string("(pointer is null)");
 }
 
 void showValues(const json &result) {
   for (const json &value : result.at("values"))
-    put(stdout, "{} = {}\n", value.at("name").get<std::string>(), literalOf(value.at("value")));
+    put(stdout, "{} = {}{}\n", value.at("name").get<std::string>(), literalOf(value.at("value")),
+        unitOf(value));
 }
 
 double micro(const json &ns) { return ns.get<double>() * 1e-3; }
@@ -93,8 +100,8 @@ void showList(SocketClient &client, json request) {
     const json page = client.ask(request);
     for (const json &entry : page.at("entries")) {
       const auto children = entry.at("children").get<uint64_t>();
-      put(stdout, "{} : {}{}\n", entry.at("path").get<std::string>(),
-          entry.at("type").get<std::string>(),
+      put(stdout, "{} : {}{}{}\n", entry.at("path").get<std::string>(),
+          entry.at("type").get<std::string>(), unitOf(entry),
           children == 0 ? std::string() : fmt::format(" ({})", children));
     }
     shown += page.at("entries").size();
@@ -193,7 +200,7 @@ void Control::Impl::watch(SocketClient &client) const {
   const json subscription = client.ask(question);
   std::string header = "t";
   for (const json &column : subscription.at("columns"))
-    header += "\t" + column.at("name").get<std::string>();
+    header += "\t" + column.at("name").get<std::string>() + unitOf(column);
   put(stdout, "{}\n", header);
   for (uint64_t seen = 0; count == 0 || seen < count; ++seen) {
     json event = client.receive();

@@ -1,5 +1,6 @@
 // Operations on variables, and on what the runtime knows about the tasks.
 #include "runtime/app/error.hpp"
+#include "runtime/app/units.hpp"
 #include "runtime/app/value_text.hpp"
 #include "runtime/monitor/request_fields.hpp"
 #include "runtime/monitor/symbol_list.hpp"
@@ -39,6 +40,12 @@ json histogramJson(const task::Histogram &histogram, int64_t maximum) {
 
 } // namespace
 
+/// Adds `unit` to what is told of a variable, where it is known.
+static void addUnit(const StrideAppV1 &app, const std::string &path, json &to) {
+  if (std::string unit = app::unitOf(app, path); !unit.empty())
+    to["unit"] = std::move(unit);
+}
+
 json Service::valuesOf(const ServedApplication &application, const SymbolRequest &request,
                        bool literals, bool named) const {
   const app::SymbolTable &symbols = application.symbols->symbols();
@@ -50,11 +57,13 @@ json Service::valuesOf(const ServedApplication &application, const SymbolRequest
       shown = app::formatLiteral(symbols.app(), type, request.bytes(value));
     else if (value.reached)
       shown = valueToJson(symbols.app(), type, request.bytes(value));
-    if (named)
-      values.push_back(
-          {{"name", value.symbol.path()}, {"type", type.name}, {"value", std::move(shown)}});
-    else
+    if (!named) {
       values.push_back(std::move(shown));
+      continue;
+    }
+    values.push_back(
+        {{"name", value.symbol.path()}, {"type", type.name}, {"value", std::move(shown)}});
+    addUnit(symbols.app(), value.symbol.path(), values.back());
   }
   return {{"time", secondsOf(request.timeNs())}, {"values", std::move(values)}};
 }
@@ -124,9 +133,10 @@ json Service::forces(const json &request) const {
 }
 
 json Service::list(const json &request) const {
-  const SymbolPage page = listSymbols(
-      running(applicationOf(request)).symbols->symbols(), textField(request, "path", ""),
-      countField(request, "offset", 0, UINT64_MAX), countField(request, "limit", 200, kMostListed));
+  const app::SymbolTable &symbols = running(applicationOf(request)).symbols->symbols();
+  const SymbolPage page = listSymbols(symbols, textField(request, "path", ""),
+                                      countField(request, "offset", 0, UINT64_MAX),
+                                      countField(request, "limit", 200, kMostListed));
   json entries = json::array();
   for (const SymbolEntry &entry : page.entries)
     entries.push_back({{"name", entry.name},
@@ -135,6 +145,8 @@ json Service::list(const json &request) const {
                        {"flags", flagNames(entry.flags)},
                        {"value", app::isElementary(entry.kind)},
                        {"children", entry.children}});
+  for (json &entry : entries)
+    addUnit(symbols.app(), entry.at("path").get<std::string>(), entry);
   return {{"total", page.total}, {"entries", std::move(entries)}};
 }
 
@@ -156,9 +168,11 @@ void Service::subscribe(ClientId client, const json &id, const json &request) {
                             static_cast<int64_t>(period * 1e9)};
   subscription.literals = flagField(request, "literals");
   json columns = json::array();
-  for (const SymbolRequest::Value &value : subscription.request->values())
+  for (const SymbolRequest::Value &value : subscription.request->values()) {
     columns.push_back({{"name", value.symbol.path()},
                        {"type", application.symbols->symbols().type(value.symbol).name}});
+    addUnit(application.symbols->symbols().app(), value.symbol.path(), columns.back());
+  }
   answer(client, id, {{"subscription", subscription.number}, {"columns", std::move(columns)}});
   subscriptions_.push_back(std::move(subscription));
 }

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace stc::plot {
 namespace {
 
@@ -45,6 +47,66 @@ TEST(Trace, ZeroAndOneWithoutAUnitAreTruthValues) {
   EXPECT_TRUE(trace.series[0].isBool);
   EXPECT_FALSE(trace.series[1].isBool);
   EXPECT_FALSE(trace.series[2].isBool);
+}
+
+TEST(Trace, ANumberThatIsAlwaysZeroIsNoTruthValue) {
+  const Trace trace = read("t,Main.level,Main.Move.Done,Main.bRun,Main.x\n0,0,0,0,1\n1,0,0,0,1\n");
+  EXPECT_FALSE(trace.series[0].isBool);
+  EXPECT_TRUE(trace.series[1].isBool);
+  EXPECT_TRUE(trace.series[2].isBool);
+  EXPECT_FALSE(trace.series[3].isBool);
+}
+
+TEST(Trace, TakesOverTypesAndUnits) {
+  Trace trace = read("t,a,b,X.fSetVelocity,c\n0,0,1,0,1\n1,1,2,0,0\n");
+  describeColumns(
+      trace,
+      [](const std::string &name) -> std::optional<ColumnType> {
+        if (name == "b")
+          return ColumnType{ColumnType::Kind::State, {{1, "one"}, {3, "three"}}};
+        return name == "c" ? std::nullopt : std::optional(ColumnType{});
+      },
+      [](const std::string &name) { return std::string(name == "X.fSetVelocity" ? "mm" : ""); });
+  EXPECT_FALSE(trace.series[0].isBool);
+  EXPECT_TRUE(trace.series[1].isLane());
+  EXPECT_EQ(stateName(trace.series[1], 1), "one");
+  EXPECT_EQ(stateName(trace.series[1], 2), "2");
+  EXPECT_EQ(labelOf(*trace.series[2].quantity), "Velocity [mm/s]");
+  EXPECT_TRUE(trace.series[3].isBool) << "nothing is known of it";
+}
+
+TEST(Trace, IsCutAtTheFirstAndTheLastRowThatAreWanted) {
+  Trace trace = read("t,a\n0,5\n1,6\n2,7\n3,8\n");
+  EXPECT_TRUE(cut(trace, 1, 2));
+  EXPECT_THAT(trace.time, ElementsAre(1, 2));
+  EXPECT_THAT(trace.series[0].values, ElementsAre(6, 7));
+  EXPECT_FALSE(cut(trace, 2.5, 9));
+}
+
+TEST(Panels, AreThoseThatAreChosen) {
+  Trace trace = read("t,A.fSetPosition,A.fActPosition,Main.bOn,Main.n\n0,0,0,0,5\n1,1,1,1,6\n");
+  trace.panels = {{"", {"Main.b*"}}, {"Where", {"Main.n", "*Position", "A.f*"}}, {"", {"Z*"}}};
+  const std::vector<Panel> panels = arrange(trace);
+  ASSERT_EQ(panels.size(), 2U);
+  EXPECT_TRUE(panels[0].lanes);
+  EXPECT_FALSE(panels[1].lanes);
+  EXPECT_EQ(panels[1].quantity, (Quantity{"Where", ""}));
+  ASSERT_EQ(panels[1].series.size(), 3U);
+  EXPECT_EQ(panels[1].series[0]->name, "Main.n");
+  EXPECT_EQ(panels[1].series[2]->name, "A.fActPosition");
+}
+
+TEST(Page, HoldsTheTraceAndNothingEndsItsScript) {
+  Trace trace = read("t,\"a</script>\",Main.bOn\n0,0.5,0\n0.25,1e300,1\n");
+  trace.series[0].values[1] = std::numeric_limits<double>::quiet_NaN();
+  trace.title = "A & B @DATA@";
+  const std::string page = drawPage(trace);
+  EXPECT_EQ(count(page, "</script>"), 2U);
+  EXPECT_THAT(page, HasSubstr("<title>A &amp; B @DATA@</title>"));
+  EXPECT_THAT(page, HasSubstr(R"("time":[0,0.25])"));
+  EXPECT_THAT(page, HasSubstr(R"("name":"a\u003c/script\u003e","bool":false,"values":[0.5,null])"));
+  EXPECT_THAT(
+      page, HasSubstr(R"("lanes":true,"series":[{"name":"Main.bOn","bool":true,"values":[0,1]})"));
 }
 
 TEST(Trace, OutputsAboutAVelocityAreTruthValues) {
