@@ -130,7 +130,7 @@ fs::path projectOf(const std::string &named, const std::string &file) {
     return named;
   std::error_code error;
   for (const fs::path &folder : {fs::path(file).parent_path(), fs::path()})
-    if (const fs::path place = projectPlace(folder); fs::exists(place / "stride.toml", error))
+    if (fs::path place = projectPlace(folder); fs::exists(place / "stride.toml", error))
       return place;
   return {};
 }

@@ -51,7 +51,7 @@ std::string fileName(const fs::path &place) {
 
 fs::path projectPlace(const fs::path &path) {
   std::error_code error;
-  const fs::path given = fs::canonical(path.empty() ? "." : path, error);
+  fs::path given = fs::canonical(path.empty() ? "." : path, error);
   if (error)
     return {};
   if (!fs::is_directory(given, error))
