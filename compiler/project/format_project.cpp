@@ -53,12 +53,10 @@ FormatSettings readFormatSettings(const fs::path &place, Sources &sources,
   fs::path folder = fs::absolute(place.empty() ? fs::path(".") : place, error).lexically_normal();
   if (!fs::is_directory(folder, error))
     folder = folder.parent_path();
-  while (!fs::exists(folder / "stride.toml", error)) {
-    if (folder == folder.parent_path())
-      return settings;
-    folder = folder.parent_path();
-  }
+  folder = findProjectFolder(folder);
   const fs::path manifest = folder / "stride.toml";
+  if (!fs::exists(manifest, error))
+    return settings;
   const std::optional<FileId> id = sources.load(manifest, manifest.filename().string());
   if (!id) {
     diagnostics.report(

@@ -1,6 +1,7 @@
 #include "compiler/project/run_socket.hpp"
 
 #include "compiler/project/file_system.hpp"
+#include "compiler/project/source_files.hpp"
 #include "compiler/source/content_hash.hpp"
 
 #include <cerrno>
@@ -56,10 +57,7 @@ fs::path projectPlace(const fs::path &path) {
     return {};
   if (!fs::is_directory(given, error))
     return given.filename() == kProjectFile ? given.parent_path() : given;
-  for (fs::path folder = given; folder.has_relative_path(); folder = folder.parent_path())
-    if (fs::exists(folder / kProjectFile, error))
-      return folder;
-  return given;
+  return findProjectFolder(given);
 }
 
 std::optional<fs::path> makeRunSocket(const fs::path &place, std::string &problem) {

@@ -8,9 +8,9 @@
 
 namespace stc {
 
-/// The folder of the project that the path names or lies in (the nearest one upwards with a
-/// stride.toml, else the folder itself), or the path of a single source file; absolute, without
-/// links. Empty when there is nothing of that name. `path`: empty: the current folder.
+/// The folder of the project that the path names or lies in (findProjectFolder), or the path of a
+/// single source file; absolute, without links. Empty when there is nothing of that name. `path`:
+/// empty: the current folder.
 [[nodiscard]] std::filesystem::path projectPlace(const std::filesystem::path &path);
 
 /// The socket file for a run of the project: in the user's folder for such files, which is made,
