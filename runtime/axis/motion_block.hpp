@@ -54,6 +54,17 @@ inline void abort(BlockState &block) noexcept {
   block.bAborted = 1;
 }
 
+/// The command is over because its motion is gone: by an error stop, without power, or because
+/// another one took its place.
+inline void loseMotion(BlockState &block, AxisRef &ref) noexcept {
+  if (ref.nAxisState == axis::state::kErrorStop)
+    lose(block, ref, static_cast<int16_t>(ref.stPlanner.wStopReason));
+  else if (!axis::isPowered(ref))
+    fail(block, &ref, axis::error::kNotPowered);
+  else
+    abort(block);
+}
+
 /// The command is over as it should be. What becomes of the axis is the caller's.
 inline void finish(BlockState &block) noexcept {
   block.bRunning = 0;

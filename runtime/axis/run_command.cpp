@@ -44,12 +44,7 @@ bool awaitTurn(BlockState &block, AxisRef &ref) noexcept {
     return true;
   }
   if (!isQueued(ref, block.ulOwner)) {
-    if (ref.nAxisState == axis::state::kErrorStop)
-      lose(block, ref, static_cast<int16_t>(ref.stPlanner.wStopReason));
-    else if (!axis::isPowered(ref))
-      fail(block, &ref, axis::error::kNotPowered);
-    else
-      abort(block);
+    loseMotion(block, ref);
   } else if (ref.iOwner == 0 && ref.bMovedInThisCycle == 0 && beginQueued(ref, block.ulOwner)) {
     block.bWaiting = 0;
     return true;

@@ -102,12 +102,7 @@ bool beginAdding(AddedMotion &added, BlockState &block, AxisRef &ref) noexcept {
 
 void continueAdding(AddedMotion &added, BlockState &block, AxisRef &ref) noexcept {
   if (ref.stSuperimposed.ulOwner != block.ulOwner) {
-    if (ref.nAxisState == axis::state::kErrorStop)
-      lose(block, ref, static_cast<int16_t>(ref.stPlanner.wStopReason));
-    else if (!axis::isPowered(ref))
-      fail(block, &ref, axis::error::kNotPowered);
-    else
-      abort(block);
+    loseMotion(block, ref);
     return;
   }
   if (added.bAlone == 0 && ref.iOwner == 0)
