@@ -95,6 +95,20 @@ double integrate(const Shape &shape, double from, double to, double tolerance) n
   }
 }
 
+/// An arc of a circle or an ellipse, without its length.
+Shape roundShape(ShapeKind kind, const Vector3 &centre, const Vector3 &first, const Vector3 &second,
+                 double angle, double sweep, const Vector3 &climb) noexcept {
+  Shape shape{};
+  shape.kind = kind;
+  shape.v[0] = centre;
+  shape.v[1] = first;
+  shape.v[2] = second;
+  shape.v[3] = climb;
+  shape.angle = angle;
+  shape.sweep = sweep;
+  return shape;
+}
+
 Shape withLength(Shape shape) noexcept {
   shape.length = lengthBetween(shape, 0.0, 1.0);
   return shape;
@@ -113,29 +127,14 @@ Shape lineShape(const Vector3 &start, const Vector3 &end) noexcept {
 
 Shape arcShape(const Vector3 &centre, const Vector3 &radial, const Vector3 &lateral, double angle,
                double sweep, const Vector3 &climb) noexcept {
-  Shape shape{};
-  shape.kind = ShapeKind::Arc;
-  shape.v[0] = centre;
-  shape.v[1] = radial;
-  shape.v[2] = lateral;
-  shape.v[3] = climb;
-  shape.angle = angle;
-  shape.sweep = sweep;
+  Shape shape = roundShape(ShapeKind::Arc, centre, radial, lateral, angle, sweep, climb);
   shape.length = norm({norm(radial) * sweep, norm(climb), 0.0});
   return shape;
 }
 
 Shape ellipseShape(const Vector3 &centre, const Vector3 &first, const Vector3 &second, double angle,
                    double sweep, const Vector3 &climb) noexcept {
-  Shape shape{};
-  shape.kind = ShapeKind::Ellipse;
-  shape.v[0] = centre;
-  shape.v[1] = first;
-  shape.v[2] = second;
-  shape.v[3] = climb;
-  shape.angle = angle;
-  shape.sweep = sweep;
-  return withLength(shape);
+  return withLength(roundShape(ShapeKind::Ellipse, centre, first, second, angle, sweep, climb));
 }
 
 Shape polynomialShape(const Vector3 (&coefficients)[6]) noexcept {
