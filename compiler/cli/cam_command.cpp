@@ -46,6 +46,35 @@ std::string shown(double value) {
   return text == "-0" ? "0" : text;
 }
 
+/// A limit that rounding has left of 0, or the value.
+double cleared(double value, double size) {
+  constexpr double kRounding = 1e-10; // of what the values around it come to
+  return std::fabs(value) <= kRounding * size ? 0.0 : value;
+}
+
+void clearRounding(Range &range, double size) {
+  size = std::max({size, std::fabs(range.low), std::fabs(range.high)});
+  range = {cleared(range.low, size), cleared(range.high, size)};
+}
+
+/// The greatest position by its magnitude. [slave u]
+double sizeOf(const Bounds &bounds) {
+  return std::max(std::fabs(bounds.position.low), std::fabs(bounds.position.high));
+}
+
+/// The curve's bounds as they are shown. What is small beside a slave that covers its position once
+/// over the whole cam comes from rounding.
+Bounds shownBounds(const Curve &curve, const MasterLimits &master) {
+  Bounds bounds = boundsOf(curve, master);
+  const double slope = sizeOf(bounds) / (curve.end - curve.start);
+  const double bend = slope / (curve.end - curve.start);
+  clearRounding(bounds.position, 0.0);
+  clearRounding(bounds.velocity, slope * master.velocity);
+  clearRounding(bounds.acceleration,
+                bend * master.velocity * master.velocity + slope * master.acceleration);
+  return bounds;
+}
+
 std::string rangeText(const Range &range) {
   return fmt::format("{} … {}", shown(range.low), shown(range.high));
 }
@@ -150,7 +179,7 @@ std::string describeCam(const std::string &path, const LoadedCam &cam) {
                       master, source.periodic ? ", periodic" : "");
   if (cam.segments.empty())
     return text + fmt::format("  tappets       {}\n", source.tappets.size());
-  const Bounds bounds = boundsOf(cam.curve(), {});
+  const Bounds bounds = shownBounds(cam.curve(), {});
   text += fmt::format("  position      {}{}\n", rangeText(bounds.position), unitsOf(source, ""));
   text += fmt::format("  velocity      up to {}{}\n", shown(bounds.velocity.high),
                       unitsOf(source, " "));
@@ -159,8 +188,8 @@ std::string describeCam(const std::string &path, const LoadedCam &cam) {
   const Segment &last = cam.segments.back();
   const double rise =
       evaluateSegment(last, last.end).y - evaluateSegment(cam.segments.front(), source.start).y;
-  const bool none = std::fabs(rise) <= 1e-12 * (bounds.position.high - bounds.position.low);
-  text += fmt::format("  rise          {}{}\n", none ? "0" : shown(rise), unitsOf(source, ""));
+  text += fmt::format("  rise          {}{}\n", shown(cleared(rise, sizeOf(bounds))),
+                      unitsOf(source, ""));
   if (!source.tappets.empty())
     text += fmt::format("  tappets       {}\n", source.tappets.size());
   if (cam.kind != LoadedCam::Kind::Table)
@@ -168,8 +197,8 @@ std::string describeCam(const std::string &path, const LoadedCam &cam) {
   const bool isTable = cam.data.header.elements != 0 && (cam.data.header.form == Form::EvenTable ||
                                                          cam.data.header.form == Form::PairTable);
   if (isTable && cam.kind == LoadedCam::Kind::Source)
-    text += fmt::format("  off the curve up to {}{}\n", fmt::format("{:.3g}", deviationOf(cam)),
-                        unitsOf(source, ""));
+    text += fmt::format("  off the curve up to {:.3g}{}\n",
+                        cleared(deviationOf(cam), sizeOf(bounds)), unitsOf(source, ""));
   return text;
 }
 
@@ -204,7 +233,7 @@ int camBounds(const CamOptions &options) {
   Session session(options);
   if (const std::optional<LoadedCam> cam = session.loadCurve(options.files.front())) {
     const Bounds bounds =
-        boundsOf(cam->curve(), {options.masterVelocity, options.masterAcceleration});
+        shownBounds(cam->curve(), {options.masterVelocity, options.masterAcceleration});
     const std::string slave = cam->source.slaveUnit.empty() ? "u" : cam->source.slaveUnit;
     print(fmt::format("position      {} {}\nvelocity      {} {}/s\nacceleration  {} {}/s\xC2\xB2\n",
                       rangeText(bounds.position), slave, rangeText(bounds.velocity), slave,

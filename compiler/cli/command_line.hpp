@@ -32,6 +32,7 @@ struct Invocation {
   FormatOptions formatting;
   PlotOptions plot;
   CamOptions cams;
+  CncOptions cnc;
   std::string code;
   bool listCodes = false;
   std::string topic;
@@ -51,6 +52,7 @@ void declareCompletion(CLI::App &app, Invocation &call);
 void declareLibraries(CLI::App &app, Invocation &call);
 /// The commands below `stride cam`.
 void declareCams(CLI::App &app, Invocation &call);
+void declareCnc(CLI::App &app, Invocation &call);
 
 } // namespace stc::cli
 

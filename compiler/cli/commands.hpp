@@ -133,6 +133,36 @@ struct CamOptions {
 /// Checks, draws, converts cams: their own curve, not the table that a cam file may want.
 int camCommand(const CamOptions &options);
 
+/// What `stride cnc` does.
+enum class CncAction { Check, Info, Format, Run, Plot };
+
+/// How `run` and `plot` drive a program. Arrays are of X, Y, Z, A, B, C, P, Q, U, V, W and one
+/// more.
+struct CncMotionOptions {
+  double blend = 0; ///< Of corners: distance of the curve from the corner; 0: they stay. [u]
+  double merge = 0; ///< Of lines: how far the result may be off; 0: all stay. [u]
+  double angleTolerance = 0.001;          ///< Up to there, corners are none. [degrees]
+  std::string velocityMode = "trapezoid"; ///< or `sigmoid`, `quadratic`
+  double jerk = 0;                        ///< of `quadratic` [u/s³]
+  double velocity = 0;                    ///< of programs that begin without F; 0: none [u/s]
+  double acceleration = 0;                ///< of programs that begin without E; 0: 100 [u/s²]
+  double maxVelocity[12] = {};            ///< 0: no limit [u/s]
+  double maxAcceleration[12] = {};        ///< 0: no limit [u/s²]
+  double cycle = 0.001;                   ///< [s]
+  double feed = 1;                        ///< Factor of the program's velocities.
+};
+
+struct CncOptions {
+  CncAction action = CncAction::Check;
+  std::vector<std::string> files;
+  bool check = false; ///< format: write nothing; fail when something is not formatted
+  std::string out;
+  CncMotionOptions motion;
+  Output output;
+};
+/// Checks, describes, formats CNC programs.
+int cncCommand(const CncOptions &options);
+
 /// `what`: a diagnostic's code, or the number or name of a SoftMotion error.
 int explainCommand(const std::string &what);
 /// All codes with their titles, one a line.

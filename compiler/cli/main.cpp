@@ -27,7 +27,7 @@ void declareNew(CLI::App &app, Invocation &call) {
       ->add_option("--template", call.projectTemplate,
                    "axis (default): one drive; two-axes: one follows the other by a gear; cam: it "
                    "follows by a cam; io: inputs and outputs; tests: a block with unit tests; "
-                   "plain: a program alone")
+                   "library: a library for other projects; plain: a program alone")
       ->check(CLI::IsMember(templateNames()).description(""))
       ->type_name("TEMPLATE");
   create->callback([&call] { call.exitCode = newCommand(call.name, call.projectTemplate); });
@@ -228,9 +228,9 @@ int run(int argc, char **argv) {
   app.name("stride");
   Invocation call;
   // In the order in which the overview shows them.
-  for (const auto declare :
-       {declareNew, declareCheck, declareBuild, declareRuns, declareDoc, declareTest, declareFmt,
-        declarePlot, declareCams, declareLibraries, declareExplain, declareCompletion, declareHelp})
+  for (const auto declare : {declareNew, declareCheck, declareBuild, declareRuns, declareDoc,
+                             declareTest, declareFmt, declarePlot, declareCams, declareCnc,
+                             declareLibraries, declareExplain, declareCompletion, declareHelp})
     declare(app, call);
   try {
     app.parse(argumentsOf(argc, argv));

@@ -1,6 +1,8 @@
 #include "compiler/cli/commands.hpp"
 #include "compiler/project/file_system.hpp"
+#include "compiler/syntax/st_text.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -12,7 +14,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A file of a template. In its text {name} stands for the project's name.
+/// A file of a template. In its text {name} stands for the project's name, {library} for what ST
+/// can call it.
 struct TemplateFile {
   std::string_view of; ///< the template's name
   std::string_view path;
@@ -29,23 +32,38 @@ struct Template {
   std::string_view hint; ///< a command to try in the new folder
 };
 
-constexpr std::array<Template, 6> kTemplates = {{
+constexpr std::array<Template, 7> kTemplates = {{
     {"axis", "stride sim --for 5s --trace Drive.fSetPosition,Drive.fSetVelocity --out trace.csv"},
     {"two-axes",
      "stride sim --for 5s --trace Roller.fSetVelocity,Slide.fSetVelocity --out trace.csv"},
     {"cam", "stride sim --for 8s --trace Master.fSetPosition,Slave.fSetPosition --out trace.csv"},
     {"io", "stride sim --for 2s --set \"500ms,%IX0.0=TRUE\" --print Main.Lamp"},
     {"tests", "stride test"},
+    {"library", "stride test"},
     {"plain", "stride sim --for 2s --print Main"},
 }};
 
+std::string replaceAll(std::string text, std::string_view place, const std::string &by) {
+  for (size_t at = text.find(place); at != std::string::npos; at = text.find(place, at + by.size()))
+    text.replace(at, place.size(), by);
+  return text;
+}
+
+/// The name as an identifier: `pump-parts` becomes pump_parts, `2d` Lib_2d, `type` Lib_type.
+std::string identifierOf(std::string_view name) {
+  std::string result;
+  for (const char c : name)
+    if (c != '_' && isIdentifier(fmt::format("x{}", c)))
+      result += c;
+    else if (!result.empty() && !result.ends_with('_'))
+      result += '_';
+  if (result.empty())
+    return "Lib";
+  return isIdentifier(result) ? result : "Lib_" + result;
+}
+
 std::string withName(std::string_view text, const std::string &name) {
-  std::string result(text);
-  constexpr std::string_view kPlace = "{name}";
-  for (size_t at = result.find(kPlace); at != std::string::npos;
-       at = result.find(kPlace, at + name.size()))
-    result.replace(at, kPlace.size(), name);
-  return result;
+  return replaceAll(replaceAll(std::string(text), "{library}", identifierOf(name)), "{name}", name);
 }
 
 /// Where a file of a template goes; a `.gitignore` among the templates would hide them from git.

@@ -296,6 +296,16 @@ int resetCommand(const ProjectOptions &options, const std::string &kind) {
                     "reset {} FILE` with the place it leads to",
                     file.string(), kind),
         options.output);
+  std::error_code error;
+  const auto exists = [&](const char *ending) {
+    return std::filesystem::symlink_status(file.string() + ending, error).type() !=
+           std::filesystem::file_type::not_found;
+  };
+  // Before the first run, and after `reset origin`; who cannot look gets to know from the host.
+  if (!exists(".a") && !exists(".b")) {
+    print(fmt::format("Nothing to reset: there are no retained data in `{}`.\n", file.string()));
+    return 0;
+  }
   return becomeHost({"reset", kind, file.string()}, options.output);
 }
 

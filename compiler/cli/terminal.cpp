@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <map>
+#include <tuple>
 #include <unistd.h>
 
 namespace stc::cli {
@@ -13,6 +15,47 @@ namespace {
 
 std::string count(size_t number, std::string_view what) {
   return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+}
+
+/// Notes that say the same become one, shown at the first place, that names the others.
+std::vector<Diagnostic> gathered(const std::vector<Diagnostic> &all, const Sources &sources) {
+  constexpr size_t kMost = 10;
+  std::vector<Diagnostic> result;
+  using Said = std::tuple<Code, std::string, std::string>;
+  const auto saidBy = [](const Diagnostic &one) {
+    return Said{one.code, one.message, one.labels.front().text};
+  };
+  std::map<Said, std::vector<size_t>> places;
+  for (const Diagnostic &one : all) {
+    if (one.severity == Severity::Note && !one.labels.empty() && one.labels.front().span.valid()) {
+      std::vector<size_t> &same = places[saidBy(one)];
+      same.push_back(static_cast<size_t>(&one - all.data()));
+      if (same.size() > 1)
+        continue;
+    }
+    result.push_back(one);
+  }
+  for (Diagnostic &one : result) {
+    if (one.severity != Severity::Note || one.labels.empty())
+      continue;
+    const auto same = places.find(saidBy(one));
+    if (same == places.end() || same->second.size() == 1)
+      continue;
+    FileId file = one.labels.front().span.file;
+    std::string text = "the same at";
+    for (size_t i = 1; i < same->second.size() && i <= kMost; ++i) {
+      const Span span = all[same->second[i]].labels.front().span;
+      const LineColumn at = sources.file(span.file).position(span.begin);
+      text += fmt::format("{} {}{}:{}", i == 1 ? "" : ",",
+                          span.file == file ? "" : sources.file(span.file).name() + ":", at.line,
+                          at.column);
+      file = span.file;
+    }
+    if (same->second.size() > kMost + 1)
+      text += fmt::format(" and {}", count(same->second.size() - kMost - 1, "more place"));
+    one.note(std::move(text));
+  }
+  return result;
 }
 
 void write(std::FILE *to, const std::string &text) { std::fwrite(text.data(), 1, text.size(), to); }
@@ -38,7 +81,8 @@ int show(const std::vector<Diagnostic> &diagnostics, const Sources &sources, con
   size_t notShown = 0;
   const bool color = output.format == Format::Text && output.useColor();
   std::string text;
-  for (const Diagnostic &diagnostic : diagnostics) {
+  for (const Diagnostic &diagnostic :
+       output.format == Format::Text ? gathered(diagnostics, sources) : diagnostics) {
     const bool full = output.maxErrors != 0 && errors >= output.maxErrors;
     errors += diagnostic.severity == Severity::Error ? 1 : 0;
     warnings += diagnostic.severity == Severity::Warning ? 1 : 0;

@@ -79,11 +79,17 @@ struct AppConfig {
     std::vector<uint8_t> safeInputs; ///< empty: inputs of a lost device stay
     std::vector<ConfigParameter> parameters;
   };
+  /// What one technical unit is, where stride.toml says so.
+  struct TechnicalUnit {
+    std::string variable; ///< the global AXIS_REF
+    std::string unit;
+  };
   std::string name;
   std::vector<IoDevice> ioDevices;
   std::vector<Task> tasks;
   std::vector<Bus> buses;
   std::vector<AxisGroup> axisGroups;
+  std::vector<TechnicalUnit> units;
   std::string retainFile;     ///< [retain] file
   int64_t retainPeriodNs = 0; ///< [retain] period; 0: the runtime's own
   std::string filesRoot;      ///< [files] root; empty: the runtime's own

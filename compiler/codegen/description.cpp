@@ -99,6 +99,8 @@ void describeConfiguration(std::string &out, const Described &app) {
   text(out, "filesRoot", app.config.filesRoot);
   field(out, "filesAnywhere", app.config.filesAnywhere ? "1" : "0");
   field(out, "filesDelay", std::to_string(app.config.filesDelay));
+  table(out, "units", app.config.units.size(), "kUnits");
+  field(out, "unitCount", app.config.units.size());
 }
 
 } // namespace

@@ -24,6 +24,10 @@ void PlcTables::write() {
   addBuses();
   addAxisGroups();
   addIoDevices();
+  std::string units;
+  for (const AppConfig::TechnicalUnit &one : config_.units)
+    units += "    {\"" + escaped(one.variable) + "\", \"" + escaped(one.unit) + "\"},\n";
+  addTable("{variable, unit}", "UnitDesc", "kUnits", units);
   addTable("{name, text, number}", "ParameterDesc", "kParameters", parameters_);
   addTable("{name, interfaceType, driverName, firstParameter, parameterCount}", "BusDesc", "kBuses",
            buses_);

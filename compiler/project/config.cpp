@@ -1,4 +1,5 @@
 #include "compiler/project/config.hpp"
+#include "compiler/project/cnc_config.hpp"
 
 #include "compiler/project/config_reader.hpp"
 #include "compiler/project/driver_sections.hpp"
@@ -70,6 +71,8 @@ public:
       plc_.readBus({bus, busSection(bus), diagnostics_, &projectSchema()});
     for (const CheckedSection &axis : top.sections("axis", diagnostics_))
       plc_.readAxis(axis);
+    for (const CheckedSection &cnc : top.sections("cnc", diagnostics_))
+      readCncSection(cnc, config_, diagnostics_);
     for (const TomlNode &io : top.tables("io"))
       readIoDevice({io, ioSection(io), diagnostics_, &projectSchema()}, config_, diagnostics_);
     return std::move(config_);

@@ -2,6 +2,7 @@
 #define STRIDE_COMPILER_PROJECT_CONFIG_HPP
 // What stride.toml says: tasks and PLC configuration (SoftMotion V2.3 manual, section 2.1).
 
+#include "compiler/assets/cnc/cnc_source.hpp"
 #include "compiler/codegen/codegen.hpp"
 #include "compiler/project/library_config.hpp"
 #include "compiler/semantics/program.hpp"
@@ -64,6 +65,7 @@ struct AxisConfig {
   Span section;
   uint32_t cycleUs = 0; ///< dwCycle; 0: not given
   Span cycleSpan;
+  std::string unit; ///< what one technical unit is; empty: not given
   ConfigFields fields;
 };
 
@@ -131,7 +133,8 @@ struct ProjectConfig {
   std::vector<AxisGroupConfig> axisGroups;
   std::vector<AxisConfig> axes;
   std::vector<IoConfig> ioDevices;
-  bool incomplete = false; ///< a drive, axis group or everything had to be left out
+  std::vector<CncSettings> cnc; ///< [[cnc]]
+  bool incomplete = false;      ///< a drive, axis group or everything had to be left out
 };
 
 /// Reads and checks stride.toml. What is wrong is reported with its place; what is right is

@@ -41,8 +41,16 @@ bool EmbeddedLibraryIndex::answersTo(std::string_view library, std::string_view 
     std::string_view library;
   };
   static constexpr OtherName kSoftMotion3[] = {
-      {"sm3_basic", "SM_DriveBasic"}, {"sm3_basic", "SM_PLCopen"}, {"sm3_basic", "SM_FileFBs"},
-      {"sm3_cnc", "SM_CNC"},          {"sm3_error", "SM_Error"},   {"smcb", "SM3_CamBuilder"},
+      {"sm3_basic", "SM_DriveBasic"},
+      {"sm3_basic", "SM_PLCopen"},
+      {"sm3_basic", "SM_FileFBs"},
+      {"sm3_cnc", "SM_CNC"},
+      {"sm3_error", "SM_Error"},
+      {"smcb", "SM3_CamBuilder"},
+      {"sm3_math", "SM_CNC"},
+      {"sm3m", "SM_CNC"},
+      {"sm3_transformation", "SM_Trafo"},
+      {"trafo", "SM_Trafo"},
   };
   return equalIgnoringCase(library, lowerName) ||
          std::any_of(std::begin(kSoftMotion3), std::end(kSoftMotion3), [&](const OtherName &other) {

@@ -237,7 +237,7 @@ std::string PlcReader::unitOf(const CheckedSection &section) {
   diagnostics_
       .report(Code::ConfigOutOfRange, unit->span,
               fmt::format("`unit` must be a word of at most {} bytes", kLongest), "is none")
-      .help("write for example `unit = \"mm\"`");
+      .help("write for example `unit = \"mm\"`; blanks, `\"`, `\\` and `]` cannot be in it");
   return {};
 }
 
@@ -331,6 +331,7 @@ void PlcReader::readAxis(const CheckedSection &section) {
     axis.cycleUs = static_cast<uint32_t>(cycle->integer);
     axis.cycleSpan = cycle->span;
   }
+  axis.unit = unitOf(section);
   axis.fields.emplace_back("bRealDrive", "FALSE");
   readMovement(section, axis.fields, "axis");
   readLimits(section, axis.fields, section.choice("iMovementType") == kRotary, "axis");

@@ -1,6 +1,7 @@
 #include "compiler/project/project.hpp"
 
 #include "compiler/assets/cam/cam_source.hpp"
+#include "compiler/project/cnc_config.hpp"
 #include "compiler/project/library_sources.hpp"
 #include "compiler/project/source_files.hpp"
 #include "compiler/source/read_source.hpp"
@@ -85,15 +86,24 @@ void Project::loadFolder() {
         .help("if they are one, make an empty stride.toml there; if not, name one file");
   for (const fs::path &source : sources.files)
     loadFile(source, source.lexically_relative(path_).string());
-  for (const fs::path &cam : findCams(program_.sources, roots).files) {
-    const std::string name = cam.lexically_relative(path_).string();
-    if (const std::optional<FileId> id = program_.sources.load(cam, name))
-      camFiles_.push_back(*id);
+  loadAssets(findCams(program_.sources, roots), camFiles_);
+  // What lies in the folder for files belongs to the run.
+  const fs::path filesRoot =
+      path_ / (config_.filesRoot.empty() ? fs::path("files") : fs::path(config_.filesRoot));
+  loadAssets(findCncFiles(program_.sources, roots, filesRoot), cncFiles_);
+  loaded_ = !sources.files.empty();
+}
+
+/// Loads files besides the sources.
+void Project::loadAssets(const FoundFiles &found, std::vector<FileId> &ids) {
+  for (const fs::path &file : found.files) {
+    const std::string name = file.lexically_relative(path_).string();
+    if (const std::optional<FileId> id = program_.sources.load(file, name))
+      ids.push_back(*id);
     else
       program_.diagnostics.report(Code::UnreadableFile, {},
                                   fmt::format("`{}` cannot be read: {}", name, readSourceError()));
   }
-  loaded_ = !sources.files.empty();
 }
 
 void Project::loadFile(const fs::path &path, const std::string &name) {
@@ -145,7 +155,7 @@ bool Project::addDeclarations(Purpose purpose, ProgramCheck programCheck,
     files.insert(files.begin(), parseSynthetic(plc, options));
     plcFile_ = files.front()->id;
   }
-  if (!declareCams(files, options))
+  if (!declareCams(files, options) || !declareCnc(files, options))
     return false;
   for (const TaskConfig &task : config_.tasks)
     if (!task.event.text.empty())
@@ -213,6 +223,17 @@ bool Project::declareCams(std::vector<ast::File *> &files, const ParseOptions &o
   return true;
 }
 
+/// The same of the CNC files.
+bool Project::declareCnc(std::vector<ast::File *> &files, const ParseOptions &options) {
+  const size_t errors = program_.diagnostics.errorCount();
+  const SyntheticSource declarations = declareCncPrograms(program_, config_, cncFiles_, files);
+  if (program_.diagnostics.errorCount() != errors)
+    return false;
+  if (!declarations.empty())
+    files.insert(files.begin(), parseSynthetic(declarations, options));
+  return true;
+}
+
 /// The FUNCTION for the event of a task, in a file of the name of that in which the event stands.
 ast::File *Project::eventFile(const TaskConfig &task, const ParseOptions &options) {
   const SourceFile &from = program_.sources.file(task.event.span.file);
@@ -264,7 +285,7 @@ std::vector<Diagnostic> Project::diagnostics() const {
 
 std::vector<std::string> Project::files() const {
   std::vector<std::string> names;
-  for (const std::vector<FileId> *ids : {&sourceFiles_, &camFiles_})
+  for (const std::vector<FileId> *ids : {&sourceFiles_, &camFiles_, &cncFiles_})
     for (const FileId id : *ids)
       names.push_back(program_.sources.file(id).name());
   return names;
@@ -276,6 +297,9 @@ std::vector<std::pair<std::string, std::string>> Project::units() const {
     for (const DriveConfig &drive : group.drives)
       if (!drive.unit.empty())
         units.emplace_back(drive.name.text, drive.unit);
+  for (const AxisConfig &axis : config_.axes)
+    if (!axis.unit.empty())
+      units.emplace_back(axis.name.text, axis.unit);
   return units;
 }
 
@@ -328,6 +352,8 @@ AppConfig Project::appConfig() const {
       group.encoders.push_back({encoder.name.text, encoder.id, encoder.parameters});
     app.axisGroups.push_back(std::move(group));
   }
+  for (const auto &[variable, unit] : units())
+    app.units.push_back({variable, unit});
   return app;
 }
 

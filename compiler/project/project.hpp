@@ -4,6 +4,7 @@
 
 #include "compiler/codegen/codegen.hpp"
 #include "compiler/project/config.hpp"
+#include "compiler/project/source_files.hpp"
 #include "compiler/project/tests.hpp"
 #include "compiler/semantics/program.hpp"
 #include "compiler/syntax/parser.hpp"
@@ -51,13 +52,13 @@ public:
   /// The unit tests, for Purpose::Test; the task `Test` calls the one that which__ of kTestProgram
   /// names.
   [[nodiscard]] const std::vector<TestBlock> &tests() const { return tests_; }
-  /// Its source and cam files, relative to its folder.
+  /// Its source, cam and CNC files, relative to its folder.
   [[nodiscard]] std::vector<std::string> files() const;
   /// [library] of stride.toml: the project is one.
   [[nodiscard]] const std::optional<LibraryInfo> &library() const { return config_.library; }
   /// [files] root of stride.toml; empty: not given.
   [[nodiscard]] const std::string &filesRoot() const { return config_.filesRoot; }
-  /// The drives with a `unit` in stride.toml: their names, and what one technical unit is.
+  /// The drives and axes with a `unit` in stride.toml: their names, and what one technical unit is.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> units() const;
   /// Tasks and axis groups for code generation; only without errors.
   [[nodiscard]] AppConfig appConfig() const;
@@ -72,7 +73,9 @@ private:
                        const ParseOptions &options);
   void shareVariables();
   ast::File *parseSynthetic(const SyntheticSource &source, ParseOptions options);
+  void loadAssets(const FoundFiles &found, std::vector<FileId> &ids);
   bool declareCams(std::vector<ast::File *> &files, const ParseOptions &options);
+  bool declareCnc(std::vector<ast::File *> &files, const ParseOptions &options);
   ast::File *eventFile(const TaskConfig &task, const ParseOptions &options);
   bool declaresNothing(const std::vector<ast::File *> &files) const;
 
@@ -86,6 +89,7 @@ private:
   FileId tomlFile_ = 0;
   FileId plcFile_ = 0; ///< plcDeclarations()
   std::vector<FileId> camFiles_;
+  std::vector<FileId> cncFiles_;
   std::vector<TestBlock> tests_;
 };
 

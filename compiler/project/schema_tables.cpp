@@ -99,6 +99,7 @@ constexpr std::array<Choice, 1> kAxisKinds = {{{"virtual", 0}}};
 constexpr std::array kAxisParameters = {
     identifier("name").needed(),
     choice("kind", kAxisKinds).needed(),
+    text("unit"),
     text("sTask"),
     whole("dwCycle", 1, stride::common::kLargestDword, "µs"),
     plc::kMovementType,
@@ -125,6 +126,20 @@ constexpr std::array kFormatParameters = {
     flag("align"),
 };
 
+constexpr std::array<Choice, 2> kCncModes = {{{"program", 1}, {"none", 0}}};
+constexpr std::array kCncParameters = {
+    text("file").needed(),
+    choice("compile", kCncModes),
+    positive("default_velocity", "u/s"),
+    positive("default_acceleration", "u/s²"),
+    positive("default_deceleration", "u/s²"),
+};
+constexpr std::array kCncStartParameters = {
+    anyReal("X", "u"), anyReal("Y", "u"), anyReal("Z", "u"), anyReal("A", "u"),
+    anyReal("B", "u"), anyReal("C", "u"), anyReal("P", "u"), anyReal("Q", "u"),
+    anyReal("U", "u"), anyReal("V", "u"), anyReal("W", "u"),
+};
+
 constexpr SectionSchema kProject = {"project", "the project",      "project",
                                     false,     kProjectParameters, {}};
 /// Its keys are whatever the library's parameters are called.
@@ -147,6 +162,10 @@ constexpr SectionSchema kFiles = {"files", "the access to files", "files",
                                   false,   kFilesParameters,      {}};
 constexpr SectionSchema kTask = {"task", "a task", "task", true, kTaskParameters, {}};
 constexpr SectionSchema kAxis = {"axis", "an axis", "axis", true, kAxisParameters, {}};
+constexpr SectionSchema kCncStart = {"start", "the start",         "cnc.start",
+                                     false,   kCncStartParameters, {}};
+constexpr std::array<const SectionSchema *, 1> kCncSections = {&kCncStart};
+constexpr SectionSchema kCnc = {"cnc", "a CNC program", "cnc", true, kCncParameters, kCncSections};
 constexpr std::array<Choice, 4> kSeverities = {
     {{"error", static_cast<int64_t>(Severity::Error)},
      {"warning", static_cast<int64_t>(Severity::Warning)},
@@ -180,9 +199,9 @@ struct TopSection {
   DiagnosticSection diagnostics;
   explicit TopSection(const SectionSchema &library)
       : sections{&kProject, &library, &diagnostics.section, &kImage,         &kRetain, &kFiles,
-                 &kFormat,  &kTask,   &anyBusSection(),     &anyIoSection(), &kAxis},
+                 &kFormat,  &kTask,   &anyBusSection(),     &anyIoSection(), &kAxis,   &kCnc},
         top{"", "stride.toml", "", false, {}, sections} {}
-  std::array<const SectionSchema *, 11> sections;
+  std::array<const SectionSchema *, 12> sections;
   SectionSchema top;
 };
 

@@ -1,6 +1,7 @@
 #include "compiler/project/source_files.hpp"
 
 #include "compiler/assets/cam/cam_source.hpp"
+#include "compiler/assets/cnc/cnc_source.hpp"
 #include "compiler/syntax/st_text.hpp"
 
 #include <algorithm>
@@ -176,6 +177,17 @@ FoundFiles findSources(const Sources &sources, const std::vector<fs::path> &root
 
 FoundFiles findCams(const Sources &sources, const std::vector<fs::path> &roots) {
   return findFiles(sources, roots, kCamSuffix);
+}
+
+FoundFiles findCncFiles(const Sources &sources, const std::vector<fs::path> &roots,
+                        const fs::path &without) {
+  FoundFiles found = findFiles(sources, roots, kCncSuffix);
+  const fs::path folder = withoutSlash(without.lexically_normal());
+  std::erase_if(found.files, [&folder](const fs::path &file) {
+    const fs::path relative = file.lexically_normal().lexically_relative(folder);
+    return !relative.empty() && *relative.begin() != "..";
+  });
+  return found;
 }
 
 bool findRoots(const fs::path &folder, const std::vector<ConfigName> &named, const Sources &sources,

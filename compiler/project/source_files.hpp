@@ -35,6 +35,11 @@ struct FoundFiles {
 [[nodiscard]] FoundFiles findCams(const Sources &sources,
                                   const std::vector<std::filesystem::path> &roots);
 
+/// The same of the CNC files, *.cnc, but for those below the folder `without`.
+[[nodiscard]] FoundFiles findCncFiles(const Sources &sources,
+                                      const std::vector<std::filesystem::path> &roots,
+                                      const std::filesystem::path &without);
+
 /// Where the files of a project are, as `sources` of its stride.toml says (empty: the folder). What
 /// is not there is reported; then false.
 bool findRoots(const std::filesystem::path &folder, const std::vector<ConfigName> &named,

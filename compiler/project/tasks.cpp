@@ -353,7 +353,7 @@ public:
   SyntheticSource write(const ProjectConfig &config) {
     axisGroups(config);
     for (const AxisConfig &axis : config.axes)
-      variable("axis", axis.name, "SM_DriveBasic.AXIS_REF", axis.fields);
+      variable("axis", axis.name, "SM_DriveBasic.AXIS_REF", axis.fields, axis.unit);
     for (const IoConfig &io : config.ioDevices)
       variable("I/O device", io.name, "IO_DEVICE", {});
     if (!out_.empty()) {

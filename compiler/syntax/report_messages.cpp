@@ -104,6 +104,15 @@ bool ReportStrategy::closerIsWanted(uint16_t type) const {
   return false;
 }
 
+/// Between the parentheses of a call, of an expression, or the brackets of an index.
+bool ReportStrategy::insideBrackets() const {
+  for (const antlr4::tree::ParseTree *at = parser_.context(); at != nullptr; at = at->parent)
+    if (const size_t rule = static_cast<const Context *>(at)->getRuleIndex();
+        rule == Grammar::RuleOperand || rule == Grammar::RuleArguments)
+      return true;
+  return false;
+}
+
 const ReportStrategy::Context *ReportStrategy::innermostBlock() const {
   for (const antlr4::tree::ParseTree *at = parser_.context(); at != nullptr; at = at->parent) {
     const auto *context = static_cast<const Context *>(at);
@@ -170,6 +179,8 @@ void ReportStrategy::reportUnexpected(const std::string &expected) {
            std::string(tokenSpelling(token.type)) + " END_TYPE`, then `: Name;` here");
   else if (token.type == Tok::COLON)
     d.help("an assignment is written `:=`");
+  else if (token.type == Tok::REF_ASSIGN && insideBrackets())
+    d.help("write `:=`: it binds an input that is a REFERENCE to the variable that is given");
   else if (std::string help = foreignHelp(token, before(), next); !help.empty())
     d.help(std::move(help));
 }

@@ -152,6 +152,7 @@ private:
   [[nodiscard]] bool onNewLine(const Token &token);
   [[nodiscard]] bool mayReport();
   [[nodiscard]] bool closerIsWanted(uint16_t type) const;
+  [[nodiscard]] bool insideBrackets() const;
   [[nodiscard]] const Context *innermostBlock() const;
   [[nodiscard]] bool keywordAsName(const Token &token);
   void reportKeywordAsName(const Token &token);

@@ -17,7 +17,7 @@
 namespace stride {
 
 /// The first member of StrideAppV1. Grows with every change that an older host cannot read.
-inline constexpr uint32_t kAbiVersion = 6;
+inline constexpr uint32_t kAbiVersion = 7;
 /// The second member: tells a description from other data ("STRD").
 inline constexpr uint32_t kAbiMagic = 0x44525453;
 /// "No index" in the tables below.
@@ -190,6 +190,12 @@ struct AxisGroupDesc {
   uint32_t parameterCount = 0;
 };
 
+/// What one technical unit of a drive or an axis is.
+struct UnitDesc {
+  const char *variable; ///< Its AXIS_REF: "Drive".
+  const char *unit;     ///< "mm".
+};
+
 /// The areas of the process image.
 enum ImageArea : uint32_t { kImageInput = 0, kImageOutput = 1, kImageMemory = 2 };
 
@@ -321,6 +327,10 @@ struct StrideAppV1 {
   const char *filesRoot = nullptr;
   uint32_t filesAnywhere = 0; ///< 1: names may lead out of it.
   uint32_t filesDelay = 1;    ///< In virtual time answers come so many cycles later.
+
+  const UnitDesc *units = nullptr;
+  uint32_t unitCount = 0;
+  uint32_t reserved3 = 0; ///< 0.
 };
 
 /// Number of elements of a table, for StrideAppV1's counts.

@@ -9,8 +9,8 @@
 
 namespace stride::app {
 
-/// The unit of a member of a drive with a `unit` in stride.toml (`mm/s` of `Drive.fSetVelocity`);
-/// empty: it is not known.
+/// The unit of a member of a drive or an axis with a `unit` in stride.toml (`mm/s` of
+/// `Drive.fSetVelocity`); empty: it is not known.
 [[nodiscard]] std::string unitOf(const StrideAppV1 &app, std::string_view path);
 
 } // namespace stride::app

@@ -154,6 +154,10 @@ bool isSound(const StrideAppV1 & /*app*/, const ParameterDesc &parameter) {
   return parameter.name != nullptr;
 }
 
+bool isSound(const StrideAppV1 & /*app*/, const UnitDesc &unit) {
+  return unit.variable != nullptr && unit.unit != nullptr;
+}
+
 template <class Desc>
 void checkAll(const StrideAppV1 &app, const Desc *list, uint32_t count, const char *what) {
   for (uint32_t i = 0; i < count; ++i)
@@ -183,6 +187,7 @@ void validate(const StrideAppV1 &app, const RuntimeLayouts &layouts) {
   checkAll(app, app.buses, app.busCount, "bus");
   checkAll(app, app.encoders, app.encoderCount, "encoder");
   checkAll(app, app.parameters, app.parameterCount, "parameter");
+  checkAll(app, app.units, app.unitCount, "unit");
   if (!fits(app.bootupErrorOffset, uint64_t{app.bootupErrorLength} + 1, app.stateSize) &&
       app.bootupErrorLength != 0)
     damaged("g_strBootupError");

@@ -6,12 +6,19 @@
 
 #include "runtime/axis/axis_ref.hpp"
 
+#include "st/SM_DriveBasic/MC_BUFFER_MODE.h"
 #include "st/SM_DriveBasic/SMC_BLOCK_STATE.h"
 
 namespace stride::motion {
 
 using BlockState = ::st::SM_DriveBasic::SMC_BLOCK_STATE;
 using axis::AxisRef;
+
+/// Whether the number is one of MC_BUFFER_MODE.
+inline bool isBufferMode(int16_t mode) noexcept {
+  return mode >= ::st::SM_DriveBasic::MC_BUFFER_MODE__Aborting &&
+         mode <= ::st::SM_DriveBasic::MC_BUFFER_MODE__BlendingHigh;
+}
 
 /// What the call of a block has to do.
 enum class Call : uint8_t {

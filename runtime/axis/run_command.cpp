@@ -59,6 +59,8 @@ void startCommand(BlockState &block, AxisRef &ref, const Command &inputs) noexce
   block.bWaiting = 0;
   block.bReached = 0;
   int16_t problem = refusal(ref, needsOf(inputs));
+  if (problem == axis::error::kNone && !isBufferMode(inputs.eBufferMode))
+    problem = axis::error::kInvalidParameter;
   if (problem != axis::error::kNone) {
     fail(block, &ref, problem);
     return;

@@ -4,10 +4,12 @@
 
 namespace stride::motion {
 
-int16_t couplingRefusal(const AxisRef *master, const AxisRef &slave) noexcept {
+int16_t couplingRefusal(const AxisRef *master, const AxisRef &slave, int16_t bufferMode) noexcept {
   if (master == nullptr || master == &slave)
     return axis::error::kNoAxis;
-  return refusal(slave);
+  const int16_t problem = refusal(slave);
+  return problem == axis::error::kNone && !isBufferMode(bufferMode) ? axis::error::kInvalidParameter
+                                                                    : problem;
 }
 
 void withdrawFollower(BlockState &block, AxisRef &slave) noexcept {

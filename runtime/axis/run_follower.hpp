@@ -17,8 +17,9 @@ enum class Turn : uint8_t {
 };
 
 /// Why the slave cannot be coupled to the master now, or kNone: there is no master, or it is the
-/// slave itself (31), or the slave takes no command (see refusal).
-int16_t couplingRefusal(const AxisRef *master, const AxisRef &slave) noexcept;
+/// slave itself (31), the slave takes no command (see refusal), or there is no such buffer mode
+/// (311).
+int16_t couplingRefusal(const AxisRef *master, const AxisRef &slave, int16_t bufferMode) noexcept;
 
 /// The block does not wait in the queue any more.
 void withdrawFollower(BlockState &block, AxisRef &slave) noexcept;
@@ -31,17 +32,17 @@ Turn startFollower(BlockState &block, FollowState &follow, AxisRef &slave,
 /// Any other call while the block runs. None: it waits, or has lost the slave.
 Turn continueFollower(BlockState &block, FollowState &follow, AxisRef &slave) noexcept;
 
-/// One call: at a rising edge of `execute` `check` returns what is wrong with the block's inputs,
-/// an SMC_ERROR. Another master while the block runs is error 32. After Begin and Move, whoever has
-/// already moved the slave in this cycle (bMovedInThisCycle) is to be left alone: the slave goes on
-/// in the next one.
+/// One call: at a rising edge of `execute` `check` returns what is wrong with the block's other
+/// inputs, an SMC_ERROR. Another master while the
+/// block runs is error 32. After Begin and Move, whoever has already moved the slave in this cycle
+/// (bMovedInThisCycle) is to be left alone: the slave goes on in the next one.
 template <class Check>
 Turn callFollower(BlockState &block, MasterState &master, FollowState &follow, bool execute,
                   AxisRef *masterRef, AxisRef *slave, int16_t bufferMode,
                   const Check &check) noexcept {
   switch (beginCall(block, execute, slave)) {
   case Call::Start: {
-    int16_t problem = couplingRefusal(masterRef, *slave);
+    int16_t problem = couplingRefusal(masterRef, *slave, bufferMode);
     if (problem == axis::error::kNone)
       problem = check();
     if (problem != axis::error::kNone) {

@@ -5,6 +5,7 @@
 #include "runtime/axis/set_point.hpp"
 #include "runtime/axis/shift_position.hpp"
 #include "runtime/bus/capture.hpp"
+#include "runtime/bus/drive_restart.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,9 +22,6 @@ constexpr uint16_t kResetLast = 210;
 // … and when its start-up has failed.
 constexpr uint16_t kDriveFailed = 1000;   ///< The driver says why.
 constexpr uint16_t kScalingFailed = 1001; ///< Ratio or period cannot be used.
-
-constexpr uint32_t kPowerOffCycles =
-    1000; ///< A drive that does not switch off does not block a reset.
 
 constexpr uint8_t kCaptureInputs = (1U << DriveStatus::kCaptureInputs) - 1;
 
@@ -54,6 +52,7 @@ DriveGroup::DriveGroup(std::unique_ptr<AxisDriver> driver, AxisGroupRef &group,
   for (size_t i = 0; i < axes_.size(); ++i) {
     axis::AxisRef &axis = *axes_[i];
     axis.bRealDrive = 1;
+    axis.stRestart.bDrive = 1;
     axis.fTaskCycle = cycleSeconds;
     axis.nAxisState = axis::state::kPowerOff;
     axis.wCommunicationState = 0;
@@ -73,11 +72,12 @@ void DriveGroup::executeStart() {
   driver_->executeStart();
   if (group_->udiResetsBegun != group_->udiResetsAsked)
     beginReset();
-  else if (group_->wState >= kResetBraking && group_->wState <= kResetLast)
+  else if (resetting())
     stepReset();
   if (group_->wState < axis::kNormalOperation)
     startUp();
   for (size_t i = 0; i < axes_.size(); ++i) {
+    serveRestart(i);
     readDrive(i);
     serveParameters(i);
   }
@@ -87,31 +87,21 @@ void DriveGroup::executeStart() {
         axis::updateEncoder(*encoders_[i], driver_->encoder(i));
 }
 
+bool DriveGroup::resetting() const {
+  return group_->wState >= kResetBraking && group_->wState <= kResetLast;
+}
+
 void DriveGroup::startUp() {
   uint16_t least = axis::kNormalOperation;
   for (size_t i = 0; i < axes_.size(); ++i) {
     axis::AxisRef &axis = *axes_[i];
-    if (axis.bDisableDriveInAxisGroup != 0 || axis.wCommunicationState == axis::kNormalOperation)
+    if (axis.bDisableDriveInAxisGroup != 0 || axis.bRealDrive == 0 || isRestarting(axis) ||
+        axis.wCommunicationState == axis::kNormalOperation)
       continue;
-    Message message;
-    uint16_t progress = 0;
-    switch (driver_->init(i, progress, message)) {
-    case StartUp::Busy:
-      axis.wCommunicationState = std::min<uint16_t>(progress, axis::kNormalOperation - 1);
-      break;
-    case StartUp::Started:
-      if (const axis::ScalingError problem = axis::configureScaling(axis);
-          problem != axis::ScalingError::None) {
-        startFailed(i, kScalingFailed, describe(problem));
-        return;
-      }
-      axis.wCommunicationState = axis::kNormalOperation;
-      axis.byControllerModes = driver_->controllerModes(i);
-      axis.byCaptureInputs = driver_->captureInputs(i) & kCaptureInputs;
-      axis::synchronizePosition(axis, driver_->status(i).position);
-      break;
-    case StartUp::Failed:
-      startFailed(i, kDriveFailed, message.text());
+    uint16_t failure = 0;
+    if (startDrive(i, failure) == StartUp::Failed) {
+      group_->pErrorDrive = &axis;
+      group_->wState = failure;
       return;
     }
     least = std::min(least, axis.wCommunicationState);
@@ -123,11 +113,38 @@ void DriveGroup::startUp() {
         axis::synchronizeEncoder(*encoders_[i], driver_->encoder(i));
 }
 
-void DriveGroup::startFailed(size_t index, uint16_t state, std::string_view message) {
+/// One step of the start-up of a drive. Failed: `failure` is what the state of the group becomes
+/// when it is the group that starts.
+StartUp DriveGroup::startDrive(size_t index, uint16_t &failure) {
+  axis::AxisRef &axis = *axes_[index];
+  Message message;
+  uint16_t progress = 0;
+  const StartUp result = driver_->init(index, progress, message);
+  if (result == StartUp::Busy)
+    axis.wCommunicationState = std::min<uint16_t>(progress, axis::kNormalOperation - 1);
+  if (result == StartUp::Failed) {
+    failure = kDriveFailed;
+    startFailed(index, message.text());
+  }
+  if (result != StartUp::Started)
+    return result;
+  if (const axis::ScalingError problem = axis::configureScaling(axis);
+      problem != axis::ScalingError::None) {
+    failure = kScalingFailed;
+    startFailed(index, describe(problem));
+    return StartUp::Failed;
+  }
+  axis.wCommunicationState = axis::kNormalOperation;
+  axis.byControllerModes = driver_->controllerModes(index);
+  axis.byCaptureInputs = driver_->captureInputs(index) & kCaptureInputs;
+  axis::synchronizePosition(axis, driver_->status(index).position);
+  return StartUp::Started;
+}
+
+void DriveGroup::startFailed(size_t index, std::string_view message) {
   axis::AxisRef &axis = *axes_[index];
   axis.bErrorDuringStartup = 1;
-  group_->pErrorDrive = &axis;
-  group_->wState = state;
+  failedDrive_ = index;
   bootupError_.set(std::string_view("drive "), uint32_t{axis.wDriveId}, std::string_view(": "),
                    message);
 }
@@ -138,9 +155,8 @@ void DriveGroup::beginReset() {
   group_->wState = kResetBraking;
   resetCycles_ = 0;
   for (axis::AxisRef *axis : axes_)
-    if (axis->wCommunicationState == axis::kNormalOperation &&
-        axis->nAxisState != axis::state::kErrorStop && axis->nAxisState != axis::state::kPowerOff)
-      axis::enterErrorStop(*axis, axis::error::kNone);
+    if (isServed(*axis))
+      brakeForRestart(*axis);
 }
 
 void DriveGroup::stepReset() {
@@ -155,23 +171,25 @@ void DriveGroup::stepReset() {
     break;
   default:
     for (size_t i = 0; i < axes_.size(); ++i)
-      restart(i);
+      if (axes_[i]->bRealDrive != 0)
+        restart(i, group_->bKeepRatioSettings != 0);
     for (axis::EncoderRef *encoder : encoders_)
       if (encoder->bFed == 0)
         encoder->bValid = 0;
     group_->pErrorDrive = nullptr;
     bootupError_.set();
+    failedDrive_ = kNoDrive;
     group_->wState = 0;
     break;
   }
 }
 
 /// Back to where the axis was before its first start-up.
-void DriveGroup::restart(size_t index) {
+void DriveGroup::restart(size_t index, bool keepRatio) {
   axis::AxisRef &axis = *axes_[index];
   dropParameters(index);
   driver_->reset(index);
-  if (group_->bKeepRatioSettings == 0) {
+  if (!keepRatio) {
     const Scaling &scaling = configured_[index];
     axis.dwRatioTechUnitsDenom = scaling.denominator;
     axis.iRatioTechUnitsNum = scaling.numerator;
@@ -199,9 +217,8 @@ void DriveGroup::restart(size_t index) {
 }
 
 bool DriveGroup::anyPower() const {
-  return std::any_of(axes_.begin(), axes_.end(), [](const axis::AxisRef *axis) {
-    return axis->bRegulatorRealState != 0 || axis->bDriveStartRealState != 0;
-  });
+  return std::any_of(axes_.begin(), axes_.end(),
+                     [](const axis::AxisRef *axis) { return hasPower(*axis); });
 }
 
 namespace {
@@ -259,8 +276,9 @@ void followErrors(axis::AxisRef &axis, const DriveStatus &status) {
 
 void DriveGroup::readDrive(size_t index) {
   axis::AxisRef &axis = *axes_[index];
-  if (axis.wCommunicationState != axis::kNormalOperation) {
-    axis.bMovedInThisCycle = 0;
+  if (!isServed(axis)) {
+    if (axis.bRealDrive != 0)
+      axis.bMovedInThisCycle = 0;
     return;
   }
   const DriveStatus status = driver_->status(index);
@@ -347,7 +365,7 @@ double DriveGroup::placeSet(size_t index) {
 
 void DriveGroup::writeDrive(size_t index) {
   axis::AxisRef &axis = *axes_[index];
-  if (axis.wCommunicationState != axis::kNormalOperation)
+  if (!isServed(axis))
     return;
   axis::supervise(axis);
   const double velocity = placeSet(index);
@@ -357,7 +375,7 @@ void DriveGroup::writeDrive(size_t index) {
   command.acceleration = axis.fSetAcceleration / axis.fFactorAcc;
   command.torque = axis.fSetTorque / axis.fFactorTor;
   command.current = axis.fSetCurrent;
-  const bool power = group_->wState != kResetPowerOff;
+  const bool power = group_->wState != kResetPowerOff && !isSwitchedOff(axis);
   command.regulatorOn = power && axis.bRegulatorOn != 0;
   command.driveStart = power && axis.bDriveStart != 0;
   command.errorAckn = axis.bErrorAckn != 0;
@@ -375,16 +393,16 @@ void DriveGroup::executeEnd() {
 
 void DriveGroup::stopAll() {
   for (axis::AxisRef *axis : axes_) {
-    if (axis->wCommunicationState == axis::kNormalOperation &&
-        axis->nAxisState != axis::state::kErrorStop && axis->fSetVelocity != 0.0)
+    if (isServed(*axis) && axis->nAxisState != axis::state::kErrorStop && axis->fSetVelocity != 0.0)
       axis::enterErrorStop(*axis, axis::error::kNotCalled);
   }
   driver_->applicationStopped();
 }
 
 bool DriveGroup::axesAtRest() const {
-  return std::all_of(axes_.begin(), axes_.end(),
-                     [](const axis::AxisRef *axis) { return axis->fSetVelocity == 0.0; });
+  return std::all_of(axes_.begin(), axes_.end(), [](const axis::AxisRef *axis) {
+    return axis->bRealDrive == 0 || axis->fSetVelocity == 0.0;
+  });
 }
 
 } // namespace stride::bus

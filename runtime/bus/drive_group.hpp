@@ -53,7 +53,8 @@ public:
   /// No axis of the group moves, and the driver is at rest.
   [[nodiscard]] bool atRest() const { return axesAtRest() && driver_->atRest(); }
 
-  /// Why start-up failed, for g_strBootupError; empty if it did not.
+  /// Why the start-up of the group failed, or the restart of one of its drives (SMC3_ReinitDrive),
+  /// for g_strBootupError; empty if none did.
   [[nodiscard]] std::string_view bootupError() const { return bootupError_.text(); }
 
   [[nodiscard]] AxisDriver &driver() { return *driver_; }
@@ -68,11 +69,17 @@ private:
     double period;
   };
 
+  bool resetting() const;
   void startUp();
-  void startFailed(size_t index, uint16_t state, std::string_view message);
+  StartUp startDrive(size_t index, uint16_t &failure);
+  void startFailed(size_t index, std::string_view message);
   void beginReset();
   void stepReset();
-  void restart(size_t index);
+  void restart(size_t index, bool keepRatio);
+  void serveRestart(size_t index);
+  void beginRestart(size_t index);
+  void giveUpDrive(size_t index);
+  void startAgain(size_t index);
   bool anyPower() const;
   bool axesAtRest() const;
   void readDrive(size_t index);
@@ -89,7 +96,10 @@ private:
   std::vector<axis::AxisRef *> axes_;
   std::vector<axis::EncoderRef *> encoders_;
   std::vector<Scaling> configured_;
+  static constexpr size_t kNoDrive = SIZE_MAX;
+
   Message bootupError_;
+  size_t failedDrive_ = kNoDrive; ///< Whose message that is.
   uint32_t resetCycles_ = 0;
 };
 

@@ -1,6 +1,7 @@
 // What blocks ask the drives for: AXIS_REF.stChannel.
 #include "runtime/axis/parameter_channel.hpp"
 #include "runtime/bus/drive_group.hpp"
+#include "runtime/bus/drive_restart.hpp"
 
 #include <algorithm>
 
@@ -67,8 +68,7 @@ void DriveGroup::serveParameters(size_t index) {
     request.form = channel.bBool != 0 ? ParameterForm::Bool : ParameterForm::Number;
     request.value = channel.fValue;
     request.forms = kChannelForms;
-    if (axis.wCommunicationState != axis::kNormalOperation ||
-        !driver_->startParameter(index, request))
+    if (!isServed(axis) || !driver_->startParameter(index, request))
       return;
     axis::setChannelStep(channel, axis::ChannelStep::Driver);
     channel.uiCycles = 0;

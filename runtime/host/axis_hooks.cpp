@@ -157,7 +157,7 @@ public:
     if (const std::string_view failure = bootupError(text); !failure.empty())
       return realClock_ && shown_
                  ? std::string()
-                 : fmt::format("axis group '{}' did not start: {}", name_, failure);
+                 : fmt::format("axis group '{}'{}{}", name_, whatFailed(), failure);
     bus::Message message;
     group_.driver().problem(message);
     return message.text().empty() ? std::string()
@@ -244,6 +244,12 @@ private:
     return message;
   }
 
+  /// The start-up of the group, or the restart of a drive while the others work.
+  std::string_view whatFailed() const {
+    constexpr uint16_t kFailed = 1000;
+    return ref_->wState >= kFailed ? " did not start: " : ": ";
+  }
+
   /// A new failure, or the end of one, in g_strBootupError.
   void show(Ctx &ctx, bool failed) {
     char text[320];
@@ -255,7 +261,7 @@ private:
     shown_ = failed;
     // Nobody waits for the end of a run by the real clock; a simulation says it there.
     if (failed && realClock_)
-      sayNews(" did not start: ", failure);
+      sayNews(whatFailed(), failure);
   }
 
   std::shared_ptr<BootupErrors> errors_; ///< Of all groups.

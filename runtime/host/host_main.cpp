@@ -40,6 +40,9 @@ constexpr const char *kExitCodes =
     "complete,\n"
     "130 a simulation was interrupted.";
 
+constexpr const char *kControlExitCodes =
+    "Exit codes: 0 done, 1 it could not be done, 4 output that was asked for is not complete.";
+
 /// The options as text, before they are understood.
 struct SimTexts {
   std::string application;
@@ -401,6 +404,7 @@ int command(int argc, const char *const *argv, const StrideAppV1 *builtIn) {
   testCommand.declare(*test);
   Control control;
   CLI::App *ctl = cli.add_subcommand("ctl", "Read, write, force in a running application");
+  ctl->footer(kControlExitCodes);
   control.declare(*ctl);
   try {
     cli.parse(argc, argv);

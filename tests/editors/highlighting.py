@@ -176,9 +176,13 @@ def check_vim(editors, vim):
 
 def main():
     editors = pathlib.Path(sys.argv[1])
-    problems = check_textmate(editors)
-    if len(sys.argv) > 2 and pathlib.Path(sys.argv[2]).exists():
-        problems += check_vim(editors, sys.argv[2])
+    if sys.argv[2] == "textmate":
+        problems = check_textmate(editors)
+    elif pathlib.Path(sys.argv[3]).exists():
+        problems = check_vim(editors, sys.argv[3])
+    else:
+        print("skipped: vim is not installed")
+        sys.exit(77)
     print("\n".join(problems) or "all as expected")
     sys.exit(1 if problems else 0)
 

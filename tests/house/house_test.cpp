@@ -58,6 +58,7 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
       {"compiler/toml", {"compiler/semantics", "compiler/syntax", "compiler/source"}},
       {"compiler/assets/cam",
        {"compiler/toml", "compiler/syntax", "compiler/source", "runtime/numeric/"}},
+      {"compiler/assets/cnc", {"compiler/syntax", "compiler/source", "runtime/numeric/"}},
       {"compiler/project",
        {"compiler/assets/", "compiler/toml", "compiler/codegen", "compiler/semantics",
         "compiler/syntax", "compiler/source", "runtime/bus", "runtime/io", "drivers",
@@ -75,6 +76,7 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
       {"runtime/numeric/profile", {"runtime/numeric", "runtime/iec"}},
       {"runtime/numeric/cam", {"runtime/numeric", "runtime/iec"}},
       {"runtime/numeric/path", {"runtime/numeric", "runtime/iec"}},
+      {"runtime/numeric/cnc", {"runtime/numeric/path", "runtime/numeric", "runtime/iec"}},
       {"runtime/axis", {"runtime/numeric/", "runtime/iec", "st"}},
       {"runtime/axis/cam", {"runtime/axis", "runtime/numeric/", "runtime/iec", "st"}},
       // app: the context of a call (ctx.h); system: the interface to the host (system_api.h).

@@ -120,6 +120,8 @@ private:
     // StartMode is none of its inputs.
     if (ok && (!scene_.settings.relative || scene_.select.SlaveAbsolute == 0)) {
       ASSERT_EQ(told_.fStartPosition, scene_.rig.axis.fSetPosition);
+      ASSERT_EQ(told_.fStartVelocity, scene_.rig.axis.fSetVelocity);
+      ASSERT_EQ(told_.fStartAcceleration, scene_.rig.axis.fSetAcceleration);
       ++seen_.foretold;
     }
   }

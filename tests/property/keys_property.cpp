@@ -1,11 +1,10 @@
-// MC_Jog and SMC_Inch under keys that are pressed and released at random: the limits of the pressed
-// key, steadiness, exact steps, rest after the release.
+// MC_Jog under keys that are pressed and released at random: the limits of the pressed key,
+// steadiness, rest after the release.
 #include "tests/support/kinematics.hpp"
 #include "tests/support/random.hpp"
 #include "tests/unit/axis/axis_rig.hpp"
 
 #include "st/SM_PLCopen/MC_Jog.h"
-#include "st/SM_PLCopen/SMC_Inch.h"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +22,7 @@ namespace pl = ::st::SM_PLCopen;
 
 constexpr double kPeriod = 37;
 
-/// What a block may ask for; its inputs change only while no key is pressed.
+/// What the block may ask for; its inputs change only while no key is pressed.
 struct Limits {
   double velocity, acceleration, deceleration, jerk;
 };
@@ -77,7 +76,6 @@ public:
     if (ramp_ == 2) {
       ASSERT_LE(std::fabs(a1 - a0), jerk * T * (1 + 1e-9) + 1e-6);
     }
-    gone += way;
     ASSERT_EQ(block.Error, 0) << block.ErrorId;
     ASSERT_EQ(block.CommandAborted, 0);
     ASSERT_EQ(block.Busy != 0, axis.iOwner != 0) << "who is busy owns the axis";
@@ -91,7 +89,6 @@ public:
   AxisRig rig;
   bool rotary;
   Limits limits{};
-  double gone = 0; ///< Way of the set position so far.
 
 private:
   int16_t ramp_;
@@ -131,56 +128,6 @@ TEST_P(Keys, JogKeepsItsLimitsAndComesToRest) {
   }
   EXPECT_GT(atSpeed, 1000);
   EXPECT_GT(turned, 20);
-}
-
-TEST_P(Keys, InchCoversItsDistanceOrStopsBefore) {
-  int whole = 0;
-  int broken = 0;
-  for (uint64_t seed = 0; seed < 60 && !HasFailure(); ++seed) {
-    SCOPED_TRACE(seed);
-    Hand hand(seed * 17 + 3, static_cast<int16_t>(GetParam()));
-    auto inch = fresh<pl::SMC_Inch>();
-    hand.bind(inch);
-    for (int press = 0; press < 6 && !HasFailure(); ++press) {
-      inch.Distance = hand.random.chance(0.1) ? 0 : hand.random.magnitude(-2, 2);
-      const double start = hand.rig.axis.fSetPosition;
-      const bool forward = hand.random.chance(0.5);
-      (forward ? inch.InchForward : inch.InchBackward) = 1;
-      hand.gone = 0;
-      const int pressed = static_cast<int>(hand.random.magnitude(0, 5));
-      int cycles = 0;
-      do {
-        if (cycles == pressed)
-          inch.InchForward = inch.InchBackward = 0;
-        hand.cycle(inch);
-      } while (++cycles < 100000 && inch.Busy != 0 && !HasFailure());
-      ASSERT_EQ(inch.Busy, 0);
-      const double step = forward ? inch.Distance : -inch.Distance;
-      if (cycles <= pressed) {
-        ++whole;
-        const double end = start + step;
-        if (hand.rotary)
-          ASSERT_NEAR(stride::test::shortWay(hand.rig.axis.fSetPosition - end, kPeriod), 0, 1e-12);
-        else
-          ASSERT_EQ(hand.rig.axis.fSetPosition, end);
-        ASSERT_NEAR(hand.gone, step, 1e-6);
-        // Held on, the key does nothing more.
-        const double end1 = hand.rig.axis.fSetPosition;
-        for (int i = 0; i < 20; ++i)
-          hand.cycle(inch);
-        ASSERT_EQ(hand.rig.axis.fSetPosition, end1);
-      } else {
-        ++broken;
-        const double ahead = forward ? hand.gone : -hand.gone;
-        ASSERT_LE(ahead, inch.Distance + 1e-6);
-        ASSERT_GE(ahead, -1e-9);
-      }
-      inch.InchForward = inch.InchBackward = 0;
-      hand.cycle(inch);
-    }
-  }
-  EXPECT_GT(whole, 50);
-  EXPECT_GT(broken, 50);
 }
 
 INSTANTIATE_TEST_SUITE_P(Ramps, Keys, ::testing::Range(0, 4));

@@ -233,7 +233,7 @@ TEST_P(Tracking, TheBacklashIsMadeUpForOnTheSideOfTheMotion) {
     block.fCompensationAcc = random.uniform(500, 900);
     block.fCompensationDec = random.uniform(500, 900);
     block.eBacklashMode = static_cast<int16_t>(random.below(4) - 1);
-    block.eStartState = static_cast<int16_t>(random.below(3) - 1);
+    block.eBacklashStartState = static_cast<int16_t>(random.below(3) - 1);
     stride::Ctx ctx{};
     int direction = 0;
     double relative = 0;
@@ -248,7 +248,7 @@ TEST_P(Tracking, TheBacklashIsMadeUpForOnTheSideOfTheMotion) {
       reversals += before * direction < 0 ? 1 : 0;
       slave.bMovedInThisCycle = 0;
       block.body__(ctx);
-      ASSERT_EQ(block.bBusy, 1) << block.iErrorID;
+      ASSERT_EQ(block.stBlock.bRunning, 1) << block.stBlock.iError;
       const double velocity = slave.fSetVelocity - leader.velocity;
       const double swing = GetParam() == 1 ? 900 * 900 * M_PI * M_PI / 8 / 200000 : 0;
       ASSERT_LE(std::fabs(velocity), block.fCompensationVel * (1 + 1e-9) + swing);
@@ -259,12 +259,11 @@ TEST_P(Tracking, TheBacklashIsMadeUpForOnTheSideOfTheMotion) {
         continue;
       ++settled;
       const int mode = block.eBacklashMode;
-      int side = 0;
-      if (direction != 0 && mode != pl::SMC_BACKLASH_MODE__SMC_BL_OFF)
-        side = (mode == pl::SMC_BACKLASH_MODE__SMC_BL_AUTO || mode == direction ? direction : 0) -
-               block.eStartState;
+      const int wanted = mode == pl::SMC_BACKLASH_MODE__SMC_BL_AUTO ? direction : mode;
+      const int side = wanted == 0 ? 0 : wanted - block.eBacklashStartState;
       ASSERT_LE(apart(slave.fSetPosition, leader.position + side * block.fBacklash, period), 1e-9)
-          << "mode " << mode << " direction " << direction << " start " << block.eStartState;
+          << "mode " << mode << " direction " << direction << " start "
+          << block.eBacklashStartState;
       ASSERT_EQ(slave.fSetVelocity, leader.velocity);
     }
   }
@@ -296,7 +295,7 @@ TEST(Backlash, WrongInputsAreRefusedAndASlaveElsewhereGoesToItsMaster) {
       const double good = *input;
       *input = bad;
       edge();
-      EXPECT_EQ(block.iErrorID, stride::axis::error::kInvalidParameter);
+      EXPECT_EQ(block.stBlock.iError, stride::axis::error::kInvalidParameter);
       *input = good;
     }
   edge();

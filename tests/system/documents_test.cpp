@@ -271,8 +271,8 @@ TEST_P(Documents, WhatTheySayWorks) {
 }
 
 TEST_P(Documents, NoCommandHides) {
-  const std::set<std::string> languages = {"st",   "iecst", "toml", "sh",    "console",
-                                           "text", "cpp",   "c",    "cmake", "json"};
+  const std::set<std::string> languages = {"st",  "iecst", "toml",  "sh",  "console", "text",
+                                           "cpp", "c",     "cmake", "cnc", "json"};
   for (const Block &block : fencedBlocks(readFile(fs::path(STRIDE_SOURCE_DIR) / GetParam()))) {
     EXPECT_TRUE(languages.contains(block.language))
         << "line " << block.line << ": a block in the language '" << block.language << "'";

@@ -23,6 +23,7 @@ struct Example {
   std::string st;
   std::string toml;
   std::string cam; ///< of a cam file
+  std::string cnc; ///< of a CNC file
 };
 
 bool startsWord(const std::string &line, std::string_view word) {
@@ -142,10 +143,11 @@ Example exampleOf(const std::string &text, std::string_view which) {
       continue;
     }
     static std::string ignored;
-    if (line == "```st" || line == "```toml" || line == "```cam") {
+    if (line == "```st" || line == "```toml" || line == "```cam" || line == "```cnc") {
       std::string &text = line == "```st"     ? example.st
                           : line == "```toml" ? example.toml
-                                              : example.cam;
+                          : line == "```cam"  ? example.cam
+                                              : example.cnc;
       fence = inside ? &text : &ignored;
       continue;
     }
@@ -166,7 +168,7 @@ struct Answer {
 Answer check(const Example &example, const std::string &code, bool isOff) {
   const ScratchDirectory folder;
   // Text outside of declarations must stay there.
-  const bool isProject = !example.toml.empty() || !example.cam.empty();
+  const bool isProject = !example.toml.empty() || !example.cam.empty() || !example.cnc.empty();
   const bool asItStands = isProject || code == "SE0209";
   std::string st = asItStands ? example.st : wrapped(example.st);
   if (isProject) {
@@ -174,6 +176,8 @@ Answer check(const Example &example, const std::string &code, bool isOff) {
       writeFile(folder.path() / "stride.toml", example.toml);
     if (!example.cam.empty())
       writeFile(folder.path() / "Cam1.cam.toml", example.cam);
+    if (!example.cnc.empty())
+      writeFile(folder.path() / "Path1.cnc", example.cnc);
     if (st.empty())
       st = "PROGRAM Main\nVAR\n  n : INT;\nEND_VAR\nn := n + 1;\nEND_PROGRAM\n";
   }
@@ -185,7 +189,7 @@ Answer check(const Example &example, const std::string &code, bool isOff) {
   const ProcessResult result = stride(arguments, folder.path());
   Answer answer;
   answer.errors = result.exitCode != 0;
-  answer.shown = st + example.toml + example.cam + "\n" + result.out + result.err;
+  answer.shown = st + example.toml + example.cam + example.cnc + "\n" + result.out + result.err;
   for (const std::string &line : splitLines(result.out)) {
     const auto json = nlohmann::json::parse(line);
     answer.codes.insert(json.at("code").get<std::string>());
@@ -215,13 +219,13 @@ TEST_P(Explain, ExamplesAreWhatTheySay) {
     const bool isOff = text.find("severity: off") != std::string::npos;
     const Example wrong = exampleOf(text, "Wrong");
     const Example right = exampleOf(text, "Right");
-    if (wrong.st.empty() && wrong.toml.empty() && wrong.cam.empty()) {
+    if (wrong.st.empty() && wrong.toml.empty() && wrong.cam.empty() && wrong.cnc.empty()) {
       ADD_FAILURE() << code << " has no wrong example";
       continue;
     }
     const Answer bad = check(wrong, code, isOff);
     EXPECT_TRUE(bad.codes.contains(code)) << code << ", wrong example:\n" << bad.shown;
-    if (right.st.empty() && right.toml.empty() && right.cam.empty()) {
+    if (right.st.empty() && right.toml.empty() && right.cam.empty() && right.cnc.empty()) {
       ADD_FAILURE() << code << " has no right example";
       continue;
     }

@@ -36,7 +36,37 @@ TEST_P(Template, IsTestedFormattedAndSaysWhatItIs) {
   EXPECT_THAT(readFile(scratch_.path() / "made/stride.toml"), HasSubstr("name = \"made\""));
 }
 INSTANTIATE_TEST_SUITE_P(All, Template,
-                         ::testing::Values("axis", "two-axes", "cam", "io", "tests", "plain"));
+                         ::testing::Values("axis", "two-axes", "cam", "io", "tests", "library",
+                                           "plain"));
+
+TEST_F(Projects, TheLibraryOfTheTemplateIsDocumentedAndUsedByAProject) {
+  ASSERT_EQ(stride({"new", "my-parts", "--template", "library"}).exitCode, 0);
+  const ProcessResult doc = stride({"doc", "my-parts", "-o", "pages"});
+  EXPECT_EQ(doc.exitCode, 0) << doc.err;
+  EXPECT_THAT(readFile(scratch_.path() / "pages/my_parts.html"),
+              AllOf(HasSubstr("kept its value for a time"), HasSubstr("tTime")));
+  write("plant/stride.toml", "[[library]]\nname = \"my_parts\"\npath = \"../my-parts\"\n"
+                             "parameters = { DefaultTime = \"T#30ms\" }\n"
+                             "[[task]]\nname = \"T\"\ninterval = \"10ms\"\nprograms = "
+                             "[\"Main\"]\n");
+  write("plant/Main.st", "PROGRAM Main\nVAR a : Debounce; b : my_parts.Debounce := (tTime := "
+                         "T#50ms); END_VAR\na(bIn := TRUE);\nb(bIn := TRUE);\nEND_PROGRAM\n");
+  const ProcessResult run =
+      stride({"sim", "plant", "--for", "40ms", "--print", "Main.a.bOut,Main.b.bOut"});
+  EXPECT_EQ(run.out, "Main.a.bOut = TRUE\nMain.b.bOut = FALSE\n") << run.err;
+}
+
+TEST_F(Projects, ALibraryHasANameThatStKnows) {
+  const std::pair<const char *, const char *> names[] = {
+      {"2d--parts", "Lib_2d_parts"}, {"type", "Lib_type"}, {"\xC3\x84", "Lib"}, {"_x", "x"}};
+  for (const auto &[folder, name] : names) {
+    ASSERT_EQ(stride({"new", folder, "--template", "library"}).exitCode, 0);
+    EXPECT_THAT(readFile(scratch_.path() / folder / "stride.toml"),
+                HasSubstr("\nname = \"" + std::string(name) + "\"\n"));
+    const ProcessResult check = stride({"check", folder});
+    EXPECT_EQ(check.out + check.err, "") << folder;
+  }
+}
 
 TEST_F(Projects, TheCamOfTheTemplateIsThatOfANewEditor) {
   ASSERT_EQ(stride({"new", "made", "--template", "cam"}).exitCode, 0);
@@ -45,6 +75,55 @@ TEST_F(Projects, TheCamOfTheTemplateIsThatOfANewEditor) {
   ASSERT_EQ(stride({"cam", "export", "made/Cam.cam.toml", "--points", "4", "-o", "t.txt"}).exitCode,
             0);
   EXPECT_EQ(readFile(scratch_.path() / "t.txt"), "0;0\r\n120;120\r\n240;240\r\n360;360\r\n");
+}
+
+TEST_F(Projects, WhatRoundingHasLeftOfACamIsNotShown) {
+  const std::string cams = STRIDE_SOURCE_DIR "/tests/golden/projects/cam_smooth/";
+  EXPECT_THAT(stride({"cam", "check", cams + "Peak.cam.toml"}).out,
+              AllOf(HasSubstr("position      0 … 1\n"), Not(HasSubstr("e-1"))));
+  EXPECT_THAT(stride({"cam", "bounds", cams + "Peak.cam.toml", "--master-vel", "1e-9"}).out,
+              AllOf(HasSubstr("position      0 … 1 u\n"), HasSubstr("e-09 u/s\n")));
+}
+
+TEST_F(Projects, BeforeTheFirstRunThereIsNothingToReset) {
+  ASSERT_EQ(stride({"new", "p"}).exitCode, 0);
+  for (const char *kind : {"warm", "cold", "origin"}) {
+    const ProcessResult reset = stride({"reset", kind, "p"});
+    EXPECT_EQ(reset.exitCode, 0) << reset.err;
+    EXPECT_EQ(reset.out, "Nothing to reset: there are no retained data in `p/retain/p`.\n");
+  }
+}
+
+TEST_F(Projects, TheHelpOfCtlSaysNothingOfSimulations) {
+  for (const char *command : {"--help", "read"})
+    EXPECT_THAT(stride({"ctl", command, "--help"}).out,
+                AllOf(HasSubstr("Exit codes: 0 done, 1 it could not be done"),
+                      Not(HasSubstr("simulation"))));
+  EXPECT_THAT(command({STRIDE_BINARY_DIR "/stride-host", "sim", "--help"}).out,
+              HasSubstr("130 a simulation was interrupted"));
+}
+
+TEST_F(Projects, ANoteIsShownOnceWithAllItsPlaces) {
+  std::string program = "PROGRAM Main\nVAR a, b : LREAL; c, d : BOOL; END_VAR\n";
+  for (int i = 0; i < 12; ++i)
+    program += "c := a = b;\n";
+  write("p/Main.st", program + "d := b <> a;\nEND_PROGRAM\n");
+  write("p/stride.toml", "");
+  write("p/More.st", "FUNCTION More : BOOL\nVAR_INPUT x, y : LREAL; END_VAR\n  More := x = y;\n"
+                     "END_FUNCTION\n");
+  const ProcessResult all = stride({"check", "p"});
+  EXPECT_THAT(all.err, HasSubstr("Main.st:3:8\n"));
+  EXPECT_THAT(all.err, HasSubstr("  = note: the same at 4:8, 5:8, 6:8, 7:8, 8:8, 9:8, 10:8, 11:8, "
+                                 "12:8, 13:8 and 3 more places\n"));
+  EXPECT_EQ(all.err.find("SE0491"), all.err.rfind("SE0491")) << all.err;
+  // As warnings, and for tools, each is shown by itself.
+  const std::string warnings = stride({"check", "p", "-W", "warning=SE0491"}).err;
+  EXPECT_THAT(warnings, HasSubstr("warning: 14 warnings"));
+  const std::string json = stride({"check", "p", "--format", "json"}).out;
+  EXPECT_EQ(std::count(json.begin(), json.end(), '\n'), 14);
+  write("p/Main.st",
+        "PROGRAM Main\nVAR a, b : LREAL; c : BOOL; END_VAR\nc := a = b;\nEND_PROGRAM\n");
+  EXPECT_THAT(stride({"check", "p"}).err, HasSubstr("  = note: the same at More.st:3:13\n"));
 }
 
 TEST_F(Projects, ARunThatWatchesTakesOverWhatIsSavedAndOutlivesMistakes) {
@@ -126,16 +205,26 @@ TEST_F(Projects, UnitsAndStatesOfTheProjectAreInPicturesAndInTheMonitor) {
   write("wrong/Main.st", "PROGRAM Main\n;\nEND_PROGRAM\nPROGRAM States\n;\nEND_PROGRAM\n");
   EXPECT_THAT(stride({"check", "wrong"}).err,
               AllOf(HasSubstr("`unit` must be a word of at most 16 bytes"), HasSubstr("21:12")));
+  write("p/stride.toml", toml + "[[axis]]\nname = \"Line\"\nkind = \"virtual\"\nunit = \"deg\"\n");
+  write("p/Line.st", "VAR_GLOBAL linePower : MC_Power; END_VAR\nPROGRAM Serve\nlinePower(Axis := "
+                     "Line);\nEND_PROGRAM\n");
+  write("t2.csv", "t,Line.fSetPosition,Drive.fSetPosition,Main.Move.Velocity\n0,1,5,3\n1,2,6,3\n");
+  ASSERT_EQ(stride({"plot", "t2.csv", "--project", "p", "-o", "t2.svg"}).exitCode, 0);
+  EXPECT_THAT(readFile(scratch_.path() / "t2.svg"),
+              AllOf(HasSubstr(">Position [deg]<"), HasSubstr(">Position [mm]<"),
+                    HasSubstr(">Velocity [u/s]<")));
   const ProcessResult doc = stride({"doc", "p", "-o", "doc"});
   ASSERT_EQ(doc.exitCode, 0) << doc.err;
   EXPECT_EQ(shell("grep -rqF 'One technical unit is one mm.' doc").exitCode, 0);
-  const ProcessResult read = shell(
-      "\"$STRIDE\" run p --listen unix:s --for 60s --quiet & run=$!\n"
-      "i=0; while [ ! -S s ] && [ $i -lt 400 ]; do sleep 0.05; i=$((i+1)); done\n"
-      "\"$STRIDE\" ctl unix:s read Drive.fSetVelocity Main.Target; \"$STRIDE\" ctl unix:s stop; "
-      "wait $run\n");
-  EXPECT_THAT(read.out,
-              ContainsRegex("^Drive.fSetVelocity = .* \\[mm/s\\]\nMain.Target = [0-9.]+\n"));
+  EXPECT_EQ(shell("grep -rqF 'One technical unit is one deg.' doc").exitCode, 0);
+  const ProcessResult read =
+      shell("\"$STRIDE\" run p --listen unix:s --for 60s --quiet & run=$!\n"
+            "i=0; while [ ! -S s ] && [ $i -lt 400 ]; do sleep 0.05; i=$((i+1)); done\n"
+            "\"$STRIDE\" ctl unix:s read Drive.fSetVelocity Line.fSetPosition Main.Target; "
+            "\"$STRIDE\" ctl unix:s stop; "
+            "wait $run\n");
+  EXPECT_THAT(read.out, ContainsRegex("^Drive.fSetVelocity = .* \\[mm/s\\]\nLine.fSetPosition = "
+                                      "0.0 \\[deg\\]\nMain.Target = [0-9.]+\n"));
 }
 
 } // namespace

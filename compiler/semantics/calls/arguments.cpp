@@ -397,7 +397,8 @@ static void checkOutput(Context &c, Argument &argument, VarSymbol *parameter) {
     return;
   if (!requireVariable(c, target, "assign to"))
     return;
-  const Conversion conversion = classify(parameter->type, type);
+  const Conversion conversion =
+      narrowsTo(parameter, type) ? Conversion::Free : classify(parameter->type, type);
   if (conversion == Conversion::Narrowing || conversion == Conversion::Forbidden) {
     auto &d = c.report(conversion == Conversion::Narrowing ? Code::NarrowingConversion
                                                            : Code::TypeMismatch,

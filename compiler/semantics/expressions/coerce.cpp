@@ -72,6 +72,15 @@ bool isAxisField(const Expr *expr) {
          typeAs<StructType>(base)->symbol->name.id->lower == "axis_ref";
 }
 
+bool narrowsTo(const VarSymbol *variable, const Type *type) {
+  if (variable == nullptr || variable->decl == nullptr)
+    return false;
+  const auto &attributes = variable->decl->attributes;
+  return std::any_of(attributes.begin(), attributes.end(), [type](const Attribute &a) {
+    return a.id == AttributeId::NarrowsTo && a.value == typeName(type);
+  });
+}
+
 void setTarget(Expr *expr, const Type *type) {
   if (type != expr->type)
     expr->target = type;
@@ -171,6 +180,16 @@ static bool shiftsConstant(const Expr *expr, const Type *type) {
   return pattern >= 0 && pattern >> bitWidth(type) == 0;
 }
 
+/// The member or pin that the expression reads, or null.
+static const VarSymbol *memberOf(const Expr *expr) {
+  if (expr->kind != ExprKind::Member)
+    return nullptr;
+  const Symbol *symbol = as<MemberExpr>(expr)->symbol;
+  return symbol != nullptr && symbol->kind == SymbolKind::Variable
+             ? static_cast<const VarSymbol *>(symbol)
+             : nullptr;
+}
+
 /// How the value becomes one of the type, by what is known about it.
 static Conversion conversionOf(const Expr *expr, const Type *type) {
   const Type *from = expr->type;
@@ -178,6 +197,8 @@ static Conversion conversionOf(const Expr *expr, const Type *type) {
   if (from->kind == TypeKind::Lreal && type->kind == TypeKind::Real && isAxisField(expr))
     return Conversion::Free;
   const Conversion conversion = classify(from, type);
+  if (conversion == Conversion::Narrowing && narrowsTo(memberOf(expr), type))
+    return Conversion::Free;
   if (conversion != Conversion::Free && (choosesConstant(expr, type) || shiftsConstant(expr, type)))
     return Conversion::Free;
   // `i := i + 1` computes in DINT, but stays silent because all operands are INT.

@@ -39,6 +39,8 @@ const Type *settle(ast::Expr *expr);
 void setTarget(ast::Expr *expr, const Type *type);
 /// Whether the expression names a member of an AXIS_REF. V2.3 had REAL there, Stride has LREAL.
 bool isAxisField(const ast::Expr *expr);
+/// A member or a pin whose value becomes one of that type without a word: {attribute 'narrows_to'}.
+bool narrowsTo(const VarSymbol *variable, const Type *type);
 /// The expression names a REFERENCE (that is followed where its value is meant).
 bool isReference(ast::Expr *expr);
 /// `a REF= b`, whose targets have been checked.

@@ -12,9 +12,9 @@ namespace motion = ::stride::motion;
 using Query = ::st::SM_PLCopen::SMC_GetCamSlaveSetPosition;
 using axis::AxisRef;
 
-/// An SMC_ERROR.
-int16_t findPosition(const Query &query, const motion::CamId &id, AxisRef &master,
-                     const AxisRef &slave, double &position) noexcept {
+/// An SMC_ERROR; `start` changes only if there is none.
+int16_t findStart(const Query &query, const motion::CamId &id, AxisRef &master,
+                  const AxisRef &slave, stride::numeric::MotionState &start) noexcept {
   motion::CamState state{};
   auto &command = state.stCommand;
   command.stCam = id;
@@ -27,7 +27,7 @@ int16_t findPosition(const Query &query, const motion::CamId &id, AxisRef &maste
   if (const int16_t error = motion::startCam(state, curve, slave, master, target);
       error != axis::error::kNone)
     return error;
-  position = target.state.position;
+  start = target.state;
   return axis::error::kNone;
 }
 
@@ -55,9 +55,14 @@ void st::SM_PLCopen::MC_CamTableSelect::body__(::stride::Ctx & /*ctx__*/) {
 
 void st::SM_PLCopen::SMC_GetCamSlaveSetPosition::body__(::stride::Ctx & /*ctx__*/) {
   ErrorID = axis::error::kNone;
-  if (Enable != 0)
+  if (Enable != 0) {
+    stride::numeric::MotionState start{fStartPosition, fStartVelocity, fStartAcceleration};
     ErrorID = Master == nullptr || Slave == nullptr || CamTableID == nullptr
                   ? axis::error::kNoAxis
-                  : findPosition(*this, *CamTableID, *Master, *Slave, fStartPosition);
+                  : findStart(*this, *CamTableID, *Master, *Slave, start);
+    fStartPosition = start.position;
+    fStartVelocity = start.velocity;
+    fStartAcceleration = start.acceleration;
+  }
   Error = ErrorID != axis::error::kNone;
 }

@@ -281,7 +281,7 @@ void run(Block &block) noexcept {
   AxisRef *slave = block.Slave;
   switch (motion::beginCall(state, block.Execute != 0, slave)) {
   case motion::Call::Start: {
-    int16_t problem = motion::couplingRefusal(block.Master, *slave);
+    int16_t problem = motion::couplingRefusal(block.Master, *slave, block.BufferMode);
     if (problem == axis::error::kNone)
       problem = readInputs(block);
     if (problem != axis::error::kNone)

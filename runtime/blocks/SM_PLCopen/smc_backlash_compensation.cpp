@@ -1,5 +1,5 @@
 // SMC_BacklashCompensation: one to one with the master, on that side of the backlash to which it
-// moves.
+// moves, or always on the same one.
 #include "runtime/axis/catch_up.hpp"
 #include "runtime/axis/gear.hpp"
 #include "runtime/axis/plan_axis.hpp"
@@ -29,8 +29,8 @@ int16_t readInputs(Block &block) noexcept {
                           block.fCompensationJerk) == motion::LimitError::None &&
       block.eBacklashMode >= pl::SMC_BACKLASH_MODE__SMC_BL_NEGATIVE &&
       block.eBacklashMode <= pl::SMC_BACKLASH_MODE__SMC_BL_AUTO &&
-      block.eStartState >= pl::SMC_BACKLASH_STARTSTATE__SMC_BL_START_NEGATIVE &&
-      block.eStartState <= pl::SMC_BACKLASH_STARTSTATE__SMC_BL_START_POSITIVE;
+      block.eBacklashStartState >= pl::SMC_BACKLASH_STARTSTATE__SMC_BL_START_NEGATIVE &&
+      block.eBacklashStartState <= pl::SMC_BACKLASH_STARTSTATE__SMC_BL_START_POSITIVE;
   if (!good)
     return axis::error::kInvalidParameter;
   state.fBacklash = block.fBacklash;
@@ -39,17 +39,16 @@ int16_t readInputs(Block &block) noexcept {
   state.fMostDeceleration = block.fCompensationDec;
   state.fMostJerk = block.fCompensationJerk;
   state.eMode = block.eBacklashMode;
-  state.eStart = block.eStartState;
+  state.eStart = block.eBacklashStartState;
   return axis::error::kNone;
 }
 
 /// Where the slave belongs, seen from the master. [u]
 double sideOf(const Backlash &state) noexcept {
-  if (state.nDirection == 0 || state.eMode == pl::SMC_BACKLASH_MODE__SMC_BL_OFF)
-    return 0.0;
-  const bool counts =
-      state.eMode == pl::SMC_BACKLASH_MODE__SMC_BL_AUTO || state.eMode == state.nDirection;
-  return ((counts ? state.nDirection : 0) - state.eStart) * state.fBacklash;
+  // SMC_BL_NEGATIVE and SMC_BL_POSITIVE are -1 and 1, and do not wait for a motion of the master.
+  const bool automatic = state.eMode == pl::SMC_BACKLASH_MODE__SMC_BL_AUTO;
+  const int16_t direction = automatic ? state.nDirection : state.eMode;
+  return direction == 0 ? 0.0 : (direction - state.eStart) * state.fBacklash;
 }
 
 /// Plans the way to where the slave belongs now.
@@ -90,7 +89,7 @@ bool move(Block &block, AxisRef &slave, const MasterMotion &master) noexcept {
                                                     : state.nDirection;
   if (direction != state.nDirection) {
     state.nDirection = direction;
-    if (!planWay(state, slave))
+    if (sideOf(state) != state.fTarget && !planWay(state, slave))
       return false;
   }
   const MotionState offset = nextOffset(state);
@@ -143,9 +142,5 @@ void run(Block &block) noexcept {
 
 void st::SM_PLCopen::SMC_BacklashCompensation::body__(::stride::Ctx & /*ctx__*/) {
   run(*this);
-  bBusy = stBlock.bRunning;
-  bCommandAborted = stBlock.bAborted;
-  bError = stBlock.iError != axis::error::kNone;
-  iErrorID = stBlock.iError;
   bCompensating = stBlock.bRunning != 0 && stBacklash.bThere == 0;
 }

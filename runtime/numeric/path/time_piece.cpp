@@ -1,6 +1,7 @@
 #include "runtime/numeric/path/time_piece.hpp"
 
-#include "runtime/numeric/exact_math.hpp"
+#include "runtime/iec/math.h"
+#include "runtime/numeric/cube_root.hpp"
 
 namespace stride::path {
 namespace {
@@ -50,25 +51,6 @@ double arcOverArgument(double z) noexcept {
   return factor * sum;
 }
 
-/// Of x >= 0.
-double cubeRoot(double x) noexcept {
-  if (!(x > 0.0))
-    return 0.0;
-  int exponent = 0;
-  const double mantissa = exact::frexp(x, &exponent); // 0.5 to 1
-  int third = exponent / 3;
-  int rest = exponent % 3;
-  if (rest < 0) {
-    rest += 3;
-    --third;
-  }
-  const double scaled = exact::ldexp(mantissa, rest); // 0.5 to 4
-  double root = 0.6 + 0.3 * scaled;
-  for (int i = 0; i < 6; ++i) // doubles its digits
-    root -= (root - scaled / (root * root)) * (1.0 / 3.0);
-  return exact::ldexp(root, third);
-}
-
 /// From v0 to v1 over the way x of a piece that is linear in the way.
 double crossing(double v0, double v1, double gradient, double x) noexcept {
   const double sum = v0 + v1;
@@ -101,7 +83,52 @@ WayState linearAt(const TimePiece &piece, double t) noexcept {
 /// How far from rest a motion with constant jerk is after t.
 double wayFromRest(double jerk, double t) noexcept { return jerk * t * t * t * (1.0 / 6.0); }
 
-double durationFromRest(double jerk, double x) noexcept { return cubeRoot(6.0 * x / jerk); }
+double durationFromRest(double jerk, double x) noexcept {
+  return numeric::cubeRoot(6.0 * x / jerk);
+}
+
+WayState sineSquaredAt(const TimePiece &piece, double t) noexcept {
+  const double rate = kPi / piece.duration;
+  const double s = ::stride::sin(rate * t);
+  const double c = ::stride::cos(rate * t);
+  const double half = 0.5 * piece.gradient;
+  return {piece.start + piece.velocity * t + half * (t - s / rate),
+          piece.velocity + half * (1.0 - c), half * rate * s, half * rate * rate * c};
+}
+
+WayState constantJerkAt(const TimePiece &piece, double t) noexcept {
+  const double v = piece.velocity;
+  const double a = piece.acceleration;
+  const double j = piece.gradient;
+  return {piece.start + (v + (0.5 * a + j * t * (1.0 / 6.0)) * t) * t,
+          exact::larger(v + (a + 0.5 * j * t) * t, 0.0), a + j * t, j};
+}
+
+/// Where a motion is whose pieces are given by the time.
+WayState byTime(const TimePiece &piece, double t) noexcept {
+  return piece.law == PieceLaw::SineSquared ? sineSquaredAt(piece, t) : constantJerkAt(piece, t);
+}
+
+/// The way grows with the time: Newton's steps, kept between what is known to be too little and too
+/// much.
+double timeByTime(const TimePiece &piece, double way) noexcept {
+  constexpr int kMostSteps = 64;
+  double low = 0.0;
+  double high = piece.duration;
+  double t = piece.duration * (way - piece.start) / piece.length;
+  for (int i = 0; i < kMostSteps; ++i) {
+    const WayState state = byTime(piece, t);
+    const double off = way - state.way;
+    (off > 0.0 ? low : high) = t;
+    double next = t + off / state.velocity;
+    if (!(next > low && next < high))
+      next = 0.5 * (low + high);
+    if (next == t)
+      break;
+    t = next;
+  }
+  return t;
+}
 
 } // namespace
 
@@ -122,10 +149,34 @@ TimePiece pieceToRest(double start, double length, double jerk) noexcept {
           duration, PieceLaw::ToRest};
 }
 
+TimePiece constantJerkPiece(double start, double velocity, double acceleration, double jerk,
+                            double duration) noexcept {
+  TimePiece piece{start, 0.0, velocity, acceleration, jerk, duration, PieceLaw::ConstantJerk};
+  piece.length = constantJerkAt(piece, duration).way - start;
+  return piece;
+}
+
+TimePiece sineSquaredPiece(double start, double length, double velocity,
+                           double acceleration) noexcept {
+  TimePiece piece = linearPiece(start, length, velocity, acceleration, 0.0);
+  piece.gradient = acceleration * piece.duration;
+  piece.law = PieceLaw::SineSquared;
+  return piece;
+}
+
+double rampTime(double velocity, double acceleration, double jerk) noexcept {
+  return velocity * jerk >= acceleration * acceleration
+             ? velocity / acceleration + acceleration / jerk
+             : 2.0 * exact::sqrt(velocity / jerk);
+}
+
 WayState stateAt(const TimePiece &piece, double t) noexcept {
   switch (piece.law) {
   case PieceLaw::LinearInWay:
     break;
+  case PieceLaw::ConstantJerk:
+  case PieceLaw::SineSquared:
+    return byTime(piece, t);
   case PieceLaw::FromRest:
     return {piece.start + wayFromRest(piece.gradient, t), 0.5 * piece.gradient * t * t,
             piece.gradient * t, piece.gradient};
@@ -142,6 +193,8 @@ double velocityAt(const TimePiece &piece, double way) noexcept {
   const double x = way - piece.start;
   if (piece.law == PieceLaw::LinearInWay)
     return exact::sqrt(squareAt(piece, x));
+  if (piece.law == PieceLaw::SineSquared || piece.law == PieceLaw::ConstantJerk)
+    return byTime(piece, timeByTime(piece, way)).velocity;
   const double fromRest = piece.law == PieceLaw::FromRest ? x : piece.length - x;
   const double t = durationFromRest(piece.gradient, fromRest);
   return 0.5 * piece.gradient * t * t;
@@ -156,6 +209,9 @@ double timeAt(const TimePiece &piece, double way) noexcept {
     return durationFromRest(piece.gradient, x);
   case PieceLaw::ToRest:
     return piece.duration - durationFromRest(piece.gradient, piece.length - x);
+  case PieceLaw::ConstantJerk:
+  case PieceLaw::SineSquared:
+    return timeByTime(piece, way);
   }
   return crossing(piece.velocity, exact::sqrt(squareAt(piece, x)), piece.gradient, x);
 }

@@ -18,9 +18,11 @@ struct WayState {
 };
 
 enum class PieceLaw : uint8_t {
-  LinearInWay, ///< The acceleration changes with the way: a = a0 + gradient * x.
-  FromRest,    ///< Constant jerk out of rest, with no acceleration at first.
-  ToRest,      ///< Constant jerk into rest, with no acceleration at last.
+  LinearInWay,  ///< The acceleration changes with the way: a = a0 + gradient * x.
+  FromRest,     ///< Constant jerk out of rest, with no acceleration at first.
+  ToRest,       ///< Constant jerk into rest, with no acceleration at last.
+  ConstantJerk, ///< From any state.
+  SineSquared,  ///< The velocity changes as sin^2 does over the time.
 };
 
 /// Motion over a part of a path, always forwards. Made by the functions below.
@@ -28,9 +30,10 @@ struct TimePiece {
   double start;        ///< Way at its start. [u]
   double length;       ///< > 0 [u]
   double velocity;     ///< At its start, >= 0. [u/s]
-  double acceleration; ///< At its start. [u/s^2]
-  double gradient;     ///< LinearInWay: of the acceleration over the way [1/s^2]; else the jerk,
-                       ///< > 0 [u/s^3]
+  double acceleration; ///< At its start; SineSquared: in the mean. [u/s^2]
+  double gradient;     ///< LinearInWay: of the acceleration over the way [1/s^2]; SineSquared: how
+                       ///< much the velocity changes [u/s]; else the jerk, > 0 but for
+                       ///< ConstantJerk [u/s^3]
   double duration;     ///< [s]
   PieceLaw law;
 };
@@ -46,6 +49,19 @@ TimePiece linearPiece(double start, double length, double velocity, double accel
 /// for ever.)
 TimePiece pieceFromRest(double start, double length, double jerk) noexcept;
 TimePiece pieceToRest(double start, double length, double jerk) noexcept;
+
+/// The piece with constant `jerk` that lasts `duration`. The velocity must not become negative in
+/// it. [s] in
+TimePiece constantJerkPiece(double start, double velocity, double acceleration, double jerk,
+                            double duration) noexcept;
+
+/// The piece in which the velocity changes in the same time and over the same way as with constant
+/// `acceleration` != 0, but with none at both ends; in between it is pi / 2 times as much.
+TimePiece sineSquaredPiece(double start, double length, double velocity,
+                           double acceleration) noexcept;
+
+/// The time between rest and a velocity, without acceleration at both. [s]
+double rampTime(double velocity, double acceleration, double jerk) noexcept;
 
 /// Where the motion is `t` after the start of the piece, 0 <= t <= duration. [s]
 WayState stateAt(const TimePiece &piece, double t) noexcept;

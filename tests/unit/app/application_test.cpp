@@ -81,8 +81,9 @@ TEST_F(ApplicationTest, FilesThatAreNoApplications) {
 }
 
 TEST_F(ApplicationTest, DescriptionsThatDoNotFit) {
-  EXPECT_THAT(errorAfter([](StrideAppV1 &d) { d.abiVersion = 99; }),
-              HasSubstr("interface version 99, this runtime needs 6"));
+  EXPECT_THAT(
+      errorAfter([](StrideAppV1 &d) { d.abiVersion = 99; }),
+      HasSubstr("interface version 99, this runtime needs " + std::to_string(stride::kAbiVersion)));
   EXPECT_THAT(errorAfter([](StrideAppV1 &d) { d.magic = 0; }),
               HasSubstr("not a Stride application"));
   EXPECT_THAT(errorAfter([](StrideAppV1 &d) { d.axisRefLayout = 1; }, RuntimeLayouts{2, 0}),

@@ -27,13 +27,17 @@ template <class Block> void setExecute(Block &b, bool execute) {
     b.Enable = value;
   else if constexpr (requires { b.JogForward; })
     b.JogForward = value;
-  else if constexpr (requires { b.InchForward; })
-    b.InchForward = value;
   else
     b.bEnable = value;
 }
 
 template <class Block> void showOutcome(const Block &b, Shown &s) {
+  if constexpr (requires { b.bCompensating; }) { // it has no outputs for these
+    s.aborted = b.stBlock.bAborted != 0;
+    s.hasAborted = true;
+    s.error = b.stBlock.iError != 0;
+    s.errorId = static_cast<int>(b.stBlock.iError);
+  }
   if constexpr (requires { b.CommandAborted; }) {
     s.aborted = b.CommandAborted != 0;
     s.hasAborted = true;
@@ -76,10 +80,13 @@ template <class Block> Shown showBlock(const Block &b) {
   else if constexpr (requires { b.bInSync; })
     s.done = b.bInSync != 0;
   else if constexpr (requires { b.bCompensating; })
-    s.done = b.bBusy != 0 && b.bCompensating == 0;
+    s.done = b.stBlock.bRunning != 0 && b.bCompensating == 0;
   else if constexpr (requires { b.Enabled; })
     s.done = b.Enabled != 0;
-  if constexpr (requires { b.Busy; }) {
+  if constexpr (requires { b.bCompensating; }) {
+    s.busy = b.stBlock.bRunning != 0;
+    s.hasBusy = true;
+  } else if constexpr (requires { b.Busy; }) {
     s.busy = b.Busy != 0;
     s.hasBusy = true;
   } else if constexpr (requires { b.bBusy; }) {

@@ -34,7 +34,6 @@
 #include "st/SM_PLCopen/MC_TorqueControl.h"
 #include "st/SM_PLCopen/MC_VelocityProfile.h"
 #include "st/SM_PLCopen/SMC_BacklashCompensation.h"
-#include "st/SM_PLCopen/SMC_Inch.h"
 #include "st/SM_PLCopen/SMC_MoveContinuousAbsolute.h"
 #include "st/SM_PLCopen/SMC_MoveContinuousRelative.h"
 #include "st/SM_PLCopen/SMC_TrackAxis.h"
@@ -144,22 +143,16 @@ template <class Block> Factory relative(double distance) {
   });
 }
 
-/// A block with keys, which has no Done: it has what it wants at its velocity or after its step.
+/// A block with keys, which has no Done: it has what it wants at its velocity.
 template <class Block> Factory keyed() {
   return [](AxisRig &rig) {
     auto h = std::make_shared<Held<Block, Nothing>>();
     setDynamics(h->block);
-    if constexpr (requires { h->block.Distance; })
-      h->block.Distance = 60;
     Actor a = actorOf(rig, h);
     a.show = [h, &rig] {
-      [[maybe_unused]] const double velocity = rig.axis.fSetVelocity;
       const Block &b = h->block;
       Shown s = showBlock(b);
-      if constexpr (requires { b.Distance; })
-        s.done = b.InchForward != 0 && !s.busy && !s.error && !s.aborted;
-      else
-        s.done = s.busy && velocity == b.Velocity;
+      s.done = s.busy && rig.axis.fSetVelocity == b.Velocity;
       return s;
     };
     return a;
@@ -192,7 +185,6 @@ const std::map<std::string, Factory> &positioning() {
          b.EndVelocityDirection = basic::MC_Direction__positive;
        })},
       {"MC_Jog", keyed<pl::MC_Jog>()},
-      {"SMC_Inch", keyed<pl::SMC_Inch>()},
       {"MC_TorqueControl", plain<pl::MC_TorqueControl>([](auto &b, AxisRig &) { b.Torque = 2; })},
       {"MC_Halt", moving<pl::MC_Halt>()},
       {"MC_Stop", moving<pl::MC_Stop>()},

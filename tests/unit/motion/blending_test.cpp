@@ -42,6 +42,31 @@ struct Passage {
 
 constexpr double kCycle = 0.001;
 
+TEST(BufferModes, ANumberThatIsNoneIsRefused) {
+  AxisRig rig(kCycle);
+  ASSERT_GT(rig.powerUp(), 0);
+  auto first = rig.move(100);
+  rig.cycle([&] { rig.call(first, true); });
+  for (const int mode : {-32768, -1, 6, 32767}) {
+    auto second = rig.move(-100);
+    second.BufferMode = static_cast<int16_t>(mode);
+    rig.cycle([&] {
+      rig.call(first, true);
+      rig.call(second, true);
+    });
+    EXPECT_EQ(second.ErrorID, stride::axis::error::kInvalidParameter) << mode;
+    EXPECT_EQ(first.Busy, 1) << mode;
+    EXPECT_EQ(rig.axis.stQueue.uiCount, 0) << mode;
+  }
+  auto last = rig.move(150);
+  last.BufferMode = buffer::MC_BUFFER_MODE__BlendingHigh;
+  rig.cycle([&] {
+    rig.call(first, true);
+    rig.call(last, true);
+  });
+  EXPECT_EQ(last.Error, 0);
+}
+
 Passage drive(const Case &c, double side) {
   AxisRig rig(kCycle);
   rig.axis.eRampType = c.jerk > 0 ? 2 : 0;

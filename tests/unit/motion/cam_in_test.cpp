@@ -85,6 +85,8 @@ const Refusal kRefusals[] = {
        s.camIn.StartMode = 2;
        s.rig.axis.eRampType = 2;
      }},
+    {"BufferMode above", 311, [](CamScene &s) { s.camIn.BufferMode = 6; }},
+    {"BufferMode below", 311, [](CamScene &s) { s.camIn.BufferMode = -1; }},
     {"no slave", error::kNoAxis, [](CamScene &s) { s.camIn.Slave = nullptr; }},
     {"no master", error::kNoAxis, [](CamScene &s) { s.camIn.Master = nullptr; }},
     {"error stop", error::kNotReady,

@@ -40,6 +40,8 @@ TEST_F(Couplings, RefuseWhatTheyCannotUse) {
   EXPECT_EQ(errorOf(with(gear, [](auto &b) { b.Acceleration = kNan; })), 676);
   EXPECT_EQ(errorOf(with(gear, [](auto &b) { b.Jerk = -1; })), 676);
   EXPECT_EQ(errorOf(with(gear, [](auto &b) { b.Deceleration = -5; })), 677);
+  EXPECT_EQ(errorOf(with(gear, [](auto &b) { b.BufferMode = 6; })), 311);
+  EXPECT_EQ(errorOf(with(sync, [](auto &b) { b.BufferMode = -1; })), 311);
   EXPECT_EQ(errorOf(with(gear, [](auto &b) { b.Master = nullptr; })), 31);
   EXPECT_EQ(errorOf(with(gear, [](auto &b) { b.Master = b.Slave; })), 31);
   EXPECT_EQ(errorOf(with(sync, [](auto &b) { b.RatioDenominator = 0; })), 675);

@@ -1,10 +1,9 @@
-// MC_Jog and SMC_Inch: how long their outputs stay, who takes the axis from them, the software
-// limits, refused inputs.
+// MC_Jog: how long its outputs stay, who takes the axis from it, the software limits, refused
+// inputs.
 #include "tests/unit/axis/axis_rig.hpp"
 
 #include "st/SM_PLCopen/MC_Jog.h"
 #include "st/SM_PLCopen/MC_MoveVelocity.h"
-#include "st/SM_PLCopen/SMC_Inch.h"
 
 #include <gtest/gtest.h>
 
@@ -22,29 +21,19 @@ class KeysTest : public testing::Test {
 protected:
   void SetUp() override {
     ASSERT_GT(rig.powerUp(), 0);
-    prepare(jog);
-    prepare(inch);
-    inch.Distance = 3;
-  }
-
-  template <class Block> void prepare(Block &block) {
-    block.Axis = &rig.axis;
-    block.Velocity = 20;
-    block.Acceleration = 100;
-    block.Deceleration = 50;
+    jog.Axis = &rig.axis;
+    jog.Velocity = 20;
+    jog.Acceleration = 100;
+    jog.Deceleration = 50;
   }
 
   void cycle(int cycles = 1) {
     for (int i = 0; i < cycles; ++i)
-      rig.cycle([&] {
-        jog.body__(rig.ctx);
-        inch.body__(rig.ctx);
-      });
+      rig.cycle([&] { jog.body__(rig.ctx); });
   }
 
   AxisRig rig;
   pl::MC_Jog jog = fresh<pl::MC_Jog>();
-  pl::SMC_Inch inch = fresh<pl::SMC_Inch>();
 };
 
 TEST_F(KeysTest, JogRunsWhileItsKeyIsPressed) {
@@ -81,10 +70,8 @@ TEST_F(KeysTest, BothKeysBrakeAndTheOneThatIsLeftMovesAgain) {
 
 TEST_F(KeysTest, BothKeysAtOnceAreNone) {
   jog.JogForward = jog.JogBackward = 1;
-  inch.InchForward = inch.InchBackward = 1;
   cycle(10);
   EXPECT_EQ(jog.Busy, 0);
-  EXPECT_EQ(inch.Busy, 0);
   EXPECT_EQ(rig.axis.nAxisState, state::kStandstill);
 }
 
@@ -165,66 +152,24 @@ TEST_F(KeysTest, BeyondASoftwareLimitIsAnErrorStopAndTheWayBackIsOpen) {
   EXPECT_EQ(jog.Error, 0);
 }
 
-TEST_F(KeysTest, InchStepsOnceForEachPress) {
-  inch.InchForward = 1;
-  cycle(1000);
-  EXPECT_EQ(rig.axis.fSetPosition, 3);
-  EXPECT_EQ(inch.Busy, 0);
-  inch.InchForward = 0;
-  inch.InchBackward = 1; // at once
-  inch.Distance = 4;
-  cycle(1000);
-  EXPECT_EQ(rig.axis.fSetPosition, -1);
-  inch.InchBackward = 0;
-  cycle();
-  inch.InchBackward = 1;
-  cycle(1000);
-  EXPECT_EQ(rig.axis.fSetPosition, -5);
-}
-
-TEST_F(KeysTest, InchReleasedOnTheWayBrakes) {
-  inch.InchForward = 1;
-  cycle(100); // 10 u/s, at 0.5
-  EXPECT_EQ(rig.axis.nAxisState, state::kDiscrete);
-  inch.InchForward = 0;
-  cycle(200);
-  EXPECT_EQ(inch.Busy, 0);
-  EXPECT_NEAR(rig.axis.fSetPosition, 0.5 + 1, 1e-9);
-}
-
 TEST_F(KeysTest, RefusedInputsMoveNothing) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double bad : {0.0, -1.0, nan}) {
-    for (double *input : {&jog.Velocity, &jog.Acceleration, &jog.Deceleration, &inch.Velocity,
-                          &inch.Acceleration, &inch.Deceleration}) {
+    for (double *input : {&jog.Velocity, &jog.Acceleration, &jog.Deceleration}) {
       const double good = *input;
       *input = bad;
-      const bool ofJog =
-          input == &jog.Velocity || input == &jog.Acceleration || input == &jog.Deceleration;
-      (ofJog ? jog.JogForward : inch.InchForward) = 1;
+      jog.JogForward = 1;
       cycle(3);
-      EXPECT_EQ(ofJog ? jog.ErrorId : inch.ErrorId,
-                ofJog ? axis::error::kMoveVelocityValues : axis::error::kMoveRelativeValues);
+      EXPECT_EQ(jog.ErrorId, axis::error::kMoveVelocityValues);
       EXPECT_EQ(rig.axis.nAxisState, state::kStandstill);
       *input = good;
       cycle(3);
-      EXPECT_EQ(ofJog ? jog.Error : inch.Error, 1) << "as long as the key is pressed";
-      jog.JogForward = inch.InchForward = 0;
+      EXPECT_EQ(jog.Error, 1) << "as long as the key is pressed";
+      jog.JogForward = 0;
       cycle();
-      EXPECT_EQ(ofJog ? jog.Error : inch.Error, 0);
+      EXPECT_EQ(jog.Error, 0);
     }
   }
-  inch.InchForward = 1;
-  inch.Distance = -2;
-  cycle();
-  EXPECT_EQ(inch.ErrorId, axis::error::kMoveRelativeValues);
-  inch.InchForward = 0;
-  cycle();
-  inch.InchForward = 1;
-  inch.Distance = 0;
-  cycle(2);
-  EXPECT_EQ(inch.Error, 0);
-  EXPECT_EQ(inch.Busy, 0);
 }
 
 TEST_F(KeysTest, NotCalledAnyMoreIsAnErrorStop) {

@@ -6,7 +6,6 @@
 
 #include "st/SM_DriveBasic/SMC3_BrakeStatus.h"
 #include "st/SM_PLCopen/SMC3_PersistPosition.h"
-#include "st/SM_PLCopen/SMC3_PersistPositionDiag.h"
 #include "st/SM_PLCopen/SMC3_PersistPositionSingleturn.h"
 #include "st/SM_PLCopen/SMC3_PersistPositionSingleturn_Data.h"
 #include "st/SM_PLCopen/SMC3_PersistPosition_Data.h"
@@ -66,7 +65,6 @@ TEST_F(Persist, TheFirstTimeThereIsNothingToRestore) {
   EXPECT_EQ(shown.bPositionRestored, 0);
   EXPECT_EQ(shown.bPositionStored, 1);
   EXPECT_EQ(shown.bError, 0);
-  EXPECT_EQ(shown.eRestoringDiag, pl::SMC3_PersistPositionDiag__SMC3_PPD_RESTORING_OK);
   EXPECT_EQ(ref.fActPosition, 5);
 }
 
@@ -114,7 +112,6 @@ TEST_F(Persist, AnotherAxisIsNotRestored) {
   after.dwRatioTechUnitsDenom = 2000;
   run(after);
   EXPECT_EQ(shown.bPositionRestored, 0);
-  EXPECT_EQ(shown.eRestoringDiag, pl::SMC3_PersistPositionDiag__SMC3_PPD_AXIS_PROP_CHANGED);
   EXPECT_EQ(after.fActPosition, 1);
   EXPECT_EQ(shown.bPositionStored, 1) << "from now on the new one";
 }
@@ -125,8 +122,7 @@ TEST_F(Persist, DataThatAreNotWholeAreNotUsed) {
   ++data.udiBegun;
   auto after = started(1000);
   run(after);
-  EXPECT_EQ(shown.eRestoringDiag,
-            pl::SMC3_PersistPositionDiag__SMC3_PPD_DATA_STORED_DURING_WRITING);
+  EXPECT_EQ(shown.bPositionRestored, 0);
   EXPECT_EQ(after.fActPosition, 1);
   auto again = started(3000);
   run(again);
@@ -139,6 +135,26 @@ TEST_F(Persist, ItWaitsForTheDrive) {
   run(ref);
   EXPECT_EQ(shown.bPositionStored, 0);
   EXPECT_EQ(data.udiBegun, 0U);
+}
+
+TEST_F(Persist, ADriveThatStartsUpAnewIsRestoredAgain) {
+  auto ref = started(5000);
+  ref.fActPosition = ref.fSetPosition = 105; // homed
+  run(ref);
+  auto block = fresh<pl::SMC3_PersistPosition>();
+  block.Axis = &ref;
+  block.PersistentData = &data;
+  block.bEnable = 1;
+  block.body__(ctx);
+  EXPECT_EQ(block.bPositionRestored, 1);
+  ref.wCommunicationState = 33;
+  block.body__(ctx);
+  EXPECT_EQ(block.bPositionRestored, 0);
+  EXPECT_EQ(block.bPositionStored, 0);
+  ref = started(5250); // its encoder knows nothing of homing
+  block.body__(ctx);
+  EXPECT_EQ(block.bPositionRestored, 1);
+  EXPECT_NEAR(ref.fActPosition, 105.25, 1e-9);
 }
 
 TEST_F(Persist, ARangeOfNothingIsAnError) {

@@ -1,0 +1,140 @@
+// What a CNC program amounts to.
+
+#include "compiler/assets/cnc/cnc_source.hpp"
+
+#include "runtime/numeric/cnc/decoder.hpp"
+#include "runtime/numeric/cnc/gcode_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace stc {
+
+namespace {
+
+using namespace stride::cnc;
+
+/// So many sentences are gone through for each of the program, in loops.
+constexpr size_t kRounds = 1000;
+constexpr size_t kLeastSentences = 100000;
+/// Places of a curve that its bounds are taken from; to about 1e-3 of its size.
+constexpr int kPlaces = 64;
+
+void widen(CncInfo &info, const double (&coordinate)[kAxes]) {
+  for (int axis = 0; axis < kAxes; ++axis) {
+    info.least[axis] = std::min(info.least[axis], coordinate[axis]);
+    info.most[axis] = std::max(info.most[axis], coordinate[axis]);
+  }
+}
+
+/// The place of a curve in its frame, `part` from 0 to 1 of its parameter.
+void placeOf(const PathObject &o, double part, double &x, double &y) {
+  if (o.moveType == MoveType::Spline) {
+    const auto value = [&o, part](int at) {
+      const double *c = o.shape + at;
+      return c[0] + part * (c[1] + part * (c[2] + part * c[3]));
+    };
+    x = value(0);
+    y = value(4);
+    return;
+  }
+  const double phi = (o.parameterRange[0] - part * o.parameterRange[1]) * M_PI / 180;
+  if (o.moveType == MoveType::Clockwise || o.moveType == MoveType::Counterclockwise) {
+    x = o.shape[0] + o.shape[2] * std::cos(phi);
+    y = o.shape[1] + o.shape[2] * std::sin(phi);
+    return;
+  }
+  const double a = o.shape[4] * std::cos(phi);
+  const double b = o.shape[5] * std::sin(phi);
+  x = o.shape[0] + o.shape[2] * a - o.shape[3] * b;
+  y = o.shape[1] + o.shape[3] * a + o.shape[2] * b;
+}
+
+bool isCurve(MoveType type) {
+  return type == MoveType::Clockwise || type == MoveType::Counterclockwise ||
+         type == MoveType::EllipseClockwise || type == MoveType::EllipseCounterclockwise ||
+         type == MoveType::Spline;
+}
+
+void widenByCurve(CncInfo &info, const PathObject &o) {
+  for (int i = 1; i < kPlaces; ++i) {
+    const double part = static_cast<double>(i) / kPlaces;
+    double x = 0;
+    double y = 0;
+    placeOf(o, part, x, y);
+    const double *start = o.start.coordinate;
+    const double height = o.normal.x * start[0] + o.normal.y * start[1] + o.normal.z * start[2];
+    const double way[3] = {o.end.coordinate[0] - start[0], o.end.coordinate[1] - start[1],
+                           o.end.coordinate[2] - start[2]};
+    const double climb = o.normal.x * way[0] + o.normal.y * way[1] + o.normal.z * way[2];
+    const Vector3 place = o.planeX * x + o.planeY * y + o.normal * (height + part * climb);
+    double coordinate[kAxes];
+    std::copy(std::begin(o.start.coordinate), std::end(o.start.coordinate), coordinate);
+    coordinate[kAxisX] = place.x;
+    coordinate[kAxisY] = place.y;
+    coordinate[kAxisZ] = place.z;
+    widen(info, coordinate);
+  }
+}
+
+void measure(CncInfo &info, const PathObject &object) {
+  ++info.objects;
+  info.axes = static_cast<uint16_t>(info.axes | object.end.axes);
+  widen(info, object.end.coordinate);
+  if (object.moveType == MoveType::Function) {
+    ++info.functions;
+    return;
+  }
+  if (object.moveType == MoveType::Jump)
+    return;
+  if (isCurve(object.moveType))
+    widenByCurve(info, object);
+  (object.moveType == MoveType::Positioning ? info.rapidLength : info.length) += object.length;
+  const bool first = info.mostVelocity == 0 && info.leastVelocity == 0;
+  info.leastVelocity = first ? object.velocity : std::min(info.leastVelocity, object.velocity);
+  info.mostVelocity = std::max(info.mostVelocity, object.velocity);
+}
+
+} // namespace
+
+CncInfo infoOf(const CncProgram &program) {
+  CncInfo info;
+  std::vector<CncVariable> storage;
+  const std::vector<GCodeWord> words = wordsOf(program, storage);
+  const auto count = static_cast<int64_t>(words.size());
+  info.sentences = static_cast<size_t>(
+      std::count_if(program.words.begin(), program.words.end(),
+                    [](const CncWord &word) { return word.word.letter == kEndOfSentence; }));
+  const auto decoder = std::make_unique<Decoder>();
+  const auto decoded = std::make_unique<Decoded>();
+  startDecoder(*decoder, program.settings.start);
+  std::copy(std::begin(decoder->here.coordinate), std::end(decoder->here.coordinate), info.least);
+  std::copy(std::begin(info.least), std::end(info.least), info.most);
+  const auto take = [&] {
+    for (int32_t i = 0; i < decoded->count; ++i)
+      measure(info, decoded->objects[i]);
+  };
+  size_t left = std::max(kLeastSentences, info.sentences * kRounds);
+  SentenceWords sentence;
+  for (int64_t at = 0; at < count;) {
+    if (left-- == 0) {
+      info.endless = true;
+      return info;
+    }
+    at = sentenceAt(words.data(), count, at, sentence);
+    decodeSentence(*decoder, sentence.words, sentence.count, sentence.line, *decoded);
+    if (decoded->error != GCodeError::None)
+      return info;
+    take();
+    if (decoded->next == Next::Jump &&
+        (at = findSentence(words.data(), count, decoded->target)) < 0)
+      return info;
+  }
+  decodeEnd(*decoder, *decoded);
+  take();
+  info.complete = true;
+  return info;
+}
+
+} // namespace stc

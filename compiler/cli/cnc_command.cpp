@@ -1,0 +1,155 @@
+// stride cnc
+
+#include "compiler/assets/cnc/cnc_source.hpp"
+#include "compiler/cli/cnc_run.hpp"
+#include "compiler/cli/commands.hpp"
+#include "compiler/project/file_system.hpp"
+#include "compiler/source/sources.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace stc::cli {
+
+namespace {
+
+constexpr std::string_view kLetters = "XYZABCPQUVW";
+
+/// A program that a command was given.
+struct LoadedCnc {
+  Sources sources;
+  Diagnostics diagnostics;
+  std::optional<CncProgram> program;
+  std::optional<FileId> file;
+
+  explicit LoadedCnc(const std::string &path) {
+    file = sources.load(path, path);
+    if (!file) {
+      diagnostics.report(Code::UnreadableFile, {},
+                         fmt::format("`{}` cannot be read: {}", path, readSourceError()));
+      return;
+    }
+    program = readCnc(sources.file(*file), diagnostics);
+  }
+
+  int finish(const Output &output) {
+    Diagnostics sorted = diagnostics;
+    sorted.sort();
+    return show(sorted.all(), sources, output);
+  }
+};
+
+/// Rounded to what can be read; no `-0`.
+std::string shownNumber(double value) {
+  const std::string text = fmt::format("{:.6g}", value);
+  return text == "-0" ? "0" : text;
+}
+
+int cncCheck(const CncOptions &options) {
+  int exitCode = 0;
+  for (const std::string &path : options.files) {
+    LoadedCnc loaded(path);
+    if (loaded.program)
+      checkCnc(*loaded.program, loaded.diagnostics);
+    exitCode = std::max(exitCode, loaded.finish(options.output));
+  }
+  return exitCode;
+}
+
+std::string infoText(const std::string &path, const CncProgram &program) {
+  const CncInfo info = infoOf(program);
+  std::string text = fmt::format("{}{}\n", path, program.title.empty() ? "" : ": " + program.title);
+  text += fmt::format("  lines       {}\n  sentences   {}\n", program.lines, info.sentences);
+  text +=
+      fmt::format("  objects     {}{}\n", info.objects,
+                  info.functions == 0 ? "" : fmt::format(", {} of them functions", info.functions));
+  text += fmt::format("  length      {}\n", shownNumber(info.length));
+  if (info.rapidLength != 0)
+    text += fmt::format("  positioning {}\n", shownNumber(info.rapidLength));
+  for (size_t axis = 0; axis < kLetters.size(); ++axis)
+    if ((info.axes >> axis & 1) != 0)
+      text += fmt::format("  {}           {} … {}\n", kLetters[axis], shownNumber(info.least[axis]),
+                          shownNumber(info.most[axis]));
+  text += info.leastVelocity == info.mostVelocity
+              ? fmt::format("  velocity    {}\n", shownNumber(info.mostVelocity))
+              : fmt::format("  velocity    {} … {}\n", shownNumber(info.leastVelocity),
+                            shownNumber(info.mostVelocity));
+  if (info.endless)
+    text += "  its jumps do not end: this is the first part\n";
+  else if (!info.complete)
+    text += "  an error ends it: this is the part before it\n";
+  return text;
+}
+
+int cncInfo(const CncOptions &options) {
+  int exitCode = 0;
+  for (const std::string &path : options.files) {
+    LoadedCnc loaded(path);
+    if (loaded.program)
+      print(infoText(path, *loaded.program));
+    exitCode = std::max(exitCode, loaded.finish(options.output));
+  }
+  return exitCode;
+}
+
+int cncFormat(const CncOptions &options) {
+  int exitCode = 0;
+  for (const std::string &path : options.files) {
+    LoadedCnc loaded(path);
+    if (loaded.program) {
+      const std::string_view before = loaded.sources.file(*loaded.file).text();
+      const std::string after = formatCnc(before);
+      if (options.check && after != before) {
+        print(fmt::format("{} is not formatted\n", path));
+        exitCode = 1;
+      } else if (after != before && !writeFile(path, after)) {
+        loaded.diagnostics.report(Code::CannotWrite, {},
+                                  fmt::format("`{}` cannot be written: {}", path, lastError()));
+      }
+    }
+    exitCode = std::max(exitCode, loaded.finish(options.output));
+  }
+  return exitCode;
+}
+
+/// Drives a program, for a table or a picture.
+int cncMotion(const CncOptions &options) {
+  const std::string &path = options.files.front();
+  if (options.motion.velocityMode == "quadratic" && !(options.motion.jerk > 0))
+    return showError(Code::CncSentence, "--velocity-mode quadratic needs a --jerk", options.output);
+  LoadedCnc loaded(path);
+  std::string says;
+  if (loaded.program) {
+    CncProgram &program = *loaded.program;
+    if (options.motion.velocity > 0)
+      program.settings.velocity = options.motion.velocity;
+    if (options.motion.acceleration > 0)
+      program.settings.acceleration = program.settings.deceleration = options.motion.acceleration;
+    checkCnc(program, loaded.diagnostics);
+    if (!loaded.diagnostics.hasErrors())
+      (options.action == CncAction::Run ? runCnc : plotCnc)(path, program, options,
+                                                            loaded.diagnostics, says);
+  }
+  const int exitCode = loaded.finish(options.output);
+  print(says);
+  return exitCode;
+}
+
+} // namespace
+
+int cncCommand(const CncOptions &options) {
+  switch (options.action) {
+  case CncAction::Run:
+  case CncAction::Plot:
+    return cncMotion(options);
+  case CncAction::Check:
+    return cncCheck(options);
+  case CncAction::Info:
+    return cncInfo(options);
+  case CncAction::Format:
+    break;
+  }
+  return cncFormat(options);
+}
+
+} // namespace stc::cli

@@ -1,0 +1,153 @@
+// The commands below `stride cnc`.
+
+#include "compiler/cli/cnc_path.hpp"
+#include "compiler/cli/command_line.hpp"
+#include "compiler/toml/interval.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stc::cli {
+
+namespace {
+
+/// A number in some range.
+CLI::Validator numberFrom(double least, bool included, double most = INFINITY) {
+  return {[=](std::string &text) {
+            double value = 0;
+            const bool good = CLI::detail::lexical_cast(text, value) && std::isfinite(value) &&
+                              (included ? value >= least : value > least) && value <= most;
+            return good ? std::string() : "`" + text + "` is no number that is possible here";
+          },
+          std::string()};
+}
+
+/// Reads `X=250,Y=100`. What is wrong, or nothing.
+std::string readLimits(const std::string &text, double (&limits)[12]) {
+  for (size_t at = 0; at <= text.size();) {
+    const size_t end = std::min(text.find(',', at), text.size());
+    const std::string one = text.substr(at, end - at);
+    const size_t axis = one.empty() ? std::string_view::npos : kAxisLetters.find(one[0]);
+    double value = 0;
+    if (axis == std::string_view::npos || one.size() < 3 || one[1] != '=' ||
+        !CLI::detail::lexical_cast(one.substr(2), value) || !(value > 0) || !std::isfinite(value))
+      return "`" + one + "` is no limit of an axis: X=250";
+    limits[axis] = value;
+    at = end + 1;
+  }
+  return {};
+}
+
+/// Declares commands on CNC programs.
+class CncCommands {
+public:
+  CncCommands(CLI::App &app, Invocation &call)
+      : cnc_(app.add_subcommand("cnc", "Check, describe, format, drive and draw CNC programs")),
+        call_(&call) {
+    cnc_->require_subcommand(1);
+  }
+
+  void declare() const {
+    add("check", CncAction::Check, "Show what is wrong with CNC programs");
+    add("info", CncAction::Info, "Show lines, objects, lengths, bounds and velocities");
+    add("format", CncAction::Format, "Write CNC programs in one layout")
+        ->add_flag("--check", call_->cnc.check,
+                   "Write nothing; fail if something is not formatted");
+    declareMotion(add("run", CncAction::Run,
+                      "Drive a CNC program without an application, write set positions"),
+                  "CSV file to write (default: FILE with .csv)");
+    declareMotion(add("plot", CncAction::Plot,
+                      "Draw the path of a CNC program, and velocity, acceleration and jerk"),
+                  "SVG file to write (default: FILE with .svg)");
+  }
+
+private:
+  CLI::App *add(const char *name, CncAction action, const char *what) const {
+    CLI::App *command = cnc_->add_subcommand(name, what);
+    CLI::Option *files = command->add_option("FILE", call_->cnc.files, "CNC file (*.cnc)")
+                             ->required()
+                             ->type_name("");
+    if (action == CncAction::Run || action == CncAction::Plot)
+      files->expected(1);
+    addOutputOptions(*command, call_->cnc.output);
+    command->callback([call = call_, action] {
+      call->cnc.action = action;
+      call->exitCode = cncCommand(call->cnc);
+    });
+    return command;
+  }
+
+  void declareMotion(CLI::App *command, const char *out) const {
+    CncMotionOptions &motion = call_->cnc.motion;
+    command->add_option("-o,--out", call_->cnc.out, out)->type_name("FILE");
+    number(command, "--blend", motion.blend, true,
+           "Corners become curves that stay within this distance of them, u (default: none do)");
+    number(command, "--merge", motion.merge, true,
+           "Fewer lines: the path may be off by so much, u (default: all lines stay)");
+    command
+        ->add_option("--angle-tolerance", motion.angleTolerance,
+                     "Corners that turn less are none, degrees (default: 0.001)")
+        ->check(numberFrom(0, true, 180))
+        ->type_name("DEG");
+    command
+        ->add_option("--velocity-mode", motion.velocityMode,
+                     "trapezoid (default), sigmoid, or quadratic: with a limited jerk")
+        ->check(CLI::IsMember({"trapezoid", "sigmoid", "quadratic"}).description(""))
+        ->type_name("MODE");
+    number(command, "--jerk", motion.jerk, false, "Jerk along the path, u/s\xC2\xB3 (quadratic)");
+    number(command, "--velocity", motion.velocity, false,
+           "Velocity of a program that begins without F, u/s");
+    number(command, "--acceleration", motion.acceleration, false,
+           "Acceleration and deceleration of a program that begins without E, u/s\xC2\xB2 "
+           "(default: 100)");
+    limits(command, "--max-velocity", motion.maxVelocity, "Of axes, u/s: X=250,Y=250");
+    limits(command, "--max-acceleration", motion.maxAcceleration,
+           "Of axes, u/s\xC2\xB2: X=1750,Y=1750");
+    command
+        ->add_option_function<std::string>(
+            "--cycle",
+            [&motion](const std::string &text) {
+              motion.cycle = static_cast<double>(parseInterval(text).value_or(0)) / 1e9;
+            },
+            "Cycle of the interpolator (default: 1ms)")
+        ->check(CLI::Validator(
+            [](std::string &text) {
+              const std::optional<int64_t> time = parseInterval(text);
+              constexpr int64_t kMost = 1'000'000'000;
+              return time && *time > 0 && *time <= kMost
+                         ? std::string()
+                         : "`" + text + "` is no time of up to 1s: 1ms, 500us";
+            },
+            std::string()))
+        ->type_name("TIME");
+    number(command, "--feed", motion.feed, false,
+           "Factor of the program's velocities (default: 1)");
+  }
+
+  static void number(CLI::App *command, const char *name, double &value, bool zero,
+                     const char *what) {
+    command->add_option(name, value, what)->check(numberFrom(0, zero))->type_name("N");
+  }
+
+  static void limits(CLI::App *command, const char *name, double (&values)[12], const char *what) {
+    command
+        ->add_option_function<std::string>(
+            name, [&values](const std::string &text) { (void)readLimits(text, values); }, what)
+        ->check(CLI::Validator(
+            [](std::string &text) {
+              double ignored[12];
+              return readLimits(text, ignored);
+            },
+            std::string()))
+        ->type_name("AXES");
+  }
+
+  CLI::App *cnc_;
+  Invocation *call_;
+};
+
+} // namespace
+
+void declareCnc(CLI::App &app, Invocation &call) { CncCommands(app, call).declare(); }
+
+} // namespace stc::cli

@@ -1,0 +1,33 @@
+// Cuts objects of a path: the parts go where the whole went, in all axes. Free of the C++ standard
+// library: linked into every application.
+#ifndef STRIDE_RUNTIME_NUMERIC_CNC_OBJECT_CUT_HPP
+#define STRIDE_RUNTIME_NUMERIC_CNC_OBJECT_CUT_HPP
+
+#include "runtime/numeric/cnc/path_object.hpp"
+
+namespace stride::cnc {
+
+/// Why an object cannot be cut.
+enum class CutError : uint8_t {
+  None,
+  Way,     ///< Not within the object: nothing would be left of one of its parts.
+  Profile, ///< An axis goes by a law over the whole object: an S profile, or slopes.
+  Shape,   ///< It has no way, or its ends lie beside the curve that its parameters describe.
+};
+
+/// Cuts an object at a way from its start, 0 < way < length. The outer ends are those of the object
+/// and the inner ones are the same, bit for bit. Switch points stay where they are; one at the cut
+/// belongs to the first part. Marks that begin something go with the first part, those that end
+/// something with the second. The first part ends with the velocity of the object. With an error
+/// the parts are as they were. Both may be the object itself. [u] in
+CutError splitObject(const PathObject &object, double way, PathObject &first,
+                     PathObject &second) noexcept;
+
+/// Takes a way off the start or the end, with the switch points that are there. Marks and the end's
+/// velocity stay. [u] in
+CutError cutStart(PathObject &object, double way) noexcept;
+CutError cutEnd(PathObject &object, double way) noexcept;
+
+} // namespace stride::cnc
+
+#endif // STRIDE_RUNTIME_NUMERIC_CNC_OBJECT_CUT_HPP

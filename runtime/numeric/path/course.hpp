@@ -1,0 +1,76 @@
+// What limits the motion along a path, place by place: strips of the way, each with its limits. The
+// planner of the law knows nothing else of a path; neither shapes nor who made them.
+// Free of the C++ standard library: linked into every application.
+#ifndef STRIDE_RUNTIME_NUMERIC_PATH_COURSE_HPP
+#define STRIDE_RUNTIME_NUMERIC_PATH_COURSE_HPP
+
+#include "runtime/numeric/exact_math.hpp"
+
+#include <stdint.h>
+
+namespace stride::path {
+
+/// A part of the way whose limits are the same everywhere. All are positive; kInfinity: none.
+struct Strip {
+  double end;          ///< Way at its end. [u]
+  double feed;         ///< Velocity that the program wants; scaled by the override. [u/s]
+  double endFeed;      ///< At its end; scaled as well. [u/s]
+  double ceiling;      ///< Of the square of the velocity, by axes and curves. [u^2/s^2]
+  double endCeiling;   ///< Likewise, at its end only: a kink. [u^2/s^2]
+  double acceleration; ///< Tangential. [u/s^2]
+  double deceleration; ///< Tangential. [u/s^2]
+  double along;        ///< Axes allow along * |a| + across * v^2 <= 1; 0: no limit. [s^2/u]
+  double across;       ///< See `along`; times `ceiling` at most 0.95. [s^2/u^2]
+  bool stop;           ///< The motion rests at its end.
+  bool gate;           ///< It goes on from there only when it is told to.
+};
+
+inline constexpr int32_t kStrips = 256;
+
+/// The strips from where the motion is to the end of what is known, a ring. Trivially copyable.
+struct Course {
+  Strip strip[kStrips];
+  int64_t first; ///< Number of the one where the motion is; they are counted from 0 on.
+  int64_t next;  ///< The number that the next one gets.
+  double begin;  ///< Way at the start of the first. [u]
+};
+
+/// The strip with a number, first <= number < next.
+inline Strip &stripAt(Course &course, int64_t number) noexcept {
+  return course.strip[static_cast<uint64_t>(number) % kStrips];
+}
+inline const Strip &stripAt(const Course &course, int64_t number) noexcept {
+  return course.strip[static_cast<uint64_t>(number) % kStrips];
+}
+
+/// Way at the start of a strip. [u]
+inline double beginOf(const Course &course, int64_t number) noexcept {
+  return number == course.first ? course.begin : stripAt(course, number - 1).end;
+}
+
+/// Way at the end of all of it. [u]
+inline double endOf(const Course &course) noexcept { return beginOf(course, course.next); }
+
+/// The greatest square of the velocity in a strip, and at its end. `override` is 1 for what the
+/// program wants. [u^2/s^2]
+double squareIn(const Strip &strip, double override) noexcept;
+double squareAtEnd(const Strip &strip, double override) noexcept;
+
+/// Puts a strip after the last one; those that would be gone over within `time` [s] become one with
+/// the worst limits of both. `strip.end` must be greater than endOf(course). False: it is full.
+bool append(Course &course, const Strip &strip, double time) noexcept;
+
+/// The number of the strip that holds a way: the first one that ends after it, or the last one.
+int64_t stripOf(const Course &course, double way) noexcept;
+
+/// Forgets the strips that end at or before a way, which must not be greater than endOf. [u]
+void forgetBefore(Course &course, double way) noexcept;
+
+/// How many strips can be appended at least.
+inline int64_t roomIn(const Course &course) noexcept {
+  return kStrips - (course.next - course.first);
+}
+
+} // namespace stride::path
+
+#endif // STRIDE_RUNTIME_NUMERIC_PATH_COURSE_HPP

@@ -1,0 +1,115 @@
+#include "runtime/numeric/path/motion.hpp"
+
+#include "runtime/numeric/path/motion_session.hpp"
+
+namespace stride::path {
+namespace {
+
+/// How much of a piece's duration may be missing at its end, which cycles reach but for rounding.
+constexpr double kRounding = 1e-13;
+/// Ways beyond this one are made smaller. [u]
+constexpr double kFar = 65536.0;
+
+/// Counts cycles of one length instead of adding them up: that rounds once only.
+void addTime(Motion &motion, double time) noexcept {
+  if (time != motion.cycle) {
+    motion.since = timeInPiece(motion);
+    motion.cycle = time;
+    motion.cycles = 0;
+  }
+  ++motion.cycles;
+}
+
+/// Whether the motion waits at rest until the law of the next run has been written.
+bool waitsForLaw(const Motion &motion) noexcept {
+  return isAtRest(motion) ||
+         (motion.session == Session::Writing && motion.law.first >= motion.fresh &&
+          !(motion.plan.task.velocity > 0.0));
+}
+
+WayState restAt(double way) noexcept { return {way, 0.0, 0.0, 0.0}; }
+
+/// Leaves the first piece of the law, `left` of whose time is over.
+void leavePiece(Motion &motion, double left) noexcept {
+  Law &law = motion.law;
+  motion.way = endAt(law, law.first);
+  motion.since = left;
+  motion.cycles = 0;
+  ++law.first;
+}
+
+} // namespace
+
+void reset(Motion &motion, const MotionSettings &settings) noexcept {
+  motion = Motion{};
+  motion.settings = settings;
+  motion.wish = {1.0, exact::kInfinity, 0.0, false};
+  motion.planned = motion.wish;
+  motion.plan.state = PlanState::Idle;
+  motion.cellTime = kLeastCellTime;
+}
+
+bool extend(Motion &motion, const Strip &strip) noexcept {
+  // A strip that is being planned with stays as it is.
+  const bool planned = motion.session == Session::Planning || motion.session == Session::Writing;
+  const bool isFixed = planned && motion.course.next - 1 <= motion.plan.lastStrip;
+  // More, and cells take limits of places that they do not touch; less, and a course of dense
+  // curves ends before the next plan is ready.
+  constexpr double kPartOfCell = 0.75;
+  return append(motion.course, strip, isFixed ? 0.0 : kPartOfCell * motion.cellTime);
+}
+
+WayState move(Motion &motion, double time, bool pass) noexcept {
+  Law &law = motion.law;
+  if (motion.gate || waitsForLaw(motion) || (motion.resting && !pass))
+    return restAt(motion.way);
+  motion.resting = false;
+  addTime(motion, time);
+  for (;;) {
+    const TimePiece &piece = pieceAt(law, law.first);
+    const double t = timeInPiece(motion);
+    if (t < piece.duration * (1.0 - kRounding)) {
+      WayState state = stateAt(piece, t);
+      state.way = exact::smaller(state.way, endAt(law, law.first)); // but for rounding
+      state.way = exact::larger(state.way, motion.way);
+      motion.way = state.way;
+      return state;
+    }
+    const uint8_t mark = markAt(law, law.first);
+    leavePiece(motion, exact::larger(t - piece.duration, 0.0));
+    motion.resting = (mark & kFinal) != 0;
+    motion.gate = (mark & kGate) != 0;
+    if (motion.gate || waitsForLaw(motion) || (motion.resting && !pass)) {
+      motion.since = 0.0;
+      break;
+    }
+  }
+  return restAt(motion.way);
+}
+
+void freeze(Motion &motion) noexcept {
+  motion.law.next = motion.law.first;
+  motion.since = 0.0;
+  motion.cycles = 0;
+  motion.session = Session::None;
+}
+
+double rebase(Motion &motion) noexcept {
+  if (motion.way < kFar || motion.session != Session::None)
+    return 0.0;
+  const double by = exact::floor(motion.way / kFar) * kFar; // differences with it are exact
+  forgetBefore(motion.course, motion.way);
+  motion.course.begin -= by;
+  for (int64_t k = motion.course.first; k < motion.course.next; ++k)
+    stripAt(motion.course, k).end -= by;
+  for (int64_t k = motion.law.first; k < motion.law.next; ++k) {
+    pieceAt(motion.law, k).start -= by;
+    endAt(motion.law, k) -= by;
+  }
+  motion.way -= by;
+  motion.wish.limit -= by;
+  motion.planned.limit -= by;
+  return by;
+}
+
+} // namespace stride::path

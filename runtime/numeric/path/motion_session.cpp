@@ -1,0 +1,442 @@
+// How a motion is planned while it goes on: from where, and how the plan becomes the law.
+#include "runtime/numeric/path/motion_session.hpp"
+
+namespace stride::path {
+namespace {
+
+using exact::larger;
+using exact::smaller;
+
+constexpr int32_t kStepsPerCell = 24;    ///< Of a plan, or a few more.
+constexpr int32_t kTrapezoidSteps = 128; ///< Of a plan without cells, about.
+constexpr int32_t kFirstCells = 96;      ///< Of the first plan after rest: it is to begin soon.
+constexpr int32_t kCellsToStop = 75;     ///< Of a plan that only stops, about.
+constexpr int32_t kUrgentCells = 128;    ///< Of a plan that is to change the motion.
+constexpr int32_t kReservedPieces = 4;   ///< Of the ring: what one step writes at most.
+constexpr int32_t kMostTries = 24;       ///< To find a place to stop at.
+/// How much longer than on a straight line a stop is tried to be at first. (A plan has a little
+/// more jerk to spare for each of its cells.)
+constexpr double kStopFactor = 1.04;
+constexpr double kStopCells = 1.6; ///< A plan to stop has larger cells, to be there soon.
+constexpr int32_t kPause = 8;      ///< Calls after a plan that came to nothing.
+
+bool differs(const Wish &a, const Wish &b) noexcept {
+  return a.override != b.override || a.limit != b.limit || a.deceleration != b.deceleration ||
+         a.stop != b.stop;
+}
+
+bool hasJerk(const Motion &motion) noexcept { return motion.settings.kind == LawKind::Jerk; }
+
+int64_t lastPiece(const Motion &motion) noexcept { return motion.law.next - 1; }
+
+/// Up to where the motion may go by what is known now. [u]
+double reachable(const Motion &motion) noexcept {
+  return smaller(endOf(motion.course), motion.wish.limit);
+}
+
+/// Time until the law ends. [s]
+double timeLeft(Motion &motion) noexcept {
+  const TimePiece &first = pieceAt(motion.law, motion.law.first);
+  return untilAt(motion.law, lastPiece(motion)) - untilAt(motion.law, motion.law.first) +
+         first.duration - timeInPiece(motion);
+}
+
+const Strip &stripAtWay(const Motion &motion, double way) noexcept {
+  return stripAt(motion.course, stripOf(motion.course, way));
+}
+
+/// The jerk to plan with. Nobody can tell an acceleration that rises within half a millisecond from
+/// one that jumps, but its plan would need many cells.
+double jerkAt(const Motion &motion, double way) noexcept {
+  constexpr double kLeastRise = 0.0005;
+  const Strip &strip = stripAtWay(motion, way);
+  const double most = smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
+  const double velocity = exact::sqrt(squareIn(strip, motion.asked.override));
+  return smaller(motion.settings.jerk,
+                 smaller(most / kLeastRise, velocity / (kLeastRise * kLeastRise)));
+}
+
+/// Cells are a part of the time to stop, so that a plan reaches several of these times ahead.
+double cellTimeFor(const Motion &motion, double way) noexcept {
+  constexpr double kPart = 1.0 / 60.0;
+  if (!hasJerk(motion))
+    return kLeastCellTime;
+  const Strip &strip = stripAtWay(motion, way);
+  const double velocity = exact::sqrt(squareIn(strip, motion.asked.override));
+  const double deceleration =
+      smaller(smaller(strip.acceleration, strip.deceleration), 1.0 / strip.along);
+  const double time = kPart * rampTime(velocity, deceleration, motion.settings.jerk);
+  return smaller(larger(time, kLeastCellTime), kMostCellTime);
+}
+
+void beginPlan(Motion &motion, const WayState &state) noexcept {
+  PlanTask task{};
+  task.way = state.way;
+  task.velocity = state.velocity;
+  task.acceleration = state.acceleration;
+  task.jerk = hasJerk(motion) ? jerkAt(motion, state.way) : exact::kInfinity;
+  motion.cellTime = cellTimeFor(motion, state.way);
+  task.cellTime = motion.asked.stop ? kStopCells * motion.cellTime : motion.cellTime;
+  task.override = motion.asked.override;
+  task.before = motion.planned.override;
+  task.deceleration = motion.asked.deceleration;
+  task.cells = motion.cells;
+  task.end = exact::kInfinity;
+  if (motion.asked.limit < endOf(motion.course))
+    task.end = motion.asked.limit;
+  task.whole = motion.asked.stop;
+  if (motion.asked.stop)
+    task.end = smaller(task.end, state.way + motion.stopLength);
+  begin(motion.plan, motion.course, task);
+  motion.session = Session::Planning;
+}
+
+/// From rest at a way, after all that the law has.
+void beginFromRest(Motion &motion, double way) noexcept {
+  motion.asked = motion.wish;
+  motion.seek = motion.law.next;
+  motion.cut = 0.0;
+  motion.steps = 0;
+  motion.tries = 0;
+  motion.urgent = false;
+  beginPlan(motion, {way, 0.0, 0.0, 0.0});
+}
+
+void beginSeeking(Motion &motion, bool urgent) noexcept {
+  motion.asked = motion.wish;
+  motion.urgent = urgent;
+  motion.seek = motion.law.first;
+  motion.passed = -timeInPiece(motion);
+  motion.steps = 0;
+  motion.tries = 0;
+  motion.session = Session::Seeking;
+}
+
+/// What a plan of so many cells needs, in time. [s]
+double planningTime(const Motion &motion, int32_t steps, int32_t budget) noexcept {
+  return motion.cycle * (2.0 + static_cast<double>(steps) / budget);
+}
+
+/// How many cells what is known of the path needs, at most `most`.
+int32_t cellsFor(const Motion &motion, int32_t most) noexcept {
+  constexpr double kRamps = 60.0; // which are finer
+  const Strip &strip = stripAtWay(motion, motion.way);
+  const double length = exact::sqrt(squareIn(strip, motion.wish.override)) * motion.cellTime;
+  const double cells = kRamps + 1.2 * (reachable(motion) - motion.way) / length;
+  return cells < most ? static_cast<int32_t>(cells) : most;
+}
+
+/// Whether more of the path has to be planned before the motion begins to brake for the end of its
+/// law; chooses with how many cells, and from where on.
+bool isTimeToExtend(Motion &motion, int32_t budget) noexcept {
+  const double left = timeLeft(motion);
+  const double free = left - motion.tail;
+  const auto leadFor = [&motion, budget](int32_t cells) {
+    return 1.1 *
+           planningTime(motion, hasJerk(motion) ? kStepsPerCell * cells : kTrapezoidSteps, budget);
+  };
+  int32_t cells = motion.cells < kCells / 2 ? 2 * motion.cells : kCells;
+  cells = cellsFor(motion, cells);
+  if (free > leadFor(cells) + 0.3 * motion.tail)
+    return false;
+  while (cells > kUrgentCells && leadFor(cells) > 0.9 * free)
+    cells -= kUrgentCells / 4;
+  motion.cells = cells;
+  motion.lead = leadFor(cells);
+  return true;
+}
+
+/// Whether there is something to plan; begins it.
+bool beginSession(Motion &motion, int32_t budget) noexcept {
+  const Wish &wish = motion.wish;
+  forgetBefore(motion.course, motion.way); // a full course could not be extended otherwise
+  if (isAtRest(motion)) {
+    motion.planned = wish;
+    if (wish.stop || !(motion.way < reachable(motion)))
+      return false;
+    motion.cells = kFirstCells;
+    beginFromRest(motion, motion.way);
+    return true;
+  }
+  if (motion.pause == 0 && differs(wish, motion.planned) && !(wish.stop && motion.planned.stop)) {
+    motion.cells = hasJerk(motion) ? kUrgentCells : kCells;
+    const double least =
+        hasJerk(motion) ? planningTime(motion, kStepsPerCell * kCellsToStop, budget) : 0.0;
+    motion.lead = larger(motion.urgentLead, least);
+    beginSeeking(motion, true);
+    return true;
+  }
+  if (motion.planned.stop)
+    return false;
+  const double end = endAt(motion.law, lastPiece(motion));
+  if (!(end < reachable(motion)))
+    return false;
+  if ((markAt(motion.law, lastPiece(motion)) & kFinal) != 0) {
+    if (motion.law.next - motion.law.first > kPieces / 2)
+      return false;
+    motion.cells = kFirstCells;
+    beginFromRest(motion, end);
+    return true;
+  }
+  if (!isTimeToExtend(motion, budget))
+    return false;
+  beginSeeking(motion, false);
+  return true;
+}
+
+/// In what length the motion could stop on a straight line. [u]
+double stoppingLength(const Motion &motion, const WayState &state, const Strip &strip) noexcept {
+  const double deceleration =
+      smaller(larger(strip.deceleration, motion.asked.deceleration),
+              larger(1.0 - strip.across * state.velocity * state.velocity, 0.05) / strip.along);
+  const double v = state.velocity;
+  if (!hasJerk(motion))
+    return 0.5 * v * v / deceleration;
+  const double jerk = motion.settings.jerk;
+  const double a = larger(state.acceleration, 0.0);
+  const double peak = v + 0.5 * a * a / jerk;
+  const double time = rampTime(peak, deceleration, jerk);
+  return v * a / jerk + a * a * a / (3.0 * jerk * jerk) + 0.5 * peak * time;
+}
+
+/// The piece in which the motion is to be planned anew is found, and where in it.
+void takeOver(Motion &motion, double cut) noexcept {
+  const TimePiece &piece = pieceAt(motion.law, motion.seek);
+  motion.cut = cut;
+  WayState state = stateAt(piece, cut);
+  if (cut >= piece.duration) {
+    state.way = endAt(motion.law, motion.seek);
+    if ((markAt(motion.law, motion.seek) & kRest) != 0)
+      state = {state.way, 0.0, 0.0, 0.0};
+  }
+  if (motion.asked.stop) {
+    motion.stopFactor = larger(motion.stopFactor, hasJerk(motion) ? kStopFactor : 1.0);
+    motion.stopLength =
+        motion.stopFactor * stoppingLength(motion, state, stripAtWay(motion, state.way));
+  }
+  beginPlan(motion, state);
+}
+
+/// Cuts the law off after the piece that is looked at.
+void endLawHere(Motion &motion) noexcept {
+  motion.law.next = motion.seek + 1;
+  markAt(motion.law, motion.seek) &= static_cast<uint8_t>(~(kFinal | kGate));
+  motion.planned = motion.asked;
+  motion.session = Session::None;
+}
+
+/// Looks at one piece.
+void seek(Motion &motion) noexcept {
+  const TimePiece &piece = pieceAt(motion.law, motion.seek);
+  const double needed = motion.lead - motion.passed; // from the start of this piece on
+  const bool rests = (markAt(motion.law, motion.seek) & kRest) != 0;
+  const bool anywhere = piece.law == PieceLaw::LinearInWay || piece.law == PieceLaw::ConstantJerk;
+  if (needed < piece.duration && anywhere) {
+    takeOver(motion, larger(needed, 0.0));
+    return;
+  }
+  if (needed < piece.duration && piece.law == PieceLaw::FromRest) {
+    takeOver(motion, larger(needed, 0.1 * piece.duration));
+    return;
+  }
+  if (rests || needed < piece.duration) { // not within these pieces, but at their ends
+    if (rests && motion.asked.stop)
+      endLawHere(motion);
+    else
+      takeOver(motion, piece.duration);
+    return;
+  }
+  motion.passed += piece.duration;
+  ++motion.seek;
+}
+
+/// Time until the motion comes to where the plan takes over; negative: it has been there. [s]
+double timeToCut(Motion &motion) noexcept {
+  Law &law = motion.law;
+  if (motion.seek >= law.next) // after all that the law has
+    return exact::kInfinity;
+  if (law.first > motion.seek)
+    return -1.0;
+  const auto beginOfPiece = [&law](int64_t number) {
+    return untilAt(law, number) - pieceAt(law, number).duration;
+  };
+  return beginOfPiece(motion.seek) - beginOfPiece(law.first) + motion.cut - timeInPiece(motion);
+}
+
+/// Whether the plan has been made in time: all that it has can be written before it is needed, with
+/// the steps that are left in this call, or with `budget` in each that follows.
+bool isInTime(Motion &motion, int32_t budget, int32_t left) noexcept {
+  const Plan &plan = motion.plan;
+  const int64_t steps = hasJerk(motion) ? plan.count : plan.lastStrip - plan.firstStrip + 1;
+  const double needed =
+      steps < left ? 0.0 : motion.cycle * (2.0 + static_cast<double>(steps) / budget);
+  return timeToCut(motion) >= needed;
+}
+
+/// The plan takes over: what the law has after that place goes.
+void cutLaw(Motion &motion) noexcept {
+  Law &law = motion.law;
+  if (motion.seek < law.next) {
+    TimePiece &piece = pieceAt(law, motion.seek);
+    if (motion.cut < piece.duration) {
+      untilAt(law, motion.seek) -= piece.duration - motion.cut;
+      piece.length = motion.plan.task.way - piece.start;
+      endAt(law, motion.seek) = motion.plan.task.way;
+      piece.duration = motion.cut;
+    }
+    const bool rests = !(motion.plan.task.velocity > 0.0);
+    if (!rests)
+      markAt(law, motion.seek) = 0;
+    law.next = motion.seek + 1;
+  }
+  motion.fresh = motion.law.next;
+  motion.planned = motion.asked;
+  motion.urgentLead = 0.0;
+  motion.stopFactor = 0.0;
+  motion.refused = false;
+  motion.tail = 0.0;
+  motion.ramp.length = 0.0;
+  motion.writing = hasJerk(motion) ? 0 : motion.plan.firstStrip;
+  motion.session = Session::Writing;
+}
+
+void planned(Motion &motion, int32_t budget, int32_t left) noexcept {
+  if (!isInTime(motion, budget, left)) {
+    if (motion.urgent)
+      motion.urgentLead = larger(1.5 * motion.lead, planningTime(motion, motion.steps, budget));
+    motion.session = Session::None;
+    return;
+  }
+  if (motion.plan.state == PlanState::Done) {
+    cutLaw(motion);
+    return;
+  }
+  const PlanTask &task = motion.plan.task;
+  if (motion.asked.stop && ++motion.tries < kMostTries) { // further away
+    motion.stopFactor *= 1.1;
+    motion.stopLength *= 1.1;
+    beginPlan(motion, {task.way, task.velocity, task.acceleration, 0.0});
+    return;
+  }
+  motion.refused = motion.urgent;
+  motion.pause = motion.urgent ? kPause : 0;
+  motion.session = Session::None;
+}
+
+void push(Motion &motion, const TimePiece &piece) noexcept {
+  Law &law = motion.law;
+  const bool empty = law.first == law.next;
+  if (empty) {
+    motion.since = 0.0;
+    motion.cycles = 0;
+  }
+  const double before = empty ? 0.0 : untilAt(law, law.next - 1);
+  pieceAt(law, law.next) = piece;
+  untilAt(law, law.next) = before + piece.duration;
+  endAt(law, law.next) = piece.start + piece.length;
+  markAt(law, law.next) = 0;
+  ++law.next;
+  const bool brakes = piece.acceleration < 0.0 || piece.law == PieceLaw::ToRest ||
+                      (piece.law == PieceLaw::ConstantJerk && piece.gradient < 0.0);
+  motion.tail = brakes ? motion.tail + piece.duration : 0.0;
+}
+
+/// Writes what has been put off.
+void pushRamp(Motion &motion) noexcept {
+  TimePiece &ramp = motion.ramp;
+  if (!(ramp.length > 0.0))
+    return;
+  const bool sigmoid = motion.settings.kind == LawKind::Sigmoid && ramp.acceleration != 0.0;
+  push(motion, sigmoid ? sineSquaredPiece(ramp.start, ramp.length, ramp.velocity, ramp.acceleration)
+                       : ramp);
+  ramp.length = 0.0;
+}
+
+/// A trapezoid's ramp may go on over several strips.
+void pushStrip(Motion &motion, int64_t strip) noexcept {
+  TimePiece pieces[3];
+  const int32_t count = piecesOf(motion.plan, motion.course, strip, pieces);
+  for (int32_t i = 0; i < count; ++i) {
+    TimePiece &ramp = motion.ramp;
+    const TimePiece &piece = pieces[i];
+    if (ramp.length > 0.0 && piece.acceleration == ramp.acceleration) {
+      ramp = linearPiece(ramp.start, piece.start + piece.length - ramp.start, ramp.velocity,
+                         ramp.acceleration, 0.0);
+      continue;
+    }
+    pushRamp(motion);
+    ramp = piece;
+  }
+}
+
+/// Writes one cell or strip of the plan; false: there is no room.
+bool write(Motion &motion) noexcept {
+  const Plan &plan = motion.plan;
+  if (motion.law.next - motion.law.first > kPieces - kReservedPieces)
+    return false;
+  bool done = false;
+  if (hasJerk(motion)) {
+    push(motion, pieceOf(plan, static_cast<int32_t>(motion.writing)));
+    done = ++motion.writing == plan.count;
+  } else {
+    pushStrip(motion, motion.writing);
+    done = motion.writing++ == plan.lastStrip;
+    if (done)
+      pushRamp(motion);
+  }
+  if (done) {
+    endAt(motion.law, lastPiece(motion)) = plan.end;
+    const bool final = plan.stops && plan.task.end == exact::kInfinity;
+    markAt(motion.law, motion.law.next - 1) =
+        static_cast<uint8_t>(kRest | (final ? kFinal : 0) | (final && plan.gate ? kGate : 0));
+    motion.session = Session::None;
+  }
+  return true;
+}
+
+} // namespace
+
+double stoppingWay(const Motion &motion) noexcept {
+  if (isAtRest(motion) || motion.resting)
+    return motion.way;
+  const WayState state = stateAt(pieceAt(motion.law, motion.law.first), timeInPiece(motion));
+  const double length = stoppingLength(motion, state, stripAtWay(motion, state.way));
+  return motion.way + 1.05 * length + state.velocity * motion.lead;
+}
+
+int32_t think(Motion &motion, int32_t budget) noexcept {
+  int32_t used = 0;
+  if (motion.pause > 0)
+    --motion.pause;
+  const bool stale = differs(motion.wish, motion.asked);
+  if (stale && (motion.session == Session::Seeking || motion.session == Session::Planning))
+    motion.session = Session::None;
+  while (used < budget) {
+    const int32_t before = used;
+    switch (motion.session) {
+    case Session::None:
+      if (!beginSession(motion, budget))
+        return used;
+      ++used;
+      break;
+    case Session::Seeking:
+      seek(motion);
+      ++used;
+      break;
+    case Session::Planning:
+      used = budget - work(motion.plan, motion.course, budget - used);
+      if (motion.plan.state != PlanState::Working)
+        planned(motion, budget, budget - used);
+      break;
+    case Session::Writing:
+      if (!write(motion))
+        return used;
+      ++used;
+      break;
+    }
+    motion.steps += used - before;
+  }
+  return used;
+}
+
+} // namespace stride::path

@@ -1,0 +1,41 @@
+// For the sources of motion.hpp: the ring of pieces.
+#ifndef STRIDE_RUNTIME_NUMERIC_PATH_MOTION_SESSION_HPP
+#define STRIDE_RUNTIME_NUMERIC_PATH_MOTION_SESSION_HPP
+
+#include "runtime/numeric/path/motion.hpp"
+
+namespace stride::path {
+
+/// Limits of Motion::cellTime. [s]
+inline constexpr double kLeastCellTime = 0.002;
+inline constexpr double kMostCellTime = 0.05;
+
+inline TimePiece &pieceAt(Law &law, int64_t number) noexcept {
+  return law.piece[static_cast<uint64_t>(number) % kPieces];
+}
+inline const TimePiece &pieceAt(const Law &law, int64_t number) noexcept {
+  return law.piece[static_cast<uint64_t>(number) % kPieces];
+}
+inline uint8_t &markAt(Law &law, int64_t number) noexcept {
+  return law.mark[static_cast<uint64_t>(number) % kPieces];
+}
+inline uint8_t markAt(const Law &law, int64_t number) noexcept {
+  return law.mark[static_cast<uint64_t>(number) % kPieces];
+}
+
+inline double &untilAt(Law &law, int64_t number) noexcept {
+  return law.until[static_cast<uint64_t>(number) % kPieces];
+}
+
+inline double &endAt(Law &law, int64_t number) noexcept {
+  return law.end[static_cast<uint64_t>(number) % kPieces];
+}
+
+/// How long the motion has been in the first piece of the law. [s]
+inline double timeInPiece(const Motion &motion) noexcept {
+  return motion.since + motion.cycle * static_cast<double>(motion.cycles);
+}
+
+} // namespace stride::path
+
+#endif // STRIDE_RUNTIME_NUMERIC_PATH_MOTION_SESSION_HPP

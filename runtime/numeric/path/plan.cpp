@@ -1,0 +1,88 @@
+#include "runtime/numeric/path/plan.hpp"
+
+#include "runtime/numeric/path/plan_cells.hpp"
+
+namespace stride::path {
+namespace {
+
+using Pass = bool (*)(Plan &, const Course &) noexcept;
+
+// clang-format off
+constexpr Pass kPasses[] = {
+    chooseRun, reachBackwards, addCell,                     // the cells
+    lowerBetweenCeilings, accelerate, brake,                // pass 1
+    limitForwards, limitBackwards, accelerate, brake,       // pass 2
+    findValleys, raiseSlowly, findValleys, raiseSlowly,     // pass 3
+    stackHull, lowerToHull, stackHull, lowerToHull, stackHull, lowerToHull, // pass 4
+    check, slowDown,
+};
+// clang-format on
+constexpr uint8_t kPassCount = sizeof kPasses / sizeof kPasses[0];
+constexpr uint8_t kCellPass = 2; ///< addCell, which may find that there are too few.
+constexpr int kMostCuts = 12;    ///< Of the run, if so.
+
+void beginPasses(Plan &plan, const Course &course, double cut) noexcept {
+  plan.cut = cut;
+  plan.time = 0.0;
+  plan.firstStrip = stripOf(course, plan.task.way);
+  plan.strip = plan.firstStrip;
+  plan.count = 0;
+  plan.index = 0;
+  plan.phase = 0;
+  plan.round = 0;
+  plan.worst = 1.0;
+  plan.isAlone = false;
+}
+
+} // namespace
+
+void begin(Plan &plan, const Course &course, const PlanTask &task) noexcept {
+  plan.task = task;
+  plan.cuts = 0;
+  plan.state = course.first < course.next && task.way < endOf(course) ? PlanState::Working
+                                                                      : PlanState::Failed;
+  beginPasses(plan, course, 0.75);
+  if (plan.state == PlanState::Working && planAlone(plan, course))
+    plan.state = PlanState::Done;
+}
+
+int32_t work(Plan &plan, const Course &course, int32_t budget) noexcept {
+  while (plan.state == PlanState::Working && budget > 0) {
+    --budget;
+    if (!kPasses[plan.phase](plan, course) && plan.state != PlanState::Failed)
+      continue;
+    if (plan.state == PlanState::Failed) {
+      if (plan.phase == kCellPass && plan.cuts < kMostCuts && !plan.task.whole) {
+        plan.state = PlanState::Working; // too few cells: a shorter run
+        ++plan.cuts;
+        beginPasses(plan, course, 0.75 * plan.cut);
+      }
+      continue;
+    }
+    plan.index = 0;
+    ++plan.phase;
+    if (plan.phase == kPassCount || (plan.phase == kCellPass && plan.task.jerk == exact::kInfinity))
+      plan.state = PlanState::Done;
+  }
+  return budget;
+}
+
+TimePiece pieceOf(const Plan &plan, int32_t index) noexcept {
+  if (plan.isAlone)
+    return plan.alone[index];
+  const double start = knotBefore(plan, index);
+  const double length = lengthOf(plan, index);
+  const bool fromRest = index == 0 && startsAtRest(plan);
+  if (fromRest || index == plan.count - 1) {
+    const double slope = exact::fabs(slopeAt(plan, fromRest ? 0 : index - 1));
+    const double jerk = exact::sqrt(slope * slope * slope / (6.0 * length));
+    return fromRest ? pieceFromRest(start, length, jerk) : pieceToRest(start, length, jerk);
+  }
+  const double square =
+      index > 0 ? squareAtKnot(plan, index - 1) : plan.task.velocity * plan.task.velocity;
+  const double before = slopeBefore(plan, index);
+  return linearPiece(start, length, exact::sqrt(square), before,
+                     (slopeAt(plan, index) - before) / length);
+}
+
+} // namespace stride::path

@@ -1,0 +1,100 @@
+// A run along one straight strip from rest to rest: its law has a closed form, up to seven pieces
+// of constant jerk, which is the quickest there is.
+#include "runtime/numeric/path/plan_cells.hpp"
+
+namespace stride::path {
+namespace {
+
+using exact::larger;
+using exact::smaller;
+
+/// The limits of a run.
+struct Limits {
+  double velocity, acceleration, deceleration, jerk;
+};
+
+/// The way of both ramps. [u]
+double rampsWay(double velocity, const Limits &limits) noexcept {
+  return 0.5 * velocity *
+         (rampTime(velocity, limits.acceleration, limits.jerk) +
+          rampTime(velocity, limits.deceleration, limits.jerk));
+}
+
+/// The greatest velocity that ramps reach within a length, at most that of the limits. [u/s]
+double peakVelocity(double length, const Limits &limits) noexcept {
+  double high = limits.velocity;
+  if (rampsWay(high, limits) <= length)
+    return high;
+  double low = 0.0;
+  for (int i = 0; i < 200 && low < high; ++i) {
+    const double middle = low + 0.5 * (high - low);
+    if (middle == low || middle == high)
+      break;
+    (rampsWay(middle, limits) <= length ? low : high) = middle;
+  }
+  return low;
+}
+
+/// Writes pieces one after the other.
+struct Writer {
+  Plan &plan;
+  double way; ///< At the end of the last one. [u]
+
+  void put(const TimePiece &piece) noexcept {
+    plan.alone[plan.count++] = piece;
+    way = piece.start + piece.length;
+  }
+};
+
+/// The three pieces of a ramp between rest and `velocity`; `rises` or falls.
+void writeRamp(Writer &writer, double velocity, double acceleration, double jerk,
+               bool rises) noexcept {
+  const double most = smaller(acceleration, exact::sqrt(velocity * jerk)); // that is reached
+  const double change = most / jerk;                                       // its time
+  const double steady = larger(velocity / most - change, 0.0);
+  const double low = 0.5 * most * change; // velocity beside rest
+  const double rest = jerk * change * change * change / 6.0;
+  if (rises)
+    writer.put(pieceFromRest(writer.way, rest, jerk));
+  else
+    writer.put(constantJerkPiece(writer.way, velocity, 0.0, -jerk, change));
+  if (steady > 1e-12 * change)
+    writer.put(constantJerkPiece(writer.way, rises ? low : velocity - low, rises ? most : -most,
+                                 0.0, steady));
+  if (rises)
+    writer.put(constantJerkPiece(writer.way, velocity - low, most, -jerk, change));
+  else
+    writer.put(pieceToRest(writer.way, rest, jerk));
+}
+
+} // namespace
+
+bool planAlone(Plan &plan, const Course &course) noexcept {
+  const PlanTask &task = plan.task;
+  const Strip &strip = stripAt(course, plan.firstStrip);
+  if (!startsAtRest(plan) || task.jerk == exact::kInfinity || !strip.stop || strip.across > 0.0 ||
+      task.end < strip.end)
+    return false;
+  const double allowed = 1.0 / strip.along;
+  const Limits limits{exact::sqrt(squareIn(strip, task.override)),
+                      smaller(strip.acceleration, allowed),
+                      smaller(larger(strip.deceleration, task.deceleration), allowed), task.jerk};
+  const double length = strip.end - task.way;
+  const double velocity = peakVelocity(length, limits);
+  const double steady = length - rampsWay(velocity, limits);
+  if (!(velocity > 0.0) || !exact::isfinite(rampsWay(velocity, limits)))
+    return false;
+  plan.isAlone = true;
+  plan.lastStrip = plan.firstStrip;
+  plan.end = strip.end;
+  plan.stops = true;
+  plan.gate = strip.gate;
+  Writer writer{plan, task.way};
+  writeRamp(writer, velocity, limits.acceleration, limits.jerk, true);
+  if (steady > 1e-12 * length)
+    writer.put(linearPiece(writer.way, steady, velocity, 0.0, 0.0));
+  writeRamp(writer, velocity, limits.deceleration, limits.jerk, false);
+  return true;
+}
+
+} // namespace stride::path

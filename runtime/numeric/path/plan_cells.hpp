@@ -1,0 +1,84 @@
+// For the sources of the planner: what they ask a plan's cells.
+#ifndef STRIDE_RUNTIME_NUMERIC_PATH_PLAN_CELLS_HPP
+#define STRIDE_RUNTIME_NUMERIC_PATH_PLAN_CELLS_HPP
+
+#include "runtime/numeric/path/plan.hpp"
+
+namespace stride::path {
+
+inline bool startsAtRest(const Plan &plan) noexcept { return !(plan.task.velocity > 0.0); }
+
+/// Between the control points before and after knot `i`. [u]
+inline double spanAt(const Plan &plan, int32_t i) noexcept {
+  return plan.cell[i + 1].middle - plan.cell[i].middle;
+}
+
+/// The acceleration at knot `i`. [u/s^2]
+inline double slopeAt(const Plan &plan, int32_t i) noexcept {
+  return (plan.cell[i + 1].square - plan.cell[i].square) / (2.0 * spanAt(plan, i));
+}
+
+/// The acceleration at the start of cell `i`. [u/s^2]
+inline double slopeBefore(const Plan &plan, int32_t i) noexcept {
+  return i > 0 ? slopeAt(plan, i - 1) : plan.task.acceleration;
+}
+
+/// b at knot `i`. [u^2/s^2]
+inline double squareAtKnot(const Plan &plan, int32_t i) noexcept {
+  const Cell &before = plan.cell[i];
+  const double part = (before.end - before.middle) / spanAt(plan, i);
+  return before.square + (plan.cell[i + 1].square - before.square) * part;
+}
+
+inline double knotBefore(const Plan &plan, int32_t i) noexcept {
+  return i > 0 ? plan.cell[i - 1].end : plan.task.way;
+}
+inline double lengthOf(const Plan &plan, int32_t i) noexcept {
+  return plan.cell[i].end - knotBefore(plan, i);
+}
+
+/// The greatest velocity within a cell that is not next to rest, or a little more. [u/s]
+inline double greatestIn(const Plan &plan, int32_t i) noexcept {
+  const double before = i > 0 ? squareAtKnot(plan, i - 1) : plan.task.velocity * plan.task.velocity;
+  return exact::sqrt(
+      exact::larger(plan.cell[i].square, exact::larger(before, squareAtKnot(plan, i))));
+}
+
+/// How far the acceleration can change within a cell that is not next to rest. [u/s^2]
+inline double changeIn(const Plan &plan, int32_t i) noexcept {
+  return plan.task.jerk * lengthOf(plan, i) / greatestIn(plan, i);
+}
+
+/// The acceleration at the end of the way x out of rest, with constant jerk. [u/s^2]
+double accelerationFromRest(double jerk, double x) noexcept;
+
+/// What of a strip's accelerations the first idea makes use of; of a trapezoid, the plan: what a
+/// curve leaves where it is gone over with the greatest velocity. [u/s^2]
+double usableAcceleration(const Plan &plan, const Strip &strip) noexcept;
+double usableDeceleration(const Plan &plan, const Strip &strip) noexcept;
+
+/// b in a strip as the first idea has it. [u^2/s^2]
+double firstIdea(const Plan &plan, const Course &course, int64_t strip, double way) noexcept;
+
+/// Whether the run is one strip from rest to rest without a curve; plans it then, in closed form.
+bool planAlone(Plan &plan, const Course &course) noexcept;
+
+// A pass: one step of it; true: it is done.
+bool chooseRun(Plan &plan, const Course &course) noexcept;
+bool reachBackwards(Plan &plan, const Course &course) noexcept;
+bool addCell(Plan &plan, const Course &course) noexcept;
+bool lowerBetweenCeilings(Plan &plan, const Course &course) noexcept;
+bool accelerate(Plan &plan, const Course &course) noexcept;
+bool brake(Plan &plan, const Course &course) noexcept;
+bool limitForwards(Plan &plan, const Course &course) noexcept;
+bool limitBackwards(Plan &plan, const Course &course) noexcept;
+bool findValleys(Plan &plan, const Course &course) noexcept;
+bool raiseSlowly(Plan &plan, const Course &course) noexcept;
+bool stackHull(Plan &plan, const Course &course) noexcept;
+bool lowerToHull(Plan &plan, const Course &course) noexcept;
+bool check(Plan &plan, const Course &course) noexcept;
+bool slowDown(Plan &plan, const Course &course) noexcept;
+
+} // namespace stride::path
+
+#endif // STRIDE_RUNTIME_NUMERIC_PATH_PLAN_CELLS_HPP

@@ -1,0 +1,314 @@
+// Passes 3 and 4 of a plan: what the jerk allows.
+#include "runtime/numeric/path/plan_cells.hpp"
+
+namespace stride::path {
+namespace {
+
+using exact::larger;
+using exact::smaller;
+
+/// Comparisons of slopes that only differ by rounding.
+constexpr double kAlmost = 1.0 + 1e-9;
+/// How far a limit may be exceeded, which is nothing but rounding. More than that is made up for by
+/// a slower motion, up to kMost.
+constexpr double kRounding = 1.0 + 5e-7;
+constexpr double kMost = 1.5;
+
+bool isRestCell(const Plan &plan, int32_t i) noexcept {
+  return i == plan.count - 1 || (i == 0 && startsAtRest(plan));
+}
+
+bool isValley(const Plan &plan, int32_t i) noexcept {
+  return !isRestCell(plan, i) &&
+         slopeAt(plan, i) - slopeBefore(plan, i) > changeIn(plan, i) * kAlmost;
+}
+
+// ---- the heap of valleys, the lowest first
+
+double heightOf(const Plan &plan, int32_t place) noexcept {
+  return plan.cell[plan.stack[place]].square;
+}
+
+void swapPlaces(Plan &plan, int32_t a, int32_t b) noexcept {
+  const int16_t cell = plan.stack[a];
+  plan.stack[a] = plan.stack[b];
+  plan.stack[b] = cell;
+}
+
+void push(Plan &plan, int32_t cell) noexcept {
+  int32_t place = plan.stacked++;
+  plan.stack[place] = static_cast<int16_t>(cell);
+  for (; place > 0; place = (place - 1) / 2) {
+    const int32_t parent = (place - 1) / 2;
+    if (heightOf(plan, parent) <= heightOf(plan, place))
+      break;
+    swapPlaces(plan, parent, place);
+  }
+}
+
+int32_t popLowest(Plan &plan) noexcept {
+  const int32_t cell = plan.stack[0];
+  plan.stack[0] = plan.stack[--plan.stacked];
+  for (int32_t place = 0;;) {
+    int32_t least = place;
+    for (int32_t child = 2 * place + 1; child <= 2 * place + 2 && child < plan.stacked; ++child)
+      if (heightOf(plan, child) < heightOf(plan, least))
+        least = child;
+    if (least == place)
+      return cell;
+    swapPlaces(plan, least, place);
+    place = least;
+  }
+}
+
+// ---- curves out of valleys
+
+/// Chooses the slopes on both sides of a valley: at rest between both where b has its minimum
+/// there, else the steeper side keeps its slope.
+void beginCurves(Plan &plan, int32_t i) noexcept {
+  const double before = slopeBefore(plan, i);
+  const double after = slopeAt(plan, i);
+  const double change = changeIn(plan, i);
+  double left = before;
+  double right = smaller(after, before + change);
+  if (i > 0 || startsAtRest(plan)) {
+    if (after <= 0.0) {
+      right = after;
+      left = larger(before, after - change);
+    } else if (before < 0.0) {
+      left = larger(before, -0.5 * change);
+      right = smaller(after, left + change);
+      left = larger(before, right - change);
+    }
+  }
+  plan.valley = i;
+  plan.index = i;
+  plan.heading = 1;
+  plan.curveSlope = right;
+  plan.otherSlope = -left;
+}
+
+/// How far the slope rises within cell `i`, which is left on the side of `heading`, if its end has
+/// to be reached with the velocity at which the slope can change.
+double slopeAfter(const Plan &plan, int32_t i, double slope) noexcept {
+  const Cell &cell = plan.cell[i];
+  const double knot = plan.heading > 0 ? cell.end : knotBefore(plan, i);
+  const double reach = exact::fabs(knot - cell.middle);
+  const double change = plan.task.jerk * lengthOf(plan, i);
+  double square = cell.square;
+  double next = slope;
+  for (int k = 0; k < 4; ++k) { // from above and below by turns, ends where it is slow enough
+    next = slope + change / exact::sqrt(square);
+    square = larger(cell.square + 2.0 * next * reach, cell.square);
+  }
+  return slope + change / exact::sqrt(square);
+}
+
+/// Draws one span of the curve; false: it has met the rest.
+bool drawCurve(Plan &plan) noexcept {
+  const int32_t i = plan.index;
+  const int32_t next = i + plan.heading;
+  if (next < 0 || next >= plan.count)
+    return false;
+  const int32_t knot = plan.heading > 0 ? i : i - 1;
+  const double square = plan.cell[i].square + 2.0 * plan.curveSlope * spanAt(plan, knot);
+  Cell &cell = plan.cell[next];
+  if (square >= cell.square || isRestCell(plan, next))
+    return false;
+  if (next == 0 || !(square > 0.0)) {
+    plan.state = PlanState::Failed; // it would have to be slower before it begins
+    return false;
+  }
+  cell.square = square;
+  plan.index = next;
+  const int32_t after = plan.heading > 0 ? next : next - 1;
+  const double most = after < 0 ? exact::kInfinity
+                                : (plan.heading > 0 ? plan.cell[after].up : plan.cell[after].down);
+  plan.curveSlope = smaller(most, slopeAfter(plan, next, plan.curveSlope));
+  return true;
+}
+
+// ---- the hull
+
+double slopeOfLine(const Plan &plan, int32_t from, int32_t to) noexcept {
+  const Cell &a = plan.cell[from];
+  const Cell &b = plan.cell[to];
+  return (b.bound + b.lift - (a.bound + a.lift)) / (b.middle - a.middle);
+}
+
+/// Pushes a control point and takes away those that are not on the hull any more.
+void pushOntoHull(Plan &plan, int32_t i) noexcept {
+  while (plan.stacked >= 2) {
+    const int32_t last = plan.stack[plan.stacked - 1];
+    if (slopeOfLine(plan, plan.stack[plan.stacked - 2], last) < slopeOfLine(plan, last, i))
+      break;
+    --plan.stacked;
+  }
+  plan.stack[plan.stacked++] = static_cast<int16_t>(i);
+}
+
+/// Goes on from the hull's point at plan.valley to the next one. Heights above the line between
+/// both are summed up from there on, not taken from the whole run's, in which they would cancel.
+void beginEdge(Plan &plan) noexcept {
+  plan.index = plan.stack[plan.valley];
+  plan.curveSlope = 0.0;
+  plan.height = 0.0;
+}
+
+/// The height of the next point, by one span.
+void riseOverSpan(Plan &plan) noexcept {
+  plan.height += plan.curveSlope * spanAt(plan, plan.index);
+  ++plan.index;
+  plan.curveSlope += plan.cell[plan.index].change;
+}
+
+// ---- the check
+
+void note(Plan &plan, double part) noexcept {
+  if (!(part <= plan.worst)) // NaN as well
+    plan.worst = part;
+}
+
+void checkKnot(Plan &plan, int32_t i) noexcept {
+  const Cell &a = plan.cell[i];
+  const Cell &b = plan.cell[i + 1];
+  const double slope = slopeAt(plan, i);
+  const double square = squareAtKnot(plan, i);
+  note(plan, slope > 0.0 ? slope / smaller(a.acceleration, b.acceleration)
+                         : -slope / smaller(a.deceleration, b.deceleration));
+  note(plan, exact::fabs(slope) * larger(a.along, b.along) +
+                 larger(a.across, b.across) * larger(a.square, b.square));
+  note(plan, square / smaller(a.ceiling, b.ceiling));
+  note(plan, square / smaller(a.curve, b.curve));
+}
+
+void checkCell(Plan &plan, int32_t i) noexcept {
+  const Cell &cell = plan.cell[i];
+  note(plan, cell.square / cell.ceiling);
+  note(plan, cell.square / cell.curve);
+  if (i == 0 && !startsAtRest(plan))
+    note(plan, plan.task.velocity * plan.task.velocity / cell.curve);
+  if (isRestCell(plan, i)) {
+    const double slope = exact::fabs(i == 0 ? slopeAt(plan, 0) : slopeAt(plan, i - 1));
+    const double x = lengthOf(plan, i);
+    note(plan, slope / accelerationFromRest(plan.task.jerk, x));
+    return;
+  }
+  note(plan, exact::fabs(slopeAt(plan, i) - slopeBefore(plan, i)) / changeIn(plan, i));
+  if (!(cell.square > 0.0))
+    plan.worst = exact::kInfinity;
+}
+
+} // namespace
+
+bool findValleys(Plan &plan, const Course & /*course*/) noexcept {
+  if (plan.index == 0) {
+    plan.stacked = 0;
+    plan.heading = 0;
+  }
+  if (plan.index == plan.count - 1)
+    return true;
+  if (isValley(plan, plan.index))
+    push(plan, plan.index);
+  ++plan.index;
+  return false;
+}
+
+bool raiseSlowly(Plan &plan, const Course & /*course*/) noexcept {
+  if (plan.heading != 0) {
+    if (drawCurve(plan))
+      return false;
+    plan.heading = static_cast<int8_t>(plan.heading > 0 ? -1 : 0);
+    plan.index = plan.valley;
+    plan.curveSlope = plan.otherSlope;
+    return plan.state == PlanState::Failed;
+  }
+  if (plan.stacked == 0)
+    return true;
+  const int32_t i = popLowest(plan);
+  if (isValley(plan, i))
+    beginCurves(plan, i);
+  return false;
+}
+
+bool stackHull(Plan &plan, const Course & /*course*/) noexcept {
+  const int32_t i = plan.index;
+  Cell &cell = plan.cell[i];
+  if (i == 0) {
+    plan.stacked = 0;
+    plan.curveSlope = 0.0;
+  }
+  if (plan.round == 0)
+    cell.bound = cell.square;
+  cell.change = isRestCell(plan, i) ? 0.0 : 2.0 * changeIn(plan, i);
+  cell.lift = i > 0 ? plan.cell[i - 1].lift + plan.curveSlope * spanAt(plan, i - 1) : 0.0;
+  plan.curveSlope += cell.change;
+  pushOntoHull(plan, i);
+  ++plan.index;
+  if (plan.index < plan.count)
+    return false;
+  // The first slope must not fall further than the first cell can follow.
+  const double least = 2.0 * plan.task.acceleration;
+  if (!startsAtRest(plan) && slopeOfLine(plan, plan.stack[0], plan.stack[1]) <
+                                 least - 1e-9 * exact::fabs(plan.cell[0].change)) {
+    plan.state = PlanState::Failed;
+    return true;
+  }
+  plan.valley = 0;
+  plan.heading = 1;
+  beginEdge(plan);
+  return true;
+}
+
+bool lowerToHull(Plan &plan, const Course & /*course*/) noexcept {
+  const int32_t from = plan.stack[plan.valley];
+  const int32_t to = plan.stack[plan.valley + 1];
+  riseOverSpan(plan);
+  const Cell &a = plan.cell[from];
+  Cell &cell = plan.cell[plan.index];
+  if (plan.heading > 0) { // there, for the height at its end
+    if (plan.index < to)
+      return false;
+    plan.otherSlope = (cell.bound - a.bound + plan.height) / (cell.middle - a.middle);
+    plan.heading = -1;
+    beginEdge(plan);
+    return false;
+  }
+  if (plan.index < to) { // once more, with the line
+    const double line = a.bound + plan.otherSlope * (cell.middle - a.middle);
+    cell.square = smaller(cell.bound, line - plan.height);
+    return false;
+  }
+  cell.square = cell.bound;
+  ++plan.valley;
+  plan.heading = 1;
+  beginEdge(plan);
+  if (plan.valley + 1 < plan.stacked)
+    return false;
+  ++plan.round;
+  return true;
+}
+
+bool check(Plan &plan, const Course & /*course*/) noexcept {
+  const int32_t i = plan.index;
+  checkCell(plan, i);
+  if (i + 1 < plan.count) {
+    checkKnot(plan, i);
+    ++plan.index;
+    return false;
+  }
+  if (plan.worst > kRounding && (!startsAtRest(plan) || !(plan.worst < kMost)))
+    plan.state = PlanState::Failed;
+  return true;
+}
+
+bool slowDown(Plan &plan, const Course & /*course*/) noexcept {
+  if (plan.worst <= kRounding || plan.index == plan.count)
+    return true;
+  // By that much all over: jerk and acceleration fall at least as far.
+  plan.cell[plan.index].square /= plan.worst;
+  ++plan.index;
+  return false;
+}
+
+} // namespace stride::path

@@ -1,0 +1,164 @@
+// Passes 1 and 2 of a plan: what the accelerations allow.
+#include "runtime/numeric/path/plan_cells.hpp"
+
+namespace stride::path {
+namespace {
+
+using exact::larger;
+using exact::smaller;
+
+/// Limits of the axes at knot `i`: those of the cells on both sides.
+double alongAt(const Plan &plan, int32_t i) noexcept {
+  return larger(plan.cell[i].along, plan.cell[i + 1].along);
+}
+double acrossAt(const Plan &plan, int32_t i) noexcept {
+  return larger(plan.cell[i].across, plan.cell[i + 1].across);
+}
+
+/// The greatest b at one side of knot `i` if there is `square` at the other one and the
+/// acceleration is at most `limit`.
+double squareBeyond(const Plan &plan, int32_t i, double square, double limit) noexcept {
+  const double span = spanAt(plan, i);
+  const double weight = alongAt(plan, i) / (2.0 * span);
+  const double byAxes = (1.0 + weight * square) / (weight + acrossAt(plan, i));
+  return smaller(square + 2.0 * limit * span, byAxes);
+}
+
+/// What the curve of the path leaves of the axes' acceleration at knot `i`, at most `limit`.
+double leftAt(const Plan &plan, int32_t i, double limit) noexcept {
+  const double square = larger(plan.cell[i].square, plan.cell[i + 1].square);
+  const double left = larger(1.0 - acrossAt(plan, i) * square, 0.0);
+  return smaller(limit, left / alongAt(plan, i));
+}
+
+void setKnotLimits(Plan &plan, int32_t i) noexcept {
+  Cell &cell = plan.cell[i];
+  const Cell &next = plan.cell[i + 1];
+  cell.up = smaller(cell.acceleration, next.acceleration);
+  cell.down = smaller(cell.deceleration, next.deceleration);
+  if (i == 0 && startsAtRest(plan))
+    cell.up = smaller(cell.up, accelerationFromRest(plan.task.jerk, cell.end - plan.task.way));
+  if (i == plan.count - 2)
+    cell.down = smaller(cell.down, accelerationFromRest(plan.task.jerk, next.end - cell.end));
+}
+
+/// The first control point of a run that does not begin at rest is given; if it is above the
+/// ceilings, since there is another override, the ceilings are those of a motion that slows down.
+void beginSlowing(Plan &plan, double ceiling) noexcept {
+  const double velocity = plan.task.velocity;
+  Cell &cell = plan.cell[0];
+  cell.square =
+      startsAtRest(plan) ? 0.0 : velocity * velocity + plan.task.acceleration * lengthOf(plan, 0);
+  if (!(cell.square > 0.0) && !startsAtRest(plan))
+    plan.state = PlanState::Failed;
+  plan.slowing = cell.square > ceiling;
+  if (plan.slowing)
+    cell.ceiling = larger(cell.ceiling, velocity * velocity);
+  plan.height = cell.square;
+  plan.curveSlope = plan.task.acceleration;
+}
+
+/// The motion that slows down, by one cell: with a little less than jerk and deceleration allow,
+/// which leaves something to the passes that follow.
+void goOnSlowing(Plan &plan, int32_t i, double ceiling) noexcept {
+  constexpr double kLess = 0.95;
+  const double velocity = exact::sqrt(plan.height);
+  const double change = kLess * plan.task.jerk * lengthOf(plan, i - 1) / velocity;
+  const double slope = plan.curveSlope;
+  const double needed = slope < 0.0 ? 0.5 * slope * slope / (kLess * plan.task.jerk) : 0.0;
+  if (velocity - needed - velocity * 1e-9 > exact::sqrt(ceiling))
+    plan.curveSlope = larger(slope - change, smaller(slope, -kLess * plan.cell[i - 1].down));
+  else
+    plan.curveSlope = smaller(slope + change, 0.0);
+  plan.height = larger(plan.height + 2.0 * plan.curveSlope * spanAt(plan, i - 1), 0.0);
+  if (plan.height <= ceiling && plan.curveSlope >= 0.0)
+    plan.slowing = false;
+}
+
+} // namespace
+
+bool lowerBetweenCeilings(Plan &plan, const Course & /*course*/) noexcept {
+  // b stays within the hull of three control points: with the least of three ceilings it is
+  // nowhere above that of its cell.
+  const int32_t i = plan.index;
+  const bool last = i == plan.count - 1;
+  Cell &cell = plan.cell[i];
+  const Cell &before = plan.cell[i > 0 ? i - 1 : 0];
+  const Cell &after = plan.cell[last ? i : i + 1];
+  if (last) {
+    cell.square = 0.0;
+    return true;
+  }
+  const double ceiling = smaller(cell.ceiling, smaller(before.ceiling, after.ceiling));
+  const double curve = smaller(cell.curve, smaller(before.curve, after.curve));
+  setKnotLimits(plan, i);
+  if (i == 0)
+    beginSlowing(plan, ceiling);
+  else if (plan.slowing)
+    goOnSlowing(plan, i, ceiling);
+  if (i > 0)
+    cell.square = plan.slowing ? smaller(curve, larger(ceiling, plan.height)) : ceiling;
+  if (i > 0 && plan.slowing) // it counts as the ceiling, on both sides
+    cell.ceiling = larger(cell.ceiling, larger(cell.square, before.square));
+  ++plan.index;
+  return false;
+}
+
+bool accelerate(Plan &plan, const Course & /*course*/) noexcept {
+  const int32_t i = plan.index;
+  if (i + 1 >= plan.count)
+    return true;
+  Cell &next = plan.cell[i + 1];
+  next.square = smaller(next.square, squareBeyond(plan, i, plan.cell[i].square, plan.cell[i].up));
+  ++plan.index;
+  return false;
+}
+
+bool brake(Plan &plan, const Course & /*course*/) noexcept {
+  const int32_t i = plan.count - 2 - plan.index;
+  if (i < 0)
+    return true;
+  Cell &cell = plan.cell[i];
+  const double most = squareBeyond(plan, i, plan.cell[i + 1].square, cell.down);
+  if (i == 0 && !startsAtRest(plan)) {
+    if (most < cell.square)
+      plan.state = PlanState::Failed;
+    return true;
+  }
+  cell.square = smaller(cell.square, most);
+  ++plan.index;
+  return false;
+}
+
+bool limitForwards(Plan &plan, const Course & /*course*/) noexcept {
+  const int32_t i = plan.index;
+  if (i + 1 >= plan.count)
+    return true;
+  Cell &cell = plan.cell[i];
+  cell.up = leftAt(plan, i, cell.up);
+  cell.down = leftAt(plan, i, cell.down);
+  if (i > 0) {
+    const double change = changeIn(plan, i);
+    // The small acceleration with which a cell out of rest ends does not limit what comes after.
+    if (i > 1 || !startsAtRest(plan))
+      cell.up = smaller(cell.up, plan.cell[i - 1].up + change);
+    cell.down = smaller(cell.down, plan.cell[i - 1].down + change);
+  }
+  ++plan.index;
+  return false;
+}
+
+bool limitBackwards(Plan &plan, const Course & /*course*/) noexcept {
+  const int32_t i = plan.count - 3 - plan.index;
+  if (i < 0)
+    return true;
+  Cell &cell = plan.cell[i];
+  const double change = changeIn(plan, i + 1);
+  cell.up = smaller(cell.up, plan.cell[i + 1].up + change);
+  if (i + 2 < plan.count - 1) // nor that with which one into rest begins what comes before
+    cell.down = smaller(cell.down, plan.cell[i + 1].down + change);
+  ++plan.index;
+  return false;
+}
+
+} // namespace stride::path

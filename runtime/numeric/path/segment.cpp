@@ -1,0 +1,145 @@
+#include "runtime/numeric/path/segment.hpp"
+
+namespace stride::path {
+namespace {
+
+using exact::fabs;
+using numeric::norm;
+
+constexpr int kParts = 16; ///< Of a WayTable.
+constexpr int kMostSteps = 6;
+
+bool hasTable(const Shape &shape) noexcept {
+  return shape.kind == ShapeKind::Ellipse || shape.kind == ShapeKind::Polynomial;
+}
+
+double speedAt(const Shape &shape, double u) noexcept { return norm(overParameter(shape, u).d1); }
+
+/// The length by a rule of five points.
+double quickLength(const Shape &shape, double from, double to) noexcept {
+  constexpr double kAt[] = {0.53846931010568309104, 0.90617984593866399280};
+  constexpr double kWeight[] = {0.47862867049936646804, 0.23692688505618908751};
+  const double middle = 0.5 * (from + to);
+  const double half = 0.5 * (to - from);
+  double sum = 0.56888888888888888889 * speedAt(shape, middle);
+  for (int i = 0; i < 2; ++i)
+    sum += kWeight[i] *
+           (speedAt(shape, middle - half * kAt[i]) + speedAt(shape, middle + half * kAt[i]));
+  return sum * half;
+}
+
+WayTable tableOf(const Shape &shape) noexcept {
+  WayTable table{};
+  table.isSmooth = true;
+  for (int i = 0; i < kParts; ++i) {
+    const double from = static_cast<double>(i) / kParts;
+    const double to = static_cast<double>(i + 1) / kParts;
+    const double length = lengthBetween(shape, from, to);
+    table.way[i + 1] = table.way[i] + length;
+    if (fabs(length - quickLength(shape, from, to)) > 1e-13 * shape.length)
+      table.isSmooth = false;
+  }
+  return table;
+}
+
+/// The parameter at a way, by Newton's steps from where a cubic curve between the table's places
+/// has it.
+double parameterOf(const Segment &segment, double way) noexcept {
+  const Shape &shape = segment.shape;
+  if (!hasTable(shape))
+    return way / segment.length;
+  if (!segment.table.isSmooth)
+    return parameterAt(shape, way);
+  int part = 0;
+  for (int half = kParts / 2; half > 0; half /= 2)
+    if (segment.table.way[part + half] <= way)
+      part += half;
+  const double from = static_cast<double>(part) / kParts;
+  const double to = static_cast<double>(part + 1) / kParts;
+  const double begin = segment.table.way[part];
+  const double span = segment.table.way[part + 1] - begin;
+  double u = from + (to - from) * exact::smaller((way - begin) / span, 1.0);
+  for (int i = 0; i < kMostSteps; ++i) {
+    const double off = way - begin - quickLength(shape, from, u);
+    u += off / speedAt(shape, u);
+    if (fabs(off) <= 1e-14 * segment.length)
+      break;
+  }
+  return exact::smaller(exact::larger(u, 0.0), 1.0);
+}
+
+struct Progress {
+  double f, d1, d2, d3; ///< Part of the way of a companion, and derivatives over the way.
+};
+
+Progress evenly(double u, double length) noexcept { return {u, 1.0 / length, 0.0, 0.0}; }
+
+Progress sProfile(double u, double length) noexcept {
+  const double v = 1.0 - u;
+  const double r = 1.0 / length;
+  return {u * u * u * (10.0 + u * (-15.0 + 6.0 * u)), 30.0 * u * u * v * v * r,
+          60.0 * u * v * (v - u) * r * r, 60.0 * (1.0 + 6.0 * u * (u - 1.0)) * r * r * r};
+}
+
+bool hasBit(uint16_t bits, int32_t k) noexcept {
+  return (static_cast<unsigned>(bits) >> static_cast<unsigned>(k) & 1U) != 0;
+}
+
+uint16_t bitOf(int32_t k) noexcept { return static_cast<uint16_t>(1U << static_cast<unsigned>(k)); }
+
+void putSpace(PathPoint &point, const Derivatives &d) noexcept {
+  const Vector3 *const of[] = {&d.p, &d.d1, &d.d2, &d.d3};
+  double *const to[] = {point.at, point.d1, point.d2, point.d3};
+  for (int i = 0; i < 4; ++i) {
+    to[i][0] = of[i]->x;
+    to[i][1] = of[i]->y;
+    to[i][2] = of[i]->z;
+  }
+}
+
+} // namespace
+
+Segment makeSegment(const Shape &shape, const Companion (&companions)[kCoordinates]) noexcept {
+  Segment segment{};
+  segment.shape = shape;
+  segment.length = shape.length;
+  segment.isStill = !(shape.length > 0.0);
+  for (int32_t k = 0; k < kCoordinates; ++k) {
+    const Companion &companion = companions[k];
+    if (!companion.follows)
+      continue;
+    segment.start[k] = companion.start;
+    segment.delta[k] = companion.end - companion.start;
+    segment.along |= bitOf(k);
+    if (companion.sProfile)
+      segment.profile |= bitOf(k);
+    if (segment.isStill)
+      segment.length = exact::larger(segment.length, fabs(segment.delta[k]));
+  }
+  if (hasTable(shape))
+    segment.table = tableOf(shape);
+  return segment;
+}
+
+PathPoint pointAt(const Segment &segment, double way) noexcept {
+  PathPoint point{};
+  if (segment.isStill)
+    putSpace(point, {segment.shape.v[0], numeric::kZero, numeric::kZero, numeric::kZero});
+  else
+    putSpace(point, overLength(overParameter(segment.shape, parameterOf(segment, way))));
+  const double u = way / segment.length;
+  const Progress even = evenly(u, segment.length);
+  const Progress profile = segment.profile != 0 ? sProfile(u, segment.length) : even;
+  for (int32_t k = 0; k < kCoordinates; ++k) {
+    if (!hasBit(segment.along, k))
+      continue;
+    const Progress &progress = hasBit(segment.profile, k) ? profile : even;
+    point.at[k] = segment.start[k] + segment.delta[k] * progress.f;
+    point.d1[k] = segment.delta[k] * progress.d1;
+    point.d2[k] = segment.delta[k] * progress.d2;
+    point.d3[k] = segment.delta[k] * progress.d3;
+  }
+  return point;
+}
+
+} // namespace stride::path

@@ -1,0 +1,136 @@
+// What limits of the axes mean for the motion along a segment.
+#include "runtime/numeric/cube_root.hpp"
+#include "runtime/numeric/path/segment.hpp"
+
+namespace stride::path {
+namespace {
+
+using exact::fabs;
+using exact::larger;
+using exact::smaller;
+
+/// Of what the axes' accelerations allow, the part that a curve may take: the rest is for changes
+/// of the velocity.
+constexpr double kCurveShare = 0.9;
+/// Of what the axes' jerks allow, the part that a curve at constant velocity may take.
+constexpr double kJerkShare = 0.5;
+/// How far derivatives in a part may be from a straight line between those at its ends.
+constexpr double kEvenness = 0.02;
+constexpr int kMostHalvings = 24;
+
+double most(const double (&values)[kCoordinates]) noexcept {
+  double result = 0.0;
+  for (const double value : values)
+    result = larger(result, fabs(value));
+  return result;
+}
+
+bool hasLimits(const AxesLimits &limits) noexcept {
+  return most(limits.velocity) > 0.0 || most(limits.acceleration) > 0.0 || most(limits.jerk) > 0.0;
+}
+
+/// Where a part that begins at `from` ends at most: polynomials may have peaks between the samples
+/// of all of their way.
+double partEnd(const Segment &segment, double from) noexcept {
+  constexpr double kLongest = 0.25;
+  if (segment.profile == 0 && segment.shape.kind != ShapeKind::Polynomial)
+    return segment.length;
+  return smaller(segment.length, from + kLongest * segment.length);
+}
+
+bool isStraight(const Segment &segment) noexcept {
+  return segment.profile == 0 && (segment.isStill || segment.shape.kind == ShapeKind::Line);
+}
+
+/// A part of the way by the derivatives at its ends and in its middle.
+struct Part {
+  PathPoint begin, middle, end;
+};
+
+/// How far the middle is from where a straight line has it, at most over the coordinates.
+double bend(const double (&begin)[kCoordinates], const double (&middle)[kCoordinates],
+            const double (&end)[kCoordinates]) noexcept {
+  double result = 0.0;
+  for (int32_t k = 0; k < kCoordinates; ++k)
+    result = larger(result, fabs(middle[k] - 0.5 * (begin[k] + end[k])));
+  return result;
+}
+
+bool isEven(const Part &part) noexcept {
+  const double first = larger(most(part.begin.d1), most(part.end.d1));
+  const double second =
+      larger(larger(most(part.begin.d2), most(part.end.d2)), most(part.middle.d2));
+  return bend(part.begin.d1, part.middle.d1, part.end.d1) <= kEvenness * first &&
+         bend(part.begin.d2, part.middle.d2, part.end.d2) <= kEvenness * second;
+}
+
+/// The greatest amount of a derivative in the part: of its samples, and what a parabola through
+/// them can be more.
+double bound(const double (&begin)[kCoordinates], const double (&middle)[kCoordinates],
+             const double (&end)[kCoordinates], int32_t k) noexcept {
+  const double samples = larger(larger(fabs(begin[k]), fabs(middle[k])), fabs(end[k]));
+  return samples + 0.5 * fabs(middle[k] - 0.5 * (begin[k] + end[k]));
+}
+
+void limitAxis(const Part &part, const AxesLimits &limits, int32_t k, Strip &strip) noexcept {
+  const double first = bound(part.begin.d1, part.middle.d1, part.end.d1, k);
+  const double second = bound(part.begin.d2, part.middle.d2, part.end.d2, k);
+  const double third = bound(part.begin.d3, part.middle.d3, part.end.d3, k);
+  if (limits.velocity[k] > 0.0 && first > 0.0) {
+    const double velocity = limits.velocity[k] / first;
+    strip.ceiling = smaller(strip.ceiling, velocity * velocity);
+  }
+  if (limits.acceleration[k] > 0.0) {
+    strip.along = larger(strip.along, first / limits.acceleration[k]);
+    strip.across = larger(strip.across, second / limits.acceleration[k]);
+  }
+  if (limits.jerk[k] > 0.0 && third > 0.0) {
+    const double velocity = numeric::cubeRoot(kJerkShare * limits.jerk[k] / third);
+    strip.ceiling = smaller(strip.ceiling, velocity * velocity);
+  }
+}
+
+} // namespace
+
+double limitStrip(const Segment &segment, const AxesLimits &limits, double from,
+                  Strip &strip) noexcept {
+  strip.along = 0.0;
+  strip.across = 0.0;
+  strip.ceiling = exact::kInfinity;
+  if (!hasLimits(limits))
+    return segment.length;
+  double to = isStraight(segment) ? segment.length : partEnd(segment, from);
+  Part part;
+  part.begin = pointAt(segment, from);
+  if (isStraight(segment)) {
+    part.middle = part.begin;
+    part.end = part.begin;
+  } else {
+    for (int i = 0;; ++i) {
+      part.middle = pointAt(segment, 0.5 * (from + to));
+      part.end = pointAt(segment, to);
+      if (i == kMostHalvings || isEven(part))
+        break;
+      to = from + 0.5 * (to - from);
+    }
+  }
+  for (int32_t k = 0; k < kCoordinates; ++k)
+    limitAxis(part, limits, k, strip);
+  if (strip.across > 0.0)
+    strip.ceiling = smaller(strip.ceiling, kCurveShare / strip.across);
+  return to;
+}
+
+double kinkCeiling(const PathPoint &before, const PathPoint &after, const AxesLimits &limits,
+                   double other, double time) noexcept {
+  double velocity = exact::kInfinity;
+  for (int32_t k = 0; k < kCoordinates; ++k) {
+    const double change = fabs(after.d1[k] - before.d1[k]);
+    const double limit = limits.acceleration[k] > 0.0 ? limits.acceleration[k] : other;
+    if (change > 1e-9)
+      velocity = smaller(velocity, limit * time / change);
+  }
+  return velocity * velocity;
+}
+
+} // namespace stride::path

@@ -1,0 +1,366 @@
+// Random programs through the whole chain, objects, corner blends, velocity check, queue and
+// interpolator, judged by an independent description of the path and by finite differences: on the
+// path, within all limits, never back, to the very end; whatever the cycle, the queue, the override
+// and the stops are.
+#include "cnc_course_drive.hpp"
+#include "motion_problems.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <string>
+
+namespace {
+
+using namespace stride::test;
+using stride::oracle::MotionLimits;
+using stride::oracle::MotionReport;
+using stride::oracle::Place;
+using stride::oracle::Sample;
+using stride::path::LawKind;
+
+/// More cases by hand: STRIDE_PATH_CASES=10000.
+int wanted(int cases) {
+  const char *const more = std::getenv("STRIDE_PATH_CASES");
+  return more != nullptr ? std::atoi(more) : casesOf(cases);
+}
+
+/// What was worst in all cases of a test, for its log.
+struct Figures {
+  double velocity = 0, acceleration = 0, jerk = 0, axisVelocity = 0, axisAcceleration = 0;
+  double distance = 0; ///< From the path, without blends. [u]
+  int cases = 0;
+
+  ~Figures() {
+    std::printf("%d cases; worst uses: velocity %.7f, acceleration %.7f, jerk %.7f, axes' velocity "
+                "%.7f, axes' acceleration %.7f; distance %.2g\n",
+                cases, velocity, acceleration, jerk, axisVelocity, axisAcceleration, distance);
+  }
+  Figures() = default;
+  Figures(const Figures &) = delete;
+  Figures &operator=(const Figures &) = delete;
+
+  void add(const MotionReport &report) {
+    velocity = std::max(velocity, report.velocity.use);
+    acceleration = std::max({acceleration, report.acceleration.use, report.deceleration.use});
+    jerk = std::max(jerk, report.jerk.use);
+    axisVelocity = std::max(axisVelocity, report.axisVelocity.use);
+    axisAcceleration = std::max(axisAcceleration, report.axisAcceleration.use);
+    ++cases;
+  }
+};
+
+double sizeOf(const Problem &problem) {
+  double size = 1;
+  for (const stride::cnc::PathObject &object : problem.objects)
+    for (size_t axis = 0; axis < 3; ++axis)
+      size = std::max(size, std::fabs(object.end.coordinate[axis]));
+  return size;
+}
+
+MotionLimits limitsOf(const Problem &problem, const Drive &drive) {
+  MotionLimits limits;
+  limits.velocity = limits.acceleration = limits.deceleration = 0;
+  for (const stride::cnc::PathObject &object : problem.objects) {
+    limits.velocity = std::max(limits.velocity, object.velocity * drive.mostOverride);
+    limits.acceleration = std::max(limits.acceleration, object.acceleration);
+    limits.deceleration = std::max(limits.deceleration, object.deceleration);
+  }
+  const double slack = drive.command.law == LawKind::Sigmoid ? M_PI / 2 : 1;
+  limits.deceleration = std::max(limits.deceleration, drive.command.quickDeceleration) * slack;
+  limits.acceleration *= slack;
+  if (drive.command.law == LawKind::Jerk)
+    limits.jerk = problem.jerk;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    // Corners of up to the least angle are none.
+    const double kink = limits.velocity * stride::cnc::kLeastAngle / drive.command.cycle;
+    if (problem.axes.velocity[axis] > 0)
+      limits.axisVelocity[axis] = problem.axes.velocity[axis];
+    if (problem.axes.acceleration[axis] > 0)
+      limits.axisAcceleration[axis] = slack * problem.axes.acceleration[axis] + kink;
+  }
+  return limits;
+}
+
+/// A blend is near one of the two moves that it joins.
+void expectNearPath(const Problem &problem, const Drive &drive) {
+  const auto &elements = problem.chain.elements();
+  const double most = 1.02 * problem.tolerance + 1e-9 * sizeOf(problem);
+  for (size_t i = 0; i < drive.samples.size(); ++i) {
+    const auto move = static_cast<size_t>(drive.sources[i]);
+    const size_t next = std::min(move + 1, elements.size() - 1);
+    const double apart = problem.chain
+                             .nearest(drive.samples[i].place, elements[move].startWay,
+                                      elements[next].startWay + elements[next].length)
+                             .distance;
+    ASSERT_LE(apart, most) << "sample " << i << ", move " << move;
+  }
+  EXPECT_TRUE(drive.samples.back().place == problem.chain.end());
+}
+
+/// Without blends, where the way says; with them, near the program.
+void expectOnPath(const Problem &problem, const Drive &drive, Figures &figures) {
+  if (problem.tolerance > 0) {
+    expectNearPath(problem, drive);
+    return;
+  }
+  const double exact = 1e-9 * sizeOf(problem);
+  for (const Sample &sample : drive.samples) {
+    const double apart = stride::oracle::distance(sample.place, problem.chain.at(sample.way), 3);
+    ASSERT_LE(apart, exact) << "at " << sample.time << " s, way " << sample.way;
+    figures.distance = std::max(figures.distance, apart);
+  }
+  EXPECT_TRUE(drive.samples.back().place == problem.chain.end());
+  EXPECT_NEAR(drive.way, problem.chain.length(), exact);
+}
+
+/// All that every drive must keep.
+void judge(const Problem &problem, const Drive &drive, Figures &figures) {
+  const MotionReport report = stride::oracle::checkMotion(drive.samples, limitsOf(problem, drive),
+                                                          nullptr, {.rounding = 16});
+  EXPECT_TRUE(report.within()) << report.text();
+  figures.add(report);
+  expectOnPath(problem, drive, figures);
+}
+
+void forEachSeed(uint64_t first, int cases, const std::function<void(uint64_t)> &test) {
+  for (int i = 0; i < cases && !testing::Test::HasFailure(); ++i) {
+    const uint64_t seed = first + static_cast<uint64_t>(i);
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    test(seed);
+  }
+}
+
+TEST(CncInterpolator, KeepsPathAndLimitsAtTheCycleAndWithinIt) {
+  Figures figures;
+  forEachSeed(0, wanted(50), [&](uint64_t seed) {
+    const Problem problem = randomCourse(seed);
+    for (const double cycle : {problem.cycle, problem.cycle / 16}) {
+      Drive drive(problem, LawKind::Jerk, cycle);
+      drive.fill();
+      drive.begin();
+      drive.finish();
+      judge(problem, drive, figures);
+    }
+  });
+}
+
+/// Steps of planning in a cycle that hardly ever are too few.
+constexpr int32_t kAmple = 6000;
+
+/// How many stops the path has, at most.
+int stopsOf(const Problem &problem) {
+  return static_cast<int>(
+      std::count_if(problem.objects.begin(), problem.objects.end(),
+                    [](const auto &object) { return !(object.velocityEnd > 0); }));
+}
+
+TEST(CncInterpolator, TakesTheSameTimeWhateverTheCycleIs) {
+  Figures figures;
+  double worst = 0;
+  forEachSeed(70'000'000, wanted(50), [&](uint64_t seed) {
+    const Problem problem = randomCourse(seed);
+    const double other = problem.cycle / 3.7;
+    double times[2];
+    for (const bool fine : {false, true}) {
+      Drive drive(problem, LawKind::Jerk, fine ? other : problem.cycle);
+      drive.command.budget = kAmple;
+      drive.fill();
+      drive.begin();
+      times[fine ? 1 : 0] = drive.finish();
+      judge(problem, drive, figures);
+    }
+    // After a stop the motion goes on with a cycle; and a plan needs some, where the next stop is
+    // near.
+    const double atStops = 3.0 * (1 + stopsOf(problem)) * problem.cycle;
+    const double apart = std::fabs(times[0] - times[1]);
+    worst = std::max(worst, (apart - atStops) / times[1]);
+    EXPECT_LE(apart, atStops + 0.005 * times[1]) << times[0] << " and " << times[1];
+  });
+  std::printf("durations of different cycles: 3 cycles for each stop and %.5f of it apart\n",
+              std::max(worst, 0.0));
+}
+
+/// Overrides and stops at any moment.
+void disturb(Random &random, Drive &drive, int &hold) {
+  stride::cnc::Command &command = drive.command;
+  if (random.chance(1.0 / 60))
+    command.override = random.chance(0.2) ? 1 : random.uniform(0, 2);
+  if (hold > 0 && --hold == 0) {
+    command.slowStop = command.quickStop = false;
+    if (command.override < 0.1)
+      command.override = 1;
+  } else if (hold == 0 && random.chance(1.0 / 120)) {
+    hold = 1 + random.below(150);
+    (random.chance(0.5) ? command.slowStop : command.quickStop) = true;
+  }
+}
+
+TEST(CncInterpolator, KeepsThemWithOverridesAndStops) {
+  Figures figures;
+  forEachSeed(10'000'000, wanted(50), [&](uint64_t seed) {
+    const Problem problem = randomCourse(seed);
+    Random random(seed);
+    Drive drive(problem, LawKind::Jerk, problem.cycle);
+    drive.command.quickDeceleration = problem.objects.front().deceleration * random.uniform(0.5, 3);
+    drive.fill();
+    drive.begin();
+    int hold = 0;
+    drive.finish([&] {
+      if (drive.cycles % 1000 == 999)
+        drive.command.override = 1; // else it may creep
+      disturb(random, drive, hold);
+    });
+    judge(problem, drive, figures);
+  });
+}
+
+TEST(CncInterpolator, GoesTheSameWayWithQueuesThatAreSmallAndOftenEmpty) {
+  Figures figures;
+  forEachSeed(20'000'000, wanted(50), [&](uint64_t seed) {
+    const Problem problem = randomCourse(seed);
+    Random random(seed);
+    const auto law = static_cast<LawKind>(random.below(3));
+    const auto places = static_cast<size_t>(6 + random.below(30));
+    Drive drive(problem, law, problem.cycle, places);
+    const double supply = random.magnitude(-1.5, 0.5); // objects per cycle
+    drive.fill();
+    drive.begin();
+    double ready = 0;
+    drive.finish([&] {
+      ready = random.chance(0.01) ? ready + 5 : ready + supply;
+      const double whole = std::floor(ready);
+      drive.fill(static_cast<size_t>(whole));
+      ready -= whole;
+    });
+    judge(problem, drive, figures);
+  });
+}
+
+/// How many objects span twice the way to stop, wherever they are in the program.
+size_t objectsForStops(const Problem &problem) {
+  const auto stop = [&](const stride::cnc::PathObject &object) {
+    const double v = object.velocity;
+    double a = std::min(object.acceleration, object.deceleration);
+    for (const double limit : problem.axes.acceleration)
+      if (limit > 0)
+        a = std::min(a, 0.1 * limit); // what curves leave
+    return v * (0.5 * v / a + a / problem.jerk + std::sqrt(v / problem.jerk));
+  };
+  const std::vector<stride::cnc::PathObject> &objects = problem.objects;
+  size_t most = 0;
+  for (size_t i = 0; i < objects.size(); ++i) {
+    double span = 0;
+    size_t k = i;
+    while (k < objects.size() && span < 2 * stop(objects[i]))
+      span += objects[k++].length;
+    most = std::max(most, k - i);
+  }
+  return most;
+}
+
+/// The plan of a queue's part ends in rest, and in some programs that costs a few percent.
+TEST(CncInterpolator, TakesHardlyLongerWithQueuesThatHoldTwiceTheWayToStop) {
+  Figures figures;
+  double worst = 0;
+  int shorter = 0;
+  forEachSeed(30'000'000, wanted(30), [&](uint64_t seed) {
+    const Problem problem = randomCourse(seed);
+    const size_t places = objectsForStops(problem) + 8;
+    shorter += places < problem.objects.size() ? 1 : 0;
+    double times[2];
+    for (const bool small : {false, true}) {
+      Drive drive(problem, LawKind::Jerk, problem.cycle, small ? places : 0);
+      drive.command.budget = kAmple;
+      drive.fill();
+      drive.begin();
+      times[small ? 1 : 0] = drive.finish([&] { drive.fill(); });
+      judge(problem, drive, figures);
+    }
+    const double apart = times[1] - times[0] - 2 * problem.cycle;
+    worst = std::max(worst, apart / times[0]);
+    EXPECT_LE(apart, 0.1 * times[0]) << times[1] << " instead of " << times[0];
+  });
+  std::printf("%d queues shorter than the program; duration longer by %.5f at most\n", shorter,
+              worst);
+}
+
+TEST(CncInterpolator, KeepsLimitsByTrapezoidsAndSines) {
+  Figures figures;
+  forEachSeed(40'000'000, wanted(50), [&](uint64_t seed) {
+    const Problem problem = randomCourse(seed);
+    Drive drive(problem, seed % 2 == 0 ? LawKind::Trapezoid : LawKind::Sigmoid, problem.cycle);
+    drive.fill();
+    drive.begin();
+    const double time = drive.finish();
+    judge(problem, drive, figures);
+    double least = 0;
+    for (const stride::cnc::PathObject &object : problem.objects)
+      least += object.length / object.velocity;
+    EXPECT_GE(time, least * (1 - 1e-9) - problem.cycle);
+  });
+}
+
+TEST(CncInterpolator, TakesTheTimeOfTheClosedFormByATrapezoid) {
+  forEachSeed(50'000'000, wanted(300), [&](uint64_t seed) {
+    Random random(seed);
+    Problem problem;
+    stride::oracle::ProgramMove move{};
+    move.end = {random.magnitude(-2, 2), random.uniform(-9, 9), random.uniform(-9, 9)};
+    move.velocity = random.magnitude(0, 2);
+    move.acceleration = move.velocity * random.magnitude(-0.5, 1.5);
+    move.deceleration = move.velocity * random.magnitude(-0.5, 1.5);
+    problem.chain = stride::oracle::chainOf({move});
+    problem.objects = {objectOf(move, problem.chain.elements()[0], 0)};
+    problem.cycle = random.magnitude(-3, -2);
+    checkAll(problem.objects);
+    Drive drive(problem, LawKind::Trapezoid, problem.cycle);
+    drive.fill();
+    drive.begin();
+    const double length = problem.chain.length();
+    const double both = 1 / move.acceleration + 1 / move.deceleration;
+    const double peak = std::min(move.velocity, std::sqrt(2 * length / both));
+    const double expected = peak * both + (length - 0.5 * peak * peak * both) / peak;
+    EXPECT_NEAR(drive.finish(), expected, 1.01 * problem.cycle);
+  });
+}
+
+TEST(CncInterpolator, GoesThereAndBackOverTheSamePoints) {
+  double worst = 0;
+  forEachSeed(60'000'000, wanted(40), [&](uint64_t seed) {
+    const Problem problem = randomCourse(seed);
+    if (problem.tolerance > 0)
+      return;
+    Random random(seed);
+    Drive drive(problem, static_cast<LawKind>(random.below(3)), problem.cycle);
+    drive.command.twoWays = true;
+    drive.fill();
+    drive.begin();
+    const double exact = 1e-9 * sizeOf(problem);
+    const auto &phase = drive.interpolator->phase;
+    for (int turn = 0; turn < 6 && !HasFailure(); ++turn) {
+      const bool toEnd = turn >= 4 || random.chance(0.3); // to an end of the path; else anywhere
+      drive.command.override = turn % 2 == 0 ? random.uniform(0.3, 2) : -random.uniform(0.3, 2);
+      const int most = toEnd ? 300'000 : 1 + random.below(1500);
+      for (int i = 0; i < most && phase != stride::cnc::Phase::Failed; ++i) {
+        const stride::cnc::Progress &progress = drive.step();
+        const double way = std::clamp(drive.way, 0.0, problem.chain.length());
+        const double apart =
+            stride::oracle::distance(drive.samples.back().place, problem.chain.at(way), 3);
+        ASSERT_LE(apart, exact) << "turn " << turn << " at way " << drive.way;
+        worst = std::max(worst, apart);
+        if (progress.atEnd && progress.waits)
+          break;
+      }
+      if (toEnd) {
+        const Place end = turn % 2 == 0 ? problem.chain.end() : problem.chain.at(0);
+        EXPECT_TRUE(drive.samples.back().place == end) << "turn " << turn;
+      }
+    }
+  });
+  std::printf("there and back: %.2g from the path at most\n", worst);
+}
+
+} // namespace

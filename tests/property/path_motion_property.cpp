@@ -1,0 +1,255 @@
+// Motions along random courses that become known piece by piece, with overrides, stops and cycles
+// of any length: they keep every limit, never go back, always arrive, and never take more steps of
+// planning in a call than they may.
+#include "runtime/numeric/path/motion.hpp"
+
+#include "motion_problems.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace stride::path;
+using stride::test::casesOf;
+using stride::test::Random;
+
+constexpr double kVelocity = 250;
+constexpr double kAcceleration = 1750;
+constexpr double kJerk = 50000;
+
+/// Strips of any length, with limits that jump from each to the next.
+std::vector<Strip> randomCourse(Random &random) {
+  const double length = random.magnitude(-2, 1.7);
+  const double step = length * random.magnitude(-3, 0);
+  const bool simple = random.chance(0.3);
+  std::vector<Strip> course;
+  for (double way = 0; way < length && course.size() < 3000;) {
+    way += step * random.magnitude(-1, 1);
+    Strip strip{};
+    strip.end = way;
+    strip.feed = simple ? kVelocity : kVelocity * random.magnitude(-2, 0);
+    strip.endFeed = strip.feed;
+    strip.ceiling = strip.endCeiling = stride::exact::kInfinity;
+    strip.acceleration = simple ? kAcceleration : kAcceleration * random.magnitude(-1, 0);
+    strip.deceleration = simple ? kAcceleration : kAcceleration * random.magnitude(-1, 0);
+    if (!simple && random.chance(0.5)) {
+      strip.along = random.magnitude(-0.5, 0.5) / kAcceleration;
+      strip.across = random.uniform(0.01, 0.9) / (strip.feed * strip.feed);
+      strip.ceiling = 0.9 / strip.across;
+    }
+    if (!simple && random.chance(0.1))
+      strip.endCeiling = strip.feed * strip.feed * random.uniform(1e-6, 1);
+    strip.stop = random.chance(0.03);
+    course.push_back(strip);
+  }
+  course.back().stop = true;
+  return course;
+}
+
+/// What happens to a motion from outside.
+struct Scene {
+  std::vector<Strip> course;
+  LawKind kind;
+  double jerk;
+  double cycle;
+  bool disturbed; ///< By overrides and stops.
+  double supply;  ///< Strips per cycle that become known.
+};
+
+Scene randomScene(Random &random, LawKind kind) {
+  Scene scene{randomCourse(random), kind, kJerk, random.magnitude(-3, -2), random.chance(0.5), 0};
+  if (random.chance(0.2)) // up to none to speak of
+    scene.jerk *= random.magnitude(-1, 9);
+  scene.supply = random.chance(0.5) ? 1e9 : random.magnitude(-0.7, 1);
+  return scene;
+}
+
+/// Drives a scene cycle by cycle and looks at each.
+class Drive {
+public:
+  Drive(Scene scene, Random &random)
+      : scene_(std::move(scene)), random_(random), motion_(std::make_unique<Motion>()) {
+    reset(*motion_, {scene_.kind, scene_.jerk});
+    budget_ = 64 * std::max(1, static_cast<int>(scene_.cycle * 1000));
+  }
+
+  /// How long it took; 0: it did not arrive. [s]
+  double run() {
+    const double end = scene_.course.back().end;
+    for (int64_t cycle = 1; cycle < 2'000'000; ++cycle) {
+      supply();
+      disturb();
+      const int32_t used = think(*motion_, budget_);
+      EXPECT_LE(used, budget_);
+      relocate();
+      const WayState state = move(*motion_, scene_.cycle, true);
+      look(state);
+      forgetBefore(motion_->course, motion_->way);
+      if (isAtRest(*motion_) && motion_->way == end)
+        return static_cast<double>(cycle) * scene_.cycle;
+      if (testing::Test::HasFailure())
+        return 0;
+    }
+    ADD_FAILURE() << "stuck at " << motion_->way << " of " << end;
+    return 0;
+  }
+
+private:
+  void supply() {
+    supplied_ += scene_.supply;
+    while (known_ < scene_.course.size() && static_cast<double>(known_) < supplied_ &&
+           roomIn(motion_->course) > 0 && extend(*motion_, scene_.course[known_]))
+      ++known_;
+  }
+
+  void disturb() {
+    if (!scene_.disturbed)
+      return;
+    Wish &wish = motion_->wish;
+    if (random_.chance(1.0 / 300))
+      wish.override = random_.chance(0.3) ? 1.0 : random_.uniform(0.1, 2);
+    most_ = std::max(most_, wish.override);
+    if (hold_ > 0 && --hold_ == 0)
+      wish.stop = false;
+    else if (hold_ == 0 && random_.chance(1.0 / 500)) {
+      hold_ = 200;
+      wish.stop = true;
+    }
+  }
+
+  /// Moves everything to other memory.
+  void relocate() {
+    if (!random_.chance(0.01))
+      return;
+    auto copy = std::make_unique<Motion>();
+    std::memcpy(copy.get(), motion_.get(), sizeof(Motion));
+    std::memset(motion_.get(), 0xA5, sizeof(Motion));
+    motion_ = std::move(copy);
+  }
+
+  void look(const WayState &state) {
+    const double t = scene_.cycle;
+    while (strip_ + 1 < scene_.course.size() && scene_.course[strip_].end <= state.way)
+      ++strip_;
+    EXPECT_GE(state.way, last_.way);
+    EXPECT_LE(state.velocity, scene_.course[strip_].feed * most_ * (1 + 1e-6));
+    if (scene_.kind != LawKind::Sigmoid) {
+      const double a = kAcceleration * (1 + 1e-6);
+      EXPECT_LE(std::fabs(state.velocity - last_.velocity), a * t + 1e-9);
+      EXPECT_LE(state.way - last_.way,
+                std::max(state.velocity, last_.velocity) * t + a * t * t + 1e-9);
+    }
+    if (scene_.kind == LawKind::Jerk) {
+      EXPECT_LE(std::fabs(state.acceleration - last_.acceleration),
+                scene_.jerk * t * (1 + 1e-6) + 1e-4);
+    }
+    last_ = state;
+  }
+
+  Scene scene_;
+  Random &random_;
+  std::unique_ptr<Motion> motion_;
+  WayState last_{};
+  double supplied_ = 0;
+  double most_ = 1;
+  size_t known_ = 0;
+  size_t strip_ = 0;
+  int32_t budget_ = 64;
+  int hold_ = 0;
+};
+
+/// More cases by hand: STRIDE_PATH_CASES=100000. Case n has the seed 1,000,000 * law + n.
+int wanted(int cases) {
+  const char *const more = std::getenv("STRIDE_PATH_CASES");
+  return more != nullptr ? std::atoi(more) : casesOf(cases);
+}
+
+void driveOne(LawKind kind, int number) {
+  Random random(1'000'000 * static_cast<unsigned>(kind) + static_cast<unsigned>(number));
+  SCOPED_TRACE("case " + std::to_string(number));
+  Drive(randomScene(random, kind), random).run();
+}
+
+void driveMany(LawKind kind, int cases) {
+  for (int i = 0; i < cases && !testing::Test::HasFailure(); ++i)
+    driveOne(kind, i);
+}
+
+TEST(PathMotion, KeepsItsLimitsWhereItOnceDidNot) {
+  driveOne(LawKind::Trapezoid, 24528); // a strip changed while it was being planned with
+  driveOne(LawKind::Sigmoid, 92421);   // the end of a piece was rounded up
+  driveOne(LawKind::Jerk, 1349);       // slowing down, it was too fast for the next strip
+  driveOne(LawKind::Jerk, 5638);       // likewise, within the first cell
+}
+
+TEST(PathMotion, KeepsItsLimitsWithLimitedJerk) { driveMany(LawKind::Jerk, wanted(1000)); }
+TEST(PathMotion, KeepsItsLimitsByTrapezoids) { driveMany(LawKind::Trapezoid, wanted(300)); }
+TEST(PathMotion, KeepsItsLimitsBySines) { driveMany(LawKind::Sigmoid, wanted(300)); }
+
+/// The quickest motion from rest to rest on a straight line.
+double closedForm(double length) {
+  const auto time = [](double v) {
+    return v >= kAcceleration * kAcceleration / kJerk ? v / kAcceleration + kAcceleration / kJerk
+                                                      : 2 * std::sqrt(v / kJerk);
+  };
+  if (kVelocity * time(kVelocity) <= length)
+    return 2 * time(kVelocity) + (length - kVelocity * time(kVelocity)) / kVelocity;
+  double low = 0;
+  double high = kVelocity;
+  for (int i = 0; i < 200; ++i) {
+    const double v = 0.5 * (low + high);
+    (v * time(v) <= length ? low : high) = v;
+  }
+  return 2 * time(low);
+}
+
+/// The time of a plan over one strip, or over two with the same limits.
+double plannedTime(double length, bool parted) {
+  auto course = std::make_unique<Course>();
+  auto plan = std::make_unique<Plan>();
+  Strip strip{};
+  strip.end = 0.37 * length;
+  strip.feed = strip.endFeed = kVelocity;
+  strip.ceiling = strip.endCeiling = stride::exact::kInfinity;
+  strip.acceleration = strip.deceleration = kAcceleration;
+  if (parted)
+    append(*course, strip, 0.0);
+  strip.end = length;
+  strip.stop = true;
+  append(*course, strip, 0.0);
+  PlanTask task{};
+  task.end = stride::exact::kInfinity;
+  task.jerk = kJerk;
+  task.cellTime = 0.002;
+  task.override = 1;
+  task.cells = kCells;
+  begin(*plan, *course, task);
+  work(*plan, *course, 1'000'000);
+  EXPECT_EQ(plan->state, PlanState::Done);
+  EXPECT_EQ(plan->end, length);
+  double time = 0;
+  for (int32_t i = 0; i < plan->count; ++i)
+    time += pieceOf(*plan, i).duration;
+  return time;
+}
+
+TEST(PathMotion, IsNearlyAsQuickAsTheClosedFormOnALine) {
+  Random random(77);
+  for (int i = 0; i < casesOf(2000) && !HasFailure(); ++i) {
+    const double length = random.magnitude(-6, 1.8);
+    const double ratio = plannedTime(length, true) / closedForm(length);
+    EXPECT_GE(ratio, 1 - 1e-9) << length;
+    EXPECT_LE(ratio, 1.01) << length;
+    EXPECT_NEAR(plannedTime(length, false) / closedForm(length), 1, 1e-9) << length;
+  }
+}
+
+} // namespace

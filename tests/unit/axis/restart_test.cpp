@@ -1,0 +1,118 @@
+// The restart of one drive of a group: what the golden project drive_reinit does not see.
+#include "tests/unit/axis/axis_rig.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+namespace state = stride::axis::state;
+using stride::bus::StartUp;
+using stride::test::AxisRig;
+
+/// A drive whose regulator stays on, whatever it is told.
+class StubbornDriver final : public stride::bus::AxisDriver {
+public:
+  void executeStart() override {}
+  void executeEnd() override {}
+  StartUp init(size_t /*drive*/, uint16_t & /*progress*/,
+               stride::bus::Message & /*message*/) override {
+    return StartUp::Started;
+  }
+  void reset(size_t /*drive*/) override { ++resets; }
+  [[nodiscard]] stride::bus::DriveStatus status(size_t /*drive*/) const override {
+    stride::bus::DriveStatus status;
+    status.communication = true;
+    status.regulatorOn = true;
+    status.driveStarted = true;
+    return status;
+  }
+  void command(size_t /*drive*/, const stride::bus::DriveCommand &command) override {
+    demanded = command.regulatorOn;
+  }
+  [[nodiscard]] uint8_t controllerModes(size_t /*drive*/) const override { return 8; }
+
+  int resets = 0;
+  bool demanded = false;
+};
+
+void ask(AxisRig &rig, bool simulated) {
+  rig.axis.stRestart.bVirtual = simulated ? 1 : 0;
+  ++rig.axis.stRestart.udiAsked;
+}
+
+TEST(Restart, WaitsAThousandCyclesForARegulatorThatStaysOn) {
+  AxisRig rig;
+  auto own = std::make_unique<StubbornDriver>();
+  StubbornDriver &drive = *own;
+  rig.axisGroup = std::make_unique<stride::bus::DriveGroup>(
+      std::move(own), rig.group, std::vector<stride::axis::AxisRef *>{&rig.axis}, 0.001);
+  rig.idle(5);
+  ASSERT_TRUE(drive.demanded);
+  ask(rig, false);
+  rig.idle(); // it is at rest
+  rig.idle(999);
+  EXPECT_EQ(drive.resets, 0);
+  EXPECT_FALSE(drive.demanded) << "it is told to switch off";
+  rig.idle();
+  EXPECT_EQ(drive.resets, 1);
+  rig.idle(2);
+  EXPECT_EQ(rig.axis.wCommunicationState, 100);
+  EXPECT_TRUE(drive.demanded);
+}
+
+TEST(Restart, GoesOnAfterAResetOfTheWholeGroup) {
+  AxisRig rig;
+  rig.powerUp();
+  auto move = rig.move(1000);
+  for (int i = 0; i < 500; ++i)
+    rig.cycle([&] { rig.call(move, true); });
+  ask(rig, true);
+  rig.idle(100); // brakes
+  ASSERT_EQ(rig.axis.stRestart.byStep, 1);
+  ++rig.group.udiResetsAsked;
+  rig.idle(2);
+  EXPECT_EQ(rig.axis.stRestart.byStep, 0);
+  EXPECT_NE(rig.axis.stRestart.udiBegun, rig.axis.stRestart.udiAsked);
+  rig.idle(1000);
+  EXPECT_EQ(rig.group.wState, 100);
+  EXPECT_EQ(rig.axis.stRestart.udiBegun, rig.axis.stRestart.udiAsked);
+  EXPECT_EQ(rig.axis.bRealDrive, 0);
+  EXPECT_EQ(rig.axis.nAxisState, state::kStandstill) << "MC_Power serves it";
+}
+
+TEST(Restart, AnAxisInVirtualModeIsNoMatterOfItsGroup) {
+  AxisRig rig;
+  rig.powerUp();
+  ask(rig, true);
+  rig.idle(10);
+  ASSERT_EQ(rig.axis.bRealDrive, 0);
+  EXPECT_FALSE(rig.drive->status(0).regulatorOn);
+  auto move = rig.move(1000);
+  for (int i = 0; i < 500; ++i)
+    rig.cycle([&] { rig.call(move, true); });
+  EXPECT_GT(rig.axis.fActPosition, 10.0);
+  EXPECT_EQ(rig.drive->status(0).position, 0U);
+  // The group starts anew without it, and its stop waits for nothing.
+  const double velocity = rig.axis.fSetVelocity;
+  ++rig.group.udiResetsAsked;
+  for (int i = 0; i < 10; ++i)
+    rig.cycle([&] { rig.call(move, true); });
+  EXPECT_EQ(rig.group.wState, 100);
+  EXPECT_GT(rig.axis.fSetVelocity, velocity);
+  rig.axisGroup->stopAll();
+  EXPECT_TRUE(rig.axisGroup->atRest());
+}
+
+TEST(Restart, AnotherOneWhileItGoesOnBeginsAnew) {
+  AxisRig rig;
+  rig.powerUp();
+  ask(rig, true);
+  rig.idle(1);
+  ask(rig, false);
+  rig.idle(10);
+  EXPECT_EQ(rig.axis.bRealDrive, 1);
+  EXPECT_EQ(rig.axis.wCommunicationState, 100);
+  EXPECT_EQ(rig.axis.stRestart.udiBegun, 2U);
+}
+
+} // namespace
