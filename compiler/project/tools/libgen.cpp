@@ -1,7 +1,8 @@
 // stride-libgen OUT: writes the C++ of the standard library below OUT: headers
 // `st/<Library>/<Name>.h`, the bodies that are written in ST, and one source `<Library>.cpp` per
 // library that includes its bodies; and the table of the axis parameters. Runs when Stride is
-// built; files that would not change are left alone.
+// built; files that would not change are left alone, those of sources that are gone are removed:
+// else an include of them would be found until somebody builds in an empty folder.
 
 #include "compiler/codegen/codegen.hpp"
 #include "compiler/project/file_system.hpp"
@@ -14,6 +15,7 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <set>
+#include <vector>
 
 namespace fs = std::filesystem;
 
@@ -73,7 +75,7 @@ public:
     bool good = true;
     for (const std::string_view library : index_.libraries())
       good = generate(library) && good;
-    return good;
+    return good && removeLeftovers();
   }
 
 private:
@@ -90,7 +92,29 @@ private:
     return write("st/SM_DriveBasic/AXIS_REF_parameters.h", table);
   }
 
+  // Removes what an earlier run has written into the folders of this one and this one has not.
+  bool removeLeftovers() {
+    std::set<std::string> folders;
+    for (const std::string &path : written_)
+      if (const size_t slash = path.find('/'); slash != std::string::npos)
+        folders.insert(path.substr(0, slash));
+    std::vector<fs::path> leftovers;
+    for (const std::string &folder : folders)
+      for (const fs::directory_entry &entry : fs::recursive_directory_iterator(out_ / folder))
+        if (entry.is_regular_file() && !written_.contains(entry.path().lexically_relative(out_)))
+          leftovers.push_back(entry.path());
+    for (const fs::path &path : leftovers) {
+      std::error_code error;
+      if (!fs::remove(path, error)) {
+        std::fprintf(stderr, "stride-libgen: %s: %s\n", path.c_str(), error.message().c_str());
+        return false;
+      }
+    }
+    return true;
+  }
+
   bool write(const std::string &path, const std::string &text) {
+    written_.insert(path);
     if (stc::writeIfDifferent(out_ / path, text))
       return true;
     std::fprintf(stderr, "stride-libgen: %s: %s\n", (out_ / path).c_str(),
@@ -99,6 +123,7 @@ private:
   }
 
   fs::path out_;
+  std::set<std::string> written_; // paths below out_
   stc::EmbeddedLibraryIndex index_{stc::standardLibrary()};
 };
 
