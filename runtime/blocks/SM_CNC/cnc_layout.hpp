@@ -99,6 +99,10 @@ static_assert(static_cast<int16_t>(MoveType::Function) == st::MOVTYP__MCOMMAND);
 
 } // namespace layout
 
+/// How many objects the memory that is given to a block must have room for: with less nothing
+/// happens. Source: SoftMotion V2.3 manual, section 6.2.2.
+inline constexpr uint32_t kLeastObjects = 5;
+
 inline Queue *queueOf(::st::SM_CNC::SMC_OUTQUEUE *queue) noexcept {
   return reinterpret_cast<Queue *>(queue);
 }

@@ -11,9 +11,6 @@ namespace cnc = ::stride::cnc;
 using Block = ::st::SM_CNC::SMC_NCDecoder;
 using Program = ::st::SM_CNC::SMC_CNC_REF;
 
-/// What the manual asks for; with less nothing happens.
-constexpr uint32_t kLeastObjects = 5;
-
 cnc::Decoder &decoderOf(Block &block) noexcept {
   return reinterpret_cast<cnc::Decoder &>(block.State);
 }
@@ -46,7 +43,7 @@ bool begin(Block &block, Program &program) noexcept {
   block.bDone = 0;
   end(block, ::st::SM_Error::SMC_ERROR__SMC_NO_ERROR);
   if (block.pbyBufferOutQueue == nullptr ||
-      block.nSizeOutQueue < kLeastObjects * sizeof(cnc::PathObject))
+      block.nSizeOutQueue < cnc::kLeastObjects * sizeof(cnc::PathObject))
     return false;
   if (!cnc::isProgram(program)) {
     end(block, ::st::SM_Error::SMC_ERROR__SMC_NO_CNC_REF_TYPE);
