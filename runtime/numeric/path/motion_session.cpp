@@ -56,13 +56,14 @@ double jerkAt(const Motion &motion, double way) noexcept {
                  smaller(most / kLeastRise, velocity / (kLeastRise * kLeastRise)));
 }
 
-/// Cells are a part of the time to stop, so that a plan reaches several of these times ahead.
-double cellTimeFor(const Motion &motion, double way) noexcept {
+/// Cells are a part of the time to stop, so that a plan reaches several of these times ahead: also
+/// from `present`, when the feed becomes less than that. [u/s] in
+double cellTimeFor(const Motion &motion, double way, double present) noexcept {
   constexpr double kPart = 1.0 / 60.0;
   if (!hasJerk(motion))
     return kLeastCellTime;
   const Strip &strip = stripAtWay(motion, way);
-  const double velocity = exact::sqrt(squareIn(strip, motion.asked.override));
+  const double velocity = larger(exact::sqrt(squareIn(strip, motion.asked.override)), present);
   const double deceleration =
       smaller(smaller(strip.acceleration, strip.deceleration), 1.0 / strip.along);
   const double time = kPart * rampTime(velocity, deceleration, motion.settings.jerk);
@@ -75,7 +76,7 @@ void beginPlan(Motion &motion, const WayState &state) noexcept {
   task.velocity = state.velocity;
   task.acceleration = state.acceleration;
   task.jerk = hasJerk(motion) ? jerkAt(motion, state.way) : exact::kInfinity;
-  motion.cellTime = cellTimeFor(motion, state.way);
+  motion.cellTime = cellTimeFor(motion, state.way, state.velocity);
   task.cellTime = motion.asked.stop ? kStopCells * motion.cellTime : motion.cellTime;
   task.override = motion.asked.override;
   task.before = motion.planned.override;

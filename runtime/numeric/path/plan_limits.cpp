@@ -59,19 +59,25 @@ void beginSlowing(Plan &plan, double ceiling) noexcept {
 }
 
 /// The motion that slows down, by one cell: with a little less than jerk and deceleration allow,
-/// which leaves something to the passes that follow.
+/// which leaves something to the passes that follow. It brakes as hard as it can and still get rid
+/// of the deceleration before it is below the ceiling: from there on no cell has slack to spare.
 void goOnSlowing(Plan &plan, int32_t i, double ceiling) noexcept {
   constexpr double kLess = 0.95;
+  constexpr double kThere = 1.0 + 1e-12;
+  const double jerk = kLess * plan.task.jerk;
   const double velocity = exact::sqrt(plan.height);
-  const double change = kLess * plan.task.jerk * lengthOf(plan, i - 1) / velocity;
-  const double slope = plan.curveSlope;
-  const double needed = slope < 0.0 ? 0.5 * slope * slope / (kLess * plan.task.jerk) : 0.0;
-  if (velocity - needed - velocity * 1e-9 > exact::sqrt(ceiling))
-    plan.curveSlope = larger(slope - change, smaller(slope, -kLess * plan.cell[i - 1].down));
-  else
-    plan.curveSlope = smaller(slope + change, 0.0);
-  plan.height = larger(plan.height + 2.0 * plan.curveSlope * spanAt(plan, i - 1), 0.0);
-  if (plan.height <= ceiling && plan.curveSlope >= 0.0)
+  const double span = spanAt(plan, i - 1);
+  const double change = jerk * lengthOf(plan, i - 1) / velocity;
+  const double excess = larger(velocity - exact::sqrt(ceiling), 0.0);
+  // The velocity falls by a * time in this span, and by a^2 / (2 * jerk) until the end.
+  const double time = span / velocity;
+  const double ideal = 2.0 * excess / (exact::sqrt(time * time + 2.0 * excess / jerk) + time);
+  const double before = -plan.curveSlope;
+  const double most = larger(before, kLess * plan.cell[i - 1].down);
+  const double wanted = smaller(larger(ideal, before - change), before + change);
+  plan.curveSlope = -smaller(wanted, most);
+  plan.height = larger(plan.height + 2.0 * plan.curveSlope * span, 0.0);
+  if (plan.height <= ceiling * kThere && -plan.curveSlope <= change)
     plan.slowing = false;
 }
 

@@ -177,6 +177,35 @@ TEST_P(EachLaw, FollowsTheOverride) {
   EXPECT_EQ(drive.x(), 2000);
 }
 
+/// A plan for less feed begins above it: it brakes as quickly as it can, and does not come to rest.
+TEST(Interpolator, SlowsDownToEachOverride) {
+  for (const double length : {300.0, 20.0, 5.0})
+    for (const double override : {0.05, 0.1, 0.3, 0.45, 0.7, 0.9, 0.99}) {
+      SCOPED_TRACE(testing::Message() << "lines of " << length << ", override " << override);
+      Drive drive(LawKind::Jerk);
+      drive.command.jerk = 5000;
+      for (double x = length; x < 300.1; x += length) {
+        PathObject &line = drive.line(x, 0, 40);
+        line.velocity = 40;
+        line.acceleration = line.deceleration = 400;
+      }
+      drive.queue.endOfList = 1;
+      drive.start();
+      drive.run([&] { return drive.x() > 60; });
+      ASSERT_NEAR(drive.velocity(), 40, 1e-6);
+      drive.command.override = override;
+      const double begin = drive.time;
+      drive.run(
+          [&] {
+            EXPECT_GE(drive.velocity(), 40 * override - 1e-6);
+            return drive.velocity() < 40 * override + 1e-6;
+          },
+          1);
+      constexpr double kPlanning = 0.15;
+      EXPECT_LT(drive.time - begin, 40.0 / 400 + 400.0 / 5000 + kPlanning);
+    }
+}
+
 /// Two ways: the path is in the queue as a whole and stays there.
 TEST_P(EachLaw, GoesBackWithNegativeOverrides) {
   Drive drive(GetParam());
