@@ -1,0 +1,45 @@
+% a plate: a frame with round corners, a wave, three holes
+(tool 1, a mill, and 9000 turns per minute)
+N10 M6 K1
+N20 M3 K9000
+
+(the frame, 2 mm deep; switch 1 is the coolant)
+N100 G0 X12 Y0 FF150 EF600 EF-600
+N110 G0 Z2
+N120 G1 Z-2 F20 E400 E-400
+N130 G1 X88 F50 H1 L5
+N140 G3 X100 Y12 J12
+N150 G1 Y48
+N160 G3 X88 Y60 I-12
+N170 G1 X12
+N180 G3 X0 Y48 J-12
+N190 G1 Y12
+N200 G3 X12 Y0 I12 H-1 L-3
+N210 G0 Z5
+
+(the wave, 1 mm deep)
+N300 G0 X20 Y36
+N310 G1 Z-1 F20
+N320 G2 X40 I10 F50 H1 L0
+N330 G3 X60 I10
+N340 G2 X80 I10 H-1 O1
+N350 G0 Z50
+
+(tool 2, a drill, and three holes, each 30 mm further on)
+N400 M6 K2
+N410 M3 K4500
+N420 G0 X-10 Y12
+N430 G0 Z2
+N440 G36 D3
+N450 G91
+N460 G0 X30
+N470 G1 Z-8 F15
+N480 G0 Z8
+N490 G37 D-1
+N500 G20 L460
+N510 G90
+
+(and home)
+N600 M5
+N610 G0 Z50
+N620 G0 X-40 Y-30
