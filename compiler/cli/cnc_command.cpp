@@ -1,13 +1,16 @@
 // stride cnc
 
 #include "compiler/assets/cnc/cnc_source.hpp"
+#include "compiler/assets/cnc/nc_source.hpp"
 #include "compiler/cli/cnc_run.hpp"
 #include "compiler/cli/commands.hpp"
 #include "compiler/project/file_system.hpp"
 #include "compiler/source/sources.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
+#include <map>
 
 namespace stc::cli {
 
@@ -21,6 +24,8 @@ struct LoadedCnc {
   Diagnostics diagnostics;
   std::optional<CncProgram> program;
   std::optional<FileId> file;
+  std::map<std::string, const SourceFile *> subprograms;
+  bool expanded = false; ///< It is in SoftMotion 3's language: the program is what it amounts to.
 
   explicit LoadedCnc(const std::string &path) {
     file = sources.load(path, path);
@@ -29,7 +34,24 @@ struct LoadedCnc {
                          fmt::format("`{}` cannot be read: {}", path, readSourceError()));
       return;
     }
-    program = readCnc(sources.file(*file), diagnostics);
+    const SourceFile &source = sources.file(*file);
+    expanded = needsNcLanguage(source.text());
+    program = expanded
+                  ? expandNc(
+                        source, [&](const std::string &name) { return subprogram(path, name); },
+                        diagnostics)
+                  : readCnc(source, diagnostics);
+  }
+
+  /// The file of a subprogram, beside that of the program.
+  const SourceFile *subprogram(const std::string &path, const std::string &name) {
+    const auto known = subprograms.find(name);
+    if (known != subprograms.end())
+      return known->second;
+    const std::filesystem::path beside =
+        std::filesystem::path(path).parent_path() / (name + std::string(kCncSuffix));
+    const std::optional<FileId> id = sources.load(beside, beside.string());
+    return subprograms[name] = id ? &sources.file(*id) : nullptr;
   }
 
   int finish(const Output &output) {
@@ -96,7 +118,11 @@ int cncFormat(const CncOptions &options) {
   int exitCode = 0;
   for (const std::string &path : options.files) {
     LoadedCnc loaded(path);
-    if (loaded.program) {
+    if (loaded.expanded) {
+      loaded.diagnostics.report(Code::CncText, {loaded.file.value_or(0), 0, 0},
+                                "programs with expressions and subprograms cannot be formatted yet",
+                                "left as it is");
+    } else if (loaded.program) {
       const std::string_view before = loaded.sources.file(*loaded.file).text();
       const std::string after = formatCnc(before);
       if (options.check && after != before) {

@@ -1,0 +1,2 @@
+N1 G1 X1
+N2 G36 O$SUB$ D'open

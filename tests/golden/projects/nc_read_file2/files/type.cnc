@@ -1,0 +1,2 @@
+LET #b : BOOL
+N1 G1 X#b

@@ -1,0 +1,3 @@
+(* a comment
+over lines *) N1 G1 X(1 + 2) * {3 - 1) // end
+N2 (* *) Y5

@@ -1,0 +1,3 @@
+N1 G1 X1
+N2 BROKEN{1}
+N3 X2
