@@ -28,10 +28,11 @@ struct LoadedCnc {
   bool expanded = false; ///< It is in SoftMotion 3's language: the program is what it amounts to.
 
   explicit LoadedCnc(const std::string &path) {
-    file = sources.load(path, path);
+    file = sources.load(path, path, kMaxCncBytes);
     if (!file) {
-      diagnostics.report(Code::UnreadableFile, {},
-                         fmt::format("`{}` cannot be read: {}", path, readSourceError()));
+      diagnostics.report(
+          Code::UnreadableFile, {},
+          fmt::format("`{}` cannot be read: {}", path, readSourceError(kMaxCncBytes)));
       return;
     }
     const SourceFile &source = sources.file(*file);

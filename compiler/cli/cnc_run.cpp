@@ -125,6 +125,17 @@ bool drive(const CncProgram &program, const CncPath &path, const CncMotionOption
   return error == 0;
 }
 
+/// Whether the table or picture would take the place of the program; says so.
+bool isProgram(const std::string &file, const std::string &out, Diagnostics &diagnostics) {
+  std::error_code unknown;
+  if (!std::filesystem::equivalent(file, out, unknown))
+    return false;
+  diagnostics
+      .report(Code::CannotWrite, {}, fmt::format("`{}` is the program: it is not overwritten", out))
+      .help("name another file with -o");
+  return true;
+}
+
 void report(Diagnostics &diagnostics, const std::string &out) {
   diagnostics.report(Code::CannotWrite, {},
                      fmt::format("`{}` cannot be written: {}", out, lastError()));
@@ -217,6 +228,9 @@ private:
 void runCnc(const std::string &file, CncProgram &program, const CncOptions &options,
             Diagnostics &diagnostics, std::string &says) {
   const CncMotionOptions &motion = options.motion;
+  const std::string out = outOf(options, file, ".csv");
+  if (isProgram(file, out, diagnostics))
+    return;
   const std::optional<CncPath> path = cncPathOf(program, motion, diagnostics);
   if (!path)
     return;
@@ -231,7 +245,6 @@ void runCnc(const std::string &file, CncProgram &program, const CncOptions &opti
       });
   if (!driven)
     return;
-  const std::string out = outOf(options, file, ".csv");
   if (!writeFile(out, table.text()))
     report(diagnostics, out);
   else
@@ -240,6 +253,9 @@ void runCnc(const std::string &file, CncProgram &program, const CncOptions &opti
 
 void plotCnc(const std::string &file, CncProgram &program, const CncOptions &options,
              Diagnostics &diagnostics, std::string &says) {
+  const std::string out = outOf(options, file, ".svg");
+  if (isProgram(file, out, diagnostics))
+    return;
   const std::optional<CncPath> path = cncPathOf(program, options.motion, diagnostics);
   if (!path)
     return;
@@ -251,7 +267,6 @@ void plotCnc(const std::string &file, CncProgram &program, const CncOptions &opt
     diagnostics.report(Code::CncSentence, program.span, "nothing moves in this program");
     return;
   }
-  const std::string out = outOf(options, file, ".svg");
   if (!writeFile(out, places.draw(program.title.empty() ? program.name : program.title)))
     report(diagnostics, out);
   else

@@ -14,7 +14,7 @@ namespace {
 constexpr int kNotRegular = ENOTSUP;
 
 /// Appends the file's bytes; 0 or the error.
-int readAll(int fd, std::string &text) {
+int readAll(int fd, std::string &text, size_t most) {
   struct stat status {};
   if (::fstat(fd, &status) != 0)
     return errno;
@@ -22,7 +22,7 @@ int readAll(int fd, std::string &text) {
     return EISDIR;
   if (!S_ISREG(status.st_mode))
     return kNotRegular;
-  if (status.st_size > static_cast<off_t>(kMaxSourceBytes))
+  if (status.st_size > static_cast<off_t>(most))
     return EFBIG;
   // One byte more than the file has, so that its end is seen without growing.
   text.resize(static_cast<size_t>(status.st_size) + 1);
@@ -38,7 +38,7 @@ int readAll(int fd, std::string &text) {
     if (count == 0)
       break;
     filled += static_cast<size_t>(count);
-    if (filled > kMaxSourceBytes)
+    if (filled > most)
       return EFBIG;
   }
   text.resize(filled);
@@ -47,7 +47,7 @@ int readAll(int fd, std::string &text) {
 
 } // namespace
 
-std::optional<std::string> readSource(const std::filesystem::path &path) {
+std::optional<std::string> readSource(const std::filesystem::path &path, size_t most) {
   // To open a pipe does not wait for its writer, and a device is not asked for anything.
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0)
@@ -60,7 +60,7 @@ std::optional<std::string> readSource(const std::filesystem::path &path) {
   if (fd < 0)
     return std::nullopt;
   std::string text;
-  const int error = readAll(fd, text);
+  const int error = readAll(fd, text, most);
   ::close(fd);
   errno = error;
   if (error != 0)
@@ -68,12 +68,12 @@ std::optional<std::string> readSource(const std::filesystem::path &path) {
   return text;
 }
 
-std::string readSourceError() {
+std::string readSourceError(size_t most) {
   switch (errno) {
   case kNotRegular:
     return "it is not a regular file";
   case EFBIG:
-    return "it is longer than " + std::to_string(kMaxSourceBytes >> 20U) + " MiB";
+    return "it is longer than " + std::to_string(most >> 20U) + " MiB";
   default:
     return std::strerror(errno);
   }

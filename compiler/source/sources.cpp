@@ -122,19 +122,20 @@ FileId Sources::add(const SyntheticSource &source) {
   return id;
 }
 
-std::optional<std::string> Sources::read(const std::filesystem::path &path) const {
+std::optional<std::string> Sources::read(const std::filesystem::path &path, size_t most) const {
   const std::string *unsaved = overlay_ != nullptr ? overlay_->find(path) : nullptr;
   if (unsaved == nullptr)
-    return readSource(path);
-  if (unsaved->size() > kMaxSourceBytes) {
+    return readSource(path, most);
+  if (unsaved->size() > most) {
     errno = EFBIG;
     return std::nullopt;
   }
   return *unsaved;
 }
 
-std::optional<FileId> Sources::load(const std::filesystem::path &path, std::string name) {
-  std::optional<std::string> bytes = read(path);
+std::optional<FileId> Sources::load(const std::filesystem::path &path, std::string name,
+                                    size_t most) {
+  std::optional<std::string> bytes = read(path, most);
   if (!bytes)
     return std::nullopt;
   return addBytes(std::move(name), std::move(*bytes));

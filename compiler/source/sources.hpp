@@ -4,6 +4,7 @@
 // writes.
 
 #include "compiler/source/overlay.hpp"
+#include "compiler/source/read_source.hpp"
 #include "compiler/source/span.hpp"
 #include "compiler/source/synthetic_source.hpp"
 
@@ -72,9 +73,12 @@ public:
   /// Adds a text that Stride has written.
   FileId add(const SyntheticSource &source);
   /// The bytes of a file; nullopt when it cannot be read (readSourceError() tells why).
-  [[nodiscard]] std::optional<std::string> read(const std::filesystem::path &path) const;
-  /// Reads a file; nullopt when it cannot be read (readSourceError() tells why).
-  std::optional<FileId> load(const std::filesystem::path &path, std::string name);
+  [[nodiscard]] std::optional<std::string> read(const std::filesystem::path &path,
+                                                size_t most = kMaxSourceBytes) const;
+  /// Reads a file of at most `most` bytes; nullopt when it cannot be read (readSourceError() tells
+  /// why).
+  std::optional<FileId> load(const std::filesystem::path &path, std::string name,
+                             size_t most = kMaxSourceBytes);
 
   [[nodiscard]] const SourceFile &file(FileId id) const { return *files_[id - 1]; }
   [[nodiscard]] SourceFile &file(FileId id) { return *files_[id - 1]; }

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -159,6 +160,9 @@ TEST_F(CncMotion, SaysWhatIsWrong) {
   EXPECT_THAT(error({"--cycle", "2s"}), HasSubstr("2s"));
   EXPECT_THAT(error({"--feed", "0"}), HasSubstr("`0` is no number"));
   EXPECT_THAT(error({"-o", "a.cnc/a.csv"}), HasSubstr("cannot be written"));
+  EXPECT_THAT(error({"-o", "../" + scratch_.path().filename().string() + "/a.cnc"}),
+              AllOf(HasSubstr("SE0833"), HasSubstr("is the program")));
+  EXPECT_EQ(read("a.cnc"), "% x\nG1 X5 F9\n");
   write("% x\nN10 G1 X5 F9\nN20 G20 L10 K1\n");
   EXPECT_THAT(error({}), HasSubstr("do not end"));
   write("% x\nG1 X5 F9 J\n");
@@ -176,6 +180,36 @@ TEST_F(CncMotion, BearsProgramsInWhichNothingMoves) {
     EXPECT_EQ(plot.exitCode, 1);
     EXPECT_THAT(plot.err, HasSubstr("nothing moves"));
   }
+}
+
+TEST_F(CncMotion, RefusesFilesThatAreNoPrograms) {
+  std::string lines;
+  for (int i = 0; i < 300'000; ++i)
+    lines += "N" + std::to_string(i) + " G1 X" + std::to_string(i % 1000) +
+             " F5 (a comment of a post-processor, with its date)\n";
+  write(lines); // more bytes than ST may have
+  EXPECT_EQ(cnc({"check", "a.cnc"}).exitCode, 0);
+  const auto error = [this] {
+    for (const char *command : {"check", "format", "plot", "run"})
+      EXPECT_EQ(cnc({command, "a.cnc"}).exitCode, 1) << command;
+    return cnc({"info", "a.cnc"}).err;
+  };
+  std::filesystem::resize_file(scratch_.path() / "a.cnc", (64U << 20U) + 1);
+  EXPECT_THAT(error(), HasSubstr("longer than 64 MiB"));
+  for (const std::string &bytes : {std::string("\x7f"
+                                               "ELF\x02\x01\x01\0\0",
+                                               9),
+                                   std::string("G1 X1 F9\0Y2\n", 12), std::string("G\0001\0", 4)}) {
+    writeFile(scratch_.path() / "a.cnc", bytes);
+    EXPECT_THAT(error(), HasSubstr("error[SE0880]"));
+  }
+  std::filesystem::remove(scratch_.path() / "a.cnc");
+  EXPECT_THAT(error(), HasSubstr("No such file"));
+  ASSERT_EQ(mkfifo((scratch_.path() / "a.cnc").c_str(), 0600), 0);
+  EXPECT_THAT(error(), HasSubstr("not a regular file"));
+  std::filesystem::remove(scratch_.path() / "a.cnc");
+  std::filesystem::create_directory(scratch_.path() / "a.cnc");
+  EXPECT_THAT(error(), HasSubstr("Is a directory"));
 }
 
 TEST_F(CncMotion, DrawsThePathAndTheMotion) {
