@@ -165,6 +165,30 @@ TEST(CncChordMerge, StraightRunsAreAsLongAsTheyMayBe) {
   EXPECT_TRUE(merged({}, 1).empty());
 }
 
+TEST(CncChordMerge, AMillionLinesOfAMicrometreBecomeFew) {
+  constexpr int kLines = 1'000'000;
+  Merger merger{};
+  merger.tolerance = 1e-4;
+  PathObject ready[2];
+  Position here{};
+  int count = 0;
+  double length = 0;
+  const auto take = [&](int n) {
+    for (int j = 0; j < n; ++j) {
+      ++count;
+      length += ready[j].length;
+    }
+  };
+  for (int i = 1; i <= kLines; ++i) {
+    const PathObject line = lineTo(here, {0.0006 * i, 0.0008 * i, 0});
+    here = line.end;
+    take(mergeNext(merger, line, ready));
+  }
+  take(mergeEnd(merger, ready[0]));
+  EXPECT_LE(count, kLines / kMostMerged + 1);
+  EXPECT_NEAR(length, 0.001 * kLines, 1e-6);
+}
+
 TEST(CncChordMerge, ThereAndBackIsNotLost) {
   Path path = straight(2);
   path.push_back(lineTo(path.back().end, {1.5, 0, 0})); // back by 0.5

@@ -346,6 +346,23 @@ TEST(Interpolator, DrivesShortLinesAsFastAsALongOne) {
   EXPECT_LT(drive.time, 100.0 / 20 + 0.3);
 }
 
+TEST_P(EachLaw, DrivesALineOfAThousandKilometres) {
+  Drive drive(GetParam());
+  drive.command.cycle = 0.01;
+  drive.command.jerk = 1e7;
+  PathObject &line = drive.line(-6e8, 8e8);
+  line.velocity = 1e7;
+  line.acceleration = 2e6;
+  line.deceleration = 1e6;
+  drive.queue.endOfList = 1;
+  drive.start();
+  const double ramps = 0.5 * 1e7 * (1 / 2e6 + 1 / 1e6);
+  const double jerks = GetParam() == LawKind::Jerk ? 0.5 * (2e6 + 1e6) / 1e7 : 0;
+  EXPECT_NEAR(drive.finish(200), 1e9 / 1e7 + ramps + jerks, 0.1);
+  EXPECT_EQ(drive.x(), -6e8);
+  EXPECT_EQ(drive.y(), 8e8);
+}
+
 /// The plan reaches the end of all that fits into a course before the motion does.
 TEST_P(EachLaw, GoesOnWhereMoreObjectsFollowThanItCanKnow) {
   Drive drive(GetParam(), 700);
