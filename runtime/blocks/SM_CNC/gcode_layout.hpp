@@ -36,6 +36,7 @@ STRIDE_SAME_PLACE(Decoder, rapidVelocity, st::SMC_DECODER_STATE, dRapidVel);
 STRIDE_SAME_PLACE(Decoder, rapidAcceleration, st::SMC_DECODER_STATE, dRapidAccel);
 STRIDE_SAME_PLACE(Decoder, rapidDeceleration, st::SMC_DECODER_STATE, dRapidDecel);
 STRIDE_SAME_PLACE(Decoder, radius, st::SMC_DECODER_STATE, dRadius);
+STRIDE_SAME_PLACE(Decoder, cornerDistance, st::SMC_DECODER_STATE, dCornerDistance);
 STRIDE_SAME_PLACE(Decoder, additional, st::SMC_DECODER_STATE, adAdditional);
 STRIDE_SAME_PLACE(Decoder, switches, st::SMC_DECODER_STATE, adSwitches);
 STRIDE_SAME_PLACE(Decoder, planeX, st::SMC_DECODER_STATE, vX);
@@ -57,6 +58,7 @@ STRIDE_SAME_PLACE(Decoder, centreAbsolute, st::SMC_DECODER_STATE, bCentreAbsolut
 STRIDE_SAME_PLACE(Decoder, planar, st::SMC_DECODER_STATE, bPlanar);
 STRIDE_SAME_PLACE(Decoder, directed, st::SMC_DECODER_STATE, bDirected);
 STRIDE_SAME_PLACE(Decoder, jumping, st::SMC_DECODER_STATE, bJumping);
+STRIDE_SAME_PLACE(Decoder, separate, st::SMC_DECODER_STATE, bSeparate);
 
 } // namespace layout
 

@@ -58,6 +58,7 @@ bool begin(Block &block, Program &program) noexcept {
     queue->size = block.nSizeOutQueue;
     (void)cnc::clear(queue);
     cnc::startDecoder(decoderOf(block), startOf(block, program));
+    decoderOf(block).separate = block.bSoftMotion3 != 0;
   }
   queue->endOfList = 0;
   queue->generator = cnc::kByDecoder;

@@ -53,6 +53,7 @@ void start(Interpreter &block) noexcept {
     queue->size = block.nSizeOutQueue;
     (void)cnc::clear(queue);
     cnc::startDecoder(stateOf(block), __builtin_bit_cast(cnc::Position, block.piStartPosition));
+    stateOf(block).separate = true;
   }
   nc::startInterpreter(partOf(block));
   queue->endOfList = 0;

@@ -1,5 +1,6 @@
 #include "runtime/numeric/cnc/corner.hpp"
 
+#include "runtime/numeric/cnc/meeting.hpp"
 #include "runtime/numeric/cnc/object_cut.hpp"
 #include "runtime/numeric/cnc/object_shape.hpp"
 #include "runtime/numeric/path/blend.hpp"
@@ -20,50 +21,6 @@ constexpr double kShare = 0.5;
 /// No cut is smaller than this part of the room, whatever the feed needs.
 constexpr double kLeastCut = 1e-3;
 
-/// Both objects at their corner.
-struct Meeting {
-  path::Shape before;
-  path::Shape after;
-  Vector3
-      lift; ///< Of planar objects: what leads from the plane of the second to that of the first.
-  Vector3 place; ///< The corner, in the plane of the first.
-  double turn;   ///< [rad]
-  double feed;   ///< [u/s]
-};
-
-bool movesInSpace(const PathObject &object, ObjectShape &shape) noexcept {
-  const bool isCandidate = object.moveType != MoveType::Positioning &&
-                           object.moveType != MoveType::Function &&
-                           object.moveType != MoveType::Jump && object.probe == 0;
-  return isCandidate && shapeOf(object, shape) == ShapeError::None &&
-         (shape.measure == Measure::Space || shape.measure == Measure::Plane);
-}
-
-bool isSameNormal(const PathObject &a, const PathObject &b) noexcept {
-  return a.normal.x == b.normal.x && a.normal.y == b.normal.y && a.normal.z == b.normal.z;
-}
-
-bool meet(const PathObject &before, const PathObject &after, Meeting &meeting) noexcept {
-  ObjectShape first{};
-  ObjectShape second{};
-  if (!movesInSpace(before, first) || !movesInSpace(after, second) ||
-      first.measure != second.measure)
-    return false;
-  meeting.before = first.shape;
-  meeting.after = second.shape;
-  meeting.place = path::overParameter(first.shape, 1.0).p;
-  meeting.lift = numeric::kZero;
-  if (first.measure == Measure::Plane) {
-    if (!isSameNormal(before, after))
-      return false;
-    const Vector3 off = meeting.place - path::overParameter(second.shape, 0.0).p;
-    meeting.lift = before.normal * dot(off, before.normal);
-  }
-  meeting.turn = path::turnBetween(tangentAtEnd(first), tangentAtStart(second));
-  meeting.feed = smaller(before.velocity, after.velocity);
-  return true;
-}
-
 // ---- the curve for a cut
 
 struct Joint {
@@ -72,14 +29,10 @@ struct Joint {
   path::Shape curve;
 };
 
-path::Derivatives endOf(const path::Shape &shape, double way) noexcept {
-  return path::overLength(path::overParameter(shape, path::parameterAt(shape, way)));
-}
-
 /// False: there is no good curve for this cut; perhaps for a smaller one.
 bool join(const Meeting &meeting, double cut, Joint &joint) noexcept {
-  joint.before = endOf(meeting.before, meeting.before.length - cut);
-  joint.after = endOf(meeting.after, cut);
+  joint.before = derivativesAt(meeting.before, meeting.before.length - cut);
+  joint.after = derivativesAt(meeting.after, cut);
   joint.after.p = joint.after.p + meeting.lift;
   const double bend = larger(norm(joint.before.d2), norm(joint.after.d2)) * cut;
   if (!(bend <= kMostBend) ||
@@ -204,48 +157,6 @@ void keepSwitches(const PathObject &before, double length, double start, double 
   }
 }
 
-float smallerLimit(float a, float b) noexcept { return a > 0.0F && (b <= 0.0F || a < b) ? a : b; }
-
-/// The object that goes along the curve.
-void makeBlend(const PathObject &before, const PathObject &after, const path::Shape &curve,
-               PathObject &blend) noexcept {
-  blend = before;
-  blend.moveType = MoveType::Spline3d;
-  blend.start = before.end;
-  blend.end = after.start;
-  blend.start.sProfile = 0;
-  blend.end.sProfile = 0;
-  blend.start.axes = before.end.axes | after.end.axes;
-  blend.end.axes = blend.start.axes;
-  for (int k = 0; k < 6; ++k) {
-    const double axes[] = {curve.v[k].x, curve.v[k].y, curve.v[k].z};
-    for (int axis = 0; axis < 3; ++axis) {
-      const int at = axis * 6 + k;
-      (at < 8 ? blend.shape[at] : blend.moreShape[at - 8]) = axes[axis];
-    }
-  }
-  blend.parameterRange[0] = 0.0;
-  blend.parameterRange[1] = 1.0;
-  blend.velocity = smaller(before.velocity, after.velocity);
-  blend.velocityEnd = blend.velocity;
-  blend.acceleration = smaller(before.acceleration, after.acceleration);
-  blend.deceleration = smaller(before.deceleration, after.deceleration);
-  blend.length = curve.length;
-  blend.marks = 0;
-  for (int32_t i = 0; i <= kMostSwitches; ++i) {
-    blend.switchId[i] = 0;
-    blend.switchPosition[i] = 0.0;
-  }
-  for (int32_t i = 0; i < 9; ++i) {
-    AxisLimits &limits = blend.limits[i];
-    const AxisLimits &other = after.limits[i];
-    limits.velocity = smallerLimit(limits.velocity, other.velocity);
-    limits.acceleration = smallerLimit(limits.acceleration, other.acceleration);
-    limits.deceleration = smallerLimit(limits.deceleration, other.deceleration);
-  }
-  blend.slopes = 0;
-}
-
 } // namespace
 
 Corner blendCorner(PathObject &before, PathObject &after, const BlendRules &rules,
@@ -266,7 +177,8 @@ Corner blendCorner(PathObject &before, PathObject &after, const BlendRules &rule
     return Corner::Kept;
   keepSwitches(before, meeting.before.length, 0.0, cut, first);
   keepSwitches(after, meeting.after.length, cut, 0.0, second);
-  makeBlend(first, second, joint.curve, blend);
+  beginPiece(first, second, blend);
+  describePiece(joint.curve, blend);
   before = first;
   after = second;
   return Corner::Blended;

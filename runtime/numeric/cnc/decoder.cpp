@@ -294,6 +294,20 @@ bool decodeG(const Work &work, int32_t function) noexcept {
   }
 }
 
+/// D, unless G36 and G37 mean a value by it: the radius of the tool, the distance of smoothing and
+/// rounding, or both.
+void readDistance(Decoder &decoder, const Sentence &sentence) noexcept {
+  const int32_t function = sentence.isM ? -1 : sentence.function;
+  if (!has(sentence, 'D') || function == 36 || function == 37)
+    return;
+  const double value = get(sentence, 'D');
+  const bool ofTool = function == 41 || function == 42;
+  if (!decoder.separate || ofTool)
+    decoder.radius = value;
+  if (!decoder.separate || (!ofTool && function != 40))
+    decoder.cornerDistance = value;
+}
+
 void clear(Decoded &result) noexcept {
   result.count = 0;
   result.target = 0;
@@ -328,9 +342,7 @@ void decodeSentence(Decoder &decoder, const GCodeWord *words, int32_t count, int
   Sentence sentence;
   if (!readSentence(decoder, words, count, line, sentence, result))
     return;
-  const bool variable = !sentence.isM && (sentence.function == 36 || sentence.function == 37);
-  if (has(sentence, 'D') && !variable)
-    decoder.radius = get(sentence, 'D');
+  readDistance(decoder, sentence);
   const Work work{decoder, sentence, result};
   bool good = true;
   if (sentence.isM)

@@ -42,7 +42,8 @@ struct Decoder {
   double rapidVelocity;        ///< FF, of G0; 0: F. [u/s]
   double rapidAcceleration;    ///< EF > 0; 0: E. [u/s^2]
   double rapidDeceleration;    ///< EF < 0; 0: E. [u/s^2]
-  double radius;               ///< D [u]
+  double radius;               ///< D of the tool. [u]
+  double cornerDistance;       ///< D of smoothing and rounding. [u]
   double additional[kAdditionalParameters]; ///< Of G38.
   double switches[kMostSwitches]; ///< Of a spline that is held: parts or, by ways, lengths.
   Vector3 planeX;                 ///< The frame of arcs.
@@ -64,6 +65,8 @@ struct Decoder {
   bool planar;         ///< G15
   bool directed;       ///< There is a `direction`.
   bool jumping;        ///< G92 has been, and its object is not out yet.
+  bool separate;       ///< D of G41 and G42 is the tool's, other ones are not, as in SoftMotion 3
+                       ///< from 4.18 on; else each D is both. The user sets it after startDecoder.
 };
 
 /// What comes after a sentence.

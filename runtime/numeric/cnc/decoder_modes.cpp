@@ -128,7 +128,7 @@ bool decodeMode(const Work &work, int32_t function) noexcept {
   case 51:
   case 52:
     startMark(d, function == 51 ? kSmooth : kRound, kCorner);
-    break;
+    return true;
   case 61:
     startMark(d, kAvoidLoops, kAvoidLoops);
     break;

@@ -268,6 +268,7 @@ PathObject beginObject(Decoder &decoder, const Sentence &sentence, MoveType type
   object.start.axes = object.end.axes = decoder.axes;
   object.start.sProfile = object.end.sProfile = decoder.profile;
   object.toolRadius = decoder.radius;
+  object.cornerDistance = decoder.cornerDistance;
   object.velocity = orOf(decoder.rapidVelocity, decoder.velocity);
   object.velocityEnd = rapid ? 0.0 : object.velocity;
   object.acceleration = orOf(decoder.rapidAcceleration, decoder.acceleration);

@@ -133,14 +133,11 @@ void fail(Interpolator &interpolator, int16_t error) noexcept {
   interpolator.phase = Phase::Failed;
 }
 
-bool segmentOf(Interpolator &interpolator, const PathObject &object,
-               path::Segment &segment) noexcept {
+ShapeError describeSegment(const PathObject &object, path::Segment &segment) noexcept {
   ObjectShape shape;
   const ShapeError error = shapeOf(object, shape);
-  if (error != ShapeError::None && error != ShapeError::Ends) {
-    fail(interpolator, kPathExceeded);
-    return false;
-  }
+  if (error != ShapeError::None && error != ShapeError::Ends)
+    return error;
   path::Companion companions[path::kCoordinates]{};
   for (int32_t k = 0; k < kAxes; ++k) {
     const unsigned bit = 1U << static_cast<unsigned>(k);
@@ -152,6 +149,15 @@ bool segmentOf(Interpolator &interpolator, const PathObject &object,
     companion.end = object.end.coordinate[k];
   }
   segment = path::makeSegment(shape.shape, companions);
+  return ShapeError::None;
+}
+
+bool segmentOf(Interpolator &interpolator, const PathObject &object,
+               path::Segment &segment) noexcept {
+  if (describeSegment(object, segment) != ShapeError::None) {
+    fail(interpolator, kPathExceeded);
+    return false;
+  }
   return segment.length > 0.0;
 }
 

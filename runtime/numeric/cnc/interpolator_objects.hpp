@@ -3,6 +3,7 @@
 #define STRIDE_RUNTIME_NUMERIC_CNC_INTERPOLATOR_OBJECTS_HPP
 
 #include "runtime/numeric/cnc/interpolator.hpp"
+#include "runtime/numeric/cnc/object_shape.hpp"
 
 namespace stride::cnc {
 
@@ -16,6 +17,10 @@ inline bool waitsAt(const PathObject &object) noexcept {
 
 /// Ends the path with an SMC_ERROR, at once.
 void fail(Interpolator &interpolator, int16_t error) noexcept;
+
+/// What an object is to a motion; of length 0 if it goes nowhere. Ends beside the curve are no
+/// error here.
+ShapeError describeSegment(const PathObject &object, path::Segment &segment) noexcept;
 
 /// The segment of an object. False: it goes nowhere. An object without a meaning ends the path.
 bool segmentOf(Interpolator &interpolator, const PathObject &object,

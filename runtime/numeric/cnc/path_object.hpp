@@ -123,7 +123,7 @@ struct PathObject {
   uint32_t features;    ///< dwFeatureFlags: extended functions that are on (G38).
   double additional[kAdditionalParameters]; ///< aAdditionalParams
   // Stride's own, hidden in ST:
-  double cornerDistance; ///< Of smoothing and rounding, where the program says it apart. [u]
+  double cornerDistance; ///< Of smoothing and rounding (D), as SoftMotion 3 reads it. [u]
   double startSlope[3];  ///< Of A, B, C over the length, if bits 0 to 2 of slopes are set. [1/u]
   double endSlope[3];    ///< Likewise, at the end.
   AxisLimits limits[9];  ///< Of Z, A, B, C, P, Q, U, V, W.

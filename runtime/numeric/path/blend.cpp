@@ -35,9 +35,10 @@ double turnBetween(const Vector3 &before, const Vector3 &after) noexcept {
   return ::stride::atan2(norm(cross(before, after)), dot(before, after));
 }
 
+double blendStretch(double turn) noexcept { return interpolated(kStretch, turn); }
+
 Shape blendShape(const Derivatives &before, const Derivatives &after) noexcept {
-  const double speed =
-      interpolated(kStretch, turnBetween(before.d1, after.d1)) * norm(after.p - before.p);
+  const double speed = blendStretch(turnBetween(before.d1, after.d1)) * norm(after.p - before.p);
   const auto over = [speed](const Derivatives &end) {
     return Derivatives{end.p, end.d1 * speed, end.d2 * (speed * speed), numeric::kZero};
   };

@@ -20,6 +20,10 @@ double turnBetween(const Vector3 &before, const Vector3 &after) noexcept;
 /// that such a polynomial can have.
 Shape blendShape(const Derivatives &before, const Derivatives &after) noexcept;
 
+/// The length of the derivatives over u that such a blend has at both ends, over that of its chord.
+/// [rad] in
+double blendStretch(double turn) noexcept;
+
 /// How far a blend between two lines stays away from their corner, in cuts; `turn` up to kMaxTurn.
 /// [rad] in
 double deviationPerCut(double turn) noexcept;

@@ -209,5 +209,23 @@ TEST(Decoder, G17MarksStandAtTheRightObjects) {
   for (size_t i = 0; i < 6; ++i) {
     EXPECT_EQ(text.objects[i].marks, marks[i]) << i;
     EXPECT_EQ(text.objects[i].toolRadius, radii[i]) << i;
+    EXPECT_EQ(text.objects[i].cornerDistance, radii[i]) << i;
+  }
+}
+
+TEST(Decoder, DOfTheToolIsNoDistanceFromTheCornerInSoftMotion3) {
+  const Scanned scanned = scanText("G1 X1\nG51 D10\nG41 D2\nG1 X2\nD3\nG1 X3\nG1 X4 D4\n"
+                                   "G40 D5\nG1 X5\nG36 D6\nG1 X6\nG42 D7\nG50 D8\nG1 X7\n");
+  const double radii[] = {0, 2, 2, 2, 2, 2, 7};
+  const double distances[] = {0, 10, 3, 4, 4, 4, 8};
+  const double both[] = {0, 2, 3, 4, 5, 5, 8};
+  for (const bool separate : {false, true}) {
+    const DecodedText text = decodeWords(scanned.words, {}, false, 1000, separate);
+    ASSERT_EQ(text.error, GCodeError::None);
+    ASSERT_EQ(text.objects.size(), 7U);
+    for (size_t i = 0; i < 7; ++i) {
+      EXPECT_EQ(text.objects[i].toolRadius, separate ? radii[i] : both[i]) << i;
+      EXPECT_EQ(text.objects[i].cornerDistance, separate ? distances[i] : both[i]) << i;
+    }
   }
 }

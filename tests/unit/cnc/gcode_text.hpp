@@ -100,9 +100,11 @@ inline void resolve(Scanned &scanned, const Variables &variables) {
 }
 
 inline DecodedText decodeWords(const std::vector<GCodeWord> &words, const Position &start = {},
-                               bool stepSuppress = false, int most = 100000) {
+                               bool stepSuppress = false, int most = 100000,
+                               bool separate = false) {
   DecodedText out;
   startDecoder(out.decoder, start);
+  out.decoder.separate = separate;
   static Decoded decoded;
   const auto count = static_cast<int64_t>(words.size());
   const auto take = [&] {

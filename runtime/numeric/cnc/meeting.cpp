@@ -1,0 +1,93 @@
+#include "runtime/numeric/cnc/meeting.hpp"
+
+#include "runtime/numeric/path/blend.hpp"
+
+namespace stride::cnc {
+namespace {
+
+using exact::smaller;
+using numeric::dot;
+
+bool movesInSpace(const PathObject &object, ObjectShape &shape) noexcept {
+  const bool isCandidate = object.moveType != MoveType::Positioning &&
+                           object.moveType != MoveType::Function &&
+                           object.moveType != MoveType::Jump && object.probe == 0;
+  return isCandidate && shapeOf(object, shape) == ShapeError::None &&
+         (shape.measure == Measure::Space || shape.measure == Measure::Plane);
+}
+
+bool isSameNormal(const PathObject &a, const PathObject &b) noexcept {
+  return a.normal.x == b.normal.x && a.normal.y == b.normal.y && a.normal.z == b.normal.z;
+}
+
+float smallerLimit(float a, float b) noexcept { return a > 0.0F && (b <= 0.0F || a < b) ? a : b; }
+
+} // namespace
+
+bool meet(const PathObject &before, const PathObject &after, Meeting &meeting) noexcept {
+  ObjectShape first{};
+  ObjectShape second{};
+  if (!movesInSpace(before, first) || !movesInSpace(after, second) ||
+      first.measure != second.measure)
+    return false;
+  meeting.before = first.shape;
+  meeting.after = second.shape;
+  meeting.place = path::overParameter(first.shape, 1.0).p;
+  meeting.lift = numeric::kZero;
+  if (first.measure == Measure::Plane) {
+    if (!isSameNormal(before, after))
+      return false;
+    const Vector3 off = meeting.place - path::overParameter(second.shape, 0.0).p;
+    meeting.lift = before.normal * dot(off, before.normal);
+  }
+  meeting.turn = path::turnBetween(tangentAtEnd(first), tangentAtStart(second));
+  meeting.feed = smaller(before.velocity, after.velocity);
+  return true;
+}
+
+path::Derivatives derivativesAt(const path::Shape &shape, double way) noexcept {
+  return path::overLength(path::overParameter(shape, path::parameterAt(shape, way)));
+}
+
+void beginPiece(const PathObject &before, const PathObject &after, PathObject &piece) noexcept {
+  piece = before;
+  piece.start = before.end;
+  piece.end = after.start;
+  piece.start.sProfile = 0;
+  piece.end.sProfile = 0;
+  piece.start.axes = before.end.axes | after.end.axes;
+  piece.end.axes = piece.start.axes;
+  piece.velocity = smaller(before.velocity, after.velocity);
+  piece.velocityEnd = piece.velocity;
+  piece.acceleration = smaller(before.acceleration, after.acceleration);
+  piece.deceleration = smaller(before.deceleration, after.deceleration);
+  piece.marks = 0;
+  for (int32_t i = 0; i <= kMostSwitches; ++i) {
+    piece.switchId[i] = 0;
+    piece.switchPosition[i] = 0.0;
+  }
+  for (int32_t i = 0; i < 9; ++i) {
+    AxisLimits &limits = piece.limits[i];
+    const AxisLimits &other = after.limits[i];
+    limits.velocity = smallerLimit(limits.velocity, other.velocity);
+    limits.acceleration = smallerLimit(limits.acceleration, other.acceleration);
+    limits.deceleration = smallerLimit(limits.deceleration, other.deceleration);
+  }
+  piece.slopes = 0;
+}
+
+void describePiece(const path::Shape &curve, PathObject &piece) noexcept {
+  piece.moveType = MoveType::Spline3d;
+  for (int k = 0; k < 6; ++k) {
+    const double axes[] = {curve.v[k].x, curve.v[k].y, curve.v[k].z};
+    for (int axis = 0; axis < 3; ++axis) {
+      const int at = axis * 6 + k;
+      (at < 8 ? piece.shape[at] : piece.moreShape[at - 8]) = axes[axis];
+    }
+  }
+  piece.parameterRange[0] = 0.0;
+  piece.parameterRange[1] = 1.0;
+  piece.length = curve.length;
+}
+
+} // namespace stride::cnc

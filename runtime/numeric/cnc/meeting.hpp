@@ -1,0 +1,40 @@
+// Two objects of a path at their corner, and the object that is put between them when both are cut
+// there. Free of the C++ standard library: linked into every application.
+#ifndef STRIDE_RUNTIME_NUMERIC_CNC_MEETING_HPP
+#define STRIDE_RUNTIME_NUMERIC_CNC_MEETING_HPP
+
+#include "runtime/numeric/cnc/object_shape.hpp"
+#include "runtime/numeric/cnc/path_object.hpp"
+
+namespace stride::cnc {
+
+/// Both objects at their corner.
+struct Meeting {
+  path::Shape before;
+  path::Shape after;
+  Vector3
+      lift; ///< Of planar objects: what leads from the plane of the second to that of the first.
+  Vector3 place; ///< The corner, in the plane of the first.
+  double turn;   ///< [rad]
+  double feed;   ///< The smaller velocity of both. [u/s]
+};
+
+/// Describes the corner where `before` ends and `after` begins. False: one of them is a rapid
+/// motion, no motion in space, ends at a probe or has a shape that is wrong, or their lengths are
+/// of different kinds.
+bool meet(const PathObject &before, const PathObject &after, Meeting &meeting) noexcept;
+
+/// Place and derivatives over the arc length, at a way from the start. [u] in
+path::Derivatives derivativesAt(const path::Shape &shape, double way) noexcept;
+
+/// An object between the end of `before` and the start of `after`, without a shape. It has the
+/// smaller velocities, accelerations and limits of both, and the numbers of the first; axes besides
+/// X, Y, Z go along evenly. It has no marks and no switch points.
+void beginPiece(const PathObject &before, const PathObject &after, PathObject &piece) noexcept;
+
+/// Lets it go along a polynomial (MoveType::Spline3d).
+void describePiece(const path::Shape &curve, PathObject &piece) noexcept;
+
+} // namespace stride::cnc
+
+#endif // STRIDE_RUNTIME_NUMERIC_CNC_MEETING_HPP

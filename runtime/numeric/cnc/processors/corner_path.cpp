@@ -1,0 +1,113 @@
+#include "runtime/numeric/cnc/processors/corner_path.hpp"
+
+namespace stride::cnc {
+namespace {
+
+/// Puts out what comes before `following`. False: there is more to put out.
+bool flush(CornerPath &path, Output &output) noexcept {
+  if (path.holds) {
+    if (put(output, path.held) == nullptr)
+      return false;
+    path.holds = false;
+  }
+  if (path.hasPiece) {
+    if (put(output, path.piece) == nullptr)
+      return false;
+    path.hasPiece = false;
+  }
+  for (; path.done < path.count; ++path.done)
+    if (put(output, path.functions[path.done]) == nullptr)
+      return false;
+  path.count = path.done = 0;
+  return true;
+}
+
+double distanceOf(const CornerPath &path) noexcept {
+  switch (path.rule) {
+  case DistanceRule::ToolRadiusElse:
+    return path.distance != 0.0 ? path.distance : path.held.toolRadius;
+  case DistanceRule::CornerDistanceAdded:
+    return path.distance + path.held.cornerDistance;
+  case DistanceRule::ToolRadiusAdded:
+    break;
+  }
+  return path.distance + path.held.toolRadius;
+}
+
+/// Changes the corner between `held` and `following`, if it is one to be changed.
+void changeCorner(CornerPath &path) noexcept {
+  if (!path.holds || !path.heldActive || !path.active)
+    return;
+  const PieceRules rules{path.kind, distanceOf(path), path.symmetrical, path.leastTurn};
+  double room = path.heldRoom;
+  const CornerChange change = makeCorner(path.held, path.following, rules, room, path.piece);
+  if (change == CornerChange::Kept)
+    return;
+  path.hasPiece = true;
+  path.holds = change == CornerChange::Cut;
+  path.nextRoom = room;
+  for (int32_t i = 0; i < path.count; ++i) {
+    path.functions[i].start = path.following.start;
+    path.functions[i].end = path.following.start;
+  }
+}
+
+/// An M function or a dwell: true if it waits for what the corner becomes.
+bool waits(CornerPath &path, const PathObject &object) noexcept {
+  if (!path.passesFunctions || !path.holds || !path.heldActive ||
+      object.moveType != MoveType::Function || path.count >= kMostAtCorner || path.done != 0)
+    return false;
+  path.functions[path.count] = object;
+  ++path.count;
+  return true;
+}
+
+} // namespace
+
+void startCorners(CornerPath &path) noexcept {
+  path.count = path.done = 0;
+  path.active = path.heldActive = path.holds = path.hasPiece = path.hasFollowing = false;
+}
+
+Step nextCorner(CornerPath &path, uint8_t beginMark, const PathObject &object,
+                Output &output) noexcept {
+  if (!exact::isfinite(path.distance) || !exact::isfinite(path.leastTurn)) {
+    output.error = StreamError::InvalidParameter;
+    return Step::Failed;
+  }
+  const bool ends = (object.marks & kEndSmoothing) != 0;
+  if (!path.hasFollowing) {
+    path.active = path.active || (object.marks & beginMark) != 0;
+    if (waits(path, object)) {
+      path.heldActive = path.heldActive && !ends;
+      path.active = path.active && !ends;
+      return Step::Took;
+    }
+    path.following = object;
+    path.nextRoom = -1.0;
+    path.hasFollowing = true;
+    changeCorner(path);
+  }
+  if (!flush(path, output))
+    return Step::Again;
+  path.hasFollowing = false;
+  path.active = path.active && !ends;
+  if (isMotion(object)) {
+    path.held = path.following;
+    path.heldRoom = path.nextRoom;
+    path.heldActive = path.active;
+    path.holds = true;
+    return Step::Took;
+  }
+  path.heldActive = false;
+  // Nothing is kept: what cannot be put out now is asked for again.
+  return put(output, object) != nullptr ? Step::Took : Step::Again;
+}
+
+Step finishCorners(CornerPath &path, Output &output) noexcept {
+  path.hasFollowing = false;
+  path.heldActive = false;
+  return flush(path, output) ? Step::Took : Step::Again;
+}
+
+} // namespace stride::cnc

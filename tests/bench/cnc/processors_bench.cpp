@@ -1,0 +1,100 @@
+// How many objects a second path processors take. The issue asks for a million for lines and arcs.
+#include "tests/unit/cnc_processors/sampled_path.hpp"
+
+#include "runtime/numeric/cnc/processors/corner_path.hpp"
+#include "runtime/numeric/cnc/processors/limit_circular.hpp"
+#include "runtime/numeric/cnc/processors/transform.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <vector>
+
+namespace {
+
+using namespace stride::cnc;
+using namespace stride::cnc::test;
+
+constexpr uint32_t kPlaces = 64;
+
+/// A zigzag of lines, or of lines and arcs, whose every corner is to be changed.
+std::vector<PathObject> pathOf(bool arcs) {
+  std::vector<PathObject> path;
+  Point here{0, 0, 0};
+  for (int i = 0; i < 30; ++i) {
+    if (arcs && i % 2 == 1)
+      path.push_back(arc(here + Point{0, 3, 0}, 3, -90, 60));
+    else
+      path.push_back(line(here, here + Point{4, i % 4 == 0 ? 2.0 : -2.0, 0}));
+    path.back().marks = i == 0 ? kSmooth | kRound : 0;
+    here = endOf(path.back());
+  }
+  return path;
+}
+
+struct Memory {
+  std::vector<PathObject> objects = std::vector<PathObject>(kPlaces);
+  Queue queue{};
+  Memory() {
+    queue.structId = kQueueStructId;
+    queue.buffer = reinterpret_cast<uint8_t *>(objects.data());
+    queue.size = kPlaces * sizeof(PathObject);
+  }
+};
+
+template <class Processor>
+void run(benchmark::State &state, Processor processor, const std::vector<PathObject> &path) {
+  Memory input;
+  Memory output;
+  StreamState stream{};
+  startStream(stream, &output.queue, Processor::kGenerator, false);
+  start(processor);
+  int64_t objects = 0;
+  for (auto _ : state) {
+    for (const PathObject &object : path)
+      append(&input.queue, &object);
+    while (countOf(&input.queue) != 0) {
+      stepStream(stream, processor, &input.queue, &output.queue);
+      while (countOf(&output.queue) != 0)
+        removeAt(&output.queue, 0);
+    }
+    objects += static_cast<int64_t>(path.size());
+  }
+  state.SetItemsProcessed(objects);
+}
+
+template <class Processor> Processor corners(PieceKind kind) {
+  Processor processor{};
+  processor.distance = 0.5;
+  processor.kind = kind;
+  processor.passesFunctions = true;
+  return processor;
+}
+
+void smoothCubic(benchmark::State &state) {
+  run(state, corners<SmoothPath>(PieceKind::Cubic), pathOf(state.range(0) != 0));
+}
+void smoothQuintic(benchmark::State &state) {
+  run(state, corners<SmoothPath>(PieceKind::Quintic), pathOf(state.range(0) != 0));
+}
+void roundLines(benchmark::State &state) {
+  run(state, corners<RoundPath>(PieceKind::Arc), pathOf(state.range(0) != 0));
+}
+void limitCircular(benchmark::State &state) {
+  LimitCircular limit{};
+  limit.acceleration = 100;
+  limit.jump = 50;
+  run(state, limit, pathOf(state.range(0) != 0));
+}
+void rotate(benchmark::State &state) {
+  RotatePath path{};
+  path.wanted = {TransformKind::Rotate, {30, 0, 0}};
+  run(state, path, pathOf(state.range(0) != 0));
+}
+
+BENCHMARK(smoothCubic)->Arg(0)->Arg(1);
+BENCHMARK(smoothQuintic)->Arg(0)->Arg(1);
+BENCHMARK(roundLines)->Arg(0)->Arg(1);
+BENCHMARK(limitCircular)->Arg(0)->Arg(1);
+BENCHMARK(rotate)->Arg(0)->Arg(1);
+
+} // namespace
