@@ -1,4 +1,5 @@
 #include "compiler/project/cnc_config.hpp"
+#include "compiler/assets/cnc/nc_source.hpp"
 
 #include <array>
 #include <filesystem>
@@ -52,6 +53,22 @@ void readCncSection(const CheckedSection &section, ProjectConfig &config,
   config.cnc.push_back(std::move(settings));
 }
 
+namespace {
+
+/// Programs of a project are G-code without expressions: those are read at run time only.
+std::optional<CncProgram> readProgram(const SourceFile &file, Diagnostics &diagnostics) {
+  if (!needsNcLanguage(file.text()))
+    return readCnc(file, diagnostics);
+  diagnostics
+      .report(Code::CncText, {file.id(), 0, 0},
+              "expressions, local variables and subprograms are read at run time only",
+              "a program in SoftMotion 3's language")
+      .help("move the file into the folder for files, where SMC_ReadNCFile2 reads it");
+  return std::nullopt;
+}
+
+} // namespace
+
 SyntheticSource declareCncPrograms(Program &program, const ProjectConfig &config,
                                    const std::vector<FileId> &cncFiles,
                                    const std::vector<ast::File *> &files) {
@@ -59,7 +76,7 @@ SyntheticSource declareCncPrograms(Program &program, const ProjectConfig &config
   std::vector<bool> used(config.cnc.size());
   for (const FileId id : cncFiles) {
     const SourceFile &file = program.sources.file(id);
-    std::optional<CncProgram> read = readCnc(file, program.diagnostics);
+    std::optional<CncProgram> read = readProgram(file, program.diagnostics);
     for (size_t i = 0; i < config.cnc.size(); ++i)
       if (config.cnc[i].file == normal(file.name())) {
         used[i] = true;

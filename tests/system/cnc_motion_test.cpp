@@ -212,6 +212,38 @@ TEST_F(CncMotion, RefusesFilesThatAreNoPrograms) {
   EXPECT_THAT(error(), HasSubstr("Is a directory"));
 }
 
+TEST_F(CncMotion, CarriesExpressionsAndSubprogramsOut) {
+  writeFile(scratch_.path() / "leg.cnc", "SUBPROGRAM Leg{#x : LREAL, #up : BOOL}\n"
+                                         "N1 G20 L?1 K NOT #up\n"
+                                         "N2 G1 Z#x / 2\n"
+                                         "N3 L!1 G1 X#x\n"
+                                         "END_SUBPROGRAM\n");
+  write("% legs\nLET #i : LREAL := 2\nN5 F100\nN10 LEG{#i * 10, #i > 2}\nN20 G36 O#i D#i + 1\n"
+        "N30 G20 L10 K #i < 4 AND $on$ = 0\n");
+  const ProcessResult info = cnc({"info", "a.cnc", "leg.cnc"});
+  EXPECT_EQ(info.exitCode, 0) << info.err;
+  EXPECT_THAT(info.out, AllOf(HasSubstr("a.cnc: legs"), HasSubstr("objects     3"),
+                              HasSubstr("X           0 … 30"), HasSubstr("Z           0 … 15")));
+  EXPECT_EQ(cnc({"check", "a.cnc", "leg.cnc"}).exitCode, 0);
+  EXPECT_THAT(cnc({"run", "a.cnc"}).out, HasSubstr("objects       3 of the program"));
+  EXPECT_NE(cnc({"format", "a.cnc"}).exitCode, 0);
+}
+
+TEST_F(CncMotion, SaysWhatIsWrongWithExpressions) {
+  const auto says = [this](const std::string &text, const std::string &error) {
+    write(text);
+    const ProcessResult result = cnc({"check", "a.cnc"});
+    EXPECT_NE(result.exitCode, 0) << text;
+    EXPECT_THAT(result.err, HasSubstr(error));
+  };
+  says("N1 G1 X{1 + F5\n", "there is no such function");
+  says("N1 G1 X1 F5\nN2 X1/{1 - 1}\n", "division by zero");
+  says("N1 G1 X1 F5\nN2 Nothing{1}\n", "there is no file nothing.cnc");
+  says("LET #a : LREAL\nN1 G1 X#a G2\n", "a sentence has one G or M function");
+  says("LET #a : LREAL\nN1 G1 X#b\n", "there is no such local variable");
+  says("LET #a : LREAL\nN1 G1 X1 F5\nN2 G20 L1 K TRUE\n", "do not end");
+}
+
 TEST_F(CncMotion, DrawsThePathAndTheMotion) {
   write("% plate & more\nG17\nG1 X30 Z3 F50 E400 E-300\nG2 X40 Y-10 I10\n");
   const ProcessResult result =

@@ -306,19 +306,17 @@ private:
 } // namespace
 
 bool needsNcLanguage(std::string_view text) {
-  const bool parentheses = text.find("(*") == std::string_view::npos;
-  if (!parentheses)
-    return true;
+  const bool other = text.find("(*") != std::string_view::npos;
   nc::ProgramLine line{};
-  size_t at = 0;
-  while (at < text.size()) {
+  for (size_t at = 0; at < text.size();) {
     int64_t used = 0;
     const nc::LineEvent event =
-        nc::readLine(line, parentheses, reinterpret_cast<const uint8_t *>(text.data()) + at,
+        nc::readLine(line, true, reinterpret_cast<const uint8_t *>(text.data()) + at,
                      static_cast<int64_t>(text.size() - at), used);
     at += static_cast<size_t>(used);
-    if (event != nc::LineEvent::Line && at < text.size())
-      continue;
+    // A comment over several lines.
+    if (event == nc::LineEvent::Error && other && line.error == nc::Error::UnexpectedEnd)
+      return true;
     const std::string_view code(line.text, static_cast<size_t>(line.length));
     if (!code.starts_with('%') && code.find_first_of("{#'!?") != std::string_view::npos)
       return true;
