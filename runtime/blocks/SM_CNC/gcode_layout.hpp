@@ -39,6 +39,7 @@ STRIDE_SAME_PLACE(Decoder, radius, st::SMC_DECODER_STATE, dRadius);
 STRIDE_SAME_PLACE(Decoder, cornerDistance, st::SMC_DECODER_STATE, dCornerDistance);
 STRIDE_SAME_PLACE(Decoder, additional, st::SMC_DECODER_STATE, adAdditional);
 STRIDE_SAME_PLACE(Decoder, switches, st::SMC_DECODER_STATE, adSwitches);
+STRIDE_SAME_PLACE(Decoder, parameters, st::SMC_DECODER_STATE, mpParameters);
 STRIDE_SAME_PLACE(Decoder, planeX, st::SMC_DECODER_STATE, vX);
 STRIDE_SAME_PLACE(Decoder, planeY, st::SMC_DECODER_STATE, vY);
 STRIDE_SAME_PLACE(Decoder, normal, st::SMC_DECODER_STATE, vN);

@@ -11,6 +11,9 @@ namespace cnc = ::stride::cnc;
 using Block = ::st::SM_CNC::SMC_NCDecoder;
 using Program = ::st::SM_CNC::SMC_CNC_REF;
 
+/// So many jumps without an object of the path are an error: nothing would ever move.
+constexpr uint32_t kMostJumps = 100000;
+
 cnc::Decoder &decoderOf(Block &block) noexcept {
   return reinterpret_cast<cnc::Decoder &>(block.State);
 }
@@ -68,6 +71,7 @@ bool begin(Block &block, Program &program) noexcept {
   block.bBegun = block.bBusy = 1;
   block.iStatus = ::st::SM_CNC::SMC_DEC_STATUS__READ_WORD;
   block.iLineNumberDecoded = 0;
+  block.udiJumps = 0;
   block.GCodeText.bClearList = static_cast<::stride::BOOL>(!append);
   return true;
 }
@@ -91,6 +95,10 @@ void showSentence(Block &block, const cnc::SentenceWords &sentence) noexcept {
 
 /// A jump: at once in a program that is there as a whole, else with its next pieces.
 void jump(Block &block, Program &program, int32_t target) noexcept {
+  if (++block.udiJumps > kMostJumps) {
+    end(block, ::st::SM_Error::SMC_ERROR__SMC_DEC_ENDLESS_JUMPS);
+    return;
+  }
   if (program.udiBuffer != cnc::kWholeProgram) {
     block.bLooking = 1;
     block.diTarget = target;
@@ -123,12 +131,17 @@ void decode(Block &block, Program &program, const cnc::SentenceWords &sentence,
   if (sentence.skip && block.bStepSuppress != 0)
     return;
   showSentence(block, sentence);
+  if (block.pParameters != nullptr)
+    __builtin_memcpy(decoderOf(block).parameters, block.pParameters,
+                     sizeof decoderOf(block).parameters);
   cnc::decodeSentence(decoderOf(block), sentence.words, sentence.count, sentence.line, decoded);
   if (decoded.error != cnc::GCodeError::None) {
     end(block, cnc::errorOf(decoded.error));
     return;
   }
   appendObjects(block, decoded);
+  if (decoded.count > 0)
+    block.udiJumps = 0;
   block.bWaiting = static_cast<::stride::BOOL>(decoded.next == cnc::Next::Synchronise);
   if (decoded.next == cnc::Next::Jump)
     jump(block, program, decoded.target);

@@ -184,7 +184,7 @@ bool decodeMotion(const Work &work, int32_t function) noexcept {
 
 /// M, and G4: something at a place.
 void holdFunction(const Work &work, int16_t id, double first, double second,
-                  const GCodeWord *parameters) noexcept {
+                  const void *parameters) noexcept {
   Decoder &d = work.decoder;
   releaseJump(work);
   PathObject object = beginObject(d, work.sentence, MoveType::Function, d.here);
@@ -192,19 +192,20 @@ void holdFunction(const Work &work, int16_t id, double first, double second,
   object.parameterRange[0] = first;
   object.parameterRange[1] = second;
   if (parameters != nullptr)
-    __builtin_memcpy(object.shape, parameters->address, sizeof object.shape);
+    __builtin_memcpy(object.shape, parameters, sizeof object.shape);
   hold(work, object, Held::Ready, nullptr);
 }
 
 bool decodeM(const Work &work) noexcept {
   const Sentence &s = work.sentence;
-  const GCodeWord *parameters = nullptr;
+  const void *parameters = work.decoder.parameters;
   if (has(s, 'O') && s.switchCount == 0) {
-    parameters = &s.words[s.at['O' - 'A']];
-    if (parameters->address == nullptr)
+    const GCodeWord &word = s.words[s.at['O' - 'A']];
+    if (word.address == nullptr)
       return refuse(work, GCodeError::NoVariable, 'O');
-    if (static_cast<VariableType>(parameters->variables) != VariableType::Structure)
+    if (static_cast<VariableType>(word.variables) != VariableType::Structure)
       return refuse(work, GCodeError::WrongVariable, 'O');
+    parameters = word.address;
   }
   holdFunction(work, static_cast<int16_t>(static_cast<uint16_t>(s.function)),
                has(s, 'K') ? get(s, 'K') : 0.0, has(s, 'L') ? get(s, 'L') : 0.0, parameters);

@@ -46,6 +46,7 @@ struct Decoder {
   double cornerDistance;       ///< D of smoothing and rounding. [u]
   double additional[kAdditionalParameters]; ///< Of G38.
   double switches[kMostSwitches]; ///< Of a spline that is held: parts or, by ways, lengths.
+  double parameters[8];           ///< Of M functions without O, which the user may set.
   Vector3 planeX;                 ///< The frame of arcs.
   Vector3 planeY;
   Vector3 normal;
