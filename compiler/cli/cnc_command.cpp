@@ -79,6 +79,29 @@ int cncCheck(const CncOptions &options) {
   return exitCode;
 }
 
+/// Writes the queue of the program in `file`. What there is to say of it.
+std::string writeQueue(const std::string &file, const std::string &out, const CncProgram &program,
+                       Diagnostics &diagnostics) {
+  if (std::error_code unknown; std::filesystem::equivalent(file, out, unknown)) {
+    diagnostics
+        .report(Code::CannotWrite, {},
+                fmt::format("`{}` is the program: it is not overwritten", out))
+        .help("name another file with -o");
+    return {};
+  }
+  const auto objects = cncQueueOf(program, diagnostics);
+  if (!objects)
+    return {};
+  if (!writeFile(out, cncQueueFile(program, *objects))) {
+    diagnostics.report(Code::CannotWrite, {},
+                       fmt::format("`{}` cannot be written: {}", out, lastError()));
+    return {};
+  }
+  return fmt::format("{}: {} objects, {} bytes of memory for SMC_ReadNCQueue\n", out,
+                     objects->size(),
+                     std::max<size_t>(objects->size(), 2) * sizeof(stride::cnc::PathObject));
+}
+
 std::string infoText(const std::string &path, const CncProgram &program) {
   const CncInfo info = infoOf(program);
   std::string text = fmt::format("{}{}\n", path, program.title.empty() ? "" : ": " + program.title);
@@ -162,6 +185,33 @@ int cncMotion(const CncOptions &options) {
   return exitCode;
 }
 
+/// Writes a queue file.
+int cncQueue(const CncOptions &options) {
+  const std::string &path = options.files.front();
+  LoadedCnc loaded(path);
+  std::string says;
+  if (loaded.program) {
+    CncProgram &program = *loaded.program;
+    CncSettings &settings = program.settings;
+    settings.compile = CncCompile::QueueFile;
+    settings.angleTolerance = options.motion.angleTolerance;
+    settings.stepSuppress = options.queue.stepSuppress;
+    const auto given = [](double value) { return value > 0 ? std::optional(value) : std::nullopt; };
+    settings.velocity = given(options.motion.velocity);
+    settings.acceleration = given(options.motion.acceleration);
+    settings.deceleration = given(options.queue.deceleration);
+    std::copy(std::begin(options.queue.start), std::end(options.queue.start),
+              std::begin(settings.start.coordinate));
+    settings.start.axes = options.queue.axes;
+    checkCnc(program, loaded.diagnostics);
+    if (!loaded.diagnostics.hasErrors())
+      says = writeQueue(path, options.out, program, loaded.diagnostics);
+  }
+  const int exitCode = loaded.finish(options.output);
+  print(says);
+  return exitCode;
+}
+
 } // namespace
 
 int cncCommand(const CncOptions &options) {
@@ -169,6 +219,8 @@ int cncCommand(const CncOptions &options) {
   case CncAction::Run:
   case CncAction::Plot:
     return cncMotion(options);
+  case CncAction::Queue:
+    return cncQueue(options);
   case CncAction::Check:
     return cncCheck(options);
   case CncAction::Info:

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace stc::cli {
 
@@ -22,17 +23,20 @@ CLI::Validator numberFrom(double least, bool included, double most = INFINITY) {
           std::string()};
 }
 
-/// Reads `X=250,Y=100`. What is wrong, or nothing.
-std::string readLimits(const std::string &text, double (&limits)[12]) {
+/// Reads `X=250,Y=100`: what each axis gets, and which ones are named. What is wrong, or nothing.
+std::string readAxes(const std::string &text, bool positive, double (&values)[12],
+                     uint16_t &named) {
   for (size_t at = 0; at <= text.size();) {
     const size_t end = std::min(text.find(',', at), text.size());
     const std::string one = text.substr(at, end - at);
     const size_t axis = one.empty() ? std::string_view::npos : kAxisLetters.find(one[0]);
     double value = 0;
     if (axis == std::string_view::npos || one.size() < 3 || one[1] != '=' ||
-        !CLI::detail::lexical_cast(one.substr(2), value) || !(value > 0) || !std::isfinite(value))
-      return "`" + one + "` is no limit of an axis: X=250";
-    limits[axis] = value;
+        !CLI::detail::lexical_cast(one.substr(2), value) || (positive && !(value > 0)) ||
+        !std::isfinite(value))
+      return "`" + one + "` is no " + (positive ? "limit" : "coordinate") + " of an axis: X=250";
+    values[axis] = value;
+    named = static_cast<uint16_t>(named | 1U << axis);
     at = end + 1;
   }
   return {};
@@ -42,7 +46,8 @@ std::string readLimits(const std::string &text, double (&limits)[12]) {
 class CncCommands {
 public:
   CncCommands(CLI::App &app, Invocation &call)
-      : cnc_(app.add_subcommand("cnc", "Check, describe, format, drive and draw CNC programs")),
+      : cnc_(app.add_subcommand(
+            "cnc", "Check, describe, format, drive and draw CNC programs, make queue files")),
         call_(&call) {
     cnc_->require_subcommand(1);
   }
@@ -59,6 +64,8 @@ public:
     declareMotion(add("plot", CncAction::Plot,
                       "Draw the path of a CNC program, and velocity, acceleration and jerk"),
                   "SVG file to write (default: FILE with .svg)");
+    declareQueue(add("queue", CncAction::Queue,
+                     "Write the path of a CNC program as a file for SMC_ReadNCQueue"));
   }
 
 private:
@@ -67,7 +74,7 @@ private:
     CLI::Option *files = command->add_option("FILE", call_->cnc.files, "CNC file (*.cnc)")
                              ->required()
                              ->type_name("");
-    if (action == CncAction::Run || action == CncAction::Plot)
+    if (action == CncAction::Run || action == CncAction::Plot || action == CncAction::Queue)
       files->expected(1);
     addOutputOptions(*command, call_->cnc.output);
     command->callback([call = call_, action] {
@@ -84,19 +91,14 @@ private:
            "Corners become curves that stay within this distance of them, u (default: none do)");
     number(command, "--merge", motion.merge, true,
            "Fewer lines: the path may be off by so much, u (default: all lines stay)");
-    command
-        ->add_option("--angle-tolerance", motion.angleTolerance,
-                     "Corners that turn less are none, degrees (default: 0.001)")
-        ->check(numberFrom(0, true, 180))
-        ->type_name("DEG");
+    angleTolerance(command, motion);
     command
         ->add_option("--velocity-mode", motion.velocityMode,
                      "trapezoid (default), sigmoid, or quadratic: with a limited jerk")
         ->check(CLI::IsMember({"trapezoid", "sigmoid", "quadratic"}).description(""))
         ->type_name("MODE");
     number(command, "--jerk", motion.jerk, false, "Jerk along the path, u/s\xC2\xB3 (quadratic)");
-    number(command, "--velocity", motion.velocity, false,
-           "Velocity of a program that begins without F, u/s");
+    velocity(command, motion);
     number(command, "--acceleration", motion.acceleration, false,
            "Acceleration and deceleration of a program that begins without E, u/s\xC2\xB2 "
            "(default: 100)");
@@ -124,19 +126,60 @@ private:
            "Factor of the program's velocities (default: 1)");
   }
 
+  static void angleTolerance(CLI::App *command, CncMotionOptions &motion) {
+    command
+        ->add_option("--angle-tolerance", motion.angleTolerance,
+                     "Corners that turn less are none, degrees (default: 0.001)")
+        ->check(numberFrom(0, true, 180))
+        ->type_name("DEG");
+  }
+
+  void declareQueue(CLI::App *command) const {
+    CncMotionOptions &motion = call_->cnc.motion;
+    CncQueueOptions &queue = call_->cnc.queue;
+    command->add_option("-o,--out", call_->cnc.out, "Queue file to write")
+        ->required()
+        ->type_name("FILE");
+    axes(command, "--start", "Where the path begins, u: X=5,Y=-2", false,
+         [&queue](const std::string &text) {
+           (void)readAxes(text, false, queue.start, queue.axes);
+         });
+    velocity(command, motion);
+    number(command, "--acceleration", motion.acceleration, false,
+           "Acceleration of a program that begins without E, u/s\xC2\xB2 (default: 100)");
+    number(
+        command, "--deceleration", queue.deceleration, false,
+        "Deceleration of a program that begins without a negative E, u/s\xC2\xB2 (default: 100)");
+    angleTolerance(command, motion);
+    command->add_flag("--step-suppress", queue.stepSuppress,
+                      "Leave out sentences that begin with /");
+  }
+
+  static void velocity(CLI::App *command, CncMotionOptions &motion) {
+    number(command, "--velocity", motion.velocity, false,
+           "Velocity of a program that begins without F, u/s");
+  }
+
   static void number(CLI::App *command, const char *name, double &value, bool zero,
                      const char *what) {
     command->add_option(name, value, what)->check(numberFrom(0, zero))->type_name("N");
   }
 
   static void limits(CLI::App *command, const char *name, double (&values)[12], const char *what) {
-    command
-        ->add_option_function<std::string>(
-            name, [&values](const std::string &text) { (void)readLimits(text, values); }, what)
+    axes(command, name, what, true, [&values](const std::string &text) {
+      uint16_t ignored = 0;
+      (void)readAxes(text, true, values, ignored);
+    });
+  }
+
+  static void axes(CLI::App *command, const char *name, const char *what, bool positive,
+                   const std::function<void(const std::string &)> &take) {
+    command->add_option_function<std::string>(name, take, what)
         ->check(CLI::Validator(
-            [](std::string &text) {
+            [positive](std::string &text) {
               double ignored[12];
-              return readLimits(text, ignored);
+              uint16_t named = 0;
+              return readAxes(text, positive, ignored, named);
             },
             std::string()))
         ->type_name("AXES");

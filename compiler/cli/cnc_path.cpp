@@ -4,8 +4,6 @@
 
 #include "runtime/numeric/cnc/chord_merge.hpp"
 #include "runtime/numeric/cnc/corner.hpp"
-#include "runtime/numeric/cnc/decoder.hpp"
-#include "runtime/numeric/cnc/gcode_program.hpp"
 #include "runtime/numeric/cnc/velocity_check.hpp"
 
 #include <algorithm>
@@ -21,10 +19,6 @@ namespace {
 using namespace stride::cnc;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-/// So many sentences are gone through for each of the program, in loops.
-constexpr size_t kRounds = 1000;
-constexpr size_t kLeastSentences = 100000;
 
 /// Objects that the interpolator sees at a time.
 constexpr uint32_t kQueuePlaces = 4096;
@@ -92,35 +86,18 @@ private:
 /// Decodes all sentences. False: they do not end, or one of them cannot be decoded.
 bool decodeAll(const CncProgram &program, Diagnostics &diagnostics,
                const std::function<void(const PathObject &)> &take) {
-  std::vector<CncVariable> storage;
-  const std::vector<GCodeWord> words = wordsOf(program, storage);
-  const auto count = static_cast<int64_t>(words.size());
-  const auto decoder = std::make_unique<Decoder>();
-  const auto decoded = std::make_unique<Decoded>();
-  startDecoder(*decoder, program.settings.start);
-  const auto takeAll = [&] {
-    for (int32_t i = 0; i < decoded->count; ++i)
-      take(decoded->objects[i]);
-  };
-  size_t left = std::max(kLeastSentences, words.size() * kRounds);
-  SentenceWords sentence{};
-  for (int64_t at = 0; at < count;) {
-    at = sentenceAt(words.data(), count, at, sentence);
-    decodeSentence(*decoder, sentence.words, sentence.count, sentence.line, *decoded);
-    takeAll();
-    if (decoded->next == Next::Jump)
-      at = findSentence(words.data(), count, decoded->target);
-    if (decoded->error != GCodeError::None || at < 0 || --left == 0) {
-      diagnostics.report(left == 0 ? Code::CncJump : Code::CncSentence, program.span,
-                         left == 0 ? "the jumps of this program do not end"
-                                   : "a sentence of this program cannot be carried out: its "
-                                     "variables are 0 here");
-      return false;
-    }
-  }
-  decodeEnd(*decoder, *decoded);
-  takeAll();
-  return true;
+  const CncDecoded decoded = decodeCnc(program, [&take](const PathObject &object) {
+    take(object);
+    return true;
+  });
+  if (decoded.end == CncEnd::Complete)
+    return true;
+  const bool endless = decoded.end == CncEnd::Endless;
+  diagnostics.report(endless ? Code::CncJump : Code::CncSentence, program.span,
+                     endless ? "the jumps of this program do not end"
+                             : "a sentence of this program cannot be carried out: its variables "
+                               "are 0 here");
+  return false;
 }
 
 /// The corner rule of SMC_CheckVelocities, for the whole path.

@@ -134,7 +134,7 @@ struct CamOptions {
 int camCommand(const CamOptions &options);
 
 /// What `stride cnc` does.
-enum class CncAction { Check, Info, Format, Run, Plot };
+enum class CncAction { Check, Info, Format, Run, Plot, Queue };
 
 /// How `run` and `plot` drive a program. Arrays are of X, Y, Z, A, B, C, P, Q, U, V, W and one
 /// more.
@@ -152,15 +152,24 @@ struct CncMotionOptions {
   double feed = 1;                        ///< Factor of the program's velocities.
 };
 
+/// How `queue` makes the path of a program.
+struct CncQueueOptions {
+  double start[12] = {};     ///< Where the path begins; by axis as above. [u]
+  uint16_t axes = 0;         ///< Which of them have been named, by bit.
+  double deceleration = 0;   ///< of programs that begin without a negative E; 0: 100 [u/s²]
+  bool stepSuppress = false; ///< sentences that begin with `/` are left out
+};
+
 struct CncOptions {
   CncAction action = CncAction::Check;
   std::vector<std::string> files;
   bool check = false; ///< format: write nothing; fail when something is not formatted
   std::string out;
   CncMotionOptions motion;
+  CncQueueOptions queue;
   Output output;
 };
-/// Checks, describes, formats CNC programs.
+/// Checks, describes, formats CNC programs, drives them, makes queue files of them.
 int cncCommand(const CncOptions &options);
 
 /// `what`: a diagnostic's code, or the number or name of a SoftMotion error.

@@ -2,12 +2,12 @@
 
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/job_pool.hpp"
+#include "compiler/project/made_files.hpp"
 #include "compiler/project/output_folder.hpp"
 #include "compiler/project/toolchain.hpp"
 #include "compiler/project/user_cache.hpp"
 #include "compiler/source/content_hash.hpp"
 
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
@@ -202,14 +202,7 @@ private:
   }
 
   bool cannotWrite(const fs::path &path) {
-    if (errno == ELOOP)
-      diagnostics_
-          .report(Code::LinkInTheWay, {},
-                  fmt::format("`{}` is not written: a symbolic link leads there", path.string()))
-          .help("Stride writes through no link that a project holds; remove it");
-    else
-      diagnostics_.report(Code::CannotWrite, {},
-                          fmt::format("`{}` cannot be written: {}", path.string(), lastError()));
+    reportCannotWrite(path, diagnostics_);
     return false;
   }
 
@@ -417,7 +410,8 @@ private:
     result.folder = folderOf(project_);
     result.retainFile = retainFileOf(project_);
     result.filesRoot = filesRootOf(project_);
-    if (options_.use == BuildUse::Keep && !keep(result))
+    if ((options_.use == BuildUse::Keep && !keep(result)) ||
+        !writeMadeFiles(project_, folderOf(project_), result.filesRoot, diagnostics_))
       return std::nullopt;
     if ((project_.isSingleFile() && options_.use != BuildUse::Run) || options_.isStatic ||
         !options_.target.empty())

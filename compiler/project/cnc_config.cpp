@@ -1,9 +1,12 @@
 #include "compiler/project/cnc_config.hpp"
-#include "compiler/assets/cnc/nc_source.hpp"
 
-#include <array>
+#include "compiler/assets/cnc/nc_source.hpp"
+#include "compiler/syntax/parser.hpp"
+
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
+#include <unordered_map>
 
 namespace stc {
 
@@ -22,6 +25,139 @@ std::string normal(std::string_view path) {
   return std::filesystem::path(path).lexically_normal().string();
 }
 
+bool isQueue(CncCompile compile) {
+  return compile == CncCompile::Queue || compile == CncCompile::QueueFile;
+}
+
+/// What counts for queues only.
+void warnOfIdle(const CheckedSection &section, CncCompile compile, Diagnostics &diagnostics) {
+  if (isQueue(compile))
+    return;
+  for (const std::string_view name : {"angle_tolerance", "queue_bytes", "step_suppress"})
+    if (const TomlNode *value = section.get(name))
+      diagnostics.report(Code::ConfigWithoutEffect, value->span,
+                         fmt::format("`{}` has no effect here", name),
+                         "only with compile = \"queue\" or \"queue-file\"");
+}
+
+/// The file in the folder for files that the program becomes.
+std::string fileNameOf(const CncProgram &program) {
+  return fmt::format("{}/{}{}", kCncFolder, program.name,
+                     program.settings.compile == CncCompile::TextFile ? kCncSuffix : kQueueSuffix);
+}
+
+/// Makes of the programs of a project what they become.
+class CncMaker {
+public:
+  CncMaker(Program &program, const std::vector<ast::File *> &files, const LibraryIndex &index)
+      : program_(program), files_(files), index_(index) {}
+
+  void add(CncProgram read, const SourceFile &file) {
+    const size_t errors = program_.diagnostics.errorCount();
+    checkCnc(read, program_.diagnostics);
+    CncAsset asset{std::move(read), {}};
+    const CncCompile compile = asset.program.settings.compile;
+    if (isQueue(compile) && program_.diagnostics.errorCount() == errors)
+      makeQueue(asset);
+    if (compile == CncCompile::TextFile)
+      addFile(asset.program, std::string(file.text()));
+    if (compile == CncCompile::QueueFile) {
+      addFile(asset.program, cncQueueFile(asset.program, asset.objects));
+      asset.objects.clear();
+    }
+    assets_.push_back(std::move(asset));
+  }
+
+  CncParts finish() {
+    CncParts parts{cncDeclarations(assets_, files_, types_, program_.diagnostics), {}};
+    parts.files = std::move(made_);
+    return parts;
+  }
+
+private:
+  /// Makes the queue, and reports what hinders it.
+  void makeQueue(CncAsset &asset) {
+    const size_t errors = program_.diagnostics.errorCount();
+    freezeCnc(asset.program, files_, types_, program_.diagnostics);
+    if (program_.diagnostics.errorCount() != errors)
+      return;
+    std::optional<std::vector<cnc::PathObject>> objects =
+        cncQueueOf(asset.program, program_.diagnostics);
+    if (!objects)
+      return;
+    asset.objects = std::move(*objects);
+    const CncSettings &settings = asset.program.settings;
+    const size_t count = asset.objects.size();
+    const size_t needed = std::max<size_t>(count, 2) * sizeof(cnc::PathObject);
+    const bool given = settings.queueBytes != 0;
+    if (given && settings.queueBytes < needed)
+      program_.diagnostics
+          .report(Code::CncQueue, settings.queueBytesSpan,
+                  fmt::format("the path of `{}` needs {} bytes", settings.file, needed),
+                  "too few bytes")
+          .note(fmt::format("it has {} objects of {} bytes", count, sizeof(cnc::PathObject)));
+    else if (!given && settings.compile == CncCompile::Queue && count > kMostCompiled)
+      program_.diagnostics
+          .report(Code::CncQueue, settings.span,
+                  fmt::format("the path of `{}` has {} objects", settings.file, count),
+                  fmt::format("a variable has {} at most", kMostCompiled))
+          .help("`compile = \"queue-file\"` makes a file of it, which SMC_ReadNCQueue reads");
+  }
+
+  void addFile(const CncProgram &program, std::string bytes) {
+    const std::string name = fileNameOf(program);
+    for (const CncFile &other : made_)
+      if (equalIgnoringCase(other.name, name)) {
+        program_.diagnostics
+            .report(Code::ConfigNameClash, program.settings.span,
+                    fmt::format("two programs become the file `{}`", name), "this one, too")
+            .label(other.span, "already here")
+            .help("rename one of them");
+        return;
+      }
+    made_.push_back({name, std::move(bytes), program.settings.span});
+  }
+
+  /// The declaration of a type in a library: of the project's own ones, then of Stride's.
+  const ast::Decl *typeOf(std::string_view lower) {
+    for (const LibrarySource &library : program_.librarySources)
+      if (const ast::Decl *found = typeIn(library.files, lower))
+        return found;
+    const std::vector<LibraryIndex::Entry> entries = index_.find(lower);
+    if (entries.empty())
+      return nullptr;
+    auto [at, isNew] = parsed_.try_emplace(std::string(entries.front().fileName));
+    if (isNew) {
+      ParseOptions options;
+      options.generated = true;
+      at->second =
+          parse(program_.sources.file(program_.sources.add(std::string(entries.front().fileName),
+                                                           std::string(entries.front().text))),
+                program_.interner, program_.arena, program_.diagnostics, &options);
+    }
+    return typeIn({at->second}, lower);
+  }
+
+  static const ast::Decl *typeIn(const std::vector<ast::File *> &files, std::string_view lower) {
+    for (const ast::File *file : files)
+      for (const ast::Decl *decl : file->declarations)
+        if (decl->kind != ast::DeclKind::Globals && lowerCase(decl->name.text) == lower)
+          return decl;
+    return nullptr;
+  }
+
+  /// Objects of a queue without queue_bytes: 15 MB.
+  static constexpr size_t kMostCompiled = 20'000;
+
+  Program &program_;
+  const std::vector<ast::File *> &files_;
+  const LibraryIndex &index_;
+  std::unordered_map<std::string, ast::File *> parsed_;
+  const CncTypes types_ = [this](std::string_view lower) { return typeOf(lower); };
+  std::vector<CncAsset> assets_;
+  std::vector<CncFile> made_;
+};
+
 } // namespace
 
 void readCncSection(const CheckedSection &section, ProjectConfig &config,
@@ -32,7 +168,14 @@ void readCncSection(const CheckedSection &section, ProjectConfig &config,
   CncSettings settings;
   settings.file = normal(file->text);
   settings.span = file->span;
-  settings.compile = section.choice("compile", 1) != 0;
+  settings.compile =
+      static_cast<CncCompile>(section.choice("compile", static_cast<int64_t>(CncCompile::Program)));
+  settings.angleTolerance = section.real("angle_tolerance", 0);
+  settings.queueBytes = static_cast<uint32_t>(section.integer("queue_bytes", 0));
+  if (const TomlNode *bytes = section.get("queue_bytes"))
+    settings.queueBytesSpan = bytes->span;
+  settings.stepSuppress = section.boolean("step_suppress", false);
+  warnOfIdle(section, settings.compile, diagnostics);
   settings.velocity = valueOf(section, "default_velocity");
   settings.acceleration = valueOf(section, "default_acceleration");
   settings.deceleration = valueOf(section, "default_deceleration");
@@ -69,24 +212,29 @@ std::optional<CncProgram> readProgram(const SourceFile &file, Diagnostics &diagn
 
 } // namespace
 
-SyntheticSource declareCncPrograms(Program &program, const ProjectConfig &config,
-                                   const std::vector<FileId> &cncFiles,
-                                   const std::vector<ast::File *> &files) {
-  std::vector<CncProgram> programs;
+std::filesystem::path filesFolder(const std::filesystem::path &folder,
+                                  const ProjectConfig &config) {
+  return folder / (config.filesRoot.empty() ? "files" : config.filesRoot);
+}
+
+CncParts declareCncPrograms(Program &program, const ProjectConfig &config,
+                            const std::vector<CncFound> &cncFiles,
+                            const std::vector<ast::File *> &files, const LibraryIndex &index) {
+  CncMaker maker(program, files, index);
   std::vector<bool> used(config.cnc.size());
-  for (const FileId id : cncFiles) {
-    const SourceFile &file = program.sources.file(id);
+  for (const CncFound &found : cncFiles) {
+    const SourceFile &file = program.sources.file(found.id);
     std::optional<CncProgram> read = readProgram(file, program.diagnostics);
     for (size_t i = 0; i < config.cnc.size(); ++i)
-      if (config.cnc[i].file == normal(file.name())) {
+      if (config.cnc[i].file == normal(found.name)) {
         used[i] = true;
         if (read)
           read->settings = config.cnc[i];
       }
-    if (!read)
-      continue;
-    checkCnc(*read, program.diagnostics);
-    programs.push_back(std::move(*read));
+    if (read) {
+      read->settings.softMotion3 = config.generation == 3;
+      maker.add(std::move(*read), file);
+    }
   }
   for (size_t i = 0; i < config.cnc.size(); ++i)
     if (!used[i])
@@ -94,7 +242,15 @@ SyntheticSource declareCncPrograms(Program &program, const ProjectConfig &config
           .report(Code::PathNotFound, config.cnc[i].span,
                   fmt::format("there is no CNC file `{}`", config.cnc[i].file), "named here")
           .help("`file` is a *.cnc file of the project, named from its folder on");
-  return cncDeclarations(programs, files, program.diagnostics);
+  return maker.finish();
+}
+
+void refuseFiles(const CncParts &parts, Diagnostics &diagnostics) {
+  for (const CncFile &file : parts.files)
+    diagnostics
+        .report(Code::LibraryContent, file.span, "a library makes no files", "belongs to a project")
+        .help("a program of a library becomes a variable: `compile = \"program\"` or "
+              "`compile = \"queue\"`");
 }
 
 } // namespace stc

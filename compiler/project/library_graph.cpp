@@ -316,8 +316,17 @@ bool LibraryGraph::readFiles(FoundLibrary &library) {
     }
     return true;
   };
-  return load(findSources(program_.sources, roots), library.sources) &&
-         load(findCams(program_.sources, roots), library.cams);
+  std::vector<FileId> cncFiles;
+  const fs::path filesRoot = filesFolder(library.folder, library.config);
+  if (!load(findSources(program_.sources, roots), library.sources) ||
+      !load(findCams(program_.sources, roots), library.cams) ||
+      !load(findCncFiles(program_.sources, roots, filesRoot), cncFiles))
+    return false;
+  // The name without the library's: `<Lib>/path`.
+  for (const FileId id : cncFiles)
+    library.cncFiles.push_back(
+        {id, program_.sources.file(id).codeName().substr(library.name.size() + 3)});
+  return true;
 }
 
 /// Every library has a name of its own in the program.

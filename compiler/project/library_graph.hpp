@@ -2,6 +2,7 @@
 #define STRIDE_COMPILER_PROJECT_LIBRARY_GRAPH_HPP
 // The libraries of the user's own that a project needs, with those that these need.
 
+#include "compiler/project/cnc_config.hpp"
 #include "compiler/project/config.hpp"
 #include "compiler/semantics/program.hpp"
 
@@ -23,6 +24,7 @@ struct FoundLibrary {
   Span nameSpan;                   ///< where that comes from
   std::vector<FileId> sources;
   std::vector<FileId> cams;
+  std::vector<CncFound> cncFiles;
   std::vector<LibrarySource::Use> uses;
 };
 

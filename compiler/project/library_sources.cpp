@@ -1,6 +1,7 @@
 #include "compiler/project/library_sources.hpp"
 
 #include "compiler/assets/cam/cam_source.hpp"
+#include "compiler/project/cnc_config.hpp"
 #include "compiler/project/library_graph.hpp"
 #include "compiler/project/tests.hpp"
 #include "compiler/syntax/parser.hpp"
@@ -48,7 +49,26 @@ bool addCams(Program &program, const FoundLibrary &library, std::vector<ast::Fil
   return true;
 }
 
-bool parseLibrary(Program &program, const FoundLibrary &library) {
+/// Adds its CNC programs likewise.
+bool addCncPrograms(Program &program, const FoundLibrary &library, const LibraryIndex &index,
+                    std::vector<ast::File *> &files) {
+  const size_t errors = program.diagnostics.errorCount();
+  const CncParts parts =
+      declareCncPrograms(program, library.config, library.cncFiles, files, index);
+  refuseFiles(parts, program.diagnostics);
+  if (program.diagnostics.errorCount() != errors)
+    return false;
+  if (parts.declarations.empty())
+    return true;
+  ParseOptions options;
+  options.generated = true;
+  files.insert(files.begin(),
+               parse(program.sources.file(program.sources.add(parts.declarations)),
+                     program.interner, program.arena, program.diagnostics, &options));
+  return true;
+}
+
+bool parseLibrary(Program &program, const FoundLibrary &library, const LibraryIndex &index) {
   const size_t errors = program.diagnostics.errorCount();
   LibrarySource source;
   source.name = library.name;
@@ -65,7 +85,8 @@ bool parseLibrary(Program &program, const FoundLibrary &library) {
   attachMembers(source.files, program.arena, program.diagnostics);
   removeTests(source.files, program.arena);
   checkLibraryContent(source.files, program.diagnostics);
-  const bool good = addCams(program, library, source.files);
+  const bool good = addCams(program, library, source.files) &&
+                    addCncPrograms(program, library, index, source.files);
   program.librarySources.push_back(std::move(source));
   return good && program.diagnostics.errorCount() == errors;
 }
@@ -96,7 +117,7 @@ bool readLibraries(Program &program, const ProjectConfig &config,
   LibraryGraph graph(program, index, folder);
   bool good = graph.load(config);
   for (const FoundLibrary &library : graph.libraries())
-    good = parseLibrary(program, library) && good;
+    good = parseLibrary(program, library, index) && good;
   program.uses = graph.uses();
   return good;
 }

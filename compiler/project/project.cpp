@@ -87,10 +87,7 @@ void Project::loadFolder() {
   for (const fs::path &source : sources.files)
     loadFile(source, source.lexically_relative(path_).string());
   loadAssets(findCams(program_.sources, roots), camFiles_);
-  // What lies in the folder for files belongs to the run.
-  const fs::path filesRoot =
-      path_ / (config_.filesRoot.empty() ? fs::path("files") : fs::path(config_.filesRoot));
-  loadAssets(findCncFiles(program_.sources, roots, filesRoot), cncFiles_);
+  loadAssets(findCncFiles(program_.sources, roots, filesFolder(path_, config_)), cncFiles_);
   loaded_ = !sources.files.empty();
 }
 
@@ -142,7 +139,8 @@ void Project::readOwnConfig() {
 /// What the configuration declares goes to the files; false: something of it is missing, which the
 /// program would miss everywhere.
 bool Project::addDeclarations(Purpose purpose, ProgramCheck programCheck,
-                              std::vector<ast::File *> &files, const ParseOptions &options) {
+                              std::vector<ast::File *> &files, const ParseOptions &options,
+                              const LibraryIndex &index) {
   if (ast::File *instances = readConfigurations(config_, files, program_))
     files.push_back(instances);
   if (purpose == Purpose::Test) {
@@ -155,7 +153,7 @@ bool Project::addDeclarations(Purpose purpose, ProgramCheck programCheck,
     files.insert(files.begin(), parseSynthetic(plc, options));
     plcFile_ = files.front()->id;
   }
-  if (!declareCams(files, options) || !declareCnc(files, options))
+  if (!declareCams(files, options) || !declareCnc(files, options, index))
     return false;
   for (const TaskConfig &task : config_.tasks)
     if (!task.event.text.empty())
@@ -194,7 +192,7 @@ void Project::analyse(Purpose purpose, const LibraryIndex &index) {
   const ProgramCheck programCheck = syntaxErrors                ? ProgramCheck::Skip
                                     : purpose == Purpose::Build ? ProgramCheck::Runnable
                                                                 : ProgramCheck::Existing;
-  if (!addDeclarations(purpose, programCheck, files, options))
+  if (!addDeclarations(purpose, programCheck, files, options, index))
     return;
   program_.files = files;
   check(program_, files, index);
@@ -224,13 +222,20 @@ bool Project::declareCams(std::vector<ast::File *> &files, const ParseOptions &o
 }
 
 /// The same of the CNC files.
-bool Project::declareCnc(std::vector<ast::File *> &files, const ParseOptions &options) {
+bool Project::declareCnc(std::vector<ast::File *> &files, const ParseOptions &options,
+                         const LibraryIndex &index) {
   const size_t errors = program_.diagnostics.errorCount();
-  const SyntheticSource declarations = declareCncPrograms(program_, config_, cncFiles_, files);
+  std::vector<CncFound> found;
+  for (const FileId id : cncFiles_)
+    found.push_back({id, program_.sources.file(id).name()});
+  CncParts parts = declareCncPrograms(program_, config_, found, files, index);
+  if (config_.library)
+    refuseFiles(parts, program_.diagnostics);
   if (program_.diagnostics.errorCount() != errors)
     return false;
-  if (!declarations.empty())
-    files.insert(files.begin(), parseSynthetic(declarations, options));
+  if (!parts.declarations.empty())
+    files.insert(files.begin(), parseSynthetic(parts.declarations, options));
+  madeFiles_ = std::move(parts.files);
   return true;
 }
 

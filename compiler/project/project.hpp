@@ -3,6 +3,7 @@
 // A project, from its path to a checked program.
 
 #include "compiler/codegen/codegen.hpp"
+#include "compiler/project/cnc_config.hpp"
 #include "compiler/project/config.hpp"
 #include "compiler/project/source_files.hpp"
 #include "compiler/project/tests.hpp"
@@ -58,6 +59,8 @@ public:
   [[nodiscard]] const std::optional<LibraryInfo> &library() const { return config_.library; }
   /// [files] root of stride.toml; empty: not given.
   [[nodiscard]] const std::string &filesRoot() const { return config_.filesRoot; }
+  /// What a build puts into that folder.
+  [[nodiscard]] const std::vector<CncFile> &madeFiles() const { return madeFiles_; }
   /// The drives and axes with a `unit` in stride.toml: their names, and what one technical unit is.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> units() const;
   /// Tasks and axis groups for code generation; only without errors.
@@ -70,12 +73,13 @@ private:
   void analyse(Purpose purpose, const LibraryIndex &index);
   void readOwnConfig();
   bool addDeclarations(Purpose purpose, ProgramCheck programCheck, std::vector<ast::File *> &files,
-                       const ParseOptions &options);
+                       const ParseOptions &options, const LibraryIndex &index);
   void shareVariables();
   ast::File *parseSynthetic(const SyntheticSource &source, ParseOptions options);
   void loadAssets(const FoundFiles &found, std::vector<FileId> &ids);
   bool declareCams(std::vector<ast::File *> &files, const ParseOptions &options);
-  bool declareCnc(std::vector<ast::File *> &files, const ParseOptions &options);
+  bool declareCnc(std::vector<ast::File *> &files, const ParseOptions &options,
+                  const LibraryIndex &index);
   ast::File *eventFile(const TaskConfig &task, const ParseOptions &options);
   bool declaresNothing(const std::vector<ast::File *> &files) const;
 
@@ -90,6 +94,7 @@ private:
   FileId plcFile_ = 0; ///< plcDeclarations()
   std::vector<FileId> camFiles_;
   std::vector<FileId> cncFiles_;
+  std::vector<CncFile> madeFiles_;
   std::vector<TestBlock> tests_;
 };
 

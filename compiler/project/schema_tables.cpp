@@ -1,5 +1,6 @@
 // The parameters of stride.toml, but for those of drivers (driver_sections.cpp).
 
+#include "compiler/assets/cnc/cnc_source.hpp"
 #include "compiler/project/config_reader.hpp"
 #include "compiler/project/driver_sections.hpp"
 #include "compiler/syntax/format.hpp"
@@ -22,6 +23,7 @@ using stride::common::flag;
 using stride::common::identifier;
 using stride::common::kHourNs;
 using stride::common::positive;
+using stride::common::real;
 using stride::common::text;
 using stride::common::whole;
 
@@ -126,13 +128,21 @@ constexpr std::array kFormatParameters = {
     flag("align"),
 };
 
-constexpr std::array<Choice, 2> kCncModes = {{{"program", 1}, {"none", 0}}};
+constexpr std::array<Choice, 5> kCncModes = {
+    {{"program", static_cast<int64_t>(CncCompile::Program)},
+     {"queue", static_cast<int64_t>(CncCompile::Queue)},
+     {"text-file", static_cast<int64_t>(CncCompile::TextFile)},
+     {"queue-file", static_cast<int64_t>(CncCompile::QueueFile)},
+     {"none", static_cast<int64_t>(CncCompile::None)}}};
 constexpr std::array kCncParameters = {
     text("file").needed(),
     choice("compile", kCncModes),
     positive("default_velocity", "u/s"),
     positive("default_acceleration", "u/s²"),
     positive("default_deceleration", "u/s²"),
+    real("angle_tolerance", 0, 180, "°"),
+    whole("queue_bytes", 5000, 100'000, "bytes"),
+    flag("step_suppress"),
 };
 constexpr std::array kCncStartParameters = {
     anyReal("X", "u"), anyReal("Y", "u"), anyReal("Z", "u"), anyReal("A", "u"),

@@ -182,9 +182,13 @@ FoundFiles findCams(const Sources &sources, const std::vector<fs::path> &roots) 
 FoundFiles findCncFiles(const Sources &sources, const std::vector<fs::path> &roots,
                         const fs::path &without) {
   FoundFiles found = findFiles(sources, roots, kCncSuffix);
-  const fs::path folder = withoutSlash(without.lexically_normal());
+  // Absolute: the folder may lie beside the project.
+  std::error_code error;
+  const fs::path folder = withoutSlash(fs::absolute(without, error).lexically_normal());
   std::erase_if(found.files, [&folder](const fs::path &file) {
-    const fs::path relative = file.lexically_normal().lexically_relative(folder);
+    std::error_code ignored;
+    const fs::path relative =
+        fs::absolute(file, ignored).lexically_normal().lexically_relative(folder);
     return !relative.empty() && *relative.begin() != "..";
   });
   return found;

@@ -1,29 +1,18 @@
 // What is wrong with the sentences of a CNC program: the decoder of the runtime says it.
 
-#include "compiler/assets/cnc/cnc_source.hpp"
+#include "compiler/assets/cnc/internal.hpp"
 
 #include "runtime/numeric/cnc/decoder.hpp"
-#include "runtime/numeric/cnc/gcode_program.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
-#include <unordered_map>
 
 namespace stc {
 
-namespace {
-
 using namespace stride::cnc;
 
-struct Words {
-  Code code;
-  std::string message;
-  std::string label;
-  std::string help;
-};
-
-Words describe(GCodeError error) {
+gcode::SentenceError gcode::describe(GCodeError error) {
   switch (error) {
   case GCodeError::UnknownFunction:
     return {Code::CncFunction, "there is no such G function", "not a function of this language",
@@ -53,6 +42,11 @@ Words describe(GCodeError error) {
             "another plane is chosen", "choose it with G15 or G17"};
   case GCodeError::NegativePeriod:
     return {Code::CncSentence, "the period of an axis is not negative", "less than 0", ""};
+  case GCodeError::UnknownJump:
+    return {Code::CncJump, "no sentence has the number of this jump", "the jump leads nowhere",
+            "L is the number N of the sentence to go on with"};
+  case GCodeError::NotANumber:
+    return {Code::CncSentence, "the value of this variable is no number", "infinite, or none", ""};
   case GCodeError::NoVariable:
     return {Code::CncSentence, "this word needs a variable", "a number",
             "variables stand between dollar signs: O$g_iCount$"};
@@ -63,59 +57,79 @@ Words describe(GCodeError error) {
   }
 }
 
+void gcode::report(GCodeError error, Span span, Diagnostics &diagnostics) {
+  const SentenceError words = describe(error);
+  Diagnostic &diagnostic = diagnostics.report(words.code, span, words.message, words.label);
+  if (!words.help.empty())
+    diagnostic.help(words.help);
+}
+
+namespace {
+
 class Checker {
 public:
   Checker(const CncProgram &program, Diagnostics &diagnostics)
-      : program_(program), diagnostics_(diagnostics) {}
+      : program_(program), diagnostics_(diagnostics), sentences_(program) {}
 
   void check() {
-    collectNumbers();
-    words_ = wordsOf(program_, storage_);
-    const auto added = words_.size() - program_.words.size();
     startDecoder(*decoder_, program_.settings.start);
-    SentenceWords sentence;
-    const auto count = static_cast<int64_t>(words_.size());
-    for (int64_t at = 0; at < count;) {
-      at = sentenceAt(words_.data(), count, at, sentence);
-      const auto first = static_cast<size_t>(sentence.words - words_.data());
-      // The sentence of the settings has no place in the text.
-      first_ = first < added ? nullptr : &program_.words[first - added];
-      count_ = static_cast<size_t>(sentence.count);
-      step(sentence);
+    follow();
+    // What has not been reached: where the path is there, nobody knows.
+    uncertain_ = velocityReported_ = true;
+    for (int64_t at = 0; at < sentences_.size();) {
+      const int64_t begin = at;
+      at = sentences_.at(begin, sentence_);
+      if (!seen_[static_cast<size_t>(begin)])
+        step();
     }
   }
 
 private:
-  void collectNumbers() {
-    for (const CncWord &word : program_.words)
-      if (word.word.letter == 'N')
-        numbers_.try_emplace(word.word.integer, word.span);
+  /// Goes through the sentences as they follow each other, jumps included.
+  void follow() {
+    constexpr size_t kLeast = 100'000;
+    size_t left = std::max(kLeast, program_.words.size());
+    for (int64_t at = 0; at < sentences_.size() && left > 0; --left) {
+      const int64_t begin = at;
+      at = sentences_.at(begin, sentence_);
+      watch_.pass(sentence_);
+      if (seen_[static_cast<size_t>(begin)])
+        decode();
+      else
+        step();
+      seen_[static_cast<size_t>(begin)] = true;
+      if (decoded_->error != GCodeError::None || decoded_->next != Next::Jump)
+        continue;
+      if (watch_.jumpsForEver(begin, decoder_->counter)) {
+        reportEndless();
+        return;
+      }
+      const int64_t target = sentences_.find(decoded_->target);
+      at = target >= 0 ? target : at;
+    }
   }
 
   [[nodiscard]] const CncWord *wordAt(int32_t index) const {
-    if (first_ == nullptr || count_ == 0)
-      return nullptr;
-    return first_ + std::min(static_cast<size_t>(std::max(index, 0)), count_ - 1);
+    return sentences_.source(sentence_, index);
   }
 
-  void step(const SentenceWords &sentence) {
-    decodeSentence(*decoder_, sentence.words, sentence.count, sentence.line, *decoded_);
-    for (size_t i = 0; first_ != nullptr && i < count_; ++i)
-      uncertain_ = uncertain_ || !first_[i].variable.empty();
+  void decode() {
+    decodeSentence(*decoder_, sentence_.words, sentence_.count, sentence_.line, *decoded_);
+    uncertain_ = uncertain_ || gcode::hasVariable(sentence_);
+  }
+
+  /// A sentence for the first time.
+  void step() {
+    decode();
     if (decoded_->error != GCodeError::None) {
       const CncWord *word = wordAt(decoded_->word);
-      if (word == nullptr || (!word->variable.empty() && isValue(decoded_->error)))
-        return;
-      const Words words = describe(decoded_->error);
-      Diagnostic &diagnostic =
-          diagnostics_.report(words.code, word->span, words.message, words.label);
-      if (!words.help.empty())
-        diagnostic.help(words.help);
+      if (word != nullptr && (word->variable.empty() || !isValue(decoded_->error)))
+        gcode::report(decoded_->error, word->span, diagnostics_);
       return;
     }
     checkJump();
-    if (decoded_->notes != 0 && first_ != nullptr)
-      reportNotes(wordAt(decoded_->noteWord)->span);
+    if (const CncWord *word = wordAt(decoded_->noteWord); decoded_->notes != 0 && word != nullptr)
+      reportNotes(word->span);
   }
 
   /// Whether it depends on the value of a variable, which is not known.
@@ -123,24 +137,36 @@ private:
     return error != GCodeError::NoVariable && error != GCodeError::TooManySwitches;
   }
 
+  [[nodiscard]] const CncWord *find(char letter) const {
+    for (int32_t i = 0; i < sentence_.count; ++i)
+      if (sentence_.words[i].letter == letter)
+        return wordAt(i);
+    return nullptr;
+  }
+
   void checkJump() {
-    const auto find = [this](char letter) -> const CncWord * {
-      for (size_t i = 0; first_ != nullptr && i < count_; ++i)
-        if (first_[i].word.letter == letter)
-          return first_ + i;
-      return nullptr;
-    };
-    const CncWord *function = find('G');
     const CncWord *target = find('L');
-    if (function == nullptr || target == nullptr || !function->variable.empty() ||
-        function->word.integer != 20 || !target->variable.empty() ||
-        numbers_.contains(target->word.integer))
+    if (!gcode::isFunction(sentence_, 20) || target == nullptr || !target->variable.empty() ||
+        sentences_.find(target->word.integer) >= 0)
       return;
     diagnostics_
         .report(Code::CncJump, target->span,
                 fmt::format("no sentence has the number N{}", target->word.integer),
                 "the jump leads nowhere")
         .help("L is the number N of the sentence to go on with");
+  }
+
+  void reportEndless() {
+    const CncCompile compile = program_.settings.compile;
+    const bool queue = compile == CncCompile::Queue || compile == CncCompile::QueueFile;
+    const CncWord *place = find('L');
+    diagnostics_
+        .report(queue ? Code::CncJump : Code::CncEndless,
+                place != nullptr ? place->span : program_.span,
+                "the jumps of this program do not end", "goes on here for ever")
+        .help(queue ? "a queue needs an end: let K or the counter (G36, G37) become 0"
+                    : "the application has to end it; if there is no motion between the jumps, "
+                      "SMC_NCDecoder does, with SMC_DEC_ENDLESS_JUMPS");
   }
 
   void reportNotes(Span span) {
@@ -177,55 +203,17 @@ private:
 
   const CncProgram &program_;
   Diagnostics &diagnostics_;
-  std::unordered_map<int32_t, Span> numbers_;
-  std::vector<CncVariable> storage_;
-  std::vector<GCodeWord> words_;
+  gcode::Sentences sentences_;
+  gcode::JumpWatch watch_;
+  std::vector<bool> seen_ = std::vector<bool>(static_cast<size_t>(sentences_.size())); ///< By word.
   std::unique_ptr<Decoder> decoder_ = std::make_unique<Decoder>();
   std::unique_ptr<Decoded> decoded_ = std::make_unique<Decoded>();
-  const CncWord *first_ = nullptr; ///< Of the sentence; null: not of the text.
-  size_t count_ = 0;
+  SentenceWords sentence_{};
   bool uncertain_ = false; ///< Where the path is depends on variables.
   bool velocityReported_ = false;
 };
 
 } // namespace
-
-std::vector<GCodeWord> wordsOf(const CncProgram &program, std::vector<CncVariable> &storage) {
-  std::vector<GCodeWord> words;
-  const auto number = [&words](uint8_t letter, double value) {
-    GCodeWord word{};
-    word.letter = letter;
-    word.value = value;
-    word.integer = wholePart(value);
-    words.push_back(word);
-  };
-  const CncSettings &settings = program.settings;
-  if (settings.velocity)
-    number('F', *settings.velocity);
-  if (settings.acceleration)
-    number('E', *settings.acceleration);
-  if (settings.deceleration)
-    number('E', -*settings.deceleration);
-  if (!words.empty())
-    number(kEndOfSentence, 0);
-  storage.assign(program.words.size(), {});
-  bool isM = false;
-  for (size_t i = 0; i < program.words.size(); ++i) {
-    GCodeWord word = program.words[i].word;
-    if (word.letter == kEndOfSentence)
-      isM = false;
-    isM = isM || word.letter == 'M';
-    if (!program.words[i].variable.empty()) {
-      const bool structure = word.letter == 'O' && isM;
-      word.address =
-          reinterpret_cast<uint8_t *>(structure ? storage[i].parameters : &storage[i].number);
-      word.variables =
-          static_cast<uint8_t>(structure ? VariableType::Structure : VariableType::Lreal);
-    }
-    words.push_back(word);
-  }
-  return words;
-}
 
 void checkCnc(const CncProgram &program, Diagnostics &diagnostics) {
   Checker(program, diagnostics).check();

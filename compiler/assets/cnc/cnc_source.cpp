@@ -86,7 +86,7 @@ private:
         diagnostics_.report(Code::CncText, spanOf(),
                             fmt::format("a sentence has {} words at most", kMostWords), "one more");
       program_.words.push_back(
-          {scanner_.word, scanner_.variable ? scanner_.name : std::string(), spanOf()});
+          {scanner_.word, scanner_.variable ? scanner_.name : std::string(), spanOf(), {}});
       if (scanner_.variable && scanner_.word.letter == 'N')
         diagnostics_.report(Code::CncText, spanOf(), "the number of a sentence is no variable",
                             "write a number");

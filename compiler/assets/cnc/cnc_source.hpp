@@ -9,8 +9,11 @@
 #include "runtime/numeric/cnc/gcode_word.hpp"
 #include "runtime/numeric/cnc/path_object.hpp"
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,22 +23,43 @@ namespace stc {
 /// The suffix of CNC files.
 inline constexpr std::string_view kCncSuffix = ".cnc";
 
+/// What a program becomes: `compile` of its section [[cnc]].
+enum class CncCompile : uint8_t {
+  None,
+  Program,   ///< A variable SMC_CNC_REF.
+  Queue,     ///< A variable SMC_OUTQUEUE with the path.
+  TextFile,  ///< Its text, in the folder for files.
+  QueueFile, ///< Its path as a queue file, in the folder for files.
+};
+
 /// What stride.toml says about a program: a section [[cnc]].
 struct CncSettings {
   std::string file; ///< As stride.toml names it.
   Span span;
-  bool compile = true;                ///< It becomes a variable.
+  CncCompile compile = CncCompile::Program;
+  double angleTolerance = 0;          ///< Of queues: corners up to it are none. [degrees]
+  uint32_t queueBytes = 0;            ///< Of queues: their memory; 0: as much as they need. [bytes]
+  Span queueBytesSpan;                ///< Where stride.toml says that.
+  bool stepSuppress = false;          ///< Of queues: sentences that begin with `/` are left out.
   stride::cnc::Position start{};      ///< piStartPosition
+  bool softMotion3 = false;           ///< D as `softmotion` of the project says.
   std::optional<double> velocity;     ///< Of programs that begin without F. [u/s]
   std::optional<double> acceleration; ///< [u/s²]
   std::optional<double> deceleration; ///< [u/s²]
 };
 
+/// The value of a variable when the application begins.
+struct CncInitial {
+  double number = 0;
+  std::array<double, 8> parameters{}; ///< Of an SMC_M_PARAMETERS.
+};
+
 /// A word of a program, or the end of a sentence.
 struct CncWord {
-  stride::cnc::GCodeWord word{}; ///< Without an address.
-  std::string variable;          ///< What stands between `$`; empty: a number.
-  Span span;                     ///< Of all of it.
+  stride::cnc::GCodeWord word{};     ///< Without an address.
+  std::string variable;              ///< What stands between `$`; empty: a number.
+  Span span;                         ///< Of all of it.
+  std::optional<CncInitial> initial; ///< Of the variable; nothing: it counts as 0.
 };
 
 /// A CNC program as its file has it.
@@ -73,25 +97,64 @@ struct CncInfo {
 /// Decodes a whole program, with 0 for its variables, and measures the path.
 [[nodiscard]] CncInfo infoOf(const CncProgram &program);
 
-/// The words of the program with the settings' velocities before them, for a decoder. Variables
-/// have the addresses of `storage`, one for each word.
-struct CncVariable {
-  double number = 0;
-  double parameters[8]{};
+/// How decoding a whole program has ended.
+enum class CncEnd : uint8_t {
+  Complete,
+  Endless, ///< Jumps lead on and on; what has been given is of the first sentences.
+  Wrong,   ///< A sentence cannot be carried out.
+  Refused, ///< Who takes the objects has had enough.
 };
-[[nodiscard]] std::vector<stride::cnc::GCodeWord> wordsOf(const CncProgram &program,
-                                                          std::vector<CncVariable> &storage);
+struct CncDecoded {
+  CncEnd end = CncEnd::Complete;
+  stride::cnc::GCodeError error{}; ///< Wrong: of what kind.
+  const CncWord *word = nullptr;   ///< Where it has ended; null: at the end, or in the settings.
+};
 
-/// The type of a variable of the project as G-code can use it; nothing if there is none of this
-/// name, or of another type. `Main.x` is x of the program Main, `List.x` of a list of globals.
-[[nodiscard]] std::optional<stride::cnc::VariableType>
-cncVariableType(const std::vector<ast::File *> &files, std::string_view name);
+/// Decodes a program from its beginning to its end, jumps included, and gives each object of the
+/// path to `take`, until that returns false. Variables have their initial values.
+[[nodiscard]] CncDecoded
+decodeCnc(const CncProgram &program,
+          const std::function<bool(const stride::cnc::PathObject &)> &take);
 
-/// The programs as ST: global variables SMC_CNC_REF. May be empty. Programs named like something in
-/// `files` and unknown variables are reported.
-[[nodiscard]] SyntheticSource cncDeclarations(const std::vector<CncProgram> &programs,
+/// The path of a program as compiled queues have it: decoded, and its end velocities lowered as by
+/// SMC_CheckVelocities. Nothing if it is wrong, which is reported.
+[[nodiscard]] std::optional<std::vector<stride::cnc::PathObject>>
+cncQueueOf(const CncProgram &program, Diagnostics &diagnostics);
+
+/// The bytes of a queue file with this path.
+[[nodiscard]] std::string cncQueueFile(const CncProgram &program,
+                                       std::span<const stride::cnc::PathObject> objects);
+
+/// A variable of the project as G-code can use it.
+struct CncVariable {
+  stride::cnc::VariableType type{};
+  std::optional<CncInitial> initial; ///< Nothing: only the running application knows.
+};
+
+/// Where types of libraries are declared: the declaration of a name in lower case, or null.
+using CncTypes = std::function<const ast::Decl *(std::string_view)>;
+
+/// The variable that G-code calls `name`; nothing if there is none, or it is of no type that G-code
+/// can use. `Main.x` is x of the program Main, `List.x` of a list of globals, `stData.aPos[3]` an
+/// element of a member.
+[[nodiscard]] std::optional<CncVariable> cncVariable(const std::vector<ast::File *> &files,
+                                                     const CncTypes &types, std::string_view name);
+
+/// Gives the variables of a program their initial values. What is not known is reported.
+void freezeCnc(CncProgram &program, const std::vector<ast::File *> &files, const CncTypes &types,
+               Diagnostics &diagnostics);
+
+/// A program and what it becomes.
+struct CncAsset {
+  CncProgram program;
+  std::vector<stride::cnc::PathObject> objects; ///< Of CncCompile::Queue.
+};
+
+/// The programs as ST: global variables SMC_CNC_REF and SMC_OUTQUEUE. May be empty. Programs named
+/// like something in `files` and unknown variables are reported.
+[[nodiscard]] SyntheticSource cncDeclarations(const std::vector<CncAsset> &programs,
                                               const std::vector<ast::File *> &files,
-                                              Diagnostics &diagnostics);
+                                              const CncTypes &types, Diagnostics &diagnostics);
 
 /// The text with upper-case letters, one blank between words, numbers without leading zeros.
 [[nodiscard]] std::string formatCnc(std::string_view text);

@@ -1,11 +1,15 @@
 // CNC programs as ST.
 
-#include "compiler/assets/cnc/cnc_source.hpp"
+#include "compiler/assets/cnc/internal.hpp"
 #include "compiler/source/content_hash.hpp"
 #include "compiler/syntax/global_names.hpp"
 #include "compiler/syntax/st_text.hpp"
+#include "runtime/numeric/cnc/queue_file.hpp"
 
+#include <algorithm>
+#include <cstring>
 #include <fmt/format.h>
+#include <iterator>
 
 namespace stc {
 
@@ -44,15 +48,52 @@ std::string startText(const Position &start) {
   return text;
 }
 
+/// A word as it is packed: without its address, and with a mark where it has one.
+std::string bytesOf(const std::vector<GCodeWord> &words) {
+  std::string bytes;
+  for (const GCodeWord &word : words) {
+    GCodeWord plain;
+    std::memset(&plain, 0, sizeof plain);
+    plain.letter = word.letter;
+    plain.variables = word.address != nullptr ? 1 : 0;
+    plain.value = word.address != nullptr ? 0 : word.value;
+    plain.integer = word.address != nullptr ? 0 : word.integer;
+    bytes.append(reinterpret_cast<const char *>(&plain), sizeof plain);
+  }
+  return bytes;
+}
+
+std::string bytesOf(const std::vector<PathObject> &objects) {
+  std::string bytes(objects.size() * sizeof(PathObject), '\0');
+  auto *to = reinterpret_cast<uint8_t *>(bytes.data());
+  for (const PathObject &object : objects) {
+    writeFileObject(object, to);
+    to += sizeof object;
+  }
+  return bytes;
+}
+
 class CncWriter {
 public:
-  CncWriter(const std::vector<ast::File *> &files, Diagnostics &diagnostics)
-      : files_(files), names_(globalNames(files)), diagnostics_(diagnostics) {}
+  CncWriter(const std::vector<ast::File *> &files, const CncTypes &types, Diagnostics &diagnostics)
+      : files_(files), types_(types), names_(globalNames(files)), diagnostics_(diagnostics) {}
 
-  SyntheticSource write(const std::vector<CncProgram> &programs) {
-    for (const CncProgram &program : programs)
-      if (program.settings.compile && isFree(program))
-        declare(program);
+  SyntheticSource write(const std::vector<CncAsset> &assets) {
+    for (const CncAsset &asset : assets) {
+      const CncCompile compile = asset.program.settings.compile;
+      std::vector<std::string> variables;
+      if (compile != CncCompile::None && compile != CncCompile::TextFile)
+        variables = variablesOf(asset.program);
+      if ((compile != CncCompile::Program && compile != CncCompile::Queue) ||
+          !isFree(asset.program))
+        continue;
+      if (out_.empty())
+        out_.add("VAR_GLOBAL\n");
+      if (compile == CncCompile::Program)
+        declareProgram(asset.program, variables);
+      else
+        declareQueue(asset);
+    }
     if (!out_.empty())
       out_.add("END_VAR\n");
     return std::move(out_);
@@ -82,75 +123,143 @@ private:
     return false;
   }
 
-  void declare(const CncProgram &program) {
-    std::vector<CncVariable> storage;
-    const std::vector<GCodeWord> words = wordsOf(program, storage);
-    if (out_.empty())
-      out_.add("VAR_GLOBAL\n");
+  /// What is packed, as hidden variables. They are named after what they hold, so that an online
+  /// change gives a changed program new ones.
+  struct Packed {
+    std::string name;
+    std::string source; ///< Arguments for who unpacks it.
+  };
+
+  Packed declarePacked(const CncProgram &program, std::string_view bytes, uint64_t salt) {
+    const std::vector<std::string> pieces = gcode::packed(bytes);
+    const size_t length = pieces.front().size();
+    constexpr size_t kDigits = 8;
+    Packed result;
+    result.name = fmt::format("{}__{}", program.name,
+                              ContentHash().add(bytes).add(salt).hex().substr(0, kDigits));
+    out_.add(fmt::format("  {{attribute 'hide'}}\n  {}__text : ARRAY[0..{}] OF STRING({}) := [",
+                         result.name, pieces.size() - 1, length));
+    for (const std::string &piece : pieces)
+      out_.add(fmt::format("{}'{}'", &piece == &pieces.front() ? "" : ",\n    ", piece),
+               program.span);
+    out_.add("];\n");
+    result.source = fmt::format("ADR({}__text), {}", result.name, length);
+    return result;
+  }
+
+  void declareProgram(const CncProgram &program, const std::vector<std::string> &variables) {
+    const gcode::Sentences sentences(program);
     std::string fields = fmt::format("strProgramName := {}", textLiteral(program.title));
     if (const std::string start = startText(program.settings.start); !start.empty())
       fields += fmt::format(", piStartPosition := ({})", start);
-    if (!words.empty())
-      fields += fmt::format(", nElements := {}, pgc := ADR({})", words.size(),
-                            declareWords(program, words));
+    const auto count = static_cast<size_t>(sentences.size());
+    if (count > 0) {
+      ContentHash salt;
+      for (const std::string &variable : variables)
+        salt.add(variable);
+      const Packed packed =
+          declarePacked(program, bytesOf(sentences.words()),
+                        std::stoull(salt.hex().substr(0, sizeof(uint64_t)), nullptr, kHex));
+      declareVariables(program, packed.name, variables);
+      out_.add(fmt::format("  {{attribute 'hide'}}\n  {} : ARRAY[0..{}] OF "
+                           "SM_CNC.SMC_GCODE_WORD;\n",
+                           packed.name, count - 1));
+      fields += fmt::format(", nElements := {0}, pgc := SM_CNC.SMC_UnpackProgram({1}, ADR({2}), "
+                            "{0}, {3})",
+                            count, packed.source, packed.name,
+                            variables.empty() ? "0" : fmt::format("ADR({}__vars)", packed.name));
+    }
     out_.add(fmt::format("  /// The program of its CNC file.\n  {{attribute 'init_on_onlchange'}}\n"
                          "  {} : SM_CNC.SMC_CNC_REF := ({});\n",
                          program.name, fields),
              program.span);
   }
 
-  /// Declares the words, named after what they are, so that an online change gives a changed
-  /// program new ones.
-  std::string declareWords(const CncProgram &program, const std::vector<GCodeWord> &words) {
-    const size_t added = words.size() - program.words.size();
-    std::vector<std::string> texts;
-    ContentHash hash;
-    for (size_t i = 0; i < words.size(); ++i) {
-      const CncWord *source = i < added ? nullptr : &program.words[i - added];
-      const bool structure =
-          static_cast<VariableType>(words[i].variables) == VariableType::Structure;
-      texts.push_back(wordText(words[i], source, structure));
-      hash.add(texts.back());
-    }
-    std::string name = fmt::format("{}__{}", program.name, hash.hex().substr(0, 8));
-    out_.add(
-        fmt::format("  {{attribute 'hide'}}\n  {} : ARRAY[0..{}] OF SM_CNC.SMC_GCODE_WORD := [",
-                    name, words.size() - 1));
-    for (size_t i = 0; i < words.size(); ++i) {
-      if (i > 0)
-        out_.add(",\n    ");
-      out_.add(texts[i], i < added ? program.span : program.words[i - added].span);
+  /// The addresses for words with variables.
+  void declareVariables(const CncProgram &program, const std::string &name,
+                        const std::vector<std::string> &variables) {
+    if (variables.empty())
+      return;
+    out_.add(fmt::format("  {{attribute 'hide'}}\n  {}__vars : ARRAY[0..{}] OF "
+                         "SM_CNC.SMC_GCODE_WORD := [",
+                         name, variables.size() - 1));
+    size_t next = 0;
+    for (const CncWord &word : program.words) {
+      if (word.variable.empty())
+        continue;
+      out_.add(next == 0 ? "" : ",\n    ");
+      out_.add(variables[next++], word.span);
     }
     out_.add("];\n");
-    return name;
+  }
+
+  void declareQueue(const CncAsset &asset) {
+    const CncProgram &program = asset.program;
+    const size_t count = asset.objects.size();
+    constexpr size_t kLeastPlaces = 2;
+    const size_t size = program.settings.queueBytes != 0
+                            ? program.settings.queueBytes
+                            : std::max(kLeastPlaces, count) * sizeof(PathObject);
+    const size_t places = (size + sizeof(PathObject) - 1) / sizeof(PathObject);
+    std::string memory = fmt::format("{}__memory", program.name);
+    std::string source;
+    if (count > 0) {
+      const Packed packed = declarePacked(program, bytesOf(asset.objects), size);
+      memory = packed.name;
+      source = packed.source;
+    }
+    out_.add(fmt::format("  {{attribute 'hide'}}\n  {} : ARRAY[0..{}] OF SM_CNC.SMC_GEOINFO;\n",
+                         memory, places - 1));
+    const std::string buffer =
+        count > 0 ? fmt::format("SM_CNC.SMC_UnpackQueue({}, ADR({}), {})", source, memory, count)
+                  : fmt::format("ADR({})", memory);
+    out_.add(fmt::format(
+                 "  /// The path of its CNC file.\n  {} : SM_CNC.SMC_OUTQUEUE := (pbyBuffer "
+                 ":= {}, nSize := {}, nWritePos := {}, bFull := {}, bEndOfList := TRUE, "
+                 "byGenerator := {}, strProgramName := {});\n",
+                 program.name, buffer, size, count * sizeof(PathObject),
+                 size / sizeof(PathObject) - count <= kReservedPlaces ? "TRUE" : "FALSE",
+                 int{kByEditor}, textLiteral(program.title.empty() ? program.name : program.title)),
+             program.span);
+  }
+
+  /// The values of SMC_GCODE_WORD for the words with variables.
+  std::vector<std::string> variablesOf(const CncProgram &program) {
+    std::vector<std::string> variables;
+    bool isM = false;
+    for (const CncWord &word : program.words) {
+      isM = word.word.letter != kEndOfSentence && (isM || word.word.letter == 'M');
+      if (!word.variable.empty())
+        variables.push_back(variableText(word, isM && word.word.letter == 'O'));
+    }
+    return variables;
   }
 
   /// `structure`: the word takes an SMC_M_PARAMETERS.
-  std::string wordText(const GCodeWord &word, const CncWord *source, bool structure) {
-    if (source == nullptr || source->variable.empty())
-      return fmt::format("(byLetter := {}, fValue := {}, diValue := {})", word.letter,
-                         realLiteral(word.value), word.integer);
-    const std::optional<VariableType> type = cncVariableType(files_, source->variable);
-    if (type && (*type == VariableType::Structure) != structure)
+  std::string variableText(const CncWord &word, bool structure) {
+    const std::optional<CncVariable> variable = cncVariable(files_, types_, word.variable);
+    if (variable && (variable->type == VariableType::Structure) != structure)
       diagnostics_
-          .report(Code::CncVariable, source->span,
-                  fmt::format("the variable `{}` is of a type that does not fit", source->variable),
+          .report(Code::CncVariable, word.span,
+                  fmt::format("the variable `{}` is of a type that does not fit", word.variable),
                   structure ? "an M function takes SMC_M_PARAMETERS" : "no number")
           .help("the word O of an M function takes a variable of type SMC_M_PARAMETERS, all "
                 "others one of a type for numbers");
-    if (!type)
+    if (!variable)
       diagnostics_
-          .report(Code::CncVariable, source->span,
-                  fmt::format("there is no variable `{}` that G-code can use", source->variable),
+          .report(Code::CncVariable, word.span,
+                  fmt::format("there is no variable `{}` that G-code can use", word.variable),
                   "unknown, or of another type")
-          .help("a global variable, or `Program.Variable`, of a type for numbers; "
-                "SMC_M_PARAMETERS for O of an M function");
-    return fmt::format("(byLetter := {}, pAdr := ADR({}), byVarType := {})", word.letter,
-                       type ? source->variable : "0",
-                       static_cast<int>(type.value_or(VariableType::None)));
+          .help("a global variable, or `Program.Variable`, of a type for numbers, or a member or "
+                "element of such a type; SMC_M_PARAMETERS for O of an M function");
+    return fmt::format("(pAdr := ADR({}), byVarType := {})", variable ? word.variable : "0",
+                       static_cast<int>(variable ? variable->type : VariableType::None));
   }
 
+  static constexpr int kHex = 16;
+
   const std::vector<ast::File *> &files_;
+  const CncTypes &types_;
   std::unordered_map<std::string, Span> names_;
   Diagnostics &diagnostics_;
   // The list has the name of V2.3's folder (manual, section 3.1).
@@ -159,9 +268,10 @@ private:
 
 } // namespace
 
-SyntheticSource cncDeclarations(const std::vector<CncProgram> &programs,
-                                const std::vector<ast::File *> &files, Diagnostics &diagnostics) {
-  return CncWriter(files, diagnostics).write(programs);
+SyntheticSource cncDeclarations(const std::vector<CncAsset> &programs,
+                                const std::vector<ast::File *> &files, const CncTypes &types,
+                                Diagnostics &diagnostics) {
+  return CncWriter(files, types, diagnostics).write(programs);
 }
 
 } // namespace stc

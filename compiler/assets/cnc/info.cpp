@@ -2,12 +2,8 @@
 
 #include "compiler/assets/cnc/cnc_source.hpp"
 
-#include "runtime/numeric/cnc/decoder.hpp"
-#include "runtime/numeric/cnc/gcode_program.hpp"
-
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 namespace stc {
 
@@ -15,9 +11,6 @@ namespace {
 
 using namespace stride::cnc;
 
-/// So many sentences are gone through for each of the program, in loops.
-constexpr size_t kRounds = 1000;
-constexpr size_t kLeastSentences = 100000;
 /// Places of a curve that its bounds are taken from; to about 1e-3 of its size.
 constexpr int kPlaces = 64;
 
@@ -100,40 +93,18 @@ void measure(CncInfo &info, const PathObject &object) {
 
 CncInfo infoOf(const CncProgram &program) {
   CncInfo info;
-  std::vector<CncVariable> storage;
-  const std::vector<GCodeWord> words = wordsOf(program, storage);
-  const auto count = static_cast<int64_t>(words.size());
   info.sentences = static_cast<size_t>(
       std::count_if(program.words.begin(), program.words.end(),
                     [](const CncWord &word) { return word.word.letter == kEndOfSentence; }));
-  const auto decoder = std::make_unique<Decoder>();
-  const auto decoded = std::make_unique<Decoded>();
-  startDecoder(*decoder, program.settings.start);
-  std::copy(std::begin(decoder->here.coordinate), std::end(decoder->here.coordinate), info.least);
+  std::copy(std::begin(program.settings.start.coordinate),
+            std::end(program.settings.start.coordinate), info.least);
   std::copy(std::begin(info.least), std::end(info.least), info.most);
-  const auto take = [&] {
-    for (int32_t i = 0; i < decoded->count; ++i)
-      measure(info, decoded->objects[i]);
-  };
-  size_t left = std::max(kLeastSentences, info.sentences * kRounds);
-  SentenceWords sentence;
-  for (int64_t at = 0; at < count;) {
-    if (left-- == 0) {
-      info.endless = true;
-      return info;
-    }
-    at = sentenceAt(words.data(), count, at, sentence);
-    decodeSentence(*decoder, sentence.words, sentence.count, sentence.line, *decoded);
-    if (decoded->error != GCodeError::None)
-      return info;
-    take();
-    if (decoded->next == Next::Jump &&
-        (at = findSentence(words.data(), count, decoded->target)) < 0)
-      return info;
-  }
-  decodeEnd(*decoder, *decoded);
-  take();
-  info.complete = true;
+  const CncDecoded decoded = decodeCnc(program, [&info](const PathObject &object) {
+    measure(info, object);
+    return true;
+  });
+  info.endless = decoded.end == CncEnd::Endless;
+  info.complete = decoded.end == CncEnd::Complete;
   return info;
 }
 

@@ -1,0 +1,4 @@
+N10 G1 X5 F10
+N20 Y$g_rHeight$
+N30 X0
+N40 Y0

@@ -1,0 +1,2 @@
+N10 G1 X1 F10
+N20 G20 L$g_iTarget$ K1

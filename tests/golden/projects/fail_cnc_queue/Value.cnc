@@ -1,0 +1,2 @@
+N10 G1 X1 F10
+N20 G1 X2 E$g_rSmall$

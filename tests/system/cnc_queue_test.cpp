@@ -1,0 +1,91 @@
+// `stride cnc queue`: the bytes of the file, and what it refuses. The golden project cnc_compile
+// reads such a file.
+#include "tests/support/process.hpp"
+#include "tests/support/text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace stride::test {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr size_t kHeader = 112;
+constexpr size_t kObject = 760;
+
+class CncQueue : public ::testing::Test {
+protected:
+  ProcessResult queue(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {STRIDE_BINARY_DIR "/stride", "cnc", "queue", "a.cnc"});
+    return runProcess(arguments, scratch_.path());
+  }
+  void write(const std::string &text) { writeFile(scratch_.path() / "a.cnc", text); }
+  std::string bytes() { return readFile(scratch_.path() / "a.queue"); }
+
+  template <class Value> static Value at(const std::string &bytes, size_t offset) {
+    Value value;
+    std::memcpy(&value, bytes.data() + offset, sizeof value);
+    return value;
+  }
+
+  ScratchDirectory scratch_;
+};
+
+TEST_F(CncQueue, WritesHeaderObjectsAndChecksum) {
+  write("% name of it\nN10 G1 X30 F50\nN20 Y20\n/N30 X7\nN40 M7\n");
+  const ProcessResult result = queue({"-o", "a.queue"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.out, "a.queue: 4 objects, 3040 bytes of memory for SMC_ReadNCQueue\n");
+  const std::string file = bytes();
+  ASSERT_EQ(file.size(), kHeader + 4 * kObject + 4);
+  EXPECT_EQ(file.substr(0, 8), std::string("\x89"
+                                           "CNQ\r\n\x1A\n"));
+  EXPECT_EQ(at<uint16_t>(file, 8), 1) << "version";
+  EXPECT_EQ(at<uint8_t>(file, 10), 255) << "made by the compiler";
+  EXPECT_EQ(at<uint32_t>(file, 12), kObject);
+  EXPECT_EQ(at<uint32_t>(file, 16), 4U);
+  EXPECT_STREQ(file.c_str() + 24, "name of it");
+  EXPECT_EQ(at<int32_t>(file, kHeader + 4), 10) << "N of the first object";
+  EXPECT_EQ(at<int32_t>(file, kHeader + 3 * kObject + 4), 40);
+}
+
+TEST_F(CncQueue, LeavesOutWhatIsSuppressed) {
+  write("N10 G1 X30 F50\n/N20 X7\nN40 M7\n");
+  EXPECT_EQ(queue({"-o", "a.queue", "--step-suppress"}).exitCode, 0);
+  EXPECT_EQ(at<uint32_t>(bytes(), 16), 2U);
+}
+
+TEST_F(CncQueue, RefusesWhatHasNoEndOrNoVelocity) {
+  write("N10 G1 X30 F50\nN20 G20 L10 K1\n");
+  ProcessResult result = queue({"-o", "a.queue"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_THAT(result.err, HasSubstr("the jumps of this program do not end"));
+  write("N10 G1 X30\n");
+  result = queue({"-o", "a.queue"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_THAT(result.err, HasSubstr("moves with velocity 0"));
+  EXPECT_EQ(queue({"-o", "a.queue", "--velocity", "0.5"}).exitCode, 0);
+  write("N10 G7\n");
+  EXPECT_EQ(queue({"-o", "a.queue"}).exitCode, 1);
+}
+
+TEST_F(CncQueue, RefusesWrongOptions) {
+  write("N10 G1 X30 F50\n");
+  EXPECT_NE(queue({}).exitCode, 0) << "no -o";
+  EXPECT_NE(queue({"-o", "a.queue", "--start", "T=5"}).exitCode, 0);
+  EXPECT_NE(queue({"-o", "a.queue", "--start", "X="}).exitCode, 0);
+  EXPECT_NE(queue({"-o", "a.queue", "--angle-tolerance", "180.1"}).exitCode, 0);
+  EXPECT_NE(queue({"-o", "a.queue", "--deceleration", "0"}).exitCode, 0);
+  EXPECT_EQ(queue({"-o", "a.queue", "--start", "X=-5,W=2", "--angle-tolerance", "180"}).exitCode,
+            0);
+  EXPECT_NE(queue({"-o", "a.cnc/a.queue"}).exitCode, 0);
+  EXPECT_NE(queue({"-o", "./a.cnc"}).exitCode, 0) << "the program itself";
+}
+
+} // namespace
+} // namespace stride::test
