@@ -124,14 +124,14 @@ bool decodeMode(const Work &work, int32_t function) noexcept {
   case 41:
   case 42:
     startMark(d, function == 41 ? kToolLeft : kToolRight, kTool);
-    break;
+    return true;
   case 51:
   case 52:
     startMark(d, function == 51 ? kSmooth : kRound, kCorner);
     return true;
   case 61:
     startMark(d, kAvoidLoops, kAvoidLoops);
-    break;
+    return true;
   case 43:
   case 70:
   case 71:

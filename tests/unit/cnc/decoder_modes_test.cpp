@@ -292,7 +292,8 @@ TEST(DecoderModes, ArcsThatAreLines) {
   EXPECT_EQ(notesOf("F1\nG2 R5\n"), kNoteEmptyArc);
   EXPECT_EQ(notesOf("G1 X1\n"), kNoteNoVelocity);
   EXPECT_EQ(notesOf("F1\nG1 H1 O0\n"), kNoteLostSwitch);
-  EXPECT_EQ(notesOf("G41 D1\n"), kNoteNoProcessor);
+  EXPECT_EQ(notesOf("G41 D1\nG61\n"), 0);
+  EXPECT_EQ(notesOf("G43 K1\n"), kNoteNoProcessor);
   EXPECT_EQ(notesOf("G51 D1\nG52 D1\n"), 0);
   EXPECT_EQ(decodeText("G2 X10 I7\n").objects[0].moveType, MoveType::Line);
   EXPECT_EQ(decodeText("G2 X10 I7\n").objects[0].length, 10);

@@ -41,6 +41,13 @@ struct Outcome {
   int32_t most = 0; ///< Objects that one step has put out.
 };
 
+/// isSyncing() of what a processor fills.
+inline bool endsWithPause(const Queue &queue) {
+  const PathObject *last = objectFromEnd(&queue, 0);
+  return last != nullptr && last->moveType == MoveType::Function &&
+         last->switchId[0] == kSynchronise;
+}
+
 /// As SMC_NCDecoder fills a queue, and as SMC_Interpolator empties it.
 template <class Processor>
 Outcome runPath(Processor &processor, const std::vector<PathObject> &path,
@@ -72,7 +79,7 @@ Outcome runPath(Processor &processor, const std::vector<PathObject> &path,
     run.most = made > run.most ? made : run.most;
     run.ended = run.stream.phase == StreamPhase::Done || run.stream.phase == StreamPhase::Failed;
     while (now() && countOf(&output.queue) != 0 &&
-           (run.ended || isFull(&output.queue) || isSyncing(&output.queue))) {
+           (run.ended || isFull(&output.queue) || endsWithPause(output.queue))) {
       run.objects.push_back(*objectAt(&output.queue, 0));
       removeAt(&output.queue, 0);
     }

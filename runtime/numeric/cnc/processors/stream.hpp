@@ -31,7 +31,10 @@ static_assert(kMostPerStep <= static_cast<int32_t>(kReservedPlaces));
 enum class StreamError : int16_t {
   None = 0,
   InvalidParameter = 311, ///< SMC_INVALID_PARAMETER: what the user sets is no number, or negative.
-  NoQueue = 1501,         ///< SMC_NO_OUTQUEUE_TYPE: the input is no queue, or a damaged one.
+  PauseInCorrection = 1410, ///< SMC_TRC_SYNC_NOT_ALLOWED: G75 while the tool is corrected.
+  PlaneChanged = 1414,      ///< SMC_TRC_PLANE_CHANGED: an arc in another plane than those before.
+  InvalidObject = 1419,     ///< SMC_PATH_INVALID_OBJECT: without a shape, or no line as a ramp.
+  NoQueue = 1501,           ///< SMC_NO_OUTQUEUE_TYPE: the input is no queue, or a damaged one.
 };
 
 /// What a processor did with an object.

@@ -1,0 +1,330 @@
+#include "runtime/numeric/cnc/processors/tool_correction.hpp"
+
+#include "runtime/numeric/cnc/object_shape.hpp"
+#include "runtime/numeric/cnc/processors/tool_correction_internal.hpp"
+#include "runtime/numeric/cnc/processors/track_offset.hpp"
+
+namespace stride::cnc {
+namespace {
+
+/// Changes of the radius below this part of it are none.
+constexpr double kSameRadius = 1e-12;
+
+Step failed(Output &output, StreamError error) noexcept {
+  output.error = error;
+  return Step::Failed;
+}
+
+bool isLine(const PathObject &object) noexcept {
+  return object.moveType == MoveType::Line || object.moveType == MoveType::Positioning;
+}
+
+bool isPositioning(const PathObject &object) noexcept {
+  return object.moveType == MoveType::Positioning;
+}
+
+double toleranceOf(const ToolCorrection &tool) noexcept {
+  return tool.rules.tolerance > 0.0 ? tool.rules.tolerance : kToolTolerance;
+}
+
+/// Moves the start of a line in the plane.
+void beginAt(PathObject &object, const Plane &plane, const Vector3 &place) noexcept {
+  follow(object, plane, lineTrack(place, inPlane(object.end, plane)), 0.0, 1.0);
+}
+
+/// Nothing more is cut: the piece and what stands at its end are put out.
+void settle(ToolCorrection &tool, Output &output) noexcept {
+  if (tool.holds)
+    emitPiece(tool, 1.0, output);
+  else
+    emitWaiting(tool, output);
+}
+
+/// The shifted path ends; `object` is where the contour is left.
+void leave(ToolCorrection &tool, const Position &contour, Output &output) noexcept {
+  settle(tool, output);
+  tool.leaveAt = tool.at;
+  tool.leaveTo = contour;
+  tool.phase = ToolPhase::Leaving;
+  tool.follows = tool.gap = false;
+  tool.side = ToolSide::None;
+}
+
+/// Holds an object back that does not move in the plane. Without room for it, the corner is made as
+/// if nothing followed.
+void wait(ToolCorrection &tool, const PathObject &object, Output &output) noexcept {
+  if (tool.waiting.count == kMostWaiting)
+    settle(tool, output);
+  tool.waiting.objects[tool.waiting.count++] = object;
+}
+
+// ---- pieces of objects
+
+NewPiece pieceOf(const PathObject &object, const Track &shifted, const Track &own) noexcept {
+  const Vector3 begin = directionAtStart(own);
+  return {object, shifted, begin,
+          own.shape.kind == path::ShapeKind::Line ? begin : directionAtEnd(own)};
+}
+
+/// An arc that is bent more than the tool: the neighbours meet.
+void vanish(ToolCorrection &tool, const PathObject &object, const Track &own,
+            Output &output) noexcept {
+  const uint8_t begins = object.marks & kBeginMarks;
+  if (!tool.follows) {
+    const Track line =
+        lineTrack(offsetPlace(own, tool.left, false), offsetPlace(own, tool.left, true));
+    if (line.shape.length > 0.0) {
+      addPiece(tool, pieceOf(object, line, own), inPlane(object.end, tool.plane), false, output);
+      return;
+    }
+  }
+  tool.carried |= begins;
+  tool.gap = true;
+  if (!tool.holds)
+    return;
+  takeSwitches(tool.piece.object, object, 1.0);
+  tool.piece.object.marks |= object.marks & static_cast<uint8_t>(~kBeginMarks);
+}
+
+/// The part of a curve's object between two parts of its way.
+PathObject partOf(const PathObject &object, double from, double to) noexcept {
+  PathObject part = object;
+  for (int32_t i = 0; i < kAxes; ++i) {
+    const double way = object.end.coordinate[i] - object.start.coordinate[i];
+    if (from > 0.0)
+      part.start.coordinate[i] = object.start.coordinate[i] + way * from;
+    if (to < 1.0)
+      part.end.coordinate[i] = object.start.coordinate[i] + way * to;
+  }
+  if (from > 0.0)
+    part.marks &= static_cast<uint8_t>(~kBeginMarks);
+  if (to < 1.0)
+    part.marks &= kBeginMarks;
+  for (int32_t i = 0; i <= kMostSwitches; ++i) {
+    const double at = object.switchPosition[i];
+    const bool isHere = at <= to && (at > from || from == 0.0);
+    if (object.switchId[i] == 0 || isHere)
+      continue;
+    part.switchId[i] = 0;
+  }
+  keepSwitches(part, from, to);
+  return part;
+}
+
+/// The next piece of an ellipse or a spline.
+Step shiftCurve(ToolCorrection &tool, const PathObject &object, Output &output) noexcept {
+  constexpr double kFirstStep = 0.25;
+  const double from = tool.curveFrom;
+  Track piece;
+  const double to = offsetPiece(tool.curve, tool.left, from, kFirstStep, toleranceOf(tool), piece);
+  const double whole = path::lengthBetween(tool.curve.shape, 0.0, 1.0);
+  const double way =
+      to == 1.0 ? 1.0 : tool.curveWay + path::lengthBetween(tool.curve.shape, from, to) / whole;
+  const PathObject part = partOf(object, tool.curveWay, way);
+  addPiece(tool, pieceOf(part, piece, tool.curve), inPlane(object.end, tool.plane), from > 0.0,
+           output);
+  tool.curveFrom = to == 1.0 ? 0.0 : to;
+  tool.curveWay = to == 1.0 ? 0.0 : way;
+  return to == 1.0 ? Step::Took : Step::Again;
+}
+
+/// An object of the contour.
+Step shift(ToolCorrection &tool, const PathObject &object, const Track &own,
+           Output &output) noexcept {
+  if (isFreeForm(own)) {
+    tool.curve = own;
+    return shiftCurve(tool, object, output);
+  }
+  Track shifted;
+  if (offsetTrack(own, tool.left, shifted))
+    addPiece(tool, pieceOf(object, shifted, own), inPlane(object.end, tool.plane), false, output);
+  else
+    vanish(tool, object, own, output);
+  return Step::Took;
+}
+
+// ---- phases
+
+/// The radius of an object. False: there is none.
+bool radiusOf(const ToolCorrection &tool, const PathObject &object, double &radius) noexcept {
+  radius = object.toolRadius + tool.rules.radius;
+  return exact::isfinite(radius) && radius >= 0.0;
+}
+
+Step off(ToolCorrection &tool, const PathObject &object, Output &output) noexcept;
+
+Step stepOn(ToolCorrection &tool, const PathObject &object, Output &output) noexcept {
+  if (object.moveType == MoveType::Jump) {
+    settle(tool, output);
+    tool.follows = tool.gap = false;
+    emitObject(tool, object, output);
+    return Step::Took;
+  }
+  Track own;
+  TrackError error = TrackError::None;
+  if (tool.curveFrom == 0.0)
+    error = trackOf(object, tool.plane, own);
+  else
+    own = tool.curve;
+  if (error == TrackError::Plane)
+    return failed(output, StreamError::PlaneChanged);
+  if (error == TrackError::Geometry)
+    return failed(output, StreamError::InvalidObject);
+  double radius = 0.0;
+  if (isMotion(object) && !radiusOf(tool, object, radius))
+    return failed(output, StreamError::InvalidParameter);
+  const double active = exact::fabs(tool.left);
+  if (isMotion(object) && tool.curveFrom == 0.0 &&
+      exact::fabs(radius - active) > kSameRadius * active) {
+    leave(tool, object.start, output); // as if it had ended before
+    return Step::Again;
+  }
+  Step step = Step::Took;
+  if (!isMotion(object) || !(own.shape.length > 0.0))
+    wait(tool, object, output);
+  else
+    step = shift(tool, object, own, output);
+  if (step == Step::Took && (object.marks & kEndToolCorrection) != 0)
+    leave(tool, object.end, output);
+  return step;
+}
+
+/// The first object of the contour, or what stands before it.
+Step entering(ToolCorrection &tool, const PathObject &object, Output &output) noexcept {
+  Track own;
+  tool.plane = planeOf(object);
+  const TrackError error = isMotion(object) ? trackOf(object, tool.plane, own) : TrackError::None;
+  if (error != TrackError::None)
+    return failed(output, StreamError::InvalidObject);
+  if (!isMotion(object) || !(own.shape.length > 0.0)) {
+    if (object.moveType == MoveType::Jump || tool.waiting.count == kMostWaiting)
+      releaseApproach(tool, output);
+    tool.waiting.objects[tool.waiting.count++] = object;
+    return Step::Took;
+  }
+  double radius = 0.0;
+  if (!radiusOf(tool, object, radius))
+    return failed(output, StreamError::InvalidParameter);
+  tool.left = tool.side == ToolSide::Left ? radius : -radius;
+  tool.phase = ToolPhase::On;
+  tool.follows = tool.holds = tool.gap = false;
+  return stepOn(tool, object, output);
+}
+
+/// A start mark: what enters is held, or the contour begins at once.
+Step begin(ToolCorrection &tool, const PathObject &object, Output &output) noexcept {
+  const bool isRamp = tool.rules.entry == ToolEntry::Ramp;
+  if (isRamp && !isLine(object))
+    return failed(output, StreamError::InvalidObject);
+  tool.side = (object.marks & kToolLeft) != 0 ? ToolSide::Left : ToolSide::Right;
+  tool.phase = ToolPhase::Entering;
+  if (!isRamp && !isPositioning(object))
+    return entering(tool, object, output);
+  releaseApproach(tool, output);
+  tool.approach = object;
+  tool.approaches = true;
+  if ((object.marks & kEndToolCorrection) != 0) { // nothing was between
+    tool.phase = ToolPhase::Off;
+    tool.side = ToolSide::None;
+  }
+  return Step::Took;
+}
+
+Step off(ToolCorrection &tool, const PathObject &object, Output &output) noexcept {
+  double radius = 0.0;
+  if (isMotion(object) && (object.marks & (kToolLeft | kToolRight)) != 0) {
+    if (!radiusOf(tool, object, radius))
+      return failed(output, StreamError::InvalidParameter);
+    if (radius > 0.0)
+      return begin(tool, object, output);
+  }
+  const bool stands = object.moveType == MoveType::Function;
+  if (tool.approaches && stands && tool.waiting.count < kMostWaiting) {
+    tool.waiting.objects[tool.waiting.count++] = object;
+    return Step::Took;
+  }
+  releaseApproach(tool, output);
+  if (isPositioning(object)) {
+    tool.approach = object;
+    tool.approaches = true;
+  } else {
+    emitObject(tool, object, output);
+  }
+  return Step::Took;
+}
+
+/// A positioning from the shifted path to the contour, to be held.
+void holdReturn(ToolCorrection &tool, const PathObject &like) noexcept {
+  tool.approach = linkTo(tool.leaveAt, like, tool.plane, inPlane(tool.leaveTo, tool.plane));
+  tool.approach.moveType = MoveType::Positioning;
+  tool.approaches = true;
+}
+
+Step leaving(ToolCorrection &tool, const PathObject &object, Output &output) noexcept {
+  if (object.moveType == MoveType::Function) {
+    tool.waiting.objects[tool.waiting.count++] = object;
+    emitWaiting(tool, output);
+    return Step::Took;
+  }
+  tool.phase = ToolPhase::Off;
+  if (object.moveType == MoveType::Jump)
+    return off(tool, object, output);
+  const bool isRamp = tool.rules.entry == ToolEntry::Ramp;
+  if (isRamp && !isLine(object))
+    return failed(output, StreamError::InvalidObject);
+  if (isRamp || isPositioning(object)) {
+    PathObject moved = object;
+    beginAt(moved, tool.plane, inPlane(tool.leaveAt, tool.plane));
+    return off(tool, moved, output);
+  }
+  holdReturn(tool, object);
+  return off(tool, object, output);
+}
+
+} // namespace
+
+void start(ToolCorrection &tool) noexcept {
+  const ToolRules rules = tool.rules;
+  __builtin_memset(static_cast<void *>(&tool), 0, sizeof tool);
+  tool.rules = rules;
+}
+
+Step next(ToolCorrection &tool, const Source &source, Output &output) noexcept {
+  if (!emitReady(tool, output))
+    return Step::Again;
+  switch (tool.phase) {
+  case ToolPhase::Off:
+    return off(tool, source.object, output);
+  case ToolPhase::Entering:
+    return entering(tool, source.object, output);
+  case ToolPhase::On:
+    return stepOn(tool, source.object, output);
+  case ToolPhase::Leaving:
+    break;
+  }
+  return leaving(tool, source.object, output);
+}
+
+Step finish(ToolCorrection &tool, Ending ending, Output &output) noexcept {
+  if (!emitReady(tool, output))
+    return Step::Again;
+  if (tool.phase == ToolPhase::On) {
+    if (ending == Ending::Pause && tool.rules.entry == ToolEntry::Ramp)
+      return failed(output, StreamError::PauseInCorrection);
+    settle(tool, output);
+  } else {
+    if (tool.phase == ToolPhase::Leaving && tool.rules.entry == ToolEntry::Positioning) {
+      holdReturn(tool, tool.piece.object);
+      tool.phase = ToolPhase::Off;
+    }
+    releaseApproach(tool, output);
+  }
+  return tool.ready.count != 0 ? Step::Again : Step::Took;
+}
+
+ToolSide sideOf(const ToolCorrection &tool) noexcept {
+  return tool.phase == ToolPhase::Off || tool.phase == ToolPhase::Leaving ? ToolSide::None
+                                                                          : tool.side;
+}
+
+} // namespace stride::cnc
