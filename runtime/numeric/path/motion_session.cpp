@@ -12,6 +12,7 @@ constexpr int32_t kTrapezoidSteps = 128; ///< Of a plan without cells, about.
 constexpr int32_t kFirstCells = 96;      ///< Of the first plan after rest: it is to begin soon.
 constexpr int32_t kCellsToStop = 75;     ///< Of a plan that only stops, about.
 constexpr int32_t kUrgentCells = 128;    ///< Of a plan that is to change the motion.
+constexpr int32_t kLeastCells = 48;      ///< Of a plan that goes on with the motion.
 constexpr int32_t kReservedPieces = 4;   ///< Of the ring: what one step writes at most.
 constexpr int32_t kMostTries = 24;       ///< To find a place to stop at.
 /// How much longer than on a straight line a stop is tried to be at first. (A plan has a little
@@ -70,7 +71,7 @@ double cellTimeFor(const Motion &motion, double way, double present) noexcept {
   return smaller(larger(time, kLeastCellTime), kMostCellTime);
 }
 
-void beginPlan(Motion &motion, const WayState &state) noexcept {
+void beginPlan(Motion &motion, const WayState &state, double hurry) noexcept {
   PlanTask task{};
   task.way = state.way;
   task.velocity = state.velocity;
@@ -82,6 +83,7 @@ void beginPlan(Motion &motion, const WayState &state) noexcept {
   task.before = motion.planned.override;
   task.deceleration = motion.asked.deceleration;
   task.cells = motion.cells;
+  task.hurry = hurry;
   task.end = exact::kInfinity;
   if (motion.asked.limit < endOf(motion.course))
     task.end = motion.asked.limit;
@@ -92,15 +94,23 @@ void beginPlan(Motion &motion, const WayState &state) noexcept {
   motion.session = Session::Planning;
 }
 
+/// What a plan of so many cells needs, in time. [s]
+double planningTime(const Motion &motion, int32_t steps, int32_t budget) noexcept {
+  return motion.cycle * (2.0 + static_cast<double>(steps) / budget);
+}
+
 /// From rest at a way, after all that the law has.
-void beginFromRest(Motion &motion, double way) noexcept {
+void beginFromRest(Motion &motion, double way, int32_t budget) noexcept {
   motion.asked = motion.wish;
   motion.seek = motion.law.next;
   motion.cut = 0.0;
   motion.steps = 0;
   motion.tries = 0;
   motion.urgent = false;
-  beginPlan(motion, {way, 0.0, 0.0, 0.0});
+  motion.cells = kFirstCells;
+  const double free = isAtRest(motion) ? 0.0 : timeLeft(motion);
+  const double needed = planningTime(motion, kStepsPerCell * kFirstCells, budget);
+  beginPlan(motion, {way, 0.0, 0.0, 0.0}, larger(needed - free, 0.0));
 }
 
 void beginSeeking(Motion &motion, bool urgent) noexcept {
@@ -113,14 +123,9 @@ void beginSeeking(Motion &motion, bool urgent) noexcept {
   motion.session = Session::Seeking;
 }
 
-/// What a plan of so many cells needs, in time. [s]
-double planningTime(const Motion &motion, int32_t steps, int32_t budget) noexcept {
-  return motion.cycle * (2.0 + static_cast<double>(steps) / budget);
-}
-
 /// How many cells what is known of the path needs, at most `most`.
 int32_t cellsFor(const Motion &motion, int32_t most) noexcept {
-  constexpr double kRamps = 60.0; // which are finer
+  constexpr double kRamps = 40.0; // which are finer
   const Strip &strip = stripAtWay(motion, motion.way);
   const double length = exact::sqrt(squareIn(strip, motion.wish.override)) * motion.cellTime;
   const double cells = kRamps + 1.2 * (reachable(motion) - motion.way) / length;
@@ -133,15 +138,15 @@ bool isTimeToExtend(Motion &motion, int32_t budget) noexcept {
   const double left = timeLeft(motion);
   const double free = left - motion.tail;
   const auto leadFor = [&motion, budget](int32_t cells) {
-    return 1.1 *
-           planningTime(motion, hasJerk(motion) ? kStepsPerCell * cells : kTrapezoidSteps, budget);
+    const int32_t steps = hasJerk(motion) ? kStepsPerCell * cells : kTrapezoidSteps;
+    return 1.1 * planningTime(motion, steps, budget);
   };
   int32_t cells = motion.cells < kCells / 2 ? 2 * motion.cells : kCells;
   cells = cellsFor(motion, cells);
   if (free > leadFor(cells) + 0.3 * motion.tail)
     return false;
-  while (cells > kUrgentCells && leadFor(cells) > 0.9 * free)
-    cells -= kUrgentCells / 4;
+  while (cells > kLeastCells && leadFor(cells) > 0.9 * free)
+    cells -= kLeastCells / 4;
   motion.cells = cells;
   motion.lead = leadFor(cells);
   return true;
@@ -155,8 +160,7 @@ bool beginSession(Motion &motion, int32_t budget) noexcept {
     motion.planned = wish;
     if (wish.stop || !(motion.way < reachable(motion)))
       return false;
-    motion.cells = kFirstCells;
-    beginFromRest(motion, motion.way);
+    beginFromRest(motion, motion.way, budget);
     return true;
   }
   if (motion.pause == 0 && differs(wish, motion.planned) && !(wish.stop && motion.planned.stop)) {
@@ -175,8 +179,7 @@ bool beginSession(Motion &motion, int32_t budget) noexcept {
   if ((markAt(motion.law, lastPiece(motion)) & kFinal) != 0) {
     if (motion.law.next - motion.law.first > kPieces / 2)
       return false;
-    motion.cells = kFirstCells;
-    beginFromRest(motion, end);
+    beginFromRest(motion, end, budget);
     return true;
   }
   if (!isTimeToExtend(motion, budget))
@@ -215,7 +218,7 @@ void takeOver(Motion &motion, double cut) noexcept {
     motion.stopLength =
         motion.stopFactor * stoppingLength(motion, state, stripAtWay(motion, state.way));
   }
-  beginPlan(motion, state);
+  beginPlan(motion, state, 0.0);
 }
 
 /// Cuts the law off after the piece that is looked at.
@@ -256,8 +259,8 @@ double timeToCut(Motion &motion) noexcept {
   Law &law = motion.law;
   if (motion.seek >= law.next) // after all that the law has
     return exact::kInfinity;
-  if (law.first > motion.seek)
-    return -1.0;
+  if (law.first > motion.seek) // unless it has come to rest where the plan begins
+    return isAtRest(motion) && motion.plan.task.way == motion.way ? exact::kInfinity : -1.0;
   const auto beginOfPiece = [&law](int64_t number) {
     return untilAt(law, number) - pieceAt(law, number).duration;
   };
@@ -316,7 +319,7 @@ void planned(Motion &motion, int32_t budget, int32_t left) noexcept {
   if (motion.asked.stop && ++motion.tries < kMostTries) { // further away
     motion.stopFactor *= 1.1;
     motion.stopLength *= 1.1;
-    beginPlan(motion, {task.way, task.velocity, task.acceleration, 0.0});
+    beginPlan(motion, {task.way, task.velocity, task.acceleration, 0.0}, 0.0);
     return;
   }
   motion.refused = motion.urgent;

@@ -24,6 +24,7 @@ constexpr int kMostCuts = 12;    ///< Of the run, if so.
 void beginPasses(Plan &plan, const Course &course, double cut) noexcept {
   plan.cut = cut;
   plan.time = 0.0;
+  plan.steady = 0.0;
   plan.firstStrip = stripOf(course, plan.task.way);
   plan.strip = plan.firstStrip;
   plan.count = 0;

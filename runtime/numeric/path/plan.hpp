@@ -34,6 +34,7 @@ struct PlanTask {
   double cellTime;     ///< [s]
   double override;     ///< Factor of feeds.
   double before;       ///< That of the law it takes over from, which may begin above `override`.
+  double hurry;        ///< How long the motion would stand still for a plan with many cells. [s]
   double deceleration; ///< With which it may brake at least, whatever strips say; 0: as they say.
                        ///< [u/s^2]
   int32_t cells;       ///< How many may be used, up to kCells.
@@ -75,7 +76,8 @@ struct Plan {
   int64_t lastStrip;
   double end;        ///< Way where it comes to rest. [u]
   double cut;        ///< Part of what the cells can hold for which the run is chosen.
-  double time;       ///< That the run takes by a first idea. [s]
+  double time;       ///< That counts for the cells of the run, by a first idea. [s]
+  double steady;     ///< The part of it since the velocity has been constant. [s]
   double endRest;    ///< Length of the last cell. [u]
   double endStep;    ///< Length of the one before. [u]
   double knot;       ///< Way up to where there are cells. [u]
@@ -97,6 +99,7 @@ struct Plan {
   PlanState state;
   bool isAlone; ///< See `alone`; `count` is the number of its pieces.
   bool stops;   ///< At its end is a stop of the path, or the end that was asked for.
+  bool coarse;  ///< The run only brakes for an open end: see kCoarse.
   bool slowing; ///< What is reached at first is above the ceilings.
   bool gate;    ///< See Strip.
 };

@@ -60,6 +60,16 @@ double usableDeceleration(const Plan &plan, const Strip &strip) noexcept;
 /// b in a strip as the first idea has it. [u^2/s^2]
 double firstIdea(const Plan &plan, const Course &course, int64_t strip, double way) noexcept;
 
+/// Whether the limits of a strip and of the next one differ by no more than what a cell over both
+/// may give away.
+bool areAlike(const Strip &a, const Strip &b, double override) noexcept;
+
+/// b at the end of a strip as the first idea has it. [u^2/s^2]
+double reachAtBorder(const Plan &plan, int64_t strip) noexcept;
+
+/// Up to where in a strip the first idea has the greatest velocity of it, if it has it at all. [u]
+double steadyUntil(const Plan &plan, const Course &course, int64_t strip) noexcept;
+
 /// Whether the run is one strip from rest to rest without a curve; plans it then, in closed form.
 bool planAlone(Plan &plan, const Course &course) noexcept;
 

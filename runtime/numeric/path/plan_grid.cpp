@@ -7,9 +7,12 @@ namespace {
 using exact::larger;
 using exact::smaller;
 
-constexpr double kGrowth = 1.3;     ///< Of cells, from one to the next.
-constexpr double kRampPart = 0.06;  ///< See cellLength.
-constexpr double kSteadyPart = 0.3; ///< See cellLength.
+constexpr double kGrowth = 1.3; ///< Of cells, from one to the next.
+constexpr double kCoarse = 3.0; ///< Cells where it only brakes for an open end, as a multiple.
+constexpr double kCoarseGrowth = 1.6; ///< Of these.
+constexpr double kRampPart = 0.06;    ///< See cellLength.
+constexpr double kSteadyPart = 0.3;   ///< See cellLength.
+constexpr int kStripsLookedAt = 16;   ///< For the length of a rest cell.
 /// A rest cell is at most this part of the run. Constant jerk out of rest is right for 1/12 of a
 /// short one.
 constexpr double kRestPart = 1.0 / 13.0;
@@ -35,8 +38,25 @@ double expected(const Plan &plan, const Course &course, double way) noexcept {
 /// rest. A run that has proved to need too many cells gets coarser ones. [u]
 double cellLength(const Plan &plan, double velocity, double limit, double part) noexcept {
   const double needed = larger(exact::sqrt(velocity / plan.task.jerk), velocity / limit);
-  return velocity *
-         smaller((1.0 + 0.5 * plan.cuts) * plan.task.cellTime, part * (1.0 + plan.cuts) * needed);
+  const double length = velocity * smaller((1.0 + 0.5 * plan.cuts) * plan.task.cellTime,
+                                           part * (1.0 + plan.cuts) * needed);
+  return plan.coarse ? kCoarse * length : length;
+}
+
+double growthOf(const Plan &plan) noexcept { return plan.coarse ? kCoarseGrowth : kGrowth; }
+
+/// Whether the run only brakes from the present knot on, for its end where no more of the path is
+/// known. As a rule that end is gone, by another plan, before the motion comes there.
+bool onlyBrakes(const Plan &plan, const Course &course) noexcept {
+  const Strip &here = stripAt(course, plan.strip);
+  const double braked = 2.0 * usableDeceleration(plan, here) * (plan.end - plan.knot);
+  return !plan.stops && firstIdea(plan, course, plan.strip, plan.knot) >= 0.9 * braked;
+}
+
+/// Whether the run is that short that the motion would wait longer for a better plan than it gains.
+bool isHurried(const Plan &plan) noexcept {
+  constexpr double kWorth = 2.0; // of the time for a plan
+  return plan.stops && plan.time < kWorth * plan.task.hurry;
 }
 
 /// The same for one beside a cell of `rest` next to rest. [u]
@@ -47,24 +67,46 @@ double lengthBesideRest(const Plan &plan, double rest) noexcept {
 
 double restLength(double jerk, double time) noexcept { return jerk * time * time * time / 6.0; }
 
+/// The length of a strip's part that belongs to the run. [u]
+double lengthInRun(const Plan &plan, const Course &course, int64_t strip) noexcept {
+  return smaller(stripAt(course, strip).end, plan.end) -
+         larger(beginOf(course, strip), plan.task.way);
+}
+
+/// The length of a cell next to rest that leads to no more than half of the velocity with which the
+/// motion comes to the border of a strip. [u]
+double restBefore(const Plan &plan, int64_t strip, bool atEnd) noexcept {
+  const double square = reachAtBorder(plan, atEnd ? strip : strip - 1);
+  return restLength(plan.task.jerk, exact::sqrt(exact::sqrt(square) / plan.task.jerk));
+}
+
+/// The length that constant jerk has next to rest before it would lead beyond limits. [u]
+double restWithin(double jerk, double square, double acceleration) noexcept {
+  return restLength(
+      jerk, smaller(1.9 * acceleration / jerk, 0.9 * exact::sqrt(exact::sqrt(square) / jerk)));
+}
+
 /// The length of the cell next to rest, from `strip` on to that side: constant jerk must not lead
 /// beyond the limits there.
 double restCell(const Plan &plan, const Course &course, bool atEnd) noexcept {
-  const double jerk = plan.task.jerk;
   double length = kRestPart * (plan.end - plan.task.way);
   double square = exact::kInfinity;
   double acceleration = exact::kInfinity;
   double covered = 0.0;
   int64_t number = atEnd ? plan.lastStrip : plan.firstStrip;
-  while (number >= plan.firstStrip && number <= plan.lastStrip && covered < length) {
-    const Strip &strip = stripAt(course, number);
-    square = smaller(square, squareIn(strip, plan.task.override));
-    acceleration = smaller(acceleration, atEnd ? usableDeceleration(plan, strip)
-                                               : usableAcceleration(plan, strip));
-    const double time =
-        smaller(1.9 * acceleration / jerk, 0.9 * exact::sqrt(exact::sqrt(square) / jerk));
-    length = smaller(length, restLength(jerk, time));
-    covered += smaller(strip.end, plan.end) - larger(beginOf(course, number), plan.task.way);
+  for (int k = 0; k < kStripsLookedAt; ++k) {
+    if (number < plan.firstStrip || number > plan.lastStrip || kRestPart * covered >= length)
+      break;
+    if (covered > 0.0) // up to a slow place it is like a short run of its own
+      length = smaller(length, larger(kRestPart * covered, restBefore(plan, number, atEnd)));
+    if (covered < length) {
+      const Strip &strip = stripAt(course, number);
+      square = smaller(square, squareIn(strip, plan.task.override));
+      acceleration = smaller(acceleration, atEnd ? usableDeceleration(plan, strip)
+                                                 : usableAcceleration(plan, strip));
+      length = smaller(length, restWithin(plan.task.jerk, square, acceleration));
+    }
+    covered += lengthInRun(plan, course, number);
     number += atEnd ? -1 : 1;
   }
   return length;
@@ -120,8 +162,10 @@ void putCell(Plan &plan, const Course &course, double end, double middle) noexce
 void putFirstCell(Plan &plan, const Course &course) noexcept {
   plan.knot = plan.task.way;
   plan.strip = plan.firstStrip;
+  plan.coarse = !plan.stops || isHurried(plan);
   plan.endRest = restCell(plan, course, true);
   plan.endStep = lengthBesideRest(plan, plan.endRest);
+  plan.coarse = isHurried(plan);
   if (startsAtRest(plan)) {
     const double length = restCell(plan, course, false);
     putCell(plan, course, plan.task.way + length, plan.task.way + 0.25 * length);
@@ -134,6 +178,27 @@ void putFirstCell(Plan &plan, const Course &course) noexcept {
   putCell(plan, course, plan.task.way + length, plan.task.way + 0.5 * length);
 }
 
+/// How far the velocity stays the greatest one, as the first idea has it. [u]
+double steadyWay(const Plan &plan, const Course &course) noexcept {
+  constexpr int64_t kMostStrips = 8; // that one step looks at
+  int64_t number = plan.strip;
+  while (number < plan.lastStrip && number < plan.strip + kMostStrips &&
+         areAlike(stripAt(course, number), stripAt(course, number + 1), plan.task.override) &&
+         steadyUntil(plan, course, number) >= stripAt(course, number).end)
+    ++number;
+  return larger(steadyUntil(plan, course, number) - plan.knot, 0.0);
+}
+
+/// The wish for the length of the next cell where the velocity is the greatest one: the longer, the
+/// further it is to where it changes. [u]
+double steadyLength(const Plan &plan, const Course &course, double velocity,
+                    double limit) noexcept {
+  const double atRamp = cellLength(plan, velocity, limit, kRampPart);
+  const double growth = growthOf(plan);
+  const double growing = (atRamp + (growth - 1.0) * steadyWay(plan, course)) / growth;
+  return larger(cellLength(plan, velocity, limit, kSteadyPart), growing);
+}
+
 /// The length of the next cell, when `left` is there before the last one.
 double nextLength(const Plan &plan, const Course &course, double left) noexcept {
   const double idea = expected(plan, course, plan.knot);
@@ -141,9 +206,12 @@ double nextLength(const Plan &plan, const Course &course, double left) noexcept 
   const bool steady = idea >= squareIn(here, plan.task.override);
   const double limit =
       2.0 * smaller(usableAcceleration(plan, here), usableDeceleration(plan, here));
-  const double wish = cellLength(plan, exact::sqrt(idea), limit, steady ? kSteadyPart : kRampPart);
-  double length = smaller(larger(wish, 0.1 * plan.step), kGrowth * plan.step);
-  length = smaller(length, (plan.endStep + (kGrowth - 1.0) * left) / kGrowth);
+  const double velocity = exact::sqrt(idea);
+  const double wish = steady ? steadyLength(plan, course, velocity, limit)
+                             : cellLength(plan, velocity, limit, kRampPart);
+  const double growth = growthOf(plan);
+  double length = smaller(larger(wish, 0.1 * plan.step), growth * plan.step);
+  length = smaller(length, (plan.endStep + (growth - 1.0) * left) / growth);
   if (left <= 1.3 * length)
     return left;
   if (left <= 2.0 * length)
@@ -173,6 +241,7 @@ bool addCell(Plan &plan, const Course &course) noexcept {
   }
   const double left = plan.end - plan.endRest - plan.knot;
   if (left > 1e-9 * plan.endRest) {
+    plan.coarse = onlyBrakes(plan, course) || isHurried(plan);
     const double length = nextLength(plan, course, left);
     const double end = length < left ? plan.knot + length : plan.end - plan.endRest;
     putCell(plan, course, end, plan.knot + 0.5 * (end - plan.knot));

@@ -88,6 +88,13 @@ void beginCurves(Plan &plan, int32_t i) noexcept {
   plan.otherSlope = -left;
 }
 
+/// b at the knot by which a curve comes into cell `i`.
+double squareEntering(const Plan &plan, int32_t i) noexcept {
+  if (plan.heading < 0)
+    return squareAtKnot(plan, i);
+  return i > 0 ? squareAtKnot(plan, i - 1) : plan.task.velocity * plan.task.velocity;
+}
+
 /// How far the slope rises within cell `i`, which is left on the side of `heading`, if its end has
 /// to be reached with the velocity at which the slope can change.
 double slopeAfter(const Plan &plan, int32_t i, double slope) noexcept {
@@ -95,11 +102,13 @@ double slopeAfter(const Plan &plan, int32_t i, double slope) noexcept {
   const double knot = plan.heading > 0 ? cell.end : knotBefore(plan, i);
   const double reach = exact::fabs(knot - cell.middle);
   const double change = plan.task.jerk * lengthOf(plan, i);
-  double square = cell.square;
+  // A run that begins braking comes into the cell with more than it has in its middle.
+  const double least = larger(cell.square, squareEntering(plan, i));
+  double square = least;
   double next = slope;
   for (int k = 0; k < 4; ++k) { // from above and below by turns, ends where it is slow enough
     next = slope + change / exact::sqrt(square);
-    square = larger(cell.square + 2.0 * next * reach, cell.square);
+    square = larger(cell.square + 2.0 * next * reach, least);
   }
   return slope + change / exact::sqrt(square);
 }
@@ -165,8 +174,10 @@ void riseOverSpan(Plan &plan) noexcept {
 // ---- the check
 
 void note(Plan &plan, double part) noexcept {
-  if (!(part <= plan.worst)) // NaN as well
+  if (part > plan.worst)
     plan.worst = part;
+  else if (!(part <= plan.worst)) // NaN
+    plan.worst = exact::kInfinity;
 }
 
 void checkKnot(Plan &plan, int32_t i) noexcept {

@@ -62,12 +62,29 @@ double squareAfter(const Part &part, double length) noexcept {
 }
 
 /// The time for a length in a part. [u] in, [s] out
-double timeFor(const Part &part, double length) noexcept {
+struct PartTime {
+  double ramp;   ///< [s]
+  double steady; ///< With constant velocity. [s]
+};
+PartTime timeFor(const Part &part, double length) noexcept {
   const double first = exact::sqrt(part.before);
   const double last = exact::sqrt(squareAfter(part, length));
   const double rate = part.before <= part.most ? part.acceleration : part.deceleration;
   const double ramp = exact::fabs(last - first) / rate;
-  return ramp + larger(length - 0.5 * (first + last) * ramp, 0.0) / last;
+  return {ramp, larger(length - 0.5 * (first + last) * ramp, 0.0) / last};
+}
+
+/// The time that counts for the number of cells: where the velocity is constant they grow, so that
+/// there are only so many of them however long that lasts. [s]
+double countedTime(Plan &plan, const Course &course, const PartTime &time) noexcept {
+  constexpr double kSteadyCells = 30.0;
+  const double most = kSteadyCells * plan.task.cellTime;
+  const bool goesOn =
+      plan.strip > plan.firstStrip && !(time.ramp > 0.0) &&
+      areAlike(stripAt(course, plan.strip - 1), stripAt(course, plan.strip), plan.task.override);
+  const double before = goesOn ? plan.steady : 0.0;
+  plan.steady = smaller(before + time.steady, most);
+  return time.ramp + plan.steady - before;
 }
 
 /// The length in a time in a part. [s] in, [u] out
@@ -112,6 +129,17 @@ double peakIn(const Part &part, double after) noexcept {
 
 } // namespace
 
+bool areAlike(const Strip &a, const Strip &b, double override) noexcept {
+  constexpr double kAlike = 1e-4;
+  const auto near = [](double x, double y) {
+    return x == y || exact::fabs(x - y) <= kAlike * larger(x, y);
+  };
+  return near(squareIn(a, override), squareIn(b, override)) &&
+         near(squareAtEnd(a, override), squareIn(a, override)) && near(a.along, b.along) &&
+         near(a.across, b.across) && near(a.acceleration, b.acceleration) &&
+         near(a.deceleration, b.deceleration);
+}
+
 double usableAcceleration(const Plan &plan, const Strip &strip) noexcept {
   return usableOf(plan, strip, strip.acceleration);
 }
@@ -126,18 +154,26 @@ double firstIdea(const Plan &plan, const Course &course, int64_t number, double 
   return smaller(squareAfter(part, way - part.begin), backwards);
 }
 
+double reachAtBorder(const Plan &plan, int64_t strip) noexcept { return reachAt(plan, strip); }
+
+double steadyUntil(const Plan &plan, const Course &course, int64_t number) noexcept {
+  const Part part = partOf(plan, course, number);
+  const double change = larger(part.most - reachAt(plan, number), 0.0);
+  return part.end - change / (2.0 * part.deceleration);
+}
+
 bool chooseRun(Plan &plan, const Course &course) noexcept {
   const Strip &strip = stripAt(course, plan.strip);
   plan.end = plan.task.end;
   const Part part = partOf(plan, course, plan.strip);
   double length = part.end - part.begin;
-  const double left = plan.cut * plan.task.cellTime * plan.task.cells - plan.time;
-  const double time = timeFor(part, length);
+  const double left = larger(plan.cut * plan.task.cellTime * plan.task.cells - plan.time, 0.0);
+  const double time = countedTime(plan, course, timeFor(part, length));
   const double least = leastEnd(plan, course) - part.begin;
   const bool cut = !plan.task.whole && !isTrapezoid(plan) && time > left && length > least;
   plan.time += time;
   if (cut)
-    length = larger(lengthIn(part, left), least);
+    length = smaller(larger(lengthIn(part, left), least), length);
   reachAt(plan, plan.strip) = squareAtBorder(plan, course, part, length);
   plan.lastStrip = plan.strip;
   const bool whole = !cut && part.end >= strip.end;

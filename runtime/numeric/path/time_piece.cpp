@@ -37,10 +37,12 @@ Hyperbolic hyperbolic(double y) noexcept {
   return {c, s, d};
 }
 
-/// atanh(q) / q with q^2 = z < 1; for negative z that of atan.
+/// atanh(q) / q with q^2 = z < 1; for negative z that of atan. (Of 1, which rounding may make of
+/// it, it would be infinite.)
 double arcOverArgument(double z) noexcept {
+  constexpr int kMost = 64;
   double factor = 1.0;
-  while (exact::fabs(z) > 0.02) { // half of the angle
+  for (int k = 0; k < kMost && exact::fabs(z) > 0.02; ++k) { // half of the angle
     const double root = 1.0 + exact::sqrt(1.0 - z);
     factor *= 2.0 / root;
     z /= root * root;
