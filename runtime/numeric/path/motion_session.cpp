@@ -260,7 +260,7 @@ double timeToCut(Motion &motion) noexcept {
   if (motion.seek >= law.next) // after all that the law has
     return exact::kInfinity;
   if (law.first > motion.seek) // unless it has come to rest where the plan begins
-    return isAtRest(motion) && motion.plan.task.way == motion.way ? exact::kInfinity : -1.0;
+    return isAtRest(motion) && motion.plan.from.way == motion.way ? exact::kInfinity : -1.0;
   const auto beginOfPiece = [&law](int64_t number) {
     return untilAt(law, number) - pieceAt(law, number).duration;
   };
@@ -271,7 +271,7 @@ double timeToCut(Motion &motion) noexcept {
 /// the steps that are left in this call, or with `budget` in each that follows.
 bool isInTime(Motion &motion, int32_t budget, int32_t left) noexcept {
   const Plan &plan = motion.plan;
-  const int64_t steps = hasJerk(motion) ? plan.count : plan.lastStrip - plan.firstStrip + 1;
+  const int64_t steps = hasJerk(motion) ? pieceCount(plan) : plan.lastStrip - plan.firstStrip + 1;
   const double needed =
       steps < left ? 0.0 : motion.cycle * (2.0 + static_cast<double>(steps) / budget);
   return timeToCut(motion) >= needed;
@@ -284,11 +284,11 @@ void cutLaw(Motion &motion) noexcept {
     TimePiece &piece = pieceAt(law, motion.seek);
     if (motion.cut < piece.duration) {
       untilAt(law, motion.seek) -= piece.duration - motion.cut;
-      piece.length = motion.plan.task.way - piece.start;
-      endAt(law, motion.seek) = motion.plan.task.way;
+      piece.length = motion.plan.from.way - piece.start;
+      endAt(law, motion.seek) = motion.plan.from.way;
       piece.duration = motion.cut;
     }
-    const bool rests = !(motion.plan.task.velocity > 0.0);
+    const bool rests = !(motion.plan.from.velocity > 0.0);
     if (!rests)
       markAt(law, motion.seek) = 0;
     law.next = motion.seek + 1;
@@ -381,7 +381,7 @@ bool write(Motion &motion) noexcept {
   bool done = false;
   if (hasJerk(motion)) {
     push(motion, pieceOf(plan, static_cast<int32_t>(motion.writing)));
-    done = ++motion.writing == plan.count;
+    done = ++motion.writing == pieceCount(plan);
   } else {
     pushStrip(motion, motion.writing);
     done = motion.writing++ == plan.lastStrip;

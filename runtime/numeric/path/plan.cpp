@@ -9,6 +9,7 @@ using Pass = bool (*)(Plan &, const Course &) noexcept;
 
 // clang-format off
 constexpr Pass kPasses[] = {
+    findRamp, followRamp,                                   // to a lower feed
     chooseRun, reachBackwards, addCell,                     // the cells
     lowerBetweenCeilings, accelerate, brake,                // pass 1
     limitForwards, limitBackwards, accelerate, brake,       // pass 2
@@ -18,8 +19,9 @@ constexpr Pass kPasses[] = {
 };
 // clang-format on
 constexpr uint8_t kPassCount = sizeof kPasses / sizeof kPasses[0];
-constexpr uint8_t kCellPass = 2; ///< addCell, which may find that there are too few.
-constexpr int kMostCuts = 12;    ///< Of the run, if so.
+constexpr uint8_t kCellPass = 4;   ///< addCell, which may find that there are too few.
+constexpr int kMostCuts = 12;      ///< Of the run, if so.
+constexpr double kFirstCut = 0.75; ///< See Plan::cut.
 
 void beginPasses(Plan &plan, const Course &course, double cut) noexcept {
   plan.cut = cut;
@@ -35,14 +37,40 @@ void beginPasses(Plan &plan, const Course &course, double cut) noexcept {
   plan.isAlone = false;
 }
 
+/// Once more without the ramp, from the state that was asked for.
+void beginWithoutRamp(Plan &plan, const Course &course) noexcept {
+  plan.task.way = plan.from.way;
+  plan.task.velocity = plan.from.velocity;
+  plan.task.acceleration = plan.from.acceleration;
+  plan.ramp = 0;
+  plan.rampRefused = true;
+  plan.cuts = 0;
+  plan.state = PlanState::Working;
+  beginPasses(plan, course, kFirstCut);
+}
+
+/// After a failure: with a shorter run, if there were too few cells, or without a ramp.
+void tryAgain(Plan &plan, const Course &course) noexcept {
+  if (plan.phase == kCellPass && plan.cuts < kMostCuts && !plan.task.whole) {
+    plan.state = PlanState::Working;
+    ++plan.cuts;
+    beginPasses(plan, course, kFirstCut * plan.cut);
+  } else if (plan.ramp > 0) {
+    beginWithoutRamp(plan, course);
+  }
+}
+
 } // namespace
 
 void begin(Plan &plan, const Course &course, const PlanTask &task) noexcept {
   plan.task = task;
   plan.cuts = 0;
+  plan.from = {task.way, task.velocity, task.acceleration, 0.0};
+  plan.ramp = 0;
+  plan.rampRefused = false;
   plan.state = course.first < course.next && task.way < endOf(course) ? PlanState::Working
                                                                       : PlanState::Failed;
-  beginPasses(plan, course, 0.75);
+  beginPasses(plan, course, kFirstCut);
   if (plan.state == PlanState::Working && planAlone(plan, course))
     plan.state = PlanState::Done;
 }
@@ -53,11 +81,7 @@ int32_t work(Plan &plan, const Course &course, int32_t budget) noexcept {
     if (!kPasses[plan.phase](plan, course) && plan.state != PlanState::Failed)
       continue;
     if (plan.state == PlanState::Failed) {
-      if (plan.phase == kCellPass && plan.cuts < kMostCuts && !plan.task.whole) {
-        plan.state = PlanState::Working; // too few cells: a shorter run
-        ++plan.cuts;
-        beginPasses(plan, course, 0.75 * plan.cut);
-      }
+      tryAgain(plan, course);
       continue;
     }
     plan.index = 0;
@@ -68,9 +92,10 @@ int32_t work(Plan &plan, const Course &course, int32_t budget) noexcept {
   return budget;
 }
 
-TimePiece pieceOf(const Plan &plan, int32_t index) noexcept {
-  if (plan.isAlone)
-    return plan.alone[index];
+TimePiece pieceOf(const Plan &plan, int32_t number) noexcept {
+  if (plan.isAlone || number < plan.ramp)
+    return plan.closed[number];
+  const int32_t index = number - plan.ramp;
   const double start = knotBefore(plan, index);
   const double length = lengthOf(plan, index);
   const bool fromRest = index == 0 && startsAtRest(plan);

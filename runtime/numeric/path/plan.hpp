@@ -68,9 +68,15 @@ enum class PlanState : uint8_t {
 
 /// A plan and all that is needed to make it. Trivially copyable.
 struct Plan {
-  PlanTask task;
+  PlanTask task;       ///< After a ramp: from its end on.
+  WayState from;       ///< Where the plan begins.
+  double rampSquare;   ///< The ramp: b at its end, as far as it is known. [u^2/s^2]
+  double rampMost;     ///< Its greatest deceleration, likewise. [u/s^2]
+  double rampEnd;      ///< Way at its end. [u]
+  double rampVelocity; ///< There. [u/s]
   Cell cell[kCells];
-  TimePiece alone[7];    ///< Of a run along one strip from rest to rest, which needs no cells.
+  TimePiece closed[7];   ///< In closed form: a run along one strip from rest to rest, which needs
+                         ///< no cells; or the ramp before them.
   double reach[kStrips]; ///< A first idea of b at the ends of strips, by number. [u^2/s^2]
   int64_t firstStrip;    ///< Of the run.
   int64_t lastStrip;
@@ -88,6 +94,7 @@ struct Plan {
   double worst;      ///< By how much a limit is exceeded, at most; 1: by nothing.
   int64_t strip;     ///< Present one.
   int32_t count;     ///< Of cells.
+  int32_t ramp;      ///< Of pieces before the cells.
   int32_t index;     ///< Present cell.
   int32_t valley;    ///< Pass 3: where the present curve began.
   int32_t stacked;   ///< Valleys that wait; control points of the hull.
@@ -97,11 +104,12 @@ struct Plan {
   uint8_t round;  ///< Pass 4 is made several times.
   int8_t heading; ///< Pass 3: 1 forwards, -1 backwards, 0: the next valley.
   PlanState state;
-  bool isAlone; ///< See `alone`; `count` is the number of its pieces.
-  bool stops;   ///< At its end is a stop of the path, or the end that was asked for.
-  bool coarse;  ///< The run only brakes for an open end: see kCoarse.
-  bool slowing; ///< What is reached at first is above the ceilings.
-  bool gate;    ///< See Strip.
+  bool isAlone;     ///< It is all in closed form; `count` is the number of its pieces.
+  bool rampRefused; ///< There is no ramp, or no plan with it.
+  bool stops;       ///< At its end is a stop of the path, or the end that was asked for.
+  bool coarse;      ///< The run only brakes for an open end: see kCoarse.
+  bool slowing;     ///< What is reached at first is above the ceilings.
+  bool gate;        ///< See Strip.
 };
 
 /// Begins a plan over the strips that `course` has now. Nothing of `course` that lies ahead may be
@@ -112,7 +120,10 @@ void begin(Plan &plan, const Course &course, const PlanTask &task) noexcept;
 /// one strip, in one pass.
 int32_t work(Plan &plan, const Course &course, int32_t budget) noexcept;
 
-/// Piece `index` of a plan that is done, 0 <= index < count, if its jerk is limited.
+/// How many pieces a plan has that is done, if its jerk is limited.
+inline int32_t pieceCount(const Plan &plan) noexcept { return plan.ramp + plan.count; }
+
+/// Piece `index` of it, 0 <= index < pieceCount.
 TimePiece pieceOf(const Plan &plan, int32_t index) noexcept;
 
 /// The pieces of one strip of a plan that is done, if its jerk is not limited, firstStrip <= strip

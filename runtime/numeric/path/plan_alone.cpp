@@ -41,7 +41,7 @@ struct Writer {
   double way; ///< At the end of the last one. [u]
 
   void put(const TimePiece &piece) noexcept {
-    plan.alone[plan.count++] = piece;
+    plan.closed[plan.count++] = piece;
     way = piece.start + piece.length;
   }
 };

@@ -74,6 +74,8 @@ double steadyUntil(const Plan &plan, const Course &course, int64_t strip) noexce
 bool planAlone(Plan &plan, const Course &course) noexcept;
 
 // A pass: one step of it; true: it is done.
+bool findRamp(Plan &plan, const Course &course) noexcept;
+bool followRamp(Plan &plan, const Course &course) noexcept;
 bool chooseRun(Plan &plan, const Course &course) noexcept;
 bool reachBackwards(Plan &plan, const Course &course) noexcept;
 bool addCell(Plan &plan, const Course &course) noexcept;

@@ -1,0 +1,144 @@
+// The ramp of a plan for a lower feed. A motion that is quicker than it may be now slows down by up
+// to three pieces of constant jerk, in closed form; the cells begin where it has the new velocity
+// and no acceleration. As with the passes, a step looks at one strip.
+#include "runtime/numeric/path/plan_cells.hpp"
+
+namespace stride::path {
+namespace {
+
+using exact::larger;
+using exact::smaller;
+
+/// Comparisons of velocities that only differ by rounding.
+constexpr double kAlmost = 1.0 + 1e-9;
+
+/// The greatest velocity of the ramp: an acceleration goes on for a while. [u/s]
+double peakOf(const Plan &plan) noexcept {
+  const WayState &from = plan.from;
+  const double rising = larger(from.acceleration, 0.0);
+  return from.velocity + 0.5 * rising * rising / plan.task.jerk;
+}
+
+/// Writes the ramp to the velocity of plan.rampSquare with at most plan.rampMost of deceleration.
+void writeRamp(Plan &plan) noexcept {
+  const double jerk = plan.task.jerk;
+  const WayState &from = plan.from;
+  const double first = -from.acceleration;
+  const double lost = from.velocity - exact::sqrt(plan.rampSquare);
+  const double most = larger(plan.rampMost, first);
+  // Deceleration that rises to a peak and falls again: it loses (2 peak^2 - first^2) / (2 jerk).
+  double peak = exact::sqrt(larger(jerk * lost + 0.5 * first * first, 0.0));
+  double steady = 0.0;
+  peak = larger(peak, first); // braking so hard that the feed is missed when that ends
+  if (peak > most) {
+    peak = most;
+    steady = (lost - (most * most - 0.5 * first * first) / jerk) / most;
+  }
+  WayState state = from;
+  plan.ramp = 0;
+  const auto put = [&plan, &state](double change, double time) {
+    if (!(time > 0.0))
+      return;
+    const TimePiece piece =
+        constantJerkPiece(state.way, state.velocity, state.acceleration, change, time);
+    state.way = piece.start + piece.length;
+    state.velocity += (state.acceleration + 0.5 * change * time) * time;
+    state.acceleration += change * time;
+    plan.closed[plan.ramp++] = piece;
+  };
+  put(-jerk, (peak - first) / jerk);
+  put(0.0, steady);
+  put(jerk, peak / jerk);
+  plan.rampEnd = state.way;
+  plan.rampVelocity = state.velocity;
+}
+
+/// No ramp: the cells begin where the plan does.
+bool dropRamp(Plan &plan) noexcept {
+  plan.ramp = 0;
+  plan.rampRefused = true;
+  return true;
+}
+
+/// The velocity of the ramp at a way in it, before `rampEnd`. [u/s]
+double velocityOfRamp(const Plan &plan, double way) noexcept {
+  for (int32_t i = 0; i < plan.ramp; ++i) {
+    const TimePiece &piece = plan.closed[i];
+    if (way <= piece.start + piece.length)
+      return velocityAt(piece, larger(way, piece.start));
+  }
+  return plan.rampVelocity;
+}
+
+/// The override that the present velocity is of, in the strip where the plan begins.
+double presentOverride(const Plan &plan, const Course &course) noexcept {
+  const double feed = stripAt(course, plan.firstStrip).feed;
+  return larger(larger(plan.task.override, plan.task.before), plan.from.velocity / feed);
+}
+
+} // namespace
+
+bool findRamp(Plan &plan, const Course &course) noexcept {
+  if (plan.rampRefused || plan.ramp > 0 || startsAtRest(plan) || plan.task.whole ||
+      plan.task.jerk == exact::kInfinity)
+    return true;
+  const Strip &strip = stripAt(course, plan.strip);
+  const double peak = peakOf(plan);
+  if (plan.strip == plan.firstStrip) {
+    plan.rampSquare = exact::kInfinity;
+    plan.rampMost = exact::kInfinity;
+  }
+  plan.rampSquare = smaller(plan.rampSquare, squareIn(strip, plan.task.override));
+  if (peak * peak <= plan.rampSquare * kAlmost) // not quicker than it may be
+    return dropRamp(plan);
+  constexpr double kLeast = 0.05; // of what the axes allow, else it had better be a plan
+  const double left = 1.0 - strip.across * peak * peak;
+  if (!(left > kLeast))
+    return dropRamp(plan);
+  plan.rampMost = smaller(plan.rampMost, smaller(strip.deceleration, left / strip.along));
+  if (plan.strip > plan.firstStrip) {
+    const double present = plan.from.acceleration;
+    const double least = smaller(strip.acceleration, left / strip.along);
+    if (present > least || -present > plan.rampMost)
+      return dropRamp(plan);
+  }
+  writeRamp(plan);
+  if (!(plan.rampVelocity > 0.0))
+    return dropRamp(plan);
+  if (plan.rampEnd < smaller(strip.end, plan.task.end)) {
+    plan.strip = plan.firstStrip;
+    return true;
+  }
+  plan.ramp = 0;
+  if (strip.stop || strip.end >= plan.task.end || plan.strip + 1 == course.next)
+    return dropRamp(plan);
+  plan.rampSquare = smaller(plan.rampSquare, squareAtEnd(strip, plan.task.override));
+  ++plan.strip;
+  return false;
+}
+
+bool followRamp(Plan &plan, const Course &course) noexcept {
+  if (plan.ramp == 0 || plan.task.way > plan.from.way) // none, or done
+    return true;
+  const Strip &strip = stripAt(course, plan.strip);
+  const double before = presentOverride(plan, course);
+  const double begin = beginOf(course, plan.strip);
+  if (begin > plan.from.way) {
+    const double velocity = velocityOfRamp(plan, begin);
+    const double most =
+        smaller(squareIn(strip, before), squareAtEnd(stripAt(course, plan.strip - 1), before));
+    if (velocity * velocity > most * kAlmost)
+      return dropRamp(plan);
+  }
+  if (plan.rampEnd >= strip.end) {
+    ++plan.strip;
+    return false;
+  }
+  plan.task.way = plan.rampEnd;
+  plan.task.velocity = plan.rampVelocity;
+  plan.task.acceleration = 0.0;
+  plan.firstStrip = plan.strip;
+  return true;
+}
+
+} // namespace stride::path

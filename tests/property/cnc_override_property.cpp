@@ -1,0 +1,99 @@
+// A lower override while the path is gone over with limited jerk: the motion takes it over soon,
+// whatever feed, accelerations and jerk are, and it does not come to rest for it.
+#include "tests/property/motion_problems.hpp"
+#include "tests/unit/cnc/interpolator_drive.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+using namespace stride::test;
+using stride::path::LawKind;
+
+struct Trial {
+  double feed, acceleration, deceleration, jerk, override;
+  int lines;
+  double least = 0; ///< Least feed of a line. [u/s]
+
+  /// Time of the slowest ramp between rest and feed. [s]
+  double ramp() const {
+    const double most = std::max(acceleration, deceleration);
+    return feed / std::min(acceleration, deceleration) + most / jerk;
+  }
+  /// Time to fall to the least velocity of the override: first the acceleration ends, then a ramp
+  /// of constant jerk. [s]
+  double fall() const {
+    const double lost = feed - least * override;
+    const double time = deceleration * deceleration / jerk > lost
+                            ? 2 * std::sqrt(lost / jerk)
+                            : lost / deceleration + deceleration / jerk;
+    return time + acceleration / jerk * (1 + acceleration / deceleration);
+  }
+};
+
+Trial randomTrial(Random &random, int number) {
+  Trial trial{};
+  trial.feed = random.magnitude(0, 2.4);
+  trial.acceleration = trial.feed * random.magnitude(0, 1.7);
+  trial.deceleration = trial.feed * random.magnitude(0, 1.7);
+  trial.jerk = std::max(trial.acceleration, trial.deceleration) * random.magnitude(0, 2.2);
+  trial.override = number % 5 == 0 ? random.magnitude(-1.7, 0) : random.uniform(0.05, 1);
+  trial.lines = number % 3 == 0 ? 1 : 1 + random.below(20);
+  return trial;
+}
+
+void program(Drive &drive, Trial &trial, Random &random) {
+  const double length = 12 * trial.feed * trial.ramp();
+  trial.least = trial.feed;
+  for (int i = 1; i <= trial.lines; ++i) {
+    stride::cnc::PathObject &line = drive.line(length * i / trial.lines, 0);
+    line.velocity = line.velocityEnd = trial.feed * random.uniform(0.5, 1);
+    line.acceleration = trial.acceleration;
+    line.deceleration = trial.deceleration;
+    trial.least = std::min(trial.least, line.velocity);
+  }
+  drive.queue.endOfList = 1;
+  drive.command.cycle = 0.002;
+  drive.command.budget = 128;
+  drive.command.jerk = trial.jerk;
+  drive.command.limitKinks = true;
+}
+
+} // namespace
+
+TEST(Override, ALowerOneIsTakenOverSoonAndWithoutRest) {
+  constexpr double kPlanning = 0.25; // [s]
+  Random random(11);
+  int judged = 0;
+  int dips = 0; // where more of the path was planned too late
+  for (int i = 0; i < casesOf(1000); ++i) {
+    Trial trial = randomTrial(random, i);
+    SCOPED_TRACE(testing::Message()
+                 << "trial " << i << ", feed " << trial.feed << ", override " << trial.override);
+    Drive drive(LawKind::Jerk);
+    program(drive, trial, random);
+    drive.start();
+    const double change = trial.ramp() * random.uniform(0.2, 4);
+    while (drive.time < change)
+      drive.step();
+    const double before = drive.velocity();
+    if (before <= trial.feed * trial.override)
+      continue;
+    drive.command.override = trial.override;
+    const double begin = drive.time;
+    double lowest = before;
+    while (drive.velocity() > trial.feed * trial.override * (1 + 1e-6)) {
+      ASSERT_LT(drive.time - begin, trial.fall() + kPlanning);
+      drive.step();
+    }
+    for (const double time = drive.time; drive.time < time + 2 * trial.ramp(); drive.step())
+      lowest = std::min(lowest, drive.velocity());
+    dips += lowest < 0.95 * std::min(before, trial.least * trial.override) ? 1 : 0;
+    ++judged;
+  }
+  EXPECT_GT(judged, casesOf(1000) / 2);
+  EXPECT_LE(dips, 1 + judged / 100);
+}
