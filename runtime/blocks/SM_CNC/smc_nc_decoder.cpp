@@ -11,9 +11,6 @@ namespace cnc = ::stride::cnc;
 using Block = ::st::SM_CNC::SMC_NCDecoder;
 using Program = ::st::SM_CNC::SMC_CNC_REF;
 
-/// So many jumps without an object of the path are an error: nothing would ever move.
-constexpr uint32_t kMostJumps = 100000;
-
 cnc::Decoder &decoderOf(Block &block) noexcept {
   return reinterpret_cast<cnc::Decoder &>(block.State);
 }
@@ -95,7 +92,7 @@ void showSentence(Block &block, const cnc::SentenceWords &sentence) noexcept {
 
 /// A jump: at once in a program that is there as a whole, else with its next pieces.
 void jump(Block &block, Program &program, int32_t target) noexcept {
-  if (++block.udiJumps > kMostJumps) {
+  if (++block.udiJumps > cnc::kMostJumps) {
     end(block, ::st::SM_Error::SMC_ERROR__SMC_DEC_ENDLESS_JUMPS);
     return;
   }

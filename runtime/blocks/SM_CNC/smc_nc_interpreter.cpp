@@ -60,6 +60,7 @@ void start(Interpreter &block) noexcept {
   queue->generator = cnc::kByDecoder;
   block.bBegun = block.bBusy = 1;
   block.iLineNumberDecoded = 0;
+  block.udiJumps = 0;
   block.GCodeText.bClearList = static_cast<::stride::BOOL>(!append);
 }
 
@@ -91,9 +92,23 @@ void fail(Interpreter &block, const nc::SentenceQueue &sentences,
                                                : static_cast<int16_t>(carried.error));
 }
 
+/// Counts jumps that make nothing of the path; false: there are too many in a row.
+bool countJumps(Interpreter &block, const nc::Carried &carried) noexcept {
+  if (carried.decoded.count > 0)
+    block.udiJumps = 0;
+  if (carried.decoded.next != cnc::Next::Jump || ++block.udiJumps <= cnc::kMostJumps)
+    return true;
+  block.errorPos.diSourceLineNo = carried.line;
+  stop(block, ::st::SM_Error::SMC_ERROR__SMC_DEC_ENDLESS_JUMPS);
+  return false;
+}
+
 /// One sentence.
 void carryOut(Interpreter &block, nc::SentenceQueue &sentences) noexcept {
   nc::Carried carried;
+  if (block.pParameters != nullptr)
+    __builtin_memcpy(stateOf(block).parameters, block.pParameters,
+                     sizeof stateOf(block).parameters);
   const nc::Outcome outcome =
       nc::interpret(partOf(block), stateOf(block), sentences, block.bStepSuppress != 0, carried);
   if (outcome == nc::Outcome::Idle)
@@ -113,6 +128,8 @@ void carryOut(Interpreter &block, nc::SentenceQueue &sentences) noexcept {
     return;
   }
   show(block, carried);
+  if (!countJumps(block, carried))
+    return;
   block.bWaiting = static_cast<::stride::BOOL>(carried.decoded.next == cnc::Next::Synchronise);
 }
 

@@ -1,0 +1,6 @@
+N1 G1 X5 F10
+N2 M7
+N3 G1 X8 Y2
+N4 G36 O$counter$ D1
+N5 G37 O$counter$ D2
+N6 G20 L5 K1
