@@ -1,5 +1,5 @@
-// A lower override while the path is gone over with limited jerk: the motion takes it over soon,
-// whatever feed, accelerations and jerk are, and it does not come to rest for it.
+// A lower override and a feed hold while the path is gone over with limited jerk: the motion takes
+// them over soon, whatever feed, accelerations and jerk are.
 #include "tests/property/motion_problems.hpp"
 #include "tests/unit/cnc/interpolator_drive.hpp"
 
@@ -96,4 +96,40 @@ TEST(Override, ALowerOneIsTakenOverSoonAndWithoutRest) {
   }
   EXPECT_GT(judged, casesOf(1000) / 2);
   EXPECT_LE(dips, 1 + judged / 100);
+}
+
+/// At rest within 1.3 * (V / A + 2 * A / J), planning included; and at rest it stays.
+TEST(FeedHold, RestsSoonWhereverItIs) {
+  Random random(5);
+  for (int i = 0; i < casesOf(1000); ++i) {
+    Trial trial = randomTrial(random, i);
+    trial.deceleration = trial.acceleration = trial.feed * random.magnitude(0, 1.3);
+    trial.jerk = trial.acceleration * random.magnitude(0.43, 1.7);
+    trial.lines = i % 3 == 0 ? 1 : 1 + random.below(40);
+    SCOPED_TRACE(testing::Message()
+                 << "trial " << i << ", feed " << trial.feed << ", lines " << trial.lines);
+    Drive drive(LawKind::Jerk);
+    program(drive, trial, random);
+    drive.command.cycle = 0.001;
+    drive.command.budget = 64;
+    drive.start();
+    const double hold = trial.ramp() * random.uniform(0.2, 6);
+    while (drive.time < hold)
+      drive.step();
+    drive.command.slowStop = true;
+    const double begin = drive.time;
+    const double allowed =
+        1.3 * (trial.feed / trial.acceleration + 2 * trial.acceleration / trial.jerk);
+    while (drive.velocity() > 0) {
+      ASSERT_LT(drive.time - begin, allowed);
+      drive.step();
+    }
+    const double place = drive.x();
+    for (int k = 0; k < 20; ++k)
+      drive.step();
+    ASSERT_EQ(drive.x(), place);
+    drive.command.slowStop = false;
+    drive.run([&] { return drive.velocity() > 0; }, 1);
+    EXPECT_GT(drive.velocity(), 0);
+  }
 }

@@ -71,6 +71,16 @@ double cellTimeFor(const Motion &motion, double way, double present) noexcept {
   return smaller(larger(time, kLeastCellTime), kMostCellTime);
 }
 
+/// See PlanTask::rampPart. Where curves leave little to brake with, passes stop sooner; where they
+/// do not find how, a long ramp is better than none.
+constexpr double kRampPart = 0.05;
+double stopRampPart(int32_t tries) noexcept {
+  constexpr int32_t kTriesOfPasses = 3;
+  if (tries == 0)
+    return 0.5;
+  return tries == kTriesOfPasses ? kRampPart : 1.0;
+}
+
 void beginPlan(Motion &motion, const WayState &state, double hurry) noexcept {
   PlanTask task{};
   task.way = state.way;
@@ -84,6 +94,8 @@ void beginPlan(Motion &motion, const WayState &state, double hurry) noexcept {
   task.deceleration = motion.asked.deceleration;
   task.cells = motion.cells;
   task.hurry = hurry;
+  task.limit = motion.asked.limit;
+  task.rampPart = motion.asked.stop ? stopRampPart(motion.tries) : kRampPart;
   task.end = exact::kInfinity;
   if (motion.asked.limit < endOf(motion.course))
     task.end = motion.asked.limit;

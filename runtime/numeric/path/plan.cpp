@@ -86,7 +86,8 @@ int32_t work(Plan &plan, const Course &course, int32_t budget) noexcept {
     }
     plan.index = 0;
     ++plan.phase;
-    if (plan.phase == kPassCount || (plan.phase == kCellPass && plan.task.jerk == exact::kInfinity))
+    if (plan.phase == kPassCount || plan.isAlone ||
+        (plan.phase == kCellPass && plan.task.jerk == exact::kInfinity))
       plan.state = PlanState::Done;
   }
   return budget;

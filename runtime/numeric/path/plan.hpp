@@ -37,6 +37,9 @@ struct PlanTask {
   double hurry;        ///< How long the motion would stand still for a plan with many cells. [s]
   double deceleration; ///< With which it may brake at least, whatever strips say; 0: as they say.
                        ///< [u/s^2]
+  double limit;        ///< It goes no further than this way, also to stop; kInfinity: none. [u]
+  double rampPart;     ///< Which part of the axes' acceleration curves must leave for a ramp in
+                       ///< closed form; 1: no ramp.
   int32_t cells;       ///< How many may be used, up to kCells.
   bool whole;          ///< The run must reach `end`, however many cells that takes.
 };

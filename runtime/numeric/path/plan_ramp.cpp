@@ -1,6 +1,7 @@
-// The ramp of a plan for a lower feed. A motion that is quicker than it may be now slows down by up
-// to three pieces of constant jerk, in closed form; the cells begin where it has the new velocity
-// and no acceleration. As with the passes, a step looks at one strip.
+// The ramp of a plan for a lower feed, or to stop. A motion that is quicker than it may be now
+// slows down by up to three pieces of constant jerk, in closed form; the cells begin where it has
+// the new velocity and no acceleration. To stop, there are none. As with the passes, a step looks
+// at one strip.
 #include "runtime/numeric/path/plan_cells.hpp"
 
 namespace stride::path {
@@ -17,6 +18,11 @@ double peakOf(const Plan &plan) noexcept {
   const WayState &from = plan.from;
   const double rising = larger(from.acceleration, 0.0);
   return from.velocity + 0.5 * rising * rising / plan.task.jerk;
+}
+
+/// Up to where the ramp may go. [u]
+double limitOf(const Plan &plan) noexcept {
+  return plan.task.whole ? plan.task.limit : plan.task.end;
 }
 
 /// Writes the ramp to the velocity of plan.rampSquare with at most plan.rampMost of deceleration.
@@ -48,9 +54,34 @@ void writeRamp(Plan &plan) noexcept {
   };
   put(-jerk, (peak - first) / jerk);
   put(0.0, steady);
-  put(jerk, peak / jerk);
+  const double time = peak / jerk;
+  if (plan.task.whole) { // velocity and acceleration vanish together
+    const double length = jerk * time * time * time / 6.0;
+    plan.closed[plan.ramp++] = pieceToRest(state.way, length, jerk);
+    state = {state.way + length, 0.0, 0.0, 0.0};
+  } else {
+    put(jerk, time);
+  }
   plan.rampEnd = state.way;
   plan.rampVelocity = state.velocity;
+}
+
+/// Whether the motion brakes so hard that it would have to go back before that has ended.
+bool brakesTooHard(const Plan &plan) noexcept {
+  const WayState &from = plan.from;
+  return plan.task.whole && from.acceleration < 0.0 &&
+         from.acceleration * from.acceleration > 2.0 * plan.task.jerk * from.velocity;
+}
+
+/// The ramp is all of the plan.
+void endWithRamp(Plan &plan) noexcept {
+  plan.isAlone = true;
+  plan.count = plan.ramp;
+  plan.ramp = 0;
+  plan.lastStrip = plan.strip;
+  plan.end = plan.rampEnd;
+  plan.stops = true;
+  plan.gate = false;
 }
 
 /// No ramp: the cells begin where the plan does.
@@ -79,23 +110,24 @@ double presentOverride(const Plan &plan, const Course &course) noexcept {
 } // namespace
 
 bool findRamp(Plan &plan, const Course &course) noexcept {
-  if (plan.rampRefused || plan.ramp > 0 || startsAtRest(plan) || plan.task.whole ||
-      plan.task.jerk == exact::kInfinity)
+  const PlanTask &task = plan.task;
+  if (plan.rampRefused || plan.ramp > 0 || startsAtRest(plan) || task.rampPart >= 1.0 ||
+      task.jerk == exact::kInfinity || brakesTooHard(plan))
     return true;
   const Strip &strip = stripAt(course, plan.strip);
   const double peak = peakOf(plan);
   if (plan.strip == plan.firstStrip) {
-    plan.rampSquare = exact::kInfinity;
+    plan.rampSquare = task.whole ? 0.0 : exact::kInfinity;
     plan.rampMost = exact::kInfinity;
   }
-  plan.rampSquare = smaller(plan.rampSquare, squareIn(strip, plan.task.override));
+  plan.rampSquare = smaller(plan.rampSquare, squareIn(strip, task.override));
   if (peak * peak <= plan.rampSquare * kAlmost) // not quicker than it may be
     return dropRamp(plan);
-  constexpr double kLeast = 0.05; // of what the axes allow, else it had better be a plan
   const double left = 1.0 - strip.across * peak * peak;
-  if (!(left > kLeast))
+  if (!(left > task.rampPart))
     return dropRamp(plan);
-  plan.rampMost = smaller(plan.rampMost, smaller(strip.deceleration, left / strip.along));
+  const double most = larger(strip.deceleration, task.deceleration);
+  plan.rampMost = smaller(plan.rampMost, smaller(most, left / strip.along));
   if (plan.strip > plan.firstStrip) {
     const double present = plan.from.acceleration;
     const double least = smaller(strip.acceleration, left / strip.along);
@@ -103,22 +135,22 @@ bool findRamp(Plan &plan, const Course &course) noexcept {
       return dropRamp(plan);
   }
   writeRamp(plan);
-  if (!(plan.rampVelocity > 0.0))
+  if (!task.whole && !(plan.rampVelocity > 0.0))
     return dropRamp(plan);
-  if (plan.rampEnd < smaller(strip.end, plan.task.end)) {
+  if (plan.rampEnd < smaller(strip.end, limitOf(plan))) {
     plan.strip = plan.firstStrip;
     return true;
   }
   plan.ramp = 0;
-  if (strip.stop || strip.end >= plan.task.end || plan.strip + 1 == course.next)
+  if (strip.stop || strip.end >= limitOf(plan) || plan.strip + 1 == course.next)
     return dropRamp(plan);
-  plan.rampSquare = smaller(plan.rampSquare, squareAtEnd(strip, plan.task.override));
+  plan.rampSquare = smaller(plan.rampSquare, squareAtEnd(strip, task.override));
   ++plan.strip;
   return false;
 }
 
 bool followRamp(Plan &plan, const Course &course) noexcept {
-  if (plan.ramp == 0 || plan.task.way > plan.from.way) // none, or done
+  if (plan.ramp == 0 || plan.task.way > plan.from.way) // none, or passed
     return true;
   const Strip &strip = stripAt(course, plan.strip);
   const double before = presentOverride(plan, course);
@@ -133,6 +165,10 @@ bool followRamp(Plan &plan, const Course &course) noexcept {
   if (plan.rampEnd >= strip.end) {
     ++plan.strip;
     return false;
+  }
+  if (plan.task.whole) {
+    endWithRamp(plan);
+    return true;
   }
   plan.task.way = plan.rampEnd;
   plan.task.velocity = plan.rampVelocity;
