@@ -21,9 +21,11 @@ void end(Block &block, int16_t error) noexcept {
   block.bLooking = 0;
   block.wErrorID = error;
   block.bError = static_cast<::stride::BOOL>(error != ::st::SM_Error::SMC_ERROR__SMC_NO_ERROR);
-  block.iErr = error == ::st::SM_Error::SMC_ERROR__SMC_DEC_ACC_TOO_LITTLE   ? 1
-               : error == ::st::SM_Error::SMC_ERROR__SMC_DEC_RET_TOO_LITTLE ? 2
-                                                                            : 0;
+  block.iErr = 0;
+  if (error == ::st::SM_Error::SMC_ERROR__SMC_DEC_ACC_TOO_LITTLE)
+    block.iErr = 1;
+  else if (error == ::st::SM_Error::SMC_ERROR__SMC_DEC_RET_TOO_LITTLE)
+    block.iErr = 2;
 }
 
 /// Where the path begins.

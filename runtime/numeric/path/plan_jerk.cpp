@@ -131,9 +131,11 @@ bool drawCurve(Plan &plan) noexcept {
   cell.square = square;
   plan.index = next;
   const int32_t after = plan.heading > 0 ? next : next - 1;
-  const double most = after < 0 ? exact::kInfinity
-                                : (plan.heading > 0 ? plan.cell[after].up : plan.cell[after].down);
-  plan.curveSlope = smaller(most, slopeAfter(plan, next, plan.curveSlope));
+  plan.curveSlope = slopeAfter(plan, next, plan.curveSlope);
+  if (after >= 0) {
+    const Cell &there = plan.cell[after];
+    plan.curveSlope = smaller(plan.curveSlope, plan.heading > 0 ? there.up : there.down);
+  }
   return true;
 }
 

@@ -10,7 +10,6 @@
 namespace {
 
 using namespace stride::test;
-using stride::cnc::kReservedPlaces;
 
 /// A winding path of lines of 0.5: a circle whose radius changes from 15 to 60.
 class Winding {
