@@ -6,7 +6,6 @@
 namespace stride::cnc {
 namespace {
 
-using exact::larger;
 using exact::smaller;
 
 // SMC_ERROR

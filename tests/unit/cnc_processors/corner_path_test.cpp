@@ -85,6 +85,7 @@ std::string kinds(const Path &path) {
 void expectSame(const Path &a, const Path &b) {
   ASSERT_EQ(a.size(), b.size());
   for (size_t i = 0; i < a.size(); ++i)
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): to the byte
     EXPECT_EQ(std::memcmp(&a[i], &b[i], sizeof a[i]), 0) << i;
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 namespace stride::nc::test {
@@ -105,7 +106,8 @@ TEST(NcExpression, HoldsAHundredValuesAtOnce) {
 
 // A second evaluator, over trees: it knows nothing of tokens or instructions.
 struct Tree {
-  enum Kind { Number, Bool, Binary, Unary, Call2, Choose } kind = Number;
+  enum class Kind : uint8_t { Number, Bool, Binary, Unary, Call2, Choose };
+  Kind kind = Kind::Number;
   bool isBool = false;
   double number = 0;
   std::string name;
@@ -134,48 +136,53 @@ public:
     }
     if (choice < 6) {
       static const char *const kNames[] = {"+", "-", "*", "/", "MOD"};
-      tree = {Tree::Binary, false, 0, kNames[below(5)], {real(depth - 1), real(depth - 1)}};
+      tree = {Tree::Kind::Binary, false, 0, kNames[below(5)], {real(depth - 1), real(depth - 1)}};
     } else if (choice == 6) {
       static const char *const kNames[] = {"-", "abs", "sin"};
-      tree = {Tree::Unary, false, 0, kNames[below(3)], {real(depth - 1)}};
+      tree = {Tree::Kind::Unary, false, 0, kNames[below(3)], {real(depth - 1)}};
     } else {
-      tree = {Tree::Choose, false, 0, "SEL", {truth(depth - 1), real(depth - 1), real(depth - 1)}};
+      tree = {Tree::Kind::Choose,
+              false,
+              0,
+              "SEL",
+              {truth(depth - 1), real(depth - 1), real(depth - 1)}};
     }
     return tree;
   }
 
   Tree truth(int depth) {
     if (depth == 0 || below(6) == 0)
-      return {Tree::Bool, true, static_cast<double>(below(2)), "", {}};
+      return {Tree::Kind::Bool, true, static_cast<double>(below(2)), "", {}};
     if (below(5) == 0)
-      return {Tree::Unary, true, 0, "NOT", {truth(depth - 1)}};
+      return {Tree::Kind::Unary, true, 0, "NOT", {truth(depth - 1)}};
     if (below(2) == 0) {
       static const char *const kNames[] = {"AND", "OR", "XOR", "=", "<>"};
-      return {Tree::Binary, true, 0, kNames[below(5)], {truth(depth - 1), truth(depth - 1)}};
+      return {Tree::Kind::Binary, true, 0, kNames[below(5)], {truth(depth - 1), truth(depth - 1)}};
     }
     static const char *const kNames[] = {"=", "<>", "<", ">", "<=", ">="};
-    return {Tree::Binary, true, 0, kNames[below(6)], {real(depth - 1), real(depth - 1)}};
+    return {Tree::Kind::Binary, true, 0, kNames[below(6)], {real(depth - 1), real(depth - 1)}};
   }
 
   /// As a text, with as few brackets as it needs, and some more.
   std::string text(const Tree &tree, int least = 0) {
     switch (tree.kind) {
-    case Tree::Number: {
+    case Tree::Kind::Number: {
       char digits[40];
       std::snprintf(digits, sizeof digits, "%.3f", tree.number);
       return digits;
     }
-    case Tree::Bool:
+    case Tree::Kind::Bool:
       return tree.number != 0 ? "TRUE" : "false";
-    case Tree::Binary: {
+    case Tree::Kind::Binary: {
       const int binding = bindingOf(tree.name);
       const std::string gap = below(2) == 0 || std::isalpha(tree.name[0]) ? " " : "";
       const std::string inner =
           text(tree.parts[0], binding) + gap + tree.name + gap + text(tree.parts[1], binding + 1);
       return binding < least || below(8) == 0 ? "{" + inner + ")" : inner;
     }
-    case Tree::Unary: {
-      const bool simple = tree.parts[0].kind == Tree::Number || tree.parts[0].kind == Tree::Bool;
+    case Tree::Kind::Unary: {
+      const bool simple =
+          tree.parts[0].kind == Tree::Kind::Number || tree.parts[0].kind == Tree::Kind::Bool;
       return tree.name + (simple && below(2) == 0 ? " " + text(tree.parts[0])
                                                   : "{" + text(tree.parts[0]) + "}");
     }
@@ -196,14 +203,14 @@ double valueOf(const Tree &tree, bool &bad) {
     parts.push_back(valueOf(part, bad));
   const std::string &n = tree.name;
   double result = tree.number;
-  if (tree.kind == Tree::Unary)
+  if (tree.kind == Tree::Kind::Unary)
     result = n == "-"     ? -parts[0]
              : n == "abs" ? std::fabs(parts[0])
              : n == "sin" ? std::sin(parts[0])
                           : parts[0] == 0;
-  if (tree.kind == Tree::Choose)
+  if (tree.kind == Tree::Kind::Choose)
     result = parts[0] != 0 ? parts[2] : parts[1];
-  if (tree.kind == Tree::Binary) {
+  if (tree.kind == Tree::Kind::Binary) {
     const double a = parts[0];
     const double b = parts[1];
     bad = bad || ((n == "/" || n == "MOD") && b == 0);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
 #include <random>
 
 namespace stride::nc::test {
@@ -347,13 +347,11 @@ bool sameObjects(const std::vector<cnc::PathObject> &a, const std::vector<cnc::P
   if (a.size() != b.size())
     return false;
   for (size_t i = 0; i < a.size(); ++i)
-    if (std::memcmp(a[i].end.coordinate, b[i].end.coordinate, sizeof a[i].end.coordinate) != 0 ||
-        std::memcmp(a[i].start.coordinate, b[i].start.coordinate, sizeof a[i].start.coordinate) !=
-            0 ||
-        std::memcmp(a[i].shape, b[i].shape, sizeof a[i].shape) != 0 ||
-        a[i].moveType != b[i].moveType || a[i].velocity != b[i].velocity ||
-        a[i].acceleration != b[i].acceleration || a[i].length != b[i].length ||
-        a[i].marks != b[i].marks || a[i].number != b[i].number)
+    if (!std::ranges::equal(a[i].end.coordinate, b[i].end.coordinate) ||
+        !std::ranges::equal(a[i].start.coordinate, b[i].start.coordinate) ||
+        !std::ranges::equal(a[i].shape, b[i].shape) || a[i].moveType != b[i].moveType ||
+        a[i].velocity != b[i].velocity || a[i].acceleration != b[i].acceleration ||
+        a[i].length != b[i].length || a[i].marks != b[i].marks || a[i].number != b[i].number)
       return false;
   return true;
 }

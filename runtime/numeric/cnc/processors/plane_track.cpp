@@ -5,7 +5,6 @@
 namespace stride::cnc {
 namespace {
 
-using numeric::cross;
 using numeric::dot;
 using numeric::norm;
 
