@@ -67,9 +67,9 @@ inline Point placeAt(const PathObject &o, double part) {
   }
   case MoveType::Spline3d: {
     Point p{};
-    for (int axis = 0; axis < 3; ++axis)
+    for (size_t axis = 0; axis < 3; ++axis)
       for (int k = 5; k >= 0; --k)
-        p[axis] = p[axis] * t + number(axis * 6 + k);
+        p[axis] = p[axis] * t + number(static_cast<int>(axis) * 6 + k);
     return p;
   }
   default:
@@ -126,7 +126,7 @@ inline PathObject object(MoveType type, const Point &from, const Point &to) {
   o.planeY = {0, 1, 0};
   o.normal = {0, 0, 1};
   o.start.axes = o.end.axes = 7;
-  for (int i = 0; i < 3; ++i) {
+  for (size_t i = 0; i < 3; ++i) {
     o.start.coordinate[i] = from[i];
     o.end.coordinate[i] = to[i];
   }

@@ -53,7 +53,7 @@ void put(QueueIndex &index, uint32_t place) noexcept {
   uint32_t node = kLeaves + leaf;
   index.nodes[node] = isBegin && !isShared ? box : unite(index.nodes[node], box);
   for (node /= 2; node > 0; node /= 2)
-    index.nodes[node] = isBegin ? unite(index.nodes[size_t{2} * node], index.nodes[2 * node + 1])
+    index.nodes[node] = isBegin ? unite(index.nodes[uint64_t{2} * node], index.nodes[2 * node + 1])
                                 : unite(index.nodes[node], box);
 }
 
