@@ -1,6 +1,7 @@
 #include "runtime/numeric/cnc/interpolator.hpp"
 
 #include "runtime/numeric/cnc/interpolator_objects.hpp"
+#include "runtime/numeric/cnc/switch_points.hpp"
 
 namespace stride::cnc {
 namespace {
@@ -25,34 +26,14 @@ void removeFirst(Interpolator &interpolator, const Command &command) noexcept {
   interpolator.begun = false;
 }
 
-void note(Interpolator &interpolator, int16_t number) noexcept {
-  interpolator.progress.lastSwitch = number;
-  const int32_t index = number < 0 ? -number : number;
-  if (index < 1 || index > 32)
-    return;
-  const uint32_t bit = 1U << static_cast<unsigned>(index - 1);
-  if (number > 0)
-    interpolator.switches |= bit;
-  else
-    interpolator.switches &= ~bit;
-}
-
 /// Passes the switch points of the first object up to a part of its length, the nearest first. On
 /// the way back they do nothing.
 void passSwitches(Interpolator &interpolator, const PathObject &object, double part) noexcept {
-  while (!interpolator.backwards) {
-    int32_t nearest = -1;
-    for (int32_t i = 0; i <= kMostSwitches; ++i) {
-      const bool waits = object.switchId[i] != 0 &&
-                         (interpolator.passed >> static_cast<unsigned>(i) & 1U) == 0 &&
-                         object.switchPosition[i] <= part;
-      if (waits && (nearest < 0 || object.switchPosition[i] < object.switchPosition[nearest]))
-        nearest = i;
-    }
-    if (nearest < 0)
-      return;
-    interpolator.passed |= static_cast<uint8_t>(1U << static_cast<unsigned>(nearest));
-    note(interpolator, object.switchId[nearest]);
+  if (interpolator.backwards)
+    return;
+  while (const int16_t number = passSwitch(object, part, interpolator.passed)) {
+    interpolator.progress.lastSwitch = number;
+    setSwitch(interpolator.switches, number);
   }
 }
 

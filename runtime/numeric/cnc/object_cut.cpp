@@ -18,15 +18,6 @@ struct Cut {
   double u;    ///< The same as the parameter of the shape.
 };
 
-/// The plane of the object; that of X and Y where only zeros say it, as shapes have it.
-void framePlane(PathObject &object) noexcept {
-  if (norm(object.planeX) != 0.0 || norm(object.planeY) != 0.0 || norm(object.normal) != 0.0)
-    return;
-  object.planeX = {1.0, 0.0, 0.0};
-  object.planeY = {0.0, 1.0, 0.0};
-  object.normal = {0.0, 0.0, 1.0};
-}
-
 /// Whether an axis that moves does not go evenly.
 bool hasProfile(const PathObject &object) noexcept {
   const unsigned axes = object.start.axes | object.end.axes;
@@ -156,7 +147,7 @@ CutError splitObject(const PathObject &object, double way, PathObject &first,
   if (!(way > 0.0 && way < shape.length))
     return CutError::Way;
   PathObject whole = object;
-  framePlane(whole);
+  completePlane(whole);
   const double part = way / shape.length;
   const bool isCurve = shape.measure == Measure::Space || shape.measure == Measure::Plane;
   const Cut cut{way, part, isCurve ? path::parameterAt(shape.shape, way) : part};

@@ -1,16 +1,16 @@
 #include "runtime/numeric/cnc/object_shape.hpp"
 
-#include "runtime/iec/math.h"
+#include "runtime/numeric/quarter_turns.hpp"
 
 namespace stride::cnc {
 namespace {
 
 using numeric::cross;
 using numeric::dot;
+using numeric::kDegree;
 using numeric::norm;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegree = kPi / 180.0;
 
 /// How far an end may lie beside the curve of the parameters, as a part of its size: more than what
 /// the digits of a text leave, less than what anybody means.
@@ -35,23 +35,9 @@ Flat operator*(const Flat &a, double factor) noexcept { return {a.x * factor, a.
 double along(const Flat &a, const Flat &b) noexcept { return a.x * b.x + a.y * b.y; }
 double lengthOf(const Flat &a) noexcept { return norm({a.x, a.y, 0.0}); }
 
-/// (cos, sin) of an angle in degrees; exact for multiples of 90.
 Flat direction(double degrees) noexcept {
-  const double within = exact::fmod(degrees, 360.0);
-  const double quarters = exact::floor(within / 90.0 + 0.5);
-  const double rest = (within - 90.0 * quarters) * kDegree;
-  const double c = ::stride::cos(rest);
-  const double s = ::stride::sin(rest);
-  switch ((static_cast<int>(quarters) + 8) % 4) {
-  case 1:
-    return {-s, c};
-  case 2:
-    return {-c, -s};
-  case 3:
-    return {s, -c};
-  default:
-    return {c, s};
-  }
+  const numeric::Turn turn = numeric::turnOf(degrees);
+  return {turn.c, turn.s};
 }
 
 /// The plane of arcs, ellipses and splines.
@@ -64,10 +50,14 @@ struct Frame {
 
 bool isOne(double value) noexcept { return exact::fabs(value - 1.0) <= kFrameSlack; }
 
-/// Objects whose memory was only filled with zeros lie in the plane of X and Y.
+/// Memory that was only filled with zeros: the plane of X and Y.
+bool saysNoPlane(const PathObject &object) noexcept {
+  return norm(object.planeX) == 0.0 && norm(object.planeY) == 0.0 && norm(object.normal) == 0.0;
+}
+
 ShapeError frameOf(const PathObject &object, Frame &frame) noexcept {
   frame = {object.planeX, object.planeY, object.normal};
-  if (norm(frame.x) == 0.0 && norm(frame.y) == 0.0 && norm(frame.n) == 0.0)
+  if (saysNoPlane(object))
     frame = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
   return isOne(norm(frame.x)) && isOne(norm(frame.y)) &&
                  norm(cross(frame.x, frame.y) - frame.n) <= kFrameSlack
@@ -87,14 +77,6 @@ Ends endsOf(const PathObject &object, const Frame &frame) noexcept {
   const Vector3 end = placeOf(object.end);
   const double rise = object.planar != 0 ? 0.0 : dot(end - start, frame.n);
   return {frame.flat(start), frame.flat(end), frame.n * dot(start, frame.n), frame.n * rise};
-}
-
-bool isRound(MoveType type) noexcept {
-  return type == MoveType::Clockwise || type == MoveType::Counterclockwise ||
-         type == MoveType::EllipseClockwise || type == MoveType::EllipseCounterclockwise;
-}
-bool isCircle(MoveType type) noexcept {
-  return type == MoveType::Clockwise || type == MoveType::Counterclockwise;
 }
 
 /// A circle or an ellipse in its plane: centre + main * cos + other * sin.
@@ -322,10 +304,6 @@ bool areFinite(const Position &position) noexcept {
   return finite;
 }
 
-bool isCurve(MoveType type) noexcept {
-  return isRound(type) || type == MoveType::Spline || type == MoveType::Spline3d;
-}
-
 /// Only those that mean something.
 bool hasFiniteNumbers(const PathObject &object) noexcept {
   bool finite =
@@ -352,7 +330,7 @@ ShapeError movingShape(const PathObject &object, bool measured, ObjectShape &res
   error = ShapeError::None;
   if (isLine)
     result.shape = lineOf(object, frame);
-  else if (isRound(type))
+  else if ((isCircle(type) || isEllipse(type)))
     error = roundShape(object, frame, measured, result.shape);
   else if (type == MoveType::Spline || type == MoveType::Spline3d)
     error = polynomialShape(object, frame, measured, result.shape);
@@ -395,7 +373,7 @@ ShapeError calculatePlace(PathObject &object, Position &position, double u) noex
   if (error != ShapeError::None)
     return error;
   Vector3 place{};
-  if (isRound(object.moveType)) {
+  if ((isCircle(object.moveType) || isEllipse(object.moveType))) {
     Round round{};
     error = roundOf(object, round);
     place = frame.space(round.at(direction(round.begin + u * round.sweep)));
@@ -413,6 +391,14 @@ ShapeError calculatePlace(PathObject &object, Position &position, double u) noex
 }
 
 } // namespace
+
+void completePlane(PathObject &object) noexcept {
+  if (!saysNoPlane(object))
+    return;
+  object.planeX = {1.0, 0.0, 0.0};
+  object.planeY = {0.0, 1.0, 0.0};
+  object.normal = {0.0, 0.0, 1.0};
+}
 
 Vector3 placeOf(const Position &position) noexcept {
   return {position.coordinate[kAxisX], position.coordinate[kAxisY], position.coordinate[kAxisZ]};

@@ -133,6 +133,23 @@ struct PathObject {
                          ///< evenly.
 };
 
+inline bool isCircle(MoveType type) noexcept {
+  return type == MoveType::Clockwise || type == MoveType::Counterclockwise;
+}
+inline bool isEllipse(MoveType type) noexcept {
+  return type == MoveType::EllipseClockwise || type == MoveType::EllipseCounterclockwise;
+}
+/// Whether PathObject::shape describes it.
+inline bool isCurve(MoveType type) noexcept {
+  return isCircle(type) || isEllipse(type) || type == MoveType::Spline ||
+         type == MoveType::Spline3d;
+}
+
+/// Whether an object moves anything on a way: no jump (G92), no function.
+inline bool isMotion(const PathObject &object) noexcept {
+  return object.moveType != MoveType::Function && object.moveType != MoveType::Jump;
+}
+
 } // namespace stride::cnc
 
 #endif // STRIDE_RUNTIME_NUMERIC_CNC_PATH_OBJECT_HPP

@@ -47,10 +47,6 @@ Heading headingOf(const PathObject &object, bool atEnd) noexcept {
   return heading;
 }
 
-bool isMotion(const PathObject &object) noexcept {
-  return object.moveType != MoveType::Function && object.moveType != MoveType::Jump;
-}
-
 /// Whether the path stops there whatever its directions are.
 bool isStop(const PathObject &object) noexcept {
   return !isMotion(object) || object.moveType == MoveType::Positioning;

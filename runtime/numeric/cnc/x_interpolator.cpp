@@ -1,6 +1,7 @@
 #include "runtime/numeric/cnc/x_interpolator.hpp"
 
 #include "runtime/numeric/cnc/interpolator_objects.hpp"
+#include "runtime/numeric/cnc/switch_points.hpp"
 
 namespace stride::cnc {
 namespace {
@@ -14,30 +15,11 @@ void fail(XFollower &follower, XError error) noexcept {
   follower.error = error;
 }
 
-void note(XFollower &follower, int16_t id) noexcept {
-  follower.lastSwitch = id;
-  const int32_t index = id < 0 ? -id : id;
-  if (index < 1 || index > 32)
-    return;
-  const uint32_t bit = 1U << static_cast<unsigned>(index - 1);
-  follower.switches = id > 0 ? follower.switches | bit : follower.switches & ~bit;
-}
-
 /// Passes the switch points up to a part of the object's length, the nearest first.
 void passSwitches(XFollower &follower, const PathObject &object, double part) noexcept {
-  for (;;) {
-    int32_t nearest = -1;
-    for (int32_t i = 0; i <= kMostSwitches; ++i) {
-      const bool waits = object.switchId[i] != 0 &&
-                         (follower.passed >> static_cast<unsigned>(i) & 1U) == 0 &&
-                         object.switchPosition[i] <= part;
-      if (waits && (nearest < 0 || object.switchPosition[i] < object.switchPosition[nearest]))
-        nearest = i;
-    }
-    if (nearest < 0)
-      return;
-    follower.passed |= static_cast<uint8_t>(1U << static_cast<unsigned>(nearest));
-    note(follower, object.switchId[nearest]);
+  while (const int16_t number = passSwitch(object, part, follower.passed)) {
+    follower.lastSwitch = number;
+    setSwitch(follower.switches, number);
   }
 }
 

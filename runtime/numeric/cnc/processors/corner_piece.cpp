@@ -135,15 +135,6 @@ path::Shape quinticOf(const Meeting &meeting, const Ends &ends) noexcept {
 
 // ---- the piece
 
-/// The plane of an object; that of X and Y where only zeros say it.
-void setFrame(PathObject &object) noexcept {
-  if (norm(object.planeX) != 0.0 || norm(object.planeY) != 0.0 || norm(object.normal) != 0.0)
-    return;
-  object.planeX = {1.0, 0.0, 0.0};
-  object.planeY = {0.0, 1.0, 0.0};
-  object.normal = {0.0, 0.0, 1.0};
-}
-
 /// A cubic in its plane, if it lies in that.
 void describeCubic(const path::Shape &curve, PathObject &piece) noexcept {
   double out = 0.0;
@@ -189,7 +180,7 @@ void describeArc(const Ends &ends, PathObject &piece) noexcept {
 
 void describe(const Meeting &meeting, const Ends &ends, PieceKind kind,
               PathObject &piece) noexcept {
-  setFrame(piece);
+  completePlane(piece);
   for (double &value : piece.shape)
     value = 0.0;
   for (double &value : piece.moreShape)

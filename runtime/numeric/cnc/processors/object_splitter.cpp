@@ -6,15 +6,10 @@
 namespace stride::cnc {
 namespace {
 
-bool isCurve(const PathObject &object) noexcept {
-  return isMotion(object) && object.moveType != MoveType::Line &&
-         object.moveType != MoveType::Positioning;
-}
-
 /// How many parts an object becomes.
 int32_t partsOf(const ObjectSplitter &splitter, const PathObject &object) noexcept {
   ObjectShape shape{};
-  if (!isCurve(object) || shapeOf(object, shape) != ShapeError::None)
+  if (!isCurve(object.moveType) || shapeOf(object, shape) != ShapeError::None)
     return 1;
   const double parts =
       exact::ceil(splitter.byLength ? shape.length / splitter.parameter : splitter.parameter);

@@ -114,11 +114,6 @@ void stepStream(StreamState &stream, Processor &processor, Queue *input, Queue *
   settleStep(stream, turn, step, input, to);
 }
 
-/// Whether an object moves anything on a way: no jump (G92), no function.
-inline bool isMotion(const PathObject &object) noexcept {
-  return object.moveType != MoveType::Function && object.moveType != MoveType::Jump;
-}
-
 } // namespace stride::cnc
 
 #endif // STRIDE_RUNTIME_NUMERIC_CNC_PROCESSORS_STREAM_HPP

@@ -1,38 +1,14 @@
 #include "runtime/numeric/cnc/processors/transform.hpp"
 
-#include "runtime/iec/math.h"
+#include "runtime/numeric/cnc/object_shape.hpp"
+#include "runtime/numeric/quarter_turns.hpp"
 
 namespace stride::cnc {
 namespace {
 
 using numeric::dot;
-using numeric::norm;
-
-constexpr double kDegree = 0.017453292519943295; ///< [rad]
-
-/// (cos, sin) of an angle.
-struct Turn {
-  double c, s;
-};
-
-/// Exact for multiples of 90 degrees.
-Turn turnOf(double degrees) noexcept {
-  const double within = exact::fmod(degrees, 360.0);
-  const double quarters = exact::floor(within / 90.0 + 0.5);
-  const double rest = (within - 90.0 * quarters) * kDegree;
-  const double c = ::stride::cos(rest);
-  const double s = ::stride::sin(rest);
-  switch ((static_cast<int>(quarters) + 8) % 4) {
-  case 1:
-    return {-s, c};
-  case 2:
-    return {-c, -s};
-  case 3:
-    return {s, -c};
-  default:
-    return {c, s};
-  }
-}
+using numeric::Turn;
+using numeric::turnOf;
 
 void turn(const Turn &by, double &x, double &y) noexcept {
   const double before = x;
@@ -40,32 +16,10 @@ void turn(const Turn &by, double &x, double &y) noexcept {
   y = by.s * before + by.c * y;
 }
 
-bool isCircle(const PathObject &object) noexcept {
-  return object.moveType == MoveType::Clockwise || object.moveType == MoveType::Counterclockwise;
-}
-bool isEllipse(const PathObject &object) noexcept {
-  return object.moveType == MoveType::EllipseClockwise ||
-         object.moveType == MoveType::EllipseCounterclockwise;
-}
-bool isSpline(const PathObject &object) noexcept { return object.moveType == MoveType::Spline; }
-bool isCurve(const PathObject &object) noexcept {
-  return isCircle(object) || isEllipse(object) || isSpline(object) ||
-         object.moveType == MoveType::Spline3d;
-}
-
 /// A coefficient of a curve in space.
 double &coefficient(PathObject &object, int axis, int power) noexcept {
   const int at = axis * 6 + power;
   return at < 8 ? object.shape[at] : object.moreShape[at - 8];
-}
-
-/// The plane of the object; that of X and Y where only zeros say it.
-void setFrame(PathObject &object) noexcept {
-  if (norm(object.planeX) != 0.0 || norm(object.planeY) != 0.0 || norm(object.normal) != 0.0)
-    return;
-  object.planeX = {1.0, 0.0, 0.0};
-  object.planeY = {0.0, 1.0, 0.0};
-  object.normal = {0.0, 0.0, 1.0};
 }
 
 /// Whether parameters are those of X and Y.
@@ -75,13 +29,13 @@ bool isPlain(const PathObject &object) noexcept {
 
 /// Turns what the parameters of a curve in the plane of X and Y say, as V2.3 reads them.
 void rotateParameters(PathObject &object, const Turn &by, double degrees) noexcept {
-  if (isSpline(object)) {
+  if (object.moveType == MoveType::Spline) {
     for (int k = 0; k < 4; ++k)
       turn(by, object.shape[k], object.shape[4 + k]);
     return;
   }
   turn(by, object.shape[0], object.shape[1]);
-  if (isCircle(object)) {
+  if (isCircle(object.moveType)) {
     object.parameterRange[0] += degrees;
   } else {
     turn(by, object.shape[2], object.shape[3]);
@@ -93,7 +47,7 @@ void rotateParameters(PathObject &object, const Turn &by, double degrees) noexce
 
 void rotateObject(PathObject &object, double degrees) noexcept {
   const Turn by = turnOf(degrees);
-  setFrame(object);
+  completePlane(object);
   turn(by, object.start.coordinate[kAxisX], object.start.coordinate[kAxisY]);
   turn(by, object.end.coordinate[kAxisX], object.end.coordinate[kAxisY]);
   if (object.moveType == MoveType::Spline3d) {
@@ -104,13 +58,14 @@ void rotateObject(PathObject &object, double degrees) noexcept {
     turn(by, object.planeX.x, object.planeX.y);
     turn(by, object.planeY.x, object.planeY.y);
     turn(by, object.normal.x, object.normal.y);
-  } else if (isCircle(object) || isEllipse(object) || isSpline(object)) {
+  } else if (isCircle(object.moveType) || isEllipse(object.moveType) ||
+             object.moveType == MoveType::Spline) {
     rotateParameters(object, by, degrees);
   }
 }
 
 void translateObject(PathObject &object, const Vector3 &way) noexcept {
-  setFrame(object);
+  completePlane(object);
   const double ways[] = {way.x, way.y, way.z};
   for (int axis = 0; axis < 3; ++axis) {
     object.start.coordinate[axis] += ways[axis];
@@ -118,35 +73,36 @@ void translateObject(PathObject &object, const Vector3 &way) noexcept {
     if (object.moveType == MoveType::Spline3d)
       coefficient(object, axis, 0) += ways[axis];
   }
-  if (isCircle(object) || isEllipse(object) || isSpline(object)) {
+  if (isCircle(object.moveType) || isEllipse(object.moveType) ||
+      object.moveType == MoveType::Spline) {
     object.shape[0] += dot(way, object.planeX);
-    object.shape[isSpline(object) ? 4 : 1] += dot(way, object.planeY);
+    object.shape[object.moveType == MoveType::Spline ? 4 : 1] += dot(way, object.planeY);
   }
-  if (isCircle(object))
+  if (isCircle(object.moveType))
     object.shape[3] += dot(way, object.normal);
 }
 
 void scaleObject(PathObject &object, double factor) noexcept {
   const double size = exact::fabs(factor);
-  bool moves = isCurve(object);
+  bool moves = isCurve(object.moveType);
   for (int axis = 0; axis < 3; ++axis) {
     moves = moves || object.start.coordinate[axis] != object.end.coordinate[axis];
     object.start.coordinate[axis] *= factor;
     object.end.coordinate[axis] *= factor;
   }
-  if (isCircle(object) || isEllipse(object)) {
+  if (isCircle(object.moveType) || isEllipse(object.moveType)) {
     object.shape[0] *= factor;
     object.shape[1] *= factor;
     if (factor < 0.0)
       object.parameterRange[0] += 180.0;
   }
-  if (isCircle(object)) {
+  if (isCircle(object.moveType)) {
     object.shape[2] *= size;
     object.shape[3] *= factor;
-  } else if (isEllipse(object)) {
+  } else if (isEllipse(object.moveType)) {
     object.shape[4] *= size;
     object.shape[5] *= size;
-  } else if (isCurve(object)) {
+  } else if (isCurve(object.moveType)) {
     for (double &value : object.shape)
       value *= factor;
     for (double &value : object.moreShape)
