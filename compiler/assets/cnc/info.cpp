@@ -44,12 +44,6 @@ void placeOf(const PathObject &o, double part, double &x, double &y) {
   y = o.shape[1] + o.shape[3] * a + o.shape[2] * b;
 }
 
-bool isCurve(MoveType type) {
-  return type == MoveType::Clockwise || type == MoveType::Counterclockwise ||
-         type == MoveType::EllipseClockwise || type == MoveType::EllipseCounterclockwise ||
-         type == MoveType::Spline;
-}
-
 void widenByCurve(CncInfo &info, const PathObject &o) {
   for (int i = 1; i < kPlaces; ++i) {
     const double part = static_cast<double>(i) / kPlaces;

@@ -1,6 +1,5 @@
 // SMC_NCDecoder and SMC_ShowCNCREF.
-#include "runtime/blocks/SM_CNC/gcode_layout.hpp"
-#include "runtime/numeric/cnc/gcode_text.hpp"
+#include "runtime/blocks/SM_CNC/decoding_block.hpp"
 
 #include "st/SM_CNC/SMC_NCDecoder.h"
 #include "st/SM_CNC/SMC_ShowCNCREF.h"
@@ -11,16 +10,9 @@ namespace cnc = ::stride::cnc;
 using Block = ::st::SM_CNC::SMC_NCDecoder;
 using Program = ::st::SM_CNC::SMC_CNC_REF;
 
-cnc::Decoder &decoderOf(Block &block) noexcept {
-  return reinterpret_cast<cnc::Decoder &>(block.State);
-}
-
 void end(Block &block, int16_t error) noexcept {
-  block.bBusy = 0;
-  block.bWaiting = 0;
+  cnc::stopDecoding(block, error);
   block.bLooking = 0;
-  block.wErrorID = error;
-  block.bError = static_cast<::stride::BOOL>(error != ::st::SM_Error::SMC_ERROR__SMC_NO_ERROR);
   block.iErr = 0;
   if (error == ::st::SM_Error::SMC_ERROR__SMC_DEC_ACC_TOO_LITTLE)
     block.iErr = 1;
@@ -40,64 +32,26 @@ cnc::Position startOf(const Block &block, const Program &program) noexcept {
   return start;
 }
 
-/// A rising edge. False: nothing happens.
-bool begin(Block &block, Program &program) noexcept {
+/// A rising edge. Without memory for the queue nothing happens.
+void begin(Block &block, Program &program) noexcept {
   block.bDone = 0;
   end(block, ::st::SM_Error::SMC_ERROR__SMC_NO_ERROR);
-  if (block.pbyBufferOutQueue == nullptr ||
-      block.nSizeOutQueue < cnc::kLeastObjects * sizeof(cnc::PathObject))
-    return false;
+  if (!cnc::hasQueueMemory(block))
+    return;
   if (!cnc::isProgram(program)) {
     end(block, ::st::SM_Error::SMC_ERROR__SMC_NO_CNC_REF_TYPE);
-    return false;
+    return;
   }
-  const bool append = block.bAppend != 0 && block.bBegun != 0;
-  cnc::Queue *const queue = cnc::queueOf(&block.Queue);
-  if (append) {
-    cnc::appendDecoder(decoderOf(block));
-  } else {
-    queue->buffer = reinterpret_cast<uint8_t *>(block.pbyBufferOutQueue);
-    queue->size = block.nSizeOutQueue;
-    (void)cnc::clear(queue);
-    cnc::startDecoder(decoderOf(block), startOf(block, program));
-    decoderOf(block).separate = block.bSoftMotion3 != 0;
-  }
-  queue->endOfList = 0;
-  queue->generator = cnc::kByDecoder;
-  __builtin_memcpy(queue->programName, program.strProgramName.s, sizeof queue->programName);
+  cnc::startDecoding(block, startOf(block, program), block.bSoftMotion3 != 0);
+  __builtin_memcpy(cnc::queueOf(&block.Queue)->programName, program.strProgramName.s,
+                   sizeof block.Queue.strProgramName.s);
   if (program.udiBuffer == cnc::kWholeProgram)
     program.diReadPos = 0;
-  block.bBegun = block.bBusy = 1;
   block.iStatus = ::st::SM_CNC::SMC_DEC_STATUS__READ_WORD;
-  block.iLineNumberDecoded = 0;
-  block.udiJumps = 0;
-  block.GCodeText.bClearList = static_cast<::stride::BOOL>(!append);
-  return true;
-}
-
-void appendObjects(Block &block, const cnc::Decoded &decoded) noexcept {
-  for (int32_t i = 0; i < decoded.count; ++i)
-    (void)cnc::append(cnc::queueOf(&block.Queue), &decoded.objects[i]);
-}
-
-/// The sentence as SMC_GCodeViewer shows it.
-void showSentence(Block &block, const cnc::SentenceWords &sentence) noexcept {
-  cnc::sentenceText(sentence, block.GCodeText.str.s, 81);
-  block.GCodeText.iLineNumber = sentence.line;
-  for (int32_t i = 0; i < sentence.count; ++i)
-    if (sentence.words[i].letter == 'N') {
-      block.GCodeText.iLineNumber = sentence.words[i].integer;
-      break;
-    }
-  block.GCodeText.bNewLine = 1;
 }
 
 /// A jump: at once in a program that is there as a whole, else with its next pieces.
 void jump(Block &block, Program &program, int32_t target) noexcept {
-  if (++block.udiJumps > cnc::kMostJumps) {
-    end(block, ::st::SM_Error::SMC_ERROR__SMC_DEC_ENDLESS_JUMPS);
-    return;
-  }
   if (program.udiBuffer != cnc::kWholeProgram) {
     block.bLooking = 1;
     block.diTarget = target;
@@ -116,8 +70,8 @@ void finish(Block &block, cnc::Decoded &decoded) noexcept {
     end(block, ::st::SM_Error::SMC_ERROR__SMC_DEC_UNKNOWN_JUMP);
     return;
   }
-  cnc::decodeEnd(decoderOf(block), decoded);
-  appendObjects(block, decoded);
+  cnc::decodeEnd(cnc::decoderOf(block), decoded);
+  cnc::appendObjects(block, decoded);
   block.Queue.bEndOfList = 1;
   block.iStatus = ::st::SM_CNC::SMC_DEC_STATUS__PROG_READ;
   block.bDone = block.bExecute;
@@ -129,18 +83,19 @@ void decode(Block &block, Program &program, const cnc::SentenceWords &sentence,
   block.iLineNumberDecoded = sentence.line;
   if (sentence.skip && block.bStepSuppress != 0)
     return;
-  showSentence(block, sentence);
-  if (block.pParameters != nullptr)
-    __builtin_memcpy(decoderOf(block).parameters, block.pParameters,
-                     sizeof decoderOf(block).parameters);
-  cnc::decodeSentence(decoderOf(block), sentence.words, sentence.count, sentence.line, decoded);
+  cnc::showSentence(block, sentence);
+  cnc::takeParameters(block);
+  cnc::decodeSentence(cnc::decoderOf(block), sentence.words, sentence.count, sentence.line,
+                      decoded);
   if (decoded.error != cnc::GCodeError::None) {
     end(block, cnc::errorOf(decoded.error));
     return;
   }
-  appendObjects(block, decoded);
-  if (decoded.count > 0)
-    block.udiJumps = 0;
+  cnc::appendObjects(block, decoded);
+  if (!cnc::countJump(block, decoded)) {
+    end(block, ::st::SM_Error::SMC_ERROR__SMC_DEC_ENDLESS_JUMPS);
+    return;
+  }
   block.bWaiting = static_cast<::stride::BOOL>(decoded.next == cnc::Next::Synchronise);
   if (decoded.next == cnc::Next::Jump)
     jump(block, program, decoded.target);
@@ -178,34 +133,14 @@ void step(Block &block, Program &program) noexcept {
 } // namespace
 
 void st::SM_CNC::SMC_NCDecoder::body__(::stride::Ctx & /*ctx__*/) {
-  GCodeText.bNewLine = 0;
-  GCodeText.bClearList = 0;
-  poqDataOut = &Queue;
-  const bool edge = bExecute != 0 && bOldExecute == 0;
-  bOldExecute = bExecute;
-  if (bAbort != 0) {
-    end(*this, ::st::SM_Error::SMC_ERROR__SMC_NO_ERROR);
-    bDone = 0;
-    return;
-  }
   Program &program = *ncprog;
-  if (edge && !begin(*this, program))
+  const auto stop = [this] { end(*this, ::st::SM_Error::SMC_ERROR__SMC_NO_ERROR); };
+  if (!::stride::cnc::beginCall(
+          *this, [&] { begin(*this, program); }, stop))
     return;
-  if (bBusy == 0) {
-    if (bExecute == 0) {
-      bDone = 0;
-      end(*this, ::st::SM_Error::SMC_ERROR__SMC_NO_ERROR);
-    }
-    return;
-  }
-  if (!::stride::cnc::isProgram(program)) {
+  if (!::stride::cnc::isProgram(program))
     end(*this, ::st::SM_Error::SMC_ERROR__SMC_NO_CNC_REF_TYPE);
-    return;
-  }
-  const ::stride::cnc::Queue *const queue = ::stride::cnc::queueOf(&Queue);
-  if (bWaiting != 0 && ::stride::cnc::countOf(queue) == 0)
-    bWaiting = 0;
-  if (bWaiting == 0 && !::stride::cnc::isFull(queue))
+  else if (::stride::cnc::hasRoom(*this))
     step(*this, program);
 }
 

@@ -21,8 +21,6 @@ inline constexpr double kDefaultAcceleration = 100.0;
 inline constexpr int32_t kMostWords = 128;
 /// Objects that a sentence gives at most, with the one that was held back.
 inline constexpr int32_t kMostObjects = 4;
-/// So many jumps without an object of the path are an error: nothing would ever move.
-inline constexpr uint32_t kMostJumps = 100000;
 
 /// What is the matter with the object that is held back.
 enum class Held : uint8_t {
