@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace {
 
@@ -103,7 +104,7 @@ TEST(FeedHold, RestsSoonWhereverItIs) {
   Random random(5);
   for (int i = 0; i < casesOf(1000); ++i) {
     Trial trial = randomTrial(random, i);
-    trial.deceleration = trial.acceleration = trial.feed * random.magnitude(0, 1.3);
+    trial.deceleration = trial.acceleration = trial.feed * random.magnitude(0, 2);
     trial.jerk = trial.acceleration * random.magnitude(0.43, 1.7);
     trial.lines = i % 3 == 0 ? 1 : 1 + random.below(40);
     SCOPED_TRACE(testing::Message()
@@ -132,4 +133,76 @@ TEST(FeedHold, RestsSoonWhereverItIs) {
     drive.run([&] { return drive.velocity() > 0; }, 1);
     EXPECT_GT(drive.velocity(), 0);
   }
+}
+
+/// Lines with corners of any angle, which the axes' accelerations limit.
+void cornerProgram(Drive &drive, Trial &trial, Random &random) {
+  double x = 0;
+  double y = 0;
+  double direction = 0;
+  const double length = trial.feed * trial.ramp() * random.magnitude(-1, 1);
+  for (int i = 0; i < 60; ++i) {
+    direction += random.chance(0.7) ? random.uniform(-2, 2) : random.uniform(-0.1, 0.1);
+    const double way = length * random.magnitude(-0.7, 0.3);
+    stride::cnc::PathObject &line =
+        drive.line(x += way * std::cos(direction), y += way * std::sin(direction));
+    line.velocity = line.velocityEnd =
+        trial.feed * (random.chance(0.7) ? 1 : random.uniform(0.3, 1));
+    line.acceleration = trial.acceleration;
+    line.deceleration = trial.deceleration;
+  }
+  drive.queue.endOfList = 1;
+  drive.command.cycle = 0.001;
+  drive.command.budget = 64;
+  drive.command.jerk = trial.jerk;
+  drive.command.limitKinks = true;
+  for (const int32_t axis : {stride::cnc::kAxisX, stride::cnc::kAxisY})
+    drive.command.limits.acceleration[axis] = trial.acceleration * random.uniform(0.7, 2);
+}
+
+/// The same on paths with corners, which it has to pass slowly.
+TEST(FeedHold, RestsSoonBetweenCorners) {
+  Random random(6);
+  double worst = 0;
+  int judged = 0;
+  for (int i = 0; i < casesOf(1000); ++i) {
+    Trial trial = randomTrial(random, i);
+    trial.deceleration = trial.acceleration = trial.feed * random.magnitude(0, 2);
+    trial.jerk = trial.acceleration * random.magnitude(0.43, 1.7);
+    SCOPED_TRACE(testing::Message() << "trial " << i << ", feed " << trial.feed);
+    Drive drive(LawKind::Jerk);
+    cornerProgram(drive, trial, random);
+    drive.start();
+    const double hold = trial.ramp() * random.uniform(0.2, 12);
+    while (drive.time < hold && drive.interpolator->phase != Phase::Finished)
+      drive.step();
+    const double *axes = drive.command.limits.acceleration;
+    const double braking = std::min({trial.acceleration, axes[0], axes[1]});
+    const double allowed = 1.3 * (trial.feed / braking + 2 * braking / trial.jerk);
+    const double begin = drive.time;
+    judged += drive.velocity() > 0 ? 1 : 0;
+    drive.command.slowStop = true;
+    while (drive.velocity() > 0)
+      drive.step();
+    worst = std::max(worst, (drive.time - begin) / allowed);
+    ASSERT_LT(drive.time - begin, allowed);
+  }
+  EXPECT_GT(judged, casesOf(1000) / 2);
+  std::printf("%d stops between corners: %.2f of the time that they may take at most\n", judged,
+              worst);
+}
+
+/// On a straight line it begins in the same call: the ramp takes no planning to speak of.
+TEST(FeedHold, BeginsAtOnce) {
+  Drive drive(LawKind::Jerk);
+  drive.line(1000, 0);
+  drive.queue.endOfList = 1;
+  drive.start();
+  drive.run([&] { return drive.velocity() >= 100 && drive.progress().motion.acceleration == 0; });
+  drive.command.slowStop = true;
+  drive.step();
+  EXPECT_LT(drive.velocity(), 100);
+  const double begin = drive.time - kCycle;
+  drive.run([&] { return !(drive.velocity() > 0); });
+  EXPECT_LE(drive.time - begin, 100.0 / 500 + 500.0 / drive.command.jerk + kCycle);
 }

@@ -90,6 +90,7 @@ struct Motion {
   Wish asked;    ///< Session: what it is planned for.
   int32_t pause; ///< Calls of think() until another wish is tried again.
   bool urgent;   ///< Session: because of another wish.
+  bool byRamp;   ///< Session: to stop by a ramp in closed form, which takes a few steps.
   bool refused;  ///< The last other wish was not to be had from where the motion was.
   bool resting;  ///< It is where the path rests.
   bool gate;     ///< It is at rest where it has to wait until it is told to go on.

@@ -13,7 +13,6 @@ constexpr int32_t kFirstCells = 96;      ///< Of the first plan after rest: it i
 constexpr int32_t kCellsToStop = 75;     ///< Of a plan that only stops, about.
 constexpr int32_t kUrgentCells = 128;    ///< Of a plan that is to change the motion.
 constexpr int32_t kLeastCells = 48;      ///< Of a plan that goes on with the motion.
-constexpr int32_t kReservedPieces = 4;   ///< Of the ring: what one step writes at most.
 constexpr int32_t kMostTries = 24;       ///< To find a place to stop at.
 /// How much longer than on a straight line a stop is tried to be at first. (A plan has a little
 /// more jerk to spare for each of its cells.)
@@ -25,10 +24,6 @@ bool differs(const Wish &a, const Wish &b) noexcept {
   return a.override != b.override || a.limit != b.limit || a.deceleration != b.deceleration ||
          a.stop != b.stop;
 }
-
-bool hasJerk(const Motion &motion) noexcept { return motion.settings.kind == LawKind::Jerk; }
-
-int64_t lastPiece(const Motion &motion) noexcept { return motion.law.next - 1; }
 
 /// Up to where the motion may go by what is known now. [u]
 double reachable(const Motion &motion) noexcept {
@@ -74,11 +69,11 @@ double cellTimeFor(const Motion &motion, double way, double present) noexcept {
 /// See PlanTask::rampPart. Where curves leave little to brake with, passes stop sooner; where they
 /// do not find how, a long ramp is better than none.
 constexpr double kRampPart = 0.05;
-double stopRampPart(int32_t tries) noexcept {
+double stopRampPart(const Motion &motion) noexcept {
   constexpr int32_t kTriesOfPasses = 3;
-  if (tries == 0)
+  if (motion.byRamp)
     return 0.5;
-  return tries == kTriesOfPasses ? kRampPart : 1.0;
+  return motion.tries == kTriesOfPasses ? kRampPart : 1.0;
 }
 
 void beginPlan(Motion &motion, const WayState &state, double hurry) noexcept {
@@ -95,7 +90,7 @@ void beginPlan(Motion &motion, const WayState &state, double hurry) noexcept {
   task.cells = motion.cells;
   task.hurry = hurry;
   task.limit = motion.asked.limit;
-  task.rampPart = motion.asked.stop ? stopRampPart(motion.tries) : kRampPart;
+  task.rampPart = motion.asked.stop ? stopRampPart(motion) : kRampPart;
   task.end = exact::kInfinity;
   if (motion.asked.limit < endOf(motion.course))
     task.end = motion.asked.limit;
@@ -119,6 +114,7 @@ void beginFromRest(Motion &motion, double way, int32_t budget) noexcept {
   motion.steps = 0;
   motion.tries = 0;
   motion.urgent = false;
+  motion.byRamp = false;
   motion.cells = kFirstCells;
   const double free = isAtRest(motion) ? 0.0 : timeLeft(motion);
   const double needed = planningTime(motion, kStepsPerCell * kFirstCells, budget);
@@ -164,6 +160,24 @@ bool isTimeToExtend(Motion &motion, int32_t budget) noexcept {
   return true;
 }
 
+/// How far ahead passes plan for another wish. [s]
+double passesLead(const Motion &motion, int32_t budget) noexcept {
+  const double least =
+      hasJerk(motion) ? planningTime(motion, kStepsPerCell * kCellsToStop, budget) : 0.0;
+  return larger(motion.urgentLead, least);
+}
+
+/// How far ahead a ramp is planned: not at all, if this call is enough for it. [s]
+double rampLead(const Motion &motion, int32_t budget) noexcept {
+  constexpr int32_t kSteps = 16;
+  constexpr int32_t kStepsPerStrip = 2;
+  const double end = smaller(stoppingWay(motion), endOf(motion.course));
+  const auto strips =
+      static_cast<int32_t>(stripOf(motion.course, end) - stripOf(motion.course, motion.way));
+  const int32_t steps = kSteps + kStepsPerStrip * strips;
+  return steps < budget ? 0.0 : planningTime(motion, steps, budget);
+}
+
 /// Whether there is something to plan; begins it.
 bool beginSession(Motion &motion, int32_t budget) noexcept {
   const Wish &wish = motion.wish;
@@ -177,9 +191,8 @@ bool beginSession(Motion &motion, int32_t budget) noexcept {
   }
   if (motion.pause == 0 && differs(wish, motion.planned) && !(wish.stop && motion.planned.stop)) {
     motion.cells = hasJerk(motion) ? kUrgentCells : kCells;
-    const double least =
-        hasJerk(motion) ? planningTime(motion, kStepsPerCell * kCellsToStop, budget) : 0.0;
-    motion.lead = larger(motion.urgentLead, least);
+    motion.byRamp = wish.stop && hasJerk(motion);
+    motion.lead = motion.byRamp ? rampLead(motion, budget) : passesLead(motion, budget);
     beginSeeking(motion, true);
     return true;
   }
@@ -196,6 +209,7 @@ bool beginSession(Motion &motion, int32_t budget) noexcept {
   }
   if (!isTimeToExtend(motion, budget))
     return false;
+  motion.byRamp = false;
   beginSeeking(motion, false);
   return true;
 }
@@ -316,8 +330,25 @@ void cutLaw(Motion &motion) noexcept {
   motion.session = Session::Writing;
 }
 
+/// No ramp stops the motion from where it was tried, or it was found too late: from further ahead,
+/// or by passes.
+void stopLater(Motion &motion, int32_t budget, bool inTime) noexcept {
+  constexpr double kCycles = 4.0;
+  motion.lead = inTime ? motion.lead + kCycles * motion.cycle
+                       : larger(1.5 * motion.lead, planningTime(motion, motion.steps, budget));
+  const double least = passesLead(motion, budget);
+  motion.byRamp = motion.lead < least;
+  motion.lead = smaller(motion.lead, least);
+  beginSeeking(motion, true);
+}
+
 void planned(Motion &motion, int32_t budget, int32_t left) noexcept {
-  if (!isInTime(motion, budget, left)) {
+  const bool inTime = isInTime(motion, budget, left);
+  if (motion.byRamp && !(inTime && motion.plan.state == PlanState::Done)) {
+    stopLater(motion, budget, inTime);
+    return;
+  }
+  if (!inTime) {
     if (motion.urgent)
       motion.urgentLead = larger(1.5 * motion.lead, planningTime(motion, motion.steps, budget));
     motion.session = Session::None;
@@ -337,77 +368,6 @@ void planned(Motion &motion, int32_t budget, int32_t left) noexcept {
   motion.refused = motion.urgent;
   motion.pause = motion.urgent ? kPause : 0;
   motion.session = Session::None;
-}
-
-void push(Motion &motion, const TimePiece &piece) noexcept {
-  Law &law = motion.law;
-  const bool empty = law.first == law.next;
-  if (empty) {
-    motion.since = 0.0;
-    motion.cycles = 0;
-  }
-  const double before = empty ? 0.0 : untilAt(law, law.next - 1);
-  pieceAt(law, law.next) = piece;
-  untilAt(law, law.next) = before + piece.duration;
-  endAt(law, law.next) = piece.start + piece.length;
-  markAt(law, law.next) = 0;
-  ++law.next;
-  const bool brakes = piece.acceleration < 0.0 || piece.law == PieceLaw::ToRest ||
-                      (piece.law == PieceLaw::ConstantJerk && piece.gradient < 0.0);
-  motion.tail = brakes ? motion.tail + piece.duration : 0.0;
-}
-
-/// Writes what has been put off.
-void pushRamp(Motion &motion) noexcept {
-  TimePiece &ramp = motion.ramp;
-  if (!(ramp.length > 0.0))
-    return;
-  const bool sigmoid = motion.settings.kind == LawKind::Sigmoid && ramp.acceleration != 0.0;
-  push(motion, sigmoid ? sineSquaredPiece(ramp.start, ramp.length, ramp.velocity, ramp.acceleration)
-                       : ramp);
-  ramp.length = 0.0;
-}
-
-/// A trapezoid's ramp may go on over several strips.
-void pushStrip(Motion &motion, int64_t strip) noexcept {
-  TimePiece pieces[3];
-  const int32_t count = piecesOf(motion.plan, motion.course, strip, pieces);
-  for (int32_t i = 0; i < count; ++i) {
-    TimePiece &ramp = motion.ramp;
-    const TimePiece &piece = pieces[i];
-    if (ramp.length > 0.0 && piece.acceleration == ramp.acceleration) {
-      ramp = linearPiece(ramp.start, piece.start + piece.length - ramp.start, ramp.velocity,
-                         ramp.acceleration, 0.0);
-      continue;
-    }
-    pushRamp(motion);
-    ramp = piece;
-  }
-}
-
-/// Writes one cell or strip of the plan; false: there is no room.
-bool write(Motion &motion) noexcept {
-  const Plan &plan = motion.plan;
-  if (motion.law.next - motion.law.first > kPieces - kReservedPieces)
-    return false;
-  bool done = false;
-  if (hasJerk(motion)) {
-    push(motion, pieceOf(plan, static_cast<int32_t>(motion.writing)));
-    done = ++motion.writing == pieceCount(plan);
-  } else {
-    pushStrip(motion, motion.writing);
-    done = motion.writing++ == plan.lastStrip;
-    if (done)
-      pushRamp(motion);
-  }
-  if (done) {
-    endAt(motion.law, lastPiece(motion)) = plan.end;
-    const bool final = plan.stops && plan.task.end == exact::kInfinity;
-    markAt(motion.law, motion.law.next - 1) =
-        static_cast<uint8_t>(kRest | (final ? kFinal : 0) | (final && plan.gate ? kGate : 0));
-    motion.session = Session::None;
-  }
-  return true;
 }
 
 } // namespace

@@ -31,10 +31,18 @@ inline double &endAt(Law &law, int64_t number) noexcept {
   return law.end[static_cast<uint64_t>(number) % kPieces];
 }
 
+inline int64_t lastPiece(const Motion &motion) noexcept { return motion.law.next - 1; }
+
+inline bool hasJerk(const Motion &motion) noexcept { return motion.settings.kind == LawKind::Jerk; }
+
 /// How long the motion has been in the first piece of the law. [s]
 inline double timeInPiece(const Motion &motion) noexcept {
   return motion.since + motion.cycle * static_cast<double>(motion.cycles);
 }
+
+/// Writes one cell or strip of the plan into the law; after the last one the session ends. False:
+/// there is no room.
+bool write(Motion &motion) noexcept;
 
 } // namespace stride::path
 

@@ -39,7 +39,7 @@ struct PlanTask {
                        ///< [u/s^2]
   double limit;        ///< It goes no further than this way, also to stop; kInfinity: none. [u]
   double rampPart;     ///< Which part of the axes' acceleration curves must leave for a ramp in
-                       ///< closed form; 1: no ramp.
+                       ///< closed form; 1: no ramp; less, and a stop is nothing but a ramp.
   int32_t cells;       ///< How many may be used, up to kCells.
   bool whole;          ///< The run must reach `end`, however many cells that takes.
 };
@@ -74,7 +74,9 @@ struct Plan {
   PlanTask task;       ///< After a ramp: from its end on.
   WayState from;       ///< Where the plan begins.
   double rampSquare;   ///< The ramp: b at its end, as far as it is known. [u^2/s^2]
-  double rampMost;     ///< Its greatest deceleration, likewise. [u/s^2]
+  double rampMost;     ///< How hard it may brake, likewise. [u/s^2]
+  double rampPeak;     ///< How hard it brakes. [u/s^2]
+  double rampHere;     ///< Its velocity where the present strip begins, likewise. [u/s]
   double rampEnd;      ///< Way at its end. [u]
   double rampVelocity; ///< There. [u/s]
   Cell cell[kCells];

@@ -20,6 +20,18 @@ double peakOf(const Plan &plan) noexcept {
   return from.velocity + 0.5 * rising * rising / plan.task.jerk;
 }
 
+/// Where the ramp has it. [u]
+double peakWayOf(const Plan &plan) noexcept {
+  const WayState &from = plan.from;
+  const double time = larger(from.acceleration, 0.0) / plan.task.jerk;
+  return from.way + (from.velocity + from.acceleration * time / 3.0) * time;
+}
+
+/// The greatest deceleration that a strip allows, without regard to the axes. [u/s^2]
+double mostIn(const Plan &plan, const Strip &strip) noexcept {
+  return larger(strip.deceleration, plan.task.deceleration);
+}
+
 /// Up to where the ramp may go. [u]
 double limitOf(const Plan &plan) noexcept {
   return plan.task.whole ? plan.task.limit : plan.task.end;
@@ -64,6 +76,7 @@ void writeRamp(Plan &plan) noexcept {
   }
   plan.rampEnd = state.way;
   plan.rampVelocity = state.velocity;
+  plan.rampPeak = peak;
 }
 
 /// Whether the motion brakes so hard that it would have to go back before that has ended.
@@ -84,10 +97,12 @@ void endWithRamp(Plan &plan) noexcept {
   plan.gate = false;
 }
 
-/// No ramp: the cells begin where the plan does.
+/// No ramp: the cells begin where the plan does; a stop has none.
 bool dropRamp(Plan &plan) noexcept {
   plan.ramp = 0;
   plan.rampRefused = true;
+  if (plan.task.whole)
+    plan.state = PlanState::Failed;
   return true;
 }
 
@@ -107,13 +122,33 @@ double presentOverride(const Plan &plan, const Course &course) noexcept {
   return larger(larger(plan.task.override, plan.task.before), plan.from.velocity / feed);
 }
 
+/// The greatest velocity of the ramp from a way in it on. [u/s]
+double greatestFrom(const Plan &plan, double way) noexcept {
+  return way < peakWayOf(plan) ? peakOf(plan) : velocityOfRamp(plan, way);
+}
+
+/// Whether the present strip, which comes after the first one, allows the ramp. While that still
+/// accelerates, it is below the law that it takes over from, in velocity and acceleration.
+bool allowsRamp(const Plan &plan, const Course &course) noexcept {
+  const Strip &strip = stripAt(course, plan.strip);
+  const double override = presentOverride(plan, course);
+  const double velocity = greatestFrom(plan, beginOf(course, plan.strip));
+  const double square = velocity * velocity;
+  const double most =
+      smaller(squareIn(strip, override), squareAtEnd(stripAt(course, plan.strip - 1), override));
+  return square <= most * kAlmost && plan.rampPeak <= mostIn(plan, strip) * kAlmost &&
+         plan.rampPeak * strip.along + square * strip.across <= kAlmost;
+}
+
 } // namespace
 
 bool findRamp(Plan &plan, const Course &course) noexcept {
   const PlanTask &task = plan.task;
   if (plan.rampRefused || plan.ramp > 0 || startsAtRest(plan) || task.rampPart >= 1.0 ||
-      task.jerk == exact::kInfinity || brakesTooHard(plan))
+      task.jerk == exact::kInfinity)
     return true;
+  if (brakesTooHard(plan))
+    return dropRamp(plan);
   const Strip &strip = stripAt(course, plan.strip);
   const double peak = peakOf(plan);
   if (plan.strip == plan.firstStrip) {
@@ -123,17 +158,11 @@ bool findRamp(Plan &plan, const Course &course) noexcept {
   plan.rampSquare = smaller(plan.rampSquare, squareIn(strip, task.override));
   if (peak * peak <= plan.rampSquare * kAlmost) // not quicker than it may be
     return dropRamp(plan);
-  const double left = 1.0 - strip.across * peak * peak;
+  const double here = plan.strip > plan.firstStrip ? plan.rampHere : peak;
+  const double left = 1.0 - strip.across * here * here;
   if (!(left > task.rampPart))
     return dropRamp(plan);
-  const double most = larger(strip.deceleration, task.deceleration);
-  plan.rampMost = smaller(plan.rampMost, smaller(most, left / strip.along));
-  if (plan.strip > plan.firstStrip) {
-    const double present = plan.from.acceleration;
-    const double least = smaller(strip.acceleration, left / strip.along);
-    if (present > least || -present > plan.rampMost)
-      return dropRamp(plan);
-  }
+  plan.rampMost = smaller(plan.rampMost, smaller(mostIn(plan, strip), left / strip.along));
   writeRamp(plan);
   if (!task.whole && !(plan.rampVelocity > 0.0))
     return dropRamp(plan);
@@ -141,6 +170,7 @@ bool findRamp(Plan &plan, const Course &course) noexcept {
     plan.strip = plan.firstStrip;
     return true;
   }
+  plan.rampHere = greatestFrom(plan, strip.end);
   plan.ramp = 0;
   if (strip.stop || strip.end >= limitOf(plan) || plan.strip + 1 == course.next)
     return dropRamp(plan);
@@ -153,15 +183,8 @@ bool followRamp(Plan &plan, const Course &course) noexcept {
   if (plan.ramp == 0 || plan.task.way > plan.from.way) // none, or passed
     return true;
   const Strip &strip = stripAt(course, plan.strip);
-  const double before = presentOverride(plan, course);
-  const double begin = beginOf(course, plan.strip);
-  if (begin > plan.from.way) {
-    const double velocity = velocityOfRamp(plan, begin);
-    const double most =
-        smaller(squareIn(strip, before), squareAtEnd(stripAt(course, plan.strip - 1), before));
-    if (velocity * velocity > most * kAlmost)
-      return dropRamp(plan);
-  }
+  if (plan.strip > plan.firstStrip && !allowsRamp(plan, course))
+    return dropRamp(plan);
   if (plan.rampEnd >= strip.end) {
     ++plan.strip;
     return false;
