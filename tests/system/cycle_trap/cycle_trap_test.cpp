@@ -27,6 +27,8 @@ std::vector<std::string> projects() {
       const std::string name = entry.path().filename().string();
       if (name == "quick_stop") // ends with an exception, for which there is memory
         continue;
+      if (name == "Engraving") // reads a file, which simulation does within the cycle
+        continue;
       if (entry.is_directory() && fs::exists(entry.path() / "stride.toml") &&
           name.rfind("fail_", 0) != 0 && name.rfind("warn_", 0) != 0)
         found.push_back(entry.path().string());
