@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -250,6 +251,110 @@ TEST(PathMotion, IsNearlyAsQuickAsTheClosedFormOnALine) {
     EXPECT_LE(ratio, 1.01) << length;
     EXPECT_NEAR(plannedTime(length, false) / closedForm(length), 1, 1e-9) << length;
   }
+}
+
+/// A course of two strips of the same limits, the second of which ends in a stop.
+std::unique_ptr<Course> simpleCourse(double length) {
+  auto course = std::make_unique<Course>();
+  Strip strip{};
+  strip.feed = strip.endFeed = kVelocity;
+  strip.ceiling = strip.endCeiling = stride::exact::kInfinity;
+  strip.acceleration = strip.deceleration = kAcceleration;
+  for (const double part : {0.37, 1.0}) {
+    strip.end = part * length;
+    strip.stop = part == 1.0;
+    append(*course, strip, 0.0);
+  }
+  return course;
+}
+
+PlanTask simpleTask(double velocity, double acceleration) {
+  PlanTask task{};
+  task.velocity = velocity;
+  task.acceleration = acceleration;
+  task.end = task.limit = stride::exact::kInfinity;
+  task.jerk = kJerk;
+  task.cellTime = 0.002;
+  task.override = task.before = task.rampPart = 1;
+  task.cells = kCells;
+  return task;
+}
+
+/// A plan from a state in which the motion accelerates or brakes goes on from it without a jump,
+/// within all limits, to rest.
+TEST(PathMotion, PlansFromAnyStateGoOnFromIt) {
+  Random random(12);
+  auto plan = std::make_unique<Plan>();
+  int braking = 0;
+  int failed = 0;
+  for (int i = 0; i < casesOf(2000) && !HasFailure(); ++i) {
+    const auto course = simpleCourse(random.magnitude(0.5, 2));
+    const double a = kAcceleration * random.uniform(-1, 1);
+    const double v = kVelocity * random.uniform(0.02, 1) - std::max(0.0, 0.5 * a * a / kJerk);
+    if (!(v > 0) || (a < 0 && 0.5 * a * a / kJerk > v))
+      continue;
+    SCOPED_TRACE(testing::Message() << "case " << i << ": from " << v << ", " << a);
+    begin(*plan, *course, simpleTask(v, a));
+    work(*plan, *course, 1'000'000);
+    if (plan->state != PlanState::Done) { // it cannot stop any more, or was not found
+      ++failed;
+      continue;
+    }
+    braking += a < 0 ? 1 : 0;
+    WayState last{0, v, a, 0};
+    for (int32_t k = 0; k < pieceCount(*plan); ++k) {
+      const TimePiece piece = pieceOf(*plan, k);
+      ASSERT_GT(piece.duration, 0);
+      const WayState first = stateAt(piece, 0);
+      EXPECT_NEAR(first.velocity, last.velocity, 1e-6 * kVelocity);
+      EXPECT_NEAR(first.acceleration, last.acceleration, 1e-5 * kAcceleration);
+      for (const double part : {0.0, 0.5, 1.0}) {
+        const WayState state = stateAt(piece, part * piece.duration);
+        EXPECT_LE(state.velocity, kVelocity * (1 + 1e-6));
+        EXPECT_LE(std::fabs(state.acceleration), kAcceleration * (1 + 1e-6));
+        EXPECT_LE(std::fabs(state.jerk), kJerk * (1 + 1e-5));
+      }
+      last = stateAt(piece, piece.duration);
+    }
+    EXPECT_NEAR(last.way, plan->end, 1e-9 * plan->end);
+    EXPECT_NEAR(last.velocity, 0, 1e-6);
+  }
+  EXPECT_GT(braking, casesOf(2000) / 5);
+  EXPECT_LT(failed, casesOf(2000) / 4);
+}
+
+/// Whether all that a plan says is a number.
+bool isFinite(const Plan &plan) {
+  for (int32_t k = 0; k < pieceCount(plan); ++k) {
+    const TimePiece piece = pieceOf(plan, k);
+    for (const double value : {piece.length, piece.velocity, piece.acceleration, piece.gradient,
+                               piece.duration, stateAt(piece, piece.duration).way})
+      if (!std::isfinite(value))
+        return false;
+  }
+  return true;
+}
+
+/// What is no number never becomes a motion: the plan fails, or does without it.
+TEST(PathMotion, NoPlanComesOfWhatIsNoNumber) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  double Strip::*const members[] = {&Strip::feed,       &Strip::endFeed,      &Strip::ceiling,
+                                    &Strip::endCeiling, &Strip::acceleration, &Strip::deceleration,
+                                    &Strip::along,      &Strip::across};
+  auto plan = std::make_unique<Plan>();
+  int failed = 0;
+  for (double Strip::*const member : members)
+    for (const int64_t strip : {0, 1})
+      for (const double velocity : {0.0, 100.0}) {
+        const auto course = simpleCourse(30);
+        stripAt(*course, strip).*member = kNan;
+        begin(*plan, *course, simpleTask(velocity, 0));
+        work(*plan, *course, 1'000'000);
+        EXPECT_NE(plan->state, PlanState::Working);
+        failed += plan->state == PlanState::Failed ? 1 : 0;
+        EXPECT_TRUE(plan->state == PlanState::Failed || isFinite(*plan));
+      }
+  EXPECT_GT(failed, 0);
 }
 
 } // namespace

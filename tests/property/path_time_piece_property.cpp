@@ -56,6 +56,23 @@ WayState textbook(const TimePiece &p, long double t) {
           static_cast<double>(a0 * c + g * v0 * s), static_cast<double>(g * v)};
 }
 
+/// Out of rest without acceleration it would never end; rounding makes less or more of that.
+TEST(PathTimePiece, EndsEvenIfItNeverLeavesRest) {
+  Random random(8);
+  for (int i = 0; i < casesOf(20000) && !HasFailure(); ++i) {
+    const double length = random.magnitude(-6, 4);
+    const double gradient = random.magnitude(-6, 9);
+    for (const bool into : {false, true}) {
+      const double end = std::sqrt(gradient) * length;
+      const TimePiece piece =
+          linearPiece(0, length, into ? end : 0, into ? -gradient * length : 0, gradient);
+      EXPECT_TRUE(std::isfinite(piece.duration)) << length << ", " << gradient;
+      EXPECT_GT(piece.duration, 0);
+      EXPECT_TRUE(std::isfinite(stateAt(piece, piece.duration).way));
+    }
+  }
+}
+
 TEST(PathTimePiece, IsTheSolutionOfItsEquation) {
   for (int i = 0; i < casesOf(50000) && !HasFailure(); ++i) {
     SCOPED_TRACE("seed " + std::to_string(i));

@@ -211,6 +211,8 @@ void turn(Interpolator &interpolator, const Command &command) noexcept {
   interpolator.hasHere = object != nullptr && segmentOf(interpolator, *object, interpolator.here);
   interpolator.next = interpolator.here;
   interpolator.hasNext = interpolator.hasHere && left < interpolator.here.length;
+  interpolator.known =
+      interpolator.hasHere && !interpolator.hasNext ? 1 : 0; // it is behind already
   interpolator.nextWay = left;
   interpolator.nextBegin = -left;
   interpolator.nextEnd = interpolator.here.length - left;

@@ -131,13 +131,14 @@ void beginSeeking(Motion &motion, bool urgent) noexcept {
   motion.session = Session::Seeking;
 }
 
-/// How many cells what is known of the path needs, at most `most`.
+/// How many cells what is known of the path needs, at most `most`. If there were too few for the
+/// last plan, its first idea was wrong, and so would be this one.
 int32_t cellsFor(const Motion &motion, int32_t most) noexcept {
   constexpr double kRamps = 40.0; // which are finer
   const Strip &strip = stripAtWay(motion, motion.way);
   const double length = exact::sqrt(squareIn(strip, motion.wish.override)) * motion.cellTime;
   const double cells = kRamps + 1.2 * (reachable(motion) - motion.way) / length;
-  return cells < most ? static_cast<int32_t>(cells) : most;
+  return cells < most && motion.plan.cuts == 0 ? static_cast<int32_t>(cells) : most;
 }
 
 /// Whether more of the path has to be planned before the motion begins to brake for the end of its

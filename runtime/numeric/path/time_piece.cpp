@@ -37,12 +37,13 @@ Hyperbolic hyperbolic(double y) noexcept {
   return {c, s, d};
 }
 
-/// atanh(q) / q with q^2 = z < 1; for negative z that of atan. (Of 1, which rounding may make of
-/// it, it would be infinite.)
+/// atanh(q) / q with q^2 = z < 1; for negative z that of atan. (Of 1 it would be infinite, and
+/// rounding may make more of it.)
 double arcOverArgument(double z) noexcept {
-  constexpr int kMost = 64;
+  constexpr double kBelowOne = 1.0 - 0x1p-53;
   double factor = 1.0;
-  for (int k = 0; k < kMost && exact::fabs(z) > 0.02; ++k) { // half of the angle
+  z = z > kBelowOne ? kBelowOne : z;
+  while (exact::fabs(z) > 0.02) { // half of the angle
     const double root = 1.0 + exact::sqrt(1.0 - z);
     factor *= 2.0 / root;
     z /= root * root;

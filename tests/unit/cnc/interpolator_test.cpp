@@ -245,6 +245,31 @@ TEST_P(EachLaw, GoesBackWithNegativeOverrides) {
   EXPECT_EQ(cnc::countOf(&drive.queue), 4U);
 }
 
+TEST(Interpolator, TurnsRoundAtTheBorderOfTwoObjects) {
+  Drive drive;
+  drive.line(30, 0, 0);
+  drive.line(70, 0, 0);
+  drive.queue.endOfList = 1;
+  drive.command.twoWays = true;
+  drive.command.waitAtNextStop = true;
+  drive.start();
+  drive.run([&] { return drive.x() == 30 && drive.progress().waits; });
+  drive.command.override = -1;
+  drive.command.waitAtNextStop = false;
+  double way = -drive.progress().length;
+  drive.run(
+      [&] {
+        way += drive.progress().length;
+        return drive.progress().atEnd && drive.interpolator->backwards;
+      },
+      5);
+  EXPECT_EQ(drive.x(), 0);
+  EXPECT_NEAR(way, 30, 1e-9);
+  drive.command.override = 1;
+  drive.run([&] { return drive.progress().atEnd && drive.x() == 70; }, 5);
+  EXPECT_EQ(drive.x(), 70);
+}
+
 TEST(Interpolator, ADryRunIsNotFasterWhateverTheOverrideIs) {
   Drive drive;
   drive.line(1000, 0);
