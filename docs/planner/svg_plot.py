@@ -35,8 +35,10 @@ class Plot:
         d = "L".join(f"{x:.1f} {y:.1f}" for x, y in (self.place(*point) for point in points))
         style = f' stroke-dasharray="{dash}"' if dash else ""
         self.body.append(f'<path d="M{d}" fill="none" stroke="{color}" stroke-width="{width}"{style}/>')
+        if not name:
+            return
         at = self.frame[0] + self.legend
-        self.body.append(f'<path d="M{at} 18h18" stroke="{color}" stroke-width="{width}"{style}/>')
+        self.body.append(f'<path d="M{at} 18h18" stroke="{color}" stroke-width="{min(width, 12)}"{style}/>')
         self.body.append(f'<text x="{at + 24}" y="22">{name}</text>')
         self.legend += 44 + 6.4 * len(name)
 

@@ -4,7 +4,8 @@
 usage: figures.py STRIDE [OUT]
 
 Without OUT it says which of the pictures beside it are no longer what it would draw. It writes OUT/tool.svg (a contour and the tool's centre on both sides of it), OUT/loops.svg (a slot that is narrower than the tool, with its
-loops and without) and OUT/corner.svg (what SMC_RoundPath and SMC_SmoothPath put into a corner).
+loops and without), OUT/corner.svg (what SMC_RoundPath and SMC_SmoothPath put into a corner), and of the example LaserCut OUT/part.svg and
+OUT/slit.svg (what the beam burns).
 """
 import csv
 import pathlib
@@ -134,6 +135,37 @@ def draw_corner(paths, out):
     plot.write(out / "corner.svg")
 
 
+def drive_laser(stride, folder):
+    """The example LaserCut: the places of the path with kerf correction where the beam is on, contour by contour, and those without it."""
+    example = pathlib.Path(__file__).resolve().parents[2] / "examples" / "LaserCut"
+    table = folder / "laser.csv"
+    place = [f"Ipo.Interpolator.piSetPosition.{axis}" for axis in ("dX", "dY")]
+    subprocess.run([stride, "sim", example, "--for", "27s", "--script", example / "operator.script", "--trace",
+                    ",".join([*place, "Ipo.Interpolator.dwSwitches", "g_bKerf"]), "--out", table], check=True)
+    runs = {"1": [[]], "0": [[]]}
+    with table.open(encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            contours = runs[row["g_bKerf"]]
+            if row["Ipo.Interpolator.dwSwitches"] != "0":
+                contours[-1].append((float(row[place[0]]), float(row[place[1]])))
+            elif contours[-1]:
+                contours.append([])
+    return [[contour for contour in run if contour] for run in runs.values()]
+
+
+def draw_laser(runs, out):
+    for name, size, x, y in (("part", (900, 572), (-6, 104, range(0, 101, 10)), (-3, 63, range(0, 61, 10))),
+                             ("slit", (560, 560), (40.5, 49.5, range(41, 50)), (51.6, 60.8, range(52, 61)))):
+        plot = Plot(size, x, y, ("X [mm]", "Y [mm]"))
+        kerf = 0.3 * (plot.frame[2] - plot.frame[0]) / (x[1] - x[0])
+        for run, texts, color, width in ((runs[0], ("burned by the beam",), "#f2b48a", kerf), (runs[1], ("contour",), COLORS[0], 1.2)):
+            for contour, text in zip(reversed(run), (*texts, "", "", "")):
+                shown = [place for place in contour if x[0] <= place[0] <= x[1] and y[0] <= place[1] <= y[1]]
+                if shown:
+                    plot.line([*shown[::3], shown[-1]], color, text, round(width, 1))
+        plot.write(out / f"{name}.svg")
+
+
 def main():
     stride, here = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(__file__).resolve().parent
     with tempfile.TemporaryDirectory() as name:
@@ -141,6 +173,7 @@ def main():
         paths = drive(stride, pathlib.Path(name))
         for draw in (draw_tool, draw_loops, draw_corner):
             draw(paths, out)
+        draw_laser(drive_laser(stride, pathlib.Path(name)), out)
         if len(sys.argv) == 2:
             old = [new.name for new in sorted(out.glob("*.svg")) if new.read_bytes() != (here / new.name).read_bytes()]
             if old:

@@ -1,0 +1,46 @@
+% a plate with a slot, two holes and a slit
+(M3: pierce; H1, H-1: laser on and off. Holes go counterclockwise and the outline clockwise, so that the waste is on the left)
+N10 G17
+N20 G0 X50 Y30 F60 E2000 E-2000 FF300 EF4000 EF-4000
+N30 M3 (the slot)
+N40 G41 D0.15
+N50 G1 Y26 H1 L0
+N60 X60
+N70 G3 Y34 J4
+N80 G1 X40
+N90 G3 Y26 J-4
+N100 G1 X50 H-1 O1
+N110 G40
+N120 G0 X20 Y30
+N130 M3 (a hole)
+N140 G41 D0.15
+N150 G1 X28 H1 L0
+N160 G3 I-8 H-1 O1
+N170 G40
+N180 G0 X80 Y30
+N190 M3 (a hole)
+N200 G41 D0.15
+N210 G1 X88 H1 L0
+N220 G3 I-8 H-1 O1
+N230 G40
+N240 G0 X-4 Y30
+N250 M3 (the outline)
+N260 G41 D0.15
+N270 G61
+N280 G1 X0 H1 L0
+N290 Y54
+N300 G2 X6 Y60 I6
+N310 G1 X45
+N320 Y52 (a slit that is narrower than the beam)
+N330 X45.2
+N340 Y60
+N350 X94
+N360 G2 X100 Y54 J-6
+N370 G1 Y6
+N380 G2 X94 Y0 I-6
+N390 G1 X6
+N400 G2 X0 Y6 J6
+N410 G1 Y30 H-1 O1
+N420 G60
+N430 G40
+N440 G0 X0 Y0
