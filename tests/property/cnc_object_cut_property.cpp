@@ -237,7 +237,9 @@ TEST(CncObjectCut, RefusesWhatCannotBeCut) {
   profile.slopes = 2;
   EXPECT_EQ(splitObject(profile, 3, first, second), CutError::None); // B is no axis of it
   profile.slopes = 1;
-  EXPECT_EQ(splitObject(profile, 3, first, second), CutError::Profile);
+  EXPECT_EQ(splitObject(profile, 3, first, second), CutError::None); // slopes can be cut
+  profile.start.sProfile = 1 << kAxisA;
+  EXPECT_EQ(splitObject(profile, 3, first, second), CutError::None); // and count before a profile
 
   PathObject function{};
   function.moveType = MoveType::Function;

@@ -54,6 +54,7 @@ STRIDE_SAME_PLACE(PathObject, marks, st::SMC_GEOINFO, byInternMark);
 STRIDE_SAME_PLACE(PathObject, switchPosition, st::SMC_GEOINFO, dHelpPos);
 STRIDE_SAME_PLACE(PathObject, switchId, st::SMC_GEOINFO, iHelpID);
 STRIDE_SAME_PLACE(PathObject, sentence, st::SMC_GEOINFO, diSentenceNo);
+STRIDE_SAME_PLACE(PathObject, smoothAxes, st::SMC_GEOINFO, wSmoothAxes);
 static_assert(__builtin_offsetof(PathObject, moreShape[0]) ==
               __builtin_offsetof(st::SMC_GEOINFO, dP9));
 static_assert(__builtin_offsetof(PathObject, moreShape[9]) ==

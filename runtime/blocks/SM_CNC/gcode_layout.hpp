@@ -50,6 +50,7 @@ STRIDE_SAME_PLACE(Decoder, features, st::SMC_DECODER_STATE, dwFeatures);
 STRIDE_SAME_PLACE(Decoder, counter, st::SMC_DECODER_STATE, iCounter);
 STRIDE_SAME_PLACE(Decoder, axes, st::SMC_DECODER_STATE, wAxes);
 STRIDE_SAME_PLACE(Decoder, profile, st::SMC_DECODER_STATE, wProfile);
+STRIDE_SAME_PLACE(Decoder, smoothAxes, st::SMC_DECODER_STATE, wSmoothAxes);
 STRIDE_SAME_PLACE(Decoder, motion, st::SMC_DECODER_STATE, iMotion);
 STRIDE_SAME_PLACE(Decoder, state, st::SMC_DECODER_STATE, byHeld);
 STRIDE_SAME_PLACE(Decoder, ways, st::SMC_DECODER_STATE, byWays);

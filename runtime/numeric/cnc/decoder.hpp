@@ -52,12 +52,13 @@ struct Decoder {
   Vector3 normal;
   Vector3 direction; ///< In which the last motion ended; length 1.
   AxisLimits limits[kLimitedAxes];
-  int32_t objects;   ///< How many there have been.
-  uint32_t features; ///< G38
-  int16_t counter;   ///< The implicit variable of G20, G36 and G37.
-  uint16_t axes;     ///< Which ones have been named, by AxisBit.
-  uint16_t profile;  ///< S, by AxisBit.
-  int16_t motion;    ///< The G function of sentences without one; -1: none yet.
+  int32_t objects;     ///< How many there have been.
+  uint32_t features;   ///< G38
+  int16_t counter;     ///< The implicit variable of G20, G36 and G37.
+  uint16_t axes;       ///< Which ones have been named, by AxisBit.
+  uint16_t profile;    ///< S, by AxisBit.
+  uint16_t smoothAxes; ///< G71, of the next object.
+  int16_t motion;      ///< The G function of sentences without one; -1: none yet.
   Held state;
   uint8_t ways;        ///< Which of `switches` are lengths.
   uint8_t marks;       ///< Of the next object.

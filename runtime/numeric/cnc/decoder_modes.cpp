@@ -71,6 +71,22 @@ void decodeShift(const Work &work, int32_t function) noexcept {
     note(work.result, kNoteNoProcessor, s.functionAt);
 }
 
+/// G71 and G70: the axis L, 4 (A) to 11 (W), goes smoothly from the next object on, or not.
+bool decodeSmoothAxis(const Work &work, bool on) noexcept {
+  constexpr double kFirst = 4.0;
+  Decoder &d = work.decoder;
+  const Sentence &s = work.sentence;
+  if (!has(s, 'L'))
+    return refuse(work, GCodeError::MissingWord, 'L');
+  const double axis = get(s, 'L') - kFirst;
+  if (!(axis >= 0.0 && axis < kSmoothAxes) || static_cast<double>(wholePart(axis)) != axis)
+    return refuse(work, GCodeError::OutOfRange, 'L');
+  const auto number = static_cast<unsigned>(axis);
+  const unsigned both = 1U << number | 1U << (kRangeBegins + number);
+  d.smoothAxes = static_cast<uint16_t>(on ? d.smoothAxes | both : d.smoothAxes & ~both);
+  return true;
+}
+
 bool decodePlane(const Work &work) noexcept {
   const Sentence &s = work.sentence;
   const auto part = [&s](char letter) { return has(s, letter) ? get(s, letter) : 0.0; };
@@ -132,9 +148,10 @@ bool decodeMode(const Work &work, int32_t function) noexcept {
   case 61:
     startMark(d, kAvoidLoops, kAvoidLoops);
     return true;
-  case 43:
   case 70:
   case 71:
+    return decodeSmoothAxis(work, function == 71);
+  case 43:
     break;
   default:
     return fail(work.result, GCodeError::UnknownFunction, work.sentence.functionAt);

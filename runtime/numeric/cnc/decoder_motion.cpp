@@ -275,6 +275,8 @@ PathObject beginObject(Decoder &decoder, const Sentence &sentence, MoveType type
   object.deceleration = orOf(decoder.rapidDeceleration, decoder.deceleration);
   object.marks = decoder.marks;
   decoder.marks = 0;
+  object.smoothAxes = decoder.smoothAxes;
+  decoder.smoothAxes &= static_cast<uint16_t>((1U << kRangeBegins) - 1U);
   object.parameterRange[1] = 1.0;
   object.planeX = decoder.planeX;
   object.planeY = decoder.planeY;

@@ -147,6 +147,16 @@ ShapeError describeSegment(const PathObject &object, path::Segment &segment) noe
     companion.start = object.start.coordinate[k];
     companion.end = object.end.coordinate[k];
   }
+  for (int32_t i = 0; i < path::kBent; ++i) {
+    path::Companion &companion = companions[kAxisA + i];
+    companion.slopes = (object.slopes >> static_cast<unsigned>(i) & 1U) != 0;
+    companion.startSlope = object.startSlope[i];
+    companion.endSlope = object.endSlope[i];
+    const bool finite =
+        exact::isfinite(companion.startSlope) && exact::isfinite(companion.endSlope);
+    if (companion.follows && companion.slopes && !finite)
+      return ShapeError::NotFinite;
+  }
   segment = path::makeSegment(shape.shape, companions);
   return ShapeError::None;
 }

@@ -49,6 +49,14 @@ path::Derivatives derivativesAt(const path::Shape &shape, double way) noexcept {
   return path::overLength(path::overParameter(shape, path::parameterAt(shape, way)));
 }
 
+double slopeAt(const PathObject &object, int32_t angle, bool atEnd) noexcept {
+  if ((object.slopes >> static_cast<unsigned>(angle) & 1U) != 0)
+    return atEnd ? object.endSlope[angle] : object.startSlope[angle];
+  const int32_t axis = kAxisA + angle;
+  const double way = object.end.coordinate[axis] - object.start.coordinate[axis];
+  return object.length > 0.0 ? way / object.length : 0.0;
+}
+
 void beginPiece(const PathObject &before, const PathObject &after, PathObject &piece) noexcept {
   piece = before;
   piece.start = before.end;
@@ -73,7 +81,12 @@ void beginPiece(const PathObject &before, const PathObject &after, PathObject &p
     limits.acceleration = smallerLimit(limits.acceleration, other.acceleration);
     limits.deceleration = smallerLimit(limits.deceleration, other.deceleration);
   }
-  piece.slopes = 0;
+  // Where one of both goes by slopes, the piece leads from its slope to the other's.
+  piece.slopes = static_cast<uint8_t>(before.slopes | after.slopes);
+  for (int32_t i = 0; i < 3; ++i) {
+    piece.startSlope[i] = slopeAt(before, i, true);
+    piece.endSlope[i] = slopeAt(after, i, false);
+  }
 }
 
 void describePiece(const path::Shape &curve, PathObject &piece) noexcept {

@@ -27,9 +27,13 @@ bool meet(const PathObject &before, const PathObject &after, Meeting &meeting) n
 /// Place and derivatives over the arc length, at a way from the start. [u] in
 path::Derivatives derivativesAt(const path::Shape &shape, double way) noexcept;
 
+/// How far A (0), B (1) or C (2) goes over the way at an end of an object. [u/u]
+double slopeAt(const PathObject &object, int32_t angle, bool atEnd) noexcept;
+
 /// An object between the end of `before` and the start of `after`, without a shape. It has the
-/// smaller velocities, accelerations and limits of both, and the numbers of the first; axes besides
-/// X, Y, Z go along evenly. It has no marks and no switch points.
+/// smaller velocities, accelerations and limits of both, and the numbers of the first. Axes besides
+/// X, Y, Z go along evenly; A, B and C by the slopes of both, where one of them goes by slopes. It
+/// has no marks and no switch points.
 void beginPiece(const PathObject &before, const PathObject &after, PathObject &piece) noexcept;
 
 /// Lets it go along a polynomial (MoveType::Spline3d).

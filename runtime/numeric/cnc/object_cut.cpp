@@ -1,6 +1,7 @@
 #include "runtime/numeric/cnc/object_cut.hpp"
 
 #include "runtime/numeric/cnc/object_shape.hpp"
+#include "runtime/numeric/path/bend.hpp"
 
 namespace stride::cnc {
 namespace {
@@ -18,17 +19,36 @@ struct Cut {
   double u;    ///< The same as the parameter of the shape.
 };
 
-/// Whether an axis that moves does not go evenly.
+bool hasSlopes(const PathObject &object, unsigned axis) noexcept {
+  return axis >= kAxisA && axis <= kAxisC && (object.slopes >> (axis - kAxisA) & 1U) != 0;
+}
+
+/// Whether an axis that moves goes by an S profile.
 bool hasProfile(const PathObject &object) noexcept {
   const unsigned axes = object.start.axes | object.end.axes;
   for (unsigned i = 0; i < kAxes; ++i) {
-    const bool isAngle = i >= kAxisA && i <= kAxisC && (object.slopes >> (i - kAxisA) & 1U) != 0;
-    const bool isProfile = (object.start.sProfile >> i & 1U) != 0;
+    const bool isProfile = (object.start.sProfile >> i & 1U) != 0 && !hasSlopes(object, i);
     const bool moves = object.start.coordinate[i] != object.end.coordinate[i];
-    if ((axes >> i & 1U) != 0 && (isAngle || (isProfile && moves)))
+    if ((axes >> i & 1U) != 0 && isProfile && moves)
       return true;
   }
   return false;
+}
+
+/// Gives both parts the slopes of the whole at the cut, and moves the cut to where they lead.
+void bendParts(const PathObject &object, const Cut &cut, double length, PathObject &first,
+               PathObject &second) noexcept {
+  for (unsigned i = kAxisA; i <= kAxisC; ++i) {
+    if (!hasSlopes(object, i))
+      continue;
+    const unsigned n = i - kAxisA;
+    const double even = (object.end.coordinate[i] - object.start.coordinate[i]) / length;
+    const path::Progress more =
+        path::bentBy(object.startSlope[n] - even, object.endSlope[n] - even, cut.part, length);
+    first.end.coordinate[i] += more.f;
+    second.start.coordinate[i] = first.end.coordinate[i];
+    first.endSlope[n] = second.startSlope[n] = even + more.d1;
+  }
 }
 
 /// The coordinates of the cut.
@@ -161,6 +181,7 @@ CutError splitObject(const PathObject &object, double way, PathObject &first,
     first.end.coordinate[i] = coordinate[i];
     second.start.coordinate[i] = coordinate[i];
   }
+  bendParts(whole, cut, shape.length, first, second);
   describe(shape.shape, 0.0, cut.u, first);
   describe(shape.shape, cut.u, 1.0, second);
   first.length = way;

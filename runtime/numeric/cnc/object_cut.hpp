@@ -11,15 +11,16 @@ namespace stride::cnc {
 enum class CutError : uint8_t {
   None,
   Way,     ///< Not within the object: nothing would be left of one of its parts.
-  Profile, ///< An axis goes by a law over the whole object: an S profile, or slopes.
+  Profile, ///< An axis goes by a law over the whole object: an S profile.
   Shape,   ///< It has no way, or its ends lie beside the curve that its parameters describe.
 };
 
 /// Cuts an object at a way from its start, 0 < way < length. The outer ends are those of the object
-/// and the inner ones are the same, bit for bit. Switch points stay where they are; one at the cut
-/// belongs to the first part. Marks that begin something go with the first part, those that end
-/// something with the second. The first part ends with the velocity of the object. With an error
-/// the parts are as they were. Both may be the object itself. [u] in
+/// and the inner ones are the same, bit for bit. Where A, B or C goes by slopes, both parts go by
+/// the slopes of the same cubic. Switch points stay where they are; one at the cut belongs to the
+/// first part. Marks that begin something go with the first part, those that end something with the
+/// second. The first part ends with the velocity of the object. With an error the parts are as they
+/// were. Both may be the object itself. [u] in
 CutError splitObject(const PathObject &object, double way, PathObject &first,
                      PathObject &second) noexcept;
 

@@ -76,6 +76,12 @@ enum Mark : uint8_t {
   kAvoidLoops = 1 << 7,
 };
 
+/// PathObject::smoothAxes says by bits which axes go smoothly over several objects (G71 to G70): A,
+/// B, C, P, Q, U, V, W from 0 on, and from kRangeBegins on, in the same order, whose range begins
+/// with the object.
+inline constexpr int32_t kSmoothAxes = 8; ///< How many there are.
+inline constexpr int32_t kRangeBegins = 8;
+
 /// Limits of one axis that the program says (words F and E with the axis's letter); 0: none.
 struct AxisLimits {
   float velocity;     ///< [u/s]
@@ -116,6 +122,7 @@ struct PathObject {
                    1]; ///< iHelpID: > 0 on, < 0 off, 0 none; [0] of a Function: its number.
   // SoftMotion 3:
   int32_t sentence;     ///< diSentenceNo
+  uint16_t smoothAxes;  ///< See kSmoothAxes; Stride's own, hidden in ST.
   double moreShape[10]; ///< dP9 to dP18
   Vector3 planeX;       ///< vX: the frame of arcs, ellipses, splines; columns of length 1.
   Vector3 planeY;       ///< vY

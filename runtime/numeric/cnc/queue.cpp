@@ -70,7 +70,8 @@ bool usable(const Queue *queue, Ring &ring) noexcept {
 }
 
 bool isFull(const Queue &queue, const Ring &ring) noexcept {
-  const uint32_t asked = queue.reserved > kReservedPlaces ? queue.reserved : kReservedPlaces;
+  const uint32_t told = readShared(queue.reserved);
+  const uint32_t asked = told > kReservedPlaces ? told : kReservedPlaces;
   const uint32_t reserved = asked < ring.places ? asked : ring.places - 1;
   return ring.free() <= reserved;
 }
@@ -170,6 +171,31 @@ PathObject *append(Queue *queue, const PathObject *object) noexcept {
   writeShared(queue->writePosition, ring.write * kStep);
   tellFull(*queue, ring);
   return &place;
+}
+
+PathObject *placeAhead(const Queue *queue, uint32_t n) noexcept {
+  Ring ring;
+  if (!usable(queue, ring) || n + 1 >= ring.free())
+    return nullptr;
+  return ring.objects + ring.wrapped(ring.wrapped(ring.write) + n);
+}
+
+bool prepare(Queue *queue, uint32_t n, const PathObject *object) noexcept {
+  PathObject *place = placeAhead(queue, n);
+  if (place == nullptr || object == nullptr)
+    return false;
+  // What was there has been removed, and is now lost.
+  if (queue->moved <= n)
+    writeShared(queue->moved, n + 1);
+  copy(*place, object);
+  return true;
+}
+
+void setReserved(Queue *queue, uint32_t places) noexcept {
+  Ring ring;
+  writeShared(queue->reserved, places);
+  if (usable(queue, ring))
+    tellFull(*queue, ring);
 }
 
 PathObject *objectAt(const Queue *queue, uint32_t n) noexcept {

@@ -86,6 +86,16 @@ bool isFull(const Queue *queue) noexcept;
 /// Appends a copy. Where it is, or null: the queue is unusable or has not one place left.
 PathObject *append(Queue *queue, const PathObject *object) noexcept;
 
+/// The n-th free place (0) after the last object: who appends may prepare objects there that nobody
+/// sees before they are appended, each where it is. Null: there is no such place.
+PathObject *placeAhead(const Queue *queue, uint32_t n) noexcept;
+
+/// Writes a copy into placeAhead(n). False: there is none.
+bool prepare(Queue *queue, uint32_t n, const PathObject *object) noexcept;
+
+/// Says how many places shall be free in a full queue, at least kReservedPlaces.
+void setReserved(Queue *queue, uint32_t places) noexcept;
+
 /// The n-th object from the first one (0) on, or null.
 PathObject *objectAt(const Queue *queue, uint32_t n) noexcept;
 

@@ -120,6 +120,7 @@ void writeFileObject(const PathObject &object, uint8_t *bytes) noexcept {
   copyAll(to.switchPosition, object.switchPosition);
   copyAll(to.switchId, object.switchId);
   to.sentence = object.sentence;
+  to.smoothAxes = object.smoothAxes;
   copyAll(to.moreShape, object.moreShape);
   to.planeX = object.planeX;
   to.planeY = object.planeY;

@@ -1,5 +1,7 @@
 #include "runtime/numeric/path/segment.hpp"
 
+#include "runtime/numeric/path/bend.hpp"
+
 namespace stride::path {
 namespace {
 
@@ -68,10 +70,6 @@ double parameterOf(const Segment &segment, double way) noexcept {
   return exact::smaller(exact::larger(u, 0.0), 1.0);
 }
 
-struct Progress {
-  double f, d1, d2, d3; ///< Part of the way of a companion, and derivatives over the way.
-};
-
 Progress evenly(double u, double length) noexcept { return {u, 1.0 / length, 0.0, 0.0}; }
 
 Progress sProfile(double u, double length) noexcept {
@@ -111,10 +109,17 @@ Segment makeSegment(const Shape &shape, const Companion (&companions)[kCoordinat
     segment.start[k] = companion.start;
     segment.delta[k] = companion.end - companion.start;
     segment.along |= bitOf(k);
-    if (companion.sProfile)
+    if (companion.slopes && k < kSpace + kBent)
+      segment.bent |= bitOf(k);
+    else if (companion.sProfile)
       segment.profile |= bitOf(k);
     if (segment.isStill)
       segment.length = exact::larger(segment.length, fabs(segment.delta[k]));
+  }
+  for (int32_t i = 0; i < kBent && segment.length > 0.0; ++i) {
+    const double even = segment.delta[kSpace + i] / segment.length;
+    segment.startSlope[i] = companions[kSpace + i].startSlope - even;
+    segment.endSlope[i] = companions[kSpace + i].endSlope - even;
   }
   if (hasTable(shape))
     segment.table = tableOf(shape);
@@ -138,6 +143,15 @@ PathPoint pointAt(const Segment &segment, double way) noexcept {
     point.d1[k] = segment.delta[k] * progress.d1;
     point.d2[k] = segment.delta[k] * progress.d2;
     point.d3[k] = segment.delta[k] * progress.d3;
+  }
+  for (int32_t i = 0; i < kBent && segment.bent != 0; ++i) {
+    if (!hasBit(segment.bent, kSpace + i))
+      continue;
+    const Progress more = bentBy(segment.startSlope[i], segment.endSlope[i], u, segment.length);
+    point.at[kSpace + i] += more.f;
+    point.d1[kSpace + i] += more.d1;
+    point.d2[kSpace + i] += more.d2;
+    point.d3[kSpace + i] += more.d3;
   }
   return point;
 }

@@ -12,6 +12,7 @@ namespace stride::path {
 /// X, Y, Z, and nine more that go along.
 inline constexpr int32_t kCoordinates = 12;
 inline constexpr int32_t kSpace = 3; ///< Of these, the first three are those of the shape.
+inline constexpr int32_t kBent = 3;  ///< So many after these may go by slopes: A, B, C.
 
 /// For the parameter of a shape at a way, where it is not proportional to that.
 struct WayTable {
@@ -27,6 +28,9 @@ struct Segment {
   double delta[kCoordinates]; ///< How far it goes. [u]
   uint16_t along;             ///< What goes along, a bit for each coordinate.
   uint16_t profile;           ///< Of these, what goes by an S profile: at rest at both ends.
+  uint16_t bent;              ///< Of these, what goes by slopes.
+  double startSlope[kBent];   ///< Of what goes by slopes, less that of going evenly.
+  double endSlope[kBent];     ///< Likewise.
   bool isStill;               ///< The shape is a place; the way is that of what goes furthest.
   WayTable table;
 };
@@ -45,10 +49,14 @@ struct Companion {
   double end;    ///< [u]
   bool follows;  ///< False: the shape has it (X, Y, Z), or nobody.
   bool sProfile; ///< By 10 u^3 - 15 u^4 + 6 u^5 over the part u of the way, instead of evenly.
+  bool slopes;   ///< By the cubic that has these slopes at its ends; the first kBent after space.
+  double startSlope; ///< Over the way. [u/u]
+  double endSlope;
 };
 
 /// The segment of a shape and what goes along with it. Where a coordinate of space goes along, the
-/// shape's does not count. A segment with `length` 0 goes nowhere, and is none.
+/// shape's does not count. Slopes count before an S profile. A segment with `length` 0 goes
+/// nowhere, and is none.
 Segment makeSegment(const Shape &shape, const Companion (&companions)[kCoordinates]) noexcept;
 
 /// Where it is at a way, 0 <= way <= length, and how it goes on from there. [u] in
@@ -64,6 +72,10 @@ struct AxesLimits {
 /// What the axes' limits make of the way from `from` on: puts `along`, `across` and `ceiling` into
 /// the strip. Returns where that ends to be true, at most segment.length. [u]
 double limitStrip(const Segment &segment, const AxesLimits &limits, double from,
+                  Strip &strip) noexcept;
+
+/// The same for a part of the way that the caller has chosen, by its ends and its middle.
+void limitBetween(const Segment &segment, const AxesLimits &limits, double from, double to,
                   Strip &strip) noexcept;
 
 /// The greatest square of the velocity at a kink between two segments, so that no axis changes its

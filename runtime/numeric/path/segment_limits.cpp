@@ -39,7 +39,8 @@ double partEnd(const Segment &segment, double from) noexcept {
 }
 
 bool isStraight(const Segment &segment) noexcept {
-  return segment.profile == 0 && (segment.isStill || segment.shape.kind == ShapeKind::Line);
+  return segment.profile == 0 && segment.bent == 0 &&
+         (segment.isStill || segment.shape.kind == ShapeKind::Line);
 }
 
 /// A part of the way by the derivatives at its ends and in its middle.
@@ -90,7 +91,23 @@ void limitAxis(const Part &part, const AxesLimits &limits, int32_t k, Strip &str
   }
 }
 
+void limitPart(const Part &part, const AxesLimits &limits, Strip &strip) noexcept {
+  for (int32_t k = 0; k < kCoordinates; ++k)
+    limitAxis(part, limits, k, strip);
+  if (strip.across > 0.0)
+    strip.ceiling = smaller(strip.ceiling, kCurveShare / strip.across);
+}
+
 } // namespace
+
+void limitBetween(const Segment &segment, const AxesLimits &limits, double from, double to,
+                  Strip &strip) noexcept {
+  strip.along = 0.0;
+  strip.across = 0.0;
+  strip.ceiling = exact::kInfinity;
+  limitPart({pointAt(segment, from), pointAt(segment, 0.5 * (from + to)), pointAt(segment, to)},
+            limits, strip);
+}
 
 double limitStrip(const Segment &segment, const AxesLimits &limits, double from,
                   Strip &strip) noexcept {
@@ -114,10 +131,7 @@ double limitStrip(const Segment &segment, const AxesLimits &limits, double from,
       to = from + 0.5 * (to - from);
     }
   }
-  for (int32_t k = 0; k < kCoordinates; ++k)
-    limitAxis(part, limits, k, strip);
-  if (strip.across > 0.0)
-    strip.ceiling = smaller(strip.ceiling, kCurveShare / strip.across);
+  limitPart(part, limits, strip);
   return to;
 }
 

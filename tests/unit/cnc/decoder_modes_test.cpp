@@ -50,6 +50,21 @@ TEST(DecoderModes, AbsoluteCentresAreShiftedToo) {
   EXPECT_NEAR(text.objects[0].shape[1], 10, kNear);
 }
 
+TEST(DecoderModes, SmoothAxesBeginAndEnd) {
+  const DecodedText text =
+      decodeText("G1 X1\nG71 L8\nX2\nG71 L4\nX3\nX4\nG70 L4\nX5\nG70 L8\nG71 L8\n"
+                 "X6\nG70 L8\nX7\nG71 L11\nG70 L11\nX8\n");
+  ASSERT_EQ(text.error, GCodeError::None);
+  const int expected[] = {0, 0x1010, 0x0111, 0x0011, 0x0010, 0x1010, 0, 0};
+  ASSERT_EQ(text.objects.size(), 8U);
+  for (size_t i = 0; i < 8; ++i)
+    EXPECT_EQ(text.objects[i].smoothAxes, expected[i]) << i;
+  for (const char *bad : {"G71 L3\n", "G71 L12\n", "G70 L4.5\n"})
+    EXPECT_EQ(errorOf(bad), GCodeError::OutOfRange) << bad;
+  EXPECT_EQ(errorOf("G71\n"), GCodeError::MissingWord);
+  EXPECT_EQ(notesOf("G71 L4\n"), 0);
+}
+
 TEST(DecoderModes, VelocitiesOfG0) {
   const DecodedText text = decodeText(
       "F30 E200 E-300 FF90 EF400 EF-500\nG0 X1\nG1 X2\nFF0 EF0\nG0 X3 S3\nG1 X4 S-3 S7\n");

@@ -239,6 +239,31 @@ TEST(CornerPiece, WhatCannotBeCutStays) {
   EXPECT_TRUE(kept(a, broken, rules));
 }
 
+TEST(CornerPiece, SlopesGoOnThroughThePiece) {
+  PathObject before = line({0, 0, 0}, {5, 0, 0});
+  PathObject after = line({5, 0, 0}, {5, 8, 0});
+  before.start.axes = before.end.axes = after.start.axes = after.end.axes = 7 | 1 << kAxisB;
+  before.end.coordinate[kAxisB] = after.start.coordinate[kAxisB] = 10;
+  after.end.coordinate[kAxisB] = 26; // evenly, with a slope of 2
+  before.slopes = 2;
+  before.startSlope[1] = 0;
+  before.endSlope[1] = 2;
+  // 10 * u^2 * (3 - 2 u) + 5 * 2 * u^2 * (u - 1), u = 0.6 where 2 of 5 are cut off
+  PathObject piece{};
+  double room = -1;
+  ASSERT_EQ(makeCorner(before, after, {PieceKind::Quintic, 2, false, 0}, room, piece),
+            CornerChange::Cut);
+  EXPECT_NEAR(before.end.coordinate[kAxisB], 10 * 0.36 * 1.8 - 10 * 0.36 * 0.4, 1e-12);
+  EXPECT_EQ(piece.start.coordinate[kAxisB], before.end.coordinate[kAxisB]);
+  EXPECT_NEAR(piece.end.coordinate[kAxisB], 14, 1e-12);
+  EXPECT_EQ(piece.slopes, 2);
+  const auto whole = [](double u) { return 10 * u * u * (3 - 2 * u) + 10 * u * u * (u - 1); };
+  EXPECT_NEAR(before.endSlope[1], (whole(0.6 + 1e-6) - whole(0.6 - 1e-6)) / 1e-5, 1e-8);
+  EXPECT_EQ(piece.startSlope[1], before.endSlope[1]);
+  EXPECT_NEAR(piece.endSlope[1], 2, 1e-12);
+  EXPECT_EQ(after.slopes, 0);
+}
+
 TEST(CornerPiece, OtherAxesGoAlong) {
   PathObject before = line({0, 0, 0}, {5, 0, 0});
   PathObject after = line({5, 0, 0}, {5, 8, 0});

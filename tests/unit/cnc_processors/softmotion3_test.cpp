@@ -123,6 +123,30 @@ TEST(AxisLimits, HoldOnAnSProfile) {
   }
 }
 
+TEST(AxisLimits, HoldOnSlopes) {
+  for (const double last : {0.0, 2.0, -3.0}) {
+    PathObject o = withAxis(kAxisB, 40);
+    o.slopes = 2;
+    o.startSlope[1] = 1;
+    o.endSlope[1] = last;
+    o.acceleration = o.deceleration = 1000;
+    o.limits[kAxisB - kAxisZ] = {10, 12, 15};
+    limitByAxes(o);
+    double most = 0;
+    for (int i = 0; i <= 1000; ++i) {
+      const double u = i / 1000.0;
+      const double d1 = 4 * 6 * u * (1 - u) + 1 - 4 * u + 3 * u * u + last * (3 * u * u - 2 * u);
+      const double d2 = (4 * (6 - 12 * u) - 4 + 6 * u + last * (6 * u - 2)) / 10;
+      const double v = o.velocity;
+      EXPECT_LE(std::abs(d1) * v, 10 * (1 + 1e-12));
+      EXPECT_LE(std::abs(d2) * v * v + std::abs(d1) * o.acceleration, 12 * (1 + 1e-12));
+      EXPECT_LE(std::abs(d2) * v * v + std::abs(d1) * o.deceleration, 15 * (1 + 1e-12));
+      most = std::max(most, std::abs(d1) * o.acceleration);
+    }
+    EXPECT_GT(most, 5.9); // half of the acceleration is for the way
+  }
+}
+
 /// A circle of short lines, whose places have four digits.
 Path polygon(int count) {
   Path path;

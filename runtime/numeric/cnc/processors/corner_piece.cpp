@@ -279,8 +279,11 @@ CornerChange makeCorner(PathObject &before, PathObject &after, const PieceRules 
   if (cutStart(second, ends.cuts.after) != CutError::None)
     return CornerChange::Kept;
   beginPiece(first, second, piece);
-  if (replaced)
+  if (replaced) {
     piece.marks = first.marks;
+    for (int32_t i = 0; i < 3; ++i)
+      piece.startSlope[i] = slopeAt(before, i, false);
+  }
   describe(meeting, ends, rules.kind, piece);
   if (!exact::isPositive(piece.length))
     return CornerChange::Kept;

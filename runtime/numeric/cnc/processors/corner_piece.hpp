@@ -38,8 +38,8 @@ enum class CornerChange : uint8_t {
 /// nowhere further from the corner than `distance`. It comes as near to the corner as
 ///   distance * sin(turn / 2) * (1 - tan(turn / 4) / tan(turn / 2))   Cubic and Arc: that of an arc
 ///   distance * path::deviationPerCut(turn)                           Quintic
-/// if both cuts are equal. A corner stays if both objects cannot be cut (CutError), turn by more
-/// than path::kMaxTurn, do not meet, or, with Arc, are not two lines.
+/// if both cuts are equal. A corner stays if both objects cannot be cut (CutError: S profiles),
+/// turn by more than path::kMaxTurn, do not meet, or, with Arc, are not two lines.
 ///
 /// Switch points stay where they are; those that are cut off go onto the piece, as far from its end
 /// as they were from the cut, but in its half of their object. What the piece has no place for goes

@@ -35,6 +35,12 @@ enum class StreamError : int16_t {
   PlaneChanged = 1414,      ///< SMC_TRC_PLANE_CHANGED: an arc in another plane than those before.
   InvalidObject = 1419,     ///< SMC_PATH_INVALID_OBJECT: without a shape, or no line as a ramp.
   NoQueue = 1501,           ///< SMC_NO_OUTQUEUE_TYPE: the input is no queue, or a damaged one.
+  RangeTooLong = 1700,      ///< SMC_SAA_RANGE_TOO_LONG
+  SmoothingPart = 1701,     ///< SMC_SAA_SMOOTHING_PART
+  ProbeInRange = 1710,      ///< SMC_PROBE_G31_NOT_ALLOWED
+  FeatureBit = 1900,        ///< SMC_SBS_FEATURE_BIT
+  SwitchPoint = 1901,       ///< SMC_SBS_SWITCH_POINT
+  NotInSpace = 1902,        ///< SMC_SBS_NOT_3D: a length counts in a plane.
 };
 
 /// What a processor did with an object.
