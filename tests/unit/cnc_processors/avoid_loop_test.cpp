@@ -68,6 +68,19 @@ TEST(CncAvoidLoop, CutsAtTheFirstCrossing) {
   EXPECT_EQ(run.objects[2].marks, kEndAvoidLoops);
 }
 
+TEST(CncAvoidLoop, MeasuresWhatClimbsFurtherAfterALoop) {
+  Drawing d;
+  d.line(10, 0);
+  d.line(10, 20);
+  d.line(4, 20);
+  d.line(4, -8).end.coordinate[kAxisZ] = 6;
+  mark(d.path);
+  const Outcome run = avoid(d.path);
+  ASSERT_EQ(run.objects.size(), 2U);
+  EXPECT_EQ(run.objects[1].start.coordinate[kAxisZ], 0);
+  EXPECT_DOUBLE_EQ(run.objects[1].length, 10); // 8 along -Y, 6 up
+}
+
 TEST(CncAvoidLoop, LeavesWhatIsNotMarkedOrOnlyTouches) {
   Drawing d;
   d.line(10, 0);

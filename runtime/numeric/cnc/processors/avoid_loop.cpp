@@ -1,6 +1,7 @@
 #include "runtime/numeric/cnc/processors/avoid_loop.hpp"
 
 #include "runtime/iec/math.h"
+#include "runtime/numeric/cnc/object_shape.hpp"
 
 namespace stride::cnc {
 namespace {
@@ -156,8 +157,10 @@ void cutTo(PathObject &object, const Plane &plane, const Track &track, double fr
 
 /// The object goes on where the path is after a loop.
 void goOn(LoopAvoider &loops, PathObject &object) noexcept {
-  if (loops.moved)
+  if (loops.moved) {
     object.start = loops.end;
+    (void)calculateLength(object); // it may climb further than before
+  }
   loops.moved = false;
   if (loops.lost) {
     takeSwitches(object, loops.vanished, 0.0);
