@@ -83,8 +83,12 @@ bool arrive(Interpolator &interpolator, const Command &command) noexcept {
       interpolator.motion.gate = false;
       return true;
     }
-    if (interpolator.phase == Phase::Failed || !finishesHere(interpolator, command, *object))
+    if (interpolator.phase == Phase::Failed)
       return false;
+    if (!finishesHere(interpolator, command, *object)) {
+      interpolator.progress.source = object->sourceLine;
+      return false;
+    }
     removeFirst(interpolator, command);
   }
   return true;

@@ -20,9 +20,9 @@ constexpr int32_t kLeastParts = 16; ///< However short the cycle is.
 
 /// What comes after the object that is made known.
 enum class Successor : uint8_t {
-  Path,     ///< The path goes on.
-  Rest,     ///< It rests here.
-  Function, ///< It waits here.
+  Path, ///< The path goes on.
+  Rest, ///< It rests here.
+  Wait, ///< It waits here, for a function or for a cycle.
 };
 
 Successor successorOf(const Interpolator &interpolator, const Command &command,
@@ -30,8 +30,10 @@ Successor successorOf(const Interpolator &interpolator, const Command &command,
   PathObject room;
   const PathObject *next = ahead(interpolator, command, interpolator.known + 1, room);
   if (next != nullptr && waitsAt(*next))
-    return interpolator.backwards ? Successor::Rest : Successor::Function;
-  if (next == nullptr || !(object.velocityEnd > 0.0) || !(next->length > 0.0))
+    return interpolator.backwards ? Successor::Rest : Successor::Wait;
+  if (next != nullptr && !(next->length > 0.0))
+    return Successor::Wait;
+  if (next == nullptr || !(object.velocityEnd > 0.0))
     return Successor::Rest;
   return Successor::Path;
 }
@@ -108,7 +110,7 @@ bool extendByPart(Interpolator &interpolator, const Command &command) noexcept {
   strip.end = interpolator.nextEnd;
   strip.endFeed = smaller(object.velocityEnd, strip.feed);
   strip.stop = successor != Successor::Path;
-  strip.gate = successor == Successor::Function;
+  strip.gate = successor == Successor::Wait;
   if (!strip.stop) {
     PathObject other;
     strip.endCeiling = kinkBefore(interpolator, command,

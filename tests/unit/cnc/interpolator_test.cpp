@@ -108,6 +108,41 @@ TEST(Interpolator, JumpsAndShowsPlacesThatAreNamedTwice) {
   EXPECT_EQ(drive.x(), 40);
 }
 
+TEST_P(EachLaw, RestsAtPlacesThatAreNamedTwice) {
+  Drive drive(GetParam());
+  drive.line(7.3, 0);
+  drive.line(7.3, 0);
+  drive.line(20, 0);
+  drive.queue.endOfList = 1;
+  drive.start();
+  double way = 0;
+  drive.run([&] {
+    way += drive.progress().length;
+    EXPECT_NEAR(drive.x(), way, 1e-12); // no place but those that the motion passes
+    return drive.interpolator->phase == Phase::Finished;
+  });
+}
+
+TEST(Interpolator, SaysWhichObjectItWaitsAt) {
+  Drive drive;
+  drive.line(30, 0).sourceLine = 10;
+  drive.function(7);
+  cnc::objectFromEnd(&drive.queue, 0)->sourceLine = 20;
+  drive.function(cnc::kDwell, 0.1);
+  cnc::objectFromEnd(&drive.queue, 0)->sourceLine = 30;
+  drive.line(60, 0).sourceLine = 40;
+  drive.queue.endOfList = 1;
+  drive.start();
+  drive.run([&] { return drive.progress().function == 7; });
+  EXPECT_EQ(drive.progress().source, 20);
+  EXPECT_EQ(drive.step().source, 20);
+  drive.command.acknowledge = true;
+  EXPECT_EQ(drive.step().source, 30);
+  EXPECT_EQ(drive.step().source, 30);
+  drive.run([&] { return drive.velocity() > 0; });
+  EXPECT_EQ(drive.progress().source, 40);
+}
+
 TEST(Interpolator, PassesSwitchesInTheOrderOfThePath) {
   Drive drive;
   PathObject &line = drive.line(40, 0);
