@@ -93,6 +93,7 @@ STRIDE_SAME_PLACE(Queue, removed, st::SMC_OUTQUEUE, nRemoved);
 STRIDE_SAME_PLACE(Queue, removedEnd, st::SMC_OUTQUEUE, nRemovedEnd);
 STRIDE_SAME_PLACE(Queue, pathRead, st::SMC_OUTQUEUE, nPathRead);
 STRIDE_SAME_PLACE(Queue, dryRunVelocity, st::SMC_OUTQUEUE, dDryRunVelocity);
+STRIDE_SAME_PLACE(Queue, checkedEnd, st::SMC_OUTQUEUE, nCheckedEnd);
 
 static_assert(static_cast<int16_t>(MoveType::EllipseCounterclockwise) == st::MOVTYP__ELLCCLW);
 static_assert(static_cast<int16_t>(MoveType::Spline3d) == st::MOVTYP__SPLINE3D_5);

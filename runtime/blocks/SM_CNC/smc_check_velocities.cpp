@@ -28,6 +28,15 @@ cnc::CornerRules rulesOf(const Block &block) noexcept {
                                          : -1.0};
 }
 
+/// The user wants no more checks: whoever drives the path does not wait for them.
+void giveUp(Block &block) noexcept {
+  cnc::Queue *queue = cnc::queueOf(block.poqDataIn);
+  if (block.bActive != 0 && block.pQueue == block.poqDataIn &&
+      cnc::checkQueue(queue) == cnc::QueueError::None)
+    cnc::tellNobodyChecks(queue);
+  end(block, ::st::SM_Error::SMC_ERROR__SMC_NO_ERROR);
+}
+
 void begin(Block &block) noexcept {
   end(block, ::st::SM_Error::SMC_ERROR__SMC_NO_ERROR);
   cnc::Queue *queue = cnc::queueOf(block.poqDataIn);
@@ -57,10 +66,11 @@ void checkQueue(Block &block) noexcept {
     break;
   case cnc::VelocityError::NotPositive:
     queue->generator = cnc::kByNobody; // the interpolator shall not have it
+    cnc::tellNobodyChecks(queue);
     end(block, ::st::SM_Error::SMC_ERROR__SMC_CV_ACC_DEC_VEL_NONPOSITIVE);
     break;
   case cnc::VelocityError::None:
-    queue->generator = cnc::kByCheckVelocities;
+    __atomic_store_n(&queue->generator, cnc::kByCheckVelocities, __ATOMIC_RELEASE);
     block.bBusy = static_cast<stride::BOOL>(queue->endOfList == 0);
     break;
   }
@@ -73,7 +83,7 @@ void st::SM_CNC::SMC_CheckVelocities::body__(::stride::Ctx & /*ctx__*/) {
   bOldExecute = bExecute;
   poqDataOut = poqDataIn;
   if (bExecute == 0 || bAbort != 0)
-    end(*this, ::st::SM_Error::SMC_ERROR__SMC_NO_ERROR);
+    giveUp(*this);
   else if (edge)
     begin(*this);
   if (bActive != 0)

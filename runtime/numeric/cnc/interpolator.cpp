@@ -170,9 +170,10 @@ void wish(Interpolator &interpolator, const Command &command) noexcept {
 }
 
 bool begins(Interpolator &interpolator, const Command &command) noexcept {
-  if (command.queue->endOfList == 0 && !isFull(command.queue) && !isSyncing(command.queue))
+  if (__atomic_load_n(&command.queue->endOfList, __ATOMIC_ACQUIRE) == 0 && !isFull(command.queue) &&
+      !isSyncing(command.queue))
     return false;
-  if (command.queue->generator < kByCheckVelocities) {
+  if (__atomic_load_n(&command.queue->generator, __ATOMIC_ACQUIRE) < kByCheckVelocities) {
     fail(interpolator, kNoCheckVelocities);
     return false;
   }
@@ -284,11 +285,12 @@ void cycle(Interpolator &interpolator, const Command &command) noexcept {
   if (!(progress.length > 0.0))
     progress.tangent = numeric::kZero;
   progress.waits = !(progress.motion.velocity > 0.0);
+  const bool open = isOpen(interpolator, command);
   const bool empty = countAhead(interpolator, command) <= 0;
-  progress.atEnd = empty && !isOpen(interpolator, command);
+  progress.atEnd = empty && !open;
   if (progress.atEnd && !command.twoWays)
     interpolator.phase = Phase::Finished;
-  const bool dry = empty && isOpen(interpolator, command) && !interpolator.synchronises;
+  const bool dry = empty && open && !interpolator.synchronises;
   interpolator.warning = dry ? kDataUnderrun : interpolator.warning;
 }
 

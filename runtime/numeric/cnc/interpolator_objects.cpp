@@ -65,9 +65,10 @@ double kinkBefore(Interpolator &interpolator, const Command &command,
 /// Begins with the next object that moves. False: there is none now.
 bool takeNext(Interpolator &interpolator, const Command &command) noexcept {
   PathObject room;
-  const int64_t count = countAhead(interpolator, command);
+  const bool open = isOpen(interpolator, command);
+  const int64_t count = checkedAhead(interpolator, command);
   while (interpolator.known < count) {
-    if (interpolator.known + 1 == count && isOpen(interpolator, command))
+    if (interpolator.known + 1 == count && (open || count < countAhead(interpolator, command)))
       return false; // its end is still open
     const PathObject &object = *ahead(interpolator, command, interpolator.known, room);
     const bool waits = waitsAt(object);
@@ -192,8 +193,15 @@ int64_t countAhead(const Interpolator &interpolator, const Command &command) noe
                                 : countOf(command.queue) - interpolator.first;
 }
 
+int64_t checkedAhead(const Interpolator &interpolator, const Command &command) noexcept {
+  // What is checked is counted last: if objects come meanwhile, they are not counted.
+  const int64_t count = countAhead(interpolator, command);
+  return interpolator.backwards ? count : count - uncheckedOf(command.queue);
+}
+
 bool isOpen(const Interpolator &interpolator, const Command &command) noexcept {
-  return !interpolator.backwards && command.queue->endOfList == 0;
+  return !interpolator.backwards &&
+         __atomic_load_n(&command.queue->endOfList, __ATOMIC_ACQUIRE) == 0;
 }
 
 double dryRunVelocity(const Command &command) noexcept {

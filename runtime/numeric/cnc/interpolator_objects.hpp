@@ -34,7 +34,11 @@ const PathObject *ahead(const Interpolator &interpolator, const Command &command
 /// How many there are from the present one on.
 int64_t countAhead(const Interpolator &interpolator, const Command &command) noexcept;
 
-/// Whether more objects may come after the last one.
+/// How many of these have been checked, so that the velocity at the end of each but the last one is
+/// known.
+int64_t checkedAhead(const Interpolator &interpolator, const Command &command) noexcept;
+
+/// Whether more objects may come after the last one. To be asked before the objects are counted.
 bool isOpen(const Interpolator &interpolator, const Command &command) noexcept;
 
 /// Greatest velocity of a dry run; infinite if there is none.

@@ -57,11 +57,12 @@ BoxError checkBox(const Queue *queue, uint32_t &checked, const Box &box,
   if (checkQueue(queue) != QueueError::None)
     return BoxError::NoQueue;
   const uint32_t position = __atomic_load_n(&queue->writePosition, __ATOMIC_ACQUIRE);
-  const uint32_t count = countOf(queue);
-  for (uint32_t n = count - appendedSince(queue, checked); n < count; ++n) {
-    const PathObject &object = *objectAt(queue, n);
-    if (isFunction(object))
+  // From the end back: another task may be removing objects at the front.
+  for (uint32_t n = appendedSince(queue, checked); n-- > 0;) {
+    const PathObject *found = objectFromEnd(queue, n);
+    if (found == nullptr || isFunction(*found))
       continue;
+    const PathObject &object = *found;
     unsigned axes = outside(box, object.end.coordinate);
     if (!isJump(object)) {
       path::Segment segment;

@@ -225,6 +225,17 @@ uint32_t appendedSince(const Queue *queue, uint32_t position) noexcept {
   return all || since > ring.count() ? ring.count() : since;
 }
 
+uint32_t uncheckedOf(const Queue *queue) noexcept {
+  const uint32_t end = readShared(queue->checkedEnd);
+  return end != 0 ? appendedSince(queue, end - 1) : 0;
+}
+
+void tellChecked(Queue *queue, uint32_t position) noexcept {
+  writeShared(queue->checkedEnd, position + 1);
+}
+
+void tellNobodyChecks(Queue *queue) noexcept { writeShared(queue->checkedEnd, 0U); }
+
 bool replaceAt(Queue *queue, uint32_t n, const PathObject *object) noexcept {
   PathObject *place = objectAt(queue, n);
   if (place == nullptr || object == nullptr)
@@ -307,7 +318,7 @@ bool clear(Queue *queue) noexcept {
   queue->readPosition = queue->writePosition = 0;
   queue->full = queue->endOfList = 0;
   queue->path = queue->pathPosition = queue->moved = queue->pathSeen = queue->removed =
-      queue->removedEnd = queue->pathRead = 0;
+      queue->removedEnd = queue->pathRead = queue->checkedEnd = 0;
   return true;
 }
 

@@ -58,6 +58,7 @@ struct Queue {
   uint32_t pathRead;   ///< Number of the last path that has been removed to its end.
   // Of SMC_CheckVelocities:
   double dryRunVelocity; ///< Greatest velocity, override included; 0: none. [u/s]
+  uint32_t checkedEnd;   ///< writePosition up to which it has looked, plus 1; 0: it looks at none.
 };
 
 /// What is wrong with a queue.
@@ -105,6 +106,15 @@ PathObject *objectFromEnd(const Queue *queue, uint32_t n) noexcept;
 /// How many objects at the end of the queue have been appended since its writePosition was
 /// `position`; all of them if that is no position.
 uint32_t appendedSince(const Queue *queue, uint32_t position) noexcept;
+
+/// How many objects at the end of the queue SMC_CheckVelocities has still to look at: one task may
+/// append and check, while another one drives what is checked.
+uint32_t uncheckedOf(const Queue *queue) noexcept;
+
+/// Says up to which writePosition SMC_CheckVelocities has looked, or that it looks no longer: then
+/// nobody waits for it.
+void tellChecked(Queue *queue, uint32_t position) noexcept;
+void tellNobodyChecks(Queue *queue) noexcept;
 
 /// Puts a copy in the place of the n-th object.
 bool replaceAt(Queue *queue, uint32_t n, const PathObject *object) noexcept;

@@ -121,23 +121,26 @@ VelocityError checkVelocities(Queue *queue, uint32_t &checked, const CornerRules
   if (checkQueue(queue) != QueueError::None)
     return VelocityError::NoQueue;
   const uint32_t position = __atomic_load_n(&queue->writePosition, __ATOMIC_ACQUIRE);
-  const uint32_t count = countOf(queue);
-  const uint32_t fresh = appendedSince(queue, checked);
-  for (uint32_t n = count - fresh; n < count; ++n) {
-    PathObject *object = objectAt(queue, n);
+  // From the end back: another task may be removing objects at the front.
+  for (uint32_t n = appendedSince(queue, checked); n-- > 0;) {
+    PathObject *object = objectFromEnd(queue, n);
+    if (object == nullptr)
+      continue;
     if (!isUsable(*object))
       return VelocityError::NotPositive;
     if (isStop(*object) || !(object->velocityEnd > 0.0))
       object->velocityEnd = 0.0;
-    if (n == 0)
+    PathObject *before = objectFromEnd(queue, n + 1);
+    if (before == nullptr)
       continue;
-    PathObject *before = objectAt(queue, n - 1);
     const double velocity = cornerVelocity(*before, *object, rules);
     before->velocityEnd = exact::smaller(before->velocityEnd, velocity);
   }
-  if (queue->endOfList != 0 && count != 0)
-    objectFromEnd(queue, 0)->velocityEnd = 0.0;
+  PathObject *last = objectFromEnd(queue, 0);
+  if (queue->endOfList != 0 && last != nullptr)
+    last->velocityEnd = 0.0;
   checked = position;
+  tellChecked(queue, position);
   return VelocityError::None;
 }
 

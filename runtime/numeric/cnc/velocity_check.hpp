@@ -33,7 +33,8 @@ double cornerVelocity(const PathObject &before, const PathObject &after,
 
 /// Lowers the end velocities of the objects that are in the queue since its writePosition was
 /// `checked`, which is then set anew, and of the one before them. That of the last object stays
-/// until there is another one after it or the queue is complete.
+/// until there is another one after it or the queue is complete. Tells the queue: who drives it
+/// waits for objects to be checked.
 VelocityError checkVelocities(Queue *queue, uint32_t &checked, const CornerRules &rules) noexcept;
 
 } // namespace stride::cnc

@@ -1,6 +1,8 @@
 // The interpolator, cycle by cycle: each way to stop it.
 #include "tests/unit/cnc/interpolator_drive.hpp"
 
+#include "runtime/numeric/cnc/velocity_check.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -117,6 +119,39 @@ TEST_P(EachLawStops, StepsOnFromWhereItCanStop) {
   EXPECT_LT(drive.x(), 55);
   drive.command.singleStep = false;
   drive.finish();
+}
+
+/// A corner whose velocity SMC_CheckVelocities has still to lower, in another task.
+TEST_P(EachLawStops, WaitsForObjectsToBeChecked) {
+  Drive drive(GetParam(), 6);
+  const cnc::CornerRules rules{1e-3, -1};
+  uint32_t checked = UINT32_MAX;
+  drive.line(30, 0);
+  drive.line(30, 40);
+  ASSERT_EQ(cnc::checkVelocities(&drive.queue, checked, rules), cnc::VelocityError::None);
+  drive.line(80, 40); // fills the queue
+  EXPECT_EQ(cnc::uncheckedOf(&drive.queue), 1U);
+  drive.start();
+  drive.run([&] { return drive.x() == 30; });
+  for (int i = 0; i < 100; ++i)
+    drive.step();
+  EXPECT_EQ(drive.x(), 30);
+  EXPECT_EQ(drive.y(), 0);
+  EXPECT_EQ(drive.interpolator->warning, 0);
+  ASSERT_EQ(cnc::checkVelocities(&drive.queue, checked, rules), cnc::VelocityError::None);
+  EXPECT_EQ(cnc::uncheckedOf(&drive.queue), 0U);
+  drive.run([&] { return drive.y() == 40; });
+  EXPECT_EQ(drive.x(), 30);
+  EXPECT_EQ(drive.velocity(), 0);
+  drive.queue.endOfList = 1;
+  // The end may be known before the last object has been checked: it is not the end yet.
+  cnc::tellChecked(&drive.queue, cnc::objectAt(&drive.queue, 0) == nullptr ? 0 : UINT32_MAX - 1);
+  for (int i = 0; i < 100; ++i)
+    drive.step();
+  EXPECT_EQ(drive.x(), 30);
+  cnc::tellNobodyChecks(&drive.queue);
+  drive.finish();
+  EXPECT_EQ(drive.x(), 80);
 }
 
 } // namespace

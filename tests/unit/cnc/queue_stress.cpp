@@ -74,4 +74,52 @@ TEST(CncQueueStress, LosesNothingBetweenTwoThreads) {
   EXPECT_EQ(countOf(queue), 0U);
 }
 
+/// As SMC_CheckVelocities, in the thread that appends.
+void fillAndCheck(Queue &queue, int32_t count) {
+  uint32_t fresh = 0;
+  for (int32_t i = 0; i < count;) {
+    PathObject object = objectOf(i);
+    object.velocityEnd = 1;
+    if (append(&queue, &object) == nullptr) {
+      std::this_thread::yield();
+      continue;
+    }
+    ++i;
+    ++fresh;
+    if (i % 3 == 0) // not after each one
+      continue;
+    for (uint32_t n = fresh; n > 0; --n)
+      if (PathObject *before = objectFromEnd(&queue, n); before != nullptr)
+        before->velocityEnd = 0;
+    fresh = 0;
+    tellChecked(&queue, queue.writePosition);
+  }
+  __atomic_store_n(&queue.endOfList, uint8_t{1}, __ATOMIC_RELEASE);
+}
+
+TEST(CncQueueStress, WhatIsCheckedIsSoForTheOtherThread) {
+  constexpr int32_t kCount = 1001;
+  static_assert(kCount % 3 != 0, "the last one is checked");
+  Shared shared;
+  tellChecked(&shared.queue, 0);
+  std::thread filler([&] { fillAndCheck(shared.queue, kCount); });
+  Queue *queue = &shared.queue;
+  int32_t wrong = 0;
+  for (int32_t number = 0; number < kCount;) {
+    const uint32_t count = countOf(queue);
+    const uint32_t unchecked = uncheckedOf(queue);
+    const bool last = number + 1 == kCount;
+    if (count < unchecked + (last ? 1 : 2)) {
+      std::this_thread::yield();
+      continue;
+    }
+    const PathObject *object = objectAt(queue, 0);
+    wrong += object->number != number || (!last && object->velocityEnd != 0);
+    wrong += !removeAt(queue, 0);
+    ++number;
+  }
+  filler.join();
+  EXPECT_EQ(wrong, 0);
+}
+
 } // namespace
