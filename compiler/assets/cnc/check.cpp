@@ -42,6 +42,23 @@ gcode::SentenceError gcode::describe(GCodeError error) {
             "another plane is chosen", "choose it with G15 or G17"};
   case GCodeError::NegativePeriod:
     return {Code::CncSentence, "the period of an axis is not negative", "less than 0", ""};
+  case GCodeError::PartOfTurn:
+    return {Code::CncSentence, "A, B and C turn the coordinates together",
+            "some of them are missing", "angles that stay as they are: write them, too"};
+  case GCodeError::Tilted:
+    return {Code::CncSentence, "after G15 the program's Z is the machine's", "it would be tilted",
+            "choose G17, or another plane, before"};
+  case GCodeError::Distorted:
+    return {Code::CncSentence, "X, Y and Z are scaled by different factors",
+            "makes another curve of this one", "the axes of its plane need the same factor"};
+  case GCodeError::TurnOfScale:
+    return {Code::CncSentence, "X, Y and Z are scaled by different factors",
+            "they cannot be turned now", "G54 says angles and factors at once"};
+  case GCodeError::PartOfScale:
+    return {Code::CncSentence, "I, J and K scale the coordinates together",
+            "some of them are missing", "a factor of 1 leaves an axis as it is"};
+  case GCodeError::BadScale:
+    return {Code::CncSentence, "factors of X, Y and Z are positive", "0 or less", ""};
   case GCodeError::UnknownJump:
     return {Code::CncJump, "no sentence has the number of this jump", "the jump leads nowhere",
             "L is the number N of the sentence to go on with"};
@@ -73,6 +90,7 @@ public:
 
   void check() {
     startDecoder(*decoder_, program_.settings.start);
+    decoder_->softMotion3 = program_.settings.softMotion3;
     follow();
     // What has not been reached: where the path is there, nobody knows.
     uncertain_ = velocityReported_ = true;

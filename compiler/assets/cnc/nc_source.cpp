@@ -124,6 +124,7 @@ private:
     nc::beginReading(*reader_, *queue_, false);
     nc::startInterpreter(*interpreter_);
     cnc::startDecoder(*decoder_, {});
+    decoder_->softMotion3 = program_.settings.softMotion3 = true;
   }
 
   /// Whether the file is a subprogram, which is only read.

@@ -120,7 +120,7 @@ CncDecoded decodeCnc(const CncProgram &program,
   const auto decoder = std::make_unique<Decoder>();
   const auto decoded = std::make_unique<Decoded>();
   startDecoder(*decoder, program.settings.start);
-  decoder->separate = program.settings.softMotion3;
+  decoder->softMotion3 = program.settings.softMotion3;
   const auto takeAll = [&] {
     return std::all_of(decoded->objects, decoded->objects + decoded->count, take);
   };

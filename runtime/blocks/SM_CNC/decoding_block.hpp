@@ -29,9 +29,16 @@ template <class Block> bool hasQueueMemory(const Block &block) noexcept {
          block.nSizeOutQueue >= kLeastObjects * sizeof(PathObject);
 }
 
+/// SMC_ORI_CONVENTION; what is none of them counts as ADDAXES.
+inline Orientation orientationOf(int16_t convention) noexcept {
+  constexpr auto kLast = static_cast<int16_t>(Orientation::Xyz);
+  return convention > 0 && convention <= kLast ? static_cast<Orientation>(convention)
+                                               : Orientation::Axes;
+}
+
 /// Begins a program from `start`, or appends it to the one before.
 template <class Block>
-void startDecoding(Block &block, const Position &start, bool separate) noexcept {
+void startDecoding(Block &block, const Position &start, bool softMotion3) noexcept {
   const bool append = block.bAppend != 0 && block.bBegun != 0;
   Queue *const queue = queueOf(&block.Queue);
   if (append) {
@@ -41,7 +48,8 @@ void startDecoding(Block &block, const Position &start, bool separate) noexcept 
     queue->size = block.nSizeOutQueue;
     (void)clear(queue);
     startDecoder(decoderOf(block), start);
-    decoderOf(block).separate = separate;
+    decoderOf(block).softMotion3 = softMotion3;
+    decoderOf(block).orientation = orientationOf(block.eOriConv);
   }
   queue->endOfList = 0;
   queue->generator = kByDecoder;

@@ -44,6 +44,10 @@ STRIDE_SAME_PLACE(Decoder, planeX, st::SMC_DECODER_STATE, vX);
 STRIDE_SAME_PLACE(Decoder, planeY, st::SMC_DECODER_STATE, vY);
 STRIDE_SAME_PLACE(Decoder, normal, st::SMC_DECODER_STATE, vN);
 STRIDE_SAME_PLACE(Decoder, direction, st::SMC_DECODER_STATE, vDirection);
+STRIDE_SAME_PLACE(Decoder, systemX, st::SMC_DECODER_STATE, vSystemX);
+STRIDE_SAME_PLACE(Decoder, systemY, st::SMC_DECODER_STATE, vSystemY);
+STRIDE_SAME_PLACE(Decoder, systemZ, st::SMC_DECODER_STATE, vSystemZ);
+STRIDE_SAME_PLACE(Decoder, scale, st::SMC_DECODER_STATE, adScale);
 STRIDE_SAME_PLACE(Decoder, limits, st::SMC_DECODER_STATE, aLimits);
 STRIDE_SAME_PLACE(Decoder, objects, st::SMC_DECODER_STATE, diObjects);
 STRIDE_SAME_PLACE(Decoder, features, st::SMC_DECODER_STATE, dwFeatures);
@@ -60,7 +64,11 @@ STRIDE_SAME_PLACE(Decoder, centreAbsolute, st::SMC_DECODER_STATE, bCentreAbsolut
 STRIDE_SAME_PLACE(Decoder, planar, st::SMC_DECODER_STATE, bPlanar);
 STRIDE_SAME_PLACE(Decoder, directed, st::SMC_DECODER_STATE, bDirected);
 STRIDE_SAME_PLACE(Decoder, jumping, st::SMC_DECODER_STATE, bJumping);
-STRIDE_SAME_PLACE(Decoder, separate, st::SMC_DECODER_STATE, bSeparate);
+STRIDE_SAME_PLACE(Decoder, turned, st::SMC_DECODER_STATE, bTurned);
+STRIDE_SAME_PLACE(Decoder, scaled, st::SMC_DECODER_STATE, bScaled);
+STRIDE_SAME_PLACE(Decoder, softMotion3, st::SMC_DECODER_STATE, bSoftMotion3);
+
+STRIDE_SAME_PLACE(Decoder, orientation, st::SMC_DECODER_STATE, byOrientation);
 
 } // namespace layout
 
@@ -95,6 +103,18 @@ inline int16_t errorOf(GCodeError error) noexcept {
     return e::SMC_ERROR__SMC_DEC_NOT_IN_3D;
   case GCodeError::NegativePeriod:
     return e::SMC_ERROR__SMC_DEC_NEGATIVE_PERIOD;
+  case GCodeError::PartOfTurn:
+    return e::SMC_ERROR__SMC_DEC_ORIENTATION_INCOMPLETE;
+  case GCodeError::Tilted:
+    return e::SMC_ERROR__SMC_DEC_TILTED_DCS;
+  case GCodeError::Distorted:
+    return e::SMC_ERROR__SMC_DEC_SCALING_DISTORTS;
+  case GCodeError::TurnOfScale:
+    return e::SMC_ERROR__SMC_DEC_ROTATION_AFFECTS_SCALING;
+  case GCodeError::PartOfScale:
+    return e::SMC_ERROR__SMC_DEC_SCALING_INCOMPLETE;
+  case GCodeError::BadScale:
+    return e::SMC_ERROR__SMC_IPR_INVALID_SCALING;
   case GCodeError::NotANumber:
     return e::SMC_ERROR__SMC_DEC_NOT_A_NUMBER;
   case GCodeError::TooManySwitches:

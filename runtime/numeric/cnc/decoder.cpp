@@ -114,7 +114,7 @@ MoveType typeOf(int32_t function) noexcept {
   }
 }
 
-bool inXY(const Decoder &decoder) noexcept { return decoder.normal.z == 1.0; }
+bool inXY(const Decoder &decoder) noexcept { return decoder.normal.z == 1.0 && !isTilted(decoder); }
 
 bool isMotion(int32_t function) noexcept {
   return (function >= 0 && function <= 3) || function == 5 || function == 6 ||
@@ -136,6 +136,8 @@ bool checkMotion(const Work &work, int32_t function) noexcept {
     return refuse(work, GCodeError::MissingWord, 'R');
   if (function == 6 && !centre)
     return refuse(work, GCodeError::MissingWord, 'I');
+  if ((ellipse || function == 2 || function == 3) && !keepsCircles(work.decoder))
+    return fail(work.result, GCodeError::Distorted, s.functionAt);
   return true;
 }
 
@@ -280,8 +282,7 @@ bool decodeG(const Work &work, int32_t function) noexcept {
   case 54:
   case 55:
   case 56:
-    decodeShift(work, function);
-    return true;
+    return decodeSystem(work, function);
   case 75:
     releaseJump(work);
     synchronise(work);
@@ -303,9 +304,9 @@ void readDistance(Decoder &decoder, const Sentence &sentence) noexcept {
     return;
   const double value = get(sentence, 'D');
   const bool ofTool = function == 41 || function == 42;
-  if (!decoder.separate || ofTool)
+  if (!decoder.softMotion3 || ofTool)
     decoder.radius = value;
-  if (!decoder.separate || (!ofTool && function != 40))
+  if (!decoder.softMotion3 || (!ofTool && function != 40))
     decoder.cornerDistance = value;
 }
 
@@ -330,6 +331,7 @@ void startDecoder(Decoder &decoder, const Position &start) noexcept {
   decoder.counter = -1;
   decoder.motion = -1;
   setFrame(decoder, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, false);
+  resetSystem(decoder);
 }
 
 void appendDecoder(Decoder &decoder) noexcept {

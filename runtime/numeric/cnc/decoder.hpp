@@ -30,11 +30,19 @@ enum class Held : uint8_t {
   Spline3d, ///< G10: likewise.
 };
 
+/// What A, B and C of a program are: SMC_ORI_CONVENTION.
+enum class Orientation : uint8_t {
+  Axes, ///< Axes like others.
+  Zyz,  ///< Angles of turns about Z, the turned Y, the turned Z. [degrees]
+  Zyx,  ///< Likewise about Z, Y, X.
+  Xyz,  ///< Likewise about X, Y, Z.
+};
+
 /// All that a decoder keeps between sentences; in ST SMC_DECODER_STATE. Made by startDecoder.
 struct Decoder {
   Position here;               ///< Where the path has come to, in machine coordinates.
   PathObject held;             ///< The last object, see `state`.
-  double shift[kAxes];         ///< Of the coordinates (G54 to G56). [u]
+  double shift[kAxes];         ///< Where the coordinates begin (G54 to G56), for the machine. [u]
   double period[kLimitedAxes]; ///< Of axes that turn, in the order of PathObject::limits. [u]
   double velocity;             ///< F [u/s]
   double acceleration;         ///< E > 0 [u/s^2]
@@ -51,6 +59,10 @@ struct Decoder {
   Vector3 planeY;
   Vector3 normal;
   Vector3 direction; ///< In which the last motion ended; length 1.
+  Vector3 systemX;   ///< Axes of the program's coordinates (G54 to G56), seen by the machine.
+  Vector3 systemY;
+  Vector3 systemZ;
+  double scale[3]; ///< Of the program's X, Y, Z: machine's units by the program's.
   AxisLimits limits[kLimitedAxes];
   int32_t objects;     ///< How many there have been.
   uint32_t features;   ///< G38
@@ -67,8 +79,12 @@ struct Decoder {
   bool planar;         ///< G15
   bool directed;       ///< There is a `direction`.
   bool jumping;        ///< G92 has been, and its object is not out yet.
-  bool separate;       ///< D of G41 and G42 is the tool's, other ones are not, as in SoftMotion 3
-                       ///< from 4.18 on; else each D is both. The user sets it after startDecoder.
+  bool turned;         ///< The program's axes are not the machine's: systemX to systemZ.
+  bool scaled;         ///< Its units are not the machine's: scale.
+  // The user sets these after startDecoder:
+  bool softMotion3; ///< D of G41 and G42 is the tool's, other ones are not, as in SoftMotion 3
+                    ///< from 4.18 on, else each D is both; I, J, K of G54 to G56 scale.
+  Orientation orientation;
 };
 
 /// What comes after a sentence.

@@ -45,15 +45,51 @@ struct Work {
 /// Sets the error, about the word with the letter or else the function. Always false.
 bool refuse(const Work &work, GCodeError error, char letter) noexcept;
 
-/// The frame of arcs.
+/// The frame of arcs, in the program's coordinates.
 void setFrame(Decoder &decoder, const Vector3 &x, const Vector3 &y, const Vector3 &normal,
               bool planar) noexcept;
 
 /// G38 and G39.
 bool decodeFeature(const Work &work, bool on) noexcept;
 
-/// G54 to G56: where the program's coordinates have their origin.
-void decodeShift(const Work &work, int32_t function) noexcept;
+/// G54 to G56: where the program's coordinates have their origin, and how they are turned and
+/// scaled.
+bool decodeSystem(const Work &work, int32_t function) noexcept;
+
+/// G53: the program's coordinates are the machine's.
+void resetSystem(Decoder &decoder) noexcept;
+
+/// A way in X, Y and Z that the program says, as the machine sees it.
+Vector3 machineWay(const Decoder &decoder, const Vector3 &way) noexcept;
+
+/// Where the path is in X, Y and Z, as the program sees it.
+Vector3 programPlace(const Decoder &decoder) noexcept;
+
+/// X, Y and Z of a place that the program says, as the machine sees it.
+Vector3 machinePlace(const Decoder &decoder, const Vector3 &place) noexcept;
+
+/// Whether the program's Z is not the machine's.
+bool isTilted(const Decoder &decoder) noexcept;
+
+/// The frame of arcs, as the machine sees it.
+struct Frame {
+  Vector3 x, y, normal;
+};
+Frame machineFrame(const Decoder &decoder) noexcept;
+
+/// Whether arcs of circles in the present plane are arcs of circles for the machine, too.
+bool keepsCircles(const Decoder &decoder) noexcept;
+
+/// The length of 1 in the present plane, for the machine.
+double scaleOfPlane(const Decoder &decoder) noexcept;
+
+/// How far the program's X is turned about Z, counterclockwise. [degrees]
+double turnAboutZ(const Decoder &decoder) noexcept;
+
+/// A, B and C, where they are angles of the program's coordinates, become those for the machine.
+/// `value`: what the sentence says; `named`: which of them.
+void turnOrientation(const Decoder &decoder, const double (&value)[3], const bool (&named)[3],
+                     Position &target) noexcept;
 
 /// G16: the plane whose normal is I, J, K.
 bool decodePlane(const Work &work) noexcept;
@@ -92,6 +128,10 @@ void makeArc(const Decoder &decoder, const Sentence &sentence, bool ellipse, Pat
 /// Where an arc with an opening angle (T) ends: the target with the place in the plane set.
 void turnTarget(const Decoder &decoder, const Sentence &sentence, bool clockwise,
                 Position &target) noexcept;
+
+/// Where I, J and K put the centre, or with `inPlane` I and J alone, as the machine sees it.
+Vector3 centreOf(const Decoder &decoder, const Sentence &sentence, const Vector3 &start,
+                 bool inPlane) noexcept;
 
 /// A parabola: G6; a line where it is none.
 void makeParabola(const Decoder &decoder, const Sentence &sentence, PathObject &object,

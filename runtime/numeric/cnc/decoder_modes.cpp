@@ -53,24 +53,6 @@ bool decodeFeature(const Work &work, bool on) noexcept {
   return true;
 }
 
-void decodeShift(const Work &work, int32_t function) noexcept {
-  Decoder &d = work.decoder;
-  const Sentence &s = work.sentence;
-  constexpr char kLetters[] = "XYZABCPQUVW";
-  for (int32_t axis = 0; axis < kAxisSixth; ++axis) {
-    const bool named = has(s, kLetters[axis]);
-    const double value = named ? get(s, kLetters[axis]) : 0.0;
-    if (function == 54)
-      d.shift[axis] = value;
-    else if (function == 55)
-      d.shift[axis] += value;
-    else if (named)
-      d.shift[axis] = d.here.coordinate[axis] - value;
-  }
-  if (has(s, 'I') || has(s, 'J') || has(s, 'K'))
-    note(work.result, kNoteNoProcessor, s.functionAt);
-}
-
 /// G71 and G70: the axis L, 4 (A) to 11 (W), goes smoothly from the next object on, or not.
 bool decodeSmoothAxis(const Work &work, bool on) noexcept {
   constexpr double kFirst = 4.0;
@@ -108,6 +90,8 @@ bool decodeMode(const Work &work, int32_t function) noexcept {
   switch (function) {
   case 15:
   case 17:
+    if (function == 15 && isTilted(d))
+      return fail(work.result, GCodeError::Tilted, work.sentence.functionAt);
     setFrame(d, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, function == 15);
     return true;
   case 18:
@@ -126,8 +110,7 @@ bool decodeMode(const Work &work, int32_t function) noexcept {
     endMark(d, kEndAvoidLoops, kAvoidLoops);
     return true;
   case 53:
-    for (double &shift : d.shift)
-      shift = 0.0;
+    resetSystem(d);
     return true;
   case 90:
   case 91:

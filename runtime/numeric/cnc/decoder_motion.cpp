@@ -118,19 +118,6 @@ Place inPlane(const PathObject &object, const Vector3 &place) noexcept {
   return {dot(object.planeX, place), dot(object.planeY, place)};
 }
 
-/// Where I, J and K put the centre, in machine coordinates.
-Vector3 centreOf(const Decoder &decoder, const Sentence &sentence, const Vector3 &start,
-                 bool ellipse) noexcept {
-  const double from[3] = {start.x, start.y, start.z};
-  double to[3] = {start.x, start.y, start.z};
-  for (int32_t i = 0; i < (ellipse ? 2 : 3); ++i) {
-    const auto letter = static_cast<char>('I' + i);
-    if (has(sentence, letter))
-      to[i] = get(sentence, letter) + (decoder.centreAbsolute ? decoder.shift[i] : from[i]);
-  }
-  return {to[0], to[1], to[2]};
-}
-
 /// What an arc is measured in: the plane, turned and stretched so that an ellipse is a circle.
 struct Stretch {
   double cosine, sine; ///< Of the main axis's direction.
@@ -219,6 +206,22 @@ Vector3 unit(const Vector3 &vector) noexcept {
   return exact::isPositive(length) ? vector * (1.0 / length) : kZero;
 }
 
+Vector3 centreOf(const Decoder &decoder, const Sentence &sentence, const Vector3 &start,
+                 bool inPlane) noexcept {
+  const bool absolute = decoder.centreAbsolute;
+  Vector3 said = absolute ? programPlace(decoder) : kZero;
+  double *const parts[3] = {&said.x, &said.y, &said.z};
+  bool named = false;
+  for (int32_t i = 0; i < (inPlane ? 2 : 3); ++i)
+    if (const auto letter = static_cast<char>('I' + i); has(sentence, letter)) {
+      *parts[i] = get(sentence, letter);
+      named = true;
+    }
+  if (!named)
+    return start;
+  return absolute ? machinePlace(decoder, said) : start + machineWay(decoder, said);
+}
+
 bool namesAxis(const Sentence &sentence) noexcept {
   for (const char letter : kAxisLetters)
     if (letter != 0 && has(sentence, letter))
@@ -226,13 +229,52 @@ bool namesAxis(const Sentence &sentence) noexcept {
   return false;
 }
 
+/// X, Y and Z of a target in coordinates that are turned or scaled.
+void placeInSystem(const Decoder &decoder, const Sentence &sentence, Position &target) noexcept {
+  Vector3 said = decoder.relative ? kZero : programPlace(decoder);
+  double *const parts[3] = {&said.x, &said.y, &said.z};
+  bool named = false;
+  for (int32_t axis = kAxisX; axis <= kAxisZ; ++axis)
+    if (has(sentence, kAxisLetters[axis])) {
+      *parts[axis] = get(sentence, kAxisLetters[axis]);
+      named = true;
+    }
+  if (!named)
+    return;
+  const Vector3 to = decoder.relative ? placeOf(decoder.here) + machineWay(decoder, said)
+                                      : machinePlace(decoder, said);
+  target.coordinate[kAxisX] = to.x;
+  target.coordinate[kAxisY] = to.y;
+  target.coordinate[kAxisZ] = to.z;
+}
+
+/// A, B and C of a target, where they are angles in coordinates that are turned.
+void turnInSystem(const Decoder &decoder, const Sentence &sentence, Position &target) noexcept {
+  double value[3] = {};
+  bool named[3] = {};
+  for (int32_t i = 0; i < 3; ++i) {
+    named[i] = has(sentence, kAxisLetters[kAxisA + i]);
+    value[i] = named[i] ? get(sentence, kAxisLetters[kAxisA + i]) : 0.0;
+  }
+  if (named[0] || named[1] || named[2])
+    turnOrientation(decoder, value, named, target);
+}
+
 Position targetOf(Decoder &decoder, const Sentence &sentence, bool periodic) noexcept {
   Position target = decoder.here;
+  const bool placed = decoder.turned || decoder.scaled;
+  const bool angles = decoder.turned && decoder.orientation != Orientation::Axes;
+  if (placed)
+    placeInSystem(decoder, sentence, target);
+  if (angles)
+    turnInSystem(decoder, sentence, target);
   for (int32_t axis = 0; axis < kAxes; ++axis) {
     const char letter = kAxisLetters[axis];
     if (letter == 0 || !has(sentence, letter))
       continue;
     decoder.axes = static_cast<uint16_t>(decoder.axes | (1U << axis));
+    if ((placed && axis <= kAxisZ) || (angles && axis >= kAxisA && axis <= kAxisC))
+      continue;
     const double here = decoder.here.coordinate[axis];
     const double value = get(sentence, letter);
     double &to = target.coordinate[axis];
@@ -278,9 +320,10 @@ PathObject beginObject(Decoder &decoder, const Sentence &sentence, MoveType type
   object.smoothAxes = decoder.smoothAxes;
   decoder.smoothAxes &= static_cast<uint16_t>((1U << kRangeBegins) - 1U);
   object.parameterRange[1] = 1.0;
-  object.planeX = decoder.planeX;
-  object.planeY = decoder.planeY;
-  object.normal = decoder.normal;
+  const Frame frame = machineFrame(decoder);
+  object.planeX = frame.x;
+  object.planeY = frame.y;
+  object.normal = frame.normal;
   object.features = decoder.features;
   for (int32_t i = 0; i < kAdditionalParameters; ++i)
     object.additional[i] = decoder.additional[i];
@@ -308,7 +351,8 @@ void makeArc(const Decoder &decoder, const Sentence &sentence, bool ellipse, Pat
              Decoded &result) noexcept {
   const bool clockwise =
       object.moveType == MoveType::Clockwise || object.moveType == MoveType::EllipseClockwise;
-  const double direction = ellipse && has(sentence, 'K') ? get(sentence, 'K') : 0.0;
+  const double direction = (ellipse && has(sentence, 'K') ? get(sentence, 'K') : 0.0) +
+                           (ellipse && decoder.turned ? turnAboutZ(decoder) : 0.0);
   const Stretch stretch{ellipse ? ::stride::cos(direction * kDegree) : 1.0,
                         ellipse ? ::stride::sin(direction * kDegree) : 0.0,
                         ellipse ? get(sentence, 'R') : 1.0};
@@ -318,7 +362,8 @@ void makeArc(const Decoder &decoder, const Sentence &sentence, bool ellipse, Pat
   Note why = kNoteCentreOff;
   bool good = false;
   if (!ellipse && has(sentence, 'R'))
-    good = circleOfRadius(start, end, get(sentence, 'R'), clockwise, circle, why);
+    good = circleOfRadius(start, end, get(sentence, 'R') * scaleOfPlane(decoder), clockwise, circle,
+                          why);
   else
     good = circleAround(
         start, end,
@@ -344,13 +389,13 @@ void turnTarget(const Decoder &decoder, const Sentence &sentence, bool clockwise
   const Vector3 start = placeOf(decoder.here);
   const Vector3 centre = centreOf(decoder, sentence, start, false);
   const Vector3 radial = start - centre;
-  const double x = dot(decoder.planeX, radial);
-  const double y = dot(decoder.planeY, radial);
+  const Frame frame = machineFrame(decoder);
+  const double x = dot(frame.x, radial);
+  const double y = dot(frame.y, radial);
   const double angle = get(sentence, 'T') * kDegree * (clockwise ? -1.0 : 1.0);
   const double cosine = ::stride::cos(angle);
   const double sine = ::stride::sin(angle);
-  const Vector3 way =
-      decoder.planeX * (x * cosine - y * sine - x) + decoder.planeY * (x * sine + y * cosine - y);
+  const Vector3 way = frame.x * (x * cosine - y * sine - x) + frame.y * (x * sine + y * cosine - y);
   const double parts[3] = {way.x, way.y, way.z};
   for (int32_t axis = kAxisX; axis <= kAxisZ; ++axis)
     target.coordinate[axis] += parts[axis];

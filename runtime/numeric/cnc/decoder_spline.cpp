@@ -122,11 +122,7 @@ void makeParabola(const Decoder &decoder, const Sentence &sentence, PathObject &
                   Decoded &result) noexcept {
   const Vector3 start = placeOf(object.start);
   const Vector3 end = placeOf(object.end);
-  Vector3 corner = start;
-  if (has(sentence, 'I'))
-    corner.x = get(sentence, 'I') + (decoder.centreAbsolute ? decoder.shift[kAxisX] : start.x);
-  if (has(sentence, 'J'))
-    corner.y = get(sentence, 'J') + (decoder.centreAbsolute ? decoder.shift[kAxisY] : start.y);
+  const Vector3 corner = centreOf(decoder, sentence, start, true);
   const Vector3 in{corner.x - start.x, corner.y - start.y, 0.0};
   const Vector3 out{end.x - corner.x, end.y - corner.y, 0.0};
   const double inLength = norm(in);

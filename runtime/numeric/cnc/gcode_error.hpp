@@ -33,6 +33,12 @@ enum class GCodeError : uint8_t {
   TooManySwitches, ///< More than kMostSwitches words H in a sentence.
   NotInThisPlane,  ///< Ellipses, parabolas and splines in the plane are in X and Y.
   NegativePeriod,  ///< Of an axis.
+  PartOfTurn,      ///< Of A, B, C of G54 to G56 some are missing, where they are angles.
+  Tilted,          ///< The program's Z is not the machine's, and the path is planar (G15).
+  Distorted,       ///< Axes scaled by different factors make no circle of a circle.
+  TurnOfScale,     ///< G55 turns axes that are scaled by different factors.
+  PartOfScale,     ///< Of I, J, K of G54 to G56 some are missing.
+  BadScale,        ///< A factor of an axis is not positive.
   UnknownJump,     ///< No sentence has that number.
 };
 

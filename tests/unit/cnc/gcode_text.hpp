@@ -101,10 +101,12 @@ inline void resolve(Scanned &scanned, const Variables &variables) {
 
 inline DecodedText decodeWords(const std::vector<GCodeWord> &words, const Position &start = {},
                                bool stepSuppress = false, int most = 100000,
-                               bool separate = false) {
+                               bool softMotion3 = false,
+                               Orientation orientation = Orientation::Axes) {
   DecodedText out;
   startDecoder(out.decoder, start);
-  out.decoder.separate = separate;
+  out.decoder.softMotion3 = softMotion3;
+  out.decoder.orientation = orientation;
   static Decoded decoded;
   const auto count = static_cast<int64_t>(words.size());
   const auto take = [&] {
