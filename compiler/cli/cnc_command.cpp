@@ -4,7 +4,9 @@
 #include "compiler/assets/cnc/nc_source.hpp"
 #include "compiler/cli/cnc_run.hpp"
 #include "compiler/cli/commands.hpp"
+#include "compiler/project/config.hpp"
 #include "compiler/project/file_system.hpp"
+#include "compiler/project/source_files.hpp"
 #include "compiler/source/sources.hpp"
 
 #include <algorithm>
@@ -18,6 +20,21 @@ namespace {
 
 constexpr std::string_view kLetters = "XYZABCPQUVW";
 
+/// Whether words mean what SoftMotion 3 means: as the command says, or the project of the file.
+bool isSoftMotion3(const std::string &path, const std::string &said) {
+  if (!said.empty())
+    return said == "3";
+  std::error_code error;
+  const std::filesystem::path folder =
+      findProjectFolder(std::filesystem::absolute(path, error).parent_path());
+  Sources sources;
+  Diagnostics unseen; // of the project, which is not what is checked here
+  const std::filesystem::path toml = folder / "stride.toml";
+  const std::optional<FileId> id =
+      folder.empty() ? std::nullopt : sources.load(toml, toml.string());
+  return id && readConfig(sources.file(*id), unseen).generation == 3;
+}
+
 /// A program that a command was given.
 struct LoadedCnc {
   Sources sources;
@@ -27,7 +44,7 @@ struct LoadedCnc {
   std::map<std::string, const SourceFile *> subprograms;
   bool expanded = false; ///< It is in SoftMotion 3's language: the program is what it amounts to.
 
-  explicit LoadedCnc(const std::string &path) {
+  LoadedCnc(const std::string &path, const CncOptions &options) {
     file = sources.load(path, path, kMaxCncBytes);
     if (!file) {
       diagnostics.report(
@@ -42,6 +59,8 @@ struct LoadedCnc {
                         source, [&](const std::string &name) { return subprogram(path, name); },
                         diagnostics)
                   : readCnc(source, diagnostics);
+    if (program && !expanded)
+      program->settings.softMotion3 = isSoftMotion3(path, options.softMotion);
   }
 
   /// The file of a subprogram, beside that of the program.
@@ -51,7 +70,7 @@ struct LoadedCnc {
       return known->second;
     const std::filesystem::path beside =
         std::filesystem::path(path).parent_path() / (name + std::string(kCncSuffix));
-    const std::optional<FileId> id = sources.load(beside, beside.string());
+    const std::optional<FileId> id = sources.load(beside, beside.string(), kMaxCncBytes);
     return subprograms[name] = id ? &sources.file(*id) : nullptr;
   }
 
@@ -71,7 +90,7 @@ std::string shownNumber(double value) {
 int cncCheck(const CncOptions &options) {
   int exitCode = 0;
   for (const std::string &path : options.files) {
-    LoadedCnc loaded(path);
+    LoadedCnc loaded(path, options);
     if (loaded.program)
       checkCnc(*loaded.program, loaded.diagnostics);
     exitCode = std::max(exitCode, loaded.finish(options.output));
@@ -130,7 +149,7 @@ std::string infoText(const std::string &path, const CncProgram &program) {
 int cncInfo(const CncOptions &options) {
   int exitCode = 0;
   for (const std::string &path : options.files) {
-    LoadedCnc loaded(path);
+    LoadedCnc loaded(path, options);
     if (loaded.program)
       print(infoText(path, *loaded.program));
     exitCode = std::max(exitCode, loaded.finish(options.output));
@@ -141,7 +160,7 @@ int cncInfo(const CncOptions &options) {
 int cncFormat(const CncOptions &options) {
   int exitCode = 0;
   for (const std::string &path : options.files) {
-    LoadedCnc loaded(path);
+    LoadedCnc loaded(path, options);
     if (loaded.expanded) {
       loaded.diagnostics.report(Code::CncText, {loaded.file.value_or(0), 0, 0},
                                 "programs with expressions and subprograms cannot be formatted yet",
@@ -167,7 +186,7 @@ int cncMotion(const CncOptions &options) {
   const std::string &path = options.files.front();
   if (options.motion.velocityMode == "quadratic" && !(options.motion.jerk > 0))
     return showError(Code::CncSentence, "--velocity-mode quadratic needs a --jerk", options.output);
-  LoadedCnc loaded(path);
+  LoadedCnc loaded(path, options);
   std::string says;
   if (loaded.program) {
     CncProgram &program = *loaded.program;
@@ -188,7 +207,7 @@ int cncMotion(const CncOptions &options) {
 /// Writes a queue file.
 int cncQueue(const CncOptions &options) {
   const std::string &path = options.files.front();
-  LoadedCnc loaded(path);
+  LoadedCnc loaded(path, options);
   std::string says;
   if (loaded.program) {
     CncProgram &program = *loaded.program;

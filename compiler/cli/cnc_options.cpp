@@ -76,6 +76,13 @@ private:
                              ->type_name("");
     if (action == CncAction::Run || action == CncAction::Plot || action == CncAction::Queue)
       files->expected(1);
+    if (action != CncAction::Format)
+      command
+          ->add_option("--softmotion", call_->cnc.softMotion,
+                       "What words mean: 2.3 or 3 (default: as stride.toml of the file's project "
+                       "says, else 2.3)")
+          ->check(CLI::IsMember({"2.3", "3"}).description(""))
+          ->type_name("VERSION");
     addOutputOptions(*command, call_->cnc.output);
     command->callback([call = call_, action] {
       call->cnc.action = action;

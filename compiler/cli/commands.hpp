@@ -165,6 +165,8 @@ struct CncOptions {
   std::vector<std::string> files;
   bool check = false; ///< format: write nothing; fail when something is not formatted
   std::string out;
+  /// Whose meanings words have: "2.3" or "3"; empty: as the project of the file says.
+  std::string softMotion;
   CncMotionOptions motion;
   CncQueueOptions queue;
   Output output;

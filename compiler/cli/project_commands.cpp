@@ -117,10 +117,15 @@ bool fillInSocket(std::vector<std::string> &arguments, const ProjectOptions &opt
 
 } // namespace
 
-std::optional<BuildResult> buildToRun(const ProjectOptions &options, BuildUse use, int &exitCode) {
+std::optional<BuildResult> buildToRun(const ProjectOptions &options, BuildUse use, int &exitCode,
+                                      const std::vector<std::string> &hostArguments) {
   ProgressLine progress;
   BuildOptions build;
   build.use = use;
+  // The last one counts, as for the host.
+  for (size_t i = 0; i + 1 < hostArguments.size(); ++i)
+    if (hostArguments[i] == "--files")
+      build.filesFolder = hostArguments[i + 1];
   std::optional<BuildResult> result = buildProject(options, build, progress, exitCode);
   return exitCode == 0 ? std::move(result) : std::nullopt;
 }
@@ -234,7 +239,7 @@ int hostCommand(const ProjectOptions &options, const std::string &command,
   int exitCode = 0;
   const bool isRun = command == "run";
   const std::optional<BuildResult> result =
-      buildToRun(options, isRun ? BuildUse::Run : BuildUse::RunOnce, exitCode);
+      buildToRun(options, isRun ? BuildUse::Run : BuildUse::RunOnce, exitCode, hostArguments);
   if (!result)
     return exitCode;
   std::optional<std::vector<std::string>> arguments =
@@ -249,7 +254,8 @@ int hostCommand(const ProjectOptions &options, const std::string &command,
 int debugCommand(const ProjectOptions &options, const std::vector<std::string> &hostArguments,
                  const DebugSession &session) {
   int exitCode = 0;
-  const std::optional<BuildResult> result = buildToRun(options, BuildUse::RunOnce, exitCode);
+  const std::optional<BuildResult> result =
+      buildToRun(options, BuildUse::RunOnce, exitCode, hostArguments);
   if (!result)
     return exitCode;
   // The names of the sources count from there.

@@ -12,9 +12,11 @@
 namespace stc::cli {
 
 /// Opens and builds the project and shows its diagnostics; nothing when there is nothing to run.
-/// `exitCode` is that of the command then.
+/// `exitCode` is that of the command then. `hostArguments`: what the user has said for the run; its
+/// folder for files gets those that the project's CNC programs become, too.
 [[nodiscard]] std::optional<BuildResult> buildToRun(const ProjectOptions &options, BuildUse use,
-                                                    int &exitCode);
+                                                    int &exitCode,
+                                                    const std::vector<std::string> &hostArguments);
 
 /// What stride-host is given to do `command` (sim, run) with the application; `own`: what the user
 /// has said. Nothing: links of the project lead out of it, or there is no place for its socket,

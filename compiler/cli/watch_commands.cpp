@@ -106,7 +106,8 @@ int watchRunCommand(const ProjectOptions &options, const std::vector<std::string
     if (changed) {
       watch.refresh();
       int exitCode = 0;
-      const std::optional<BuildResult> result = buildToRun(options, BuildUse::Run, exitCode);
+      const std::optional<BuildResult> result =
+          buildToRun(options, BuildUse::Run, exitCode, hostArguments);
       if (!result)
         say(child.load() != 0 ? "the old program goes on; waiting for changes"
                               : "waiting for changes");

@@ -411,7 +411,9 @@ private:
     result.retainFile = retainFileOf(project_);
     result.filesRoot = filesRootOf(project_);
     if ((options_.use == BuildUse::Keep && !keep(result)) ||
-        !writeMadeFiles(project_, folderOf(project_), result.filesRoot, diagnostics_))
+        !writeMadeFiles(project_, folderOf(project_), result.filesRoot, diagnostics_) ||
+        (!options_.filesFolder.empty() &&
+         !writeMadeFiles(project_, options_.filesFolder, options_.filesFolder, diagnostics_)))
       return std::nullopt;
     if ((project_.isSingleFile() && options_.use != BuildUse::Run) || options_.isStatic ||
         !options_.target.empty())

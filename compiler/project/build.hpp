@@ -30,6 +30,9 @@ struct BuildOptions {
   /// One executable with stride-host and the application, without shared libraries; its name is
   /// that of the application, without `.so`.
   bool isStatic = false;
+  /// The user's folder for the program's files, which gets what CNC programs become, too; empty:
+  /// none but the project's.
+  std::filesystem::path filesFolder;
   std::string target; ///< a processor as Debian's cross compilers name it; empty: this machine's
   /// Called now and then with what is being done and how much is done of how much.
   std::function<void(std::string_view what, size_t done, size_t total)> progress;

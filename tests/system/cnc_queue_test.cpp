@@ -74,6 +74,46 @@ TEST_F(CncQueue, RefusesWhatHasNoEndOrNoVelocity) {
   EXPECT_EQ(queue({"-o", "a.queue"}).exitCode, 1);
 }
 
+// Factors of coordinates are SoftMotion 3's: the project of the file decides, or the command.
+TEST_F(CncQueue, ReadsWordsAsTheProjectDoes) {
+  write("N10 G54 I2 J2 K2\nN20 G1 X10 F50\n");
+  const auto length = [this](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {STRIDE_BINARY_DIR "/stride", "cnc", "info", "a.cnc"});
+    const std::string text = runProcess(arguments, scratch_.path()).out;
+    const size_t at = text.find("length");
+    return at == std::string::npos ? text : text.substr(at, text.find('\n', at) - at);
+  };
+  EXPECT_EQ(length({}), "length      10");
+  EXPECT_EQ(length({"--softmotion", "3"}), "length      20");
+  writeFile(scratch_.path() / "stride.toml", "[project]\nsoftmotion = \"3\"\n");
+  EXPECT_EQ(length({}), "length      20");
+  EXPECT_EQ(length({"--softmotion", "2.3"}), "length      10");
+  const auto check = [this](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {STRIDE_BINARY_DIR "/stride", "cnc", "check", "a.cnc"});
+    return runProcess(arguments, scratch_.path()).err;
+  };
+  EXPECT_EQ(check({}), "");
+  EXPECT_THAT(check({"--softmotion", "2.3"}), HasSubstr("SE0886"));
+  write("N10 G54 I2 J3 K2\nN20 G3 X10 R5 F50\n");
+  EXPECT_THAT(check({}), HasSubstr("X, Y and Z are scaled by different factors"));
+}
+
+// Files that programs become come into the folder that a run is given, too.
+TEST_F(CncQueue, MakesFilesInTheFolderOfTheRun) {
+  write("N10 G1 X30 F50\n");
+  writeFile(scratch_.path() / "Main.st", "PROGRAM Main\nVAR\n  n : INT;\nEND_VAR\nn := n + 1;\n"
+                                         "END_PROGRAM\n");
+  writeFile(scratch_.path() / "stride.toml",
+            "[[cnc]]\nfile = \"a.cnc\"\ncompile = \"queue-file\"\n");
+  const ProcessResult run =
+      runProcess({STRIDE_BINARY_DIR "/stride", "sim", "--for", "T#20ms", "--files", "elsewhere"},
+                 scratch_.path());
+  EXPECT_EQ(run.exitCode, 0) << run.err;
+  const std::string made = readFile(scratch_.path() / "elsewhere/cnc/a.queue");
+  ASSERT_GT(made.size(), kHeader);
+  EXPECT_EQ(made, readFile(scratch_.path() / "files/cnc/a.queue"));
+}
+
 TEST_F(CncQueue, RefusesWrongOptions) {
   write("N10 G1 X30 F50\n");
   EXPECT_NE(queue({}).exitCode, 0) << "no -o";

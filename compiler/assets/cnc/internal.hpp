@@ -78,6 +78,17 @@ private:
   std::unordered_set<uint64_t> seen_; ///< Position and counter.
 };
 
+/// A type that G-code's variables can have, by its name in lower case.
+[[nodiscard]] std::optional<stride::cnc::VariableType> typeNamed(std::string_view lower);
+
+/// The global constant of a name in lower case, or null.
+using FindConstant = std::function<const ast::VarDecl *(std::string_view)>;
+
+/// The value of an expression of constants, operators and mathematical functions; nothing: it is
+/// none that can be computed before the project is checked.
+[[nodiscard]] std::optional<double> constantOf(const ast::Expr *expression,
+                                               const FindConstant &find);
+
 /// The bytes as text for stride::cnc::unpack, in pieces of the same length but for the last one.
 [[nodiscard]] std::vector<std::string> packed(std::string_view bytes);
 

@@ -1,6 +1,6 @@
 // Variables of the project that CNC programs name: their types and their initial values.
 
-#include "compiler/assets/cnc/cnc_source.hpp"
+#include "compiler/assets/cnc/internal.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,30 +13,6 @@ namespace stc {
 namespace {
 
 using stride::cnc::VariableType;
-
-struct TypeName {
-  std::string_view name;
-  VariableType type;
-};
-constexpr std::array<TypeName, 12> kTypes = {{{"int", VariableType::Int},
-                                              {"byte", VariableType::Byte},
-                                              {"word", VariableType::Word},
-                                              {"dint", VariableType::Dint},
-                                              {"dword", VariableType::Dword},
-                                              {"real", VariableType::Real},
-                                              {"smc_m_parameters", VariableType::Structure},
-                                              {"sint", VariableType::Sint},
-                                              {"usint", VariableType::Usint},
-                                              {"uint", VariableType::Uint},
-                                              {"udint", VariableType::Udint},
-                                              {"lreal", VariableType::Lreal}}};
-
-std::optional<VariableType> typeNamed(std::string_view lower) {
-  for (const TypeName &type : kTypes)
-    if (type.name == lower)
-      return type.type;
-  return std::nullopt;
-}
 
 /// How far types may lead to others.
 constexpr int kDeepest = 32;
@@ -193,7 +169,7 @@ private:
       for (const ast::Decl *decl : file->declarations)
         if (lowerCase(decl->name.text) == lower && decl->kind != ast::DeclKind::Globals)
           return decl;
-    return typeNamed(lower) ? nullptr : types_(lower);
+    return gcode::typeNamed(lower) ? nullptr : types_(lower);
   }
 
   /// The member of a structure or block, or of what it extends.
@@ -271,57 +247,11 @@ private:
   }
 
   /// A constant expression; nothing: it is none that can be computed before the program is checked.
-  std::optional<double> value(const ast::Expr *expression, int depth = 0) {
-    if (expression == nullptr || depth == kDeepest)
-      return std::nullopt;
-    switch (expression->kind) {
-    case ast::ExprKind::Literal:
-      return literal(*ast::as<ast::Literal>(expression));
-    case ast::ExprKind::Unary: {
-      const auto *unary = ast::as<ast::UnaryExpr>(expression);
-      const std::optional<double> operand = value(unary->operand, depth + 1);
-      if (!operand || unary->op == ast::UnaryOp::LogicalNot)
-        return std::nullopt;
-      return unary->op == ast::UnaryOp::Negate ? -*operand : *operand;
-    }
-    case ast::ExprKind::Binary:
-      return binary(*ast::as<ast::BinaryExpr>(expression), depth);
-    case ast::ExprKind::Name: {
-      const ast::VarDecl *constant =
-          findIn(files_, {}, lowerCase(ast::as<ast::NameExpr>(expression)->name.text));
-      return constant != nullptr && (constant->qualifiers & ast::kQualConstant) != 0
-                 ? value(constant->init, depth + 1)
-                 : std::nullopt;
-    }
-    default:
-      return std::nullopt;
-    }
-  }
-
-  static std::optional<double> literal(const ast::Literal &literal) {
-    const double sign = literal.negative ? -1 : 1;
-    if (literal.literal == ast::LiteralKind::Integer)
-      return sign * static_cast<double>(literal.integer);
-    if (literal.literal == ast::LiteralKind::Real)
-      return sign * literal.real;
-    return std::nullopt;
-  }
-
-  std::optional<double> binary(const ast::BinaryExpr &binary, int depth) {
-    const std::optional<double> left = value(binary.left, depth + 1);
-    const std::optional<double> right = value(binary.right, depth + 1);
-    if (!left || !right)
-      return std::nullopt;
-    switch (binary.op) {
-    case ast::BinaryOp::Add:
-      return *left + *right;
-    case ast::BinaryOp::Subtract:
-      return *left - *right;
-    case ast::BinaryOp::Multiply:
-      return *left * *right;
-    default: // a quotient depends on the types
-      return std::nullopt;
-    }
+  std::optional<double> value(const ast::Expr *expression) {
+    return gcode::constantOf(expression, [this](std::string_view lower) {
+      const ast::VarDecl *found = findIn(files_, {}, lower);
+      return found != nullptr && (found->qualifiers & ast::kQualConstant) != 0 ? found : nullptr;
+    });
   }
 
   std::optional<CncVariable> variableAt(Place place) {
@@ -339,7 +269,7 @@ private:
                             : nullptr;
     if (named == nullptr || named->path.empty())
       return std::nullopt;
-    const std::optional<VariableType> type = typeNamed(lowerCase(named->path.back().text));
+    const std::optional<VariableType> type = gcode::typeNamed(lowerCase(named->path.back().text));
     if (!type)
       return std::nullopt;
     if (*type == VariableType::Structure)
@@ -399,8 +329,9 @@ void freezeCnc(CncProgram &program, const std::vector<ast::File *> &files, const
           .report(Code::CncVariable, word.span,
                   fmt::format("the initial value of `{}` is not known here", word.variable),
                   "a queue is made before the application runs")
-          .help("give the variable a number, or constants with +, - and *; or decode the program "
-                "while the application runs: `compile = \"program\"`");
+          .help(
+              "give the variable a number, or constants with operators and functions like SQRT; or "
+              "decode the program while the application runs: `compile = \"program\"`");
   }
 }
 
