@@ -1,8 +1,12 @@
 // How many objects a second path processors take. The issue asks for a million for lines and arcs.
 #include "tests/unit/cnc_processors/sampled_path.hpp"
 
+#include "runtime/numeric/cnc/processors/abc_slopes.hpp"
 #include "runtime/numeric/cnc/processors/corner_path.hpp"
 #include "runtime/numeric/cnc/processors/limit_circular.hpp"
+#include "runtime/numeric/cnc/processors/limit_dynamics.hpp"
+#include "runtime/numeric/cnc/processors/smooth_add_axes.hpp"
+#include "runtime/numeric/cnc/processors/smooth_bspline.hpp"
 #include "runtime/numeric/cnc/processors/transform.hpp"
 
 #include <benchmark/benchmark.h>
@@ -91,10 +95,42 @@ void rotate(benchmark::State &state) {
   run(state, path, pathOf(state.range(0) != 0));
 }
 
+void limitDynamics(benchmark::State &state) {
+  LimitDynamics limit{};
+  limit.axes = 7;
+  limit.velocity = 10;
+  limit.acceleration = 50;
+  run(state, limit, pathOf(state.range(0) != 0));
+}
+void splines(benchmark::State &state) {
+  SmoothBSpline spline{};
+  spline.spacing = KnotSpacing::Centripetal;
+  run(state, spline, pathOf(false));
+}
+/// A and P, in ranges of 30 objects.
+void additionalAxes(benchmark::State &state) {
+  std::vector<PathObject> path = pathOf(state.range(0) != 0);
+  for (PathObject &object : path)
+    object.smoothAxes = 0x9;
+  path[0].smoothAxes = 0x909;
+  SmoothAddAxes smooth{};
+  smooth.part = 0.5;
+  run(state, smooth, path);
+}
+void slopes(benchmark::State &state) {
+  AbcSlopes processor{};
+  processor.angle = 1;
+  run(state, processor, pathOf(state.range(0) != 0));
+}
+
 BENCHMARK(smoothCubic)->Arg(0)->Arg(1);
 BENCHMARK(smoothQuintic)->Arg(0)->Arg(1);
 BENCHMARK(roundLines)->Arg(0)->Arg(1);
 BENCHMARK(limitCircular)->Arg(0)->Arg(1);
 BENCHMARK(rotate)->Arg(0)->Arg(1);
+BENCHMARK(limitDynamics)->Arg(0)->Arg(1);
+BENCHMARK(splines);
+BENCHMARK(additionalAxes)->Arg(0)->Arg(1);
+BENCHMARK(slopes)->Arg(0)->Arg(1);
 
 } // namespace

@@ -19,31 +19,26 @@ double lengthOf(const PathObject &object) noexcept {
   return shapeOf(object, shape) == ShapeError::None ? shape.length : 0.0;
 }
 
-double slopeAtStop(const AbcSlopes &slopes, const PathObject &object, int32_t angle) noexcept {
-  const double length = slopes.linearAtStops ? lengthOf(object) : 0.0;
+double slopeAtStop(const AbcSlopes &slopes, const PathObject &object, double length,
+                   int32_t angle) noexcept {
   const int32_t axis = kAxisA + angle;
-  return length > 0.0 ? (object.end.coordinate[axis] - object.start.coordinate[axis]) / length
-                      : 0.0;
+  return slopes.linearAtStops && length > 0.0
+             ? (object.end.coordinate[axis] - object.start.coordinate[axis]) / length
+             : 0.0;
 }
 
 /// Lets the object go by slopes, and begin at a stop.
-void begin(const AbcSlopes &slopes, PathObject &object) noexcept {
+void begin(const AbcSlopes &slopes, double length, PathObject &object) noexcept {
   object.slopes = 0;
   for (int32_t i = 0; i < kAngles; ++i) {
     if (follows(object, i))
       object.slopes |= static_cast<uint8_t>(1U << static_cast<unsigned>(i));
-    object.startSlope[i] = slopeAtStop(slopes, object, i);
+    object.startSlope[i] = slopeAtStop(slopes, object, length, i);
   }
 }
 
-void endAtStop(const AbcSlopes &slopes, PathObject &object) noexcept {
-  for (int32_t i = 0; i < kAngles; ++i)
-    object.endSlope[i] = slopeAtStop(slopes, object, i);
-}
-
-/// Where the path goes on from one object to the other.
-void join(PathObject &before, PathObject &after) noexcept {
-  const double length = lengthOf(before) + lengthOf(after);
+/// Where the path goes on from one object to the other; `length` is that of both.
+void join(PathObject &before, PathObject &after, double length) noexcept {
   for (int32_t i = 0; i < kAngles; ++i) {
     const int32_t axis = kAxisA + i;
     // An axis that does not move yet, or no longer, stands still there.
@@ -57,7 +52,8 @@ void join(PathObject &before, PathObject &after) noexcept {
 void release(AbcSlopes &slopes, Output &output) noexcept {
   if (!slopes.holds)
     return;
-  endAtStop(slopes, slopes.held);
+  for (int32_t i = 0; i < kAngles; ++i)
+    slopes.held.endSlope[i] = slopeAtStop(slopes, slopes.held, slopes.length, i);
   (void)put(output, slopes.held);
   slopes.holds = false;
 }
@@ -75,14 +71,16 @@ Step next(AbcSlopes &slopes, const Source &source, Output &output) noexcept {
     return Step::Took;
   }
   PathObject object = source.object;
-  begin(slopes, object);
+  const double length = lengthOf(object);
+  begin(slopes, length, object);
   if (slopes.holds && cornerVelocity(slopes.held, object, {slopes.angle, -1.0}) > 0.0) {
-    join(slopes.held, object);
+    join(slopes.held, object, slopes.length + length);
     (void)put(output, slopes.held);
   } else {
     release(slopes, output);
   }
   slopes.held = object;
+  slopes.length = length;
   slopes.holds = true;
   return Step::Took;
 }

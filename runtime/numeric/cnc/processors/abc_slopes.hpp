@@ -20,6 +20,7 @@ struct AbcSlopes {
   bool linearAtStops; ///< At stops the slope of going evenly; else 0.
   // Its own:
   PathObject held; ///< The last motion, whose end is open.
+  double length;   ///< Its own. [u]
   bool holds;
 };
 
