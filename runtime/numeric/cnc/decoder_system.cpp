@@ -11,7 +11,6 @@ namespace {
 
 using numeric::cross;
 using numeric::dot;
-using numeric::kZero;
 using numeric::norm;
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
