@@ -102,8 +102,9 @@ int16_t movingStatus(const cnc::Interpolator &state) noexcept {
     return decl::SMC_INT_STATUS__IPO_CONSTANT;
   const bool rises = motion.acceleration > 0.0;
   const double change = rises ? motion.jerk : -motion.jerk;
-  const double steady = kSteady * state.motion.settings.jerk;
-  if (state.motion.settings.kind != path::LawKind::Jerk || (change < steady && change > -steady))
+  const path::MotionSettings &settings = state.motion.planned.settings;
+  const double steady = kSteady * settings.jerk;
+  if (settings.kind != path::LawKind::Jerk || (change < steady && change > -steady))
     return rises ? decl::SMC_INT_STATUS__IPO_ACCEL : decl::SMC_INT_STATUS__IPO_DECEL;
   if (rises)
     return change > 0.0 ? decl::SMC_INT_STATUS__IPO_INCREASING_ACCEL

@@ -163,6 +163,7 @@ void wish(Interpolator &interpolator, const Command &command) noexcept {
   const double override = interpolator.backwards ? -command.override : command.override;
   const bool moves = override > kLeastOverride;
   wish.stop = command.slowStop || command.quickStop || command.emergencyStop || !moves;
+  wish.settings = {command.law, command.jerk, command.share};
   wish.deceleration = command.quickStop ? larger(command.quickDeceleration, 0.0) : 0.0;
   if (moves)
     wish.override = dryRunVelocity(command) < exact::kInfinity ? smaller(override, 1.0) : override;
@@ -196,7 +197,7 @@ uint8_t switchesBefore(const PathObject &object, double part) noexcept {
 /// Turns round where the motion is, at rest.
 void turn(Interpolator &interpolator, const Command &command) noexcept {
   path::Motion &motion = interpolator.motion;
-  const path::MotionSettings settings = motion.settings;
+  const path::MotionSettings settings = motion.planned.settings;
   const double left =
       interpolator.hasHere ? interpolator.hereBegin + interpolator.here.length - motion.way : 0.0;
   path::reset(motion, settings);
@@ -263,7 +264,7 @@ void drive(Interpolator &interpolator, const Command &command) noexcept {
 
 void start(Interpolator &interpolator, const Command &command) noexcept {
   interpolator = Interpolator{};
-  path::reset(interpolator.motion, {command.law, command.jerk});
+  path::reset(interpolator.motion, {command.law, command.jerk, command.share});
   interpolator.progress.source = -1;
 }
 

@@ -98,8 +98,8 @@ bool extendByPart(Interpolator &interpolator, const Command &command) noexcept {
   strip.feed = smaller(object.velocity, dryRunVelocity(command));
   strip.endFeed = strip.feed;
   strip.endCeiling = exact::kInfinity;
-  strip.acceleration = object.acceleration * command.share;
-  strip.deceleration = object.deceleration * command.share;
+  strip.acceleration = object.acceleration;
+  strip.deceleration = object.deceleration;
   if (to < segment.length) {
     strip.end = interpolator.nextBegin + to;
     if (!path::extend(interpolator.motion, strip))

@@ -20,10 +20,12 @@ enum class LawKind : uint8_t {
   Jerk,      ///< Limited tangential jerk.
 };
 
-/// What does not change while a motion is under way.
+/// How the velocity changes.
 struct MotionSettings {
   LawKind kind;
-  double jerk; ///< For LawKind::Jerk, > 0. [u/s^3]
+  double jerk;        ///< For LawKind::Jerk, > 0. [u/s^3]
+  double share; ///< For the others: of the path's accelerations; less than 1 for a law that exceeds
+                ///< them.
 };
 
 /// The planned motion: pieces one after the other, a ring.
@@ -45,10 +47,11 @@ enum PieceMark : uint8_t {
 
 /// What has been asked for while the motion goes on.
 struct Wish {
-  double override;     ///< Factor of feeds, > 0.
-  double limit;        ///< It goes no further than this way; kInfinity: as far as it can. [u]
-  double deceleration; ///< See PlanTask. [u/s^2]
-  bool stop;           ///< It comes to rest as soon as it can, and stays there.
+  double override;         ///< Factor of feeds, > 0.
+  double limit;            ///< It goes no further than this way; kInfinity: as far as it can. [u]
+  double deceleration;     ///< See PlanTask. [u/s^2]
+  bool stop;               ///< It comes to rest as soon as it can, and stays there.
+  MotionSettings settings; ///< Others wait until the motion does not accelerate or brake.
 };
 
 /// How far the making of the next law is.
@@ -61,7 +64,6 @@ enum class Session : uint8_t {
 
 /// All of it. Trivially copyable, may be moved in memory between two calls.
 struct Motion {
-  MotionSettings settings;
   Course course;
   Law law;
   Plan plan;

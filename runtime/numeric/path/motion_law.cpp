@@ -29,7 +29,7 @@ void pushRamp(Motion &motion) noexcept {
   TimePiece &ramp = motion.ramp;
   if (!(ramp.length > 0.0))
     return;
-  const bool sigmoid = motion.settings.kind == LawKind::Sigmoid && ramp.acceleration != 0.0;
+  const bool sigmoid = motion.asked.settings.kind == LawKind::Sigmoid && ramp.acceleration != 0.0;
   push(motion, sigmoid ? sineSquaredPiece(ramp.start, ramp.length, ramp.velocity, ramp.acceleration)
                        : ramp);
   ramp.length = 0.0;

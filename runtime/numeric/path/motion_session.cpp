@@ -25,6 +25,23 @@ bool differs(const Wish &a, const Wish &b) noexcept {
          a.stop != b.stop;
 }
 
+bool differs(const MotionSettings &a, const MotionSettings &b) noexcept {
+  return a.kind != b.kind || a.jerk != b.jerk || a.share != b.share;
+}
+
+/// Whether the session plans for other settings than those of the law.
+bool changesLaw(const Motion &motion) noexcept {
+  return differs(motion.asked.settings, motion.planned.settings);
+}
+
+/// What is planned for while the motion goes on. Other settings come with another wish at most, and
+/// not before the motion stops or where it has to end somewhere else: that cannot wait.
+void ask(Motion &motion, bool urgent) noexcept {
+  motion.asked = motion.wish;
+  if (!urgent || motion.wish.stop || motion.wish.limit != motion.planned.limit)
+    motion.asked.settings = motion.planned.settings;
+}
+
 /// Up to where the motion may go by what is known now. [u]
 double reachable(const Motion &motion) noexcept {
   return smaller(endOf(motion.course), motion.wish.limit);
@@ -48,7 +65,7 @@ double jerkAt(const Motion &motion, double way) noexcept {
   const Strip &strip = stripAtWay(motion, way);
   const double most = smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
   const double velocity = exact::sqrt(squareIn(strip, motion.asked.override));
-  return smaller(motion.settings.jerk,
+  return smaller(motion.asked.settings.jerk,
                  smaller(most / kLeastRise, velocity / (kLeastRise * kLeastRise)));
 }
 
@@ -62,7 +79,7 @@ double cellTimeFor(const Motion &motion, double way, double present) noexcept {
   const double velocity = larger(exact::sqrt(squareIn(strip, motion.asked.override)), present);
   const double deceleration =
       smaller(smaller(strip.acceleration, strip.deceleration), 1.0 / strip.along);
-  const double time = kPart * rampTime(velocity, deceleration, motion.settings.jerk);
+  const double time = kPart * rampTime(velocity, deceleration, motion.asked.settings.jerk);
   return smaller(larger(time, kLeastCellTime), kMostCellTime);
 }
 
@@ -84,6 +101,7 @@ void beginPlan(Motion &motion, const WayState &state, double hurry) noexcept {
   task.jerk = hasJerk(motion) ? jerkAt(motion, state.way) : exact::kInfinity;
   motion.cellTime = cellTimeFor(motion, state.way, state.velocity);
   task.cellTime = motion.asked.stop ? kStopCells * motion.cellTime : motion.cellTime;
+  task.share = motion.asked.settings.share;
   task.override = motion.asked.override;
   task.before = motion.planned.override;
   task.deceleration = motion.asked.deceleration;
@@ -122,7 +140,6 @@ void beginFromRest(Motion &motion, double way, int32_t budget) noexcept {
 }
 
 void beginSeeking(Motion &motion, bool urgent) noexcept {
-  motion.asked = motion.wish;
   motion.urgent = urgent;
   motion.seek = motion.law.first;
   motion.passed = -timeInPiece(motion);
@@ -190,13 +207,16 @@ bool beginSession(Motion &motion, int32_t budget) noexcept {
     beginFromRest(motion, motion.way, budget);
     return true;
   }
-  if (motion.pause == 0 && differs(wish, motion.planned) && !(wish.stop && motion.planned.stop)) {
+  ask(motion, true);
+  if (motion.pause == 0 && !(wish.stop && motion.planned.stop) &&
+      (differs(wish, motion.planned) || changesLaw(motion))) {
     motion.cells = hasJerk(motion) ? kUrgentCells : kCells;
     motion.byRamp = wish.stop && hasJerk(motion);
     motion.lead = motion.byRamp ? rampLead(motion, budget) : passesLead(motion, budget);
     beginSeeking(motion, true);
     return true;
   }
+  ask(motion, false);
   if (motion.planned.stop)
     return false;
   const double end = endAt(motion.law, lastPiece(motion));
@@ -218,16 +238,43 @@ bool beginSession(Motion &motion, int32_t budget) noexcept {
 /// In what length the motion could stop on a straight line. [u]
 double stoppingLength(const Motion &motion, const WayState &state, const Strip &strip) noexcept {
   const double deceleration =
-      smaller(larger(strip.deceleration, motion.asked.deceleration),
+      smaller(motion.asked.settings.share * larger(strip.deceleration, motion.asked.deceleration),
               larger(1.0 - strip.across * state.velocity * state.velocity, 0.05) / strip.along);
   const double v = state.velocity;
   if (!hasJerk(motion))
     return 0.5 * v * v / deceleration;
-  const double jerk = motion.settings.jerk;
+  const double jerk = motion.asked.settings.jerk;
   const double a = larger(state.acceleration, 0.0);
   const double peak = v + 0.5 * a * a / jerk;
   const double time = rampTime(peak, deceleration, jerk);
   return v * a / jerk + a * a * a / (3.0 * jerk * jerk) + 0.5 * peak * time;
+}
+
+/// When there is no acceleration in the piece that is looked at, after `from`; infinite: never.
+/// Where it jumps from one side to the other, there is none in between. [s]
+double steadyTime(const Motion &motion, double from) noexcept {
+  const TimePiece &piece = pieceAt(motion.law, motion.seek);
+  const double first = piece.acceleration;
+  if (piece.law == PieceLaw::LinearInWay) {
+    const double last = first + piece.gradient * piece.length;
+    if (first == 0.0 && last == 0.0)
+      return from;
+    const double time =
+        first * last < 0.0 ? timeAt(piece, piece.start - first / piece.gradient) : -1.0;
+    if (time >= from)
+      return time;
+  }
+  if (piece.law == PieceLaw::ConstantJerk && first * piece.gradient < 0.0) {
+    const double time = -first / piece.gradient;
+    if (time >= from && time < piece.duration)
+      return time;
+  }
+  const uint8_t mark = markAt(motion.law, motion.seek);
+  if ((mark & kRest) != 0)
+    return (mark & kFinal) != 0 ? piece.duration : exact::kInfinity;
+  const WayState before = stateAt(piece, piece.duration);
+  const WayState after = stateAt(pieceAt(motion.law, motion.seek + 1), 0.0);
+  return before.acceleration * after.acceleration <= 0.0 ? piece.duration : exact::kInfinity;
 }
 
 /// The piece in which the motion is to be planned anew is found, and where in it.
@@ -240,6 +287,8 @@ void takeOver(Motion &motion, double cut) noexcept {
     if ((markAt(motion.law, motion.seek) & kRest) != 0)
       state = {state.way, 0.0, 0.0, 0.0};
   }
+  if (changesLaw(motion))
+    state.acceleration = 0.0;
   if (motion.asked.stop) {
     motion.stopFactor = larger(motion.stopFactor, hasJerk(motion) ? kStopFactor : 1.0);
     motion.stopLength =
@@ -256,8 +305,38 @@ void endLawHere(Motion &motion) noexcept {
   motion.session = Session::None;
 }
 
+/// The motion accelerates or brakes up to where its law ends for now: other settings have to wait.
+void putOffSettings(Motion &motion) noexcept {
+  motion.asked.settings = motion.planned.settings;
+  motion.session = Session::None;
+  if (differs(motion.wish, motion.planned))
+    beginSeeking(motion, true);
+  else
+    motion.pause = kPause;
+}
+
+/// Looks at one piece, for a place without acceleration.
+void seekSteady(Motion &motion) noexcept {
+  const TimePiece &piece = pieceAt(motion.law, motion.seek);
+  const double needed = motion.lead - motion.passed;
+  if (needed < piece.duration) {
+    const double time = steadyTime(motion, larger(needed, 0.0));
+    if (time < exact::kInfinity) {
+      takeOver(motion, time);
+      return;
+    }
+  }
+  motion.passed += piece.duration;
+  if (++motion.seek == motion.law.next)
+    putOffSettings(motion);
+}
+
 /// Looks at one piece.
 void seek(Motion &motion) noexcept {
+  if (changesLaw(motion)) {
+    seekSteady(motion);
+    return;
+  }
   const TimePiece &piece = pieceAt(motion.law, motion.seek);
   const double needed = motion.lead - motion.passed; // from the start of this piece on
   const bool rests = (markAt(motion.law, motion.seek) & kRest) != 0;
@@ -340,6 +419,7 @@ void stopLater(Motion &motion, int32_t budget, bool inTime) noexcept {
   const double least = passesLead(motion, budget);
   motion.byRamp = motion.lead < least;
   motion.lead = smaller(motion.lead, least);
+  ask(motion, true);
   beginSeeking(motion, true);
 }
 

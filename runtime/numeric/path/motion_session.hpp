@@ -33,7 +33,10 @@ inline double &endAt(Law &law, int64_t number) noexcept {
 
 inline int64_t lastPiece(const Motion &motion) noexcept { return motion.law.next - 1; }
 
-inline bool hasJerk(const Motion &motion) noexcept { return motion.settings.kind == LawKind::Jerk; }
+/// Whether the session plans with limited jerk.
+inline bool hasJerk(const Motion &motion) noexcept {
+  return motion.asked.settings.kind == LawKind::Jerk;
+}
 
 /// How long the motion has been in the first piece of the law. [s]
 inline double timeInPiece(const Motion &motion) noexcept {

@@ -32,6 +32,7 @@ struct PlanTask {
   double end;          ///< Where it rests; kInfinity: at the next stop, or where it is unknown. [u]
   double jerk;         ///< > 0; kInfinity: trapezoids, without cells. [u/s^3]
   double cellTime;     ///< [s]
+  double share;        ///< Without a limit of the jerk: of strips' accelerations.
   double override;     ///< Factor of feeds.
   double before;       ///< That of the law it takes over from, which may begin above `override`.
   double hurry;        ///< How long the motion would stand still for a plan with many cells. [s]

@@ -28,7 +28,7 @@ double usableOf(const Plan &plan, const Strip &strip, double limit) noexcept {
   if (!isTrapezoid(plan))
     return kShare * smaller(limit, 1.0 / strip.along);
   const double left = 1.0 - strip.across * squareIn(strip, plan.task.override);
-  return smaller(limit, larger(left, 0.0) / strip.along);
+  return smaller(plan.task.share * limit, larger(left, 0.0) / strip.along);
 }
 
 /// The part of a strip that belongs to the run.
