@@ -192,6 +192,10 @@ void driveChanging(int number) {
   Drive(scene, random).run();
 }
 
+TEST(PathMotion, ArrivesWithALawThatChangedWhereItOnceDidNot) {
+  driveChanging(7853); // stopped by the law that was to come
+}
+
 void driveMany(LawKind kind, int cases) {
   for (int i = 0; i < cases && !testing::Test::HasFailure(); ++i)
     driveOne(kind, i);

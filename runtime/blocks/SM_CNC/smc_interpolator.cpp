@@ -102,7 +102,7 @@ int16_t movingStatus(const cnc::Interpolator &state) noexcept {
     return decl::SMC_INT_STATUS__IPO_CONSTANT;
   const bool rises = motion.acceleration > 0.0;
   const double change = rises ? motion.jerk : -motion.jerk;
-  const path::MotionSettings &settings = state.motion.planned.settings;
+  const path::MotionSettings &settings = path::settingsAt(state.motion, state.motion.law.first);
   const double steady = kSteady * settings.jerk;
   if (settings.kind != path::LawKind::Jerk || (change < steady && change > -steady))
     return rises ? decl::SMC_INT_STATUS__IPO_ACCEL : decl::SMC_INT_STATUS__IPO_DECEL;

@@ -23,7 +23,7 @@ enum class LawKind : uint8_t {
 /// How the velocity changes.
 struct MotionSettings {
   LawKind kind;
-  double jerk;        ///< For LawKind::Jerk, > 0. [u/s^3]
+  double jerk;  ///< For LawKind::Jerk, > 0. [u/s^3]
   double share; ///< For the others: of the path's accelerations; less than 1 for a law that exceeds
                 ///< them.
 };
@@ -67,31 +67,34 @@ struct Motion {
   Course course;
   Law law;
   Plan plan;
-  Wish wish;         ///< May be changed at any time.
-  Wish planned;      ///< With which the law was planned.
-  double way;        ///< Where the motion is. [u]
-  double since;      ///< Start of the piece until the cycles of one length began. [s]
-  double cycle;      ///< Length of these cycles. [s]
-  int64_t cycles;    ///< How many there were.
-  double tail;       ///< In which its last run only brakes. [s]
-  double lead;       ///< How far ahead the session plans. [s]
-  double urgentLead; ///< The least one of the next session for another wish. [s]
-  double passed;     ///< Session: time of the pieces that have been looked at. [s]
-  double cut;        ///< Session: time in the piece where the plan takes over. [s]
-  double stopLength; ///< Session: within which it tries to stop. [u]
-  double stopFactor; ///< Of the shortest way to stop, until one is found.
-  TimePiece ramp;    ///< Session: may go on in the next strip; no length: none.
-  int64_t seek;      ///< Session: piece that is looked at; the one in which the plan takes over.
-  int64_t fresh;     ///< Session: first piece that is written.
-  int64_t writing;   ///< Session: cell or strip that is written next.
-  double cellTime;   ///< Of plans' cells: a part of the time to stop. [s]
-  int32_t cells;     ///< With how many the next plan is made.
-  int32_t steps;     ///< Of the session until now.
-  int32_t tries;     ///< Of the session.
+  Wish wish;             ///< May be changed at any time.
+  Wish planned;          ///< With which the law was planned.
+  MotionSettings former; ///< Those of the pieces before `changed`, if they are others.
+  int64_t changed;       ///< Piece from which on the law has the settings of `planned`.
+  double way;            ///< Where the motion is. [u]
+  double since;          ///< Start of the piece until the cycles of one length began. [s]
+  double cycle;          ///< Length of these cycles. [s]
+  int64_t cycles;        ///< How many there were.
+  double tail;           ///< In which its last run only brakes. [s]
+  double lead;           ///< How far ahead the session plans. [s]
+  double urgentLead;     ///< The least one of the next session for another wish. [s]
+  double passed;         ///< Session: time of the pieces that have been looked at. [s]
+  double cut;            ///< Session: time in the piece where the plan takes over. [s]
+  double stopLength;     ///< Session: within which it tries to stop. [u]
+  double stopFactor;     ///< Of the shortest way to stop, until one is found.
+  TimePiece ramp;        ///< Session: may go on in the next strip; no length: none.
+  int64_t seek;    ///< Session: piece that is looked at; the one in which the plan takes over.
+  int64_t fresh;   ///< Session: first piece that is written.
+  int64_t writing; ///< Session: cell or strip that is written next.
+  double cellTime; ///< Of plans' cells: a part of the time to stop. [s]
+  int32_t cells;   ///< With how many the next plan is made.
+  int32_t steps;   ///< Of the session until now.
+  int32_t tries;   ///< Of the session.
   Session session;
   Wish asked;    ///< Session: what it is planned for.
   int32_t pause; ///< Calls of think() until another wish is tried again.
   bool urgent;   ///< Session: because of another wish.
+  bool changing; ///< Session: it plans for other settings.
   bool byRamp;   ///< Session: to stop by a ramp in closed form, which takes a few steps.
   bool refused;  ///< The last other wish was not to be had from where the motion was.
   bool resting;  ///< It is where the path rests.
@@ -107,6 +110,11 @@ bool extend(Motion &motion, const Strip &strip) noexcept;
 
 /// Plans for at most `budget` steps; how many it has taken.
 int32_t think(Motion &motion, int32_t budget) noexcept;
+
+/// By which settings a piece of the law goes.
+inline const MotionSettings &settingsAt(const Motion &motion, int64_t piece) noexcept {
+  return piece < motion.changed ? motion.former : motion.planned.settings;
+}
 
 /// Whether the law has come to its end. (A plan may be under way.)
 inline bool isAtRest(const Motion &motion) noexcept { return motion.law.first == motion.law.next; }

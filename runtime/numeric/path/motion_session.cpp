@@ -29,17 +29,32 @@ bool differs(const MotionSettings &a, const MotionSettings &b) noexcept {
   return a.kind != b.kind || a.jerk != b.jerk || a.share != b.share;
 }
 
-/// Whether the session plans for other settings than those of the law.
-bool changesLaw(const Motion &motion) noexcept {
-  return differs(motion.asked.settings, motion.planned.settings);
-}
+/// Whether the law changes ahead to other settings.
+bool isChangeAhead(const Motion &motion) noexcept { return motion.law.first < motion.changed; }
 
-/// What is planned for while the motion goes on. Other settings come with another wish at most, and
-/// not before the motion stops or where it has to end somewhere else: that cannot wait.
+/// What is planned for while the motion goes on. Other settings come with another wish at most, one
+/// change after the other; but to stop or to end somewhere else cannot wait for a place where they
+/// may begin.
 void ask(Motion &motion, bool urgent) noexcept {
   motion.asked = motion.wish;
-  if (!urgent || motion.wish.stop || motion.wish.limit != motion.planned.limit)
-    motion.asked.settings = motion.planned.settings;
+  motion.changing = urgent && !motion.wish.stop && motion.wish.limit == motion.planned.limit &&
+                    !isChangeAhead(motion) &&
+                    differs(motion.wish.settings, motion.planned.settings);
+  if (!motion.changing)
+    motion.asked.settings = settingsAt(motion, motion.law.first);
+}
+
+/// The law goes as asked from its next piece on.
+void goAsAsked(Motion &motion) noexcept {
+  const int64_t last = lastPiece(motion);
+  const MotionSettings before = settingsAt(motion, last);
+  if (differs(motion.asked.settings, before)) {
+    motion.former = before;
+    motion.changed = motion.law.next;
+  } else if (last < motion.changed) {
+    motion.changed = 0; // the change is cut off
+  }
+  motion.planned = motion.asked;
 }
 
 /// Up to where the motion may go by what is known now. [u]
@@ -127,6 +142,9 @@ double planningTime(const Motion &motion, int32_t steps, int32_t budget) noexcep
 /// From rest at a way, after all that the law has.
 void beginFromRest(Motion &motion, double way, int32_t budget) noexcept {
   motion.asked = motion.wish;
+  motion.changing = false;
+  if (isChangeAhead(motion))
+    motion.asked.settings = motion.planned.settings;
   motion.seek = motion.law.next;
   motion.cut = 0.0;
   motion.steps = 0;
@@ -202,6 +220,7 @@ bool beginSession(Motion &motion, int32_t budget) noexcept {
   forgetBefore(motion.course, motion.way); // a full course could not be extended otherwise
   if (isAtRest(motion)) {
     motion.planned = wish;
+    motion.changed = 0;
     if (wish.stop || !(motion.way < reachable(motion)))
       return false;
     beginFromRest(motion, motion.way, budget);
@@ -209,7 +228,7 @@ bool beginSession(Motion &motion, int32_t budget) noexcept {
   }
   ask(motion, true);
   if (motion.pause == 0 && !(wish.stop && motion.planned.stop) &&
-      (differs(wish, motion.planned) || changesLaw(motion))) {
+      (motion.changing || differs(wish, motion.planned))) {
     motion.cells = hasJerk(motion) ? kUrgentCells : kCells;
     motion.byRamp = wish.stop && hasJerk(motion);
     motion.lead = motion.byRamp ? rampLead(motion, budget) : passesLead(motion, budget);
@@ -270,11 +289,15 @@ double steadyTime(const Motion &motion, double from) noexcept {
       return time;
   }
   const uint8_t mark = markAt(motion.law, motion.seek);
-  if ((mark & kRest) != 0)
-    return (mark & kFinal) != 0 ? piece.duration : exact::kInfinity;
-  const WayState before = stateAt(piece, piece.duration);
-  const WayState after = stateAt(pieceAt(motion.law, motion.seek + 1), 0.0);
-  return before.acceleration * after.acceleration <= 0.0 ? piece.duration : exact::kInfinity;
+  bool ends = (mark & kFinal) != 0;
+  if ((mark & kRest) == 0) {
+    const WayState before = stateAt(piece, piece.duration);
+    const WayState after = stateAt(pieceAt(motion.law, motion.seek + 1), 0.0);
+    ends = before.acceleration * after.acceleration <= 0.0;
+  }
+  if (ends)
+    return piece.duration;
+  return exact::kInfinity;
 }
 
 /// The piece in which the motion is to be planned anew is found, and where in it.
@@ -287,8 +310,10 @@ void takeOver(Motion &motion, double cut) noexcept {
     if ((markAt(motion.law, motion.seek) & kRest) != 0)
       state = {state.way, 0.0, 0.0, 0.0};
   }
-  if (changesLaw(motion))
+  if (motion.changing)
     state.acceleration = 0.0;
+  else
+    motion.asked.settings = settingsAt(motion, motion.seek);
   if (motion.asked.stop) {
     motion.stopFactor = larger(motion.stopFactor, hasJerk(motion) ? kStopFactor : 1.0);
     motion.stopLength =
@@ -301,13 +326,14 @@ void takeOver(Motion &motion, double cut) noexcept {
 void endLawHere(Motion &motion) noexcept {
   motion.law.next = motion.seek + 1;
   markAt(motion.law, motion.seek) &= static_cast<uint8_t>(~(kFinal | kGate));
-  motion.planned = motion.asked;
+  motion.asked.settings = settingsAt(motion, motion.seek);
+  goAsAsked(motion);
   motion.session = Session::None;
 }
 
 /// The motion accelerates or brakes up to where its law ends for now: other settings have to wait.
 void putOffSettings(Motion &motion) noexcept {
-  motion.asked.settings = motion.planned.settings;
+  motion.changing = false;
   motion.session = Session::None;
   if (differs(motion.wish, motion.planned))
     beginSeeking(motion, true);
@@ -333,7 +359,7 @@ void seekSteady(Motion &motion) noexcept {
 
 /// Looks at one piece.
 void seek(Motion &motion) noexcept {
-  if (changesLaw(motion)) {
+  if (motion.changing) {
     seekSteady(motion);
     return;
   }
@@ -400,7 +426,7 @@ void cutLaw(Motion &motion) noexcept {
     law.next = motion.seek + 1;
   }
   motion.fresh = motion.law.next;
-  motion.planned = motion.asked;
+  goAsAsked(motion);
   motion.urgentLead = 0.0;
   motion.stopFactor = 0.0;
   motion.refused = false;
