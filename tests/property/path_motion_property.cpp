@@ -194,6 +194,7 @@ void driveChanging(int number) {
 
 TEST(PathMotion, ArrivesWithALawThatChangedWhereItOnceDidNot) {
   driveChanging(7853); // stopped by the law that was to come
+  driveChanging(9678); // began at the greatest velocity and braked less hard than it had to
 }
 
 void driveMany(LawKind kind, int cases) {

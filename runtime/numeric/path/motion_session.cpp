@@ -32,13 +32,11 @@ bool differs(const MotionSettings &a, const MotionSettings &b) noexcept {
 /// Whether the law changes ahead to other settings.
 bool isChangeAhead(const Motion &motion) noexcept { return motion.law.first < motion.changed; }
 
-/// What is planned for while the motion goes on. Other settings come with another wish at most, one
-/// change after the other; but to stop or to end somewhere else cannot wait for a place where they
-/// may begin.
+/// What is planned for while the motion goes on. Other settings wait for other wishes, which come
+/// at once, and for each other.
 void ask(Motion &motion, bool urgent) noexcept {
   motion.asked = motion.wish;
-  motion.changing = urgent && !motion.wish.stop && motion.wish.limit == motion.planned.limit &&
-                    !isChangeAhead(motion) &&
+  motion.changing = urgent && !differs(motion.wish, motion.planned) && !isChangeAhead(motion) &&
                     differs(motion.wish.settings, motion.planned.settings);
   if (!motion.changing)
     motion.asked.settings = settingsAt(motion, motion.law.first);
@@ -335,10 +333,7 @@ void endLawHere(Motion &motion) noexcept {
 void putOffSettings(Motion &motion) noexcept {
   motion.changing = false;
   motion.session = Session::None;
-  if (differs(motion.wish, motion.planned))
-    beginSeeking(motion, true);
-  else
-    motion.pause = kPause;
+  motion.pause = kPause;
 }
 
 /// Looks at one piece, for a place without acceleration.

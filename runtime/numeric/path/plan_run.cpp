@@ -103,7 +103,7 @@ double squareAtBorder(Plan &plan, const Course &course, const Part &part, double
   if (plan.strip + 1 < course.next)
     ceiling = smaller(ceiling, squareIn(stripAt(course, plan.strip + 1), plan.task.override));
   if (plan.strip == plan.firstStrip)
-    plan.slowing = part.before > part.most;
+    plan.slowing = part.before > part.most * (1.0 + 1e-12); // not by rounding
   const double braked = part.before - 2.0 * part.deceleration * length;
   plan.slowing = plan.slowing && braked > ceiling;
   return plan.slowing ? braked : smaller(squareAfter(part, length), ceiling);
