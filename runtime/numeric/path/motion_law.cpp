@@ -1,4 +1,4 @@
-// How a plan becomes the law.
+// The law: where it has no acceleration, and how a plan becomes it.
 #include "runtime/numeric/path/motion_session.hpp"
 
 namespace stride::path {
@@ -53,6 +53,77 @@ void pushStrip(Motion &motion, int64_t strip) noexcept {
 }
 
 } // namespace
+
+bool differs(const MotionSettings &a, const MotionSettings &b) noexcept {
+  return a.kind != b.kind || a.jerk != b.jerk || a.share != b.share;
+}
+
+void goAsAsked(Motion &motion) noexcept {
+  const int64_t last = lastPiece(motion);
+  const MotionSettings before = settingsAt(motion, last);
+  if (differs(motion.asked.settings, before)) {
+    motion.former = before;
+    motion.changed = motion.law.next;
+  } else if (last < motion.changed) {
+    motion.changed = 0; // the change is cut off
+  }
+  motion.planned = motion.asked;
+}
+
+double steadyTime(const Motion &motion, double from) noexcept {
+  const TimePiece &piece = pieceAt(motion.law, motion.seek);
+  const double first = piece.acceleration;
+  if (piece.law == PieceLaw::LinearInWay) {
+    const double last = first + piece.gradient * piece.length;
+    if (first == 0.0 && last == 0.0)
+      return from;
+    const double time =
+        first * last < 0.0 ? timeAt(piece, piece.start - first / piece.gradient) : -1.0;
+    if (time >= from)
+      return time;
+  }
+  if (piece.law == PieceLaw::ConstantJerk && first * piece.gradient < 0.0) {
+    const double time = -first / piece.gradient;
+    if (time >= from && time < piece.duration)
+      return time;
+  }
+  const uint8_t mark = markAt(motion.law, motion.seek);
+  bool ends = (mark & kFinal) != 0;
+  if ((mark & kRest) == 0) {
+    const WayState before = stateAt(piece, piece.duration);
+    const WayState after = stateAt(pieceAt(motion.law, motion.seek + 1), 0.0);
+    ends = before.acceleration * after.acceleration <= 0.0;
+  }
+  if (ends)
+    return piece.duration;
+  return exact::kInfinity;
+}
+
+void cutLaw(Motion &motion) noexcept {
+  Law &law = motion.law;
+  if (motion.seek < law.next) {
+    TimePiece &piece = pieceAt(law, motion.seek);
+    if (motion.cut < piece.duration) {
+      untilAt(law, motion.seek) -= piece.duration - motion.cut;
+      piece.length = motion.plan.from.way - piece.start;
+      endAt(law, motion.seek) = motion.plan.from.way;
+      piece.duration = motion.cut;
+    }
+    const bool rests = !(motion.plan.from.velocity > 0.0);
+    if (!rests)
+      markAt(law, motion.seek) = 0;
+    law.next = motion.seek + 1;
+  }
+  motion.fresh = motion.law.next;
+  goAsAsked(motion);
+  motion.urgentLead = 0.0;
+  motion.stopFactor = 0.0;
+  motion.refused = false;
+  motion.tail = 0.0;
+  motion.ramp.length = 0.0;
+  motion.writing = hasJerk(motion) ? 0 : motion.plan.firstStrip;
+  motion.session = Session::Writing;
+}
 
 bool write(Motion &motion) noexcept {
   const Plan &plan = motion.plan;

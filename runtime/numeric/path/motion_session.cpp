@@ -25,10 +25,6 @@ bool differs(const Wish &a, const Wish &b) noexcept {
          a.stop != b.stop;
 }
 
-bool differs(const MotionSettings &a, const MotionSettings &b) noexcept {
-  return a.kind != b.kind || a.jerk != b.jerk || a.share != b.share;
-}
-
 /// Whether the law changes ahead to other settings.
 bool isChangeAhead(const Motion &motion) noexcept { return motion.law.first < motion.changed; }
 
@@ -40,19 +36,6 @@ void ask(Motion &motion, bool urgent) noexcept {
                     differs(motion.wish.settings, motion.planned.settings);
   if (!motion.changing)
     motion.asked.settings = settingsAt(motion, motion.law.first);
-}
-
-/// The law goes as asked from its next piece on.
-void goAsAsked(Motion &motion) noexcept {
-  const int64_t last = lastPiece(motion);
-  const MotionSettings before = settingsAt(motion, last);
-  if (differs(motion.asked.settings, before)) {
-    motion.former = before;
-    motion.changed = motion.law.next;
-  } else if (last < motion.changed) {
-    motion.changed = 0; // the change is cut off
-  }
-  motion.planned = motion.asked;
 }
 
 /// Up to where the motion may go by what is known now. [u]
@@ -267,37 +250,6 @@ double stoppingLength(const Motion &motion, const WayState &state, const Strip &
   return v * a / jerk + a * a * a / (3.0 * jerk * jerk) + 0.5 * peak * time;
 }
 
-/// When there is no acceleration in the piece that is looked at, after `from`; infinite: never.
-/// Where it jumps from one side to the other, there is none in between. [s]
-double steadyTime(const Motion &motion, double from) noexcept {
-  const TimePiece &piece = pieceAt(motion.law, motion.seek);
-  const double first = piece.acceleration;
-  if (piece.law == PieceLaw::LinearInWay) {
-    const double last = first + piece.gradient * piece.length;
-    if (first == 0.0 && last == 0.0)
-      return from;
-    const double time =
-        first * last < 0.0 ? timeAt(piece, piece.start - first / piece.gradient) : -1.0;
-    if (time >= from)
-      return time;
-  }
-  if (piece.law == PieceLaw::ConstantJerk && first * piece.gradient < 0.0) {
-    const double time = -first / piece.gradient;
-    if (time >= from && time < piece.duration)
-      return time;
-  }
-  const uint8_t mark = markAt(motion.law, motion.seek);
-  bool ends = (mark & kFinal) != 0;
-  if ((mark & kRest) == 0) {
-    const WayState before = stateAt(piece, piece.duration);
-    const WayState after = stateAt(pieceAt(motion.law, motion.seek + 1), 0.0);
-    ends = before.acceleration * after.acceleration <= 0.0;
-  }
-  if (ends)
-    return piece.duration;
-  return exact::kInfinity;
-}
-
 /// The piece in which the motion is to be planned anew is found, and where in it.
 void takeOver(Motion &motion, double cut) noexcept {
   const TimePiece &piece = pieceAt(motion.law, motion.seek);
@@ -402,33 +354,6 @@ bool isInTime(Motion &motion, int32_t budget, int32_t left) noexcept {
   const double needed =
       steps < left ? 0.0 : motion.cycle * (2.0 + static_cast<double>(steps) / budget);
   return timeToCut(motion) >= needed;
-}
-
-/// The plan takes over: what the law has after that place goes.
-void cutLaw(Motion &motion) noexcept {
-  Law &law = motion.law;
-  if (motion.seek < law.next) {
-    TimePiece &piece = pieceAt(law, motion.seek);
-    if (motion.cut < piece.duration) {
-      untilAt(law, motion.seek) -= piece.duration - motion.cut;
-      piece.length = motion.plan.from.way - piece.start;
-      endAt(law, motion.seek) = motion.plan.from.way;
-      piece.duration = motion.cut;
-    }
-    const bool rests = !(motion.plan.from.velocity > 0.0);
-    if (!rests)
-      markAt(law, motion.seek) = 0;
-    law.next = motion.seek + 1;
-  }
-  motion.fresh = motion.law.next;
-  goAsAsked(motion);
-  motion.urgentLead = 0.0;
-  motion.stopFactor = 0.0;
-  motion.refused = false;
-  motion.tail = 0.0;
-  motion.ramp.length = 0.0;
-  motion.writing = hasJerk(motion) ? 0 : motion.plan.firstStrip;
-  motion.session = Session::Writing;
 }
 
 /// No ramp stops the motion from where it was tried, or it was found too late: from further ahead,

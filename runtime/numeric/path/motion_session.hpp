@@ -1,4 +1,4 @@
-// For the sources of motion.hpp: the ring of pieces.
+// For the sources of motion.hpp: the ring of pieces, and how a plan becomes it.
 #ifndef STRIDE_RUNTIME_NUMERIC_PATH_MOTION_SESSION_HPP
 #define STRIDE_RUNTIME_NUMERIC_PATH_MOTION_SESSION_HPP
 
@@ -42,6 +42,18 @@ inline bool hasJerk(const Motion &motion) noexcept {
 inline double timeInPiece(const Motion &motion) noexcept {
   return motion.since + motion.cycle * static_cast<double>(motion.cycles);
 }
+
+bool differs(const MotionSettings &a, const MotionSettings &b) noexcept;
+
+/// The law goes as asked from its next piece on.
+void goAsAsked(Motion &motion) noexcept;
+
+/// When there is no acceleration in the piece that is looked at, after `from`; infinite: never.
+/// Where it jumps from one side to the other, there is none in between. [s]
+double steadyTime(const Motion &motion, double from) noexcept;
+
+/// The plan takes over: what the law has after that place goes.
+void cutLaw(Motion &motion) noexcept;
 
 /// Writes one cell or strip of the plan into the law; after the last one the session ends. False:
 /// there is no room.
