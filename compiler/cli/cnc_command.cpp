@@ -121,8 +121,15 @@ std::string writeQueue(const std::string &file, const std::string &out, const Cn
                      std::max<size_t>(objects->size(), 2) * sizeof(stride::cnc::PathObject));
 }
 
-std::string infoText(const std::string &path, const CncProgram &program) {
-  const CncInfo info = infoOf(program);
+/// What the options say of path processors.
+void setProcessors(const CncOptions &options, CncSettings &settings) {
+  settings.preprocess = options.preprocess.processors;
+  settings.toolRadius = options.preprocess.toolRadius;
+  settings.angleTolerance = options.motion.angleTolerance;
+}
+
+std::string infoText(const std::string &path, const CncProgram &program, Diagnostics &diagnostics) {
+  const CncInfo info = infoOf(program, diagnostics);
   std::string text = fmt::format("{}{}\n", path, program.title.empty() ? "" : ": " + program.title);
   text += fmt::format("  lines       {}\n  sentences   {}\n", program.lines, info.sentences);
   text +=
@@ -150,8 +157,12 @@ int cncInfo(const CncOptions &options) {
   int exitCode = 0;
   for (const std::string &path : options.files) {
     LoadedCnc loaded(path, options);
-    if (loaded.program)
-      print(infoText(path, *loaded.program));
+    if (loaded.program) {
+      setProcessors(options, loaded.program->settings);
+      const std::string text = infoText(path, *loaded.program, loaded.diagnostics);
+      if (!loaded.diagnostics.hasErrors())
+        print(text);
+    }
     exitCode = std::max(exitCode, loaded.finish(options.output));
   }
   return exitCode;
@@ -190,6 +201,7 @@ int cncMotion(const CncOptions &options) {
   std::string says;
   if (loaded.program) {
     CncProgram &program = *loaded.program;
+    setProcessors(options, program.settings);
     if (options.motion.velocity > 0)
       program.settings.velocity = options.motion.velocity;
     if (options.motion.acceleration > 0)
@@ -213,7 +225,7 @@ int cncQueue(const CncOptions &options) {
     CncProgram &program = *loaded.program;
     CncSettings &settings = program.settings;
     settings.compile = CncCompile::QueueFile;
-    settings.angleTolerance = options.motion.angleTolerance;
+    setProcessors(options, settings);
     settings.stepSuppress = options.queue.stepSuppress;
     const auto given = [](double value) { return value > 0 ? std::optional(value) : std::nullopt; };
     settings.velocity = given(options.motion.velocity);

@@ -42,6 +42,21 @@ std::string readAxes(const std::string &text, bool positive, double (&values)[12
   return {};
 }
 
+/// Reads `tool,loops`. What is wrong, or nothing.
+std::string readProcessors(const std::string &text, std::vector<CncProcessor> &processors) {
+  processors.clear();
+  for (size_t at = 0; at <= text.size();) {
+    const size_t end = std::min(text.find(',', at), text.size());
+    const std::optional<CncProcessor> processor = cncProcessor(text.substr(at, end - at));
+    if (!processor)
+      return "`" + text.substr(at, end - at) + "` is none of tool, loops, smooth, round";
+    processors.push_back(*processor);
+    at = end + 1;
+  }
+  const std::optional<CncOrderFault> fault = findOrderFault(processors);
+  return fault ? fault->message : std::string();
+}
+
 /// Declares commands on CNC programs.
 class CncCommands {
 public:
@@ -83,12 +98,38 @@ private:
                        "says, else 2.3)")
           ->check(CLI::IsMember({"2.3", "3"}).description(""))
           ->type_name("VERSION");
+    if (action != CncAction::Check && action != CncAction::Format)
+      declareProcessors(command);
     addOutputOptions(*command, call_->cnc.output);
     command->callback([call = call_, action] {
       call->cnc.action = action;
       call->exitCode = cncCommand(call->cnc);
     });
     return command;
+  }
+
+  void declareProcessors(CLI::App *command) const {
+    CncProcessorOptions &options = call_->cnc.preprocess;
+    CLI::Option *processors =
+        command
+            ->add_option_function<std::string>(
+                "--preprocess",
+                [&options](const std::string &text) {
+                  (void)readProcessors(text, options.processors);
+                },
+                "Path processors before all else: tool, loops, then smooth or round; tool,loops")
+            ->check(CLI::Validator(
+                [](std::string &text) {
+                  std::vector<CncProcessor> ignored;
+                  return readProcessors(text, ignored);
+                },
+                std::string()))
+            ->type_name("NAMES");
+    command
+        ->add_option("--tool-radius", options.toolRadius, "Of tool, u: is added to D (default: 0)")
+        ->check(numberFrom(0, true))
+        ->type_name("N")
+        ->needs(processors);
   }
 
   void declareMotion(CLI::App *command, const char *out) const {

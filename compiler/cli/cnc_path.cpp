@@ -46,8 +46,10 @@ public:
                        options.angleTolerance * M_PI / 180};
   }
 
+  /// The program has one more.
+  void count() { ++path_->programmed; }
+
   void take(const PathObject &object) {
-    ++path_->programmed;
     if (options_->merge <= 0) {
       blend(object);
       return;
@@ -83,21 +85,58 @@ private:
   std::unique_ptr<Blender> blender_ = std::make_unique<Blender>();
 };
 
-/// Decodes all sentences. False: they do not end, or one of them cannot be decoded.
+/// Decodes all sentences. False: they do not end, one of them cannot be decoded, or who takes the
+/// objects has had enough.
 bool decodeAll(const CncProgram &program, Diagnostics &diagnostics,
-               const std::function<void(const PathObject &)> &take) {
-  const CncDecoded decoded = decodeCnc(program, [&take](const PathObject &object) {
-    take(object);
+               const std::function<bool(const PathObject &)> &take, CncOrigins *origins) {
+  const CncDecoded decoded = decodeCnc(program, take, origins);
+  switch (decoded.end) {
+  case CncEnd::Complete:
     return true;
-  });
-  if (decoded.end == CncEnd::Complete)
-    return true;
-  const bool endless = decoded.end == CncEnd::Endless;
-  diagnostics.report(endless ? Code::CncJump : Code::CncSentence, program.span,
-                     endless ? "the jumps of this program do not end"
-                             : "a sentence of this program cannot be carried out: its variables "
-                               "are 0 here");
+  case CncEnd::Endless:
+    diagnostics.report(Code::CncJump, program.span, "the jumps of this program do not end");
+    break;
+  case CncEnd::Wrong:
+    diagnostics.report(Code::CncSentence, program.span,
+                       "a sentence of this program cannot be carried out: its variables are 0 "
+                       "here");
+    break;
+  case CncEnd::Refused:
+    diagnostics.report(Code::CncQueue, program.span,
+                       fmt::format("the path has more than {} objects: too many for --preprocess",
+                                   kMostCncObjects));
+    break;
+  }
   return false;
+}
+
+/// Gives the chain the whole path, as the processors of the settings leave it. False: it is wrong,
+/// which is reported.
+bool takeAll(const CncProgram &program, Diagnostics &diagnostics, Chain &chain) {
+  if (program.settings.preprocess.empty())
+    return decodeAll(
+        program, diagnostics,
+        [&chain](const PathObject &object) {
+          chain.count();
+          chain.take(object);
+          return true;
+        },
+        nullptr);
+  std::vector<PathObject> objects;
+  CncOrigins origins;
+  const auto keep = [&](const PathObject &object) {
+    chain.count();
+    objects.push_back(object);
+    return objects.size() <= kMostCncObjects;
+  };
+  if (!decodeAll(program, diagnostics, keep, &origins))
+    return false;
+  const auto processed = preprocessCnc(program, std::move(objects), origins, diagnostics);
+  if (!processed)
+    return false;
+  for (const PathObject &object : *processed)
+    chain.take(object);
+  return true;
 }
 
 /// The corner rule of SMC_CheckVelocities, for the whole path.
@@ -191,7 +230,7 @@ std::optional<CncPath> cncPathOf(const CncProgram &program, const CncMotionOptio
                                  Diagnostics &diagnostics) {
   CncPath path;
   Chain chain(options, path);
-  if (!decodeAll(program, diagnostics, [&chain](const PathObject &o) { chain.take(o); }))
+  if (!takeAll(program, diagnostics, chain))
     return std::nullopt;
   chain.finish();
   checkCorners(path, options);

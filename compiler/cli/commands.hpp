@@ -2,6 +2,7 @@
 #define STRIDE_COMPILER_CLI_COMMANDS_HPP
 // The commands of `stride`. Each returns the exit code: 0 exactly when there was no error.
 
+#include "compiler/assets/cnc/cnc_source.hpp"
 #include "compiler/cli/terminal.hpp"
 #include "compiler/semantics/program.hpp"
 
@@ -160,6 +161,12 @@ struct CncQueueOptions {
   bool stepSuppress = false; ///< sentences that begin with `/` are left out
 };
 
+/// Path processors that `info`, `run`, `plot` and `queue` put the path through.
+struct CncProcessorOptions {
+  std::vector<CncProcessor> processors;
+  double toolRadius = 0; ///< of tool correction, is added to D [u]
+};
+
 struct CncOptions {
   CncAction action = CncAction::Check;
   std::vector<std::string> files;
@@ -169,6 +176,7 @@ struct CncOptions {
   std::string softMotion;
   CncMotionOptions motion;
   CncQueueOptions queue;
+  CncProcessorOptions preprocess;
   Output output;
 };
 /// Checks, describes, formats CNC programs, drives them, makes queue files of them.

@@ -1,6 +1,7 @@
 #include "compiler/project/cnc_config.hpp"
 
 #include "compiler/assets/cnc/nc_source.hpp"
+#include "compiler/source/suggest.hpp"
 #include "compiler/syntax/parser.hpp"
 
 #include <algorithm>
@@ -33,11 +34,53 @@ bool isQueue(CncCompile compile) {
 void warnOfIdle(const CheckedSection &section, CncCompile compile, Diagnostics &diagnostics) {
   if (isQueue(compile))
     return;
-  for (const std::string_view name : {"angle_tolerance", "queue_bytes", "step_suppress"})
+  for (const std::string_view name :
+       {"angle_tolerance", "queue_bytes", "step_suppress", "preprocess", "tool_radius"})
     if (const TomlNode *value = section.get(name))
       diagnostics.report(Code::ConfigWithoutEffect, value->span,
                          fmt::format("`{}` has no effect here", name),
                          "only with compile = \"queue\" or \"queue-file\"");
+}
+
+/// There is no such path processor.
+void reportProcessor(const TomlNode &name, Diagnostics &diagnostics) {
+  Diagnostic &diagnostic = diagnostics.report(
+      Code::ConfigUnknownChoice, name.span,
+      fmt::format("`preprocess` has no choice \"{}\"", name.text), "unknown choice");
+  if (const std::string_view near = nearest(name.text, {"tool", "loops", "smooth", "round"});
+      !near.empty())
+    diagnostic.help(fmt::format("did you mean \"{}\"?", near));
+  diagnostic.note("possible: \"tool\", \"loops\", \"smooth\", \"round\"");
+}
+
+/// Reads the path processors. What is wrong is reported; then there are none.
+void readProcessors(const CheckedSection &section, CncSettings &settings,
+                    Diagnostics &diagnostics) {
+  settings.toolRadius = section.real("tool_radius", 0);
+  const TomlNode *list = section.get("preprocess");
+  if (list != nullptr) {
+    for (const TomlNode &name : list->children) {
+      const std::optional<CncProcessor> processor = cncProcessor(name.text);
+      if (!processor) {
+        reportProcessor(name, diagnostics);
+        return;
+      }
+      settings.preprocess.push_back(*processor);
+    }
+    if (const std::optional<CncOrderFault> fault = findOrderFault(settings.preprocess)) {
+      Diagnostic &diagnostic = diagnostics.report(
+          Code::CncProcessors, list->children[fault->at].span, fault->message, fault->label);
+      if (!fault->help.empty())
+        diagnostic.help(fault->help);
+      settings.preprocess.clear();
+      return;
+    }
+  }
+  const auto &used = settings.preprocess;
+  if (isQueue(settings.compile) && section.get("tool_radius") != nullptr &&
+      std::find(used.begin(), used.end(), CncProcessor::Tool) == used.end())
+    diagnostics.report(Code::ConfigWithoutEffect, section.get("tool_radius")->span,
+                       "`tool_radius` has no effect here", "only with \"tool\" in `preprocess`");
 }
 
 /// The file in the folder for files that the program becomes.
@@ -175,6 +218,7 @@ void readCncSection(const CheckedSection &section, ProjectConfig &config,
   if (const TomlNode *bytes = section.get("queue_bytes"))
     settings.queueBytesSpan = bytes->span;
   settings.stepSuppress = section.boolean("step_suppress", false);
+  readProcessors(section, settings, diagnostics);
   warnOfIdle(section, settings.compile, diagnostics);
   settings.velocity = valueOf(section, "default_velocity");
   settings.acceleration = valueOf(section, "default_acceleration");

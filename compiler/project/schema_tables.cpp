@@ -143,6 +143,8 @@ constexpr std::array kCncParameters = {
     real("angle_tolerance", 0, 180, "°"),
     whole("queue_bytes", 5000, 100'000, "bytes"),
     flag("step_suppress"),
+    Parameter{"preprocess", ParameterType::NameList},
+    real("tool_radius", 0, 1e6, "u"),
 };
 constexpr std::array kCncStartParameters = {
     anyReal("X", "u"), anyReal("Y", "u"), anyReal("Z", "u"), anyReal("A", "u"),

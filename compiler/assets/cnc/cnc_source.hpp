@@ -32,20 +32,43 @@ enum class CncCompile : uint8_t {
   QueueFile, ///< Its path as a queue file, in the folder for files.
 };
 
+/// Path processors that a path goes through when it is compiled, in this order: `preprocess` of
+/// [[cnc]]. What the CNC editor shows as options (V2.3 manual, section 3.6).
+enum class CncProcessor : uint8_t {
+  Tool,   ///< SMC_ToolCorr
+  Loops,  ///< SMC_AvoidLoop
+  Smooth, ///< SMC_SmoothPath
+  Round,  ///< SMC_RoundPath
+};
+
+/// A processor by its name in stride.toml; nothing if there is none.
+[[nodiscard]] std::optional<CncProcessor> cncProcessor(std::string_view name);
+
+/// Why processors cannot be used together in this order.
+struct CncOrderFault {
+  size_t at = 0; ///< The first one that does not fit to those before it.
+  std::string message;
+  std::string label;
+  std::string help;
+};
+[[nodiscard]] std::optional<CncOrderFault> findOrderFault(std::span<const CncProcessor> processors);
+
 /// What stride.toml says about a program: a section [[cnc]].
 struct CncSettings {
   std::string file; ///< As stride.toml names it.
   Span span;
   CncCompile compile = CncCompile::Program;
-  double angleTolerance = 0;          ///< Of queues: corners up to it are none. [degrees]
-  uint32_t queueBytes = 0;            ///< Of queues: their memory; 0: as much as they need. [bytes]
-  Span queueBytesSpan;                ///< Where stride.toml says that.
-  bool stepSuppress = false;          ///< Of queues: sentences that begin with `/` are left out.
-  stride::cnc::Position start{};      ///< piStartPosition
-  bool softMotion3 = false;           ///< D as `softmotion` of the project says.
-  std::optional<double> velocity;     ///< Of programs that begin without F. [u/s]
-  std::optional<double> acceleration; ///< [u/s²]
-  std::optional<double> deceleration; ///< [u/s²]
+  double angleTolerance = 0;     ///< Of queues: corners up to it are none. [degrees]
+  uint32_t queueBytes = 0;       ///< Of queues: their memory; 0: as much as they need. [bytes]
+  Span queueBytesSpan;           ///< Where stride.toml says that.
+  bool stepSuppress = false;     ///< Of queues: sentences that begin with `/` are left out.
+  stride::cnc::Position start{}; ///< piStartPosition
+  bool softMotion3 = false;      ///< D as `softmotion` of the project says.
+  std::vector<CncProcessor> preprocess; ///< Of queues.
+  double toolRadius = 0;                ///< Of CncProcessor::Tool: is added to D. [u]
+  std::optional<double> velocity;       ///< Of programs that begin without F. [u/s]
+  std::optional<double> acceleration;   ///< [u/s²]
+  std::optional<double> deceleration;   ///< [u/s²]
 };
 
 /// The value of a variable when the application begins.
@@ -94,8 +117,9 @@ struct CncInfo {
   bool complete = false; ///< No error ended it.
 };
 
-/// Decodes a whole program, with 0 for its variables, and measures the path.
-[[nodiscard]] CncInfo infoOf(const CncProgram &program);
+/// Decodes a whole program, with 0 for its variables, and measures the path, as the processors of
+/// the settings leave it. What they cannot change is reported.
+[[nodiscard]] CncInfo infoOf(const CncProgram &program, Diagnostics &diagnostics);
 
 /// How decoding a whole program has ended.
 enum class CncEnd : uint8_t {
@@ -110,14 +134,28 @@ struct CncDecoded {
   const CncWord *word = nullptr;   ///< Where it has ended; null: at the end, or in the settings.
 };
 
+/// Where the objects of a path come from: of that with the number n (PathObject::number) a word of
+/// its sentence is [n - 1]; null: in the settings.
+using CncOrigins = std::vector<const CncWord *>;
+
 /// Decodes a program from its beginning to its end, jumps included, and gives each object of the
 /// path to `take`, until that returns false. Variables have their initial values.
-[[nodiscard]] CncDecoded
-decodeCnc(const CncProgram &program,
-          const std::function<bool(const stride::cnc::PathObject &)> &take);
+[[nodiscard]] CncDecoded decodeCnc(const CncProgram &program,
+                                   const std::function<bool(const stride::cnc::PathObject &)> &take,
+                                   CncOrigins *origins = nullptr);
 
-/// The path of a program as compiled queues have it: decoded, and its end velocities lowered as by
-/// SMC_CheckVelocities. Nothing if it is wrong, which is reported.
+/// Objects of a path at most: about 760 MB.
+inline constexpr size_t kMostCncObjects = 1'000'000;
+
+/// What the processors of the settings make of a decoded path: the same as their blocks with queues
+/// that hold all of it. Nothing if one of them cannot, which is reported.
+[[nodiscard]] std::optional<std::vector<stride::cnc::PathObject>>
+preprocessCnc(const CncProgram &program, std::vector<stride::cnc::PathObject> objects,
+              const CncOrigins &origins, Diagnostics &diagnostics);
+
+/// The path of a program as compiled queues have it: decoded, put through the processors of the
+/// settings, and its end velocities lowered as by SMC_CheckVelocities. Nothing if it is wrong,
+/// which is reported.
 [[nodiscard]] std::optional<std::vector<stride::cnc::PathObject>>
 cncQueueOf(const CncProgram &program, Diagnostics &diagnostics);
 

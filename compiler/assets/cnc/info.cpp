@@ -2,8 +2,9 @@
 
 #include "compiler/assets/cnc/cnc_source.hpp"
 
+#include "runtime/numeric/cnc/object_shape.hpp"
+
 #include <algorithm>
-#include <cmath>
 
 namespace stc {
 
@@ -21,43 +22,16 @@ void widen(CncInfo &info, const double (&coordinate)[kAxes]) {
   }
 }
 
-/// The place of a curve in its frame, `part` from 0 to 1 of its parameter.
-void placeOf(const PathObject &o, double part, double &x, double &y) {
-  if (o.moveType == MoveType::Spline) {
-    const auto value = [&o, part](int at) {
-      const double *c = o.shape + at;
-      return c[0] + part * (c[1] + part * (c[2] + part * c[3]));
-    };
-    x = value(0);
-    y = value(4);
+void widenByCurve(CncInfo &info, const PathObject &object) {
+  ObjectShape described;
+  const ShapeError error = outlineOf(object, described);
+  if (error != ShapeError::None && error != ShapeError::Ends)
     return;
-  }
-  const double phi = (o.parameterRange[0] - part * o.parameterRange[1]) * M_PI / 180;
-  if (o.moveType == MoveType::Clockwise || o.moveType == MoveType::Counterclockwise) {
-    x = o.shape[0] + o.shape[2] * std::cos(phi);
-    y = o.shape[1] + o.shape[2] * std::sin(phi);
-    return;
-  }
-  const double a = o.shape[4] * std::cos(phi);
-  const double b = o.shape[5] * std::sin(phi);
-  x = o.shape[0] + o.shape[2] * a - o.shape[3] * b;
-  y = o.shape[1] + o.shape[3] * a + o.shape[2] * b;
-}
-
-void widenByCurve(CncInfo &info, const PathObject &o) {
   for (int i = 1; i < kPlaces; ++i) {
     const double part = static_cast<double>(i) / kPlaces;
-    double x = 0;
-    double y = 0;
-    placeOf(o, part, x, y);
-    const double *start = o.start.coordinate;
-    const double height = o.normal.x * start[0] + o.normal.y * start[1] + o.normal.z * start[2];
-    const double way[3] = {o.end.coordinate[0] - start[0], o.end.coordinate[1] - start[1],
-                           o.end.coordinate[2] - start[2]};
-    const double climb = o.normal.x * way[0] + o.normal.y * way[1] + o.normal.z * way[2];
-    const Vector3 place = o.planeX * x + o.planeY * y + o.normal * (height + part * climb);
+    const Vector3 place = stride::path::overParameter(described.shape, part).p;
     double coordinate[kAxes];
-    std::copy(std::begin(o.start.coordinate), std::end(o.start.coordinate), coordinate);
+    std::copy(std::begin(object.start.coordinate), std::end(object.start.coordinate), coordinate);
     coordinate[kAxisX] = place.x;
     coordinate[kAxisY] = place.y;
     coordinate[kAxisZ] = place.z;
@@ -85,7 +59,7 @@ void measure(CncInfo &info, const PathObject &object) {
 
 } // namespace
 
-CncInfo infoOf(const CncProgram &program) {
+CncInfo infoOf(const CncProgram &program, Diagnostics &diagnostics) {
   CncInfo info;
   info.sentences = static_cast<size_t>(
       std::count_if(program.words.begin(), program.words.end(),
@@ -93,12 +67,27 @@ CncInfo infoOf(const CncProgram &program) {
   std::copy(std::begin(program.settings.start.coordinate),
             std::end(program.settings.start.coordinate), info.least);
   std::copy(std::begin(info.least), std::end(info.least), info.most);
-  const CncDecoded decoded = decodeCnc(program, [&info](const PathObject &object) {
-    measure(info, object);
-    return true;
-  });
-  info.endless = decoded.end == CncEnd::Endless;
+  const bool processed = !program.settings.preprocess.empty();
+  std::vector<PathObject> objects;
+  CncOrigins origins;
+  const CncDecoded decoded = decodeCnc(
+      program,
+      [&](const PathObject &object) {
+        if (!processed) {
+          measure(info, object);
+          return true;
+        }
+        if (objects.size() == kMostCncObjects)
+          return false;
+        objects.push_back(object);
+        return true;
+      },
+      processed ? &origins : nullptr);
+  info.endless = decoded.end == CncEnd::Endless || decoded.end == CncEnd::Refused;
   info.complete = decoded.end == CncEnd::Complete;
+  if (const auto path = preprocessCnc(program, std::move(objects), origins, diagnostics))
+    for (const PathObject &object : *path)
+      measure(info, object);
   return info;
 }
 

@@ -16,9 +16,6 @@ namespace {
 
 using namespace stride::cnc;
 
-/// Objects of a path at most: about 760 MB.
-constexpr size_t kMostObjects = 1'000'000;
-
 void reportEnd(const CncProgram &program, const CncDecoded &decoded, Diagnostics &diagnostics) {
   const Span span = decoded.word != nullptr ? decoded.word->span : program.span;
   switch (decoded.end) {
@@ -33,7 +30,7 @@ void reportEnd(const CncProgram &program, const CncDecoded &decoded, Diagnostics
     break;
   case CncEnd::Refused:
     diagnostics.report(Code::CncQueue, span,
-                       fmt::format("the path has more than {} objects", kMostObjects),
+                       fmt::format("the path has more than {} objects", kMostCncObjects),
                        "it goes on here");
     break;
   }
@@ -48,17 +45,26 @@ bool isDrivable(const PathObject &object) {
 
 std::optional<std::vector<PathObject>> cncQueueOf(const CncProgram &program,
                                                   Diagnostics &diagnostics) {
-  std::vector<PathObject> objects;
-  const CncDecoded decoded = decodeCnc(program, [&objects](const PathObject &object) {
-    if (objects.size() == kMostObjects)
-      return false;
-    objects.push_back(object);
-    return true;
-  });
+  std::vector<PathObject> programmed;
+  CncOrigins origins;
+  const CncDecoded decoded = decodeCnc(
+      program,
+      [&programmed](const PathObject &object) {
+        if (programmed.size() == kMostCncObjects)
+          return false;
+        programmed.push_back(object);
+        return true;
+      },
+      &origins);
   if (decoded.end != CncEnd::Complete) {
     reportEnd(program, decoded, diagnostics);
     return std::nullopt;
   }
+  std::optional<std::vector<PathObject>> processed =
+      preprocessCnc(program, std::move(programmed), origins, diagnostics);
+  if (!processed)
+    return std::nullopt;
+  std::vector<PathObject> &objects = *processed;
   const auto stands = std::find_if_not(objects.begin(), objects.end(), isDrivable);
   if (stands != objects.end()) {
     diagnostics
@@ -76,9 +82,9 @@ std::optional<std::vector<PathObject>> cncQueueOf(const CncProgram &program,
   queue.size = static_cast<uint32_t>(objects.size() * sizeof(PathObject));
   setQueueContent(queue, {count, kByEditor, {}});
   uint32_t checked = UINT32_MAX; // all of them
-  checkVelocities(&queue, checked, {program.settings.angleTolerance * M_PI / 180, -1.0});
+  checkVelocities(&queue, checked, {program.settings.angleTolerance * (M_PI / 180), -1.0});
   objects.resize(count);
-  return objects;
+  return processed;
 }
 
 std::string cncQueueFile(const CncProgram &program, std::span<const PathObject> objects) {

@@ -114,8 +114,8 @@ constexpr size_t kMostSentences = 20'000'000;
 
 } // namespace
 
-CncDecoded decodeCnc(const CncProgram &program,
-                     const std::function<bool(const PathObject &)> &take) {
+CncDecoded decodeCnc(const CncProgram &program, const std::function<bool(const PathObject &)> &take,
+                     CncOrigins *origins) {
   const gcode::Sentences sentences(program);
   const auto decoder = std::make_unique<Decoder>();
   const auto decoded = std::make_unique<Decoded>();
@@ -137,6 +137,8 @@ CncDecoded decodeCnc(const CncProgram &program,
     };
     watch.pass(sentence);
     decodeSentence(*decoder, sentence.words, sentence.count, sentence.line, *decoded);
+    if (origins != nullptr) // a spline comes out later than it gets its number
+      origins->resize(static_cast<size_t>(decoder->objects), sentences.source(sentence, 0));
     if (decoded->error != GCodeError::None)
       return end(CncEnd::Wrong, decoded->error);
     if (!takeAll())

@@ -12,6 +12,7 @@ using exact::smaller;
 // SMC_ERROR
 constexpr int16_t kDataUnderrun = 1003;
 constexpr int16_t kNoCheckVelocities = 1006;
+constexpr int16_t kPathExceeded = 1007;
 constexpr int16_t kNoQueue = 1501;
 
 void removeFirst(Interpolator &interpolator, const Command &command) noexcept {
@@ -235,6 +236,15 @@ void turnIfWanted(Interpolator &interpolator, const Command &command) noexcept {
     turn(interpolator, command);
 }
 
+/// Whether the objects that are known are still there: somebody else may have emptied the queue.
+bool hasKnown(const Interpolator &interpolator, const Command &command) noexcept {
+  const int64_t needed = interpolator.known + (interpolator.hasNext ? 1 : 0);
+  const int64_t least = interpolator.hasHere ? 1 : 0;
+  const bool inside = interpolator.first < countOf(command.queue);
+  const int64_t present = interpolator.backwards && !inside ? 0 : countAhead(interpolator, command);
+  return present >= needed && present >= least;
+}
+
 void drive(Interpolator &interpolator, const Command &command) noexcept {
   path::Motion &motion = interpolator.motion;
   turnIfWanted(interpolator, command);
@@ -281,6 +291,10 @@ void cycle(Interpolator &interpolator, const Command &command) noexcept {
   }
   if (interpolator.phase == Phase::Filling && !begins(interpolator, command))
     return;
+  if (!hasKnown(interpolator, command)) {
+    fail(interpolator, kPathExceeded);
+    return;
+  }
   drive(interpolator, command);
   progress.position = interpolator.position;
   if (!(progress.length > 0.0))

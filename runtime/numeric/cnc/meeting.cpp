@@ -32,6 +32,9 @@ bool meet(const PathObject &before, const PathObject &after, Meeting &meeting) n
     return false;
   meeting.before = first.shape;
   meeting.after = second.shape;
+  meeting.lengthBefore = first.length;
+  meeting.lengthAfter = second.length;
+  meeting.measure = first.measure;
   meeting.place = path::overParameter(first.shape, 1.0).p;
   meeting.lift = numeric::kZero;
   if (first.measure == Measure::Plane) {

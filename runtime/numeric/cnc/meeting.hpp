@@ -12,6 +12,9 @@ namespace stride::cnc {
 struct Meeting {
   path::Shape before;
   path::Shape after;
+  double lengthBefore; ///< ObjectShape::length of both, and
+  double lengthAfter;  ///< [u]
+  Measure measure;     ///< its measure.
   Vector3
       lift; ///< Of planar objects: what leads from the plane of the second to that of the first.
   Vector3 place; ///< The corner, in the plane of the first.

@@ -1,6 +1,5 @@
 #include "runtime/numeric/cnc/object_cut.hpp"
 
-#include "runtime/numeric/cnc/object_shape.hpp"
 #include "runtime/numeric/path/bend.hpp"
 
 namespace stride::cnc {
@@ -33,22 +32,6 @@ bool hasProfile(const PathObject &object) noexcept {
       return true;
   }
   return false;
-}
-
-/// Gives both parts the slopes of the whole at the cut, and moves the cut to where they lead.
-void bendParts(const PathObject &object, const Cut &cut, double length, PathObject &first,
-               PathObject &second) noexcept {
-  for (unsigned i = kAxisA; i <= kAxisC; ++i) {
-    if (!hasSlopes(object, i))
-      continue;
-    const unsigned n = i - kAxisA;
-    const double even = (object.end.coordinate[i] - object.start.coordinate[i]) / length;
-    const path::Progress more =
-        path::bentBy(object.startSlope[n] - even, object.endSlope[n] - even, cut.part, length);
-    first.end.coordinate[i] += more.f;
-    second.start.coordinate[i] = first.end.coordinate[i];
-    first.endSlope[n] = second.startSlope[n] = even + more.d1;
-  }
 }
 
 /// The coordinates of the cut.
@@ -137,22 +120,95 @@ void describe(const path::Shape &shape, double u, double v, PathObject &part) no
 
 // ---- what goes with the parts
 
-void shareSwitches(const PathObject &object, double part, PathObject &first,
-                   PathObject &second) noexcept {
+void clearSwitch(PathObject &part, int32_t i) noexcept {
+  part.switchId[i] = 0;
+  part.switchPosition[i] = 0.0;
+}
+
+/// Leaves the switch points that are in the first part, or in the second one.
+void keepSwitches(PathObject &object, double part, bool inFirst) noexcept {
   for (int32_t i = 0; i <= kMostSwitches; ++i) {
     const double at = object.switchPosition[i];
     if (object.switchId[i] == 0)
       continue;
-    if (at <= part) {
-      first.switchPosition[i] = at / part;
-      second.switchId[i] = 0;
-      second.switchPosition[i] = 0.0;
-    } else {
-      second.switchPosition[i] = (at - part) / (1.0 - part);
-      first.switchId[i] = 0;
-      first.switchPosition[i] = 0.0;
-    }
+    if ((at <= part) != inFirst)
+      clearSwitch(object, i);
+    else
+      object.switchPosition[i] = inFirst ? at / part : (at - part) / (1.0 - part);
   }
+}
+
+// ---- an object that is cut
+
+struct Split {
+  PathObject whole;
+  Cut cut;
+  double coordinate[kAxes]; ///< Of the cut.
+  double slope[3];          ///< Of A, B, C there, where they go by slopes.
+};
+
+/// Moves the cut to where slopes lead.
+void bend(Split &split, double length) noexcept {
+  const PathObject &object = split.whole;
+  for (unsigned i = kAxisA; i <= kAxisC; ++i) {
+    if (!hasSlopes(object, i))
+      continue;
+    const unsigned n = i - kAxisA;
+    const double even = (object.end.coordinate[i] - object.start.coordinate[i]) / length;
+    const path::Progress more = path::bentBy(object.startSlope[n] - even, object.endSlope[n] - even,
+                                             split.cut.part, length);
+    split.coordinate[i] += more.f;
+    split.slope[n] = even + more.d1;
+  }
+}
+
+CutError beginSplit(const PathObject &object, const ObjectShape &shape, double way,
+                    Split &split) noexcept {
+  if (!(shape.length > 0.0))
+    return CutError::Shape;
+  if (hasProfile(object))
+    return CutError::Profile;
+  if (!(way > 0.0 && way < shape.length))
+    return CutError::Way;
+  split.whole = object;
+  completePlane(split.whole);
+  const double part = way / shape.length;
+  const bool isCurve = shape.measure == Measure::Space || shape.measure == Measure::Plane;
+  split.cut = {way, part, isCurve ? path::parameterAt(shape.shape, way) : part};
+  place(split.whole, shape, split.cut, split.coordinate);
+  const bool isEnd =
+      isAt(split.whole.start, split.coordinate) || isAt(split.whole.end, split.coordinate);
+  if (isEnd)
+    return CutError::Way;
+  bend(split, shape.length);
+  return CutError::None;
+}
+
+void takeFirst(const Split &split, const ObjectShape &shape, PathObject &first) noexcept {
+  first = split.whole;
+  for (int32_t i = 0; i < kAxes; ++i)
+    first.end.coordinate[i] = split.coordinate[i];
+  for (unsigned i = kAxisA; i <= kAxisC; ++i)
+    if (hasSlopes(split.whole, i))
+      first.endSlope[i - kAxisA] = split.slope[i - kAxisA];
+  describe(shape.shape, 0.0, split.cut.u, first);
+  first.length = split.cut.way;
+  first.velocityEnd = split.whole.velocity;
+  first.marks = split.whole.marks & static_cast<uint8_t>(~kEndMarks);
+  keepSwitches(first, split.cut.part, true);
+}
+
+void takeSecond(const Split &split, const ObjectShape &shape, PathObject &second) noexcept {
+  second = split.whole;
+  for (int32_t i = 0; i < kAxes; ++i)
+    second.start.coordinate[i] = split.coordinate[i];
+  for (unsigned i = kAxisA; i <= kAxisC; ++i)
+    if (hasSlopes(split.whole, i))
+      second.startSlope[i - kAxisA] = split.slope[i - kAxisA];
+  describe(shape.shape, split.cut.u, 1.0, second);
+  second.length = shape.length - split.cut.way;
+  second.marks = split.whole.marks & kEndMarks;
+  keepSwitches(second, split.cut.part, false);
 }
 
 } // namespace
@@ -160,60 +216,52 @@ void shareSwitches(const PathObject &object, double part, PathObject &first,
 CutError splitObject(const PathObject &object, double way, PathObject &first,
                      PathObject &second) noexcept {
   ObjectShape shape{};
-  if (shapeOf(object, shape) != ShapeError::None || !(shape.length > 0.0))
+  if (shapeOf(object, shape) != ShapeError::None)
     return CutError::Shape;
-  if (hasProfile(object))
-    return CutError::Profile;
-  if (!(way > 0.0 && way < shape.length))
+  Split split;
+  const CutError error = beginSplit(object, shape, way, split);
+  if (error != CutError::None)
+    return error;
+  takeFirst(split, shape, first);
+  takeSecond(split, shape, second);
+  return CutError::None;
+}
+
+CutError cutStart(PathObject &object, const ObjectShape &shape, double way) noexcept {
+  Split split;
+  const CutError error = beginSplit(object, shape, way, split);
+  if (error != CutError::None)
+    return error;
+  takeSecond(split, shape, object);
+  object.marks = split.whole.marks;
+  return CutError::None;
+}
+
+CutError cutEnd(PathObject &object, const ObjectShape &shape, double way) noexcept {
+  if (!(way > 0.0))
     return CutError::Way;
-  PathObject whole = object;
-  completePlane(whole);
-  const double part = way / shape.length;
-  const bool isCurve = shape.measure == Measure::Space || shape.measure == Measure::Plane;
-  const Cut cut{way, part, isCurve ? path::parameterAt(shape.shape, way) : part};
-  double coordinate[kAxes];
-  place(whole, shape, cut, coordinate);
-  if (isAt(whole.start, coordinate) || isAt(whole.end, coordinate))
-    return CutError::Way;
-  first = whole;
-  second = whole;
-  for (int32_t i = 0; i < kAxes; ++i) {
-    first.end.coordinate[i] = coordinate[i];
-    second.start.coordinate[i] = coordinate[i];
-  }
-  bendParts(whole, cut, shape.length, first, second);
-  describe(shape.shape, 0.0, cut.u, first);
-  describe(shape.shape, cut.u, 1.0, second);
-  first.length = way;
-  second.length = shape.length - way;
-  first.velocityEnd = whole.velocity;
-  first.marks = whole.marks & static_cast<uint8_t>(~kEndMarks);
-  second.marks = whole.marks & kEndMarks;
-  shareSwitches(whole, part, first, second);
+  Split split;
+  const CutError error = beginSplit(object, shape, shape.length - way, split);
+  if (error != CutError::None)
+    return error;
+  takeFirst(split, shape, object);
+  object.velocityEnd = split.whole.velocityEnd;
+  object.marks = split.whole.marks;
   return CutError::None;
 }
 
 CutError cutStart(PathObject &object, double way) noexcept {
-  const uint8_t marks = object.marks;
-  PathObject lost;
-  const CutError error = splitObject(object, way, lost, object);
-  object.marks = marks;
-  return error;
+  ObjectShape shape{};
+  if (shapeOf(object, shape) != ShapeError::None)
+    return CutError::Shape;
+  return cutStart(object, shape, way);
 }
 
 CutError cutEnd(PathObject &object, double way) noexcept {
   ObjectShape shape{};
   if (shapeOf(object, shape) != ShapeError::None)
     return CutError::Shape;
-  if (!(way > 0.0))
-    return CutError::Way;
-  const double velocityEnd = object.velocityEnd;
-  const uint8_t marks = object.marks;
-  PathObject lost;
-  const CutError error = splitObject(object, shape.length - way, object, lost);
-  object.velocityEnd = velocityEnd;
-  object.marks = marks;
-  return error;
+  return cutEnd(object, shape, way);
 }
 
 } // namespace stride::cnc

@@ -3,7 +3,7 @@
 #ifndef STRIDE_RUNTIME_NUMERIC_CNC_OBJECT_CUT_HPP
 #define STRIDE_RUNTIME_NUMERIC_CNC_OBJECT_CUT_HPP
 
-#include "runtime/numeric/cnc/path_object.hpp"
+#include "runtime/numeric/cnc/object_shape.hpp"
 
 namespace stride::cnc {
 
@@ -28,6 +28,10 @@ CutError splitObject(const PathObject &object, double way, PathObject &first,
 /// velocity stay. [u] in
 CutError cutStart(PathObject &object, double way) noexcept;
 CutError cutEnd(PathObject &object, double way) noexcept;
+
+/// The same where it is known what shapeOf() says of the object.
+CutError cutStart(PathObject &object, const ObjectShape &shape, double way) noexcept;
+CutError cutEnd(PathObject &object, const ObjectShape &shape, double way) noexcept;
 
 } // namespace stride::cnc
 

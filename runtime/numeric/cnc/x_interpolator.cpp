@@ -44,6 +44,8 @@ void put(XFollower &follower, const PathObject &object, double way) noexcept {
 
 /// Begins with the first object that moves. False: there is none, or an error.
 bool begin(XFollower &follower, Queue *queue, bool forward) noexcept {
+  // Somebody else may have emptied the queue.
+  follower.begun = follower.begun && objectAt(queue, 0) != nullptr;
   while (!follower.begun) {
     const PathObject *object = objectAt(queue, 0);
     if (object == nullptr)

@@ -9,7 +9,9 @@ using numeric::dot;
 using numeric::norm;
 
 constexpr int kParts = 8;        ///< In which a curve is integrated at first.
-constexpr int kMaxHalvings = 24; ///< Of a part.
+constexpr int kMaxHalvings = 24; ///< Of a part, within each other.
+constexpr int kMostHalved = 64;  ///< Of a part, in all: where terms nearly cancel out, what numbers
+                                 ///< leave of them never agrees.
 constexpr int kMaxSteps = 64;    ///< Of the search for a parameter.
 
 bool hasConstantSpeed(const Shape &shape) noexcept {
@@ -44,7 +46,17 @@ Derivatives polynomialOver(const Shape &shape, double u) noexcept {
   return d;
 }
 
-double speed(const Shape &shape, double u) noexcept { return norm(overParameter(shape, u).d1); }
+double speed(const Shape &shape, double u) noexcept {
+  if (shape.kind != ShapeKind::Polynomial)
+    return norm(overParameter(shape, u).d1);
+  Vector3 d1 = numeric::kZero; // as polynomialOver has it
+  Vector3 p = shape.v[5];
+  for (int k = 4; k >= 0; --k) {
+    d1 = d1 * u + p;
+    p = p * u + shape.v[k];
+  }
+  return norm(d1);
+}
 
 /// The integral of the speed by Gauss and Legendre's rule with five points.
 double gauss(const Shape &shape, double from, double to) noexcept {
@@ -68,17 +80,19 @@ double integrate(const Shape &shape, double from, double to, double tolerance) n
   double begin = from;
   double width = to - from;
   int level = 0;
+  int halved = 0;
   uint32_t left = 0; // levels at which the present part is a left half
   double whole = gauss(shape, begin, begin + width);
   for (;;) {
     const double half = 0.5 * width;
     const double first = gauss(shape, begin, begin + half);
     const double second = gauss(shape, begin + half, begin + width);
-    if (level < kMaxHalvings &&
+    if (level < kMaxHalvings && halved < kMostHalved &&
         exact::fabs(first + second - whole) > tolerance * exact::fabs(width / (to - from))) {
       width = half;
       whole = first;
       ++level;
+      ++halved;
       left |= 1U << static_cast<unsigned>(level);
       continue;
     }

@@ -437,4 +437,24 @@ TEST_P(EachLaw, GoesOnWhereMoreObjectsFollowThanItCanKnow) {
   EXPECT_LT(time, 2);
 }
 
+TEST(Interpolator, FailsWhenSomebodyElseTakesTheObjectsOfItsPath) {
+  for (const uint32_t taken : {1U, 2U, 3U}) {
+    Drive drive;
+    drive.line(30, 0);
+    drive.line(60, 10);
+    drive.line(70, -10);
+    drive.queue.endOfList = 1;
+    drive.start();
+    for (int i = 0; i < 20; ++i)
+      drive.step();
+    ASSERT_EQ(drive.interpolator->phase, Phase::Moving);
+    for (uint32_t i = 0; i < taken; ++i)
+      removeAt(&drive.queue, 0);
+    drive.step();
+    EXPECT_EQ(drive.interpolator->phase, Phase::Failed) << taken;
+    EXPECT_EQ(drive.interpolator->error, 1007);
+    EXPECT_EQ(drive.step().motion.velocity, 0);
+  }
+}
+
 } // namespace

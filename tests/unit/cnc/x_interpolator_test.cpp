@@ -163,4 +163,15 @@ TEST(XInterpolator, AnXWithoutOnePlaceIsAnError) {
   EXPECT_EQ(rig.follower.error, XError::NoQueue);
 }
 
+TEST(XInterpolator, WaitsWhenSomebodyElseEmptiesTheQueue) {
+  Rig rig({line(0, 0, 10, 5), line(10, 5, 20, 0)}, false);
+  EXPECT_EQ(rig.at(4), XPhase::Following);
+  clear(&rig.queue);
+  EXPECT_EQ(rig.at(6), XPhase::Waiting);
+  const PathObject other = line(5, 1, 15, 11);
+  append(&rig.queue, &other);
+  EXPECT_EQ(rig.at(7), XPhase::Following);
+  EXPECT_NEAR(rig.y(), 3, 1e-12);
+}
+
 } // namespace

@@ -274,9 +274,11 @@ CornerChange makeCorner(PathObject &before, PathObject &after, const PieceRules 
   const bool replaced = length - ends.cuts.before <= kNothing * length;
   if (replaced)
     first.end = first.start;
-  else if (cutEnd(first, ends.cuts.before) != CutError::None)
+  else if (cutEnd(first, {meeting.before, meeting.lengthBefore, meeting.measure},
+                  ends.cuts.before) != CutError::None)
     return CornerChange::Kept;
-  if (cutStart(second, ends.cuts.after) != CutError::None)
+  if (cutStart(second, {meeting.after, meeting.lengthAfter, meeting.measure}, ends.cuts.after) !=
+      CutError::None)
     return CornerChange::Kept;
   beginPiece(first, second, piece);
   if (replaced) {
