@@ -196,7 +196,7 @@ std::optional<CncProcessor> cncProcessor(std::string_view name) {
 std::optional<CncOrderFault> findOrderFault(std::span<const CncProcessor> processors) {
   for (size_t i = 1; i < processors.size(); ++i)
     for (size_t k = 0; k < i; ++k)
-      if (const auto fault = faultOf(processors[k], processors[i], i))
+      if (auto fault = faultOf(processors[k], processors[i], i))
         return fault;
   return std::nullopt;
 }
