@@ -13,7 +13,10 @@ struct Eigen::NumTraits<stride::kinematics::Jet<kOrder>> : Eigen::NumTraits<doub
   using Real = stride::kinematics::Jet<kOrder>;
   using NonInteger = Real;
   using Nested = Real;
-  enum { RequireInitialization = 0 };
+  enum {
+    // NOLINTNEXTLINE(readability-identifier-naming): the name that Eigen asks for
+    RequireInitialization = 0
+  };
 };
 
 namespace stride::kinematics {
