@@ -2,6 +2,7 @@
 
 #include "compiler/assets/cnc/cnc_source.hpp"
 #include "compiler/assets/cnc/nc_source.hpp"
+#include "compiler/cli/cnc_edit.hpp"
 #include "compiler/cli/cnc_run.hpp"
 #include "compiler/cli/commands.hpp"
 #include "compiler/project/config.hpp"
@@ -252,6 +253,8 @@ int cncCommand(const CncOptions &options) {
     return cncMotion(options);
   case CncAction::Queue:
     return cncQueue(options);
+  case CncAction::Number:
+    return editCnc(options);
   case CncAction::Check:
     return cncCheck(options);
   case CncAction::Info:

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace stc::cli {
 
@@ -81,6 +82,8 @@ public:
                   "SVG file to write (default: FILE with .svg)");
     declareQueue(add("queue", CncAction::Queue,
                      "Write the path of a CNC program as a file for SMC_ReadNCQueue"));
+    declareNumber(add("number", CncAction::Number,
+                      "Number the sentences of a CNC program anew; jumps follow"));
   }
 
 private:
@@ -89,9 +92,10 @@ private:
     CLI::Option *files = command->add_option("FILE", call_->cnc.files, "CNC file (*.cnc)")
                              ->required()
                              ->type_name("");
-    if (action == CncAction::Run || action == CncAction::Plot || action == CncAction::Queue)
+    if (action == CncAction::Run || action == CncAction::Plot || action == CncAction::Queue ||
+        action == CncAction::Number)
       files->expected(1);
-    if (action != CncAction::Format)
+    if (action != CncAction::Format && action != CncAction::Number)
       command
           ->add_option("--softmotion", call_->cnc.softMotion,
                        "What words mean: 2.3 or 3 (default: as stride.toml of the file's project "
@@ -180,6 +184,22 @@ private:
                      "Corners that turn less are none, degrees (default: 0.001)")
         ->check(numberFrom(0, true, 180))
         ->type_name("DEG");
+  }
+
+  void declareNumber(CLI::App *command) const {
+    constexpr int32_t kMost = std::numeric_limits<int32_t>::max();
+    CncNumbering &numbering = call_->cnc.numbering;
+    command->add_option("--first", numbering.first, "Number of the first sentence (default: 10)")
+        ->check(CLI::Range(0, kMost).description(""))
+        ->type_name("N");
+    command->add_option("--step", numbering.step, "From each sentence to the next (default: 10)")
+        ->check(CLI::Range(1, kMost).description(""))
+        ->type_name("N");
+    CLI::Option *out =
+        command->add_option("-o,--out", call_->cnc.out, "File to write (default: standard output)")
+            ->type_name("FILE");
+    command->add_flag("--in-place", call_->cnc.inPlace, "Write into the program's own file")
+        ->excludes(out);
   }
 
   void declareQueue(CLI::App *command) const {

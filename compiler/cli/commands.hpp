@@ -3,6 +3,7 @@
 // The commands of `stride`. Each returns the exit code: 0 exactly when there was no error.
 
 #include "compiler/assets/cnc/cnc_source.hpp"
+#include "compiler/assets/cnc_edit/cnc_edit.hpp"
 #include "compiler/cli/terminal.hpp"
 #include "compiler/semantics/program.hpp"
 
@@ -135,7 +136,7 @@ struct CamOptions {
 int camCommand(const CamOptions &options);
 
 /// What `stride cnc` does.
-enum class CncAction { Check, Info, Format, Run, Plot, Queue };
+enum class CncAction { Check, Info, Format, Run, Plot, Queue, Number };
 
 /// How `run` and `plot` drive a program. Arrays are of X, Y, Z, A, B, C, P, Q, U, V, W and one
 /// more.
@@ -177,6 +178,8 @@ struct CncOptions {
   CncMotionOptions motion;
   CncQueueOptions queue;
   CncProcessorOptions preprocess;
+  CncNumbering numbering;
+  bool inPlace = false; ///< number: into the file itself
   Output output;
 };
 /// Checks, describes, formats CNC programs, drives them, makes queue files of them.
