@@ -254,6 +254,10 @@ int cncCommand(const CncOptions &options) {
   case CncAction::Queue:
     return cncQueue(options);
   case CncAction::Number:
+  case CncAction::Rotate:
+  case CncAction::Shift:
+  case CncAction::Scale:
+  case CncAction::Mirror:
     return editCnc(options);
   case CncAction::Check:
     return cncCheck(options);

@@ -1,9 +1,11 @@
 #include "compiler/cli/cnc_edit.hpp"
 
 #include "compiler/assets/cnc/cnc_source.hpp"
+#include "compiler/assets/cnc_edit/transform.hpp"
 #include "compiler/project/file_system.hpp"
 #include "compiler/source/sources.hpp"
 
+#include <bit>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -35,6 +37,25 @@ void putEdited(const std::string &path, const std::string &text, bool changed,
                        fmt::format("`{}` cannot be written: {}", out, lastError()));
 }
 
+CncTransform transformOf(const CncOptions &options) {
+  const CncMoveOptions &move = options.move;
+  if (options.action == CncAction::Rotate)
+    return cncRotation(move.angle, move.places);
+  if (options.action == CncAction::Scale)
+    return cncScale(move.factor, move.places);
+  if (options.action == CncAction::Shift)
+    return cncShift(move.places);
+  const int axis = std::countr_zero(move.axes);
+  return cncReflection(axis, move.places[axis]);
+}
+
+std::optional<std::string> edited(const SourceFile &file, const CncOptions &options,
+                                  Diagnostics &diagnostics) {
+  return options.action == CncAction::Number
+             ? numberCnc(file, options.numbering, diagnostics)
+             : transformCnc(file, transformOf(options), diagnostics);
+}
+
 } // namespace
 
 int editCnc(const CncOptions &options) {
@@ -45,8 +66,8 @@ int editCnc(const CncOptions &options) {
   if (!id) {
     diagnostics.report(Code::UnreadableFile, {},
                        fmt::format("`{}` cannot be read: {}", path, readSourceError(kMaxCncBytes)));
-  } else if (const auto edited = numberCnc(sources.file(*id), options.numbering, diagnostics)) {
-    putEdited(path, *edited, *edited != sources.file(*id).text(), options, diagnostics);
+  } else if (const auto text = edited(sources.file(*id), options, diagnostics)) {
+    putEdited(path, *text, *text != sources.file(*id).text(), options, diagnostics);
   }
   diagnostics.sort();
   return show(diagnostics.all(), sources, options.output);

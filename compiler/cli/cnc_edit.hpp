@@ -6,7 +6,8 @@
 
 namespace stc::cli {
 
-/// `stride cnc number`: gives the program to standard output, to another file, or to its own.
+/// `stride cnc number`, `rotate`, `shift`, `scale`, `mirror`: gives the program to standard output,
+/// to another file, or to its own.
 int editCnc(const CncOptions &options);
 
 } // namespace stc::cli

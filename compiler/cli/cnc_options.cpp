@@ -5,6 +5,7 @@
 #include "compiler/toml/interval.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -84,6 +85,7 @@ public:
                      "Write the path of a CNC program as a file for SMC_ReadNCQueue"));
     declareNumber(add("number", CncAction::Number,
                       "Number the sentences of a CNC program anew; jumps follow"));
+    declareMoves();
   }
 
 private:
@@ -92,10 +94,9 @@ private:
     CLI::Option *files = command->add_option("FILE", call_->cnc.files, "CNC file (*.cnc)")
                              ->required()
                              ->type_name("");
-    if (action == CncAction::Run || action == CncAction::Plot || action == CncAction::Queue ||
-        action == CncAction::Number)
+    if (action == CncAction::Run || action == CncAction::Plot || action >= CncAction::Queue)
       files->expected(1);
-    if (action != CncAction::Format && action != CncAction::Number)
+    if (action != CncAction::Format && action < CncAction::Number)
       command
           ->add_option("--softmotion", call_->cnc.softMotion,
                        "What words mean: 2.3 or 3 (default: as stride.toml of the file's project "
@@ -195,6 +196,66 @@ private:
     command->add_option("--step", numbering.step, "From each sentence to the next (default: 10)")
         ->check(CLI::Range(1, kMost).description(""))
         ->type_name("N");
+    declareTarget(command);
+  }
+
+  void declareMoves() const {
+    CncMoveOptions &move = call_->cnc.move;
+    CLI::App *rotate = addMove("rotate", CncAction::Rotate, "Turn the path of a CNC program");
+    rotate->add_option("--angle", move.angle, "About Z, counterclockwise, degrees")
+        ->required()
+        ->check(numberFrom(-kMostAngle, true, kMostAngle))
+        ->type_name("DEG");
+    places(rotate, "--about", "Place that stays, u: X=5,Y=-2 (default: 0)", "XY")->required(false);
+    places(addMove("shift", CncAction::Shift, "Shift the path of a CNC program"), "--by",
+           "By so much, u: X=5,Y=-2", kAxisLetters);
+    CLI::App *scale =
+        addMove("scale", CncAction::Scale, "Make the path of a CNC program larger or smaller");
+    scale->add_option("--factor", move.factor, "Factor of X, Y and Z, greater than 0")
+        ->required()
+        ->check(numberFrom(0, false))
+        ->type_name("N");
+    places(scale, "--about", "Place that stays, u: X=5,Y=-2 (default: 0)", "XYZ")->required(false);
+    places(addMove("mirror", CncAction::Mirror, "Mirror the path of a CNC program"), "--at",
+           "Where the mirror stands, u: X=0 turns X round", "XYZ", 1);
+  }
+
+  CLI::App *addMove(const char *name, CncAction action, const char *what) const {
+    CLI::App *command = add(name, action, what);
+    declareTarget(command);
+    return command;
+  }
+
+  /// Places of axes with some letters, `most` of them at most.
+  CLI::Option *places(CLI::App *command, const char *name, const char *what,
+                      std::string_view letters, int most = 12) const {
+    const auto check = [letters, most](std::string &text) {
+      double ignored[12];
+      uint16_t named = 0;
+      std::string wrong = readAxes(text, false, ignored, named);
+      for (size_t axis = 0; axis < kAxisLetters.size() && wrong.empty(); ++axis)
+        if ((named >> axis & 1) != 0 && letters.find(kAxisLetters[axis]) == letters.npos)
+          wrong = std::string(1, kAxisLetters[axis]) + " is not possible here";
+      if (wrong.empty() && std::popcount(named) > most)
+        wrong = "one axis is possible here";
+      return wrong;
+    };
+    CncMoveOptions &move = call_->cnc.move;
+    return command
+        ->add_option_function<std::string>(
+            name,
+            [&move](const std::string &text) {
+              (void)readAxes(text, false, move.places, move.axes);
+            },
+            what)
+        ->required()
+        ->check(CLI::Validator(check, std::string()))
+        ->type_name("AXES");
+  }
+
+  static constexpr double kMostAngle = 36000;
+
+  void declareTarget(CLI::App *command) const {
     CLI::Option *out =
         command->add_option("-o,--out", call_->cnc.out, "File to write (default: standard output)")
             ->type_name("FILE");

@@ -136,7 +136,19 @@ struct CamOptions {
 int camCommand(const CamOptions &options);
 
 /// What `stride cnc` does.
-enum class CncAction { Check, Info, Format, Run, Plot, Queue, Number };
+enum class CncAction {
+  Check,
+  Info,
+  Format,
+  Run,
+  Plot,
+  Queue,
+  Number,
+  Rotate,
+  Shift,
+  Scale,
+  Mirror
+};
 
 /// How `run` and `plot` drive a program. Arrays are of X, Y, Z, A, B, C, P, Q, U, V, W and one
 /// more.
@@ -168,6 +180,14 @@ struct CncProcessorOptions {
   double toolRadius = 0; ///< of tool correction, is added to D [u]
 };
 
+/// How a path is moved.
+struct CncMoveOptions {
+  double places[12] = {}; ///< What --about, --by and --at say, by axis. [u]
+  uint16_t axes = 0;      ///< Which of them have been named, by bit.
+  double angle = 0;       ///< [degrees]
+  double factor = 1;
+};
+
 struct CncOptions {
   CncAction action = CncAction::Check;
   std::vector<std::string> files;
@@ -179,6 +199,7 @@ struct CncOptions {
   CncQueueOptions queue;
   CncProcessorOptions preprocess;
   CncNumbering numbering;
+  CncMoveOptions move;
   bool inPlace = false; ///< number: into the file itself
   Output output;
 };

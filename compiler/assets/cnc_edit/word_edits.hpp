@@ -1,0 +1,43 @@
+#ifndef STRIDE_COMPILER_ASSETS_CNC_EDIT_WORD_EDITS_HPP
+#define STRIDE_COMPILER_ASSETS_CNC_EDIT_WORD_EDITS_HPP
+// What the commands that change CNC programs have in common.
+
+#include "compiler/assets/cnc/cnc_source.hpp"
+
+namespace stc::gcode {
+
+/// Changes of a text at the places of its words.
+class WordEdits {
+public:
+  explicit WordEdits(std::string_view text) : text_(text) {}
+
+  /// Gives the word another number; its letters stay.
+  void setNumber(const CncWord &word, const std::string &number);
+  /// Puts words behind a word, in the order of the calls.
+  void insertAfter(const CncWord &word, const std::string &words);
+  /// The text with the changes.
+  [[nodiscard]] std::string apply();
+
+private:
+  std::string_view text_;
+  std::vector<Edit> changes_;
+};
+
+/// A number as G-code has it: without an exponent, 9 digits behind the point at most.
+[[nodiscard]] std::string numberText(double value);
+/// What a reader makes of it.
+[[nodiscard]] double roundedNumber(double value);
+/// Whether the number can be written.
+[[nodiscard]] bool isWritable(double value);
+
+/// Reports that a sentence cannot be changed.
+void refuseEdit(Span span, const std::string &message, const std::string &label,
+                const std::string &help, Diagnostics &diagnostics);
+
+/// Reads a program that is to be changed. Nothing if it has errors, which are reported.
+[[nodiscard]] std::optional<CncProgram> readForEdit(const SourceFile &file,
+                                                    Diagnostics &diagnostics);
+
+} // namespace stc::gcode
+
+#endif // STRIDE_COMPILER_ASSETS_CNC_EDIT_WORD_EDITS_HPP
