@@ -32,14 +32,13 @@ double quickLength(const Shape &shape, double from, double to) noexcept {
 
 WayTable tableOf(const Shape &shape) noexcept {
   WayTable table{};
-  table.isSmooth = true;
   for (int i = 0; i < kParts; ++i) {
     const double from = static_cast<double>(i) / kParts;
     const double to = static_cast<double>(i + 1) / kParts;
     const double length = lengthBetween(shape, from, to);
     table.way[i + 1] = table.way[i] + length;
     if (fabs(length - quickLength(shape, from, to)) > 1e-13 * shape.length)
-      table.isSmooth = false;
+      table.uneven |= 1U << static_cast<unsigned>(i);
   }
   return table;
 }
@@ -50,8 +49,6 @@ double parameterOf(const Segment &segment, double way) noexcept {
   const Shape &shape = segment.shape;
   if (!hasTable(shape))
     return way / segment.length;
-  if (!segment.table.isSmooth)
-    return parameterAt(shape, way);
   int part = 0;
   for (int half = kParts / 2; half > 0; half /= 2)
     if (segment.table.way[part + half] <= way)
@@ -61,6 +58,8 @@ double parameterOf(const Segment &segment, double way) noexcept {
   const double begin = segment.table.way[part];
   const double span = segment.table.way[part + 1] - begin;
   double u = from + (to - from) * exact::smaller((way - begin) / span, 1.0);
+  if ((segment.table.uneven >> static_cast<unsigned>(part) & 1U) != 0)
+    return parameterBetween(shape, from, to, way - begin, u);
   for (int i = 0; i < kMostSteps; ++i) {
     const double off = way - begin - quickLength(shape, from, u);
     u += off / speedAt(shape, u);

@@ -16,8 +16,8 @@ inline constexpr int32_t kBent = 3;  ///< So many after these may go by slopes: 
 
 /// For the parameter of a shape at a way, where it is not proportional to that.
 struct WayTable {
-  double way[17]; ///< At parameters of 0, 1/16 ... 1. [u]
-  bool isSmooth;  ///< The parts are so even that a rule of five points is exact for them.
+  double way[17];  ///< At parameters of 0, 1/16 ... 1. [u]
+  uint32_t uneven; ///< Bits of the parts for which a rule of five points is not exact.
 };
 
 /// Trivially copyable. Made by makeSegment.

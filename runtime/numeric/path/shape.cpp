@@ -207,18 +207,13 @@ double lengthBetween(const Shape &shape, double from, double to) noexcept {
   return sum;
 }
 
-double parameterAt(const Shape &shape, double way) noexcept {
-  if (!(way > 0.0))
-    return 0.0;
-  if (way >= shape.length)
-    return 1.0;
-  double u = way / shape.length;
-  if (hasConstantSpeed(shape))
-    return u;
+double parameterBetween(const Shape &shape, double from, double to, double way,
+                        double first) noexcept {
   // Newton's steps, kept between what is known to be too little and too much.
-  double low = 0.0;
-  double high = 1.0;
-  double at = lengthBetween(shape, 0.0, u);
+  double low = from;
+  double high = to;
+  double u = first;
+  double at = lengthBetween(shape, from, u);
   for (int i = 0; i < kMaxSteps; ++i) {
     const double off = way - at;
     if (exact::fabs(off) <= 1e-15 * shape.length)
@@ -233,6 +228,15 @@ double parameterAt(const Shape &shape, double way) noexcept {
     u = next;
   }
   return u;
+}
+
+double parameterAt(const Shape &shape, double way) noexcept {
+  if (!(way > 0.0))
+    return 0.0;
+  if (way >= shape.length)
+    return 1.0;
+  const double evenly = way / shape.length;
+  return hasConstantSpeed(shape) ? evenly : parameterBetween(shape, 0.0, 1.0, way, evenly);
 }
 
 } // namespace stride::path

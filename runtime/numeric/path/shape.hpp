@@ -73,6 +73,11 @@ double lengthBetween(const Shape &shape, double from, double to) noexcept;
 /// The parameter at a way from the start, 0 <= way <= length. [u] in
 double parameterAt(const Shape &shape, double way) noexcept;
 
+/// The parameter between two others at a way from the first of them; `first` is where the search
+/// begins. [u] in
+double parameterBetween(const Shape &shape, double from, double to, double way,
+                        double first) noexcept;
+
 } // namespace stride::path
 
 #endif // STRIDE_RUNTIME_NUMERIC_PATH_SHAPE_HPP
