@@ -12,66 +12,69 @@ namespace stc {
 
 using namespace stride::cnc;
 
+namespace {
+
+struct ErrorRow {
+  GCodeError error;
+  Code code;
+  const char *message;
+  const char *label;
+  const char *help;
+};
+
+constexpr ErrorRow kErrors[] = {
+    {GCodeError::UnknownFunction, Code::CncFunction, "there is no such G function",
+     "not a function of this language", "docs/cnc.md lists the G functions"},
+    {GCodeError::NoFunction, Code::CncFunction, "a motion needs a G function",
+     "no sentence before this one has one", "begin with G0, G1, G2 or G3"},
+    {GCodeError::TwoInstructions, Code::CncFunction, "a sentence has one G or M function",
+     "one more", "write a sentence for each"},
+    {GCodeError::MissingWord, Code::CncSentence, "a word is missing",
+     "this function needs one more word", "docs/cnc.md says which words a function has"},
+    {GCodeError::NotWhole, Code::CncSentence, "this word needs a whole number", "it has a fraction",
+     ""},
+    {GCodeError::Acceleration, Code::CncSentence, "an acceleration is 1 at least", "less than 1",
+     "E100 is an acceleration, E-100 a deceleration"},
+    {GCodeError::Deceleration, Code::CncSentence, "a deceleration is -1 at most",
+     "between -1 and 0", "E100 is an acceleration, E-100 a deceleration"},
+    {GCodeError::NotInThisPlane, Code::CncSentence,
+     "this function works in the plane of X and Y only", "another plane is chosen",
+     "choose it with G15 or G17"},
+    {GCodeError::NegativePeriod, Code::CncSentence, "the period of an axis is not negative",
+     "less than 0", ""},
+    {GCodeError::PartOfTurn, Code::CncSentence, "A, B and C turn the coordinates together",
+     "some of them are missing", "angles that stay as they are: write them, too"},
+    {GCodeError::Tilted, Code::CncSentence, "after G15 the program's Z is the machine's",
+     "it would be tilted", "choose G17, or another plane, before"},
+    {GCodeError::Distorted, Code::CncSentence, "X, Y and Z are scaled by different factors",
+     "makes another curve of this one", "the axes of its plane need the same factor"},
+    {GCodeError::TurnOfScale, Code::CncSentence, "X, Y and Z are scaled by different factors",
+     "they cannot be turned now", "G54 says angles and factors at once"},
+    {GCodeError::PartOfScale, Code::CncSentence, "I, J and K scale the coordinates together",
+     "some of them are missing", "a factor of 1 leaves an axis as it is"},
+    {GCodeError::BadScale, Code::CncSentence, "factors of X, Y and Z are positive", "0 or less",
+     ""},
+    {GCodeError::UnknownJump, Code::CncJump, "no sentence has the number of this jump",
+     "the jump leads nowhere", "L is the number N of the sentence to go on with"},
+    {GCodeError::NotANumber, Code::CncSentence, "the value of this variable is no number",
+     "infinite, or none", ""},
+    {GCodeError::NoVariable, Code::CncSentence, "this word needs a variable", "a number",
+     "variables stand between dollar signs: O$g_iCount$"},
+    {GCodeError::WrongVariable, Code::CncVariable, "a variable of this type is not possible here",
+     "this variable", ""},
+};
+
+} // namespace
+
 gcode::SentenceError gcode::describe(GCodeError error) {
-  switch (error) {
-  case GCodeError::UnknownFunction:
-    return {Code::CncFunction, "there is no such G function", "not a function of this language",
-            "docs/cnc.md lists the G functions"};
-  case GCodeError::NoFunction:
-    return {Code::CncFunction, "a motion needs a G function", "no sentence before this one has one",
-            "begin with G0, G1, G2 or G3"};
-  case GCodeError::TwoInstructions:
-    return {Code::CncFunction, "a sentence has one G or M function", "one more",
-            "write a sentence for each"};
-  case GCodeError::MissingWord:
-    return {Code::CncSentence, "a word is missing", "this function needs one more word",
-            "docs/cnc.md says which words a function has"};
-  case GCodeError::NotWhole:
-    return {Code::CncSentence, "this word needs a whole number", "it has a fraction", ""};
-  case GCodeError::Acceleration:
-    return {Code::CncSentence, "an acceleration is 1 at least", "less than 1",
-            "E100 is an acceleration, E-100 a deceleration"};
-  case GCodeError::Deceleration:
-    return {Code::CncSentence, "a deceleration is -1 at most", "between -1 and 0",
-            "E100 is an acceleration, E-100 a deceleration"};
-  case GCodeError::TooManySwitches:
+  if (error == GCodeError::TooManySwitches)
     return {Code::CncSentence, fmt::format("an object has {} switch points at most", kMostSwitches),
             "one more", ""};
-  case GCodeError::NotInThisPlane:
-    return {Code::CncSentence, "this function works in the plane of X and Y only",
-            "another plane is chosen", "choose it with G15 or G17"};
-  case GCodeError::NegativePeriod:
-    return {Code::CncSentence, "the period of an axis is not negative", "less than 0", ""};
-  case GCodeError::PartOfTurn:
-    return {Code::CncSentence, "A, B and C turn the coordinates together",
-            "some of them are missing", "angles that stay as they are: write them, too"};
-  case GCodeError::Tilted:
-    return {Code::CncSentence, "after G15 the program's Z is the machine's", "it would be tilted",
-            "choose G17, or another plane, before"};
-  case GCodeError::Distorted:
-    return {Code::CncSentence, "X, Y and Z are scaled by different factors",
-            "makes another curve of this one", "the axes of its plane need the same factor"};
-  case GCodeError::TurnOfScale:
-    return {Code::CncSentence, "X, Y and Z are scaled by different factors",
-            "they cannot be turned now", "G54 says angles and factors at once"};
-  case GCodeError::PartOfScale:
-    return {Code::CncSentence, "I, J and K scale the coordinates together",
-            "some of them are missing", "a factor of 1 leaves an axis as it is"};
-  case GCodeError::BadScale:
-    return {Code::CncSentence, "factors of X, Y and Z are positive", "0 or less", ""};
-  case GCodeError::UnknownJump:
-    return {Code::CncJump, "no sentence has the number of this jump", "the jump leads nowhere",
-            "L is the number N of the sentence to go on with"};
-  case GCodeError::NotANumber:
-    return {Code::CncSentence, "the value of this variable is no number", "infinite, or none", ""};
-  case GCodeError::NoVariable:
-    return {Code::CncSentence, "this word needs a variable", "a number",
-            "variables stand between dollar signs: O$g_iCount$"};
-  case GCodeError::WrongVariable:
-    return {Code::CncVariable, "a variable of this type is not possible here", "this variable", ""};
-  default:
-    return {Code::CncSentence, "the value of this word is out of range", "not allowed here", ""};
-  }
+  const auto *const row = std::find_if(std::begin(kErrors), std::end(kErrors),
+                                       [&](const ErrorRow &each) { return each.error == error; });
+  if (row != std::end(kErrors))
+    return {row->code, row->message, row->label, row->help};
+  return {Code::CncSentence, "the value of this word is out of range", "not allowed here", ""};
 }
 
 void gcode::report(GCodeError error, Span span, Diagnostics &diagnostics) {
