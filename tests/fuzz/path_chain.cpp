@@ -382,7 +382,7 @@ public:
       feed();
       moved_ = fed_;
       for (size_t i = 0; i < stages_.size(); ++i)
-        if (const std::string fault = step(i); !fault.empty())
+        if (std::string fault = step(i); !fault.empty())
           return fault;
       sink_->step();
       idle = moved_ ? 0 : idle + 1;

@@ -14,7 +14,7 @@ using random::Random;
 
 TEST(ArmOfSixAxes, StandsAsItsMakersSay) {
   const ArticulatedArm arm{{.d1 = 0.5, .a1 = 0.1, .a2 = 0.4, .d3 = 0.05, .a3 = 0.06, .d4 = 0.35},
-                           {.toolX = 0, .toolY = 0, .toolZ = 0.12}};
+                           {{.toolX = 0, .toolY = 0, .toolZ = 0.12}}};
   const double zero[6] = {};
   Frame<double> pose;
   ASSERT_EQ(arm.forward(zero, pose), Outcome::Done);

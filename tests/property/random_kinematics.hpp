@@ -35,18 +35,17 @@ inline Scara3Z make(Random &random, const Scara3Z *) {
   return {make(random, static_cast<Scara3 *>(nullptr))};
 }
 inline PolarZ make(Random &, const PolarZ *) { return {}; }
-inline TurningAxis make(Random &random, const TurningAxis *) {
+inline RigidTool makeTool(Random &random) {
   return {.toolX = random.offset(0.2), .toolY = random.offset(0.2), .toolZ = random.offset(0.2)};
 }
+inline TurningAxis make(Random &random, const TurningAxis *) { return {makeTool(random)}; }
 inline Wrist2 make(Random &random, const Wrist2 *) {
   return {.toolLength = random.offset(0.3),
           .rollX = random.offset(0.1),
           .rollY = random.offset(0.1),
           .rollZ = random.offset(0.1)};
 }
-inline Wrist3 make(Random &random, const Wrist3 *) {
-  return {.toolX = random.offset(0.2), .toolY = random.offset(0.2), .toolZ = random.offset(0.2)};
-}
+inline Wrist3 make(Random &random, const Wrist3 *) { return {makeTool(random)}; }
 inline Gantry2 make(Random &, const Gantry2 *) { return {}; }
 inline Gantry3 make(Random &, const Gantry3 *) { return {}; }
 inline ArmRrr make(Random &random, const ArmRrr *) {

@@ -14,16 +14,25 @@
 
 namespace stride::kinematics {
 
-/// One axis that turns the tool about the flange's z axis. Sources: SoftMotion 3, Kin_CAxis,
-/// Kin_CAxis_Tool.
-struct TurningAxis {
-  static constexpr int kJoints = 1;
-  static constexpr unsigned kTurning = 1;
+/// A tool whose point stands still in the axes of the last joint.
+struct RigidTool {
   static constexpr bool kOffsetIsRigid = true;
 
   double toolX, toolY, toolZ; ///< the tool's point, in the tool's axes [u]
 
   Vector<double> offset() const { return {toolX, toolY, toolZ}; }
+  /// The tool's frame, where the last joint has turned it.
+  template <class Scalar> Frame<Scalar> turnedBy(const Matrix<Scalar> &turn) const {
+    return {turn, turn * offset().template cast<Scalar>()};
+  }
+};
+
+/// One axis that turns the tool about the flange's z axis. Sources: SoftMotion 3, Kin_CAxis,
+/// Kin_CAxis_Tool.
+struct TurningAxis : RigidTool {
+  static constexpr int kJoints = 1;
+  static constexpr unsigned kTurning = 1;
+
   Posture postureOf(const double *) const noexcept { return {}; }
   static constexpr Task together(Task flange) noexcept {
     return flange == Task::Plane ? Task::PlaneTurn : Task::PlaceTurn;
@@ -33,8 +42,7 @@ struct TurningAxis {
     return aboutZ(turnAboutZ(turn));
   }
   template <class Scalar> Frame<Scalar> forward(const Scalar *joints) const {
-    const Matrix<Scalar> turn = aboutZ(joints[0]);
-    return {turn, turn * offset().template cast<Scalar>()};
+    return turnedBy(aboutZ(joints[0]));
   }
   template <class Scalar>
   void turnTo(const Matrix<Scalar> &turn, Posture, const double *reference, Scalar *joints) const {
@@ -82,14 +90,10 @@ struct Wrist2 {
 /// Three axes that meet in a point: about z, about the negative y, about z. Posture: `hand` where
 /// the middle joint is positive (hand down). Where the outer axes lie in one line, the first one
 /// keeps its place. Source: SoftMotion 3, Kin_Wrist3.
-struct Wrist3 {
+struct Wrist3 : RigidTool {
   static constexpr int kJoints = 3;
   static constexpr unsigned kTurning = 7;
-  static constexpr bool kOffsetIsRigid = true;
 
-  double toolX, toolY, toolZ; ///< the tool's point, in the tool's axes [u]
-
-  Vector<double> offset() const { return {toolX, toolY, toolZ}; }
   Posture postureOf(const double *joints) const noexcept {
     return {.backwards = false, .elbow = false, .hand = ::stride::sin(joints[1]) >= 0};
   }
@@ -97,8 +101,7 @@ struct Wrist3 {
 
   template <class Scalar> Matrix<Scalar> nearest(const Matrix<Scalar> &turn) const { return turn; }
   template <class Scalar> Frame<Scalar> forward(const Scalar *joints) const {
-    const Matrix<Scalar> turn = aboutZ(joints[0]) * aboutY(-joints[1]) * aboutZ(joints[2]);
-    return {turn, turn * offset().template cast<Scalar>()};
+    return turnedBy<Scalar>(aboutZ(joints[0]) * aboutY(-joints[1]) * aboutZ(joints[2]));
   }
   template <class Scalar>
   void turnTo(const Matrix<Scalar> &turn, Posture posture, const double *reference,
