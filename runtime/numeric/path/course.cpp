@@ -22,6 +22,8 @@ void mergeInto(Strip &strip, const Strip &next) noexcept {
   strip.deceleration = smaller(strip.deceleration, next.deceleration);
   strip.along = larger(strip.along, next.along);
   strip.across = larger(strip.across, next.across);
+  if (next.jerk > 0.0F && (!(strip.jerk > 0.0F) || next.jerk < strip.jerk))
+    strip.jerk = next.jerk;
   strip.end = next.end;
   strip.endFeed = next.endFeed;
   strip.endCeiling = next.endCeiling;

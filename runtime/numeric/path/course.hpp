@@ -21,6 +21,7 @@ struct Strip {
   double deceleration; ///< Tangential. [u/s^2]
   double along;        ///< Axes allow along * |a| + across * v^2 <= 1; 0: no limit. [s^2/u]
   double across;       ///< See `along`; times `ceiling` at most 0.95. [s^2/u^2]
+  float jerk;          ///< Tangential, if that is less than the law's; 0: no limit. [u/s^3]
   bool stop;           ///< The motion rests at its end.
   bool gate;           ///< It goes on from there only when it is told to.
 };
@@ -50,6 +51,11 @@ inline double beginOf(const Course &course, int64_t number) noexcept {
 
 /// Way at the end of all of it. [u]
 inline double endOf(const Course &course) noexcept { return beginOf(course, course.next); }
+
+/// The greatest tangential jerk in a strip for a law with `most`. [u/s^3]
+inline double jerkIn(const Strip &strip, double most) noexcept {
+  return strip.jerk > 0.0F ? exact::smaller(static_cast<double>(strip.jerk), most) : most;
+}
 
 /// The greatest square of the velocity in a strip, and at its end. `override` is 1 for what the
 /// program wants. [u^2/s^2]

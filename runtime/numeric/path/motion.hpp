@@ -10,7 +10,7 @@
 
 namespace stride::path {
 
-inline constexpr int32_t kPieces = 416;
+inline constexpr int32_t kPieces = 412;
 
 /// What kind of law the motion follows.
 enum class LawKind : uint8_t {

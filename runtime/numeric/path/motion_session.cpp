@@ -55,14 +55,18 @@ const Strip &stripAtWay(const Motion &motion, double way) noexcept {
 }
 
 /// The jerk to plan with. Nobody can tell an acceleration that rises within half a millisecond from
-/// one that jumps, but its plan would need many cells.
+/// one that jumps, but its plan would need many cells. Strips with jerks of their own may be
+/// followed by others that allow more.
 double jerkAt(const Motion &motion, double way) noexcept {
   constexpr double kLeastRise = 0.0005;
+  constexpr double kMore = 1e3;
   const Strip &strip = stripAtWay(motion, way);
-  const double most = smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
+  const double acceleration =
+      smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
   const double velocity = exact::sqrt(squareIn(strip, motion.asked.override));
-  return smaller(motion.asked.settings.jerk,
-                 smaller(most / kLeastRise, velocity / (kLeastRise * kLeastRise)));
+  const double most = smaller(acceleration / kLeastRise, velocity / (kLeastRise * kLeastRise));
+  const double jerk = motion.asked.settings.jerk;
+  return smaller(jerk, strip.jerk > 0.0F ? kMore * larger(most, strip.jerk) : most);
 }
 
 /// Cells are a part of the time to stop, so that a plan reaches several of these times ahead: also
@@ -75,7 +79,8 @@ double cellTimeFor(const Motion &motion, double way, double present) noexcept {
   const double velocity = larger(exact::sqrt(squareIn(strip, motion.asked.override)), present);
   const double deceleration =
       smaller(smaller(strip.acceleration, strip.deceleration), 1.0 / strip.along);
-  const double time = kPart * rampTime(velocity, deceleration, motion.asked.settings.jerk);
+  const double jerk = jerkIn(strip, motion.asked.settings.jerk);
+  const double time = kPart * rampTime(velocity, deceleration, jerk);
   return smaller(larger(time, kLeastCellTime), kMostCellTime);
 }
 
@@ -243,7 +248,7 @@ double stoppingLength(const Motion &motion, const WayState &state, const Strip &
   const double v = state.velocity;
   if (!hasJerk(motion))
     return 0.5 * v * v / deceleration;
-  const double jerk = motion.asked.settings.jerk;
+  const double jerk = jerkIn(strip, motion.asked.settings.jerk);
   const double a = larger(state.acceleration, 0.0);
   const double peak = v + 0.5 * a * a / jerk;
   const double time = rampTime(peak, deceleration, jerk);

@@ -55,6 +55,7 @@ struct Cell {
   double across;  ///< See Strip. [s^2/u^2]
   double acceleration; ///< Tangential. [u/s^2]
   double deceleration; ///< Tangential. [u/s^2]
+  double jerk;         ///< Tangential. [u/s^3]
   double square;       ///< b at `middle`. [u^2/s^2]
   double up;           ///< Greatest acceleration at the knot. [u/s^2]
   double down;         ///< Greatest deceleration at the knot. [u/s^2]
@@ -76,6 +77,7 @@ struct Plan {
   WayState from;       ///< Where the plan begins.
   double rampSquare;   ///< The ramp: b at its end, as far as it is known. [u^2/s^2]
   double rampMost;     ///< How hard it may brake, likewise. [u/s^2]
+  double rampJerk;     ///< The least one of the strips that it goes over, likewise. [u/s^3]
   double rampPeak;     ///< How hard it brakes. [u/s^2]
   double rampHere;     ///< Its velocity where the present strip begins, likewise. [u/s]
   double rampEnd;      ///< Way at its end. [u]

@@ -46,7 +46,7 @@ inline double greatestIn(const Plan &plan, int32_t i) noexcept {
 
 /// How far the acceleration can change within a cell that is not next to rest. [u/s^2]
 inline double changeIn(const Plan &plan, int32_t i) noexcept {
-  return plan.task.jerk * lengthOf(plan, i) / greatestIn(plan, i);
+  return plan.cell[i].jerk * lengthOf(plan, i) / greatestIn(plan, i);
 }
 
 /// The acceleration at the end of the way x out of rest, with constant jerk. [u/s^2]

@@ -26,18 +26,22 @@ double squareFromRest(double jerk, double x) noexcept {
 
 /// b as the first idea has it, with regard to rest at the ends. [u^2/s^2]
 double expected(const Plan &plan, const Course &course, double way) noexcept {
+  const auto jerkOf = [&plan, &course](int64_t strip) {
+    return jerkIn(stripAt(course, strip), plan.task.jerk);
+  };
   double square = firstIdea(plan, course, plan.strip, way);
-  square = smaller(square, squareFromRest(plan.task.jerk, plan.end - way));
+  square = smaller(square, squareFromRest(jerkOf(plan.lastStrip), plan.end - way));
   if (startsAtRest(plan))
-    square = smaller(square, squareFromRest(plan.task.jerk, way - plan.task.way));
+    square = smaller(square, squareFromRest(jerkOf(plan.firstStrip), way - plan.task.way));
   return square;
 }
 
-/// How long a cell should be where the velocity is `velocity` and the acceleration can be `limit`.
-/// Where the velocity changes, the time may be at most `part` of what is needed to come to it from
-/// rest. A run that has proved to need too many cells gets coarser ones. [u]
-double cellLength(const Plan &plan, double velocity, double limit, double part) noexcept {
-  const double needed = larger(exact::sqrt(velocity / plan.task.jerk), velocity / limit);
+/// How long a cell should be where the velocity is `velocity`, the acceleration can be `limit`, and
+/// the jerk `jerk`. Where the velocity changes, the time may be at most `part` of what is needed to
+/// come to it from rest. A run that has proved to need too many cells gets coarser ones. [u]
+double cellLength(const Plan &plan, double velocity, double limit, double jerk,
+                  double part) noexcept {
+  const double needed = larger(exact::sqrt(velocity / jerk), velocity / limit);
   const double length = velocity * smaller((1.0 + 0.5 * plan.cuts) * plan.task.cellTime,
                                            part * (1.0 + plan.cuts) * needed);
   return plan.coarse ? kCoarse * length : length;
@@ -60,8 +64,8 @@ bool isHurried(const Plan &plan) noexcept {
 }
 
 /// The same for one beside a cell of `rest` next to rest. [u]
-double lengthBesideRest(const Plan &plan, double rest) noexcept {
-  return cellLength(plan, exact::sqrt(squareFromRest(plan.task.jerk, rest)), exact::kInfinity,
+double lengthBesideRest(const Plan &plan, double jerk, double rest) noexcept {
+  return cellLength(plan, exact::sqrt(squareFromRest(jerk, rest)), exact::kInfinity, jerk,
                     kRampPart);
 }
 
@@ -75,9 +79,9 @@ double lengthInRun(const Plan &plan, const Course &course, int64_t strip) noexce
 
 /// The length of a cell next to rest that leads to no more than half of the velocity with which the
 /// motion comes to the border of a strip. [u]
-double restBefore(const Plan &plan, int64_t strip, bool atEnd) noexcept {
+double restBefore(const Plan &plan, int64_t strip, double jerk, bool atEnd) noexcept {
   const double square = reachAtBorder(plan, atEnd ? strip : strip - 1);
-  return restLength(plan.task.jerk, exact::sqrt(exact::sqrt(square) / plan.task.jerk));
+  return restLength(jerk, exact::sqrt(exact::sqrt(square) / jerk));
 }
 
 /// The length that constant jerk has next to rest before it would lead beyond limits. [u]
@@ -93,18 +97,20 @@ double restCell(const Plan &plan, const Course &course, bool atEnd) noexcept {
   double square = exact::kInfinity;
   double acceleration = exact::kInfinity;
   double covered = 0.0;
+  double jerk = plan.task.jerk;
   int64_t number = atEnd ? plan.lastStrip : plan.firstStrip;
   for (int k = 0; k < kStripsLookedAt; ++k) {
     if (number < plan.firstStrip || number > plan.lastStrip || kRestPart * covered >= length)
       break;
     if (covered > 0.0) // up to a slow place it is like a short run of its own
-      length = smaller(length, larger(kRestPart * covered, restBefore(plan, number, atEnd)));
+      length = smaller(length, larger(kRestPart * covered, restBefore(plan, number, jerk, atEnd)));
     if (covered < length) {
       const Strip &strip = stripAt(course, number);
       square = smaller(square, squareIn(strip, plan.task.override));
       acceleration = smaller(acceleration, atEnd ? usableDeceleration(plan, strip)
                                                  : usableAcceleration(plan, strip));
-      length = smaller(length, restWithin(plan.task.jerk, square, acceleration));
+      jerk = jerkIn(strip, jerk);
+      length = smaller(length, restWithin(jerk, square, acceleration));
     }
     covered += lengthInRun(plan, course, number);
     number += atEnd ? -1 : 1;
@@ -129,6 +135,7 @@ void takeLimits(Plan &plan, const Course &course, Cell &cell, double from) noexc
   cell.across = 0.0;
   cell.acceleration = exact::kInfinity;
   cell.deceleration = exact::kInfinity;
+  cell.jerk = plan.task.jerk;
   if (plan.strip > plan.firstStrip && beginOf(course, plan.strip) >= from)
     lowerAtEnd(plan, cell, stripAt(course, plan.strip - 1));
   for (int64_t number = plan.strip; number <= plan.lastStrip; ++number) {
@@ -141,6 +148,7 @@ void takeLimits(Plan &plan, const Course &course, Cell &cell, double from) noexc
     cell.acceleration = smaller(cell.acceleration, strip.acceleration);
     cell.deceleration =
         smaller(cell.deceleration, larger(strip.deceleration, plan.task.deceleration));
+    cell.jerk = jerkIn(strip, cell.jerk);
     cell.curve = smaller(cell.curve, squareIn(strip, quickest(plan)));
     if (strip.end <= cell.end && strip.end < plan.end)
       lowerAtEnd(plan, cell, strip);
@@ -164,17 +172,19 @@ void putFirstCell(Plan &plan, const Course &course) noexcept {
   plan.strip = plan.firstStrip;
   plan.coarse = !plan.stops || isHurried(plan);
   plan.endRest = restCell(plan, course, true);
-  plan.endStep = lengthBesideRest(plan, plan.endRest);
+  plan.endStep =
+      lengthBesideRest(plan, jerkIn(stripAt(course, plan.lastStrip), plan.task.jerk), plan.endRest);
   plan.coarse = isHurried(plan);
+  const double jerk = jerkIn(stripAt(course, plan.firstStrip), plan.task.jerk);
   if (startsAtRest(plan)) {
     const double length = restCell(plan, course, false);
     putCell(plan, course, plan.task.way + length, plan.task.way + 0.25 * length);
-    plan.step = lengthBesideRest(plan, length) / kGrowth;
+    plan.step = lengthBesideRest(plan, jerk, length) / kGrowth;
     return;
   }
   const double room = plan.end - plan.endRest - plan.knot;
-  const double length =
-      smaller(0.5 * cellLength(plan, plan.task.velocity, exact::kInfinity, kRampPart), 0.25 * room);
+  const double length = smaller(
+      0.5 * cellLength(plan, plan.task.velocity, exact::kInfinity, jerk, kRampPart), 0.25 * room);
   putCell(plan, course, plan.task.way + length, plan.task.way + 0.5 * length);
 }
 
@@ -191,12 +201,12 @@ double steadyWay(const Plan &plan, const Course &course) noexcept {
 
 /// The wish for the length of the next cell where the velocity is the greatest one: the longer, the
 /// further it is to where it changes. [u]
-double steadyLength(const Plan &plan, const Course &course, double velocity,
-                    double limit) noexcept {
-  const double atRamp = cellLength(plan, velocity, limit, kRampPart);
+double steadyLength(const Plan &plan, const Course &course, double velocity, double limit,
+                    double jerk) noexcept {
+  const double atRamp = cellLength(plan, velocity, limit, jerk, kRampPart);
   const double growth = growthOf(plan);
   const double growing = (atRamp + (growth - 1.0) * steadyWay(plan, course)) / growth;
-  return larger(cellLength(plan, velocity, limit, kSteadyPart), growing);
+  return larger(cellLength(plan, velocity, limit, jerk, kSteadyPart), growing);
 }
 
 /// The length of the next cell, when `left` is there before the last one.
@@ -207,8 +217,9 @@ double nextLength(const Plan &plan, const Course &course, double left) noexcept 
   const double limit =
       2.0 * smaller(usableAcceleration(plan, here), usableDeceleration(plan, here));
   const double velocity = exact::sqrt(idea);
-  const double wish = steady ? steadyLength(plan, course, velocity, limit)
-                             : cellLength(plan, velocity, limit, kRampPart);
+  const double jerk = jerkIn(here, plan.task.jerk);
+  const double wish = steady ? steadyLength(plan, course, velocity, limit, jerk)
+                             : cellLength(plan, velocity, limit, jerk, kRampPart);
   const double growth = growthOf(plan);
   double length = smaller(larger(wish, 0.1 * plan.step), growth * plan.step);
   length = smaller(length, (plan.endStep + (growth - 1.0) * left) / growth);

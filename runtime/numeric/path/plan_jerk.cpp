@@ -101,7 +101,7 @@ double slopeAfter(const Plan &plan, int32_t i, double slope) noexcept {
   const Cell &cell = plan.cell[i];
   const double knot = plan.heading > 0 ? cell.end : knotBefore(plan, i);
   const double reach = exact::fabs(knot - cell.middle);
-  const double change = plan.task.jerk * lengthOf(plan, i);
+  const double change = cell.jerk * lengthOf(plan, i);
   // A run that begins braking comes into the cell with more than it has in its middle.
   const double least = larger(cell.square, squareEntering(plan, i));
   double square = least;
@@ -204,7 +204,7 @@ void checkCell(Plan &plan, int32_t i) noexcept {
   if (isRestCell(plan, i)) {
     const double slope = exact::fabs(i == 0 ? slopeAt(plan, 0) : slopeAt(plan, i - 1));
     const double x = lengthOf(plan, i);
-    note(plan, slope / accelerationFromRest(plan.task.jerk, x));
+    note(plan, slope / accelerationFromRest(cell.jerk, x));
     return;
   }
   note(plan, exact::fabs(slopeAt(plan, i) - slopeBefore(plan, i)) / changeIn(plan, i));

@@ -37,9 +37,9 @@ void setKnotLimits(Plan &plan, int32_t i) noexcept {
   cell.up = smaller(cell.acceleration, next.acceleration);
   cell.down = smaller(cell.deceleration, next.deceleration);
   if (i == 0 && startsAtRest(plan))
-    cell.up = smaller(cell.up, accelerationFromRest(plan.task.jerk, cell.end - plan.task.way));
+    cell.up = smaller(cell.up, accelerationFromRest(cell.jerk, cell.end - plan.task.way));
   if (i == plan.count - 2)
-    cell.down = smaller(cell.down, accelerationFromRest(plan.task.jerk, next.end - cell.end));
+    cell.down = smaller(cell.down, accelerationFromRest(next.jerk, next.end - cell.end));
 }
 
 /// The first control point of a run that does not begin at rest is given; if it is above the
@@ -64,7 +64,7 @@ void beginSlowing(Plan &plan, double ceiling) noexcept {
 void goOnSlowing(Plan &plan, int32_t i, double ceiling) noexcept {
   constexpr double kLess = 0.95;
   constexpr double kThere = 1.0 + 1e-12;
-  const double jerk = kLess * plan.task.jerk;
+  const double jerk = kLess * plan.cell[i - 1].jerk;
   const double velocity = exact::sqrt(plan.height);
   const double span = spanAt(plan, i - 1);
   const double change = jerk * lengthOf(plan, i - 1) / velocity;

@@ -17,13 +17,13 @@ constexpr double kAlmost = 1.0 + 1e-9;
 double peakOf(const Plan &plan) noexcept {
   const WayState &from = plan.from;
   const double rising = larger(from.acceleration, 0.0);
-  return from.velocity + 0.5 * rising * rising / plan.task.jerk;
+  return from.velocity + 0.5 * rising * rising / plan.rampJerk;
 }
 
 /// Where the ramp has it. [u]
 double peakWayOf(const Plan &plan) noexcept {
   const WayState &from = plan.from;
-  const double time = larger(from.acceleration, 0.0) / plan.task.jerk;
+  const double time = larger(from.acceleration, 0.0) / plan.rampJerk;
   return from.way + (from.velocity + from.acceleration * time / 3.0) * time;
 }
 
@@ -39,7 +39,7 @@ double limitOf(const Plan &plan) noexcept {
 
 /// Writes the ramp to the velocity of plan.rampSquare with at most plan.rampMost of deceleration.
 void writeRamp(Plan &plan) noexcept {
-  const double jerk = plan.task.jerk;
+  const double jerk = plan.rampJerk;
   const WayState &from = plan.from;
   const double first = -from.acceleration;
   const double lost = from.velocity - exact::sqrt(plan.rampSquare);
@@ -83,7 +83,7 @@ void writeRamp(Plan &plan) noexcept {
 bool brakesTooHard(const Plan &plan) noexcept {
   const WayState &from = plan.from;
   return plan.task.whole && from.acceleration < 0.0 &&
-         from.acceleration * from.acceleration > 2.0 * plan.task.jerk * from.velocity;
+         from.acceleration * from.acceleration > 2.0 * plan.rampJerk * from.velocity;
 }
 
 /// The ramp is all of the plan.
@@ -147,14 +147,20 @@ bool findRamp(Plan &plan, const Course &course) noexcept {
   if (plan.rampRefused || plan.ramp > 0 || startsAtRest(plan) || task.rampPart >= 1.0 ||
       task.jerk == exact::kInfinity)
     return true;
-  if (brakesTooHard(plan))
-    return dropRamp(plan);
   const Strip &strip = stripAt(course, plan.strip);
-  const double peak = peakOf(plan);
   if (plan.strip == plan.firstStrip) {
+    plan.rampJerk = task.jerk;
     plan.rampSquare = task.whole ? 0.0 : exact::kInfinity;
     plan.rampMost = exact::kInfinity;
   }
+  const double jerk = jerkIn(strip, plan.rampJerk);
+  // An acceleration that falls more slowly leads higher than the strips before allow.
+  if (plan.strip > plan.firstStrip && jerk < plan.rampJerk && plan.from.acceleration > 0.0)
+    return dropRamp(plan);
+  plan.rampJerk = jerk;
+  if (brakesTooHard(plan))
+    return dropRamp(plan);
+  const double peak = peakOf(plan);
   plan.rampSquare = smaller(plan.rampSquare, squareIn(strip, task.override));
   if (peak * peak <= plan.rampSquare * kAlmost) // not quicker than it may be
     return dropRamp(plan);

@@ -114,7 +114,8 @@ double leastEnd(const Plan &plan, const Course &course) noexcept {
   constexpr double kMargin = 1.2;
   const double velocity = plan.task.velocity;
   const double deceleration = usableDeceleration(plan, stripAt(course, plan.firstStrip)) / kShare;
-  const double time = velocity / deceleration + deceleration / plan.task.jerk;
+  const double time = velocity / deceleration +
+                      deceleration / jerkIn(stripAt(course, plan.firstStrip), plan.task.jerk);
   return plan.task.way + kMargin * 0.5 * velocity * time;
 }
 
@@ -137,7 +138,7 @@ bool areAlike(const Strip &a, const Strip &b, double override) noexcept {
   return near(squareIn(a, override), squareIn(b, override)) &&
          near(squareAtEnd(a, override), squareIn(a, override)) && near(a.along, b.along) &&
          near(a.across, b.across) && near(a.acceleration, b.acceleration) &&
-         near(a.deceleration, b.deceleration);
+         near(a.deceleration, b.deceleration) && a.jerk == b.jerk;
 }
 
 double usableAcceleration(const Plan &plan, const Strip &strip) noexcept {
