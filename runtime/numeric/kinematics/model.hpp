@@ -49,8 +49,13 @@ struct Posture {
 
 enum class Outcome : uint8_t {
   Done,
-  Unreachable,  ///< no joints bring the tool there
-  WrongMeasures ///< a length of the model is not positive, NaN …
+  Unreachable,   ///< no joints bring the tool there
+  WrongMeasures, ///< a length of the model is not positive, NaN …
+  OutOfLimits,   ///< joints do, but not within their limits
+  WrongCoupling, ///< arm and hand have no way back from a pose
+  WrongTool,     ///< nothing says where the tool's point is before the arm's turn is known
+  WrongLimits,   ///< a joint's lower limit is above its upper one, NaN
+  NotSet         ///< there is no kinematics
 };
 
 /// `angle` plus the whole turns that bring it nearest to `reference`. [rad]

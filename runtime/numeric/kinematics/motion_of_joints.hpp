@@ -14,6 +14,18 @@ namespace stride::kinematics {
 /// turn rate [rad], both in the base's axes.
 template <class Model> using Jacobian = Eigen::Matrix<double, 6, Model::kJoints>;
 
+/// How fast an orientation turns, in the base's axes: the skew part of R' R^T. [rad]
+template <int kOrder> Vector<double> turnRateOf(const Matrix<Jet<kOrder>> &turn) {
+  Vector<double> rate = Vector<double>::Zero();
+  for (int row = 0; row < 3; ++row) {
+    const int from = (row + 1) % 3;
+    const int to = (row + 2) % 3;
+    for (int k = 0; k < 3; ++k)
+      rate(row) += turn(to, k).c[1] * turn(from, k).c[0];
+  }
+  return rate;
+}
+
 template <class Model>
 Outcome jacobianOf(const Model &model, const double *joints, Jacobian<Model> &jacobian) {
   Jet<1> moving[Model::kJoints];
@@ -28,15 +40,7 @@ Outcome jacobianOf(const Model &model, const double *joints, Jacobian<Model> &ja
     moving[i].c[1] = 0;
     for (int row = 0; row < 3; ++row)
       jacobian(row, i) = pose.place(row).c[1];
-    // The rate of turn is the skew part of R' R^T.
-    for (int row = 0; row < 3; ++row) {
-      const int from = (row + 1) % 3;
-      const int to = (row + 2) % 3;
-      double rate = 0;
-      for (int k = 0; k < 3; ++k)
-        rate += pose.turn(to, k).c[1] * pose.turn(from, k).c[0];
-      jacobian(3 + row, i) = rate;
-    }
+    jacobian.template block<3, 1>(3, i) = turnRateOf(pose.turn);
   }
   return Outcome::Done;
 }
