@@ -40,12 +40,12 @@ void check(Block &block) noexcept {
   if (block.pQueue != block.poqDataIn)
     block.nChecked = kNothing;
   block.pQueue = block.poqDataIn;
-  const cnc::Box box{reinterpret_cast<const cnc::Position *>(&block.piMin),
-                     reinterpret_cast<const cnc::Position *>(&block.piMax),
-                     block.wAddAxis,
-                     block.d3dCheckDistance,
-                     block.diMinNoPoints,
-                     block.diMaxNoPoints};
+  const cnc::PlaceLimits box{reinterpret_cast<const cnc::Position *>(&block.piMin),
+                             reinterpret_cast<const cnc::Position *>(&block.piMax),
+                             block.wAddAxis,
+                             block.d3dCheckDistance,
+                             block.diMinNoPoints,
+                             block.diMaxNoPoints};
   cnc::BoxFinding finding{block.wAxisOutOfLimits, block.iSourceLine_No};
   // Before the objects are looked at: the last one comes before it.
   const bool complete = cnc::checkQueue(queue) == cnc::QueueError::None &&

@@ -6,7 +6,7 @@ namespace stride::cnc {
 namespace {
 
 /// The axes in which a place is not in the box.
-unsigned outside(const Box &box, const double (&at)[kAxes]) noexcept {
+unsigned outside(const PlaceLimits &box, const double (&at)[kAxes]) noexcept {
   unsigned axes = 0;
   for (int32_t axis = 0; axis < kAxes; ++axis) {
     const unsigned bit = 1U << static_cast<unsigned>(axis);
@@ -19,7 +19,7 @@ unsigned outside(const Box &box, const double (&at)[kAxes]) noexcept {
 }
 
 /// How many places between its ends are looked at.
-int32_t placesOn(const Box &box, const path::Segment &segment) noexcept {
+int32_t placesOn(const PlaceLimits &box, const path::Segment &segment) noexcept {
   const bool straight = segment.isStill || segment.shape.kind == path::ShapeKind::Line;
   if (straight && segment.profile == 0 && segment.bent == 0)
     return 0;
@@ -32,7 +32,7 @@ int32_t placesOn(const Box &box, const path::Segment &segment) noexcept {
   return places > least ? places : least;
 }
 
-unsigned outsideBetween(const Box &box, const PathObject &object,
+unsigned outsideBetween(const PlaceLimits &box, const PathObject &object,
                         const path::Segment &segment) noexcept {
   const int32_t places = placesOn(box, segment);
   unsigned axes = 0;
@@ -52,7 +52,7 @@ unsigned outsideBetween(const Box &box, const PathObject &object,
 
 } // namespace
 
-BoxError checkBox(const Queue *queue, uint32_t &checked, const Box &box,
+BoxError checkBox(const Queue *queue, uint32_t &checked, const PlaceLimits &box,
                   BoxFinding &finding) noexcept {
   if (checkQueue(queue) != QueueError::None)
     return BoxError::NoQueue;

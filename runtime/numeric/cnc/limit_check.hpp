@@ -9,7 +9,7 @@
 namespace stride::cnc {
 
 /// Where a path may be, and how closely that is looked at.
-struct Box {
+struct PlaceLimits {
   const Position *least;
   const Position *most;
   uint16_t axes;      ///< Which ones count, by AxisBit.
@@ -36,7 +36,7 @@ enum class BoxError : uint8_t {
 /// Looks at the objects that are in the queue since its writePosition was `checked`, which is then
 /// set anew. Lines are looked at where they begin and end. A box without numbers is left
 /// everywhere.
-BoxError checkBox(const Queue *queue, uint32_t &checked, const Box &box,
+BoxError checkBox(const Queue *queue, uint32_t &checked, const PlaceLimits &box,
                   BoxFinding &finding) noexcept;
 
 } // namespace stride::cnc

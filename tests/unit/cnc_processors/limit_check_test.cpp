@@ -16,7 +16,7 @@ constexpr uint32_t kNothing = UINT32_MAX;
 struct Boxed {
   Position least{};
   Position most{};
-  Box box{&least, &most, 0x7FF, 0, 5, 100};
+  PlaceLimits box{&least, &most, 0x7FF, 0, 5, 100};
   OwnedQueue queue{20};
   uint32_t checked = kNothing;
   BoxFinding finding{0, -1};
