@@ -73,15 +73,11 @@ void emitLink(ToolCorrection &tool, const NewPiece &piece, Output &output) noexc
 /// Makes the corner to the piece. Where the piece begins then.
 double makeCorner(ToolCorrection &tool, const NewPiece &piece, bool smooth,
                   Output &output) noexcept {
-  const double turn = crossOf(tool.piece.end, piece.begin);
-  const bool isForward = dot(tool.piece.end, piece.begin) > 0.0;
-  const bool isStraight = isForward && exact::fabs(turn) <= kLeastTurn;
-  const bool isBack = !isForward && exact::fabs(turn) <= kLeastTurn;
-  const bool isOutside = isBack || turn * tool.left < 0.0;
-  if (!tool.gap && (smooth || isStraight || isOutside)) {
+  const ToolBend bend = bendOf(tool.piece.end, piece.begin, tool.left);
+  if (!tool.gap && (smooth || bend != ToolBend::Inside)) {
     if (tool.holds)
       emitPiece(tool, 1.0, output);
-    if (!smooth && !isStraight)
+    if (!smooth && bend == ToolBend::Outside)
       emitArc(tool, piece, output);
     return 0.0;
   }
@@ -113,6 +109,14 @@ void enter(ToolCorrection &tool, const NewPiece &piece, Output &output) noexcept
 }
 
 } // namespace
+
+ToolBend bendOf(const Vector3 &before, const Vector3 &after, double left) noexcept {
+  const double turn = crossOf(before, after);
+  const bool isForward = dot(before, after) > 0.0;
+  if (exact::fabs(turn) <= kLeastTurn)
+    return isForward ? ToolBend::Straight : ToolBend::Outside;
+  return turn * left < 0.0 ? ToolBend::Outside : ToolBend::Inside;
+}
 
 void emitObject(ToolCorrection &tool, const PathObject &object, Output &output) noexcept {
   tool.at = object.end;

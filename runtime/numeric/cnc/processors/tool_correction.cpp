@@ -1,5 +1,6 @@
 #include "runtime/numeric/cnc/processors/tool_correction.hpp"
 
+#include "runtime/iec/math.h"
 #include "runtime/numeric/cnc/object_shape.hpp"
 #include "runtime/numeric/cnc/processors/tool_correction_internal.hpp"
 #include "runtime/numeric/cnc/processors/track_offset.hpp"
@@ -66,24 +67,72 @@ NewPiece pieceOf(const PathObject &object, const Track &shifted, const Track &ow
           own.shape.kind == path::ShapeKind::Line ? begin : directionAtEnd(own)};
 }
 
-/// An arc that is bent more than the tool: the neighbours meet.
+/// Arcs that have vanished become a line after all: the tool goes around their end.
+void fillGap(ToolCorrection &tool, Output &output) noexcept {
+  const ToolGap &gap = tool.vanished;
+  const Track line = lineTrack(gap.from, gap.to);
+  if (!(line.shape.length > 0.0))
+    return;
+  tool.gap = false;
+  addPiece(tool, {gap.object, line, gap.begin, gap.end}, inPlane(gap.object.end, tool.plane), false,
+           output);
+}
+
+/// Before an object that begins in a direction.
+void leaveGap(ToolCorrection &tool, const Vector3 &begin, Output &output) noexcept {
+  if (tool.gap && bendOf(tool.vanished.end, begin, tool.left) == ToolBend::Outside)
+    fillGap(tool, output);
+}
+
+double turnBetween(const Vector3 &a, const Vector3 &b) noexcept {
+  return exact::fabs(::stride::atan2(a.x * b.y - a.y * b.x, numeric::dot(a, b)));
+}
+
+/// The arc joins those that have vanished before it, if there are any.
+void joinGap(ToolCorrection &tool, const NewPiece &arc, double sweep, Output &output) noexcept {
+  ToolGap &gap = tool.vanished;
+  constexpr double kHalfTurn = 3.14159265358979323846;
+  const double turn = gap.turn + turnBetween(gap.end, arc.begin) + sweep;
+  if (tool.gap && turn > kHalfTurn)
+    fillGap(tool, output);
+  const bool joins = tool.gap;
+  const Position start = gap.object.start;
+  gap.object = arc.object;
+  gap.object.marks = 0;
+  for (int16_t &id : gap.object.switchId)
+    id = 0;
+  gap.to = placeOn(arc.track, 1.0);
+  gap.end = arc.end;
+  gap.turn = joins ? turn : sweep;
+  tool.gap = true;
+  if (joins) {
+    gap.object.start = start;
+    return;
+  }
+  gap.from = placeOn(arc.track, 0.0);
+  gap.begin = arc.begin;
+}
+
+/// An arc that is bent more than the tool: the neighbours meet, or the tool goes around its ends.
 void vanish(ToolCorrection &tool, const PathObject &object, const Track &own,
             Output &output) noexcept {
-  const uint8_t begins = object.marks & kBeginMarks;
-  if (!tool.follows) {
-    const Track line =
-        lineTrack(offsetPlace(own, tool.left, false), offsetPlace(own, tool.left, true));
-    if (line.shape.length > 0.0) {
-      addPiece(tool, pieceOf(object, line, own), inPlane(object.end, tool.plane), false, output);
-      return;
-    }
-  }
-  tool.carried |= begins;
-  tool.gap = true;
-  if (!tool.holds)
+  const Track line =
+      lineTrack(offsetPlace(own, tool.left, false), offsetPlace(own, tool.left, true));
+  const NewPiece arc = pieceOf(object, line, own);
+  if (tool.follows)
+    leaveGap(tool, arc.begin, output);
+  const Vector3 &before = tool.gap ? tool.vanished.end : tool.piece.end;
+  const bool isCorner = !tool.follows || bendOf(before, arc.begin, tool.left) == ToolBend::Outside;
+  if (isCorner && line.shape.length > 0.0) {
+    addPiece(tool, arc, inPlane(object.end, tool.plane), false, output);
     return;
-  takeSwitches(tool.piece.object, object, 1.0);
-  tool.piece.object.marks |= object.marks & static_cast<uint8_t>(~kBeginMarks);
+  }
+  tool.carried |= object.marks & kBeginMarks;
+  if (tool.holds) {
+    takeSwitches(tool.piece.object, object, 1.0);
+    tool.piece.object.marks |= object.marks & static_cast<uint8_t>(~kBeginMarks);
+  }
+  joinGap(tool, arc, exact::fabs(own.shape.sweep), output);
 }
 
 /// The part of a curve's object between two parts of its way.
@@ -132,14 +181,19 @@ Step shiftCurve(ToolCorrection &tool, const PathObject &object, Output &output) 
 Step shift(ToolCorrection &tool, const PathObject &object, const Track &own,
            Output &output) noexcept {
   if (isFreeForm(own)) {
+    if (tool.curveFrom == 0.0)
+      leaveGap(tool, directionAtStart(own), output);
     tool.curve = own;
     return shiftCurve(tool, object, output);
   }
   Track shifted;
-  if (offsetTrack(own, tool.left, shifted))
-    addPiece(tool, pieceOf(object, shifted, own), inPlane(object.end, tool.plane), false, output);
-  else
+  if (!offsetTrack(own, tool.left, shifted)) {
     vanish(tool, object, own, output);
+    return Step::Took;
+  }
+  const NewPiece piece = pieceOf(object, shifted, own);
+  leaveGap(tool, piece.begin, output);
+  addPiece(tool, piece, inPlane(object.end, tool.plane), false, output);
   return Step::Took;
 }
 

@@ -4,7 +4,8 @@
 // arcs. Lines and arcs stay lines and arcs; ellipses and splines become cubics within a tolerance.
 // Outside of a corner the tool goes around it on an arc; inside, both neighbours end where their
 // shifted curves cross. Where they do not cross because one is too short, or where an arc is bent
-// more than the tool, a line leads on, and the path crosses itself: AvoidLoop cuts that out.
+// more than the tool, a line leads on, and the path crosses itself: AvoidLoop cuts that out. All
+// that is left out lies in the reach of the tool: what remains is at its distance.
 // Free of the C++ standard library: linked into every application.
 // Source: SoftMotion V2.3 manual, section 6.2.3; ramps and planes are SoftMotion 3's.
 #ifndef STRIDE_RUNTIME_NUMERIC_CNC_PROCESSORS_TOOL_CORRECTION_HPP
@@ -55,6 +56,17 @@ struct ToolPiece {
   Vector3 end;       ///< At its end.
 };
 
+/// Arcs in a row that have vanished, without an outside corner between them. They turn by no more
+/// than half a circle in all, or are one: then the line from their shifted start to their shifted
+/// end, and any between the neighbours' ends, is nearer to them than the tool's radius.
+struct ToolGap {
+  PathObject object; ///< From the start of the first one to the end of the last one.
+  Vector3 from, to;  ///< Shifted start and end.
+  Vector3 begin;     ///< Direction at the start,
+  Vector3 end;       ///< and at the end.
+  double turn;       ///< How far they turn. [rad]
+};
+
 struct ToolCorrection {
   static constexpr Generator kGenerator = kByToolCorr;
   static constexpr bool kLooksAhead = false;
@@ -64,7 +76,7 @@ struct ToolCorrection {
   ToolSide side;
   bool holds;       ///< `piece` has not been put out.
   bool follows;     ///< There is a piece before the next one.
-  bool gap;         ///< An arc has vanished after `piece`.
+  bool gap;         ///< Arcs have vanished after `piece`: `vanished`.
   bool approaches;  ///< `approach` is held.
   uint8_t carried;  ///< Marks of what has vanished, for the next object.
   double left;      ///< Distance to the left, negative to the right. [u]
@@ -73,6 +85,7 @@ struct ToolCorrection {
   Plane plane;
   Track curve; ///< The ellipse or spline that is being shifted.
   ToolPiece piece;
+  ToolGap vanished;
   Vector3 corner;      ///< Where the programmed object of `piece` ends, in the plane.
   PathObject approach; ///< The last positioning, or the ramp.
   Position leaveAt;    ///< Where the shifted path ends, and

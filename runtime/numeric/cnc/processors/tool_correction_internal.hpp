@@ -33,6 +33,13 @@ struct NewPiece {
 void addPiece(ToolCorrection &tool, const NewPiece &piece, const Vector3 &corner, bool smooth,
               Output &output) noexcept;
 
+/// How a path goes on at a corner, as the tool sees it.
+enum class ToolBend : uint8_t { Straight, Inside, Outside };
+
+/// By the directions in the plane before and after; `left` as ToolCorrection has it. Where the path
+/// turns back, the tool goes around.
+ToolBend bendOf(const Vector3 &before, const Vector3 &after, double left) noexcept;
+
 /// A positioning or ramp that is held, as it is; and what waits after it.
 void releaseApproach(ToolCorrection &tool, Output &output) noexcept;
 
