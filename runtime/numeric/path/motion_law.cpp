@@ -143,7 +143,7 @@ bool write(Motion &motion) noexcept {
     endAt(motion.law, lastPiece(motion)) = plan.end;
     const bool final = plan.stops && plan.task.end == exact::kInfinity;
     markAt(motion.law, motion.law.next - 1) =
-        static_cast<uint8_t>(kRest | (final ? kFinal : 0) | (final && plan.gate ? kGate : 0));
+        static_cast<uint8_t>(kRest | (final ? kFinal : 0) | (plan.gate ? kGate : 0));
     motion.session = Session::None;
   }
   return true;

@@ -280,7 +280,7 @@ void takeOver(Motion &motion, double cut) noexcept {
 /// Cuts the law off after the piece that is looked at.
 void endLawHere(Motion &motion) noexcept {
   motion.law.next = motion.seek + 1;
-  markAt(motion.law, motion.seek) &= static_cast<uint8_t>(~(kFinal | kGate));
+  markAt(motion.law, motion.seek) &= static_cast<uint8_t>(~kFinal); // a gate stays one
   motion.asked.settings = settingsAt(motion, motion.seek);
   goAsAsked(motion);
   motion.session = Session::None;

@@ -1,0 +1,112 @@
+#include "runtime/numeric/group/corner.hpp"
+
+#include "runtime/numeric/path/blend.hpp"
+
+namespace stride::group {
+namespace {
+
+/// Value and first two derivatives at an end of a polynomial, over u.
+struct End {
+  double p, d1, d2;
+};
+
+Quintic quintic(const End &begin, const End &end) noexcept {
+  const double p = end.p - (begin.p + begin.d1 + 0.5 * begin.d2);
+  const double d1 = end.d1 - (begin.d1 + begin.d2);
+  const double d2 = end.d2 - begin.d2;
+  return {{begin.p, begin.d1, 0.5 * begin.d2, 10.0 * p - 4.0 * d1 + 0.5 * d2,
+           -15.0 * p + 7.0 * d1 - d2, 6.0 * p - 3.0 * d1 + 0.5 * d2}};
+}
+
+/// An end over u, where a unit of u is `speed` units of the way.
+End over(const Series &series, double speed) noexcept {
+  return {series.c[0], series.c[1] * speed, 2.0 * series.c[2] * speed * speed};
+}
+
+Series valueOf(const Quintic &polynomial, const Series &u) noexcept {
+  Series sum(polynomial.c[5]);
+  for (int k = 4; k >= 0; --k)
+    sum = sum * u + Series(polynomial.c[k]);
+  return sum;
+}
+
+Vector3 directionOf(const Vector<Series> &place) noexcept {
+  return {place(0).c[1], place(1).c[1], place(2).c[1]};
+}
+Vector3 valueOf(const Vector<Series> &place) noexcept {
+  return {place(0).c[0], place(1).c[0], place(2).c[0]};
+}
+
+Spin spinOf(const Leg &leg) noexcept { return {leg.about, leg.angle / leg.length}; }
+
+/// How much of the ways of both legs a unit of u is at the ends of the corner.
+void setSpeeds(Corner &corner, double before, double after) noexcept {
+  corner.first = 1.0 / before;
+  corner.last = 1.0 / after;
+  corner.length = 2.0 / (corner.first + corner.last);
+}
+
+} // namespace
+
+Corner toolCorner(const Leg &before, double cutBefore, const Leg &after, double cutAfter) noexcept {
+  Corner corner{};
+  corner.byTool = true;
+  PathPlace begin;
+  PathPlace end;
+  placeAt(before, growing(before.length - cutBefore, 1.0), begin);
+  placeAt(after, growing(cutAfter, 1.0), end);
+  double speedBefore = 2.0 * cutBefore;
+  double speedAfter = 2.0 * cutAfter;
+  const bool bothGo = before.kind != LegKind::Turn && after.kind != LegKind::Turn;
+  if (bothGo) { // with the least curvature
+    const double turn =
+        path::turnBetween(directionOf(begin.tool.place), directionOf(end.tool.place));
+    const double chord = numeric::norm(valueOf(end.tool.place) - valueOf(begin.tool.place));
+    speedBefore = speedAfter = path::blendStretch(turn) * chord;
+  }
+  setSpeeds(corner, speedBefore, speedAfter);
+  for (int i = 0; i < 3; ++i)
+    corner.place[i] =
+        quintic(over(begin.tool.place(i), speedBefore), over(end.tool.place(i), speedAfter));
+  for (int i = 0; i < 9; ++i)
+    corner.turn[i] = after.turn[i];
+  corner.before = spinOf(before);
+  corner.after = spinOf(after);
+  corner.leaves = quintic({-cutBefore, speedBefore, 0.0}, {0.0, 0.0, 0.0});
+  corner.enters = quintic({0.0, 0.0, 0.0}, {cutAfter, speedAfter, 0.0});
+  for (int32_t k = kArmAxes; k < kAxes; ++k)
+    corner.axes[k] = quintic(over(begin.axes[k], speedBefore), over(end.axes[k], speedAfter));
+  return corner;
+}
+
+Corner axesCorner(const AxesEnd &before, const AxesEnd &after) noexcept {
+  Corner corner{};
+  const double speedBefore = 2.0 * before.cut;
+  const double speedAfter = 2.0 * after.cut;
+  setSpeeds(corner, speedBefore, speedAfter);
+  for (int32_t k = 0; k < kAxes; ++k)
+    corner.axes[k] = quintic(over(before.axes[k], speedBefore), over(after.axes[k], speedAfter));
+  return corner;
+}
+
+void placeAt(const Corner &corner, const Series &way, PathPlace &place) noexcept {
+  const Series x = way * Series(1.0 / corner.length);
+  const double change = corner.last - corner.first;
+  const Series cube = x * x * x;
+  const Series u = Series(corner.length) *
+                   (Series(corner.first) * x + Series(change) * (cube - Series(0.5) * cube * x));
+  place.byTool = corner.byTool;
+  for (int32_t k = corner.byTool ? kArmAxes : 0; k < kAxes; ++k)
+    place.axes[k] = valueOf(corner.axes[k], u);
+  if (!corner.byTool)
+    return;
+  for (int i = 0; i < 3; ++i)
+    place.tool.place(i) = valueOf(corner.place[i], u);
+  const Series left = valueOf(corner.leaves, u) * Series(corner.before.rate);
+  const Series entered = valueOf(corner.enters, u) * Series(corner.after.rate);
+  place.tool.turn = kinematics::about(vectorOf(corner.after.about), entered) *
+                    (kinematics::about(vectorOf(corner.before.about), left) *
+                     matrixOf(corner.turn).cast<Series>());
+}
+
+} // namespace stride::group

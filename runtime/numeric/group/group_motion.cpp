@@ -1,0 +1,219 @@
+#include "runtime/numeric/group/group_motion.hpp"
+
+#include "runtime/numeric/group/path_making.hpp"
+
+namespace stride::group {
+namespace {
+
+using exact::smaller;
+
+/// The jerk of the law: strips say what is allowed.
+constexpr path::MotionSettings kSettings{path::LawKind::Jerk, 1e30, 1.0};
+
+void setOutcome(GroupMotion &group, uint64_t id, Outcome outcome) noexcept {
+  group.outcome[id % kOutcomes] = static_cast<uint8_t>(outcome);
+}
+
+bool dwells(const Movement &movement) noexcept { return movement.order.dwell > 0.0; }
+
+/// Whether the motion has come to where a movement begins.
+bool hasBegun(const GroupMotion &group, int64_t number) noexcept {
+  return number <= group.looked && group.motion.way >= movementAt(group, number).begin;
+}
+
+/// The movement that is driven has been gone through.
+void leave(GroupMotion &group) noexcept {
+  setOutcome(group, movementAt(group, group.first).id, Outcome::Done);
+  ++group.first;
+}
+
+/// Begins and ends movements up to where the motion is. `arrives`: it comes to rest, so that one
+/// that ends there has not ended yet.
+void settle(GroupMotion &group, bool arrives) noexcept {
+  while (group.first < group.next && hasBegun(group, group.first)) {
+    Movement &movement = movementAt(group, group.first);
+    setOutcome(group, movement.id, Outcome::Active);
+    if (dwells(movement)) {
+      if (!group.dwelling) {
+        group.dwelling = true;
+        group.dwell = movement.order.dwell;
+      }
+      return;
+    }
+    const double way = group.motion.way;
+    if (!movement.endKnown || way < movement.end || (way == movement.end && arrives))
+      return;
+    leave(group);
+  }
+}
+
+/// Lets time pass in a wait. What is left of it after that. [s]
+double passDwell(GroupMotion &group, const GroupCommand &command) noexcept {
+  if (!group.dwelling)
+    return command.cycle;
+  if (command.stop)
+    return 0.0;
+  if (group.dwell > command.cycle) {
+    group.dwell -= command.cycle;
+    return 0.0;
+  }
+  group.dwelling = false;
+  group.motion.gate = false;
+  leave(group);
+  return command.cycle - group.dwell;
+}
+
+/// Where along the path the motion is.
+void placeOf(const GroupMotion &group, const Movement &movement, PathPlace &place) noexcept {
+  const double way = group.motion.way;
+  if (way < legBegin(movement)) {
+    placeAt(movement.corner, growing(way - movement.begin, 1.0), place);
+    return;
+  }
+  const double along = movement.entry + (way - legBegin(movement));
+  placeAt(movement.leg, growing(smaller(along, movement.leg.length), 1.0), place);
+}
+
+void put(GroupMotion &group, const Arm &arm, const path::WayState &state) noexcept {
+  // A movement that has just ended still says where the group is.
+  const bool ended =
+      group.first > 0 && (group.first == group.next || !hasBegun(group, group.first) ||
+                          dwells(movementAt(group, group.first)));
+  const Movement &movement = movementAt(group, ended ? group.first - 1 : group.first);
+  if (!(movement.leg.length > 0.0) || dwells(movement)) {
+    for (int32_t k = 0; k < kAxes; ++k)
+      group.velocity[k] = group.acceleration[k] = 0.0;
+    return;
+  }
+  PathPlace place;
+  placeOf(group, movement, place);
+  Arm ordered{arm.kinematics, arm.joints, arm.more, arm.limits, movement.order.configuration};
+  Series axes[kAxes];
+  const Obstacle obstacle = axesAt(ordered, place, group.axes, axes);
+  if (obstacle != Obstacle::None && obstacle != Obstacle::Singular) {
+    group.obstacle = obstacle;
+    return;
+  }
+  const double v = state.velocity;
+  const bool rests = !(v > 0.0) && state.acceleration == 0.0;
+  for (int32_t k = 0; k < kArmAxes + arm.more; ++k) {
+    if (k >= arm.joints && k < kArmAxes)
+      continue;
+    group.axes[k] = axes[k].c[0];
+    group.velocity[k] = rests ? 0.0 : axes[k].c[1] * v;
+    group.acceleration[k] =
+        rests ? 0.0 : axes[k].c[1] * state.acceleration + 2.0 * axes[k].c[2] * v * v;
+  }
+}
+
+void wish(GroupMotion &group, const GroupCommand &command) noexcept {
+  path::Wish &wish = group.motion.wish;
+  wish.stop = command.stop || !(command.override > 0.0);
+  wish.deceleration = command.stop ? command.deceleration : 0.0;
+  if (command.override > 0.0)
+    wish.override = command.override;
+}
+
+void moveBy(GroupMotion &group, const Arm &arm, double time) noexcept {
+  if (!(time > 0.0))
+    return;
+  const path::WayState state = path::move(group.motion, time, true);
+  settle(group, state.velocity > 0.0 && state.acceleration < 0.0);
+  put(group, arm, state);
+}
+
+void rebase(GroupMotion &group) noexcept {
+  const double by = path::rebase(group.motion);
+  if (!(by > 0.0))
+    return;
+  for (int64_t k = group.first > 0 ? group.first - 1 : 0; k < group.next; ++k) {
+    movementAt(group, k).begin -= by;
+    movementAt(group, k).end -= by;
+  }
+}
+
+} // namespace
+
+void reset(GroupMotion &group, const double (&axes)[kAxes]) noexcept {
+  const uint64_t lastId = group.lastId;
+  group = GroupMotion{};
+  group.lastId = lastId;
+  path::reset(group.motion, kSettings);
+  for (int32_t k = 0; k < kAxes; ++k)
+    group.axes[k] = axes[k];
+}
+
+uint64_t append(GroupMotion &group, const Leg &leg, const Order &order) noexcept {
+  Movement &movement = movementAt(group, group.next);
+  movement = {};
+  movement.id = ++group.lastId;
+  movement.leg = leg;
+  movement.order = order;
+  movement.exit = leg.length;
+  setOutcome(group, movement.id, Outcome::Waiting);
+  if (group.looked == group.next) { // nothing else is being looked at
+    movement.begin = path::endOf(group.motion.course);
+    group.lookedWay = 0.0;
+    if (group.first == group.next) {
+      movement.begin = group.motion.way;
+      for (int32_t k = 0; k < kAxes; ++k)
+        group.lookedReference[k] = group.axes[k];
+    }
+  }
+  ++group.next;
+  return movement.id;
+}
+
+Outcome outcomeOf(const GroupMotion &group, uint64_t id) noexcept {
+  if (id == 0 || id > group.lastId || group.lastId - id >= kOutcomes)
+    return Outcome::Unknown;
+  return static_cast<Outcome>(group.outcome[id % kOutcomes]);
+}
+
+const Movement *activeOf(const GroupMotion &group) noexcept {
+  const bool begun = group.first < group.next && hasBegun(group, group.first);
+  return begun ? &movementAt(group, group.first) : nullptr;
+}
+
+bool isAtRest(const GroupMotion &group) noexcept {
+  return path::isAtRest(group.motion) || group.motion.resting || group.motion.gate;
+}
+
+double positionInMovement(const GroupMotion &group, uint64_t &id) noexcept {
+  const Movement *const movement = activeOf(group);
+  id = movement != nullptr ? movement->id : 0;
+  if (movement == nullptr || !(movement->leg.length > 0.0))
+    return 0.0;
+  const double length = movement->leg.length;
+  const double way = group.motion.way - movement->begin;
+  const double half = 0.5 * movement->corner.length;
+  if (way >= movement->corner.length)
+    return smaller((movement->entry + (way - movement->corner.length)) / length, 1.0);
+  if (way >= half)
+    return (way / half - 1.0) * movement->entry / length;
+  const Movement &before = movementAt(group, group.first - 1);
+  id = before.id;
+  return (before.exit + way / half * (before.leg.length - before.exit)) / before.leg.length;
+}
+
+void cycle(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept {
+  settle(group, !isAtRest(group));
+  wish(group, command);
+  makeKnown(group, arm, command.samples);
+  (void)path::think(group.motion, command.steps);
+  moveBy(group, arm, passDwell(group, command));
+  rebase(group);
+}
+
+void clear(GroupMotion &group) noexcept {
+  for (int64_t k = group.first; k < group.next; ++k)
+    setOutcome(group, movementAt(group, k).id, Outcome::Aborted);
+  uint8_t outcomes[kOutcomes];
+  double axes[kAxes];
+  __builtin_memcpy(outcomes, group.outcome, sizeof outcomes);
+  __builtin_memcpy(axes, group.axes, sizeof axes);
+  reset(group, axes);
+  __builtin_memcpy(group.outcome, outcomes, sizeof outcomes);
+}
+
+} // namespace stride::group

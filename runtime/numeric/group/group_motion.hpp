@@ -1,0 +1,133 @@
+// Drives a group along its path: movements that come one after the other, with or without corners
+// between them, are made known to the planner piece by piece, planned ahead and gone over. Where no
+// more is commanded the group comes to rest. Free of the C++ standard library: linked into every
+// application.
+//
+// What is known of a movement to which there is no successor yet ends a little more than the way to
+// stop ahead of the group, so that a successor that comes late can still be blended with.
+#ifndef STRIDE_RUNTIME_NUMERIC_GROUP_GROUP_MOTION_HPP
+#define STRIDE_RUNTIME_NUMERIC_GROUP_GROUP_MOTION_HPP
+
+#include "runtime/numeric/group/corner.hpp"
+#include "runtime/numeric/group/limits.hpp"
+#include "runtime/numeric/path/motion.hpp"
+
+namespace stride::group {
+
+/// Movements that a group has at once: the one that is driven and those that wait.
+inline constexpr int32_t kMovements = 32;
+/// Of how many the newest movements the outcome is remembered.
+inline constexpr int32_t kOutcomes = 256;
+
+/// How a movement follows the one before it.
+enum class Transition : uint8_t {
+  None,          ///< The group rests between both.
+  Distance,      ///< A corner begins and ends that far from where both meet. [u]
+  StartVelocity, ///< It is as long as braking and accelerating there would be, times a factor.
+};
+
+/// Which of the velocities of two movements counts in the corner between them (and acceleration and
+/// jerk likewise).
+enum class CornerSpeed : uint8_t { Smaller, First, Second, Greater };
+
+/// What is said of a movement besides its leg.
+struct Order {
+  PathLimits path;                                       ///< Where the tool leads.
+  double velocityFactor, accelerationFactor, jerkFactor; ///< Of the axes' limits, above 0 up to 1.
+  kinematics::Configuration configuration;               ///< Where the tool leads.
+  Transition transition;
+  double transitionValue; ///< See Transition.
+  CornerSpeed cornerSpeed;
+  double dwell;  ///< Time to wait, instead of a leg; 0: there is a leg. [s]
+  bool noCorner; ///< There can be no corner between the movement before and this one.
+};
+
+enum class Outcome : uint8_t {
+  Unknown, ///< There is no such movement, or it was long ago.
+  Waiting, ///< Its turn has not come.
+  Active,
+  Done,
+  Aborted,
+  Failed ///< See GroupMotion::obstacle.
+};
+
+/// One of them.
+struct Movement {
+  uint64_t id;
+  Leg leg;
+  Order order;
+  Corner corner;  ///< From the movement before into this one; length 0: there is none.
+  double entry;   ///< Way along the leg where the corner ends. [u]
+  double exit;    ///< Where the corner to the next one begins; its length if there is none. [u]
+  double begin;   ///< Way of the motion where corner or leg begins. [u]
+  double end;     ///< Where the leg ends, at `exit`; once it is known up to there. [u]
+  bool endChosen; ///< `exit` is right: what comes after it has been decided.
+  bool endKnown;  ///< `end` is right.
+  bool gated;     ///< It waits, and the motion stays where it begins until it is told to go on.
+};
+
+/// What the group does in one cycle.
+struct GroupCommand {
+  double cycle;    ///< Its time, > 0. [s]
+  double override; ///< Factor of all velocities, >= 0; 0: it comes to rest on its path.
+  bool stop;       ///< It comes to rest on its path, and stays there.
+  double
+      deceleration; ///< For that, if it is more than the movement's; in units of the way. [u/s^2]
+  int32_t steps;    ///< Of planning.
+  int32_t samples;  ///< Places of the path that may be looked at.
+};
+
+/// Trivially copyable, may be moved in memory between two calls.
+struct GroupMotion {
+  path::Motion motion;
+  Movement movement[kMovements]; ///< A ring.
+  int64_t first;                 ///< Number of the one that is driven, or of the next one.
+  int64_t next;                  ///< The number that the next one gets.
+  int64_t looked;                ///< Number of the one that is being made known.
+  double lookedWay;              ///< Up to where along its leg. [u]
+  double lookedReference[kAxes]; ///< Axes there. [u]
+  double axes[kAxes];            ///< Where the group is. [u]
+  double velocity[kAxes];        ///< [u/s]
+  double acceleration[kAxes];    ///< [u/s^2]
+  double dwell;                  ///< Time that is left to wait. [s]
+  uint64_t lastId;               ///< Of movements.
+  uint8_t outcome[kOutcomes];    ///< By id.
+  Obstacle obstacle;             ///< Why the path does not go on.
+  bool dwelling;
+};
+
+/// At rest at a place, without movements; ids go on.
+void reset(GroupMotion &group, const double (&axes)[kAxes]) noexcept;
+
+/// Whether a movement can be appended.
+inline bool hasRoom(const GroupMotion &group) noexcept {
+  return group.next - group.first < kMovements;
+}
+
+/// Appends a movement: its leg begins where the last one ends, or where the group is. Its id. There
+/// must be room.
+uint64_t append(GroupMotion &group, const Leg &leg, const Order &order) noexcept;
+
+/// What has become of a movement.
+Outcome outcomeOf(const GroupMotion &group, uint64_t id) noexcept;
+
+/// The movement that is driven; null: there is none. In a corner it is the second one.
+const Movement *activeOf(const GroupMotion &group) noexcept;
+
+/// Whether the group is at rest, with nothing left to do or stopped.
+bool isAtRest(const GroupMotion &group) noexcept;
+
+/// How far along the present movement the group is, 0 to 1: of a corner the first half belongs to
+/// the movement before. `id`: of which.
+double positionInMovement(const GroupMotion &group, uint64_t &id) noexcept;
+
+/// One cycle: plans ahead and goes on. The place is in group.axes, velocity, acceleration. With an
+/// obstacle the group has failed: it shall be stopped.
+void cycle(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept;
+
+/// Forgets all movements of a group at rest; those that are not done are aborted.
+void clear(GroupMotion &group) noexcept;
+
+} // namespace stride::group
+
+#endif // STRIDE_RUNTIME_NUMERIC_GROUP_GROUP_MOTION_HPP

@@ -1,0 +1,313 @@
+#include "runtime/numeric/group/limits.hpp"
+
+#include "runtime/numeric/cube_root.hpp"
+
+namespace stride::group {
+namespace {
+
+using exact::fabs;
+using exact::kInfinity;
+using exact::larger;
+using exact::smaller;
+
+/// Of what the axes' accelerations allow, the part that a bend may take: the rest is for changes of
+/// the velocity.
+constexpr double kBendShare = 0.9;
+/// Of what an axis's jerk allows, the part that changes of the path's acceleration may take where
+/// the path is bent for that axis.
+constexpr double kChangeShare = 0.5;
+/// How far derivatives in the middle of a part may be from a straight line between its ends.
+constexpr double kEvenness = 0.02;
+/// A path is straight for an axis if, over the length of the strip, bends change its velocity by no
+/// more than this part of what the path does, in units of the axes' accelerations: by rounding.
+constexpr double kStraight = 1e-9;
+constexpr int kMostHalvings = 10; ///< Of what is shorter than Look::least.
+
+/// A place by its axes' derivatives over the way, d[n][k], n-th of axis k, and how fast the tool
+/// is.
+struct Sample {
+  double way;
+  double d[4][kAxes];
+  double speed;       ///< Of the tool's path per unit of the way; 0: the axes lead.
+  double speedChange; ///< Its derivative.
+};
+
+/// The greatest amounts in a part, likewise.
+struct Peaks {
+  double d[4][kAxes];
+  bool bent[kAxes]; ///< The path is not straight for this axis.
+  double speed;
+  double speedChange;
+};
+
+int32_t axisCount(const Arm &arm) noexcept { return kArmAxes + arm.more; }
+bool hasAxis(const Arm &arm, int32_t k) noexcept {
+  return k < arm.joints || (k >= kArmAxes && k < axisCount(arm));
+}
+
+/// How fast the tool's point moves; of one that stays, how fast it turns. [u], [°]
+void setSpeed(const PathPlace &place, Sample &sample) noexcept {
+  sample.speed = 0.0;
+  sample.speedChange = 0.0;
+  if (!place.byTool)
+    return;
+  double square = 0.0;
+  double product = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    square += place.tool.place(i).c[1] * place.tool.place(i).c[1];
+    product += 2.0 * place.tool.place(i).c[1] * place.tool.place(i).c[2];
+  }
+  sample.speed = 1.0;
+  if (!(square > 0.0))
+    return;
+  sample.speed = exact::sqrt(square);
+  sample.speedChange = product / sample.speed;
+}
+
+Obstacle take(const Arm &arm, const Track &track, double way, Look &look, Sample &sample) noexcept {
+  PathPlace place;
+  Series axes[kAxes];
+  track.placeAt(track.track, growing(way, 1.0), place);
+  ++look.samples;
+  const Obstacle obstacle = axesAt(arm, place, look.reference, axes);
+  if (obstacle != Obstacle::None)
+    return obstacle;
+  sample.way = way;
+  constexpr double kFactorials[] = {1.0, 1.0, 2.0, 6.0};
+  for (int32_t k = 0; k < kAxes; ++k)
+    for (int n = 0; n < 4; ++n)
+      sample.d[n][k] = hasAxis(arm, k) ? kFactorials[n] * axes[k].c[n] : 0.0;
+  setSpeed(place, sample);
+  return Obstacle::None;
+}
+
+/// How far the middle is from where a straight line has it, over the axes, in units of their
+/// limits.
+bool isEven(const Arm &arm, const Sample &a, const Sample &m, const Sample &b) noexcept {
+  for (int n = 1; n <= 2; ++n) {
+    double bend = 0.0;
+    double most = 0.0;
+    for (int32_t k = 0; k < axisCount(arm); ++k) {
+      if (!hasAxis(arm, k))
+        continue;
+      const double limit = arm.limits[k].acceleration;
+      bend = larger(bend, fabs(m.d[n][k] - 0.5 * (a.d[n][k] + b.d[n][k])) / limit);
+      most =
+          larger(most, larger(fabs(a.d[n][k]), larger(fabs(m.d[n][k]), fabs(b.d[n][k]))) / limit);
+    }
+    if (bend > kEvenness * most)
+      return false;
+  }
+  return true;
+}
+
+/// The greatest amount of a derivative: of the samples, and what a parabola through them can be
+/// more.
+double peakOf(double a, double m, double b) noexcept {
+  return larger(fabs(a), larger(fabs(m), fabs(b))) + 0.5 * fabs(m - 0.5 * (a + b));
+}
+
+void raise(Peaks &peaks, const Sample &a, const Sample &m, const Sample &b) noexcept {
+  for (int n = 1; n < 4; ++n)
+    for (int32_t k = 0; k < kAxes; ++k)
+      peaks.d[n][k] = larger(peaks.d[n][k], peakOf(a.d[n][k], m.d[n][k], b.d[n][k]));
+  peaks.speed = larger(peaks.speed, peakOf(a.speed, m.speed, b.speed));
+  peaks.speedChange =
+      larger(peaks.speedChange, peakOf(a.speedChange, m.speedChange, b.speedChange));
+}
+
+/// Raises peaks over a part that is too short to be a strip of its own, or even.
+Obstacle lookInto(const Arm &arm, const Track &track, Look &look, const Sample &a, const Sample &b,
+                  Peaks &peaks) noexcept {
+  // The halves that are left to be looked at, the nearest last.
+  Sample ends[kMostHalvings + 2];
+  int depth = 0;
+  ends[0] = b;
+  Sample begin = a;
+  while (depth >= 0) {
+    Sample middle;
+    const Sample &end = ends[depth];
+    const Obstacle obstacle =
+        take(arm, track, begin.way + 0.5 * (end.way - begin.way), look, middle);
+    if (obstacle != Obstacle::None)
+      return obstacle;
+    if (depth < kMostHalvings && !isEven(arm, begin, middle, end)) {
+      ends[++depth] = middle;
+      continue;
+    }
+    raise(peaks, begin, middle, end);
+    begin = end;
+    --depth;
+  }
+  return Obstacle::None;
+}
+
+void limitVelocity(path::Strip &strip, double velocity) noexcept {
+  strip.ceiling = smaller(strip.ceiling, velocity * velocity);
+}
+
+/// Forgets bends that are rounding only.
+void straighten(const Arm &arm, double length, Peaks &peaks) noexcept {
+  double most = 0.0;
+  for (int32_t k = 0; k < axisCount(arm); ++k)
+    if (hasAxis(arm, k))
+      most = larger(most, peaks.d[1][k] / arm.limits[k].acceleration);
+  for (int32_t k = 0; k < axisCount(arm); ++k) {
+    if (!hasAxis(arm, k))
+      continue;
+    const double little = kStraight * most * arm.limits[k].acceleration;
+    peaks.bent[k] = peaks.d[2][k] * length > little || peaks.d[3][k] * length * length > little;
+    if (!peaks.bent[k])
+      peaks.d[2][k] = peaks.d[3][k] = 0.0;
+  }
+}
+
+void limitByAxes(const Arm &arm, const Peaks &peaks, path::Strip &strip) noexcept {
+  double jerk = strip.jerk;
+  for (int32_t k = 0; k < axisCount(arm); ++k) {
+    const double first = peaks.d[1][k];
+    const AxisLimits &limits = arm.limits[k];
+    if (!hasAxis(arm, k) || !(first > 0.0))
+      continue;
+    strip.feed = smaller(strip.feed, limits.velocity / first);
+    strip.along = larger(strip.along, first / limits.acceleration);
+    strip.across = larger(strip.across, peaks.d[2][k] / limits.acceleration);
+    jerk = smaller(jerk, (peaks.bent[k] ? kChangeShare : 1.0) * limits.jerk / first);
+  }
+  if (strip.across > 0.0)
+    strip.ceiling = smaller(strip.ceiling, kBendShare / strip.across);
+  strip.jerk = static_cast<float>(jerk);
+}
+
+/// What is left of an axis's jerk in a bend is for three times the second derivative times velocity
+/// times acceleration, and for the third one times velocity to the power of three: half of it each.
+/// The greatest product of velocity and acceleration, and the greatest velocity.
+struct Bend {
+  double product, velocity;
+};
+Bend bendOf(const Arm &arm, const Peaks &peaks, double change) noexcept {
+  Bend bend{kInfinity, kInfinity};
+  for (int32_t k = 0; k < axisCount(arm); ++k) {
+    if (!hasAxis(arm, k) || !peaks.bent[k] || !(arm.limits[k].jerk < kInfinity))
+      continue;
+    const double left = 0.5 * (arm.limits[k].jerk - peaks.d[1][k] * change);
+    bend.product = smaller(bend.product, left / (3.0 * peaks.d[2][k]));
+    bend.velocity = smaller(bend.velocity, numeric::cubeRoot(left / peaks.d[3][k]));
+  }
+  return bend;
+}
+
+/// After all else: how fast bends may be gone through for the axes' jerks. At a velocity v the
+/// acceleration is at most sqrt(2 jerk v), or it could not end before the motion stands still:
+/// where that is less than what else is allowed, it becomes the limit.
+void limitByBends(const Arm &arm, const Peaks &peaks, path::Strip &strip) noexcept {
+  const double jerk = static_cast<double>(strip.jerk);
+  const Bend bend = bendOf(arm, peaks, jerk);
+  limitVelocity(strip, bend.velocity);
+  if (!(bend.product < kInfinity))
+    return;
+  const double most = smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
+  const double velocity =
+      larger(bend.product / most, numeric::cubeRoot(bend.product * bend.product / (2.0 * jerk)));
+  limitVelocity(strip, velocity);
+  const double present = exact::sqrt(path::squareIn(strip, 1.0));
+  strip.acceleration = smaller(strip.acceleration, bend.product / present);
+  strip.deceleration = smaller(strip.deceleration, bend.product / present);
+}
+
+void limitByPath(const Peaks &peaks, const PathLimits &path, path::Strip &strip) noexcept {
+  if (!(peaks.speed > 0.0))
+    return;
+  strip.feed = smaller(strip.feed, path.velocity / peaks.speed);
+  strip.acceleration = path.acceleration / peaks.speed;
+  strip.deceleration = path.deceleration / peaks.speed;
+  strip.jerk = static_cast<float>(smaller(path.jerk / peaks.speed, 1e30));
+}
+
+/// Nobody can tell an acceleration that rises within half a millisecond from one that jumps, but
+/// its plan would need many cells.
+void limitRise(path::Strip &strip) noexcept {
+  constexpr double kLeastRise = 0.0005; // [s]
+  const double most = smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
+  strip.jerk = static_cast<float>(smaller(static_cast<double>(strip.jerk), most / kLeastRise));
+}
+
+void makeStrip(const Arm &arm, Peaks &peaks, const PathLimits &path, double length,
+               path::Strip &strip) noexcept {
+  strip = {};
+  strip.feed = kInfinity;
+  strip.ceiling = kInfinity;
+  strip.endCeiling = kInfinity;
+  strip.acceleration = kInfinity;
+  strip.deceleration = kInfinity;
+  strip.jerk = 1e30F;
+  straighten(arm, length, peaks);
+  limitByPath(peaks, path, strip);
+  limitByAxes(arm, peaks, strip);
+  limitRise(strip);
+  limitByBends(arm, peaks, strip);
+  strip.endFeed = strip.feed;
+}
+
+} // namespace
+
+Obstacle axesAt(const Arm &arm, const PathPlace &place, const double (&reference)[kAxes],
+                Series (&axes)[kAxes]) noexcept {
+  for (int32_t k = place.byTool ? kArmAxes : 0; k < kAxes; ++k)
+    axes[k] = place.axes[k];
+  if (place.byTool) {
+    using kinematics::Outcome;
+    const Outcome outcome = arm.kinematics.inverse(place.tool, arm.configuration, reference, axes);
+    if (outcome != Outcome::Done)
+      return outcome == Outcome::OutOfLimits ? Obstacle::AxisLimit : Obstacle::Unreachable;
+  }
+  for (int32_t k = 0; k < axisCount(arm); ++k) {
+    if (!hasAxis(arm, k))
+      continue;
+    const Series &axis = axes[k];
+    if (!exact::isfinite(axis.c[0]))
+      return Obstacle::Unreachable;
+    if (!exact::isfinite(axis.c[1]) || !exact::isfinite(axis.c[2]) || !exact::isfinite(axis.c[3]))
+      return Obstacle::Singular;
+    const double slack = 1e-9 * (fabs(arm.limits[k].low) + fabs(arm.limits[k].high));
+    if (axis.c[0] < arm.limits[k].low - slack || axis.c[0] > arm.limits[k].high + slack)
+      return Obstacle::AxisLimit;
+  }
+  return Obstacle::None;
+}
+
+Obstacle limitStrip(const Arm &arm, const Track &track, const PathLimits &path, Look &look,
+                    path::Strip &strip) noexcept {
+  Sample begin;
+  Sample middle;
+  Sample end;
+  Obstacle obstacle = take(arm, track, look.from, look, begin);
+  if (obstacle != Obstacle::None)
+    return obstacle;
+  Peaks peaks{};
+  for (;;) {
+    const double half = look.from + 0.5 * (look.to - look.from);
+    obstacle = take(arm, track, half, look, middle);
+    if (obstacle == Obstacle::None)
+      obstacle = take(arm, track, look.to, look, end);
+    if (obstacle != Obstacle::None)
+      return obstacle;
+    if (isEven(arm, begin, middle, end)) {
+      raise(peaks, begin, middle, end);
+      break;
+    }
+    if (half - look.from < look.least) {
+      obstacle = lookInto(arm, track, look, begin, end, peaks);
+      if (obstacle != Obstacle::None)
+        return obstacle;
+      break;
+    }
+    look.to = half;
+  }
+  for (int32_t k = 0; k < kAxes; ++k)
+    look.reference[k] = end.d[0][k];
+  makeStrip(arm, peaks, path, look.to - look.from, strip);
+  return Obstacle::None;
+}
+
+} // namespace stride::group

@@ -1,0 +1,74 @@
+// What the limits of axes and of the tool's path allow along a part of a group's path: strips for
+// the planner of the law. The axes' velocities, accelerations and jerks along the path come from
+// series, through the kinematics, so that they are those of the path and not of differences. Free
+// of the C++ standard library: linked into every application.
+#ifndef STRIDE_RUNTIME_NUMERIC_GROUP_LIMITS_HPP
+#define STRIDE_RUNTIME_NUMERIC_GROUP_LIMITS_HPP
+
+#include "runtime/numeric/group/place.hpp"
+#include "runtime/numeric/kinematics/kinematics_ref.hpp"
+#include "runtime/numeric/path/course.hpp"
+
+namespace stride::group {
+
+/// What an axis can do; all greater than 0, kInfinity: no limit. Trivially copyable.
+struct AxisLimits {
+  double velocity;     ///< [u/s]
+  double acceleration; ///< [u/s^2]
+  double jerk;         ///< [u/s^3]
+  double low, high;    ///< Where it may be. [u]
+};
+
+/// What a command allows of the tool's motion along its path; the units are those of the way of its
+/// leg. All greater than 0. Trivially copyable.
+struct PathLimits {
+  double velocity;     ///< [u/s]
+  double acceleration; ///< [u/s^2]
+  double deceleration; ///< [u/s^2]
+  double jerk;         ///< [u/s^3]
+};
+
+/// The axes that a group moves, for the time of a call.
+struct Arm {
+  kinematics::KinematicsRef kinematics;
+  int32_t joints;                          ///< Of the kinematics, at most kArmAxes.
+  int32_t more;                            ///< Axes that go along, at most kMoreAxes.
+  const AxisLimits (&limits)[kAxes];       ///< Of those that it has.
+  kinematics::Configuration configuration; ///< Along what the tool leads.
+};
+
+/// Why there is no motion along a part of the path.
+enum class Obstacle : uint8_t {
+  None,
+  Unreachable, ///< The kinematics reaches nothing there.
+  AxisLimit,   ///< An axis would leave its range.
+  Singular     ///< Axes would need an infinite velocity.
+};
+
+/// Something that is at a place for each way: a leg or a corner.
+struct Track {
+  const void *track;
+  void (*placeAt)(const void *track, const Series &way, PathPlace &place);
+};
+
+/// The axes at a place of the path, as series. `reference`: where they are nearby. [u]
+Obstacle axesAt(const Arm &arm, const PathPlace &place, const double (&reference)[kAxes],
+                Series (&axes)[kAxes]) noexcept;
+
+/// A part of a track that is being looked at.
+struct Look {
+  double from;             ///< Way along the track. [u]
+  double to;               ///< It ends at most there. [u]
+  double least;            ///< It need not be shorter, however the axes' velocities change. [u]
+  double reference[kAxes]; ///< Axes at `from`; afterwards at its end. [u]
+  int32_t samples;         ///< How many places have been looked at, so far.
+};
+
+/// Puts what limits the motion from look.from on into a strip, but for its end and what is there.
+/// `look.to` becomes the way up to which that is true. `path` counts where the tool leads.
+Obstacle limitStrip(const Arm &arm, const Track &track, const PathLimits &path, Look &look,
+                    path::Strip &strip) noexcept;
+
+} // namespace stride::group
+
+#endif // STRIDE_RUNTIME_NUMERIC_GROUP_LIMITS_HPP

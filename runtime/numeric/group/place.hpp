@@ -1,0 +1,71 @@
+// Where a group is along its path: the tool in space, the axes, and series of both over the way.
+// Free of the C++ standard library: linked into every application.
+#ifndef STRIDE_RUNTIME_NUMERIC_GROUP_PLACE_HPP
+#define STRIDE_RUNTIME_NUMERIC_GROUP_PLACE_HPP
+
+#include "runtime/numeric/kinematics/frame.hpp"
+#include "runtime/numeric/vector3.hpp"
+
+namespace stride::group {
+
+using kinematics::Frame;
+using kinematics::Matrix;
+using kinematics::Vector;
+using numeric::Vector3;
+
+/// Axes of the kinematics, and axes that go along with them.
+inline constexpr int32_t kArmAxes = 6;
+inline constexpr int32_t kMoreAxes = 4;
+inline constexpr int32_t kAxes = kArmAxes + kMoreAxes;
+
+/// A number along a path as a power series in the way: c[k] is the k-th derivative over k!.
+using Series = kinematics::Jet<3>;
+
+/// The series of the way itself, at `way`, where it grows by `rate` per unit of another one.
+inline Series growing(double way, double rate) noexcept {
+  Series series(way);
+  series.c[1] = rate;
+  return series;
+}
+
+/// The tool: where its point is [u] and how it is turned, by rows. Trivially copyable.
+struct Pose {
+  Vector3 place;
+  double turn[9];
+};
+
+inline Vector<double> vectorOf(const Vector3 &v) noexcept { return {v.x, v.y, v.z}; }
+inline Vector3 plain(const Vector<double> &v) noexcept { return {v(0), v(1), v(2)}; }
+
+inline Matrix<double> matrixOf(const double (&rows)[9]) noexcept {
+  Matrix<double> matrix;
+  for (int i = 0; i < 9; ++i)
+    matrix(i / 3, i % 3) = rows[i];
+  return matrix;
+}
+inline void setRows(double (&rows)[9], const Matrix<double> &matrix) noexcept {
+  for (int i = 0; i < 9; ++i)
+    rows[i] = matrix(i / 3, i % 3);
+}
+
+inline Frame<double> frameOf(const Pose &pose) noexcept {
+  return {matrixOf(pose.turn), vectorOf(pose.place)};
+}
+inline Pose poseOf(const Frame<double> &frame) noexcept {
+  Pose pose;
+  pose.place = plain(frame.place);
+  setRows(pose.turn, frame.turn);
+  return pose;
+}
+
+/// A place of the path as series over the way. Either the tool or the axes of the kinematics lead;
+/// the axes that go along are always said.
+struct PathPlace {
+  bool byTool;
+  Frame<Series> tool; ///< If byTool.
+  Series axes[kAxes]; ///< The first kArmAxes unless byTool. [u]
+};
+
+} // namespace stride::group
+
+#endif // STRIDE_RUNTIME_NUMERIC_GROUP_PLACE_HPP
