@@ -49,8 +49,11 @@ bool EmbeddedLibraryIndex::answersTo(std::string_view library, std::string_view 
       {"smcb", "SM3_CamBuilder"},
       {"sm3_math", "SM_CNC"},
       {"sm3m", "SM_CNC"},
+      {"sm3m", "SM3_Math"},
       {"sm3_transformation", "SM_Trafo"},
       {"trafo", "SM_Trafo"},
+      {"trafo", "SM3_Transformation"},
+      {"sm3_commonpublic", "SM3_Robotics"},
   };
   return equalIgnoringCase(library, lowerName) ||
          std::any_of(std::begin(kSoftMotion3), std::end(kSoftMotion3), [&](const OtherName &other) {

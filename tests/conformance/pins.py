@@ -15,7 +15,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TABLE = pathlib.Path(__file__).with_name("pins.tsv")
 SOFTMOTION3 = pathlib.Path(__file__).with_name("sm3_pins.txt")
-LIBRARIES = ("SM_DriveBasic", "SM_PLCopen", "SM_FileFBs", "SM_CNC", "SM_Trafo")
+LIBRARIES = ("SM_DriveBasic", "SM_PLCopen", "SM_FileFBs", "SM_CNC", "SM_Trafo", "SM3_Transformation")
 SECTIONS = {"VAR_IN_OUT": "in_out", "VAR_INPUT": "input", "VAR_OUTPUT": "output"}
 HEAD = ("block", "section", "pin", "type", "default", "default_3", "second_name")
 

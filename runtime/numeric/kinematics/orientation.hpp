@@ -90,9 +90,9 @@ inline Angles anglesOf(Convention convention, const Matrix<double> &r) {
   }
   const auto degrees = [](double angle) {
     const double value = angle / numeric::kDegree;
-    return value <= -180 ? value + 360 : value;
+    return value <= -180 ? value + 360 : value + 0.0; // no -0
   };
-  const double middle = second / numeric::kDegree;
+  const double middle = second / numeric::kDegree + 0.0;
   if (convention == Convention::Zyz) // rounding may leave a bit less than 0
     return {degrees(first), exact::fabs(middle), locked ? 0.0 : degrees(third)};
   const double within = middle > 90 ? 90.0 : (middle < -90 ? -90.0 : middle);
