@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr size_t kHeader = 112;
-constexpr size_t kObject = 760;
+constexpr size_t kObject = 872;
 
 class CncQueue : public ::testing::Test {
 protected:
@@ -40,12 +40,12 @@ TEST_F(CncQueue, WritesHeaderObjectsAndChecksum) {
   write("% name of it\nN10 G1 X30 F50\nN20 Y20\n/N30 X7\nN40 M7\n");
   const ProcessResult result = queue({"-o", "a.queue"});
   EXPECT_EQ(result.exitCode, 0) << result.err;
-  EXPECT_EQ(result.out, "a.queue: 4 objects, 3040 bytes of memory for SMC_ReadNCQueue\n");
+  EXPECT_EQ(result.out, "a.queue: 4 objects, 3488 bytes of memory for SMC_ReadNCQueue\n");
   const std::string file = bytes();
   ASSERT_EQ(file.size(), kHeader + 4 * kObject + 4);
   EXPECT_EQ(file.substr(0, 8), std::string("\x89"
                                            "CNQ\r\n\x1A\n"));
-  EXPECT_EQ(at<uint16_t>(file, 8), 1) << "version";
+  EXPECT_EQ(at<uint16_t>(file, 8), 2) << "version";
   EXPECT_EQ(at<uint8_t>(file, 10), 255) << "made by the compiler";
   EXPECT_EQ(at<uint32_t>(file, 12), kObject);
   EXPECT_EQ(at<uint32_t>(file, 16), 4U);

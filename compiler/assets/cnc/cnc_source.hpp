@@ -138,13 +138,17 @@ struct CncDecoded {
 /// its sentence is [n - 1]; null: in the settings.
 using CncOrigins = std::vector<const CncWord *>;
 
+/// Where the sentence of an object is; the program, if nothing is known of that.
+Span cncSpanOf(const CncProgram &program, const CncOrigins &origins,
+               const stride::cnc::PathObject &object);
+
 /// Decodes a program from its beginning to its end, jumps included, and gives each object of the
 /// path to `take`, until that returns false. Variables have their initial values.
 [[nodiscard]] CncDecoded decodeCnc(const CncProgram &program,
                                    const std::function<bool(const stride::cnc::PathObject &)> &take,
                                    CncOrigins *origins = nullptr);
 
-/// Objects of a path at most: about 760 MB.
+/// Objects of a path at most: about 870 MB.
 inline constexpr size_t kMostCncObjects = 1'000'000;
 
 /// What the processors of the settings make of a decoded path: the same as their blocks with queues

@@ -153,11 +153,7 @@ private:
   }
 
   [[nodiscard]] Span spanOf(const PathObject *object) const {
-    if (object == nullptr || object->number < 1 ||
-        static_cast<size_t>(object->number) > origins_.size())
-      return program_.span;
-    const CncWord *word = origins_[static_cast<size_t>(object->number - 1)];
-    return word != nullptr ? word->span : program_.span;
+    return object == nullptr ? program_.span : cncSpanOf(program_, origins_, *object);
   }
 
   bool reportFailure(const PathObject *object, StreamError error, CncProcessor which) {
@@ -199,6 +195,13 @@ std::optional<CncOrderFault> findOrderFault(std::span<const CncProcessor> proces
       if (auto fault = faultOf(processors[k], processors[i], i))
         return fault;
   return std::nullopt;
+}
+
+Span cncSpanOf(const CncProgram &program, const CncOrigins &origins, const PathObject &object) {
+  if (object.number < 1 || static_cast<size_t>(object.number) > origins.size())
+    return program.span;
+  const CncWord *word = origins[static_cast<size_t>(object.number - 1)];
+  return word != nullptr ? word->span : program.span;
 }
 
 std::optional<std::vector<PathObject>> preprocessCnc(const CncProgram &program,

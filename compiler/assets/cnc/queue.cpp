@@ -68,7 +68,7 @@ std::optional<std::vector<PathObject>> cncQueueOf(const CncProgram &program,
   const auto stands = std::find_if_not(objects.begin(), objects.end(), isDrivable);
   if (stands != objects.end()) {
     diagnostics
-        .report(Code::CncSentence, program.span,
+        .report(Code::CncSentence, cncSpanOf(program, origins, *stands),
                 fmt::format("sentence {} moves with velocity 0", stands->sourceLine),
                 "a queue needs velocities")
         .help("say a velocity with F, or as default");

@@ -71,6 +71,11 @@ STRIDE_SAME_PLACE(PathObject, limits, st::SMC_GEOINFO, aLimits);
 STRIDE_SAME_PLACE(PathObject, probe, st::SMC_GEOINFO, wProbe);
 STRIDE_SAME_PLACE(PathObject, slopes, st::SMC_GEOINFO, bySlopes);
 STRIDE_SAME_PLACE(PathObject, planar, st::SMC_GEOINFO, bPlanar);
+STRIDE_SAME_PLACE(PathObject, program, st::SMC_GEOINFO, wProgram);
+STRIDE_SAME_PLACE(PathObject, orientation, st::SMC_GEOINFO, eOriConv);
+STRIDE_SAME_PLACE(PathObject, modes, st::SMC_GEOINFO, byModes);
+STRIDE_SAME_PLACE(PathObject, system, st::SMC_GEOINFO, adSystem);
+STRIDE_SAME_PLACE(PathObject, tool, st::SMC_GEOINFO, vTool);
 
 static_assert(sizeof(Queue) == sizeof(st::SMC_OUTQUEUE));
 STRIDE_SAME_PLACE(Queue, structId, st::SMC_OUTQUEUE, wOUTQUEUEStructID);

@@ -29,13 +29,6 @@ template <class Block> bool hasQueueMemory(const Block &block) noexcept {
          block.nSizeOutQueue >= kLeastObjects * sizeof(PathObject);
 }
 
-/// SMC_ORI_CONVENTION; what is none of them counts as ADDAXES.
-inline Orientation orientationOf(int16_t convention) noexcept {
-  constexpr auto kLast = static_cast<int16_t>(Orientation::Xyz);
-  return convention > 0 && convention <= kLast ? static_cast<Orientation>(convention)
-                                               : Orientation::Axes;
-}
-
 /// Begins a program from `start`, or appends it to the one before.
 template <class Block>
 void startDecoding(Block &block, const Position &start, bool softMotion3) noexcept {
@@ -50,6 +43,7 @@ void startDecoding(Block &block, const Position &start, bool softMotion3) noexce
     startDecoder(decoderOf(block), start);
     decoderOf(block).softMotion3 = softMotion3;
     decoderOf(block).orientation = orientationOf(block.eOriConv);
+    decoderOf(block).tool = __builtin_bit_cast(Vector3, block.vStartToolLength);
   }
   queue->endOfList = 0;
   queue->generator = kByDecoder;

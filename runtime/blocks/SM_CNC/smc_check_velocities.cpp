@@ -23,9 +23,8 @@ void end(Block &block, int16_t error) noexcept {
 }
 
 cnc::CornerRules rulesOf(const Block &block) noexcept {
-  return {block.dAngleTol * kDegree, block.bCheckAddAxVelJump != 0
-                                         ? stride::exact::larger(block.dMaxAddAxVelDifference, 0.0)
-                                         : -1.0};
+  return {block.dAngleTol * kDegree,
+          block.bCheckAddAxVelJump != 0 ? block.dMaxAddAxVelDifference : -1.0};
 }
 
 /// The user wants no more checks: whoever drives the path does not wait for them.
@@ -37,18 +36,33 @@ void giveUp(Block &block) noexcept {
   end(block, ::st::SM_Error::SMC_ERROR__SMC_NO_ERROR);
 }
 
+bool isLimit(double value) noexcept { return stride::exact::isfinite(value) && value >= 0.0; }
+
+/// Whether the inputs that count in each call are usable.
+bool areRules(const Block &block) noexcept {
+  return isLimit(block.dAngleTol) &&
+         (block.bCheckAddAxVelJump == 0 || isLimit(block.dMaxAddAxVelDifference));
+}
+
 void begin(Block &block) noexcept {
   end(block, ::st::SM_Error::SMC_ERROR__SMC_NO_ERROR);
   cnc::Queue *queue = cnc::queueOf(block.poqDataIn);
   if (cnc::checkQueue(queue) != cnc::QueueError::None) {
     end(block, ::st::SM_Error::SMC_ERROR__SMC_NO_OUTQUEUE_TYPE);
-  } else if (!(block.dDryRunVelocity >= 0.0)) {
+  } else if (!isLimit(block.dDryRunVelocity)) {
     end(block, ::st::SM_Error::SMC_ERROR__SMC_CV_ACC_DEC_VEL_NONPOSITIVE);
   } else {
     queue->dryRunVelocity = block.dDryRunVelocity;
     block.nChecked = kNothing;
     block.bActive = 1;
   }
+}
+
+/// Nobody shall drive what is in the queue.
+void refuse(Block &block, cnc::Queue *queue, int16_t error) noexcept {
+  queue->generator = cnc::kByNobody;
+  cnc::tellNobodyChecks(queue);
+  end(block, error);
 }
 
 void checkQueue(Block &block) noexcept {
@@ -60,14 +74,16 @@ void checkQueue(Block &block) noexcept {
   if (again || block.pQueue != block.poqDataIn)
     block.nChecked = kNothing;
   block.pQueue = block.poqDataIn;
+  if (!areRules(block) && cnc::checkQueue(queue) == cnc::QueueError::None) {
+    refuse(block, queue, ::st::SM_Error::SMC_ERROR__SMC_INVALID_PARAMETER);
+    return;
+  }
   switch (cnc::checkVelocities(queue, block.nChecked, rulesOf(block))) {
   case cnc::VelocityError::NoQueue:
     end(block, ::st::SM_Error::SMC_ERROR__SMC_NO_OUTQUEUE_TYPE);
     break;
   case cnc::VelocityError::NotPositive:
-    queue->generator = cnc::kByNobody; // the interpolator shall not have it
-    cnc::tellNobodyChecks(queue);
-    end(block, ::st::SM_Error::SMC_ERROR__SMC_CV_ACC_DEC_VEL_NONPOSITIVE);
+    refuse(block, queue, ::st::SM_Error::SMC_ERROR__SMC_CV_ACC_DEC_VEL_NONPOSITIVE);
     break;
   case cnc::VelocityError::None:
     __atomic_store_n(&queue->generator, cnc::kByCheckVelocities, __ATOMIC_RELEASE);

@@ -81,8 +81,20 @@ template <class Block> cnc::Command commandOf(Block &block) noexcept {
   return command;
 }
 
+/// Whether a limit is a number that is not negative.
+bool isLimit(double value) noexcept { return ::stride::exact::isfinite(value) && value >= 0.0; }
+
+bool areLimits(const path::AxesLimits &limits) noexcept {
+  bool good = true;
+  for (int32_t k = 0; k < cnc::kAxes; ++k)
+    good = good && isLimit(limits.velocity[k]) && isLimit(limits.acceleration[k]) &&
+           isLimit(limits.jerk[k]);
+  return good;
+}
+
 /// What is wrong with the pins themselves: an SMC_ERROR.
-template <class Block> int16_t errorOf(const Block &block, const cnc::Command &command) noexcept {
+template <class Block>
+int16_t errorOf(const Block &block, const cnc::Command &command, bool rising) noexcept {
   if (block.dwIpoTime == 0)
     return ::st::SM_Error::SMC_ERROR__SMC_INT_INVALID_IPOTIME;
   if (block.iVelMode < decl::SMC_INT_VELMODE__TRAPEZOID ||
@@ -90,7 +102,23 @@ template <class Block> int16_t errorOf(const Block &block, const cnc::Command &c
     return ::st::SM_Error::SMC_ERROR__SMC_INT_INVALID_VELMODE;
   if (command.law == path::LawKind::Jerk && !::stride::exact::isPositive(command.jerk))
     return ::st::SM_Error::SMC_ERROR__SMC_INT_JERK_NONPOSITIVE;
+  const bool overrides = !rising || ::stride::exact::isfinite(block.dOverride);
+  if (!overrides || !isLimit(command.quickDeceleration) || !areLimits(command.limits))
+    return ::st::SM_Error::SMC_ERROR__SMC_INVALID_PARAMETER;
   return 0;
+}
+
+/// An override that is no number while the path is driven: it comes to rest, and a warning says
+/// why.
+template <class Block> void takeOverride(Block &block, cnc::Command &command) noexcept {
+  constexpr int16_t kWarning = ::st::SM_Error::SMC_ERROR__SMC_INVALID_PARAMETER;
+  cnc::Interpolator &state = stateOf(block);
+  if (!::stride::exact::isfinite(block.dOverride)) {
+    command.override = 0.0;
+    state.warning = kWarning;
+  } else if (state.warning == kWarning) {
+    state.warning = 0;
+  }
 }
 
 int16_t movingStatus(const cnc::Interpolator &state) noexcept {
@@ -142,6 +170,14 @@ template <class Block> void idle(Block &block) noexcept {
   block.wM = 0;
   block.dActObjectLength = 0.0;
   block.dActObjectLengthPos = 0.0;
+  block.pActObject = nullptr;
+  block.wActProgram = 0;
+}
+
+template <class Block> void showObject(Block &block, const cnc::PathObject *object) noexcept {
+  block.pActObject =
+      cnc::declared(const_cast<cnc::PathObject *>(object)); // NOLINT: ST has no const
+  block.wActProgram = object != nullptr ? object->program : 0;
 }
 
 template <class Block>
@@ -201,14 +237,16 @@ template <class Block> void run(Block &block) noexcept {
   if (rising || block.bActive != 0) {
     cnc::Command command = commandOf(block);
     adapt(block, command);
-    if (const int16_t error = errorOf(block, command); error != 0) {
+    if (const int16_t error = errorOf(block, command, rising); error != 0) {
       refuse(block, error);
       return;
     }
     if (rising)
       cnc::start(state, command);
+    takeOverride(block, command);
     cnc::cycle(state, command);
     show(block, state, command.cycle);
+    showObject(block, cnc::presentObject(state, command));
     return;
   }
   idle(block);

@@ -13,6 +13,10 @@ namespace nc = ::stride::nc;
 using Interpreter = ::st::SM_CNC::SMC_NCInterpreter;
 
 static_assert(sizeof(nc::Interpreter) <= sizeof(Interpreter::aState));
+/// SMC_NCCallstackInfo: how many calls it has room for.
+constexpr uint16_t kMostCalls =
+    sizeof(::st::SM_CNC::SMC_NCCallstackInfo::auiCaller) / sizeof(uint16_t);
+
 static_assert(sizeof(nc::Carried) + sizeof(nc::Evaluation) < 24576); // on the stack
 
 nc::Interpreter &partOf(Interpreter &block) noexcept {
@@ -30,6 +34,8 @@ void start(Interpreter &block) noexcept {
   }
   cnc::startDecoding(block, __builtin_bit_cast(cnc::Position, block.piStartPosition), true);
   nc::startInterpreter(partOf(block));
+  if (block.bAppend == 0)
+    block.CallstackInfo.uiCount = 0;
 }
 
 /// The sentence as SMC_GCodeViewer shows it.
@@ -49,10 +55,43 @@ void fail(Interpreter &block, const nc::SentenceQueue &sentences,
                                                             : static_cast<int16_t>(carried.error));
 }
 
+/// Notes the call of a program by another one; the number that it gets, 1 more than there can be if
+/// there is no room. The same call has the same number.
+uint16_t noteCall(Interpreter &block, uint16_t caller, const char *name) noexcept {
+  auto &info = block.CallstackInfo;
+  for (uint16_t i = 0; i < info.uiCount; ++i)
+    if (info.auiCaller.v[i] == caller && __builtin_strcmp(info.asName.v[i].s, name) == 0)
+      return static_cast<uint16_t>(i + 1);
+  if (info.uiCount >= kMostCalls || caller > kMostCalls)
+    return kMostCalls + 1;
+  static_assert(sizeof info.asName.v[0].s == nc::kMostName + 1);
+  info.auiCaller.v[info.uiCount] = caller;
+  __builtin_strcpy(info.asName.v[info.uiCount].s, name);
+  return ++info.uiCount;
+}
+
+/// Says of which program the objects to come are, before a sentence: at the beginning of the main
+/// program.
+void beginCalls(Interpreter &block, const nc::SentenceQueue &sentences) noexcept {
+  nc::Interpreter &in = partOf(block);
+  if (in.callers[0] == 0 && sentences.title[0] != 0)
+    in.callers[0] = cnc::decoderOf(block).program = noteCall(block, 0, sentences.title);
+}
+
+/// Likewise after a sentence that began on level `before` of calls: a call or a return.
+void followCalls(Interpreter &block, const nc::SentenceQueue &sentences, int32_t before) noexcept {
+  nc::Interpreter &in = partOf(block);
+  if (in.level > before)
+    in.callers[in.level] = noteCall(block, in.callers[before], sentences.name);
+  cnc::decoderOf(block).program = in.callers[in.level];
+}
+
 /// One sentence.
 void carryOut(Interpreter &block, nc::SentenceQueue &sentences) noexcept {
   nc::Carried carried;
   cnc::takeParameters(block);
+  beginCalls(block, sentences);
+  const int32_t level = partOf(block).level;
   const nc::Outcome outcome = nc::interpret(partOf(block), cnc::decoderOf(block), sentences,
                                             block.bStepSuppress != 0, carried);
   if (outcome == nc::Outcome::Idle)
@@ -61,6 +100,7 @@ void carryOut(Interpreter &block, nc::SentenceQueue &sentences) noexcept {
     fail(block, sentences, carried);
     return;
   }
+  followCalls(block, sentences, level);
   __builtin_memcpy(block.Queue.strProgramName.s, sentences.title,
                    sizeof block.Queue.strProgramName.s);
   block.iLineNumberDecoded = carried.line + 1;

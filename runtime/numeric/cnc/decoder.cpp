@@ -129,7 +129,7 @@ bool checkMotion(const Work &work, int32_t function) noexcept {
     return fail(work.result, GCodeError::NotInThisPlane, s.functionAt);
   if (ellipse && !has(s, 'R'))
     return refuse(work, GCodeError::MissingWord, 'R');
-  if (ellipse && !(get(s, 'R') > 0.0))
+  if (ellipse && !(get(s, 'R') > 0.0 && get(s, 'R') <= 1.0))
     return refuse(work, GCodeError::OutOfRange, 'R');
   const bool centre = has(s, 'I') || has(s, 'J') || has(s, 'K');
   if ((function == 2 || function == 3) && !centre && !has(s, 'R'))

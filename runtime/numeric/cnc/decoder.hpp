@@ -11,6 +11,7 @@
 
 #include "runtime/numeric/cnc/gcode_error.hpp"
 #include "runtime/numeric/cnc/gcode_word.hpp"
+#include "runtime/numeric/cnc/orientation.hpp"
 #include "runtime/numeric/cnc/path_object.hpp"
 
 namespace stride::cnc {
@@ -28,14 +29,6 @@ enum class Held : uint8_t {
   Ready,
   Spline,   ///< G5: its end has no direction yet.
   Spline3d, ///< G10: likewise.
-};
-
-/// What A, B and C of a program are: SMC_ORI_CONVENTION.
-enum class Orientation : uint8_t {
-  Axes, ///< Axes like others.
-  Zyz,  ///< Angles of turns about Z, the turned Y, the turned Z. [degrees]
-  Zyx,  ///< Likewise about Z, Y, X.
-  Xyz,  ///< Likewise about X, Y, Z.
 };
 
 /// All that a decoder keeps between sentences; in ST SMC_DECODER_STATE. Made by startDecoder.
@@ -62,7 +55,9 @@ struct Decoder {
   Vector3 systemX;   ///< Axes of the program's coordinates (G54 to G56), seen by the machine.
   Vector3 systemY;
   Vector3 systemZ;
+  double turn[3];  ///< The same as angles, by `orientation`. [degrees]
   double scale[3]; ///< Of the program's X, Y, Z: machine's units by the program's.
+  Vector3 tool;    ///< G43 [u]
   AxisLimits limits[kLimitedAxes];
   int32_t objects;     ///< How many there have been.
   uint32_t features;   ///< G38
@@ -70,10 +65,12 @@ struct Decoder {
   uint16_t axes;       ///< Which ones have been named, by AxisBit.
   uint16_t profile;    ///< S, by AxisBit.
   uint16_t smoothAxes; ///< G71, of the next object.
+  uint16_t program;    ///< Of PathObject: the user sets it, 0 as long as nobody does.
   int16_t motion;      ///< The G function of sentences without one; -1: none yet.
   Held state;
   uint8_t ways;        ///< Which of `switches` are lengths.
   uint8_t marks;       ///< Of the next object.
+  uint8_t modes;       ///< See PathObject.
   bool relative;       ///< G91
   bool centreAbsolute; ///< G98
   bool planar;         ///< G15

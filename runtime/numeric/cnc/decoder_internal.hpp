@@ -59,6 +59,9 @@ bool decodeSystem(const Work &work, int32_t function) noexcept;
 /// G53: the program's coordinates are the machine's.
 void resetSystem(Decoder &decoder) noexcept;
 
+/// Says in an object where its program's coordinates are.
+void putSystem(const Decoder &decoder, PathObject &object) noexcept;
+
 /// A way in X, Y and Z that the program says, as the machine sees it.
 Vector3 machineWay(const Decoder &decoder, const Vector3 &way) noexcept;
 

@@ -12,10 +12,12 @@ constexpr int32_t kMostFeature = 31;
 
 /// Marks of what begins and what ends; `both` are those that begin the same kind.
 void startMark(Decoder &d, uint8_t mark, uint8_t both) noexcept {
+  d.modes = static_cast<uint8_t>((d.modes & ~both) | mark);
   d.marks = static_cast<uint8_t>((d.marks & ~both) | mark);
 }
 
 void endMark(Decoder &d, uint8_t mark, uint8_t both) noexcept {
+  d.modes = static_cast<uint8_t>(d.modes & ~both);
   d.marks = static_cast<uint8_t>(d.marks & ~both);
   uint8_t &marks = d.state != Held::None ? d.held.marks : d.marks;
   marks = static_cast<uint8_t>(marks | mark);
@@ -67,6 +69,13 @@ bool decodeSmoothAxis(const Work &work, bool on) noexcept {
   const unsigned both = 1U << number | 1U << (kRangeBegins + number);
   d.smoothAxes = static_cast<uint16_t>(on ? d.smoothAxes | both : d.smoothAxes & ~both);
   return true;
+}
+
+/// G43: the tool's point, seen from where the path is meant to be; without words none.
+void setTool(const Work &work) noexcept {
+  const Sentence &s = work.sentence;
+  const auto part = [&s](char letter) { return has(s, letter) ? get(s, letter) : 0.0; };
+  work.decoder.tool = {part('I'), part('J'), part('K')};
 }
 
 bool decodePlane(const Work &work) noexcept {
@@ -135,6 +144,7 @@ bool decodeMode(const Work &work, int32_t function) noexcept {
   case 71:
     return decodeSmoothAxis(work, function == 71);
   case 43:
+    setTool(work);
     break;
   default:
     return fail(work.result, GCodeError::UnknownFunction, work.sentence.functionAt);

@@ -325,12 +325,16 @@ PathObject beginObject(Decoder &decoder, const Sentence &sentence, MoveType type
   object.planeY = frame.y;
   object.normal = frame.normal;
   object.features = decoder.features;
+  object.program = decoder.program;
   for (int32_t i = 0; i < kAdditionalParameters; ++i)
     object.additional[i] = decoder.additional[i];
   for (int32_t i = 0; i < kLimitedAxes; ++i)
     object.limits[i] = decoder.limits[i];
   object.probe = static_cast<uint16_t>(sentence.probe);
   object.planar = decoder.planar;
+  object.modes = static_cast<uint8_t>(decoder.modes | (decoder.planar ? 0U : kInSpace));
+  putSystem(decoder, object);
+  object.tool = decoder.tool;
   return object;
 }
 

@@ -2,8 +2,8 @@
 // place p of the program is the place origin + R S p of the machine: first scaled, then turned.
 // Source: SoftMotion V2.3 manual, section 3.2 (shifts); SoftMotion 3's help on G53 to G56, and the
 // meanings of its errors 1210 to 1214.
-#include "runtime/iec/math.h"
 #include "runtime/numeric/cnc/decoder_internal.hpp"
+#include "runtime/numeric/cnc/orientation.hpp"
 #include "runtime/numeric/exact_math.hpp"
 
 namespace stride::cnc {
@@ -13,120 +13,9 @@ using numeric::cross;
 using numeric::dot;
 using numeric::norm;
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-/// Directions, sines and factors as close as this are the same.
-constexpr double kSame = 1e-12;
+/// Directions and factors as close as this are the same.
+constexpr double kSame = 1e-12; // of directions
 constexpr double kSameScale = 1e-9;
-
-/// A turn: where it brings X, Y and Z.
-struct Turn {
-  Vector3 x, y, z;
-};
-constexpr Turn kNoTurn{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-
-Vector3 apply(const Turn &turn, const Vector3 &v) noexcept {
-  return turn.x * v.x + turn.y * v.y + turn.z * v.z;
-}
-
-/// First `b`, then `a`.
-Turn operator*(const Turn &a, const Turn &b) noexcept {
-  return {apply(a, b.x), apply(a, b.y), apply(a, b.z)};
-}
-
-Turn inverse(const Turn &t) noexcept {
-  return {{t.x.x, t.y.x, t.z.x}, {t.x.y, t.y.y, t.z.y}, {t.x.z, t.y.z, t.z.z}};
-}
-
-/// About X (0), Y (1) or Z (2). Quarters are exact.
-Turn turnAbout(int32_t axis, double degrees) noexcept {
-  const double quarters = degrees / 90.0;
-  const bool whole = exact::fabs(quarters) < 1e9 && exact::floor(quarters) == quarters;
-  const auto quarter =
-      static_cast<int32_t>(whole ? quarters - 4.0 * exact::floor(quarters / 4.0) : 0.0);
-  constexpr double kCosines[4] = {1, 0, -1, 0};
-  constexpr double kSines[4] = {0, 1, 0, -1};
-  const double c = whole ? kCosines[quarter] : ::stride::cos(degrees * kDegree);
-  const double s = whole ? kSines[quarter] : ::stride::sin(degrees * kDegree);
-  if (axis == 0)
-    return {{1, 0, 0}, {0, c, s}, {0, -s, c}};
-  if (axis == 1)
-    return {{c, 0, -s}, {0, 1, 0}, {s, 0, c}};
-  return {{c, s, 0}, {-s, c, 0}, {0, 0, 1}};
-}
-
-/// The turn of three angles.
-Turn turnOf(Orientation orientation, const double (&angle)[3]) noexcept {
-  const bool zFirst = orientation != Orientation::Xyz;
-  const int32_t last = orientation == Orientation::Zyx ? 0 : 2;
-  return turnAbout(zFirst ? 2 : 0, angle[0]) * turnAbout(1, angle[1]) * turnAbout(last, angle[2]);
-}
-
-double degreesOf(double y, double x) noexcept { return ::stride::atan2(y, x) / kDegree; }
-
-/// The angles of a turn about Z, Y, Z; `near` says C where only A and C together are known.
-void anglesZyz(const Turn &t, const double (&near)[3], double (&angle)[3]) noexcept {
-  const double sine = norm({t.z.x, t.z.y, 0.0});
-  angle[1] = degreesOf(sine, t.z.z);
-  if (sine > kSame) {
-    angle[0] = degreesOf(t.z.y, t.z.x);
-    angle[2] = degreesOf(t.y.z, -t.x.z);
-    return;
-  }
-  angle[2] = near[2];
-  angle[0] = t.z.z > 0.0 ? degreesOf(t.x.y, t.x.x) - near[2] : degreesOf(-t.x.y, -t.x.x) + near[2];
-}
-
-/// Likewise about Z, Y, X.
-void anglesZyx(const Turn &t, const double (&near)[3], double (&angle)[3]) noexcept {
-  const double cosine = norm({t.x.x, t.x.y, 0.0});
-  angle[1] = degreesOf(-t.x.z, cosine);
-  if (cosine > kSame) {
-    angle[0] = degreesOf(t.x.y, t.x.x);
-    angle[2] = degreesOf(t.y.z, t.z.z);
-    return;
-  }
-  angle[2] = near[2];
-  angle[0] = t.x.z < 0.0 ? near[2] - degreesOf(t.y.x, t.y.y) : degreesOf(-t.y.x, t.y.y) - near[2];
-}
-
-/// Adds full turns, so that the angles are as close as possible. Gives how far they are away.
-double approach(const double (&near)[3], double (&angle)[3]) noexcept {
-  constexpr double kFull = 360.0;
-  double sum = 0.0;
-  for (int32_t i = 0; i < 3; ++i) {
-    angle[i] += kFull * exact::floor((near[i] - angle[i]) / kFull + 0.5);
-    sum += exact::fabs(near[i] - angle[i]);
-  }
-  return sum;
-}
-
-/// The angles of a turn: of all that mean it, those that are closest to `near`.
-void anglesOf(Orientation orientation, const Turn &turn, const double (&near)[3],
-              double (&angle)[3]) noexcept {
-  constexpr double kHalf = 180.0;
-  double other[3];
-  if (orientation == Orientation::Zyz) {
-    anglesZyz(turn, near, angle);
-    other[1] = -angle[1];
-  } else if (orientation == Orientation::Zyx) {
-    anglesZyx(turn, near, angle);
-    other[1] = kHalf - angle[1];
-  } else {
-    // The way back is about Z, Y and X.
-    const double back[3] = {-near[2], -near[1], -near[0]};
-    double found[3];
-    anglesZyx(inverse(turn), back, found);
-    for (int32_t i = 0; i < 3; ++i)
-      angle[i] = -found[2 - i];
-    other[1] = kHalf - angle[1];
-  }
-  other[0] = angle[0] + kHalf;
-  other[2] = angle[2] + kHalf;
-  const double first = approach(near, angle);
-  if (approach(near, other) < first)
-    for (int32_t i = 0; i < 3; ++i)
-      angle[i] = other[i];
-}
 
 Turn turnOf(const Decoder &d) noexcept { return {d.systemX, d.systemY, d.systemZ}; }
 
@@ -137,6 +26,8 @@ void setTurn(Decoder &d, const Turn &turn) noexcept {
   const Vector3 x = turn.x - kNoTurn.x;
   const Vector3 y = turn.y - kNoTurn.y;
   d.turned = norm(x) > kSame || norm(y) > kSame;
+  constexpr double kNear[3] = {0.0, 0.0, 0.0};
+  anglesOf(d.orientation, turn, kNear, d.turn);
 }
 
 void setScale(Decoder &d, const double (&scale)[3]) noexcept {
@@ -220,7 +111,7 @@ bool setSystem(const Work &work, const Said &said) noexcept {
   Decoder &d = work.decoder;
   for (int32_t axis = 0; axis < kAxes; ++axis)
     d.shift[axis] = said.coordinate[axis];
-  setTurn(d, turnOf(d.orientation, said.angle));
+  setTurn(d, turnBy(d.orientation, said.angle));
   setScale(d, said.scale);
   return true;
 }
@@ -228,7 +119,7 @@ bool setSystem(const Work &work, const Said &said) noexcept {
 /// G55: within the present coordinates.
 bool moveSystem(const Work &work, const Said &said) noexcept {
   Decoder &d = work.decoder;
-  const Turn more = turnOf(d.orientation, said.angle);
+  const Turn more = turnBy(d.orientation, said.angle);
   // Scaling and then turning has to be the same as turning and then scaling.
   const Vector3 axes[3] = {more.x, more.y, more.z};
   const Vector3 units[3] = {kNoTurn.x, kNoTurn.y, kNoTurn.z};
@@ -262,7 +153,7 @@ bool fitSystem(const Work &work, const Said &said) noexcept {
       d.shift[axis] = here[axis] - said.coordinate[axis];
   if (said.turns) {
     const double now[3] = {here[kAxisA], here[kAxisB], here[kAxisC]};
-    setTurn(d, turnOf(d.orientation, now) * inverse(turnOf(d.orientation, said.angle)));
+    setTurn(d, turnBy(d.orientation, now) * inverse(turnBy(d.orientation, said.angle)));
   }
   if (said.scales)
     setScale(d, said.scale);
@@ -311,6 +202,15 @@ Vector3 programPlace(const Decoder &decoder) noexcept {
   return place;
 }
 
+void putSystem(const Decoder &decoder, PathObject &object) noexcept {
+  object.orientation = static_cast<int16_t>(decoder.orientation);
+  for (int32_t axis = 0; axis < kSystemAxes; ++axis)
+    object.system[axis] = decoder.shift[axis];
+  if (decoder.orientation != Orientation::Axes)
+    for (int32_t i = 0; i < 3; ++i)
+      object.system[kAxisA + i] = decoder.turn[i];
+}
+
 bool isTilted(const Decoder &decoder) noexcept {
   return decoder.turned && norm(decoder.systemZ - kNoTurn.z) > kSameScale;
 }
@@ -349,12 +249,12 @@ void turnOrientation(const Decoder &decoder, const double (&value)[3], const boo
   const Turn system = turnOf(decoder);
   // The present angles in the program's coordinates, if they are not all said anew.
   double angle[3];
-  anglesOf(decoder.orientation, inverse(system) * turnOf(decoder.orientation, now), now, angle);
+  anglesOf(decoder.orientation, inverse(system) * turnBy(decoder.orientation, now), now, angle);
   for (int32_t i = 0; i < 3; ++i)
     if (named[i])
       angle[i] = value[i] + (decoder.relative ? angle[i] : 0.0);
   double found[3];
-  anglesOf(decoder.orientation, system * turnOf(decoder.orientation, angle), now, found);
+  anglesOf(decoder.orientation, system * turnBy(decoder.orientation, angle), now, found);
   for (int32_t i = 0; i < 3; ++i)
     target.coordinate[kAxisA + i] = found[i];
 }

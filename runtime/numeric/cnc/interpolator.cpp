@@ -309,4 +309,10 @@ void cycle(Interpolator &interpolator, const Command &command) noexcept {
   interpolator.warning = dry ? kDataUnderrun : interpolator.warning;
 }
 
+const PathObject *presentObject(const Interpolator &interpolator, const Command &command) noexcept {
+  if (interpolator.phase != Phase::Moving || interpolator.first < 0)
+    return nullptr;
+  return objectAt(command.queue, static_cast<uint32_t>(interpolator.first));
+}
+
 } // namespace stride::cnc

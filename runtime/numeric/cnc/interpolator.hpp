@@ -92,6 +92,9 @@ void start(Interpolator &interpolator, const Command &command) noexcept;
 /// One cycle. The result stays in interpolator.progress.
 void cycle(Interpolator &interpolator, const Command &command) noexcept;
 
+/// The object that the path is in, or waits at; null: there is none, before the path and after it.
+const PathObject *presentObject(const Interpolator &interpolator, const Command &command) noexcept;
+
 } // namespace stride::cnc
 
 #endif // STRIDE_RUNTIME_NUMERIC_CNC_INTERPOLATOR_HPP

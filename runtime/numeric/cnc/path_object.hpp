@@ -76,6 +76,12 @@ enum Mark : uint8_t {
   kAvoidLoops = 1 << 7,
 };
 
+/// Besides kToolLeft, kToolRight, kSmooth, kRound and kAvoidLoops, a bit of PathObject::modes.
+inline constexpr uint8_t kInSpace = 1 << 0; ///< Not G15.
+
+/// Axes of a program's coordinates: AxisBit, but for the sixth additional one.
+inline constexpr int32_t kSystemAxes = kAxisSixth;
+
 /// PathObject::smoothAxes says by bits which axes go smoothly over several objects (G71 to G70): A,
 /// B, C, P, Q, U, V, W from 0 on, and from kRangeBegins on, in the same order, whose range begins
 /// with the object.
@@ -123,11 +129,14 @@ struct PathObject {
   // SoftMotion 3:
   int32_t sentence;     ///< diSentenceNo
   uint16_t smoothAxes;  ///< See kSmoothAxes; Stride's own, hidden in ST.
+  uint8_t modes;        ///< What the program has switched on, by Mark and kInSpace; likewise.
   double moreShape[10]; ///< dP9 to dP18
   Vector3 planeX;       ///< vX: the frame of arcs, ellipses, splines; columns of length 1.
   Vector3 planeY;       ///< vY
   Vector3 normal;       ///< vN
   uint32_t features;    ///< dwFeatureFlags: extended functions that are on (G38).
+  uint16_t program;     ///< Which subprogram it is of, as SMC_NCInterpreter counts; hidden.
+  int16_t orientation;  ///< Of the program: Orientation; likewise.
   double additional[kAdditionalParameters]; ///< aAdditionalParams
   // Stride's own, hidden in ST:
   double cornerDistance; ///< Of smoothing and rounding (D), as SoftMotion 3 reads it. [u]
@@ -138,6 +147,9 @@ struct PathObject {
   uint8_t slopes;        ///< Which of A, B, C go by a polynomial between their slopes.
   uint8_t planar;        ///< Not 0: the length counts in the plane only; what leaves it goes along
                          ///< evenly.
+  double system[kSystemAxes]; ///< Where the program's coordinates begin, for the machine; A, B, C
+                              ///< are angles of their turn, unless `orientation` is Axes. [u]
+  Vector3 tool;               ///< Of the program: G43. [u]
 };
 
 inline bool isCircle(MoveType type) noexcept {

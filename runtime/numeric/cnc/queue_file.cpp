@@ -9,7 +9,7 @@ namespace {
 
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
 // What changes the bytes of an object needs another version.
-static_assert(sizeof(PathObject) == 760);
+static_assert(sizeof(PathObject) == 872);
 
 constexpr int64_t kObject = sizeof(PathObject);
 
@@ -126,6 +126,7 @@ void writeFileObject(const PathObject &object, uint8_t *bytes) noexcept {
   to.planeY = object.planeY;
   to.normal = object.normal;
   to.features = object.features;
+  to.program = object.program;
   copyAll(to.additional, object.additional);
   to.cornerDistance = object.cornerDistance;
   copyAll(to.startSlope, object.startSlope);
@@ -134,6 +135,10 @@ void writeFileObject(const PathObject &object, uint8_t *bytes) noexcept {
   to.probe = object.probe;
   to.slopes = object.slopes;
   to.planar = object.planar;
+  to.orientation = object.orientation;
+  to.modes = object.modes;
+  copyAll(to.system, object.system);
+  to.tool = object.tool;
   __builtin_memcpy(bytes, memory, sizeof memory);
 }
 

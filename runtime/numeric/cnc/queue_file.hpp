@@ -11,7 +11,7 @@
 
 namespace stride::cnc {
 
-inline constexpr uint16_t kQueueFileVersion = 1;
+inline constexpr uint16_t kQueueFileVersion = 2;
 inline constexpr int32_t kQueueFileHeaderSize = 112;
 inline constexpr int32_t kQueueFileChecksumSize = 4;
 

@@ -32,11 +32,12 @@ struct Frame {
 struct Interpreter {
   Frame frames[kMostNesting + 1];
   int32_t level;
-  int32_t used;    ///< Bytes of `values`.
-  double label;    ///< See `skipping`.
-  uint32_t target; ///< See `looking`.
-  bool looking;    ///< For the sentence with the number `target`.
-  bool skipping;   ///< Up to the sentence with `label`.
+  int32_t used;                       ///< Bytes of `values`.
+  double label;                       ///< See `skipping`.
+  uint16_t callers[kMostNesting + 1]; ///< Of each level: a number of the program. The user's.
+  uint32_t target;                    ///< See `looking`.
+  bool looking;                       ///< For the sentence with the number `target`.
+  bool skipping;                      ///< Up to the sentence with `label`.
   uint8_t values[kValueBytes];
 };
 

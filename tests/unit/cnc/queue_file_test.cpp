@@ -68,26 +68,26 @@ QueueFileError read(const std::vector<uint8_t> &bytes, Queue &queue) {
 TEST(CncQueueFile, HasTheBytesThatAreDocumented) {
   Memory memory = threeObjects();
   const std::vector<uint8_t> bytes = fileOf(memory.queue, 4096);
-  ASSERT_EQ(bytes.size(), 112U + 3 * 760 + 4);
-  EXPECT_EQ(queueFileSize(3), 112 + 3 * 760 + 4);
+  ASSERT_EQ(bytes.size(), 112U + 3 * 872 + 4);
+  EXPECT_EQ(queueFileSize(3), 112 + 3 * 872 + 4);
   EXPECT_EQ(std::string(bytes.begin(), bytes.begin() + 8), "\x89"
                                                            "CNQ\r\n\x1a\n");
   EXPECT_EQ(std::vector<uint8_t>(bytes.begin() + 8, bytes.begin() + 24),
-            (std::vector<uint8_t>{1, 0, 254, 0, 0xF8, 2, 0, 0, 3, 0, 0, 0, 0, 0, 0, 0}));
+            (std::vector<uint8_t>{2, 0, 254, 0, 0x68, 3, 0, 0, 3, 0, 0, 0, 0, 0, 0, 0}));
   EXPECT_STREQ(reinterpret_cast<const char *>(&bytes[24]), "Bracket");
   EXPECT_EQ(std::count(bytes.begin() + 31, bytes.begin() + 112, 0), 81);
   // Number, line, kind, and two bytes between members, which are 0.
   EXPECT_EQ(
       std::vector<uint8_t>(bytes.begin() + 112, bytes.begin() + 124),
       (std::vector<uint8_t>{0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0x11, 0, 0}));
-  EXPECT_EQ(bytes[112 + 760], 0x22);
-  EXPECT_EQ(bytes[112 + 2 * 760], 0x33);
+  EXPECT_EQ(bytes[112 + 872], 0x22);
+  EXPECT_EQ(bytes[112 + 2 * 872], 0x33);
 }
 
 TEST(CncQueueFile, IsTheSameInPartsOfAnySize) {
   Memory memory = threeObjects();
   const std::vector<uint8_t> whole = fileOf(memory.queue, 100000);
-  for (const uint32_t step : {1U, 7U, 111U, 112U, 113U, 760U, 2392U})
+  for (const uint32_t step : {1U, 7U, 111U, 112U, 113U, 872U, 2728U})
     EXPECT_EQ(fileOf(memory.queue, step), whole) << step;
 }
 
