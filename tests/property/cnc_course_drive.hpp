@@ -3,7 +3,7 @@
 #define STRIDE_TESTS_PROPERTY_CNC_COURSE_DRIVE_HPP
 
 #include "runtime/numeric/cnc/corner.hpp"
-#include "runtime/numeric/cnc/interpolator.hpp"
+#include "runtime/numeric/cnc/interpolator_objects.hpp"
 #include "runtime/numeric/cnc/object_shape.hpp"
 #include "runtime/numeric/cnc/velocity_check.hpp"
 
@@ -219,8 +219,12 @@ public:
 
   /// One cycle. The samples count from the last one at rest at the start.
   const cnc::Progress &step() {
+    const path::Motion &motion = interpolator->motion;
+    const Clock before{motion};
     cnc::cycle(*interpolator, command);
     const cnc::Progress &progress = interpolator->progress;
+    if (parts > 1 && progress.length > 0 && motion.way > before.way)
+      sampleWithin(before);
     EXPECT_EQ(interpolator->error, 0);
     EXPECT_GE(progress.length, 0);
     way += interpolator->backwards ? -progress.length : progress.length;
@@ -257,14 +261,82 @@ public:
     return finish([] {});
   }
 
+  /// Between two samples. [s]
+  [[nodiscard]] double sampleTime() const { return command.cycle / parts; }
+
 private:
+  /// How far the motion is in its law.
+  struct Clock {
+    int64_t first;
+    double since, cycle;
+    int64_t cycles;
+    double way;
+    bool resting, gate;
+
+    /// Before a cycle: a law that has come to its end begins anew.
+    explicit Clock(const path::Motion &motion)
+        : first(motion.law.first), since(motion.since), cycle(motion.cycle), cycles(motion.cycles),
+          way(motion.way), resting(motion.resting), gate(motion.gate), atRest(isAtRest(motion)) {}
+    void putInto(path::Motion &motion) const {
+      motion.law.first = first;
+      motion.since = since;
+      motion.cycle = cycle;
+      motion.cycles = cycles;
+      motion.way = way;
+      motion.resting = resting;
+      motion.gate = gate;
+    }
+    bool atRest;
+  };
+
+  /// Goes over the cycle that is over once more, in parts, by the law that it went by.
+  void sampleWithin(const Clock &before) {
+    path::Motion &motion = interpolator->motion;
+    const Clock after(motion);
+    before.putInto(motion);
+    motion.gate = false;
+    motion.since =
+        before.atRest ? 0 : before.since + before.cycle * static_cast<double>(before.cycles);
+    motion.cycles = 0;
+    motion.cycle = 0;
+    for (int part = 1; part < parts; ++part) {
+      const path::WayState state = path::move(motion, sampleTime(), true);
+      const double time = (static_cast<double>(cycles) + static_cast<double>(part) / parts);
+      samples.push_back(
+          {time * command.cycle, way + (motion.way - before.way), placeAt(motion.way)});
+      sources.push_back(problem_.objects[object_].sourceLine);
+      lookAtMotion(sources.back(), state);
+    }
+    EXPECT_LE(motion.way, after.way);
+    after.putInto(motion);
+  }
+
+  /// Where the path is at a way of the motion, which never gets less.
+  oracle::Place placeAt(double wayOfMotion) {
+    if (!segment_) {
+      segment_ = std::make_unique<path::Segment>();
+      EXPECT_EQ(cnc::describeSegment(problem_.objects[0], *segment_), cnc::ShapeError::None);
+    }
+    while (wayOfMotion >= objectBegin_ + segment_->length &&
+           object_ + 1 < problem_.objects.size()) {
+      objectBegin_ += segment_->length;
+      ++object_;
+      EXPECT_EQ(cnc::describeSegment(problem_.objects[object_], *segment_), cnc::ShapeError::None);
+    }
+    const path::PathPoint point =
+        path::pointAt(*segment_, std::min(wayOfMotion - objectBegin_, segment_->length));
+    return {point.at[0], point.at[1], point.at[2]};
+  }
+
   /// The limits of the object that it is in.
   void lookAtObject(const cnc::Progress &progress) {
     mostOverride = std::max(mostOverride, std::fabs(command.override));
     if (progress.source < 0 || command.twoWays)
       return;
-    const auto of = [&](double cnc::PathObject::*limit) { return limitOf(progress.source, limit); };
-    const path::WayState &motion = progress.motion;
+    lookAtMotion(progress.source, progress.motion);
+  }
+  void lookAtMotion(int32_t move, const path::WayState &motion) {
+    const auto of = [&](double cnc::PathObject::*limit) { return limitOf(move, limit); };
     EXPECT_LE(motion.velocity, of(&cnc::PathObject::velocity) * mostOverride * (1 + 1e-6));
     if (command.law == path::LawKind::Sigmoid)
       return;
@@ -282,7 +354,10 @@ private:
   }
 
   const Problem &problem_;
-  size_t at_ = 0; ///< The first object of the move where it is.
+  size_t at_ = 0;                          ///< The first object of the move where it is.
+  size_t object_ = 0;                      ///< The object where the last sample within a cycle is.
+  double objectBegin_ = 0;                 ///< Way at its start. [u]
+  std::unique_ptr<path::Segment> segment_; ///< Of it.
 
 public:
   Belt belt;
@@ -291,6 +366,7 @@ public:
   std::vector<oracle::Sample> samples;
   std::vector<int32_t> sources; ///< By sample: the move of the program, or the blend after it.
   int32_t source = 0;
+  int parts = 1;  ///< Samples of a cycle, but where it stands still.
   double way = 0; ///< [u]
   double mostOverride = 1;
   int64_t cycles = 0;

@@ -2,7 +2,7 @@
 // interpolator, judged by an independent description of the path and by finite differences: on the
 // path, within all limits, never back, to the very end; whatever the cycle, the queue, the override
 // and the stops are.
-#include "cnc_course_drive.hpp"
+#include "cnc_course_judge.hpp"
 #include "motion_problems.hpp"
 
 #include <gtest/gtest.h>
@@ -15,8 +15,6 @@
 namespace {
 
 using namespace stride::test;
-using stride::oracle::MotionLimits;
-using stride::oracle::MotionReport;
 using stride::oracle::Place;
 using stride::oracle::Sample;
 using stride::path::LawKind;
@@ -27,104 +25,6 @@ int wanted(int cases) {
   return more != nullptr ? std::atoi(more) : casesOf(cases);
 }
 
-/// What was worst in all cases of a test, for its log.
-struct Figures {
-  double velocity = 0, acceleration = 0, jerk = 0, axisVelocity = 0, axisAcceleration = 0;
-  double distance = 0; ///< From the path, without blends. [u]
-  int cases = 0;
-
-  ~Figures() {
-    std::printf("%d cases; worst uses: velocity %.7f, acceleration %.7f, jerk %.7f, axes' velocity "
-                "%.7f, axes' acceleration %.7f; distance %.2g\n",
-                cases, velocity, acceleration, jerk, axisVelocity, axisAcceleration, distance);
-  }
-  Figures() = default;
-  Figures(const Figures &) = delete;
-  Figures &operator=(const Figures &) = delete;
-
-  void add(const MotionReport &report) {
-    velocity = std::max(velocity, report.velocity.use);
-    acceleration = std::max({acceleration, report.acceleration.use, report.deceleration.use});
-    jerk = std::max(jerk, report.jerk.use);
-    axisVelocity = std::max(axisVelocity, report.axisVelocity.use);
-    axisAcceleration = std::max(axisAcceleration, report.axisAcceleration.use);
-    ++cases;
-  }
-};
-
-double sizeOf(const Problem &problem) {
-  double size = 1;
-  for (const stride::cnc::PathObject &object : problem.objects)
-    for (size_t axis = 0; axis < 3; ++axis)
-      size = std::max(size, std::fabs(object.end.coordinate[axis]));
-  return size;
-}
-
-MotionLimits limitsOf(const Problem &problem, const Drive &drive) {
-  MotionLimits limits;
-  limits.velocity = limits.acceleration = limits.deceleration = 0;
-  for (const stride::cnc::PathObject &object : problem.objects) {
-    limits.velocity = std::max(limits.velocity, object.velocity * drive.mostOverride);
-    limits.acceleration = std::max(limits.acceleration, object.acceleration);
-    limits.deceleration = std::max(limits.deceleration, object.deceleration);
-  }
-  const double slack = drive.command.law == LawKind::Sigmoid ? M_PI / 2 : 1;
-  limits.deceleration = std::max(limits.deceleration, drive.command.quickDeceleration) * slack;
-  limits.acceleration *= slack;
-  if (drive.command.law == LawKind::Jerk)
-    limits.jerk = problem.jerk;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    // Corners of up to the least angle are none.
-    const double kink = limits.velocity * stride::cnc::kLeastAngle / drive.command.cycle;
-    if (problem.axes.velocity[axis] > 0)
-      limits.axisVelocity[axis] = problem.axes.velocity[axis];
-    if (problem.axes.acceleration[axis] > 0)
-      limits.axisAcceleration[axis] = slack * problem.axes.acceleration[axis] + kink;
-  }
-  return limits;
-}
-
-/// A blend is near one of the two moves that it joins.
-void expectNearPath(const Problem &problem, const Drive &drive) {
-  const auto &elements = problem.chain.elements();
-  const double most = 1.02 * problem.tolerance + 1e-9 * sizeOf(problem);
-  for (size_t i = 0; i < drive.samples.size(); ++i) {
-    const auto move = static_cast<size_t>(drive.sources[i]);
-    const size_t next = std::min(move + 1, elements.size() - 1);
-    const double apart = problem.chain
-                             .nearest(drive.samples[i].place, elements[move].startWay,
-                                      elements[next].startWay + elements[next].length)
-                             .distance;
-    ASSERT_LE(apart, most) << "sample " << i << ", move " << move;
-  }
-  EXPECT_TRUE(drive.samples.back().place == problem.chain.end());
-}
-
-/// Without blends, where the way says; with them, near the program.
-void expectOnPath(const Problem &problem, const Drive &drive, Figures &figures) {
-  if (problem.tolerance > 0) {
-    expectNearPath(problem, drive);
-    return;
-  }
-  const double exact = 1e-9 * sizeOf(problem);
-  for (const Sample &sample : drive.samples) {
-    const double apart = stride::oracle::distance(sample.place, problem.chain.at(sample.way), 3);
-    ASSERT_LE(apart, exact) << "at " << sample.time << " s, way " << sample.way;
-    figures.distance = std::max(figures.distance, apart);
-  }
-  EXPECT_TRUE(drive.samples.back().place == problem.chain.end());
-  EXPECT_NEAR(drive.way, problem.chain.length(), exact);
-}
-
-/// All that every drive must keep.
-void judge(const Problem &problem, const Drive &drive, Figures &figures) {
-  const MotionReport report = stride::oracle::checkMotion(drive.samples, limitsOf(problem, drive),
-                                                          nullptr, {.rounding = 16});
-  EXPECT_TRUE(report.within()) << report.text();
-  figures.add(report);
-  expectOnPath(problem, drive, figures);
-}
-
 void forEachSeed(uint64_t first, int cases, const std::function<void(uint64_t)> &test) {
   for (int i = 0; i < cases && !testing::Test::HasFailure(); ++i) {
     const uint64_t seed = first + static_cast<uint64_t>(i);
@@ -133,23 +33,15 @@ void forEachSeed(uint64_t first, int cases, const std::function<void(uint64_t)> 
   }
 }
 
-/// No way is gone over more quickly than with its feed, from start to end. [s]
-double leastTime(const Problem &problem) {
-  double least = 0;
-  for (const stride::cnc::PathObject &object : problem.objects)
-    least += object.length / object.velocity;
-  return least;
-}
-
 TEST(CncInterpolator, KeepsPathAndLimitsAtTheCycleAndWithinIt) {
-  Figures figures;
+  PrintedFigures figures;
   forEachSeed(0, wanted(50), [&](uint64_t seed) {
     const Problem problem = randomCourse(seed);
     for (const double cycle : {problem.cycle, problem.cycle / 16}) {
       Drive drive(problem, LawKind::Jerk, cycle);
       drive.fill();
       drive.begin();
-      EXPECT_GE(drive.finish(), leastTime(problem) * (1 - 1e-9) - cycle);
+      EXPECT_GE(drive.finish(), leastTime(problem, drive.command.law) * (1 - 1e-9) - cycle);
       judge(problem, drive, figures);
     }
   });
@@ -188,7 +80,7 @@ double apartWithCycles(uint64_t seed, Figures &figures) {
 /// over very slowly at some places, a plan that ends beyond them has coarser cells than one that
 /// ends before.
 TEST(CncInterpolator, TakesTheSameTimeWhateverTheCycleIs) {
-  Figures figures;
+  PrintedFigures figures;
   double worst = 0;
   int apart = 0;
   const int cases = wanted(50);
@@ -223,7 +115,7 @@ void disturb(Random &random, Drive &drive, int &hold) {
 }
 
 TEST(CncInterpolator, KeepsThemWithOverridesAndStops) {
-  Figures figures;
+  PrintedFigures figures;
   forEachSeed(10'000'000, wanted(50), [&](uint64_t seed) {
     const Problem problem = randomCourse(seed);
     Random random(seed);
@@ -242,7 +134,7 @@ TEST(CncInterpolator, KeepsThemWithOverridesAndStops) {
 }
 
 TEST(CncInterpolator, GoesTheSameWayWithQueuesThatAreSmallAndOftenEmpty) {
-  Figures figures;
+  PrintedFigures figures;
   forEachSeed(20'000'000, wanted(50), [&](uint64_t seed) {
     const Problem problem = randomCourse(seed);
     Random random(seed);
@@ -287,7 +179,7 @@ size_t objectsForStops(const Problem &problem) {
 
 /// The plan of a queue's part ends in rest, and in some programs that costs a few percent.
 TEST(CncInterpolator, TakesHardlyLongerWithQueuesThatHoldTwiceTheWayToStop) {
-  Figures figures;
+  PrintedFigures figures;
   double worst = 0;
   int shorter = 0;
   forEachSeed(30'000'000, wanted(30), [&](uint64_t seed) {
@@ -312,7 +204,7 @@ TEST(CncInterpolator, TakesHardlyLongerWithQueuesThatHoldTwiceTheWayToStop) {
 }
 
 TEST(CncInterpolator, KeepsLimitsByTrapezoidsAndSines) {
-  Figures figures;
+  PrintedFigures figures;
   forEachSeed(40'000'000, wanted(50), [&](uint64_t seed) {
     const Problem problem = randomCourse(seed);
     Drive drive(problem, seed % 2 == 0 ? LawKind::Trapezoid : LawKind::Sigmoid, problem.cycle);
@@ -320,7 +212,7 @@ TEST(CncInterpolator, KeepsLimitsByTrapezoidsAndSines) {
     drive.begin();
     const double time = drive.finish();
     judge(problem, drive, figures);
-    EXPECT_GE(time, leastTime(problem) * (1 - 1e-9) - problem.cycle);
+    EXPECT_GE(time, leastTime(problem, drive.command.law) * (1 - 1e-9) - problem.cycle);
   });
 }
 

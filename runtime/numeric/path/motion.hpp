@@ -83,6 +83,7 @@ struct Motion {
   double stopLength;     ///< Session: within which it tries to stop. [u]
   double stopFactor;     ///< Of the shortest way to stop, until one is found.
   TimePiece ramp;        ///< Session: may go on in the next strip; no length: none.
+  double rampRoom;       ///< Of the ramp: what is free above it at borders of strips. [u^2/s^2]
   int64_t seek;    ///< Session: piece that is looked at; the one in which the plan takes over.
   int64_t fresh;   ///< Session: first piece that is written.
   int64_t writing; ///< Session: cell or strip that is written next.

@@ -35,6 +35,29 @@ void pushRamp(Motion &motion) noexcept {
   ramp.length = 0.0;
 }
 
+/// What is free above a ramp at the border before a strip. [u^2/s^2]
+double roomAt(const Motion &motion, int64_t strip, double velocity) noexcept {
+  const double override = motion.asked.override;
+  const Strip &before = stripAt(motion.course, strip - 1);
+  const double most = exact::smaller(squareAtEnd(before, override),
+                                     squareIn(stripAt(motion.course, strip), override));
+  return most - velocity * velocity;
+}
+
+/// Whether a ramp may go on with a piece of a strip. By a sine it is quicker on the way than by a
+/// trapezoid: the square of the velocity is greater by up to a fifth of how much that changes.
+bool goesOn(Motion &motion, const TimePiece &piece, int64_t strip) noexcept {
+  constexpr double kMore = 0.21;
+  const TimePiece &ramp = motion.ramp;
+  if (!(ramp.length > 0.0) || piece.acceleration != ramp.acceleration)
+    return false;
+  if (motion.asked.settings.kind != LawKind::Sigmoid || strip == motion.plan.firstStrip)
+    return true;
+  motion.rampRoom = exact::smaller(motion.rampRoom, roomAt(motion, strip, piece.velocity));
+  const double length = piece.start + piece.length - ramp.start;
+  return kMore * 2.0 * exact::fabs(ramp.acceleration) * length <= motion.rampRoom;
+}
+
 /// A trapezoid's ramp may go on over several strips.
 void pushStrip(Motion &motion, int64_t strip) noexcept {
   TimePiece pieces[3];
@@ -42,13 +65,14 @@ void pushStrip(Motion &motion, int64_t strip) noexcept {
   for (int32_t i = 0; i < count; ++i) {
     TimePiece &ramp = motion.ramp;
     const TimePiece &piece = pieces[i];
-    if (ramp.length > 0.0 && piece.acceleration == ramp.acceleration) {
+    if (goesOn(motion, piece, strip)) {
       ramp = linearPiece(ramp.start, piece.start + piece.length - ramp.start, ramp.velocity,
                          ramp.acceleration, 0.0);
       continue;
     }
     pushRamp(motion);
     ramp = piece;
+    motion.rampRoom = exact::kInfinity;
   }
 }
 

@@ -54,19 +54,29 @@ const Strip &stripAtWay(const Motion &motion, double way) noexcept {
   return stripAt(motion.course, stripOf(motion.course, way));
 }
 
+/// The jerk with which the acceleration of a state ends before the velocity is the greatest one, or
+/// none. [u/s^3]
+double leastJerk(const WayState &state, double greatest) noexcept {
+  constexpr double kMargin = 1.1;
+  const double a = state.acceleration;
+  const double room = a > 0.0 ? greatest - state.velocity : state.velocity;
+  return a != 0.0 && room > 0.0 ? kMargin * 0.5 * a * a / room : 0.0;
+}
+
 /// The jerk to plan with. Nobody can tell an acceleration that rises within half a millisecond from
 /// one that jumps, but its plan would need many cells. Strips with jerks of their own may be
-/// followed by others that allow more.
-double jerkAt(const Motion &motion, double way) noexcept {
+/// followed by others that allow more, and the present acceleration may be from a plan that had
+/// more.
+double jerkAt(const Motion &motion, const WayState &state) noexcept {
   constexpr double kLeastRise = 0.0005;
   constexpr double kMore = 1e3;
-  const Strip &strip = stripAtWay(motion, way);
+  const Strip &strip = stripAtWay(motion, state.way);
   const double acceleration =
       smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
   const double velocity = exact::sqrt(squareIn(strip, motion.asked.override));
   const double most = smaller(acceleration / kLeastRise, velocity / (kLeastRise * kLeastRise));
-  const double jerk = motion.asked.settings.jerk;
-  return smaller(jerk, strip.jerk > 0.0F ? kMore * larger(most, strip.jerk) : most);
+  const double enough = strip.jerk > 0.0F ? kMore * larger(most, strip.jerk) : most;
+  return smaller(motion.asked.settings.jerk, larger(enough, leastJerk(state, velocity)));
 }
 
 /// Cells are a part of the time to stop, so that a plan reaches several of these times ahead: also
@@ -99,7 +109,7 @@ void beginPlan(Motion &motion, const WayState &state, double hurry) noexcept {
   task.way = state.way;
   task.velocity = state.velocity;
   task.acceleration = state.acceleration;
-  task.jerk = hasJerk(motion) ? jerkAt(motion, state.way) : exact::kInfinity;
+  task.jerk = hasJerk(motion) ? jerkAt(motion, state) : exact::kInfinity;
   motion.cellTime = cellTimeFor(motion, state.way, state.velocity);
   task.cellTime = motion.asked.stop ? kStopCells * motion.cellTime : motion.cellTime;
   task.share = motion.asked.settings.share;

@@ -21,7 +21,9 @@ constexpr Pass kPasses[] = {
 constexpr uint8_t kPassCount = sizeof kPasses / sizeof kPasses[0];
 constexpr uint8_t kCellPass = 4;   ///< addCell, which may find that there are too few.
 constexpr int kMostCuts = 12;      ///< Of the run, if so.
+constexpr int kCoarserRuns = 8;    ///< So often the same run may be tried with coarser cells.
 constexpr double kFirstCut = 0.75; ///< See Plan::cut.
+constexpr double kHardCut = 0.5;   ///< The same, when coarser cells have not been enough.
 
 void beginPasses(Plan &plan, const Course &course, double cut) noexcept {
   plan.cut = cut;
@@ -49,12 +51,21 @@ void beginWithoutRamp(Plan &plan, const Course &course) noexcept {
   beginPasses(plan, course, kFirstCut);
 }
 
+/// The next Plan::cut after a run that was too long. At last less of the path than the run had,
+/// also where it was all that is known or went to a stop.
+double nextCut(const Plan &plan) noexcept {
+  if (plan.cuts < kCoarserRuns)
+    return kFirstCut * plan.cut;
+  return kHardCut * exact::smaller(plan.cut, plan.time / (plan.task.cellTime * plan.task.cells));
+}
+
 /// After a failure: with a shorter run, if there were too few cells, or without a ramp.
 void tryAgain(Plan &plan, const Course &course) noexcept {
   if (plan.phase == kCellPass && plan.cuts < kMostCuts && !plan.task.whole) {
     plan.state = PlanState::Working;
+    const double cut = nextCut(plan);
     ++plan.cuts;
-    beginPasses(plan, course, kFirstCut * plan.cut);
+    beginPasses(plan, course, cut);
   } else if (plan.ramp > 0) {
     beginWithoutRamp(plan, course);
   }

@@ -37,6 +37,12 @@ double limitOf(const Plan &plan) noexcept {
   return plan.task.whole ? plan.task.limit : plan.task.end;
 }
 
+/// The override that the present velocity is of, in the strip where the plan begins.
+double presentOverride(const Plan &plan, const Course &course) noexcept {
+  const double feed = stripAt(course, plan.firstStrip).feed;
+  return larger(larger(plan.task.override, plan.task.before), plan.from.velocity / feed);
+}
+
 /// Writes the ramp to the velocity of plan.rampSquare with at most plan.rampMost of deceleration.
 void writeRamp(Plan &plan) noexcept {
   const double jerk = plan.rampJerk;
@@ -116,12 +122,6 @@ double velocityOfRamp(const Plan &plan, double way) noexcept {
   return plan.rampVelocity;
 }
 
-/// The override that the present velocity is of, in the strip where the plan begins.
-double presentOverride(const Plan &plan, const Course &course) noexcept {
-  const double feed = stripAt(course, plan.firstStrip).feed;
-  return larger(larger(plan.task.override, plan.task.before), plan.from.velocity / feed);
-}
-
 /// The greatest velocity of the ramp from a way in it on. [u/s]
 double greatestFrom(const Plan &plan, double way) noexcept {
   return way < peakWayOf(plan) ? peakOf(plan) : velocityOfRamp(plan, way);
@@ -164,6 +164,9 @@ bool findRamp(Plan &plan, const Course &course) noexcept {
   plan.rampSquare = smaller(plan.rampSquare, squareIn(strip, task.override));
   if (peak * peak <= plan.rampSquare * kAlmost) // not quicker than it may be
     return dropRamp(plan);
+  const double most = squareIn(strip, presentOverride(plan, course));
+  if (plan.strip == plan.firstStrip && peak * peak > most * kAlmost)
+    return dropRamp(plan); // it would accelerate beyond what the law before it did
   const double here = plan.strip > plan.firstStrip ? plan.rampHere : peak;
   const double left = 1.0 - strip.across * here * here;
   if (!(left > task.rampPart))

@@ -63,11 +63,13 @@ double crossing(double v0, double v1, double gradient, double x) noexcept {
   return 2.0 * q * arcOverArgument(gradient * q * q);
 }
 
-/// The square of the velocity at x after the start of a piece that is linear in the way.
+/// The square of the velocity at x after the start of a piece that is linear in the way. What is
+/// left of a difference by rounding is rest: its root would be much more than that.
 double squareAt(const TimePiece &piece, double x) noexcept {
-  const double square =
-      piece.velocity * piece.velocity + (2.0 * piece.acceleration + piece.gradient * x) * x;
-  return square > 0.0 ? square : 0.0;
+  constexpr double kRounding = 0x1p-50;
+  const double first = piece.velocity * piece.velocity;
+  const double square = first + (2.0 * piece.acceleration + piece.gradient * x) * x;
+  return square > kRounding * first ? square : 0.0;
 }
 
 WayState linearAt(const TimePiece &piece, double t) noexcept {
