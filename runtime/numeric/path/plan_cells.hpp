@@ -57,8 +57,15 @@ double accelerationFromRest(double jerk, double x) noexcept;
 double usableAcceleration(const Plan &plan, const Strip &strip) noexcept;
 double usableDeceleration(const Plan &plan, const Strip &strip) noexcept;
 
-/// b in a strip as the first idea has it. [u^2/s^2]
-double firstIdea(const Plan &plan, const Course &course, int64_t strip, double way) noexcept;
+/// The first idea of a place.
+struct Idea {
+  double square;       ///< b there. [u^2/s^2]
+  double most;         ///< The greatest b of its strip. [u^2/s^2]
+  double acceleration; ///< Usable. [u/s^2]
+  double deceleration; ///< Usable. [u/s^2]
+  double jerk;         ///< Of its strip. [u/s^3]
+};
+Idea ideaAt(const Plan &plan, const Course &course, int64_t strip, double way) noexcept;
 
 /// Whether the limits of a strip and of the next one differ by no more than what a cell over both
 /// may give away.

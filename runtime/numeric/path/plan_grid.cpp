@@ -24,24 +24,38 @@ double squareFromRest(double jerk, double x) noexcept {
   return velocity * velocity;
 }
 
+double restLength(double jerk, double time) noexcept { return jerk * time * time * time / 6.0; }
+
+/// `square`, if b at the way x next to rest is not less. That takes a cube root, so it is only
+/// looked at where x is not clearly long enough.
+double besideRest(double jerk, double square, double velocity, double x) noexcept {
+  if (x > 1.01 * restLength(jerk, exact::sqrt(2.0 * velocity / jerk)))
+    return square;
+  return smaller(square, squareFromRest(jerk, x));
+}
+
 /// b as the first idea has it, with regard to rest at the ends. [u^2/s^2]
-double expected(const Plan &plan, const Course &course, double way) noexcept {
+double expected(const Plan &plan, const Course &course, const Idea &idea, double way) noexcept {
   const auto jerkOf = [&plan, &course](int64_t strip) {
     return jerkIn(stripAt(course, strip), plan.task.jerk);
   };
-  double square = firstIdea(plan, course, plan.strip, way);
-  square = smaller(square, squareFromRest(jerkOf(plan.lastStrip), plan.end - way));
-  if (startsAtRest(plan))
-    square = smaller(square, squareFromRest(jerkOf(plan.firstStrip), way - plan.task.way));
-  return square;
+  const double velocity = exact::sqrt(idea.square);
+  const double square = besideRest(jerkOf(plan.lastStrip), idea.square, velocity, plan.end - way);
+  if (!startsAtRest(plan))
+    return square;
+  return besideRest(jerkOf(plan.firstStrip), square, velocity, way - plan.task.way);
 }
 
-/// How long a cell should be where the velocity is `velocity`, the acceleration can be `limit`, and
-/// the jerk `jerk`. Where the velocity changes, the time may be at most `part` of what is needed to
-/// come to it from rest. A run that has proved to need too many cells gets coarser ones. [u]
-double cellLength(const Plan &plan, double velocity, double limit, double jerk,
-                  double part) noexcept {
-  const double needed = larger(exact::sqrt(velocity / jerk), velocity / limit);
+/// How long the velocity takes to come from rest, at least, where the acceleration can be `limit`
+/// and the jerk `jerk`. [s]
+double timeFromRest(double velocity, double limit, double jerk) noexcept {
+  return larger(exact::sqrt(velocity / jerk), velocity / limit);
+}
+
+/// How long a cell should be where the velocity is `velocity`. Where that changes, the time may be
+/// at most `part` of what is `needed` to come to it from rest. A run that has proved to need too
+/// many cells gets coarser ones. [u]
+double cellLength(const Plan &plan, double velocity, double needed, double part) noexcept {
   const double length = velocity * smaller((1.0 + 0.5 * plan.cuts) * plan.task.cellTime,
                                            part * (1.0 + plan.cuts) * needed);
   return plan.coarse ? kCoarse * length : length;
@@ -51,10 +65,9 @@ double growthOf(const Plan &plan) noexcept { return plan.coarse ? kCoarseGrowth 
 
 /// Whether the run only brakes from the present knot on, for its end where no more of the path is
 /// known. As a rule that end is gone, by another plan, before the motion comes there.
-bool onlyBrakes(const Plan &plan, const Course &course) noexcept {
-  const Strip &here = stripAt(course, plan.strip);
-  const double braked = 2.0 * usableDeceleration(plan, here) * (plan.end - plan.knot);
-  return !plan.stops && firstIdea(plan, course, plan.strip, plan.knot) >= 0.9 * braked;
+bool onlyBrakes(const Plan &plan, const Idea &idea) noexcept {
+  const double braked = 2.0 * idea.deceleration * (plan.end - plan.knot);
+  return !plan.stops && idea.square >= 0.9 * braked;
 }
 
 /// Whether the run is that short that the motion would wait longer for a better plan than it gains.
@@ -65,11 +78,9 @@ bool isHurried(const Plan &plan) noexcept {
 
 /// The same for one beside a cell of `rest` next to rest. [u]
 double lengthBesideRest(const Plan &plan, double jerk, double rest) noexcept {
-  return cellLength(plan, exact::sqrt(squareFromRest(jerk, rest)), exact::kInfinity, jerk,
-                    kRampPart);
+  const double velocity = exact::sqrt(squareFromRest(jerk, rest));
+  return cellLength(plan, velocity, timeFromRest(velocity, exact::kInfinity, jerk), kRampPart);
 }
-
-double restLength(double jerk, double time) noexcept { return jerk * time * time * time / 6.0; }
 
 /// The length of a strip's part that belongs to the run. [u]
 double lengthInRun(const Plan &plan, const Course &course, int64_t strip) noexcept {
@@ -96,8 +107,8 @@ double restCell(const Plan &plan, const Course &course, bool atEnd) noexcept {
   double length = kRestPart * (plan.end - plan.task.way);
   double square = exact::kInfinity;
   double acceleration = exact::kInfinity;
-  double covered = 0.0;
   double jerk = plan.task.jerk;
+  double covered = 0.0;
   int64_t number = atEnd ? plan.lastStrip : plan.firstStrip;
   for (int k = 0; k < kStripsLookedAt; ++k) {
     if (number < plan.firstStrip || number > plan.lastStrip || kRestPart * covered >= length)
@@ -145,10 +156,10 @@ void takeLimits(Plan &plan, const Course &course, Cell &cell, double from) noexc
     cell.ceiling = smaller(cell.ceiling, squareIn(strip, plan.task.override));
     cell.along = larger(cell.along, strip.along);
     cell.across = larger(cell.across, strip.across);
+    cell.jerk = jerkIn(strip, cell.jerk);
     cell.acceleration = smaller(cell.acceleration, strip.acceleration);
     cell.deceleration =
         smaller(cell.deceleration, larger(strip.deceleration, plan.task.deceleration));
-    cell.jerk = jerkIn(strip, cell.jerk);
     cell.curve = smaller(cell.curve, squareIn(strip, quickest(plan)));
     if (strip.end <= cell.end && strip.end < plan.end)
       lowerAtEnd(plan, cell, strip);
@@ -183,8 +194,9 @@ void putFirstCell(Plan &plan, const Course &course) noexcept {
     return;
   }
   const double room = plan.end - plan.endRest - plan.knot;
-  const double length = smaller(
-      0.5 * cellLength(plan, plan.task.velocity, exact::kInfinity, jerk, kRampPart), 0.25 * room);
+  const double needed = timeFromRest(plan.task.velocity, exact::kInfinity, jerk);
+  const double length =
+      smaller(0.5 * cellLength(plan, plan.task.velocity, needed, kRampPart), 0.25 * room);
   putCell(plan, course, plan.task.way + length, plan.task.way + 0.5 * length);
 }
 
@@ -201,25 +213,22 @@ double steadyWay(const Plan &plan, const Course &course) noexcept {
 
 /// The wish for the length of the next cell where the velocity is the greatest one: the longer, the
 /// further it is to where it changes. [u]
-double steadyLength(const Plan &plan, const Course &course, double velocity, double limit,
-                    double jerk) noexcept {
-  const double atRamp = cellLength(plan, velocity, limit, jerk, kRampPart);
+double steadyLength(const Plan &plan, const Course &course, double velocity,
+                    double needed) noexcept {
+  const double atRamp = cellLength(plan, velocity, needed, kRampPart);
   const double growth = growthOf(plan);
   const double growing = (atRamp + (growth - 1.0) * steadyWay(plan, course)) / growth;
-  return larger(cellLength(plan, velocity, limit, jerk, kSteadyPart), growing);
+  return larger(cellLength(plan, velocity, needed, kSteadyPart), growing);
 }
 
 /// The length of the next cell, when `left` is there before the last one.
-double nextLength(const Plan &plan, const Course &course, double left) noexcept {
-  const double idea = expected(plan, course, plan.knot);
-  const Strip &here = stripAt(course, plan.strip);
-  const bool steady = idea >= squareIn(here, plan.task.override);
-  const double limit =
-      2.0 * smaller(usableAcceleration(plan, here), usableDeceleration(plan, here));
-  const double velocity = exact::sqrt(idea);
-  const double jerk = jerkIn(here, plan.task.jerk);
-  const double wish = steady ? steadyLength(plan, course, velocity, limit, jerk)
-                             : cellLength(plan, velocity, limit, jerk, kRampPart);
+double nextLength(const Plan &plan, const Course &course, const Idea &idea, double left) noexcept {
+  const double square = expected(plan, course, idea, plan.knot);
+  const double velocity = exact::sqrt(square);
+  const double needed =
+      timeFromRest(velocity, 2.0 * smaller(idea.acceleration, idea.deceleration), idea.jerk);
+  const double wish = square >= idea.most ? steadyLength(plan, course, velocity, needed)
+                                          : cellLength(plan, velocity, needed, kRampPart);
   const double growth = growthOf(plan);
   double length = smaller(larger(wish, 0.1 * plan.step), growth * plan.step);
   length = smaller(length, (plan.endStep + (growth - 1.0) * left) / growth);
@@ -228,7 +237,7 @@ double nextLength(const Plan &plan, const Course &course, double left) noexcept 
   if (left <= 2.0 * length)
     return 0.5 * left;
   // Where limits change, a knot: else the cell has those of both sides.
-  const double toBorder = here.end - plan.knot;
+  const double toBorder = stripAt(course, plan.strip).end - plan.knot;
   if (plan.strip < plan.lastStrip && toBorder > 0.5 * length && toBorder < 1.4 * length)
     return toBorder;
   return length;
@@ -252,8 +261,9 @@ bool addCell(Plan &plan, const Course &course) noexcept {
   }
   const double left = plan.end - plan.endRest - plan.knot;
   if (left > 1e-9 * plan.endRest) {
-    plan.coarse = onlyBrakes(plan, course) || isHurried(plan);
-    const double length = nextLength(plan, course, left);
+    const Idea idea = ideaAt(plan, course, plan.strip, plan.knot);
+    plan.coarse = onlyBrakes(plan, idea) || isHurried(plan);
+    const double length = nextLength(plan, course, idea, left);
     const double end = length < left ? plan.knot + length : plan.end - plan.endRest;
     putCell(plan, course, end, plan.knot + 0.5 * (end - plan.knot));
     return false;

@@ -24,11 +24,21 @@ constexpr int64_t kMostStrips = kCells / 3 - 1;
 
 bool isTrapezoid(const Plan &plan) noexcept { return plan.task.jerk == exact::kInfinity; }
 
-double usableOf(const Plan &plan, const Strip &strip, double limit) noexcept {
+/// What the axes leave of a strip's accelerations. [u/s^2]
+double allowedBy(const Plan &plan, const Strip &strip) noexcept {
   if (!isTrapezoid(plan))
-    return kShare * smaller(limit, 1.0 / strip.along);
+    return 1.0 / strip.along;
   const double left = 1.0 - strip.across * squareIn(strip, plan.task.override);
-  return smaller(plan.task.share * limit, larger(left, 0.0) / strip.along);
+  return larger(left, 0.0) / strip.along;
+}
+
+double usableOf(const Plan &plan, double limit, double allowed) noexcept {
+  return isTrapezoid(plan) ? smaller(plan.task.share * limit, allowed)
+                           : kShare * smaller(limit, allowed);
+}
+
+double brakingOf(const Plan &plan, const Strip &strip) noexcept {
+  return larger(strip.deceleration, plan.task.deceleration);
 }
 
 /// The part of a strip that belongs to the run.
@@ -48,8 +58,9 @@ Part partOf(const Plan &plan, const Course &course, int64_t number) noexcept {
   part.before = number == plan.firstStrip ? plan.task.velocity * plan.task.velocity
                                           : reachAt(plan, number - 1);
   part.most = squareIn(strip, plan.task.override);
-  part.acceleration = usableAcceleration(plan, strip);
-  part.deceleration = usableDeceleration(plan, strip);
+  const double allowed = allowedBy(plan, strip);
+  part.acceleration = usableOf(plan, strip.acceleration, allowed);
+  part.deceleration = usableOf(plan, brakingOf(plan, strip), allowed);
   return part;
 }
 
@@ -142,17 +153,20 @@ bool areAlike(const Strip &a, const Strip &b, double override) noexcept {
 }
 
 double usableAcceleration(const Plan &plan, const Strip &strip) noexcept {
-  return usableOf(plan, strip, strip.acceleration);
+  return usableOf(plan, strip.acceleration, allowedBy(plan, strip));
 }
 
 double usableDeceleration(const Plan &plan, const Strip &strip) noexcept {
-  return usableOf(plan, strip, larger(strip.deceleration, plan.task.deceleration));
+  return usableOf(plan, brakingOf(plan, strip), allowedBy(plan, strip));
 }
 
-double firstIdea(const Plan &plan, const Course &course, int64_t number, double way) noexcept {
+Idea ideaAt(const Plan &plan, const Course &course, int64_t number, double way) noexcept {
   const Part part = partOf(plan, course, number);
-  const double backwards = reachAt(plan, number) + 2.0 * part.deceleration * (part.end - way);
-  return smaller(squareAfter(part, way - part.begin), backwards);
+  const double reach = reachAt(plan, number);
+  const double backwards = reach + 2.0 * part.deceleration * (part.end - way);
+  const double square = smaller(squareAfter(part, way - part.begin), backwards);
+  return {square, part.most, part.acceleration, part.deceleration,
+          jerkIn(stripAt(course, number), plan.task.jerk)};
 }
 
 double reachAtBorder(const Plan &plan, int64_t strip) noexcept { return reachAt(plan, strip); }
