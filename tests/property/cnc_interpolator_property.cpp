@@ -16,7 +16,6 @@ namespace {
 
 using namespace stride::test;
 using stride::oracle::Place;
-using stride::oracle::Sample;
 using stride::path::LawKind;
 
 /// More cases by hand: STRIDE_PATH_CASES=10000.

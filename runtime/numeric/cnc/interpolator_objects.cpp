@@ -215,6 +215,8 @@ void makeKnown(Interpolator &interpolator, const Command &command) noexcept {
   constexpr double kLongest = 10.0; // [s]
   const auto most = static_cast<int32_t>(kPartsPerSecond * smaller(command.cycle, kLongest));
   for (int32_t part = 0; part < most || part < kLeastParts; ++part) {
+    if (path::roomIn(interpolator.motion.course) == 0) // what a part is limited to takes its time
+      return;
     if (!interpolator.hasNext && !takeNext(interpolator, command))
       return;
     if (!extendByPart(interpolator, command))

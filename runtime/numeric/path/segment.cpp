@@ -6,29 +6,9 @@ namespace stride::path {
 namespace {
 
 using exact::fabs;
-using numeric::norm;
 
 constexpr int kParts = 16; ///< Of a WayTable.
 constexpr int kMostSteps = 6;
-
-bool hasTable(const Shape &shape) noexcept {
-  return shape.kind == ShapeKind::Ellipse || shape.kind == ShapeKind::Polynomial;
-}
-
-double speedAt(const Shape &shape, double u) noexcept { return norm(overParameter(shape, u).d1); }
-
-/// The length by a rule of five points.
-double quickLength(const Shape &shape, double from, double to) noexcept {
-  constexpr double kAt[] = {0.53846931010568309104, 0.90617984593866399280};
-  constexpr double kWeight[] = {0.47862867049936646804, 0.23692688505618908751};
-  const double middle = 0.5 * (from + to);
-  const double half = 0.5 * (to - from);
-  double sum = 0.56888888888888888889 * speedAt(shape, middle);
-  for (int i = 0; i < 2; ++i)
-    sum += kWeight[i] *
-           (speedAt(shape, middle - half * kAt[i]) + speedAt(shape, middle + half * kAt[i]));
-  return sum * half;
-}
 
 WayTable tableOf(const Shape &shape) noexcept {
   WayTable table{};
@@ -43,30 +23,8 @@ WayTable tableOf(const Shape &shape) noexcept {
   return table;
 }
 
-/// The parameter at a way, by Newton's steps from where a cubic curve between the table's places
-/// has it.
-double parameterOf(const Segment &segment, double way) noexcept {
-  const Shape &shape = segment.shape;
-  if (!hasTable(shape))
-    return way / segment.length;
-  int part = 0;
-  for (int half = kParts / 2; half > 0; half /= 2)
-    if (segment.table.way[part + half] <= way)
-      part += half;
-  const double from = static_cast<double>(part) / kParts;
-  const double to = static_cast<double>(part + 1) / kParts;
-  const double begin = segment.table.way[part];
-  const double span = segment.table.way[part + 1] - begin;
-  double u = from + (to - from) * exact::smaller((way - begin) / span, 1.0);
-  if ((segment.table.uneven >> static_cast<unsigned>(part) & 1U) != 0)
-    return parameterBetween(shape, from, to, way - begin, u);
-  for (int i = 0; i < kMostSteps; ++i) {
-    const double off = way - begin - quickLength(shape, from, u);
-    u += off / speedAt(shape, u);
-    if (fabs(off) <= 1e-14 * segment.length)
-      break;
-  }
-  return exact::smaller(exact::larger(u, 0.0), 1.0);
+bool isUneven(const WayTable &table, int part) noexcept {
+  return (table.uneven >> static_cast<unsigned>(part) & 1U) != 0;
 }
 
 Progress evenly(double u, double length) noexcept { return {u, 1.0 / length, 0.0, 0.0}; }
@@ -120,17 +78,56 @@ Segment makeSegment(const Shape &shape, const Companion (&companions)[kCoordinat
     segment.startSlope[i] = companions[kSpace + i].startSlope - even;
     segment.endSlope[i] = companions[kSpace + i].endSlope - even;
   }
-  if (hasTable(shape))
+  if (hasTable(segment))
     segment.table = tableOf(shape);
   return segment;
 }
 
+double parameterAt(const Segment &segment, double way) noexcept {
+  const Shape &shape = segment.shape;
+  if (!hasTable(segment))
+    return way / segment.length;
+  int part = 0;
+  for (int half = kParts / 2; half > 0; half /= 2)
+    if (segment.table.way[part + half] <= way)
+      part += half;
+  const double from = static_cast<double>(part) / kParts;
+  const double to = static_cast<double>(part + 1) / kParts;
+  const double begin = segment.table.way[part];
+  const double span = segment.table.way[part + 1] - begin;
+  double u = from + (to - from) * exact::smaller((way - begin) / span, 1.0);
+  if (isUneven(segment.table, part))
+    return parameterBetween(shape, from, to, way - begin, u);
+  for (int i = 0; i < kMostSteps; ++i) {
+    const double off = way - begin - quickLength(shape, from, u);
+    u += off / speedAt(shape, u);
+    if (fabs(off) <= 1e-14 * segment.length)
+      break;
+  }
+  return exact::smaller(exact::larger(u, 0.0), 1.0);
+}
+
+double wayAt(const Segment &segment, double u) noexcept {
+  const Shape &shape = segment.shape;
+  if (!hasTable(segment) || u >= 1.0)
+    return u < 1.0 ? u * segment.length : segment.length;
+  const int part = static_cast<int>(u * kParts);
+  const double from = static_cast<double>(part) / kParts;
+  const double more =
+      isUneven(segment.table, part) ? lengthBetween(shape, from, u) : quickLength(shape, from, u);
+  return exact::smaller(segment.table.way[part] + more, segment.length);
+}
+
 PathPoint pointAt(const Segment &segment, double way) noexcept {
+  return pointOver(segment, parameterAt(segment, way), way);
+}
+
+PathPoint pointOver(const Segment &segment, double parameter, double way) noexcept {
   PathPoint point{};
   if (segment.isStill)
     putSpace(point, {segment.shape.v[0], numeric::kZero, numeric::kZero, numeric::kZero});
   else
-    putSpace(point, overLength(overParameter(segment.shape, parameterOf(segment, way))));
+    putSpace(point, overLength(overParameter(segment.shape, parameter)));
   const double u = way / segment.length;
   const Progress even = evenly(u, segment.length);
   const Progress profile = segment.profile != 0 ? sProfile(u, segment.length) : even;

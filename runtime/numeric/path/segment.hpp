@@ -59,8 +59,21 @@ struct Companion {
 /// nowhere, and is none.
 Segment makeSegment(const Shape &shape, const Companion (&companions)[kCoordinates]) noexcept;
 
+/// Whether the parameter of its shape is not proportional to the way.
+inline bool hasTable(const Segment &segment) noexcept {
+  return !segment.isStill &&
+         (segment.shape.kind == ShapeKind::Ellipse || segment.shape.kind == ShapeKind::Polynomial);
+}
+
 /// Where it is at a way, 0 <= way <= length, and how it goes on from there. [u] in
 PathPoint pointAt(const Segment &segment, double way) noexcept;
+
+/// The parameter of its shape at a way, and the way at that, which takes less time. [u]
+double parameterAt(const Segment &segment, double way) noexcept;
+double wayAt(const Segment &segment, double parameter) noexcept;
+
+/// pointAt() where both are known already.
+PathPoint pointOver(const Segment &segment, double parameter, double way) noexcept;
 
 /// Limits of the axes; 0: none.
 struct AxesLimits {

@@ -16,7 +16,8 @@ constexpr double kCurveShare = 0.9;
 constexpr double kJerkShare = 0.5;
 /// How far derivatives in a part may be from a straight line between those at its ends.
 constexpr double kEvenness = 0.02;
-constexpr int kMostHalvings = 24;
+/// Parts that are not longer are taken as they are.
+constexpr double kShortest = 1e-8; // of the segment
 
 double most(const double (&values)[kCoordinates]) noexcept {
   double result = 0.0;
@@ -29,13 +30,44 @@ bool hasLimits(const AxesLimits &limits) noexcept {
   return most(limits.velocity) > 0.0 || most(limits.acceleration) > 0.0 || most(limits.jerk) > 0.0;
 }
 
+/// A place of a segment.
+struct Place {
+  double parameter;
+  double way; ///< [u]
+};
+
+/// Whether parts are chosen by the parameter: where a curve nearly stands still, the one at a way
+/// takes long to find, and there the parameter tells more.
+bool byParameter(const Segment &segment) noexcept {
+  return hasTable(segment) && segment.table.uneven != 0;
+}
+
+Place atWay(const Segment &segment, double way) noexcept {
+  return {parameterAt(segment, way), way};
+}
+
+Place atParameter(const Segment &segment, double parameter) noexcept {
+  return {parameter, wayAt(segment, parameter)};
+}
+
+Place between(const Segment &segment, const Place &a, const Place &b) noexcept {
+  return byParameter(segment) ? atParameter(segment, 0.5 * (a.parameter + b.parameter))
+                              : atWay(segment, 0.5 * (a.way + b.way));
+}
+
+PathPoint pointOf(const Segment &segment, const Place &place) noexcept {
+  return pointOver(segment, place.parameter, place.way);
+}
+
 /// Where a part that begins at `from` ends at most: polynomials may have peaks between the samples
 /// of all of their way.
-double partEnd(const Segment &segment, double from) noexcept {
+Place partEnd(const Segment &segment, const Place &from) noexcept {
   constexpr double kLongest = 0.25;
   if (segment.profile == 0 && segment.shape.kind != ShapeKind::Polynomial)
-    return segment.length;
-  return smaller(segment.length, from + kLongest * segment.length);
+    return atWay(segment, segment.length);
+  if (byParameter(segment))
+    return atParameter(segment, smaller(1.0, from.parameter + kLongest));
+  return atWay(segment, smaller(segment.length, from.way + kLongest * segment.length));
 }
 
 bool isStraight(const Segment &segment) noexcept {
@@ -116,23 +148,25 @@ double limitStrip(const Segment &segment, const AxesLimits &limits, double from,
   strip.ceiling = exact::kInfinity;
   if (!hasLimits(limits))
     return segment.length;
-  double to = isStraight(segment) ? segment.length : partEnd(segment, from);
-  Part part;
-  part.begin = pointAt(segment, from);
   if (isStraight(segment)) {
-    part.middle = part.begin;
-    part.end = part.begin;
-  } else {
-    for (int i = 0;; ++i) {
-      part.middle = pointAt(segment, 0.5 * (from + to));
-      part.end = pointAt(segment, to);
-      if (i == kMostHalvings || isEven(part))
-        break;
-      to = from + 0.5 * (to - from);
-    }
+    const PathPoint point = pointAt(segment, from);
+    limitPart({point, point, point}, limits, strip);
+    return segment.length;
+  }
+  const Place begin = atWay(segment, from);
+  Place end = partEnd(segment, begin);
+  Part part;
+  part.begin = pointOf(segment, begin);
+  for (;;) {
+    const Place middle = between(segment, begin, end);
+    part.middle = pointOf(segment, middle);
+    part.end = pointOf(segment, end);
+    if (isEven(part) || !(middle.way - from > kShortest * segment.length))
+      break;
+    end = middle;
   }
   limitPart(part, limits, strip);
-  return to;
+  return end.way;
 }
 
 double kinkCeiling(const PathPoint &before, const PathPoint &after, const AxesLimits &limits,

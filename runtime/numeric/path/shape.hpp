@@ -67,6 +67,12 @@ Derivatives overParameter(const Shape &shape, double u) noexcept;
 /// The same over the arc length, there. The curve must not stand still there (d1 = 0).
 Derivatives overLength(const Derivatives &overParameter) noexcept;
 
+/// How the arc length grows with the parameter. [u]
+double speedAt(const Shape &shape, double u) noexcept;
+
+/// Arc length between two parameters by Gauss and Legendre's rule with five points. [u]
+double quickLength(const Shape &shape, double from, double to) noexcept;
+
 /// Arc length between two parameters, to about 1e-13 of the whole.
 double lengthBetween(const Shape &shape, double from, double to) noexcept;
 
