@@ -2,9 +2,10 @@
 #ifndef STRIDE_RUNTIME_BLOCKS_KINEMATIC_FRAMES_HPP
 #define STRIDE_RUNTIME_BLOCKS_KINEMATIC_FRAMES_HPP
 
-#include "runtime/numeric/kinematics/frame.hpp"
+#include "runtime/numeric/kinematics/orientation.hpp"
 
 #include "st/SM3_Math/SMC_Frame.h"
+#include "st/SM3_Robotics/MC_COORD_REF.h"
 
 namespace stride::kinematics {
 
@@ -31,6 +32,20 @@ inline void toSt(const Frame<double> &frame, ::st::SM3_Math::SMC_Frame &st) {
   st.vT.dX = frame.place(0);
   st.vT.dY = frame.place(1);
   st.vT.dZ = frame.place(2);
+}
+
+inline Frame<double> fromSt(const ::st::SM3_Robotics::MC_COORD_REF &st) {
+  return {turnFrom(Convention::Zyz, {st.A, st.B, st.C}), {st.X, st.Y, st.Z}};
+}
+
+inline void toSt(const Frame<double> &frame, ::st::SM3_Robotics::MC_COORD_REF &st) {
+  const Angles angles = anglesOf(Convention::Zyz, frame.turn);
+  st.X = frame.place(0);
+  st.Y = frame.place(1);
+  st.Z = frame.place(2);
+  st.A = angles.a;
+  st.B = angles.b;
+  st.C = angles.c;
 }
 
 } // namespace stride::kinematics
