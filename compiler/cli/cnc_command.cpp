@@ -3,11 +3,10 @@
 #include "compiler/assets/cnc/cnc_source.hpp"
 #include "compiler/assets/cnc/nc_source.hpp"
 #include "compiler/cli/cnc_edit.hpp"
+#include "compiler/cli/cnc_generation.hpp"
 #include "compiler/cli/cnc_run.hpp"
 #include "compiler/cli/commands.hpp"
-#include "compiler/project/config.hpp"
 #include "compiler/project/file_system.hpp"
-#include "compiler/project/source_files.hpp"
 #include "compiler/source/sources.hpp"
 
 #include <algorithm>
@@ -20,21 +19,6 @@ namespace stc::cli {
 namespace {
 
 constexpr std::string_view kLetters = "XYZABCPQUVW";
-
-/// Whether words mean what SoftMotion 3 means: as the command says, or the project of the file.
-bool isSoftMotion3(const std::string &path, const std::string &said) {
-  if (!said.empty())
-    return said == "3";
-  std::error_code error;
-  const std::filesystem::path folder =
-      findProjectFolder(std::filesystem::absolute(path, error).parent_path());
-  Sources sources;
-  Diagnostics unseen; // of the project, which is not what is checked here
-  const std::filesystem::path toml = folder / "stride.toml";
-  const std::optional<FileId> id =
-      folder.empty() ? std::nullopt : sources.load(toml, toml.string());
-  return id && readConfig(sources.file(*id), unseen).generation == 3;
-}
 
 /// A program that a command was given.
 struct LoadedCnc {
@@ -258,6 +242,9 @@ int cncCommand(const CncOptions &options) {
   case CncAction::Shift:
   case CncAction::Scale:
   case CncAction::Mirror:
+  case CncAction::Reverse:
+  case CncAction::Split:
+  case CncAction::Expand:
     return editCnc(options);
   case CncAction::Check:
     return cncCheck(options);

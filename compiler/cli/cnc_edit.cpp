@@ -1,10 +1,13 @@
 #include "compiler/cli/cnc_edit.hpp"
 
 #include "compiler/assets/cnc/cnc_source.hpp"
+#include "compiler/assets/cnc_edit/reverse.hpp"
 #include "compiler/assets/cnc_edit/transform.hpp"
+#include "compiler/cli/cnc_generation.hpp"
 #include "compiler/project/file_system.hpp"
 #include "compiler/source/sources.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <filesystem>
 #include <fmt/format.h>
@@ -49,11 +52,29 @@ CncTransform transformOf(const CncOptions &options) {
   return cncReflection(axis, move.places[axis]);
 }
 
+CncStart startOf(const CncOptions &options) {
+  CncStart start;
+  std::copy(std::begin(options.move.places), std::end(options.move.places),
+            std::begin(start.position.coordinate));
+  start.position.axes = options.move.axes;
+  start.softMotion3 = isSoftMotion3(options.files.front(), options.softMotion);
+  return start;
+}
+
 std::optional<std::string> edited(const SourceFile &file, const CncOptions &options,
                                   Diagnostics &diagnostics) {
-  return options.action == CncAction::Number
-             ? numberCnc(file, options.numbering, diagnostics)
-             : transformCnc(file, transformOf(options), diagnostics);
+  switch (options.action) {
+  case CncAction::Number:
+    return numberCnc(file, options.numbering, diagnostics);
+  case CncAction::Reverse:
+    return reverseCnc(file, startOf(options), diagnostics);
+  case CncAction::Split:
+    return splitCnc(file, options.split, diagnostics);
+  case CncAction::Expand:
+    return expandCnc(file, options.expansion, diagnostics);
+  default:
+    return transformCnc(file, transformOf(options), diagnostics);
+  }
 }
 
 } // namespace

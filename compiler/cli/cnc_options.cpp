@@ -71,7 +71,9 @@ public:
 
   void declare() const {
     add("check", CncAction::Check, "Show what is wrong with CNC programs");
-    add("info", CncAction::Info, "Show lines, objects, lengths, bounds and velocities");
+    angleTolerance(
+        add("info", CncAction::Info, "Show lines, objects, lengths, bounds and velocities"),
+        call_->cnc.motion);
     add("format", CncAction::Format, "Write CNC programs in one layout")
         ->add_flag("--check", call_->cnc.check,
                    "Write nothing; fail if something is not formatted");
@@ -86,6 +88,7 @@ public:
     declareNumber(add("number", CncAction::Number,
                       "Number the sentences of a CNC program anew; jumps follow"));
     declareMoves();
+    declareCuts();
   }
 
 private:
@@ -96,14 +99,14 @@ private:
                              ->type_name("");
     if (action == CncAction::Run || action == CncAction::Plot || action >= CncAction::Queue)
       files->expected(1);
-    if (action != CncAction::Format && action < CncAction::Number)
+    if ((action != CncAction::Format && action < CncAction::Number) || action == CncAction::Reverse)
       command
           ->add_option("--softmotion", call_->cnc.softMotion,
                        "What words mean: 2.3 or 3 (default: as stride.toml of the file's project "
                        "says, else 2.3)")
           ->check(CLI::IsMember({"2.3", "3"}).description(""))
           ->type_name("VERSION");
-    if (action != CncAction::Check && action != CncAction::Format)
+    if (action != CncAction::Check && action != CncAction::Format && action < CncAction::Number)
       declareProcessors(command);
     addOutputOptions(*command, call_->cnc.output);
     command->callback([call = call_, action] {
@@ -218,6 +221,58 @@ private:
     places(scale, "--about", "Place that stays, u: X=5,Y=-2 (default: 0)", "XYZ")->required(false);
     places(addMove("mirror", CncAction::Mirror, "Mirror the path of a CNC program"), "--at",
            "Where the mirror stands, u: X=0 turns X round", "XYZ", 1);
+  }
+
+  void declareCuts() const {
+    places(addMove("reverse", CncAction::Reverse, "Go along the path of a CNC program backwards"),
+           "--start", "Where the path begins, u: X=5,Y=-2 (default: 0)", kAxisLetters)
+        ->required(false);
+    CncSplit &split = call_->cnc.split;
+    CLI::App *command =
+        addMove("split", CncAction::Split, "Cut motions of a CNC program in pieces");
+    CLI::Option *sentence =
+        command
+            ->add_option("--sentence", split.sentence,
+                         "Number (N) of the sentence that is cut, or its line")
+            ->check(CLI::Range(0, std::numeric_limits<int32_t>::max()).description(""))
+            ->type_name("N");
+    command
+        ->add_option("--at", split.at, "Where it is cut: more than 0, less than 1 (default: 0.5)")
+        ->check(numberFrom(0, false, std::nextafter(1.0, 0.0)))
+        ->type_name("PART")
+        ->needs(sentence);
+    CLI::Option *length =
+        command
+            ->add_option("--length", split.length,
+                         "Cut all motions but G0 that are longer in equal pieces, u")
+            ->check(numberFrom(0, false))
+            ->type_name("N")
+            ->excludes(sentence);
+    oneOf(command, CncAction::Split, sentence, length, "--sentence or --length");
+    CncExpansion &expansion = call_->cnc.expansion;
+    command = addMove("expand", CncAction::Expand,
+                      "Make lines of the splines, parabolas and ellipses of a CNC program");
+    length = command->add_option("--length", expansion.length, "Of the curve for each line, u")
+                 ->check(numberFrom(0, false))
+                 ->type_name("N");
+    CLI::Option *angle = command
+                             ->add_option("--angle", expansion.angle,
+                                          "Lines that follow each other turn by less, degrees")
+                             ->check(numberFrom(0, false, 180))
+                             ->type_name("DEG")
+                             ->excludes(length);
+    oneOf(command, CncAction::Expand, length, angle, "--length or --angle");
+  }
+
+  /// One of two options has to be there.
+  void oneOf(CLI::App *command, CncAction action, const CLI::Option *first,
+             const CLI::Option *second, const char *names) const {
+    command->callback([call = call_, action, first, second, names] {
+      if (first->empty() && second->empty())
+        throw CLI::RequiredError(names);
+      call->cnc.action = action;
+      call->exitCode = cncCommand(call->cnc);
+    });
   }
 
   CLI::App *addMove(const char *name, CncAction action, const char *what) const {

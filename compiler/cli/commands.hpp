@@ -4,6 +4,7 @@
 
 #include "compiler/assets/cnc/cnc_source.hpp"
 #include "compiler/assets/cnc_edit/cnc_edit.hpp"
+#include "compiler/assets/cnc_edit/split.hpp"
 #include "compiler/cli/terminal.hpp"
 #include "compiler/semantics/program.hpp"
 
@@ -147,7 +148,10 @@ enum class CncAction {
   Rotate,
   Shift,
   Scale,
-  Mirror
+  Mirror,
+  Reverse,
+  Split,
+  Expand
 };
 
 /// How `run` and `plot` drive a program. Arrays are of X, Y, Z, A, B, C, P, Q, U, V, W and one
@@ -199,8 +203,10 @@ struct CncOptions {
   CncQueueOptions queue;
   CncProcessorOptions preprocess;
   CncNumbering numbering;
-  CncMoveOptions move;
-  bool inPlace = false; ///< number: into the file itself
+  CncMoveOptions move; ///< reverse: `places` is where the path begins
+  CncSplit split;
+  CncExpansion expansion;
+  bool inPlace = false; ///< edits: into the file itself
   Output output;
 };
 /// Checks, describes, formats CNC programs, drives them, makes queue files of them.

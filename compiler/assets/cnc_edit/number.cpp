@@ -4,6 +4,7 @@
 #include "compiler/assets/cnc/nc_source.hpp"
 #include "compiler/assets/cnc_edit/cnc_edit.hpp"
 #include "compiler/assets/cnc_edit/text_edits.hpp"
+#include "compiler/assets/cnc_edit/word_edits.hpp"
 #include "runtime/numeric/cnc/decoder.hpp"
 
 #include <algorithm>
@@ -32,12 +33,7 @@ std::vector<Words> sentencesOf(const CncProgram &program) {
   return sentences;
 }
 
-/// The word with the letter that counts: of several the left one. Null: there is none.
-const CncWord *wordOf(Words sentence, uint8_t letter) {
-  const auto found = std::find_if(sentence.begin(), sentence.end(),
-                                  [=](const CncWord &word) { return word.word.letter == letter; });
-  return found != sentence.end() ? &*found : nullptr;
-}
+using gcode::wordOf;
 
 class Numberer {
 public:

@@ -20,12 +20,21 @@ constexpr double kMostNumber = 1e12;
 
 } // namespace
 
-void WordEdits::setNumber(const CncWord &word, const std::string &number) {
+size_t numberPlace(std::string_view text, const CncWord &word) {
   size_t at = word.span.begin;
-  const size_t end = word.span.end;
-  while (at < end && (isLetter(text_[at]) || text_[at] == ' ' || text_[at] == '\t'))
+  while (at < word.span.end && (isLetter(text[at]) || text[at] == ' ' || text[at] == '\t'))
     ++at;
-  changes_.push_back({{word.span.file, static_cast<uint32_t>(at), word.span.end}, number});
+  return at;
+}
+
+bool isNothing(double way, double size) {
+  constexpr double kNothing = 1e-12; // as a part of the numbers
+  return std::abs(way) <= kNothing * std::max(1.0, std::abs(size));
+}
+
+void WordEdits::setNumber(const CncWord &word, const std::string &number) {
+  const auto at = static_cast<uint32_t>(numberPlace(text_, word));
+  changes_.push_back({{word.span.file, at, word.span.end}, number});
 }
 
 void WordEdits::insertAfter(const CncWord &word, const std::string &words) {
@@ -39,12 +48,32 @@ std::string WordEdits::apply() {
   return editedText(text_, changes_);
 }
 
-std::string numberText(double value) {
-  std::string text = fmt::format("{:.9f}", value);
+namespace {
+
+/// A number with digits behind the point, less those that say nothing; there is one at least.
+std::string shortened(std::string text) {
   text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.'))
     text.pop_back();
   return text == "-0" ? "0" : text;
+}
+
+} // namespace
+
+std::string numberText(double value) { return shortened(fmt::format("{:.9f}", value)); }
+
+std::string exactNumberText(double value) {
+  constexpr int kMostDecimals = 12;
+  constexpr int kDigits = 15; // that a double has
+  const double size = std::abs(value);
+  const int whole = size < 1 ? 0 : static_cast<int>(std::floor(std::log10(size))) + 1;
+  return shortened(fmt::format("{:.{}f}", value, std::clamp(kDigits - whole, 1, kMostDecimals)));
+}
+
+const CncWord *wordOf(std::span<const CncWord> sentence, uint8_t letter) {
+  const auto found = std::find_if(sentence.begin(), sentence.end(),
+                                  [=](const CncWord &word) { return word.word.letter == letter; });
+  return found != sentence.end() ? &*found : nullptr;
 }
 
 double roundedNumber(double value) { return std::stod(numberText(value)); }

@@ -4,6 +4,8 @@
 
 #include "compiler/assets/cnc/cnc_source.hpp"
 
+#include <span>
+
 namespace stc::gcode {
 
 /// Changes of a text at the places of its words.
@@ -25,8 +27,19 @@ private:
 
 /// A number as G-code has it: without an exponent, 9 digits behind the point at most.
 [[nodiscard]] std::string numberText(double value);
-/// What a reader makes of it.
+/// The same with 12 digits behind the point, as far as a double has them.
+[[nodiscard]] std::string exactNumberText(double value);
+/// What a reader makes of numberText().
 [[nodiscard]] double roundedNumber(double value);
+/// Of several words with a letter the left one, which counts; null: there is none.
+[[nodiscard]] const CncWord *wordOf(std::span<const CncWord> sentence, uint8_t letter);
+
+/// Where the number of a word begins.
+[[nodiscard]] size_t numberPlace(std::string_view text, const CncWord &word);
+
+/// Whether a way is none but for rounding, beside numbers of some size.
+[[nodiscard]] bool isNothing(double way, double size);
+
 /// Whether the number can be written.
 [[nodiscard]] bool isWritable(double value);
 
