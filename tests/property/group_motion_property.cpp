@@ -160,7 +160,7 @@ private:
     order.cornerSpeed = static_cast<CornerSpeed>(random_.below(4));
     if (random_.chance(0.1)) {
       order.dwell = random_.uniform(0.001, 0.1);
-      append(*group_, Leg{}, order);
+      append(*group_, drawId(*group_), Leg{}, order);
       return;
     }
     Leg leg{};
@@ -179,7 +179,7 @@ private:
     }
     if (!(leg.length > 0))
       return;
-    append(*group_, leg, order);
+    append(*group_, drawId(*group_), leg, order);
     std::copy(std::begin(to), std::end(to), planned_);
     factors_.push_back(order);
   }

@@ -10,8 +10,10 @@ using exact::smaller;
 /// The jerk of the law: strips say what is allowed.
 constexpr path::MotionSettings kSettings{path::LawKind::Jerk, 1e30, 1.0};
 
-void setOutcome(GroupMotion &group, uint64_t id, Outcome outcome) noexcept {
-  group.outcome[id % kOutcomes] = static_cast<uint8_t>(outcome);
+/// What becomes of a movement while it is driven.
+void note(GroupMotion &group, const Movement &movement, Outcome outcome) noexcept {
+  if (!group.abandoned)
+    setOutcome(group, movement.id, outcome);
 }
 
 bool dwells(const Movement &movement) noexcept { return movement.order.dwell > 0.0; }
@@ -23,7 +25,7 @@ bool hasBegun(const GroupMotion &group, int64_t number) noexcept {
 
 /// The movement that is driven has been gone through.
 void leave(GroupMotion &group) noexcept {
-  setOutcome(group, movementAt(group, group.first).id, Outcome::Done);
+  note(group, movementAt(group, group.first), Outcome::Done);
   ++group.first;
 }
 
@@ -32,7 +34,7 @@ void leave(GroupMotion &group) noexcept {
 void settle(GroupMotion &group, bool arrives) noexcept {
   while (group.first < group.next && hasBegun(group, group.first)) {
     Movement &movement = movementAt(group, group.first);
-    setOutcome(group, movement.id, Outcome::Active);
+    note(group, movement, Outcome::Active);
     if (dwells(movement)) {
       if (!group.dwelling) {
         group.dwelling = true;
@@ -136,21 +138,34 @@ void rebase(GroupMotion &group) noexcept {
 
 void reset(GroupMotion &group, const double (&axes)[kAxes]) noexcept {
   const uint64_t lastId = group.lastId;
+  uint8_t outcomes[kOutcomes];
+  __builtin_memcpy(outcomes, group.outcome, sizeof outcomes);
   group = GroupMotion{};
   group.lastId = lastId;
+  __builtin_memcpy(group.outcome, outcomes, sizeof outcomes);
   path::reset(group.motion, kSettings);
   for (int32_t k = 0; k < kAxes; ++k)
     group.axes[k] = axes[k];
 }
 
-uint64_t append(GroupMotion &group, const Leg &leg, const Order &order) noexcept {
+void setOutcome(GroupMotion &group, uint64_t id, Outcome outcome) noexcept {
+  group.outcome[id % kOutcomes] = static_cast<uint8_t>(outcome);
+}
+
+uint64_t drawId(GroupMotion &group) noexcept {
+  ++group.lastId;
+  setOutcome(group, group.lastId, Outcome::Waiting);
+  return group.lastId;
+}
+
+void append(GroupMotion &group, uint64_t id, const Leg &leg, const Order &order) noexcept {
   Movement &movement = movementAt(group, group.next);
   movement = {};
-  movement.id = ++group.lastId;
+  movement.id = id;
   movement.leg = leg;
   movement.order = order;
   movement.exit = leg.length;
-  setOutcome(group, movement.id, Outcome::Waiting);
+  setOutcome(group, id, Outcome::Queued);
   if (group.looked == group.next) { // nothing else is being looked at
     movement.begin = path::endOf(group.motion.course);
     group.lookedWay = 0.0;
@@ -161,7 +176,6 @@ uint64_t append(GroupMotion &group, const Leg &leg, const Order &order) noexcept
     }
   }
   ++group.next;
-  return movement.id;
 }
 
 Outcome outcomeOf(const GroupMotion &group, uint64_t id) noexcept {
@@ -205,15 +219,18 @@ void cycle(GroupMotion &group, const Arm &arm, const GroupCommand &command) noex
   rebase(group);
 }
 
-void clear(GroupMotion &group) noexcept {
+void abandon(GroupMotion &group) noexcept {
   for (int64_t k = group.first; k < group.next; ++k)
     setOutcome(group, movementAt(group, k).id, Outcome::Aborted);
-  uint8_t outcomes[kOutcomes];
+  group.abandoned = true;
+}
+
+void clear(GroupMotion &group) noexcept {
+  if (!group.abandoned)
+    abandon(group);
   double axes[kAxes];
-  __builtin_memcpy(outcomes, group.outcome, sizeof outcomes);
   __builtin_memcpy(axes, group.axes, sizeof axes);
   reset(group, axes);
-  __builtin_memcpy(group.outcome, outcomes, sizeof outcomes);
 }
 
 } // namespace stride::group

@@ -44,11 +44,12 @@ struct Order {
 
 enum class Outcome : uint8_t {
   Unknown, ///< There is no such movement, or it was long ago.
-  Waiting, ///< Its turn has not come.
+  Waiting, ///< It has not been appended.
+  Queued,  ///< It has been, but its turn has not come.
   Active,
   Done,
   Aborted,
-  Failed ///< See GroupMotion::obstacle.
+  Failed ///< It cannot be driven; the caller knows why.
 };
 
 /// One of them.
@@ -94,9 +95,10 @@ struct GroupMotion {
   uint8_t outcome[kOutcomes];    ///< By id.
   Obstacle obstacle;             ///< Why the path does not go on.
   bool dwelling;
+  bool abandoned; ///< Movements are only driven to rest; see abandon.
 };
 
-/// At rest at a place, without movements; ids go on.
+/// At rest at a place, without movements; ids and outcomes stay.
 void reset(GroupMotion &group, const double (&axes)[kAxes]) noexcept;
 
 /// Whether a movement can be appended.
@@ -104,9 +106,15 @@ inline bool hasRoom(const GroupMotion &group) noexcept {
   return group.next - group.first < kMovements;
 }
 
-/// Appends a movement: its leg begins where the last one ends, or where the group is. Its id. There
-/// must be room.
-uint64_t append(GroupMotion &group, const Leg &leg, const Order &order) noexcept;
+/// The id of the next movement, which waits until it is appended.
+uint64_t drawId(GroupMotion &group) noexcept;
+
+/// Appends a movement: its leg begins where the last one ends, or where the group is. There must be
+/// room.
+void append(GroupMotion &group, uint64_t id, const Leg &leg, const Order &order) noexcept;
+
+/// Says what has become of a movement that is not appended.
+void setOutcome(GroupMotion &group, uint64_t id, Outcome outcome) noexcept;
 
 /// What has become of a movement.
 Outcome outcomeOf(const GroupMotion &group, uint64_t id) noexcept;
@@ -124,6 +132,9 @@ double positionInMovement(const GroupMotion &group, uint64_t &id) noexcept;
 /// One cycle: plans ahead and goes on. The place is in group.axes, velocity, acceleration. With an
 /// obstacle the group has failed: it shall be stopped.
 void cycle(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept;
+
+/// Aborts all movements. The group goes on along them until it has been stopped; then clear it.
+void abandon(GroupMotion &group) noexcept;
 
 /// Forgets all movements of a group at rest; those that are not done are aborted.
 void clear(GroupMotion &group) noexcept;

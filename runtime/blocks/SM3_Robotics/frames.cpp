@@ -1,0 +1,84 @@
+#include "runtime/blocks/SM3_Robotics/frames.hpp"
+
+#include "runtime/axis/axis_ref.hpp"
+#include "runtime/numeric/kinematics/orientation.hpp"
+
+#include "st/SM3_Robotics/SMC_COORD_SYSTEM.h"
+
+namespace stride::robotics {
+namespace {
+
+namespace decl = ::st::SM3_Robotics;
+using kinematics::Frame;
+
+static_assert(sizeof(decl::MC_COORD_REF) == kArmAxes * sizeof(double));
+
+Frame<double> frameOf(const decl::MC_COORD_REF &coordinates) {
+  double pose[kArmAxes];
+  __builtin_memcpy(pose, &coordinates, sizeof pose);
+  return robotics::frameOf(pose);
+}
+
+group::AxisLimits limitsOf(const axis::AxisRef &axis) noexcept {
+  const bool bounded = axis.iMovementType != 0 && axis.bSWLimitEnable != 0;
+  return {axis.fSWMaxVelocity, exact::smaller(axis.fSWMaxAcceleration, axis.fSWMaxDeceleration),
+          axis.fSWMaxJerk, bounded ? axis.fSWLimitNegative : -exact::kInfinity,
+          bounded ? axis.fSWLimitPositive : exact::kInfinity};
+}
+
+kinematics::KinematicsRef refOf(const kinematics::KinematicsOf &kinematics,
+                                const kinematics::AnyKinematics &none) {
+  return kinematics.check() == kinematics::Outcome::Done ? kinematics.ref() : none.ref();
+}
+
+} // namespace
+
+GroupArm::GroupArm(Ctx &ctx, const GroupRef &group)
+    : kinematics_(ctx, group.itfKinematics), none_{}, limits_{}, outcome(kinematics_.check()),
+      arm{refOf(kinematics_, none_), group.uiJoints, group.uiAxes - group.uiJoints, limits_, {}} {
+  for (int32_t i = 0; i < group.uiAxes; ++i)
+    limits_[placeOf(group, i)] = limitsOf(*group.apAxis.v[i]);
+  if (outcome == kinematics::Outcome::Done && group.bTool != 0)
+    outcome = kinematics_.setTool(frameOf(group.stTool));
+}
+
+Frame<double> frameOf(const double (&pose)[kArmAxes]) {
+  return {kinematics::turnFrom(kinematics::Convention::Zyz, {pose[3], pose[4], pose[5]}),
+          {pose[0], pose[1], pose[2]}};
+}
+
+void toPose(const Frame<double> &frame, double (&pose)[kArmAxes]) {
+  const kinematics::Angles angles = kinematics::anglesOf(kinematics::Convention::Zyz, frame.turn);
+  for (int i = 0; i < 3; ++i)
+    pose[i] = frame.place(i);
+  pose[3] = angles.a;
+  pose[4] = angles.b;
+  pose[5] = angles.c;
+}
+
+int32_t settableSystem(int16_t system) noexcept {
+  switch (system) {
+  case decl::SMC_COORD_SYSTEM__MCS:
+    return 0;
+  case decl::SMC_COORD_SYSTEM__PCS_1:
+    return 1;
+  case decl::SMC_COORD_SYSTEM__PCS_2:
+    return 2;
+  default:
+    return -1;
+  }
+}
+
+bool systemInMachine(const GroupRef &group, int16_t system, Frame<double> &frame) {
+  if (system == decl::SMC_COORD_SYSTEM__MCS) {
+    frame = kinematics::unturned(kinematics::Vector<double>(0.0, 0.0, 0.0));
+    return true;
+  }
+  frame = kinematics::inverted(frameOf(group.astSystem.v[0])); // WCS
+  const int32_t index = settableSystem(system);
+  if (index > 0)
+    frame = frame * frameOf(group.astSystem.v[index]);
+  return index > 0 || system == decl::SMC_COORD_SYSTEM__WCS;
+}
+
+} // namespace stride::robotics

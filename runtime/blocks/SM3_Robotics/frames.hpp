@@ -1,0 +1,45 @@
+// The coordinate systems of a group, and its arm for the time of a call.
+#ifndef STRIDE_RUNTIME_BLOCKS_SM3_ROBOTICS_FRAMES_HPP
+#define STRIDE_RUNTIME_BLOCKS_SM3_ROBOTICS_FRAMES_HPP
+
+#include "runtime/blocks/SM3_Robotics/group.hpp"
+#include "runtime/blocks/SM3_Transformation/kinematics_of.hpp"
+
+namespace stride::robotics {
+
+/// Which place in the arrays of a group's motion its axis number `i` has.
+inline int32_t placeOf(const GroupRef &group, int32_t i) noexcept {
+  return i < group.uiJoints ? i : kArmAxes + i - group.uiJoints;
+}
+
+/// The arm of a group with the limits of its axes and the tool.
+class GroupArm {
+public:
+  GroupArm(Ctx &ctx, const GroupRef &group);
+  GroupArm(const GroupArm &) = delete;
+  GroupArm &operator=(const GroupArm &) = delete;
+
+private:
+  kinematics::KinematicsOf kinematics_;
+  kinematics::AnyKinematics none_; ///< Where there is no kinematics: it is not asked for anything.
+  group::AxisLimits limits_[kAxes];
+
+public:
+  kinematics::Outcome outcome; ///< Whether the tool can lead.
+  group::Arm arm;              ///< It lives as long as this object.
+};
+
+/// A pose as ST has it, by X, Y, Z and the angles A, B, C.
+kinematics::Frame<double> frameOf(const double (&pose)[kArmAxes]);
+void toPose(const kinematics::Frame<double> &frame, double (&pose)[kArmAxes]);
+
+/// Where a coordinate system stands in the machine: WCS, PCS_1, PCS_2, MCS. False: it is none of
+/// these.
+bool systemInMachine(const GroupRef &group, int16_t system, kinematics::Frame<double> &frame);
+
+/// Which of the systems that can be set is meant, 0 to 2; -1: none of them.
+int32_t settableSystem(int16_t system) noexcept;
+
+} // namespace stride::robotics
+
+#endif // STRIDE_RUNTIME_BLOCKS_SM3_ROBOTICS_FRAMES_HPP

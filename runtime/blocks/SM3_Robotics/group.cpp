@@ -1,0 +1,254 @@
+#include "runtime/blocks/SM3_Robotics/group.hpp"
+
+#include "runtime/axis/axis_cycle.hpp"
+#include "runtime/axis/set_point.hpp"
+#include "runtime/blocks/SM3_Robotics/frames.hpp"
+#include "runtime/blocks/SM3_Robotics/requests.hpp"
+
+#include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
+
+namespace stride::robotics {
+namespace {
+
+namespace decl = ::st::SM3_Robotics;
+namespace error = ::st::SM_Error;
+using axis::AxisRef;
+using group::Obstacle;
+
+static_assert(sizeof(GroupState) <= sizeof(GroupRef::aState));
+
+/// Steps of planning and places of the path to look at, for each millisecond of the cycle.
+constexpr int32_t kSteps = 64;
+constexpr int32_t kSamples = 24;
+
+AxisRef &axisAt(const GroupRef &group, int32_t i) noexcept { return *group.apAxis.v[i]; }
+
+void takeAxes(GroupRef &group) noexcept {
+  if (group.bOwns != 0)
+    return;
+  for (int32_t i = 0; i < group.uiAxes; ++i) {
+    AxisRef &axis = axisAt(group, i);
+    axis.stQueue.uiCount = 0;
+    group.aulOwner.v[i] = axis::takeAxis(axis);
+    axis.nAxisState = axis::state::kSynchronized;
+    // The group begins to move in the next cycle.
+    axis::writeSetPoint(axis, {axis.fSetPosition, 0.0, 0.0});
+  }
+  group.bOwns = 1;
+}
+
+void releaseAxes(GroupRef &group) noexcept {
+  for (int32_t i = 0; i < group.uiAxes && group.bOwns != 0; ++i) {
+    AxisRef &axis = axisAt(group, i);
+    if (!axis::ownsAxis(axis, group.aulOwner.v[i]))
+      continue;
+    axis::writeMotion(axis, 0.0, 0.0);
+    axis::releaseAxis(axis);
+    axis.nAxisState = axis::state::kStandstill;
+  }
+  group.bOwns = 0;
+}
+
+/// All movements are over, and the axes stop. `failed`: the movement that is the reason; 0: none.
+void failGroup(GroupRef &group, int16_t reason, uint64_t failed) noexcept {
+  GroupState &state = stateOf(group);
+  abortRequests(state);
+  group::abandon(state.motion);
+  if (failed != 0)
+    fail(state, failed, reason);
+  for (int32_t i = 0; i < group.uiAxes; ++i)
+    if (axis::isPowered(axisAt(group, i)))
+      axis::enterErrorStop(axisAt(group, i), reason);
+  group.bOwns = 0;
+  group.eState = decl::SMC_AXIS_GROUP_STATE__GroupErrorStop;
+  group.eError = static_cast<error::SMC_ERROR>(reason);
+}
+
+/// Why the group cannot go on, or 0.
+int16_t problemOf(const GroupRef &group) noexcept {
+  for (int32_t i = 0; i < group.uiAxes; ++i) {
+    const AxisRef &axis = axisAt(group, i);
+    if (axis.nAxisState == axis::state::kErrorStop)
+      return error::SMC_ERROR__SMC_AXIS_GROUP_AXIS_ERROR;
+    if (group.bOwns == 0)
+      continue;
+    if (!axis::isPowered(axis))
+      return error::SMC_ERROR__SMC_AXIS_GROUP_AXIS_NOT_FOLLOWING;
+    if (!axis::ownsAxis(axis, group.aulOwner.v[i]))
+      return error::SMC_ERROR__SMC_AXIS_GROUP_INTERRUPTED_BY_SINGLE_AXIS;
+  }
+  return 0;
+}
+
+int16_t errorOf(Obstacle obstacle) noexcept {
+  switch (obstacle) {
+  case Obstacle::None:
+    break;
+  case Obstacle::Unreachable:
+    return error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
+  case Obstacle::AxisLimit:
+    return error::SMC_ERROR__SMC_TRAFO_AXIS_LIMITS_EXCEEDED;
+  case Obstacle::Singular:
+    return error::SMC_ERROR__SMC_AXIS_GROUP_SINGULAR_PATH;
+  }
+  return 0;
+}
+
+/// Whether what comes next needs the group to be at rest.
+bool isToStop(const GroupRef &group, const GroupState &state) noexcept {
+  return group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping || demandsRest(state);
+}
+
+void writeAxes(GroupRef &group) noexcept {
+  const group::GroupMotion &motion = stateOf(group).motion;
+  for (int32_t i = 0; i < group.uiAxes; ++i) {
+    const int32_t k = placeOf(group, i);
+    axis::writeSetPoint(axisAt(group, i),
+                        {motion.axes[k], motion.velocity[k], motion.acceleration[k]});
+  }
+}
+
+void drive(GroupRef &group, const GroupArm &arm) noexcept {
+  GroupState &state = stateOf(group);
+  const double cycle = axisAt(group, 0).fTaskCycle;
+  const auto milliseconds =
+      static_cast<int32_t>(exact::smaller(exact::larger(cycle * 1e3, 1.0), 100.0));
+  group::cycle(state.motion, arm.arm,
+               {cycle, 1.0, isToStop(group, state), state.deceleration, kSteps * milliseconds,
+                kSamples * milliseconds});
+  if (state.motion.obstacle != Obstacle::None) {
+    failGroup(group, errorOf(state.motion.obstacle), failedMovement(state));
+    return;
+  }
+  writeAxes(group);
+}
+
+/// At rest with nothing left to do.
+void settle(GroupRef &group) noexcept {
+  GroupState &state = stateOf(group);
+  if (!rests(group) || state.firstRequest < state.nextRequest)
+    return;
+  if (state.motion.first < state.motion.next && !state.motion.abandoned)
+    return;
+  if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping)
+    return;
+  group::clear(state.motion);
+  releaseAxes(group);
+  group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
+}
+
+} // namespace
+
+GroupState &stateOf(GroupRef &group) noexcept {
+  return *reinterpret_cast<GroupState *>(&group.aState);
+}
+const GroupState &stateOf(const GroupRef &group) noexcept {
+  return *reinterpret_cast<const GroupState *>(&group.aState);
+}
+
+bool takesMovements(const GroupRef &group) noexcept {
+  return group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStandby ||
+         group.eState == decl::SMC_AXIS_GROUP_STATE__GroupMoving;
+}
+
+bool rests(const GroupRef &group) noexcept { return group::isAtRest(stateOf(group).motion); }
+
+void beginMoving(GroupRef &group) noexcept {
+  if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStandby)
+    return;
+  double axes[kAxes] = {};
+  for (int32_t i = 0; i < group.uiAxes; ++i)
+    axes[placeOf(group, i)] = axisAt(group, i).fSetPosition;
+  group::reset(stateOf(group).motion, axes);
+  takeAxes(group);
+  group.eState = decl::SMC_AXIS_GROUP_STATE__GroupMoving;
+}
+
+void serve(Ctx &ctx, GroupRef &group) {
+  const uint64_t now = ctx.cycle + 1;
+  if (group.ulServed == now || group.eState == decl::SMC_AXIS_GROUP_STATE__GroupDisabled ||
+      group.eState == decl::SMC_AXIS_GROUP_STATE__GroupErrorStop)
+    return;
+  group.ulServed = now;
+  if (const int16_t problem = problemOf(group); problem != 0) {
+    failGroup(group, problem, 0);
+    return;
+  }
+  const GroupArm arm(ctx, group);
+  takeRequests(group, arm);
+  if (group.bOwns != 0)
+    drive(group, arm);
+  if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupErrorStop)
+    return;
+  takeRequests(group, arm);
+  if (group.bOwns != 0)
+    settle(group);
+}
+
+int16_t ask(Ctx &ctx, GroupRef &group, Request &request) {
+  if (!takesMovements(group))
+    return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+  for (int32_t i = 0; i < group.uiAxes; ++i) {
+    const AxisRef &axis = axisAt(group, i);
+    if (!axis::isPowered(axis))
+      return error::SMC_ERROR__SMC_AXIS_GROUP_AXIS_NOT_FOLLOWING;
+    if (group.bOwns == 0 && axis.nAxisState != axis::state::kStandstill)
+      return error::SMC_ERROR__SMC_AXIS_GROUP_INTERRUPTED_BY_SINGLE_AXIS;
+  }
+  if (const int16_t wrong = enqueue(group, request); wrong != 0)
+    return wrong;
+  const GroupArm arm(ctx, group);
+  takeRequests(group, arm);
+  const GroupState &state = stateOf(group);
+  return group::outcomeOf(state.motion, request.id) == group::Outcome::Failed
+             ? state.error[request.id % group::kOutcomes]
+             : int16_t{0};
+}
+
+int16_t beginStop(Ctx & /*ctx*/, GroupRef &group, double deceleration) {
+  if (!takesMovements(group) && group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStopping)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+  if (!(deceleration >= 0.0))
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_DYNAMICS;
+  GroupState &state = stateOf(group);
+  abortRequests(state);
+  group::abandon(state.motion);
+  state.deceleration = deceleration;
+  group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStopping;
+  return 0;
+}
+
+void endStop(GroupRef &group) {
+  if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStopping)
+    return;
+  group::clear(stateOf(group).motion);
+  releaseAxes(group);
+  group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
+}
+
+int16_t enable(Ctx &ctx, GroupRef &group) {
+  if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupDisabled)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+  for (int32_t i = 0; i < group.uiAxes; ++i) {
+    const AxisRef &axis = axisAt(group, i);
+    if (!exact::isPositive(axis.fSWMaxVelocity) || !exact::isPositive(axis.fSWMaxAcceleration) ||
+        !exact::isPositive(axis.fSWMaxDeceleration) || !exact::isPositive(axis.fSWMaxJerk) ||
+        !exact::isPositive(axis.fTaskCycle))
+      return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_AXIS_LIMITS;
+  }
+  group.uiJoints = group.uiAxes < kArmAxes ? group.uiAxes : static_cast<UINT>(kArmAxes);
+  if (group.itfKinematics != nullptr) {
+    const kinematics::KinematicsOf kinematics(ctx, group.itfKinematics);
+    if (kinematics.check() != kinematics::Outcome::Done)
+      return kinematics::errorOf(kinematics.check());
+    group.uiJoints = static_cast<UINT>(kinematics.ref().joints());
+  }
+  if (group.uiAxes == 0 || group.uiAxes < group.uiJoints ||
+      group.uiAxes - group.uiJoints > kMoreAxes)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_NUMBER_OF_AXES;
+  stateOf(group) = GroupState{};
+  group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
+  return 0;
+}
+
+} // namespace stride::robotics

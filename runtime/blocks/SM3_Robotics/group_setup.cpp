@@ -1,0 +1,85 @@
+// What is said of a group before it moves, and what it says of itself: kinematics, tool, position.
+#include "runtime/blocks/SM3_Robotics/frames.hpp"
+
+#include "runtime/axis/axis_ref.hpp"
+#include "runtime/numeric/kinematics/orientation.hpp"
+
+#include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
+#include "st/SM3_Robotics/SMC_COORD_SYSTEM.h"
+
+namespace stride::robotics {
+namespace {
+
+namespace decl = ::st::SM3_Robotics;
+namespace error = ::st::SM_Error;
+using kinematics::Frame;
+using kinematics::Outcome;
+
+bool isMovingOrFailed(const GroupRef &group) noexcept {
+  return group.eState != decl::SMC_AXIS_GROUP_STATE__GroupDisabled &&
+         group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStandby;
+}
+
+} // namespace
+
+int16_t setKinematics(Ctx &ctx, GroupRef &group, Interface kinematics) {
+  if (isMovingOrFailed(group))
+    return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+  const kinematics::KinematicsOf looked(ctx, kinematics);
+  if (looked.check() != Outcome::Done)
+    return kinematics::errorOf(looked.check());
+  const bool enabled = group.eState != decl::SMC_AXIS_GROUP_STATE__GroupDisabled;
+  if (enabled && looked.ref().joints() != group.uiJoints)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_NUMBER_OF_AXES;
+  group.itfKinematics = kinematics;
+  group.bConfiguration = 0;
+  group.bTool = 0;
+  return 0;
+}
+
+int16_t setTool(Ctx &ctx, GroupRef &group, const decl::MC_COORD_REF &tool) {
+  if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStandby)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+  double pose[kArmAxes];
+  __builtin_memcpy(pose, &tool, sizeof pose);
+  kinematics::KinematicsOf looked(ctx, group.itfKinematics);
+  const Outcome outcome = looked.setTool(frameOf(pose));
+  if (outcome != Outcome::Done)
+    return kinematics::errorOf(outcome);
+  group.stTool = tool;
+  group.bTool = 1;
+  return 0;
+}
+
+int16_t readPosition(Ctx &ctx, GroupRef &group, int16_t system, bool actual,
+                     decl::SMC_POS_REF &position,
+                     ::st::SM3_Transformation::CONFIGDATA &configuration) {
+  double axes[kAxes] = {};
+  for (int32_t i = 0; i < group.uiAxes; ++i) {
+    const axis::AxisRef &axis = *group.apAxis.v[i];
+    axes[placeOf(group, i)] = actual ? axis.fActPosition : axis.fSetPosition;
+  }
+  double result[kArmAxes];
+  __builtin_memcpy(result, axes, sizeof result);
+  configuration = {};
+  if (system != decl::SMC_COORD_SYSTEM__ACS) {
+    const GroupArm arm(ctx, group);
+    if (arm.outcome != Outcome::Done)
+      return kinematics::errorOf(arm.outcome);
+    Frame<double> tool;
+    const Outcome outcome = arm.arm.kinematics.forward(axes, tool);
+    if (outcome != Outcome::Done)
+      return kinematics::errorOf(outcome);
+    Frame<double> origin = tool; // TCS: the tool itself
+    if (system != decl::SMC_COORD_SYSTEM__TCS && !systemInMachine(group, system, origin))
+      return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
+    toPose(kinematics::inverted(origin) * tool, result);
+    const kinematics::Configuration stands = arm.arm.kinematics.configurationOf(axes);
+    __builtin_memcpy(&configuration, &stands, sizeof configuration);
+  }
+  static_assert(sizeof position == sizeof result);
+  __builtin_memcpy(&position, result, sizeof position);
+  return 0;
+}
+
+} // namespace stride::robotics

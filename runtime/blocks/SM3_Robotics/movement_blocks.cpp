@@ -1,0 +1,134 @@
+// MC_MoveLinearAbsolute, -Relative, MC_MoveDirectAbsolute, -Relative, MC_GroupHalt, MC_GroupStop.
+#include "runtime/blocks/SM3_Robotics/group_block.hpp"
+
+#include "st/SM3_Robotics/MC_GroupHalt.h"
+#include "st/SM3_Robotics/MC_GroupStop.h"
+#include "st/SM3_Robotics/MC_MoveDirectAbsolute.h"
+#include "st/SM3_Robotics/MC_MoveDirectRelative.h"
+#include "st/SM3_Robotics/MC_MoveLinearAbsolute.h"
+#include "st/SM3_Robotics/MC_MoveLinearRelative.h"
+#include "st/SM3_Robotics/MC_TRANSITION_MODE.h"
+#include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
+#include "st/SM_DriveBasic/MC_BUFFER_MODE.h"
+
+namespace {
+
+namespace robotics = ::stride::robotics;
+namespace group = ::stride::group;
+namespace decl = ::st::SM3_Robotics;
+namespace buffer = ::st::SM_DriveBasic;
+using robotics::Request;
+
+group::CornerSpeed cornerSpeedOf(int16_t mode) noexcept {
+  switch (mode) {
+  case buffer::MC_BUFFER_MODE__BlendingPrevious:
+    return group::CornerSpeed::First;
+  case buffer::MC_BUFFER_MODE__BlendingNext:
+    return group::CornerSpeed::Second;
+  case buffer::MC_BUFFER_MODE__BlendingHigh:
+    return group::CornerSpeed::Greater;
+  default:
+    return group::CornerSpeed::Smaller;
+  }
+}
+
+/// Only modes that blend make corners.
+group::Transition transitionOf(int16_t bufferMode, int16_t transition) noexcept {
+  if (bufferMode < buffer::MC_BUFFER_MODE__BlendingLow)
+    return group::Transition::None;
+  switch (transition) {
+  case decl::MC_TRANSITION_MODE__TMCornerDistance:
+    return group::Transition::Distance;
+  case decl::MC_TRANSITION_MODE__TMStartVelocity:
+    return group::Transition::StartVelocity;
+  default:
+    return group::Transition::None;
+  }
+}
+
+template <class Block> void fillModes(const Block &block, Request &request) noexcept {
+  request.system = block.CoordSystem;
+  request.bufferMode = block.BufferMode;
+  request.order.transition = transitionOf(block.BufferMode, block.TransitionMode);
+  request.order.transitionValue = block.TransitionParameter.v[0];
+  request.order.cornerSpeed = cornerSpeedOf(block.BufferMode);
+  request.order.velocityFactor = block.VelFactor;
+  request.order.accelerationFactor = block.AccFactor;
+  request.order.jerkFactor = block.JerkFactor;
+}
+
+void fillPosition(const decl::SMC_POS_REF &position, Request &request) noexcept {
+  static_assert(sizeof position == sizeof request.position);
+  __builtin_memcpy(request.position, &position, sizeof request.position);
+}
+
+template <class Block>
+void runLinear(::stride::Ctx &ctx, Block &block, const decl::SMC_POS_REF &position, bool relative) {
+  robotics::runMovement(ctx, block, [&](Request &request) {
+    request.kind = robotics::RequestKind::Linear;
+    request.relative = relative;
+    fillPosition(position, request);
+    fillModes(block, request);
+    request.order.path = {block.Velocity, block.Acceleration, block.Deceleration, block.Jerk};
+  });
+}
+
+template <class Block>
+void runDirect(::stride::Ctx &ctx, Block &block, const decl::SMC_POS_REF &position, bool relative) {
+  robotics::runMovement(ctx, block, [&](Request &request) {
+    request.kind = robotics::RequestKind::Direct;
+    request.relative = relative;
+    fillPosition(position, request);
+    fillModes(block, request);
+  });
+}
+
+} // namespace
+
+void decl::MC_MoveLinearAbsolute::body__(::stride::Ctx &ctx__) {
+  runLinear(ctx__, *this, Position, false);
+}
+void decl::MC_MoveLinearRelative::body__(::stride::Ctx &ctx__) {
+  runLinear(ctx__, *this, Distance, true);
+}
+void decl::MC_MoveDirectAbsolute::body__(::stride::Ctx &ctx__) {
+  runDirect(ctx__, *this, Position, false);
+}
+void decl::MC_MoveDirectRelative::body__(::stride::Ctx &ctx__) {
+  runDirect(ctx__, *this, Distance, true);
+}
+
+void decl::MC_GroupHalt::body__(::stride::Ctx &ctx__) {
+  robotics::runMovement(ctx__, *this, [this](Request &request) {
+    request.kind = robotics::RequestKind::Halt;
+    request.bufferMode = buffer::MC_BUFFER_MODE__Aborting;
+    request.deceleration = Deceleration;
+  });
+  Active = Busy;
+}
+
+void decl::MC_GroupStop::body__(::stride::Ctx &ctx__) {
+  if (AxisGroup != nullptr)
+    robotics::serve(ctx__, *AxisGroup);
+  if (robotics::rises(*this)) {
+    const int16_t error = AxisGroup != nullptr
+                              ? robotics::beginStop(ctx__, *AxisGroup, Deceleration)
+                              : robotics::kNoGroup;
+    robotics::setError(*this, error);
+    stBlock.bRunning = error == 0;
+    Done = CommandAborted = 0;
+  } else if (Execute == 0 && stBlock.bRunning == 0) {
+    robotics::setError(*this, 0);
+    Done = CommandAborted = 0;
+  }
+  if (stBlock.bRunning != 0) {
+    const bool holds = AxisGroup->eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping;
+    CommandAborted = !holds;
+    Done = holds && robotics::rests(*AxisGroup);
+    if (Done != 0 && Execute == 0)
+      robotics::endStop(*AxisGroup);
+    stBlock.bRunning = holds && !(Done != 0 && Execute == 0);
+  }
+  Active = stBlock.bRunning;
+  Busy = stBlock.bRunning;
+}
