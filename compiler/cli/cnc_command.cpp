@@ -29,7 +29,7 @@ struct LoadedCnc {
   std::map<std::string, const SourceFile *> subprograms;
   bool expanded = false; ///< It is in SoftMotion 3's language: the program is what it amounts to.
 
-  LoadedCnc(const std::string &path, const CncOptions &options) {
+  LoadedCnc(const std::string &path, const CncOptions &options, CncValues &values) {
     file = sources.load(path, path, kMaxCncBytes);
     if (!file) {
       diagnostics.report(
@@ -42,10 +42,12 @@ struct LoadedCnc {
     program = expanded
                   ? expandNc(
                         source, [&](const std::string &name) { return subprogram(path, name); },
-                        diagnostics)
+                        values, diagnostics)
                   : readCnc(source, diagnostics);
-    if (program && !expanded)
-      program->settings.softMotion3 = isSoftMotion3(path, options.softMotion);
+    if (!program || expanded)
+      return;
+    program->settings.softMotion3 = isSoftMotion3(path, options.softMotion);
+    setVariables(*program, values, diagnostics);
   }
 
   /// The file of a subprogram, beside that of the program.
@@ -66,6 +68,20 @@ struct LoadedCnc {
   }
 };
 
+CncValues valuesOf(const CncOptions &options) {
+  CncValues values;
+  for (const std::string &text : options.sets)
+    (void)values.add(text); // the command line has been checked
+  return values;
+}
+
+/// Reports values for variables that no program has, when the last one is there.
+void checkValues(const CncValues &values, LoadedCnc &loaded) {
+  const std::string unknown = values.unknown();
+  if (!unknown.empty() && !loaded.diagnostics.hasErrors())
+    loaded.diagnostics.report(Code::CncVariable, {}, unknown);
+}
+
 /// Rounded to what can be read; no `-0`.
 std::string shownNumber(double value) {
   const std::string text = fmt::format("{:.6g}", value);
@@ -74,8 +90,11 @@ std::string shownNumber(double value) {
 
 int cncCheck(const CncOptions &options) {
   int exitCode = 0;
+  CncValues values = valuesOf(options);
   for (const std::string &path : options.files) {
-    LoadedCnc loaded(path, options);
+    LoadedCnc loaded(path, options, values);
+    if (&path == &options.files.back())
+      checkValues(values, loaded);
     if (loaded.program)
       checkCnc(*loaded.program, loaded.diagnostics);
     exitCode = std::max(exitCode, loaded.finish(options.output));
@@ -140,8 +159,11 @@ std::string infoText(const std::string &path, const CncProgram &program, Diagnos
 
 int cncInfo(const CncOptions &options) {
   int exitCode = 0;
+  CncValues values = valuesOf(options);
   for (const std::string &path : options.files) {
-    LoadedCnc loaded(path, options);
+    LoadedCnc loaded(path, options, values);
+    if (&path == &options.files.back())
+      checkValues(values, loaded);
     if (loaded.program) {
       setProcessors(options, loaded.program->settings);
       const std::string text = infoText(path, *loaded.program, loaded.diagnostics);
@@ -155,8 +177,9 @@ int cncInfo(const CncOptions &options) {
 
 int cncFormat(const CncOptions &options) {
   int exitCode = 0;
+  CncValues none;
   for (const std::string &path : options.files) {
-    LoadedCnc loaded(path, options);
+    LoadedCnc loaded(path, options, none);
     if (loaded.expanded) {
       loaded.diagnostics.report(Code::CncText, {loaded.file.value_or(0), 0, 0},
                                 "programs with expressions and subprograms cannot be formatted yet",
@@ -182,10 +205,12 @@ int cncMotion(const CncOptions &options) {
   const std::string &path = options.files.front();
   if (options.motion.velocityMode == "quadratic" && !(options.motion.jerk > 0))
     return showError(Code::CncSentence, "--velocity-mode quadratic needs a --jerk", options.output);
-  LoadedCnc loaded(path, options);
+  CncValues values = valuesOf(options);
+  LoadedCnc loaded(path, options, values);
   std::string says;
   if (loaded.program) {
     CncProgram &program = *loaded.program;
+    checkValues(values, loaded);
     setProcessors(options, program.settings);
     if (options.motion.velocity > 0)
       program.settings.velocity = options.motion.velocity;
@@ -204,10 +229,12 @@ int cncMotion(const CncOptions &options) {
 /// Writes a queue file.
 int cncQueue(const CncOptions &options) {
   const std::string &path = options.files.front();
-  LoadedCnc loaded(path, options);
+  CncValues values = valuesOf(options);
+  LoadedCnc loaded(path, options, values);
   std::string says;
   if (loaded.program) {
     CncProgram &program = *loaded.program;
+    checkValues(values, loaded);
     CncSettings &settings = program.settings;
     settings.compile = CncCompile::QueueFile;
     setProcessors(options, settings);

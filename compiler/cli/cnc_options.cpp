@@ -1,5 +1,6 @@
 // The commands below `stride cnc`.
 
+#include "compiler/assets/cnc/values.hpp"
 #include "compiler/cli/cnc_path.hpp"
 #include "compiler/cli/command_line.hpp"
 #include "compiler/toml/interval.hpp"
@@ -106,6 +107,8 @@ private:
                        "says, else 2.3)")
           ->check(CLI::IsMember({"2.3", "3"}).description(""))
           ->type_name("VERSION");
+    if (action != CncAction::Format && action < CncAction::Number)
+      declareValues(command);
     if (action != CncAction::Check && action != CncAction::Format && action < CncAction::Number)
       declareProcessors(command);
     addOutputOptions(*command, call_->cnc.output);
@@ -114,6 +117,18 @@ private:
       call->exitCode = cncCommand(call->cnc);
     });
     return command;
+  }
+
+  void declareValues(CLI::App *command) const {
+    auto seen = std::make_shared<CncValues>();
+    command
+        ->add_option("--set", call_->cnc.sets,
+                     "Value of a variable: NAME=VALUE, several times (default: 0)")
+        ->take_all()
+        ->expected(1)
+        ->check(
+            CLI::Validator([seen](std::string &text) { return seen->add(text); }, std::string()))
+        ->type_name("NAME=VALUE");
   }
 
   void declareProcessors(CLI::App *command) const {

@@ -202,6 +202,7 @@ struct CncOptions {
   CncMotionOptions motion;
   CncQueueOptions queue;
   CncProcessorOptions preprocess;
+  std::vector<std::string> sets; ///< Values of variables: NAME=VALUE
   CncNumbering numbering;
   CncMoveOptions move; ///< reverse: `places` is where the path begins
   CncSplit split;

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Draws the pictures of docs/cnc-planner.md from what `stride cnc run` drives.
 
-usage: figures.py STRIDE OUT
+usage: figures.py STRIDE [OUT]
 
-Writes OUT/limits.svg (velocity over the way, under what limits it), OUT/corner.svg (a corner with three tolerances) and
+Without OUT it compares them with those that are there, and fails if one is out of date. Writes OUT/limits.svg (velocity over the way, under what limits it), OUT/corner.svg (a corner with three tolerances) and
 OUT/override.svg (an override and a feed hold in the example MillingHead).
 """
 import csv
@@ -85,11 +85,16 @@ def draw_override(stride, folder, out):
 
 
 def main():
-    stride, out = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    stride, here = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(__file__).resolve().parent
     with tempfile.TemporaryDirectory() as name:
+        out = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else name)
         draw_limits(stride, pathlib.Path(name), out)
         draw_corner(stride, pathlib.Path(name), out)
         draw_override(stride, pathlib.Path(name), out)
+        if len(sys.argv) == 2:
+            old = [new.name for new in sorted(out.glob("*.svg")) if new.read_bytes() != (here / new.name).read_bytes()]
+            if old:
+                sys.exit(f"out of date: {', '.join(old)}; draw them anew with docs/planner/figures.py STRIDE docs/planner")
 
 
 if __name__ == "__main__":

@@ -4,6 +4,8 @@
 #include "runtime/numeric/nc/reader.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -84,8 +86,9 @@ bool isName(char c) { return nc::isLetter(c) || nc::isDigit(c) || c == '_'; }
 /// A program, and the subprograms that it calls, as files.
 class Expansion {
 public:
-  Expansion(const SourceFile &file, const NcLookup &lookup, Diagnostics &diagnostics)
-      : lookup_(lookup), diagnostics_(diagnostics), files_{&file} {}
+  Expansion(const SourceFile &file, const NcLookup &lookup, CncValues &values,
+            Diagnostics &diagnostics)
+      : lookup_(lookup), values_(values), diagnostics_(diagnostics), files_{&file} {}
 
   std::optional<CncProgram> expand() {
     begin();
@@ -183,7 +186,8 @@ private:
     return true;
   }
 
-  /// Variables count as numbers with the value 0; each is listed before a line names it.
+  /// Variables have the type of their value; without one they count as numbers with the value 0.
+  /// Each is listed before a line names it.
   void listVariables(std::string_view text) {
     for (size_t at = text.find('$'); at != std::string_view::npos; at = text.find('$', at)) {
       const size_t end = text.find_first_of("$\n", at + 1);
@@ -196,8 +200,27 @@ private:
         cnc::NamedVariable variable{};
         std::copy(name.begin(), name.end(), variable.name);
         variable.type = static_cast<int16_t>(cnc::VariableType::Lreal);
+        if (const CncValue *const value = values_.find(name))
+          setValue(variable, *value);
         variables_.push_back(variable);
       }
+    }
+  }
+
+  /// Where the program may change it.
+  void setValue(cnc::NamedVariable &variable, const CncValue &value) {
+    constexpr size_t kPlace = nc::kTextVariableLength + 1;
+    places_.push_back(std::make_unique<std::array<uint8_t, kPlace>>());
+    uint8_t *const place = places_.back()->data();
+    variable.address = place;
+    if (value.number) {
+      std::memcpy(place, &*value.number, sizeof *value.number);
+    } else if (value.truth) {
+      variable.type = nc::kBoolVariable;
+      *place = *value.truth ? 1 : 0;
+    } else {
+      variable.type = nc::kTextVariable;
+      value.text.copy(reinterpret_cast<char *>(place), kPlace - 1);
     }
   }
 
@@ -287,6 +310,8 @@ private:
   }
 
   const NcLookup &lookup_;
+  CncValues &values_;
+  std::vector<std::unique_ptr<std::array<uint8_t, nc::kTextVariableLength + 1>>> places_;
   Diagnostics &diagnostics_;
   std::vector<const SourceFile *> files_; ///< Of programs that call each other.
   std::vector<const SourceFile *> listed_;
@@ -328,8 +353,8 @@ bool needsNcLanguage(std::string_view text) {
 }
 
 std::optional<CncProgram> expandNc(const SourceFile &file, const NcLookup &lookup,
-                                   Diagnostics &diagnostics) {
-  return Expansion(file, lookup, diagnostics).expand();
+                                   CncValues &values, Diagnostics &diagnostics) {
+  return Expansion(file, lookup, values, diagnostics).expand();
 }
 
 } // namespace stc

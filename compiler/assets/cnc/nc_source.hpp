@@ -3,7 +3,7 @@
 // CNC programs in SoftMotion 3's language: what they are without their expressions, loops and
 // subprograms.
 
-#include "compiler/assets/cnc/cnc_source.hpp"
+#include "compiler/assets/cnc/values.hpp"
 
 #include <functional>
 
@@ -16,11 +16,11 @@ namespace stc {
 /// The file of a subprogram, by its name in lower case; null: there is none.
 using NcLookup = std::function<const SourceFile *(const std::string &name)>;
 
-/// Carries the program out, with 0 for its variables, and returns its sentences as they have been
-/// carried out, with numbers. What is wrong is reported; with errors nothing is returned. A file
-/// that is a subprogram is only read: it has no sentences then.
+/// Carries the program out, with the values of its variables, else 0, and returns its sentences as
+/// they have been carried out, with numbers. What is wrong is reported; with errors nothing is
+/// returned. A file that is a subprogram is only read: it has no sentences then.
 [[nodiscard]] std::optional<CncProgram> expandNc(const SourceFile &file, const NcLookup &lookup,
-                                                 Diagnostics &diagnostics);
+                                                 CncValues &values, Diagnostics &diagnostics);
 
 } // namespace stc
 
