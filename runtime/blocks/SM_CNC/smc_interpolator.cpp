@@ -165,7 +165,6 @@ template <class Block> void idle(Block &block) noexcept {
   block.iActObjectSourceNo = -1;
   block.dVel = 0.0;
   block.vecActTangent = {};
-  block.iLastSwitch = 0;
   block.dWayPos = block.dLastWayPos;
   block.wM = 0;
   block.dActObjectLength = 0.0;
@@ -193,7 +192,8 @@ void show(Block &block, const cnc::Interpolator &state, double cycle) noexcept {
   block.iActObjectSourceNo = block.bWorking != 0 ? progress.source : -1;
   block.dVel = progress.length / cycle;
   __builtin_memcpy(&block.vecActTangent, &progress.tangent, sizeof block.vecActTangent);
-  block.iLastSwitch = progress.lastSwitch;
+  if (progress.lastSwitch != 0)
+    block.iLastSwitch = progress.lastSwitch;
   block.dwSwitches = state.switches;
   block.dWayPos = block.dLastWayPos + progress.length;
   block.wM = progress.function;
@@ -241,8 +241,10 @@ template <class Block> void run(Block &block) noexcept {
       refuse(block, error);
       return;
     }
-    if (rising)
+    if (rising) {
       cnc::start(state, command);
+      block.iLastSwitch = 0;
+    }
     takeOverride(block, command);
     cnc::cycle(state, command);
     show(block, state, command.cycle);

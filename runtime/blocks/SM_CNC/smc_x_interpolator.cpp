@@ -45,7 +45,6 @@ void idle(Block &block, int16_t status) noexcept {
   block.iActObjectSourceNo = -1;
   block.dVel = block.dLastVel = 0.0;
   block.vecActTangent = {};
-  block.iLastSwitch = 0;
   block.dWayPos = block.dLastWayPos;
   block.nDirection = decl::SMC_Direction__IPO_standstill;
 }
@@ -68,7 +67,8 @@ int16_t movingStatus(const Block &block, const cnc::XFollower &state) noexcept {
 void show(Block &block, const cnc::XFollower &state, double time) noexcept {
   __builtin_memcpy(&block.piSetPosition, &state.position, sizeof block.piSetPosition);
   block.dwSwitches = state.switches;
-  block.iLastSwitch = state.lastSwitch;
+  if (state.lastSwitch != 0)
+    block.iLastSwitch = state.lastSwitch;
   block.dVel = time > 0.0 ? state.length / time : 0.0;
   block.dWayPos = block.dLastWayPos + state.length;
   block.bWorking = block.bBusy = 1;
@@ -102,10 +102,8 @@ void work(Block &block) noexcept {
   show(block, state, block.dwIpoTime != 0 ? block.dwIpoTime * 1e-6 : block.X_Axis->fTaskCycle);
   if (state.phase == cnc::XPhase::Done) {
     const double way = block.dWayPos;
-    const int16_t passed = block.iLastSwitch;
     idle(block, decl::SMC_INT_STATUS__IPO_FINISHED);
     block.dWayPos = way;
-    block.iLastSwitch = passed;
     block.bDone = 1;
   }
 }
@@ -120,8 +118,10 @@ void st::SM_CNC::SMC_XInterpolator::body__(::stride::Ctx & /*ctx__*/) {
     wErrorID = e::SMC_ERROR__SMC_NO_ERROR;
     idle(*this, bAbort != 0 ? SMC_INT_STATUS__IPO_FINISHED : SMC_INT_STATUS__IPO_UNKNOWN);
   }
-  if (bAbort == 0 && rising)
+  if (bAbort == 0 && rising) {
     cnc::startFollowing(stateOf(*this));
+    iLastSwitch = 0;
+  }
   if (bAbort == 0 && (rising || bWorking != 0))
     work(*this);
 }
