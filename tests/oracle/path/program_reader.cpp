@@ -21,17 +21,24 @@ Point normalOf(const std::string &code) {
 
 void takeSentence(const std::string &line, ReaderState &state) {
   std::istringstream words(line);
-  std::string number;
   std::string code;
-  words >> number >> code;
+  words >> code;
+  if (code.starts_with('N')) {
+    code.clear();
+    words >> code;
+  }
+  if (code.empty())
+    return;
   if (code == "G17" || code == "G18" || code == "G19") {
     state.normal = normalOf(code);
     return;
   }
+  if (code != "G0" && code != "G1" && code != "G2" && code != "G3" && code != "G92")
+    throw std::runtime_error("not known here: " + line);
   Point end = state.place;
   Point centre = state.place;
   for (std::string word; words >> word;) {
-    const double value = std::stod(word.substr(1));
+    const double value = word.size() > 1 ? std::stod(word.substr(1)) : 0.0;
     const char letter = word.front();
     if (letter == 'F')
       state.feed = value;

@@ -211,6 +211,18 @@ TEST(ProgramText, IsReadBack) {
   EXPECT_THROW(movesOf(file), std::runtime_error);
 }
 
+TEST(ProgramReader, TakesSentencesWithoutNumbersAndRefusesWhatItDoesNotKnow) {
+  const std::string file = testing::TempDir() + "unnumbered.cnc";
+  std::ofstream(file) << "% a\nG17\n\nN5\nG1 X30 F50\nG2 X40 Y10 I10\n";
+  const std::vector<ProgramMove> moves = movesOf(file);
+  ASSERT_EQ(moves.size(), 2U);
+  EXPECT_EQ(moves[1].kind, MoveKind::Clockwise);
+  EXPECT_EQ(moves[1].centre[0], 40);
+  std::ofstream(file) << "% a\nG5 X1\n";
+  EXPECT_THROW(movesOf(file), std::runtime_error);
+  std::remove(file.c_str());
+}
+
 TEST(ProgramText, IsInTheLanguage) {
   const std::vector<ProgramMove> moves = {
       {MoveKind::Line, {0, 0, 1}, {2.5, -1e-20, 1e-7}, {}, {}, 100, 20, 30},
