@@ -50,9 +50,13 @@ void reset(Motion &motion, const MotionSettings &settings) noexcept {
 }
 
 bool extend(Motion &motion, const Strip &strip) noexcept {
-  // A strip that is being planned with stays as it is.
+  // A strip that is being planned with stays as it is, and one that the law goes over: it would be
+  // too fast for what is added.
   const bool planned = motion.session == Session::Planning || motion.session == Session::Writing;
-  const bool isFixed = planned && motion.course.next - 1 <= motion.plan.lastStrip;
+  const int64_t last = motion.course.next - 1;
+  const bool driven = motion.course.first < motion.course.next && !isAtRest(motion) &&
+                      endAt(motion.law, lastPiece(motion)) > beginOf(motion.course, last);
+  const bool isFixed = driven || (planned && last <= motion.plan.lastStrip);
   // More, and cells take limits of places that they do not touch; less, and a course of dense
   // curves ends before the next plan is ready.
   constexpr double kPartOfCell = 0.75;

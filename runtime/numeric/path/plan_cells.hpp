@@ -52,6 +52,9 @@ inline double changeIn(const Plan &plan, int32_t i) noexcept {
 /// The acceleration at the end of the way x out of rest, with constant jerk. [u/s^2]
 double accelerationFromRest(double jerk, double x) noexcept;
 
+/// The override that the present velocity is of, in the strip where the plan begins.
+double presentOverride(const Plan &plan, const Course &course) noexcept;
+
 /// What of a strip's accelerations the first idea makes use of; of a trapezoid, the plan: what a
 /// curve leaves where it is gone over with the greatest velocity. [u/s^2]
 double usableAcceleration(const Plan &plan, const Strip &strip) noexcept;

@@ -37,12 +37,6 @@ double limitOf(const Plan &plan) noexcept {
   return plan.task.whole ? plan.task.limit : plan.task.end;
 }
 
-/// The override that the present velocity is of, in the strip where the plan begins.
-double presentOverride(const Plan &plan, const Course &course) noexcept {
-  const double feed = stripAt(course, plan.firstStrip).feed;
-  return larger(larger(plan.task.override, plan.task.before), plan.from.velocity / feed);
-}
-
 /// Writes the ramp to the velocity of plan.rampSquare with at most plan.rampMost of deceleration.
 void writeRamp(Plan &plan) noexcept {
   const double jerk = plan.rampJerk;
@@ -141,6 +135,11 @@ bool allowsRamp(const Plan &plan, const Course &course) noexcept {
 }
 
 } // namespace
+
+double presentOverride(const Plan &plan, const Course &course) noexcept {
+  const double feed = stripAt(course, plan.firstStrip).feed;
+  return larger(larger(plan.task.override, plan.task.before), plan.from.velocity / feed);
+}
 
 bool findRamp(Plan &plan, const Course &course) noexcept {
   const PlanTask &task = plan.task;

@@ -107,16 +107,26 @@ double lengthIn(const Part &part, double time) noexcept {
   return (first + 0.5 * rate * ramp) * ramp + most * (time - ramp);
 }
 
+/// The greatest b at the end of the present strip, by it and the next one. [u^2/s^2]
+double ceilingAtBorder(const Plan &plan, const Course &course, double override) noexcept {
+  const double ceiling = squareAtEnd(stripAt(course, plan.strip), override);
+  if (plan.strip + 1 == course.next)
+    return ceiling;
+  return smaller(ceiling, squareIn(stripAt(course, plan.strip + 1), override));
+}
+
 /// b at the end of the present strip, after a length. A run that begins above the ceilings, since
-/// there is another override, brakes until it is below.
+/// there is another override, brakes until it is below. No override makes the other limits greater.
 double squareAtBorder(Plan &plan, const Course &course, const Part &part, double length) noexcept {
-  double ceiling = squareAtEnd(stripAt(course, plan.strip), plan.task.override);
-  if (plan.strip + 1 < course.next)
-    ceiling = smaller(ceiling, squareIn(stripAt(course, plan.strip + 1), plan.task.override));
+  constexpr double kAlmost = 1.0 + 1e-12; // not by rounding
+  const double ceiling = ceilingAtBorder(plan, course, plan.task.override);
   if (plan.strip == plan.firstStrip)
-    plan.slowing = part.before > part.most * (1.0 + 1e-12); // not by rounding
+    plan.slowing = part.before > part.most * kAlmost;
   const double braked = part.before - 2.0 * part.deceleration * length;
   plan.slowing = plan.slowing && braked > ceiling;
+  if (plan.slowing && isTrapezoid(plan) &&
+      braked > ceilingAtBorder(plan, course, presentOverride(plan, course)) * kAlmost)
+    plan.state = PlanState::Failed;
   return plan.slowing ? braked : smaller(squareAfter(part, length), ceiling);
 }
 
