@@ -1,0 +1,66 @@
+// Paths of sizes at both ends of what there is: one object of 10^9 u, and objects of a thousandth.
+#include "tests/unit/cnc/interpolator_drive.hpp"
+
+namespace stride::test {
+namespace {
+
+class EachLawExtremes : public ::testing::TestWithParam<LawKind> {};
+
+INSTANTIATE_TEST_SUITE_P(Interpolator, EachLawExtremes,
+                         ::testing::Values(LawKind::Trapezoid, LawKind::Sigmoid, LawKind::Jerk));
+
+/// From rest to a velocity: with limited jerk, which never reaches the acceleration here, or
+/// reaches it just so; else with the acceleration.
+double rampTime(LawKind law, double velocity, double acceleration, double jerk) {
+  if (law != LawKind::Jerk)
+    return velocity / acceleration;
+  return acceleration * acceleration > velocity * jerk
+             ? 2 * std::sqrt(velocity / jerk)
+             : velocity / acceleration + acceleration / jerk;
+}
+
+TEST_P(EachLawExtremes, DrivesOneObjectOfTenToTheNine) {
+  Drive drive(GetParam());
+  PathObject &object = drive.line(6e8, -8e8, 0);
+  object.velocity = 1e7;
+  object.acceleration = 1e6;
+  object.deceleration = 5e5;
+  drive.queue.endOfList = 1;
+  drive.start();
+  const double time = drive.finish(1000);
+  EXPECT_EQ(drive.x(), 6e8);
+  EXPECT_EQ(drive.y(), -8e8);
+  EXPECT_NEAR(drive.fastest, 1e7, 1);
+  const double ramps =
+      rampTime(GetParam(), 1e7, 1e6, 20000) + rampTime(GetParam(), 1e7, 5e5, 20000);
+  EXPECT_NEAR(time, 100 + ramps / 2, 1e-3 * time);
+}
+
+TEST_P(EachLawExtremes, LosesLittleOnShortObjects) {
+  constexpr int kPoints = 20000;
+  constexpr double kFeed = 20; // as many objects pass in a cycle
+  Drive drive(GetParam(), 6000);
+  int next = 1;
+  const auto fill = [&] {
+    for (; next <= kPoints && !cnc::isFull(&drive.queue); ++next) {
+      PathObject &line = drive.line(6e-4 * next, -8e-4 * next, next == kPoints ? 0 : kFeed);
+      line.velocity = kFeed;
+    }
+    drive.queue.endOfList = next > kPoints ? 1 : 0;
+  };
+  fill();
+  drive.start();
+  drive.run([&] {
+    fill();
+    return drive.interpolator->phase == Phase::Finished;
+  });
+  EXPECT_EQ(drive.x(), 6e-4 * kPoints);
+  EXPECT_EQ(drive.y(), -8e-4 * kPoints);
+  EXPECT_NEAR(drive.fastest, kFeed, 1e-6);
+  const double ramps =
+      rampTime(GetParam(), kFeed, 1000, 20000) + rampTime(GetParam(), kFeed, 500, 20000);
+  EXPECT_LT(drive.time, (20 / kFeed + ramps / 2) * 1.2);
+}
+
+} // namespace
+} // namespace stride::test
