@@ -38,10 +38,16 @@ template <int kOrder> struct Jet {
   }
   friend Jet operator-(const Jet &a) noexcept { return Jet(0.0) - a; }
   friend Jet operator*(const Jet &a, const Jet &b) noexcept {
-    Jet product(0.0);
-    for (int k = 0; k <= kOrder; ++k)
-      for (int i = 0; i <= k; ++i)
-        product.c[k] += a.c[i] * b.c[k - i];
+    // Written out: compilers leave a loop over the terms a loop. 0 makes -0 a 0.
+    Jet product;
+    product.c[0] = 0.0 + a.c[0] * b.c[0];
+    if constexpr (kOrder >= 1)
+      product.c[1] = 0.0 + a.c[0] * b.c[1] + a.c[1] * b.c[0];
+    if constexpr (kOrder >= 2)
+      product.c[2] = 0.0 + a.c[0] * b.c[2] + a.c[1] * b.c[1] + a.c[2] * b.c[0];
+    if constexpr (kOrder >= 3)
+      product.c[3] = 0.0 + a.c[0] * b.c[3] + a.c[1] * b.c[2] + a.c[2] * b.c[1] + a.c[3] * b.c[0];
+    static_assert(kOrder <= 3);
     return product;
   }
   friend Jet operator/(const Jet &a, const Jet &b) noexcept {
