@@ -174,7 +174,7 @@ void leaveOut(LoopAvoider &loops, const PathObject &object, Output &output) noex
   --loops.skip;
   if (object.moveType == MoveType::Function) {
     PathObject kept = object;
-    for (int32_t i = kAxisX; i <= kAxisZ; ++i)
+    for (int32_t i = 0; i < kAxes; ++i)
       kept.start.coordinate[i] = kept.end.coordinate[i] = loops.end.coordinate[i];
     put(output, kept);
     return;
