@@ -34,6 +34,9 @@ inline constexpr Vector3 cross(const Vector3 &a, const Vector3 &b) noexcept {
 inline double norm(const Vector3 &a) noexcept {
   const double most =
       exact::larger(exact::fabs(a.x), exact::larger(exact::fabs(a.y), exact::fabs(a.z)));
+  // Squares are far from the ends of what numbers can hold: the same without scaling, bit for bit.
+  if (most > 1e-100 && most < 1e100)
+    return exact::sqrt(dot(a, a));
   if (!exact::isPositive(most))
     return most;
   int exponent = 0;

@@ -15,7 +15,8 @@ struct Heading {
 double normOf(const double (&v)[kAxes]) noexcept {
   double sum = 0.0;
   for (const double component : v)
-    sum = numeric::norm({sum, component, 0.0});
+    if (component != 0.0)
+      sum = numeric::norm({sum, component, 0.0});
   return sum;
 }
 

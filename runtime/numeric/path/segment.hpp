@@ -91,6 +91,10 @@ double limitStrip(const Segment &segment, const AxesLimits &limits, double from,
 void limitBetween(const Segment &segment, const AxesLimits &limits, double from, double to,
                   Strip &strip) noexcept;
 
+/// The same for all of a segment that goes along an arc of a circle, or a helix, and in which
+/// nothing goes by an S profile or by slopes: in closed form.
+void limitArc(const Segment &segment, const AxesLimits &limits, Strip &strip) noexcept;
+
 /// The greatest square of the velocity at a kink between two segments, so that no axis changes its
 /// velocity by more than its acceleration within `time`; `other` is the acceleration of axes
 /// without a limit. kInfinity if there is no kink. [s] in, [u^2/s^2] out

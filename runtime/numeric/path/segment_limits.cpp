@@ -105,29 +105,63 @@ double bound(const double (&begin)[kCoordinates], const double (&middle)[kCoordi
   return samples + 0.5 * fabs(middle[k] - 0.5 * (begin[k] + end[k]));
 }
 
-void limitAxis(const Part &part, const AxesLimits &limits, int32_t k, Strip &strip) noexcept {
-  const double first = bound(part.begin.d1, part.middle.d1, part.end.d1, k);
-  const double second = bound(part.begin.d2, part.middle.d2, part.end.d2, k);
-  const double third = bound(part.begin.d3, part.middle.d3, part.end.d3, k);
-  if (limits.velocity[k] > 0.0 && first > 0.0) {
-    const double velocity = limits.velocity[k] / first;
+/// The greatest amounts of a coordinate's derivatives over the way.
+struct Steepest {
+  double first, second, third;
+};
+
+void limitAxis(const Steepest &steepest, const AxesLimits &limits, int32_t k,
+               Strip &strip) noexcept {
+  if (limits.velocity[k] > 0.0 && steepest.first > 0.0) {
+    const double velocity = limits.velocity[k] / steepest.first;
     strip.ceiling = smaller(strip.ceiling, velocity * velocity);
   }
   if (limits.acceleration[k] > 0.0) {
-    strip.along = larger(strip.along, first / limits.acceleration[k]);
-    strip.across = larger(strip.across, second / limits.acceleration[k]);
+    strip.along = larger(strip.along, steepest.first / limits.acceleration[k]);
+    strip.across = larger(strip.across, steepest.second / limits.acceleration[k]);
   }
-  if (limits.jerk[k] > 0.0 && third > 0.0) {
-    const double velocity = numeric::cubeRoot(kJerkShare * limits.jerk[k] / third);
+  if (limits.jerk[k] > 0.0 && steepest.third > 0.0) {
+    const double velocity = numeric::cubeRoot(kJerkShare * limits.jerk[k] / steepest.third);
     strip.ceiling = smaller(strip.ceiling, velocity * velocity);
   }
 }
 
-void limitPart(const Part &part, const AxesLimits &limits, Strip &strip) noexcept {
-  for (int32_t k = 0; k < kCoordinates; ++k)
-    limitAxis(part, limits, k, strip);
+void limitCurve(Strip &strip) noexcept {
   if (strip.across > 0.0)
     strip.ceiling = smaller(strip.ceiling, kCurveShare / strip.across);
+}
+
+void limitPart(const Part &part, const AxesLimits &limits, Strip &strip) noexcept {
+  for (int32_t k = 0; k < kCoordinates; ++k)
+    limitAxis({bound(part.begin.d1, part.middle.d1, part.end.d1, k),
+               bound(part.begin.d2, part.middle.d2, part.end.d2, k),
+               bound(part.begin.d3, part.middle.d3, part.end.d3, k)},
+              limits, k, strip);
+  limitCurve(strip);
+}
+
+/// A sine over the way, by its values at both ends, which are of the same sign if it has no zero
+/// between them: the greatest amount. `half`: it goes over half a turn at least, or an extreme of
+/// it lies between the ends.
+double greatest(double begin, double end, double amplitude, bool half) noexcept {
+  return half ? amplitude : larger(fabs(begin), fabs(end));
+}
+
+/// A coordinate of an arc: `d1` and `d2` at both ends, of which `even` is the climb's part of d1.
+Steepest steepestOf(const PathPoint &begin, const PathPoint &end, int32_t k, double even,
+                    double turnPerWay, bool isHalf) noexcept {
+  const double w = fabs(turnPerWay);
+  const double from = begin.d1[k] - even;
+  const double to = end.d1[k] - even;
+  // d1 - even is a sine, d2 its derivative: an extreme of one is a zero of the other.
+  const double second = begin.d2[k] / w;
+  const double amplitude = exact::sqrt(from * from + second * second);
+  const bool turns = isHalf || (begin.d2[k] > 0.0) != (end.d2[k] > 0.0);
+  const bool crosses = isHalf || (from > 0.0) != (to > 0.0);
+  const double sine = greatest(from, to, amplitude, turns);
+  // With a climb: an extreme may be on either side.
+  const double first = turns ? sine + fabs(even) : larger(fabs(begin.d1[k]), fabs(end.d1[k]));
+  return {first, w * greatest(second, end.d2[k] / w, amplitude, crosses), w * w * sine};
 }
 
 } // namespace
@@ -139,6 +173,27 @@ void limitBetween(const Segment &segment, const AxesLimits &limits, double from,
   strip.ceiling = exact::kInfinity;
   limitPart({pointAt(segment, from), pointAt(segment, 0.5 * (from + to)), pointAt(segment, to)},
             limits, strip);
+}
+
+void limitArc(const Segment &segment, const AxesLimits &limits, Strip &strip) noexcept {
+  constexpr double kHalfTurn = 3.14159265358979323846;
+  strip.along = 0.0;
+  strip.across = 0.0;
+  strip.ceiling = exact::kInfinity;
+  const PathPoint begin = pointAt(segment, 0.0);
+  const PathPoint end = pointAt(segment, segment.length);
+  const Shape &shape = segment.shape;
+  const double turnPerWay = shape.sweep / segment.length;
+  const bool isHalf = fabs(shape.sweep) >= kHalfTurn;
+  const Vector3 climb = shape.v[3] * (1.0 / segment.length);
+  const double even[kSpace] = {climb.x, climb.y, climb.z};
+  for (int32_t k = 0; k < kCoordinates; ++k) {
+    const bool isOfArc = k < kSpace && (static_cast<unsigned>(segment.along) >> k & 1U) == 0;
+    limitAxis(isOfArc ? steepestOf(begin, end, k, even[k], turnPerWay, isHalf)
+                      : Steepest{fabs(begin.d1[k]), 0.0, 0.0},
+              limits, k, strip);
+  }
+  limitCurve(strip);
 }
 
 double limitStrip(const Segment &segment, const AxesLimits &limits, double from,

@@ -10,8 +10,8 @@ using exact::smaller;
 
 /// Of an axis's acceleration, what bends of the path may take; the rest is for changes of velocity.
 constexpr double kBendShare = 0.5;
-/// Parts of an object that is not straight. Always as many, so that a call takes about as long
-/// whatever the object is.
+/// Parts of an object that is neither straight nor an arc. Always as many, so that a call takes
+/// about as long whatever the object is.
 constexpr int32_t kParts = 32;
 
 /// What the axes' limits make of a whole object.
@@ -23,6 +23,12 @@ struct Bounds {
 
 Bounds boundsOf(const path::Segment &segment, const path::AxesLimits &limits) noexcept {
   Bounds bounds;
+  const bool isArc = !segment.isStill && segment.shape.kind == path::ShapeKind::Arc;
+  if (isArc && segment.profile == 0 && segment.bent == 0) {
+    path::Strip strip{};
+    path::limitArc(segment, limits, strip);
+    return {strip.ceiling, strip.along, strip.across};
+  }
   const bool straight = segment.isStill || segment.shape.kind == path::ShapeKind::Line;
   const int32_t parts = straight && segment.profile == 0 && segment.bent == 0 ? 1 : kParts;
   const double part = segment.length / parts;
