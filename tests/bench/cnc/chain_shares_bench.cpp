@@ -58,7 +58,7 @@ struct Memory {
 };
 
 /// The time that has been spent in each stage, and how many objects it has put out. [s]
-enum Stage : uint8_t { Decode, Tool, Loops, Corners, Limit, Check, Drive, kStages };
+enum Stage : uint8_t { kDecode, kTool, kLoops, kCorners, kLimit, kCheck, kDrive, kStages };
 constexpr const char *kNames[kStages] = {"decoder", "tool",  "loops",       "corners",
                                          "limits",  "check", "interpolator"};
 
@@ -98,11 +98,11 @@ public:
       for (int i = 0; i < kMost && !isFull(&last) && limitStream_.phase == StreamPhase::Running;
            ++i)
         fill();
-      measured(Check, [&] { (void)checkVelocities(&last, checked_, {0.01, -1.0}); });
+      measured(kCheck, [&] { (void)checkVelocities(&last, checked_, {0.01, -1.0}); });
       last.generator = kByCheckVelocities;
       if (!begun)
         start(*interpolator_, command_);
-      measured(Drive, [&] {
+      measured(kDrive, [&] {
         do {
           cycle(*interpolator_, command_);
           ++cycles_;
@@ -130,11 +130,11 @@ private:
 
   /// Each stage works until its output is full or its input empty.
   void fill() {
-    measured(Decode, [&] { decode(); });
-    measured(Tool, [&] { work(toolStream_, *tool_, 0); });
-    measured(Loops, [&] { work(loopStream_, *loops_, 1); });
-    measured(Corners, [&] { work(cornerStream_, *corners_, 2); });
-    measured(Limit, [&] { work(limitStream_, *limit_, 3); });
+    measured(kDecode, [&] { decode(); });
+    measured(kTool, [&] { work(toolStream_, *tool_, 0); });
+    measured(kLoops, [&] { work(loopStream_, *loops_, 1); });
+    measured(kCorners, [&] { work(cornerStream_, *corners_, 2); });
+    measured(kLimit, [&] { work(limitStream_, *limit_, 3); });
   }
 
   void decode() {
