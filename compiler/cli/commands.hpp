@@ -108,6 +108,8 @@ struct PlotOptions {
   std::optional<double> from;      ///< the first row [s]
   std::optional<double> to;        ///< the last row [s]
   std::vector<std::string> panels; ///< `TITLE=NAMES` or `NAMES` each; none: by quantity
+  std::vector<std::string> xy;     ///< `X,Y` each: columns against each other instead of time
+  std::string color;               ///< of xy: the column that colours the curves; empty: none
   std::string project; ///< where the trace comes from; empty: where it lies, or the current folder
 };
 int plotCommand(const PlotOptions &options);

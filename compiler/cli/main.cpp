@@ -131,10 +131,20 @@ void declarePlot(CLI::App &app, Invocation &call) {
   time("--from", call.plot.from, "Where the picture begins: 2s, T#1s500ms");
   time("--to", call.plot.to, "Where it ends");
   plot->add_option("--title", call.plot.title, "Text above the picture")->type_name("TEXT");
+  CLI::Option *xy =
+      plot->add_option("--xy", call.plot.xy,
+                       "Two columns against each other instead of time: X.fSetPosition,"
+                       "Y.fSetPosition (may be repeated)")
+          ->allow_extra_args(false)
+          ->type_name("NAMES");
+  plot->add_option("--color", call.plot.color, "Of --xy: the column that colours the curves")
+      ->needs(xy)
+      ->type_name("NAME");
   plot->add_option("--panel", call.plot.panels,
                    "Columns of a panel, with * and ?: Drive.f*Position,Main.n; with a title: "
                    "Paths=Drive.f*Position (may be repeated; without it a panel per quantity)")
       ->allow_extra_args(false)
+      ->excludes(xy)
       ->type_name("[TITLE=]NAMES");
   plot->add_option("--project", call.plot.project,
                    "Where the trace comes from: for types and units (default: the project that it "

@@ -1,6 +1,7 @@
 #include "compiler/plot/plot.hpp"
 #include "compiler/cli/commands.hpp"
 #include "compiler/cli/trace_types.hpp"
+#include "compiler/plot/xy_plot.hpp"
 #include "compiler/project/file_system.hpp"
 #include "compiler/source/identifier.hpp"
 
@@ -12,28 +13,54 @@ namespace stc::cli {
 
 namespace {
 
-/// `Title=Drive.f*,Main.n`, or only the columns.
-plot::PanelChoice panelOf(const std::string &text) {
-  plot::PanelChoice panel;
-  const size_t equals = text.find('=');
-  if (equals != std::string::npos)
-    panel.title = text.substr(0, equals);
-  std::string_view rest = text;
-  rest.remove_prefix(equals == std::string::npos ? 0 : equals + 1);
+/// The names in `Drive.f*,Main.n`.
+std::vector<std::string> namesOf(std::string_view text) {
+  std::vector<std::string> names;
   int depth = 0; // a[1,2] is one name
   std::string name;
-  for (size_t i = 0; i <= rest.size(); ++i) {
-    if (i == rest.size() || (rest[i] == ',' && depth == 0)) {
+  for (size_t i = 0; i <= text.size(); ++i) {
+    if (i == text.size() || (text[i] == ',' && depth == 0)) {
       if (!name.empty())
-        panel.columns.push_back(name);
+        names.push_back(name);
       name.clear();
       continue;
     }
-    depth += rest[i] == '[' ? 1 : rest[i] == ']' ? -1 : 0;
-    if (rest[i] != ' ')
-      name += rest[i];
+    depth += text[i] == '[' ? 1 : text[i] == ']' ? -1 : 0;
+    if (text[i] != ' ')
+      name += text[i];
   }
-  return panel;
+  return names;
+}
+
+/// `Title=Drive.f*,Main.n`, or only the columns.
+plot::PanelChoice panelOf(const std::string &text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos)
+    return {{}, namesOf(text)};
+  return {text.substr(0, equals), namesOf(std::string_view(text).substr(equals + 1))};
+}
+
+/// The columns that --xy and --color name. What is wrong, or nothing.
+std::string readXy(const PlotOptions &options, const plot::Trace &trace, plot::XyPicture &picture) {
+  std::string missing;
+  const auto find = [&](const std::string &name) -> const plot::Series * {
+    for (const plot::Series &series : trace.series)
+      if (equalIgnoringCase(series.name, name))
+        return &series;
+    missing = name;
+    return nullptr;
+  };
+  for (const std::string &text : options.xy) {
+    const std::vector<std::string> names = namesOf(text);
+    if (names.size() != 2)
+      return fmt::format("`--xy {}` names {} columns; two are drawn against each other", text,
+                         names.size());
+    picture.curves.push_back({find(names[0]), find(names[1])});
+  }
+  if (!options.color.empty())
+    picture.color = find(options.color);
+  return missing.empty() ? std::string()
+                         : fmt::format("`{}` has no column `{}`", options.trace, missing);
 }
 
 /// The name that a user gives a panel may match nothing, which is said.
@@ -97,7 +124,14 @@ int plotCommand(const PlotOptions &options) {
   describeTrace(*data, options.project, options.trace);
   if (const std::string names = emptyPanel(*data); !names.empty())
     return showError(Code::BadTrace, fmt::format("`{}` has no column `{}`", options.trace, names));
-  if (!writeFile(path, isPage ? plot::drawPage(*data) : plot::drawSvg(*data)))
+  plot::XyPicture xy;
+  if (const std::string wrong = readXy(options, *data, xy); !wrong.empty())
+    return showError(Code::BadTrace, wrong);
+  const std::string picture = xy.curves.empty()
+                                  ? isPage ? plot::drawPage(*data) : plot::drawSvg(*data)
+                              : isPage ? plot::drawXyPage(*data, xy)
+                                       : plot::drawXySvg(*data, xy);
+  if (!writeFile(path, picture))
     return showError(Code::CannotWrite,
                      fmt::format("`{}` cannot be written: {}", path, lastError()));
   return 0;

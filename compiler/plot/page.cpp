@@ -1,8 +1,8 @@
 // A trace as an HTML page: compiler/plot/page.html with the trace as JSON.
+#include "compiler/plot/json.hpp"
 #include "compiler/plot/plot.hpp"
 #include "runtime/common/text.hpp"
 
-#include <cmath>
 #include <fmt/format.h>
 
 namespace stc::plot {
@@ -12,32 +12,6 @@ namespace {
 constexpr std::string_view kPage =
 #include "compiler/plot/page.inc"
     ;
-
-/// A JSON text within an HTML page: nothing in it ends the script.
-std::string jsonText(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\' || c == '<' || c == '>' || c == '&' ||
-        static_cast<unsigned char>(c) < ' ')
-      result += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else
-      result += c;
-  }
-  return result + '"';
-}
-
-void appendValues(std::string &out, const std::vector<double> &values) {
-  out += '[';
-  for (size_t i = 0; i < values.size(); ++i) {
-    if (i != 0)
-      out += ',';
-    // As short as it is unambiguous.
-    out += std::isfinite(values[i]) ? fmt::format("{}", values[i]) : std::string("null");
-    if (out.ends_with(".0"))
-      out.resize(out.size() - 2);
-  }
-  out += ']';
-}
 
 void appendSeries(std::string &out, const Series &series) {
   out += fmt::format("{{\"name\":{},\"bool\":{},", jsonText(series.name), series.isBool);
@@ -50,13 +24,13 @@ void appendSeries(std::string &out, const Series &series) {
     out += "},";
   }
   out += "\"values\":";
-  appendValues(out, series.values);
+  appendJson(out, series.values);
   out += '}';
 }
 
 std::string dataOf(const Trace &trace) {
   std::string out = fmt::format("{{\"axis\":{},\"time\":", jsonText(trace.axis));
-  appendValues(out, trace.time);
+  appendJson(out, trace.time);
   out += ",\"panels\":[";
   for (const Panel &panel : arrange(trace)) {
     if (out.back() == '}')

@@ -1,4 +1,6 @@
 #include "compiler/plot/path_views.hpp"
+
+#include "compiler/plot/color_scale.hpp"
 #include "runtime/common/text.hpp"
 
 #include <algorithm>
@@ -16,27 +18,11 @@ constexpr double kTall = 350;       // its height
 constexpr double kViewMargin = 54;  // left of and below its frame
 constexpr double kViewEdge = 12;    // right of and above it
 constexpr double kScaleHeight = 56; // the scale of colours, below the views
-constexpr size_t kColorCount = 24;
-constexpr double kSlight = 0.25; // pixels that nobody sees
-
-// From slow to fast, equally bright steps, also for colour-blind readers (cividis, in five places).
-constexpr std::array<std::array<double, 3>, 5> kScale = {
-    {{0, 34, 78}, {66, 78, 107}, {124, 123, 120}, {187, 173, 105}, {253, 231, 55}}};
+constexpr double kSlight = 0.25;    // pixels that nobody sees
 
 struct Point {
   double x, y;
 };
-
-std::string colorOf(size_t index) {
-  const double at = static_cast<double>(index) / (kColorCount - 1) * (kScale.size() - 1);
-  const size_t first = std::min(static_cast<size_t>(at), kScale.size() - 2);
-  const double part = at - static_cast<double>(first);
-  int rgb[3];
-  for (size_t i = 0; i < 3; ++i)
-    rgb[i] = static_cast<int>(
-        std::lround(kScale[first][i] + (kScale[first + 1][i] - kScale[first][i]) * part));
-  return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
-}
 
 /// A side from which the path is seen.
 struct Side {
@@ -120,8 +106,7 @@ private:
   }
 
   [[nodiscard]] size_t classOf(double velocity) const {
-    const double part = fastest_ > 0 ? std::max(velocity, 0.0) / fastest_ : 0;
-    return std::min(static_cast<size_t>(part * kColorCount), kColorCount - 1);
+    return colorClass(fastest_ > 0 ? velocity / fastest_ : 0);
   }
 
   void view(const Side &side, double left, double top) {

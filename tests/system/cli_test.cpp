@@ -294,6 +294,19 @@ TEST_F(Cli, PlotSaysWhatIsWrongWithATrace) {
   EXPECT_THAT(stride({"plot", "nowhere.csv"}).err, HasSubstr("error[SE0101]"));
 }
 
+TEST_F(Cli, PlotsColumnsAgainstEachOther) {
+  write("t.csv", "t,Main.x,Main.a[1,2],Main.v\n0,0,0,1\n1,3,1,2\n2,3,5,3\n");
+  succeed({"plot", "t.csv", "--xy", "Main.x,Main.a[1,2]", "--color", "main.v", "-o", "p.svg"});
+  EXPECT_THAT(read("p.svg"), AllOf(HasSubstr("<polyline"), HasSubstr("Main.a[1,2]</text>")));
+  succeed({"plot", "t.csv", "--xy", "Main.x,Main.v", "-o", "p.html"});
+  EXPECT_THAT(read("p.html"), AllOf(HasSubstr("<svg"), HasSubstr("</script>")));
+  EXPECT_THAT(stride({"plot", "t.csv", "--xy", "Main.x,Main.y"}).err,
+              AllOf(HasSubstr("error[SE0835]"), HasSubstr("no column `Main.y`")));
+  EXPECT_THAT(stride({"plot", "t.csv", "--xy", "Main.x"}).err, HasSubstr("names 1 columns"));
+  EXPECT_NE(stride({"plot", "t.csv", "--color", "Main.v"}).exitCode, 0);
+  EXPECT_NE(stride({"plot", "t.csv", "--xy", "Main.x,Main.v", "--panel", "Main.x"}).exitCode, 0);
+}
+
 TEST_F(Cli, ExplainKnowsCodesAndMotionErrors) {
   EXPECT_THAT(stride({"explain", "se0808"}).out,
               AllOf(StartsWith("SE0808: "), HasSubstr("wDriveId")));
