@@ -1,11 +1,6 @@
 // Groups that drive random movements with random arms: every axis keeps its limits in every cycle,
 // nothing jumps, lines are straight, movements end where they should, and all of them end.
-#include "runtime/numeric/group/group_motion.hpp"
-#include "runtime/numeric/kinematics/any_kinematics.hpp"
-#include "runtime/numeric/kinematics/hands.hpp"
-#include "runtime/numeric/kinematics/planar_arms.hpp"
-#include "runtime/numeric/kinematics/portals.hpp"
-
+#include "group_machines.hpp"
 #include "motion_problems.hpp"
 
 #include <gtest/gtest.h>
@@ -21,58 +16,7 @@ namespace {
 
 using namespace stride::group;
 namespace kinematics = stride::kinematics;
-using stride::test::casesOf;
-using stride::test::Random;
-
-/// A machine: its kinematics, its axes' limits, and where it is at first.
-struct Machine {
-  kinematics::AnyKinematics kinematics{};
-  AxisLimits limits[kAxes]{};
-  int joints = 0;
-  int more = 0;
-  double home[kAxes]{};
-  double spread = 0; ///< How far from home the axes of targets are. [u]
-
-  Arm arm() const {
-    return {kinematics.ref(), joints, more, limits, kinematics.ref().configurationOf(home)};
-  }
-};
-
-Machine gantry() {
-  Machine machine;
-  machine.kinematics.setArm(kinematics::ArmKind::Gantry3, kinematics::Gantry3{});
-  machine.joints = 3;
-  machine.spread = 200;
-  return machine;
-}
-
-Machine scara() {
-  Machine machine;
-  machine.kinematics.setArm(kinematics::ArmKind::Scara2Z, kinematics::Scara2Z{{400, 300}});
-  machine.kinematics.setHand(kinematics::HandKind::TurningAxis, kinematics::TurningAxis{});
-  machine.joints = 4;
-  const double home[] = {10, 80, 20, -30};
-  std::copy(std::begin(home), std::end(home), machine.home);
-  machine.spread = 25;
-  return machine;
-}
-
-Machine articulated() {
-  Machine machine;
-  kinematics::ArmRrr arm{};
-  arm.d1 = 400;
-  arm.a1 = 100;
-  arm.a2 = 500;
-  arm.a3 = 50;
-  arm.d4 = 450;
-  machine.kinematics.setArm(kinematics::ArmKind::ArmRrr, arm);
-  machine.kinematics.setHand(kinematics::HandKind::Wrist3, kinematics::Wrist3{{0, 0, 80}});
-  machine.joints = 6;
-  const double home[] = {5, -60, 30, 12, 60, -20};
-  std::copy(std::begin(home), std::end(home), machine.home);
-  machine.spread = 12;
-  return machine;
-}
+using namespace stride::test;
 
 Machine randomMachine(Random &random) {
   const int kind = random.below(3);
@@ -199,6 +143,7 @@ private:
       failed_ = true;
       return;
     }
+    lookAtTool();
     for (int k = 0; k < kAxes; ++k) {
       if (!isOfMachine(machine_, k))
         continue;
@@ -219,6 +164,21 @@ private:
                       << limits.acceleration << ", jerk " << change / t << " of " << limits.jerk
                       << ", moved " << moved << " instead of " << by;
     }
+  }
+
+  /// Along a line, the tool is on it.
+  void lookAtTool() {
+    const Movement *const movement = activeOf(*group_);
+    if (movement == nullptr || movement->leg.kind != LegKind::Line || !(movement->leg.length > 0) ||
+        group_->motion.way < movement->begin + movement->corner.length)
+      return;
+    Frame<double> tool;
+    EXPECT_EQ(arm_.kinematics.forward(group_->axes, tool), kinematics::Outcome::Done);
+    const Vector<double> way = tool.place - vectorOf(movement->leg.start);
+    const Vector<double> along = vectorOf(movement->leg.first);
+    const double apart = (way - along * way.dot(along)).norm();
+    if (!(apart <= 1e-9))
+      ADD_FAILURE() << "the tool is " << apart << " beside its line, movement " << group_->first;
   }
 
   void disturb() {
@@ -281,6 +241,62 @@ TEST(GroupMotion, KeepsLimitsAndArrives) {
   }
   printf("%d of %d met an obstacle\n", failed, cases);
   EXPECT_LE(failed, cases / 5);
+}
+
+/// The shortest time from rest to rest with limits of velocity, acceleration and jerk.
+double shortestTime(double length, double v, double a, double j) {
+  const auto ramp = [a, j](double speed) {
+    return speed >= a * a / j ? speed / a + a / j : 2 * std::sqrt(speed / j);
+  };
+  if (v * ramp(v) <= length)
+    return 2 * ramp(v) + (length - v * ramp(v)) / v;
+  double low = 0;
+  double high = v;
+  for (int i = 0; i < 200; ++i) {
+    const double middle = 0.5 * (low + high);
+    (middle * ramp(middle) <= length ? low : high) = middle;
+  }
+  return 2 * ramp(low);
+}
+
+/// A movement of the axes takes as long as it must when all go together.
+TEST(GroupMotion, MovesAxesInTheShortestTime) {
+  constexpr double kCycle = 0.001;
+  for (int i = 0; i < casesOf(200) && !HasFailure(); ++i) {
+    Random random(5000U + static_cast<unsigned>(i));
+    const Machine machine = randomMachine(random);
+    double to[kAxes] = {};
+    double perTime[kAxes];
+    double v = INFINITY;
+    double a = INFINITY;
+    double j = INFINITY;
+    for (int k = 0; k < kAxes; ++k) {
+      perTime[k] = machine.limits[k].velocity;
+      if (!isOfMachine(machine, k))
+        continue;
+      to[k] = machine.home[k] + random.uniform(-1, 1) * random.magnitude(-2, 2.5);
+      const double far = std::fabs(to[k] - machine.home[k]);
+      v = std::min(v, machine.limits[k].velocity / far);
+      a = std::min(a, machine.limits[k].acceleration / far);
+      j = std::min(j, machine.limits[k].jerk / far);
+    }
+    auto group = std::make_unique<GroupMotion>();
+    reset(*group, machine.home);
+    Order order{};
+    order.velocityFactor = order.accelerationFactor = order.jerkFactor = 1;
+    append(*group, drawId(*group), axesLeg(machine.home, to, perTime, 100), order);
+    const Arm arm = machine.arm();
+    int64_t cycles = 0;
+    while (group->first < group->next && cycles < 1'000'000) {
+      cycle(*group, arm, {kCycle, 1, false, 0, 64, 64});
+      ++cycles;
+    }
+    const double time = shortestTime(1, v, a, j);
+    const double taken = static_cast<double>(cycles) * kCycle;
+    EXPECT_GE(taken, time) << "case " << i;
+    // The end of a long one is planned later, so that a corner is still possible.
+    EXPECT_LE(taken, (time < 0.3 ? 1 : 1.03) * time + 3 * kCycle) << "case " << i;
+  }
 }
 
 } // namespace

@@ -169,6 +169,7 @@ void append(GroupMotion &group, uint64_t id, const Leg &leg, const Order &order)
   if (group.looked == group.next) { // nothing else is being looked at
     movement.begin = path::endOf(group.motion.course);
     group.lookedWay = 0.0;
+    group.lookedStep = exact::kInfinity;
     if (group.first == group.next) {
       movement.begin = group.motion.way;
       for (int32_t k = 0; k < kAxes; ++k)

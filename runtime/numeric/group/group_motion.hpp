@@ -86,6 +86,7 @@ struct GroupMotion {
   int64_t next;                  ///< The number that the next one gets.
   int64_t looked;                ///< Number of the one that is being made known.
   double lookedWay;              ///< Up to where along its leg. [u]
+  double lookedStep;             ///< Length of its last strip; kInfinity: there is none yet. [u]
   double lookedReference[kAxes]; ///< Axes there. [u]
   double axes[kAxes];            ///< Where the group is. [u]
   double velocity[kAxes];        ///< [u/s]

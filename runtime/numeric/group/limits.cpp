@@ -17,7 +17,7 @@ constexpr double kBendShare = 0.9;
 /// the path is bent for that axis.
 constexpr double kChangeShare = 0.5;
 /// How far derivatives in the middle of a part may be from a straight line between its ends.
-constexpr double kEvenness = 0.02;
+constexpr double kEvenness = 0.2;
 /// A path is straight for an axis if, over the length of the strip, bends change its velocity by no
 /// more than this part of what the path does, in units of the axes' accelerations: by rounding.
 constexpr double kStraight = 1e-9;
@@ -285,11 +285,10 @@ Obstacle limitStrip(const Arm &arm, const Track &track, const PathLimits &path, 
   if (obstacle != Obstacle::None)
     return obstacle;
   Peaks peaks{};
-  for (;;) {
+  obstacle = take(arm, track, look.to, look, end);
+  while (obstacle == Obstacle::None) {
     const double half = look.from + 0.5 * (look.to - look.from);
     obstacle = take(arm, track, half, look, middle);
-    if (obstacle == Obstacle::None)
-      obstacle = take(arm, track, look.to, look, end);
     if (obstacle != Obstacle::None)
       return obstacle;
     if (isEven(arm, begin, middle, end)) {
@@ -303,7 +302,10 @@ Obstacle limitStrip(const Arm &arm, const Track &track, const PathLimits &path, 
       break;
     }
     look.to = half;
+    end = middle;
   }
+  if (obstacle != Obstacle::None)
+    return obstacle;
   for (int32_t k = 0; k < kAxes; ++k)
     look.reference[k] = end.d[0][k];
   makeStrip(arm, peaks, path, look.to - look.from, strip);

@@ -12,6 +12,7 @@ using exact::smaller;
 constexpr double kLegParts = 64.0;    ///< A strip of a leg need not be shorter than one of these.
 constexpr double kCornerParts = 16.0; ///< Likewise of a corner.
 constexpr int32_t kMostCornerStrips = 48;
+constexpr double kGrowth = 2.0; ///< Of strips, at most, from one to the next.
 /// A corner shorter than this part of a leg is none.
 constexpr double kLeastCut = 1e-6;
 
@@ -65,9 +66,13 @@ PathLimits cornerLimits(const Movement &before, const Movement &after) noexcept 
           chosen(speed, a.deceleration, b.deceleration), chosen(speed, a.jerk, b.jerk)};
 }
 
-/// The way to come to rest from the velocity of a movement, where its leg ends or begins. [u]
-double rampWay(const Arm &arm, const Movement &movement, bool atEnd,
-               const double (&reference)[kAxes]) noexcept {
+/// The greatest velocity of a movement where its leg ends or begins [u/s], and the way between that
+/// and rest [u].
+struct Ramp {
+  double velocity, way;
+};
+Ramp rampOf(const Arm &arm, const Movement &movement, bool atEnd,
+            const double (&reference)[kAxes]) noexcept {
   const Leg &leg = movement.leg;
   const OrderedArm ordered(arm, movement.order);
   constexpr double kPart = 0.05; // of the leg, whose limits are looked at
@@ -79,10 +84,11 @@ double rampWay(const Arm &arm, const Movement &movement, bool atEnd,
     look.reference[k] = reference[k];
   path::Strip strip{};
   if (limitStrip(ordered.arm, trackOf(leg), movement.order.path, look, strip) != Obstacle::None)
-    return 0.0;
+    return {0.0, 0.0};
   const double velocity = exact::sqrt(path::squareIn(strip, 1.0));
   const double rate = smaller(atEnd ? strip.deceleration : strip.acceleration, 1.0 / strip.along);
-  return 0.5 * velocity * path::rampTime(velocity, rate, static_cast<double>(strip.jerk));
+  return {velocity,
+          0.5 * velocity * path::rampTime(velocity, rate, static_cast<double>(strip.jerk))};
 }
 
 /// How much of a leg's way a unit of distance is: of the tool's path, or of the axes' places.
@@ -115,9 +121,9 @@ Cuts cutsOf(const GroupMotion &group, const Arm &arm, const Movement &before,
   }
   if (order.transition == Transition::StartVelocity)
     return {smaller(mostBefore,
-                    order.transitionValue * rampWay(arm, before, true, group.lookedReference)),
+                    order.transitionValue * rampOf(arm, before, true, group.lookedReference).way),
             smaller(mostAfter,
-                    order.transitionValue * rampWay(arm, after, false, group.lookedReference))};
+                    order.transitionValue * rampOf(arm, after, false, group.lookedReference).way)};
   return {0.0, 0.0};
 }
 
@@ -186,8 +192,9 @@ bool lookAtCorner(const Arm &arm, const Movement &before, const Movement &after,
   while (look.to < length) {
     if (strips.count == kMostCornerStrips)
       return false;
+    const double step = look.to - look.from;
     look.from = look.to;
-    look.to = length;
+    look.to = smaller(length, step > 0.0 ? look.from + kGrowth * step : length);
     path::Strip &strip = strips.strip[strips.count++];
     if (limitStrip(ordered.arm, trackOf(after.corner), limits, look, strip) != Obstacle::None)
       return false;
@@ -205,6 +212,7 @@ void lookAtNext(GroupMotion &group, double begin, double entry) noexcept {
   movement.exit = movement.leg.length;
   movement.endChosen = movement.endKnown = false;
   group.lookedWay = entry;
+  group.lookedStep = kInfinity;
 }
 
 /// Adds the corner to the next movement to the path. False: there is no corner.
@@ -252,29 +260,35 @@ void decideEnd(GroupMotion &group, const Arm &arm) noexcept {
   after.entry = cuts.after;
 }
 
-/// How far the path has to be known at least as long as nothing is commanded that comes after it.
-/// [u]
-double neededWay(const GroupMotion &group) noexcept {
+/// How far the path has to be known ahead as long as nothing is commanded that comes after it. [u]
+double neededAhead(const Ramp &ramp) noexcept {
   constexpr double kTime = 0.2; // for plans [s]
   constexpr double kMore = 2.2;
+  return kMore * ramp.way + kTime * ramp.velocity;
+}
+
+double neededWay(const GroupMotion &group) noexcept {
   const path::Course &course = group.motion.course;
   if (course.first == course.next)
     return kInfinity;
   const path::Strip &strip = path::stripAt(course, course.next - 1);
   const double velocity = exact::sqrt(path::squareIn(strip, 1.0));
   const double rate = smaller(smaller(strip.acceleration, strip.deceleration), 1.0 / strip.along);
-  const double ramp =
+  const double way =
       0.5 * velocity * path::rampTime(velocity, rate, static_cast<double>(strip.jerk));
-  return group.motion.way + kMore * ramp + kTime * velocity;
+  return group.motion.way + neededAhead({velocity, way});
 }
 
 /// Up to where along its leg the movement that is looked at can be made known now. [u]
-double lookEnd(const GroupMotion &group, const Movement &movement) noexcept {
+double lookEnd(const GroupMotion &group, const Arm &arm, const Movement &movement) noexcept {
   if (movement.endChosen)
     return movement.exit;
   const double length = movement.leg.length;
-  if (group.lookedWay < 0.5 * length)
-    return larger(0.5 * length, movement.entry);
+  if (group.lookedWay < 0.5 * length) {
+    // Of one that is short for its velocity the end is needed soon: all at once is planned best.
+    const Ramp ramp = rampOf(arm, movement, false, group.lookedReference);
+    return neededAhead(ramp) >= 0.5 * length ? length : larger(0.5 * length, movement.entry);
+  }
   const double way = legBegin(movement) + group.lookedWay - movement.entry;
   if (way >= neededWay(group))
     return group.lookedWay;
@@ -284,13 +298,13 @@ double lookEnd(const GroupMotion &group, const Movement &movement) noexcept {
 
 /// Makes one strip of the leg known. False: nothing more for now.
 bool addStrip(GroupMotion &group, const Arm &arm, Movement &movement, int32_t &samples) noexcept {
-  const double end = lookEnd(group, movement);
+  const double end = lookEnd(group, arm, movement);
   if (!(end > group.lookedWay))
     return false;
   const OrderedArm ordered(arm, movement.order);
   Look look{};
   look.from = group.lookedWay;
-  look.to = end;
+  look.to = smaller(end, group.lookedWay + kGrowth * group.lookedStep);
   look.least = movement.leg.length / kLegParts;
   for (int32_t k = 0; k < kAxes; ++k)
     look.reference[k] = group.lookedReference[k];
@@ -309,6 +323,7 @@ bool addStrip(GroupMotion &group, const Arm &arm, Movement &movement, int32_t &s
     return false;
   if (strip.gate)
     after->gated = true;
+  group.lookedStep = look.to - look.from;
   group.lookedWay = look.to;
   for (int32_t k = 0; k < kAxes; ++k)
     group.lookedReference[k] = look.reference[k];

@@ -1,0 +1,121 @@
+// What axis groups cost: a cycle while blended lines are driven, what a line costs in planning, and
+// many groups at once. The issue asks for 2 us a cycle of a six-axis arm, 50 us for the planning of
+// a blended line, and a fifth of a core for 100 Scaras at 1 ms.
+#include "tests/property/group_machines.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace {
+
+using namespace stride::group;
+using stride::test::Machine;
+
+constexpr double kCycle = 0.001;
+
+/// A group that goes around a polygon of lines, with corners.
+class Round {
+public:
+  explicit Round(Machine machine) : machine_(machine), group_(std::make_unique<GroupMotion>()) {
+    for (AxisLimits &limits : machine_.limits)
+      limits = {300, 3000, 60000, -1e4, 1e4};
+    reset(*group_, machine_.home);
+    stride::kinematics::Frame<double> frame;
+    (void)machine_.kinematics.forward(machine_.home, frame);
+    last_ = poseOf(frame);
+    middle_ = last_.place;
+  }
+
+  /// One cycle; there are always lines to go on with.
+  void step() {
+    while (group_->next - group_->first < 4)
+      order();
+    cycle(*group_, arm(), {kCycle, 1, false, 0, 64, 24});
+  }
+
+  uint64_t lines() const { return group_->lastId; }
+
+  Arm arm() const {
+    return {machine_.kinematics.ref(), machine_.joints, 0, machine_.limits,
+            machine_.kinematics.ref().configurationOf(machine_.home)};
+  }
+
+private:
+  void order() {
+    angle_ += 1.3;
+    Pose to = last_;
+    to.place = {middle_.x + 60 * std::cos(angle_), middle_.y + 60 * std::sin(angle_), middle_.z};
+    Order order{};
+    order.path = {400, 4000, 4000, 80000};
+    order.velocityFactor = order.accelerationFactor = order.jerkFactor = 1;
+    order.configuration = arm().configuration;
+    order.transition = Transition::Distance;
+    order.transitionValue = 15;
+    append(*group_, drawId(*group_), lineLeg(last_, to, {}), order);
+    last_ = to;
+  }
+
+  Machine machine_;
+  std::unique_ptr<GroupMotion> group_;
+  Pose last_{};
+  Vector3 middle_{};
+  double angle_ = 0;
+};
+
+Machine machineOf(int64_t kind) {
+  return kind == 0 ? stride::test::gantry()
+                   : (kind == 1 ? stride::test::scara() : stride::test::articulated());
+}
+
+/// Of each cycle the shortest of all iterations counts, so that what else the machine does does
+/// not.
+void cyclesOfAGroup(benchmark::State &state) {
+  constexpr size_t kCycles = 20000;
+  std::vector<double> microseconds(kCycles, HUGE_VAL);
+  uint64_t lines = 0;
+  for (auto _ : state) {
+    Round round(machineOf(state.range(0)));
+    double total = 0;
+    for (double &least : microseconds) {
+      const auto begin = std::chrono::steady_clock::now();
+      round.step();
+      const std::chrono::duration<double, std::micro> time =
+          std::chrono::steady_clock::now() - begin;
+      least = std::min(least, time.count());
+      total += time.count();
+    }
+    lines = round.lines();
+    state.SetIterationTime(total * 1e-6);
+  }
+  double sum = 0;
+  for (const double time : microseconds)
+    sum += time;
+  std::sort(microseconds.begin(), microseconds.end());
+  state.counters["mean_us"] = sum / kCycles;
+  state.counters["lines"] = static_cast<double>(lines);
+  state.counters["median_us"] = microseconds[kCycles / 2];
+  state.counters["p99_us"] = microseconds[kCycles * 99 / 100];
+  state.counters["p9999_us"] = microseconds[kCycles * 9999 / 10000];
+  // What is beyond the cheapest cycles, which only say where the group is.
+  const double steady = microseconds[kCycles / 10];
+  state.counters["planning_us_per_line"] = (sum - steady * kCycles) / static_cast<double>(lines);
+}
+BENCHMARK(cyclesOfAGroup)->DenseRange(0, 2)->ArgName("machine")->UseManualTime()->Iterations(5);
+
+/// A cycle of 100 groups of Scaras.
+void hundredScaras(benchmark::State &state) {
+  std::vector<std::unique_ptr<Round>> rounds;
+  for (int i = 0; i < 100; ++i)
+    rounds.push_back(std::make_unique<Round>(stride::test::scara()));
+  for (auto _ : state)
+    for (const std::unique_ptr<Round> &round : rounds)
+      round->step();
+  state.counters["groups"] = 100;
+}
+BENCHMARK(hundredScaras)->Unit(benchmark::kMicrosecond)->Iterations(2000);
+
+} // namespace

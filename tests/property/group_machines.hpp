@@ -1,0 +1,71 @@
+// Machines whose axes are moved as a group, for tests and benchmarks.
+#ifndef STRIDE_TESTS_PROPERTY_GROUP_MACHINES_HPP
+#define STRIDE_TESTS_PROPERTY_GROUP_MACHINES_HPP
+
+#include "runtime/numeric/group/group_motion.hpp"
+#include "runtime/numeric/kinematics/any_kinematics.hpp"
+#include "runtime/numeric/kinematics/hands.hpp"
+#include "runtime/numeric/kinematics/planar_arms.hpp"
+#include "runtime/numeric/kinematics/portals.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace stride::test {
+
+using group::AxisLimits;
+using group::kAxes;
+
+/// A machine: its kinematics, its axes' limits, and where it is at first.
+struct Machine {
+  kinematics::AnyKinematics kinematics{};
+  AxisLimits limits[kAxes]{};
+  int joints = 0;
+  int more = 0;
+  double home[kAxes]{};
+  double spread = 0; ///< How far from home the axes of targets are. [u]
+
+  group::Arm arm() const {
+    return {kinematics.ref(), joints, more, limits, kinematics.ref().configurationOf(home)};
+  }
+};
+
+inline Machine gantry() {
+  Machine machine;
+  machine.kinematics.setArm(kinematics::ArmKind::Gantry3, kinematics::Gantry3{});
+  machine.joints = 3;
+  machine.spread = 200;
+  return machine;
+}
+
+inline Machine scara() {
+  Machine machine;
+  machine.kinematics.setArm(kinematics::ArmKind::Scara2Z, kinematics::Scara2Z{{400, 300}});
+  machine.kinematics.setHand(kinematics::HandKind::TurningAxis, kinematics::TurningAxis{});
+  machine.joints = 4;
+  const double home[] = {10, 80, 20, -30};
+  std::copy(std::begin(home), std::end(home), machine.home);
+  machine.spread = 25;
+  return machine;
+}
+
+inline Machine articulated() {
+  Machine machine;
+  kinematics::ArmRrr arm{};
+  arm.d1 = 400;
+  arm.a1 = 100;
+  arm.a2 = 500;
+  arm.a3 = 50;
+  arm.d4 = 450;
+  machine.kinematics.setArm(kinematics::ArmKind::ArmRrr, arm);
+  machine.kinematics.setHand(kinematics::HandKind::Wrist3, kinematics::Wrist3{{0, 0, 80}});
+  machine.joints = 6;
+  const double home[] = {5, -60, 30, 12, 60, -20};
+  std::copy(std::begin(home), std::end(home), machine.home);
+  machine.spread = 12;
+  return machine;
+}
+
+} // namespace stride::test
+
+#endif // STRIDE_TESTS_PROPERTY_GROUP_MACHINES_HPP
