@@ -21,7 +21,9 @@ constexpr double kEvenness = 0.2;
 /// A path is straight for an axis if, over the length of the strip, bends change its velocity by no
 /// more than this part of what the path does, in units of the axes' accelerations: by rounding.
 constexpr double kStraight = 1e-9;
-constexpr int kMostHalvings = 10; ///< Of what is shorter than Look::least.
+/// Parts shorter than this part of Look::least are not halved any more.
+constexpr double kLeastPart = 1.0 / 1024.0;
+constexpr int kMostDepth = 12; ///< Of halves of halves: as many as lead there.
 
 /// A place by its axes' derivatives over the way, d[n][k], n-th of axis k, and how fast the tool
 /// is.
@@ -120,7 +122,7 @@ void raise(Peaks &peaks, const Sample &a, const Sample &m, const Sample &b) noex
 Obstacle lookInto(const Arm &arm, const Track &track, Look &look, const Sample &a, const Sample &b,
                   Peaks &peaks) noexcept {
   // The halves that are left to be looked at, the nearest last.
-  Sample ends[kMostHalvings + 2];
+  Sample ends[kMostDepth + 1];
   int depth = 0;
   ends[0] = b;
   Sample begin = a;
@@ -131,7 +133,8 @@ Obstacle lookInto(const Arm &arm, const Track &track, Look &look, const Sample &
         take(arm, track, begin.way + 0.5 * (end.way - begin.way), look, middle);
     if (obstacle != Obstacle::None)
       return obstacle;
-    if (depth < kMostHalvings && !isEven(arm, begin, middle, end)) {
+    const bool divisible = end.way - begin.way > kLeastPart * look.least && depth < kMostDepth;
+    if (divisible && !isEven(arm, begin, middle, end)) {
       ends[++depth] = middle;
       continue;
     }

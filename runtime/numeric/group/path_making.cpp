@@ -181,6 +181,14 @@ struct Strips {
   int32_t count;
 };
 
+/// Where a strip ends at most that comes after one of the length `step`. No crumb is left at the
+/// end. [u]
+double stripEnd(double from, double step, double end) noexcept {
+  constexpr double kCrumb = 0.25;
+  const double most = kGrowth * step;
+  return end - from <= (1.0 + kCrumb) * most ? end : from + most;
+}
+
 /// The strips of a corner that begins at a way of the motion. False: it cannot be driven.
 bool lookAtCorner(const Arm &arm, const Movement &before, const Movement &after, double begin,
                   Look &look, Strips &strips) noexcept {
@@ -194,7 +202,7 @@ bool lookAtCorner(const Arm &arm, const Movement &before, const Movement &after,
       return false;
     const double step = look.to - look.from;
     look.from = look.to;
-    look.to = smaller(length, step > 0.0 ? look.from + kGrowth * step : length);
+    look.to = step > 0.0 ? stripEnd(look.from, step, length) : length;
     path::Strip &strip = strips.strip[strips.count++];
     if (limitStrip(ordered.arm, trackOf(after.corner), limits, look, strip) != Obstacle::None)
       return false;
@@ -304,7 +312,7 @@ bool addStrip(GroupMotion &group, const Arm &arm, Movement &movement, int32_t &s
   const OrderedArm ordered(arm, movement.order);
   Look look{};
   look.from = group.lookedWay;
-  look.to = smaller(end, group.lookedWay + kGrowth * group.lookedStep);
+  look.to = stripEnd(group.lookedWay, group.lookedStep, end);
   look.least = movement.leg.length / kLegParts;
   for (int32_t k = 0; k < kAxes; ++k)
     look.reference[k] = group.lookedReference[k];
