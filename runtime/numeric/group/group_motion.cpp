@@ -1,5 +1,6 @@
 #include "runtime/numeric/group/group_motion.hpp"
 
+#include "runtime/numeric/group/carried.hpp"
 #include "runtime/numeric/group/path_making.hpp"
 
 namespace stride::group {
@@ -9,6 +10,9 @@ using exact::smaller;
 
 /// The jerk of the law: strips say what is allowed.
 constexpr path::MotionSettings kSettings{path::LawKind::Jerk, 1e30, 1.0};
+
+/// By how much an axis may exceed its velocity because of a system that changes its own.
+constexpr double kTooFast = 1.1;
 
 /// What becomes of a movement while it is driven.
 void note(GroupMotion &group, const Movement &movement, Outcome outcome) noexcept {
@@ -65,15 +69,60 @@ double passDwell(GroupMotion &group, const GroupCommand &command) noexcept {
   return command.cycle - group.dwell;
 }
 
-/// Where along the path the motion is.
-void placeOf(const GroupMotion &group, const Movement &movement, PathPlace &place) noexcept {
-  const double way = group.motion.way;
-  if (way < legBegin(movement)) {
-    placeAt(movement.corner, growing(way - movement.begin, 1.0), place);
+/// Where along the path the motion is, as a series of what `way` is one of.
+void placeOf(const Movement &movement, const Series &way, PathPlace &place) noexcept {
+  if (way.c[0] < legBegin(movement)) {
+    placeAt(movement.corner, way - Series(movement.begin), place);
     return;
   }
-  const double along = movement.entry + (way - legBegin(movement));
-  placeAt(movement.leg, growing(smaller(along, movement.leg.length), 1.0), place);
+  Series along = way - Series(legBegin(movement));
+  along.c[0] = smaller(movement.entry + along.c[0], movement.leg.length);
+  placeAt(movement.leg, along, place);
+}
+
+/// The axes go on along the path, or with the system that it is in: `place` is a series over the
+/// way, or, if that is carried, in time.
+void putAxes(GroupMotion &group, const Arm &ordered, PathPlace &place,
+             const path::WayState &state) noexcept {
+  const bool carried = isCarried(group) && place.byTool;
+  if (carried) {
+    group.tool = poseOf(valueOf(place.tool));
+    place.tool = pathSystem(group) * place.tool;
+  }
+  Series axes[kAxes];
+  const Obstacle obstacle = axesAt(ordered, place, group.axes, axes);
+  if (obstacle != Obstacle::None && obstacle != Obstacle::Singular) {
+    group.obstacle = obstacle;
+    return;
+  }
+  const double v = carried ? 1.0 : state.velocity;
+  const double a = carried ? 0.0 : state.acceleration;
+  const bool rests = !(v > 0.0) && a == 0.0;
+  for (int32_t k = 0; k < kArmAxes + ordered.more; ++k) {
+    if (k >= ordered.joints && k < kArmAxes)
+      continue;
+    group.axes[k] = axes[k].c[0];
+    group.velocity[k] = rests ? 0.0 : axes[k].c[1] * v;
+    group.acceleration[k] = rests ? 0.0 : axes[k].c[1] * a + 2.0 * axes[k].c[2] * v * v;
+    if (carried && exact::fabs(group.velocity[k]) > kTooFast * ordered.limits[k].velocity)
+      group.obstacle = Obstacle::TooFast;
+  }
+}
+
+/// The group stays on its path, and goes with the system that it is in.
+void putStill(GroupMotion &group, const Arm &arm) noexcept {
+  for (int32_t k = 0; k < kAxes; ++k)
+    group.velocity[k] = group.acceleration[k] = 0.0;
+  if (!isCarried(group))
+    return;
+  PathPlace place;
+  place.byTool = true;
+  place.tool = seriesOf(frameOf(group.tool));
+  for (int32_t k = kArmAxes; k < kAxes; ++k)
+    place.axes[k] = Series(group.axes[k]);
+  Arm standing{arm.kinematics, arm.joints, arm.more, arm.limits,
+               arm.kinematics.configurationOf(group.axes)};
+  putAxes(group, standing, place, {});
 }
 
 void put(GroupMotion &group, const Arm &arm, const path::WayState &state) noexcept {
@@ -83,29 +132,16 @@ void put(GroupMotion &group, const Arm &arm, const path::WayState &state) noexce
                           dwells(movementAt(group, group.first)));
   const Movement &movement = movementAt(group, ended ? group.first - 1 : group.first);
   if (!(movement.leg.length > 0.0) || dwells(movement)) {
-    for (int32_t k = 0; k < kAxes; ++k)
-      group.velocity[k] = group.acceleration[k] = 0.0;
+    putStill(group, arm);
     return;
   }
+  Series way = growing(group.motion.way, 1.0);
+  if (isCarried(group))
+    way = inTime({group.motion.way, state.velocity, state.acceleration});
   PathPlace place;
-  placeOf(group, movement, place);
-  Arm ordered{arm.kinematics, arm.joints, arm.more, arm.limits, movement.order.configuration};
-  Series axes[kAxes];
-  const Obstacle obstacle = axesAt(ordered, place, group.axes, axes);
-  if (obstacle != Obstacle::None && obstacle != Obstacle::Singular) {
-    group.obstacle = obstacle;
-    return;
-  }
-  const double v = state.velocity;
-  const bool rests = !(v > 0.0) && state.acceleration == 0.0;
-  for (int32_t k = 0; k < kArmAxes + arm.more; ++k) {
-    if (k >= arm.joints && k < kArmAxes)
-      continue;
-    group.axes[k] = axes[k].c[0];
-    group.velocity[k] = rests ? 0.0 : axes[k].c[1] * v;
-    group.acceleration[k] =
-        rests ? 0.0 : axes[k].c[1] * state.acceleration + 2.0 * axes[k].c[2] * v * v;
-  }
+  placeOf(movement, way, place);
+  const Arm ordered{arm.kinematics, arm.joints, arm.more, arm.limits, movement.order.configuration};
+  putAxes(group, ordered, place, state);
 }
 
 void wish(GroupMotion &group, const GroupCommand &command) noexcept {
@@ -117,8 +153,11 @@ void wish(GroupMotion &group, const GroupCommand &command) noexcept {
 }
 
 void moveBy(GroupMotion &group, const Arm &arm, double time) noexcept {
-  if (!(time > 0.0))
+  if (!(time > 0.0)) {
+    if (isCarried(group))
+      putStill(group, arm);
     return;
+  }
   const path::WayState state = path::move(group.motion, time, true);
   settle(group, state.velocity > 0.0 && state.acceleration < 0.0);
   put(group, arm, state);
@@ -140,7 +179,13 @@ void reset(GroupMotion &group, const double (&axes)[kAxes]) noexcept {
   const uint64_t lastId = group.lastId;
   uint8_t outcomes[kOutcomes];
   __builtin_memcpy(outcomes, group.outcome, sizeof outcomes);
+  const Ride ride = group.ride;
+  const Ride left = isStill(group.left) ? Ride{} : group.left;
+  const Pose tool = group.tool;
   group = GroupMotion{};
+  group.ride = ride;
+  group.left = left;
+  group.tool = tool;
   group.lastId = lastId;
   __builtin_memcpy(group.outcome, outcomes, sizeof outcomes);
   path::reset(group.motion, kSettings);
@@ -216,6 +261,8 @@ void cycle(GroupMotion &group, const Arm &arm, const GroupCommand &command) noex
   wish(group, command);
   makeKnown(group, arm, command.samples);
   (void)path::think(group.motion, command.steps);
+  goOn(group.ride, command.carrier, command.cycle);
+  goOn(group.left, {}, command.cycle);
   moveBy(group, arm, passDwell(group, command));
   rebase(group);
 }
@@ -230,8 +277,16 @@ void clear(GroupMotion &group) noexcept {
   if (!group.abandoned)
     abandon(group);
   double axes[kAxes];
+  double velocity[kAxes];
+  double acceleration[kAxes];
   __builtin_memcpy(axes, group.axes, sizeof axes);
+  __builtin_memcpy(velocity, group.velocity, sizeof velocity);
+  __builtin_memcpy(acceleration, group.acceleration, sizeof acceleration);
   reset(group, axes);
+  if (!isCarried(group))
+    return;
+  __builtin_memcpy(group.velocity, velocity, sizeof velocity);
+  __builtin_memcpy(group.acceleration, acceleration, sizeof acceleration);
 }
 
 } // namespace stride::group

@@ -10,6 +10,7 @@
 
 #include "runtime/numeric/group/corner.hpp"
 #include "runtime/numeric/group/limits.hpp"
+#include "runtime/numeric/group/ride.hpp"
 #include "runtime/numeric/path/motion.hpp"
 
 namespace stride::group {
@@ -76,6 +77,7 @@ struct GroupCommand {
       deceleration; ///< For that, if it is more than the movement's; in units of the way. [u/s^2]
   int32_t steps;    ///< Of planning.
   int32_t samples;  ///< Places of the path that may be looked at.
+  motion::State carrier{}; ///< Of the system that is followed, at the end of the cycle. [u] or [°]
 };
 
 /// Trivially copyable, may be moved in memory between two calls.
@@ -95,11 +97,19 @@ struct GroupMotion {
   uint64_t lastId;               ///< Of movements.
   uint8_t outcome[kOutcomes];    ///< By id.
   Obstacle obstacle;             ///< Why the path does not go on.
+  Ride ride;                     ///< The system in which the path is, if that moves.
+  Ride left;                     ///< The one in which it was before, until that rests.
+  Pose tool;                     ///< In the path's system, if that moves.
   bool dwelling;
   bool abandoned; ///< Movements are only driven to rest; see abandon.
 };
 
-/// At rest at a place, without movements; ids and outcomes stay.
+/// Whether the path is in a system that moves, or still goes along with one.
+inline bool isCarried(const GroupMotion &group) noexcept {
+  return isUsed(group.ride) || isUsed(group.left);
+}
+
+/// At rest at a place, without movements; ids, outcomes and the system that is followed stay.
 void reset(GroupMotion &group, const double (&axes)[kAxes]) noexcept;
 
 /// Whether a movement can be appended.
@@ -139,6 +149,27 @@ void abandon(GroupMotion &group) noexcept;
 
 /// Forgets all movements of a group at rest; those that are not done are aborted.
 void clear(GroupMotion &group) noexcept;
+
+/// From now on movements are in another system, which moves: the group is at rest on its path, has
+/// no movements, and what it has followed before last rests. `most`: how the group may get to the
+/// system; its velocity counts beside the system's.
+void board(GroupMotion &group, const Arm &arm, const MovingSystem &system,
+           const motion::State &carrier, const motion::Dynamics &most) noexcept;
+
+/// How the group may get to a system: as the command's path says, as far as the axes reach, of
+/// which half is left for the path itself. At least as fast as that it must be able to go.
+motion::Dynamics boardingDynamics(const GroupMotion &group, const Arm &arm,
+                                  const MovingSystem &system, const motion::State &carrier,
+                                  const PathLimits &path) noexcept;
+
+/// From now on movements are in the machine's system, likewise.
+void alight(GroupMotion &group, const Arm &arm) noexcept;
+
+/// The tool in the system of the path, where the group is; it must be one that leads.
+Pose poseInPath(const GroupMotion &group, const Arm &arm) noexcept;
+
+/// The tool, given in the system of the path, in the machine: where that is now.
+Frame<double> inMachine(const GroupMotion &group, const Pose &pose) noexcept;
 
 } // namespace stride::group
 

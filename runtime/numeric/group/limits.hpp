@@ -42,7 +42,8 @@ enum class Obstacle : uint8_t {
   None,
   Unreachable, ///< The kinematics reaches nothing there.
   AxisLimit,   ///< An axis would leave its range.
-  Singular     ///< Axes would need an infinite velocity.
+  Singular,    ///< Axes would need an infinite velocity.
+  TooFast      ///< An axis cannot go along with the system that is followed.
 };
 
 /// Something that is at a place for each way: a leg or a corner.

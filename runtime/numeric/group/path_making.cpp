@@ -1,5 +1,6 @@
 #include "runtime/numeric/group/path_making.hpp"
 
+#include "runtime/numeric/group/carried.hpp"
 #include "runtime/numeric/path/blend.hpp"
 
 namespace stride::group {
@@ -71,10 +72,12 @@ PathLimits cornerLimits(const Movement &before, const Movement &after) noexcept 
 struct Ramp {
   double velocity, way;
 };
-Ramp rampOf(const Arm &arm, const Movement &movement, bool atEnd,
-            const double (&reference)[kAxes]) noexcept {
+Ramp rampOf(const GroupMotion &group, const Arm &arm, const Movement &movement,
+            bool atEnd) noexcept {
+  const double(&reference)[kAxes] = group.lookedReference;
   const Leg &leg = movement.leg;
-  const OrderedArm ordered(arm, movement.order);
+  OrderedArm ordered(arm, movement.order);
+  const CarriedTrack carried(group, trackOf(leg), 0.0, movement.order.path);
   constexpr double kPart = 0.05; // of the leg, whose limits are looked at
   Look look{};
   look.from = atEnd ? (1.0 - kPart) * leg.length : 0.0;
@@ -82,8 +85,9 @@ Ramp rampOf(const Arm &arm, const Movement &movement, bool atEnd,
   look.least = leg.length;
   for (int32_t k = 0; k < kAxes; ++k)
     look.reference[k] = reference[k];
+  carried.yield(ordered.arm, look.from, reference, ordered.limits);
   path::Strip strip{};
-  if (limitStrip(ordered.arm, trackOf(leg), movement.order.path, look, strip) != Obstacle::None)
+  if (limitStrip(ordered.arm, carried.track(), movement.order.path, look, strip) != Obstacle::None)
     return {0.0, 0.0};
   const double velocity = exact::sqrt(path::squareIn(strip, 1.0));
   const double rate = smaller(atEnd ? strip.deceleration : strip.acceleration, 1.0 / strip.along);
@@ -120,10 +124,8 @@ Cuts cutsOf(const GroupMotion &group, const Arm &arm, const Movement &before,
     return {distance * perBefore, distance * perAfter};
   }
   if (order.transition == Transition::StartVelocity)
-    return {smaller(mostBefore,
-                    order.transitionValue * rampOf(arm, before, true, group.lookedReference).way),
-            smaller(mostAfter,
-                    order.transitionValue * rampOf(arm, after, false, group.lookedReference).way)};
+    return {smaller(mostBefore, order.transitionValue * rampOf(group, arm, before, true).way),
+            smaller(mostAfter, order.transitionValue * rampOf(group, arm, after, false).way)};
   return {0.0, 0.0};
 }
 
@@ -190,10 +192,12 @@ double stripEnd(double from, double step, double end) noexcept {
 }
 
 /// The strips of a corner that begins at a way of the motion. False: it cannot be driven.
-bool lookAtCorner(const Arm &arm, const Movement &before, const Movement &after, double begin,
-                  Look &look, Strips &strips) noexcept {
-  const OrderedArm ordered(arm, after.order);
+bool lookAtCorner(const GroupMotion &group, const Arm &arm, const Movement &before,
+                  const Movement &after, double begin, Look &look, Strips &strips) noexcept {
+  OrderedArm ordered(arm, after.order);
   const PathLimits limits = cornerLimits(before, after);
+  const CarriedTrack carried(group, trackOf(after.corner), begin - group.motion.way, limits);
+  carried.yield(ordered.arm, 0.0, look.reference, ordered.limits);
   const double length = after.corner.length;
   look.least = length / kCornerParts;
   look.to = 0.0;
@@ -204,7 +208,7 @@ bool lookAtCorner(const Arm &arm, const Movement &before, const Movement &after,
     look.from = look.to;
     look.to = step > 0.0 ? stripEnd(look.from, step, length) : length;
     path::Strip &strip = strips.strip[strips.count++];
-    if (limitStrip(ordered.arm, trackOf(after.corner), limits, look, strip) != Obstacle::None)
+    if (limitStrip(ordered.arm, carried.track(), limits, look, strip) != Obstacle::None)
       return false;
     strip.end = begin + look.to;
   }
@@ -234,7 +238,7 @@ bool addCorner(GroupMotion &group, const Arm &arm, int32_t &samples) noexcept {
     look.reference[k] = group.lookedReference[k];
   Strips strips;
   strips.count = 0;
-  const bool drivable = lookAtCorner(arm, before, after, begin, look, strips);
+  const bool drivable = lookAtCorner(group, arm, before, after, begin, look, strips);
   samples -= look.samples;
   if (!drivable)
     return false;
@@ -294,7 +298,7 @@ double lookEnd(const GroupMotion &group, const Arm &arm, const Movement &movemen
   const double length = movement.leg.length;
   if (group.lookedWay < 0.5 * length) {
     // Of one that is short for its velocity the end is needed soon: all at once is planned best.
-    const Ramp ramp = rampOf(arm, movement, false, group.lookedReference);
+    const Ramp ramp = rampOf(group, arm, movement, false);
     return neededAhead(ramp) >= 0.5 * length ? length : larger(0.5 * length, movement.entry);
   }
   const double way = legBegin(movement) + group.lookedWay - movement.entry;
@@ -309,15 +313,18 @@ bool addStrip(GroupMotion &group, const Arm &arm, Movement &movement, int32_t &s
   const double end = lookEnd(group, arm, movement);
   if (!(end > group.lookedWay))
     return false;
-  const OrderedArm ordered(arm, movement.order);
+  OrderedArm ordered(arm, movement.order);
   Look look{};
   look.from = group.lookedWay;
   look.to = stripEnd(group.lookedWay, group.lookedStep, end);
   look.least = movement.leg.length / kLegParts;
   for (int32_t k = 0; k < kAxes; ++k)
     look.reference[k] = group.lookedReference[k];
+  const double ahead = legBegin(movement) + look.from - movement.entry - group.motion.way;
+  const CarriedTrack carried(group, trackOf(movement.leg), ahead, movement.order.path);
+  carried.yield(ordered.arm, look.from, look.reference, ordered.limits);
   path::Strip strip{};
-  group.obstacle = limitStrip(ordered.arm, trackOf(movement.leg), movement.order.path, look, strip);
+  group.obstacle = limitStrip(ordered.arm, carried.track(), movement.order.path, look, strip);
   samples -= look.samples;
   if (group.obstacle != Obstacle::None)
     return false;

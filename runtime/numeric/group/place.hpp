@@ -58,6 +58,20 @@ inline Pose poseOf(const Frame<double> &frame) noexcept {
   return pose;
 }
 
+/// A frame that does not move, and where one is that does.
+inline Frame<Series> seriesOf(const Frame<double> &frame) noexcept {
+  return {frame.turn.cast<Series>(), frame.place.cast<Series>()};
+}
+inline Frame<double> valueOf(const Frame<Series> &frame) noexcept {
+  Frame<double> value;
+  for (int row = 0; row < 3; ++row) {
+    value.place(row) = frame.place(row).c[0];
+    for (int column = 0; column < 3; ++column)
+      value.turn(row, column) = frame.turn(row, column).c[0];
+  }
+  return value;
+}
+
 /// A place of the path as series over the way. Either the tool or the axes of the kinematics lead;
 /// the axes that go along are always said.
 struct PathPlace {

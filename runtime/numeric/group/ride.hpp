@@ -1,0 +1,73 @@
+// A coordinate system that something else moves, a belt or a table, and how a group follows it: at
+// first the group's own copy of the system is at rest; it pursues the system within limits until it
+// is where the system is, and goes with it from then on; when it is left, it comes to rest. The
+// group's path is in the copy, so that the group never jumps.
+// Free of the C++ standard library: linked into every application.
+#ifndef STRIDE_RUNTIME_NUMERIC_GROUP_RIDE_HPP
+#define STRIDE_RUNTIME_NUMERIC_GROUP_RIDE_HPP
+
+#include "runtime/numeric/group/place.hpp"
+#include "runtime/numeric/profile/planner.hpp"
+
+namespace stride::group {
+
+/// What moves a system.
+enum class CarrierKind : uint8_t {
+  Belt, ///< Runs along the X axis of its origin. [u]
+  Table ///< Turns about the Z axis of its origin. [°]
+};
+
+/// A system on a carrier. Trivially copyable.
+struct MovingSystem {
+  Pose origin; ///< Of the carrier, in the machine.
+  Pose object; ///< Of the system on the carrier, where that is at 0.
+  CarrierKind kind;
+};
+
+/// Where the system is in the machine when its carrier is at a place [u] or [°], as a series of
+/// what `carrier` is one of.
+Frame<Series> systemAt(const MovingSystem &system, const Series &carrier) noexcept;
+
+/// Position, velocity and acceleration at one instant, as a series in time after it.
+Series inTime(const motion::State &state) noexcept;
+
+/// Trivially copyable.
+struct Ride {
+  MovingSystem system;
+  motion::State follower; ///< Of the group's copy of the system. [u] or [°]
+  motion::State carrier;  ///< In the last cycle.
+  motion::Dynamics most;  ///< What the follower may; its velocity: beside the carrier's.
+  motion::Profile brake;  ///< How it comes to rest.
+  double braked;          ///< For how long. [s]
+  bool follows;           ///< It pursues the carrier, or is where that is.
+  bool brakes;            ///< It comes to rest, or has.
+  bool inSync;            ///< It is where the carrier is, and moves with it.
+};
+
+/// Whether there is a system that is followed, or has been until the group rests.
+inline bool isUsed(const Ride &ride) noexcept { return ride.follows || ride.brakes; }
+
+/// Whether nothing moves.
+inline bool isStill(const Ride &ride) noexcept {
+  return !ride.follows && (!ride.brakes || ride.braked >= ride.brake.duration);
+}
+
+/// Begins to follow a system from rest; the group's copy is where the system is now.
+void beginRide(Ride &ride, const MovingSystem &system, const motion::State &carrier,
+               const motion::Dynamics &most) noexcept;
+
+/// The group's copy of the system comes to rest.
+void brakeRide(Ride &ride) noexcept;
+
+/// One cycle. `carrier` is where it is at the end of the cycle [u] or [°]. [s]
+void goOn(Ride &ride, const motion::State &carrier, double cycle) noexcept;
+
+/// The group's copy of the system in the machine now, as a series in time.
+Frame<Series> copyOf(const Ride &ride) noexcept;
+
+/// Where the copy is at rest after braking.
+Frame<double> restOf(const Ride &ride) noexcept;
+
+} // namespace stride::group
+
+#endif // STRIDE_RUNTIME_NUMERIC_GROUP_RIDE_HPP
