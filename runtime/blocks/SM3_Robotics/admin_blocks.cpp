@@ -1,6 +1,6 @@
 // The blocks that say what a group is: its axes, kinematics, coordinate systems, tool, and whether
 // it is enabled.
-#include "runtime/blocks/SM3_Robotics/frames.hpp"
+#include "runtime/blocks/SM3_Robotics/carriers.hpp"
 #include "runtime/blocks/SM3_Robotics/group_block.hpp"
 
 #include "st/SM3_Robotics/MC_AddAxisToGroup.h"
@@ -111,6 +111,10 @@ void decl::MC_SetCoordinateTransform::body__(::stride::Ctx &ctx__) {
       return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
     if (CoordSystem == decl::SMC_COORD_SYSTEM__MCS && group.bOwns != 0)
       return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+    if (robotics::isInUse(group, CoordSystem))
+      return error::SMC_ERROR__SMC_AXIS_GROUP_PCS_STILL_IN_USE;
+    if (index > 0)
+      group.astCarrier.v[index - 1] = {};
     group.astSystem.v[index] = CoordTransform;
     return 0;
   });
@@ -122,6 +126,12 @@ void decl::MC_ReadCoordinateTransform::body__(::stride::Ctx &ctx__) {
     if (index < 0)
       return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
     CoordTransform = group.astSystem.v[index];
+    if (const int32_t carrier = robotics::carrierOf(group, CoordSystem); carrier != 0) {
+      double pose[robotics::kArmAxes];
+      robotics::toPose(robotics::systemInWorld(group, carrier), pose);
+      static_assert(sizeof pose == sizeof CoordTransform);
+      __builtin_memcpy(&CoordTransform, pose, sizeof pose);
+    }
     return 0;
   });
 }

@@ -1,6 +1,7 @@
 #include "runtime/blocks/SM3_Robotics/frames.hpp"
 
 #include "runtime/axis/axis_ref.hpp"
+#include "runtime/blocks/SM3_Robotics/carriers.hpp"
 #include "runtime/numeric/kinematics/orientation.hpp"
 
 #include "st/SM3_Robotics/SMC_COORD_SYSTEM.h"
@@ -76,7 +77,10 @@ bool systemInMachine(const GroupRef &group, int16_t system, Frame<double> &frame
   }
   frame = kinematics::inverted(frameOf(group.astSystem.v[0])); // WCS
   const int32_t index = settableSystem(system);
-  if (index > 0)
+  const int32_t carrier = carrierOf(group, system);
+  if (carrier != 0)
+    frame = frame * systemInWorld(group, carrier);
+  else if (index > 0)
     frame = frame * frameOf(group.astSystem.v[index]);
   return index > 0 || system == decl::SMC_COORD_SYSTEM__WCS;
 }

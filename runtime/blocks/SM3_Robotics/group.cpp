@@ -2,7 +2,7 @@
 
 #include "runtime/axis/axis_cycle.hpp"
 #include "runtime/axis/set_point.hpp"
-#include "runtime/blocks/SM3_Robotics/frames.hpp"
+#include "runtime/blocks/SM3_Robotics/carriers.hpp"
 #include "runtime/blocks/SM3_Robotics/requests.hpp"
 
 #include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
@@ -49,11 +49,18 @@ void releaseAxes(GroupRef &group) noexcept {
   group.bOwns = 0;
 }
 
+/// Nothing is followed any more: all rests.
+void forgetSystems(GroupState &state) noexcept {
+  group::leaveSystems(state.motion);
+  state.rides = state.leaves = 0;
+}
+
 /// All movements are over, and the axes stop. `failed`: the movement that is the reason; 0: none.
 void failGroup(GroupRef &group, int16_t reason, uint64_t failed) noexcept {
   GroupState &state = stateOf(group);
   abortRequests(state);
   group::abandon(state.motion);
+  forgetSystems(state);
   if (failed != 0)
     fail(state, failed, reason);
   for (int32_t i = 0; i < group.uiAxes; ++i)
@@ -90,6 +97,8 @@ int16_t errorOf(Obstacle obstacle) noexcept {
     return error::SMC_ERROR__SMC_TRAFO_AXIS_LIMITS_EXCEEDED;
   case Obstacle::Singular:
     return error::SMC_ERROR__SMC_AXIS_GROUP_SINGULAR_PATH;
+  case Obstacle::TooFast:
+    return error::SMC_ERROR__SMC_AXIS_GROUP_TRACKING_TOO_FAST;
   }
   return 0;
 }
@@ -110,12 +119,15 @@ void writeAxes(GroupRef &group) noexcept {
 
 void drive(GroupRef &group, const GroupArm &arm) noexcept {
   GroupState &state = stateOf(group);
+  if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping || demandsStandstill(group))
+    group::brakeRide(state.motion.ride);
   const double cycle = axisAt(group, 0).fTaskCycle;
   const auto milliseconds =
       static_cast<int32_t>(exact::smaller(exact::larger(cycle * 1e3, 1.0), 100.0));
   group::cycle(state.motion, arm.arm,
                {cycle, 1.0, isToStop(group, state), state.deceleration, kSteps * milliseconds,
-                kSamples * milliseconds});
+                kSamples * milliseconds,
+                state.rides != 0 ? stateOfCarrier(group, state.rides) : motion::State{}});
   if (state.motion.obstacle != Obstacle::None) {
     failGroup(group, errorOf(state.motion.obstacle), failedMovement(state));
     return;
@@ -132,6 +144,7 @@ void settle(GroupRef &group) noexcept {
     return;
   if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping)
     return;
+  forgetSystems(state);
   group::clear(state.motion);
   releaseAxes(group);
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
@@ -151,7 +164,7 @@ bool takesMovements(const GroupRef &group) noexcept {
          group.eState == decl::SMC_AXIS_GROUP_STATE__GroupMoving;
 }
 
-bool rests(const GroupRef &group) noexcept { return group::isAtRest(stateOf(group).motion); }
+bool rests(const GroupRef &group) noexcept { return standsStill(stateOf(group)); }
 
 void beginMoving(GroupRef &group) noexcept {
   if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStandby)
@@ -174,6 +187,7 @@ void serve(Ctx &ctx, GroupRef &group) {
     failGroup(group, problem, 0);
     return;
   }
+  lookAtCarriers(group);
   const GroupArm arm(ctx, group);
   takeRequests(group, arm);
   if (group.bOwns != 0)
@@ -221,6 +235,7 @@ int16_t beginStop(Ctx & /*ctx*/, GroupRef &group, double deceleration) {
 void endStop(GroupRef &group) {
   if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStopping)
     return;
+  forgetSystems(stateOf(group));
   group::clear(stateOf(group).motion);
   releaseAxes(group);
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
@@ -247,6 +262,8 @@ int16_t enable(Ctx &ctx, GroupRef &group) {
       group.uiAxes - group.uiJoints > kMoreAxes)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_NUMBER_OF_AXES;
   stateOf(group) = GroupState{};
+  for (auto &carrier : group.astCarrier.v)
+    carrier = {};
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
   return 0;
 }

@@ -47,6 +47,9 @@ struct GroupState {
   double end[kAxes];               ///< Axes where the movements end that have been taken. [u]
   double deceleration;             ///< Of the present stop. [u/s^2]
   uint64_t lastAccepted;           ///< The movement that has been taken last.
+  group::Pose endPose;             ///< Where these end, in the path's system, if that moves.
+  int32_t rides;                   ///< That system: 1 or 2, PCS_1 or PCS_2; 0: the machine's.
+  int32_t leaves;                  ///< The one before, which may not be at rest yet.
 };
 
 GroupState &stateOf(GroupRef &group) noexcept;
@@ -63,6 +66,12 @@ void endStop(GroupRef &group);
 
 /// Lets the group go on by the present cycle, unless it has done so.
 void serve(Ctx &ctx, GroupRef &group);
+
+/// Whether it is at rest on its path, and follows nothing that moves.
+inline bool standsStill(const GroupState &state) noexcept {
+  return group::isAtRest(state.motion) && group::isStill(state.motion.ride) &&
+         group::isStill(state.motion.left);
+}
 
 /// Whether its axes are at rest.
 bool rests(const GroupRef &group) noexcept;

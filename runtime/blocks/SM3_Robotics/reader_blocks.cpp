@@ -17,7 +17,9 @@ using robotics::GroupRef;
 
 void decl::MC_GroupReadStatus::body__(::stride::Ctx &ctx__) {
   GroupMoving = GroupHoming = GroupErrorStop = GroupStandby = GroupStopping = GroupDisabled = 0;
+  TrackingDynamicCS = InSync = 0;
   ActiveMovementId = LastAcceptedMovementId = 0;
+  PositionLag = 0.0;
   robotics::runReader(ctx__, *this, [this](GroupRef &group) -> int16_t {
     const robotics::GroupState &state = robotics::stateOf(group);
     GroupMoving = group.eState == decl::SMC_AXIS_GROUP_STATE__GroupMoving;
@@ -29,6 +31,9 @@ void decl::MC_GroupReadStatus::body__(::stride::Ctx &ctx__) {
     if (GroupMoving != 0 && active != nullptr && !state.motion.abandoned)
       ActiveMovementId = active->id;
     LastAcceptedMovementId = state.lastAccepted;
+    TrackingDynamicCS = state.motion.ride.follows ? 1 : 0;
+    InSync = state.motion.ride.inSync ? 1 : 0;
+    PositionLag = ::stride::group::lagOf(state.motion);
     return 0;
   });
 }

@@ -1,6 +1,7 @@
 #include "runtime/blocks/SM3_Robotics/requests.hpp"
 
 #include "runtime/axis/axis_ref.hpp"
+#include "runtime/blocks/SM3_Robotics/carriers.hpp"
 #include "runtime/numeric/kinematics/orientation.hpp"
 
 #include "st/SM3_Robotics/SMC_COORD_SYSTEM.h"
@@ -15,13 +16,6 @@ namespace error = ::st::SM_Error;
 using group::GroupMotion;
 using kinematics::Frame;
 using kinematics::Outcome;
-
-Request &requestAt(GroupState &state, int64_t number) noexcept {
-  return state.request[static_cast<uint64_t>(number) % kRequests];
-}
-const Request &requestAt(const GroupState &state, int64_t number) noexcept {
-  return state.request[static_cast<uint64_t>(number) % kRequests];
-}
 
 bool aborts(const Request &request) noexcept {
   return request.bufferMode == buffer::MC_BUFFER_MODE__Aborting;
@@ -61,12 +55,7 @@ int16_t targetFrame(const GroupRef &group, const Request &request, const Frame<d
   Frame<double> system = begin;
   if (!inTool && !systemInMachine(group, request.system, system))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
-  const Frame<double> given = frameOf(request.position);
-  target = system * given;
-  if (request.relative && !inTool) {
-    target.place = begin.place + system.turn * given.place;
-    target.turn = system.turn * given.turn * system.turn.transpose() * begin.turn;
-  }
+  target = targetIn(system, request, begin);
   return 0;
 }
 
@@ -120,6 +109,15 @@ int16_t findEnd(const GroupRef &group, const GroupArm &arm, const Request &reque
   return 0;
 }
 
+group::MoreAxes moreAxesOf(const Ends &ends) noexcept {
+  group::MoreAxes more;
+  for (int32_t k = 0; k < kMoreAxes; ++k) {
+    more.from[k] = ends.from[kArmAxes + k];
+    more.to[k] = ends.to[kArmAxes + k];
+  }
+  return more;
+}
+
 int16_t linearLeg(const GroupArm &arm, const Ends &ends, group::Leg &leg) {
   if (arm.outcome != Outcome::Done)
     return kinematics::errorOf(arm.outcome);
@@ -128,12 +126,7 @@ int16_t linearLeg(const GroupArm &arm, const Ends &ends, group::Leg &leg) {
   (void)arm.arm.kinematics.forward(ends.from, from);
   if (arm.arm.kinematics.forward(ends.to, to) != Outcome::Done)
     return error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
-  group::MoreAxes more;
-  for (int32_t k = 0; k < kMoreAxes; ++k) {
-    more.from[k] = ends.from[kArmAxes + k];
-    more.to[k] = ends.to[kArmAxes + k];
-  }
-  leg = group::lineLeg(group::poseOf(from), group::poseOf(to), more);
+  leg = group::lineLeg(group::poseOf(from), group::poseOf(to), moreAxesOf(ends));
   return 0;
 }
 
@@ -157,11 +150,18 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
   Ends ends;
   for (int32_t k = 0; k < kAxes; ++k)
     ends.from[k] = first ? state.motion.axes[k] : state.end[k];
-  if (const int16_t wrong = findEnd(group, arm, request, ends); wrong != 0)
+  const bool carried = group::isCarried(state.motion) && request.kind == RequestKind::Linear;
+  for (int32_t k = 0; k < kAxes; ++k)
+    ends.to[k] = ends.from[k];
+  if (const int16_t wrong = carried ? int16_t{0} : findEnd(group, arm, request, ends); wrong != 0)
     return wrong;
   group::Order order = request.order;
   group::Leg leg;
-  if (request.kind == RequestKind::Linear) {
+  if (carried) {
+    if (const int16_t wrong = carriedLeg(group, arm, request, moreAxesOf(ends), leg); wrong != 0)
+      return wrong;
+    order.configuration = arm.arm.kinematics.configurationOf(state.motion.axes);
+  } else if (request.kind == RequestKind::Linear) {
     if (const int16_t wrong = linearLeg(arm, ends, leg); wrong != 0)
       return wrong;
     order.configuration = arm.arm.kinematics.configurationOf(ends.from);
@@ -184,20 +184,35 @@ void begin(GroupRef &group, const GroupArm &arm, const Request &request) {
   if (group.bOwns != 0)
     group::clear(state.motion);
   if (request.kind == RequestKind::Halt) {
+    changeSystem(group, arm, 0, request);
     group::setOutcome(state.motion, request.id, group::Outcome::Done);
     return;
   }
   beginMoving(group);
+  changeSystem(group, arm, carrierOf(group, request), request);
   if (const int16_t wrong = append(group, arm, request); wrong != 0)
     fail(state, request.id, wrong);
 }
 
 } // namespace
 
+Frame<double> targetIn(const Frame<double> &system, const Request &request,
+                       const Frame<double> &begin) {
+  const Frame<double> given = frameOf(request.position);
+  Frame<double> target = system * given;
+  if (request.relative && request.system != decl::SMC_COORD_SYSTEM__TCS) {
+    target.place = begin.place + system.turn * given.place;
+    target.turn = system.turn * given.turn * system.turn.transpose() * begin.turn;
+  }
+  return target;
+}
+
 int16_t enqueue(GroupRef &group, Request &request) noexcept {
   GroupState &state = stateOf(group);
   if (const int16_t wrong = wrongInput(request); wrong != 0)
     return wrong;
+  if (request.kind == RequestKind::Direct && carrierOf(group, request.system) != 0)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
   if (aborts(request)) {
     abortRequests(state);
     group::abandon(state.motion);
@@ -216,8 +231,15 @@ void takeRequests(GroupRef &group, const GroupArm &arm) {
   while (state.firstRequest < state.nextRequest) {
     const Request &request = requestAt(state, state.firstRequest);
     const bool fresh = state.motion.first == state.motion.next || state.motion.abandoned;
+    const bool elsewhere = carrierOf(group, request) != state.rides;
+    if (elsewhere && !fresh && !aborts(request))
+      return; // after what is before has ended
     if (aborts(request) || fresh) {
       if (group.bOwns != 0 && !group::isAtRest(state.motion))
+        return;
+      // One system at a time can be left, and halts and axes need all to be at rest.
+      if ((elsewhere && !group::isStill(state.motion.left)) ||
+          (demandsStandstill(group) && !standsStill(state)))
         return;
       begin(group, arm, request);
     } else {
@@ -244,6 +266,14 @@ void fail(GroupState &state, uint64_t id, int16_t error) noexcept {
 bool demandsRest(const GroupState &state) noexcept {
   return state.motion.abandoned ||
          (state.firstRequest < state.nextRequest && aborts(requestAt(state, state.firstRequest)));
+}
+
+bool demandsStandstill(const GroupRef &group) noexcept {
+  const GroupState &state = stateOf(group);
+  if (state.firstRequest == state.nextRequest)
+    return false;
+  const Request &request = requestAt(state, state.firstRequest);
+  return request.kind == RequestKind::Halt || request.kind == RequestKind::Direct;
 }
 
 uint64_t failedMovement(const GroupState &state) noexcept {

@@ -8,6 +8,17 @@ namespace stride::robotics {
 
 const GroupState &stateOf(const GroupRef &group) noexcept;
 
+inline Request &requestAt(GroupState &state, int64_t number) noexcept {
+  return state.request[static_cast<uint64_t>(number) % kRequests];
+}
+inline const Request &requestAt(const GroupState &state, int64_t number) noexcept {
+  return state.request[static_cast<uint64_t>(number) % kRequests];
+}
+
+/// The pose that a request means, in a coordinate system, from the pose where it begins.
+kinematics::Frame<double> targetIn(const kinematics::Frame<double> &system, const Request &request,
+                                   const kinematics::Frame<double> &begin);
+
 /// The group takes its axes, if it has not.
 void beginMoving(GroupRef &group) noexcept;
 
@@ -24,8 +35,11 @@ void abortRequests(GroupState &state) noexcept;
 /// A movement is over, for an SMC_ERROR.
 void fail(GroupState &state, uint64_t id, int16_t error) noexcept;
 
-/// Whether the request that is the next one waits until the group is at rest.
+/// Whether the request that is the next one waits until the group is at rest on its path.
 bool demandsRest(const GroupState &state) noexcept;
+
+/// Whether it waits until the group does not follow a moving system any more.
+bool demandsStandstill(const GroupRef &group) noexcept;
 
 /// The movement whose path does not go on.
 uint64_t failedMovement(const GroupState &state) noexcept;

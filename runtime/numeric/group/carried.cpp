@@ -223,6 +223,8 @@ void alight(GroupMotion &group, const Arm &arm) noexcept {
   }
   group.ride = {};
   group.tool = poseOf(tool);
+  if (isStill(group.left))
+    group.left = {};
 }
 
 Pose poseInPath(const GroupMotion &group, const Arm &arm) noexcept {
@@ -231,6 +233,16 @@ Pose poseInPath(const GroupMotion &group, const Arm &arm) noexcept {
   Frame<double> tool;
   (void)arm.kinematics.forward(group.axes, tool);
   return poseOf(tool);
+}
+
+double lagOf(const GroupMotion &group) noexcept {
+  const Ride &ride = group.ride;
+  if (!ride.follows || ride.inSync)
+    return 0.0;
+  const auto toolWhen = [&](double carrier) {
+    return plain((valueOf(systemAt(ride.system, Series(carrier))) * frameOf(group.tool)).place);
+  };
+  return numeric::norm(toolWhen(ride.carrier.position) - toolWhen(ride.follower.position));
 }
 
 Frame<double> inMachine(const GroupMotion &group, const Pose &pose) noexcept {

@@ -165,6 +165,16 @@ motion::Dynamics boardingDynamics(const GroupMotion &group, const Arm &arm,
 /// From now on movements are in the machine's system, likewise.
 void alight(GroupMotion &group, const Arm &arm) noexcept;
 
+/// How far the tool is from where it would be if the group were where the system is that it
+/// follows. [u]
+double lagOf(const GroupMotion &group) noexcept;
+
+/// Forgets systems that are followed or left, all of which rest.
+inline void leaveSystems(GroupMotion &group) noexcept {
+  group.ride = {};
+  group.left = {};
+}
+
 /// The tool in the system of the path, where the group is; it must be one that leads.
 Pose poseInPath(const GroupMotion &group, const Arm &arm) noexcept;
 
