@@ -194,6 +194,15 @@ void begin(GroupRef &group, const GroupArm &arm, const Request &request) {
     fail(state, request.id, wrong);
 }
 
+/// Whether the movements before have come to rest as the next request needs it. One system at a
+/// time can be left; halts and axes need all to be at rest.
+bool canBegin(const GroupRef &group, bool elsewhere) noexcept {
+  const GroupState &state = stateOf(group);
+  if (demandsStandstill(group))
+    return standsStill(state);
+  return group::isAtRest(state.motion) && !(elsewhere && !group::isStill(state.motion.left));
+}
+
 } // namespace
 
 Frame<double> targetIn(const Frame<double> &system, const Request &request,
@@ -235,11 +244,7 @@ void takeRequests(GroupRef &group, const GroupArm &arm) {
     if (elsewhere && !fresh && !aborts(request))
       return; // after what is before has ended
     if (aborts(request) || fresh) {
-      if (group.bOwns != 0 && !group::isAtRest(state.motion))
-        return;
-      // One system at a time can be left, and halts and axes need all to be at rest.
-      if ((elsewhere && !group::isStill(state.motion.left)) ||
-          (demandsStandstill(group) && !standsStill(state)))
+      if (group.bOwns != 0 && !canBegin(group, elsewhere))
         return;
       begin(group, arm, request);
     } else {
