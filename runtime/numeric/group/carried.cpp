@@ -39,14 +39,37 @@ struct Share {
   double change;                       ///< Acceleration along the path. [u/s^2]
 };
 
+/// How long the follower may still need until it is where the carrier is, or rests. [s]
+double timeToSettle(const Ride &ride) noexcept {
+  constexpr double kMargin = 2.0;
+  if (!ride.follows)
+    return ride.brake.duration - ride.braked;
+  if (ride.inSync)
+    return 0.0;
+  const double change = fabs(ride.carrier.velocity - ride.follower.velocity);
+  const double gap = fabs(ride.carrier.position - ride.follower.position);
+  const motion::Dynamics &most = ride.most;
+  return kMargin * (gap / most.velocity + 2.0 * ((change + most.velocity) / most.acceleration +
+                                                 most.acceleration / most.jerk));
+}
+
+/// How fast the path can be gone over within a time from now on, at most. [u/s]
+double velocityWithin(const GroupMotion &group, const PathLimits &path, double time) noexcept {
+  if (!isAtRest(group))
+    return path.velocity;
+  return smaller(path.velocity, path.acceleration * time);
+}
+
 /// Until the carrier is reached, and to come to rest, the follower may need all that it has.
-Share shareOf(const Ride &ride, const PathLimits &path) noexcept {
+Share shareOf(const GroupMotion &group, const Ride &ride, const PathLimits &path,
+              double time) noexcept {
   const double change = larger(path.acceleration, path.deceleration);
   const double velocity = larger(fabs(ride.follower.velocity), fabs(ride.carrier.velocity));
-  if (ride.inSync)
+  const double settled = timeToSettle(ride);
+  if (time >= settled)
     return {velocity, fabs(ride.carrier.acceleration), 0.0, path.velocity, change};
   return {ride.follows ? velocity + ride.most.velocity : fabs(ride.follower.velocity),
-          ride.most.acceleration, ride.most.jerk, path.velocity, change};
+          ride.most.acceleration, ride.most.jerk, velocityWithin(group, path, settled), change};
 }
 
 /// Derivatives of an axis by the carrier's way (u) and the path's (s).
@@ -105,8 +128,8 @@ Frame<Series> pathSystem(const GroupMotion &group) noexcept {
 
 CarriedTrack::CarriedTrack(const GroupMotion &group, const Track &track, double ahead,
                            const PathLimits &path) noexcept
-    : group_(group), track_(track),
-      carrier_(carrierAfter(group.ride, larger(ahead, 0.0) / path.velocity)),
+    : group_(group), track_(track), time_(larger(ahead, 0.0) / path.velocity),
+      carrier_(carrierAfter(group.ride, time_)),
       frame_(valueOf(systemWith(group, Series(carrier_), Series(group.left.follower.position)))),
       path_(path) {}
 
@@ -147,7 +170,7 @@ void CarriedTrack::yieldTo(const Ride &ride, const Arm &arm, double way,
       !axesAlong(arm, way, reference, {1.0, byRide, byLeft}, forwards) ||
       !axesAlong(arm, way, reference, {1.0, -byRide, -byLeft}, backwards))
     return;
-  const Share share = shareOf(ride, path_);
+  const Share share = shareOf(group_, ride, path_, time_);
   for (int32_t k = 0; k < arm.joints; ++k) {
     const Series &f = forwards[k];
     const Series &b = backwards[k];
@@ -167,8 +190,17 @@ void CarriedTrack::yield(const Arm &arm, double way, const double (&reference)[k
                          AxisLimits (&limits)[kAxes]) const noexcept {
   if (!isStill(group_.ride))
     yieldTo(group_.ride, arm, way, reference, limits);
-  if (!isStill(group_.left))
+  if (!isStill(group_.left) && time_ <= timeToSettle(group_.left))
     yieldTo(group_.left, arm, way, reference, limits);
+}
+
+double CarriedTrack::reach() const noexcept {
+  double time = 0.0;
+  const Ride *const rides[] = {&group_.ride, &group_.left};
+  for (const Ride *const ride : rides)
+    if (!isStill(*ride))
+      time = larger(time, timeToSettle(*ride) - time_);
+  return time > 0.0 ? velocityWithin(group_, path_, time) * time : exact::kInfinity;
 }
 
 motion::Dynamics boardingDynamics(const GroupMotion &group, const Arm &arm,

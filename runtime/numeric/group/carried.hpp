@@ -27,6 +27,9 @@ public:
   void yield(const Arm &arm, double way, const double (&reference)[kAxes],
              AxisLimits (&limits)[kAxes]) const noexcept;
 
+  /// How far limits may go that yield: until what moves the system has settled. [u]
+  [[nodiscard]] double reach() const noexcept;
+
 private:
   /// How far the ways grow that the axes depend on.
   struct Growth {
@@ -42,6 +45,7 @@ private:
 
   const GroupMotion &group_;
   Track track_;
+  double time_;         ///< Until the path comes there, at least. [s]
   double carrier_;      ///< Where it will be. [u] or [°]
   Frame<double> frame_; ///< The path's system then.
   PathLimits path_;

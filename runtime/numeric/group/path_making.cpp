@@ -323,6 +323,7 @@ bool addStrip(GroupMotion &group, const Arm &arm, Movement &movement, int32_t &s
   const double ahead = legBegin(movement) + look.from - movement.entry - group.motion.way;
   const CarriedTrack carried(group, trackOf(movement.leg), ahead, movement.order.path);
   carried.yield(ordered.arm, look.from, look.reference, ordered.limits);
+  look.to = smaller(look.to, look.from + larger(carried.reach(), look.least));
   path::Strip strip{};
   group.obstacle = limitStrip(ordered.arm, carried.track(), movement.order.path, look, strip);
   samples -= look.samples;
