@@ -2,6 +2,7 @@
 
 #include "compiler/assets/cnc/cnc_source.hpp"
 #include "compiler/assets/cnc/nc_source.hpp"
+#include "compiler/cli/cnc_drawing.hpp"
 #include "compiler/cli/cnc_edit.hpp"
 #include "compiler/cli/cnc_generation.hpp"
 #include "compiler/cli/cnc_run.hpp"
@@ -255,6 +256,20 @@ int cncQueue(const CncOptions &options) {
   return exitCode;
 }
 
+/// Draws the path of a program.
+int cncDrawing(const CncOptions &options) {
+  const std::string &path = options.files.front();
+  CncValues values = valuesOf(options);
+  LoadedCnc loaded(path, options, values);
+  if (loaded.program) {
+    checkValues(values, loaded);
+    checkCnc(*loaded.program, loaded.diagnostics);
+    if (!loaded.diagnostics.hasErrors())
+      exportDrawing(path, *loaded.program, options, loaded.diagnostics);
+  }
+  return loaded.finish(options.output);
+}
+
 } // namespace
 
 int cncCommand(const CncOptions &options) {
@@ -264,6 +279,10 @@ int cncCommand(const CncOptions &options) {
     return cncMotion(options);
   case CncAction::Queue:
     return cncQueue(options);
+  case CncAction::ImportDxf:
+    return importDrawing(options);
+  case CncAction::ExportDxf:
+    return cncDrawing(options);
   case CncAction::Number:
   case CncAction::Rotate:
   case CncAction::Shift:

@@ -90,6 +90,8 @@ public:
                       "Number the sentences of a CNC program anew; jumps follow"));
     declareMoves();
     declareCuts();
+    declareCncDrawings(*cnc_, *call_);
+    declareValues(cnc_->get_subcommand("export-dxf"));
   }
 
 private:

@@ -53,6 +53,8 @@ void declareLibraries(CLI::App &app, Invocation &call);
 /// The commands below `stride cam`.
 void declareCams(CLI::App &app, Invocation &call);
 void declareCnc(CLI::App &app, Invocation &call);
+/// Those of them that read and write drawings.
+void declareCncDrawings(CLI::App &cnc, Invocation &call);
 
 } // namespace stc::cli
 

@@ -5,6 +5,7 @@
 #include "compiler/assets/cnc/cnc_source.hpp"
 #include "compiler/assets/cnc_edit/cnc_edit.hpp"
 #include "compiler/assets/cnc_edit/split.hpp"
+#include "compiler/assets/dxf/dxf.hpp"
 #include "compiler/cli/terminal.hpp"
 #include "compiler/semantics/program.hpp"
 
@@ -153,7 +154,9 @@ enum class CncAction {
   Mirror,
   Reverse,
   Split,
-  Expand
+  Expand,
+  ImportDxf,
+  ExportDxf
 };
 
 /// How `run` and `plot` drive a program. Arrays are of X, Y, Z, A, B, C, P, Q, U, V, W and one
@@ -194,6 +197,14 @@ struct CncMoveOptions {
   double factor = 1;
 };
 
+/// How drawings become programs, and programs drawings.
+struct CncDrawingOptions {
+  DxfImport import;
+  DxfExport out;
+  std::string base;     ///< Of the programs' names; empty: as the drawing.
+  bool replace = false; ///< programs that are there
+};
+
 struct CncOptions {
   CncAction action = CncAction::Check;
   std::vector<std::string> files;
@@ -210,6 +221,7 @@ struct CncOptions {
   CncSplit split;
   CncExpansion expansion;
   bool inPlace = false; ///< edits: into the file itself
+  CncDrawingOptions drawing;
   Output output;
 };
 /// Checks, describes, formats CNC programs, drives them, makes queue files of them.
