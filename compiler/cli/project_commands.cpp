@@ -7,6 +7,7 @@
 #include "compiler/project/project.hpp"
 #include "compiler/project/run_socket.hpp"
 #include "compiler/source/render.hpp"
+#include "compiler/source/suggest.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -111,6 +112,34 @@ bool fillInSocket(std::vector<std::string> &arguments, const ProjectOptions &opt
       return false;
     }
     arguments[i + 1] = "unix:" + socket->string();
+  }
+  return true;
+}
+
+/// Puts what records a group in place of each `--group`. False: there is no such group, which is
+/// shown.
+bool fillInGroups(std::vector<std::string> &arguments, const BuildResult &result) {
+  for (size_t i = 0; i + 1 < arguments.size(); ++i) {
+    if (arguments[i] != "--group")
+      continue;
+    const auto group =
+        std::find_if(result.groups.begin(), result.groups.end(), [&](const GroupTrace &one) {
+          return equalIgnoringCase(one.name, arguments[i + 1]);
+        });
+    if (group == result.groups.end()) {
+      std::vector<std::string_view> names;
+      for (const GroupTrace &one : result.groups)
+        names.push_back(one.name);
+      const std::string_view near = nearest(arguments[i + 1], names);
+      std::fprintf(stderr, "stride: stride.toml has no [[axes_group]] `%s`%s\n",
+                   visible(arguments[i + 1]).c_str(),
+                   near.empty() ? "" : fmt::format("; did you mean `{}`?", near).c_str());
+      return false;
+    }
+    arguments[i] = "--set";
+    arguments[i + 1] = group->assignment;
+    arguments.insert(arguments.begin() + static_cast<std::ptrdiff_t>(i) + 2,
+                     {"--trace", group->columns});
   }
   return true;
 }
@@ -224,7 +253,7 @@ std::optional<std::vector<std::string>> hostArgumentsOf(const ProjectOptions &op
   if (isRun && !result.latest.empty())
     arguments.insert(arguments.end(), {"--latest", result.latest.string()});
   arguments.insert(arguments.end(), own.begin(), own.end());
-  if (!fillInSocket(arguments, options))
+  if (!fillInSocket(arguments, options) || !fillInGroups(arguments, result))
     return std::nullopt;
   if ((isRun &&
        !addPath(arguments, "--retain", result.retainFile, result.folder, options.output)) ||
@@ -284,6 +313,8 @@ int debugCommand(const ProjectOptions &options, const std::vector<std::string> &
   arguments.insert(arguments.end(),
                    {"--args", installation->host.string(), "sim", result->runnable.string()});
   arguments.insert(arguments.end(), hostArguments.begin(), hostArguments.end());
+  if (!fillInGroups(arguments, *result))
+    return 1;
   return become("gdb", std::move(arguments), options.output,
                 "; on Debian, `apt install gdb` installs it");
 }

@@ -47,6 +47,9 @@ void addTraceOptions(const HostOptions &host) {
 }
 
 void addSimOptions(const HostOptions &host) {
+  host.pass("--group",
+            "Record a group of [[axes_group]] in every cycle: state, tool, axes (may be repeated)",
+            "NAME");
   host.pass("--for", "How long, in virtual time: T#5s", "TIME");
   host.pass("--replay", "Repeat a run that `stride run --record` has recorded, instead of --for",
             "FILE");

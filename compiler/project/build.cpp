@@ -1,5 +1,6 @@
 #include "compiler/project/build.hpp"
 
+
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/job_pool.hpp"
 #include "compiler/project/made_files.hpp"
@@ -108,7 +109,7 @@ private:
     }
     if (!writeSources(root, below))
       return std::nullopt;
-    return BuildResult{root / below, {}, {}, {}, {}, 0, files_.size(), {}, {}, {}};
+    return BuildResult{root / below, {}, {}, {}, {}, 0, files_.size(), {}, {}, {}, {}};
   }
 
   // Writes the generated files; what an earlier build has written there and this one has not is
@@ -410,6 +411,8 @@ private:
     result.folder = folderOf(project_);
     result.retainFile = retainFileOf(project_);
     result.filesRoot = filesRootOf(project_);
+    for (const AxesGroupConfig &group : project_.axesGroups())
+      result.groups.push_back(groupTrace(group));
     if ((options_.use == BuildUse::Keep && !keep(result)) ||
         !writeMadeFiles(project_, folderOf(project_), result.filesRoot, diagnostics_) ||
         (!options_.filesFolder.empty() &&

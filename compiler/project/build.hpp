@@ -2,6 +2,7 @@
 #define STRIDE_COMPILER_PROJECT_BUILD_HPP
 // From a checked project to a shared object that stride-host runs, or to one static executable.
 
+#include "compiler/project/axes_group_sources.hpp"
 #include "compiler/project/project.hpp"
 
 #include <cstdint>
@@ -51,6 +52,7 @@ struct BuildResult {
   std::filesystem::path folder;     ///< the project's, or that of the single file
   std::filesystem::path retainFile; ///< for RETAIN and PERSISTENT variables
   std::filesystem::path filesRoot;  ///< for the files of the program
+  std::vector<GroupTrace> groups;   ///< those of [[axes_group]]
 };
 
 /// Folder of Stride's headers in the line tables of applications.

@@ -1,13 +1,12 @@
 #include "compiler/project/cnc_config.hpp"
 
 #include "compiler/assets/cnc/nc_source.hpp"
+#include "compiler/project/type_finder.hpp"
 #include "compiler/source/suggest.hpp"
-#include "compiler/syntax/parser.hpp"
 
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
-#include <unordered_map>
 
 namespace stc {
 
@@ -93,7 +92,7 @@ std::string fileNameOf(const CncProgram &program) {
 class CncMaker {
 public:
   CncMaker(Program &program, const std::vector<ast::File *> &files, const LibraryIndex &index)
-      : program_(program), files_(files), index_(index) {}
+      : program_(program), files_(files), finder_(program, index) {}
 
   void add(CncProgram read, const SourceFile &file) {
     const size_t errors = program_.diagnostics.errorCount();
@@ -161,42 +160,13 @@ private:
     made_.push_back({name, std::move(bytes), program.settings.span});
   }
 
-  /// The declaration of a type in a library: of the project's own ones, then of Stride's.
-  const ast::Decl *typeOf(std::string_view lower) {
-    for (const LibrarySource &library : program_.librarySources)
-      if (const ast::Decl *found = typeIn(library.files, lower))
-        return found;
-    const std::vector<LibraryIndex::Entry> entries = index_.find(lower);
-    if (entries.empty())
-      return nullptr;
-    auto [at, isNew] = parsed_.try_emplace(std::string(entries.front().fileName));
-    if (isNew) {
-      ParseOptions options;
-      options.generated = true;
-      at->second =
-          parse(program_.sources.file(program_.sources.add(std::string(entries.front().fileName),
-                                                           std::string(entries.front().text))),
-                program_.interner, program_.arena, program_.diagnostics, &options);
-    }
-    return typeIn({at->second}, lower);
-  }
-
-  static const ast::Decl *typeIn(const std::vector<ast::File *> &files, std::string_view lower) {
-    for (const ast::File *file : files)
-      for (const ast::Decl *decl : file->declarations)
-        if (decl->kind != ast::DeclKind::Globals && lowerCase(decl->name.text) == lower)
-          return decl;
-    return nullptr;
-  }
-
   /// Objects of a queue without queue_bytes: 15 MB.
   static constexpr size_t kMostCompiled = 20'000;
 
   Program &program_;
   const std::vector<ast::File *> &files_;
-  const LibraryIndex &index_;
-  std::unordered_map<std::string, ast::File *> parsed_;
-  const CncTypes types_ = [this](std::string_view lower) { return typeOf(lower); };
+  TypeFinder finder_;
+  const CncTypes types_ = [this](std::string_view lower) { return finder_.find(lower); };
   std::vector<CncAsset> assets_;
   std::vector<CncFile> made_;
 };

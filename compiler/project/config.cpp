@@ -71,6 +71,8 @@ public:
       plc_.readBus({bus, busSection(bus), diagnostics_, &projectSchema()});
     for (const CheckedSection &axis : top.sections("axis", diagnostics_))
       plc_.readAxis(axis);
+    for (const CheckedSection &group : top.sections("axes_group", diagnostics_))
+      plc_.readAxesGroup(group);
     for (const CheckedSection &cnc : top.sections("cnc", diagnostics_))
       readCncSection(cnc, config_, diagnostics_);
     for (const TomlNode &io : top.tables("io"))

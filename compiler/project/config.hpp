@@ -61,7 +61,7 @@ struct DriveConfig {
 /// [[axis]]: an axis without a drive.
 struct AxisConfig {
   ConfigName name;
-  ConfigName task; ///< sTask; empty: the only task
+  ConfigName task; ///< sTask; empty: the only task, whose name resolveTasks puts here
   Span section;
   uint32_t cycleUs = 0; ///< dwCycle; 0: not given
   Span cycleSpan;
@@ -99,6 +99,28 @@ struct AxisGroupConfig {
   std::vector<EncoderConfig> encoders;
 };
 
+/// A value for an input of a block, which its key names.
+struct InputValue {
+  ConfigName name;
+  TomlNode value;
+};
+
+/// [[axes_group]]: axes that move together on a path.
+struct AxesGroupConfig {
+  ConfigName name;
+  std::vector<ConfigName> axes; ///< those of the kinematics, then those that go along
+  Span axesSpan;
+  ConfigName kinematics;  ///< a block; empty: none
+  ConfigName orientation; ///< a block that turns the tool; empty: none
+  std::vector<InputValue> parameters;
+  std::vector<InputValue> orientationParameters;
+  // As ST text, `(X := 1.0, …)`; empty: not given.
+  std::string tool;
+  std::string base; ///< MCS in WCS
+  std::string pcs1;
+  std::string pcs2;
+};
+
 /// Whether the task's event is the bSync of this axis group, which its driver gives.
 [[nodiscard]] bool isSyncOf(const TaskConfig &task, const AxisGroupConfig &group);
 
@@ -132,6 +154,7 @@ struct ProjectConfig {
   std::vector<BusConfig> buses;
   std::vector<AxisGroupConfig> axisGroups;
   std::vector<AxisConfig> axes;
+  std::vector<AxesGroupConfig> axesGroups;
   std::vector<IoConfig> ioDevices;
   std::vector<CncSettings> cnc; ///< [[cnc]]
   bool incomplete = false;      ///< a drive, axis group or everything had to be left out

@@ -22,7 +22,11 @@ namespace stc {
 /// elsewhere.
 [[nodiscard]] std::string driveStruct(const ProjectConfig &config);
 
-/// Reads `[[bus]]` with everything below it, and `[[axis]]`, into the configuration.
+/// [[axes_group]]
+[[nodiscard]] const SectionSchema &axesGroupSchema();
+
+/// Reads `[[bus]]` with everything below it, `[[axis]]`, and `[[axes_group]]`, into the
+/// configuration.
 class PlcReader {
 public:
   PlcReader(ProjectConfig &config, Diagnostics &diagnostics)
@@ -30,6 +34,7 @@ public:
 
   void readBus(const CheckedSection &section);
   void readAxis(const CheckedSection &section);
+  void readAxesGroup(const CheckedSection &section);
 
 private:
   /// The kind of bus, which decides about the parameters of an axis group.

@@ -19,6 +19,8 @@ namespace {
 using stride::bus::plc::kConfigurable;
 using stride::bus::plc::kRotary;
 
+constexpr std::array<std::string_view, 4> kMotionLimits = {"fSWMaxVelocity", "fSWMaxAcceleration",
+                                                           "fSWMaxDeceleration", "fSWMaxJerk"};
 constexpr double kLargestPeriod = 2147483648.0; // increments: 16#80000000
 constexpr int64_t kCanFastest = 1000;           // kBit/s
 constexpr int64_t kSercosSlowest = 2000;
@@ -203,7 +205,7 @@ void PlcReader::readDrive(const CheckedSection &section, AxisGroupConfig &group,
   drive.fields.emplace_back("bRealDrive", "TRUE");
   readCyclicData(section, drive.fields);
   readScaling(section, drive.fields, "drive");
-  for (const std::string_view name : {"fSWMaxVelocity", "fSWMaxAcceleration", "fSWMaxDeceleration"})
+  for (const std::string_view name : kMotionLimits)
     realField(section, name, drive.fields);
   const bool rotary = section.choice("iMovementType") == kRotary;
   flagField(section, "bHWLimitEnable", drive.fields);
@@ -335,7 +337,7 @@ void PlcReader::readAxis(const CheckedSection &section) {
   axis.fields.emplace_back("bRealDrive", "FALSE");
   readMovement(section, axis.fields, "axis");
   readLimits(section, axis.fields, section.choice("iMovementType") == kRotary, "axis");
-  for (const std::string_view name : {"fSWMaxVelocity", "fSWMaxAcceleration", "fSWMaxDeceleration"})
+  for (const std::string_view name : kMotionLimits)
     realField(section, name, axis.fields);
   readRamp(section, axis.fields);
   if (addVariable(axis.name))

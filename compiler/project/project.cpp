@@ -1,6 +1,7 @@
 #include "compiler/project/project.hpp"
 
 #include "compiler/assets/cam/cam_source.hpp"
+#include "compiler/project/axes_group_sources.hpp"
 #include "compiler/project/cnc_config.hpp"
 #include "compiler/project/library_sources.hpp"
 #include "compiler/project/source_files.hpp"
@@ -153,7 +154,8 @@ bool Project::addDeclarations(Purpose purpose, ProgramCheck programCheck,
     files.insert(files.begin(), parseSynthetic(plc, options));
     plcFile_ = files.front()->id;
   }
-  if (!declareCams(files, options) || !declareCnc(files, options, index))
+  if (!declareAxesGroups(files, options, index) || !declareCams(files, options) ||
+      !declareCnc(files, options, index))
     return false;
   for (const TaskConfig &task : config_.tasks)
     if (!task.event.text.empty())
@@ -204,6 +206,18 @@ ast::File *Project::parseSynthetic(const SyntheticSource &source, ParseOptions o
   options.generated = true;
   return parse(program_.sources.file(program_.sources.add(source)), program_.interner,
                program_.arena, program_.diagnostics, &options);
+}
+
+/// Adds the groups of [[axes_group]] as global variables. False: some are wrong.
+bool Project::declareAxesGroups(std::vector<ast::File *> &files, const ParseOptions &options,
+                                const LibraryIndex &index) {
+  const size_t errors = program_.diagnostics.errorCount();
+  const SyntheticSource groups = axesGroupDeclarations(program_, config_, files, index);
+  if (program_.diagnostics.errorCount() != errors)
+    return false;
+  if (!groups.empty())
+    files.insert(files.begin(), parseSynthetic(groups, options));
+  return true;
 }
 
 /// Adds the cams of the cam files as global variables. False: some are wrong.

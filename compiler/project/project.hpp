@@ -63,6 +63,10 @@ public:
   [[nodiscard]] const std::vector<CncFile> &madeFiles() const { return madeFiles_; }
   /// The drives and axes with a `unit` in stride.toml: their names, and what one technical unit is.
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> units() const;
+  /// The groups of [[axes_group]].
+  [[nodiscard]] const std::vector<AxesGroupConfig> &axesGroups() const {
+    return config_.axesGroups;
+  }
   /// Tasks and axis groups for code generation; only without errors.
   [[nodiscard]] AppConfig appConfig() const;
 
@@ -77,6 +81,8 @@ private:
   void shareVariables();
   ast::File *parseSynthetic(const SyntheticSource &source, ParseOptions options);
   void loadAssets(const FoundFiles &found, std::vector<FileId> &ids);
+  bool declareAxesGroups(std::vector<ast::File *> &files, const ParseOptions &options,
+                         const LibraryIndex &index);
   bool declareCams(std::vector<ast::File *> &files, const ParseOptions &options);
   bool declareCnc(std::vector<ast::File *> &files, const ParseOptions &options,
                   const LibraryIndex &index);

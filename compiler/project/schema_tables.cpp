@@ -109,6 +109,7 @@ constexpr std::array kAxisParameters = {
     positive("fSWMaxVelocity", "u/s"),
     positive("fSWMaxAcceleration", "u/s²"),
     positive("fSWMaxDeceleration", "u/s²"),
+    positive("fSWMaxJerk", "u/s³"),
     flag("bSWLimitEnable"),
     anyReal("fSWLimitNegative", "u"),
     anyReal("fSWLimitPositive", "u"),
@@ -210,10 +211,21 @@ struct DiagnosticSection {
 struct TopSection {
   DiagnosticSection diagnostics;
   explicit TopSection(const SectionSchema &library)
-      : sections{&kProject, &library, &diagnostics.section, &kImage,         &kRetain, &kFiles,
-                 &kFormat,  &kTask,   &anyBusSection(),     &anyIoSection(), &kAxis,   &kCnc},
+      : sections{&kProject,
+                 &library,
+                 &diagnostics.section,
+                 &kImage,
+                 &kRetain,
+                 &kFiles,
+                 &kFormat,
+                 &kTask,
+                 &anyBusSection(),
+                 &anyIoSection(),
+                 &kAxis,
+                 &axesGroupSchema(),
+                 &kCnc},
         top{"", "stride.toml", "", false, {}, sections} {}
-  std::array<const SectionSchema *, 12> sections;
+  std::array<const SectionSchema *, 13> sections;
   SectionSchema top;
 };
 

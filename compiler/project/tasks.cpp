@@ -256,6 +256,7 @@ private:
     const TaskConfig *task = taskOf(axis.task, axis.section, what, "calls its blocks");
     if (task == nullptr)
       return;
+    axis.task.text = task->name.text;
     if (const auto seconds = cycleOf(*task, axis.cycleUs, axis.cycleSpan, axis.section, what))
       axis.fields.emplace_back("fTaskCycle", fmt::format("{:.9f}", *seconds));
   }

@@ -122,6 +122,7 @@ inline constexpr std::array kDrive = {
     positive("fSWMaxVelocity", "u/s"),
     positive("fSWMaxAcceleration", "u/s²"),
     positive("fSWMaxDeceleration", "u/s²"),
+    positive("fSWMaxJerk", "u/s³"),
     flag("bSWLimitEnable"),
     anyReal("fSWLimitNegative", "u"),
     anyReal("fSWLimitPositive", "u"),
