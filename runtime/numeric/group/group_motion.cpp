@@ -149,7 +149,8 @@ void reset(GroupMotion &group, const double (&axes)[kAxes]) noexcept {
 }
 
 void setOutcome(GroupMotion &group, uint64_t id, Outcome outcome) noexcept {
-  group.outcome[id % kOutcomes] = static_cast<uint8_t>(outcome);
+  if (group.lastId - id < kOutcomes)
+    group.outcome[id % kOutcomes] = static_cast<uint8_t>(outcome);
 }
 
 uint64_t drawId(GroupMotion &group) noexcept {
@@ -214,21 +215,22 @@ double positionInMovement(const GroupMotion &group, uint64_t &id) noexcept {
 void cycle(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept {
   settle(group, !isAtRest(group));
   wish(group, command);
-  makeKnown(group, arm, command.samples);
+  makeKnown(group, arm, command.allowance, command.samples);
   (void)path::think(group.motion, command.steps);
   moveBy(group, arm, passDwell(group, command));
   rebase(group);
 }
 
 void abandon(GroupMotion &group) noexcept {
+  if (group.abandoned)
+    return;
   for (int64_t k = group.first; k < group.next; ++k)
     setOutcome(group, movementAt(group, k).id, Outcome::Aborted);
   group.abandoned = true;
 }
 
 void clear(GroupMotion &group) noexcept {
-  if (!group.abandoned)
-    abandon(group);
+  abandon(group);
   double axes[kAxes];
   __builtin_memcpy(axes, group.axes, sizeof axes);
   reset(group, axes);
