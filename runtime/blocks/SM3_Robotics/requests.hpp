@@ -6,8 +6,6 @@
 
 namespace stride::robotics {
 
-const GroupState &stateOf(const GroupRef &group) noexcept;
-
 /// The group takes its axes, if it has not.
 void beginMoving(GroupRef &group) noexcept;
 
@@ -16,10 +14,36 @@ void beginMoving(GroupRef &group) noexcept;
 int16_t enqueue(GroupRef &group, Request &request) noexcept;
 
 /// Makes movements of the requests that wait, as far as they can be taken now.
-void takeRequests(GroupRef &group, const GroupArm &arm);
+void takeRequests(GroupRef &group, GroupArm &arm);
 
-/// What waits is over.
-void abortRequests(GroupState &state) noexcept;
+/// The pose that a request means by `coordinates`, from the pose where it begins. An SMC_ERROR.
+int16_t targetFrame(const GroupRef &group, const Request &request,
+                    const double (&coordinates)[kArmAxes], const kinematics::Frame<double> &begin,
+                    kinematics::Frame<double> &target);
+
+/// From where a movement goes to where: axes at both ends.
+struct Ends {
+  double from[kAxes];
+  double to[kAxes];
+};
+
+/// What is wrong with the inputs of a circular movement besides those of all: an SMC_ERROR.
+int16_t wrongCircle(const Request &request) noexcept;
+
+/// The arc of a circular movement from ends.from on; where it ends goes into ends.to. An SMC_ERROR.
+int16_t circularLeg(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends,
+                    group::Leg &leg);
+
+/// What waits is over, and movements with it; what has been kept to be continued, too, if `all`.
+void abortAll(GroupState &state, bool all) noexcept;
+
+/// A request of the ring.
+inline Request &requestAt(GroupState &state, int64_t number) noexcept {
+  return state.request[static_cast<uint64_t>(number) % kRequestRing];
+}
+inline const Request &requestAt(const GroupState &state, int64_t number) noexcept {
+  return state.request[static_cast<uint64_t>(number) % kRequestRing];
+}
 
 /// A movement is over, for an SMC_ERROR.
 void fail(GroupState &state, uint64_t id, int16_t error) noexcept;
