@@ -1,7 +1,8 @@
 // Groups that drive random movements with random arms: every axis keeps its limits in every cycle,
 // nothing jumps, lines are straight, movements end where they should, and all of them end.
-#include "group_machines.hpp"
-#include "motion_problems.hpp"
+#include "group_problems.hpp"
+
+#include "runtime/numeric/group/arc.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,25 +18,6 @@ namespace {
 using namespace stride::group;
 namespace kinematics = stride::kinematics;
 using namespace stride::test;
-
-Machine randomMachine(Random &random) {
-  const int kind = random.below(3);
-  Machine machine = kind == 0 ? gantry() : (kind == 1 ? scara() : articulated());
-  machine.more = random.below(3);
-  for (int k = 0; k < kAxes; ++k) {
-    AxisLimits &limits = machine.limits[k];
-    limits.velocity = random.uniform(100, 500);
-    limits.acceleration = limits.velocity * random.magnitude(0, 1);
-    limits.jerk = limits.acceleration * random.magnitude(0.5, 2);
-    limits.low = -1e4;
-    limits.high = 1e4;
-  }
-  return machine;
-}
-
-bool isOfMachine(const Machine &machine, int k) {
-  return k < machine.joints || (k >= kArmAxes && k < kArmAxes + machine.more);
-}
 
 /// Drives random movements.
 class Drive {
@@ -108,13 +90,13 @@ private:
       return;
     }
     Leg leg{};
-    if (random_.chance(0.6)) {
+    if (random_.chance(0.7)) {
       MoreAxes more{};
       for (int k = 0; k < kMoreAxes; ++k) {
         more.from[k] = planned_[kArmAxes + k];
         more.to[k] = to[kArmAxes + k];
       }
-      leg = lineLeg(poseAt(planned_), poseAt(to), more);
+      leg = toolLeg(poseAt(planned_), poseAt(to), more);
     } else {
       double perTime[kAxes];
       for (int k = 0; k < kAxes; ++k)
@@ -126,6 +108,21 @@ private:
     append(*group_, drawId(*group_), leg, order);
     std::copy(std::begin(to), std::end(to), planned_);
     factors_.push_back(order);
+  }
+
+  /// A line, or a flat arc, which stays within reach.
+  Leg toolLeg(const Pose &from, const Pose &to, const MoreAxes &more) {
+    using namespace stride::numeric;
+    Arc arc{};
+    const Vector3 chord = to.place - from.place;
+    const Vector3 side = cross(chord, {random_.uniform(-1, 1), random_.uniform(-1, 1), 1});
+    const Vector3 border = from.place + chord * random_.uniform(0.3, 0.7) +
+                           side * (random_.uniform(0.01, 0.3) * norm(chord) / norm(side));
+    const bool goes = norm(chord) > 1e-6 && machine_.joints >= 3;
+    if (goes && random_.chance(0.4) &&
+        arcThrough(from.place, border, to.place, arc) == ArcFault::None)
+      return circleLeg(from, arc, to, more);
+    return lineLeg(from, to, more);
   }
 
   void step() {
@@ -166,19 +163,26 @@ private:
     }
   }
 
-  /// Along a line, the tool is on it.
+  /// Along a line or a circle, the tool is on it.
   void lookAtTool() {
     const Movement *const movement = activeOf(*group_);
-    if (movement == nullptr || movement->leg.kind != LegKind::Line || !(movement->leg.length > 0) ||
+    if (movement == nullptr || !(movement->leg.length > 0) ||
         group_->motion.way < movement->begin + movement->corner.length)
+      return;
+    const Leg &leg = movement->leg;
+    if (leg.kind != LegKind::Line && leg.kind != LegKind::Circle)
       return;
     Frame<double> tool;
     EXPECT_EQ(arm_.kinematics.forward(group_->axes, tool), kinematics::Outcome::Done);
-    const Vector<double> way = tool.place - vectorOf(movement->leg.start);
-    const Vector<double> along = vectorOf(movement->leg.first);
-    const double apart = (way - along * way.dot(along)).norm();
+    const Vector<double> way = tool.place - vectorOf(leg.start);
+    const Vector<double> first = vectorOf(leg.first);
+    double apart = (way - first * way.dot(first)).norm();
+    if (leg.kind == LegKind::Circle) {
+      const Vector<double> normal = first.cross(vectorOf(leg.second)).normalized();
+      apart = std::hypot(way.dot(normal), (way - normal * way.dot(normal)).norm() - leg.radius);
+    }
     if (!(apart <= 1e-9))
-      ADD_FAILURE() << "the tool is " << apart << " beside its line, movement " << group_->first;
+      ADD_FAILURE() << "the tool is " << apart << " beside its path, movement " << group_->first;
   }
 
   void disturb() {

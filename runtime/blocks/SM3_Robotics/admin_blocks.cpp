@@ -2,6 +2,7 @@
 // it is enabled.
 #include "runtime/blocks/SM3_Robotics/carriers.hpp"
 #include "runtime/blocks/SM3_Robotics/group_block.hpp"
+#include "runtime/numeric/group/kept_path.hpp"
 
 #include "st/SM3_Robotics/MC_AddAxisToGroup.h"
 #include "st/SM3_Robotics/MC_GroupDisable.h"
@@ -46,6 +47,7 @@ void decl::MC_GroupDisable::body__(::stride::Ctx &ctx__) {
   robotics::runOnce(ctx__, *this, [](GroupRef &group) -> int16_t {
     if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStandby)
       return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+    ::stride::group::abortInterrupted(robotics::stateOf(group).motion);
     group.eState = decl::SMC_AXIS_GROUP_STATE__GroupDisabled;
     return 0;
   });

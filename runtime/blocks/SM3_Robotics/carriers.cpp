@@ -161,8 +161,16 @@ int16_t carriedLeg(GroupRef &group, const GroupArm &arm, const Request &request,
     system = from;
   else if (state.rides == 0 && !systemInMachine(group, request.system, system))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
-  state.endPose = group::poseOf(targetIn(system, request, from));
-  leg = group::lineLeg(begin, state.endPose, more);
+  const group::Pose end = group::poseOf(targetIn(system, request, request.position, from));
+  if (request.kind == RequestKind::Circular) {
+    const Frame<double> aux = targetIn(system, request, request.aux, from);
+    if (const int16_t wrong = arcLeg(request, begin, group::plain(aux.place), end, more, leg);
+        wrong != 0)
+      return wrong;
+  } else {
+    leg = group::lineLeg(begin, end, more);
+  }
+  state.endPose = end;
   return 0;
 }
 

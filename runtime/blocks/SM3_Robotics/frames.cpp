@@ -39,8 +39,17 @@ GroupArm::GroupArm(Ctx &ctx, const GroupRef &group)
       arm{refOf(kinematics_, none_), group.uiJoints, group.uiAxes - group.uiJoints, limits_, {}} {
   for (int32_t i = 0; i < group.uiAxes; ++i)
     limits_[placeOf(group, i)] = limitsOf(*group.apAxis.v[i]);
-  if (outcome == kinematics::Outcome::Done && group.bTool != 0)
-    outcome = kinematics_.setTool(frameOf(group.stTool));
+  const Tool tool = group.bOwns != 0 ? stateOf(group).tool : toolOf(group);
+  if (tool.set)
+    setTool(tool);
+}
+
+void GroupArm::setTool(const Tool &tool) {
+  using kinematics::Outcome;
+  if (kinematics_.check() != Outcome::Done)
+    return;
+  const Frame<double> none = kinematics::unturned(kinematics::Vector<double>(0.0, 0.0, 0.0));
+  outcome = kinematics_.setTool(tool.set ? frameOf(tool.frame) : none);
 }
 
 Frame<double> frameOf(const double (&pose)[kArmAxes]) {

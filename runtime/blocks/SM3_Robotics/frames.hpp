@@ -19,6 +19,9 @@ public:
   GroupArm(const GroupArm &) = delete;
   GroupArm &operator=(const GroupArm &) = delete;
 
+  /// Another tool in place of the present one.
+  void setTool(const Tool &tool);
+
 private:
   kinematics::KinematicsOf kinematics_;
   kinematics::AnyKinematics none_; ///< Where there is no kinematics: it is not asked for anything.
@@ -28,6 +31,9 @@ public:
   kinematics::Outcome outcome; ///< Whether the tool can lead.
   group::Arm arm;              ///< It lives as long as this object.
 };
+
+/// The tool of movements that are commanded now.
+inline Tool toolOf(const GroupRef &group) noexcept { return {group.stTool, group.bTool != 0}; }
 
 /// A pose as ST has it, by X, Y, Z and the angles A, B, C.
 kinematics::Frame<double> frameOf(const double (&pose)[kArmAxes]);

@@ -3,6 +3,7 @@
 #include "runtime/axis/axis_cycle.hpp"
 #include "runtime/axis/set_point.hpp"
 #include "runtime/blocks/SM3_Robotics/carriers.hpp"
+#include "runtime/blocks/SM3_Robotics/overrides.hpp"
 #include "runtime/blocks/SM3_Robotics/requests.hpp"
 
 #include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
@@ -37,29 +38,22 @@ void takeAxes(GroupRef &group) noexcept {
   group.bOwns = 1;
 }
 
-void releaseAxes(GroupRef &group) noexcept {
-  for (int32_t i = 0; i < group.uiAxes && group.bOwns != 0; ++i) {
-    AxisRef &axis = axisAt(group, i);
-    if (!axis::ownsAxis(axis, group.aulOwner.v[i]))
-      continue;
-    axis::writeMotion(axis, 0.0, 0.0);
-    axis::releaseAxis(axis);
-    axis.nAxisState = axis::state::kStandstill;
-  }
-  group.bOwns = 0;
-}
-
-/// Nothing is followed any more: all rests.
-void forgetSystems(GroupState &state) noexcept {
-  group::leaveSystems(state.motion);
-  state.rides = state.leaves = 0;
+/// Movements that can be continued after the error say the error, too.
+void failAll(GroupState &state, int16_t reason) noexcept {
+  const group::GroupMotion &motion = state.motion;
+  for (int64_t k = motion.first; k < motion.next; ++k)
+    fail(state, motion.movement[static_cast<uint64_t>(k) % group::kMovements].id, reason);
+  for (int64_t k = state.abortedRequest; k < state.abortedEnd; ++k)
+    fail(state, requestAt(state, k).id, reason);
 }
 
 /// All movements are over, and the axes stop. `failed`: the movement that is the reason; 0: none.
 void failGroup(GroupRef &group, int16_t reason, uint64_t failed) noexcept {
   GroupState &state = stateOf(group);
-  abortRequests(state);
-  group::abandon(state.motion);
+  const bool stopped = state.motion.abandoned;
+  abortAll(state, true);
+  if (!stopped && state.resumable + 1 >= group.ulServed && !group::isCarried(state.motion))
+    failAll(state, reason);
   forgetSystems(state);
   if (failed != 0)
     fail(state, failed, reason);
@@ -105,7 +99,8 @@ int16_t errorOf(Obstacle obstacle) noexcept {
 
 /// Whether what comes next needs the group to be at rest.
 bool isToStop(const GroupRef &group, const GroupState &state) noexcept {
-  return group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping || demandsRest(state);
+  return group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping || demandsRest(state) ||
+         state.interrupting;
 }
 
 void writeAxes(GroupRef &group) noexcept {
@@ -125,8 +120,8 @@ void drive(GroupRef &group, const GroupArm &arm) noexcept {
   const auto milliseconds =
       static_cast<int32_t>(exact::smaller(exact::larger(cycle * 1e3, 1.0), 100.0));
   group::cycle(state.motion, arm.arm,
-               {cycle, 1.0, isToStop(group, state), state.deceleration, kSteps * milliseconds,
-                kSamples * milliseconds,
+               {cycle, overrideOf(group), isToStop(group, state), state.deceleration,
+                kSteps * milliseconds, kSamples * milliseconds, allowanceOf(group),
                 state.rides != 0 ? stateOfCarrier(group, state.rides) : motion::State{}});
   if (state.motion.obstacle != Obstacle::None) {
     failGroup(group, errorOf(state.motion.obstacle), failedMovement(state));
@@ -138,19 +133,32 @@ void drive(GroupRef &group, const GroupArm &arm) noexcept {
 /// At rest with nothing left to do.
 void settle(GroupRef &group) noexcept {
   GroupState &state = stateOf(group);
-  if (!rests(group) || state.firstRequest < state.nextRequest)
+  if (!rests(group) || state.firstRequest < state.nextRequest || state.interrupting)
     return;
   if (state.motion.first < state.motion.next && !state.motion.abandoned)
     return;
   if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping)
     return;
   forgetSystems(state);
-  group::clear(state.motion);
+  if (!state.motion.abandoned)
+    group::clear(state.motion);
   releaseAxes(group);
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
 }
 
 } // namespace
+
+void releaseAxes(GroupRef &group) noexcept {
+  for (int32_t i = 0; i < group.uiAxes && group.bOwns != 0; ++i) {
+    AxisRef &axis = axisAt(group, i);
+    if (!axis::ownsAxis(axis, group.aulOwner.v[i]))
+      continue;
+    axis::writeMotion(axis, 0.0, 0.0);
+    axis::releaseAxis(axis);
+    axis.nAxisState = axis::state::kStandstill;
+  }
+  group.bOwns = 0;
+}
 
 GroupState &stateOf(GroupRef &group) noexcept {
   return *reinterpret_cast<GroupState *>(&group.aState);
@@ -172,7 +180,10 @@ void beginMoving(GroupRef &group) noexcept {
   double axes[kAxes] = {};
   for (int32_t i = 0; i < group.uiAxes; ++i)
     axes[placeOf(group, i)] = axisAt(group, i).fSetPosition;
-  group::reset(stateOf(group).motion, axes);
+  GroupState &state = stateOf(group);
+  group::reset(state.motion, axes);
+  state.abortedEnd = state.abortedRequest;
+  state.tool = toolOf(group);
   takeAxes(group);
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupMoving;
 }
@@ -188,7 +199,7 @@ void serve(Ctx &ctx, GroupRef &group) {
     return;
   }
   lookAtCarriers(group);
-  const GroupArm arm(ctx, group);
+  GroupArm arm(ctx, group);
   takeRequests(group, arm);
   if (group.bOwns != 0)
     drive(group, arm);
@@ -199,8 +210,8 @@ void serve(Ctx &ctx, GroupRef &group) {
     settle(group);
 }
 
-int16_t ask(Ctx &ctx, GroupRef &group, Request &request) {
-  if (!takesMovements(group))
+int16_t whyNotReady(const GroupRef &group) noexcept {
+  if (!takesMovements(group) || stateOf(group).interrupting)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
   for (int32_t i = 0; i < group.uiAxes; ++i) {
     const AxisRef &axis = axisAt(group, i);
@@ -209,9 +220,15 @@ int16_t ask(Ctx &ctx, GroupRef &group, Request &request) {
     if (group.bOwns == 0 && axis.nAxisState != axis::state::kStandstill)
       return error::SMC_ERROR__SMC_AXIS_GROUP_INTERRUPTED_BY_SINGLE_AXIS;
   }
+  return 0;
+}
+
+int16_t ask(Ctx &ctx, GroupRef &group, Request &request) {
+  if (const int16_t wrong = whyNotReady(group); wrong != 0)
+    return wrong;
   if (const int16_t wrong = enqueue(group, request); wrong != 0)
     return wrong;
-  const GroupArm arm(ctx, group);
+  GroupArm arm(ctx, group);
   takeRequests(group, arm);
   const GroupState &state = stateOf(group);
   return group::outcomeOf(state.motion, request.id) == group::Outcome::Failed
@@ -225,8 +242,7 @@ int16_t beginStop(Ctx & /*ctx*/, GroupRef &group, double deceleration) {
   if (!(deceleration >= 0.0))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_DYNAMICS;
   GroupState &state = stateOf(group);
-  abortRequests(state);
-  group::abandon(state.motion);
+  abortAll(state, true);
   state.deceleration = deceleration;
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStopping;
   return 0;
@@ -236,8 +252,7 @@ void endStop(GroupRef &group) {
   if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStopping)
     return;
   forgetSystems(stateOf(group));
-  group::clear(stateOf(group).motion);
-  releaseAxes(group);
+  releaseAxes(group); // what it has aborted may still be kept
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
 }
 
@@ -261,7 +276,9 @@ int16_t enable(Ctx &ctx, GroupRef &group) {
   if (group.uiAxes == 0 || group.uiAxes < group.uiJoints ||
       group.uiAxes - group.uiJoints > kMoreAxes)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_NUMBER_OF_AXES;
+  const uint64_t lastId = stateOf(group).motion.lastId; // what has been kept says its ids
   stateOf(group) = GroupState{};
+  stateOf(group).motion.lastId = lastId;
   for (auto &carrier : group.astCarrier.v)
     carrier = {};
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;

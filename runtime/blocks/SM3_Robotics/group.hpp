@@ -17,13 +17,24 @@ using group::kArmAxes;
 using group::kAxes;
 using group::kMoreAxes;
 
-/// Requests that wait until the group takes them.
+/// Requests that wait until the group takes them; the ring has room for a halt after them.
 inline constexpr int32_t kRequests = 16;
+inline constexpr int32_t kRequestRing = kRequests + 1;
+
+/// A tool as ST says it; none: the flange itself. Trivially copyable.
+struct Tool {
+  ::st::SM3_Robotics::MC_COORD_REF frame;
+  bool set;
+};
+inline bool isSame(const Tool &a, const Tool &b) noexcept {
+  return a.set == b.set && (!a.set || __builtin_memcmp(&a.frame, &b.frame, sizeof a.frame) == 0);
+}
 
 enum class RequestKind : uint8_t {
-  Direct, ///< The axes lead.
-  Linear, ///< The tool goes straight.
-  Halt,   ///< The group comes to rest.
+  Direct,   ///< The axes lead.
+  Linear,   ///< The tool goes straight.
+  Circular, ///< It goes along an arc.
+  Halt,     ///< The group comes to rest.
 };
 
 /// What a block asks of a group.
@@ -34,15 +45,22 @@ struct Request {
   int16_t system;            ///< SMC_COORD_SYSTEM
   int16_t bufferMode;        ///< MC_BUFFER_MODE
   double position[kArmAxes]; ///< Of axes, or a pose by X, Y, Z, A, B, C. [u], [°]
+  int16_t circleMode;        ///< Circular: SMC_CIRC_MODE
+  int16_t pathChoice;        ///< Circular: MC_CIRC_PATHCHOICE
+  double aux[kArmAxes];      ///< Circular: AuxPoint, like `position`.
   group::Order order;        ///< But for its configuration.
   double deceleration;       ///< Halt: see MC_GroupHalt. [u/s^2]
+  bool forgets;              ///< Halt: what it aborts cannot be continued.
+  Tool tool;                 ///< When it was asked for.
 };
 
 /// What a group keeps besides what ST sees. Trivially copyable.
 struct GroupState {
   group::GroupMotion motion;
-  Request request[kRequests]; ///< A ring.
+  Request request[kRequestRing]; ///< A ring.
   int64_t firstRequest, nextRequest;
+  int64_t abortedRequest; ///< The first one of those that waited when all was aborted last.
+  int64_t abortedEnd;     ///< And the first one after them.
   int16_t error[group::kOutcomes]; ///< Why movements have failed, by id: SMC_ERROR.
   double end[kAxes];               ///< Axes where the movements end that have been taken. [u]
   double deceleration;             ///< Of the present stop. [u/s^2]
@@ -50,9 +68,13 @@ struct GroupState {
   group::Pose endPose;             ///< Where these end, in the path's system, if that moves.
   int32_t rides;                   ///< That system: 1 or 2, PCS_1 or PCS_2; 0: the machine's.
   int32_t leaves;                  ///< The one before, which may not be at rest yet.
+  Tool tool;                       ///< Of the movements.
+  uint64_t resumable; ///< The last cycle, plus 1, in which errors were to be resumable.
+  bool interrupting;  ///< It comes to rest to be continued later.
 };
 
 GroupState &stateOf(GroupRef &group) noexcept;
+const GroupState &stateOf(const GroupRef &group) noexcept;
 
 /// Whether the group takes movements.
 bool takesMovements(const GroupRef &group) noexcept;
@@ -67,6 +89,11 @@ void endStop(GroupRef &group);
 /// Lets the group go on by the present cycle, unless it has done so.
 void serve(Ctx &ctx, GroupRef &group);
 
+/// Whether a command may take the group's axes now: an SMC_ERROR if not.
+int16_t whyNotReady(const GroupRef &group) noexcept;
+
+/// Lets the axes go that the group has.
+void releaseAxes(GroupRef &group) noexcept;
 /// Whether it is at rest on its path, and follows nothing that moves.
 inline bool standsStill(const GroupState &state) noexcept {
   return group::isAtRest(state.motion) && group::isStill(state.motion.ride) &&
@@ -77,6 +104,12 @@ inline bool standsStill(const GroupState &state) noexcept {
 bool rests(const GroupRef &group) noexcept;
 
 int16_t enable(Ctx &ctx, GroupRef &group);
+
+/// A place of the group's axes as `system` counts it: of the axes in ACS [u], else of the tool. An
+/// SMC_ERROR.
+int16_t positionOf(Ctx &ctx, GroupRef &group, int16_t system, const double (&axes)[kAxes],
+                   ::st::SM3_Robotics::SMC_POS_REF &position,
+                   ::st::SM3_Transformation::CONFIGDATA &configuration);
 
 /// The position of the group's axes [u], or of its tool in a coordinate system, from the axes' own
 /// positions, actual or set ones. An SMC_ERROR.

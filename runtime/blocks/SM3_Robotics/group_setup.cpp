@@ -38,7 +38,8 @@ int16_t setKinematics(Ctx &ctx, GroupRef &group, Interface kinematics) {
 }
 
 int16_t setTool(Ctx &ctx, GroupRef &group, const decl::MC_COORD_REF &tool) {
-  if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStandby)
+  if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupDisabled ||
+      group.eState == decl::SMC_AXIS_GROUP_STATE__GroupErrorStop)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
   double pose[kArmAxes];
   __builtin_memcpy(pose, &tool, sizeof pose);
@@ -59,6 +60,12 @@ int16_t readPosition(Ctx &ctx, GroupRef &group, int16_t system, bool actual,
     const axis::AxisRef &axis = *group.apAxis.v[i];
     axes[placeOf(group, i)] = actual ? axis.fActPosition : axis.fSetPosition;
   }
+  return positionOf(ctx, group, system, axes, position, configuration);
+}
+
+int16_t positionOf(Ctx &ctx, GroupRef &group, int16_t system, const double (&axes)[kAxes],
+                   decl::SMC_POS_REF &position,
+                   ::st::SM3_Transformation::CONFIGDATA &configuration) {
   double result[kArmAxes];
   __builtin_memcpy(result, axes, sizeof result);
   configuration = {};

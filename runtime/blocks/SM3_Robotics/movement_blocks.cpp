@@ -1,5 +1,5 @@
 // MC_MoveLinearAbsolute, -Relative, MC_MoveDirectAbsolute, -Relative, MC_GroupHalt, MC_GroupStop.
-#include "runtime/blocks/SM3_Robotics/group_block.hpp"
+#include "runtime/blocks/SM3_Robotics/movement_inputs.hpp"
 
 #include "st/SM3_Robotics/MC_GroupHalt.h"
 #include "st/SM3_Robotics/MC_GroupStop.h"
@@ -11,13 +11,10 @@
 #include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
 #include "st/SM_DriveBasic/MC_BUFFER_MODE.h"
 
-namespace {
+namespace stride::robotics {
 
-namespace robotics = ::stride::robotics;
-namespace group = ::stride::group;
 namespace decl = ::st::SM3_Robotics;
 namespace buffer = ::st::SM_DriveBasic;
-using robotics::Request;
 
 group::CornerSpeed cornerSpeedOf(int16_t mode) noexcept {
   switch (mode) {
@@ -32,7 +29,6 @@ group::CornerSpeed cornerSpeedOf(int16_t mode) noexcept {
   }
 }
 
-/// Only modes that blend make corners.
 group::Transition transitionOf(int16_t bufferMode, int16_t transition) noexcept {
   if (bufferMode < buffer::MC_BUFFER_MODE__BlendingLow)
     return group::Transition::None;
@@ -46,30 +42,23 @@ group::Transition transitionOf(int16_t bufferMode, int16_t transition) noexcept 
   }
 }
 
-template <class Block> void fillModes(const Block &block, Request &request) noexcept {
-  request.system = block.CoordSystem;
-  request.bufferMode = block.BufferMode;
-  request.order.transition = transitionOf(block.BufferMode, block.TransitionMode);
-  request.order.transitionValue = block.TransitionParameter.v[0];
-  request.order.cornerSpeed = cornerSpeedOf(block.BufferMode);
-  request.order.velocityFactor = block.VelFactor;
-  request.order.accelerationFactor = block.AccFactor;
-  request.order.jerkFactor = block.JerkFactor;
-}
+} // namespace stride::robotics
 
-void fillPosition(const decl::SMC_POS_REF &position, Request &request) noexcept {
-  static_assert(sizeof position == sizeof request.position);
-  __builtin_memcpy(request.position, &position, sizeof request.position);
-}
+namespace {
+
+namespace robotics = ::stride::robotics;
+namespace decl = ::st::SM3_Robotics;
+namespace buffer = ::st::SM_DriveBasic;
+using robotics::Request;
 
 template <class Block>
 void runLinear(::stride::Ctx &ctx, Block &block, const decl::SMC_POS_REF &position, bool relative) {
   robotics::runMovement(ctx, block, [&](Request &request) {
     request.kind = robotics::RequestKind::Linear;
     request.relative = relative;
-    fillPosition(position, request);
-    fillModes(block, request);
-    request.order.path = {block.Velocity, block.Acceleration, block.Deceleration, block.Jerk};
+    robotics::fillCoordinates(position, request.position);
+    robotics::fillModes(block, request);
+    robotics::fillPath(block, request);
   });
 }
 
@@ -78,8 +67,8 @@ void runDirect(::stride::Ctx &ctx, Block &block, const decl::SMC_POS_REF &positi
   robotics::runMovement(ctx, block, [&](Request &request) {
     request.kind = robotics::RequestKind::Direct;
     request.relative = relative;
-    fillPosition(position, request);
-    fillModes(block, request);
+    robotics::fillCoordinates(position, request.position);
+    robotics::fillModes(block, request);
   });
 }
 
@@ -103,6 +92,7 @@ void decl::MC_GroupHalt::body__(::stride::Ctx &ctx__) {
     request.kind = robotics::RequestKind::Halt;
     request.bufferMode = buffer::MC_BUFFER_MODE__Aborting;
     request.deceleration = Deceleration;
+    request.forgets = ClearMovements != 0;
   });
   Active = Busy;
 }

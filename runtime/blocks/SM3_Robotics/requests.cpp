@@ -2,6 +2,7 @@
 
 #include "runtime/axis/axis_ref.hpp"
 #include "runtime/blocks/SM3_Robotics/carriers.hpp"
+#include "runtime/numeric/group/kept_path.hpp"
 #include "runtime/numeric/kinematics/orientation.hpp"
 
 #include "st/SM3_Robotics/SMC_COORD_SYSTEM.h"
@@ -36,7 +37,7 @@ int16_t wrongInput(const Request &request) noexcept {
       !isFactor(order.jerkFactor))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_FACTOR;
   const group::PathLimits &path = order.path;
-  if (request.kind == RequestKind::Linear &&
+  if (request.kind != RequestKind::Direct &&
       (!exact::isPositive(path.velocity) || !exact::isPositive(path.acceleration) ||
        !exact::isPositive(path.deceleration) || !exact::isPositive(path.jerk)))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_DYNAMICS;
@@ -45,25 +46,8 @@ int16_t wrongInput(const Request &request) noexcept {
   for (const double position : request.position)
     if (!exact::isfinite(position))
       return error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
-  return 0;
+  return request.kind == RequestKind::Circular ? wrongCircle(request) : int16_t{0};
 }
-
-/// The pose that a request means, from the pose where it begins. An SMC_ERROR.
-int16_t targetFrame(const GroupRef &group, const Request &request, const Frame<double> &begin,
-                    Frame<double> &target) {
-  const bool inTool = request.system == decl::SMC_COORD_SYSTEM__TCS;
-  Frame<double> system = begin;
-  if (!inTool && !systemInMachine(group, request.system, system))
-    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
-  target = targetIn(system, request, begin);
-  return 0;
-}
-
-/// From where a movement goes to where: axes at both ends.
-struct Ends {
-  double from[kAxes];
-  double to[kAxes];
-};
 
 /// The axes where a movement ends that is given by the tool. An SMC_ERROR.
 int16_t axesOfTool(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends) {
@@ -74,7 +58,8 @@ int16_t axesOfTool(const GroupRef &group, const GroupArm &arm, const Request &re
   if (const Outcome outcome = kinematics.forward(ends.from, begin); outcome != Outcome::Done)
     return kinematics::errorOf(outcome);
   Frame<double> target;
-  if (const int16_t wrong = targetFrame(group, request, begin, target); wrong != 0)
+  if (const int16_t wrong = targetFrame(group, request, request.position, begin, target);
+      wrong != 0)
     return wrong;
   kinematics::Configuration configuration = kinematics.configurationOf(ends.from);
   if (request.kind == RequestKind::Direct && group.bConfiguration != 0)
@@ -92,10 +77,8 @@ int16_t axesOfTool(const GroupRef &group, const GroupArm &arm, const Request &re
                                            : error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
 }
 
-/// Where a movement ends. An SMC_ERROR.
+/// Where a movement ends that is no arc. An SMC_ERROR.
 int16_t findEnd(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends) {
-  for (int32_t k = 0; k < kAxes; ++k)
-    ends.to[k] = ends.from[k];
   if (request.system != decl::SMC_COORD_SYSTEM__ACS) {
     if (const int16_t wrong = axesOfTool(group, arm, request, ends); wrong != 0)
       return wrong;
@@ -103,10 +86,15 @@ int16_t findEnd(const GroupRef &group, const GroupArm &arm, const Request &reque
     for (int32_t k = 0; k < arm.arm.joints; ++k)
       ends.to[k] = (request.relative ? ends.from[k] : 0.0) + request.position[k];
   }
+  return 0;
+}
+
+/// Whether the axes may be where a movement ends.
+bool isWithinLimits(const GroupArm &arm, const Ends &ends) noexcept {
   for (int32_t k = 0; k < arm.arm.joints; ++k)
     if (ends.to[k] < arm.arm.limits[k].low || ends.to[k] > arm.arm.limits[k].high)
-      return error::SMC_ERROR__SMC_TRAFO_AXIS_LIMITS_EXCEEDED;
-  return 0;
+      return false;
+  return true;
 }
 
 group::MoreAxes moreAxesOf(const Ends &ends) noexcept {
@@ -143,34 +131,42 @@ double speedOf(const GroupMotion &motion, const group::Order &order) noexcept {
   return exact::isPositive(order.path.velocity) ? order.path.velocity : kAny;
 }
 
+/// The leg of a request from ends.from on; where it ends goes into ends.to. An SMC_ERROR.
+int16_t legOf(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends,
+              group::Leg &leg) {
+  if (request.kind == RequestKind::Circular)
+    return circularLeg(group, arm, request, ends, leg);
+  if (const int16_t wrong = findEnd(group, arm, request, ends); wrong != 0)
+    return wrong;
+  if (request.kind == RequestKind::Linear)
+    return linearLeg(arm, ends, leg);
+  double perTime[kAxes];
+  for (int32_t k = 0; k < kAxes; ++k)
+    perTime[k] = arm.arm.limits[k].velocity * request.order.velocityFactor;
+  leg = group::axesLeg(ends.from, ends.to, perTime, speedOf(stateOf(group).motion, request.order));
+  return 0;
+}
+
 /// Makes a movement of a request; the group is at its end, or at rest. An SMC_ERROR.
 int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
   GroupState &state = stateOf(group);
   const bool first = state.motion.first == state.motion.next;
   Ends ends;
   for (int32_t k = 0; k < kAxes; ++k)
-    ends.from[k] = first ? state.motion.axes[k] : state.end[k];
-  const bool carried = group::isCarried(state.motion) && request.kind == RequestKind::Linear;
-  for (int32_t k = 0; k < kAxes; ++k)
-    ends.to[k] = ends.from[k];
-  if (const int16_t wrong = carried ? int16_t{0} : findEnd(group, arm, request, ends); wrong != 0)
-    return wrong;
-  group::Order order = request.order;
+    ends.from[k] = ends.to[k] = first ? state.motion.axes[k] : state.end[k];
+  const bool carried = group::isCarried(state.motion) && request.kind != RequestKind::Direct;
   group::Leg leg;
-  if (carried) {
-    if (const int16_t wrong = carriedLeg(group, arm, request, moreAxesOf(ends), leg); wrong != 0)
-      return wrong;
+  if (const int16_t wrong = carried ? carriedLeg(group, arm, request, moreAxesOf(ends), leg)
+                                    : legOf(group, arm, request, ends, leg);
+      wrong != 0)
+    return wrong;
+  if (!carried && !isWithinLimits(arm, ends))
+    return error::SMC_ERROR__SMC_TRAFO_AXIS_LIMITS_EXCEEDED;
+  group::Order order = request.order;
+  if (carried)
     order.configuration = arm.arm.kinematics.configurationOf(state.motion.axes);
-  } else if (request.kind == RequestKind::Linear) {
-    if (const int16_t wrong = linearLeg(arm, ends, leg); wrong != 0)
-      return wrong;
+  else if (group::leadsTool(leg))
     order.configuration = arm.arm.kinematics.configurationOf(ends.from);
-  } else {
-    double perTime[kAxes];
-    for (int32_t k = 0; k < kAxes; ++k)
-      perTime[k] = arm.arm.limits[k].velocity * order.velocityFactor;
-    leg = group::axesLeg(ends.from, ends.to, perTime, speedOf(state.motion, order));
-  }
   group::append(state.motion, request.id, leg, order);
   for (int32_t k = 0; k < kAxes; ++k)
     state.end[k] = ends.to[k];
@@ -178,17 +174,50 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
   return 0;
 }
 
+/// What has been aborted cannot be continued.
+void forget(GroupState &state) noexcept {
+  group::clear(state.motion);
+  state.abortedEnd = state.abortedRequest;
+}
+
+/// Whether a request can come after the movements that the group has without rest and a new tool.
+bool canFollow(const GroupState &state, const Request &request) noexcept {
+  return group::hasRoom(state.motion) && isSame(state.tool, request.tool);
+}
+
+kinematics::Frame<double> frameOf(const Tool &tool) {
+  if (!tool.set)
+    return kinematics::unturned(kinematics::Vector<double>(0.0, 0.0, 0.0));
+  double pose[kArmAxes];
+  __builtin_memcpy(pose, &tool.frame, sizeof pose);
+  return robotics::frameOf(pose);
+}
+
+/// The group goes on with another tool, whose point is elsewhere.
+void changeTool(GroupState &state, GroupArm &arm, const Tool &tool) {
+  if (isSame(state.tool, tool))
+    return;
+  state.motion.tool = group::poseOf(group::frameOf(state.motion.tool) *
+                                    kinematics::inverted(frameOf(state.tool)) * frameOf(tool));
+  state.tool = tool;
+  arm.setTool(state.tool);
+}
+
 /// The group is at rest for a request that needs that: what was before is over.
-void begin(GroupRef &group, const GroupArm &arm, const Request &request) {
+void begin(GroupRef &group, GroupArm &arm, const Request &request) {
   GroupState &state = stateOf(group);
-  if (group.bOwns != 0)
-    group::clear(state.motion);
-  if (request.kind == RequestKind::Halt) {
+  if (request.kind == RequestKind::Halt) { // what it has stopped may still be kept
+    const bool carried = group::isCarried(state.motion);
     changeSystem(group, arm, 0, request);
+    if ((request.forgets || carried) && group.bOwns != 0)
+      forget(state);
     group::setOutcome(state.motion, request.id, group::Outcome::Done);
     return;
   }
+  if (group.bOwns != 0)
+    group::clear(state.motion);
   beginMoving(group);
+  changeTool(state, arm, request.tool);
   changeSystem(group, arm, carrierOf(group, request), request);
   if (const int16_t wrong = append(group, arm, request); wrong != 0)
     fail(state, request.id, wrong);
@@ -206,14 +235,25 @@ bool canBegin(const GroupRef &group, bool elsewhere) noexcept {
 } // namespace
 
 Frame<double> targetIn(const Frame<double> &system, const Request &request,
-                       const Frame<double> &begin) {
-  const Frame<double> given = frameOf(request.position);
+                       const double (&coordinates)[kArmAxes], const Frame<double> &begin) {
+  const Frame<double> given = frameOf(coordinates);
   Frame<double> target = system * given;
   if (request.relative && request.system != decl::SMC_COORD_SYSTEM__TCS) {
     target.place = begin.place + system.turn * given.place;
     target.turn = system.turn * given.turn * system.turn.transpose() * begin.turn;
   }
   return target;
+}
+
+int16_t targetFrame(const GroupRef &group, const Request &request,
+                    const double (&coordinates)[kArmAxes], const Frame<double> &begin,
+                    Frame<double> &target) {
+  const bool inTool = request.system == decl::SMC_COORD_SYSTEM__TCS;
+  Frame<double> system = begin;
+  if (!inTool && !systemInMachine(group, request.system, system))
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
+  target = targetIn(system, request, coordinates, begin);
+  return 0;
 }
 
 int16_t enqueue(GroupRef &group, Request &request) noexcept {
@@ -223,21 +263,21 @@ int16_t enqueue(GroupRef &group, Request &request) noexcept {
   if (request.kind == RequestKind::Direct && carrierOf(group, request.system) != 0)
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
   if (aborts(request)) {
-    abortRequests(state);
-    group::abandon(state.motion);
+    abortAll(state, false);
     state.deceleration = request.deceleration;
   }
   if (state.nextRequest - state.firstRequest == kRequests)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
   request.id = group::drawId(state.motion);
+  request.tool = toolOf(group);
   requestAt(state, state.nextRequest) = request;
   ++state.nextRequest;
   return 0;
 }
 
-void takeRequests(GroupRef &group, const GroupArm &arm) {
+void takeRequests(GroupRef &group, GroupArm &arm) {
   GroupState &state = stateOf(group);
-  while (state.firstRequest < state.nextRequest) {
+  while (!state.interrupting && state.firstRequest < state.nextRequest) {
     const Request &request = requestAt(state, state.firstRequest);
     const bool fresh = state.motion.first == state.motion.next || state.motion.abandoned;
     const bool elsewhere = carrierOf(group, request) != state.rides;
@@ -248,7 +288,7 @@ void takeRequests(GroupRef &group, const GroupArm &arm) {
         return;
       begin(group, arm, request);
     } else {
-      if (!group::hasRoom(state.motion))
+      if (!canFollow(state, request))
         return;
       if (const int16_t wrong = append(group, arm, request); wrong != 0)
         fail(state, request.id, wrong);
@@ -257,10 +297,26 @@ void takeRequests(GroupRef &group, const GroupArm &arm) {
   }
 }
 
-void abortRequests(GroupState &state) noexcept {
+void abortAll(GroupState &state, bool all) noexcept {
+  if (all)
+    group::abortInterrupted(state.motion);
+  if (!state.motion.abandoned) { // else it has been told already what can be continued
+    state.abortedRequest = state.firstRequest;
+    state.abortedEnd = state.nextRequest;
+  }
+  state.interrupting = false;
+  group::abandon(state.motion);
   for (; state.firstRequest < state.nextRequest; ++state.firstRequest)
     group::setOutcome(state.motion, requestAt(state, state.firstRequest).id,
                       group::Outcome::Aborted);
+}
+
+void forgetSystems(GroupState &state) noexcept {
+  if (!group::isCarried(state.motion))
+    return;
+  forget(state);
+  group::leaveSystems(state.motion);
+  state.rides = state.leaves = 0;
 }
 
 void fail(GroupState &state, uint64_t id, int16_t error) noexcept {

@@ -6,17 +6,10 @@
 
 namespace stride::robotics {
 
-const GroupState &stateOf(const GroupRef &group) noexcept;
-
-inline Request &requestAt(GroupState &state, int64_t number) noexcept {
-  return state.request[static_cast<uint64_t>(number) % kRequests];
-}
-inline const Request &requestAt(const GroupState &state, int64_t number) noexcept {
-  return state.request[static_cast<uint64_t>(number) % kRequests];
-}
-
-/// The pose that a request means, in a coordinate system, from the pose where it begins.
+/// The pose that coordinates of a request mean, in a coordinate system, from the pose where it
+/// begins.
 kinematics::Frame<double> targetIn(const kinematics::Frame<double> &system, const Request &request,
+                                   const double (&coordinates)[kArmAxes],
                                    const kinematics::Frame<double> &begin);
 
 /// The group takes its axes, if it has not.
@@ -27,10 +20,43 @@ void beginMoving(GroupRef &group) noexcept;
 int16_t enqueue(GroupRef &group, Request &request) noexcept;
 
 /// Makes movements of the requests that wait, as far as they can be taken now.
-void takeRequests(GroupRef &group, const GroupArm &arm);
+void takeRequests(GroupRef &group, GroupArm &arm);
 
-/// What waits is over.
-void abortRequests(GroupState &state) noexcept;
+/// The pose that a request means by `coordinates`, from the pose where it begins. An SMC_ERROR.
+int16_t targetFrame(const GroupRef &group, const Request &request,
+                    const double (&coordinates)[kArmAxes], const kinematics::Frame<double> &begin,
+                    kinematics::Frame<double> &target);
+
+/// From where a movement goes to where: axes at both ends.
+struct Ends {
+  double from[kAxes];
+  double to[kAxes];
+};
+
+/// What is wrong with the inputs of a circular movement besides those of all: an SMC_ERROR.
+int16_t wrongCircle(const Request &request) noexcept;
+
+/// The arc of a circular movement from ends.from on; where it ends goes into ends.to. An SMC_ERROR.
+int16_t circularLeg(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends,
+                    group::Leg &leg);
+
+/// The leg of a circular movement between two poses of the tool, by a third place. An SMC_ERROR.
+int16_t arcLeg(const Request &request, const group::Pose &from, const numeric::Vector3 &aux,
+               const group::Pose &to, const group::MoreAxes &more, group::Leg &leg) noexcept;
+
+/// What waits is over, and movements with it; what has been kept to be continued, too, if `all`.
+void abortAll(GroupState &state, bool all) noexcept;
+
+/// Nothing is followed any more: all rests. A path in a system that moves cannot be continued.
+void forgetSystems(GroupState &state) noexcept;
+
+/// A request of the ring.
+inline Request &requestAt(GroupState &state, int64_t number) noexcept {
+  return state.request[static_cast<uint64_t>(number) % kRequestRing];
+}
+inline const Request &requestAt(const GroupState &state, int64_t number) noexcept {
+  return state.request[static_cast<uint64_t>(number) % kRequestRing];
+}
 
 /// A movement is over, for an SMC_ERROR.
 void fail(GroupState &state, uint64_t id, int16_t error) noexcept;

@@ -194,7 +194,8 @@ void reset(GroupMotion &group, const double (&axes)[kAxes]) noexcept {
 }
 
 void setOutcome(GroupMotion &group, uint64_t id, Outcome outcome) noexcept {
-  group.outcome[id % kOutcomes] = static_cast<uint8_t>(outcome);
+  if (group.lastId - id < kOutcomes)
+    group.outcome[id % kOutcomes] = static_cast<uint8_t>(outcome);
 }
 
 uint64_t drawId(GroupMotion &group) noexcept {
@@ -259,7 +260,7 @@ double positionInMovement(const GroupMotion &group, uint64_t &id) noexcept {
 void cycle(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept {
   settle(group, !isAtRest(group));
   wish(group, command);
-  makeKnown(group, arm, command.samples);
+  makeKnown(group, arm, command.allowance, command.samples);
   (void)path::think(group.motion, command.steps);
   goOn(group.ride, command.carrier, command.cycle);
   goOn(group.left, {}, command.cycle);
@@ -268,14 +269,15 @@ void cycle(GroupMotion &group, const Arm &arm, const GroupCommand &command) noex
 }
 
 void abandon(GroupMotion &group) noexcept {
+  if (group.abandoned)
+    return;
   for (int64_t k = group.first; k < group.next; ++k)
     setOutcome(group, movementAt(group, k).id, Outcome::Aborted);
   group.abandoned = true;
 }
 
 void clear(GroupMotion &group) noexcept {
-  if (!group.abandoned)
-    abandon(group);
+  abandon(group);
   double axes[kAxes];
   double velocity[kAxes];
   double acceleration[kAxes];

@@ -50,7 +50,8 @@ enum class Outcome : uint8_t {
   Active,
   Done,
   Aborted,
-  Failed ///< It cannot be driven; the caller knows why.
+  Failed,     ///< It cannot be driven; the caller knows why.
+  Interrupted ///< It has been kept to be gone on with.
 };
 
 /// One of them.
@@ -68,6 +69,16 @@ struct Movement {
   bool gated;     ///< It waits, and the motion stays where it begins until it is told to go on.
 };
 
+/// What is allowed of the limits besides what movements say. It counts for the parts of the path
+/// that are made known from now on; velocities are GroupCommand::override.
+struct Allowance {
+  double axisAcceleration, axisJerk;       ///< Factors, above 0 up to 1.
+  double pathAcceleration, pathJerk;       ///< Likewise, of the tool's path.
+  double acceleration, deceleration, jerk; ///< Most along the tool's path, before its factors.
+};
+inline constexpr Allowance kAllAllowed{
+    1.0, 1.0, 1.0, 1.0, exact::kInfinity, exact::kInfinity, exact::kInfinity};
+
 /// What the group does in one cycle.
 struct GroupCommand {
   double cycle;    ///< Its time, > 0. [s]
@@ -77,6 +88,7 @@ struct GroupCommand {
       deceleration; ///< For that, if it is more than the movement's; in units of the way. [u/s^2]
   int32_t steps;    ///< Of planning.
   int32_t samples;  ///< Places of the path that may be looked at.
+  Allowance allowance = kAllAllowed;
   motion::State carrier{}; ///< Of the system that is followed, at the end of the cycle. [u] or [°]
 };
 
@@ -124,7 +136,7 @@ uint64_t drawId(GroupMotion &group) noexcept;
 /// room.
 void append(GroupMotion &group, uint64_t id, const Leg &leg, const Order &order) noexcept;
 
-/// Says what has become of a movement that is not appended.
+/// Says what has become of a movement, unless that was long ago.
 void setOutcome(GroupMotion &group, uint64_t id, Outcome outcome) noexcept;
 
 /// What has become of a movement.

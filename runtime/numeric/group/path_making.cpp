@@ -33,6 +33,7 @@ struct OrderedArm {
   AxisLimits limits[kAxes];
   Arm arm;
 
+  /// The limits that decide how large corners are: an allowance does not change the path.
   OrderedArm(const Arm &all, const Order &order) noexcept
       : arm{all.kinematics, all.joints, all.more, limits, order.configuration} {
     for (int32_t k = 0; k < kAxes; ++k) {
@@ -40,6 +41,13 @@ struct OrderedArm {
       limits[k].velocity *= order.velocityFactor;
       limits[k].acceleration *= order.accelerationFactor;
       limits[k].jerk *= order.jerkFactor;
+    }
+  }
+  OrderedArm(const Arm &all, const Order &order, const Allowance &allowance) noexcept
+      : OrderedArm(all, order) {
+    for (AxisLimits &axis : limits) {
+      axis.acceleration *= allowance.axisAcceleration;
+      axis.jerk *= allowance.axisJerk;
     }
   }
 };
@@ -56,6 +64,13 @@ double chosen(CornerSpeed speed, double first, double second) noexcept {
     break;
   }
   return larger(first, second);
+}
+
+PathLimits allowed(const PathLimits &path, const Allowance &allowance) noexcept {
+  return {path.velocity,
+          allowance.pathAcceleration * smaller(path.acceleration, allowance.acceleration),
+          allowance.pathAcceleration * smaller(path.deceleration, allowance.deceleration),
+          allowance.pathJerk * smaller(path.jerk, allowance.jerk)};
 }
 
 /// What limits the tool in a corner.
@@ -192,11 +207,8 @@ double stripEnd(double from, double step, double end) noexcept {
 }
 
 /// The strips of a corner that begins at a way of the motion. False: it cannot be driven.
-bool lookAtCorner(const GroupMotion &group, const Arm &arm, const Movement &before,
+bool lookAtCorner(OrderedArm &ordered, const CarriedTrack &carried, const PathLimits &limits,
                   const Movement &after, double begin, Look &look, Strips &strips) noexcept {
-  OrderedArm ordered(arm, after.order);
-  const PathLimits limits = cornerLimits(before, after);
-  const CarriedTrack carried(group, trackOf(after.corner), begin - group.motion.way, limits);
   carried.yield(ordered.arm, 0.0, look.reference, ordered.limits);
   const double length = after.corner.length;
   look.least = length / kCornerParts;
@@ -228,7 +240,8 @@ void lookAtNext(GroupMotion &group, double begin, double entry) noexcept {
 }
 
 /// Adds the corner to the next movement to the path. False: there is no corner.
-bool addCorner(GroupMotion &group, const Arm &arm, int32_t &samples) noexcept {
+bool addCorner(GroupMotion &group, const Arm &arm, const Allowance &allowance,
+               int32_t &samples) noexcept {
   Movement &before = movementAt(group, group.looked);
   Movement &after = movementAt(group, group.looked + 1);
   const double exit = group.lookedWay;
@@ -238,7 +251,10 @@ bool addCorner(GroupMotion &group, const Arm &arm, int32_t &samples) noexcept {
     look.reference[k] = group.lookedReference[k];
   Strips strips;
   strips.count = 0;
-  const bool drivable = lookAtCorner(group, arm, before, after, begin, look, strips);
+  OrderedArm ordered(arm, after.order, allowance);
+  const PathLimits limits = allowed(cornerLimits(before, after), allowance);
+  const CarriedTrack carried(group, trackOf(after.corner), begin - group.motion.way, limits);
+  const bool drivable = lookAtCorner(ordered, carried, limits, after, begin, look, strips);
   samples -= look.samples;
   if (!drivable)
     return false;
@@ -309,11 +325,13 @@ double lookEnd(const GroupMotion &group, const Arm &arm, const Movement &movemen
 }
 
 /// Makes one strip of the leg known. False: nothing more for now.
-bool addStrip(GroupMotion &group, const Arm &arm, Movement &movement, int32_t &samples) noexcept {
+bool addStrip(GroupMotion &group, const Arm &arm, const Allowance &allowance, Movement &movement,
+              int32_t &samples) noexcept {
   const double end = lookEnd(group, arm, movement);
   if (!(end > group.lookedWay))
     return false;
-  OrderedArm ordered(arm, movement.order);
+  OrderedArm ordered(arm, movement.order, allowance);
+  const PathLimits limits = allowed(movement.order.path, allowance);
   Look look{};
   look.from = group.lookedWay;
   look.to = stripEnd(group.lookedWay, group.lookedStep, end);
@@ -321,11 +339,11 @@ bool addStrip(GroupMotion &group, const Arm &arm, Movement &movement, int32_t &s
   for (int32_t k = 0; k < kAxes; ++k)
     look.reference[k] = group.lookedReference[k];
   const double ahead = legBegin(movement) + look.from - movement.entry - group.motion.way;
-  const CarriedTrack carried(group, trackOf(movement.leg), ahead, movement.order.path);
+  const CarriedTrack carried(group, trackOf(movement.leg), ahead, limits);
   carried.yield(ordered.arm, look.from, look.reference, ordered.limits);
   look.to = smaller(look.to, look.from + larger(carried.reach(), look.least));
   path::Strip strip{};
-  group.obstacle = limitStrip(ordered.arm, carried.track(), movement.order.path, look, strip);
+  group.obstacle = limitStrip(ordered.arm, carried.track(), limits, look, strip);
   samples -= look.samples;
   if (group.obstacle != Obstacle::None)
     return false;
@@ -352,7 +370,8 @@ bool addStrip(GroupMotion &group, const Arm &arm, Movement &movement, int32_t &s
 
 /// Goes on to the next movement, where the present one is known to its end. False: there is none,
 /// or it has to wait.
-bool advance(GroupMotion &group, const Arm &arm, Movement &movement, int32_t &samples) noexcept {
+bool advance(GroupMotion &group, const Arm &arm, const Allowance &allowance, Movement &movement,
+             int32_t &samples) noexcept {
   if (group.looked + 1 >= group.next)
     return false;
   Movement &after = movementAt(group, group.looked + 1);
@@ -363,7 +382,7 @@ bool advance(GroupMotion &group, const Arm &arm, Movement &movement, int32_t &sa
   if (path::roomIn(group.motion.course) < kMostCornerStrips)
     return false;
   const double entry = after.entry;
-  if (addCorner(group, arm, samples)) {
+  if (addCorner(group, arm, allowance, samples)) {
     lookAtNext(group, movement.end, entry);
     return true;
   }
@@ -374,24 +393,26 @@ bool advance(GroupMotion &group, const Arm &arm, Movement &movement, int32_t &sa
 
 /// A movement that goes nowhere, or waits. One that waits keeps back what comes after it if the
 /// motion would not stay where it is. False: nothing more for now.
-bool passStill(GroupMotion &group, const Arm &arm, Movement &movement, int32_t &samples) noexcept {
+bool passStill(GroupMotion &group, const Arm &arm, const Allowance &allowance, Movement &movement,
+               int32_t &samples) noexcept {
   movement.endChosen = movement.endKnown = true;
   movement.end = movement.begin;
   movement.exit = 0.0;
   if (movement.order.dwell > 0.0 && !movement.gated && group.first <= group.looked)
     return false;
-  return advance(group, arm, movement, samples);
+  return advance(group, arm, allowance, movement, samples);
 }
 
 } // namespace
 
-void makeKnown(GroupMotion &group, const Arm &arm, int32_t samples) noexcept {
+void makeKnown(GroupMotion &group, const Arm &arm, const Allowance &allowance,
+               int32_t samples) noexcept {
   constexpr int32_t kFewRooms = 2;
   constexpr int32_t kSamplesOfEnd = 8; // that decideEnd looks at, or a few less
   while (samples > 0 && group.obstacle == Obstacle::None && group.looked < group.next) {
     Movement &movement = movementAt(group, group.looked);
     if (movement.order.dwell > 0.0 || !(movement.leg.length > 0.0)) {
-      if (!passStill(group, arm, movement, samples))
+      if (!passStill(group, arm, allowance, movement, samples))
         return;
       continue;
     }
@@ -400,9 +421,9 @@ void makeKnown(GroupMotion &group, const Arm &arm, int32_t samples) noexcept {
       samples -= kSamplesOfEnd;
     }
     const bool whole = movement.endChosen && group.lookedWay >= movement.exit;
-    const bool goesOn = whole ? advance(group, arm, movement, samples)
+    const bool goesOn = whole ? advance(group, arm, allowance, movement, samples)
                               : path::roomIn(group.motion.course) >= kFewRooms &&
-                                    addStrip(group, arm, movement, samples);
+                                    addStrip(group, arm, allowance, movement, samples);
     if (!goesOn)
       return;
   }

@@ -19,7 +19,8 @@ inline double legBegin(const Movement &movement) noexcept {
 }
 
 /// Makes more of the path known, as far as there is room, and `samples` allow.
-void makeKnown(GroupMotion &group, const Arm &arm, int32_t samples) noexcept;
+void makeKnown(GroupMotion &group, const Arm &arm, const Allowance &allowance,
+               int32_t samples) noexcept;
 
 } // namespace stride::group
 

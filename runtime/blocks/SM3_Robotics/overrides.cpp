@@ -1,0 +1,110 @@
+#include "runtime/blocks/SM3_Robotics/overrides.hpp"
+
+#include "runtime/blocks/SM3_Robotics/group_block.hpp"
+
+#include "st/SM3_Robotics/MC_GroupSetOverride.h"
+#include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
+#include "st/SM3_Robotics/SMC_GroupSetAncillaryPathLimits.h"
+
+namespace stride::robotics {
+
+using exact::smaller;
+
+namespace {
+
+/// Which part of a command's velocity an ancillary limit leaves.
+double shareOf(const GroupRef &group, const group::Movement &movement) noexcept {
+  const auto &limits = group.stOverride;
+  return limits.bPathLimits != 0
+             ? smaller(1.0, limits.stPathLimits.fVelMax / movement.order.path.velocity)
+             : 1.0;
+}
+
+} // namespace
+
+double overrideOf(const GroupRef &group) noexcept {
+  const group::GroupMotion &motion = stateOf(group).motion;
+  double factor = group.stOverride.fVelFactor;
+  for (int64_t k = motion.first; k < motion.next && k <= motion.looked; ++k) {
+    const group::Movement &movement = motion.movement[static_cast<uint64_t>(k) % group::kMovements];
+    if (group::leadsTool(movement.leg) && movement.leg.length > 0.0)
+      factor = smaller(factor, group.stOverride.fPathVelFactor * shareOf(group, movement));
+  }
+  return factor;
+}
+
+group::Allowance allowanceOf(const GroupRef &group) noexcept {
+  const auto &factors = group.stOverride;
+  group::Allowance allowance = group::kAllAllowed;
+  allowance.axisAcceleration = factors.fAccFactor;
+  allowance.axisJerk = factors.fJerkFactor;
+  allowance.pathAcceleration = factors.fPathAccFactor;
+  allowance.pathJerk = factors.fPathJerkFactor;
+  if (factors.bPathLimits != 0) {
+    allowance.acceleration = factors.stPathLimits.fAccMax;
+    allowance.deceleration = factors.stPathLimits.fDecMax;
+    allowance.jerk = factors.stPathLimits.fJerkMax;
+  }
+  return allowance;
+}
+
+} // namespace stride::robotics
+
+namespace {
+
+namespace robotics = ::stride::robotics;
+namespace decl = ::st::SM3_Robotics;
+namespace error = ::st::SM_Error;
+
+bool isFactor(double factor) noexcept { return factor > 0.0 && factor <= 1.0; }
+bool isVelocityFactor(double factor) noexcept { return factor >= 0.0 && factor <= 1.0; }
+
+int16_t setOverride(const decl::MC_GroupSetOverride &block, robotics::GroupRef &group) noexcept {
+  if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+  if (!isVelocityFactor(block.VelFactor) || !isVelocityFactor(block.PathVelFactor) ||
+      !isFactor(block.AccFactor) || !isFactor(block.JerkFactor) || !isFactor(block.TorqueFactor) ||
+      !isFactor(block.PathAccFactor) || !isFactor(block.PathJerkFactor))
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_FACTOR;
+  auto &factors = group.stOverride;
+  factors.fVelFactor = block.VelFactor;
+  factors.fAccFactor = block.AccFactor;
+  factors.fJerkFactor = block.JerkFactor;
+  factors.fPathVelFactor = block.PathVelFactor;
+  factors.fPathAccFactor = block.PathAccFactor;
+  factors.fPathJerkFactor = block.PathJerkFactor;
+  return 0;
+}
+
+int16_t setPathLimits(const decl::SMC_GroupSetAncillaryPathLimits &block,
+                      robotics::GroupRef &group) noexcept {
+  if (!robotics::takesMovements(group))
+    return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+  if (block.ExecutionMode != decl::MC_EXECUTION_MODE__Immediately)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER;
+  const decl::SMC_DYN_LIMITS &limits = block.Limits;
+  if (!(limits.fVelMax > 0.0) || !(limits.fAccMax > 0.0) || !(limits.fDecMax > 0.0) ||
+      !(limits.fJerkMax > 0.0))
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_DYNAMICS;
+  group.stOverride.stPathLimits = limits;
+  group.stOverride.bPathLimits = 1;
+  return 0;
+}
+
+} // namespace
+
+void decl::SMC_GroupSetAncillaryPathLimits::body__(::stride::Ctx &ctx__) {
+  robotics::runOnce(ctx__, *this,
+                    [this](robotics::GroupRef &group) { return setPathLimits(*this, group); });
+}
+
+void decl::MC_GroupSetOverride::body__(::stride::Ctx &ctx__) {
+  int16_t wrong = 0;
+  if (AxisGroup != nullptr)
+    robotics::serve(ctx__, *AxisGroup);
+  if (Enable != 0)
+    wrong = AxisGroup != nullptr ? setOverride(*this, *AxisGroup) : robotics::kNoGroup;
+  robotics::setError(*this, wrong);
+  Enabled = Enable != 0 && wrong == 0;
+  Busy = Enable;
+}
