@@ -131,6 +131,7 @@ private:
         ->expected(2)
         ->check(finite(-1e9, true))
         ->type_name("X,Y");
+    command->add_flag("--return", import.back, "G0 back there at the end");
   }
 
   void declareProgram(CLI::App *command) {

@@ -4,6 +4,7 @@
 
 #include "compiler/assets/dxf/pieces.hpp"
 
+#include <cstddef>
 #include <vector>
 
 namespace stc::dxf {

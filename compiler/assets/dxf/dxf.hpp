@@ -34,6 +34,7 @@ struct DxfImport {
   std::optional<double> scale; ///< Of all coordinates; nothing: from the drawing's unit to mm.
   bool insideFirst = false;    ///< Contours within others before these.
   double start[2]{};           ///< Where the tool is before. X, Y. [u]
+  bool back = false;           ///< G0 to `start` at the end.
   std::string words;           ///< Of the first motion: `F100 E500`.
   std::optional<double> safeZ; ///< Above the workpiece: G0 goes there. [u]
   std::optional<double> depth; ///< Contours are driven there. [u]

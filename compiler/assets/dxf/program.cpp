@@ -32,6 +32,8 @@ public:
       rapid("G0 Z" + numberText(*import_.safeZ), "");
     for (const Cut &cut : cuts)
       drive(cut);
+    if (import_.back)
+      sentence("G0" + target({import_.start[0], import_.start[1]}));
     return std::move(text_);
   }
 
@@ -63,12 +65,9 @@ private:
     for (const std::string &one : import_.on)
       if (one.starts_with('H'))
         more_ += " " + one + " L0";
-    if (cut.corrected) {
+    if (cut.corrected)
       sentence((import_.tool == DxfTool::Left ? "G41 D" : "G42 D") +
                numberText(import_.toolRadius));
-      if (import_.avoidLoops)
-        sentence("G61");
-    }
     contour(cut);
     if (cut.corrected && import_.avoidLoops)
       sentence("G60");
@@ -89,6 +88,9 @@ private:
     const Contour &contour = cut.contour;
     if (const Point start = rounded(contour.start()); start.x != here_.x || start.y != here_.y)
       motion("G1" + target(start), start);
+    // Not before the lead-in: with it the contour would be a loop, as it ends where that does.
+    if (cut.corrected && import_.avoidLoops)
+      sentence("G61");
     for (const Piece &piece : contour.pieces) {
       if (&piece == &contour.pieces.back())
         for (const std::string &one : import_.off)

@@ -157,7 +157,7 @@ TEST(DxfBad, DamagedDrawingsAreRefusedOrBecomePrograms) {
   std::mt19937 random(1);
   const auto pick = [&](size_t count) { return random() % count; };
   size_t good = 0;
-  for (unsigned round = 0; round < 1000; ++round) {
+  for (unsigned round = 0; round < 120; ++round) {
     std::string text = RandomDrawing(round % 20, 2).text();
     for (size_t changes = 1 + pick(3); changes > 0; --changes) {
       const size_t at = text.find('\n', pick(text.size() - 1));
@@ -166,7 +166,7 @@ TEST(DxfBad, DamagedDrawingsAreRefusedOrBecomePrograms) {
       static const std::string kLines[] = {"0",  "-1",   "1e9", "LINE",  "INSERT", "10",
                                            "42", "1e-9", "70",  "3",     "1",      "1e-300",
                                            "-0", "360",  "0.5", "ENDBLK"};
-      switch (pick(5)) {
+      switch (pick(12)) {
       case 0:
         text.replace(begin, end - begin, kLines[pick(std::size(kLines))]);
         break;
@@ -179,11 +179,12 @@ TEST(DxfBad, DamagedDrawingsAreRefusedOrBecomePrograms) {
       case 3:
         text[pick(text.size())] = static_cast<char>(pick(256));
         break;
-      default: { // a number becomes that of another line
-        const size_t other = text.find('\n', pick(text.size() - 1));
-        if (other != std::string::npos)
-          text.replace(begin, end - begin,
-                       text.substr(other + 1, text.find('\n', other + 1) - other - 1));
+      default: { // another number
+        const size_t point = text.find('.', pick(text.size()));
+        const size_t before = text.rfind('\n', point);
+        if (point != std::string::npos && before != std::string::npos)
+          text.replace(before + 1, text.find('\n', point) - before - 1,
+                       fmt::format("{}", std::uniform_real_distribution(-200.0, 200.0)(random)));
       }
       }
     }
@@ -199,8 +200,8 @@ TEST(DxfBad, DamagedDrawingsAreRefusedOrBecomePrograms) {
     if (HasFailure())
       FAIL() << "round " << round << "\n" << text;
   }
-  EXPECT_GT(good, 40U);
-  EXPECT_LT(good, 1200U);
+  EXPECT_GT(good, 25U);
+  EXPECT_LT(good, 100U);
 }
 
 } // namespace

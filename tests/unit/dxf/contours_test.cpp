@@ -234,6 +234,21 @@ TEST(DxfContours, TheToolIsOnTheSideOfTheWaste) {
   }
 }
 
+/// Loops are looked for after the lead-in: with it the whole contour would be one, as it ends where
+/// the lead-in does.
+TEST(DxfContours, LoopsBeginAfterTheLeadIn) {
+  DxfImport how;
+  how.tool = DxfTool::Right;
+  how.toolRadius = 0.5;
+  how.leadIn = 2;
+  how.avoidLoops = true;
+  how.on = {"H1"};
+  how.off = {"H-1"};
+  EXPECT_EQ(import(circlesOf({{{10, 0}, 6}}), how).programs.at(0).text,
+            "% a.dxf\nN10 G17\nN20 G0 X2 Y0\nN30 G42 D0.5\nN40 G1 X4 Y0 H1 L0\nN50 G61\n"
+            "N60 G3 I6 J0 H-1 O1\nN70 G60\nN80 G40\n");
+}
+
 TEST(DxfContours, ALeadInMeetsNoContour) {
   // Outside of 11, inside of 10, outside of 8: between the last two a lead-in of 3 has no room, and
   // one of 1.5 has.
@@ -262,11 +277,13 @@ TEST(DxfContours, FunctionsAndDepthStandAroundEachContour) {
   how.plungeFeed = 4;
   how.on = {"M3 K6000", "H1"};
   how.off = {"M5", "H-1"};
+  how.start[1] = -2.5;
+  how.back = true;
   EXPECT_EQ(import(drawingOf("0\nLINE\n8\nCut (1)\n10\n3\n20\n0\n11\n7\n21\n2\n"), how)
                 .programs.at(0)
                 .text,
             "% a.dxf\nN10 G17\nN20 G0 Z5 F20 E500 E-400\nN30 G0 X3 Y0 (Cut  1 )\nN40 M3 K6000\n"
-            "N50 G1 Z-1.5 F4\nN60 G1 X7 Y2 F20 H1 L0 H-1 O1\nN70 G0 Z5\nN80 M5\n");
+            "N50 G1 Z-1.5 F4\nN60 G1 X7 Y2 F20 H1 L0 H-1 O1\nN70 G0 Z5\nN80 M5\nN90 G0 X0 Y-2.5\n");
   how = {};
   how.words = "X5X";
   EXPECT_EQ(

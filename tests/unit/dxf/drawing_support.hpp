@@ -7,6 +7,7 @@
 #include "tests/unit/cnc_processors/sampled_path.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -121,32 +122,40 @@ inline double distance(const Spot &spot, const Spot &a, const Spot &b) {
 /// Curves that are asked how near places are.
 class Nearness {
 public:
-  Nearness(const std::vector<Curve> &curves, double within) : curves_(curves), within_(within) {
-    for (const Curve &curve : curves) {
-      std::array<double, 4> box{1e300, 1e300, -1e300, -1e300};
-      for (const Spot &spot : curve)
-        box = {std::min(box[0], spot[0]), std::min(box[1], spot[1]), std::max(box[2], spot[0]),
-               std::max(box[3], spot[1])};
-      boxes_.push_back(box);
-    }
+  Nearness(const std::vector<Curve> &curves, double within) : within_(within) {
+    constexpr size_t kChunk = 24;
+    for (const Curve &curve : curves)
+      for (size_t begin = 0; begin + 1 < curve.size(); begin += kChunk) {
+        Chunk chunk{&curve[begin], std::min(kChunk, curve.size() - 1 - begin), {}};
+        chunk.box = {1e300, 1e300, -1e300, -1e300};
+        for (size_t i = 0; i <= chunk.lines; ++i) {
+          const Spot &spot = chunk.first[i];
+          chunk.box = {std::min(chunk.box[0], spot[0]), std::min(chunk.box[1], spot[1]),
+                       std::max(chunk.box[2], spot[0]), std::max(chunk.box[3], spot[1])};
+        }
+        chunks_.push_back(chunk);
+      }
   }
   [[nodiscard]] bool isNear(const Spot &spot) const {
-    for (size_t i = 0; i < curves_.size(); ++i) {
-      const auto &box = boxes_[i];
-      if (spot[0] < box[0] - within_ || spot[1] < box[1] - within_ || spot[0] > box[2] + within_ ||
-          spot[1] > box[3] + within_)
+    for (const Chunk &chunk : chunks_) {
+      if (spot[0] < chunk.box[0] - within_ || spot[1] < chunk.box[1] - within_ ||
+          spot[0] > chunk.box[2] + within_ || spot[1] > chunk.box[3] + within_)
         continue;
-      for (size_t n = 1; n < curves_[i].size(); ++n)
-        if (distance(spot, curves_[i][n - 1], curves_[i][n]) <= within_)
+      for (size_t i = 0; i < chunk.lines; ++i)
+        if (distance(spot, chunk.first[i], chunk.first[i + 1]) <= within_)
           return true;
     }
     return false;
   }
 
 private:
-  const std::vector<Curve> &curves_;
+  struct Chunk {
+    const Spot *first;
+    size_t lines;
+    std::array<double, 4> box;
+  };
   double within_;
-  std::vector<std::array<double, 4>> boxes_;
+  std::vector<Chunk> chunks_;
 };
 
 /// Every place of one is on the other, and the other way round.
@@ -155,11 +164,17 @@ inline void expectSame(const std::vector<Curve> &a, const std::vector<Curve> &b,
   const Nearness nearA(a, within);
   const Nearness nearB(b, within);
   for (const Curve &curve : a)
-    for (size_t i = 0; i < curve.size(); i += 5)
-      ASSERT_TRUE(nearB.isNear(curve[i])) << curve[i][0] << " " << curve[i][1] << "\n" << text;
+    for (size_t i = 0; i < curve.size(); i += 9)
+      ASSERT_TRUE(nearB.isNear(curve[i]))
+          << fmt::format("{} of {} to {}\n", fmt::join(curve[i], " "),
+                         fmt::join(curve.front(), " "), fmt::join(curve.back(), " "))
+          << text;
   for (const Curve &curve : b)
-    for (size_t i = 0; i < curve.size(); i += 5)
-      ASSERT_TRUE(nearA.isNear(curve[i])) << curve[i][0] << " " << curve[i][1] << "\n" << text;
+    for (size_t i = 0; i < curve.size(); i += 9)
+      ASSERT_TRUE(nearA.isNear(curve[i]))
+          << fmt::format("{} of {} to {}\n", fmt::join(curve[i], " "),
+                         fmt::join(curve.front(), " "), fmt::join(curve.back(), " "))
+          << text;
 }
 
 /// Basis functions of a B-spline, as they are defined.
@@ -294,9 +309,9 @@ private:
     const Spot centre{apex[0] - dy * top / size * radius, apex[1] + dx * top / size * radius};
     const double from = std::atan2(a[1] - centre[1], a[0] - centre[0]);
     const double sweep = 4 * std::atan(bulge);
-    for (int i = 0; i < 200; ++i)
-      curve.push_back({centre[0] + radius * std::cos(from + sweep * i / 200),
-                       centre[1] + radius * std::sin(from + sweep * i / 200)});
+    for (int i = 0; i < kPlaces; ++i)
+      curve.push_back({centre[0] + radius * std::cos(from + sweep * i / kPlaces),
+                       centre[1] + radius * std::sin(from + sweep * i / kPlaces)});
   }
 
   std::string polyline(std::vector<Curve> &into, bool light) {
@@ -369,9 +384,12 @@ private:
       for (size_t i = 0; i < n; ++i)
         weights.push_back(number(0.3, 3));
     Curve curve;
-    for (int k = 0; k <= kPlaces; ++k) {
-      const double part = std::min(1.0 * k / kPlaces, 1 - 1e-9);
-      const double u = knots[p] + (knots[n] - knots[p]) * part;
+    // Between knots, however near to each other they are.
+    constexpr size_t kBetween = 1000;
+    for (size_t k = 0; k <= kBetween * (n - p); ++k) {
+      const size_t span = std::min(p + k / kBetween, n - 1);
+      const double part = 1.0 * static_cast<double>(k - (span - p) * kBetween) / kBetween;
+      const double u = knots[span] + (knots[span + 1] - knots[span]) * std::min(part, 1 - 1e-9);
       Spot sum{};
       double weight = 0;
       for (size_t i = 0; i < n; ++i) {
