@@ -56,6 +56,7 @@ void failGroup(GroupRef &group, int16_t reason, uint64_t failed) noexcept {
   group::abandon(state.motion);
   if (failed != 0)
     fail(state, failed, reason);
+  endTriggers(state);
   for (int32_t i = 0; i < group.uiAxes; ++i)
     if (axis::isPowered(axisAt(group, i)))
       axis::enterErrorStop(axisAt(group, i), reason);
@@ -108,14 +109,25 @@ void writeAxes(GroupRef &group) noexcept {
   }
 }
 
-void drive(GroupRef &group, const GroupArm &arm) noexcept {
+void drive(const Ctx &ctx, GroupRef &group, const GroupArm &arm) noexcept {
   GroupState &state = stateOf(group);
   const double cycle = axisAt(group, 0).fTaskCycle;
   const auto milliseconds =
       static_cast<int32_t>(exact::smaller(exact::larger(cycle * 1e3, 1.0), 100.0));
-  group::cycle(state.motion, arm.arm,
-               {cycle, 1.0, isToStop(group, state), state.deceleration, kSteps * milliseconds,
-                kSamples * milliseconds});
+  const group::GroupCommand command{cycle,
+                                    1.0,
+                                    isToStop(group, state),
+                                    state.deceleration,
+                                    kSteps * milliseconds,
+                                    kSamples * milliseconds,
+                                    group.fForecast,
+                                    stopsAtOnce(group, state)};
+  group::plan(state.motion, arm.arm, command);
+  state.forecast = group::plannedTime(state.motion);
+  state.rest = group::nextRest(state.motion);
+  updateTriggers(ctx, state, cycle);
+  group::goOn(state.motion, arm.arm, command);
+  shiftTriggers(state, group::rebase(state.motion));
   if (state.motion.obstacle != Obstacle::None) {
     failGroup(group, errorOf(state.motion.obstacle), failedMovement(state));
     return;
@@ -132,9 +144,24 @@ void settle(GroupRef &group) noexcept {
     return;
   if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping)
     return;
+  endTriggers(state);
   group::clear(state.motion);
   releaseAxes(group);
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
+}
+
+/// Why it takes no movement, or 0.
+int16_t refusalOf(const GroupRef &group) noexcept {
+  if (!takesMovements(group))
+    return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+  for (int32_t i = 0; i < group.uiAxes; ++i) {
+    const AxisRef &axis = axisAt(group, i);
+    if (!axis::isPowered(axis))
+      return error::SMC_ERROR__SMC_AXIS_GROUP_AXIS_NOT_FOLLOWING;
+    if (group.bOwns == 0 && axis.nAxisState != axis::state::kStandstill)
+      return error::SMC_ERROR__SMC_AXIS_GROUP_INTERRUPTED_BY_SINGLE_AXIS;
+  }
+  return 0;
 }
 
 } // namespace
@@ -166,6 +193,7 @@ void beginMoving(GroupRef &group) noexcept {
 
 void serve(Ctx &ctx, GroupRef &group) {
   const uint64_t now = ctx.cycle + 1;
+  dropUnused(stateOf(group).triggers, now);
   if (group.ulServed == now || group.eState == decl::SMC_AXIS_GROUP_STATE__GroupDisabled ||
       group.eState == decl::SMC_AXIS_GROUP_STATE__GroupErrorStop)
     return;
@@ -177,7 +205,7 @@ void serve(Ctx &ctx, GroupRef &group) {
   const GroupArm arm(ctx, group);
   takeRequests(group, arm);
   if (group.bOwns != 0)
-    drive(group, arm);
+    drive(ctx, group, arm);
   if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupErrorStop)
     return;
   takeRequests(group, arm);
@@ -186,17 +214,14 @@ void serve(Ctx &ctx, GroupRef &group) {
 }
 
 int16_t ask(Ctx &ctx, GroupRef &group, Request &request) {
-  if (!takesMovements(group))
-    return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
-  for (int32_t i = 0; i < group.uiAxes; ++i) {
-    const AxisRef &axis = axisAt(group, i);
-    if (!axis::isPowered(axis))
-      return error::SMC_ERROR__SMC_AXIS_GROUP_AXIS_NOT_FOLLOWING;
-    if (group.bOwns == 0 && axis.nAxisState != axis::state::kStandstill)
-      return error::SMC_ERROR__SMC_AXIS_GROUP_INTERRUPTED_BY_SINGLE_AXIS;
-  }
-  if (const int16_t wrong = enqueue(group, request); wrong != 0)
-    return wrong;
+  int16_t refusal = refusalOf(group);
+  if (refusal == 0)
+    refusal = enqueue(group, request);
+  const bool hasPlaces = request.kind != RequestKind::Halt;
+  bindTriggers(group, ctx.cycle + 1, request.id,
+               hasPlaces ? refusal : error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER);
+  if (refusal != 0)
+    return refusal;
   const GroupArm arm(ctx, group);
   takeRequests(group, arm);
   const GroupState &state = stateOf(group);
@@ -205,7 +230,8 @@ int16_t ask(Ctx &ctx, GroupRef &group, Request &request) {
              : int16_t{0};
 }
 
-int16_t beginStop(Ctx & /*ctx*/, GroupRef &group, double deceleration) {
+int16_t beginStop(Ctx &ctx, GroupRef &group, double deceleration) {
+  bindTriggers(group, ctx.cycle + 1, 0, error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER);
   if (!takesMovements(group) && group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStopping)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
   if (!(deceleration >= 0.0))
@@ -221,6 +247,7 @@ int16_t beginStop(Ctx & /*ctx*/, GroupRef &group, double deceleration) {
 void endStop(GroupRef &group) {
   if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStopping)
     return;
+  endTriggers(stateOf(group));
   group::clear(stateOf(group).motion);
   releaseAxes(group);
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
@@ -241,6 +268,8 @@ int16_t enable(Ctx &ctx, GroupRef &group) {
     const kinematics::KinematicsOf kinematics(ctx, group.itfKinematics);
     if (kinematics.check() != kinematics::Outcome::Done)
       return kinematics::errorOf(kinematics.check());
+    if (const GroupArm arm(ctx, group); arm.outcome != kinematics::Outcome::Done)
+      return kinematics::errorOf(arm.outcome); // the tool of stride.toml does not fit
     group.uiJoints = static_cast<UINT>(kinematics.ref().joints());
   }
   if (group.uiAxes == 0 || group.uiAxes < group.uiJoints ||

@@ -4,6 +4,7 @@
 #define STRIDE_RUNTIME_BLOCKS_SM3_ROBOTICS_GROUP_HPP
 
 #include "runtime/app/ctx.h"
+#include "runtime/blocks/SM3_Robotics/triggers.hpp"
 #include "runtime/numeric/group/group_motion.hpp"
 
 #include "st/SM3_Robotics/AXIS_GROUP_REF_SM3.h"
@@ -47,6 +48,9 @@ struct GroupState {
   double end[kAxes];               ///< Axes where the movements end that have been taken. [u]
   double deceleration;             ///< Of the present stop. [u/s^2]
   uint64_t lastAccepted;           ///< The movement that has been taken last.
+  Triggers triggers;
+  double forecast;       ///< How much of the motion is planned, since the start of the cycle. [s]
+  group::GroupRest rest; ///< The next one, since then.
 };
 
 GroupState &stateOf(GroupRef &group) noexcept;

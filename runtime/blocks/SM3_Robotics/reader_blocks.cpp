@@ -18,6 +18,7 @@ using robotics::GroupRef;
 void decl::MC_GroupReadStatus::body__(::stride::Ctx &ctx__) {
   GroupMoving = GroupHoming = GroupErrorStop = GroupStandby = GroupStopping = GroupDisabled = 0;
   ActiveMovementId = LastAcceptedMovementId = 0;
+  CurrentPlanningForecast = 0.0;
   robotics::runReader(ctx__, *this, [this](GroupRef &group) -> int16_t {
     const robotics::GroupState &state = robotics::stateOf(group);
     GroupMoving = group.eState == decl::SMC_AXIS_GROUP_STATE__GroupMoving;
@@ -29,6 +30,8 @@ void decl::MC_GroupReadStatus::body__(::stride::Ctx &ctx__) {
     if (GroupMoving != 0 && active != nullptr && !state.motion.abandoned)
       ActiveMovementId = active->id;
     LastAcceptedMovementId = state.lastAccepted;
+    if (group.bOwns != 0)
+      CurrentPlanningForecast = state.forecast;
     return 0;
   });
 }

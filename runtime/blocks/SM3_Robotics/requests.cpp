@@ -3,6 +3,7 @@
 #include "runtime/axis/axis_ref.hpp"
 #include "runtime/numeric/kinematics/orientation.hpp"
 
+#include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
 #include "st/SM3_Robotics/SMC_COORD_SYSTEM.h"
 #include "st/SM_DriveBasic/MC_BUFFER_MODE.h"
 
@@ -172,6 +173,7 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
     leg = group::axesLeg(ends.from, ends.to, perTime, speedOf(state.motion, order));
   }
   group::append(state.motion, request.id, leg, order);
+  locateTriggers(state, arm.arm, request.id, leg);
   for (int32_t k = 0; k < kAxes; ++k)
     state.end[k] = ends.to[k];
   state.lastAccepted = request.id;
@@ -181,8 +183,10 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
 /// The group is at rest for a request that needs that: what was before is over.
 void begin(GroupRef &group, const GroupArm &arm, const Request &request) {
   GroupState &state = stateOf(group);
-  if (group.bOwns != 0)
+  if (group.bOwns != 0) {
+    endTriggers(state);
     group::clear(state.motion);
+  }
   if (request.kind == RequestKind::Halt) {
     group::setOutcome(state.motion, request.id, group::Outcome::Done);
     return;
@@ -244,6 +248,12 @@ void fail(GroupState &state, uint64_t id, int16_t error) noexcept {
 bool demandsRest(const GroupState &state) noexcept {
   return state.motion.abandoned ||
          (state.firstRequest < state.nextRequest && aborts(requestAt(state, state.firstRequest)));
+}
+
+bool stopsAtOnce(const GroupRef &group, const GroupState &state) noexcept {
+  return group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping ||
+         (state.firstRequest < state.nextRequest &&
+          requestAt(state, state.firstRequest).kind == RequestKind::Halt);
 }
 
 uint64_t failedMovement(const GroupState &state) noexcept {
