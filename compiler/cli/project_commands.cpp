@@ -138,7 +138,7 @@ bool fillInGroups(std::vector<std::string> &arguments, const BuildResult &result
     }
     arguments[i] = "--set";
     arguments[i + 1] = group->assignment;
-    arguments.insert(arguments.begin() + static_cast<std::ptrdiff_t>(i) + 2,
+    arguments.insert(arguments.begin() + static_cast<ptrdiff_t>(i) + 2,
                      {"--trace", group->columns});
   }
   return true;

@@ -57,6 +57,7 @@ void failGroup(GroupRef &group, int16_t reason, uint64_t failed) noexcept {
   forgetSystems(state);
   if (failed != 0)
     fail(state, failed, reason);
+  endTriggers(state);
   for (int32_t i = 0; i < group.uiAxes; ++i)
     if (axis::isPowered(axisAt(group, i)))
       axis::enterErrorStop(axisAt(group, i), reason);
@@ -112,17 +113,30 @@ void writeAxes(GroupRef &group) noexcept {
   }
 }
 
-void drive(GroupRef &group, const GroupArm &arm) noexcept {
+void drive(const Ctx &ctx, GroupRef &group, const GroupArm &arm) noexcept {
   GroupState &state = stateOf(group);
   if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping || demandsStandstill(group))
     group::brakeRide(state.motion.ride);
   const double cycle = axisAt(group, 0).fTaskCycle;
   const auto milliseconds =
       static_cast<int32_t>(exact::smaller(exact::larger(cycle * 1e3, 1.0), 100.0));
-  group::cycle(state.motion, arm.arm,
-               {cycle, overrideOf(group), isToStop(group, state), state.deceleration,
-                kSteps * milliseconds, kSamples * milliseconds, allowanceOf(group),
-                state.rides != 0 ? stateOfCarrier(group, state.rides) : motion::State{}});
+  const group::GroupCommand command{
+      cycle,
+      overrideOf(group),
+      isToStop(group, state),
+      state.deceleration,
+      kSteps * milliseconds,
+      kSamples * milliseconds,
+      group.fForecast,
+      stopsAtOnce(group, state),
+      allowanceOf(group),
+      state.rides != 0 ? stateOfCarrier(group, state.rides) : motion::State{}};
+  group::plan(state.motion, arm.arm, command);
+  state.forecast = group::plannedTime(state.motion);
+  state.rest = group::nextRest(state.motion);
+  updateTriggers(ctx, state, cycle);
+  group::goOn(state.motion, arm.arm, command);
+  shiftTriggers(state, group::rebase(state.motion));
   if (state.motion.obstacle != Obstacle::None) {
     failGroup(group, errorOf(state.motion.obstacle), failedMovement(state));
     return;
@@ -139,6 +153,7 @@ void settle(GroupRef &group) noexcept {
     return;
   if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping)
     return;
+  endTriggers(state);
   forgetSystems(state);
   if (!state.motion.abandoned)
     group::clear(state.motion);
@@ -190,6 +205,7 @@ void beginMoving(GroupRef &group) noexcept {
 
 void serve(Ctx &ctx, GroupRef &group) {
   const uint64_t now = ctx.cycle + 1;
+  dropUnused(stateOf(group).triggers, now);
   if (group.ulServed == now || group.eState == decl::SMC_AXIS_GROUP_STATE__GroupDisabled ||
       group.eState == decl::SMC_AXIS_GROUP_STATE__GroupErrorStop)
     return;
@@ -202,7 +218,7 @@ void serve(Ctx &ctx, GroupRef &group) {
   GroupArm arm(ctx, group);
   takeRequests(group, arm);
   if (group.bOwns != 0)
-    drive(group, arm);
+    drive(ctx, group, arm);
   if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupErrorStop)
     return;
   takeRequests(group, arm);
@@ -224,10 +240,14 @@ int16_t whyNotReady(const GroupRef &group) noexcept {
 }
 
 int16_t ask(Ctx &ctx, GroupRef &group, Request &request) {
-  if (const int16_t wrong = whyNotReady(group); wrong != 0)
-    return wrong;
-  if (const int16_t wrong = enqueue(group, request); wrong != 0)
-    return wrong;
+  int16_t refusal = whyNotReady(group);
+  if (refusal == 0)
+    refusal = enqueue(group, request);
+  const bool hasPlaces = request.kind != RequestKind::Halt;
+  bindTriggers(group, ctx.cycle + 1, request.id,
+               hasPlaces ? refusal : error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER);
+  if (refusal != 0)
+    return refusal;
   GroupArm arm(ctx, group);
   takeRequests(group, arm);
   const GroupState &state = stateOf(group);
@@ -236,7 +256,8 @@ int16_t ask(Ctx &ctx, GroupRef &group, Request &request) {
              : int16_t{0};
 }
 
-int16_t beginStop(Ctx & /*ctx*/, GroupRef &group, double deceleration) {
+int16_t beginStop(Ctx &ctx, GroupRef &group, double deceleration) {
+  bindTriggers(group, ctx.cycle + 1, 0, error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER);
   if (!takesMovements(group) && group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStopping)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
   if (!(deceleration >= 0.0))
@@ -251,6 +272,7 @@ int16_t beginStop(Ctx & /*ctx*/, GroupRef &group, double deceleration) {
 void endStop(GroupRef &group) {
   if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStopping)
     return;
+  endTriggers(stateOf(group));
   forgetSystems(stateOf(group));
   releaseAxes(group); // what it has aborted may still be kept
   group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
@@ -271,6 +293,8 @@ int16_t enable(Ctx &ctx, GroupRef &group) {
     const kinematics::KinematicsOf kinematics(ctx, group.itfKinematics);
     if (kinematics.check() != kinematics::Outcome::Done)
       return kinematics::errorOf(kinematics.check());
+    if (const GroupArm arm(ctx, group); arm.outcome != kinematics::Outcome::Done)
+      return kinematics::errorOf(arm.outcome); // the tool of stride.toml does not fit
     group.uiJoints = static_cast<UINT>(kinematics.ref().joints());
   }
   if (group.uiAxes == 0 || group.uiAxes < group.uiJoints ||

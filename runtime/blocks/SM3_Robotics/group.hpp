@@ -4,6 +4,7 @@
 #define STRIDE_RUNTIME_BLOCKS_SM3_ROBOTICS_GROUP_HPP
 
 #include "runtime/app/ctx.h"
+#include "runtime/blocks/SM3_Robotics/triggers.hpp"
 #include "runtime/numeric/group/group_motion.hpp"
 
 #include "st/SM3_Robotics/AXIS_GROUP_REF_SM3.h"
@@ -71,6 +72,9 @@ struct GroupState {
   Tool tool;                       ///< Of the movements.
   uint64_t resumable; ///< The last cycle, plus 1, in which errors were to be resumable.
   bool interrupting;  ///< It comes to rest to be continued later.
+  Triggers triggers;
+  double forecast;       ///< How much of the motion is planned, since the start of the cycle. [s]
+  group::GroupRest rest; ///< The next one, since then.
 };
 
 GroupState &stateOf(GroupRef &group) noexcept;

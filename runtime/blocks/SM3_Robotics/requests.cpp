@@ -5,6 +5,7 @@
 #include "runtime/numeric/group/kept_path.hpp"
 #include "runtime/numeric/kinematics/orientation.hpp"
 
+#include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
 #include "st/SM3_Robotics/SMC_COORD_SYSTEM.h"
 #include "st/SM_DriveBasic/MC_BUFFER_MODE.h"
 
@@ -168,6 +169,7 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
   else if (group::leadsTool(leg))
     order.configuration = arm.arm.kinematics.configurationOf(ends.from);
   group::append(state.motion, request.id, leg, order);
+  locateTriggers(state, arm.arm, request.id, leg);
   for (int32_t k = 0; k < kAxes; ++k)
     state.end[k] = ends.to[k];
   state.lastAccepted = request.id;
@@ -208,14 +210,17 @@ void begin(GroupRef &group, GroupArm &arm, const Request &request) {
   GroupState &state = stateOf(group);
   if (request.kind == RequestKind::Halt) { // what it has stopped may still be kept
     const bool carried = group::isCarried(state.motion);
+    endTriggers(state);
     changeSystem(group, arm, 0, request);
     if ((request.forgets || carried) && group.bOwns != 0)
       forget(state);
     group::setOutcome(state.motion, request.id, group::Outcome::Done);
     return;
   }
-  if (group.bOwns != 0)
+  if (group.bOwns != 0) {
+    endTriggers(state);
     group::clear(state.motion);
+  }
   beginMoving(group);
   changeTool(state, arm, request.tool);
   changeSystem(group, arm, carrierOf(group, request), request);
@@ -335,6 +340,12 @@ bool demandsStandstill(const GroupRef &group) noexcept {
     return false;
   const Request &request = requestAt(state, state.firstRequest);
   return request.kind == RequestKind::Halt || request.kind == RequestKind::Direct;
+}
+
+bool stopsAtOnce(const GroupRef &group, const GroupState &state) noexcept {
+  return group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping ||
+         (state.firstRequest < state.nextRequest &&
+          requestAt(state, state.firstRequest).kind == RequestKind::Halt);
 }
 
 uint64_t failedMovement(const GroupState &state) noexcept {

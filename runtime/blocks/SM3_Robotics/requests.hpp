@@ -67,8 +67,28 @@ bool demandsRest(const GroupState &state) noexcept;
 /// Whether it waits until the group does not follow a moving system any more.
 bool demandsStandstill(const GroupRef &group) noexcept;
 
+/// Whether it comes to rest at once, whatever has been planned.
+bool stopsAtOnce(const GroupRef &group, const GroupState &state) noexcept;
+
 /// The movement whose path does not go on.
 uint64_t failedMovement(const GroupState &state) noexcept;
+
+/// What has been prepared in the present cycle (`cycle`, plus 1) belongs to a movement now, also if
+/// that is refused: an SMC_ERROR.
+void bindTriggers(GroupRef &group, uint64_t cycle, uint64_t movement, int16_t refusal) noexcept;
+
+/// Finds where on a movement its triggers are.
+void locateTriggers(GroupState &state, const group::Arm &arm, uint64_t movement,
+                    const group::Leg &leg) noexcept;
+
+/// Finds the times of triggers: between planning and going on.
+void updateTriggers(const Ctx &ctx, GroupState &state, double cycle) noexcept;
+
+/// The ways of the motion have become smaller. [u]
+void shiftTriggers(GroupState &state, double by) noexcept;
+
+/// The motion ends, before it is cleared: what has not been reached will not be.
+void endTriggers(GroupState &state) noexcept;
 
 } // namespace stride::robotics
 

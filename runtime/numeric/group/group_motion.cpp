@@ -148,6 +148,8 @@ void wish(GroupMotion &group, const GroupCommand &command) noexcept {
   path::Wish &wish = group.motion.wish;
   wish.stop = command.stop || !(command.override > 0.0);
   wish.deceleration = command.stop ? command.deceleration : 0.0;
+  group.motion.keep = command.keep;
+  group.motion.atOnce = command.atOnce;
   if (command.override > 0.0)
     wish.override = command.override;
 }
@@ -162,17 +164,6 @@ void moveBy(GroupMotion &group, const Arm &arm, double time) noexcept {
   settle(group, state.velocity > 0.0 && state.acceleration < 0.0);
   put(group, arm, state);
 }
-
-void rebase(GroupMotion &group) noexcept {
-  const double by = path::rebase(group.motion);
-  if (!(by > 0.0))
-    return;
-  for (int64_t k = group.first > 0 ? group.first - 1 : 0; k < group.next; ++k) {
-    movementAt(group, k).begin -= by;
-    movementAt(group, k).end -= by;
-  }
-}
-
 } // namespace
 
 void reset(GroupMotion &group, const double (&axes)[kAxes]) noexcept {
@@ -257,15 +248,45 @@ double positionInMovement(const GroupMotion &group, uint64_t &id) noexcept {
   return (before.exit + way / half * (before.leg.length - before.exit)) / before.leg.length;
 }
 
-void cycle(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept {
+void plan(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept {
   settle(group, !isAtRest(group));
   wish(group, command);
   makeKnown(group, arm, command.allowance, command.samples);
   (void)path::think(group.motion, command.steps);
+}
+
+bool holds(const GroupMotion &group) noexcept {
+  const path::Motion &motion = group.motion;
+  const path::Law &law = motion.law;
+  return motion.keep > 0.0 && !path::isAtRest(motion) && !group.dwelling && motion.since == 0.0 &&
+         motion.cycles == 0 && motion.session != path::Session::None &&
+         !(path::stateAt(law.piece[static_cast<uint64_t>(law.first) % path::kPieces], 0.0)
+               .velocity > 0.0) &&
+         motion.promise < motion.keep;
+}
+
+void goOn(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept {
   goOn(group.ride, command.carrier, command.cycle);
   goOn(group.left, {}, command.cycle);
-  moveBy(group, arm, passDwell(group, command));
-  rebase(group);
+  if (!holds(group))
+    moveBy(group, arm, passDwell(group, command));
+  else if (isCarried(group))
+    putStill(group, arm);
+}
+
+void cycle(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept {
+  plan(group, arm, command);
+  goOn(group, arm, command);
+  (void)rebase(group);
+}
+
+double rebase(GroupMotion &group) noexcept {
+  const double by = path::rebase(group.motion);
+  for (int64_t k = group.first > 0 ? group.first - 1 : 0; k < group.next && by > 0.0; ++k) {
+    movementAt(group, k).begin -= by;
+    movementAt(group, k).end -= by;
+  }
+  return by;
 }
 
 void abandon(GroupMotion &group) noexcept {

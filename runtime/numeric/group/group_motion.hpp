@@ -85,9 +85,12 @@ struct GroupCommand {
   double override; ///< Factor of all velocities, >= 0; 0: it comes to rest on its path.
   bool stop;       ///< It comes to rest on its path, and stays there.
   double
-      deceleration; ///< For that, if it is more than the movement's; in units of the way. [u/s^2]
-  int32_t steps;    ///< Of planning.
-  int32_t samples;  ///< Places of the path that may be looked at.
+      deceleration;   ///< For that, if it is more than the movement's; in units of the way. [u/s^2]
+  int32_t steps;      ///< Of planning.
+  int32_t samples;    ///< Places of the path that may be looked at.
+  double keep = 0.0;  ///< So much of the motion ahead is planned before it begins, and stays as it
+                      ///< is unless it is stopped at once. [s]
+  bool atOnce = true; ///< To stop: do not care for `keep`.
   Allowance allowance = kAllAllowed;
   motion::State carrier{}; ///< Of the system that is followed, at the end of the cycle. [u] or [°]
 };
@@ -155,6 +158,15 @@ double positionInMovement(const GroupMotion &group, uint64_t &id) noexcept;
 /// One cycle: plans ahead and goes on. The place is in group.axes, velocity, acceleration. With an
 /// obstacle the group has failed: it shall be stopped.
 void cycle(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept;
+
+/// Its parts, one after the other: what is planned after the first one is what the second one does;
+/// the third one makes ways smaller, to keep them precise, by its result. [u]
+void plan(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept;
+void goOn(GroupMotion &group, const Arm &arm, const GroupCommand &command) noexcept;
+double rebase(GroupMotion &group) noexcept;
+
+/// Whether the group rests until enough of its motion is planned to begin.
+bool holds(const GroupMotion &group) noexcept;
 
 /// Aborts all movements. The group goes on along them until it has been stopped; then clear it.
 void abandon(GroupMotion &group) noexcept;

@@ -289,10 +289,10 @@ void decideEnd(GroupMotion &group, const Arm &arm) noexcept {
 }
 
 /// How far the path has to be known ahead as long as nothing is commanded that comes after it. [u]
-double neededAhead(const Ramp &ramp) noexcept {
+double neededAhead(const GroupMotion &group, const Ramp &ramp) noexcept {
   constexpr double kTime = 0.2; // for plans [s]
   constexpr double kMore = 2.2;
-  return kMore * ramp.way + kTime * ramp.velocity;
+  return kMore * ramp.way + (kTime + group.motion.keep) * ramp.velocity;
 }
 
 double neededWay(const GroupMotion &group) noexcept {
@@ -304,7 +304,7 @@ double neededWay(const GroupMotion &group) noexcept {
   const double rate = smaller(smaller(strip.acceleration, strip.deceleration), 1.0 / strip.along);
   const double way =
       0.5 * velocity * path::rampTime(velocity, rate, static_cast<double>(strip.jerk));
-  return group.motion.way + neededAhead({velocity, way});
+  return group.motion.way + neededAhead(group, {velocity, way});
 }
 
 /// Up to where along its leg the movement that is looked at can be made known now. [u]
@@ -315,7 +315,7 @@ double lookEnd(const GroupMotion &group, const Arm &arm, const Movement &movemen
   if (group.lookedWay < 0.5 * length) {
     // Of one that is short for its velocity the end is needed soon: all at once is planned best.
     const Ramp ramp = rampOf(group, arm, movement, false);
-    return neededAhead(ramp) >= 0.5 * length ? length : larger(0.5 * length, movement.entry);
+    return neededAhead(group, ramp) >= 0.5 * length ? length : larger(0.5 * length, movement.entry);
   }
   const double way = legBegin(movement) + group.lookedWay - movement.entry;
   if (way >= neededWay(group))

@@ -65,8 +65,11 @@ bool extend(Motion &motion, const Strip &strip) noexcept {
 
 WayState move(Motion &motion, double time, bool pass) noexcept {
   Law &law = motion.law;
-  if (motion.gate || waitsForLaw(motion) || (motion.resting && !pass))
+  motion.promise = exact::larger(motion.promise - time, 0.0);
+  if (motion.gate || waitsForLaw(motion) || (motion.resting && !pass)) {
+    motion.promise = 0.0;
     return restAt(motion.way);
+  }
   motion.resting = false;
   addTime(motion, time);
   for (;;) {
@@ -95,6 +98,7 @@ void freeze(Motion &motion) noexcept {
   motion.law.next = motion.law.first;
   motion.since = 0.0;
   motion.cycles = 0;
+  motion.promise = 0.0;
   motion.session = Session::None;
 }
 

@@ -74,6 +74,8 @@ struct Motion {
   double way;            ///< Where the motion is. [u]
   double since;          ///< Start of the piece until the cycles of one length began. [s]
   double cycle;          ///< Length of these cycles. [s]
+  double keep;           ///< For so long the law ahead stays, whatever is asked for; 0: no longer
+                         ///< than plans need. It may be changed at any time. [s]
   int64_t cycles;        ///< How many there were.
   double tail;           ///< In which its last run only brakes. [s]
   double lead;           ///< How far ahead the session plans. [s]
@@ -92,14 +94,16 @@ struct Motion {
   int32_t steps;   ///< Of the session until now.
   int32_t tries;   ///< Of the session.
   Session session;
-  Wish asked;    ///< Session: what it is planned for.
-  int32_t pause; ///< Calls of think() until another wish is tried again.
-  bool urgent;   ///< Session: because of another wish.
-  bool changing; ///< Session: it plans for other settings.
-  bool byRamp;   ///< Session: to stop by a ramp in closed form, which takes a few steps.
-  bool refused;  ///< The last other wish was not to be had from where the motion was.
-  bool resting;  ///< It is where the path rests.
-  bool gate;     ///< It is at rest where it has to wait until it is told to go on.
+  Wish asked;     ///< Session: what it is planned for.
+  int32_t pause;  ///< Calls of think() until another wish is tried again.
+  double promise; ///< So much of the law ahead stays, unless a stop is asked for at once. [s]
+  bool atOnce;    ///< A stop that is asked for does not care for `keep`. May be changed.
+  bool urgent;    ///< Session: because of another wish.
+  bool changing;  ///< Session: it plans for other settings.
+  bool byRamp;    ///< Session: to stop by a ramp in closed form, which takes a few steps.
+  bool refused;   ///< The last other wish was not to be had from where the motion was.
+  bool resting;   ///< It is where the path rests.
+  bool gate;      ///< It is at rest where it has to wait until it is told to go on.
 };
 
 /// At rest at way 0, with nothing known of the path.

@@ -145,6 +145,8 @@ void cutLaw(Motion &motion) noexcept {
   motion.refused = false;
   motion.tail = 0.0;
   motion.ramp.length = 0.0;
+  if (motion.asked.stop && motion.atOnce)
+    motion.promise = 0.0;
   motion.writing = hasJerk(motion) ? 0 : motion.plan.firstStrip;
   motion.session = Session::Writing;
 }

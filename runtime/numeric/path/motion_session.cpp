@@ -1,6 +1,8 @@
 // How a motion is planned while it goes on: from where, and how the plan becomes the law.
 #include "runtime/numeric/path/motion_session.hpp"
 
+#include "runtime/numeric/path/motion_times.hpp"
+
 namespace stride::path {
 namespace {
 
@@ -183,13 +185,19 @@ bool isTimeToExtend(Motion &motion, int32_t budget) noexcept {
   };
   int32_t cells = motion.cells < kCells / 2 ? 2 * motion.cells : kCells;
   cells = cellsFor(motion, cells);
-  if (free > leadFor(cells) + 0.3 * motion.tail)
+  if (free > leadFor(cells) + motion.keep + 0.3 * motion.tail)
     return false;
   while (cells > kLeastCells && leadFor(cells) > 0.9 * free)
     cells -= kLeastCells / 4;
   motion.cells = cells;
-  motion.lead = leadFor(cells);
+  motion.lead = larger(leadFor(cells), smaller(leadFor(cells) + motion.keep, 0.9 * free));
+  motion.lead = larger(motion.lead, motion.promise);
   return true;
+}
+
+/// What another wish does not change. [s]
+double keptBy(const Motion &motion) noexcept {
+  return motion.wish.stop && motion.atOnce ? 0.0 : larger(motion.keep, motion.promise);
 }
 
 /// How far ahead passes plan for another wish. [s]
@@ -228,6 +236,7 @@ bool beginSession(Motion &motion, int32_t budget) noexcept {
     motion.cells = hasJerk(motion) ? kUrgentCells : kCells;
     motion.byRamp = wish.stop && hasJerk(motion);
     motion.lead = motion.byRamp ? rampLead(motion, budget) : passesLead(motion, budget);
+    motion.lead = larger(motion.lead, keptBy(motion));
     beginSeeking(motion, true);
     return true;
   }
@@ -337,7 +346,10 @@ void seek(Motion &motion) noexcept {
     takeOver(motion, larger(needed, 0.1 * piece.duration));
     return;
   }
-  if (rests || needed < piece.duration) { // not within these pieces, but at their ends
+  // What has been promised beyond a rest stays.
+  const bool passes = needed >= piece.duration && motion.promise > 0.0 && !motion.asked.stop &&
+                      motion.seek + 1 < motion.law.next;
+  if ((rests && !passes) || needed < piece.duration) { // not within these pieces, but at their ends
     if (rests && motion.asked.stop)
       endLawHere(motion);
     else
@@ -379,7 +391,7 @@ void stopLater(Motion &motion, int32_t budget, bool inTime) noexcept {
                        : larger(1.5 * motion.lead, planningTime(motion, motion.steps, budget));
   const double least = passesLead(motion, budget);
   motion.byRamp = motion.lead < least;
-  motion.lead = smaller(motion.lead, least);
+  motion.lead = larger(smaller(motion.lead, least), keptBy(motion));
   ask(motion, true);
   beginSeeking(motion, true);
 }
@@ -412,17 +424,8 @@ void planned(Motion &motion, int32_t budget, int32_t left) noexcept {
   motion.session = Session::None;
 }
 
-} // namespace
-
-double stoppingWay(const Motion &motion) noexcept {
-  if (isAtRest(motion) || motion.resting)
-    return motion.way;
-  const WayState state = stateAt(pieceAt(motion.law, motion.law.first), timeInPiece(motion));
-  const double length = stoppingLength(motion, state, stripAtWay(motion, state.way));
-  return motion.way + 1.05 * length + state.velocity * motion.lead;
-}
-
-int32_t think(Motion &motion, int32_t budget) noexcept {
+/// See think.
+int32_t thinkFor(Motion &motion, int32_t budget) noexcept {
   int32_t used = 0;
   if (motion.pause > 0)
     --motion.pause;
@@ -454,6 +457,22 @@ int32_t think(Motion &motion, int32_t budget) noexcept {
     }
     motion.steps += used - before;
   }
+  return used;
+}
+
+} // namespace
+
+double stoppingWay(const Motion &motion) noexcept {
+  if (isAtRest(motion) || motion.resting)
+    return motion.way;
+  const WayState state = stateAt(pieceAt(motion.law, motion.law.first), timeInPiece(motion));
+  const double length = stoppingLength(motion, state, stripAtWay(motion, state.way));
+  return motion.way + 1.05 * length + state.velocity * motion.lead;
+}
+
+int32_t think(Motion &motion, int32_t budget) noexcept {
+  const int32_t used = thinkFor(motion, budget);
+  motion.promise = larger(motion.promise, promisable(motion));
   return used;
 }
 
