@@ -135,13 +135,12 @@ void settle(GroupRef &group) noexcept {
     return;
   if (!state.motion.abandoned)
     group::clear(state.motion);
-  releaseAxes(group);
-  group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
+  endMoving(group);
 }
 
 } // namespace
 
-void releaseAxes(GroupRef &group) noexcept {
+void endMoving(GroupRef &group) noexcept {
   for (int32_t i = 0; i < group.uiAxes && group.bOwns != 0; ++i) {
     AxisRef &axis = axisAt(group, i);
     if (!axis::ownsAxis(axis, group.aulOwner.v[i]))
@@ -151,6 +150,7 @@ void releaseAxes(GroupRef &group) noexcept {
     axis.nAxisState = axis::state::kStandstill;
   }
   group.bOwns = 0;
+  group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
 }
 
 GroupState &stateOf(GroupRef &group) noexcept {
@@ -243,8 +243,7 @@ int16_t beginStop(Ctx & /*ctx*/, GroupRef &group, double deceleration) {
 void endStop(GroupRef &group) {
   if (group.eState != decl::SMC_AXIS_GROUP_STATE__GroupStopping)
     return;
-  releaseAxes(group); // what it has aborted may still be kept
-  group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
+  endMoving(group); // what it has aborted may still be kept
 }
 
 int16_t enable(Ctx &ctx, GroupRef &group) {

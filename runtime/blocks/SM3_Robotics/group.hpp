@@ -89,8 +89,8 @@ void serve(Ctx &ctx, GroupRef &group);
 /// Whether a command may take the group's axes now: an SMC_ERROR if not.
 int16_t whyNotReady(const GroupRef &group) noexcept;
 
-/// Lets the axes go that the group has.
-void releaseAxes(GroupRef &group) noexcept;
+/// Lets the axes go that the group has: it is in standby.
+void endMoving(GroupRef &group) noexcept;
 
 /// Whether its axes are at rest.
 bool rests(const GroupRef &group) noexcept;

@@ -147,8 +147,7 @@ void finishInterrupt(GroupRef &group, DataRef &data) noexcept {
   if (!state.motion.abandoned)
     group::suspend(state.motion);
   state.interrupting = false;
-  releaseAxes(group);
-  group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
+  endMoving(group);
 }
 
 /// The rising edge of MC_GroupInterrupt.

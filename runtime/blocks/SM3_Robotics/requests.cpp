@@ -184,15 +184,20 @@ void begin(GroupRef &group, GroupArm &arm, const Request &request) {
     group::setOutcome(state.motion, request.id, group::Outcome::Done);
     return;
   }
-  if (group.bOwns != 0)
+  const bool owned = group.bOwns != 0;
+  if (owned)
     group::clear(state.motion);
   beginMoving(group);
   if (!isSame(state.tool, request.tool)) {
     state.tool = request.tool;
     arm.setTool(state.tool);
   }
-  if (const int16_t wrong = append(group, arm, request); wrong != 0)
-    fail(state, request.id, wrong);
+  const int16_t wrong = append(group, arm, request);
+  if (wrong == 0)
+    return;
+  fail(state, request.id, wrong);
+  if (!owned)
+    endMoving(group);
 }
 
 } // namespace
