@@ -1,5 +1,7 @@
 #include "runtime/blocks/SM3_Robotics/requests.hpp"
 
+#include "runtime/blocks/SM3_Robotics/overrides.hpp"
+
 #include "runtime/axis/axis_ref.hpp"
 #include "runtime/numeric/group/kept_path.hpp"
 #include "runtime/numeric/kinematics/orientation.hpp"
@@ -137,7 +139,8 @@ int16_t legOf(const GroupRef &group, const GroupArm &arm, const Request &request
     return linearLeg(arm, ends, leg);
   double perTime[kAxes];
   for (int32_t k = 0; k < kAxes; ++k)
-    perTime[k] = arm.arm.limits[k].velocity * request.order.velocityFactor;
+    perTime[k] = arm.arm.limits[k].velocity * request.order.velocityFactor *
+                 request.order.shares.velocity[k];
   leg = group::axesLeg(ends.from, ends.to, perTime, speedOf(stateOf(group).motion, request.order));
   return 0;
 }
@@ -230,6 +233,7 @@ int16_t enqueue(GroupRef &group, Request &request) noexcept {
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
   request.id = group::drawId(state.motion);
   request.tool = toolOf(group);
+  request.order.shares = sharesOf(group);
   requestAt(state, state.nextRequest) = request;
   ++state.nextRequest;
   return 0;

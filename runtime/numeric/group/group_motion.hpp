@@ -30,6 +30,14 @@ enum class Transition : uint8_t {
 /// jerk likewise).
 enum class CornerSpeed : uint8_t { Smaller, First, Second, Greater };
 
+/// Factors of each axis's limits, above 0 up to 1.
+struct AxisShares {
+  double velocity[kAxes] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+  double acceleration[kAxes] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+  double jerk[kAxes] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+};
+static_assert(kAxes == 10);
+
 /// What is said of a movement besides its leg.
 struct Order {
   PathLimits path;                                       ///< Where the tool leads.
@@ -38,8 +46,9 @@ struct Order {
   Transition transition;
   double transitionValue; ///< See Transition.
   CornerSpeed cornerSpeed;
-  double dwell;  ///< Time to wait, instead of a leg; 0: there is a leg. [s]
-  bool noCorner; ///< There can be no corner between the movement before and this one.
+  double dwell;      ///< Time to wait, instead of a leg; 0: there is a leg. [s]
+  bool noCorner;     ///< There can be no corner between the movement before and this one.
+  AxisShares shares; ///< Besides the three factors.
 };
 
 enum class Outcome : uint8_t {
