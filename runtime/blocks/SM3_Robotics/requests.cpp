@@ -25,6 +25,12 @@ bool aborts(const Request &request) noexcept {
 
 bool isFactor(double factor) noexcept { return factor > 0.0 && factor <= 1.0; }
 
+bool leadsTool(const Request &request) noexcept {
+  if (request.kind == RequestKind::Jog)
+    return request.system != decl::SMC_COORD_SYSTEM__ACS;
+  return request.kind == RequestKind::Linear || request.kind == RequestKind::Circular;
+}
+
 /// What is wrong with the inputs of a movement: an SMC_ERROR.
 int16_t wrongInput(const Request &request) noexcept {
   if (request.kind == RequestKind::Halt)
@@ -38,7 +44,7 @@ int16_t wrongInput(const Request &request) noexcept {
       !isFactor(order.jerkFactor))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_FACTOR;
   const group::PathLimits &path = order.path;
-  if (request.kind != RequestKind::Direct &&
+  if (leadsTool(request) &&
       (!exact::isPositive(path.velocity) || !exact::isPositive(path.acceleration) ||
        !exact::isPositive(path.deceleration) || !exact::isPositive(path.jerk)))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_DYNAMICS;
@@ -47,7 +53,9 @@ int16_t wrongInput(const Request &request) noexcept {
   for (const double position : request.position)
     if (!exact::isfinite(position))
       return error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
-  return request.kind == RequestKind::Circular ? wrongCircle(request) : int16_t{0};
+  if (request.kind == RequestKind::Circular)
+    return wrongCircle(request);
+  return request.kind == RequestKind::Jog ? wrongJog(request) : int16_t{0};
 }
 
 /// The axes where a movement ends that is given by the tool. An SMC_ERROR.
@@ -115,24 +123,13 @@ int16_t linearLeg(const GroupArm &arm, const Ends &ends, group::Leg &leg) {
   return 0;
 }
 
-/// How long ways of axes are beside ways of the tool: the velocity that a second's way is taken
-/// for.
-double speedOf(const GroupMotion &motion, const group::Order &order) noexcept {
-  if (motion.first < motion.next) {
-    const group::Movement &last =
-        motion.movement[static_cast<uint64_t>(motion.next - 1) % group::kMovements];
-    if (group::leadsTool(last.leg))
-      return last.order.path.velocity;
-  }
-  constexpr double kAny = 100.0;
-  return exact::isPositive(order.path.velocity) ? order.path.velocity : kAny;
-}
-
 /// The leg of a request from ends.from on; where it ends goes into ends.to. An SMC_ERROR.
 int16_t legOf(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends,
               group::Leg &leg) {
   if (request.kind == RequestKind::Circular)
     return circularLeg(group, arm, request, ends, leg);
+  if (request.kind == RequestKind::Jog)
+    return jogLeg(group, arm, request, ends, leg);
   if (const int16_t wrong = findEnd(group, arm, request, ends); wrong != 0)
     return wrong;
   if (request.kind == RequestKind::Linear)
@@ -204,6 +201,17 @@ void begin(GroupRef &group, GroupArm &arm, const Request &request) {
 }
 
 } // namespace
+
+double speedOf(const GroupMotion &motion, const group::Order &order) noexcept {
+  if (motion.first < motion.next) {
+    const group::Movement &last =
+        motion.movement[static_cast<uint64_t>(motion.next - 1) % group::kMovements];
+    if (group::leadsTool(last.leg))
+      return last.order.path.velocity;
+  }
+  constexpr double kAny = 100.0;
+  return exact::isPositive(order.path.velocity) ? order.path.velocity : kAny;
+}
 
 int16_t targetFrame(const GroupRef &group, const Request &request,
                     const double (&coordinates)[kArmAxes], const Frame<double> &begin,

@@ -34,6 +34,18 @@ int16_t wrongCircle(const Request &request) noexcept;
 int16_t circularLeg(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends,
                     group::Leg &leg);
 
+/// What is wrong with the inputs of jogging: an SMC_ERROR.
+int16_t wrongJog(const Request &request) noexcept;
+
+/// The leg of jogging from ends.from on, as far as it can go; where it ends goes into ends.to. An
+/// SMC_ERROR.
+int16_t jogLeg(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends,
+               group::Leg &leg);
+
+/// How long ways of axes are beside ways of the tool: the velocity that a second's way is taken
+/// for.
+double speedOf(const group::GroupMotion &motion, const group::Order &order) noexcept;
+
 /// What waits is over, and movements with it; what has been kept to be continued, too, if `all`.
 void abortAll(GroupState &state, bool all) noexcept;
 
