@@ -53,6 +53,8 @@ group::Allowance allowanceOf(const GroupRef &group) noexcept {
 
 group::AxisShares sharesOf(const GroupRef &group) noexcept {
   group::AxisShares shares;
+  for (int32_t k = 0; k < kAxes; ++k)
+    shares.velocity[k] = shares.acceleration[k] = shares.jerk[k] = 1.0;
   for (int32_t i = 0; i < group.uiAxes; ++i) {
     const auto &factors = group.astFactors.v[i];
     const int32_t k = placeOf(group, i);

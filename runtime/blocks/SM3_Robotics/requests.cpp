@@ -242,6 +242,7 @@ int16_t enqueue(GroupRef &group, Request &request) noexcept {
   request.id = group::drawId(state.motion);
   request.tool = toolOf(group);
   request.order.shares = sharesOf(group);
+  request.order.isShared = true;
   requestAt(state, state.nextRequest) = request;
   ++state.nextRequest;
   return 0;

@@ -32,11 +32,10 @@ enum class CornerSpeed : uint8_t { Smaller, First, Second, Greater };
 
 /// Factors of each axis's limits, above 0 up to 1.
 struct AxisShares {
-  double velocity[kAxes] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-  double acceleration[kAxes] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
-  double jerk[kAxes] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
+  double velocity[kAxes];
+  double acceleration[kAxes];
+  double jerk[kAxes];
 };
-static_assert(kAxes == 10);
 
 /// What is said of a movement besides its leg.
 struct Order {
@@ -48,6 +47,7 @@ struct Order {
   CornerSpeed cornerSpeed;
   double dwell;      ///< Time to wait, instead of a leg; 0: there is a leg. [s]
   bool noCorner;     ///< There can be no corner between the movement before and this one.
+  bool isShared;     ///< `shares` count.
   AxisShares shares; ///< Besides the three factors.
 };
 

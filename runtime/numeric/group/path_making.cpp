@@ -37,9 +37,14 @@ struct OrderedArm {
       : arm{all.kinematics, all.joints, all.more, limits, order.configuration} {
     for (int32_t k = 0; k < kAxes; ++k) {
       limits[k] = all.limits[k];
-      limits[k].velocity *= order.velocityFactor * order.shares.velocity[k];
-      limits[k].acceleration *= order.accelerationFactor * order.shares.acceleration[k];
-      limits[k].jerk *= order.jerkFactor * order.shares.jerk[k];
+      limits[k].velocity *= order.velocityFactor;
+      limits[k].acceleration *= order.accelerationFactor;
+      limits[k].jerk *= order.jerkFactor;
+      if (!order.isShared)
+        continue;
+      limits[k].velocity *= order.shares.velocity[k];
+      limits[k].acceleration *= order.shares.acceleration[k];
+      limits[k].jerk *= order.shares.jerk[k];
     }
   }
   OrderedArm(const Arm &all, const Order &order, const Allowance &allowance) noexcept
