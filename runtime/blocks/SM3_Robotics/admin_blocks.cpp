@@ -2,6 +2,7 @@
 // it is enabled.
 #include "runtime/blocks/SM3_Robotics/carriers.hpp"
 #include "runtime/blocks/SM3_Robotics/group_block.hpp"
+#include "runtime/blocks/SM3_Robotics/overrides.hpp"
 #include "runtime/numeric/group/kept_path.hpp"
 
 #include "st/SM3_Robotics/MC_AddAxisToGroup.h"
@@ -77,6 +78,7 @@ void decl::MC_RemoveAxisFromGroup::body__(::stride::Ctx &ctx__) {
     --group.uiAxes;
     for (int32_t i = index; i < group.uiAxes; ++i)
       group.apAxis.v[i] = group.apAxis.v[i + 1];
+    robotics::removeShares(group, index);
     return 0;
   });
 }
@@ -85,7 +87,8 @@ void decl::MC_UngroupAllAxes::body__(::stride::Ctx &ctx__) {
   robotics::runOnce(ctx__, *this, [](GroupRef &group) -> int16_t {
     if (!isDisabled(group))
       return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
-    group.uiAxes = 0;
+    for (; group.uiAxes > 0; --group.uiAxes)
+      robotics::resetShares(group, group.uiAxes - 1);
     return 0;
   });
 }

@@ -125,9 +125,9 @@ bool isInUse(const GroupRef &group, int16_t system) noexcept {
 }
 
 int32_t carrierOf(const GroupRef &group, const Request &request) noexcept {
-  if (request.kind == RequestKind::Halt)
+  if (!canRide(request))
     return 0;
-  if (request.system == decl::SMC_COORD_SYSTEM__TCS && request.kind != RequestKind::Direct)
+  if (request.system == decl::SMC_COORD_SYSTEM__TCS)
     return stateOf(group).rides;
   return carrierOf(group, request.system);
 }

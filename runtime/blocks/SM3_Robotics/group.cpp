@@ -120,17 +120,17 @@ void drive(const Ctx &ctx, GroupRef &group, const GroupArm &arm) noexcept {
   const double cycle = axisAt(group, 0).fTaskCycle;
   const auto milliseconds =
       static_cast<int32_t>(exact::smaller(exact::larger(cycle * 1e3, 1.0), 100.0));
-  const group::GroupCommand command{
-      cycle,
-      overrideOf(group),
-      isToStop(group, state),
-      state.deceleration,
-      kSteps * milliseconds,
-      kSamples * milliseconds,
-      group.fForecast,
-      stopsAtOnce(group, state),
-      allowanceOf(group),
-      state.rides != 0 ? stateOfCarrier(group, state.rides) : motion::State{}};
+  const group::GroupCommand command{cycle,
+                                    overrideOf(group),
+                                    isToStop(group, state),
+                                    state.deceleration,
+                                    kSteps * milliseconds,
+                                    kSamples * milliseconds,
+                                    group.fForecast,
+                                    stopsAtOnce(group, state),
+                                    allowanceOf(group),
+                                    state.rides != 0 ? stateOfCarrier(group, state.rides)
+                                                     : motion::State{}};
   group::plan(state.motion, arm.arm, command);
   state.forecast = group::plannedTime(state.motion);
   state.rest = group::nextRest(state.motion);
@@ -157,13 +157,12 @@ void settle(GroupRef &group) noexcept {
   forgetSystems(state);
   if (!state.motion.abandoned)
     group::clear(state.motion);
-  releaseAxes(group);
-  group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
+  endMoving(group);
 }
 
 } // namespace
 
-void releaseAxes(GroupRef &group) noexcept {
+void endMoving(GroupRef &group) noexcept {
   for (int32_t i = 0; i < group.uiAxes && group.bOwns != 0; ++i) {
     AxisRef &axis = axisAt(group, i);
     if (!axis::ownsAxis(axis, group.aulOwner.v[i]))
@@ -173,6 +172,7 @@ void releaseAxes(GroupRef &group) noexcept {
     axis.nAxisState = axis::state::kStandstill;
   }
   group.bOwns = 0;
+  group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
 }
 
 GroupState &stateOf(GroupRef &group) noexcept {
@@ -274,8 +274,7 @@ void endStop(GroupRef &group) {
     return;
   endTriggers(stateOf(group));
   forgetSystems(stateOf(group));
-  releaseAxes(group); // what it has aborted may still be kept
-  group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
+  endMoving(group); // what it has aborted may still be kept
 }
 
 int16_t enable(Ctx &ctx, GroupRef &group) {

@@ -36,6 +36,7 @@ enum class RequestKind : uint8_t {
   Linear,   ///< The tool goes straight.
   Circular, ///< It goes along an arc.
   Halt,     ///< The group comes to rest.
+  Jog,      ///< It goes on in a direction as far as it can: see jog.cpp.
 };
 
 /// What a block asks of a group.
@@ -48,11 +49,11 @@ struct Request {
   double position[kArmAxes]; ///< Of axes, or a pose by X, Y, Z, A, B, C. [u], [°]
   int16_t circleMode;        ///< Circular: SMC_CIRC_MODE
   int16_t pathChoice;        ///< Circular: MC_CIRC_PATHCHOICE
-  double aux[kArmAxes];      ///< Circular: AuxPoint, like `position`.
-  group::Order order;        ///< But for its configuration.
-  double deceleration;       ///< Halt: see MC_GroupHalt. [u/s^2]
-  bool forgets;              ///< Halt: what it aborts cannot be continued.
-  Tool tool;                 ///< When it was asked for.
+  double aux[kArmAxes]; ///< Circular: AuxPoint, like `position`. Jog: how far at most [u], [°].
+  group::Order order;   ///< But for its configuration.
+  double deceleration;  ///< Halt: see MC_GroupHalt. [u/s^2]
+  bool forgets;         ///< Halt: what it aborts cannot be continued.
+  Tool tool;            ///< When it was asked for.
 };
 
 /// What a group keeps besides what ST sees. Trivially copyable.
@@ -96,8 +97,9 @@ void serve(Ctx &ctx, GroupRef &group);
 /// Whether a command may take the group's axes now: an SMC_ERROR if not.
 int16_t whyNotReady(const GroupRef &group) noexcept;
 
-/// Lets the axes go that the group has.
-void releaseAxes(GroupRef &group) noexcept;
+/// Lets the axes go that the group has: it is in standby.
+void endMoving(GroupRef &group) noexcept;
+
 /// Whether it is at rest on its path, and follows nothing that moves.
 inline bool standsStill(const GroupState &state) noexcept {
   return group::isAtRest(state.motion) && group::isStill(state.motion.ride) &&

@@ -63,7 +63,7 @@ uint64_t checkOf(const ContinueData &content) noexcept {
 void save(const GroupRef &group, DataRef &data) noexcept {
   const GroupState &state = stateOf(group);
   ContinueData &content = contentOf(data);
-  __builtin_memset(&content, 0, sizeof content);
+  __builtin_memset(static_cast<void *>(&content), 0, sizeof content);
   content.joints = group.uiJoints;
   content.axes = group.uiAxes;
   content.tool = group.bOwns != 0 || state.motion.abandoned ? state.tool : toolOf(group);
@@ -147,8 +147,7 @@ void finishInterrupt(GroupRef &group, DataRef &data) noexcept {
   if (!state.motion.abandoned)
     group::suspend(state.motion);
   state.interrupting = false;
-  releaseAxes(group);
-  group.eState = decl::SMC_AXIS_GROUP_STATE__GroupStandby;
+  endMoving(group);
 }
 
 /// The rising edge of MC_GroupInterrupt.

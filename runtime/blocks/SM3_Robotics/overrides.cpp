@@ -1,10 +1,13 @@
 #include "runtime/blocks/SM3_Robotics/overrides.hpp"
 
+#include "runtime/blocks/SM3_Robotics/frames.hpp"
 #include "runtime/blocks/SM3_Robotics/group_block.hpp"
 
 #include "st/SM3_Robotics/MC_GroupSetOverride.h"
 #include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
+#include "st/SM3_Robotics/SMC_GroupReadAxisLimitFactors.h"
 #include "st/SM3_Robotics/SMC_GroupSetAncillaryPathLimits.h"
+#include "st/SM3_Robotics/SMC_GroupSetAxisLimitFactors.h"
 
 namespace stride::robotics {
 
@@ -48,6 +51,30 @@ group::Allowance allowanceOf(const GroupRef &group) noexcept {
   return allowance;
 }
 
+group::AxisShares sharesOf(const GroupRef &group) noexcept {
+  group::AxisShares shares;
+  for (int32_t k = 0; k < kAxes; ++k)
+    shares.velocity[k] = shares.acceleration[k] = shares.jerk[k] = 1.0;
+  for (int32_t i = 0; i < group.uiAxes; ++i) {
+    const auto &factors = group.astFactors.v[i];
+    const int32_t k = placeOf(group, i);
+    shares.velocity[k] = factors.fVel;
+    shares.acceleration[k] = factors.fAcc;
+    shares.jerk[k] = factors.fJerk;
+  }
+  return shares;
+}
+
+void resetShares(GroupRef &group, int32_t axis) noexcept {
+  group.astFactors.v[axis] = {1.0, 1.0, 1.0, 1.0};
+}
+
+void removeShares(GroupRef &group, int32_t axis) noexcept {
+  for (int32_t i = axis; i + 1 < kAxes; ++i)
+    group.astFactors.v[i] = group.astFactors.v[i + 1];
+  resetShares(group, kAxes - 1);
+}
+
 } // namespace stride::robotics
 
 namespace {
@@ -76,6 +103,33 @@ int16_t setOverride(const decl::MC_GroupSetOverride &block, robotics::GroupRef &
   return 0;
 }
 
+int16_t setFactors(const decl::SMC_GroupSetAxisLimitFactors &block,
+                   robotics::GroupRef &group) noexcept {
+  if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupDisabled ||
+      group.eState == decl::SMC_AXIS_GROUP_STATE__GroupErrorStop)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
+  for (int32_t i = 0; i < group.uiAxes; ++i)
+    if (!isFactor(block.VelFactors.v[i]) || !isFactor(block.AccFactors.v[i]) ||
+        !isFactor(block.JerkFactors.v[i]) || !isFactor(block.TorqueFactors.v[i]))
+      return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_FACTOR;
+  for (int32_t i = 0; i < group.uiAxes; ++i)
+    group.astFactors.v[i] = {block.VelFactors.v[i], block.AccFactors.v[i], block.JerkFactors.v[i],
+                             block.TorqueFactors.v[i]};
+  return 0;
+}
+
+int16_t readFactors(decl::SMC_GroupReadAxisLimitFactors &block,
+                    const robotics::GroupRef &group) noexcept {
+  for (int32_t i = 0; i < robotics::kAxes; ++i) {
+    const auto &factors = group.astFactors.v[i];
+    block.VelFactors.v[i] = factors.fVel;
+    block.AccFactors.v[i] = factors.fAcc;
+    block.JerkFactors.v[i] = factors.fJerk;
+    block.TorqueFactors.v[i] = factors.fTorque;
+  }
+  return 0;
+}
+
 int16_t setPathLimits(const decl::SMC_GroupSetAncillaryPathLimits &block,
                       robotics::GroupRef &group) noexcept {
   if (!robotics::takesMovements(group))
@@ -96,6 +150,16 @@ int16_t setPathLimits(const decl::SMC_GroupSetAncillaryPathLimits &block,
 void decl::SMC_GroupSetAncillaryPathLimits::body__(::stride::Ctx &ctx__) {
   robotics::runOnce(ctx__, *this,
                     [this](robotics::GroupRef &group) { return setPathLimits(*this, group); });
+}
+
+void decl::SMC_GroupSetAxisLimitFactors::body__(::stride::Ctx &ctx__) {
+  robotics::runOnce(ctx__, *this,
+                    [this](robotics::GroupRef &group) { return setFactors(*this, group); });
+}
+
+void decl::SMC_GroupReadAxisLimitFactors::body__(::stride::Ctx &ctx__) {
+  robotics::runOnce(ctx__, *this,
+                    [this](robotics::GroupRef &group) { return readFactors(*this, group); });
 }
 
 void decl::MC_GroupSetOverride::body__(::stride::Ctx &ctx__) {

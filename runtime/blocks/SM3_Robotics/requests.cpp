@@ -1,5 +1,7 @@
 #include "runtime/blocks/SM3_Robotics/requests.hpp"
 
+#include "runtime/blocks/SM3_Robotics/overrides.hpp"
+
 #include "runtime/axis/axis_ref.hpp"
 #include "runtime/blocks/SM3_Robotics/carriers.hpp"
 #include "runtime/numeric/group/kept_path.hpp"
@@ -25,6 +27,12 @@ bool aborts(const Request &request) noexcept {
 
 bool isFactor(double factor) noexcept { return factor > 0.0 && factor <= 1.0; }
 
+bool leadsTool(const Request &request) noexcept {
+  if (request.kind == RequestKind::Jog)
+    return request.system != decl::SMC_COORD_SYSTEM__ACS;
+  return request.kind == RequestKind::Linear || request.kind == RequestKind::Circular;
+}
+
 /// What is wrong with the inputs of a movement: an SMC_ERROR.
 int16_t wrongInput(const Request &request) noexcept {
   if (request.kind == RequestKind::Halt)
@@ -38,7 +46,7 @@ int16_t wrongInput(const Request &request) noexcept {
       !isFactor(order.jerkFactor))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_FACTOR;
   const group::PathLimits &path = order.path;
-  if (request.kind != RequestKind::Direct &&
+  if (leadsTool(request) &&
       (!exact::isPositive(path.velocity) || !exact::isPositive(path.acceleration) ||
        !exact::isPositive(path.deceleration) || !exact::isPositive(path.jerk)))
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_DYNAMICS;
@@ -47,7 +55,9 @@ int16_t wrongInput(const Request &request) noexcept {
   for (const double position : request.position)
     if (!exact::isfinite(position))
       return error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
-  return request.kind == RequestKind::Circular ? wrongCircle(request) : int16_t{0};
+  if (request.kind == RequestKind::Circular)
+    return wrongCircle(request);
+  return request.kind == RequestKind::Jog ? wrongJog(request) : int16_t{0};
 }
 
 /// The axes where a movement ends that is given by the tool. An SMC_ERROR.
@@ -119,31 +129,21 @@ int16_t linearLeg(const GroupArm &arm, const Ends &ends, group::Leg &leg) {
   return 0;
 }
 
-/// How long ways of axes are beside ways of the tool: the velocity that a second's way is taken
-/// for.
-double speedOf(const GroupMotion &motion, const group::Order &order) noexcept {
-  if (motion.first < motion.next) {
-    const group::Movement &last =
-        motion.movement[static_cast<uint64_t>(motion.next - 1) % group::kMovements];
-    if (group::leadsTool(last.leg))
-      return last.order.path.velocity;
-  }
-  constexpr double kAny = 100.0;
-  return exact::isPositive(order.path.velocity) ? order.path.velocity : kAny;
-}
-
 /// The leg of a request from ends.from on; where it ends goes into ends.to. An SMC_ERROR.
 int16_t legOf(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends,
               group::Leg &leg) {
   if (request.kind == RequestKind::Circular)
     return circularLeg(group, arm, request, ends, leg);
+  if (request.kind == RequestKind::Jog)
+    return jogLeg(group, arm, request, ends, leg);
   if (const int16_t wrong = findEnd(group, arm, request, ends); wrong != 0)
     return wrong;
   if (request.kind == RequestKind::Linear)
     return linearLeg(arm, ends, leg);
   double perTime[kAxes];
   for (int32_t k = 0; k < kAxes; ++k)
-    perTime[k] = arm.arm.limits[k].velocity * request.order.velocityFactor;
+    perTime[k] = arm.arm.limits[k].velocity * request.order.velocityFactor *
+                 request.order.shares.velocity[k];
   leg = group::axesLeg(ends.from, ends.to, perTime, speedOf(stateOf(group).motion, request.order));
   return 0;
 }
@@ -155,7 +155,7 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
   Ends ends;
   for (int32_t k = 0; k < kAxes; ++k)
     ends.from[k] = ends.to[k] = first ? state.motion.axes[k] : state.end[k];
-  const bool carried = group::isCarried(state.motion) && request.kind != RequestKind::Direct;
+  const bool carried = group::isCarried(state.motion) && canRide(request);
   group::Leg leg;
   if (const int16_t wrong = carried ? carriedLeg(group, arm, request, moreAxesOf(ends), leg)
                                     : legOf(group, arm, request, ends, leg);
@@ -217,15 +217,22 @@ void begin(GroupRef &group, GroupArm &arm, const Request &request) {
     group::setOutcome(state.motion, request.id, group::Outcome::Done);
     return;
   }
-  if (group.bOwns != 0) {
+  const bool owned = group.bOwns != 0;
+  if (owned) {
     endTriggers(state);
     group::clear(state.motion);
   }
   beginMoving(group);
   changeTool(state, arm, request.tool);
   changeSystem(group, arm, carrierOf(group, request), request);
-  if (const int16_t wrong = append(group, arm, request); wrong != 0)
-    fail(state, request.id, wrong);
+  const int16_t wrong = append(group, arm, request);
+  if (wrong == 0)
+    return;
+  fail(state, request.id, wrong);
+  if (!owned) {
+    forgetSystems(state);
+    endMoving(group);
+  }
 }
 
 /// Whether the movements before have come to rest as the next request needs it. One system at a
@@ -238,6 +245,17 @@ bool canBegin(const GroupRef &group, bool elsewhere) noexcept {
 }
 
 } // namespace
+
+double speedOf(const GroupMotion &motion, const group::Order &order) noexcept {
+  if (motion.first < motion.next) {
+    const group::Movement &last =
+        motion.movement[static_cast<uint64_t>(motion.next - 1) % group::kMovements];
+    if (group::leadsTool(last.leg))
+      return last.order.path.velocity;
+  }
+  constexpr double kAny = 100.0;
+  return exact::isPositive(order.path.velocity) ? order.path.velocity : kAny;
+}
 
 Frame<double> targetIn(const Frame<double> &system, const Request &request,
                        const double (&coordinates)[kArmAxes], const Frame<double> &begin) {
@@ -265,7 +283,8 @@ int16_t enqueue(GroupRef &group, Request &request) noexcept {
   GroupState &state = stateOf(group);
   if (const int16_t wrong = wrongInput(request); wrong != 0)
     return wrong;
-  if (request.kind == RequestKind::Direct && carrierOf(group, request.system) != 0)
+  if (request.kind != RequestKind::Halt && !canRide(request) &&
+      carrierOf(group, request.system) != 0)
     return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_COORDINATE_SYSTEM;
   if (aborts(request)) {
     abortAll(state, false);
@@ -275,6 +294,8 @@ int16_t enqueue(GroupRef &group, Request &request) noexcept {
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
   request.id = group::drawId(state.motion);
   request.tool = toolOf(group);
+  request.order.shares = sharesOf(group);
+  request.order.isShared = true;
   requestAt(state, state.nextRequest) = request;
   ++state.nextRequest;
   return 0;
@@ -339,7 +360,7 @@ bool demandsStandstill(const GroupRef &group) noexcept {
   if (state.firstRequest == state.nextRequest)
     return false;
   const Request &request = requestAt(state, state.firstRequest);
-  return request.kind == RequestKind::Halt || request.kind == RequestKind::Direct;
+  return !canRide(request);
 }
 
 bool stopsAtOnce(const GroupRef &group, const GroupState &state) noexcept {

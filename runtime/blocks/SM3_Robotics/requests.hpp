@@ -44,6 +44,18 @@ int16_t circularLeg(const GroupRef &group, const GroupArm &arm, const Request &r
 int16_t arcLeg(const Request &request, const group::Pose &from, const numeric::Vector3 &aux,
                const group::Pose &to, const group::MoreAxes &more, group::Leg &leg) noexcept;
 
+/// What is wrong with the inputs of jogging: an SMC_ERROR.
+int16_t wrongJog(const Request &request) noexcept;
+
+/// The leg of jogging from ends.from on, as far as it can go; where it ends goes into ends.to. An
+/// SMC_ERROR.
+int16_t jogLeg(const GroupRef &group, const GroupArm &arm, const Request &request, Ends &ends,
+               group::Leg &leg);
+
+/// How long ways of axes are beside ways of the tool: the velocity that a second's way is taken
+/// for.
+double speedOf(const group::GroupMotion &motion, const group::Order &order) noexcept;
+
 /// What waits is over, and movements with it; what has been kept to be continued, too, if `all`.
 void abortAll(GroupState &state, bool all) noexcept;
 
@@ -63,6 +75,11 @@ void fail(GroupState &state, uint64_t id, int16_t error) noexcept;
 
 /// Whether the request that is the next one waits until the group is at rest on its path.
 bool demandsRest(const GroupState &state) noexcept;
+
+/// Whether a movement can be along a path in a system that moves.
+inline bool canRide(const Request &request) noexcept {
+  return request.kind == RequestKind::Linear || request.kind == RequestKind::Circular;
+}
 
 /// Whether it waits until the group does not follow a moving system any more.
 bool demandsStandstill(const GroupRef &group) noexcept;

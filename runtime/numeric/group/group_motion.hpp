@@ -31,6 +31,13 @@ enum class Transition : uint8_t {
 /// jerk likewise).
 enum class CornerSpeed : uint8_t { Smaller, First, Second, Greater };
 
+/// Factors of each axis's limits, above 0 up to 1.
+struct AxisShares {
+  double velocity[kAxes];
+  double acceleration[kAxes];
+  double jerk[kAxes];
+};
+
 /// What is said of a movement besides its leg.
 struct Order {
   PathLimits path;                                       ///< Where the tool leads.
@@ -39,8 +46,10 @@ struct Order {
   Transition transition;
   double transitionValue; ///< See Transition.
   CornerSpeed cornerSpeed;
-  double dwell;  ///< Time to wait, instead of a leg; 0: there is a leg. [s]
-  bool noCorner; ///< There can be no corner between the movement before and this one.
+  double dwell;      ///< Time to wait, instead of a leg; 0: there is a leg. [s]
+  bool noCorner;     ///< There can be no corner between the movement before and this one.
+  bool isShared;     ///< `shares` count.
+  AxisShares shares; ///< Besides the three factors.
 };
 
 enum class Outcome : uint8_t {

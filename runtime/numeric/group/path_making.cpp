@@ -41,6 +41,11 @@ struct OrderedArm {
       limits[k].velocity *= order.velocityFactor;
       limits[k].acceleration *= order.accelerationFactor;
       limits[k].jerk *= order.jerkFactor;
+      if (!order.isShared)
+        continue;
+      limits[k].velocity *= order.shares.velocity[k];
+      limits[k].acceleration *= order.shares.acceleration[k];
+      limits[k].jerk *= order.shares.jerk[k];
     }
   }
   OrderedArm(const Arm &all, const Order &order, const Allowance &allowance) noexcept
