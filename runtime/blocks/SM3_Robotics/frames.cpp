@@ -21,8 +21,12 @@ Frame<double> frameOf(const decl::MC_COORD_REF &coordinates) {
 
 group::AxisLimits limitsOf(const axis::AxisRef &axis) noexcept {
   const bool bounded = axis.iMovementType != 0 && axis.bSWLimitEnable != 0;
-  const double low = bounded ? axis.fSWLimitNegative : -exact::kInfinity;
-  const double high = bounded ? axis.fSWLimitPositive : exact::kInfinity;
+  double low = -exact::kInfinity;
+  double high = exact::kInfinity;
+  if (bounded) {
+    low = axis.fSWLimitNegative;
+    high = axis.fSWLimitPositive;
+  }
   return {axis.fSWMaxVelocity, exact::smaller(axis.fSWMaxAcceleration, axis.fSWMaxDeceleration),
           axis.fSWMaxJerk, low, high};
 }
