@@ -22,9 +22,14 @@ Frame<double> frameOf(const decl::MC_COORD_REF &coordinates) {
 
 group::AxisLimits limitsOf(const axis::AxisRef &axis) noexcept {
   const bool bounded = axis.iMovementType != 0 && axis.bSWLimitEnable != 0;
+  double low = -exact::kInfinity;
+  double high = exact::kInfinity;
+  if (bounded) {
+    low = axis.fSWLimitNegative;
+    high = axis.fSWLimitPositive;
+  }
   return {axis.fSWMaxVelocity, exact::smaller(axis.fSWMaxAcceleration, axis.fSWMaxDeceleration),
-          axis.fSWMaxJerk, bounded ? axis.fSWLimitNegative : -exact::kInfinity,
-          bounded ? axis.fSWLimitPositive : exact::kInfinity};
+          axis.fSWMaxJerk, low, high};
 }
 
 kinematics::KinematicsRef refOf(const kinematics::KinematicsOf &kinematics,

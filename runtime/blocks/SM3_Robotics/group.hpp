@@ -42,6 +42,7 @@ enum class RequestKind : uint8_t {
 /// What a block asks of a group.
 struct Request {
   uint64_t id;
+  uint64_t cycle; ///< In which it was asked for: GroupRef::ulServed.
   RequestKind kind;
   bool relative;
   int16_t system;            ///< SMC_COORD_SYSTEM

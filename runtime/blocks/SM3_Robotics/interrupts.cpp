@@ -83,6 +83,22 @@ void save(const GroupRef &group, DataRef &data) noexcept {
   content.check = checkOf(content);
 }
 
+/// Adds what has been asked for after that in the same cycle, from a number of requests on: until
+/// it was aborted.
+void saveMore(const GroupRef &group, int64_t first, uint64_t cycle, DataRef &data) noexcept {
+  const GroupState &state = stateOf(group);
+  ContinueData &content = contentOf(data);
+  if (state.nextRequest - first > kRequestRing)
+    return;
+  for (int64_t k = first; k < state.nextRequest && content.requests < kRequests; ++k) {
+    const Request &request = requestAt(state, k);
+    if (request.cycle != cycle || aborts(request))
+      break;
+    content.request[content.requests++] = request;
+  }
+  content.check = checkOf(content);
+}
+
 bool isValid(const GroupRef &group, const DataRef &data) noexcept {
   const ContinueData &content = contentOf(data);
   return content.check != 0 && content.joints == group.uiJoints && content.axes == group.uiAxes &&
@@ -257,8 +273,19 @@ void decl::SMC_GroupSaveContinueData::body__(::stride::Ctx &ctx__) {
     if (::stride::group::isCarried(robotics::stateOf(group).motion))
       return error::SMC_ERROR__SMC_AXIS_GROUP_NOT_RESUMABLE;
     robotics::save(group, *continueData);
+    stBlock.bRunning = group.bOwns;
+    stBlock.ulId = static_cast<uint64_t>(robotics::stateOf(group).nextRequest);
+    ulCycle = group.ulServed;
     return 0;
   });
+  if (stBlock.bRunning != 0 && AxisGroup->ulServed != ulCycle) { // the cycle is over
+    robotics::saveMore(*AxisGroup, static_cast<int64_t>(stBlock.ulId), ulCycle, *continueData);
+    stBlock.bRunning = 0;
+    Done = Execute;
+  }
+  Busy = stBlock.bRunning;
+  if (Busy != 0)
+    Done = 0;
 }
 
 void decl::SMC_GroupEnableResumeAfterError::body__(::stride::Ctx &ctx__) {

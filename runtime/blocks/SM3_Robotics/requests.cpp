@@ -21,10 +21,6 @@ using group::GroupMotion;
 using kinematics::Frame;
 using kinematics::Outcome;
 
-bool aborts(const Request &request) noexcept {
-  return request.bufferMode == buffer::MC_BUFFER_MODE__Aborting;
-}
-
 bool isFactor(double factor) noexcept { return factor > 0.0 && factor <= 1.0; }
 
 bool leadsTool(const Request &request) noexcept {
@@ -246,6 +242,10 @@ bool canBegin(const GroupRef &group, bool elsewhere) noexcept {
 
 } // namespace
 
+bool aborts(const Request &request) noexcept {
+  return request.bufferMode == buffer::MC_BUFFER_MODE__Aborting;
+}
+
 double speedOf(const GroupMotion &motion, const group::Order &order) noexcept {
   if (motion.first < motion.next) {
     const group::Movement &last =
@@ -293,6 +293,7 @@ int16_t enqueue(GroupRef &group, Request &request) noexcept {
   if (state.nextRequest - state.firstRequest == kRequests)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
   request.id = group::drawId(state.motion);
+  request.cycle = group.ulServed;
   request.tool = toolOf(group);
   request.order.shares = sharesOf(group);
   request.order.isShared = true;

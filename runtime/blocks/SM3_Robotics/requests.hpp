@@ -19,6 +19,9 @@ void beginMoving(GroupRef &group) noexcept;
 /// SMC_ERROR if there is no room, or if its inputs are wrong.
 int16_t enqueue(GroupRef &group, Request &request) noexcept;
 
+/// Whether a request ends all before it.
+bool aborts(const Request &request) noexcept;
+
 /// Makes movements of the requests that wait, as far as they can be taken now.
 void takeRequests(GroupRef &group, GroupArm &arm);
 
