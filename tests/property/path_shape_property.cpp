@@ -93,6 +93,51 @@ TEST(PathShape, HasTheLengthOfItsChords) {
   }
 }
 
+/// The integral of the speed of a polynomial by Gauss's rule of three points, in long double.
+long double speedIntegral(const Shape &shape, int parts) {
+  const auto speed = [&shape](long double u) {
+    long double d[3] = {};
+    for (int k = 5; k >= 1; --k) {
+      const Vector3 &c = shape.v[k];
+      const long double axes[] = {c.x, c.y, c.z};
+      for (int axis = 0; axis < 3; ++axis)
+        d[axis] = d[axis] * u + k * axes[axis];
+    }
+    return std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+  };
+  const long double place = std::sqrt(0.6L);
+  long double sum = 0;
+  for (int i = 0; i < parts; ++i) {
+    const long double middle = (i + 0.5L) / parts;
+    const long double off = place / (2 * parts);
+    sum += 8 * speed(middle) + 5 * (speed(middle - off) + speed(middle + off));
+  }
+  return sum / (18 * parts);
+}
+
+TEST(PathShape, APolynomialHasItsLengthToTheLastDigits) {
+  int checked = 0;
+  for (int i = 0; i < casesOf(1500); ++i) {
+    Random random(static_cast<uint64_t>(i));
+    const double size = random.magnitude(-4, 4);
+    Vector3 begin = randomVector(random, size);
+    // As corners have them, and wild ones.
+    const double wild = random.chance(0.5) ? 0.3 : 3;
+    const Vector3 end = begin + randomVector(random, wild * size);
+    const Shape shape = quinticShape({{}, begin, randomVector(random, wild * size), {}},
+                                     {begin + randomVector(random, 0.5 * wild * size),
+                                      end,
+                                      randomVector(random, wild * size),
+                                      {}});
+    const long double length = speedIntegral(shape, 800);
+    if (std::fabs(speedIntegral(shape, 400) - length) > 1e-14L * length)
+      continue; // nearly a cusp
+    ++checked;
+    ASSERT_NEAR(shape.length, static_cast<double>(length), 1e-14 * shape.length) << "seed " << i;
+  }
+  EXPECT_GT(checked, casesOf(1500) / 2);
+}
+
 TEST(PathShape, AnEllipseHasTheLengthOfTheEllipticIntegral) {
   // The whole of it: 2 pi a (1 - sum of 2^(n-1) c_n^2) / M, M the arithmetic-geometric mean of 1
   // and b/a.

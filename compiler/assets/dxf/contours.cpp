@@ -78,8 +78,8 @@ private:
   using Cell = std::pair<int64_t, int64_t>;
   struct Hash {
     size_t operator()(const Cell &cell) const {
-      return static_cast<size_t>(cell.first * 0x9E3779B97F4A7C15 ^
-                                 cell.second * 0x632BE59BD9B4E019);
+      return static_cast<size_t>(cell.first) * 0x9E3779B97F4A7C15 ^
+             static_cast<size_t>(cell.second) * 0x632BE59BD9B4E019;
     }
   };
 

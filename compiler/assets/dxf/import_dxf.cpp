@@ -163,7 +163,7 @@ private:
     std::vector<Beginning> all;
     const std::vector<Piece> &pieces = contour.pieces;
     const auto add = [&](size_t piece, double part) {
-      const Point place = placeAt(pieces[piece], part);
+      const Point place = part == 0 ? pieces[piece].start : placeAt(pieces[piece], part);
       all.push_back({piece, part, place, place});
     };
     if (pieces.size() == 1 && isFull(pieces[0])) {

@@ -157,7 +157,7 @@ TEST(DxfBad, DamagedDrawingsAreRefusedOrBecomePrograms) {
   std::mt19937 random(1);
   const auto pick = [&](size_t count) { return random() % count; };
   size_t good = 0;
-  for (unsigned round = 0; round < 120; ++round) {
+  for (unsigned round = 0; round < 60; ++round) {
     std::string text = RandomDrawing(round % 20, 2).text();
     for (size_t changes = 1 + pick(3); changes > 0; --changes) {
       const size_t at = text.find('\n', pick(text.size() - 1));
@@ -200,8 +200,8 @@ TEST(DxfBad, DamagedDrawingsAreRefusedOrBecomePrograms) {
     if (HasFailure())
       FAIL() << "round " << round << "\n" << text;
   }
-  EXPECT_GT(good, 25U);
-  EXPECT_LT(good, 100U);
+  EXPECT_GT(good, 10U);
+  EXPECT_LT(good, 55U);
 }
 
 } // namespace

@@ -44,7 +44,7 @@ std::string brokenRing(std::mt19937 &random, Spot centre, double size, double of
 }
 
 TEST(DxfContours, EndsWithinEpsilonAreJoined) {
-  for (unsigned seed = 0; seed < 60; ++seed) {
+  for (unsigned seed = 0; seed < 300; ++seed) {
     std::mt19937 random(seed);
     DxfImport how;
     how.epsilon = seed % 3 == 0 ? 0.05 : 0.001;

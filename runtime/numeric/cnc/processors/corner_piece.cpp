@@ -37,10 +37,21 @@ struct Ends {
 
 bool isLine(const path::Shape &shape) noexcept { return shape.kind == path::ShapeKind::Line; }
 
+/// An arc that stays in its plane.
+bool isCircle(const path::Shape &shape) noexcept {
+  return shape.kind == path::ShapeKind::Arc && dot(shape.v[3], shape.v[3]) == 0.0;
+}
+
 /// How far along an object a circle around the corner meets it; `most` if it does not before.
 double wayAt(const path::Shape &shape, bool atEnd, double distance, double most) noexcept {
   if (isLine(shape))
     return smaller(distance, most);
+  if (isCircle(shape)) { // where the chord is as long
+    const double radius = norm(shape.v[1]);
+    const double rest = 4.0 * radius * radius - distance * distance;
+    return rest > 0.0 ? smaller(2.0 * radius * ::stride::atan2(distance, exact::sqrt(rest)), most)
+                      : most;
+  }
   const Vector3 corner = path::overParameter(shape, atEnd ? 1.0 : 0.0).p;
   double way = smaller(distance, most);
   for (int trial = 0; trial < kTrials; ++trial) {
