@@ -290,4 +290,85 @@ TEST(GroupTrigger, ComesWhenItIsForetold) {
   EXPECT_GT(bisected, 200);
 }
 
+Vector3 randomVector(Random &random, double size) {
+  return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
+}
+
+/// A leg of a portal, and where it is at a part of it, as the test knows it.
+struct KnownLeg {
+  Leg leg;
+  Vector3 start, first, second;
+  double sweep; ///< Of a circle; 0: a line. [rad]
+
+  Vector3 at(double part) const {
+    if (sweep > 0)
+      return start + first * std::cos(part * sweep) + second * std::sin(part * sweep);
+    return start + first * part;
+  }
+};
+
+KnownLeg randomLeg(Random &random) {
+  KnownLeg known{};
+  known.start = randomVector(random, 100);
+  known.first = randomVector(random, 100);
+  const Frame<double> from{Matrix<double>::Identity(), vectorOf(known.start)};
+  const int kind = random.below(3);
+  if (kind == 0) {
+    const Frame<double> to{Matrix<double>::Identity(), vectorOf(known.start + known.first)};
+    known.leg = lineLeg(poseOf(from), poseOf(to), MoreAxes{});
+  } else if (kind == 1) {
+    Vector3 across = stride::numeric::cross(known.first, randomVector(random, 1));
+    known.second = across * (stride::numeric::norm(known.first) / stride::numeric::norm(across));
+    known.sweep = random.uniform(0.1, 6.2);
+    const Pose begin{known.start + known.first, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    known.leg =
+        circleLeg(begin, {known.start, known.first, known.second, known.sweep}, begin, MoreAxes{});
+  } else {
+    const Vector3 to = known.start + known.first;
+    known.leg = axesLeg({known.start.x, known.start.y, known.start.z}, {to.x, to.y, to.z},
+                        {80, 120, 100, 1, 1, 1, 1, 1, 1, 1}, 70);
+  }
+  return known;
+}
+
+TEST(GroupTrigger, PlanesAreWhereTheToolComesIntoThem) {
+  constexpr int kPlaces = 4001;
+  Random random(20261124);
+  const Machine machine = gantry();
+  const Arm arm = machine.arm();
+  int crossed = 0;
+  for (int n = 0; n < 1500; ++n) {
+    SCOPED_TRACE(n);
+    const KnownLeg known = randomLeg(random);
+    Plane plane{};
+    plane.normal = randomVector(random, 1);
+    plane.normal = plane.normal * (1 / stride::numeric::norm(plane.normal));
+    plane.distance = random.uniform(0, 120);
+    const auto height = [&](double part) {
+      return stride::numeric::dot(plane.normal, known.at(part)) - plane.distance;
+    };
+    double expected = -1;
+    for (int i = 1; i < kPlaces && expected < 0; ++i) {
+      double low = (i - 1.0) / (kPlaces - 1);
+      double high = static_cast<double>(i) / (kPlaces - 1);
+      if ((height(low) < 0) == (height(high) < 0))
+        continue;
+      const bool below = height(low) < 0;
+      for (int half = 0; half < 60; ++half) {
+        const double middle = (low + high) / 2;
+        ((height(middle) < 0) == below ? low : high) = middle;
+      }
+      expected = high * known.leg.length;
+    }
+    const double way = wayInPlane(arm, known.leg, plane);
+    if (expected < 0) { // but for one that is touched between two of the test's places
+      EXPECT_LT(way < 0 ? 0 : std::abs(height(way / known.leg.length)), 1e-9);
+      continue;
+    }
+    ++crossed;
+    EXPECT_NEAR(way, expected, 1e-9 * known.leg.length);
+  }
+  EXPECT_GT(crossed, 300);
+}
+
 } // namespace
