@@ -19,6 +19,7 @@ using namespace stride::group;
 namespace kinematics = stride::kinematics;
 using namespace stride::test;
 
+constexpr Vector3 kZeroPlace{0, 0, 0};
 constexpr double kNanosecond = 1e-9;
 constexpr double kSlow = 0.01; // where a nanosecond is within what ways are rounded to [u/s]
 
@@ -65,10 +66,10 @@ public:
   void run(int movements) {
     int left = movements;
     const bool atOnce = random_.chance(0.5);
-    while (atOnce && left > 0)
+    while (atOnce && left > 0 && hasRoom(*group_))
       left -= order() ? 1 : 0;
     for (int64_t n = 0; n < 200'000 && !failed_; ++n, now_ += cycle_) {
-      if (left > 0 && hasRoom(*group_) && random_.chance(0.02))
+      if (left > 0 && hasRoom(*group_) && (atOnce || random_.chance(0.02)))
         left -= order() ? 1 : 0;
       if (left == 0 && group_->first == group_->next && isAtRest(*group_))
         break;
@@ -278,7 +279,7 @@ TEST(GroupTrigger, ComesWhenItIsForetold) {
   for (unsigned seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(seed);
     Drive drive(seed);
-    drive.run(8);
+    drive.run(seed % 20 == 0 ? 40 : 8); // also more than are remembered at once
     reached += drive.reached();
     inCorners += drive.inCorners();
     bisected += drive.bisected();
@@ -288,6 +289,49 @@ TEST(GroupTrigger, ComesWhenItIsForetold) {
   EXPECT_GT(reached, 300);
   EXPECT_GT(inCorners, 30);
   EXPECT_GT(bisected, 200);
+}
+
+/// As many movements as there is room for, all the time: also in corners it is known where the
+/// group is.
+TEST(GroupTrigger, PlacesOnlyGrowWithAFullQueue) {
+  constexpr int kAll = 90;
+  Random random(7);
+  Machine machine = gantry();
+  for (AxisLimits &limits : machine.limits)
+    limits = {200, 2000, 40000, -1e4, 1e4};
+  const Arm arm = machine.arm();
+  auto group = std::make_unique<GroupMotion>();
+  reset(*group, machine.home);
+  Pose from{kZeroPlace, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+  Order order{};
+  order.path = {150, 1500, 1500, 30000};
+  order.velocityFactor = order.accelerationFactor = order.jerkFactor = 1;
+  order.configuration = arm.configuration;
+  order.transition = Transition::Distance;
+  order.transitionValue = 2;
+  double last = 0;
+  int inCorners = 0;
+  for (int appended = 0, n = 0; n < 100'000 && outcomeOf(*group, kAll) != Outcome::Done; ++n) {
+    for (; appended < kAll && hasRoom(*group); ++appended) {
+      Pose to = from;
+      to.place = from.place + Vector3{random.uniform(4, 9), random.uniform(-6, 6), 0};
+      append(*group, drawId(*group), lineLeg(from, to, MoreAxes{}), order);
+      from = to;
+    }
+    cycle(*group, arm, {0.002, 1, false, 0, 128, 64});
+    uint64_t id = 0;
+    const double place = positionInMovement(*group, id);
+    if (id == 0)
+      continue;
+    const Movement *const active = activeOf(*group);
+    inCorners += active != nullptr && active->id != id ? 1 : 0;
+    EXPECT_GE(place + static_cast<double>(id), last - 1e-9);
+    last = place + static_cast<double>(id);
+    if (HasFailure())
+      return;
+  }
+  EXPECT_EQ(outcomeOf(*group, kAll), Outcome::Done);
+  EXPECT_GT(inCorners, kAll);
 }
 
 Vector3 randomVector(Random &random, double size) {
