@@ -24,7 +24,8 @@ class Drive {
 public:
   explicit Drive(unsigned seed)
       : random_(seed), machine_(randomMachine(random_)), group_(std::make_unique<GroupMotion>()),
-        cycle_(random_.magnitude(-3.3, -2.7)), arm_(machine_.arm()) {
+        cycle_(random_.magnitude(-3.3, -2.7)), arm_(machine_.arm()),
+        keep_(seed % 3 == 0 ? 0.03 * (seed % 8) : 0), atOnce_(seed % 2 == 0) {
     reset(*group_, machine_.home);
     std::copy(std::begin(machine_.home), std::end(machine_.home), planned_);
   }
@@ -134,7 +135,8 @@ private:
     std::copy(std::begin(group_->acceleration), std::end(group_->acceleration), acceleration);
     disturb();
     cycle(*group_, arm_,
-          {cycle_, override_, stopped_ > 0, 0, std::max(1, static_cast<int>(cycle_ * 64000)), 64});
+          {cycle_, override_, stopped_ > 0, 0, std::max(1, static_cast<int>(cycle_ * 64000)), 64,
+           keep_, atOnce_});
     relocate();
     if (group_->obstacle != Obstacle::None) { // a line that the arm cannot follow
       failed_ = true;
@@ -219,6 +221,8 @@ private:
   std::unique_ptr<GroupMotion> group_;
   double cycle_;
   Arm arm_;
+  double keep_;
+  bool atOnce_;
   double planned_[kAxes];
   std::vector<Order> factors_;
   double override_ = 1;

@@ -19,6 +19,7 @@ using namespace stride::group;
 namespace kinematics = stride::kinematics;
 using namespace stride::test;
 
+constexpr Vector3 kZeroPlace{0, 0, 0};
 constexpr double kNanosecond = 1e-9;
 constexpr double kSlow = 0.01; // where a nanosecond is within what ways are rounded to [u/s]
 
@@ -65,10 +66,10 @@ public:
   void run(int movements) {
     int left = movements;
     const bool atOnce = random_.chance(0.5);
-    while (atOnce && left > 0)
+    while (atOnce && left > 0 && hasRoom(*group_))
       left -= order() ? 1 : 0;
     for (int64_t n = 0; n < 200'000 && !failed_; ++n, now_ += cycle_) {
-      if (left > 0 && hasRoom(*group_) && random_.chance(0.02))
+      if (left > 0 && hasRoom(*group_) && (atOnce || random_.chance(0.02)))
         left -= order() ? 1 : 0;
       if (left == 0 && group_->first == group_->next && isAtRest(*group_))
         break;
@@ -278,7 +279,7 @@ TEST(GroupTrigger, ComesWhenItIsForetold) {
   for (unsigned seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(seed);
     Drive drive(seed);
-    drive.run(8);
+    drive.run(seed % 20 == 0 ? 40 : 8); // also more than are remembered at once
     reached += drive.reached();
     inCorners += drive.inCorners();
     bisected += drive.bisected();
@@ -288,6 +289,130 @@ TEST(GroupTrigger, ComesWhenItIsForetold) {
   EXPECT_GT(reached, 300);
   EXPECT_GT(inCorners, 30);
   EXPECT_GT(bisected, 200);
+}
+
+/// As many movements as there is room for, all the time: also in corners it is known where the
+/// group is.
+TEST(GroupTrigger, PlacesOnlyGrowWithAFullQueue) {
+  constexpr int kAll = 90;
+  Random random(7);
+  Machine machine = gantry();
+  for (AxisLimits &limits : machine.limits)
+    limits = {200, 2000, 40000, -1e4, 1e4};
+  const Arm arm = machine.arm();
+  auto group = std::make_unique<GroupMotion>();
+  reset(*group, machine.home);
+  Pose from{kZeroPlace, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+  Order order{};
+  order.path = {150, 1500, 1500, 30000};
+  order.velocityFactor = order.accelerationFactor = order.jerkFactor = 1;
+  order.configuration = arm.configuration;
+  order.transition = Transition::Distance;
+  order.transitionValue = 2;
+  double last = 0;
+  int inCorners = 0;
+  for (int appended = 0, n = 0; n < 100'000 && outcomeOf(*group, kAll) != Outcome::Done; ++n) {
+    for (; appended < kAll && hasRoom(*group); ++appended) {
+      Pose to = from;
+      to.place = from.place + Vector3{random.uniform(4, 9), random.uniform(-6, 6), 0};
+      append(*group, drawId(*group), lineLeg(from, to, MoreAxes{}), order);
+      from = to;
+    }
+    cycle(*group, arm, {0.002, 1, false, 0, 128, 64});
+    uint64_t id = 0;
+    const double place = positionInMovement(*group, id);
+    if (id == 0)
+      continue;
+    const Movement *const active = activeOf(*group);
+    inCorners += active != nullptr && active->id != id ? 1 : 0;
+    EXPECT_GE(place + static_cast<double>(id), last - 1e-9);
+    last = place + static_cast<double>(id);
+    if (HasFailure())
+      return;
+  }
+  EXPECT_EQ(outcomeOf(*group, kAll), Outcome::Done);
+  EXPECT_GT(inCorners, kAll);
+}
+
+Vector3 randomVector(Random &random, double size) {
+  return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
+}
+
+/// A leg of a portal, and where it is at a part of it, as the test knows it.
+struct KnownLeg {
+  Leg leg;
+  Vector3 start, first, second;
+  double sweep; ///< Of a circle; 0: a line. [rad]
+
+  Vector3 at(double part) const {
+    if (sweep > 0)
+      return start + first * std::cos(part * sweep) + second * std::sin(part * sweep);
+    return start + first * part;
+  }
+};
+
+KnownLeg randomLeg(Random &random) {
+  KnownLeg known{};
+  known.start = randomVector(random, 100);
+  known.first = randomVector(random, 100);
+  const Frame<double> from{Matrix<double>::Identity(), vectorOf(known.start)};
+  const int kind = random.below(3);
+  if (kind == 0) {
+    const Frame<double> to{Matrix<double>::Identity(), vectorOf(known.start + known.first)};
+    known.leg = lineLeg(poseOf(from), poseOf(to), MoreAxes{});
+  } else if (kind == 1) {
+    Vector3 across = stride::numeric::cross(known.first, randomVector(random, 1));
+    known.second = across * (stride::numeric::norm(known.first) / stride::numeric::norm(across));
+    known.sweep = random.uniform(0.1, 6.2);
+    const Pose begin{known.start + known.first, {1, 0, 0, 0, 1, 0, 0, 0, 1}};
+    known.leg =
+        circleLeg(begin, {known.start, known.first, known.second, known.sweep}, begin, MoreAxes{});
+  } else {
+    const Vector3 to = known.start + known.first;
+    known.leg = axesLeg({known.start.x, known.start.y, known.start.z}, {to.x, to.y, to.z},
+                        {80, 120, 100, 1, 1, 1, 1, 1, 1, 1}, 70);
+  }
+  return known;
+}
+
+TEST(GroupTrigger, PlanesAreWhereTheToolComesIntoThem) {
+  constexpr int kPlaces = 4001;
+  Random random(20261124);
+  const Machine machine = gantry();
+  const Arm arm = machine.arm();
+  int crossed = 0;
+  for (int n = 0; n < 1500; ++n) {
+    SCOPED_TRACE(n);
+    const KnownLeg known = randomLeg(random);
+    Plane plane{};
+    plane.normal = randomVector(random, 1);
+    plane.normal = plane.normal * (1 / stride::numeric::norm(plane.normal));
+    plane.distance = random.uniform(0, 120);
+    const auto height = [&](double part) {
+      return stride::numeric::dot(plane.normal, known.at(part)) - plane.distance;
+    };
+    double expected = -1;
+    for (int i = 1; i < kPlaces && expected < 0; ++i) {
+      double low = (i - 1.0) / (kPlaces - 1);
+      double high = static_cast<double>(i) / (kPlaces - 1);
+      if ((height(low) < 0) == (height(high) < 0))
+        continue;
+      const bool below = height(low) < 0;
+      for (int half = 0; half < 60; ++half) {
+        const double middle = (low + high) / 2;
+        ((height(middle) < 0) == below ? low : high) = middle;
+      }
+      expected = high * known.leg.length;
+    }
+    const double way = wayInPlane(arm, known.leg, plane);
+    if (expected < 0) { // but for one that is touched between two of the test's places
+      EXPECT_LT(way < 0 ? 0 : std::abs(height(way / known.leg.length)), 1e-9);
+      continue;
+    }
+    ++crossed;
+    EXPECT_NEAR(way, expected, 1e-9 * known.leg.length);
+  }
+  EXPECT_GT(crossed, 300);
 }
 
 } // namespace

@@ -133,7 +133,9 @@ void drive(const Ctx &ctx, GroupRef &group, const GroupArm &arm) noexcept {
                                                      : motion::State{}};
   group::plan(state.motion, arm.arm, command);
   state.forecast = group::plannedTime(state.motion);
-  state.rest = group::nextRest(state.motion);
+  state.rest = {exact::kInfinity, 0};
+  if (group.fForecast > 0.0)
+    state.rest = group::nextRest(state.motion);
   updateTriggers(ctx, state, cycle);
   group::goOn(state.motion, arm.arm, command);
   shiftTriggers(state, group::rebase(state.motion));

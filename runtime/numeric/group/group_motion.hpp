@@ -136,9 +136,10 @@ inline bool isCarried(const GroupMotion &group) noexcept {
 /// At rest at a place, without movements; ids, outcomes and the system that is followed stay.
 void reset(GroupMotion &group, const double (&axes)[kAxes]) noexcept;
 
-/// Whether a movement can be appended.
+/// Whether a movement can be appended. The one before the first stays known: the group may be in
+/// the corner after it.
 inline bool hasRoom(const GroupMotion &group) noexcept {
-  return group.next - group.first < kMovements;
+  return group.next - group.first < kMovements - 1;
 }
 
 /// The id of the next movement, which waits until it is appended.

@@ -98,6 +98,8 @@ struct Motion {
   int32_t pause;  ///< Calls of think() until another wish is tried again.
   double promise; ///< So much of the law ahead stays, unless a stop is asked for at once. [s]
   bool atOnce;    ///< A stop that is asked for does not care for `keep`. May be changed.
+  bool askedLate; ///< Session: a stop that cares for `keep`.
+  bool stopsLate; ///< The law ends in such a stop.
   bool urgent;    ///< Session: because of another wish.
   bool changing;  ///< Session: it plans for other settings.
   bool byRamp;    ///< Session: to stop by a ramp in closed form, which takes a few steps.

@@ -92,6 +92,7 @@ void goAsAsked(Motion &motion) noexcept {
     motion.changed = 0; // the change is cut off
   }
   motion.planned = motion.asked;
+  motion.stopsLate = motion.askedLate;
 }
 
 double steadyTime(const Motion &motion, double from) noexcept {
@@ -145,7 +146,7 @@ void cutLaw(Motion &motion) noexcept {
   motion.refused = false;
   motion.tail = 0.0;
   motion.ramp.length = 0.0;
-  if (motion.asked.stop && motion.atOnce)
+  if (motion.asked.stop && !motion.askedLate)
     motion.promise = 0.0;
   motion.writing = hasJerk(motion) ? 0 : motion.plan.firstStrip;
   motion.session = Session::Writing;

@@ -34,6 +34,7 @@ bool isChangeAhead(const Motion &motion) noexcept { return motion.law.first < mo
 /// at once, and for each other.
 void ask(Motion &motion, bool urgent) noexcept {
   motion.asked = motion.wish;
+  motion.askedLate = motion.wish.stop && !motion.atOnce;
   motion.changing = urgent && !differs(motion.wish, motion.planned) && !isChangeAhead(motion) &&
                     differs(motion.wish.settings, motion.planned.settings);
   if (!motion.changing)
@@ -140,6 +141,7 @@ double planningTime(const Motion &motion, int32_t steps, int32_t budget) noexcep
 /// From rest at a way, after all that the law has.
 void beginFromRest(Motion &motion, double way, int32_t budget) noexcept {
   motion.asked = motion.wish;
+  motion.askedLate = false;
   motion.changing = false;
   if (isChangeAhead(motion))
     motion.asked.settings = motion.planned.settings;
@@ -231,8 +233,10 @@ bool beginSession(Motion &motion, int32_t budget) noexcept {
     return true;
   }
   ask(motion, true);
-  if (motion.pause == 0 && !(wish.stop && motion.planned.stop) &&
-      (motion.changing || differs(wish, motion.planned))) {
+  const bool stops = wish.stop && motion.planned.stop;
+  const bool sooner = stops && motion.atOnce && motion.stopsLate;
+  if (motion.pause == 0 &&
+      (sooner || (!stops && (motion.changing || differs(wish, motion.planned))))) {
     motion.cells = hasJerk(motion) ? kUrgentCells : kCells;
     motion.byRamp = wish.stop && hasJerk(motion);
     motion.lead = motion.byRamp ? rampLead(motion, budget) : passesLead(motion, budget);
