@@ -134,9 +134,11 @@ private:
     std::copy(std::begin(group_->velocity), std::end(group_->velocity), velocity);
     std::copy(std::begin(group_->acceleration), std::end(group_->acceleration), acceleration);
     disturb();
-    cycle(*group_, arm_,
-          {cycle_, override_, stopped_ > 0, 0, std::max(1, static_cast<int>(cycle_ * 64000)), 64,
-           keep_, atOnce_});
+    GroupCommand command{
+        cycle_, override_, stopped_ > 0, 0, std::max(1, static_cast<int>(cycle_ * 64000)), 64};
+    command.keep = keep_;
+    command.atOnce = atOnce_;
+    cycle(*group_, arm_, command);
     relocate();
     if (group_->obstacle != Obstacle::None) { // a line that the arm cannot follow
       failed_ = true;

@@ -182,7 +182,9 @@ private:
     std::copy(std::begin(group_->velocity), std::end(group_->velocity), velocity);
     std::copy(std::begin(group_->acceleration), std::end(group_->acceleration), acceleration);
     carrier_->step(cycle_, steady_, random_);
-    cycle(*group_, arm_, {cycle_, 1, false, 0, 128, 64, carrier_->state()});
+    GroupCommand command{cycle_, 1, false, 0, 128, 64};
+    command.carrier = carrier_->state();
+    cycle(*group_, arm_, command);
     ASSERT_EQ(group_->obstacle, Obstacle::None);
     for (int k = 0; k < machine_.joints; ++k) {
       const AxisLimits &limits = machine_.limits[k];

@@ -231,8 +231,8 @@ private:
   }
 
   void step() {
-    command_ = {cycle_, 1,     false, 0, std::max(1, static_cast<int>(cycle_ * 64000)),
-                64,     keep_, true};
+    command_ = {cycle_, 1, false, 0, std::max(1, static_cast<int>(cycle_ * 64000)), 64};
+    command_.keep = keep_;
     plan(*group_, arm_, command_);
     const double planned = plannedTime(*group_);
     EXPECT_LE(planned, keep_);

@@ -126,9 +126,9 @@ void drive(const Ctx &ctx, GroupRef &group, const GroupArm &arm) noexcept {
                                     state.deceleration,
                                     kSteps * milliseconds,
                                     kSamples * milliseconds,
+                                    allowanceOf(group),
                                     group.fForecast,
                                     stopsAtOnce(group, state),
-                                    allowanceOf(group),
                                     state.rides != 0 ? stateOfCarrier(group, state.rides)
                                                      : motion::State{}};
   group::plan(state.motion, arm.arm, command);

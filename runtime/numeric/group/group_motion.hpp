@@ -94,13 +94,13 @@ struct GroupCommand {
   double override; ///< Factor of all velocities, >= 0; 0: it comes to rest on its path.
   bool stop;       ///< It comes to rest on its path, and stays there.
   double
-      deceleration;   ///< For that, if it is more than the movement's; in units of the way. [u/s^2]
-  int32_t steps;      ///< Of planning.
-  int32_t samples;    ///< Places of the path that may be looked at.
+      deceleration; ///< For that, if it is more than the movement's; in units of the way. [u/s^2]
+  int32_t steps;    ///< Of planning.
+  int32_t samples;  ///< Places of the path that may be looked at.
+  Allowance allowance = kAllAllowed;
   double keep = 0.0;  ///< So much of the motion ahead is planned before it begins, and stays as it
                       ///< is unless it is stopped at once. [s]
   bool atOnce = true; ///< To stop: do not care for `keep`.
-  Allowance allowance = kAllAllowed;
   motion::State carrier{}; ///< Of the system that is followed, at the end of the cycle. [u] or [°]
 };
 
