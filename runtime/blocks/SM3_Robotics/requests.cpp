@@ -174,6 +174,7 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
 
 /// What has been aborted cannot be continued.
 void forget(GroupState &state) noexcept {
+  endTriggers(state);
   group::clear(state.motion);
   state.abortedEnd = state.abortedRequest;
 }
@@ -206,7 +207,6 @@ void begin(GroupRef &group, GroupArm &arm, const Request &request) {
   GroupState &state = stateOf(group);
   if (request.kind == RequestKind::Halt) { // what it has stopped may still be kept
     const bool carried = group::isCarried(state.motion);
-    endTriggers(state);
     changeSystem(group, arm, 0, request);
     if ((request.forgets || carried) && group.bOwns != 0)
       forget(state);
