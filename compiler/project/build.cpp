@@ -1,6 +1,5 @@
 #include "compiler/project/build.hpp"
 
-
 #include "compiler/project/file_system.hpp"
 #include "compiler/project/job_pool.hpp"
 #include "compiler/project/made_files.hpp"
