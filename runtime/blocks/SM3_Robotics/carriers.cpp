@@ -14,12 +14,6 @@ using axis::AxisRef;
 using kinematics::Frame;
 using Carrier = decl::SMC_GROUP_CARRIER;
 
-Frame<double> frameFrom(const decl::MC_COORD_REF &coordinates) {
-  double pose[kArmAxes];
-  __builtin_memcpy(pose, &coordinates, sizeof pose);
-  return frameOf(pose);
-}
-
 Carrier &carrierAt(GroupRef &group, int32_t carrier) noexcept {
   return group.astCarrier.v[carrier - 1];
 }
@@ -57,8 +51,8 @@ void look(Carrier &carrier, double cycle) noexcept {
 }
 
 group::MovingSystem movingSystem(const Carrier &carrier, const Frame<double> &world) {
-  return {group::poseOf(world * frameFrom(carrier.stOrigin)),
-          group::poseOf(frameFrom(carrier.stObject)),
+  return {group::poseOf(world * frameOf(carrier.stOrigin)),
+          group::poseOf(frameOf(carrier.stObject)),
           carrier.bTable != 0 ? group::CarrierKind::Table : group::CarrierKind::Belt};
 }
 

@@ -14,12 +14,6 @@ using kinematics::Frame;
 
 static_assert(sizeof(decl::MC_COORD_REF) == kArmAxes * sizeof(double));
 
-Frame<double> frameOf(const decl::MC_COORD_REF &coordinates) {
-  double pose[kArmAxes];
-  __builtin_memcpy(pose, &coordinates, sizeof pose);
-  return robotics::frameOf(pose);
-}
-
 group::AxisLimits limitsOf(const axis::AxisRef &axis) noexcept {
   const bool bounded = axis.iMovementType != 0 && axis.bSWLimitEnable != 0;
   double low = -exact::kInfinity;
@@ -53,13 +47,23 @@ void GroupArm::setTool(const Tool &tool) {
   using kinematics::Outcome;
   if (kinematics_.check() != Outcome::Done)
     return;
-  const Frame<double> none = kinematics::unturned(kinematics::Vector<double>(0.0, 0.0, 0.0));
-  outcome = kinematics_.setTool(tool.set ? frameOf(tool.frame) : none);
+  outcome = kinematics_.setTool(frameOf(tool));
 }
 
 Frame<double> frameOf(const double (&pose)[kArmAxes]) {
   return {kinematics::turnFrom(kinematics::Convention::Zyz, {pose[3], pose[4], pose[5]}),
           {pose[0], pose[1], pose[2]}};
+}
+
+Frame<double> frameOf(const decl::MC_COORD_REF &pose) {
+  double numbers[kArmAxes];
+  __builtin_memcpy(numbers, &pose, sizeof numbers);
+  return frameOf(numbers);
+}
+
+Frame<double> frameOf(const Tool &tool) {
+  return tool.set ? frameOf(tool.frame)
+                  : kinematics::unturned(kinematics::Vector<double>(0.0, 0.0, 0.0));
 }
 
 void toPose(const Frame<double> &frame, double (&pose)[kArmAxes]) {

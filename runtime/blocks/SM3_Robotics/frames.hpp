@@ -35,8 +35,10 @@ public:
 /// The tool of movements that are commanded now.
 inline Tool toolOf(const GroupRef &group) noexcept { return {group.stTool, group.bTool != 0}; }
 
-/// A pose as ST has it, by X, Y, Z and the angles A, B, C.
+/// A pose as ST has it, by X, Y, Z and the angles A, B, C; and a tool in its flange.
 kinematics::Frame<double> frameOf(const double (&pose)[kArmAxes]);
+kinematics::Frame<double> frameOf(const ::st::SM3_Robotics::MC_COORD_REF &pose);
+kinematics::Frame<double> frameOf(const Tool &tool);
 void toPose(const kinematics::Frame<double> &frame, double (&pose)[kArmAxes]);
 
 /// Where a coordinate system stands in the machine: WCS, PCS_1, PCS_2, MCS. False: it is none of

@@ -41,10 +41,8 @@ int16_t setTool(Ctx &ctx, GroupRef &group, const decl::MC_COORD_REF &tool) {
   if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupDisabled ||
       group.eState == decl::SMC_AXIS_GROUP_STATE__GroupErrorStop)
     return error::SMC_ERROR__SMC_AXIS_GROUP_WRONG_STATE;
-  double pose[kArmAxes];
-  __builtin_memcpy(pose, &tool, sizeof pose);
   kinematics::KinematicsOf looked(ctx, group.itfKinematics);
-  const Outcome outcome = looked.setTool(frameOf(pose));
+  const Outcome outcome = looked.setTool(frameOf(tool));
   if (outcome != Outcome::Done)
     return kinematics::errorOf(outcome);
   group.stTool = tool;

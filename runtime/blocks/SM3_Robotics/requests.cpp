@@ -184,14 +184,6 @@ bool canFollow(const GroupState &state, const Request &request) noexcept {
   return group::hasRoom(state.motion) && isSame(state.tool, request.tool);
 }
 
-kinematics::Frame<double> frameOf(const Tool &tool) {
-  if (!tool.set)
-    return kinematics::unturned(kinematics::Vector<double>(0.0, 0.0, 0.0));
-  double pose[kArmAxes];
-  __builtin_memcpy(pose, &tool.frame, sizeof pose);
-  return robotics::frameOf(pose);
-}
-
 /// The group goes on with another tool, whose point is elsewhere.
 void changeTool(GroupState &state, GroupArm &arm, const Tool &tool) {
   if (isSame(state.tool, tool))
