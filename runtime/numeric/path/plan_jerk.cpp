@@ -195,6 +195,18 @@ void checkKnot(Plan &plan, int32_t i) noexcept {
   note(plan, square / smaller(a.curve, b.curve));
 }
 
+/// A run that begins with an acceleration which its strip allows may be cut there into a cell that
+/// reaches into a strip which allows less. (One that is beyond its strip's already may go on.)
+void checkStart(Plan &plan, const Course &course) noexcept {
+  const Strip &strip = stripAt(course, plan.firstStrip);
+  const Cell &cell = plan.cell[0];
+  const double a = plan.task.acceleration;
+  const double own =
+      a > 0.0 ? strip.acceleration : larger(strip.deceleration, plan.task.deceleration);
+  if (!startsAtRest(plan) && exact::fabs(a) <= own * kRounding)
+    note(plan, a > 0.0 ? a / cell.acceleration : -a / cell.deceleration);
+}
+
 void checkCell(Plan &plan, int32_t i) noexcept {
   const Cell &cell = plan.cell[i];
   note(plan, cell.square / cell.ceiling);
@@ -302,8 +314,10 @@ bool lowerToHull(Plan &plan, const Course & /*course*/) noexcept {
   return true;
 }
 
-bool check(Plan &plan, const Course & /*course*/) noexcept {
+bool check(Plan &plan, const Course &course) noexcept {
   const int32_t i = plan.index;
+  if (i == 0)
+    checkStart(plan, course);
   checkCell(plan, i);
   if (i + 1 < plan.count) {
     checkKnot(plan, i);
