@@ -223,6 +223,11 @@ void begin(GroupRef &group, GroupArm &arm, const Request &request) {
   }
 }
 
+/// Whether there are no movements that the next one would come after.
+bool isFresh(const GroupState &state) noexcept {
+  return state.motion.first == state.motion.next || state.motion.abandoned;
+}
+
 /// Whether the movements before have come to rest as the next request needs it. One system at a
 /// time can be left; halts and axes need all to be at rest.
 bool canBegin(const GroupRef &group, bool elsewhere) noexcept {
@@ -298,7 +303,7 @@ void takeRequests(GroupRef &group, GroupArm &arm) {
   GroupState &state = stateOf(group);
   while (!state.interrupting && state.firstRequest < state.nextRequest) {
     const Request &request = requestAt(state, state.firstRequest);
-    const bool fresh = state.motion.first == state.motion.next || state.motion.abandoned;
+    const bool fresh = isFresh(state);
     const bool elsewhere = carrierOf(group, request) != state.rides;
     if (elsewhere && !fresh && !aborts(request))
       return; // after what is before has ended
@@ -353,7 +358,7 @@ bool demandsStandstill(const GroupRef &group) noexcept {
   if (state.firstRequest == state.nextRequest)
     return false;
   const Request &request = requestAt(state, state.firstRequest);
-  return !canRide(request);
+  return !canRide(request) && (aborts(request) || isFresh(state));
 }
 
 bool stopsAtOnce(const GroupRef &group, const GroupState &state) noexcept {

@@ -84,7 +84,7 @@ inline bool canRide(const Request &request) noexcept {
   return request.kind == RequestKind::Linear || request.kind == RequestKind::Circular;
 }
 
-/// Whether it waits until the group does not follow a moving system any more.
+/// Whether it is its turn, and it waits until the group does not follow a moving system any more.
 bool demandsStandstill(const GroupRef &group) noexcept;
 
 /// Whether it comes to rest at once, whatever has been planned.
