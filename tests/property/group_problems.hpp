@@ -9,10 +9,8 @@ namespace stride::test {
 
 using group::kArmAxes;
 
-inline Machine randomMachine(Random &random) {
-  const int kind = random.below(3);
-  Machine machine = kind == 0 ? gantry() : (kind == 1 ? scara() : articulated());
-  machine.more = random.below(3);
+/// Limits of all axes.
+inline void setRandomLimits(Machine &machine, Random &random) {
   for (int k = 0; k < kAxes; ++k) {
     AxisLimits &limits = machine.limits[k];
     limits.velocity = random.uniform(100, 500);
@@ -21,6 +19,13 @@ inline Machine randomMachine(Random &random) {
     limits.low = -1e4;
     limits.high = 1e4;
   }
+}
+
+inline Machine randomMachine(Random &random) {
+  const int kind = random.below(3);
+  Machine machine = kind == 0 ? gantry() : (kind == 1 ? scara() : articulated());
+  machine.more = random.below(3);
+  setRandomLimits(machine, random);
   return machine;
 }
 

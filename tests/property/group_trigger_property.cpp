@@ -1,7 +1,7 @@
 // Triggers of groups that drive random movements: what is foreseen is what comes, to a nanosecond,
 // and does not change once it is within the forecast. The oracle goes on with copies of the motion
 // by parts of a cycle, and halves.
-#include "group_machines.hpp"
+#include "group_problems.hpp"
 #include "runtime/numeric/group/trigger.hpp"
 #include "tests/support/random.hpp"
 
@@ -23,16 +23,9 @@ constexpr Vector3 kZeroPlace{0, 0, 0};
 constexpr double kNanosecond = 1e-9;
 constexpr double kSlow = 0.01; // where a nanosecond is within what ways are rounded to [u/s]
 
-Machine randomMachine(Random &random) {
+Machine portalOrScara(Random &random) {
   Machine machine = random.chance(0.5) ? gantry() : scara();
-  for (int k = 0; k < kAxes; ++k) {
-    AxisLimits &limits = machine.limits[k];
-    limits.velocity = random.uniform(100, 500);
-    limits.acceleration = limits.velocity * random.magnitude(0, 1);
-    limits.jerk = limits.acceleration * random.magnitude(0.5, 2);
-    limits.low = -1e4;
-    limits.high = 1e4;
-  }
+  setRandomLimits(machine, random);
   return machine;
 }
 
@@ -56,7 +49,7 @@ struct Trigger {
 class Drive {
 public:
   explicit Drive(unsigned seed)
-      : random_(seed), machine_(randomMachine(random_)), group_(std::make_unique<GroupMotion>()),
+      : random_(seed), machine_(portalOrScara(random_)), group_(std::make_unique<GroupMotion>()),
         copy_(std::make_unique<GroupMotion>()), cycle_(random_.magnitude(-3, -2.3)),
         keep_(random_.chance(0.3) ? 0 : random_.magnitude(-2, -0.3)), arm_(machine_.arm()) {
     reset(*group_, machine_.home);
