@@ -353,15 +353,17 @@ app::RuntimeLayouts runtimeLayouts() {
           ::st::SM_DriveBasic::SMC_ENCODER_REF__layout__};
 }
 
-std::vector<std::unique_ptr<task::CycleHook>>
-addAxisGroups(const app::Application &application, task::TaskSet &tasks, InputPort &inputs) {
+std::vector<std::unique_ptr<task::CycleHook>> addAxisGroups(const app::Application &application,
+                                                            task::TaskSet &tasks, InputPort &inputs,
+                                                            bus::BusKind buses) {
   const StrideAppV1 &app = application.description();
   std::vector<std::unique_ptr<task::CycleHook>> hooks;
   const auto errors = std::make_shared<BootupErrors>(app.axisGroupCount);
   for (uint32_t i = 0; i < app.axisGroupCount; ++i) {
     const AxisGroupDesc &group = app.axisGroups[i];
     const drivers::DriverEntry &driver = driverOf(group);
-    const bus::GroupSetup setup = setupOf(app, group, *driver.schema);
+    bus::GroupSetup setup = setupOf(app, group, *driver.schema);
+    setup.kind = buses;
     for (uint32_t d = 0; d < group.driveCount; ++d)
       bindData(app.drives[group.firstDrive + d], driver, application.state());
     hooks.push_back(std::make_unique<AxisGroupHook>(app, i, application.state(), driver.make(setup),
