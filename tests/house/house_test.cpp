@@ -108,6 +108,8 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
       {"drivers", {"drivers/dummy", "runtime/bus"}},
       {"drivers/dummy", {"runtime/bus", "runtime/iec", "st"}},
       {"drivers/io", {"runtime/io", "runtime/app"}},
+      {"drivers/can/port", {}},
+      {"drivers/can/plan", {"drivers/can/port"}},
   };
   return kArrows;
 }
