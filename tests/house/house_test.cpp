@@ -107,6 +107,9 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
        {"runtime/host", "runtime/monitor", "runtime/script", "runtime/task", "runtime/app"}},
       {"drivers", {"drivers/dummy", "runtime/bus"}},
       {"drivers/dummy", {"runtime/bus", "runtime/iec", "st"}},
+      {"drivers/can/port", {}},
+      {"drivers/can/simulation",
+       {"drivers/can/port", "drivers/dummy", "runtime/bus", "runtime/iec", "st"}},
       {"drivers/io", {"runtime/io", "runtime/app"}},
   };
   return kArrows;
