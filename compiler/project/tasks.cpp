@@ -3,6 +3,7 @@
 
 #include "compiler/project/config.hpp"
 #include "compiler/project/config_reader.hpp"
+#include "compiler/project/driver_sections.hpp"
 #include "compiler/source/suggest.hpp"
 #include "compiler/syntax/global_names.hpp"
 #include "compiler/syntax/st_text.hpp"
@@ -278,6 +279,8 @@ private:
     if (task->start != TaskStart::Event && task->start != TaskStart::Status)
       group.cycleUs = static_cast<uint32_t>(task->intervalNs / 1000);
     setTaskCycle(group, *seconds);
+    if (!diagnostics_.hasErrors())
+      checkByDriver(config_, group, *seconds, diagnostics_);
   }
 
   /// Whoever sends SYNC sets the pace: the task does, or waits for it.
