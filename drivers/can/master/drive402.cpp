@@ -73,8 +73,10 @@ void Drive402::begin(const DriveFacts &facts, const Signals &signals) {
 void Drive402::end() {
   const bus::DriveStatus old = status_;
   const bool stops = quickStop_;
+  const bool shuts = shutDown_;
   *this = Drive402(config_, plan_);
   quickStop_ = stops;
+  shutDown_ = shuts;
   // Where the axis stands is known until somebody says something else.
   status_.position = old.position;
   status_.received = old.received;
@@ -183,7 +185,7 @@ PowerTarget Drive402::powerTarget() const {
     return power_.state() == PowerState::Enabled || power_.state() == PowerState::QuickStop
                ? PowerTarget::QuickStop
                : PowerTarget::Off;
-  if (!command_.regulatorOn)
+  if (!command_.regulatorOn || shutDown_)
     return PowerTarget::Off;
   return command_.driveStart ? PowerTarget::Enabled : PowerTarget::SwitchedOn;
 }
@@ -310,9 +312,7 @@ bool Drive402::velocityDoubtful() {
   return doubtful;
 }
 
-bool Drive402::atRest() const {
-  return !quickStop_ || !isRegulated(power_.state()) || resting_ >= kRestCycles;
-}
+bool Drive402::atRest() const { return !isRegulated(power_.state()) || resting_ >= kRestCycles; }
 
 bool Drive402::commandedToMove() const { return follows() && targetMoves_; }
 

@@ -87,7 +87,9 @@ public:
 
   /// It brakes by itself, as 605Ah says, and stays so.
   void quickStop() { quickStop_ = true; }
-  /// A quick stop is over, or has not begun.
+  /// It is switched off, whatever the command says.
+  void shutDown() { shutDown_ = true; }
+  /// It stands still, or is off.
   [[nodiscard]] bool atRest() const;
   /// In regulation, with set values that move.
   [[nodiscard]] bool commandedToMove() const;
@@ -136,6 +138,7 @@ private:
   uint8_t refused_ = 0;     ///< The controller mode that the drive has not taken.
   bool askedError_ = false; ///< 603Fh has been read for this fault.
   bool quickStop_ = false;
+  bool shutDown_ = false;
   bool targetMoves_ = false;
   bool doubtful_ = false;
 };

@@ -226,7 +226,8 @@ void Master::problem(bus::Message &text) const {
   if (state_ == ControllerState::BusOff)
     text.set("bus-off: the CAN controller takes no part any more");
   else if (state_ == ControllerState::Down)
-    text.set("the CAN interface is not there or not up");
+    text.set(port_->problem().empty() ? "the CAN interface is not there or not up"
+                                      : port_->problem());
   else if (missedInRow_ >= kMostMissed)
     text.set("no SYNC from the node that gives it");
 }

@@ -51,6 +51,9 @@ public:
   /// There has been one in this cycle.
   [[nodiscard]] bool syncRuns() const { return syncs_ > 0 || config_.givesSync; }
 
+  /// It is a node that gives SYNC.
+  [[nodiscard]] bool nodeGivesSync() const { return !config_.givesSync; }
+
   [[nodiscard]] size_t nodeCount() const { return nodes_.size(); }
   [[nodiscard]] Node &node(size_t index) { return nodes_[index]; }
   [[nodiscard]] const Node &node(size_t index) const { return nodes_[index]; }
@@ -58,6 +61,10 @@ public:
   [[nodiscard]] Port &port() { return *port_; }
   [[nodiscard]] const Port &port() const { return *port_; }
 
+  /// The bus is off, or the interface is down.
+  [[nodiscard]] bool busLost() const {
+    return state_ == ControllerState::BusOff || state_ == ControllerState::Down;
+  }
   /// What keeps the whole bus from working, for people; nothing set: it works.
   void problem(bus::Message &text) const;
 

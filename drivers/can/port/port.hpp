@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace stride::can {
 
@@ -67,6 +68,8 @@ public:
   virtual bool wait(int64_t /*monotonicNs*/) noexcept { return false; }
 
   [[nodiscard]] virtual ControllerState state() const noexcept = 0;
+  /// Why the interface is down, for people; empty: it is not, or nobody knows.
+  [[nodiscard]] virtual std::string_view problem() const noexcept { return {}; }
   [[nodiscard]] virtual PortCounters counters() const noexcept = 0;
 };
 
