@@ -113,6 +113,11 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
       {"drivers/io", {"runtime/io", "runtime/app"}},
       {"drivers/can/port", {}},
       {"drivers/can/plan", {"drivers/can/port"}},
+      {"drivers/can/master",
+       {"drivers/can/plan", "drivers/can/port", "runtime/bus", "runtime/iec"}},
+      {"drivers/can",
+       {"drivers/can/master", "drivers/can/plan", "drivers/can/port", "drivers/dummy",
+        "runtime/bus"}},
   };
   return kArrows;
 }

@@ -36,6 +36,7 @@ inline constexpr Object kModeDisplay = {0x6061, 0};
 inline constexpr Object kTargetPosition = {0x607A, 0};
 inline constexpr Object kRangeLimit = {0x607B, 0};
 inline constexpr Object kHomeOffset = {0x607C, 0};
+inline constexpr Object kRatedCurrent = {0x6075, 0};
 inline constexpr Object kRatedTorque = {0x6076, 0};
 inline constexpr Object kInterpolatedPosition = {0x60C1, 1};
 inline constexpr uint16_t kInterpolationPeriod = 0x60C2;
