@@ -64,9 +64,9 @@ void CanopenNode::enter(NmtState state) noexcept {
   state_ = state;
   if (!talks())
     sdo_.reset();
-  if (state == NmtState::Operational)
-    process_.begin(now_);
   onState(state);
+  if (state_ == NmtState::Operational)
+    process_.begin(now_);
 }
 
 void CanopenNode::networkManagement(const Frame &frame) noexcept {
