@@ -7,7 +7,6 @@
 namespace stride::can::simulation {
 namespace {
 
-constexpr int64_t kMicrosecond = 1'000;
 constexpr uint16_t kRequest = 0x600;
 constexpr uint16_t kAnswer = 0x580;
 constexpr uint16_t kErrorControlId = 0x700;
@@ -65,9 +64,9 @@ void CanopenNode::enter(NmtState state) noexcept {
   state_ = state;
   if (!talks())
     sdo_.reset();
-  if (state == NmtState::Operational)
-    process_.begin(now_);
   onState(state);
+  if (state_ == NmtState::Operational)
+    process_.begin(now_);
 }
 
 void CanopenNode::networkManagement(const Frame &frame) noexcept {
@@ -96,7 +95,7 @@ void CanopenNode::networkManagement(const Frame &frame) noexcept {
 
 void CanopenNode::receive(const Frame &frame, int64_t nowNs) noexcept {
   now_ = nowNs;
-  if (state_ == NmtState::Initialising)
+  if (state_ == NmtState::Initialising || silent_)
     return;
   if (frame.id == 0) {
     networkManagement(frame);
@@ -204,7 +203,7 @@ int64_t CanopenNode::nextNs() const noexcept {
 }
 
 bool CanopenNode::transmit(Frame &frame) noexcept {
-  if (state_ == NmtState::Initialising)
+  if (state_ == NmtState::Initialising || silent_)
     return false;
   if (control_.boots())
     return control_.transmit(frame, id_, state_);

@@ -24,7 +24,7 @@ struct NodeSetup {
   uint32_t revision = 0;
   uint32_t serial = 0;
   int64_t bootNs = 20'000'000; ///< From a reset to the boot-up message. [ns]
-  SdoServerSetup sdo;
+  SdoServerSetup sdo{};
   bool remotely = false; ///< PDOs are sent when somebody asks by RTR.
 };
 
@@ -54,6 +54,8 @@ public:
 
   /// As if by SDO, whatever the state: for tests and tools.
   Abort write(uint16_t index, uint8_t sub, uint64_t value) noexcept;
+  /// It hears and says nothing, as if its connector had come off.
+  void setSilent(bool silent) { silent_ = silent; }
   /// The node resets itself, as after a short break of its supply.
   void reset() noexcept { resetNode(); }
 
@@ -120,6 +122,7 @@ private:
   int64_t syncNs_ = kNever; ///< It sends its next SYNC then.
   uint8_t syncCount_ = 0;
   bool syncPending_ = false;
+  bool silent_ = false;
   Frame sync_;
 };
 

@@ -5,7 +5,6 @@
 namespace stride::can::simulation {
 namespace {
 
-constexpr int64_t kInhibitUnit = 100'000; // ns
 constexpr uint64_t kInvalid = 0x80000000;
 
 } // namespace

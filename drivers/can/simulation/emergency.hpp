@@ -24,6 +24,9 @@ inline constexpr uint8_t kGenericError = 0x01;
 inline constexpr uint8_t kCommunicationError = 0x10;
 inline constexpr uint8_t kProfileError = 0x20;
 
+/// The unit of inhibit times. [ns]
+inline constexpr int64_t kInhibitUnit = 100'000;
+
 /// Places in the list of errors.
 inline constexpr uint8_t kErrorHistory = 8;
 

@@ -6,7 +6,6 @@
 namespace stride::can::simulation {
 namespace {
 
-constexpr int64_t kMillisecond = 1'000'000;
 constexpr uint16_t kErrorControl = 0x700;
 constexpr uint8_t kToggle = 0x80;
 

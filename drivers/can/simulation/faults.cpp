@@ -4,7 +4,7 @@ namespace stride::can::simulation {
 namespace {
 
 constexpr uint32_t kMillion = 1'000'000;
-constexpr unsigned kBits = 8;
+constexpr unsigned kBitsOfByte = 8;
 
 } // namespace
 
@@ -34,9 +34,9 @@ void Faults::clear() {
 void Faults::corrupt(FaultChoice &choice) {
   if (choice.frame.length == 0)
     return;
-  const uint64_t bit = below(choice.frame.length * uint64_t{kBits});
-  uint8_t &byte = choice.frame.data[bit / kBits];
-  byte = static_cast<uint8_t>(byte ^ (1U << (bit % kBits)));
+  const uint64_t bit = below(choice.frame.length * uint64_t{kBitsOfByte});
+  uint8_t &byte = choice.frame.data[bit / kBitsOfByte];
+  byte = static_cast<uint8_t>(byte ^ (1U << (bit % kBitsOfByte)));
 }
 
 FaultChoice Faults::choose(const Frame &frame) {

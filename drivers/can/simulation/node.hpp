@@ -14,6 +14,9 @@ namespace stride::can::simulation {
 /// A time that does not come. [ns]
 inline constexpr int64_t kNever = std::numeric_limits<int64_t>::max();
 
+inline constexpr int64_t kMicrosecond = 1'000;     ///< [ns]
+inline constexpr int64_t kMillisecond = 1'000'000; ///< [ns]
+
 /// Nothing here waits, allocates or throws after powerOn. The times of all calls never go back.
 class Node {
 public:

@@ -3,13 +3,6 @@
 #include <algorithm>
 
 namespace stride::can::simulation {
-namespace {
-
-constexpr int64_t kMillisecond = 1'000'000;
-constexpr int64_t kInhibitUnit = 100'000; // ns
-
-} // namespace
-
 int64_t ProcessData::Pdo::eventNs() const {
   return static_cast<int64_t>(event->value) * kMillisecond;
 }

@@ -1,0 +1,283 @@
+#include "drivers/can/simulation/drive402.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace stride::can::simulation {
+namespace {
+
+/// 6098h: what the reference run can do.
+constexpr std::array<int64_t, 9> kMethods = {0, 17, 18, 19, 21, 33, 34, 35, 37};
+
+struct ErrorClass {
+  uint16_t first;
+  uint8_t registerBits;
+};
+
+/// Bits of the error register, by the class of an error code. [CiA 301, 1001h; CiA 402]
+constexpr ErrorClass kClasses[] = {{0xFF00, 0x80}, {0x8400, 0x20}, {0x8100, 0x10}, {0x5000, 0x20},
+                                   {0x4000, 0x08}, {0x3000, 0x04}, {0x2000, 0x02}, {0, 0x01}};
+
+uint8_t registerBits(uint16_t code) {
+  const auto *const found =
+      std::find_if(std::begin(kClasses), std::end(kClasses),
+                   [code](const ErrorClass &one) { return code >= one.first; });
+  return found->registerBits;
+}
+
+} // namespace
+
+SimulatedDrive402::SimulatedDrive402(const Drive402Setup &setup)
+    : CanopenNode(setup.node, driveRows(setup)), parameters_(setup.drive),
+      homingParameters_(setup.drive), ratedTorque_(setup.ratedTorque),
+      velocityScale_(setup.velocityScale), o_(objects()),
+      mechanics_(setup.drive.mechanics, setup.drive.startPosition),
+      cycle_(setup.drive.mechanics.cycle) {}
+
+bool SimulatedDrive402::powered() const { return regulates() || power_ == PowerState::SwitchedOn; }
+
+/// Power stage on and brake open.
+bool SimulatedDrive402::regulates() const {
+  return power_ == PowerState::OperationEnabled || power_ == PowerState::QuickStopActive ||
+         power_ == PowerState::FaultReaction;
+}
+
+bool SimulatedDrive402::positions() const {
+  return mode_ != kProfileVelocity && mode_ != kProfileTorque && mode_ != kSyncVelocity &&
+         mode_ != kSyncTorque;
+}
+
+/// Positions are those that the mechanics have; references are forgotten.
+void SimulatedDrive402::onReset() noexcept {
+  power_ = PowerState::SwitchOnDisabled;
+  switching_ = afterStop_ = PowerState::NotReady;
+  stopping_ = false;
+  fault_ = 0;
+  control_ = probes_ = 0;
+  mode_ = 0;
+  homing_ = HomingState::Idle;
+  run_.clear();
+  mechanics_.hold();
+  origin_ = 0;
+  demanded_ = target_ = from_ = mechanics_.position();
+  velocityDemanded_ = torqueDemanded_ = demandRest_ = lagSeconds_ = 0;
+  following_ = false;
+  cycleNs_ = nowNs();
+  freely_ = true;
+  updateSwitches();
+  updateObjects();
+}
+
+void SimulatedDrive402::change(PowerState state) noexcept {
+  const bool before = regulates();
+  power_ = state;
+  switching_ = afterStop_ = PowerState::NotReady;
+  stopping_ = false;
+  if (regulates() && before)
+    return;
+  homing_ = HomingState::Idle;
+  demanded_ = target_ = from_ = mechanics_.position();
+  demandRest_ = lagSeconds_ = 0;
+  velocityDemanded_ = torqueDemanded_ = 0;
+}
+
+/// The drive comes to rest by itself, and is in that state then; NotReady: it holds there.
+void SimulatedDrive402::brakeTo(PowerState target, const Entry &ramp) noexcept {
+  if (!positions())
+    velocityDemanded_ = mechanics_.velocity();
+  run_.clear();
+  homing_ = homing_ == HomingState::Attained ? homing_ : HomingState::Idle;
+  stopping_ = true;
+  afterStop_ = target;
+  deceleration_ = rampOf(ramp);
+}
+
+void SimulatedDrive402::leaveOperation(PowerState target) noexcept {
+  constexpr int64_t kStays = 5; ///< 605Ah from here on: the drive stays in quick stop active.
+  if (target == PowerState::QuickStopActive) {
+    const int64_t option = o_.quickStopOption.asSigned();
+    if (option == 0) {
+      change(PowerState::SwitchOnDisabled);
+      return;
+    }
+    power_ = target;
+    brakeTo(option < kStays ? PowerState::SwitchOnDisabled : PowerState::NotReady,
+            option == 1 || option == kStays ? o_.deceleration : o_.quickDeceleration);
+    return;
+  }
+  const bool ramps = (target == PowerState::SwitchedOn && o_.disableOption.value == 1) ||
+                     (target == PowerState::ReadyToSwitchOn && o_.shutdownOption.value == 1);
+  if (ramps)
+    brakeTo(target, o_.deceleration);
+  else
+    change(target);
+}
+
+/// One transition for a controlword.
+void SimulatedDrive402::control(uint16_t before, uint16_t word) noexcept {
+  if (power_ == PowerState::Fault) {
+    if ((word & ~before & kFaultReset) == 0 || persistent_)
+      return;
+    emergency().clear(fault_);
+    fault_ = 0;
+    if (sim_ != nullptr)
+      sim_->wDriveError = 0;
+    change(PowerState::SwitchOnDisabled);
+    return;
+  }
+  const PowerState next = after(power_, commandOf(word));
+  if (switching_ == next && next != power_)
+    return;
+  switching_ = PowerState::NotReady;
+  if (next == power_)
+    return;
+  if (power_ == PowerState::OperationEnabled) {
+    // On its way out already: only what is quicker counts.
+    const bool leaves = stopping_ && afterStop_ != PowerState::NotReady;
+    if (!leaves || next == PowerState::SwitchOnDisabled || next == PowerState::QuickStopActive)
+      leaveOperation(next);
+    return;
+  }
+  if (power_ == PowerState::QuickStopActive) {
+    if (next == PowerState::SwitchOnDisabled || afterStop_ == PowerState::NotReady)
+      change(next);
+    return;
+  }
+  if (next != PowerState::SwitchedOn && next != PowerState::OperationEnabled) {
+    change(next);
+    return;
+  }
+  switching_ = next;
+  const auto cycles = static_cast<int64_t>(std::max(parameters_.switchCycles, 1U) - 1);
+  switchedNs_ = nowNs() + cycles * periodNs();
+  finishSwitching();
+}
+
+void SimulatedDrive402::finishSwitching() noexcept {
+  if (switching_ == PowerState::NotReady || nowNs() < switchedNs_)
+    return;
+  const bool on = switching_ == PowerState::SwitchedOn;
+  if (sim_ != nullptr && (on ? sim_->bRegulatorStuck : sim_->bBrakeStuck) != 0)
+    return;
+  change(switching_);
+}
+
+void SimulatedDrive402::finishStop() noexcept {
+  if (!stopping_ || velocityDemanded_ != 0 || afterStop_ == PowerState::NotReady)
+    return;
+  change(afterStop_);
+}
+
+void SimulatedDrive402::raiseError(uint16_t code) noexcept {
+  if (power_ == PowerState::Fault || power_ == PowerState::FaultReaction || code == 0)
+    return;
+  fault_ = code;
+  emergency().raise(code, registerBits(code));
+  switching_ = PowerState::NotReady;
+  if (!regulates() || o_.faultOption.value == 0) {
+    change(PowerState::Fault);
+  } else {
+    power_ = PowerState::FaultReaction;
+    brakeTo(PowerState::Fault, o_.faultOption.value == 1 ? o_.deceleration : o_.quickDeceleration);
+  }
+  updateObjects();
+}
+
+/// What 6007h says. `always`: also without power.
+void SimulatedDrive402::abortConnection(bool always) noexcept {
+  switch (o_.abortOption.value) {
+  case 1:
+    if (always || powered())
+      raiseError(kErrorLifeGuard);
+    break;
+  case 2:
+    if (powered())
+      change(PowerState::SwitchOnDisabled);
+    break;
+  case 3:
+    if (power_ == PowerState::OperationEnabled)
+      leaveOperation(PowerState::QuickStopActive);
+    break;
+  default:
+    break;
+  }
+  updateObjects();
+}
+
+void SimulatedDrive402::onConnectionLost() noexcept { abortConnection(true); }
+
+void SimulatedDrive402::onState(NmtState state) noexcept {
+  if (state == NmtState::Stopped || state == NmtState::Initialising)
+    abortConnection(false);
+  updateObjects();
+}
+
+Abort SimulatedDrive402::onWrite(const Entry &entry, uint64_t value) noexcept {
+  const auto number = static_cast<int64_t>(value);
+  switch (entry.row.index) {
+  case 0x6060: {
+    const uint64_t modes = objects().value(0x6502);
+    const bool known = number > 0 && number <= 32 && (modes >> (number - 1) & 1U) != 0;
+    return known || number == 0 ? Abort::None : Abort::Value;
+  }
+  case 0x605A:
+    return number == 4 ? Abort::Value : Abort::None;
+  case 0x6098:
+    return std::find(kMethods.begin(), kMethods.end(), number) != kMethods.end() ? Abort::None
+                                                                                 : Abort::Value;
+  default:
+    return Abort::None;
+  }
+}
+
+void SimulatedDrive402::onWritten(Entry &entry) noexcept {
+  if (&entry == &o_.controlword) {
+    const uint16_t before = control_;
+    control_ = static_cast<uint16_t>(entry.value);
+    control(before, control_);
+    updateObjects();
+  } else if (&entry == &o_.probeFunction) {
+    const uint64_t before = probes_;
+    probes_ = static_cast<uint16_t>(entry.value);
+    configureProbes(before);
+  }
+}
+
+void SimulatedDrive402::onSync() noexcept {
+  disturb();
+  move(nowNs());
+  freely_ = false;
+}
+
+void SimulatedDrive402::onSynchronized() noexcept {
+  latch();
+  updateObjects();
+}
+
+/// No SYNC has come: the controllers go on by themselves.
+void SimulatedDrive402::onTime() noexcept {
+  disturb();
+  move(cycleNs_ + periodNs());
+  freely_ = true;
+  latch();
+  updateObjects();
+}
+
+int64_t SimulatedDrive402::nextDeviceNs() const noexcept {
+  const int64_t period = periodNs();
+  return cycleNs_ + (freely_ ? period : period + period / 2);
+}
+
+void SimulatedDrive402::place(int64_t position) noexcept {
+  if (regulates())
+    return;
+  mechanics_.place(position);
+  demanded_ = target_ = from_ = position;
+  updateObjects();
+}
+
+int32_t SimulatedDrive402::position() const {
+  return static_cast<int32_t>(counter(mechanics_.position()));
+}
+
+} // namespace stride::can::simulation
