@@ -200,19 +200,14 @@ Bend bendOf(const Arm &arm, const Peaks &peaks, double change) noexcept {
   return bend;
 }
 
-/// After all else: how fast bends may be gone through for the axes' jerks. At a velocity v the
-/// acceleration is at most sqrt(2 jerk v), or it could not end before the motion stands still:
-/// where that is less than what else is allowed, it becomes the limit.
+/// After all else: how fast bends may be gone through for the axes' jerks. The velocity counts more
+/// than its changes, for which what is left at it becomes the limit: corners are there to be gone
+/// through evenly, and a bend that is too long for that is long enough to accelerate in.
 void limitByBends(const Arm &arm, const Peaks &peaks, path::Strip &strip) noexcept {
-  const double jerk = static_cast<double>(strip.jerk);
-  const Bend bend = bendOf(arm, peaks, jerk);
+  const Bend bend = bendOf(arm, peaks, static_cast<double>(strip.jerk));
   limitVelocity(strip, bend.velocity);
   if (!(bend.product < kInfinity))
     return;
-  const double most = smaller(larger(strip.acceleration, strip.deceleration), 1.0 / strip.along);
-  const double velocity =
-      larger(bend.product / most, numeric::cubeRoot(bend.product * bend.product / (2.0 * jerk)));
-  limitVelocity(strip, velocity);
   const double present = exact::sqrt(path::squareIn(strip, 1.0));
   strip.acceleration = smaller(strip.acceleration, bend.product / present);
   strip.deceleration = smaller(strip.deceleration, bend.product / present);
