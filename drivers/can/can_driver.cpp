@@ -169,11 +169,4 @@ bool CanDriver::atRest() const {
 
 void CanDriver::problem(bus::Message &text) const { master_.problem(text); }
 
-std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup,
-                                            std::unique_ptr<Port> port) {
-  return std::make_unique<CanDriver>(setup, std::move(port));
-}
-
-uint64_t driveDataLayout() { return 0; }
-
 } // namespace stride::can

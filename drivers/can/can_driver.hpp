@@ -17,7 +17,7 @@ namespace stride::can {
 
 /// What a drive is sent at the end of a cycle it does from the next SYNC on; what it says at a SYNC
 /// is known one cycle later.
-class CanDriver final : public bus::AxisDriver {
+class CanDriver : public bus::AxisDriver {
 public:
   CanDriver(const bus::GroupSetup &setup, std::unique_ptr<Port> port);
 
@@ -60,13 +60,10 @@ private:
   bool stopped_ = false;
 };
 
-/// The driver for one drive group of interface type "CAN", on the interface of the system.
+/// The driver for one drive group of interface type "CAN", on a bus of setup.kind.
 std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup);
-/// The same on any port.
-std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup,
-                                            std::unique_ptr<Port> port);
 
-/// Programs and driver share nothing about a drive.
+/// Of DUMMY_DRIVE_SIM, as this runtime knows it.
 uint64_t driveDataLayout();
 
 } // namespace stride::can

@@ -10,11 +10,6 @@ namespace {
 
 constexpr double kHomingPatience = 2; // s
 constexpr double kFaultResetTime = 1; // s
-constexpr uint32_t kUsualBitRate = 1000;
-
-// SyncProducer
-constexpr int kFirstDrive = 1;
-constexpr int kDevice = 2;
 
 DriveConfig driveConfig(const bus::SetupParameters &given, double cycle) {
   DriveConfig drive;
@@ -55,25 +50,6 @@ NodeConfig nodeConfig(const bus::GroupSetup &setup, const bus::SetupParameters &
   return node;
 }
 
-/// Why a drive cannot be started at all.
-std::string faultOf(const PlanResult &plan, uint32_t id, const bus::GroupSetup &setup,
-                    bool hasSyncDevice) {
-  if (id == 0 || id > kLastNode)
-    return "wDriveId is its node id: 1 to 127";
-  const auto own = static_cast<uint32_t>(setup.busParameters.number("node_id"));
-  if (id == own)
-    return "its node id is the master's own (node_id)";
-  if (hasSyncDevice && id == kSyncDevice)
-    return "its node id is that of the SYNC device";
-  if (std::count_if(setup.drives.begin(), setup.drives.end(),
-                    [id](const bus::DriveSetup &drive) { return drive.id == id; }) > 1)
-    return "another drive has the same wDriveId";
-  for (const PlanNote note : plan.notes)
-    if (isError(note))
-      return std::string(describe(note));
-  return {};
-}
-
 /// A place in the list of nodes that nobody answers at.
 NodeConfig nobody(const NodeConfig &like) {
   NodeConfig node = like;
@@ -83,36 +59,17 @@ NodeConfig nobody(const NodeConfig &like) {
 
 } // namespace
 
-DriveWish driveWish(uint32_t node, const bus::SetupParameters &given) {
-  DriveWish wish;
-  wish.node = node <= kLastNode ? static_cast<uint8_t>(node) : uint8_t{0};
-  wish.controlType = static_cast<uint8_t>(given.number("wControlType"));
-  for (size_t i = 0; i < wish.send.size(); ++i) {
-    const std::string place = std::to_string(i + 1);
-    wish.send[i] = static_cast<uint16_t>(given.number("wCyclicDataS" + place));
-    wish.receive[i] = static_cast<uint16_t>(given.number("wCyclicDataR" + place));
-  }
-  wish.modeInPdo = given.flag("mode_pdo");
-  wish.eventPdos = given.flag("event_pdos");
-  wish.inputs = given.flag("inputs");
-  wish.probeInputs = static_cast<uint8_t>(given.number("probe_inputs"));
-  return wish;
-}
-
 CanSetup canSetup(const bus::GroupSetup &setup) {
   CanSetup result;
   MasterConfig &master = result.master;
-  const auto producer = static_cast<int>(setup.parameters.number("SyncProducer"));
-  result.hasSyncDevice = producer == kDevice;
-  std::vector<DrivePlan> plans;
-  for (const bus::DriveSetup &drive : setup.drives) {
-    const PlanResult plan = planDrive(driveWish(drive.id, drive.parameters));
-    NodeConfig node = nodeConfig(setup, drive.parameters, plan.plan);
-    result.faults.push_back(faultOf(plan, drive.id, setup, result.hasSyncDevice));
-    if (!result.faults.back().empty())
+  const GroupPlan plan = planGroup(setup);
+  result.hasSyncDevice = plan.sync == SyncProducer::Device;
+  result.faults = plan.faults;
+  for (size_t i = 0; i < setup.drives.size(); ++i) {
+    NodeConfig node = nodeConfig(setup, setup.drives[i].parameters, plan.drives[i].plan);
+    if (!result.faults[i].empty())
       node = nobody(node);
-    node.producesSync = producer == kFirstDrive && master.nodes.empty();
-    plans.push_back(node.plan);
+    node.producesSync = plan.sync == SyncProducer::FirstDrive && i == 0;
     master.nodes.push_back(std::move(node));
   }
   if (result.hasSyncDevice) {
@@ -127,11 +84,9 @@ CanSetup canSetup(const bus::GroupSetup &setup) {
   master.cycle = setup.cycleSeconds;
   master.heartbeat = setup.busParameters.number("heartbeat");
   master.node = static_cast<uint8_t>(setup.busParameters.number("node_id"));
-  master.givesSync = producer != kFirstDrive && producer != kDevice;
-  const auto rate = static_cast<uint32_t>(setup.parameters.number("BaudRate"));
-  result.bitRate = rate == 0 ? kUsualBitRate : rate;
-  const double cycleUs = std::clamp(setup.cycleSeconds * 1e6 + 0.5, 1.0, 4e9);
-  result.load = busLoad(plans, result.bitRate, static_cast<uint32_t>(cycleUs));
+  master.givesSync = plan.sync == SyncProducer::Master;
+  result.bitRate = plan.bitRate;
+  result.load = plan.load;
   master.sdoPerCycle = result.load.sdoPerCycle;
   result.interface = setup.busParameters.text("interface");
   if (result.interface.empty())

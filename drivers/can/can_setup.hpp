@@ -3,16 +3,13 @@
 #define STRIDE_DRIVERS_CAN_CAN_SETUP_HPP
 
 #include "drivers/can/master/master.hpp"
-#include "drivers/can/plan/bus_load.hpp"
+#include "drivers/can/plan/group_plan.hpp"
 #include "runtime/bus/group_setup.hpp"
 
 #include <string>
 #include <vector>
 
 namespace stride::can {
-
-/// The node of the SYNC device (SyncProducer).
-inline constexpr uint8_t kSyncDevice = 127;
 
 struct CanSetup {
   MasterConfig master;
@@ -24,9 +21,6 @@ struct CanSetup {
 };
 
 CanSetup canSetup(const bus::GroupSetup &setup);
-
-/// What a drive of that section exchanges in every cycle.
-DriveWish driveWish(uint32_t node, const bus::SetupParameters &parameters);
 
 } // namespace stride::can
 

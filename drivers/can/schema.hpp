@@ -119,13 +119,21 @@ inline constexpr std::array kDriveTables = {
 
 } // namespace rows
 
+/// See drivers/can/plan/group_plan.hpp.
+void checkGroup(const bus::GroupSetup &setup, bus::GroupFindings &findings);
+
 inline constexpr bus::DriverSchema kSchema = {
     .name = "CAN",
     .interfaceType = "CAN (SocketCAN)",
+    .driveData = {.type = "DummyDrive.DUMMY_DRIVE_SIM",
+                  .table = "physics",
+                  .suffix = "_Sim",
+                  .what = "simulation of drive"},
     .givesSync = true,
     .bus = rows::kBus,
     .drive = rows::kDrive,
     .driveTables = rows::kDriveTables,
+    .check = checkGroup,
 };
 
 } // namespace stride::can

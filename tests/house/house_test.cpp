@@ -105,19 +105,18 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
         "runtime/system", "runtime/app", "runtime/iec", "drivers", "drivers/io", "st"}},
       {"runtime/embed",
        {"runtime/host", "runtime/monitor", "runtime/script", "runtime/task", "runtime/app"}},
-      {"drivers", {"drivers/dummy", "runtime/bus"}},
+      {"drivers", {"drivers/dummy", "drivers/can", "runtime/bus"}},
       {"drivers/dummy", {"runtime/bus", "runtime/iec", "st"}},
       {"drivers/can/port", {}},
       {"drivers/can/simulation",
        {"drivers/can/port", "drivers/dummy", "runtime/bus", "runtime/iec", "st"}},
       {"drivers/io", {"runtime/io", "runtime/app"}},
-      {"drivers/can/port", {}},
-      {"drivers/can/plan", {"drivers/can/port"}},
+      {"drivers/can/plan", {"drivers/can/port", "runtime/bus"}},
       {"drivers/can/master",
        {"drivers/can/plan", "drivers/can/port", "runtime/bus", "runtime/iec"}},
       {"drivers/can",
-       {"drivers/can/master", "drivers/can/plan", "drivers/can/port", "drivers/dummy",
-        "runtime/bus"}},
+       {"drivers/can/master", "drivers/can/simulation", "drivers/can/plan", "drivers/can/port",
+        "drivers/dummy", "runtime/bus"}},
   };
   return kArrows;
 }

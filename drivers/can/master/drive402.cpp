@@ -94,8 +94,10 @@ void Drive402::read(const Signals &signals, uint16_t emcy) {
   modes_.seen(static_cast<int8_t>(signals.number(Signal::ModeDisplay)));
   const bool enabled = power_.state() == PowerState::Enabled;
   released_ = enabled ? std::min(released_ + 1, config_.brakeRelease + 1) : 0;
-  status_.regulatorOn = isRegulated(power_.state());
   status_.driveStarted = enabled && released_ > config_.brakeRelease;
+  // Both at once if both are wanted: programs that wait for MC_Power.Status only may move then.
+  status_.regulatorOn =
+      isRegulated(power_.state()) && (status_.driveStarted || !command_.driveStart);
   if (const uint8_t now = controllerModeOf(modes_.current()); now != 0)
     status_.controllerMode = now;
   readActual(signals);
