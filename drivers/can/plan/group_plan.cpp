@@ -104,12 +104,13 @@ void checkGroup(const bus::GroupSetup &setup, bus::GroupFindings &findings) {
   for (size_t i = 0; i < plan.drives.size(); ++i) {
     const std::string drive = "drive `" + setup.drives[i].name + "`";
     if (!plan.faults[i].empty()) {
-      findings.push_back(
-          {true, i, drive + " cannot be on a CAN bus so: " + plan.faults[i], "", ""});
+      findings.push_back({true, i, drive + " cannot be on a CAN bus so: " + plan.faults[i],
+                          "cannot be served", ""});
       continue;
     }
     for (const PlanNote note : plan.drives[i].notes)
-      findings.push_back({false, i, drive + ": " + std::string(describe(note)), "", ""});
+      findings.push_back(
+          {false, i, drive + ": " + std::string(describe(note)), "served without it", ""});
   }
   checkLoad(plan, findings);
 }
