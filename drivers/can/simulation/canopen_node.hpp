@@ -50,6 +50,7 @@ public:
   [[nodiscard]] uint8_t id() const { return id_; }
   [[nodiscard]] NmtState state() const { return state_; }
   [[nodiscard]] Dictionary &objects() { return dictionary_; }
+  [[nodiscard]] const Dictionary &objects() const { return dictionary_; }
   [[nodiscard]] int64_t nowNs() const { return now_; }
 
   /// As if by SDO, whatever the state: for tests and tools.

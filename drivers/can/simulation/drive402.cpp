@@ -30,7 +30,7 @@ uint8_t registerBits(uint16_t code) {
 SimulatedDrive402::SimulatedDrive402(const Drive402Setup &setup)
     : CanopenNode(setup.node, driveRows(setup)), parameters_(setup.drive),
       homingParameters_(setup.drive), ratedTorque_(setup.ratedTorque),
-      velocityScale_(setup.velocityScale), o_(objects()),
+      velocityScale_(setup.velocityScale), secondEncoder_(setup.secondEncoder), o_(objects()),
       mechanics_(setup.drive.mechanics, setup.drive.startPosition),
       cycle_(setup.drive.mechanics.cycle) {}
 

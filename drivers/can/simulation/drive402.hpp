@@ -25,6 +25,7 @@ struct Drive402Setup {
   dummy::DriveParameters drive{};
   double ratedTorque = 1;   ///< 6076h. [Nm]
   double velocityScale = 1; ///< Increments per second that a unit of velocity of the drive is.
+  double secondEncoder = 1; ///< 60E4h:1: its increments for one of the drive's.
 };
 
 /// Its controllers run with SYNC, or by themselves every 60C2h when none comes: a cycle of them is
@@ -112,6 +113,7 @@ private:
   dummy::DriveParameters homingParameters_;
   double ratedTorque_;
   double velocityScale_;
+  double secondEncoder_;
   DriveObjects o_;
   dummy::Mechanics mechanics_;
   dummy::ReferenceRun run_;

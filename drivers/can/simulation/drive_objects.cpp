@@ -151,6 +151,12 @@ void addSignals(std::vector<ObjectRow> &rows) {
                 .type = Type::Integer32,
                 .access = Access::ReadOnly,
                 .mapping = kInTransmit},
+               {.index = 0x60E4, .type = Type::Unsigned8, .access = Access::Const, .value = 1},
+               {.index = 0x60E4,
+                .sub = 1,
+                .type = Type::Integer32,
+                .access = Access::ReadOnly,
+                .mapping = kInTransmit},
                {.index = 0x60FD, .access = Access::ReadOnly, .mapping = kInTransmit},
                {.index = 0x60FE, .type = Type::Unsigned8, .access = Access::Const, .value = 2},
                {.index = 0x60FE, .sub = 1, .mapping = kInBoth},
@@ -231,6 +237,7 @@ DriveObjects::DriveObjects(Dictionary &d)
       shutdownOption(d.at(0x605B)), disableOption(d.at(0x605C)), haltOption(d.at(0x605D)),
       faultOption(d.at(0x605E)), homingMethod(d.at(0x6098)), homingFast(d.at(0x6099, 1)),
       homingSlow(d.at(0x6099, 2)), homingAcceleration(d.at(0x609A)), homeOffset(d.at(0x607C)),
-      outputs(d.at(0x60FE, 1)), outputMask(d.at(0x60FE, 2)), mostTorque(d.at(0x6072)) {}
+      outputs(d.at(0x60FE, 1)), outputMask(d.at(0x60FE, 2)), mostTorque(d.at(0x6072)),
+      secondPosition(d.at(0x60E4, 1)) {}
 
 } // namespace stride::can::simulation

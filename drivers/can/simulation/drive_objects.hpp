@@ -82,6 +82,7 @@ struct DriveObjects {
   Entry &outputs;
   Entry &outputMask;
   Entry &mostTorque;
+  Entry &secondPosition;
 };
 
 } // namespace stride::can::simulation

@@ -117,6 +117,7 @@ void SimulatedDrive402::updateObjects() noexcept {
   put(o_.torqueDemand, rounded16(torqueDemanded_ / ratedTorque_ * 1000));
   put(o_.current, o_.torque.asSigned());
   put(o_.followingError, rounded32(lag()));
+  put(o_.secondPosition, rounded(exactPosition() * secondEncoder_, 9e15));
   o_.inputs.value =
       (limitNegative_ ? 1U : 0U) | (limitPositive_ ? 2U : 0U) | (homeSwitch_ ? 4U : 0U);
   if (sim_ != nullptr)

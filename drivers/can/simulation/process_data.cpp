@@ -125,21 +125,37 @@ void ProcessData::sample(uint8_t counter, int64_t nowNs) noexcept {
   }
 }
 
+/// Whether what is to be sent differs from what was, in something that counts as an event.
+bool ProcessData::changed(const Pdo &pdo) const noexcept {
+  if (!pdo.seen)
+    return true;
+  size_t from = 0;
+  for (size_t i = 0; i < pdo.places; ++i) {
+    const Place &place = pdo.place[i];
+    const auto *const now = pdo.frame.data.begin() + from;
+    if (place.entry != nullptr && rules_.triggers(*place.entry) &&
+        !std::equal(now, now + place.bytes, pdo.sent.data.begin() + from))
+      return true;
+    from += place.bytes;
+  }
+  return false;
+}
+
 /// Event-driven ones go when their bytes have changed, or when their time is over; not before the
 /// inhibit time is.
 void ProcessData::watch(Pdo &pdo, int64_t nowNs) noexcept {
   const Frame before = pdo.frame;
   const bool pending = pdo.pending;
   build(pdo);
-  const bool changed = !pdo.seen || pdo.frame != pdo.sent;
+  const bool event = changed(pdo);
   if (pdo.type->value == 0) {
-    pdo.due = pdo.due || changed;
+    pdo.due = pdo.due || event;
     pdo.frame = before;
     return;
   }
   const bool over = pdo.eventNs() > 0 && nowNs - pdo.lastNs >= pdo.eventNs();
-  if ((!changed && !over && !pending) || (!pending && nowNs - pdo.lastNs < pdo.inhibitNs())) {
-    pdo.due = changed;
+  if ((!event && !over && !pending) || (!pending && nowNs - pdo.lastNs < pdo.inhibitNs())) {
+    pdo.due = event;
     return;
   }
   pdo.due = false;

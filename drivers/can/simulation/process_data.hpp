@@ -103,6 +103,7 @@ private:
   void resolve(Pdo &pdo) noexcept;
   void apply(Pdo &pdo) noexcept;
   void build(Pdo &pdo) noexcept;
+  [[nodiscard]] bool changed(const Pdo &pdo) const noexcept;
   void watch(Pdo &pdo, int64_t nowNs) noexcept;
 
   Dictionary &dictionary_;

@@ -28,6 +28,8 @@ public:
   virtual Abort beforeWrite(const Entry &entry, uint64_t value) noexcept = 0;
   /// It has been written.
   virtual void written(Entry &entry) noexcept = 0;
+  /// Whether a change of it is an event, for process data that are sent by events.
+  [[nodiscard]] virtual bool triggers(const Entry & /*entry*/) const noexcept { return true; }
 };
 
 struct SdoServerSetup {
