@@ -74,10 +74,18 @@ struct GroupState {
   Tool tool;                       ///< Of the movements.
   uint64_t resumable; ///< The last cycle, plus 1, in which errors were to be resumable.
   bool interrupting;  ///< It comes to rest to be continued later.
+  double uncapped;    ///< Way of the motion up to which ancillary limits of axes are not planned
+                      ///< with. [u]
   Triggers triggers;
   double forecast;       ///< How much of the motion is planned, since the start of the cycle. [s]
   group::GroupRest rest; ///< The next one, since then.
 };
+
+/// Forgets the movements of a group at rest.
+inline void clearMotion(GroupState &state) noexcept {
+  group::clear(state.motion);
+  state.uncapped = 0.0;
+}
 
 GroupState &stateOf(GroupRef &group) noexcept;
 const GroupState &stateOf(const GroupRef &group) noexcept;

@@ -175,7 +175,7 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
 /// What has been aborted cannot be continued.
 void forget(GroupState &state) noexcept {
   endTriggers(state);
-  group::clear(state.motion);
+  clearMotion(state);
   state.abortedEnd = state.abortedRequest;
 }
 
@@ -208,7 +208,7 @@ void begin(GroupRef &group, GroupArm &arm, const Request &request) {
   const bool owned = group.bOwns != 0;
   if (owned) {
     endTriggers(state);
-    group::clear(state.motion);
+    clearMotion(state);
   }
   beginMoving(group);
   changeTool(state, arm, request.tool);
