@@ -85,6 +85,7 @@ public:
       addDefaultTask(check == ProgramCheck::Runnable);
     else if (check != ProgramCheck::Skip)
       checkPrograms();
+    inOrder_ = !diagnostics_.hasErrors();
     for (AxisGroupConfig &group : config_.axisGroups)
       resolveGroup(group);
     for (AxisConfig &axis : config_.axes)
@@ -279,7 +280,7 @@ private:
     if (task->start != TaskStart::Event && task->start != TaskStart::Status)
       group.cycleUs = static_cast<uint32_t>(task->intervalNs / 1000);
     setTaskCycle(group, *seconds);
-    if (!diagnostics_.hasErrors())
+    if (inOrder_)
       checkByDriver(config_, group, *seconds, diagnostics_);
   }
 
@@ -346,6 +347,7 @@ private:
   std::vector<const ast::Decl *> programs_;
   Declarations declarations_;
   bool hadTasks_ = false;
+  bool inOrder_ = false; ///< No errors before the axis groups.
   std::unordered_set<const TaskConfig *> onBus_; ///< Started by the SYNC of their bus.
 };
 
