@@ -1,6 +1,7 @@
 #include "drivers/can/can_driver.hpp"
 
 #include "drivers/can/master/frames.hpp"
+#include "drivers/can/socket/socket_can_port.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -172,6 +173,11 @@ void CanDriver::problem(bus::Message &text) const { master_.problem(text); }
 std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup,
                                             std::unique_ptr<Port> port) {
   return std::make_unique<CanDriver>(setup, std::move(port));
+}
+
+std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup) {
+  const CanSetup can = canSetup(setup);
+  return makeDriver(setup, std::make_unique<SocketCanPort>(can.interface, can.bitRate));
 }
 
 uint64_t driveDataLayout() { return 0; }

@@ -154,7 +154,7 @@ void Node::lose(NodeLoss loss, News &news) {
 }
 
 bool Node::communication() const {
-  return phase_ == Phase::Started && loss_ == NodeLoss::None && !silent_ &&
+  return phase_ == Phase::Started && loss_ == NodeLoss::None && !silent_ && !late_ &&
          failedSends_ < kMostFailedSends;
 }
 

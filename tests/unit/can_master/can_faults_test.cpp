@@ -208,6 +208,27 @@ TEST_F(CanBus, ASingleFullQueueIsCountedOnly) {
   EXPECT_GE(master.counters().sendQueueFull, 20U);
 }
 
+TEST_F(CanBus, SetValuesThatAreLateTwiceAreAnError) {
+  addDrive(3);
+  addDrive(4);
+  start();
+  for (int i = 0; i < 10; ++i) {
+    port->late = 1;
+    cycle();
+    port->late = 0;
+    EXPECT_TRUE(communicates(0));
+    cycle();
+  }
+  port->late = 2;
+  cycles(2);
+  EXPECT_FALSE(communicates(0) || communicates(1));
+  EXPECT_TRUE(host.heard("set values are late"));
+  EXPECT_EQ(dynamic_cast<CanDriver &>(*driver).master().counters().setValuesLate, 12U);
+  port->late = 0;
+  cycle();
+  EXPECT_TRUE(communicates(0));
+}
+
 TEST_F(CanBus, AnEventPdoThatDidNotGoOutGoesOutLater) {
   addDrive(3, 5);
   nodes[0].pdosInOperation = {"183#B80B000000000000", "283#400208"};

@@ -44,6 +44,7 @@ public:
     return true;
   }
   ControllerState state() const noexcept override { return controller; }
+  size_t unconfirmed() const noexcept override { return late; }
   PortCounters counters() const noexcept override { return portCounters; }
 
   void give(const std::string &text) { toReceive.push_back(test::frame(text)); }
@@ -65,6 +66,7 @@ public:
   bool onlyProcess = false; ///< The result is that of process data only.
   ControllerState controller = ControllerState::Active;
   PortCounters portCounters;
+  size_t late = 0;
   int cycles = 0;
 };
 
