@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdarg>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
@@ -75,9 +76,11 @@ SocketCanPort::SocketCanPort(std::string interface, uint32_t bitRate)
 
 SocketCanPort::~SocketCanPort() { close(); }
 
-template <class... Arguments>
-void SocketCanPort::setProblem(const char *format, Arguments... arguments) noexcept {
-  const int length = std::snprintf(problem_.data(), problem_.size(), format, arguments...);
+void SocketCanPort::setProblem(const char *format, ...) noexcept {
+  va_list arguments;
+  va_start(arguments, format);
+  const int length = std::vsnprintf(problem_.data(), problem_.size(), format, arguments);
+  va_end(arguments);
   problemLength_ = std::min(static_cast<size_t>(std::max(length, 0)), problem_.size() - 1);
 }
 

@@ -47,8 +47,7 @@ private:
   [[nodiscard]] int openSocket(unsigned index, SendClass sendClass) noexcept;
   void close() noexcept;
   void goDown(int error) noexcept;
-  template <class... Arguments>
-  void setProblem(const char *format, Arguments... arguments) noexcept;
+  [[gnu::format(printf, 2, 3)]] void setProblem(const char *format, ...) noexcept;
   bool take(const can_frame &frame, bool confirms, Received &received) noexcept;
   void takeError(const can_frame &frame) noexcept;
   void confirm(uint16_t id) noexcept;
