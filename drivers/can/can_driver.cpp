@@ -145,9 +145,9 @@ bus::SyncWake CanDriver::waitSync(int64_t afterNs, int64_t deadlineNs, bus::BusC
     missed = static_cast<uint64_t>((now - next) / periodNs_);
     next += static_cast<int64_t>(missed) * periodNs_;
   }
-  const bool arrives = next <= deadlineNs;
-  if (arrives && next <= now)
+  if (next <= now)
     return {next, master_.syncRuns(), missed};
+  const bool arrives = next <= deadlineNs;
   clock.sleepUntil(arrives ? next : deadlineNs);
   return {arrives ? next : deadlineNs, arrives && master_.syncRuns(), missed};
 }

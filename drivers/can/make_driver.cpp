@@ -2,6 +2,7 @@
 
 #include "drivers/can/can_driver.hpp"
 #include "drivers/can/simulated_network.hpp"
+#include "drivers/can/socket/socket_can_port.hpp"
 #include "drivers/dummy/dummy_drive.hpp"
 
 namespace stride::can {
@@ -23,6 +24,11 @@ private:
 } // namespace
 
 std::unique_ptr<bus::AxisDriver> makeDriver(const bus::GroupSetup &setup) {
+  if (setup.kind == bus::BusKind::Real) {
+    const CanSetup can = canSetup(setup);
+    return std::make_unique<CanDriver>(setup,
+                                       std::make_unique<SocketCanPort>(can.interface, can.bitRate));
+  }
   auto port = std::make_unique<SimulatedNetwork>(setup);
   SimulatedNetwork &network = *port;
   return std::make_unique<SimulatedCanDriver>(setup, network, std::move(port));

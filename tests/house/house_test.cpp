@@ -115,8 +115,9 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
       {"drivers/can/master",
        {"drivers/can/plan", "drivers/can/port", "runtime/bus", "runtime/iec"}},
       {"drivers/can",
-       {"drivers/can/master", "drivers/can/simulation", "drivers/can/plan", "drivers/can/port",
-        "drivers/dummy", "runtime/bus"}},
+       {"drivers/can/master", "drivers/can/simulation", "drivers/can/socket", "drivers/can/plan",
+        "drivers/can/port", "drivers/dummy", "runtime/bus"}},
+      {"drivers/can/socket", {"drivers/can/port"}},
   };
   return kArrows;
 }

@@ -72,8 +72,8 @@ public:
   /// Last in a cycle: makes set values of the command.
   void write(Signals &signals);
 
-  /// It cannot be reached: it stays off until an error is acknowledged.
-  void block() { power_.block(); }
+  /// Whether it can be reached: if not, it stays off until an error is acknowledged after that.
+  void reach(bool reachable) { power_.reach(reachable); }
 
   void command(const bus::DriveCommand &command) { command_ = command; }
   /// Without `communication`.

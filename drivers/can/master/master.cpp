@@ -8,6 +8,7 @@ namespace stride::can {
 namespace {
 
 constexpr uint32_t kMostMissed = 3;
+constexpr uint32_t kMostLate = 2;
 /// Frames that are read in a cycle, as a multiple of those that are planned.
 constexpr size_t kReserve = 4;
 
@@ -54,6 +55,7 @@ void Master::executeStart() {
   syncs_ = 0;
   receiveAll();
   judgeSync();
+  judgeSetValues();
   const uint32_t syncs = config_.givesSync ? 1 : syncs_;
   bool duplicate = false;
   for (Node &node : nodes_) {
@@ -143,6 +145,17 @@ void Master::judgeSync() {
   missedInRow_ = syncs_ == 0 ? std::min(missedInRow_ + 1, kMostMissed + 1) : 0;
   if (missedInRow_ == kMostMissed)
     news_.say("no SYNC for ", kMostMissed, " cycles");
+}
+
+/// PDOs that are still waiting when the next cycle begins come too late for its SYNC.
+void Master::judgeSetValues() {
+  const bool late = port_->unconfirmed() > 0;
+  counters_.setValuesLate += late ? 1 : 0;
+  lateInRow_ = late ? std::min(lateInRow_ + 1, kMostLate + 1) : 0;
+  if (lateInRow_ == kMostLate)
+    news_.say("set values are late: the bus is too slow for this cycle");
+  for (Node &node : nodes_)
+    node.setLate(lateInRow_ >= kMostLate);
 }
 
 uint32_t Master::awaitSync(int64_t monotonicNs) {

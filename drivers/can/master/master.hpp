@@ -30,6 +30,7 @@ struct MasterCounters {
   uint64_t syncTwice = 0;     ///< Cycles with more than one.
   uint64_t foreignSyncs = 0;  ///< SYNCs of others, while the master gives SYNC.
   uint64_t sendQueueFull = 0; ///< Frames for which the interface had no room.
+  uint64_t setValuesLate = 0; ///< Cycles whose PDOs had not all gone out when the next one began.
   uint64_t overloads = 0;     ///< Cycles with more frames than are read in one.
 };
 
@@ -82,6 +83,7 @@ private:
   void receiveAll();
   void take(const Frame &frame);
   void judgeSync();
+  void judgeSetValues();
   bool send(const Frame &frame, SendClass sendClass);
   void sendPdos();
   void sendCommands();
@@ -100,6 +102,7 @@ private:
   uint32_t heartbeatCycles_;
   uint32_t toHeartbeat_ = 0;
   uint32_t syncs_ = 0;       ///< In this cycle.
+  uint32_t lateInRow_ = 0;   ///< Cycles whose set values were late.
   uint32_t missedInRow_ = 0; ///< Cycles without SYNC.
   size_t nextSdo_ = 0;       ///< Whose turn it is.
   ControllerState state_ = ControllerState::Active;

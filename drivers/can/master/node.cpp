@@ -88,8 +88,7 @@ void Node::endReceive(uint32_t syncs, News &news) {
   countPdos(syncs);
   watch(news);
   drive_.read(signals_, emcy_.code());
-  if (!communication())
-    drive_.block();
+  drive_.reach(communication());
   if (drive_.velocityDoubtful())
     news.say("node ", uint32_t{config_.plan.node},
              ": its velocity (606Ch) does not fit its positions (6064h): check velocity_scale");
@@ -154,7 +153,7 @@ void Node::lose(NodeLoss loss, News &news) {
 }
 
 bool Node::communication() const {
-  return phase_ == Phase::Started && loss_ == NodeLoss::None && !silent_ &&
+  return phase_ == Phase::Started && loss_ == NodeLoss::None && !silent_ && !late_ &&
          failedSends_ < kMostFailedSends;
 }
 

@@ -49,6 +49,8 @@ public:
   [[nodiscard]] bool rpdoDue(size_t place) const { return rpdos_[place].due; }
   [[nodiscard]] const Frame &rpdo(size_t place) const { return rpdos_[place].frame; }
   void rpdoSent(size_t place, bool taken);
+  /// What it is told comes too late, cycle after cycle.
+  void setLate(bool late) { late_ = late; }
   /// All RPDOs of the cycle have been tried.
   void endOfPdos(News &news);
 
@@ -121,6 +123,7 @@ private:
   SdoUser user_ = SdoUser::None;
   NodeLoss loss_ = NodeLoss::None;
   bool silent_ = false;
+  bool late_ = false;
   bool saidSilent_ = false;
   bool saidStuck_ = false;
 };

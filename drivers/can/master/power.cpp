@@ -114,7 +114,7 @@ void PowerControl::seen(uint16_t statusword) {
 void PowerControl::demand(PowerTarget target, bool acknowledge) {
   if (!acknowledge)
     tried_ = false;
-  else
+  else if (reachable_)
     stuck_ = blocked_ = false;
   if (fault_) {
     demandInFault(acknowledge);

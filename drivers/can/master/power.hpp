@@ -64,9 +64,12 @@ public:
   void clear();
   /// The statusword of this cycle.
   void seen(uint16_t statusword);
-  /// The drive cannot be reached: it is switched off as soon as it can, and stays off until
-  /// somebody acknowledges it.
-  void block() { blocked_ = true; }
+  /// Whether the drive can be reached. When it cannot, it is switched off as soon as it hears that,
+  /// and stays off until it can be reached again and somebody acknowledges it.
+  void reach(bool reachable) {
+    reachable_ = reachable;
+    blocked_ = blocked_ || !reachable;
+  }
   /// What is wanted in this cycle: makes the controlword of it. `acknowledge`: errors.
   void demand(PowerTarget target, bool acknowledge);
 
@@ -90,6 +93,7 @@ private:
   bool fault_ = false;
   bool stuck_ = false;
   bool blocked_ = false;
+  bool reachable_ = true;
   bool acknowledged_ = false; ///< The fault, since it came.
   bool tried_ = false;        ///< This acknowledgement has had its reset.
 };

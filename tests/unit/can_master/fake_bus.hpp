@@ -23,14 +23,17 @@ public:
     if (result != SendResult::Sent && (!onlyProcess || sendClass == SendClass::Process))
       return result;
     sent.push_back(frame);
+    allSent.push_back(frame);
     if (heard)
       heard(frame);
     return SendResult::Sent;
   }
   size_t receive(std::span<Received> frames) noexcept override {
     size_t count = 0;
+    taken.emplace_back();
     for (; count < frames.size() && !toReceive.empty(); ++count) {
       frames[count].frame = toReceive.front();
+      taken.back().push_back(toReceive.front());
       toReceive.pop_front();
     }
     return count;
@@ -44,6 +47,7 @@ public:
     return true;
   }
   ControllerState state() const noexcept override { return controller; }
+  size_t unconfirmed() const noexcept override { return late; }
   PortCounters counters() const noexcept override { return portCounters; }
 
   void give(const std::string &text) { toReceive.push_back(test::frame(text)); }
@@ -57,6 +61,8 @@ public:
   }
 
   std::vector<Frame> sent;
+  std::vector<Frame> allSent;            ///< From the beginning.
+  std::vector<std::vector<Frame>> taken; ///< By each receive().
   std::deque<Frame> toReceive;
   std::deque<Frame> arriving; ///< While somebody waits.
   std::vector<int64_t> waited;
@@ -65,6 +71,7 @@ public:
   bool onlyProcess = false; ///< The result is that of process data only.
   ControllerState controller = ControllerState::Active;
   PortCounters portCounters;
+  size_t late = 0;
   int cycles = 0;
 };
 
@@ -131,7 +138,8 @@ private:
   void answerSdo(const Frame &frame) {
     if (!answers || frame.data[0] == 0x80)
       return;
-    const uint32_t key = frame.data[2] << 16U | frame.data[1] << 8U | frame.data[3];
+    const uint32_t key =
+        uint32_t{frame.data[2]} << 16U | uint32_t{frame.data[1]} << 8U | frame.data[3];
     char text[40];
     const auto abort = [&](uint32_t code) {
       std::snprintf(text, sizeof text, "80%02X%02X%02X%02X%02X%02X%02X", frame.data[1],

@@ -337,7 +337,9 @@ TEST(Power, ADriveOutOfReachIsSwitchedOffUntilSomebodyAcknowledges) {
   PowerControl power(parameters());
   ModelDrive drive(2);
   wordsUntil(power, drive, PowerTarget::Enabled, PowerState::Enabled);
-  power.block();
+  power.reach(false);
+  wordsUntil(power, drive, PowerTarget::Enabled, PowerState::SwitchOnDisabled, true);
+  power.reach(true);
   wordsUntil(power, drive, PowerTarget::Enabled, PowerState::SwitchOnDisabled);
   wordsUntil(power, drive, PowerTarget::Enabled, PowerState::Enabled, true);
 }

@@ -174,7 +174,7 @@ TEST_F(StartUpOf, AParameterThatIsRefused) {
 }
 
 TEST_F(StartUpOf, FewPdosAreEnough) {
-  for (const uint32_t missing : {0x140101, 0x140201, 0x140301, 0x180101, 0x180201, 0x180301})
+  for (const uint32_t missing : {0x140101U, 0x140201U, 0x140301U, 0x180101U, 0x180201U, 0x180301U})
     node.aborts[missing] = 0x06020000;
   EXPECT_EQ(run(), bus::StartUp::Started) << text();
 }

@@ -128,7 +128,7 @@ TEST(EmcyMessages, EveryCodeHasAText) {
   EXPECT_FALSE(isCommunicationWarning(0x8611));
 }
 
-Pdo pdo(std::vector<PdoEntry> entries) {
+Pdo pdo(const std::vector<PdoEntry> &entries) {
   Pdo result;
   result.cobId = 0x285;
   for (const PdoEntry &entry : entries)
