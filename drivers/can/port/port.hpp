@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace stride::can {
 
@@ -44,7 +45,7 @@ struct PortCounters {
   uint64_t restarts = 0;    ///< … and restarts after BusOff.
 };
 
-/// One CAN interface. Nothing here waits, allocates or throws.
+/// One CAN interface. Nothing here allocates or throws, and nothing but wait() waits.
 class Port {
 public:
   Port() = default;
@@ -61,7 +62,14 @@ public:
   /// Takes up to `frames.size()` frames that have come, oldest first; returns how many.
   virtual size_t receive(std::span<Received> frames) noexcept = 0;
 
+  /// Waits until there is something to receive, but not beyond that time of the system's monotonic
+  /// clock; FALSE: nothing has come. For who has nothing else to do: all other calls do not wait.
+  /// A port without a clock of its own does not wait either. [ns]
+  virtual bool wait(int64_t /*monotonicNs*/) noexcept { return false; }
+
   [[nodiscard]] virtual ControllerState state() const noexcept = 0;
+  /// Why the interface is down, for people; empty: it is not, or nobody knows.
+  [[nodiscard]] virtual std::string_view problem() const noexcept { return {}; }
   [[nodiscard]] virtual PortCounters counters() const noexcept = 0;
 };
 
