@@ -108,6 +108,7 @@ const std::map<std::string, std::vector<std::string>> &arrows() {
       {"drivers", {"drivers/dummy", "drivers/can", "runtime/bus"}},
       {"drivers/dummy", {"runtime/bus", "runtime/iec", "st"}},
       {"drivers/can/port", {}},
+      {"drivers/can/log", {"drivers/can/port"}},
       {"drivers/can/simulation",
        {"drivers/can/port", "drivers/dummy", "runtime/bus", "runtime/iec", "st"}},
       {"drivers/io", {"runtime/io", "runtime/app"}},

@@ -27,6 +27,7 @@ CanopenNode::CanopenNode(const NodeSetup &setup, const DeviceRows &device)
       transmitPdos_(device.transmit.size()), dictionary_(allRows(setup_, device)),
       emergency_(dictionary_), control_(dictionary_), sdo_(dictionary_, *this, setup.sdo),
       process_(dictionary_, *this, emergency_, receivePdos_, transmitPdos_, setup.remotely),
+      lss_({setup.vendor, setup.product, setup.revision, setup.serial}, setup.id),
       syncId_(dictionary_.at(0x1005)), syncPeriod_(dictionary_.at(0x1006)),
       syncOverflow_(dictionary_.at(0x1019)) {}
 
@@ -36,6 +37,7 @@ void CanopenNode::powerOn(int64_t nowNs) noexcept {
 }
 
 void CanopenNode::resetNode() noexcept {
+  lss_.powerOn();
   dictionary_.restore(kDeviceArea, 0xFFFF, id_);
   emergency_.reset();
   emergency_.forget();
@@ -45,6 +47,7 @@ void CanopenNode::resetNode() noexcept {
 
 void CanopenNode::resetCommunication() noexcept {
   enter(NmtState::Initialising);
+  id_ = lss_.activate();
   dictionary_.restore(0, kDeviceArea - 1, id_);
   emergency_.forget();
   control_.reset(false, now_);
@@ -53,7 +56,7 @@ void CanopenNode::resetCommunication() noexcept {
   process_.configure();
   syncPending_ = false;
   syncNs_ = kNever;
-  bootNs_ = now_ + setup_.bootNs;
+  bootNs_ = id_ == kUnconfigured ? kNever : now_ + setup_.bootNs;
 }
 
 void CanopenNode::enter(NmtState state) noexcept {
@@ -95,7 +98,13 @@ void CanopenNode::networkManagement(const Frame &frame) noexcept {
 
 void CanopenNode::receive(const Frame &frame, int64_t nowNs) noexcept {
   now_ = nowNs;
-  if (state_ == NmtState::Initialising || silent_)
+  if (frame.id == LssSlave::kRequestId && (hears() || id_ == kUnconfigured) && !silent_) {
+    lss_.receive(frame);
+    if (lss_.takeStart())
+      resetCommunication();
+    return;
+  }
+  if (!hears())
     return;
   if (frame.id == 0) {
     networkManagement(frame);
@@ -203,7 +212,9 @@ int64_t CanopenNode::nextNs() const noexcept {
 }
 
 bool CanopenNode::transmit(Frame &frame) noexcept {
-  if (state_ == NmtState::Initialising || silent_)
+  if (!silent_ && lss_.transmit(frame))
+    return true;
+  if (!hears())
     return false;
   if (control_.boots())
     return control_.transmit(frame, id_, state_);

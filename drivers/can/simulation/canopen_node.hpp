@@ -5,6 +5,7 @@
 #include "drivers/can/simulation/dictionary.hpp"
 #include "drivers/can/simulation/emergency.hpp"
 #include "drivers/can/simulation/error_control.hpp"
+#include "drivers/can/simulation/lss_slave.hpp"
 #include "drivers/can/simulation/node.hpp"
 #include "drivers/can/simulation/process_data.hpp"
 #include "drivers/can/simulation/sdo_server.hpp"
@@ -17,7 +18,7 @@
 namespace stride::can::simulation {
 
 struct NodeSetup {
-  uint8_t id = 1; ///< 1 … 127.
+  uint8_t id = 1; ///< 1 … 127, or kUnconfigured: it waits for one by LSS.
   std::string name = "Stride simulated node";
   uint32_t vendor = 0;
   uint32_t product = 0;
@@ -92,6 +93,7 @@ private:
   [[nodiscard]] Abort checkCommunication(const Entry &entry, uint64_t value) const noexcept;
   void communicationWritten(Entry &entry) noexcept;
 
+  [[nodiscard]] bool hears() const { return state_ != NmtState::Initialising && !silent_; }
   void resetNode() noexcept;
   void resetCommunication() noexcept;
   void enter(NmtState state) noexcept;
@@ -114,6 +116,7 @@ private:
   ErrorControl control_;
   SdoServer sdo_;
   ProcessData process_;
+  LssSlave lss_;
   Entry &syncId_;
   Entry &syncPeriod_;
   Entry &syncOverflow_;

@@ -50,6 +50,9 @@ public:
   SendResult send(const Frame &frame, SendClass sendClass) noexcept override;
   size_t receive(std::span<Received> frames) noexcept override;
   [[nodiscard]] ControllerState state() const noexcept override { return bus_.state(station_); }
+  [[nodiscard]] std::string_view problem() const noexcept override {
+    return state() == ControllerState::Down ? "the simulated interface is down" : "";
+  }
   [[nodiscard]] PortCounters counters() const noexcept override { return counters_; }
 
 private:
