@@ -48,6 +48,8 @@ struct Request {
   int16_t system;            ///< SMC_COORD_SYSTEM
   int16_t bufferMode;        ///< MC_BUFFER_MODE
   double position[kArmAxes]; ///< Of axes, or a pose by X, Y, Z, A, B, C. [u], [°]
+  int16_t orientationMode;   ///< SMC_ORIENTATION_MODE
+  double torqueFactor;       ///< Of a movement; nothing depends on it.
   int16_t circleMode;        ///< Circular: SMC_CIRC_MODE
   int16_t pathChoice;        ///< Circular: MC_CIRC_PATHCHOICE
   double aux[kArmAxes]; ///< Circular: AuxPoint, like `position`. Jog: how far at most [u], [°].
