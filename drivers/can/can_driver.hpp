@@ -47,6 +47,7 @@ private:
   void stop();
 
   Master master_;
+  BusLoad load_;
   std::vector<std::string> faults_; ///< Of each drive: why it cannot start.
   bus::DriverHost *host_ = nullptr;
   int64_t periodNs_;

@@ -233,6 +233,8 @@ void Node::started(News &news) {
 
 void Node::sayLacks(News &news) const {
   const uint32_t number = config_.plan.node;
+  if (config_.kind == NodeConfig::Kind::Drive && !isExactPeriod(config_.cycle))
+    news.say("node ", number, ": its interpolation period (60C2h) cannot be exactly the cycle");
   if (startUp_.lacksConsumer())
     news.say("node ", number,
              " has no consumer heartbeat (1016h): it does not notice when this program ends");

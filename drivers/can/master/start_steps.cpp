@@ -33,16 +33,19 @@ uint32_t milliseconds(double seconds) {
 struct Period {
   uint8_t mantissa = 1;
   int8_t exponent = -3;
+  bool exact = true;
 };
 Period periodOf(double seconds) {
   constexpr uint32_t kMostMantissa = 255;
   auto mantissa = static_cast<uint32_t>(seconds * 1e6 + 0.5);
   int8_t exponent = -6;
+  bool exact = true;
   while (mantissa > kMostMantissa || (mantissa != 0 && mantissa % 10 == 0)) {
+    exact = exact && mantissa % 10 == 0;
     mantissa = (mantissa + 5) / 10;
     ++exponent;
   }
-  return {static_cast<uint8_t>(mantissa), exponent};
+  return {static_cast<uint8_t>(mantissa), exponent, exact};
 }
 
 class List {
@@ -139,6 +142,8 @@ void addSync(List &list, const NodeConfig &config) {
 }
 
 } // namespace
+
+bool isExactPeriod(double seconds) { return periodOf(seconds).exact; }
 
 std::vector<StartStep> startSteps(const NodeConfig &config) {
   List list;

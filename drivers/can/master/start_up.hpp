@@ -47,6 +47,9 @@ struct StartStep {
 /// The steps of a node.
 std::vector<StartStep> startSteps(const NodeConfig &config);
 
+/// Whether 60C2h can say that time: as up to 255 times a power of ten. Else it says the nearest.
+bool isExactPeriod(double seconds);
+
 /// What the steps work on.
 struct StartParts {
   const NodeConfig &config;
@@ -67,7 +70,7 @@ public:
   bus::StartUp step(const StartParts &parts, bus::Message &message);
 
   [[nodiscard]] uint8_t progress() const;
-  /// The node is not to be watched yet: what it says belongs to its start-up.
+  /// It has no 1016h, no 1017h.
   [[nodiscard]] bool lacksConsumer() const { return lacksConsumer_; }
   [[nodiscard]] bool lacksHeartbeat() const { return lacksHeartbeat_; }
   [[nodiscard]] const std::vector<StartStep> &steps() const { return steps_; }

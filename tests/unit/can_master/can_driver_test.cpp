@@ -84,6 +84,20 @@ TEST_F(CanBus, NodeIdsThatCannotBe) {
   EXPECT_THAT(std::string(message.text()), HasSubstr("same wDriveId"));
 }
 
+TEST_F(CanBus, MoreThanTheBusCanCarryIsNews) {
+  for (uint32_t id = 1; id <= 5; ++id)
+    addDrive(id);
+  make();
+  EXPECT_TRUE(host.heard("SYNC and PDOs need 121 % of the cycle: it must have 2000 us"));
+}
+
+TEST_F(CanBus, FourDrivesFit) {
+  for (uint32_t id = 1; id <= 4; ++id)
+    addDrive(id);
+  make();
+  EXPECT_TRUE(host.news.empty());
+}
+
 TEST_F(CanBus, DefaultsOfTheSchema) {
   setup.parameters.add({"ControllerNo", "", 2});
   setup.parameters.add({"BaudRate", "500", 500});

@@ -338,6 +338,13 @@ TEST_F(StartUpOf, TheDriveThatGivesSync) {
   EXPECT_THAT(sent, ::testing::Not(Contains("080#")));
 }
 
+TEST(StartSteps, PeriodsThat60C2CanSay) {
+  for (const double exact : {0.001, 0.0025, 0.00125, 0.01, 0.1, 1.0, 0.000125, 0.255, 0.00255})
+    EXPECT_TRUE(isExactPeriod(exact)) << exact;
+  for (const double rough : {0.003333, 0.00256, 0.001001})
+    EXPECT_FALSE(isExactPeriod(rough)) << rough;
+}
+
 TEST(StartSteps, OfASyncDevice) {
   NodeConfig config;
   config.kind = NodeConfig::Kind::SyncDevice;
