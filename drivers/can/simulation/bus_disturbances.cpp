@@ -31,8 +31,7 @@ void SimulatedBus::setPower(Station station, bool on) {
     member.port->forget();
   else if (on)
     member.node->powerOn(now_);
-  if (on)
-    fill(station);
+  served(station);
 }
 
 void SimulatedBus::forceBusOff(Station station) {

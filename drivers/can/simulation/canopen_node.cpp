@@ -72,56 +72,59 @@ void CanopenNode::enter(NmtState state) noexcept {
     process_.begin(now_);
 }
 
-void CanopenNode::networkManagement(const Frame &frame) noexcept {
+bool CanopenNode::networkManagement(const Frame &frame) noexcept {
   if (frame.length != 2 || frame.remote || (frame.data[1] != 0 && frame.data[1] != id_))
-    return;
+    return false;
   switch (frame.data[0]) {
   case kStart:
     enter(NmtState::Operational);
-    break;
+    return true;
   case kStop:
     enter(NmtState::Stopped);
-    break;
+    return true;
   case kPreOperational:
     enter(NmtState::PreOperational);
-    break;
+    return true;
   case kResetNode:
     resetNode();
-    break;
+    return true;
   case kResetCommunication:
     resetCommunication();
-    break;
-  default: // not for us
-    break;
+    return true;
+  default:
+    return false;
   }
 }
 
-void CanopenNode::receive(const Frame &frame, int64_t nowNs) noexcept {
+bool CanopenNode::receive(const Frame &frame, int64_t nowNs) noexcept {
   now_ = nowNs;
   if (frame.id == LssSlave::kRequestId && (hears() || id_ == kUnconfigured) && !silent_) {
     lss_.receive(frame);
     if (lss_.takeStart())
       resetCommunication();
-    return;
+    return true;
   }
   if (!hears())
-    return;
-  if (frame.id == 0) {
-    networkManagement(frame);
-    return;
-  }
+    return false;
+  if (frame.id == 0)
+    return networkManagement(frame);
   if (frame.id == (syncId_.value & Frame::kLastId) && !frame.remote) {
     synchronize(frame);
-    return;
+    return true;
   }
-  if (frame.id == kRequest + id_ && talks())
-    sdo_.receive(frame, nowNs);
-  else if ((frame.id & ~kIdMask) == kErrorControlId)
+  if (frame.id == kRequest + id_) {
+    if (talks() && !deaf_)
+      sdo_.receive(frame, nowNs);
+  } else if ((frame.id & ~kIdMask) == kErrorControlId) {
     control_.receive(frame, id_, nowNs);
-  else
+  } else if (process_.listensTo(frame.id)) {
     process_.receive(frame, nowNs);
+  } else {
+    return false;
+  }
   watchMaster();
   process_.lookForEvents(nowNs);
+  return true;
 }
 
 void CanopenNode::synchronize(const Frame &frame) noexcept {

@@ -42,7 +42,7 @@ public:
   CanopenNode(const NodeSetup &setup, const DeviceRows &device);
 
   void powerOn(int64_t nowNs) noexcept final;
-  void receive(const Frame &frame, int64_t nowNs) noexcept final;
+  bool receive(const Frame &frame, int64_t nowNs) noexcept final;
   void advance(int64_t nowNs) noexcept final;
   [[nodiscard]] int64_t nextNs() const noexcept final;
   bool transmit(Frame &frame) noexcept final;
@@ -58,6 +58,8 @@ public:
   Abort write(uint16_t index, uint8_t sub, uint64_t value) noexcept;
   /// It hears and says nothing, as if its connector had come off.
   void setSilent(bool silent) { silent_ = silent; }
+  /// Requests by SDO stay without an answer.
+  void setDeaf(bool deaf) { deaf_ = deaf; }
   /// The node resets itself, as after a short break of its supply.
   void reset() noexcept { resetNode(); }
 
@@ -97,7 +99,7 @@ private:
   void resetNode() noexcept;
   void resetCommunication() noexcept;
   void enter(NmtState state) noexcept;
-  void networkManagement(const Frame &frame) noexcept;
+  bool networkManagement(const Frame &frame) noexcept;
   void synchronize(const Frame &frame) noexcept;
   void produceSync() noexcept;
   void connectionLost(uint16_t code) noexcept;
@@ -127,6 +129,7 @@ private:
   uint8_t syncCount_ = 0;
   bool syncPending_ = false;
   bool silent_ = false;
+  bool deaf_ = false;
   Frame sync_;
 };
 

@@ -214,6 +214,9 @@ void SimulatedDrive402::onState(NmtState state) noexcept {
 
 Abort SimulatedDrive402::onWrite(const Entry &entry, uint64_t value) noexcept {
   const auto number = static_cast<int64_t>(value);
+  // Whoever configures the drive is told that somebody else has it.
+  if (sim_ != nullptr && sim_->bFailStartUp != 0 && state() == NmtState::PreOperational)
+    return Abort::LocalControl;
   switch (entry.row.index) {
   case 0x6060: {
     const uint64_t modes = objects().value(0x6502);

@@ -130,6 +130,7 @@ void SimulatedDrive402::disturb() noexcept {
     return;
   DriveSim &sim = *sim_;
   setSilent(sim.bLoseCommunication != 0);
+  setDeaf(sim.bHoldParameters != 0);
   persistent_ = sim.bErrorPersistent != 0;
   raiseError(sim.wDriveError);
   if (rising(sim.bMoveByHand, sim.bOldHand))

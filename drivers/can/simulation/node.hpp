@@ -28,8 +28,9 @@ public:
   /// The supply is switched on: everything is forgotten that is not stored for good.
   virtual void powerOn(int64_t nowNs) noexcept = 0;
 
-  /// A frame of somebody else has come, whole and without an error.
-  virtual void receive(const Frame &frame, int64_t nowNs) noexcept = 0;
+  /// A frame of somebody else has come, whole and without an error. FALSE: it is not for this node,
+  /// and has changed nothing.
+  virtual bool receive(const Frame &frame, int64_t nowNs) noexcept = 0;
 
   /// Does what is due until `nowNs`.
   virtual void advance(int64_t nowNs) noexcept = 0;

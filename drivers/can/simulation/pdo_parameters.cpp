@@ -196,12 +196,15 @@ void ProcessData::resolve(Pdo &pdo) noexcept {
 }
 
 void ProcessData::configure() noexcept {
+  listens_ = {};
   for (Pdo &pdo : pdos_) {
     const bool existed = pdo.exists;
     const uint16_t id = pdo.id;
     resolve(pdo);
     if (pdo.exists != existed || pdo.id != id)
       pdo.pending = pdo.seen = false;
+    if (pdo.exists)
+      listens_[pdo.id / 64U] |= uint64_t{1} << pdo.id % 64U;
   }
 }
 

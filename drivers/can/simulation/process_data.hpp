@@ -50,6 +50,9 @@ public:
   void end() noexcept;
 
   // While it is operational:
+  [[nodiscard]] bool listensTo(uint16_t id) const noexcept {
+    return operational_ && (listens_[id / 64 % listens_.size()] >> id % 64 & 1U) != 0;
+  }
   void receive(const Frame &frame, int64_t nowNs) noexcept;
   /// SYNC: what has been received is valid now …
   void applySynchronous() noexcept;
@@ -113,6 +116,7 @@ private:
   size_t receivers_;
   bool remotely_;
   bool operational_ = false;
+  std::array<uint64_t, (Frame::kLastId + 1) / 64> listens_{}; ///< Bit n: to the identifier n.
 };
 
 } // namespace stride::can::simulation

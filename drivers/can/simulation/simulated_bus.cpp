@@ -33,12 +33,15 @@ Station SimulatedBus::attach(Node &node, int64_t reactionNs) {
   member.node = &node;
   member.reactionNs = reactionNs;
   node.powerOn(now_);
-  fill(station);
+  served(station);
   return station;
 }
 
 void SimulatedBus::runUntil(int64_t timeNs) noexcept {
   using What = Next::What;
+  for (Station i = 0; i < members_.size(); ++i)
+    if (members_[i].node != nullptr) // somebody may have changed it meanwhile
+      served(i);
   for (Next event = next(); event.timeNs <= timeNs; event = next()) {
     // What is sent at `timeNs` takes part in the arbitration of that time.
     if (event.what == What::Start && event.timeNs >= timeNs)
@@ -64,8 +67,7 @@ SimulatedBus::Next SimulatedBus::next() const noexcept {
     event.consider(late_[i].timeNs, What::Late, i);
   for (Station i = 0; i < members_.size(); ++i) {
     event.consider(members_[i].recoverNs, What::Recover, i);
-    if (members_[i].node != nullptr && members_[i].powered)
-      event.consider(members_[i].node->nextNs(), What::Timer, i);
+    event.consider(members_[i].timerNs, What::Timer, i);
   }
   return event;
 }
@@ -104,7 +106,7 @@ void SimulatedBus::handle(const Next &event) noexcept {
     break;
   case Next::What::Timer:
     members_[event.which].node->advance(now_);
-    fill(event.which);
+    served(event.which);
     break;
   case Next::What::Start:
     start(event.which);
@@ -207,7 +209,7 @@ void SimulatedBus::finish(size_t piece) noexcept {
     member.sending = false;
     member.full = false;
     member.controller.sent();
-    fill(i);
+    served(i);
     if (member.controller.passive())
       member.readyNs = std::max(member.readyNs, wire.idleNs + bitsNs(kSuspendBits));
   }
@@ -275,7 +277,7 @@ void SimulatedBus::recover(Station station) noexcept {
     ++member.port->counters_.restarts;
   else
     member.node->recovered(now_);
-  fill(station);
+  served(station);
 }
 
 void SimulatedBus::deliver(const Frame &frame, Station sender, uint8_t piece) noexcept {
@@ -285,8 +287,8 @@ void SimulatedBus::deliver(const Frame &frame, Station sender, uint8_t piece) no
       continue;
     member.controller.received();
     if (member.node != nullptr) {
-      member.node->receive(frame, now_);
-      fill(i);
+      if (member.node->receive(frame, now_))
+        served(i);
     } else if (!member.port->received_.push({frame, now_})) {
       ++member.port->counters_.dropped;
     }
@@ -297,6 +299,14 @@ void SimulatedBus::deliverLate(size_t which) noexcept {
   const Late late = late_[which];
   late_[which].timeNs = kNever;
   deliver(late.frame, late.sender, late.piece);
+}
+
+/// The node has done something: when it has to do next, and what it sends.
+void SimulatedBus::served(Station station) noexcept {
+  Member &member = members_[station];
+  fill(station);
+  if (member.node != nullptr)
+    member.timerNs = member.powered ? member.node->nextNs() : kNever;
 }
 
 void SimulatedBus::fill(Station station) noexcept {

@@ -98,6 +98,7 @@ private:
     int64_t readyNs = 0; ///< … which may be sent from then on.
     int64_t reactionNs = 0;
     int64_t recoverNs = kNever; ///< Its bus-off ends.
+    int64_t timerNs = kNever;   ///< The node has something to do.
     uint8_t piece = 0;
     bool powered = true;
     bool sending = false; ///< What is on its piece of the wire just now.
@@ -144,6 +145,7 @@ private:
   void failed(size_t piece, bool acknowledged) noexcept;
   void deliver(const Frame &frame, Station sender, uint8_t piece) noexcept;
   void deliverLate(size_t which) noexcept;
+  void served(Station station) noexcept;
   void fill(Station station) noexcept;
   void recover(Station station) noexcept;
   void note(Member &member) noexcept;

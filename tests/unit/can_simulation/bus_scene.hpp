@@ -28,8 +28,9 @@ public:
   };
 
   void powerOn(int64_t /*nowNs*/) noexcept override {}
-  void receive(const Frame &frame, int64_t nowNs) noexcept override {
+  bool receive(const Frame &frame, int64_t nowNs) noexcept override {
     heard.push_back({frame, nowNs});
+    return true;
   }
   void advance(int64_t nowNs) noexcept override {
     while (!orders.empty() && orders.front().timeNs <= nowNs) {

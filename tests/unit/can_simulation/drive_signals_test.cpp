@@ -204,6 +204,23 @@ TEST(CanDriveSignals, ProgramsSeeAndDisturbIt) {
   EXPECT_GT(scene.telegrams, before);
 }
 
+TEST(CanDriveSignals, ProgramsKeepItFromStarting) {
+  DriveSim sim{};
+  DriveScene scene(withSwitches());
+  scene.drive.bind(&sim);
+  sim.bFailStartUp = 1;
+  EXPECT_EQ(scene.master.write(5, 0x6060, 0, 8, 1), 0x08000021U);
+  sim.bFailStartUp = 0;
+  EXPECT_EQ(scene.master.write(5, 0x6060, 0, 8, 1), 0U);
+  sim.bHoldParameters = 1;
+  scene.master.cycle(3);
+  EXPECT_FALSE(scene.master.read(5, 0x6060));
+  EXPECT_EQ(scene.master.aborted, 1U) << "no answer at all";
+  sim.bHoldParameters = 0;
+  scene.master.cycle(3);
+  EXPECT_EQ(scene.master.read(5, 0x6060), 8U);
+}
+
 TEST(CanDriveSignals, SwitchingTakesItsCycles) {
   Drive402Setup setup = plainDrive();
   setup.drive.switchCycles = 4;
