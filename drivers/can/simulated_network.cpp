@@ -31,28 +31,36 @@ simulation::Drive402Setup driveSetup(const bus::DriveSetup &drive) {
 
 } // namespace
 
-SimulatedNetwork::SimulatedNetwork(const bus::GroupSetup &setup)
-    : bus_(busSetup(setup, canSetup(setup))), port_(bus_.port(bus_.addPort())) {
+SimulatedNodes simulatedNodes(const bus::GroupSetup &setup) {
   const CanSetup can = canSetup(setup);
-  drives_.resize(setup.drives.size());
-  for (size_t i = 0; i < setup.drives.size(); ++i) {
-    if (!can.faults[i].empty())
-      continue; // nobody talks to it
-    drives_[i] = std::make_unique<simulation::SimulatedDrive402>(driveSetup(setup.drives[i]));
-    bus_.attach(*drives_[i]);
-  }
+  SimulatedNodes nodes;
+  nodes.drives.resize(setup.drives.size());
+  for (size_t i = 0; i < setup.drives.size(); ++i)
+    if (can.faults[i].empty())
+      nodes.drives[i] =
+          std::make_unique<simulation::SimulatedDrive402>(driveSetup(setup.drives[i]));
   if (can.hasSyncDevice) {
     simulation::NodeSetup node;
     node.id = kSyncDevice;
     node.name = "Stride simulated SYNC device";
-    syncDevice_ = std::make_unique<simulation::CanopenNode>(node, simulation::DeviceRows{});
-    bus_.attach(*syncDevice_);
+    nodes.syncDevice = std::make_unique<simulation::CanopenNode>(node, simulation::DeviceRows{});
   }
+  return nodes;
+}
+
+SimulatedNetwork::SimulatedNetwork(const bus::GroupSetup &setup)
+    : bus_(busSetup(setup, canSetup(setup))), port_(bus_.port(bus_.addPort())),
+      nodes_(simulatedNodes(setup)) {
+  for (const auto &drive : nodes_.drives)
+    if (drive != nullptr)
+      bus_.attach(*drive);
+  if (nodes_.syncDevice != nullptr)
+    bus_.attach(*nodes_.syncDevice);
 }
 
 void SimulatedNetwork::bindData(size_t drive, void *data) {
-  if (drives_[drive] != nullptr)
-    drives_[drive]->bind(static_cast<simulation::DriveSim *>(data));
+  if (nodes_.drives[drive] != nullptr)
+    nodes_.drives[drive]->bind(static_cast<simulation::DriveSim *>(data));
 }
 
 } // namespace stride::can

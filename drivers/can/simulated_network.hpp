@@ -14,6 +14,15 @@
 
 namespace stride::can {
 
+/// The nodes of a drive group, simulated.
+struct SimulatedNodes {
+  /// As configured; null: one that cannot be at the bus.
+  std::vector<std::unique_ptr<simulation::SimulatedDrive402>> drives;
+  std::unique_ptr<simulation::CanopenNode> syncDevice; ///< Null: there is none.
+};
+
+SimulatedNodes simulatedNodes(const bus::GroupSetup &setup);
+
 /// A bus with one drive for each of the group, and the SYNC device where one gives SYNC. It is the
 /// master's port to that bus, and goes by its cycles.
 class SimulatedNetwork final : public Port {
@@ -23,7 +32,7 @@ public:
   /// Where the structure that a drive shares with programs is now; null: there is none.
   void bindData(size_t drive, void *data);
   [[nodiscard]] simulation::SimulatedBus &bus() { return bus_; }
-  [[nodiscard]] simulation::SimulatedDrive402 &drive(size_t index) { return *drives_[index]; }
+  [[nodiscard]] simulation::SimulatedDrive402 &drive(size_t index) { return *nodes_.drives[index]; }
 
   void beginCycle() noexcept override { port_.beginCycle(); }
   SendResult send(const Frame &frame, SendClass sendClass) noexcept override {
@@ -36,8 +45,7 @@ public:
 private:
   simulation::SimulatedBus bus_;
   Port &port_;
-  std::vector<std::unique_ptr<simulation::SimulatedDrive402>> drives_;
-  std::unique_ptr<simulation::CanopenNode> syncDevice_;
+  SimulatedNodes nodes_;
 };
 
 } // namespace stride::can
