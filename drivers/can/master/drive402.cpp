@@ -226,6 +226,7 @@ void Drive402::stepHoming() {
   facts.modeLate = modes_.late();
   facts.statusword = statusword_;
   homing_.step(facts);
+  askedOffset_ = askedOffset_ && facts.wanted;
 }
 
 /// The mode for the controller mode that is wanted, as far as the drive has it and takes it.
@@ -335,6 +336,8 @@ ObjectWish Drive402::wish() const {
     return wish;
   if (power_.fault() && !askedError_)
     return {ObjectWish::Kind::Read, object::kErrorCode};
+  if (homing_.start() && !askedOffset_) // programs may have changed it
+    return {ObjectWish::Kind::Read, object::kHomeOffset};
   return {};
 }
 
@@ -345,6 +348,10 @@ void Drive402::answered(const ObjectWish &wish, const ObjectAnswer &answer) {
     if (wish.object == object::kModeDisplay && answer.done &&
         controllerModeOf(modes_.current()) != 0)
       status_.controllerMode = controllerModeOf(modes_.current());
+  } else if (wish.object == object::kHomeOffset) {
+    askedOffset_ = true;
+    if (answer.done)
+      facts_.homeOffset = answer.value;
   } else if (wish.object == object::kErrorCode) {
     askedError_ = true;
     errorCode_ = answer.done ? static_cast<uint16_t>(answer.value) : uint16_t{0};

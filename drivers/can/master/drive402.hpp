@@ -135,8 +135,9 @@ private:
   uint16_t statusword_ = 0;
   uint16_t errorCode_ = 0; ///< 603Fh, of the present fault.
   uint8_t controllerModes_ = 0;
-  uint8_t refused_ = 0;     ///< The controller mode that the drive has not taken.
-  bool askedError_ = false; ///< 603Fh has been read for this fault.
+  uint8_t refused_ = 0;      ///< The controller mode that the drive has not taken.
+  bool askedOffset_ = false; ///< 607Ch has been read for this reference run.
+  bool askedError_ = false;  ///< 603Fh has been read for this fault.
   bool quickStop_ = false;
   bool shutDown_ = false;
   bool targetMoves_ = false;

@@ -96,7 +96,7 @@ void Node::endReceive(uint32_t syncs, News &news) {
     news.say("node ", uint32_t{config_.plan.node}, " stays in '", nameOf(drive_.powerState()),
              "' whatever it is told");
   saidStuck_ = drive_.stuck();
-  serveSdo();
+  serveSdo(news);
 }
 
 /// Synchronous TPDOs: one for each SYNC. Late ones come with the next.
@@ -259,7 +259,7 @@ void Node::reset() {
 }
 
 /// The SDO channel in operation: first what the drive needs, then what programs ask.
-void Node::serveSdo() {
+void Node::serveSdo(News &news) {
   if (user_ != SdoUser::None) {
     if (sdo_.state() == SdoClient::State::Busy)
       return;
@@ -270,11 +270,7 @@ void Node::serveSdo() {
       if (sdo_.state() == SdoClient::State::Busy) // the second half of a write
         user_ = SdoUser::Parameter;
     } else {
-      ObjectAnswer answer{sdo_.state() == SdoClient::State::Done, 0};
-      for (size_t i = 0; answer.done && wish_.kind == ObjectWish::Kind::Read && i < sdo_.size();
-           ++i)
-        answer.value |= uint32_t{wishBytes_[i]} << 8 * i;
-      drive_.answered(wish_, answer);
+      wishAnswered(news);
     }
     if (user_ != SdoUser::None)
       return;
@@ -288,6 +284,17 @@ void Node::serveSdo() {
     parameters_.begin(sdo_);
     user_ = sdo_.state() == SdoClient::State::Busy ? SdoUser::Parameter : SdoUser::None;
   }
+}
+
+void Node::wishAnswered(News &news) {
+  ObjectAnswer answer{sdo_.state() == SdoClient::State::Done, 0};
+  for (size_t i = 0; answer.done && wish_.kind == ObjectWish::Kind::Read && i < sdo_.size(); ++i)
+    answer.value |= uint32_t{wishBytes_[i]} << 8 * i;
+  drive_.answered(wish_, answer);
+  const auto code = static_cast<uint16_t>(answer.value);
+  if (wish_.object == object::kErrorCode && answer.done && code != 0 && code != emcy_.code())
+    news.say("node ", uint32_t{config_.plan.node}, " has a fault: ", errorText(code),
+             " (603Fh = ", HexText(code, 4), ")");
 }
 
 void Node::beginWish(const ObjectWish &wish) {

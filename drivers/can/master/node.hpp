@@ -93,7 +93,8 @@ private:
   void watch(News &news);
   void countPdos(uint32_t syncs);
   void started(News &news);
-  void serveSdo();
+  void serveSdo(News &news);
+  void wishAnswered(News &news);
   void beginWish(const ObjectWish &wish);
   void sayLacks(News &news) const;
 

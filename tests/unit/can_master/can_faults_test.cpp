@@ -84,6 +84,18 @@ TEST_F(CanBus, ADriveFaultHasItsNumberAndText) {
   EXPECT_TRUE(host.heard("its error has gone"));
 }
 
+TEST_F(CanBus, AFaultWithoutEmcyIsAskedFor) {
+  addDrive(3);
+  start();
+  enable(0);
+  nodes[0].values[0x603F00] = {2, 0x3210};
+  shows(0, 0x208, 1000);
+  cycles(5);
+  EXPECT_EQ(driver->status(0).errorId, 0x3210);
+  EXPECT_TRUE(host.heard("node 3 has a fault: overvoltage of the DC link (603Fh = 16#3210)"));
+  EXPECT_FALSE(host.heard("fault")) << "once";
+}
+
 TEST_F(CanBus, AnEmcyWarnsOnly) {
   addDrive(3);
   start();

@@ -63,6 +63,26 @@ TEST_F(Homing, FindsItsReference) {
   EXPECT_EQ(told(Signal::TargetPosition), 4399U);
 }
 
+TEST_F(Homing, TakesTheOffsetThatTheDriveHasThen) {
+  for (const uint32_t offset : {99U, 777U}) {
+    start();
+    cycles(3, 0);
+    EXPECT_EQ(drive->wish().object, object::kHomeOffset);
+    answer(offset);
+    EXPECT_EQ(drive->wish().kind, ObjectWish::Kind::None) << "once in a run";
+    cycles(10, 0);
+    cycles(4, 0x1400);
+    EXPECT_EQ(homing(), bus::Homing::Found);
+    EXPECT_EQ(drive->status().homePosition, offset);
+    command.homing = false;
+    cycles(2, 0);
+    command.homing = true;
+    cycles(3, 0);
+    EXPECT_EQ(drive->wish().object, object::kHomeOffset) << "and in the next one again";
+    command.homing = false;
+  }
+}
+
 TEST_F(Homing, WhatItSaidBeforeDoesNotCount) {
   start();
   for (int i = 0; i < 6; ++i) { // attained, from the last time
