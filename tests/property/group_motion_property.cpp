@@ -132,8 +132,7 @@ private:
     return lineLeg(from, to, more);
   }
 
-  /// One cycle, planned at once, and now and then gone through in parts, each of which is looked
-  /// at.
+  /// One cycle. Now and then it is gone through in parts before, each of which is looked at.
   void step() {
     disturb();
     GroupCommand command{
@@ -141,29 +140,41 @@ private:
     command.keep = keep_;
     command.atOnce = atOnce_;
     plan(*group_, arm_, command);
-    const int parts = random_.chance(1.0 / rarely_) ? kParts : 1;
-    if (parts == 1)
-      onLeg_ = nullptr;
-    command.cycle = cycle_ / parts;
-    for (int part = 0; part < parts && !failed_; ++part) {
-      const GroupMotion &now = *group_;
-      double axes[kAxes];
-      double velocity[kAxes];
-      double acceleration[kAxes];
-      std::copy(std::begin(now.axes), std::end(now.axes), axes);
-      std::copy(std::begin(now.velocity), std::end(now.velocity), velocity);
-      std::copy(std::begin(now.acceleration), std::end(now.acceleration), acceleration);
-      goOn(*group_, arm_, command);
-      failed_ = now.obstacle != Obstacle::None; // a line that the arm cannot follow
-      if (failed_)
-        return;
-      lookAtTool();
-      if (parts > 1)
-        lookAtPath(command.cycle);
-      lookAtAxes(axes, velocity, acceleration, command.cycle);
-    }
+    if (random_.chance(1.0 / rarely_))
+      lookAtParts(command);
+    goOnBy(command);
     (void)rebase(*group_);
     relocate();
+  }
+
+  /// A copy goes through the cycle in parts, and ends where the group will be.
+  void lookAtParts(GroupCommand command) {
+    auto copy = std::make_unique<GroupMotion>();
+    std::memcpy(copy.get(), group_.get(), sizeof(GroupMotion));
+    std::swap(group_, copy);
+    onLeg_ = nullptr;
+    command.cycle = cycle_ / kParts;
+    for (int part = 0; part < kParts && !failed_; ++part) {
+      goOnBy(command);
+      lookAtPath(command.cycle);
+    }
+    std::swap(group_, copy);
+  }
+
+  void goOnBy(const GroupCommand &command) {
+    const GroupMotion &now = *group_;
+    double axes[kAxes];
+    double velocity[kAxes];
+    double acceleration[kAxes];
+    std::copy(std::begin(now.axes), std::end(now.axes), axes);
+    std::copy(std::begin(now.velocity), std::end(now.velocity), velocity);
+    std::copy(std::begin(now.acceleration), std::end(now.acceleration), acceleration);
+    goOn(*group_, arm_, command);
+    failed_ = now.obstacle != Obstacle::None; // a line that the arm cannot follow
+    if (failed_)
+      return;
+    lookAtTool();
+    lookAtAxes(axes, velocity, acceleration, command.cycle);
   }
 
   void lookAtAxes(const double (&axes)[kAxes], const double (&velocity)[kAxes],

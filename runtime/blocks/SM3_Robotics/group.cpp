@@ -219,7 +219,7 @@ void serve(Ctx &ctx, GroupRef &group) {
     failGroup(group, problem, 0);
     return;
   }
-  lookAtCarriers(group);
+  lookAtCarriers(ctx, group);
   GroupArm arm(ctx, group);
   takeRequests(group, arm);
   if (group.bOwns != 0)

@@ -74,10 +74,11 @@ struct GroupState {
   int32_t rides;                   ///< That system: 1 or 2, PCS_1 or PCS_2; 0: the machine's.
   int32_t leaves;                  ///< The one before, which may not be at rest yet.
   Tool tool;                       ///< Of the movements.
-  uint64_t resumable; ///< The last cycle, plus 1, in which errors were to be resumable.
-  bool interrupting;  ///< It comes to rest to be continued later.
-  double uncapped;    ///< Way of the motion up to which ancillary limits of axes are not planned
-                      ///< with. [u]
+  uint64_t resumable;            ///< The last cycle, plus 1, in which errors were to be resumable.
+  bool interrupting;             ///< It comes to rest to be continued later.
+  group::MovingSystem master[2]; ///< PCS_1 and PCS_2 in WCS, if they are on other groups' tools.
+  double uncapped; ///< Way of the motion up to which ancillary limits of axes are not planned
+                   ///< with. [u]
   Triggers triggers;
   double forecast;       ///< How much of the motion is planned, since the start of the cycle. [s]
   group::GroupRest rest; ///< The next one, since then.
