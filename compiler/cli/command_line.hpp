@@ -3,6 +3,7 @@
 // The command line of `stride`: a function for each group of commands declares them and what they
 // do. Everything here needs CLI11.
 
+#include "compiler/cli/can_command.hpp"
 #include "compiler/cli/commands.hpp"
 
 #include <CLI/CLI.hpp>
@@ -33,6 +34,7 @@ struct Invocation {
   PlotOptions plot;
   CamOptions cams;
   CncOptions cnc;
+  CanOptions can;
   std::string code;
   bool listCodes = false;
   std::string topic;
@@ -53,6 +55,8 @@ void declareLibraries(CLI::App &app, Invocation &call);
 /// The commands below `stride cam`.
 void declareCams(CLI::App &app, Invocation &call);
 void declareCnc(CLI::App &app, Invocation &call);
+/// The commands below `stride can`.
+void declareCan(CLI::App &app, Invocation &call);
 /// Those of them that read and write drawings.
 void declareCncDrawings(CLI::App &cnc, Invocation &call);
 

@@ -238,9 +238,10 @@ int run(int argc, char **argv) {
   app.name("stride");
   Invocation call;
   // In the order in which the overview shows them.
-  for (const auto declare : {declareNew, declareCheck, declareBuild, declareRuns, declareDoc,
-                             declareTest, declareFmt, declarePlot, declareCams, declareCnc,
-                             declareLibraries, declareExplain, declareCompletion, declareHelp})
+  for (const auto declare :
+       {declareNew, declareCheck, declareBuild, declareRuns, declareDoc, declareTest, declareFmt,
+        declarePlot, declareCams, declareCnc, declareCan, declareLibraries, declareExplain,
+        declareCompletion, declareHelp})
     declare(app, call);
   try {
     app.parse(argumentsOf(argc, argv));

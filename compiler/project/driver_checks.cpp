@@ -14,9 +14,10 @@ void addAll(const std::vector<ConfigParameter> &parameters, stride::bus::SetupPa
     to.add({parameter.name, parameter.text, parameter.number});
 }
 
-/// The configuration as the driver gets it at run time.
-stride::bus::GroupSetup setupOf(const ProjectConfig &config, const AxisGroupConfig &group,
-                                const stride::bus::DriverSchema &driver, double cycleSeconds) {
+} // namespace
+
+stride::bus::GroupSetup driverSetup(const ProjectConfig &config, const AxisGroupConfig &group,
+                                    const stride::bus::DriverSchema &driver, double cycleSeconds) {
   const BusConfig &bus = config.buses[group.bus];
   stride::bus::GroupSetup setup(driver, cycleSeconds);
   setup.name = group.name.text;
@@ -31,15 +32,13 @@ stride::bus::GroupSetup setupOf(const ProjectConfig &config, const AxisGroupConf
   return setup;
 }
 
-} // namespace
-
 void checkByDriver(const ProjectConfig &config, const AxisGroupConfig &group, double cycleSeconds,
                    Diagnostics &diagnostics) {
   const stride::bus::DriverSchema *driver = stride::drivers::findSchema(group.driver);
   if (driver == nullptr || driver->check == nullptr)
     return;
   stride::bus::GroupFindings findings;
-  driver->check(setupOf(config, group, *driver, cycleSeconds), findings);
+  driver->check(driverSetup(config, group, *driver, cycleSeconds), findings);
   for (const stride::bus::GroupFinding &finding : findings) {
     const Span span = finding.drive < group.drives.size() ? group.drives[finding.drive].name.span
                                                           : group.name.span;

@@ -52,6 +52,7 @@ std::optional<Installation> findInstallation(std::string &missing, const std::st
     Installation found;
     found.include = share / "include";
     found.host = folder / "stride-host";
+    found.canTool = folder / "stride-can";
     found.debugScript = share / "gdb" / "stride.py";
     readToolchain(*list, layout.libraries / target, found);
     for (const fs::path &library : found.libraries)

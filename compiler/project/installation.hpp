@@ -16,6 +16,7 @@ struct Installation {
   std::vector<std::string> compileFlags;        ///< besides the dialect's (a sanitizer's)
   std::vector<std::string> linkFlags;
   std::filesystem::path host;        ///< stride-host
+  std::filesystem::path canTool;     ///< stride-can
   std::filesystem::path debugScript; ///< what gdb knows of ST
   /// With `main` and all of stride-host, for static executables: linked before `libraries`.
   std::vector<std::filesystem::path> hostLibraries;

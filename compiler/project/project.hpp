@@ -67,6 +67,8 @@ public:
   [[nodiscard]] const std::vector<AxesGroupConfig> &axesGroups() const {
     return config_.axesGroups;
   }
+  /// The configuration of stride.toml.
+  [[nodiscard]] const ProjectConfig &config() const { return config_; }
   /// Tasks and axis groups for code generation; only without errors.
   [[nodiscard]] AppConfig appConfig() const;
 

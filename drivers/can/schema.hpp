@@ -122,6 +122,8 @@ inline constexpr std::array kDriveTables = {
 /// See drivers/can/plan/group_plan.hpp.
 void checkGroup(const bus::GroupSetup &setup, bus::GroupFindings &findings);
 
+bus::GroupPlanText describeGroup(const bus::GroupSetup &setup);
+
 inline constexpr bus::DriverSchema kSchema = {
     .name = "CAN",
     .interfaceType = "CAN (SocketCAN)",
@@ -134,6 +136,7 @@ inline constexpr bus::DriverSchema kSchema = {
     .drive = rows::kDrive,
     .driveTables = rows::kDriveTables,
     .check = checkGroup,
+    .plan = describeGroup,
 };
 
 } // namespace stride::can

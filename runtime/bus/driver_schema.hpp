@@ -38,6 +38,9 @@ struct DriverSchema {
   /// Appends what is to be said of a group that `stride check` has found in order so far; null:
   /// nothing. A function of its arguments only, in a library that the compiler links.
   void (*check)(const GroupSetup &setup, GroupFindings &findings) = nullptr;
+  /// Says what is exchanged with the drives in each cycle, and what of the bus that takes; null: it
+  /// has nothing to say. As `check`.
+  GroupPlanText (*plan)(const GroupSetup &setup) = nullptr;
 };
 
 } // namespace stride::bus

@@ -22,6 +22,18 @@ struct GroupFinding {
 
 using GroupFindings = std::vector<GroupFinding>;
 
+/// What a group exchanges with its drives, for people and for other tools.
+struct GroupPlanText {
+  /// Of a drive, in a format of the bus: on CAN a concise DCF.
+  struct File {
+    std::string name;
+    std::string bytes;
+  };
+
+  std::string text; ///< Lines.
+  std::vector<File> files;
+};
+
 } // namespace stride::bus
 
 #endif

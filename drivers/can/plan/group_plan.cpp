@@ -44,23 +44,6 @@ std::string faultOf(const PlanResult &plan, uint32_t id, const bus::GroupSetup &
   return {};
 }
 
-/// A number of µs in ms: "1.5 ms".
-std::string milliseconds(uint32_t us) {
-  std::string text = std::to_string(us / 1000);
-  if (us % 1000 != 0) {
-    std::string part = std::to_string(us % 1000 + 1000).substr(1);
-    part.erase(part.find_last_not_of('0') + 1);
-    text += "." + part;
-  }
-  return text + " ms";
-}
-
-std::string percent(double share) {
-  const double tenths = std::min(share, 1e6) * 1000 + 0.5;
-  const auto whole = static_cast<uint64_t>(tenths);
-  return std::to_string(whole / 10) + "." + std::to_string(whole % 10) + " %";
-}
-
 void checkLoad(const GroupPlan &plan, bus::GroupFindings &findings) {
   if (plan.load.comfortable() || plan.drives.empty())
     return;
@@ -78,6 +61,22 @@ void checkLoad(const GroupPlan &plan, bus::GroupFindings &findings) {
 }
 
 } // namespace
+
+std::string milliseconds(uint32_t us) {
+  std::string text = std::to_string(us / 1000);
+  if (us % 1000 != 0) {
+    std::string part = std::to_string(us % 1000 + 1000).substr(1);
+    part.erase(part.find_last_not_of('0') + 1);
+    text += "." + part;
+  }
+  return text + " ms";
+}
+
+std::string percent(double share) {
+  const double tenths = std::min(share, 1e6) * 1000 + 0.5;
+  const auto whole = static_cast<uint64_t>(tenths);
+  return std::to_string(whole / 10) + "." + std::to_string(whole % 10) + " %";
+}
 
 GroupPlan planGroup(const bus::GroupSetup &setup) {
   GroupPlan result;

@@ -34,6 +34,14 @@ GroupPlan planGroup(const bus::GroupSetup &setup);
 /// Appends what is wrong with a group, or not good (DriverSchema::check).
 void checkGroup(const bus::GroupSetup &setup, bus::GroupFindings &findings);
 
+/// PDOs, their bits and the share of the bus, as text, and a concise DCF for each drive
+/// (DriverSchema::plan).
+bus::GroupPlanText describeGroup(const bus::GroupSetup &setup);
+
+/// "1.5 ms", "21.7 %".
+std::string milliseconds(uint32_t us);
+std::string percent(double share);
+
 } // namespace stride::can
 
 #endif

@@ -55,6 +55,22 @@ static_assert(tableIsInOrder());
 
 } // namespace
 
+std::string_view nameOf(Signal signal) {
+  static constexpr std::array<std::string_view, kSignals> kSignalNames = {
+      "controlword",     "mode of operation",
+      "target position", "velocity offset",
+      "target velocity", "target torque",
+      "probe function",  "statusword",
+      "mode display",    "position",
+      "velocity",        "torque",
+      "current",         "following error",
+      "error code",      "inputs",
+      "probe status",    "probe 1 rising",
+      "probe 1 falling", "probe 2 rising",
+      "probe 2 falling", ""};
+  return kSignalNames[static_cast<size_t>(signal)];
+}
+
 ObjectForm formOf(Object object) {
   for (const SignalObject &row : kSignalObjects)
     if (row.object == object)

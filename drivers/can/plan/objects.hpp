@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace stride::can {
 
@@ -72,6 +73,9 @@ enum class Signal : uint8_t {
   Other, ///< It means nothing to the master.
 };
 inline constexpr size_t kSignals = static_cast<size_t>(Signal::Other) + 1;
+
+/// "target position"; empty for Other.
+std::string_view nameOf(Signal signal);
 
 /// The object that carries a signal.
 struct SignalObject {

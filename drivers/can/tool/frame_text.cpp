@@ -12,29 +12,6 @@ namespace stride::can::tool {
 namespace {
 
 constexpr unsigned kNodeMask = 0x7F;
-constexpr std::array<std::string_view, kSignals> kSignalNames = {"controlword",
-                                                                 "mode",
-                                                                 "target position",
-                                                                 "velocity offset",
-                                                                 "target velocity",
-                                                                 "target torque",
-                                                                 "probe function",
-                                                                 "statusword",
-                                                                 "mode",
-                                                                 "position",
-                                                                 "velocity",
-                                                                 "torque",
-                                                                 "current",
-                                                                 "following error",
-                                                                 "error code",
-                                                                 "inputs",
-                                                                 "probe status",
-                                                                 "probe 1 rising",
-                                                                 "probe 1 falling",
-                                                                 "probe 2 rising",
-                                                                 "probe 2 falling",
-                                                                 ""};
-
 std::string_view stateName(unsigned state) {
   switch (state & 0x7F) {
   case 0:
@@ -135,10 +112,8 @@ std::string processData(const Frame &frame, const Pdo &pdo, const std::string &d
     const Signal signal = signalOf(entry.object);
     const uint64_t bits = bitsAt(frame, place, entry.bits);
     text += between;
-    text += signal == Signal::Other
-                ? fmt::format("{} {:X}h", textOf(entry.object), bits)
-                : fmt::format("{} {}", kSignalNames[static_cast<size_t>(signal)],
-                              valueText(signal, bits));
+    text += signal == Signal::Other ? fmt::format("{} {:X}h", textOf(entry.object), bits)
+                                    : fmt::format("{} {}", nameOf(signal), valueText(signal, bits));
     place += entry.bits;
     between = ", ";
   }

@@ -2,10 +2,10 @@
 
 #include "drivers/can/can_setup.hpp"
 #include "drivers/can/simulated_network.hpp"
+#include "drivers/can/simulation/node_host.hpp"
 #include "drivers/can/socket/socket_can_port.hpp"
 #include "drivers/can/tool/bus_client.hpp"
 #include "drivers/can/tool/commands.hpp"
-#include "drivers/can/tool/node_server.hpp"
 #include "drivers/can/tool/tool_support.hpp"
 
 #include <algorithm>
@@ -45,26 +45,28 @@ int simulate(const SimulateOptions &options) {
   if (!isUp(port, interface))
     return kBad;
   SimulatedNodes nodes = simulatedNodes(*group);
-  std::vector<simulation::Node *> served;
-  for (const auto &drive : nodes.drives)
-    if (drive != nullptr)
-      served.push_back(drive.get());
-  if (nodes.syncDevice != nullptr)
-    served.push_back(nodes.syncDevice.get());
-  NodeServer server(port, served);
   const int64_t begin = monotonicNow();
   const int64_t end =
       options.seconds > 0 ? begin + static_cast<int64_t>(options.seconds * 1e9) : INT64_MAX;
-  server.powerOn(begin);
-  fmt::print("{} nodes on {}\n", served.size(), interface);
+  simulation::NodeHost host(port);
+  size_t count = 0;
+  for (const auto &drive : nodes.drives)
+    if (drive != nullptr) {
+      host.add(*drive, begin);
+      ++count;
+    }
+  if (nodes.syncDevice != nullptr) {
+    host.add(*nodes.syncDevice, begin);
+    ++count;
+  }
+  fmt::print("{} nodes on {}\n", count, interface);
   std::fflush(stdout);
   constexpr int64_t kTenthNs = 100000000;
-  while (!interrupted() && monotonicNow() < end) {
+  for (int64_t now = begin; !interrupted() && now < end; now = monotonicNow()) {
     port.beginCycle();
-    server.serve(std::min(end, monotonicNow() + kTenthNs));
+    host.step(now);
+    port.wait(std::min({end, now + kTenthNs, host.nextNs()}));
   }
-  if (server.lost() != 0)
-    fmt::print(stderr, "warning: {} frames found no room in the interface\n", server.lost());
   return kGood;
 }
 

@@ -1,0 +1,217 @@
+// `stride can`
+
+#include "compiler/cli/can_command.hpp"
+
+#include "compiler/assets/eds/device.hpp"
+#include "compiler/cli/run_project.hpp"
+#include "compiler/project/driver_sections.hpp"
+#include "compiler/project/file_system.hpp"
+#include "compiler/project/installation.hpp"
+#include "compiler/project/library_index.hpp"
+#include "compiler/project/project.hpp"
+#include "compiler/source/render.hpp"
+#include "compiler/source/sources.hpp"
+#include "drivers/registry.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace stc::cli {
+
+namespace {
+
+constexpr uintmax_t kMostBytes = uintmax_t{16} << 20;
+
+/// Writes what a plan brings for other tools. False: it is said why not.
+bool writeFiles(const stride::bus::GroupPlanText &plan, const std::string &folder) {
+  for (const stride::bus::GroupPlanText::File &file : plan.files)
+    if (const std::filesystem::path path = std::filesystem::path(folder) / file.name;
+        !writeFile(path, file.bytes)) {
+      showError(Code::CannotWrite,
+                fmt::format("`{}` cannot be written: {}", path.string(), std::strerror(errno)));
+      return false;
+    }
+  return true;
+}
+
+// ---- import
+
+bool has(const eds::Device &device, uint16_t index) { return device.find(index, 0) != nullptr; }
+
+bool isMappable(const eds::Device &device, uint16_t index) {
+  const eds::Object *object = device.find(index, 0);
+  return object != nullptr && object->mappable;
+}
+
+/// A name for ST, made of that of the product.
+std::string identifierOf(const std::string &text) {
+  std::string name;
+  for (const char c : text)
+    if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'))
+      name += c;
+    else if (!name.empty() && name.back() != '_')
+      name += '_';
+  while (!name.empty() && name.back() == '_')
+    name.pop_back();
+  return name.empty() || (name.front() >= '0' && name.front() <= '9') ? "Drive" : name;
+}
+
+/// What the driver must know of the device, as rows of its section.
+std::string settingsOfDrive(const eds::Device &device) {
+  std::string text;
+  const std::vector<eds::Pdo> pdos = eds::pdosOf(device);
+  if (isMappable(device, 0x60FD))
+    text += "inputs = true                      # limit and home switches by 60FDh\n";
+  if (!device.find(0x1017, 0))
+    text += "guard = \"T#100ms\"                  # it has no heartbeat (1017h)\n";
+  if (!has(device, 0x6098))
+    text += "homing = \"controller\"              # it has no homing mode (6098h)\n";
+  if (has(device, 0x60B8)) {
+    int inputs = 0;
+    for (const int i : {0, 1, 2, 3})
+      if (has(device, static_cast<uint16_t>(0x60BA + i)))
+        inputs += 1 << i;
+    text += fmt::format("probe_inputs = {}                   # touch probes by 60B8h\n", inputs);
+  }
+  const bool events = std::any_of(pdos.begin(), pdos.end(), [](const eds::Pdo &pdo) {
+    return pdo.transmit && pdo.hasEventTimer;
+  });
+  if (!events)
+    text += "event_pdos = false                 # its PDOs have no event timer\n";
+  return text;
+}
+
+/// What may keep the device from being used, as comments.
+std::string remarksOf(const eds::Device &device) {
+  std::string text;
+  const eds::Object *type = device.find(0x1000, 0);
+  if (type == nullptr || type->value() == nullptr || (type->value()->number & 0xFFFF) != 402)
+    text += "# 1000h does not say that this is a drive (402).\n";
+  if (!isMappable(device, 0x607A))
+    text += "# 607Ah (target position) cannot be mapped: CSP and IP are out of reach.\n";
+  if (!has(device, 0x60C2))
+    text += "# Without 60C2h the drive does not know the cycle: set it with the maker's tool.\n";
+  if (!device.find(0x1016, 1))
+    text += "# Without 1016h the drive does not notice when the master is gone.\n";
+  for (const eds::Pdo &pdo : eds::pdosOf(device))
+    if (pdo.fixedMapping)
+      text += fmt::format("# The mapping of {}PDO {} is fixed.\n", pdo.transmit ? "T" : "R",
+                          pdo.number);
+  if (!has(device, 0x606C))
+    text += "# There is no 606Ch: velocity_scale has no effect.\n";
+  else
+    text += "# velocity_scale: increments per second that one unit of 606Ch is; see the maker's "
+            "manual.\n";
+  size_t configured = 0;
+  for (const eds::Object &object : device.objects)
+    configured += object.configured ? 1 : 0;
+  if (configured != 0)
+    text += fmt::format("# {} configured values of the file are not in this section: write them "
+                        "with the maker's tool, or by SMC_WriteCANParameter.\n",
+                        configured);
+  return text;
+}
+
+std::string sectionOf(const eds::Device &device, const CanOptions &can) {
+  const std::string name = can.name.empty() ? identifierOf(device.identity.productName) : can.name;
+  const int node = can.node != 0 ? can.node : device.nodeId ? *device.nodeId : 1;
+  std::string text =
+      fmt::format("# {}{}{}\n", device.identity.vendorName,
+                  device.identity.vendorName.empty() ? "" : ", ", device.identity.productName);
+  text += remarksOf(device);
+  text += fmt::format("[[bus.axis_group.drive]]\nname = \"{}\"\nwDriveId = {}\n", name, node);
+  text += settingsOfDrive(device);
+  const eds::Identity &identity = device.identity;
+  if (identity.vendor != 0) {
+    text += "\n[bus.axis_group.drive.identity]\n";
+    text += fmt::format("vendor = {}\n", identity.vendor);
+    if (identity.product != 0)
+      text += fmt::format("product = {}\n", identity.product);
+  }
+  return text;
+}
+
+} // namespace
+
+int canPlanCommand(const ProjectOptions &options, const CanOptions &can) {
+  const EmbeddedLibraryIndex index(standardLibrary());
+  const Project project(options.path, Purpose::Check, settingsOf(options), index);
+  const int code = show(project.diagnostics(), project.sources(), options.output);
+  size_t shown = 0;
+  for (const AxisGroupConfig &group : project.config().axisGroups) {
+    const stride::bus::DriverSchema *driver = stride::drivers::findSchema(group.driver);
+    if (driver == nullptr || driver->plan == nullptr || group.cycleUs == 0)
+      continue;
+    const stride::bus::GroupPlanText plan =
+        driver->plan(driverSetup(project.config(), group, *driver, group.cycleUs * 1e-6));
+    print((shown++ == 0 ? "" : "\n") + plan.text);
+    if (!can.dcf.empty() && !writeFiles(plan, can.dcf))
+      return 1;
+  }
+  if (shown == 0 && code == 0)
+    print("This project has no axis group on CAN.\n");
+  return code;
+}
+
+int canImportCommand(const CanOptions &can) {
+  const std::optional<std::string> text = readRegularFile(can.file, kMostBytes);
+  if (!text)
+    return showError(Code::UnreadableFile,
+                     fmt::format("`{}` cannot be read: {}", can.file, readSourceError(kMostBytes)));
+  std::string ending = std::filesystem::path(can.file).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(c | 0x20); });
+  const bool isXml = ending == ".xdd" || ending == ".xdc";
+  const eds::Device device = isXml ? eds::readXdd(*text) : eds::readEds(*text);
+  for (const eds::Note &note : device.notes)
+    std::fprintf(stderr, "note: %s:%zu: %s\n", visible(can.file).c_str(), note.line,
+                 visible(note.text).c_str());
+  if (device.moreNotes != 0)
+    std::fprintf(stderr, "note: and %zu more\n", device.moreNotes);
+  if (device.objects.empty())
+    return showError(Code::UnreadableFile,
+                     fmt::format("`{}` is no electronic data sheet: it has no objects", can.file));
+  const std::string section = sectionOf(device, can);
+  if (can.out.empty()) {
+    print(section);
+    return 0;
+  }
+  if (writeFile(can.out, section))
+    return 0;
+  return showError(Code::CannotWrite,
+                   fmt::format("`{}` cannot be written: {}", can.out, std::strerror(errno)));
+}
+
+int becomeCanTool(std::vector<std::string> arguments) {
+  std::string missing;
+  const std::optional<Installation> installation = findInstallation(missing);
+  std::string program = installation ? installation->canTool.string() : missing;
+  arguments.insert(arguments.begin(), "stride can"); // whose part it is, for its messages
+  std::vector<char *> pointers;
+  for (std::string &argument : arguments)
+    pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  std::fflush(nullptr);
+  ::execvp(program.c_str(), pointers.data());
+  return showError(Code::ToolchainMissing,
+                   fmt::format("`{}` cannot be started: {}", program, std::strerror(errno)));
+}
+
+int canProjectCommand(const std::string &command, const ProjectOptions &options,
+                      std::vector<std::string> before, std::vector<std::string> after) {
+  int exitCode = 0;
+  const std::optional<BuildResult> result = buildToRun(options, BuildUse::RunOnce, exitCode, {});
+  if (!result)
+    return exitCode;
+  std::vector<std::string> arguments = {command};
+  arguments.insert(arguments.end(), before.begin(), before.end());
+  arguments.push_back(result->runnable.string());
+  arguments.insert(arguments.end(), after.begin(), after.end());
+  return becomeCanTool(std::move(arguments));
+}
+
+} // namespace stc::cli

@@ -1,0 +1,104 @@
+// What `stride can plan` shows.
+
+#include "drivers/can/plan/group_plan.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace stride::can {
+namespace {
+
+std::string hexadecimal(uint32_t value, size_t digits) {
+  std::string text;
+  for (size_t i = digits; i-- > 0;)
+    text += "0123456789ABCDEF"[value >> 4 * i & 0xF];
+  return text + "h";
+}
+
+/// With blanks to its right.
+std::string wide(std::string text, size_t width) {
+  text.resize(std::max(text.size(), width), ' ');
+  return text + "  ";
+}
+
+std::string contentOf(const Pdo &pdo) {
+  std::string text;
+  for (const PdoEntry &entry : pdo.mapped()) {
+    text += (text.empty() ? "" : ", ") + hexadecimal(entry.object.index, 4);
+    if (entry.object.sub != 0)
+      text += ":" + std::to_string(entry.object.sub);
+    if (const std::string_view name = nameOf(signalOf(entry.object)); !name.empty())
+      text += " " + std::string(name);
+  }
+  return text;
+}
+
+struct Widths {
+  size_t drive = 5;
+};
+
+std::string row(const Widths &widths, const std::string &drive, const std::string &node,
+                const std::string &pdo, const std::string &id, const std::string &when,
+                const std::string &bytes, const std::string &bits, const std::string &content) {
+  return "  " + wide(drive, widths.drive) + wide(node, 4) + wide(pdo, 5) + wide(id, 6) +
+         wide(when, 5) + wide(bytes, 5) + wide(bits, 4) + content + "\n";
+}
+
+void addRows(const Widths &widths, const std::string &drive, const DrivePlan &plan,
+             std::string &text) {
+  const auto add = [&](const Pdo &pdo, const char *kind) {
+    text += row(widths, drive, std::to_string(plan.node), kind + std::to_string(pdo.number),
+                hexadecimal(pdo.cobId, 3), pdo.synchronous() ? "SYNC" : "event",
+                std::to_string(pdo.length()),
+                pdo.synchronous() ? std::to_string(worstBits(pdo.length())) : "-", contentOf(pdo));
+  };
+  for (const Pdo &pdo : plan.receivedByDrive())
+    add(pdo, "RPDO");
+  for (const Pdo &pdo : plan.sentByDrive())
+    add(pdo, "TPDO");
+}
+
+std::string_view producerText(SyncProducer producer) {
+  switch (producer) {
+  case SyncProducer::FirstDrive:
+    return "SYNC by the first drive";
+  case SyncProducer::Device:
+    return "SYNC by node 127";
+  case SyncProducer::Master:
+    break;
+  }
+  return "SYNC by the PLC";
+}
+
+} // namespace
+
+bus::GroupPlanText describeGroup(const bus::GroupSetup &setup) {
+  const GroupPlan plan = planGroup(setup);
+  bus::GroupPlanText result;
+  std::string &text = result.text;
+  text = setup.name + ": " + std::to_string(plan.bitRate) + " kBit/s, cycle " +
+         milliseconds(plan.cycle) + ", " + std::string(producerText(plan.sync)) + "\n";
+  Widths widths;
+  for (const bus::DriveSetup &drive : setup.drives)
+    widths.drive = std::max(widths.drive, drive.name.size());
+  text += row(widths, "drive", "node", "PDO", "COB-ID", "when", "bytes", "bits", "content");
+  for (size_t i = 0; i < plan.drives.size(); ++i) {
+    const std::string &name = setup.drives[i].name;
+    if (!plan.faults[i].empty()) {
+      text += "  " + wide(name, widths.drive) + plan.faults[i] + "\n";
+      continue;
+    }
+    addRows(widths, name, plan.drives[i].plan, text);
+    const std::vector<uint8_t> dcf = conciseDcf(pdoWrites(plan.drives[i].plan));
+    result.files.push_back({name + ".cdcf", std::string(dcf.begin(), dcf.end())});
+  }
+  const uint64_t room = uint64_t{plan.bitRate} * plan.cycle / 1000;
+  text += "  " + std::to_string(plan.load.bits) + " of " + std::to_string(room) +
+          " bits with SYNC in the worst case: " + percent(plan.load.share) + "; shortest cycle " +
+          milliseconds(plan.load.shortestCycle) + "; room for " +
+          std::to_string(plan.load.sdoPerCycle) + (plan.load.sdoPerCycle == 1 ? " SDO" : " SDOs") +
+          " in each cycle\n";
+  return result;
+}
+
+} // namespace stride::can
