@@ -168,6 +168,7 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
   else if (group::leadsTool(leg))
     order.configuration = arm.arm.kinematics.configurationOf(ends.from);
   group::append(state.motion, request.id, leg, order);
+  state.tolerance = request.tolerance;
   locateTriggers(state, arm.arm, request.id, leg);
   for (int32_t k = 0; k < kAxes; ++k)
     state.end[k] = ends.to[k];
@@ -295,6 +296,7 @@ int16_t enqueue(GroupRef &group, Request &request) noexcept {
   request.id = group::drawId(state.motion);
   request.cycle = group.ulServed;
   request.tool = toolOf(group);
+  request.tolerance = group.stTolerance;
   request.order.shares = sharesOf(group);
   request.order.isShared = true;
   requestAt(state, state.nextRequest) = request;
