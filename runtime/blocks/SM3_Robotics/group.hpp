@@ -50,6 +50,8 @@ struct Request {
   double position[kArmAxes]; ///< Of axes, or a pose by X, Y, Z, A, B, C. [u], [°]
   int16_t orientationMode;   ///< SMC_ORIENTATION_MODE
   double torqueFactor;       ///< Of a movement; nothing depends on it.
+  int16_t moreMode;          ///< Of the axes that go along: SMC_GROUP_ADDITIONAL_MODE
+  double more[kMoreAxes];    ///< Where these go. [u]
   int16_t circleMode;        ///< Circular: SMC_CIRC_MODE
   int16_t pathChoice;        ///< Circular: MC_CIRC_PATHCHOICE
   double aux[kArmAxes]; ///< Circular: AuxPoint, like `position`. Jog: how far at most [u], [°].
