@@ -243,6 +243,7 @@ void changeSystem(GroupRef &group, const GroupArm &arm, int32_t carrier, const R
     return;
   state.leaves = state.rides;
   state.rides = carrier;
+  state.hasReached = false;
   if (carrier == 0) {
     group::alight(state.motion, arm.arm);
     return;

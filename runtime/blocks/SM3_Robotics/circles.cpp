@@ -74,7 +74,7 @@ int16_t followLeg(const GroupArm &arm, const group::Leg &leg, Ends &ends) {
   const group::Arm &all = arm.arm;
   const group::Arm follows{all.kinematics, all.joints, all.more, all.limits,
                            all.kinematics.configurationOf(ends.from)};
-  for (int32_t k = 0; k < kAxes; ++k)
+  for (int32_t k = 0; k < kArmAxes; ++k)
     ends.to[k] = ends.from[k];
   for (int32_t i = 1; i <= kParts; ++i) {
     group::PathPlace place;
@@ -144,8 +144,10 @@ int16_t circularLeg(const GroupRef &group, const GroupArm &arm, const Request &r
       wrong != 0)
     return wrong;
   group::MoreAxes more;
-  for (int32_t k = 0; k < kMoreAxes; ++k)
-    more.from[k] = more.to[k] = ends.from[kArmAxes + k];
+  for (int32_t k = 0; k < kMoreAxes; ++k) {
+    more.from[k] = ends.from[kArmAxes + k];
+    more.to[k] = ends.to[kArmAxes + k];
+  }
   const group::Pose to = group::poseOf(target);
   if (const int16_t wrong =
           arcLeg(request, group::poseOf(begin), group::plain(aux.place), to, more, leg);

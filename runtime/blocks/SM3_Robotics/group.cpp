@@ -5,6 +5,7 @@
 #include "runtime/blocks/SM3_Robotics/carriers.hpp"
 #include "runtime/blocks/SM3_Robotics/overrides.hpp"
 #include "runtime/blocks/SM3_Robotics/requests.hpp"
+#include "runtime/blocks/SM3_Robotics/tolerance.hpp"
 
 #include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
 
@@ -113,7 +114,7 @@ void writeAxes(GroupRef &group) noexcept {
   }
 }
 
-void drive(const Ctx &ctx, GroupRef &group, const GroupArm &arm) noexcept {
+void drive(const Ctx &ctx, GroupRef &group, const GroupArm &arm) {
   GroupState &state = stateOf(group);
   if (group.eState == decl::SMC_AXIS_GROUP_STATE__GroupStopping || demandsStandstill(group))
     group::brakeRide(state.motion.ride);
@@ -143,6 +144,10 @@ void drive(const Ctx &ctx, GroupRef &group, const GroupArm &arm) noexcept {
   state.uncapped -= by;
   if (state.motion.obstacle != Obstacle::None) {
     failGroup(group, errorOf(state.motion.obstacle), failedMovement(state));
+    return;
+  }
+  if (const int16_t wrong = lookAtLag(group, arm); wrong != 0) {
+    failGroup(group, wrong, 0);
     return;
   }
   writeAxes(group);

@@ -50,6 +50,8 @@ struct Request {
   double position[kArmAxes]; ///< Of axes, or a pose by X, Y, Z, A, B, C. [u], [°]
   int16_t orientationMode;   ///< SMC_ORIENTATION_MODE
   double torqueFactor;       ///< Of a movement; nothing depends on it.
+  int16_t moreMode;          ///< Of the axes that go along: SMC_GROUP_ADDITIONAL_MODE
+  double more[kMoreAxes];    ///< Where these go. [u]
   int16_t circleMode;        ///< Circular: SMC_CIRC_MODE
   int16_t pathChoice;        ///< Circular: MC_CIRC_PATHCHOICE
   double aux[kArmAxes]; ///< Circular: AuxPoint, like `position`. Jog: how far at most [u], [°].
@@ -57,6 +59,7 @@ struct Request {
   double deceleration;  ///< Halt: see MC_GroupHalt. [u/s^2]
   bool forgets;         ///< Halt: what it aborts cannot be continued.
   Tool tool;            ///< When it was asked for.
+  ::st::SM3_Robotics::SMC_GROUP_TOLERANCE tolerance; ///< Likewise.
 };
 
 /// What a group keeps besides what ST sees. Trivially copyable.
@@ -74,8 +77,11 @@ struct GroupState {
   int32_t rides;                   ///< That system: 1 or 2, PCS_1 or PCS_2; 0: the machine's.
   int32_t leaves;                  ///< The one before, which may not be at rest yet.
   Tool tool;                       ///< Of the movements.
-  uint64_t resumable;            ///< The last cycle, plus 1, in which errors were to be resumable.
-  bool interrupting;             ///< It comes to rest to be continued later.
+  uint64_t resumable; ///< The last cycle, plus 1, in which errors were to be resumable.
+  bool interrupting;  ///< It comes to rest to be continued later.
+  ::st::SM3_Robotics::SMC_GROUP_TOLERANCE tolerance; ///< Of the movements.
+  double orientationLag;                             ///< Behind the system that is followed. [°]
+  bool hasReached;               ///< That has been reached since it is followed.
   group::MovingSystem master[2]; ///< PCS_1 and PCS_2 in WCS, if they are on other groups' tools.
   double uncapped; ///< Way of the motion up to which ancillary limits of axes are not planned
                    ///< with. [u]

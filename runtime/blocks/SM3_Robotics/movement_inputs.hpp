@@ -12,7 +12,7 @@ group::CornerSpeed cornerSpeedOf(int16_t bufferMode) noexcept;
 /// By MC_BUFFER_MODE and MC_TRANSITION_MODE: only modes that blend make corners.
 group::Transition transitionOf(int16_t bufferMode, int16_t transition) noexcept;
 
-/// CoordSystem, BufferMode, transition, and factors.
+/// CoordSystem, BufferMode, transition, factors, and the axes that go along.
 template <class Block> void fillModes(const Block &block, Request &request) noexcept {
   request.system = block.CoordSystem;
   request.bufferMode = block.BufferMode;
@@ -23,6 +23,9 @@ template <class Block> void fillModes(const Block &block, Request &request) noex
   request.order.accelerationFactor = block.AccFactor;
   request.order.jerkFactor = block.JerkFactor;
   request.torqueFactor = block.TorqueFactor;
+  request.moreMode = block.AdditionalAxes.Mode;
+  static_assert(sizeof request.more == sizeof block.AdditionalAxes.Values);
+  __builtin_memcpy(request.more, &block.AdditionalAxes.Values, sizeof request.more);
 }
 
 /// How the tool turns on its way.

@@ -19,7 +19,7 @@ void decl::MC_GroupReadStatus::body__(::stride::Ctx &ctx__) {
   GroupMoving = GroupHoming = GroupErrorStop = GroupStandby = GroupStopping = GroupDisabled = 0;
   TrackingDynamicCS = InSync = 0;
   ActiveMovementId = LastAcceptedMovementId = 0;
-  PositionLag = CurrentPlanningForecast = 0.0;
+  PositionLag = OrientationLag = CurrentPlanningForecast = 0.0;
   robotics::runReader(ctx__, *this, [this](GroupRef &group) -> int16_t {
     const robotics::GroupState &state = robotics::stateOf(group);
     GroupMoving = group.eState == decl::SMC_AXIS_GROUP_STATE__GroupMoving;
@@ -34,6 +34,7 @@ void decl::MC_GroupReadStatus::body__(::stride::Ctx &ctx__) {
     TrackingDynamicCS = state.motion.ride.follows ? 1 : 0;
     InSync = state.motion.ride.inSync ? 1 : 0;
     PositionLag = ::stride::group::lagOf(state.motion);
+    OrientationLag = state.orientationLag;
     if (group.bOwns != 0)
       CurrentPlanningForecast = state.forecast;
     return 0;

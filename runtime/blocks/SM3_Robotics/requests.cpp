@@ -9,6 +9,7 @@
 
 #include "st/SM3_Robotics/SMC_AXIS_GROUP_STATE.h"
 #include "st/SM3_Robotics/SMC_COORD_SYSTEM.h"
+#include "st/SM3_Robotics/SMC_GROUP_ADDITIONAL_MODE.h"
 #include "st/SM3_Robotics/SMC_ORIENTATION_MODE.h"
 #include "st/SM_DriveBasic/MC_BUFFER_MODE.h"
 
@@ -54,6 +55,13 @@ int16_t wrongInput(const Request &request) noexcept {
   for (const double position : request.position)
     if (!exact::isfinite(position))
       return error::SMC_ERROR__SMC_TRAFO_OUT_OF_WORKSPACE;
+  if (request.moreMode < decl::SMC_GROUP_ADDITIONAL_MODE__Stay ||
+      request.moreMode > decl::SMC_GROUP_ADDITIONAL_MODE__Relative)
+    return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER;
+  if (request.moreMode != decl::SMC_GROUP_ADDITIONAL_MODE__Stay)
+    for (const double position : request.more)
+      if (!exact::isfinite(position))
+        return error::SMC_ERROR__SMC_AXIS_GROUP_INVALID_PARAMETER;
   if (request.kind == RequestKind::Circular)
     return wrongCircle(request);
   return request.kind == RequestKind::Jog ? wrongJog(request) : int16_t{0};
@@ -99,12 +107,31 @@ int16_t findEnd(const GroupRef &group, const GroupArm &arm, const Request &reque
   return 0;
 }
 
-/// Whether the axes may be where a movement ends.
-bool isWithinLimits(const GroupArm &arm, const Ends &ends) noexcept {
-  for (int32_t k = 0; k < arm.arm.joints; ++k)
+/// Whether axes may be where a movement ends: `count` of them from number `first` on.
+bool areWithinLimits(const GroupArm &arm, const Ends &ends, int32_t first, int32_t count) noexcept {
+  for (int32_t k = first; k < first + count; ++k)
     if (ends.to[k] < arm.arm.limits[k].low || ends.to[k] > arm.arm.limits[k].high)
       return false;
   return true;
+}
+
+/// Where the axes end that go along. Rotary ones take the shortest way to a position.
+void findMoreEnds(const GroupRef &group, const Request &request, Ends &ends) noexcept {
+  for (int32_t i = group.uiJoints; i < group.uiAxes; ++i) {
+    const int32_t k = placeOf(group, i);
+    const axis::AxisRef &axis = *group.apAxis.v[i];
+    const double value = request.more[k - kArmAxes];
+    if (request.moreMode == decl::SMC_GROUP_ADDITIONAL_MODE__Relative)
+      ends.to[k] = ends.from[k] + value;
+    if (request.moreMode != decl::SMC_GROUP_ADDITIONAL_MODE__Absolute)
+      continue;
+    ends.to[k] = value;
+    if (axis::isRotary(axis)) {
+      const double way = value - ends.from[k];
+      const double period = axis.fPositionPeriod;
+      ends.to[k] = ends.from[k] + way - period * exact::floor(way / period + 0.5);
+    }
+  }
 }
 
 group::MoreAxes moreAxesOf(const Ends &ends) noexcept {
@@ -154,13 +181,15 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
   Ends ends;
   for (int32_t k = 0; k < kAxes; ++k)
     ends.from[k] = ends.to[k] = first ? state.motion.axes[k] : state.end[k];
+  findMoreEnds(group, request, ends);
   const bool carried = group::isCarried(state.motion) && canRide(request);
   group::Leg leg;
   if (const int16_t wrong = carried ? carriedLeg(group, arm, request, moreAxesOf(ends), leg)
                                     : legOf(group, arm, request, ends, leg);
       wrong != 0)
     return wrong;
-  if (!carried && !isWithinLimits(arm, ends))
+  if (!areWithinLimits(arm, ends, kArmAxes, arm.arm.more) ||
+      (!carried && !areWithinLimits(arm, ends, 0, arm.arm.joints)))
     return error::SMC_ERROR__SMC_TRAFO_AXIS_LIMITS_EXCEEDED;
   group::Order order = request.order;
   if (carried)
@@ -168,6 +197,7 @@ int16_t append(GroupRef &group, const GroupArm &arm, const Request &request) {
   else if (group::leadsTool(leg))
     order.configuration = arm.arm.kinematics.configurationOf(ends.from);
   group::append(state.motion, request.id, leg, order);
+  state.tolerance = request.tolerance;
   locateTriggers(state, arm.arm, request.id, leg);
   for (int32_t k = 0; k < kAxes; ++k)
     state.end[k] = ends.to[k];
@@ -295,6 +325,7 @@ int16_t enqueue(GroupRef &group, Request &request) noexcept {
   request.id = group::drawId(state.motion);
   request.cycle = group.ulServed;
   request.tool = toolOf(group);
+  request.tolerance = group.stTolerance;
   request.order.shares = sharesOf(group);
   request.order.isShared = true;
   requestAt(state, state.nextRequest) = request;
